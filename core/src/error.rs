@@ -1,0 +1,105 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What can go wrong, in one clear line each.
+
+use std::path::PathBuf;
+
+use thiserror::Error;
+
+/// A scene, motion table file or checkpoint that cannot be used as it is.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum SceneError {
+    /// A value outside what is allowed.
+    #[error("{file}: {field} is {value}; allowed: {allowed}")]
+    Field {
+        /// File or preset the value stands in.
+        file: String,
+        /// Path of the field, such as `sources[0].count`.
+        field: String,
+        /// The value found.
+        value: String,
+        /// What is allowed.
+        allowed: String,
+    },
+    /// Text that is not the expected format.
+    #[error("{file}:{line}:{column}: {message}")]
+    Syntax {
+        /// File the text stands in.
+        file: String,
+        /// Line, from 1.
+        line: usize,
+        /// Column, from 1.
+        column: usize,
+        /// What is wrong.
+        message: String,
+    },
+    /// Neither a preset nor a readable file.
+    #[error("scene '{name}' is neither a file nor a preset; presets: {presets}")]
+    UnknownScene {
+        /// What was asked for.
+        name: String,
+        /// Names of all presets.
+        presets: String,
+    },
+    /// A file that cannot be read.
+    #[error("{}: {source}", path.display())]
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// The system's reason.
+        source: std::io::Error,
+    },
+    /// Bytes that are not a checkpoint this version can read.
+    #[error("{file}: not a usable checkpoint: {reason}")]
+    Checkpoint {
+        /// File or stream the bytes came from.
+        file: String,
+        /// What is wrong with it and what was expected.
+        reason: String,
+    },
+}
+
+/// A simulator that cannot go on.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum SimError {
+    /// More leaves than the device can hold.
+    #[error("{leaves} leaves need {needed} bytes in one buffer; {device} allows {allowed}")]
+    Capacity {
+        /// Leaves asked for.
+        leaves: u32,
+        /// Bytes that one column would take.
+        needed: u64,
+        /// Bytes that the device allows.
+        allowed: u64,
+        /// The device.
+        device: String,
+    },
+    /// A world of another size than the simulator was made for.
+    #[error("world has {world} leaves, simulator {simulator}; make a new simulator for another leaf count")]
+    Size {
+        /// Leaves of the world.
+        world: usize,
+        /// Leaves of the simulator.
+        simulator: usize,
+    },
+    /// The device went away; the state since the last read is lost.
+    #[error("device lost: {reason}")]
+    DeviceLost {
+        /// The driver's reason.
+        reason: String,
+    },
+    /// The device refused something; a bug of ours or of the driver.
+    #[error("device error: {reason}")]
+    Device {
+        /// The driver's reason.
+        reason: String,
+    },
+    /// No adapter fits.
+    #[error("no usable adapter: {reason}")]
+    NoAdapter {
+        /// What was looked for, what was found and what would help.
+        reason: String,
+    },
+}

@@ -1,0 +1,83 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What a scene file says: species, sources, wind, ground, view.
+//!
+//! A [`Scene`] is plain data in SI units (y up, right-handed), read from RON; every field has a default, so
+//! `()` is a whole scene. [`Scene::validate`] checks every number before anything is built from it.
+
+mod file;
+mod ground;
+mod presets;
+mod source;
+mod species;
+mod validate;
+mod view;
+mod wind;
+
+use serde::{Deserialize, Serialize};
+
+pub use ground::Ground;
+pub use presets::PRESETS;
+pub use source::{Release, Share, Source, SourceShape};
+pub use species::{LeafShape, MotionParameters, RotationModel, Species};
+pub use view::{Camera, Sun, View};
+pub use wind::{Gusts, MeanSpeed, Profile, Turbulence, Vortex, WindParameters};
+
+/// Most species a scene may have: a leaf keeps its species in five bits.
+pub const MAX_SPECIES: usize = 32;
+/// Most sources a scene may have: a leaf keeps its source in four bits.
+pub const MAX_SOURCES: usize = 16;
+/// Most point vortices a scene may have: they travel in the uniform block of every step.
+pub const MAX_VORTICES: usize = 8;
+/// Most leaves a scene may have, over all sources (four billion words of state would not fit anywhere yet).
+pub const MAX_LEAVES: u32 = 1 << 28;
+
+/// A whole scene: what falls, from where, through which wind, onto what, seen from where.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Scene {
+    /// Name shown in titles and reports.
+    pub name: String,
+    /// Seed of everything random. Same scene and seed, same bits.
+    pub seed: u64,
+    /// Length of one step in seconds, 1/1000 to 1/20.
+    pub dt_s: f32,
+    /// Multiplier of every leaf's own velocity through the air, 0 to 3.
+    pub fall_speed: f32,
+    /// Multiplier of every leaf's turning and swinging rate, 0.1 to 3; the path keeps its speed.
+    pub rotation_speed: f32,
+    /// The kinds of leaves.
+    pub species: Vec<Species>,
+    /// Where leaves come from.
+    pub sources: Vec<Source>,
+    /// The one wind.
+    pub wind: WindParameters,
+    /// What leaves land on.
+    pub ground: Ground,
+    /// Camera, sun and trails; no effect on the simulation.
+    pub view: View,
+}
+
+impl Default for Scene {
+    fn default() -> Self {
+        Self {
+            name: "untitled".into(),
+            seed: 1,
+            dt_s: 1.0 / 60.0,
+            fall_speed: 1.0,
+            rotation_speed: 1.0,
+            species: vec![Species::default()],
+            sources: vec![Source::default()],
+            wind: WindParameters::default(),
+            ground: Ground::default(),
+            view: View::default(),
+        }
+    }
+}
+
+impl Scene {
+    /// Number of leaf slots: the sum of the sources' counts.
+    pub fn leaf_count(&self) -> u32 {
+        self.sources.iter().map(|source| source.count).sum()
+    }
+}

@@ -1,0 +1,128 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! A kind of leaf: its looks, its size and mass, and how it moves through the air.
+
+use serde::{Deserialize, Serialize};
+
+use crate::motion::{Primitive, TransitionTable};
+
+/// Outline family of a leaf; texture makers paint one set of leaves for each.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+pub enum LeafShape {
+    /// Five-lobed palmate (Norway maple).
+    Maple,
+    /// Rounded pinnate lobes (pedunculate oak).
+    Oak,
+    /// Triangular, double-toothed (silver birch).
+    Birch,
+    /// Entire ellipse (common beech).
+    Beech,
+    /// Heart (linden, lilac).
+    Linden,
+    /// Fan (ginkgo).
+    Ginkgo,
+}
+
+/// How the orientation along a primitive motion is found.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub enum RotationModel {
+    /// The leaf's normal follows the force that its path implies (a coordinated turn); tumbling turns explicitly.
+    #[default]
+    SpecificForce,
+    /// The rotation equation of Tanabe and Kaneko (1994) about the horizontal axis across the path. Kept for
+    /// comparison with older work: its torque is far too large in free fall.
+    TanabeKaneko {
+        /// Rotational friction `k_a` in 1/s, 0.1 to 1000.
+        friction_per_s: f32,
+    },
+}
+
+/// A kind of leaf.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Species {
+    /// Name that sources refer to; unique in the scene.
+    pub name: String,
+    /// Outline family.
+    pub shape: LeafShape,
+    /// Season of the leaves' colours from 0 (green) to 1 (brown); each leaf takes a value between the two.
+    pub season: (f32, f32),
+    /// Diameter of the disc with the blade's area in metres, 0.005 to 0.5.
+    pub size_m: f32,
+    /// Relative half width of the spread of sizes, 0 to 0.5.
+    pub size_variation: f32,
+    /// Relative half width of the spread of falling speeds at equal size, 0 to 0.5.
+    pub speed_variation: f32,
+    /// Mass per area in kg/m², 0.005 to 2.
+    pub areal_density_kg_m2: f32,
+    /// Fastest spin about the leaf's own normal in rad/s, 0 to 20; each leaf takes a value up to it, either way round.
+    pub spin_rad_s: f32,
+    /// First primitive motion of every fall.
+    pub start: Primitive,
+    /// Counts of changes from one primitive motion to the next.
+    pub transitions: TransitionTable,
+    /// Numbers of the primitive motions that differ from what size and mass give.
+    pub motion: MotionParameters,
+    /// How orientation is found.
+    pub rotation: RotationModel,
+    /// File with ready motion tables (see `motion::table_file`), relative to the scene file; the tables are made
+    /// from the equations when absent.
+    pub tables: Option<String>,
+}
+
+impl Default for Species {
+    fn default() -> Self {
+        Self {
+            name: "maple".into(),
+            shape: LeafShape::Maple,
+            season: (0.45, 0.95),
+            size_m: 0.08,
+            size_variation: 0.2,
+            speed_variation: 0.12,
+            areal_density_kg_m2: 0.055,
+            spin_rad_s: 1.5,
+            start: Primitive::SteadyDescent,
+            transitions: TransitionTable::default(),
+            motion: MotionParameters::default(),
+            rotation: RotationModel::default(),
+            tables: None,
+        }
+    }
+}
+
+/// Physical numbers of the primitive motions. What is `None` follows from size and areal density by the scalings
+/// measured on 380 drops of paper pieces (Howison, Hughes and Iida 2020), see [`crate::motion::MotionConstants`].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct MotionParameters {
+    /// Mean descent speed U in m/s, 0.05 to 10.
+    pub descent_m_s: Option<f32>,
+    /// Amplitude Ax of the horizontal velocity of fluttering and tumbling in m/s, 0 to 10.
+    pub horizontal_m_s: Option<f32>,
+    /// Amplitude Ay of the vertical velocity of fluttering and tumbling in m/s, 0 to 10.
+    pub vertical_m_s: Option<f32>,
+    /// Angular rate of fluttering (full swings) in rad/s, 0.5 to 60.
+    pub flutter_rad_s: Option<f32>,
+    /// Angular rate of tumbling (full turns are two segments) in rad/s, 0.5 to 120.
+    pub tumble_rad_s: Option<f32>,
+    /// Unevenness e of the tumbling rotation `f + e sin 2f`, 0 to 0.49.
+    pub tumble_wobble: Option<f32>,
+    /// Chance that chaotic motion keeps its direction at a turning point, 0 to 1.
+    pub chaos_keep: Option<f32>,
+    /// Relative half width of the redrawn amplitudes and rates of chaotic motion, 0 to 0.5.
+    pub chaos_jitter: Option<f32>,
+    /// Petal length Ae of the helical rose in metres, 0 to 5.
+    pub rose_radius_m: Option<f32>,
+    /// Ratio Ee of the rose's minor to major axis, 0 (through the centre) to 1 (a circle).
+    pub rose_ellipticity: Option<f32>,
+    /// Swings per precession k of the rose, 2 to 12; even k has 2k petals, odd k has k.
+    pub rose_swings: Option<u32>,
+    /// Radius of the spiral in metres, 0 to 5.
+    pub spiral_radius_m: Option<f32>,
+    /// Orbit rate of the spiral in rad/s, 0.5 to 30.
+    pub spiral_rad_s: Option<f32>,
+    /// Standard deviation of the sideways wandering of steady descent in m/s, 0 to 2.
+    pub wander_m_s: Option<f32>,
+    /// Correlation time of that wandering in seconds, 0.05 to 2.
+    pub wander_s: Option<f32>,
+}

@@ -1,0 +1,120 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What a scene says about its wind.
+
+use glam::Vec3;
+use serde::{Deserialize, Serialize};
+
+/// Mean wind speed at the reference height.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub enum MeanSpeed {
+    /// In m/s, 0 to 80.
+    MetresPerSecond(f32),
+    /// Beaufort number, 0 to 12: 0.836 B^1.5 m/s.
+    Beaufort(u8),
+}
+
+/// How the mean wind grows with height above the ground.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub enum Profile {
+    /// The same at every height.
+    Uniform,
+    /// (z / reference height)^exponent.
+    Power {
+        /// 0 to 1: 0.14 over open land, 0.22 in suburbs, 0.3 in woods.
+        exponent: f32,
+    },
+    /// Logarithmic, zero below `displacement_m + roughness_m`.
+    Log {
+        /// Roughness length in metres, 0.0001 to 5: lawn 0.01 to 0.03, suburb 0.5.
+        roughness_m: f32,
+        /// Displacement height in metres, 0 to 9.
+        displacement_m: f32,
+    },
+}
+
+/// Gusts: fronts of faster and slower air carried along by the mean wind.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Gusts {
+    /// Excess of a typical gust over the mean wind, relative to it, 0 to 2.
+    pub strength: f32,
+    /// Mean time between gusts at a fixed place in seconds, 0.5 to 120.
+    pub interval_s: f32,
+}
+
+impl Default for Gusts {
+    fn default() -> Self {
+        Self { strength: 0.4, interval_s: 6.0 }
+    }
+}
+
+/// Divergence-free turbulence carried along by the mean wind (Taylor's hypothesis).
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Turbulence {
+    /// Standard deviation of the along-wind component relative to the mean speed, 0 to 1.
+    pub intensity: f32,
+    /// Along-wind size of one cell of the periodic turbulence box in metres, 0.1 to 20.
+    pub cell_m: f32,
+    /// Standard deviation in m/s that remains without mean wind, 0 to 10.
+    pub calm_m_s: f32,
+}
+
+impl Default for Turbulence {
+    fn default() -> Self {
+        Self { intensity: 0.2, cell_m: 0.75, calm_m_s: 0.0 }
+    }
+}
+
+/// A straight vortex with a smooth core: speed Γ r / (2π (r² + a²)) about its axis.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Vortex {
+    /// A point of the axis in metres, at time zero.
+    pub center_m: Vec3,
+    /// Direction of the axis, any length but zero; the air turns anticlockwise seen from its tip.
+    pub axis: Vec3,
+    /// Circulation Γ in m²/s, -1000 to 1000.
+    pub circulation_m2_s: f32,
+    /// Core radius a in metres, 0.05 to 100.
+    pub core_m: f32,
+    /// Speed along the axis at its centre in m/s, -50 to 50.
+    pub axial_m_s: f32,
+    /// Velocity of the vortex itself in m/s, each component -50 to 50.
+    pub drift_m_s: Vec3,
+}
+
+/// The wind: mean flow, gusts, turbulence and vortices.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct WindParameters {
+    /// Direction the wind blows towards, in degrees from +x turning to +z, -360 to 360.
+    pub direction_deg: f32,
+    /// Mean speed at the reference height.
+    pub speed: MeanSpeed,
+    /// Height of that speed above the ground in metres, 1 to 100.
+    pub reference_height_m: f32,
+    /// Growth with height.
+    pub profile: Profile,
+    /// Gusts.
+    pub gusts: Gusts,
+    /// Turbulence.
+    pub turbulence: Turbulence,
+    /// Point vortices, at most 8.
+    pub vortices: Vec<Vortex>,
+}
+
+impl Default for WindParameters {
+    fn default() -> Self {
+        Self {
+            direction_deg: 20.0,
+            speed: MeanSpeed::Beaufort(2),
+            reference_height_m: 10.0,
+            profile: Profile::Power { exponent: 0.22 },
+            gusts: Gusts::default(),
+            turbulence: Turbulence::default(),
+            vortices: Vec::new(),
+        }
+    }
+}
