@@ -35,10 +35,12 @@ pub enum SceneError {
         message: String,
     },
     /// Neither a preset nor a readable file.
-    #[error("scene '{name}' is neither a file nor a preset; presets: {presets}")]
+    #[error("scene '{name}' is neither a file nor a preset{}; presets: {presets}", did_you_mean(*.nearest))]
     UnknownScene {
         /// What was asked for.
         name: String,
+        /// The preset that was probably meant.
+        nearest: Option<&'static str>,
         /// Names of all presets.
         presets: String,
     },
@@ -102,4 +104,9 @@ pub enum SimError {
         /// What was looked for, what was found and what would help.
         reason: String,
     },
+}
+
+/// A hint to append to a line.
+fn did_you_mean(name: Option<&str>) -> String {
+    name.map(|name| format!(" (did you mean '{name}'?)")).unwrap_or_default()
 }

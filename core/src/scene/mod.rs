@@ -7,6 +7,8 @@
 
 mod file;
 mod ground;
+pub mod limits;
+mod nearest;
 mod presets;
 mod source;
 mod species;
@@ -40,7 +42,7 @@ pub struct Scene {
     pub name: String,
     /// Seed of everything random. Same scene and seed, same bits.
     pub seed: u64,
-    /// Length of one step in seconds, 1/1000 to 1/20.
+    /// Length of one step in seconds, 0.001 to 0.05.
     pub dt_s: f32,
     /// Multiplier of every leaf's own velocity through the air, 0 to 3.
     pub fall_speed: f32,
@@ -78,6 +80,6 @@ impl Default for Scene {
 impl Scene {
     /// Number of leaf slots: the sum of the sources' counts.
     pub fn leaf_count(&self) -> u32 {
-        self.sources.iter().map(|source| source.count).sum()
+        self.sources.iter().fold(0, |sum, source| sum.saturating_add(source.count))
     }
 }

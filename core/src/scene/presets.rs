@@ -2,5 +2,89 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Scenes that travel in the binary.
 
+use super::Scene;
+
 /// Names and RON texts of the presets; the first is the default.
-pub const PRESETS: &[(&str, &str)] = &[];
+pub const PRESETS: &[(&str, &str)] = &[
+    ("autumn-park", include_str!("../../scenes/autumn-park.ron")),
+    ("six-motions", include_str!("../../scenes/six-motions.ron")),
+    ("storm", include_str!("../../scenes/storm.ron")),
+    ("million", include_str!("../../scenes/million.ron")),
+];
+
+impl Scene {
+    /// The preset of this name.
+    pub fn preset(name: &str) -> Option<Self> {
+        let (name, text) = PRESETS.iter().find(|(preset, _)| *preset == name)?;
+        Some(Self::from_ron(text, name).expect("presets are tested to be valid"))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::HashSet;
+
+    use super::*;
+    use crate::motion::Primitive;
+    use crate::scene::{LeafShape, MeanSpeed, Release};
+
+    #[test]
+    fn every_preset_is_a_valid_scene() {
+        for (name, text) in PRESETS {
+            Scene::from_ron(text, name).expect("a preset that everybody gets must be valid");
+            assert!(text.is_ascii(), "{name} is plain text in any editor");
+        }
+        let names: Vec<_> = PRESETS.iter().map(|(name, _)| *name).collect();
+        assert_eq!(names, ["autumn-park", "six-motions", "storm", "million"], "names and their order");
+        assert_eq!(Scene::preset("calm"), None, "unknown names");
+    }
+
+    #[test]
+    fn rates_keep_the_number_of_leaves_in_the_air_constant() {
+        for name in ["autumn-park", "storm", "million"] {
+            for source in Scene::preset(name).expect("a preset").sources {
+                let Release::Rate { per_s, from_s } = source.release else {
+                    panic!("{name} releases at a rate")
+                };
+                let life_s = source.recycle_after_s.expect("every leaf falls again");
+                assert_eq!(
+                    f64::from(per_s) * f64::from(life_s),
+                    f64::from(source.count),
+                    "{name}: no pause, no gap"
+                );
+                assert_eq!(from_s, -life_s, "{name}: the first leaf falls again just at time zero");
+            }
+        }
+    }
+
+    #[test]
+    fn six_motions_are_six_leaves_that_differ_in_nothing_else() {
+        let scene = Scene::preset("six-motions").expect("a preset");
+        assert_eq!(
+            (scene.species.len(), scene.sources.len(), scene.leaf_count()),
+            (6, 6, 6),
+            "one leaf each"
+        );
+        for (index, (species, source)) in scene.species.iter().zip(&scene.sources).enumerate() {
+            assert_eq!(species.start, Primitive::ALL[index], "in the order of their numbers");
+            let row = species.transitions.0[index];
+            assert!(row[index] == 1 && row.iter().sum::<u32>() == 1, "{} stays", species.name);
+            assert_eq!(source.species[0].species, species.name, "each source has its own species");
+            assert_eq!(species.size_m, scene.species[0].size_m, "the same size");
+            assert_eq!(species.areal_density_kg_m2, scene.species[0].areal_density_kg_m2, "the same mass");
+        }
+        assert_eq!(scene.wind.speed, MeanSpeed::MetresPerSecond(0.0), "still air");
+        assert!(scene.view.trail_s > 0.0, "with trails");
+    }
+
+    #[test]
+    fn presets_have_the_size_and_variety_that_they_promise() {
+        let scene = |name| Scene::preset(name).expect("a preset");
+        assert_eq!(scene("autumn-park").leaf_count(), 10_450, "a park");
+        assert_eq!(scene("storm").leaf_count(), 20_000, "a storm");
+        assert_eq!(scene("million").leaf_count(), 1_000_000, "a million");
+        let shapes: HashSet<LeafShape> =
+            scene("million").species.iter().map(|species| species.shape).collect();
+        assert_eq!(shapes.len(), 6, "all six leaf shapes");
+    }
+}

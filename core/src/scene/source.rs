@@ -10,21 +10,21 @@ use serde::{Deserialize, Serialize};
 pub enum SourceShape {
     /// An axis-aligned box.
     Box {
-        /// Centre in metres.
+        /// Centre in metres, each component -4096 to 4096.
         center_m: Vec3,
         /// Half edge lengths in metres, each 0 to 4096.
         half_extent_m: Vec3,
     },
     /// A horizontal disc.
     Disc {
-        /// Centre in metres.
+        /// Centre in metres, each component -4096 to 4096.
         center_m: Vec3,
         /// Radius in metres, 0 to 4096.
         radius_m: f32,
     },
     /// A ball.
     Sphere {
-        /// Centre in metres.
+        /// Centre in metres, each component -4096 to 4096.
         center_m: Vec3,
         /// Radius in metres, 0 to 4096.
         radius_m: f32,
@@ -41,7 +41,7 @@ pub enum Release {
     },
     /// One after another.
     Rate {
-        /// Leaves per second, 0.001 to 1e8.
+        /// Leaves per second, 0.001 to 100000000.
         per_s: f32,
         /// Time of the first release in seconds, -3600 to 86400. Leaves released before time zero begin where a
         /// fall through still air would have brought them by then, on the ground if it is over.
@@ -63,16 +63,16 @@ pub struct Share {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Source {
-    /// Volume that leaves start from.
+    /// Volume that leaves start from, nowhere below the ground.
     pub shape: SourceShape,
-    /// Number of leaf slots, 1 to 2^28 over all sources.
+    /// Number of leaf slots, 1 to 268435456; the same holds for the sum over all sources.
     pub count: u32,
     /// When leaves are let go.
     pub release: Release,
     /// Seconds from a leaf's release until its slot is released again, 0.1 to 86400; `None` leaves every leaf where
     /// it lands for ever.
     pub recycle_after_s: Option<f32>,
-    /// Species of the leaves; all species of the scene alike when empty.
+    /// Species of the leaves, each at most once; all species of the scene alike when empty.
     pub species: Vec<Share>,
 }
 

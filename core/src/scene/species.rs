@@ -45,7 +45,8 @@ pub struct Species {
     pub name: String,
     /// Outline family.
     pub shape: LeafShape,
-    /// Season of the leaves' colours from 0 (green) to 1 (brown); each leaf takes a value between the two.
+    /// Season of the leaves' colours, two values 0 to 1 in rising order: 0 is green, 1 brown, and each leaf takes a
+    /// value between the two.
     pub season: (f32, f32),
     /// Diameter of the disc with the blade's area in metres, 0.005 to 0.5.
     pub size_m: f32,
@@ -59,7 +60,7 @@ pub struct Species {
     pub spin_rad_s: f32,
     /// First primitive motion of every fall.
     pub start: Primitive,
-    /// Counts of changes from one primitive motion to the next.
+    /// Counts of changes from one primitive motion to the next. Rows that a fall can reach sum to 1 to 65535.
     pub transitions: TransitionTable,
     /// Numbers of the primitive motions that differ from what size and mass give.
     pub motion: MotionParameters,
@@ -113,7 +114,7 @@ pub struct MotionParameters {
     pub chaos_jitter: Option<f32>,
     /// Petal length Ae of the helical rose in metres, 0 to 5.
     pub rose_radius_m: Option<f32>,
-    /// Ratio Ee of the rose's minor to major axis, 0 (through the centre) to 1 (a circle).
+    /// Ratio Ee of the rose's minor to major axis, 0 to 1: 0 leads through the centre, 1 is a circle.
     pub rose_ellipticity: Option<f32>,
     /// Swings per precession k of the rose, 2 to 12; even k has 2k petals, odd k has k.
     pub rose_swings: Option<u32>,

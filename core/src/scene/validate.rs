@@ -1,3 +1,216 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Checks every number of a scene.
+//! Checks every number of a scene: first each against its own range, then those that depend on one another.
+
+mod check;
+mod cross;
+#[cfg(test)]
+mod tests;
+
+use super::{
+    Camera, Ground, MAX_LEAVES, MAX_SOURCES, MAX_SPECIES, MAX_VORTICES, MeanSpeed, MotionParameters, Profile,
+    Release, RotationModel, Scene, Source, SourceShape, Species, Sun, View, Vortex, WindParameters, limits,
+};
+use crate::SceneError;
+use check::Check;
+
+impl Scene {
+    /// Checks every number against the range that its field documents, and those that depend on one another.
+    /// `file` is the file or preset that the error names.
+    ///
+    /// # Errors
+    /// [`SceneError::Field`] for the first value that is not allowed.
+    pub fn validate(&self, file: &str) -> Result<(), SceneError> {
+        let check = Check::new(file);
+        check.numbers([
+            ("dt_s", self.dt_s.into(), limits::DT_S),
+            ("fall_speed", self.fall_speed.into(), limits::FALL_SPEED),
+            ("rotation_speed", self.rotation_speed.into(), limits::ROTATION_SPEED),
+        ])?;
+        check.length("species", self.species.len(), 1, MAX_SPECIES)?;
+        check.length("sources", self.sources.len(), 1, MAX_SOURCES)?;
+        for (index, species) in self.species.iter().enumerate() {
+            species.check(&check.inside(format!("species[{index}]")))?;
+        }
+        for (index, source) in self.sources.iter().enumerate() {
+            source.check(&check.inside(format!("sources[{index}]")))?;
+        }
+        self.wind.check(&check.inside("wind"))?;
+        self.ground.check(&check.inside("ground"))?;
+        self.view.check(&check.inside("view"))?;
+
+        let leaves: u64 = self.sources.iter().map(|source| u64::from(source.count)).sum();
+        check.holds(leaves <= u64::from(MAX_LEAVES), "sources", || {
+            (format!("{leaves} leaves"), format!("at most {MAX_LEAVES} leaves over all sources"))
+        })?;
+        self.check_species_names(&check)?;
+        self.check_transitions(&check)?;
+        self.check_rates(&check)?;
+        self.check_heights(&check)?;
+        self.check_times(&check)
+    }
+}
+
+impl Species {
+    fn check(&self, at: &Check<'_>) -> Result<(), SceneError> {
+        at.numbers([
+            ("season.0", self.season.0.into(), limits::SEASON),
+            ("season.1", self.season.1.into(), limits::SEASON),
+            ("size_m", self.size_m.into(), limits::SIZE_M),
+            ("size_variation", self.size_variation.into(), limits::SIZE_VARIATION),
+            ("speed_variation", self.speed_variation.into(), limits::SPEED_VARIATION),
+            ("areal_density_kg_m2", self.areal_density_kg_m2.into(), limits::AREAL_DENSITY_KG_M2),
+            ("spin_rad_s", self.spin_rad_s.into(), limits::SPIN_RAD_S),
+        ])?;
+        at.holds(self.season.0 <= self.season.1, "season", || {
+            (format!("{:?}", self.season), "two values in rising order".into())
+        })?;
+        at.holds(self.tables.as_deref() != Some(""), "tables", || {
+            ("\"\"".into(), "a file, or nothing to make the tables".into())
+        })?;
+        if let RotationModel::TanabeKaneko { friction_per_s } = self.rotation {
+            let at = at.inside("rotation");
+            at.numbers([("friction_per_s", friction_per_s.into(), limits::FRICTION_PER_S)])?;
+        }
+        self.motion.check(&at.inside("motion"))
+    }
+}
+
+impl MotionParameters {
+    fn check(&self, at: &Check<'_>) -> Result<(), SceneError> {
+        at.numbers([
+            ("descent_m_s", self.descent_m_s, limits::DESCENT_M_S),
+            ("horizontal_m_s", self.horizontal_m_s, limits::HORIZONTAL_M_S),
+            ("vertical_m_s", self.vertical_m_s, limits::VERTICAL_M_S),
+            ("flutter_rad_s", self.flutter_rad_s, limits::FLUTTER_RAD_S),
+            ("tumble_rad_s", self.tumble_rad_s, limits::TUMBLE_RAD_S),
+            ("tumble_wobble", self.tumble_wobble, limits::TUMBLE_WOBBLE),
+            ("chaos_keep", self.chaos_keep, limits::CHAOS_KEEP),
+            ("chaos_jitter", self.chaos_jitter, limits::CHAOS_JITTER),
+            ("rose_radius_m", self.rose_radius_m, limits::ROSE_RADIUS_M),
+            ("rose_ellipticity", self.rose_ellipticity, limits::ROSE_ELLIPTICITY),
+            ("spiral_radius_m", self.spiral_radius_m, limits::SPIRAL_RADIUS_M),
+            ("spiral_rad_s", self.spiral_rad_s, limits::SPIRAL_RAD_S),
+            ("wander_m_s", self.wander_m_s, limits::WANDER_M_S),
+            ("wander_s", self.wander_s, limits::WANDER_S),
+        ])?;
+        at.numbers([("rose_swings", self.rose_swings, limits::ROSE_SWINGS)])
+    }
+}
+
+impl Source {
+    fn check(&self, at: &Check<'_>) -> Result<(), SceneError> {
+        let shape = at.inside("shape");
+        match self.shape {
+            SourceShape::Box { center_m, half_extent_m } => {
+                shape.vector("center_m", center_m, limits::CENTER_M)?;
+                shape.vector("half_extent_m", half_extent_m, limits::HALF_EXTENT_M)?;
+            }
+            SourceShape::Disc { center_m, radius_m } | SourceShape::Sphere { center_m, radius_m } => {
+                shape.vector("center_m", center_m, limits::CENTER_M)?;
+                shape.numbers([("radius_m", radius_m.into(), limits::RADIUS_M)])?;
+            }
+        }
+        at.numbers([("count", self.count.into(), limits::COUNT)])?;
+        let release = at.inside("release");
+        match self.release {
+            Release::Burst { at_s } => release.numbers([("at_s", at_s.into(), limits::AT_S)])?,
+            Release::Rate { per_s, from_s } => release.numbers([
+                ("per_s", per_s.into(), limits::PER_S),
+                ("from_s", from_s.into(), limits::FROM_S),
+            ])?,
+        }
+        at.numbers([("recycle_after_s", self.recycle_after_s, limits::RECYCLE_AFTER_S)])?;
+        for (index, share) in self.species.iter().enumerate() {
+            let share_at = at.inside(format!("species[{index}]"));
+            share_at.numbers([("weight", share.weight.into(), limits::WEIGHT)])?;
+        }
+        Ok(())
+    }
+}
+
+impl WindParameters {
+    fn check(&self, at: &Check<'_>) -> Result<(), SceneError> {
+        at.numbers([
+            ("direction_deg", self.direction_deg.into(), limits::DIRECTION_DEG),
+            ("reference_height_m", self.reference_height_m.into(), limits::REFERENCE_HEIGHT_M),
+            ("gusts.strength", self.gusts.strength.into(), limits::STRENGTH),
+            ("gusts.interval_s", self.gusts.interval_s.into(), limits::INTERVAL_S),
+            ("turbulence.intensity", self.turbulence.intensity.into(), limits::INTENSITY),
+            ("turbulence.cell_m", self.turbulence.cell_m.into(), limits::CELL_M),
+            ("turbulence.calm_m_s", self.turbulence.calm_m_s.into(), limits::CALM_M_S),
+        ])?;
+        match self.speed {
+            MeanSpeed::MetresPerSecond(speed) => {
+                at.numbers([("speed", speed.into(), limits::METRES_PER_SECOND)])?;
+            }
+            MeanSpeed::Beaufort(number) => at.numbers([("speed", number.into(), limits::BEAUFORT)])?,
+        }
+        let profile = at.inside("profile");
+        match self.profile {
+            Profile::Uniform => {}
+            Profile::Power { exponent } => {
+                profile.numbers([("exponent", exponent.into(), limits::EXPONENT)])?;
+            }
+            Profile::Log { roughness_m, displacement_m } => {
+                profile.numbers([
+                    ("roughness_m", roughness_m.into(), limits::ROUGHNESS_M),
+                    ("displacement_m", displacement_m.into(), limits::DISPLACEMENT_M),
+                ])?;
+                let calm_m = displacement_m + roughness_m;
+                at.holds(calm_m < self.reference_height_m, "profile", || {
+                    let allowed = format!("below the reference height of {} m", self.reference_height_m);
+                    (format!("zero up to {calm_m} m (displacement and roughness)"), allowed)
+                })?;
+            }
+        }
+        at.length("vortices", self.vortices.len(), 0, MAX_VORTICES)?;
+        for (index, vortex) in self.vortices.iter().enumerate() {
+            vortex.check(&at.inside(format!("vortices[{index}]")))?;
+        }
+        Ok(())
+    }
+}
+
+impl Vortex {
+    fn check(&self, at: &Check<'_>) -> Result<(), SceneError> {
+        at.vector("center_m", self.center_m, limits::CENTER_M)?;
+        at.vector("axis", self.axis, limits::AXIS)?;
+        at.holds(self.axis.length() >= 0.001, "axis", || {
+            (format!("{:?}", self.axis.to_array()), "a direction, at least 0.001 long".into())
+        })?;
+        at.numbers([
+            ("circulation_m2_s", self.circulation_m2_s.into(), limits::CIRCULATION_M2_S),
+            ("core_m", self.core_m.into(), limits::CORE_M),
+            ("axial_m_s", self.axial_m_s.into(), limits::AXIAL_M_S),
+        ])?;
+        at.vector("drift_m_s", self.drift_m_s, limits::DRIFT_M_S)
+    }
+}
+
+impl Ground {
+    fn check(&self, at: &Check<'_>) -> Result<(), SceneError> {
+        at.numbers([
+            ("height_m", self.height_m.into(), limits::HEIGHT_M),
+            ("friction", self.friction.into(), limits::FRICTION),
+        ])
+    }
+}
+
+impl View {
+    fn check(&self, at: &Check<'_>) -> Result<(), SceneError> {
+        let Self { camera: Camera { eye_m, target_m, vertical_fov_deg }, sun, trail_s } = *self;
+        let Sun { azimuth_deg, elevation_deg } = sun;
+        at.vector("camera.eye_m", eye_m, limits::CAMERA_M)?;
+        at.vector("camera.target_m", target_m, limits::CAMERA_M)?;
+        at.holds(eye_m.distance(target_m) >= 0.01, "camera.target_m", || {
+            (format!("{:?}", target_m.to_array()), "a point at least 0.01 m from eye_m".into())
+        })?;
+        at.numbers([
+            ("camera.vertical_fov_deg", vertical_fov_deg.into(), limits::VERTICAL_FOV_DEG),
+            ("sun.azimuth_deg", azimuth_deg.into(), limits::AZIMUTH_DEG),
+            ("sun.elevation_deg", elevation_deg.into(), limits::ELEVATION_DEG),
+            ("trail_s", trail_s.into(), limits::TRAIL_S),
+        ])
+    }
+}

@@ -9,9 +9,9 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Camera {
-    /// Position in metres.
+    /// Position in metres, each component -100000 to 100000.
     pub eye_m: Vec3,
-    /// Point looked at in metres; differs from the position.
+    /// Point looked at in metres, each component -100000 to 100000, at least 0.01 m from the position.
     pub target_m: Vec3,
     /// Vertical field of view in degrees, 5 to 120.
     pub vertical_fov_deg: f32,
@@ -47,7 +47,7 @@ pub struct View {
     pub camera: Camera,
     /// The sun.
     pub sun: Sun,
-    /// Length of the trail drawn behind every leaf in seconds, 0 (none) to 30. Trails are drawn for the first
+    /// Length of the trail drawn behind every leaf in seconds, 0 to 30: none at 0. Trails are drawn for the first
     /// 4096 leaves.
     pub trail_s: f32,
 }

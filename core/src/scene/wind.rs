@@ -24,7 +24,7 @@ pub enum Profile {
         /// 0 to 1: 0.14 over open land, 0.22 in suburbs, 0.3 in woods.
         exponent: f32,
     },
-    /// Logarithmic, zero below `displacement_m + roughness_m`.
+    /// Logarithmic, zero below `displacement_m + roughness_m`, which is less than the reference height.
     Log {
         /// Roughness length in metres, 0.0001 to 5: lawn 0.01 to 0.03, suburb 0.5.
         roughness_m: f32,
@@ -71,9 +71,9 @@ impl Default for Turbulence {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Vortex {
-    /// A point of the axis in metres, at time zero.
+    /// A point of the axis in metres at time zero, each component -4096 to 4096.
     pub center_m: Vec3,
-    /// Direction of the axis, any length but zero; the air turns anticlockwise seen from its tip.
+    /// Direction of the axis, each component -1000 to 1000, at least 0.001 long; the air turns anticlockwise seen from its tip.
     pub axis: Vec3,
     /// Circulation Γ in m²/s, -1000 to 1000.
     pub circulation_m2_s: f32,

@@ -1,0 +1,197 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Random valid scenes: full ranges, narrowed only where one value depends on another.
+
+use glam::Vec3;
+use proptest::collection::vec;
+use proptest::option;
+use proptest::prelude::*;
+use proptest::sample::select;
+
+use crate::motion::{MotionConstants, Primitive, TransitionTable};
+use crate::scene::limits::{self, Limit};
+use crate::scene::*;
+
+fn within(limit: Limit<f32>) -> BoxedStrategy<f32> {
+    prop_oneof![8 => limit.low..=limit.high, 1 => Just(limit.low), 1 => Just(limit.high)].boxed()
+}
+
+fn maybe(limit: Limit<f32>) -> BoxedStrategy<Option<f32>> {
+    option::of(within(limit)).boxed()
+}
+
+fn vector(limit: Limit<f32>) -> impl Strategy<Value = Vec3> {
+    [within(limit), within(limit), within(limit)].prop_map(Vec3::from_array)
+}
+
+prop_compose! {
+    fn motion()(
+        (descent_m_s, horizontal_m_s, vertical_m_s) in
+            (option::of(1.0f32..10.0), maybe(limits::HORIZONTAL_M_S), maybe(limits::VERTICAL_M_S)),
+        (flutter_rad_s, tumble_rad_s, spiral_rad_s) in
+            (option::of(0.5f32..15.0), option::of(0.5f32..15.0), option::of(0.5f32..15.0)),
+        (tumble_wobble, chaos_keep, chaos_jitter) in
+            (maybe(limits::TUMBLE_WOBBLE), maybe(limits::CHAOS_KEEP), maybe(limits::CHAOS_JITTER)),
+        (rose_radius_m, rose_ellipticity, rose_swings) in
+            (maybe(limits::ROSE_RADIUS_M), maybe(limits::ROSE_ELLIPTICITY), option::of(2u32..=12)),
+        (spiral_radius_m, wander_m_s, wander_s) in
+            (maybe(limits::SPIRAL_RADIUS_M), maybe(limits::WANDER_M_S), maybe(limits::WANDER_S)),
+    ) -> MotionParameters {
+        MotionParameters {
+            descent_m_s, horizontal_m_s, vertical_m_s, flutter_rad_s, tumble_rad_s, tumble_wobble, chaos_keep,
+            chaos_jitter, rose_radius_m, rose_ellipticity, rose_swings, spiral_radius_m, spiral_rad_s, wander_m_s,
+            wander_s,
+        }
+    }
+}
+
+prop_compose! {
+    /// Every name is made unique later.
+    fn species()(
+        name in "[^\\p{C}]{0,12}",
+        shape in select(vec![
+            LeafShape::Maple, LeafShape::Oak, LeafShape::Birch, LeafShape::Beech, LeafShape::Linden, LeafShape::Ginkgo,
+        ]),
+        season in (within(limits::SEASON), within(limits::SEASON)),
+        (size_m, size_variation, speed_variation) in
+            (within(limits::SIZE_M), within(limits::SIZE_VARIATION), within(limits::SPEED_VARIATION)),
+        (areal_density_kg_m2, spin_rad_s) in (within(limits::AREAL_DENSITY_KG_M2), within(limits::SPIN_RAD_S)),
+        start in select(Primitive::ALL.to_vec()),
+        rows in proptest::array::uniform6(proptest::array::uniform6(0u32..10_000)),
+        motion in motion(),
+        friction in maybe(limits::FRICTION_PER_S),
+        tables in option::of("[^\\p{C}]{1,20}"),
+    ) -> Species {
+        let mut transitions = TransitionTable(rows);
+        for row in &mut transitions.0 {
+            row[0] += 1;
+        }
+        let mut species = Species {
+            name,
+            shape,
+            season: (season.0.min(season.1), season.0.max(season.1)),
+            size_m, size_variation, speed_variation, areal_density_kg_m2, spin_rad_s, start, transitions, motion,
+            rotation: friction.map_or(RotationModel::SpecificForce, |friction_per_s| {
+                RotationModel::TanabeKaneko { friction_per_s }
+            }),
+            tables,
+        };
+        let rates = MotionConstants::of(&species);
+        if rates.tumble_rad_s.max(rates.flutter_rad_s) > 15.0 {
+            // Too fast a leaf for the steps below.
+            (species.motion.flutter_rad_s, species.motion.tumble_rad_s) = (Some(7.0), Some(15.0));
+        }
+        species
+    }
+}
+
+fn shape() -> impl Strategy<Value = SourceShape> {
+    // Between the highest ground and a height that the slowest leaf falls from in 60,000 steps.
+    let center = (within(limits::CENTER_M), 8.0f32..12.0, within(limits::CENTER_M));
+    let center = center.prop_map(|(x, y, z)| Vec3::new(x, y, z));
+    let half = (within(limits::HALF_EXTENT_M), 0.0f32..4.0, within(limits::HALF_EXTENT_M));
+    let half = half.prop_map(|(x, y, z)| Vec3::new(x, y, z));
+    prop_oneof![
+        (center.clone(), half)
+            .prop_map(|(center_m, half_extent_m)| SourceShape::Box { center_m, half_extent_m }),
+        (center.clone(), within(limits::RADIUS_M))
+            .prop_map(|(center_m, radius_m)| SourceShape::Disc { center_m, radius_m }),
+        (center, 0.0f32..4.0).prop_map(|(center_m, radius_m)| SourceShape::Sphere { center_m, radius_m }),
+    ]
+}
+
+fn source() -> impl Strategy<Value = Source> {
+    let release = prop_oneof![
+        within(limits::AT_S).prop_map(|at_s| Release::Burst { at_s }),
+        (within(limits::PER_S), within(limits::FROM_S))
+            .prop_map(|(per_s, from_s)| Release::Rate { per_s, from_s }),
+    ];
+    (shape(), 1u32..=10_000, release, maybe(limits::RECYCLE_AFTER_S), vec(1u32..=1000, 0..4)).prop_map(
+        |(shape, count, release, recycle_after_s, weights)| {
+            // Names are filled in when the species are known.
+            let species =
+                weights.into_iter().map(|weight| Share { species: String::new(), weight }).collect();
+            Source { shape, count, release, recycle_after_s, species }
+        },
+    )
+}
+
+prop_compose! {
+    fn vortex()(
+        center_m in vector(limits::CENTER_M),
+        axis in (vector(limits::AXIS), 0.001f32..=1000.0).prop_map(|(axis, z)| axis.with_z(z)),
+        circulation_m2_s in within(limits::CIRCULATION_M2_S),
+        core_m in within(limits::CORE_M),
+        axial_m_s in within(limits::AXIAL_M_S),
+        drift_m_s in vector(limits::DRIFT_M_S),
+    ) -> Vortex {
+        Vortex { center_m, axis, circulation_m2_s, core_m, axial_m_s, drift_m_s }
+    }
+}
+
+prop_compose! {
+    fn wind()(
+        direction_deg in within(limits::DIRECTION_DEG),
+        speed in prop_oneof![
+            within(limits::METRES_PER_SECOND).prop_map(MeanSpeed::MetresPerSecond),
+            (0u8..=12).prop_map(MeanSpeed::Beaufort),
+        ],
+        reference_height_m in 14.5f32..=100.0,
+        profile in prop_oneof![
+            Just(Profile::Uniform),
+            within(limits::EXPONENT).prop_map(|exponent| Profile::Power { exponent }),
+            (within(limits::ROUGHNESS_M), within(limits::DISPLACEMENT_M))
+                .prop_map(|(roughness_m, displacement_m)| Profile::Log { roughness_m, displacement_m }),
+        ],
+        gusts in (within(limits::STRENGTH), within(limits::INTERVAL_S))
+            .prop_map(|(strength, interval_s)| Gusts { strength, interval_s }),
+        turbulence in (within(limits::INTENSITY), within(limits::CELL_M), within(limits::CALM_M_S))
+            .prop_map(|(intensity, cell_m, calm_m_s)| Turbulence { intensity, cell_m, calm_m_s }),
+        vortices in vec(vortex(), 0..=MAX_VORTICES),
+    ) -> WindParameters {
+        WindParameters { direction_deg, speed, reference_height_m, profile, gusts, turbulence, vortices }
+    }
+}
+
+prop_compose! {
+    fn view()(
+        eye_m in (vector(limits::CAMERA_M), -1e5f32..=0.0).prop_map(|(eye, z)| eye.with_z(z)),
+        target_m in (vector(limits::CAMERA_M), 1.0f32..=1e5).prop_map(|(target, z)| target.with_z(z)),
+        vertical_fov_deg in within(limits::VERTICAL_FOV_DEG),
+        azimuth_deg in within(limits::AZIMUTH_DEG),
+        elevation_deg in within(limits::ELEVATION_DEG),
+        trail_s in within(limits::TRAIL_S),
+    ) -> View {
+        View {
+            camera: Camera { eye_m, target_m, vertical_fov_deg },
+            sun: Sun { azimuth_deg, elevation_deg },
+            trail_s,
+        }
+    }
+}
+
+prop_compose! {
+    pub(super) fn any_scene()(
+        name in "[^\\p{Cc}]{0,30}",
+        seed in any::<u64>(),
+        dt_s in 0.005f32..0.01,
+        (fall_speed, rotation_speed) in (within(limits::FALL_SPEED), within(limits::ROTATION_SPEED)),
+        mut species in vec(species(), 1..5),
+        mut sources in vec(source(), 1..=MAX_SOURCES),
+        wind in wind(),
+        ground in (-4.0f32..=4.0, within(limits::FRICTION))
+            .prop_map(|(height_m, friction)| Ground { height_m, friction }),
+        view in view(),
+    ) -> Scene {
+        for (index, species) in species.iter_mut().enumerate() {
+            species.name = format!("{index} {}", species.name);
+        }
+        for source in &mut sources {
+            source.species.truncate(species.len());
+            for (share, species) in source.species.iter_mut().zip(&species) {
+                share.species.clone_from(&species.name);
+            }
+        }
+        Scene { name, seed, dt_s, fall_speed, rotation_speed, species, sources, wind, ground, view }
+    }
+}

@@ -1,0 +1,192 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The allowed range of every number in a scene, stated once: validation, error messages and sliders read it here.
+//! A test compares it with the ranges that the documentation of the fields promises.
+
+use std::fmt::{self, Debug, Display, Formatter};
+
+/// Smallest and largest allowed value of a number, both included.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Limit<T> {
+    /// Smallest allowed value.
+    pub low: T,
+    /// Largest allowed value.
+    pub high: T,
+    /// Unit; empty for plain numbers.
+    pub unit: &'static str,
+}
+
+impl<T: PartialOrd> Limit<T> {
+    /// Whether `value` is allowed; NaN never is.
+    pub fn contains(&self, value: T) -> bool {
+        self.low <= value && value <= self.high
+    }
+}
+
+impl<T: Display> Display for Limit<T> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        write!(f, "{} to {}", self.low, self.high)?;
+        if self.unit.is_empty() { Ok(()) } else { write!(f, " {}", self.unit) }
+    }
+}
+
+/// Each row: constant, type, lowest, highest, unit, fields of the scene description that it holds for.
+macro_rules! limits {
+    ($($name:ident: $kind:ty = $low:expr, $high:expr, $unit:literal, $($field:ident)+;)*) => {
+        $(
+            #[doc = concat!("Range of", $(" `", stringify!($field), "`",)+ ".")]
+            pub const $name: Limit<$kind> = Limit { low: $low, high: $high, unit: $unit };
+        )*
+
+        /// Every field with its range, as its documentation should state it.
+        #[cfg(test)]
+        pub(super) fn documented() -> Vec<(&'static str, String)> {
+            vec![$($((stringify!($field), format!("{} to {}", $name.low, $name.high)),)+)*]
+        }
+    };
+}
+
+limits! {
+    DT_S: f32 = 0.001, 0.05, "s", dt_s;
+    FALL_SPEED: f32 = 0.0, 3.0, "", fall_speed;
+    ROTATION_SPEED: f32 = 0.1, 3.0, "", rotation_speed;
+
+    SEASON: f32 = 0.0, 1.0, "", season;
+    SIZE_M: f32 = 0.005, 0.5, "m", size_m;
+    SIZE_VARIATION: f32 = 0.0, 0.5, "", size_variation;
+    SPEED_VARIATION: f32 = 0.0, 0.5, "", speed_variation;
+    AREAL_DENSITY_KG_M2: f32 = 0.005, 2.0, "kg/m²", areal_density_kg_m2;
+    SPIN_RAD_S: f32 = 0.0, 20.0, "rad/s", spin_rad_s;
+    FRICTION_PER_S: f32 = 0.1, 1000.0, "1/s", friction_per_s;
+
+    DESCENT_M_S: f32 = 0.05, 10.0, "m/s", descent_m_s;
+    HORIZONTAL_M_S: f32 = 0.0, 10.0, "m/s", horizontal_m_s;
+    VERTICAL_M_S: f32 = 0.0, 10.0, "m/s", vertical_m_s;
+    FLUTTER_RAD_S: f32 = 0.5, 60.0, "rad/s", flutter_rad_s;
+    TUMBLE_RAD_S: f32 = 0.5, 120.0, "rad/s", tumble_rad_s;
+    TUMBLE_WOBBLE: f32 = 0.0, 0.49, "", tumble_wobble;
+    CHAOS_KEEP: f32 = 0.0, 1.0, "", chaos_keep;
+    CHAOS_JITTER: f32 = 0.0, 0.5, "", chaos_jitter;
+    ROSE_RADIUS_M: f32 = 0.0, 5.0, "m", rose_radius_m;
+    ROSE_ELLIPTICITY: f32 = 0.0, 1.0, "", rose_ellipticity;
+    ROSE_SWINGS: u32 = 2, 12, "", rose_swings;
+    SPIRAL_RADIUS_M: f32 = 0.0, 5.0, "m", spiral_radius_m;
+    SPIRAL_RAD_S: f32 = 0.5, 30.0, "rad/s", spiral_rad_s;
+    WANDER_M_S: f32 = 0.0, 2.0, "m/s", wander_m_s;
+    WANDER_S: f32 = 0.05, 2.0, "s", wander_s;
+
+    CENTER_M: f32 = -4096.0, 4096.0, "m", center_m;
+    HALF_EXTENT_M: f32 = 0.0, 4096.0, "m", half_extent_m;
+    RADIUS_M: f32 = 0.0, 4096.0, "m", radius_m;
+    COUNT: u32 = 1, super::MAX_LEAVES, "", count;
+    AT_S: f32 = 0.0, 86_400.0, "s", at_s;
+    PER_S: f32 = 0.001, 100_000_000.0, "1/s", per_s;
+    FROM_S: f32 = -3600.0, 86_400.0, "s", from_s;
+    RECYCLE_AFTER_S: f32 = 0.1, 86_400.0, "s", recycle_after_s;
+    WEIGHT: u32 = 1, 1000, "", weight;
+
+    HEIGHT_M: f32 = -4096.0, 4096.0, "m", height_m;
+    FRICTION: f32 = 0.05, 5.0, "", friction;
+
+    DIRECTION_DEG: f32 = -360.0, 360.0, "degrees", direction_deg;
+    METRES_PER_SECOND: f32 = 0.0, 80.0, "m/s", MetresPerSecond;
+    BEAUFORT: u8 = 0, 12, "", Beaufort;
+    REFERENCE_HEIGHT_M: f32 = 1.0, 100.0, "m", reference_height_m;
+    EXPONENT: f32 = 0.0, 1.0, "", exponent;
+    ROUGHNESS_M: f32 = 0.0001, 5.0, "m", roughness_m;
+    DISPLACEMENT_M: f32 = 0.0, 9.0, "m", displacement_m;
+    STRENGTH: f32 = 0.0, 2.0, "", strength;
+    INTERVAL_S: f32 = 0.5, 120.0, "s", interval_s;
+    INTENSITY: f32 = 0.0, 1.0, "", intensity;
+    CELL_M: f32 = 0.1, 20.0, "m", cell_m;
+    CALM_M_S: f32 = 0.0, 10.0, "m/s", calm_m_s;
+    AXIS: f32 = -1000.0, 1000.0, "", axis;
+    CIRCULATION_M2_S: f32 = -1000.0, 1000.0, "m²/s", circulation_m2_s;
+    CORE_M: f32 = 0.05, 100.0, "m", core_m;
+    AXIAL_M_S: f32 = -50.0, 50.0, "m/s", axial_m_s;
+    DRIFT_M_S: f32 = -50.0, 50.0, "m/s", drift_m_s;
+
+    CAMERA_M: f32 = -100_000.0, 100_000.0, "m", eye_m target_m;
+    VERTICAL_FOV_DEG: f32 = 5.0, 120.0, "degrees", vertical_fov_deg;
+    AZIMUTH_DEG: f32 = -360.0, 360.0, "degrees", azimuth_deg;
+    ELEVATION_DEG: f32 = 1.0, 90.0, "degrees", elevation_deg;
+    TRAIL_S: f32 = 0.0, 30.0, "s", trail_s;
+}
+
+/// Most steps from time zero to the end of the first life of a source's last leaf: step indices are `u32`, and a
+/// difference of two must fit an `i32`.
+pub const MAX_SCHEDULE_STEPS: f64 = 2_147_483_648.0;
+/// Most steps of one fall through still air: the age of a falling leaf is kept in sixteen bits.
+pub const MAX_FALL_STEPS: f64 = 60_000.0;
+/// Largest part of a period that a primitive motion may pass in one step; more would alias.
+pub const MAX_PERIODS_PER_STEP: f64 = 0.25;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The text of every file that describes a scene.
+    const SOURCES: [&str; 6] = [
+        include_str!("mod.rs"),
+        include_str!("ground.rs"),
+        include_str!("source.rs"),
+        include_str!("species.rs"),
+        include_str!("view.rs"),
+        include_str!("wind.rs"),
+    ];
+
+    /// Whether a declared type is a number, a vector, or an option or tuple of them. Any `u64` is allowed.
+    fn is_number(kind: &str) -> bool {
+        let kind = kind.trim_start_matches([' ', '(']);
+        let kind = kind.strip_prefix("Option<").unwrap_or(kind);
+        ["f32", "u32", "u8", "Vec3"]
+            .iter()
+            .any(|number| kind.strip_prefix(number).is_some_and(|rest| rest.starts_with([',', ')', '>'])))
+    }
+
+    /// Name and documentation of every field, and of every tuple variant, that holds a number.
+    fn numeric_fields() -> Vec<(String, String)> {
+        let mut fields = Vec::new();
+        for source in SOURCES {
+            let mut documentation = String::new();
+            for line in source.lines().map(str::trim) {
+                if let Some(text) = line.strip_prefix("///") {
+                    documentation.push_str(text);
+                    continue;
+                }
+                let declaration = line.strip_prefix("pub ").unwrap_or(line);
+                if let Some((name, kind)) = declaration.split_once([':', '('])
+                    && line.ends_with(',')
+                    && is_number(kind)
+                {
+                    fields.push((name.to_owned(), documentation.clone()));
+                }
+                documentation.clear();
+            }
+        }
+        fields
+    }
+
+    #[test]
+    fn every_numeric_field_documents_the_range_that_is_checked() {
+        let limits = documented();
+        let fields = numeric_fields();
+        assert!(fields.len() >= 60, "the source text was not understood: {} fields found", fields.len());
+        for (name, documentation) in &fields {
+            let range = limits.iter().find(|(field, _)| field == name).map(|(_, range)| range);
+            let range = range.unwrap_or_else(|| panic!("`{name}` has no range in the table of limits"));
+            assert!(documentation.contains(range), "`{name}` should document '{range}':{documentation}");
+        }
+        for (field, _) in &limits {
+            assert!(fields.iter().any(|(name, _)| name == field), "no field is called `{field}`");
+        }
+    }
+
+    #[test]
+    fn limits_include_their_ends_and_exclude_not_a_number() {
+        assert!(DT_S.contains(0.001) && DT_S.contains(0.05), "both ends are allowed");
+        assert!(!DT_S.contains(f32::NAN) && !DT_S.contains(f32::INFINITY), "only finite numbers are allowed");
+        assert_eq!(SPIRAL_RAD_S.to_string(), "0.5 to 30 rad/s", "range and unit");
+        assert_eq!(STRENGTH.to_string(), "0 to 2", "no trailing space without a unit");
+    }
+}

@@ -1,0 +1,163 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Both ends of every range, stated here once more: a changed limit must be meant.
+
+use glam::Vec3;
+
+use super::{failing_field, full};
+use crate::scene::{MeanSpeed, Profile, Release, RotationModel, Scene, SourceShape};
+
+/// Path, smallest and largest allowed value, assignment.
+type Row<T> = (&'static str, T, T, fn(&mut Scene, T));
+
+fn disc(center_m: Vec3, radius_m: f32) -> SourceShape {
+    SourceShape::Disc { center_m, radius_m }
+}
+
+/// Makes room for sources of any height: ground far below and a fast fall.
+fn tall(scene: &mut Scene, shape: SourceShape) {
+    scene.dt_s = 0.02;
+    scene.ground.height_m = -4096.0;
+    scene.species[0].motion.descent_m_s = Some(10.0);
+    scene.sources[0].shape = shape;
+}
+
+#[rustfmt::skip]
+const REALS: &[Row<f32>] = &[
+    ("dt_s", 0.001, 0.05, |s, v| s.dt_s = v),
+    ("fall_speed", 0.0, 3.0, |s, v| s.fall_speed = v),
+    ("rotation_speed", 0.1, 3.0, |s, v| s.rotation_speed = v),
+    ("species[0].season.0", 0.0, 1.0, |s, v| s.species[0].season.0 = v),
+    ("species[0].season.1", 0.0, 1.0, |s, v| s.species[0].season.1 = v),
+    ("species[0].size_m", 0.005, 0.5, |s, v| s.species[0].size_m = v),
+    ("species[0].size_variation", 0.0, 0.5, |s, v| s.species[0].size_variation = v),
+    ("species[0].speed_variation", 0.0, 0.5, |s, v| s.species[0].speed_variation = v),
+    ("species[0].areal_density_kg_m2", 0.005, 2.0, |s, v| s.species[0].areal_density_kg_m2 = v),
+    ("species[0].spin_rad_s", 0.0, 20.0, |s, v| s.species[0].spin_rad_s = v),
+    ("species[0].rotation.friction_per_s", 0.1, 1000.0,
+        |s, v| s.species[0].rotation = RotationModel::TanabeKaneko { friction_per_s: v }),
+    ("species[0].motion.descent_m_s", 0.05, 10.0, |s, v| s.species[0].motion.descent_m_s = Some(v)),
+    ("species[0].motion.horizontal_m_s", 0.0, 10.0, |s, v| s.species[0].motion.horizontal_m_s = Some(v)),
+    ("species[0].motion.vertical_m_s", 0.0, 10.0, |s, v| s.species[0].motion.vertical_m_s = Some(v)),
+    ("species[0].motion.flutter_rad_s", 0.5, 60.0, |s, v| s.species[0].motion.flutter_rad_s = Some(v)),
+    ("species[0].motion.tumble_rad_s", 0.5, 120.0, |s, v| s.species[0].motion.tumble_rad_s = Some(v)),
+    ("species[0].motion.tumble_wobble", 0.0, 0.49, |s, v| s.species[0].motion.tumble_wobble = Some(v)),
+    ("species[0].motion.chaos_keep", 0.0, 1.0, |s, v| s.species[0].motion.chaos_keep = Some(v)),
+    ("species[0].motion.chaos_jitter", 0.0, 0.5, |s, v| s.species[0].motion.chaos_jitter = Some(v)),
+    ("species[0].motion.rose_radius_m", 0.0, 5.0, |s, v| s.species[0].motion.rose_radius_m = Some(v)),
+    ("species[0].motion.rose_ellipticity", 0.0, 1.0, |s, v| s.species[0].motion.rose_ellipticity = Some(v)),
+    ("species[0].motion.spiral_radius_m", 0.0, 5.0, |s, v| s.species[0].motion.spiral_radius_m = Some(v)),
+    ("species[0].motion.spiral_rad_s", 0.5, 30.0, |s, v| s.species[0].motion.spiral_rad_s = Some(v)),
+    ("species[0].motion.wander_m_s", 0.0, 2.0, |s, v| s.species[0].motion.wander_m_s = Some(v)),
+    ("species[0].motion.wander_s", 0.05, 2.0, |s, v| s.species[0].motion.wander_s = Some(v)),
+    ("sources[0].shape.center_m.x", -4096.0, 4096.0, |s, v| tall(s, disc(Vec3::ZERO.with_x(v), 1.0))),
+    ("sources[0].shape.center_m.y", -4096.0, 4096.0, |s, v| tall(s, disc(Vec3::ZERO.with_y(v), 1.0))),
+    ("sources[0].shape.center_m.z", -4096.0, 4096.0, |s, v| tall(s, disc(Vec3::ZERO.with_z(v), 1.0))),
+    ("sources[0].shape.radius_m", 0.0, 4096.0, |s, v| tall(s, disc(Vec3::ZERO, v))),
+    ("sources[0].shape.radius_m", 0.0, 4096.0,
+        |s, v| tall(s, SourceShape::Sphere { center_m: Vec3::ZERO, radius_m: v })),
+    ("sources[0].shape.center_m.x", -4096.0, 4096.0,
+        |s, v| tall(s, SourceShape::Sphere { center_m: Vec3::ZERO.with_x(v), radius_m: 1.0 })),
+    ("sources[0].shape.center_m.z", -4096.0, 4096.0,
+        |s, v| tall(s, SourceShape::Box { center_m: Vec3::ZERO.with_z(v), half_extent_m: Vec3::ONE })),
+    ("sources[0].shape.half_extent_m.x", 0.0, 4096.0,
+        |s, v| tall(s, SourceShape::Box { center_m: Vec3::ZERO, half_extent_m: Vec3::ZERO.with_x(v) })),
+    ("sources[0].shape.half_extent_m.y", 0.0, 4096.0,
+        |s, v| tall(s, SourceShape::Box { center_m: Vec3::ZERO, half_extent_m: Vec3::ZERO.with_y(v) })),
+    ("sources[0].shape.half_extent_m.z", 0.0, 4096.0,
+        |s, v| tall(s, SourceShape::Box { center_m: Vec3::ZERO, half_extent_m: Vec3::ZERO.with_z(v) })),
+    ("sources[0].release.at_s", 0.0, 86_400.0, |s, v| s.sources[0].release = Release::Burst { at_s: v }),
+    ("sources[0].release.per_s", 0.001, 1e8,
+        |s, v| s.sources[0].release = Release::Rate { per_s: v, from_s: 0.0 }),
+    ("sources[0].release.from_s", -3600.0, 86_400.0,
+        |s, v| s.sources[0].release = Release::Rate { per_s: 1.0, from_s: v }),
+    ("sources[0].recycle_after_s", 0.1, 86_400.0, |s, v| s.sources[0].recycle_after_s = Some(v)),
+    ("ground.height_m", -4096.0, 4096.0, |s, v| {
+        tall(s, disc(Vec3::Y * 4096.0, 1.0));
+        s.ground.height_m = v;
+    }),
+    ("ground.friction", 0.05, 5.0, |s, v| s.ground.friction = v),
+    ("wind.direction_deg", -360.0, 360.0, |s, v| s.wind.direction_deg = v),
+    ("wind.speed", 0.0, 80.0, |s, v| s.wind.speed = MeanSpeed::MetresPerSecond(v)),
+    ("wind.reference_height_m", 1.0, 100.0, |s, v| s.wind.reference_height_m = v),
+    ("wind.profile.exponent", 0.0, 1.0, |s, v| s.wind.profile = Profile::Power { exponent: v }),
+    ("wind.profile.roughness_m", 0.0001, 5.0,
+        |s, v| s.wind.profile = Profile::Log { roughness_m: v, displacement_m: 0.0 }),
+    ("wind.profile.displacement_m", 0.0, 9.0,
+        |s, v| s.wind.profile = Profile::Log { roughness_m: 0.1, displacement_m: v }),
+    ("wind.gusts.strength", 0.0, 2.0, |s, v| s.wind.gusts.strength = v),
+    ("wind.gusts.interval_s", 0.5, 120.0, |s, v| s.wind.gusts.interval_s = v),
+    ("wind.turbulence.intensity", 0.0, 1.0, |s, v| s.wind.turbulence.intensity = v),
+    ("wind.turbulence.cell_m", 0.1, 20.0, |s, v| s.wind.turbulence.cell_m = v),
+    ("wind.turbulence.calm_m_s", 0.0, 10.0, |s, v| s.wind.turbulence.calm_m_s = v),
+    ("wind.vortices[0].center_m.x", -4096.0, 4096.0, |s, v| s.wind.vortices[0].center_m.x = v),
+    ("wind.vortices[0].center_m.y", -4096.0, 4096.0, |s, v| s.wind.vortices[0].center_m.y = v),
+    ("wind.vortices[0].center_m.z", -4096.0, 4096.0, |s, v| s.wind.vortices[0].center_m.z = v),
+    ("wind.vortices[0].axis.x", -1000.0, 1000.0, |s, v| s.wind.vortices[0].axis.x = v),
+    ("wind.vortices[0].axis.y", -1000.0, 1000.0, |s, v| s.wind.vortices[0].axis.y = v),
+    ("wind.vortices[0].axis.z", -1000.0, 1000.0, |s, v| s.wind.vortices[0].axis.z = v),
+    ("wind.vortices[0].circulation_m2_s", -1000.0, 1000.0, |s, v| s.wind.vortices[0].circulation_m2_s = v),
+    ("wind.vortices[0].core_m", 0.05, 100.0, |s, v| s.wind.vortices[0].core_m = v),
+    ("wind.vortices[0].axial_m_s", -50.0, 50.0, |s, v| s.wind.vortices[0].axial_m_s = v),
+    ("wind.vortices[0].drift_m_s.x", -50.0, 50.0, |s, v| s.wind.vortices[0].drift_m_s.x = v),
+    ("wind.vortices[0].drift_m_s.y", -50.0, 50.0, |s, v| s.wind.vortices[0].drift_m_s.y = v),
+    ("wind.vortices[0].drift_m_s.z", -50.0, 50.0, |s, v| s.wind.vortices[0].drift_m_s.z = v),
+    ("view.camera.eye_m.x", -1e5, 1e5, |s, v| s.view.camera.eye_m.x = v),
+    ("view.camera.eye_m.y", -1e5, 1e5, |s, v| s.view.camera.eye_m.y = v),
+    ("view.camera.eye_m.z", -1e5, 1e5, |s, v| s.view.camera.eye_m.z = v),
+    ("view.camera.target_m.x", -1e5, 1e5, |s, v| s.view.camera.target_m.x = v),
+    ("view.camera.target_m.y", -1e5, 1e5, |s, v| s.view.camera.target_m.y = v),
+    ("view.camera.target_m.z", -1e5, 1e5, |s, v| s.view.camera.target_m.z = v),
+    ("view.camera.vertical_fov_deg", 5.0, 120.0, |s, v| s.view.camera.vertical_fov_deg = v),
+    ("view.sun.azimuth_deg", -360.0, 360.0, |s, v| s.view.sun.azimuth_deg = v),
+    ("view.sun.elevation_deg", 1.0, 90.0, |s, v| s.view.sun.elevation_deg = v),
+    ("view.trail_s", 0.0, 30.0, |s, v| s.view.trail_s = v),
+];
+
+#[rustfmt::skip]
+const COUNTS: &[Row<u32>] = &[
+    ("species[0].motion.rose_swings", 2, 12, |s, v| s.species[0].motion.rose_swings = Some(v)),
+    ("species[0].transitions[0]", 1, 65_535, |s, v| s.species[0].transitions.0[0] = [v, 0, 0, 0, 0, 0]),
+    ("sources[0].count", 1, 1 << 28, |s, v| s.sources[0].count = v),
+    ("sources[0].species[0].weight", 1, 1000, |s, v| s.sources[0].species[0].weight = v),
+];
+
+/// Assigns `value` in an otherwise valid scene.
+fn field_with<T>(&(_, _, _, set): &Row<T>, value: T) -> Option<String> {
+    let mut scene = full();
+    set(&mut scene, value);
+    failing_field(&scene)
+}
+
+#[test]
+fn ranges_end_where_they_should() {
+    for row in REALS {
+        let &(path, low, high, _) = row;
+        for inside in [low, low.next_up(), high.next_down(), high] {
+            assert_eq!(field_with(row, inside), None, "{path}: {inside:?} is allowed");
+        }
+        for outside in [low.next_down(), high.next_up(), f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
+            assert_eq!(field_with(row, outside).as_deref(), Some(path), "{path}: {outside:?} is not allowed");
+        }
+    }
+    for row in COUNTS {
+        let &(path, low, high, _) = row;
+        for inside in [low, high] {
+            assert_eq!(field_with(row, inside), None, "{path}: {inside} is allowed");
+        }
+        for outside in [low - 1, high + 1, u32::MAX] {
+            assert_eq!(field_with(row, outside).as_deref(), Some(path), "{path}: {outside} is not allowed");
+        }
+    }
+}
+
+#[test]
+fn beaufort_numbers_end_at_twelve() {
+    let with = |number| {
+        let mut scene = full();
+        scene.wind.speed = MeanSpeed::Beaufort(number);
+        failing_field(&scene)
+    };
+    assert_eq!((with(0), with(12)), (None, None), "the scale");
+    assert_eq!(with(13).as_deref(), Some("wind.speed"), "beyond the scale");
+}
