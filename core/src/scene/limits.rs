@@ -116,7 +116,7 @@ limits! {
 /// Most steps from time zero to the end of the first life of a source's last leaf: step indices are `u32`, and a
 /// difference of two must fit an `i32`.
 pub const MAX_SCHEDULE_STEPS: f64 = 2_147_483_648.0;
-/// Most steps of one fall through still air: the age of a falling leaf is kept in sixteen bits.
+/// Most steps of one fall through still air: times of fall are `u32` in 2^-16 steps, with some room to spare.
 pub const MAX_FALL_STEPS: f64 = 60_000.0;
 /// Largest part of a period that a primitive motion may pass in one step; more would alias.
 pub const MAX_PERIODS_PER_STEP: f64 = 0.25;

@@ -11,9 +11,6 @@ use crate::scene::limits::{MAX_FALL_STEPS, MAX_PERIODS_PER_STEP, MAX_SCHEDULE_ST
 use crate::scene::nearest::nearest;
 use crate::scene::{Release, Scene, Source, SourceShape, Species};
 
-/// Chaotic motion redraws its rates up to this much faster.
-const CHAOS_SPEEDUP: f64 = 1.5;
-
 impl Scene {
     /// Species have names of their own, and every share names one of them, once.
     pub(super) fn check_species_names(&self, check: &Check<'_>) -> Result<(), SceneError> {
@@ -67,15 +64,15 @@ impl Scene {
         Ok(())
     }
 
-    /// Every motion stays below a quarter period per step: for the smallest leaves of a species, in chaotic motion, at
-    /// the scene's rotation speed.
+    /// Every motion stays below a quarter period per step, also for the smallest and fastest leaf of a species, at the
+    /// fastest that chaotic motion draws, and at the scene's rotation speed.
     pub(super) fn check_rates(&self, check: &Check<'_>) -> Result<(), SceneError> {
         for (index, species) in self.species.iter().enumerate() {
             let at = check.inside(format!("species[{index}].motion"));
-            let smallest = 1.0 - f64::from(species.size_variation);
-            let speedup = CHAOS_SPEEDUP / smallest * f64::from(self.rotation_speed.max(1.0));
-            let fastest = MAX_PERIODS_PER_STEP * TAU / (f64::from(self.dt_s) * speedup);
             let (given, used) = (&species.motion, MotionConstants::of(species));
+            let leaf = (1.0 + f64::from(species.speed_variation)) / (1.0 - f64::from(species.size_variation));
+            let speedup = leaf * (1.0 + used.chaos_jitter) * f64::from(self.rotation_speed.max(1.0));
+            let fastest = MAX_PERIODS_PER_STEP * TAU / (f64::from(self.dt_s) * speedup);
             for (name, given, rate) in [
                 ("flutter_rad_s", given.flutter_rad_s, used.flutter_rad_s),
                 ("tumble_rad_s", given.tumble_rad_s, used.tumble_rad_s),

@@ -29,7 +29,7 @@ prop_compose! {
         (descent_m_s, horizontal_m_s, vertical_m_s) in
             (option::of(1.0f32..10.0), maybe(limits::HORIZONTAL_M_S), maybe(limits::VERTICAL_M_S)),
         (flutter_rad_s, tumble_rad_s, spiral_rad_s) in
-            (option::of(0.5f32..15.0), option::of(0.5f32..15.0), option::of(0.5f32..15.0)),
+            (option::of(0.5f32..11.0), option::of(0.5f32..11.0), option::of(0.5f32..11.0)),
         (tumble_wobble, chaos_keep, chaos_jitter) in
             (maybe(limits::TUMBLE_WOBBLE), maybe(limits::CHAOS_KEEP), maybe(limits::CHAOS_JITTER)),
         (rose_radius_m, rose_ellipticity, rose_swings) in
@@ -77,9 +77,9 @@ prop_compose! {
             tables,
         };
         let rates = MotionConstants::of(&species);
-        if rates.tumble_rad_s.max(rates.flutter_rad_s) > 15.0 {
+        if rates.tumble_rad_s.max(rates.flutter_rad_s) > 11.0 {
             // Too fast a leaf for the steps below.
-            (species.motion.flutter_rad_s, species.motion.tumble_rad_s) = (Some(7.0), Some(15.0));
+            (species.motion.flutter_rad_s, species.motion.tumble_rad_s) = (Some(7.0), Some(11.0));
         }
         species
     }
