@@ -1,3 +1,35 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Placeholder.
+//! Leaf shapes, veins, colours and texture atlases.
+//!
+//! [`Atlas::generate`] draws leaves from a few numbers, without any photo. For each leaf it makes an outline
+//! (`contour`), grows veins inside it (`veins`), ages its pigments texel by texel (`season`, `pigment`), wears it
+//! down (`damage`), paints it (`paint`), carries its colour past the edge (`bleed`) and filters it down to one
+//! texel (`mipmap`).
+//!
+//! # Units
+//! Leaf coordinates: the blade meets its petiole at (0, -1), its tip lies near (0, 1), y up. Colours are linear
+//! sRGB until the last step. Seasons run from 0 (green) to 1 (brown).
+
+mod atlas;
+mod bleed;
+mod contour;
+mod damage;
+mod distance;
+mod error;
+mod math;
+mod mipmap;
+mod noise;
+mod paint;
+mod pigment;
+mod raster;
+mod rng;
+mod season;
+mod shape;
+mod spline;
+mod veins;
+mod warp;
+
+pub use atlas::{Atlas, AtlasEntry, AtlasRequest, Layer};
+pub use error::TexgenError;
+pub use shape::Shape;

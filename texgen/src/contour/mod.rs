@@ -1,0 +1,155 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Outlines of leaves, one variation per seed.
+//!
+//! Every shape lists the knots of one half margin from the petiole to the tip and where veins shall end; the
+//! other half is a second draw of the same recipe, mirrored, so that no leaf is symmetric.
+
+mod fan;
+mod oak;
+mod palmate;
+mod petiole;
+mod toothed;
+
+use glam::Vec2;
+
+use crate::Shape;
+use crate::rng::Rng;
+
+/// A main vein: it runs from the petiole to a tip and feeds laterals on both sides.
+#[derive(Clone, Debug)]
+pub(crate) struct Rib {
+    /// Where the rib ends.
+    pub(crate) tip: Vec2,
+    /// Unit direction in which it leaves the petiole.
+    pub(crate) start: Vec2,
+    /// Ends of the laterals on the right of the rib, from its base outward.
+    pub(crate) right: Vec<Vec2>,
+    /// Ends of the laterals on the left of the rib, from its base outward.
+    pub(crate) left: Vec<Vec2>,
+}
+
+/// Outline of a leaf in leaf coordinates.
+#[derive(Clone, Debug)]
+pub(crate) struct Outline {
+    /// Margin of the blade: a closed polygon, counter-clockwise, first point not repeated.
+    pub(crate) blade: Vec<Vec2>,
+    /// Points of the petiole from its free end to the blade, with the radius at each.
+    pub(crate) petiole: Vec<(Vec2, f32)>,
+    /// Main veins; empty for a fan.
+    pub(crate) ribs: Vec<Rib>,
+}
+
+/// One half of a margin, drawn on the right side.
+struct Half {
+    /// Margin from the petiole's end to the tip, both included.
+    margin: Vec<Vec2>,
+    /// Ends of the laterals of the midrib, from the base outward.
+    laterals: Vec<Vec2>,
+    /// Ribs beside the midrib.
+    side_ribs: Vec<Rib>,
+}
+
+impl Rib {
+    /// The rib on the other side of the midrib.
+    fn mirrored(&self) -> Self {
+        Self {
+            tip: mirror(self.tip),
+            start: mirror(self.start),
+            right: self.left.iter().copied().map(mirror).collect(),
+            left: self.right.iter().copied().map(mirror).collect(),
+        }
+    }
+}
+
+impl Outline {
+    /// Draws the outline of a leaf.
+    pub(crate) fn draw(shape: Shape, rng: &Rng) -> Self {
+        let mut shared = rng.fork(1);
+        let (mut right, mut left) = (rng.fork(2), rng.fork(3));
+        let halves = match shape {
+            Shape::Maple => palmate::halves(&mut shared, &mut right, &mut left),
+            Shape::Oak => oak::halves(&mut shared, &mut right, &mut left),
+            Shape::Birch => toothed::birch(&mut shared, &mut right, &mut left),
+            Shape::Beech => toothed::beech(&mut shared, &mut right, &mut left),
+            Shape::Linden => toothed::linden(&mut shared, &mut right, &mut left),
+            Shape::Ginkgo => fan::halves(&mut shared, &mut right, &mut left),
+        };
+        let petiole = petiole::draw(shape, &mut rng.fork(4));
+        let mut outline = Self::join(halves, petiole);
+        if shape == Shape::Ginkgo {
+            outline.ribs.clear();
+        }
+        outline
+    }
+
+    /// Puts two halves together.
+    fn join((right, left): (Half, Half), petiole: Vec<(Vec2, f32)>) -> Self {
+        let tip = right.margin[right.margin.len() - 1];
+        let mut ribs = vec![Rib {
+            tip,
+            start: Vec2::Y,
+            right: right.laterals,
+            left: left.laterals.iter().copied().map(mirror).collect(),
+        }];
+        ribs.extend(right.side_ribs);
+        ribs.extend(left.side_ribs.iter().map(Rib::mirrored));
+        let mut blade = right.margin;
+        let inner = 1..left.margin.len() - 1;
+        blade.extend(left.margin[inner].iter().rev().copied().map(mirror));
+        Self { blade, petiole, ribs }
+    }
+}
+
+/// Reflects at the midrib.
+fn mirror(p: Vec2) -> Vec2 {
+    Vec2::new(-p.x, p.y)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::rng::Rng;
+    use proptest::prelude::{ProptestConfig, any, prop_assert, proptest};
+
+    /// Signed area of a polygon, positive when counter-clockwise.
+    fn area(polygon: &[Vec2]) -> f32 {
+        let next = polygon.iter().cycle().skip(1);
+        polygon.iter().zip(next).map(|(a, b)| a.perp_dot(*b)).sum::<f32>() / 2.0
+    }
+
+    /// Number of pairs of edges that cross.
+    fn crossings(polygon: &[Vec2]) -> usize {
+        let edge = |i: usize| (polygon[i], polygon[(i + 1) % polygon.len()]);
+        let side = |a: Vec2, b: Vec2, p: Vec2| (b - a).perp_dot(p - a) > 0.0;
+        let mut count = 0;
+        for i in 0..polygon.len() {
+            for j in i + 2..polygon.len() {
+                let ((a, b), (c, d)) = (edge(i), edge(j));
+                if (i, j) != (0, polygon.len() - 1)
+                    && side(a, b, c) != side(a, b, d)
+                    && side(c, d, a) != side(c, d, b)
+                {
+                    count += 1;
+                }
+            }
+        }
+        count
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(48))]
+        #[test]
+        fn outlines_are_closed_finite_and_simple(seed in any::<u64>(), which in 0..Shape::ALL.len()) {
+            let outline = Outline::draw(Shape::ALL[which], &Rng::new(seed));
+            prop_assert!(outline.blade.iter().all(|p| p.is_finite()), "margin has points that are not finite");
+            prop_assert!(outline.blade.iter().all(|p| p.length() < 3.2), "margin runs far away");
+            prop_assert!(area(&outline.blade) > 0.6, "blade too small or clockwise: {}", area(&outline.blade));
+            let longest = outline.blade.iter().zip(outline.blade.iter().cycle().skip(1))
+                .map(|(a, b)| a.distance(*b)).fold(0.0, f32::max);
+            prop_assert!(longest < 0.45, "margin has a gap of {longest}");
+            let crossed = crossings(&outline.blade);
+            prop_assert!(crossed <= 2, "margin crosses itself {crossed} times");
+        }
+    }
+}

@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What can be wrong with a request.
+
+/// A request that cannot be drawn.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum TexgenError {
+    /// A number lies outside its allowed values.
+    #[error("{field} is {value}, allowed: {allowed}")]
+    OutOfRange {
+        /// Path of the field in the request, such as `entries[2].season.1`.
+        field: String,
+        /// The value found.
+        value: String,
+        /// The values allowed.
+        allowed: &'static str,
+    },
+}
+
+impl TexgenError {
+    /// Names one number that is out of range.
+    pub(crate) fn out_of_range(
+        field: impl Into<String>,
+        value: impl ToString,
+        allowed: &'static str,
+    ) -> Self {
+        Self::OutOfRange { field: field.into(), value: value.to_string(), allowed }
+    }
+}

@@ -1,0 +1,154 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Mip chains of leaves: colour averaged in linear light by coverage, alpha scaled so that far leaves neither
+//! shrink nor swell (after Castaño, "Computing alpha mipmaps", 2010).
+
+use image::RgbaImage;
+
+use crate::math::{linear_from_srgb, srgb_from_linear, to_byte};
+
+/// Weight of colour without alpha: enough to pass bled colour on, too little to tint the leaf.
+const BLED_WEIGHT: f32 = 1e-4;
+/// Levels with fewer texels keep the last scale: a share of so few texels says little.
+const FEWEST_TEXELS: usize = 64;
+/// Alpha, in bytes, from which a texel counts as covered.
+const COVERED: u8 = 128;
+
+/// A level while it is averaged: linear colour and alpha.
+struct Level {
+    size: u32,
+    texels: Vec<[f32; 4]>,
+}
+
+/// All levels of a square image whose side is a power of two, from itself down to one texel.
+pub(crate) fn chain(base: RgbaImage) -> Vec<RgbaImage> {
+    let table: Vec<f32> = (0..=u8::MAX).map(linear_from_srgb).collect();
+    let texels = base
+        .pixels()
+        .map(|texel| {
+            let [r, g, b, a] = texel.0;
+            let light = |byte: u8| table[usize::from(byte)];
+            [light(r), light(g), light(b), f32::from(a) / 255.0]
+        })
+        .collect();
+    let mut level = Level { size: base.width(), texels };
+    let share = covered_share(&base);
+    let mut levels = vec![base];
+    let mut scale = 1.0;
+    while level.size > 1 {
+        level = level.halved();
+        if level.texels.len() >= FEWEST_TEXELS {
+            scale = level.scale_for(share);
+        }
+        levels.push(level.to_image(scale));
+    }
+    levels
+}
+
+/// Share of texels that count as covered.
+pub(crate) fn covered_share(image: &RgbaImage) -> f32 {
+    let covered = image.pixels().filter(|texel| texel[3] >= COVERED).count();
+    covered as f32 / image.pixels().len() as f32
+}
+
+impl Level {
+    /// The next level.
+    fn halved(&self) -> Self {
+        let half = self.size as usize / 2;
+        let stride = self.size as usize;
+        let texels = (0..half * half)
+            .map(|i| {
+                let corner = i / half * 2 * stride + i % half * 2;
+                let mut sum = [0.0; 4];
+                let mut weights = 0.0;
+                for at in [corner, corner + 1, corner + stride, corner + stride + 1] {
+                    let texel = self.texels[at];
+                    let weight = texel[3] + BLED_WEIGHT;
+                    for channel in 0..3 {
+                        sum[channel] += texel[channel] * weight;
+                    }
+                    sum[3] += texel[3] / 4.0;
+                    weights += weight;
+                }
+                [sum[0] / weights, sum[1] / weights, sum[2] / weights, sum[3]]
+            })
+            .collect();
+        Self { size: self.size / 2, texels }
+    }
+
+    /// Factor on alpha with which a share of texels is covered.
+    fn scale_for(&self, share: f32) -> f32 {
+        let mut alphas: Vec<f32> = self.texels.iter().map(|texel| texel[3]).collect();
+        alphas.sort_by(|a, b| b.total_cmp(a));
+        let wanted = (0..alphas.len()).min_by(|&a, &b| {
+            let error = |count: usize| (count as f32 / alphas.len() as f32 - share).abs();
+            error(a).total_cmp(&error(b))
+        });
+        // Half way between the last texel to be covered and the first not to be.
+        match wanted {
+            Some(count) if count > 0 => {
+                let threshold = (alphas[count - 1] + alphas[count]) / 2.0;
+                (0.5 / threshold.max(0.05)).clamp(0.5, 4.0)
+            }
+            _ => 1.0,
+        }
+    }
+
+    /// The level in bytes.
+    fn to_image(&self, scale: f32) -> RgbaImage {
+        RgbaImage::from_fn(self.size, self.size, |x, y| {
+            let [r, g, b, a] = self.texels[y as usize * self.size as usize + x as usize];
+            image::Rgba([srgb_from_linear(r), srgb_from_linear(g), srgb_from_linear(b), to_byte(a * scale)])
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use image::Rgba;
+
+    /// Thin spokes, which plain averaging would fade away.
+    fn spokes() -> RgbaImage {
+        RgbaImage::from_fn(128, 128, |x, y| {
+            let bearing = (f64::from(y) - 63.5).atan2(f64::from(x) - 63.5);
+            let radius = (f64::from(y) - 63.5).hypot(f64::from(x) - 63.5);
+            let texels_inside = ((bearing * 9.0).sin() - 0.2) * radius / 9.0;
+            #[expect(clippy::cast_possible_truncation, reason = "a share of a texel")]
+            let alpha = to_byte(texels_inside as f32 + 0.5);
+            Rgba([180, 120, 30, alpha])
+        })
+    }
+
+    #[test]
+    fn coverage_is_kept() {
+        let levels = chain(spokes());
+        assert_eq!(levels.len(), 8, "128 halves seven times");
+        let share = covered_share(&levels[0]);
+        for level in levels.iter().filter(|level| level.width() >= 8) {
+            let found = covered_share(level);
+            assert!((found - share).abs() < 0.02, "{} px: {found} covered, expected {share}", level.width());
+        }
+    }
+
+    #[test]
+    fn colour_is_averaged_in_linear_light() {
+        let checker = RgbaImage::from_fn(2, 2, |x, y| {
+            let v = if (x + y) % 2 == 0 { 255 } else { 0 };
+            Rgba([v, v, v, 255])
+        });
+        assert_eq!(
+            chain(checker)[1].get_pixel(0, 0).0,
+            [188, 188, 188, 255],
+            "half of the light is sRGB 188"
+        );
+    }
+
+    #[test]
+    fn transparent_colour_does_not_tint() {
+        let half =
+            RgbaImage::from_fn(2, 2, |x, _| if x == 0 { Rgba([200, 50, 0, 255]) } else { Rgba([0; 4]) });
+        let texel = chain(half)[1].get_pixel(0, 0).0;
+        assert_eq!(texel[..3], [200, 50, 0], "only covered texels count");
+    }
+}

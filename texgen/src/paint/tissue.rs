@@ -1,0 +1,156 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Colour of each spot of a leaf: how far its own autumn has come, and what that does to its pigments.
+
+use glam::Vec2;
+
+use super::Leaf;
+use super::canvas::Spot;
+use crate::math::{lerp, smoothstep};
+use crate::pigment::{Linear, Pigments};
+use crate::rng::Rng;
+use crate::{Shape, noise, season};
+
+/// Character of one leaf's colouring.
+pub(super) struct Tissue {
+    leaf: Leaf,
+    seed: u64,
+    /// Factor on red.
+    blush: f32,
+    /// How unevenly the season advances.
+    patchiness: f32,
+    /// How long green lingers along the veins.
+    lingering: f32,
+    /// Width of the dead border in leaf units.
+    scorch: f32,
+    /// Amount of small dark spots, 0..=1.
+    specks: f32,
+    /// Direction in which the season is ahead.
+    drift: Vec2,
+    /// Factor on all pigments: pale or deep leaves.
+    depth: f32,
+}
+
+impl Tissue {
+    /// Draws the character of a leaf.
+    pub(super) fn draw(leaf: &Leaf, rng: &mut Rng) -> Self {
+        let late = smoothstep(0.35, 0.95, leaf.season);
+        let (lingering, scorch) = match leaf.shape {
+            Shape::Maple => (0.2, 0.05),
+            Shape::Oak => (0.22, 0.05),
+            Shape::Birch => (0.16, 0.035),
+            Shape::Beech => (0.26, 0.05),
+            Shape::Linden => (0.2, 0.06),
+            Shape::Ginkgo => (0.05, 0.02),
+        };
+        let blush = if leaf.shape == Shape::Maple {
+            // Some maples stay yellow, others turn all red.
+            lerp(0.05, 1.9, rng.unit())
+        } else {
+            1.0 + 0.4 * rng.bell()
+        };
+        Self {
+            leaf: *leaf,
+            seed: rng.bits(),
+            blush,
+            patchiness: rng.range(0.6, 1.3),
+            lingering: lingering * rng.range(0.5, 1.5),
+            scorch: scorch * late * rng.range(0.0, 2.0),
+            specks: if rng.chance(0.25 + 0.5 * late) {
+                rng.range(0.2, 1.0) * lerp(0.4, 1.0, late)
+            } else {
+                0.0
+            },
+            drift: Vec2::from_angle(rng.range(0.0, std::f32::consts::TAU)) * rng.range(0.0, 0.09),
+            depth: 1.0 + 0.14 * rng.bell(),
+        }
+    }
+
+    /// Linear colour of a spot.
+    pub(super) fn colour(&self, spot: &Spot) -> Linear {
+        let age = self.age(spot);
+        let mut pigments = self.living(spot, age);
+        self.kill(spot, &mut pigments);
+        let veined = self.veined(spot, age, pigments);
+        let blade = veined.albedo();
+        // The blade bulges between its veins; the renderer lights it, so only a hint is painted.
+        let shade = 1.0 + 0.06 * spot.slope;
+        let stem = self.stem(spot);
+        std::array::from_fn(|i| lerp(blade[i] * shade, stem[i], spot.petiole).clamp(0.0, 1.0))
+    }
+
+    /// Season at a spot.
+    fn age(&self, spot: &Spot) -> f32 {
+        let season = self.leaf.season;
+        // Leaves are most uneven in mid autumn.
+        let unevenness = lerp(0.3, 1.0, 1.0 - (2.0 * season - 1.0).abs().powi(2));
+        let patches = noise::fractal(self.seed, spot.at * 1.6, 3) * 0.17 * self.patchiness;
+        let blotches = noise::fractal(self.seed ^ 0x10, spot.at * 5.0, 2) * 0.06 * self.patchiness;
+        let rim = 0.13 * (-spot.margin / 0.14).exp();
+        let green = self.lingering * (-spot.vein / 0.055).exp();
+        season + unevenness * (patches + blotches + rim - green + self.drift.dot(spot.at) + 0.03)
+    }
+
+    /// Pigments of living tissue.
+    fn living(&self, spot: &Spot, age: f32) -> Pigments {
+        let mut pigments = season::pigments(self.leaf.shape, age);
+        let flush = noise::fractal(self.seed ^ 0x20, spot.at * 2.2, 3);
+        pigments.anthocyanin *=
+            self.blush * (1.0 + 0.55 * flush + 0.25 * (-spot.margin / 0.1).exp()).max(0.1);
+        let mottle = 0.1 * noise::fractal(self.seed ^ 0x30, spot.at * 11.0, 2)
+            + 0.05 * noise::value(self.seed ^ 0x31, spot.at * 45.0);
+        pigments * (self.depth * (1.0 + mottle))
+    }
+
+    /// Adds dead border, spots and rims of holes.
+    fn kill(&self, spot: &Spot, pigments: &mut Pigments) {
+        let ragged = noise::fractal(self.seed ^ 0x40, spot.at * 4.0, 3);
+        let border = self.scorch * (0.55 + 1.1 * ragged);
+        let scorched = smoothstep(border + 0.02, border - 0.03, spot.margin) * smoothstep(0.0, 0.02, border);
+        let rim = smoothstep(0.035, 0.0, spot.hole) * 0.8;
+        let (nearest, _) = noise::cells(self.seed ^ 0x50, spot.at * 7.0);
+        let (finest, _) = noise::cells(self.seed ^ 0x51, spot.at * 17.0);
+        let gate = smoothstep(-0.1, 0.7, noise::value(self.seed ^ 0x52, spot.at * 2.3));
+        let large = smoothstep(0.2, 0.1, nearest) * smoothstep(0.45, 0.75, self.specks * gate);
+        let small = smoothstep(0.26, 0.12, finest) * 0.55 * self.specks * (0.3 + 0.7 * gate);
+        let dead = scorched.max(rim).max(large).max(small);
+        *pigments = *pigments * (1.0 - 0.75 * dead)
+            + Pigments { tannin: 1.15 * dead, carotenoid: 0.3 * dead, ..Pigments::default() };
+    }
+
+    /// Pigments with the veins drawn in: pale while the leaf lives, dark when it is dry.
+    fn veined(&self, spot: &Spot, age: f32, tissue: Pigments) -> Pigments {
+        let [primary, secondary, tertiary] = spot.strokes;
+        let mut strength = primary.max(0.85 * secondary).max(0.42 * tertiary);
+        if self.leaf.shape != Shape::Ginkgo {
+            let (first, second) = noise::cells(self.seed ^ 0x60, spot.at * 21.0);
+            strength = strength.max(0.2 * smoothstep(0.14, 0.0, second - first));
+        }
+        let dry = smoothstep(0.5, 0.95, age);
+        Pigments {
+            chlorophyll: tissue.chlorophyll * (1.0 - 0.62 * strength),
+            carotenoid: tissue.carotenoid * (1.0 - 0.25 * strength),
+            anthocyanin: tissue.anthocyanin * (1.0 - 0.4 * strength),
+            tannin: tissue.tannin + strength * lerp(0.02, 0.5, dry),
+        }
+    }
+
+    /// Colour of the petiole.
+    fn stem(&self, spot: &Spot) -> Linear {
+        let season = self.leaf.season;
+        let red = match self.leaf.shape {
+            Shape::Maple => 0.55,
+            Shape::Birch | Shape::Beech => 0.2,
+            Shape::Oak | Shape::Linden | Shape::Ginkgo => 0.04,
+        };
+        let own = season::pigments(self.leaf.shape, season * 0.85);
+        let pigments = Pigments {
+            chlorophyll: 0.5 * own.chlorophyll,
+            carotenoid: 0.6 * own.carotenoid,
+            anthocyanin: 0.4 * own.anthocyanin * self.blush + red * lerp(0.5, 1.0, season),
+            tannin: 0.12 + 0.75 * own.tannin + 0.3 * season,
+        };
+        let round = lerp(0.8, 1.1, smoothstep(0.0, 0.02, spot.margin));
+        pigments.albedo().map(|c| c * round)
+    }
+}
