@@ -1,0 +1,165 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Draws a made-up cloud of leaves without simulating anything: `render_synthetic [OUT.png] [LEAVES] [FRAMES]`.
+
+use std::f32::consts::{PI, TAU};
+use std::time::Instant;
+
+use anyhow::{Context, Result};
+use glam::{Quat, Vec2, Vec3};
+use image::{Rgba, RgbaImage};
+use windfall::camera::Camera;
+use windfall::render::{
+    FrameInput, LeafColumns, LeafImage, LeafImages, PictureTarget, Renderer, RendererOptions,
+};
+use windfall_core::Scene;
+use windfall_core::scene::{LeafShape, Species};
+
+const SIZE: (u32, u32) = (1280, 720);
+const EDGE: u32 = 128;
+const STAGES: u32 = 3;
+
+fn main() -> Result<()> {
+    let mut arguments = std::env::args().skip(1);
+    let path = arguments.next().unwrap_or_else(|| "target/synthetic.png".into());
+    let leaf_count: u32 = arguments.next().map_or(Ok(1600), |text| text.parse())?;
+    let frames: u32 = arguments.next().map_or(Ok(3), |text| text.parse())?;
+    let (device, queue) = pollster::block_on(open_device())?;
+    let mut scene = Scene::default();
+    let shapes = [("maple", LeafShape::Maple, 0.10), ("beech", LeafShape::Beech, 0.06), ("oak", LeafShape::Oak, 0.08)];
+    scene.species = shapes
+        .map(|(name, shape, size_m)| Species { name: name.into(), shape, size_m, ..Species::default() })
+        .to_vec();
+    let number = |name: &str| std::env::var(name).ok().and_then(|text| text.parse::<f32>().ok());
+    if let Some(degrees) = number("SUN_AZIMUTH") {
+        scene.view.sun.azimuth_deg = degrees;
+    }
+    if let Some(degrees) = number("SUN_ELEVATION") {
+        scene.view.sun.elevation_deg = degrees;
+    }
+    scene.view.trail_s = number("TRAIL").unwrap_or(0.0);
+    let images = stand_in_images();
+    let made = Instant::now();
+    let options = RendererOptions::default();
+    let mut renderer =
+        Renderer::new(&device, &queue, &scene, &images, PictureTarget::FORMAT, SIZE, options)?;
+    println!("renderer made in {:.0} ms", made.elapsed().as_secs_f64() * 1e3);
+    let target = PictureTarget::new(&device, SIZE)?;
+    let mut camera = Camera::from(&scene.view.camera);
+    camera.orbit(number("YAW").unwrap_or(0.0), number("PITCH").unwrap_or(0.0));
+    camera.zoom(number("ZOOM").unwrap_or(1.0));
+    let mut picture = None;
+    for frame in 0..frames {
+        let time_s = f64::from(frame) / 60.0;
+        let buffers = synthetic_columns(&device, &queue, leaf_count, time_s as f32);
+        let [position, orientation, course, identity] = &buffers;
+        let leaves = LeafColumns { position, orientation, course, identity, leaf_count };
+        let begun = Instant::now();
+        let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        renderer.draw(&mut encoder, &target.view(), &leaves, &FrameInput { camera, time_s });
+        picture = Some(target.submit_and_read(&device, &queue, encoder)?);
+        let spent = begun.elapsed().as_secs_f64() * 1e3;
+        let _ = renderer.timings();
+        println!("frame {frame}: {spent:.0} ms {:?}", renderer.timings());
+    }
+    picture.context("no frame")?.save(&path)?;
+    println!("{path}");
+    Ok(())
+}
+
+async fn open_device() -> Result<(wgpu::Device, wgpu::Queue)> {
+    let mut descriptor = wgpu::InstanceDescriptor::new_without_display_handle_from_env();
+    descriptor.backends = wgpu::Backends::VULKAN;
+    let instance = wgpu::Instance::new(descriptor);
+    let adapter = instance.request_adapter(&wgpu::RequestAdapterOptions::default()).await?;
+    println!("{}", adapter.get_info().name);
+    let descriptor = wgpu::DeviceDescriptor {
+        required_features: adapter.features() & wgpu::Features::TIMESTAMP_QUERY,
+        required_limits: adapter.limits(),
+        ..Default::default()
+    };
+    Ok(adapter.request_device(&descriptor).await?)
+}
+
+fn unit(seed: u32) -> f32 {
+    let state = seed.wrapping_mul(747_796_405).wrapping_add(2_891_336_453);
+    let word = ((state >> ((state >> 28) + 4)) ^ state).wrapping_mul(277_803_737);
+    (((word >> 22) ^ word) >> 8) as f32 / 16_777_216.0
+}
+
+/// Two thirds falling, turned at random, one third lying on the ground.
+fn synthetic_columns(device: &wgpu::Device, queue: &wgpu::Queue, count: u32, time_s: f32) -> [wgpu::Buffer; 4] {
+    let mut columns: [Vec<[u32; 4]>; 4] = Default::default();
+    let bits = |v: [f32; 4]| v.map(f32::to_bits);
+    for leaf in 0..count {
+        let random = |draw: u32| unit(leaf.wrapping_mul(31).wrapping_add(draw));
+        let resting = leaf % 3 == 2;
+        let species = leaf % 3 ^ (leaf / 3 % 3);
+        let place = Vec3::new(random(0) * 16.0 - 8.0, random(1) * 9.0, random(2) * 15.0 - 9.0);
+        let fall = Vec3::new((time_s * 3.0 + leaf as f32).sin() * 0.3, -time_s, 0.0);
+        let (place, state) =
+            if resting { (Vec3::new(place.x, 0.0, place.z), 3) } else { (place + fall, 2) };
+        let species = species.min(2);
+        columns[0].push([place.x.to_bits(), place.y.to_bits(), place.z.to_bits(), state | species << 9]);
+        let turn = if resting {
+            Quat::from_rotation_y(random(3) * TAU) * Quat::from_rotation_z(if random(4) < 0.5 { 0.0 } else { PI })
+        } else {
+            Quat::from_euler(glam::EulerRot::YXZ, random(3) * TAU, random(4) * TAU, random(5) * TAU)
+        };
+        columns[1].push(bits(turn.to_array()));
+        columns[2].push([0, 0, (16384.0 * (0.8 + 0.4 * random(6))) as u32, 0]);
+        columns[3].push([0, 0, 0, (random(7) * 65535.0) as u32 | ((random(8) * 255.0) as u32) << 16]);
+    }
+    columns.map(|column| {
+        let bytes: &[u8] = bytemuck::cast_slice(&column);
+        let usage = wgpu::BufferUsages::VERTEX | wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST;
+        let buffer = device.create_buffer(&wgpu::BufferDescriptor {
+            label: None,
+            size: bytes.len().max(16) as u64,
+            usage,
+            mapped_at_creation: false,
+        });
+        queue.write_buffer(&buffer, 0, bytes);
+        buffer
+    })
+}
+
+/// Simple outlines with a midrib, until there is an atlas.
+fn stand_in_images() -> LeafImages {
+    let colors = [
+        [[150.0, 160.0, 40.0], [214.0, 170.0, 30.0], [200.0, 80.0, 25.0]],
+        [[170.0, 165.0, 45.0], [205.0, 130.0, 40.0], [150.0, 80.0, 40.0]],
+        [[130.0, 140.0, 50.0], [180.0, 120.0, 50.0], [140.0, 75.0, 35.0]],
+    ];
+    let mut layers = Vec::new();
+    for (species, stages) in colors.iter().enumerate() {
+        for color in stages {
+            let inside = |x: f32, y: f32| match species {
+                0 => {
+                    let (angle, radius) = (x.atan2(y + 0.25), Vec2::new(x, y + 0.25).length());
+                    let lobes = (angle * 3.6).cos().abs() * 0.42 + 0.30 + 0.05 * (angle * 23.0).cos();
+                    radius < lobes * (1.15 - 0.25 * angle.abs() / PI) || (x.abs() < 0.02 && y < -0.2)
+                }
+                1 => x.abs() < 0.36 * (1.0 - (y * 1.1).powi(2)).max(0.0).sqrt() * (1.0 - 0.2 * y) || (x.abs() < 0.02 && y < -0.5),
+                _ => x.abs() < (0.28 + 0.10 * (y * 14.0).cos()) * (1.0 - (y * 1.08).powi(2)).max(0.0).sqrt() * (1.0 + 0.3 * y) || (x.abs() < 0.02 && y < -0.5),
+            };
+            let mut covered = 0.0;
+            let base = RgbaImage::from_fn(EDGE, EDGE, |px, py| {
+                let place = |p: u32| (p as f32 + 0.5) / EDGE as f32 * 2.0 - 1.0;
+                let (x, y) = (place(px), -place(py));
+                let alpha = if inside(x, y) { 255.0 } else { 0.0 };
+                covered += alpha / 255.0 / (EDGE * EDGE) as f32;
+                let vein = (1.0 - (x.abs() * 40.0).min(1.0)) * 0.3
+                    + (1.0 - (((y - x.abs() * 0.8) * 9.0).sin().abs() * 6.0).min(1.0)) * 0.15;
+                let mottle = 0.85 + 0.3 * unit(px / 5 + py / 5 * 400 + 77);
+                let shade = |c: f32| ((c * mottle).mul_add(1.0 - vein, 255.0 * vein * 0.7)).clamp(0.0, 255.0) as u8;
+                Rgba([shade(color[0]), shade(color[1]), shade(color[2]), alpha as u8])
+            });
+            let mips = (0..8)
+                .map(|level| image::imageops::resize(&base, EDGE >> level, EDGE >> level, image::imageops::FilterType::Triangle))
+                .collect();
+            layers.push(LeafImage { mips, area_fraction: covered });
+        }
+    }
+    LeafImages { size_px: EDGE, variants: 1, stages: STAGES, layers }
+}

@@ -1,0 +1,136 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! A perspective camera that orbits the point it looks at.
+
+use glam::camera::rh::{proj::directx, view};
+use glam::{Mat4, Vec3};
+use windfall_core::scene;
+
+/// Distance of the near plane in metres: small enough to fly among leaves, and reversed infinite depth keeps the
+/// far trees apart from the ground all the same.
+const NEAR_M: f32 = 0.05;
+/// Closest and farthest the camera goes from its target, in metres.
+const DISTANCE_RANGE_M: (f32, f32) = (0.2, 2000.0);
+/// Steepest view up or down in radians; straight down would lose the sense of "up".
+const MAX_PITCH_RAD: f32 = 1.54;
+
+/// An orbit camera: it stands `distance_m` from `target_m`, in the direction that yaw and pitch give.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Camera {
+    /// Point looked at in metres.
+    pub target_m: Vec3,
+    /// Direction from target to eye in the ground plane, in radians from +z turning to +x.
+    pub yaw_rad: f32,
+    /// Height of the eye above the target as an angle in radians.
+    pub pitch_rad: f32,
+    /// Distance from target to eye in metres.
+    pub distance_m: f32,
+    /// Vertical field of view in radians.
+    pub vertical_fov_rad: f32,
+}
+
+impl From<&scene::Camera> for Camera {
+    fn from(camera: &scene::Camera) -> Self {
+        let offset = camera.eye_m - camera.target_m;
+        let distance_m = offset.length().max(DISTANCE_RANGE_M.0);
+        Self {
+            target_m: camera.target_m,
+            yaw_rad: offset.x.atan2(offset.z),
+            pitch_rad: (offset.y / distance_m).asin().clamp(-MAX_PITCH_RAD, MAX_PITCH_RAD),
+            distance_m,
+            vertical_fov_rad: camera.vertical_fov_deg.to_radians(),
+        }
+    }
+}
+
+impl Camera {
+    /// Where the camera stands, in metres.
+    pub fn eye_m(&self) -> Vec3 {
+        let (pitch_sin, pitch_cos) = self.pitch_rad.sin_cos();
+        let (yaw_sin, yaw_cos) = self.yaw_rad.sin_cos();
+        self.target_m + self.distance_m * Vec3::new(pitch_cos * yaw_sin, pitch_sin, pitch_cos * yaw_cos)
+    }
+
+    /// Unit vector of the view.
+    pub fn forward(&self) -> Vec3 {
+        (self.target_m - self.eye_m()).normalize_or(Vec3::NEG_Z)
+    }
+
+    /// Unit vector to the right of the picture.
+    pub fn right(&self) -> Vec3 {
+        self.forward().cross(Vec3::Y).normalize_or(Vec3::X)
+    }
+
+    /// Unit vector to the top of the picture.
+    pub fn up(&self) -> Vec3 {
+        self.right().cross(self.forward())
+    }
+
+    /// World to clip space: reversed depth, 1 at the near plane and 0 at infinity.
+    pub fn view_projection(&self, aspect: f32) -> Mat4 {
+        directx::perspective_infinite_reverse(self.vertical_fov_rad, aspect, NEAR_M)
+            * view::look_at_mat4(self.eye_m(), self.target_m, Vec3::Y)
+    }
+
+    /// Turns the camera about its target.
+    pub fn orbit(&mut self, yaw_rad: f32, pitch_rad: f32) {
+        self.yaw_rad = (self.yaw_rad + yaw_rad).rem_euclid(std::f32::consts::TAU);
+        self.pitch_rad = (self.pitch_rad + pitch_rad).clamp(-MAX_PITCH_RAD, MAX_PITCH_RAD);
+    }
+
+    /// Divides the distance to the target by `factor`: above 1 goes nearer.
+    pub fn zoom(&mut self, factor: f32) {
+        let distance_m = self.distance_m / factor.max(1.0e-3);
+        self.distance_m = distance_m.clamp(DISTANCE_RANGE_M.0, DISTANCE_RANGE_M.1);
+    }
+
+    /// Moves camera and target across the view, in fractions of the picture's height (right and up positive), so
+    /// that what lies under the pointer stays there.
+    pub fn pan(&mut self, right: f32, up: f32) {
+        let height_m = 2.0 * self.distance_m * (0.5 * self.vertical_fov_rad).tan();
+        self.target_m += height_m * (right * self.right() + up * self.up());
+    }
+
+    /// Lifts the camera above a ground at `height_m`, keeping what it looks at.
+    pub fn stay_above(&mut self, height_m: f32) {
+        self.target_m.y = self.target_m.y.max(height_m);
+        let lowest = ((height_m - self.target_m.y) / self.distance_m).clamp(-1.0, 1.0).asin();
+        self.pitch_rad = self.pitch_rad.max(lowest);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn scene_camera_keeps_its_place() {
+        let described =
+            scene::Camera { eye_m: Vec3::new(3.0, 2.0, -5.0), target_m: Vec3::ONE, vertical_fov_deg: 40.0 };
+        let camera = Camera::from(&described);
+        assert!(camera.eye_m().distance(described.eye_m) < 1.0e-5, "eye at {}", camera.eye_m());
+    }
+
+    #[test]
+    fn target_projects_to_the_middle() {
+        let mut camera = Camera::from(&scene::Camera::default());
+        camera.orbit(0.7, 0.3);
+        camera.pan(0.1, -0.2);
+        let clip = camera.view_projection(1.5) * camera.target_m.extend(1.0);
+        assert!((clip.x / clip.w).abs() < 1.0e-5, "off centre: {clip}");
+        assert!((clip.y / clip.w).abs() < 1.0e-5, "off centre: {clip}");
+        assert!(clip.z > 0.0 && clip.z < clip.w, "reversed depth must fall from 1 to 0: {clip}");
+    }
+
+    #[test]
+    fn orbit_and_zoom_stay_in_range() {
+        let mut camera = Camera::from(&scene::Camera::default());
+        camera.orbit(100.0, 100.0);
+        camera.zoom(0.0);
+        assert!(camera.pitch_rad <= MAX_PITCH_RAD, "pitch {}", camera.pitch_rad);
+        assert!(camera.distance_m <= DISTANCE_RANGE_M.1, "distance {}", camera.distance_m);
+        camera.orbit(0.0, -100.0);
+        camera.stay_above(0.0);
+        assert!(camera.eye_m().y >= -1.0e-4, "eye below ground: {}", camera.eye_m());
+    }
+}

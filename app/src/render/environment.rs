@@ -1,0 +1,154 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Light and air of a day: everything follows from the sun's place in the sky.
+
+use glam::{Mat4, Vec2, Vec3};
+use windfall_core::scene::Sun;
+
+use super::scenery::PARK_RADIUS_M;
+use super::shadow_pass::SHADOW_SIZE;
+use crate::camera::Camera;
+
+/// Half edge of the square around the camera's focus in which leaves cast shadows, in metres.
+const SHADOW_RADIUS_M: f32 = 11.0;
+/// How far towards and away from the sun leaves still cast shadows there, in metres.
+const SHADOW_DEPTH_M: f32 = 60.0;
+/// Farthest the focus lies from the camera, in metres: beyond it, shadows are too small to be seen.
+const FOCUS_LIMIT_M: f32 = 11.0;
+/// Haze per metre: a bright, slightly misty autumn day.
+const HAZE_PER_M: f32 = 0.0058;
+/// Scale from light to picture.
+const EXPOSURE: f32 = 0.78;
+
+/// `Frame` of `common.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, bytemuck::Pod, bytemuck::Zeroable)]
+pub(super) struct FrameUniform {
+    view_projection: [[f32; 4]; 4],
+    shadow_projection: [[f32; 4]; 4],
+    eye: [f32; 4],
+    right: [f32; 4],
+    up: [f32; 4],
+    forward: [f32; 4],
+    sun_direction: [f32; 4],
+    sun_color: [f32; 4],
+    sky_zenith: [f32; 4],
+    sky_horizon: [f32; 4],
+    ground_bounce: [f32; 4],
+    air: [f32; 4],
+    park: [f32; 4],
+    viewport: [f32; 4],
+}
+
+/// What a frame's light and place are computed from.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Environment {
+    /// Direction towards the sun.
+    pub(super) sun_direction: Vec3,
+    /// Centre of the park, on the ground.
+    pub(super) park_center: Vec3,
+}
+
+impl Environment {
+    pub(super) fn new(sun: &Sun, park_center: Vec3) -> Self {
+        Self { sun_direction: sun_direction(sun), park_center }
+    }
+
+    /// The uniform block of one frame.
+    pub(super) fn frame(&self, camera: &Camera, time_s: f32, size: (u32, u32)) -> FrameUniform {
+        let (width, height) = (size.0 as f32, size.1 as f32);
+        let aspect = width / height;
+        let tangent = (0.5 * camera.vertical_fov_rad).tan();
+        let sun = self.sun_direction;
+        // Sunlight after its way through the air, and a sky that pales and warms with it.
+        let air_mass = 1.0 / (sun.y + 0.05);
+        let sun_color = 3.5 * exp(-air_mass * Vec3::new(0.055, 0.105, 0.19));
+        let day = (sun.y * 3.0).clamp(0.25, 1.0);
+        let warm = sun_color / sun_color.max_element();
+        let zenith = Vec3::new(0.20, 0.38, 0.72) * day;
+        let horizon = Vec3::new(0.86, 0.90, 0.95) * Vec3::ONE.lerp(warm, 0.55) * day;
+        let bounce = (sun_color * sun.y * 0.55 + zenith) * Vec3::new(0.20, 0.18, 0.08);
+        let full = |v: Vec3, w: f32| v.extend(w).to_array();
+        FrameUniform {
+            view_projection: camera.view_projection(aspect).to_cols_array_2d(),
+            shadow_projection: self.shadow_projection(camera).to_cols_array_2d(),
+            eye: full(camera.eye_m(), time_s),
+            right: full(camera.right() * tangent * aspect, 0.0),
+            up: full(camera.up() * tangent, 0.0),
+            forward: full(camera.forward(), 0.0),
+            sun_direction: full(sun, Vec2::new(sun.x, sun.z).length() / sun.y),
+            sun_color: full(sun_color, 0.0),
+            sky_zenith: full(zenith, 0.0),
+            sky_horizon: full(horizon, 0.0),
+            ground_bounce: full(bounce, 0.0),
+            air: [HAZE_PER_M, EXPOSURE, PARK_RADIUS_M, 2.0 * SHADOW_RADIUS_M / SHADOW_SIZE as f32],
+            park: full(self.park_center, SHADOW_RADIUS_M),
+            viewport: [width, height, 1.0 / width, 1.0 / height],
+        }
+    }
+
+    /// World to the sun's clip space around what the camera looks at. The origin moves in whole texels, so that
+    /// shadows do not crawl when the camera does.
+    fn shadow_projection(&self, camera: &Camera) -> Mat4 {
+        let eye = camera.eye_m();
+        let forward = camera.forward();
+        let level = Vec3::new(forward.x, 0.0, forward.z).normalize_or(Vec3::NEG_Z);
+        let reach = camera.distance_m.clamp(2.0, FOCUS_LIMIT_M);
+        let focus = Vec3::new(eye.x, self.park_center.y, eye.z) + level * reach;
+        let toward = self.sun_direction;
+        let side = toward.cross(if toward.y > 0.99 { Vec3::Z } else { Vec3::Y }).normalize();
+        let upward = side.cross(toward);
+        let texel = 2.0 * SHADOW_RADIUS_M / SHADOW_SIZE as f32;
+        let snap = |axis: Vec3| (focus.dot(axis) / texel).round() * texel;
+        let (x, y, z) = (snap(side), snap(upward), focus.dot(toward));
+        let scale = 1.0 / SHADOW_RADIUS_M;
+        let depth = 0.5 / SHADOW_DEPTH_M;
+        Mat4::from_cols_array_2d(&[
+            [side.x * scale, upward.x * scale, -toward.x * depth, 0.0],
+            [side.y * scale, upward.y * scale, -toward.y * depth, 0.0],
+            [side.z * scale, upward.z * scale, -toward.z * depth, 0.0],
+            [-x * scale, -y * scale, 0.5 + z * depth, 1.0],
+        ])
+    }
+}
+
+fn exp(v: Vec3) -> Vec3 {
+    Vec3::new(v.x.exp(), v.y.exp(), v.z.exp())
+}
+
+fn sun_direction(sun: &Sun) -> Vec3 {
+    let (elevation_sin, elevation_cos) = sun.elevation_deg.to_radians().sin_cos();
+    let (azimuth_sin, azimuth_cos) = sun.azimuth_deg.to_radians().sin_cos();
+    Vec3::new(elevation_cos * azimuth_cos, elevation_sin, elevation_cos * azimuth_sin)
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::Vec3;
+    use windfall_core::scene;
+
+    use super::*;
+
+    #[test]
+    fn shadow_projection_separates_leaf_from_ground_along_the_sun() {
+        let environment = Environment::new(&Sun::default(), Vec3::ZERO);
+        let matrix = environment.shadow_projection(&Camera::from(&scene::Camera::default()));
+        let ground = Vec3::new(0.5, 0.0, -0.5);
+        let leaf = ground + 3.0 * environment.sun_direction;
+        let (low, high) = (matrix.project_point3(ground), matrix.project_point3(leaf));
+        assert!((low - high).truncate().length() < 1.0e-4, "a sun ray must be one point: {low} {high}");
+        assert!(high.z < low.z, "the leaf is nearer to the sun: {low} {high}");
+        assert!(low.abs().max_element() < 1.0, "the focus must lie in the map: {low}");
+    }
+
+    #[test]
+    fn light_stays_finite_for_every_sun() {
+        for elevation_deg in [1.0, 5.0, 45.0, 90.0] {
+            let sun = Sun { azimuth_deg: 30.0, elevation_deg };
+            let environment = Environment::new(&sun, Vec3::ZERO);
+            let frame = environment.frame(&Camera::from(&scene::Camera::default()), 1.0, (640, 480));
+            let all: &[f32] = bytemuck::cast_slice(std::slice::from_ref(&frame));
+            assert!(all.iter().all(|value| value.is_finite()), "elevation {elevation_deg}: {frame:?}");
+        }
+    }
+}

@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Bind group 0: the uniform block of the frame.
+
+use super::environment::FrameUniform;
+use super::pipeline::uniform_entry;
+
+/// The frame's uniform buffer and bind group.
+#[derive(Debug)]
+pub(super) struct FrameGroup {
+    pub(super) layout: wgpu::BindGroupLayout,
+    pub(super) group: wgpu::BindGroup,
+    buffer: wgpu::Buffer,
+}
+
+impl FrameGroup {
+    pub(super) fn new(device: &wgpu::Device) -> Self {
+        let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+            label: Some("frame"),
+            entries: &[uniform_entry(0)],
+        });
+        let buffer = device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some("frame"),
+            size: size_of::<FrameUniform>() as u64,
+            usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
+            mapped_at_creation: false,
+        });
+        let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("frame"),
+            layout: &layout,
+            entries: &[wgpu::BindGroupEntry { binding: 0, resource: buffer.as_entire_binding() }],
+        });
+        Self { layout, group, buffer }
+    }
+
+    pub(super) fn write(&self, queue: &wgpu::Queue, frame: &FrameUniform) {
+        queue.write_buffer(&self.buffer, 0, bytemuck::bytes_of(frame));
+    }
+}

@@ -1,0 +1,152 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Draws blades of grass on the squares of ground that the camera sees near by.
+
+use glam::{Vec2, Vec3};
+
+use super::frame::FrameGroup;
+use super::ground_pass::GRASS_COLOR;
+use super::light_group::LightGroup;
+use super::pipeline::{COMMON, LIGHT, ScenePipeline, shader};
+use crate::camera::Camera;
+
+/// Edge of a square in metres.
+const CELL_M: f32 = 1.0;
+/// Blades on a square close by; beyond a distance its share falls with the square (`standing` in `grass.wgsl`).
+const BLADES: u32 = 3000;
+/// Full density reaches this far, in metres.
+const DENSE_M: f32 = 6.5;
+/// Grass ends here, in metres.
+const REACH_M: f32 = 34.0;
+/// Classes of squares by the share of their blades that is drawn.
+const SHARES: [f32; 5] = [1.0, 0.5, 0.25, 0.12, 0.05];
+/// Most squares drawn in a frame.
+const MAX_CELLS: usize = 4096;
+
+/// The grass pipeline and the squares seen now.
+#[derive(Debug)]
+pub(super) struct GrassPass {
+    pipeline: wgpu::RenderPipeline,
+    cells: wgpu::Buffer,
+    /// Squares of each class, in the order of `SHARES`.
+    counts: [u32; SHARES.len()],
+}
+
+impl GrassPass {
+    pub(super) fn new(device: &wgpu::Device, frame: &FrameGroup, light: &LightGroup) -> Self {
+        let text = [COMMON, LIGHT, GRASS_COLOR, include_str!("shaders/grass.wgsl")];
+        let shader = shader(device, "grass", &text);
+        let cell = wgpu::VertexBufferLayout {
+            array_stride: 16,
+            step_mode: wgpu::VertexStepMode::Instance,
+            attributes: &wgpu::vertex_attr_array![0 => Float32x4],
+        };
+        let pipeline = ScenePipeline {
+            label: "grass",
+            groups: &[Some(&frame.layout), Some(&light.layout)],
+            topology: wgpu::PrimitiveTopology::TriangleList,
+            shader: &shader,
+            buffers: &[cell],
+            blend: None,
+            depth_write: true,
+            alpha_to_coverage: false,
+        }
+        .build(device);
+        let cells = device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some("grass cells"),
+            size: (MAX_CELLS * 16) as u64,
+            usage: wgpu::BufferUsages::VERTEX | wgpu::BufferUsages::COPY_DST,
+            mapped_at_creation: false,
+        });
+        Self { pipeline, cells, counts: [0; SHARES.len()] }
+    }
+
+    /// Finds the squares that `camera` sees on the ground at `ground_m`.
+    pub(super) fn prepare(&mut self, queue: &wgpu::Queue, camera: &Camera, aspect: f32, ground_m: f32) {
+        let classes = visible_cells(camera, aspect, ground_m);
+        self.counts = std::array::from_fn(|class| u32::try_from(classes[class].len()).unwrap_or(0));
+        queue.write_buffer(&self.cells, 0, bytemuck::cast_slice(&classes.concat()));
+    }
+
+    /// Draws the blades; bind groups 0 and 1 are set.
+    pub(super) fn draw(&self, pass: &mut wgpu::RenderPass<'_>) {
+        pass.set_pipeline(&self.pipeline);
+        pass.set_vertex_buffer(0, self.cells.slice(..));
+        let mut first = 0;
+        for (share, count) in SHARES.into_iter().zip(self.counts) {
+            pass.draw(0..3 * blades(share), first..first + count);
+            first += count;
+        }
+    }
+}
+
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a share of a small number")]
+fn blades(share: f32) -> u32 {
+    (BLADES as f32 * share) as u32
+}
+
+/// Squares in sight by class: corner x, z, blades of a full square, edge.
+fn visible_cells(camera: &Camera, aspect: f32, ground_m: f32) -> [Vec<[f32; 4]>; SHARES.len()] {
+    let mut classes: [Vec<[f32; 4]>; SHARES.len()] = std::array::from_fn(|_| Vec::new());
+    let eye = camera.eye_m();
+    let height = (eye.y - ground_m).abs();
+    if height >= REACH_M {
+        return classes;
+    }
+    let tangent = (0.5 * camera.vertical_fov_rad).tan();
+    let (forward, right, up) = (camera.forward(), camera.right(), camera.up());
+    // Inward normals of the four sides of the view.
+    let sides = [
+        forward * tangent * aspect + right,
+        forward * tangent * aspect - right,
+        forward * tangent + up,
+        forward * tangent - up,
+    ]
+    .map(Vec3::normalize);
+    let reach = (REACH_M * REACH_M - height * height).sqrt();
+    let low = ((Vec2::new(eye.x, eye.z) - reach) / CELL_M).floor();
+    let mut count = 0;
+    let mut z = low.y;
+    while z * CELL_M < eye.z + reach {
+        let mut x = low.x;
+        while x * CELL_M < eye.x + reach {
+            let corner = Vec2::new(x, z) * CELL_M;
+            let center = Vec3::new(corner.x + 0.5 * CELL_M, ground_m, corner.y + 0.5 * CELL_M);
+            let offset = center - eye;
+            let seen = sides.iter().all(|side| side.dot(offset) > -0.8 * CELL_M);
+            let near = (offset.length() - 0.75 * CELL_M).max(0.0);
+            if seen && near < REACH_M && count < MAX_CELLS {
+                count += 1;
+                let share = (DENSE_M / near.max(DENSE_M)).powi(2);
+                let class = SHARES.iter().rposition(|&limit| limit >= share).unwrap_or(0);
+                classes[class].push([corner.x, corner.y, BLADES as f32, CELL_M]);
+            }
+            x += 1.0;
+        }
+        z += 1.0;
+    }
+    classes
+}
+
+#[cfg(test)]
+mod tests {
+    use windfall_core::scene;
+
+    use super::*;
+
+    #[test]
+    fn squares_lie_before_the_camera_and_stay_few() {
+        let camera = Camera::from(&scene::Camera::default());
+        let classes = visible_cells(&camera, 16.0 / 9.0, 0.0);
+        let drawn: u32 = SHARES.into_iter().zip(&classes).map(|(s, c)| blades(s) * c.len() as u32).sum();
+        assert!(classes.iter().flatten().all(|cell| cell[1] < camera.eye_m().z), "a square behind the camera");
+        assert!((20_000..600_000).contains(&drawn), "{drawn} blades");
+    }
+
+    #[test]
+    fn no_grass_from_high_above() {
+        let mut camera = Camera::from(&scene::Camera::default());
+        camera.target_m.y = 500.0;
+        assert!(visible_cells(&camera, 1.0, 0.0).iter().all(Vec::is_empty), "grass seen from 500 m");
+    }
+}

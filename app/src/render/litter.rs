@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Buffers of the litter, drawn through the same pass as the simulated leaves.
+
+use glam::Vec3;
+
+use super::columns::LeafColumns;
+use super::scenery::{TreeInstance, scatter};
+use super::upload;
+
+/// Most leaves of litter.
+const MAX_LITTER: u32 = 100_000;
+
+/// Leaves that fell before the scene began.
+#[derive(Debug)]
+pub(super) struct Litter {
+    position: wgpu::Buffer,
+    orientation: wgpu::Buffer,
+    course: wgpu::Buffer,
+    identity: wgpu::Buffer,
+    count: u32,
+}
+
+impl Litter {
+    /// `None` for no leaves.
+    pub(super) fn new(
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        count: u32,
+        species_count: u32,
+        center: Vec3,
+        trees: &[TreeInstance],
+    ) -> Option<Self> {
+        let count = count.min(MAX_LITTER);
+        let columns = scatter(count, species_count, center, trees);
+        let column = |bytes: &[u8]| upload::buffer(device, queue, "litter", wgpu::BufferUsages::VERTEX, bytes);
+        (count > 0).then(|| Self {
+            position: column(bytemuck::cast_slice(&columns.position)),
+            orientation: column(bytemuck::cast_slice(&columns.orientation)),
+            course: column(bytemuck::cast_slice(&columns.course)),
+            identity: column(bytemuck::cast_slice(&columns.identity)),
+            count,
+        })
+    }
+
+    /// The litter as leaf columns.
+    pub(super) fn columns(&self) -> LeafColumns<'_> {
+        LeafColumns {
+            position: &self.position,
+            orientation: &self.orientation,
+            course: &self.course,
+            identity: &self.identity,
+            leaf_count: self.count,
+        }
+    }
+}

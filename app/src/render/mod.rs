@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Draws leaves in a park, from buffers that any simulator lends.
+//!
+//! A frame: the shade of the trees from above (once per sun), past positions of leaves for their trails, the leaves'
+//! shadow map, then one multisampled scene pass in linear light (leaves, grass, ground, trees, sky, trails), and the
+//! tone map. Leaves are cut out by coverage, so their order never matters. Nothing here needs a window.
+
+mod columns;
+mod environment;
+mod error;
+mod frame;
+mod grass_pass;
+mod ground_pass;
+mod leaf_images;
+mod leaf_kinds;
+mod leaf_mesh;
+mod leaf_pass;
+mod light_group;
+mod litter;
+mod pipeline;
+mod readback;
+mod renderer;
+mod scenery;
+mod shadow_pass;
+mod sky_pass;
+mod targets;
+mod timing;
+mod tonemap_pass;
+mod trail_pass;
+mod tree_pass;
+mod upload;
+
+pub use columns::LeafColumns;
+pub use error::RenderError;
+pub use leaf_images::{LeafImage, LeafImages, MAX_LAYERS};
+pub use readback::PictureTarget;
+pub use renderer::{FrameInput, Renderer, RendererOptions};
+pub use trail_pass::MAX_TRAILS;

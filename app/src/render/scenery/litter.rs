@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Leaves that fell before the scene began: scenery, not part of the simulation.
+
+use glam::{Quat, Vec2, Vec3};
+
+use super::layout::TreeInstance;
+use super::random::Random;
+
+/// Leaf columns of the litter, laid out like a simulator's (see `LeafColumns`).
+pub(crate) struct LitterColumns {
+    pub(crate) position: Vec<[u32; 4]>,
+    pub(crate) orientation: Vec<[f32; 4]>,
+    pub(crate) course: Vec<[u32; 4]>,
+    pub(crate) identity: Vec<[u32; 4]>,
+}
+
+/// Scatters `count` resting leaves of `species_count` species around `center`, denser near it and under the trees.
+pub(crate) fn scatter(count: u32, species_count: u32, center: Vec3, trees: &[TreeInstance]) -> LitterColumns {
+    let mut random = Random::new(7);
+    let mut columns = LitterColumns {
+        position: Vec::new(),
+        orientation: Vec::new(),
+        course: Vec::new(),
+        identity: Vec::new(),
+    };
+    let near: Vec<_> = trees.iter().filter(|tree| tree.foot_m.distance(center) < 55.0).collect();
+    let resting = 3;
+    for index in 0..count {
+        let under_tree = index % 5 < 2 && !near.is_empty();
+        let offset = if under_tree {
+            let tree = near[random.word() as usize % near.len()];
+            let spread = 0.45 * tree.height_m * random.unit().sqrt();
+            (tree.foot_m - center) + on_circle(&mut random) * spread
+        } else {
+            on_circle(&mut random) * (1.0 + 33.0 * random.unit().powf(0.8))
+        };
+        let species = random.word() % species_count.max(1);
+        let at = center + offset;
+        columns.position.push([at.x.to_bits(), at.y.to_bits(), at.z.to_bits(), resting | species << 9]);
+        let turn = Quat::from_rotation_y(random.range(0.0, std::f32::consts::TAU));
+        let face = if random.word() & 1 == 0 { Quat::IDENTITY } else { Quat::from_rotation_z(std::f32::consts::PI) };
+        columns.orientation.push((turn * face).to_array());
+        let size = 13_000 + random.word() % 6_000;
+        columns.course.push([0, 0, size, 0]);
+        columns.identity.push([0, 0, 0, random.word() & 0x00ff_ffff]);
+    }
+    columns
+}
+
+fn on_circle(random: &mut Random) -> Vec3 {
+    let toward = Vec2::from_angle(random.range(0.0, std::f32::consts::TAU));
+    Vec3::new(toward.x, 0.0, toward.y)
+}

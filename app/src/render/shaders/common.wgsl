@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// What every shader of the scene shares. `Frame` is laid out by `environment.rs`.
+
+struct Frame {
+    view_projection: mat4x4<f32>,
+    // World to the sun's clip space.
+    shadow_projection: mat4x4<f32>,
+    // Camera position; time in seconds.
+    eye: vec4<f32>,
+    // Camera axes, scaled so that forward + x * right + y * up is a ray through clip position (x, y).
+    right: vec4<f32>,
+    up: vec4<f32>,
+    forward: vec4<f32>,
+    // Direction towards the sun; tangent of its distance from the zenith.
+    sun_direction: vec4<f32>,
+    sun_color: vec4<f32>,
+    sky_zenith: vec4<f32>,
+    sky_horizon: vec4<f32>,
+    // Light that comes back from the ground.
+    ground_bounce: vec4<f32>,
+    // Haze per metre; exposure; half edge of the shade map in metres; edge of a shadow texel in metres.
+    air: vec4<f32>,
+    // Centre of the park: x, height of the ground, z; radius of the shadow map in metres.
+    park: vec4<f32>,
+    // Width and height in pixels, and their reciprocals.
+    viewport: vec4<f32>,
+}
+
+@group(0) @binding(0) var<uniform> frame: Frame;
+
+// Grass stands this deep below the leaves that lie on its tips, in metres.
+const SWARD_M: f32 = 0.028;
+
+fn hash_u32(value: u32) -> u32 {
+    let state = value * 747796405u + 2891336453u;
+    let word = ((state >> ((state >> 28u) + 4u)) ^ state) * 277803737u;
+    return (word >> 22u) ^ word;
+}
+
+fn unit_from(value: u32) -> f32 {
+    return f32(value >> 8u) * 5.9604645e-8;
+}
+
+fn rotate(q: vec4<f32>, v: vec3<f32>) -> vec3<f32> {
+    let t = 2.0 * cross(q.xyz, v);
+    return v + q.w * t + cross(q.xyz, t);
+}
+
+fn luminance(color: vec3<f32>) -> f32 {
+    return dot(color, vec3(0.2126, 0.7152, 0.0722));
+}

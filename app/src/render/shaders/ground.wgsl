@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// The ground under the grass, out to the horizon.
+
+struct Varyings {
+    @builtin(position) clip: vec4<f32>,
+    @location(0) world: vec3<f32>,
+}
+
+// A fan of eight triangles around the eye, far beyond the haze.
+@vertex
+fn vertex(@builtin(vertex_index) index: u32) -> Varyings {
+    let corner = index % 3u;
+    let angle = f32(index / 3u + select(0u, 1u, corner == 2u)) * 0.78539816;
+    let radius = select(4000.0, 0.0, corner == 0u);
+    // Cut the near end of the fan just under the camera, the far end beyond sight.
+    let at = frame.eye.xz + radius * vec2(cos(angle), -sin(angle));
+    var out: Varyings;
+    out.world = vec3(at.x, frame.park.y - SWARD_M, at.y);
+    out.clip = frame.view_projection * vec4(out.world, 1.0);
+    return out;
+}
+
+@fragment
+fn fragment(in: Varyings) -> @location(0) vec4<f32> {
+    let at = in.world.xz;
+    let distance_m = distance(in.world, frame.eye.xyz);
+    let fine = textureSample(noise, repeat_sampler, at * 0.9).b;
+    let coarse = textureSample(noise, repeat_sampler, at * 0.17 + 0.2).a;
+    let specks = textureSample(noise, repeat_sampler, at * 1.7 + 0.6).b;
+    let grass = meadow(at, clamp(log2(distance_m * 0.02), 0.0, 5.0));
+    // Between the blades near by one sees thatch; far away only the blades' tips.
+    let far = smoothstep(5.0, 26.0, distance_m);
+    let thatch = mix(vec3(0.055, 0.050, 0.022), grass.rgb * 0.55, 0.55);
+    var albedo = mix(thatch, grass.rgb, far);
+    albedo *= 1.0 + 1.1 * (fine - 0.5) + 0.8 * (coarse - 0.5);
+    // Fallen leaves too far away to be drawn one by one.
+    let shade = tree_shade(in.world);
+    let density = clamp(shade.g * 0.85 + 0.10 + 0.25 * (coarse - 0.5), 0.0, 0.8);
+    let seen = smoothstep(12.0, 34.0, distance_m);
+    let speck = mix(smoothstep(0.62, 0.70, specks), 0.55, smoothstep(18.0, 45.0, distance_m));
+    let litter = mix(vec3(0.42, 0.22, 0.05), vec3(0.36, 0.13, 0.04), coarse * 1.2 - 0.2);
+    albedo = mix(albedo, litter, density * speck * seen);
+
+    let sun = shade.r * leaf_shadow(in.world);
+    // Grass is rough: against the sun it glows, with the sun behind one it shows its lit side.
+    let view = normalize(frame.eye.xyz - in.world);
+    let against = pow(max(dot(-view, frame.sun_direction.xyz), 0.0), 3.0);
+    let facing = mix(0.75, 1.0, far) * frame.sun_direction.y + 0.12;
+    var color = albedo * (frame.sun_color.rgb * sun * (facing + 0.55 * far * against));
+    color += albedo * ambient_light(vec3(0.0, 1.0, 0.0)) * mix(0.55, 0.95, far);
+    return vec4(haze(color, in.world), 1.0);
+}

@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// Sky, sun, thin clouds and the woods beyond the park, wherever nothing nearer was drawn.
+
+struct Varyings {
+    @builtin(position) clip: vec4<f32>,
+    @location(0) ray: vec3<f32>,
+}
+
+@vertex
+fn vertex(@builtin(vertex_index) index: u32) -> Varyings {
+    let corner = vec2(f32(index & 1u) * 4.0 - 1.0, f32(index >> 1u) * 4.0 - 1.0);
+    var out: Varyings;
+    out.clip = vec4(corner, 0.0, 1.0);
+    out.ray = frame.forward.xyz + corner.x * frame.right.xyz + corner.y * frame.up.xyz;
+    return out;
+}
+
+// Height of a wooded skyline, as a tangent.
+fn skyline(azimuth: f32, row: f32, height: f32) -> f32 {
+    let at = vec2(azimuth * 0.159155 * 3.0, row);
+    let hills = textureSampleLevel(noise, repeat_sampler, at * 0.25, 1.0).r;
+    let crowns = textureSampleLevel(noise, repeat_sampler, at * vec2(2.0, 1.0), 0.0).g;
+    return height * (0.55 + 0.8 * hills + 0.45 * (crowns - 0.5));
+}
+
+@fragment
+fn fragment(in: Varyings) -> @location(0) vec4<f32> {
+    let direction = normalize(in.ray);
+    var color = clear_sky(direction);
+    let toward_sun = max(dot(direction, frame.sun_direction.xyz), 0.0);
+    // Thin high clouds on a plane overhead.
+    let up = max(direction.y, 0.0);
+    let plane = direction.xz / (up + 0.12);
+    let drift = frame.eye.w * 0.0006;
+    let lod = clamp(1.6 - 6.0 * up, 0.0, 3.0);
+    let broad = textureSampleLevel(noise, repeat_sampler, plane * 0.055 + drift, lod).r;
+    let streak = textureSampleLevel(noise, repeat_sampler, plane * vec2(0.10, 0.21) + 0.4 + drift, lod).g;
+    let cover = smoothstep(0.46, 0.86, 0.62 * broad + 0.42 * streak) * smoothstep(0.02, 0.22, up);
+    let cloud = frame.sky_horizon.rgb * 1.02 + frame.sun_color.rgb * (0.06 + 0.34 * pow(toward_sun, 6.0));
+    color = mix(color, cloud, cover * 0.75);
+    color += frame.sun_color.rgb * smoothstep(0.99985, 0.99997, toward_sun) * 12.0;
+
+    // Two rows of far woods in the haze.
+    let azimuth = atan2(direction.z, direction.x);
+    let slope = direction.y / max(length(direction.xz), 1.0e-3);
+    let pixel = frame.viewport.w * 2.0 * length(frame.up.xyz) * 1.5;
+    let level = clear_sky(normalize(vec3(direction.x, 0.05, direction.z)));
+    for (var row = 0u; row < 2u; row++) {
+        let near = f32(row);
+        let top = skyline(azimuth, 0.21 + near * 0.4, mix(0.060, 0.042, near));
+        let wood = mix(vec3(0.10, 0.085, 0.05), vec3(0.17, 0.10, 0.035), near) * frame.sun_color.rgb * 0.55;
+        let seen = mix(wood, level, mix(0.86, 0.70, near));
+        color = mix(color, seen, smoothstep(pixel, -pixel, slope - top));
+    }
+    return vec4(min(color, vec3(24.0)), 1.0);
+}

@@ -1,0 +1,80 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// Trails as ribbons that face the camera and fade with age.
+
+struct Trail {
+    counts: vec4<u32>,
+    shape: vec4<f32>,
+}
+
+@group(2) @binding(0) var<uniform> trail: Trail;
+@group(2) @binding(1) var<storage, read> ring: array<vec4<f32>>;
+
+struct Varyings {
+    @builtin(position) clip: vec4<f32>,
+    @location(0) color: vec4<f32>,
+    @location(1) across: f32,
+}
+
+fn sample_at(leaf: u32, age: u32) -> vec4<f32> {
+    let count = trail.counts.y;
+    return ring[leaf * count + (trail.counts.z + count - min(age, count - 1u)) % count];
+}
+
+fn hue(at: f32) -> vec3<f32> {
+    return clamp(abs(fract(at + vec3(1.0, 0.6666667, 0.3333333)) * 6.0 - 3.0) - 1.0, vec3(0.0), vec3(1.0));
+}
+
+@vertex
+fn vertex(@builtin(vertex_index) index: u32, @builtin(instance_index) leaf: u32) -> Varyings {
+    // Two triangles a segment; segment 0 is the newest.
+    let segment = index / 6u;
+    let corner = index % 6u;
+    let older = u32(corner == 1u || corner == 2u || corner == 4u);
+    let side = select(-1.0, 1.0, corner == 2u || corner == 4u || corner == 5u);
+    var out: Varyings;
+    let young = sample_at(leaf, segment);
+    let old = sample_at(leaf, segment + 1u);
+    if young.w < 0.5 || young.w > 1.5 || old.w < 0.5 || segment + 2u > trail.counts.y {
+        out.clip = vec4(0.0, 0.0, -1.0, 1.0);
+        return out;
+    }
+    let age = segment + older;
+    let here = sample_at(leaf, age).xyz;
+    // The ribbon's direction at a sample is that of its neighbours, so segments meet without a gap.
+    var ahead = young.xyz;
+    var behind = old.xyz;
+    if older == 0u && segment > 0u && young.w < 1.5 {
+        let next = sample_at(leaf, segment - 1u);
+        if next.w > 0.5 && next.w < 1.5 {
+            ahead = next.xyz;
+        }
+    }
+    if older == 1u && old.w < 1.5 {
+        let next = sample_at(leaf, segment + 2u);
+        if next.w > 0.5 && segment + 3u <= trail.counts.y {
+            behind = next.xyz;
+        }
+    }
+    let to_eye = frame.eye.xyz - here;
+    var aside = cross(ahead - behind, to_eye);
+    aside = aside / max(length(aside), 1.0e-9);
+    let pixel = length(to_eye) * length(frame.up.xyz) * 2.0 * frame.viewport.w;
+    let relative = select(trail.shape.y + f32(age - 1u) * trail.shape.z, 0.0, age == 0u);
+    let life = clamp(1.0 - relative, 0.0, 1.0);
+    let half_width = max(trail.shape.w * (0.35 + 0.65 * life), pixel * 0.9);
+    let world = here + aside * side * half_width;
+    out.clip = frame.view_projection * vec4(world, 1.0);
+    let color = mix(vec3(1.0), hue(f32(leaf) * 0.61803399 + 0.06), 0.72);
+    let thin = min(trail.shape.w / half_width, 1.0);
+    out.color = vec4(color * 0.9, 0.85 * life * life * mix(0.5, 1.0, thin));
+    out.across = side;
+    return out;
+}
+
+@fragment
+fn fragment(in: Varyings) -> @location(0) vec4<f32> {
+    let soft = 1.0 - in.across * in.across;
+    let alpha = in.color.a * smoothstep(0.0, 0.6, soft);
+    return vec4(in.color.rgb * alpha, alpha);
+}

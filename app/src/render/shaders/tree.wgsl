@@ -1,0 +1,78 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// Trees as upright pictures that turn to the camera, lit anew by the sun of the scene.
+
+@group(2) @binding(0) var sprites: texture_2d_array<f32>;
+@group(2) @binding(1) var sprite_sampler: sampler;
+
+struct Tree {
+    @location(0) foot_height: vec4<f32>,
+    @location(1) width: f32,
+    @location(2) sprite: u32,
+    @location(3) hue_brightness: vec2<f32>,
+}
+
+struct Varyings {
+    @builtin(position) clip: vec4<f32>,
+    @location(0) world: vec3<f32>,
+    @location(1) uv: vec2<f32>,
+    @location(2) @interpolate(flat) sprite: u32,
+    @location(3) @interpolate(flat) look: vec3<f32>,
+}
+
+@vertex
+fn vertex(@builtin(vertex_index) index: u32, tree: Tree) -> Varyings {
+    let corner = vec2(f32(index & 1u), f32(index >> 1u));
+    let foot = tree.foot_height.xyz;
+    let height = tree.foot_height.w;
+    let toward = frame.eye.xz - foot.xz;
+    let side = normalize(vec2(toward.y, -toward.x) + vec2(1.0e-5, 0.0));
+    let across = (corner.x - 0.5) * height * abs(tree.width);
+    var out: Varyings;
+    out.world = foot + vec3(side.x * across, corner.y * height - 0.15, side.y * across);
+    out.clip = frame.view_projection * vec4(out.world, 1.0);
+    out.uv = vec2(select(1.0 - corner.x, corner.x, tree.width > 0.0), 1.0 - corner.y);
+    out.sprite = tree.sprite;
+    out.look = vec3(tree.hue_brightness, sign(tree.width));
+    return out;
+}
+
+// Foliage from green (0) over gold and orange to russet (1).
+fn autumn(hue: f32) -> vec3<f32> {
+    let h = clamp(hue, 0.0, 1.0) * 3.0;
+    var color = mix(vec3(0.17, 0.20, 0.045), vec3(0.50, 0.34, 0.055), clamp(h, 0.0, 1.0));
+    color = mix(color, vec3(0.56, 0.22, 0.035), clamp(h - 1.0, 0.0, 1.0));
+    return mix(color, vec3(0.33, 0.085, 0.030), clamp(h - 2.0, 0.0, 1.0));
+}
+
+@fragment
+fn fragment(in: Varyings) -> @location(0) vec4<f32> {
+    let surface = textureSample(sprites, sprite_sampler, in.uv, in.sprite * 2u);
+    let relief = textureSample(sprites, sprite_sampler, in.uv, in.sprite * 2u + 1u);
+    let spread = fwidth(surface.a);
+    let alpha = clamp((surface.a - 0.42) / max(spread, 0.05) + 0.5, 0.0, 1.0);
+    if alpha <= 0.0 {
+        discard;
+    }
+    let to_eye = normalize(frame.eye.xyz - in.world);
+    let side = normalize(vec3(to_eye.z, 0.0, -to_eye.x));
+    let tilt = vec2((relief.r * 2.0 - 1.0) * in.look.z, relief.g * 2.0 - 1.0);
+    let front = sqrt(max(1.0 - dot(tilt, tilt), 0.05));
+    let level = normalize(vec3(to_eye.x, 0.0, to_eye.z));
+    let normal = normalize(side * tilt.x + vec3(0.0, tilt.y, 0.0) + level * front);
+
+    let leaf = autumn(in.look.x + (surface.g - 0.5) * 0.5) * in.look.y * (0.35 + 0.9 * surface.r);
+    let bark = vec3(0.085, 0.066, 0.050) * (0.5 + surface.r);
+    let albedo = mix(leaf, bark, surface.b);
+    let light = frame.sun_direction.xyz;
+    let facing = dot(normal, light);
+    let open = relief.b;
+    let lit = max(facing * 0.8 + 0.2, 0.0) * (0.35 + 0.65 * open);
+    // Leaves let the sun through: the crown's thin rim glows against it.
+    let against = pow(max(dot(-to_eye, light), 0.0), 2.0);
+    let saturated = mix(vec3(luminance(leaf)), leaf, 1.35);
+    let through = saturated * (1.0 - surface.b) * against * open * open * 1.15;
+    var color = frame.sun_color.rgb * (albedo * lit + through);
+    color += albedo * ambient_light(normal) * (0.25 + 0.75 * open);
+    return vec4(haze(color, in.world), alpha);
+}

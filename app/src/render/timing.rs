@@ -1,0 +1,114 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! How long the device works on each pass, where it can tell.
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU8, Ordering};
+
+/// Passes that are timed, in order of drawing.
+const PASSES: [&str; 3] = ["shadows", "scene", "tone map"];
+const QUERY_COUNT: u32 = 2 * PASSES.len() as u32;
+const BYTES: u64 = QUERY_COUNT as u64 * 8;
+
+const IDLE: u8 = 0;
+const COPIED: u8 = 1;
+const MAPPING: u8 = 2;
+const MAPPED: u8 = 3;
+const FAILED: u8 = 4;
+
+/// A pass that is timed.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum TimedPass {
+    Shadows,
+    Scene,
+    ToneMap,
+}
+
+/// Timestamp queries and the latest answer; nothing where the device has no timestamps.
+#[derive(Debug)]
+pub(super) struct GpuTimer {
+    queries: wgpu::QuerySet,
+    resolved: wgpu::Buffer,
+    readable: wgpu::Buffer,
+    period_ns: f32,
+    state: Arc<AtomicU8>,
+    latest: Vec<(&'static str, f32)>,
+}
+
+impl GpuTimer {
+    pub(super) fn new(device: &wgpu::Device, queue: &wgpu::Queue) -> Option<Self> {
+        if !device.features().contains(wgpu::Features::TIMESTAMP_QUERY) {
+            return None;
+        }
+        let buffer = |usage| {
+            device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some("timestamps"),
+                size: BYTES,
+                usage,
+                mapped_at_creation: false,
+            })
+        };
+        Some(Self {
+            queries: device.create_query_set(&wgpu::QuerySetDescriptor {
+                label: Some("timestamps"),
+                ty: wgpu::QueryType::Timestamp,
+                count: QUERY_COUNT,
+            }),
+            resolved: buffer(wgpu::BufferUsages::QUERY_RESOLVE | wgpu::BufferUsages::COPY_SRC),
+            readable: buffer(wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST),
+            period_ns: queue.get_timestamp_period(),
+            state: Arc::new(AtomicU8::new(IDLE)),
+            latest: Vec::new(),
+        })
+    }
+
+    /// What a pass descriptor needs to be timed.
+    pub(super) fn writes(&self, pass: TimedPass) -> wgpu::RenderPassTimestampWrites<'_> {
+        let first = 2 * pass as u32;
+        wgpu::RenderPassTimestampWrites {
+            query_set: &self.queries,
+            beginning_of_pass_write_index: Some(first),
+            end_of_pass_write_index: Some(first + 1),
+        }
+    }
+
+    /// Copies the frame's timestamps, unless an earlier frame's are still on their way.
+    pub(super) fn resolve(&self, encoder: &mut wgpu::CommandEncoder) {
+        if self.state.compare_exchange(IDLE, COPIED, Ordering::AcqRel, Ordering::Acquire).is_ok() {
+            encoder.resolve_query_set(&self.queries, 0..QUERY_COUNT, &self.resolved, 0);
+            encoder.copy_buffer_to_buffer(&self.resolved, 0, &self.readable, 0, BYTES);
+        }
+    }
+
+    /// Latest milliseconds of each pass; call it after submitting a frame. Never waits.
+    pub(super) fn collect(&mut self, device: &wgpu::Device) -> &[(&'static str, f32)] {
+        if self.state.compare_exchange(COPIED, MAPPING, Ordering::AcqRel, Ordering::Acquire).is_ok() {
+            let state = Arc::clone(&self.state);
+            self.readable.map_async(wgpu::MapMode::Read, .., move |result| {
+                state.store(if result.is_ok() { MAPPED } else { FAILED }, Ordering::Release);
+            });
+        }
+        // A lost device shows elsewhere; here it only leaves the numbers as they were.
+        let _ = device.poll(wgpu::PollType::Poll);
+        match self.state.load(Ordering::Acquire) {
+            MAPPED => {
+                self.read();
+                self.readable.unmap();
+                self.state.store(IDLE, Ordering::Release);
+            }
+            FAILED => self.state.store(IDLE, Ordering::Release),
+            _ => {}
+        }
+        &self.latest
+    }
+
+    fn read(&mut self) {
+        let Ok(view) = self.readable.get_mapped_range(..) else { return };
+        let ticks: Vec<u64> = bytemuck::pod_collect_to_vec(&view);
+        self.latest = PASSES
+            .iter()
+            .zip(ticks.chunks_exact(2))
+            .map(|(&name, pair)| (name, pair[1].saturating_sub(pair[0]) as f32 * self.period_ns * 1.0e-6))
+            .collect();
+    }
+}
