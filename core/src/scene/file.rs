@@ -21,7 +21,8 @@ use crate::SceneError;
 const MAX_FILE_BYTES: u64 = 4 << 20;
 
 impl Scene {
-    /// The scene that a preset's name or a file's path stands for. A file wins over a preset of the same name.
+    /// The scene that a preset's name or a file's path stands for. A file wins over a preset of the same name. The
+    /// files that it names are looked for beside it.
     ///
     /// # Errors
     /// [`SceneError::UnknownScene`] if there is neither, [`SceneError::Read`] for a file that cannot be read, and
@@ -29,7 +30,15 @@ impl Scene {
     pub fn load(name_or_path: &str) -> Result<Self, SceneError> {
         let path = Path::new(name_or_path);
         match read(path) {
-            Ok(bytes) => Self::from_ron(decode(&bytes, name_or_path)?, name_or_path),
+            Ok(bytes) => {
+                let mut scene = Self::from_ron(decode(&bytes, name_or_path)?, name_or_path)?;
+                let folder = path.parent().unwrap_or(path);
+                for tables in scene.species.iter_mut().filter_map(|species| species.tables.as_mut()) {
+                    // Both parts are text, so nothing is lost.
+                    *tables = folder.join(&*tables).to_string_lossy().into_owned();
+                }
+                Ok(scene)
+            }
             // Not found, or not even a path: part of it is a file, it is too long, it holds a zero byte.
             Err(source) => match (Self::preset(name_or_path), path.try_exists()) {
                 (_, Ok(true)) => Err(SceneError::Read { path: path.into(), source }),

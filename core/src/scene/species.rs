@@ -66,8 +66,8 @@ pub struct Species {
     pub motion: MotionParameters,
     /// How orientation is found.
     pub rotation: RotationModel,
-    /// File with ready motion tables (see `motion::table_file`), relative to the scene file; the tables are made
-    /// from the equations when absent.
+    /// File with ready motion tables (see `motion::table_file`), in a scene file relative to that file, otherwise to
+    /// the working directory; the tables are made from the equations when absent.
     pub tables: Option<String>,
 }
 

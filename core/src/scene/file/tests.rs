@@ -143,6 +143,20 @@ fn names_that_stand_for_nothing_are_refused_in_one_line() {
 }
 
 #[test]
+fn motion_tables_are_looked_for_beside_the_scene_file() {
+    let at = directory("tables");
+    let path = at.join("mine.ron");
+    let text =
+        r#"(species: [(name: "a", tables: "a.tables"), (name: "b", tables: "/b.tables"), (name: "c")])"#;
+    fs::write(&path, text).expect("temporary files can be written");
+    let loaded = Scene::load(path.to_str().expect("a UTF-8 path")).expect("a scene");
+    fs::remove_dir_all(&at).expect("temporary files can be removed");
+    let found: Vec<_> = loaded.species.into_iter().map(|species| species.tables).collect();
+    let beside = at.join("a.tables").to_str().expect("a UTF-8 path").to_owned();
+    assert_eq!(found, [Some(beside), Some("/b.tables".into()), None], "relative paths only");
+}
+
+#[test]
 fn a_file_wins_over_a_preset_and_is_read_as_written() {
     let at = directory("good-file");
     let path = at.join("mine.ron");

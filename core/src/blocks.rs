@@ -1,0 +1,126 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The uniform blocks that every kernel reads: what a scene compiles to, and what changes from step to step.
+//!
+//! Both backends get these same bytes, so nothing that depends on time or scene alone is computed twice.
+
+use crate::layout::{Float4, Uint4};
+use crate::scene::{MAX_SOURCES, MAX_SPECIES, MAX_VORTICES};
+
+/// Words of a species' share thresholds in a [`SourceBlock`], four to a vector.
+pub const SHARE_VECTORS: usize = MAX_SPECIES / 4;
+
+crate::shared_struct! {
+    /// One species, compiled.
+    pub struct SpeciesBlock {
+        /// Drift kept over a step `e^(-dt/tau)`; distance per drift speed over a step `tau (1 - e^(-dt/tau))` in s;
+        /// time constant tau in s; 1/tau in 1/s.
+        pub response: Float4,
+        /// Steps (2^-16) that a fall of one metre takes; half widths of the spread of size and of speed (2^-14);
+        /// fastest spin per step (2^-18 turns).
+        pub scales: Uint4,
+        /// First primitive motion; three unused words.
+        pub start: Uint4,
+        /// Phase per step of each primitive motion for a leaf of nominal size and speed; two unused words.
+        pub rates: [Uint4; 2],
+        /// Transition counts, row by row.
+        pub transitions: [Uint4; 9],
+    }
+}
+
+crate::shared_struct! {
+    /// One source, compiled. Lengths are integers in units of 2^-10 m, so that both contracts place leaves alike.
+    pub struct SourceBlock {
+        /// Centre x, y, z (two's complement) and kind (`SOURCE_BOX`, `SOURCE_DISC`, `SOURCE_SPHERE`).
+        pub center: Uint4,
+        /// Half extent or radius along x, y, z; unused word.
+        pub extent: Uint4,
+        /// First slot, slot count, step of the first release (two's complement), steps until a slot is released
+        /// again (0: never).
+        pub timing: Uint4,
+        /// For each species the upper end of its share of random words.
+        pub shares: [Uint4; SHARE_VECTORS],
+    }
+}
+
+crate::shared_struct! {
+    /// The wind, compiled.
+    pub struct WindBlock {
+        /// Unit vector x, z the mean wind blows towards; mean speed at the reference height in m/s; rows of the
+        /// profile table per metre.
+        pub mean: Float4,
+        /// Gust excess relative to the mean; rows of the gust table per metre; height of the ground in m; unused.
+        pub gust: Float4,
+        /// Standard deviation of the turbulence along, up and across the wind in m/s; unused.
+        pub deviation: Float4,
+        /// Turbulence cells per metre along, up and across the wind; unused.
+        pub cells: Float4,
+        /// First row of the profile, the gust and the turbulence table; number of vortices.
+        pub tables: Uint4,
+    }
+}
+
+crate::shared_struct! {
+    /// Everything that stays the same until the environment is set anew.
+    pub struct EnvironmentBlock {
+        /// Seed, low and high word; number of leaf slots; number of species.
+        pub seed: Uint4,
+        /// Number of sources; steps until a landed leaf lies flat; steps of an orientation blend; rotation speed
+        /// (2^-16).
+        pub counts: Uint4,
+        /// First velocity row of the motion tables; three unused words.
+        pub motion: Uint4,
+        /// Step length in s; its inverse in 1/s; turns per second of 2^-24 turns per step; displacement per table
+        /// displacement (fall speed over rotation speed).
+        pub time: Float4,
+        /// Height of the ground in m; height of resting leaves in m; speed lost to friction per second in m/s²;
+        /// stopping distance per squared speed in s²/m.
+        pub ground: Float4,
+        /// Tilt kept per step while settling; three unused.
+        pub settle: Float4,
+        /// The wind.
+        pub wind: WindBlock,
+        /// The species.
+        pub species: [SpeciesBlock; MAX_SPECIES],
+        /// The sources.
+        pub sources: [SourceBlock; MAX_SOURCES],
+    }
+}
+
+crate::shared_struct! {
+    /// One vortex at one step.
+    pub struct VortexBlock {
+        /// A point of the axis x, y, z in m; squared core radius in m².
+        pub center: Float4,
+        /// Unit axis x, y, z; circulation over 2 pi in m²/s.
+        pub axis: Float4,
+        /// Axial speed at the centre times squared core radius in m³/s; three unused.
+        pub axial: Float4,
+    }
+}
+
+crate::shared_struct! {
+    /// What changes from step to step.
+    pub struct StepBlock {
+        /// Index of the step; number of leaves in this page; two unused words.
+        pub index: Uint4,
+        /// How far the mean wind has carried the gusts, in rows, and the turbulence, in cells, both within one
+        /// period; two unused.
+        pub offsets: Float4,
+        /// The vortices where they are at this step.
+        pub vortices: [VortexBlock; MAX_VORTICES],
+    }
+}
+
+crate::shared_constants! {
+    /// Kind of a box source.
+    pub const SOURCE_BOX: u32 = 0;
+    /// Kind of a disc source.
+    pub const SOURCE_DISC: u32 = 1;
+    /// Kind of a sphere source.
+    pub const SOURCE_SPHERE: u32 = 2;
+    /// Metres per unit of integer lengths.
+    pub const LENGTH_UNIT: f32 = 1.0 / 1024.0;
+    /// A step that never comes.
+    pub const NEVER: u32 = 0xffff_ffff;
+}

@@ -1,0 +1,214 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! twin: backend-wgpu/src/shaders/kernel/math.wgsl
+//!
+//! Transcendental and other functions from `+ - *` and integers only.
+//!
+//! # Source
+//! Polynomials: Cephes single-precision library (Moshier 1989): sinf, cosf, expf, atanf.
+
+crate::shared_constants! {
+    /// Radians of 2^-26 turns: the unit in which [`sin_cos_turns`] reads the offset from the nearest quarter turn.
+    pub const TURN_UNIT: f32 = 9.362_676e-8;
+    /// Two over pi.
+    pub const TWO_OVER_PI: f32 = 0.636_619_75;
+    /// First part of pi/2, few enough bits that its small multiples are exact.
+    pub const HALF_PI_1: f32 = 1.570_312_5;
+    /// Second part of pi/2.
+    pub const HALF_PI_2: f32 = 4.837_513e-4;
+    /// Third part of pi/2.
+    pub const HALF_PI_3: f32 = 7.549_79e-8;
+    /// Sine series, r^3.
+    pub const SIN_3: f32 = -0.166_666_55;
+    /// Sine series, r^5.
+    pub const SIN_5: f32 = 8.332_161e-3;
+    /// Sine series, r^7.
+    pub const SIN_7: f32 = -1.951_529_6e-4;
+    /// Cosine series, r^4.
+    pub const COS_4: f32 = 4.166_664_6e-2;
+    /// Cosine series, r^6.
+    pub const COS_6: f32 = -1.388_731_6e-3;
+    /// Cosine series, r^8.
+    pub const COS_8: f32 = 2.443_315_7e-5;
+    /// 1 / ln 2.
+    pub const LOG2_E: f32 = 1.442_695;
+    /// First part of ln 2, few enough bits that its small multiples are exact.
+    pub const LN_2_HIGH: f32 = 0.693_359_4;
+    /// Second part of ln 2.
+    pub const LN_2_LOW: f32 = -2.121_944_4e-4;
+    /// Exponential series, r^7.
+    pub const EXP_7: f32 = 1.987_569_1e-4;
+    /// Exponential series, r^6.
+    pub const EXP_6: f32 = 1.398_2e-3;
+    /// Exponential series, r^5.
+    pub const EXP_5: f32 = 8.333_452e-3;
+    /// Exponential series, r^4.
+    pub const EXP_4: f32 = 4.166_579_6e-2;
+    /// Exponential series, r^3.
+    pub const EXP_3: f32 = 0.166_666_65;
+    /// Exponential series, r^2.
+    pub const EXP_2: f32 = 0.5;
+    /// tan(pi/8): above it the arctangent is taken of (t - 1)/(t + 1).
+    pub const TAN_PI_8: f32 = 0.414_213_56;
+    /// Arctangent series, t^9.
+    pub const ATAN_9: f32 = 8.053_744_5e-2;
+    /// Arctangent series, t^7.
+    pub const ATAN_7: f32 = -0.138_776_86;
+    /// Arctangent series, t^5.
+    pub const ATAN_5: f32 = 0.199_777_1;
+    /// Arctangent series, t^3.
+    pub const ATAN_3: f32 = -0.333_329_5;
+    /// A quarter of pi.
+    pub const QUARTER_PI: f32 = 0.785_398_2;
+    /// A half of pi.
+    pub const HALF_PI: f32 = 1.570_796_4;
+    /// Pi.
+    pub const PI: f32 = 3.141_592_7;
+    /// Bits from which [`reciprocal`] starts: within 12 % for any normal number.
+    pub const RECIPROCAL_SEED: u32 = 0x7ef3_11c7;
+    /// Bits from which [`inverse_sqrt`] starts: within 3.5 % for any normal number.
+    pub const INVERSE_SQRT_SEED: u32 = 0x5f37_5a86;
+}
+
+/// Sine and cosine of an offset of at most pi/4.
+#[inline(always)]
+fn sin_cos_octant(r: f32) -> (f32, f32) {
+    let r2 = r * r;
+    let sine = r + r * (r2 * (SIN_3 + r2 * (SIN_5 + r2 * SIN_7)));
+    let cosine = (1.0 - 0.5 * r2) + r2 * (r2 * (COS_4 + r2 * (COS_6 + r2 * COS_8)));
+    (sine, cosine)
+}
+
+/// Sine and cosine of an offset plus `quadrant` quarter turns.
+#[inline(always)]
+fn sin_cos_quadrant(r: f32, quadrant: u32) -> (f32, f32) {
+    let (sine, cosine) = sin_cos_octant(r);
+    let odd = (quadrant & 1) == 1;
+    let s = if odd { cosine } else { sine };
+    let c = if odd { sine } else { cosine };
+    let s_negative = (quadrant & 2) == 2;
+    let c_negative = (quadrant.wrapping_add(1) & 2) == 2;
+    (if s_negative { -s } else { s }, if c_negative { -c } else { c })
+}
+
+/// Sine and cosine of an angle in units of 2^-32 turns. Within 1e-7.
+#[inline(always)]
+pub fn sin_cos_turns(angle: u32) -> (f32, f32) {
+    let quadrant = angle.wrapping_add(0x2000_0000) >> 30;
+    let offset = angle.wrapping_sub(quadrant << 30) as i32;
+    let r = (offset >> 6) as f32 * TURN_UNIT;
+    sin_cos_quadrant(r, quadrant)
+}
+
+/// Sine and cosine of `x` radians. Within 2e-7 for |x| up to 1000.
+#[inline(always)]
+pub fn sin_cos(x: f32) -> (f32, f32) {
+    let k = (x * TWO_OVER_PI + 0.5).floor();
+    let r = ((x - k * HALF_PI_1) - k * HALF_PI_2) - k * HALF_PI_3;
+    sin_cos_quadrant(r, (k as i32) as u32)
+}
+
+/// e^x, within 2e-7 relative, for -87 <= x <= 88; clamped outside.
+#[inline(always)]
+pub fn exp(x: f32) -> f32 {
+    let inside = x.max(-87.0).min(88.0);
+    let k = (inside * LOG2_E + 0.5).floor();
+    let r = (inside - k * LN_2_HIGH) - k * LN_2_LOW;
+    let series = EXP_2 + r * (EXP_3 + r * (EXP_4 + r * (EXP_5 + r * (EXP_6 + r * EXP_7))));
+    let fraction = (1.0 + r) + (r * r) * series;
+    fraction * f32::from_bits(((k as i32 + 127) as u32) << 23)
+}
+
+/// 1/x within 2e-7 relative, for normal x of either sign between 1e-37 and 1e37.
+#[inline(always)]
+pub fn reciprocal(x: f32) -> f32 {
+    let bits = x.to_bits();
+    let a = f32::from_bits(bits & 0x7fff_ffff);
+    let r0 = f32::from_bits(RECIPROCAL_SEED.wrapping_sub(bits & 0x7fff_ffff));
+    let r1 = r0 * (2.0 - a * r0);
+    let r2 = r1 * (2.0 - a * r1);
+    let r3 = r2 * (2.0 - a * r2);
+    f32::from_bits(r3.to_bits() | (bits & 0x8000_0000))
+}
+
+/// 1/sqrt(x) within 3e-7 relative, for normal positive x.
+#[inline(always)]
+pub fn inverse_sqrt(x: f32) -> f32 {
+    let h = 0.5 * x;
+    let r0 = f32::from_bits(INVERSE_SQRT_SEED.wrapping_sub(x.to_bits() >> 1));
+    let r1 = r0 * (1.5 - (h * r0) * r0);
+    let r2 = r1 * (1.5 - (h * r1) * r1);
+    r2 * (1.5 - (h * r2) * r2)
+}
+
+/// Angle of the point (x, y) from the positive x axis in radians, -pi to pi, within 4e-7; zero at the origin.
+#[inline(always)]
+pub fn atan2(y: f32, x: f32) -> f32 {
+    let ax = x.abs();
+    let ay = y.abs();
+    let small = ax.min(ay);
+    let large = ax.max(ay);
+    let upper = small > large * TAN_PI_8;
+    let numerator = if upper { small - large } else { small };
+    let denominator = if upper { small + large } else { large };
+    let t = numerator * reciprocal(denominator.max(1e-30));
+    let t2 = t * t;
+    let series = t + t * (t2 * (ATAN_3 + t2 * (ATAN_5 + t2 * (ATAN_7 + t2 * ATAN_9))));
+    let octant = if upper { QUARTER_PI + series } else { series };
+    let quadrant = if ay > ax { HALF_PI - octant } else { octant };
+    let half = if x < 0.0 { PI - quadrant } else { quadrant };
+    if y < 0.0 { -half } else { half }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn sin_cos_turns_is_close(angle: u32) {
+            let x = f64::from(angle) / 2f64.powi(32) * std::f64::consts::TAU;
+            let (s, c) = sin_cos_turns(angle);
+            prop_assert!((f64::from(s) - x.sin()).abs() < 1.2e-7, "sin {s} for {x}");
+            prop_assert!((f64::from(c) - x.cos()).abs() < 1.2e-7, "cos {c} for {x}");
+        }
+
+        #[test]
+        fn sin_cos_is_close(x in -1000f32..1000.0) {
+            let (s, c) = sin_cos(x);
+            prop_assert!((f64::from(s) - f64::from(x).sin()).abs() < 2e-7, "sin {s} for {x}");
+            prop_assert!((f64::from(c) - f64::from(x).cos()).abs() < 2e-7, "cos {c} for {x}");
+        }
+
+        #[test]
+        fn exp_is_close(x in -87f32..88.0) {
+            let expected = f64::from(x).exp();
+            prop_assert!((f64::from(exp(x)) - expected).abs() < 2e-7 * expected, "exp {x}");
+        }
+
+        #[test]
+        fn reciprocal_and_root_are_close(exponent in -36f32..36.0) {
+            let x = 10f32.powf(exponent);
+            prop_assert!((f64::from(reciprocal(x)) * f64::from(x) - 1.0).abs() < 2e-7, "1/{x}");
+            prop_assert!((f64::from(reciprocal(-x)) * f64::from(x) + 1.0).abs() < 2e-7, "-1/{x}");
+            let root = f64::from(inverse_sqrt(x));
+            prop_assert!((root * root * f64::from(x) - 1.0).abs() < 6e-7, "1/sqrt {x}");
+        }
+
+        #[test]
+        fn atan2_is_close(y in -10f32..10.0, x in -10f32..10.0) {
+            let expected = f64::from(y).atan2(f64::from(x));
+            prop_assert!((f64::from(atan2(y, x)) - expected).abs() < 4e-7, "atan2 {y} {x}: {}", atan2(y, x));
+        }
+    }
+
+    #[test]
+    fn atan2_on_the_axes() {
+        assert_eq!(atan2(0.0, 0.0), 0.0, "origin");
+        assert_eq!(atan2(0.0, 1.0), 0.0, "+x");
+        assert_eq!(atan2(1.0, 0.0), HALF_PI, "+y");
+        assert_eq!(atan2(-1.0, 0.0), -HALF_PI, "-y");
+        assert_eq!(atan2(0.0, -1.0), PI, "-x");
+    }
+}

@@ -1,0 +1,96 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! twin: backend-wgpu/src/shaders/kernel/vector.wgsl
+//!
+//! Three-component vectors whose every operation is spelled out.
+
+use core::ops::{Add, Mul, Sub};
+
+use super::math::inverse_sqrt;
+
+/// A vector of three floats; `vec3<f32>` in WGSL.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Vec3 {
+    /// Along x.
+    pub x: f32,
+    /// Along y, up.
+    pub y: f32,
+    /// Along z.
+    pub z: f32,
+}
+
+/// Smallest squared length that still counts; keeps the Newton steps of [`vec3_length`] in range.
+const TINY_SQUARED: f32 = 1e-18;
+
+impl Vec3 {
+    /// The zero vector.
+    pub const ZERO: Self = Self::new(0.0, 0.0, 0.0);
+
+    /// A vector from its components.
+    #[inline(always)]
+    pub const fn new(x: f32, y: f32, z: f32) -> Self {
+        Self { x, y, z }
+    }
+
+    /// Components in order.
+    #[inline(always)]
+    pub const fn to_array(self) -> [f32; 3] {
+        [self.x, self.y, self.z]
+    }
+}
+
+impl From<[f32; 3]> for Vec3 {
+    #[inline(always)]
+    fn from([x, y, z]: [f32; 3]) -> Self {
+        Self { x, y, z }
+    }
+}
+
+impl Add for Vec3 {
+    type Output = Self;
+    #[inline(always)]
+    fn add(self, b: Self) -> Self {
+        Self::new(self.x + b.x, self.y + b.y, self.z + b.z)
+    }
+}
+
+impl Sub for Vec3 {
+    type Output = Self;
+    #[inline(always)]
+    fn sub(self, b: Self) -> Self {
+        Self::new(self.x - b.x, self.y - b.y, self.z - b.z)
+    }
+}
+
+impl Mul<f32> for Vec3 {
+    type Output = Self;
+    #[inline(always)]
+    fn mul(self, b: f32) -> Self {
+        Self::new(self.x * b, self.y * b, self.z * b)
+    }
+}
+
+/// Scalar product.
+#[inline(always)]
+pub fn vec3_dot(a: Vec3, b: Vec3) -> f32 {
+    a.x * b.x + a.y * b.y + a.z * b.z
+}
+
+/// Vector product.
+#[inline(always)]
+pub fn vec3_cross(a: Vec3, b: Vec3) -> Vec3 {
+    Vec3::new(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x)
+}
+
+/// Linear blend `a + t (b - a)`.
+#[inline(always)]
+pub fn vec3_lerp(a: Vec3, b: Vec3, t: f32) -> Vec3 {
+    Vec3::new(a.x + t * (b.x - a.x), a.y + t * (b.y - a.y), a.z + t * (b.z - a.z))
+}
+
+/// Length; lengths below 1e-9 come out as if they were a little longer than they are.
+#[inline(always)]
+pub fn vec3_length(a: Vec3) -> f32 {
+    let squared = vec3_dot(a, a);
+    squared * inverse_sqrt(squared.max(TINY_SQUARED))
+}

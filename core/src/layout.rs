@@ -1,0 +1,137 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Structs and constants that Rust and WGSL share, stated once.
+//!
+//! [`shared_struct!`](crate::shared_struct) makes a plain-old-data struct together with its WGSL text, and
+//! [`shared_constants!`](crate::shared_constants) constants together with theirs; the shader prelude is generated
+//! from both.
+
+use bytemuck::{Pod, Zeroable};
+
+/// A type that has the same bytes in Rust and in WGSL.
+pub trait Wgsl: Pod {
+    /// Name of the type in WGSL.
+    fn name() -> String;
+}
+
+/// A shared struct with its fields, for the generated prelude and for layout checks.
+pub trait WgslStruct: Wgsl {
+    /// Name, WGSL type and byte offset of every field, in order.
+    fn fields() -> Vec<(&'static str, String, usize)>;
+
+    /// The struct's declaration in WGSL.
+    fn declaration() -> String {
+        let fields: String =
+            Self::fields().iter().map(|(name, ty, _)| format!("    {name}: {ty},\n")).collect();
+        format!("struct {} {{\n{fields}}}\n", Self::name())
+    }
+}
+
+/// `vec4<f32>`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+#[repr(C, align(16))]
+pub struct Float4(pub [f32; 4]);
+
+/// `vec4<u32>`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Pod, Zeroable)]
+#[repr(C, align(16))]
+pub struct Uint4(pub [u32; 4]);
+
+impl Wgsl for u32 {
+    fn name() -> String {
+        "u32".into()
+    }
+}
+
+impl Wgsl for f32 {
+    fn name() -> String {
+        "f32".into()
+    }
+}
+
+impl Wgsl for Float4 {
+    fn name() -> String {
+        "vec4<f32>".into()
+    }
+}
+
+impl Wgsl for Uint4 {
+    fn name() -> String {
+        "vec4<u32>".into()
+    }
+}
+
+impl<T: Wgsl, const N: usize> Wgsl for [T; N] {
+    fn name() -> String {
+        format!("array<{}, {N}>", T::name())
+    }
+}
+
+/// A constant's value, written so that WGSL reads back the same bits.
+pub trait WgslConstant {
+    /// The literal in WGSL.
+    fn literal(self) -> String;
+}
+
+impl WgslConstant for u32 {
+    fn literal(self) -> String {
+        format!("{self}u")
+    }
+}
+
+impl WgslConstant for f32 {
+    fn literal(self) -> String {
+        format!("{self:?}f")
+    }
+}
+
+/// Declares a `repr(C)` struct of [`Wgsl`](crate::layout::Wgsl) fields that is plain old data and knows its WGSL
+/// declaration.
+#[macro_export]
+macro_rules! shared_struct {
+    ($(#[$meta:meta])* pub struct $name:ident { $($(#[$field_meta:meta])* pub $field:ident: $ty:ty,)* }) => {
+        $(#[$meta])*
+        #[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+        #[repr(C, align(16))]
+        pub struct $name {
+            $($(#[$field_meta])* pub $field: $ty,)*
+        }
+
+        impl $crate::layout::Wgsl for $name {
+            fn name() -> String {
+                stringify!($name).into()
+            }
+        }
+
+        impl $crate::layout::WgslStruct for $name {
+            fn fields() -> Vec<(&'static str, String, usize)> {
+                vec![$((
+                    stringify!($field),
+                    <$ty as $crate::layout::Wgsl>::name(),
+                    core::mem::offset_of!($name, $field),
+                ),)*]
+            }
+        }
+    };
+}
+
+/// Declares constants and a function `wgsl_constants` that lists them as WGSL declarations.
+#[macro_export]
+macro_rules! shared_constants {
+    ($($(#[$meta:meta])* pub const $name:ident: $ty:ty = $value:expr;)*) => {
+        $($(#[$meta])* pub const $name: $ty = $value;)*
+
+        /// Name and WGSL declaration of every shared constant of this module.
+        pub fn wgsl_constants() -> Vec<(&'static str, String)> {
+            vec![$((
+                stringify!($name),
+                format!(
+                    "const {}: {} = {};\n",
+                    stringify!($name),
+                    <$ty as $crate::layout::Wgsl>::name(),
+                    $crate::layout::WgslConstant::literal($name),
+                ),
+            ),)*]
+        }
+    };
+}

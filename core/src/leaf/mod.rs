@@ -1,0 +1,14 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Leaves: their columns, and their life from release to rest.
+
+pub mod advance;
+pub mod fall;
+pub mod record;
+pub mod release;
+pub mod seek;
+pub mod settle;
+mod store;
+
+pub use record::{Attitude, Course, Drift, Identity, Place};
+pub use store::{LEAF_BYTES, LeafMut, LeafState, Leaves, LeavesMut};

@@ -1,0 +1,171 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! twin: backend-wgpu/src/shaders/leaf/release.wgsl
+//!
+//! A leaf is let go: where, how big, how fast, in which motion. Integers throughout, but for the last conversion.
+
+use super::fall::own_velocity;
+use super::record::{
+    BLEND_SHIFT, HALF_MASK, PRIMITIVE_SHIFT, SIZE_ONE, SOURCE_SHIFT, SPECIES_SHIFT, SPIN_SHIFT, STAGE_SHIFT,
+    STATE_FALLING, VARIANT_MASK, VARIANT_SHIFT,
+};
+use super::store::LeafMut;
+use crate::blocks::{LENGTH_UNIT, NEVER, SHARE_VECTORS, SOURCE_BOX, SOURCE_DISC, SourceBlock, SpeciesBlock};
+use crate::context::Context;
+use crate::kernel::rng::{mul_high, mul_q16, random, triangular};
+use crate::kernel::vector::Vec3;
+use crate::motion::feature::{STAGE_COUNT, STREAM_LOOK, STREAM_PLACE, stage_end, stage_words};
+
+crate::shared_constants! {
+    /// Tries to draw a point inside a disc or ball before a point of the inscribed box is taken.
+    pub const PLACE_TRIES: u32 = 16;
+}
+
+/// Offset within a box: uniform over -extent..=extent.
+#[inline(always)]
+fn offset_in_box(word: u32, extent: u32) -> i32 {
+    mul_high(word, 2 * extent + 1) as i32 - extent as i32
+}
+
+/// Offset of a unit coordinate in -32767..=32767, scaled to the extent.
+#[inline(always)]
+fn offset_scaled(unit: i32, extent: u32) -> i32 {
+    let magnitude = mul_high(unit.unsigned_abs() << 17, extent) as i32;
+    if unit < 0 { -magnitude } else { magnitude }
+}
+
+/// Unit coordinate from a random word.
+#[inline(always)]
+fn unit_coordinate(word: u32) -> i32 {
+    mul_high(word, 65535) as i32 - 32767
+}
+
+/// Place of leaf `id` in its source, x, y and z in units of 2^-10 m.
+#[inline(always)]
+pub fn release_place(source: &SourceBlock, seed: [u32; 2], id: u32) -> [i32; 3] {
+    let center = [source.center.0[0] as i32, source.center.0[1] as i32, source.center.0[2] as i32];
+    let extent = source.extent.0;
+    let kind = source.center.0[3];
+    let mut words = random(seed, id, STREAM_PLACE);
+    if kind == SOURCE_BOX {
+        return [
+            center[0] + offset_in_box(words[0], extent[0]),
+            center[1] + offset_in_box(words[1], extent[1]),
+            center[2] + offset_in_box(words[2], extent[2]),
+        ];
+    }
+    let mut unit = [0, 0, 0];
+    let mut inside = false;
+    for attempt in 0..PLACE_TRIES {
+        if !inside {
+            words = random(seed, id, STREAM_PLACE + attempt);
+            unit = [unit_coordinate(words[0]), unit_coordinate(words[1]), unit_coordinate(words[2])];
+            if kind == SOURCE_DISC {
+                unit[1] = 0;
+            }
+            let squared =
+                (unit[0] * unit[0]) as u32 + (unit[1] * unit[1]) as u32 + (unit[2] * unit[2]) as u32;
+            inside = squared <= 32767 * 32767;
+        }
+    }
+    if !inside {
+        unit = [unit[0] / 2, unit[1] / 2, unit[2] / 2];
+    }
+    [
+        center[0] + offset_scaled(unit[0], extent[0]),
+        center[1] + offset_scaled(unit[1], extent[1]),
+        center[2] + offset_scaled(unit[2], extent[2]),
+    ]
+}
+
+/// Species of a leaf, from the shares of its source and a random word.
+#[inline(always)]
+pub fn release_species(source: &SourceBlock, word: u32) -> u32 {
+    let mut species = 0;
+    for vector in 0..SHARE_VECTORS {
+        for lane in 0..4 {
+            species += if word >= source.shares[vector].0[lane] { 1 } else { 0 };
+        }
+    }
+    species
+}
+
+/// Size and speed of a leaf relative to its species, in 2^-14.
+#[inline(always)]
+pub fn release_size_speed(species: &SpeciesBlock, words: [u32; 4]) -> [u32; 2] {
+    let size = SIZE_ONE as i32 + ((species.scales.0[1] as i32 * triangular(words[1])) >> 16);
+    let speed = SIZE_ONE as i32 + ((species.scales.0[2] as i32 * triangular(words[2])) >> 16);
+    [size as u32, speed as u32]
+}
+
+/// Rate of a primitive motion relative to its species' in 2^-16: small and fast leaves swing faster.
+#[inline(always)]
+pub fn release_ratio(size_speed: [u32; 2]) -> u32 {
+    (size_speed[1] << 16) / size_speed[0]
+}
+
+/// Phase per step of a primitive motion for a leaf of that ratio.
+#[inline(always)]
+pub fn release_rate(species: &SpeciesBlock, primitive: u32, ratio_q16: u32) -> u32 {
+    mul_q16(species.rates[(primitive >> 2) as usize].0[(primitive & 3) as usize], ratio_q16)
+}
+
+/// Time in 2^-16 steps of a fall through still air from `height` (2^-10 m) at that speed.
+#[inline(always)]
+pub fn release_fall_time(species: &SpeciesBlock, height: i32, speed: u32) -> u32 {
+    let positive = height.max(0) as u32;
+    let per_metre = species.scales.0[0];
+    let nominal = (mul_high(positive, per_metre) << 22) | (positive.wrapping_mul(per_metre) >> 10);
+    mul_q16(nominal, (1 << 30) / speed)
+}
+
+/// The step of the next event of a leaf in `stage`: the stage's end or the slot's next release.
+#[inline(always)]
+pub fn next_event(cx: &Context<'_>, id: u32, release: u32, fall_time: u32, stage: u32, source: u32) -> u32 {
+    let lifetime = cx.environment.sources[source as usize].timing.0[3];
+    let recycle = if lifetime == 0 { NEVER } else { release.wrapping_add(lifetime) };
+    if stage + 1 >= STAGE_COUNT {
+        return recycle;
+    }
+    let seed = [cx.environment.seed.0[0], cx.environment.seed.0[1]];
+    recycle.min(release.wrapping_add(stage_end(seed, id, fall_time, stage) >> 16))
+}
+
+/// Lets leaf `id` go from `source` at step `release`: at rest, in the first primitive motion of its species.
+#[inline(always)]
+pub fn leaf_release(cx: &Context<'_>, leaf: &mut LeafMut<'_>, id: u32, source: u32, release: u32) {
+    let seed = [cx.environment.seed.0[0], cx.environment.seed.0[1]];
+    let from = &cx.environment.sources[source as usize];
+    let place = release_place(from, seed, id);
+    let look = random(seed, id, STREAM_LOOK);
+    let species_index = release_species(from, look[0]);
+    let species = &cx.environment.species[species_index as usize];
+    let size_speed = release_size_speed(species, look);
+    let ground = (cx.environment.ground.0[0] * 1024.0).floor() as i32;
+    let fall_time = release_fall_time(species, place[1] - ground, size_speed[1]);
+    let stage = stage_words(seed, id, 0);
+    let primitive = species.start.0[0];
+    let rate = release_rate(species, primitive, release_ratio(size_speed));
+
+    leaf.identity.id = id;
+    leaf.identity.release = release;
+    leaf.identity.fall_time = fall_time;
+    leaf.identity.look = (look[3] & HALF_MASK)
+        | ((look[0] & VARIANT_MASK) << VARIANT_SHIFT)
+        | (source << SOURCE_SHIFT)
+        | (0 << STAGE_SHIFT);
+    leaf.course.event = next_event(cx, id, release, fall_time, 0, source);
+    leaf.course.rate = rate;
+    leaf.course.size = size_speed[0];
+    leaf.course.heading = (stage[2] & (HALF_MASK << 16)) | (look[3] >> 16);
+    leaf.place.position =
+        [place[0] as f32 * LENGTH_UNIT, place[1] as f32 * LENGTH_UNIT, place[2] as f32 * LENGTH_UNIT];
+    leaf.place.bits = STATE_FALLING
+        | (0 << BLEND_SHIFT)
+        | (primitive << PRIMITIVE_SHIFT)
+        | (species_index << SPECIES_SHIFT)
+        | ((stage[3] & HALF_MASK) << SPIN_SHIFT);
+    leaf.drift.phase = stage[1];
+    let start = Vec3::ZERO - own_velocity(cx, leaf.place.bits, leaf.drift.phase, *leaf.course);
+    leaf.drift.velocity = start.to_array();
+}

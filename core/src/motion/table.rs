@@ -1,0 +1,97 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Cumulative tables of the primitive motions: what the simulation reads in place of the equations.
+//!
+//! For every primitive a table holds displacement, orientation and velocity over one period. The state at any phase
+//! is one lookup and a step is a difference of two, so a path neither depends on the time step nor drifts.
+
+use glam::{DQuat, DVec3};
+
+use super::constants::MotionConstants;
+use super::orientation;
+use super::path::Path;
+use super::primitive::{PRIMITIVE_COUNT, Primitive};
+use super::rotation_ode;
+use super::{
+    PeriodicFluttering, PeriodicSpiraling, PeriodicTumbling, SteadyDescent, TransitionalChaotic,
+    TransitionalHelical,
+};
+use crate::scene::{RotationModel, Species};
+
+crate::shared_constants! {
+    /// Binary logarithm of the number of table intervals per period.
+    pub const TABLE_BITS: u32 = 9;
+    /// Rows stored per table: both ends of the period.
+    pub const TABLE_ROWS: u32 = 513;
+}
+
+/// Intervals of a table.
+pub(crate) const INTERVALS: usize = 1 << TABLE_BITS;
+
+/// One primitive motion over one period, at `TABLE_ROWS` equally spaced times.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PrimitiveTable {
+    /// Length of the period in seconds for a leaf of the species' own size and speed.
+    pub period_s: f64,
+    /// Displacement since the start of the period in metres; the first row is zero.
+    pub displacement_m: Vec<[f32; 3]>,
+    /// Orientation as unit quaternions x, y, z, w; the last row is the first as a rotation.
+    pub orientation: Vec<[f32; 4]>,
+    /// Velocity in metres per period.
+    pub velocity_m: Vec<[f32; 3]>,
+}
+
+/// The tables of one species, in the order of [`Primitive::ALL`].
+#[derive(Clone, Debug, PartialEq)]
+pub struct MotionTables(pub [PrimitiveTable; PRIMITIVE_COUNT]);
+
+impl MotionTables {
+    /// Tables from the equations; `seed` chooses the random parts (wandering, chaotic sequence).
+    pub fn generate(species: &Species, seed: [u32; 2]) -> Self {
+        let constants = MotionConstants::of(species);
+        let rotation = species.rotation;
+        Self(Primitive::ALL.map(|primitive| match primitive {
+            Primitive::SteadyDescent => sample(&SteadyDescent::new(&constants, seed), &constants, rotation),
+            Primitive::PeriodicTumbling => sample(&PeriodicTumbling::new(&constants), &constants, rotation),
+            Primitive::TransitionalChaotic => {
+                sample(&TransitionalChaotic::new(&constants, seed), &constants, rotation)
+            }
+            Primitive::PeriodicFluttering => {
+                sample(&PeriodicFluttering::new(&constants), &constants, rotation)
+            }
+            Primitive::TransitionalHelical => {
+                sample(&TransitionalHelical::new(&constants), &constants, rotation)
+            }
+            Primitive::PeriodicSpiraling => sample(&PeriodicSpiraling::new(&constants), &constants, rotation),
+        }))
+    }
+}
+
+fn sample(path: &impl Path, constants: &MotionConstants, rotation: RotationModel) -> PrimitiveTable {
+    let period_s = path.period_s();
+    let moments: Vec<_> =
+        (0..=INTERVALS).map(|row| path.at(period_s * row as f64 / INTERVALS as f64)).collect();
+    let orientation = match rotation {
+        RotationModel::SpecificForce => orientation::orientations(path, INTERVALS),
+        RotationModel::TanabeKaneko { friction_per_s } => {
+            rotation_ode::orientations(path, INTERVALS, constants, f64::from(friction_per_s))
+        }
+    };
+    let start = moments[0].position;
+    PrimitiveTable {
+        period_s,
+        displacement_m: moments.iter().map(|moment| single(moment.position - start)).collect(),
+        orientation: orientation.into_iter().map(single_quat).collect(),
+        velocity_m: moments.iter().map(|moment| single(moment.velocity * period_s)).collect(),
+    }
+}
+
+#[expect(clippy::cast_possible_truncation, reason = "tables are stored in single precision")]
+fn single(v: DVec3) -> [f32; 3] {
+    [v.x as f32, v.y as f32, v.z as f32]
+}
+
+#[expect(clippy::cast_possible_truncation, reason = "tables are stored in single precision")]
+fn single_quat(q: DQuat) -> [f32; 4] {
+    [q.x as f32, q.y as f32, q.z as f32, q.w as f32]
+}

@@ -1,0 +1,87 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What every backend can do.
+
+use crate::clock::Clock;
+use crate::environment::Environment;
+use crate::error::SimError;
+use crate::stats::Stats;
+use crate::world::World;
+
+/// How closely a backend's state agrees with the CPU oracle's.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Contract {
+    /// Every bit of the state is the same.
+    Exact,
+    /// Integers are the same; floats drift apart by rounding only.
+    Tolerant,
+}
+
+impl std::fmt::Display for Contract {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(match self {
+            Self::Exact => "exact",
+            Self::Tolerant => "tolerant",
+        })
+    }
+}
+
+/// Who is simulating.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct SimulatorInfo {
+    /// Name of the backend.
+    pub backend: &'static str,
+    /// Adapter and driver, or threads.
+    pub adapter: String,
+    /// Agreement with the oracle.
+    pub contract: Contract,
+    /// Number of leaf slots.
+    pub capacity: u32,
+}
+
+/// A backend: owns leaf columns, a clock and a compiled environment, and moves them on.
+///
+/// Constructors stay outside, because every backend needs something else to run on.
+pub trait Simulator {
+    /// Who is simulating.
+    fn info(&self) -> SimulatorInfo;
+
+    /// The present.
+    fn clock(&self) -> Clock;
+
+    /// Replaces the whole state: leaves, clock and environment.
+    ///
+    /// # Errors
+    /// [`SimError::Size`] if the world has another number of leaves.
+    fn write_state(&mut self, world: &World) -> Result<(), SimError>;
+
+    /// Copies leaves and clock into the caller's world. Waits for all steps; slow on a GPU.
+    ///
+    /// # Errors
+    /// [`SimError::Size`] if the world has another number of leaves; a lost device.
+    fn read_state(&mut self, world: &mut World) -> Result<(), SimError>;
+
+    /// Replaces wind, ground and speeds from the next step on.
+    ///
+    /// # Errors
+    /// A lost device.
+    fn set_environment(&mut self, environment: &Environment) -> Result<(), SimError>;
+
+    /// Submits `count` steps and does not wait for them.
+    ///
+    /// # Errors
+    /// A lost device.
+    fn step(&mut self, count: u32) -> Result<(), SimError>;
+
+    /// Waits until all submitted steps are done.
+    ///
+    /// # Errors
+    /// A lost device.
+    fn sync(&mut self) -> Result<(), SimError>;
+
+    /// Counts over all leaves after all submitted steps.
+    ///
+    /// # Errors
+    /// A lost device.
+    fn stats(&mut self) -> Result<Stats, SimError>;
+}

@@ -1,0 +1,85 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! twin: backend-wgpu/src/shaders/kernels/measure.wgsl
+//!
+//! Counts over all leaves: integers only, so their sum does not depend on order.
+
+use crate::leaf::record::{PRIMITIVE_MASK, PRIMITIVE_SHIFT, STATE_FALLING, STATE_MASK};
+use crate::leaf::{Leaves, Place};
+
+crate::shared_constants! {
+    /// Number of counters.
+    pub const COUNTER_COUNT: u32 = 16;
+    /// First counter of the primitive motions of falling leaves.
+    pub const COUNTER_PRIMITIVE: u32 = 4;
+    /// Counter of leaves with a position that is not a finite number.
+    pub const COUNTER_BROKEN: u32 = 12;
+    /// Bits of infinity; a float whose bits without sign reach them is not finite.
+    pub const INFINITY_BITS: u32 = 0x7f80_0000;
+}
+
+/// Counts over all leaves at one step.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Stats {
+    /// Step index the counts belong to.
+    pub step: u32,
+    /// Leaves not let go yet.
+    pub dormant: u32,
+    /// Leaves on branches.
+    pub attached: u32,
+    /// Leaves in the air.
+    pub falling: u32,
+    /// Leaves on the ground.
+    pub resting: u32,
+    /// Falling leaves by primitive motion.
+    pub primitives: [u32; 6],
+    /// Leaves whose position is not a finite number: always zero unless something is wrong.
+    pub broken: u32,
+}
+
+/// Counters that one leaf adds to: its state, its motion if it falls (else none), and whether it is broken.
+#[inline(always)]
+pub fn leaf_counters(place: &Place) -> [u32; 3] {
+    let state = place.bits & STATE_MASK;
+    let motion = COUNTER_PRIMITIVE + ((place.bits >> PRIMITIVE_SHIFT) & PRIMITIVE_MASK);
+    let bits = place.position.map(|x| x.to_bits() & 0x7fff_ffff);
+    let broken = bits[0] >= INFINITY_BITS || bits[1] >= INFINITY_BITS || bits[2] >= INFINITY_BITS;
+    [
+        state,
+        if state == STATE_FALLING { motion } else { COUNTER_COUNT },
+        if broken { COUNTER_BROKEN } else { COUNTER_COUNT },
+    ]
+}
+
+impl Stats {
+    /// Counts of a store.
+    pub fn of(leaves: &Leaves, step: u32) -> Self {
+        let mut counters = [0; COUNTER_COUNT as usize];
+        for place in &leaves.place {
+            for counter in leaf_counters(place) {
+                if counter < COUNTER_COUNT {
+                    counters[counter as usize] += 1;
+                }
+            }
+        }
+        Self::from_counters(&counters, step)
+    }
+
+    /// Counts from the raw counters of a kernel.
+    pub fn from_counters(counters: &[u32; COUNTER_COUNT as usize], step: u32) -> Self {
+        Self {
+            step,
+            dormant: counters[0],
+            attached: counters[1],
+            falling: counters[2],
+            resting: counters[3],
+            primitives: core::array::from_fn(|index| counters[COUNTER_PRIMITIVE as usize + index]),
+            broken: counters[COUNTER_BROKEN as usize],
+        }
+    }
+
+    /// Leaves that have been let go or ride a branch: all but the dormant ones.
+    pub fn total(&self) -> u32 {
+        self.attached + self.falling + self.resting
+    }
+}

@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! twin: backend-wgpu/src/shaders/wind/gust.wgsl
+//!
+//! Gusts: fronts of faster air, between them slower air, carried along by the mean wind.
+
+use std::f64::consts::TAU;
+
+use crate::context::Context;
+use crate::kernel::rng::random;
+use crate::layout::Float4;
+
+crate::shared_constants! {
+    /// Rows of the gust table, a power of two.
+    pub const GUST_ROWS: u32 = 1024;
+    /// Rows from one gust to the next, on average.
+    pub const GUST_SPACING: u32 = 16;
+}
+
+/// Stream of random numbers, apart from those of leaves.
+const STREAM: u32 = 0x4755_0000;
+
+/// Excess over the mean wind, in units of a typical gust's, at `along` metres down the wind.
+#[inline(always)]
+pub fn wind_gust(cx: &Context<'_>, along: f32) -> f32 {
+    let x = along * cx.environment.wind.gust.0[1] - cx.step.offsets.0[0];
+    let k = x.floor();
+    let index = ((k as i32) as u32) & (GUST_ROWS - 1);
+    let row = cx.wind[(cx.environment.wind.tables.0[1] + index) as usize].0;
+    row[0] + (x - k) * (row[1] - row[0])
+}
+
+/// Rows of the table: the value at a place and at the next. Gusts are `1 - cos` humps of random height (0.6 to 1.4),
+/// length and place, one to a spacing; the mean over the table is zero, so that gusts leave the mean wind alone.
+pub(crate) fn gust_rows(seed: [u32; 2]) -> Vec<Float4> {
+    let rows = GUST_ROWS as usize;
+    let mut values = vec![0.0; rows];
+    for gust in 0..GUST_ROWS / GUST_SPACING {
+        let [place, length, height, _] =
+            random(seed, gust, STREAM).map(|word| f64::from(word) / 4_294_967_296.0);
+        let spacing = f64::from(GUST_SPACING);
+        let centre = (f64::from(gust) + 0.2 + 0.6 * place) * spacing;
+        let width = (0.5 + 0.7 * length) * spacing;
+        for (row, value) in values.iter_mut().enumerate() {
+            let mut distance = (row as f64 - centre).abs();
+            distance = distance.min(rows as f64 - distance);
+            if distance < 0.5 * width {
+                *value += (0.6 + 0.8 * height) * 0.5 * (1.0 + libm::cos(TAU * distance / width));
+            }
+        }
+    }
+    let mean = values.iter().sum::<f64>() / rows as f64;
+    #[expect(clippy::cast_possible_truncation, reason = "tables are stored in single precision")]
+    let at = |row: usize| (values[row % rows] - mean) as f32;
+    (0..rows).map(|row| Float4([at(row), at(row + 1), 0.0, 0.0])).collect()
+}

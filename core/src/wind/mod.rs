@@ -1,0 +1,17 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! One wind for everything that moves: mean flow with a height profile, gusts, turbulence and vortices.
+//!
+//! The tables are built once per scene; [`sample::wind_at`] reads them at a place, the same in Rust and in WGSL. Gusts
+//! and turbulence are frozen patterns that the mean wind carries along (Taylor's hypothesis).
+
+mod beaufort;
+pub mod gust;
+pub mod profile;
+pub mod sample;
+mod synthesis;
+pub mod turbulence;
+pub mod vortex;
+
+pub use beaufort::{BEAUFORT_MAX, beaufort_speed};
+pub use synthesis::turbulence_box;

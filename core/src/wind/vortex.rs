@@ -1,0 +1,21 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! twin: backend-wgpu/src/shaders/wind/vortex.wgsl
+//!
+//! A straight vortex with a smooth core (Kaufmann): swirl `Gamma r / (2 pi (r^2 + a^2))`, axial jet
+//! `w a^2 / (r^2 + a^2)`. Both are free of divergence.
+
+use crate::blocks::VortexBlock;
+use crate::kernel::math::reciprocal;
+use crate::kernel::vector::{Vec3, vec3_cross, vec3_dot};
+
+/// Velocity that one vortex adds at `place`, in m/s.
+#[inline(always)]
+pub fn wind_vortex(vortex: &VortexBlock, place: Vec3) -> Vec3 {
+    let center = vortex.center.0;
+    let axis = Vec3::new(vortex.axis.0[0], vortex.axis.0[1], vortex.axis.0[2]);
+    let from_center = place - Vec3::new(center[0], center[1], center[2]);
+    let radial = from_center - axis * vec3_dot(from_center, axis);
+    let inverse = reciprocal(vec3_dot(radial, radial) + center[3]);
+    vec3_cross(axis, radial) * (vortex.axis.0[3] * inverse) + axis * (vortex.axial.0[0] * inverse)
+}

@@ -1,0 +1,113 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! A scene brought to life: compiled environment, clock and leaves.
+
+use crate::clock::Clock;
+use crate::environment::{Environment, lifetime_steps, release_step};
+use crate::error::SceneError;
+use crate::kernel::vector::Vec3;
+use crate::leaf::fall::own_velocity;
+use crate::leaf::record::SOURCE_SHIFT;
+use crate::leaf::seek::leaf_seek;
+use crate::leaf::{LeafState, Leaves};
+use crate::scene::Scene;
+use crate::stats::Stats;
+
+/// Everything a simulation consists of, on the host. The exchange type of all backends.
+#[derive(Clone, Debug)]
+pub struct World {
+    /// The compiled scene.
+    pub environment: Environment,
+    /// The present.
+    pub clock: Clock,
+    /// The leaves.
+    pub leaves: Leaves,
+}
+
+impl World {
+    /// Validates and compiles a scene and fills the store: leaves of later releases dormant, those of earlier ones
+    /// where a fall through still air has brought them.
+    ///
+    /// # Errors
+    /// What [`Scene::validate`] or [`Environment::compile`] reject.
+    pub fn build(scene: &Scene) -> Result<Self, SceneError> {
+        scene.validate(&scene.name)?;
+        let environment = Environment::compile(scene)?;
+        let clock = Clock::new(scene.dt_s);
+        let mut leaves = Leaves::zeroed(scene.leaf_count() as usize);
+        let total = scene.leaf_count();
+        let step = environment.step_block(&clock, total);
+        let cx = environment.context(&step);
+        let mut slot = 0;
+        for (index, source) in (0..).zip(&scene.sources) {
+            let lifetime = i64::from(lifetime_steps(scene, source));
+            for place in 0..source.count {
+                let mut leaf = leaves.leaf_mut(slot as usize);
+                let first = release_step(scene, source, place);
+                let lives = if lifetime > 0 { (-first).max(0) / lifetime } else { 0 };
+                let release = first + lives * lifetime;
+                #[expect(
+                    clippy::cast_possible_truncation,
+                    clippy::cast_sign_loss,
+                    reason = "validated to fit a word"
+                )]
+                let word = |value: i64| value as u32;
+                if release > 0 {
+                    leaf.identity.id = slot;
+                    leaf.identity.look = index << SOURCE_SHIFT;
+                    leaf.course.event = word(release);
+                } else {
+                    let id = slot.wrapping_add(word(lives).wrapping_mul(total));
+                    leaf_seek(&cx, &mut leaf, id, index, word(release), word(-release));
+                }
+                slot += 1;
+            }
+        }
+        Ok(Self { environment, clock, leaves })
+    }
+
+    /// Counts over all leaves.
+    pub fn stats(&self) -> Stats {
+        Stats::of(&self.leaves, self.clock.step())
+    }
+
+    /// A 64-bit fingerprint of clock and leaves: equal exactly when every bit of them is equal, but for one chance in
+    /// 2^64. A sum over slots, so that it can be taken in any order.
+    pub fn state_hash(&self) -> u64 {
+        let leaves = &self.leaves;
+        let seed = mix(u64::from(self.clock.step()), self.clock.wind_travel_m().to_bits());
+        (0..leaves.len()).fold(seed, |sum, slot| {
+            let words: [[u64; 2]; 5] = [
+                bytemuck::cast(leaves.place[slot]),
+                bytemuck::cast(leaves.drift[slot]),
+                bytemuck::cast(leaves.attitude[slot]),
+                bytemuck::cast(leaves.course[slot]),
+                bytemuck::cast(leaves.identity[slot]),
+            ];
+            sum.wrapping_add(words.as_flattened().iter().fold(slot as u64, |hash, &word| mix(hash, word)))
+        })
+    }
+
+    /// Velocity of the leaf in `slot` in m/s; zero if it is not in the air or sliding.
+    pub fn velocity(&self, slot: usize) -> Vec3 {
+        let place = &self.leaves.place[slot];
+        let drift = Vec3::from(self.leaves.drift[slot].velocity);
+        match place.state() {
+            LeafState::Dormant | LeafState::Attached => Vec3::ZERO,
+            LeafState::Resting => drift,
+            LeafState::Falling => {
+                let step = self.environment.step_block(&self.clock, 0);
+                let cx = self.environment.context(&step);
+                drift + own_velocity(&cx, place.bits, self.leaves.drift[slot].phase, self.leaves.course[slot])
+            }
+        }
+    }
+}
+
+/// One round of mixing a word into a hash (multiply, fold; constants of SplitMix64).
+fn mix(hash: u64, word: u64) -> u64 {
+    let mut z = (hash ^ word).wrapping_add(0x9E37_79B9_7F4A_7C15);
+    z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+    z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+    z ^ (z >> 31)
+}
