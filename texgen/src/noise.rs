@@ -27,6 +27,7 @@ pub(crate) fn value(seed: u64, p: Vec2) -> f32 {
 /// Sum of octaves of value noise, each twice as fine and half as strong; about -1..1.
 pub(crate) fn fractal(seed: u64, mut p: Vec2, octaves: u32) -> f32 {
     let (mut sum, mut strength, mut total) = (0.0, 1.0, 0.0);
+    p = Vec2::new(0.89 * p.x - 0.45 * p.y, 0.45 * p.x + 0.89 * p.y);
     for octave in 0..octaves {
         sum += strength * value(seed.wrapping_add(u64::from(octave)), p);
         total += strength;
@@ -37,24 +38,35 @@ pub(crate) fn fractal(seed: u64, mut p: Vec2, octaves: u32) -> f32 {
     sum / total * 1.4
 }
 
-/// Cell noise: distance to the nearest and second nearest of scattered points, one point a unit square. Where
-/// the two are equal runs a net of cell walls.
-pub(crate) fn cells(seed: u64, p: Vec2) -> (f32, f32) {
+/// What scattered points, one a unit square, lie around a place.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Cells {
+    /// Distance to the nearest point.
+    pub(crate) first: f32,
+    /// Distance to the second nearest; where it equals the first runs the wall between two cells.
+    pub(crate) second: f32,
+    /// Random number in 0..1 of the nearest point.
+    pub(crate) lot: f32,
+}
+
+/// Cell noise (Worley 1996).
+pub(crate) fn cells(seed: u64, p: Vec2) -> Cells {
     let (x, y) = (floor_i32(p.x), floor_i32(p.y));
-    let (mut first, mut second) = (f32::MAX, f32::MAX);
+    let (mut first, mut second, mut nearest) = (f32::MAX, f32::MAX, 0);
     for cy in y - 1..=y + 1 {
         for cx in x - 1..=x + 1 {
             let hash = cell_hash(seed, cx, cy);
-            let offset = Vec2::new(unit_from_hash(hash), unit_from_hash(hash64(hash)));
+            let other = hash64(hash);
+            let offset = Vec2::new(unit_from_hash(hash), unit_from_hash(other));
             let distance = p.distance_squared(Vec2::new(cx as f32, cy as f32) + offset);
             if distance < first {
-                (first, second) = (distance, first);
+                (first, second, nearest) = (distance, first, other);
             } else if distance < second {
                 second = distance;
             }
         }
     }
-    (first.sqrt(), second.sqrt())
+    Cells { first: first.sqrt(), second: second.sqrt(), lot: unit_from_hash(hash64(nearest)) }
 }
 
 #[cfg(test)]
@@ -75,7 +87,7 @@ mod tests {
     #[test]
     fn nearest_cell_comes_first() {
         for i in 0..100_u16 {
-            let (first, second) = cells(9, Vec2::new(f32::from(i) * 0.37, f32::from(i) * 0.11));
+            let Cells { first, second, .. } = cells(9, Vec2::new(f32::from(i) * 0.37, f32::from(i) * 0.11));
             assert!(first <= second && second < 2.0, "cell distances out of order: {first}, {second}");
         }
     }

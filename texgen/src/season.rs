@@ -24,7 +24,7 @@ struct Autumn {
 const MAPLE: Autumn = Autumn {
     chlorophyll: [1.15, 0.85, 0.3, 0.03, 0.0, 0.0],
     carotenoid: [0.85, 0.85, 0.95, 1.05, 0.9, 0.6],
-    anthocyanin: [0.0, 0.03, 0.16, 0.5, 0.72, 0.4],
+    anthocyanin: [0.0, 0.03, 0.16, 0.5, 0.7, 0.22],
     tannin: [0.02, 0.02, 0.03, 0.06, 0.22, 0.95],
 };
 /// Green fades straight into russet.
@@ -45,7 +45,7 @@ const BIRCH: Autumn = Autumn {
 const BEECH: Autumn = Autumn {
     chlorophyll: [1.2, 0.85, 0.32, 0.06, 0.0, 0.0],
     carotenoid: [0.85, 0.9, 1.0, 0.9, 0.7, 0.5],
-    anthocyanin: [0.0, 0.01, 0.08, 0.22, 0.32, 0.24],
+    anthocyanin: [0.0, 0.01, 0.08, 0.2, 0.26, 0.1],
     tannin: [0.02, 0.03, 0.08, 0.3, 0.62, 1.05],
 };
 /// Pale yellow with green left in it.

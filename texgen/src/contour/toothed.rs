@@ -94,7 +94,7 @@ pub(super) fn linden(shared: &mut Rng, right: &mut Rng, left: &mut Rng) -> (Half
             Knot { at: Vec2::new(0.0, -1.0), arrive: Vec2::Y, leave: polar(142.0, 0.7) },
             Knot::smooth(ear, polar(84.0, 0.95)),
             Knot::smooth(Vec2::new(w, -0.42 + slant), polar(-6.0, 1.0)),
-            Knot::smooth(Vec2::new(0.28 * w, 0.6), polar(-46.0, 0.95)),
+            Knot::smooth(Vec2::new(0.23 * w, 0.62), polar(-40.0, 0.95)),
             Knot { at: Vec2::new(0.0, 1.0), arrive: polar(-10.0, 0.8), leave: Vec2::Y },
         ];
         let teeth = Teeth {

@@ -74,6 +74,7 @@ impl Canvas {
             // Holes spare the petiole.
             *covered *= hole.clamp(petiole[i], 1.0);
         }
+        drop_islands(&mut whole, size);
         Self { frame, coverage: whole, petiole, margin, vein, strokes: paint_strokes(veins, frame), damage }
     }
 
@@ -97,6 +98,46 @@ impl Canvas {
             strokes: self.strokes[index],
             petiole: self.petiole[index],
             slope: (rise * 0.07).clamp(-1.0, 1.0),
+        }
+    }
+}
+
+/// Clears whatever bites cut off: all but the largest connected part.
+fn drop_islands(coverage: &mut [f32], size: usize) {
+    const UNSEEN: usize = usize::MAX;
+    let mut part_of = vec![UNSEEN; coverage.len()];
+    let mut sizes = Vec::new();
+    let mut stack = Vec::new();
+    for start in 0..coverage.len() {
+        if coverage[start] <= 0.0 || part_of[start] != UNSEEN {
+            continue;
+        }
+        let part = sizes.len();
+        sizes.push(0_usize);
+        part_of[start] = part;
+        stack.push(start);
+        while let Some(at) = stack.pop() {
+            sizes[part] += 1;
+            let (x, y) = (at % size, at / size);
+            let sides = [
+                (x > 0).then(|| at - 1),
+                (x + 1 < size).then(|| at + 1),
+                (y > 0).then(|| at - size),
+                (y + 1 < size).then(|| at + size),
+            ];
+            for next in sides.into_iter().flatten() {
+                // Faint fringes do not hold two parts together.
+                if coverage[next] > 0.0 && part_of[next] == UNSEEN && coverage[at].max(coverage[next]) > 0.3 {
+                    part_of[next] = part;
+                    stack.push(next);
+                }
+            }
+        }
+    }
+    let largest = (0..sizes.len()).max_by_key(|&part| sizes[part]);
+    for (texel, part) in coverage.iter_mut().zip(part_of) {
+        if Some(part) != largest {
+            *texel = 0.0;
         }
     }
 }

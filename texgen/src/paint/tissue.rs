@@ -11,6 +11,9 @@ use crate::pigment::{Linear, Pigments};
 use crate::rng::Rng;
 use crate::{Shape, noise, season};
 
+/// Where the blade meets the petiole.
+const BASE: Vec2 = Vec2::new(0.0, -1.0);
+
 /// Character of one leaf's colouring.
 pub(super) struct Tissue {
     leaf: Leaf,
@@ -29,6 +32,8 @@ pub(super) struct Tissue {
     drift: Vec2,
     /// Factor on all pigments: pale or deep leaves.
     depth: f32,
+    /// Factor on brown: bleached or dark dry leaves.
+    brownness: f32,
 }
 
 impl Tissue {
@@ -63,6 +68,7 @@ impl Tissue {
             },
             drift: Vec2::from_angle(rng.range(0.0, std::f32::consts::TAU)) * rng.range(0.0, 0.09),
             depth: 1.0 + 0.14 * rng.bell(),
+            brownness: rng.range(0.6, 1.3),
         }
     }
 
@@ -84,11 +90,23 @@ impl Tissue {
         let season = self.leaf.season;
         // Leaves are most uneven in mid autumn.
         let unevenness = lerp(0.3, 1.0, 1.0 - (2.0 * season - 1.0).abs().powi(2));
-        let patches = noise::fractal(self.seed, spot.at * 1.6, 3) * 0.17 * self.patchiness;
-        let blotches = noise::fractal(self.seed ^ 0x10, spot.at * 5.0, 2) * 0.06 * self.patchiness;
-        let rim = 0.13 * (-spot.margin / 0.14).exp();
+        let at = self.along_veins(spot.at);
+        let patches = noise::fractal(self.seed, at * 1.6, 3) * 0.17 * self.patchiness;
+        let blotches = noise::fractal(self.seed ^ 0x10, at * 5.0, 2) * 0.06 * self.patchiness;
+        // The margin by the petiole is no older than the petiole.
+        let from_base = spot.at.distance(BASE);
+        let rim = 0.13 * (-spot.margin / 0.14).exp() * smoothstep(0.1, 0.7, from_base);
         let green = self.lingering * (-spot.vein / 0.055).exp();
         season + unevenness * (patches + blotches + rim - green + self.drift.dot(spot.at) + 0.03)
+    }
+
+    /// Plane in which patches are round: a fan's run along its veins.
+    fn along_veins(&self, at: Vec2) -> Vec2 {
+        if self.leaf.shape != Shape::Ginkgo {
+            return at;
+        }
+        let offset = at - BASE;
+        Vec2::new(offset.x.atan2(offset.y) * 2.6, offset.length() * 0.5)
     }
 
     /// Pigments of living tissue.
@@ -99,6 +117,9 @@ impl Tissue {
             self.blush * (1.0 + 0.55 * flush + 0.25 * (-spot.margin / 0.1).exp()).max(0.1);
         let mottle = 0.1 * noise::fractal(self.seed ^ 0x30, spot.at * 11.0, 2)
             + 0.05 * noise::value(self.seed ^ 0x31, spot.at * 45.0);
+        // Dry leaves bleach and darken in blotches of every size.
+        let stains = 0.28 * noise::fractal(self.seed ^ 0x32, self.along_veins(spot.at) * 3.0, 5);
+        pigments.tannin *= self.brownness * (1.0 + stains);
         pigments * (self.depth * (1.0 + mottle))
     }
 
@@ -108,14 +129,23 @@ impl Tissue {
         let border = self.scorch * (0.55 + 1.1 * ragged);
         let scorched = smoothstep(border + 0.02, border - 0.03, spot.margin) * smoothstep(0.0, 0.02, border);
         let rim = smoothstep(0.035, 0.0, spot.hole) * 0.8;
-        let (nearest, _) = noise::cells(self.seed ^ 0x50, spot.at * 7.0);
-        let (finest, _) = noise::cells(self.seed ^ 0x51, spot.at * 17.0);
-        let gate = smoothstep(-0.1, 0.7, noise::value(self.seed ^ 0x52, spot.at * 2.3));
-        let large = smoothstep(0.2, 0.1, nearest) * smoothstep(0.45, 0.75, self.specks * gate);
-        let small = smoothstep(0.26, 0.12, finest) * 0.55 * self.specks * (0.3 + 0.7 * gate);
+        let gate = 0.35 + 0.65 * smoothstep(-0.2, 0.6, noise::value(self.seed ^ 0x52, spot.at * 2.0));
+        let large = self.dots(0x50, spot.at * 4.0, 0.22, 0.35 * gate);
+        let small = self.dots(0x51, spot.at * 10.0, 0.26, 0.5 * gate) * 0.7;
         let dead = scorched.max(rim).max(large).max(small);
         *pigments = *pigments * (1.0 - 0.75 * dead)
             + Pigments { tannin: 1.15 * dead, carotenoid: 0.3 * dead, ..Pigments::default() };
+    }
+
+    /// Scattered spots of up to a radius; `share` of the cells hold one.
+    fn dots(&self, layer: u64, at: Vec2, radius: f32, share: f32) -> f32 {
+        let cell = noise::cells(self.seed ^ layer, at);
+        let share = share * self.specks;
+        if cell.lot >= share {
+            return 0.0;
+        }
+        let radius = radius * lerp(1.0, 0.35, cell.lot / share);
+        smoothstep(radius, radius * 0.5, cell.first)
     }
 
     /// Pigments with the veins drawn in: pale while the leaf lives, dark when it is dry.
@@ -123,15 +153,15 @@ impl Tissue {
         let [primary, secondary, tertiary] = spot.strokes;
         let mut strength = primary.max(0.85 * secondary).max(0.42 * tertiary);
         if self.leaf.shape != Shape::Ginkgo {
-            let (first, second) = noise::cells(self.seed ^ 0x60, spot.at * 21.0);
-            strength = strength.max(0.2 * smoothstep(0.14, 0.0, second - first));
+            let cell = noise::cells(self.seed ^ 0x60, spot.at * 21.0);
+            strength = strength.max(0.2 * smoothstep(0.14, 0.0, cell.second - cell.first));
         }
         let dry = smoothstep(0.5, 0.95, age);
         Pigments {
             chlorophyll: tissue.chlorophyll * (1.0 - 0.62 * strength),
             carotenoid: tissue.carotenoid * (1.0 - 0.25 * strength),
             anthocyanin: tissue.anthocyanin * (1.0 - 0.4 * strength),
-            tannin: tissue.tannin + strength * lerp(0.02, 0.5, dry),
+            tannin: tissue.tannin + strength * lerp(0.02, 0.75, dry),
         }
     }
 
