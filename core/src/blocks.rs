@@ -7,9 +7,6 @@
 use crate::layout::{Float4, Uint4};
 use crate::scene::{MAX_SOURCES, MAX_SPECIES, MAX_VORTICES};
 
-/// Words of a species' share thresholds in a [`SourceBlock`], four to a vector.
-pub const SHARE_VECTORS: usize = MAX_SPECIES / 4;
-
 crate::shared_struct! {
     /// One species, compiled.
     pub struct SpeciesBlock {
@@ -39,7 +36,7 @@ crate::shared_struct! {
         /// again (0: never).
         pub timing: Uint4,
         /// For each species the upper end of its share of random words.
-        pub shares: [Uint4; SHARE_VECTORS],
+        pub shares: [Uint4; SHARE_VECTORS as usize],
     }
 }
 
@@ -102,7 +99,7 @@ crate::shared_struct! {
 crate::shared_struct! {
     /// What changes from step to step.
     pub struct StepBlock {
-        /// Index of the step; number of leaves in this page; two unused words.
+        /// Index of the step; three unused words.
         pub index: Uint4,
         /// How far the mean wind has carried the gusts, in rows, and the turbulence, in cells, both within one
         /// period; two unused.
@@ -113,6 +110,8 @@ crate::shared_struct! {
 }
 
 crate::shared_constants! {
+    /// Vectors of a source's share thresholds: one word for each species.
+    pub const SHARE_VECTORS: u32 = MAX_SPECIES as u32 / 4;
     /// Kind of a box source.
     pub const SOURCE_BOX: u32 = 0;
     /// Kind of a disc source.

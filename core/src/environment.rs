@@ -117,8 +117,8 @@ impl Environment {
         &self.wind
     }
 
-    /// The block of one step of a page of `leaf_count` leaves.
-    pub fn step_block(&self, clock: &Clock, leaf_count: u32) -> StepBlock {
+    /// The block of one step.
+    pub fn step_block(&self, clock: &Clock) -> StepBlock {
         let wind = &self.block.wind;
         let carried = |per_metre: f32, period: u32| {
             let places = clock.wind_travel_m() * f64::from(per_metre);
@@ -142,7 +142,7 @@ impl Environment {
             };
         }
         StepBlock {
-            index: Uint4([clock.step(), leaf_count, 0, 0]),
+            index: Uint4([clock.step(), 0, 0, 0]),
             offsets: Float4([
                 carried(wind.gust.0[1], GUST_ROWS),
                 carried(wind.cells.0[0], TURBULENCE_X),

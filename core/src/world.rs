@@ -6,7 +6,7 @@ use crate::clock::Clock;
 use crate::environment::{Environment, lifetime_steps, release_step};
 use crate::error::SceneError;
 use crate::kernel::vector::Vec3;
-use crate::leaf::fall::own_velocity;
+use crate::leaf::own::own_velocity;
 use crate::leaf::record::SOURCE_SHIFT;
 use crate::leaf::seek::leaf_seek;
 use crate::leaf::{LeafState, Leaves};
@@ -36,7 +36,7 @@ impl World {
         let clock = Clock::new(scene.dt_s);
         let mut leaves = Leaves::zeroed(scene.leaf_count() as usize);
         let total = scene.leaf_count();
-        let step = environment.step_block(&clock, total);
+        let step = environment.step_block(&clock);
         let cx = environment.context(&step);
         let mut slot = 0;
         for (index, source) in (0..).zip(&scene.sources) {
@@ -96,7 +96,7 @@ impl World {
             LeafState::Dormant | LeafState::Attached => Vec3::ZERO,
             LeafState::Resting => drift,
             LeafState::Falling => {
-                let step = self.environment.step_block(&self.clock, 0);
+                let step = self.environment.step_block(&self.clock);
                 let cx = self.environment.context(&step);
                 drift + own_velocity(&cx, place.bits, self.leaves.drift[slot].phase, self.leaves.course[slot])
             }

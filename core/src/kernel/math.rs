@@ -110,7 +110,7 @@ pub fn sin_cos(x: f32) -> (f32, f32) {
 
 /// e^x, within 2e-7 relative, for -87 <= x <= 88; clamped outside.
 #[inline(always)]
-pub fn exp(x: f32) -> f32 {
+pub fn exponential(x: f32) -> f32 {
     let inside = x.max(-87.0).min(88.0);
     let k = (inside * LOG2_E + 0.5).floor();
     let r = (inside - k * LN_2_HIGH) - k * LN_2_LOW;
@@ -143,7 +143,7 @@ pub fn inverse_sqrt(x: f32) -> f32 {
 
 /// Angle of the point (x, y) from the positive x axis in radians, -pi to pi, within 4e-7; zero at the origin.
 #[inline(always)]
-pub fn atan2(y: f32, x: f32) -> f32 {
+pub fn arctangent2(y: f32, x: f32) -> f32 {
     let ax = x.abs();
     let ay = y.abs();
     let small = ax.min(ay);
@@ -184,7 +184,7 @@ mod tests {
         #[test]
         fn exp_is_close(x in -87f32..88.0) {
             let expected = f64::from(x).exp();
-            prop_assert!((f64::from(exp(x)) - expected).abs() < 2e-7 * expected, "exp {x}");
+            prop_assert!((f64::from(exponential(x)) - expected).abs() < 2e-7 * expected, "exp {x}");
         }
 
         #[test]
@@ -199,16 +199,16 @@ mod tests {
         #[test]
         fn atan2_is_close(y in -10f32..10.0, x in -10f32..10.0) {
             let expected = f64::from(y).atan2(f64::from(x));
-            prop_assert!((f64::from(atan2(y, x)) - expected).abs() < 4e-7, "atan2 {y} {x}: {}", atan2(y, x));
+            prop_assert!((f64::from(arctangent2(y, x)) - expected).abs() < 4e-7, "atan2 {y} {x}: {}", arctangent2(y, x));
         }
     }
 
     #[test]
     fn atan2_on_the_axes() {
-        assert_eq!(atan2(0.0, 0.0), 0.0, "origin");
-        assert_eq!(atan2(0.0, 1.0), 0.0, "+x");
-        assert_eq!(atan2(1.0, 0.0), HALF_PI, "+y");
-        assert_eq!(atan2(-1.0, 0.0), -HALF_PI, "-y");
-        assert_eq!(atan2(0.0, -1.0), PI, "-x");
+        assert_eq!(arctangent2(0.0, 0.0), 0.0, "origin");
+        assert_eq!(arctangent2(0.0, 1.0), 0.0, "+x");
+        assert_eq!(arctangent2(1.0, 0.0), HALF_PI, "+y");
+        assert_eq!(arctangent2(-1.0, 0.0), -HALF_PI, "-y");
+        assert_eq!(arctangent2(0.0, -1.0), PI, "-x");
     }
 }

@@ -5,7 +5,7 @@
 //! Unit quaternions as rotations; `vec4<f32>` in WGSL, vector part first.
 
 use super::math::inverse_sqrt;
-use super::vector::{Vec3, vec3_cross};
+use super::vector::{TINY_SQUARED, Vec3, vec3_cross};
 
 /// A quaternion x i + y j + z k + w.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -79,20 +79,20 @@ pub fn quat_renormalize(q: Quat) -> Quat {
 /// Unit quaternion of the same direction, for any norm from 1e-9 up.
 #[inline(always)]
 pub fn quat_normalize(q: Quat) -> Quat {
-    let k = inverse_sqrt(quat_norm_squared(q).max(1e-18));
+    let k = inverse_sqrt(quat_norm_squared(q).max(TINY_SQUARED));
     Quat::new(q.x * k, q.y * k, q.z * k, q.w * k)
 }
 
-/// The rotation a share `weight` of the way from `from` to `to`, along the shorter arc (normalised linear blend).
+/// The rotation a share `weight` of the way from `start` to `end`, along the shorter arc (normalised linear blend).
 #[inline(always)]
-pub fn quat_blend(from: Quat, to: Quat, weight: f32) -> Quat {
-    let cosine = (from.x * to.x + from.y * to.y) + (from.z * to.z + from.w * to.w);
-    let signed = if cosine < 0.0 { -weight } else { weight };
+pub fn quat_blend(start: Quat, end: Quat, weight: f32) -> Quat {
+    let cosine = (start.x * end.x + start.y * end.y) + (start.z * end.z + start.w * end.w);
+    let signed_weight = if cosine < 0.0 { -weight } else { weight };
     let rest = 1.0 - weight;
     quat_normalize(Quat::new(
-        from.x * rest + to.x * signed,
-        from.y * rest + to.y * signed,
-        from.z * rest + to.z * signed,
-        from.w * rest + to.w * signed,
+        start.x * rest + end.x * signed_weight,
+        start.y * rest + end.y * signed_weight,
+        start.z * rest + end.z * signed_weight,
+        start.w * rest + end.w * signed_weight,
     ))
 }

@@ -7,11 +7,20 @@
 //! # Source
 //! Philox4x32-10 of Salmon, Moraes, Dror and Shaw, "Parallel random numbers: as easy as 1, 2, 3" (2011).
 
-const PHILOX_M0: u32 = 0xD251_1F53;
-const PHILOX_M1: u32 = 0xCD9E_8D57;
-const PHILOX_W0: u32 = 0x9E37_79B9;
-const PHILOX_W1: u32 = 0xBB67_AE85;
-const PHILOX_ROUNDS: u32 = 10;
+crate::shared_constants! {
+    /// First multiplier.
+    pub const PHILOX_M0: u32 = 0xD251_1F53;
+    /// Second multiplier.
+    pub const PHILOX_M1: u32 = 0xCD9E_8D57;
+    /// First key increment.
+    pub const PHILOX_W0: u32 = 0x9E37_79B9;
+    /// Second key increment.
+    pub const PHILOX_W1: u32 = 0xBB67_AE85;
+    /// Rounds.
+    pub const PHILOX_ROUNDS: u32 = 10;
+    /// 2^-24: unit of [`unit_float`].
+    pub const UNIT_FLOAT: f32 = 1.0 / 16_777_216.0;
+}
 
 /// High word of the 64-bit product. WGSL has none, so both twins work in halves of 16 bits.
 #[inline(always)]
@@ -68,7 +77,7 @@ pub fn triangular(word: u32) -> i32 {
 /// Uniform float in [0, 1) with 24 bits from a random word.
 #[inline(always)]
 pub fn unit_float(word: u32) -> f32 {
-    (word >> 8) as f32 * 5.960_464_5e-8
+    (word >> 8) as f32 * UNIT_FLOAT
 }
 
 #[cfg(test)]

@@ -19,8 +19,10 @@ pub struct Vec3 {
     pub z: f32,
 }
 
-/// Smallest squared length that still counts; keeps the Newton steps of [`vec3_length`] in range.
-const TINY_SQUARED: f32 = 1e-18;
+crate::shared_constants! {
+    /// Smallest squared length that still counts; keeps the Newton steps of [`inverse_sqrt`] in range.
+    pub const TINY_SQUARED: f32 = 1e-18;
+}
 
 impl Vec3 {
     /// The zero vector.

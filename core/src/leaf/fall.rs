@@ -9,20 +9,21 @@
 //! that position and velocity go on without a jump; at release it cancels the first motion's velocity, so that the
 //! leaf starts from rest with an acceleration of g. Both relax exactly: in still air the path does not depend on dt.
 
+use super::own::{own_orientation, own_rate, own_scale, own_velocity, turn_to_heading};
 use super::record::{
-    BLEND_MASK, BLEND_SHIFT, Course, HALF_MASK, PRIMITIVE_MASK, PRIMITIVE_SHIFT, SIZE_UNIT, SOURCE_MASK,
-    SOURCE_SHIFT, SPECIES_MASK, SPECIES_SHIFT, SPIN_SHIFT, STAGE_MASK, STAGE_SHIFT, TABLE_MASK, TABLE_SHIFT,
+    BLEND_MASK, BLEND_SHIFT, Course, HALF_MASK, PRIMITIVE_MASK, PRIMITIVE_SHIFT, SOURCE_MASK, SOURCE_SHIFT,
+    SPECIES_MASK, SPECIES_SHIFT, SPIN_SHIFT, STAGE_MASK, STAGE_SHIFT, TABLE_MASK, TABLE_SHIFT,
 };
 use super::release::{next_event, release_rate, release_ratio, release_size_speed};
 use super::settle::leaf_land;
 use super::store::LeafMut;
 use crate::context::Context;
-use crate::kernel::math::{exp, reciprocal, sin_cos_turns};
-use crate::kernel::quaternion::{Quat, quat_blend, quat_multiply};
+use crate::kernel::math::{exponential, reciprocal};
+use crate::kernel::quaternion::{Quat, quat_blend};
 use crate::kernel::rng::{mul_q16, random};
 use crate::kernel::vector::Vec3;
 use crate::motion::feature::{STAGE_COUNT, STREAM_LOOK, stage_end, stage_words, transition_next};
-use crate::motion::lookup::{motion_advance, motion_orientation, motion_velocity};
+use crate::motion::lookup::motion_advance;
 use crate::wind::sample::wind_at;
 
 crate::shared_constants! {
@@ -30,43 +31,6 @@ crate::shared_constants! {
     pub const WHOLE_STEP: u32 = 65536;
     /// Inverse of it.
     pub const STEP_UNIT: f32 = 1.0 / 65536.0;
-}
-
-/// A table vector turned by a heading in 2^-16 turns about +y.
-#[inline(always)]
-pub fn turn_to_heading(v: Vec3, heading: u32) -> Vec3 {
-    let (sine, cosine) = sin_cos_turns(heading << 16);
-    Vec3::new(cosine * v.x + sine * v.z, v.y, cosine * v.z - sine * v.x)
-}
-
-/// Metres that a leaf moves per metre of its table.
-#[inline(always)]
-fn own_scale(cx: &Context<'_>, course: Course) -> f32 {
-    ((course.size & HALF_MASK) as f32 * SIZE_UNIT) * cx.environment.time.0[3]
-}
-
-/// Phase per step with the scene's rotation speed.
-#[inline(always)]
-fn own_rate(cx: &Context<'_>, rate: u32) -> u32 {
-    mul_q16(rate, cx.environment.counts.0[3])
-}
-
-/// Velocity of a leaf's own motion at a phase, in m/s.
-#[inline(always)]
-pub fn own_velocity(cx: &Context<'_>, bits: u32, phase: u32, course: Course) -> Vec3 {
-    let local = motion_velocity(&cx.motion, (bits >> TABLE_SHIFT) & TABLE_MASK, phase);
-    let per_second = (own_rate(cx, course.rate) >> 8) as f32 * cx.environment.time.0[2];
-    turn_to_heading(local, course.heading >> 16) * (own_scale(cx, course) * per_second)
-}
-
-/// Orientation of a leaf's own motion at a phase: table, heading and spin.
-#[inline(always)]
-pub fn own_orientation(cx: &Context<'_>, bits: u32, phase: u32, heading: u32) -> Quat {
-    let local = motion_orientation(&cx.motion, (bits >> TABLE_SHIFT) & TABLE_MASK, phase);
-    let (heading_sine, heading_cosine) = sin_cos_turns((heading >> 16) << 15);
-    let (spin_sine, spin_cosine) = sin_cos_turns((bits >> SPIN_SHIFT) << 15);
-    let turned = quat_multiply(Quat::new(0.0, heading_sine, 0.0, heading_cosine), local);
-    quat_multiply(turned, Quat::new(0.0, spin_sine, 0.0, spin_cosine))
 }
 
 /// A leaf on its way through one step.
@@ -158,7 +122,7 @@ pub fn leaf_fall(cx: &Context<'_>, leaf: &mut LeafMut<'_>) {
             let end = stage_end(seed, leaf.identity.id, leaf.identity.fall_time, stage) & HALF_MASK;
             let part = end.max(done) - done;
             let elapsed = (part as f32 * STEP_UNIT) * cx.environment.time.0[0];
-            let decay = exp((0.0 - elapsed) * response[3]);
+            let decay = exponential((0.0 - elapsed) * response[3]);
             glide = glide_part(
                 cx,
                 glide,
@@ -177,7 +141,7 @@ pub fn leaf_fall(cx: &Context<'_>, leaf: &mut LeafMut<'_>) {
     let mut travel = response[1];
     if done != 0 {
         let elapsed = ((WHOLE_STEP - done) as f32 * STEP_UNIT) * cx.environment.time.0[0];
-        decay = exp((0.0 - elapsed) * response[3]);
+        decay = exponential((0.0 - elapsed) * response[3]);
         travel = response[2] * (1.0 - decay);
     }
     glide = glide_part(cx, glide, leaf.place.bits, *leaf.course, wind, WHOLE_STEP - done, decay, travel);

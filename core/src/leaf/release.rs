@@ -4,7 +4,7 @@
 //!
 //! A leaf is let go: where, how big, how fast, in which motion. Integers throughout, but for the last conversion.
 
-use super::fall::own_velocity;
+use super::own::own_velocity;
 use super::record::{
     BLEND_SHIFT, HALF_MASK, PRIMITIVE_SHIFT, SIZE_ONE, SOURCE_SHIFT, SPECIES_SHIFT, SPIN_SHIFT, STAGE_SHIFT,
     STATE_FALLING, VARIANT_MASK, VARIANT_SHIFT,
@@ -84,7 +84,7 @@ pub fn release_species(source: &SourceBlock, word: u32) -> u32 {
     let mut species = 0;
     for vector in 0..SHARE_VECTORS {
         for lane in 0..4 {
-            species += if word >= source.shares[vector].0[lane] { 1 } else { 0 };
+            species += if word >= source.shares[vector as usize].0[lane] { 1 } else { 0 };
         }
     }
     species

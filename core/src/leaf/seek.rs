@@ -2,19 +2,19 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Finds a leaf's state at any moment of a fall through still air, without stepping there.
 
-use super::fall::{Glide, leaf_join, own_orientation, turn_to_heading};
+use super::fall::{Glide, leaf_join};
+use super::own::{own_orientation, own_rate, own_scale, turn_to_heading};
 use super::record::{
-    BLEND_MASK, BLEND_SHIFT, HALF_MASK, SIZE_UNIT, SPECIES_MASK, SPECIES_SHIFT, STAGE_MASK, STAGE_SHIFT,
-    STATE_MASK, STATE_RESTING, TABLE_MASK, TABLE_SHIFT,
+    BLEND_MASK, BLEND_SHIFT, SPECIES_MASK, SPECIES_SHIFT, STAGE_MASK, STAGE_SHIFT, STATE_MASK, STATE_RESTING,
+    TABLE_MASK, TABLE_SHIFT,
 };
 use super::release::leaf_release;
 use super::settle::flatten;
 use super::store::LeafMut;
 use crate::blocks::NEVER;
 use crate::context::Context;
-use crate::kernel::math::exp;
+use crate::kernel::math::exponential;
 use crate::kernel::quaternion::Quat;
-use crate::kernel::rng::mul_q16;
 use crate::kernel::vector::Vec3;
 use crate::motion::feature::{STAGE_COUNT, stage_end};
 use crate::motion::lookup::{motion_advance, motion_period};
@@ -96,17 +96,17 @@ fn glide_long(cx: &Context<'_>, leaf: &LeafMut<'_>, glide: Glide, part_q16: u64)
     let table = (leaf.place.bits >> TABLE_SHIFT) & TABLE_MASK;
     let response =
         environment.species[((leaf.place.bits >> SPECIES_SHIFT) & SPECIES_MASK) as usize].response.0;
-    let rate = u128::from(mul_q16(leaf.course.rate, environment.counts.0[3]));
+    let rate = u128::from(own_rate(cx, leaf.course.rate));
     let turned = (rate * u128::from(part_q16)) >> 16;
     #[expect(clippy::cast_possible_truncation, reason = "the low word is the phase, the rest whole periods")]
     let (periods, low) = ((turned >> 32) as f32, turned as u32);
     let to = glide.phase.wrapping_add(low);
     let local =
         motion_advance(&cx.motion, table, glide.phase, to) + motion_period(&cx.motion, table) * periods;
-    let scale = ((leaf.course.size & HALF_MASK) as f32 * SIZE_UNIT) * environment.time.0[3];
+    let scale = own_scale(cx, *leaf.course);
     #[expect(clippy::cast_possible_truncation, reason = "seconds in single precision")]
     let elapsed = (part_q16 as f64 / 65536.0 * f64::from(environment.time.0[0])) as f32;
-    let decay = exp(-elapsed * response[3]);
+    let decay = exponential(-elapsed * response[3]);
     let own = turn_to_heading(local, leaf.course.heading >> 16) * scale;
     Glide {
         position: glide.position + (own + glide.drift * (response[2] * (1.0 - decay))),

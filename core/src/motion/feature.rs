@@ -41,35 +41,35 @@ fn stage_weight(words: [u32; 4], stage: u32) -> u32 {
 #[inline(always)]
 pub fn stage_end(seed: [u32; 2], id: u32, fall_q16: u32, stage: u32) -> u32 {
     let words = random(seed, id, STREAM_TIMES);
-    let mut until = 0;
+    let mut ending = 0;
     let mut total = 0;
     for index in 0..STAGE_COUNT {
         let weight = stage_weight(words, index);
-        until += if index <= stage { weight } else { 0 };
+        ending += if index <= stage { weight } else { 0 };
         total += weight;
     }
-    mul_q16(fall_q16, (until << 16) / total)
+    mul_q16(fall_q16, (ending << 16) / total)
 }
 
 /// Count of changes from one primitive motion to another.
 #[inline(always)]
-fn transition_count(species: &SpeciesBlock, from: u32, to: u32) -> u32 {
-    let index = (from * 6 + to) as usize;
+fn transition_count(species: &SpeciesBlock, origin: u32, next: u32) -> u32 {
+    let index = (origin * 6 + next) as usize;
     species.transitions[index / 4].0[index % 4]
 }
 
-/// The primitive motion that follows `from`, chosen by a random word.
+/// The primitive motion that follows `origin`, chosen by a random word.
 #[inline(always)]
-pub fn transition_next(species: &SpeciesBlock, from: u32, word: u32) -> u32 {
+pub fn transition_next(species: &SpeciesBlock, origin: u32, word: u32) -> u32 {
     let mut total = 0;
-    for to in 0..6 {
-        total += transition_count(species, from, to);
+    for candidate in 0..6 {
+        total += transition_count(species, origin, candidate);
     }
     let draw = below(word, total);
     let mut passed = 0;
     let mut next = 0;
-    for to in 0..6 {
-        passed += transition_count(species, from, to);
+    for candidate in 0..6 {
+        passed += transition_count(species, origin, candidate);
         next += if draw >= passed { 1 } else { 0 };
     }
     next

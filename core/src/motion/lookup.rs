@@ -53,11 +53,11 @@ pub fn motion_period(motion: &MotionRows<'_>, table: u32) -> Vec3 {
     vector_at(motion.rows, 2 * (table * TABLE_ROWS + (TABLE_ROWS - 1)))
 }
 
-/// Displacement from phase `from` to the later phase `to`, at most one period on.
+/// Displacement from phase `start` to the later phase `end`, at most one period on.
 #[inline(always)]
-pub fn motion_advance(motion: &MotionRows<'_>, table: u32, from: u32, to: u32) -> Vec3 {
-    let difference = motion_displacement(motion, table, to) - motion_displacement(motion, table, from);
-    let wrapped = if to < from { 1.0 } else { 0.0 };
+pub fn motion_advance(motion: &MotionRows<'_>, table: u32, start: u32, end: u32) -> Vec3 {
+    let difference = motion_displacement(motion, table, end) - motion_displacement(motion, table, start);
+    let wrapped = if end < start { 1.0 } else { 0.0 };
     difference + motion_period(motion, table) * wrapped
 }
 

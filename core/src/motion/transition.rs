@@ -1,7 +1,5 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! twin: backend-wgpu/src/shaders/motion/transition.wgsl
-//!
 //! The Markov chain that joins primitive motions.
 
 use serde::{Deserialize, Serialize};

@@ -1,0 +1,108 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The CPU simulator.
+
+use rayon::{ThreadPool, ThreadPoolBuilder};
+use windfall_core::leaf::Leaves;
+use windfall_core::{Clock, Contract, Environment, SimError, Simulator, SimulatorInfo, Stats, World};
+
+use crate::kernels::CHUNK;
+use crate::kernels::advance::advance;
+use crate::kernels::measure::measure;
+
+/// How the CPU simulator runs.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct CpuOptions {
+    /// Number of threads; one for each core when `None`.
+    pub threads: Option<usize>,
+}
+
+/// Simulates on the CPU.
+#[derive(Debug)]
+pub struct CpuSimulator {
+    world: World,
+    pool: ThreadPool,
+}
+
+impl CpuSimulator {
+    /// A simulator that owns a copy of the world.
+    ///
+    /// # Errors
+    /// [`SimError::Device`] if the threads cannot be started.
+    pub fn new(world: &World, options: CpuOptions) -> Result<Self, SimError> {
+        let pool = ThreadPoolBuilder::new()
+            .num_threads(options.threads.unwrap_or(0))
+            .build()
+            .map_err(|error| SimError::Device { reason: error.to_string() })?;
+        Ok(Self { world: world.clone(), pool })
+    }
+
+    /// The leaf columns as they are now.
+    pub fn leaves(&self) -> &Leaves {
+        &self.world.leaves
+    }
+
+    fn same_size(&self, world: &World) -> Result<(), SimError> {
+        let (own, other) = (self.world.leaves.len(), world.leaves.len());
+        if own == other { Ok(()) } else { Err(SimError::Size { world: other, simulator: own }) }
+    }
+}
+
+impl Simulator for CpuSimulator {
+    fn info(&self) -> SimulatorInfo {
+        let threads = self.pool.current_num_threads();
+        SimulatorInfo {
+            backend: "cpu",
+            adapter: format!("{threads} thread{}", if threads == 1 { "" } else { "s" }),
+            contract: Contract::Exact,
+            capacity: self.world.environment.scene().leaf_count(),
+        }
+    }
+
+    fn clock(&self) -> Clock {
+        self.world.clock
+    }
+
+    fn write_state(&mut self, world: &World) -> Result<(), SimError> {
+        self.same_size(world)?;
+        self.world = world.clone();
+        Ok(())
+    }
+
+    fn read_state(&mut self, world: &mut World) -> Result<(), SimError> {
+        self.same_size(world)?;
+        world.clock = self.world.clock;
+        world.leaves.clone_from(&self.world.leaves);
+        Ok(())
+    }
+
+    fn set_environment(&mut self, environment: &Environment) -> Result<(), SimError> {
+        self.world.environment = environment.clone();
+        Ok(())
+    }
+
+    fn step(&mut self, count: u32) -> Result<(), SimError> {
+        let World { environment, clock, leaves } = &mut self.world;
+        for _ in 0..count {
+            let block = environment.step_block(clock);
+            let cx = environment.context(&block);
+            // A small world is done before another thread would have woken up.
+            if leaves.len() <= CHUNK {
+                advance(&cx, leaves.as_mut());
+            } else {
+                self.pool.install(|| advance(&cx, leaves.as_mut()));
+            }
+            clock.advance(environment);
+        }
+        Ok(())
+    }
+
+    fn sync(&mut self) -> Result<(), SimError> {
+        Ok(())
+    }
+
+    fn stats(&mut self) -> Result<Stats, SimError> {
+        let counters = self.pool.install(|| measure(&self.world.leaves.place));
+        Ok(Stats::from_counters(&counters, self.world.clock.step()))
+    }
+}

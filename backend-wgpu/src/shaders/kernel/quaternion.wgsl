@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// twin: core/src/kernel/quaternion.rs
+#import kernel/math
+#import kernel/vector
+
+fn quat_multiply(a: vec4<f32>, b: vec4<f32>) -> vec4<f32> {
+    return vec4<f32>(
+        a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y,
+        a.w * b.y + a.y * b.w + a.z * b.x - a.x * b.z,
+        a.w * b.z + a.z * b.w + a.x * b.y - a.y * b.x,
+        a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z,
+    );
+}
+
+fn quat_rotate(q: vec4<f32>, v: vec3<f32>) -> vec3<f32> {
+    let axis = vec3<f32>(q.x, q.y, q.z);
+    let twice = vec3_cross(axis, v) * 2.0;
+    return v + twice * q.w + vec3_cross(axis, twice);
+}
+
+fn quat_norm_squared(q: vec4<f32>) -> f32 {
+    return (q.x * q.x + q.y * q.y) + (q.z * q.z + q.w * q.w);
+}
+
+fn quat_renormalize(q: vec4<f32>) -> vec4<f32> {
+    let k = 1.5 - 0.5 * quat_norm_squared(q);
+    return vec4<f32>(q.x * k, q.y * k, q.z * k, q.w * k);
+}
+
+fn quat_normalize(q: vec4<f32>) -> vec4<f32> {
+    let k = inverse_sqrt(max(quat_norm_squared(q), TINY_SQUARED));
+    return vec4<f32>(q.x * k, q.y * k, q.z * k, q.w * k);
+}
+
+fn quat_blend(start: vec4<f32>, end: vec4<f32>, weight: f32) -> vec4<f32> {
+    let cosine = (start.x * end.x + start.y * end.y) + (start.z * end.z + start.w * end.w);
+    let signed_weight = select(weight, -weight, cosine < 0.0);
+    let rest = 1.0 - weight;
+    return quat_normalize(vec4<f32>(
+        start.x * rest + end.x * signed_weight,
+        start.y * rest + end.y * signed_weight,
+        start.z * rest + end.z * signed_weight,
+        start.w * rest + end.w * signed_weight,
+    ));
+}

@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// twin: backend-cpu/src/kernels/measure.rs
+#import bindings
+
+@group(1) @binding(0) var<storage, read_write> counters: array<atomic<u32>>;
+
+var<workgroup> local_counters: array<atomic<u32>, COUNTER_COUNT>;
+
+fn count_leaf(place: vec4<u32>) {
+    let state = place.w & STATE_MASK;
+    atomicAdd(&local_counters[state], 1u);
+    if (state == STATE_FALLING) {
+        atomicAdd(&local_counters[COUNTER_PRIMITIVE + ((place.w >> PRIMITIVE_SHIFT) & PRIMITIVE_MASK)], 1u);
+    }
+    let bits = place.xyz & vec3<u32>(0x7fffffffu);
+    if (bits.x >= INFINITY_BITS || bits.y >= INFINITY_BITS || bits.z >= INFINITY_BITS) {
+        atomicAdd(&local_counters[COUNTER_BROKEN], 1u);
+    }
+}
+
+@compute @workgroup_size(WORKGROUP_SIZE)
+fn measure(
+    @builtin(global_invocation_id) id: vec3<u32>,
+    @builtin(local_invocation_id) local_id: vec3<u32>,
+    @builtin(num_workgroups) groups: vec3<u32>,
+) {
+    if (local_id.x < COUNTER_COUNT) {
+        atomicStore(&local_counters[local_id.x], 0u);
+    }
+    workgroupBarrier();
+    let count = arrayLength(&places);
+    for (var leaf = id.x; leaf < count; leaf += groups.x * WORKGROUP_SIZE) {
+        count_leaf(places[leaf]);
+    }
+    workgroupBarrier();
+    if (local_id.x < COUNTER_COUNT) {
+        let counted = atomicLoad(&local_counters[local_id.x]);
+        if (counted > 0u) {
+            atomicAdd(&counters[local_id.x], counted);
+        }
+    }
+}

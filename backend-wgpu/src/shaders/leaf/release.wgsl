@@ -1,0 +1,138 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// twin: core/src/leaf/release.rs
+#import bindings
+#import kernel/rng
+#import motion/feature
+#import leaf/own
+
+fn offset_in_box(word: u32, extent: u32) -> i32 {
+    return bitcast<i32>(mul_high(word, 2u * extent + 1u)) - bitcast<i32>(extent);
+}
+
+fn offset_scaled(unit: i32, extent: u32) -> i32 {
+    let magnitude = bitcast<i32>(mul_high(bitcast<u32>(abs(unit)) << 17u, extent));
+    return select(magnitude, -magnitude, unit < 0);
+}
+
+fn unit_coordinate(word: u32) -> i32 {
+    return bitcast<i32>(mul_high(word, 65535u)) - 32767;
+}
+
+fn release_place(source: u32, seed: vec2<u32>, id: u32) -> vec3<i32> {
+    let center = bitcast<vec3<i32>>(environment.sources[source].center.xyz);
+    let extent = environment.sources[source].extent;
+    let kind = environment.sources[source].center.w;
+    var words = random(seed, id, STREAM_PLACE);
+    if (kind == SOURCE_BOX) {
+        return vec3<i32>(
+            center.x + offset_in_box(words.x, extent.x),
+            center.y + offset_in_box(words.y, extent.y),
+            center.z + offset_in_box(words.z, extent.z),
+        );
+    }
+    var unit = vec3<i32>(0, 0, 0);
+    var inside = false;
+    for (var attempt = 0u; attempt < PLACE_TRIES; attempt++) {
+        if (!inside) {
+            words = random(seed, id, STREAM_PLACE + attempt);
+            unit = vec3<i32>(unit_coordinate(words.x), unit_coordinate(words.y), unit_coordinate(words.z));
+            if (kind == SOURCE_DISC) {
+                unit.y = 0;
+            }
+            let squared =
+                bitcast<u32>(unit.x * unit.x) + bitcast<u32>(unit.y * unit.y) + bitcast<u32>(unit.z * unit.z);
+            inside = squared <= 32767u * 32767u;
+        }
+    }
+    if (!inside) {
+        unit = vec3<i32>(unit.x / 2, unit.y / 2, unit.z / 2);
+    }
+    return vec3<i32>(
+        center.x + offset_scaled(unit.x, extent.x),
+        center.y + offset_scaled(unit.y, extent.y),
+        center.z + offset_scaled(unit.z, extent.z),
+    );
+}
+
+fn release_species(source: u32, word: u32) -> u32 {
+    var species = 0u;
+    for (var vector = 0u; vector < SHARE_VECTORS; vector++) {
+        for (var lane = 0u; lane < 4u; lane++) {
+            species += select(0u, 1u, word >= environment.sources[source].shares[vector][lane]);
+        }
+    }
+    return species;
+}
+
+fn release_size_speed(species: u32, words: vec4<u32>) -> vec2<u32> {
+    let scales = environment.species[species].scales;
+    let size = bitcast<i32>(SIZE_ONE) + ((bitcast<i32>(scales.y) * triangular(words.y)) >> 16u);
+    let speed = bitcast<i32>(SIZE_ONE) + ((bitcast<i32>(scales.z) * triangular(words.z)) >> 16u);
+    return vec2<u32>(bitcast<u32>(size), bitcast<u32>(speed));
+}
+
+fn release_ratio(size_speed: vec2<u32>) -> u32 {
+    return (size_speed.y << 16u) / size_speed.x;
+}
+
+fn release_rate(species: u32, primitive: u32, ratio_q16: u32) -> u32 {
+    return mul_q16(environment.species[species].rates[primitive >> 2u][primitive & 3u], ratio_q16);
+}
+
+fn release_fall_time(species: u32, height: i32, speed: u32) -> u32 {
+    let positive = bitcast<u32>(max(height, 0));
+    let per_metre = environment.species[species].scales.x;
+    let nominal = (mul_high(positive, per_metre) << 22u) | ((positive * per_metre) >> 10u);
+    return mul_q16(nominal, (1u << 30u) / speed);
+}
+
+fn next_event(id: u32, release: u32, fall_time: u32, stage: u32, source: u32) -> u32 {
+    let lifetime = environment.sources[source].timing.w;
+    let recycle = select(release + lifetime, NEVER, lifetime == 0u);
+    if (stage + 1u >= STAGE_COUNT) {
+        return recycle;
+    }
+    let seed = environment.seed.xy;
+    return min(recycle, release + (stage_end(seed, id, fall_time, stage) >> 16u));
+}
+
+fn leaf_release(leaf: u32, id: u32, source: u32, release: u32) {
+    let seed = environment.seed.xy;
+    let place = release_place(source, seed, id);
+    let look = random(seed, id, STREAM_LOOK);
+    let species = release_species(source, look.x);
+    let size_speed = release_size_speed(species, look);
+    let ground = i32(floor(environment.ground.x * 1024.0));
+    let fall_time = release_fall_time(species, place.y - ground, size_speed.y);
+    let stage = stage_words(seed, id, 0u);
+    let primitive = environment.species[species].start.x;
+    let rate = release_rate(species, primitive, release_ratio(size_speed));
+
+    identities[leaf] = vec4<u32>(
+        id,
+        release,
+        fall_time,
+        (look.w & HALF_MASK)
+            | ((look.x & VARIANT_MASK) << VARIANT_SHIFT)
+            | (source << SOURCE_SHIFT)
+            | (0u << STAGE_SHIFT),
+    );
+    let course = vec4<u32>(
+        next_event(id, release, fall_time, 0u, source),
+        rate,
+        size_speed.x,
+        (stage.z & (HALF_MASK << 16u)) | (look.w >> 16u),
+    );
+    courses[leaf] = course;
+    let bits = STATE_FALLING
+        | (0u << BLEND_SHIFT)
+        | (primitive << PRIMITIVE_SHIFT)
+        | (species << SPECIES_SHIFT)
+        | ((stage.w & HALF_MASK) << SPIN_SHIFT);
+    let position =
+        vec3<f32>(f32(place.x) * LENGTH_UNIT, f32(place.y) * LENGTH_UNIT, f32(place.z) * LENGTH_UNIT);
+    places[leaf] = vec4<u32>(bitcast<vec3<u32>>(position), bits);
+    let start = vec3<f32>(0.0, 0.0, 0.0) - own_velocity(bits, stage.y, course);
+    drifts[leaf] = vec4<u32>(bitcast<vec3<u32>>(start), stage.y);
+}
