@@ -27,7 +27,7 @@ pub(super) fn draw(shape: Shape, rng: &mut Rng) -> Vec<(Vec2, f32)> {
     for step in 0..=STEPS {
         let t = f32::from(step) / f32::from(STEPS);
         // The free end thickens where it broke off the twig; the upper end widens into the midrib.
-        let swelling = 0.75 * smoothstep(0.86, 1.0, t) + 0.25 * smoothstep(0.12, 0.0, t);
+        let swelling = 0.5 * smoothstep(0.8, 1.0, t) + 0.25 * smoothstep(0.12, 0.0, t);
         points.push((at, radius * (lerp(1.0, 0.92, t) + swelling)));
         bearing_deg += turn_deg / f32::from(STEPS);
         at += polar(bearing_deg, length / f32::from(STEPS));

@@ -82,7 +82,10 @@ impl Tissue {
         // The blade bulges between its veins; the renderer lights it, so only a hint is painted.
         let shade = 1.0 + 0.06 * spot.slope;
         let stem = self.stem(spot);
-        std::array::from_fn(|i| lerp(blade[i] * shade, stem[i], spot.petiole).clamp(0.0, 1.0))
+        // The petiole goes on into the ribs and only slowly takes their colour.
+        let into_ribs = 0.7 * spot.strokes[0] * (-spot.at.distance(BASE) / 0.3).exp();
+        let stem_share = spot.petiole.max(into_ribs);
+        std::array::from_fn(|i| lerp(blade[i] * shade, stem[i], stem_share).clamp(0.0, 1.0))
     }
 
     /// Season at a spot.
@@ -130,8 +133,8 @@ impl Tissue {
         let scorched = smoothstep(border + 0.02, border - 0.03, spot.margin) * smoothstep(0.0, 0.02, border);
         let rim = smoothstep(0.035, 0.0, spot.hole) * 0.8;
         let gate = 0.35 + 0.65 * smoothstep(-0.2, 0.6, noise::value(self.seed ^ 0x52, spot.at * 2.0));
-        let large = self.dots(0x50, spot.at * 4.0, 0.22, 0.35 * gate);
-        let small = self.dots(0x51, spot.at * 10.0, 0.26, 0.5 * gate) * 0.7;
+        let large = self.dots(0x50, spot.at * 4.0, 0.2, 0.2 * gate);
+        let small = self.dots(0x51, spot.at * 10.0, 0.26, 0.32 * gate) * 0.7;
         let dead = scorched.max(rim).max(large).max(small);
         *pigments = *pigments * (1.0 - 0.75 * dead)
             + Pigments { tannin: 1.15 * dead, carotenoid: 0.3 * dead, ..Pigments::default() };
@@ -144,7 +147,8 @@ impl Tissue {
         if cell.lot >= share {
             return 0.0;
         }
-        let radius = radius * lerp(1.0, 0.35, cell.lot / share);
+        let ragged = 1.0 + 0.4 * noise::value(self.seed ^ layer ^ 0x70, at * 5.0);
+        let radius = radius * lerp(1.0, 0.35, cell.lot / share) * ragged;
         smoothstep(radius, radius * 0.5, cell.first)
     }
 
@@ -156,7 +160,7 @@ impl Tissue {
             let cell = noise::cells(self.seed ^ 0x60, spot.at * 21.0);
             strength = strength.max(0.2 * smoothstep(0.14, 0.0, cell.second - cell.first));
         }
-        let dry = smoothstep(0.5, 0.95, age);
+        let dry = smoothstep(0.45, 0.85, age);
         Pigments {
             chlorophyll: tissue.chlorophyll * (1.0 - 0.62 * strength),
             carotenoid: tissue.carotenoid * (1.0 - 0.25 * strength),

@@ -26,7 +26,7 @@ const TIP_RADIUS: f32 = 0.0035;
 pub(super) fn branch(rib: &Rib, plan: &Plan, midrib: bool, rng: &mut Rng) -> Branches {
     let path = rib_path(rib);
     let mut side = |targets: &[Vec2]| -> Vec<(f32, Vein)> {
-        targets.iter().map(|&target| lateral(&path, target, plan, rng)).collect()
+        targets.iter().filter_map(|&target| lateral(&path, target, plan, rng)).collect()
     };
     let (right, left) = (side(&rib.right), side(&rib.left));
     let joins: Vec<(f32, f32)> = right
@@ -61,8 +61,8 @@ fn rib_path(rib: &Rib) -> Vec<Vec2> {
     (0..=STEPS).map(|i| quadratic(base, control, rib.tip, f32::from(i) / f32::from(STEPS))).collect()
 }
 
-/// Lateral to a target, with the fraction of the rib where it starts.
-fn lateral(path: &[Vec2], target: Vec2, plan: &Plan, rng: &mut Rng) -> (f32, Vein) {
+/// Lateral to a target, with the fraction of the rib where it starts; none to targets below the reach of the rib.
+fn lateral(path: &[Vec2], target: Vec2, plan: &Plan, rng: &mut Rng) -> Option<(f32, Vein)> {
     let angle = (plan.divergence_deg + 4.0 * rng.bell()).to_radians();
     const STATIONS: u16 = 64;
     let off_angle = |fraction: f32| {
@@ -73,7 +73,8 @@ fn lateral(path: &[Vec2], target: Vec2, plan: &Plan, rng: &mut Rng) -> (f32, Vei
         .map(|i| f32::from(i) / f32::from(STATIONS) * 0.96)
         .map(|fraction| (fraction, off_angle(fraction)))
         .reduce(|best, next| if next.1 < best.1 { next } else { best })
-        .map_or(0.5, |(fraction, _)| fraction);
+        .filter(|&(fraction, error)| fraction > 0.05 || error < 0.25)?
+        .0;
     let (from, along) = point_along(path, start);
     let reach = from.distance(target);
     let straight = (target - from).normalize_or(along);
@@ -83,5 +84,5 @@ fn lateral(path: &[Vec2], target: Vec2, plan: &Plan, rng: &mut Rng) -> (f32, Vei
     const STEPS: u16 = 20;
     let points = (0..=STEPS).map(|i| quadratic(from, control, target, f32::from(i) / f32::from(STEPS)));
     let radius = plan.lateral_radius * reach.clamp(0.1, 1.6).powf(0.6);
-    (start, Vein::tapering(points.collect(), radius, radius * 0.3, Order::Secondary))
+    Some((start, Vein::tapering(points.collect(), radius, radius * 0.3, Order::Secondary)))
 }
