@@ -6,18 +6,16 @@ use std::f32::consts::{PI, TAU};
 use std::time::Instant;
 
 use anyhow::{Context, Result};
-use glam::{Quat, Vec2, Vec3};
-use image::{Rgba, RgbaImage};
+use glam::{Quat, Vec3};
 use windfall::camera::Camera;
 use windfall::render::{
-    FrameInput, LeafColumns, LeafImage, LeafImages, PictureTarget, Renderer, RendererOptions,
+    FrameInput, LeafColumns, PictureTarget, Renderer, RendererOptions, atlas_request,
 };
 use windfall_core::Scene;
 use windfall_core::scene::{LeafShape, Species};
+use windfall_texgen::Atlas;
 
 const SIZE: (u32, u32) = (1280, 720);
-const EDGE: u32 = 128;
-const STAGES: u32 = 3;
 
 fn main() -> Result<()> {
     let mut arguments = std::env::args().skip(1);
@@ -26,7 +24,8 @@ fn main() -> Result<()> {
     let frames: u32 = arguments.next().map_or(Ok(3), |text| text.parse())?;
     let (device, queue) = pollster::block_on(open_device())?;
     let mut scene = Scene::default();
-    let shapes = [("maple", LeafShape::Maple, 0.10), ("beech", LeafShape::Beech, 0.06), ("oak", LeafShape::Oak, 0.08)];
+    let shapes =
+        [("maple", LeafShape::Maple, 0.10), ("beech", LeafShape::Beech, 0.06), ("oak", LeafShape::Oak, 0.08)];
     scene.species = shapes
         .map(|(name, shape, size_m)| Species { name: name.into(), shape, size_m, ..Species::default() })
         .to_vec();
@@ -38,11 +37,13 @@ fn main() -> Result<()> {
         scene.view.sun.elevation_deg = degrees;
     }
     scene.view.trail_s = number("TRAIL").unwrap_or(0.0);
-    let images = stand_in_images();
+    let made = Instant::now();
+    let atlas = Atlas::generate(&atlas_request(&scene))?;
+    println!("atlas made in {:.0} ms", made.elapsed().as_secs_f64() * 1e3);
     let made = Instant::now();
     let options = RendererOptions::default();
     let mut renderer =
-        Renderer::new(&device, &queue, &scene, &images, PictureTarget::FORMAT, SIZE, options)?;
+        Renderer::new(&device, &queue, &scene, &atlas, PictureTarget::FORMAT, SIZE, options)?;
     println!("renderer made in {:.0} ms", made.elapsed().as_secs_f64() * 1e3);
     let target = PictureTarget::new(&device, SIZE)?;
     let mut camera = Camera::from(&scene.view.camera);
@@ -122,44 +123,4 @@ fn synthetic_columns(device: &wgpu::Device, queue: &wgpu::Queue, count: u32, tim
         queue.write_buffer(&buffer, 0, bytes);
         buffer
     })
-}
-
-/// Simple outlines with a midrib, until there is an atlas.
-fn stand_in_images() -> LeafImages {
-    let colors = [
-        [[150.0, 160.0, 40.0], [214.0, 170.0, 30.0], [200.0, 80.0, 25.0]],
-        [[170.0, 165.0, 45.0], [205.0, 130.0, 40.0], [150.0, 80.0, 40.0]],
-        [[130.0, 140.0, 50.0], [180.0, 120.0, 50.0], [140.0, 75.0, 35.0]],
-    ];
-    let mut layers = Vec::new();
-    for (species, stages) in colors.iter().enumerate() {
-        for color in stages {
-            let inside = |x: f32, y: f32| match species {
-                0 => {
-                    let (angle, radius) = (x.atan2(y + 0.25), Vec2::new(x, y + 0.25).length());
-                    let lobes = (angle * 3.6).cos().abs() * 0.42 + 0.30 + 0.05 * (angle * 23.0).cos();
-                    radius < lobes * (1.15 - 0.25 * angle.abs() / PI) || (x.abs() < 0.02 && y < -0.2)
-                }
-                1 => x.abs() < 0.36 * (1.0 - (y * 1.1).powi(2)).max(0.0).sqrt() * (1.0 - 0.2 * y) || (x.abs() < 0.02 && y < -0.5),
-                _ => x.abs() < (0.28 + 0.10 * (y * 14.0).cos()) * (1.0 - (y * 1.08).powi(2)).max(0.0).sqrt() * (1.0 + 0.3 * y) || (x.abs() < 0.02 && y < -0.5),
-            };
-            let mut covered = 0.0;
-            let base = RgbaImage::from_fn(EDGE, EDGE, |px, py| {
-                let place = |p: u32| (p as f32 + 0.5) / EDGE as f32 * 2.0 - 1.0;
-                let (x, y) = (place(px), -place(py));
-                let alpha = if inside(x, y) { 255.0 } else { 0.0 };
-                covered += alpha / 255.0 / (EDGE * EDGE) as f32;
-                let vein = (1.0 - (x.abs() * 40.0).min(1.0)) * 0.3
-                    + (1.0 - (((y - x.abs() * 0.8) * 9.0).sin().abs() * 6.0).min(1.0)) * 0.15;
-                let mottle = 0.85 + 0.3 * unit(px / 5 + py / 5 * 400 + 77);
-                let shade = |c: f32| ((c * mottle).mul_add(1.0 - vein, 255.0 * vein * 0.7)).clamp(0.0, 255.0) as u8;
-                Rgba([shade(color[0]), shade(color[1]), shade(color[2]), alpha as u8])
-            });
-            let mips = (0..8)
-                .map(|level| image::imageops::resize(&base, EDGE >> level, EDGE >> level, image::imageops::FilterType::Triangle))
-                .collect();
-            layers.push(LeafImage { mips, area_fraction: covered });
-        }
-    }
-    LeafImages { size_px: EDGE, variants: 1, stages: STAGES, layers }
 }

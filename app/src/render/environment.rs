@@ -16,7 +16,7 @@ const SHADOW_DEPTH_M: f32 = 60.0;
 /// Farthest the focus lies from the camera, in metres: beyond it, shadows are too small to be seen.
 const FOCUS_LIMIT_M: f32 = 11.0;
 /// Haze per metre: a bright, slightly misty autumn day.
-const HAZE_PER_M: f32 = 0.0058;
+const HAZE_PER_M: f32 = 0.0042;
 /// Scale from light to picture.
 const EXPOSURE: f32 = 0.78;
 
@@ -65,8 +65,8 @@ impl Environment {
         let sun_color = 3.5 * exp(-air_mass * Vec3::new(0.055, 0.105, 0.19));
         let day = (sun.y * 3.0).clamp(0.25, 1.0);
         let warm = sun_color / sun_color.max_element();
-        let zenith = Vec3::new(0.20, 0.38, 0.72) * day;
-        let horizon = Vec3::new(0.86, 0.90, 0.95) * Vec3::ONE.lerp(warm, 0.55) * day;
+        let zenith = Vec3::new(0.09, 0.25, 0.68) * day;
+        let horizon = Vec3::new(0.62, 0.71, 0.82) * Vec3::ONE.lerp(warm, 0.35) * day;
         let bounce = (sun_color * sun.y * 0.55 + zenith) * Vec3::new(0.20, 0.18, 0.08);
         let full = |v: Vec3, w: f32| v.extend(w).to_array();
         FrameUniform {

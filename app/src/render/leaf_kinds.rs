@@ -3,18 +3,44 @@
 //! What the shaders know of the species: sizes, and the texture array of leaf pictures.
 
 use windfall_core::Scene;
-use windfall_core::scene::MAX_SPECIES;
+use windfall_core::scene::{LeafShape, MAX_SPECIES};
+use windfall_texgen::{Atlas, AtlasEntry, AtlasRequest, Shape};
 
-use super::leaf_images::{LeafImages, MAX_LAYERS};
 use super::pipeline::{FILTERABLE, sampler_entry, texture_entry, uniform_entry};
 use super::{RenderError, upload};
+
+/// Most leaf pictures: what the uniform block of the species holds.
+pub const MAX_LAYERS: usize = 512;
+/// Pictures of each species.
+const VARIANTS: u32 = 12;
+/// Edge of a picture in texels.
+const PICTURE_SIZE: u32 = 256;
+
+/// What to ask the texture maker for, so that the atlas fits `scene`: entry by entry its species.
+pub fn atlas_request(scene: &Scene) -> AtlasRequest {
+    let shape = |shape| match shape {
+        LeafShape::Maple => Shape::Maple,
+        LeafShape::Oak => Shape::Oak,
+        LeafShape::Birch => Shape::Birch,
+        LeafShape::Beech => Shape::Beech,
+        LeafShape::Linden => Shape::Linden,
+        LeafShape::Ginkgo => Shape::Ginkgo,
+    };
+    let entries: Vec<_> = scene
+        .species
+        .iter()
+        .map(|species| AtlasEntry { shape: shape(species.shape), season: species.season })
+        .collect();
+    let most = u32::try_from(MAX_LAYERS / entries.len().max(1)).unwrap_or(1);
+    AtlasRequest { entries, variants: VARIANTS.min(most), size_px: PICTURE_SIZE, seed: scene.seed }
+}
 
 /// `Kinds` of `leaf_shape.wgsl`.
 #[repr(C)]
 #[derive(Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
 struct Kinds {
     size: [[f32; 4]; MAX_SPECIES],
-    edge: [[f32; 4]; MAX_LAYERS / 4],
+    layer: [[f32; 4]; MAX_LAYERS],
     counts: [u32; 4],
 }
 
@@ -30,9 +56,9 @@ impl LeafKinds {
         device: &wgpu::Device,
         queue: &wgpu::Queue,
         scene: &Scene,
-        images: &LeafImages,
+        atlas: &Atlas,
     ) -> Result<Self, RenderError> {
-        images.check(scene.species.len(), device.limits().max_texture_array_layers)?;
+        check(scene, atlas, device.limits().max_texture_array_layers)?;
         let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
             label: Some("leaf kinds"),
             entries: &[
@@ -41,13 +67,13 @@ impl LeafKinds {
                 sampler_entry(2, wgpu::SamplerBindingType::Filtering),
             ],
         });
-        let mips: Vec<Vec<&[u8]>> = images
+        let mips: Vec<Vec<&[u8]>> = atlas
             .layers
             .iter()
             .map(|layer| layer.mips.iter().map(|mip| mip.as_raw().as_slice()).collect())
             .collect();
         let format = wgpu::TextureFormat::Rgba8UnormSrgb;
-        let view = upload::texture_array(device, queue, "leaf images", format, images.size_px, &mips);
+        let view = upload::texture_array(device, queue, "leaf images", format, atlas.size_px, &mips);
         let sampler = device.create_sampler(&wgpu::SamplerDescriptor {
             mag_filter: wgpu::FilterMode::Linear,
             min_filter: wgpu::FilterMode::Linear,
@@ -59,7 +85,7 @@ impl LeafKinds {
             queue,
             "leaf kinds",
             wgpu::BufferUsages::UNIFORM,
-            bytemuck::bytes_of(&kinds(scene, images)),
+            bytemuck::bytes_of(&kinds(scene, atlas)),
         );
         let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some("leaf kinds"),
@@ -74,18 +100,79 @@ impl LeafKinds {
     }
 }
 
-fn kinds(scene: &Scene, images: &LeafImages) -> Kinds {
+fn kinds(scene: &Scene, atlas: &Atlas) -> Kinds {
     let mut kinds = Kinds {
         size: [[0.0; 4]; MAX_SPECIES],
-        edge: [[0.0; 4]; MAX_LAYERS / 4],
-        counts: [images.variants, images.stages, u32::try_from(images.layers.len()).unwrap_or(u32::MAX), 0],
+        layer: [[0.0; 4]; MAX_LAYERS],
+        counts: [atlas.variants, u32::try_from(atlas.layers.len()).unwrap_or(u32::MAX), 0, 0],
     };
     for (slot, species) in kinds.size.iter_mut().zip(&scene.species) {
         slot[0] = species.size_m;
     }
-    for (index, layer) in images.layers.iter().enumerate() {
+    for (slot, layer) in kinds.layer.iter_mut().zip(&atlas.layers) {
         // pi / 4 d^2 = area fraction * edge^2
-        kinds.edge[index / 4][index % 4] = (std::f32::consts::FRAC_PI_4 / layer.area_fraction).sqrt();
+        let edge = (std::f32::consts::FRAC_PI_4 / layer.area_fraction).sqrt();
+        *slot = [edge, 1.0 - 2.0 * layer.centre.x, 1.0 - 2.0 * layer.centre.y, 0.0];
     }
     kinds
+}
+
+/// Checks that the pictures cover the scene's species and fit the device.
+fn check(scene: &Scene, atlas: &Atlas, layer_limit: u32) -> Result<(), RenderError> {
+    let wanted = scene.species.len() * atlas.variants as usize;
+    let layers = atlas.layers.len();
+    if wanted == 0 || layers != wanted {
+        let species = scene.species.len();
+        let variants = atlas.variants;
+        return Err(RenderError::Images(format!("{layers} for {species} species of {variants} variants")));
+    }
+    let limit = layer_limit.min(u32::try_from(MAX_LAYERS).unwrap_or(u32::MAX));
+    if layers > limit as usize {
+        return Err(RenderError::Layers { layers, limit });
+    }
+    let covered = |fraction: f32| fraction > 0.0 && fraction <= 1.0;
+    if let Some(empty) = atlas.layers.iter().position(|layer| !covered(layer.area_fraction)) {
+        return Err(RenderError::Images(format!("picture {empty} shows no leaf")));
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use windfall_core::scene::Species;
+
+    use super::*;
+
+    fn small_atlas(scene: &Scene) -> Atlas {
+        let request = AtlasRequest { variants: 2, size_px: 16, ..atlas_request(scene) };
+        Atlas::generate(&request).expect("a small atlas")
+    }
+
+    #[test]
+    fn blade_has_the_area_the_species_says() {
+        let scene = Scene::default();
+        let atlas = small_atlas(&scene);
+        let kinds = kinds(&scene, &atlas);
+        let edge_m = kinds.size[0][0] * kinds.layer[1][0];
+        let area = atlas.layers[1].area_fraction * edge_m * edge_m;
+        let disc = std::f32::consts::FRAC_PI_4 * scene.species[0].size_m.powi(2);
+        assert!((area / disc - 1.0).abs() < 1.0e-5, "blade {area} m2, disc {disc} m2");
+    }
+
+    #[test]
+    fn atlas_must_fit_scene_and_device() {
+        let mut scene = Scene::default();
+        let atlas = small_atlas(&scene);
+        assert!(check(&scene, &atlas, 256).is_ok(), "its own atlas fits");
+        assert!(matches!(check(&scene, &atlas, 1), Err(RenderError::Layers { limit: 1, .. })), "one layer only");
+        scene.species.push(Species::default());
+        assert!(matches!(check(&scene, &atlas, 256), Err(RenderError::Images(_))), "a species without leaves");
+    }
+
+    #[test]
+    fn request_fits_many_species() {
+        let scene = Scene { species: vec![Species::default(); MAX_SPECIES], ..Scene::default() };
+        let request = atlas_request(&scene);
+        assert!(request.entries.len() * request.variants as usize <= MAX_LAYERS, "{request:?}");
+    }
 }

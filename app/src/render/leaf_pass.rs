@@ -13,7 +13,7 @@ use super::pipeline::{COMMON, LIGHT, ScenePipeline, shader};
 pub(super) const LEAF_SHAPE: &str = include_str!("shaders/leaf_shape.wgsl");
 
 /// Leaves beyond which a frame uses the middle and the coarse grid, so that millions of leaves stay quick.
-const DETAIL_LIMITS: [u32; 2] = [60_000, 400_000];
+const DETAIL_LIMITS: [u32; 2] = [8_000, 400_000];
 
 /// The leaf pipeline and its grids.
 #[derive(Debug)]

@@ -12,7 +12,6 @@ mod error;
 mod frame;
 mod grass_pass;
 mod ground_pass;
-mod leaf_images;
 mod leaf_kinds;
 mod leaf_mesh;
 mod leaf_pass;
@@ -33,7 +32,7 @@ mod upload;
 
 pub use columns::LeafColumns;
 pub use error::RenderError;
-pub use leaf_images::{LeafImage, LeafImages, MAX_LAYERS};
+pub use leaf_kinds::{MAX_LAYERS, atlas_request};
 pub use readback::PictureTarget;
 pub use renderer::{FrameInput, Renderer, RendererOptions};
 pub use trail_pass::MAX_TRAILS;

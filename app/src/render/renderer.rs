@@ -5,13 +5,13 @@
 use glam::{Vec2, Vec3};
 use windfall_core::Scene;
 use windfall_core::scene::View;
+use windfall_texgen::Atlas;
 
 use super::columns::LeafColumns;
 use super::environment::Environment;
 use super::frame::FrameGroup;
 use super::grass_pass::GrassPass;
 use super::ground_pass::GroundPass;
-use super::leaf_images::LeafImages;
 use super::leaf_kinds::LeafKinds;
 use super::leaf_pass::LeafPass;
 use super::light_group::LightGroup;
@@ -36,7 +36,7 @@ pub struct RendererOptions {
 
 impl Default for RendererOptions {
     fn default() -> Self {
-        Self { litter_count: 5000 }
+        Self { litter_count: 14_000 }
     }
 }
 
@@ -78,7 +78,7 @@ pub struct Renderer {
 }
 
 impl Renderer {
-    /// A renderer of `scene` with its species' `images`, into textures of `output_format` and `size` pixels. The
+    /// A renderer of `scene` with its species' leaves from `atlas` (see [`atlas_request`](super::atlas_request)), into textures of `output_format` and `size` pixels. The
     /// picture is gamma encoded by the renderer unless the format does so.
     ///
     /// # Errors
@@ -87,7 +87,7 @@ impl Renderer {
         device: &wgpu::Device,
         queue: &wgpu::Queue,
         scene: &Scene,
-        images: &LeafImages,
+        atlas: &Atlas,
         output_format: wgpu::TextureFormat,
         size: (u32, u32),
         options: RendererOptions,
@@ -100,7 +100,7 @@ impl Renderer {
 
         let targets = Targets::new(device, size)?;
         let frame = FrameGroup::new(device);
-        let kinds = LeafKinds::new(device, queue, scene, images)?;
+        let kinds = LeafKinds::new(device, queue, scene, atlas)?;
         let trees = Trees::new(device, queue, &planted);
         let shadow_pass = ShadowPass::new(device, queue, &frame, &kinds);
         let shade_pass = ShadePass::new(device, &frame, &trees);

@@ -66,7 +66,7 @@ pub(crate) fn plant(center: Vec3, view: Vec2) -> Vec<TreeInstance> {
             };
             let mirror = if random.word() & 1 == 0 { 1.0 } else { -1.0 };
             let width = random.range(0.85, 1.1) * mirror * if bush { 1.6 } else { 1.0 };
-            let hue = random.unit();
+            let hue = 0.1 + 0.85 * random.unit();
             let brightness = random.range(0.8, 1.15);
             trees.push(TreeInstance { foot_m: foot, height_m, width, sprite, hue, brightness });
         }

@@ -47,12 +47,13 @@ pub(crate) fn paint_tree(index: u32) -> TreeSprite {
     let half_height = 0.485 - 0.5 * base;
     let half_width = if bush { 0.46 } else { random.range(0.3, 0.43) };
     let mut clumps = Vec::new();
-    let clump_count = if bush { 26 } else { 34 };
+    let clump_count = if bush { 40 } else { 80 };
     for _ in 0..clump_count {
         let p = random.in_ball();
+        let p = p * (0.62 + 0.38 * p.length());
         // Broad below, rounded above: an old park tree.
         let taper = 1.0 - 0.35 * (p.y + 0.2).max(0.0);
-        let radius = random.range(0.07, 0.12) * if bush { 1.0 } else { 1.05 };
+        let radius = random.range(0.035, 0.1) * random.range(0.8, 1.1);
         let center = Vec3::new(
             p.x * (half_width - radius) * 1.12 * taper,
             crown.x + p.y * (half_height - radius),
@@ -66,7 +67,8 @@ pub(crate) fn paint_tree(index: u32) -> TreeSprite {
     }
     let middle = Vec3::new(0.0, crown.x, 0.0);
     for clump in &clumps {
-        for _ in 0..430 {
+        let dab_count = 170 + 900 * usize::from(clump.radius > 0.07) / 2;
+        for _ in 0..dab_count {
             foliage(&mut random, clump, middle, half_width.max(half_height), &mut dabs);
         }
     }
@@ -78,12 +80,12 @@ pub(crate) fn paint_tree(index: u32) -> TreeSprite {
 fn branches(random: &mut Random, clumps: &[Clump], dabs: &mut Vec<Dab>) {
     let lean = random.range(-0.03, 0.03);
     let fork = Vec3::new(lean, random.range(0.3, 0.4), 0.0);
-    limb(random, Vec3::ZERO, fork, 0.03, 0.019, dabs);
-    limb(random, fork, Vec3::new(lean * 2.0, 0.78, 0.0), 0.019, 0.004, dabs);
+    limb(random, Vec3::ZERO, fork, 0.021, 0.014, dabs);
+    limb(random, fork, Vec3::new(lean * 2.0, 0.78, 0.0), 0.014, 0.003, dabs);
     for clump in clumps {
         let from = fork * random.range(0.75, 1.0) + Vec3::Y * random.range(0.0, 0.28);
-        let start = random.range(0.006, 0.01);
-        limb(random, from, clump.center, start, 0.0018, dabs);
+        let start = random.range(0.004, 0.008);
+        limb(random, from, clump.center, start, 0.0014, dabs);
     }
 }
 
@@ -110,9 +112,9 @@ fn limb(random: &mut Random, from: Vec3, to: Vec3, start: f32, end: f32, dabs: &
 }
 
 fn foliage(random: &mut Random, clump: &Clump, middle: Vec3, reach: f32, dabs: &mut Vec<Dab>) {
-    let p = random.in_ball();
-    // More leaves towards the outside, flattened like real sprays.
-    let p = p * (0.55 + 0.45 * p.length()) * Vec3::new(1.2, 0.82, 1.2);
+    // Dense in the middle, frayed at the rim, flattened like real sprays.
+    let p = (random.in_ball() + 0.75 * random.in_ball()) * Vec3::new(1.15, 0.72, 1.15);
+    let p = p * random.range(0.6, 1.15);
     let at = clump.center + p * clump.radius;
     if at.y < 0.0 {
         return;
@@ -124,9 +126,9 @@ fn foliage(random: &mut Random, clump: &Clump, middle: Vec3, reach: f32, dabs: &
     let light = random.range(0.45, 1.0);
     dabs.push(Dab {
         at,
-        half: Vec2::new(random.range(0.0045, 0.0085), random.range(0.003, 0.0055)),
+        half: Vec2::new(random.range(0.0028, 0.0058), random.range(0.0019, 0.0036)),
         angle: random.range(0.0, std::f32::consts::TAU),
-        surface: [light, 0.5 + 0.22 * clump.hue + random.range(-0.2, 0.2), 0.0],
+        surface: [light, 0.5 + 0.2 * clump.hue + random.range(-0.22, 0.22), 0.0],
         relief: [0.5 + 0.5 * normal.x, 0.5 + 0.5 * normal.y, open],
     });
 }

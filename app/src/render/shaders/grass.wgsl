@@ -4,7 +4,7 @@
 
 struct Varyings {
     @builtin(position) clip: vec4<f32>,
-    @location(0) color: vec3<f32>,
+    @location(0) @interpolate(perspective, centroid) color: vec3<f32>,
 }
 
 // Part of the blades that still stand at a distance.
@@ -66,7 +66,7 @@ fn vertex(
     let normal = normalize(vec3(lean.x, 0.9, lean.y));
     let reflected = 0.25 + 0.75 * max(dot(normal, light), 0.0);
     let against = pow(max(dot(-view, light), 0.0), 2.0);
-    let glow = albedo * vec3(1.35, 1.3, 0.55) * against * 1.25;
+    let glow = albedo * vec3(1.12, 1.25, 0.45) * against * 1.1;
     let depth = mix(0.30, 1.0, rise);
     var color = frame.sun_color.rgb * sun * (albedo * reflected * 0.72 + glow) * depth;
     color += albedo * ambient_light(vec3(0.0, 0.9, 0.0)) * mix(0.35, 1.0, rise);
@@ -75,6 +75,9 @@ fn vertex(
 
     var out: Varyings;
     out.clip = frame.view_projection * vec4(world, 1.0);
+    if grown <= 0.02 {
+        out.clip = vec4(0.0, 0.0, -1.0, 1.0);
+    }
     out.color = haze(color, world);
     return out;
 }

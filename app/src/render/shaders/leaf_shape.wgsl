@@ -6,9 +6,9 @@
 struct Kinds {
     // Species: diameter in metres of the disc with the blade's area.
     size: array<vec4<f32>, 32>,
-    // Layer: edge of its square relative to that diameter; four layers a vector.
-    edge: array<vec4<f32>, 128>,
-    // Variants, stages of the season, number of layers, unused.
+    // Layer: edge of its square relative to that diameter, centre of the blade from -1 to 1 in x and z.
+    layer: array<vec4<f32>, 512>,
+    // Variants, number of layers.
     counts: vec4<u32>,
 }
 
@@ -39,11 +39,10 @@ fn blade_point(leaf: Leaf, at: vec2<f32>, curl: bool) -> BladePoint {
     let species = (word >> 9u) & 31u;
     let tint = leaf.identity.w & 0xffffu;
     let variants = kinds.counts.x;
-    let stages = kinds.counts.y;
     let variant = ((leaf.identity.w >> 16u) & 255u) % variants;
-    let layer = min((species * stages + ((tint * stages) >> 16u)) * variants + variant, kinds.counts.z - 1u);
+    let layer = min(species * variants + variant, kinds.counts.y - 1u);
     let relative = f32(leaf.course.z & 0xffffu) * 6.1035156e-5;
-    let half_edge = 0.5 * kinds.size[species].x * relative * kinds.edge[layer >> 2u][layer & 3u];
+    let half_edge = 0.5 * kinds.size[species].x * relative * kinds.layer[layer].x;
 
     // Every leaf has dried into its own form: folded along the midrib, bent along it, twisted, waved at the rim.
     let random = vec4<f32>((vec4<u32>(hash_u32(tint)) >> vec4(0u, 8u, 16u, 24u)) & vec4(255u)) / 127.5 - 1.0;
@@ -62,7 +61,7 @@ fn blade_point(leaf: Leaf, at: vec2<f32>, curl: bool) -> BladePoint {
         slope = vec2(0.0);
     }
     height -= 0.2;
-    let local = half_edge * vec3(at.x, height, at.y);
+    let local = half_edge * vec3(at.x - kinds.layer[layer].y, height, at.y - kinds.layer[layer].z);
 
     let center = bitcast<vec3<f32>>(leaf.position.xyz);
     var out: BladePoint;

@@ -28,6 +28,7 @@ fn fragment(@builtin(position) at: vec4<f32>) -> @location(0) vec4<f32> {
     var color = textureLoad(light, vec2<i32>(at.xy), 0).rgb * frame.air.y;
     let middle = (at.xy * frame.viewport.zw - 0.5) * vec2(1.0, 0.8);
     color *= 1.0 - 0.35 * dot(middle, middle);
+    color = max(mix(vec3(luminance(color)), color, 1.12), vec3(0.0));
     var encoded = filmic(color);
     if ENCODE_GAMMA {
         encoded = srgb_encode(encoded);

@@ -12,8 +12,8 @@ struct Trail {
 
 struct Varyings {
     @builtin(position) clip: vec4<f32>,
-    @location(0) color: vec4<f32>,
-    @location(1) across: f32,
+    @location(0) @interpolate(perspective, centroid) color: vec4<f32>,
+    @location(1) @interpolate(perspective, centroid) across: f32,
 }
 
 fn sample_at(leaf: u32, age: u32) -> vec4<f32> {

@@ -67,11 +67,11 @@ fn fragment(in: Varyings) -> @location(0) vec4<f32> {
     let light = frame.sun_direction.xyz;
     let facing = dot(normal, light);
     let open = relief.b;
-    let lit = max(facing * 0.8 + 0.2, 0.0) * (0.35 + 0.65 * open);
+    let lit = pow(max(facing * 0.55 + 0.45, 0.0), 1.5) * (0.3 + 0.7 * open);
     // Leaves let the sun through: the crown's thin rim glows against it.
     let against = pow(max(dot(-to_eye, light), 0.0), 2.0);
-    let saturated = mix(vec3(luminance(leaf)), leaf, 1.35);
-    let through = saturated * (1.0 - surface.b) * against * open * open * 1.15;
+    let saturated = mix(vec3(luminance(leaf)), leaf, 1.4) * vec3(1.2, 0.98, 0.6);
+    let through = saturated * (1.0 - surface.b) * against * open * open * (0.25 + 1.1 * lit);
     var color = frame.sun_color.rgb * (albedo * lit + through);
     color += albedo * ambient_light(normal) * (0.25 + 0.75 * open);
     return vec4(haze(color, in.world), alpha);

@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! A file or directory that is written beside its destination and takes its name when complete.
+
+use std::ffi::OsString;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use super::OutputError;
+
+/// A path beside the destination; removed on drop unless it was put in place.
+#[derive(Debug)]
+pub(super) struct Beside {
+    destination: PathBuf,
+    partial: PathBuf,
+}
+
+impl Beside {
+    /// Makes the parent directories of `destination` and an empty file beside it, ending in `extension`.
+    pub(super) fn file(destination: &Path, extension: &str) -> Result<Self, OutputError> {
+        let beside = Self::prepare(destination, extension)?;
+        fs::File::create(&beside.partial).map_err(OutputError::write(destination))?;
+        Ok(beside)
+    }
+
+    /// The same for a directory.
+    pub(super) fn directory(destination: &Path) -> Result<Self, OutputError> {
+        let beside = Self::prepare(destination, "d")?;
+        fs::create_dir(&beside.partial).map_err(OutputError::write(destination))?;
+        Ok(beside)
+    }
+
+    fn prepare(destination: &Path, extension: &str) -> Result<Self, OutputError> {
+        let parent = destination.parent().filter(|parent| !parent.as_os_str().is_empty());
+        let parent = parent.unwrap_or(Path::new("."));
+        fs::create_dir_all(parent).map_err(OutputError::write(destination))?;
+        let mut name = OsString::from(".");
+        name.push(destination.file_name().unwrap_or_default());
+        name.push(format!(".{}.partial.{extension}", std::process::id()));
+        Ok(Self { destination: destination.to_owned(), partial: parent.join(name) })
+    }
+
+    /// Where to write for now.
+    pub(super) fn partial(&self) -> &Path {
+        &self.partial
+    }
+
+    /// Where the result will lie.
+    pub(super) fn destination(&self) -> &Path {
+        &self.destination
+    }
+
+    /// Gives the finished file its name.
+    pub(super) fn put_in_place(&self) -> Result<(), OutputError> {
+        fs::rename(&self.partial, &self.destination).map_err(OutputError::write(&self.destination))
+    }
+}
+
+impl Drop for Beside {
+    fn drop(&mut self) {
+        // After a rename nothing lies there any more, and there is nobody to tell about a failure.
+        if self.partial.is_dir() {
+            let _ = fs::remove_dir_all(&self.partial);
+        } else {
+            let _ = fs::remove_file(&self.partial);
+        }
+    }
+}

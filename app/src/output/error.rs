@@ -1,0 +1,97 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Why an output cannot be written.
+
+use std::path::PathBuf;
+
+use thiserror::Error;
+
+/// An output that cannot be written. Every message names the path.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum OutputError {
+    /// An extension no writer knows.
+    #[error("{}: unknown kind of output; allowed: a .png, .gif or .mp4 file, or a directory", path.display())]
+    UnknownFormat {
+        /// The path asked for.
+        path: PathBuf,
+    },
+    /// A path that cannot be written.
+    #[error("{}: cannot write: {source}", path.display())]
+    Write {
+        /// The path asked for.
+        path: PathBuf,
+        /// The system's reason.
+        source: std::io::Error,
+    },
+    /// A picture the encoder refused.
+    #[error("{}: cannot encode: {reason}", path.display())]
+    Encode {
+        /// The path asked for.
+        path: PathBuf,
+        /// The encoder's reason.
+        reason: String,
+    },
+    /// A size the format cannot hold.
+    #[error("{}: {width}x{height} pixels; {allowed}", path.display())]
+    Size {
+        /// The path asked for.
+        path: PathBuf,
+        /// Width asked for.
+        width: u32,
+        /// Height asked for.
+        height: u32,
+        /// What the format allows.
+        allowed: &'static str,
+    },
+    /// A frame rate that is none.
+    #[error("{}: {fps} frames per second; allowed: more than 0 to 1000", path.display())]
+    FrameRate {
+        /// The path asked for.
+        path: PathBuf,
+        /// The rate asked for.
+        fps: f64,
+    },
+    /// A frame of another size than the clip.
+    #[error("{}: a frame of {found:?} pixels in a clip of {expected:?}", path.display())]
+    FrameSize {
+        /// The path asked for.
+        path: PathBuf,
+        /// Size of the clip.
+        expected: (u32, u32),
+        /// Size of the frame.
+        found: (u32, u32),
+    },
+    /// A clip without frames.
+    #[error("{}: no frame was drawn; nothing was written", path.display())]
+    NoFrames {
+        /// The path asked for.
+        path: PathBuf,
+    },
+    /// ffmpeg is not installed.
+    #[error(
+        "{}: mp4 needs ffmpeg, and no program of that name is on the PATH; install it (Debian, Ubuntu: \
+         apt install ffmpeg) or write a .gif or a directory of .png files",
+        path.display()
+    )]
+    NoFfmpeg {
+        /// The path asked for.
+        path: PathBuf,
+    },
+    /// ffmpeg failed.
+    #[error("{}: ffmpeg failed: {reason}", path.display())]
+    Ffmpeg {
+        /// The path asked for.
+        path: PathBuf,
+        /// What it said last.
+        reason: String,
+    },
+}
+
+impl OutputError {
+    /// For `map_err`: an i/o error while writing `path`.
+    pub(super) fn write(path: &std::path::Path) -> impl FnOnce(std::io::Error) -> Self {
+        let path = path.to_owned();
+        move |source| Self::Write { path, source }
+    }
+}

@@ -1,0 +1,187 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! GIF: one palette for the whole clip, dithered; of each frame only what changed.
+//!
+//! The palette needs all frames, so they wait in a file beside the destination until the clip ends.
+
+use std::fs::File;
+use std::io::{BufReader, BufWriter, Read, Write};
+use std::path::Path;
+use std::time::Duration;
+
+use image::codecs::gif::{GifEncoder, Repeat};
+use image::{Delay, Frame, Rgba, RgbaImage};
+
+use super::OutputError;
+use super::beside::Beside;
+use super::palette::{Histogram, Palette};
+
+/// More frames per second than this are thinned out: viewers slow faster clips down, and size grows with frames.
+const MAX_FPS: f64 = 34.0;
+/// A pixel that differs less than this from what is shown stays as it is.
+const UNSEEN: u8 = 7;
+/// GIF counts time in hundredths of a second.
+const TICKS_PER_S: f64 = 100.0;
+
+/// Frames waiting for their palette.
+#[derive(Debug)]
+pub(super) struct GifClip {
+    beside: Beside,
+    spool: Beside,
+    waiting: BufWriter<File>,
+    size: (u32, u32),
+    /// Every how many frames one is kept.
+    step: u32,
+    /// Hundredths of a second from one kept frame to the next.
+    ticks: f64,
+    pushed: u32,
+    kept: u32,
+    histogram: Histogram,
+}
+
+impl GifClip {
+    pub(super) fn start(path: &Path, size: (u32, u32), fps: f64) -> Result<Self, OutputError> {
+        check_rate(path, fps)?;
+        let (width, height) = size;
+        let limit = u32::from(u16::MAX);
+        if width == 0 || height == 0 || width > limit || height > limit {
+            let allowed = "gif allows 1x1 to 65535x65535";
+            return Err(OutputError::Size { path: path.to_owned(), width, height, allowed });
+        }
+        let beside = Beside::file(path, "gif")?;
+        let spool = Beside::file(path, "frames")?;
+        let file = File::create(spool.partial()).map_err(OutputError::write(path))?;
+        let step = frame_step(fps);
+        Ok(Self {
+            beside,
+            spool,
+            waiting: BufWriter::new(file),
+            size,
+            step,
+            ticks: TICKS_PER_S * f64::from(step) / fps,
+            pushed: 0,
+            kept: 0,
+            histogram: Histogram::new(),
+        })
+    }
+
+    pub(super) fn push(&mut self, frame: &RgbaImage) -> Result<(), OutputError> {
+        let keep = self.pushed % self.step == 0;
+        self.pushed += 1;
+        if !keep {
+            return Ok(());
+        }
+        self.kept += 1;
+        let mut bytes = Vec::with_capacity(frame.as_raw().len() / 4 * 3);
+        for pixel in frame.pixels() {
+            let [red, green, blue, _] = pixel.0;
+            self.histogram.add([red, green, blue]);
+            bytes.extend([red, green, blue]);
+        }
+        self.waiting.write_all(&bytes).map_err(OutputError::write(self.beside.destination()))
+    }
+
+    pub(super) fn finish(mut self) -> Result<(), OutputError> {
+        let destination = self.beside.destination().to_owned();
+        self.waiting.flush().map_err(OutputError::write(&destination))?;
+        let encode = |error: image::ImageError| match error {
+            image::ImageError::IoError(source) => OutputError::Write { path: destination.clone(), source },
+            other => OutputError::Encode { path: destination.clone(), reason: other.to_string() },
+        };
+        let output = File::create(self.beside.partial()).map_err(OutputError::write(&destination))?;
+        let mut output = BufWriter::new(output);
+        let frames = File::open(self.spool.partial()).map_err(OutputError::write(&destination))?;
+        let mut frames = BufReader::new(frames);
+        {
+            let mut encoder = GifEncoder::new(&mut output);
+            encoder.set_repeat(Repeat::Infinite).map_err(encode)?;
+            let mut palette = self.histogram.palette();
+            let pixels = self.size.0 as usize * self.size.1 as usize;
+            let mut frame = vec![0u8; 3 * pixels];
+            let mut shown: Vec<Option<Shown>> = vec![None; pixels];
+            for number in 0..self.kept {
+                frames.read_exact(&mut frame).map_err(OutputError::write(&destination))?;
+                let changed = changes(&frame, &mut shown, &mut palette, self.size);
+                encoder.encode_frame(self.cut_out(&changed, number)).map_err(encode)?;
+            }
+        }
+        output.flush().map_err(OutputError::write(&destination))?;
+        drop(output);
+        self.beside.put_in_place()
+    }
+
+    /// The smallest rectangle that holds all changes, with its time.
+    fn cut_out(&self, changed: &RgbaImage, number: u32) -> Frame {
+        let (mut left, mut top, mut right, mut bottom) = (self.size.0, self.size.1, 0, 0);
+        for (x, y, pixel) in changed.enumerate_pixels() {
+            if pixel.0[3] != 0 {
+                (left, top) = (left.min(x), top.min(y));
+                (right, bottom) = (right.max(x + 1), bottom.max(y + 1));
+            }
+        }
+        if right == 0 {
+            (left, top, right, bottom) = (0, 0, 1, 1);
+        }
+        let part = image::imageops::crop_imm(changed, left, top, right - left, bottom - top).to_image();
+        let ticks = delay_ticks(self.ticks, number);
+        Frame::from_parts(part, left, top, Delay::from_saturating_duration(Duration::from_millis(10 * ticks)))
+    }
+}
+
+/// What a pixel shows: its colour in the palette and the colour it stands for.
+#[derive(Clone, Copy, Debug)]
+struct Shown {
+    palette: [u8; 3],
+    meant: [u8; 3],
+}
+
+/// The dithered picture where it differs from what is shown, transparent elsewhere.
+fn changes(frame: &[u8], shown: &mut [Option<Shown>], palette: &mut Palette, size: (u32, u32)) -> RgbaImage {
+    let mut changed = RgbaImage::new(size.0, size.1);
+    let pixels = changed.enumerate_pixels_mut().zip(frame.as_chunks::<3>().0).zip(shown);
+    for (((x, y, pixel), &rgb), shown) in pixels {
+        if shown.is_some_and(|shown| rgb.iter().zip(shown.meant).all(|(a, b)| a.abs_diff(b) < UNSEEN)) {
+            continue;
+        }
+        let color = palette.dithered(rgb, x, y);
+        if shown.is_none_or(|shown| shown.palette != color) {
+            *pixel = Rgba([color[0], color[1], color[2], u8::MAX]);
+        }
+        *shown = Some(Shown { palette: color, meant: rgb });
+    }
+    changed
+}
+
+/// Keeps every n-th frame so that at most `MAX_FPS` remain.
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "fps is at most 1000")]
+fn frame_step(fps: f64) -> u32 {
+    (fps / MAX_FPS).ceil().max(1.0) as u32
+}
+
+/// Whole hundredths of a second for frame `number`, so that the sum never strays from the true time.
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "positive and small")]
+fn delay_ticks(ticks: f64, number: u32) -> u64 {
+    let until = |frame: u32| (ticks * f64::from(frame)).round() as u64;
+    (until(number + 1) - until(number)).max(1)
+}
+
+/// A clip needs a frame rate.
+pub(super) fn check_rate(path: &Path, fps: f64) -> Result<(), OutputError> {
+    if fps > 0.0 && fps <= 1000.0 {
+        return Ok(());
+    }
+    Err(OutputError::FrameRate { path: path.to_owned(), fps })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn delays_add_up_to_the_true_time() {
+        let step = frame_step(60.0);
+        assert_eq!(step, 2, "60 frames per second become 30");
+        let total: u64 = (0..30).map(|number| delay_ticks(100.0 * f64::from(step) / 60.0, number)).sum();
+        assert_eq!(total, 100, "30 frames take a second");
+    }
+}
