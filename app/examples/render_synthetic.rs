@@ -1,27 +1,30 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Draws a made-up cloud of leaves without simulating anything: `render_synthetic [OUT.png] [LEAVES] [FRAMES]`.
+//! Draws a made-up cloud of leaves without simulating anything: `render_synthetic [OUT] [LEAVES] [FRAMES] [WIDTHxHEIGHT]`.
+//!
+//! The environment may set YAW, PITCH (radians), ZOOM, SUN_AZIMUTH, SUN_ELEVATION (degrees) and TRAIL (seconds).
 
 use std::f32::consts::{PI, TAU};
+use std::path::Path;
 use std::time::Instant;
 
 use anyhow::{Context, Result};
 use glam::{Quat, Vec3};
 use windfall::camera::Camera;
-use windfall::render::{
-    FrameInput, LeafColumns, PictureTarget, Renderer, RendererOptions, atlas_request,
-};
+use windfall::output::Output;
+use windfall::render::{FrameInput, LeafColumns, PictureTarget, Renderer, RendererOptions, atlas_request};
 use windfall_core::Scene;
 use windfall_core::scene::{LeafShape, Species};
 use windfall_texgen::Atlas;
-
-const SIZE: (u32, u32) = (1280, 720);
 
 fn main() -> Result<()> {
     let mut arguments = std::env::args().skip(1);
     let path = arguments.next().unwrap_or_else(|| "target/synthetic.png".into());
     let leaf_count: u32 = arguments.next().map_or(Ok(1600), |text| text.parse())?;
     let frames: u32 = arguments.next().map_or(Ok(3), |text| text.parse())?;
+    let size = arguments.next().unwrap_or_else(|| "1280x720".into());
+    let (width, height) = size.split_once('x').context("a size such as 1280x720")?;
+    let size: (u32, u32) = (width.parse()?, height.parse()?);
     let (device, queue) = pollster::block_on(open_device())?;
     let mut scene = Scene::default();
     let shapes =
@@ -42,14 +45,13 @@ fn main() -> Result<()> {
     println!("atlas made in {:.0} ms", made.elapsed().as_secs_f64() * 1e3);
     let made = Instant::now();
     let options = RendererOptions::default();
-    let mut renderer =
-        Renderer::new(&device, &queue, &scene, &atlas, PictureTarget::FORMAT, SIZE, options)?;
+    let mut renderer = Renderer::new(&device, &queue, &scene, &atlas, PictureTarget::FORMAT, size, options)?;
     println!("renderer made in {:.0} ms", made.elapsed().as_secs_f64() * 1e3);
-    let target = PictureTarget::new(&device, SIZE)?;
+    let target = PictureTarget::new(&device, size)?;
     let mut camera = Camera::from(&scene.view.camera);
     camera.orbit(number("YAW").unwrap_or(0.0), number("PITCH").unwrap_or(0.0));
     camera.zoom(number("ZOOM").unwrap_or(1.0));
-    let mut picture = None;
+    let mut writer = Output::from_path(Path::new(&path))?.start(size, 60.0)?;
     for frame in 0..frames {
         let time_s = f64::from(frame) / 60.0;
         let buffers = synthetic_columns(&device, &queue, leaf_count, time_s as f32);
@@ -58,13 +60,13 @@ fn main() -> Result<()> {
         let begun = Instant::now();
         let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         renderer.draw(&mut encoder, &target.view(), &leaves, &FrameInput { camera, time_s });
-        picture = Some(target.submit_and_read(&device, &queue, encoder)?);
+        let picture = target.submit_and_read(&device, &queue, encoder)?;
         let spent = begun.elapsed().as_secs_f64() * 1e3;
-        let _ = renderer.timings();
-        println!("frame {frame}: {spent:.0} ms {:?}", renderer.timings());
+        renderer.timings();
+        println!("frame {frame}: {spent:.0} ms {:.0?}", renderer.timings());
+        writer.push(&picture)?;
     }
-    picture.context("no frame")?.save(&path)?;
-    println!("{path}");
+    println!("{}", writer.finish()?.display());
     Ok(())
 }
 
@@ -89,7 +91,12 @@ fn unit(seed: u32) -> f32 {
 }
 
 /// Two thirds falling, turned at random, one third lying on the ground.
-fn synthetic_columns(device: &wgpu::Device, queue: &wgpu::Queue, count: u32, time_s: f32) -> [wgpu::Buffer; 4] {
+fn synthetic_columns(
+    device: &wgpu::Device,
+    queue: &wgpu::Queue,
+    count: u32,
+    time_s: f32,
+) -> [wgpu::Buffer; 4] {
     let mut columns: [Vec<[u32; 4]>; 4] = Default::default();
     let bits = |v: [f32; 4]| v.map(f32::to_bits);
     for leaf in 0..count {
@@ -98,12 +105,12 @@ fn synthetic_columns(device: &wgpu::Device, queue: &wgpu::Queue, count: u32, tim
         let species = leaf % 3 ^ (leaf / 3 % 3);
         let place = Vec3::new(random(0) * 16.0 - 8.0, random(1) * 9.0, random(2) * 15.0 - 9.0);
         let fall = Vec3::new((time_s * 3.0 + leaf as f32).sin() * 0.3, -time_s, 0.0);
-        let (place, state) =
-            if resting { (Vec3::new(place.x, 0.0, place.z), 3) } else { (place + fall, 2) };
+        let (place, state) = if resting { (Vec3::new(place.x, 0.0, place.z), 3) } else { (place + fall, 2) };
         let species = species.min(2);
         columns[0].push([place.x.to_bits(), place.y.to_bits(), place.z.to_bits(), state | species << 9]);
         let turn = if resting {
-            Quat::from_rotation_y(random(3) * TAU) * Quat::from_rotation_z(if random(4) < 0.5 { 0.0 } else { PI })
+            Quat::from_rotation_y(random(3) * TAU)
+                * Quat::from_rotation_z(if random(4) < 0.5 { 0.0 } else { PI })
         } else {
             Quat::from_euler(glam::EulerRot::YXZ, random(3) * TAU, random(4) * TAU, random(5) * TAU)
         };

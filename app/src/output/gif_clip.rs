@@ -7,10 +7,9 @@
 use std::fs::File;
 use std::io::{BufReader, BufWriter, Read, Write};
 use std::path::Path;
-use std::time::Duration;
 
-use image::codecs::gif::{GifEncoder, Repeat};
-use image::{Delay, Frame, Rgba, RgbaImage};
+use gif::{Encoder, EncodingError, Frame, Repeat};
+use image::RgbaImage;
 
 use super::OutputError;
 use super::beside::Beside;
@@ -20,6 +19,8 @@ use super::palette::{Histogram, Palette};
 const MAX_FPS: f64 = 34.0;
 /// A pixel that differs less than this from what is shown stays as it is.
 const UNSEEN: u8 = 7;
+/// Palette number of pixels that stay as they are.
+const UNCHANGED: u8 = 255;
 /// GIF counts time in hundredths of a second.
 const TICKS_PER_S: f64 = 100.0;
 
@@ -84,72 +85,89 @@ impl GifClip {
     pub(super) fn finish(mut self) -> Result<(), OutputError> {
         let destination = self.beside.destination().to_owned();
         self.waiting.flush().map_err(OutputError::write(&destination))?;
-        let encode = |error: image::ImageError| match error {
-            image::ImageError::IoError(source) => OutputError::Write { path: destination.clone(), source },
+        let encode = |error: EncodingError| match error {
+            EncodingError::Io(source) => OutputError::Write { path: destination.clone(), source },
             other => OutputError::Encode { path: destination.clone(), reason: other.to_string() },
         };
         let output = File::create(self.beside.partial()).map_err(OutputError::write(&destination))?;
-        let mut output = BufWriter::new(output);
         let frames = File::open(self.spool.partial()).map_err(OutputError::write(&destination))?;
         let mut frames = BufReader::new(frames);
-        {
-            let mut encoder = GifEncoder::new(&mut output);
-            encoder.set_repeat(Repeat::Infinite).map_err(encode)?;
-            let mut palette = self.histogram.palette();
-            let pixels = self.size.0 as usize * self.size.1 as usize;
-            let mut frame = vec![0u8; 3 * pixels];
-            let mut shown: Vec<Option<Shown>> = vec![None; pixels];
-            for number in 0..self.kept {
-                frames.read_exact(&mut frame).map_err(OutputError::write(&destination))?;
-                let changed = changes(&frame, &mut shown, &mut palette, self.size);
-                encoder.encode_frame(self.cut_out(&changed, number)).map_err(encode)?;
-            }
+        let mut palette = self.histogram.palette();
+        let [width, height] = [self.size.0, self.size.1].map(|edge| u16::try_from(edge).unwrap_or(u16::MAX));
+        let mut encoder =
+            Encoder::new(BufWriter::new(output), width, height, palette.bytes()).map_err(encode)?;
+        encoder.set_repeat(Repeat::Infinite).map_err(encode)?;
+        let pixels = usize::from(width) * usize::from(height);
+        let mut frame = vec![0u8; 3 * pixels];
+        let mut shown: Vec<Option<Shown>> = vec![None; pixels];
+        for number in 0..self.kept {
+            frames.read_exact(&mut frame).map_err(OutputError::write(&destination))?;
+            let changed = changes(&frame, &mut shown, &mut palette, self.size.0);
+            let delay = delay_ticks(self.ticks, number);
+            encoder.write_frame(&cut_out(&changed, width, delay)).map_err(encode)?;
         }
+        let mut output = encoder.into_inner().map_err(encode)?;
         output.flush().map_err(OutputError::write(&destination))?;
         drop(output);
         self.beside.put_in_place()
     }
-
-    /// The smallest rectangle that holds all changes, with its time.
-    fn cut_out(&self, changed: &RgbaImage, number: u32) -> Frame {
-        let (mut left, mut top, mut right, mut bottom) = (self.size.0, self.size.1, 0, 0);
-        for (x, y, pixel) in changed.enumerate_pixels() {
-            if pixel.0[3] != 0 {
-                (left, top) = (left.min(x), top.min(y));
-                (right, bottom) = (right.max(x + 1), bottom.max(y + 1));
-            }
-        }
-        if right == 0 {
-            (left, top, right, bottom) = (0, 0, 1, 1);
-        }
-        let part = image::imageops::crop_imm(changed, left, top, right - left, bottom - top).to_image();
-        let ticks = delay_ticks(self.ticks, number);
-        Frame::from_parts(part, left, top, Delay::from_saturating_duration(Duration::from_millis(10 * ticks)))
-    }
 }
 
-/// What a pixel shows: its colour in the palette and the colour it stands for.
+/// What a pixel shows: its number in the palette and the colour it stands for.
 #[derive(Clone, Copy, Debug)]
 struct Shown {
-    palette: [u8; 3],
+    number: u8,
     meant: [u8; 3],
 }
 
-/// The dithered picture where it differs from what is shown, transparent elsewhere.
-fn changes(frame: &[u8], shown: &mut [Option<Shown>], palette: &mut Palette, size: (u32, u32)) -> RgbaImage {
-    let mut changed = RgbaImage::new(size.0, size.1);
-    let pixels = changed.enumerate_pixels_mut().zip(frame.as_chunks::<3>().0).zip(shown);
-    for (((x, y, pixel), &rgb), shown) in pixels {
-        if shown.is_some_and(|shown| rgb.iter().zip(shown.meant).all(|(a, b)| a.abs_diff(b) < UNSEEN)) {
-            continue;
+/// Palette numbers of the dithered picture where it differs from what is shown, `UNCHANGED` elsewhere.
+fn changes(frame: &[u8], shown: &mut [Option<Shown>], palette: &mut Palette, width: u32) -> Vec<u8> {
+    let (mut x, mut y) = (0, 0);
+    let mut next = |pixel: &[u8; 3], shown: &mut Option<Shown>| {
+        let at = (x, y);
+        x += 1;
+        if x == width {
+            (x, y) = (0, y + 1);
         }
-        let color = palette.dithered(rgb, x, y);
-        if shown.is_none_or(|shown| shown.palette != color) {
-            *pixel = Rgba([color[0], color[1], color[2], u8::MAX]);
+        let near = |meant: [u8; 3]| pixel.iter().zip(meant).all(|(a, b)| a.abs_diff(b) < UNSEEN);
+        if shown.is_some_and(|shown| near(shown.meant)) {
+            return UNCHANGED;
         }
-        *shown = Some(Shown { palette: color, meant: rgb });
+        let number = palette.dithered(*pixel, at.0, at.1);
+        let same = shown.is_some_and(|shown| shown.number == number);
+        *shown = Some(Shown { number, meant: *pixel });
+        if same { UNCHANGED } else { number }
+    };
+    frame.as_chunks::<3>().0.iter().zip(shown).map(|(pixel, shown)| next(pixel, shown)).collect()
+}
+
+/// The smallest rectangle that holds all changes; one unchanged pixel where there are none.
+fn cut_out(changed: &[u8], width: u16, delay: u16) -> Frame<'static> {
+    let wide = usize::from(width);
+    let (mut left, mut top, mut right, mut bottom) = (wide, usize::MAX, 0, 0);
+    for (y, row) in changed.chunks_exact(wide).enumerate() {
+        if let Some(first) = row.iter().position(|&number| number != UNCHANGED) {
+            let last = row.iter().rposition(|&number| number != UNCHANGED).unwrap_or(first);
+            (left, right) = (left.min(first), right.max(last + 1));
+            (top, bottom) = (top.min(y), y + 1);
+        }
     }
-    changed
+    if right == 0 {
+        (left, top, right, bottom) = (0, 0, 1, 1);
+    }
+    let rows = changed.chunks_exact(wide).skip(top).take(bottom - top);
+    let buffer: Vec<u8> = rows.flat_map(|row| &row[left..right]).copied().collect();
+    let edge = |edge: usize| u16::try_from(edge).unwrap_or(u16::MAX);
+    Frame {
+        delay,
+        transparent: Some(UNCHANGED),
+        left: edge(left),
+        top: edge(top),
+        width: edge(right - left),
+        height: edge(bottom - top),
+        buffer: buffer.into(),
+        ..Frame::default()
+    }
 }
 
 /// Keeps every n-th frame so that at most `MAX_FPS` remain.
@@ -160,9 +178,9 @@ fn frame_step(fps: f64) -> u32 {
 
 /// Whole hundredths of a second for frame `number`, so that the sum never strays from the true time.
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "positive and small")]
-fn delay_ticks(ticks: f64, number: u32) -> u64 {
+fn delay_ticks(ticks: f64, number: u32) -> u16 {
     let until = |frame: u32| (ticks * f64::from(frame)).round() as u64;
-    (until(number + 1) - until(number)).max(1)
+    u16::try_from(until(number + 1) - until(number)).unwrap_or(u16::MAX).max(1)
 }
 
 /// A clip needs a frame rate.
@@ -181,7 +199,7 @@ mod tests {
     fn delays_add_up_to_the_true_time() {
         let step = frame_step(60.0);
         assert_eq!(step, 2, "60 frames per second become 30");
-        let total: u64 = (0..30).map(|number| delay_ticks(100.0 * f64::from(step) / 60.0, number)).sum();
+        let total: u16 = (0..30).map(|number| delay_ticks(100.0 * f64::from(step) / 60.0, number)).sum();
         assert_eq!(total, 100, "30 frames take a second");
     }
 }

@@ -46,7 +46,7 @@ impl Output {
         let owned = path.to_owned();
         let extension = path.extension().and_then(OsStr::to_str).map(str::to_ascii_lowercase);
         match extension.as_deref() {
-            _ if path.is_dir() => Ok(Self::Sequence(owned)),
+            _ if path.file_name().is_some() && path.is_dir() => Ok(Self::Sequence(owned)),
             Some("png") => Ok(Self::Png(owned)),
             Some("gif") => Ok(Self::Gif(owned)),
             Some("mp4") => Ok(Self::Mp4(owned)),

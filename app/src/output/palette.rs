@@ -137,8 +137,13 @@ impl Palette {
         }
     }
 
-    /// The palette's colour for `rgb` at pixel (x, y).
-    pub(super) fn dithered(&mut self, rgb: [u8; 3], x: u32, y: u32) -> [u8; 3] {
+    /// Red, green and blue of every colour.
+    pub(super) fn bytes(&self) -> &[u8] {
+        self.colors.as_flattened()
+    }
+
+    /// Number of the palette's colour for `rgb` at pixel (x, y).
+    pub(super) fn dithered(&mut self, rgb: [u8; 3], x: u32, y: u32) -> u8 {
         let offset = DITHER * (bayer(x, y) - 0.5);
         let wanted = rgb.map(|channel| byte(f32::from(channel) + offset));
         let at = index(wanted, LOOKUP_BITS);
@@ -146,11 +151,15 @@ impl Palette {
             let found = nearest(wanted.map(|channel| f32::from(channel & 0xfc) + 2.0), &self.exact);
             self.lookup[at] = u16::try_from(found + 1).unwrap_or(1);
         }
-        self.colors[usize::from(self.lookup[at] - 1)]
+        u8::try_from(self.lookup[at] - 1).unwrap_or(0)
     }
 }
 
-#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped to a byte before the cast")]
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "clamped to a byte before the cast"
+)]
 fn byte(value: f32) -> u8 {
     value.round().clamp(0.0, 255.0) as u8
 }
@@ -178,7 +187,8 @@ mod tests {
         }
         let mut palette = histogram.palette();
         for color in colors {
-            assert_eq!(palette.dithered(color, 3, 5), color, "a colour of its own palette");
+            let number = usize::from(palette.dithered(color, 3, 5));
+            assert_eq!(palette.colors[number], color, "a colour of its own palette");
         }
     }
 
@@ -192,7 +202,8 @@ mod tests {
             for y in 0..8 {
                 let level = u8::try_from(x).expect("below 256");
                 given += i64::from(level);
-                got += i64::from(palette.dithered([level; 3], x, y)[1]);
+                let number = usize::from(palette.dithered([level; 3], x, y));
+                got += i64::from(palette.colors[number][1]);
             }
         }
         assert!((given - got).abs() < 2 * 2048, "mean off by {}", (given - got) / 2048);

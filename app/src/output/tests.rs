@@ -111,7 +111,7 @@ fn missing_ffmpeg_is_named() {
     let directory = tempfile::tempdir().expect("a directory");
     let path = directory.path().join("clip.mp4");
     let nowhere = directory.path().join("no-such-program");
-    let error = video::Video::start_with(nowhere.as_os_str(), &path, SIZE, 60.0).expect_err("no program");
+    let error = Video::start_with(nowhere.as_os_str(), &path, SIZE, 60.0).expect_err("no program");
     assert!(matches!(error, OutputError::NoFfmpeg { .. }), "{error}");
     assert!(error.to_string().contains("apt install ffmpeg"), "a hint: {error}");
     assert!(names(directory.path()).is_empty(), "nothing is left behind");

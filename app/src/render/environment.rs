@@ -63,7 +63,7 @@ impl Environment {
         // Sunlight after its way through the air, and a sky that pales and warms with it.
         let air_mass = 1.0 / (sun.y + 0.05);
         let sun_color = 3.5 * exp(-air_mass * Vec3::new(0.055, 0.105, 0.19));
-        let day = (sun.y * 3.0).clamp(0.25, 1.0);
+        let day = (sun.y * 3.0).clamp(0.4, 1.0);
         let warm = sun_color / sun_color.max_element();
         let zenith = Vec3::new(0.09, 0.25, 0.68) * day;
         let horizon = Vec3::new(0.62, 0.71, 0.82) * Vec3::ONE.lerp(warm, 0.35) * day;

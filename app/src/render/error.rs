@@ -19,7 +19,9 @@ pub enum RenderError {
         limit: u32,
     },
     /// More leaf images than one texture array holds.
-    #[error("{layers} leaf images; this device holds {limit} in one texture array: use fewer species or variants")]
+    #[error(
+        "{layers} leaf images; this device holds {limit} in one texture array: use fewer species or variants"
+    )]
     Layers {
         /// Images asked for.
         layers: usize,

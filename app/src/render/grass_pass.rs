@@ -139,7 +139,10 @@ mod tests {
         let camera = Camera::from(&scene::Camera::default());
         let classes = visible_cells(&camera, 16.0 / 9.0, 0.0);
         let drawn: u32 = SHARES.into_iter().zip(&classes).map(|(s, c)| blades(s) * c.len() as u32).sum();
-        assert!(classes.iter().flatten().all(|cell| cell[1] < camera.eye_m().z), "a square behind the camera");
+        assert!(
+            classes.iter().flatten().all(|cell| cell[1] < camera.eye_m().z),
+            "a square behind the camera"
+        );
         assert!((20_000..600_000).contains(&drawn), "{drawn} blades");
     }
 

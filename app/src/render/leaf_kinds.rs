@@ -164,9 +164,15 @@ mod tests {
         let mut scene = Scene::default();
         let atlas = small_atlas(&scene);
         assert!(check(&scene, &atlas, 256).is_ok(), "its own atlas fits");
-        assert!(matches!(check(&scene, &atlas, 1), Err(RenderError::Layers { limit: 1, .. })), "one layer only");
+        assert!(
+            matches!(check(&scene, &atlas, 1), Err(RenderError::Layers { limit: 1, .. })),
+            "one layer only"
+        );
         scene.species.push(Species::default());
-        assert!(matches!(check(&scene, &atlas, 256), Err(RenderError::Images(_))), "a species without leaves");
+        assert!(
+            matches!(check(&scene, &atlas, 256), Err(RenderError::Images(_))),
+            "a species without leaves"
+        );
     }
 
     #[test]

@@ -33,7 +33,8 @@ impl Litter {
     ) -> Option<Self> {
         let count = count.min(MAX_LITTER);
         let columns = scatter(count, species_count, center, trees);
-        let column = |bytes: &[u8]| upload::buffer(device, queue, "litter", wgpu::BufferUsages::VERTEX, bytes);
+        let column =
+            |bytes: &[u8]| upload::buffer(device, queue, "litter", wgpu::BufferUsages::VERTEX, bytes);
         (count > 0).then(|| Self {
             position: column(bytemuck::cast_slice(&columns.position)),
             orientation: column(bytemuck::cast_slice(&columns.orientation)),

@@ -31,7 +31,12 @@ impl PictureTarget {
         // Rows in the buffer begin at multiples of 256 bytes.
         let bytes_per_row = width.saturating_mul(4).next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
         let buffer_size = u64::from(bytes_per_row) * u64::from(height);
-        if width == 0 || height == 0 || width > limit || height > limit || buffer_size > limits.max_buffer_size {
+        if width == 0
+            || height == 0
+            || width > limit
+            || height > limit
+            || buffer_size > limits.max_buffer_size
+        {
             return Err(RenderError::Size { width, height, limit });
         }
         let texture = device.create_texture(&wgpu::TextureDescriptor {

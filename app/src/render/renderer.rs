@@ -7,6 +7,7 @@ use windfall_core::Scene;
 use windfall_core::scene::View;
 use windfall_texgen::Atlas;
 
+use super::RenderError;
 use super::columns::LeafColumns;
 use super::environment::Environment;
 use super::frame::FrameGroup;
@@ -24,7 +25,6 @@ use super::timing::{GpuTimer, TimedPass};
 use super::tonemap_pass::TonemapPass;
 use super::trail_pass::TrailPass;
 use super::tree_pass::{ShadePass, TreePass, Trees};
-use super::RenderError;
 use crate::camera::Camera;
 
 /// Choices of a renderer that are no part of a scene.

@@ -92,11 +92,7 @@ impl TonemapPass {
     }
 }
 
-fn source_group(
-    device: &wgpu::Device,
-    layout: &wgpu::BindGroupLayout,
-    targets: &Targets,
-) -> wgpu::BindGroup {
+fn source_group(device: &wgpu::Device, layout: &wgpu::BindGroupLayout, targets: &Targets) -> wgpu::BindGroup {
     device.create_bind_group(&wgpu::BindGroupDescriptor {
         label: Some("tone map"),
         layout,

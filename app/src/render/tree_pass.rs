@@ -4,7 +4,9 @@
 
 use super::frame::FrameGroup;
 use super::light_group::LightGroup;
-use super::pipeline::{COMMON, FILTERABLE, LIGHT, ScenePipeline, layout, sampler_entry, shader, texture_entry};
+use super::pipeline::{
+    COMMON, FILTERABLE, LIGHT, ScenePipeline, layout, sampler_entry, shader, texture_entry,
+};
 use super::scenery::{SPRITE_COUNT, SPRITE_SIZE, TreeInstance, paint_tree};
 use super::upload;
 

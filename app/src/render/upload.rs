@@ -83,7 +83,11 @@ fn filled(
                     aspect: wgpu::TextureAspect::All,
                 },
                 bytes,
-                wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(4 * edge), rows_per_image: None },
+                wgpu::TexelCopyBufferLayout {
+                    offset: 0,
+                    bytes_per_row: Some(4 * edge),
+                    rows_per_image: None,
+                },
                 wgpu::Extent3d { width: edge, height: edge, depth_or_array_layers: 1 },
             );
         }

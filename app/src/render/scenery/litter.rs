@@ -39,7 +39,8 @@ pub(crate) fn scatter(count: u32, species_count: u32, center: Vec3, trees: &[Tre
         let at = center + offset;
         columns.position.push([at.x.to_bits(), at.y.to_bits(), at.z.to_bits(), resting | species << 9]);
         let turn = Quat::from_rotation_y(random.range(0.0, std::f32::consts::TAU));
-        let face = if random.word() & 1 == 0 { Quat::IDENTITY } else { Quat::from_rotation_z(std::f32::consts::PI) };
+        let face =
+            if random.word() & 1 == 0 { Quat::IDENTITY } else { Quat::from_rotation_z(std::f32::consts::PI) };
         columns.orientation.push((turn * face).to_array());
         let size = 13_000 + random.word() % 6_000;
         columns.course.push([0, 0, size, 0]);

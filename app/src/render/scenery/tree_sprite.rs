@@ -56,7 +56,7 @@ pub(crate) fn paint_tree(index: u32) -> TreeSprite {
         let radius = random.range(0.035, 0.1) * random.range(0.8, 1.1);
         let center = Vec3::new(
             p.x * (half_width - radius) * 1.12 * taper,
-            crown.x + p.y * (half_height - radius),
+            crown.x + p.y * (half_height - radius) * 0.97,
             p.z * half_width * taper,
         );
         clumps.push(Clump { center, radius, hue: random.range(-1.0, 1.0) });
@@ -163,15 +163,8 @@ fn texels(low: f32, high: f32) -> std::ops::Range<usize> {
 
 /// Paints over premultiplied values; the last of the seven is coverage.
 fn blend(texel: &mut [f32; 7], dab: &Dab, cover: f32) {
-    let values = [
-        dab.surface[0],
-        dab.surface[1],
-        dab.surface[2],
-        dab.relief[0],
-        dab.relief[1],
-        dab.relief[2],
-        1.0,
-    ];
+    let values =
+        [dab.surface[0], dab.surface[1], dab.surface[2], dab.relief[0], dab.relief[1], dab.relief[2], 1.0];
     for (old, new) in texel.iter_mut().zip(values) {
         *old += cover * (new - *old);
     }
@@ -189,7 +182,9 @@ fn mips(mut canvas: Vec<[f32; 7]>) -> TreeSprite {
             let cover = (texel[6] * 255.0).round();
             surface.extend([texel[0] * scale, texel[1] * scale, texel[2] * scale, cover].map(byte));
             let bare = if texel[6] < 1.0e-3 { 127.0 } else { 0.0 };
-            relief.extend([texel[3] * scale + bare, texel[4] * scale + bare, texel[5] * scale, cover].map(byte));
+            relief.extend(
+                [texel[3] * scale + bare, texel[4] * scale + bare, texel[5] * scale, cover].map(byte),
+            );
         }
         sprite.surface.push(surface);
         sprite.relief.push(relief);
@@ -202,7 +197,8 @@ fn mips(mut canvas: Vec<[f32; 7]>) -> TreeSprite {
             for x in 0..half {
                 let at = |dx: usize, dy: usize| &canvas[(2 * y + dy) * size + 2 * x + dx];
                 let texels = [at(0, 0), at(1, 0), at(0, 1), at(1, 1)];
-                smaller.push(std::array::from_fn(|c| texels.iter().map(|texel| texel[c]).sum::<f32>() * 0.25));
+                smaller
+                    .push(std::array::from_fn(|c| texels.iter().map(|texel| texel[c]).sum::<f32>() * 0.25));
             }
         }
         canvas = smaller;
@@ -210,7 +206,11 @@ fn mips(mut canvas: Vec<[f32; 7]>) -> TreeSprite {
     }
 }
 
-#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped to a byte before the cast")]
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "clamped to a byte before the cast"
+)]
 fn byte(value: f32) -> u8 {
     value.clamp(0.0, 255.0) as u8
 }

@@ -40,7 +40,7 @@ fn tree_shade(position: vec3<f32>) -> vec2<f32> {
 
 // Light of the whole sky and the ground on a surface facing `normal`.
 fn ambient_light(normal: vec3<f32>) -> vec3<f32> {
-    let sky = mix(frame.sky_horizon.rgb, frame.sky_zenith.rgb, 0.45);
+    let sky = mix(frame.sky_horizon.rgb, frame.sky_zenith.rgb, 0.30);
     return mix(frame.ground_bounce.rgb, sky, normal.y * 0.5 + 0.5);
 }
 
@@ -48,7 +48,7 @@ fn ambient_light(normal: vec3<f32>) -> vec3<f32> {
 fn clear_sky(direction: vec3<f32>) -> vec3<f32> {
     let height = max(direction.y, 0.0);
     let toward_sun = max(dot(direction, frame.sun_direction.xyz), 0.0);
-    var color = mix(frame.sky_horizon.rgb, frame.sky_zenith.rgb, 1.0 - exp(-3.2 * height));
+    var color = mix(frame.sky_horizon.rgb, frame.sky_zenith.rgb, 1.0 - exp(-4.2 * height));
     // Forward scattering: a wide warm veil and a tighter glow.
     let veil = 0.10 * pow(toward_sun, 4.0) + 0.22 * pow(toward_sun, 24.0) + 0.8 * pow(toward_sun, 300.0);
     color += frame.sun_color.rgb * veil;

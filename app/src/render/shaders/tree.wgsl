@@ -40,8 +40,8 @@ fn vertex(@builtin(vertex_index) index: u32, tree: Tree) -> Varyings {
 // Foliage from green (0) over gold and orange to russet (1).
 fn autumn(hue: f32) -> vec3<f32> {
     let h = clamp(hue, 0.0, 1.0) * 3.0;
-    var color = mix(vec3(0.17, 0.20, 0.045), vec3(0.50, 0.34, 0.055), clamp(h, 0.0, 1.0));
-    color = mix(color, vec3(0.56, 0.22, 0.035), clamp(h - 1.0, 0.0, 1.0));
+    var color = mix(vec3(0.17, 0.20, 0.045), vec3(0.50, 0.29, 0.040), clamp(h, 0.0, 1.0));
+    color = mix(color, vec3(0.55, 0.19, 0.030), clamp(h - 1.0, 0.0, 1.0));
     return mix(color, vec3(0.33, 0.085, 0.030), clamp(h - 2.0, 0.0, 1.0));
 }
 
@@ -62,7 +62,7 @@ fn fragment(in: Varyings) -> @location(0) vec4<f32> {
     let normal = normalize(side * tilt.x + vec3(0.0, tilt.y, 0.0) + level * front);
 
     let leaf = autumn(in.look.x + (surface.g - 0.5) * 0.5) * in.look.y * (0.35 + 0.9 * surface.r);
-    let bark = vec3(0.085, 0.066, 0.050) * (0.5 + surface.r);
+    let bark = vec3(0.105, 0.074, 0.052) * (0.5 + surface.r);
     let albedo = mix(leaf, bark, surface.b);
     let light = frame.sun_direction.xyz;
     let facing = dot(normal, light);
@@ -70,7 +70,7 @@ fn fragment(in: Varyings) -> @location(0) vec4<f32> {
     let lit = pow(max(facing * 0.55 + 0.45, 0.0), 1.5) * (0.3 + 0.7 * open);
     // Leaves let the sun through: the crown's thin rim glows against it.
     let against = pow(max(dot(-to_eye, light), 0.0), 2.0);
-    let saturated = mix(vec3(luminance(leaf)), leaf, 1.4) * vec3(1.2, 0.98, 0.6);
+    let saturated = mix(vec3(luminance(leaf)), leaf, 1.4) * vec3(1.15, 0.95, 0.6);
     let through = saturated * (1.0 - surface.b) * against * open * open * (0.25 + 1.1 * lit);
     var color = frame.sun_color.rgb * (albedo * lit + through);
     color += albedo * ambient_light(normal) * (0.25 + 0.75 * open);
