@@ -1,3 +1,29 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Placeholder.
+//! The wgpu backend: WGSL compute, with the state of all leaves on the GPU.
+//!
+//! On Vulkan the kernels are compiled WGSL to SPIR-V by naga, every float operation is decorated `NoContraction` and
+//! the result loaded as it is, which makes the state equal to the CPU oracle's bit for bit ([`Contract::Exact`]).
+//! Elsewhere the same WGSL runs under [`Contract::Tolerant`].
+//!
+//! The backend borrows the device it runs on ([`Gpu::from_parts`]) and lends its leaf buffers
+//! ([`WgpuSimulator::columns`]), so that a renderer on the same device draws them without a copy.
+//!
+//! [`Contract::Exact`]: windfall_core::Contract::Exact
+//! [`Contract::Tolerant`]: windfall_core::Contract::Tolerant
+
+mod columns;
+mod exact;
+mod gpu;
+mod pipelines;
+mod prelude;
+mod readback;
+mod shaders;
+mod simulator;
+
+pub use columns::{LeafBuffers, LeafColumns};
+pub use exact::decorate_no_contraction;
+pub use gpu::{Gpu, describe_adapter, instance_descriptor, list_adapters, select_adapter};
+pub use prelude::WORKGROUP_SIZE;
+pub use shaders::{KernelId, ShaderError, Shaders};
+pub use simulator::{WgpuOptions, WgpuSimulator};

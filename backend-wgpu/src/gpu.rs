@@ -1,0 +1,177 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The device a simulator runs on: chosen by name or by kind, or brought by the host program.
+
+use std::sync::{Arc, Mutex, PoisonError};
+
+use windfall_core::{Contract, SimError};
+
+/// What wgpu reported about the device outside any call: its loss, or an error nobody caught.
+type Health = Arc<Mutex<Option<SimError>>>;
+
+/// A device with its queue, shared by simulator and renderer.
+#[derive(Clone, Debug)]
+pub struct Gpu {
+    info: wgpu::AdapterInfo,
+    device: wgpu::Device,
+    queue: wgpu::Queue,
+    health: Health,
+}
+
+/// How instances are made here: the platform's first-class APIs (Vulkan, Metal, DX12), or what `WGPU_BACKEND` names.
+pub fn instance_descriptor() -> wgpu::InstanceDescriptor {
+    let mut descriptor = wgpu::InstanceDescriptor::new_without_display_handle();
+    descriptor.backends = wgpu::Backends::from_env().unwrap_or(wgpu::Backends::PRIMARY);
+    descriptor.flags = wgpu::InstanceFlags::empty();
+    descriptor
+}
+
+/// All adapters, the best first: discrete, integrated, virtual, software.
+pub fn list_adapters(instance: &wgpu::Instance) -> Vec<wgpu::Adapter> {
+    let mut adapters = pollster::block_on(instance.enumerate_adapters(wgpu::Backends::all()));
+    adapters.sort_by_key(|adapter| match adapter.get_info().device_type {
+        wgpu::DeviceType::DiscreteGpu => 0,
+        wgpu::DeviceType::IntegratedGpu => 1,
+        wgpu::DeviceType::VirtualGpu => 2,
+        wgpu::DeviceType::Other => 3,
+        wgpu::DeviceType::Cpu => 4,
+    });
+    adapters
+}
+
+/// The best adapter, or the best whose name or driver contains `name` (in any case), that can draw to `surface`.
+///
+/// # Errors
+/// [`SimError::NoAdapter`] with what is there.
+pub fn select_adapter(
+    instance: &wgpu::Instance,
+    name: Option<&str>,
+    surface: Option<&wgpu::Surface<'_>>,
+) -> Result<wgpu::Adapter, SimError> {
+    let adapters = list_adapters(instance);
+    let found: Vec<_> = adapters.iter().map(|adapter| adapter.get_info().name).collect();
+    let fits = |adapter: &wgpu::Adapter| {
+        let info = adapter.get_info();
+        let named = name.is_none_or(|name| {
+            let name = name.to_lowercase();
+            info.name.to_lowercase().contains(&name) || info.driver.to_lowercase().contains(&name)
+        });
+        named && surface.is_none_or(|surface| adapter.is_surface_supported(surface))
+    };
+    adapters.into_iter().find(fits).ok_or_else(|| SimError::NoAdapter {
+        reason: match (name, found.is_empty()) {
+            (_, true) => "none found; install a graphics driver, or software Vulkan (mesa-vulkan-drivers)".into(),
+            (Some(name), false) => format!("none named '{name}'; found: {}", found.join(", ")),
+            (None, false) => format!("none can draw to this window; found: {}", found.join(", ")),
+        },
+    })
+}
+
+/// Adapter, driver and kind in one line.
+pub fn describe_adapter(info: &wgpu::AdapterInfo) -> String {
+    let driver = [info.driver.as_str(), info.driver_info.as_str()].join(" ");
+    format!("{} ({:?}, {:?}, {})", info.name, info.backend, info.device_type, driver.trim())
+}
+
+impl Gpu {
+    /// A device of the best adapter, or of one whose name contains `name`; needs no window.
+    ///
+    /// # Errors
+    /// [`SimError::NoAdapter`] if there is none or it gives no device.
+    pub fn request(name: Option<&str>) -> Result<Self, SimError> {
+        let instance = wgpu::Instance::new(instance_descriptor());
+        Self::from_adapter(&select_adapter(&instance, name, None)?)
+    }
+
+    /// A device of this adapter, with all its limits and what the exact contract needs.
+    ///
+    /// # Errors
+    /// [`SimError::NoAdapter`] if it gives no device.
+    pub fn from_adapter(adapter: &wgpu::Adapter) -> Result<Self, SimError> {
+        let info = adapter.get_info();
+        let mut wanted = wgpu::Features::TIMESTAMP_QUERY | wgpu::Features::TIMESTAMP_QUERY_INSIDE_ENCODERS;
+        if info.backend == wgpu::Backend::Vulkan {
+            wanted |= wgpu::Features::PASSTHROUGH_SHADERS;
+        }
+        // SAFETY: the experimental feature used is passthrough shaders; the modules passed through are naga's own
+        // output with decorations added, checked in `pipelines`.
+        #[expect(unsafe_code, reason = "the only way to enable passthrough shaders")]
+        let experimental_features = unsafe { wgpu::ExperimentalFeatures::enabled() };
+        let descriptor = wgpu::DeviceDescriptor {
+            label: Some("windfall"),
+            required_features: wanted & adapter.features(),
+            required_limits: adapter.limits(),
+            experimental_features,
+            ..Default::default()
+        };
+        let (device, queue) = pollster::block_on(adapter.request_device(&descriptor))
+            .map_err(|error| SimError::NoAdapter { reason: format!("{}: {error}", info.name) })?;
+        Ok(Self::from_parts(info, device, queue))
+    }
+
+    /// A device that the host program made. For the exact contract it needs `PASSTHROUGH_SHADERS` on Vulkan.
+    /// Replaces the device's callbacks for loss and for errors that nobody caught.
+    pub fn from_parts(info: wgpu::AdapterInfo, device: wgpu::Device, queue: wgpu::Queue) -> Self {
+        let health = Health::default();
+        let lost = Arc::clone(&health);
+        device.set_device_lost_callback(move |reason, message| {
+            report(&lost, SimError::DeviceLost { reason: format!("{reason:?}: {message}") });
+        });
+        let uncaught = Arc::clone(&health);
+        device.on_uncaptured_error(Arc::new(move |error: wgpu::Error| {
+            report(&uncaught, SimError::Device { reason: error.to_string() });
+        }));
+        Self { info, device, queue, health }
+    }
+
+    /// The adapter.
+    pub fn info(&self) -> &wgpu::AdapterInfo {
+        &self.info
+    }
+
+    /// The device.
+    pub fn device(&self) -> &wgpu::Device {
+        &self.device
+    }
+
+    /// Its queue.
+    pub fn queue(&self) -> &wgpu::Queue {
+        &self.queue
+    }
+
+    /// The closest contract this device can keep.
+    pub fn contract(&self) -> Contract {
+        let exact = self.info.backend == wgpu::Backend::Vulkan
+            && self.device.features().contains(wgpu::Features::PASSTHROUGH_SHADERS);
+        if exact { Contract::Exact } else { Contract::Tolerant }
+    }
+
+    /// Fails once the device is lost or has reported an error that nobody caught.
+    ///
+    /// # Errors
+    /// The first such report; it stays.
+    pub fn check(&self) -> Result<(), SimError> {
+        match &*self.health.lock().unwrap_or_else(PoisonError::into_inner) {
+            None => Ok(()),
+            Some(SimError::DeviceLost { reason }) => Err(SimError::DeviceLost { reason: reason.clone() }),
+            Some(other) => Err(SimError::Device { reason: other.to_string() }),
+        }
+    }
+
+    /// Waits for all submitted work.
+    ///
+    /// # Errors
+    /// A lost device.
+    pub fn wait(&self) -> Result<(), SimError> {
+        self.check()?;
+        self.device
+            .poll(wgpu::PollType::wait_indefinitely())
+            .map_err(|error| SimError::Device { reason: error.to_string() })?;
+        self.check()
+    }
+}
+
+/// Keeps the first report; later ones follow from it.
+fn report(health: &Health, error: SimError) {
+    health.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(error);
+}

@@ -1,0 +1,102 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Compute pipelines under either contract.
+
+use std::borrow::Cow;
+
+use windfall_core::{Contract, SimError};
+
+use crate::gpu::Gpu;
+use crate::prelude::WORKGROUP_SIZE;
+use crate::shaders::{KernelId, Shaders, compile_exact};
+
+/// Binding layouts and pipelines of all kernels.
+#[derive(Debug)]
+pub(crate) struct Pipelines {
+    pub(crate) leaves_layout: wgpu::BindGroupLayout,
+    pub(crate) counters_layout: wgpu::BindGroupLayout,
+    pub(crate) advance: wgpu::ComputePipeline,
+    pub(crate) measure: wgpu::ComputePipeline,
+}
+
+fn entry(binding: u32, ty: wgpu::BufferBindingType, has_dynamic_offset: bool) -> wgpu::BindGroupLayoutEntry {
+    wgpu::BindGroupLayoutEntry {
+        binding,
+        visibility: wgpu::ShaderStages::COMPUTE,
+        ty: wgpu::BindingType::Buffer { ty, has_dynamic_offset, min_binding_size: None },
+        count: None,
+    }
+}
+
+impl Pipelines {
+    pub(crate) fn new(gpu: &Gpu, shaders: &Shaders, contract: Contract) -> Result<Self, SimError> {
+        let uniform = wgpu::BufferBindingType::Uniform;
+        let storage = |read_only| wgpu::BufferBindingType::Storage { read_only };
+        // The bindings of shaders/bindings.wgsl, in their order.
+        let mut entries =
+            vec![entry(0, uniform, false), entry(1, uniform, true), entry(2, storage(true), false)];
+        entries.push(entry(3, storage(true), false));
+        entries.extend((4..=8).map(|binding| entry(binding, storage(false), false)));
+        let layout = |label, entries: &[wgpu::BindGroupLayoutEntry]| {
+            let descriptor = wgpu::BindGroupLayoutDescriptor { label: Some(label), entries };
+            gpu.device().create_bind_group_layout(&descriptor)
+        };
+        let leaves_layout = layout("leaves", &entries);
+        let counters_layout = layout("counters", &[entry(0, storage(false), false)]);
+        let pipeline = |kernel: KernelId, layouts: &[Option<&wgpu::BindGroupLayout>]| {
+            let source = shaders.kernel(kernel).map_err(|error| SimError::Device { reason: error.to_string() })?;
+            let module = shader_module(gpu, &source, kernel.name(), contract)?;
+            let layout = gpu.device().create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+                label: Some(kernel.name()),
+                bind_group_layouts: layouts,
+                immediate_size: 0,
+            });
+            let pipeline = gpu.device().create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+                label: Some(kernel.name()),
+                layout: Some(&layout),
+                module: &module,
+                entry_point: Some(kernel.name()),
+                compilation_options: wgpu::PipelineCompilationOptions::default(),
+                cache: None,
+            });
+            gpu.check().map(|()| pipeline)
+        };
+        let advance = pipeline(KernelId::Advance, &[Some(&leaves_layout)])?;
+        let measure = pipeline(KernelId::Measure, &[Some(&leaves_layout), Some(&counters_layout)])?;
+        Ok(Self { leaves_layout, counters_layout, advance, measure })
+    }
+}
+
+/// A shader module: plain WGSL, or SPIR-V whose every float operation keeps its own rounding.
+pub(crate) fn shader_module(
+    gpu: &Gpu,
+    source: &str,
+    entry_point: &'static str,
+    contract: Contract,
+) -> Result<wgpu::ShaderModule, SimError> {
+    if contract == Contract::Tolerant {
+        return Ok(gpu.device().create_shader_module(wgpu::ShaderModuleDescriptor {
+            label: Some(entry_point),
+            source: wgpu::ShaderSource::Wgsl(Cow::Borrowed(source)),
+        }));
+    }
+    if gpu.contract() != Contract::Exact {
+        let reason = format!("{} cannot keep the exact contract: it needs Vulkan", gpu.info().name);
+        return Err(SimError::Device { reason });
+    }
+    let spirv = compile_exact(source).map_err(|error| SimError::Device { reason: error.to_string() })?;
+    let descriptor = wgpu::ShaderModuleDescriptorPassthrough {
+        label: Some(entry_point),
+        entry_points: Cow::Owned(vec![wgpu::PassthroughShaderEntryPoint {
+            name: entry_point.into(),
+            workgroup_size: (WORKGROUP_SIZE, 1, 1),
+        }]),
+        spirv: Some(spirv.into()),
+        ..Default::default()
+    };
+    // SAFETY: the words are a module that naga has validated and written, with decorations added that only restrict
+    // how results are rounded; every index in the kernels is bounded by the length of the column or table it reads.
+    #[expect(unsafe_code, reason = "WGSL has no way to forbid contraction; SPIR-V has")]
+    let module = unsafe { gpu.device().create_shader_module_passthrough(descriptor) };
+    gpu.check().map(|()| module)
+}

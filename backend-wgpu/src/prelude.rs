@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The generated head of every shader: structs and constants, from their one statement in `windfall-core`.
+
+use windfall_core::layout::WgslStruct;
+use windfall_core::{blocks, kernel, leaf, motion, stats, wind};
+
+/// Invocations per workgroup.
+pub const WORKGROUP_SIZE: u32 = 256;
+
+/// Structs, in an order in which each is declared before it is used.
+pub(crate) fn structs() -> String {
+    [
+        blocks::SpeciesBlock::declaration(),
+        blocks::SourceBlock::declaration(),
+        blocks::WindBlock::declaration(),
+        blocks::EnvironmentBlock::declaration(),
+        blocks::VortexBlock::declaration(),
+        blocks::StepBlock::declaration(),
+    ]
+    .concat()
+}
+
+/// All shared constants.
+pub(crate) fn constants() -> String {
+    let lists = [
+        blocks::wgsl_constants(),
+        kernel::math::wgsl_constants(),
+        kernel::rng::wgsl_constants(),
+        kernel::vector::wgsl_constants(),
+        leaf::fall::wgsl_constants(),
+        leaf::record::wgsl_constants(),
+        leaf::release::wgsl_constants(),
+        motion::feature::wgsl_constants(),
+        motion::lookup::wgsl_constants(),
+        motion::table::wgsl_constants(),
+        stats::wgsl_constants(),
+        wind::gust::wgsl_constants(),
+        wind::profile::wgsl_constants(),
+        wind::turbulence::wgsl_constants(),
+    ];
+    let declarations: String = lists.into_iter().flatten().map(|(_, declaration)| declaration).collect();
+    format!("const WORKGROUP_SIZE: u32 = {WORKGROUP_SIZE}u;\n{declarations}")
+}

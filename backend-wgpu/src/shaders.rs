@@ -1,0 +1,157 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Puts shaders together: WGSL files that import each other by name, behind the generated prelude.
+
+use std::collections::BTreeSet;
+
+use thiserror::Error;
+
+use crate::exact::decorate_no_contraction;
+use crate::prelude;
+
+/// The compute kernels; one name for file, entry point and twin.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum KernelId {
+    /// Moves every leaf through one step.
+    Advance,
+    /// Counts leaves by state and motion.
+    Measure,
+}
+
+impl KernelId {
+    /// All kernels.
+    pub const ALL: [Self; 2] = [Self::Advance, Self::Measure];
+
+    /// Name of the file and of the entry point.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Advance => "advance",
+            Self::Measure => "measure",
+        }
+    }
+}
+
+/// A shader that does not compile: a mistake of ours, or of an edit.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum ShaderError {
+    /// An import of a module that is not there.
+    #[error("shader module '{0}' does not exist")]
+    UnknownModule(String),
+    /// WGSL that naga rejects.
+    #[error("{0}")]
+    Wgsl(String),
+}
+
+/// Names and texts of all shader modules.
+#[derive(Clone, Debug)]
+pub struct Shaders {
+    modules: Vec<(&'static str, String)>,
+}
+
+macro_rules! modules {
+    ($($name:literal),* $(,)?) => {
+        vec![$(($name, include_str!(concat!("shaders/", $name, ".wgsl")).to_string())),*]
+    };
+}
+
+impl Default for Shaders {
+    fn default() -> Self {
+        let mut modules = modules![
+            "bindings",
+            "kernel/math",
+            "kernel/quaternion",
+            "kernel/rng",
+            "kernel/vector",
+            "kernels/advance",
+            "kernels/measure",
+            "leaf/advance",
+            "leaf/fall",
+            "leaf/own",
+            "leaf/release",
+            "leaf/settle",
+            "motion/feature",
+            "motion/lookup",
+            "wind/gust",
+            "wind/profile",
+            "wind/sample",
+            "wind/turbulence",
+            "wind/vortex",
+        ];
+        modules.push(("prelude", prelude::structs() + &prelude::constants()));
+        // Every binding is of a prelude type.
+        modules[0].1.insert_str(0, "#import prelude\n");
+        Self { modules }
+    }
+}
+
+impl Shaders {
+    /// Names of all modules.
+    pub fn names(&self) -> impl Iterator<Item = &'static str> {
+        self.modules.iter().map(|module| module.0)
+    }
+
+    /// Text of a module.
+    pub fn text(&self, name: &str) -> Option<&str> {
+        self.modules.iter().find(|module| module.0 == name).map(|module| module.1.as_str())
+    }
+
+    /// The same shaders with `old` replaced by `new` in one module: for tests that must notice it. `None` if the
+    /// module or the text is not there.
+    #[must_use]
+    pub fn edited(mut self, name: &str, old: &str, new: &str) -> Option<Self> {
+        let module = self.modules.iter_mut().find(|module| module.0 == name)?;
+        if !module.1.contains(old) {
+            return None;
+        }
+        module.1 = module.1.replacen(old, new, 1);
+        Some(self)
+    }
+
+    /// One module with everything it imports, each once, imports first.
+    ///
+    /// # Errors
+    /// [`ShaderError::UnknownModule`].
+    pub fn compose(&self, name: &str) -> Result<String, ShaderError> {
+        let mut source = String::new();
+        self.append(name, &mut BTreeSet::new(), &mut source)?;
+        Ok(source)
+    }
+
+    /// A kernel with everything it imports.
+    ///
+    /// # Errors
+    /// [`ShaderError::UnknownModule`].
+    pub fn kernel(&self, kernel: KernelId) -> Result<String, ShaderError> {
+        self.compose(&format!("kernels/{}", kernel.name()))
+    }
+
+    fn append<'a>(&'a self, name: &'a str, seen: &mut BTreeSet<&'a str>, out: &mut String) -> Result<(), ShaderError> {
+        if !seen.insert(name) {
+            return Ok(());
+        }
+        let text = self.text(name).ok_or_else(|| ShaderError::UnknownModule(name.into()))?;
+        for import in text.lines().filter_map(|line| line.strip_prefix("#import ")) {
+            self.append(import.trim(), seen, out)?;
+        }
+        out.extend(text.lines().filter(|line| !line.starts_with("#import ")).flat_map(|line| [line, "\n"]));
+        Ok(())
+    }
+}
+
+/// Compiles WGSL to SPIR-V whose every float operation keeps its own rounding.
+///
+/// # Errors
+/// [`ShaderError::Wgsl`] with naga's message.
+pub(crate) fn compile_exact(source: &str) -> Result<Vec<u32>, ShaderError> {
+    use naga::valid::{Capabilities, ValidationFlags, Validator};
+    let wgsl = |message: String| ShaderError::Wgsl(message);
+    let module = naga::front::wgsl::parse_str(source).map_err(|error| wgsl(error.emit_to_string(source)))?;
+    let info = Validator::new(ValidationFlags::all(), Capabilities::all())
+        .validate(&module)
+        .map_err(|error| wgsl(error.emit_to_string(source)))?;
+    let options =
+        naga::back::spv::Options { lang_version: (1, 3), fake_missing_bindings: true, ..Default::default() };
+    let words = naga::back::spv::write_vec(&module, &info, &options, None).map_err(|error| wgsl(error.to_string()))?;
+    Ok(decorate_no_contraction(&words))
+}

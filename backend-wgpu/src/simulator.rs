@@ -1,0 +1,306 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The wgpu simulator.
+
+use std::sync::Arc;
+
+use windfall_core::blocks::{EnvironmentBlock, StepBlock};
+use windfall_core::layout::Float4;
+use windfall_core::stats::COUNTER_COUNT;
+use windfall_core::{Clock, Contract, Environment, SimError, Simulator, SimulatorInfo, Stats, World};
+
+use crate::columns::{LeafBuffers, LeafColumns, RECORD_BYTES};
+use crate::gpu::{Gpu, describe_adapter};
+use crate::pipelines::Pipelines;
+use crate::prelude::WORKGROUP_SIZE;
+use crate::readback::read_buffer;
+use crate::shaders::Shaders;
+
+/// Steps per submission: their blocks travel in one write.
+const STEPS_PER_SUBMIT: u32 = 32;
+/// Leaves per page are a multiple of this, which keeps windows aligned on any device.
+const PAGE_STEP: u32 = 4096;
+/// Most workgroups of one dispatch; further leaves are strided over.
+const MAX_GROUPS: u32 = 65_535;
+
+/// How the wgpu simulator runs.
+#[derive(Clone, Debug, Default)]
+pub struct WgpuOptions {
+    /// Contract to keep; the closest that the device can when `None`.
+    pub contract: Option<Contract>,
+    /// Most leaves in one binding; what the device allows when `None`. For testing the paging of large worlds.
+    pub page_leaves: Option<u32>,
+    /// Other shaders than the project's own, for tests that must notice the difference.
+    pub shaders: Option<Shaders>,
+}
+
+/// Simulates on a GPU.
+#[derive(Debug)]
+pub struct WgpuSimulator {
+    gpu: Gpu,
+    contract: Contract,
+    pipelines: Pipelines,
+    environment: Environment,
+    clock: Clock,
+    leaves: LeafBuffers,
+    page_leaves: u32,
+    environment_buffer: wgpu::Buffer,
+    step_buffer: wgpu::Buffer,
+    step_stride: u32,
+    motion: (Arc<[Float4]>, wgpu::Buffer),
+    wind: (Arc<[Float4]>, wgpu::Buffer),
+    counters: wgpu::Buffer,
+    counters_group: wgpu::BindGroup,
+    pages: Vec<(u32, wgpu::BindGroup)>,
+}
+
+impl WgpuSimulator {
+    /// A simulator with a copy of the world on the device.
+    ///
+    /// # Errors
+    /// [`SimError::Capacity`] if the device cannot hold the leaves; a device that refuses or is lost.
+    pub fn new(gpu: &Gpu, world: &World, options: &WgpuOptions) -> Result<Self, SimError> {
+        gpu.check()?;
+        let contract = options.contract.unwrap_or(gpu.contract());
+        let shaders = options.shaders.clone().unwrap_or_default();
+        let pipelines = Pipelines::new(gpu, &shaders, contract)?;
+        let environment = world.environment.clone();
+        let leaves = LeafBuffers::new(gpu, environment.scene().leaf_count())?;
+        let limits = gpu.device().limits();
+        let binding = u64::from(limits.max_storage_buffer_binding_size) / RECORD_BYTES;
+        let largest = u32::try_from(binding).unwrap_or(u32::MAX).min(options.page_leaves.unwrap_or(u32::MAX));
+        let step_stride = u32::try_from(size_of::<StepBlock>())
+            .expect("a step block is small")
+            .next_multiple_of(limits.min_uniform_buffer_offset_alignment);
+        let uniform = |label, size| buffer(gpu, label, size, wgpu::BufferUsages::UNIFORM);
+        let motion = table(gpu, "motion", environment.motion());
+        let wind = table(gpu, "wind", environment.wind());
+        let counters = buffer(
+            gpu,
+            "counters",
+            u64::from(COUNTER_COUNT) * 4,
+            wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC,
+        );
+        let counters_group = gpu.device().create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("counters"),
+            layout: &pipelines.counters_layout,
+            entries: &[wgpu::BindGroupEntry { binding: 0, resource: counters.as_entire_binding() }],
+        });
+        let mut simulator = Self {
+            gpu: gpu.clone(),
+            contract,
+            pipelines,
+            environment,
+            clock: world.clock,
+            leaves,
+            page_leaves: (largest / PAGE_STEP).max(1) * PAGE_STEP,
+            environment_buffer: uniform("environment", size_of::<EnvironmentBlock>() as u64),
+            step_buffer: uniform("step", u64::from(STEPS_PER_SUBMIT * step_stride)),
+            step_stride,
+            motion,
+            wind,
+            counters,
+            counters_group,
+            pages: Vec::new(),
+        };
+        simulator.bind_pages();
+        simulator.write_state(world)?;
+        Ok(simulator)
+    }
+
+    /// The leaf columns as buffers, to be drawn on the same device without a copy. They hold the state after all
+    /// submitted steps.
+    pub fn columns(&self) -> LeafColumns<'_> {
+        self.leaves.columns()
+    }
+
+    /// Number of windows the columns are bound in.
+    pub fn page_count(&self) -> usize {
+        self.pages.len()
+    }
+
+    /// Submits steps as [`Simulator::step`] does, with timestamps at the start of the first and the end of the last
+    /// compute pass.
+    ///
+    /// # Errors
+    /// A lost device.
+    pub fn step_timed(
+        &mut self,
+        count: u32,
+        timestamps: Option<wgpu::ComputePassTimestampWrites<'_>>,
+    ) -> Result<(), SimError> {
+        let mut left = count;
+        while left > 0 {
+            self.gpu.check()?;
+            let batch = left.min(STEPS_PER_SUBMIT);
+            let first = left == count;
+            left -= batch;
+            let writes = timestamps.clone().map(|stamps| wgpu::ComputePassTimestampWrites {
+                beginning_of_pass_write_index: stamps.beginning_of_pass_write_index.filter(|_| first),
+                end_of_pass_write_index: stamps.end_of_pass_write_index.filter(|_| left == 0),
+                ..stamps
+            });
+            // wgpu refuses timestamp writes that write nothing.
+            let writes = writes.filter(|stamps| {
+                stamps.beginning_of_pass_write_index.is_some() || stamps.end_of_pass_write_index.is_some()
+            });
+            self.submit_steps(batch, writes);
+        }
+        self.gpu.check()
+    }
+
+    fn submit_steps(&mut self, count: u32, timestamp_writes: Option<wgpu::ComputePassTimestampWrites<'_>>) {
+        let mut blocks = vec![0; (count * self.step_stride) as usize];
+        for slot in blocks.chunks_exact_mut(self.step_stride as usize) {
+            let block = self.environment.step_block(&self.clock);
+            slot[..size_of::<StepBlock>()].copy_from_slice(bytemuck::bytes_of(&block));
+            self.clock.advance(&self.environment);
+        }
+        self.gpu.queue().write_buffer(&self.step_buffer, 0, &blocks);
+        let mut encoder = self.gpu.device().create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        {
+            let descriptor = wgpu::ComputePassDescriptor { label: Some("advance"), timestamp_writes };
+            let mut pass = encoder.begin_compute_pass(&descriptor);
+            pass.set_pipeline(&self.pipelines.advance);
+            for step in 0..count {
+                for (leaves, group) in &self.pages {
+                    pass.set_bind_group(0, group, &[step * self.step_stride]);
+                    pass.dispatch_workgroups(leaves.div_ceil(WORKGROUP_SIZE).min(MAX_GROUPS), 1, 1);
+                }
+            }
+        }
+        self.gpu.queue().submit([encoder.finish()]);
+    }
+
+    /// One window of every column for each page.
+    fn bind_pages(&mut self) {
+        let count = self.leaves.leaf_count();
+        self.pages.clear();
+        for first in (0..count).step_by(self.page_leaves as usize) {
+            let leaves = self.page_leaves.min(count - first);
+            let window = |buffer| {
+                wgpu::BindingResource::Buffer(wgpu::BufferBinding {
+                    buffer,
+                    offset: u64::from(first) * RECORD_BYTES,
+                    size: wgpu::BufferSize::new(u64::from(leaves) * RECORD_BYTES),
+                })
+            };
+            let step = wgpu::BindingResource::Buffer(wgpu::BufferBinding {
+                buffer: &self.step_buffer,
+                offset: 0,
+                size: wgpu::BufferSize::new(size_of::<StepBlock>() as u64),
+            });
+            let mut resources = vec![self.environment_buffer.as_entire_binding(), step];
+            resources.extend([self.motion.1.as_entire_binding(), self.wind.1.as_entire_binding()]);
+            resources.extend(self.leaves.buffers().iter().map(window));
+            let entries: Vec<_> = (0..)
+                .zip(resources)
+                .map(|(binding, resource)| wgpu::BindGroupEntry { binding, resource })
+                .collect();
+            let group = self.gpu.device().create_bind_group(&wgpu::BindGroupDescriptor {
+                label: Some("page"),
+                layout: &self.pipelines.leaves_layout,
+                entries: &entries,
+            });
+            self.pages.push((leaves, group));
+        }
+    }
+
+    fn same_size(&self, world: &World) -> Result<(), SimError> {
+        let (own, other) = (self.leaves.leaf_count() as usize, world.leaves.len());
+        if own == other { Ok(()) } else { Err(SimError::Size { world: other, simulator: own }) }
+    }
+}
+
+fn buffer(gpu: &Gpu, label: &str, size: u64, usage: wgpu::BufferUsages) -> wgpu::Buffer {
+    gpu.device().create_buffer(&wgpu::BufferDescriptor {
+        label: Some(label),
+        size,
+        usage: usage | wgpu::BufferUsages::COPY_DST,
+        mapped_at_creation: false,
+    })
+}
+
+fn table(gpu: &Gpu, label: &str, rows: &Arc<[Float4]>) -> (Arc<[Float4]>, wgpu::Buffer) {
+    let bytes: &[u8] = bytemuck::cast_slice(rows);
+    let buffer = buffer(gpu, label, bytes.len() as u64, wgpu::BufferUsages::STORAGE);
+    gpu.queue().write_buffer(&buffer, 0, bytes);
+    (Arc::clone(rows), buffer)
+}
+
+impl Simulator for WgpuSimulator {
+    fn info(&self) -> SimulatorInfo {
+        SimulatorInfo {
+            backend: "wgpu",
+            adapter: describe_adapter(self.gpu.info()),
+            contract: self.contract,
+            capacity: self.leaves.leaf_count(),
+        }
+    }
+
+    fn clock(&self) -> Clock {
+        self.clock
+    }
+
+    fn write_state(&mut self, world: &World) -> Result<(), SimError> {
+        self.same_size(world)?;
+        self.leaves.write(&self.gpu, &world.leaves)?;
+        self.clock = world.clock;
+        self.set_environment(&world.environment)
+    }
+
+    fn read_state(&mut self, world: &mut World) -> Result<(), SimError> {
+        self.same_size(world)?;
+        world.clock = self.clock;
+        for (buffer, column) in self.leaves.buffers().iter().zip(world.leaves.columns_mut()) {
+            read_buffer(&self.gpu, buffer, column)?;
+        }
+        Ok(())
+    }
+
+    fn set_environment(&mut self, environment: &Environment) -> Result<(), SimError> {
+        self.gpu.check()?;
+        self.environment = environment.clone();
+        self.gpu.queue().write_buffer(&self.environment_buffer, 0, bytemuck::bytes_of(environment.block()));
+        let mut moved = false;
+        if !Arc::ptr_eq(&self.motion.0, environment.motion()) {
+            self.motion = table(&self.gpu, "motion", environment.motion());
+            moved = true;
+        }
+        if !Arc::ptr_eq(&self.wind.0, environment.wind()) {
+            self.wind = table(&self.gpu, "wind", environment.wind());
+            moved = true;
+        }
+        if moved {
+            self.bind_pages();
+        }
+        self.gpu.check()
+    }
+
+    fn step(&mut self, count: u32) -> Result<(), SimError> {
+        self.step_timed(count, None)
+    }
+
+    fn sync(&mut self) -> Result<(), SimError> {
+        self.gpu.wait()
+    }
+
+    fn stats(&mut self) -> Result<Stats, SimError> {
+        self.gpu.check()?;
+        self.gpu.queue().write_buffer(&self.counters, 0, &[0; COUNTER_COUNT as usize * 4]);
+        let mut encoder = self.gpu.device().create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        {
+            let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
+            pass.set_pipeline(&self.pipelines.measure);
+            pass.set_bind_group(1, &self.counters_group, &[]);
+            for (leaves, group) in &self.pages {
+                pass.set_bind_group(0, group, &[0]);
+                pass.dispatch_workgroups(leaves.div_ceil(WORKGROUP_SIZE).min(MAX_GROUPS), 1, 1);
+            }
+        }
+        self.gpu.queue().submit([encoder.finish()]);
+        let mut counters = [0u32; COUNTER_COUNT as usize];
+        read_buffer(&self.gpu, &self.counters, bytemuck::cast_slice_mut(&mut counters))?;
+        Ok(Stats::from_counters(&counters, self.clock.step()))
+    }
+}
