@@ -8,7 +8,7 @@ pub(super) const COLORS: usize = 255;
 const BITS: u32 = 5;
 const LOOKUP_BITS: u32 = 6;
 /// Height of the dither pattern in steps of a channel.
-const DITHER: f32 = 11.0;
+const DITHER: f32 = 7.0;
 
 /// Colours of all frames, counted in 2^15 bins.
 #[derive(Debug)]
@@ -39,7 +39,7 @@ impl Histogram {
             .map(|bin| Point {
                 color: std::array::from_fn(|channel| bin[channel] as f32 / bin[3] as f32),
                 // Rare colours count for more than their area: leaves are small, the sky is large.
-                weight: (bin[3] as f32).sqrt(),
+                weight: (bin[3] as f32).powf(0.6),
             })
             .collect();
         let mut boxes = vec![0..points.len()];

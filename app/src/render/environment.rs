@@ -47,11 +47,13 @@ pub(super) struct Environment {
     pub(super) sun_direction: Vec3,
     /// Centre of the park, on the ground.
     pub(super) park_center: Vec3,
+    /// Direction its path leads, x and z.
+    pub(super) path_lead: Vec2,
 }
 
 impl Environment {
-    pub(super) fn new(sun: &Sun, park_center: Vec3) -> Self {
-        Self { sun_direction: sun_direction(sun), park_center }
+    pub(super) fn new(sun: &Sun, park_center: Vec3, path_lead: Vec2) -> Self {
+        Self { sun_direction: sun_direction(sun), park_center, path_lead }
     }
 
     /// The uniform block of one frame.
@@ -65,7 +67,7 @@ impl Environment {
         let sun_color = 3.5 * exp(-air_mass * Vec3::new(0.055, 0.105, 0.19));
         let day = (sun.y * 3.0).clamp(0.4, 1.0);
         let warm = sun_color / sun_color.max_element();
-        let zenith = Vec3::new(0.09, 0.25, 0.68) * day;
+        let zenith = Vec3::new(0.08, 0.23, 0.62) * day;
         let horizon = Vec3::new(0.62, 0.71, 0.82) * Vec3::ONE.lerp(warm, 0.35) * day;
         let bounce = (sun_color * sun.y * 0.55 + zenith) * Vec3::new(0.20, 0.18, 0.08);
         let full = |v: Vec3, w: f32| v.extend(w).to_array();
@@ -78,8 +80,8 @@ impl Environment {
             forward: full(camera.forward(), 0.0),
             sun_direction: full(sun, Vec2::new(sun.x, sun.z).length() / sun.y),
             sun_color: full(sun_color, 0.0),
-            sky_zenith: full(zenith, 0.0),
-            sky_horizon: full(horizon, 0.0),
+            sky_zenith: full(zenith, self.path_lead.x),
+            sky_horizon: full(horizon, self.path_lead.y),
             ground_bounce: full(bounce, 0.0),
             air: [HAZE_PER_M, EXPOSURE, PARK_RADIUS_M, 2.0 * SHADOW_RADIUS_M / SHADOW_SIZE as f32],
             park: full(self.park_center, SHADOW_RADIUS_M),
@@ -131,7 +133,7 @@ mod tests {
 
     #[test]
     fn shadow_projection_separates_leaf_from_ground_along_the_sun() {
-        let environment = Environment::new(&Sun::default(), Vec3::ZERO);
+        let environment = Environment::new(&Sun::default(), Vec3::ZERO, Vec2::X);
         let matrix = environment.shadow_projection(&Camera::from(&scene::Camera::default()));
         let ground = Vec3::new(0.5, 0.0, -0.5);
         let leaf = ground + 3.0 * environment.sun_direction;
@@ -145,7 +147,7 @@ mod tests {
     fn light_stays_finite_for_every_sun() {
         for elevation_deg in [1.0, 5.0, 45.0, 90.0] {
             let sun = Sun { azimuth_deg: 30.0, elevation_deg };
-            let environment = Environment::new(&sun, Vec3::ZERO);
+            let environment = Environment::new(&sun, Vec3::ZERO, Vec2::X);
             let frame = environment.frame(&Camera::from(&scene::Camera::default()), 1.0, (640, 480));
             let all: &[f32] = bytemuck::cast_slice(std::slice::from_ref(&frame));
             assert!(all.iter().all(|value| value.is_finite()), "elevation {elevation_deg}: {frame:?}");

@@ -36,3 +36,6 @@ pub use leaf_kinds::{MAX_LAYERS, atlas_request};
 pub use readback::PictureTarget;
 pub use renderer::{FrameInput, Renderer, RendererOptions};
 pub use trail_pass::MAX_TRAILS;
+
+#[cfg(test)]
+mod tests;

@@ -109,7 +109,7 @@ impl Renderer {
         let mut renderer = Self {
             device: device.clone(),
             queue: queue.clone(),
-            environment: Environment::new(&scene.view.sun, center),
+            environment: Environment::new(&scene.view.sun, center, level),
             leaf_count: scene.leaf_count(),
             litter: Litter::new(device, queue, options.litter_count, species_count, center, &planted),
             leaf_pass: LeafPass::new(device, queue, &frame, &light, &kinds),
@@ -152,8 +152,8 @@ impl Renderer {
 
     /// Takes over another sun and length of trails; the park stays where it is.
     pub fn update_scene_view(&mut self, view: &View) {
-        let center = self.environment.park_center;
-        self.environment = Environment::new(&view.sun, center);
+        let Environment { park_center, path_lead, .. } = self.environment;
+        self.environment = Environment::new(&view.sun, park_center, path_lead);
         self.shade_is_old = true;
         let drawn = self.trail_pass.as_ref().map_or(0.0, TrailPass::trail_s);
         if drawn != view.trail_s {

@@ -52,8 +52,9 @@ pub(crate) fn plant(center: Vec3, view: Vec2) -> Vec<TreeInstance> {
             let toward = Vec2::from_angle(angle);
             let apart = toward.dot(view).clamp(-1.0, 1.0).acos();
             let foot = center + Vec3::new(toward.x, 0.0, toward.y) * radius;
+            let clear = beyond_path(toward * radius, view) > if bush { 2.5 } else { 1.2 };
             let spacing = if bush { 2.0 } else { 3.5 + 0.07 * radius };
-            if apart < open_rad || trees.iter().any(|tree| tree.foot_m.distance(foot) < spacing) {
+            if !clear || apart < open_rad || trees.iter().any(|tree| tree.foot_m.distance(foot) < spacing) {
                 continue;
             }
             left -= 1;
@@ -72,4 +73,28 @@ pub(crate) fn plant(center: Vec3, view: Vec2) -> Vec<TreeInstance> {
         }
     }
     trees
+}
+
+/// How far a place lies from the middle of the path that leads along `view`; the shape of `grass_color.wgsl`.
+fn beyond_path(local: Vec2, view: Vec2) -> f32 {
+    let (along, aside) = (local.dot(view), local.dot(view.perp()));
+    (aside - 3.4 * (along * 0.10 - 0.9).sin()).abs()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn trees_leave_room_for_leaves_and_path() {
+        let center = Vec3::new(100.0, 2.0, -50.0);
+        let trees = plant(center, Vec2::NEG_Y);
+        assert!(trees.len() > 150, "{} trees", trees.len());
+        for tree in &trees {
+            let local = tree.foot_m - center;
+            assert!(local.length() > 15.0, "a tree among the leaves: {tree:?}");
+            let on_ground = Vec2::new(local.x, local.z);
+            assert!(beyond_path(on_ground, Vec2::NEG_Y) > 1.0, "a tree on the path: {tree:?}");
+        }
+    }
 }

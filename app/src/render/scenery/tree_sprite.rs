@@ -47,7 +47,7 @@ pub(crate) fn paint_tree(index: u32) -> TreeSprite {
     let half_height = 0.485 - 0.5 * base;
     let half_width = if bush { 0.46 } else { random.range(0.3, 0.43) };
     let mut clumps = Vec::new();
-    let clump_count = if bush { 40 } else { 80 };
+    let clump_count = if bush { 60 } else { 125 };
     for _ in 0..clump_count {
         let p = random.in_ball();
         let p = p * (0.62 + 0.38 * p.length());
@@ -59,6 +59,12 @@ pub(crate) fn paint_tree(index: u32) -> TreeSprite {
             crown.x + p.y * (half_height - radius) * 0.97,
             p.z * half_width * taper,
         );
+        // A lone tuft on a twig looks clipped: every clump leans on another.
+        let joined =
+            clumps.iter().any(|other: &Clump| other.center.truncate().distance(center.truncate()) < 0.095);
+        if clumps.len() < 12 && p.length() > 0.75 || clumps.len() >= 12 && !joined {
+            continue;
+        }
         clumps.push(Clump { center, radius, hue: random.range(-1.0, 1.0) });
     }
     let mut dabs = Vec::new();
@@ -81,7 +87,7 @@ fn branches(random: &mut Random, clumps: &[Clump], dabs: &mut Vec<Dab>) {
     let lean = random.range(-0.03, 0.03);
     let fork = Vec3::new(lean, random.range(0.3, 0.4), 0.0);
     limb(random, Vec3::ZERO, fork, 0.021, 0.014, dabs);
-    limb(random, fork, Vec3::new(lean * 2.0, 0.78, 0.0), 0.014, 0.003, dabs);
+    limb(random, fork, Vec3::new(lean * 2.0, 0.68, -0.2), 0.014, 0.003, dabs);
     for clump in clumps {
         let from = fork * random.range(0.75, 1.0) + Vec3::Y * random.range(0.0, 0.28);
         let start = random.range(0.004, 0.008);

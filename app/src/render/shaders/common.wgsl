@@ -15,6 +15,7 @@ struct Frame {
     // Direction towards the sun; tangent of its distance from the zenith.
     sun_direction: vec4<f32>,
     sun_color: vec4<f32>,
+    // w: x and z of the direction the park's path leads.
     sky_zenith: vec4<f32>,
     sky_horizon: vec4<f32>,
     // Light that comes back from the ground.

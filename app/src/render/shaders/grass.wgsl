@@ -33,7 +33,8 @@ fn vertex(
     // The rank of a blade is its number: fewer stand farther away, and the last ones shrink before they vanish.
     let rank = f32(blade) / cell.z;
     let kept = standing(distance_m);
-    let grown = smoothstep(rank, rank * 1.25 + 0.002, kept);
+    let verge = smoothstep(-0.1, 0.2, beyond_path(at) - 0.25 * (unit_from(key_3) - 0.5));
+    let grown = smoothstep(rank, rank * 1.25 + 0.002, kept) * verge;
     let tall = 0.6 + 0.8 * textureSampleLevel(noise, repeat_sampler, at * 0.31, 0.0).g;
     let height = SWARD_M * 1.45 * tall * mix(0.65, 1.35, unit_from(key_3)) * grown;
     // Wide enough to be seen: a pixel at least.

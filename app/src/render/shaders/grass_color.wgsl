@@ -2,6 +2,19 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // Colour of the meadow at a place: the ground plane and the blades on it agree.
 
+// Half width of the path in metres.
+const PATH_HALF_WIDTH_M: f32 = 1.05;
+
+// How far a place lies outside the winding path, in metres; negative on it. `layout.rs` keeps trees off it.
+fn beyond_path(at: vec2<f32>) -> f32 {
+    let lead = vec2(frame.sky_zenith.w, frame.sky_horizon.w);
+    let local = at - frame.park.xz;
+    let along = dot(local, lead);
+    let aside = dot(local, vec2(-lead.y, lead.x));
+    let ragged = textureSampleLevel(noise, repeat_sampler, at * 0.23, 0.0).g - 0.5;
+    return abs(aside - 3.4 * sin(along * 0.10 - 0.9)) - PATH_HALF_WIDTH_M + 0.35 * ragged;
+}
+
 // Grass albedo (rgb) and dryness (a) at a place on the ground.
 fn meadow(at: vec2<f32>, lod: f32) -> vec4<f32> {
     let wide = textureSampleLevel(noise, repeat_sampler, at * 0.011, lod).r;

@@ -34,6 +34,10 @@ fn fragment(in: Varyings) -> @location(0) vec4<f32> {
     let thatch = mix(vec3(0.055, 0.050, 0.022), grass.rgb * 0.55, 0.55);
     var albedo = mix(thatch, grass.rgb, far);
     albedo *= 1.0 + 1.1 * (fine - 0.5) + 0.8 * (coarse - 0.5);
+    let softness = 0.06 + 0.004 * distance_m;
+    let path = 1.0 - smoothstep(-softness, softness + 0.1, beyond_path(at));
+    let gravel = vec3(0.235, 0.185, 0.130) * (0.82 + 0.5 * (fine - 0.5) + 0.5 * (coarse - 0.5) + 0.3 * (specks - 0.5));
+    albedo = mix(albedo, gravel, path);
     // Fallen leaves too far away to be drawn one by one.
     let shade = tree_shade(in.world);
     let density = clamp(shade.g * 0.85 + 0.10 + 0.25 * (coarse - 0.5), 0.0, 0.8);
@@ -42,12 +46,14 @@ fn fragment(in: Varyings) -> @location(0) vec4<f32> {
     let litter = mix(vec3(0.42, 0.22, 0.05), vec3(0.36, 0.13, 0.04), coarse * 1.2 - 0.2);
     albedo = mix(albedo, litter, density * speck * seen);
 
-    let sun = shade.r * leaf_shadow(in.world);
+    // The path lies as high as the leaves on it do: their shadows touch them.
+    let sun = shade.r * leaf_shadow(in.world + vec3(0.0, 0.8 * SWARD_M * path, 0.0));
     // Grass is rough: against the sun it glows, with the sun behind one it shows its lit side.
     let view = normalize(frame.eye.xyz - in.world);
     let against = pow(max(dot(-view, frame.sun_direction.xyz), 0.0), 3.0);
-    let facing = mix(0.75, 1.0, far) * frame.sun_direction.y + 0.12;
-    var color = albedo * (frame.sun_color.rgb * sun * (facing + 0.55 * far * against));
-    color += albedo * ambient_light(vec3(0.0, 1.0, 0.0)) * mix(0.55, 0.95, far);
+    let rough = far * (1.0 - path);
+    let facing = mix(0.75, 1.0, max(far, path)) * frame.sun_direction.y + 0.12;
+    var color = albedo * (frame.sun_color.rgb * sun * (facing + 0.55 * rough * against));
+    color += albedo * ambient_light(vec3(0.0, 1.0, 0.0)) * mix(0.55, 0.95, max(far, path));
     return vec4(haze(color, in.world), 1.0);
 }

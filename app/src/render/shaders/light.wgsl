@@ -50,7 +50,7 @@ fn clear_sky(direction: vec3<f32>) -> vec3<f32> {
     let toward_sun = max(dot(direction, frame.sun_direction.xyz), 0.0);
     var color = mix(frame.sky_horizon.rgb, frame.sky_zenith.rgb, 1.0 - exp(-4.2 * height));
     // Forward scattering: a wide warm veil and a tighter glow.
-    let veil = 0.10 * pow(toward_sun, 4.0) + 0.22 * pow(toward_sun, 24.0) + 0.8 * pow(toward_sun, 300.0);
+    let veil = 0.07 * pow(toward_sun, 5.0) + 0.22 * pow(toward_sun, 24.0) + 0.8 * pow(toward_sun, 300.0);
     color += frame.sun_color.rgb * veil;
     return color;
 }

@@ -36,7 +36,7 @@ fn fragment(in: Varyings) -> @location(0) vec4<f32> {
     let lod = clamp(1.6 - 6.0 * up, 0.0, 3.0);
     let broad = textureSampleLevel(noise, repeat_sampler, plane * 0.055 + drift, lod).r;
     let streak = textureSampleLevel(noise, repeat_sampler, plane * vec2(0.10, 0.21) + 0.4 + drift, lod).g;
-    let cover = smoothstep(0.53, 0.80, 0.72 * broad + 0.30 * streak) * smoothstep(0.02, 0.22, up);
+    let cover = smoothstep(0.57, 0.86, 0.72 * broad + 0.30 * streak) * smoothstep(0.02, 0.22, up);
     let cloud = frame.sky_horizon.rgb * 1.12 + frame.sun_color.rgb * (0.16 + 0.30 * pow(toward_sun, 6.0));
     color = mix(color, cloud, cover * 0.75);
     color += frame.sun_color.rgb * smoothstep(0.99985, 0.99997, toward_sun) * 12.0;

@@ -1,0 +1,137 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Draws small pictures on whatever Vulkan adapter there is. A machine without one fails these tests: Mesa's
+//! software driver is enough.
+
+use image::RgbaImage;
+use windfall_core::Scene;
+use windfall_texgen::{Atlas, AtlasRequest};
+
+use super::*;
+use crate::camera::Camera;
+
+/// A width whose rows need padding on their way back.
+const SIZE: (u32, u32) = (150, 90);
+
+struct Bench {
+    device: wgpu::Device,
+    queue: wgpu::Queue,
+    scene: Scene,
+    renderer: Renderer,
+}
+
+fn bench(change: impl FnOnce(&mut Scene)) -> Bench {
+    let mut descriptor = wgpu::InstanceDescriptor::new_without_display_handle_from_env();
+    descriptor.backends = wgpu::Backends::VULKAN;
+    let instance = wgpu::Instance::new(descriptor);
+    let adapter = pollster::block_on(instance.request_adapter(&wgpu::RequestAdapterOptions::default()))
+        .expect("a Vulkan adapter; apt install mesa-vulkan-drivers");
+    let features = adapter.features() & wgpu::Features::TIMESTAMP_QUERY;
+    let descriptor = wgpu::DeviceDescriptor { required_features: features, ..Default::default() };
+    let (device, queue) = pollster::block_on(adapter.request_device(&descriptor)).expect("a device");
+    let mut scene = Scene::default();
+    change(&mut scene);
+    let request = AtlasRequest { variants: 2, size_px: 32, ..atlas_request(&scene) };
+    let atlas = Atlas::generate(&request).expect("an atlas");
+    let options = RendererOptions { litter_count: 0 };
+    let renderer = Renderer::new(&device, &queue, &scene, &atlas, PictureTarget::FORMAT, SIZE, options)
+        .expect("a renderer within default limits");
+    Bench { device, queue, scene, renderer }
+}
+
+impl Bench {
+    /// Draws one big leaf that faces the camera, in the given state, at an offset from the middle of the picture.
+    fn draw(&mut self, state: u32, offset_m: f32, time_s: f64) -> RgbaImage {
+        let at = self.scene.view.camera.target_m;
+        let usage = wgpu::BufferUsages::VERTEX | wgpu::BufferUsages::STORAGE;
+        let column = |words: [u32; 4]| {
+            upload::buffer(&self.device, &self.queue, "column", usage, bytemuck::bytes_of(&words))
+        };
+        let half = std::f32::consts::FRAC_1_SQRT_2;
+        let position = column([(at.x + offset_m).to_bits(), at.y.to_bits(), (at.z + 6.0).to_bits(), state]);
+        let orientation = column([half.to_bits(), 0, 0, half.to_bits()]);
+        let (course, identity) = (column([0, 0, 60_000, 0]), column([0, 0, 0, 0x1_2345]));
+        let leaves = LeafColumns {
+            position: &position,
+            orientation: &orientation,
+            course: &course,
+            identity: &identity,
+            leaf_count: 1,
+        };
+        let target = PictureTarget::new(&self.device, SIZE).expect("a target");
+        let mut encoder = self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        let camera = Camera::from(&self.scene.view.camera);
+        self.renderer.draw(&mut encoder, &target.view(), &leaves, &FrameInput { camera, time_s });
+        target.submit_and_read(&self.device, &self.queue, encoder).expect("a picture")
+    }
+}
+
+fn differing(a: &RgbaImage, b: &RgbaImage) -> usize {
+    a.pixels().zip(b.pixels()).filter(|(a, b)| a.0.iter().zip(b.0).any(|(a, b)| a.abs_diff(b) > 12)).count()
+}
+
+#[test]
+fn a_leaf_is_seen_unless_dormant() {
+    let mut bench = bench(|_| {});
+    let empty = bench.draw(0, 0.0, 0.0);
+    assert_eq!(empty, bench.draw(0, 1.0, 0.0), "a dormant leaf is nowhere");
+    for state in 1..=3 {
+        let seen = differing(&empty, &bench.draw(state, 0.0, 0.0));
+        assert!((30..6000).contains(&seen), "state {state}: {seen} pixels changed");
+    }
+}
+
+#[test]
+fn same_frame_gives_same_picture() {
+    let mut bench = bench(|_| {});
+    assert_eq!(bench.draw(2, 0.3, 1.5), bench.draw(2, 0.3, 1.5), "nothing random in a frame");
+}
+
+#[test]
+fn picture_is_opaque_day_over_a_meadow() {
+    let mut bench = bench(|_| {});
+    let picture = bench.draw(0, 0.0, 0.0);
+    assert!(picture.pixels().all(|pixel| pixel.0[3] == 255), "opaque");
+    let mean = |rows: std::ops::Range<u32>| {
+        let count = f64::from(SIZE.0) * f64::from(rows.end - rows.start);
+        let rows = picture.enumerate_pixels().filter(|(_, y, _)| rows.contains(y));
+        let sum = rows.fold([0.0; 3], |sum: [f64; 3], (_, _, pixel)| {
+            std::array::from_fn(|channel| sum[channel] + f64::from(pixel.0[channel]))
+        });
+        sum.map(|channel| channel / count)
+    };
+    let (sky, meadow) = (mean(0..20), mean(75..90));
+    assert!(sky.iter().all(|&channel| channel > 110.0), "a bright sky: {sky:?}");
+    assert!(meadow[1] > meadow[2] * 1.3, "a green meadow: {meadow:?}");
+}
+
+#[test]
+fn trail_follows_a_leaf_and_breaks_where_it_is_put_elsewhere() {
+    let mut bench = bench(|scene| scene.view.trail_s = 2.0);
+    let mut last = bench.draw(2, -1.0, 0.0);
+    let start = last.clone();
+    for frame in 1..=30 {
+        let along = frame as f32 / 30.0;
+        last = bench.draw(2, -1.0 + along, f64::from(frame) / 60.0);
+    }
+    let middle = |picture: &RgbaImage| {
+        let column = image::imageops::crop_imm(picture, SIZE.0 / 2 - 16, 0, 2, SIZE.1);
+        column.to_image()
+    };
+    assert!(differing(&middle(&start), &middle(&last)) > 0, "a ribbon where the leaf has been");
+    let before = bench.draw(0, 0.0, 31.0 / 60.0);
+    let jumped = bench.draw(2, -1.2, 32.0 / 60.0);
+    let ribbon_kept = differing(&middle(&before), &middle(&jumped));
+    assert!(ribbon_kept < 20, "no new ribbon across the jump: {ribbon_kept} pixels");
+}
+
+#[test]
+fn sizes_beyond_the_device_are_refused() {
+    let mut bench = bench(|_| {});
+    for size in [(0, 10), (10, 0), (100_000, 10)] {
+        let error = bench.renderer.resize(size).expect_err("an impossible size");
+        assert!(matches!(error, RenderError::Size { .. }), "{size:?}: {error}");
+        assert!(PictureTarget::new(&bench.device, size).is_err(), "{size:?} as a target");
+    }
+    assert_eq!(bench.renderer.size(), SIZE, "the renderer keeps its size");
+}
