@@ -54,7 +54,7 @@ fn main() -> Result<()> {
     let mut writer = Output::from_path(Path::new(&path))?.start(size, 60.0)?;
     for frame in 0..frames {
         let time_s = f64::from(frame) / 60.0;
-        let buffers = synthetic_columns(&device, &queue, leaf_count, time_s as f32);
+        let buffers = synthetic_columns(&device, &queue, leaf_count, frame as f32 / 60.0);
         let [position, orientation, course, identity] = &buffers;
         let leaves = LeafColumns { position, orientation, course, identity, leaf_count };
         let begun = Instant::now();
@@ -84,10 +84,10 @@ async fn open_device() -> Result<(wgpu::Device, wgpu::Queue)> {
     Ok(adapter.request_device(&descriptor).await?)
 }
 
-fn unit(seed: u32) -> f32 {
+fn hash(seed: u32) -> u32 {
     let state = seed.wrapping_mul(747_796_405).wrapping_add(2_891_336_453);
     let word = ((state >> ((state >> 28) + 4)) ^ state).wrapping_mul(277_803_737);
-    (((word >> 22) ^ word) >> 8) as f32 / 16_777_216.0
+    (word >> 22) ^ word
 }
 
 /// Two thirds falling, turned at random, one third lying on the ground.
@@ -100,9 +100,10 @@ fn synthetic_columns(
     let mut columns: [Vec<[u32; 4]>; 4] = Default::default();
     let bits = |v: [f32; 4]| v.map(f32::to_bits);
     for leaf in 0..count {
-        let random = |draw: u32| unit(leaf.wrapping_mul(31).wrapping_add(draw));
+        let word = |draw: u32| hash(leaf.wrapping_mul(31).wrapping_add(draw));
+        let random = |draw: u32| (word(draw) >> 8) as f32 / 16_777_216.0;
         let resting = leaf % 3 == 2;
-        let species = leaf % 3 ^ (leaf / 3 % 3);
+        let species = (leaf % 3) ^ (leaf / 3 % 3);
         let place = Vec3::new(random(0) * 16.0 - 8.0, random(1) * 9.0, random(2) * 15.0 - 9.0);
         let fall = Vec3::new((time_s * 3.0 + leaf as f32).sin() * 0.3, -time_s, 0.0);
         let (place, state) = if resting { (Vec3::new(place.x, 0.0, place.z), 3) } else { (place + fall, 2) };
@@ -115,8 +116,8 @@ fn synthetic_columns(
             Quat::from_euler(glam::EulerRot::YXZ, random(3) * TAU, random(4) * TAU, random(5) * TAU)
         };
         columns[1].push(bits(turn.to_array()));
-        columns[2].push([0, 0, (16384.0 * (0.8 + 0.4 * random(6))) as u32, 0]);
-        columns[3].push([0, 0, 0, (random(7) * 65535.0) as u32 | ((random(8) * 255.0) as u32) << 16]);
+        columns[2].push([0, 0, 13_107 + word(6) % 6_554, 0]);
+        columns[3].push([0, 0, 0, word(7) & 0x00ff_ffff]);
     }
     columns.map(|column| {
         let bytes: &[u8] = bytemuck::cast_slice(&column);

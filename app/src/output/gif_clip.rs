@@ -67,7 +67,7 @@ impl GifClip {
     }
 
     pub(super) fn push(&mut self, frame: &RgbaImage) -> Result<(), OutputError> {
-        let keep = self.pushed % self.step == 0;
+        let keep = self.pushed.is_multiple_of(self.step);
         self.pushed += 1;
         if !keep {
             return Ok(());

@@ -42,7 +42,7 @@ impl Histogram {
                 weight: (bin[3] as f32).powf(0.6),
             })
             .collect();
-        let mut boxes = vec![0..points.len()];
+        let mut boxes: Vec<_> = std::iter::once(0..points.len()).collect();
         while boxes.len() < COLORS {
             let spread = |range: &std::ops::Range<usize>| widest(&points[range.clone()]);
             let split = boxes.iter().enumerate().map(|(at, range)| (at, spread(range)));

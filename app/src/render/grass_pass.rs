@@ -138,7 +138,8 @@ mod tests {
     fn squares_lie_before_the_camera_and_stay_few() {
         let camera = Camera::from(&scene::Camera::default());
         let classes = visible_cells(&camera, 16.0 / 9.0, 0.0);
-        let drawn: u32 = SHARES.into_iter().zip(&classes).map(|(s, c)| blades(s) * c.len() as u32).sum();
+        let drawn: usize =
+            SHARES.into_iter().zip(&classes).map(|(share, cells)| blades(share) as usize * cells.len()).sum();
         assert!(
             classes.iter().flatten().all(|cell| cell[1] < camera.eye_m().z),
             "a square behind the camera"

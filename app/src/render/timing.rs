@@ -7,8 +7,9 @@ use std::sync::atomic::{AtomicU8, Ordering};
 
 /// Passes that are timed, in order of drawing.
 const PASSES: [&str; 3] = ["shadows", "scene", "tone map"];
-const QUERY_COUNT: u32 = 2 * PASSES.len() as u32;
-const BYTES: u64 = QUERY_COUNT as u64 * 8;
+/// A beginning and an end for each.
+const QUERY_COUNT: u32 = 6;
+const BYTES: u64 = 6 * 8;
 
 const IDLE: u8 = 0;
 const COPIED: u8 = 1;

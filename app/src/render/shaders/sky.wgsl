@@ -50,7 +50,7 @@ fn fragment(in: Varyings) -> @location(0) vec4<f32> {
         let near = f32(row);
         let top = skyline(azimuth, 0.21 + near * 0.4, mix(0.060, 0.042, near));
         let wood = mix(vec3(0.10, 0.085, 0.05), vec3(0.17, 0.10, 0.035), near) * frame.sun_color.rgb * 0.55;
-        let seen = mix(wood, level, mix(0.86, 0.70, near));
+        let seen = mix(wood, level, mix(0.90, 0.80, near));
         color = mix(color, seen, smoothstep(pixel, -pixel, slope - top));
     }
     return vec4(min(color, vec3(24.0)), 1.0);
