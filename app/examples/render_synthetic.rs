@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Draws a made-up cloud of leaves without simulating anything: `render_synthetic [OUT] [LEAVES] [FRAMES] [WIDTHxHEIGHT]`.
 //!
-//! The environment may set YAW, PITCH (radians), ZOOM, SUN_AZIMUTH, SUN_ELEVATION (degrees) and TRAIL (seconds).
+//! The environment may set YAW, PITCH (radians), ZOOM, SUN_AZIMUTH, SUN_ELEVATION (degrees), TRAIL (seconds) and SCENE (a preset).
 
 use std::f32::consts::{PI, TAU};
 use std::path::Path;
@@ -26,12 +26,10 @@ fn main() -> Result<()> {
     let (width, height) = size.split_once('x').context("a size such as 1280x720")?;
     let size: (u32, u32) = (width.parse()?, height.parse()?);
     let (device, queue) = pollster::block_on(open_device())?;
-    let mut scene = Scene::default();
-    let shapes =
-        [("maple", LeafShape::Maple, 0.10), ("beech", LeafShape::Beech, 0.06), ("oak", LeafShape::Oak, 0.08)];
-    scene.species = shapes
-        .map(|(name, shape, size_m)| Species { name: name.into(), shape, size_m, ..Species::default() })
-        .to_vec();
+    let mut scene = match std::env::var("SCENE") {
+        Ok(name) => Scene::preset(&name).context("no such preset")?,
+        Err(_) => three_species(),
+    };
     let number = |name: &str| std::env::var(name).ok().and_then(|text| text.parse::<f32>().ok());
     if let Some(degrees) = number("SUN_AZIMUTH") {
         scene.view.sun.azimuth_deg = degrees;
@@ -39,7 +37,7 @@ fn main() -> Result<()> {
     if let Some(degrees) = number("SUN_ELEVATION") {
         scene.view.sun.elevation_deg = degrees;
     }
-    scene.view.trail_s = number("TRAIL").unwrap_or(0.0);
+    scene.view.trail_s = number("TRAIL").unwrap_or(scene.view.trail_s);
     let made = Instant::now();
     let atlas = Atlas::generate(&atlas_request(&scene))?;
     println!("atlas made in {:.0} ms", made.elapsed().as_secs_f64() * 1e3);
@@ -68,6 +66,15 @@ fn main() -> Result<()> {
     }
     println!("{}", writer.finish()?.display());
     Ok(())
+}
+
+fn three_species() -> Scene {
+    let shapes =
+        [("maple", LeafShape::Maple, 0.10), ("beech", LeafShape::Beech, 0.06), ("oak", LeafShape::Oak, 0.08)];
+    let species = shapes
+        .map(|(name, shape, size_m)| Species { name: name.into(), shape, size_m, ..Species::default() })
+        .to_vec();
+    Scene { species, ..Scene::default() }
 }
 
 async fn open_device() -> Result<(wgpu::Device, wgpu::Queue)> {

@@ -1,4 +1,9 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Placeholder.
-fn main() {}
+//! The command line of Windfall.
+
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    windfall::cli::main()
+}

@@ -40,6 +40,15 @@ pub(super) struct FrameUniform {
     viewport: [f32; 4],
 }
 
+/// How the park's path winds.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Path {
+    /// Direction it leads, x and z.
+    pub(super) lead: Vec2,
+    /// Phase of its bends in radians.
+    pub(super) phase: f32,
+}
+
 /// What a frame's light and place are computed from.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Environment {
@@ -47,13 +56,13 @@ pub(super) struct Environment {
     pub(super) sun_direction: Vec3,
     /// Centre of the park, on the ground.
     pub(super) park_center: Vec3,
-    /// Direction its path leads, x and z.
-    pub(super) path_lead: Vec2,
+    /// Its path.
+    pub(super) path: Path,
 }
 
 impl Environment {
-    pub(super) fn new(sun: &Sun, park_center: Vec3, path_lead: Vec2) -> Self {
-        Self { sun_direction: sun_direction(sun), park_center, path_lead }
+    pub(super) fn new(sun: &Sun, park_center: Vec3, path: Path) -> Self {
+        Self { sun_direction: sun_direction(sun), park_center, path }
     }
 
     /// The uniform block of one frame.
@@ -80,9 +89,9 @@ impl Environment {
             forward: full(camera.forward(), 0.0),
             sun_direction: full(sun, Vec2::new(sun.x, sun.z).length() / sun.y),
             sun_color: full(sun_color, 0.0),
-            sky_zenith: full(zenith, self.path_lead.x),
-            sky_horizon: full(horizon, self.path_lead.y),
-            ground_bounce: full(bounce, 0.0),
+            sky_zenith: full(zenith, self.path.lead.x),
+            sky_horizon: full(horizon, self.path.lead.y),
+            ground_bounce: full(bounce, self.path.phase),
             air: [HAZE_PER_M, EXPOSURE, PARK_RADIUS_M, 2.0 * SHADOW_RADIUS_M / SHADOW_SIZE as f32],
             park: full(self.park_center, SHADOW_RADIUS_M),
             viewport: [width, height, 1.0 / width, 1.0 / height],
@@ -131,9 +140,11 @@ mod tests {
 
     use super::*;
 
+    const PATH: Path = Path { lead: Vec2::X, phase: 0.0 };
+
     #[test]
     fn shadow_projection_separates_leaf_from_ground_along_the_sun() {
-        let environment = Environment::new(&Sun::default(), Vec3::ZERO, Vec2::X);
+        let environment = Environment::new(&Sun::default(), Vec3::ZERO, PATH);
         let matrix = environment.shadow_projection(&Camera::from(&scene::Camera::default()));
         let ground = Vec3::new(0.5, 0.0, -0.5);
         let leaf = ground + 3.0 * environment.sun_direction;
@@ -147,7 +158,7 @@ mod tests {
     fn light_stays_finite_for_every_sun() {
         for elevation_deg in [1.0, 5.0, 45.0, 90.0] {
             let sun = Sun { azimuth_deg: 30.0, elevation_deg };
-            let environment = Environment::new(&sun, Vec3::ZERO, Vec2::X);
+            let environment = Environment::new(&sun, Vec3::ZERO, PATH);
             let frame = environment.frame(&Camera::from(&scene::Camera::default()), 1.0, (640, 480));
             let all: &[f32] = bytemuck::cast_slice(std::slice::from_ref(&frame));
             assert!(all.iter().all(|value| value.is_finite()), "elevation {elevation_deg}: {frame:?}");

@@ -9,7 +9,7 @@ use windfall_texgen::Atlas;
 
 use super::RenderError;
 use super::columns::LeafColumns;
-use super::environment::Environment;
+use super::environment::{Environment, Path};
 use super::frame::FrameGroup;
 use super::grass_pass::GrassPass;
 use super::ground_pass::GroundPass;
@@ -17,7 +17,7 @@ use super::leaf_kinds::LeafKinds;
 use super::leaf_pass::LeafPass;
 use super::light_group::LightGroup;
 use super::litter::Litter;
-use super::scenery::plant;
+use super::scenery::{Park, plant};
 use super::shadow_pass::ShadowPass;
 use super::sky_pass::SkyPass;
 use super::targets::Targets;
@@ -96,7 +96,7 @@ impl Renderer {
         let forward = camera.forward();
         let level = Vec2::new(forward.x, forward.z).normalize_or(Vec2::NEG_Y);
         let center = Vec3::new(camera.target_m.x, scene.ground.height_m, camera.target_m.z);
-        let planted = plant(center, level);
+        let Park { trees: planted, path_phase } = plant(scene, center, level);
 
         let targets = Targets::new(device, size)?;
         let frame = FrameGroup::new(device);
@@ -109,7 +109,7 @@ impl Renderer {
         let mut renderer = Self {
             device: device.clone(),
             queue: queue.clone(),
-            environment: Environment::new(&scene.view.sun, center, level),
+            environment: Environment::new(&scene.view.sun, center, Path { lead: level, phase: path_phase }),
             leaf_count: scene.leaf_count(),
             litter: Litter::new(device, queue, options.litter_count, species_count, center, &planted),
             leaf_pass: LeafPass::new(device, queue, &frame, &light, &kinds),
@@ -152,8 +152,8 @@ impl Renderer {
 
     /// Takes over another sun and length of trails; the park stays where it is.
     pub fn update_scene_view(&mut self, view: &View) {
-        let Environment { park_center, path_lead, .. } = self.environment;
-        self.environment = Environment::new(&view.sun, park_center, path_lead);
+        let Environment { park_center, path, .. } = self.environment;
+        self.environment = Environment::new(&view.sun, park_center, path);
         self.shade_is_old = true;
         let drawn = self.trail_pass.as_ref().map_or(0.0, TrailPass::trail_s);
         if drawn != view.trail_s {

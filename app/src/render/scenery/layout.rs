@@ -3,6 +3,8 @@
 //! Where the trees of the park stand.
 
 use glam::{Vec2, Vec3};
+use windfall_core::Scene;
+use windfall_core::scene::{Source, SourceShape};
 
 use super::random::Random;
 use super::tree_sprite::SPRITE_COUNT;
@@ -28,10 +30,33 @@ pub(crate) struct TreeInstance {
     pub(crate) brightness: f32,
 }
 
-/// Plants the park around `center`, leaving open what `view` (a unit vector in the ground plane) looks along.
-pub(crate) fn plant(center: Vec3, view: Vec2) -> Vec<TreeInstance> {
+/// Closest a tree stands to the viewer, in metres: any nearer its trunk would hide the scene.
+const NEAREST_M: f32 = 7.0;
+
+/// No tree but a source's own stands this near before the camera, in metres.
+const OPEN_M: f32 = 22.0;
+/// Phases the path's bends may have, in radians; the first that keeps clear of the sources' trees is taken.
+const PATH_PHASES: [f32; 6] = [-0.9, 2.2, 0.3, -2.0, 1.2, 3.4];
+
+/// A planted park.
+pub(crate) struct Park {
+    pub(crate) trees: Vec<TreeInstance>,
+    /// Phase of the path's bends in radians.
+    pub(crate) path_phase: f32,
+}
+
+/// Plants the park around `center`, leaving open what `view` (a unit vector in the ground plane) looks along. Every
+/// source of leaves in the shape of a crown gets its tree.
+pub(crate) fn plant(scene: &Scene, center: Vec3, view: Vec2) -> Park {
     let mut random = Random::new(41);
-    let mut trees: Vec<TreeInstance> = Vec::new();
+    let crowns = scene.sources.iter().filter_map(|source| crown_tree(scene, source, &mut random));
+    let mut trees: Vec<TreeInstance> = crowns.collect();
+    let mut random = Random::new(43);
+    let eye = scene.view.camera.eye_m;
+    let on_ground = |point: Vec3| Vec2::new(point.x - center.x, point.z - center.z);
+    let is_clear =
+        |phase: f32| trees.iter().all(|tree| beyond_path(on_ground(tree.foot_m), view, phase) > 2.5);
+    let path_phase = PATH_PHASES.into_iter().find(|&phase| is_clear(phase)).unwrap_or(PATH_PHASES[0]);
     // Rings of inner and outer radius, number of trees, and the angle kept open along the view.
     let rings = [
         (17.0f32, 30.0f32, 9, 0.38f32, 1.0f32),
@@ -52,9 +77,13 @@ pub(crate) fn plant(center: Vec3, view: Vec2) -> Vec<TreeInstance> {
             let toward = Vec2::from_angle(angle);
             let apart = toward.dot(view).clamp(-1.0, 1.0).acos();
             let foot = center + Vec3::new(toward.x, 0.0, toward.y) * radius;
-            let clear = beyond_path(toward * radius, view) > if bush { 2.5 } else { 1.2 };
+            let clear = beyond_path(toward * radius, view, path_phase) > if bush { 2.5 } else { 1.2 };
             let spacing = if bush { 2.0 } else { 3.5 + 0.07 * radius };
-            if !clear || apart < open_rad || trees.iter().any(|tree| tree.foot_m.distance(foot) < spacing) {
+            if !clear
+                || hides(eye, view, foot)
+                || apart < open_rad
+                || trees.iter().any(|tree| tree.foot_m.distance(foot) < spacing)
+            {
                 continue;
             }
             left -= 1;
@@ -72,13 +101,44 @@ pub(crate) fn plant(center: Vec3, view: Vec2) -> Vec<TreeInstance> {
             trees.push(TreeInstance { foot_m: foot, height_m, width, sprite, hue, brightness });
         }
     }
-    trees
+    Park { trees, path_phase }
+}
+
+/// Whether a tree at `foot` would stand right before the viewer.
+fn hides(eye: Vec3, view: Vec2, foot: Vec3) -> bool {
+    let offset = Vec2::new(foot.x - eye.x, foot.z - eye.z);
+    let distance = offset.length();
+    distance < NEAREST_M || (distance < OPEN_M && offset.dot(view) > 0.8 * distance)
+}
+
+/// The tree whose crown is a source's ball of leaves.
+fn crown_tree(scene: &Scene, source: &Source, random: &mut Random) -> Option<TreeInstance> {
+    let SourceShape::Sphere { center_m, radius_m } = source.shape else { return None };
+    let foot_m = Vec3::new(center_m.x, scene.ground.height_m, center_m.z);
+    let under = center_m.y - radius_m - foot_m.y;
+    let hidden = foot_m.distance(scene.view.camera.eye_m) < NEAREST_M;
+    if radius_m < 1.5 || !(1.0..30.0).contains(&under) || hidden {
+        return None;
+    }
+    let named = source.species.iter().max_by_key(|share| share.weight);
+    let species = named.and_then(|share| scene.species.iter().find(|kind| kind.name == share.species));
+    let (first, last) = species.map_or((0.4, 0.9), |kind| kind.season);
+    let height_m = 1.12 * (center_m.y + radius_m - foot_m.y);
+    Some(TreeInstance {
+        foot_m,
+        height_m,
+        // Painted crowns are about 0.75 of their picture wide.
+        width: (2.0 * radius_m / 0.72 / height_m).clamp(0.6, 1.5),
+        sprite: random.word() % (SPRITE_COUNT - SPRITE_COUNT / 4),
+        hue: (0.5 * (first + last)).clamp(0.0, 1.0) * 0.9,
+        brightness: random.range(0.9, 1.1),
+    })
 }
 
 /// How far a place lies from the middle of the path that leads along `view`; the shape of `grass_color.wgsl`.
-fn beyond_path(local: Vec2, view: Vec2) -> f32 {
+fn beyond_path(local: Vec2, view: Vec2, phase: f32) -> f32 {
     let (along, aside) = (local.dot(view), local.dot(view.perp()));
-    (aside - 3.4 * (along * 0.10 - 0.9).sin()).abs()
+    (aside - 3.4 * (along * 0.10 + phase).sin()).abs()
 }
 
 #[cfg(test)]
@@ -86,15 +146,26 @@ mod tests {
     use super::*;
 
     #[test]
+    fn a_crown_of_leaves_gets_its_tree_and_the_path_goes_round_it() {
+        let shape = SourceShape::Sphere { center_m: Vec3::new(-2.4, 9.0, -3.0), radius_m: 4.0 };
+        let scene = Scene { sources: vec![Source { shape, ..Source::default() }], ..Scene::default() };
+        let park = plant(&scene, Vec3::ZERO, Vec2::NEG_Y);
+        let foot = park.trees[0].foot_m;
+        assert_eq!(foot, Vec3::new(-2.4, 0.0, -3.0), "the first tree is the source's");
+        let clear = beyond_path(Vec2::new(foot.x, foot.z), Vec2::NEG_Y, park.path_phase);
+        assert!(clear > 2.5, "{clear} m from the middle of the path");
+    }
+
+    #[test]
     fn trees_leave_room_for_leaves_and_path() {
         let center = Vec3::new(100.0, 2.0, -50.0);
-        let trees = plant(center, Vec2::NEG_Y);
+        let Park { trees, path_phase } = plant(&Scene::default(), center, Vec2::NEG_Y);
         assert!(trees.len() > 150, "{} trees", trees.len());
         for tree in &trees {
             let local = tree.foot_m - center;
             assert!(local.length() > 15.0, "a tree among the leaves: {tree:?}");
             let on_ground = Vec2::new(local.x, local.z);
-            assert!(beyond_path(on_ground, Vec2::NEG_Y) > 1.0, "a tree on the path: {tree:?}");
+            assert!(beyond_path(on_ground, Vec2::NEG_Y, path_phase) > 1.0, "a tree on the path: {tree:?}");
         }
     }
 }

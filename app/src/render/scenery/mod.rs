@@ -8,7 +8,7 @@ mod noise;
 mod random;
 mod tree_sprite;
 
-pub(super) use layout::{PARK_RADIUS_M, TreeInstance, plant};
+pub(super) use layout::{PARK_RADIUS_M, Park, TreeInstance, plant};
 pub(super) use litter::scatter;
 pub(super) use noise::{NOISE_SIZE, noise_mips};
 pub(super) use tree_sprite::{SPRITE_COUNT, SPRITE_SIZE, paint_tree};

@@ -18,7 +18,7 @@ struct Frame {
     // w: x and z of the direction the park's path leads.
     sky_zenith: vec4<f32>,
     sky_horizon: vec4<f32>,
-    // Light that comes back from the ground.
+    // Light that comes back from the ground; w: phase of the path's bends.
     ground_bounce: vec4<f32>,
     // Haze per metre; exposure; half edge of the shade map in metres; edge of a shadow texel in metres.
     air: vec4<f32>,

@@ -68,7 +68,8 @@ fn vertex(
     let reflected = 0.25 + 0.75 * max(dot(normal, light), 0.0);
     let against = pow(max(dot(-view, light), 0.0), 2.0);
     let glow = albedo * vec3(1.12, 1.25, 0.45) * against * 1.1;
-    let depth = mix(0.30, 1.0, rise);
+    // Roots are dark, but far away they are as bright as the ground that stands for grass there.
+    let depth = mix(mix(0.30, 0.95, smoothstep(7.0, 20.0, distance_m)), 1.0, rise);
     var color = frame.sun_color.rgb * sun * (albedo * reflected * 0.72 + glow) * depth;
     color += albedo * ambient_light(vec3(0.0, 0.9, 0.0)) * mix(0.35, 1.0, rise);
     // A sheen of the sky on the bend.

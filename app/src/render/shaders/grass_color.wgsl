@@ -12,7 +12,7 @@ fn beyond_path(at: vec2<f32>) -> f32 {
     let along = dot(local, lead);
     let aside = dot(local, vec2(-lead.y, lead.x));
     let ragged = textureSampleLevel(noise, repeat_sampler, at * 0.23, 0.0).g - 0.5;
-    return abs(aside - 3.4 * sin(along * 0.10 - 0.9)) - PATH_HALF_WIDTH_M + 0.35 * ragged;
+    return abs(aside - 3.4 * sin(along * 0.10 + frame.ground_bounce.w)) - PATH_HALF_WIDTH_M + 0.35 * ragged;
 }
 
 // Grass albedo (rgb) and dryness (a) at a place on the ground.

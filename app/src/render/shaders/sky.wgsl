@@ -39,7 +39,7 @@ fn fragment(in: Varyings) -> @location(0) vec4<f32> {
     let cover = smoothstep(0.57, 0.86, 0.72 * broad + 0.30 * streak) * smoothstep(0.02, 0.22, up);
     let cloud = frame.sky_horizon.rgb * 1.12 + frame.sun_color.rgb * (0.16 + 0.30 * pow(toward_sun, 6.0));
     color = mix(color, cloud, cover * 0.75);
-    color += frame.sun_color.rgb * smoothstep(0.99985, 0.99997, toward_sun) * 12.0;
+    color += frame.sun_color.rgb * smoothstep(0.9994, 0.99997, toward_sun) * 6.0;
 
     // Two rows of far woods in the haze.
     let azimuth = atan2(direction.z, direction.x);

@@ -1,0 +1,147 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Commands and options, and how their errors are told: one line on the standard error, exit code 2.
+
+use std::ffi::OsString;
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+
+use crate::commands::{bench, info, motions, simulate};
+use crate::terminal;
+
+/// Exit code of everything that goes wrong.
+const FAILURE: u8 = 2;
+
+/// Falling leaves on the CPU or the GPU.
+#[derive(Debug, Parser)]
+#[command(name = "windfall", version, about, disable_help_subcommand = true)]
+pub struct Cli {
+    /// What to do.
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+/// What the program can do.
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Simulate a scene without drawing it: statistics, tracks, checkpoints.
+    Simulate(simulate::Arguments),
+    /// List graphics adapters with their limits, and what is chosen by default.
+    Info,
+    /// Measure how fast this machine simulates.
+    Bench(bench::Arguments),
+    /// Write the motion tables of every species of a scene as text files.
+    Motions(motions::Arguments),
+}
+
+impl Command {
+    fn run(self) -> anyhow::Result<()> {
+        match self {
+            Self::Simulate(arguments) => simulate::run(&arguments),
+            Self::Info => info::run(),
+            Self::Bench(arguments) => bench::run(&arguments),
+            Self::Motions(arguments) => motions::run(&arguments),
+        }
+    }
+}
+
+/// Runs the program with the arguments it was started with.
+pub fn main() -> ExitCode {
+    run(std::env::args_os())
+}
+
+/// Runs the program with these arguments; the first is its own name.
+pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
+    let outcome = match Cli::try_parse_from(arguments) {
+        Ok(cli) => cli.command.run().map_err(|error| error.to_string()),
+        // Help and version, which were asked for.
+        Err(error) if !error.use_stderr() => {
+            terminal::print(&error.render().to_string()).map_err(|error| error.to_string())
+        }
+        Err(error) => Err(usage_error(&error)),
+    };
+    match outcome {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(message) => {
+            terminal::note(&format!("error: {message}"));
+            ExitCode::from(FAILURE)
+        }
+    }
+}
+
+/// The paragraphs of a parser's error that matter, on one line.
+fn usage_error(error: &clap::Error) -> String {
+    let text = error.render().to_string();
+    let mut message = String::new();
+    let lines = text.lines().map(str::trim).filter(|line| !line.is_empty());
+    for line in lines.take_while(|line| !line.starts_with("Usage:") && !line.starts_with("For more")) {
+        if !message.is_empty() {
+            message += if message.ends_with(':') || line.starts_with('[') { " " } else { "; " };
+        }
+        message += line;
+    }
+    message.strip_prefix("error: ").unwrap_or(&message).to_owned()
+}
+
+/// Reads a whole number from `LOW` to `HIGH`, also in the form 1e6.
+///
+/// # Errors
+/// Names the allowed range.
+pub(crate) fn whole<T: TryFrom<u64>, const LOW: u64, const HIGH: u64>(text: &str) -> Result<T, String> {
+    let number = text.parse().ok().or_else(|| scientific(text));
+    number
+        .filter(|number| (LOW..=HIGH).contains(number))
+        .and_then(|number| T::try_from(number).ok())
+        .ok_or_else(|| format!("allowed: a whole number from {LOW} to {HIGH}"))
+}
+
+/// Digits, an `e` and the number of zeros to follow.
+fn scientific(text: &str) -> Option<u64> {
+    let (digits, zeros) = text.split_once(['e', 'E'])?;
+    let plain = |part: &str| !part.is_empty() && part.bytes().all(|byte| byte.is_ascii_digit());
+    if !plain(digits) || !plain(zeros) {
+        return None;
+    }
+    digits.parse::<u64>().ok()?.checked_mul(10u64.checked_pow(zeros.parse().ok()?)?)
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::CommandFactory;
+
+    use super::*;
+
+    #[test]
+    fn the_description_of_the_command_line_is_consistent() {
+        Cli::command().debug_assert();
+    }
+
+    #[test]
+    fn whole_numbers_are_read_in_both_forms_and_checked() {
+        assert_eq!(whole::<u32, 1, 2_000_000>("1e6"), Ok(1_000_000), "scientific");
+        assert_eq!(whole::<u32, 0, 7>("7"), Ok(7), "plain");
+        let rejected = ["", "8", "-1", "1.5", "e", "1e", "e3", "1e99", "1e+1", "99999999999999999999", "x"];
+        for text in rejected {
+            assert_eq!(
+                whole::<u32, 0, 7>(text),
+                Err("allowed: a whole number from 0 to 7".into()),
+                "{text:?} is not one"
+            );
+        }
+    }
+
+    #[test]
+    fn errors_of_the_parser_become_one_line() {
+        let message = |arguments: &[&str]| {
+            let error = Cli::try_parse_from(arguments).expect_err("bad arguments");
+            usage_error(&error)
+        };
+        let text = message(&["windfall", "simulate", "--stepz", "3"]);
+        assert_eq!(text, "unexpected argument '--stepz' found; tip: a similar argument exists: '--steps'");
+        let text = message(&["windfall", "simulate", "--steps", "x"]);
+        assert!(text.contains("--steps") && text.contains("'x'") && text.contains("allowed"), "{text}");
+        let text = message(&["windfall", "motions"]);
+        assert!(text.contains("--out <DIR>") && !text.contains('\n'), "{text}");
+    }
+}

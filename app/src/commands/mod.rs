@@ -1,0 +1,13 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! One file per command, each with its options and what it does; and what several of them share.
+
+pub mod bench;
+pub mod info;
+pub mod motions;
+pub mod output_file;
+pub mod report;
+pub mod scene;
+pub mod simulate;
+pub mod stepping;
+pub mod tracks;

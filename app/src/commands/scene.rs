@@ -1,0 +1,161 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Which scene a command works on, and how many leaves of it.
+
+use clap::Args;
+use windfall_core::leaf::LEAF_BYTES;
+use windfall_core::scene::{MAX_LEAVES, Release};
+use windfall_core::{Scene, SceneError};
+
+use crate::cli::whole;
+
+/// Scene of every command that is given none.
+pub const DEFAULT_SCENE: &str = "autumn-park";
+
+/// The scene to work on.
+#[derive(Clone, Debug, Default, Args)]
+pub struct SceneArguments {
+    /// Preset (autumn-park, six-motions, storm, million) or path of a RON file [default: autumn-park].
+    #[arg(value_name = "SCENE")]
+    pub scene: Option<String>,
+    /// Number of leaves; the sources share them as they share those of the scene, at rates that go along.
+    #[arg(long, value_name = "N", value_parser = whole::<u32, 1, { MAX_LEAVES as u64 }>)]
+    pub leaves: Option<u32>,
+    /// Seed of everything random, in place of the scene's.
+    #[arg(long, value_name = "N", value_parser = whole::<u64, 0, { u64::MAX }>)]
+    pub seed: Option<u64>,
+}
+
+impl SceneArguments {
+    /// The scene's preset or path.
+    pub fn name(&self) -> &str {
+        self.scene.as_deref().unwrap_or(DEFAULT_SCENE)
+    }
+
+    /// The scene, scaled and seeded.
+    ///
+    /// # Errors
+    /// A scene that cannot be read or used, or more leaves than memory holds.
+    pub fn load(&self) -> anyhow::Result<Scene> {
+        let mut scene = Scene::load(self.name())?;
+        if let Some(seed) = self.seed {
+            scene.seed = seed;
+        }
+        if let Some(leaves) = self.leaves {
+            scene = scaled(&scene, self.name(), leaves)?;
+        }
+        check_memory(self.name(), scene.leaf_count())?;
+        Ok(scene)
+    }
+}
+
+/// The scene with `leaves` leaves in total: every source gets its share of them and at least one, and lets them go at
+/// a rate that keeps the time it takes to let go of all.
+///
+/// # Errors
+/// [`SceneError::Field`] for fewer leaves than sources, or for rates that are not allowed; `file` names the scene.
+pub fn scaled(scene: &Scene, file: &str, leaves: u32) -> Result<Scene, SceneError> {
+    let counts: Vec<u32> = scene.sources.iter().map(|source| source.count).collect();
+    if (leaves as usize) < counts.len() {
+        return Err(SceneError::Field {
+            file: file.into(),
+            field: "--leaves".into(),
+            value: leaves.to_string(),
+            allowed: format!("{} to {MAX_LEAVES}, at least one for each source", counts.len()),
+        });
+    }
+    let mut scaled = scene.clone();
+    for (source, count) in scaled.sources.iter_mut().zip(shares(&counts, leaves)) {
+        if let Release::Rate { per_s, .. } = &mut source.release {
+            #[expect(clippy::cast_possible_truncation, reason = "scene files hold single precision")]
+            let rate = (f64::from(*per_s) * f64::from(count) / f64::from(source.count)) as f32;
+            *per_s = rate;
+        }
+        source.count = count;
+    }
+    scaled.validate(file)?;
+    Ok(scaled)
+}
+
+/// Splits `total` in proportion to `counts`, rounding by largest remainders; nobody goes empty-handed. `total` is at
+/// least the number of counts, which are not zero.
+fn shares(counts: &[u32], total: u32) -> Vec<u32> {
+    let sum: u64 = counts.iter().copied().map(u64::from).sum();
+    let exact = |index: usize| u64::from(counts[index]) * u64::from(total);
+    // A share is at most the total, which is a u32.
+    let floor = |index: usize| u32::try_from(exact(index) / sum).unwrap_or(u32::MAX);
+    let mut shares: Vec<u32> = (0..counts.len()).map(floor).collect();
+    let mut order: Vec<usize> = (0..counts.len()).collect();
+    order.sort_by_key(|&index| std::cmp::Reverse(exact(index) % sum));
+    let left = total as usize - shares.iter().map(|&share| share as usize).sum::<usize>();
+    for &index in order.iter().take(left) {
+        shares[index] += 1;
+    }
+    while let Some(empty) = shares.iter().position(|&share| share == 0) {
+        let Some(largest) = (0..shares.len()).max_by_key(|&index| shares[index]) else { break };
+        shares[largest] -= 1;
+        shares[empty] = 1;
+    }
+    shares
+}
+
+/// Refuses more leaves than fit into the memory that is free: once in the world, once in the simulator.
+///
+/// # Errors
+/// Names the scene, and what it would need.
+pub fn check_memory(file: &str, leaves: u32) -> Result<(), SceneError> {
+    let needed = u64::from(leaves) * 2 * LEAF_BYTES as u64;
+    let Some(free) = free_memory().filter(|&free| needed > free) else { return Ok(()) };
+    Err(SceneError::Field {
+        file: file.into(),
+        field: "the number of leaves".into(),
+        value: format!("{leaves}, which takes {} MiB", needed >> 20),
+        allowed: format!("what fits into the {} MiB of memory that are free", free >> 20),
+    })
+}
+
+/// Bytes of memory that can be had without swapping, where the system tells.
+fn free_memory() -> Option<u64> {
+    let text = std::fs::read_to_string("/proc/meminfo").ok()?;
+    let line = text.lines().find_map(|line| line.strip_prefix("MemAvailable:"))?;
+    line.trim().strip_suffix("kB")?.trim().parse::<u64>().ok()?.checked_mul(1024)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn shares_are_proportional_complete_and_never_empty() {
+        let counts = [2090, 1900, 1900, 1710, 1520, 1330, 760];
+        assert_eq!(shares(&counts, 11_210), counts, "the scene's own number changes nothing");
+        assert_eq!(shares(&counts, 22_420)[0], 4180, "twice as many");
+        assert_eq!(shares(&counts, 7), [1; 7], "one each");
+        assert_eq!(shares(&[1_000_000, 1], 10), [9, 1], "a small source keeps one");
+        for total in [8, 100, 101, 268_435_456] {
+            let shares = shares(&counts, total);
+            assert_eq!(shares.iter().sum::<u32>(), total, "all of them");
+            assert!(shares.iter().all(|&share| share > 0), "none empty: {shares:?}");
+        }
+    }
+
+    #[test]
+    fn a_scaled_scene_keeps_its_rhythm() {
+        let scene = Scene::preset("autumn-park").expect("a preset");
+        let scaled = scaled(&scene, "autumn-park", 1000).expect("allowed");
+        assert_eq!(scaled.leaf_count(), 1000, "as many as asked for");
+        for source in &scaled.sources {
+            let Release::Rate { per_s, .. } = source.release else { panic!("a park lets go at a rate") };
+            let all_s = f64::from(source.count) / f64::from(per_s);
+            assert!((all_s - 95.0).abs() < 1e-4, "{all_s} s to let go of all");
+        }
+    }
+
+    #[test]
+    fn impossible_numbers_of_leaves_are_refused() {
+        let scene = Scene::preset("autumn-park").expect("a preset");
+        let error = scaled(&scene, "autumn-park", 6).expect_err("seven sources").to_string();
+        assert!(error.contains("autumn-park") && error.contains("--leaves is 6"), "{error}");
+        assert!(error.contains("7 to 268435456"), "{error}");
+    }
+}
