@@ -6,6 +6,9 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use windfall_core::{Contract, SimError};
 
+use crate::pipelines::shader_module;
+use crate::readback::read_buffer;
+
 /// What wgpu reported about the device outside any call: its loss, or an error nobody caught.
 type Health = Arc<Mutex<Option<SimError>>>;
 
@@ -144,6 +147,28 @@ impl Gpu {
         let exact = self.info.backend == wgpu::Backend::Vulkan
             && self.device.features().contains(wgpu::Features::PASSTHROUGH_SHADERS);
         if exact { Contract::Exact } else { Contract::Tolerant }
+    }
+
+    /// A compute shader module from WGSL under a contract: plain, or as SPIR-V whose every float operation keeps its
+    /// own rounding. Workgroups have [`WORKGROUP_SIZE`](crate::WORKGROUP_SIZE) invocations.
+    ///
+    /// # Errors
+    /// WGSL that does not compile; [`Contract::Exact`] on a device that cannot keep it.
+    pub fn compute_module(
+        &self,
+        source: &str,
+        entry_point: &'static str,
+        contract: Contract,
+    ) -> Result<wgpu::ShaderModule, SimError> {
+        shader_module(self, source, entry_point, contract)
+    }
+
+    /// Copies the start of a buffer with `COPY_SRC` usage into `out`, after everything submitted before.
+    ///
+    /// # Errors
+    /// A lost device.
+    pub fn read(&self, buffer: &wgpu::Buffer, out: &mut [u8]) -> Result<(), SimError> {
+        read_buffer(self, buffer, out)
     }
 
     /// Fails once the device is lost or has reported an error that nobody caught.

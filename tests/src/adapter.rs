@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The adapters that parity is proved on.
+
+use std::io::Write as _;
+use std::sync::{Mutex, PoisonError};
+
+use windfall_core::Contract;
+use windfall_wgpu::{Gpu, describe_adapter, instance_descriptor, list_adapters};
+
+static REPORTED: Mutex<Vec<String>> = Mutex::new(Vec::new());
+
+/// A device on every adapter of this machine. Says on the terminal, once for each test program, which they are and
+/// which contract they can keep.
+///
+/// # Panics
+/// If there is none: a parity test without an adapter has not passed.
+pub fn all() -> Vec<Gpu> {
+    let instance = wgpu::Instance::new(instance_descriptor());
+    let gpus: Vec<Gpu> = list_adapters(&instance)
+        .iter()
+        .map(|adapter| Gpu::from_adapter(adapter).expect("an adapter that is listed gives a device"))
+        .collect();
+    assert!(
+        !gpus.is_empty(),
+        "no graphics adapter: install a driver, or software Vulkan (mesa-vulkan-drivers); scripts/test does"
+    );
+    for gpu in &gpus {
+        report(&format!("adapter: {}, contract: {}", describe_adapter(gpu.info()), gpu.contract()));
+    }
+    gpus
+}
+
+/// Every adapter with every contract it can keep.
+pub fn contracts() -> Vec<(Gpu, Contract)> {
+    let both = |gpu: Gpu| match gpu.contract() {
+        Contract::Exact => vec![(gpu.clone(), Contract::Exact), (gpu, Contract::Tolerant)],
+        Contract::Tolerant => vec![(gpu, Contract::Tolerant)],
+    };
+    all().into_iter().flat_map(both).collect()
+}
+
+/// Prints past the test harness, which would swallow what passing tests print.
+fn report(line: &str) {
+    let mut reported = REPORTED.lock().unwrap_or_else(PoisonError::into_inner);
+    if !reported.iter().any(|earlier| earlier == line) {
+        // Nobody to tell if the terminal is gone.
+        let _ = writeln!(std::io::stderr(), "{line}");
+        reported.push(line.into());
+    }
+}

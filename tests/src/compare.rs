@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! How far apart two states may be.
+
+use windfall_core::World;
+
+/// Largest difference of positions after a thousand smooth steps under the tolerant contract, in metres.
+pub const LONG_POSITION_M: f32 = 1e-4;
+/// Largest difference of quaternion components after a thousand smooth steps under the tolerant contract.
+pub const LONG_QUATERNION: f32 = 1e-5;
+/// Units in the last place of the largest operand that one step may differ by under the tolerant contract.
+pub const STEP_ULPS: f32 = 4.0;
+
+/// What two worlds differ in.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Difference {
+    /// Leaves with any integer that differs.
+    pub integer_leaves: usize,
+    /// Leaves with any bit that differs.
+    pub bit_leaves: usize,
+    /// Largest difference of a position component in metres.
+    pub position_m: f32,
+    /// Largest difference of a drift component in m/s.
+    pub drift_m_s: f32,
+    /// Largest difference of a quaternion component.
+    pub quaternion: f32,
+}
+
+/// Compares all leaves of two worlds, slot by slot.
+pub fn difference(a: &World, b: &World) -> Difference {
+    let mut found = Difference::default();
+    let (a, b) = (&a.leaves, &b.leaves);
+    for slot in 0..a.len().max(b.len()) {
+        let integers = |leaves: &windfall_core::leaf::Leaves| {
+            (leaves.place[slot].bits, leaves.drift[slot].phase, leaves.course[slot], leaves.identity[slot])
+        };
+        let same_integers = integers(a) == integers(b);
+        let floats = |leaves: &windfall_core::leaf::Leaves| {
+            let mut all = [0f32; 10];
+            all[..3].copy_from_slice(&leaves.place[slot].position);
+            all[3..6].copy_from_slice(&leaves.drift[slot].velocity);
+            all[6..].copy_from_slice(&leaves.attitude[slot].quaternion);
+            all
+        };
+        let (fa, fb) = (floats(a), floats(b));
+        let same_bits = fa.map(f32::to_bits) == fb.map(f32::to_bits);
+        found.integer_leaves += usize::from(!same_integers);
+        found.bit_leaves += usize::from(!(same_integers && same_bits));
+        let worst = |range: std::ops::Range<usize>| {
+            range.map(|index| (fa[index] - fb[index]).abs()).fold(0.0, f32::max)
+        };
+        found.position_m = found.position_m.max(worst(0..3));
+        found.drift_m_s = found.drift_m_s.max(worst(3..6));
+        found.quaternion = found.quaternion.max(worst(6..10));
+    }
+    found
+}
+
+/// Size of a unit in the last place of `x`.
+pub fn ulp(x: f32) -> f32 {
+    let a = x.abs().max(f32::MIN_POSITIVE);
+    f32::from_bits(a.to_bits() + 1) - a
+}

@@ -1,0 +1,152 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Runs one device function on many inputs, on a GPU.
+
+use windfall_core::layout::Float4;
+use windfall_core::{Contract, SimError, World};
+use windfall_wgpu::{Gpu, Shaders, WORKGROUP_SIZE};
+
+use crate::functions::Function;
+
+/// Input and output words of one case.
+pub type Words = [u32; 8];
+
+/// A generated kernel around a device function: eight words in, eight words out.
+pub struct FunctionRunner<'a> {
+    gpu: &'a Gpu,
+    pipeline: wgpu::ComputePipeline,
+    context_group: wgpu::BindGroup,
+    cases_layout: wgpu::BindGroupLayout,
+}
+
+/// The kernel's text: the module that holds the function, then an entry point that calls it.
+fn kernel_source(shaders: &Shaders, function: &Function) -> String {
+    let module = shaders.compose(function.module).expect("the function table names existing modules");
+    let bindings = shaders.compose("bindings").expect("the bindings module exists");
+    // A module that needs no bindings still gets the same pipeline layout.
+    let head = if module.contains("@group(0)") { module } else { module + &bindings_only(&bindings) };
+    format!(
+        "{head}
+@group(1) @binding(0) var<storage, read> cases: array<vec4<u32>>;
+@group(1) @binding(1) var<storage, read_write> results: array<vec4<u32>>;
+@compute @workgroup_size(WORKGROUP_SIZE)
+fn evaluate(@builtin(global_invocation_id) id: vec3<u32>) {{
+    if (2u * id.x >= arrayLength(&cases)) {{ return; }}
+    let a = cases[2u * id.x];
+    let b = cases[2u * id.x + 1u];
+    var r = vec4<u32>();
+    var s = vec4<u32>();
+    {}
+    results[2u * id.x] = r;
+    results[2u * id.x + 1u] = s;
+}}
+",
+        function.wgsl
+    )
+}
+
+/// The binding declarations without the prelude, which the module has already.
+fn bindings_only(bindings: &str) -> String {
+    bindings.lines().filter(|line| line.starts_with("@group(0)")).flat_map(|line| [line, "\n"]).collect()
+}
+
+fn entry(binding: u32, ty: wgpu::BufferBindingType) -> wgpu::BindGroupLayoutEntry {
+    wgpu::BindGroupLayoutEntry {
+        binding,
+        visibility: wgpu::ShaderStages::COMPUTE,
+        ty: wgpu::BindingType::Buffer { ty, has_dynamic_offset: false, min_binding_size: None },
+        count: None,
+    }
+}
+
+impl<'a> FunctionRunner<'a> {
+    /// Compiles the kernel of a function that sees the tables and blocks of `world`.
+    pub fn new(
+        gpu: &'a Gpu,
+        contract: Contract,
+        shaders: &Shaders,
+        function: &Function,
+        world: &World,
+    ) -> Result<Self, SimError> {
+        let device = gpu.device();
+        let uniform = wgpu::BufferBindingType::Uniform;
+        let storage = |read_only| wgpu::BufferBindingType::Storage { read_only };
+        let entries =
+            [entry(0, uniform), entry(1, uniform), entry(2, storage(true)), entry(3, storage(true))];
+        let layout = |entries: &[wgpu::BindGroupLayoutEntry]| {
+            device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: None, entries })
+        };
+        let context_layout = layout(&entries);
+        let cases_layout = layout(&[entry(0, storage(true)), entry(1, storage(false))]);
+        let step = world.environment.step_block(&world.clock);
+        let floats = |rows: &[Float4]| upload(gpu, bytemuck::cast_slice(rows), wgpu::BufferUsages::STORAGE);
+        let buffers = [
+            upload(gpu, bytemuck::bytes_of(world.environment.block()), wgpu::BufferUsages::UNIFORM),
+            upload(gpu, bytemuck::bytes_of(&step), wgpu::BufferUsages::UNIFORM),
+            floats(world.environment.motion()),
+            floats(world.environment.wind()),
+        ];
+        let context_group = bind(gpu, &context_layout, &buffers);
+        let module = gpu.compute_module(&kernel_source(shaders, function), "evaluate", contract)?;
+        let pipeline_layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+            label: None,
+            bind_group_layouts: &[Some(&context_layout), Some(&cases_layout)],
+            immediate_size: 0,
+        });
+        let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+            label: Some(function.name),
+            layout: Some(&pipeline_layout),
+            module: &module,
+            entry_point: Some("evaluate"),
+            compilation_options: wgpu::PipelineCompilationOptions::default(),
+            cache: None,
+        });
+        gpu.check()?;
+        Ok(Self { gpu, pipeline, context_group, cases_layout })
+    }
+
+    /// The function's results for these cases.
+    pub fn run(&self, cases: &[Words]) -> Result<Vec<Words>, SimError> {
+        let bytes: &[u8] = bytemuck::cast_slice(cases);
+        let input = upload(self.gpu, bytes, wgpu::BufferUsages::STORAGE);
+        let output = upload(
+            self.gpu,
+            &vec![0; bytes.len()],
+            wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC,
+        );
+        let group = bind(self.gpu, &self.cases_layout, &[input, output.clone()]);
+        let mut encoder =
+            self.gpu.device().create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        {
+            let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
+            pass.set_pipeline(&self.pipeline);
+            pass.set_bind_group(0, &self.context_group, &[]);
+            pass.set_bind_group(1, &group, &[]);
+            let count = u32::try_from(cases.len()).expect("a few thousand cases");
+            pass.dispatch_workgroups(count.div_ceil(WORKGROUP_SIZE), 1, 1);
+        }
+        self.gpu.queue().submit([encoder.finish()]);
+        let mut results = vec![Words::default(); cases.len()];
+        self.gpu.read(&output, bytemuck::cast_slice_mut(&mut results))?;
+        Ok(results)
+    }
+}
+
+fn upload(gpu: &Gpu, bytes: &[u8], usage: wgpu::BufferUsages) -> wgpu::Buffer {
+    let buffer = gpu.device().create_buffer(&wgpu::BufferDescriptor {
+        label: None,
+        size: bytes.len() as u64,
+        usage: usage | wgpu::BufferUsages::COPY_DST,
+        mapped_at_creation: false,
+    });
+    gpu.queue().write_buffer(&buffer, 0, bytes);
+    buffer
+}
+
+fn bind(gpu: &Gpu, layout: &wgpu::BindGroupLayout, buffers: &[wgpu::Buffer]) -> wgpu::BindGroup {
+    let entries: Vec<_> = (0..)
+        .zip(buffers)
+        .map(|(binding, buffer)| wgpu::BindGroupEntry { binding, resource: buffer.as_entire_binding() })
+        .collect();
+    gpu.device().create_bind_group(&wgpu::BindGroupDescriptor { label: None, layout, entries: &entries })
+}

@@ -1,0 +1,156 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Random inputs and random worlds.
+
+use glam::Vec3;
+use proptest::prelude::*;
+use windfall_core::motion::Primitive;
+use windfall_core::scene::{
+    Gusts, MeanSpeed, Profile, Release, Scene, Share, Source, SourceShape, Species, Turbulence, Vortex,
+    WindParameters,
+};
+
+use crate::functions::Input;
+use crate::runner::Words;
+
+/// Cases for a function: every word as its input says.
+pub fn cases(inputs: &'static [Input], count: usize) -> impl Strategy<Value = Vec<Words>> {
+    proptest::collection::vec(proptest::array::uniform8(any::<u32>()), count)
+        .prop_map(move |cases| cases.iter().map(|raw| shape(inputs, raw)).collect())
+}
+
+fn shape(inputs: &[Input], raw: &Words) -> Words {
+    let mut words = Words::default();
+    for ((word, input), raw) in words.iter_mut().zip(inputs).zip(raw) {
+        let unit = f64::from(*raw) / f64::from(u32::MAX);
+        #[expect(clippy::cast_possible_truncation, reason = "inputs are single precision")]
+        let between =
+            |low: f32, high: f32| (f64::from(low) + unit * (f64::from(high) - f64::from(low))) as f32;
+        *word = match *input {
+            Input::Word => *raw,
+            Input::Below(bound) => raw % bound,
+            Input::Float(low, high) => between(low, high).to_bits(),
+            Input::Scale(low, high) => 10f32.powf(between(low, high)).to_bits(),
+        };
+    }
+    words
+}
+
+/// A scene with every kind of source, gusts, turbulence, a vortex and two species; small enough to build in no time.
+pub fn varied_scene(seed: u64, leaves: u32, speed_m_s: f32, dt_s: f32) -> Scene {
+    let species = |name: &str, size_m, areal_density_kg_m2| Species {
+        name: name.into(),
+        size_m,
+        areal_density_kg_m2,
+        ..Species::default()
+    };
+    let third = (leaves / 3).max(1);
+    let source = |shape, count, release, recycle_after_s| Source {
+        shape,
+        count,
+        release,
+        recycle_after_s,
+        species: vec![
+            Share { species: "broad".into(), weight: 2 },
+            Share { species: "slight".into(), weight: 1 },
+        ],
+    };
+    Scene {
+        name: "varied".into(),
+        seed,
+        dt_s,
+        species: vec![species("broad", 0.09, 0.07), species("slight", 0.05, 0.04)],
+        sources: vec![
+            source(
+                SourceShape::Box {
+                    center_m: Vec3::new(0.0, 6.0, 0.0),
+                    half_extent_m: Vec3::new(8.0, 3.0, 8.0),
+                },
+                third,
+                Release::Burst { at_s: 0.0 },
+                None,
+            ),
+            source(
+                SourceShape::Disc { center_m: Vec3::new(-4.0, 7.0, 3.0), radius_m: 3.0 },
+                third,
+                Release::Rate { per_s: f64_as_f32(f64::from(third) / 12.0), from_s: -6.0 },
+                Some(12.0),
+            ),
+            source(
+                SourceShape::Sphere { center_m: Vec3::new(5.0, 6.0, -2.0), radius_m: 2.5 },
+                leaves.saturating_sub(2 * third).max(1),
+                Release::Rate { per_s: f64_as_f32(f64::from(third) / 10.0), from_s: 0.0 },
+                Some(8.0),
+            ),
+        ],
+        wind: WindParameters {
+            direction_deg: 30.0,
+            speed: MeanSpeed::MetresPerSecond(speed_m_s),
+            profile: Profile::Power { exponent: 0.22 },
+            gusts: Gusts { strength: 0.5, interval_s: 4.0 },
+            turbulence: Turbulence { intensity: 0.25, ..Turbulence::default() },
+            vortices: vec![Vortex {
+                center_m: Vec3::new(2.0, 0.0, 2.0),
+                axis: Vec3::new(0.1, 1.0, 0.0),
+                circulation_m2_s: 2.0,
+                core_m: 1.5,
+                axial_m_s: 0.5,
+                drift_m_s: Vec3::new(0.2, 0.0, 0.1),
+            }],
+            ..WindParameters::default()
+        },
+        ..Scene::default()
+    }
+}
+
+/// The same scene in a wind without chaos: profile and gusts, but eddies of tens of metres and no vortex, so that two
+/// leaves a rounding error apart stay about that far apart.
+pub fn smooth_scene(seed: u64, leaves: u32, speed_m_s: f32, dt_s: f32) -> Scene {
+    let mut scene = varied_scene(seed, leaves, speed_m_s, dt_s);
+    scene.wind.turbulence = Turbulence { intensity: 0.1, cell_m: 10.0, ..Turbulence::default() };
+    scene.wind.vortices.clear();
+    scene
+}
+
+#[expect(clippy::cast_possible_truncation, reason = "scene numbers are single precision")]
+fn f64_as_f32(value: f64) -> f32 {
+    value as f32
+}
+
+/// Random scenes: varied ones, with all that can differ drawn at random.
+pub fn scenes(leaves: std::ops::Range<u32>) -> impl Strategy<Value = Scene> {
+    let numbers = (
+        any::<u64>(),
+        leaves,
+        0f32..20.0,
+        prop_oneof![Just(1.0 / 60.0), Just(1.0 / 30.0), Just(1.0 / 240.0)],
+    );
+    let motion = (0.3f32..2.5, 0.2f32..1.5, 0usize..6, 0f32..0.25, 0.05f32..2.0);
+    let place = (-200f32..200.0, 0.1f32..1.0, 0usize..3, 0u32..2);
+    (numbers, motion, place)
+        .prop_map(|((seed, leaves, speed, dt), motion, place)| {
+            let (fall_speed, rotation_speed, start, variation, friction) = motion;
+            let (offset, intensity, profile, vortices) = place;
+            let mut scene = varied_scene(seed, leaves, speed, dt);
+            scene.fall_speed = fall_speed;
+            scene.rotation_speed = rotation_speed;
+            scene.species[0].start = Primitive::ALL[start];
+            scene.species[1].size_variation = variation;
+            scene.ground.friction = friction;
+            scene.wind.turbulence.intensity = intensity;
+            scene.wind.profile = [
+                Profile::Uniform,
+                Profile::Power { exponent: 0.3 },
+                Profile::Log { roughness_m: 0.05, displacement_m: 0.5 },
+            ][profile];
+            scene.wind.vortices.truncate(vortices as usize);
+            for source in &mut scene.sources {
+                let (SourceShape::Box { center_m, .. }
+                | SourceShape::Disc { center_m, .. }
+                | SourceShape::Sphere { center_m, .. }) = &mut source.shape;
+                center_m.x += offset;
+            }
+            scene
+        })
+        .prop_filter("valid", |scene| scene.validate("random").is_ok())
+}

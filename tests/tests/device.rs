@@ -1,0 +1,78 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Trouble with devices: errors, never panics.
+
+use windfall_core::{SimError, Simulator, World};
+use windfall_tests::adapter;
+use windfall_tests::strategies::varied_scene;
+use windfall_wgpu::{Gpu, WgpuOptions, WgpuSimulator};
+
+#[test]
+fn a_lost_device_is_an_error() {
+    let world = World::build(&varied_scene(1, 100, 2.0, 1.0 / 60.0)).expect("valid");
+    for gpu in adapter::all() {
+        let mut simulator =
+            WgpuSimulator::new(&gpu, &world, &WgpuOptions::default()).expect("the device takes it");
+        simulator.step(3).expect("it steps");
+        simulator.sync().expect("it waits");
+        gpu.device().destroy();
+        let mut result = world.clone();
+        let outcome = simulator.step(3).and_then(|()| simulator.read_state(&mut result));
+        assert!(
+            matches!(outcome, Err(SimError::DeviceLost { .. } | SimError::Device { .. })),
+            "{}: {outcome:?}",
+            gpu.info().name
+        );
+    }
+}
+
+#[test]
+fn an_unknown_adapter_is_an_error_that_names_what_is_there() {
+    let Err(SimError::NoAdapter { reason }) = Gpu::request(Some("no such adapter")) else {
+        panic!("an adapter of that name?");
+    };
+    assert!(reason.contains("no such adapter"), "{reason}");
+    let name = adapter::all()[0].info().name.clone();
+    assert!(reason.contains(&name), "{reason} does not name {name}");
+}
+
+#[test]
+fn a_world_of_another_size_is_refused() {
+    let small = World::build(&varied_scene(1, 100, 2.0, 1.0 / 60.0)).expect("valid");
+    let mut large = World::build(&varied_scene(1, 200, 2.0, 1.0 / 60.0)).expect("valid");
+    for gpu in adapter::all() {
+        let mut simulator =
+            WgpuSimulator::new(&gpu, &small, &WgpuOptions::default()).expect("the device takes it");
+        assert!(matches!(simulator.write_state(&large), Err(SimError::Size { .. })), "write");
+        assert!(matches!(simulator.read_state(&mut large), Err(SimError::Size { .. })), "read");
+    }
+}
+
+/// Setting another wind between steps means the same on both backends.
+#[test]
+fn a_new_environment_takes_effect_alike() {
+    let mut world = World::build(&varied_scene(9, 1000, 2.0, 1.0 / 60.0)).expect("valid");
+    for gpu in adapter::all() {
+        let mut candidate =
+            WgpuSimulator::new(&gpu, &world, &WgpuOptions::default()).expect("the device takes it");
+        let mut oracle = windfall_cpu::CpuSimulator::new(&world, windfall_cpu::CpuOptions::default())
+            .expect("threads start");
+        let mut scene = world.environment.scene().clone();
+        scene.wind.direction_deg = 200.0;
+        scene.wind.speed = windfall_core::scene::MeanSpeed::MetresPerSecond(9.0);
+        scene.wind.profile = windfall_core::scene::Profile::Uniform;
+        scene.fall_speed = 1.7;
+        let mut environment = world.environment.clone();
+        environment.retune(&scene);
+        let mut hashes = Vec::new();
+        for simulator in [&mut candidate as &mut dyn Simulator, &mut oracle] {
+            simulator.step(50).expect("it steps");
+            simulator.set_environment(&environment).expect("it is set");
+            simulator.step(50).expect("it steps");
+            simulator.read_state(&mut world).expect("same size");
+            hashes.push(world.state_hash());
+        }
+        assert_eq!(hashes[0], hashes[1], "{}", gpu.info().name);
+        world = World::build(&varied_scene(9, 1000, 2.0, 1.0 / 60.0)).expect("valid");
+    }
+}

@@ -1,0 +1,133 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Tier 2: every kernel, one step from the same uploaded state, on random worlds.
+
+use proptest::prelude::*;
+use proptest::test_runner::{Config, TestCaseResult, TestRunner};
+use windfall_core::{Contract, Scene, Simulator, World};
+use windfall_cpu::{CpuOptions, CpuSimulator};
+use windfall_tests::adapter;
+use windfall_tests::compare::{STEP_ULPS, difference, ulp};
+use windfall_tests::strategies::scenes;
+use windfall_wgpu::{Gpu, KernelId, Shaders, WgpuOptions, WgpuSimulator};
+
+/// Worlds for each adapter and contract.
+const WORLDS: u32 = 12;
+
+/// The world of a scene after some steps on the oracle: leaves in every state.
+fn warmed(scene: &Scene, steps: u32) -> World {
+    let mut world = World::build(scene).expect("random scenes are valid");
+    let mut oracle = CpuSimulator::new(&world, CpuOptions::default()).expect("threads start");
+    oracle.step(steps).expect("the CPU steps");
+    oracle.read_state(&mut world).expect("same size");
+    world
+}
+
+fn one_step(gpu: &Gpu, contract: Contract, shaders: Option<Shaders>, world: &World) -> (World, World) {
+    let options = WgpuOptions { contract: Some(contract), shaders, ..WgpuOptions::default() };
+    let mut candidate = WgpuSimulator::new(gpu, world, &options).expect("the device takes the world");
+    let mut oracle = CpuSimulator::new(world, CpuOptions::default()).expect("threads start");
+    let mut results = (world.clone(), world.clone());
+    for (simulator, result) in
+        [(&mut oracle as &mut dyn Simulator, &mut results.0), (&mut candidate, &mut results.1)]
+    {
+        simulator.step(1).expect("one step");
+        simulator.read_state(result).expect("same size");
+        assert_eq!(simulator.stats().expect("counts"), result.stats(), "measure counts what is there");
+    }
+    results
+}
+
+fn agree(contract: Contract, oracle: &World, candidate: &World) -> TestCaseResult {
+    let found = difference(oracle, candidate);
+    match contract {
+        Contract::Exact => {
+            prop_assert_eq!(found.bit_leaves, 0, "{:?}", found);
+            prop_assert_eq!(oracle.state_hash(), candidate.state_hash(), "state hash");
+        }
+        Contract::Tolerant => {
+            let largest = |pick: fn(&World, usize) -> [f32; 3]| {
+                (0..oracle.leaves.len()).flat_map(|slot| pick(oracle, slot)).fold(1f32, |a, x| a.max(x.abs()))
+            };
+            let place = largest(|world, slot| world.leaves.place[slot].position);
+            let drift = largest(|world, slot| world.leaves.drift[slot].velocity);
+            prop_assert_eq!(found.integer_leaves, 0, "{:?}", found);
+            prop_assert!(
+                found.position_m <= STEP_ULPS * ulp(place),
+                "{:?}, largest position {}",
+                found,
+                place
+            );
+            // The wind is read at a place given to within an ulp; a vortex or the turbulence may change it by as much
+            // as a tenth of the drift over a metre.
+            let reading = 0.1 * drift * ulp(place);
+            prop_assert!(
+                found.drift_m_s <= STEP_ULPS * (ulp(drift) + reading),
+                "{:?}, largest drift {}",
+                found,
+                drift
+            );
+            prop_assert!(found.quaternion <= 1e-5, "{:?}", found);
+        }
+    }
+    Ok(())
+}
+
+#[test]
+fn one_step_agrees_on_every_adapter() {
+    for (gpu, contract) in adapter::contracts() {
+        let mut proptest = TestRunner::new(Config {
+            cases: WORLDS,
+            failure_persistence: None,
+            max_shrink_iters: 40,
+            ..Config::default()
+        });
+        let strategy = (scenes(1..3000), 0u32..900);
+        let outcome = proptest.run(&strategy, |(scene, steps)| {
+            let world = warmed(&scene, steps);
+            let (oracle, candidate) = one_step(&gpu, contract, None, &world);
+            agree(contract, &oracle, &candidate)
+        });
+        assert!(outcome.is_ok(), "{} {contract}: {}", gpu.info().name, outcome.expect_err("it failed"));
+    }
+}
+
+/// Canary: each line of the life of a leaf that is changed in WGSL shows within one step of a busy world.
+#[test]
+fn a_changed_kernel_is_noticed() {
+    let edits = [
+        ("leaf/fall", "relative * travel", "relative * (travel * 1.001)"),
+        ("leaf/own", "(heading >> 16u) << 15u", "(heading >> 16u) << 14u"),
+        ("leaf/settle", "(1.0 - share) * dt", "share * dt"),
+        ("leaf/advance", "state == STATE_RESTING", "state == STATE_ATTACHED"),
+        ("wind/sample", "turbulence.y *", "turbulence.x *"),
+        ("prelude", "const TABLE_ROWS: u32 = 513u", "const TABLE_ROWS: u32 = 512u"),
+    ];
+    let mut scene = windfall_tests::strategies::varied_scene(3, 3000, 5.0, 1.0 / 60.0);
+    scene.wind.vortices.clear();
+    let world = warmed(&scene, 400);
+    for (gpu, contract) in adapter::contracts() {
+        for (module, old, new) in edits {
+            let shaders = Shaders::default().edited(module, old, new).expect("the edited text is there");
+            let (oracle, candidate) = one_step(&gpu, contract, Some(shaders), &world);
+            let agreed = agree(contract, &oracle, &candidate);
+            assert!(agreed.is_err(), "{} {contract}: nobody noticed '{new}' in {module}", gpu.info().name);
+        }
+    }
+}
+
+#[test]
+fn every_kernel_has_a_twin_on_the_cpu() {
+    let root = concat!(env!("CARGO_MANIFEST_DIR"), "/..");
+    for kernel in KernelId::ALL {
+        let rust = format!("{root}/backend-cpu/src/kernels/{}.rs", kernel.name());
+        let text = std::fs::read_to_string(&rust).unwrap_or_else(|error| panic!("{rust}: {error}"));
+        assert!(text.contains(&format!("fn {}(", kernel.name())), "{rust} holds no function of its name");
+        let source = Shaders::default().kernel(kernel).expect("it composes");
+        assert!(
+            source.contains(&format!("fn {}(", kernel.name())),
+            "{} is its own entry point",
+            kernel.name()
+        );
+    }
+}

@@ -1,0 +1,116 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Tier 3: ten thousand leaves, a thousand steps, wind and ground. Under the exact contract the state is the same to
+//! the last bit, in any wind. Under the tolerant one, in a wind without chaos, the integers are the same and positions
+//! stay together; in turbulence a rounding error grows e-fold every second or so, and the counts still agree.
+
+use windfall_core::{Contract, Simulator, World};
+use windfall_cpu::{CpuOptions, CpuSimulator};
+use windfall_tests::adapter;
+use windfall_tests::compare::{Difference, LONG_POSITION_M, LONG_QUATERNION, difference};
+use windfall_tests::strategies::{smooth_scene, varied_scene};
+use windfall_wgpu::{Gpu, Shaders, WgpuOptions, WgpuSimulator};
+
+const LEAVES: u32 = 10_000;
+const STEPS: u32 = 1000;
+
+fn world() -> World {
+    World::build(&varied_scene(2015, LEAVES, 3.0, 1.0 / 60.0)).expect("the varied scene is valid")
+}
+
+fn oracle(world: &World) -> World {
+    let mut result = world.clone();
+    let mut simulator = CpuSimulator::new(world, CpuOptions::default()).expect("threads start");
+    simulator.step(STEPS).expect("the CPU steps");
+    simulator.read_state(&mut result).expect("same size");
+    result
+}
+
+fn candidate(gpu: &Gpu, world: &World, options: &WgpuOptions) -> World {
+    let mut result = world.clone();
+    let mut simulator = WgpuSimulator::new(gpu, world, options).expect("the device takes the world");
+    simulator.step(STEPS).expect("it steps");
+    simulator.read_state(&mut result).expect("same size");
+    assert_eq!(simulator.stats().expect("counts"), result.stats(), "counts of the device");
+    result
+}
+
+fn is_lively(world: &World) {
+    let stats = world.stats();
+    assert!(stats.falling > 500 && stats.resting > 500, "leaves fly and lie: {stats:?}");
+    assert!(stats.primitives.iter().all(|&count| count > 0), "all motions are flown: {stats:?}");
+    assert_eq!(stats.broken, 0, "no broken leaf");
+}
+
+#[test]
+fn a_thousand_steps_are_equal_to_the_bit_under_the_exact_contract() {
+    let world = world();
+    let oracle = oracle(&world);
+    is_lively(&oracle);
+    let exact = adapter::contracts().into_iter().filter(|(_, contract)| *contract == Contract::Exact);
+    for (gpu, contract) in exact {
+        let options = WgpuOptions { contract: Some(contract), ..WgpuOptions::default() };
+        let candidate = candidate(&gpu, &world, &options);
+        let found = difference(&oracle, &candidate);
+        assert_eq!(found, Difference::default(), "{}", gpu.info().name);
+        assert_eq!(oracle.state_hash(), candidate.state_hash(), "{}", gpu.info().name);
+    }
+}
+
+#[test]
+fn a_thousand_smooth_steps_stay_together_under_the_tolerant_contract() {
+    let world =
+        World::build(&smooth_scene(2015, LEAVES, 3.0, 1.0 / 60.0)).expect("the smooth scene is valid");
+    let oracle = oracle(&world);
+    is_lively(&oracle);
+    for gpu in adapter::all() {
+        let options = WgpuOptions { contract: Some(Contract::Tolerant), ..WgpuOptions::default() };
+        let found = difference(&oracle, &candidate(&gpu, &world, &options));
+        assert_eq!(found.integer_leaves, 0, "{}: {found:?}", gpu.info().name);
+        assert!(found.position_m <= LONG_POSITION_M, "{}: {found:?}", gpu.info().name);
+        assert!(found.quaternion <= LONG_QUATERNION, "{}: {found:?}", gpu.info().name);
+    }
+}
+
+#[test]
+fn in_chaos_the_counts_agree_under_the_tolerant_contract() {
+    let world = world();
+    let expected = oracle(&world).stats();
+    for gpu in adapter::all() {
+        let options = WgpuOptions { contract: Some(Contract::Tolerant), ..WgpuOptions::default() };
+        let found = candidate(&gpu, &world, &options).stats();
+        let off = found.falling.abs_diff(expected.falling);
+        assert!(off <= LEAVES / 1000, "{}: {found:?}, expected {expected:?}", gpu.info().name);
+    }
+}
+
+/// State larger than one binding is paged; the pages change nothing.
+#[test]
+fn pages_change_nothing() {
+    let world = world();
+    for gpu in adapter::all() {
+        let whole = candidate(&gpu, &world, &WgpuOptions::default());
+        let options = WgpuOptions { page_leaves: Some(4096), ..WgpuOptions::default() };
+        let simulator = WgpuSimulator::new(&gpu, &world, &options).expect("the device takes the world");
+        assert_eq!(simulator.page_count(), 3, "10,000 leaves in pages of 4,096");
+        let paged = candidate(&gpu, &world, &options);
+        assert_eq!(whole.state_hash(), paged.state_hash(), "{}", gpu.info().name);
+    }
+}
+
+/// Canary: the last bit of one constant shows.
+#[test]
+fn one_bit_of_one_constant_is_noticed() {
+    let world = world();
+    let oracle = oracle(&world);
+    let old = "const LENGTH_UNIT: f32 = 0.0009765625f";
+    let shaders = Shaders::default().edited("prelude", old, "const LENGTH_UNIT: f32 = 0.00097656262f");
+    let shaders = shaders.expect("the constant is in the prelude");
+    for gpu in adapter::all() {
+        let options = WgpuOptions { shaders: Some(shaders.clone()), ..WgpuOptions::default() };
+        let candidate = candidate(&gpu, &world, &options);
+        let found = difference(&oracle, &candidate);
+        assert!(found.bit_leaves > 0, "{}: nobody noticed: {found:?}", gpu.info().name);
+        assert_ne!(oracle.state_hash(), candidate.state_hash(), "{}", gpu.info().name);
+    }
+}
