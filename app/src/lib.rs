@@ -1,7 +1,12 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The application as a library: camera, renderer and writers of pictures, none of which needs a window.
+//! The application as a library: camera, renderer, writers of pictures and the commands that use them, none of which
+//! needs a window.
 
+pub mod backend;
 pub mod camera;
+pub mod cli;
+pub mod commands;
 pub mod output;
 pub mod render;
+pub mod terminal;

@@ -12,4 +12,4 @@ pub mod settle;
 mod store;
 
 pub use record::{Attitude, Course, Drift, Identity, Place};
-pub use store::{LEAF_BYTES, LeafMut, LeafState, Leaves, LeavesMut};
+pub use store::{HOT_BYTES_PER_STEP, LEAF_BYTES, LeafMut, LeafState, Leaves, LeavesMut};

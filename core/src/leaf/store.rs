@@ -53,6 +53,11 @@ pub const LEAF_BYTES: usize = size_of::<Place>()
     + size_of::<Course>()
     + size_of::<Identity>();
 
+/// Bytes that one step of one leaf moves between two events: place and drift are read and written, attitude is
+/// written, course is read. Identity, and an attitude that blends, are touched in few steps and do not count.
+pub const HOT_BYTES_PER_STEP: usize =
+    2 * (size_of::<Place>() + size_of::<Drift>()) + size_of::<Attitude>() + size_of::<Course>();
+
 impl Leaves {
     /// `count` dormant leaves, all zero.
     pub fn zeroed(count: usize) -> Self {

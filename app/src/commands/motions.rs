@@ -1,0 +1,96 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! `windfall motions`: the motion tables of a scene, to be looked at, changed and named in a scene again.
+
+use std::fs;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use anyhow::anyhow;
+use clap::Args;
+use windfall_core::motion::MotionTables;
+use windfall_core::scene::Species;
+use windfall_core::{Scene, SceneError};
+
+use super::output_file::{OutputFile, write_error};
+use super::scene::DEFAULT_SCENE;
+use crate::terminal;
+
+/// Options of `windfall motions`.
+#[derive(Clone, Debug, Args)]
+pub struct Arguments {
+    /// Preset or path of a RON file [default: autumn-park].
+    #[arg(value_name = "SCENE")]
+    scene: Option<String>,
+    /// Folder for the files, one SPECIES.motions for each species; made if it is not there.
+    #[arg(long, value_name = "DIR")]
+    out: PathBuf,
+}
+
+/// Runs the command.
+///
+/// # Errors
+/// A scene that cannot be used, or a folder that cannot be written to; then no file has changed.
+pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
+    let name = arguments.scene.as_deref().unwrap_or(DEFAULT_SCENE);
+    let scene = Scene::load(name)?;
+    check_names(&scene, name)?;
+    let texts: Vec<String> = scene
+        .species
+        .iter()
+        .map(|species| tables(species, scene.seed).map(|tables| tables.to_text()))
+        .collect::<Result<_, _>>()?;
+
+    let is_new = !arguments.out.exists();
+    let written = write_all(&scene, &texts, &arguments.out);
+    if is_new && written.is_err() {
+        // Removes the folder only if it is empty; that it was never made is no other error.
+        let _ = fs::remove_dir(&arguments.out);
+    }
+    terminal::print(&written?)
+}
+
+/// Writes all files and returns their paths, a line each.
+fn write_all(scene: &Scene, texts: &[String], folder: &Path) -> anyhow::Result<String> {
+    fs::create_dir_all(folder).map_err(|error| write_error(folder, &error))?;
+    let mut files = Vec::with_capacity(texts.len());
+    for (species, text) in scene.species.iter().zip(texts) {
+        let path = folder.join(format!("{}.motions", species.name));
+        let mut file = OutputFile::create(&path)?;
+        file.write_all(text.as_bytes()).map_err(|error| write_error(&path, &error))?;
+        files.push((path, file));
+    }
+    let mut lines = String::new();
+    for (path, file) in files {
+        file.finish()?;
+        lines += &format!("{}\n", path.display());
+    }
+    Ok(lines)
+}
+
+/// Species become names of files, on systems that do not tell large letters from small ones too.
+fn check_names(scene: &Scene, file: &str) -> Result<(), SceneError> {
+    let plain = |c: char| c.is_alphanumeric() || matches!(c, '-' | '_' | ' ');
+    for (index, Species { name, .. }) in scene.species.iter().enumerate() {
+        let lower = name.to_lowercase();
+        let is_taken = scene.species[..index].iter().any(|other| other.name.to_lowercase() == lower);
+        if is_taken || name.len() > 200 || !name.chars().all(plain) {
+            return Err(SceneError::Field {
+                file: file.into(),
+                field: format!("species[{index}].name"),
+                value: format!("{name:?}"),
+                allowed: "for motion files: letters, digits, '-', '_' and spaces, unique in any case".into(),
+            });
+        }
+    }
+    Ok(())
+}
+
+/// The tables that a simulation of the species would use.
+fn tables(species: &Species, seed: u64) -> anyhow::Result<MotionTables> {
+    #[expect(clippy::cast_possible_truncation, reason = "low and high word")]
+    let words = [seed as u32, (seed >> 32) as u32];
+    let Some(path) = &species.tables else { return Ok(MotionTables::generate(species, words)) };
+    let text = fs::read_to_string(path).map_err(|error| anyhow!("{path}: {error}"))?;
+    Ok(MotionTables::from_text(&text, path)?)
+}

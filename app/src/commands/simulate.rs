@@ -1,0 +1,163 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! `windfall simulate`: numbers without pictures.
+
+use std::fs;
+use std::io::{BufWriter, Write};
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+use anyhow::{anyhow, bail};
+use clap::Args;
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use windfall_core::{Simulator, World};
+
+use super::output_file::{OutputFile, write_error};
+use super::report::Report;
+use super::scene::{SceneArguments, check_memory};
+use super::stepping::Stepping;
+use super::tracks::{TrackArguments, Tracks};
+use crate::backend::{Backend, BackendArguments};
+use crate::cli::whole;
+use crate::terminal;
+
+/// Options of `windfall simulate`.
+#[derive(Clone, Debug, Args)]
+pub struct Arguments {
+    #[command(flatten)]
+    scene: SceneArguments,
+    #[command(flatten)]
+    backend: BackendArguments,
+    /// Steps to simulate, from the beginning or from where the checkpoint left off.
+    #[arg(long, value_name = "N", default_value = "600", value_parser = whole::<u32, 0, 1_000_000_000>)]
+    steps: u32,
+    /// Print one JSON object instead of text.
+    #[arg(long)]
+    json: bool,
+    #[command(flatten)]
+    tracks: TrackArguments,
+    /// Save the last state to this file.
+    #[arg(long, value_name = "FILE")]
+    checkpoint: Option<PathBuf>,
+    /// Go on from the state in this file, with the scene that it holds.
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["scene", "leaves", "seed"])]
+    resume: Option<PathBuf>,
+}
+
+/// Runs the command. Everything that can be found wrong is found before the first step.
+///
+/// # Errors
+/// Bad input, files that cannot be written, a device that is missing or lost. Then no file has changed.
+pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
+    let scene = match &arguments.resume {
+        None => Some(arguments.scene.load()?),
+        Some(_) => None,
+    };
+    let mut tracks = arguments.tracks.create()?;
+    let checkpoint = arguments.checkpoint.as_deref().map(OutputFile::create).transpose()?;
+    if let (Some(tracks), Some(checkpoint)) = (&tracks, &checkpoint)
+        && tracks.destination() == checkpoint.destination()
+    {
+        bail!("{}: named by --tracks and --checkpoint; allowed: once", checkpoint.destination().display());
+    }
+    let mut world = match (&scene, &arguments.resume) {
+        (Some(scene), _) => World::build(scene)?,
+        (None, path) => read_checkpoint(path.as_deref().unwrap_or(Path::new("")))?,
+    };
+    let choice = arguments.backend.choose()?;
+    let mut backend = choice.device.simulator(&world)?;
+    if let Some(reason) = choice.reason {
+        terminal::note(&reason);
+    }
+    let bar = progress_bar(arguments.steps, arguments.json);
+    let stepping = simulate(&mut backend, &mut world, arguments.steps, tracks.as_mut(), &bar)?;
+    bar.finish_and_clear();
+
+    let stats = world.stats();
+    if stats.broken > 0 {
+        bail!("{} leaves have positions that are not numbers; nothing was written", stats.broken);
+    }
+    let name = match &scene {
+        Some(_) => arguments.scene.name().to_owned(),
+        None => world.environment.scene().name.clone(),
+    };
+    let report = Report::new(name, &backend, &world, arguments.steps, &stepping);
+    if let Some(tracks) = tracks {
+        tracks.finish()?;
+    }
+    if let Some(file) = checkpoint {
+        write_checkpoint(&world, file)?;
+    }
+    if arguments.json {
+        terminal::print(&format!("{}\n", serde_json::to_string(&report)?))
+    } else {
+        terminal::print(&report.to_text(&stats))
+    }
+}
+
+/// Steps, sampling tracks on the way; leaves the last state in `world`.
+fn simulate(
+    backend: &mut Backend,
+    world: &mut World,
+    steps: u32,
+    mut tracks: Option<&mut Tracks>,
+    bar: &ProgressBar,
+) -> anyhow::Result<Stepping> {
+    let mut stepping = Stepping::default();
+    let mut left = steps;
+    loop {
+        if let Some(tracks) = tracks.as_deref_mut().filter(|tracks| tracks.wait(backend.clock().step()) == 0)
+        {
+            backend.read_state(world)?;
+            tracks.sample(world)?;
+        }
+        if left == 0 {
+            break;
+        }
+        let mut batch = stepping.batch().min(left);
+        if let Some(tracks) = tracks.as_deref() {
+            // The step just sampled is not due again.
+            batch = batch.min(tracks.wait(backend.clock().step().wrapping_add(1)) + 1);
+        }
+        stepping.run(backend, batch)?;
+        left -= batch;
+        bar.inc(batch.into());
+    }
+    backend.read_state(world)?;
+    Ok(stepping)
+}
+
+fn read_checkpoint(path: &Path) -> anyhow::Result<World> {
+    let name = path.display().to_string();
+    let fail = |reason: &dyn std::fmt::Display| anyhow!("{name}: {reason}");
+    // Neither a folder nor something that never ends.
+    let size = fs::metadata(path).map_err(|error| fail(&error))?;
+    if !size.is_file() {
+        return Err(fail(&"not a checkpoint file"));
+    }
+    let bytes = fs::read(path).map_err(|error| fail(&error))?;
+    let world = World::from_checkpoint(&bytes, &name)?;
+    check_memory(&name, world.environment.scene().leaf_count())?;
+    Ok(world)
+}
+
+fn write_checkpoint(world: &World, file: OutputFile) -> anyhow::Result<()> {
+    let path = file.destination().to_owned();
+    let mut out = BufWriter::new(file);
+    world
+        .write_checkpoint(&mut out)
+        .and_then(|()| out.flush())
+        .map_err(|error| write_error(&path, &error))?;
+    out.into_inner().map_err(|error| write_error(&path, error.error()))?.finish()
+}
+
+/// A bar on the standard error, if that is a terminal.
+fn progress_bar(steps: u32, hidden: bool) -> ProgressBar {
+    let target = if hidden { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() };
+    let bar = ProgressBar::with_draw_target(Some(steps.into()), target);
+    if let Ok(style) = ProgressStyle::with_template("{bar:40} step {pos} of {len}, {eta} left") {
+        bar.set_style(style);
+    }
+    bar.enable_steady_tick(Duration::from_millis(200));
+    bar
+}
