@@ -85,7 +85,7 @@ impl BackendArguments {
     /// # Errors
     /// [`SimError::NoAdapter`] if there is none.
     pub fn wgpu(&self) -> Result<Device, SimError> {
-        Gpu::request(self.adapter.as_deref()).map(Device::Wgpu)
+        Gpu::request(self.adapter.as_deref()).map(|gpu| Device::Wgpu(Box::new(gpu)))
     }
 }
 
@@ -115,7 +115,7 @@ impl Choice {
             match Gpu::from_adapter(adapter) {
                 Ok(gpu) => {
                     let reason = format!("backend wgpu: hardware adapter {}", info.name);
-                    return Self { device: Device::Wgpu(gpu), reason: Some(reason) };
+                    return Self { device: Device::Wgpu(Box::new(gpu)), reason: Some(reason) };
                 }
                 Err(error) => why = error.to_string(),
             }
@@ -131,7 +131,7 @@ pub enum Device {
     /// The processor.
     Cpu(CpuOptions),
     /// A graphics adapter.
-    Wgpu(Gpu),
+    Wgpu(Box<Gpu>),
 }
 
 impl Device {

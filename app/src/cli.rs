@@ -15,7 +15,7 @@ const FAILURE: u8 = 2;
 
 /// Falling leaves on the CPU or the GPU.
 #[derive(Debug, Parser)]
-#[command(name = "windfall", version, about, disable_help_subcommand = true)]
+#[command(name = "windfall", version, about, disable_help_subcommand = true, arg_required_else_help = false)]
 pub struct Cli {
     /// What to do.
     #[command(subcommand)]

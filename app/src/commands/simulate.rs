@@ -10,6 +10,7 @@ use std::time::Duration;
 use anyhow::{anyhow, bail};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use windfall_core::leaf::LEAF_BYTES;
 use windfall_core::{Simulator, World};
 
 use super::output_file::{OutputFile, write_error};
@@ -60,11 +61,11 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     {
         bail!("{}: named by --tracks and --checkpoint; allowed: once", checkpoint.destination().display());
     }
+    let choice = arguments.backend.choose()?;
     let mut world = match (&scene, &arguments.resume) {
         (Some(scene), _) => World::build(scene)?,
         (None, path) => read_checkpoint(path.as_deref().unwrap_or(Path::new("")))?,
     };
-    let choice = arguments.backend.choose()?;
     let mut backend = choice.device.simulator(&world)?;
     if let Some(reason) = choice.reason {
         terminal::note(&reason);
@@ -82,11 +83,12 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
         None => world.environment.scene().name.clone(),
     };
     let report = Report::new(name, &backend, &world, arguments.steps, &stepping);
-    if let Some(tracks) = tracks {
-        tracks.finish()?;
-    }
+    // The state first: it is what cannot be had again without the whole run.
     if let Some(file) = checkpoint {
         write_checkpoint(&world, file)?;
+    }
+    if let Some(tracks) = tracks {
+        tracks.finish()?;
     }
     if arguments.json {
         terminal::print(&format!("{}\n", serde_json::to_string(&report)?))
@@ -131,14 +133,14 @@ fn read_checkpoint(path: &Path) -> anyhow::Result<World> {
     let name = path.display().to_string();
     let fail = |reason: &dyn std::fmt::Display| anyhow!("{name}: {reason}");
     // Neither a folder nor something that never ends.
-    let size = fs::metadata(path).map_err(|error| fail(&error))?;
-    if !size.is_file() {
+    let kind = fs::metadata(path).map_err(|error| fail(&error))?;
+    if !kind.is_file() {
         return Err(fail(&"not a checkpoint file"));
     }
+    let leaves = kind.len() / LEAF_BYTES as u64;
+    check_memory(&name, u32::try_from(leaves).unwrap_or(u32::MAX))?;
     let bytes = fs::read(path).map_err(|error| fail(&error))?;
-    let world = World::from_checkpoint(&bytes, &name)?;
-    check_memory(&name, world.environment.scene().leaf_count())?;
-    Ok(world)
+    Ok(World::from_checkpoint(&bytes, &name)?)
 }
 
 fn write_checkpoint(world: &World, file: OutputFile) -> anyhow::Result<()> {

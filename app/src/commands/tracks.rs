@@ -22,16 +22,16 @@ const HEADER: &str =
 #[derive(Clone, Debug, Args)]
 pub struct TrackArguments {
     /// Write the tracks of single leaves to this CSV file.
-    #[arg(long = "tracks", value_name = "FILE.csv")]
-    path: Option<PathBuf>,
+    #[arg(long, value_name = "FILE.csv")]
+    tracks: Option<PathBuf>,
     /// Write tracks at every step whose number is a multiple of this.
-    #[arg(long = "track-every", value_name = "N", default_value = "1", requires = "path",
+    #[arg(long, value_name = "N", default_value = "1", requires = "tracks",
         value_parser = whole::<u32, 1, 1_000_000_000>)]
-    every: u32,
+    track_every: u32,
     /// Write the tracks of the first so many leaves.
-    #[arg(long = "track-leaves", value_name = "N", default_value = "100", requires = "path",
+    #[arg(long, value_name = "N", default_value = "100", requires = "tracks",
         value_parser = whole::<u32, 1, { u32::MAX as u64 }>)]
-    leaves: u32,
+    track_leaves: u32,
 }
 
 impl TrackArguments {
@@ -40,10 +40,15 @@ impl TrackArguments {
     /// # Errors
     /// Whatever would keep the file from being written.
     pub fn create(&self) -> anyhow::Result<Option<Tracks>> {
-        let Some(path) = &self.path else { return Ok(None) };
+        let Some(path) = &self.tracks else { return Ok(None) };
         let mut out = BufWriter::new(OutputFile::create(path)?);
         out.write_all(HEADER.as_bytes()).map_err(|error| write_error(path, &error))?;
-        Ok(Some(Tracks { out, every: self.every, leaves: self.leaves as usize, row: String::new() }))
+        Ok(Some(Tracks {
+            out,
+            every: self.track_every,
+            leaves: self.track_leaves as usize,
+            row: String::new(),
+        }))
     }
 }
 

@@ -1,0 +1,214 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Bad input: one clear line, exit code 2, no output, no file touched.
+
+mod common_cli;
+
+use std::fs;
+
+use common_cli::{assert_refused, assert_refused_without_adapter, file, folder, windfall};
+
+#[test]
+fn unknown_scenes() {
+    let there = folder();
+    let presets = "autumn-park, six-motions, storm, million";
+    for command in [&["simulate"][..], &["bench"], &["motions", "--out", "tables"]] {
+        let refuse = |scene, essentials: &[&str]| {
+            assert_refused(&there, &[command, &[scene]].concat(), essentials);
+        };
+        refuse("autum-park", &["'autum-park'", "did you mean 'autumn-park'?", presets]);
+        refuse("no/such/scene.ron", &["'no/such/scene.ron'", presets]);
+        refuse("", &["''", presets]);
+    }
+}
+
+#[test]
+fn unknown_commands_and_options() {
+    let there = folder();
+    let refuse = |arguments: &[&str], essentials: &[&str]| assert_refused(&there, arguments, essentials);
+    refuse(&[], &["requires a subcommand", "simulate", "bench"]);
+    refuse(&["simulat"], &["'simulat'", "'simulate'"]);
+    refuse(&["simulate", "--step", "3"], &["'--step'", "'--steps'"]);
+    refuse(&["simulate", "--nonsense"], &["'--nonsense'"]);
+    refuse(&["simulate", "storm", "million"], &["'million'"]);
+    refuse(&["simulate", "--backend", "gpu"], &["'gpu'", "--backend", "cpu", "wgpu"]);
+    refuse(&["simulate", "--steps"], &["--steps"]);
+    refuse(&["simulate", "--steps", "many"], &["'many'", "--steps", "0 to 1000000000"]);
+    refuse(&["simulate", "--steps", "-1"], &["-1"]);
+    refuse(&["simulate", "--steps", "1e10"], &["'1e10'", "0 to 1000000000"]);
+    refuse(&["simulate", "--seed", "0.5"], &["'0.5'", "--seed"]);
+    refuse(&["simulate", "--threads", "0"], &["'0'", "--threads", "1 to 1024"]);
+    refuse(&["simulate", "--track-every", "2"], &["--tracks"]);
+    refuse(&["bench", "--steps", "0"], &["'0'", "--steps", "1 to 100000"]);
+    refuse(&["motions"], &["--out <DIR>"]);
+    refuse(&["info", "storm"], &["'storm'"]);
+}
+
+#[test]
+fn options_that_contradict_each_other() {
+    let there = folder();
+    for command in ["simulate", "bench"] {
+        let refuse = |options: &[&str], essentials: &[&str]| {
+            assert_refused(&there, &[&[command], options].concat(), essentials);
+        };
+        refuse(&["--backend", "cpu", "--adapter", "any"], &["--adapter", "'any'", "--backend wgpu"]);
+        refuse(&["--backend", "wgpu", "--threads", "2"], &["--threads", "2", "--backend cpu"]);
+        refuse(&["--adapter", "any", "--threads", "2"], &["--adapter", "--threads"]);
+    }
+    let resume = ["simulate", "storm", "--resume", "a.ckpt"];
+    assert_refused(&there, &resume, &["SCENE", "--resume"]);
+    let both = ["simulate", "--steps", "1", "--tracks", "same", "--checkpoint", "same"];
+    assert_refused(&there, &both, &["same", "--tracks", "--checkpoint"]);
+}
+
+#[test]
+fn scenes_that_are_broken() {
+    let there = folder();
+    let refuse = |name: &str, bytes: &[u8], essentials: &[&str]| {
+        file(&there, name, bytes);
+        assert_refused(&there, &["simulate", name, "--checkpoint", "out.ckpt"], essentials);
+    };
+    refuse("open.ron", b"(\n  seed: 3,\n  sources: [", &["open.ron:3:", "closing bracket"]);
+    refuse("field.ron", b"(\n  sede: 3,\n)", &["field.ron:2:3", "`sede`", "did you mean `seed`?"]);
+    refuse("type.ron", b"(seed: high)", &["type.ron:1:"]);
+    refuse("empty.ron", b"", &["empty.ron:1:1", "empty"]);
+    refuse("bytes.ron", b"(seed: \xff)", &["bytes.ron:1:8", "not UTF-8"]);
+    refuse("dt.ron", b"(dt_s: 7.0)", &["dt.ron: dt_s is 7.0", "0.001 to 0.05 s"]);
+    let wind = b"(wind: (speed: Beaufort(13)))";
+    refuse("wind.ron", wind, &["wind.ron: wind.speed is 13", "0 to 12"]);
+    let count = b"(sources: [(count: 0)])";
+    refuse("count.ron", count, &["count.ron: sources[0].count is 0", "1 to 268435456"]);
+    let many = b"(sources: [(count: 268435456, release: Rate(per_s: 1e8, from_s: 0.0)), (count: 1)])";
+    refuse("many.ron", many, &["many.ron: sources is 268435457 leaves", "268435456"]);
+    let tables = b"(species: [(tables: \"none.motions\")])";
+    refuse("tables.ron", tables, &["none.motions"]);
+    file(&there, "bad.motions", "windfall-motions 1\nrows 7\n");
+    let tables = b"(species: [(tables: \"bad.motions\")])";
+    refuse("bad.ron", tables, &["bad.motions:2:1", "rows 513"]);
+}
+
+#[test]
+fn scenes_that_cannot_be_read() {
+    let there = folder();
+    fs::create_dir(there.path().join("folder.ron")).expect("a folder");
+    assert_refused(&there, &["simulate", "folder.ron"], &["folder.ron", "directory"]);
+    assert_refused(&there, &["simulate", "/dev/zero"], &["/dev/zero"]);
+    file(&there, "plain", "");
+    assert_refused(&there, &["simulate", "plain/scene.ron"], &["plain/scene.ron"]);
+}
+
+#[test]
+fn numbers_of_leaves_that_make_no_sense() {
+    let there = folder();
+    for command in ["simulate", "bench"] {
+        let refuse = |leaves, essentials: &[&str]| {
+            assert_refused(&there, &[command, "autumn-park", "--leaves", leaves], essentials);
+        };
+        for leaves in ["0", "268435457", "1e30", "99999999999999999999999", "1.5", "few", "-5"] {
+            refuse(leaves, &[leaves]);
+        }
+        refuse("0", &["'0'", "--leaves", "1 to 268435456"]);
+        refuse("6", &["autumn-park", "--leaves is 6", "7 to 268435456"]);
+    }
+    assert_refused(&there, &["bench", "--leaves", "10,0"], &["'0'", "--leaves"]);
+    assert_refused(&there, &["bench", "--leaves", ""], &["--leaves"]);
+}
+
+#[test]
+fn outputs_that_cannot_be_written() {
+    let there = folder();
+    file(&there, "plain", "kept");
+    fs::create_dir(there.path().join("folder")).expect("a folder");
+    for option in ["--tracks", "--checkpoint"] {
+        let refuse = |path, essentials: &[&str]| {
+            let arguments = ["simulate", "--steps", "1000000000", option, path];
+            assert_refused(&there, &arguments, essentials);
+        };
+        refuse("missing/a.out", &["missing/a.out: cannot write", "no folder missing"]);
+        refuse("plain/a.out", &["plain/a.out: cannot write"]);
+        refuse("folder", &["folder: cannot write", "not a file"]);
+        refuse("", &["a value is required", option]);
+        #[cfg(unix)]
+        refuse("/dev/null", &["/dev/null: cannot write", "not a file"]);
+    }
+    assert_refused(&there, &["motions", "--out", "plain"], &["plain: cannot write"]);
+    assert_refused(&there, &["motions", "--out", "plain/tables"], &["plain/tables: cannot write"]);
+    // The last of six files cannot be written: then none is.
+    fs::create_dir_all(there.path().join("folder/ginkgo.motions")).expect("a folder");
+    let essentials = ["ginkgo.motions: cannot write", "not a file"];
+    assert_refused(&there, &["motions", "million", "--out", "folder"], &essentials);
+}
+
+#[test]
+fn species_that_cannot_be_names_of_files() {
+    let there = folder();
+    file(&there, "odd.ron", "(species: [(name: \"../up\")])");
+    let essentials = ["odd.ron: species[0].name", "../up", "letters"];
+    assert_refused(&there, &["motions", "odd.ron", "--out", "tables"], &essentials);
+    file(&there, "twice.ron", "(species: [(name: \"Elm\"), (name: \"elm\")])");
+    let essentials = ["twice.ron: species[1].name", "elm", "unique"];
+    assert_refused(&there, &["motions", "twice.ron", "--out", "tables"], &essentials);
+}
+
+#[test]
+fn checkpoints_that_cannot_be_used() {
+    let there = folder();
+    let save = ["simulate", "--leaves", "20", "--steps", "2", "--threads", "1", "--checkpoint", "good.ckpt"];
+    windfall(&there, &save).text();
+    let good = fs::read(there.path().join("good.ckpt")).expect("a checkpoint");
+    let refuse = |name: &str, essentials: &[&str]| {
+        let arguments = ["simulate", "--resume", name, "--checkpoint", "out.ckpt", "--tracks", "out.csv"];
+        assert_refused(&there, &arguments, &[&[name], essentials].concat());
+    };
+    refuse("missing.ckpt", &["missing.ckpt: "]);
+    fs::create_dir(there.path().join("folder")).expect("a folder");
+    refuse("folder", &["not a checkpoint file"]);
+    file(&there, "text.ckpt", "(seed: 3)");
+    refuse("text.ckpt", &["not a usable checkpoint", "WINDFALL"]);
+    file(&there, "empty.ckpt", "");
+    refuse("empty.ckpt", &["not a usable checkpoint"]);
+    let mut damaged = good.clone();
+    let middle = damaged.len() / 2;
+    damaged[middle] ^= 1;
+    file(&there, "damaged.ckpt", &damaged);
+    refuse("damaged.ckpt", &["not a usable checkpoint", "damaged"]);
+    for length in [8, 10, 20, 500, good.len() - 1] {
+        file(&there, "short.ckpt", &good[..length]);
+        refuse("short.ckpt", &["not a usable checkpoint", "cut short"]);
+    }
+    let mut version = good.clone();
+    version[8] = 9;
+    file(&there, "version.ckpt", &version);
+    refuse("version.ckpt", &["not a usable checkpoint", "version 9", "version 1"]);
+}
+
+#[test]
+fn no_adapter() {
+    let there = folder();
+    // What an earlier run saved stays.
+    let save = ["simulate", "--leaves", "20", "--steps", "2", "--threads", "1", "--checkpoint", "kept.ckpt"];
+    windfall(&there, &save).text();
+    let hint = ["no usable adapter", "mesa-vulkan-drivers"];
+    for command in ["simulate", "bench"] {
+        assert_refused_without_adapter(&there, &[command, "--backend", "wgpu"], &hint);
+        assert_refused_without_adapter(&there, &[command, "--adapter", "any"], &hint);
+        let essentials = ["no usable adapter", "'no such thing'", "found: "];
+        assert_refused(&there, &[command, "--adapter", "no such thing"], &essentials);
+    }
+    let resume = ["simulate", "--resume", "kept.ckpt", "--checkpoint", "kept.ckpt", "--backend", "wgpu"];
+    assert_refused_without_adapter(&there, &resume, &hint);
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_disk() {
+    use std::process::Stdio;
+    let there = folder();
+    let arguments = ["simulate", "--steps", "1", "--leaves", "9", "--threads", "1"];
+    let mut command = common_cli::command(&there, &arguments);
+    let full = fs::OpenOptions::new().write(true).open("/dev/full").expect("Linux has it");
+    let output = command.stdout(Stdio::from(full)).output().expect("the program starts");
+    let stderr = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(2), "{stderr}");
+    assert!(stderr.contains("standard output: cannot write") && stderr.lines().count() == 1, "{stderr}");
+}

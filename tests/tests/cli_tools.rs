@@ -1,0 +1,116 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! `windfall info`, `windfall bench` and `windfall motions` in use.
+
+mod common_cli;
+
+use std::fs;
+
+use common_cli::{contents, folder, windfall, windfall_without_adapter};
+use serde_json::Value;
+use windfall_core::Scene;
+use windfall_core::motion::MotionTables;
+
+#[test]
+fn info_lists_adapters_and_the_default() {
+    let outcome = windfall(&folder(), &["info"]);
+    assert_eq!(outcome.stderr, "", "no noise");
+    let text = outcome.text();
+    for part in ["processor", "default", "bytes per leaf     80", "adapter  ", "contract", "largest binding"]
+    {
+        assert!(text.contains(part), "{part} is missing in\n{text}");
+    }
+    assert!(
+        text.contains("backend cpu: ") || text.contains("backend wgpu: "),
+        "what is chosen and why:\n{text}"
+    );
+}
+
+#[test]
+fn info_works_without_adapters() {
+    let outcome = windfall_without_adapter(&folder(), &["info"]);
+    assert_eq!(outcome.stderr, "", "no noise");
+    let text = outcome.text();
+    for part in ["adapters           0", "backend cpu: no graphics adapter", "mesa-vulkan-drivers"] {
+        assert!(text.contains(part), "{part} is missing in\n{text}");
+    }
+}
+
+#[test]
+fn without_adapters_the_processor_simulates_and_says_so() {
+    let arguments = ["simulate", "--steps", "2", "--leaves", "20", "--json"];
+    let outcome = windfall_without_adapter(&folder(), &arguments);
+    assert!(outcome.stderr.starts_with("backend cpu: no graphics adapter"), "{}", outcome.stderr);
+    assert_eq!(outcome.stderr.lines().count(), 1, "{}", outcome.stderr);
+    assert_eq!(outcome.json()["backend"], "cpu", "nothing else is there");
+}
+
+#[test]
+fn bench_measures_every_backend_at_every_size() {
+    let arguments = ["bench", "storm", "--leaves", "100,1e3", "--steps", "3", "--json"];
+    let outcome = windfall(&folder(), &arguments);
+    assert_eq!(outcome.stderr, "", "no noise");
+    let text = outcome.text();
+    let rows: Vec<Value> = text.lines().map(|line| serde_json::from_str(line).expect("JSON")).collect();
+    let which: Vec<_> = rows
+        .iter()
+        .map(|row| (row["backend"].as_str().expect("text"), row["leaves"].as_u64().expect("a number")))
+        .collect();
+    assert_eq!(which, [("cpu", 100), ("wgpu", 100), ("cpu", 1000), ("wgpu", 1000)], "all of them");
+    for row in &rows {
+        let mut keys: Vec<_> = row.as_object().expect("an object").keys().map(String::as_str).collect();
+        keys.sort_unstable();
+        let expected = [
+            "adapter",
+            "backend",
+            "bytes_per_leaf_step",
+            "leaf_steps_per_cpu_s",
+            "leaf_steps_per_s",
+            "leaf_steps_per_s_max",
+            "leaf_steps_per_s_min",
+            "leaves",
+            "scene",
+            "steps",
+        ];
+        assert_eq!(keys, expected, "{row}");
+        assert_eq!((&row["scene"], &row["steps"]), (&"storm".into(), &3.into()), "{row}");
+        assert_eq!(row["bytes_per_leaf_step"], 96, "six records of 16 bytes");
+        let rate = |key: &str| row[key].as_f64().expect("a number");
+        let (low, high) = (rate("leaf_steps_per_s_min"), rate("leaf_steps_per_s_max"));
+        assert!(0.0 < low && (low..=high).contains(&rate("leaf_steps_per_s")), "the median: {row}");
+        assert!(rate("leaf_steps_per_cpu_s") > 0.0, "{row}");
+    }
+}
+
+#[test]
+fn bench_prints_a_table_and_chooses_its_steps() {
+    let outcome = windfall(&folder(), &["bench", "--leaves", "10", "--backend", "cpu"]);
+    let text = outcome.text();
+    let last: Vec<_> = text.lines().last().expect("a row").split_whitespace().collect();
+    assert_eq!(&last[..2], ["cpu", "10"], "{text}");
+    assert!(last[2].parse::<u32>().expect("a number of steps") > 100, "more than a moment's: {text}");
+}
+
+#[test]
+fn bench_without_adapters_measures_the_processor() {
+    let arguments = ["bench", "--leaves", "10", "--steps", "1", "--json"];
+    let outcome = windfall_without_adapter(&folder(), &arguments);
+    assert!(outcome.stderr.contains("no usable adapter"), "{}", outcome.stderr);
+    assert_eq!(outcome.json()["backend"], "cpu", "the only one");
+}
+
+#[test]
+fn motions_are_the_tables_of_the_scene() {
+    let there = folder();
+    let text = windfall(&there, &["motions", "--out", "deep/down"]).text();
+    let scene = Scene::preset("autumn-park").expect("a preset");
+    let seed = [20, 0];
+    assert_eq!(text.lines().count(), scene.species.len(), "{text}");
+    for species in &scene.species {
+        let path = there.path().join("deep/down").join(format!("{}.motions", species.name));
+        let text = fs::read_to_string(&path).expect("a file for each species");
+        let tables = MotionTables::from_text(&text, "written").expect("a readable one");
+        assert_eq!(tables, MotionTables::generate(species, seed), "{}", species.name);
+    }
+    assert_eq!(contents(there.path()).len(), scene.species.len() + 2, "nothing else is left");
+}
