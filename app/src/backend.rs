@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Chooses where to simulate, and lets everything else not care.
 
+#[cfg(test)]
+mod tests;
+
 use std::fmt;
 
 use anyhow::bail;
@@ -212,12 +215,17 @@ impl Backend {
 
     fn simulator_mut(&mut self) -> &mut dyn Simulator {
         match self {
-            Self::Cpu(cpu) => {
-                cpu.is_current = false;
-                &mut cpu.simulator
-            }
+            Self::Cpu(cpu) => &mut cpu.simulator,
             Self::Wgpu(simulator) => simulator.as_mut(),
         }
+    }
+
+    /// The same for what changes leaves.
+    fn changing(&mut self) -> &mut dyn Simulator {
+        if let Self::Cpu(cpu) = self {
+            cpu.is_current = false;
+        }
+        self.simulator_mut()
     }
 }
 
@@ -231,7 +239,7 @@ impl Simulator for Backend {
     }
 
     fn write_state(&mut self, world: &World) -> Result<(), SimError> {
-        self.simulator_mut().write_state(world)
+        self.changing().write_state(world)
     }
 
     fn read_state(&mut self, world: &mut World) -> Result<(), SimError> {
@@ -243,7 +251,7 @@ impl Simulator for Backend {
     }
 
     fn step(&mut self, count: u32) -> Result<(), SimError> {
-        self.simulator_mut().step(count)
+        self.changing().step(count)
     }
 
     fn sync(&mut self) -> Result<(), SimError> {
@@ -252,50 +260,5 @@ impl Simulator for Backend {
 
     fn stats(&mut self) -> Result<Stats, SimError> {
         self.simulator_mut().stats()
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn arguments(
-        backend: Option<BackendKind>,
-        adapter: Option<&str>,
-        threads: Option<usize>,
-    ) -> BackendArguments {
-        BackendArguments { backend, adapter: adapter.map(str::to_owned), threads }
-    }
-
-    #[test]
-    fn options_imply_their_backend_or_contradict_it() {
-        let kind = |backend, adapter, threads| arguments(backend, adapter, threads).kind().ok();
-        let (cpu, wgpu) = (Some(BackendKind::Cpu), Some(BackendKind::Wgpu));
-        assert_eq!(kind(None, None, None), Some(None), "left open");
-        assert_eq!(kind(cpu, None, Some(2)), Some(cpu), "asked for");
-        assert_eq!(kind(None, Some("a"), None), Some(wgpu), "implied by an adapter");
-        assert_eq!(kind(None, None, Some(1)), Some(cpu), "implied by threads");
-        assert_eq!(kind(cpu, Some("a"), None), None, "the processor is no adapter");
-        assert_eq!(kind(wgpu, None, Some(1)), None, "an adapter has no threads of ours");
-        assert_eq!(kind(None, Some("a"), Some(1)), None, "one or the other");
-    }
-
-    #[test]
-    fn the_mirror_follows_the_processor() {
-        let scene = windfall_core::Scene::preset("six-motions").expect("a preset");
-        let world = World::build(&scene).expect("valid");
-        let gpu = Gpu::request(None).expect("a graphics adapter; software Vulkan will do");
-        let mut backend =
-            Device::Cpu(CpuOptions { threads: Some(1) }).simulator(&world).expect("a simulator");
-        for _ in 0..2 {
-            backend.step(30).expect("the processor steps");
-            let columns = backend.columns(&gpu).expect("six leaves fit");
-            assert_eq!(columns.leaf_count, 6, "all leaves");
-            let Backend::Cpu(cpu) = &backend else { panic!("made on the processor") };
-            assert!(cpu.is_current, "uploaded");
-        }
-        backend.step(1).expect("the processor steps");
-        let Backend::Cpu(cpu) = &backend else { panic!("made on the processor") };
-        assert!(!cpu.is_current, "the copy is old again");
     }
 }
