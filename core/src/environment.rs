@@ -17,7 +17,8 @@ use crate::layout::{Float4, Uint4};
 use crate::leaf::record::SIZE_ONE;
 use crate::motion::lookup::MotionRows;
 use crate::motion::table::TABLE_ROWS;
-use crate::motion::{GRAVITY, MotionConstants, MotionTables};
+use crate::motion::{GRAVITY, MotionConstants, MotionTables, Primitive};
+use crate::scene::limits::MAX_PERIODS_PER_STEP;
 use crate::scene::{MAX_SOURCES, MAX_SPECIES, Release, Scene, Source, SourceShape, Species, WindParameters};
 use crate::wind::gust::{GUST_ROWS, GUST_SPACING, gust_rows};
 use crate::wind::profile::{PROFILE_PER_METRE, PROFILE_ROWS, profile_rows};
@@ -55,8 +56,11 @@ impl Environment {
     /// A motion table file that cannot be read or used.
     pub fn compile(scene: &Scene) -> Result<Self, SceneError> {
         let seed = seed_words(scene.seed);
-        let tables =
-            scene.species.iter().map(|species| tables_of(species, seed)).collect::<Result<Vec<_>, _>>()?;
+        let tables = scene
+            .species
+            .iter()
+            .map(|species| tables_of(scene, species, seed))
+            .collect::<Result<Vec<_>, _>>()?;
         let motion = pack_motion(&tables);
         let mut wind = Vec::with_capacity((PROFILE_ROWS + GUST_ROWS) as usize + 65536);
         wind.extend(profile_rows(scene.wind.profile, scene.wind.reference_height_m));
@@ -176,16 +180,33 @@ pub(crate) fn seed_words(seed: u64) -> [u32; 2] {
     words
 }
 
-fn tables_of(species: &Species, seed: [u32; 2]) -> Result<MotionTables, SceneError> {
+/// Tables from a file or from the equations. The rates that the equations give have been validated with the scene;
+/// those of a file are known only now.
+fn tables_of(scene: &Scene, species: &Species, seed: [u32; 2]) -> Result<MotionTables, SceneError> {
     let Some(path) = &species.tables else {
         return Ok(MotionTables::generate(species, seed));
     };
     let text =
         std::fs::read_to_string(path).map_err(|source| SceneError::Read { path: path.into(), source })?;
-    MotionTables::from_text(&text, path)
+    let tables = MotionTables::from_text(&text, path)?;
+    let leaf = (1.0 + f64::from(species.speed_variation)) / (1.0 - f64::from(species.size_variation));
+    let speedup = leaf * f64::from(scene.rotation_speed.max(1.0));
+    let shortest = f64::from(scene.dt_s) * speedup / MAX_PERIODS_PER_STEP;
+    for (primitive, table) in Primitive::ALL.iter().zip(&tables.0) {
+        if table.period_s < shortest {
+            return Err(SceneError::Field {
+                file: path.clone(),
+                field: format!("period_s of {}", primitive.code()),
+                value: table.period_s.to_string(),
+                allowed: format!("{shortest:.4} or more at dt_s {}, or a smaller dt_s", scene.dt_s),
+            });
+        }
+    }
+    Ok(tables)
 }
 
-/// Displacement and orientation rows of all tables, interleaved; behind them the velocity rows.
+/// Displacement and orientation rows of all tables, interleaved; behind them the velocity rows. Of the two quaternions
+/// of a rotation each row takes the one nearer to the row before: a file may hold either, and rows are interpolated.
 fn pack_motion(tables: &[MotionTables]) -> Vec<Float4> {
     let rows = TABLE_ROWS as usize;
     let count = tables.len() * TABLES_PER_SPECIES;
@@ -193,10 +214,14 @@ fn pack_motion(tables: &[MotionTables]) -> Vec<Float4> {
     for (species, tables) in tables.iter().enumerate() {
         for (primitive, table) in tables.0.iter().enumerate() {
             let first = (species * TABLES_PER_SPECIES + primitive) * rows;
+            let mut orientation = table.orientation[0];
             for row in 0..rows {
                 let [x, y, z] = table.displacement_m[row];
                 packed[2 * (first + row)] = Float4([x, y, z, 0.0]);
-                packed[2 * (first + row) + 1] = Float4(table.orientation[row]);
+                let next = table.orientation[row];
+                let cosine: f32 = orientation.iter().zip(next).map(|(a, b)| a * b).sum();
+                orientation = if cosine < 0.0 { next.map(|part| -part) } else { next };
+                packed[2 * (first + row) + 1] = Float4(orientation);
                 let [x, y, z] = table.velocity_m[row];
                 packed[2 * count * rows + first + row] = Float4([x, y, z, 0.0]);
             }
@@ -332,7 +357,7 @@ fn share_ends(scene: &Scene, source: &Source) -> [u32; MAX_SPECIES] {
 }
 
 fn displacement_gain(scene: &Scene) -> f32 {
-    scene.fall_speed / (f64::from(q16(scene.rotation_speed)) / 65536.0) as f32
+    single(f64::from(scene.fall_speed) * 65536.0 / f64::from(q16(scene.rotation_speed)))
 }
 
 fn ground_numbers(scene: &Scene) -> Float4 {

@@ -102,8 +102,8 @@ impl<'a> Lines<'a> {
         let period_s = head
             .strip_prefix(&expected)
             .and_then(|rest| rest.trim().parse::<f64>().ok())
-            .filter(|period| (0.01..=1000.0).contains(period))
-            .ok_or_else(|| self.error(format!("expected '{expected}' and seconds from 0.01 to 1000")))?;
+            .filter(|period| (0.001..=1000.0).contains(period))
+            .ok_or_else(|| self.error(format!("expected '{expected}' and seconds from 0.001 to 1000")))?;
         let rows = TABLE_ROWS as usize;
         let mut table = PrimitiveTable {
             period_s,

@@ -21,6 +21,7 @@ crate::shared_constants! {
 const STREAM: u32 = 0x4755_0000;
 
 /// Excess over the mean wind, in units of a typical gust's, at `along` metres down the wind.
+#[expect(clippy::cast_possible_truncation, reason = "a whole number in range")]
 #[inline(always)]
 pub fn wind_gust(cx: &Context<'_>, along: f32) -> f32 {
     let x = along * cx.environment.wind.gust.0[1] - cx.step.offsets.0[0];
@@ -30,8 +31,9 @@ pub fn wind_gust(cx: &Context<'_>, along: f32) -> f32 {
     row[0] + (x - k) * (row[1] - row[0])
 }
 
-/// Rows of the table: the value at a place and at the next. Gusts are `1 - cos` humps of random height (0.6 to 1.4),
-/// length and place, one to a spacing; the mean over the table is zero, so that gusts leave the mean wind alone.
+/// Rows of the table: the value at a place and at the next. Gusts are `1 - cos` humps of random height, length and
+/// place, one to a spacing. The mean over the table is zero, so that gusts leave the mean wind alone, and the mean of
+/// the humps' peaks is one. Lulls come to -1/2, so that the air never turns back at any strength a scene may ask for.
 pub(crate) fn gust_rows(seed: [u32; 2]) -> Vec<Float4> {
     let rows = GUST_ROWS as usize;
     let mut values = vec![0.0; rows];
@@ -40,7 +42,7 @@ pub(crate) fn gust_rows(seed: [u32; 2]) -> Vec<Float4> {
             random(seed, gust, STREAM).map(|word| f64::from(word) / 4_294_967_296.0);
         let spacing = f64::from(GUST_SPACING);
         let centre = (f64::from(gust) + 0.2 + 0.6 * place) * spacing;
-        let width = (0.5 + 0.7 * length) * spacing;
+        let width = (0.4 + 0.5 * length) * spacing;
         for (row, value) in values.iter_mut().enumerate() {
             let mut distance = (row as f64 - centre).abs();
             distance = distance.min(rows as f64 - distance);
@@ -50,7 +52,10 @@ pub(crate) fn gust_rows(seed: [u32; 2]) -> Vec<Float4> {
         }
     }
     let mean = values.iter().sum::<f64>() / rows as f64;
+    let peaks: f64 =
+        values.chunks(GUST_SPACING as usize).map(|gust| gust.iter().copied().fold(0.0, f64::max)).sum();
+    let scale = 1.0 / (peaks / f64::from(GUST_ROWS / GUST_SPACING) - mean);
     #[expect(clippy::cast_possible_truncation, reason = "tables are stored in single precision")]
-    let at = |row: usize| (values[row % rows] - mean) as f32;
+    let at = |row: usize| ((values[row % rows] - mean) * scale) as f32;
     (0..rows).map(|row| Float4([at(row), at(row + 1), 0.0, 0.0])).collect()
 }

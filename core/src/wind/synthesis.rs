@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Makes the turbulence box: random, periodic, divergence-free, with the -5/3 spectrum of the inertial range.
 //!
-//! White noise is shaped in Fourier space. Its amplitude follows `E(k) ~ k^(-5/3)`; its direction is projected at right
-//! angles to the wave vector *of the trilinear cell*, `tan(k h / 2)` in each direction, so that the interpolated field
-//! that leaves really meet has no net flux through any cell. (Projecting with k itself would leave a few per cent.)
+//! White noise is shaped in Fourier space. Every wave gets exactly the amplitude of `E(k) ~ k^(-5/3)`; chance is left
+//! its phase and its direction at right angles to the wave vector *of the trilinear cell*, `tan(k h / 2)` along each
+//! axis, so that the interpolated field that leaves really meet has no net flux through any cell. (Projecting with k
+//! itself would leave a few per cent.) Amplitudes at the nodes are raised by what interpolation takes away, a factor
+//! `(sin(k h / 2) / (k h / 2))^2` along each axis: spectrum and variance are those of the interpolated field.
 
 use std::f64::consts::{PI, TAU};
 
@@ -20,28 +22,50 @@ const NODES: usize = SIZE[0] * SIZE[1] * SIZE[2];
 /// Stream of random numbers, apart from those of leaves.
 const STREAM: u32 = 0x5455_0000;
 
-/// Velocities at the nodes of the box, x running fastest, then y, then z; fourth component zero. Mean zero, mean
-/// square one per component over all three. Distances count in cells, which are cubes here; a box stretched by the
-/// same factors in its cells and in its velocities stays divergence-free.
+/// Rounds in which the three components are brought to equal variance.
+const BALANCE_ROUNDS: u32 = 8;
+
+/// Velocities at the nodes of the box, x running fastest, then y, then z; fourth component zero. Interpolated, each
+/// component has mean zero along every line in x and mean square one over the box. Distances count in cells, which
+/// are cubes here; a box stretched by the same factors in its cells and in its velocities stays divergence-free.
 pub fn turbulence_box(seed: [u32; 2]) -> Vec<Float4> {
     let mut field: [Vec<Complex64>; 3] = std::array::from_fn(|axis| noise(seed, axis));
     for component in &mut field {
         transform(component, FftDirection::Forward);
     }
-    for node in 0..NODES {
-        let index = [node % SIZE[0], node / SIZE[0] % SIZE[1], node / (SIZE[0] * SIZE[1])];
-        shape(&mut field, node, index);
+    let waves: Vec<Wave> = (0..NODES).map(wave).collect();
+    // The box is longer than it is high and wide, and waves across the wind are missing: without weights on the noise
+    // one component would be livelier than another.
+    let mut weights = [1.0; 3];
+    let mut variances = [1.0; 3];
+    for _ in 0..BALANCE_ROUNDS {
+        variances = [0.0; 3];
+        for (node, wave) in waves.iter().enumerate() {
+            let value = shape(&field, weights, node, wave);
+            for (variance, value) in variances.iter_mut().zip(value) {
+                *variance += value.norm_sqr() * wave.interpolated;
+            }
+        }
+        let mean = (variances[0] + variances[1] + variances[2]) / 3.0;
+        for (weight, variance) in weights.iter_mut().zip(variances) {
+            *weight *= mean / variance;
+        }
+    }
+    // The last round's variances belong to slightly other weights; the difference is far below one per cent.
+    let scale = 1.0 / libm::sqrt((variances[0] + variances[1] + variances[2]) / 3.0);
+    for (node, wave) in waves.iter().enumerate() {
+        let value = shape(&field, weights, node, wave);
+        for (component, value) in field.iter_mut().zip(value) {
+            component[node] = value * scale;
+        }
     }
     for component in &mut field {
         transform(component, FftDirection::Inverse);
     }
-    let power: f64 =
-        field.iter().flatten().map(|value| value.re * value.re).sum::<f64>() / (3 * NODES) as f64;
-    let scale = 1.0 / libm::sqrt(power);
     #[expect(clippy::cast_possible_truncation, reason = "tables are stored in single precision")]
     (0..NODES)
         .map(|node| {
-            let [u, v, w] = [0, 1, 2].map(|axis: usize| (field[axis][node].re * scale) as f32);
+            let [u, v, w] = [0, 1, 2].map(|axis: usize| field[axis][node].re as f32);
             Float4([u, v, w, 0.0])
         })
         .collect()
@@ -59,8 +83,18 @@ fn noise(seed: [u32; 2], axis: usize) -> Vec<Complex64> {
         .collect()
 }
 
-/// Gives one Fourier mode its amplitude and direction.
-fn shape(field: &mut [Vec<Complex64>; 3], node: usize, index: [usize; 3]) {
+/// One Fourier mode of the box.
+struct Wave {
+    /// Wave vector of the trilinear cell.
+    cell: [f64; 3],
+    /// Amplitude at the nodes; zero for modes left out.
+    amplitude: f64,
+    /// Mean square of the interpolated wave, relative to that at the nodes.
+    interpolated: f64,
+}
+
+fn wave(node: usize) -> Wave {
+    let index = [node % SIZE[0], node / SIZE[0] % SIZE[1], node / (SIZE[0] * SIZE[1])];
     let wave = [0, 1, 2].map(|axis: usize| {
         let half = SIZE[axis] / 2;
         let signed =
@@ -68,25 +102,38 @@ fn shape(field: &mut [Vec<Complex64>; 3], node: usize, index: [usize; 3]) {
         TAU * signed / SIZE[axis] as f64
     });
     let k2: f64 = wave.iter().map(|k| k * k).sum();
-    // The mean has no place in a fluctuation; Nyquist modes have no direction; the corners beyond the sphere of the
-    // shortest resolved wave would make the field anisotropic.
+    // Waves longer than the box is wide fit only along the wind, and a few of them would carry most of the energy.
+    // Waves straight across the wind would never pass: a place would have its own mean wind for ever. Nyquist modes
+    // have no direction, and the corners beyond the sphere of the shortest resolved wave no counterpart along the axes.
+    let longest = TAU / SIZE[1].min(SIZE[2]) as f64;
     let nyquist = (0..3).any(|axis| index[axis] == SIZE[axis] / 2);
-    let mut value = [field[0][node], field[1][node], field[2][node]];
-    if k2 == 0.0 || nyquist || k2 >= PI * PI {
-        value = [Complex64::ZERO; 3];
-    } else {
+    if index[0] == 0 || nyquist || k2 < 0.999 * longest * longest || k2 >= PI * PI {
+        return Wave { cell: [0.0; 3], amplitude: 0.0, interpolated: 0.0 };
+    }
+    let kept: f64 =
+        wave.iter().map(|&k| if k == 0.0 { 1.0 } else { libm::sin(0.5 * k) / (0.5 * k) }).product();
+    Wave {
+        cell: wave.map(|k| libm::tan(0.5 * k)),
         // E(k) = k^(-5/3) over shells of area ~ k^2: amplitude k^(-11/6).
-        let amplitude = libm::pow(k2, -11.0 / 12.0);
-        let cell = wave.map(|k| libm::tan(0.5 * k));
-        let cell2: f64 = cell.iter().map(|k| k * k).sum();
-        let along = (value[0] * cell[0] + value[1] * cell[1] + value[2] * cell[2]) / cell2;
-        for axis in 0..3 {
-            value[axis] = (value[axis] - along * cell[axis]) * amplitude;
-        }
+        amplitude: libm::pow(k2, -11.0 / 12.0) / (kept * kept),
+        interpolated: wave.iter().map(|&k| (2.0 + libm::cos(k)) / 3.0).product(),
     }
-    for axis in 0..3 {
-        field[axis][node] = value[axis];
+}
+
+/// One Fourier mode with its amplitude and direction, from weighted noise.
+fn shape(noise: &[Vec<Complex64>; 3], weights: [f64; 3], node: usize, wave: &Wave) -> [Complex64; 3] {
+    if wave.amplitude == 0.0 {
+        return [Complex64::ZERO; 3];
     }
+    let cell = wave.cell;
+    let cell2: f64 = cell.iter().map(|k| k * k).sum();
+    let mut value = [0, 1, 2].map(|axis: usize| noise[axis][node] * weights[axis]);
+    let along = (value[0] * cell[0] + value[1] * cell[1] + value[2] * cell[2]) / cell2;
+    for (value, cell) in value.iter_mut().zip(cell) {
+        *value -= along * cell;
+    }
+    let norm = libm::sqrt(value.iter().map(Complex64::norm_sqr).sum::<f64>());
+    value.map(|value| value * (wave.amplitude / norm))
 }
 
 /// Fourier transform along all three axes, unnormalised. The scalar planner gives the same bits on every machine.
