@@ -7,7 +7,7 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
-use crate::commands::{bench, info, motions, simulate};
+use crate::commands::{bench, info, motions, render, simulate};
 use crate::terminal;
 
 /// Exit code of everything that goes wrong.
@@ -25,6 +25,8 @@ pub struct Cli {
 /// What the program can do.
 #[derive(Debug, Subcommand)]
 pub enum Command {
+    /// Draw a scene to a picture or a clip, without a window.
+    Render(render::Arguments),
     /// Simulate a scene without drawing it: statistics, tracks, checkpoints.
     Simulate(simulate::Arguments),
     /// List graphics adapters with their limits, and what is chosen by default.
@@ -38,6 +40,7 @@ pub enum Command {
 impl Command {
     fn run(self) -> anyhow::Result<()> {
         match self {
+            Self::Render(arguments) => render::run(&arguments),
             Self::Simulate(arguments) => simulate::run(&arguments),
             Self::Info => info::run(),
             Self::Bench(arguments) => bench::run(&arguments),

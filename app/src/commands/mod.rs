@@ -6,6 +6,7 @@ pub mod bench;
 pub mod info;
 pub mod motions;
 pub mod output_file;
+pub mod render;
 pub mod report;
 pub mod scene;
 pub mod simulate;

@@ -13,6 +13,8 @@ use super::OutputError;
 pub(super) struct Beside {
     destination: PathBuf,
     partial: PathBuf,
+    /// Directories that had to be made, the outermost first.
+    made: Vec<PathBuf>,
 }
 
 impl Beside {
@@ -33,11 +35,18 @@ impl Beside {
     fn prepare(destination: &Path, extension: &str) -> Result<Self, OutputError> {
         let parent = destination.parent().filter(|parent| !parent.as_os_str().is_empty());
         let parent = parent.unwrap_or(Path::new("."));
-        fs::create_dir_all(parent).map_err(OutputError::write(destination))?;
+        let mut made: Vec<_> =
+            parent.ancestors().take_while(|path| !path.exists()).map(Path::to_owned).collect();
+        made.retain(|path| !path.as_os_str().is_empty());
+        made.reverse();
         let mut name = OsString::from(".");
         name.push(destination.file_name().unwrap_or_default());
         name.push(format!(".{}.partial.{extension}", std::process::id()));
-        Ok(Self { destination: destination.to_owned(), partial: parent.join(name) })
+        let partial = parent.join(name);
+        // From here on dropping it undoes what was done.
+        let beside = Self { destination: destination.to_owned(), partial, made };
+        fs::create_dir_all(parent).map_err(OutputError::write(destination))?;
+        Ok(beside)
     }
 
     /// Where to write for now.
@@ -63,6 +72,10 @@ impl Drop for Beside {
             let _ = fs::remove_dir_all(&self.partial);
         } else {
             let _ = fs::remove_file(&self.partial);
+        }
+        // Keeps those with something in them.
+        for directory in self.made.iter().rev() {
+            let _ = fs::remove_dir(directory);
         }
     }
 }

@@ -66,9 +66,19 @@ impl GifClip {
         })
     }
 
-    pub(super) fn push(&mut self, frame: &RgbaImage) -> Result<(), OutputError> {
-        let keep = self.pushed.is_multiple_of(self.step);
+    /// Whether the next frame is one of those that are kept.
+    pub(super) fn wants_next(&self) -> bool {
+        self.pushed.is_multiple_of(self.step)
+    }
+
+    /// Counts a frame that is not kept.
+    pub(super) fn skip(&mut self) {
         self.pushed += 1;
+    }
+
+    pub(super) fn push(&mut self, frame: &RgbaImage) -> Result<(), OutputError> {
+        let keep = self.wants_next();
+        self.skip();
         if !keep {
             return Ok(());
         }

@@ -114,6 +114,22 @@ impl Writer {
         }
     }
 
+    /// Whether frame `number`, counted from 0, of `count` frames will be seen: the others may be skipped.
+    pub fn wants(&self, number: u32, count: u32) -> bool {
+        match &self.kind {
+            Kind::Png(_) => number + 1 == count,
+            Kind::Gif(clip) => clip.wants_next(),
+            Kind::Sequence(_) | Kind::Mp4(_) => true,
+        }
+    }
+
+    /// Passes over a frame that is not wanted.
+    pub fn skip(&mut self) {
+        if let Kind::Gif(clip) = &mut self.kind {
+            clip.skip();
+        }
+    }
+
     /// Completes the output under its own name and returns that.
     ///
     /// # Errors

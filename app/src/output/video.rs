@@ -41,7 +41,11 @@ impl Video {
             return Err(OutputError::Size { path: path.to_owned(), width, height, allowed });
         }
         let beside = Beside::file(path, "mp4")?;
-        let mut child = Command::new(program)
+        let mut command = Command::new(program);
+        // An interrupt from the terminal is for this program, which ends ffmpeg itself.
+        #[cfg(unix)]
+        std::os::unix::process::CommandExt::process_group(&mut command, 0);
+        let mut child = command
             .args(["-hide_banner", "-loglevel", "error", "-y", "-f", "rawvideo", "-pix_fmt", "rgba"])
             .args(["-s", &format!("{width}x{height}"), "-r", &fps.to_string(), "-i", "-"])
             // Colours as the sRGB picture has them, in a form that every player reads.

@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Draws leaves: one instanced draw, cut out by coverage, in any order.
 
-use super::columns::LeafColumns;
+use windfall_wgpu::LeafColumns;
+
 use super::frame::FrameGroup;
 use super::leaf_kinds::LeafKinds;
 use super::leaf_mesh::LeafMesh;
+use super::leaf_record::record_constants;
 use super::light_group::LightGroup;
 use super::pipeline::{COMMON, LIGHT, ScenePipeline, shader};
 
@@ -30,7 +32,7 @@ impl LeafPass {
         light: &LightGroup,
         kinds: &LeafKinds,
     ) -> Self {
-        let text = [COMMON, LIGHT, LEAF_SHAPE, include_str!("shaders/leaf.wgsl")];
+        let text = [COMMON, LIGHT, &record_constants(), LEAF_SHAPE, include_str!("shaders/leaf.wgsl")];
         let shader = shader(device, "leaf", &text);
         let pipeline = ScenePipeline {
             label: "leaves",
@@ -61,7 +63,7 @@ pub(super) fn draw_instances(pass: &mut wgpu::RenderPass<'_>, leaves: &LeafColum
     if leaves.leaf_count == 0 {
         return;
     }
-    let columns = [leaves.position, leaves.orientation, leaves.course, leaves.identity, &mesh.vertices];
+    let columns = [leaves.place, leaves.attitude, leaves.course, leaves.identity, &mesh.vertices];
     for (slot, column) in (0u32..).zip(columns) {
         pass.set_vertex_buffer(slot, column.slice(..));
     }
@@ -71,8 +73,8 @@ pub(super) fn draw_instances(pass: &mut wgpu::RenderPass<'_>, leaves: &LeafColum
 
 /// Four columns per leaf, then the grid per vertex.
 pub(super) fn vertex_layouts() -> [wgpu::VertexBufferLayout<'static>; 5] {
-    const POSITION: [wgpu::VertexAttribute; 1] = wgpu::vertex_attr_array![0 => Uint32x4];
-    const ORIENTATION: [wgpu::VertexAttribute; 1] = wgpu::vertex_attr_array![1 => Float32x4];
+    const PLACE: [wgpu::VertexAttribute; 1] = wgpu::vertex_attr_array![0 => Uint32x4];
+    const ATTITUDE: [wgpu::VertexAttribute; 1] = wgpu::vertex_attr_array![1 => Float32x4];
     const COURSE: [wgpu::VertexAttribute; 1] = wgpu::vertex_attr_array![2 => Uint32x4];
     const IDENTITY: [wgpu::VertexAttribute; 1] = wgpu::vertex_attr_array![3 => Uint32x4];
     const GRID: [wgpu::VertexAttribute; 1] = wgpu::vertex_attr_array![4 => Float32x2];
@@ -80,5 +82,5 @@ pub(super) fn vertex_layouts() -> [wgpu::VertexBufferLayout<'static>; 5] {
     let column = |attributes| wgpu::VertexBufferLayout { array_stride: 16, step_mode: instance, attributes };
     let step_mode = wgpu::VertexStepMode::Vertex;
     let grid = wgpu::VertexBufferLayout { array_stride: 8, step_mode, attributes: &GRID };
-    [column(&POSITION), column(&ORIENTATION), column(&COURSE), column(&IDENTITY), grid]
+    [column(&PLACE), column(&ATTITUDE), column(&COURSE), column(&IDENTITY), grid]
 }

@@ -3,8 +3,8 @@
 //! Buffers of the litter, drawn through the same pass as the simulated leaves.
 
 use glam::Vec3;
+use windfall_wgpu::LeafColumns;
 
-use super::columns::LeafColumns;
 use super::scenery::{TreeInstance, scatter};
 use super::upload;
 
@@ -14,8 +14,8 @@ const MAX_LITTER: u32 = 100_000;
 /// Leaves that fell before the scene began.
 #[derive(Debug)]
 pub(super) struct Litter {
-    position: wgpu::Buffer,
-    orientation: wgpu::Buffer,
+    place: wgpu::Buffer,
+    attitude: wgpu::Buffer,
     course: wgpu::Buffer,
     identity: wgpu::Buffer,
     count: u32,
@@ -36,8 +36,8 @@ impl Litter {
         let column =
             |bytes: &[u8]| upload::buffer(device, queue, "litter", wgpu::BufferUsages::VERTEX, bytes);
         (count > 0).then(|| Self {
-            position: column(bytemuck::cast_slice(&columns.position)),
-            orientation: column(bytemuck::cast_slice(&columns.orientation)),
+            place: column(bytemuck::cast_slice(&columns.place)),
+            attitude: column(bytemuck::cast_slice(&columns.attitude)),
             course: column(bytemuck::cast_slice(&columns.course)),
             identity: column(bytemuck::cast_slice(&columns.identity)),
             count,
@@ -47,8 +47,10 @@ impl Litter {
     /// The litter as leaf columns.
     pub(super) fn columns(&self) -> LeafColumns<'_> {
         LeafColumns {
-            position: &self.position,
-            orientation: &self.orientation,
+            place: &self.place,
+            // Drawing reads no drift, so any column will do.
+            drift: &self.place,
+            attitude: &self.attitude,
             course: &self.course,
             identity: &self.identity,
             leaf_count: self.count,

@@ -6,7 +6,6 @@
 //! shadow map, then one multisampled scene pass in linear light (leaves, grass, ground, trees, sky, trails), and the
 //! tone map. Leaves are cut out by coverage, so their order never matters. Nothing here needs a window.
 
-mod columns;
 mod environment;
 mod error;
 mod frame;
@@ -15,6 +14,7 @@ mod ground_pass;
 mod leaf_kinds;
 mod leaf_mesh;
 mod leaf_pass;
+mod leaf_record;
 mod light_group;
 mod litter;
 mod pipeline;
@@ -30,11 +30,11 @@ mod trail_pass;
 mod tree_pass;
 mod upload;
 
-pub use columns::LeafColumns;
 pub use error::RenderError;
 pub use leaf_kinds::{MAX_LAYERS, atlas_request};
 pub use readback::PictureTarget;
 pub use renderer::{FrameInput, Renderer, RendererOptions};
+pub(crate) use timing::GpuTimer;
 pub use trail_pass::MAX_TRAILS;
 
 #[cfg(test)]

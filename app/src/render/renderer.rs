@@ -4,11 +4,11 @@
 
 use glam::{Vec2, Vec3};
 use windfall_core::Scene;
-use windfall_core::scene::View;
+use windfall_core::scene::{Release, View};
 use windfall_texgen::Atlas;
+use windfall_wgpu::LeafColumns;
 
 use super::RenderError;
-use super::columns::LeafColumns;
 use super::environment::{Environment, Path};
 use super::frame::FrameGroup;
 use super::grass_pass::GrassPass;
@@ -21,11 +21,16 @@ use super::scenery::{Park, plant};
 use super::shadow_pass::ShadowPass;
 use super::sky_pass::SkyPass;
 use super::targets::Targets;
-use super::timing::{GpuTimer, TimedPass};
+use super::timing::GpuTimer;
 use super::tonemap_pass::TonemapPass;
 use super::trail_pass::TrailPass;
 use super::tree_pass::{ShadePass, TreePass, Trees};
 use crate::camera::Camera;
+
+/// Passes that are timed, in order of drawing.
+const TIMED_PASSES: [&str; 3] = ["shadows", "scene", "tone map"];
+/// Leaves of litter on a meadow in autumn.
+const LITTER: u32 = 14_000;
 
 /// Choices of a renderer that are no part of a scene.
 #[derive(Clone, Copy, Debug)]
@@ -34,9 +39,13 @@ pub struct RendererOptions {
     pub litter_count: u32,
 }
 
-impl Default for RendererOptions {
-    fn default() -> Self {
-        Self { litter_count: 14_000 }
+impl RendererOptions {
+    /// A scene that has been going on since before time zero has leaves on its ground; one that only begins then has a
+    /// clean one, on which its own leaves and their trails show.
+    pub fn for_scene(scene: &Scene) -> Self {
+        let began = |release| matches!(release, Release::Rate { from_s, .. } if from_s < 0.0);
+        let has_past = scene.sources.iter().any(|source| began(source.release));
+        Self { litter_count: if has_past && scene.view.trail_s == 0.0 { LITTER } else { 0 } }
     }
 }
 
@@ -118,7 +127,7 @@ impl Renderer {
             tree_pass: TreePass::new(device, &frame, &light, &trees),
             sky_pass: SkyPass::new(device, &frame, &light),
             tonemap_pass: TonemapPass::new(device, &frame, &targets, output_format),
-            timer: GpuTimer::new(device, queue),
+            timer: GpuTimer::new(device, queue, &TIMED_PASSES),
             trail_pass: None,
             shade_is_old: true,
             targets,
@@ -181,17 +190,22 @@ impl Renderer {
             self.shade_pass.draw(encoder, &self.frame, &self.trees);
             self.shade_is_old = false;
         }
-        if let Some(trails) = &mut self.trail_pass {
-            trails.sample(&self.device, &self.queue, encoder, leaves, input.time_s);
-        }
+        self.observe(encoder, leaves, input.time_s);
         let sets: Vec<LeafColumns<'_>> =
             std::iter::once(*leaves).chain(self.litter.as_ref().map(Litter::columns)).collect();
-        let writes = |pass| self.timer.as_ref().map(|timer| timer.writes(pass));
-        self.shadow_pass.draw(encoder, writes(TimedPass::Shadows), &self.frame, &self.kinds, &sets);
-        self.draw_scene(encoder, writes(TimedPass::Scene), &sets);
-        self.tonemap_pass.draw(encoder, writes(TimedPass::ToneMap), &self.frame, output);
+        let writes = |pass| self.timer.as_ref().map(|timer| timer.render_writes(pass));
+        self.shadow_pass.draw(encoder, writes(0), &self.frame, &self.kinds, &sets);
+        self.draw_scene(encoder, writes(1), &sets);
+        self.tonemap_pass.draw(encoder, writes(2), &self.frame, output);
         if let Some(timer) = &self.timer {
             timer.resolve(encoder);
+        }
+    }
+
+    /// Notes where `leaves` are at `time_s` for their trails, without drawing; nothing to do in a scene without trails.
+    pub fn observe(&mut self, encoder: &mut wgpu::CommandEncoder, leaves: &LeafColumns<'_>, time_s: f64) {
+        if let Some(trails) = &mut self.trail_pass {
+            trails.sample(&self.device, &self.queue, encoder, leaves, time_s);
         }
     }
 

@@ -2,11 +2,13 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Draws the leaves' shadows around what the camera looks at.
 
-use super::columns::LeafColumns;
+use windfall_wgpu::LeafColumns;
+
 use super::frame::FrameGroup;
 use super::leaf_kinds::LeafKinds;
 use super::leaf_mesh::LeafMesh;
 use super::leaf_pass::{LEAF_SHAPE, draw_instances, vertex_layouts};
+use super::leaf_record::record_constants;
 use super::pipeline::{COMMON, layout, shader};
 
 /// Edge of the shadow map in texels; `light.wgsl` filters with this size.
@@ -38,7 +40,7 @@ impl ShadowPass {
             usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING,
             view_formats: &[],
         });
-        let text = [COMMON, LEAF_SHAPE, include_str!("shaders/leaf_shadow.wgsl")];
+        let text = [COMMON, &record_constants(), LEAF_SHAPE, include_str!("shaders/leaf_shadow.wgsl")];
         let module = shader(device, "leaf shadow", &text);
         let pipeline = device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
             label: Some("leaf shadows"),

@@ -6,6 +6,7 @@
 use image::RgbaImage;
 use windfall_core::Scene;
 use windfall_texgen::{Atlas, AtlasRequest};
+use windfall_wgpu::LeafColumns;
 
 use super::*;
 use crate::camera::Camera;
@@ -48,12 +49,13 @@ impl Bench {
             upload::buffer(&self.device, &self.queue, "column", usage, bytemuck::bytes_of(&words))
         };
         let half = std::f32::consts::FRAC_1_SQRT_2;
-        let position = column([(at.x + offset_m).to_bits(), at.y.to_bits(), (at.z + 6.0).to_bits(), state]);
-        let orientation = column([half.to_bits(), 0, 0, half.to_bits()]);
+        let place = column([(at.x + offset_m).to_bits(), at.y.to_bits(), (at.z + 6.0).to_bits(), state]);
+        let attitude = column([half.to_bits(), 0, 0, half.to_bits()]);
         let (course, identity) = (column([0, 0, 60_000, 0]), column([0, 0, 0, 0x1_2345]));
         let leaves = LeafColumns {
-            position: &position,
-            orientation: &orientation,
+            place: &place,
+            drift: &place,
+            attitude: &attitude,
             course: &course,
             identity: &identity,
             leaf_count: 1,

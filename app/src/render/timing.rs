@@ -5,29 +5,16 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU8, Ordering};
 
-/// Passes that are timed, in order of drawing.
-const PASSES: [&str; 3] = ["shadows", "scene", "tone map"];
-/// A beginning and an end for each.
-const QUERY_COUNT: u32 = 6;
-const BYTES: u64 = 6 * 8;
-
 const IDLE: u8 = 0;
 const COPIED: u8 = 1;
 const MAPPING: u8 = 2;
 const MAPPED: u8 = 3;
 const FAILED: u8 = 4;
 
-/// A pass that is timed.
-#[derive(Clone, Copy, Debug)]
-pub(super) enum TimedPass {
-    Shadows,
-    Scene,
-    ToneMap,
-}
-
-/// Timestamp queries and the latest answer; nothing where the device has no timestamps.
+/// Timestamp queries for a beginning and an end of each pass, and the latest answer.
 #[derive(Debug)]
-pub(super) struct GpuTimer {
+pub(crate) struct GpuTimer {
+    passes: &'static [&'static str],
     queries: wgpu::QuerySet,
     resolved: wgpu::Buffer,
     readable: wgpu::Buffer,
@@ -37,23 +24,30 @@ pub(super) struct GpuTimer {
 }
 
 impl GpuTimer {
-    pub(super) fn new(device: &wgpu::Device, queue: &wgpu::Queue) -> Option<Self> {
+    /// A timer of these passes; `None` where the device has no timestamps.
+    pub(crate) fn new(
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        passes: &'static [&'static str],
+    ) -> Option<Self> {
         if !device.features().contains(wgpu::Features::TIMESTAMP_QUERY) {
             return None;
         }
+        let count = 2 * u32::try_from(passes.len()).ok()?;
         let buffer = |usage| {
             device.create_buffer(&wgpu::BufferDescriptor {
                 label: Some("timestamps"),
-                size: BYTES,
+                size: u64::from(count) * 8,
                 usage,
                 mapped_at_creation: false,
             })
         };
         Some(Self {
+            passes,
             queries: device.create_query_set(&wgpu::QuerySetDescriptor {
                 label: Some("timestamps"),
                 ty: wgpu::QueryType::Timestamp,
-                count: QUERY_COUNT,
+                count,
             }),
             resolved: buffer(wgpu::BufferUsages::QUERY_RESOLVE | wgpu::BufferUsages::COPY_SRC),
             readable: buffer(wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST),
@@ -63,26 +57,35 @@ impl GpuTimer {
         })
     }
 
-    /// What a pass descriptor needs to be timed.
-    pub(super) fn writes(&self, pass: TimedPass) -> wgpu::RenderPassTimestampWrites<'_> {
-        let first = 2 * pass as u32;
+    /// What the descriptor of the pass of this number needs to be timed.
+    pub(crate) fn render_writes(&self, pass: u32) -> wgpu::RenderPassTimestampWrites<'_> {
         wgpu::RenderPassTimestampWrites {
             query_set: &self.queries,
-            beginning_of_pass_write_index: Some(first),
-            end_of_pass_write_index: Some(first + 1),
+            beginning_of_pass_write_index: Some(2 * pass),
+            end_of_pass_write_index: Some(2 * pass + 1),
+        }
+    }
+
+    /// The same for a compute pass.
+    pub(crate) fn compute_writes(&self, pass: u32) -> wgpu::ComputePassTimestampWrites<'_> {
+        wgpu::ComputePassTimestampWrites {
+            query_set: &self.queries,
+            beginning_of_pass_write_index: Some(2 * pass),
+            end_of_pass_write_index: Some(2 * pass + 1),
         }
     }
 
     /// Copies the frame's timestamps, unless an earlier frame's are still on their way.
-    pub(super) fn resolve(&self, encoder: &mut wgpu::CommandEncoder) {
+    pub(crate) fn resolve(&self, encoder: &mut wgpu::CommandEncoder) {
+        let count = 2 * u32::try_from(self.passes.len()).unwrap_or(0);
         if self.state.compare_exchange(IDLE, COPIED, Ordering::AcqRel, Ordering::Acquire).is_ok() {
-            encoder.resolve_query_set(&self.queries, 0..QUERY_COUNT, &self.resolved, 0);
-            encoder.copy_buffer_to_buffer(&self.resolved, 0, &self.readable, 0, BYTES);
+            encoder.resolve_query_set(&self.queries, 0..count, &self.resolved, 0);
+            encoder.copy_buffer_to_buffer(&self.resolved, 0, &self.readable, 0, u64::from(count) * 8);
         }
     }
 
     /// Latest milliseconds of each pass; call it after submitting a frame. Never waits.
-    pub(super) fn collect(&mut self, device: &wgpu::Device) -> &[(&'static str, f32)] {
+    pub(crate) fn collect(&mut self, device: &wgpu::Device) -> &[(&'static str, f32)] {
         if self.state.compare_exchange(COPIED, MAPPING, Ordering::AcqRel, Ordering::Acquire).is_ok() {
             let state = Arc::clone(&self.state);
             self.readable.map_async(wgpu::MapMode::Read, .., move |result| {
@@ -106,7 +109,8 @@ impl GpuTimer {
     fn read(&mut self) {
         let Ok(view) = self.readable.get_mapped_range(..) else { return };
         let ticks: Vec<u64> = bytemuck::pod_collect_to_vec(&view);
-        self.latest = PASSES
+        self.latest = self
+            .passes
             .iter()
             .zip(ticks.chunks_exact(2))
             .map(|(&name, pair)| (name, pair[1].saturating_sub(pair[0]) as f32 * self.period_ns * 1.0e-6))

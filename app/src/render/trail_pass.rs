@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Draws where leaves have been: a ring of past positions per leaf, sampled and drawn on the device.
 
-use super::columns::LeafColumns;
+use windfall_wgpu::LeafColumns;
+
 use super::frame::FrameGroup;
+use super::leaf_record::record_constants;
 use super::light_group::LightGroup;
 use super::pipeline::{COMMON, LIGHT, ScenePipeline, buffer_entry, layout, shader};
 
@@ -105,7 +107,8 @@ impl TrailPass {
                 buffer_entry(2, write, compute),
             ],
         });
-        let module = shader(device, "trail sample", &[include_str!("shaders/trail_sample.wgsl")]);
+        let module =
+            shader(device, "trail sample", &[&record_constants(), include_str!("shaders/trail_sample.wgsl")]);
         let sample_pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
             label: Some("trail samples"),
             layout: Some(&layout(device, &[Some(&sample_layout)])),
@@ -190,13 +193,13 @@ impl TrailPass {
         };
         queue.write_buffer(&self.uniform, 0, bytemuck::bytes_of(&uniform));
         let Some(bytes) = wgpu::BufferSize::new(u64::from(count) * 16) else { return };
-        let position = wgpu::BufferBinding { buffer: leaves.position, offset: 0, size: Some(bytes) };
+        let place = wgpu::BufferBinding { buffer: leaves.place, offset: 0, size: Some(bytes) };
         let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some("trail samples"),
             layout: &self.sample_layout,
             entries: &[
                 wgpu::BindGroupEntry { binding: 0, resource: self.uniform.as_entire_binding() },
-                wgpu::BindGroupEntry { binding: 1, resource: wgpu::BindingResource::Buffer(position) },
+                wgpu::BindGroupEntry { binding: 1, resource: wgpu::BindingResource::Buffer(place) },
                 wgpu::BindGroupEntry { binding: 2, resource: self.ring.as_entire_binding() },
             ],
         });

@@ -35,6 +35,9 @@ const NEAREST_M: f32 = 7.0;
 
 /// No tree but a source's own stands this near before the camera, in metres.
 const OPEN_M: f32 = 22.0;
+/// Half angle before the camera, in radians, in which no tree stands nearer than `FAR_M` metres in a scene with trails.
+const STAGE_RAD: f32 = 0.8;
+const FAR_M: f32 = 60.0;
 /// Phases the path's bends may have, in radians; the first that keeps clear of the sources' trees is taken.
 const PATH_PHASES: [f32; 6] = [-0.9, 2.2, 0.3, -2.0, 1.2, 3.4];
 
@@ -57,6 +60,8 @@ pub(crate) fn plant(scene: &Scene, center: Vec3, view: Vec2) -> Park {
     let is_clear =
         |phase: f32| trees.iter().all(|tree| beyond_path(on_ground(tree.foot_m), view, phase) > 2.5);
     let path_phase = PATH_PHASES.into_iter().find(|&phase| is_clear(phase)).unwrap_or(PATH_PHASES[0]);
+    // Trails are to be read like a diagram: before a bare meadow and a far edge of woods.
+    let stage_rad: f32 = if scene.view.trail_s > 0.0 { STAGE_RAD } else { 0.0 };
     // Rings of inner and outer radius, number of trees, and the angle kept open along the view.
     let rings = [
         (17.0f32, 30.0f32, 9, 0.38f32, 1.0f32),
@@ -67,6 +72,7 @@ pub(crate) fn plant(scene: &Scene, center: Vec3, view: Vec2) -> Park {
     ];
     for (inner, outer, count, open_rad, scale) in rings {
         let bush = scale < 0.9;
+        let open_rad = if inner < FAR_M { stage_rad.max(open_rad) } else { open_rad };
         let mut left = count;
         for _ in 0..count * 12 {
             if left == 0 {

@@ -3,14 +3,15 @@
 //! Leaves that fell before the scene began: scenery, not part of the simulation.
 
 use glam::{Quat, Vec2, Vec3};
+use windfall_core::leaf::record::{SPECIES_SHIFT, STATE_RESTING};
 
 use super::layout::TreeInstance;
 use super::random::Random;
 
 /// Leaf columns of the litter, laid out like a simulator's (see `LeafColumns`).
 pub(crate) struct LitterColumns {
-    pub(crate) position: Vec<[u32; 4]>,
-    pub(crate) orientation: Vec<[f32; 4]>,
+    pub(crate) place: Vec<[u32; 4]>,
+    pub(crate) attitude: Vec<[f32; 4]>,
     pub(crate) course: Vec<[u32; 4]>,
     pub(crate) identity: Vec<[u32; 4]>,
 }
@@ -18,14 +19,9 @@ pub(crate) struct LitterColumns {
 /// Scatters `count` resting leaves of `species_count` species around `center`, denser near it and under the trees.
 pub(crate) fn scatter(count: u32, species_count: u32, center: Vec3, trees: &[TreeInstance]) -> LitterColumns {
     let mut random = Random::new(7);
-    let mut columns = LitterColumns {
-        position: Vec::new(),
-        orientation: Vec::new(),
-        course: Vec::new(),
-        identity: Vec::new(),
-    };
+    let mut columns =
+        LitterColumns { place: Vec::new(), attitude: Vec::new(), course: Vec::new(), identity: Vec::new() };
     let near: Vec<_> = trees.iter().filter(|tree| tree.foot_m.distance(center) < 55.0).collect();
-    let resting = 3;
     for index in 0..count {
         let under_tree = index % 5 < 2 && !near.is_empty();
         let offset = if under_tree {
@@ -37,11 +33,12 @@ pub(crate) fn scatter(count: u32, species_count: u32, center: Vec3, trees: &[Tre
         };
         let species = random.word() % species_count.max(1);
         let at = center + offset;
-        columns.position.push([at.x.to_bits(), at.y.to_bits(), at.z.to_bits(), resting | species << 9]);
+        let bits = STATE_RESTING | species << SPECIES_SHIFT;
+        columns.place.push([at.x.to_bits(), at.y.to_bits(), at.z.to_bits(), bits]);
         let turn = Quat::from_rotation_y(random.range(0.0, std::f32::consts::TAU));
         let face =
             if random.word() & 1 == 0 { Quat::IDENTITY } else { Quat::from_rotation_z(std::f32::consts::PI) };
-        columns.orientation.push((turn * face).to_array());
+        columns.attitude.push((turn * face).to_array());
         let size = 13_000 + random.word() % 6_000;
         columns.course.push([0, 0, size, 0]);
         columns.identity.push([0, 0, 0, random.word() & 0x00ff_ffff]);

@@ -17,8 +17,8 @@ struct Kinds {
 @group(2) @binding(2) var image_sampler: sampler;
 
 struct Leaf {
-    @location(0) position: vec4<u32>,
-    @location(1) orientation: vec4<f32>,
+    @location(0) place: vec4<u32>,
+    @location(1) attitude: vec4<f32>,
     @location(2) course: vec4<u32>,
     @location(3) identity: vec4<u32>,
 }
@@ -35,13 +35,13 @@ struct BladePoint {
 
 // The point (x, z), each -1 to 1, of a leaf's square; `curl` false leaves it flat. A dormant leaf has no area.
 fn blade_point(leaf: Leaf, at: vec2<f32>, curl: bool) -> BladePoint {
-    let word = leaf.position.w;
-    let species = (word >> 9u) & 31u;
-    let tint = leaf.identity.w & 0xffffu;
+    let word = leaf.place.w;
+    let species = (word >> SPECIES_SHIFT) & SPECIES_MASK;
+    let tint = leaf.identity.w & HALF_MASK;
     let variants = kinds.counts.x;
-    let variant = ((leaf.identity.w >> 16u) & 255u) % variants;
+    let variant = ((leaf.identity.w >> VARIANT_SHIFT) & VARIANT_MASK) % variants;
     let layer = min(species * variants + variant, kinds.counts.y - 1u);
-    let relative = f32(leaf.course.z & 0xffffu) * 6.1035156e-5;
+    let relative = f32(leaf.course.z & HALF_MASK) * SIZE_UNIT;
     let half_edge = 0.5 * kinds.size[species].x * relative * kinds.layer[layer].x;
 
     // Every leaf has dried into its own form: folded along the midrib, bent along it, twisted, waved at the rim.
@@ -63,10 +63,10 @@ fn blade_point(leaf: Leaf, at: vec2<f32>, curl: bool) -> BladePoint {
     height -= 0.2;
     let local = half_edge * vec3(at.x - kinds.layer[layer].y, height, at.y - kinds.layer[layer].z);
 
-    let center = bitcast<vec3<f32>>(leaf.position.xyz);
+    let center = bitcast<vec3<f32>>(leaf.place.xyz);
     var out: BladePoint;
-    out.world = rotate(leaf.orientation, local);
-    out.normal = rotate(leaf.orientation, normalize(vec3(-slope.x, 1.0, -slope.y)));
+    out.world = rotate(leaf.attitude, local);
+    out.normal = rotate(leaf.attitude, normalize(vec3(-slope.x, 1.0, -slope.y)));
     // On the ground a leaf leans on the grass under it, a little differently each.
     out.settled = 1.0 - smoothstep(0.0, 0.15, center.y - frame.park.y);
     let lean = out.settled * 0.28 * random.yz;
@@ -77,7 +77,7 @@ fn blade_point(leaf: Leaf, at: vec2<f32>, curl: bool) -> BladePoint {
     out.uv = 0.5 - 0.5 * at;
     out.layer = layer;
     out.tint = tint;
-    if (word & 3u) == 0u {
+    if (word & STATE_MASK) == STATE_DORMANT {
         out.world = vec3(0.0, -1.0e6, 0.0);
     }
     return out;

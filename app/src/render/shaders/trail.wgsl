@@ -62,12 +62,22 @@ fn vertex(@builtin(vertex_index) index: u32, @builtin(instance_index) leaf: u32)
     let pixel = length(to_eye) * length(frame.up.xyz) * 2.0 * frame.viewport.w;
     let relative = select(trail.shape.y + f32(age - 1u) * trail.shape.z, 0.0, age == 0u);
     let life = clamp(1.0 - relative, 0.0, 1.0);
-    let half_width = max(trail.shape.w * (0.35 + 0.65 * life), pixel * 0.9);
+    // A few trails are a diagram and drawn boldly, each in a colour far from the others; many are a pattern.
+    let is_diagram = trail.counts.x <= 12u;
+    let finest = pixel * select(0.9, mix(1.0, 1.8, life), is_diagram);
+    let half_width = max(trail.shape.w * (0.35 + 0.65 * life), finest);
     let world = here + aside * side * half_width;
     out.clip = frame.view_projection * vec4(world, 1.0);
-    let color = mix(vec3(1.0), hue(f32(leaf) * 0.61803399 + 0.06), 0.72);
-    let thin = min(trail.shape.w / half_width, 1.0);
-    out.color = vec4(color * 0.9, 0.85 * life * life * mix(0.5, 1.0, thin));
+    if is_diagram {
+        let color = hue(f32(leaf) / f32(trail.counts.x) + 0.02);
+        // Equally bright to the eye, or yellow would outshine blue.
+        let even = color * mix(1.0, 0.45 / max(luminance(color), 0.1), 0.4);
+        out.color = vec4(even * 1.25, 0.95 * smoothstep(0.0, 0.4, life));
+    } else {
+        let color = mix(vec3(1.0), hue(f32(leaf) * 0.61803399 + 0.06), 0.72);
+        let thin = min(trail.shape.w / half_width, 1.0);
+        out.color = vec4(color * 0.9, 0.85 * life * life * mix(0.5, 1.0, thin));
+    }
     out.across = side;
     return out;
 }
@@ -76,5 +86,6 @@ fn vertex(@builtin(vertex_index) index: u32, @builtin(instance_index) leaf: u32)
 fn fragment(in: Varyings) -> @location(0) vec4<f32> {
     let soft = 1.0 - in.across * in.across;
     let alpha = in.color.a * smoothstep(0.0, 0.6, soft);
-    return vec4(in.color.rgb * alpha, alpha);
+    // A darker rim sets the ribbon off from a bright sky.
+    return vec4(in.color.rgb * alpha * mix(0.35, 1.0, smoothstep(0.2, 0.75, soft)), alpha);
 }

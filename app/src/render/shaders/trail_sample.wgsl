@@ -11,7 +11,7 @@ struct Trail {
 }
 
 @group(0) @binding(0) var<uniform> trail: Trail;
-@group(0) @binding(1) var<storage, read> position: array<vec4<u32>>;
+@group(0) @binding(1) var<storage, read> places: array<vec4<u32>>;
 @group(0) @binding(2) var<storage, read_write> ring: array<vec4<f32>>;
 
 // w of a sample: 0 nothing here, 1 a place, 2 a place that is not joined to the one before it.
@@ -25,8 +25,8 @@ fn sample(@builtin(global_invocation_id) id: vec3<u32>) {
     let newest = trail.counts.z;
     let began = trail.counts.w == 1u;
     let last = ring[base + select(newest, (newest + trail.counts.y - 1u) % trail.counts.y, began)];
-    let record = position[leaf];
-    if (record.w & 3u) == 0u {
+    let record = places[leaf];
+    if (record.w & STATE_MASK) == STATE_DORMANT {
         ring[base + newest] = vec4(0.0);
         return;
     }

@@ -1,0 +1,241 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! `windfall render`: pictures and clips without a window.
+
+use std::path::PathBuf;
+use std::time::Duration;
+
+use anyhow::bail;
+use clap::Args;
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use windfall_core::{Scene, Simulator, World};
+use windfall_texgen::Atlas;
+use windfall_wgpu::Gpu;
+
+use super::scene::SceneArguments;
+use super::stepping::Stepping;
+use crate::backend::{Backend, BackendArguments};
+use crate::camera::Camera;
+use crate::cli::whole;
+use crate::drawing::Drawing;
+use crate::frame::FrameSteps;
+use crate::output::{Output, Writer};
+use crate::render::{FrameInput, PictureTarget, Renderer, RendererOptions, atlas_request};
+use crate::{interrupt, terminal};
+
+/// Largest edge of a picture in pixels.
+const MAX_EDGE: u32 = 16_384;
+/// Most pixels of a picture: 8K UHD.
+const MAX_PIXELS: u32 = 7680 * 4320;
+/// Most steps of a clip.
+const MAX_STEPS: u64 = 1_000_000_000;
+/// Frames of a picture and of a clip when the user does not say.
+const DEFAULT_FRAMES: (u32, u32) = (60, 240);
+
+/// Options of `windfall render`.
+#[derive(Clone, Debug, Args)]
+pub struct Arguments {
+    #[command(flatten)]
+    scene: SceneArguments,
+    #[command(flatten)]
+    backend: BackendArguments,
+    /// What to write: FILE.png (the last frame), FILE.gif, FILE.mp4 (by ffmpeg), or a folder of numbered PNG files.
+    #[arg(long, value_name = "FILE|DIR")]
+    out: PathBuf,
+    /// Number of frames; the first shows the scene as it begins [default: 60 for a PNG file, 240 for a clip].
+    #[arg(long, value_name = "N", value_parser = whole::<u32, 1, 1_000_000>)]
+    frames: Option<u32>,
+    /// Width and height in pixels [default: 1280x720, for a GIF file 640x360].
+    #[arg(long, value_name = "WxH", value_parser = picture_size)]
+    size: Option<(u32, u32)>,
+    /// Frames per second.
+    #[arg(long, value_name = "FPS", default_value = "60", value_parser = frame_rate)]
+    fps: f64,
+    /// Simulated seconds in each second of the clip: below 1 is slow motion.
+    #[arg(long, value_name = "X", default_value = "1", value_parser = playback_speed)]
+    speed: f64,
+}
+
+/// Runs the command. Everything that can be found wrong is found before the first step.
+///
+/// # Errors
+/// Bad input, an output that cannot be written, no adapter, a lost device, an interrupt. Then no file has changed.
+pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
+    let scene = arguments.scene.load()?;
+    let output = Output::from_path(&arguments.out)?;
+    let size = arguments.size.unwrap_or(match output {
+        Output::Gif(_) => (640, 360),
+        _ => (1280, 720),
+    });
+    let is_still = matches!(output, Output::Png(_));
+    let frames = arguments.frames.unwrap_or(if is_still { DEFAULT_FRAMES.0 } else { DEFAULT_FRAMES.1 });
+    let steps = FrameSteps::new(arguments.fps, arguments.speed, scene.dt_s);
+    let last = steps.before(frames - 1);
+    if last > MAX_STEPS {
+        bail!("--frames, --fps and --speed ask for {last} steps; allowed: at most {MAX_STEPS}");
+    }
+    interrupt::listen();
+    let mut writer = output.start(size, arguments.fps)?;
+    let drawing = Drawing::without_window(&arguments.backend)?;
+    let mut studio = Studio::new(&scene, drawing, size)?;
+    studio.film(&mut writer, steps, frames)?;
+    let path = writer.finish()?;
+    terminal::print(&format!("{}\n", path.display()))
+}
+
+/// A simulator and a renderer of the same scene.
+struct Studio {
+    gpu: Gpu,
+    backend: Backend,
+    renderer: Renderer,
+    target: PictureTarget,
+    camera: Camera,
+    trail_s: f64,
+    stepping: Stepping,
+    /// Steps done.
+    step: u64,
+}
+
+impl Studio {
+    fn new(scene: &Scene, drawing: Drawing, size: (u32, u32)) -> anyhow::Result<Self> {
+        let Drawing { device, gpu, reason } = drawing;
+        let target = PictureTarget::new(gpu.device(), size)?;
+        let backend = device.simulator(&World::build(scene)?)?;
+        interrupt::check()?;
+        let atlas = Atlas::generate(&atlas_request(scene))?;
+        let options = RendererOptions::for_scene(scene);
+        let format = PictureTarget::FORMAT;
+        let renderer = Renderer::new(gpu.device(), gpu.queue(), scene, &atlas, format, size, options)?;
+        gpu.check()?;
+        if let Some(reason) = reason {
+            terminal::note(&reason);
+        }
+        Ok(Self {
+            gpu,
+            backend,
+            renderer,
+            target,
+            camera: Camera::from(&scene.view.camera),
+            trail_s: scene.view.trail_s.into(),
+            stepping: Stepping::default(),
+            step: 0,
+        })
+    }
+
+    /// Draws the frames that will be seen, and simulates the others.
+    fn film(&mut self, writer: &mut Writer, steps: FrameSteps, frames: u32) -> anyhow::Result<()> {
+        let bar = progress_bar(frames);
+        let dt_s = f64::from(self.backend.clock().dt_s());
+        let end = steps.before(frames - 1);
+        for number in 0..frames {
+            self.advance(steps.before(number))?;
+            if writer.wants(number, frames) {
+                let picture = self.draw();
+                interrupt::check()?;
+                writer.push(&picture?)?;
+            } else {
+                writer.skip();
+                // Trails remember the frames before.
+                let ahead = end.saturating_sub(self.step);
+                if self.trail_s > 0.0 && ahead as f64 * dt_s <= self.trail_s {
+                    self.observe()?;
+                }
+            }
+            bar.inc(1);
+        }
+        bar.finish_and_clear();
+        Ok(())
+    }
+
+    /// Simulates until `step` steps are done.
+    fn advance(&mut self, step: u64) -> anyhow::Result<()> {
+        while self.step < step {
+            interrupt::check()?;
+            let left = u32::try_from(step - self.step).unwrap_or(u32::MAX);
+            let batch = self.stepping.batch().min(left);
+            self.stepping.run(&mut self.backend, batch)?;
+            self.step += u64::from(batch);
+        }
+        Ok(())
+    }
+
+    fn draw(&mut self) -> anyhow::Result<image::RgbaImage> {
+        let input = FrameInput { camera: self.camera, time_s: self.backend.clock().seconds() };
+        let columns = self.backend.columns(&self.gpu)?;
+        let mut encoder =
+            self.gpu.device().create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        self.renderer.draw(&mut encoder, &self.target.view(), &columns, &input);
+        let picture = self.target.submit_and_read(self.gpu.device(), self.gpu.queue(), encoder);
+        // What the driver says about a failure is better than that the picture did not come.
+        self.gpu.check()?;
+        Ok(picture?)
+    }
+
+    fn observe(&mut self) -> anyhow::Result<()> {
+        let time_s = self.backend.clock().seconds();
+        let columns = self.backend.columns(&self.gpu)?;
+        let mut encoder =
+            self.gpu.device().create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        self.renderer.observe(&mut encoder, &columns, time_s);
+        self.gpu.queue().submit([encoder.finish()]);
+        Ok(self.gpu.check()?)
+    }
+}
+
+/// Reads a size such as 1280x720.
+fn picture_size(text: &str) -> Result<(u32, u32), String> {
+    let edge = |text: &str| text.parse().ok().filter(|edge| (1..=MAX_EDGE).contains(edge));
+    let size = text.split_once(['x', 'X']).and_then(|(width, height)| Some((edge(width)?, edge(height)?)));
+    size.filter(|(width, height)| width * height <= MAX_PIXELS).ok_or_else(|| {
+        format!("allowed: width x height such as 1280x720, each 1 to {MAX_EDGE}, at most {MAX_PIXELS} pixels")
+    })
+}
+
+fn frame_rate(text: &str) -> Result<f64, String> {
+    within(text, 1.0, 1000.0)
+}
+
+fn playback_speed(text: &str) -> Result<f64, String> {
+    within(text, 0.001, 1000.0)
+}
+
+/// Reads a number from `low` to `high`.
+fn within(text: &str, low: f64, high: f64) -> Result<f64, String> {
+    let number = text.parse().ok().filter(|number| (low..=high).contains(number));
+    number.ok_or_else(|| format!("allowed: a number from {low} to {high}"))
+}
+
+/// A bar on the standard error, if that is a terminal.
+fn progress_bar(frames: u32) -> ProgressBar {
+    let bar = ProgressBar::with_draw_target(Some(frames.into()), ProgressDrawTarget::stderr());
+    if let Ok(style) = ProgressStyle::with_template("{bar:40} frame {pos} of {len}, {eta} left") {
+        bar.set_style(style);
+    }
+    bar.enable_steady_tick(Duration::from_millis(200));
+    bar
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sizes_are_read_and_checked() {
+        assert_eq!(picture_size("1280x720"), Ok((1280, 720)), "the usual");
+        assert_eq!(picture_size("1X16384"), Ok((1, 16_384)), "a column");
+        let rejected =
+            ["", "x", "1280", "0x720", "1280x0", "-1x5", "1280x", "16385x1", "16384x16384", "9e9x9"];
+        for text in rejected {
+            let error = picture_size(text).expect_err("no size");
+            assert!(error.contains("1280x720") && error.contains("16384"), "{text}: {error}");
+        }
+    }
+
+    #[test]
+    fn rates_are_read_and_checked() {
+        assert_eq!(frame_rate("29.97"), Ok(29.97), "a rate");
+        for text in ["0", "-1", "nan", "inf", "1001", "x", ""] {
+            assert!(frame_rate(text).is_err(), "{text} is no rate");
+        }
+    }
+}
