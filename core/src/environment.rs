@@ -243,7 +243,7 @@ fn compile_block(scene: &Scene, tables: &[MotionTables]) -> EnvironmentBlock {
     block.motion = Uint4([len32(tables.len() * TABLES_PER_SPECIES * 2) * TABLE_ROWS, 0, 0, 0]);
     let dt = f64::from(scene.dt_s);
     block.time =
-        Float4([scene.dt_s, single(1.0 / dt), single(1.0 / dt / 16_777_216.0), displacement_gain(scene)]);
+        Float4([scene.dt_s, single(1.0 / dt), single(1.0 / dt / 4_294_967_296.0), displacement_gain(scene)]);
     block.ground = ground_numbers(scene);
     block.settle = Float4([single(libm::exp(-dt / f64::from(SETTLE_TAU_S))), 0.0, 0.0, 0.0]);
     block.wind = wind_block(scene);

@@ -51,6 +51,10 @@ crate::shared_constants! {
     pub const SIZE_ONE: u32 = 16384;
     /// Inverse of it.
     pub const SIZE_UNIT: f32 = 1.0 / 16384.0;
+    /// Middle of a range, 32 to 64, in which floats lie [`GRID_UNIT`] apart.
+    pub const GRID_ANCHOR: f32 = 48.0;
+    /// Distance of the grid that displacements lie on, in metres.
+    pub const GRID_UNIT: f32 = 1.0 / 262_144.0;
 }
 
 /// Where a leaf is, and what it is doing. Hot.
