@@ -61,6 +61,7 @@ impl World {
         if crc32fast::hash(body) != u32::from_le_bytes(*stored) {
             return Err(reject("its checksum does not match: it is damaged or cut short".into()));
         }
+        rest.bytes = &body[MAGIC.len() + size_of_val(&version)..];
         let length = u64::from_le_bytes(rest.array()?);
         let text =
             std::str::from_utf8(rest.take(length)?).map_err(|_| reject("its scene is not text".into()))?;
@@ -75,6 +76,12 @@ impl World {
         let mut leaves = Leaves::zeroed(scene.leaf_count() as usize);
         for column in leaves.columns_mut() {
             column.copy_from_slice(rest.take(column.len() as u64)?);
+        }
+        if !rest.bytes.is_empty() {
+            return Err(reject(format!(
+                "it is longer than its {count} leaves by {} bytes",
+                rest.bytes.len()
+            )));
         }
         Ok(Self { environment, clock: Clock::at(step, scene.dt_s, travel), leaves })
     }
