@@ -217,7 +217,7 @@ fn a_tumbling_leaf_turns_at_its_rate() {
         scene.rotation_speed = rotation_speed;
         let mut world = build(&scene);
         let steps = 600;
-        let mut turned = vec![0.0; 20];
+        let mut turned = [0.0; 20];
         step(&mut world, 1);
         for _ in 0..steps {
             let before: Vec<_> = (0..20).map(|slot| attitude(&world, slot)).collect();

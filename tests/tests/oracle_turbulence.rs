@@ -247,7 +247,7 @@ fn transform(values: &mut [Complex64]) {
     let strides = [1, SIZE[0], SIZE[0] * SIZE[1]];
     for axis in 0..3 {
         let forward = FftPlanner::new().plan_fft_forward(SIZE[axis]);
-        for start in (0..NODES).filter(|node| node / strides[axis] % SIZE[axis] == 0) {
+        for start in (0..NODES).filter(|node| (node / strides[axis]).is_multiple_of(SIZE[axis])) {
             let place = |position: usize| start + position * strides[axis];
             let mut line: Vec<_> = (0..SIZE[axis]).map(|position| values[place(position)]).collect();
             forward.process(&mut line);

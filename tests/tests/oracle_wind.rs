@@ -208,11 +208,7 @@ fn beaufort_speeds_lie_in_their_classes() {
     assert_eq!(rows.len(), usize::from(BEAUFORT_MAX) + 1, "classes of the scale");
     for (force, row) in (0..).zip(rows) {
         let speed = beaufort_speed(force);
-        assert_eq!(
-            f64::from(MeanSpeed::Beaufort(force).metres_per_second()),
-            speed,
-            "force {force} in a scene"
-        );
+        assert_eq!(MeanSpeed::Beaufort(force).metres_per_second(), speed, "force {force} in a scene");
         assert!((speed - number(&row, "u10_formula_m_s")).abs() < 0.06, "force {force}: {speed} m/s");
         let low = number(&row, "u10_min_m_s");
         let high =
@@ -222,12 +218,15 @@ fn beaufort_speeds_lie_in_their_classes() {
     }
 }
 
+/// What is changed, and how.
+type Change = (&'static str, fn(&mut Scene));
+
 #[test]
 fn retuning_equals_compiling_anew() {
     let mut base = Scene::preset("storm").expect("a preset");
     base.fall_speed = 0.8;
     let calm = still_scene(uniform_species(), 1, 5.0).wind;
-    let changes: [(&str, fn(&mut Scene)); 9] = [
+    let changes: [Change; 9] = [
         ("nothing", |_| {}),
         ("speed", |scene| scene.wind.speed = MeanSpeed::MetresPerSecond(3.3)),
         ("direction", |scene| scene.wind.direction_deg = -77.0),

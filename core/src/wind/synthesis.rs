@@ -72,6 +72,7 @@ pub fn turbulence_box(seed: [u32; 2]) -> Vec<Float4> {
 }
 
 /// Gaussian white noise (Box and Muller).
+#[expect(clippy::cast_possible_truncation, reason = "a box has 65536 nodes and three components")]
 fn noise(seed: [u32; 2], axis: usize) -> Vec<Complex64> {
     (0..NODES as u32)
         .map(|node| {
@@ -143,7 +144,7 @@ fn transform(values: &mut [Complex64], direction: FftDirection) {
     for axis in 0..3 {
         let fft = planner.plan_fft(SIZE[axis], direction);
         let mut line = vec![Complex64::ZERO; SIZE[axis]];
-        for start in (0..NODES).filter(|node| node / strides[axis] % SIZE[axis] == 0) {
+        for start in (0..NODES).filter(|node| (node / strides[axis]).is_multiple_of(SIZE[axis])) {
             for (position, value) in line.iter_mut().enumerate() {
                 *value = values[start + position * strides[axis]];
             }
