@@ -11,6 +11,10 @@ use windfall_core::scene;
 const NEAR_M: f32 = 0.05;
 /// Closest and farthest the camera goes from its target, in metres.
 const DISTANCE_RANGE_M: (f32, f32) = (0.2, 2000.0);
+/// Width of a picture relative to its height that scenes are composed for.
+const USUAL_ASPECT: f32 = 16.0 / 9.0;
+/// Widest a narrow picture opens the camera, in radians from top to bottom.
+const MAX_FOV_RAD: f32 = 2.2;
 /// Steepest view up or down in radians; straight down would lose the sense of "up".
 const MAX_PITCH_RAD: f32 = 1.54;
 
@@ -49,6 +53,16 @@ impl Camera {
         let (pitch_sin, pitch_cos) = self.pitch_rad.sin_cos();
         let (yaw_sin, yaw_cos) = self.yaw_rad.sin_cos();
         self.target_m + self.distance_m * Vec3::new(pitch_cos * yaw_sin, pitch_sin, pitch_cos * yaw_cos)
+    }
+
+    /// The camera for a picture of this aspect. One narrower than 16:9 sees as much from left to right as if it were
+    /// 16:9, and more above and below.
+    #[must_use]
+    pub fn fitted(mut self, aspect: f32) -> Self {
+        let narrower = (USUAL_ASPECT / aspect).max(1.0);
+        let tangent = narrower * (0.5 * self.vertical_fov_rad).tan();
+        self.vertical_fov_rad = (2.0 * tangent.atan()).min(MAX_FOV_RAD.max(self.vertical_fov_rad));
+        self
     }
 
     /// Unit vector of the view.
@@ -120,6 +134,15 @@ mod tests {
         assert!((clip.x / clip.w).abs() < 1.0e-5, "off centre: {clip}");
         assert!((clip.y / clip.w).abs() < 1.0e-5, "off centre: {clip}");
         assert!(clip.z > 0.0 && clip.z < clip.w, "reversed depth must fall from 1 to 0: {clip}");
+    }
+
+    #[test]
+    fn narrow_pictures_see_the_whole_width() {
+        let camera = Camera::from(&scene::Camera::default());
+        let edge = |aspect: f32| aspect * (0.5 * camera.fitted(aspect).vertical_fov_rad).tan();
+        assert!((edge(4.0 / 3.0) - edge(16.0 / 9.0)).abs() < 1.0e-5, "{} from the side", edge(4.0 / 3.0));
+        assert_eq!(camera.fitted(2.0), camera, "a wide picture is as the scene says");
+        assert!(camera.fitted(0.01).vertical_fov_rad <= MAX_FOV_RAD, "within bounds");
     }
 
     #[test]

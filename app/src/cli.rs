@@ -7,7 +7,7 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
-use crate::commands::{bench, info, motions, render, simulate};
+use crate::commands::{bench, info, motions, render, simulate, view};
 use crate::terminal;
 
 /// Exit code of everything that goes wrong.
@@ -25,6 +25,8 @@ pub struct Cli {
 /// What the program can do.
 #[derive(Debug, Subcommand)]
 pub enum Command {
+    /// Watch a scene in a window and change it while it goes on.
+    View(view::Arguments),
     /// Draw a scene to a picture or a clip, without a window.
     Render(render::Arguments),
     /// Simulate a scene without drawing it: statistics, tracks, checkpoints.
@@ -40,6 +42,7 @@ pub enum Command {
 impl Command {
     fn run(self) -> anyhow::Result<()> {
         match self {
+            Self::View(arguments) => view::run(arguments),
             Self::Render(arguments) => render::run(&arguments),
             Self::Simulate(arguments) => simulate::run(&arguments),
             Self::Info => info::run(),

@@ -18,6 +18,8 @@ pub struct Drawing {
     pub device: Device,
     /// Draws.
     pub gpu: Gpu,
+    /// The adapter of `gpu`.
+    pub adapter: wgpu::Adapter,
     /// Which backend was chosen by default, and why: a line for the user.
     pub reason: Option<String>,
 }
@@ -65,7 +67,7 @@ impl Drawing {
         };
         let simulates_on_cpu = kind.map_or(is_software, |kind| kind == BackendKind::Cpu);
         let device = if simulates_on_cpu { arguments.cpu() } else { Device::Wgpu(Box::new(gpu.clone())) };
-        Ok(Self { device, gpu, reason })
+        Ok(Self { device, gpu, adapter, reason })
     }
 }
 

@@ -13,3 +13,4 @@ pub mod interrupt;
 pub mod output;
 pub mod render;
 pub mod terminal;
+pub mod viewer;

@@ -12,3 +12,4 @@ pub mod scene;
 pub mod simulate;
 pub mod stepping;
 pub mod tracks;
+pub mod view;

@@ -98,7 +98,7 @@ struct Studio {
 
 impl Studio {
     fn new(scene: &Scene, drawing: Drawing, size: (u32, u32)) -> anyhow::Result<Self> {
-        let Drawing { device, gpu, reason } = drawing;
+        let Drawing { device, gpu, reason, .. } = drawing;
         let target = PictureTarget::new(gpu.device(), size)?;
         let backend = device.simulator(&World::build(scene)?)?;
         interrupt::check()?;
@@ -160,7 +160,8 @@ impl Studio {
     }
 
     fn draw(&mut self) -> anyhow::Result<image::RgbaImage> {
-        let input = FrameInput { camera: self.camera, time_s: self.backend.clock().seconds() };
+        let time_s = self.backend.clock().seconds();
+        let input = FrameInput { camera: self.camera, time_s, origin: (0, 0) };
         let columns = self.backend.columns(&self.gpu)?;
         let mut encoder =
             self.gpu.device().create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
@@ -183,7 +184,7 @@ impl Studio {
 }
 
 /// Reads a size such as 1280x720.
-fn picture_size(text: &str) -> Result<(u32, u32), String> {
+pub(super) fn picture_size(text: &str) -> Result<(u32, u32), String> {
     let edge = |text: &str| text.parse().ok().filter(|edge| (1..=MAX_EDGE).contains(edge));
     let size = text.split_once(['x', 'X']).and_then(|(width, height)| Some((edge(width)?, edge(height)?)));
     size.filter(|(width, height)| width * height <= MAX_PIXELS).ok_or_else(|| {
@@ -200,7 +201,7 @@ fn playback_speed(text: &str) -> Result<f64, String> {
 }
 
 /// Reads a number from `low` to `high`.
-fn within(text: &str, low: f64, high: f64) -> Result<f64, String> {
+pub(super) fn within(text: &str, low: f64, high: f64) -> Result<f64, String> {
     let number = text.parse().ok().filter(|number| (low..=high).contains(number));
     number.ok_or_else(|| format!("allowed: a number from {low} to {high}"))
 }

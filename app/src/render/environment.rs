@@ -5,6 +5,7 @@
 use glam::{Mat4, Vec2, Vec3};
 use windfall_core::scene::Sun;
 
+use super::renderer::FrameInput;
 use super::scenery::PARK_RADIUS_M;
 use super::shadow_pass::SHADOW_SIZE;
 use crate::camera::Camera;
@@ -66,7 +67,8 @@ impl Environment {
     }
 
     /// The uniform block of one frame.
-    pub(super) fn frame(&self, camera: &Camera, time_s: f32, size: (u32, u32)) -> FrameUniform {
+    pub(super) fn frame(&self, input: &FrameInput, time_s: f32, size: (u32, u32)) -> FrameUniform {
+        let camera = &input.camera;
         let (width, height) = (size.0 as f32, size.1 as f32);
         let aspect = width / height;
         let tangent = (0.5 * camera.vertical_fov_rad).tan();
@@ -84,8 +86,8 @@ impl Environment {
             view_projection: camera.view_projection(aspect).to_cols_array_2d(),
             shadow_projection: self.shadow_projection(camera).to_cols_array_2d(),
             eye: full(camera.eye_m(), time_s),
-            right: full(camera.right() * tangent * aspect, 0.0),
-            up: full(camera.up() * tangent, 0.0),
+            right: full(camera.right() * tangent * aspect, input.origin.0 as f32),
+            up: full(camera.up() * tangent, input.origin.1 as f32),
             forward: full(camera.forward(), 0.0),
             sun_direction: full(sun, Vec2::new(sun.x, sun.z).length() / sun.y),
             sun_color: full(sun_color, 0.0),
@@ -159,7 +161,9 @@ mod tests {
         for elevation_deg in [1.0, 5.0, 45.0, 90.0] {
             let sun = Sun { azimuth_deg: 30.0, elevation_deg };
             let environment = Environment::new(&sun, Vec3::ZERO, PATH);
-            let frame = environment.frame(&Camera::from(&scene::Camera::default()), 1.0, (640, 480));
+            let camera = Camera::from(&scene::Camera::default());
+            let input = FrameInput { camera, time_s: 1.0, origin: (0, 0) };
+            let frame = environment.frame(&input, 1.0, (640, 480));
             let all: &[f32] = bytemuck::cast_slice(std::slice::from_ref(&frame));
             assert!(all.iter().all(|value| value.is_finite()), "elevation {elevation_deg}: {frame:?}");
         }

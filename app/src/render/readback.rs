@@ -14,6 +14,8 @@ pub struct PictureTarget {
     texture: wgpu::Texture,
     buffer: wgpu::Buffer,
     bytes_per_row: u32,
+    /// Whether blue comes first.
+    is_bgra: bool,
 }
 
 impl PictureTarget {
@@ -25,6 +27,23 @@ impl PictureTarget {
     /// # Errors
     /// A size the device cannot draw.
     pub fn new(device: &wgpu::Device, size: (u32, u32)) -> Result<Self, RenderError> {
+        Self::with_format(device, size, Self::FORMAT)
+    }
+
+    /// A target in the format of a window, for pictures of the window.
+    ///
+    /// # Errors
+    /// A size the device cannot draw; a format other than four bytes of red, green, blue and alpha in some order.
+    pub fn with_format(
+        device: &wgpu::Device,
+        size: (u32, u32),
+        format: wgpu::TextureFormat,
+    ) -> Result<Self, RenderError> {
+        let is_bgra = match format.remove_srgb_suffix() {
+            wgpu::TextureFormat::Rgba8Unorm => false,
+            wgpu::TextureFormat::Bgra8Unorm => true,
+            _ => return Err(RenderError::Readback(format!("the format is {format:?}"))),
+        };
         let limits = device.limits();
         let (width, height) = size;
         let limit = limits.max_texture_dimension_2d;
@@ -45,7 +64,7 @@ impl PictureTarget {
             mip_level_count: 1,
             sample_count: 1,
             dimension: wgpu::TextureDimension::D2,
-            format: Self::FORMAT,
+            format,
             usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::COPY_SRC,
             view_formats: &[],
         });
@@ -55,7 +74,7 @@ impl PictureTarget {
             usage: wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST,
             mapped_at_creation: false,
         });
-        Ok(Self { texture, buffer, bytes_per_row })
+        Ok(Self { texture, buffer, bytes_per_row, is_bgra })
     }
 
     /// What to draw into.
@@ -105,8 +124,11 @@ impl PictureTarget {
             }
         }
         self.buffer.unmap();
-        for alpha in pixels.iter_mut().skip(3).step_by(4) {
-            *alpha = u8::MAX;
+        for pixel in pixels.as_chunks_mut::<4>().0 {
+            if self.is_bgra {
+                pixel.swap(0, 2);
+            }
+            pixel[3] = u8::MAX;
         }
         RgbaImage::from_raw(size.width, size.height, pixels)
             .ok_or_else(|| RenderError::Readback("fewer bytes than pixels".into()))

@@ -56,6 +56,8 @@ pub struct FrameInput {
     pub camera: Camera,
     /// Time of the simulation in seconds: moves clouds and grass, and ages trails.
     pub time_s: f64,
+    /// Where in the output the picture's upper left corner lies, in pixels; the picture must lie inside the output.
+    pub origin: (u32, u32),
 }
 
 /// Draws a scene's leaves in their park.
@@ -166,13 +168,24 @@ impl Renderer {
         self.shade_is_old = true;
         let drawn = self.trail_pass.as_ref().map_or(0.0, TrailPass::trail_s);
         if drawn != view.trail_s {
-            self.trail_pass = (view.trail_s > 0.0).then(|| {
-                TrailPass::new(&self.device, &self.frame, &self.light, view.trail_s, self.leaf_count)
-            });
+            self.make_trails(view.trail_s);
         }
     }
 
-    /// Encodes one frame of `leaves` into `output`, a view of a texture of this renderer's format and size.
+    /// Takes over another number of leaves.
+    pub fn update_leaf_count(&mut self, leaf_count: u32) {
+        self.leaf_count = leaf_count;
+        self.make_trails(self.trail_pass.as_ref().map_or(0.0, TrailPass::trail_s));
+    }
+
+    fn make_trails(&mut self, trail_s: f32) {
+        let (device, leaf_count) = (&self.device, self.leaf_count);
+        self.trail_pass =
+            (trail_s > 0.0).then(|| TrailPass::new(device, &self.frame, &self.light, trail_s, leaf_count));
+    }
+
+    /// Encodes one frame of `leaves` into `output`, a view of a texture of this renderer's format. What lies outside
+    /// of the picture becomes black.
     pub fn draw(
         &mut self,
         encoder: &mut wgpu::CommandEncoder,
@@ -181,11 +194,13 @@ impl Renderer {
         input: &FrameInput,
     ) {
         let (width, height) = self.targets.size;
+        let aspect = width as f32 / height as f32;
+        let input = &FrameInput { camera: input.camera.fitted(aspect), ..*input };
         #[expect(clippy::cast_possible_truncation, reason = "wraps long before f32 seconds grow coarse")]
         let time_s = input.time_s.rem_euclid(3600.0) as f32;
-        self.frame.write(&self.queue, &self.environment.frame(&input.camera, time_s, self.targets.size));
+        self.frame.write(&self.queue, &self.environment.frame(input, time_s, self.targets.size));
         let ground_m = self.environment.park_center.y;
-        self.grass_pass.prepare(&self.queue, &input.camera, width as f32 / height as f32, ground_m);
+        self.grass_pass.prepare(&self.queue, &input.camera, aspect, ground_m);
         if self.shade_is_old {
             self.shade_pass.draw(encoder, &self.frame, &self.trees);
             self.shade_is_old = false;
@@ -196,10 +211,16 @@ impl Renderer {
         let writes = |pass| self.timer.as_ref().map(|timer| timer.render_writes(pass));
         self.shadow_pass.draw(encoder, writes(0), &self.frame, &self.kinds, &sets);
         self.draw_scene(encoder, writes(1), &sets);
-        self.tonemap_pass.draw(encoder, writes(2), &self.frame, output);
+        let area = (input.origin, self.targets.size);
+        self.tonemap_pass.draw(encoder, writes(2), &self.frame, output, area);
         if let Some(timer) = &self.timer {
             timer.resolve(encoder);
         }
+    }
+
+    /// Whether leaves draw trails.
+    pub fn has_trails(&self) -> bool {
+        self.trail_pass.is_some()
     }
 
     /// Notes where `leaves` are at `time_s` for their trails, without drawing; nothing to do in a scene without trails.

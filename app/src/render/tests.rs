@@ -63,7 +63,12 @@ impl Bench {
         let target = PictureTarget::new(&self.device, SIZE).expect("a target");
         let mut encoder = self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         let camera = Camera::from(&self.scene.view.camera);
-        self.renderer.draw(&mut encoder, &target.view(), &leaves, &FrameInput { camera, time_s });
+        self.renderer.draw(
+            &mut encoder,
+            &target.view(),
+            &leaves,
+            &FrameInput { camera, time_s, origin: (0, 0) },
+        );
         target.submit_and_read(&self.device, &self.queue, encoder).expect("a picture")
     }
 }

@@ -61,13 +61,14 @@ impl TonemapPass {
         self.source = source_group(device, &self.layout, targets);
     }
 
-    /// Fills `output`.
+    /// Fills the part of `output` with this corner and size.
     pub(super) fn draw(
         &self,
         encoder: &mut wgpu::CommandEncoder,
         timestamps: Option<wgpu::RenderPassTimestampWrites<'_>>,
         frame: &FrameGroup,
         output: &wgpu::TextureView,
+        ((left, top), (width, height)): ((u32, u32), (u32, u32)),
     ) {
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("tone map"),
@@ -85,6 +86,7 @@ impl TonemapPass {
             occlusion_query_set: None,
             multiview_mask: None,
         });
+        pass.set_viewport(left as f32, top as f32, width as f32, height as f32, 0.0, 1.0);
         pass.set_pipeline(&self.pipeline);
         pass.set_bind_group(0, &frame.group, &[]);
         pass.set_bind_group(1, &self.source, &[]);

@@ -8,7 +8,8 @@ struct Frame {
     shadow_projection: mat4x4<f32>,
     // Camera position; time in seconds.
     eye: vec4<f32>,
-    // Camera axes, scaled so that forward + x * right + y * up is a ray through clip position (x, y).
+    // Camera axes, scaled so that forward + x * right + y * up is a ray through clip position (x, y). w of right and up:
+    // where the picture's corner lies in the output, in pixels.
     right: vec4<f32>,
     up: vec4<f32>,
     forward: vec4<f32>,

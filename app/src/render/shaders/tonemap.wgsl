@@ -24,15 +24,16 @@ fn vertex(@builtin(vertex_index) index: u32) -> @builtin(position) vec4<f32> {
 }
 
 @fragment
-fn fragment(@builtin(position) at: vec4<f32>) -> @location(0) vec4<f32> {
-    var color = textureLoad(light, vec2<i32>(at.xy), 0).rgb * frame.air.y;
-    let middle = (at.xy * frame.viewport.zw - 0.5) * vec2(1.0, 0.8);
+fn fragment(@builtin(position) output_at: vec4<f32>) -> @location(0) vec4<f32> {
+    let at = output_at.xy - vec2(frame.right.w, frame.up.w);
+    var color = textureLoad(light, vec2<i32>(at), 0).rgb * frame.air.y;
+    let middle = (at * frame.viewport.zw - 0.5) * vec2(1.0, 0.8);
     color *= 1.0 - 0.35 * dot(middle, middle);
     color = max(mix(vec3(luminance(color)), color, 1.12), vec3(0.0));
     var encoded = filmic(color);
     if ENCODE_GAMMA {
         encoded = srgb_encode(encoded);
     }
-    let grain = fract(52.9829189 * fract(dot(at.xy, vec2(0.06711056, 0.00583715))));
+    let grain = fract(52.9829189 * fract(dot(at, vec2(0.06711056, 0.00583715))));
     return vec4(encoded + (grain - 0.5) / 255.0, 1.0);
 }

@@ -1,0 +1,76 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What the panel shows, and what it asks for.
+
+use std::ops::RangeInclusive;
+
+use windfall_core::{Clock, SimulatorInfo, Stats};
+
+use super::tuning::Tuning;
+use crate::backend::BackendKind;
+
+/// Something the user wants.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Wish {
+    /// Simulated seconds in each second.
+    TimeScale(f32),
+    /// Let time stand still, or go on.
+    Pause(bool),
+    /// One step, and then stand still.
+    SingleStep,
+    /// Begin again at time zero.
+    Reset,
+    /// Other numbers for wind and speeds.
+    Tune(Tuning),
+    /// The scene's own numbers for wind and speeds.
+    Untune,
+    /// Another number of leaves.
+    Leaves(u32),
+    /// Simulate elsewhere.
+    Backend(BackendKind),
+    /// Look from where the scene says.
+    ResetCamera,
+    /// Show or hide the panel.
+    TogglePanel,
+    /// Close the window.
+    Quit,
+}
+
+/// What there is to know at the moment.
+#[derive(Clone, Debug)]
+pub(super) struct Facts {
+    pub(super) scene: String,
+    pub(super) info: SimulatorInfo,
+    pub(super) backend: BackendKind,
+    /// The adapter that draws.
+    pub(super) adapter: String,
+    /// The same with its driver.
+    pub(super) driver: String,
+    pub(super) clock: Clock,
+    pub(super) stats: Stats,
+    pub(super) tuning: Tuning,
+    /// Whether tuning differs from what the scene says.
+    pub(super) is_tuned: bool,
+    pub(super) time_scale: f32,
+    pub(super) is_paused: bool,
+    /// Simulated seconds in each second, if fewer than asked for.
+    pub(super) behind: Option<f64>,
+    pub(super) leaf_count: u32,
+    pub(super) leaf_range: RangeInclusive<u32>,
+    pub(super) fps: f32,
+    /// Milliseconds on the processor.
+    pub(super) cpu_ms: Vec<(&'static str, f32)>,
+    /// Milliseconds on the device; empty where it cannot tell.
+    pub(super) gpu_ms: Vec<(&'static str, f32)>,
+    /// Direction the camera looks in, in degrees from +x turning to +z.
+    pub(super) look_deg: f32,
+    /// Something that went well or wrong lately.
+    pub(super) message: Option<Message>,
+}
+
+/// A line for the user.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Message {
+    pub(super) text: String,
+    pub(super) is_error: bool,
+}

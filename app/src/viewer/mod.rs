@@ -1,0 +1,24 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The window: a scene that goes on while one looks at it and turns its knobs.
+//!
+//! One frame: the panel tells its wishes, the session grants them and takes its steps, the renderer draws the leaves
+//! beside the panel. [`Pace`](pace::Pace) decides how many steps a frame takes; [`Session`](session::Session) owns the
+//! simulator and everything that may change about it.
+
+mod app;
+mod beaufort;
+mod controls;
+mod gui;
+mod keys;
+mod meter;
+mod pace;
+mod panel;
+mod pointer;
+mod screen;
+mod screenshot;
+mod session;
+mod tuning;
+mod window;
+
+pub use app::{Options, run};

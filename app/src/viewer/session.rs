@@ -1,0 +1,254 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The scene that goes on: its simulator, its pace, and everything that may change about it.
+
+use std::ops::RangeInclusive;
+use std::time::{Duration, Instant};
+
+use windfall_core::leaf::Leaves;
+use windfall_core::scene::limits;
+use windfall_core::{Environment, Scene, SimError, Simulator, Stats, World};
+use windfall_cpu::CpuOptions;
+use windfall_wgpu::{Gpu, LeafColumns};
+
+use super::pace::Pace;
+use super::tuning::Tuning;
+use crate::backend::{Backend, BackendKind, Device};
+use crate::commands::scene::{check_memory, scaled};
+use crate::render::GpuTimer;
+
+/// Time between two counts of all leaves: counting waits for the device.
+const COUNT_EVERY: Duration = Duration::from_millis(250);
+/// Bytes of one record in one column.
+const RECORD_BYTES: u64 = 16;
+
+/// The scene that goes on.
+#[derive(Debug)]
+pub(super) struct Session {
+    pub(super) pace: Pace,
+    /// The scene as it was loaded, and with what the user has changed.
+    loaded: Scene,
+    scene: Scene,
+    /// What `scene` compiles to.
+    environment: Environment,
+    gpu: Gpu,
+    threads: Option<usize>,
+    backend: Backend,
+    stats: Stats,
+    counted: Option<Instant>,
+    timer: Option<GpuTimer>,
+    /// Steps in the submission that the timer has timed or is timing.
+    timed_steps: u32,
+    /// Seconds of one step on the processor, lately.
+    step_s: f64,
+}
+
+impl Session {
+    /// A session of `world`, which `scene` describes, on `device`; `gpu` draws.
+    ///
+    /// # Errors
+    /// More leaves than the device holds; a device that refuses or is lost.
+    pub(super) fn new(scene: Scene, world: &World, device: &Device, gpu: Gpu) -> Result<Self, SimError> {
+        let threads = match device {
+            Device::Cpu(options) => options.threads,
+            Device::Wgpu(_) => None,
+        };
+        Ok(Self {
+            pace: Pace::default(),
+            loaded: scene.clone(),
+            scene,
+            environment: world.environment.clone(),
+            threads,
+            backend: device.simulator(world)?,
+            stats: world.stats(),
+            counted: None,
+            timer: GpuTimer::new(gpu.device(), gpu.queue(), &["advance"]),
+            timed_steps: 1,
+            step_s: 0.0,
+            gpu,
+        })
+    }
+
+    /// Number of steps that the `frame_s` seconds since the last frame ask for.
+    pub(super) fn due_steps(&mut self, frame_s: f64) -> u32 {
+        let dt_s = f64::from(self.backend.clock().dt_s());
+        let on_device = self.device_step_s();
+        self.pace.steps(frame_s, dt_s, self.step_s.max(on_device))
+    }
+
+    /// Takes `steps` steps.
+    ///
+    /// # Errors
+    /// A lost device.
+    pub(super) fn step(&mut self, steps: u32) -> Result<(), SimError> {
+        if steps == 0 {
+            return Ok(());
+        }
+        let since = Instant::now();
+        match (&mut self.backend, &self.timer) {
+            (Backend::Wgpu(simulator), Some(timer)) => {
+                simulator.step_timed(steps, Some(timer.compute_writes(0)))?;
+                let mut encoder =
+                    self.gpu.device().create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+                timer.resolve(&mut encoder);
+                self.gpu.queue().submit([encoder.finish()]);
+                self.timed_steps = steps;
+            }
+            (backend, _) => backend.step(steps)?,
+        }
+        let step_s = since.elapsed().as_secs_f64() / f64::from(steps);
+        self.step_s += 0.2 * (step_s - self.step_s);
+        Ok(())
+    }
+
+    /// Seconds that a step takes on the device, as far as it tells.
+    fn device_step_s(&mut self) -> f64 {
+        let steps = f64::from(self.timed_steps);
+        self.device_ms().first().map_or(0.0, |&(_, ms)| f64::from(ms) * 1.0e-3 / steps)
+    }
+
+    /// Milliseconds that the device last spent on the steps of a frame; empty where it cannot tell or does not simulate.
+    pub(super) fn device_ms(&mut self) -> Vec<(&'static str, f32)> {
+        match (&self.backend, &mut self.timer) {
+            (Backend::Wgpu(_), Some(timer)) => timer.collect(self.gpu.device()).to_vec(),
+            _ => Vec::new(),
+        }
+    }
+
+    /// Counts over all leaves, at most a few times a second old.
+    ///
+    /// # Errors
+    /// A lost device.
+    pub(super) fn stats(&mut self) -> Result<Stats, SimError> {
+        let is_old = self.counted.is_none_or(|counted| counted.elapsed() >= COUNT_EVERY);
+        if is_old && self.stats.step != self.backend.clock().step() || self.counted.is_none() {
+            self.stats = self.backend.stats()?;
+            self.counted = Some(Instant::now());
+        }
+        Ok(self.stats)
+    }
+
+    /// Takes over other numbers for wind and speeds from the next step on.
+    ///
+    /// # Errors
+    /// Numbers that do not go together; nothing has changed then. A lost device.
+    pub(super) fn tune(&mut self, tuning: &Tuning) -> anyhow::Result<()> {
+        let scene = tuning.applied(&self.scene);
+        scene.validate(&self.scene.name)?;
+        self.environment.retune(&scene);
+        self.scene = scene;
+        Ok(self.backend.set_environment(&self.environment)?)
+    }
+
+    /// What the scene said at first.
+    pub(super) fn own_tuning(&self) -> Tuning {
+        Tuning::from(&self.loaded)
+    }
+
+    /// Begins again at time zero, with the numbers as they are.
+    ///
+    /// # Errors
+    /// A lost device.
+    pub(super) fn reset(&mut self) -> anyhow::Result<()> {
+        let world = World::build(&self.scene)?;
+        self.environment = world.environment.clone();
+        self.backend.write_state(&world)?;
+        self.begin_again();
+        Ok(())
+    }
+
+    /// Begins again with another number of leaves.
+    ///
+    /// # Errors
+    /// A number that scene, memory or device do not allow; nothing has changed then.
+    pub(super) fn set_leaves(&mut self, leaves: u32) -> anyhow::Result<()> {
+        check_memory(&self.scene.name, leaves)?;
+        let scene = Tuning::from(&self.scene).applied(&scaled(&self.loaded, &self.scene.name, leaves)?);
+        let world = World::build(&scene)?;
+        self.backend = self.device(self.kind()).simulator(&world)?;
+        self.scene = scene;
+        self.environment = world.environment;
+        self.begin_again();
+        Ok(())
+    }
+
+    /// Goes on elsewhere: the leaves go on falling where they are.
+    ///
+    /// # Errors
+    /// A device that is lost or cannot hold the leaves.
+    pub(super) fn switch(&mut self, kind: BackendKind) -> Result<(), SimError> {
+        if kind == self.kind() {
+            return Ok(());
+        }
+        let mut world = World {
+            environment: self.environment.clone(),
+            clock: self.backend.clock(),
+            leaves: Leaves::zeroed(self.leaf_count() as usize),
+        };
+        self.backend.read_state(&mut world)?;
+        self.backend = self.device(kind).simulator(&world)?;
+        self.forget_cost();
+        Ok(())
+    }
+
+    fn begin_again(&mut self) {
+        self.counted = None;
+        self.forget_cost();
+    }
+
+    fn forget_cost(&mut self) {
+        self.step_s = 0.0;
+        self.timed_steps = 1;
+        self.timer = GpuTimer::new(self.gpu.device(), self.gpu.queue(), &["advance"]);
+        self.pace.restart();
+    }
+
+    fn device(&self, kind: BackendKind) -> Device {
+        match kind {
+            BackendKind::Cpu => Device::Cpu(CpuOptions { threads: self.threads }),
+            BackendKind::Wgpu => Device::Wgpu(Box::new(self.gpu.clone())),
+        }
+    }
+
+    /// Where it simulates.
+    pub(super) fn kind(&self) -> BackendKind {
+        match self.backend {
+            Backend::Cpu(_) => BackendKind::Cpu,
+            Backend::Wgpu(_) => BackendKind::Wgpu,
+        }
+    }
+
+    /// The scene as it is now.
+    pub(super) fn scene(&self) -> &Scene {
+        &self.scene
+    }
+
+    /// The simulator.
+    pub(super) fn simulator(&self) -> &dyn Simulator {
+        &self.backend
+    }
+
+    /// Number of leaves.
+    pub(super) fn leaf_count(&self) -> u32 {
+        self.scene.leaf_count()
+    }
+
+    /// Numbers of leaves that scene and device allow.
+    pub(super) fn leaf_range(&self) -> RangeInclusive<u32> {
+        let fewest = u32::try_from(self.scene.sources.len()).unwrap_or(1).max(limits::COUNT.low);
+        let held = self.gpu.device().limits().max_buffer_size / RECORD_BYTES;
+        let most = u32::try_from(held).unwrap_or(u32::MAX).min(limits::COUNT.high);
+        fewest..=most.max(fewest)
+    }
+
+    /// The leaves, to be drawn.
+    ///
+    /// # Errors
+    /// A lost device, or one that cannot hold them.
+    pub(super) fn columns(&mut self) -> Result<LeafColumns<'_>, SimError> {
+        self.backend.columns(&self.gpu)
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+
+use super::*;
+
+fn session(kind: BackendKind) -> Session {
+    let mut scene = Scene::preset("autumn-park").expect("a preset");
+    scene = scaled(&scene, "autumn-park", 500).expect("allowed");
+    let gpu = Gpu::request(None).expect("an adapter; apt install mesa-vulkan-drivers");
+    let device = match kind {
+        BackendKind::Cpu => Device::Cpu(CpuOptions::default()),
+        BackendKind::Wgpu => Device::Wgpu(Box::new(gpu.clone())),
+    };
+    let world = World::build(&scene).expect("valid");
+    Session::new(scene, &world, &device, gpu).expect("the device takes it")
+}
+
+fn hash(session: &mut Session) -> u64 {
+    let mut world = World::build(session.scene()).expect("valid");
+    session.backend.read_state(&mut world).expect("same size");
+    world.state_hash()
+}
+
+#[test]
+fn leaves_go_on_falling_when_the_backend_changes() {
+    let mut plain = session(BackendKind::Cpu);
+    let mut switched = session(BackendKind::Wgpu);
+    let tuning = Tuning { speed_m_s: 6.0, fall_speed: 1.3, ..plain.own_tuning() };
+    for session in [&mut plain, &mut switched] {
+        session.step(20).expect("it steps");
+        session.tune(&tuning).expect("allowed");
+        session.step(20).expect("it steps");
+    }
+    let before = hash(&mut switched);
+    switched.switch(BackendKind::Cpu).expect("the processor takes it");
+    assert_eq!((switched.kind(), hash(&mut switched)), (BackendKind::Cpu, before), "not a bit is lost");
+    switched.step(20).expect("it steps");
+    switched.switch(BackendKind::Wgpu).expect("the device takes it");
+    switched.step(20).expect("it steps");
+    plain.step(40).expect("it steps");
+    assert_eq!(hash(&mut plain), hash(&mut switched), "the wind is kept as well");
+}
+
+#[test]
+fn numbers_that_do_not_go_together_change_nothing() {
+    let mut session = session(BackendKind::Cpu);
+    let wrong = Tuning { gust_interval_s: 0.0, speed_m_s: 3.0, ..session.own_tuning() };
+    let error = session.tune(&wrong).expect_err("no interval").to_string();
+    assert!(error.contains("interval_s"), "{error}");
+    assert_eq!(Tuning::from(session.scene()), session.own_tuning(), "as before");
+    assert!(session.set_leaves(3).is_err(), "fewer leaves than sources");
+    assert_eq!(session.leaf_count(), 500, "as before");
+}
+
+#[test]
+fn another_number_of_leaves_keeps_what_was_tuned_and_begins_again() {
+    let mut session = session(BackendKind::Wgpu);
+    let tuning = Tuning { speed_m_s: 6.0, ..session.own_tuning() };
+    session.tune(&tuning).expect("allowed");
+    session.step(5).expect("it steps");
+    session.set_leaves(900).expect("allowed");
+    assert_eq!((session.leaf_count(), session.simulator().clock().step()), (900, 0), "anew");
+    assert_eq!(Tuning::from(session.scene()), tuning, "with the same wind");
+    assert_eq!(session.stats().expect("counts").dormant, 0, "counted anew");
+    session.step(5).expect("it steps");
+    session.reset().expect("begins again");
+    assert_eq!(session.simulator().clock().step(), 0, "at time zero");
+}

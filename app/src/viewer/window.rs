@@ -1,0 +1,256 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The window with all that is in it, frame by frame.
+
+mod wishes;
+
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use anyhow::Context;
+use windfall_core::World;
+use windfall_texgen::Atlas;
+use windfall_wgpu::Gpu;
+use winit::event::WindowEvent;
+use winit::window::Window;
+
+use super::app::Options;
+use super::controls::Message;
+use super::gui::{Gui, Painting};
+use super::meter::{Meter, Stage};
+use super::panel::Panel;
+use super::screen::Screen;
+use super::screenshot::Screenshot;
+use super::session::Session;
+use crate::camera::Camera;
+use crate::drawing::Drawing;
+use crate::render::{FrameInput, MAX_TRAILS, PictureTarget, Renderer, RendererOptions, atlas_request};
+use crate::terminal;
+
+/// Time between two attempts to draw to a window that shows nothing.
+const HIDDEN_PAUSE: Duration = Duration::from_millis(100);
+/// How long a message stays.
+const MESSAGE_TIME: Duration = Duration::from_secs(8);
+
+/// When something is to happen next.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Next {
+    /// A frame, at once.
+    Frame,
+    /// A frame, then.
+    At(Instant),
+    /// Nothing until something happens.
+    Event,
+    /// The end.
+    Quit,
+}
+
+/// The window.
+pub(super) struct Viewer {
+    instance: wgpu::Instance,
+    window: Arc<Window>,
+    gpu: Gpu,
+    screen: Screen,
+    gui: Gui,
+    panel: Panel,
+    session: Session,
+    renderer: Renderer,
+    camera: Camera,
+    meter: Meter,
+    message: Option<(Message, Instant)>,
+    screenshot: Option<Screenshot>,
+    next: Next,
+}
+
+impl Viewer {
+    pub(super) fn new(
+        instance: wgpu::Instance,
+        window: Arc<Window>,
+        options: &Options,
+        world: &World,
+        mut screenshot: Option<Screenshot>,
+    ) -> anyhow::Result<Self> {
+        let scene = &options.scene;
+        let surface = Screen::surface(&instance, &window)?;
+        let Drawing { device, gpu, adapter, reason } =
+            Drawing::choose(&options.backend, &instance, Some(&surface))?;
+        let screen = Screen::new(Arc::clone(&window), surface, &adapter, &gpu)?;
+        let session = Session::new(scene.clone(), world, &device, gpu.clone())?;
+        let atlas = Atlas::generate(&atlas_request(scene))?;
+        let settings = RendererOptions::for_scene(scene);
+        let size = screen.size();
+        let (device, queue) = (gpu.device(), gpu.queue());
+        let renderer = Renderer::new(device, queue, scene, &atlas, screen.format(), size, settings)?;
+        let gui = Gui::new(&window, &gpu, screen.format());
+        gpu.check()?;
+        if let Some(reason) = reason {
+            terminal::note(&reason);
+        }
+        if let Some(screenshot) = &mut screenshot {
+            screenshot.begin();
+        }
+        Ok(Self {
+            camera: Camera::from(&scene.view.camera),
+            instance,
+            window,
+            gpu,
+            screen,
+            gui,
+            panel: Panel::new(),
+            session,
+            renderer,
+            meter: Meter::new(),
+            message: None,
+            screenshot,
+            next: Next::Frame,
+        })
+    }
+
+    /// Hands an event of the window on.
+    pub(super) fn on_event(&mut self, event: &WindowEvent) {
+        let repaint = self.gui.on_event(&self.window, event);
+        if repaint || matches!(event, WindowEvent::Resized(_) | WindowEvent::Occluded(false)) {
+            self.next = Next::Frame;
+        }
+    }
+
+    /// When to draw next.
+    pub(super) fn next(&self) -> Next {
+        self.next
+    }
+
+    /// Asks the window system for a frame.
+    pub(super) fn request_frame(&self) {
+        self.window.request_redraw();
+    }
+
+    /// Does everything that makes a frame.
+    ///
+    /// # Errors
+    /// A lost device or window, a picture that cannot be saved.
+    pub(super) fn frame(&mut self) -> anyhow::Result<Next> {
+        self.gpu.check()?;
+        let frame_s = self.meter.begin_frame();
+        if !self.screen.follow_window(&self.gpu) {
+            self.next = Next::At(Instant::now() + HIDDEN_PAUSE);
+            return Ok(self.next);
+        }
+        let painting = self.panel()?;
+        if self.next == Next::Quit {
+            return Ok(Next::Quit);
+        }
+        let since = Instant::now();
+        self.simulate(frame_s)?;
+        self.meter.add(Stage::Simulate, since);
+
+        let since = Instant::now();
+        let texture = self.screen.acquire(&self.instance, &self.gpu)?;
+        self.meter.add(Stage::Wait, since);
+        let is_shown = texture.is_some();
+        if let Some(texture) = texture {
+            let view = texture.texture.create_view(&wgpu::TextureViewDescriptor::default());
+            let encoder = self.encode(&view, &painting)?;
+            let since = Instant::now();
+            self.gpu.queue().submit([encoder.finish()]);
+            self.meter.add(Stage::Draw, since);
+            self.window.pre_present_notify();
+            let queue = self.gpu.queue();
+            self.meter.measure(Stage::Wait, || queue.present(texture));
+        }
+        if self.screenshot.as_mut().is_some_and(Screenshot::is_due) {
+            self.take_screenshot(&painting)?;
+            return Ok(Next::Quit);
+        }
+        self.gui.clean_up(&painting);
+        self.next = self.after(&painting, is_shown);
+        Ok(self.next)
+    }
+
+    /// Takes the steps that are due.
+    fn simulate(&mut self, frame_s: f64) -> anyhow::Result<()> {
+        let steps = self.session.due_steps(frame_s);
+        if !self.renderer.has_trails() || self.session.leaf_count() > MAX_TRAILS {
+            return Ok(self.session.step(steps)?);
+        }
+        // Few leaves, whose trails would be all corners if they only knew about what is shown.
+        for _ in 1..steps {
+            self.session.step(1)?;
+            let time_s = self.session.simulator().clock().seconds();
+            let columns = self.session.columns()?;
+            let mut encoder =
+                self.gpu.device().create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+            self.renderer.observe(&mut encoder, &columns, time_s);
+            self.gpu.queue().submit([encoder.finish()]);
+        }
+        Ok(self.session.step(steps.min(1))?)
+    }
+
+    fn after(&self, painting: &Painting, is_shown: bool) -> Next {
+        let now = Instant::now();
+        if !is_shown {
+            return Next::At(now + HIDDEN_PAUSE);
+        }
+        if !self.session.pace.is_paused || self.screenshot.is_some() {
+            return Next::Frame;
+        }
+        // A message has to go away again.
+        let message_ends = self.message.as_ref().map(|(_, since)| *since + MESSAGE_TIME);
+        let panel_wants = now.checked_add(painting.again_after);
+        match [message_ends, panel_wants].into_iter().flatten().min() {
+            None => Next::Event,
+            Some(time) if time <= now => Next::Frame,
+            Some(time) => Next::At(time),
+        }
+    }
+
+    /// Shows the panel, steers the camera and grants the wishes.
+    fn panel(&mut self) -> anyhow::Result<Painting> {
+        self.message.take_if(|(_, since)| since.elapsed() >= MESSAGE_TIME);
+        let facts = self.facts()?;
+        let since = Instant::now();
+        let Self { gui, panel, camera, window, gpu, session, .. } = self;
+        let ground_m = session.scene().ground.height_m;
+        let mut wishes = Vec::new();
+        let painting = gui.run(window, gpu, |ui| wishes = panel.show(ui, &facts, camera, ground_m));
+        self.meter.add(Stage::Panel, since);
+        for wish in wishes {
+            self.grant(wish)?;
+        }
+        Ok(painting)
+    }
+
+    /// Encodes the scene beside the panel, and the panel.
+    fn encode(
+        &mut self,
+        view: &wgpu::TextureView,
+        painting: &Painting,
+    ) -> anyhow::Result<wgpu::CommandEncoder> {
+        let (origin, size) = self.panel.picture_area(self.screen.size());
+        self.renderer.resize(size).context("the window is too large")?;
+        let time_s = self.session.simulator().clock().seconds();
+        let since = Instant::now();
+        let columns = self.session.columns()?;
+        self.meter.add(Stage::Upload, since);
+        let since = Instant::now();
+        let mut encoder =
+            self.gpu.device().create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        let input = FrameInput { camera: self.camera, time_s, origin };
+        self.renderer.draw(&mut encoder, view, &columns, &input);
+        self.meter.add(Stage::Draw, since);
+        let since = Instant::now();
+        self.gui.paint(&self.gpu, &mut encoder, view, self.screen.size(), painting);
+        self.meter.add(Stage::Panel, since);
+        Ok(encoder)
+    }
+
+    /// Draws what the window shows once more, and saves it.
+    fn take_screenshot(&mut self, painting: &Painting) -> anyhow::Result<()> {
+        let Some(screenshot) = self.screenshot.take() else { return Ok(()) };
+        let device = self.gpu.device().clone();
+        let target = PictureTarget::with_format(&device, self.screen.size(), self.screen.format())?;
+        let encoder = self.encode(&target.view(), painting)?;
+        let picture = target.submit_and_read(&device, self.gpu.queue(), encoder);
+        self.gpu.check()?;
+        screenshot.save(&picture?)
+    }
+}
