@@ -194,6 +194,12 @@ fn leaves_seeds_and_stages_are_independent() {
         let r = correlation(&pairs);
         assert!(r.abs() < bound, "quantities {one} and {other} of a leaf: correlation {r}, bound {bound}");
     }
+    // Shares of five equal parts that sum to one hang together by -1/4, and by nothing else.
+    for (one, other) in (0..STAGES).flat_map(|one| (0..one).map(move |other| (one, other))) {
+        let pairs: Vec<_> = here.iter().map(|own| (own[one].share, own[other].share)).collect();
+        let r = correlation(&pairs);
+        assert!((r + 0.25).abs() < bound, "shares {one} and {other} of a leaf: correlation {r}, not -1/4");
+    }
     let mut bins = vec![0; 256];
     for pair in here.windows(2) {
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to 15")]

@@ -82,8 +82,13 @@ fn leaves_lie_flat_soon_after_contact() {
 /// Coulomb friction stops a slide of speed v after v^2 / (2 mu g), in its own direction, whatever the step.
 #[test]
 fn slides_end_where_friction_says() {
-    for (friction, dt_s) in [(0.5f32, 1.0 / 60.0), (0.4, 1.0 / 60.0), (0.8, 1.0 / 240.0), (0.05, 1.0 / 30.0)]
-    {
+    // Far from the origin positions round by a micrometre or two in every step of a slide.
+    for (friction, dt_s, rounding) in [
+        (0.5f32, 1.0 / 60.0, 2e-5),
+        (0.4, 1.0 / 60.0, 2e-5),
+        (0.8, 1.0 / 240.0, 1e-4),
+        (0.05, 1.0 / 30.0, 1e-4),
+    ] {
         let mut scene = landing_scene();
         scene.dt_s = dt_s;
         scene.ground.friction = friction;
@@ -100,7 +105,7 @@ fn slides_end_where_friction_says() {
                 }
             }
         }
-        let mut fastest = 0.0f64;
+        let (mut fastest, mut worst) = (0.0f64, 0.0f64);
         for (slot, start) in starts.into_iter().enumerate() {
             let (place, speed) = start.expect("every leaf has landed");
             assert_eq!(velocity(&world, slot), DVec3::ZERO, "leaf {slot} has come to rest");
@@ -108,13 +113,16 @@ fn slides_end_where_friction_says() {
             let way = speed * (speed.length() / (2.0 * f64::from(friction) * GRAVITY));
             let error = (position(&world, slot) - place - way).length();
             fastest = fastest.max(speed.length());
+            worst = worst.max(error / (1.0 + way.length()));
             assert!(
-                error < 1e-3 * way.length() + 2e-4,
+                error < rounding * (1.0 + way.length()),
                 "friction {friction}, leaf {slot}: slid {}, expected {way}",
                 position(&world, slot) - place
             );
         }
-        println!("friction {friction}: slides of up to {fastest:.2} m/s");
+        println!(
+            "friction {friction}: slides of up to {fastest:.2} m/s, off by up to {worst:.1e} of 1 m and the way"
+        );
         assert!(fastest > 4.0, "friction {friction}: the fastest slide had {fastest} m/s");
     }
 }
