@@ -63,7 +63,8 @@ mod tests {
         let flags = naga::valid::ValidationFlags::all();
         let info = naga::valid::Validator::new(flags, naga::valid::Capabilities::all()).validate(&module);
         let info = info.expect("valid module");
-        naga::back::spv::write_vec(&module, &info, &naga::back::spv::Options::default(), None).expect("SPIR-V")
+        naga::back::spv::write_vec(&module, &info, &naga::back::spv::Options::default(), None)
+            .expect("SPIR-V")
     }
 
     #[test]

@@ -63,7 +63,9 @@ pub fn select_adapter(
     };
     adapters.into_iter().find(fits).ok_or_else(|| SimError::NoAdapter {
         reason: match (name, found.is_empty()) {
-            (_, true) => "none found; install a graphics driver, or software Vulkan (mesa-vulkan-drivers)".into(),
+            (_, true) => {
+                "none found; install a graphics driver, or software Vulkan (mesa-vulkan-drivers)".into()
+            }
             (Some(name), false) => format!("none named '{name}'; found: {}", found.join(", ")),
             (None, false) => format!("none can draw to this window; found: {}", found.join(", ")),
         },

@@ -14,8 +14,10 @@ use crate::shaders::{KernelId, Shaders, compile_exact};
 #[derive(Debug)]
 pub(crate) struct Pipelines {
     pub(crate) leaves_layout: wgpu::BindGroupLayout,
-    pub(crate) counters_layout: wgpu::BindGroupLayout,
+    /// One storage buffer: the due leaves of a page, or the counters.
+    pub(crate) extra_layout: wgpu::BindGroupLayout,
     pub(crate) advance: wgpu::ComputePipeline,
+    pub(crate) attend: wgpu::ComputePipeline,
     pub(crate) measure: wgpu::ComputePipeline,
 }
 
@@ -42,13 +44,14 @@ impl Pipelines {
             gpu.device().create_bind_group_layout(&descriptor)
         };
         let leaves_layout = layout("leaves", &entries);
-        let counters_layout = layout("counters", &[entry(0, storage(false), false)]);
-        let pipeline = |kernel: KernelId, layouts: &[Option<&wgpu::BindGroupLayout>]| {
-            let source = shaders.kernel(kernel).map_err(|error| SimError::Device { reason: error.to_string() })?;
+        let extra_layout = layout("extra", &[entry(0, storage(false), false)]);
+        let pipeline = |kernel: KernelId| {
+            let source =
+                shaders.kernel(kernel).map_err(|error| SimError::Device { reason: error.to_string() })?;
             let module = shader_module(gpu, &source, kernel.name(), contract)?;
             let layout = gpu.device().create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
                 label: Some(kernel.name()),
-                bind_group_layouts: layouts,
+                bind_group_layouts: &[Some(&leaves_layout), Some(&extra_layout)],
                 immediate_size: 0,
             });
             let pipeline = gpu.device().create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
@@ -61,9 +64,10 @@ impl Pipelines {
             });
             gpu.check().map(|()| pipeline)
         };
-        let advance = pipeline(KernelId::Advance, &[Some(&leaves_layout)])?;
-        let measure = pipeline(KernelId::Measure, &[Some(&leaves_layout), Some(&counters_layout)])?;
-        Ok(Self { leaves_layout, counters_layout, advance, measure })
+        let advance = pipeline(KernelId::Advance)?;
+        let attend = pipeline(KernelId::Attend)?;
+        let measure = pipeline(KernelId::Measure)?;
+        Ok(Self { leaves_layout, extra_layout, advance, attend, measure })
     }
 }
 

@@ -7,13 +7,13 @@ use windfall_core::SimError;
 use crate::gpu::Gpu;
 
 /// Largest staging buffer: larger reads go in pieces.
-const PIECE_BYTES: u64 = 64 << 20;
+const PIECE_BYTES: usize = 64 << 20;
 
 /// Copies the start of a buffer into `out`, waiting for everything submitted before.
 pub(crate) fn read_buffer(gpu: &Gpu, buffer: &wgpu::Buffer, out: &mut [u8]) -> Result<(), SimError> {
     let device_error = |error: &dyn std::fmt::Display| SimError::Device { reason: error.to_string() };
     let mut done = 0;
-    for piece in out.chunks_mut(PIECE_BYTES as usize) {
+    for piece in out.chunks_mut(PIECE_BYTES) {
         let size = piece.len() as u64;
         let staging = gpu.device().create_buffer(&wgpu::BufferDescriptor {
             label: Some("readback"),

@@ -12,20 +12,23 @@ use crate::prelude;
 /// The compute kernels; one name for file, entry point and twin.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum KernelId {
-    /// Moves every leaf through one step.
+    /// Moves the leaves through one step to which nothing happens in it.
     Advance,
+    /// Moves the others.
+    Attend,
     /// Counts leaves by state and motion.
     Measure,
 }
 
 impl KernelId {
     /// All kernels.
-    pub const ALL: [Self; 2] = [Self::Advance, Self::Measure];
+    pub const ALL: [Self; 3] = [Self::Advance, Self::Attend, Self::Measure];
 
     /// Name of the file and of the entry point.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Advance => "advance",
+            Self::Attend => "attend",
             Self::Measure => "measure",
         }
     }
@@ -63,10 +66,13 @@ impl Default for Shaders {
             "kernel/quaternion",
             "kernel/rng",
             "kernel/vector",
+            "due",
             "kernels/advance",
+            "kernels/attend",
             "kernels/measure",
             "leaf/advance",
             "leaf/fall",
+            "leaf/join",
             "leaf/own",
             "leaf/release",
             "leaf/settle",
@@ -126,7 +132,12 @@ impl Shaders {
         self.compose(&format!("kernels/{}", kernel.name()))
     }
 
-    fn append<'a>(&'a self, name: &'a str, seen: &mut BTreeSet<&'a str>, out: &mut String) -> Result<(), ShaderError> {
+    fn append<'a>(
+        &'a self,
+        name: &'a str,
+        seen: &mut BTreeSet<&'a str>,
+        out: &mut String,
+    ) -> Result<(), ShaderError> {
         if !seen.insert(name) {
             return Ok(());
         }
@@ -152,6 +163,7 @@ pub(crate) fn compile_exact(source: &str) -> Result<Vec<u32>, ShaderError> {
         .map_err(|error| wgsl(error.emit_to_string(source)))?;
     let options =
         naga::back::spv::Options { lang_version: (1, 3), fake_missing_bindings: true, ..Default::default() };
-    let words = naga::back::spv::write_vec(&module, &info, &options, None).map_err(|error| wgsl(error.to_string()))?;
+    let words = naga::back::spv::write_vec(&module, &info, &options, None)
+        .map_err(|error| wgsl(error.to_string()))?;
     Ok(decorate_no_contraction(&words))
 }

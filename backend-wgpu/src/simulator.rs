@@ -20,6 +20,8 @@ use crate::shaders::Shaders;
 const STEPS_PER_SUBMIT: u32 = 32;
 /// Leaves per page are a multiple of this, which keeps windows aligned on any device.
 const PAGE_STEP: u32 = 4096;
+/// One in this many workgroups attends to due leaves, about one leaf in a hundred; a longer list is strided over.
+const ATTEND_SHARE: u32 = 64;
 /// Most workgroups of one dispatch; further leaves are strided over.
 const MAX_GROUPS: u32 = 65_535;
 
@@ -51,7 +53,15 @@ pub struct WgpuSimulator {
     wind: (Arc<[Float4]>, wgpu::Buffer),
     counters: wgpu::Buffer,
     counters_group: wgpu::BindGroup,
-    pages: Vec<(u32, wgpu::BindGroup)>,
+    pages: Vec<Page>,
+}
+
+/// A window of the leaf columns that fits in one binding.
+#[derive(Debug)]
+struct Page {
+    leaves: u32,
+    columns: wgpu::BindGroup,
+    due: wgpu::BindGroup,
 }
 
 impl WgpuSimulator {
@@ -67,7 +77,7 @@ impl WgpuSimulator {
         let environment = world.environment.clone();
         let leaves = LeafBuffers::new(gpu, environment.scene().leaf_count())?;
         let limits = gpu.device().limits();
-        let binding = u64::from(limits.max_storage_buffer_binding_size) / RECORD_BYTES;
+        let binding = limits.max_storage_buffer_binding_size / RECORD_BYTES;
         let largest = u32::try_from(binding).unwrap_or(u32::MAX).min(options.page_leaves.unwrap_or(u32::MAX));
         let step_stride = u32::try_from(size_of::<StepBlock>())
             .expect("a step block is small")
@@ -83,7 +93,7 @@ impl WgpuSimulator {
         );
         let counters_group = gpu.device().create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some("counters"),
-            layout: &pipelines.counters_layout,
+            layout: &pipelines.extra_layout,
             entries: &[wgpu::BindGroupEntry { binding: 0, resource: counters.as_entire_binding() }],
         });
         let mut simulator = Self {
@@ -157,15 +167,20 @@ impl WgpuSimulator {
             self.clock.advance(&self.environment);
         }
         self.gpu.queue().write_buffer(&self.step_buffer, 0, &blocks);
-        let mut encoder = self.gpu.device().create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        let mut encoder =
+            self.gpu.device().create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         {
             let descriptor = wgpu::ComputePassDescriptor { label: Some("advance"), timestamp_writes };
             let mut pass = encoder.begin_compute_pass(&descriptor);
-            pass.set_pipeline(&self.pipelines.advance);
             for step in 0..count {
-                for (leaves, group) in &self.pages {
-                    pass.set_bind_group(0, group, &[step * self.step_stride]);
-                    pass.dispatch_workgroups(leaves.div_ceil(WORKGROUP_SIZE).min(MAX_GROUPS), 1, 1);
+                for page in &self.pages {
+                    pass.set_bind_group(0, &page.columns, &[step * self.step_stride]);
+                    pass.set_bind_group(1, &page.due, &[]);
+                    let groups = page.leaves.div_ceil(WORKGROUP_SIZE);
+                    pass.set_pipeline(&self.pipelines.advance);
+                    pass.dispatch_workgroups(groups.min(MAX_GROUPS), 1, 1);
+                    pass.set_pipeline(&self.pipelines.attend);
+                    pass.dispatch_workgroups(groups.div_ceil(ATTEND_SHARE), 1, 1);
                 }
             }
         }
@@ -202,7 +217,15 @@ impl WgpuSimulator {
                 layout: &self.pipelines.leaves_layout,
                 entries: &entries,
             });
-            self.pages.push((leaves, group));
+            // Header of four counts, then a place for every leaf; new buffers are zero.
+            let due_bytes = 16 + u64::from(leaves) * 4;
+            let due = buffer(&self.gpu, "due", due_bytes, wgpu::BufferUsages::STORAGE);
+            let due = self.gpu.device().create_bind_group(&wgpu::BindGroupDescriptor {
+                label: Some("due"),
+                layout: &self.pipelines.extra_layout,
+                entries: &[wgpu::BindGroupEntry { binding: 0, resource: due.as_entire_binding() }],
+            });
+            self.pages.push(Page { leaves, columns: group, due });
         }
     }
 
@@ -288,14 +311,15 @@ impl Simulator for WgpuSimulator {
     fn stats(&mut self) -> Result<Stats, SimError> {
         self.gpu.check()?;
         self.gpu.queue().write_buffer(&self.counters, 0, &[0; COUNTER_COUNT as usize * 4]);
-        let mut encoder = self.gpu.device().create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        let mut encoder =
+            self.gpu.device().create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         {
             let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
             pass.set_pipeline(&self.pipelines.measure);
             pass.set_bind_group(1, &self.counters_group, &[]);
-            for (leaves, group) in &self.pages {
-                pass.set_bind_group(0, group, &[0]);
-                pass.dispatch_workgroups(leaves.div_ceil(WORKGROUP_SIZE).min(MAX_GROUPS), 1, 1);
+            for page in &self.pages {
+                pass.set_bind_group(0, &page.columns, &[0]);
+                pass.dispatch_workgroups(page.leaves.div_ceil(WORKGROUP_SIZE).min(MAX_GROUPS), 1, 1);
             }
         }
         self.gpu.queue().submit([encoder.finish()]);

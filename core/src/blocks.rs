@@ -10,8 +10,8 @@ use crate::scene::{MAX_SOURCES, MAX_SPECIES, MAX_VORTICES};
 crate::shared_struct! {
     /// One species, compiled.
     pub struct SpeciesBlock {
-        /// Drift kept over a step `e^(-dt/tau)`; distance per drift speed over a step `tau (1 - e^(-dt/tau))` in s;
-        /// time constant tau in s; 1/tau in 1/s.
+        /// Drift kept over a step `e^(-dt/tau)`; unused; time constant tau in s: distance per drift speed until none
+        /// is left; 1/tau in 1/s.
         pub response: Float4,
         /// Steps (2^-16) that a fall of one metre takes; half widths of the spread of size and of speed (2^-14);
         /// fastest spin per step (2^-18 turns).
@@ -65,9 +65,9 @@ crate::shared_struct! {
         /// Number of sources; steps until a landed leaf lies flat; steps of an orientation blend; rotation speed
         /// (2^-16).
         pub counts: Uint4,
-        /// First velocity row of the motion tables; three unused words.
+        /// First velocity row of the motion tables; zero; two unused words.
         pub motion: Uint4,
-        /// Step length in s; its inverse in 1/s; turns per second of 2^-24 turns per step; displacement per table
+        /// Step length in s; its inverse in 1/s; turns per second of 2^-32 turns per step; displacement per table
         /// displacement (fall speed over rotation speed).
         pub time: Float4,
         /// Height of the ground in m; height of resting leaves in m; speed lost to friction per second in m/s²;
@@ -111,7 +111,7 @@ crate::shared_struct! {
 
 crate::shared_constants! {
     /// Vectors of a source's share thresholds: one word for each species.
-    pub const SHARE_VECTORS: u32 = MAX_SPECIES as u32 / 4;
+    pub const SHARE_VECTORS: u32 = 32 / 4;
     /// Kind of a box source.
     pub const SOURCE_BOX: u32 = 0;
     /// Kind of a disc source.

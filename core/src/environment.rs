@@ -271,7 +271,7 @@ fn species_block(scene: &Scene, species: &Species, tables: &MotionTables) -> Spe
         *count = *entry;
     }
     SpeciesBlock {
-        response: Float4([single(decay), single(tau * (1.0 - decay)), single(tau), single(1.0 / tau)]),
+        response: Float4([single(decay), 0.0, single(tau), single(1.0 / tau)]),
         scales: Uint4([
             word(65536.0 / (constants.descent_m_s * dt)),
             spread(species.size_variation),

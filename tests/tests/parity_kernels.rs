@@ -4,6 +4,7 @@
 
 use proptest::prelude::*;
 use proptest::test_runner::{Config, TestCaseResult, TestRunner};
+use windfall_core::leaf::record::GRID_UNIT;
 use windfall_core::{Contract, Scene, Simulator, World};
 use windfall_cpu::{CpuOptions, CpuSimulator};
 use windfall_tests::adapter;
@@ -53,7 +54,8 @@ fn agree(contract: Contract, oracle: &World, candidate: &World) -> TestCaseResul
             let drift = largest(|world, slot| world.leaves.drift[slot].velocity);
             prop_assert_eq!(found.integer_leaves, 0, "{:?}", found);
             prop_assert!(
-                found.position_m <= STEP_ULPS * ulp(place),
+                // Up to four displacements may be rounded to the other side of their grid.
+                found.position_m <= STEP_ULPS * ulp(place) + 4.0 * GRID_UNIT,
                 "{:?}, largest position {}",
                 found,
                 place
@@ -96,9 +98,10 @@ fn one_step_agrees_on_every_adapter() {
 #[test]
 fn a_changed_kernel_is_noticed() {
     let edits = [
-        ("leaf/fall", "relative * travel", "relative * (travel * 1.001)"),
+        ("leaf/fall", "before * part.decay", "before * (part.decay * 1.001)"),
         ("leaf/own", "(heading >> 16u) << 15u", "(heading >> 16u) << 14u"),
         ("leaf/settle", "(1.0 - share) * dt", "share * dt"),
+        ("leaf/join", "before - after", "after - before"),
         ("leaf/advance", "state == STATE_RESTING", "state == STATE_ATTACHED"),
         ("wind/sample", "turbulence.y *", "turbulence.x *"),
         ("prelude", "const TABLE_ROWS: u32 = 513u", "const TABLE_ROWS: u32 = 512u"),

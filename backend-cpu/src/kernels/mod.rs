@@ -3,6 +3,7 @@
 //! Loops over leaves; one file per kernel, each with a twin in `backend-wgpu/src/shaders/kernels/`.
 
 pub(crate) mod advance;
+pub(crate) mod attend;
 pub(crate) mod measure;
 
 /// Leaves per chunk: a chunk's hot columns (64 bytes a leaf) fit in a core's level-two cache.

@@ -11,7 +11,7 @@ crate::shared_constants! {
     /// Radians of 2^-26 turns: the unit in which [`sin_cos_turns`] reads the offset from the nearest quarter turn.
     pub const TURN_UNIT: f32 = 9.362_676e-8;
     /// Two over pi.
-    pub const TWO_OVER_PI: f32 = 0.636_619_75;
+    pub const TWO_OVER_PI: f32 = core::f32::consts::FRAC_2_PI;
     /// First part of pi/2, few enough bits that its small multiples are exact.
     pub const HALF_PI_1: f32 = 1.570_312_5;
     /// Second part of pi/2.
@@ -31,7 +31,7 @@ crate::shared_constants! {
     /// Cosine series, r^8.
     pub const COS_8: f32 = 2.443_315_7e-5;
     /// 1 / ln 2.
-    pub const LOG2_E: f32 = 1.442_695;
+    pub const LOG2_E: f32 = core::f32::consts::LOG2_E;
     /// First part of ln 2, few enough bits that its small multiples are exact.
     pub const LN_2_HIGH: f32 = 0.693_359_4;
     /// Second part of ln 2.
@@ -59,11 +59,11 @@ crate::shared_constants! {
     /// Arctangent series, t^3.
     pub const ATAN_3: f32 = -0.333_329_5;
     /// A quarter of pi.
-    pub const QUARTER_PI: f32 = 0.785_398_2;
+    pub const QUARTER_PI: f32 = core::f32::consts::FRAC_PI_4;
     /// A half of pi.
-    pub const HALF_PI: f32 = 1.570_796_4;
+    pub const HALF_PI: f32 = core::f32::consts::FRAC_PI_2;
     /// Pi.
-    pub const PI: f32 = 3.141_592_7;
+    pub const PI: f32 = core::f32::consts::PI;
     /// Bits from which [`reciprocal`] starts: within 12 % for any normal number.
     pub const RECIPROCAL_SEED: u32 = 0x7ef3_11c7;
     /// Bits from which [`inverse_sqrt`] starts: within 3.5 % for any normal number.
@@ -101,6 +101,7 @@ pub fn sin_cos_turns(angle: u32) -> (f32, f32) {
 }
 
 /// Sine and cosine of `x` radians. Within 2e-7 for |x| up to 1000.
+#[expect(clippy::cast_possible_truncation, reason = "a whole number in range")]
 #[inline(always)]
 pub fn sin_cos(x: f32) -> (f32, f32) {
     let k = (x * TWO_OVER_PI + 0.5).floor();
@@ -109,6 +110,11 @@ pub fn sin_cos(x: f32) -> (f32, f32) {
 }
 
 /// e^x, within 2e-7 relative, for -87 <= x <= 88; clamped outside.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::manual_clamp,
+    reason = "a whole number in range; clamped as in WGSL"
+)]
 #[inline(always)]
 pub fn exponential(x: f32) -> f32 {
     let inside = x.max(-87.0).min(88.0);
@@ -161,6 +167,7 @@ pub fn arctangent2(y: f32, x: f32) -> f32 {
 }
 
 #[cfg(test)]
+#[expect(clippy::disallowed_methods, reason = "compared with the platform's functions, within a tolerance")]
 mod tests {
     use super::*;
     use proptest::prelude::*;

@@ -4,6 +4,7 @@
 
 pub mod advance;
 pub mod fall;
+pub mod join;
 pub mod own;
 pub mod record;
 pub mod release;

@@ -132,6 +132,7 @@ pub fn next_event(cx: &Context<'_>, id: u32, release: u32, fall_time: u32, stage
 }
 
 /// Lets leaf `id` go from `source` at step `release`: at rest, in the first primitive motion of its species.
+#[expect(clippy::cast_possible_truncation, reason = "a whole number in range")]
 #[inline(always)]
 pub fn leaf_release(cx: &Context<'_>, leaf: &mut LeafMut<'_>, id: u32, source: u32, release: u32) {
     let seed = [cx.environment.seed.0[0], cx.environment.seed.0[1]];

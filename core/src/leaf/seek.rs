@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Finds a leaf's state at any moment of a fall through still air, without stepping there.
 
-use super::fall::{Glide, leaf_join};
-use super::own::{own_orientation, own_rate, own_scale, turn_to_heading};
+use super::fall::{Glide, spin_advance};
+use super::join::leaf_join;
+use super::own::{on_grid, own_advance, own_orientation, own_period, own_rate};
 use super::record::{
     BLEND_MASK, BLEND_SHIFT, SPECIES_MASK, SPECIES_SHIFT, STAGE_MASK, STAGE_SHIFT, STATE_MASK, STATE_RESTING,
-    TABLE_MASK, TABLE_SHIFT,
 };
 use super::release::leaf_release;
 use super::settle::flatten;
@@ -17,7 +17,6 @@ use crate::kernel::math::exponential;
 use crate::kernel::quaternion::Quat;
 use crate::kernel::vector::Vec3;
 use crate::motion::feature::{STAGE_COUNT, stage_end};
-use crate::motion::lookup::{motion_advance, motion_period};
 
 /// Refinements of the moment of landing.
 const LANDING_ROUNDS: u32 = 6;
@@ -82,7 +81,11 @@ fn fly(cx: &Context<'_>, leaf: &mut LeafMut<'_>, id: u32, source: u32, release: 
         now = end;
         glide = leaf_join(cx, leaf, glide);
     }
-    leaf.place.bits &= !(BLEND_MASK << BLEND_SHIFT);
+    #[expect(clippy::cast_possible_truncation, reason = "whole steps of a fall fit a word")]
+    let steps = (target >> 16) as u32;
+    let bits = leaf.place.bits & !(BLEND_MASK << BLEND_SHIFT);
+    let spin = spin_advance(cx, bits, leaf.course.heading).wrapping_sub(bits);
+    leaf.place.bits = bits.wrapping_add(spin.wrapping_mul(steps));
     leaf.place.position = glide.position.to_array();
     leaf.drift.velocity = glide.drift.to_array();
     leaf.drift.phase = glide.phase;
@@ -93,26 +96,19 @@ fn fly(cx: &Context<'_>, leaf: &mut LeafMut<'_>, id: u32, source: u32, release: 
 /// Any length of time within one stage, in still air.
 fn glide_long(cx: &Context<'_>, leaf: &LeafMut<'_>, glide: Glide, part_q16: u64) -> Glide {
     let environment = cx.environment;
-    let table = (leaf.place.bits >> TABLE_SHIFT) & TABLE_MASK;
-    let response =
-        environment.species[((leaf.place.bits >> SPECIES_SHIFT) & SPECIES_MASK) as usize].response.0;
-    let rate = u128::from(own_rate(cx, leaf.course.rate));
+    let (bits, course) = (leaf.place.bits, *leaf.course);
+    let response = environment.species[((bits >> SPECIES_SHIFT) & SPECIES_MASK) as usize].response.0;
+    let rate = u128::from(own_rate(cx, course.rate));
     let turned = (rate * u128::from(part_q16)) >> 16;
     #[expect(clippy::cast_possible_truncation, reason = "the low word is the phase, the rest whole periods")]
     let (periods, low) = ((turned >> 32) as f32, turned as u32);
-    let to = glide.phase.wrapping_add(low);
-    let local =
-        motion_advance(&cx.motion, table, glide.phase, to) + motion_period(&cx.motion, table) * periods;
-    let scale = own_scale(cx, *leaf.course);
+    let end = glide.phase.wrapping_add(low);
+    let own = own_advance(cx, bits, course, glide.phase, end) + own_period(cx, bits, course) * periods;
     #[expect(clippy::cast_possible_truncation, reason = "seconds in single precision")]
     let elapsed = (part_q16 as f64 / 65536.0 * f64::from(environment.time.0[0])) as f32;
-    let decay = exponential(-elapsed * response[3]);
-    let own = turn_to_heading(local, leaf.course.heading >> 16) * scale;
-    Glide {
-        position: glide.position + (own + glide.drift * (response[2] * (1.0 - decay))),
-        drift: glide.drift * decay,
-        phase: to,
-    }
+    let drift = glide.drift * exponential(-elapsed * response[3]);
+    let spent = on_grid(cx, glide.drift * response[2]) - on_grid(cx, drift * response[2]);
+    Glide { position: glide.position + (own + spent), drift, phase: end }
 }
 
 /// Lays a leaf down where it is.

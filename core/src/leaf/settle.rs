@@ -40,6 +40,7 @@ pub fn flatten(q: Quat, kept: f32) -> Quat {
 }
 
 /// Puts a leaf that has just passed below the resting height on the ground, where its path from `start` met it.
+#[expect(clippy::manual_clamp, reason = "written as in WGSL")]
 #[inline(always)]
 pub fn leaf_land(cx: &Context<'_>, leaf: &mut LeafMut<'_>, start: Vec3) {
     let rest_height = cx.environment.ground.0[1];

@@ -93,6 +93,7 @@ pub struct Stage {
 }
 
 /// The whole trajectory feature of one leaf, from the same draws as the kernels.
+#[expect(clippy::cast_possible_truncation, reason = "at most five stages")]
 pub fn feature(species: &SpeciesBlock, seed: [u32; 2], id: u32) -> [Stage; STAGE_COUNT as usize] {
     let times = random(seed, id, STREAM_TIMES);
     let total: u32 = (0..STAGE_COUNT).map(|stage| stage_weight(times, stage)).sum();

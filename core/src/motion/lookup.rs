@@ -53,14 +53,6 @@ pub fn motion_period(motion: &MotionRows<'_>, table: u32) -> Vec3 {
     vector_at(motion.rows, 2 * (table * TABLE_ROWS + (TABLE_ROWS - 1)))
 }
 
-/// Displacement from phase `start` to the later phase `end`, at most one period on.
-#[inline(always)]
-pub fn motion_advance(motion: &MotionRows<'_>, table: u32, start: u32, end: u32) -> Vec3 {
-    let difference = motion_displacement(motion, table, end) - motion_displacement(motion, table, start);
-    let wrapped = if end < start { 1.0 } else { 0.0 };
-    difference + motion_period(motion, table) * wrapped
-}
-
 /// Orientation at `phase`.
 #[inline(always)]
 pub fn motion_orientation(motion: &MotionRows<'_>, table: u32, phase: u32) -> Quat {

@@ -18,6 +18,11 @@ crate::shared_constants! {
 }
 
 /// Mean wind at `height` metres above the ground relative to the reference height; constant above 63 m.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::manual_clamp,
+    reason = "a whole number in range; clamped as in WGSL"
+)]
 #[inline(always)]
 pub fn wind_profile(cx: &Context<'_>, height: f32) -> f32 {
     let x = (height * PROFILE_PER_METRE).max(0.0).min(PROFILE_TOP);

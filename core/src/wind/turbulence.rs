@@ -27,6 +27,7 @@ fn turbulence_node(cx: &Context<'_>, ix: u32, iy: u32, iz: u32) -> Vec3 {
 }
 
 /// Turbulent velocity of unit variance at a place in the wind's frame (along, up, across in metres).
+#[expect(clippy::cast_possible_truncation, reason = "a whole number in range")]
 #[inline(always)]
 pub fn wind_turbulence(cx: &Context<'_>, place: Vec3) -> Vec3 {
     let cells = cx.environment.wind.cells.0;

@@ -2,12 +2,21 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // twin: backend-cpu/src/kernels/advance.rs
 #import bindings
+#import due
 #import leaf/advance
 
 @compute @workgroup_size(WORKGROUP_SIZE)
 fn advance(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>) {
+    let parity = step_block.index.x & 1u;
+    if (id.x == 0u) {
+        atomicStore(&due.counts[1u - parity], 0u);
+    }
     let count = arrayLength(&places);
     for (var leaf = id.x; leaf < count; leaf += groups.x * WORKGROUP_SIZE) {
-        leaf_advance(leaf);
+        if (leaf_is_due(leaf)) {
+            due.leaves[atomicAdd(&due.counts[parity], 1u)] = leaf;
+        } else {
+            leaf_advance_plain(leaf);
+        }
     }
 }

@@ -3,25 +3,34 @@
 // twin: core/src/leaf/advance.rs
 #import bindings
 #import leaf/fall
+#import leaf/join
 #import leaf/release
 #import leaf/settle
 
-fn leaf_advance(leaf: u32) {
-    let now = step_block.index.x;
-    if (now >= courses[leaf].x) {
-        let identity = identities[leaf];
-        let source = (identity.w >> SOURCE_SHIFT) & SOURCE_MASK;
-        let lifetime = environment.sources[source].timing.w;
-        if ((places[leaf].w & STATE_MASK) == STATE_DORMANT) {
-            leaf_release(leaf, identity.x, source, now);
-        } else if (lifetime != 0u && now - identity.y >= lifetime) {
-            leaf_release(leaf, identity.x + environment.seed.z, source, now);
-        }
-    }
+fn leaf_is_due(leaf: u32) -> bool {
+    return step_block.index.x >= courses[leaf].x;
+}
+
+fn leaf_advance_plain(leaf: u32) {
     let state = places[leaf].w & STATE_MASK;
     if (state == STATE_FALLING) {
         leaf_fall(leaf);
     } else if (state == STATE_RESTING) {
         leaf_settle(leaf);
+    }
+}
+
+fn leaf_advance_due(leaf: u32) {
+    let now = step_block.index.x;
+    let identity = identities[leaf];
+    let source = (identity.w >> SOURCE_SHIFT) & SOURCE_MASK;
+    let lifetime = environment.sources[source].timing.w;
+    if ((places[leaf].w & STATE_MASK) == STATE_DORMANT) {
+        leaf_release(leaf, identity.x, source, now);
+    } else if (lifetime != 0u && now - identity.y >= lifetime) {
+        leaf_release(leaf, identity.x + environment.seed.z, source, now);
+    }
+    if ((places[leaf].w & STATE_MASK) == STATE_FALLING) {
+        leaf_fall_joining(leaf);
     }
 }

@@ -22,12 +22,6 @@ fn motion_period(table: u32) -> vec3<f32> {
     return motion_vector_at(2u * (table * TABLE_ROWS + (TABLE_ROWS - 1u)));
 }
 
-fn motion_advance(table: u32, start: u32, end: u32) -> vec3<f32> {
-    let difference = motion_displacement(table, end) - motion_displacement(table, start);
-    let wrapped = select(0.0, 1.0, end < start);
-    return difference + motion_period(table) * wrapped;
-}
-
 fn motion_orientation(table: u32, phase: u32) -> vec4<f32> {
     let row = 2u * (table * TABLE_ROWS + (phase >> PHASE_ROW_SHIFT)) + 1u;
     let a = motion_rows[row];
