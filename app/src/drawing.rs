@@ -71,6 +71,7 @@ impl Drawing {
     }
 }
 
-fn no_adapter(error: &SimError) -> anyhow::Error {
+/// Says that there is nothing to draw with.
+pub(crate) fn no_adapter(error: &SimError) -> anyhow::Error {
     anyhow!("nothing to draw with: {error}")
 }

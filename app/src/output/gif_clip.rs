@@ -27,8 +27,9 @@ const TICKS_PER_S: f64 = 100.0;
 /// Frames waiting for their palette.
 #[derive(Debug)]
 pub(super) struct GifClip {
-    beside: Beside,
+    /// Goes first, so that a directory made for both is empty when the other goes.
     spool: Beside,
+    beside: Beside,
     waiting: BufWriter<File>,
     size: (u32, u32),
     /// Every how many frames one is kept.

@@ -52,6 +52,12 @@ impl Meter {
         passed.as_secs_f64()
     }
 
+    /// Starts a frame after a time in which nothing had to be drawn, which is no part of any frame.
+    pub(super) fn resume(&mut self) {
+        self.began = Instant::now();
+        self.running = [Duration::ZERO; STAGES.len()];
+    }
+
     /// Adds the time since `since` to a stage.
     pub(super) fn add(&mut self, stage: Stage, since: Instant) {
         self.running[stage as usize] += since.elapsed();

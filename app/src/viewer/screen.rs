@@ -6,8 +6,10 @@ use std::sync::Arc;
 
 use anyhow::{Context, anyhow};
 use wgpu::CurrentSurfaceTexture;
-use windfall_wgpu::Gpu;
+use windfall_wgpu::{Gpu, select_adapter};
 use winit::window::Window;
+
+use crate::drawing::no_adapter;
 
 /// The surface and how it is configured.
 #[derive(Debug)]
@@ -28,9 +30,13 @@ impl Screen {
         instance: &wgpu::Instance,
         window: &Arc<Window>,
     ) -> anyhow::Result<wgpu::Surface<'static>> {
-        instance
-            .create_surface(Arc::clone(window))
-            .map_err(|error| anyhow!("cannot draw to a window: {error}"))
+        instance.create_surface(Arc::clone(window)).map_err(|error| {
+            match select_adapter(instance, None, None) {
+                // Without any driver there is no surface either, but the driver is what is missing.
+                Err(missing) => no_adapter(&missing),
+                Ok(_) => anyhow!("cannot draw to a window: {error}"),
+            }
+        })
     }
 
     /// Configures the surface.

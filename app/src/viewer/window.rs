@@ -60,6 +60,10 @@ pub(super) struct Viewer {
     message: Option<(Message, Instant)>,
     screenshot: Option<Screenshot>,
     next: Next,
+    /// Something was changed after the panel was laid out: it does not show it yet.
+    has_news: bool,
+    /// There was nothing to draw before this frame.
+    was_idle: bool,
 }
 
 impl Viewer {
@@ -103,6 +107,8 @@ impl Viewer {
             message: None,
             screenshot,
             next: Next::Frame,
+            has_news: false,
+            was_idle: true,
         })
     }
 
@@ -130,11 +136,16 @@ impl Viewer {
     /// A lost device or window, a picture that cannot be saved.
     pub(super) fn frame(&mut self) -> anyhow::Result<Next> {
         self.gpu.check()?;
-        let frame_s = self.meter.begin_frame();
+        let frame_s = if self.was_idle { 0.0 } else { self.meter.begin_frame() };
+        if self.was_idle {
+            self.meter.resume();
+        }
         if !self.screen.follow_window(&self.gpu) {
             self.next = Next::At(Instant::now() + HIDDEN_PAUSE);
+            self.was_idle = true;
             return Ok(self.next);
         }
+        self.has_news = false;
         let painting = self.panel()?;
         if self.next == Next::Quit {
             return Ok(Next::Quit);
@@ -163,6 +174,7 @@ impl Viewer {
         }
         self.gui.clean_up(&painting);
         self.next = self.after(&painting, is_shown);
+        self.was_idle = self.next != Next::Frame;
         Ok(self.next)
     }
 
@@ -190,7 +202,7 @@ impl Viewer {
         if !is_shown {
             return Next::At(now + HIDDEN_PAUSE);
         }
-        if !self.session.pace.is_paused || self.screenshot.is_some() {
+        if !self.session.pace.is_paused || self.has_news || self.screenshot.is_some() {
             return Next::Frame;
         }
         // A message has to go away again.
@@ -214,6 +226,7 @@ impl Viewer {
         let painting = gui.run(window, gpu, |ui| wishes = panel.show(ui, &facts, camera, ground_m));
         self.meter.add(Stage::Panel, since);
         for wish in wishes {
+            self.has_news = true;
             self.grant(wish)?;
         }
         Ok(painting)

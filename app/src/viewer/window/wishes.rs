@@ -8,6 +8,7 @@ use windfall_core::SimError;
 use windfall_wgpu::describe_adapter;
 
 use super::{Next, Viewer};
+use crate::backend::BackendKind;
 use crate::camera::Camera;
 use crate::viewer::controls::{Facts, Message, Wish};
 use crate::viewer::meter::STAGES;
@@ -43,9 +44,9 @@ impl Viewer {
                 self.renderer.update_leaf_count(self.session.leaf_count());
             }
             Wish::Backend(kind) => {
-                self.try_to(None, |session| Ok(session.switch(kind)?))?;
-                let info = self.session.simulator().info();
-                self.say(format!("Goes on where it was, on {}.", info.adapter), false);
+                let name = if kind == BackendKind::Cpu { "cpu" } else { "wgpu" };
+                let done = format!("Goes on with backend {name}; the leaves are where they were.");
+                self.try_to(Some(done), |session| Ok(session.switch(kind)?))?;
             }
         }
         Ok(())

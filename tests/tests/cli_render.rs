@@ -1,0 +1,214 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! `windfall render`: pictures and clips of both backends, and what it refuses.
+
+mod common_cli;
+
+use std::fs::{self, File};
+use std::io::BufReader;
+use std::path::Path;
+use std::process::{Command, Stdio};
+use std::time::{Duration, Instant};
+
+use common_cli::{assert_refused, assert_refused_without_adapter, command, contents, file, folder, windfall};
+use image::codecs::gif::GifDecoder;
+use image::{AnimationDecoder, RgbaImage};
+use windfall_core::Contract;
+use windfall_tests::adapter;
+
+const BACKENDS: [&str; 2] = ["cpu", "wgpu"];
+
+fn picture(path: &Path) -> RgbaImage {
+    image::open(path).expect("a picture").to_rgba8()
+}
+
+/// Mean difference of the channels, of 255.
+fn difference(a: &RgbaImage, b: &RgbaImage) -> f64 {
+    assert_eq!(a.dimensions(), b.dimensions(), "the same size");
+    let sum: u64 = a.as_raw().iter().zip(b.as_raw()).map(|(a, b)| u64::from(a.abs_diff(*b))).sum();
+    sum as f64 / a.as_raw().len() as f64
+}
+
+/// Number of different colours.
+fn colours(picture: &RgbaImage) -> usize {
+    picture.pixels().map(|pixel| pixel.0).collect::<std::collections::HashSet<_>>().len()
+}
+
+#[test]
+fn both_backends_draw_the_same_picture() {
+    let gpu = &adapter::all()[0];
+    for scene in ["autumn-park", "six-motions", "storm"] {
+        let there = folder();
+        let [cpu, wgpu] = BACKENDS.map(|backend| {
+            let out = format!("{backend}.png");
+            let options = ["--backend", backend, "--frames", "40", "--size", "320x180", "--out", &out];
+            let text = windfall(&there, &[&["render", scene], &options[..]].concat()).text();
+            assert_eq!(text, format!("{out}\n"), "it tells what it wrote");
+            picture(&there.path().join(out))
+        });
+        assert_eq!(cpu.dimensions(), (320, 180), "as asked for");
+        assert!(colours(&cpu) > 5000, "{scene} is a picture: {} colours", colours(&cpu));
+        let apart = difference(&cpu, &wgpu);
+        assert!(apart < 0.5, "{scene}: {apart} apart");
+        if gpu.contract() == Contract::Exact {
+            assert!(cpu == wgpu, "{scene}: the same leaves give the same pixels; {apart} apart");
+        }
+        assert_eq!(contents(there.path()).len(), 2, "{scene}: two files and nothing else");
+    }
+}
+
+#[test]
+fn a_picture_has_the_usual_size_and_leaves_fall_from_frame_to_frame() {
+    let there = folder();
+    for (frames, out) in [("1", "first.png"), ("90", "later.png")] {
+        windfall(&there, &["render", "--backend", "cpu", "--frames", frames, "--out", out]).text();
+    }
+    let [first, later] = ["first.png", "later.png"].map(|name| picture(&there.path().join(name)));
+    assert_eq!(first.dimensions(), (1280, 720), "by default");
+    let apart = difference(&first, &later);
+    assert!((0.02..20.0).contains(&apart), "something has moved, but not everything: {apart}");
+}
+
+#[test]
+fn a_still_has_the_trails_of_the_frames_before() {
+    let there = folder();
+    let colourful = |frames: &str| {
+        let options = ["--backend", "wgpu", "--frames", frames, "--size", "320x180", "--out", "a.png"];
+        windfall(&there, &[&["render", "six-motions"], &options[..]].concat()).text();
+        // The colour of the last trail, which nothing else in a park has.
+        let is_magenta = |[r, g, b, _]: [u8; 4]| r > 150 && b > 150 && g < 110;
+        picture(&there.path().join("a.png")).pixels().filter(|pixel| is_magenta(pixel.0)).count()
+    };
+    let (begun, later) = (colourful("1"), colourful("150"));
+    assert!(begun == 0 && later > 60, "{begun} pixels of trail at first, then {later}");
+}
+
+#[test]
+fn a_sequence_has_every_frame() {
+    for backend in BACKENDS {
+        let there = folder();
+        let options = ["--backend", backend, "--frames", "5", "--size", "96x54", "--out", "new/frames"];
+        windfall(&there, &[&["render", "--leaves", "300"], &options[..]].concat()).text();
+        let mut names: Vec<_> = fs::read_dir(there.path().join("new/frames"))
+            .expect("a folder")
+            .map(|entry| entry.expect("an entry").path())
+            .collect();
+        names.sort();
+        assert_eq!(names.len(), 5, "{backend}: {names:?}");
+        for (number, path) in (1..).zip(&names) {
+            assert!(path.ends_with(format!("frame_{number:04}.png")), "{path:?}");
+            assert_eq!(picture(path).dimensions(), (96, 54), "{path:?}");
+        }
+        assert!(difference(&picture(&names[0]), &picture(&names[4])) > 0.0, "{backend}: leaves fall");
+    }
+}
+
+#[test]
+fn a_gif_has_thirty_frames_a_second() {
+    for backend in BACKENDS {
+        let there = folder();
+        let options = ["--backend", backend, "--frames", "12", "--size", "96x54", "--out", "a.gif"];
+        windfall(&there, &[&["render", "six-motions"], &options[..]].concat()).text();
+        let file = BufReader::new(File::open(there.path().join("a.gif")).expect("the clip"));
+        let frames = GifDecoder::new(file).expect("a GIF").into_frames().collect_frames().expect("frames");
+        assert_eq!(frames.len(), 6, "{backend}: every second of sixty a second");
+        let total: Duration = frames.iter().map(|frame| Duration::from(frame.delay())).sum();
+        assert_eq!(total, Duration::from_millis(200), "{backend}: they last as long");
+        assert_eq!(frames[0].buffer().dimensions(), (96, 54), "{backend}: the size asked for");
+    }
+}
+
+#[test]
+fn numbers_that_make_no_sense() {
+    let there = folder();
+    let refuse = |options: &[&str], essentials: &[&str]| {
+        assert_refused(&there, &[&["render", "--out", "a.png"], options].concat(), essentials);
+    };
+    for size in ["0x720", "1280x0", "1280", "x", "axb", "-5x5", "16385x1", "16384x16384", "1e3x1e3"] {
+        refuse(&[&format!("--size={size}")], &["--size", "1280x720", "16384"]);
+    }
+    for frames in ["0", "-1", "1000001", "1e12", "some"] {
+        refuse(&[&format!("--frames={frames}")], &["--frames", "1 to 1000000"]);
+    }
+    for rate in ["0", "-5", "nan", "inf", "1e9", "fast"] {
+        refuse(&[&format!("--fps={rate}")], &["--fps", "1 to 1000"]);
+        refuse(&[&format!("--speed={rate}")], &["--speed", "0.001 to 1000"]);
+    }
+    refuse(&["--frames", "1000000", "--speed", "1000", "--fps", "1"], &["steps", "1000000000"]);
+    refuse(&["--leaves", "3"], &["--leaves is 3", "7 to"]);
+}
+
+#[test]
+fn outputs_that_cannot_be_written() {
+    let there = folder();
+    file(&there, "plain", b"a file");
+    let refuse = |out: &str, essentials: &[&str]| {
+        assert_refused(&there, &["render", "--size", "64x36", "--out", out], essentials);
+    };
+    refuse("a.jpg", &["a.jpg", ".png", ".gif", ".mp4"]);
+    refuse("plain/a.png", &["plain/a.png", "cannot write"]);
+    refuse("plain", &["plain", "cannot write"]);
+    refuse("/proc/none/a.gif", &["/proc/none/a.gif", "cannot write"]);
+    refuse("", &["--out"]);
+    assert_refused(&there, &["render"], &["--out"]);
+    assert_refused(&there, &["render", "--out", "a.mp4", "--size", "63x36"], &["63x36", "even"]);
+}
+
+#[test]
+fn mp4_without_ffmpeg_says_what_to_install() {
+    let there = folder();
+    let output = command(&there, &["render", "--frames", "2", "--out", "new/a.mp4"])
+        .env("PATH", "")
+        .output()
+        .expect("the program starts");
+    let stderr = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(2), "{stderr}");
+    assert_eq!(stderr.trim().lines().count(), 1, "one line: {stderr}");
+    for essential in ["new/a.mp4", "needs ffmpeg", "apt install ffmpeg", ".gif"] {
+        assert!(stderr.contains(essential), "{essential:?} is missing in {stderr:?}");
+    }
+    assert_eq!(contents(there.path()), [], "nothing is left, not even the folder");
+}
+
+#[test]
+fn nothing_is_drawn_without_an_adapter() {
+    let there = folder();
+    for backend in BACKENDS {
+        let arguments = ["render", "--backend", backend, "--out", "new/folder/a.gif"];
+        assert_refused_without_adapter(&there, &arguments, &["no usable adapter", "mesa-vulkan-drivers"]);
+    }
+    let other = ["render", "--adapter", "no such thing", "--out", "a.png"];
+    assert_refused(&there, &other, &["'no such thing'", "found"]);
+    let both = ["render", "--backend", "wgpu", "--threads", "2", "--out", "a.png"];
+    assert_refused(&there, &both, &["--threads", "--backend cpu"]);
+}
+
+#[test]
+fn an_interrupt_leaves_nothing_behind() {
+    let there = folder();
+    for out in ["a.gif", "a.png", "frames"] {
+        let options = ["--backend", "cpu", "--frames", "100000", "--size", "96x54", "--out", out];
+        let mut child = command(&there, &[&["render", "--leaves", "20000"], &options[..]].concat())
+            .stderr(Stdio::piped())
+            .stdout(Stdio::piped())
+            .spawn()
+            .expect("the program starts");
+        // Once something lies there, it is at work.
+        let began = Instant::now();
+        while contents(there.path()).is_empty() {
+            assert!(began.elapsed() < Duration::from_secs(60), "{out}: it does not begin");
+            std::thread::sleep(Duration::from_millis(20));
+        }
+        std::thread::sleep(Duration::from_millis(1500));
+        let sent = Command::new("kill").args(["-INT", &child.id().to_string()]).status();
+        assert!(sent.is_ok_and(|status| status.success()), "{out}: the interrupt is sent");
+        let status = child.wait().expect("it ends");
+        let mut stderr = String::new();
+        if let Some(mut pipe) = child.stderr.take() {
+            std::io::Read::read_to_string(&mut pipe, &mut stderr).expect("text");
+        }
+        assert_eq!(status.code(), Some(2), "{out}: {stderr}");
+        assert_eq!(stderr.trim(), "error: interrupted; nothing was written", "{out}");
+        assert_eq!(contents(there.path()), [], "{out}: nothing is left");
+    }
+}
