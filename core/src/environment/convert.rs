@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Numbers of a scene as the words and floats of a block.
+
+use glam::DVec3;
+
+use crate::layout::Float4;
+
+#[expect(clippy::cast_possible_truncation, reason = "kernels work in single precision")]
+pub(super) fn single(value: f64) -> f32 {
+    value as f32
+}
+
+/// Nearest unsigned word of a positive number; saturating.
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "saturating by the language")]
+pub(super) fn word(value: f64) -> u32 {
+    libm::floor(value + 0.5) as u32
+}
+
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "two's complement of a validated number"
+)]
+pub(super) fn low_word(value: i64) -> u32 {
+    value as u32
+}
+
+#[expect(clippy::cast_possible_truncation, reason = "lists of a scene are short")]
+pub(super) fn len32(length: usize) -> u32 {
+    length as u32
+}
+
+/// At least one step.
+pub(super) fn steps(seconds: f32, dt_s: f32) -> u32 {
+    word(f64::from(seconds) / f64::from(dt_s)).max(1)
+}
+
+pub(super) fn q16(value: f32) -> u32 {
+    word(f64::from(value) * 65536.0)
+}
+
+pub(super) fn float4(v: DVec3, w: f64) -> Float4 {
+    Float4([single(v.x), single(v.y), single(v.z), single(w)])
+}

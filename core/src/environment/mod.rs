@@ -1,0 +1,218 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Compiles a scene into the blocks and tables that kernels read.
+
+mod convert;
+mod source;
+mod species;
+mod tables;
+mod wind;
+
+use std::sync::Arc;
+
+use glam::DVec3;
+
+use self::convert::{float4, len32, q16, single, steps};
+use self::source::source_block;
+pub(crate) use self::source::{lifetime_steps, release_step};
+use self::species::{species_block, spin_unit};
+use self::tables::{TABLES_PER_SPECIES, pack_motion, tables_of};
+use self::wind::wind_block;
+use crate::blocks::{EnvironmentBlock, StepBlock, VortexBlock};
+use crate::clock::Clock;
+use crate::context::Context;
+use crate::error::SceneError;
+use crate::layout::{Float4, Uint4};
+use crate::motion::lookup::MotionRows;
+use crate::motion::table::TABLE_ROWS;
+use crate::motion::{GRAVITY, MotionTables};
+use crate::scene::{MAX_SOURCES, Scene};
+use crate::wind::gust::{GUST_ROWS, gust_rows};
+use crate::wind::profile::{PROFILE_ROWS, profile_rows};
+use crate::wind::turbulence::TURBULENCE_X;
+use crate::wind::turbulence_box;
+
+/// Height of resting leaves above the ground in metres: half the thickness of a curled dry leaf.
+const REST_OFFSET_M: f32 = 0.004;
+/// Time in seconds over which orientation blends after a join.
+const BLEND_S: f32 = 0.15;
+/// Time in seconds after which a landed leaf lies flat.
+const SETTLE_S: f32 = 0.3;
+/// Time constant in seconds of lying down: flat within a tenth of a second to the eye.
+const SETTLE_TAU_S: f32 = 0.04;
+/// A compiled scene: uniform block and tables, ready for any backend.
+#[derive(Clone, Debug)]
+pub struct Environment {
+    scene: Scene,
+    block: EnvironmentBlock,
+    motion: Arc<[Float4]>,
+    wind: Arc<[Float4]>,
+}
+
+impl Environment {
+    /// Compiles a validated scene. Motion tables that a species names as a file are read now.
+    ///
+    /// # Errors
+    /// A motion table file that cannot be read or used.
+    pub fn compile(scene: &Scene) -> Result<Self, SceneError> {
+        let seed = seed_words(scene.seed);
+        let tables = scene
+            .species
+            .iter()
+            .map(|species| tables_of(scene, species, seed))
+            .collect::<Result<Vec<_>, _>>()?;
+        let motion = pack_motion(&tables);
+        let mut wind = Vec::with_capacity((PROFILE_ROWS + GUST_ROWS) as usize + 65536);
+        wind.extend(profile_rows(scene.wind.profile, scene.wind.reference_height_m));
+        wind.extend(gust_rows(seed));
+        wind.extend(turbulence_box(seed));
+        let block = compile_block(scene, &tables);
+        Ok(Self { scene: scene.clone(), block, motion: motion.into(), wind: wind.into() })
+    }
+
+    /// The same environment with another wind, ground, fall and rotation speed; species, sources, seed and step
+    /// length stay. Much cheaper than compiling anew.
+    pub fn retune(&mut self, scene: &Scene) {
+        let keep = (self.scene.species.clone(), self.scene.sources.clone(), self.scene.seed, self.scene.dt_s);
+        if self.scene.wind.profile != scene.wind.profile
+            || self.scene.wind.reference_height_m != scene.wind.reference_height_m
+        {
+            let mut wind = profile_rows(scene.wind.profile, scene.wind.reference_height_m);
+            wind.extend_from_slice(&self.wind[PROFILE_ROWS as usize..]);
+            self.wind = wind.into();
+        }
+        self.scene = scene.clone();
+        (self.scene.species, self.scene.sources, self.scene.seed, self.scene.dt_s) = keep;
+        let old = self.block;
+        self.block = EnvironmentBlock {
+            counts: Uint4([
+                old.counts.0[0],
+                old.counts.0[1],
+                old.counts.0[2],
+                q16(self.scene.rotation_speed),
+            ]),
+            time: Float4([old.time.0[0], old.time.0[1], old.time.0[2], displacement_gain(&self.scene)]),
+            ground: ground_numbers(&self.scene),
+            wind: wind_block(&self.scene),
+            ..old
+        };
+        for (species, block) in self.scene.species.iter().zip(&mut self.block.species) {
+            block.scales.0[3] = spin_unit(&self.scene, species);
+        }
+    }
+
+    /// The scene this was compiled from.
+    pub fn scene(&self) -> &Scene {
+        &self.scene
+    }
+
+    /// The uniform block.
+    pub fn block(&self) -> &EnvironmentBlock {
+        &self.block
+    }
+
+    /// The packed motion tables (see [`MotionRows`]).
+    pub fn motion(&self) -> &Arc<[Float4]> {
+        &self.motion
+    }
+
+    /// The wind tables: profile, gusts, turbulence.
+    pub fn wind(&self) -> &Arc<[Float4]> {
+        &self.wind
+    }
+
+    /// The block of one step.
+    pub fn step_block(&self, clock: &Clock) -> StepBlock {
+        let wind = &self.block.wind;
+        let carried = |per_metre: f32, period: u32| {
+            let places = clock.wind_travel_m() * f64::from(per_metre);
+            let period = f64::from(period);
+            #[expect(
+                clippy::cast_possible_truncation,
+                reason = "within one period; kernels work in single precision"
+            )]
+            let within = (places - libm::floor(places / period) * period) as f32;
+            within
+        };
+        let mut vortices = [<VortexBlock as bytemuck::Zeroable>::zeroed(); crate::scene::MAX_VORTICES];
+        for (vortex, block) in self.scene.wind.vortices.iter().zip(&mut vortices) {
+            let center = vortex.center_m.as_dvec3() + vortex.drift_m_s.as_dvec3() * clock.seconds();
+            let axis = vortex.axis.as_dvec3().normalize();
+            let core_squared = f64::from(vortex.core_m) * f64::from(vortex.core_m);
+            *block = VortexBlock {
+                center: float4(center, core_squared),
+                axis: float4(axis, f64::from(vortex.circulation_m2_s) / std::f64::consts::TAU),
+                axial: float4(DVec3::X * (f64::from(vortex.axial_m_s) * core_squared), 0.0),
+            };
+        }
+        StepBlock {
+            index: Uint4([clock.step(), 0, 0, 0]),
+            offsets: Float4([
+                carried(wind.gust.0[1], GUST_ROWS),
+                carried(wind.cells.0[0], TURBULENCE_X),
+                0.0,
+                0.0,
+            ]),
+            vortices,
+        }
+    }
+
+    /// What a kernel sees in one step.
+    pub fn context<'a>(&'a self, step: &'a StepBlock) -> Context<'a> {
+        Context {
+            environment: &self.block,
+            step,
+            motion: MotionRows { rows: &self.motion, velocity_first: self.block.motion.0[0] },
+            wind: &self.wind,
+        }
+    }
+
+    /// Distance in metres that the mean wind travels in one step.
+    pub fn wind_travel_per_step_m(&self) -> f64 {
+        f64::from(self.block.wind.mean.0[2]) * f64::from(self.scene.dt_s)
+    }
+}
+
+/// The seed as the two words of the generator's key.
+pub(crate) fn seed_words(seed: u64) -> [u32; 2] {
+    #[expect(clippy::cast_possible_truncation, reason = "low and high word")]
+    let words = [seed as u32, (seed >> 32) as u32];
+    words
+}
+
+fn compile_block(scene: &Scene, tables: &[MotionTables]) -> EnvironmentBlock {
+    let [low, high] = seed_words(scene.seed);
+    let mut block: EnvironmentBlock = bytemuck::Zeroable::zeroed();
+    block.seed = Uint4([low, high, scene.leaf_count(), len32(scene.species.len())]);
+    block.counts = Uint4([
+        len32(scene.sources.len()),
+        steps(SETTLE_S, scene.dt_s),
+        steps(BLEND_S, scene.dt_s).min(63),
+        q16(scene.rotation_speed),
+    ]);
+    block.motion = Uint4([len32(tables.len() * TABLES_PER_SPECIES * 2) * TABLE_ROWS, 0, 0, 0]);
+    let dt = f64::from(scene.dt_s);
+    block.time =
+        Float4([scene.dt_s, single(1.0 / dt), single(1.0 / dt / 4_294_967_296.0), displacement_gain(scene)]);
+    block.ground = ground_numbers(scene);
+    block.settle = Float4([single(libm::exp(-dt / f64::from(SETTLE_TAU_S))), 0.0, 0.0, 0.0]);
+    block.wind = wind_block(scene);
+    for (index, (species, tables)) in scene.species.iter().zip(tables).enumerate() {
+        block.species[index] = species_block(scene, species, tables);
+    }
+    for (index, source) in scene.sources.iter().take(MAX_SOURCES).enumerate() {
+        let first: u32 = scene.sources[..index].iter().map(|earlier| earlier.count).sum();
+        block.sources[index] = source_block(scene, source, first);
+    }
+    block
+}
+
+fn displacement_gain(scene: &Scene) -> f32 {
+    single(f64::from(scene.fall_speed) * 65536.0 / f64::from(q16(scene.rotation_speed)))
+}
+
+fn ground_numbers(scene: &Scene) -> Float4 {
+    let loss = f64::from(scene.ground.friction) * GRAVITY;
+    let height = scene.ground.height_m;
+    Float4([height, height + REST_OFFSET_M, single(loss), single(0.5 / loss)])
+}

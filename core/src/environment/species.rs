@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Compiles a species.
+
+use super::convert::{single, word};
+use super::wind::deviation_m_s;
+use crate::blocks::SpeciesBlock;
+use crate::layout::{Float4, Uint4};
+use crate::leaf::record::SIZE_ONE;
+use crate::motion::{MotionConstants, MotionTables};
+use crate::scene::{Scene, Species};
+
+/// Cells of the turbulence box that an eddy of typical size spans.
+const EDDY_CELLS: f32 = 8.0;
+
+pub(super) fn species_block(scene: &Scene, species: &Species, tables: &MotionTables) -> SpeciesBlock {
+    let constants = MotionConstants::of(species);
+    let dt = f64::from(scene.dt_s);
+    let tau = constants.response_s();
+    let decay = libm::exp(-dt / tau);
+    let mut rates = [0; 8];
+    for (rate, table) in rates.iter_mut().zip(&tables.0) {
+        *rate = word(4_294_967_296.0 * dt / table.period_s);
+    }
+    let mut transitions = [0; 36];
+    for (count, entry) in transitions.iter_mut().zip(species.transitions.0.iter().flatten()) {
+        *count = *entry;
+    }
+    SpeciesBlock {
+        response: Float4([single(decay), 0.0, single(tau), single(1.0 / tau)]),
+        scales: Uint4([
+            word(65536.0 / (constants.descent_m_s * dt)),
+            spread(species.size_variation),
+            spread(species.speed_variation),
+            spin_unit(scene, species),
+        ]),
+        start: Uint4([species.start as u32, 0, 0, 0]),
+        rates: bytemuck::cast(rates),
+        transitions: bytemuck::cast(transitions),
+    }
+}
+
+/// Fastest spin per step in 2^-18 turns. Wind makes leaves spin faster by what they lag behind its turbulence, in
+/// units of their own descent: an average over the scene, so that the angle stays an integer everywhere.
+pub(super) fn spin_unit(scene: &Scene, species: &Species) -> u32 {
+    let constants = MotionConstants::of(species);
+    let mean = scene.wind.speed.metres_per_second();
+    let deviation = f64::from(deviation_m_s(&scene.wind));
+    let eddy_s = f64::from(EDDY_CELLS * scene.wind.turbulence.cell_m) / mean.max(0.1);
+    let tau = constants.response_s();
+    let lag = deviation * libm::sqrt(tau / (tau + eddy_s));
+    let per_step = f64::from(species.spin_rad_s) * f64::from(scene.dt_s) * f64::from(scene.rotation_speed)
+        / std::f64::consts::TAU;
+    word((per_step * (1.0 + lag / constants.descent_m_s) * 262_144.0).min(65535.0))
+}
+
+fn spread(variation: f32) -> u32 {
+    word(f64::from(variation) * f64::from(SIZE_ONE))
+}
