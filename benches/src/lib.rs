@@ -1,3 +1,149 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Placeholder.
+//! What the benches share: scenes of any size, both backends with their answers proved, and a timer that waits.
+
+use std::sync::OnceLock;
+use std::time::{Duration, Instant};
+
+use windfall_core::scene::{Release, SourceShape};
+use windfall_core::{Contract, Scene, Simulator, World};
+use windfall_cpu::{CpuOptions, CpuSimulator};
+use windfall_wgpu::{Gpu, WgpuOptions, WgpuSimulator, describe_adapter};
+
+/// Steps before anything is timed. Shaders are compiled and memory is touched; the state after them is compared.
+pub const WARM_UP_STEPS: u32 = 4;
+
+/// Height in metres that the leaves of [`falling`] start from. In [`FALLING_STEPS`] steps, 33 seconds, none lands:
+/// leaves fall at one or two metres per second.
+const HIGH_M: f32 = 300.0;
+/// Steps after which [`falling`] begins anew.
+pub const FALLING_STEPS: u32 = 2000;
+
+/// A preset with `leaves` leaves in total: counts and rates of its sources scaled alike, so that it keeps its course.
+///
+/// # Panics
+/// If there is no such preset, or it has more sources than leaves are asked for.
+pub fn scaled(preset: &str, leaves: u32) -> Scene {
+    let mut scene = Scene::preset(preset).expect("benches use presets only");
+    let share = f64::from(leaves) / f64::from(scene.leaf_count());
+    let mut left = leaves;
+    let last = scene.sources.len() - 1;
+    for (index, source) in scene.sources.iter_mut().enumerate() {
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "at most the leaves asked for"
+        )]
+        let count = if index == last { left } else { (f64::from(source.count) * share) as u32 };
+        if let Release::Rate { per_s, .. } = &mut source.release {
+            #[expect(clippy::cast_possible_truncation, reason = "scenes hold single precision")]
+            let rate = (f64::from(*per_s) * f64::from(count) / f64::from(source.count)) as f32;
+            *per_s = rate;
+        }
+        source.count = count;
+        left -= count;
+    }
+    assert_eq!(scene.leaf_count(), leaves, "no leaf lost");
+    scene
+}
+
+/// `million` with all leaves let go at once from high above, never to be released again: all of them fall.
+pub fn falling(leaves: u32) -> Scene {
+    let mut scene = scaled("million", leaves);
+    for source in &mut scene.sources {
+        source.release = Release::Burst { at_s: 0.0 };
+        source.recycle_after_s = None;
+        if let SourceShape::Box { center_m, .. } = &mut source.shape {
+            center_m.y = HIGH_M;
+        }
+    }
+    scene
+}
+
+/// `million` an hour after its last release: all leaves lie on the ground.
+pub fn resting(leaves: u32) -> Scene {
+    let mut scene = scaled("million", leaves);
+    for source in &mut scene.sources {
+        source.release = Release::Rate { per_s: 1e8, from_s: -3600.0 };
+        source.recycle_after_s = None;
+    }
+    scene
+}
+
+/// A world of a scene.
+///
+/// # Panics
+/// If the scene is not valid.
+pub fn world(scene: &Scene) -> World {
+    World::build(scene).expect("benches use valid scenes only")
+}
+
+/// The best adapter, or the one that `WINDFALL_BENCH_ADAPTER` names. Says on the terminal, once, which it is or that
+/// there is none.
+pub fn gpu() -> Option<&'static Gpu> {
+    static GPU: OnceLock<Option<Gpu>> = OnceLock::new();
+    let request = || {
+        let name = std::env::var("WINDFALL_BENCH_ADAPTER").ok();
+        match Gpu::request(name.as_deref()) {
+            Ok(gpu) => {
+                eprintln!("wgpu: {}, contract: {}", describe_adapter(gpu.info()), gpu.contract());
+                Some(gpu)
+            }
+            Err(error) => {
+                eprintln!("wgpu: not measured, the cpu only: {error}");
+                None
+            }
+        }
+    };
+    GPU.get_or_init(request).as_ref()
+}
+
+/// Every backend of this machine, [`WARM_UP_STEPS`] steps into the world. All of them have lost no leaf and have come
+/// to the state that one thread of the CPU comes to: to the bit under the exact contract, in all counts otherwise.
+///
+/// # Panics
+/// If one of them has not, or fails: its timings would mean nothing.
+pub fn contenders(world: &World) -> Vec<Box<dyn Simulator>> {
+    let cpu = |threads| {
+        let cpu = CpuSimulator::new(world, CpuOptions { threads }).expect("threads can be started");
+        Box::new(cpu) as Box<dyn Simulator>
+    };
+    let expected = warmed_up(cpu(Some(1)).as_mut(), world);
+    let mut contenders = vec![cpu(None)];
+    if let Some(gpu) = gpu() {
+        let wgpu = WgpuSimulator::new(gpu, world, &WgpuOptions::default());
+        contenders.push(Box::new(wgpu.expect("the adapter holds the leaves")));
+    }
+    for contender in &mut contenders {
+        let state = warmed_up(contender.as_mut(), world);
+        let info = contender.info();
+        let stats = contender.stats().expect("the device is not lost");
+        assert_eq!(stats.total() + stats.dormant, info.capacity, "{} lost leaves", info.backend);
+        assert_eq!(stats, expected.stats(), "{} counts otherwise", info.backend);
+        if info.contract == Contract::Exact {
+            assert_eq!(state.state_hash(), expected.state_hash(), "{} comes to another state", info.backend);
+        }
+    }
+    contenders
+}
+
+/// The state after the warm-up.
+fn warmed_up(simulator: &mut dyn Simulator, world: &World) -> World {
+    let mut state = world.clone();
+    simulator.step(WARM_UP_STEPS).expect("the device is not lost");
+    simulator.read_state(&mut state).expect("a world of the same size");
+    state
+}
+
+/// Time that `count` steps take, one by one, each until the backend is done with it.
+///
+/// # Panics
+/// If the device is lost.
+pub fn time_steps(simulator: &mut dyn Simulator, count: u64) -> Duration {
+    let start = Instant::now();
+    for _ in 0..count {
+        simulator.step(1).expect("the device is not lost");
+        simulator.sync().expect("the device is not lost");
+    }
+    start.elapsed()
+}
