@@ -21,6 +21,7 @@ pub(crate) struct GpuTimer {
     period_ns: f32,
     state: Arc<AtomicU8>,
     latest: Vec<(&'static str, f32)>,
+    answers: u32,
 }
 
 impl GpuTimer {
@@ -54,6 +55,7 @@ impl GpuTimer {
             period_ns: queue.get_timestamp_period(),
             state: Arc::new(AtomicU8::new(IDLE)),
             latest: Vec::new(),
+            answers: 0,
         })
     }
 
@@ -75,13 +77,20 @@ impl GpuTimer {
         }
     }
 
-    /// Copies the frame's timestamps, unless an earlier frame's are still on their way.
-    pub(crate) fn resolve(&self, encoder: &mut wgpu::CommandEncoder) {
+    /// Copies the frame's timestamps, unless an earlier frame's are still on their way; tells whether it did.
+    pub(crate) fn resolve(&self, encoder: &mut wgpu::CommandEncoder) -> bool {
         let count = 2 * u32::try_from(self.passes.len()).unwrap_or(0);
-        if self.state.compare_exchange(IDLE, COPIED, Ordering::AcqRel, Ordering::Acquire).is_ok() {
+        let is_free = self.state.compare_exchange(IDLE, COPIED, Ordering::AcqRel, Ordering::Acquire).is_ok();
+        if is_free {
             encoder.resolve_query_set(&self.queries, 0..count, &self.resolved, 0);
             encoder.copy_buffer_to_buffer(&self.resolved, 0, &self.readable, 0, u64::from(count) * 8);
         }
+        is_free
+    }
+
+    /// Number of answers so far: it grows when `collect` has a new one.
+    pub(crate) fn answers(&self) -> u32 {
+        self.answers
     }
 
     /// Latest milliseconds of each pass; call it after submitting a frame. Never waits.
@@ -109,6 +118,7 @@ impl GpuTimer {
     fn read(&mut self) {
         let Ok(view) = self.readable.get_mapped_range(..) else { return };
         let ticks: Vec<u64> = bytemuck::pod_collect_to_vec(&view);
+        self.answers = self.answers.wrapping_add(1);
         self.latest = self
             .passes
             .iter()

@@ -19,6 +19,8 @@ use crate::render::GpuTimer;
 
 /// Time between two counts of all leaves: counting waits for the device.
 const COUNT_EVERY: Duration = Duration::from_millis(250);
+/// What a step is taken to cost before it is known, in seconds: a few steps in the first frames.
+const UNKNOWN_STEP_S: f64 = 0.015;
 /// Bytes of one record in one column.
 const RECORD_BYTES: u64 = 16;
 
@@ -37,8 +39,10 @@ pub(super) struct Session {
     stats: Stats,
     counted: Option<Instant>,
     timer: Option<GpuTimer>,
-    /// Steps in the submission that the timer has timed or is timing.
-    timed_steps: u32,
+    /// Steps of the submission that the timer is timing, and the number of its answers before.
+    timed: (u32, u32),
+    /// Seconds of one step on the device, lately.
+    device_step_s: Option<f64>,
     /// Seconds of one step on the processor, lately.
     step_s: f64,
 }
@@ -63,8 +67,9 @@ impl Session {
             stats: world.stats(),
             counted: None,
             timer: GpuTimer::new(gpu.device(), gpu.queue(), &["advance"]),
-            timed_steps: 1,
-            step_s: 0.0,
+            timed: (1, 0),
+            device_step_s: None,
+            step_s: UNKNOWN_STEP_S,
             gpu,
         })
     }
@@ -72,8 +77,9 @@ impl Session {
     /// Number of steps that the `frame_s` seconds since the last frame ask for.
     pub(super) fn due_steps(&mut self, frame_s: f64) -> u32 {
         let dt_s = f64::from(self.backend.clock().dt_s());
-        let on_device = self.device_step_s();
-        self.pace.steps(frame_s, dt_s, self.step_s.max(on_device))
+        // Submitting steps may wait for the frames before, which is no cost of theirs.
+        let cost_s = self.device_step_s.unwrap_or(self.step_s);
+        self.pace.steps(frame_s, dt_s, cost_s)
     }
 
     /// Takes `steps` steps.
@@ -90,9 +96,10 @@ impl Session {
                 simulator.step_timed(steps, Some(timer.compute_writes(0)))?;
                 let mut encoder =
                     self.gpu.device().create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-                timer.resolve(&mut encoder);
+                if timer.resolve(&mut encoder) {
+                    self.timed = (steps, timer.answers());
+                }
                 self.gpu.queue().submit([encoder.finish()]);
-                self.timed_steps = steps;
             }
             (backend, _) => backend.step(steps)?,
         }
@@ -101,16 +108,19 @@ impl Session {
         Ok(())
     }
 
-    /// Seconds that a step takes on the device, as far as it tells.
-    fn device_step_s(&mut self) -> f64 {
-        let steps = f64::from(self.timed_steps);
-        self.device_ms().first().map_or(0.0, |&(_, ms)| f64::from(ms) * 1.0e-3 / steps)
-    }
-
     /// Milliseconds that the device last spent on the steps of a frame; empty where it cannot tell or does not simulate.
     pub(super) fn device_ms(&mut self) -> Vec<(&'static str, f32)> {
         match (&self.backend, &mut self.timer) {
-            (Backend::Wgpu(_), Some(timer)) => timer.collect(self.gpu.device()).to_vec(),
+            (Backend::Wgpu(_), Some(timer)) => {
+                let latest = timer.collect(self.gpu.device()).to_vec();
+                let (steps, answers) = self.timed;
+                if let Some((_, ms)) = latest.first()
+                    && timer.answers() != answers
+                {
+                    self.device_step_s = Some(f64::from(*ms) * 1.0e-3 / f64::from(steps));
+                }
+                latest
+            }
             _ => Vec::new(),
         }
     }
@@ -197,8 +207,9 @@ impl Session {
     }
 
     fn forget_cost(&mut self) {
-        self.step_s = 0.0;
-        self.timed_steps = 1;
+        self.step_s = UNKNOWN_STEP_S;
+        self.timed = (1, 0);
+        self.device_step_s = None;
         self.timer = GpuTimer::new(self.gpu.device(), self.gpu.queue(), &["advance"]);
         self.pace.restart();
     }
