@@ -3,7 +3,7 @@
 //! The window: a scene that goes on while one looks at it and turns its knobs.
 //!
 //! One frame: the panel tells its wishes, the session grants them and takes its steps, the renderer draws the leaves
-//! beside the panel. [`Pace`](pace::Pace) decides how many steps a frame takes; [`Session`](session::Session) owns the
+//! beside the panel. `Pace` decides how many steps a frame takes; `Session` owns the
 //! simulator and everything that may change about it.
 
 mod app;
