@@ -5,6 +5,8 @@
 //! Every leaf is stepped by the same scalar functions of `windfall-core`, each leaf by itself, so the result is the
 //! same to the bit for any number of threads.
 
+#![warn(clippy::print_stdout, clippy::print_stderr)]
+
 mod kernels;
 mod simulator;
 

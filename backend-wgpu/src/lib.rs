@@ -12,6 +12,8 @@
 //! [`Contract::Exact`]: windfall_core::Contract::Exact
 //! [`Contract::Tolerant`]: windfall_core::Contract::Tolerant
 
+#![warn(clippy::print_stdout, clippy::print_stderr)]
+
 mod columns;
 mod exact;
 mod gpu;

@@ -13,6 +13,8 @@
 //! - [`kernel`]: arithmetic with the same bits in Rust and WGSL.
 //! - [`blocks`], [`layout`]: what Rust and WGSL share.
 
+#![warn(clippy::print_stdout, clippy::print_stderr)]
+
 pub mod blocks;
 mod checkpoint;
 mod clock;

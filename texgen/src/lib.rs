@@ -11,6 +11,8 @@
 //! Leaf coordinates: the blade meets its petiole at (0, -1), its tip lies near (0, 1), y up. Colours are linear
 //! sRGB until the last step. Seasons run from 0 (green) to 1 (brown).
 
+#![warn(clippy::print_stdout, clippy::print_stderr)]
+
 mod atlas;
 mod bleed;
 mod contour;

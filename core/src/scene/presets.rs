@@ -80,7 +80,7 @@ mod tests {
     #[test]
     fn presets_have_the_size_and_variety_that_they_promise() {
         let scene = |name| Scene::preset(name).expect("a preset");
-        assert_eq!(scene("autumn-park").leaf_count(), 11_210, "a park");
+        assert_eq!(scene("autumn-park").leaf_count(), 17_860, "a park");
         assert_eq!(scene("storm").leaf_count(), 20_000, "a storm");
         assert_eq!(scene("million").leaf_count(), 1_000_000, "a million");
         let shapes: HashSet<LeafShape> =
