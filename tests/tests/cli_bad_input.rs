@@ -108,7 +108,7 @@ fn numbers_of_leaves_that_make_no_sense() {
             refuse(leaves, &[leaves]);
         }
         refuse("0", &["'0'", "--leaves", "1 to 268435456"]);
-        refuse("6", &["autumn-park", "--leaves is 6", "7 to 268435456"]);
+        refuse("7", &["autumn-park", "--leaves is 7", "8 to 268435456"]);
     }
     assert_refused(&there, &["bench", "--leaves", "10,0"], &["'0'", "--leaves"]);
     assert_refused(&there, &["bench", "--leaves", ""], &["--leaves"]);
