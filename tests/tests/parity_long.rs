@@ -47,7 +47,10 @@ fn a_thousand_steps_are_equal_to_the_bit_under_the_exact_contract() {
     let world = world();
     let oracle = oracle(&world);
     is_lively(&oracle);
-    let exact = adapter::contracts().into_iter().filter(|(_, contract)| *contract == Contract::Exact);
+    let mut exact = adapter::contracts();
+    exact.retain(|(_, contract)| *contract == Contract::Exact);
+    // Metal and DX12 cannot keep it; on Linux an adapter that can must be there.
+    assert!(!exact.is_empty() || cfg!(not(target_os = "linux")), "no adapter keeps the exact contract");
     for (gpu, contract) in exact {
         let options = WgpuOptions { contract: Some(contract), ..WgpuOptions::default() };
         let candidate = candidate(&gpu, &world, &options);
