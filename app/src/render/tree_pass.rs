@@ -122,7 +122,7 @@ impl ShadePass {
             usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING,
             view_formats: &[],
         });
-        let module = shader(device, "shade", &[COMMON, include_str!("shaders/shade.wgsl")]);
+        let module = shader(device, "shade", &[COMMON, include_str!("shaders/tree_shade.wgsl")]);
         // Coverage takes away from what is there, colour adds to it.
         let component = wgpu::BlendComponent {
             src_factor: wgpu::BlendFactor::One,
