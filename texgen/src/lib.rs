@@ -14,6 +14,7 @@
 #![warn(clippy::print_stdout, clippy::print_stderr)]
 
 mod atlas;
+mod blade;
 mod bleed;
 mod contour;
 mod damage;
@@ -28,10 +29,15 @@ mod raster;
 mod rng;
 mod season;
 mod shape;
+mod specimen;
 mod spline;
+mod vein_graph;
 mod veins;
 mod warp;
 
 pub use atlas::{Atlas, AtlasEntry, AtlasRequest, Layer};
+pub use blade::{Blade, Mask};
 pub use error::TexgenError;
 pub use shape::Shape;
+pub use specimen::Specimen;
+pub use vein_graph::{VeinGraph, VeinGrower, VeinNode};
