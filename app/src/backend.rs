@@ -80,7 +80,7 @@ impl BackendArguments {
 
     /// The processor, with the threads asked for.
     pub fn cpu(&self) -> Device {
-        Device::Cpu(CpuOptions { threads: self.threads })
+        Device::Cpu(CpuOptions { threads: self.threads, ..CpuOptions::default() })
     }
 
     /// The adapter asked for, or the best.

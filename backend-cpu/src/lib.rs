@@ -2,12 +2,14 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The CPU backend: rayon over chunks of leaves. It is the oracle that the other backends are checked against.
 //!
-//! Every leaf is stepped by the same scalar functions of `windfall-core`, each leaf by itself, so the result is the
-//! same to the bit for any number of threads.
+//! Every leaf is stepped by the same functions of `windfall-core`, one or eight at a time, so the result is the
+//! same to the bit for any number of threads and any instruction set.
 
 #![warn(clippy::print_stdout, clippy::print_stderr)]
 
 mod kernels;
+mod simd;
 mod simulator;
 
+pub use simd::Simd;
 pub use simulator::{CpuOptions, CpuSimulator};

@@ -9,12 +9,15 @@ use windfall_core::{Clock, Contract, Environment, SimError, Simulator, Simulator
 use crate::kernels::CHUNK;
 use crate::kernels::advance::advance;
 use crate::kernels::measure::measure;
+use crate::simd::Simd;
 
 /// How the CPU simulator runs.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct CpuOptions {
     /// Number of threads; one for each core when `None`.
     pub threads: Option<usize>,
+    /// Instructions to use; the fastest that the processor has when `None`.
+    pub simd: Option<Simd>,
 }
 
 /// Simulates on the CPU.
@@ -22,6 +25,7 @@ pub struct CpuOptions {
 pub struct CpuSimulator {
     world: World,
     pool: ThreadPool,
+    simd: Simd,
 }
 
 impl CpuSimulator {
@@ -34,7 +38,7 @@ impl CpuSimulator {
             .num_threads(options.threads.unwrap_or(0))
             .build()
             .map_err(|error| SimError::Device { reason: error.to_string() })?;
-        Ok(Self { world: world.clone(), pool })
+        Ok(Self { world: world.clone(), pool, simd: options.simd.unwrap_or_else(Simd::best) })
     }
 
     /// The leaf columns as they are now.
@@ -83,16 +87,20 @@ impl Simulator for CpuSimulator {
 
     fn step(&mut self, count: u32) -> Result<(), SimError> {
         let World { environment, clock, leaves } = &mut self.world;
-        for _ in 0..count {
-            let block = environment.step_block(clock);
-            let cx = environment.context(&block);
-            // A small world is done before another thread would have woken up.
-            if leaves.len() <= CHUNK {
-                advance(&cx, leaves.as_mut());
-            } else {
-                self.pool.install(|| advance(&cx, leaves.as_mut()));
+        let simd = self.simd;
+        let is_small = leaves.len() <= CHUNK;
+        let mut steps = || {
+            for _ in 0..count {
+                let block = environment.step_block(clock);
+                advance(&environment.context(&block), leaves.as_mut(), simd);
+                clock.advance(environment);
             }
-            clock.advance(environment);
+        };
+        // A small world is done before another thread would have woken up.
+        if is_small {
+            steps()
+        } else {
+            self.pool.install(steps)
         }
         Ok(())
     }

@@ -80,6 +80,7 @@ impl Default for Shaders {
             "motion/lookup",
             "wind/gust",
             "wind/profile",
+            "wind/row",
             "wind/sample",
             "wind/turbulence",
             "wind/vortex",

@@ -5,7 +5,7 @@
 use std::sync::Arc;
 
 use windfall_core::blocks::{EnvironmentBlock, StepBlock};
-use windfall_core::layout::Float4;
+use windfall_core::layout::{Float4, Uint4, Wgsl};
 use windfall_core::stats::COUNTER_COUNT;
 use windfall_core::{Clock, Contract, Environment, SimError, Simulator, SimulatorInfo, Stats, World};
 
@@ -50,7 +50,7 @@ pub struct WgpuSimulator {
     step_buffer: wgpu::Buffer,
     step_stride: u32,
     motion: (Arc<[Float4]>, wgpu::Buffer),
-    wind: (Arc<[Float4]>, wgpu::Buffer),
+    wind: (Arc<[Uint4]>, wgpu::Buffer),
     counters: wgpu::Buffer,
     counters_group: wgpu::BindGroup,
     pages: Vec<Page>,
@@ -244,7 +244,7 @@ fn buffer(gpu: &Gpu, label: &str, size: u64, usage: wgpu::BufferUsages) -> wgpu:
     })
 }
 
-fn table(gpu: &Gpu, label: &str, rows: &Arc<[Float4]>) -> (Arc<[Float4]>, wgpu::Buffer) {
+fn table<T: Wgsl>(gpu: &Gpu, label: &str, rows: &Arc<[T]>) -> (Arc<[T]>, wgpu::Buffer) {
     let bytes: &[u8] = bytemuck::cast_slice(rows);
     let buffer = buffer(gpu, label, bytes.len() as u64, wgpu::BufferUsages::STORAGE);
     gpu.queue().write_buffer(&buffer, 0, bytes);

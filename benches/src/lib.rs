@@ -60,6 +60,23 @@ pub fn falling(leaves: u32) -> Scene {
     scene
 }
 
+/// The same without turbulence: mean wind and gusts only.
+pub fn steady(leaves: u32) -> Scene {
+    let mut scene = falling(leaves);
+    scene.wind.turbulence.intensity = 0.0;
+    scene.wind.turbulence.calm_m_s = 0.0;
+    scene
+}
+
+/// `million` with every leaf released anew every third step: work for `attend`.
+pub fn restless(leaves: u32) -> Scene {
+    let mut scene = scaled("million", leaves);
+    for source in &mut scene.sources {
+        source.recycle_after_s = Some(3.0 * scene.dt_s);
+    }
+    scene
+}
+
 /// `million` an hour after its last release: all leaves lie on the ground.
 pub fn resting(leaves: u32) -> Scene {
     let mut scene = scaled("million", leaves);
@@ -105,7 +122,8 @@ pub fn gpu() -> Option<&'static Gpu> {
 /// If one of them has not, or fails: its timings would mean nothing.
 pub fn contenders(world: &World) -> Vec<Box<dyn Simulator>> {
     let cpu = |threads| {
-        let cpu = CpuSimulator::new(world, CpuOptions { threads }).expect("threads can be started");
+        let cpu = CpuSimulator::new(world, CpuOptions { threads, ..CpuOptions::default() })
+            .expect("threads can be started");
         Box::new(cpu) as Box<dyn Simulator>
     };
     let expected = warmed_up(cpu(Some(1)).as_mut(), world);

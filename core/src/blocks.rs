@@ -10,11 +10,7 @@ use crate::scene::{MAX_SOURCES, MAX_SPECIES, MAX_VORTICES};
 crate::shared_struct! {
     /// One species, compiled.
     pub struct SpeciesBlock {
-        /// Drift kept over a step `e^(-dt/tau)`; unused; time constant tau in s: distance per drift speed until none
-        /// is left; 1/tau in 1/s.
-        pub response: Float4,
-        /// Steps (2^-16) that a fall of one metre takes; half widths of the spread of size and of speed (2^-14);
-        /// fastest spin per step (2^-18 turns).
+        /// Steps (2^-16) that a fall of one metre takes; half widths of the spread of size and of speed (2^-14); unused.
         pub scales: Uint4,
         /// First primitive motion; three unused words.
         pub start: Uint4,
@@ -77,6 +73,9 @@ crate::shared_struct! {
         pub settle: Float4,
         /// The wind.
         pub wind: WindBlock,
+        /// Of each species: drift kept over a step `e^(-dt/tau)`; fastest spin per step in 2^-18 turns, a whole number;
+        /// time constant tau in s, which is the distance per drift speed until none is left; 1/tau in 1/s.
+        pub responses: [Float4; MAX_SPECIES],
         /// The species.
         pub species: [SpeciesBlock; MAX_SPECIES],
         /// The sources.

@@ -3,7 +3,7 @@
 //! What a kernel sees besides the leaf it works on.
 
 use crate::blocks::{EnvironmentBlock, StepBlock};
-use crate::layout::Float4;
+use crate::layout::Uint4;
 use crate::motion::lookup::MotionRows;
 
 /// The uniform blocks and tables of one step; globals in WGSL.
@@ -16,5 +16,5 @@ pub struct Context<'a> {
     /// Motion tables.
     pub motion: MotionRows<'a>,
     /// Wind tables.
-    pub wind: &'a [Float4],
+    pub wind: &'a [Uint4],
 }

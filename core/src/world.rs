@@ -3,15 +3,19 @@
 //! A scene brought to life: compiled environment, clock and leaves.
 
 use crate::clock::Clock;
+use crate::context::Context;
 use crate::environment::{Environment, lifetime_steps, release_step};
 use crate::error::SceneError;
 use crate::kernel::vector::Vec3;
 use crate::leaf::own::own_velocity;
 use crate::leaf::record::SOURCE_SHIFT;
 use crate::leaf::seek::leaf_seek;
-use crate::leaf::{LeafState, Leaves};
+use crate::leaf::{LeafState, Leaves, LeavesMut};
 use crate::scene::Scene;
 use crate::stats::Stats;
+
+/// Leaves below which another thread costs more than it saves.
+const SMALLEST_SHARE: usize = 4096;
 
 /// Everything a simulation consists of, on the host. The exchange type of all backends.
 #[derive(Clone, Debug)]
@@ -35,34 +39,21 @@ impl World {
         let environment = Environment::compile(scene)?;
         let clock = Clock::new(scene.dt_s);
         let mut leaves = Leaves::zeroed(scene.leaf_count() as usize);
-        let total = scene.leaf_count();
         let step = environment.step_block(&clock);
         let cx = environment.context(&step);
-        let mut slot = 0;
-        for (index, source) in (0..).zip(&scene.sources) {
-            let lifetime = i64::from(lifetime_steps(scene, source));
-            for place in 0..source.count {
-                let mut leaf = leaves.leaf_mut(slot as usize);
-                let first = release_step(scene, source, place);
-                let lives = if lifetime > 0 { (-first).max(0) / lifetime } else { 0 };
-                let release = first + lives * lifetime;
-                #[expect(
-                    clippy::cast_possible_truncation,
-                    clippy::cast_sign_loss,
-                    reason = "validated to fit a word"
-                )]
-                let word = |value: i64| value as u32;
-                if release > 0 {
-                    leaf.identity.id = slot;
-                    leaf.identity.look = index << SOURCE_SHIFT;
-                    leaf.course.event = word(release);
-                } else {
-                    let id = slot.wrapping_add(word(lives).wrapping_mul(total));
-                    leaf_seek(&cx, &mut leaf, id, index, word(release), word(-release));
-                }
-                slot += 1;
+        let threads = std::thread::available_parallelism().map_or(1, usize::from);
+        let share = leaves.len().div_ceil(threads).max(SMALLEST_SHARE);
+        std::thread::scope(|scope| {
+            let mut rest = leaves.as_mut();
+            let mut first = 0;
+            while rest.len() > share {
+                let (front, back) = rest.split_at(share);
+                scope.spawn(move || place_leaves(scene, &cx, front, first));
+                first += share;
+                rest = back;
             }
-        }
+            place_leaves(scene, &cx, rest, first);
+        });
         Ok(Self { environment, clock, leaves })
     }
 
@@ -98,7 +89,48 @@ impl World {
             LeafState::Falling => {
                 let step = self.environment.step_block(&self.clock);
                 let cx = self.environment.context(&step);
-                drift + own_velocity(&cx, place.bits, self.leaves.drift[slot].phase, self.leaves.course[slot])
+                drift
+                    + own_velocity(
+                        &cx,
+                        place.bits,
+                        self.leaves.drift[slot].phase,
+                        self.leaves.course[slot].into(),
+                    )
+            }
+        }
+    }
+}
+
+/// Puts the leaves of a run of slots from `first` on where they are at time zero.
+fn place_leaves(scene: &Scene, cx: &Context<'_>, mut leaves: LeavesMut<'_>, first: usize) {
+    let total = scene.leaf_count();
+    let mut source_first = 0;
+    for (index, source) in (0..).zip(&scene.sources) {
+        let lifetime = i64::from(lifetime_steps(scene, source));
+        let start = source_first.max(first);
+        source_first += source.count as usize;
+        for slot in start..source_first.min(first + leaves.len()) {
+            #[expect(clippy::cast_possible_truncation, reason = "slots are counted in words")]
+            let place = (slot + source.count as usize - source_first) as u32;
+            let mut leaf = leaves.leaf_mut(slot - first);
+            let released = release_step(scene, source, place);
+            let lives = if lifetime > 0 { (-released).max(0) / lifetime } else { 0 };
+            let release = released + lives * lifetime;
+            #[expect(
+                clippy::cast_possible_truncation,
+                clippy::cast_sign_loss,
+                reason = "validated to fit a word"
+            )]
+            let word = |value: i64| value as u32;
+            #[expect(clippy::cast_possible_truncation, reason = "slots are counted in words")]
+            let id = slot as u32;
+            if release > 0 {
+                leaf.identity.id = id;
+                leaf.identity.look = index << SOURCE_SHIFT;
+                leaf.course.event = word(release);
+            } else {
+                let id = id.wrapping_add(word(lives).wrapping_mul(total));
+                leaf_seek(cx, &mut leaf, id, index, word(release), word(-release));
             }
         }
     }

@@ -4,10 +4,11 @@
 
 use windfall_core::Context;
 use windfall_core::kernel::math::{
-    arctangent2, exponential, inverse_sqrt, reciprocal, sin_cos, sin_cos_turns,
+    arctangent2, exponential, inverse_sqrt, reciprocal, sin_cos, sin_cos_half, sin_cos_turns,
 };
 use windfall_core::kernel::quaternion::{
-    quat_blend, quat_multiply, quat_normalize, quat_renormalize, quat_rotate,
+    quat_blend, quat_multiply, quat_normalize, quat_renormalize, quat_rotate, quat_turn_after,
+    quat_turn_before,
 };
 use windfall_core::kernel::rng::{below, mul_high, mul_q16, philox, triangular, unit_float};
 use windfall_core::kernel::vector::{vec3_cross, vec3_dot, vec3_length, vec3_lerp};
@@ -21,9 +22,7 @@ use windfall_core::leaf::release::{
 };
 use windfall_core::leaf::settle::{flatten, slide};
 use windfall_core::motion::feature::{stage_end, stage_words, transition_next};
-use windfall_core::motion::lookup::{
-    motion_displacement, motion_orientation, motion_period, motion_velocity,
-};
+use windfall_core::motion::lookup::{motion_displacement, motion_period, motion_state, motion_velocity};
 use windfall_core::wind::gust::wind_gust;
 use windfall_core::wind::profile::wind_profile;
 use windfall_core::wind::sample::wind_at;
@@ -137,6 +136,10 @@ functions! {
     wgsl "let t = sin_cos_turns(a.x); r = vec4<u32>(bitcast<vec2<u32>>(t), 0u, 0u);";
     rust |_cx, w| { let (s, c) = sin_cos_turns(w[0]); floats([s, c]) };
 
+    sin_cos_half in "kernel/math" (ANY) tolerance Some(4e-7);
+    wgsl "let t = sin_cos_half(a.x); r = vec4<u32>(bitcast<vec2<u32>>(t), 0u, 0u);";
+    rust |_cx, w| { let (s, c) = sin_cos_half(w[0]); floats([s, c]) };
+
     sin_cos in "kernel/math" (Input::Float(-1000.0, 1000.0)) tolerance Some(3e-7);
     wgsl "let t = sin_cos(bitcast<f32>(a.x)); r = vec4<u32>(bitcast<vec2<u32>>(t), 0u, 0u);";
     rust |_cx, w| { let (s, c) = sin_cos(float(w[0])); floats([s, c]) };
@@ -181,6 +184,15 @@ functions! {
         floats([r[0], r[1], r[2], r[3], s[0], s[1], s[2], s[3]])
     };
 
+    quat_turns in "kernel/quaternion" (UNIT, UNIT, UNIT, UNIT, UNIT, UNIT) tolerance Some(4e-7);
+    wgsl "let q = bitcast<vec4<f32>>(a); let t = bitcast<vec2<f32>>(b.xy);
+        r = bitcast<vec4<u32>>(quat_turn_after(q, t.x, t.y)); s = bitcast<vec4<u32>>(quat_turn_before(q, t.x, t.y));";
+    rust |_cx, w| {
+        let (q, sine, cosine) = (quaternion(w, 0), float(w[4]), float(w[5]));
+        let (r, s) = (quat_turn_after(q, sine, cosine), quat_turn_before(q, sine, cosine));
+        floats([r.x, r.y, r.z, r.w, s.x, s.y, s.z, s.w])
+    };
+
     quat_rotate in "kernel/quaternion" (UNIT, UNIT, UNIT, UNIT, SPEED, SPEED, SPEED) tolerance Some(4e-6);
     wgsl "let q = bitcast<vec4<f32>>(a);
         r = vec4<u32>(bitcast<vec3<u32>>(quat_rotate(q, bitcast<vec3<f32>>(b.xyz))), 0u);
@@ -204,13 +216,13 @@ functions! {
         floats([d.x, d.y, d.z, 0.0, m.x, m.y, m.z])
     };
 
-    motion_orientation in "motion/lookup" (TABLE, ANY) tolerance Some(1e-6);
-    wgsl "r = bitcast<vec4<u32>>(motion_orientation(a.x, a.y));
-        s = vec4<u32>(bitcast<vec3<u32>>(motion_velocity(a.x, a.y)), 0u);";
+    motion_state in "motion/lookup" (TABLE, ANY) tolerance Some(1e-6);
+    wgsl "let m = motion_state(a.x, a.y); r = bitcast<vec4<u32>>(m.orientation); s.w = bitcast<u32>(m.displacement.y);
+        s = vec4<u32>(bitcast<vec3<u32>>(motion_velocity(a.x, a.y)), s.w);";
     rust |cx, w| {
-        let q = motion_orientation(&cx.motion, w[0], w[1]);
+        let (d, q) = motion_state(&cx.motion, w[0], w[1]);
         let v = motion_velocity(&cx.motion, w[0], w[1]);
-        floats([q.x, q.y, q.z, q.w, v.x, v.y, v.z])
+        floats([q.x, q.y, q.z, q.w, v.x, v.y, v.z, d.y])
     };
 
     stage_end in "motion/feature" (ANY, ANY, ANY, ANY, Input::Below(4)) tolerance None;
@@ -251,7 +263,7 @@ functions! {
         own_velocity(a.x << TABLE_SHIFT, a.y, vec4<u32>(0u, a.z, a.w, b.x))), 0u);";
     rust |cx, w| {
         let course = Course { event: 0, rate: w[2], size: w[3], heading: w[4] };
-        floats(own_velocity(cx, w[0] << 8, w[1], course).to_array())
+        floats(own_velocity(cx, w[0] << 8, w[1], course.into()).to_array())
     };
 
     // A rounding that falls the other way is a grid unit of 4e-6 m; the one keeps it small against the whole case.
@@ -260,7 +272,7 @@ functions! {
         own_advance(a.x << TABLE_SHIFT, vec4<u32>(0u, 0u, a.w, b.x), a.y, a.z)), bitcast<u32>(1f));";
     rust |cx, w| {
         let course = Course { event: 0, rate: 0, size: w[3], heading: w[4] };
-        let d = own_advance(cx, w[0] << 8, course, w[1], w[2]);
+        let d = own_advance(cx, w[0] << 8, course.into(), w[1], w[2]);
         floats([d.x, d.y, d.z, 1.0])
     };
 
@@ -273,9 +285,9 @@ functions! {
         floats([q.x, q.y, q.z, q.w, v.x, v.y, v.z])
     };
 
-    spin_advance in "leaf/fall" (ANY, ANY) tolerance None;
-    wgsl "r.x = spin_advance(a.x & 0xffff0fffu, a.y);";
-    rust |cx, w| integers([spin_advance(cx, w[0] & 0xffff_0fff, w[1])]);
+    spin_advance in "leaf/fall" (ANY, ANY, Input::Below(65536)) tolerance None;
+    wgsl "r.x = spin_advance(a.x, a.y, f32(a.z));";
+    rust |_cx, w| integers([spin_advance(w[0], w[1], w[2] as f32)]);
 
     slide in "leaf/settle" (SPEED, SPEED, SPEED, Input::Float(0.0, 0.05)) tolerance Some(1e-5);
     wgsl "let g = slide(bitcast<vec3<f32>>(a.xyz), bitcast<f32>(a.w));

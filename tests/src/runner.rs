@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Runs one device function on many inputs, on a GPU.
 
-use windfall_core::layout::Float4;
 use windfall_core::{Contract, SimError, World};
 use windfall_wgpu::{Gpu, Shaders, WORKGROUP_SIZE};
 
@@ -79,12 +78,12 @@ impl<'a> FunctionRunner<'a> {
         let context_layout = layout(&entries);
         let cases_layout = layout(&[entry(0, storage(true)), entry(1, storage(false))]);
         let step = world.environment.step_block(&world.clock);
-        let floats = |rows: &[Float4]| upload(gpu, bytemuck::cast_slice(rows), wgpu::BufferUsages::STORAGE);
+        let table = |bytes: &[u8]| upload(gpu, bytes, wgpu::BufferUsages::STORAGE);
         let buffers = [
             upload(gpu, bytemuck::bytes_of(world.environment.block()), wgpu::BufferUsages::UNIFORM),
             upload(gpu, bytemuck::bytes_of(&step), wgpu::BufferUsages::UNIFORM),
-            floats(world.environment.motion()),
-            floats(world.environment.wind()),
+            table(bytemuck::cast_slice(world.environment.motion())),
+            table(bytemuck::cast_slice(world.environment.wind())),
         ];
         let context_group = bind(gpu, &context_layout, &buffers);
         let module = gpu.compute_module(&kernel_source(shaders, function), "evaluate", contract)?;

@@ -8,7 +8,7 @@ use std::sync::OnceLock;
 
 use common::{build, quaternion, step, still_scene, uniform_species};
 use proptest::prelude::*;
-use windfall_core::motion::lookup::motion_orientation;
+use windfall_core::motion::lookup::motion_state;
 use windfall_core::motion::{MotionTables, PrimitiveTable};
 use windfall_core::scene::{MotionParameters, RotationModel, Species};
 use windfall_core::{SceneError, World};
@@ -210,7 +210,7 @@ fn a_scene_with_a_saved_file_falls_like_one_without() {
     for phase in (0..1000).map(|index: u32| index.wrapping_mul(0x9E37_79B9)) {
         let [a, b] = [0, 1].map(|index: usize| {
             let (world, block) = &contexts[index];
-            quaternion(motion_orientation(&world.environment.context(block).motion, 1, phase).to_array())
+            quaternion(motion_state(&world.environment.context(block).motion, 1, phase).1.to_array())
         });
         let cosine = a.dot(b).abs();
         assert!(

@@ -11,7 +11,7 @@ use common::{
 };
 use glam::{DQuat, DVec3};
 use windfall_core::leaf::record::{STAGE_MASK, STAGE_SHIFT};
-use windfall_core::motion::lookup::{motion_displacement, motion_orientation};
+use windfall_core::motion::lookup::{motion_displacement, motion_state};
 use windfall_core::motion::{
     GRAVITY, MotionConstants, MotionTables, Path, PeriodicFluttering, PeriodicSpiraling, PeriodicTumbling,
     Primitive, PrimitiveTable, SteadyDescent, TransitionalChaotic, TransitionalHelical,
@@ -121,8 +121,7 @@ fn interpolated_orientations_are_unit() {
         for index in 0..20_000 {
             #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a share of 2^32")]
             let phase = (uniform(index) * 4_294_967_296.0) as u32;
-            let norm =
-                quaternion(motion_orientation(&cx.motion, primitive as u32, phase).to_array()).length();
+            let norm = quaternion(motion_state(&cx.motion, primitive as u32, phase).1.to_array()).length();
             assert!((norm - 1.0).abs() < 1e-6, "{primitive:?} at phase {phase}: norm {norm}");
         }
     }

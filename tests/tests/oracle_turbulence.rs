@@ -91,7 +91,7 @@ fn shell_spectrum_falls_with_the_five_thirds_power() {
         let mut shells = vec![(0.0, 0.0, 0.0); 12];
         let (low, high) = (TAU / 32.0, PI);
         for axis in 0..3 {
-            let mut modes: Vec<_> = rows.iter().map(|row| Complex64::new(row.0[axis].into(), 0.0)).collect();
+            let mut modes: Vec<_> = rows.iter().map(|row| Complex64::new(row[axis].into(), 0.0)).collect();
             transform(&mut modes);
             for (node, mode) in modes.iter().enumerate() {
                 let wave = wave_vector(node);

@@ -116,7 +116,7 @@ fn a_changed_twin_is_noticed() {
     let edits = [
         ("kernel/math", "0.5 * r2", "0.4999 * r2", "sin_cos_turns"),
         ("kernel/rng", "high1 ^ c.y", "high1 ^ c.z", "philox"),
-        ("motion/lookup", "row + 2u), fraction_of", "row + 4u), fraction_of", "motion_displacement"),
+        ("motion/lookup", "row + 1u), fraction_of", "row + 2u), fraction_of", "motion_displacement"),
         ("wind/gust", "row.y - row.x", "row.x - row.y", "wind_gust"),
         ("leaf/settle", "0.5 * seconds", "0.51 * seconds", "slide"),
         ("leaf/release", "<< 17u, extent", "<< 16u, extent", "release_place"),

@@ -99,7 +99,7 @@ fn one_step_agrees_on_every_adapter() {
 fn a_changed_kernel_is_noticed() {
     let edits = [
         ("leaf/fall", "before * part.decay", "before * (part.decay * 1.001)"),
-        ("leaf/own", "(heading >> 16u) << 15u", "(heading >> 16u) << 14u"),
+        ("leaf/own", "sin_cos_half(heading >> 16u)", "sin_cos_half(heading >> 15u)"),
         ("leaf/settle", "(1.0 - share) * dt", "share * dt"),
         ("leaf/join", "before - after", "after - before"),
         ("leaf/advance", "state == STATE_RESTING", "state == STATE_ATTACHED"),

@@ -41,7 +41,10 @@ fn both_backends_lend_the_same_columns() {
     let world = World::build(&Scene::preset("six-motions").expect("a preset")).expect("valid");
     let gpu = Gpu::request(None).expect("a graphics adapter; software Vulkan will do");
     let mut now = world.clone();
-    for device in [Device::Cpu(CpuOptions { threads: Some(1) }), Device::Wgpu(Box::new(gpu.clone()))] {
+    for device in [
+        Device::Cpu(CpuOptions { threads: Some(1), ..CpuOptions::default() }),
+        Device::Wgpu(Box::new(gpu.clone())),
+    ] {
         let mut backend = device.simulator(&world).expect("six leaves fit");
         for _ in 0..2 {
             backend.step(30).expect("it steps");

@@ -216,7 +216,7 @@ impl Session {
 
     fn device(&self, kind: BackendKind) -> Device {
         match kind {
-            BackendKind::Cpu => Device::Cpu(CpuOptions { threads: self.threads }),
+            BackendKind::Cpu => Device::Cpu(CpuOptions { threads: self.threads, ..CpuOptions::default() }),
             BackendKind::Wgpu => Device::Wgpu(Box::new(self.gpu.clone())),
         }
     }

@@ -5,15 +5,31 @@
 //! Moves the leaves through one step to which something happens in it.
 
 use windfall_core::Context;
+use windfall_core::kernel::lane::LANES;
 use windfall_core::leaf::LeavesMut;
-use windfall_core::leaf::advance::{leaf_advance_due, leaf_is_due};
+use windfall_core::leaf::advance::leaf_advance;
 
-/// Steps the leaves of a chunk that were due before it and that `advance` left alone. Nothing that `advance` does to
-/// another leaf can make it due in the same step: its next event is later.
-pub(crate) fn attend(cx: &Context<'_>, leaves: &mut LeavesMut<'_>) {
-    for mut leaf in leaves.iter_mut() {
-        if leaf_is_due(cx, &leaf) {
-            leaf_advance_due(cx, &mut leaf);
+use super::CHUNK;
+
+/// The leaves of a chunk that `advance` has left alone: a bit for each, a byte for eight.
+pub(crate) struct Attend {
+    pub(crate) lanes: [u8; CHUNK / LANES],
+}
+
+impl Default for Attend {
+    fn default() -> Self {
+        Self { lanes: [0; CHUNK / LANES] }
+    }
+}
+
+/// Steps the leaves of a chunk that are due, that land, or that have just landed.
+pub(crate) fn attend(cx: &Context<'_>, leaves: &mut LeavesMut<'_>, due: &Attend) {
+    for (group, &lanes) in due.lanes.iter().enumerate() {
+        let mut left = lanes;
+        while left != 0 {
+            let slot = group * LANES + left.trailing_zeros() as usize;
+            leaf_advance(cx, &mut leaves.leaf_mut(slot));
+            left &= left - 1;
         }
     }
 }

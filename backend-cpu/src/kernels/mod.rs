@@ -4,6 +4,7 @@
 
 pub(crate) mod advance;
 pub(crate) mod attend;
+mod eight;
 pub(crate) mod measure;
 
 /// Leaves per chunk: a chunk's hot columns (64 bytes a leaf) fit in a core's level-two cache.

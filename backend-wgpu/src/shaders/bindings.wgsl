@@ -6,7 +6,7 @@
 @group(0) @binding(0) var<uniform> environment: EnvironmentBlock;
 @group(0) @binding(1) var<uniform> step_block: StepBlock;
 @group(0) @binding(2) var<storage, read> motion_rows: array<vec4<f32>>;
-@group(0) @binding(3) var<storage, read> wind_rows: array<vec4<f32>>;
+@group(0) @binding(3) var<storage, read> wind_rows: array<vec4<u32>>;
 // x, y, z as float bits; state, blend, table and spin.
 @group(0) @binding(4) var<storage, read_write> places: array<vec4<u32>>;
 // Drift velocity x, y, z as float bits; phase.

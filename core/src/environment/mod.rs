@@ -15,7 +15,7 @@ use glam::DVec3;
 use self::convert::{float4, len32, q16, single, steps};
 use self::source::source_block;
 pub(crate) use self::source::{lifetime_steps, release_step};
-use self::species::{species_block, spin_unit};
+use self::species::{response, species_block};
 use self::tables::{TABLES_PER_SPECIES, pack_motion, tables_of};
 use self::wind::wind_block;
 use crate::blocks::{EnvironmentBlock, StepBlock, VortexBlock};
@@ -29,7 +29,7 @@ use crate::motion::{GRAVITY, MotionTables};
 use crate::scene::{MAX_SOURCES, Scene};
 use crate::wind::gust::{GUST_ROWS, gust_rows};
 use crate::wind::profile::{PROFILE_ROWS, profile_rows};
-use crate::wind::turbulence::TURBULENCE_X;
+use crate::wind::turbulence::{TURBULENCE_X, turbulence_rows};
 use crate::wind::turbulence_box;
 
 /// Height of resting leaves above the ground in metres: half the thickness of a curled dry leaf.
@@ -46,7 +46,7 @@ pub struct Environment {
     scene: Scene,
     block: EnvironmentBlock,
     motion: Arc<[Float4]>,
-    wind: Arc<[Float4]>,
+    wind: Arc<[Uint4]>,
 }
 
 impl Environment {
@@ -65,7 +65,7 @@ impl Environment {
         let mut wind = Vec::with_capacity((PROFILE_ROWS + GUST_ROWS) as usize + 65536);
         wind.extend(profile_rows(scene.wind.profile, scene.wind.reference_height_m));
         wind.extend(gust_rows(seed));
-        wind.extend(turbulence_box(seed));
+        wind.extend(turbulence_rows(&turbulence_box(seed)));
         let block = compile_block(scene, &tables);
         Ok(Self { scene: scene.clone(), block, motion: motion.into(), wind: wind.into() })
     }
@@ -96,8 +96,8 @@ impl Environment {
             wind: wind_block(&self.scene),
             ..old
         };
-        for (species, block) in self.scene.species.iter().zip(&mut self.block.species) {
-            block.scales.0[3] = spin_unit(&self.scene, species);
+        for (species, block) in self.scene.species.iter().zip(&mut self.block.responses) {
+            *block = response(&self.scene, species);
         }
     }
 
@@ -117,7 +117,7 @@ impl Environment {
     }
 
     /// The wind tables: profile, gusts, turbulence.
-    pub fn wind(&self) -> &Arc<[Float4]> {
+    pub fn wind(&self) -> &Arc<[Uint4]> {
         &self.wind
     }
 
@@ -159,12 +159,7 @@ impl Environment {
 
     /// What a kernel sees in one step.
     pub fn context<'a>(&'a self, step: &'a StepBlock) -> Context<'a> {
-        Context {
-            environment: &self.block,
-            step,
-            motion: MotionRows { rows: &self.motion, velocity_first: self.block.motion.0[0] },
-            wind: &self.wind,
-        }
+        Context { environment: &self.block, step, motion: MotionRows::new(&self.motion), wind: &self.wind }
     }
 
     /// Distance in metres that the mean wind travels in one step.
@@ -199,6 +194,7 @@ fn compile_block(scene: &Scene, tables: &[MotionTables]) -> EnvironmentBlock {
     block.wind = wind_block(scene);
     for (index, (species, tables)) in scene.species.iter().zip(tables).enumerate() {
         block.species[index] = species_block(scene, species, tables);
+        block.responses[index] = response(scene, species);
     }
     for (index, source) in scene.sources.iter().take(MAX_SOURCES).enumerate() {
         let first: u32 = scene.sources[..index].iter().map(|earlier| earlier.count).sum();

@@ -16,8 +16,6 @@ const EDDY_CELLS: f32 = 8.0;
 pub(super) fn species_block(scene: &Scene, species: &Species, tables: &MotionTables) -> SpeciesBlock {
     let constants = MotionConstants::of(species);
     let dt = f64::from(scene.dt_s);
-    let tau = constants.response_s();
-    let decay = libm::exp(-dt / tau);
     let mut rates = [0; 8];
     for (rate, table) in rates.iter_mut().zip(&tables.0) {
         *rate = word(4_294_967_296.0 * dt / table.period_s);
@@ -27,12 +25,11 @@ pub(super) fn species_block(scene: &Scene, species: &Species, tables: &MotionTab
         *count = *entry;
     }
     SpeciesBlock {
-        response: Float4([single(decay), 0.0, single(tau), single(1.0 / tau)]),
         scales: Uint4([
             word(65536.0 / (constants.descent_m_s * dt)),
             spread(species.size_variation),
             spread(species.speed_variation),
-            spin_unit(scene, species),
+            0,
         ]),
         start: Uint4([species.start as u32, 0, 0, 0]),
         rates: bytemuck::cast(rates),
@@ -40,9 +37,18 @@ pub(super) fn species_block(scene: &Scene, species: &Species, tables: &MotionTab
     }
 }
 
-/// Fastest spin per step in 2^-18 turns. Wind makes leaves spin faster by what they lag behind its turbulence, in
+/// How a species answers the wind (see [`EnvironmentBlock::responses`]).
+///
+/// [`EnvironmentBlock::responses`]: crate::blocks::EnvironmentBlock::responses
+pub(super) fn response(scene: &Scene, species: &Species) -> Float4 {
+    let tau = MotionConstants::of(species).response_s();
+    let decay = libm::exp(-f64::from(scene.dt_s) / tau);
+    Float4([single(decay), spin_unit(scene, species), single(tau), single(1.0 / tau)])
+}
+
+/// Fastest spin per step in 2^-18 turns, a whole number. Wind makes leaves spin faster by what they lag behind its turbulence, in
 /// units of their own descent: an average over the scene, so that the angle stays an integer everywhere.
-pub(super) fn spin_unit(scene: &Scene, species: &Species) -> u32 {
+fn spin_unit(scene: &Scene, species: &Species) -> f32 {
     let constants = MotionConstants::of(species);
     let mean = scene.wind.speed.metres_per_second();
     let deviation = f64::from(deviation_m_s(&scene.wind));
@@ -51,7 +57,7 @@ pub(super) fn spin_unit(scene: &Scene, species: &Species) -> u32 {
     let lag = deviation * libm::sqrt(tau / (tau + eddy_s));
     let per_step = f64::from(species.spin_rad_s) * f64::from(scene.dt_s) * f64::from(scene.rotation_speed)
         / std::f64::consts::TAU;
-    word((per_step * (1.0 + lag / constants.descent_m_s) * 262_144.0).min(65535.0))
+    single(libm::floor((per_step * (1.0 + lag / constants.descent_m_s) * 262_144.0).min(65535.0)))
 }
 
 fn spread(variation: f32) -> u32 {

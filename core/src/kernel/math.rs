@@ -7,6 +7,8 @@
 //! # Source
 //! Polynomials: Cephes single-precision library (Moshier 1989): sinf, cosf, expf, atanf.
 
+use super::lane::{Real, Word};
+
 crate::shared_constants! {
     /// Radians of 2^-26 turns: the unit in which [`sin_cos_turns`] reads the offset from the nearest quarter turn.
     pub const TURN_UNIT: f32 = 9.362_676e-8;
@@ -30,6 +32,24 @@ crate::shared_constants! {
     pub const COS_6: f32 = -1.388_731_6e-3;
     /// Cosine series, r^8.
     pub const COS_8: f32 = 2.443_315_7e-5;
+    /// Radians of 2^-17 turns: half of 2^-16 turns.
+    pub const HALF_TURN_UNIT: f32 = 4.793_69e-5;
+    /// Sine series over a quarter turn either way, r^3.
+    pub const HALF_SIN_3: f32 = -0.166_666_66;
+    /// Sine series over a quarter turn either way, r^5.
+    pub const HALF_SIN_5: f32 = 8.333_242e-3;
+    /// Sine series over a quarter turn either way, r^7.
+    pub const HALF_SIN_7: f32 = -1.982_274e-4;
+    /// Sine series over a quarter turn either way, r^9.
+    pub const HALF_SIN_9: f32 = 2.634_756_4e-6;
+    /// Cosine series over a quarter turn either way, r^2.
+    pub const HALF_COS_2: f32 = -0.499_999_9;
+    /// Cosine series over a quarter turn either way, r^4.
+    pub const HALF_COS_4: f32 = 4.166_567e-2;
+    /// Cosine series over a quarter turn either way, r^6.
+    pub const HALF_COS_6: f32 = -1.386_861_1e-3;
+    /// Cosine series over a quarter turn either way, r^8.
+    pub const HALF_COS_8: f32 = 2.347_608_6e-5;
     /// 1 / ln 2.
     pub const LOG2_E: f32 = core::f32::consts::LOG2_E;
     /// First part of ln 2, few enough bits that its small multiples are exact.
@@ -100,6 +120,17 @@ pub fn sin_cos_turns(angle: u32) -> (f32, f32) {
     sin_cos_quadrant(r, quadrant)
 }
 
+/// Sine and cosine of half an angle, the angle being the low half of a word in units of 2^-16 turns, counted from minus
+/// a half to a half turn. Within 3e-7.
+#[inline(always)]
+pub fn sin_cos_half<W: Word>(angle: W) -> (W::Real, W::Real) {
+    let r = (angle << 16).shift_signed(16).to_real() * HALF_TURN_UNIT;
+    let r2 = r * r;
+    let sine = r + r * (r2 * (r2 * (r2 * (r2 * HALF_SIN_9 + HALF_SIN_7) + HALF_SIN_5) + HALF_SIN_3));
+    let cosine = r2 * (r2 * (r2 * (r2 * HALF_COS_8 + HALF_COS_6) + HALF_COS_4) + HALF_COS_2) + 1.0;
+    (sine, cosine)
+}
+
 /// Sine and cosine of `x` radians. Within 2e-7 for |x| up to 1000.
 #[expect(clippy::cast_possible_truncation, reason = "a whole number in range")]
 #[inline(always)]
@@ -127,24 +158,27 @@ pub fn exponential(x: f32) -> f32 {
 
 /// 1/x within 2e-7 relative, for normal x of either sign between 1e-37 and 1e37.
 #[inline(always)]
-pub fn reciprocal(x: f32) -> f32 {
+pub fn reciprocal<R: Real>(x: R) -> R {
+    let two = x.all(2.0);
     let bits = x.to_bits();
-    let a = f32::from_bits(bits & 0x7fff_ffff);
-    let r0 = f32::from_bits(RECIPROCAL_SEED.wrapping_sub(bits & 0x7fff_ffff));
-    let r1 = r0 * (2.0 - a * r0);
-    let r2 = r1 * (2.0 - a * r1);
-    let r3 = r2 * (2.0 - a * r2);
-    f32::from_bits(r3.to_bits() | (bits & 0x8000_0000))
+    let a = R::from_bits(bits & 0x7fff_ffff);
+    let r0 = R::from_bits(bits.all(RECIPROCAL_SEED).minus(bits & 0x7fff_ffff));
+    let r1 = r0 * (two - a * r0);
+    let r2 = r1 * (two - a * r1);
+    let r3 = r2 * (two - a * r2);
+    R::from_bits(r3.to_bits() | (bits & 0x8000_0000))
 }
 
 /// 1/sqrt(x) within 3e-7 relative, for normal positive x.
 #[inline(always)]
-pub fn inverse_sqrt(x: f32) -> f32 {
-    let h = 0.5 * x;
-    let r0 = f32::from_bits(INVERSE_SQRT_SEED.wrapping_sub(x.to_bits() >> 1));
-    let r1 = r0 * (1.5 - (h * r0) * r0);
-    let r2 = r1 * (1.5 - (h * r1) * r1);
-    r2 * (1.5 - (h * r2) * r2)
+pub fn inverse_sqrt<R: Real>(x: R) -> R {
+    let one_and_half = x.all(1.5);
+    let h = x * 0.5;
+    let bits = x.to_bits();
+    let r0 = R::from_bits(bits.all(INVERSE_SQRT_SEED).minus(bits >> 1));
+    let r1 = r0 * (one_and_half - (h * r0) * r0);
+    let r2 = r1 * (one_and_half - (h * r1) * r1);
+    r2 * (one_and_half - (h * r2) * r2)
 }
 
 /// Angle of the point (x, y) from the positive x axis in radians, -pi to pi, within 4e-7; zero at the origin.
@@ -179,6 +213,14 @@ mod tests {
             let (s, c) = sin_cos_turns(angle);
             prop_assert!((f64::from(s) - x.sin()).abs() < 1.5e-7, "sin {s} for {x}");
             prop_assert!((f64::from(c) - x.cos()).abs() < 1.5e-7, "cos {c} for {x}");
+        }
+
+        #[test]
+        fn sin_cos_half_is_close(angle: u32) {
+            let x = f64::from((angle & 0xffff) as u16 as i16) / 65536.0 * std::f64::consts::PI;
+            let (s, c) = sin_cos_half(angle);
+            prop_assert!((f64::from(s) - x.sin()).abs() < 3e-7, "sin {s} for {x}");
+            prop_assert!((f64::from(c) - x.cos()).abs() < 3e-7, "cos {c} for {x}");
         }
 
         #[test]

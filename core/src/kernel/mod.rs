@@ -6,9 +6,11 @@
 //! counts is an integer. No division, root, fused or built-in transcendental function: those are made here from
 //! integers and Newton steps. Every function has a twin of the same name in `backend-wgpu/src/shaders/kernel/`.
 
+pub mod lane;
 pub mod math;
 pub mod quaternion;
 pub mod rng;
+mod transpose;
 pub mod vector;
 
 pub use quaternion::Quat;

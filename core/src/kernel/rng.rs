@@ -7,6 +7,8 @@
 //! # Source
 //! Philox4x32-10 of Salmon, Moraes, Dror and Shaw, "Parallel random numbers: as easy as 1, 2, 3" (2011).
 
+use super::lane::Word;
+
 crate::shared_constants! {
     /// First multiplier.
     pub const PHILOX_M0: u32 = 0xD251_1F53;
@@ -22,22 +24,16 @@ crate::shared_constants! {
     pub const UNIT_FLOAT: f32 = 1.0 / 16_777_216.0;
 }
 
-/// High word of the 64-bit product. WGSL has none, so both twins work in halves of 16 bits.
+/// High word of the 64-bit product. WGSL has none, so the twin works in halves of 16 bits.
 #[inline(always)]
 pub fn mul_high(a: u32, b: u32) -> u32 {
-    let a_low = a & 0xffff;
-    let a_high = a >> 16;
-    let b_low = b & 0xffff;
-    let b_high = b >> 16;
-    let middle = a_high * b_low + ((a_low * b_low) >> 16);
-    let carry = (middle & 0xffff) + a_low * b_high;
-    a_high * b_high + (middle >> 16) + (carry >> 16)
+    a.times_high(b)
 }
 
 /// `a b / 65536` without overflow in between, rounded down; the result must fit.
 #[inline(always)]
-pub fn mul_q16(a: u32, b: u32) -> u32 {
-    (mul_high(a, b) << 16) | (a.wrapping_mul(b) >> 16)
+pub fn mul_q16<W: Word>(a: W, b: W) -> W {
+    (a.times_high(b) << 16) | (a.times(b) >> 16)
 }
 
 /// Four random words for a 128-bit counter under a 64-bit key.

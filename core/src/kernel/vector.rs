@@ -6,17 +6,18 @@
 
 use core::ops::{Add, Mul, Sub};
 
+use super::lane::Real;
 use super::math::inverse_sqrt;
 
 /// A vector of three floats; `vec3<f32>` in WGSL.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Vec3 {
+pub struct Vec3<R = f32> {
     /// Along x.
-    pub x: f32,
+    pub x: R,
     /// Along y, up.
-    pub y: f32,
+    pub y: R,
     /// Along z.
-    pub z: f32,
+    pub z: R,
 }
 
 crate::shared_constants! {
@@ -28,16 +29,24 @@ impl Vec3 {
     /// The zero vector.
     pub const ZERO: Self = Self::new(0.0, 0.0, 0.0);
 
-    /// A vector from its components.
-    #[inline(always)]
-    pub const fn new(x: f32, y: f32, z: f32) -> Self {
-        Self { x, y, z }
-    }
-
     /// Components in order.
     #[inline(always)]
     pub const fn to_array(self) -> [f32; 3] {
         [self.x, self.y, self.z]
+    }
+
+    /// The same vector for all lanes of a number.
+    #[inline(always)]
+    pub fn spread<R: Real>(self, like: R) -> Vec3<R> {
+        Vec3::new(like.all(self.x), like.all(self.y), like.all(self.z))
+    }
+}
+
+impl<R> Vec3<R> {
+    /// A vector from its components.
+    #[inline(always)]
+    pub const fn new(x: R, y: R, z: R) -> Self {
+        Self { x, y, z }
     }
 }
 
@@ -48,7 +57,7 @@ impl From<[f32; 3]> for Vec3 {
     }
 }
 
-impl Add for Vec3 {
+impl<R: Real> Add for Vec3<R> {
     type Output = Self;
     #[inline(always)]
     fn add(self, b: Self) -> Self {
@@ -56,7 +65,7 @@ impl Add for Vec3 {
     }
 }
 
-impl Sub for Vec3 {
+impl<R: Real> Sub for Vec3<R> {
     type Output = Self;
     #[inline(always)]
     fn sub(self, b: Self) -> Self {
@@ -64,29 +73,29 @@ impl Sub for Vec3 {
     }
 }
 
-impl Mul<f32> for Vec3 {
+impl<R: Real> Mul<R> for Vec3<R> {
     type Output = Self;
     #[inline(always)]
-    fn mul(self, b: f32) -> Self {
+    fn mul(self, b: R) -> Self {
         Self::new(self.x * b, self.y * b, self.z * b)
     }
 }
 
 /// Scalar product.
 #[inline(always)]
-pub fn vec3_dot(a: Vec3, b: Vec3) -> f32 {
+pub fn vec3_dot<R: Real>(a: Vec3<R>, b: Vec3<R>) -> R {
     a.x * b.x + a.y * b.y + a.z * b.z
 }
 
 /// Vector product.
 #[inline(always)]
-pub fn vec3_cross(a: Vec3, b: Vec3) -> Vec3 {
+pub fn vec3_cross<R: Real>(a: Vec3<R>, b: Vec3<R>) -> Vec3<R> {
     Vec3::new(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x)
 }
 
 /// Linear blend `a + t (b - a)`.
 #[inline(always)]
-pub fn vec3_lerp(a: Vec3, b: Vec3, t: f32) -> Vec3 {
+pub fn vec3_lerp<R: Real>(a: Vec3<R>, b: Vec3<R>, t: R) -> Vec3<R> {
     Vec3::new(a.x + t * (b.x - a.x), a.y + t * (b.y - a.y), a.z + t * (b.z - a.z))
 }
 

@@ -5,7 +5,7 @@
 //! One step of one leaf: the whole of its life in one place. Steps in which something happens (a release, a join) are
 //! few and long; kernels take them apart from the many short ones.
 
-use super::fall::leaf_fall;
+use super::fall::{leaf_fall, leaf_glide};
 use super::join::leaf_fall_joining;
 use super::record::{SOURCE_MASK, SOURCE_SHIFT, STATE_DORMANT, STATE_FALLING, STATE_MASK, STATE_RESTING};
 use super::release::leaf_release;
@@ -19,15 +19,25 @@ pub fn leaf_is_due(cx: &Context<'_>, leaf: &LeafMut<'_>) -> bool {
     cx.step.index.0[0] >= leaf.course.event
 }
 
-/// One step of a leaf that is not due.
+/// Whether a leaf on the ground still slides or lies down.
 #[inline(always)]
-pub fn leaf_advance_plain(cx: &Context<'_>, leaf: &mut LeafMut<'_>) {
+pub fn leaf_stirs(cx: &Context<'_>, leaf: &LeafMut<'_>) -> bool {
+    let [x, _, z] = leaf.drift.velocity;
+    leaf.drift.phase < cx.environment.counts.0[1] || ((x.to_bits() | z.to_bits()) << 1) != 0
+}
+
+/// One step of a leaf to which nothing happens in it: it goes on falling, or lies still. Other leaves are left alone.
+/// Whether the step is done.
+#[inline(always)]
+pub fn leaf_advance_plain(cx: &Context<'_>, leaf: &mut LeafMut<'_>) -> bool {
+    if leaf_is_due(cx, leaf) {
+        return false;
+    }
     let state = leaf.place.bits & STATE_MASK;
     if state == STATE_FALLING {
-        leaf_fall(cx, leaf);
-    } else if state == STATE_RESTING {
-        leaf_settle(cx, leaf);
+        return leaf_glide(cx, leaf);
     }
+    state != STATE_RESTING || !leaf_stirs(cx, leaf)
 }
 
 /// One step of a leaf that is due: it is released, or comes to the end of a stage.
@@ -51,7 +61,12 @@ pub fn leaf_advance_due(cx: &Context<'_>, leaf: &mut LeafMut<'_>) {
 pub fn leaf_advance(cx: &Context<'_>, leaf: &mut LeafMut<'_>) {
     if leaf_is_due(cx, leaf) {
         leaf_advance_due(cx, leaf);
-    } else {
-        leaf_advance_plain(cx, leaf);
+        return;
+    }
+    let state = leaf.place.bits & STATE_MASK;
+    if state == STATE_FALLING {
+        leaf_fall(cx, leaf);
+    } else if state == STATE_RESTING {
+        leaf_settle(cx, leaf);
     }
 }

@@ -7,11 +7,12 @@
 //! The leaf's velocity is its own motion's plus a drift that relaxes towards the wind within the response time
 //! tau = U/g, exactly for a wind that holds still during the step. In still air the path does not depend on dt.
 
-use super::own::{on_grid, own_advance, own_orientation, own_rate};
-use super::record::{BLEND_MASK, BLEND_SHIFT, Course, SPECIES_MASK, SPECIES_SHIFT, SPIN_SHIFT};
+use super::own::{Manner, on_grid, own_advance, own_orientation, own_rate};
+use super::record::{BLEND_MASK, BLEND_SHIFT, SPECIES_MASK, SPECIES_SHIFT, SPIN_SHIFT};
 use super::settle::leaf_land;
 use super::store::LeafMut;
 use crate::context::Context;
+use crate::kernel::lane::{Mask, Real, Word};
 use crate::kernel::math::reciprocal;
 use crate::kernel::quaternion::{Quat, quat_blend};
 use crate::kernel::rng::mul_q16;
@@ -25,85 +26,155 @@ crate::shared_constants! {
     pub const STEP_UNIT: f32 = 1.0 / 65536.0;
 }
 
-/// A leaf on its way through one step.
-#[derive(Clone, Copy, Debug)]
-pub struct Glide {
+/// A leaf on its way through one step, or eight of them.
+#[derive(Clone, Copy)]
+pub struct Glide<R: Real = f32> {
     /// Position in metres.
-    pub position: Vec3,
+    pub position: Vec3<R>,
     /// Drift velocity in m/s.
-    pub drift: Vec3,
+    pub drift: Vec3<R>,
     /// Phase.
-    pub phase: u32,
+    pub phase: R::Word,
 }
 
 /// A part of a step, and what the drift does in it.
-#[derive(Clone, Copy, Debug)]
-pub struct Part {
+#[derive(Clone, Copy)]
+pub struct Part<R: Real = f32> {
     /// Length in 2^-16 steps.
     pub length: u32,
     /// Drift kept.
-    pub decay: f32,
+    pub decay: R,
     /// Time constant of the response in s: distance per drift speed until none is left.
-    pub tau: f32,
+    pub tau: R,
+}
+
+/// What a leaf's species says of its response: drift kept over a step, fastest spin, time constant and its inverse.
+#[inline(always)]
+pub fn response_of<W: Word>(cx: &Context<'_>, bits: W) -> [W::Real; 4] {
+    let species = (bits >> SPECIES_SHIFT) & SPECIES_MASK;
+    species.look_up(bytemuck::cast_slice(&cx.environment.responses))
 }
 
 /// Moves a leaf through a part of a step within one stage.
 #[inline(always)]
-pub fn glide_part(
+pub fn glide_part<R: Real>(
     cx: &Context<'_>,
-    glide: Glide,
-    bits: u32,
-    course: Course,
-    wind: Vec3,
-    part: Part,
-) -> Glide {
-    let end = glide.phase.wrapping_add(mul_q16(own_rate(cx, course.rate), part.length));
-    let own = own_advance(cx, bits, course, glide.phase, end);
+    glide: Glide<R>,
+    bits: R::Word,
+    manner: Manner<R::Word>,
+    wind: Vec3<R>,
+    part: Part<R>,
+) -> Glide<R> {
+    let rate = own_rate(cx, manner.rate);
+    let end = glide.phase.plus(mul_q16(rate, rate.all(part.length)));
+    let own = own_advance(cx, bits, manner, glide.phase, end);
     let before = glide.drift - wind;
     let after = before * part.decay;
-    let spent = on_grid(cx, before * part.tau) - on_grid(cx, after * part.tau);
-    let carried = wind * ((part.length as f32 * STEP_UNIT) * cx.environment.time.0[0]);
+    let spent = on_grid(before * part.tau) - on_grid(after * part.tau);
+    let carried = wind * wind.x.all((part.length as f32 * STEP_UNIT) * cx.environment.time.0[0]);
     Glide { position: glide.position + ((own + spent) + carried), drift: wind + after, phase: end }
 }
 
 /// Spin angle one step on, in place in the bits.
 #[inline(always)]
-pub fn spin_advance(cx: &Context<'_>, bits: u32, heading: u32) -> u32 {
-    let fastest = cx.environment.species[((bits >> SPECIES_SHIFT) & SPECIES_MASK) as usize].scales.0[3];
-    let rate = ((heading << 16) as i32) >> 16;
-    let turn = (rate * fastest as i32) >> 17;
-    bits.wrapping_add((turn as u32) << SPIN_SHIFT)
+pub fn spin_advance<W: Word>(bits: W, heading: W, fastest: W::Real) -> W {
+    let rate = (heading << 16).shift_signed(16);
+    let turn = rate.times(fastest.to_whole()).shift_signed(17);
+    bits.plus(turn << SPIN_SHIFT)
+}
+
+/// Orientation after a step whose spin is done, and the bits with one step less to blend. `before` is only looked at
+/// where a blend goes on.
+#[inline(always)]
+pub fn attitude_after<R: Real>(
+    cx: &Context<'_>,
+    bits: R::Word,
+    phase: R::Word,
+    heading: R::Word,
+    before: impl Fn() -> Quat<R>,
+) -> (R::Word, Quat<R>) {
+    let target = own_orientation(cx, bits, phase, heading);
+    let blend = (bits >> BLEND_SHIFT) & BLEND_MASK;
+    let blending = blend.all(0).less_than(blend);
+    if !blending.any() {
+        return (bits, target);
+    }
+    let mixed = quat_blend(before(), target, reciprocal(blend.to_real()));
+    let attitude = Quat::new(
+        blending.select_real(mixed.x, target.x),
+        blending.select_real(mixed.y, target.y),
+        blending.select_real(mixed.z, target.z),
+        blending.select_real(mixed.w, target.w),
+    );
+    (bits.minus(blending.select(bits.all(1 << BLEND_SHIFT), bits.all(0))), attitude)
 }
 
 /// Writes back a leaf that has come from `start` to the end of its step: spin, orientation, and the ground.
 #[inline(always)]
 pub fn glide_end(cx: &Context<'_>, leaf: &mut LeafMut<'_>, start: Vec3, glide: Glide) {
-    let course = *leaf.course;
-    let mut bits = spin_advance(cx, leaf.place.bits, course.heading);
-    let mut attitude = own_orientation(cx, bits, glide.phase, course.heading);
-    let blend = (bits >> BLEND_SHIFT) & BLEND_MASK;
-    if blend != 0 {
-        attitude = quat_blend(Quat::from(leaf.attitude.quaternion), attitude, reciprocal(blend as f32));
-        bits -= 1 << BLEND_SHIFT;
+    let heading = leaf.course.heading;
+    let response = response_of(cx, leaf.place.bits);
+    let spun = spin_advance(leaf.place.bits, heading, response[1]);
+    let before = || Quat::from(leaf.attitude.quaternion);
+    let (bits, attitude) = attitude_after(cx, spun, glide.phase, heading, before);
+    glide_write(leaf, glide, bits, attitude);
+    if glide.position.y < cx.environment.ground.0[1] {
+        leaf_land(cx, leaf, start);
     }
+}
+
+/// Writes where a leaf has come to.
+#[inline(always)]
+fn glide_write(leaf: &mut LeafMut<'_>, glide: Glide, bits: u32, attitude: Quat) {
     leaf.attitude.quaternion = attitude.to_array();
     leaf.place.bits = bits;
     leaf.place.position = glide.position.to_array();
     leaf.drift.velocity = glide.drift.to_array();
     leaf.drift.phase = glide.phase;
-    if glide.position.y < cx.environment.ground.0[1] {
-        leaf_land(cx, leaf, start);
-    }
+}
+
+/// The whole step of falling leaves that have no event in it: where they come to.
+#[inline(always)]
+pub fn glide_step<R: Real>(
+    cx: &Context<'_>,
+    glide: Glide<R>,
+    bits: R::Word,
+    manner: Manner<R::Word>,
+    response: [R; 4],
+) -> Glide<R> {
+    let wind = wind_at(cx, glide.position);
+    let part = Part { length: WHOLE_STEP, decay: response[0], tau: response[2] };
+    glide_part(cx, glide, bits, manner, wind, part)
 }
 
 /// One step of a falling leaf that has no event in it.
 #[inline(always)]
 pub fn leaf_fall(cx: &Context<'_>, leaf: &mut LeafMut<'_>) {
     let start = Vec3::from(leaf.place.position);
-    let response =
-        cx.environment.species[((leaf.place.bits >> SPECIES_SHIFT) & SPECIES_MASK) as usize].response.0;
-    let wind = wind_at(cx, start);
+    let bits = leaf.place.bits;
     let glide = Glide { position: start, drift: Vec3::from(leaf.drift.velocity), phase: leaf.drift.phase };
-    let part = Part { length: WHOLE_STEP, decay: response[0], tau: response[2] };
-    glide_end(cx, leaf, start, glide_part(cx, glide, leaf.place.bits, *leaf.course, wind, part));
+    let moved = glide_step(cx, glide, bits, (*leaf.course).into(), response_of(cx, bits));
+    glide_end(cx, leaf, start, moved);
+}
+
+/// One step of a falling leaf that has no event in it, unless it lands: then it is left alone. Whether it has been
+/// moved.
+#[inline(always)]
+pub fn leaf_glide(cx: &Context<'_>, leaf: &mut LeafMut<'_>) -> bool {
+    let (bits, heading) = (leaf.place.bits, leaf.course.heading);
+    let glide = Glide {
+        position: Vec3::from(leaf.place.position),
+        drift: Vec3::from(leaf.drift.velocity),
+        phase: leaf.drift.phase,
+    };
+    let response = response_of(cx, bits);
+    let moved = glide_step(cx, glide, bits, (*leaf.course).into(), response);
+    if moved.position.y < cx.environment.ground.0[1] {
+        return false;
+    }
+    let spun = spin_advance(bits, heading, response[1]);
+    let before = || Quat::from(leaf.attitude.quaternion);
+    let (bits, attitude) = attitude_after(cx, spun, moved.phase, heading, before);
+    glide_write(leaf, moved, bits, attitude);
+    true
 }

@@ -7,7 +7,7 @@
 //! At a join the drift takes up the difference between the old motion's velocity and the new one's, so that position
 //! and velocity go on without a jump, at the exact moment within the step; orientation blends over a few steps.
 
-use super::fall::{Glide, Part, STEP_UNIT, WHOLE_STEP, glide_end, glide_part};
+use super::fall::{Glide, Part, STEP_UNIT, WHOLE_STEP, glide_end, glide_part, response_of};
 use super::own::own_velocity;
 use super::record::{
     BLEND_MASK, BLEND_SHIFT, HALF_MASK, PRIMITIVE_MASK, PRIMITIVE_SHIFT, SOURCE_MASK, SOURCE_SHIFT,
@@ -28,7 +28,7 @@ pub fn leaf_join(cx: &Context<'_>, leaf: &mut LeafMut<'_>, glide: Glide) -> Glid
     let seed = [cx.environment.seed.0[0], cx.environment.seed.0[1]];
     let id = leaf.identity.id;
     let bits = leaf.place.bits;
-    let before = own_velocity(cx, bits, glide.phase, *leaf.course);
+    let before = own_velocity(cx, bits, glide.phase, (*leaf.course).into());
     let stage = ((leaf.identity.look >> STAGE_SHIFT) & STAGE_MASK) + 1;
     let species = &cx.environment.species[((bits >> SPECIES_SHIFT) & SPECIES_MASK) as usize];
     let words = stage_words(seed, id, stage);
@@ -49,7 +49,7 @@ pub fn leaf_join(cx: &Context<'_>, leaf: &mut LeafMut<'_>, glide: Glide) -> Glid
     leaf.place.bits = (bits & !((PRIMITIVE_MASK << PRIMITIVE_SHIFT) | (BLEND_MASK << BLEND_SHIFT)))
         | (primitive << PRIMITIVE_SHIFT)
         | (cx.environment.counts.0[2] << BLEND_SHIFT);
-    let after = own_velocity(cx, leaf.place.bits, words[1], *leaf.course);
+    let after = own_velocity(cx, leaf.place.bits, words[1], (*leaf.course).into());
     Glide { position: glide.position, drift: glide.drift + (before - after), phase: words[1] }
 }
 
@@ -65,8 +65,7 @@ pub fn part_of_step(cx: &Context<'_>, response: [f32; 4], length: u32) -> Part {
 #[inline(always)]
 pub fn leaf_fall_joining(cx: &Context<'_>, leaf: &mut LeafMut<'_>) {
     let start = Vec3::from(leaf.place.position);
-    let response =
-        cx.environment.species[((leaf.place.bits >> SPECIES_SHIFT) & SPECIES_MASK) as usize].response.0;
+    let response = response_of(cx, leaf.place.bits);
     let wind = wind_at(cx, start);
     let seed = [cx.environment.seed.0[0], cx.environment.seed.0[1]];
     let mut glide =
@@ -77,11 +76,12 @@ pub fn leaf_fall_joining(cx: &Context<'_>, leaf: &mut LeafMut<'_>) {
             let stage = (leaf.identity.look >> STAGE_SHIFT) & STAGE_MASK;
             let end = done.max(stage_end(seed, leaf.identity.id, leaf.identity.fall_time, stage) & HALF_MASK);
             let part = part_of_step(cx, response, end - done);
-            glide = glide_part(cx, glide, leaf.place.bits, *leaf.course, wind, part);
+            glide = glide_part(cx, glide, leaf.place.bits, (*leaf.course).into(), wind, part);
             glide = leaf_join(cx, leaf, glide);
             done = end;
         }
     }
     let part = part_of_step(cx, response, WHOLE_STEP - done);
-    glide_end(cx, leaf, start, glide_part(cx, glide, leaf.place.bits, *leaf.course, wind, part));
+    let moved = glide_part(cx, glide, leaf.place.bits, (*leaf.course).into(), wind, part);
+    glide_end(cx, leaf, start, moved);
 }

@@ -4,31 +4,55 @@
 //!
 //! A leaf's own motion: the tables scaled to its size and speed, turned to its heading, with its spin.
 
+use super::fall::WHOLE_STEP;
 use super::record::{Course, GRID_ANCHOR, HALF_MASK, SIZE_UNIT, SPIN_SHIFT, TABLE_MASK, TABLE_SHIFT};
 use crate::context::Context;
-use crate::kernel::math::sin_cos_turns;
-use crate::kernel::quaternion::{Quat, quat_multiply};
+use crate::kernel::lane::{Mask, Real, Word};
+use crate::kernel::math::sin_cos_half;
+use crate::kernel::quaternion::{Quat, quat_turn_after, quat_turn_before};
 use crate::kernel::rng::mul_q16;
 use crate::kernel::vector::Vec3;
-use crate::motion::lookup::{motion_displacement, motion_orientation, motion_period, motion_velocity};
+use crate::motion::lookup::{motion_displacement, motion_period, motion_state, motion_velocity};
+
+/// How a leaf goes through its stage: the last three words of its course, or of eight courses.
+#[derive(Clone, Copy, Debug)]
+pub struct Manner<W = u32> {
+    /// Phase per step.
+    pub rate: W,
+    /// Size (low half).
+    pub size: W,
+    /// Heading and spin rate.
+    pub heading: W,
+}
+
+impl From<Course> for Manner {
+    #[inline(always)]
+    fn from(course: Course) -> Self {
+        Self { rate: course.rate, size: course.size, heading: course.heading }
+    }
+}
 
 /// A table vector turned by a heading in 2^-16 turns about +y.
 #[inline(always)]
-pub fn turn_to_heading(v: Vec3, heading: u32) -> Vec3 {
-    let (sine, cosine) = sin_cos_turns(heading << 16);
+pub fn turn_to_heading<W: Word>(v: Vec3<W::Real>, heading: W) -> Vec3<W::Real> {
+    let (half_sine, half_cosine) = sin_cos_half(heading);
+    let twice = half_sine + half_sine;
+    let sine = twice * half_cosine;
+    let cosine = half_sine.all(1.0) - twice * half_sine;
     Vec3::new(cosine * v.x + sine * v.z, v.y, cosine * v.z - sine * v.x)
 }
 
 /// Metres that a leaf moves per metre of its table.
 #[inline(always)]
-pub fn own_scale(cx: &Context<'_>, course: Course) -> f32 {
-    ((course.size & HALF_MASK) as f32 * SIZE_UNIT) * cx.environment.time.0[3]
+pub fn own_scale<W: Word>(cx: &Context<'_>, manner: Manner<W>) -> W::Real {
+    ((manner.size & HALF_MASK).to_real() * SIZE_UNIT) * cx.environment.time.0[3]
 }
 
 /// Phase per step with the scene's rotation speed.
 #[inline(always)]
-pub fn own_rate(cx: &Context<'_>, rate: u32) -> u32 {
-    mul_q16(rate, cx.environment.counts.0[3])
+pub fn own_rate<W: Word>(cx: &Context<'_>, rate: W) -> W {
+    let speed = cx.environment.counts.0[3];
+    if speed == WHOLE_STEP { rate } else { mul_q16(rate, rate.all(speed)) }
 }
 
 /// A displacement on the grid of 2^-18 m, for up to 16 m. Positions up to 64 m from the origin take up differences of
@@ -36,54 +60,56 @@ pub fn own_rate(cx: &Context<'_>, rate: u32) -> u32 {
 /// depend on the step length. (Rounded, the same small displacement step after step would be off by up to half a unit
 /// in the last place each time, a millimetre and more over a fall.)
 ///
-/// The sum with the anchor is held in an integer, changed by a zero that compilers cannot know of: they might take the
-/// anchor away from where it was just added and leave nothing of the rounding.
+/// The twin holds the sum with the anchor in an integer, changed by a zero that shader compilers cannot know of: they
+/// might take the anchor away from where it was just added and leave nothing of the rounding. Rust does as it is told.
 #[inline(always)]
-pub fn on_grid(cx: &Context<'_>, v: Vec3) -> Vec3 {
-    let zero = cx.environment.motion.0[1];
+pub fn on_grid<R: Real>(v: Vec3<R>) -> Vec3<R> {
     Vec3::new(
-        f32::from_bits((v.x + GRID_ANCHOR).to_bits() | zero) - GRID_ANCHOR,
-        f32::from_bits((v.y + GRID_ANCHOR).to_bits() | zero) - GRID_ANCHOR,
-        f32::from_bits((v.z + GRID_ANCHOR).to_bits() | zero) - GRID_ANCHOR,
+        (v.x + GRID_ANCHOR) - GRID_ANCHOR,
+        (v.y + GRID_ANCHOR) - GRID_ANCHOR,
+        (v.z + GRID_ANCHOR) - GRID_ANCHOR,
     )
 }
 
 /// Displacement of a leaf's own motion over one whole period, in metres.
 #[inline(always)]
-pub fn own_period(cx: &Context<'_>, bits: u32, course: Course) -> Vec3 {
+pub fn own_period<W: Word>(cx: &Context<'_>, bits: W, manner: Manner<W>) -> Vec3<W::Real> {
     let local = motion_period(&cx.motion, (bits >> TABLE_SHIFT) & TABLE_MASK);
-    on_grid(cx, turn_to_heading(local, course.heading >> 16) * own_scale(cx, course))
+    on_grid(turn_to_heading(local, manner.heading >> 16) * own_scale(cx, manner))
 }
 
 /// Displacement of a leaf's own motion from phase `start` to the later phase `end`, at most one period on, in metres.
 #[inline(always)]
-pub fn own_advance(cx: &Context<'_>, bits: u32, course: Course, start: u32, end: u32) -> Vec3 {
+pub fn own_advance<W: Word>(cx: &Context<'_>, bits: W, manner: Manner<W>, start: W, end: W) -> Vec3<W::Real> {
     let table = (bits >> TABLE_SHIFT) & TABLE_MASK;
-    let heading = course.heading >> 16;
-    let scale = own_scale(cx, course);
-    let before = on_grid(cx, turn_to_heading(motion_displacement(&cx.motion, table, start), heading) * scale);
-    let after = on_grid(cx, turn_to_heading(motion_displacement(&cx.motion, table, end), heading) * scale);
-    let wrapped = if end < start { 1.0 } else { 0.0 };
-    (after - before) + own_period(cx, bits, course) * wrapped
+    let heading = manner.heading >> 16;
+    let scale = own_scale(cx, manner);
+    let before = on_grid(turn_to_heading(motion_displacement(&cx.motion, table, start), heading) * scale);
+    let after = on_grid(turn_to_heading(motion_state(&cx.motion, table, end).0, heading) * scale);
+    let mut way = after - before;
+    let wrapped = end.less_than(start);
+    if wrapped.any() {
+        way = way + own_period(cx, bits, manner) * wrapped.select_real(scale.all(1.0), scale.all(0.0));
+    }
+    way
 }
 
 /// Velocity of a leaf's own motion at a phase, in m/s.
 #[inline(always)]
-pub fn own_velocity(cx: &Context<'_>, bits: u32, phase: u32, course: Course) -> Vec3 {
+pub fn own_velocity(cx: &Context<'_>, bits: u32, phase: u32, manner: Manner) -> Vec3 {
     let local = motion_velocity(&cx.motion, (bits >> TABLE_SHIFT) & TABLE_MASK, phase);
-    let rate = own_rate(cx, course.rate);
+    let rate = own_rate(cx, manner.rate);
     // In halves, which floats hold exactly.
     let rounded = (rate >> 16) as f32 * 65536.0 + (rate & HALF_MASK) as f32;
     let per_second = rounded * cx.environment.time.0[2];
-    turn_to_heading(local, course.heading >> 16) * (own_scale(cx, course) * per_second)
+    turn_to_heading(local, manner.heading >> 16) * (own_scale(cx, manner) * per_second)
 }
 
-/// Orientation of a leaf's own motion at a phase: table, heading and spin.
+/// Orientation of a leaf's own motion at a phase: spin, table and heading.
 #[inline(always)]
-pub fn own_orientation(cx: &Context<'_>, bits: u32, phase: u32, heading: u32) -> Quat {
-    let local = motion_orientation(&cx.motion, (bits >> TABLE_SHIFT) & TABLE_MASK, phase);
-    let (heading_sine, heading_cosine) = sin_cos_turns((heading >> 16) << 15);
-    let (spin_sine, spin_cosine) = sin_cos_turns((bits >> SPIN_SHIFT) << 15);
-    let turned = quat_multiply(Quat::new(0.0, heading_sine, 0.0, heading_cosine), local);
-    quat_multiply(turned, Quat::new(0.0, spin_sine, 0.0, spin_cosine))
+pub fn own_orientation<W: Word>(cx: &Context<'_>, bits: W, phase: W, heading: W) -> Quat<W::Real> {
+    let (_, local) = motion_state(&cx.motion, (bits >> TABLE_SHIFT) & TABLE_MASK, phase);
+    let (heading_sine, heading_cosine) = sin_cos_half(heading >> 16);
+    let (spin_sine, spin_cosine) = sin_cos_half(bits >> SPIN_SHIFT);
+    quat_turn_before(quat_turn_after(local, heading_sine, heading_cosine), spin_sine, spin_cosine)
 }

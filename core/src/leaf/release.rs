@@ -167,6 +167,6 @@ pub fn leaf_release(cx: &Context<'_>, leaf: &mut LeafMut<'_>, id: u32, source: u
         | (species_index << SPECIES_SHIFT)
         | ((stage[3] & HALF_MASK) << SPIN_SHIFT);
     leaf.drift.phase = stage[1];
-    let start = Vec3::ZERO - own_velocity(cx, leaf.place.bits, leaf.drift.phase, *leaf.course);
+    let start = Vec3::ZERO - own_velocity(cx, leaf.place.bits, leaf.drift.phase, (*leaf.course).into());
     leaf.drift.velocity = start.to_array();
 }

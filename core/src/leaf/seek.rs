@@ -2,12 +2,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Finds a leaf's state at any moment of a fall through still air, without stepping there.
 
-use super::fall::{Glide, spin_advance};
+use super::fall::{Glide, response_of, spin_advance};
 use super::join::leaf_join;
-use super::own::{on_grid, own_advance, own_orientation, own_period, own_rate};
-use super::record::{
-    BLEND_MASK, BLEND_SHIFT, SPECIES_MASK, SPECIES_SHIFT, STAGE_MASK, STAGE_SHIFT, STATE_MASK, STATE_RESTING,
-};
+use super::own::{Manner, on_grid, own_advance, own_orientation, own_period, own_rate};
+use super::record::{BLEND_MASK, BLEND_SHIFT, STAGE_MASK, STAGE_SHIFT, STATE_MASK, STATE_RESTING};
 use super::release::leaf_release;
 use super::settle::flatten;
 use super::store::LeafMut;
@@ -25,17 +23,55 @@ const LANDING_ROUNDS: u32 = 6;
 /// still air gives it; on the ground, flat and still, if that fall is over. Orientation is that of the stage, without
 /// the short blend after a join.
 pub fn leaf_seek(cx: &Context<'_>, leaf: &mut LeafMut<'_>, id: u32, source: u32, release: u32, elapsed: u32) {
+    leaf_release(cx, leaf, id, source, release);
     let rest_height = cx.environment.ground.0[1];
     let target = u64::from(elapsed) << 16;
-    fly(cx, leaf, id, source, release, target);
-    if elapsed == 0 || leaf.place.position[1] >= rest_height {
-        return;
+    let mut glide = Glide {
+        position: leaf.place.position.into(),
+        drift: leaf.drift.velocity.into(),
+        phase: leaf.drift.phase,
+    };
+    let mut now = 0;
+    loop {
+        let end = stage_end_after(cx, leaf);
+        let part = end.min(target) - now;
+        let next = glide_long(cx, leaf, glide, part);
+        if part > 0 && next.position.y < rest_height {
+            let landing = landing_within(cx, leaf, glide, part);
+            arrive(cx, leaf, glide_long(cx, leaf, glide, landing), now + landing);
+            rest(cx, leaf, source);
+            return;
+        }
+        glide = next;
+        if end >= target {
+            break;
+        }
+        now = end;
+        glide = leaf_join(cx, leaf, glide);
     }
-    // The fall is nearly uniform, so the landing is bracketed and refined by the secant through the bracket's ends.
-    leaf_release(cx, leaf, id, source, release);
-    let (mut early, mut early_height) = (0u64, f64::from(leaf.place.position[1] - rest_height).max(0.0));
-    fly(cx, leaf, id, source, release, target);
-    let (mut late, mut late_height) = (target, f64::from(leaf.place.position[1] - rest_height));
+    arrive(cx, leaf, glide, target);
+}
+
+/// Time from release to the end of a leaf's stage in 2^-16 steps.
+fn stage_end_after(cx: &Context<'_>, leaf: &LeafMut<'_>) -> u64 {
+    let seed = [cx.environment.seed.0[0], cx.environment.seed.0[1]];
+    let stage = (leaf.identity.look >> STAGE_SHIFT) & STAGE_MASK;
+    if stage + 1 < STAGE_COUNT {
+        u64::from(stage_end(seed, leaf.identity.id, leaf.identity.fall_time, stage))
+    } else {
+        u64::MAX
+    }
+}
+
+/// When, within `part` of the stage that begins with `glide`, the leaf comes to the ground. The fall is nearly uniform:
+/// its end is bracketed and refined by the secant through the bracket's ends.
+fn landing_within(cx: &Context<'_>, leaf: &LeafMut<'_>, glide: Glide, part: u64) -> u64 {
+    let height = |part| {
+        let position = glide_long(cx, leaf, glide, part).position;
+        f64::from(position.y - cx.environment.ground.0[1])
+    };
+    let (mut early, mut early_height) = (0, height(0).max(0.0));
+    let (mut late, mut late_height) = (part, height(part).min(-1e-9));
     for _ in 0..LANDING_ROUNDS {
         let share = early_height / (early_height - late_height);
         #[expect(
@@ -44,47 +80,24 @@ pub fn leaf_seek(cx: &Context<'_>, leaf: &mut LeafMut<'_>, id: u32, source: u32,
             reason = "share is between 0 and 1"
         )]
         let middle = early + ((late - early) as f64 * share) as u64;
-        fly(cx, leaf, id, source, release, middle);
-        let height = f64::from(leaf.place.position[1] - rest_height);
-        if height > 0.0 {
-            (early, early_height) = (middle, height);
+        let found = height(middle);
+        if found > 0.0 {
+            (early, early_height) = (middle, found);
             late_height *= 0.5;
         } else {
-            (late, late_height) = (middle, height.min(-1e-9));
+            (late, late_height) = (middle, found.min(-1e-9));
             early_height *= 0.5;
         }
     }
-    rest(cx, leaf, source);
+    late
 }
 
-/// A flight of `target` (2^-16 steps) from release.
-fn fly(cx: &Context<'_>, leaf: &mut LeafMut<'_>, id: u32, source: u32, release: u32, target: u64) {
-    leaf_release(cx, leaf, id, source, release);
-    let seed = [cx.environment.seed.0[0], cx.environment.seed.0[1]];
-    let mut glide = Glide {
-        position: leaf.place.position.into(),
-        drift: leaf.drift.velocity.into(),
-        phase: leaf.drift.phase,
-    };
-    let mut now = 0;
-    loop {
-        let stage = (leaf.identity.look >> STAGE_SHIFT) & STAGE_MASK;
-        let end = if stage + 1 < STAGE_COUNT {
-            u64::from(stage_end(seed, id, leaf.identity.fall_time, stage))
-        } else {
-            u64::MAX
-        };
-        glide = glide_long(cx, leaf, glide, end.min(target) - now);
-        if end >= target {
-            break;
-        }
-        now = end;
-        glide = leaf_join(cx, leaf, glide);
-    }
+/// Writes where a leaf is `elapsed` (2^-16 steps) after its release.
+fn arrive(cx: &Context<'_>, leaf: &mut LeafMut<'_>, glide: Glide, elapsed: u64) {
     #[expect(clippy::cast_possible_truncation, reason = "whole steps of a fall fit a word")]
-    let steps = (target >> 16) as u32;
+    let steps = (elapsed >> 16) as u32;
     let bits = leaf.place.bits & !(BLEND_MASK << BLEND_SHIFT);
-    let spin = spin_advance(cx, bits, leaf.course.heading).wrapping_sub(bits);
+    let spin = spin_advance(bits, leaf.course.heading, response_of(cx, bits)[1]).wrapping_sub(bits);
     leaf.place.bits = bits.wrapping_add(spin.wrapping_mul(steps));
     leaf.place.position = glide.position.to_array();
     leaf.drift.velocity = glide.drift.to_array();
@@ -96,18 +109,18 @@ fn fly(cx: &Context<'_>, leaf: &mut LeafMut<'_>, id: u32, source: u32, release: 
 /// Any length of time within one stage, in still air.
 fn glide_long(cx: &Context<'_>, leaf: &LeafMut<'_>, glide: Glide, part_q16: u64) -> Glide {
     let environment = cx.environment;
-    let (bits, course) = (leaf.place.bits, *leaf.course);
-    let response = environment.species[((bits >> SPECIES_SHIFT) & SPECIES_MASK) as usize].response.0;
-    let rate = u128::from(own_rate(cx, course.rate));
+    let (bits, manner) = (leaf.place.bits, Manner::from(*leaf.course));
+    let response = response_of(cx, bits);
+    let rate = u128::from(own_rate(cx, manner.rate));
     let turned = (rate * u128::from(part_q16)) >> 16;
     #[expect(clippy::cast_possible_truncation, reason = "the low word is the phase, the rest whole periods")]
     let (periods, low) = ((turned >> 32) as f32, turned as u32);
     let end = glide.phase.wrapping_add(low);
-    let own = own_advance(cx, bits, course, glide.phase, end) + own_period(cx, bits, course) * periods;
+    let own = own_advance(cx, bits, manner, glide.phase, end) + own_period(cx, bits, manner) * periods;
     #[expect(clippy::cast_possible_truncation, reason = "seconds in single precision")]
     let elapsed = (part_q16 as f64 / 65536.0 * f64::from(environment.time.0[0])) as f32;
     let drift = glide.drift * exponential(-elapsed * response[3]);
-    let spent = on_grid(cx, glide.drift * response[2]) - on_grid(cx, drift * response[2]);
+    let spent = on_grid(glide.drift * response[2]) - on_grid(drift * response[2]);
     Glide { position: glide.position + (own + spent), drift, phase: end }
 }
 

@@ -80,7 +80,7 @@ impl Leaves {
         self.place.is_empty()
     }
 
-    /// One leaf's records, for the kernels.
+    /// One leaf's records.
     pub fn leaf_mut(&mut self, slot: usize) -> LeafMut<'_> {
         LeafMut {
             place: &mut self.place[slot],
@@ -183,6 +183,17 @@ impl<'a> LeavesMut<'a> {
                 identity: identity_rest,
             },
         )
+    }
+
+    /// One leaf's records.
+    pub fn leaf_mut(&mut self, slot: usize) -> LeafMut<'_> {
+        LeafMut {
+            place: &mut self.place[slot],
+            drift: &mut self.drift[slot],
+            attitude: &mut self.attitude[slot],
+            course: &mut self.course[slot],
+            identity: &mut self.identity[slot],
+        }
     }
 
     /// Leaf after leaf.

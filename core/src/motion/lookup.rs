@@ -5,6 +5,7 @@
 //! Reads the packed motion tables at a phase. A phase is a `u32` in units of 2^-32 periods, so it wraps by itself.
 
 use super::table::{TABLE_BITS, TABLE_ROWS};
+use crate::kernel::lane::Word;
 use crate::kernel::quaternion::{Quat, quat_renormalize};
 use crate::kernel::vector::{Vec3, vec3_lerp};
 use crate::layout::Float4;
@@ -18,59 +19,71 @@ crate::shared_constants! {
     pub const PHASE_FRACTION_UNIT: f32 = 1.0 / (1u32 << PHASE_ROW_SHIFT) as f32;
 }
 
-/// Packed tables: for table t and row r the displacement at `2 (513 t + r)` and the orientation behind it; after all
-/// tables, the velocity of row r at `velocity_first + 513 t + r`.
+/// Packed tables, as kernels read them.
 #[derive(Clone, Copy, Debug)]
 pub struct MotionRows<'a> {
-    /// All rows.
-    pub rows: &'a [Float4],
-    /// Index of the first velocity.
-    pub velocity_first: u32,
+    /// For table t and row r at `513 t + r`: displacement, an unused number, orientation.
+    pub states: &'a [[f32; 8]],
+    /// For table t and row r at `513 t + r`: velocity, an unused number.
+    pub velocities: &'a [[f32; 4]],
 }
 
-/// Where a phase lies in a table.
-#[inline(always)]
-fn fraction_of(phase: u32) -> f32 {
-    (phase & PHASE_FRACTION_MASK) as f32 * PHASE_FRACTION_UNIT
+impl<'a> MotionRows<'a> {
+    /// The rows of the packed tables, all states first, then all velocities.
+    pub fn new(packed: &'a [Float4]) -> Self {
+        let (states, velocities) = packed.split_at(packed.len() / 3 * 2);
+        Self { states: bytemuck::cast_slice(states), velocities: bytemuck::cast_slice(velocities) }
+    }
 }
 
+/// Where a phase lies between two rows.
 #[inline(always)]
-fn vector_at(rows: &[Float4], index: u32) -> Vec3 {
-    let row = rows[index as usize].0;
-    Vec3::new(row[0], row[1], row[2])
+fn fraction_of<W: Word>(phase: W) -> W::Real {
+    (phase & PHASE_FRACTION_MASK).to_real() * PHASE_FRACTION_UNIT
+}
+
+/// Row of a table before a phase.
+#[inline(always)]
+fn row_of<W: Word>(table: W, phase: W) -> W {
+    table.times(table.all(TABLE_ROWS)).plus(phase >> PHASE_ROW_SHIFT)
+}
+
+/// Displacement in row `row + after`.
+#[inline(always)]
+fn displacement_in<W: Word>(motion: &MotionRows<'_>, row: W, after: usize) -> Vec3<W::Real> {
+    let halves: &[[f32; 4]] = bytemuck::cast_slice(motion.states);
+    let [x, y, z, _] = (row << 1).look_up(&halves[2 * after..]);
+    Vec3::new(x, y, z)
 }
 
 /// Displacement since the start of the period at `phase`, in metres for a leaf of nominal size.
 #[inline(always)]
-pub fn motion_displacement(motion: &MotionRows<'_>, table: u32, phase: u32) -> Vec3 {
-    let row = 2 * (table * TABLE_ROWS + (phase >> PHASE_ROW_SHIFT));
-    vec3_lerp(vector_at(motion.rows, row), vector_at(motion.rows, row + 2), fraction_of(phase))
+pub fn motion_displacement<W: Word>(motion: &MotionRows<'_>, table: W, phase: W) -> Vec3<W::Real> {
+    let row = row_of(table, phase);
+    vec3_lerp(displacement_in(motion, row, 0), displacement_in(motion, row, 1), fraction_of(phase))
 }
 
 /// Displacement over one whole period.
 #[inline(always)]
-pub fn motion_period(motion: &MotionRows<'_>, table: u32) -> Vec3 {
-    vector_at(motion.rows, 2 * (table * TABLE_ROWS + (TABLE_ROWS - 1)))
+pub fn motion_period<W: Word>(motion: &MotionRows<'_>, table: W) -> Vec3<W::Real> {
+    displacement_in(motion, row_of(table, table.all(0)), TABLE_ROWS as usize - 1)
 }
 
-/// Orientation at `phase`.
+/// Displacement and orientation at `phase`; the displacement is that of [`motion_displacement`].
 #[inline(always)]
-pub fn motion_orientation(motion: &MotionRows<'_>, table: u32, phase: u32) -> Quat {
-    let row = 2 * (table * TABLE_ROWS + (phase >> PHASE_ROW_SHIFT)) + 1;
-    let a = motion.rows[row as usize].0;
-    let b = motion.rows[(row + 2) as usize].0;
-    let t = fraction_of(phase);
-    quat_renormalize(Quat::new(
-        a[0] + t * (b[0] - a[0]),
-        a[1] + t * (b[1] - a[1]),
-        a[2] + t * (b[2] - a[2]),
-        a[3] + t * (b[3] - a[3]),
-    ))
+pub fn motion_state<W: Word>(motion: &MotionRows<'_>, table: W, phase: W) -> (Vec3<W::Real>, Quat<W::Real>) {
+    let row = row_of(table, phase);
+    let [dx, dy, dz, _, x, y, z, w] = row.look_up_blend(motion.states, fraction_of(phase));
+    (Vec3::new(dx, dy, dz), quat_renormalize(Quat::new(x, y, z, w)))
 }
 
 /// Velocity at `phase`, in metres per period for a leaf of nominal size.
 #[inline(always)]
 pub fn motion_velocity(motion: &MotionRows<'_>, table: u32, phase: u32) -> Vec3 {
-    let row = motion.velocity_first + table * TABLE_ROWS + (phase >> PHASE_ROW_SHIFT);
-    vec3_lerp(vector_at(motion.rows, row), vector_at(motion.rows, row + 1), fraction_of(phase))
+    let row = row_of(table, phase) as usize;
+    let at = |row: usize| {
+        let [x, y, z, _] = motion.velocities[row];
+        Vec3::new(x, y, z)
+    };
+    vec3_lerp(at(row), at(row + 1), fraction_of(phase))
 }

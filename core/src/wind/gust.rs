@@ -7,8 +7,10 @@
 use std::f64::consts::TAU;
 
 use crate::context::Context;
+use crate::kernel::lane::Real;
 use crate::kernel::rng::random;
-use crate::layout::Float4;
+use crate::layout::Uint4;
+use crate::wind::row::{wind_entry, wind_row};
 
 crate::shared_constants! {
     /// Rows of the gust table, a power of two.
@@ -21,20 +23,19 @@ crate::shared_constants! {
 const STREAM: u32 = 0x4755_0000;
 
 /// Excess over the mean wind, in units of a typical gust's, at `along` metres down the wind.
-#[expect(clippy::cast_possible_truncation, reason = "a whole number in range")]
 #[inline(always)]
-pub fn wind_gust(cx: &Context<'_>, along: f32) -> f32 {
+pub fn wind_gust<R: Real>(cx: &Context<'_>, along: R) -> R {
     let x = along * cx.environment.wind.gust.0[1] - cx.step.offsets.0[0];
     let k = x.floor();
-    let index = ((k as i32) as u32) & (GUST_ROWS - 1);
-    let row = cx.wind[(cx.environment.wind.tables.0[1] + index) as usize].0;
+    let index = k.to_whole() & (GUST_ROWS - 1);
+    let row = wind_row(cx, index, cx.environment.wind.tables.0[1]);
     row[0] + (x - k) * (row[1] - row[0])
 }
 
 /// Rows of the table: the value at a place and at the next. Gusts are `1 - cos` humps of random height, length and
 /// place, one to a spacing. The mean over the table is zero, so that gusts leave the mean wind alone, and the mean of
 /// the humps' peaks is one. Lulls come to -1/2, so that the air never turns back at any strength a scene may ask for.
-pub(crate) fn gust_rows(seed: [u32; 2]) -> Vec<Float4> {
+pub(crate) fn gust_rows(seed: [u32; 2]) -> Vec<Uint4> {
     let rows = GUST_ROWS as usize;
     let mut values = vec![0.0; rows];
     for gust in 0..GUST_ROWS / GUST_SPACING {
@@ -57,5 +58,5 @@ pub(crate) fn gust_rows(seed: [u32; 2]) -> Vec<Float4> {
     let scale = 1.0 / (peaks / f64::from(GUST_ROWS / GUST_SPACING) - mean);
     #[expect(clippy::cast_possible_truncation, reason = "tables are stored in single precision")]
     let at = |row: usize| ((values[row % rows] - mean) * scale) as f32;
-    (0..rows).map(|row| Float4([at(row), at(row + 1), 0.0, 0.0])).collect()
+    (0..rows).map(|row| wind_entry(at(row), at(row + 1))).collect()
 }

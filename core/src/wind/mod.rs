@@ -8,6 +8,7 @@
 mod beaufort;
 pub mod gust;
 pub mod profile;
+pub mod row;
 pub mod sample;
 mod synthesis;
 pub mod turbulence;

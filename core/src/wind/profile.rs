@@ -5,8 +5,10 @@
 //! Growth of the mean wind with height.
 
 use crate::context::Context;
-use crate::layout::Float4;
+use crate::kernel::lane::Real;
+use crate::layout::Uint4;
 use crate::scene::Profile;
+use crate::wind::row::{wind_entry, wind_row};
 
 crate::shared_constants! {
     /// Rows of the profile table.
@@ -18,16 +20,11 @@ crate::shared_constants! {
 }
 
 /// Mean wind at `height` metres above the ground relative to the reference height; constant above 63 m.
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::manual_clamp,
-    reason = "a whole number in range; clamped as in WGSL"
-)]
 #[inline(always)]
-pub fn wind_profile(cx: &Context<'_>, height: f32) -> f32 {
-    let x = (height * PROFILE_PER_METRE).max(0.0).min(PROFILE_TOP);
+pub fn wind_profile<R: Real>(cx: &Context<'_>, height: R) -> R {
+    let x = (height * PROFILE_PER_METRE).max(height.all(0.0)).min(height.all(PROFILE_TOP));
     let k = x.floor();
-    let row = cx.wind[(cx.environment.wind.tables.0[0] + k as u32) as usize].0;
+    let row = wind_row(cx, k.to_whole(), cx.environment.wind.tables.0[0]);
     row[0] + (x - k) * (row[1] - row[0])
 }
 
@@ -45,10 +42,10 @@ pub fn profile_factor(profile: Profile, height_m: f64, reference_m: f64) -> f64 
 }
 
 /// Rows of the table: the value at a height and at the next.
-pub(crate) fn profile_rows(profile: Profile, reference_m: f32) -> Vec<Float4> {
+pub(crate) fn profile_rows(profile: Profile, reference_m: f32) -> Vec<Uint4> {
     #[expect(clippy::cast_possible_truncation, reason = "tables are stored in single precision")]
     let at = |row: u32| {
         profile_factor(profile, f64::from(row) / f64::from(PROFILE_PER_METRE), f64::from(reference_m)) as f32
     };
-    (0..PROFILE_ROWS).map(|row| Float4([at(row), at(row + 1), 0.0, 0.0])).collect()
+    (0..PROFILE_ROWS).map(|row| wind_entry(at(row), at(row + 1))).collect()
 }

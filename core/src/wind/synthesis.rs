@@ -15,7 +15,6 @@ use rustfft::{FftDirection, FftPlannerScalar};
 
 use super::turbulence::{TURBULENCE_X, TURBULENCE_Y, TURBULENCE_Z};
 use crate::kernel::rng::random;
-use crate::layout::Float4;
 
 const SIZE: [usize; 3] = [TURBULENCE_X as usize, TURBULENCE_Y as usize, TURBULENCE_Z as usize];
 const NODES: usize = SIZE[0] * SIZE[1] * SIZE[2];
@@ -25,10 +24,10 @@ const STREAM: u32 = 0x5455_0000;
 /// Rounds in which the three components are brought to equal variance.
 const BALANCE_ROUNDS: u32 = 8;
 
-/// Velocities at the nodes of the box, x running fastest, then y, then z; fourth component zero. Interpolated, each
+/// Velocities at the nodes of the box, x running fastest, then y, then z. Interpolated, each
 /// component has mean zero along every line in x and mean square one over the box. Distances count in cells, which
 /// are cubes here; a box stretched by the same factors in its cells and in its velocities stays divergence-free.
-pub fn turbulence_box(seed: [u32; 2]) -> Vec<Float4> {
+pub fn turbulence_box(seed: [u32; 2]) -> Vec<[f32; 3]> {
     let mut field: [Vec<Complex64>; 3] = std::array::from_fn(|axis| noise(seed, axis));
     for component in &mut field {
         transform(component, FftDirection::Forward);
@@ -63,12 +62,7 @@ pub fn turbulence_box(seed: [u32; 2]) -> Vec<Float4> {
         transform(component, FftDirection::Inverse);
     }
     #[expect(clippy::cast_possible_truncation, reason = "tables are stored in single precision")]
-    (0..NODES)
-        .map(|node| {
-            let [u, v, w] = [0, 1, 2].map(|axis: usize| field[axis][node].re as f32);
-            Float4([u, v, w, 0.0])
-        })
-        .collect()
+    (0..NODES).map(|node| [0, 1, 2].map(|axis: usize| field[axis][node].re as f32)).collect()
 }
 
 /// Gaussian white noise (Box and Muller).

@@ -27,6 +27,14 @@ fn sin_cos_turns(angle: u32) -> vec2<f32> {
     return sin_cos_quadrant(r, quadrant);
 }
 
+fn sin_cos_half(angle: u32) -> vec2<f32> {
+    let r = f32(bitcast<i32>(angle << 16u) >> 16u) * HALF_TURN_UNIT;
+    let r2 = r * r;
+    let sine = r + r * (r2 * (r2 * (r2 * (r2 * HALF_SIN_9 + HALF_SIN_7) + HALF_SIN_5) + HALF_SIN_3));
+    let cosine = r2 * (r2 * (r2 * (r2 * HALF_COS_8 + HALF_COS_6) + HALF_COS_4) + HALF_COS_2) + 1.0;
+    return vec2<f32>(sine, cosine);
+}
+
 fn sin_cos(x: f32) -> vec2<f32> {
     let k = floor(x * TWO_OVER_PI + 0.5);
     let r = ((x - k * HALF_PI_1) - k * HALF_PI_2) - k * HALF_PI_3;

@@ -13,6 +13,24 @@ fn quat_multiply(a: vec4<f32>, b: vec4<f32>) -> vec4<f32> {
     );
 }
 
+fn quat_turn_after(q: vec4<f32>, half_sine: f32, half_cosine: f32) -> vec4<f32> {
+    return vec4<f32>(
+        half_cosine * q.x + half_sine * q.z,
+        half_cosine * q.y + half_sine * q.w,
+        half_cosine * q.z - half_sine * q.x,
+        half_cosine * q.w - half_sine * q.y,
+    );
+}
+
+fn quat_turn_before(q: vec4<f32>, half_sine: f32, half_cosine: f32) -> vec4<f32> {
+    return vec4<f32>(
+        half_cosine * q.x - half_sine * q.z,
+        half_cosine * q.y + half_sine * q.w,
+        half_cosine * q.z + half_sine * q.x,
+        half_cosine * q.w - half_sine * q.y,
+    );
+}
+
 fn quat_rotate(q: vec4<f32>, v: vec3<f32>) -> vec3<f32> {
     let axis = vec3<f32>(q.x, q.y, q.z);
     let twice = vec3_cross(axis, v) * 2.0;

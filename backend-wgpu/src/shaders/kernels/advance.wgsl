@@ -13,10 +13,8 @@ fn advance(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups
     }
     let count = arrayLength(&places);
     for (var leaf = id.x; leaf < count; leaf += groups.x * WORKGROUP_SIZE) {
-        if (leaf_is_due(leaf)) {
+        if (!leaf_advance_plain(leaf)) {
             due.leaves[atomicAdd(&due.counts[parity], 1u)] = leaf;
-        } else {
-            leaf_advance_plain(leaf);
         }
     }
 }

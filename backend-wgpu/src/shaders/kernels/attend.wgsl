@@ -9,6 +9,6 @@
 fn attend(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>) {
     let count = atomicLoad(&due.counts[step_block.index.x & 1u]);
     for (var index = id.x; index < count; index += groups.x * WORKGROUP_SIZE) {
-        leaf_advance_due(due.leaves[index]);
+        leaf_advance(due.leaves[index]);
     }
 }

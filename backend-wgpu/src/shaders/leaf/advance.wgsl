@@ -11,13 +11,22 @@ fn leaf_is_due(leaf: u32) -> bool {
     return step_block.index.x >= courses[leaf].x;
 }
 
-fn leaf_advance_plain(leaf: u32) {
-    let state = places[leaf].w & STATE_MASK;
-    if (state == STATE_FALLING) {
-        leaf_fall(leaf);
-    } else if (state == STATE_RESTING) {
-        leaf_settle(leaf);
+fn leaf_stirs(leaf: u32) -> bool {
+    let drift = drifts[leaf];
+    return drift.w < environment.counts.y || ((drift.x | drift.z) << 1u) != 0u;
+}
+
+fn leaf_advance_plain(leaf: u32) -> bool {
+    let course = courses[leaf];
+    if (step_block.index.x >= course.x) {
+        return false;
     }
+    let place = places[leaf];
+    let state = place.w & STATE_MASK;
+    if (state == STATE_FALLING) {
+        return leaf_glide(leaf, place, course);
+    }
+    return state != STATE_RESTING || !leaf_stirs(leaf);
 }
 
 fn leaf_advance_due(leaf: u32) {
@@ -32,5 +41,18 @@ fn leaf_advance_due(leaf: u32) {
     }
     if ((places[leaf].w & STATE_MASK) == STATE_FALLING) {
         leaf_fall_joining(leaf);
+    }
+}
+
+fn leaf_advance(leaf: u32) {
+    if (leaf_is_due(leaf)) {
+        leaf_advance_due(leaf);
+        return;
+    }
+    let state = places[leaf].w & STATE_MASK;
+    if (state == STATE_FALLING) {
+        leaf_fall(leaf);
+    } else if (state == STATE_RESTING) {
+        leaf_settle(leaf);
     }
 }

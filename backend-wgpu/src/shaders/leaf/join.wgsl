@@ -48,7 +48,7 @@ fn part_of_step(response: vec4<f32>, length: u32) -> Part {
 fn leaf_fall_joining(leaf: u32) {
     let place = places[leaf];
     let start = bitcast<vec3<f32>>(place.xyz);
-    let response = environment.species[(place.w >> SPECIES_SHIFT) & SPECIES_MASK].response;
+    let response = response_of(place.w);
     let wind = wind_at(start);
     let seed = environment.seed.xy;
     let drift = drifts[leaf];

@@ -8,9 +8,10 @@
 #import motion/lookup
 
 fn turn_to_heading(v: vec3<f32>, heading: u32) -> vec3<f32> {
-    let turn = sin_cos_turns(heading << 16u);
-    let sine = turn.x;
-    let cosine = turn.y;
+    let half = sin_cos_half(heading);
+    let twice = half.x + half.x;
+    let sine = twice * half.y;
+    let cosine = 1.0 - twice * half.x;
     return vec3<f32>(cosine * v.x + sine * v.z, v.y, cosine * v.z - sine * v.x);
 }
 
@@ -19,7 +20,11 @@ fn own_scale(course: vec4<u32>) -> f32 {
 }
 
 fn own_rate(rate: u32) -> u32 {
-    return mul_q16(rate, environment.counts.w);
+    let speed = environment.counts.w;
+    if (speed == WHOLE_STEP) {
+        return rate;
+    }
+    return mul_q16(rate, speed);
 }
 
 fn on_grid(v: vec3<f32>) -> vec3<f32> {
@@ -41,9 +46,12 @@ fn own_advance(bits: u32, course: vec4<u32>, start: u32, end: u32) -> vec3<f32> 
     let heading = course.w >> 16u;
     let scale = own_scale(course);
     let before = on_grid(turn_to_heading(motion_displacement(table, start), heading) * scale);
-    let after = on_grid(turn_to_heading(motion_displacement(table, end), heading) * scale);
-    let wrapped = select(0.0, 1.0, end < start);
-    return (after - before) + own_period(bits, course) * wrapped;
+    let after = on_grid(turn_to_heading(motion_state(table, end).displacement, heading) * scale);
+    var way = after - before;
+    if (end < start) {
+        way = way + own_period(bits, course);
+    }
+    return way;
 }
 
 fn own_velocity(bits: u32, phase: u32, course: vec4<u32>) -> vec3<f32> {
@@ -55,9 +63,8 @@ fn own_velocity(bits: u32, phase: u32, course: vec4<u32>) -> vec3<f32> {
 }
 
 fn own_orientation(bits: u32, phase: u32, heading: u32) -> vec4<f32> {
-    let local = motion_orientation((bits >> TABLE_SHIFT) & TABLE_MASK, phase);
-    let heading_turn = sin_cos_turns((heading >> 16u) << 15u);
-    let spin_turn = sin_cos_turns((bits >> SPIN_SHIFT) << 15u);
-    let turned = quat_multiply(vec4<f32>(0.0, heading_turn.x, 0.0, heading_turn.y), local);
-    return quat_multiply(turned, vec4<f32>(0.0, spin_turn.x, 0.0, spin_turn.y));
+    let local = motion_state((bits >> TABLE_SHIFT) & TABLE_MASK, phase).orientation;
+    let turn = sin_cos_half(heading >> 16u);
+    let spin = sin_cos_half(bits >> SPIN_SHIFT);
+    return quat_turn_before(quat_turn_after(local, turn.x, turn.y), spin.x, spin.y);
 }

@@ -4,38 +4,47 @@
 #import bindings
 #import kernel/quaternion
 
+struct MotionState {
+    displacement: vec3<f32>,
+    orientation: vec4<f32>,
+}
+
 fn fraction_of(phase: u32) -> f32 {
     return f32(phase & PHASE_FRACTION_MASK) * PHASE_FRACTION_UNIT;
 }
 
-fn motion_vector_at(index: u32) -> vec3<f32> {
-    let row = motion_rows[index];
-    return vec3<f32>(row.x, row.y, row.z);
+fn row_of(table: u32, phase: u32) -> u32 {
+    return table * TABLE_ROWS + (phase >> PHASE_ROW_SHIFT);
+}
+
+fn displacement_in(row: u32) -> vec3<f32> {
+    let state = motion_rows[2u * row];
+    return vec3<f32>(state.x, state.y, state.z);
 }
 
 fn motion_displacement(table: u32, phase: u32) -> vec3<f32> {
-    let row = 2u * (table * TABLE_ROWS + (phase >> PHASE_ROW_SHIFT));
-    return vec3_lerp(motion_vector_at(row), motion_vector_at(row + 2u), fraction_of(phase));
+    let row = row_of(table, phase);
+    return vec3_lerp(displacement_in(row), displacement_in(row + 1u), fraction_of(phase));
 }
 
 fn motion_period(table: u32) -> vec3<f32> {
-    return motion_vector_at(2u * (table * TABLE_ROWS + (TABLE_ROWS - 1u)));
+    return displacement_in(row_of(table, 0u) + (TABLE_ROWS - 1u));
 }
 
-fn motion_orientation(table: u32, phase: u32) -> vec4<f32> {
-    let row = 2u * (table * TABLE_ROWS + (phase >> PHASE_ROW_SHIFT)) + 1u;
-    let a = motion_rows[row];
-    let b = motion_rows[row + 2u];
+fn motion_state(table: u32, phase: u32) -> MotionState {
+    let row = row_of(table, phase);
     let t = fraction_of(phase);
-    return quat_renormalize(vec4<f32>(
-        a.x + t * (b.x - a.x),
-        a.y + t * (b.y - a.y),
-        a.z + t * (b.z - a.z),
-        a.w + t * (b.w - a.w),
-    ));
+    let displacement = vec3_lerp(displacement_in(row), displacement_in(row + 1u), t);
+    let a = motion_rows[2u * row + 1u];
+    let b = motion_rows[2u * row + 3u];
+    let orientation =
+        vec4<f32>(a.x + t * (b.x - a.x), a.y + t * (b.y - a.y), a.z + t * (b.z - a.z), a.w + t * (b.w - a.w));
+    return MotionState(displacement, quat_renormalize(orientation));
 }
 
 fn motion_velocity(table: u32, phase: u32) -> vec3<f32> {
-    let row = environment.motion.x + table * TABLE_ROWS + (phase >> PHASE_ROW_SHIFT);
-    return vec3_lerp(motion_vector_at(row), motion_vector_at(row + 1u), fraction_of(phase));
+    let row = environment.motion.x + row_of(table, phase);
+    let a = motion_rows[row];
+    let b = motion_rows[row + 1u];
+    return vec3_lerp(vec3<f32>(a.x, a.y, a.z), vec3<f32>(b.x, b.y, b.z), fraction_of(phase));
 }

@@ -2,11 +2,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // twin: core/src/wind/gust.rs
 #import bindings
+#import wind/row
 
 fn wind_gust(along: f32) -> f32 {
     let x = along * environment.wind.gust.y - step_block.offsets.x;
     let k = floor(x);
     let index = bitcast<u32>(i32(k)) & (GUST_ROWS - 1u);
-    let row = wind_rows[environment.wind.tables.y + index];
+    let row = wind_row(index, environment.wind.tables.y);
     return row.x + (x - k) * (row.y - row.x);
 }

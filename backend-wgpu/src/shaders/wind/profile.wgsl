@@ -2,10 +2,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // twin: core/src/wind/profile.rs
 #import bindings
+#import wind/row
 
 fn wind_profile(height: f32) -> f32 {
     let x = min(max(height * PROFILE_PER_METRE, 0.0), PROFILE_TOP);
     let k = floor(x);
-    let row = wind_rows[environment.wind.tables.x + u32(k)];
+    let row = wind_row(u32(k), environment.wind.tables.x);
     return row.x + (x - k) * (row.y - row.x);
 }

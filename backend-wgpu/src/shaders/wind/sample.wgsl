@@ -12,8 +12,11 @@ fn wind_at(place: vec3<f32>) -> vec3<f32> {
     let along = place.x * direction_x + place.z * direction_z;
     let across = place.z * direction_x - place.x * direction_z;
     let height = place.y - environment.wind.gust.z;
-    let mean = (environment.wind.mean.z * wind_profile(height)) * (1.0 + environment.wind.gust.x * wind_gust(along));
-    let turbulence = wind_turbulence(vec3<f32>(along, height, across));
+    let mean = (wind_profile(height) * environment.wind.mean.z) * (wind_gust(along) * environment.wind.gust.x + 1.0);
+    var turbulence = vec3<f32>(0.0, 0.0, 0.0);
+    if (environment.wind.deviation.x != 0.0) {
+        turbulence = wind_turbulence(vec3<f32>(along, height, across));
+    }
     let u = mean + turbulence.x * environment.wind.deviation.x;
     let v = turbulence.y * environment.wind.deviation.y;
     let w = turbulence.z * environment.wind.deviation.z;

@@ -2,14 +2,40 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // twin: core/src/wind/turbulence.rs
 #import bindings
-#import kernel/vector
 
-fn turbulence_node(ix: u32, iy: u32, iz: u32) -> vec3<f32> {
-    let x = ix & (TURBULENCE_X - 1u);
-    let y = iy & (TURBULENCE_Y - 1u);
-    let z = iz & (TURBULENCE_Z - 1u);
-    let node = wind_rows[environment.wind.tables.z + ((z * TURBULENCE_Y + y) * TURBULENCE_X + x)];
-    return vec3<f32>(node.x, node.y, node.z);
+fn turbulence_unpack(word: u32) -> vec2<f32> {
+    return vec2<f32>(f32(bitcast<i32>(word << 16u) >> 16u), f32(bitcast<i32>(word) >> 16u));
+}
+
+fn turbulence_index(column: u32, layer: u32) -> u32 {
+    return ((layer & (TURBULENCE_Z - 1u)) << 11u) | column;
+}
+
+fn turbulence_face(index: u32, along: f32, up: f32) -> vec2<f32> {
+    let row = wind_rows[environment.wind.tables.z + index];
+    let a = turbulence_unpack(row.x);
+    let b = turbulence_unpack(row.y);
+    let c = turbulence_unpack(row.z);
+    let d = turbulence_unpack(row.w);
+    let lower = vec2<f32>(a.x + along * (b.x - a.x), a.y + along * (b.y - a.y));
+    let upper = vec2<f32>(c.x + along * (d.x - c.x), c.y + along * (d.y - c.y));
+    return vec2<f32>(lower.x + up * (upper.x - lower.x), lower.y + up * (upper.y - lower.y));
+}
+
+fn turbulence_edge(edge: u32, along: f32) -> f32 {
+    let ends = turbulence_unpack(edge);
+    return ends.x + along * (ends.y - ends.x);
+}
+
+fn turbulence_across(index: u32, t: vec3<f32>) -> f32 {
+    let edges = wind_rows[environment.wind.tables.z + TURBULENCE_NODES + index];
+    let a = turbulence_edge(edges.x, t.x);
+    let b = turbulence_edge(edges.y, t.x);
+    let c = turbulence_edge(edges.z, t.x);
+    let d = turbulence_edge(edges.w, t.x);
+    let near = a + t.y * (b - a);
+    let far = c + t.y * (d - c);
+    return near + t.z * (far - near);
 }
 
 fn wind_turbulence(place: vec3<f32>) -> vec3<f32> {
@@ -20,18 +46,17 @@ fn wind_turbulence(place: vec3<f32>) -> vec3<f32> {
     let kx = floor(x);
     let ky = floor(y);
     let kz = floor(z);
-    let ix = bitcast<u32>(i32(kx));
-    let iy = bitcast<u32>(i32(ky));
-    let iz = bitcast<u32>(i32(kz));
-    let tx = x - kx;
-    let ty = y - ky;
-    let tz = z - kz;
-    let ix1 = ix + 1u;
-    let iy1 = iy + 1u;
-    let iz1 = iz + 1u;
-    let a = vec3_lerp(turbulence_node(ix, iy, iz), turbulence_node(ix1, iy, iz), tx);
-    let b = vec3_lerp(turbulence_node(ix, iy1, iz), turbulence_node(ix1, iy1, iz), tx);
-    let c = vec3_lerp(turbulence_node(ix, iy, iz1), turbulence_node(ix1, iy, iz1), tx);
-    let d = vec3_lerp(turbulence_node(ix, iy1, iz1), turbulence_node(ix1, iy1, iz1), tx);
-    return vec3_lerp(vec3_lerp(a, b, ty), vec3_lerp(c, d, ty), tz);
+    let t = vec3<f32>(x - kx, y - ky, z - kz);
+    let column =
+        ((bitcast<u32>(i32(ky)) & (TURBULENCE_Y - 1u)) << 6u) | (bitcast<u32>(i32(kx)) & (TURBULENCE_X - 1u));
+    let layer = bitcast<u32>(i32(kz));
+    let index = turbulence_index(column, layer);
+    let near = turbulence_face(index, t.x, t.y);
+    let far = turbulence_face(turbulence_index(column, layer + 1u), t.x, t.y);
+    let across = turbulence_across(index, t);
+    return vec3<f32>(
+        (near.x + t.z * (far.x - near.x)) * TURBULENCE_UNIT,
+        (near.y + t.z * (far.y - near.y)) * TURBULENCE_UNIT,
+        across * TURBULENCE_UNIT,
+    );
 }

@@ -12,6 +12,6 @@ fn wind_vortex(vortex: u32, place: vec3<f32>) -> vec3<f32> {
     let from_center = place - vec3<f32>(center.x, center.y, center.z);
     let radial = from_center - axis * vec3_dot(from_center, axis);
     let inverse = reciprocal(vec3_dot(radial, radial) + center.w);
-    return vec3_cross(axis, radial) * (axis_and_swirl.w * inverse)
-        + axis * (step_block.vortices[vortex].axial.x * inverse);
+    return vec3_cross(axis, radial) * (inverse * axis_and_swirl.w)
+        + axis * (inverse * step_block.vortices[vortex].axial.x);
 }

@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What a leaf takes, and that a step takes nothing more.
+
+use windfall_core::leaf::{HOT_BYTES_PER_STEP, LEAF_BYTES, Leaves};
+use windfall_core::{Scene, Simulator, World};
+use windfall_cpu::{CpuOptions, CpuSimulator};
+
+#[test]
+fn a_leaf_takes_80_bytes_and_a_step_moves_96() {
+    assert_eq!(LEAF_BYTES, 80, "five records of 16 bytes");
+    assert_eq!(HOT_BYTES_PER_STEP, 96, "place and drift in and out, course in, attitude out");
+    let count = 1 << 20;
+    let info = allocation_counter::measure(|| drop(Leaves::zeroed(count)));
+    assert_eq!(info.bytes_max, (count * LEAF_BYTES) as u64, "columns and nothing else");
+}
+
+#[test]
+fn a_step_allocates_nothing() {
+    let mut scene = Scene::preset("six-motions").expect("a preset");
+    for source in &mut scene.sources {
+        source.count = 600;
+    }
+    let world = World::build(&scene).expect("a valid scene");
+    let mut simulator = CpuSimulator::new(&world, CpuOptions::default()).expect("threads can be started");
+    simulator.step(1).expect("the CPU can step");
+    let info = allocation_counter::measure(|| simulator.step(500).expect("the CPU can step"));
+    assert_eq!(info.count_total, 0, "500 steps of {} leaves", world.leaves.len());
+}

@@ -1,0 +1,9 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// twin: core/src/wind/row.rs
+#import bindings
+
+fn wind_row(index: u32, first: u32) -> vec2<f32> {
+    let row = wind_rows[first + index];
+    return vec2<f32>(bitcast<f32>(row.x), bitcast<f32>(row.y));
+}

@@ -1,0 +1,118 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Turns records side by side into lanes and back.
+//!
+//! Written with the shuffles of AVX2 where there are any: they are a third of a step's instructions, and put together
+//! from portable ones there would be twice as many.
+
+use fearless_simd::{Simd, SimdBase, f32x4, f32x8};
+
+/// Four rows of four to four columns.
+#[inline(always)]
+fn transpose_four<S: Simd>([a, b, c, d]: [f32x4<S>; 4]) -> [f32x4<S>; 4] {
+    let (even_low, even_high) = a.interleave(c);
+    let (odd_low, odd_high) = b.interleave(d);
+    let (x, y) = even_low.interleave(odd_low);
+    let (z, w) = even_high.interleave(odd_high);
+    [x, y, z, w]
+}
+
+/// Eight rows of four to four columns of eight.
+#[inline(always)]
+pub(crate) fn columns_of_four<S: Simd>(rows: [f32x4<S>; 8]) -> [f32x8<S>; 4] {
+    let [a, b, c, d, e, f, g, h] = rows;
+    let simd = a.simd;
+    #[cfg(target_arch = "x86_64")]
+    if let Some(avx2) = simd.level().as_avx2() {
+        let pair = |low: f32x4<S>, high: f32x4<S>| simd.combine_f32x4(low, high).into();
+        let columns = x86::transpose_in_halves(avx2, [pair(a, e), pair(b, f), pair(c, g), pair(d, h)]);
+        return columns.map(|column| fearless_simd::SimdInto::simd_into(column, simd));
+    }
+    let low = transpose_four([a, b, c, d]);
+    let high = transpose_four([e, f, g, h]);
+    core::array::from_fn(|column| simd.combine_f32x4(low[column], high[column]))
+}
+
+/// Four columns of eight to eight rows of four, two to a vector.
+#[inline(always)]
+pub(crate) fn rows_of_four<S: Simd>(columns: [f32x8<S>; 4]) -> [f32x8<S>; 4] {
+    let simd = columns[0].simd;
+    #[cfg(target_arch = "x86_64")]
+    if let Some(avx2) = simd.level().as_avx2() {
+        let rows = x86::join_halves(avx2, x86::transpose_in_halves(avx2, columns.map(Into::into)));
+        return rows.map(|row| fearless_simd::SimdInto::simd_into(row, simd));
+    }
+    let halves = columns.map(|column| simd.split_f32x8(column));
+    let [a, b, c, d] = transpose_four(halves.map(|(low, _)| low));
+    let [e, f, g, h] = transpose_four(halves.map(|(_, high)| high));
+    [simd.combine_f32x4(a, b), simd.combine_f32x4(c, d), simd.combine_f32x4(e, f), simd.combine_f32x4(g, h)]
+}
+
+/// Eight rows of eight to eight columns.
+#[inline(always)]
+pub(crate) fn columns_of_eight<S: Simd>(rows: [f32x8<S>; 8]) -> [f32x8<S>; 8] {
+    let simd = rows[0].simd;
+    #[cfg(target_arch = "x86_64")]
+    if let Some(avx2) = simd.level().as_avx2() {
+        let columns = x86::transpose_eight(avx2, rows.map(Into::into));
+        return columns.map(|column| fearless_simd::SimdInto::simd_into(column, simd));
+    }
+    let halves = rows.map(|row| simd.split_f32x8(row));
+    let [a, b, c, d] = columns_of_four(halves.map(|(low, _)| low));
+    let [e, f, g, h] = columns_of_four(halves.map(|(_, high)| high));
+    [a, b, c, d, e, f, g, h]
+}
+
+#[cfg(target_arch = "x86_64")]
+mod x86 {
+    use core::arch::x86_64::{
+        __m256, _mm256_castpd_ps, _mm256_castps_pd, _mm256_permute2f128_ps, _mm256_unpackhi_pd,
+        _mm256_unpackhi_ps, _mm256_unpacklo_pd, _mm256_unpacklo_ps,
+    };
+
+    use fearless_simd::kernel;
+
+    kernel! {
+        /// Transposes the lower halves of four vectors among each other, and the upper halves.
+        #[inline(always)]
+        pub(super) fn transpose_in_halves(avx2: Avx2, rows: [__m256; 4]) -> [__m256; 4] {
+            let [a, b, c, d] = rows;
+            let ab_low = _mm256_castps_pd(_mm256_unpacklo_ps(a, b));
+            let ab_high = _mm256_castps_pd(_mm256_unpackhi_ps(a, b));
+            let cd_low = _mm256_castps_pd(_mm256_unpacklo_ps(c, d));
+            let cd_high = _mm256_castps_pd(_mm256_unpackhi_ps(c, d));
+            [
+                _mm256_castpd_ps(_mm256_unpacklo_pd(ab_low, cd_low)),
+                _mm256_castpd_ps(_mm256_unpackhi_pd(ab_low, cd_low)),
+                _mm256_castpd_ps(_mm256_unpacklo_pd(ab_high, cd_high)),
+                _mm256_castpd_ps(_mm256_unpackhi_pd(ab_high, cd_high)),
+            ]
+        }
+    }
+
+    /// Eight rows of eight to eight columns.
+    #[inline(always)]
+    pub(super) fn transpose_eight(avx2: fearless_simd::x86::Avx2, rows: [__m256; 8]) -> [__m256; 8] {
+        let [a, b, c, d, e, f, g, h] = rows;
+        // Columns 0 to 3 in the lower halves, 4 to 7 in the upper; of rows 0 to 3 and of rows 4 to 7.
+        let [p0, p1, p2, p3] = transpose_in_halves(avx2, [a, b, c, d]);
+        let [q0, q1, q2, q3] = transpose_in_halves(avx2, [e, f, g, h]);
+        let [x0, x1, x4, x5] = join_halves(avx2, [p0, q0, p1, q1]);
+        let [x2, x3, x6, x7] = join_halves(avx2, [p2, q2, p3, q3]);
+        [x0, x1, x2, x3, x4, x5, x6, x7]
+    }
+
+    kernel! {
+        /// The lower halves of two pairs of vectors, then the upper halves.
+        #[inline(always)]
+        pub(super) fn join_halves(avx2: Avx2, pairs: [__m256; 4]) -> [__m256; 4] {
+            let [a, b, c, d] = pairs;
+            [
+                _mm256_permute2f128_ps::<0x20>(a, b),
+                _mm256_permute2f128_ps::<0x20>(c, d),
+                _mm256_permute2f128_ps::<0x31>(a, b),
+                _mm256_permute2f128_ps::<0x31>(c, d),
+            ]
+        }
+    }
+}
