@@ -4,6 +4,7 @@
 //! needs a window.
 
 pub mod backend;
+pub mod baseline;
 pub mod camera;
 pub mod cli;
 pub mod commands;

@@ -3,15 +3,18 @@
 //! The kernels on every backend, each on worlds that show one side of it, and the costly device functions on one
 //! thread of the CPU. Elements are leaves, or calls.
 //!
-//! `advance` includes `attend`, which takes the leaves to which something happens: nearly none in `falling`, none in
-//! `resting`, and in `storm` the joins and releases of a usual scene, in a wind with two vortices.
+//! `advance` includes `attend`, which takes the leaves to which something happens: nearly none in `falling` and
+//! `steady` (without turbulence), none in `resting`, in `storm` the joins and releases of a usual scene, in a wind with
+//! two vortices, and a third of all leaves in `restless`.
 
 use std::hint::black_box;
 use std::time::Duration;
 
 use criterion::measurement::WallTime;
 use criterion::{BenchmarkGroup, BenchmarkId, Criterion, SamplingMode, Throughput};
-use windfall_benches::{FALLING_STEPS, contenders, falling, resting, scaled, time_steps, world};
+use windfall_benches::{
+    FALLING_STEPS, contenders, falling, resting, restless, scaled, steady, time_steps, world,
+};
 use windfall_core::kernel::rng::philox;
 use windfall_core::leaf::own::{own_advance, own_orientation};
 use windfall_core::leaf::release::leaf_release;
@@ -52,15 +55,19 @@ fn advance(criterion: &mut Criterion) {
     let mut group = group(criterion, "advance");
     group.throughput(Throughput::Elements(LEAVES.into()));
 
-    let high = world(&falling(LEAVES));
-    for mut simulator in contenders(&high) {
-        group.bench_function(BenchmarkId::new("falling", simulator.info().backend), |bencher| {
-            bencher.iter_custom(|count| time_falling(simulator.as_mut(), &high, count));
-        });
-        let stats = simulator.stats().expect("the device is not lost");
-        assert_eq!(stats.falling, LEAVES, "all leaves have been falling all the time");
+    for (name, scene) in [("falling", falling(LEAVES)), ("steady", steady(LEAVES))] {
+        let high = world(&scene);
+        for mut simulator in contenders(&high) {
+            group.bench_function(BenchmarkId::new(name, simulator.info().backend), |bencher| {
+                bencher.iter_custom(|count| time_falling(simulator.as_mut(), &high, count));
+            });
+            let stats = simulator.stats().expect("the device is not lost");
+            assert_eq!(stats.falling, LEAVES, "all leaves have been falling all the time");
+        }
     }
-    for (name, scene) in [("resting", resting(LEAVES)), ("storm", scaled("storm", LEAVES))] {
+    let worlds =
+        [("resting", resting(LEAVES)), ("storm", scaled("storm", LEAVES)), ("restless", restless(LEAVES))];
+    for (name, scene) in worlds {
         let world = world(&scene);
         assert!(name != "resting" || world.stats().resting == LEAVES, "all leaves lie on the ground");
         for mut simulator in contenders(&world) {
@@ -116,7 +123,7 @@ fn functions(criterion: &mut Criterion) {
     });
     calls(&mut group, "own_advance", &slots, |&slot| {
         let (phase, course) = (leaves.drift[slot].phase, leaves.course[slot]);
-        own_advance(&cx, leaves.place[slot].bits, course, phase, phase.wrapping_add(course.rate))
+        own_advance(&cx, leaves.place[slot].bits, course.into(), phase, phase.wrapping_add(course.rate))
     });
     let mut released = Leaves::zeroed(CALLS);
     let ids: Vec<u32> = (0..).take(CALLS).collect();

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! One step of `million`, scaled from a thousand leaves to a million, on every backend. Elements are leaf-steps. The
+//! One step of `million`, scaled from a thousand leaves to four million, on every backend. Elements are leaf-steps. The
 //! clock stops when the backend is done, not when it has been told.
 
 use std::time::Duration;
@@ -12,7 +12,7 @@ fn step(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("step");
     group.warm_up_time(Duration::from_secs(1)).measurement_time(Duration::from_secs(2));
     group.sampling_mode(SamplingMode::Flat);
-    for leaves in [1_000, 10_000, 100_000, 1_000_000] {
+    for leaves in [1_000, 10_000, 100_000, 1_000_000, 4_000_000] {
         group.throughput(Throughput::Elements(leaves.into()));
         group.sample_size(if leaves < 100_000 { 30 } else { 10 });
         for mut simulator in contenders(&world(&scaled("million", leaves))) {

@@ -46,24 +46,37 @@ fn without_adapters_the_processor_simulates_and_says_so() {
 }
 
 #[test]
-fn bench_measures_every_backend_at_every_size() {
-    let arguments = ["bench", "storm", "--leaves", "100,1e3", "--steps", "3", "--json"];
+fn bench_measures_every_approach_and_the_memory() {
+    let arguments = ["bench", "storm", "--leaves", "100", "--steps", "3", "--json"];
     let outcome = windfall(&folder(), &arguments);
     assert_eq!(outcome.stderr, "", "no noise");
     let text = outcome.text();
-    let rows: Vec<Value> = text.lines().map(|line| serde_json::from_str(line).expect("JSON")).collect();
+    let mut rows: Vec<Value> = text.lines().map(|line| serde_json::from_str(line).expect("JSON")).collect();
+    let floor = rows.remove(0);
+    let bandwidth = floor["update_bandwidth_bytes_per_s"].as_f64().expect("a number");
+    let bound = floor["floor_leaf_steps_per_s"].as_f64().expect("a number");
+    assert!(bandwidth > 1e8, "memory is faster than a disk: {floor}");
+    assert!((bound * 96.0 / bandwidth - 1.0).abs() < 1e-9, "the floor is bandwidth over bytes: {floor}");
     let which: Vec<_> = rows
         .iter()
         .map(|row| (row["backend"].as_str().expect("text"), row["leaves"].as_u64().expect("a number")))
         .collect();
-    assert_eq!(which, [("cpu", 100), ("wgpu", 100), ("cpu", 1000), ("wgpu", 1000)], "all of them");
+    assert_eq!(
+        which,
+        ["trajectory", "structs", "cpu", "wgpu"].map(|approach| (approach, 100)),
+        "all of them"
+    );
     for row in &rows {
         let mut keys: Vec<_> = row.as_object().expect("an object").keys().map(String::as_str).collect();
         keys.sort_unstable();
         let expected = [
             "adapter",
             "backend",
+            "bytes_per_leaf",
             "bytes_per_leaf_step",
+            "cpu_utilisation",
+            "floor_share",
+            "frames_per_s",
             "leaf_steps_per_cpu_s",
             "leaf_steps_per_s",
             "leaf_steps_per_s_max",
@@ -71,6 +84,7 @@ fn bench_measures_every_backend_at_every_size() {
             "leaves",
             "scene",
             "steps",
+            "steps_per_s",
         ];
         assert_eq!(keys, expected, "{row}");
         assert_eq!((&row["scene"], &row["steps"]), (&"storm".into(), &3.into()), "{row}");
@@ -79,6 +93,10 @@ fn bench_measures_every_backend_at_every_size() {
         let (low, high) = (rate("leaf_steps_per_s_min"), rate("leaf_steps_per_s_max"));
         assert!(0.0 < low && (low..=high).contains(&rate("leaf_steps_per_s")), "the median: {row}");
         assert!(rate("leaf_steps_per_cpu_s") > 0.0, "{row}");
+        assert!((rate("floor_share") * bound / rate("leaf_steps_per_s") - 1.0).abs() < 1e-9, "{row}");
+        assert!(rate("frames_per_s") > 0.0, "drawn, too: {row}");
+        let bytes = if row["backend"] == "trajectory" { 1201 * 32 } else { 80 };
+        assert_eq!(row["bytes_per_leaf"], bytes, "{row}");
     }
 }
 
@@ -88,7 +106,8 @@ fn bench_prints_a_table_and_chooses_its_steps() {
     let text = outcome.text();
     let last: Vec<_> = text.lines().last().expect("a row").split_whitespace().collect();
     assert_eq!(&last[..2], ["cpu", "10"], "{text}");
-    assert!(last[2].parse::<u32>().expect("a number of steps") > 100, "more than a moment's: {text}");
+    assert!(last[2].parse::<f64>().expect("steps per second") > 1000.0, "ten leaves take no time: {text}");
+    assert!(text.contains("GB/s changed in place"), "the memory's speed: {text}");
 }
 
 #[test]
@@ -96,7 +115,8 @@ fn bench_without_adapters_measures_the_processor() {
     let arguments = ["bench", "--leaves", "10", "--steps", "1", "--json"];
     let outcome = windfall_without_adapter(&folder(), &arguments);
     assert!(outcome.stderr.contains("no usable adapter"), "{}", outcome.stderr);
-    assert_eq!(outcome.json()["backend"], "cpu", "the only one");
+    let last: Value = serde_json::from_str(outcome.text().lines().last().expect("a row")).expect("JSON");
+    assert_eq!((&last["backend"], &last["frames_per_s"]), (&"cpu".into(), &Value::Null), "nothing drawn");
 }
 
 #[test]

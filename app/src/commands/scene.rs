@@ -115,7 +115,7 @@ pub fn check_memory(file: &str, leaves: u32) -> Result<(), SceneError> {
 }
 
 /// Bytes of memory that can be had without swapping, where the system tells.
-fn free_memory() -> Option<u64> {
+pub(super) fn free_memory() -> Option<u64> {
     let text = std::fs::read_to_string("/proc/meminfo").ok()?;
     let line = text.lines().find_map(|line| line.strip_prefix("MemAvailable:"))?;
     line.trim().strip_suffix("kB")?.trim().parse::<u64>().ok()?.checked_mul(1024)

@@ -1,0 +1,128 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What is measured: the backends, and the older ways of doing it.
+
+use windfall_core::leaf::{LEAF_BYTES, Leaves};
+use windfall_core::{Contract, SimError, Simulator, World};
+use windfall_wgpu::{Gpu, LeafBuffers, LeafColumns};
+
+use crate::backend::{Backend, Device};
+use crate::baseline::{ArrayOfStructs, Trajectories};
+
+/// A way to move leaves, by name.
+#[derive(Clone, Debug)]
+pub(super) enum Approach {
+    /// A trajectory for every leaf, played back.
+    Trajectories,
+    /// An array of structs in a loop.
+    Structs,
+    /// One of the backends.
+    Device(Device),
+}
+
+/// A world in the hands of one of them.
+pub(super) enum Contender {
+    Trajectories(Box<Trajectories>),
+    Structs { leaves: Box<ArrayOfStructs>, columns: Box<Leaves> },
+    Backend(Backend),
+}
+
+impl Approach {
+    /// Bytes that one leaf takes.
+    pub(super) fn leaf_bytes(&self, dt_s: f32) -> usize {
+        match self {
+            Self::Trajectories => Trajectories::leaf_bytes(dt_s),
+            Self::Structs => ArrayOfStructs::LEAF_BYTES,
+            Self::Device(_) => LEAF_BYTES,
+        }
+    }
+
+    /// Takes on a world.
+    pub(super) fn take(&self, world: &World) -> Result<Contender, SimError> {
+        Ok(match self {
+            Self::Trajectories => Contender::Trajectories(Box::new(Trajectories::record(world)?)),
+            Self::Structs => Contender::Structs {
+                leaves: Box::new(ArrayOfStructs::new(world)),
+                columns: Box::new(world.leaves.clone()),
+            },
+            Self::Device(device) => Contender::Backend(device.simulator(world)?),
+        })
+    }
+}
+
+impl Contender {
+    /// Name and machine, for the table.
+    pub(super) fn names(&self) -> (&'static str, String) {
+        match self {
+            Self::Trajectories(_) => ("trajectory", "1 thread".into()),
+            Self::Structs { .. } => ("structs", "1 thread".into()),
+            Self::Backend(backend) => {
+                let info = backend.info();
+                (info.backend, info.adapter)
+            }
+        }
+    }
+
+    /// Moves all leaves through `count` steps and waits until that is done.
+    pub(super) fn step(&mut self, count: u32) -> Result<(), SimError> {
+        match self {
+            Self::Trajectories(trajectories) => trajectories.step(count),
+            Self::Structs { leaves, .. } => leaves.step(count),
+            Self::Backend(backend) => {
+                backend.step(count)?;
+                backend.sync()?;
+            }
+        }
+        Ok(())
+    }
+
+    /// A fingerprint of the state, if it has to be the same to the bit as everybody else's.
+    pub(super) fn exact_hash(&mut self, world: &World) -> Result<Option<u64>, SimError> {
+        let mut state = world.clone();
+        match self {
+            Self::Trajectories(_) => return Ok(None),
+            Self::Structs { leaves, .. } => leaves.read(&mut state.leaves),
+            Self::Backend(backend) if backend.info().contract == Contract::Exact => {
+                backend.read_state(&mut state)?;
+                state.clock = world.clock;
+            }
+            Self::Backend(_) => return Ok(None),
+        }
+        Ok(Some(state.state_hash()))
+    }
+
+    /// Whether the leaves are where they can be after some steps: none lost, none broken.
+    pub(super) fn is_sound(&mut self, world: &World) -> Result<bool, SimError> {
+        let stats = match self {
+            Self::Trajectories(trajectories) => {
+                let leaves = trajectories.leaves().clone();
+                World { leaves, ..world.clone() }.stats()
+            }
+            Self::Structs { leaves, .. } => {
+                let mut state = world.clone();
+                leaves.read(&mut state.leaves);
+                state.stats()
+            }
+            Self::Backend(backend) => backend.stats()?,
+        };
+        let count = world.environment.scene().leaf_count();
+        Ok(stats.broken == 0 && stats.total() + stats.dormant == count)
+    }
+
+    /// The columns to draw from, on the device that draws.
+    pub(super) fn columns<'a>(
+        &'a mut self,
+        gpu: &Gpu,
+        buffers: &'a LeafBuffers,
+    ) -> Result<LeafColumns<'a>, SimError> {
+        match self {
+            Self::Trajectories(trajectories) => buffers.write(gpu, trajectories.leaves())?,
+            Self::Structs { leaves, columns } => {
+                leaves.read(columns);
+                buffers.write(gpu, columns)?;
+            }
+            Self::Backend(backend) => return backend.columns(gpu),
+        }
+        Ok(buffers.columns())
+    }
+}

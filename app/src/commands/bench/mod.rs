@@ -1,0 +1,201 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! `windfall bench`: how fast this machine simulates and draws, beside the older ways of doing it and what its memory
+//! would allow.
+
+mod bandwidth;
+mod contender;
+mod frames;
+mod row;
+
+use std::time::Instant;
+
+use anyhow::bail;
+use clap::Args;
+use cpu_time::ProcessTime;
+use windfall_core::leaf::HOT_BYTES_PER_STEP;
+use windfall_core::scene::MAX_LEAVES;
+use windfall_core::{Scene, SimError, World};
+use windfall_wgpu::Gpu;
+
+use self::bandwidth::update_bandwidth;
+use self::contender::{Approach, Contender};
+use self::frames::Stage;
+use self::row::{Floor, HEADER, Row};
+use super::scene::{check_memory, free_memory, scaled};
+use crate::backend::{BackendArguments, BackendKind, Device};
+use crate::cli::whole;
+use crate::terminal;
+
+/// Steps before anything is timed. Shaders are compiled and memory is touched; the state after them is compared.
+const WARM_UP_STEPS: u32 = 2;
+/// Timed batches: the median tells the speed, the extremes how far to trust it.
+const BATCHES: usize = 5;
+/// Aimed length of a batch in seconds.
+const BATCH_S: f64 = 0.3;
+/// Length in seconds of a trial that tells how many steps such a batch takes.
+const TRIAL_S: f64 = 0.04;
+const MAX_STEPS: u32 = 100_000;
+
+/// Options of `windfall bench`.
+#[derive(Clone, Debug, Args)]
+pub struct Arguments {
+    /// Preset or path of a RON file, scaled to every number of leaves.
+    #[arg(value_name = "SCENE", default_value = "million")]
+    scene: String,
+    /// Numbers of leaves, separated by commas.
+    #[arg(long, value_name = "N,…", value_delimiter = ',', default_value = "1e3,1e4,1e5,1e6",
+        value_parser = whole::<u32, 1, { MAX_LEAVES as u64 }>)]
+    leaves: Vec<u32>,
+    /// Steps of each of the five timed batches [default: as many as fill 0.3 s].
+    #[arg(long, value_name = "N", value_parser = whole::<u32, 1, { MAX_STEPS as u64 }>)]
+    steps: Option<u32>,
+    #[command(flatten)]
+    backend: BackendArguments,
+    /// Print one JSON object per line instead of a table: first the memory's speed, then a line for each row.
+    #[arg(long)]
+    json: bool,
+}
+
+/// Runs the command.
+///
+/// # Errors
+/// Bad input, a missing or lost device, or backends that disagree.
+pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
+    let scene = Scene::load(&arguments.scene)?;
+    let mut scenes = Vec::with_capacity(arguments.leaves.len());
+    for &leaves in &arguments.leaves {
+        scenes.push(scaled(&scene, &arguments.scene, leaves)?);
+        check_memory(&arguments.scene, leaves)?;
+    }
+    let (approaches, gpu) = approaches(&arguments.backend)?;
+    let threads = std::thread::available_parallelism().map_or(1, usize::from);
+    let floor = Floor::new(update_bandwidth(threads), threads, HOT_BYTES_PER_STEP);
+    if arguments.json {
+        terminal::print(&format!("{}\n", serde_json::to_string(&floor)?))?;
+    } else {
+        for approach in &approaches {
+            if let Approach::Device(device) = approach {
+                terminal::print(&format!("{device}\n"))?;
+            }
+        }
+        terminal::print(&format!("{}\n\n{HEADER}\n", floor.line()))?;
+    }
+    for scene in &scenes {
+        let world = World::build(scene)?;
+        let mut stage = gpu.as_ref().map(|gpu| Stage::new(gpu, scene)).transpose()?;
+        let mut expected = None;
+        for approach in &approaches {
+            let needed = approach.leaf_bytes(scene.dt_s) as u64 * u64::from(scene.leaf_count());
+            if free_memory().is_some_and(|free| needed > free / 3) {
+                terminal::note(&format!("trajectory at {}: needs {} MiB", scene.leaf_count(), needed >> 20));
+                continue;
+            }
+            let row = measure(approach, &world, arguments, &floor, stage.as_mut(), &mut expected)?;
+            let line = if arguments.json { serde_json::to_string(&row)? } else { row.line() };
+            terminal::print(&format!("{line}\n"))?;
+        }
+    }
+    Ok(())
+}
+
+/// What to measure, and what to draw on: the backend asked for; otherwise the older ways, the processor and the best
+/// adapter, if there is one.
+fn approaches(arguments: &BackendArguments) -> anyhow::Result<(Vec<Approach>, Option<Gpu>)> {
+    let gpu_of = |device: &Device| match device {
+        Device::Wgpu(gpu) => Some(gpu.as_ref().clone()),
+        Device::Cpu(_) => None,
+    };
+    let cpu = Approach::Device(arguments.cpu());
+    Ok(match arguments.kind()? {
+        Some(BackendKind::Cpu) => (vec![cpu], None),
+        Some(BackendKind::Wgpu) => {
+            let device = arguments.wgpu()?;
+            let gpu = gpu_of(&device);
+            (vec![Approach::Device(device)], gpu)
+        }
+        None => match arguments.wgpu() {
+            Ok(device) => {
+                let gpu = gpu_of(&device);
+                (vec![Approach::Trajectories, Approach::Structs, cpu, Approach::Device(device)], gpu)
+            }
+            Err(error) => {
+                terminal::note(&format!("backend cpu only, nothing drawn: {error}"));
+                (vec![Approach::Trajectories, Approach::Structs, cpu], None)
+            }
+        },
+    })
+}
+
+/// Measures one approach. `expected` is the state after the warm-up that all exact ones have to agree with.
+fn measure(
+    approach: &Approach,
+    world: &World,
+    arguments: &Arguments,
+    floor: &Floor,
+    stage: Option<&mut Stage>,
+    expected: &mut Option<u64>,
+) -> anyhow::Result<Row> {
+    let mut contender = approach.take(world)?;
+    let (backend, adapter) = contender.names();
+    let leaves = world.environment.scene().leaf_count();
+    contender.step(WARM_UP_STEPS)?;
+    if let Some(hash) = contender.exact_hash(world)?
+        && *expected.get_or_insert(hash) != hash
+    {
+        bail!("{backend} on {adapter} comes to another state than the others");
+    }
+    let steps = match arguments.steps {
+        Some(steps) => steps,
+        None => steps_of_a_batch(&mut contender)?,
+    };
+    let work = f64::from(leaves) * f64::from(steps);
+    let mut rates = [0.0; BATCHES];
+    let (cpu, wall) = (ProcessTime::now(), Instant::now());
+    for rate in &mut rates {
+        let start = Instant::now();
+        contender.step(steps)?;
+        *rate = work / start.elapsed().as_secs_f64().max(1e-9);
+    }
+    let (cpu_s, wall_s) = (cpu.elapsed().as_secs_f64().max(1e-9), wall.elapsed().as_secs_f64().max(1e-9));
+    rates.sort_by(f64::total_cmp);
+    let rate = rates[BATCHES / 2];
+    if !contender.is_sound(world)? {
+        bail!("{backend} on {adapter} lost leaves");
+    }
+    let frames_per_s = stage.map(|stage| stage.frames_per_s(&mut contender, world)).transpose()?;
+    Ok(Row {
+        backend,
+        adapter,
+        scene: arguments.scene.clone(),
+        leaves,
+        steps,
+        leaf_steps_per_s: rate,
+        leaf_steps_per_s_min: rates[0],
+        leaf_steps_per_s_max: rates[BATCHES - 1],
+        leaf_steps_per_cpu_s: BATCHES as f64 * work / cpu_s,
+        bytes_per_leaf_step: HOT_BYTES_PER_STEP,
+        bytes_per_leaf: approach.leaf_bytes(world.clock.dt_s()),
+        steps_per_s: rate / f64::from(leaves),
+        floor_share: rate / floor.floor_leaf_steps_per_s,
+        cpu_utilisation: cpu_s / wall_s,
+        frames_per_s,
+    })
+}
+
+/// How many steps fill a batch, by trial.
+fn steps_of_a_batch(contender: &mut Contender) -> Result<u32, SimError> {
+    let mut count = 1;
+    loop {
+        let start = Instant::now();
+        contender.step(count)?;
+        let seconds = start.elapsed().as_secs_f64();
+        if seconds >= TRIAL_S || count >= MAX_STEPS {
+            let steps = f64::from(count) * BATCH_S / seconds.max(1e-9);
+            #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "within the bounds")]
+            let steps = steps.clamp(1.0, f64::from(MAX_STEPS)) as u32;
+            return Ok(steps);
+        }
+        count *= 2;
+    }
+}
