@@ -108,7 +108,7 @@ fn stepping_equals_seeking() {
             elapsed += more;
             for slot in 0..LEAVES {
                 let id = world.leaves.identity[slot].id;
-                leaf_seek(&cx, &mut sought.leaf_mut(slot), id, 0, 0, elapsed);
+                leaf_seek(&cx, &mut sought.as_mut().leaf_mut(slot), id, 0, 0, elapsed);
                 let (here, there) = (world.leaves.place[slot], sought.place[slot]);
                 if here.state() != LeafState::Falling || there.state() != LeafState::Falling {
                     continue;

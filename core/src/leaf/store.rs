@@ -80,17 +80,6 @@ impl Leaves {
         self.place.is_empty()
     }
 
-    /// One leaf's records.
-    pub fn leaf_mut(&mut self, slot: usize) -> LeafMut<'_> {
-        LeafMut {
-            place: &mut self.place[slot],
-            drift: &mut self.drift[slot],
-            attitude: &mut self.attitude[slot],
-            course: &mut self.course[slot],
-            identity: &mut self.identity[slot],
-        }
-    }
-
     /// All columns, to be split among threads.
     pub fn as_mut(&mut self) -> LeavesMut<'_> {
         LeavesMut {

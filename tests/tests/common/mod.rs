@@ -82,7 +82,7 @@ pub(crate) fn step(world: &mut World, count: u32) {
         let block = environment.step_block(clock);
         let cx = environment.context(&block);
         for slot in 0..leaves.len() {
-            leaf_advance(&cx, &mut leaves.leaf_mut(slot));
+            leaf_advance(&cx, &mut leaves.as_mut().leaf_mut(slot));
         }
         clock.advance(environment);
     }
