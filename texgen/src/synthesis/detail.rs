@@ -18,7 +18,7 @@ use crate::rng::Rng;
 use patch::{Frame, Patch};
 
 /// Side of a patch as a share of the example's √A.
-const PATCH: f32 = 0.13;
+pub(crate) const PATCH: f32 = 0.13;
 /// Share of a patch that lies over what is there already.
 const OVERLAP: f32 = 0.34;
 /// Places that are tried for each patch.
@@ -31,6 +31,11 @@ const VEIN_BINS: [f32; 3] = [0.018, 0.036, 0.06];
 const MARGINAL: f32 = 0.035;
 /// Weight of lying alike against fitting the neighbours, per √A of difference.
 const PLACE_WEIGHT: f32 = 2500.0;
+
+/// Energy of a patch against the usual above which it counts as a blemish, or holds a vein that nobody marked.
+const BLEMISH: f32 = 1.5;
+/// Weight of the energy beyond that.
+const BLEMISH_WEIGHT: f32 = 2.0;
 
 /// Pixels of an example by how they lie: structural distance, distance to a vein, marginal or not.
 pub(crate) struct SourceBins(Vec<Vec<usize>>);
@@ -146,7 +151,9 @@ pub(crate) fn quilt(
                     },
                     scale: 1.0 / zoom(example),
                 };
-                let mut cost = area.misfit(&out, &filled, plane, &frame);
+                let energy = example.energy[source] / example.usual_energy - BLEMISH;
+                let mut cost = BLEMISH_WEIGHT * example.usual_energy * energy.max(0.0);
+                cost += area.misfit(&out, &filled, plane, &frame);
                 cost += PLACE_WEIGHT
                     * area.displacement(&frame, |p, q| {
                         let there = example.structure.inside.index_of(q)?;

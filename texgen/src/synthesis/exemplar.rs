@@ -2,14 +2,15 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! An example leaf taken apart: colours of its superpixels, its fine detail, its veins.
 
-use super::detail::SourceBins;
+use super::detail::{PATCH, SourceBins};
 use super::lab::{self, Lab};
 use super::nearest::nearest_seed;
 use super::plane::Plane;
 use super::smooth::{local_mean, smooth};
+use super::snap::snap;
 use super::structure::{Place, Scaled, Structure};
 use super::vein_profile::VeinProfile;
-use crate::{Specimen, TexgenError};
+use crate::{Mask, Specimen, TexgenError};
 
 /// Largest √A in pixels at which an example is studied.
 const LARGEST_UNIT: f32 = 512.0;
@@ -29,6 +30,10 @@ pub(crate) struct Exemplar {
     pub(crate) residual: Plane<Lab>,
     /// The finest part of the residual, about two pixels wide.
     pub(crate) grain: Plane<Lab>,
+    /// Mean square of the residual around each pixel, over about a patch, and its median.
+    pub(crate) energy: Vec<f32>,
+    /// Median of the energy.
+    pub(crate) usual_energy: f32,
     /// Pixels to copy detail from.
     pub(crate) sources: SourceBins,
     /// The example's veins.
@@ -61,9 +66,12 @@ impl Exemplar {
         }
         let unit = (mask.area() as f32).sqrt();
         let factor = (LARGEST_UNIT / unit.max(1.0)).min(1.0);
-        let leaf = Scaled::new(&specimen.name, &specimen.blade, &specimen.veins, factor)?;
+        let mut leaf = Scaled::new(&specimen.name, &specimen.blade, &specimen.veins, factor)?;
+        let colour = shrunk(specimen, &leaf.blade.mask, factor);
+        let unit = leaf.unit();
+        snap(&mut leaf.veins, &colour, &leaf.blade.mask.inside, unit);
         let structure = Structure::new(&leaf);
-        let colour = without_rim(&structure, shrunk(specimen, &structure, factor));
+        let colour = without_rim(&structure, colour.data);
         let veins = VeinProfile::measure(&structure, &colour);
         let tissue: Vec<Lab> = colour
             .iter()
@@ -90,10 +98,17 @@ impl Exemplar {
         let coarse = local_mean(&structure, &residual, 1.0, |at| structure.inside.data[at]);
         let (width, height) = (structure.inside.width, structure.inside.height);
         let grain = residual.iter().zip(coarse).map(|(fine, coarse)| lab::sub(*fine, coarse)).collect();
+        let squares: Vec<Lab> = residual.iter().map(|colour| colour.map(|x| x * x)).collect();
+        let around = 0.5 * PATCH * structure.unit;
+        let energy = local_mean(&structure, &squares, around, |at| structure.inside.data[at]);
+        let energy: Vec<f32> = energy.iter().map(|squares| squares.iter().sum()).collect();
+        let mut sorted: Vec<f32> = structure.pixels().map(|at| energy[at]).collect();
+        sorted.sort_by(f32::total_cmp);
+        let usual_energy = sorted.get(sorted.len() / 2).copied().unwrap_or(0.0).max(1e-3);
         let residual = Plane { width, height, data: residual };
         let grain = Plane { width, height, data: grain };
         let sources = SourceBins::new(&structure);
-        Ok(Self { structure, levels, regions, residual, grain, sources, veins, mean })
+        Ok(Self { structure, levels, regions, residual, grain, energy, usual_energy, sources, veins, mean })
     }
 }
 
@@ -107,8 +122,8 @@ fn without_rim(structure: &Structure, colour: Vec<Lab>) -> Vec<Lab> {
 }
 
 /// Colours of a specimen on its working grid.
-fn shrunk(specimen: &Specimen, structure: &Structure, factor: f32) -> Vec<Lab> {
-    let (width, height) = (structure.inside.width, structure.inside.height);
+fn shrunk(specimen: &Specimen, blade: &Mask, factor: f32) -> Plane<Lab> {
+    let (width, height) = (blade.width as usize, blade.height as usize);
     let picture = &specimen.picture;
     let mask = &specimen.blade.mask;
     let span = |i: usize, size: u32| {
@@ -119,9 +134,9 @@ fn shrunk(specimen: &Specimen, structure: &Structure, factor: f32) -> Vec<Lab> {
         let from = edge(i);
         from..edge(i + 1).max(from + 1).min(size)
     };
-    (0..width * height)
+    let data = (0..width * height)
         .map(|at| {
-            if !structure.inside.data[at] {
+            if !blade.inside[at] {
                 return [0.0; 3];
             }
             let columns = span(at % width, picture.width());
@@ -134,7 +149,8 @@ fn shrunk(specimen: &Specimen, structure: &Structure, factor: f32) -> Vec<Lab> {
                 .collect();
             lab::mean(leaf.into_iter())
         })
-        .collect()
+        .collect();
+    Plane { width, height, data }
 }
 
 /// Mean colour of each superpixel.

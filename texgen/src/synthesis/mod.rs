@@ -15,11 +15,12 @@ pub(crate) mod nearest;
 pub(crate) mod plane;
 mod regions;
 mod smooth;
+mod snap;
 mod stages;
 mod structural;
 mod structure;
 mod superpixels;
-mod vein_field;
+pub(crate) mod vein_field;
 mod vein_profile;
 
 use glam::Vec2;
