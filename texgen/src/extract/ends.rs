@@ -35,6 +35,8 @@ pub(crate) struct Ends {
 /// What root and tip are judged by.
 pub(crate) struct Evidence<'a> {
     pub(crate) blade: &'a Mask,
+    /// √A in pixels.
+    pub(crate) side: f32,
     /// Closed polygon around the blade.
     pub(crate) outline: &'a [Vec2],
     /// Where a petiole seems to meet the blade and how sure that is.
@@ -84,7 +86,7 @@ impl Evidence<'_> {
         let Some(ridges) = self.ridges else { return 0.0 };
         let (mut sum, mut count) = (0.0, 0.0_f32);
         for step in -60..=60 {
-            let p = on + axis * (0.02 * self.side() * step as f32);
+            let p = on + axis * (0.02 * self.side * step as f32);
             if self.blade.contains(floor_i32(p.x), floor_i32(p.y)) {
                 sum += (self.strongest_near(ridges, p, axis) / strong).min(1.0);
                 count += 1.0;
@@ -95,7 +97,7 @@ impl Evidence<'_> {
 
     /// Strongest line at a point or a little beside an axis.
     fn strongest_near(&self, ridges: &Ridges, p: Vec2, axis: Vec2) -> f32 {
-        let step = Vec2::new(-axis.y, axis.x) * (0.008 * self.side());
+        let step = Vec2::new(-axis.y, axis.x) * (0.008 * self.side);
         (-3..=3).map(|k| ridges.strength.sample(p + step * k as f32)).fold(0.0, f32::max)
     }
 
@@ -117,11 +119,6 @@ impl Evidence<'_> {
         hits.count() as f32 / (pixels.len() as f32).max(1.0)
     }
 
-    /// √A in pixels.
-    fn side(&self) -> f32 {
-        (self.blade.area() as f32).sqrt()
-    }
-
     /// Point of the outline nearest to `p`.
     fn nearest_margin(&self, p: Vec2) -> Vec2 {
         let sides = self.outline.iter().zip(self.outline.iter().cycle().skip(1));
@@ -141,7 +138,7 @@ impl Evidence<'_> {
             }
             travelled += 0.5;
         }
-        let near = 0.12 * self.side();
+        let near = 0.12 * self.side;
         let score = |p: &Vec2| (*p - last).dot(direction) - 0.7 * (*p - last).perp_dot(direction).abs();
         let stands_out = self.outline.iter().filter(|p| p.distance(last) < near && score(p) > 0.0);
         stands_out.max_by(|a, b| score(a).total_cmp(&score(b))).copied().unwrap_or(last)
@@ -171,17 +168,17 @@ impl Evidence<'_> {
     fn notch(&self, end: Vec2, axis: Vec2) -> f32 {
         let out = |sign: f32| {
             let beside = self.outline.iter().filter(|p| {
-                let across = sign * (**p - end).perp_dot(axis) / self.side();
+                let across = sign * (**p - end).perp_dot(axis) / self.side;
                 (0.03..0.45).contains(&across)
             });
-            beside.map(|p| -(*p - end).dot(axis) / self.side()).fold(0.0, f32::max)
+            beside.map(|p| -(*p - end).dot(axis) / self.side).fold(0.0, f32::max)
         };
         (out(1.0).min(out(-1.0)) * 8.0).min(1.0)
     }
 
     /// How much an end looks like a petiole's stub, 0 to 1: thin, and as thin further in.
     fn stub(&self, end: Vec2, axis: Vec2) -> f32 {
-        let side = self.side();
+        let side = self.side;
         let across = Vec2::new(-axis.y, axis.x);
         let width = |depth: f32| {
             let count = (-24..=24).filter(|k| {
@@ -206,7 +203,7 @@ impl Evidence<'_> {
             // Twice along × across is the sine of the doubled angle between line and axis.
             let turned = Vec2::new(axis.x * axis.x - axis.y * axis.y, 2.0 * axis.x * axis.y);
             let sine = -turned.perp_dot(*doubled) * side.signum();
-            if side.abs() > 0.06 * self.side() {
+            if side.abs() > 0.06 * self.side {
                 lead += strength * strength * sine;
                 all += strength * strength * sine.abs();
             }

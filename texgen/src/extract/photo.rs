@@ -199,6 +199,7 @@ fn find_ends(lightness: &Field, leaf: Mask, given_root: Option<Vec2>) -> (Mask, 
         let entered: Vec<Vec2> = outline.iter().map(|p| close_up.enter(*p)).collect();
         let ends = Evidence {
             blade: &close_up.mask,
+            side: close_up.side,
             outline: &entered,
             petiole: petiole.filter(|_| is_sure).map(|p| (close_up.enter(p.junction), p.confidence)),
             ridges: Some(&close_up.ridges),
