@@ -16,6 +16,8 @@ use crate::field::quantile;
 const OPENING: f32 = 0.035;
 /// Least length of a petiole (its box's diagonal), in √A.
 const LENGTH: f32 = 0.15;
+/// Least length of the stub that is left of a torn petiole, in √A.
+const STUB: f32 = 0.04;
 /// Greatest mean width of a petiole, in √A.
 const WIDTH: f32 = 0.07;
 /// A piece whose far third is thinner than this share of its near third is a tip that tapers.
@@ -28,14 +30,23 @@ pub(crate) struct Petiole {
     pub(crate) junction: Vec2,
     /// Its far end.
     pub(crate) end: Vec2,
+    /// Diagonal of its box.
+    pub(crate) length: f32,
     /// Its pixels.
     pub(crate) pixels: Vec<usize>,
     /// How sure it is to be one, 0 to 1.
     pub(crate) confidence: f32,
 }
 
-/// Finds the petiole of a connected mask.
-pub(crate) fn find(mask: &Mask) -> Option<Petiole> {
+impl Petiole {
+    /// Whether it is long enough to be told from other residues without more evidence; `side` is √A.
+    pub(crate) fn is_long(&self, side: f32) -> bool {
+        self.length > LENGTH * side
+    }
+}
+
+/// Thin pieces of a connected mask that may be its petiole, the best first.
+pub(crate) fn candidates(mask: &Mask) -> Vec<Petiole> {
     let (width, height) = (mask.width as usize, mask.height as usize);
     let side = (mask.area() as f32).sqrt();
     let depth = depth(mask);
@@ -46,11 +57,11 @@ pub(crate) fn find(mask: &Mask) -> Option<Petiole> {
     for (i, label) in pieces.label.iter().enumerate().filter(|(_, label)| **label > 0) {
         members[*label as usize].push(i);
     }
-    members
-        .into_iter()
-        .filter_map(|pixels| measure(pixels, &depth, (width, height), side, opened))
-        .max_by(|a, b| a.0.total_cmp(&b.0))
-        .map(|(_, petiole)| petiole)
+    let measured =
+        members.into_iter().filter_map(|pixels| measure(pixels, &depth, (width, height), side, opened));
+    let mut found: Vec<Petiole> = measured.collect();
+    found.sort_by(|a, b| (b.length * b.confidence).total_cmp(&(a.length * a.confidence)));
+    found
 }
 
 /// Distance of each pixel's centre to the outside, the picture's surroundings included.
@@ -63,20 +74,20 @@ pub(crate) fn depth(mask: &Mask) -> Vec<f32> {
     (0..width * height).map(|i| padded.distance[(i / width + 1) * (width + 2) + i % width + 1]).collect()
 }
 
-/// Rank and shape of a residue of the opening, if it could be a petiole.
+/// Shape of a residue of the opening, if it could be a petiole.
 fn measure(
     pixels: Vec<usize>,
     depth: &[f32],
     (width, height): (usize, usize),
     side: f32,
     opened: impl Fn(usize) -> bool,
-) -> Option<(f32, Petiole)> {
+) -> Option<Petiole> {
     let place = |i: usize| Vec2::new((i % width) as f32 + 0.5, (i / width) as f32 + 0.5);
     let first = place(*pixels.first()?);
     let (low, high) =
         pixels.iter().fold((first, first), |(low, high), i| (low.min(place(*i)), high.max(place(*i))));
     let length = low.distance(high) + 1.0;
-    if length <= LENGTH * side || pixels.len() as f32 / length >= WIDTH * side {
+    if length <= STUB * side || pixels.len() as f32 / length >= WIDTH * side {
         return None;
     }
     let contact: Vec<Vec2> = pixels
@@ -98,7 +109,7 @@ fn measure(
     };
     let taper = thickness(0.6, 0.9) / thickness(0.15, 0.45).max(0.5);
     let confidence = 0.9 * ((taper - TAPER) / 0.25 + 0.6).clamp(0.0, 1.0);
-    (confidence > 0.2).then_some((length * confidence, Petiole { junction, end, pixels, confidence }))
+    (confidence > 0.2).then_some(Petiole { junction, end, length, pixels, confidence })
 }
 
 #[cfg(test)]
@@ -118,7 +129,7 @@ mod tests {
 
     #[test]
     fn a_stalk_is_found_where_it_meets_the_blade() {
-        let petiole = find(&leaf(false)).expect("a stalk");
+        let petiole = candidates(&leaf(false)).swap_remove(0);
         assert!(petiole.junction.distance(Vec2::new(60.0, 100.0)) < 4.0, "junction {}", petiole.junction);
         assert!(petiole.end.distance(Vec2::new(60.0, 157.0)) < 4.0, "end {}", petiole.end);
         assert!(petiole.confidence > 0.8, "{}", petiole.confidence);
@@ -126,7 +137,7 @@ mod tests {
 
     #[test]
     fn a_drip_tip_is_no_stalk() {
-        assert!(find(&leaf(true)).is_none_or(|petiole| petiole.confidence < 0.6), "it tapers");
-        assert!(find(&Mask::empty(4, 4)).is_none(), "nothing has no stalk");
+        assert!(candidates(&leaf(true)).iter().all(|petiole| petiole.confidence < 0.6), "it tapers");
+        assert!(candidates(&Mask::empty(4, 4)).is_empty(), "nothing has no stalk");
     }
 }

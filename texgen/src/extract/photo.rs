@@ -11,6 +11,7 @@ use super::close_up::CloseUp;
 use super::ends::Evidence;
 use super::labels::keep_largest;
 use super::outline::outline;
+use super::petiole::Petiole;
 use super::{background, load, petiole, veins};
 use crate::field::Field;
 use crate::lab::FromSrgb;
@@ -24,6 +25,8 @@ const LEAST_AREA: usize = 64;
 const FULL: f32 = 0.999;
 /// Holes below this share of the leaf are closed.
 const HOLE: f32 = 0.0005;
+/// A thin piece whose end is this near to the root, in √A, is a petiole's stub.
+const STUB_REACH: f32 = 0.06;
 /// A second piece of at least this share of the largest counts as another leaf.
 const SECOND_LEAF: f32 = 0.1;
 
@@ -161,49 +164,77 @@ pub(crate) fn cut_out(
             "several leaves in one picture: the largest was taken, the next has {share:.0} % of it"
         ));
     }
-    let petiole = petiole::find(&mask).filter(|petiole| petiole.confidence >= 0.5);
-    let mut stalk = Mask::empty(mask.width, mask.height);
-    let mut blade = mask;
-    for &i in petiole.iter().flat_map(|petiole| &petiole.pixels) {
-        blade.inside[i] = false;
-        stalk.inside[i] = true;
-    }
-    keep_largest(&mut blade, 0);
-    let area = blade.area();
-    if area < LEAST_AREA {
+    if mask.area() < LEAST_AREA {
+        let area = mask.area();
         return Err(format!("the leaf has {area} pixels, allowed: at least {LEAST_AREA} that hang together"));
     }
-
     let table = FromSrgb::new();
     let lightness = Field {
         width: colours.width() as usize,
         height: colours.height() as usize,
         values: colours.pixels().map(|pixel| table.lab(pixel.0)[0]).collect(),
     };
-    let close_up = CloseUp::of(&lightness, &blade);
-    let outline = outline(&blade);
-    let entered: Vec<Vec2> = outline.iter().map(|p| close_up.enter(*p)).collect();
-    let petiole = petiole.map(|mut petiole| {
-        petiole.junction = close_up.enter(petiole.junction);
-        petiole
-    });
-    let ends = Evidence {
-        blade: &close_up.mask,
-        outline: &entered,
-        petiole: petiole.as_ref(),
-        ridges: Some(&close_up.ridges.strength),
-        given_root: root.map(|root| close_up.enter(root)),
-    }
-    .decide();
-    let (root, tip) = (close_up.leave(ends.root), close_up.leave(ends.tip));
-    let blade = Blade { mask: blade, outline, root, tip, confidence: ends.confidence };
+    let (stalk, blade, close_up) = find_ends(&lightness, mask, root);
     let veins = veins::trace(&close_up, &blade);
     if veins.nodes.iter().all(|node| node.order < 2) {
         notes.push("no lateral vein stands out from the tissue: there is the midrib only".into());
     }
-    if ends.confidence < 0.6 {
+    if blade.confidence < 0.6 {
         notes.push("root and tip are uncertain; point at the root if they are wrong".into());
     }
     let specimen = Specimen { name: name.into(), picture: colours, blade, veins };
     Ok(Extraction { specimen, petiole: stalk, notes })
+}
+
+/// Parts petiole and blade, and decides root and tip.
+fn find_ends(lightness: &Field, leaf: Mask, given_root: Option<Vec2>) -> (Mask, Blade, CloseUp) {
+    let side = (leaf.area() as f32).sqrt();
+    let candidates = petiole::candidates(&leaf);
+    let is_petiole = |petiole: &&Petiole| petiole.is_long(side) && petiole.confidence >= 0.5;
+    let petiole = candidates.iter().find(is_petiole);
+    let attempt = |petiole: Option<&Petiole>, is_sure: bool| {
+        let (stalk, mask) = parted(&leaf, petiole);
+        let close_up = CloseUp::of(lightness, &mask);
+        let outline = outline(&mask);
+        let entered: Vec<Vec2> = outline.iter().map(|p| close_up.enter(*p)).collect();
+        let ends = Evidence {
+            blade: &close_up.mask,
+            side: close_up.side,
+            outline: &entered,
+            petiole: petiole.filter(|_| is_sure).map(|p| (close_up.enter(p.junction), p.confidence)),
+            ridges: Some(&close_up.ridges),
+            given_root: given_root.map(|root| close_up.enter(root)),
+        }
+        .decide();
+        let (root, tip) = (close_up.leave(ends.root), close_up.leave(ends.tip));
+        (stalk, Blade { mask, outline, root, tip, confidence: ends.confidence }, close_up)
+    };
+    let first = attempt(petiole, true);
+    if petiole.is_some() && first.1.confidence >= 0.6 {
+        return first;
+    }
+    // Veins contradict the petiole, or there is none: look again at the whole leaf.
+    let whole = if petiole.is_some() { attempt(None, false) } else { first };
+    let root = whole.1.root;
+    let is_stub = |candidate: &&Petiole| candidate.end.distance(root) < STUB_REACH * side;
+    match candidates.iter().find(is_stub) {
+        Some(stub) => {
+            let mut trimmed = attempt(Some(stub), true);
+            trimmed.1.confidence = trimmed.1.confidence.min(whole.1.confidence.max(0.3) + 0.1);
+            trimmed
+        }
+        None => whole,
+    }
+}
+
+/// The petiole's pixels and the largest piece of the rest.
+fn parted(leaf: &Mask, petiole: Option<&Petiole>) -> (Mask, Mask) {
+    let mut stalk = Mask::empty(leaf.width, leaf.height);
+    let mut blade = leaf.clone();
+    for &i in petiole.iter().flat_map(|petiole| &petiole.pixels) {
+        blade.inside[i] = false;
+        stalk.inside[i] = true;
+    }
+    keep_largest(&mut blade, 0);
+    (stalk, blade)
 }

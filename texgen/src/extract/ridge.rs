@@ -6,64 +6,79 @@
 //! Sato et al. 1998, "Three-dimensional multi-scale line filter"; here in the plane: a ridge is where the
 //! brightness bends strongly across one direction.
 
+use glam::Vec2;
+
 use crate::distance::nearest_seeds;
 use crate::field::{Field, quantile};
 
 /// Widths of the lines looked for, in √A.
-const SCALES: [f32; 4] = [0.005, 0.007, 0.009, 0.012];
+pub(crate) const SCALES: [f32; 4] = [0.005, 0.007, 0.009, 0.012];
 /// Rim of the blade whose colours are mixed with the background, in √A.
 const RIM: f32 = 0.008;
 
-/// How strongly each pixel lies on a line.
+/// How strongly each pixel lies on a line, and which way the line runs.
 #[derive(Clone, Debug)]
 pub(crate) struct Ridges {
     /// Response, 0 for none; in units of the input per σ² of bending.
     pub(crate) strength: Field,
-    /// Whether the lines are lighter than what they cross.
-    pub(crate) is_light: bool,
+    /// Direction of the line as the unit vector of its doubled angle to the x axis.
+    pub(crate) doubled: Vec<Vec2>,
 }
 
-/// Filters the lightness of a blade whose pixels lie `depth` pixels inside; `side` is √A in pixels.
+/// Filters the lightness of a blade whose pixels lie `depth` pixels inside; `side` is √A in pixels, `scales` the
+/// widths in √A.
 ///
 /// The polarity, light or dark lines, that answers more strongly among the blade's strongest tenth is kept.
-pub(crate) fn ridges(lightness: &Field, depth: &[f32], side: f32) -> Ridges {
+pub(crate) fn ridges(lightness: &Field, depth: &[f32], side: f32, scales: &[f32]) -> Ridges {
     let filled = continued(lightness, depth, (RIM * side).max(1.0));
     let (width, height) = (filled.width, filled.height);
-    let mut light = Field::constant(width, height, 0.0);
-    let mut dark = light.clone();
-    for scale in SCALES {
+    let none = || Ridges {
+        strength: Field::constant(width, height, 0.0),
+        doubled: vec![Vec2::ZERO; width * height],
+    };
+    let (mut light, mut dark) = (none(), none());
+    for scale in scales {
         let sigma = scale * side;
         let smooth = filled.blurred(sigma);
         let grid = |i: usize| i32::try_from(i).unwrap_or(i32::MAX);
-        for y in 0..height {
-            for x in 0..width {
-                let (column, row) = (grid(x), grid(y));
-                let at = |dx: i32, dy: i32| smooth.at(column + dx, row + dy);
-                let centre = 2.0 * at(0, 0);
-                let xx = at(1, 0) + at(-1, 0) - centre;
-                let yy = at(0, 1) + at(0, -1) - centre;
-                let xy = (at(1, 1) + at(-1, -1) - at(1, -1) - at(-1, 1)) / 4.0;
-                let middle = (xx + yy) / 2.0;
-                let spread = ((xx - yy) * (xx - yy) / 4.0 + xy * xy).sqrt();
-                let i = y * width + x;
-                light.values[i] = light.values[i].max(-(middle - spread) * sigma * sigma);
-                dark.values[i] = dark.values[i].max((middle + spread) * sigma * sigma);
-            }
+        for i in (0..width * height).filter(|i| depth[*i] > 0.0) {
+            let (column, row) = (grid(i % width), grid(i / width));
+            let at = |dx: i32, dy: i32| smooth.at(column + dx, row + dy);
+            let centre = 2.0 * at(0, 0);
+            let xx = at(1, 0) + at(-1, 0) - centre;
+            let yy = at(0, 1) + at(0, -1) - centre;
+            let xy = (at(1, 1) + at(-1, -1) - at(1, -1) - at(-1, 1)) / 4.0;
+            let middle = (xx + yy) / 2.0;
+            // Half the difference of the eigenvalues, along the doubled angle of the eigenvector of the larger.
+            let across = Vec2::new((xx - yy) / 2.0, xy);
+            let spread = across.length();
+            let turned = across.normalize_or_zero();
+            light.keep(i, (spread - middle) * sigma * sigma, turned);
+            dark.keep(i, (spread + middle) * sigma * sigma, -turned);
         }
     }
-    let strongest = |field: &Field| {
-        let mut inner: Vec<f32> =
-            field.values.iter().zip(depth).filter(|(_, d)| **d > 2.0 * RIM * side).map(|(v, _)| *v).collect();
-        quantile(&mut inner, 0.9)
+    let strongest = |ridges: &Ridges| {
+        let values = ridges.strength.values.iter().zip(depth);
+        let mut inner: Vec<f32> = values.filter(|(_, d)| **d > 2.0 * RIM * side).map(|(v, _)| *v).collect();
+        quantile(&mut inner, 0.95)
     };
-    let is_light = strongest(&light) >= strongest(&dark);
-    let mut strength = if is_light { light } else { dark };
-    strength.values.iter_mut().zip(depth).for_each(|(value, depth)| {
-        if *depth <= 0.0 {
-            *value = 0.0;
+    if strongest(&light) >= strongest(&dark) { light } else { dark }
+}
+
+impl Ridges {
+    /// What the strongest fiftieth of the pixels on lines exceeds.
+    pub(crate) fn strong(&self) -> f32 {
+        let on_lines = self.strength.values.iter().filter(|value| **value > 0.0).copied();
+        quantile(&mut on_lines.collect::<Vec<f32>>(), 0.98).max(1e-6)
+    }
+
+    /// Keeps the stronger of two answers at a pixel.
+    fn keep(&mut self, i: usize, strength: f32, doubled: Vec2) {
+        if strength > self.strength.values[i] {
+            self.strength.values[i] = strength;
+            self.doubled[i] = doubled;
         }
-    });
-    Ridges { strength, is_light }
+    }
 }
 
 /// The values deeper than `rim`, carried outward over everything else, so that no edge of the blade is left.
@@ -98,8 +113,9 @@ mod tests {
     fn lines_answer_with_their_polarity_and_edges_do_not() {
         for contrast in [12.0, -12.0] {
             let (field, depth) = lined(contrast);
-            let ridges = ridges(&field, &depth, 100.0);
-            assert_eq!(ridges.is_light, contrast > 0.0, "polarity of contrast {contrast}");
+            let ridges = ridges(&field, &depth, 100.0, &SCALES);
+            let doubled = ridges.doubled[70 * 140 + 70];
+            assert!(doubled.distance(Vec2::NEG_X) < 1e-3, "a line along y, not {doubled}");
             let on = ridges.strength.at(70, 70);
             assert!(on > 1.0, "the line answers with {on}");
             assert!(ridges.strength.at(40, 70) < 0.01 * on, "flat tissue does not answer");

@@ -16,6 +16,8 @@ use crate::{Blade, VeinGraph};
 
 /// Price of a pixel without any ridge, against 1 / (this + 1) on a strong one.
 const FLAT: f32 = 0.05;
+/// Main veins keep this far off the margin where they can, in √A.
+const MAIN_RIM: f32 = 0.06;
 /// Least rise of a lobe's tip over the bays beside it, as distances from the root, in √A.
 const LOBE: f32 = 0.07;
 /// A lobe's way that joins the tree within this share of its length from the root is a main vein.
@@ -36,7 +38,7 @@ pub(crate) fn trace(close_up: &CloseUp, blade: &Blade) -> VeinGraph {
     let (root, tip) = (close_up.enter(blade.root), close_up.enter(blade.tip));
     let outline: Vec<Vec2> = blade.outline.iter().map(|p| close_up.enter(*p)).collect();
     let width = close_up.mask.width as usize;
-    let price = prices(close_up);
+    let price = prices(close_up, MAIN_RIM);
     let nearest = |p: Vec2| nearest_inside(close_up, p);
     let Some(root_pixel) = nearest(root) else { return VeinGraph::default() };
 
@@ -60,20 +62,20 @@ pub(crate) fn trace(close_up: &CloseUp, blade: &Blade) -> VeinGraph {
         let is_main = is_first || from_root.length[*joined] <= MAIN * from_root.length[start];
         tree.add(&way[..=new], if is_main { 1 } else { 2 });
     }
-    add_laterals(close_up, &outline, &price, &mut tree);
+    add_laterals(close_up, &outline, &prices(close_up, 0.01), &mut tree);
     tree.into_graph(close_up)
 }
 
-/// Price of passing each pixel; infinite outside.
-fn prices(close_up: &CloseUp) -> Vec<f32> {
+/// Price of passing each pixel, higher within `rim` (in √A) of the margin; infinite outside.
+fn prices(close_up: &CloseUp, rim: f32) -> Vec<f32> {
     let strength = &close_up.ridges.strength.values;
     let inside = || (0..strength.len()).filter(|i| close_up.mask.inside[*i]);
     let strong = quantile(&mut inside().map(|i| strength[i]).collect::<Vec<f32>>(), 0.97).max(1e-3);
     let mut price = vec![f32::INFINITY; strength.len()];
     for i in inside() {
-        // Ways keep off the margin, where there is nothing to see.
-        let rim = if close_up.depth[i] < 2.5 { 2.0 } else { 1.0 };
-        price[i] = rim / (FLAT + (strength[i] / strong).clamp(0.0, 1.0));
+        let near_margin = (1.0 - close_up.depth[i] / (rim * close_up.side)).max(0.0);
+        let toll = 1.0 + 3.0 * near_margin * near_margin;
+        price[i] = toll / (FLAT + (strength[i] / strong).clamp(0.0, 1.0));
     }
     price
 }
