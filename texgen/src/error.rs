@@ -16,6 +16,12 @@ pub enum TexgenError {
         /// The values allowed.
         allowed: &'static str,
     },
+    /// A blade on which no vein can grow.
+    #[error("no vein can grow: {reason}")]
+    NoRoom {
+        /// What the blade lacks, with the value found and the least that is needed.
+        reason: String,
+    },
 }
 
 impl TexgenError {

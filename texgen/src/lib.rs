@@ -20,6 +20,7 @@ mod contour;
 mod damage;
 mod distance;
 mod error;
+pub mod growth;
 mod math;
 mod mipmap;
 mod noise;
@@ -37,6 +38,7 @@ mod warp;
 
 pub use atlas::{Atlas, AtlasEntry, AtlasRequest, Layer};
 pub use blade::{Blade, Mask};
+pub use contour::DrawnLeaf;
 pub use error::TexgenError;
 pub use shape::Shape;
 pub use specimen::Specimen;
