@@ -17,6 +17,11 @@ const LARGEST_UNIT: f32 = 512.0;
 
 /// Pixels at the margin whose colour is mixed with the ground's.
 const RIM: f32 = 2.2;
+/// Distance to the margin, as a share of √A, within which pale pixels are taken for ground shining through.
+const PALE_RIM: f32 = 0.08;
+/// A pale pixel has less than this share of the median chroma, and is not this much darker than the median.
+const PALE_CHROMA: f32 = 0.8;
+const PALE_LIGHT: f32 = 4.0;
 
 /// What texture is made from.
 pub(crate) struct Exemplar {
@@ -115,7 +120,21 @@ impl Exemplar {
 /// Colours with those at the rim, where the ground behind the leaf shines through, taken from farther in.
 fn without_rim(structure: &Structure, colour: Vec<Lab>) -> Vec<Lab> {
     let (width, height) = (structure.inside.width, structure.inside.height);
-    let clean = |at: usize| structure.inside.data[at] && structure.margin[at] * structure.unit > RIM;
+    let chroma = |at: usize| (colour[at][1] * colour[at][1] + colour[at][2] * colour[at][2]).sqrt();
+    let median = |value: &dyn Fn(usize) -> f32| {
+        let mut values: Vec<f32> = structure.pixels().map(value).collect();
+        values.sort_by(f32::total_cmp);
+        values.get(values.len() / 2).copied().unwrap_or(0.0)
+    };
+    let (usual_light, usual_chroma) = (median(&|at| colour[at][0]), median(&chroma));
+    // Thin parts out of focus are paler over a wider rim.
+    let pale = |at: usize| {
+        structure.margin[at] < PALE_RIM
+            && colour[at][0] > usual_light - PALE_LIGHT
+            && chroma(at) < PALE_CHROMA * usual_chroma
+    };
+    let clean =
+        |at: usize| structure.inside.data[at] && structure.margin[at] * structure.unit > RIM && !pale(at);
     let (_, nearest) = nearest_seed(width, height, clean);
     let from = |at: usize| colour.get(nearest.data[at] as usize).copied().unwrap_or(colour[at]);
     (0..colour.len()).map(|at| if structure.inside.data[at] { from(at) } else { [0.0; 3] }).collect()
