@@ -186,7 +186,7 @@ mod tests {
                 Err(TexgenError::OutOfRange { field, .. }) => {
                     assert_eq!(field, expected, "field of {request:?}")
                 }
-                Ok(_) => panic!("{request:?} must be refused for {expected}"),
+                other => panic!("{request:?} must be refused for {expected}, got {other:?}"),
             }
         }
     }

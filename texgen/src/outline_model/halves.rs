@@ -71,6 +71,9 @@ impl Halves {
 
 /// Makes a point that lies on (or near) a closed polygon one of its corners.
 fn insert(ring: &mut Vec<Vec2>, p: Vec2) {
+    if ring.contains(&p) {
+        return;
+    }
     let distance = |i: &usize| segment_distance(p, ring[*i], ring[(*i + 1) % ring.len()]).0;
     let Some(side) = (0..ring.len()).min_by(|a, b| distance(a).total_cmp(&distance(b))) else { return };
     let next = (side + 1) % ring.len();
