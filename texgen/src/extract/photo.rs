@@ -25,8 +25,8 @@ const LEAST_AREA: usize = 64;
 const FULL: f32 = 0.999;
 /// Holes below this share of the leaf are closed.
 const HOLE: f32 = 0.0005;
-/// A thin piece whose end is this near to the root, in √A, is a petiole's stub.
-const STUB_REACH: f32 = 0.06;
+/// A thin piece that does not taper and starts this near to the root, in √A, is a petiole's stub.
+const STUB_REACH: f32 = 0.15;
 /// A second piece of at least this share of the largest counts as another leaf.
 const SECOND_LEAF: f32 = 0.1;
 
@@ -216,7 +216,9 @@ fn find_ends(lightness: &Field, leaf: Mask, given_root: Option<Vec2>) -> (Mask, 
     // Veins contradict the petiole, or there is none: look again at the whole leaf.
     let whole = if petiole.is_some() { attempt(None, false) } else { first };
     let root = whole.1.root;
-    let is_stub = |candidate: &&Petiole| candidate.end.distance(root) < STUB_REACH * side;
+    let is_stub = |candidate: &&Petiole| {
+        candidate.confidence >= 0.5 && candidate.junction.distance(root) < STUB_REACH * side
+    };
     match candidates.iter().find(is_stub) {
         Some(stub) => {
             let mut trimmed = attempt(Some(stub), true);

@@ -4,13 +4,10 @@
 
 use glam::Vec2;
 
-use super::{SpeciesVeins, upright};
-use crate::growth::{Habit, Layout};
+use crate::growth::{Habit, Layout, SpeciesVeins};
 use crate::maps::PetioleColour;
-use crate::rng::Rng;
 use crate::synthesis::lab;
-use crate::warp::Warp;
-use crate::{DrawnLeaf, Extraction, Shape, Specimen, TexgenError};
+use crate::{Blade, DrawnLeaf, Extraction, OutlineModel, Shape, Specimen, TexgenError};
 
 /// How a maker draws its outlines and veins.
 pub(super) enum Manner {
@@ -21,10 +18,11 @@ pub(super) enum Manner {
 }
 
 impl Manner {
-    /// Learns from examples.
-    pub(super) fn learned(examples: &[Specimen]) -> Self {
-        let outlines = examples.iter().map(|example| upright::leaf_coordinates(&example.blade)).collect();
-        Self::Learned { outlines, habit: habit_of(examples) }
+    /// Learns outlines from examples, and veins too unless a kind of leaf is given for them.
+    pub(super) fn learned(examples: &[Specimen], shape: Option<Shape>) -> Result<Self, TexgenError> {
+        let blades: Vec<Blade> = examples.iter().map(|example| example.blade.clone()).collect();
+        let habit = shape.map_or_else(|| habit_of(examples), Habit::of);
+        Ok(Self::Learned { outlines: OutlineModel::from_blades(&blades)?, habit })
     }
 
     /// Name for files.
@@ -45,17 +43,10 @@ impl Manner {
 
     /// Draws an outline.
     pub(super) fn draw(&self, size_px: u32, seed: u64) -> Result<DrawnLeaf, TexgenError> {
-        let outlines = match self {
-            Self::Shape(shape) => return shape.draw(size_px, seed),
-            Self::Learned { outlines, .. } => outlines,
-        };
-        let mut rng = Rng::new(seed).fork(21);
-        let last = u32::try_from(outlines.len().saturating_sub(1)).unwrap_or(0);
-        let outline = &outlines[rng.integer(0, last) as usize];
-        let mirror = if rng.chance(0.5) { -1.0 } else { 1.0 };
-        let warp = Warp::draw(&mut rng);
-        let margin: Vec<Vec2> = outline.iter().map(|p| warp.apply(Vec2::new(p.x * mirror, p.y))).collect();
-        Ok(upright::upright(margin, warp.apply(Vec2::Y), size_px, &mut rng))
+        match self {
+            Self::Shape(shape) => shape.draw(size_px, seed),
+            Self::Learned { outlines, .. } => outlines.draw(size_px, seed),
+        }
     }
 }
 

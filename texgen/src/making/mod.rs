@@ -4,9 +4,7 @@
 
 mod facts;
 mod manner;
-mod upright;
 
-use crate::growth::SpeciesVeins;
 use crate::maps::{Dressed, PetioleColour};
 use crate::paint::specimen;
 use crate::rng::{Rng, hash64};
@@ -86,8 +84,8 @@ impl LeafMaker {
         Ok(Self { options, painter: Painter::new(&examples)?, manner, stems, build: Build::of(shape) })
     }
 
-    /// A maker of leaves like those of some photos. Outlines and veins are those of `shape` if one is given, otherwise
-    /// they take after the photos.
+    /// A maker of leaves like those of some photos. Veins run as those of `shape` if one is given, otherwise as far as
+    /// they can be learned from the photos.
     ///
     /// # Errors
     /// [`TexgenError`] for options that are not allowed, or photos that are too small.
@@ -100,10 +98,7 @@ impl LeafMaker {
         let examples: Vec<Specimen> = photos.iter().map(|photo| photo.specimen.clone()).collect();
         let painter = Painter::new(&examples)?;
         let stems = photos.iter().map(stem_of).collect();
-        let manner = match shape {
-            Some(shape) => Manner::Shape(shape),
-            None => Manner::learned(&examples),
-        };
+        let manner = Manner::learned(&examples, shape)?;
         let build = shape.map_or_else(Build::default, Build::of);
         Ok(Self { options, painter, manner, stems, build })
     }
