@@ -13,8 +13,8 @@ use crate::{Blade, DrawnLeaf, Extraction, OutlineModel, Shape, Specimen, TexgenE
 pub(super) enum Manner {
     /// As a kind of leaf.
     Shape(Shape),
-    /// After examples: their outlines in leaf coordinates (root, tip and margin, y up) and how their veins run.
-    Learned { outlines: Vec<Vec<Vec2>>, habit: Habit },
+    /// After examples: their outlines, how their veins run, and a name.
+    Learned { outlines: OutlineModel, habit: Habit, name: &'static str },
 }
 
 impl Manner {
@@ -22,14 +22,18 @@ impl Manner {
     pub(super) fn learned(examples: &[Specimen], shape: Option<Shape>) -> Result<Self, TexgenError> {
         let blades: Vec<Blade> = examples.iter().map(|example| example.blade.clone()).collect();
         let habit = shape.map_or_else(|| habit_of(examples), Habit::of);
-        Ok(Self::Learned { outlines: OutlineModel::from_blades(&blades)?, habit })
+        Ok(Self::Learned {
+            outlines: OutlineModel::from_blades(&blades)?,
+            habit,
+            name: shape.map_or("leaf", shape_name),
+        })
     }
 
     /// Name for files.
     pub(super) fn name(&self) -> &'static str {
         match self {
             Self::Shape(shape) => shape_name(*shape),
-            Self::Learned { .. } => "leaf",
+            Self::Learned { name, .. } => name,
         }
     }
 
