@@ -51,7 +51,7 @@ pub use contour::DrawnLeaf;
 pub use error::TexgenError;
 pub use extract::{Extraction, Overlay, Photo};
 pub use folder::{FOLDER_VERSION, FolderError, FolderLeaf, LeafFacts, LeafFolder, MANIFEST_NAME, Manifest};
-pub use making::{Build, LeafMaker, MadeLeaf, MakeOptions};
+pub use making::{Assortment, Build, LeafMaker, MadeLeaf, MakeOptions};
 pub use maps::LeafMaps;
 pub use outline_model::OutlineModel;
 pub use shape::Shape;

@@ -11,7 +11,7 @@ mod manifest;
 
 use std::fs::{self, File};
 use std::io::{BufReader, BufWriter, Write};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use image::codecs::png::{PngDecoder, PngEncoder};
 use image::{DynamicImage, ExtendedColorType, ImageDecoder, ImageEncoder};
@@ -44,12 +44,9 @@ pub struct LeafFolder {
 
 impl LeafFolder {
     /// Names of all files that [`LeafFolder::save`] writes, the manifest last.
-    pub fn file_names(&self) -> Vec<PathBuf> {
-        let pictures = self
-            .leaves
-            .iter()
-            .flat_map(|leaf| ENDINGS.map(|ending| PathBuf::from(format!("{}.{ending}", leaf.facts.name))));
-        pictures.chain([PathBuf::from(MANIFEST_NAME)]).collect()
+    pub fn file_names(&self) -> Vec<String> {
+        let pictures = self.leaves.iter().flat_map(|leaf| leaf.facts.file_names());
+        pictures.chain([MANIFEST_NAME.to_owned()]).collect()
     }
 
     /// Writes all files into a folder that is there. The manifest is written last: without it, the files are no
@@ -60,9 +57,7 @@ impl LeafFolder {
     pub fn save(&self, folder: &Path) -> Result<(), FolderError> {
         self.leaves.par_iter().map(|leaf| leaf.save(folder)).collect::<Result<Vec<()>, _>>()?;
         let facts = self.leaves.iter().map(|leaf| leaf.facts.clone()).collect();
-        let manifest = Manifest { version: FOLDER_VERSION, size_px: self.size_px, leaves: facts };
-        let path = folder.join(MANIFEST_NAME);
-        fs::write(&path, manifest.to_text()).map_err(FolderError::write(&path))
+        Manifest { version: FOLDER_VERSION, size_px: self.size_px, leaves: facts }.save(folder)
     }
 
     /// Reads a folder.
@@ -85,8 +80,30 @@ impl LeafFolder {
     }
 }
 
+impl LeafFacts {
+    /// Names of the leaf's pictures.
+    pub fn file_names(&self) -> [String; 5] {
+        ENDINGS.map(|ending| format!("{}.{ending}", self.name))
+    }
+}
+
+impl Manifest {
+    /// Writes the manifest into a folder.
+    ///
+    /// # Errors
+    /// [`FolderError::Write`] names the file.
+    pub fn save(&self, folder: &Path) -> Result<(), FolderError> {
+        let path = folder.join(MANIFEST_NAME);
+        fs::write(&path, self.to_text()).map_err(FolderError::write(&path))
+    }
+}
+
 impl FolderLeaf {
-    fn save(&self, folder: &Path) -> Result<(), FolderError> {
+    /// Writes the pictures of one leaf into a folder.
+    ///
+    /// # Errors
+    /// [`FolderError::Write`] names the file.
+    pub fn save(&self, folder: &Path) -> Result<(), FolderError> {
         let maps = &self.maps;
         let grey = ExtendedColorType::L8;
         let pictures: [(&[u8], ExtendedColorType); 5] = [

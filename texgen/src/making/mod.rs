@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Makes whole leaves: outline, veins, texture and maps, from photos or from nothing but a kind of leaf.
 
+mod assortment;
 mod facts;
 mod manner;
 
@@ -10,6 +11,7 @@ use crate::paint::specimen;
 use crate::rng::{Rng, hash64};
 use crate::synthesis::{Painter, Stage};
 use crate::{DrawnLeaf, Extraction, LeafFacts, LeafMaps, Shape, Specimen, TexgenError, VeinGrower};
+pub use assortment::Assortment;
 pub use facts::Build;
 use manner::{Manner, stem_of};
 
