@@ -16,6 +16,7 @@
 mod atlas;
 mod blade;
 mod bleed;
+mod compare;
 mod contour;
 mod damage;
 mod distance;
@@ -47,6 +48,7 @@ mod warp;
 
 pub use atlas::{Atlas, AtlasEntry, AtlasRequest, Layer};
 pub use blade::{Blade, Mask};
+pub use compare::{Distances, Measured, Metric};
 pub use contour::DrawnLeaf;
 pub use error::TexgenError;
 pub use extract::{Extraction, Overlay, Photo};

@@ -12,7 +12,7 @@ use crate::commands::output_file::write_error;
 
 /// A folder in the making. Dropped without [`OutputFolder::finish`], it leaves no trace.
 #[derive(Debug)]
-pub struct OutputFolder {
+pub(super) struct OutputFolder {
     destination: PathBuf,
     partial: PathBuf,
     /// Folders above it that had to be made, the outermost first.
@@ -24,7 +24,7 @@ impl OutputFolder {
     ///
     /// # Errors
     /// Whatever would keep it from lying there, named with the path.
-    pub fn create(path: &Path) -> anyhow::Result<Self> {
+    pub(super) fn create(path: &Path) -> anyhow::Result<Self> {
         if path.exists() && !path.is_dir() {
             return Err(anyhow!(
                 "{}: cannot write: something that is not a folder lies there",
@@ -48,7 +48,7 @@ impl OutputFolder {
     }
 
     /// Where to write for now.
-    pub fn partial(&self) -> &Path {
+    pub(super) fn partial(&self) -> &Path {
         &self.partial
     }
 
@@ -57,7 +57,7 @@ impl OutputFolder {
     ///
     /// # Errors
     /// What the system says, named with the path.
-    pub fn finish(self, last: &str) -> anyhow::Result<()> {
+    pub(super) fn finish(self, last: &str) -> anyhow::Result<()> {
         if !self.destination.exists() {
             return fs::rename(&self.partial, &self.destination)
                 .map_err(|error| write_error(&self.destination, &error));

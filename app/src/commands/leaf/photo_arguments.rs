@@ -9,9 +9,9 @@ use clap::{Arg, ArgAction, ArgMatches, Args, Command, FromArgMatches, value_pars
 
 /// Photos and their masks.
 #[derive(Clone, Debug, Default)]
-pub struct PhotoArguments {
+pub(super) struct PhotoArguments {
     /// Photo files, each with its mask file if one was given.
-    pub photos: Vec<(PathBuf, Option<PathBuf>)>,
+    pub(super) photos: Vec<(PathBuf, Option<PathBuf>)>,
 }
 
 impl Args for PhotoArguments {
