@@ -83,8 +83,10 @@ impl Ground {
         self.room(p) > 0.0
     }
 
-    /// Whether the straight line between two points stays inside.
-    pub(crate) fn sees(&self, from: Vec2, to: Vec2) -> bool {
+    /// Whether the straight line between two points stays inside; the same either way round.
+    pub(crate) fn sees(&self, one: Vec2, other: Vec2) -> bool {
+        let ordered = (one.x, one.y) <= (other.x, other.y);
+        let (from, to) = if ordered { (one, other) } else { (other, one) };
         let length = from.distance(to);
         let direction = (to - from).normalize_or_zero();
         let mut at = 0.0;

@@ -194,8 +194,12 @@ impl Traces<'_> {
         };
         near.sort_by(|&a, &b| far(self, a).total_cmp(&far(self, b)).then(a.cmp(&b)));
         for id in near {
-            let own = id == head || self.end_of(id) == head;
-            if !own
+            let end = self.end_of(id);
+            let own = id == head || end == head;
+            // Into a trace still under way only from behind, lest its end be walled in by its own feeders.
+            let ahead = self.nodes[end].at.distance(self.ground.root) > x.distance(self.ground.root);
+            let fits = !own && (end == 0 || !ahead || steps > 2.0);
+            if fits
                 && self.bars(head, self.nodes[id].at, Some(id)).is_none()
                 && self.ground.sees(x, self.nodes[id].at)
             {
