@@ -25,16 +25,33 @@ pub(crate) struct Match {
     region: u32,
 }
 
-/// Weights of the examples for one leaf: one leads, the others join in. They sum to 1.
-pub(crate) fn draw_weights(count: usize, rng: &mut Rng) -> Vec<f32> {
-    let mut weights: Vec<f32> = (0..count).map(|_| rng.range(0.05, 0.5)).collect();
+/// What one leaf takes from each example.
+#[derive(Clone, Debug)]
+pub(crate) struct Shares {
+    /// Weight of each example for regions, detail and veins; they sum to 1. One example leads.
+    pub(crate) weights: Vec<f32>,
+    /// Weight of each example in the leaf's mean colour; they sum to 1, and some may be below 0.
+    pub(crate) mean: Vec<f32>,
+}
+
+/// Draws what one leaf takes from each example. Its mean colour lies off the leader's, towards another example or
+/// away from it: leaves that average their examples would all look alike, and those that do not would be copies.
+pub(crate) fn draw_shares(count: usize, rng: &mut Rng) -> Shares {
     let last = u32::try_from(count.saturating_sub(1)).unwrap_or(0);
     let lead = rng.integer(0, last) as usize;
-    if let Some(weight) = weights.get_mut(lead) {
-        *weight = rng.range(1.0, 2.0);
-    }
+    let other = (lead + rng.integer(1, last.max(1)) as usize) % count.max(1);
+    let weights: Vec<f32> =
+        (0..count).map(|index| if index == lead { 1.0 } else { rng.range(0.04, 0.2) }).collect();
     let sum: f32 = weights.iter().sum();
-    weights.into_iter().map(|weight| weight / sum.max(1e-6)).collect()
+    let towards = if rng.chance(0.5) { rng.range(0.3, 0.5) } else { -rng.range(0.3, 0.55) };
+    let mut mean = vec![0.0; count];
+    if let Some(share) = mean.get_mut(lead) {
+        *share = 1.0 - towards;
+    }
+    if let Some(share) = mean.get_mut(other) {
+        *share += towards;
+    }
+    Shares { weights: weights.into_iter().map(|weight| weight / sum.max(1e-6)).collect(), mean }
 }
 
 /// Matches the regions of the target.

@@ -28,7 +28,7 @@ use image::RgbImage;
 
 use crate::rng::Rng;
 use crate::{Blade, Specimen, TexgenError, VeinGraph};
-use choose::{choose_levels, draw_weights, match_regions};
+use choose::{choose_levels, draw_shares, match_regions};
 use detail::{Layer, match_spread, quilt};
 use exemplar::{Exemplar, paint_level};
 use lab::Lab;
@@ -45,6 +45,9 @@ const LEAST_WORKING_UNIT: f32 = 192.0;
 const GRAIN: f32 = 0.55;
 /// How far apart, in pixels of the target, a pixel of the working grid must be for grain to be added.
 const GRAIN_FROM: f32 = 1.35;
+
+/// Bounds of the last correction of contrast.
+const GAIN: (f32, f32) = (0.7, 1.5);
 
 /// A painter that has studied its examples.
 pub struct Painter {
@@ -89,15 +92,16 @@ impl Painter {
         let known = self.exemplars.iter().map(|example| example.structure.unit).fold(0.0, f32::max);
         let factor = (known.max(LEAST_WORKING_UNIT) / full.unit()).min(1.0);
         let target = Structure::new(&Scaled::new("target", blade, veins, factor)?);
-        let weights = draw_weights(self.exemplars.len(), &mut rng.fork(1));
-        let matches = match_regions(&target, &self.exemplars, &weights, &mut rng.fork(2));
-        let mean = self.mean(&weights);
+        let shares = draw_shares(self.exemplars.len(), &mut rng.fork(1));
+        let weights = &shares.weights;
+        let matches = match_regions(&target, &self.exemplars, weights, &mut rng.fork(2));
+        let mean = self.blend(&shares.mean, |example| example.mean);
         let levels = choose_levels(&target, &self.exemplars, &matches, mean, &rng.fork(3));
         let finest = levels.len() - 1;
         let flat = paint_level(&target, finest, |number| levels[finest][number]);
         let base = smooth(&target, &flat);
         let mut detail = quilt(&target, &self.exemplars, &matches, Layer::Residual, 1.0, &rng.fork(4));
-        match_spread(&target, &self.exemplars, &weights, &mut detail);
+        match_spread(&target, &self.exemplars, weights, &mut detail);
         let grain = (1.0 / factor > GRAIN_FROM)
             .then(|| quilt(&target, &self.exemplars, &matches, Layer::Grain, 1.0 / factor, &rng.fork(5)));
         let stages = if show_stages {
@@ -107,15 +111,14 @@ impl Painter {
         };
         let tissue =
             Layers { base: extended(&target, base), detail: extended(&target, detail.data), grain, factor };
-        let colour = self.compose(&full, &tissue, &weights, mean);
+        let colour = self.compose(&full, &tissue, weights, mean);
         Ok(Painted { colour, stages })
     }
 
-    /// Mean colour that a leaf aims for.
-    fn mean(&self, weights: &[f32]) -> Lab {
-        let means =
-            self.exemplars.iter().zip(weights).map(|(example, &weight)| lab::scale(example.mean, weight));
-        means.fold([0.0; 3], lab::add)
+    /// Weighted sum of a property of the examples.
+    fn blend(&self, weights: &[f32], property: impl Fn(&Exemplar) -> Lab) -> Lab {
+        let parts = self.exemplars.iter().zip(weights);
+        parts.map(|(example, &weight)| lab::scale(property(example), weight)).fold([0.0; 3], lab::add)
     }
 
     /// Puts the layers together at full size and paints the veins.
@@ -143,10 +146,13 @@ impl Painter {
                 lab::add(tissue.at(p, at), lab::add(main, small))
             })
             .collect();
-        let found = lab::mean((0..colour.len()).filter(|&at| inside[at]).map(|at| colour[at]));
-        let shift = lab::sub(mean, found);
+        let wanted = self.blend(weights, |example| example.deviation);
+        let tissue = || (0..colour.len()).filter(|&at| inside[at]);
+        let found = lab::mean(tissue().map(|at| colour[at]));
+        let deviation = lab::deviation(found, tissue().map(|at| colour[at]));
+        let gain: Lab = std::array::from_fn(|i| (wanted[i] / deviation[i].max(1e-3)).clamp(GAIN.0, GAIN.1));
         for colour in &mut colour {
-            *colour = lab::add(*colour, shift);
+            *colour = std::array::from_fn(|i| mean[i] + (colour[i] - found[i]) * gain[i]);
         }
         let (_, nearest) = nearest_seed(width, height, |at| inside[at]);
         let mut picture = RgbImage::new(leaf.blade.mask.width, leaf.blade.mask.height);
