@@ -55,7 +55,7 @@ pub(crate) fn draw_shares(means: &[Lab], rng: &mut Rng) -> Shares {
     let mut best: (f32, Vec<f32>) = (-1.0, Vec::new());
     for _ in 0..MEAN_TRIES {
         let other = (lead + rng.integer(1, last.max(1)) as usize) % count.max(1);
-        let towards = if rng.chance(0.5) { rng.range(0.3, 0.5) } else { -rng.range(0.3, 0.55) };
+        let towards = if rng.chance(0.5) { rng.range(0.3, 0.5) } else { -rng.range(0.3, 0.45) };
         let mut mean = vec![0.0; count];
         mean[lead] = 1.0 - towards;
         mean[other] += towards;

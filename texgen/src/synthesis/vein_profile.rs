@@ -21,7 +21,7 @@ const RANKS: usize = 2;
 /// Pixels that a step of the profile needs to count fully against the mean of its rank.
 const ENOUGH: f32 = 30.0;
 /// Share of a lateral's difference that a vein of the third rank shows.
-const FINE: f32 = 0.3;
+const FINE: f32 = 0.2;
 /// Width of such a vein against a lateral's.
 const FINE_WIDTH: f32 = 0.5;
 
