@@ -20,6 +20,8 @@ mod stages;
 mod structural;
 mod structure;
 mod superpixels;
+#[cfg(test)]
+mod tests;
 pub(crate) mod vein_field;
 mod vein_profile;
 
@@ -46,6 +48,8 @@ const GRAIN: (f32, f32) = (0.0, 0.6);
 /// How far apart, in pixels of the target, a pixel of the working grid must be for grain to be added.
 const GRAIN_FROM: f32 = 1.35;
 
+/// Share of the differences between regions that is kept.
+const REGION_TONE: f32 = 0.5;
 /// Bounds of the correction of contrast between superpixels, and of the last one of all contrast.
 const BASE_GAIN: (f32, f32) = (0.6, 1.9);
 const GAIN: (f32, f32) = (0.85, 1.12);
@@ -101,6 +105,7 @@ impl Painter {
         let levels = choose_levels(&target, &self.exemplars, &matches, mean, &rng.fork(3));
         let finest = levels.len() - 1;
         let flat = paint_level(&target, finest, |number| levels[finest][number]);
+        let flat = evened(&target, flat);
         let mut base = smooth(&target, &flat);
         let found = lab::mean(target.pixels().map(|at| base[at]));
         let deviation = lab::deviation(found, target.pixels().map(|at| base[at]));
@@ -176,6 +181,25 @@ impl Painter {
         }
         picture
     }
+}
+
+/// The colours with the differences between whole regions halved: each was taken from another place, and steps as
+/// large as that would show as facets.
+fn evened(leaf: &Structure, mut colour: Vec<Lab>) -> Vec<Lab> {
+    let mut sums = vec![([0.0_f32; 3], 0.0_f32); leaf.region_count];
+    for at in leaf.pixels() {
+        let sum = &mut sums[leaf.region.data[at] as usize];
+        *sum = (lab::add(sum.0, colour[at]), sum.1 + 1.0);
+    }
+    let mean = lab::mean(leaf.pixels().map(|at| colour[at]));
+    let offset = |(sum, count): (Lab, f32)| {
+        lab::scale(lab::sub(mean, lab::scale(sum, 1.0 / count.max(1.0))), 1.0 - REGION_TONE)
+    };
+    let offsets: Vec<Lab> = sums.into_iter().map(offset).collect();
+    for at in leaf.pixels() {
+        colour[at] = lab::add(colour[at], offsets[leaf.region.data[at] as usize]);
+    }
+    colour
 }
 
 /// Factors that bring one spread of colours to another.
