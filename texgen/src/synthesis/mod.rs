@@ -49,7 +49,7 @@ const GRAIN: (f32, f32) = (0.0, 0.6);
 const GRAIN_FROM: f32 = 1.35;
 
 /// Share of the differences between regions that is kept.
-const REGION_TONE: f32 = 0.5;
+const REGION_TONE: f32 = 0.75;
 /// Bounds of the correction of contrast between superpixels, and of the last one of all contrast.
 const BASE_GAIN: (f32, f32) = (0.6, 1.9);
 const GAIN: (f32, f32) = (0.85, 1.12);
@@ -183,7 +183,7 @@ impl Painter {
     }
 }
 
-/// The colours with the differences between whole regions halved: each was taken from another place, and steps as
+/// The colours with smaller differences between whole regions: each was taken from another place, and steps as
 /// large as that would show as facets.
 fn evened(leaf: &Structure, mut colour: Vec<Lab>) -> Vec<Lab> {
     let mut sums = vec![([0.0_f32; 3], 0.0_f32); leaf.region_count];
