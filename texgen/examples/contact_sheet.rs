@@ -22,7 +22,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let size_px: u32 = arguments.next().map_or(Ok(256), |text| text.parse())?;
     let seed: u64 = arguments.next().map_or(Ok(1), |text| text.parse())?;
     let shapes: Vec<Shape> = match arguments.next() {
-        Some(text) => vec![*Shape::ALL.get(text.parse::<usize>()?).ok_or("shapes are 0 to 5")?; 4],
+        Some(text) => vec![*Shape::ALL.get(text.parse::<usize>()?).ok_or("shapes are 0 to 7")?; 4],
         None => Shape::ALL.into(),
     };
     let small_px = size_px >> SMALL;

@@ -24,6 +24,12 @@ pub enum TexgenError {
         /// What is wrong with it, and what would be right.
         problem: String,
     },
+    /// A blade on which no vein can grow.
+    #[error("no vein can grow: {reason}")]
+    NoRoom {
+        /// What the blade lacks, with the value found and the least that is needed.
+        reason: String,
+    },
 }
 
 impl TexgenError {

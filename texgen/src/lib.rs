@@ -24,7 +24,11 @@ mod error;
 mod extract;
 mod field;
 mod fill;
+mod folder;
+pub mod growth;
 mod lab;
+mod making;
+mod maps;
 mod math;
 mod mipmap;
 mod noise;
@@ -37,6 +41,7 @@ mod season;
 mod shape;
 mod specimen;
 mod spline;
+mod synthesis;
 mod vein_graph;
 mod veins;
 mod warp;
@@ -47,9 +52,14 @@ pub use compare::{
     ComparedLeaf, Comparison, Distances, Levels, Measured, Metric, Variety, leaf_pictures,
     sheet as comparison_sheet,
 };
+pub use contour::DrawnLeaf;
 pub use error::TexgenError;
 pub use extract::{Extraction, Overlay, Photo};
-pub use outline_model::{DrawnLeaf, OutlineModel};
+pub use folder::{FOLDER_VERSION, FolderError, FolderLeaf, LeafFacts, LeafFolder, MANIFEST_NAME, Manifest};
+pub use making::{Assortment, Build, LeafMaker, MadeLeaf, MakeOptions};
+pub use maps::LeafMaps;
+pub use outline_model::OutlineModel;
 pub use shape::Shape;
 pub use specimen::Specimen;
+pub use synthesis::{Painted, Painter, Stage};
 pub use vein_graph::{VeinGraph, VeinGrower, VeinNode};

@@ -27,6 +27,13 @@ const MAPLE: Autumn = Autumn {
     anthocyanin: [0.0, 0.03, 0.16, 0.5, 0.7, 0.22],
     tannin: [0.02, 0.02, 0.03, 0.06, 0.22, 0.95],
 };
+/// Straight into red.
+const JAPANESE_MAPLE: Autumn = Autumn {
+    chlorophyll: [1.0, 0.75, 0.3, 0.06, 0.0, 0.0],
+    carotenoid: [0.8, 0.8, 0.85, 0.85, 0.8, 0.5],
+    anthocyanin: [0.05, 0.2, 0.6, 1.1, 1.05, 0.45],
+    tannin: [0.02, 0.02, 0.03, 0.06, 0.2, 0.9],
+};
 /// Green fades straight into russet.
 const OAK: Autumn = Autumn {
     chlorophyll: [1.2, 0.95, 0.55, 0.16, 0.03, 0.0],
@@ -47,6 +54,13 @@ const BEECH: Autumn = Autumn {
     carotenoid: [0.85, 0.9, 1.0, 0.9, 0.7, 0.5],
     anthocyanin: [0.0, 0.01, 0.08, 0.2, 0.26, 0.1],
     tannin: [0.02, 0.03, 0.08, 0.3, 0.62, 1.05],
+};
+/// Yellow, then light brown.
+const HORNBEAM: Autumn = Autumn {
+    chlorophyll: [1.1, 0.8, 0.3, 0.06, 0.0, 0.0],
+    carotenoid: [0.8, 0.85, 0.95, 0.95, 0.8, 0.5],
+    anthocyanin: [0.0, 0.0, 0.02, 0.05, 0.08, 0.04],
+    tannin: [0.02, 0.03, 0.05, 0.14, 0.45, 0.95],
 };
 /// Pale yellow with green left in it.
 const LINDEN: Autumn = Autumn {
@@ -74,9 +88,11 @@ fn at(course: &Course, season: f32) -> f32 {
 pub(crate) fn pigments(shape: Shape, season: f32) -> Pigments {
     let autumn = match shape {
         Shape::Maple => &MAPLE,
+        Shape::JapaneseMaple => &JAPANESE_MAPLE,
         Shape::Oak => &OAK,
         Shape::Birch => &BIRCH,
         Shape::Beech => &BEECH,
+        Shape::Hornbeam => &HORNBEAM,
         Shape::Linden => &LINDEN,
         Shape::Ginkgo => &GINKGO,
     };

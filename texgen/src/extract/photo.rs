@@ -190,6 +190,11 @@ pub(crate) fn cut_out(
 fn find_ends(lightness: &Field, leaf: Mask, given_root: Option<Vec2>) -> (Mask, Blade, CloseUp) {
     let side = (leaf.area() as f32).sqrt();
     let candidates = petiole::candidates(&leaf);
+    if std::env::var("D").is_ok() {
+        for c in &candidates {
+            println!("cand {} {} len {:.3} conf {:.2}", c.junction, c.end, c.length / side, c.confidence);
+        }
+    }
     let is_petiole = |petiole: &&Petiole| petiole.is_long(side) && petiole.confidence >= 0.5;
     let petiole = candidates.iter().find(is_petiole);
     let attempt = |petiole: Option<&Petiole>, is_sure: bool| {
@@ -217,7 +222,8 @@ fn find_ends(lightness: &Field, leaf: Mask, given_root: Option<Vec2>) -> (Mask, 
     let whole = if petiole.is_some() { attempt(None, false) } else { first };
     let root = whole.1.root;
     let is_stub = |candidate: &&Petiole| {
-        candidate.confidence >= 0.5 && candidate.junction.distance(root) < STUB_REACH * side
+        let reach = candidate.junction.distance(root).min(candidate.end.distance(root));
+        candidate.confidence >= 0.5 && reach < STUB_REACH * side
     };
     match candidates.iter().find(is_stub) {
         Some(stub) => {

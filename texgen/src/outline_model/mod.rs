@@ -18,7 +18,7 @@ use crate::extract::outline::{counter_clockwise, crosses_itself, simplify_closed
 use crate::fill::fill;
 use crate::math::lerp;
 use crate::rng::Rng;
-use crate::{Blade, TexgenError};
+use crate::{Blade, DrawnLeaf, TexgenError};
 
 /// Warping makes this share of the mean difference (1 - IoU) of two examples.
 const SPREAD: f32 = 0.5;
@@ -50,15 +50,6 @@ pub struct OutlineModel {
     amplitude: f32,
     /// Standard deviation of the logarithm of length by width.
     slender: f32,
-}
-
-/// A drawn leaf: blade and petiole, the petiole down.
-#[derive(Clone, Debug, PartialEq)]
-pub struct DrawnLeaf {
-    /// The blade, its root and tip known.
-    pub blade: Blade,
-    /// The petiole's middle line from the root to its end, in pixels, with half its width there.
-    pub petiole: Vec<(Vec2, f32)>,
 }
 
 impl OutlineModel {
@@ -171,7 +162,7 @@ fn placed(ring: &[Vec2], tip: usize, size_px: u32, rng: &mut Rng) -> DrawnLeaf {
     let (root, tip) = (outline[0], outline[tip]);
     let kept = if crosses_itself(&simplified) { outline } else { simplified };
     let blade = Blade { mask, outline: counter_clockwise(kept), root, tip, confidence: 1.0 };
-    DrawnLeaf { blade, petiole: stalk.into_iter().map(|(p, half)| (place(p), half * scale)).collect() }
+    DrawnLeaf { blade, petiole: stalk.into_iter().rev().map(|(p, half)| (place(p), half * scale)).collect() }
 }
 
 /// A stalk below a root, bent to one side and thicker at its end.
@@ -259,7 +250,8 @@ mod tests {
             let inside = |p: &Vec2| p.min_element() >= 0.0 && p.max_element() <= size as f32;
             prop_assert!(leaf.blade.outline.iter().all(inside), "outside the picture");
             prop_assert!(leaf.petiole.iter().all(|(p, _)| inside(p)), "petiole outside the picture");
-            prop_assert!(leaf.petiole[0].0.distance(leaf.blade.root) < 1e-3, "the petiole starts at the root");
+            let last = leaf.petiole.last().expect("a petiole has points").0;
+            prop_assert!(last.distance(leaf.blade.root) < 1e-3, "the petiole ends at the root");
             prop_assert!(leaf.blade.root.y > leaf.blade.tip.y, "the petiole is down");
             prop_assert_eq!(&leaf, &model.draw(size, seed).expect("again"), "same seed, same leaf");
         }

@@ -42,9 +42,11 @@ impl Tissue {
         let late = smoothstep(0.35, 0.95, leaf.season);
         let (lingering, scorch) = match leaf.shape {
             Shape::Maple => (0.2, 0.05),
+            Shape::JapaneseMaple => (0.1, 0.03),
             Shape::Oak => (0.22, 0.05),
             Shape::Birch => (0.16, 0.035),
             Shape::Beech => (0.26, 0.05),
+            Shape::Hornbeam => (0.22, 0.045),
             Shape::Linden => (0.2, 0.06),
             Shape::Ginkgo => (0.05, 0.02),
         };
@@ -173,9 +175,9 @@ impl Tissue {
     fn stem(&self, spot: &Spot) -> Linear {
         let season = self.leaf.season;
         let red = match self.leaf.shape {
-            Shape::Maple => 0.55,
+            Shape::Maple | Shape::JapaneseMaple => 0.55,
             Shape::Birch | Shape::Beech => 0.2,
-            Shape::Oak | Shape::Linden | Shape::Ginkgo => 0.04,
+            Shape::Oak | Shape::Hornbeam | Shape::Linden | Shape::Ginkgo => 0.04,
         };
         let own = season::pigments(self.leaf.shape, season * 0.85);
         let pigments = Pigments {
