@@ -61,6 +61,7 @@ prop_compose! {
         motion in motion(),
         friction in maybe(limits::FRICTION_PER_S),
         tables in option::of("[^\\p{C}]{1,20}"),
+        leaves in option::of("[^\\p{C}]{1,20}"),
     ) -> Species {
         let mut transitions = TransitionTable(rows);
         for row in &mut transitions.0 {
@@ -75,6 +76,7 @@ prop_compose! {
                 RotationModel::TanabeKaneko { friction_per_s }
             }),
             tables,
+            leaves,
         };
         let rates = MotionConstants::of(&species);
         if rates.tumble_rad_s.max(rates.flutter_rad_s) > 11.0 {

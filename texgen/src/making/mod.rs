@@ -1,0 +1,127 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Makes whole leaves: outline, veins, texture and maps, from photos or from nothing but a kind of leaf.
+
+mod assortment;
+mod facts;
+mod manner;
+
+use crate::maps::{Dressed, PetioleColour};
+use crate::paint::specimen;
+use crate::rng::{Rng, hash64};
+use crate::synthesis::{Painter, Stage};
+use crate::{DrawnLeaf, Extraction, LeafFacts, LeafMaps, Shape, Specimen, TexgenError, VeinGrower};
+pub use assortment::Assortment;
+pub use facts::Build;
+use manner::{Manner, stem_of};
+
+/// Examples that are painted for a kind of leaf nobody gave photos of.
+const PAINTED_EXAMPLES: u64 = 4;
+/// Side in pixels of those examples: that of the leaves, but within these.
+const EXAMPLE_SIZE: (u32, u32) = (192, 512);
+
+/// What leaves to make.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MakeOptions {
+    /// Side of every picture in pixels, a power of two from 64 to 4096.
+    pub size_px: u32,
+    /// Season from 0 (green) to 1 (brown). Leaves made from photos keep the photos' season.
+    pub season: f32,
+    /// Seed; equal options give equal bytes.
+    pub seed: u64,
+}
+
+/// Makes leaves that take after the same examples.
+pub struct LeafMaker {
+    options: MakeOptions,
+    painter: Painter,
+    manner: Manner,
+    stems: Vec<PetioleColour>,
+    build: Build,
+}
+
+/// A leaf that has been made.
+#[derive(Clone, Debug)]
+pub struct MadeLeaf {
+    /// Numbers; the name is that of the kind and a running number.
+    pub facts: LeafFacts,
+    /// Pictures.
+    pub maps: LeafMaps,
+    /// Pictures of the work in between; empty unless asked for.
+    pub stages: Vec<Stage>,
+}
+
+impl MakeOptions {
+    /// Checks every number.
+    ///
+    /// # Errors
+    /// [`TexgenError::OutOfRange`] for the first that is not allowed.
+    pub fn validate(&self) -> Result<(), TexgenError> {
+        if !self.size_px.is_power_of_two() || !(64..=4096).contains(&self.size_px) {
+            return Err(TexgenError::out_of_range("size", self.size_px, "a power of two from 64 to 4096"));
+        }
+        if !(0.0..=1.0).contains(&self.season) {
+            return Err(TexgenError::out_of_range("season", self.season, "0 to 1"));
+        }
+        Ok(())
+    }
+}
+
+impl LeafMaker {
+    /// A maker of leaves of a kind, with examples that are painted from pigments.
+    ///
+    /// # Errors
+    /// [`TexgenError::OutOfRange`] for options that are not allowed.
+    pub fn of_shape(shape: Shape, options: MakeOptions) -> Result<Self, TexgenError> {
+        options.validate()?;
+        let side = options.size_px.clamp(EXAMPLE_SIZE.0, EXAMPLE_SIZE.1);
+        let (mut examples, mut stems) = (Vec::new(), Vec::new());
+        for number in 0..PAINTED_EXAMPLES {
+            let seed = hash64(options.seed ^ hash64(number + 0x5eed));
+            let painted = specimen::specimen(shape, options.season, side, seed)?;
+            examples.push(painted.specimen);
+            stems.push(painted.stem);
+        }
+        let manner = Manner::Shape(shape);
+        Ok(Self { options, painter: Painter::new(&examples)?, manner, stems, build: Build::of(shape) })
+    }
+
+    /// A maker of leaves like those of some photos. Veins run as those of `shape` if one is given, otherwise as far as
+    /// they can be learned from the photos.
+    ///
+    /// # Errors
+    /// [`TexgenError`] for options that are not allowed, or photos that are too small.
+    pub fn of_photos(
+        photos: &[Extraction],
+        shape: Option<Shape>,
+        options: MakeOptions,
+    ) -> Result<Self, TexgenError> {
+        options.validate()?;
+        let examples: Vec<Specimen> = photos.iter().map(|photo| photo.specimen.clone()).collect();
+        let painter = Painter::new(&examples)?;
+        let stems = photos.iter().map(stem_of).collect();
+        let manner = Manner::learned(&examples, shape)?;
+        let build = shape.map_or_else(Build::default, Build::of);
+        Ok(Self { options, painter, manner, stems, build })
+    }
+
+    /// Makes one leaf; equal numbers give equal leaves.
+    ///
+    /// # Errors
+    /// [`TexgenError`] for an outline on which nothing can grow.
+    pub fn make(&self, number: u32, show_stages: bool) -> Result<MadeLeaf, TexgenError> {
+        let seed = hash64(self.options.seed ^ hash64(u64::from(number) + 1));
+        let mut rng = Rng::new(seed);
+        let drawn = self.manner.draw(self.options.size_px, seed)?;
+        let DrawnLeaf { blade, petiole } = &drawn;
+        let veins = self.manner.veins().grow(blade, seed)?;
+        let painted = self.painter.paint(blade, &veins, seed, show_stages)?;
+        let last = u32::try_from(self.stems.len().saturating_sub(1)).unwrap_or(0);
+        let stem = self.stems[rng.integer(0, last) as usize];
+        let dressed = Dressed { blade, veins: &veins, petiole, colour: &painted.colour, stem };
+        let maps = LeafMaps::new(&dressed)?;
+        let facts =
+            self.build.facts(self.manner.name(), number, self.options.season, &drawn, &maps, &mut rng);
+        Ok(MadeLeaf { facts, maps, stages: painted.stages })
+    }
+}
