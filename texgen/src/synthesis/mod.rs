@@ -41,8 +41,8 @@ use vein_field::VeinField;
 
 /// Least √A of the working grid where the target has as much.
 const LEAST_WORKING_UNIT: f32 = 192.0;
-/// Strength of grain that the examples are too small to show, against the grain they show.
-const GRAIN: f32 = 0.55;
+/// Strength of grain that the examples are too small to show, against the grain they show: least and most.
+const GRAIN: (f32, f32) = (0.0, 0.6);
 /// How far apart, in pixels of the target, a pixel of the working grid must be for grain to be added.
 const GRAIN_FROM: f32 = 1.35;
 
@@ -92,7 +92,8 @@ impl Painter {
         let known = self.exemplars.iter().map(|example| example.structure.unit).fold(0.0, f32::max);
         let factor = (known.max(LEAST_WORKING_UNIT) / full.unit()).min(1.0);
         let target = Structure::new(&Scaled::new("target", blade, veins, factor)?);
-        let shares = draw_shares(self.exemplars.len(), &mut rng.fork(1));
+        let means: Vec<Lab> = self.exemplars.iter().map(|example| example.mean).collect();
+        let shares = draw_shares(&means, &mut rng.fork(1));
         let weights = &shares.weights;
         let matches = match_regions(&target, &self.exemplars, weights, &mut rng.fork(2));
         let mean = self.blend(&shares.mean, |example| example.mean);
@@ -104,13 +105,19 @@ impl Painter {
         match_spread(&target, &self.exemplars, weights, &mut detail);
         let grain = (1.0 / factor > GRAIN_FROM)
             .then(|| quilt(&target, &self.exemplars, &matches, Layer::Grain, 1.0 / factor, &rng.fork(5)));
+        let grain_strength = rng.fork(6).range(GRAIN.0, GRAIN.1);
         let stages = if show_stages {
             stages::collect(blade, &full.veins, &target, &levels, &base, &detail)
         } else {
             Vec::new()
         };
-        let tissue =
-            Layers { base: extended(&target, base), detail: extended(&target, detail.data), grain, factor };
+        let tissue = Layers {
+            base: extended(&target, base),
+            detail: extended(&target, detail.data),
+            grain,
+            grain_strength,
+            factor,
+        };
         let colour = self.compose(&full, &tissue, weights, mean);
         Ok(Painted { colour, stages })
     }
@@ -143,7 +150,7 @@ impl Painter {
                 }
                 let p = Vec2::new((at % width) as f32 + 0.5, (at / width) as f32 + 0.5);
                 let (main, small) = (vein(&coarse, at), vein(&fine, at));
-                lab::add(tissue.at(p, at), lab::add(main, small))
+                lab::add(tissue.at(p), lab::add(main, small))
             })
             .collect();
         let wanted = self.blend(weights, |example| example.deviation);
@@ -169,19 +176,19 @@ struct Layers {
     base: Plane<Lab>,
     detail: Plane<Lab>,
     grain: Option<Plane<Lab>>,
+    grain_strength: f32,
     /// Pixels of the working grid for a pixel of the target.
     factor: f32,
 }
 
 impl Layers {
     /// Colour of tissue at a pixel of the target.
-    fn at(&self, p: Vec2, index: usize) -> Lab {
+    fn at(&self, p: Vec2) -> Lab {
         let q = p * self.factor;
         let sum = lab::add(self.base.sample_cubic(q), self.detail.sample_cubic(q));
         let Some(grain) = &self.grain else { return sum };
         let grain = grain.index_of(p).map_or([0.0; 3], |at| grain.data[at]);
-        let _ = index;
-        lab::add(sum, lab::scale(grain, GRAIN))
+        lab::add(sum, lab::scale(grain, self.grain_strength))
     }
 }
 
