@@ -190,11 +190,6 @@ pub(crate) fn cut_out(
 fn find_ends(lightness: &Field, leaf: Mask, given_root: Option<Vec2>) -> (Mask, Blade, CloseUp) {
     let side = (leaf.area() as f32).sqrt();
     let candidates = petiole::candidates(&leaf);
-    if std::env::var("D").is_ok() {
-        for c in &candidates {
-            println!("cand {} {} len {:.3} conf {:.2}", c.junction, c.end, c.length / side, c.confidence);
-        }
-    }
     let is_petiole = |petiole: &&Petiole| petiole.is_long(side) && petiole.confidence >= 0.5;
     let petiole = candidates.iter().find(is_petiole);
     let attempt = |petiole: Option<&Petiole>, is_sure: bool| {
