@@ -3,7 +3,7 @@
 //! Leaf shapes, veins, colours and texture atlases.
 //!
 //! [`Atlas::generate`] draws leaves from a few numbers, without any photo. For each leaf it makes an outline
-//! (`contour`), grows veins inside it (`veins`), ages its pigments texel by texel (`season`, `pigment`), wears it
+//! (`contour`), grows veins inside it (`veins`), ages its pigments texel by texel ([`season`]), wears it
 //! down (`damage`), paints it (`paint`), carries its colour past the edge (`bleed`) and filters it down to one
 //! texel (`mipmap`).
 //!
@@ -34,10 +34,9 @@ mod mipmap;
 mod noise;
 mod outline_model;
 mod paint;
-mod pigment;
 mod raster;
 mod rng;
-mod season;
+pub mod season;
 mod shape;
 mod specimen;
 mod spline;
