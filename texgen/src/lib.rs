@@ -48,7 +48,10 @@ mod warp;
 
 pub use atlas::{Atlas, AtlasEntry, AtlasRequest, Layer};
 pub use blade::{Blade, Mask};
-pub use compare::{Distances, Measured, Metric};
+pub use compare::{
+    ComparedLeaf, Comparison, Distances, Levels, Measured, Metric, Variety, leaf_pictures,
+    sheet as comparison_sheet,
+};
 pub use contour::DrawnLeaf;
 pub use error::TexgenError;
 pub use extract::{Extraction, Overlay, Photo};

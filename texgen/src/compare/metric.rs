@@ -23,7 +23,7 @@ pub enum Metric {
     Colours,
     /// The same after taking the mean colours off.
     CentredColours,
-    /// Jensen-Shannon divergence of uniform local binary patterns.
+    /// Jensen-Shannon distance of uniform local binary patterns.
     Patterns,
     /// Difference of co-occurrence features in standard deviations.
     CoOccurrence,
@@ -78,6 +78,24 @@ impl Metric {
         }
     }
 
+    /// A name for other programs.
+    pub const fn key(self) -> &'static str {
+        match self {
+            Self::MeanColour => "delta_e_2000",
+            Self::Colours => "sliced_wasserstein_lab",
+            Self::CentredColours => "sliced_wasserstein_lab_centred",
+            Self::Patterns => "lbp_jensen_shannon",
+            Self::CoOccurrence => "glcm_deviations",
+            Self::VeinLength => "vein_length_log_ratio",
+            Self::VeinAngle => "vein_angle_degrees",
+            Self::Fourier => "elliptic_fourier",
+            Self::Overlap => "one_minus_iou",
+            Self::Hausdorff => "hausdorff",
+            Self::Aspect => "aspect_log_ratio",
+            Self::Circularity => "circularity_log_ratio",
+        }
+    }
+
     /// Whether it looks at the outline only.
     pub const fn is_shape(self) -> bool {
         matches!(self, Self::Fourier | Self::Overlap | Self::Hausdorff | Self::Aspect | Self::Circularity)
@@ -117,7 +135,7 @@ impl Measured {
             self.colours.mean_difference(&other.colours),
             raw,
             centred,
-            self.texture.pattern_divergence(&other.texture),
+            self.texture.pattern_difference(&other.texture),
             self.texture.feature_difference(&other.texture),
             self.veins.length_difference(&other.veins),
             self.veins.angle_difference(&other.veins),
@@ -127,10 +145,5 @@ impl Measured {
             aspect,
             circularity,
         ]
-    }
-
-    #[doc(hidden)]
-    pub fn features(&self) -> &[f32; 8] {
-        &self.texture.features
     }
 }

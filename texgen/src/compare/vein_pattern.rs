@@ -11,6 +11,10 @@ use crate::field::{Field, quantile};
 
 /// Share of the blade that counts as veins: a fixed share repeats from photo to photo, a threshold does not.
 const COVERAGE: f32 = 0.1;
+/// Rim of the blade that is left out, in √A: margins fold, fray and keep shadows.
+const RIM: f32 = 0.035;
+/// Rim whose lightness is left out, in √A.
+const MIXED: f32 = 0.02;
 /// Angles at which sorted directions are compared.
 const QUANTILES: usize = 180;
 
@@ -28,8 +32,8 @@ impl VeinPattern {
     pub(super) fn of(portrait: &Portrait) -> Self {
         let (width, height) = (portrait.mask.width as usize, portrait.mask.height as usize);
         let lightness = Field { width, height, values: portrait.colours.iter().map(|lab| lab[0]).collect() };
-        let ridges = ridges(&lightness, &portrait.depth, portrait.side, &SCALES);
-        let inner = portrait.inner(0.0);
+        let ridges = ridges(&lightness, &portrait.depth, portrait.side, MIXED * portrait.side, &SCALES);
+        let inner = portrait.inner(RIM * portrait.side);
         let threshold = quantile(
             &mut inner.iter().map(|i| ridges.strength.values[*i]).collect::<Vec<f32>>(),
             1.0 - COVERAGE,
@@ -38,6 +42,7 @@ impl VeinPattern {
         for &i in &inner {
             strong[i] = ridges.strength.values[i] > threshold.max(1e-6);
         }
+        thin(&mut strong, width);
         let axis = portrait.axis;
         let turned = Vec2::new(axis.x * axis.x - axis.y * axis.y, 2.0 * axis.x * axis.y);
         let mut angles: Vec<f32> = (0..strong.len())
@@ -50,7 +55,6 @@ impl VeinPattern {
         angles.sort_by(f32::total_cmp);
         let at = |q: usize| angles.get((2 * q + 1) * angles.len() / (2 * QUANTILES)).copied().unwrap_or(45.0);
         let angles = (0..QUANTILES).map(at).collect();
-        thin(&mut strong, width);
         Self { length: length(&strong, width) / portrait.side, angles }
     }
 

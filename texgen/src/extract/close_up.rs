@@ -15,6 +15,8 @@ use crate::math::floor_i32;
 const SIDE: f32 = 320.0;
 /// Widths of the lines looked for, in √A: those of lateral veins, and twice as wide for main veins.
 const SCALES: [f32; 6] = [0.005, 0.007, 0.009, 0.012, 0.017, 0.024];
+/// Rim of the blade whose colours are mixed with the background, in √A.
+const RIM: f32 = 0.008;
 /// Greatest enlargement.
 const LARGEST: f32 = 4.0;
 /// Longest side of the close-up in pixels; only masks like threads reach it.
@@ -63,7 +65,7 @@ impl CloseUp {
         let depth = depth(&mask);
         let side = (mask.area() as f32).sqrt().max(1.0);
         let lightness = Field { width: columns as usize, height: rows as usize, values };
-        let ridges = ridges(&lightness, &depth, side, &SCALES);
+        let ridges = ridges(&lightness, &depth, side, (RIM * side).max(1.0), &SCALES);
         Self { scale, origin, side, mask, depth, ridges }
     }
 

@@ -217,7 +217,8 @@ fn find_ends(lightness: &Field, leaf: Mask, given_root: Option<Vec2>) -> (Mask, 
     let whole = if petiole.is_some() { attempt(None, false) } else { first };
     let root = whole.1.root;
     let is_stub = |candidate: &&Petiole| {
-        candidate.confidence >= 0.5 && candidate.junction.distance(root) < STUB_REACH * side
+        let reach = candidate.junction.distance(root).min(candidate.end.distance(root));
+        candidate.confidence >= 0.5 && reach < STUB_REACH * side
     };
     match candidates.iter().find(is_stub) {
         Some(stub) => {

@@ -13,8 +13,8 @@ use crate::field::{Field, quantile};
 
 /// Widths of the lines looked for, in √A.
 pub(crate) const SCALES: [f32; 4] = [0.005, 0.007, 0.009, 0.012];
-/// Rim of the blade whose colours are mixed with the background, in √A.
-const RIM: f32 = 0.008;
+/// Rim of the blade whose lines do not say whether lines are light or dark, in √A.
+const RIM: f32 = 0.016;
 
 /// How strongly each pixel lies on a line, and which way the line runs.
 #[derive(Clone, Debug)]
@@ -26,11 +26,11 @@ pub(crate) struct Ridges {
 }
 
 /// Filters the lightness of a blade whose pixels lie `depth` pixels inside; `side` is √A in pixels, `scales` the
-/// widths in √A.
+/// widths in √A. Lightness within `rim` pixels of the margin, mixed with the background's, is left out.
 ///
 /// The polarity, light or dark lines, that answers more strongly among the blade's strongest tenth is kept.
-pub(crate) fn ridges(lightness: &Field, depth: &[f32], side: f32, scales: &[f32]) -> Ridges {
-    let filled = continued(lightness, depth, (RIM * side).max(1.0));
+pub(crate) fn ridges(lightness: &Field, depth: &[f32], side: f32, rim: f32, scales: &[f32]) -> Ridges {
+    let filled = continued(lightness, depth, rim);
     let (width, height) = (filled.width, filled.height);
     let none = || Ridges {
         strength: Field::constant(width, height, 0.0),
@@ -59,7 +59,7 @@ pub(crate) fn ridges(lightness: &Field, depth: &[f32], side: f32, scales: &[f32]
     }
     let strongest = |ridges: &Ridges| {
         let values = ridges.strength.values.iter().zip(depth);
-        let mut inner: Vec<f32> = values.filter(|(_, d)| **d > 2.0 * RIM * side).map(|(v, _)| *v).collect();
+        let mut inner: Vec<f32> = values.filter(|(_, d)| **d > RIM * side).map(|(v, _)| *v).collect();
         quantile(&mut inner, 0.95)
     };
     if strongest(&light) >= strongest(&dark) { light } else { dark }
@@ -113,7 +113,7 @@ mod tests {
     fn lines_answer_with_their_polarity_and_edges_do_not() {
         for contrast in [12.0, -12.0] {
             let (field, depth) = lined(contrast);
-            let ridges = ridges(&field, &depth, 100.0, &SCALES);
+            let ridges = ridges(&field, &depth, 100.0, 1.0, &SCALES);
             let doubled = ridges.doubled[70 * 140 + 70];
             assert!(doubled.distance(Vec2::NEG_X) < 1e-3, "a line along y, not {doubled}");
             let on = ridges.strength.at(70, 70);

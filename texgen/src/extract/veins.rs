@@ -11,7 +11,7 @@ use super::close_up::CloseUp;
 use super::geodesic::Ways;
 use super::vein_tree::VeinTree;
 use crate::field::quantile;
-use crate::math::{floor_i32, segment_distance};
+use crate::math::floor_i32;
 use crate::{Blade, VeinGraph};
 
 /// Price of a pixel without any ridge, against 1 / (this + 1) on a strong one.
@@ -196,12 +196,4 @@ pub(crate) fn is_planar(graph: &VeinGraph) -> bool {
             apart || shares(first, second) || !super::outline::segments_meet(a, b)
         })
     })
-}
-
-/// Distance from a point to the nearest vein; infinite without veins.
-pub(crate) fn distance_to_veins(graph: &VeinGraph, p: Vec2) -> f32 {
-    let edge = |node: &crate::VeinNode| {
-        node.parent.map(|parent| segment_distance(p, node.position, graph.nodes[parent as usize].position).0)
-    };
-    graph.nodes.iter().filter_map(edge).fold(f32::INFINITY, f32::min)
 }

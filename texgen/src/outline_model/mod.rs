@@ -250,7 +250,8 @@ mod tests {
             let inside = |p: &Vec2| p.min_element() >= 0.0 && p.max_element() <= size as f32;
             prop_assert!(leaf.blade.outline.iter().all(inside), "outside the picture");
             prop_assert!(leaf.petiole.iter().all(|(p, _)| inside(p)), "petiole outside the picture");
-            prop_assert!(leaf.petiole[0].0.distance(leaf.blade.root) < 1e-3, "the petiole starts at the root");
+            let last = leaf.petiole.last().expect("a petiole has points").0;
+            prop_assert!(last.distance(leaf.blade.root) < 1e-3, "the petiole ends at the root");
             prop_assert!(leaf.blade.root.y > leaf.blade.tip.y, "the petiole is down");
             prop_assert_eq!(&leaf, &model.draw(size, seed).expect("again"), "same seed, same leaf");
         }

@@ -16,6 +16,11 @@ const NEAREST: usize = 12;
 /// How many of them are drawn, to keep the one nearest in colour to the parent.
 const DRAWN: usize = 4;
 
+/// How far a leaf's mean colour is to lie from every example's, as a share of their mean distance.
+const AWAY: f32 = 0.32;
+/// Draws to get there.
+const MEAN_TRIES: u32 = 16;
+
 /// Which part of which example a region of the target takes after.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Match {
@@ -25,16 +30,48 @@ pub(crate) struct Match {
     region: u32,
 }
 
-/// Weights of the examples for one leaf: one leads, the others join in. They sum to 1.
-pub(crate) fn draw_weights(count: usize, rng: &mut Rng) -> Vec<f32> {
-    let mut weights: Vec<f32> = (0..count).map(|_| rng.range(0.05, 0.5)).collect();
+/// What one leaf takes from each example.
+#[derive(Clone, Debug)]
+pub(crate) struct Shares {
+    /// Weight of each example for regions, detail and veins; they sum to 1. One example leads.
+    pub(crate) weights: Vec<f32>,
+    /// Weight of each example in the leaf's mean colour; they sum to 1, and some may be below 0.
+    pub(crate) mean: Vec<f32>,
+}
+
+/// Draws what one leaf takes from each example. Its mean colour lies off the leader's, towards another example or
+/// away from it: leaves that average their examples would all look alike, and those that do not would be copies.
+pub(crate) fn draw_shares(means: &[Lab], rng: &mut Rng) -> Shares {
+    let count = means.len();
     let last = u32::try_from(count.saturating_sub(1)).unwrap_or(0);
     let lead = rng.integer(0, last) as usize;
-    if let Some(weight) = weights.get_mut(lead) {
-        *weight = rng.range(1.0, 2.0);
-    }
+    let weights: Vec<f32> =
+        (0..count).map(|index| if index == lead { 1.0 } else { rng.range(0.02, 0.1) }).collect();
     let sum: f32 = weights.iter().sum();
-    weights.into_iter().map(|weight| weight / sum.max(1e-6)).collect()
+    let weights = weights.into_iter().map(|weight| weight / sum.max(1e-6)).collect();
+    let gap = |a: Lab, b: Lab| lab::distance_squared(a, b).sqrt();
+    let pairs = (0..count).flat_map(|i| (0..i).map(move |j| gap(means[i], means[j])));
+    let spread = pairs.sum::<f32>() / ((count * count.saturating_sub(1)) as f32 / 2.0).max(1.0);
+    let mut best: (f32, Vec<f32>) = (-1.0, Vec::new());
+    for _ in 0..MEAN_TRIES {
+        let other = (lead + rng.integer(1, last.max(1)) as usize) % count.max(1);
+        let towards = if rng.chance(0.5) { rng.range(0.3, 0.5) } else { -rng.range(0.3, 0.45) };
+        let mut mean = vec![0.0; count];
+        mean[lead] = 1.0 - towards;
+        mean[other] += towards;
+        let colour = means
+            .iter()
+            .zip(&mean)
+            .fold([0.0; 3], |sum, (colour, &share)| lab::add(sum, lab::scale(*colour, share)));
+        let nearest = means.iter().map(|&other| gap(colour, other)).fold(f32::INFINITY, f32::min);
+        if nearest > best.0 {
+            best = (nearest, mean);
+        }
+        if nearest > AWAY * spread {
+            break;
+        }
+    }
+    Shares { weights, mean: best.1 }
 }
 
 /// Matches the regions of the target.

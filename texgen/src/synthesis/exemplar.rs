@@ -45,6 +45,10 @@ pub(crate) struct Exemplar {
     pub(crate) veins: VeinProfile,
     /// Mean colour of the blade.
     pub(crate) mean: Lab,
+    /// Standard deviation of the smoothed superpixels.
+    pub(crate) base_deviation: Lab,
+    /// Standard deviation of the blade's colours.
+    pub(crate) deviation: Lab,
 }
 
 /// What regions are compared by.
@@ -100,6 +104,9 @@ impl Exemplar {
         }
         let regions = describe_regions(&structure);
         let mean = lab::mean(structure.pixels().map(|at| colour[at]));
+        let base_mean = lab::mean(structure.pixels().map(|at| base[at]));
+        let base_deviation = lab::deviation(base_mean, structure.pixels().map(|at| base[at]));
+        let deviation = lab::deviation(mean, structure.pixels().map(|at| colour[at]));
         let coarse = local_mean(&structure, &residual, 1.0, |at| structure.inside.data[at]);
         let (width, height) = (structure.inside.width, structure.inside.height);
         let grain = residual.iter().zip(coarse).map(|(fine, coarse)| lab::sub(*fine, coarse)).collect();
@@ -113,7 +120,20 @@ impl Exemplar {
         let residual = Plane { width, height, data: residual };
         let grain = Plane { width, height, data: grain };
         let sources = SourceBins::new(&structure);
-        Ok(Self { structure, levels, regions, residual, grain, energy, usual_energy, sources, veins, mean })
+        Ok(Self {
+            structure,
+            levels,
+            regions,
+            residual,
+            grain,
+            energy,
+            usual_energy,
+            sources,
+            veins,
+            mean,
+            base_deviation,
+            deviation,
+        })
     }
 }
 

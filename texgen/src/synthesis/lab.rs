@@ -87,6 +87,21 @@ pub(crate) fn mean(colours: impl Iterator<Item = Lab>) -> Lab {
     mean
 }
 
+/// Standard deviation of colours about their mean, channel by channel.
+pub(crate) fn deviation(mean: Lab, colours: impl Iterator<Item = Lab>) -> Lab {
+    let (mut sum, mut count) = ([0.0_f64; 3], 0.0_f64);
+    for colour in colours {
+        for channel in 0..3 {
+            let offset = f64::from(colour[channel] - mean[channel]);
+            sum[channel] += offset * offset;
+        }
+        count += 1.0;
+    }
+    #[expect(clippy::cast_possible_truncation, reason = "a deviation of single precision values is one")]
+    let deviation = sum.map(|sum| (sum / count.max(1.0)).sqrt() as f32);
+    deviation
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -20,6 +20,8 @@ mod stages;
 mod structural;
 mod structure;
 mod superpixels;
+#[cfg(test)]
+mod tests;
 pub(crate) mod vein_field;
 mod vein_profile;
 
@@ -28,7 +30,7 @@ use image::RgbImage;
 
 use crate::rng::Rng;
 use crate::{Blade, Specimen, TexgenError, VeinGraph};
-use choose::{choose_levels, draw_weights, match_regions};
+use choose::{choose_levels, draw_shares, match_regions};
 use detail::{Layer, match_spread, quilt};
 use exemplar::{Exemplar, paint_level};
 use lab::Lab;
@@ -41,10 +43,16 @@ use vein_field::VeinField;
 
 /// Least √A of the working grid where the target has as much.
 const LEAST_WORKING_UNIT: f32 = 192.0;
-/// Strength of grain that the examples are too small to show, against the grain they show.
-const GRAIN: f32 = 0.55;
+/// Strength of grain that the examples are too small to show, against the grain they show: least and most.
+const GRAIN: (f32, f32) = (0.0, 0.6);
 /// How far apart, in pixels of the target, a pixel of the working grid must be for grain to be added.
 const GRAIN_FROM: f32 = 1.35;
+
+/// Share of the differences between regions that is kept.
+const REGION_TONE: f32 = 0.75;
+/// Bounds of the correction of contrast between superpixels, and of the last one of all contrast.
+const BASE_GAIN: (f32, f32) = (0.6, 1.9);
+const GAIN: (f32, f32) = (0.85, 1.12);
 
 /// A painter that has studied its examples.
 pub struct Painter {
@@ -89,33 +97,47 @@ impl Painter {
         let known = self.exemplars.iter().map(|example| example.structure.unit).fold(0.0, f32::max);
         let factor = (known.max(LEAST_WORKING_UNIT) / full.unit()).min(1.0);
         let target = Structure::new(&Scaled::new("target", blade, veins, factor)?);
-        let weights = draw_weights(self.exemplars.len(), &mut rng.fork(1));
-        let matches = match_regions(&target, &self.exemplars, &weights, &mut rng.fork(2));
-        let mean = self.mean(&weights);
+        let means: Vec<Lab> = self.exemplars.iter().map(|example| example.mean).collect();
+        let shares = draw_shares(&means, &mut rng.fork(1));
+        let weights = &shares.weights;
+        let matches = match_regions(&target, &self.exemplars, weights, &mut rng.fork(2));
+        let mean = self.blend(&shares.mean, |example| example.mean);
         let levels = choose_levels(&target, &self.exemplars, &matches, mean, &rng.fork(3));
         let finest = levels.len() - 1;
         let flat = paint_level(&target, finest, |number| levels[finest][number]);
-        let base = smooth(&target, &flat);
+        let flat = evened(&target, flat);
+        let mut base = smooth(&target, &flat);
+        let found = lab::mean(target.pixels().map(|at| base[at]));
+        let deviation = lab::deviation(found, target.pixels().map(|at| base[at]));
+        let gain = gain(self.blend(weights, |example| example.base_deviation), deviation, BASE_GAIN);
+        for at in target.pixels() {
+            base[at] = std::array::from_fn(|i| found[i] + (base[at][i] - found[i]) * gain[i]);
+        }
         let mut detail = quilt(&target, &self.exemplars, &matches, Layer::Residual, 1.0, &rng.fork(4));
-        match_spread(&target, &self.exemplars, &weights, &mut detail);
+        match_spread(&target, &self.exemplars, weights, &mut detail);
         let grain = (1.0 / factor > GRAIN_FROM)
             .then(|| quilt(&target, &self.exemplars, &matches, Layer::Grain, 1.0 / factor, &rng.fork(5)));
+        let grain_strength = rng.fork(6).range(GRAIN.0, GRAIN.1);
         let stages = if show_stages {
             stages::collect(blade, &full.veins, &target, &levels, &base, &detail)
         } else {
             Vec::new()
         };
-        let tissue =
-            Layers { base: extended(&target, base), detail: extended(&target, detail.data), grain, factor };
-        let colour = self.compose(&full, &tissue, &weights, mean);
+        let tissue = Layers {
+            base: extended(&target, base),
+            detail: extended(&target, detail.data),
+            grain,
+            grain_strength,
+            factor,
+        };
+        let colour = self.compose(&full, &tissue, weights, mean);
         Ok(Painted { colour, stages })
     }
 
-    /// Mean colour that a leaf aims for.
-    fn mean(&self, weights: &[f32]) -> Lab {
-        let means =
-            self.exemplars.iter().zip(weights).map(|(example, &weight)| lab::scale(example.mean, weight));
-        means.fold([0.0; 3], lab::add)
+    /// Weighted sum of a property of the examples.
+    fn blend(&self, weights: &[f32], property: impl Fn(&Exemplar) -> Lab) -> Lab {
+        let parts = self.exemplars.iter().zip(weights);
+        parts.map(|(example, &weight)| lab::scale(property(example), weight)).fold([0.0; 3], lab::add)
     }
 
     /// Puts the layers together at full size and paints the veins.
@@ -140,13 +162,16 @@ impl Painter {
                 }
                 let p = Vec2::new((at % width) as f32 + 0.5, (at / width) as f32 + 0.5);
                 let (main, small) = (vein(&coarse, at), vein(&fine, at));
-                lab::add(tissue.at(p, at), lab::add(main, small))
+                lab::add(tissue.at(p), lab::add(main, small))
             })
             .collect();
-        let found = lab::mean((0..colour.len()).filter(|&at| inside[at]).map(|at| colour[at]));
-        let shift = lab::sub(mean, found);
+        let wanted = self.blend(weights, |example| example.deviation);
+        let tissue = || (0..colour.len()).filter(|&at| inside[at]);
+        let found = lab::mean(tissue().map(|at| colour[at]));
+        let deviation = lab::deviation(found, tissue().map(|at| colour[at]));
+        let gain = gain(wanted, deviation, GAIN);
         for colour in &mut colour {
-            *colour = lab::add(*colour, shift);
+            *colour = std::array::from_fn(|i| mean[i] + (colour[i] - found[i]) * gain[i]);
         }
         let (_, nearest) = nearest_seed(width, height, |at| inside[at]);
         let mut picture = RgbImage::new(leaf.blade.mask.width, leaf.blade.mask.height);
@@ -158,24 +183,48 @@ impl Painter {
     }
 }
 
+/// The colours with smaller differences between whole regions: each was taken from another place, and steps as
+/// large as that would show as facets.
+fn evened(leaf: &Structure, mut colour: Vec<Lab>) -> Vec<Lab> {
+    let mut sums = vec![([0.0_f32; 3], 0.0_f32); leaf.region_count];
+    for at in leaf.pixels() {
+        let sum = &mut sums[leaf.region.data[at] as usize];
+        *sum = (lab::add(sum.0, colour[at]), sum.1 + 1.0);
+    }
+    let mean = lab::mean(leaf.pixels().map(|at| colour[at]));
+    let offset = |(sum, count): (Lab, f32)| {
+        lab::scale(lab::sub(mean, lab::scale(sum, 1.0 / count.max(1.0))), 1.0 - REGION_TONE)
+    };
+    let offsets: Vec<Lab> = sums.into_iter().map(offset).collect();
+    for at in leaf.pixels() {
+        colour[at] = lab::add(colour[at], offsets[leaf.region.data[at] as usize]);
+    }
+    colour
+}
+
+/// Factors that bring one spread of colours to another.
+fn gain(wanted: Lab, found: Lab, (least, most): (f32, f32)) -> Lab {
+    std::array::from_fn(|i| (wanted[i] / found[i].max(1e-3)).clamp(least, most))
+}
+
 /// The layers of tissue on the working grid.
 struct Layers {
     base: Plane<Lab>,
     detail: Plane<Lab>,
     grain: Option<Plane<Lab>>,
+    grain_strength: f32,
     /// Pixels of the working grid for a pixel of the target.
     factor: f32,
 }
 
 impl Layers {
     /// Colour of tissue at a pixel of the target.
-    fn at(&self, p: Vec2, index: usize) -> Lab {
+    fn at(&self, p: Vec2) -> Lab {
         let q = p * self.factor;
         let sum = lab::add(self.base.sample_cubic(q), self.detail.sample_cubic(q));
         let Some(grain) = &self.grain else { return sum };
         let grain = grain.index_of(p).map_or([0.0; 3], |at| grain.data[at]);
-        let _ = index;
-        lab::add(sum, lab::scale(grain, GRAIN))
+        lab::add(sum, lab::scale(grain, self.grain_strength))
     }
 }
 

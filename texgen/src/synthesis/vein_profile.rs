@@ -21,7 +21,9 @@ const RANKS: usize = 2;
 /// Pixels that a step of the profile needs to count fully against the mean of its rank.
 const ENOUGH: f32 = 30.0;
 /// Share of a lateral's difference that a vein of the third rank shows.
-const FINE: f32 = 0.4;
+const FINE: f32 = 0.2;
+/// Width of such a vein against a lateral's.
+const FINE_WIDTH: f32 = 0.5;
 
 /// Colour of veins relative to tissue, by rank, way from the root and place across.
 #[derive(Clone, Debug, PartialEq)]
@@ -76,7 +78,8 @@ impl VeinProfile {
 
     /// Difference to tissue beside a vein; `unit` is √A in the pixels of the spot.
     pub(crate) fn at(&self, spot: &VeinSpot, unit: f32) -> Lab {
-        let place = spot.signed / (REACH * unit);
+        let width = if spot.order > 2 { FINE_WIDTH } else { 1.0 };
+        let place = spot.signed / (REACH * unit * width);
         if place.abs() >= 1.0 {
             return [0.0; 3];
         }

@@ -2,9 +2,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! `windfall leaf`: leaves without any scene.
 
+pub mod compare;
 pub mod make;
 mod output_folder;
 mod photo_arguments;
+mod picture_file;
+pub mod veins;
 
 use clap::Subcommand;
 
@@ -13,6 +16,10 @@ use clap::Subcommand;
 pub enum Command {
     /// Make leaves, from photos or from nothing but the name of a kind, and write them as pictures.
     Make(make::Arguments),
+    /// Tell how far leaves are from photographed ones, in twelve numbers and a verdict.
+    Compare(compare::Arguments),
+    /// Draw over a photo what is read from it: outline, root, tip and veins.
+    Veins(veins::Arguments),
 }
 
 impl Command {
@@ -23,6 +30,8 @@ impl Command {
     pub fn run(self) -> anyhow::Result<()> {
         match self {
             Self::Make(arguments) => make::run(&arguments),
+            Self::Compare(arguments) => compare::run(&arguments),
+            Self::Veins(arguments) => veins::run(&arguments),
         }
     }
 }
