@@ -21,6 +21,8 @@ const ROUNDS: u32 = 320;
 const PASSES: u32 = 12;
 /// Passes at the end that open triangles about to turn over and set the veins' lengths.
 const OPENING_PASSES: u32 = 40;
+/// Most repetitions of those passes while a triangle is still inverted.
+const OPENING_ROUNDS: u32 = 12;
 /// Solver passes of a stage that starts from a coarser level.
 const FINE_PASSES: u32 = 80;
 /// Most that a vein may shorten.
@@ -287,6 +289,17 @@ impl Sheet {
                 pull(&mut self.positions, &edge.stretch);
             }
         }
+        for _ in 0..OPENING_ROUNDS {
+            self.open_up();
+            if !self.any_inverted() {
+                break;
+            }
+        }
+        self.align();
+    }
+
+    /// Opens triangles that are about to turn over and sets the veins' lengths.
+    fn open_up(&mut self) {
         for _ in 0..OPENING_PASSES {
             let normals = normals(&self.positions, &self.triangles);
             for edge in self.edges.iter().filter(|edge| edge.vein) {
@@ -296,7 +309,16 @@ impl Sheet {
                 keep_open(&mut self.positions, triangle, *flat, &normals);
             }
         }
-        self.align();
+    }
+
+    /// Whether a triangle faces against those around it.
+    fn any_inverted(&self) -> bool {
+        let normals = normals(&self.positions, &self.triangles);
+        self.triangles.iter().any(|t| {
+            let [a, b, c] = t.map(|i| self.positions[i as usize]);
+            let around: Vec3 = t.iter().map(|i| normals[*i as usize]).sum();
+            (b - a).cross(c - a).dot(around) <= 0.0
+        })
     }
 
     /// Turns the sheet back to lie as the flat one: bending moves it about but shall not turn it as a whole.

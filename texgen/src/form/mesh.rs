@@ -148,6 +148,14 @@ fn area_of(polygon: &[Vec2]) -> f64 {
 fn margin(blade: &Blade, detail: Detail, unit: f32) -> Result<(Vec<Vec2>, usize), TexgenError> {
     let mut tolerance = 0.004 * unit;
     let mut polygon = simplify_closed(&blade.outline, tolerance);
+    for _ in 0..8 {
+        if !crosses_itself(&polygon) {
+            break;
+        }
+        // The two sides of a narrow sinus must not be pushed through each other.
+        tolerance *= 0.5;
+        polygon = simplify_closed(&blade.outline, tolerance);
+    }
     for _ in 0..40 {
         if polygon.len() <= detail.corners() {
             break;
