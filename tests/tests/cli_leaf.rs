@@ -26,7 +26,8 @@ fn leaves_are_made_from_a_name() {
     let arguments =
         ["leaf", "make", "birch", "--count", "2", "--size", "128", "--season", "0.2,0.7", "--json"];
     let report =
-        windfall(&folder, &[&arguments[..], &["--out", "birches", "--stages", "steps"]].concat()).json();
+        windfall(&folder, &[&arguments[..], &["--out", "birches", "--stages", "steps", "--mesh"]].concat())
+            .json();
     let leaves = report["leaves"].as_array().expect("a list");
     assert_eq!(leaves.len(), 4, "two for each season");
     for (index, leaf) in leaves.iter().enumerate() {
@@ -37,7 +38,7 @@ fn leaves_are_made_from_a_name() {
     }
     let names: Vec<String> =
         files(&folder, "birches").iter().map(|(path, _)| path.display().to_string()).collect();
-    assert_eq!(names.len(), 4 * 5 + 1, "five pictures a leaf and the manifest: {names:?}");
+    assert_eq!(names.len(), 4 * 6 + 1, "five pictures and a mesh a leaf, and the manifest: {names:?}");
     assert!(
         names.contains(&"leaves.ron".into()) && names.contains(&"birch-004.normal.png".into()),
         "{names:?}"

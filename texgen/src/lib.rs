@@ -55,7 +55,10 @@ pub use compare::{
 pub use contour::DrawnLeaf;
 pub use error::TexgenError;
 pub use extract::{Extraction, Overlay, Photo};
-pub use folder::{FOLDER_VERSION, FolderError, FolderLeaf, LeafFacts, LeafFolder, MANIFEST_NAME, Manifest};
+pub use folder::{
+    FOLDER_VERSION, FolderError, FolderLeaf, FormLevel, FormShape, LeafFacts, LeafFolder, LeafForm,
+    MANIFEST_NAME, Manifest,
+};
 pub use making::{Assortment, Build, LeafMaker, MadeLeaf, MakeOptions};
 pub use maps::LeafMaps;
 pub use outline_model::OutlineModel;

@@ -43,6 +43,9 @@ pub struct LeafFacts {
     pub mean_chord_m: f32,
     /// Side of the picture in metres.
     pub side_m: f32,
+    /// Whether meshes lie beside the pictures.
+    #[serde(default)]
+    pub has_mesh: bool,
 }
 
 /// Only the version, whatever else the text holds.

@@ -4,10 +4,11 @@
 //!
 //! `NAME.png` holds sRGB colour and straight alpha, petiole down; beside it lie `NAME.normal.png`,
 //! `NAME.height.png`, `NAME.translucency.png` and `NAME.mask.png`, see
-//! [`LeafMaps`].
+//! [`LeafMaps`]. `NAME.mesh.ron` holds its meshes if it has any, see [`LeafForm`].
 
 mod error;
 mod manifest;
+mod mesh_file;
 
 use std::fs::{self, File};
 use std::io::{BufReader, BufWriter, Write};
@@ -20,6 +21,7 @@ use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
 use crate::LeafMaps;
 pub use error::FolderError;
 pub use manifest::{FOLDER_VERSION, LeafFacts, MANIFEST_NAME, Manifest};
+pub use mesh_file::{FormLevel, FormShape, LeafForm};
 
 /// Endings of a leaf's five pictures.
 const ENDINGS: [&str; 5] = ["png", "normal.png", "height.png", "translucency.png", "mask.png"];
@@ -31,6 +33,8 @@ pub struct FolderLeaf {
     pub facts: LeafFacts,
     /// Pictures.
     pub maps: LeafMaps,
+    /// Meshes, if the leaf has any.
+    pub form: Option<LeafForm>,
 }
 
 /// Leaves that belong together.
@@ -81,9 +85,10 @@ impl LeafFolder {
 }
 
 impl LeafFacts {
-    /// Names of the leaf's pictures.
-    pub fn file_names(&self) -> [String; 5] {
-        ENDINGS.map(|ending| format!("{}.{ending}", self.name))
+    /// Names of the leaf's files.
+    pub fn file_names(&self) -> Vec<String> {
+        let pictures = ENDINGS.iter().map(|ending| format!("{}.{ending}", self.name));
+        pictures.chain(self.has_mesh.then(|| mesh_file::file_name(&self.name))).collect()
     }
 }
 
@@ -99,7 +104,7 @@ impl Manifest {
 }
 
 impl FolderLeaf {
-    /// Writes the pictures of one leaf into a folder.
+    /// Writes the files of one leaf into a folder.
     ///
     /// # Errors
     /// [`FolderError::Write`] names the file.
@@ -123,7 +128,7 @@ impl FolderLeaf {
                 .map_err(|error| FolderError::write(&path)(std::io::Error::other(error)))?;
             out.flush().map_err(FolderError::write(&path))?;
         }
-        Ok(())
+        self.form.as_ref().map_or(Ok(()), |form| form.save(folder, &self.facts.name))
     }
 
     fn load(folder: &Path, facts: &LeafFacts, size_px: u32) -> Result<Self, FolderError> {
@@ -135,7 +140,8 @@ impl FolderLeaf {
             translucency: read(ENDINGS[3])?.into_luma8(),
             mask: read(ENDINGS[4])?.into_luma8(),
         };
-        Ok(Self { facts: facts.clone(), maps })
+        let form = facts.has_mesh.then(|| LeafForm::load(folder, &facts.name)).transpose()?;
+        Ok(Self { facts: facts.clone(), maps, form })
     }
 }
 

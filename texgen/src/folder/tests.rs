@@ -13,6 +13,7 @@ fn sample() -> LeafFolder {
             mass_kg: 0.000_2,
             mean_chord_m: 0.04,
             side_m: 0.1,
+            has_mesh: true,
         },
         maps: LeafMaps {
             albedo: RgbaImage::from_pixel(16, 16, image::Rgba([shade, 90, 20, 255])),
@@ -21,6 +22,13 @@ fn sample() -> LeafFolder {
             translucency: GrayImage::from_pixel(16, 16, image::Luma([shade])),
             mask: GrayImage::from_pixel(16, 16, image::Luma([255])),
         },
+        form: Some(LeafForm {
+            levels: vec![FormLevel {
+                positions: vec![[0.5, 0.9], [0.7, 0.4], [0.3, 0.4]],
+                triangles: vec![[0, 1, 2]],
+                shapes: vec![FormShape { water: 0.2, offsets: vec![[0.0, 0.01, 0.02]; 3] }],
+            }],
+        }),
     };
     LeafFolder { size_px: 16, leaves: vec![leaf("oak-1", 200), leaf("oak-2", 120)] }
 }
@@ -72,6 +80,10 @@ fn every_fault_is_told() {
     assert!(matches!(error, FolderError::Version { found: 7, allowed: 1, .. }), "{error}");
     let error = after(|at| rewrite(&at.join(MANIFEST_NAME), "area_m2", "aera_m2"));
     assert!(matches!(error, FolderError::Manifest { .. }), "{error}");
+    let error = after(|at| rewrite(&at.join("oak-1.mesh.ron"), "(0,1,2)", "(0,1,3)"));
+    assert!(matches!(&error, FolderError::Field { field, .. } if field == "levels[0].triangles"), "{error}");
+    let error = after(|at| fs::remove_file(at.join("oak-1.mesh.ron")).expect("it was there"));
+    assert!(matches!(&error, FolderError::Missing { path } if path.ends_with("oak-1.mesh.ron")), "{error}");
     for (from, to, field) in [
         ("size_px: 16", "size_px: 17", "size_px"),
         ("\"oak-2\"", "\"../oak\"", "leaves[1].name"),

@@ -54,7 +54,7 @@ impl Assortment {
         let make = |&number: &u32| {
             let made = makers[(number % seasons) as usize].make(number, false)?;
             done();
-            Ok(FolderLeaf { facts: made.facts, maps: made.maps })
+            Ok(FolderLeaf { facts: made.facts, maps: made.maps, form: None })
         };
         let leaves = numbers.par_iter().map(make).collect::<Result<_, TexgenError>>()?;
         Ok(LeafFolder { size_px: self.size_px, leaves })

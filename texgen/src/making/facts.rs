@@ -67,6 +67,7 @@ impl Build {
             mass_kg: covered * pixel_m * pixel_m * areal,
             mean_chord_m: blade_px / length_px * pixel_m,
             side_m: leaf.blade.mask.width as f32 * pixel_m,
+            has_mesh: false,
         }
     }
 }

@@ -4,6 +4,7 @@
 
 use glam::Vec2;
 
+use crate::form::Drying;
 use crate::growth::{Habit, Layout, SpeciesVeins};
 use crate::maps::PetioleColour;
 use crate::synthesis::lab;
@@ -42,6 +43,14 @@ impl Manner {
         match self {
             Self::Shape(shape) => SpeciesVeins::of(*shape),
             Self::Learned { habit, .. } => SpeciesVeins { habit: *habit, ..SpeciesVeins::of(Shape::Beech) },
+        }
+    }
+
+    /// How the leaves dry.
+    pub(super) fn drying(&self) -> Drying {
+        match self {
+            Self::Shape(shape) => Drying::of(*shape),
+            Self::Learned { .. } => Drying::default(),
         }
     }
 

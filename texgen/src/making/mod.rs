@@ -10,7 +10,7 @@ use crate::maps::{Dressed, PetioleColour};
 use crate::paint::specimen;
 use crate::rng::{Rng, hash64};
 use crate::synthesis::{Painter, Stage};
-use crate::{DrawnLeaf, Extraction, LeafFacts, LeafMaps, Shape, Specimen, TexgenError, VeinGrower};
+use crate::{DrawnLeaf, Extraction, LeafFacts, LeafForm, LeafMaps, Shape, Specimen, TexgenError, VeinGrower};
 pub use assortment::Assortment;
 pub use facts::Build;
 use manner::{Manner, stem_of};
@@ -105,12 +105,28 @@ impl LeafMaker {
         Ok(Self { options, painter, manner, stems, build })
     }
 
+    /// Meshes of the leaf of a number, see [`LeafMaker::make`].
+    ///
+    /// # Errors
+    /// [`TexgenError::NoRoom`] for an outline that cannot be triangulated.
+    pub fn form(&self, number: u32) -> Result<LeafForm, TexgenError> {
+        let seed = self.seed_of(number);
+        let drawn = self.manner.draw(self.options.size_px, seed)?;
+        let veins = self.manner.veins().grow(&drawn.blade, seed)?;
+        LeafForm::of(&drawn.blade, &veins, &self.manner.drying(), seed)
+    }
+
+    /// Seed of everything random about a leaf.
+    fn seed_of(&self, number: u32) -> u64 {
+        hash64(self.options.seed ^ hash64(u64::from(number) + 1))
+    }
+
     /// Makes one leaf; equal numbers give equal leaves.
     ///
     /// # Errors
     /// [`TexgenError`] for an outline on which nothing can grow.
     pub fn make(&self, number: u32, show_stages: bool) -> Result<MadeLeaf, TexgenError> {
-        let seed = hash64(self.options.seed ^ hash64(u64::from(number) + 1));
+        let seed = self.seed_of(number);
         let mut rng = Rng::new(seed);
         let drawn = self.manner.draw(self.options.size_px, seed)?;
         let DrawnLeaf { blade, petiole } = &drawn;

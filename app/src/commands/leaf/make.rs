@@ -68,6 +68,9 @@ pub struct Arguments {
     /// Folder for pictures of every step of the work, a folder for each leaf.
     #[arg(long, value_name = "DIR")]
     stages: Option<PathBuf>,
+    /// Write NAME.mesh.ron too: triangles at three levels of detail, and how they curl as the leaf dries.
+    #[arg(long)]
+    mesh: bool,
     /// Tell the outcome as one line of JSON.
     #[arg(long)]
     json: bool,
@@ -156,7 +159,9 @@ fn make_all(
         interrupt::check()?;
         let mut made = makers[maker].make(number, stages.is_some())?;
         made.facts.name = numbered(&made.facts.name, job);
-        let leaf = FolderLeaf { facts: made.facts, maps: made.maps };
+        made.facts.has_mesh = arguments.mesh;
+        let form = arguments.mesh.then(|| makers[maker].form(number)).transpose()?;
+        let leaf = FolderLeaf { facts: made.facts, maps: made.maps, form };
         leaf.save(out).map_err(|error| anyhow!("{}: {error}", arguments.out.display()))?;
         if let Some(stages) = stages {
             save_stages(&made.stages, &stages.join(&leaf.facts.name))?;
