@@ -111,7 +111,20 @@ fn main() {
         let copies =
             gr.iter().flatten().filter(|d| d[0] < 0.25 * mean(&rr, 0) && d[3] < 0.25 * mean(&rr, 3)).count();
         println!("  copies {copies}");
-        if std::env::var("LBPREAL").is_ok() { for r in &rr { println!("     real lbp {:?}", r.iter().map(|d| (d[3]*1000.0).round()/1000.0).collect::<Vec<_>>()); }
-        for (i, r) in gr.iter().enumerate() { println!("     gen{i} lbp {:?} de {:?}", r.iter().map(|d| (d[3]*1000.0).round()/1000.0).collect::<Vec<_>>(), r.iter().map(|d| (d[0]*100.0).round()/100.0).collect::<Vec<_>>()); } }
+        if std::env::var("LBPREAL").is_ok() {
+            for r in &rr {
+                println!(
+                    "     real lbp {:?}",
+                    r.iter().map(|d| (d[3] * 1000.0).round() / 1000.0).collect::<Vec<_>>()
+                );
+            }
+            for (i, r) in gr.iter().enumerate() {
+                println!(
+                    "     gen{i} lbp {:?} de {:?}",
+                    r.iter().map(|d| (d[3] * 1000.0).round() / 1000.0).collect::<Vec<_>>(),
+                    r.iter().map(|d| (d[0] * 100.0).round() / 100.0).collect::<Vec<_>>()
+                );
+            }
+        }
     }
 }

@@ -16,6 +16,8 @@ use crate::lab::{FromSrgb, Lab};
 const EDGE: f32 = 0.02;
 /// Smallest difference in Lab units that tells leaf from background.
 const LEAST: f32 = 6.0;
+/// Threshold as a share of the best split: pale parts of a leaf differ less from paper than its bulk does.
+const CLOSENESS: f32 = 0.6;
 /// Weight of the lightness difference where hue agrees.
 const LIGHTNESS: f32 = 0.45;
 /// Levels of the histogram whose best split is the threshold, one per Lab unit.
@@ -49,7 +51,7 @@ pub(super) fn leaf_mask(picture: &RgbImage) -> Option<Mask> {
     let difference = Field { width, height, values: (0..width * height).map(differs).collect() };
     let mut at_edge: Vec<f32> = edge.iter().map(|i| difference.values[*i]).collect();
     let noise = quantile(&mut at_edge, 0.9);
-    let threshold = best_split(&difference.values)?.max(LEAST).max(1.5 * noise);
+    let threshold = (best_split(&difference.values)? * CLOSENESS).max(LEAST).max(1.5 * noise);
     let inside: Vec<bool> = difference.values.iter().map(|d| *d > threshold).collect();
     let (width, height) = (picture.width(), picture.height());
     inside.contains(&true).then_some(Mask { width, height, inside })

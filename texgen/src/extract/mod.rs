@@ -17,6 +17,8 @@ mod overlay;
 pub(crate) mod petiole;
 mod photo;
 pub(crate) mod ridge;
+#[cfg(test)]
+mod tests;
 mod vein_tree;
 pub(crate) mod veins;
 
