@@ -47,7 +47,7 @@ fn distances_are_symmetric_and_zero_to_itself() {
 
 #[test]
 fn copies_are_named_and_sameness_fails() {
-    let photos: Vec<ComparedLeaf> = (1..5).map(|seed| drawn(seed, 50 + 10 * (seed as u8))).collect();
+    let photos: Vec<ComparedLeaf> = (1u8..5).map(|k| drawn(k.into(), 50 + 10 * k)).collect();
     let levels = || Levels::of_photos(&photos.iter().map(|photo| &photo.measured).collect::<Vec<_>>());
     let mut copy = photos[0].clone();
     copy.path = "copy.png".into();

@@ -11,9 +11,10 @@ use image::RgbImage;
 use crate::Mask;
 use crate::field::{Field, quantile};
 use crate::lab::{FromSrgb, Lab};
+use crate::math::floor_i32;
 
-/// Share of the shorter side that counts as the picture's edge.
-const EDGE: f32 = 0.02;
+/// The shorter side by this is the width of the picture's edge.
+const EDGE: usize = 50;
 /// Smallest difference in Lab units that tells leaf from background.
 const LEAST: f32 = 6.0;
 /// Threshold as a share of the best split: pale parts of a leaf differ less from paper than its bulk does.
@@ -32,7 +33,7 @@ pub(super) fn leaf_mask(picture: &RgbImage) -> Option<Mask> {
         let (x, y) = ((i % width) as f32 / width as f32, (i / width) as f32 / height as f32);
         [1.0, f64::from(x) - 0.5, f64::from(y) - 0.5]
     };
-    let margin = ((width.min(height) as f32 * EDGE) as usize).max(1);
+    let margin = width.min(height).div_ceil(EDGE);
     let is_edge = |i: &usize| {
         let (x, y) = (i % width, i / width);
         x.min(y).min(width - 1 - x).min(height - 1 - y) < margin
@@ -115,7 +116,7 @@ fn least_squares(samples: impl Iterator<Item = ([f64; 3], f64)>) -> Option<[f64;
 fn best_split(values: &[f32]) -> Option<f32> {
     let mut histogram = [0.0_f64; LEVELS];
     for value in values {
-        histogram[(value.max(0.0) as usize).min(LEVELS - 1)] += 1.0;
+        histogram[(floor_i32(value.max(0.0)).unsigned_abs() as usize).min(LEVELS - 1)] += 1.0;
     }
     let total: f64 = histogram.iter().sum();
     let moment: f64 = histogram.iter().enumerate().map(|(i, count)| i as f64 * count).sum();

@@ -23,8 +23,8 @@ const LONGEST_PX: u32 = 2048;
 const LEAST_AREA: usize = 64;
 /// A mask that leaves out less than this share of the picture is full.
 const FULL: f32 = 0.999;
-/// Holes below this share of the leaf are closed.
-const HOLE: f32 = 0.0005;
+/// Holes smaller than the leaf by this factor are closed.
+const HOLE: usize = 2000;
 /// A thin piece that does not taper and starts this near to the root, in √A, is a petiole's stub.
 const STUB_REACH: f32 = 0.15;
 /// A second piece of at least this share of the largest counts as another leaf.
@@ -149,7 +149,8 @@ fn scaled_down(colours: RgbImage, mask: Mask, notes: &mut Vec<String>) -> (RgbIm
     for y in 0..new_height {
         for x in 0..new_width {
             let from = |at: u32, new: u32, old: u32| {
-                ((2 * u64::from(at) + 1) * u64::from(old) / (2 * u64::from(new))) as usize
+                let middle = (2 * u64::from(at) + 1) * u64::from(old) / (2 * u64::from(new));
+                usize::try_from(middle).unwrap_or(0)
             };
             let source = from(y, new_height, height) * width as usize + from(x, new_width, width);
             smaller.inside[y as usize * new_width as usize + x as usize] = mask.inside[source];
@@ -176,7 +177,7 @@ pub(crate) fn cut_out(
     if area as f32 >= FULL * mask.inside.len() as f32 {
         return Err("the mask covers the whole picture, allowed: some background outside the leaf".into());
     }
-    let second = keep_largest(&mut mask, ((HOLE * area as f32) as usize).max(4));
+    let second = keep_largest(&mut mask, (area / HOLE).max(4));
     if second >= SECOND_LEAF {
         let share = second * 100.0;
         notes.push(format!(
