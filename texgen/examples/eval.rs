@@ -111,6 +111,14 @@ fn main() {
         let copies =
             gr.iter().flatten().filter(|d| d[0] < 0.25 * mean(&rr, 0) && d[3] < 0.25 * mean(&rr, 3)).count();
         println!("  copies {copies}");
+        if std::env::var("FEAT").is_ok() {
+            for m in &real {
+                println!("     real {:.3?}", m.features());
+            }
+            for m in &made {
+                println!("     made {:.3?}", m.features());
+            }
+        }
         if std::env::var("LBPREAL").is_ok() {
             for r in &rr {
                 println!(

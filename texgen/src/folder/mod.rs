@@ -3,7 +3,7 @@
 //! Leaves as a folder: for each a colour picture with alpha and four maps as PNG files, and one manifest.
 //!
 //! `NAME.png` holds sRGB colour and straight alpha, petiole down; beside it lie `NAME.normal.png`,
-//! `NAME.height.png`, `NAME.translucency.png` and `NAME.mask.png` (the blade without its petiole), see
+//! `NAME.height.png`, `NAME.translucency.png` and `NAME.mask.png`, see
 //! [`LeafMaps`].
 
 mod error;

@@ -125,3 +125,6 @@ impl LeafMaker {
         Ok(MadeLeaf { facts, maps, stages: painted.stages })
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -26,7 +26,7 @@ pub struct LeafMaps {
     pub height: GrayImage,
     /// Share of light that passes through, 0 to 1 as 0 to 255.
     pub translucency: GrayImage,
-    /// The blade without its petiole: 255 inside.
+    /// The leaf, petiole included: 255 inside.
     pub mask: GrayImage,
 }
 
@@ -89,8 +89,8 @@ impl LeafMaps {
             let through = translucency::transmittance([r, g, b], relief.thickness[at(x, y)]);
             Luma([to_byte(through)])
         });
-        let inside = &leaf.blade.mask.inside;
-        let mask = GrayImage::from_fn(width, height, |x, y| Luma([if inside[at(x, y)] { 255 } else { 0 }]));
+        let mask =
+            GrayImage::from_fn(width, height, |x, y| Luma([if cover[at(x, y)] >= 0.5 { 255 } else { 0 }]));
         Ok(Self { albedo, normal, height: heights, translucency, mask })
     }
 }

@@ -224,7 +224,7 @@ mod tests {
         let count = 8 * teeth;
         let point = |i: usize| {
             let turn = i as f32 / count as f32 * std::f32::consts::TAU;
-            let radius = 50.0 + if i % 8 == 0 { 3.0 } else { 0.0 };
+            let radius = 50.0 + if i.is_multiple_of(8) { 3.0 } else { 0.0 };
             Vec2::new(60.0 + plump * radius * turn.sin(), 60.0 + radius * turn.cos())
         };
         let outline: Vec<Vec2> = (0..count).map(point).collect();

@@ -45,6 +45,8 @@ pub(crate) struct Exemplar {
     pub(crate) veins: VeinProfile,
     /// Mean colour of the blade.
     pub(crate) mean: Lab,
+    /// Standard deviation of the smoothed superpixels.
+    pub(crate) base_deviation: Lab,
     /// Standard deviation of the blade's colours.
     pub(crate) deviation: Lab,
 }
@@ -102,6 +104,8 @@ impl Exemplar {
         }
         let regions = describe_regions(&structure);
         let mean = lab::mean(structure.pixels().map(|at| colour[at]));
+        let base_mean = lab::mean(structure.pixels().map(|at| base[at]));
+        let base_deviation = lab::deviation(base_mean, structure.pixels().map(|at| base[at]));
         let deviation = lab::deviation(mean, structure.pixels().map(|at| colour[at]));
         let coarse = local_mean(&structure, &residual, 1.0, |at| structure.inside.data[at]);
         let (width, height) = (structure.inside.width, structure.inside.height);
@@ -127,6 +131,7 @@ impl Exemplar {
             sources,
             veins,
             mean,
+            base_deviation,
             deviation,
         })
     }

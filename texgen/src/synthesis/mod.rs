@@ -20,6 +20,8 @@ mod stages;
 mod structural;
 mod structure;
 mod superpixels;
+#[cfg(test)]
+mod tests;
 pub(crate) mod vein_field;
 mod vein_profile;
 
@@ -46,8 +48,11 @@ const GRAIN: (f32, f32) = (0.0, 0.6);
 /// How far apart, in pixels of the target, a pixel of the working grid must be for grain to be added.
 const GRAIN_FROM: f32 = 1.35;
 
-/// Bounds of the last correction of contrast.
-const GAIN: (f32, f32) = (0.7, 1.5);
+/// Share of the differences between regions that is kept.
+const REGION_TONE: f32 = 0.75;
+/// Bounds of the correction of contrast between superpixels, and of the last one of all contrast.
+const BASE_GAIN: (f32, f32) = (0.6, 1.9);
+const GAIN: (f32, f32) = (0.85, 1.12);
 
 /// A painter that has studied its examples.
 pub struct Painter {
@@ -100,7 +105,14 @@ impl Painter {
         let levels = choose_levels(&target, &self.exemplars, &matches, mean, &rng.fork(3));
         let finest = levels.len() - 1;
         let flat = paint_level(&target, finest, |number| levels[finest][number]);
-        let base = smooth(&target, &flat);
+        let flat = evened(&target, flat);
+        let mut base = smooth(&target, &flat);
+        let found = lab::mean(target.pixels().map(|at| base[at]));
+        let deviation = lab::deviation(found, target.pixels().map(|at| base[at]));
+        let gain = gain(self.blend(weights, |example| example.base_deviation), deviation, BASE_GAIN);
+        for at in target.pixels() {
+            base[at] = std::array::from_fn(|i| found[i] + (base[at][i] - found[i]) * gain[i]);
+        }
         let mut detail = quilt(&target, &self.exemplars, &matches, Layer::Residual, 1.0, &rng.fork(4));
         match_spread(&target, &self.exemplars, weights, &mut detail);
         let grain = (1.0 / factor > GRAIN_FROM)
@@ -157,7 +169,7 @@ impl Painter {
         let tissue = || (0..colour.len()).filter(|&at| inside[at]);
         let found = lab::mean(tissue().map(|at| colour[at]));
         let deviation = lab::deviation(found, tissue().map(|at| colour[at]));
-        let gain: Lab = std::array::from_fn(|i| (wanted[i] / deviation[i].max(1e-3)).clamp(GAIN.0, GAIN.1));
+        let gain = gain(wanted, deviation, GAIN);
         for colour in &mut colour {
             *colour = std::array::from_fn(|i| mean[i] + (colour[i] - found[i]) * gain[i]);
         }
@@ -169,6 +181,30 @@ impl Painter {
         }
         picture
     }
+}
+
+/// The colours with smaller differences between whole regions: each was taken from another place, and steps as
+/// large as that would show as facets.
+fn evened(leaf: &Structure, mut colour: Vec<Lab>) -> Vec<Lab> {
+    let mut sums = vec![([0.0_f32; 3], 0.0_f32); leaf.region_count];
+    for at in leaf.pixels() {
+        let sum = &mut sums[leaf.region.data[at] as usize];
+        *sum = (lab::add(sum.0, colour[at]), sum.1 + 1.0);
+    }
+    let mean = lab::mean(leaf.pixels().map(|at| colour[at]));
+    let offset = |(sum, count): (Lab, f32)| {
+        lab::scale(lab::sub(mean, lab::scale(sum, 1.0 / count.max(1.0))), 1.0 - REGION_TONE)
+    };
+    let offsets: Vec<Lab> = sums.into_iter().map(offset).collect();
+    for at in leaf.pixels() {
+        colour[at] = lab::add(colour[at], offsets[leaf.region.data[at] as usize]);
+    }
+    colour
+}
+
+/// Factors that bring one spread of colours to another.
+fn gain(wanted: Lab, found: Lab, (least, most): (f32, f32)) -> Lab {
+    std::array::from_fn(|i| (wanted[i] / found[i].max(1e-3)).clamp(least, most))
 }
 
 /// The layers of tissue on the working grid.

@@ -12,7 +12,7 @@ const REACH: f32 = 0.006;
 /// Structural distance between neighbours that counts as an edge.
 const EDGE: f32 = 0.05;
 /// Share of the smoothness that is left across the border of two regions.
-const ACROSS_REGIONS: f32 = 0.25;
+const ACROSS_REGIONS: f32 = 0.5;
 /// Sweeps stop when no colour of a sweep moves farther than this.
 const STILL: f32 = 1.0 / 512.0;
 /// Most sweeps.
