@@ -25,6 +25,7 @@ mod extract;
 mod field;
 mod fill;
 mod folder;
+pub mod form;
 pub mod growth;
 mod lab;
 mod making;

@@ -118,7 +118,13 @@ pub(super) fn grow(draft: &mut Draft<'_>, rng: &mut Rng) {
                     band: bud.band * 0.5,
                     // Forks crowd at the base, so that all flanks are reached from there.
                     fork_width: FORK * unit * rng.range(0.8, 1.6) * smoothstep(-0.1, 0.35, bud.radius / unit),
-                    order: (bud.order + 1).min(3),
+                    order: if bud.band > 0.9 {
+                        1
+                    } else if bud.band > 0.2 {
+                        2
+                    } else {
+                        3
+                    },
                     ..bud
                 });
             }

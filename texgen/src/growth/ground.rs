@@ -66,7 +66,31 @@ impl Ground {
                 if end { ground.root = wanted } else { ground.tip = wanted }
             }
         }
+        ground.free_root();
         Ok(ground)
+    }
+
+    /// Moves a root that is hemmed in by outside pixels a little way in: drawn bases may be narrower than a pixel.
+    fn free_root(&mut self) {
+        const ROOMY: f32 = 1.5;
+        let farthest = floor_i32((0.03 * self.unit).max(3.0));
+        if self.room(self.root) > ROOMY {
+            return;
+        }
+        let mut nearest: Option<(f32, Vec2)> = None;
+        for y in -farthest..=farthest {
+            for x in -farthest..=farthest {
+                let cell =
+                    Vec2::new(self.root.x.floor() + x as f32 + 0.5, self.root.y.floor() + y as f32 + 0.5);
+                let far = cell.distance_squared(self.root);
+                if self.room(cell) > ROOMY && nearest.is_none_or(|(least, _)| far < least) {
+                    nearest = Some((far, cell));
+                }
+            }
+        }
+        if let Some((_, cell)) = nearest {
+            self.root = cell;
+        }
     }
 
     /// Distance in pixels from a point's pixel to the nearest one outside; zero outside.

@@ -15,11 +15,13 @@ mod course;
 mod light;
 mod pigments;
 mod prospect;
+mod strip;
 mod table;
 
 pub use climate::Climate;
 pub use course::{Course, Senescence};
 pub use pigments::Pigments;
+pub use strip::strip;
 pub use table::Appearance;
 
 use crate::Shape;

@@ -184,7 +184,7 @@ fn save_stages(stages: &[Stage], folder: &Path) -> anyhow::Result<()> {
 }
 
 impl Species {
-    fn shape(self) -> Shape {
+    pub(super) fn shape(self) -> Shape {
         match self {
             Self::Maple => Shape::Maple,
             Self::JapaneseMaple => Shape::JapaneseMaple,

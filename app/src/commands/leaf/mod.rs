@@ -7,6 +7,7 @@ pub mod make;
 mod output_folder;
 mod photo_arguments;
 mod picture_file;
+pub mod season_strip;
 pub mod veins;
 
 use clap::Subcommand;
@@ -20,6 +21,8 @@ pub enum Command {
     Compare(compare::Arguments),
     /// Draw over a photo what is read from it: outline, root, tip and veins.
     Veins(veins::Arguments),
+    /// Paint one leaf through its autumn, from green to brown.
+    SeasonStrip(season_strip::Arguments),
 }
 
 impl Command {
@@ -32,6 +35,7 @@ impl Command {
             Self::Make(arguments) => make::run(&arguments),
             Self::Compare(arguments) => compare::run(&arguments),
             Self::Veins(arguments) => veins::run(&arguments),
+            Self::SeasonStrip(arguments) => season_strip::run(&arguments),
         }
     }
 }
