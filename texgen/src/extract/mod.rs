@@ -8,6 +8,7 @@
 
 mod background;
 mod close_up;
+pub(crate) mod divergence;
 mod ends;
 pub(crate) mod geodesic;
 pub(crate) mod labels;
