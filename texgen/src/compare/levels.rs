@@ -8,6 +8,7 @@
 //! levels are measured on the photos at hand.
 
 use super::metric::{Distances, Measured};
+use crate::math::floor_i32;
 
 /// Mean and 90th percentile of each metric; `None` where there is no level.
 #[derive(Clone, Debug, PartialEq)]
@@ -174,7 +175,7 @@ impl Levels {
         let percentile = |k: usize| {
             let column = column(k);
             let rank = 0.9 * (column.len() - 1) as f32;
-            let below = rank as usize;
+            let below = floor_i32(rank).unsigned_abs() as usize;
             let above = column[(below + 1).min(column.len() - 1)];
             column[below] + (above - column[below]) * (rank - below as f32)
         };

@@ -14,6 +14,8 @@ mod metric;
 mod portrait;
 mod sheet;
 mod silhouette;
+#[cfg(test)]
+mod tests;
 mod texture;
 mod thinning;
 mod vein_pattern;

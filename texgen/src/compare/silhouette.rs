@@ -45,7 +45,7 @@ impl Silhouette {
         let polygon: Vec<Vec2> = blade.outline.iter().map(|p| (*p - centre) / side).collect();
         let points = evenly(&polygon);
         let enlarged: Vec<Vec2> = polygon.iter().map(|p| (*p + Vec2::splat(FRAME / 2.0)) * SIDE).collect();
-        let pixels_wide = (FRAME * SIDE) as u32;
+        let pixels_wide = floor_i32(FRAME * SIDE).unsigned_abs();
         let mask = fill(&enlarged, pixels_wide, pixels_wide);
         let place = |i: usize| {
             let columns = pixels_wide as usize;

@@ -37,11 +37,7 @@ fn is_removable(ring: [bool; 8], pass: u8) -> bool {
     let count = ring.iter().filter(|on| **on).count();
     let starts = (0..8).filter(|k| !ring[*k] && ring[(k + 1) % 8]).count();
     let [up, _, right, _, down, _, left, _] = ring;
-    let open = if pass == 0 {
-        !(up && right && down) && !(right && down && left)
-    } else {
-        !(up && right && left) && !(up && down && left)
-    };
+    let open = if pass == 0 { !(right && down && (up || left)) } else { !(up && left && (right || down)) };
     (2..=6).contains(&count) && starts == 1 && open
 }
 

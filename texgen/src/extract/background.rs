@@ -11,11 +11,14 @@ use image::RgbImage;
 use crate::Mask;
 use crate::field::{Field, quantile};
 use crate::lab::{FromSrgb, Lab};
+use crate::math::floor_i32;
 
-/// Share of the shorter side that counts as the picture's edge.
-const EDGE: f32 = 0.02;
+/// The shorter side by this is the width of the picture's edge.
+const EDGE: usize = 50;
 /// Smallest difference in Lab units that tells leaf from background.
 const LEAST: f32 = 6.0;
+/// Threshold as a share of the best split: pale parts of a leaf differ less from paper than its bulk does.
+const CLOSENESS: f32 = 0.6;
 /// Weight of the lightness difference where hue agrees.
 const LIGHTNESS: f32 = 0.45;
 /// Levels of the histogram whose best split is the threshold, one per Lab unit.
@@ -30,7 +33,7 @@ pub(super) fn leaf_mask(picture: &RgbImage) -> Option<Mask> {
         let (x, y) = ((i % width) as f32 / width as f32, (i / width) as f32 / height as f32);
         [1.0, f64::from(x) - 0.5, f64::from(y) - 0.5]
     };
-    let margin = ((width.min(height) as f32 * EDGE) as usize).max(1);
+    let margin = width.min(height).div_ceil(EDGE);
     let is_edge = |i: &usize| {
         let (x, y) = (i % width, i / width);
         x.min(y).min(width - 1 - x).min(height - 1 - y) < margin
@@ -49,7 +52,7 @@ pub(super) fn leaf_mask(picture: &RgbImage) -> Option<Mask> {
     let difference = Field { width, height, values: (0..width * height).map(differs).collect() };
     let mut at_edge: Vec<f32> = edge.iter().map(|i| difference.values[*i]).collect();
     let noise = quantile(&mut at_edge, 0.9);
-    let threshold = best_split(&difference.values)?.max(LEAST).max(1.5 * noise);
+    let threshold = (best_split(&difference.values)? * CLOSENESS).max(LEAST).max(1.5 * noise);
     let inside: Vec<bool> = difference.values.iter().map(|d| *d > threshold).collect();
     let (width, height) = (picture.width(), picture.height());
     inside.contains(&true).then_some(Mask { width, height, inside })
@@ -113,7 +116,7 @@ fn least_squares(samples: impl Iterator<Item = ([f64; 3], f64)>) -> Option<[f64;
 fn best_split(values: &[f32]) -> Option<f32> {
     let mut histogram = [0.0_f64; LEVELS];
     for value in values {
-        histogram[(value.max(0.0) as usize).min(LEVELS - 1)] += 1.0;
+        histogram[(floor_i32(value.max(0.0)).unsigned_abs() as usize).min(LEVELS - 1)] += 1.0;
     }
     let total: f64 = histogram.iter().sum();
     let moment: f64 = histogram.iter().enumerate().map(|(i, count)| i as f64 * count).sum();

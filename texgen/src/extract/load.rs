@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Pictures and masks from files, whatever their kind.
 
+use std::fs::File;
+use std::io::BufReader;
 use std::path::Path;
 
 use image::error::{ImageError, LimitErrorKind};
@@ -63,7 +65,9 @@ fn decode(path: &Path) -> Result<DynamicImage, TexgenError> {
     let problem = |error: ImageError| TexgenError::photo(name.clone(), describe(&error));
     let open = || {
         let unreadable = |error: std::io::Error| TexgenError::photo(name.clone(), error.to_string());
-        ImageReader::open(path).and_then(ImageReader::with_guessed_format).map_err(unreadable)
+        // By what the file holds, whatever its name says.
+        let reader = File::open(path).map(|file| ImageReader::new(BufReader::new(file)));
+        reader.and_then(ImageReader::with_guessed_format).map_err(unreadable)
     };
     let (width, height) = open()?.into_dimensions().map_err(problem)?;
     let pixels = u64::from(width) * u64::from(height);

@@ -8,6 +8,7 @@
 
 mod background;
 mod close_up;
+pub(crate) mod divergence;
 mod ends;
 pub(crate) mod geodesic;
 pub(crate) mod labels;
@@ -17,6 +18,8 @@ mod overlay;
 pub(crate) mod petiole;
 mod photo;
 pub(crate) mod ridge;
+#[cfg(test)]
+mod tests;
 mod vein_tree;
 pub(crate) mod veins;
 

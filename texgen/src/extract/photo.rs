@@ -9,7 +9,7 @@ use image::{RgbImage, imageops};
 
 use super::close_up::CloseUp;
 use super::ends::Evidence;
-use super::labels::keep_largest;
+use super::labels::{Pieces, keep_largest, side_neighbours};
 use super::outline::outline;
 use super::petiole::Petiole;
 use super::{background, load, petiole, veins};
@@ -23,8 +23,8 @@ const LONGEST_PX: u32 = 2048;
 const LEAST_AREA: usize = 64;
 /// A mask that leaves out less than this share of the picture is full.
 const FULL: f32 = 0.999;
-/// Holes below this share of the leaf are closed.
-const HOLE: f32 = 0.0005;
+/// Holes smaller than the leaf by this factor are closed.
+const HOLE: usize = 2000;
 /// A thin piece that does not taper and starts this near to the root, in √A, is a petiole's stub.
 const STUB_REACH: f32 = 0.15;
 /// A second piece of at least this share of the largest counts as another leaf.
@@ -71,8 +71,13 @@ impl Photo<'_> {
         let mut notes = Vec::new();
         let picture = load::picture(self.path)?;
         let (width, height) = picture.colours.dimensions();
+        let mut root = self.root;
         let mask = match (self.mask, picture.opaque) {
-            (Some(path), _) => read_mask(path, width, height, &mut notes)?,
+            (Some(path), opaque) => {
+                let mask = read_mask(path, width, height, &mut notes)?;
+                root = root.or_else(|| junction(&mask, &opaque?));
+                mask
+            }
             (None, Some(inside)) => Mask { width, height, inside },
             (None, None) => background::leaf_mask(&picture.colours)
                 .ok_or_else(|| self.fail("no leaf stands out from the background; give a mask"))?,
@@ -80,13 +85,27 @@ impl Photo<'_> {
         let (colours, mask, scale) = scaled_down(picture.colours, mask, &mut notes);
         let name = self.path.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
         let blamed = self.mask.unwrap_or(self.path).display().to_string();
-        let root = self.root.map(|root| root * scale);
+        let root = root.map(|root| root * scale);
         cut_out(&name, colours, mask, root, notes).map_err(|problem| TexgenError::photo(blamed, problem))
     }
 
     fn fail(&self, problem: &str) -> TexgenError {
         TexgenError::photo(self.path.display().to_string(), problem)
     }
+}
+
+/// Where what is opaque beside a mask meets it: the root of a leaf whose mask leaves out the petiole.
+fn junction(mask: &Mask, opaque: &[bool]) -> Option<Vec2> {
+    let (width, height) = (mask.width as usize, mask.height as usize);
+    let rest = Pieces::find(width, height, |i| opaque[i] && !mask.inside[i]);
+    let (petiole, size) = rest.largest()?;
+    let contact: Vec<Vec2> = (0..mask.inside.len())
+        .filter(|i| rest.label[*i] == petiole && side_neighbours(*i, width, height).any(|k| mask.inside[k]))
+        .map(|i| Vec2::new((i % width) as f32 + 0.5, (i / width) as f32 + 0.5))
+        .collect();
+    // A rim that blending left around the blade is no petiole: it touches the blade all along.
+    let is_petiole = !contact.is_empty() && size > 3 * contact.len();
+    is_petiole.then(|| contact.iter().sum::<Vec2>() / contact.len() as f32)
 }
 
 /// Reads a mask and fits it to the photo's size.
@@ -130,7 +149,8 @@ fn scaled_down(colours: RgbImage, mask: Mask, notes: &mut Vec<String>) -> (RgbIm
     for y in 0..new_height {
         for x in 0..new_width {
             let from = |at: u32, new: u32, old: u32| {
-                ((2 * u64::from(at) + 1) * u64::from(old) / (2 * u64::from(new))) as usize
+                let middle = (2 * u64::from(at) + 1) * u64::from(old) / (2 * u64::from(new));
+                usize::try_from(middle).unwrap_or(0)
             };
             let source = from(y, new_height, height) * width as usize + from(x, new_width, width);
             smaller.inside[y as usize * new_width as usize + x as usize] = mask.inside[source];
@@ -157,7 +177,7 @@ pub(crate) fn cut_out(
     if area as f32 >= FULL * mask.inside.len() as f32 {
         return Err("the mask covers the whole picture, allowed: some background outside the leaf".into());
     }
-    let second = keep_largest(&mut mask, ((HOLE * area as f32) as usize).max(4));
+    let second = keep_largest(&mut mask, (area / HOLE).max(4));
     if second >= SECOND_LEAF {
         let share = second * 100.0;
         notes.push(format!(

@@ -4,6 +4,7 @@
 
 use glam::Vec2;
 
+use crate::extract::divergence::divergences;
 use crate::form::Drying;
 use crate::growth::{Habit, Layout, SpeciesVeins};
 use crate::maps::PetioleColour;
@@ -89,14 +90,9 @@ pub(super) fn habit_of(examples: &[Specimen]) -> Habit {
             let Some(from) = parent(i) else { continue };
             if node.order == 2 && from.order <= 1 {
                 laterals += 1;
-                let main = from.parent.and_then(|grand| nodes.get(grand as usize));
-                let along = main.map_or(Vec2::NEG_Y, |main| from.position - main.position);
-                let angle = along.angle_to(node.position - from.position).abs().to_degrees();
-                if angle.is_finite() {
-                    angles.push(angle);
-                }
             }
         }
+        angles.extend(divergences(&example.veins));
         let ends = (0..nodes.len())
             .filter(|&i| nodes[i].order <= 1)
             .filter(|&i| {

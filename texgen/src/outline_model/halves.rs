@@ -25,7 +25,8 @@ impl Halves {
     pub(super) fn of(blade: &Blade) -> Option<Self> {
         let axis = blade.tip - blade.root;
         let length = axis.length_squared();
-        if !(length > 1e-6) || blade.outline.len() < 3 {
+        let is_apart = length > 1e-6;
+        if !is_apart || blade.outline.len() < 3 {
             return None;
         }
         // Turned so that the midrib points along y, and mirrored from y down to y up.

@@ -16,7 +16,7 @@ use self::warp::Warp;
 use crate::extract::labels::keep_largest;
 use crate::extract::outline::{counter_clockwise, crosses_itself, simplify_closed, twice_area};
 use crate::fill::fill;
-use crate::math::lerp;
+use crate::math::{floor_i32, lerp};
 use crate::rng::Rng;
 use crate::{Blade, DrawnLeaf, TexgenError};
 
@@ -199,7 +199,7 @@ fn length_by_width(ring: &[Vec2]) -> f32 {
 
 /// 1 - IoU of two outlines of equal area, centred on each other, upright.
 fn difference(first: &[Vec2], second: &[Vec2]) -> f32 {
-    let size = 4 * COMPARED_SIDE as u32;
+    let size = floor_i32(4.0 * COMPARED_SIDE).unsigned_abs();
     let masks = [first, second].map(|ring| {
         let side = (twice_area(ring).abs() / 2.0).sqrt().max(1e-6);
         let centre = centroid(ring);
@@ -224,7 +224,7 @@ mod tests {
         let count = 8 * teeth;
         let point = |i: usize| {
             let turn = i as f32 / count as f32 * std::f32::consts::TAU;
-            let radius = 50.0 + if i % 8 == 0 { 3.0 } else { 0.0 };
+            let radius = 50.0 + if i.is_multiple_of(8) { 3.0 } else { 0.0 };
             Vec2::new(60.0 + plump * radius * turn.sin(), 60.0 + radius * turn.cos())
         };
         let outline: Vec<Vec2> = (0..count).map(point).collect();
