@@ -36,6 +36,13 @@ pub(crate) fn floor_i32(x: f32) -> i32 {
     floor
 }
 
+/// Nearest `f32`, for lengths and colours that need no more.
+pub(crate) fn single(x: f64) -> f32 {
+    #[expect(clippy::cast_possible_truncation, reason = "rounds to the nearest")]
+    let rounded = x as f32;
+    rounded
+}
+
 /// Nearest byte of a value in 0..=1.
 pub(crate) fn to_byte(x: f32) -> u8 {
     #[expect(clippy::cast_possible_truncation, reason = "clamped to 0..=255 first")]

@@ -10,7 +10,7 @@ use glam::{Mat3, Vec2, Vec3};
 
 use super::bending::{Hinge, Stretch, fold, hinges, keep_open, normals, pull};
 use super::mesh::LeafMesh;
-use crate::math::{lerp, smoothstep};
+use crate::math::{lerp, single, smoothstep};
 use crate::noise;
 use crate::rng::Rng;
 use crate::{Blade, Shape};
@@ -181,7 +181,7 @@ impl Sheet {
     fn new(drying: &Drying, mesh: &LeafMesh, blade: &Blade, seed: u64) -> Self {
         let rng = Rng::new(seed);
         let noise_seed = rng.fork(1).bits();
-        let unit = (mesh.area() as f32).max(1.0).sqrt();
+        let unit = single(mesh.area()).max(1.0).sqrt();
         // Up in space is up on paper, so that triangles wind counter-clockwise about +z.
         let flat: Vec<Vec3> = mesh.positions.iter().map(|p| Vec3::new(p.x, -p.y, 0.0)).collect();
         let veins: std::collections::BTreeSet<[u32; 2]> =

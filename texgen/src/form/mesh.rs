@@ -9,7 +9,7 @@ use spade::{AngleLimit, ConstrainedDelaunayTriangulation, Point2, RefinementPara
 
 use super::framework::{Framework, Thinning};
 use crate::extract::outline::{crosses_itself, simplify_closed};
-use crate::math::{floor_i32, segment_distance};
+use crate::math::{floor_i32, segment_distance, single};
 use crate::{Blade, TexgenError, VeinGraph};
 
 /// Level of detail.
@@ -84,7 +84,7 @@ impl LeafMesh {
     /// # Errors
     /// [`TexgenError::NoRoom`] when the outline is no simple polygon.
     pub fn build(blade: &Blade, veins: &VeinGraph, detail: Detail) -> Result<Self, TexgenError> {
-        let unit = (area_of(&blade.outline).abs() as f32).sqrt();
+        let unit = single(area_of(&blade.outline).abs()).sqrt();
         let (margin, root) = margin(blade, detail, unit)?;
         let frame = Framework::new(veins, &margin, margin[root], detail.thinning(unit));
         let mut best: Option<Self> = None;
@@ -126,7 +126,7 @@ impl LeafMesh {
         let axis = (blade.tip - blade.root).normalize_or(Vec2::NEG_Y);
         let along = self.positions.iter().map(|p| p.dot(axis));
         let (low, high) = along.fold((f32::MAX, f32::MIN), |(low, high), x| (low.min(x), high.max(x)));
-        self.area() as f32 / (high - low).max(f32::MIN_POSITIVE)
+        single(self.area()) / (high - low).max(f32::MIN_POSITIVE)
     }
 
     /// Twice the area of a triangle, positive when it winds like the outline.
@@ -167,7 +167,11 @@ fn margin(blade: &Blade, detail: Detail, unit: f32) -> Result<(Vec<Vec2>, usize)
         }
         polygon = next;
     }
-    if polygon.len() < 3 || crosses_itself(&polygon) || !(area_of(&polygon).abs() > 1.0) {
+    if polygon.len() < 3
+        || crosses_itself(&polygon)
+        || area_of(&polygon).abs().is_nan()
+        || area_of(&polygon).abs() <= 1.0
+    {
         let reason = format!("outline with {} corners is no simple polygon", polygon.len());
         return Err(TexgenError::NoRoom { reason });
     }
@@ -201,7 +205,7 @@ fn triangulate(
     let refuse = |what: &str| TexgenError::NoRoom { reason: format!("triangulation failed: {what}") };
     let place = |p: Vec2| Point2::new(f64::from(p.x), f64::from(-p.y));
     let mut cdt = Cdt::new();
-    let mut insert = |cdt: &mut Cdt, p: Point2<f64>| cdt.insert(p).map_err(|e| refuse(&e.to_string()));
+    let insert = |cdt: &mut Cdt, p: Point2<f64>| cdt.insert(p).map_err(|e| refuse(&e.to_string()));
     let ring = margin.iter().map(|&p| insert(&mut cdt, place(p))).collect::<Result<Vec<_>, _>>()?;
     for k in 0..ring.len() {
         let (a, b) = (ring[k], ring[(k + 1) % ring.len()]);
@@ -211,7 +215,7 @@ fn triangulate(
     }
     // Corners along the veins stand as close as the triangles will be small. Their edges come last: spade would take
     // the far side of any constraint within the margin for outside.
-    let spacing = libm::sqrt(2.3 * largest) as f32;
+    let spacing = single(libm::sqrt(2.3 * largest));
     let mut pieces = Vec::new();
     for &(a, b, order) in &frame.edges {
         let (from, to) = (frame.points[a], frame.points[b]);
@@ -223,12 +227,13 @@ fn triangulate(
         }
     }
     let unit = libm::sqrt(area_of(margin).abs());
+    let most_added = usize::try_from(floor_i32(single(2.0 * unit * unit / largest))).unwrap_or(0) + 40;
     let parameters = RefinementParameters::<f64>::new()
         .exclude_outer_faces(true)
         .with_angle_limit(AngleLimit::from_deg(angle_deg))
         .with_max_allowed_area(largest)
         .with_min_required_area((0.004 * unit) * (0.004 * unit))
-        .with_max_additional_vertices((2.0 * unit * unit / largest) as usize + 40);
+        .with_max_additional_vertices(most_added);
     cdt.refine(parameters);
     let (cdt, ring) = with_veins(&cdt, &pieces, 0.3 * spacing, place).map_err(|e| refuse(&e.to_string()))?;
     Ok(collect(&cdt, &ring, place(margin[root]), &pieces))
@@ -246,7 +251,7 @@ fn with_veins(
     let mut slots = vec![None; refined.num_vertices()];
     for vertex in refined.vertices() {
         let p = vertex.position();
-        let at = Vec2::new(p.x as f32, -p.y as f32);
+        let at = Vec2::new(single(p.x), single(-p.y));
         let fixed = vertex.out_edges().any(|edge| edge.is_constraint_edge());
         let near = |(a, b, _): &(Vec2, Vec2, u8)| {
             let far = segment_distance(at, *a, *b).0;
@@ -294,7 +299,7 @@ fn within(cdt: &Cdt, ring: &Ring) -> Vec<bool> {
 
 /// Keeps the triangles inside the margin.
 fn collect(cdt: &Cdt, ring: &Ring, root: Point2<f64>, veins: &[(Vec2, Vec2, u8)]) -> LeafMesh {
-    let point = |p: Point2<f64>| Vec2::new(p.x as f32, -p.y as f32);
+    let point = |p: Point2<f64>| Vec2::new(single(p.x), single(-p.y));
     let mut mesh = LeafMesh {
         positions: Vec::new(),
         triangles: Vec::new(),
@@ -355,7 +360,7 @@ mod tests {
             let blade = shape.draw(256, seed).expect("the size is allowed").blade;
             let veins = SpeciesVeins::of(shape).grow(&blade, seed).expect("a leaf has room");
             let mesh = LeafMesh::build(&blade, &veins, detail).expect("the outline is simple");
-            let unit = (area_of(&blade.outline) as f32).sqrt();
+            let unit = single(area_of(&blade.outline)).sqrt();
             let (margin, root) = margin(&blade, detail, unit).expect("as in the mesh");
             let polygon = area_of(&margin);
             prop_assert!((mesh.area() / polygon - 1.0).abs() < 1e-6, "area {} of {polygon}", mesh.area());
@@ -371,7 +376,7 @@ mod tests {
             let found: f32 = mesh.vein_edges.iter()
                 .map(|([a, b], _)| mesh.positions[*a as usize].distance(mesh.positions[*b as usize])).sum();
             prop_assert!((found - wanted).abs() < 0.01 * wanted + 0.01, "{found} px of veins are edges, of {wanted}");
-            let edges: std::collections::BTreeSet<[u32; 2]> = mesh.triangles.iter()
+            let edges: BTreeSet<[u32; 2]> = mesh.triangles.iter()
                 .flat_map(|t| [[t[0], t[1]], [t[1], t[2]], [t[2], t[0]]])
                 .map(|[a, b]| [a.min(b), a.max(b)])
                 .collect();
@@ -385,7 +390,7 @@ mod tests {
     fn the_fine_margin_is_close() {
         for shape in Shape::ALL {
             let blade = shape.draw(512, 7).expect("the size is allowed").blade;
-            let unit = (area_of(&blade.outline) as f32).sqrt();
+            let unit = single(area_of(&blade.outline)).sqrt();
             let (margin, _) = margin(&blade, Detail::Fine, unit).expect("a simple outline");
             let far = |p: &Vec2| {
                 let next = margin.iter().cycle().skip(1);

@@ -160,10 +160,10 @@ impl ContourGuided {
         let (fewest, most) = self.habit.lateral_pairs;
         let pairs = rng.integer(fewest.min(most), most.max(fewest)) as f32 * share;
         let mut plans = match self.habit.targets {
-            LateralTargets::Lobes(size) => self.to_lobes(draft, main, side, size, margin, rng),
-            LateralTargets::Even => self.to_stations(draft, main, side, pairs, None, margin, rng),
+            LateralTargets::Lobes(size) => self.lobe_plans(draft, main, side, size, margin, rng),
+            LateralTargets::Even => self.station_plans(draft, main, side, pairs, None, margin, rng),
             LateralTargets::Teeth(size) => {
-                self.to_stations(draft, main, side, pairs, Some(size), margin, rng)
+                self.station_plans(draft, main, side, pairs, Some(size), margin, rng)
             }
         };
         plans.sort_by_key(|(station, _)| *station);
@@ -188,7 +188,7 @@ impl ContourGuided {
 
     /// Evenly spaced stations, each with where its angle leads, or the strongest tooth near there.
     #[expect(clippy::too_many_arguments, reason = "one step of `laterals`, split off for reading")]
-    fn to_stations(
+    fn station_plans(
         &self,
         draft: &Draft<'_>,
         main: &Path,
@@ -245,7 +245,7 @@ impl ContourGuided {
     }
 
     /// One lateral to each lobe of the side, from where its angle fits best, and finer ones between.
-    fn to_lobes(
+    fn lobe_plans(
         &self,
         draft: &Draft<'_>,
         main: &Path,

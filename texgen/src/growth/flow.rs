@@ -62,10 +62,9 @@ pub(crate) fn rank(draft: &mut Draft<'_>, lowest: u8) {
     let flow = flows(draft);
     let mut heir: Vec<Option<usize>> = vec![None; draft.nodes.len()];
     for (index, sprout) in draft.nodes.iter().enumerate() {
-        if let Some(parent) = sprout.parent.map(|p| p as usize) {
-            if heir[parent].is_none_or(|other| flow[index] > flow[other]) {
-                heir[parent] = Some(index);
-            }
+        let Some(parent) = sprout.parent.map(|p| p as usize) else { continue };
+        if heir[parent].is_none_or(|other| flow[index] > flow[other]) {
+            heir[parent] = Some(index);
         }
     }
     for index in 1..draft.nodes.len() {

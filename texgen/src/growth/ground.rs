@@ -198,7 +198,8 @@ mod tests {
     fn blade(rows: &[&str]) -> Blade {
         let width = rows[0].len();
         let inside = rows.iter().flat_map(|row| row.bytes().map(|b| b == b'#')).collect();
-        let mask = Mask { width: width as u32, height: rows.len() as u32, inside };
+        let side = |x: usize| u32::try_from(x).expect("a small mask");
+        let mask = Mask { width: side(width), height: side(rows.len()), inside };
         let outline = vec![Vec2::ZERO, Vec2::X, Vec2::Y];
         Blade { mask, outline, root: Vec2::new(1.5, 1.5), tip: Vec2::new(8.0, 1.0), confidence: 1.0 }
     }

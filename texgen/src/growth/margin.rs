@@ -9,7 +9,7 @@ use crate::math::path_length;
 use crate::spline::resample;
 
 /// Samples around the margin.
-const SAMPLES: usize = 720;
+const SAMPLES: u16 = 720;
 
 /// A margin in evenly spaced points.
 pub(crate) struct Margin {
@@ -28,9 +28,9 @@ impl Margin {
     pub(crate) fn new(outline: &[Vec2], ground: &Ground) -> Self {
         let mut closed = outline.to_vec();
         closed.push(outline[0]);
-        let spacing = path_length(&closed) / SAMPLES as f32;
-        let mut even = resample(&closed, SAMPLES as u16);
-        even.truncate(SAMPLES);
+        let spacing = path_length(&closed) / f32::from(SAMPLES);
+        let mut even = resample(&closed, SAMPLES);
+        even.truncate(usize::from(SAMPLES));
         let area: f32 = even.iter().zip(even.iter().cycle().skip(1)).map(|(a, b)| a.perp_dot(*b)).sum();
         let turn = if area < 0.0 { -1.0 } else { 1.0 };
         let inset = 0.005 * ground.unit;

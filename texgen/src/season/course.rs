@@ -59,10 +59,10 @@ impl Senescence {
             carotenoid_left: 0.35,
         };
         match shape {
-            Shape::Maple => Self { summer: green(42.0, 8.0), reddening: 3.4, dry_brown: 1.2, ..base },
+            Shape::Maple => Self { summer: green(42.0, 8.0), reddening: 2.6, dry_brown: 1.2, ..base },
             Shape::JapaneseMaple => Self {
                 summer: green(34.0, 8.0),
-                reddening: 3.4,
+                reddening: 2.6,
                 starts_below_h: 12.2,
                 dry_brown: 0.9,
                 ..base
@@ -77,7 +77,7 @@ impl Senescence {
                 dry_brown: 2.4,
                 ..base
             },
-            Shape::Birch => Self { summer: green(36.0, 6.5), starts_below_h: 13.2, dry_brown: 1.0, ..base },
+            Shape::Birch => Self { summer: green(36.0, 8.5), starts_below_h: 13.2, dry_brown: 1.0, ..base },
             Shape::Beech => Self {
                 summer: green(44.0, 10.0),
                 reddening: 1.0,
@@ -86,14 +86,14 @@ impl Senescence {
                 dry_brown: 1.7,
                 ..base
             },
-            Shape::Hornbeam => Self { summer: green(40.0, 6.0), dry_brown: 1.1, ..base },
+            Shape::Hornbeam => Self { summer: green(40.0, 7.5), dry_brown: 1.1, ..base },
             Shape::Linden => Self { summer: green(38.0, 6.0), starts_below_h: 13.0, dry_brown: 1.3, ..base },
             Shape::Ginkgo => Self {
                 summer: green(32.0, 9.0),
                 starts_below_h: 11.9,
                 loss: 0.26,
                 browning: 0.07,
-                dry_brown: 0.4,
+                dry_brown: 0.85,
                 carotenoid_left: 0.75,
                 ..base
             },
@@ -234,7 +234,7 @@ mod tests {
                 "{shape:?} is yellow at 0.5"
             );
             assert!(
-                course.pigments(1.0).brown > 0.9 * Senescence::of(shape).dry_brown as f32,
+                f64::from(course.pigments(1.0).brown) > 0.9 * Senescence::of(shape).dry_brown,
                 "{shape:?} ends dry"
             );
         }

@@ -171,14 +171,13 @@ mod tests {
                     (crate::season::prospect::Wavelength::new(nm).spectrum(&leaf).0 - number(i)).abs()
                 })
                 .fold(0.0, f64::max);
-            println!("{:14} colour off by {far:.2} (CIE76), reflectance by at most {off:.4}", fields[0]);
-            assert!(off < 0.025, "{}: reflectance off by {off}", fields[0]);
+            assert!(off < 0.005, "{}: reflectance off by {off}", fields[0]);
             worst = worst.max(far);
             sum += far;
             cases += 1.0;
         }
-        println!("mean {:.2}, worst {worst:.2}", sum / cases);
-        assert!(worst < 2.5, "worst colour difference is {worst}");
+        assert!(worst < 0.6, "worst colour difference (CIE76) is {worst}");
+        assert!(sum / cases < 0.3, "mean colour difference is {}", sum / cases);
     }
 
     /// CIE Lab of linear sRGB.
