@@ -1,123 +1,120 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! CIE Lab colours (D65) and their differences.
+//! CIE 1976 L\*a\*b\* under D65: the space in which colours are measured, mixed and matched.
 
-/// White point of sRGB: D65 for the 2° observer.
-const WHITE: [f32; 3] = [0.950_47, 1.0, 1.088_83];
+use crate::math::{linear_from_srgb, srgb_from_linear};
 
-/// A colour as lightness L (0 to 100), a (green to red) and b (blue to yellow).
+/// Lightness 0 to 100 and the two opponent axes.
 pub(crate) type Lab = [f32; 3];
 
-/// Lab colours of sRGB bytes, with the transfer curve tabulated once.
-pub(crate) struct FromSrgb {
-    linear: [f32; 256],
+/// White of D65 for the 2 degree observer.
+const WHITE: [f32; 3] = [0.950_47, 1.0, 1.088_83];
+/// Where the cube root gives way to a line: (6/29)^3.
+const LINEAR_BELOW: f32 = 216.0 / 24389.0;
+
+/// Lab of an sRGB colour.
+pub(crate) fn from_srgb(rgb: [u8; 3]) -> Lab {
+    from_linear(rgb.map(linear_from_srgb))
 }
 
-impl FromSrgb {
-    /// Prepares the table.
-    pub(crate) fn new() -> Self {
-        let level = |i: usize| {
-            let x = i as f32 / 255.0;
-            if x <= 0.040_45 { x / 12.92 } else { libm::powf((x + 0.055) / 1.055, 2.4) }
-        };
-        Self { linear: std::array::from_fn(level) }
-    }
-
-    /// Lab of a pixel.
-    pub(crate) fn lab(&self, rgb: [u8; 3]) -> Lab {
-        let [r, g, b] = rgb.map(|byte| self.linear[usize::from(byte)]);
-        // IEC 61966-2-1.
-        let x = 0.412_456_4 * r + 0.357_576_1 * g + 0.180_437_5 * b;
-        let y = 0.212_672_9 * r + 0.715_152_2 * g + 0.072_175 * b;
-        let z = 0.019_333_9 * r + 0.119_192 * g + 0.950_304_1 * b;
-        let [fx, fy, fz] = [x / WHITE[0], y / WHITE[1], z / WHITE[2]].map(response);
-        [116.0 * fy - 16.0, 500.0 * (fx - fy), 200.0 * (fy - fz)]
-    }
-}
-
-/// The cube root of CIE Lab with its straight foot.
-fn response(t: f32) -> f32 {
-    if t > 216.0 / 24_389.0 { libm::cbrtf(t) } else { (24_389.0 / 27.0 * t + 16.0) / 116.0 }
-}
-
-/// Colour difference CIEDE2000 with unit weights.
-///
-/// # Source
-/// Sharma, Wu and Dalal 2005, "The CIEDE2000 color-difference formula", eq. 2 to 22.
-pub(crate) fn delta_e2000(first: Lab, second: Lab) -> f32 {
-    let [l1, a1, b1] = first.map(f64::from);
-    let [l2, a2, b2] = second.map(f64::from);
-    let seventh = |c: f64| (libm::pow(c, 7.0) / (libm::pow(c, 7.0) + 6_103_515_625.0)).sqrt();
-    let chroma = |a: f64, b: f64| (a * a + b * b).sqrt();
-    let g = 0.5 * (1.0 - seventh((chroma(a1, b1) + chroma(a2, b2)) / 2.0));
-    let (a1, a2) = (a1 * (1.0 + g), a2 * (1.0 + g));
-    let (c1, c2) = (chroma(a1, b1), chroma(a2, b2));
-    let hue = |a: f64, b: f64| {
-        if a == 0.0 && b == 0.0 { 0.0 } else { libm::atan2(b, a).to_degrees().rem_euclid(360.0) }
+/// Lab of linear sRGB light (IEC 61966-2-1).
+pub(crate) fn from_linear([r, g, b]: [f32; 3]) -> Lab {
+    let xyz = [
+        0.412_456_4 * r + 0.357_576_1 * g + 0.180_437_5 * b,
+        0.212_672_9 * r + 0.715_152_2 * g + 0.072_175 * b,
+        0.019_333_9 * r + 0.119_192 * g + 0.950_304_1 * b,
+    ];
+    let f = |t: f32| {
+        if t > LINEAR_BELOW { libm::cbrtf(t) } else { t * (841.0 / 108.0) + 4.0 / 29.0 }
     };
-    let (h1, h2) = (hue(a1, b1), hue(a2, b2));
-    let grey = c1 * c2 == 0.0;
-    let turn = if grey { 0.0 } else { (h2 - h1 + 180.0).rem_euclid(360.0) - 180.0 };
-    // At exactly opposite hues the sign of the turn is a convention: half a turn forward.
-    let turn = if turn == -180.0 && h2 > h1 { 180.0 } else { turn };
-    let (dl, dc) = (l2 - l1, c2 - c1);
-    let dh = 2.0 * (c1 * c2).sqrt() * libm::sin((turn / 2.0).to_radians());
-    let (l, c) = ((l1 + l2) / 2.0, (c1 + c2) / 2.0);
-    let h = match () {
-        () if grey => h1 + h2,
-        () if (h1 - h2).abs() <= 180.0 => (h1 + h2) / 2.0,
-        () if h1 + h2 < 360.0 => (h1 + h2 + 360.0) / 2.0,
-        () => (h1 + h2 - 360.0) / 2.0,
+    let [x, y, z] = [0, 1, 2].map(|i| f(xyz[i] / WHITE[i]));
+    [116.0 * y - 16.0, 500.0 * (x - y), 200.0 * (y - z)]
+}
+
+/// sRGB of a Lab colour; what no screen can show is clipped channel by channel.
+pub(crate) fn to_srgb([l, a, b]: Lab) -> [u8; 3] {
+    let y = (l + 16.0) / 116.0;
+    let inverse = |t: f32| {
+        if t > 6.0 / 29.0 { t * t * t } else { (t - 4.0 / 29.0) * (108.0 / 841.0) }
     };
-    let cosine = |degrees: f64| libm::cos(degrees.to_radians());
-    let t = 1.0 - 0.17 * cosine(h - 30.0) + 0.24 * cosine(2.0 * h) + 0.32 * cosine(3.0 * h + 6.0)
-        - 0.20 * cosine(4.0 * h - 63.0);
-    let bend = 60.0 * libm::exp(-((h - 275.0) / 25.0) * ((h - 275.0) / 25.0));
-    let off = (l - 50.0) * (l - 50.0);
-    let sl = 1.0 + 0.015 * off / (20.0 + off).sqrt();
-    let (sc, sh) = (1.0 + 0.045 * c, 1.0 + 0.015 * c * t);
-    let rotation = -libm::sin(bend.to_radians()) * 2.0 * seventh(c);
-    let (x, y, z) = (dl / sl, dc / sc, dh / sh);
-    #[expect(clippy::cast_possible_truncation, reason = "a small number")]
-    let difference = (x * x + y * y + z * z + rotation * y * z).max(0.0).sqrt() as f32;
-    difference
+    let [x, y, z] =
+        [inverse(y + a / 500.0) * WHITE[0], inverse(y) * WHITE[1], inverse(y - b / 200.0) * WHITE[2]];
+    let rgb = [
+        3.240_454_2 * x - 1.537_138_5 * y - 0.498_531_4 * z,
+        -0.969_266 * x + 1.876_010_8 * y + 0.041_556 * z,
+        0.055_643_4 * x - 0.204_025_9 * y + 1.057_225_2 * z,
+    ];
+    rgb.map(srgb_from_linear)
+}
+
+/// Sum of two colours.
+pub(crate) fn add(a: Lab, b: Lab) -> Lab {
+    std::array::from_fn(|i| a[i] + b[i])
+}
+
+/// Difference of two colours.
+pub(crate) fn sub(a: Lab, b: Lab) -> Lab {
+    std::array::from_fn(|i| a[i] - b[i])
+}
+
+/// A colour times a number.
+pub(crate) fn scale(a: Lab, factor: f32) -> Lab {
+    a.map(|x| x * factor)
+}
+
+/// Squared Euclidean distance.
+pub(crate) fn distance_squared(a: Lab, b: Lab) -> f32 {
+    (0..3).map(|i| (a[i] - b[i]) * (a[i] - b[i])).sum()
+}
+
+/// Mean of colours; zero of none.
+pub(crate) fn mean(colours: impl Iterator<Item = Lab>) -> Lab {
+    let (mut sum, mut count) = ([0.0_f64; 3], 0.0_f64);
+    for colour in colours {
+        for (total, value) in sum.iter_mut().zip(colour) {
+            *total += f64::from(value);
+        }
+        count += 1.0;
+    }
+    #[expect(clippy::cast_possible_truncation, reason = "a mean of single precision values is one")]
+    let mean = sum.map(|total| (total / count.max(1.0)) as f32);
+    mean
+}
+
+/// Standard deviation of colours about their mean, channel by channel.
+pub(crate) fn deviation(mean: Lab, colours: impl Iterator<Item = Lab>) -> Lab {
+    let (mut sum, mut count) = ([0.0_f64; 3], 0.0_f64);
+    for colour in colours {
+        for channel in 0..3 {
+            let offset = f64::from(colour[channel] - mean[channel]);
+            sum[channel] += offset * offset;
+        }
+        count += 1.0;
+    }
+    #[expect(clippy::cast_possible_truncation, reason = "a deviation of single precision values is one")]
+    let deviation = sum.map(|sum| (sum / count.max(1.0)).sqrt() as f32);
+    deviation
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use proptest::prelude::{any, prop_assert, proptest};
 
     #[test]
-    fn white_black_and_red() {
-        let table = FromSrgb::new();
-        let near = |rgb, expected: Lab| {
-            let found = table.lab(rgb);
-            let off = found.iter().zip(&expected).map(|(a, b)| (a - b).abs()).fold(0.0, f32::max);
-            assert!(off < 0.02, "{rgb:?}: {found:?}, expected {expected:?}");
-        };
-        near([255; 3], [100.0, 0.0, 0.0]);
-        near([0; 3], [0.0; 3]);
-        near([255, 0, 0], [53.24, 80.09, 67.20]);
+    fn known_colours() {
+        let near = |a: Lab, b: Lab| distance_squared(a, b).sqrt() < 0.02;
+        assert!(near(from_srgb([255; 3]), [100.0, 0.0, 0.0]), "{:?}", from_srgb([255; 3]));
+        assert!(near(from_srgb([255, 0, 0]), [53.24, 80.09, 67.20]), "{:?}", from_srgb([255, 0, 0]));
+        assert!(near(from_srgb([0, 128, 0]), [46.23, -51.70, 49.90]), "{:?}", from_srgb([0, 128, 0]));
     }
 
-    /// Pairs 1, 4, 7, 9, 17, 20 and 25 of table 1 in Sharma, Wu and Dalal 2005.
-    #[test]
-    fn published_pairs() {
-        let pairs: [(Lab, Lab, f32); 7] = [
-            ([50.0, 2.6772, -79.7751], [50.0, 0.0, -82.7485], 2.0425),
-            ([50.0, -1.3802, -84.2814], [50.0, 0.0, -82.7485], 1.0000),
-            ([50.0, 0.0, 0.0], [50.0, -1.0, 2.0], 2.3669),
-            ([50.0, 2.49, -0.001], [50.0, -2.49, 0.0009], 7.1792),
-            ([50.0, 2.5, 0.0], [73.0, 25.0, -18.0], 27.1492),
-            ([50.0, 2.5, 0.0], [58.0, 24.0, 15.0], 19.4535),
-            ([60.2574, -34.0099, 36.2677], [60.4626, -34.1751, 39.4387], 1.2644),
-        ];
-        for (first, second, expected) in pairs {
-            for found in [delta_e2000(first, second), delta_e2000(second, first)] {
-                assert!(
-                    (found - expected).abs() < 2e-4,
-                    "{first:?} {second:?}: {found}, expected {expected}"
-                );
+    proptest! {
+        #[test]
+        fn bytes_survive(rgb in any::<[u8; 3]>()) {
+            let back = to_srgb(from_srgb(rgb));
+            for (a, b) in rgb.into_iter().zip(back) {
+                prop_assert!(a.abs_diff(b) <= 1, "{rgb:?} became {back:?}");
             }
         }
     }

@@ -3,7 +3,8 @@
 //! Colours of a blade: their mean and their distribution.
 
 use super::portrait::Portrait;
-use crate::lab::{Lab, delta_e2000};
+use super::difference::delta_e2000;
+use crate::lab::Lab;
 
 /// Directions onto which colours are projected.
 const DIRECTIONS: usize = 64;

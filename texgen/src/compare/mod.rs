@@ -8,6 +8,7 @@
 //! leaves; they do not certify good ones, so there is a [`sheet`] to look at too.
 
 mod colour;
+mod difference;
 mod folder;
 mod levels;
 mod metric;

@@ -7,7 +7,7 @@ use image::{RgbImage, imageops};
 
 use crate::distance::nearest_seeds;
 use crate::extract::petiole::depth;
-use crate::lab::{FromSrgb, Lab};
+use crate::lab::{self, Lab};
 use crate::math::floor_i32;
 use crate::{Blade, Mask, Specimen};
 
@@ -40,7 +40,6 @@ impl Portrait {
         let scaled = imageops::resize(&cut, width, height, imageops::FilterType::Triangle);
 
         let mut mask = Mask::empty(width + 2, height + 2);
-        let table = FromSrgb::new();
         let mut colours = Vec::with_capacity(mask.inside.len());
         let ratio = Vec2::new(cut.width() as f32 / width as f32, cut.height() as f32 / height as f32);
         for (i, inside) in mask.inside.iter_mut().enumerate() {
@@ -52,7 +51,7 @@ impl Portrait {
                 floor_i32(at.x).unsigned_abs().min(width - 1),
                 floor_i32(at.y).unsigned_abs().min(height - 1),
             );
-            colours.push(table.lab(scaled.get_pixel(x, y).0));
+            colours.push(lab::from_srgb(scaled.get_pixel(x, y).0));
         }
         let depth = depth(&mask);
         Self { mask, depth, colours, side, axis: axis(blade) }

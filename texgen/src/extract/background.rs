@@ -10,7 +10,7 @@ use image::RgbImage;
 
 use crate::Mask;
 use crate::field::{Field, quantile};
-use crate::lab::{FromSrgb, Lab};
+use crate::lab::{self, Lab};
 use crate::math::floor_i32;
 
 /// The shorter side by this is the width of the picture's edge.
@@ -27,8 +27,7 @@ const LEVELS: usize = 128;
 /// Finds what stands out from the background; `None` if nothing does.
 pub(super) fn leaf_mask(picture: &RgbImage) -> Option<Mask> {
     let (width, height) = (picture.width() as usize, picture.height() as usize);
-    let table = FromSrgb::new();
-    let colours: Vec<Lab> = picture.pixels().map(|pixel| table.lab(pixel.0)).collect();
+    let colours: Vec<Lab> = picture.pixels().map(|pixel| lab::from_srgb(pixel.0)).collect();
     let place = |i: usize| {
         let (x, y) = ((i % width) as f32 / width as f32, (i / width) as f32 / height as f32);
         [1.0, f64::from(x) - 0.5, f64::from(y) - 0.5]

@@ -14,7 +14,7 @@ use super::outline::outline;
 use super::petiole::Petiole;
 use super::{background, load, petiole, veins};
 use crate::field::Field;
-use crate::lab::FromSrgb;
+use crate::lab;
 use crate::{Blade, Mask, Specimen, TexgenError};
 
 /// Longest side that is worked on; larger photos are scaled down to it.
@@ -188,11 +188,10 @@ pub(crate) fn cut_out(
         let area = mask.area();
         return Err(format!("the leaf has {area} pixels, allowed: at least {LEAST_AREA} that hang together"));
     }
-    let table = FromSrgb::new();
     let lightness = Field {
         width: colours.width() as usize,
         height: colours.height() as usize,
-        values: colours.pixels().map(|pixel| table.lab(pixel.0)[0]).collect(),
+        values: colours.pixels().map(|pixel| lab::from_srgb(pixel.0)[0]).collect(),
     };
     let (stalk, blade, close_up) = find_ends(&lightness, mask, root);
     let veins = veins::trace(&close_up, &blade);

@@ -4,11 +4,11 @@
 
 use glam::Vec2;
 
-use crate::extract::divergence::divergences;
+use super::habit::habit_of;
 use crate::form::Drying;
-use crate::growth::{Habit, Layout, SpeciesVeins};
+use crate::growth::{Habit, SpeciesVeins};
 use crate::maps::PetioleColour;
-use crate::synthesis::lab;
+use crate::lab;
 use crate::{Blade, DrawnLeaf, Extraction, OutlineModel, Shape, Specimen, TexgenError};
 
 /// How a maker draws its outlines and veins.
@@ -75,47 +75,6 @@ fn shape_name(shape: Shape) -> &'static str {
         Shape::Hornbeam => "hornbeam",
         Shape::Linden => "linden",
         Shape::Ginkgo => "ginkgo",
-    }
-}
-
-/// How the veins of examples run, as far as their graphs tell.
-pub(super) fn habit_of(examples: &[Specimen]) -> Habit {
-    let base = Habit::default();
-    let (mut mains, mut pairs, mut angles) = (0.0_f32, Vec::new(), Vec::new());
-    for example in examples {
-        let nodes = &example.veins.nodes;
-        let parent = |i: usize| nodes[i].parent.and_then(|parent| nodes.get(parent as usize));
-        let mut laterals = 0_u32;
-        for (i, node) in nodes.iter().enumerate() {
-            let Some(from) = parent(i) else { continue };
-            if node.order == 2 && from.order <= 1 {
-                laterals += 1;
-            }
-        }
-        angles.extend(divergences(&example.veins));
-        let ends = (0..nodes.len())
-            .filter(|&i| nodes[i].order <= 1)
-            .filter(|&i| {
-                !nodes
-                    .iter()
-                    .any(|other| other.order <= 1 && other.parent.is_some_and(|parent| parent as usize == i))
-            })
-            .count();
-        mains += ends as f32;
-        pairs.push(laterals / 2);
-    }
-    mains /= examples.len().max(1) as f32;
-    angles.sort_by(f32::total_cmp);
-    let divergence = angles.get(angles.len() / 2).copied().unwrap_or(base.divergence_deg).clamp(35.0, 60.0);
-    if mains >= 2.5 {
-        return Habit { divergence_deg: divergence, ..Habit::of(Shape::Maple) };
-    }
-    let (low, high) = (pairs.iter().min().copied().unwrap_or(5), pairs.iter().max().copied().unwrap_or(8));
-    Habit {
-        layout: Layout::Pinnate,
-        lateral_pairs: (low.clamp(3, 16), high.clamp(4, 18)),
-        divergence_deg: divergence,
-        ..base
     }
 }
 

@@ -4,6 +4,7 @@
 
 mod assortment;
 mod facts;
+mod habit;
 mod manner;
 
 use crate::maps::{Dressed, PetioleColour};

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Colour of the petiole and of the ribs that it runs into.
 
-use crate::synthesis::lab;
+use crate::lab;
 
 /// Where a pixel lies on the petiole.
 #[derive(Clone, Copy, Debug, Default)]

@@ -3,7 +3,7 @@
 //! Chooses for every region of the target a region of an example, and for every superpixel one of that region.
 
 use super::exemplar::{Exemplar, Region, describe_regions};
-use super::lab::{self, Lab};
+use crate::lab::{self, Lab};
 use super::structure::{Place, Structure};
 use crate::rng::Rng;
 

@@ -10,7 +10,7 @@ use glam::Vec2;
 
 use super::choose::Match;
 use super::exemplar::Exemplar;
-use super::lab::{self, Lab};
+use crate::lab::{self, Lab};
 use super::plane::Plane;
 use super::structure::Structure;
 use crate::math::floor_i32;

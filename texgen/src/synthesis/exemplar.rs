@@ -3,7 +3,7 @@
 //! An example leaf taken apart: colours of its superpixels, its fine detail, its veins.
 
 use super::detail::{PATCH, SourceBins};
-use super::lab::{self, Lab};
+use crate::lab::{self, Lab};
 use super::nearest::nearest_seed;
 use super::plane::Plane;
 use super::smooth::{local_mean, smooth};

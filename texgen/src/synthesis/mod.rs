@@ -10,7 +10,6 @@
 mod choose;
 mod detail;
 mod exemplar;
-pub(crate) mod lab;
 pub(crate) mod nearest;
 pub(crate) mod plane;
 mod regions;
@@ -28,12 +27,12 @@ mod vein_profile;
 use glam::Vec2;
 use image::RgbImage;
 
+use crate::lab::{self, Lab};
 use crate::rng::Rng;
 use crate::{Blade, Specimen, TexgenError, VeinGraph};
 use choose::{choose_levels, draw_shares, match_regions};
 use detail::{Layer, match_spread, quilt};
 use exemplar::{Exemplar, paint_level};
-use lab::Lab;
 use nearest::nearest_seed;
 use plane::Plane;
 use smooth::smooth;

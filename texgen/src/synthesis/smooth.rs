@@ -3,7 +3,7 @@
 //! Blends the flat colours of superpixels: minimises Σ‖x_i − x'_i‖² + Σ w_ij ‖x_i − x_j‖² over neighbouring pixels
 //! (equation 2 of the source with the squares that its equation 3 follows from).
 
-use super::lab::Lab;
+use crate::lab::Lab;
 use super::structure::Structure;
 use crate::math::floor_i32;
 

@@ -5,7 +5,7 @@
 
 use glam::Vec2;
 
-use super::lab::Lab;
+use crate::lab::Lab;
 use super::plane::Plane;
 use crate::{VeinGraph, VeinNode};
 

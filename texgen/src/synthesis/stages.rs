@@ -4,7 +4,7 @@
 
 use image::{Rgb, RgbImage};
 
-use super::lab::{self, Lab};
+use crate::lab::{self, Lab};
 use super::plane::Plane;
 use super::regions::OUTSIDE;
 use super::structure::Structure;

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! How veins differ from the tissue beside them: measured on an example, painted on a target.
 
-use super::lab::{self, Lab};
+use crate::lab::{self, Lab};
 use super::smooth::local_mean;
 use super::structure::Structure;
 use super::vein_field::VeinSpot;

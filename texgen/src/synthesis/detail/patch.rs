@@ -5,7 +5,7 @@
 use glam::Vec2;
 
 use super::seam::{columns_cut, rows_cut};
-use crate::synthesis::lab::{self, Lab};
+use crate::lab::{self, Lab};
 use crate::synthesis::plane::Plane;
 
 /// Pixels over which one patch fades into the next.
