@@ -20,7 +20,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     };
     let out = PathBuf::from(out);
     std::fs::create_dir_all(&out)?;
-    let options = MakeOptions { size_px: size.parse()?, season: season.parse()?, seed: 1 };
+    let options = MakeOptions { size_px: size.parse()?, season: Some(season.parse()?), seed: 1 };
     let shape = match shape.as_str() {
         "-" => None,
         index => Some(*Shape::ALL.get(index.parse::<usize>()?).ok_or(usage)?),

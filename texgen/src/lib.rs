@@ -59,7 +59,7 @@ pub use folder::{
     FOLDER_VERSION, FolderError, FolderLeaf, FormLevel, FormShape, LeafFacts, LeafFolder, LeafForm,
     MANIFEST_NAME, Manifest,
 };
-pub use making::{Assortment, Build, LeafMaker, MadeLeaf, MakeOptions};
+pub use making::{Assortment, Build, LeafMaker, MadeLeaf, MakeOptions, RECIPE};
 pub use maps::LeafMaps;
 pub use outline_model::OutlineModel;
 pub use shape::Shape;

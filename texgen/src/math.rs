@@ -68,6 +68,11 @@ pub(crate) fn linear_from_srgb(byte: u8) -> f32 {
     LINEAR[usize::from(byte)]
 }
 
+/// Luminance of linear sRGB light.
+pub(crate) fn luminance([r, g, b]: [f32; 3]) -> f32 {
+    0.2126 * r + 0.7152 * g + 0.0722 * b
+}
+
 /// Length of a polyline.
 pub(crate) fn path_length(points: &[Vec2]) -> f32 {
     points.windows(2).map(|pair| pair[0].distance(pair[1])).sum()

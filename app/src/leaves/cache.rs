@@ -9,7 +9,7 @@ use std::time::Duration;
 
 use directories::ProjectDirs;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use windfall_texgen::{Assortment, FOLDER_VERSION, LeafFolder};
+use windfall_texgen::{Assortment, FOLDER_VERSION, LeafFolder, RECIPE};
 
 /// The leaves of an assortment from the cache, or made now and put there.
 ///
@@ -48,9 +48,9 @@ fn directory() -> Option<PathBuf> {
     Some(ProjectDirs::from("", "", "windfall")?.cache_dir().join("leaves"))
 }
 
-/// Name of an assortment's folder: other leaves, another format or another release have another.
+/// Name of an assortment's folder: other leaves, another format, recipe or release have another.
 fn key(assortment: &Assortment) -> String {
-    let text = format!("{assortment:?} {FOLDER_VERSION} {}", env!("CARGO_PKG_VERSION"));
+    let text = format!("{assortment:?} {FOLDER_VERSION} {RECIPE} {}", env!("CARGO_PKG_VERSION"));
     // FNV-1a: stable from release to release of the compiler, unlike the standard library's.
     let mut hash = 0xcbf2_9ce4_8422_2325_u64;
     for byte in text.bytes() {

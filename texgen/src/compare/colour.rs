@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Colours of a blade: their mean and their distribution.
 
-use super::portrait::Portrait;
 use super::difference::delta_e2000;
+use super::portrait::Portrait;
 use crate::lab::Lab;
 
 /// Directions onto which colours are projected.

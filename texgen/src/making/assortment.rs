@@ -45,7 +45,11 @@ impl Assortment {
             let season = lerp(self.season.0, self.season.1, t);
             LeafMaker::of_shape(
                 self.shape,
-                MakeOptions { size_px: self.size_px, season, seed: self.seed ^ u64::from(step) },
+                MakeOptions {
+                    size_px: self.size_px,
+                    season: Some(season),
+                    seed: self.seed ^ u64::from(step),
+                },
             )
         };
         let makers =

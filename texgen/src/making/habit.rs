@@ -10,30 +10,34 @@ use crate::{Shape, Specimen, VeinGraph};
 
 /// Fewest main veins, on the mean of the examples, of a palmate leaf.
 const PALMATE: f32 = 2.5;
+/// Angles in degrees at which laterals leave a main vein; other ways follow something else than a vein.
+const LATERAL: (f32, f32) = (25.0, 70.0);
 /// Divergences in degrees that veins are grown with.
 const DIVERGENCE: (f32, f32) = (35.0, 60.0);
-/// A blade that fills less of its convex hull than this has lobes. Toothed and wavy blades fill 0.93 and more.
-const LOBED: f32 = 0.88;
+/// A blade that fills less of its convex hull than this has lobes. Toothed and wavy blades fill 0.92 and more.
+const LOBED: f32 = 0.9;
 
 /// How the veins of examples run, as far as their graphs and outlines tell.
 pub(super) fn habit_of(examples: &[Specimen]) -> Habit {
     let base = Habit::default();
     let count = examples.len().max(1) as f32;
     let per_example: Vec<Vec<f32>> = examples.iter().map(|example| divergences(&example.veins)).collect();
-    let mut angles: Vec<f32> = per_example.iter().flatten().copied().collect();
+    let plausible = |angle: &f32| (LATERAL.0..=LATERAL.1).contains(angle);
+    let mut angles: Vec<f32> = per_example.iter().flatten().copied().filter(plausible).collect();
     angles.sort_by(f32::total_cmp);
     let (least, most) = DIVERGENCE;
     let divergence_deg =
         angles.get(angles.len() / 2).copied().unwrap_or(base.divergence_deg).clamp(least, most);
     let mains = examples.iter().map(|example| main_veins(&example.veins)).sum::<f32>() / count;
     if mains >= PALMATE {
-        return Habit { divergence_deg, ..Habit::of(Shape::Maple) };
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a handful")]
+        let most = mains.round().min(11.0) as u32;
+        return Habit { layout: Layout::Palmate(most), divergence_deg, ..Habit::of(Shape::Maple) };
     }
     // Short ways near base and tip are less sure to be veins than the long ones that angles are taken from.
     let pairs = || per_example.iter().map(|angles| u32::try_from(angles.len() / 2).unwrap_or(u32::MAX));
     let (fewest, most) = (pairs().min().unwrap_or(5), pairs().max().unwrap_or(8));
     let fullness = examples.iter().map(|example| fullness(&example.blade.outline)).sum::<f32>() / count;
-    eprintln!("{per_example:?} {mains} {fullness}");
     Habit {
         layout: Layout::Pinnate,
         lateral_pairs: (fewest.clamp(3, 16), most.clamp(4, 18)),

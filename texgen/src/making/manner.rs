@@ -7,8 +7,8 @@ use glam::Vec2;
 use super::habit::habit_of;
 use crate::form::Drying;
 use crate::growth::{Habit, SpeciesVeins};
-use crate::maps::PetioleColour;
 use crate::lab;
+use crate::maps::PetioleColour;
 use crate::{Blade, DrawnLeaf, Extraction, OutlineModel, Shape, Specimen, TexgenError};
 
 /// How a maker draws its outlines and veins.

@@ -6,7 +6,7 @@ use std::time::Instant;
 use super::*;
 use crate::Photo;
 
-const SMALL: MakeOptions = MakeOptions { size_px: 64, season: 0.4, seed: 9 };
+const SMALL: MakeOptions = MakeOptions { size_px: 64, season: Some(0.4), seed: 9 };
 
 #[test]
 fn every_shape_can_be_made() {
@@ -29,8 +29,8 @@ fn options_are_checked() {
     for options in [
         MakeOptions { size_px: 100, ..SMALL },
         MakeOptions { size_px: 32, ..SMALL },
-        MakeOptions { season: 1.2, ..SMALL },
-        MakeOptions { season: f32::NAN, ..SMALL },
+        MakeOptions { season: Some(1.2), ..SMALL },
+        MakeOptions { season: Some(f32::NAN), ..SMALL },
     ] {
         let refused = LeafMaker::of_shape(Shape::Oak, options);
         assert!(matches!(refused, Err(TexgenError::OutOfRange { .. })), "{options:?} must be refused");
@@ -51,7 +51,7 @@ fn a_large_leaf_takes_less_than_five_seconds() {
     };
     let photos = ["01", "02", "03"].map(read);
     let seconds = [512, 1024, 2048].map(|size_px| {
-        let options = MakeOptions { size_px, ..SMALL };
+        let options = MakeOptions { size_px, season: None, ..SMALL };
         let maker = LeafMaker::of_photos(&photos, Some(Shape::Hornbeam), options).expect("examples");
         let start = Instant::now();
         maker.make(0, false).expect("a leaf");

@@ -42,6 +42,8 @@ pub(crate) struct Dressed<'a> {
     pub(crate) colour: &'a RgbImage,
     /// Colour of the petiole.
     pub(crate) stem: PetioleColour,
+    /// Light that passes through the blade for each unit of light that it shows.
+    pub(crate) clearness: f32,
 }
 
 impl LeafMaps {
@@ -86,7 +88,7 @@ impl LeafMaps {
             GrayImage::from_fn(width, height, |x, y| Luma([to_byte(relief.height_share(at(x, y)))]));
         let translucency = GrayImage::from_fn(width, height, |x, y| {
             let [r, g, b, _] = albedo.get_pixel(x, y).0;
-            let through = translucency::transmittance([r, g, b], relief.thickness[at(x, y)]);
+            let through = translucency::transmittance([r, g, b], leaf.clearness, relief.thickness[at(x, y)]);
             Luma([to_byte(through)])
         });
         let mask =

@@ -7,8 +7,8 @@ use glam::{Vec2, Vec3};
 
 use super::Dressed;
 use super::petiole::StemSpot;
-use crate::math::{floor_i32, segment_distance};
 use crate::lab;
+use crate::math::{floor_i32, segment_distance};
 use crate::synthesis::nearest::nearest_seed;
 use crate::synthesis::vein_field::VeinField;
 

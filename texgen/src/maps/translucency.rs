@@ -2,11 +2,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Light that passes through a leaf.
 
-/// Share of light that passes through tissue of an sRGB colour. What is neither absorbed nor sent back by pigments
-/// comes out on the far side, a little less than on the near one; veins and petiole are thick.
-pub(super) fn transmittance(rgb: [u8; 3], thickness: f32) -> f32 {
-    let light = |byte: u8| crate::math::linear_from_srgb(byte);
-    let [r, g, b] = rgb.map(light);
-    let luminance = 0.2126 * r + 0.7152 * g + 0.0722 * b;
-    (0.9 * luminance * libm::expf(-1.7 * thickness)).clamp(0.0, 1.0)
+use crate::math::{linear_from_srgb, luminance};
+
+/// Share of light that passes through tissue of an sRGB colour: `clearness` times the light that it shows. Veins and
+/// petiole are thick and let less through.
+pub(super) fn transmittance(rgb: [u8; 3], clearness: f32, thickness: f32) -> f32 {
+    (clearness * luminance(rgb.map(linear_from_srgb)) * libm::expf(-1.7 * thickness)).clamp(0.0, 1.0)
 }

@@ -15,12 +15,14 @@ mod course;
 mod light;
 mod pigments;
 mod prospect;
+mod recognition;
 mod strip;
 mod table;
 
 pub use climate::Climate;
 pub use course::{Course, Senescence};
 pub use pigments::Pigments;
+pub(crate) use recognition::recognise;
 pub use strip::strip;
 pub use table::Appearance;
 

@@ -6,7 +6,7 @@ use std::sync::LazyLock;
 
 use super::light::Eye;
 use super::prospect::Leaf;
-use crate::math::floor_i32;
+use crate::math::{floor_i32, luminance};
 
 /// Daylight that a leaf sends back and lets through.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -101,6 +101,11 @@ impl Appearance {
         }
         let [r, g, b, tr, tg, tb] = mixed.map(|x| x.max(0.0));
         Self { reflectance: [r, g, b], transmittance: [tr, tg, tb] }
+    }
+
+    /// Light that passes through for each unit of light in a colour that the leaf shows, both as luminance.
+    pub(crate) fn transmitted(&self, shown: [f32; 3]) -> f32 {
+        luminance(self.transmittance) / luminance(shown).max(1e-3)
     }
 
     /// Diffuse colour of a leaf that daylight reaches from both sides, as falling leaves show it. The gloss of the

@@ -3,8 +3,8 @@
 //! Chooses for every region of the target a region of an example, and for every superpixel one of that region.
 
 use super::exemplar::{Exemplar, Region, describe_regions};
-use crate::lab::{self, Lab};
 use super::structure::{Place, Structure};
+use crate::lab::{self, Lab};
 use crate::rng::Rng;
 
 /// How strongly a difference of area counts: 5 % of the blade halve the likeness.

@@ -10,9 +10,9 @@ use glam::Vec2;
 
 use super::choose::Match;
 use super::exemplar::Exemplar;
-use crate::lab::{self, Lab};
 use super::plane::Plane;
 use super::structure::Structure;
+use crate::lab::{self, Lab};
 use crate::math::floor_i32;
 use crate::rng::Rng;
 use patch::{Frame, Patch};

@@ -80,6 +80,11 @@ impl Painter {
         Ok(Self { exemplars })
     }
 
+    /// Mean colour of all examples.
+    pub(crate) fn mean(&self) -> Lab {
+        lab::mean(self.exemplars.iter().map(|example| example.mean))
+    }
+
     /// Paints a blade; equal arguments give equal bytes. With `show_stages` the intermediate pictures are kept.
     ///
     /// # Errors

@@ -3,8 +3,8 @@
 //! Blends the flat colours of superpixels: minimises Σ‖x_i − x'_i‖² + Σ w_ij ‖x_i − x_j‖² over neighbouring pixels
 //! (equation 2 of the source with the squares that its equation 3 follows from).
 
-use crate::lab::Lab;
 use super::structure::Structure;
+use crate::lab::Lab;
 use crate::math::floor_i32;
 
 /// Reach of the blur as a share of √A; its square is the weight of smoothness in pixels².

@@ -5,8 +5,8 @@
 
 use glam::Vec2;
 
-use crate::lab::Lab;
 use super::plane::Plane;
+use crate::lab::Lab;
 use crate::{VeinGraph, VeinNode};
 
 /// Farthest move as a share of √A.

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! How veins differ from the tissue beside them: measured on an example, painted on a target.
 
-use crate::lab::{self, Lab};
 use super::smooth::local_mean;
 use super::structure::Structure;
 use super::vein_field::VeinSpot;
+use crate::lab::{self, Lab};
 use crate::math::floor_i32;
 
 /// Reach of a vein to either side as a share of √A.

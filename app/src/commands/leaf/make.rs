@@ -45,7 +45,7 @@ pub enum Species {
 /// Options of `windfall leaf make`.
 #[derive(Clone, Debug, Args)]
 pub struct Arguments {
-    /// Kind of leaf. With photos it says only how the veins run.
+    /// Kind of leaf. With photos it says how veins run and which colours the seasons bring.
     #[arg(value_name = "SPECIES", required_unless_present = "photo")]
     species: Option<Species>,
     #[command(flatten)]
@@ -54,7 +54,7 @@ pub struct Arguments {
     #[arg(long, value_name = "N", default_value = "8", value_parser = whole::<u32, 1, 999>)]
     count: u32,
     /// Season from 0 (green) to 1 (brown), or several, separated by commas [default: 0.5; of photos their own].
-    #[arg(long, value_name = "SEASON", value_delimiter = ',', value_parser = season, conflicts_with = "photo")]
+    #[arg(long, value_name = "SEASON", value_delimiter = ',', value_parser = season)]
     season: Vec<f32>,
     /// Seed of everything random.
     #[arg(long, value_name = "N", default_value = "1", value_parser = whole::<u64, 0, { u64::MAX }>)]
@@ -118,13 +118,14 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     terminal::print(&report)
 }
 
-/// One maker for each season, or one for all photos.
+/// One maker for each season.
 fn makers(arguments: &Arguments) -> anyhow::Result<Vec<LeafMaker>> {
     let shape = arguments.species.map(Species::shape);
-    let options = |season: f32| MakeOptions { size_px: arguments.size, season, seed: arguments.seed };
+    let options = |season: Option<f32>| MakeOptions { size_px: arguments.size, season, seed: arguments.seed };
+    let given: Vec<Option<f32>> = arguments.season.iter().copied().map(Some).collect();
+    let seasons = if given.is_empty() { &[None][..] } else { &given };
     if arguments.photos.photos.is_empty() {
         let shape = shape.ok_or_else(|| anyhow!("a SPECIES or a --photo is needed"))?;
-        let seasons = if arguments.season.is_empty() { &[0.5][..] } else { &arguments.season };
         let makers = seasons.par_iter().map(|&season| LeafMaker::of_shape(shape, options(season)));
         return Ok(makers.collect::<Result<_, _>>()?);
     }
@@ -137,7 +138,8 @@ fn makers(arguments: &Arguments) -> anyhow::Result<Vec<LeafMaker>> {
             terminal::note(&format!("{}: {note}", path.display()));
         }
     }
-    Ok(vec![LeafMaker::of_photos(&photos, shape, options(0.5))?])
+    let makers = seasons.par_iter().map(|&season| LeafMaker::of_photos(&photos, shape, options(season)));
+    Ok(makers.collect::<Result<_, _>>()?)
 }
 
 /// Makes and writes all leaves, on all threads.
