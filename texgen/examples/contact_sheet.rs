@@ -1,43 +1,55 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Paints every kind of leaf through its autumn, without any photo: `contact_sheet OUT.png [SIZE_PX] [SEED] [SHAPE]`.
+//! Makes every kind of leaf through its autumn, without any photo: `contact_sheet OUT.png [LEAF_PX] [SEED]`.
 //!
-//! A column for each kind, five seasons from green to brown downward, each leaf another one. With a kind's index
-//! (0 to 7) only that kind is drawn, in eight columns.
+//! A column for each kind, five seasons from green to brown downward, each leaf another one.
 
 use std::env;
 use std::error::Error;
+use std::fs::File;
+use std::io::BufWriter;
 
-use image::{Rgb, RgbImage, RgbaImage};
-use windfall_texgen::{Atlas, AtlasEntry, AtlasRequest, Shape};
+use image::codecs::png::{CompressionType, FilterType, PngEncoder};
+use image::{Rgb, RgbImage, RgbaImage, imageops};
+use rayon::iter::{IntoParallelIterator, ParallelIterator};
+use windfall_texgen::{Layer, LeafMaker, MakeOptions, Shape};
 
 /// Seasons shown: fresh, turning, at the height of colour, fading, dry.
-const SEASONS: [f32; 5] = [0.0, 0.3, 0.55, 0.75, 1.0];
+const SEASONS: [f32; 5] = [0.0, 0.28, 0.55, 0.76, 1.0];
 /// Paper.
-const PAPER: Rgb<u8> = Rgb([244, 241, 233]);
+const PAPER: Rgb<u8> = Rgb([246, 244, 238]);
+/// Edge of the pictures that leaves are made in before they are scaled to the sheet.
+const MADE_PX: u32 = 512;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let mut arguments = env::args().skip(1);
-    let path = arguments.next().ok_or("usage: contact_sheet OUT.png [SIZE_PX] [SEED] [SHAPE]")?;
-    let size_px: u32 = arguments.next().map_or(Ok(256), |text| text.parse())?;
+    let path = arguments.next().ok_or("usage: contact_sheet OUT.png [LEAF_PX] [SEED]")?;
+    let leaf_px: u32 = arguments.next().map_or(Ok(150), |text| text.parse())?;
     let seed: u64 = arguments.next().map_or(Ok(1), |text| text.parse())?;
-    let shapes: Vec<Shape> = match arguments.next() {
-        Some(text) => vec![*Shape::ALL.get(text.parse::<usize>()?).ok_or("shapes are 0 to 7")?; 8],
-        None => Shape::ALL.into(),
-    };
-    let gap = size_px / 8;
-    let pitch = size_px + gap;
-    let (columns, rows) = (u32::try_from(shapes.len())?, u32::try_from(SEASONS.len())?);
+    let gap = leaf_px / 10;
+    let pitch = leaf_px + gap;
+    let (columns, rows) = (u32::try_from(Shape::ALL.len())?, u32::try_from(SEASONS.len())?);
     let mut sheet = RgbImage::from_pixel(columns * pitch + gap, rows * pitch + gap, PAPER);
-    for (column, &shape) in (0..).zip(&shapes) {
-        for (row, season) in (0..).zip(SEASONS) {
-            let entries = vec![AtlasEntry { shape, season: (season, season) }];
-            let seed = seed.wrapping_mul(1000).wrapping_add(u64::from(column * rows + row));
-            let atlas = Atlas::generate(&AtlasRequest { entries, variants: 1, size_px, seed })?;
-            lay(&mut sheet, &atlas.layers[0].mips[0], (gap + column * pitch, gap + row * pitch));
-        }
+    let places: Vec<(u32, u32)> =
+        (0..rows).flat_map(|row| (0..columns).map(move |column| (column, row))).collect();
+    let make = |(column, row): (u32, u32)| -> Result<_, windfall_texgen::TexgenError> {
+        let season = Some(SEASONS[row as usize]);
+        let maker =
+            LeafMaker::of_shape(Shape::ALL[column as usize], MakeOptions { size_px: MADE_PX, season, seed })?;
+        let made = Layer::from_picture(maker.make(row, false)?.maps.albedo);
+        let halved = made.mips.iter().rev().find(|mip| mip.width() >= leaf_px).unwrap_or(&made.mips[0]);
+        Ok((column, row, imageops::resize(halved, leaf_px, leaf_px, imageops::FilterType::CatmullRom)))
+    };
+    let leaves: Vec<_> = places.into_par_iter().map(make).collect::<Result<_, _>>()?;
+    for (column, row, leaf) in leaves {
+        lay(&mut sheet, &leaf, (gap + column * pitch, gap + row * pitch));
     }
-    sheet.save(path)?;
+    let file = BufWriter::new(File::create(path)?);
+    sheet.write_with_encoder(PngEncoder::new_with_quality(
+        file,
+        CompressionType::Best,
+        FilterType::Adaptive,
+    ))?;
     Ok(())
 }
 
