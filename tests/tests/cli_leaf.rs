@@ -111,6 +111,68 @@ fn leaves_are_made_after_photos() {
 }
 
 #[test]
+fn photos_can_be_carried_to_another_season() {
+    let folder = folder();
+    let photo = photo(&folder, "a.png");
+    let arguments = ["leaf", "make", "birch", "--photo", &photo, "--count", "1", "--size", "64"];
+    windfall(&folder, &[&arguments[..], &["--season", "0.0,0.6", "--out", "turned"]].concat()).text();
+    let middle = |name: &str| {
+        let path = folder.path().join("turned").join(name);
+        image::open(path).expect("a picture").into_rgba8().get_pixel(32, 36).0
+    };
+    let (green, yellow) = (middle("birch-001.png"), middle("birch-002.png"));
+    assert!(green[1] > green[0], "green: {green:?}");
+    assert!(yellow[0] > yellow[1] && yellow[0] > green[0] + 40, "yellow: {yellow:?}, was {green:?}");
+}
+
+#[test]
+fn leaves_of_one_kind_are_like_each_other_and_unlike_another() {
+    let folder = folder();
+    let make = |kind, count, season, seed, out| {
+        let arguments = ["leaf", "make", kind, "--count", count, "--size", "256", "--season", season];
+        windfall(&folder, &[&arguments[..], &["--seed", seed, "--out", out]].concat()).text();
+    };
+    make("hornbeam", "4", "0.5", "1", "these");
+    make("hornbeam", "4", "0.5", "2", "those");
+    make("oak", "2", "0.1", "3", "oaks");
+    let compare = |generated, photos| {
+        let arguments = ["leaf", "compare", "--generated", generated, "--photos", photos];
+        windfall(&folder, &[&arguments[..], &["--json", "--sheet", "sheet.png"]].concat()).json()
+    };
+    let (same, other) = (compare("those", "these"), compare("oaks", "these"));
+    assert_eq!(same["leaves"].as_array().map(Vec::len), Some(4), "{same}");
+    assert_eq!(other["verdict"], "fail", "green oaks are no yellow hornbeams: {other}");
+    let keys = same["median"].as_object().expect("numbers").keys();
+    assert_eq!(keys.len(), 12, "twelve numbers");
+    for key in keys.filter(|key| ["delta_e_2000", "one_minus_iou"].contains(&key.as_str())) {
+        let of = |report: &serde_json::Value| report["median"][key].as_f64().expect("a number");
+        assert!(of(&same) < 0.5 * of(&other), "{key}: {} and {}", of(&same), of(&other));
+    }
+    let sheet = image::open(folder.path().join("sheet.png")).expect("a picture");
+    assert!(sheet.width() > 500 && sheet.height() > 200, "photos above leaves");
+    let alone = windfall(&folder, &["leaf", "compare", "--generated", "those", "--photos", "these"]).text();
+    let last = alone.trim_end().lines().last();
+    assert!(matches!(last, Some("PASS" | "FAIL")), "a verdict comes last: {alone}");
+    assert_refused(&folder, &["leaf", "compare", "--generated", "none", "--photos", "these"], &["none"]);
+}
+
+#[test]
+fn what_is_read_from_a_photo_is_drawn_over_it() {
+    let folder = folder();
+    windfall(&folder, &["leaf", "make", "beech", "--count", "1", "--size", "256", "--out", "beech"]).text();
+    let text = windfall(&folder, &["leaf", "veins", "beech/beech-001.png", "--out", "over.png"]).text();
+    let number = |name: &str| {
+        let line = text.lines().find_map(|line| line.strip_prefix(name)).expect("a line for each number");
+        line.trim().parse::<f32>().expect("a number")
+    };
+    assert!(number("main veins") >= 1.0 && number("lateral veins") >= 4.0, "{text}");
+    assert!(number("confidence") > 0.6, "root and tip of a whole leaf are found: {text}");
+    assert!(image::open(folder.path().join("over.png")).is_ok(), "a picture");
+    assert_refused(&folder, &["leaf", "veins", "none.png", "--out", "none2.png"], &["none.png"]);
+    assert_refused(&folder, &["leaf", "veins", "beech/beech-001.png", "--out", "over.txt"], &["over.txt"]);
+}
+
+#[test]
 fn bad_input_is_refused_in_one_line_and_leaves_nothing() {
     let folder = folder();
     let make = |rest: &[&'static str]| [&["leaf", "make", "--out", "made"][..], rest].concat();

@@ -62,7 +62,7 @@ impl Senescence {
             Shape::Maple => Self { summer: green(42.0, 8.0), reddening: 2.6, dry_brown: 1.2, ..base },
             Shape::JapaneseMaple => Self {
                 summer: green(34.0, 8.0),
-                reddening: 2.6,
+                reddening: 4.2,
                 starts_below_h: 12.2,
                 dry_brown: 0.9,
                 ..base

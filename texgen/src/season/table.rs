@@ -167,7 +167,9 @@ mod tests {
                 brown: number(5),
                 dry_matter: number(7),
             };
-            let lab = crate::lab::from_linear(eye.see(&leaf).0.map(|light| light as f32));
+            #[expect(clippy::cast_possible_truncation, reason = "colours need no more than f32")]
+            let seen = eye.see(&leaf).0.map(|light| light as f32);
+            let lab = crate::lab::from_linear(seen);
             let far = (0..3).map(|i| (f64::from(lab[i]) - number(13 + i)).powi(2)).sum::<f64>().sqrt();
             let spectrum = [(450.0, 8), (550.0, 9), (650.0, 10), (700.0, 11)];
             let off = spectrum
