@@ -7,7 +7,7 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
-use crate::commands::{bench, info, motions, render, simulate, view};
+use crate::commands::{bench, info, leaf, motions, render, simulate, view};
 use crate::terminal;
 
 /// Exit code of everything that goes wrong.
@@ -37,6 +37,9 @@ pub enum Command {
     Bench(bench::Arguments),
     /// Write the motion tables of every species of a scene as text files.
     Motions(motions::Arguments),
+    /// Make leaves for scenes, and study them.
+    #[command(subcommand)]
+    Leaf(leaf::Command),
 }
 
 impl Command {
@@ -48,6 +51,7 @@ impl Command {
             Self::Info => info::run(),
             Self::Bench(arguments) => bench::run(&arguments),
             Self::Motions(arguments) => motions::run(&arguments),
+            Self::Leaf(command) => command.run(),
         }
     }
 }

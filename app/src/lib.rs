@@ -11,6 +11,7 @@ pub mod commands;
 pub mod drawing;
 pub mod frame;
 pub mod interrupt;
+pub mod leaves;
 pub mod output;
 pub mod render;
 pub mod terminal;

@@ -127,6 +127,17 @@ impl Layer {
     fn draw(shape: Shape, season: f32, size_px: u32, rng: &Rng) -> Self {
         let mut image = paint(&Leaf { shape, season, size_px }, rng);
         bleed::bleed(&mut image);
+        Self::from_picture(image)
+    }
+
+    /// A layer from a square picture whose side is a power of two and whose colour runs on past the edge, such as
+    /// [`LeafMaps::albedo`](crate::LeafMaps::albedo).
+    ///
+    /// # Panics
+    /// If the picture is not square or its side no power of two.
+    pub fn from_picture(image: RgbaImage) -> Self {
+        let size_px = image.width();
+        assert!(size_px.is_power_of_two() && image.height() == size_px, "square, a power of two a side");
         let (mut covered, mut moment) = (0.0_f64, [0.0_f64; 2]);
         for (x, y, texel) in image.enumerate_pixels() {
             let alpha = f64::from(texel[3]) / 255.0;
@@ -186,7 +197,7 @@ mod tests {
                 Err(TexgenError::OutOfRange { field, .. }) => {
                     assert_eq!(field, expected, "field of {request:?}")
                 }
-                Ok(_) => panic!("{request:?} must be refused for {expected}"),
+                other => panic!("{request:?} must be refused for {expected}, got {other:?}"),
             }
         }
     }

@@ -7,23 +7,44 @@ const FAR: f32 = 1e12;
 
 /// Distance in texels from each texel to the nearest seed, on a square grid.
 pub(crate) fn to_seeds(size: usize, is_seed: impl Fn(usize) -> bool) -> Vec<f32> {
-    let mut grid: Vec<f32> = (0..size * size).map(|i| if is_seed(i) { 0.0 } else { FAR }).collect();
-    let mut line = vec![0.0; size];
-    let mut scratch = Scratch { centres: vec![0; size], borders: vec![0.0; size + 1] };
-    for x in 0..size {
-        for y in 0..size {
-            line[y] = grid[y * size + x];
+    nearest_seeds(size, size, is_seed).distance
+}
+
+/// The nearest seed of each texel and how far off it is.
+pub(crate) struct Nearest {
+    /// Distance in texels; about a million where there is no seed at all.
+    pub(crate) distance: Vec<f32>,
+    /// Index of that seed; some texel where there is no seed at all.
+    pub(crate) seed: Vec<usize>,
+}
+
+/// Finds the nearest seed of each texel of a grid.
+pub(crate) fn nearest_seeds(width: usize, height: usize, is_seed: impl Fn(usize) -> bool) -> Nearest {
+    let mut distance: Vec<f32> = (0..width * height).map(|i| if is_seed(i) { 0.0 } else { FAR }).collect();
+    let mut seed: Vec<usize> = (0..width * height).collect();
+    let longest = width.max(height);
+    let mut scratch = Scratch { centres: vec![0; longest], borders: vec![0.0; longest + 1] };
+    let mut line = vec![0.0; height];
+    for x in 0..width {
+        for y in 0..height {
+            line[y] = distance[y * width + x];
         }
-        scratch.sweep(&line, |y, value| grid[y * size + x] = value);
+        scratch.sweep(&line, |y, from, value| {
+            distance[y * width + x] = value;
+            seed[y * width + x] = from * width + x;
+        });
     }
-    for y in 0..size {
-        line.copy_from_slice(&grid[y * size..(y + 1) * size]);
-        scratch.sweep(&line, |x, value| grid[y * size + x] = value);
+    for y in 0..height {
+        let row = y * width..(y + 1) * width;
+        let (line, seeds) = (distance[row.clone()].to_vec(), seed[row.clone()].to_vec());
+        let (distance, seed) = (&mut distance[row.clone()], &mut seed[row]);
+        scratch.sweep(&line, |x, from, value| {
+            distance[x] = value;
+            seed[x] = seeds[from];
+        });
     }
-    for value in &mut grid {
-        *value = value.sqrt();
-    }
-    grid
+    distance.iter_mut().for_each(|value| *value = value.sqrt());
+    Nearest { distance, seed }
 }
 
 /// Lower envelope of parabolas along one line.
@@ -35,8 +56,11 @@ struct Scratch {
 }
 
 impl Scratch {
-    /// One-dimensional transform of `line`, handed out value by value.
-    fn sweep(&mut self, line: &[f32], mut put: impl FnMut(usize, f32)) {
+    /// One-dimensional transform of `line`: for each place the place of the nearest seed and the squared distance.
+    fn sweep(&mut self, line: &[f32], mut put: impl FnMut(usize, usize, f32)) {
+        if line.is_empty() {
+            return;
+        }
         let meet = |a: usize, b: usize| {
             let (fa, fb) = (a as f32, b as f32);
             ((line[b] + fb * fb) - (line[a] + fa * fa)) / (2.0 * (fb - fa))
@@ -62,7 +86,7 @@ impl Scratch {
                 k += 1;
             }
             let offset = q as f32 - self.centres[k] as f32;
-            put(q, offset * offset + line[self.centres[k]]);
+            put(q, self.centres[k], offset * offset + line[self.centres[k]]);
         }
     }
 }
@@ -85,5 +109,7 @@ mod tests {
             let expected = seeds.iter().map(distance).fold(f32::MAX, f32::min);
             assert!((found - expected).abs() < 1e-3, "texel {i}: {found}, expected {expected}");
         }
+        let nearest = nearest_seeds(SIZE, SIZE, |i| seeds.contains(&i));
+        assert!(nearest.seed.iter().all(|seed| seeds.contains(seed)), "only seeds are nearest");
     }
 }

@@ -16,6 +16,20 @@ pub enum TexgenError {
         /// The values allowed.
         allowed: &'static str,
     },
+    /// A picture or a mask cannot be used.
+    #[error("{path}: {problem}")]
+    Photo {
+        /// The file.
+        path: String,
+        /// What is wrong with it, and what would be right.
+        problem: String,
+    },
+    /// A blade on which no vein can grow.
+    #[error("no vein can grow: {reason}")]
+    NoRoom {
+        /// What the blade lacks, with the value found and the least that is needed.
+        reason: String,
+    },
 }
 
 impl TexgenError {
@@ -26,5 +40,10 @@ impl TexgenError {
         allowed: &'static str,
     ) -> Self {
         Self::OutOfRange { field: field.into(), value: value.to_string(), allowed }
+    }
+
+    /// Names a picture and what is wrong with it.
+    pub(crate) fn photo(path: impl Into<String>, problem: impl Into<String>) -> Self {
+        Self::Photo { path: path.into(), problem: problem.into() }
     }
 }

@@ -3,7 +3,7 @@
 //! Leaf shapes, veins, colours and texture atlases.
 //!
 //! [`Atlas::generate`] draws leaves from a few numbers, without any photo. For each leaf it makes an outline
-//! (`contour`), grows veins inside it (`veins`), ages its pigments texel by texel (`season`, `pigment`), wears it
+//! (`contour`), grows veins inside it (`veins`), ages its pigments texel by texel ([`season`]), wears it
 //! down (`damage`), paints it (`paint`), carries its colour past the edge (`bleed`) and filters it down to one
 //! texel (`mipmap`).
 //!
@@ -16,28 +16,53 @@
 mod atlas;
 mod blade;
 mod bleed;
+mod compare;
 mod contour;
 mod damage;
 mod distance;
 mod error;
+mod extract;
+mod field;
+mod fill;
+mod folder;
+pub mod form;
+pub mod growth;
+mod lab;
+mod making;
+mod maps;
 mod math;
 mod mipmap;
 mod noise;
+mod outline_model;
 mod paint;
-mod pigment;
 mod raster;
 mod rng;
-mod season;
+pub mod season;
 mod shape;
 mod specimen;
 mod spline;
+mod synthesis;
 mod vein_graph;
 mod veins;
 mod warp;
 
 pub use atlas::{Atlas, AtlasEntry, AtlasRequest, Layer};
 pub use blade::{Blade, Mask};
+pub use compare::{
+    ComparedLeaf, Comparison, Distances, Levels, Measured, Metric, Variety, leaf_pictures,
+    sheet as comparison_sheet,
+};
+pub use contour::DrawnLeaf;
 pub use error::TexgenError;
+pub use extract::{Extraction, Overlay, Photo};
+pub use folder::{
+    FOLDER_VERSION, FolderError, FolderLeaf, FormLevel, FormShape, LeafFacts, LeafFolder, LeafForm,
+    MANIFEST_NAME, Manifest,
+};
+pub use making::{Assortment, Build, LeafMaker, MadeLeaf, MakeOptions, RECIPE};
+pub use maps::LeafMaps;
+pub use outline_model::OutlineModel;
 pub use shape::Shape;
 pub use specimen::Specimen;
+pub use synthesis::{Painted, Painter, Stage};
 pub use vein_graph::{VeinGraph, VeinGrower, VeinNode};

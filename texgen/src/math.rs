@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Small scalar and plane helpers.
 
+use std::sync::LazyLock;
+
 use glam::Vec2;
 
 /// Linear blend from `a` (t = 0) to `b` (t = 1).
@@ -36,6 +38,13 @@ pub(crate) fn floor_i32(x: f32) -> i32 {
     floor
 }
 
+/// Nearest `f32`, for lengths and colours that need no more.
+pub(crate) fn single(x: f64) -> f32 {
+    #[expect(clippy::cast_possible_truncation, reason = "rounds to the nearest")]
+    let rounded = x as f32;
+    rounded
+}
+
 /// Nearest byte of a value in 0..=1.
 pub(crate) fn to_byte(x: f32) -> u8 {
     #[expect(clippy::cast_possible_truncation, reason = "clamped to 0..=255 first")]
@@ -45,13 +54,23 @@ pub(crate) fn to_byte(x: f32) -> u8 {
 
 /// Linear light to an sRGB byte.
 pub(crate) fn srgb_from_linear(x: f32) -> u8 {
-    to_byte(if x <= 0.003_130_8 { 12.92 * x } else { 1.055 * x.powf(1.0 / 2.4) - 0.055 })
+    to_byte(if x <= 0.003_130_8 { 12.92 * x } else { 1.055 * libm::powf(x, 1.0 / 2.4) - 0.055 })
 }
 
 /// sRGB byte to linear light.
 pub(crate) fn linear_from_srgb(byte: u8) -> f32 {
-    let x = f32::from(byte) / 255.0;
-    if x <= 0.040_45 { x / 12.92 } else { ((x + 0.055) / 1.055).powf(2.4) }
+    static LINEAR: LazyLock<[f32; 256]> = LazyLock::new(|| {
+        std::array::from_fn(|byte| {
+            let x = byte as f32 / 255.0;
+            if x <= 0.040_45 { x / 12.92 } else { libm::powf((x + 0.055) / 1.055, 2.4) }
+        })
+    });
+    LINEAR[usize::from(byte)]
+}
+
+/// Luminance of linear sRGB light.
+pub(crate) fn luminance([r, g, b]: [f32; 3]) -> f32 {
+    0.2126 * r + 0.7152 * g + 0.0722 * b
 }
 
 /// Length of a polyline.

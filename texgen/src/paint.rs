@@ -3,6 +3,7 @@
 //! Paints one leaf.
 
 mod canvas;
+pub(crate) mod specimen;
 mod tissue;
 
 use image::RgbaImage;

@@ -7,12 +7,16 @@
 pub enum Shape {
     /// Five pointed lobes (Norway maple).
     Maple,
+    /// Five to nine narrow toothed lobes (Japanese maple).
+    JapaneseMaple,
     /// Rounded pinnate lobes (pedunculate oak).
     Oak,
     /// Triangular, double-toothed, with a drip tip (silver birch).
     Birch,
     /// Entire, wavy ellipse (common beech).
     Beech,
+    /// Double-toothed ellipse with many straight laterals (common hornbeam).
+    Hornbeam,
     /// Toothed heart with a drip tip (linden).
     Linden,
     /// Fan with a central notch (ginkgo).
@@ -21,5 +25,14 @@ pub enum Shape {
 
 impl Shape {
     /// Every shape, in declaration order.
-    pub const ALL: [Self; 6] = [Self::Maple, Self::Oak, Self::Birch, Self::Beech, Self::Linden, Self::Ginkgo];
+    pub const ALL: [Self; 8] = [
+        Self::Maple,
+        Self::JapaneseMaple,
+        Self::Oak,
+        Self::Birch,
+        Self::Beech,
+        Self::Hornbeam,
+        Self::Linden,
+        Self::Ginkgo,
+    ];
 }

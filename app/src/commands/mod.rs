@@ -4,6 +4,7 @@
 
 pub mod bench;
 pub mod info;
+pub mod leaf;
 pub mod motions;
 pub mod output_file;
 pub mod render;

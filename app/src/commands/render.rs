@@ -9,7 +9,6 @@ use anyhow::bail;
 use clap::Args;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use windfall_core::{Scene, Simulator, World};
-use windfall_texgen::Atlas;
 use windfall_wgpu::Gpu;
 
 use super::scene::SceneArguments;
@@ -20,8 +19,8 @@ use crate::cli::whole;
 use crate::drawing::Drawing;
 use crate::frame::FrameSteps;
 use crate::output::{Output, Writer};
-use crate::render::{FrameInput, PictureTarget, Renderer, RendererOptions, atlas_request};
-use crate::{interrupt, terminal};
+use crate::render::{FrameInput, PictureTarget, Renderer, RendererOptions};
+use crate::{interrupt, leaves, terminal};
 
 /// Largest edge of a picture in pixels.
 const MAX_EDGE: u32 = 16_384;
@@ -102,7 +101,7 @@ impl Studio {
         let target = PictureTarget::new(gpu.device(), size)?;
         let backend = device.simulator(&World::build(scene)?)?;
         interrupt::check()?;
-        let atlas = Atlas::generate(&atlas_request(scene))?;
+        let atlas = leaves::atlas_of(scene)?;
         let options = RendererOptions::for_scene(scene);
         let format = PictureTarget::FORMAT;
         let renderer = Renderer::new(gpu.device(), gpu.queue(), scene, &atlas, format, size, options)?;

@@ -3,38 +3,14 @@
 //! What the shaders know of the species: sizes, and the texture array of leaf pictures.
 
 use windfall_core::Scene;
-use windfall_core::scene::{LeafShape, MAX_SPECIES};
-use windfall_texgen::{Atlas, AtlasEntry, AtlasRequest, Shape};
+use windfall_core::scene::MAX_SPECIES;
+use windfall_texgen::Atlas;
 
 use super::pipeline::{FILTERABLE, sampler_entry, texture_entry, uniform_entry};
 use super::{RenderError, upload};
 
 /// Most leaf pictures: what the uniform block of the species holds.
 pub const MAX_LAYERS: usize = 512;
-/// Pictures of each species.
-const VARIANTS: u32 = 12;
-/// Edge of a picture in texels.
-const PICTURE_SIZE: u32 = 256;
-
-/// What to ask the texture maker for, so that the atlas fits `scene`: entry by entry its species.
-pub fn atlas_request(scene: &Scene) -> AtlasRequest {
-    let shape = |shape| match shape {
-        LeafShape::Maple => Shape::Maple,
-        LeafShape::Oak => Shape::Oak,
-        LeafShape::Birch => Shape::Birch,
-        LeafShape::Beech => Shape::Beech,
-        LeafShape::Linden => Shape::Linden,
-        LeafShape::Ginkgo => Shape::Ginkgo,
-    };
-    let entries: Vec<_> = scene
-        .species
-        .iter()
-        .map(|species| AtlasEntry { shape: shape(species.shape), season: species.season })
-        .collect();
-    let most = u32::try_from(MAX_LAYERS / entries.len().max(1)).unwrap_or(1);
-    AtlasRequest { entries, variants: VARIANTS.min(most), size_px: PICTURE_SIZE, seed: scene.seed }
-}
-
 /// `Kinds` of `leaf_shape.wgsl`.
 #[repr(C)]
 #[derive(Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
@@ -140,11 +116,14 @@ fn check(scene: &Scene, atlas: &Atlas, layer_limit: u32) -> Result<(), RenderErr
 #[cfg(test)]
 mod tests {
     use windfall_core::scene::Species;
+    use windfall_texgen::{AtlasEntry, AtlasRequest, Shape};
 
     use super::*;
 
     fn small_atlas(scene: &Scene) -> Atlas {
-        let request = AtlasRequest { variants: 2, size_px: 16, ..atlas_request(scene) };
+        let entry = AtlasEntry { shape: Shape::Maple, season: (0.5, 0.5) };
+        let request =
+            AtlasRequest { entries: vec![entry; scene.species.len()], variants: 2, size_px: 16, seed: 1 };
         Atlas::generate(&request).expect("a small atlas")
     }
 
@@ -173,12 +152,5 @@ mod tests {
             matches!(check(&scene, &atlas, 256), Err(RenderError::Images(_))),
             "a species without leaves"
         );
-    }
-
-    #[test]
-    fn request_fits_many_species() {
-        let scene = Scene { species: vec![Species::default(); MAX_SPECIES], ..Scene::default() };
-        let request = atlas_request(&scene);
-        assert!(request.entries.len() * request.variants as usize <= MAX_LAYERS, "{request:?}");
     }
 }

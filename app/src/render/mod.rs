@@ -31,7 +31,7 @@ mod tree_pass;
 mod upload;
 
 pub use error::RenderError;
-pub use leaf_kinds::{MAX_LAYERS, atlas_request};
+pub use leaf_kinds::MAX_LAYERS;
 pub use readback::PictureTarget;
 pub use renderer::{FrameInput, Renderer, RendererOptions};
 pub(crate) use timing::GpuTimer;

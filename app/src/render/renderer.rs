@@ -89,8 +89,8 @@ pub struct Renderer {
 }
 
 impl Renderer {
-    /// A renderer of `scene` with its species' leaves from `atlas` (see [`atlas_request`](super::atlas_request)), into textures of `output_format` and `size` pixels. The
-    /// picture is gamma encoded by the renderer unless the format does so.
+    /// A renderer of `scene` with its species' leaves from `atlas` (see [`crate::leaves`]), into textures of `output_format` and
+    /// `size` pixels. The picture is gamma encoded by the renderer unless the format does so.
     ///
     /// # Errors
     /// A size or a number of images beyond the device's limits, or images that do not fit the scene.

@@ -5,7 +5,7 @@
 
 use image::RgbaImage;
 use windfall_core::Scene;
-use windfall_texgen::{Atlas, AtlasRequest};
+use windfall_texgen::{Atlas, AtlasEntry, AtlasRequest, Shape};
 use windfall_wgpu::LeafColumns;
 
 use super::*;
@@ -32,7 +32,9 @@ fn bench(change: impl FnOnce(&mut Scene)) -> Bench {
     let (device, queue) = pollster::block_on(adapter.request_device(&descriptor)).expect("a device");
     let mut scene = Scene::default();
     change(&mut scene);
-    let request = AtlasRequest { variants: 2, size_px: 32, ..atlas_request(&scene) };
+    let entry = AtlasEntry { shape: Shape::Maple, season: (0.5, 0.9) };
+    let entries = vec![entry; scene.species.len()];
+    let request = AtlasRequest { entries, variants: 2, size_px: 32, seed: 1 };
     let atlas = Atlas::generate(&request).expect("an atlas");
     let options = RendererOptions { litter_count: 0 };
     let renderer = Renderer::new(&device, &queue, &scene, &atlas, PictureTarget::FORMAT, SIZE, options)

@@ -9,7 +9,6 @@ use std::time::{Duration, Instant};
 
 use anyhow::Context;
 use windfall_core::World;
-use windfall_texgen::Atlas;
 use windfall_wgpu::Gpu;
 use winit::event::WindowEvent;
 use winit::window::Window;
@@ -24,8 +23,8 @@ use super::screenshot::Screenshot;
 use super::session::Session;
 use crate::camera::Camera;
 use crate::drawing::Drawing;
-use crate::render::{FrameInput, MAX_TRAILS, PictureTarget, Renderer, RendererOptions, atlas_request};
-use crate::terminal;
+use crate::render::{FrameInput, MAX_TRAILS, PictureTarget, Renderer, RendererOptions};
+use crate::{leaves, terminal};
 
 /// Time between two attempts to draw to a window that shows nothing.
 const HIDDEN_PAUSE: Duration = Duration::from_millis(100);
@@ -80,7 +79,7 @@ impl Viewer {
             Drawing::choose(&options.backend, &instance, Some(&surface))?;
         let screen = Screen::new(Arc::clone(&window), surface, &adapter, &gpu)?;
         let session = Session::new(scene.clone(), world, &device, gpu.clone())?;
-        let atlas = Atlas::generate(&atlas_request(scene))?;
+        let atlas = leaves::atlas_of(scene)?;
         let settings = RendererOptions::for_scene(scene);
         let size = screen.size();
         let (device, queue) = (gpu.device(), gpu.queue());

@@ -33,9 +33,11 @@ impl Scene {
             Ok(bytes) => {
                 let mut scene = Self::from_ron(decode(&bytes, name_or_path)?, name_or_path)?;
                 let folder = path.parent().unwrap_or(path);
-                for tables in scene.species.iter_mut().filter_map(|species| species.tables.as_mut()) {
-                    // Both parts are text, so nothing is lost.
-                    *tables = folder.join(&*tables).to_string_lossy().into_owned();
+                for species in &mut scene.species {
+                    for named in [&mut species.tables, &mut species.leaves].into_iter().flatten() {
+                        // Both parts are text, so nothing is lost.
+                        *named = folder.join(&*named).to_string_lossy().into_owned();
+                    }
                 }
                 Ok(scene)
             }

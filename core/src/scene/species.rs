@@ -21,6 +21,10 @@ pub enum LeafShape {
     Linden,
     /// Fan (ginkgo).
     Ginkgo,
+    /// Deep, finely toothed palmate (Japanese maple).
+    JapaneseMaple,
+    /// Double-toothed ellipse with straight laterals (hornbeam).
+    Hornbeam,
 }
 
 /// How the orientation along a primitive motion is found.
@@ -69,6 +73,9 @@ pub struct Species {
     /// File with ready motion tables (see `motion::table_file`), in a scene file relative to that file, otherwise to
     /// the working directory; the tables are made from the equations when absent.
     pub tables: Option<String>,
+    /// Folder of leaf pictures such as `windfall leaf make` writes, named like `tables`; shape and season choose
+    /// pictures when absent.
+    pub leaves: Option<String>,
 }
 
 impl Default for Species {
@@ -87,6 +94,7 @@ impl Default for Species {
             motion: MotionParameters::default(),
             rotation: RotationModel::default(),
             tables: None,
+            leaves: None,
         }
     }
 }

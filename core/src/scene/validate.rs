@@ -68,6 +68,9 @@ impl Species {
         at.holds(self.tables.as_deref() != Some(""), "tables", || {
             ("\"\"".into(), "a file, or nothing to make the tables".into())
         })?;
+        at.holds(self.leaves.as_deref() != Some(""), "leaves", || {
+            ("\"\"".into(), "a folder, or nothing to choose pictures by shape and season".into())
+        })?;
         if let RotationModel::TanabeKaneko { friction_per_s } = self.rotation {
             let at = at.inside("rotation");
             at.numbers([("friction_per_s", friction_per_s.into(), limits::FRICTION_PER_S)])?;

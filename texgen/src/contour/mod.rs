@@ -5,12 +5,16 @@
 //! Every shape lists the knots of one half margin from the petiole to the tip and where veins shall end; the
 //! other half is a second draw of the same recipe, mirrored, so that no leaf is symmetric.
 
+mod drawn;
 mod fan;
+mod japanese_maple;
 mod oak;
 mod palmate;
 mod petiole;
 mod toothed;
 mod untangle;
+
+pub use drawn::DrawnLeaf;
 
 use glam::Vec2;
 
@@ -70,9 +74,11 @@ impl Outline {
         let (mut right, mut left) = (rng.fork(2), rng.fork(3));
         let halves = match shape {
             Shape::Maple => palmate::halves(&mut shared, &mut right, &mut left),
+            Shape::JapaneseMaple => japanese_maple::halves(&mut shared, &mut right, &mut left),
             Shape::Oak => oak::halves(&mut shared, &mut right, &mut left),
             Shape::Birch => toothed::birch(&mut shared, &mut right, &mut left),
             Shape::Beech => toothed::beech(&mut shared, &mut right, &mut left),
+            Shape::Hornbeam => toothed::hornbeam(&mut shared, &mut right, &mut left),
             Shape::Linden => toothed::linden(&mut shared, &mut right, &mut left),
             Shape::Ginkgo => fan::halves(&mut shared, &mut right, &mut left),
         };

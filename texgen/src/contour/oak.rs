@@ -5,7 +5,7 @@
 use glam::Vec2;
 
 use super::Half;
-use crate::math::{lerp, polar};
+use crate::math::{lerp, polar, smoothstep};
 use crate::rng::Rng;
 use crate::spline::{Knot, through};
 
@@ -19,123 +19,113 @@ struct Habit {
     lobes: u32,
     /// Offset of the left lobes against the right ones, in lobe spacings.
     stagger: f32,
+    /// Height of the widest place, 0 base to 1 tip.
+    widest: f32,
 }
 
-/// Half width at a height `t` (0 base, 1 tip), 1 at the widest.
-fn envelope(t: f32) -> f32 {
-    const HEIGHTS: [f32; 9] = [0.0, 0.08, 0.2, 0.35, 0.5, 0.64, 0.78, 0.9, 1.0];
-    const WIDTHS: [f32; 9] = [0.16, 0.26, 0.46, 0.72, 0.92, 1.0, 0.95, 0.74, 0.4];
-    let above = HEIGHTS.iter().position(|&height| height >= t).unwrap_or(HEIGHTS.len() - 1).max(1);
-    let (low, high) = (HEIGHTS[above - 1], HEIGHTS[above]);
-    lerp(WIDTHS[above - 1], WIDTHS[above], ((t - low) / (high - low)).clamp(0.0, 1.0))
+/// A lobe: where it ends and in which bearing it points.
+struct Lobe {
+    apex: Vec2,
+    axis_deg: f32,
+    /// Room along the margin.
+    breadth: f32,
 }
 
 /// Both halves of a leaf.
 pub(super) fn halves(shared: &mut Rng, right: &mut Rng, left: &mut Rng) -> (Half, Half) {
     let habit = Habit {
-        width: 0.62 + 0.11 * shared.bell(),
-        depth: 0.36 + 0.12 * shared.bell(),
-        lobes: if shared.chance(0.7) { 4 } else { 5 },
-        stagger: shared.range(0.2, 0.5),
+        width: 0.56 + 0.1 * shared.bell(),
+        depth: 0.27 + 0.12 * shared.bell(),
+        lobes: [3, 4, 4, 4, 5][shared.integer(0, 4) as usize],
+        stagger: shared.range(0.1, 0.55),
+        widest: 0.62 + 0.07 * shared.bell(),
     };
     (half(&habit, 0.0, right), half(&habit, habit.stagger, left))
 }
 
-/// A lobe as a disc that its margin goes half way around.
-struct Lobe {
-    centre: Vec2,
-    radius: f32,
-    /// Bearing in which the lobe points, in degrees.
-    axis_deg: f32,
-}
-
-impl Lobe {
-    /// Direction of travel around the apex.
-    fn across(&self) -> Vec2 {
-        polar(self.axis_deg - 90.0, 1.0)
-    }
-
-    /// Where the margin leaves the flank below (-1) or above (1) the lobe.
-    fn flank(&self, side: f32) -> Vec2 {
-        self.centre + self.across() * self.radius * side
-    }
-
-    /// The half circle.
-    fn knots(&self) -> [Knot; 3] {
-        // A Hermite quarter circle pulls with π/2 radii, 1.11 of its chord.
-        let (axis, across) = (polar(self.axis_deg, 1.11), self.across() * 1.11);
-        let apex = self.centre + polar(self.axis_deg, self.radius);
-        [
-            Knot { at: self.flank(-1.0), arrive: axis * 0.6, leave: axis },
-            Knot::smooth(apex, across),
-            Knot { at: self.flank(1.0), arrive: -axis, leave: axis * -0.6 },
-        ]
+impl Habit {
+    /// Half width of the lobes' ends at a height (0 base, 1 tip): a wedge that swells late and rounds off.
+    fn envelope(&self, height: f32) -> f32 {
+        let rise = smoothstep(-0.25, self.widest, height);
+        let fall = smoothstep(1.32, self.widest + 0.05, height);
+        self.width * (0.12 + 0.88 * rise * rise.sqrt()) * lerp(0.15, 1.0, fall)
     }
 }
 
-/// Lobes of one half from the base up, the rounded tip included.
+/// Lobes of one half from the base up, without the tip.
 fn lobes(habit: &Habit, stagger: f32, rng: &mut Rng) -> Vec<Lobe> {
-    let spacing = 0.71 / habit.lobes as f32;
+    let count = habit.lobes as f32;
     let mut lobes = Vec::new();
     for lobe in 0..habit.lobes {
-        let t = 0.25 + spacing * (lobe as f32 + stagger * 0.5 + 0.07 * rng.bell());
-        let axis_deg = lerp(72.0, 26.0, t * t.sqrt()) + 3.5 * rng.bell();
-        let reach = habit.width * envelope(t) * (1.0 + 0.1 * rng.bell());
-        let radius = spacing * axis_deg.to_radians().sin() * rng.range(0.85, 1.05) * lerp(0.85, 1.1, t);
-        let apex = Vec2::new(reach, 2.0 * t - 1.0);
-        lobes.push(Lobe { centre: apex - polar(axis_deg, radius), radius, axis_deg });
-    }
-    let radius = habit.width * rng.range(0.34, 0.44);
-    lobes.push(Lobe { centre: Vec2::new(0.0, 1.0 - radius), radius, axis_deg: 0.0 });
-    for upper in 1..lobes.len() {
-        part(&mut lobes, upper);
+        // Lobes crowd towards the tip.
+        let place = (lobe as f32 + 0.62 + stagger * 0.5 + 0.11 * rng.bell()) / (count + 0.55);
+        let height = lerp(0.1, 0.95, libm::powf(place, 0.88));
+        let axis_deg = lerp(76.0, 34.0, height) + 6.0 * rng.bell();
+        let reach = habit.envelope(height) * (1.0 + 0.12 * rng.bell());
+        let breadth = 1.6 / count * lerp(0.75, 1.0, habit.envelope(height) / habit.width);
+        lobes.push(Lobe { apex: Vec2::new(reach, 2.0 * height - 1.0), axis_deg, breadth });
     }
     lobes
 }
 
-/// Narrows a lobe and the one below it until a sinus fits between them; their apices stay.
-fn part(lobes: &mut [Lobe], upper: usize) {
-    let (low, high) = (&lobes[upper - 1], &lobes[upper]);
-    let across = (low.across() + high.across()).normalize_or(Vec2::Y);
-    let room = (high.centre - low.centre).dot(across) * 0.84;
-    let share = (room / (low.radius + high.radius)).clamp(0.5, 1.0);
-    for lobe in &mut lobes[upper - 1..=upper] {
-        lobe.centre += polar(lobe.axis_deg, lobe.radius * (1.0 - share));
-        lobe.radius *= share;
-    }
+/// The margin over one lobe: a broad, slightly lopsided round.
+fn over(lobe: &Lobe, rng: &mut Rng) -> [Knot; 3] {
+    let axis = polar(lobe.axis_deg, 1.0);
+    let across = polar(lobe.axis_deg - 90.0, 1.0);
+    let half = lobe.breadth * 0.27 * rng.range(0.85, 1.15);
+    // The lower shoulder falls back less than the upper one: lobes lean forward.
+    let lower = lobe.apex - across * half - axis * half * rng.range(0.25, 0.45);
+    let upper = lobe.apex + across * half * 0.9 - axis * half * rng.range(0.35, 0.65);
+    [
+        Knot::smooth(lower, polar(lobe.axis_deg - 42.0, 0.95)),
+        Knot::smooth(lobe.apex, polar(lobe.axis_deg - 90.0 + 8.0 * rng.bell(), 1.0)),
+        Knot::smooth(upper, polar(lobe.axis_deg - 142.0, 0.95)),
+    ]
 }
 
 /// One half.
 fn half(habit: &Habit, stagger: f32, rng: &mut Rng) -> Half {
     // The ear at the base curls back to the petiole.
+    let ear = 0.075 + 0.025 * rng.bell();
     let mut knots = vec![
-        Knot { at: Vec2::new(0.0, -1.0), arrive: Vec2::Y, leave: polar(100.0, 0.7) },
-        Knot::smooth(Vec2::new(0.1 + 0.02 * rng.bell(), -0.93), polar(0.0, 0.9)),
-        Knot::smooth(Vec2::new(0.085, -0.82), polar(8.0, 0.8)),
+        Knot { at: Vec2::new(0.0, -1.0), arrive: Vec2::Y, leave: polar(104.0, 0.8) },
+        Knot::smooth(Vec2::new(ear, -0.965), polar(20.0, 0.9)),
+        Knot::smooth(Vec2::new(ear * 1.02, -0.88), polar(-4.0, 0.9)),
     ];
     let lobes = lobes(habit, stagger, rng);
+    let tip = habit.width * rng.range(0.5, 0.66);
     let mut laterals = Vec::new();
+    let mut below = Vec2::new(ear, -0.88);
     for (index, lobe) in lobes.iter().enumerate() {
-        let Some(next) = lobes.get(index + 1) else {
-            // The last lobe is the tip: its own half ends at the apex.
-            let start = Vec2::new(lobe.radius, lobe.centre.y);
-            knots.push(Knot { at: start, arrive: Vec2::Y * 0.6, leave: Vec2::Y * 1.11 });
-            knots.push(Knot::smooth(Vec2::new(0.0, 1.0), Vec2::NEG_X * 1.11));
-            break;
-        };
-        knots.extend(lobe.knots());
-        laterals.push(lobe.centre + polar(lobe.axis_deg, lobe.radius * 0.7));
-        let axis_deg = 0.5 * (lobe.axis_deg + next.axis_deg.max(25.0));
-        let below =
-            if next.axis_deg > 0.0 { next.flank(-1.0) } else { Vec2::new(next.radius, next.centre.y) };
-        let middle = (lobe.flank(1.0) + below) / 2.0;
-        // Sinuses are deepest half way up.
-        let height = ((middle.y + 1.0) / 2.0).clamp(0.0, 1.0);
-        let depth = habit.depth * (1.15 - (height - 0.45).abs()) * (1.0 + 0.2 * rng.bell());
-        let inner = (habit.width * envelope(height) * (1.0 - depth)).max(0.09);
-        let back = ((middle.x - inner) / polar(axis_deg, 1.0).x).max(0.03);
-        let notch = middle - polar(axis_deg, back.min(0.35));
-        knots.push(Knot::smooth(notch, polar(axis_deg - 90.0, 0.8)));
+        if index > 0 {
+            knots.push(sinus(habit, below, lobe, rng));
+        }
+        knots.extend(over(lobe, rng));
+        laterals.push(lobe.apex - polar(lobe.axis_deg, 0.04));
+        below = knots[knots.len() - 1].at;
     }
+    // The last lobe is the tip: its own half ends at the apex.
+    let shoulder = rng.range(0.74, 0.82);
+    let crown = Lobe { apex: Vec2::new(tip, shoulder), axis_deg: 42.0, breadth: tip };
+    knots.push(sinus(habit, below, &crown, rng));
+    knots.push(Knot::smooth(Vec2::new(tip, shoulder), polar(-22.0, 1.0)));
+    // A shallow dent parts the crown's side from its top.
+    let dent = Vec2::new(tip * 0.62, 0.5 * (1.0 + shoulder) + 0.01 * rng.bell());
+    knots.push(Knot::smooth(dent, polar(-40.0 + 10.0 * rng.bell(), 0.9)));
+    knots.push(Knot::smooth(Vec2::new(tip * 0.32, 0.985), polar(-66.0, 1.0)));
+    knots.push(Knot::smooth(Vec2::new(0.0, 1.0), polar(-90.0, 0.9)));
     Half { margin: through(&knots, 8), laterals, side_ribs: Vec::new() }
+}
+
+/// Rounded bottom between a lobe's upper end and the next lobe; deepest half way up, where the blade is broad.
+fn sinus(habit: &Habit, below: Vec2, next: &Lobe, rng: &mut Rng) -> Knot {
+    let foot = next.apex - polar(next.axis_deg - 90.0, next.breadth * 0.2) - polar(next.axis_deg, 0.06);
+    let middle = below.lerp(foot, 0.5);
+    let height = ((middle.y + 1.0) / 2.0).clamp(0.0, 1.0);
+    let profile = smoothstep(0.0, 0.4, height) * lerp(1.0, 0.5, smoothstep(0.6, 1.0, height));
+    let depth = habit.depth * lerp(0.55, 1.15, profile) * (1.0 + 0.3 * rng.bell());
+    let axis_deg = next.axis_deg + 10.0;
+    let room = (middle.x - 0.1) / polar(axis_deg, 1.0).x.max(0.2);
+    let back = (depth * habit.envelope(height)).min(room).max(0.015);
+    Knot::smooth(middle - polar(axis_deg, back), polar(axis_deg - 90.0 + 6.0 * rng.bell(), 0.8))
 }

@@ -12,9 +12,11 @@ use crate::rng::Rng;
 pub(super) fn draw(shape: Shape, rng: &mut Rng) -> Vec<(Vec2, f32)> {
     let (shortest, longest, radius) = match shape {
         Shape::Maple => (0.95, 1.45, 0.022),
+        Shape::JapaneseMaple => (0.8, 1.3, 0.013),
         Shape::Oak => (0.12, 0.2, 0.026),
         Shape::Birch => (0.5, 0.72, 0.016),
         Shape::Beech => (0.2, 0.3, 0.022),
+        Shape::Hornbeam => (0.2, 0.34, 0.017),
         Shape::Linden => (0.65, 0.95, 0.018),
         Shape::Ginkgo => (0.95, 1.4, 0.024),
     };

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Undivided blades: birch, beech and linden differ in their half width and their teeth.
+//! Undivided blades: birch, beech, hornbeam and linden differ in their half width and their teeth.
 
 use glam::Vec2;
 
@@ -75,6 +75,33 @@ pub(super) fn beech(shared: &mut Rng, right: &mut Rng, left: &mut Rng) -> (Half,
             lean: 0.3,
             span: (0.1, 0.93),
             wavy: true,
+        };
+        toothed(&knots, &teeth, rng)
+    };
+    (draw(right), draw(left))
+}
+
+/// Common hornbeam.
+pub(super) fn hornbeam(shared: &mut Rng, right: &mut Rng, left: &mut Rng) -> (Half, Half) {
+    let width = 0.53 * (1.0 + 0.09 * shared.bell());
+    let middle = -0.2 + 0.1 * shared.bell();
+    let main = shared.integer(11, 14);
+    let draw = |rng: &mut Rng| {
+        let w = width * (1.0 + 0.05 * rng.bell());
+        let knots = [
+            Knot { at: Vec2::new(0.0, -1.0), arrive: Vec2::Y, leave: polar(80.0 + 12.0 * rng.bell(), 0.95) },
+            Knot::smooth(Vec2::new(w, middle), polar(-2.0, 1.0)),
+            Knot::smooth(Vec2::new(0.55 * w, 0.5), polar(-28.0, 1.0)),
+            Knot { at: Vec2::new(0.0, 1.0), arrive: polar(-15.0, 0.85), leave: Vec2::Y },
+        ];
+        let teeth = Teeth {
+            main,
+            per_main: 3,
+            main_height: 0.055,
+            minor_height: 0.03,
+            lean: 0.95,
+            span: (0.1, 0.96),
+            wavy: false,
         };
         toothed(&knots, &teeth, rng)
     };

@@ -52,9 +52,30 @@ impl Canvas {
         let stem = stroke(&outline.petiole);
         let border = MARGIN * size as f32;
         let frame = Frame::around(outline.blade.iter().chain(&stem).copied(), size, border);
+        let mut canvas = Self::whole(outline, veins, frame);
+        let blade = coverage(&[&outline.blade], frame);
+        let room = |p: Vec2| {
+            texel_index(frame, p)
+                .map_or(-1.0, |i| if blade[i] < 0.9 { -1.0 } else { canvas.margin[i].min(canvas.vein[i]) })
+        };
+        let damage = Damage::draw(outline, season, room, rng);
+        for (i, covered) in canvas.coverage.iter_mut().enumerate().filter(|(_, covered)| **covered > 0.0) {
+            let hole = damage.distance(frame.texel_centre(i % size, i / size)) * frame.scale + 0.5;
+            // Holes spare the petiole.
+            *covered *= hole.clamp(canvas.petiole[i], 1.0);
+        }
+        canvas.damage = damage;
+        drop_islands(&mut canvas.coverage, size);
+        canvas
+    }
+
+    /// Rasterises a leaf without damage.
+    pub(super) fn whole(outline: &Outline, veins: &[Vein], frame: Frame) -> Self {
+        let size = frame.size;
+        let stem = stroke(&outline.petiole);
         let blade = coverage(&[&outline.blade], frame);
         let mut petiole = coverage(&[&stem], frame);
-        let mut whole = coverage(&[&outline.blade, &stem], frame);
+        let whole = coverage(&[&outline.blade, &stem], frame);
         for (stem, blade) in petiole.iter_mut().zip(&blade) {
             *stem *= 1.0 - blade;
         }
@@ -65,17 +86,8 @@ impl Canvas {
             .collect();
         let seeds = main_vein_seeds(veins, frame);
         let vein: Vec<f32> = distance::to_seeds(size, |i| seeds[i]).into_iter().map(|d| d * unit).collect();
-        let room = |p: Vec2| {
-            texel_index(frame, p).map_or(-1.0, |i| if blade[i] < 0.9 { -1.0 } else { margin[i].min(vein[i]) })
-        };
-        let damage = Damage::draw(outline, season, room, rng);
-        for (i, covered) in whole.iter_mut().enumerate().filter(|(_, covered)| **covered > 0.0) {
-            let hole = damage.distance(frame.texel_centre(i % size, i / size)) * frame.scale + 0.5;
-            // Holes spare the petiole.
-            *covered *= hole.clamp(petiole[i], 1.0);
-        }
-        drop_islands(&mut whole, size);
-        Self { frame, coverage: whole, petiole, margin, vein, strokes: paint_strokes(veins, frame), damage }
+        let strokes = paint_strokes(veins, frame);
+        Self { frame, coverage: whole, petiole, margin, vein, strokes, damage: Damage::default() }
     }
 
     /// Conditions at a texel.

@@ -7,9 +7,12 @@ use glam::Vec2;
 use super::Leaf;
 use super::canvas::Spot;
 use crate::math::{lerp, smoothstep};
-use crate::pigment::{Linear, Pigments};
 use crate::rng::Rng;
+use crate::season::Pigments;
 use crate::{Shape, noise, season};
+
+/// Linear sRGB colour.
+type Linear = [f32; 3];
 
 /// Where the blade meets the petiole.
 const BASE: Vec2 = Vec2::new(0.0, -1.0);
@@ -42,9 +45,11 @@ impl Tissue {
         let late = smoothstep(0.35, 0.95, leaf.season);
         let (lingering, scorch) = match leaf.shape {
             Shape::Maple => (0.2, 0.05),
+            Shape::JapaneseMaple => (0.1, 0.03),
             Shape::Oak => (0.22, 0.05),
             Shape::Birch => (0.16, 0.035),
             Shape::Beech => (0.26, 0.05),
+            Shape::Hornbeam => (0.22, 0.045),
             Shape::Linden => (0.2, 0.06),
             Shape::Ginkgo => (0.05, 0.02),
         };
@@ -122,7 +127,7 @@ impl Tissue {
             + 0.05 * noise::value(self.seed ^ 0x31, spot.at * 45.0);
         // Dry leaves bleach and darken in blotches of every size.
         let stains = 0.28 * noise::fractal(self.seed ^ 0x32, self.along_veins(spot.at) * 3.0, 5);
-        pigments.tannin *= self.brownness * (1.0 + stains);
+        pigments.brown *= self.brownness * (1.0 + stains);
         pigments * (self.depth * (1.0 + mottle))
     }
 
@@ -137,7 +142,7 @@ impl Tissue {
         let small = self.dots(0x51, spot.at * 10.0, 0.26, 0.32 * gate) * 0.7;
         let dead = scorched.max(rim).max(large).max(small);
         *pigments = *pigments * (1.0 - 0.75 * dead)
-            + Pigments { tannin: 1.15 * dead, carotenoid: 0.3 * dead, ..Pigments::default() };
+            + Pigments { brown: 1.5 * dead, carotenoid: 3.0 * dead, ..Pigments::default() };
     }
 
     /// Scattered spots of up to a radius; `share` of the cells hold one.
@@ -165,7 +170,7 @@ impl Tissue {
             chlorophyll: tissue.chlorophyll * (1.0 - 0.62 * strength),
             carotenoid: tissue.carotenoid * (1.0 - 0.25 * strength),
             anthocyanin: tissue.anthocyanin * (1.0 - 0.4 * strength),
-            tannin: tissue.tannin + strength * lerp(0.02, 0.75, dry),
+            brown: tissue.brown + strength * lerp(0.01, 0.6, dry),
         }
     }
 
@@ -173,16 +178,16 @@ impl Tissue {
     fn stem(&self, spot: &Spot) -> Linear {
         let season = self.leaf.season;
         let red = match self.leaf.shape {
-            Shape::Maple => 0.55,
+            Shape::Maple | Shape::JapaneseMaple => 0.55,
             Shape::Birch | Shape::Beech => 0.2,
-            Shape::Oak | Shape::Linden | Shape::Ginkgo => 0.04,
+            Shape::Oak | Shape::Hornbeam | Shape::Linden | Shape::Ginkgo => 0.04,
         };
         let own = season::pigments(self.leaf.shape, season * 0.85);
         let pigments = Pigments {
             chlorophyll: 0.5 * own.chlorophyll,
             carotenoid: 0.6 * own.carotenoid,
-            anthocyanin: 0.4 * own.anthocyanin * self.blush + red * lerp(0.5, 1.0, season),
-            tannin: 0.12 + 0.75 * own.tannin + 0.3 * season,
+            anthocyanin: 0.4 * own.anthocyanin * self.blush + 16.0 * red * lerp(0.5, 1.0, season),
+            brown: 0.08 + 0.75 * own.brown + 0.3 * season,
         };
         let round = lerp(0.8, 1.1, smoothstep(0.0, 0.02, spot.margin));
         pigments.albedo().map(|c| c * round)

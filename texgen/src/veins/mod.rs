@@ -63,9 +63,11 @@ struct Plan {
 fn plan(shape: Shape) -> Plan {
     let (divergence_deg, bow, fill_spacing, rung_spacing, lateral_radius) = match shape {
         Shape::Maple => (42.0, 0.35, 0.2, 0.11, 0.0085),
+        Shape::JapaneseMaple => (42.0, 0.4, 0.0, 0.09, 0.0065),
         Shape::Oak => (42.0, 0.3, 0.24, 0.1, 0.009),
         Shape::Birch => (43.0, 0.3, 0.0, 0.08, 0.0075),
         Shape::Beech => (44.0, 0.16, 0.0, 0.07, 0.0075),
+        Shape::Hornbeam => (42.0, 0.08, 0.0, 0.055, 0.0065),
         Shape::Linden | Shape::Ginkgo => (44.0, 0.4, 0.0, 0.08, 0.0078),
     };
     Plan { divergence_deg, bow, fill_spacing, rung_spacing, lateral_radius }

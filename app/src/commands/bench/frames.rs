@@ -5,12 +5,12 @@
 use std::time::Instant;
 
 use windfall_core::{Scene, World};
-use windfall_texgen::Atlas;
 use windfall_wgpu::{Gpu, LeafBuffers};
 
 use super::contender::Contender;
 use crate::camera::Camera;
-use crate::render::{FrameInput, PictureTarget, Renderer, RendererOptions, atlas_request};
+use crate::leaves::atlas_of;
+use crate::render::{FrameInput, PictureTarget, Renderer, RendererOptions};
 
 /// Size of the pictures.
 const SIZE: (u32, u32) = (1280, 720);
@@ -30,7 +30,7 @@ impl Stage {
     /// A stage for the leaves of `world`.
     pub(super) fn new(gpu: &Gpu, scene: &Scene) -> anyhow::Result<Self> {
         let target = PictureTarget::new(gpu.device(), SIZE)?;
-        let atlas = Atlas::generate(&atlas_request(scene))?;
+        let atlas = atlas_of(scene)?;
         let options = RendererOptions::for_scene(scene);
         let format = PictureTarget::FORMAT;
         let renderer = Renderer::new(gpu.device(), gpu.queue(), scene, &atlas, format, SIZE, options)?;

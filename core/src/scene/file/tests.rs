@@ -143,17 +143,25 @@ fn names_that_stand_for_nothing_are_refused_in_one_line() {
 }
 
 #[test]
-fn motion_tables_are_looked_for_beside_the_scene_file() {
+fn named_files_are_looked_for_beside_the_scene_file() {
     let at = directory("tables");
     let path = at.join("mine.ron");
-    let text =
-        r#"(species: [(name: "a", tables: "a.tables"), (name: "b", tables: "/b.tables"), (name: "c")])"#;
+    let text = r#"(species: [
+        (name: "a", tables: "a.tables", leaves: "oaks"),
+        (name: "b", tables: "/b.tables", leaves: "/oaks"),
+        (name: "c"),
+    ])"#;
     fs::write(&path, text).expect("temporary files can be written");
     let loaded = Scene::load(path.to_str().expect("a UTF-8 path")).expect("a scene");
     fs::remove_dir_all(&at).expect("temporary files can be removed");
-    let found: Vec<_> = loaded.species.into_iter().map(|species| species.tables).collect();
-    let beside = at.join("a.tables").to_str().expect("a UTF-8 path").to_owned();
-    assert_eq!(found, [Some(beside), Some("/b.tables".into()), None], "relative paths only");
+    let found: Vec<_> = loaded.species.into_iter().map(|species| [species.tables, species.leaves]).collect();
+    let beside = |name: &str| Some(at.join(name).to_str().expect("a UTF-8 path").to_owned());
+    let wanted = [
+        [beside("a.tables"), beside("oaks")],
+        [Some("/b.tables".into()), Some("/oaks".into())],
+        [None, None],
+    ];
+    assert_eq!(found, wanted, "relative paths only");
 }
 
 #[test]

@@ -51,6 +51,7 @@ prop_compose! {
         name in "[^\\p{C}]{0,12}",
         shape in select(vec![
             LeafShape::Maple, LeafShape::Oak, LeafShape::Birch, LeafShape::Beech, LeafShape::Linden, LeafShape::Ginkgo,
+            LeafShape::JapaneseMaple, LeafShape::Hornbeam,
         ]),
         season in (within(limits::SEASON), within(limits::SEASON)),
         (size_m, size_variation, speed_variation) in
@@ -61,6 +62,7 @@ prop_compose! {
         motion in motion(),
         friction in maybe(limits::FRICTION_PER_S),
         tables in option::of("[^\\p{C}]{1,20}"),
+        leaves in option::of("[^\\p{C}]{1,20}"),
     ) -> Species {
         let mut transitions = TransitionTable(rows);
         for row in &mut transitions.0 {
@@ -75,6 +77,7 @@ prop_compose! {
                 RotationModel::TanabeKaneko { friction_per_s }
             }),
             tables,
+            leaves,
         };
         let rates = MotionConstants::of(&species);
         if rates.tumble_rad_s.max(rates.flutter_rad_s) > 11.0 {

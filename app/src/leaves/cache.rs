@@ -1,0 +1,77 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Leaves that were made before, kept in the user's cache directory. Nothing that goes wrong with the cache matters:
+//! the leaves are made again.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+use directories::ProjectDirs;
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use windfall_texgen::{Assortment, FOLDER_VERSION, LeafFolder, RECIPE};
+
+/// The leaves of an assortment from the cache, or made now and put there.
+///
+/// # Errors
+/// Numbers of the assortment that are not allowed.
+pub(super) fn load_or_make(assortment: &Assortment) -> anyhow::Result<LeafFolder> {
+    load_or_make_in(directory().as_deref(), assortment)
+}
+
+/// The same with a given cache directory, or none.
+pub(super) fn load_or_make_in(cache: Option<&Path>, assortment: &Assortment) -> anyhow::Result<LeafFolder> {
+    let place = cache.map(|cache| cache.join(key(assortment)));
+    let fits = |folder: &LeafFolder| {
+        folder.size_px == assortment.size_px && folder.leaves.len() == assortment.count as usize
+    };
+    let kept = place.as_deref().and_then(|place| LeafFolder::load(place).ok()).filter(fits);
+    if let Some(folder) = kept {
+        return Ok(folder);
+    }
+    let bar = ProgressBar::with_draw_target(Some(assortment.count.into()), ProgressDrawTarget::stderr());
+    if let Ok(style) = ProgressStyle::with_template("making leaves {bar:40} {pos} of {len}") {
+        bar.set_style(style);
+    }
+    bar.enable_steady_tick(Duration::from_millis(200));
+    let folder = assortment.make(|| bar.inc(1))?;
+    bar.finish_and_clear();
+    if let Some(place) = place {
+        // Without it the next run takes a little longer.
+        let _ = keep(&folder, &place);
+    }
+    Ok(folder)
+}
+
+/// Where this program keeps what can be made again.
+fn directory() -> Option<PathBuf> {
+    Some(ProjectDirs::from("", "", "windfall")?.cache_dir().join("leaves"))
+}
+
+/// Name of an assortment's folder: other leaves, another format, recipe or release have another.
+fn key(assortment: &Assortment) -> String {
+    let text = format!("{assortment:?} {FOLDER_VERSION} {RECIPE} {}", env!("CARGO_PKG_VERSION"));
+    // FNV-1a: stable from release to release of the compiler, unlike the standard library's.
+    let mut hash = 0xcbf2_9ce4_8422_2325_u64;
+    for byte in text.bytes() {
+        hash = (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3);
+    }
+    format!("{:?}-{hash:016x}", assortment.shape).to_lowercase()
+}
+
+/// Writes a folder beside its place and moves it there, so that no other run sees half of it.
+fn keep(folder: &LeafFolder, place: &Path) -> anyhow::Result<()> {
+    let partial = place.with_extension(format!("{}.partial", std::process::id()));
+    let written = fs::create_dir_all(&partial)
+        .map_err(anyhow::Error::from)
+        .and_then(|()| Ok(folder.save(&partial)?))
+        .and_then(|()| {
+            // What lies there could not be used.
+            let _ = fs::remove_dir_all(place);
+            Ok(fs::rename(&partial, place)?)
+        });
+    if written.is_err() {
+        let _ = fs::remove_dir_all(&partial);
+    }
+    written
+}

@@ -1,0 +1,80 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The leaf pictures of a scene: from folders that its species name, or made once and kept.
+
+mod cache;
+
+use image::{RgbaImage, imageops};
+use windfall_core::Scene;
+use windfall_core::scene::{LeafShape, Species};
+use windfall_texgen::{Assortment, Atlas, Layer, LeafFolder, Shape};
+
+use crate::render::MAX_LAYERS;
+
+/// Pictures of each species.
+const VARIANTS: u32 = 12;
+/// Edge of a picture in texels.
+const PICTURE_SIZE: u32 = 256;
+/// Seed of the leaves that are made: the same for every scene, so that all find them ready.
+const SEED: u64 = 0x1eaf;
+
+/// The pictures for all species of a scene.
+///
+/// # Errors
+/// A folder that a species names and that cannot be used. Leaves that are made cannot fail for want of a cache.
+pub fn atlas_of(scene: &Scene) -> anyhow::Result<Atlas> {
+    let most = MAX_LAYERS / scene.species.len().max(1);
+    let mut folders = Vec::with_capacity(scene.species.len());
+    for species in &scene.species {
+        let folder = match &species.leaves {
+            Some(path) => LeafFolder::load(path.as_ref())?,
+            None => cache::load_or_make(&assortment(species))?,
+        };
+        folders.push(pictures(&folder, species.season));
+    }
+    let variants = folders.iter().map(Vec::len).max().unwrap_or(1).clamp(1, most);
+    let layers = folders
+        .iter()
+        .flat_map(|pictures| {
+            (0..variants).map(|variant| Layer::from_picture(pictures[variant % pictures.len()].clone()))
+        })
+        .collect();
+    Ok(Atlas { size_px: PICTURE_SIZE, variants: u32::try_from(variants)?, layers })
+}
+
+/// What to make for a species without a folder.
+fn assortment(species: &Species) -> Assortment {
+    let shape = match species.shape {
+        LeafShape::Maple => Shape::Maple,
+        LeafShape::Oak => Shape::Oak,
+        LeafShape::Birch => Shape::Birch,
+        LeafShape::Beech => Shape::Beech,
+        LeafShape::Linden => Shape::Linden,
+        LeafShape::Ginkgo => Shape::Ginkgo,
+        LeafShape::JapaneseMaple => Shape::JapaneseMaple,
+        LeafShape::Hornbeam => Shape::Hornbeam,
+    };
+    Assortment { shape, season: species.season, count: VARIANTS, size_px: PICTURE_SIZE, seed: SEED }
+}
+
+/// The pictures of a folder that belong to a stretch of the season, all of them if none does, in the size of the atlas.
+fn pictures(folder: &LeafFolder, (earliest, latest): (f32, f32)) -> Vec<RgbaImage> {
+    let in_season = |season: f32| (earliest - 1e-3..=latest + 1e-3).contains(&season);
+    let is_any = folder.leaves.iter().any(|leaf| in_season(leaf.facts.season));
+    let chosen = folder.leaves.iter().filter(|leaf| !is_any || in_season(leaf.facts.season));
+    chosen.map(|leaf| fitted(&leaf.maps.albedo)).collect()
+}
+
+/// A picture in the size of the atlas.
+fn fitted(picture: &RgbaImage) -> RgbaImage {
+    let wanted = |level: &RgbaImage| level.width() == PICTURE_SIZE;
+    if picture.width() < PICTURE_SIZE {
+        return imageops::resize(picture, PICTURE_SIZE, PICTURE_SIZE, imageops::FilterType::Triangle);
+    }
+    // Halved step by step, colour weighted by coverage.
+    let mips = Layer::from_picture(picture.clone()).mips;
+    mips.into_iter().find(wanted).unwrap_or_else(|| picture.clone())
+}
+
+#[cfg(test)]
+mod tests;

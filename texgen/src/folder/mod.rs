@@ -1,0 +1,162 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Leaves as a folder: for each a colour picture with alpha and four maps as PNG files, and one manifest.
+//!
+//! `NAME.png` holds sRGB colour and straight alpha, petiole down; beside it lie `NAME.normal.png`,
+//! `NAME.height.png`, `NAME.translucency.png` and `NAME.mask.png`, see
+//! [`LeafMaps`]. `NAME.mesh.ron` holds its meshes if it has any, see [`LeafForm`].
+
+mod error;
+mod manifest;
+mod mesh_file;
+
+use std::fs::{self, File};
+use std::io::{BufReader, BufWriter, Write};
+use std::path::Path;
+
+use image::codecs::png::{PngDecoder, PngEncoder};
+use image::{DynamicImage, ExtendedColorType, ImageDecoder, ImageEncoder};
+use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
+
+use crate::LeafMaps;
+pub use error::FolderError;
+pub use manifest::{FOLDER_VERSION, LeafFacts, MANIFEST_NAME, Manifest};
+pub use mesh_file::{FormLevel, FormShape, LeafForm};
+
+/// Endings of a leaf's five pictures.
+const ENDINGS: [&str; 5] = ["png", "normal.png", "height.png", "translucency.png", "mask.png"];
+
+/// A finished leaf: numbers and pictures.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FolderLeaf {
+    /// Numbers.
+    pub facts: LeafFacts,
+    /// Pictures.
+    pub maps: LeafMaps,
+    /// Meshes, if the leaf has any.
+    pub form: Option<LeafForm>,
+}
+
+/// Leaves that belong together.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LeafFolder {
+    /// Side of every picture in pixels, a power of two from 16 to 4096.
+    pub size_px: u32,
+    /// The leaves, 1 to 4096.
+    pub leaves: Vec<FolderLeaf>,
+}
+
+impl LeafFolder {
+    /// Names of all files that [`LeafFolder::save`] writes, the manifest last.
+    pub fn file_names(&self) -> Vec<String> {
+        let pictures = self.leaves.iter().flat_map(|leaf| leaf.facts.file_names());
+        pictures.chain([MANIFEST_NAME.to_owned()]).collect()
+    }
+
+    /// Writes all files into a folder that is there. The manifest is written last: without it, the files are no
+    /// folder of leaves.
+    ///
+    /// # Errors
+    /// [`FolderError::Write`] names the file.
+    pub fn save(&self, folder: &Path) -> Result<(), FolderError> {
+        self.leaves.par_iter().map(|leaf| leaf.save(folder)).collect::<Result<Vec<()>, _>>()?;
+        let facts = self.leaves.iter().map(|leaf| leaf.facts.clone()).collect();
+        Manifest { version: FOLDER_VERSION, size_px: self.size_px, leaves: facts }.save(folder)
+    }
+
+    /// Reads a folder.
+    ///
+    /// # Errors
+    /// [`FolderError`] for a file that is missing, cannot be read or decoded, or does not fit the manifest.
+    pub fn load(folder: &Path) -> Result<Self, FolderError> {
+        let path = folder.join(MANIFEST_NAME);
+        let bytes = fs::read(&path).map_err(|source| FolderError::read(&path, source))?;
+        let text = std::str::from_utf8(&bytes).map_err(|error| FolderError::Manifest {
+            path: path.clone(),
+            line: 1,
+            column: 1,
+            problem: error.to_string(),
+        })?;
+        let manifest = Manifest::from_text(text, &path)?;
+        let load = |facts: &LeafFacts| FolderLeaf::load(folder, facts, manifest.size_px);
+        let leaves = manifest.leaves.par_iter().map(load).collect::<Result<_, _>>()?;
+        Ok(Self { size_px: manifest.size_px, leaves })
+    }
+}
+
+impl LeafFacts {
+    /// Names of the leaf's files.
+    pub fn file_names(&self) -> Vec<String> {
+        let pictures = ENDINGS.iter().map(|ending| format!("{}.{ending}", self.name));
+        pictures.chain(self.has_mesh.then(|| mesh_file::file_name(&self.name))).collect()
+    }
+}
+
+impl Manifest {
+    /// Writes the manifest into a folder.
+    ///
+    /// # Errors
+    /// [`FolderError::Write`] names the file.
+    pub fn save(&self, folder: &Path) -> Result<(), FolderError> {
+        let path = folder.join(MANIFEST_NAME);
+        fs::write(&path, self.to_text()).map_err(FolderError::write(&path))
+    }
+}
+
+impl FolderLeaf {
+    /// Writes the files of one leaf into a folder.
+    ///
+    /// # Errors
+    /// [`FolderError::Write`] names the file.
+    pub fn save(&self, folder: &Path) -> Result<(), FolderError> {
+        let maps = &self.maps;
+        let grey = ExtendedColorType::L8;
+        let pictures: [(&[u8], ExtendedColorType); 5] = [
+            (maps.albedo.as_raw(), ExtendedColorType::Rgba8),
+            (maps.normal.as_raw(), ExtendedColorType::Rgb8),
+            (maps.height.as_raw(), grey),
+            (maps.translucency.as_raw(), grey),
+            (maps.mask.as_raw(), grey),
+        ];
+        let (width, height) = maps.albedo.dimensions();
+        for (ending, (bytes, colour)) in ENDINGS.iter().zip(pictures) {
+            let path = folder.join(format!("{}.{ending}", self.facts.name));
+            let file = File::create(&path).map_err(FolderError::write(&path))?;
+            let mut out = BufWriter::new(file);
+            PngEncoder::new(&mut out)
+                .write_image(bytes, width, height, colour)
+                .map_err(|error| FolderError::write(&path)(std::io::Error::other(error)))?;
+            out.flush().map_err(FolderError::write(&path))?;
+        }
+        self.form.as_ref().map_or(Ok(()), |form| form.save(folder, &self.facts.name))
+    }
+
+    fn load(folder: &Path, facts: &LeafFacts, size_px: u32) -> Result<Self, FolderError> {
+        let read = |ending: &str| picture(&folder.join(format!("{}.{ending}", facts.name)), size_px);
+        let maps = LeafMaps {
+            albedo: read(ENDINGS[0])?.into_rgba8(),
+            normal: read(ENDINGS[1])?.into_rgb8(),
+            height: read(ENDINGS[2])?.into_luma8(),
+            translucency: read(ENDINGS[3])?.into_luma8(),
+            mask: read(ENDINGS[4])?.into_luma8(),
+        };
+        let form = facts.has_mesh.then(|| LeafForm::load(folder, &facts.name)).transpose()?;
+        Ok(Self { facts: facts.clone(), maps, form })
+    }
+}
+
+/// Reads a PNG file of a known size; the size is checked before any pixel is decoded.
+fn picture(path: &Path, size_px: u32) -> Result<DynamicImage, FolderError> {
+    let broken =
+        |error: image::ImageError| FolderError::Picture { path: path.to_owned(), problem: error.to_string() };
+    let file = File::open(path).map_err(|source| FolderError::read(path, source))?;
+    let decoder = PngDecoder::new(BufReader::new(file)).map_err(broken)?;
+    let found = decoder.dimensions();
+    if found != (size_px, size_px) {
+        return Err(FolderError::Size { path: path.to_owned(), found, allowed: size_px });
+    }
+    DynamicImage::from_decoder(decoder).map_err(broken)
+}
+
+#[cfg(test)]
+mod tests;

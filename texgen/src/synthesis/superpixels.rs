@@ -1,0 +1,234 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Superpixels inside a mask: SLIC (Achanta et al. 2012) that neither seeds nor measures outside the blade.
+
+use std::collections::BTreeMap;
+
+use glam::Vec2;
+
+use super::plane::Plane;
+use super::regions::{OUTSIDE, renumber};
+use crate::math::floor_i32;
+
+/// Weight of nearness in the picture against likeness of features.
+const COMPACTNESS: f32 = 10.0;
+/// Rounds of assignment.
+const ROUNDS: usize = 10;
+
+/// Features of a pixel by which superpixels gather; scaled so that about 10 is a clear difference.
+pub(crate) type Feature = [f32; 2];
+
+/// A partition of a blade.
+#[derive(Clone, Debug)]
+pub(crate) struct Superpixels {
+    /// Superpixel of each pixel, [`OUTSIDE`] off the blade.
+    pub(crate) label: Plane<u32>,
+    /// Number of superpixels.
+    pub(crate) count: usize,
+}
+
+#[derive(Clone, Copy)]
+struct Centre {
+    at: Vec2,
+    feature: Feature,
+}
+
+/// Splits the blade into about `wanted` superpixels.
+pub(crate) fn superpixels(inside: &Plane<bool>, feature: &[Feature], wanted: usize) -> Superpixels {
+    let area = inside.data.iter().filter(|inside| **inside).count();
+    let step = (area as f32 / wanted.max(1) as f32).sqrt().max(1.0);
+    let mut centres = seeds(inside, feature, step);
+    let mut label: Plane<u32> = Plane::filled(inside.width, inside.height, OUTSIDE);
+    let mut best = vec![f32::INFINITY; inside.data.len()];
+    let spread = (COMPACTNESS / step) * (COMPACTNESS / step);
+    for _ in 0..ROUNDS {
+        best.fill(f32::INFINITY);
+        for (number, centre) in (0_u32..).zip(&centres) {
+            for (x, y) in window(inside, centre.at, step) {
+                let at = y * inside.width + x;
+                if !inside.data[at] {
+                    continue;
+                }
+                let offset = label.centre(at) - centre.at;
+                let f = [feature[at][0] - centre.feature[0], feature[at][1] - centre.feature[1]];
+                let distance = f[0] * f[0] + f[1] * f[1] + offset.length_squared() * spread;
+                if distance < best[at] {
+                    best[at] = distance;
+                    label.data[at] = number;
+                }
+            }
+        }
+        let mut sums = vec![(Vec2::ZERO, [0.0_f32; 2], 0.0_f32); centres.len()];
+        for (at, &number) in label.data.iter().enumerate().filter(|(_, number)| **number != OUTSIDE) {
+            let sum = &mut sums[number as usize];
+            sum.0 += label.centre(at);
+            sum.1 = [sum.1[0] + feature[at][0], sum.1[1] + feature[at][1]];
+            sum.2 += 1.0;
+        }
+        for (centre, (at, feature, count)) in centres.iter_mut().zip(sums) {
+            if count > 0.0 {
+                *centre = Centre { at: at / count, feature: feature.map(|f| f / count) };
+            }
+        }
+    }
+    absorb_fragments(inside, &mut label, step * step / 4.0);
+    let count = renumber(&mut label);
+    Superpixels { label, count }
+}
+
+/// Pixels within one step of a centre, in both directions.
+fn window(inside: &Plane<bool>, centre: Vec2, step: f32) -> impl Iterator<Item = (usize, usize)> + use<> {
+    let clamp = |x: f32, size: usize| usize::try_from(floor_i32(x)).unwrap_or(0).min(size);
+    let columns = clamp(centre.x - step, inside.width)..clamp(centre.x + step + 1.0, inside.width);
+    let rows = clamp(centre.y - step, inside.height)..clamp(centre.y + step + 1.0, inside.height);
+    rows.flat_map(move |y| columns.clone().map(move |x| (x, y)))
+}
+
+/// Seeds on a grid, each at the flattest pixel of its 3 by 3 neighbourhood; cells that the blade only grazes are
+/// seeded at their deepest covered pixel.
+fn seeds(inside: &Plane<bool>, feature: &[Feature], step: f32) -> Vec<Centre> {
+    let cells = |size: usize| usize::try_from(floor_i32(size as f32 / step)).unwrap_or(0) + 1;
+    let (columns, rows) = (cells(inside.width), cells(inside.height));
+    let cell_of = |at: usize| {
+        let cell = |i: usize, cells: usize| {
+            usize::try_from(floor_i32((i as f32 + 0.5) / step)).unwrap_or(0).min(cells - 1)
+        };
+        cell(at / inside.width, rows) * columns + cell(at % inside.width, columns)
+    };
+    let mut cover = vec![(0_usize, Vec2::ZERO); rows * columns];
+    let grid: Plane<u8> = Plane { width: inside.width, height: inside.height, data: Vec::new() };
+    for at in (0..inside.data.len()).filter(|&at| inside.data[at]) {
+        let cell = &mut cover[cell_of(at)];
+        *cell = (cell.0 + 1, cell.1 + grid.centre(at));
+    }
+    // The covered pixel nearest to the middle of what a cell covers.
+    let mut nearest: Vec<Option<(f32, usize)>> = vec![None; cover.len()];
+    for at in (0..inside.data.len()).filter(|&at| inside.data[at]) {
+        let cell = cell_of(at);
+        let middle = cover[cell].1 / cover[cell].0 as f32;
+        let distance = grid.centre(at).distance_squared(middle);
+        if nearest[cell].is_none_or(|(best, _)| distance < best) {
+            nearest[cell] = Some((distance, at));
+        }
+    }
+    let gradient = |at: usize| -> f32 {
+        let other = |next: usize| if inside.data[next] { feature[next] } else { feature[at] };
+        let change = |next: usize| (0..2).map(|i| (other(next)[i] - feature[at][i]).abs()).sum::<f32>();
+        grid.neighbours4(at).map(change).sum()
+    };
+    let seeds = nearest.iter().zip(&cover).filter(|(_, (count, _))| *count as f32 >= step * step * 0.15);
+    let mut centres: Vec<Centre> = seeds
+        .filter_map(|(nearest, _)| *nearest)
+        .map(|(_, at)| {
+            let (x, y) = (at % inside.width, at / inside.width);
+            let around = (y.saturating_sub(1)..=(y + 1).min(inside.height - 1)).flat_map(|ny| {
+                (x.saturating_sub(1)..=(x + 1).min(inside.width - 1)).map(move |nx| ny * inside.width + nx)
+            });
+            let flattest = around
+                .filter(|&next| inside.data[next])
+                .min_by(|&a, &b| gradient(a).total_cmp(&gradient(b)))
+                .unwrap_or(at);
+            Centre { at: grid.centre(flattest), feature: feature[flattest] }
+        })
+        .collect();
+    if centres.is_empty()
+        && let Some(at) = inside.data.iter().position(|&inside| inside)
+    {
+        centres.push(Centre { at: grid.centre(at), feature: feature[at] });
+    }
+    centres
+}
+
+/// Keeps what is connected and large enough; the rest joins the neighbour with the longest common border. Pixels that
+/// no window reached form superpixels of their own.
+fn absorb_fragments(inside: &Plane<bool>, label: &mut Plane<u32>, smallest: f32) {
+    let before = label.clone();
+    let mut part: Plane<u32> = Plane::filled(inside.width, inside.height, OUTSIDE);
+    let mut members: Vec<Vec<usize>> = Vec::new();
+    let mut stack = Vec::new();
+    for start in (0..inside.data.len()).filter(|&at| inside.data[at]) {
+        if part.data[start] != OUTSIDE {
+            continue;
+        }
+        let number = u32::try_from(members.len()).unwrap_or(OUTSIDE - 1);
+        let mut found = Vec::new();
+        part.data[start] = number;
+        stack.push(start);
+        while let Some(at) = stack.pop() {
+            found.push(at);
+            for next in inside.neighbours4(at) {
+                let same = inside.data[next] && before.data[next] == before.data[start];
+                if same && part.data[next] == OUTSIDE {
+                    part.data[next] = number;
+                    stack.push(next);
+                }
+            }
+        }
+        members.push(found);
+    }
+    let mut order: Vec<usize> = (0..members.len()).collect();
+    order.sort_by_key(|&number| (members[number].len(), number));
+    for number in order {
+        if members[number].len() as f32 >= smallest {
+            continue;
+        }
+        let mut borders: BTreeMap<u32, usize> = BTreeMap::new();
+        let own = part.data[members[number][0]];
+        for &at in &members[number] {
+            for next in inside.neighbours4(at).filter(|&next| inside.data[next] && part.data[next] != own) {
+                *borders.entry(part.data[next]).or_default() += 1;
+            }
+        }
+        let longest = borders.iter().max_by_key(|(label, length)| (**length, OUTSIDE - **label));
+        if let Some((&neighbour, _)) = longest {
+            let moved = std::mem::take(&mut members[number]);
+            for &at in &moved {
+                part.data[at] = neighbour;
+            }
+            members[neighbour as usize].extend(moved);
+        }
+    }
+    *label = part;
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::{any, prop_assert, prop_assert_eq, proptest};
+
+    #[test]
+    fn a_square_gets_about_as_many_as_wanted() {
+        let inside = Plane::filled(60, 60, true);
+        let feature = vec![[0.0; 2]; 3600];
+        let found = superpixels(&inside, &feature, 36);
+        assert!((30..=42).contains(&found.count), "{} superpixels", found.count);
+    }
+
+    #[test]
+    fn features_draw_the_borders() {
+        let inside = Plane::filled(40, 40, true);
+        let feature: Vec<Feature> = (0..1600).map(|i| [if i % 40 < 17 { 0.0 } else { 60.0 }, 0.0]).collect();
+        let found = superpixels(&inside, &feature, 16);
+        let crossing = (0..1600).filter(|i| i % 40 == 16 && found.label.data[*i] == found.label.data[i + 1]);
+        assert_eq!(crossing.count(), 0, "no superpixel crosses the step");
+    }
+
+    proptest! {
+        #[test]
+        fn any_mask_is_covered(
+            width in 1_usize..20,
+            height in 1_usize..20,
+            bits in proptest::collection::vec(any::<u8>(), 400),
+            wanted in 0_usize..50,
+        ) {
+            let count = width * height;
+            let inside = Plane { width, height, data: (0..count).map(|i| bits[i] & 3 != 0).collect() };
+            let feature: Vec<Feature> = (0..count).map(|i| [f32::from(bits[i]), 0.0]).collect();
+            let found = superpixels(&inside, &feature, wanted);
+            for (label, inside) in found.label.data.iter().zip(&inside.data) {
+                prop_assert_eq!(*label != OUTSIDE, *inside);
+                prop_assert!(*label == OUTSIDE || (*label as usize) < found.count);
+            }
+        }
+    }
+}
