@@ -5,7 +5,8 @@
 use bytemuck::{must_cast_mut, must_cast_ref};
 use fearless_simd::{Simd, SimdBase, SimdMask, f32x8, mask32x8, u32x8};
 use windfall_core::Context;
-use windfall_core::kernel::lane::{LANES, Mask, Real, Word, load_records, store_records};
+use windfall_core::kernel::eight::{load_records, store_records};
+use windfall_core::kernel::lane::{LANES, Mask, Real, Word};
 use windfall_core::kernel::{Quat, Vec3};
 use windfall_core::leaf::fall::{Glide, attitude_after, glide_step, response_of, spin_advance};
 use windfall_core::leaf::own::Manner;

@@ -6,6 +6,7 @@
 //! counts is an integer. No division, root, fused or built-in transcendental function: those are made here from
 //! integers and Newton steps. Every function has a twin of the same name in `backend-wgpu/src/shaders/kernel/`.
 
+pub mod eight;
 pub mod lane;
 pub mod math;
 pub mod quaternion;
