@@ -24,7 +24,7 @@ const MADE_PX: u32 = 512;
 fn main() -> Result<(), Box<dyn Error>> {
     let mut arguments = env::args().skip(1);
     let path = arguments.next().ok_or("usage: contact_sheet OUT.png [LEAF_PX] [SEED]")?;
-    let leaf_px: u32 = arguments.next().map_or(Ok(150), |text| text.parse())?;
+    let leaf_px: u32 = arguments.next().map_or(Ok(196), |text| text.parse())?;
     let seed: u64 = arguments.next().map_or(Ok(1), |text| text.parse())?;
     let gap = leaf_px / 10;
     let pitch = leaf_px + gap;
