@@ -5,7 +5,7 @@
 use bytemuck::{must_cast_mut, must_cast_ref};
 use fearless_simd::{Simd, SimdBase, SimdMask, f32x8, mask32x8, u32x8};
 use windfall_core::Context;
-use windfall_core::kernel::eight::{load_records, store_records};
+use windfall_core::kernel::eight::{load_records, merge, store_records};
 use windfall_core::kernel::lane::{LANES, Mask, Real, Word};
 use windfall_core::kernel::{Quat, Vec3};
 use windfall_core::leaf::fall::{Glide, attitude_after, glide_step, response_of, spin_advance};
@@ -66,8 +66,16 @@ pub(super) fn advance_eight<S: Simd>(
 
     let lands = glide.position.y.less_than(f32x8::splat(simd, cx.environment.ground.0[1]));
     let moved = falls & !lands;
-    store_records(must_cast_mut(place), with_word(glide.position, bits), moved);
-    store_records(must_cast_mut(drift), with_word(glide.drift, glide.phase), moved);
-    store_records(must_cast_mut(attitude), turned.to_array().map(Real::to_bits), moved);
+    let mut new_places = with_word(glide.position, bits);
+    let mut new_drifts = with_word(glide.drift, glide.phase);
+    let mut new_attitudes = turned.to_array().map(Real::to_bits);
+    if moved.any_false() {
+        new_places = merge(moved, new_places, places);
+        new_drifts = merge(moved, new_drifts, drifts);
+        new_attitudes = merge(moved, new_attitudes, load_records(simd, must_cast_ref(attitude)));
+    }
+    store_records(must_cast_mut(place), new_places);
+    store_records(must_cast_mut(drift), new_drifts);
+    store_records(must_cast_mut(attitude), new_attitudes);
     bits_of(due | (falls & lands))
 }

@@ -168,24 +168,24 @@ pub fn load_records<S: Simd>(simd: S, records: &[[u32; 4]; LANES]) -> [u32x8<S>;
     columns_of_four([at(0), at(1), at(2), at(3), at(4), at(5), at(6), at(7)]).map(Bytes::bitcast)
 }
 
-/// Four columns to eight records of four words; only those where `mask` is true are written.
+/// Four columns to eight records of four words.
 #[inline(always)]
-pub fn store_records<S: Simd>(records: &mut [[u32; 4]; LANES], columns: [u32x8<S>; 4], mask: mask32x8<S>) {
-    let rows = rows_of_four(columns.map(Bytes::bitcast)).map(Bytes::bitcast::<u32x8<S>>);
-    if mask.all_true() {
-        let pairs: &mut [[u32; 8]; LANES / 2] = bytemuck::must_cast_mut(records);
-        for (pair, row) in pairs.iter_mut().zip(rows) {
-            row.store_array(pair);
-        }
-    } else {
-        let new: [[u32; 4]; LANES] = bytemuck::must_cast(rows.map(SimdBase::to_array));
-        let bits = mask.to_bitmask();
-        for lane in 0..LANES {
-            if (bits >> lane) & 1 == 1 {
-                records[lane] = new[lane];
-            }
-        }
+pub fn store_records<S: Simd>(records: &mut [[u32; 4]; LANES], columns: [u32x8<S>; 4]) {
+    let [a, b, c, d] = columns;
+    let rows = rows_of_four([a.bitcast(), b.bitcast(), c.bitcast(), d.bitcast()]);
+    let pairs: &mut [[u32; 8]; LANES / 2] = bytemuck::must_cast_mut(records);
+    for (pair, row) in pairs.iter_mut().zip(rows) {
+        row.bitcast::<u32x8<S>>().store_array(pair);
     }
+}
+
+/// The columns of `new` where the mask is true, those of `old` elsewhere. Without branches: where leaves fall and lie
+/// side by side, one for each lane would be guessed wrong half the time.
+#[inline(always)]
+pub fn merge<S: Simd>(mask: mask32x8<S>, new: [u32x8<S>; 4], old: [u32x8<S>; 4]) -> [u32x8<S>; 4] {
+    let [a, b, c, d] = new;
+    let [p, q, r, s] = old;
+    [Mask::select(mask, a, p), Mask::select(mask, b, q), Mask::select(mask, c, r), Mask::select(mask, d, s)]
 }
 
 #[cfg(test)]
@@ -222,7 +222,7 @@ mod tests {
         let columns = load_records(simd, &records);
         assert_eq!(columns[2].to_array()[5], 22, "third word of the sixth record");
         let shifted = columns.map(|column| column.plus(column.all(100)));
-        store_records(&mut records, shifted, index.less_than(index.all(8)));
+        store_records(&mut records, merge(index.less_than(index.all(8)), shifted, columns));
         for lane in 0..LANES {
             let expected = if indices[lane] < 8 { before[lane].map(|word| word + 100) } else { before[lane] };
             assert_eq!(records[lane], expected, "record {lane}");
