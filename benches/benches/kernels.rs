@@ -5,7 +5,7 @@
 //!
 //! `advance` includes `attend`, which takes the leaves to which something happens: nearly none in `falling` and
 //! `steady` (without turbulence), none in `resting`, in `storm` the joins and releases of a usual scene, in a wind with
-//! two vortices, and a third of all leaves in `restless`.
+//! two vortices, and a sixth of all leaves in `restless`.
 
 use std::hint::black_box;
 use std::time::Duration;

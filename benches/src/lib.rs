@@ -68,11 +68,11 @@ pub fn steady(leaves: u32) -> Scene {
     scene
 }
 
-/// `million` with every leaf released anew every third step: work for `attend`.
+/// `million` with every leaf released anew every sixth step: work for `attend`.
 pub fn restless(leaves: u32) -> Scene {
     let mut scene = scaled("million", leaves);
     for source in &mut scene.sources {
-        source.recycle_after_s = Some(3.0 * scene.dt_s);
+        source.recycle_after_s = Some(0.1);
     }
     scene
 }
