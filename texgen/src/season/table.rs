@@ -150,7 +150,7 @@ mod tests {
 
     /// Reads the worked cases kept outside the repository.
     #[test]
-    #[ignore = "reads the development photos"]
+    #[ignore = "reads reference cases kept beside the project"]
     fn bands_reproduce_the_reference_model() {
         let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../shared/leaves/prospect_d_vectors.csv");
         let text = std::fs::read_to_string(path).expect("the reference cases are there");
