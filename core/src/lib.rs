@@ -10,6 +10,7 @@
 //! - [`motion`]: six primitive motions, their tables and the chain that joins them.
 //! - [`wind`]: mean flow, gusts, turbulence, vortices.
 //! - [`leaf`]: the leaf store and the life of a leaf, step by step.
+//! - [`tree`]: how trees grow, what they weigh, how they sway.
 //! - [`kernel`]: arithmetic with the same bits in Rust and WGSL.
 //! - [`blocks`], [`layout`]: what Rust and WGSL share.
 
@@ -28,6 +29,7 @@ pub mod motion;
 pub mod scene;
 mod simulator;
 pub mod stats;
+pub mod tree;
 pub mod wind;
 mod world;
 

@@ -12,6 +12,7 @@ mod nearest;
 mod presets;
 mod source;
 mod species;
+mod tree;
 mod validate;
 mod view;
 mod wind;
@@ -22,6 +23,7 @@ pub use ground::Ground;
 pub use presets::PRESETS;
 pub use source::{Release, Share, Source, SourceShape};
 pub use species::{LeafShape, MotionParameters, RotationModel, Species};
+pub use tree::{Foliage, Tree, TreeForm, TreeKind, TreePreset, Wood};
 pub use view::{Camera, Sun, View};
 pub use wind::{Gusts, MeanSpeed, Profile, Turbulence, Vortex, WindParameters};
 
@@ -52,6 +54,12 @@ pub struct Scene {
     pub species: Vec<Species>,
     /// Where leaves come from.
     pub sources: Vec<Source>,
+    /// The kinds of trees.
+    pub tree_kinds: Vec<TreeKind>,
+    /// The trees. Each is a source of leaves as well.
+    pub trees: Vec<Tree>,
+    /// How far the year has come for the leaves on the trees: 0 in summer, 1 in winter, when none are left.
+    pub autumn: f32,
     /// The one wind.
     pub wind: WindParameters,
     /// What leaves land on.
@@ -70,6 +78,9 @@ impl Default for Scene {
             rotation_speed: 1.0,
             species: vec![Species::default()],
             sources: vec![Source::default()],
+            tree_kinds: Vec::new(),
+            trees: Vec::new(),
+            autumn: 0.0,
             wind: WindParameters::default(),
             ground: Ground::default(),
             view: View::default(),

@@ -1,0 +1,140 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Trees: where they stand, how they grow, what they are made of and what leaves they bear.
+
+use serde::{Deserialize, Serialize};
+
+/// A tree of the scene.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Tree {
+    /// Name of one of the scene's tree kinds.
+    pub kind: String,
+    /// Where the foot stands, x and z in metres, each -2048 to 2048; y is the ground's.
+    pub at_m: [f32; 2],
+    /// Height when full-grown in metres, 0.2 to 60; the kind's own when `None`.
+    pub height_m: Option<f32>,
+    /// Age from seedling, 0.05, to full-grown, 1.
+    pub age: f32,
+    /// Turned about the vertical by so many degrees, -360 to 360.
+    pub heading_deg: f32,
+    /// Number of this tree among trees of the same kind: another number, another tree.
+    pub number: u32,
+    /// Most leaves that are simulated one by one, 0 to 200000; each stands for several if the crown has more.
+    pub leaves: u32,
+}
+
+impl Default for Tree {
+    fn default() -> Self {
+        Self {
+            kind: "maple".into(),
+            at_m: [0.0, 0.0],
+            height_m: None,
+            age: 1.0,
+            heading_deg: 0.0,
+            number: 0,
+            leaves: 3000,
+        }
+    }
+}
+
+/// A kind of trees.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct TreeKind {
+    /// Name that trees refer to it by.
+    pub name: String,
+    /// How it grows.
+    pub form: TreeForm,
+    /// What it is made of.
+    pub wood: Wood,
+    /// What grows on its twigs.
+    pub foliage: Foliage,
+}
+
+impl Default for TreeKind {
+    fn default() -> Self {
+        Self {
+            name: "maple".into(),
+            form: TreeForm::default(),
+            wood: Wood::default(),
+            foliage: Foliage::default(),
+        }
+    }
+}
+
+/// How a kind of trees grows.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub enum TreeForm {
+    /// As one of the kinds that travel in the program.
+    Preset(TreePreset),
+    /// By an L-system: see `tree::grammar` for the language.
+    Grammar(String),
+    /// As the skeleton of the skin in a glTF 2.0 file, `.gltf` or `.glb`, beside the scene file.
+    File(String),
+}
+
+impl Default for TreeForm {
+    fn default() -> Self {
+        Self::Preset(TreePreset::Maple)
+    }
+}
+
+/// The kinds of trees that travel in the program.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+pub enum TreePreset {
+    /// A broad crown on a short trunk.
+    Maple,
+    /// Slender, with thin hanging twigs.
+    Birch,
+    /// Thick, gnarled, wide.
+    Oak,
+    /// Many stems from the ground.
+    Bush,
+    /// A herb of knee height.
+    Weed,
+    /// A low bush with berries.
+    BerryBush,
+}
+
+/// What a tree is made of: green wood.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Wood {
+    /// Young's modulus along the grain in GPa, 0.000001 to 1000.
+    pub youngs_modulus_gpa: f32,
+    /// Density of green wood in kg/m³, 100 to 2000.
+    pub density_kg_m3: f32,
+    /// Damping of the wood itself at the main sway, as a share of critical, 0 to 1.
+    pub damping: f32,
+    /// Drag coefficient of bare branches, 0 to 3.
+    pub drag: f32,
+}
+
+impl Default for Wood {
+    fn default() -> Self {
+        Self { youngs_modulus_gpa: 9.5, density_kg_m3: 800.0, damping: 0.03, drag: 1.0 }
+    }
+}
+
+/// What grows on a kind's twigs.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Foliage {
+    /// Name of the scene's species of its leaves; bare when `None`.
+    pub species: Option<String>,
+    /// Leaf area of the full crown per ground area beneath it, 0.1 to 12.
+    pub leaf_area_index: f32,
+    /// Drag coefficient of leaves on the twig in light wind, on their whole area, 0 to 2.
+    pub drag: f32,
+    /// Wind speed in m/s at which leaves and twigs have turned aside so far that their drag is halved, 1 to 1000.
+    pub yield_m_s: f32,
+    /// Force that a petiole bears in summer in N, median over the leaves, 0.01 to 100.
+    pub strength_n: f32,
+}
+
+impl Default for Foliage {
+    fn default() -> Self {
+        Self { species: None, leaf_area_index: 3.5, drag: 0.25, yield_m_s: 10.0, strength_n: 4.0 }
+    }
+}

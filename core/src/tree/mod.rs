@@ -1,0 +1,7 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Trees: how they grow, what they weigh, how they sway, and the twigs that carry leaves.
+
+pub mod skeleton;
+
+pub use skeleton::{Attachment, Bearing, Segment, Skeleton, SkeletonError};
