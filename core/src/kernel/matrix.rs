@@ -147,7 +147,6 @@ pub fn mat3_product_symmetric<R: Real>(a: Mat3<R>, b: Mat3<R>) -> Sym3<R> {
 /// The upper half of `aᵀ b`, if that is symmetric.
 #[inline(always)]
 pub fn mat3_transposed_product_symmetric<R: Real>(a: Mat3<R>, b: Mat3<R>) -> Sym3<R> {
-    let entry = |p: Vec3<R>, q: Vec3<R>| (p.x * q.x + p.y * q.y) + p.z * q.z;
     let ax = Vec3::new(a.x.x, a.y.x, a.z.x);
     let ay = Vec3::new(a.x.y, a.y.y, a.z.y);
     let az = Vec3::new(a.x.z, a.y.z, a.z.z);
@@ -155,8 +154,8 @@ pub fn mat3_transposed_product_symmetric<R: Real>(a: Mat3<R>, b: Mat3<R>) -> Sym
     let by = Vec3::new(b.x.y, b.y.y, b.z.y);
     let bz = Vec3::new(b.x.z, b.y.z, b.z.z);
     Sym3 {
-        diagonal: Vec3::new(entry(ax, bx), entry(ay, by), entry(az, bz)),
-        off: Vec3::new(entry(ay, bz), entry(ax, bz), entry(ax, by)),
+        diagonal: Vec3::new(vec3_dot(ax, bx), vec3_dot(ay, by), vec3_dot(az, bz)),
+        off: Vec3::new(vec3_dot(ay, bz), vec3_dot(ax, bz), vec3_dot(ax, by)),
     }
 }
 

@@ -113,7 +113,7 @@ pub fn load_answer(work: &Work) -> Answer {
 
 /// The pass towards the foot, at one row whose children are done.
 #[inline(always)]
-pub fn sway_fold(cx: &Context<'_>, rows: &mut Rows<'_>, row: usize) {
+pub fn row_fold(cx: &Context<'_>, rows: &mut Rows<'_>, row: usize) {
     let constants = Constants::from(&rows.timber[row]);
     let body = rows.body(row);
     let joint = rows.joint(row);
@@ -133,7 +133,7 @@ pub fn sway_fold(cx: &Context<'_>, rows: &mut Rows<'_>, row: usize) {
 
 /// The pass towards the tips, at one row whose parent is done.
 #[inline(always)]
-pub fn sway_unfold(cx: &Context<'_>, rows: &mut Rows<'_>, row: usize) {
+pub fn row_unfold(cx: &Context<'_>, rows: &mut Rows<'_>, row: usize) {
     let constants = Constants::from(&rows.timber[row]);
     let answer = load_answer(&rows.work[row]);
     let mut above = Motion { angular: Vec3::ZERO, linear: Vec3::ZERO };
@@ -160,12 +160,12 @@ pub fn sway_stand(cx: &Context<'_>, rows: &mut Rows<'_>, ends: &[u32]) {
     let start = |level: usize| if level == 0 { 0 } else { (ends[level - 1] - first) as usize };
     for level in (0..ends.len()).rev() {
         for row in start(level)..(ends[level] - first) as usize {
-            sway_fold(cx, rows, row);
+            row_fold(cx, rows, row);
         }
     }
     for level in 0..ends.len() {
         for row in start(level)..(ends[level] - first) as usize {
-            sway_unfold(cx, rows, row);
+            row_unfold(cx, rows, row);
         }
     }
 }
