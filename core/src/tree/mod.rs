@@ -2,6 +2,16 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Trees: how they grow, what they weigh, how they sway, and the twigs that carry leaves.
 
+mod crown;
+pub mod grammar;
+mod grow;
+pub mod growth;
+pub mod pipe;
+pub mod presets;
 pub mod skeleton;
+#[cfg(test)]
+mod tests;
+pub mod turtle;
 
+pub use grow::{TreeError, full_leaf_count, grow, segment_count};
 pub use skeleton::{Attachment, Bearing, Segment, Skeleton, SkeletonError};
