@@ -10,16 +10,16 @@ use std::time::Instant;
 use glam::{Vec2, Vec3};
 use image::{Rgb, RgbImage};
 use windfall_core::scene::{Tree, TreeForm, TreeKind, TreePreset};
-use windfall_core::tree::{Bearing, Skeleton, full_leaf_count, grow};
+use windfall_core::tree::grammar::Grammar;
+use windfall_core::tree::{Bearing, Skeleton, full_leaf_count, grow, presets};
 
 /// Width and height of a picture in pixels.
-const CELL: (u32, u32) = (300, 340);
+const CELL: (u32, u32) = (400, 400);
 /// Age, whether it is bare, number.
-const PICTURES: [(f32, bool, u32); 8] = [
+const PICTURES: [(f32, bool, u32); 7] = [
     (0.05, false, 1),
     (0.2, false, 1),
-    (0.4, false, 1),
-    (0.7, false, 1),
+    (0.45, false, 1),
     (1.0, true, 1),
     (1.0, false, 1),
     (1.0, false, 2),
@@ -57,7 +57,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             );
             // A young tree would be a few pixels high.
             let zoom = if age < 0.3 { (full.height_m() / skeleton.height_m()).min(3.0) } else { 1.0 };
-            draw(&mut sheet, (CELL.0 * column, CELL.1 * row), &skeleton, pixels_per_m * zoom);
+            let leaf_m2 = leaf_m2(kind, &tree, &skeleton)?;
+            draw(&mut sheet, (CELL.0 * column, CELL.1 * row), &skeleton, leaf_m2, pixels_per_m * zoom);
         }
     }
     sheet.save(path)?;
@@ -73,8 +74,19 @@ fn kind(name: &str) -> Result<TreeKind, Box<dyn std::error::Error>> {
     Ok(TreeKind { name: name.into(), form: TreeForm::Grammar(text), ..TreeKind::default() })
 }
 
+/// Area of a leaf in m², times the leaves that it stands for.
+fn leaf_m2(kind: &TreeKind, tree: &Tree, skeleton: &Skeleton) -> Result<f32, Box<dyn std::error::Error>> {
+    let text = match &kind.form {
+        TreeForm::Preset(preset) => presets::text(*preset),
+        TreeForm::Grammar(text) | TreeForm::File(text) => text,
+    };
+    let leaves = skeleton.attachments.iter().filter(|one| one.bearing == Bearing::Leaf).count();
+    let each = full_leaf_count(kind, tree, SEED)? / leaves.max(1) as f64;
+    Ok((each * Grammar::parse(text)?.settings().leaf_area_m2) as f32)
+}
+
 /// Draws a tree into the picture with this corner, from far to near.
-fn draw(sheet: &mut RgbImage, corner: (u32, u32), skeleton: &Skeleton, pixels_per_m: f32) {
+fn draw(sheet: &mut RgbImage, corner: (u32, u32), skeleton: &Skeleton, leaf_m2: f32, pixels_per_m: f32) {
     let place = |point: Vec3| {
         Vec2::new(CELL.0 as f32 / 2.0 + point.x * pixels_per_m, CELL.1 as f32 * 0.97 - point.y * pixels_per_m)
     };
@@ -93,17 +105,18 @@ fn draw(sheet: &mut RgbImage, corner: (u32, u32), skeleton: &Skeleton, pixels_pe
         ));
     }
     let reach = skeleton.attachments.iter().map(|one| one.at_m.z.abs()).fold(0.1, f32::max);
+    let leaf_m = (leaf_m2 / std::f32::consts::PI).sqrt();
     for attachment in &skeleton.attachments {
-        let length_m = 0.008 * skeleton.height_m().max(2.0);
         let near = 0.5 + 0.5 * attachment.at_m.z / reach;
-        let light = 0.55 + 0.45 * attachment.normal.dot(Vec3::new(-0.5, 0.7, 0.5).normalize()).max(0.0);
-        let shade = |value: f32| (value * light * (0.6 + 0.4 * near)) as u8;
-        let (colour, radius) = match attachment.bearing {
-            Bearing::Leaf => (Rgb([shade(110.0), shade(165.0), shade(60.0)]), 0.9),
-            Bearing::Fruit => (Rgb([shade(240.0), shade(40.0), shade(60.0)]), 2.0),
+        let light = 0.45 + 0.55 * attachment.normal.dot(Vec3::new(-0.6, 0.6, 0.5).normalize()).max(0.0);
+        let shade = |value: f32| (value * light * (0.55 + 0.45 * near)) as u8;
+        let (colour, radius_m) = match attachment.bearing {
+            Bearing::Leaf => (Rgb([shade(120.0), shade(170.0), shade(60.0)]), leaf_m),
+            Bearing::Fruit => (Rgb([shade(255.0), shade(40.0), shade(60.0)]), 0.008),
         };
-        let tip = attachment.at_m + attachment.direction * length_m;
-        marks.push((attachment.at_m.z, place(attachment.at_m), place(tip), radius, radius, colour));
+        let centre = place(attachment.at_m + attachment.direction * radius_m);
+        let radius = radius_m * pixels_per_m;
+        marks.push((attachment.at_m.z, centre, centre, radius, radius, colour));
     }
     marks.sort_by(|a, b| a.0.total_cmp(&b.0));
     for (_, from, to, start, end, colour) in marks {

@@ -55,7 +55,7 @@ pub(crate) fn full_count(
 /// Leaves for a segment compared with others.
 fn leafiness(segment: &Grown, shoots: &[Shoot]) -> f64 {
     let young = 1.0 - segment.growth;
-    shoots[segment.shoot].leaves.max(young) * segment.length_m
+    shoots[segment.shoot].leaves.max(young * young * young) * segment.length_m
 }
 
 /// What the tree bears: at most `most` leaves, and at most so many fruit.
