@@ -2,14 +2,24 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Trees: how they grow, what they weigh, how they sway, and the twigs that carry leaves.
 
+mod crown;
 pub mod forest;
+pub mod grammar;
+mod grow;
+pub mod growth;
+pub mod pipe;
+pub mod presets;
 pub mod record;
 pub mod skeleton;
 mod store;
 pub mod sway;
+#[cfg(test)]
+mod tests;
 mod timber;
+pub mod turtle;
 
 pub use forest::Forest;
+pub use grow::{TreeError, full_leaf_count, grow, segment_count};
 pub use record::Timber;
 pub use skeleton::{Attachment, Bearing, Segment, Skeleton, SkeletonError};
 pub use store::{Branches, BranchesMut};
