@@ -7,11 +7,12 @@ pub mod grammar;
 mod grow;
 pub mod growth;
 pub mod pipe;
-pub mod presets;
+mod presets;
 pub mod skeleton;
 #[cfg(test)]
 mod tests;
 pub mod turtle;
 
-pub use grow::{TreeError, full_leaf_count, grow, segment_count};
+pub(crate) use grow::segments_of;
+pub use grow::{TreeError, full_leaf_count, grow};
 pub use skeleton::{Attachment, Bearing, Segment, Skeleton, SkeletonError};
