@@ -11,7 +11,7 @@ use glam::{Vec2, Vec3};
 use image::{Rgb, RgbImage};
 use windfall_core::scene::{Tree, TreeForm, TreeKind, TreePreset};
 use windfall_core::tree::grammar::Grammar;
-use windfall_core::tree::{Bearing, Skeleton, full_leaf_count, grow, presets};
+use windfall_core::tree::{Bearing, Skeleton, full_leaf_count, grow};
 
 /// Width and height of a picture in pixels.
 const CELL: (u32, u32) = (400, 400);
@@ -77,7 +77,7 @@ fn kind(name: &str) -> Result<TreeKind, Box<dyn std::error::Error>> {
 /// Area of a leaf in m², times the leaves that it stands for.
 fn leaf_m2(kind: &TreeKind, tree: &Tree, skeleton: &Skeleton) -> Result<f32, Box<dyn std::error::Error>> {
     let text = match &kind.form {
-        TreeForm::Preset(preset) => presets::text(*preset),
+        TreeForm::Preset(preset) => preset.text(),
         TreeForm::Grammar(text) | TreeForm::File(text) => text,
     };
     let leaves = skeleton.attachments.iter().filter(|one| one.bearing == Bearing::Leaf).count();

@@ -5,7 +5,7 @@
 use glam::Vec3;
 use windfall_core::scene::{Foliage, MeanSpeed, TreeKind, Turbulence, Wood};
 use windfall_core::tree::forest::Seedling;
-use windfall_core::tree::sway::row::{Rows, sway_stand};
+use windfall_core::tree::sway::row::{Rows, row_fold, row_unfold};
 use windfall_core::tree::{Attachment, Bearing, Branches, Forest, LeafFacts, Segment, Skeleton};
 use windfall_core::{Clock, Environment, Scene};
 
@@ -54,7 +54,12 @@ impl Grove {
             let (own_work, other_work) = work.split_at_mut(stand.len());
             let (own_timber, other_timber) = timber.split_at(stand.len());
             let mut rows = Rows { first: stand.first, timber: own_timber, branches, work: own_work };
-            sway_stand(&cx, &mut rows, &stand.ends);
+            for row in stand.levels().rev().flatten() {
+                row_fold(&cx, &mut rows, row);
+            }
+            for row in stand.levels().flatten() {
+                row_unfold(&cx, &mut rows, row);
+            }
             (rest, work, timber) = (others, other_work, other_timber);
         }
         self.clock.advance(&self.environment);
@@ -178,7 +183,7 @@ fn grow_fork(
 pub fn bare(skeleton: Skeleton, wood: Wood) -> Seedling {
     let kind = TreeKind { wood, foliage: Foliage::default(), ..TreeKind::default() };
     let leaf = LeafFacts { area_m2: 0.004, mass_kg: 4e-4 };
-    Seedling { skeleton: skeleton.into(), kind, leaf, foot_m: Vec3::ZERO }
+    Seedling { skeleton: skeleton.into(), kind, leaf, foot_m: Vec3::ZERO, leaf_slots: 0 }
 }
 
 impl Grove {

@@ -10,7 +10,7 @@
 use std::f64::consts::FRAC_PI_4;
 use std::sync::Arc;
 
-use glam::{DQuat, DMat3, DVec3};
+use glam::{DMat3, DQuat, DVec3};
 
 use crate::error::SceneError;
 use crate::kernel::rng::{random, unit_float};
@@ -69,10 +69,17 @@ pub(super) fn seedlings(scene: &Scene) -> Result<Vec<Seedling>, SceneError> {
             .ok_or_else(|| field(format!("{:?}", tree.kind), "a tree kind of this scene"))?;
         let skeleton =
             grow(&kind, tree, scene.seed).map_err(|error| field(error.to_string(), "a tree that grows"))?;
-        let leaf = species_of(scene, &kind.foliage).map_or_else(LeafFacts::default, |(_, species)| leaf_facts(species));
+        let leaf = species_of(scene, &kind.foliage)
+            .map_or_else(LeafFacts::default, |(_, species)| leaf_facts(species));
         let [x, z] = tree.at_m;
         let foot_m = glam::Vec3::new(x, scene.ground.height_m, z);
-        seedlings.push(Seedling { skeleton: Arc::new(skeleton), kind, leaf, foot_m });
+        seedlings.push(Seedling {
+            skeleton: Arc::new(skeleton),
+            kind,
+            leaf,
+            foot_m,
+            leaf_slots: tree.leaves,
+        });
     }
     Ok(seedlings)
 }
@@ -94,7 +101,7 @@ fn turning_time(share: f64) -> f64 {
 }
 
 /// Class of a leaf site, and whether its leaf has fallen by the scene's season.
-pub(crate) fn site(scene: &Scene, slot: u32) -> (u32, bool) {
+pub(crate) fn leaf_site(scene: &Scene, slot: u32) -> (u32, bool) {
     let words = random(super::seed_words(scene.seed), slot, STREAM_SITE);
     let share = f64::from(unit_float(words[0]));
     let class = (words[0] >> 28) * STRENGTH_CLASSES + (words[1] >> 30);
@@ -107,9 +114,11 @@ pub(super) fn shed_rows(scene: &Scene, kinds: &[TreeKind]) -> Vec<Uint4> {
     let interval_s = f64::from(SHED_INTERVAL) * f64::from(scene.dt_s);
     let mut chances = Vec::with_capacity(kinds.len() * (SHED_CLASSES * SHED_SPEEDS) as usize);
     for kind in kinds {
-        let leaf = species_of(scene, &kind.foliage).map_or_else(LeafFacts::default, |(_, species)| leaf_facts(species));
+        let leaf = species_of(scene, &kind.foliage)
+            .map_or_else(LeafFacts::default, |(_, species)| leaf_facts(species));
         for class in 0..SHED_CLASSES {
-            let turned = turning_time((f64::from(class / STRENGTH_CLASSES) + 0.5) / f64::from(AUTUMN_CLASSES));
+            let turned =
+                turning_time((f64::from(class / STRENGTH_CLASSES) + 0.5) / f64::from(AUTUMN_CLASSES));
             let weakened = WEAKENING / (1.0 + libm::exp((turned - f64::from(scene.autumn)) / TURNING));
             let spread = 0.5 * NORMAL_SHARES[(class % STRENGTH_CLASSES) as usize];
             let strength = f64::from(kind.foliage.strength_n) * libm::exp(spread - weakened);
@@ -124,7 +133,13 @@ pub(super) fn shed_rows(scene: &Scene, kinds: &[TreeKind]) -> Vec<Uint4> {
 }
 
 /// Rate at which a petiole of that strength, weakened by so much, breaks in air of a speed in m/s.
-fn shed_rate_per_s(foliage: &Foliage, leaf: LeafFacts, strength_n: f64, weakened: f64, speed_m_s: f64) -> f64 {
+fn shed_rate_per_s(
+    foliage: &Foliage,
+    leaf: LeafFacts,
+    strength_n: f64,
+    weakened: f64,
+    speed_m_s: f64,
+) -> f64 {
     let yielding = 1.0 + speed_m_s / f64::from(foliage.yield_m_s);
     let drag = 0.5 * AIR_DENSITY * f64::from(foliage.drag) * leaf.area_m2 * speed_m_s * speed_m_s / yielding;
     let load = leaf.mass_kg * GRAVITY + drag;
@@ -152,9 +167,17 @@ pub(super) fn petiole_rows(scene: &Scene, forest: &Forest, kinds: &[TreeKind]) -
                 let foot = planted.foot_m.as_dvec3();
                 let slot = super::len32(petioles.len());
                 let facts = super::len32(species_number)
-                    | (site(scene, slot).0 << PETIOLE_CLASS_SHIFT)
+                    | (leaf_site(scene, slot).0 << PETIOLE_CLASS_SHIFT)
                     | (super::len32(number) << PETIOLE_KIND_SHIFT);
-                petioles.push(petiole_of(attachment, row, foot, base, pose, f64::from(species.size_m), facts));
+                petioles.push(petiole_of(
+                    attachment,
+                    row,
+                    foot,
+                    base,
+                    pose,
+                    f64::from(species.size_m),
+                    facts,
+                ));
             }
         }
         petioles.resize(first + tree.leaves as usize, Petiole { segment: NO_SEGMENT, ..Petiole::default() });
@@ -186,6 +209,7 @@ fn petiole_of(
         rest: (pose.inverse() * leaf).normalize().as_quat().to_array(),
         place: [units(middle.x), units(middle.y), units(middle.z)],
         facts: facts
-            | (super::convert::word(reach / f64::from(PETIOLE_REACH_UNIT)).min(0xffff) << PETIOLE_REACH_SHIFT),
+            | (super::convert::word(reach / f64::from(PETIOLE_REACH_UNIT)).min(0xffff)
+                << PETIOLE_REACH_SHIFT),
     }
 }

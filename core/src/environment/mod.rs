@@ -14,9 +14,10 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use self::convert::{float4, len32, low_word, q16, single, steps};
+pub(crate) use self::foliage::leaf_site;
 use self::foliage::{foliage_of, petiole_rows, seedlings, shed_rows};
-use self::source::{source_block, trees_block};
 pub(crate) use self::source::{lifetime_steps, release_step};
+use self::source::{source_block, trees_block};
 use self::species::{response, species_block};
 use self::tables::{TABLES_PER_SPECIES, pack_motion, tables_of};
 use self::wind::wind_block;

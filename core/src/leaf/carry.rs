@@ -10,7 +10,7 @@
 
 use super::petiole::{
     PETIOLE_CLASS_MASK, PETIOLE_CLASS_SHIFT, PETIOLE_KIND_MASK, PETIOLE_KIND_SHIFT, PETIOLE_REACH_SHIFT,
-    PETIOLE_REACH_UNIT, Petiole, SHED_CLASSES, SHED_INTERVAL, SHED_ROWS, SHED_SPEEDS,
+    PETIOLE_REACH_UNIT, PETIOLE_ROWS, Petiole, SHED_CLASSES, SHED_INTERVAL, SHED_SPEEDS,
 };
 use super::record::{
     Attitude, BLEND_MASK, BLEND_SHIFT, Course, Drift, Place, STATE_ATTACHED, STATE_MASK, STATE_RESTING,
@@ -22,6 +22,7 @@ use crate::kernel::math::{inverse_sqrt, reciprocal, sin_cos_turns};
 use crate::kernel::quaternion::{Quat, quat_multiply, quat_of_turn, quat_renormalize, quat_rotate};
 use crate::kernel::rng::philox;
 use crate::kernel::vector::{TINY_SQUARED, Vec3, vec3_cross, vec3_dot};
+use crate::layout::Uint4;
 use crate::tree::sway::Body;
 use crate::wind::sample::wind_at;
 
@@ -89,11 +90,18 @@ pub fn leaf_hang(cx: &Context<'_>, leaf: &mut CarriedLeaf<'_>, slot: u32, petiol
     let flutter = tip * ((unrest * FLUTTER_ROLL) * roll) + side * ((unrest * FLUTTER_PITCH) * pitch);
     let attitude = quat_renormalize(quat_multiply(quat_of_turn(lean + flutter), still));
     let reach = (petiole.facts >> PETIOLE_REACH_SHIFT) as f32 * PETIOLE_REACH_UNIT;
-    let arm = quat_rotate(segment.pose, Vec3::from(petiole.at))
-        + quat_rotate(attitude, Vec3::new(0.0, 0.0, reach));
+    let arm =
+        quat_rotate(segment.pose, Vec3::from(petiole.at)) + quat_rotate(attitude, Vec3::new(0.0, 0.0, reach));
     leaf.attitude.quaternion = attitude.to_array();
     leaf.place.position = (segment.base + arm).to_array();
     leaf.drift.velocity = (segment.velocity + vec3_cross(segment.spin, arm)).to_array();
+}
+
+/// The petiole of a tree's slot.
+pub fn petiole_of(cx: &Context<'_>, slot: u32) -> Petiole {
+    let first = (cx.environment.crowns.0[1] + slot * PETIOLE_ROWS) as usize;
+    let rows: &[Uint4; PETIOLE_ROWS as usize] = cx.petioles[first..].first_chunk().expect("a slot of a tree");
+    bytemuck::cast(*rows)
 }
 
 /// One step of the leaf in a slot of a tree, after its segment has moved: what the number of leaves on the segment

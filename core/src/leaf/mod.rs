@@ -5,6 +5,7 @@
 pub mod advance;
 pub mod carry;
 pub mod fall;
+pub(crate) mod grow;
 pub mod join;
 pub mod own;
 pub mod petiole;

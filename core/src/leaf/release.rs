@@ -142,7 +142,11 @@ pub fn leaf_release(cx: &Context<'_>, leaf: &mut LeafMut<'_>, id: u32, source: u
 }
 
 /// Lets leaf `id` of a species go from `place`, in units of 2^-10 m, with random words `look`.
-#[expect(clippy::cast_possible_truncation, clippy::too_many_arguments, reason = "a whole number in range; as in WGSL")]
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::too_many_arguments,
+    reason = "a whole number in range; as in WGSL"
+)]
 #[inline(always)]
 pub fn leaf_drop(
     cx: &Context<'_>,
@@ -205,6 +209,7 @@ pub fn leaf_detach(cx: &Context<'_>, leaf: &mut LeafMut<'_>, release: u32) {
     let size = leaf.course.size >> 16;
     leaf.course.size = size;
     leaf.course.heading = look[3] >> 16;
-    leaf.place.bits = (leaf.place.bits & !(BLEND_MASK << BLEND_SHIFT)) | (cx.environment.counts.0[2] << BLEND_SHIFT);
+    leaf.place.bits =
+        (leaf.place.bits & !(BLEND_MASK << BLEND_SHIFT)) | (cx.environment.counts.0[2] << BLEND_SHIFT);
     leaf_set_off(cx, leaf, id, release, [size, release_size_speed(species, look)[1]]);
 }

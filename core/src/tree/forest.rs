@@ -35,6 +35,8 @@ pub struct Seedling {
     pub leaf: LeafFacts,
     /// Its foot in m.
     pub foot_m: Vec3,
+    /// Leaf slots that it has.
+    pub leaf_slots: u32,
 }
 
 /// A tree where it stands.
@@ -46,6 +48,8 @@ pub struct Planted {
     pub foot_m: Vec3,
     /// Row of each segment of the skeleton.
     pub rows: Vec<u32>,
+    /// Its leaf slots.
+    pub slots: Range<u32>,
     /// What it comes to.
     pub facts: TreeFacts,
 }
@@ -57,6 +61,8 @@ pub struct Stand {
     pub first: u32,
     /// Behind the last row of each level.
     pub ends: Vec<u32>,
+    /// Leaf slots of its trees.
+    pub slots: Range<u32>,
 }
 
 impl Stand {
@@ -72,10 +78,9 @@ impl Stand {
 
     /// Rows of each level, from the trunks up, counted from the stand's first.
     pub fn levels(&self) -> impl DoubleEndedIterator<Item = Range<usize>> {
-        let starts = std::iter::once(self.first).chain(self.ends.iter().copied());
         let within = |row: u32| (row - self.first) as usize;
-        let levels: Vec<_> = starts.zip(&self.ends).map(|(start, &end)| within(start)..within(end)).collect();
-        levels.into_iter()
+        let start = move |level: usize| if level == 0 { 0 } else { within(self.ends[level - 1]) };
+        (0..self.ends.len()).map(move |level| start(level)..within(self.ends[level]))
     }
 }
 
@@ -97,15 +102,18 @@ impl Forest {
         let mut trees: Vec<Planted> = Vec::new();
         let mut drafts = Vec::new();
         let mut waiting = 0;
+        let mut next_slot = 0;
         let count = seedlings.len();
         for (number, seedling) in seedlings.into_iter().enumerate() {
-            let Seedling { skeleton, kind, leaf, foot_m } = seedling;
+            let Seedling { skeleton, kind, leaf, foot_m, leaf_slots } = seedling;
+            let slots = next_slot..next_slot + leaf_slots;
+            next_slot = slots.end;
             let (mut constants, facts) = timber_of(&skeleton, &kind.wood, &kind.foliage, leaf, dt_s);
             let offset = (Vec3::from(constants[0].offset) + foot_m).to_array();
             constants[0].offset = offset;
             waiting += constants.len();
             drafts.push(constants);
-            trees.push(Planted { skeleton, foot_m, rows: Vec::new(), facts });
+            trees.push(Planted { skeleton, foot_m, rows: Vec::new(), slots, facts });
             if waiting >= STAND_SEGMENTS || number + 1 == count {
                 let first = trees.len() - drafts.len();
                 stands.push(lay_out(&mut timber, &mut trees, first, std::mem::take(&mut drafts)));
@@ -231,5 +239,6 @@ fn lay_out(timber: &mut Vec<Timber>, trees: &mut [Planted], first: usize, drafts
         ends.push(word(timber.len()));
         level = next;
     }
-    Stand { first: start, ends }
+    let slots = trees[first].slots.start..trees[trees.len() - 1].slots.end;
+    Stand { first: start, ends, slots }
 }

@@ -8,7 +8,7 @@ pub mod grammar;
 mod grow;
 pub mod growth;
 pub mod pipe;
-pub mod presets;
+mod presets;
 pub mod record;
 pub mod skeleton;
 mod store;
@@ -19,7 +19,8 @@ mod timber;
 pub mod turtle;
 
 pub use forest::Forest;
-pub use grow::{TreeError, full_leaf_count, grow, segment_count};
+pub(crate) use grow::segments_of;
+pub use grow::{TreeError, full_leaf_count, grow};
 pub use record::Timber;
 pub use skeleton::{Attachment, Bearing, Segment, Skeleton, SkeletonError};
 pub use store::{Branches, BranchesMut};

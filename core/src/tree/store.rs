@@ -2,7 +2,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The state of all segments: a struct of arrays of 16-byte records, the same bytes on every backend.
 
+use super::forest::first_three;
 use super::record::BRANCH_COLUMNS;
+use super::sway::Body;
+use crate::world::mix;
 
 /// All segments of a world, one column per quantity. Index = row, see [`Forest`](super::Forest).
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -58,6 +61,26 @@ impl Branches {
         [&mut self.turn, &mut self.rate, &mut self.base, &mut self.pose, &mut self.velocity, &mut self.spin]
     }
 
+    /// Where a segment is and how it moves.
+    pub fn body(&self, row: usize) -> Body {
+        Body {
+            base: first_three(self.base[row]),
+            pose: self.pose[row].into(),
+            velocity: first_three(self.velocity[row]),
+            spin: first_three(self.spin[row]),
+        }
+    }
+
+    /// A fingerprint of all columns, as [`World::state_hash`](crate::World::state_hash) adds it up.
+    pub(crate) fn hash(&self) -> u64 {
+        let rows = 0..self.len();
+        rows.fold(0, |sum, row| {
+            let words = self.columns().map(|column| bytemuck::cast::<_, [u64; 2]>(column[row]));
+            let start = mix(u64::from(self.bearing[row]), !(row as u64));
+            sum.wrapping_add(words.as_flattened().iter().fold(start, |hash, &word| mix(hash, word)))
+        })
+    }
+
     /// All columns, to be split among threads.
     pub fn as_mut(&mut self) -> BranchesMut<'_> {
         BranchesMut {
@@ -67,7 +90,7 @@ impl Branches {
             pose: &mut self.pose,
             velocity: &mut self.velocity,
             spin: &mut self.spin,
-            bearing: &self.bearing,
+            bearing: &mut self.bearing,
         }
     }
 }
@@ -88,7 +111,7 @@ pub struct BranchesMut<'a> {
     /// Angular velocities.
     pub spin: &'a mut [[f32; 4]],
     /// Leaves that hang on each.
-    pub bearing: &'a [u32],
+    pub bearing: &'a mut [u32],
 }
 
 impl<'a> BranchesMut<'a> {
@@ -100,7 +123,7 @@ impl<'a> BranchesMut<'a> {
         let (pose, pose_rest) = self.pose.split_at_mut(count);
         let (velocity, velocity_rest) = self.velocity.split_at_mut(count);
         let (spin, spin_rest) = self.spin.split_at_mut(count);
-        let (bearing, bearing_rest) = self.bearing.split_at(count);
+        let (bearing, bearing_rest) = self.bearing.split_at_mut(count);
         (
             Self { turn, rate, base, pose, velocity, spin, bearing },
             Self {

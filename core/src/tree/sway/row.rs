@@ -28,8 +28,9 @@ pub struct Rows<'a> {
 }
 
 impl Rows<'_> {
+    /// Where a segment is and how it moves.
     #[inline(always)]
-    fn body(&self, row: usize) -> Body {
+    pub fn body(&self, row: usize) -> Body {
         Body {
             base: first_three(self.branches.base[row]),
             pose: self.branches.pose[row].into(),
@@ -152,20 +153,4 @@ pub fn row_unfold(cx: &Context<'_>, rows: &mut Rows<'_>, row: usize) {
     rows.branches.pose[row] = body.pose.to_array();
     rows.branches.velocity[row] = four(body.velocity, 0.0);
     rows.branches.spin[row] = four(body.spin, 0.0);
-}
-
-/// One whole step of a stand whose levels end at `ends`, counted from its first row.
-pub fn sway_stand(cx: &Context<'_>, rows: &mut Rows<'_>, ends: &[u32]) {
-    let first = rows.first;
-    let start = |level: usize| if level == 0 { 0 } else { (ends[level - 1] - first) as usize };
-    for level in (0..ends.len()).rev() {
-        for row in start(level)..(ends[level] - first) as usize {
-            row_fold(cx, rows, row);
-        }
-    }
-    for level in 0..ends.len() {
-        for row in start(level)..(ends[level] - first) as usize {
-            row_unfold(cx, rows, row);
-        }
-    }
 }
