@@ -10,7 +10,9 @@ use super::record::{
     SPECIES_SHIFT, SPIN_SHIFT, STAGE_MASK, STAGE_SHIFT, STATE_FALLING, VARIANT_MASK, VARIANT_SHIFT,
 };
 use super::store::LeafMut;
-use crate::blocks::{LENGTH_UNIT, NEVER, SHARE_VECTORS, SOURCE_BOX, SOURCE_DISC, SourceBlock, SpeciesBlock};
+use crate::blocks::{
+    LENGTH_UNIT, NEVER, SHARE_VECTORS, SOURCE_BOX, SOURCE_DISC, SOURCE_TREES, SourceBlock, SpeciesBlock,
+};
 use crate::context::Context;
 use crate::kernel::rng::{mul_high, mul_q16, random, triangular};
 use crate::kernel::vector::Vec3;
@@ -123,7 +125,9 @@ pub fn release_fall_time(species: &SpeciesBlock, height: i32, speed: u32) -> u32
 #[inline(always)]
 pub fn next_event(cx: &Context<'_>, id: u32, release: u32, fall_time: u32, stage: u32, source: u32) -> u32 {
     let lifetime = cx.environment.sources[source as usize].timing.0[3];
-    let recycle = if lifetime == 0 { NEVER } else { release.wrapping_add(lifetime) };
+    // A tree takes its leaves back only from the ground.
+    let is_final = lifetime == 0 || source == SOURCE_TREES;
+    let recycle = if is_final { NEVER } else { release.wrapping_add(lifetime) };
     if stage + 1 >= STAGE_COUNT {
         return recycle;
     }
