@@ -4,6 +4,8 @@
 //!
 //! `cargo run --release -p windfall-core --example tree_sheet -- sheet.png [preset or grammar file]...`
 
+#![expect(clippy::cast_possible_truncation, reason = "pixels, colours and sizes within a picture")]
+
 use std::path::Path;
 use std::time::Instant;
 
