@@ -165,7 +165,8 @@ impl Skeleton {
             }
         }
         for (index, attachment) in self.attachments.iter().enumerate() {
-            let reject = |reason: &str| SkeletonError::Attachment { attachment: index, reason: reason.into() };
+            let reject =
+                |reason: &str| SkeletonError::Attachment { attachment: index, reason: reason.into() };
             if attachment.segment as usize >= self.segments.len() {
                 return Err(reject("it names a segment that is not there"));
             }
