@@ -3,6 +3,7 @@
 //! Trees: how they grow, what they weigh, how they sway, and the twigs that carry leaves.
 
 pub mod bark;
+pub mod gltf;
 pub mod skeleton;
 #[cfg(test)]
 mod testing;
