@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Trees: how they grow, what they weigh, how they sway, and the twigs that carry leaves.
 
+pub mod bark;
 mod crown;
+pub mod gltf;
 pub mod grammar;
 mod grow;
 pub mod growth;
@@ -10,9 +12,12 @@ pub mod pipe;
 mod presets;
 pub mod skeleton;
 #[cfg(test)]
+mod testing;
+#[cfg(test)]
 mod tests;
 pub mod turtle;
 
+pub use bark::{BarkDetail, BarkMesh, bark_mesh};
 pub(crate) use grow::segments_of;
 pub use grow::{TreeError, full_leaf_count, grow};
 pub use skeleton::{Attachment, Bearing, Segment, Skeleton, SkeletonError};
