@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Trees: how they grow, what they weigh, how they sway, and the twigs that carry leaves.
 
+pub mod bark;
 mod crown;
 pub mod forest;
+pub mod gltf;
 pub mod grammar;
 mod grow;
 pub mod growth;
@@ -14,10 +16,13 @@ pub mod skeleton;
 mod store;
 pub mod sway;
 #[cfg(test)]
+mod testing;
+#[cfg(test)]
 mod tests;
 mod timber;
 pub mod turtle;
 
+pub use bark::{BarkDetail, BarkMesh, bark_mesh};
 pub use forest::Forest;
 pub(crate) use grow::segments_of;
 pub use grow::{TreeError, full_leaf_count, grow};
