@@ -4,6 +4,7 @@
 
 pub mod bark;
 mod crown;
+mod from_file;
 pub mod gltf;
 pub mod grammar;
 mod grow;

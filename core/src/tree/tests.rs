@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Trees as a whole: every preset at every age, growth in time, the pipe model, leaves.
 
+mod file;
 mod growth;
 mod leaves;
 mod presets;
