@@ -49,7 +49,7 @@ impl TreePreset {
             Self::Maple => 900,
             Self::Birch => 1150,
             Self::Oak => 1150,
-            Self::Bush => 700,
+            Self::Bush => 750,
             Self::Weed => 60,
             Self::BerryBush => 300,
         }
