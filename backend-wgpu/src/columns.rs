@@ -28,6 +28,18 @@ pub struct LeafColumns<'a> {
     pub leaf_count: u32,
 }
 
+/// Borrowed branch columns: one 16-byte record per segment in each buffer, usable as storage buffers on the device they
+/// were made on.
+#[derive(Clone, Copy, Debug)]
+pub struct BranchColumns<'a> {
+    /// World position x, y, z in metres of the segment's lower joint; w unused.
+    pub base: &'a wgpu::Buffer,
+    /// World orientation of the segment as a unit quaternion x, y, z, w: y along the segment.
+    pub pose: &'a wgpu::Buffer,
+    /// Number of segments.
+    pub count: u32,
+}
+
 /// Buffers for all leaf columns.
 #[derive(Debug)]
 pub struct LeafBuffers {

@@ -23,7 +23,7 @@ mod readback;
 mod shaders;
 mod simulator;
 
-pub use columns::{LeafBuffers, LeafColumns};
+pub use columns::{BranchColumns, LeafBuffers, LeafColumns};
 pub use exact::decorate_no_contraction;
 pub use gpu::{Gpu, describe_adapter, instance_descriptor, list_adapters, select_adapter};
 pub use prelude::WORKGROUP_SIZE;

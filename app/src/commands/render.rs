@@ -19,7 +19,8 @@ use crate::cli::whole;
 use crate::drawing::Drawing;
 use crate::frame::FrameSteps;
 use crate::output::{Output, Writer};
-use crate::render::{FrameInput, PictureTarget, Renderer, RendererOptions};
+use crate::render::{FrameInput, PictureTarget, Renderer, RendererOptions, Subject};
+use crate::trees::Stand;
 use crate::{interrupt, leaves, terminal};
 
 /// Largest edge of a picture in pixels.
@@ -104,7 +105,9 @@ impl Studio {
         let atlas = leaves::atlas_of(scene)?;
         let options = RendererOptions::for_scene(scene);
         let format = PictureTarget::FORMAT;
-        let renderer = Renderer::new(gpu.device(), gpu.queue(), scene, &atlas, format, size, options)?;
+        let stand = Stand::grow(scene)?;
+        let subject = Subject { scene, stand: &stand, atlas: &atlas };
+        let renderer = Renderer::new(gpu.device(), gpu.queue(), subject, format, size, options)?;
         gpu.check()?;
         if let Some(reason) = reason {
             terminal::note(&reason);
@@ -164,7 +167,7 @@ impl Studio {
         let columns = self.backend.columns(&self.gpu)?;
         let mut encoder =
             self.gpu.device().create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-        self.renderer.draw(&mut encoder, &self.target.view(), &columns, &input);
+        self.renderer.draw(&mut encoder, &self.target.view(), &columns, None, &input);
         let picture = self.target.submit_and_read(self.gpu.device(), self.gpu.queue(), encoder);
         // What the driver says about a failure is better than that the picture did not come.
         self.gpu.check()?;

@@ -10,6 +10,7 @@ use windfall_wgpu::LeafColumns;
 
 use super::*;
 use crate::camera::Camera;
+use crate::trees::Stand;
 
 /// A width whose rows need padding on their way back.
 const SIZE: (u32, u32) = (150, 90);
@@ -37,7 +38,9 @@ fn bench(change: impl FnOnce(&mut Scene)) -> Bench {
     let request = AtlasRequest { entries, variants: 2, size_px: 32, seed: 1 };
     let atlas = Atlas::generate(&request).expect("an atlas");
     let options = RendererOptions { litter_count: 0 };
-    let renderer = Renderer::new(&device, &queue, &scene, &atlas, PictureTarget::FORMAT, SIZE, options)
+    let stand = Stand::default();
+    let subject = Subject { scene: &scene, stand: &stand, atlas: &atlas };
+    let renderer = Renderer::new(&device, &queue, subject, PictureTarget::FORMAT, SIZE, options)
         .expect("a renderer within default limits");
     Bench { device, queue, scene, renderer }
 }
@@ -69,6 +72,7 @@ impl Bench {
             &mut encoder,
             &target.view(),
             &leaves,
+            None,
             &FrameInput { camera, time_s, origin: (0, 0) },
         );
         target.submit_and_read(&self.device, &self.queue, encoder).expect("a picture")

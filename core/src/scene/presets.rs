@@ -10,6 +10,7 @@ pub const PRESETS: &[(&str, &str)] = &[
     ("six-motions", include_str!("../../scenes/six-motions.ron")),
     ("storm", include_str!("../../scenes/storm.ron")),
     ("million", include_str!("../../scenes/million.ron")),
+    ("forest", include_str!("../../scenes/forest.ron")),
 ];
 
 impl Scene {
@@ -35,7 +36,11 @@ mod tests {
             assert!(text.is_ascii(), "{name} is plain text in any editor");
         }
         let names: Vec<_> = PRESETS.iter().map(|(name, _)| *name).collect();
-        assert_eq!(names, ["autumn-park", "six-motions", "storm", "million"], "names and their order");
+        assert_eq!(
+            names,
+            ["autumn-park", "six-motions", "storm", "million", "forest"],
+            "names and their order"
+        );
         assert_eq!(Scene::preset("calm"), None, "unknown names");
     }
 
