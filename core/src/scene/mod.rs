@@ -8,7 +8,7 @@
 mod file;
 mod ground;
 pub mod limits;
-mod nearest;
+pub(crate) mod nearest;
 mod presets;
 mod source;
 mod species;

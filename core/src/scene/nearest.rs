@@ -3,7 +3,7 @@
 //! Guesses what a misspelt name should have been.
 
 /// The candidate that `name` is a likely misspelling of.
-pub(super) fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+pub(crate) fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     // Beyond this no allowance for typing errors would reach a candidate, and the table below costs its square.
     if name.len() > 64 {
         return None;

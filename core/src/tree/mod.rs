@@ -3,9 +3,19 @@
 //! Trees: how they grow, what they weigh, how they sway, and the twigs that carry leaves.
 
 pub mod bark;
+mod crown;
+pub mod grammar;
+mod grow;
+pub mod growth;
+pub mod pipe;
+pub mod presets;
 pub mod skeleton;
 #[cfg(test)]
 mod testing;
+#[cfg(test)]
+mod tests;
+pub mod turtle;
 
 pub use bark::{BarkDetail, BarkMesh, bark_mesh};
+pub use grow::{TreeError, full_leaf_count, grow, segment_count};
 pub use skeleton::{Attachment, Bearing, Segment, Skeleton, SkeletonError};

@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What can be wrong with a grammar.
+
+use thiserror::Error;
+
+/// A place in the text of a grammar.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Position {
+    /// Line, from 1.
+    pub line: u32,
+    /// Column in characters, from 1.
+    pub column: u32,
+}
+
+/// A grammar that cannot be used as it is.
+#[derive(Clone, Debug, Error, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum GrammarError {
+    /// Something in the text is wrong, or turns out to be wrong when a tree grows.
+    #[error("line {}, column {}: {found}; allowed: {allowed}", at.line, at.column)]
+    Text {
+        /// Where it stands.
+        at: Position,
+        /// What was found.
+        found: String,
+        /// What is allowed.
+        allowed: String,
+    },
+    /// The tree grows past a limit.
+    #[error("step {step} of {steps} reaches {reached} {what}; allowed: at most {limit}")]
+    Limit {
+        /// The step at which it does; after the last for what is counted in the finished tree.
+        step: u32,
+        /// Number of steps asked for.
+        steps: u32,
+        /// What is counted.
+        what: &'static str,
+        /// Count reached.
+        reached: usize,
+        /// The limit.
+        limit: usize,
+    },
+    /// A tree of which nothing is above the ground.
+    #[error(
+        "the tree has no height: nothing of it is above the ground; allowed: `F` upwards in the finished tree"
+    )]
+    NoHeight,
+}
+
+impl GrammarError {
+    /// An error in the text.
+    pub(crate) fn text(at: Position, found: impl Into<String>, allowed: impl Into<String>) -> Self {
+        Self::Text { at, found: found.into(), allowed: allowed.into() }
+    }
+
+    /// What was found, and what is allowed.
+    pub fn parts(&self) -> (String, String) {
+        let line = self.to_string();
+        let (found, allowed) = line.rsplit_once("; allowed: ").expect("every variant says what is allowed");
+        (found.to_owned(), allowed.to_owned())
+    }
+}

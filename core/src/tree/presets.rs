@@ -1,0 +1,72 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The kinds of trees that travel in the program: grammar, wood, foliage.
+
+use crate::scene::{Foliage, LeafShape, TreeForm, TreeKind, TreePreset, Wood};
+
+impl TreePreset {
+    /// All of them.
+    pub const ALL: [Self; 6] = [Self::Maple, Self::Birch, Self::Oak, Self::Bush, Self::Weed, Self::BerryBush];
+
+    /// Name that a scene's trees refer to it by, in any mixture of capital and small letters.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Maple => "maple",
+            Self::Birch => "birch",
+            Self::Oak => "oak",
+            Self::Bush => "bush",
+            Self::Weed => "weed",
+            Self::BerryBush => "berry-bush",
+        }
+    }
+
+    /// The preset of this name.
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|preset| preset.name().eq_ignore_ascii_case(name))
+    }
+
+    /// Shapes that its leaves may have, the best first.
+    pub fn leaf_shapes(self) -> &'static [LeafShape] {
+        match self {
+            Self::Maple => &[LeafShape::Maple, LeafShape::JapaneseMaple],
+            Self::Birch => &[LeafShape::Birch],
+            Self::Oak => &[LeafShape::Oak],
+            Self::Bush => &[LeafShape::Hornbeam, LeafShape::Beech],
+            Self::Weed => &[LeafShape::Linden, LeafShape::Birch],
+            Self::BerryBush => &[LeafShape::Beech, LeafShape::Hornbeam],
+        }
+    }
+
+    /// The kind with its usual wood and foliage, leaves of no species yet.
+    ///
+    /// # Source
+    /// Green wood of trees: T. Jackson et al. (2019). Bushes and herbs are estimates.
+    pub fn kind(self) -> TreeKind {
+        let (youngs_modulus_gpa, density_kg_m3, leaf_area_index, strength_n) = match self {
+            Self::Maple => (8.4, 721.0, 4.5, 4.0),
+            Self::Birch => (9.9, 801.0, 2.5, 2.5),
+            Self::Oak => (10.5, 865.0, 4.0, 5.0),
+            Self::Bush => (7.0, 850.0, 3.5, 2.5),
+            Self::Weed => (1.0, 900.0, 2.0, 1.0),
+            Self::BerryBush => (5.0, 850.0, 2.5, 1.5),
+        };
+        TreeKind {
+            name: self.name().into(),
+            form: TreeForm::Preset(self),
+            wood: Wood { youngs_modulus_gpa, density_kg_m3, ..Wood::default() },
+            foliage: Foliage { leaf_area_index, strength_n, ..Foliage::default() },
+        }
+    }
+}
+
+/// The grammar of a preset.
+pub fn text(preset: TreePreset) -> &'static str {
+    match preset {
+        TreePreset::Maple => include_str!("../../trees/maple.lsys"),
+        TreePreset::Birch => include_str!("../../trees/birch.lsys"),
+        TreePreset::Oak => include_str!("../../trees/oak.lsys"),
+        TreePreset::Bush => include_str!("../../trees/bush.lsys"),
+        TreePreset::Weed => include_str!("../../trees/weed.lsys"),
+        TreePreset::BerryBush => include_str!("../../trees/berry-bush.lsys"),
+    }
+}
