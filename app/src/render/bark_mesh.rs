@@ -96,7 +96,7 @@ fn detail(tree: &StandingTree, eye_m: Vec3) -> BarkDetail {
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "unit vectors and shares")]
 fn vertex(tree: &StandingTree, mesh: &windfall_core::tree::BarkMesh, at: usize) -> BarkVertex {
     let place = Vec3::from_array(mesh.positions_m[at]);
-    let normal = (tree.turn * Vec3::from_array(mesh.normals[at])).extend(0.0) * 32_767.0;
+    let normal = Vec3::from_array(mesh.normals[at]).extend(0.0) * 32_767.0;
     let joints = mesh.joints[at].map(usize::from);
     let shares = mesh.weights[at];
     let main = (0..4).max_by(|&a, &b| shares[a].total_cmp(&shares[b])).unwrap_or(0);
@@ -115,9 +115,8 @@ fn vertex(tree: &StandingTree, mesh: &windfall_core::tree::BarkMesh, at: usize) 
 
 #[cfg(test)]
 mod tests {
-    use glam::Quat;
     use windfall_core::Scene;
-    use windfall_core::scene::Tree;
+    use windfall_core::scene::{Tree, TreeKind};
     use windfall_core::tree::{Segment, Skeleton};
 
     use super::*;
@@ -135,12 +134,11 @@ mod tests {
         let scene = Scene::default();
         let mut stand = Stand::default();
         for (x, radius_m) in [(0.0, 0.1), (30.0, 0.2)] {
-            let tree = Tree { at_m: [x, 0.0], heading_deg: 90.0, ..Tree::default() };
+            let tree = Tree { at_m: [x, 0.0], ..Tree::default() };
             let skeleton = Skeleton { segments: vec![post(radius_m)], ..Skeleton::default() };
-            stand.add(&scene, &tree, skeleton);
+            stand.add(&scene, &tree, &TreeKind::default(), skeleton, 0.0);
         }
         let tree = &stand.trees[1];
-        assert!(tree.turn.angle_between(Quat::from_rotation_y(1.570_796_4)) < 1e-3, "turned");
         let mesh = bark_mesh(&tree.skeleton, BarkDetail::Full);
         for at in 0..mesh.positions_m.len() {
             let vertex = vertex(tree, &mesh, at);

@@ -52,7 +52,7 @@ impl LeafPart {
             let distance_m = crown.center_m.distance(eye_m) - crown.radii_m.max_element();
             let far = DETAIL_M.iter().filter(|&&limit_m| distance_m > limit_m).count();
             let detail = far.max(detail(all).min(1));
-            Self { slots: start..end, tree: Some(index), cluster: tree.cluster(), detail }
+            Self { slots: start..end, tree: Some(index), cluster: tree.cluster, detail }
         };
         stand.trees.iter().enumerate().map(part).collect()
     }
@@ -77,7 +77,7 @@ pub(super) struct LeafMeshes(BTreeMap<(usize, u32), LeafMesh>);
 impl LeafMeshes {
     /// The meshes for leaves of no tree and for those of `stand`.
     pub(super) fn new(device: &wgpu::Device, queue: &wgpu::Queue, stand: &Stand) -> Self {
-        let clusters = std::iter::once(1).chain(stand.trees.iter().map(StandingTree::cluster));
+        let clusters = std::iter::once(1).chain(stand.trees.iter().map(|tree| tree.cluster));
         let mut meshes = BTreeMap::new();
         for cluster in clusters {
             for (detail, &(columns, rows)) in GRIDS.iter().enumerate() {

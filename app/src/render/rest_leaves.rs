@@ -28,22 +28,25 @@ impl RestLeaves {
         let (mut place, mut attitude, mut course, mut identity) = (vec![], vec![], vec![], vec![]);
         let mut counts = Vec::new();
         for (number, tree) in stand.trees.iter().enumerate() {
-            let cluster = tree.cluster();
             let before = place.len();
             let size_m = tree.species.map_or(0.0, |species| scene.species[species as usize].size_m);
             let sites = tree.skeleton.attachments.iter().filter(|at| at.bearing == Bearing::Leaf);
-            let kept = tree.species.map_or(0, |_| usize::MAX);
-            for (index, at) in sites.step_by(cluster as usize).take(kept).enumerate() {
+            let has_leaves = tree.species.is_some();
+            for (index, at) in sites.enumerate().filter(|_| has_leaves) {
                 let id = u32::try_from(index).unwrap_or(0) + 1_000_003 * u32::try_from(number).unwrap_or(0);
                 let draw = random([4, 4], id, 3);
-                let (up, along) = (tree.turn * at.normal, tree.turn * at.direction);
+                // About half are gone in the middle of autumn.
+                if (draw[3] >> 8) as f32 / 16_777_216.0 < scene.autumn * scene.autumn {
+                    continue;
+                }
+                let (up, along) = (at.normal, at.direction);
                 let center = tree.place(at.at_m) + along * (PETIOLE * size_m);
                 let bits = STATE_ATTACHED | tree.species.unwrap_or(0) << SPECIES_SHIFT;
                 place.push([center.x.to_bits(), center.y.to_bits(), center.z.to_bits(), bits]);
                 attitude.push(Quat::from_mat3(&Mat3::from_cols(up.cross(along), up, along)).to_array());
                 let spread = 0.8 + 0.4 * (draw[0] >> 8) as f32 / 16_777_216.0;
                 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a size")]
-                let size = (spread * (cluster as f32).sqrt() * SIZE_ONE as f32) as u32;
+                let size = (spread * (tree.cluster as f32).sqrt() * SIZE_ONE as f32) as u32;
                 course.push([0, 0, size.min(0xffff), 0]);
                 identity.push([id, 0, 0, (draw[1] & 0xffff) | (draw[2] & 0xff) << VARIANT_SHIFT]);
             }

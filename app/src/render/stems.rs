@@ -64,7 +64,7 @@ fn record(tree: &StandingTree) -> StemRecord {
     StemRecord {
         center_turned: crown.center_m.extend(look.turned).to_array(),
         radii_range: crown.radii_m.extend(look.turned_range).to_array(),
-        tint_cluster: look.tint.extend(tree.cluster() as f32).to_array(),
+        tint_cluster: look.tint.extend(tree.cluster as f32).to_array(),
         bark: [kind as f32, look.own, f32::from(u8::from(look.is_low)), TWIG_PX],
     }
 }

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Where a tree's leaves grow, as an ellipsoid: enough to know how deep in the crown a leaf sits.
 
-use glam::{Quat, Vec3};
+use glam::Vec3;
 use windfall_core::tree::Skeleton;
 
 /// Share of the leaves that lie beyond the ellipsoid on either side of each axis: stray twigs make no crown.
@@ -20,13 +20,13 @@ pub struct Crown {
 }
 
 impl Crown {
-    /// The crown of a tree that stands at `foot_m`, turned by `turn`.
-    pub fn of(skeleton: &Skeleton, foot_m: Vec3, turn: Quat) -> Self {
+    /// The crown of a tree that stands at `foot_m`.
+    pub fn of(skeleton: &Skeleton, foot_m: Vec3) -> Self {
         let mut places: Vec<Vec3> = skeleton.attachments.iter().map(|at| at.at_m).collect();
         if places.is_empty() {
             places = skeleton.segments.iter().map(|segment| segment.end_m).collect();
         }
-        places.iter_mut().for_each(|at| *at = foot_m + turn * *at);
+        places.iter_mut().for_each(|at| *at += foot_m);
         let range = |axis: usize| {
             let mut along: Vec<f32> = places.iter().map(|at| at[axis]).collect();
             along.sort_by(f32::total_cmp);
@@ -65,9 +65,8 @@ mod tests {
         };
         let attachments = vec![leaf(Vec3::new(2.0, 3.0, 0.0)), leaf(Vec3::new(-2.0, 7.0, 0.0))];
         let skeleton = Skeleton { segments: Vec::new(), attachments };
-        let turn = Quat::from_rotation_y(std::f32::consts::FRAC_PI_2);
-        let crown = Crown::of(&skeleton, Vec3::new(10.0, 1.0, 0.0), turn);
+        let crown = Crown::of(&skeleton, Vec3::new(10.0, 1.0, 0.0));
         assert!(crown.center_m.distance(Vec3::new(10.0, 6.0, 0.0)) < 1e-4, "{}", crown.center_m);
-        assert!(crown.radii_m.z > 2.0 && crown.radii_m.x < 0.2, "turned with the tree: {}", crown.radii_m);
+        assert!(crown.radii_m.x > 2.0 && crown.radii_m.z < 0.2, "as wide as it is: {}", crown.radii_m);
     }
 }

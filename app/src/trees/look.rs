@@ -30,14 +30,14 @@ impl BarkKind {
     pub const ALL: [Self; 5] = [Self::Maple, Self::Birch, Self::Oak, Self::Shrub, Self::Herb];
 
     /// The bark of a kind of trees; that of unknown ones goes by their leaves.
-    fn of(kind: Option<&TreeKind>, shape: Option<LeafShape>) -> Self {
-        match kind.map(|kind| &kind.form) {
-            Some(TreeForm::Preset(TreePreset::Maple)) => Self::Maple,
-            Some(TreeForm::Preset(TreePreset::Birch)) => Self::Birch,
-            Some(TreeForm::Preset(TreePreset::Oak)) => Self::Oak,
-            Some(TreeForm::Preset(TreePreset::Bush | TreePreset::BerryBush)) => Self::Shrub,
-            Some(TreeForm::Preset(TreePreset::Weed)) => Self::Herb,
-            _ => match shape {
+    fn of(kind: &TreeKind, shape: Option<LeafShape>) -> Self {
+        match &kind.form {
+            TreeForm::Preset(TreePreset::Maple) => Self::Maple,
+            TreeForm::Preset(TreePreset::Birch) => Self::Birch,
+            TreeForm::Preset(TreePreset::Oak) => Self::Oak,
+            TreeForm::Preset(TreePreset::Bush | TreePreset::BerryBush) => Self::Shrub,
+            TreeForm::Preset(TreePreset::Weed) => Self::Herb,
+            TreeForm::Grammar(_) | TreeForm::File(_) => match shape {
                 Some(LeafShape::Birch) => Self::Birch,
                 Some(LeafShape::Oak) => Self::Oak,
                 _ => Self::Maple,
@@ -65,7 +65,7 @@ pub struct Look {
 
 impl Look {
     /// The look of a tree of this kind, whose leaves belong to a species of the scene.
-    pub(super) fn of(scene: &Scene, tree: &Tree, kind: Option<&TreeKind>, species: Option<u32>) -> Self {
+    pub(super) fn of(scene: &Scene, tree: &Tree, kind: &TreeKind, species: Option<u32>) -> Self {
         let shape = species.and_then(|index| scene.species.get(index as usize)).map(|species| species.shape);
         let [x, z] = tree.at_m.map(f32::to_bits);
         let draw = random([x, z], tree.number, STREAM).map(unit_float);

@@ -4,13 +4,13 @@
 //! moves which of its segments.
 
 mod crown;
-mod draft;
 mod look;
 
+use anyhow::bail;
 use glam::{Quat, Vec3};
 use windfall_core::Scene;
-use windfall_core::scene::Tree;
-use windfall_core::tree::{Bearing, Skeleton};
+use windfall_core::scene::{Tree, TreeKind};
+use windfall_core::tree::{Bearing, Skeleton, full_leaf_count, grow};
 
 pub use crown::Crown;
 pub use look::{BarkKind, Look};
@@ -21,18 +21,16 @@ pub const MAX_CLUSTER: u32 = 16;
 /// A tree of the scene, grown.
 #[derive(Clone, Debug)]
 pub struct StandingTree {
-    /// The tree at rest, in its own frame.
+    /// The tree at rest, turned as it stands, with its foot at the origin.
     pub skeleton: Skeleton,
     /// Foot in metres.
     pub foot_m: Vec3,
-    /// Turns the tree's frame into place.
-    pub turn: Quat,
     /// Row of the branch columns for every segment.
     pub rows: Vec<u32>,
     /// Number of the species of its leaves in the scene.
     pub species: Option<u32>,
-    /// Most leaves of it that are simulated one by one.
-    pub leaves: u32,
+    /// Leaves that each of its simulated leaves stands for: 1 to [`MAX_CLUSTER`].
+    pub cluster: u32,
     /// Where its leaves grow.
     pub crown: Crown,
     /// Bark, tint and colour of the season.
@@ -42,18 +40,7 @@ pub struct StandingTree {
 impl StandingTree {
     /// A point of the tree's frame in the world.
     pub fn place(&self, at_m: Vec3) -> Vec3 {
-        self.foot_m + self.turn * at_m
-    }
-
-    /// Number of leaves at full crown.
-    pub fn leaf_sites(&self) -> usize {
-        self.skeleton.attachments.iter().filter(|at| at.bearing == Bearing::Leaf).count()
-    }
-
-    /// Leaves that a simulated one stands for: 1 to [`MAX_CLUSTER`].
-    pub fn cluster(&self) -> u32 {
-        let sites = u32::try_from(self.leaf_sites()).unwrap_or(u32::MAX);
-        sites.div_ceil(self.leaves.max(1)).clamp(1, MAX_CLUSTER)
+        self.foot_m + at_m
     }
 }
 
@@ -76,31 +63,36 @@ impl Stand {
     pub fn grow(scene: &Scene) -> anyhow::Result<Self> {
         let mut stand = Self::default();
         for tree in &scene.trees {
-            let skeleton = draft::grow(scene, tree);
-            stand.add(scene, tree, skeleton);
+            let Some(kind) = scene.tree_kinds.iter().find(|kind| kind.name == tree.kind) else {
+                bail!("a tree is of kind '{}', which the scene does not have", tree.kind)
+            };
+            let skeleton = grow(kind, tree, scene.seed)?;
+            let leaf_count = full_leaf_count(kind, tree, scene.seed)?;
+            stand.add(scene, tree, kind, skeleton, leaf_count);
         }
         Ok(stand)
     }
 
-    /// Adds a grown tree.
-    pub fn add(&mut self, scene: &Scene, tree: &Tree, skeleton: Skeleton) {
-        let kind = scene.tree_kinds.iter().find(|kind| kind.name == tree.kind);
-        let named = kind.and_then(|kind| kind.foliage.species.as_ref());
+    /// Adds a grown tree, which has `leaf_count` leaves at full crown.
+    pub fn add(&mut self, scene: &Scene, tree: &Tree, kind: &TreeKind, skeleton: Skeleton, leaf_count: f64) {
+        let named = kind.foliage.species.as_ref();
         let species = named.and_then(|name| scene.species.iter().position(|species| species.name == *name));
         let species = species.and_then(|index| u32::try_from(index).ok());
         let foot_m = Vec3::new(tree.at_m[0], scene.ground.height_m, tree.at_m[1]);
-        let turn = Quat::from_rotation_y(tree.heading_deg.to_radians());
         let first = u32::try_from(self.rest_base.len()).unwrap_or(u32::MAX);
         let rows = (first..).take(skeleton.segments.len()).collect();
         for segment in &skeleton.segments {
-            let base = foot_m + turn * segment.start_m;
-            let pose = turn * Quat::from_rotation_arc(Vec3::Y, segment.direction());
+            let base = foot_m + segment.start_m;
+            let pose = Quat::from_rotation_arc(Vec3::Y, segment.direction());
             self.rest_base.push(base.extend(0.0).to_array());
             self.rest_pose.push(pose.to_array());
         }
-        let crown = Crown::of(&skeleton, foot_m, turn);
+        let crown = Crown::of(&skeleton, foot_m);
         let look = Look::of(scene, tree, kind, species);
-        let leaves = tree.leaves;
-        self.trees.push(StandingTree { skeleton, foot_m, turn, rows, species, leaves, crown, look });
+        let sites = skeleton.attachments.iter().filter(|at| at.bearing == Bearing::Leaf).count();
+        let cluster = (leaf_count / sites.max(1) as f64).round().clamp(1.0, MAX_CLUSTER.into());
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "1 to MAX_CLUSTER")]
+        let cluster = cluster as u32;
+        self.trees.push(StandingTree { skeleton, foot_m, rows, species, cluster, crown, look });
     }
 }
