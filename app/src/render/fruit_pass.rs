@@ -14,10 +14,10 @@ use super::upload;
 use crate::trees::{Stand, StandingTree};
 
 /// Radius of a berry in metres, and how far sizes range on either side.
-const RADIUS_M: f32 = 0.0055;
+const RADIUS_M: f32 = 0.0075;
 const RADIUS_RANGE: f32 = 0.25;
 /// Ripe and very ripe.
-const COLORS: [Vec3; 2] = [Vec3::new(0.52, 0.035, 0.02), Vec3::new(0.30, 0.012, 0.018)];
+const COLORS: [Vec3; 2] = [Vec3::new(0.72, 0.045, 0.02), Vec3::new(0.42, 0.014, 0.022)];
 
 /// `Fruit` of `fruit.wgsl`.
 #[repr(C)]

@@ -46,3 +46,5 @@ pub use trail_pass::MAX_TRAILS;
 
 #[cfg(test)]
 mod tests;
+#[cfg(test)]
+mod tree_tests;

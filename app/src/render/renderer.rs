@@ -370,7 +370,7 @@ fn own_trees(stand: &Stand) -> Vec<TreeInstance> {
 fn shedding(planted: &[TreeInstance], stand: &Stand) -> Vec<Shedding> {
     let far = planted.iter();
     let far = far.map(|tree| Shedding { foot_m: tree.foot_m, height_m: tree.height_m, species: None });
-    let own = stand.trees.iter().map(|tree| Shedding {
+    let own = stand.trees.iter().filter(|tree| !tree.look.is_low).map(|tree| Shedding {
         foot_m: tree.foot_m,
         height_m: tree.skeleton.height_m(),
         species: tree.species,

@@ -6,23 +6,28 @@
 use image::RgbaImage;
 use windfall_core::Scene;
 use windfall_texgen::{Atlas, AtlasEntry, AtlasRequest, Shape};
-use windfall_wgpu::LeafColumns;
+use windfall_wgpu::{BranchColumns, LeafColumns};
 
 use super::*;
 use crate::camera::Camera;
 use crate::trees::Stand;
 
 /// A width whose rows need padding on their way back.
-const SIZE: (u32, u32) = (150, 90);
+pub(super) const SIZE: (u32, u32) = (150, 90);
 
-struct Bench {
-    device: wgpu::Device,
-    queue: wgpu::Queue,
+pub(super) struct Bench {
+    pub(super) device: wgpu::Device,
+    pub(super) queue: wgpu::Queue,
     scene: Scene,
     renderer: Renderer,
 }
 
 fn bench(change: impl FnOnce(&mut Scene)) -> Bench {
+    bench_with(change, |_| Stand::default())
+}
+
+/// A bench for a changed scene with trees.
+pub(super) fn bench_with(change: impl FnOnce(&mut Scene), stand: impl FnOnce(&Scene) -> Stand) -> Bench {
     let mut descriptor = wgpu::InstanceDescriptor::new_without_display_handle_from_env();
     descriptor.backends = wgpu::Backends::VULKAN;
     let instance = wgpu::Instance::new(descriptor);
@@ -38,7 +43,7 @@ fn bench(change: impl FnOnce(&mut Scene)) -> Bench {
     let request = AtlasRequest { entries, variants: 2, size_px: 32, seed: 1 };
     let atlas = Atlas::generate(&request).expect("an atlas");
     let options = RendererOptions { litter_count: 0 };
-    let stand = Stand::default();
+    let stand = stand(&scene);
     let subject = Subject { scene: &scene, stand: &stand, atlas: &atlas };
     let renderer = Renderer::new(&device, &queue, subject, PictureTarget::FORMAT, SIZE, options)
         .expect("a renderer within default limits");
@@ -46,8 +51,23 @@ fn bench(change: impl FnOnce(&mut Scene)) -> Bench {
 }
 
 impl Bench {
+    /// Draws the trees alone.
+    pub(super) fn draw_trees(&mut self, branches: Option<&BranchColumns<'_>>) -> RgbaImage {
+        self.draw_all(branches, 0, 0.0, 0.0)
+    }
+
     /// Draws one big leaf that faces the camera, in the given state, at an offset from the middle of the picture.
     fn draw(&mut self, state: u32, offset_m: f32, time_s: f64) -> RgbaImage {
+        self.draw_all(None, state, offset_m, time_s)
+    }
+
+    fn draw_all(
+        &mut self,
+        branches: Option<&BranchColumns<'_>>,
+        state: u32,
+        offset_m: f32,
+        time_s: f64,
+    ) -> RgbaImage {
         let at = self.scene.view.camera.target_m;
         let usage = wgpu::BufferUsages::VERTEX | wgpu::BufferUsages::STORAGE;
         let column = |words: [u32; 4]| {
@@ -72,14 +92,14 @@ impl Bench {
             &mut encoder,
             &target.view(),
             &leaves,
-            None,
+            branches,
             &FrameInput { camera, time_s, origin: (0, 0) },
         );
         target.submit_and_read(&self.device, &self.queue, encoder).expect("a picture")
     }
 }
 
-fn differing(a: &RgbaImage, b: &RgbaImage) -> usize {
+pub(super) fn differing(a: &RgbaImage, b: &RgbaImage) -> usize {
     a.pixels().zip(b.pixels()).filter(|(a, b)| a.0.iter().zip(b.0).any(|(a, b)| a.abs_diff(b) > 12)).count()
 }
 

@@ -15,20 +15,21 @@ const EDGE: f32 = BARK_SIZE as f32;
 pub(crate) struct Bark {
     /// Square root of the colour; height from 0 in the grooves to 1.
     pub(crate) surface: Vec<Vec<u8>>,
-    /// Tilt of the surface around and along the limb, 0.5 for none; open sky; unused.
+    /// Tilt of the surface around and along the limb, 0.5 for none; open sky; scar where the bark has cracked for good.
     pub(crate) relief: Vec<Vec<u8>>,
 }
 
-/// Colour and height of a place, which has coordinates from 0 to 1.
+/// Colour, height and scar of a place, which has coordinates from 0 to 1.
 struct Texel {
     color: Vec3,
     height: f32,
+    scar: f32,
 }
 
 /// Paints a kind of bark.
 pub(crate) fn paint_bark(kind: BarkKind) -> Bark {
     let (paint, depth): (fn(&Field, Vec2) -> Texel, f32) = match kind {
-        BarkKind::Maple => (maple, 3.0),
+        BarkKind::Maple => (maple, 2.2),
         BarkKind::Birch => (birch, 1.2),
         BarkKind::Oak => (oak, 6.0),
         BarkKind::Shrub => (shrub, 0.9),
@@ -61,7 +62,7 @@ pub(crate) fn paint_bark(kind: BarkKind) -> Bark {
             let root = |channel: f32| channel.max(0.0).sqrt();
             let color = texel.color;
             let halved = 0.5 + 0.5 * tilt;
-            [root(color.x), root(color.y), root(color.z), texel.height, halved.x, halved.y, open, 1.0]
+            [root(color.x), root(color.y), root(color.z), texel.height, halved.x, halved.y, open, texel.scar]
         })
         .collect();
     mips(planes)
@@ -186,28 +187,28 @@ fn plates(field: &Field, at: Vec2, cells: (i32, i32), wander: f32, layer: i32) -
 }
 
 fn maple(field: &Field, at: Vec2) -> Texel {
-    let (gap, own) = plates(field, at, (13, 4), 0.10, 1);
+    let (gap, own) = plates(field, at, (17, 3), 0.15, 1);
     let grain = field.fractal(at, (24, 10), 3, 5);
     let height = step(0.02, 0.32, gap) * (0.72 + 0.2 * own) + 0.28 * (grain - 0.5) + 0.05;
     let patch = field.fractal(at, (3, 3), 3, 9);
     let crest = Vec3::new(0.205, 0.180, 0.150).lerp(Vec3::new(0.165, 0.150, 0.115), own);
     let crest = crest.lerp(Vec3::new(0.190, 0.205, 0.150), 0.6 * step(0.52, 0.75, patch));
-    let color = Vec3::new(0.050, 0.039, 0.030).lerp(crest, step(0.05, 0.75, height)) * (0.75 + 0.5 * grain);
-    Texel { color, height: height.clamp(0.0, 1.0) }
+    let color = Vec3::new(0.082, 0.066, 0.052).lerp(crest, step(0.05, 0.75, height)) * (0.72 + 0.56 * grain);
+    Texel { color, height: height.clamp(0.0, 1.0), scar: 0.0 }
 }
 
 fn oak(field: &Field, at: Vec2) -> Texel {
-    let (gap, own) = plates(field, at, (8, 3), 0.16, 2);
-    let grain = field.fractal(at, (20, 8), 3, 6);
+    let (gap, own) = plates(field, at, (9, 2), 0.26, 2);
+    let grain = field.fractal(at, (32, 12), 3, 6);
     let across = field.fractal(at, (6, 22), 2, 11);
     let crest = step(0.03, 0.40, gap) * (0.8 + 0.2 * own);
     // Old plates break across.
-    let height = crest * (1.0 - 0.35 * step(0.60, 0.70, across)) + 0.22 * (grain - 0.5);
+    let height = crest * (1.0 - 0.35 * step(0.58, 0.66, across)) + 0.40 * (grain - 0.5);
     let patch = field.fractal(at, (3, 3), 3, 9);
     let ridge = Vec3::new(0.165, 0.138, 0.108).lerp(Vec3::new(0.125, 0.100, 0.075), own);
     let ridge = ridge.lerp(Vec3::new(0.150, 0.165, 0.110), 0.5 * step(0.5, 0.75, patch));
     let color = Vec3::new(0.022, 0.016, 0.012).lerp(ridge, step(0.0, 0.8, height)) * (0.7 + 0.6 * grain);
-    Texel { color, height: height.clamp(0.0, 1.0) }
+    Texel { color, height: height.clamp(0.0, 1.0), scar: 0.0 }
 }
 
 fn birch(field: &Field, at: Vec2) -> Texel {
@@ -233,12 +234,10 @@ fn birch(field: &Field, at: Vec2) -> Texel {
         color = color.lerp(Vec3::new(0.060, 0.045, 0.038), 0.9 * dark);
         height -= 0.35 * dark;
     }
-    // Black rough diamonds where the white has cracked.
-    let scar = field.fractal(at, (3, 2), 4, 12);
-    let rough = step(0.70, 0.76, scar);
-    color = color.lerp(Vec3::new(0.035, 0.030, 0.027) * (0.5 + grain), rough);
-    height -= 0.3 * rough * (0.4 + grain);
-    Texel { color, height: height.clamp(0.0, 1.0) }
+    // Black rough diamonds where the white has cracked; which of them show, every tree decides.
+    let crack = field.fractal(at, (4, 3), 4, 12);
+    let rough = step(0.60, 0.66, crack);
+    Texel { color, height: height.clamp(0.0, 1.0), scar: rough * (0.6 + 0.4 * grain) }
 }
 
 fn shrub(field: &Field, at: Vec2) -> Texel {
@@ -250,7 +249,7 @@ fn shrub(field: &Field, at: Vec2) -> Texel {
     let spot = (1.0 - step(0.08, 0.16, first)) * step(0.3, 0.35, own);
     color = color.lerp(Vec3::new(0.30, 0.25, 0.17), 0.8 * spot);
     height += 0.3 * spot;
-    Texel { color, height: height.clamp(0.0, 1.0) }
+    Texel { color, height: height.clamp(0.0, 1.0), scar: 0.0 }
 }
 
 fn herb(field: &Field, at: Vec2) -> Texel {
@@ -258,7 +257,7 @@ fn herb(field: &Field, at: Vec2) -> Texel {
     let grain = field.fractal(at, (6, 12), 3, 4);
     let color = Vec3::new(0.075, 0.125, 0.030).lerp(Vec3::new(0.150, 0.190, 0.055), 0.6 * rib + 0.3 * grain);
     let color = color.lerp(Vec3::new(0.16, 0.07, 0.045), 0.5 * step(0.55, 0.75, grain));
-    Texel { color, height: (0.6 * rib + 0.4 * grain).clamp(0.0, 1.0) }
+    Texel { color, height: (0.6 * rib + 0.4 * grain).clamp(0.0, 1.0), scar: 0.0 }
 }
 
 #[cfg(test)]

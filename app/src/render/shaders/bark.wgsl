@@ -49,13 +49,26 @@ fn fragment(in: Varyings) -> @location(0) vec4<f32> {
     let kind = u32(in.kind.x);
     // Every tree begins elsewhere on its bark.
     let uv = in.uv + in.kind.y * vec2(3.7, 11.3);
-    let surface = textureSample(barks, bark_sampler, uv, kind * 2u);
-    let relief = textureSample(barks, bark_sampler, uv, kind * 2u + 1u);
+    // Two looks at the tile, the second taller and elsewhere, take turns along the limb: no repeat shows.
+    let other_uv = vec2(uv.x + 0.37, uv.y * 0.61 + 0.19);
+    let choice = textureSample(noise, repeat_sampler, vec2(uv.x * 0.5, uv.y * 0.29)).r;
+    let blend = smoothstep(0.44, 0.56, choice);
+    let one = textureSample(barks, bark_sampler, uv, kind * 2u);
+    let other = textureSample(barks, bark_sampler, other_uv, kind * 2u);
+    let one_relief = textureSample(barks, bark_sampler, uv, kind * 2u + 1u);
+    let other_relief = textureSample(barks, bark_sampler, other_uv, kind * 2u + 1u);
+    let surface = mix(one, other, blend);
+    let relief = mix(one_relief, other_relief, blend);
     let radius = in.limb.x;
     let height = in.limb.w;
     // Old bark cracks; twigs are smooth and have their own colour.
-    let old = smoothstep(0.006, select(0.05, 0.02, kind == 1u), radius);
-    var albedo = mix(twig_color(kind), surface.rgb * surface.rgb, old);
+    let old = smoothstep(0.006, select(0.05, 0.035, kind == 1u), radius);
+    let stain = textureSample(noise, repeat_sampler, vec2(uv.x * 0.5, uv.y * 0.13 + 0.4)).g;
+    var albedo = mix(twig_color(kind), surface.rgb * surface.rgb * (0.55 + 0.9 * stain), old);
+    // Some of the places where white bark may crack have done so, most of them low on the trunk.
+    let crack = textureSample(noise, repeat_sampler, vec2(uv.x * 0.5 + 0.3, uv.y * 0.21 + 0.7)).r;
+    let cracked = smoothstep(0.56, 0.62, crack + 0.35 * smoothstep(1.2, 0.1, height)) * relief.a * old;
+    albedo = mix(albedo, vec3(0.030, 0.026, 0.023), cracked);
     // Green algae near the ground, on the side away from the sun.
     let dull = smoothstep(1.3, 0.0, height) * smoothstep(0.03, 0.12, radius);
     let away = 0.5 - 0.5 * dot(in.normal.xz, frame.sun_direction.xz);

@@ -51,7 +51,7 @@ fn fragment(in: Varyings) -> @location(0) vec4<f32> {
     let lit = clamp((dot(normal, light) + 0.15) / 1.15, 0.0, 1.0);
     let gloss = 0.5 * pow(max(dot(normal, normalize(light + to_eye)), 0.0), 60.0);
     // The calyx leaves a dark dot below.
-    let dot_below = mix(0.35, 1.0, smoothstep(0.93, 0.97, 1.0 + normal.y + 0.9));
+    let dot_below = mix(0.35, 1.0, smoothstep(-0.97, -0.90, normal.y));
     var color = sun * (in.color * lit * dot_below + gloss) + in.color * ambient_light(normal) * 0.8;
     color += frame.sky_horizon.rgb * 0.04 * pow(1.0 - front, 3.0);
     return vec4(haze(color, in.center), alpha);

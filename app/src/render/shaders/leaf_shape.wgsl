@@ -72,7 +72,13 @@ fn blade_point(leaf: Leaf, at_copy: vec3<f32>, stem: Stem, curl: bool) -> BladeP
     }
     let layer = min(species * variants + variant, kinds.counts.y - 1u);
     let relative = f32(leaf.course.z & HALF_MASK) * SIZE_UNIT;
-    let one = kinds.size[species].x * relative * inverseSqrt(stem.tint_cluster.w);
+    // On its twig a leaf may stand for several: the high half is then its own size.
+    var own = relative;
+    if attached {
+        let stated = f32(leaf.course.z >> 16u) * SIZE_UNIT;
+        own = select(relative * inverseSqrt(stem.tint_cluster.w), stated, stated > 0.0);
+    }
+    let one = kinds.size[species].x * own;
     let half_edge = 0.5 * one * kinds.layer[layer].x;
 
     // Every leaf has dried into its own form: folded along the midrib, bent along it, twisted, waved at the rim.
