@@ -7,7 +7,7 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
-use crate::commands::{bench, info, leaf, motions, render, simulate, view};
+use crate::commands::{bench, info, leaf, motions, render, simulate, tree, view};
 use crate::terminal;
 
 /// Exit code of everything that goes wrong.
@@ -40,6 +40,9 @@ pub enum Command {
     /// Make leaves for scenes, and study them.
     #[command(subcommand)]
     Leaf(leaf::Command),
+    /// Write trees as glTF files, and tell how large they are.
+    #[command(subcommand)]
+    Tree(tree::Command),
 }
 
 impl Command {
@@ -52,6 +55,7 @@ impl Command {
             Self::Bench(arguments) => bench::run(&arguments),
             Self::Motions(arguments) => motions::run(&arguments),
             Self::Leaf(command) => command.run(),
+            Self::Tree(command) => command.run(),
         }
     }
 }

@@ -4,6 +4,8 @@
 //!
 //! `cargo run --release -p windfall-core --example tree_sheet -- sheet.png [preset or grammar file]...`
 
+#![expect(clippy::cast_possible_truncation, reason = "pixels, colours and sizes within a picture")]
+
 use std::path::Path;
 use std::time::Instant;
 
@@ -11,7 +13,7 @@ use glam::{Vec2, Vec3};
 use image::{Rgb, RgbImage};
 use windfall_core::scene::{Tree, TreeForm, TreeKind, TreePreset};
 use windfall_core::tree::grammar::Grammar;
-use windfall_core::tree::{Bearing, Skeleton, full_leaf_count, grow, presets};
+use windfall_core::tree::{Bearing, Skeleton, full_leaf_count, grow};
 
 /// Width and height of a picture in pixels.
 const CELL: (u32, u32) = (400, 400);
@@ -23,7 +25,7 @@ const PICTURES: [(f32, bool, u32); 7] = [
     (1.0, true, 1),
     (1.0, false, 1),
     (1.0, false, 2),
-    (1.0, true, 3),
+    (1.0, false, 3),
 ];
 /// Seed of all trees.
 const SEED: u64 = 1;
@@ -77,7 +79,7 @@ fn kind(name: &str) -> Result<TreeKind, Box<dyn std::error::Error>> {
 /// Area of a leaf in m², times the leaves that it stands for.
 fn leaf_m2(kind: &TreeKind, tree: &Tree, skeleton: &Skeleton) -> Result<f32, Box<dyn std::error::Error>> {
     let text = match &kind.form {
-        TreeForm::Preset(preset) => presets::text(*preset),
+        TreeForm::Preset(preset) => preset.text(),
         TreeForm::Grammar(text) | TreeForm::File(text) => text,
     };
     let leaves = skeleton.attachments.iter().filter(|one| one.bearing == Bearing::Leaf).count();

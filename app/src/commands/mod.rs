@@ -13,4 +13,5 @@ pub mod scene;
 pub mod simulate;
 pub mod stepping;
 pub mod tracks;
+pub mod tree;
 pub mod view;

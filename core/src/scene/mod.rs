@@ -36,6 +36,13 @@ pub const MAX_VORTICES: usize = 8;
 /// Most leaves a scene may have, over all sources (four billion words of state would not fit anywhere yet).
 pub const MAX_LEAVES: u32 = 1 << 28;
 
+/// Most kinds of trees a scene may have of its own.
+pub const MAX_TREE_KINDS: usize = 64;
+/// Most trees a scene may have.
+pub const MAX_TREES: usize = 4096;
+/// Most segments that the trees of a scene may have together.
+pub const MAX_FOREST_SEGMENTS: usize = 1 << 21;
+
 /// A whole scene: what falls, from where, through which wind, onto what, seen from where.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
@@ -52,13 +59,14 @@ pub struct Scene {
     pub rotation_speed: f32,
     /// The kinds of leaves.
     pub species: Vec<Species>,
-    /// Where leaves come from.
+    /// Where leaves come from, besides the trees. At least one if there are no trees.
     pub sources: Vec<Source>,
-    /// The kinds of trees.
+    /// The kinds of trees. May be empty: trees name the presets `maple`, `birch`, `oak`, `bush`, `weed` and
+    /// `berry-bush` without a kind of the scene's own; see [`Scene::tree_kind`].
     pub tree_kinds: Vec<TreeKind>,
     /// The trees. Each is a source of leaves as well.
     pub trees: Vec<Tree>,
-    /// How far the year has come for the leaves on the trees: 0 in summer, 1 in winter, when none are left.
+    /// How far the year has come for the leaves on the trees, 0 to 1: 0 in summer, 1 in winter, when none are left.
     pub autumn: f32,
     /// The one wind.
     pub wind: WindParameters,
@@ -92,5 +100,22 @@ impl Scene {
     /// Number of leaf slots: the sum of the sources' counts.
     pub fn leaf_count(&self) -> u32 {
         self.sources.iter().fold(0, |sum, source| sum.saturating_add(source.count))
+    }
+
+    /// The kind of trees that `name` stands for: the scene's own of exactly this name, or else the preset of this
+    /// name in capital or small letters. The leaves of a preset are of the scene's first species whose shape fits
+    /// it, or else of the scene's first species.
+    pub fn tree_kind(&self, name: &str) -> Option<TreeKind> {
+        if let Some(own) = self.tree_kinds.iter().find(|kind| kind.name == name) {
+            return Some(own.clone());
+        }
+        let preset = TreePreset::named(name)?;
+        let shapes = preset.leaf_shapes().iter();
+        let mut fitting =
+            shapes.filter_map(|shape| self.species.iter().find(|species| species.shape == *shape));
+        let species = fitting.next().or(self.species.first());
+        let mut kind = preset.kind();
+        kind.foliage.species = species.map(|species| species.name.clone());
+        Some(kind)
     }
 }

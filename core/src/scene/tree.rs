@@ -8,17 +8,17 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Tree {
-    /// Name of one of the scene's tree kinds.
+    /// Name of one of the scene's tree kinds, or of a preset: maple, birch, oak, bush, weed, berry-bush.
     pub kind: String,
     /// Where the foot stands, x and z in metres, each -2048 to 2048; y is the ground's.
     pub at_m: [f32; 2],
     /// Height when full-grown in metres, 0.2 to 60; the kind's own when `None`.
     pub height_m: Option<f32>,
-    /// Age from seedling, 0.05, to full-grown, 1.
+    /// Age, 0.05 to 1: from seedling to full-grown.
     pub age: f32,
     /// Turned about the vertical by so many degrees, -360 to 360.
     pub heading_deg: f32,
-    /// Number of this tree among trees of the same kind: another number, another tree.
+    /// Number of this tree among trees of the same kind, 0 to 4294967295: another number, another tree.
     pub number: u32,
     /// Most leaves that are simulated one by one, 0 to 200000; each stands for several if the crown has more.
     pub leaves: u32,

@@ -6,6 +6,7 @@ mod check;
 mod cross;
 #[cfg(test)]
 mod tests;
+mod trees;
 
 use super::{
     Camera, Ground, MAX_LEAVES, MAX_SOURCES, MAX_SPECIES, MAX_VORTICES, MeanSpeed, MotionParameters, Profile,
@@ -28,7 +29,11 @@ impl Scene {
             ("rotation_speed", self.rotation_speed.into(), limits::ROTATION_SPEED),
         ])?;
         check.length("species", self.species.len(), 1, MAX_SPECIES)?;
-        check.length("sources", self.sources.len(), 1, MAX_SOURCES)?;
+        let fewest = usize::from(self.trees.is_empty());
+        check.holds((fewest..=MAX_SOURCES).contains(&self.sources.len()), "sources", || {
+            let allowed = format!("1 to {MAX_SOURCES} entries, or none if there are trees");
+            (format!("a list of {}", self.sources.len()), allowed)
+        })?;
         for (index, species) in self.species.iter().enumerate() {
             species.check(&check.inside(format!("species[{index}]")))?;
         }
@@ -44,6 +49,7 @@ impl Scene {
             (format!("{leaves} leaves"), format!("at most {MAX_LEAVES} leaves over all sources"))
         })?;
         self.check_species_names(&check)?;
+        self.check_trees(&check)?;
         self.check_transitions(&check)?;
         self.check_rates(&check)?;
         self.check_heights(&check)?;

@@ -5,11 +5,11 @@
 use glam::DVec3;
 use thiserror::Error;
 
+use super::crown;
 use super::grammar::{Draws, Grammar, GrammarError};
 use super::growth::{self, Grown};
 use super::skeleton::{Segment, Skeleton, SkeletonError};
 use super::turtle::{self, Shoot, rotated};
-use super::{crown, presets};
 use crate::scene::{Tree, TreeForm, TreeKind};
 
 /// Lowest full-grown tree in the grammar's unit.
@@ -86,16 +86,13 @@ pub fn grow(kind: &TreeKind, tree: &Tree, seed: u64) -> Result<Skeleton, TreeErr
     Ok(skeleton)
 }
 
-/// Number of segments of a tree, without growing all of it.
+/// Number of segments of a tree by this grammar, without growing all of it.
 ///
 /// # Errors
-/// As [`grow`].
-pub fn segment_count(kind: &TreeKind, tree: &Tree, seed: u64) -> Result<usize, TreeError> {
-    let plan = Plan::new(kind, tree, seed)?;
-    Ok(growth::present(&plan.shoots, plan.scale, tree.age.into())
-        .into_iter()
-        .filter(|&present| present)
-        .count())
+/// What is wrong with the grammar, or past a limit.
+pub(crate) fn segments_of(grammar: &Grammar, tree: &Tree, seed: u64) -> Result<usize, GrammarError> {
+    let (shoots, scale) = shoots(grammar, tree, seed)?;
+    Ok(growth::present(&shoots, scale, tree.age.into()).into_iter().filter(|&present| present).count())
 }
 
 /// Number of leaves of a tree's full crown at its age. [`grow`] attaches as many, or as many as the tree asks for if
@@ -118,26 +115,16 @@ struct Plan {
 
 impl Plan {
     fn new(kind: &TreeKind, tree: &Tree, seed: u64) -> Result<Self, TreeError> {
-        let text = match &kind.form {
-            TreeForm::Preset(preset) => presets::text(*preset),
-            TreeForm::Grammar(text) => text.as_str(),
+        let of_kind = |source| TreeError::Grammar { kind: kind.name.clone(), source };
+        let grammar = match &kind.form {
+            TreeForm::Preset(preset) => preset.grammar(),
+            TreeForm::Grammar(text) => Grammar::parse(text).map_err(of_kind)?,
             TreeForm::File(path) => {
                 return Err(TreeError::File { kind: kind.name.clone(), path: path.clone() });
             }
         };
-        Self::of(text, tree, seed).map_err(|source| TreeError::Grammar { kind: kind.name.clone(), source })
-    }
-
-    fn of(text: &str, tree: &Tree, seed: u64) -> Result<Self, GrammarError> {
-        let grammar = Grammar::parse(text)?;
-        let derivation = grammar.derive(seed, tree.number)?;
-        let shoots = turtle::draw(&derivation, grammar.settings())?;
-        let height = growth::full_height(&shoots);
-        if height < LOWEST {
-            return Err(GrammarError::NoHeight);
-        }
-        let height_m = tree.height_m.map_or(grammar.settings().height_m, f64::from);
-        Ok(Self { grammar, shoots, scale: height_m / height })
+        let (shoots, scale) = shoots(&grammar, tree, seed).map_err(of_kind)?;
+        Ok(Self { grammar, shoots, scale })
     }
 
     fn grown(&self, tree: &Tree) -> Vec<Grown> {
@@ -148,6 +135,18 @@ impl Plan {
         let leaf_area_index = kind.foliage.leaf_area_index.into();
         crown::full_count(grown, &self.shoots, self.grammar.settings(), leaf_area_index)
     }
+}
+
+/// The shoots of a full-grown tree, and metres per unit of their lengths.
+fn shoots(grammar: &Grammar, tree: &Tree, seed: u64) -> Result<(Vec<Shoot>, f64), GrammarError> {
+    let derivation = grammar.derive(seed, tree.number)?;
+    let shoots = turtle::draw(&derivation, grammar.settings())?;
+    let height = growth::full_height(&shoots);
+    if height < LOWEST {
+        return Err(GrammarError::NoHeight);
+    }
+    let height_m = tree.height_m.map_or(grammar.settings().height_m, f64::from);
+    Ok((shoots, height_m / height))
 }
 
 #[expect(clippy::cast_possible_truncation, reason = "the nearest single-precision number")]

@@ -4,11 +4,12 @@
 
 pub mod bark;
 mod crown;
+pub mod gltf;
 pub mod grammar;
 mod grow;
 pub mod growth;
 pub mod pipe;
-pub mod presets;
+mod presets;
 pub mod skeleton;
 #[cfg(test)]
 mod testing;
@@ -17,5 +18,6 @@ mod tests;
 pub mod turtle;
 
 pub use bark::{BarkDetail, BarkMesh, bark_mesh};
-pub use grow::{TreeError, full_leaf_count, grow, segment_count};
+pub(crate) use grow::segments_of;
+pub use grow::{TreeError, full_leaf_count, grow};
 pub use skeleton::{Attachment, Bearing, Segment, Skeleton, SkeletonError};

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The kinds of trees that travel in the program: grammar, wood, foliage.
 
+use super::grammar::Grammar;
 use crate::scene::{Foliage, LeafShape, TreeForm, TreeKind, TreePreset, Wood};
 
 impl TreePreset {
@@ -25,6 +26,35 @@ impl TreePreset {
         Self::ALL.into_iter().find(|preset| preset.name().eq_ignore_ascii_case(name))
     }
 
+    /// The text of its grammar.
+    pub fn text(self) -> &'static str {
+        match self {
+            Self::Maple => include_str!("../../trees/maple.lsys"),
+            Self::Birch => include_str!("../../trees/birch.lsys"),
+            Self::Oak => include_str!("../../trees/oak.lsys"),
+            Self::Bush => include_str!("../../trees/bush.lsys"),
+            Self::Weed => include_str!("../../trees/weed.lsys"),
+            Self::BerryBush => include_str!("../../trees/berry-bush.lsys"),
+        }
+    }
+
+    /// Its grammar.
+    pub fn grammar(self) -> Grammar {
+        Grammar::parse(self.text()).expect("presets are tested to be in order")
+    }
+
+    /// Most segments that one has, whatever its number.
+    pub fn most_segments(self) -> usize {
+        match self {
+            Self::Maple => 900,
+            Self::Birch => 1150,
+            Self::Oak => 1150,
+            Self::Bush => 700,
+            Self::Weed => 60,
+            Self::BerryBush => 300,
+        }
+    }
+
     /// Shapes that its leaves may have, the best first.
     pub fn leaf_shapes(self) -> &'static [LeafShape] {
         match self {
@@ -44,10 +74,10 @@ impl TreePreset {
     pub fn kind(self) -> TreeKind {
         let (youngs_modulus_gpa, density_kg_m3, leaf_area_index, strength_n) = match self {
             Self::Maple => (8.4, 721.0, 4.5, 4.0),
-            Self::Birch => (9.9, 801.0, 2.5, 2.5),
+            Self::Birch => (9.9, 801.0, 3.0, 2.5),
             Self::Oak => (10.5, 865.0, 4.0, 5.0),
             Self::Bush => (7.0, 850.0, 3.5, 2.5),
-            Self::Weed => (1.0, 900.0, 2.0, 1.0),
+            Self::Weed => (1.0, 900.0, 3.0, 1.0),
             Self::BerryBush => (5.0, 850.0, 2.5, 1.5),
         };
         TreeKind {
@@ -56,17 +86,5 @@ impl TreePreset {
             wood: Wood { youngs_modulus_gpa, density_kg_m3, ..Wood::default() },
             foliage: Foliage { leaf_area_index, strength_n, ..Foliage::default() },
         }
-    }
-}
-
-/// The grammar of a preset.
-pub fn text(preset: TreePreset) -> &'static str {
-    match preset {
-        TreePreset::Maple => include_str!("../../trees/maple.lsys"),
-        TreePreset::Birch => include_str!("../../trees/birch.lsys"),
-        TreePreset::Oak => include_str!("../../trees/oak.lsys"),
-        TreePreset::Bush => include_str!("../../trees/bush.lsys"),
-        TreePreset::Weed => include_str!("../../trees/weed.lsys"),
-        TreePreset::BerryBush => include_str!("../../trees/berry-bush.lsys"),
     }
 }

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Skeletons for tests.
 
+use std::f32::consts::TAU;
+
 use glam::{Quat, Vec3};
 
 use super::{Attachment, Bearing, Segment, Skeleton};
@@ -42,7 +44,7 @@ fn limb(
         let end_m = start_m + direction * length_m * (0.6 + 0.8 * draw[0]);
         let (start_radius_m, end_radius_m) = (radius_m * taper, radius_m * (taper - 0.12));
         skeleton.segments.push(Segment { parent, start_m, end_m, start_radius_m, end_radius_m, order });
-        let aside = Quat::from_axis_angle(direction, draw[1] * 6.28) * direction.any_orthonormal_vector();
+        let aside = Quat::from_axis_angle(direction, draw[1] * TAU) * direction.any_orthonormal_vector();
         if depth > 1 && step > 0 {
             let on_bark = if step == 2 { start_radius_m } else { 0.0 };
             let base = start_m.lerp(end_m, draw[2]) + aside * on_bark;

@@ -75,7 +75,12 @@ impl<'a> Check<'a> {
             return Ok(());
         }
         let (value, allowed) = explain();
+        Err(self.error(name, value, allowed))
+    }
+
+    /// The error for a value that is not allowed.
+    pub(super) fn error(&self, name: &str, value: String, allowed: String) -> SceneError {
         let field = format!("{}{name}", self.prefix);
-        Err(SceneError::Field { file: self.file.to_owned(), field, value, allowed })
+        SceneError::Field { file: self.file.to_owned(), field, value, allowed }
     }
 }

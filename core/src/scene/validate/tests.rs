@@ -4,14 +4,15 @@
 
 mod cross;
 mod edges;
+mod trees;
 
 use glam::Vec3;
 
 use crate::SceneError;
 use crate::motion::{Primitive, TransitionTable};
 use crate::scene::{
-    MeanSpeed, MotionParameters, Profile, Release, RotationModel, Scene, Share, Source, SourceShape, Species,
-    Vortex, WindParameters,
+    Foliage, MeanSpeed, MotionParameters, Profile, Release, RotationModel, Scene, Share, Source, SourceShape,
+    Species, Tree, TreeKind, Vortex, WindParameters,
 };
 
 /// A valid scene in which every optional number is present.
@@ -52,10 +53,13 @@ fn full() -> Scene {
         axial_m_s: 1.0,
         drift_m_s: Vec3::X,
     };
+    let foliage = Foliage { species: Some("maple".into()), ..Foliage::default() };
     Scene {
         dt_s: 0.004,
         species: vec![species],
         sources: vec![source],
+        tree_kinds: vec![TreeKind { foliage, ..TreeKind::default() }],
+        trees: vec![Tree { height_m: Some(12.0), ..Tree::default() }],
         wind: WindParameters { vortices: vec![vortex], ..WindParameters::default() },
         ..Scene::default()
     }

@@ -174,6 +174,47 @@ prop_compose! {
 }
 
 prop_compose! {
+    /// Every name is made unique, and the species one of the scene's, later.
+    fn tree_kind()(
+        name in "[^\\p{C}]{0,12}",
+        form in prop_oneof![
+            select(TreePreset::ALL.to_vec()).prop_map(TreeForm::Preset),
+            "[^\\p{C}]{1,20}".prop_map(TreeForm::File),
+            (1u32..20, "[^\\p{Cc}]{0,20}").prop_map(|(steps, remark)| {
+                TreeForm::Grammar(format!("# {remark}\niterations = {steps};\naxiom A; A -> F [ +F L ] A;"))
+            }),
+        ],
+        (youngs_modulus_gpa, density_kg_m3) in
+            (within(limits::YOUNGS_MODULUS_GPA), within(limits::DENSITY_KG_M3)),
+        (damping, wood_drag) in (within(limits::DAMPING), within(limits::WOOD_DRAG)),
+        species in option::of(Just(String::new())),
+        (leaf_area_index, leaf_drag) in (within(limits::LEAF_AREA_INDEX), within(limits::LEAF_DRAG)),
+        (yield_m_s, strength_n) in (within(limits::YIELD_M_S), within(limits::STRENGTH_N)),
+    ) -> TreeKind {
+        TreeKind {
+            name,
+            form,
+            wood: Wood { youngs_modulus_gpa, density_kg_m3, damping, drag: wood_drag },
+            foliage: Foliage { species, leaf_area_index, drag: leaf_drag, yield_m_s, strength_n },
+        }
+    }
+}
+
+prop_compose! {
+    /// The kind is replaced by one of the scene's own later, if it has any.
+    fn tree()(
+        kind in select(vec!["maple", "Birch", "OAK", "bush", "weed", "Berry-Bush"]),
+        at_m in [within(limits::AT_M), within(limits::AT_M)],
+        height_m in maybe(limits::TREE_HEIGHT_M),
+        (age, heading_deg) in (within(limits::AGE), within(limits::HEADING_DEG)),
+        number in any::<u32>(),
+        leaves in 0..=limits::TREE_LEAVES.high,
+    ) -> Tree {
+        Tree { kind: kind.into(), at_m, height_m, age, heading_deg, number, leaves }
+    }
+}
+
+prop_compose! {
     pub(super) fn any_scene()(
         name in "[^\\p{Cc}]{0,30}",
         seed in any::<u64>(),
@@ -181,6 +222,8 @@ prop_compose! {
         (fall_speed, rotation_speed) in (within(limits::FALL_SPEED), within(limits::ROTATION_SPEED)),
         mut species in vec(species(), 1..5),
         mut sources in vec(source(), 1..=MAX_SOURCES),
+        (mut tree_kinds, mut trees) in (vec(tree_kind(), 0..4), vec(tree(), 0..6)),
+        autumn in within(limits::AUTUMN),
         wind in wind(),
         ground in (-4.0f32..=4.0, within(limits::FRICTION))
             .prop_map(|(height_m, friction)| Ground { height_m, friction }),
@@ -195,6 +238,18 @@ prop_compose! {
                 share.species.clone_from(&species.name);
             }
         }
-        Scene { name, seed, dt_s, fall_speed, rotation_speed, species, sources, wind, ground, view }
+        for (index, kind) in tree_kinds.iter_mut().enumerate() {
+            kind.name = format!("{index} {}", kind.name);
+            if let Some(name) = &mut kind.foliage.species {
+                name.clone_from(&species[index % species.len()].name);
+            }
+        }
+        for (tree, kind) in trees.iter_mut().zip(&tree_kinds) {
+            tree.kind.clone_from(&kind.name);
+        }
+        Scene {
+            name, seed, dt_s, fall_speed, rotation_speed, species, sources, tree_kinds, trees, autumn, wind, ground,
+            view,
+        }
     }
 }

@@ -48,7 +48,14 @@ const SPECIES: &[Case] = &[
 ];
 
 const SOURCES: &[Case] = &[
-    (|s| s.sources.clear(), Some("sources")),
+    (|s| s.sources.clear(), None),
+    (
+        |s| {
+            s.sources.clear();
+            s.trees.clear();
+        },
+        Some("sources"),
+    ),
     (|s| s.sources = vec![s.sources[0].clone(); MAX_SOURCES], None),
     (|s| s.sources = vec![s.sources[0].clone(); MAX_SOURCES + 1], Some("sources")),
     (|s| s.sources[0].species.clear(), None),

@@ -72,6 +72,20 @@ const REALS: &[Row<f32>] = &[
     ("sources[0].release.from_s", -3600.0, 86_400.0,
         |s, v| s.sources[0].release = Release::Rate { per_s: 1.0, from_s: v }),
     ("sources[0].recycle_after_s", 0.1, 86_400.0, |s, v| s.sources[0].recycle_after_s = Some(v)),
+    ("autumn", 0.0, 1.0, |s, v| s.autumn = v),
+    ("trees[0].at_m.0", -2048.0, 2048.0, |s, v| s.trees[0].at_m[0] = v),
+    ("trees[0].at_m.1", -2048.0, 2048.0, |s, v| s.trees[0].at_m[1] = v),
+    ("trees[0].height_m", 0.2, 60.0, |s, v| s.trees[0].height_m = Some(v)),
+    ("trees[0].age", 0.05, 1.0, |s, v| s.trees[0].age = v),
+    ("trees[0].heading_deg", -360.0, 360.0, |s, v| s.trees[0].heading_deg = v),
+    ("tree_kinds[0].wood.youngs_modulus_gpa", 1e-6, 1000.0, |s, v| s.tree_kinds[0].wood.youngs_modulus_gpa = v),
+    ("tree_kinds[0].wood.density_kg_m3", 100.0, 2000.0, |s, v| s.tree_kinds[0].wood.density_kg_m3 = v),
+    ("tree_kinds[0].wood.damping", 0.0, 1.0, |s, v| s.tree_kinds[0].wood.damping = v),
+    ("tree_kinds[0].wood.drag", 0.0, 3.0, |s, v| s.tree_kinds[0].wood.drag = v),
+    ("tree_kinds[0].foliage.leaf_area_index", 0.1, 12.0, |s, v| s.tree_kinds[0].foliage.leaf_area_index = v),
+    ("tree_kinds[0].foliage.drag", 0.0, 2.0, |s, v| s.tree_kinds[0].foliage.drag = v),
+    ("tree_kinds[0].foliage.yield_m_s", 1.0, 1000.0, |s, v| s.tree_kinds[0].foliage.yield_m_s = v),
+    ("tree_kinds[0].foliage.strength_n", 0.01, 100.0, |s, v| s.tree_kinds[0].foliage.strength_n = v),
     ("ground.height_m", -4096.0, 4096.0, |s, v| {
         tall(s, disc(Vec3::Y * 4096.0, 1.0));
         s.ground.height_m = v;

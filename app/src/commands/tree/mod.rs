@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! `windfall tree`: trees without any scene, or one tree of a scene.
+
+pub mod export;
+pub mod info;
+mod source;
+
+use clap::Subcommand;
+
+/// What can be done with trees.
+#[derive(Clone, Debug, Subcommand)]
+pub enum Command {
+    /// Write a tree as a glTF file: bark that joints move, places of leaves and fruit, wind weights.
+    Export(export::Arguments),
+    /// Tell how large a tree is, in numbers.
+    Info(info::Arguments),
+}
+
+impl Command {
+    /// Runs the command.
+    ///
+    /// # Errors
+    /// What the command says.
+    pub fn run(self) -> anyhow::Result<()> {
+        match self {
+            Self::Export(arguments) => export::run(&arguments),
+            Self::Info(arguments) => info::run(&arguments),
+        }
+    }
+}

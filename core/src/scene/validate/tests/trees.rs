@@ -1,0 +1,124 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Trees and their kinds, just right and just wrong.
+
+use super::{failing_field, full};
+use crate::scene::{
+    LeafShape, MAX_TREE_KINDS, MAX_TREES, Scene, Species, Tree, TreeForm, TreeKind, TreePreset,
+};
+
+/// What a case does to a valid scene, and the field that must be named then; `None` where it stays valid.
+type Case = (fn(&mut Scene), Option<&'static str>);
+
+fn grammar(scene: &mut Scene, text: &str) {
+    scene.tree_kinds[0].form = TreeForm::Grammar(text.into());
+}
+
+fn kinds(scene: &mut Scene, count: usize) {
+    let like = |index| TreeKind { name: format!("kind {index}"), ..TreeKind::default() };
+    scene.tree_kinds.extend((1..count).map(like));
+}
+
+/// A tree of 1024 segments.
+const PALISADE: &str = "iterations = 10; axiom F A; A -> [ +(1) A ] F [ -(1) A ]; ";
+
+const CASES: &[Case] = &[
+    (|s| s.trees.clear(), None),
+    (|s| s.tree_kinds.clear(), None),
+    (|s| s.tree_kinds[0].name = " ".into(), Some("tree_kinds[0].name")),
+    (|s| s.tree_kinds.push(s.tree_kinds[0].clone()), Some("tree_kinds[1].name")),
+    (|s| kinds(s, MAX_TREE_KINDS), None),
+    (|s| kinds(s, MAX_TREE_KINDS + 1), Some("tree_kinds")),
+    (|s| s.tree_kinds[0].foliage.species = None, None),
+    (|s| s.tree_kinds[0].foliage.species = Some("Maple".into()), Some("tree_kinds[0].foliage.species")),
+    (|s| s.tree_kinds[0].form = TreeForm::File("oak.glb".into()), None),
+    (|s| s.tree_kinds[0].form = TreeForm::File(String::new()), Some("tree_kinds[0].form")),
+    (|s| s.trees[0].kind = "BIRCH".into(), None),
+    (|s| s.trees[0].kind = "berry-bush".into(), None),
+    (|s| s.trees[0].kind = "fir".into(), Some("trees[0].kind")),
+    (|s| s.trees[0].leaves = 0, None),
+    (|s| s.trees[0].leaves = 200_000, None),
+    (|s| s.trees[0].leaves = 200_001, Some("trees[0].leaves")),
+    (|s| s.trees[0].number = u32::MAX, None),
+    (|s| s.trees = vec![Tree { kind: "weed".into(), ..Tree::default() }; MAX_TREES], None),
+    (|s| s.trees = vec![Tree { kind: "weed".into(), ..Tree::default() }; MAX_TREES + 1], Some("trees")),
+    (|s| s.trees = vec![Tree { kind: "oak".into(), ..Tree::default() }; MAX_TREES], Some("trees")),
+    (|s| s.trees = vec![Tree { kind: "oak".into(), age: 0.1, ..Tree::default() }; MAX_TREES], None),
+    (|s| grammar(s, "axiom F L;"), None),
+    (|s| grammar(s, "axiom F G;"), Some("tree_kinds[0].form")),
+    (|s| grammar(s, "axiom A(1); A(l) -> F(l) A(l - 1);"), Some("tree_kinds[0].form")),
+    (|s| grammar(s, "axiom A; A -> F A [ A ] [ A ]; iterations = 60;"), Some("tree_kinds[0].form")),
+    (|s| grammar(s, "axiom F(0);"), Some("tree_kinds[0].form")),
+];
+
+#[test]
+fn trees_and_their_kinds_are_checked() {
+    for (index, (change, field)) in CASES.iter().enumerate() {
+        let mut scene = full();
+        change(&mut scene);
+        assert_eq!(failing_field(&scene).as_deref(), *field, "case {index}");
+    }
+}
+
+/// The whole line of an error.
+fn line(change: impl FnOnce(&mut Scene)) -> String {
+    let mut scene = full();
+    change(&mut scene);
+    scene.validate("park.ron").expect_err("this is not allowed").to_string()
+}
+
+#[test]
+fn errors_in_grammars_name_file_field_line_and_column() {
+    assert_eq!(
+        line(|s| grammar(s, "iterations = 3;\naxiom F\n  FF;")),
+        "park.ron: tree_kinds[0].form is a grammar with an error: line 3, column 3: unknown symbol `FF`; allowed: \
+         F, L, K, T, or a rule for it (did you mean `F`?)"
+    );
+    assert_eq!(
+        line(|s| grammar(s, "axiom A(1);\nA(l) -> F(1 / l) A(l - 1);")),
+        "park.ron: tree_kinds[0].form is a grammar with an error for tree number 0: line 2, column 13: division by \
+         zero; allowed: a divisor other than 0"
+    );
+}
+
+#[test]
+fn a_misspelt_kind_of_trees_is_recognised() {
+    let line = line(|s| s.trees[0].kind = "brich".into());
+    let end = "trees[0].kind is \"brich\"; allowed: a tree kind: maple, maple, birch, oak, bush, weed, berry-bush \
+               (did you mean \"birch\"?)";
+    assert!(line.ends_with(end), "{line}");
+}
+
+#[test]
+fn too_large_a_forest_gives_the_count_reached() {
+    let line = line(|s| {
+        grammar(s, PALISADE);
+        s.trees = vec![Tree::default(); MAX_TREES];
+    });
+    assert_eq!(
+        line,
+        "park.ron: trees is 2098176 segments up to trees[2048] of 4096; allowed: at most 2097152 segments over all trees"
+    );
+}
+
+#[test]
+fn the_kind_of_a_tree_is_the_scenes_own_or_a_preset() {
+    let mut scene = Scene {
+        species: vec![
+            Species { name: "first".into(), shape: LeafShape::Ginkgo, ..Species::default() },
+            Species { name: "second".into(), shape: LeafShape::Birch, ..Species::default() },
+        ],
+        ..Scene::default()
+    };
+    let birch = scene.tree_kind("Birch").expect("a preset");
+    assert_eq!(birch.form, TreeForm::Preset(TreePreset::Birch), "in any mixture of letters");
+    assert_eq!(birch.foliage.species.as_deref(), Some("second"), "the leaves that fit");
+    let oak = scene.tree_kind("oak").expect("a preset");
+    assert_eq!(oak.foliage.species.as_deref(), Some("first"), "no leaf fits, so the first species");
+    assert_eq!(scene.tree_kind("fir"), None, "unknown");
+
+    let own = TreeKind { name: "oak".into(), form: TreeForm::File("oak.glb".into()), ..TreeKind::default() };
+    scene.tree_kinds.push(own.clone());
+    assert_eq!(scene.tree_kind("oak"), Some(own), "the scene's own wins");
+    assert_eq!(scene.tree_kind("Oak"), Some(oak), "which has exactly this name");
+}
