@@ -28,14 +28,14 @@ pub struct LeafColumns<'a> {
     pub leaf_count: u32,
 }
 
-/// Borrowed branch columns: one 16-byte record per segment in each buffer, usable as storage buffers on the device they
-/// were made on.
-#[derive(Clone, Copy, Debug)]
+/// Borrowed columns of the segments of trees (see `windfall_core::tree`): one 16-byte record per row, usable as storage
+/// buffers on the device they were made on.
+#[derive(Clone, Debug)]
 pub struct BranchColumns<'a> {
-    /// World position x, y, z in metres of the segment's lower joint; w unused.
-    pub base: &'a wgpu::Buffer,
-    /// World orientation of the segment as a unit quaternion x, y, z, w: y along the segment.
-    pub pose: &'a wgpu::Buffer,
+    /// Place of each segment's joint x, y, z in metres as `f32`; one unused.
+    pub base: wgpu::BufferBinding<'a>,
+    /// Orientation: unit quaternion x, y, z, w from the segment's frame, y along it, to the world's.
+    pub pose: wgpu::BufferBinding<'a>,
     /// Number of segments.
     pub count: u32,
 }

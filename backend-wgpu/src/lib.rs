@@ -16,6 +16,7 @@
 
 mod columns;
 mod exact;
+mod forest;
 mod gpu;
 mod pipelines;
 mod prelude;
@@ -25,6 +26,7 @@ mod simulator;
 
 pub use columns::{BranchColumns, LeafBuffers, LeafColumns};
 pub use exact::decorate_no_contraction;
+pub use forest::BranchBuffer;
 pub use gpu::{Gpu, describe_adapter, instance_descriptor, list_adapters, select_adapter};
 pub use prelude::WORKGROUP_SIZE;
 pub use shaders::{KernelId, ShaderError, Shaders};

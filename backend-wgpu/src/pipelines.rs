@@ -16,9 +16,20 @@ pub(crate) struct Pipelines {
     pub(crate) leaves_layout: wgpu::BindGroupLayout,
     /// One storage buffer: the due leaves of a page, or the counters.
     pub(crate) extra_layout: wgpu::BindGroupLayout,
+    /// Blocks and wind tables, for trees.
+    pub(crate) sway_layout: wgpu::BindGroupLayout,
+    /// A level of the forest.
+    pub(crate) level_layout: wgpu::BindGroupLayout,
+    /// Blocks, wind tables and hot leaf columns, for leaves on twigs.
+    pub(crate) carried_layout: wgpu::BindGroupLayout,
+    /// What carries them.
+    pub(crate) carrier_layout: wgpu::BindGroupLayout,
     pub(crate) advance: wgpu::ComputePipeline,
     pub(crate) attend: wgpu::ComputePipeline,
     pub(crate) measure: wgpu::ComputePipeline,
+    pub(crate) sway_fold: wgpu::ComputePipeline,
+    pub(crate) sway_unfold: wgpu::ComputePipeline,
+    pub(crate) carry: wgpu::ComputePipeline,
 }
 
 fn entry(binding: u32, ty: wgpu::BufferBindingType, has_dynamic_offset: bool) -> wgpu::BindGroupLayoutEntry {
@@ -45,13 +56,31 @@ impl Pipelines {
         };
         let leaves_layout = layout("leaves", &entries);
         let extra_layout = layout("extra", &[entry(0, storage(false), false)]);
+        let of_blocks =
+            || vec![entry(0, uniform, false), entry(1, uniform, true), entry(3, storage(true), false)];
+        let sway_layout = layout("sway", &of_blocks());
+        // The bindings of shaders/tree/bindings.wgsl.
+        let mut entries = vec![entry(0, uniform, true)];
+        entries.extend((1..=5).map(|binding| entry(binding, storage(!(3..=4).contains(&binding)), false)));
+        let level_layout = layout("level", &entries);
+        let mut entries = of_blocks();
+        entries.extend((4..=7).map(|binding| entry(binding, storage(false), false)));
+        let carried_layout = layout("carried", &entries);
+        // The bindings of shaders/leaf/petioles.wgsl.
+        let mut entries = vec![entry(0, uniform, false)];
+        entries.extend((1..=3).map(|binding| entry(binding, storage(binding != 3), false)));
+        let carrier_layout = layout("carriers", &entries);
         let pipeline = |kernel: KernelId| {
             let source =
                 shaders.kernel(kernel).map_err(|error| SimError::Device { reason: error.to_string() })?;
             let module = shader_module(gpu, &source, kernel.name(), contract)?;
             let layout = gpu.device().create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
                 label: Some(kernel.name()),
-                bind_group_layouts: &[Some(&leaves_layout), Some(&extra_layout)],
+                bind_group_layouts: &match kernel {
+                    KernelId::SwayFold | KernelId::SwayUnfold => [Some(&sway_layout), Some(&level_layout)],
+                    KernelId::Carry => [Some(&carried_layout), Some(&carrier_layout)],
+                    _ => [Some(&leaves_layout), Some(&extra_layout)],
+                },
                 immediate_size: 0,
             });
             let pipeline = gpu.device().create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
@@ -67,7 +96,23 @@ impl Pipelines {
         let advance = pipeline(KernelId::Advance)?;
         let attend = pipeline(KernelId::Attend)?;
         let measure = pipeline(KernelId::Measure)?;
-        Ok(Self { leaves_layout, extra_layout, advance, attend, measure })
+        let sway_fold = pipeline(KernelId::SwayFold)?;
+        let sway_unfold = pipeline(KernelId::SwayUnfold)?;
+        let carry = pipeline(KernelId::Carry)?;
+        Ok(Self {
+            leaves_layout,
+            extra_layout,
+            sway_layout,
+            level_layout,
+            carried_layout,
+            carrier_layout,
+            advance,
+            attend,
+            measure,
+            sway_fold,
+            sway_unfold,
+            carry,
+        })
     }
 }
 

@@ -117,7 +117,8 @@ fn vertex(tree: &StandingTree, mesh: &windfall_core::tree::BarkMesh, at: usize) 
 mod tests {
     use windfall_core::Scene;
     use windfall_core::scene::{Tree, TreeKind};
-    use windfall_core::tree::{Segment, Skeleton};
+    use windfall_core::tree::forest::Seedling;
+    use windfall_core::tree::{Forest, LeafFacts, Segment, Skeleton};
 
     use super::*;
 
@@ -131,13 +132,15 @@ mod tests {
             end_radius_m: radius_m,
             order: 0,
         };
-        let scene = Scene::default();
-        let mut stand = Stand::default();
-        for (x, radius_m) in [(0.0, 0.1), (30.0, 0.2)] {
-            let tree = Tree { at_m: [x, 0.0], ..Tree::default() };
-            let skeleton = Skeleton { segments: vec![post(radius_m)], ..Skeleton::default() };
-            stand.add(&scene, &tree, &TreeKind::default(), skeleton, 0.0);
-        }
+        let scene = Scene { trees: vec![Tree::default(); 2], ..Scene::default() };
+        let seedling = |(x, radius_m)| Seedling {
+            skeleton: Skeleton { segments: vec![post(radius_m)], ..Skeleton::default() }.into(),
+            kind: TreeKind::default(),
+            leaf: LeafFacts::default(),
+            foot_m: Vec3::X * x,
+        };
+        let seedlings = [(0.0, 0.1), (30.0, 0.2)].map(seedling);
+        let stand = Stand::of(&scene, &Forest::plant(seedlings.into(), scene.dt_s));
         let tree = &stand.trees[1];
         let mesh = bark_mesh(&tree.skeleton, BarkDetail::Full);
         for at in 0..mesh.positions_m.len() {

@@ -76,12 +76,15 @@ impl BranchGroup {
         branches: Option<&BranchColumns<'_>>,
     ) -> wgpu::BindGroup {
         let present = branches.filter(|branches| branches.count == self.count);
-        let (base, pose) =
-            present.map_or((&self.rest_base, &self.rest_pose), |branches| (branches.base, branches.pose));
-        let columns = [base, pose, &self.rest_base, &self.rest_pose];
-        let columns = (0u32..)
-            .zip(columns)
-            .map(|(binding, buffer)| wgpu::BindGroupEntry { binding, resource: buffer.as_entire_binding() });
+        let rest = [&self.rest_base, &self.rest_pose].map(wgpu::Buffer::as_entire_buffer_binding);
+        let [base, pose] =
+            present.map_or_else(|| rest.clone(), |branches| [branches.base.clone(), branches.pose.clone()]);
+        let [rest_base, rest_pose] = rest;
+        let columns = [base, pose, rest_base, rest_pose];
+        let columns = (0u32..).zip(columns).map(|(binding, rows)| wgpu::BindGroupEntry {
+            binding,
+            resource: wgpu::BindingResource::Buffer(rows),
+        });
         let barks = wgpu::BindingResource::TextureView(&self.barks);
         let textures = [
             wgpu::BindGroupEntry { binding: 4, resource: barks },

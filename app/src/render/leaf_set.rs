@@ -40,21 +40,21 @@ impl LeafPart {
         Self { slots, tree: None, cluster: 1, detail }
     }
 
-    /// The leaves of every tree of a stand as seen from `eye_m`, which follow one another from slot `first` on:
-    /// `counts` of each.
-    pub(super) fn of_trees(stand: &Stand, counts: &[u32], first: u32, eye_m: Vec3) -> Vec<Self> {
-        let all = counts.iter().map(|&count| count as usize).sum();
-        let mut end = first;
+    /// All leaves of a world with a stand as seen from `eye_m`, `leaf_count` in all: tree by tree, then those of none.
+    pub(super) fn of_world(stand: &Stand, leaf_count: u32, eye_m: Vec3) -> Vec<Self> {
+        let mut end = 0;
         let part = |(index, tree): (usize, &StandingTree)| {
             let start = end;
-            end += counts.get(index).copied().unwrap_or(0);
+            end += tree.leaves;
             let crown = &tree.crown;
             let distance_m = crown.center_m.distance(eye_m) - crown.radii_m.max_element();
             let far = DETAIL_M.iter().filter(|&&limit_m| distance_m > limit_m).count();
-            let detail = far.max(detail(all).min(1));
+            let detail = far.max(detail(stand.leaf_count() as usize).min(1));
             Self { slots: start..end, tree: Some(index), cluster: tree.cluster, detail }
         };
-        stand.trees.iter().enumerate().map(part).collect()
+        let mut parts: Vec<Self> = stand.trees.iter().enumerate().map(part).collect();
+        parts.push(Self::loose(stand.leaf_count()..leaf_count.max(stand.leaf_count())));
+        parts
     }
 }
 

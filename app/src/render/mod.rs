@@ -25,7 +25,6 @@ mod litter;
 mod pipeline;
 mod readback;
 mod renderer;
-mod rest_leaves;
 mod scenery;
 mod shadow_pass;
 mod sky_pass;

@@ -22,7 +22,6 @@ use super::leaf_pass::LeafPass;
 use super::leaf_set::{LeafMeshes, LeafPart, LeafSet};
 use super::light_group::LightGroup;
 use super::litter::Litter;
-use super::rest_leaves::RestLeaves;
 use super::scenery::{Park, Shedding, TreeInstance, plant};
 use super::shadow_pass::{Casters, SHADOW_SIZE, ShadowPass};
 use super::sky_pass::SkyPass;
@@ -88,6 +87,8 @@ pub struct Renderer {
     queue: wgpu::Queue,
     environment: Environment,
     leaf_count: u32,
+    /// Where the scene's own camera stands.
+    eye_m: Vec3,
     targets: Targets,
     frame: FrameGroup,
     light: LightGroup,
@@ -95,9 +96,8 @@ pub struct Renderer {
     trees: Trees,
     litter: Option<Litter>,
     litter_parts: [LeafPart; 1],
-    rest_leaves: RestLeaves,
-    rest_parts: Vec<LeafPart>,
-    loose_parts: Vec<LeafPart>,
+    stand: Stand,
+    leaf_parts: Vec<LeafPart>,
     stems: Stems,
     leaf_meshes: LeafMeshes,
     bark: StandMesh,
@@ -151,8 +151,6 @@ impl Renderer {
         let shade_pass = ShadePass::new(device, &frame, &trees);
         let light = LightGroup::new(device, queue, [&shadow_pass.map, &wide_pass.map], &shade_pass.map);
         let eye_m = camera.eye_m();
-        let rest_leaves = RestLeaves::new(device, queue, scene, stand);
-        let rest_parts = LeafPart::of_trees(stand, &rest_leaves.counts, 0, eye_m);
         let shedding = shedding(&planted, stand);
         let species_count = u32::try_from(scene.species.len()).unwrap_or(1);
         let mut renderer = Self {
@@ -165,11 +163,11 @@ impl Renderer {
                 Ball::around(stand),
             ),
             leaf_count: scene.leaf_count(),
+            eye_m,
             litter: Litter::new(device, queue, options.litter_count, species_count, center, &shedding),
             litter_parts: [LeafPart::loose(0..options.litter_count)],
-            rest_leaves,
-            rest_parts,
-            loose_parts: vec![LeafPart::loose(0..scene.leaf_count())],
+            stand: stand.clone(),
+            leaf_parts: LeafPart::of_world(stand, scene.leaf_count(), eye_m),
             stems: Stems::new(device, queue, stand),
             leaf_meshes: LeafMeshes::new(device, queue, stand),
             bark: StandMesh::new(device, queue, stand, eye_m),
@@ -229,7 +227,7 @@ impl Renderer {
     /// Takes over another number of leaves.
     pub fn update_leaf_count(&mut self, leaf_count: u32) {
         self.leaf_count = leaf_count;
-        self.loose_parts = vec![LeafPart::loose(0..leaf_count)];
+        self.leaf_parts = LeafPart::of_world(&self.stand, leaf_count, self.eye_m);
         self.make_trails(self.trail_pass.as_ref().map_or(0.0, TrailPass::trail_s));
     }
 
@@ -264,9 +262,8 @@ impl Renderer {
         self.observe(encoder, leaves, input.time_s);
         let litter = self.litter.as_ref().map(Litter::columns);
         let litter = litter.map(|columns| LeafSet { columns, parts: &self.litter_parts });
-        let rest = LeafSet { columns: self.rest_leaves.columns(), parts: &self.rest_parts };
-        let leaves = LeafSet { columns: *leaves, parts: &self.loose_parts };
-        let sets: Vec<LeafSet<'_>> = [leaves, rest].into_iter().chain(litter).collect();
+        let leaves = LeafSet { columns: *leaves, parts: &self.leaf_parts };
+        let sets: Vec<LeafSet<'_>> = std::iter::once(leaves).chain(litter).collect();
         let group = self.branches.bind(&self.device, branches);
         let casters = Casters {
             kinds: &self.kinds,

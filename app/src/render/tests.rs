@@ -19,15 +19,19 @@ pub(super) struct Bench {
     pub(super) device: wgpu::Device,
     pub(super) queue: wgpu::Queue,
     scene: Scene,
+    pub(super) stand: Stand,
     renderer: Renderer,
 }
 
 fn bench(change: impl FnOnce(&mut Scene)) -> Bench {
-    bench_with(change, |_| Stand::default())
+    bench_with(|scene| {
+        change(scene);
+        Stand::default()
+    })
 }
 
-/// A bench for a changed scene with trees.
-pub(super) fn bench_with(change: impl FnOnce(&mut Scene), stand: impl FnOnce(&Scene) -> Stand) -> Bench {
+/// A bench for a changed scene and its trees.
+pub(super) fn bench_with(change: impl FnOnce(&mut Scene) -> Stand) -> Bench {
     let mut descriptor = wgpu::InstanceDescriptor::new_without_display_handle_from_env();
     descriptor.backends = wgpu::Backends::VULKAN;
     let instance = wgpu::Instance::new(descriptor);
@@ -37,34 +41,39 @@ pub(super) fn bench_with(change: impl FnOnce(&mut Scene), stand: impl FnOnce(&Sc
     let descriptor = wgpu::DeviceDescriptor { required_features: features, ..Default::default() };
     let (device, queue) = pollster::block_on(adapter.request_device(&descriptor)).expect("a device");
     let mut scene = Scene::default();
-    change(&mut scene);
+    let stand = change(&mut scene);
     let entry = AtlasEntry { shape: Shape::Maple, season: (0.5, 0.9) };
     let entries = vec![entry; scene.species.len()];
     let request = AtlasRequest { entries, variants: 2, size_px: 32, seed: 1 };
     let atlas = Atlas::generate(&request).expect("an atlas");
     let options = RendererOptions { litter_count: 0 };
-    let stand = stand(&scene);
     let subject = Subject { scene: &scene, stand: &stand, atlas: &atlas };
     let renderer = Renderer::new(&device, &queue, subject, PictureTarget::FORMAT, SIZE, options)
         .expect("a renderer within default limits");
-    Bench { device, queue, scene, renderer }
+    Bench { device, queue, scene, stand, renderer }
 }
 
 impl Bench {
     /// Draws the trees alone.
     pub(super) fn draw_trees(&mut self, branches: Option<&BranchColumns<'_>>) -> RgbaImage {
-        self.draw_all(branches, 0, 0.0, 0.0)
+        self.draw_all(branches, 0, 60_000, 0.0, 0.0)
+    }
+
+    /// Draws the trees, and their first leaf big before the middle of the picture as one that stands for others.
+    pub(super) fn draw_cluster(&mut self) -> RgbaImage {
+        self.draw_all(None, 1, 3 << 14 | 1 << 30, 0.0, 0.0)
     }
 
     /// Draws one big leaf that faces the camera, in the given state, at an offset from the middle of the picture.
     fn draw(&mut self, state: u32, offset_m: f32, time_s: f64) -> RgbaImage {
-        self.draw_all(None, state, offset_m, time_s)
+        self.draw_all(None, state, 60_000, offset_m, time_s)
     }
 
     fn draw_all(
         &mut self,
         branches: Option<&BranchColumns<'_>>,
         state: u32,
+        size: u32,
         offset_m: f32,
         time_s: f64,
     ) -> RgbaImage {
@@ -76,7 +85,7 @@ impl Bench {
         let half = std::f32::consts::FRAC_1_SQRT_2;
         let place = column([(at.x + offset_m).to_bits(), at.y.to_bits(), (at.z + 6.0).to_bits(), state]);
         let attitude = column([half.to_bits(), 0, 0, half.to_bits()]);
-        let (course, identity) = (column([0, 0, 60_000, 0]), column([0, 0, 0, 0x1_2345]));
+        let (course, identity) = (column([0, 0, size, 0]), column([0, 0, 0, 0x1_2345]));
         let leaves = LeafColumns {
             place: &place,
             drift: &place,

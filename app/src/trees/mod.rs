@@ -6,11 +6,11 @@
 mod crown;
 mod look;
 
-use anyhow::bail;
-use glam::{Quat, Vec3};
+use std::sync::Arc;
+
+use glam::Vec3;
 use windfall_core::Scene;
-use windfall_core::scene::{Tree, TreeKind};
-use windfall_core::tree::{Bearing, Skeleton, full_leaf_count, grow};
+use windfall_core::tree::{Forest, Skeleton};
 
 pub use crown::Crown;
 pub use look::{BarkKind, Look};
@@ -22,7 +22,7 @@ pub const MAX_CLUSTER: u32 = 16;
 #[derive(Clone, Debug)]
 pub struct StandingTree {
     /// The tree at rest, turned as it stands, with its foot at the origin.
-    pub skeleton: Skeleton,
+    pub skeleton: Arc<Skeleton>,
     /// Foot in metres.
     pub foot_m: Vec3,
     /// Row of the branch columns for every segment.
@@ -31,6 +31,8 @@ pub struct StandingTree {
     pub species: Option<u32>,
     /// Leaves that each of its simulated leaves stands for: 1 to [`MAX_CLUSTER`].
     pub cluster: u32,
+    /// Slots of its leaves among those of the world, in the order of the stand's trees.
+    pub leaves: u32,
     /// Where its leaves grow.
     pub crown: Crown,
     /// Bark, tint and colour of the season.
@@ -56,43 +58,34 @@ pub struct Stand {
 }
 
 impl Stand {
-    /// Grows the trees of a scene.
-    ///
-    /// # Errors
-    /// A tree that cannot be grown.
-    pub fn grow(scene: &Scene) -> anyhow::Result<Self> {
-        let mut stand = Self::default();
-        for tree in &scene.trees {
-            let Some(kind) = scene.tree_kinds.iter().find(|kind| kind.name == tree.kind) else {
-                bail!("a tree is of kind '{}', which the scene does not have", tree.kind)
-            };
-            let skeleton = grow(kind, tree, scene.seed)?;
-            let leaf_count = full_leaf_count(kind, tree, scene.seed)?;
-            stand.add(scene, tree, kind, skeleton, leaf_count);
+    /// The trees of a scene as they stand in its world.
+    pub fn of(scene: &Scene, forest: &Forest) -> Self {
+        let branches = forest.at_rest();
+        let mut trees = Vec::with_capacity(scene.trees.len());
+        for (tree, planted) in scene.trees.iter().zip(forest.trees()) {
+            let Some(kind) = scene.tree_kind(&tree.kind) else { continue };
+            let named = kind.foliage.species.as_ref();
+            let species = named.and_then(|name| scene.species.iter().position(|kind| kind.name == *name));
+            let species = species.and_then(|index| u32::try_from(index).ok());
+            let leaves_each = planted.facts.leaves_each.round().clamp(1.0, MAX_CLUSTER.into());
+            #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "1 to MAX_CLUSTER")]
+            let cluster = leaves_each as u32;
+            trees.push(StandingTree {
+                skeleton: Arc::clone(&planted.skeleton),
+                foot_m: planted.foot_m,
+                rows: planted.rows.clone(),
+                species,
+                cluster,
+                leaves: tree.leaves,
+                crown: Crown::of(&planted.skeleton, planted.foot_m),
+                look: Look::of(scene, tree, &kind, species),
+            });
         }
-        Ok(stand)
+        Self { trees, rest_base: branches.base, rest_pose: branches.pose }
     }
 
-    /// Adds a grown tree, which has `leaf_count` leaves at full crown.
-    pub fn add(&mut self, scene: &Scene, tree: &Tree, kind: &TreeKind, skeleton: Skeleton, leaf_count: f64) {
-        let named = kind.foliage.species.as_ref();
-        let species = named.and_then(|name| scene.species.iter().position(|species| species.name == *name));
-        let species = species.and_then(|index| u32::try_from(index).ok());
-        let foot_m = Vec3::new(tree.at_m[0], scene.ground.height_m, tree.at_m[1]);
-        let first = u32::try_from(self.rest_base.len()).unwrap_or(u32::MAX);
-        let rows = (first..).take(skeleton.segments.len()).collect();
-        for segment in &skeleton.segments {
-            let base = foot_m + segment.start_m;
-            let pose = Quat::from_rotation_arc(Vec3::Y, segment.direction());
-            self.rest_base.push(base.extend(0.0).to_array());
-            self.rest_pose.push(pose.to_array());
-        }
-        let crown = Crown::of(&skeleton, foot_m);
-        let look = Look::of(scene, tree, kind, species);
-        let sites = skeleton.attachments.iter().filter(|at| at.bearing == Bearing::Leaf).count();
-        let cluster = (leaf_count / sites.max(1) as f64).round().clamp(1.0, MAX_CLUSTER.into());
-        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "1 to MAX_CLUSTER")]
-        let cluster = cluster as u32;
-        self.trees.push(StandingTree { skeleton, foot_m, rows, species, cluster, crown, look });
+    /// Number of leaf slots of all trees: the first of the world.
+    pub fn leaf_count(&self) -> u32 {
+        self.trees.iter().map(|tree| tree.leaves).sum()
     }
 }

@@ -29,12 +29,12 @@ pub(super) struct Stage {
 
 impl Stage {
     /// A stage for the leaves of `world`.
-    pub(super) fn new(gpu: &Gpu, scene: &Scene) -> anyhow::Result<Self> {
+    pub(super) fn new(gpu: &Gpu, scene: &Scene, world: &World) -> anyhow::Result<Self> {
         let target = PictureTarget::new(gpu.device(), SIZE)?;
         let atlas = atlas_of(scene)?;
         let options = RendererOptions::for_scene(scene);
         let format = PictureTarget::FORMAT;
-        let stand = Stand::grow(scene)?;
+        let stand = Stand::of(scene, world.environment.forest());
         let subject = Subject { scene, stand: &stand, atlas: &atlas };
         let renderer = Renderer::new(gpu.device(), gpu.queue(), subject, format, SIZE, options)?;
         let buffers = LeafBuffers::new(gpu, scene.leaf_count())?;
@@ -63,7 +63,13 @@ impl Stage {
         let columns = contender.columns(&self.gpu, &self.buffers)?;
         let mut encoder =
             self.gpu.device().create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-        self.renderer.draw(&mut encoder, &self.target.view(), &columns, None, &input);
+        self.renderer.draw(
+            &mut encoder,
+            &self.target.view(),
+            &columns.leaves,
+            columns.branches.as_ref(),
+            &input,
+        );
         self.target.submit_and_read(self.gpu.device(), self.gpu.queue(), encoder)?;
         Ok(self.gpu.check()?)
     }
