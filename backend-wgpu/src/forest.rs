@@ -118,7 +118,7 @@ impl ForestBuffers {
             offset: 0,
             size: wgpu::BufferSize::new(16),
         });
-        let resources = vec![
+        let resources = [
             level,
             timber.as_entire_binding(),
             order.as_entire_binding(),
@@ -126,7 +126,7 @@ impl ForestBuffers {
             work.as_entire_binding(),
             bearing.as_entire_binding(),
         ];
-        let level_group = group(gpu, &pipelines.level_layout, (0..).zip(resources));
+        let level_group = group(gpu, &pipelines.level_layout, resources);
         let sway = sway_group(gpu, pipelines, blocks);
         gpu.check()?;
         Ok(Self { branches, bearing, levels, sway, level_group, level_stride })
@@ -199,17 +199,18 @@ impl ForestBuffers {
 }
 
 fn sway_group(gpu: &Gpu, pipelines: &Pipelines, blocks: [wgpu::BindingResource<'_>; 3]) -> wgpu::BindGroup {
-    group(gpu, &pipelines.sway_layout, [0, 1, 3].into_iter().zip(blocks))
+    group(gpu, &pipelines.sway_layout, blocks)
 }
 
-fn group<'a>(
+/// Resources bound one after another.
+pub(crate) fn group<'a>(
     gpu: &Gpu,
     layout: &wgpu::BindGroupLayout,
-    resources: impl Iterator<Item = (u32, wgpu::BindingResource<'a>)>,
+    resources: impl IntoIterator<Item = wgpu::BindingResource<'a>>,
 ) -> wgpu::BindGroup {
     let entries: Vec<_> =
-        resources.map(|(binding, resource)| wgpu::BindGroupEntry { binding, resource }).collect();
-    let descriptor = wgpu::BindGroupDescriptor { label: Some("forest"), layout, entries: &entries };
+        (0..).zip(resources).map(|(binding, resource)| wgpu::BindGroupEntry { binding, resource }).collect();
+    let descriptor = wgpu::BindGroupDescriptor { label: None, layout, entries: &entries };
     gpu.device().create_bind_group(&descriptor)
 }
 

@@ -10,7 +10,7 @@ use windfall_core::stats::COUNTER_COUNT;
 use windfall_core::{Clock, Contract, Environment, SimError, Simulator, SimulatorInfo, Stats, World};
 
 use crate::columns::{BranchColumns, LeafBuffers, LeafColumns, RECORD_BYTES};
-use crate::forest::ForestBuffers;
+use crate::forest::{ForestBuffers, group};
 use crate::gpu::{Gpu, describe_adapter};
 use crate::pipelines::Pipelines;
 use crate::prelude::WORKGROUP_SIZE;
@@ -104,11 +104,7 @@ impl WgpuSimulator {
             u64::from(COUNTER_COUNT) * 4,
             wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC,
         );
-        let counters_group = gpu.device().create_bind_group(&wgpu::BindGroupDescriptor {
-            label: Some("counters"),
-            layout: &pipelines.extra_layout,
-            entries: &[wgpu::BindGroupEntry { binding: 0, resource: counters.as_entire_binding() }],
-        });
+        let counters_group = group(gpu, &pipelines.extra_layout, [counters.as_entire_binding()]);
         let mut simulator = Self {
             gpu: gpu.clone(),
             contract,
@@ -228,7 +224,7 @@ impl WgpuSimulator {
         Ok(())
     }
 
-    /// What kernels that move trees see besides them.
+    /// What every kernel sees first: blocks and wind tables.
     fn sway_blocks(&self) -> [wgpu::BindingResource<'_>; 3] {
         [self.environment_buffer.as_entire_binding(), self.step_binding(), self.wind.1.as_entire_binding()]
     }
@@ -239,23 +235,6 @@ impl WgpuSimulator {
             buffer: &self.step_buffer,
             offset: 0,
             size: wgpu::BufferSize::new(size_of::<StepBlock>() as u64),
-        })
-    }
-
-    fn group(
-        &self,
-        label: &str,
-        layout: &wgpu::BindGroupLayout,
-        resources: Vec<(u32, wgpu::BindingResource<'_>)>,
-    ) -> wgpu::BindGroup {
-        let entries: Vec<_> = resources
-            .into_iter()
-            .map(|(binding, resource)| wgpu::BindGroupEntry { binding, resource })
-            .collect();
-        self.gpu.device().create_bind_group(&wgpu::BindGroupDescriptor {
-            label: Some(label),
-            layout,
-            entries: &entries,
         })
     }
 
@@ -276,37 +255,29 @@ impl WgpuSimulator {
                 size: wgpu::BufferSize::new(u64::from(leaves) * RECORD_BYTES),
             })
         };
-        let columns = || (4..).zip(self.leaves.buffers().iter().map(window));
-        let blocks = || vec![(0, self.environment_buffer.as_entire_binding()), (1, self.step_binding())];
-        let mut resources = blocks();
-        resources.extend([(2, self.motion.1.as_entire_binding()), (3, self.wind.1.as_entire_binding())]);
-        resources.extend(columns());
-        let group = self.group("page", &self.pipelines.leaves_layout, resources);
+        let up_to_wind = || self.sway_blocks().into_iter();
+        let columns = || self.leaves.buffers().iter().map(window);
+        let resources = up_to_wind().chain(columns()).chain([self.motion.1.as_entire_binding()]);
+        let page = group(&self.gpu, &self.pipelines.leaves_layout, resources);
         // Header of four counts, then a place for every leaf; new buffers are zero.
         let due = buffer(&self.gpu, "due", 16 + u64::from(leaves) * 4, wgpu::BufferUsages::STORAGE);
-        let due = self.group("due", &self.pipelines.extra_layout, vec![(0, due.as_entire_binding())]);
+        let due = group(&self.gpu, &self.pipelines.extra_layout, [due.as_entire_binding()]);
         let tree_leaves = self.environment.scene().tree_leaf_count().saturating_sub(first).min(leaves);
         let forest = self.forest.as_ref().filter(|_| tree_leaves > 0);
         let on_trees = forest.map(|forest| {
-            let mut resources = blocks();
-            resources.push((3, self.wind.1.as_entire_binding()));
-            resources.extend(columns().take(4));
+            let carried = up_to_wind().chain(columns().take(4));
             let block = buffer(&self.gpu, "carry", 16, wgpu::BufferUsages::UNIFORM);
             self.gpu.queue().write_buffer(&block, 0, bytemuck::bytes_of(&[first, forest.stride(), 0, 0]));
             let [branches, bearing] = forest.carriers();
-            let carriers = vec![
-                (0, block.as_entire_binding()),
-                (1, self.petioles.1.as_entire_binding()),
-                (2, branches),
-                (3, bearing),
-            ];
+            let petioles = self.petioles.1.as_entire_binding();
+            let carriers = [block.as_entire_binding(), petioles, branches, bearing];
             OnTrees {
                 leaves: tree_leaves,
-                carried: self.group("carried", &self.pipelines.carried_layout, resources),
-                carriers: self.group("carriers", &self.pipelines.carrier_layout, carriers),
+                carried: group(&self.gpu, &self.pipelines.carried_layout, carried),
+                carriers: group(&self.gpu, &self.pipelines.carrier_layout, carriers),
             }
         });
-        Page { leaves, columns: group, due, on_trees }
+        Page { leaves, columns: page, due, on_trees }
     }
 
     fn same_size(&self, world: &World) -> Result<(), SimError> {

@@ -16,8 +16,8 @@ use crate::error::SceneError;
 use crate::kernel::rng::{random, unit_float};
 use crate::layout::Uint4;
 use crate::leaf::petiole::{
-    PETIOLE_CLASS_SHIFT, PETIOLE_KIND_SHIFT, PETIOLE_REACH_SHIFT, PETIOLE_REACH_UNIT, Petiole, SHED_CLASSES,
-    SHED_INTERVAL, SHED_SPEEDS,
+    PETIOLE_CLASS_SHIFT, PETIOLE_CLUSTER_SHIFT, PETIOLE_KIND_SHIFT, PETIOLE_REACH_MASK, PETIOLE_REACH_SHIFT,
+    PETIOLE_REACH_UNIT, Petiole, SHED_CLASSES, SHED_INTERVAL, SHED_SPEEDS,
 };
 use crate::motion::{AIR_DENSITY, GRAVITY};
 use crate::scene::{Foliage, Scene, Species, TreeKind};
@@ -40,6 +40,8 @@ const FALL_DELAY: f64 = 0.12;
 const WEAKENING: f64 = 6.0;
 /// Distance from the petiole's base to the blade's middle per diameter of the disc with the blade's area.
 const REACH_SHARE: f64 = 1.0;
+/// Most times its own area that a leaf on a twig is drawn with, standing for others.
+const LARGEST_CLUSTER: f64 = 16.0;
 /// Random words of a leaf site.
 const STREAM_SITE: u32 = 33;
 
@@ -159,6 +161,8 @@ pub(super) fn petiole_rows(scene: &Scene, forest: &Forest, kinds: &[TreeKind]) -
         let found = species_of(scene, &kinds[number].foliage);
         let leaves = planted.skeleton.attachments.iter().filter(|at| at.bearing == Bearing::Leaf);
         let first = petioles.len();
+        let cluster = libm::sqrt(planted.facts.leaves_each.clamp(1.0, LARGEST_CLUSTER));
+        let cluster = super::convert::word(cluster * 16.0) << PETIOLE_CLUSTER_SHIFT;
         if let Some((species_number, species)) = found {
             for attachment in leaves.take(tree.leaves as usize) {
                 let row = planted.rows[attachment.segment as usize];
@@ -176,7 +180,7 @@ pub(super) fn petiole_rows(scene: &Scene, forest: &Forest, kinds: &[TreeKind]) -
                     base,
                     pose,
                     f64::from(species.size_m),
-                    facts,
+                    facts | cluster,
                 ));
             }
         }
@@ -209,7 +213,7 @@ fn petiole_of(
         rest: (pose.inverse() * leaf).normalize().as_quat().to_array(),
         place: [units(middle.x), units(middle.y), units(middle.z)],
         facts: facts
-            | (super::convert::word(reach / f64::from(PETIOLE_REACH_UNIT)).min(0xffff)
+            | (super::convert::word(reach / f64::from(PETIOLE_REACH_UNIT)).min(PETIOLE_REACH_MASK)
                 << PETIOLE_REACH_SHIFT),
     }
 }

@@ -9,11 +9,13 @@
 //! of a swaying twig a leaf of half a gram pulls with some thousandths of a newton, a tenth of what the wind does.
 
 use super::petiole::{
-    PETIOLE_CLASS_MASK, PETIOLE_CLASS_SHIFT, PETIOLE_KIND_MASK, PETIOLE_KIND_SHIFT, PETIOLE_REACH_SHIFT,
-    PETIOLE_REACH_UNIT, PETIOLE_ROWS, Petiole, SHED_CLASSES, SHED_INTERVAL, SHED_SPEEDS,
+    PETIOLE_CLASS_MASK, PETIOLE_CLASS_SHIFT, PETIOLE_CLUSTER_SHIFT, PETIOLE_KIND_MASK, PETIOLE_KIND_SHIFT,
+    PETIOLE_REACH_MASK, PETIOLE_REACH_SHIFT, PETIOLE_REACH_UNIT, PETIOLE_ROWS, Petiole, SHED_CLASSES,
+    SHED_INTERVAL, SHED_SPEEDS,
 };
 use super::record::{
-    Attitude, BLEND_MASK, BLEND_SHIFT, Course, Drift, Place, STATE_ATTACHED, STATE_MASK, STATE_RESTING,
+    Attitude, BLEND_MASK, BLEND_SHIFT, Course, Drift, HALF_MASK, Place, STATE_ATTACHED, STATE_MASK,
+    STATE_RESTING,
 };
 use super::store::LeafMut;
 use crate::blocks::{NEVER, SOURCE_TREES};
@@ -65,9 +67,9 @@ impl<'a> From<LeafMut<'a>> for CarriedLeaf<'a> {
 #[inline(always)]
 pub fn shed_chance(cx: &Context<'_>, facts: u32, speed: f32) -> u32 {
     let kind = (facts >> PETIOLE_KIND_SHIFT) & PETIOLE_KIND_MASK;
-    let class = (facts >> PETIOLE_CLASS_SHIFT) & PETIOLE_CLASS_MASK;
+    let strength = (facts >> PETIOLE_CLASS_SHIFT) & PETIOLE_CLASS_MASK;
     let level = (speed.floor() as i32 as u32).min(SHED_SPEEDS - 1);
-    let index = (kind * SHED_CLASSES + class) * SHED_SPEEDS + level;
+    let index = (kind * SHED_CLASSES + strength) * SHED_SPEEDS + level;
     cx.petioles[(index >> 2) as usize].0[(index & 3) as usize]
 }
 
@@ -89,12 +91,18 @@ pub fn leaf_hang(cx: &Context<'_>, leaf: &mut CarriedLeaf<'_>, slot: u32, petiol
     let lean = vec3_cross(tip, wind) * (share * LEAN_MOST);
     let flutter = tip * ((unrest * FLUTTER_ROLL) * roll) + side * ((unrest * FLUTTER_PITCH) * pitch);
     let attitude = quat_renormalize(quat_multiply(quat_of_turn(lean + flutter), still));
-    let reach = (petiole.facts >> PETIOLE_REACH_SHIFT) as f32 * PETIOLE_REACH_UNIT;
+    let reach = ((petiole.facts >> PETIOLE_REACH_SHIFT) & PETIOLE_REACH_MASK) as f32 * PETIOLE_REACH_UNIT;
     let arm =
         quat_rotate(segment.pose, Vec3::from(petiole.at)) + quat_rotate(attitude, Vec3::new(0.0, 0.0, reach));
     leaf.attitude.quaternion = attitude.to_array();
     leaf.place.position = (segment.base + arm).to_array();
     leaf.drift.velocity = (segment.velocity + vec3_cross(segment.spin, arm)).to_array();
+}
+
+/// Size of a leaf on its twig: its own in the high half, as it is drawn in the low one.
+#[inline(always)]
+pub fn leaf_size_on_twig(size: u32, facts: u32) -> u32 {
+    (size << 16) | ((size * (facts >> PETIOLE_CLUSTER_SHIFT)) >> 4).min(HALF_MASK)
 }
 
 /// The petiole of a tree's slot.
@@ -122,6 +130,7 @@ pub fn leaf_carry(
     if is_back {
         leaf.place.bits = (leaf.place.bits & !(STATE_MASK | (BLEND_MASK << BLEND_SHIFT))) | STATE_ATTACHED;
         leaf.course.event = NEVER;
+        leaf.course.size = leaf_size_on_twig(leaf.course.size >> 16, petiole.facts);
         leaf.drift.phase = 0;
         change = 1;
     }

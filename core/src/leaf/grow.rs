@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Puts the leaves of trees where they are at time zero: on their twigs, or beneath them if the season has taken them.
 
-use super::carry::{CarriedLeaf, leaf_hang, petiole_of};
+use super::carry::{CarriedLeaf, leaf_hang, leaf_size_on_twig, petiole_of};
 use super::petiole::PETIOLE_SPECIES_MASK;
 use super::record::{
     HALF_MASK, SOURCE_SHIFT, SPECIES_SHIFT, STATE_ATTACHED, STATE_MASK, VARIANT_MASK, VARIANT_SHIFT,
@@ -18,8 +18,6 @@ use crate::motion::feature::STREAM_LOOK;
 use crate::tree::Branches;
 use crate::tree::record::NO_SEGMENT;
 
-/// Most times its own area that a leaf on a twig is drawn with, standing for others.
-const LARGEST_CLUSTER: f64 = 16.0;
 /// Steps after which every leaf that has fallen before time zero lies on the ground.
 const LONG_AGO: u32 = 1 << 22;
 
@@ -45,6 +43,7 @@ pub(crate) fn leaf_grow(
         let release = 0u32.wrapping_sub(LONG_AGO);
         leaf_drop(cx, leaf, slot, look, SOURCE_TREES, species_index, petiole.place, release);
         leaf_seek(cx, leaf, LONG_AGO);
+        leaf.course.size |= leaf.course.size << 16;
         return;
     }
     let species = &cx.environment.species[species_index as usize];
@@ -55,12 +54,7 @@ pub(crate) fn leaf_grow(
     leaf.identity.fall_time = release_fall_time(species, height, speed);
     leaf.identity.look |= (look[3] & HALF_MASK) | ((look[0] & VARIANT_MASK) << VARIANT_SHIFT);
     let row = petiole.segment as usize;
-    let forest = environment.forest();
-    let tree = &forest.trees()[forest.timber()[row].tree as usize];
-    let cluster = libm::sqrt(tree.facts.leaves_each.clamp(1.0, LARGEST_CLUSTER));
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most 65535")]
-    let drawn = (f64::from(size) * cluster).min(f64::from(HALF_MASK)) as u32;
-    leaf.course.size = (size << 16) | drawn;
+    leaf.course.size = leaf_size_on_twig(size, petiole.facts);
     leaf.place.bits = STATE_ATTACHED | (species_index << SPECIES_SHIFT);
     leaf.drift.phase = 0;
     let mut carried =

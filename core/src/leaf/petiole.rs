@@ -19,8 +19,12 @@ crate::shared_constants! {
     pub const PETIOLE_KIND_MASK: u32 = 31;
     /// Place of the distance from the petiole's base to the blade's middle.
     pub const PETIOLE_REACH_SHIFT: u32 = 16;
+    /// Mask of it.
+    pub const PETIOLE_REACH_MASK: u32 = 255;
     /// Metres per unit of it.
-    pub const PETIOLE_REACH_UNIT: f32 = 1.0 / 16384.0;
+    pub const PETIOLE_REACH_UNIT: f32 = 1.0 / 256.0;
+    /// Place of how much larger than it is a leaf is drawn on its twig, as it stands for others, in 2^-4.
+    pub const PETIOLE_CLUSTER_SHIFT: u32 = 24;
     /// Wind speeds, in steps of 1 m/s from none, that have a chance to break of their own.
     pub const SHED_SPEEDS: u32 = 64;
     /// Classes of strength of a tree kind's petioles.
@@ -43,7 +47,7 @@ pub struct Petiole {
     pub rest: [f32; 4],
     /// Middle of the blade in still air in 2^-10 m, two's complement.
     pub place: [i32; 3],
-    /// Species, strength class, tree kind and reach.
+    /// Species, strength class, tree kind, reach and cluster.
     pub facts: u32,
 }
 

@@ -96,8 +96,8 @@ pub struct Course {
     pub event: u32,
     /// Phase per step in 2^-32 periods.
     pub rate: u32,
-    /// Low half: size relative to the species' in 2^-14, as it is drawn. High half: the leaf's own size, while it is on
-    /// its twig and stands for several.
+    /// Low half: size relative to the species' in 2^-14. High half: of a tree's leaf, its own size, for on its twig it may
+    /// stand for several and be drawn larger.
     pub size: u32,
     /// High half: heading in 2^-16 turns about +y. Low half: spin rate, signed, full scale the species' fastest.
     pub heading: u32,

@@ -211,7 +211,7 @@ pub fn leaf_detach(cx: &Context<'_>, leaf: &mut LeafMut<'_>, release: u32) {
     let look = random(seed, id, STREAM_LOOK);
     let species = &cx.environment.species[((leaf.place.bits >> SPECIES_SHIFT) & SPECIES_MASK) as usize];
     let size = leaf.course.size >> 16;
-    leaf.course.size = size;
+    leaf.course.size = size | (size << 16);
     leaf.course.heading = look[3] >> 16;
     leaf.place.bits =
         (leaf.place.bits & !(BLEND_MASK << BLEND_SHIFT)) | (cx.environment.counts.0[2] << BLEND_SHIFT);

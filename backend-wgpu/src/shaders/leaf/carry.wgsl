@@ -18,9 +18,9 @@ struct Petiole {
 
 fn shed_chance(facts: u32, speed: f32) -> u32 {
     let kind = (facts >> PETIOLE_KIND_SHIFT) & PETIOLE_KIND_MASK;
-    let class = (facts >> PETIOLE_CLASS_SHIFT) & PETIOLE_CLASS_MASK;
+    let strength = (facts >> PETIOLE_CLASS_SHIFT) & PETIOLE_CLASS_MASK;
     let level = min(bitcast<u32>(i32(floor(speed))), SHED_SPEEDS - 1u);
-    let index = (kind * SHED_CLASSES + class) * SHED_SPEEDS + level;
+    let index = (kind * SHED_CLASSES + strength) * SHED_SPEEDS + level;
     return petiole_rows[index >> 2u][index & 3u];
 }
 
@@ -39,13 +39,17 @@ fn leaf_hang(leaf: u32, habit: f32, slot: u32, petiole: Petiole, segment: Body) 
     let lean = vec3_cross(tip, wind) * (share * LEAN_MOST);
     let flutter = tip * ((unrest * FLUTTER_ROLL) * roll) + side * ((unrest * FLUTTER_PITCH) * pitch);
     let attitude = quat_renormalize(quat_multiply(quat_of_turn(lean + flutter), still));
-    let reach = f32(petiole.facts >> PETIOLE_REACH_SHIFT) * PETIOLE_REACH_UNIT;
+    let reach = f32((petiole.facts >> PETIOLE_REACH_SHIFT) & PETIOLE_REACH_MASK) * PETIOLE_REACH_UNIT;
     let arm = quat_rotate(segment.pose, petiole.at) + quat_rotate(attitude, vec3<f32>(0.0, 0.0, reach));
     attitudes[leaf] = attitude;
     let position = segment.base + arm;
     let velocity = segment.velocity + vec3_cross(segment.spin, arm);
     places[leaf] = vec4<u32>(bitcast<vec3<u32>>(position), places[leaf].w);
     drifts[leaf] = vec4<u32>(bitcast<vec3<u32>>(velocity), bitcast<u32>(habit));
+}
+
+fn leaf_size_on_twig(size: u32, facts: u32) -> u32 {
+    return (size << 16u) | min((size * (facts >> PETIOLE_CLUSTER_SHIFT)) >> 4u, HALF_MASK);
 }
 
 fn petiole_of(slot: u32) -> Petiole {
@@ -71,6 +75,7 @@ fn leaf_carry(leaf: u32, slot: u32, petiole: Petiole, segment: Body) -> u32 {
         bits = (bits & ~(STATE_MASK | (BLEND_MASK << BLEND_SHIFT))) | STATE_ATTACHED;
         places[leaf].w = bits;
         courses[leaf].x = NEVER;
+        courses[leaf].z = leaf_size_on_twig(courses[leaf].z >> 16u, petiole.facts);
         habit = 0.0;
         change = 1u;
     }

@@ -164,7 +164,7 @@ fn leaf_detach(leaf: u32, release: u32) {
     let look = random(seed, id, STREAM_LOOK);
     let species = (places[leaf].w >> SPECIES_SHIFT) & SPECIES_MASK;
     let size = courses[leaf].z >> 16u;
-    courses[leaf].z = size;
+    courses[leaf].z = size | (size << 16u);
     courses[leaf].w = look.w >> 16u;
     places[leaf].w = (places[leaf].w & ~(BLEND_MASK << BLEND_SHIFT)) | (environment.counts.z << BLEND_SHIFT);
     leaf_set_off(leaf, id, release, vec2<u32>(size, release_size_speed(species, look).y));
