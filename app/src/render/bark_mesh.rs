@@ -138,6 +138,7 @@ mod tests {
             kind: TreeKind::default(),
             leaf: LeafFacts::default(),
             foot_m: Vec3::X * x,
+            leaf_slots: 0,
         };
         let seedlings = [(0.0, 0.1), (30.0, 0.2)].map(seedling);
         let stand = Stand::of(&scene, &Forest::plant(seedlings.into(), scene.dt_s));

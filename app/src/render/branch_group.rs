@@ -53,7 +53,6 @@ impl BranchGroup {
             mag_filter: wgpu::FilterMode::Linear,
             min_filter: wgpu::FilterMode::Linear,
             mipmap_filter: wgpu::MipmapFilterMode::Linear,
-            anisotropy_clamp: 4,
             ..Default::default()
         });
         let rest = |label, rows: &[[f32; 4]]| {

@@ -44,8 +44,8 @@ fn skeleton() -> Skeleton {
 fn stand_of(scene: &mut Scene, skeleton: Skeleton, cluster: u32) -> Stand {
     scene.trees = vec![Tree { leaves: 1, ..Tree::default() }];
     let kind = TreeKind::default();
-    let seedling =
-        Seedling { skeleton: Arc::new(skeleton), kind, leaf: LeafFacts::default(), foot_m: Vec3::ZERO };
+    let (leaf, foot_m) = (LeafFacts::default(), Vec3::ZERO);
+    let seedling = Seedling { skeleton: Arc::new(skeleton), kind, leaf, foot_m, leaf_slots: 1 };
     let mut stand = Stand::of(scene, &Forest::plant(vec![seedling], scene.dt_s));
     stand.trees[0].cluster = cluster;
     stand
