@@ -52,7 +52,15 @@ impl RendererOptions {
     pub fn for_scene(scene: &Scene) -> Self {
         let began = |release| matches!(release, Release::Rate { from_s, .. } if from_s < 0.0);
         let has_past = scene.sources.iter().any(|source| began(source.release));
-        Self { litter_count: if has_past && scene.view.trail_s == 0.0 { LITTER } else { 0 } }
+        // In summer there is none under the trees of a scene.
+        let season = if scene.trees.is_empty() { 1.0 } else { (2.0 * scene.autumn).min(1.0) };
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "a share of a small number"
+        )]
+        let litter_count = (season * LITTER as f32) as u32;
+        Self { litter_count: if has_past && scene.view.trail_s == 0.0 { litter_count } else { 0 } }
     }
 }
 
@@ -141,7 +149,7 @@ impl Renderer {
         let targets = Targets::new(device, size)?;
         let frame = FrameGroup::new(device);
         let kinds = LeafKinds::new(device, queue, scene, atlas)?;
-        let own = own_trees(stand);
+        let own = if scene.autumn > 0.0 { own_trees(stand) } else { Vec::new() };
         let trees = Trees::new(device, queue, &planted, &own);
         let branches = BranchGroup::new(device, queue, stand);
         let shadow_pass = ShadowPass::new(device, &frame, &kinds, &branches, false, SHADOW_SIZE);

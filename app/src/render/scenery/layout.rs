@@ -61,6 +61,8 @@ pub(crate) fn plant(scene: &Scene, center: Vec3, view: Vec2) -> Park {
     let mut trees: Vec<TreeInstance> = crowns.collect();
     let own = scene.trees.iter().map(|tree| Vec3::new(tree.at_m[0], center.y, tree.at_m[1]));
     let standing: Vec<Vec3> = own.chain(trees.iter().map(|tree| tree.foot_m)).collect();
+    // Far woods turn with the scene's own trees.
+    let season = if has_trees { (2.0 * scene.autumn).min(1.0) } else { 1.0 };
     let mut random = Random::new(43);
     let eye = scene.view.camera.eye_m;
     let on_ground = |point: Vec3| Vec2::new(point.x - center.x, point.z - center.z);
@@ -113,7 +115,7 @@ pub(crate) fn plant(scene: &Scene, center: Vec3, view: Vec2) -> Park {
             };
             let mirror = if random.word() & 1 == 0 { 1.0 } else { -1.0 };
             let width = random.range(0.85, 1.1) * mirror * if bush { 1.6 } else { 1.0 };
-            let hue = 0.1 + 0.85 * random.unit();
+            let hue = (0.1 + 0.85 * random.unit()) * season;
             let brightness = random.range(0.8, 1.15);
             trees.push(TreeInstance { foot_m: foot, height_m, width, sprite, hue, brightness });
         }
