@@ -181,13 +181,19 @@ impl ForestBuffers {
         Ok(())
     }
 
-    /// Encodes a step of all trees, whose step block lies at `step_offset`.
-    pub(crate) fn encode(&self, pass: &mut wgpu::ComputePass<'_>, pipelines: &Pipelines, step_offset: u32) {
+    /// Encodes a step of all trees, whose step block lies at `step_offset`, by the pipelines of a scheme: towards the foot
+    /// and towards the tips.
+    pub(crate) fn encode(
+        &self,
+        pass: &mut wgpu::ComputePass<'_>,
+        [inwards, outwards]: &[wgpu::ComputePipeline; 2],
+        step_offset: u32,
+    ) {
         pass.set_bind_group(0, &self.sway, &[step_offset]);
         let numbers = 0..u32::try_from(self.levels.len()).expect("levels are counted in words");
-        pass.set_pipeline(&pipelines.sway_fold);
+        pass.set_pipeline(inwards);
         numbers.clone().rev().for_each(|number| self.encode_level(pass, number));
-        pass.set_pipeline(&pipelines.sway_unfold);
+        pass.set_pipeline(outwards);
         numbers.for_each(|number| self.encode_level(pass, number));
     }
 

@@ -27,8 +27,8 @@ pub(crate) struct Pipelines {
     pub(crate) advance: wgpu::ComputePipeline,
     pub(crate) attend: wgpu::ComputePipeline,
     pub(crate) measure: wgpu::ComputePipeline,
-    pub(crate) sway_fold: wgpu::ComputePipeline,
-    pub(crate) sway_unfold: wgpu::ComputePipeline,
+    /// Towards the foot and towards the tips: of articulated bodies, and of the schemes that move joints one by one.
+    pub(crate) sway: [[wgpu::ComputePipeline; 2]; 2],
     pub(crate) carry: wgpu::ComputePipeline,
 }
 
@@ -86,7 +86,10 @@ impl Pipelines {
             let layout = gpu.device().create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
                 label: Some(kernel.name()),
                 bind_group_layouts: &match kernel {
-                    KernelId::SwayFold | KernelId::SwayUnfold => [Some(&sway_layout), Some(&level_layout)],
+                    KernelId::SwayFold
+                    | KernelId::SwayUnfold
+                    | KernelId::SwayGather
+                    | KernelId::SwayFollow => [Some(&sway_layout), Some(&level_layout)],
                     KernelId::Carry => [Some(&carried_layout), Some(&carrier_layout)],
                     _ => [Some(&leaves_layout), Some(&extra_layout)],
                 },
@@ -105,8 +108,10 @@ impl Pipelines {
         let advance = pipeline(KernelId::Advance)?;
         let attend = pipeline(KernelId::Attend)?;
         let measure = pipeline(KernelId::Measure)?;
-        let sway_fold = pipeline(KernelId::SwayFold)?;
-        let sway_unfold = pipeline(KernelId::SwayUnfold)?;
+        let sway = [
+            [pipeline(KernelId::SwayFold)?, pipeline(KernelId::SwayUnfold)?],
+            [pipeline(KernelId::SwayGather)?, pipeline(KernelId::SwayFollow)?],
+        ];
         let carry = pipeline(KernelId::Carry)?;
         Ok(Self {
             leaves_layout,
@@ -118,8 +123,7 @@ impl Pipelines {
             advance,
             attend,
             measure,
-            sway_fold,
-            sway_unfold,
+            sway,
             carry,
         })
     }

@@ -40,6 +40,7 @@ pub(crate) fn constants() -> String {
         motion::table::wgsl_constants(),
         stats::wgsl_constants(),
         tree::record::wgsl_constants(),
+        tree::sway::quigley::wgsl_constants(),
         tree::sway::wgsl_constants(),
         wind::gust::wgsl_constants(),
         wind::profile::wgsl_constants(),

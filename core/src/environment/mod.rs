@@ -29,8 +29,9 @@ use crate::layout::{Float4, Uint4};
 use crate::motion::lookup::MotionRows;
 use crate::motion::table::TABLE_ROWS;
 use crate::motion::{GRAVITY, MotionTables};
-use crate::scene::{MAX_SOURCES, Scene};
+use crate::scene::{MAX_SOURCES, Scene, SwayScheme};
 use crate::tree::Forest;
+use crate::tree::sway::{SCHEME_ARTICULATED, SCHEME_OLIAPURAM_KUMAR, SCHEME_QUIGLEY};
 use crate::wind::gust::{GUST_ROWS, gust_rows};
 use crate::wind::profile::{PROFILE_ROWS, profile_rows};
 use crate::wind::turbulence::{TURBULENCE_X, turbulence_rows};
@@ -122,6 +123,7 @@ impl Environment {
             time: Float4([old.time.0[0], old.time.0[1], old.time.0[2], displacement_gain(&self.scene)]),
             ground: ground_numbers(&self.scene),
             wind: wind_block(&self.scene),
+            crowns: Uint4([old.crowns.0[0], old.crowns.0[1], old.crowns.0[2], scheme(&self.scene)]),
             ..old
         };
         for (species, block) in self.scene.species.iter().zip(&mut self.block.responses) {
@@ -251,9 +253,17 @@ fn compile_block(scene: &Scene, tables: &[MotionTables], first_petiole: u32) -> 
         scene.tree_leaf_count(),
         first_petiole,
         low_word((4_294_967_296.0 * f64::from(FLUTTER_HZ) * dt) as i64),
-        0,
+        scheme(scene),
     ]);
     block
+}
+
+fn scheme(scene: &Scene) -> u32 {
+    match scene.sway {
+        SwayScheme::Articulated => SCHEME_ARTICULATED,
+        SwayScheme::Quigley => SCHEME_QUIGLEY,
+        SwayScheme::OliapuramKumar => SCHEME_OLIAPURAM_KUMAR,
+    }
 }
 
 fn displacement_gain(scene: &Scene) -> f32 {

@@ -23,7 +23,7 @@ pub use ground::Ground;
 pub use presets::PRESETS;
 pub use source::{Release, Share, Source, SourceShape};
 pub use species::{LeafShape, MotionParameters, RotationModel, Species};
-pub use tree::{Foliage, Tree, TreeForm, TreeKind, TreePreset, Wood};
+pub use tree::{Foliage, SwayScheme, Tree, TreeForm, TreeKind, TreePreset, Wood};
 pub use view::{Camera, Sun, View};
 pub use wind::{Gusts, MeanSpeed, Profile, Turbulence, Vortex, WindParameters};
 
@@ -68,6 +68,8 @@ pub struct Scene {
     pub tree_kinds: Vec<TreeKind>,
     /// The trees. Each is a source of leaves as well.
     pub trees: Vec<Tree>,
+    /// How the joints of trees are moved.
+    pub sway: SwayScheme,
     /// How far the year has come for the leaves on the trees, 0 to 1: 0 in summer, 1 in winter, when none are left.
     pub autumn: f32,
     /// Seconds from a leaf's break from its tree until it is back on its twig, if it lies on the ground by then, 1 to
@@ -93,6 +95,7 @@ impl Default for Scene {
             sources: vec![Source::default()],
             tree_kinds: Vec::new(),
             trees: Vec::new(),
+            sway: SwayScheme::default(),
             autumn: 0.0,
             regrow_after_s: None,
             wind: WindParameters::default(),

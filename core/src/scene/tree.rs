@@ -152,3 +152,15 @@ impl Default for Foliage {
         }
     }
 }
+
+/// How the joints of trees are moved.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum SwayScheme {
+    /// As articulated bodies: joints move each other, and a tree sways as a whole.
+    #[default]
+    Articulated,
+    /// Joint by joint in closed form, after Quigley et al.: cheaper; thick trunks of many segments sway too fast.
+    Quigley,
+    /// Joint by joint as rods on torsion springs, after Oliapuram and Kumar, with torques where the original has forces.
+    OliapuramKumar,
+}

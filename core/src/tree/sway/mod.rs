@@ -14,8 +14,11 @@
 //! Articulated-body algorithm: Featherstone, "Rigid Body Dynamics Algorithms" (2008), chapter 7; here about each joint's
 //! own point, in world axes, with classical accelerations.
 
+pub mod composite;
 pub mod fold;
 pub mod load;
+pub mod oliapuram_kumar;
+pub mod quigley;
 pub mod row;
 pub mod unfold;
 
@@ -41,6 +44,12 @@ crate::shared_constants! {
     pub const JOINT_LIMIT_COSINE: f32 = 0.866_025_4;
     /// Largest turn of a joint in one step in rad; again only joints far too soft come near.
     pub const TURN_LIMIT: f32 = 1.0;
+    /// Scheme of articulated bodies.
+    pub const SCHEME_ARTICULATED: u32 = 0;
+    /// Quigley's scheme.
+    pub const SCHEME_QUIGLEY: u32 = 1;
+    /// Oliapuram and Kumar's scheme.
+    pub const SCHEME_OLIAPURAM_KUMAR: u32 = 2;
     /// A third.
     pub const THIRD: f32 = 1.0 / 3.0;
 }

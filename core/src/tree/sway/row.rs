@@ -4,10 +4,13 @@
 //!
 //! A row of the forest in each of the two passes of a step.
 
+use super::composite::{Composite, composite_add, composite_shift, segment_composite};
 use super::fold::{articulated_add, articulated_shift, joint_answer, joint_spring};
 use super::load::{segment_axis, segment_body};
-use super::unfold::{Motion, joint_motion, joint_step, segment_place};
-use super::{Answer, Articulated, Body, Constants, Joint};
+use super::oliapuram_kumar::oliapuram_kumar_step;
+use super::quigley::quigley_step;
+use super::unfold::{Motion, joint_held, joint_motion, joint_step, segment_place};
+use super::{Answer, Articulated, Body, Constants, Joint, SCHEME_QUIGLEY};
 use crate::context::Context;
 use crate::kernel::{Mat3, Sym3, Vec3};
 use crate::tree::forest::first_three;
@@ -51,6 +54,18 @@ impl Rows<'_> {
             NO_SEGMENT => Body::GROUND,
             parent => self.body((parent - self.first) as usize),
         }
+    }
+}
+
+impl Rows<'_> {
+    #[inline(always)]
+    fn move_to(&mut self, row: usize, joint: &Joint, body: &Body) {
+        self.branches.turn[row] = joint.turn.to_array();
+        self.branches.rate[row] = four(joint.rate, 0.0);
+        self.branches.base[row] = four(body.base, 0.0);
+        self.branches.pose[row] = body.pose.to_array();
+        self.branches.velocity[row] = four(body.velocity, 0.0);
+        self.branches.spin[row] = four(body.spin, 0.0);
     }
 }
 
@@ -147,10 +162,63 @@ pub fn row_unfold(cx: &Context<'_>, rows: &mut Rows<'_>, row: usize) {
     rows.work[row][1] = four(motion.linear, 0.0);
     let joint = joint_step(cx, &rows.joint(row), &rows.body(row), own);
     let body = segment_place(&constants, &joint, &rows.parent_body(row));
-    rows.branches.turn[row] = joint.turn.to_array();
-    rows.branches.rate[row] = four(joint.rate, 0.0);
-    rows.branches.base[row] = four(body.base, 0.0);
-    rows.branches.pose[row] = body.pose.to_array();
-    rows.branches.velocity[row] = four(body.velocity, 0.0);
-    rows.branches.spin[row] = four(body.spin, 0.0);
+    rows.move_to(row, &joint, &body);
+}
+
+/// What a segment carries, into its work.
+#[inline(always)]
+pub fn store_composite(work: &mut Work, whole: &Composite) {
+    work[0] = four(whole.inertia.diagonal, whole.mass);
+    work[1] = four(whole.inertia.off, whole.drag);
+    work[2] = four(whole.moment, whole.drag_inertia);
+    work[3] = four(whole.torque, 0.0);
+    work[4] = four(whole.force, 0.0);
+    work[5] = four(whole.drag_moment, 0.0);
+}
+
+/// The same, out of it.
+#[inline(always)]
+pub fn load_composite(work: &Work) -> Composite {
+    Composite {
+        inertia: Sym3 { diagonal: first_three(work[0]), off: first_three(work[1]) },
+        moment: first_three(work[2]),
+        mass: work[0][3],
+        torque: first_three(work[3]),
+        force: first_three(work[4]),
+        drag: work[1][3],
+        drag_moment: first_three(work[5]),
+        drag_inertia: work[2][3],
+    }
+}
+
+/// The pass towards the foot of the schemes that move joints one by one, at one row whose children are done.
+#[inline(always)]
+pub fn row_gather(cx: &Context<'_>, rows: &mut Rows<'_>, row: usize) {
+    let constants = Constants::from(&rows.timber[row]);
+    let body = rows.body(row);
+    let bearing = rows.branches.bearing[row] as f32;
+    let mut whole = segment_composite(cx, &constants, &body, segment_axis(&body), bearing);
+    let first = rows.timber[row].first_child.wrapping_sub(rows.first) as usize;
+    for child in first..first + rows.timber[row].child_count as usize {
+        let arm = rows.body(child).base - body.base;
+        whole = composite_add(&whole, &composite_shift(&load_composite(&rows.work[child]), arm));
+    }
+    store_composite(&mut rows.work[row], &whole);
+}
+
+/// The pass towards the tips of the schemes that move joints one by one, at one row whose parent is done.
+#[inline(always)]
+pub fn row_follow(cx: &Context<'_>, rows: &mut Rows<'_>, row: usize) {
+    let constants = Constants::from(&rows.timber[row]);
+    let body = rows.body(row);
+    let joint = rows.joint(row);
+    let whole = load_composite(&rows.work[row]);
+    let moved = if cx.environment.crowns.0[3] == SCHEME_QUIGLEY {
+        quigley_step(cx, &constants, &joint, &body, segment_axis(&body), &whole)
+    } else {
+        oliapuram_kumar_step(cx, &constants, &joint, &body, &whole)
+    };
+    let joint = joint_held(cx, moved.0, moved.1);
+    let body = segment_place(&constants, &joint, &rows.parent_body(row));
+    rows.move_to(row, &joint, &body);
 }

@@ -7,7 +7,7 @@
 use super::{Answer, Body, Constants, IMPLICITNESS, JOINT_LIMIT, JOINT_LIMIT_COSINE, Joint, TURN_LIMIT};
 use crate::context::Context;
 use crate::kernel::lane::{Mask, Real};
-use crate::kernel::math::inverse_sqrt;
+use crate::kernel::math::{inverse_sqrt, reciprocal};
 use crate::kernel::matrix::{mat3_times, mat3_transposed_times};
 use crate::kernel::quaternion::{
     Quat, quat_multiply, quat_of_turn, quat_renormalize, quat_rotate, quat_rotate_back,
@@ -72,6 +72,19 @@ fn joint_stop<R: Real>(turn: Quat<R>, rate: Vec3<R>) -> Joint<R> {
             stopped.select_real(squared.all(JOINT_LIMIT_COSINE), turn.w),
         ),
         rate: rate - axis * stopped.select_real(outward, zero),
+    }
+}
+
+/// A joint of that rotation and rate, stopped where the series for its quaternion ends.
+#[inline(always)]
+pub fn joint_held(cx: &Context<'_>, turn: Vec3, rate: Vec3) -> Joint {
+    let squared = vec3_dot(turn, turn);
+    let stopped = squared > TURN_LIMIT * TURN_LIMIT;
+    let outward = (vec3_dot(rate, turn) * reciprocal(squared.max(TINY_SQUARED))).max(0.0);
+    let kept = rate - turn * if stopped { outward } else { 0.0 };
+    Joint {
+        turn: quat_renormalize(quat_of_turn(shortened(turn, TURN_LIMIT))),
+        rate: shortened(kept, TURN_LIMIT * cx.environment.time.0[1]),
     }
 }
 

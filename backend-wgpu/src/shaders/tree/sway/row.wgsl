@@ -2,8 +2,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // twin: core/src/tree/sway/row.rs
 #import tree/bindings
+#import tree/sway/composite
 #import tree/sway/fold
 #import tree/sway/load
+#import tree/sway/oliapuram_kumar
+#import tree/sway/quigley
 #import tree/sway/unfold
 
 fn timber_floats(row: u32, index: u32) -> vec4<f32> {
@@ -51,6 +54,16 @@ fn parent_body(parent: u32) -> Body {
         return Body(zero, vec4<f32>(0.0, 0.0, 0.0, 1.0), zero, zero);
     }
     return row_body(parent);
+}
+
+fn move_to(row: u32, joint: Joint, body: Body) {
+    let columns = level.rows.z;
+    branch_rows[BRANCH_TURN * columns + row] = joint.turn;
+    branch_rows[BRANCH_RATE * columns + row] = vec4<f32>(joint.rate, 0.0);
+    branch_rows[BRANCH_BASE * columns + row] = vec4<f32>(body.base, 0.0);
+    branch_rows[BRANCH_POSE * columns + row] = body.pose;
+    branch_rows[BRANCH_VELOCITY * columns + row] = vec4<f32>(body.velocity, 0.0);
+    branch_rows[BRANCH_SPIN * columns + row] = vec4<f32>(body.spin, 0.0);
 }
 
 fn store_articulated(row: u32, body: Articulated) {
@@ -147,11 +160,60 @@ fn row_unfold(row: u32) {
     work_rows[row * WORK_ROWS + 1u] = vec4<f32>(motion.linear, 0.0);
     let joint = joint_step(row_joint(row), row_body(row), motion.own);
     let body = segment_place(constants, joint, parent_body(parent));
-    let columns = level.rows.z;
-    branch_rows[BRANCH_TURN * columns + row] = joint.turn;
-    branch_rows[BRANCH_RATE * columns + row] = vec4<f32>(joint.rate, 0.0);
-    branch_rows[BRANCH_BASE * columns + row] = vec4<f32>(body.base, 0.0);
-    branch_rows[BRANCH_POSE * columns + row] = body.pose;
-    branch_rows[BRANCH_VELOCITY * columns + row] = vec4<f32>(body.velocity, 0.0);
-    branch_rows[BRANCH_SPIN * columns + row] = vec4<f32>(body.spin, 0.0);
+    move_to(row, joint, body);
+}
+
+fn store_composite(row: u32, whole: Composite) {
+    let at = row * WORK_ROWS;
+    work_rows[at] = vec4<f32>(whole.inertia.diagonal, whole.mass);
+    work_rows[at + 1u] = vec4<f32>(whole.inertia.off, whole.drag);
+    work_rows[at + 2u] = vec4<f32>(whole.moment, whole.drag_inertia);
+    work_rows[at + 3u] = vec4<f32>(whole.torque, 0.0);
+    work_rows[at + 4u] = vec4<f32>(whole.force, 0.0);
+    work_rows[at + 5u] = vec4<f32>(whole.drag_moment, 0.0);
+}
+
+fn load_composite(row: u32) -> Composite {
+    let at = row * WORK_ROWS;
+    let a = work_rows[at];
+    let b = work_rows[at + 1u];
+    let c = work_rows[at + 2u];
+    return Composite(
+        Sym3(a.xyz, b.xyz),
+        c.xyz,
+        a.w,
+        work_rows[at + 3u].xyz,
+        work_rows[at + 4u].xyz,
+        b.w,
+        work_rows[at + 5u].xyz,
+        c.w,
+    );
+}
+
+fn row_gather(row: u32) {
+    let constants = timber_constants(row);
+    let links = timber_links(row);
+    let body = row_body(row);
+    let bearing = f32(bearings[row]);
+    var whole = segment_composite(constants, body, segment_axis(body), bearing);
+    for (var child = links.y; child < links.y + links.z; child++) {
+        let arm = row_body(child).base - body.base;
+        whole = composite_add(whole, composite_shift(load_composite(child), arm));
+    }
+    store_composite(row, whole);
+}
+
+fn row_follow(row: u32) {
+    let constants = timber_constants(row);
+    let body = row_body(row);
+    let joint = row_joint(row);
+    let whole = load_composite(row);
+    var moved: Moved;
+    if (environment.crowns.w == SCHEME_QUIGLEY) {
+        moved = quigley_step(constants, joint, body, segment_axis(body), whole);
+    } else {
+        moved = oliapuram_kumar_step(constants, joint, body, whole);
+    }
+    let held = joint_held(moved.turn, moved.rate);
+    move_to(row, held, segment_place(constants, held, parent_body(timber_links(row).x)));
 }

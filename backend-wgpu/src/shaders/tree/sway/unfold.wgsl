@@ -52,6 +52,17 @@ fn joint_stop(turn: vec4<f32>, rate: vec3<f32>) -> Joint {
     );
 }
 
+fn joint_held(turn: vec3<f32>, rate: vec3<f32>) -> Joint {
+    let squared = vec3_dot(turn, turn);
+    let stopped = squared > TURN_LIMIT * TURN_LIMIT;
+    let outward = max(vec3_dot(rate, turn) * reciprocal(max(squared, TINY_SQUARED)), 0.0);
+    let kept = rate - turn * select(0.0, outward, stopped);
+    return Joint(
+        quat_renormalize(quat_of_turn(shortened(turn, TURN_LIMIT))),
+        shortened(kept, TURN_LIMIT * environment.time.y),
+    );
+}
+
 fn segment_place(constants: Constants, joint: Joint, parent: Body) -> Body {
     let pose = quat_multiply(quat_multiply(parent.pose, constants.rest), joint.turn);
     let arm = quat_rotate(parent.pose, constants.offset);

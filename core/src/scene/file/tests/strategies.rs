@@ -225,6 +225,7 @@ prop_compose! {
         mut species in vec(species(), 1..5),
         mut sources in vec(source(), 1..=MAX_SOURCES),
         (mut tree_kinds, mut trees) in (vec(tree_kind(), 0..4), vec(tree(), 0..6)),
+        sway in select(vec![SwayScheme::Articulated, SwayScheme::Quigley, SwayScheme::OliapuramKumar]),
         (autumn, regrow_after_s) in (within(limits::AUTUMN), maybe(limits::REGROW_AFTER_S)),
         wind in wind(),
         ground in (-4.0f32..=4.0, within(limits::FRICTION))
@@ -250,7 +251,7 @@ prop_compose! {
             tree.kind.clone_from(&kind.name);
         }
         Scene {
-            name, seed, dt_s, fall_speed, rotation_speed, species, sources, tree_kinds, trees, autumn, regrow_after_s, wind, ground,
+            name, seed, dt_s, fall_speed, rotation_speed, species, sources, tree_kinds, trees, sway, autumn, regrow_after_s, wind, ground,
             view,
         }
     }

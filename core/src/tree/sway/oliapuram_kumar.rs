@@ -1,0 +1,58 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! twin: backend-wgpu/src/shaders/tree/sway/oliapuram_kumar.wgsl
+//!
+//! One joint at a time as a rod on a torsion spring, the simplest of the schemes.
+//!
+//! The thesis that used it entered spring and damper as forces at the rod's middle and crossed them with the rod, which
+//! turns them a quarter turn aside: every swing grows, at any stiffness and any step. Here they are torques, stiffness
+//! is that of a beam, what the rod carries counts, and the step is implicit.
+//!
+//! # Source
+//! Oliapuram and Kumar, "Realtime forest animation in wind" (2010); the moment of inertia `m l²/3` of a rod is that of
+//! all it carries here.
+
+use super::composite::Composite;
+use super::{Body, Constants, Joint};
+use crate::context::Context;
+use crate::kernel::math::reciprocal;
+use crate::kernel::quaternion::{quat_rotate_back, turn_of_quat};
+use crate::kernel::vector::Vec3;
+
+/// Turn and rate about one axis after a step.
+#[inline(always)]
+fn rod_step(
+    turn: f32,
+    rate: f32,
+    torque: f32,
+    stiffness: f32,
+    inertia: f32,
+    damping: f32,
+    dt: f32,
+) -> (f32, f32) {
+    let held = inertia + dt * (damping + dt * stiffness);
+    let next = (inertia * rate + dt * (torque - stiffness * turn)) * reciprocal(held);
+    (turn + dt * next, next)
+}
+
+/// Rotation and rate of a joint one step on, in its segment's frame, that carries `whole`.
+#[inline(always)]
+pub fn oliapuram_kumar_step(
+    cx: &Context<'_>,
+    constants: &Constants,
+    joint: &Joint,
+    body: &Body,
+    whole: &Composite,
+) -> (Vec3, Vec3) {
+    let dt = cx.environment.time.0[0];
+    // A rod has the same moment of inertia about both axes across it, and next to none along it.
+    let inertia = 0.5 * ((whole.inertia.diagonal.x + whole.inertia.diagonal.y) + whole.inertia.diagonal.z);
+    let torque = quat_rotate_back(body.pose, whole.torque) + constants.preload;
+    let turn = turn_of_quat(joint.turn);
+    let bend = constants.damping * constants.bending + whole.drag_inertia;
+    let twist = constants.damping * constants.twisting + whole.drag_inertia;
+    let x = rod_step(turn.x, joint.rate.x, torque.x, constants.bending, inertia, bend, dt);
+    let y = rod_step(turn.y, joint.rate.y, torque.y, constants.twisting, inertia, twist, dt);
+    let z = rod_step(turn.z, joint.rate.z, torque.z, constants.bending, inertia, bend, dt);
+    (Vec3::new(x.0, y.0, z.0), Vec3::new(x.1, y.1, z.1))
+}

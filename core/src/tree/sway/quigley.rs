@@ -1,0 +1,211 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! twin: backend-wgpu/src/shaders/tree/sway/quigley.wgsl
+//!
+//! One joint at a time in closed form: `J θ'' + (C + β K) θ' + K θ = T`, exact for a torque that holds still, whatever the
+//! step and the stiffness.
+//!
+//! The joint's modes are found first: with `J = L Lᵀ` the eigenvalues λ and eigenvectors of `L⁻¹ K L⁻ᵀ` take the equation
+//! apart into three of a single oscillator each. Statics are exact; dynamics leave out that joints move each other, so
+//! that a trunk of many segments sways too fast (`oracle_schemes` measures by how much).
+//!
+//! # Source
+//! Quigley et al., "Real-time interactive tree animation" (2018), pass 2.
+
+use super::composite::Composite;
+use super::{Body, Constants, Joint};
+use crate::context::Context;
+use crate::kernel::math::{exponential, inverse_sqrt, reciprocal, sin_cos};
+use crate::kernel::matrix::{Mat3, Sym3, mat3_times, mat3_transposed_times, sym3_axial, sym3_times};
+use crate::kernel::quaternion::{quat_rotate, quat_rotate_back, turn_of_quat};
+use crate::kernel::vector::{TINY_SQUARED, Vec3, vec3_dot};
+
+crate::shared_constants! {
+    /// Sweeps of Jacobi rotations: more than a float needs for any matrix of three rows.
+    pub const JACOBI_SWEEPS: u32 = 5;
+    /// Discriminants nearer to nothing than this share of the squared damping or stiffness count as nothing.
+    pub const CRITICAL_SHARE: f32 = 1e-5;
+    /// Softest spring, as the squared frequency in 1/s² of a sway of 200 s: softer ones would lose all digits.
+    pub const SOFTEST: f32 = 1e-3;
+    /// Longest damped time in one step: what is left of any motion then is nothing to a float.
+    pub const DAMPED_MOST: f32 = 40.0;
+    /// Most of a period in one step, in rad: beyond it the sway is as good as damped out.
+    pub const PHASE_MOST: f32 = 800.0;
+}
+
+/// Modes of a joint: its three shapes as columns, and their squared angular frequencies.
+#[derive(Clone, Copy, Debug)]
+pub struct Modes {
+    /// Shapes, scaled so that their inertia is one.
+    pub shapes: Mat3,
+    /// Squared angular frequencies in 1/s².
+    pub stiffness: Vec3,
+}
+
+/// An oscillator's displacement and rate.
+#[derive(Clone, Copy, Debug)]
+pub struct Swing {
+    /// Displacement from rest.
+    pub place: f32,
+    /// Rate.
+    pub rate: f32,
+}
+
+/// Lower triangle of the Cholesky factor, inverted: `[1/l11, 1/l22, 1/l33]` on the diagonal, m21, m31, m32 below.
+#[inline(always)]
+fn inverse_factor(a: Sym3) -> (Vec3, Vec3) {
+    let floor = TINY_SQUARED;
+    let i1 = inverse_sqrt(a.diagonal.x.max(floor));
+    let l21 = a.off.z * i1;
+    let l31 = a.off.y * i1;
+    let i2 = inverse_sqrt((a.diagonal.y - l21 * l21).max(a.diagonal.y * 1e-6).max(floor));
+    let l32 = (a.off.x - l31 * l21) * i2;
+    let rest = (a.diagonal.z - l31 * l31) - l32 * l32;
+    let i3 = inverse_sqrt(rest.max(a.diagonal.z * 1e-6).max(floor));
+    let m21 = 0.0 - (l21 * i1) * i2;
+    let m32 = 0.0 - (l32 * i2) * i3;
+    let m31 = 0.0 - ((l31 * i1 + l32 * m21) * i3);
+    (Vec3::new(i1, i2, i3), Vec3::new(m21, m31, m32))
+}
+
+/// Sine and cosine of the rotation that frees a symmetric matrix of the entry `off` between diagonal `p` and `q`.
+#[inline(always)]
+fn jacobi_turn(p: f32, q: f32, off: f32) -> (f32, f32) {
+    let span = q - p;
+    let twice = off + off;
+    let square = span * span + twice * twice;
+    if square < TINY_SQUARED || (off < 1e-12 && off > -1e-12) {
+        return (0.0, 1.0);
+    }
+    let length = square * inverse_sqrt(square);
+    let reach = if span < 0.0 { 0.0 - span } else { span };
+    let tangent = twice * reciprocal(reach + length);
+    let signed = if span < 0.0 { 0.0 - tangent } else { tangent };
+    let cosine = inverse_sqrt(1.0 + signed * signed);
+    (signed * cosine, cosine)
+}
+
+/// Two columns of a matrix, turned into each other.
+#[inline(always)]
+fn turned(a: Vec3, b: Vec3, sine: f32, cosine: f32) -> (Vec3, Vec3) {
+    (a * cosine - b * sine, a * sine + b * cosine)
+}
+
+/// Modes of inertia `inertia` on springs `springs`.
+#[inline(always)]
+pub fn joint_modes(inertia: Sym3, springs: Sym3) -> Modes {
+    let (d, m) = inverse_factor(inertia);
+    // Rows of the inverse factor.
+    let r1 = Vec3::new(d.x, 0.0, 0.0);
+    let r2 = Vec3::new(m.x, d.y, 0.0);
+    let r3 = Vec3::new(m.y, m.z, d.z);
+    let k1 = sym3_times(springs, r1);
+    let k2 = sym3_times(springs, r2);
+    let k3 = sym3_times(springs, r3);
+    let mut xx = vec3_dot(r1, k1);
+    let mut yy = vec3_dot(r2, k2);
+    let mut zz = vec3_dot(r3, k3);
+    let mut yz = vec3_dot(r2, k3);
+    let mut xz = vec3_dot(r1, k3);
+    let mut xy = vec3_dot(r1, k2);
+    // Columns of the shapes: the transposed inverse factor, turned along.
+    let mut a = Vec3::new(d.x, 0.0, 0.0);
+    let mut b = Vec3::new(m.x, d.y, 0.0);
+    let mut c = Vec3::new(m.y, m.z, d.z);
+    for _ in 0..JACOBI_SWEEPS {
+        let (sine, cosine) = jacobi_turn(xx, yy, xy);
+        let (x, y) = ((xx * cosine - xy * sine), (xy * cosine - yy * sine));
+        let (x2, y2) = ((xx * sine + xy * cosine), (xy * sine + yy * cosine));
+        xx = x * cosine - y * sine;
+        yy = x2 * sine + y2 * cosine;
+        xy = 0.0;
+        (xz, yz) = (xz * cosine - yz * sine, xz * sine + yz * cosine);
+        (a, b) = turned(a, b, sine, cosine);
+        let (sine, cosine) = jacobi_turn(xx, zz, xz);
+        let (x, z) = ((xx * cosine - xz * sine), (xz * cosine - zz * sine));
+        let (x2, z2) = ((xx * sine + xz * cosine), (xz * sine + zz * cosine));
+        xx = x * cosine - z * sine;
+        zz = x2 * sine + z2 * cosine;
+        xz = 0.0;
+        (xy, yz) = (xy * cosine - yz * sine, xy * sine + yz * cosine);
+        (a, c) = turned(a, c, sine, cosine);
+        let (sine, cosine) = jacobi_turn(yy, zz, yz);
+        let (y, z) = ((yy * cosine - yz * sine), (yz * cosine - zz * sine));
+        let (y2, z2) = ((yy * sine + yz * cosine), (yz * sine + zz * cosine));
+        yy = y * cosine - z * sine;
+        zz = y2 * sine + z2 * cosine;
+        yz = 0.0;
+        (xy, xz) = (xy * cosine - xz * sine, xy * sine + xz * cosine);
+        (b, c) = turned(b, c, sine, cosine);
+    }
+    let shapes =
+        Mat3 { x: Vec3::new(a.x, b.x, c.x), y: Vec3::new(a.y, b.y, c.y), z: Vec3::new(a.z, b.z, c.z) };
+    Modes { shapes, stiffness: Vec3::new(xx, yy, zz) }
+}
+
+/// An oscillator of squared frequency `stiffness` and damping `2 a` after `dt` seconds under a force that holds still.
+#[inline(always)]
+pub fn swing_step(swing: Swing, stiffness: f32, a: f32, force: f32, dt: f32) -> Swing {
+    let spring = stiffness.max(SOFTEST);
+    let target = force * reciprocal(spring);
+    let x = swing.place - target;
+    let discriminant = a * a - spring;
+    let small = CRITICAL_SHARE * (a * a + spring);
+    let mut cosine = exponential(0.0 - (a * dt).min(DAMPED_MOST));
+    let mut sine = dt * cosine;
+    if discriminant < 0.0 - small {
+        let frequency = 0.0 - discriminant;
+        let inverse = inverse_sqrt(frequency);
+        let (s, c) = sin_cos(((frequency * inverse) * dt).min(PHASE_MOST));
+        sine = (cosine * s) * inverse;
+        cosine = cosine * c;
+    } else if discriminant > small {
+        let inverse = inverse_sqrt(discriminant);
+        let root = discriminant * inverse;
+        // a - root without cancellation: their product is the stiffness.
+        let slow = spring * reciprocal(a + root);
+        let late = exponential(0.0 - (slow * dt).min(DAMPED_MOST));
+        let early = exponential(0.0 - ((a + root) * dt).min(DAMPED_MOST));
+        cosine = (late + early) * 0.5;
+        sine = (late - early) * (0.5 * inverse);
+    }
+    Swing {
+        place: target + ((cosine + a * sine) * x + sine * swing.rate),
+        rate: (cosine - a * sine) * swing.rate - (spring * sine) * x,
+    }
+}
+
+/// Rotation and rate of a joint one step on, in its segment's frame, that carries `whole`.
+#[inline(always)]
+pub fn quigley_step(
+    cx: &Context<'_>,
+    constants: &Constants,
+    joint: &Joint,
+    body: &Body,
+    axis: Vec3,
+    whole: &Composite,
+) -> (Vec3, Vec3) {
+    let dt = cx.environment.time.0[0];
+    let springs = sym3_axial(axis, constants.twisting, constants.bending);
+    let modes = joint_modes(whole.inertia, springs);
+    let turn = quat_rotate(body.pose, turn_of_quat(joint.turn));
+    let rate = quat_rotate(body.pose, joint.rate);
+    let torque = whole.torque + quat_rotate(body.pose, constants.preload);
+    let place = mat3_transposed_times(modes.shapes, sym3_times(whole.inertia, turn));
+    let swing = mat3_transposed_times(modes.shapes, sym3_times(whole.inertia, rate));
+    let force = mat3_transposed_times(modes.shapes, torque);
+    // Drag damps a mode by as much as its shape moves.
+    let x = Vec3::new(modes.shapes.x.x, modes.shapes.y.x, modes.shapes.z.x);
+    let y = Vec3::new(modes.shapes.x.y, modes.shapes.y.y, modes.shapes.z.y);
+    let z = Vec3::new(modes.shapes.x.z, modes.shapes.y.z, modes.shapes.z.z);
+    let (beta, drag) = (constants.damping, whole.drag_inertia);
+    let ax = 0.5 * (beta * modes.stiffness.x + drag * vec3_dot(x, x));
+    let ay = 0.5 * (beta * modes.stiffness.y + drag * vec3_dot(y, y));
+    let az = 0.5 * (beta * modes.stiffness.z + drag * vec3_dot(z, z));
+    let sx = swing_step(Swing { place: place.x, rate: swing.x }, modes.stiffness.x, ax, force.x, dt);
+    let sy = swing_step(Swing { place: place.y, rate: swing.y }, modes.stiffness.y, ay, force.y, dt);
+    let sz = swing_step(Swing { place: place.z, rate: swing.z }, modes.stiffness.z, az, force.z, dt);
+    let moved = mat3_times(modes.shapes, Vec3::new(sx.place, sy.place, sz.place));
+    let moving = mat3_times(modes.shapes, Vec3::new(sx.rate, sy.rate, sz.rate));
+    (quat_rotate_back(body.pose, moved), quat_rotate_back(body.pose, moving))
+}
