@@ -7,6 +7,7 @@
 
 mod limb;
 mod path;
+mod stations;
 mod surface;
 #[cfg(test)]
 mod tests;
@@ -41,6 +42,11 @@ impl BarkDetail {
             Self::Middle => 0.015,
             Self::Far => 0.06,
         }
+    }
+
+    /// The detail of the rings along a limb whose radius is `share` of the trunk's: nobody sees how twigs bend.
+    fn rings(self, share: f32) -> Self {
+        if self == Self::Full && share < 0.03 { Self::Middle } else { self }
     }
 
     /// Number of sides of a limb whose radius is `share` of the trunk's: as many as keep the flat sides within a fixed
@@ -89,8 +95,8 @@ pub fn bark_mesh(skeleton: &Skeleton, detail: BarkDetail) -> BarkMesh {
     let Some(trunk) = skeleton.segments.first() else { return mesh };
     let limbs = limbs(skeleton, detail.thinnest() * trunk.start_radius_m);
     for path in paths(skeleton, &limbs) {
-        let sides = detail.sides(path.base_radius_m() / trunk.start_radius_m);
-        cover(&mut mesh, &path, &path.stations(detail), sides);
+        let share = path.base_radius_m() / trunk.start_radius_m;
+        cover(&mut mesh, &path, &path.stations(detail.rings(share)), detail.sides(share));
     }
     mesh
 }
