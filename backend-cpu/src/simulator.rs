@@ -2,13 +2,18 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The CPU simulator.
 
+use std::sync::Arc;
+
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use windfall_core::leaf::Leaves;
+use windfall_core::tree::Branches;
+use windfall_core::tree::record::Work;
 use windfall_core::{Clock, Contract, Environment, SimError, Simulator, SimulatorInfo, Stats, World};
 
 use crate::kernels::CHUNK;
 use crate::kernels::advance::advance;
 use crate::kernels::measure::measure;
+use crate::kernels::stand::{Stands, sway};
 use crate::simd::Simd;
 
 /// How the CPU simulator runs.
@@ -24,6 +29,7 @@ pub struct CpuOptions {
 #[derive(Debug)]
 pub struct CpuSimulator {
     world: World,
+    work: Vec<Work>,
     pool: ThreadPool,
     simd: Simd,
 }
@@ -38,7 +44,13 @@ impl CpuSimulator {
             .num_threads(options.threads.unwrap_or(0))
             .build()
             .map_err(|error| SimError::Device { reason: error.to_string() })?;
-        Ok(Self { world: world.clone(), pool, simd: options.simd.unwrap_or_else(Simd::best) })
+        let work = vec![Work::default(); world.branches.len()];
+        Ok(Self { world: world.clone(), work, pool, simd: options.simd.unwrap_or_else(Simd::best) })
+    }
+
+    /// The segments of trees as they are now.
+    pub fn branches(&self) -> &Branches {
+        &self.world.branches
     }
 
     /// The leaf columns as they are now.
@@ -48,7 +60,11 @@ impl CpuSimulator {
 
     fn same_size(&self, world: &World) -> Result<(), SimError> {
         let (own, other) = (self.world.leaves.len(), world.leaves.len());
-        if own == other { Ok(()) } else { Err(SimError::Size { world: other, simulator: own }) }
+        if own == other && self.world.branches.len() == world.branches.len() {
+            Ok(())
+        } else {
+            Err(SimError::Size { world: other, simulator: own })
+        }
     }
 }
 
@@ -77,6 +93,7 @@ impl Simulator for CpuSimulator {
         self.same_size(world)?;
         world.clock = self.world.clock;
         world.leaves.clone_from(&self.world.leaves);
+        world.branches.clone_from(&self.world.branches);
         Ok(())
     }
 
@@ -86,13 +103,28 @@ impl Simulator for CpuSimulator {
     }
 
     fn step(&mut self, count: u32) -> Result<(), SimError> {
-        let World { environment, clock, leaves } = &mut self.world;
-        let simd = self.simd;
-        let is_small = leaves.len() <= CHUNK;
+        let World { environment, clock, leaves, branches } = &mut self.world;
+        let (simd, work) = (self.simd, &mut self.work);
+        let forest = Arc::clone(environment.forest());
+        let is_small = leaves.len() <= CHUNK && forest.len() <= CHUNK / 16;
         let mut steps = || {
             for _ in 0..count {
                 let block = environment.step_block(clock);
-                advance(&environment.context(&block), leaves.as_mut(), simd);
+                let cx = environment.context(&block);
+                if !forest.is_empty() {
+                    let (on_trees, _) = leaves.as_mut().split_at(cx.environment.crowns.0[0] as usize);
+                    sway(
+                        &cx,
+                        Stands {
+                            stands: forest.stands(),
+                            timber: forest.timber(),
+                            branches: branches.as_mut(),
+                            work,
+                            leaves: on_trees,
+                        },
+                    );
+                }
+                advance(&cx, leaves.as_mut(), simd);
                 clock.advance(environment);
             }
         };

@@ -28,6 +28,18 @@ pub struct LeafColumns<'a> {
     pub leaf_count: u32,
 }
 
+/// Borrowed columns of the segments of trees (see `windfall_core::tree`): one 16-byte record per row, usable as storage
+/// buffers on the device they were made on.
+#[derive(Clone, Debug)]
+pub struct BranchColumns<'a> {
+    /// Place of each segment's joint x, y, z in metres as `f32`; one unused.
+    pub base: wgpu::BufferBinding<'a>,
+    /// Orientation: unit quaternion x, y, z, w from the segment's frame, y along it, to the world's.
+    pub pose: wgpu::BufferBinding<'a>,
+    /// Number of segments.
+    pub count: u32,
+}
+
 /// Buffers for all leaf columns.
 #[derive(Debug)]
 pub struct LeafBuffers {

@@ -16,6 +16,7 @@
 
 mod columns;
 mod exact;
+mod forest;
 mod gpu;
 mod pipelines;
 mod prelude;
@@ -23,8 +24,9 @@ mod readback;
 mod shaders;
 mod simulator;
 
-pub use columns::{LeafBuffers, LeafColumns};
+pub use columns::{BranchColumns, LeafBuffers, LeafColumns};
 pub use exact::decorate_no_contraction;
+pub use forest::BranchBuffer;
 pub use gpu::{Gpu, describe_adapter, instance_descriptor, list_adapters, select_adapter};
 pub use prelude::WORKGROUP_SIZE;
 pub use shaders::{KernelId, ShaderError, Shaders};

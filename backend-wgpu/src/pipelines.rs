@@ -16,42 +16,80 @@ pub(crate) struct Pipelines {
     pub(crate) leaves_layout: wgpu::BindGroupLayout,
     /// One storage buffer: the due leaves of a page, or the counters.
     pub(crate) extra_layout: wgpu::BindGroupLayout,
+    /// Blocks and wind tables, for trees.
+    pub(crate) sway_layout: wgpu::BindGroupLayout,
+    /// A level of the forest.
+    pub(crate) level_layout: wgpu::BindGroupLayout,
+    /// Blocks, wind tables and hot leaf columns, for leaves on twigs.
+    pub(crate) carried_layout: wgpu::BindGroupLayout,
+    /// What carries them.
+    pub(crate) carrier_layout: wgpu::BindGroupLayout,
     pub(crate) advance: wgpu::ComputePipeline,
     pub(crate) attend: wgpu::ComputePipeline,
     pub(crate) measure: wgpu::ComputePipeline,
+    pub(crate) sway_fold: wgpu::ComputePipeline,
+    pub(crate) sway_unfold: wgpu::ComputePipeline,
+    pub(crate) carry: wgpu::ComputePipeline,
 }
 
-fn entry(binding: u32, ty: wgpu::BufferBindingType, has_dynamic_offset: bool) -> wgpu::BindGroupLayoutEntry {
-    wgpu::BindGroupLayoutEntry {
-        binding,
-        visibility: wgpu::ShaderStages::COMPUTE,
-        ty: wgpu::BindingType::Buffer { ty, has_dynamic_offset, min_binding_size: None },
-        count: None,
-    }
+/// What is bound in one place of a layout.
+#[derive(Clone, Copy)]
+enum Slot {
+    Block,
+    /// A block at an offset that the pass sets.
+    BlockOfMany,
+    Read,
+    Write,
+}
+
+/// A layout of bindings that follow one another without a gap: Vulkan numbers them so, and exact shaders are passed
+/// through to it as they are.
+fn layout(gpu: &Gpu, label: &str, slots: &[Slot]) -> wgpu::BindGroupLayout {
+    let entries: Vec<_> = (0..)
+        .zip(slots)
+        .map(|(binding, slot)| wgpu::BindGroupLayoutEntry {
+            binding,
+            visibility: wgpu::ShaderStages::COMPUTE,
+            ty: wgpu::BindingType::Buffer {
+                ty: match slot {
+                    Slot::Block | Slot::BlockOfMany => wgpu::BufferBindingType::Uniform,
+                    Slot::Read => wgpu::BufferBindingType::Storage { read_only: true },
+                    Slot::Write => wgpu::BufferBindingType::Storage { read_only: false },
+                },
+                has_dynamic_offset: matches!(slot, Slot::BlockOfMany),
+                min_binding_size: None,
+            },
+            count: None,
+        })
+        .collect();
+    let descriptor = wgpu::BindGroupLayoutDescriptor { label: Some(label), entries: &entries };
+    gpu.device().create_bind_group_layout(&descriptor)
 }
 
 impl Pipelines {
     pub(crate) fn new(gpu: &Gpu, shaders: &Shaders, contract: Contract) -> Result<Self, SimError> {
-        let uniform = wgpu::BufferBindingType::Uniform;
-        let storage = |read_only| wgpu::BufferBindingType::Storage { read_only };
-        // The bindings of shaders/bindings.wgsl, in their order.
-        let mut entries =
-            vec![entry(0, uniform, false), entry(1, uniform, true), entry(2, storage(true), false)];
-        entries.push(entry(3, storage(true), false));
-        entries.extend((4..=8).map(|binding| entry(binding, storage(false), false)));
-        let layout = |label, entries: &[wgpu::BindGroupLayoutEntry]| {
-            let descriptor = wgpu::BindGroupLayoutDescriptor { label: Some(label), entries };
-            gpu.device().create_bind_group_layout(&descriptor)
-        };
-        let leaves_layout = layout("leaves", &entries);
-        let extra_layout = layout("extra", &[entry(0, storage(false), false)]);
+        use Slot::{Block, BlockOfMany, Read, Write};
+        // The bindings of shaders/bindings.wgsl: all of them, those up to the wind, those up to the courses.
+        let all = [Block, BlockOfMany, Read, Write, Write, Write, Write, Write, Read];
+        let leaves_layout = layout(gpu, "leaves", &all);
+        let sway_layout = layout(gpu, "sway", &all[..3]);
+        let carried_layout = layout(gpu, "carried", &all[..7]);
+        let extra_layout = layout(gpu, "extra", &[Write]);
+        // The bindings of shaders/tree/bindings.wgsl.
+        let level_layout = layout(gpu, "level", &[BlockOfMany, Read, Read, Write, Write, Read]);
+        // The bindings of shaders/leaf/petioles.wgsl.
+        let carrier_layout = layout(gpu, "carriers", &[Block, Read, Read, Write]);
         let pipeline = |kernel: KernelId| {
             let source =
                 shaders.kernel(kernel).map_err(|error| SimError::Device { reason: error.to_string() })?;
             let module = shader_module(gpu, &source, kernel.name(), contract)?;
             let layout = gpu.device().create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
                 label: Some(kernel.name()),
-                bind_group_layouts: &[Some(&leaves_layout), Some(&extra_layout)],
+                bind_group_layouts: &match kernel {
+                    KernelId::SwayFold | KernelId::SwayUnfold => [Some(&sway_layout), Some(&level_layout)],
+                    KernelId::Carry => [Some(&carried_layout), Some(&carrier_layout)],
+                    _ => [Some(&leaves_layout), Some(&extra_layout)],
+                },
                 immediate_size: 0,
             });
             let pipeline = gpu.device().create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
@@ -67,7 +105,23 @@ impl Pipelines {
         let advance = pipeline(KernelId::Advance)?;
         let attend = pipeline(KernelId::Attend)?;
         let measure = pipeline(KernelId::Measure)?;
-        Ok(Self { leaves_layout, extra_layout, advance, attend, measure })
+        let sway_fold = pipeline(KernelId::SwayFold)?;
+        let sway_unfold = pipeline(KernelId::SwayUnfold)?;
+        let carry = pipeline(KernelId::Carry)?;
+        Ok(Self {
+            leaves_layout,
+            extra_layout,
+            sway_layout,
+            level_layout,
+            carried_layout,
+            carrier_layout,
+            advance,
+            attend,
+            measure,
+            sway_fold,
+            sway_unfold,
+            carry,
+        })
     }
 }
 

@@ -3,7 +3,7 @@
 //! The generated head of every shader: structs and constants, from their one statement in `windfall-core`.
 
 use windfall_core::layout::WgslStruct;
-use windfall_core::{blocks, kernel, leaf, motion, stats, wind};
+use windfall_core::{blocks, kernel, leaf, motion, stats, tree, wind};
 
 /// Invocations per workgroup.
 pub const WORKGROUP_SIZE: u32 = 256;
@@ -26,15 +26,21 @@ pub(crate) fn constants() -> String {
     let lists = [
         blocks::wgsl_constants(),
         kernel::math::wgsl_constants(),
+        kernel::matrix::wgsl_constants(),
+        kernel::quaternion::wgsl_constants(),
         kernel::rng::wgsl_constants(),
         kernel::vector::wgsl_constants(),
+        leaf::carry::wgsl_constants(),
         leaf::fall::wgsl_constants(),
+        leaf::petiole::wgsl_constants(),
         leaf::record::wgsl_constants(),
         leaf::release::wgsl_constants(),
         motion::feature::wgsl_constants(),
         motion::lookup::wgsl_constants(),
         motion::table::wgsl_constants(),
         stats::wgsl_constants(),
+        tree::record::wgsl_constants(),
+        tree::sway::wgsl_constants(),
         wind::gust::wgsl_constants(),
         wind::profile::wgsl_constants(),
         wind::turbulence::wgsl_constants(),

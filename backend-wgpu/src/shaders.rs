@@ -18,11 +18,18 @@ pub enum KernelId {
     Attend,
     /// Counts leaves by state and motion.
     Measure,
+    /// Works out, level by level towards the foot, how the joints of trees will answer.
+    SwayFold,
+    /// Moves trees on, level by level towards the tips.
+    SwayUnfold,
+    /// Moves leaves with their twigs, and breaks petioles.
+    Carry,
 }
 
 impl KernelId {
     /// All kernels.
-    pub const ALL: [Self; 3] = [Self::Advance, Self::Attend, Self::Measure];
+    pub const ALL: [Self; 6] =
+        [Self::Advance, Self::Attend, Self::Measure, Self::SwayFold, Self::SwayUnfold, Self::Carry];
 
     /// Name of the file and of the entry point.
     pub const fn name(self) -> &'static str {
@@ -30,6 +37,9 @@ impl KernelId {
             Self::Advance => "advance",
             Self::Attend => "attend",
             Self::Measure => "measure",
+            Self::SwayFold => "sway_fold",
+            Self::SwayUnfold => "sway_unfold",
+            Self::Carry => "carry",
         }
     }
 }
@@ -63,21 +73,33 @@ impl Default for Shaders {
         let mut modules = modules![
             "bindings",
             "kernel/math",
+            "kernel/matrix",
             "kernel/quaternion",
             "kernel/rng",
             "kernel/vector",
             "due",
             "kernels/advance",
             "kernels/attend",
+            "kernels/carry",
             "kernels/measure",
+            "kernels/sway_fold",
+            "kernels/sway_unfold",
             "leaf/advance",
+            "leaf/carry",
             "leaf/fall",
             "leaf/join",
             "leaf/own",
+            "leaf/petioles",
             "leaf/release",
             "leaf/settle",
             "motion/feature",
             "motion/lookup",
+            "tree/bindings",
+            "tree/sway/body",
+            "tree/sway/fold",
+            "tree/sway/load",
+            "tree/sway/row",
+            "tree/sway/unfold",
             "wind/gust",
             "wind/profile",
             "wind/row",

@@ -9,7 +9,8 @@ use windfall_core::layout::{Float4, Uint4, Wgsl};
 use windfall_core::stats::COUNTER_COUNT;
 use windfall_core::{Clock, Contract, Environment, SimError, Simulator, SimulatorInfo, Stats, World};
 
-use crate::columns::{LeafBuffers, LeafColumns, RECORD_BYTES};
+use crate::columns::{BranchColumns, LeafBuffers, LeafColumns, RECORD_BYTES};
+use crate::forest::{ForestBuffers, group};
 use crate::gpu::{Gpu, describe_adapter};
 use crate::pipelines::Pipelines;
 use crate::prelude::WORKGROUP_SIZE;
@@ -23,7 +24,7 @@ const PAGE_STEP: u32 = 4096;
 /// One in this many workgroups attends to due leaves, about one leaf in a hundred; a longer list is strided over.
 const ATTEND_SHARE: u32 = 64;
 /// Most workgroups of one dispatch; further leaves are strided over.
-const MAX_GROUPS: u32 = 65_535;
+pub(crate) const MAX_GROUPS: u32 = 65_535;
 
 /// How the wgpu simulator runs.
 #[derive(Clone, Debug, Default)]
@@ -51,6 +52,8 @@ pub struct WgpuSimulator {
     step_stride: u32,
     motion: (Arc<[Float4]>, wgpu::Buffer),
     wind: (Arc<[Uint4]>, wgpu::Buffer),
+    petioles: (Arc<[Uint4]>, wgpu::Buffer),
+    forest: Option<ForestBuffers>,
     counters: wgpu::Buffer,
     counters_group: wgpu::BindGroup,
     pages: Vec<Page>,
@@ -62,6 +65,15 @@ struct Page {
     leaves: u32,
     columns: wgpu::BindGroup,
     due: wgpu::BindGroup,
+    on_trees: Option<OnTrees>,
+}
+
+/// The leaves of a page that trees have.
+#[derive(Debug)]
+struct OnTrees {
+    leaves: u32,
+    carried: wgpu::BindGroup,
+    carriers: wgpu::BindGroup,
 }
 
 impl WgpuSimulator {
@@ -85,17 +97,14 @@ impl WgpuSimulator {
         let uniform = |label, size| buffer(gpu, label, size, wgpu::BufferUsages::UNIFORM);
         let motion = table(gpu, "motion", environment.motion());
         let wind = table(gpu, "wind", environment.wind());
+        let petioles = table(gpu, "petioles", environment.petioles());
         let counters = buffer(
             gpu,
             "counters",
             u64::from(COUNTER_COUNT) * 4,
             wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC,
         );
-        let counters_group = gpu.device().create_bind_group(&wgpu::BindGroupDescriptor {
-            label: Some("counters"),
-            layout: &pipelines.extra_layout,
-            entries: &[wgpu::BindGroupEntry { binding: 0, resource: counters.as_entire_binding() }],
-        });
+        let counters_group = group(gpu, &pipelines.extra_layout, [counters.as_entire_binding()]);
         let mut simulator = Self {
             gpu: gpu.clone(),
             contract,
@@ -109,10 +118,13 @@ impl WgpuSimulator {
             step_stride,
             motion,
             wind,
+            petioles,
+            forest: None,
             counters,
             counters_group,
             pages: Vec::new(),
         };
+        simulator.plant()?;
         simulator.bind_pages();
         simulator.write_state(world)?;
         Ok(simulator)
@@ -122,6 +134,11 @@ impl WgpuSimulator {
     /// submitted steps.
     pub fn columns(&self) -> LeafColumns<'_> {
         self.leaves.columns()
+    }
+
+    /// The columns of the trees' segments, to be drawn on the same device without a copy; none in a world without trees.
+    pub fn branches(&self) -> Option<BranchColumns<'_>> {
+        self.forest.as_ref().map(ForestBuffers::columns)
     }
 
     /// Number of windows the columns are bound in.
@@ -173,8 +190,18 @@ impl WgpuSimulator {
             let descriptor = wgpu::ComputePassDescriptor { label: Some("advance"), timestamp_writes };
             let mut pass = encoder.begin_compute_pass(&descriptor);
             for step in 0..count {
+                let offset = step * self.step_stride;
+                if let Some(forest) = &self.forest {
+                    forest.encode(&mut pass, &self.pipelines, offset);
+                    pass.set_pipeline(&self.pipelines.carry);
+                }
+                for on_trees in self.pages.iter().filter_map(|page| page.on_trees.as_ref()) {
+                    pass.set_bind_group(0, &on_trees.carried, &[offset]);
+                    pass.set_bind_group(1, &on_trees.carriers, &[]);
+                    pass.dispatch_workgroups(on_trees.leaves.div_ceil(WORKGROUP_SIZE).min(MAX_GROUPS), 1, 1);
+                }
                 for page in &self.pages {
-                    pass.set_bind_group(0, &page.columns, &[step * self.step_stride]);
+                    pass.set_bind_group(0, &page.columns, &[offset]);
                     pass.set_bind_group(1, &page.due, &[]);
                     let groups = page.leaves.div_ceil(WORKGROUP_SIZE);
                     pass.set_pipeline(&self.pipelines.advance);
@@ -187,51 +214,76 @@ impl WgpuSimulator {
         self.gpu.queue().submit([encoder.finish()]);
     }
 
+    /// Makes room for the trees of the environment.
+    fn plant(&mut self) -> Result<(), SimError> {
+        let forest = self.environment.forest();
+        self.forest = match forest.is_empty() {
+            true => None,
+            false => Some(ForestBuffers::new(&self.gpu, &self.pipelines, forest, self.sway_blocks())?),
+        };
+        Ok(())
+    }
+
+    /// What every kernel sees first: blocks and wind tables.
+    fn sway_blocks(&self) -> [wgpu::BindingResource<'_>; 3] {
+        [self.environment_buffer.as_entire_binding(), self.step_binding(), self.wind.1.as_entire_binding()]
+    }
+
+    /// The block of one step; its place among the steps of a submission is a dynamic offset.
+    fn step_binding(&self) -> wgpu::BindingResource<'_> {
+        wgpu::BindingResource::Buffer(wgpu::BufferBinding {
+            buffer: &self.step_buffer,
+            offset: 0,
+            size: wgpu::BufferSize::new(size_of::<StepBlock>() as u64),
+        })
+    }
+
     /// One window of every column for each page.
     fn bind_pages(&mut self) {
         let count = self.leaves.leaf_count();
-        self.pages.clear();
-        for first in (0..count).step_by(self.page_leaves as usize) {
-            let leaves = self.page_leaves.min(count - first);
-            let window = |buffer| {
-                wgpu::BindingResource::Buffer(wgpu::BufferBinding {
-                    buffer,
-                    offset: u64::from(first) * RECORD_BYTES,
-                    size: wgpu::BufferSize::new(u64::from(leaves) * RECORD_BYTES),
-                })
-            };
-            let step = wgpu::BindingResource::Buffer(wgpu::BufferBinding {
-                buffer: &self.step_buffer,
-                offset: 0,
-                size: wgpu::BufferSize::new(size_of::<StepBlock>() as u64),
-            });
-            let mut resources = vec![self.environment_buffer.as_entire_binding(), step];
-            resources.extend([self.motion.1.as_entire_binding(), self.wind.1.as_entire_binding()]);
-            resources.extend(self.leaves.buffers().iter().map(window));
-            let entries: Vec<_> = (0..)
-                .zip(resources)
-                .map(|(binding, resource)| wgpu::BindGroupEntry { binding, resource })
-                .collect();
-            let group = self.gpu.device().create_bind_group(&wgpu::BindGroupDescriptor {
-                label: Some("page"),
-                layout: &self.pipelines.leaves_layout,
-                entries: &entries,
-            });
-            // Header of four counts, then a place for every leaf; new buffers are zero.
-            let due_bytes = 16 + u64::from(leaves) * 4;
-            let due = buffer(&self.gpu, "due", due_bytes, wgpu::BufferUsages::STORAGE);
-            let due = self.gpu.device().create_bind_group(&wgpu::BindGroupDescriptor {
-                label: Some("due"),
-                layout: &self.pipelines.extra_layout,
-                entries: &[wgpu::BindGroupEntry { binding: 0, resource: due.as_entire_binding() }],
-            });
-            self.pages.push(Page { leaves, columns: group, due });
-        }
+        let pages: Vec<Page> =
+            (0..count).step_by(self.page_leaves as usize).map(|first| self.page(first)).collect();
+        self.pages = pages;
+    }
+
+    fn page(&self, first: u32) -> Page {
+        let leaves = self.page_leaves.min(self.leaves.leaf_count() - first);
+        let window = |buffer| {
+            wgpu::BindingResource::Buffer(wgpu::BufferBinding {
+                buffer,
+                offset: u64::from(first) * RECORD_BYTES,
+                size: wgpu::BufferSize::new(u64::from(leaves) * RECORD_BYTES),
+            })
+        };
+        let up_to_wind = || self.sway_blocks().into_iter();
+        let columns = || self.leaves.buffers().iter().map(window);
+        let resources = up_to_wind().chain(columns()).chain([self.motion.1.as_entire_binding()]);
+        let page = group(&self.gpu, &self.pipelines.leaves_layout, resources);
+        // Header of four counts, then a place for every leaf; new buffers are zero.
+        let due = buffer(&self.gpu, "due", 16 + u64::from(leaves) * 4, wgpu::BufferUsages::STORAGE);
+        let due = group(&self.gpu, &self.pipelines.extra_layout, [due.as_entire_binding()]);
+        let tree_leaves = self.environment.scene().tree_leaf_count().saturating_sub(first).min(leaves);
+        let forest = self.forest.as_ref().filter(|_| tree_leaves > 0);
+        let on_trees = forest.map(|forest| {
+            let carried = up_to_wind().chain(columns().take(4));
+            let block = buffer(&self.gpu, "carry", 16, wgpu::BufferUsages::UNIFORM);
+            self.gpu.queue().write_buffer(&block, 0, bytemuck::bytes_of(&[first, forest.stride(), 0, 0]));
+            let [branches, bearing] = forest.carriers();
+            let petioles = self.petioles.1.as_entire_binding();
+            let carriers = [block.as_entire_binding(), petioles, branches, bearing];
+            OnTrees {
+                leaves: tree_leaves,
+                carried: group(&self.gpu, &self.pipelines.carried_layout, carried),
+                carriers: group(&self.gpu, &self.pipelines.carrier_layout, carriers),
+            }
+        });
+        Page { leaves, columns: page, due, on_trees }
     }
 
     fn same_size(&self, world: &World) -> Result<(), SimError> {
         let (own, other) = (self.leaves.leaf_count() as usize, world.leaves.len());
-        if own == other { Ok(()) } else { Err(SimError::Size { world: other, simulator: own }) }
+        let same_trees = self.environment.forest().len() == world.branches.len();
+        if own == other && same_trees { Ok(()) } else { Err(SimError::Size { world: other, simulator: own }) }
     }
 }
 
@@ -269,7 +321,11 @@ impl Simulator for WgpuSimulator {
         self.same_size(world)?;
         self.leaves.write(&self.gpu, &world.leaves)?;
         self.clock = world.clock;
-        self.set_environment(&world.environment)
+        self.set_environment(&world.environment)?;
+        match &self.forest {
+            Some(forest) => forest.write(&self.gpu, &world.branches),
+            None => Ok(()),
+        }
     }
 
     fn read_state(&mut self, world: &mut World) -> Result<(), SimError> {
@@ -278,14 +334,18 @@ impl Simulator for WgpuSimulator {
         for (buffer, column) in self.leaves.buffers().iter().zip(world.leaves.columns_mut()) {
             read_buffer(&self.gpu, buffer, column)?;
         }
-        Ok(())
+        match &self.forest {
+            Some(forest) => forest.read(&self.gpu, &mut world.branches),
+            None => Ok(()),
+        }
     }
 
     fn set_environment(&mut self, environment: &Environment) -> Result<(), SimError> {
         self.gpu.check()?;
-        self.environment = environment.clone();
         self.gpu.queue().write_buffer(&self.environment_buffer, 0, bytemuck::bytes_of(environment.block()));
         let mut moved = false;
+        let replanted = !Arc::ptr_eq(self.environment.forest(), environment.forest());
+        self.environment = environment.clone();
         if !Arc::ptr_eq(&self.motion.0, environment.motion()) {
             self.motion = table(&self.gpu, "motion", environment.motion());
             moved = true;
@@ -294,7 +354,17 @@ impl Simulator for WgpuSimulator {
             self.wind = table(&self.gpu, "wind", environment.wind());
             moved = true;
         }
-        if moved {
+        if !Arc::ptr_eq(&self.petioles.0, environment.petioles()) {
+            self.petioles = table(&self.gpu, "petioles", environment.petioles());
+            moved = true;
+        }
+        if replanted {
+            self.plant()?;
+        } else if let Some(mut forest) = self.forest.take() {
+            forest.rebind(&self.gpu, &self.pipelines, self.sway_blocks());
+            self.forest = Some(forest);
+        }
+        if moved || replanted {
             self.bind_pages();
         }
         self.gpu.check()

@@ -78,8 +78,11 @@ crate::shared_struct! {
         pub responses: [Float4; MAX_SPECIES],
         /// The species.
         pub species: [SpeciesBlock; MAX_SPECIES],
-        /// The sources.
-        pub sources: [SourceBlock; MAX_SOURCES],
+        /// The sources, and behind them the trees as one.
+        pub sources: [SourceBlock; MAX_SOURCES + 1],
+        /// Leaf slots of trees, the first of all; first petiole in its table; phase per step of fluttering in 2^-32
+        /// turns; unused.
+        pub crowns: Uint4,
     }
 }
 
@@ -119,6 +122,8 @@ crate::shared_constants! {
     pub const SOURCE_SPHERE: u32 = 2;
     /// Metres per unit of integer lengths.
     pub const LENGTH_UNIT: f32 = 1.0 / 1024.0;
+    /// Number of the trees as a source.
+    pub const SOURCE_TREES: u32 = 16;
     /// A step that never comes.
     pub const NEVER: u32 = 0xffff_ffff;
 }

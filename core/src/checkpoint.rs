@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Saves a world and brings it back to the bit.
 //!
-//! A checkpoint is the eight bytes `WINDFALL`, a version, then the scene as RON text, the clock and the five leaf
-//! columns, all little-endian, and at the end the CRC-32 of everything before. It stands alone: the scene travels
+//! A checkpoint is the eight bytes `WINDFALL`, a version, then the scene as RON text, the clock, the five leaf
+//! columns, the trees' six columns and the leaves that hang on each of their segments, all little-endian, and at the end the CRC-32 of everything before. It stands alone: the scene travels
 //! inside (motion table files that a species names do not).
 
 use std::io::{self, Write};
@@ -13,10 +13,11 @@ use crate::environment::Environment;
 use crate::error::SceneError;
 use crate::leaf::Leaves;
 use crate::scene::Scene;
+use crate::tree::Branches;
 use crate::world::World;
 
 const MAGIC: &[u8; 8] = b"WINDFALL";
-const VERSION: u32 = 1;
+const VERSION: u32 = 2;
 
 impl World {
     /// Writes a checkpoint.
@@ -36,6 +37,11 @@ impl World {
         for column in self.leaves.columns() {
             out.write_all(column)?;
         }
+        out.write_all(&(self.branches.len() as u64).to_le_bytes())?;
+        for column in self.branches.columns() {
+            out.write_all(bytemuck::cast_slice(column))?;
+        }
+        out.write_all(bytemuck::cast_slice(&self.branches.bearing))?;
         let crc = out.crc.finalize();
         out.out.write_all(&crc.to_le_bytes())
     }
@@ -77,13 +83,24 @@ impl World {
         for column in leaves.columns_mut() {
             column.copy_from_slice(rest.take(column.len() as u64)?);
         }
+        let segments = u64::from_le_bytes(rest.array()?);
+        let mut branches = Branches::zeroed(environment.forest().len());
+        if segments != branches.len() as u64 {
+            return Err(reject(format!("{segments} segments for trees of {}", branches.len())));
+        }
+        for column in branches.columns_mut() {
+            let column: &mut [u8] = bytemuck::cast_slice_mut(column);
+            column.copy_from_slice(rest.take(column.len() as u64)?);
+        }
+        let bearing: &mut [u8] = bytemuck::cast_slice_mut(&mut branches.bearing);
+        bearing.copy_from_slice(rest.take(bearing.len() as u64)?);
         if !rest.bytes.is_empty() {
             return Err(reject(format!(
                 "it is longer than its {count} leaves by {} bytes",
                 rest.bytes.len()
             )));
         }
-        Ok(Self { environment, clock: Clock::at(step, scene.dt_s, travel), leaves })
+        Ok(Self { environment, clock: Clock::at(step, scene.dt_s, travel), leaves, branches })
     }
 }
 

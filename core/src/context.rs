@@ -17,4 +17,6 @@ pub struct Context<'a> {
     pub motion: MotionRows<'a>,
     /// Wind tables.
     pub wind: &'a [Uint4],
+    /// Chances of petioles to break, and petioles.
+    pub petioles: &'a [Uint4],
 }

@@ -7,12 +7,15 @@ use crate::context::Context;
 use crate::environment::{Environment, lifetime_steps, release_step};
 use crate::error::SceneError;
 use crate::kernel::vector::Vec3;
+use crate::leaf::grow::{count_leaves, leaf_grow};
 use crate::leaf::own::own_velocity;
 use crate::leaf::record::SOURCE_SHIFT;
+use crate::leaf::release::leaf_release;
 use crate::leaf::seek::leaf_seek;
 use crate::leaf::{LeafState, Leaves, LeavesMut};
 use crate::scene::Scene;
 use crate::stats::Stats;
+use crate::tree::Branches;
 
 /// Leaves below which another thread costs more than it saves.
 const SMALLEST_SHARE: usize = 4096;
@@ -26,6 +29,8 @@ pub struct World {
     pub clock: Clock,
     /// The leaves.
     pub leaves: Leaves,
+    /// The trees' segments.
+    pub branches: Branches,
 }
 
 impl World {
@@ -43,18 +48,21 @@ impl World {
         let cx = environment.context(&step);
         let threads = std::thread::available_parallelism().map_or(1, usize::from);
         let share = leaves.len().div_ceil(threads).max(SMALLEST_SHARE);
+        let mut branches = environment.forest().at_rest();
+        let (compiled, still) = (&environment, &branches);
         std::thread::scope(|scope| {
             let mut rest = leaves.as_mut();
             let mut first = 0;
             while rest.len() > share {
                 let (front, back) = rest.split_at(share);
-                scope.spawn(move || place_leaves(scene, &cx, front, first));
+                scope.spawn(move || place_leaves(compiled, &cx, still, front, first));
                 first += share;
                 rest = back;
             }
-            place_leaves(scene, &cx, rest, first);
+            place_leaves(compiled, &cx, still, rest, first);
         });
-        Ok(Self { environment, clock, leaves })
+        count_leaves(&mut branches, &cx, &leaves);
+        Ok(Self { environment, clock, leaves, branches })
     }
 
     /// Counts over all leaves.
@@ -62,21 +70,23 @@ impl World {
         Stats::of(&self.leaves, self.clock.step())
     }
 
-    /// A 64-bit fingerprint of clock and leaves: equal exactly when every bit of them is equal, but for one chance in
+    /// A 64-bit fingerprint of clock, leaves and branches: equal exactly when every bit of them is equal, but for one chance in
     /// 2^64. A sum over slots, so that it can be taken in any order.
     pub fn state_hash(&self) -> u64 {
         let leaves = &self.leaves;
         let seed = mix(u64::from(self.clock.step()), self.clock.wind_travel_m().to_bits());
-        (0..leaves.len()).fold(seed, |sum, slot| {
-            let words: [[u64; 2]; 5] = [
-                bytemuck::cast(leaves.place[slot]),
-                bytemuck::cast(leaves.drift[slot]),
-                bytemuck::cast(leaves.attitude[slot]),
-                bytemuck::cast(leaves.course[slot]),
-                bytemuck::cast(leaves.identity[slot]),
-            ];
-            sum.wrapping_add(words.as_flattened().iter().fold(slot as u64, |hash, &word| mix(hash, word)))
-        })
+        (0..leaves.len())
+            .fold(seed, |sum, slot| {
+                let words: [[u64; 2]; 5] = [
+                    bytemuck::cast(leaves.place[slot]),
+                    bytemuck::cast(leaves.drift[slot]),
+                    bytemuck::cast(leaves.attitude[slot]),
+                    bytemuck::cast(leaves.course[slot]),
+                    bytemuck::cast(leaves.identity[slot]),
+                ];
+                sum.wrapping_add(words.as_flattened().iter().fold(slot as u64, |hash, &word| mix(hash, word)))
+            })
+            .wrapping_add(self.branches.hash())
     }
 
     /// Velocity of the leaf in `slot` in m/s; zero if it is not in the air or sliding.
@@ -102,9 +112,20 @@ impl World {
 }
 
 /// Puts the leaves of a run of slots from `first` on where they are at time zero.
-fn place_leaves(scene: &Scene, cx: &Context<'_>, mut leaves: LeavesMut<'_>, first: usize) {
+fn place_leaves(
+    environment: &Environment,
+    cx: &Context<'_>,
+    branches: &Branches,
+    mut leaves: LeavesMut<'_>,
+    first: usize,
+) {
+    let scene = environment.scene();
     let total = scene.leaf_count();
-    let mut source_first = 0;
+    let mut source_first = scene.tree_leaf_count() as usize;
+    for slot in first..source_first.min(first + leaves.len()) {
+        #[expect(clippy::cast_possible_truncation, reason = "slots are counted in words")]
+        leaf_grow(environment, cx, branches, &mut leaves.leaf_mut(slot - first), slot as u32);
+    }
     for (index, source) in (0..).zip(&scene.sources) {
         let lifetime = i64::from(lifetime_steps(scene, source));
         let start = source_first.max(first);
@@ -130,14 +151,15 @@ fn place_leaves(scene: &Scene, cx: &Context<'_>, mut leaves: LeavesMut<'_>, firs
                 leaf.course.event = word(release);
             } else {
                 let id = id.wrapping_add(word(lives).wrapping_mul(total));
-                leaf_seek(cx, &mut leaf, id, index, word(release), word(-release));
+                leaf_release(cx, &mut leaf, id, index, word(release));
+                leaf_seek(cx, &mut leaf, word(-release));
             }
         }
     }
 }
 
 /// One round of mixing a word into a hash (multiply, fold; constants of SplitMix64).
-fn mix(hash: u64, word: u64) -> u64 {
+pub(crate) fn mix(hash: u64, word: u64) -> u64 {
     let mut z = (hash ^ word).wrapping_add(0x9E37_79B9_7F4A_7C15);
     z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
     z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);

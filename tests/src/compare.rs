@@ -3,6 +3,8 @@
 //! How far apart two states may be.
 
 use windfall_core::World;
+use windfall_core::leaf::LeafState;
+use windfall_core::tree::Branches;
 
 /// Largest difference of positions after a thousand smooth steps under the tolerant contract, in metres.
 pub const LONG_POSITION_M: f32 = 1e-4;
@@ -24,15 +26,25 @@ pub struct Difference {
     pub drift_m_s: f32,
     /// Largest difference of a quaternion component.
     pub quaternion: f32,
+    /// Segments with any bit that differs, or another number of leaves.
+    pub bit_segments: usize,
+    /// Largest difference of a component of a segment's place in metres.
+    pub base_m: f32,
+    /// Largest difference of a component of a segment's orientation.
+    pub pose: f32,
 }
 
 /// Compares all leaves of two worlds, slot by slot.
 pub fn difference(a: &World, b: &World) -> Difference {
     let mut found = Difference::default();
+    compare_branches(&mut found, &a.branches, &b.branches);
     let (a, b) = (&a.leaves, &b.leaves);
     for slot in 0..a.len().max(b.len()) {
         let integers = |leaves: &windfall_core::leaf::Leaves| {
-            (leaves.place[slot].bits, leaves.drift[slot].phase, leaves.course[slot], leaves.identity[slot])
+            // On a twig the phase is a float.
+            let is_phase = leaves.place[slot].state() != LeafState::Attached;
+            let phase = if is_phase { leaves.drift[slot].phase } else { 0 };
+            (leaves.place[slot].bits, phase, leaves.course[slot], leaves.identity[slot])
         };
         let same_integers = integers(a) == integers(b);
         let floats = |leaves: &windfall_core::leaf::Leaves| {
@@ -43,7 +55,8 @@ pub fn difference(a: &World, b: &World) -> Difference {
             all
         };
         let (fa, fb) = (floats(a), floats(b));
-        let same_bits = fa.map(f32::to_bits) == fb.map(f32::to_bits);
+        let same_phase = a.drift[slot].phase == b.drift[slot].phase;
+        let same_bits = fa.map(f32::to_bits) == fb.map(f32::to_bits) && same_phase;
         found.integer_leaves += usize::from(!same_integers);
         found.bit_leaves += usize::from(!(same_integers && same_bits));
         let worst = |range: std::ops::Range<usize>| {
@@ -54,6 +67,18 @@ pub fn difference(a: &World, b: &World) -> Difference {
         found.quaternion = found.quaternion.max(worst(6..10));
     }
     found
+}
+
+fn compare_branches(found: &mut Difference, a: &Branches, b: &Branches) {
+    assert_eq!(a.len(), b.len(), "the same forest");
+    for row in 0..a.len() {
+        let bits = |branches: &Branches| branches.columns().map(|column| column[row].map(f32::to_bits));
+        found.bit_segments += usize::from(bits(a) != bits(b) || a.bearing[row] != b.bearing[row]);
+        let worst =
+            |x: [f32; 4], y: [f32; 4]| x.iter().zip(y).map(|(x, y)| (x - y).abs()).fold(0.0, f32::max);
+        found.base_m = found.base_m.max(worst(a.base[row], b.base[row]));
+        found.pose = found.pose.max(worst(a.pose[row], b.pose[row]));
+    }
 }
 
 /// Size of a unit in the last place of `x`.

@@ -6,4 +6,5 @@ pub mod adapter;
 pub mod compare;
 pub mod functions;
 pub mod runner;
+pub mod stand;
 pub mod strategies;

@@ -6,7 +6,7 @@ use glam::Vec3;
 use proptest::prelude::*;
 use windfall_core::motion::Primitive;
 use windfall_core::scene::{
-    Gusts, MeanSpeed, Profile, Release, Scene, Share, Source, SourceShape, Species, Turbulence, Vortex,
+    Gusts, MeanSpeed, Profile, Release, Scene, Share, Source, SourceShape, Species, Tree, Turbulence, Vortex,
     WindParameters,
 };
 
@@ -101,6 +101,30 @@ pub fn varied_scene(seed: u64, leaves: u32, speed_m_s: f32, dt_s: f32) -> Scene 
         },
         ..Scene::default()
     }
+}
+
+/// The same scene with trees of several kinds and ages in it, late enough in autumn that leaves come off.
+pub fn wooded_scene(seed: u64, leaves: u32, speed_m_s: f32, dt_s: f32) -> Scene {
+    let mut scene = varied_scene(seed, leaves, speed_m_s, dt_s);
+    let tree = |kind: &str, at_m, age, number, leaves| Tree {
+        kind: kind.into(),
+        at_m,
+        age,
+        number,
+        leaves,
+        ..Tree::default()
+    };
+    scene.trees = vec![
+        tree("maple", [-6.0, 2.0], 1.0, 1, 700),
+        tree("birch", [9.0, -4.0], 0.5, 2, 500),
+        tree("bush", [2.0, 5.0], 1.0, 3, 300),
+        tree("weed", [-1.0, 4.0], 0.3, 4, 20),
+        tree("oak", [-14.0, -9.0], 0.8, 5, 600),
+        tree("berry-bush", [4.0, -8.0], 0.9, 6, 100),
+    ];
+    scene.autumn = 0.72;
+    scene.regrow_after_s = Some(6.0);
+    scene
 }
 
 /// The same scene in a wind without chaos: profile and gusts, but eddies of tens of metres and no vortex, so that two

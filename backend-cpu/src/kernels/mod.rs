@@ -1,11 +1,15 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Loops over leaves; one file per kernel, each with a twin in `backend-wgpu/src/shaders/kernels/`.
+//! Loops over leaves and over segments of trees; one file per kernel, each with a twin in `backend-wgpu/src/shaders/kernels/`.
 
 pub(crate) mod advance;
 pub(crate) mod attend;
+pub(crate) mod carry;
 mod eight;
 pub(crate) mod measure;
+pub(crate) mod stand;
+pub(crate) mod sway_fold;
+pub(crate) mod sway_unfold;
 
 /// Leaves per chunk: a chunk's hot columns (64 bytes a leaf) fit in a core's level-two cache.
 pub(crate) const CHUNK: usize = 4096;

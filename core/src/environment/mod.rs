@@ -3,6 +3,7 @@
 //! Compiles a scene into the blocks and tables that kernels read.
 
 mod convert;
+mod foliage;
 mod source;
 mod species;
 mod tables;
@@ -12,13 +13,15 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use self::convert::{float4, len32, q16, single, steps};
-use self::source::source_block;
+use self::convert::{float4, len32, low_word, q16, single, steps};
+pub(crate) use self::foliage::leaf_site;
+use self::foliage::{foliage_of, petiole_rows, seedlings, shed_rows};
 pub(crate) use self::source::{lifetime_steps, release_step};
+use self::source::{source_block, trees_block};
 use self::species::{response, species_block};
 use self::tables::{TABLES_PER_SPECIES, pack_motion, tables_of};
 use self::wind::wind_block;
-use crate::blocks::{EnvironmentBlock, StepBlock, VortexBlock};
+use crate::blocks::{EnvironmentBlock, SOURCE_TREES, StepBlock, VortexBlock};
 use crate::clock::Clock;
 use crate::context::Context;
 use crate::error::SceneError;
@@ -27,6 +30,7 @@ use crate::motion::lookup::MotionRows;
 use crate::motion::table::TABLE_ROWS;
 use crate::motion::{GRAVITY, MotionTables};
 use crate::scene::{MAX_SOURCES, Scene};
+use crate::tree::Forest;
 use crate::wind::gust::{GUST_ROWS, gust_rows};
 use crate::wind::profile::{PROFILE_ROWS, profile_rows};
 use crate::wind::turbulence::{TURBULENCE_X, turbulence_rows};
@@ -40,6 +44,8 @@ const BLEND_S: f32 = 0.15;
 const SETTLE_S: f32 = 0.3;
 /// Time constant in seconds of lying down: flat within a tenth of a second to the eye.
 const SETTLE_TAU_S: f32 = 0.04;
+/// Rate at which the slowest leaf flutters on its twig in Hz; the fastest flutter half as fast again.
+const FLUTTER_HZ: f32 = 3.2;
 /// A compiled scene: uniform block and tables, ready for any backend.
 #[derive(Clone, Debug)]
 pub struct Environment {
@@ -47,13 +53,15 @@ pub struct Environment {
     block: EnvironmentBlock,
     motion: Arc<[Float4]>,
     wind: Arc<[Uint4]>,
+    petioles: Arc<[Uint4]>,
+    forest: Arc<Forest>,
 }
 
 impl Environment {
     /// Compiles a validated scene. Motion tables that a species names as a file are read now.
     ///
     /// # Errors
-    /// A motion table file that cannot be read or used.
+    /// A motion table file that cannot be read or used, a tree that does not grow.
     pub fn compile(scene: &Scene) -> Result<Self, SceneError> {
         let seed = seed_words(scene.seed);
         let tables = scene
@@ -66,13 +74,26 @@ impl Environment {
         wind.extend(profile_rows(scene.wind.profile, scene.wind.reference_height_m));
         wind.extend(gust_rows(seed));
         wind.extend(turbulence_rows(&turbulence_box(seed)));
-        let block = compile_block(scene, &tables);
-        Ok(Self { scene: scene.clone(), block, motion: motion.into(), wind: wind.into() })
+        let forest = Forest::plant(seedlings(scene)?, scene.dt_s);
+        let kinds = foliage_of(scene);
+        let mut petioles = shed_rows(scene, &kinds);
+        let first_petiole = len32(petioles.len());
+        petioles.extend(petiole_rows(scene, &forest, &kinds));
+        let block = compile_block(scene, &tables, first_petiole);
+        Ok(Self {
+            scene: scene.clone(),
+            block,
+            motion: motion.into(),
+            wind: wind.into(),
+            petioles: petioles.into(),
+            forest: forest.into(),
+        })
     }
 
-    /// The same environment with another wind, ground, fall and rotation speed; species, sources, seed and step
-    /// length stay. Much cheaper than compiling anew.
+    /// The same environment with another wind, season, ground, fall and rotation speed; species, sources, trees, seed
+    /// and step length stay. Much cheaper than compiling anew.
     pub fn retune(&mut self, scene: &Scene) {
+        let keep_trees = (self.scene.trees.clone(), self.scene.tree_kinds.clone());
         let keep = (self.scene.species.clone(), self.scene.sources.clone(), self.scene.seed, self.scene.dt_s);
         if self.scene.wind.profile != scene.wind.profile
             || self.scene.wind.reference_height_m != scene.wind.reference_height_m
@@ -81,8 +102,15 @@ impl Environment {
             wind.extend_from_slice(&self.wind[PROFILE_ROWS as usize..]);
             self.wind = wind.into();
         }
+        let autumn = self.scene.autumn;
         self.scene = scene.clone();
         (self.scene.species, self.scene.sources, self.scene.seed, self.scene.dt_s) = keep;
+        (self.scene.trees, self.scene.tree_kinds) = keep_trees;
+        if self.scene.autumn != autumn {
+            let mut petioles = shed_rows(&self.scene, &foliage_of(&self.scene));
+            petioles.extend_from_slice(&self.petioles[petioles.len()..]);
+            self.petioles = petioles.into();
+        }
         let old = self.block;
         self.block = EnvironmentBlock {
             counts: Uint4([
@@ -119,6 +147,17 @@ impl Environment {
     /// The wind tables: profile, gusts, turbulence.
     pub fn wind(&self) -> &Arc<[Uint4]> {
         &self.wind
+    }
+
+    /// Chances of petioles to break ([`SHED_ROWS`](crate::leaf::petiole::SHED_ROWS) for each kind of trees), and
+    /// behind them the petioles.
+    pub fn petioles(&self) -> &Arc<[Uint4]> {
+        &self.petioles
+    }
+
+    /// The trees.
+    pub fn forest(&self) -> &Arc<Forest> {
+        &self.forest
     }
 
     /// The block of one step.
@@ -159,7 +198,13 @@ impl Environment {
 
     /// What a kernel sees in one step.
     pub fn context<'a>(&'a self, step: &'a StepBlock) -> Context<'a> {
-        Context { environment: &self.block, step, motion: MotionRows::new(&self.motion), wind: &self.wind }
+        Context {
+            environment: &self.block,
+            step,
+            motion: MotionRows::new(&self.motion),
+            wind: &self.wind,
+            petioles: &self.petioles,
+        }
     }
 
     /// Distance in metres that the mean wind travels in one step.
@@ -175,7 +220,7 @@ pub(crate) fn seed_words(seed: u64) -> [u32; 2] {
     words
 }
 
-fn compile_block(scene: &Scene, tables: &[MotionTables]) -> EnvironmentBlock {
+fn compile_block(scene: &Scene, tables: &[MotionTables], first_petiole: u32) -> EnvironmentBlock {
     let [low, high] = seed_words(scene.seed);
     let mut block: EnvironmentBlock = bytemuck::Zeroable::zeroed();
     block.seed = Uint4([low, high, scene.leaf_count(), len32(scene.species.len())]);
@@ -197,9 +242,17 @@ fn compile_block(scene: &Scene, tables: &[MotionTables]) -> EnvironmentBlock {
         block.responses[index] = response(scene, species);
     }
     for (index, source) in scene.sources.iter().take(MAX_SOURCES).enumerate() {
-        let first: u32 = scene.sources[..index].iter().map(|earlier| earlier.count).sum();
+        let earlier: u32 = scene.sources[..index].iter().map(|earlier| earlier.count).sum();
+        let first = scene.tree_leaf_count() + earlier;
         block.sources[index] = source_block(scene, source, first);
     }
+    block.sources[SOURCE_TREES as usize] = trees_block(scene);
+    block.crowns = Uint4([
+        scene.tree_leaf_count(),
+        first_petiole,
+        low_word((4_294_967_296.0 * f64::from(FLUTTER_HZ) * dt) as i64),
+        0,
+    ]);
     block
 }
 

@@ -26,6 +26,19 @@ pub(super) fn source_block(scene: &Scene, source: &Source, first: u32) -> Source
     }
 }
 
+/// The trees as a source: what happens to their leaves once they are off.
+pub(super) fn trees_block(scene: &Scene) -> SourceBlock {
+    SourceBlock {
+        timing: Uint4([
+            0,
+            scene.tree_leaf_count(),
+            0,
+            scene.regrow_after_s.map_or(0, |s| steps(s, scene.dt_s)),
+        ]),
+        ..bytemuck::Zeroable::zeroed()
+    }
+}
+
 /// Steps from a release of a slot to the next; 0 for never.
 pub(crate) fn lifetime_steps(scene: &Scene, source: &Source) -> u32 {
     source.recycle_after_s.map_or(0, |seconds| steps(seconds, scene.dt_s))

@@ -9,10 +9,12 @@
 pub mod eight;
 pub mod lane;
 pub mod math;
+pub mod matrix;
 pub mod quaternion;
 pub mod rng;
 mod transpose;
 pub mod vector;
 
+pub use matrix::{Mat3, Sym3};
 pub use quaternion::Quat;
 pub use vector::Vec3;

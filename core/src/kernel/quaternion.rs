@@ -6,7 +6,32 @@
 
 use super::lane::{Mask, Real};
 use super::math::inverse_sqrt;
-use super::vector::{TINY_SQUARED, Vec3, vec3_cross};
+use super::vector::{TINY_SQUARED, Vec3, vec3_cross, vec3_dot};
+
+crate::shared_constants! {
+    /// Series of sin(a/2)/a in a^2 up to one radian, second term.
+    pub const TURN_SIN_3: f32 = -2.083_333_2e-2;
+    /// Third term.
+    pub const TURN_SIN_5: f32 = 2.604_099_6e-4;
+    /// Fourth term.
+    pub const TURN_SIN_7: f32 = -1.539_369e-6;
+    /// Series of cos(a/2) in a^2 up to one radian, second term.
+    pub const TURN_COS_2: f32 = -0.124_999_98;
+    /// Third term.
+    pub const TURN_COS_4: f32 = 2.604_046_1e-3;
+    /// Fourth term.
+    pub const TURN_COS_6: f32 = -2.150_838_2e-5;
+    /// Series of 2 asin(s)/s in s^2 up to s = 0.5, second term.
+    pub const TURN_ASIN_3: f32 = 0.333_333_46;
+    /// Third term.
+    pub const TURN_ASIN_5: f32 = 0.149_976_15;
+    /// Fourth term.
+    pub const TURN_ASIN_7: f32 = 9.002_245e-2;
+    /// Fifth term.
+    pub const TURN_ASIN_9: f32 = 5.298_051e-2;
+    /// Sixth term.
+    pub const TURN_ASIN_11: f32 = 7.643_153e-2;
+}
 
 /// A quaternion x i + y j + z k + w.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -51,7 +76,7 @@ impl<R> From<[R; 4]> for Quat<R> {
 
 /// Rotation `b` followed by rotation `a`.
 #[inline(always)]
-pub fn quat_multiply(a: Quat, b: Quat) -> Quat {
+pub fn quat_multiply<R: Real>(a: Quat<R>, b: Quat<R>) -> Quat<R> {
     Quat::new(
         a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y,
         a.w * b.y + a.y * b.w + a.z * b.x - a.x * b.z,
@@ -84,10 +109,48 @@ pub fn quat_turn_before<R: Real>(q: Quat<R>, half_sine: R, half_cosine: R) -> Qu
 
 /// The vector `v` turned by `q`.
 #[inline(always)]
-pub fn quat_rotate(q: Quat, v: Vec3) -> Vec3 {
+pub fn quat_rotate<R: Real>(q: Quat<R>, v: Vec3<R>) -> Vec3<R> {
     let axis = Vec3::new(q.x, q.y, q.z);
-    let twice = vec3_cross(axis, v) * 2.0;
+    let cross = vec3_cross(axis, v);
+    let twice = cross + cross;
     v + twice * q.w + vec3_cross(axis, twice)
+}
+
+/// The vector `v` turned back by `q`.
+#[inline(always)]
+pub fn quat_rotate_back<R: Real>(q: Quat<R>, v: Vec3<R>) -> Vec3<R> {
+    let axis = Vec3::new(q.x, q.y, q.z);
+    let cross = vec3_cross(v, axis);
+    let twice = cross + cross;
+    v + twice * q.w + vec3_cross(twice, axis)
+}
+
+/// The y axis turned by `q`.
+#[inline(always)]
+pub fn quat_axis_y<R: Real>(q: Quat<R>) -> Vec3<R> {
+    let x = q.x * q.y - q.z * q.w;
+    let y = q.x * q.x + q.z * q.z;
+    let z = q.y * q.z + q.x * q.w;
+    Vec3::new(x + x, y.all(1.0) - (y + y), z + z)
+}
+
+/// The rotation by a vector of at most one radian.
+#[inline(always)]
+pub fn quat_of_turn<R: Real>(turn: Vec3<R>) -> Quat<R> {
+    let t = vec3_dot(turn, turn);
+    let sine = t * (t * (t * TURN_SIN_7 + TURN_SIN_5) + TURN_SIN_3) + 0.5;
+    let cosine = t * (t * (t * TURN_COS_6 + TURN_COS_4) + TURN_COS_2) + 1.0;
+    Quat::new(turn.x * sine, turn.y * sine, turn.z * sine, cosine)
+}
+
+/// The vector of a rotation by at most a sixth of a turn, its scalar part positive.
+#[inline(always)]
+pub fn turn_of_quat<R: Real>(q: Quat<R>) -> Vec3<R> {
+    let s = (q.x * q.x + q.y * q.y) + q.z * q.z;
+    let series =
+        s * (s * (s * (s * (s * TURN_ASIN_11 + TURN_ASIN_9) + TURN_ASIN_7) + TURN_ASIN_5) + TURN_ASIN_3);
+    let scale = series + 2.0;
+    Vec3::new(q.x * scale, q.y * scale, q.z * scale)
 }
 
 /// Squared norm.

@@ -7,10 +7,13 @@
 
 use super::fall::{leaf_fall, leaf_glide};
 use super::join::leaf_fall_joining;
-use super::record::{SOURCE_MASK, SOURCE_SHIFT, STATE_DORMANT, STATE_FALLING, STATE_MASK, STATE_RESTING};
-use super::release::leaf_release;
+use super::record::{
+    SOURCE_MASK, SOURCE_SHIFT, STATE_ATTACHED, STATE_DORMANT, STATE_FALLING, STATE_MASK, STATE_RESTING,
+};
+use super::release::{leaf_detach, leaf_release};
 use super::settle::leaf_settle;
 use super::store::LeafMut;
+use crate::blocks::SOURCE_TREES;
 use crate::context::Context;
 
 /// Whether something happens to a leaf in this step.
@@ -40,15 +43,18 @@ pub fn leaf_advance_plain(cx: &Context<'_>, leaf: &mut LeafMut<'_>) -> bool {
     state != STATE_RESTING || !leaf_stirs(cx, leaf)
 }
 
-/// One step of a leaf that is due: it is released, or comes to the end of a stage.
+/// One step of a leaf that is due: it is released, its petiole has broken, or it comes to the end of a stage.
 #[inline(always)]
 pub fn leaf_advance_due(cx: &Context<'_>, leaf: &mut LeafMut<'_>) {
     let now = cx.step.index.0[0];
     let source = (leaf.identity.look >> SOURCE_SHIFT) & SOURCE_MASK;
     let lifetime = cx.environment.sources[source as usize].timing.0[3];
-    if (leaf.place.bits & STATE_MASK) == STATE_DORMANT {
+    let state = leaf.place.bits & STATE_MASK;
+    if state == STATE_ATTACHED {
+        leaf_detach(cx, leaf, now);
+    } else if state == STATE_DORMANT {
         leaf_release(cx, leaf, leaf.identity.id, source, now);
-    } else if lifetime != 0 && now.wrapping_sub(leaf.identity.release) >= lifetime {
+    } else if source != SOURCE_TREES && lifetime != 0 && now.wrapping_sub(leaf.identity.release) >= lifetime {
         leaf_release(cx, leaf, leaf.identity.id.wrapping_add(cx.environment.seed.0[2]), source, now);
     }
     if (leaf.place.bits & STATE_MASK) == STATE_FALLING {

@@ -1,16 +1,20 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Leaves: their columns, and their life from release to rest.
+//! Leaves: their columns, and their life from twig or release to rest.
 
 pub mod advance;
+pub mod carry;
 pub mod fall;
+pub(crate) mod grow;
 pub mod join;
 pub mod own;
+pub mod petiole;
 pub mod record;
 pub mod release;
 pub mod seek;
 pub mod settle;
 mod store;
 
+pub use petiole::Petiole;
 pub use record::{Attitude, Course, Drift, Identity, Place};
 pub use store::{HOT_BYTES_PER_STEP, LEAF_BYTES, LeafMut, LeafState, Leaves, LeavesMut};

@@ -42,9 +42,9 @@ crate::shared_constants! {
     /// Place of the source.
     pub const SOURCE_SHIFT: u32 = 24;
     /// Mask of the source.
-    pub const SOURCE_MASK: u32 = 15;
+    pub const SOURCE_MASK: u32 = 31;
     /// Place of the stage.
-    pub const STAGE_SHIFT: u32 = 28;
+    pub const STAGE_SHIFT: u32 = 29;
     /// Mask of the stage.
     pub const STAGE_MASK: u32 = 7;
     /// A leaf of nominal size in the size field of [`Course::size`].
@@ -72,9 +72,10 @@ pub struct Place {
 #[repr(C, align(16))]
 pub struct Drift {
     /// Velocity beyond the leaf's own motion in m/s: the wind as far as the leaf follows it, and what is left of
-    /// earlier motion. On the ground: the velocity of sliding.
+    /// earlier motion. On the ground: the velocity of sliding. On the twig: the velocity of the blade.
     pub velocity: [f32; 3],
-    /// Phase of the primitive motion in 2^-32 periods. On the ground: steps since landing.
+    /// Phase of the primitive motion in 2^-32 periods. On the ground: steps since landing. On the twig: float bits of
+    /// the speed in m/s of the air that it has got used to.
     pub phase: u32,
 }
 
@@ -91,11 +92,12 @@ pub struct Attitude {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Pod, Zeroable)]
 #[repr(C, align(16))]
 pub struct Course {
-    /// Step at which something happens: release, end of a stage, recycling.
+    /// Step at which something happens: release, end of a stage, recycling, the petiole's break.
     pub event: u32,
     /// Phase per step in 2^-32 periods.
     pub rate: u32,
-    /// Low half: size relative to the species' in 2^-14. High half unused.
+    /// Low half: size relative to the species' in 2^-14. High half: of a tree's leaf, its own size, for on its twig it may
+    /// stand for several and be drawn larger.
     pub size: u32,
     /// High half: heading in 2^-16 turns about +y. Low half: spin rate, signed, full scale the species' fastest.
     pub heading: u32,

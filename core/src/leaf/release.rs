@@ -6,11 +6,13 @@
 
 use super::own::own_velocity;
 use super::record::{
-    BLEND_SHIFT, HALF_MASK, PRIMITIVE_SHIFT, SIZE_ONE, SOURCE_SHIFT, SPECIES_SHIFT, SPIN_SHIFT, STAGE_SHIFT,
-    STATE_FALLING, VARIANT_MASK, VARIANT_SHIFT,
+    BLEND_MASK, BLEND_SHIFT, HALF_MASK, PRIMITIVE_SHIFT, SIZE_ONE, SOURCE_MASK, SOURCE_SHIFT, SPECIES_MASK,
+    SPECIES_SHIFT, SPIN_SHIFT, STAGE_MASK, STAGE_SHIFT, STATE_FALLING, VARIANT_MASK, VARIANT_SHIFT,
 };
 use super::store::LeafMut;
-use crate::blocks::{LENGTH_UNIT, NEVER, SHARE_VECTORS, SOURCE_BOX, SOURCE_DISC, SourceBlock, SpeciesBlock};
+use crate::blocks::{
+    LENGTH_UNIT, NEVER, SHARE_VECTORS, SOURCE_BOX, SOURCE_DISC, SOURCE_TREES, SourceBlock, SpeciesBlock,
+};
 use crate::context::Context;
 use crate::kernel::rng::{mul_high, mul_q16, random, triangular};
 use crate::kernel::vector::Vec3;
@@ -123,7 +125,9 @@ pub fn release_fall_time(species: &SpeciesBlock, height: i32, speed: u32) -> u32
 #[inline(always)]
 pub fn next_event(cx: &Context<'_>, id: u32, release: u32, fall_time: u32, stage: u32, source: u32) -> u32 {
     let lifetime = cx.environment.sources[source as usize].timing.0[3];
-    let recycle = if lifetime == 0 { NEVER } else { release.wrapping_add(lifetime) };
+    // A tree takes its leaves back only from the ground.
+    let is_final = lifetime == 0 || source == SOURCE_TREES;
+    let recycle = if is_final { NEVER } else { release.wrapping_add(lifetime) };
     if stage + 1 >= STAGE_COUNT {
         return recycle;
     }
@@ -132,41 +136,84 @@ pub fn next_event(cx: &Context<'_>, id: u32, release: u32, fall_time: u32, stage
 }
 
 /// Lets leaf `id` go from `source` at step `release`: at rest, in the first primitive motion of its species.
-#[expect(clippy::cast_possible_truncation, reason = "a whole number in range")]
 #[inline(always)]
 pub fn leaf_release(cx: &Context<'_>, leaf: &mut LeafMut<'_>, id: u32, source: u32, release: u32) {
     let seed = [cx.environment.seed.0[0], cx.environment.seed.0[1]];
     let from = &cx.environment.sources[source as usize];
     let place = release_place(from, seed, id);
     let look = random(seed, id, STREAM_LOOK);
-    let species_index = release_species(from, look[0]);
+    leaf_drop(cx, leaf, id, look, source, release_species(from, look[0]), place, release);
+}
+
+/// Lets leaf `id` of a species go from `place`, in units of 2^-10 m, with random words `look`.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::too_many_arguments,
+    reason = "a whole number in range; as in WGSL"
+)]
+#[inline(always)]
+pub fn leaf_drop(
+    cx: &Context<'_>,
+    leaf: &mut LeafMut<'_>,
+    id: u32,
+    look: [u32; 4],
+    source: u32,
+    species_index: u32,
+    place: [i32; 3],
+    release: u32,
+) {
     let species = &cx.environment.species[species_index as usize];
     let size_speed = release_size_speed(species, look);
     let ground = (cx.environment.ground.0[0] * 1024.0).floor() as i32;
-    let fall_time = release_fall_time(species, place[1] - ground, size_speed[1]);
-    let stage = stage_words(seed, id, 0);
-    let primitive = species.start.0[0];
-    let rate = release_rate(species, primitive, release_ratio(size_speed));
-
-    leaf.identity.id = id;
-    leaf.identity.release = release;
-    leaf.identity.fall_time = fall_time;
+    leaf.identity.fall_time = release_fall_time(species, place[1] - ground, size_speed[1]);
     leaf.identity.look = (look[3] & HALF_MASK)
         | ((look[0] & VARIANT_MASK) << VARIANT_SHIFT)
         | (source << SOURCE_SHIFT)
         | (0 << STAGE_SHIFT);
-    leaf.course.event = next_event(cx, id, release, fall_time, 0, source);
-    leaf.course.rate = rate;
     leaf.course.size = size_speed[0];
-    leaf.course.heading = (stage[2] & (HALF_MASK << 16)) | (look[3] >> 16);
+    leaf.course.heading = look[3] >> 16;
     leaf.place.position =
         [place[0] as f32 * LENGTH_UNIT, place[1] as f32 * LENGTH_UNIT, place[2] as f32 * LENGTH_UNIT];
+    leaf.place.bits = (0 << BLEND_SHIFT) | (species_index << SPECIES_SHIFT);
+    leaf.drift.velocity = [0.0, 0.0, 0.0];
+    leaf_set_off(cx, leaf, id, release, size_speed);
+}
+
+/// Begins the first stage of a leaf's fall. It sets off with the velocity that `drift` says.
+#[inline(always)]
+pub fn leaf_set_off(cx: &Context<'_>, leaf: &mut LeafMut<'_>, id: u32, release: u32, size_speed: [u32; 2]) {
+    let seed = [cx.environment.seed.0[0], cx.environment.seed.0[1]];
+    let source = (leaf.identity.look >> SOURCE_SHIFT) & SOURCE_MASK;
+    let species_index = (leaf.place.bits >> SPECIES_SHIFT) & SPECIES_MASK;
+    let species = &cx.environment.species[species_index as usize];
+    let stage = stage_words(seed, id, 0);
+    let primitive = species.start.0[0];
+    leaf.identity.id = id;
+    leaf.identity.release = release;
+    leaf.identity.look &= !(STAGE_MASK << STAGE_SHIFT);
+    leaf.course.event = next_event(cx, id, release, leaf.identity.fall_time, 0, source);
+    leaf.course.rate = release_rate(species, primitive, release_ratio(size_speed));
+    leaf.course.heading = (stage[2] & (HALF_MASK << 16)) | (leaf.course.heading & HALF_MASK);
     leaf.place.bits = STATE_FALLING
-        | (0 << BLEND_SHIFT)
+        | (leaf.place.bits & ((BLEND_MASK << BLEND_SHIFT) | (SPECIES_MASK << SPECIES_SHIFT)))
         | (primitive << PRIMITIVE_SHIFT)
-        | (species_index << SPECIES_SHIFT)
         | ((stage[3] & HALF_MASK) << SPIN_SHIFT);
     leaf.drift.phase = stage[1];
-    let start = Vec3::ZERO - own_velocity(cx, leaf.place.bits, leaf.drift.phase, (*leaf.course).into());
-    leaf.drift.velocity = start.to_array();
+    let own = own_velocity(cx, leaf.place.bits, leaf.drift.phase, (*leaf.course).into());
+    leaf.drift.velocity = (Vec3::from(leaf.drift.velocity) - own).to_array();
+}
+
+/// Lets a leaf go whose petiole has broken, where it is and as fast as it is.
+#[inline(always)]
+pub fn leaf_detach(cx: &Context<'_>, leaf: &mut LeafMut<'_>, release: u32) {
+    let seed = [cx.environment.seed.0[0], cx.environment.seed.0[1]];
+    let id = leaf.identity.id.wrapping_add(cx.environment.seed.0[2]);
+    let look = random(seed, id, STREAM_LOOK);
+    let species = &cx.environment.species[((leaf.place.bits >> SPECIES_SHIFT) & SPECIES_MASK) as usize];
+    let size = leaf.course.size >> 16;
+    leaf.course.size = size | (size << 16);
+    leaf.course.heading = look[3] >> 16;
+    leaf.place.bits =
+        (leaf.place.bits & !(BLEND_MASK << BLEND_SHIFT)) | (cx.environment.counts.0[2] << BLEND_SHIFT);
+    leaf_set_off(cx, leaf, id, release, [size, release_size_speed(species, look)[1]]);
 }

@@ -5,8 +5,9 @@
 use super::fall::{Glide, response_of, spin_advance};
 use super::join::leaf_join;
 use super::own::{Manner, on_grid, own_advance, own_orientation, own_period, own_rate};
-use super::record::{BLEND_MASK, BLEND_SHIFT, STAGE_MASK, STAGE_SHIFT, STATE_MASK, STATE_RESTING};
-use super::release::leaf_release;
+use super::record::{
+    BLEND_MASK, BLEND_SHIFT, SOURCE_MASK, SOURCE_SHIFT, STAGE_MASK, STAGE_SHIFT, STATE_MASK, STATE_RESTING,
+};
 use super::settle::flatten;
 use super::store::LeafMut;
 use crate::blocks::NEVER;
@@ -19,11 +20,10 @@ use crate::motion::feature::{STAGE_COUNT, stage_end};
 /// Refinements of the moment of landing.
 const LANDING_ROUNDS: u32 = 6;
 
-/// Writes the state of leaf `id` of `source`, `elapsed` steps after its release at step `release`, as a fall through
-/// still air gives it; on the ground, flat and still, if that fall is over. Orientation is that of the stage, without
-/// the short blend after a join.
-pub fn leaf_seek(cx: &Context<'_>, leaf: &mut LeafMut<'_>, id: u32, source: u32, release: u32, elapsed: u32) {
-    leaf_release(cx, leaf, id, source, release);
+/// Moves a leaf that has just been let go on to its state `elapsed` steps later, as a fall through still air gives it;
+/// on the ground, flat and still, if that fall is over. Orientation is that of the stage, without the short blend after
+/// a join.
+pub fn leaf_seek(cx: &Context<'_>, leaf: &mut LeafMut<'_>, elapsed: u32) {
     let rest_height = cx.environment.ground.0[1];
     let target = u64::from(elapsed) << 16;
     let mut glide = Glide {
@@ -39,7 +39,7 @@ pub fn leaf_seek(cx: &Context<'_>, leaf: &mut LeafMut<'_>, id: u32, source: u32,
         if part > 0 && next.position.y < rest_height {
             let landing = landing_within(cx, leaf, glide, part);
             arrive(cx, leaf, glide_long(cx, leaf, glide, landing), now + landing);
-            rest(cx, leaf, source);
+            rest(cx, leaf);
             return;
         }
         glide = next;
@@ -125,7 +125,8 @@ fn glide_long(cx: &Context<'_>, leaf: &LeafMut<'_>, glide: Glide, part_q16: u64)
 }
 
 /// Lays a leaf down where it is.
-fn rest(cx: &Context<'_>, leaf: &mut LeafMut<'_>, source: u32) {
+fn rest(cx: &Context<'_>, leaf: &mut LeafMut<'_>) {
+    let source = (leaf.identity.look >> SOURCE_SHIFT) & SOURCE_MASK;
     let lifetime = cx.environment.sources[source as usize].timing.0[3];
     leaf.place.position[1] = cx.environment.ground.0[1];
     leaf.place.bits = (leaf.place.bits & !STATE_MASK) | STATE_RESTING;

@@ -29,7 +29,7 @@ pub use wind::{Gusts, MeanSpeed, Profile, Turbulence, Vortex, WindParameters};
 
 /// Most species a scene may have: a leaf keeps its species in five bits.
 pub const MAX_SPECIES: usize = 32;
-/// Most sources a scene may have: a leaf keeps its source in four bits.
+/// Most sources a scene may have: a leaf keeps its source in five bits, and one number is for all trees.
 pub const MAX_SOURCES: usize = 16;
 /// Most point vortices a scene may have: they travel in the uniform block of every step.
 pub const MAX_VORTICES: usize = 8;
@@ -68,6 +68,9 @@ pub struct Scene {
     pub trees: Vec<Tree>,
     /// How far the year has come for the leaves on the trees, 0 to 1: 0 in summer, 1 in winter, when none are left.
     pub autumn: f32,
+    /// Seconds from a leaf's break from its tree until it is back on its twig, if it lies on the ground by then, 1 to
+    /// 86400; `None` leaves every leaf where it lands for ever.
+    pub regrow_after_s: Option<f32>,
     /// The one wind.
     pub wind: WindParameters,
     /// What leaves land on.
@@ -89,6 +92,7 @@ impl Default for Scene {
             tree_kinds: Vec::new(),
             trees: Vec::new(),
             autumn: 0.0,
+            regrow_after_s: None,
             wind: WindParameters::default(),
             ground: Ground::default(),
             view: View::default(),
@@ -97,9 +101,14 @@ impl Default for Scene {
 }
 
 impl Scene {
-    /// Number of leaf slots: the sum of the sources' counts.
+    /// Number of leaf slots: of the trees first, then of the sources.
     pub fn leaf_count(&self) -> u32 {
-        self.sources.iter().fold(0, |sum, source| sum.saturating_add(source.count))
+        self.sources.iter().fold(self.tree_leaf_count(), |sum, source| sum.saturating_add(source.count))
+    }
+
+    /// Number of leaf slots of all trees.
+    pub fn tree_leaf_count(&self) -> u32 {
+        self.trees.iter().fold(0, |sum, tree| sum.saturating_add(tree.leaves))
     }
 
     /// The kind of trees that `name` stands for: the scene's own of exactly this name, or else the preset of this

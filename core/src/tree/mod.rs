@@ -4,20 +4,29 @@
 
 pub mod bark;
 mod crown;
+pub mod forest;
 pub mod gltf;
 pub mod grammar;
 mod grow;
 pub mod growth;
 pub mod pipe;
 mod presets;
+pub mod record;
 pub mod skeleton;
+mod store;
+pub mod sway;
 #[cfg(test)]
 mod testing;
 #[cfg(test)]
 mod tests;
+mod timber;
 pub mod turtle;
 
 pub use bark::{BarkDetail, BarkMesh, bark_mesh};
+pub use forest::Forest;
 pub(crate) use grow::segments_of;
 pub use grow::{TreeError, full_leaf_count, grow};
+pub use record::Timber;
 pub use skeleton::{Attachment, Bearing, Segment, Skeleton, SkeletonError};
+pub use store::{Branches, BranchesMut};
+pub use timber::{LeafFacts, TreeFacts};

@@ -74,10 +74,10 @@ impl TreePreset {
     pub fn kind(self) -> TreeKind {
         let (youngs_modulus_gpa, density_kg_m3, leaf_area_index, strength_n) = match self {
             Self::Maple => (8.4, 721.0, 4.5, 4.0),
-            Self::Birch => (9.9, 801.0, 2.5, 2.5),
+            Self::Birch => (9.9, 801.0, 3.0, 2.5),
             Self::Oak => (10.5, 865.0, 4.0, 5.0),
             Self::Bush => (7.0, 850.0, 3.5, 2.5),
-            Self::Weed => (1.0, 900.0, 2.0, 1.0),
+            Self::Weed => (1.0, 900.0, 3.0, 1.0),
             Self::BerryBush => (5.0, 850.0, 2.5, 1.5),
         };
         TreeKind {

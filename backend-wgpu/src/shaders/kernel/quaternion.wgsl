@@ -33,8 +33,37 @@ fn quat_turn_before(q: vec4<f32>, half_sine: f32, half_cosine: f32) -> vec4<f32>
 
 fn quat_rotate(q: vec4<f32>, v: vec3<f32>) -> vec3<f32> {
     let axis = vec3<f32>(q.x, q.y, q.z);
-    let twice = vec3_cross(axis, v) * 2.0;
+    let cross = vec3_cross(axis, v);
+    let twice = cross + cross;
     return v + twice * q.w + vec3_cross(axis, twice);
+}
+
+fn quat_rotate_back(q: vec4<f32>, v: vec3<f32>) -> vec3<f32> {
+    let axis = vec3<f32>(q.x, q.y, q.z);
+    let cross = vec3_cross(v, axis);
+    let twice = cross + cross;
+    return v + twice * q.w + vec3_cross(twice, axis);
+}
+
+fn quat_axis_y(q: vec4<f32>) -> vec3<f32> {
+    let x = q.x * q.y - q.z * q.w;
+    let y = q.x * q.x + q.z * q.z;
+    let z = q.y * q.z + q.x * q.w;
+    return vec3<f32>(x + x, 1.0 - (y + y), z + z);
+}
+
+fn quat_of_turn(turn: vec3<f32>) -> vec4<f32> {
+    let t = vec3_dot(turn, turn);
+    let sine = t * (t * (t * TURN_SIN_7 + TURN_SIN_5) + TURN_SIN_3) + 0.5;
+    let cosine = t * (t * (t * TURN_COS_6 + TURN_COS_4) + TURN_COS_2) + 1.0;
+    return vec4<f32>(turn.x * sine, turn.y * sine, turn.z * sine, cosine);
+}
+
+fn turn_of_quat(q: vec4<f32>) -> vec3<f32> {
+    let s = (q.x * q.x + q.y * q.y) + q.z * q.z;
+    let series = s * (s * (s * (s * (s * TURN_ASIN_11 + TURN_ASIN_9) + TURN_ASIN_7) + TURN_ASIN_5) + TURN_ASIN_3);
+    let scale = series + 2.0;
+    return vec3<f32>(q.x * scale, q.y * scale, q.z * scale);
 }
 
 fn quat_norm_squared(q: vec4<f32>) -> f32 {

@@ -34,9 +34,12 @@ fn leaf_advance_due(leaf: u32) {
     let identity = identities[leaf];
     let source = (identity.w >> SOURCE_SHIFT) & SOURCE_MASK;
     let lifetime = environment.sources[source].timing.w;
-    if ((places[leaf].w & STATE_MASK) == STATE_DORMANT) {
+    let state = places[leaf].w & STATE_MASK;
+    if (state == STATE_ATTACHED) {
+        leaf_detach(leaf, now);
+    } else if (state == STATE_DORMANT) {
         leaf_release(leaf, identity.x, source, now);
-    } else if (lifetime != 0u && now - identity.y >= lifetime) {
+    } else if (source != SOURCE_TREES && lifetime != 0u && now - identity.y >= lifetime) {
         leaf_release(leaf, identity.x + environment.seed.z, source, now);
     }
     if ((places[leaf].w & STATE_MASK) == STATE_FALLING) {

@@ -89,7 +89,9 @@ fn release_fall_time(species: u32, height: i32, speed: u32) -> u32 {
 
 fn next_event(id: u32, release: u32, fall_time: u32, stage: u32, source: u32) -> u32 {
     let lifetime = environment.sources[source].timing.w;
-    let recycle = select(release + lifetime, NEVER, lifetime == 0u);
+    // A tree takes its leaves back only from the ground.
+    let is_final = lifetime == 0u || source == SOURCE_TREES;
+    let recycle = select(release + lifetime, NEVER, is_final);
     if (stage + 1u >= STAGE_COUNT) {
         return recycle;
     }
@@ -101,38 +103,69 @@ fn leaf_release(leaf: u32, id: u32, source: u32, release: u32) {
     let seed = environment.seed.xy;
     let place = release_place(source, seed, id);
     let look = random(seed, id, STREAM_LOOK);
-    let species = release_species(source, look.x);
+    leaf_drop(leaf, id, look, source, release_species(source, look.x), place, release);
+}
+
+fn leaf_drop(
+    leaf: u32,
+    id: u32,
+    look: vec4<u32>,
+    source: u32,
+    species: u32,
+    place: vec3<i32>,
+    release: u32,
+) {
     let size_speed = release_size_speed(species, look);
     let ground = i32(floor(environment.ground.x * 1024.0));
-    let fall_time = release_fall_time(species, place.y - ground, size_speed.y);
-    let stage = stage_words(seed, id, 0u);
-    let primitive = environment.species[species].start.x;
-    let rate = release_rate(species, primitive, release_ratio(size_speed));
-
-    identities[leaf] = vec4<u32>(
-        id,
-        release,
-        fall_time,
-        (look.w & HALF_MASK)
-            | ((look.x & VARIANT_MASK) << VARIANT_SHIFT)
-            | (source << SOURCE_SHIFT)
-            | (0u << STAGE_SHIFT),
-    );
-    let course = vec4<u32>(
-        next_event(id, release, fall_time, 0u, source),
-        rate,
-        size_speed.x,
-        (stage.z & (HALF_MASK << 16u)) | (look.w >> 16u),
-    );
-    courses[leaf] = course;
-    let bits = STATE_FALLING
-        | (0u << BLEND_SHIFT)
-        | (primitive << PRIMITIVE_SHIFT)
-        | (species << SPECIES_SHIFT)
-        | ((stage.w & HALF_MASK) << SPIN_SHIFT);
+    identities[leaf].z = release_fall_time(species, place.y - ground, size_speed.y);
+    identities[leaf].w = (look.w & HALF_MASK)
+        | ((look.x & VARIANT_MASK) << VARIANT_SHIFT)
+        | (source << SOURCE_SHIFT)
+        | (0u << STAGE_SHIFT);
+    courses[leaf].z = size_speed.x;
+    courses[leaf].w = look.w >> 16u;
     let position =
         vec3<f32>(f32(place.x) * LENGTH_UNIT, f32(place.y) * LENGTH_UNIT, f32(place.z) * LENGTH_UNIT);
-    places[leaf] = vec4<u32>(bitcast<vec3<u32>>(position), bits);
-    let start = vec3<f32>(0.0, 0.0, 0.0) - own_velocity(bits, stage.y, course);
+    places[leaf] = vec4<u32>(bitcast<vec3<u32>>(position), (0u << BLEND_SHIFT) | (species << SPECIES_SHIFT));
+    drifts[leaf] = vec4<u32>(0u, 0u, 0u, 0u);
+    leaf_set_off(leaf, id, release, size_speed);
+}
+
+fn leaf_set_off(leaf: u32, id: u32, release: u32, size_speed: vec2<u32>) {
+    let seed = environment.seed.xy;
+    var identity = identities[leaf];
+    var course = courses[leaf];
+    let before = places[leaf].w;
+    let source = (identity.w >> SOURCE_SHIFT) & SOURCE_MASK;
+    let species = (before >> SPECIES_SHIFT) & SPECIES_MASK;
+    let stage = stage_words(seed, id, 0u);
+    let primitive = environment.species[species].start.x;
+    identity.x = id;
+    identity.y = release;
+    identity.w = identity.w & ~(STAGE_MASK << STAGE_SHIFT);
+    course.x = next_event(id, release, identity.z, 0u, source);
+    course.y = release_rate(species, primitive, release_ratio(size_speed));
+    course.w = (stage.z & (HALF_MASK << 16u)) | (course.w & HALF_MASK);
+    identities[leaf] = identity;
+    courses[leaf] = course;
+    let bits = STATE_FALLING
+        | (before & ((BLEND_MASK << BLEND_SHIFT) | (SPECIES_MASK << SPECIES_SHIFT)))
+        | (primitive << PRIMITIVE_SHIFT)
+        | ((stage.w & HALF_MASK) << SPIN_SHIFT);
+    places[leaf].w = bits;
+    let own = own_velocity(bits, stage.y, course);
+    let start = bitcast<vec3<f32>>(drifts[leaf].xyz) - own;
     drifts[leaf] = vec4<u32>(bitcast<vec3<u32>>(start), stage.y);
+}
+
+fn leaf_detach(leaf: u32, release: u32) {
+    let seed = environment.seed.xy;
+    let id = identities[leaf].x + environment.seed.z;
+    let look = random(seed, id, STREAM_LOOK);
+    let species = (places[leaf].w >> SPECIES_SHIFT) & SPECIES_MASK;
+    let size = courses[leaf].z >> 16u;
+    courses[leaf].z = size | (size << 16u);
+    courses[leaf].w = look.w >> 16u;
+    places[leaf].w = (places[leaf].w & ~(BLEND_MASK << BLEND_SHIFT)) | (environment.counts.z << BLEND_SHIFT);
+    leaf_set_off(leaf, id, release, vec2<u32>(size, release_size_speed(species, look).y));
 }

@@ -111,6 +111,7 @@ impl<'a> Cursor<'a> {
                 let shown: String = rest[..end].chars().take(40).collect();
                 format!("found `{shown}`")
             }
+            Some(_) if rest.starts_with("->") => "found `->`".into(),
             Some(first) => format!("found `{}`", first.escape_debug()),
         }
     }

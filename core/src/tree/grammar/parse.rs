@@ -165,7 +165,7 @@ impl<'a> Parser<'a> {
                 Expression { at, node: Node::Number(1.0) }
             };
             if matches!(weight.node, Node::Number(weight) if weight < 0.0) {
-                return Err(GrammarError::text(at, "a negative weight", "weights from 0"));
+                return Err(GrammarError::text(weight.at, "a negative weight", "weights from 0"));
             }
             alternatives.push(Alternative { weight, successor: self.modules(&parameters)? });
         }

@@ -63,7 +63,7 @@ fn unary(cursor: &mut Cursor<'_>, names: &Names<'_>, outer: usize) -> Result<Dee
     let at = cursor.position();
     check_depth(at, outer)?;
     let wrap: fn(Box<Expression>) -> Node = match cursor.peek() {
-        Some('-') => Node::Negative,
+        Some('-') if !cursor.sees("->") => Node::Negative,
         Some('!') => Node::Not,
         _ => return primary(cursor, names, outer),
     };

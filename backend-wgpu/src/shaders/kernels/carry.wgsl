@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// twin: backend-cpu/src/kernels/carry.rs
+#import leaf/carry
+
+fn carrier_row(column: u32, row: u32) -> vec4<f32> {
+    return carrier_rows[column * carry_block.page.y + row];
+}
+
+@compute @workgroup_size(WORKGROUP_SIZE)
+fn carry(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>) {
+    let first = carry_block.page.x;
+    let count = min(arrayLength(&places), environment.crowns.x - first);
+    for (var leaf = id.x; leaf < count; leaf += groups.x * WORKGROUP_SIZE) {
+        let slot = first + leaf;
+        let petiole = petiole_of(slot);
+        if (petiole.segment != NO_SEGMENT) {
+            let row = petiole.segment;
+            let body = Body(
+                carrier_row(BRANCH_BASE, row).xyz,
+                carrier_row(BRANCH_POSE, row),
+                carrier_row(BRANCH_VELOCITY, row).xyz,
+                carrier_row(BRANCH_SPIN, row).xyz,
+            );
+            let change = leaf_carry(leaf, slot, petiole, body);
+            if (change != 0u) {
+                atomicAdd(&carried[row], change);
+            }
+        }
+    }
+}

@@ -1,0 +1,100 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// twin: core/src/leaf/carry.rs
+#import kernel/math
+#import kernel/quaternion
+#import kernel/rng
+#import kernel/vector
+#import leaf/petioles
+#import tree/sway/body
+#import wind/sample
+
+struct Petiole {
+    at: vec3<f32>,
+    segment: u32,
+    rest: vec4<f32>,
+    facts: u32,
+}
+
+fn shed_chance(facts: u32, speed: f32) -> u32 {
+    let kind = (facts >> PETIOLE_KIND_SHIFT) & PETIOLE_KIND_MASK;
+    let strength = (facts >> PETIOLE_CLASS_SHIFT) & PETIOLE_CLASS_MASK;
+    let level = min(bitcast<u32>(i32(floor(speed))), SHED_SPEEDS - 1u);
+    let index = (kind * SHED_CLASSES + strength) * SHED_SPEEDS + level;
+    return petiole_rows[index >> 2u][index & 3u];
+}
+
+fn leaf_hang(leaf: u32, habit: f32, slot: u32, petiole: Petiole, segment: Body) {
+    let still = quat_multiply(segment.pose, petiole.rest);
+    let tip = quat_rotate(still, vec3<f32>(0.0, 0.0, 1.0));
+    let side = quat_rotate(still, vec3<f32>(1.0, 0.0, 0.0));
+    let wind = vec3<f32>(environment.wind.mean.x, 0.0, environment.wind.mean.y);
+    let share = habit * reciprocal(habit + LEAN_SPEED);
+    let unrest = share * share;
+    let rate = environment.crowns.z;
+    let own_rate = rate + (rate >> 5u) * (slot & 15u);
+    let phase = own_rate * step_block.index.x + slot * 0x9e3779b9u;
+    let roll = sin_cos_turns(phase).x;
+    let pitch = sin_cos_turns(phase << 1u).y;
+    let lean = vec3_cross(tip, wind) * (share * LEAN_MOST);
+    let flutter = tip * ((unrest * FLUTTER_ROLL) * roll) + side * ((unrest * FLUTTER_PITCH) * pitch);
+    let attitude = quat_renormalize(quat_multiply(quat_of_turn(lean + flutter), still));
+    let reach = f32((petiole.facts >> PETIOLE_REACH_SHIFT) & PETIOLE_REACH_MASK) * PETIOLE_REACH_UNIT;
+    let arm = quat_rotate(segment.pose, petiole.at) + quat_rotate(attitude, vec3<f32>(0.0, 0.0, reach));
+    attitudes[leaf] = attitude;
+    let position = segment.base + arm;
+    let velocity = segment.velocity + vec3_cross(segment.spin, arm);
+    places[leaf] = vec4<u32>(bitcast<vec3<u32>>(position), places[leaf].w);
+    drifts[leaf] = vec4<u32>(bitcast<vec3<u32>>(velocity), bitcast<u32>(habit));
+}
+
+fn leaf_size_on_twig(size: u32, facts: u32) -> u32 {
+    return (size << 16u) | min((size * (facts >> PETIOLE_CLUSTER_SHIFT)) >> 4u, HALF_MASK);
+}
+
+fn petiole_of(slot: u32) -> Petiole {
+    let first = environment.crowns.y + slot * PETIOLE_ROWS;
+    let at = petiole_rows[first];
+    return Petiole(
+        bitcast<vec3<f32>>(at.xyz),
+        at.w,
+        bitcast<vec4<f32>>(petiole_rows[first + 1u]),
+        petiole_rows[first + 2u].w,
+    );
+}
+
+fn leaf_carry(leaf: u32, slot: u32, petiole: Petiole, segment: Body) -> u32 {
+    let now = step_block.index.x;
+    var change = 0u;
+    var bits = places[leaf].w;
+    var habit = bitcast<f32>(drifts[leaf].w);
+    let is_back = (bits & STATE_MASK) == STATE_RESTING
+        && environment.sources[SOURCE_TREES].timing.w != 0u
+        && now >= courses[leaf].x;
+    if (is_back) {
+        bits = (bits & ~(STATE_MASK | (BLEND_MASK << BLEND_SHIFT))) | STATE_ATTACHED;
+        places[leaf].w = bits;
+        courses[leaf].x = NEVER;
+        courses[leaf].z = leaf_size_on_twig(courses[leaf].z >> 16u, petiole.facts);
+        habit = 0.0;
+        change = 1u;
+    }
+    if ((bits & STATE_MASK) != STATE_ATTACHED || now >= courses[leaf].x) {
+        return change;
+    }
+    if (((now + slot) & (SHED_INTERVAL - 1u)) == 0u) {
+        let arm = quat_rotate(segment.pose, petiole.at);
+        let velocity = segment.velocity + vec3_cross(segment.spin, arm);
+        let relative = wind_at(segment.base + arm) - velocity;
+        let squared = vec3_dot(relative, relative);
+        let speed = squared * inverse_sqrt(max(squared, TINY_SQUARED));
+        habit = habit + (speed - habit) * HABIT_SHARE;
+        let seed = environment.seed.xy;
+        if (philox(seed, vec4<u32>(slot, STREAM_SHED, now, 0u)).x < shed_chance(petiole.facts, speed)) {
+            courses[leaf].x = now + 1u;
+            change = change - 1u;
+        }
+    }
+    leaf_hang(leaf, habit, slot, petiole, segment);
+    return change;
+}

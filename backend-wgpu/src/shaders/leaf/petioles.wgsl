@@ -1,0 +1,18 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// What the kernel that carries leaves on their twigs sees besides the blocks, wind tables and leaf columns (see
+// core/src/leaf/petiole.rs).
+#import bindings
+
+struct Carry {
+    // First slot of the page; segments of the forest, rounded up to whole columns; two unused.
+    page: vec4<u32>,
+}
+
+@group(1) @binding(0) var<uniform> carry_block: Carry;
+// Chances of petioles to break, then petioles of PETIOLE_ROWS rows each.
+@group(1) @binding(1) var<storage, read> petiole_rows: array<vec4<u32>>;
+// The columns BRANCH_TURN, BRANCH_RATE and so on, one after another.
+@group(1) @binding(2) var<storage, read> carrier_rows: array<vec4<f32>>;
+// Leaves that hang on every segment.
+@group(1) @binding(3) var<storage, read_write> carried: array<atomic<u32>>;

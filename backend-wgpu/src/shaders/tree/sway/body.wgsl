@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// twin: core/src/tree/sway/mod.rs
+#import kernel/matrix
+
+struct Constants {
+    rest: vec4<f32>,
+    offset: vec3<f32>,
+    length: f32,
+    mass: f32,
+    first_moment: f32,
+    inertia_across: f32,
+    inertia_along: f32,
+    leaf_mass: f32,
+    wood_drag: f32,
+    leaf_drag: f32,
+    leaf_yield: f32,
+    preload: vec3<f32>,
+    damping: f32,
+    bending: f32,
+    twisting: f32,
+    bending_inertia: f32,
+    twisting_inertia: f32,
+}
+
+struct Joint {
+    turn: vec4<f32>,
+    rate: vec3<f32>,
+}
+
+struct Body {
+    base: vec3<f32>,
+    pose: vec4<f32>,
+    velocity: vec3<f32>,
+    spin: vec3<f32>,
+}
+
+struct Articulated {
+    rotation: Sym3,
+    coupling: Mat3,
+    mass: Sym3,
+    moment: vec3<f32>,
+    force: vec3<f32>,
+}
+
+struct Answer {
+    free: vec3<f32>,
+    spring: Mat3,
+    lever: Mat3,
+    arm: vec3<f32>,
+    turning: vec3<f32>,
+    centripetal: vec3<f32>,
+}

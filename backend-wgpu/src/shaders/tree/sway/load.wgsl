@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// twin: core/src/tree/sway/load.rs
+#import kernel/math
+#import kernel/matrix
+#import kernel/quaternion
+#import kernel/vector
+#import tree/sway/body
+#import wind/sample
+
+struct Drag {
+    wind: vec3<f32>,
+    wood: f32,
+    leaves: f32,
+}
+
+fn segment_drag(constants: Constants, axis: vec3<f32>, air: vec3<f32>, velocity: vec3<f32>, bearing: f32) -> Drag {
+    let wind = air - velocity;
+    let squared = vec3_dot(wind, wind);
+    let along = vec3_dot(wind, axis);
+    let across = max(squared - along * along, TINY_SQUARED);
+    let speed_across = across * inverse_sqrt(across);
+    let speed = squared * inverse_sqrt(max(squared, TINY_SQUARED));
+    let yielding = reciprocal(speed * constants.leaf_yield + 1.0);
+    return Drag(
+        wind,
+        constants.wood_drag * speed_across,
+        ((constants.leaf_drag * bearing) * speed) * yielding,
+    );
+}
+
+fn segment_body(constants: Constants, body: Body, axis: vec3<f32>, bearing: f32) -> Articulated {
+    let half = constants.length * 0.5;
+    let middle = axis * half;
+    let air = wind_at(body.base + middle);
+    let velocity = body.velocity + vec3_cross(body.spin, middle);
+    let drag = segment_drag(constants, axis, air, velocity, bearing);
+    let held = drag.wood + drag.leaves;
+    let push = drag.wind * held - axis * (vec3_dot(drag.wind, axis) * drag.wood);
+
+    let leaves = constants.leaf_mass * bearing;
+    let mass = constants.mass + leaves;
+    let moment = constants.first_moment + leaves * half;
+    let across = constants.inertia_across + leaves * ((constants.length * constants.length) * THIRD);
+    let dt = environment.time.x;
+    let added = held * dt;
+    let heavy = across + added * (half * half);
+    let bare = mass + added;
+
+    let turning = vec3_dot(body.spin, axis);
+    let gyration = vec3_cross(body.spin, axis) * ((constants.inertia_along - across) * turning);
+    let outward = body.spin * turning - axis * vec3_dot(body.spin, body.spin);
+    let weight = vec3<f32>(0.0, -GRAVITY_M_S2, 0.0);
+    return Articulated(
+        sym3_axial(axis, constants.inertia_along, heavy),
+        mat3_cross(axis, moment + added * half),
+        sym3_axial(axis, bare - drag.wood * dt, bare),
+        gyration - (vec3_cross(middle, push) + vec3_cross(axis, weight) * moment),
+        outward * moment - (push + weight * mass),
+    );
+}
+
+fn segment_axis(body: Body) -> vec3<f32> {
+    return quat_axis_y(body.pose);
+}

@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// twin: core/src/tree/sway/unfold.rs
+#import kernel/math
+#import kernel/matrix
+#import kernel/quaternion
+#import kernel/vector
+#import tree/sway/body
+
+struct Motion {
+    angular: vec3<f32>,
+    linear: vec3<f32>,
+    // The joint's own part of the angular acceleration.
+    own: vec3<f32>,
+}
+
+fn joint_motion(answer: Answer, parent_angular: vec3<f32>, parent_linear: vec3<f32>) -> Motion {
+    let angular = parent_angular + answer.turning;
+    let linear = (parent_linear + vec3_cross(parent_angular, answer.arm)) + answer.centripetal;
+    let own = ((answer.free - angular) + mat3_transposed_times(answer.spring, angular))
+        - mat3_times(answer.lever, linear);
+    return Motion(angular + own, linear, own);
+}
+
+fn shortened(v: vec3<f32>, limit: f32) -> vec3<f32> {
+    let squared = vec3_dot(v, v);
+    let scale = limit * inverse_sqrt(max(squared, TINY_SQUARED));
+    let over = limit * limit < squared;
+    return v * select(1.0, scale, over);
+}
+
+fn joint_step(joint: Joint, body: Body, own: vec3<f32>) -> Joint {
+    let dt = environment.time.x;
+    let limit = TURN_LIMIT * environment.time.y;
+    let gain = quat_rotate_back(body.pose, own) * dt;
+    let rate = shortened(joint.rate + gain, limit);
+    let on_the_way = shortened(joint.rate + gain * IMPLICITNESS, limit);
+    let moved = quat_multiply(joint.turn, quat_of_turn(on_the_way * dt));
+    return joint_stop(quat_renormalize(moved), rate);
+}
+
+fn joint_stop(turn: vec4<f32>, rate: vec3<f32>) -> Joint {
+    let axis = vec3<f32>(turn.x, turn.y, turn.z);
+    let squared = vec3_dot(axis, axis);
+    let stopped = JOINT_LIMIT * JOINT_LIMIT < squared;
+    let inverse = inverse_sqrt(max(squared, TINY_SQUARED));
+    let scale = select(1.0, inverse * JOINT_LIMIT, stopped);
+    let outward = max(vec3_dot(rate, axis) * (inverse * inverse), 0.0);
+    return Joint(
+        vec4<f32>(turn.x * scale, turn.y * scale, turn.z * scale, select(turn.w, JOINT_LIMIT_COSINE, stopped)),
+        rate - axis * select(0.0, outward, stopped),
+    );
+}
+
+fn segment_place(constants: Constants, joint: Joint, parent: Body) -> Body {
+    let pose = quat_multiply(quat_multiply(parent.pose, constants.rest), joint.turn);
+    let arm = quat_rotate(parent.pose, constants.offset);
+    return Body(
+        parent.base + arm,
+        pose,
+        parent.velocity + vec3_cross(parent.spin, arm),
+        parent.spin + quat_rotate(pose, joint.rate),
+    );
+}

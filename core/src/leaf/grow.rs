@@ -1,0 +1,72 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Puts the leaves of trees where they are at time zero: on their twigs, or beneath them if the season has taken them.
+
+use super::carry::{CarriedLeaf, leaf_hang, leaf_size_on_twig, petiole_of};
+use super::petiole::PETIOLE_SPECIES_MASK;
+use super::record::{
+    HALF_MASK, SOURCE_SHIFT, SPECIES_SHIFT, STATE_ATTACHED, STATE_MASK, VARIANT_MASK, VARIANT_SHIFT,
+};
+use super::release::{leaf_drop, release_fall_time, release_size_speed};
+use super::seek::leaf_seek;
+use super::store::{LeafMut, Leaves};
+use crate::blocks::{NEVER, SOURCE_TREES};
+use crate::context::Context;
+use crate::environment::{Environment, leaf_site};
+use crate::kernel::rng::random;
+use crate::motion::feature::STREAM_LOOK;
+use crate::tree::Branches;
+use crate::tree::record::NO_SEGMENT;
+
+/// Steps after which every leaf that has fallen before time zero lies on the ground.
+const LONG_AGO: u32 = 1 << 22;
+
+/// Writes the state at time zero of the leaf in a tree's slot.
+pub(crate) fn leaf_grow(
+    environment: &Environment,
+    cx: &Context<'_>,
+    branches: &Branches,
+    leaf: &mut LeafMut<'_>,
+    slot: u32,
+) {
+    let petiole = petiole_of(cx, slot);
+    leaf.identity.id = slot;
+    leaf.identity.look = SOURCE_TREES << SOURCE_SHIFT;
+    leaf.course.event = NEVER;
+    if petiole.segment == NO_SEGMENT {
+        return;
+    }
+    let seed = [cx.environment.seed.0[0], cx.environment.seed.0[1]];
+    let look = random(seed, slot, STREAM_LOOK);
+    let species_index = petiole.facts & PETIOLE_SPECIES_MASK;
+    if leaf_site(environment.scene(), slot).1 {
+        let release = 0u32.wrapping_sub(LONG_AGO);
+        leaf_drop(cx, leaf, slot, look, SOURCE_TREES, species_index, petiole.place, release);
+        leaf_seek(cx, leaf, LONG_AGO);
+        leaf.course.size |= leaf.course.size << 16;
+        return;
+    }
+    let species = &cx.environment.species[species_index as usize];
+    let [size, speed] = release_size_speed(species, look);
+    let ground = (cx.environment.ground.0[0] * 1024.0).floor();
+    #[expect(clippy::cast_possible_truncation, reason = "a whole number in range")]
+    let height = petiole.place[1] - ground as i32;
+    leaf.identity.fall_time = release_fall_time(species, height, speed);
+    leaf.identity.look |= (look[3] & HALF_MASK) | ((look[0] & VARIANT_MASK) << VARIANT_SHIFT);
+    let row = petiole.segment as usize;
+    leaf.course.size = leaf_size_on_twig(size, petiole.facts);
+    leaf.place.bits = STATE_ATTACHED | (species_index << SPECIES_SHIFT);
+    leaf.drift.phase = 0;
+    let mut carried =
+        CarriedLeaf { place: leaf.place, drift: leaf.drift, attitude: leaf.attitude, course: leaf.course };
+    leaf_hang(cx, &mut carried, slot, &petiole, &branches.body(row));
+}
+
+/// Counts the leaves that hang on every segment.
+pub(crate) fn count_leaves(branches: &mut Branches, cx: &Context<'_>, leaves: &Leaves) {
+    for slot in 0..cx.environment.crowns.0[0] {
+        if leaves.place[slot as usize].bits & STATE_MASK == STATE_ATTACHED {
+            branches.bearing[petiole_of(cx, slot).segment as usize] += 1;
+        }
+    }
+}

@@ -1,0 +1,86 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What a segment of a swaying tree is made of: constants, state, and a step's intermediate results.
+
+use bytemuck::{Pod, Zeroable};
+
+crate::shared_constants! {
+    /// Words of four that a segment's [`Timber`] takes.
+    pub const TIMBER_ROWS: u32 = 7;
+    /// Words of four that a segment's work takes.
+    pub const WORK_ROWS: u32 = 15;
+    /// First row of a segment's work that holds how its joint answers; the rows before hold what it hands to its parent.
+    pub const WORK_ANSWER: u32 = 7;
+    /// Column of joint rotations relative to rest.
+    pub const BRANCH_TURN: u32 = 0;
+    /// Column of joint rates.
+    pub const BRANCH_RATE: u32 = 1;
+    /// Column of joint positions.
+    pub const BRANCH_BASE: u32 = 2;
+    /// Column of orientations.
+    pub const BRANCH_POSE: u32 = 3;
+    /// Column of joint velocities.
+    pub const BRANCH_VELOCITY: u32 = 4;
+    /// Column of angular velocities.
+    pub const BRANCH_SPIN: u32 = 5;
+    /// Number of columns.
+    pub const BRANCH_COLUMNS: u32 = 6;
+    /// No segment.
+    pub const NO_SEGMENT: u32 = 0xffff_ffff;
+}
+
+/// Constants of a segment.
+///
+/// A segment's own frame has its origin at its lower joint and y along it. A joint's springs and rates are given in the
+/// frame of the segment above it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+#[repr(C, align(16))]
+pub struct Timber {
+    /// Rotation x, y, z, w at rest from the segment's frame to its parent's; to the world's for a trunk.
+    pub rest: [f32; 4],
+    /// Place of the joint in the parent's frame in m; in the world's for a trunk.
+    pub offset: [f32; 3],
+    /// Length in m.
+    pub length: f32,
+    /// Mass of the wood in kg.
+    pub mass: f32,
+    /// First moment of the wood about the joint in kg m.
+    pub first_moment: f32,
+    /// Moment of inertia of the wood about an axis across the segment through the joint in kg m².
+    pub inertia_across: f32,
+    /// Moment of inertia of the wood about the segment in kg m².
+    pub inertia_along: f32,
+    /// Mass of one leaf in kg, of those that an attachment stands for together.
+    pub leaf_mass: f32,
+    /// Drag force of the wood per squared wind speed across it, in N s²/m².
+    pub wood_drag: f32,
+    /// Drag force of one leaf per squared wind speed in light wind, in N s²/m².
+    pub leaf_drag: f32,
+    /// Inverse in s/m of the wind speed at which the leaves' drag is halved.
+    pub leaf_yield: f32,
+    /// Torque of the joint at rest in N m, which bears what grows above it.
+    pub preload: [f32; 3],
+    /// Damping torque per spring torque and rate, in s.
+    pub damping: f32,
+    /// Stiffness against bending in N m/rad.
+    pub bending: f32,
+    /// Stiffness against twisting in N m/rad.
+    pub twisting: f32,
+    /// What bending adds to the inertia that an implicit step sees, in kg m².
+    pub bending_inertia: f32,
+    /// What twisting adds to it.
+    pub twisting_inertia: f32,
+    /// Row of the parent; [`NO_SEGMENT`] for a trunk.
+    pub parent: u32,
+    /// Row of the first child; children follow one another.
+    pub first_child: u32,
+    /// Number of children.
+    pub child_count: u32,
+    /// Number of the tree.
+    pub tree: u32,
+}
+
+const _: () = assert!(size_of::<Timber>() == TIMBER_ROWS as usize * 16, "rows of four words");
+
+/// Results of a step's pass towards the foot that the pass towards the tips needs.
+pub type Work = [[f32; 4]; WORK_ROWS as usize];

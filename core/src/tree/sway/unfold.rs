@@ -1,0 +1,89 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! twin: backend-wgpu/src/shaders/tree/sway/unfold.wgsl
+//!
+//! The pass towards the tips: every joint accelerates with its parent and moves on.
+
+use super::{Answer, Body, Constants, IMPLICITNESS, JOINT_LIMIT, JOINT_LIMIT_COSINE, Joint, TURN_LIMIT};
+use crate::context::Context;
+use crate::kernel::lane::{Mask, Real};
+use crate::kernel::math::inverse_sqrt;
+use crate::kernel::matrix::{mat3_times, mat3_transposed_times};
+use crate::kernel::quaternion::{
+    Quat, quat_multiply, quat_of_turn, quat_renormalize, quat_rotate, quat_rotate_back,
+};
+use crate::kernel::vector::{TINY_SQUARED, Vec3, vec3_cross, vec3_dot};
+
+/// Accelerations of a segment: angular in rad/s², and of its joint in m/s².
+#[derive(Clone, Copy, Debug)]
+pub struct Motion<R = f32> {
+    /// Angular acceleration.
+    pub angular: Vec3<R>,
+    /// Acceleration of the joint.
+    pub linear: Vec3<R>,
+}
+
+/// Accelerations of a segment from its parent's, and the joint's own part of the angular one.
+#[inline(always)]
+pub fn joint_motion<R: Real>(answer: &Answer<R>, parent: &Motion<R>) -> (Motion<R>, Vec3<R>) {
+    let angular = parent.angular + answer.turning;
+    let linear = (parent.linear + vec3_cross(parent.angular, answer.arm)) + answer.centripetal;
+    let own = ((answer.free - angular) + mat3_transposed_times(answer.spring, angular))
+        - mat3_times(answer.lever, linear);
+    (Motion { angular: angular + own, linear }, own)
+}
+
+/// A vector no longer than `limit`.
+#[inline(always)]
+fn shortened<R: Real>(v: Vec3<R>, limit: R) -> Vec3<R> {
+    let squared = vec3_dot(v, v);
+    let scale = limit * inverse_sqrt(squared.max(limit.all(TINY_SQUARED)));
+    let over = (limit * limit).less_than(squared);
+    v * over.select_real(scale, limit.all(1.0))
+}
+
+/// A joint one step on, accelerated by `own` in world axes.
+#[inline(always)]
+pub fn joint_step<R: Real>(cx: &Context<'_>, joint: &Joint<R>, body: &Body<R>, own: Vec3<R>) -> Joint<R> {
+    let dt = cx.environment.time.0[0];
+    let limit = own.x.all(TURN_LIMIT * cx.environment.time.0[1]);
+    let gain = quat_rotate_back(body.pose, own) * own.x.all(dt);
+    let rate = shortened(joint.rate + gain, limit);
+    let on_the_way = shortened(joint.rate + gain * own.x.all(IMPLICITNESS), limit);
+    let moved = quat_multiply(joint.turn, quat_of_turn(on_the_way * own.x.all(dt)));
+    joint_stop(quat_renormalize(moved), rate)
+}
+
+/// A joint at its stop goes no further.
+#[inline(always)]
+fn joint_stop<R: Real>(turn: Quat<R>, rate: Vec3<R>) -> Joint<R> {
+    let axis = Vec3::new(turn.x, turn.y, turn.z);
+    let squared = vec3_dot(axis, axis);
+    let stopped = squared.all(JOINT_LIMIT * JOINT_LIMIT).less_than(squared);
+    let inverse = inverse_sqrt(squared.max(squared.all(TINY_SQUARED)));
+    let zero = squared.all(0.0);
+    let scale = stopped.select_real(inverse * JOINT_LIMIT, squared.all(1.0));
+    let outward = (vec3_dot(rate, axis) * (inverse * inverse)).max(zero);
+    Joint {
+        turn: Quat::new(
+            turn.x * scale,
+            turn.y * scale,
+            turn.z * scale,
+            stopped.select_real(squared.all(JOINT_LIMIT_COSINE), turn.w),
+        ),
+        rate: rate - axis * stopped.select_real(outward, zero),
+    }
+}
+
+/// Where a segment is and how it moves, from its joint and its parent.
+#[inline(always)]
+pub fn segment_place<R: Real>(constants: &Constants<R>, joint: &Joint<R>, parent: &Body<R>) -> Body<R> {
+    let pose = quat_multiply(quat_multiply(parent.pose, constants.rest), joint.turn);
+    let arm = quat_rotate(parent.pose, constants.offset);
+    Body {
+        base: parent.base + arm,
+        pose,
+        velocity: parent.velocity + vec3_cross(parent.spin, arm),
+        spin: parent.spin + quat_rotate(pose, joint.rate),
+    }
+}

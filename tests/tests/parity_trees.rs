@@ -1,0 +1,141 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Tiers 2 and 3 for trees: swaying segments and leaves on twigs are the same on both backends.
+
+use windfall_core::{Contract, Simulator, World};
+use windfall_cpu::{CpuOptions, CpuSimulator};
+use windfall_tests::adapter;
+use windfall_tests::compare::{Difference, difference};
+use windfall_tests::strategies::wooded_scene;
+use windfall_wgpu::{Gpu, Shaders, WgpuOptions, WgpuSimulator};
+
+const STEPS: u32 = 1000;
+
+fn world() -> World {
+    World::build(&wooded_scene(7, 600, 9.0, 1.0 / 60.0)).expect("the wooded scene is valid")
+}
+
+fn on_cpu(world: &World, steps: u32, options: CpuOptions) -> World {
+    let mut result = world.clone();
+    let mut simulator = CpuSimulator::new(world, options).expect("threads start");
+    simulator.step(steps).expect("the CPU steps");
+    simulator.read_state(&mut result).expect("same size");
+    result
+}
+
+fn on_gpu(gpu: &Gpu, world: &World, steps: u32, options: &WgpuOptions) -> World {
+    let mut result = world.clone();
+    let mut simulator = WgpuSimulator::new(gpu, world, options).expect("the device takes the world");
+    simulator.step(steps).expect("it steps");
+    simulator.read_state(&mut result).expect("same size");
+    result
+}
+
+/// Leaves hang, fall and lie, and the trees move.
+fn is_lively(before: &World, after: &World) {
+    let stats = after.stats();
+    let trees = before.environment.scene().tree_leaf_count() as usize;
+    let off = (0..trees).filter(|&slot| {
+        let state = |world: &World| world.leaves.place[slot].state();
+        state(before) == windfall_core::leaf::LeafState::Attached && state(after) != state(before)
+    });
+    assert!(off.count() > 20, "leaves have come off: {stats:?}");
+    assert!(stats.attached > 300, "leaves hang: {stats:?}");
+    assert_eq!(stats.broken, 0, "no broken leaf");
+    let moved = difference(before, after);
+    assert!(moved.base_m > 0.02 && moved.base_m < 20.0, "trees sway: {moved:?}");
+}
+
+#[test]
+fn a_thousand_steps_of_trees_are_equal_to_the_bit_under_the_exact_contract() {
+    let world = world();
+    let oracle = on_cpu(&world, STEPS, CpuOptions::default());
+    is_lively(&world, &oracle);
+    let mut exact = adapter::contracts();
+    exact.retain(|(_, contract)| *contract == Contract::Exact);
+    assert!(!exact.is_empty() || cfg!(not(target_os = "linux")), "no adapter keeps the exact contract");
+    for (gpu, contract) in exact {
+        for page_leaves in [None, Some(4096)] {
+            let options = WgpuOptions { contract: Some(contract), page_leaves, ..WgpuOptions::default() };
+            let candidate = on_gpu(&gpu, &world, STEPS, &options);
+            let found = difference(&oracle, &candidate);
+            assert_eq!(found, Difference::default(), "{}", gpu.info().name);
+            assert_eq!(oracle.state_hash(), candidate.state_hash(), "{}", gpu.info().name);
+        }
+    }
+}
+
+#[test]
+fn trees_stay_together_under_the_tolerant_contract() {
+    let world = world();
+    let warm = on_cpu(&world, 240, CpuOptions::default());
+    let oracle = on_cpu(&warm, 1, CpuOptions::default());
+    let later = on_cpu(&warm, 60, CpuOptions::default());
+    for gpu in adapter::all() {
+        let options = WgpuOptions { contract: Some(Contract::Tolerant), ..WgpuOptions::default() };
+        let found = difference(&oracle, &on_gpu(&gpu, &warm, 1, &options));
+        assert_eq!(found.integer_leaves, 0, "{}: {found:?}", gpu.info().name);
+        assert!(found.base_m <= 1e-5 && found.pose <= 1e-5, "{}: {found:?}", gpu.info().name);
+        let found = difference(&later, &on_gpu(&gpu, &warm, 60, &options));
+        assert!(found.base_m <= 1e-3 && found.pose <= 1e-3, "{}: {found:?}", gpu.info().name);
+    }
+}
+
+#[test]
+fn the_number_of_threads_changes_nothing() {
+    let world = world();
+    let one = on_cpu(&world, 300, CpuOptions { threads: Some(1), ..CpuOptions::default() });
+    for threads in [2, 3, 7] {
+        let several = on_cpu(&world, 300, CpuOptions { threads: Some(threads), ..CpuOptions::default() });
+        assert_eq!(difference(&one, &several), Difference::default(), "{threads} threads");
+        assert_eq!(one.state_hash(), several.state_hash(), "{threads} threads");
+    }
+}
+
+#[test]
+fn a_checkpoint_brings_trees_back_to_the_bit() {
+    let warm = on_cpu(&world(), 200, CpuOptions::default());
+    let mut bytes = Vec::new();
+    warm.write_checkpoint(&mut bytes).expect("memory takes it");
+    let back = World::from_checkpoint(&bytes, "memory").expect("it is whole");
+    assert_eq!(back.state_hash(), warm.state_hash(), "read back");
+    let (on, again) = (on_cpu(&warm, 100, CpuOptions::default()), on_cpu(&back, 100, CpuOptions::default()));
+    assert_eq!(on.state_hash(), again.state_hash(), "stepped on");
+}
+
+/// Canary: each line of the trees' dynamics that is changed in WGSL shows.
+#[test]
+fn a_changed_kernel_is_noticed() {
+    let edits = [
+        ("kernel/matrix", "l32 * l21 - l31", "l32 * l21 + l31"),
+        ("kernel/quaternion", "z + z);", "z + x);"),
+        ("tree/sway/load", "drag.wood * dt", "drag.leaves * dt"),
+        ("tree/sway/fold", "1.0 - inverse_sqrt", "1.001 - inverse_sqrt"),
+        ("tree/sway/fold", "swung.y * 0.5", "swung.y * 0.4"),
+        ("tree/sway/unfold", "gain * IMPLICITNESS", "gain"),
+        ("tree/sway/row", "child < links.y + links.z", "child + 1u < links.y + links.z"),
+        ("leaf/carry", "share * LEAN_MOST", "share * LEAN_SPEED"),
+        ("leaf/carry", "change - 1u", "change"),
+        ("leaf/release", "courses[leaf].z >> 16u", "courses[leaf].z & HALF_MASK"),
+        ("prelude", "const HABIT_SHARE: f32 = 0.25", "const HABIT_SHARE: f32 = 0.26"),
+    ];
+    // Soft wood in a storm leans on its stops, so that they count as well.
+    let mut scene = wooded_scene(7, 600, 14.0, 1.0 / 60.0);
+    let mut soft = scene.tree_kind("bush").expect("a preset");
+    soft.name = "soft".into();
+    soft.wood.youngs_modulus_gpa = 1e-4;
+    scene.tree_kinds = vec![soft];
+    scene.trees[2].kind = "soft".into();
+    let world = on_cpu(&World::build(&scene).expect("valid"), 200, CpuOptions::default());
+    let oracle = on_cpu(&world, 60, CpuOptions::default());
+    let gpu = adapter::contracts().into_iter().find(|(_, contract)| *contract == Contract::Exact);
+    let Some((gpu, contract)) = gpu else { return assert!(cfg!(not(target_os = "linux")), "no adapter") };
+    for (module, old, new) in edits {
+        let shaders = Shaders::default().edited(module, old, new);
+        let shaders = shaders.unwrap_or_else(|| panic!("'{old}' is not in {module}"));
+        let options =
+            WgpuOptions { contract: Some(contract), shaders: Some(shaders), ..WgpuOptions::default() };
+        let candidate = on_gpu(&gpu, &world, 60, &options);
+        assert_ne!(oracle.state_hash(), candidate.state_hash(), "nobody noticed '{new}' in {module}");
+    }
+}
