@@ -8,6 +8,7 @@ use thiserror::Error;
 use super::crown;
 use super::grammar::{Draws, Grammar, GrammarError};
 use super::growth::{self, Grown};
+use super::planted;
 use super::skeleton::{Segment, Skeleton, SkeletonError};
 use super::turtle::{self, Shoot, rotated};
 use crate::scene::{Tree, TreeForm, TreeKind};
@@ -37,23 +38,27 @@ pub enum TreeError {
         /// What is wrong.
         source: SkeletonError,
     },
-    /// A kind that is not grown but read from a file.
-    #[error("tree kind '{kind}' does not grow: its form is the file '{path}'")]
+    /// The file of its kind is no tree.
+    #[error("tree kind '{kind}': {reason}")]
     File {
         /// Name of the kind.
         kind: String,
-        /// The file.
-        path: String,
+        /// The file, and what is wrong with it.
+        reason: String,
     },
 }
 
 /// The skeleton of a tree in its own frame: foot at the origin, y up, turned by its heading.
 ///
-/// Pure: the same kind, tree and seed give the same bits on every machine.
+/// Pure but for a file that the kind may name: the same kind, tree and seed give the same bits on every machine. A tree
+/// of a file does not age; see [`gltf`](super::gltf) for what is read.
 ///
 /// # Errors
 /// [`TreeError`] for a kind that does not grow.
 pub fn grow(kind: &TreeKind, tree: &Tree, seed: u64) -> Result<Skeleton, TreeError> {
+    if let TreeForm::File(path) = &kind.form {
+        return planted::plant(kind, path, tree, seed).map(|(skeleton, _)| skeleton);
+    }
     let plan = Plan::new(kind, tree, seed)?;
     let grown = plan.grown(tree);
     let full_count = plan.full_leaf_count(&grown, kind);
@@ -101,6 +106,9 @@ pub(crate) fn segments_of(grammar: &Grammar, tree: &Tree, seed: u64) -> Result<u
 /// # Errors
 /// As [`grow`].
 pub fn full_leaf_count(kind: &TreeKind, tree: &Tree, seed: u64) -> Result<f64, TreeError> {
+    if let TreeForm::File(path) = &kind.form {
+        return planted::plant(kind, path, tree, seed).map(|(_, full_count)| full_count);
+    }
     let plan = Plan::new(kind, tree, seed)?;
     Ok(plan.full_leaf_count(&plan.grown(tree), kind))
 }
@@ -120,7 +128,8 @@ impl Plan {
             TreeForm::Preset(preset) => preset.grammar(),
             TreeForm::Grammar(text) => Grammar::parse(text).map_err(of_kind)?,
             TreeForm::File(path) => {
-                return Err(TreeError::File { kind: kind.name.clone(), path: path.clone() });
+                let reason = format!("{path}: a tree of a file has no grammar");
+                return Err(TreeError::File { kind: kind.name.clone(), reason });
             }
         };
         let (shoots, scale) = shoots(&grammar, tree, seed).map_err(of_kind)?;

@@ -10,6 +10,7 @@ pub mod grammar;
 mod grow;
 pub mod growth;
 pub mod pipe;
+mod planted;
 mod presets;
 pub mod record;
 pub mod skeleton;
