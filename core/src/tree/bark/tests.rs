@@ -3,6 +3,7 @@
 use std::collections::HashMap;
 
 use glam::{Mat4, Quat, Vec3};
+use proptest::prelude::*;
 
 use super::*;
 use crate::tree::testing::tree;
@@ -267,4 +268,51 @@ fn the_thickest_child_carries_the_skin_on() {
     let segments: Vec<&[u32]> = all.iter().map(|limb| limb.segments.as_slice()).collect();
     assert_eq!(segments, [&[0, 1, 3][..], &[2], &[4]], "thickest that does not turn back");
     assert_eq!(limbs(&skeleton, 0.07).len(), 2, "thin ones are left out");
+}
+
+/// Any skeleton that is valid, however unlike a tree: detached, crossing, thick beyond its length.
+fn odd_skeleton() -> impl Strategy<Value = Skeleton> {
+    let place = || prop::array::uniform3(-50.0f32..50.0).prop_map(Vec3::from_array);
+    let radius = || (-30.0f32..9.0).prop_map(libm::exp2f);
+    let segment =
+        (any::<prop::sample::Index>(), any::<bool>(), place(), place(), radius(), radius(), 0u32..9);
+    prop::collection::vec(segment, 1..40).prop_map(|parts| {
+        let mut segments: Vec<Segment> = Vec::new();
+        for (above, is_joined, start_m, end_m, start_radius_m, end_radius_m, order) in parts {
+            let parent = (!segments.is_empty()).then(|| above.index(segments.len()));
+            let start_m = parent.filter(|_| is_joined).map_or(start_m, |parent| segments[parent].end_m);
+            // Some turn right back, and some are as short as can be.
+            let end_m = match order {
+                7 => parent.map_or(end_m, |parent| segments[parent].start_m),
+                8 => start_m + Vec3::Y * 1.1e-4,
+                _ => end_m,
+            };
+            let parent = parent.map(|parent| u32::try_from(parent).expect("few"));
+            let segment = Segment { parent, start_m, end_m, start_radius_m, end_radius_m, order };
+            if segment.length_m() >= crate::tree::skeleton::MIN_LENGTH_M {
+                segments.push(segment);
+            }
+        }
+        Skeleton { segments, attachments: Vec::new() }
+    })
+}
+
+proptest! {
+    #[test]
+    fn odd_skeletons_have_whole_skins(skeleton in odd_skeleton()) {
+        prop_assume!(skeleton.validate().is_ok());
+        for detail in BarkDetail::ALL {
+            let mesh = bark_mesh(&skeleton, detail);
+            prop_assert!(mesh.triangle_count() > 0, "a skin");
+            for vertex in 0..mesh.positions_m.len() {
+                prop_assert!(Vec3::from_array(mesh.positions_m[vertex]).is_finite(), "a place");
+                prop_assert!(Vec3::from_array(mesh.normals[vertex]).is_normalized(), "a unit vector");
+                prop_assert!(mesh.texcoords[vertex].iter().all(|x| x.is_finite()), "a place on the bark");
+                let sum: f32 = mesh.weights[vertex].iter().sum();
+                prop_assert!((sum - 1.0).abs() < 1e-6, "shares sum to {sum}");
+                let count = skeleton.segments.len();
+                prop_assert!(mesh.joints[vertex].iter().all(|joint| usize::from(*joint) < count), "segments");
+            }
+        }
+    }
 }
