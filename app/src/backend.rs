@@ -12,8 +12,8 @@ use clap::{Args, ValueEnum};
 use windfall_core::{Clock, Environment, SimError, Simulator, SimulatorInfo, Stats, World};
 use windfall_cpu::{CpuOptions, CpuSimulator};
 use windfall_wgpu::{
-    Gpu, LeafBuffers, LeafColumns, WgpuOptions, WgpuSimulator, describe_adapter, instance_descriptor,
-    list_adapters,
+    BranchBuffer, BranchColumns, Gpu, LeafBuffers, LeafColumns, WgpuOptions, WgpuSimulator, describe_adapter,
+    instance_descriptor, list_adapters,
 };
 
 use crate::cli::whole;
@@ -147,6 +147,7 @@ impl Device {
             Self::Cpu(options) => Ok(Backend::Cpu(Box::new(Mirrored {
                 simulator: CpuSimulator::new(world, *options)?,
                 buffers: None,
+                branches: None,
                 is_current: false,
             }))),
             Self::Wgpu(gpu) => {
@@ -179,29 +180,49 @@ pub enum Backend {
 pub struct Mirrored {
     simulator: CpuSimulator,
     buffers: Option<LeafBuffers>,
+    branches: Option<BranchBuffer>,
     is_current: bool,
 }
 
+/// What is drawn of a simulator's state.
+#[derive(Clone, Debug)]
+pub struct Columns<'a> {
+    /// The leaves.
+    pub leaves: LeafColumns<'a>,
+    /// The segments of the trees; `None` in a world without trees.
+    pub branches: Option<BranchColumns<'a>>,
+}
+
 impl Backend {
-    /// The leaf columns on the device that draws: lent by the wgpu backend, which runs on that device; copied there by
+    /// The leaves and branches on the device that draws: lent by the wgpu backend, which runs on that device; copied there by
     /// the cpu backend if they have changed since the last time. `gpu` is the same at every call.
     ///
     /// # Errors
     /// [`SimError::Capacity`] for more leaves than the device holds; a lost device.
-    pub fn columns(&mut self, gpu: &Gpu) -> Result<LeafColumns<'_>, SimError> {
+    pub fn columns(&mut self, gpu: &Gpu) -> Result<Columns<'_>, SimError> {
         match self {
-            Self::Wgpu(simulator) => Ok(simulator.columns()),
+            Self::Wgpu(simulator) => {
+                Ok(Columns { leaves: simulator.columns(), branches: simulator.branches() })
+            }
             Self::Cpu(cpu) => {
                 let leaves = cpu.simulator.leaves();
                 let buffers = match &mut cpu.buffers {
                     Some(buffers) => buffers,
                     empty => empty.insert(LeafBuffers::new(gpu, cpu.simulator.info().capacity)?),
                 };
+                let rows = cpu.simulator.branches();
+                if cpu.branches.is_none() && !rows.is_empty() {
+                    cpu.branches = Some(BranchBuffer::new(gpu, rows.len())?);
+                }
                 if !cpu.is_current {
                     buffers.write(gpu, leaves)?;
+                    if let Some(branches) = &cpu.branches {
+                        branches.write(gpu, rows)?;
+                    }
                     cpu.is_current = true;
                 }
-                Ok(buffers.columns())
+                let branches = cpu.branches.as_ref().map(BranchBuffer::columns);
+                Ok(Columns { leaves: buffers.columns(), branches })
             }
         }
     }

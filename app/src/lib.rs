@@ -15,4 +15,5 @@ pub mod leaves;
 pub mod output;
 pub mod render;
 pub mod terminal;
+pub mod trees;
 pub mod viewer;

@@ -49,7 +49,7 @@ fn both_backends_lend_the_same_columns() {
         for _ in 0..2 {
             backend.step(30).expect("it steps");
             backend.read_state(&mut now).expect("it tells");
-            let columns = backend.columns(&gpu).expect("six leaves fit");
+            let columns = backend.columns(&gpu).expect("six leaves fit").leaves;
             assert_eq!(columns.leaf_count, 6, "all leaves");
             let buffers = [columns.place, columns.drift, columns.attitude, columns.course, columns.identity];
             for (buffer, column) in buffers.into_iter().zip(now.leaves.columns()) {

@@ -19,7 +19,8 @@ use crate::cli::whole;
 use crate::drawing::Drawing;
 use crate::frame::FrameSteps;
 use crate::output::{Output, Writer};
-use crate::render::{FrameInput, PictureTarget, Renderer, RendererOptions};
+use crate::render::{FrameInput, PictureTarget, Renderer, RendererOptions, Subject};
+use crate::trees::Stand;
 use crate::{interrupt, leaves, terminal};
 
 /// Largest edge of a picture in pixels.
@@ -99,12 +100,15 @@ impl Studio {
     fn new(scene: &Scene, drawing: Drawing, size: (u32, u32)) -> anyhow::Result<Self> {
         let Drawing { device, gpu, reason, .. } = drawing;
         let target = PictureTarget::new(gpu.device(), size)?;
-        let backend = device.simulator(&World::build(scene)?)?;
+        let world = World::build(scene)?;
+        let backend = device.simulator(&world)?;
         interrupt::check()?;
         let atlas = leaves::atlas_of(scene)?;
         let options = RendererOptions::for_scene(scene);
         let format = PictureTarget::FORMAT;
-        let renderer = Renderer::new(gpu.device(), gpu.queue(), scene, &atlas, format, size, options)?;
+        let stand = Stand::of(scene, world.environment.forest());
+        let subject = Subject { scene, stand: &stand, atlas: &atlas };
+        let renderer = Renderer::new(gpu.device(), gpu.queue(), subject, format, size, options)?;
         gpu.check()?;
         if let Some(reason) = reason {
             terminal::note(&reason);
@@ -164,7 +168,13 @@ impl Studio {
         let columns = self.backend.columns(&self.gpu)?;
         let mut encoder =
             self.gpu.device().create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-        self.renderer.draw(&mut encoder, &self.target.view(), &columns, &input);
+        self.renderer.draw(
+            &mut encoder,
+            &self.target.view(),
+            &columns.leaves,
+            columns.branches.as_ref(),
+            &input,
+        );
         let picture = self.target.submit_and_read(self.gpu.device(), self.gpu.queue(), encoder);
         // What the driver says about a failure is better than that the picture did not come.
         self.gpu.check()?;
@@ -176,7 +186,7 @@ impl Studio {
         let columns = self.backend.columns(&self.gpu)?;
         let mut encoder =
             self.gpu.device().create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-        self.renderer.observe(&mut encoder, &columns, time_s);
+        self.renderer.observe(&mut encoder, &columns.leaves, time_s);
         self.gpu.queue().submit([encoder.finish()]);
         Ok(self.gpu.check()?)
     }

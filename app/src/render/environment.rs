@@ -2,13 +2,14 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Light and air of a day: everything follows from the sun's place in the sky.
 
-use glam::{Mat4, Vec2, Vec3};
+use glam::{Mat4, Vec2, Vec3, Vec4};
 use windfall_core::scene::Sun;
 
 use super::renderer::FrameInput;
 use super::scenery::PARK_RADIUS_M;
 use super::shadow_pass::SHADOW_SIZE;
 use crate::camera::Camera;
+use crate::trees::Stand;
 
 /// Half edge of the square around the camera's focus in which leaves cast shadows, in metres.
 const SHADOW_RADIUS_M: f32 = 11.0;
@@ -16,6 +17,8 @@ const SHADOW_RADIUS_M: f32 = 11.0;
 const SHADOW_DEPTH_M: f32 = 60.0;
 /// Farthest the focus lies from the camera, in metres: beyond it, shadows are too small to be seen.
 const FOCUS_LIMIT_M: f32 = 11.0;
+/// Largest radius of the ball around the scene's trees in which they cast shadows, in metres.
+const WIDE_LIMIT_M: f32 = 70.0;
 /// Haze per metre: a bright, slightly misty autumn day.
 const HAZE_PER_M: f32 = 0.0042;
 /// Scale from light to picture.
@@ -27,6 +30,7 @@ const EXPOSURE: f32 = 0.78;
 pub(super) struct FrameUniform {
     view_projection: [[f32; 4]; 4],
     shadow_projection: [[f32; 4]; 4],
+    wide_projection: [[f32; 4]; 4],
     eye: [f32; 4],
     right: [f32; 4],
     up: [f32; 4],
@@ -39,6 +43,7 @@ pub(super) struct FrameUniform {
     air: [f32; 4],
     park: [f32; 4],
     viewport: [f32; 4],
+    wide: [f32; 4],
 }
 
 /// How the park's path winds.
@@ -50,6 +55,29 @@ pub(super) struct Path {
     pub(super) phase: f32,
 }
 
+/// A ball in metres.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Ball {
+    pub(super) center_m: Vec3,
+    pub(super) radius_m: f32,
+}
+
+impl Ball {
+    /// The ball around the crowns and feet of a stand; `None` without trees.
+    pub(super) fn around(stand: &Stand) -> Option<Self> {
+        let (mut low, mut high) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
+        for tree in &stand.trees {
+            let (center_m, radii_m) = (tree.crown.center_m, tree.crown.radii_m);
+            low = low.min(tree.foot_m).min(center_m - radii_m);
+            high = high.max(tree.foot_m).max(center_m + radii_m);
+        }
+        let center_m = 0.5 * (low + high);
+        // Room to sway.
+        let radius_m = (0.5 * (high - low).length() + 1.0).min(WIDE_LIMIT_M);
+        (!stand.trees.is_empty()).then_some(Self { center_m, radius_m })
+    }
+}
+
 /// What a frame's light and place are computed from.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Environment {
@@ -59,11 +87,13 @@ pub(super) struct Environment {
     pub(super) park_center: Vec3,
     /// Its path.
     pub(super) path: Path,
+    /// The ball around the trees of the scene.
+    pub(super) stand: Option<Ball>,
 }
 
 impl Environment {
-    pub(super) fn new(sun: &Sun, park_center: Vec3, path: Path) -> Self {
-        Self { sun_direction: sun_direction(sun), park_center, path }
+    pub(super) fn new(sun: &Sun, park_center: Vec3, path: Path, stand: Option<Ball>) -> Self {
+        Self { sun_direction: sun_direction(sun), park_center, path, stand }
     }
 
     /// The uniform block of one frame.
@@ -85,6 +115,7 @@ impl Environment {
         FrameUniform {
             view_projection: camera.view_projection(aspect).to_cols_array_2d(),
             shadow_projection: self.shadow_projection(camera).to_cols_array_2d(),
+            wide_projection: self.wide_projection().to_cols_array_2d(),
             eye: full(camera.eye_m(), time_s),
             right: full(camera.right() * tangent * aspect, input.origin.0 as f32),
             up: full(camera.up() * tangent, input.origin.1 as f32),
@@ -97,6 +128,7 @@ impl Environment {
             air: [HAZE_PER_M, EXPOSURE, PARK_RADIUS_M, 2.0 * SHADOW_RADIUS_M / SHADOW_SIZE as f32],
             park: full(self.park_center, SHADOW_RADIUS_M),
             viewport: [width, height, 1.0 / width, 1.0 / height],
+            wide: [self.stand.map_or(0.0, |ball| 2.0 * ball.radius_m / SHADOW_SIZE as f32), 0.0, 0.0, 0.0],
         }
     }
 
@@ -108,21 +140,39 @@ impl Environment {
         let level = Vec3::new(forward.x, 0.0, forward.z).normalize_or(Vec3::NEG_Z);
         let reach = camera.distance_m.clamp(2.0, FOCUS_LIMIT_M);
         let focus = Vec3::new(eye.x, self.park_center.y, eye.z) + level * reach;
-        let toward = self.sun_direction;
-        let side = toward.cross(if toward.y > 0.99 { Vec3::Z } else { Vec3::Y }).normalize();
-        let upward = side.cross(toward);
+        let [side, upward, toward] = self.sun_axes();
         let texel = 2.0 * SHADOW_RADIUS_M / SHADOW_SIZE as f32;
         let snap = |axis: Vec3| (focus.dot(axis) / texel).round() * texel;
-        let (x, y, z) = (snap(side), snap(upward), focus.dot(toward));
-        let scale = 1.0 / SHADOW_RADIUS_M;
-        let depth = 0.5 / SHADOW_DEPTH_M;
-        Mat4::from_cols_array_2d(&[
-            [side.x * scale, upward.x * scale, -toward.x * depth, 0.0],
-            [side.y * scale, upward.y * scale, -toward.y * depth, 0.0],
-            [side.z * scale, upward.z * scale, -toward.z * depth, 0.0],
-            [-x * scale, -y * scale, 0.5 + z * depth, 1.0],
-        ])
+        let middle = Vec3::new(snap(side), snap(upward), focus.dot(toward));
+        project([side, upward, toward], middle, 1.0 / SHADOW_RADIUS_M, 0.5 / SHADOW_DEPTH_M)
     }
+
+    /// World to the sun's clip space around all trees of the scene; without any, every place lies outside of it.
+    fn wide_projection(&self) -> Mat4 {
+        let Some(Ball { center_m, radius_m }) = self.stand else {
+            return Mat4::from_cols(Vec4::ZERO, Vec4::ZERO, Vec4::ZERO, Vec4::new(2.0, 2.0, 0.5, 1.0));
+        };
+        let axes = self.sun_axes();
+        let middle = Vec3::from(axes.map(|axis| center_m.dot(axis)));
+        project(axes, middle, 1.0 / radius_m, 0.5 / (radius_m + SHADOW_DEPTH_M))
+    }
+
+    /// Unit vectors to the right and up as the sun sees the park, and towards the sun.
+    fn sun_axes(&self) -> [Vec3; 3] {
+        let toward = self.sun_direction;
+        let side = toward.cross(if toward.y > 0.99 { Vec3::Z } else { Vec3::Y }).normalize();
+        [side, side.cross(toward), toward]
+    }
+}
+
+/// Parallel projection along the last of three axes about `middle`, given in those axes.
+fn project([side, upward, toward]: [Vec3; 3], middle: Vec3, scale: f32, depth: f32) -> Mat4 {
+    Mat4::from_cols_array_2d(&[
+        [side.x * scale, upward.x * scale, -toward.x * depth, 0.0],
+        [side.y * scale, upward.y * scale, -toward.y * depth, 0.0],
+        [side.z * scale, upward.z * scale, -toward.z * depth, 0.0],
+        [-middle.x * scale, -middle.y * scale, 0.5 + middle.z * depth, 1.0],
+    ])
 }
 
 fn exp(v: Vec3) -> Vec3 {
@@ -146,7 +196,7 @@ mod tests {
 
     #[test]
     fn shadow_projection_separates_leaf_from_ground_along_the_sun() {
-        let environment = Environment::new(&Sun::default(), Vec3::ZERO, PATH);
+        let environment = Environment::new(&Sun::default(), Vec3::ZERO, PATH, None);
         let matrix = environment.shadow_projection(&Camera::from(&scene::Camera::default()));
         let ground = Vec3::new(0.5, 0.0, -0.5);
         let leaf = ground + 3.0 * environment.sun_direction;
@@ -160,7 +210,7 @@ mod tests {
     fn light_stays_finite_for_every_sun() {
         for elevation_deg in [1.0, 5.0, 45.0, 90.0] {
             let sun = Sun { azimuth_deg: 30.0, elevation_deg };
-            let environment = Environment::new(&sun, Vec3::ZERO, PATH);
+            let environment = Environment::new(&sun, Vec3::ZERO, PATH, None);
             let camera = Camera::from(&scene::Camera::default());
             let input = FrameInput { camera, time_s: 1.0, origin: (0, 0) };
             let frame = environment.frame(&input, 1.0, (640, 480));

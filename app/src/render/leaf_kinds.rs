@@ -4,7 +4,7 @@
 
 use windfall_core::Scene;
 use windfall_core::scene::MAX_SPECIES;
-use windfall_texgen::Atlas;
+use windfall_texgen::{Atlas, Layer};
 
 use super::pipeline::{FILTERABLE, sampler_entry, texture_entry, uniform_entry};
 use super::{RenderError, upload};
@@ -90,7 +90,24 @@ fn kinds(scene: &Scene, atlas: &Atlas) -> Kinds {
         let edge = (std::f32::consts::FRAC_PI_4 / layer.area_fraction).sqrt();
         *slot = [edge, 1.0 - 2.0 * layer.centre.x, 1.0 - 2.0 * layer.centre.y, 0.0];
     }
+    let variants = (atlas.variants as usize).max(1);
+    for (slots, layers) in kinds.layer.chunks_mut(variants).zip(atlas.layers.chunks(variants)) {
+        let mut order: Vec<(f32, f32)> =
+            layers.iter().zip(0u8..).map(|(layer, variant)| (turned(layer), f32::from(variant))).collect();
+        order.sort_by(|a, b| a.0.total_cmp(&b.0));
+        for (slot, (_, variant)) in slots.iter_mut().zip(order) {
+            slot[3] = variant;
+        }
+    }
     kinds
+}
+
+/// How far a leaf has turned, from its colour: green is below 0, yellow about 0.1, red and brown above.
+fn turned(layer: &Layer) -> f32 {
+    let Some(mip) = layer.mips.first() else { return 0.0 };
+    let leaf = mip.pixels().filter(|pixel| pixel.0[3] > 127);
+    let sum = leaf.fold([0.0f32; 3], |sum, pixel| std::array::from_fn(|c| sum[c] + f32::from(pixel.0[c])));
+    (sum[0] - sum[1]) / (sum[0] + sum[1] + sum[2]).max(1.0)
 }
 
 /// Checks that the pictures cover the scene's species and fit the device.

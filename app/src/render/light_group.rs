@@ -17,7 +17,7 @@ impl LightGroup {
     pub(super) fn new(
         device: &wgpu::Device,
         queue: &wgpu::Queue,
-        shadow_map: &wgpu::TextureView,
+        [shadow_map, wide_map]: [&wgpu::TextureView; 2],
         shade_map: &wgpu::TextureView,
     ) -> Self {
         let flat = wgpu::TextureViewDimension::D2;
@@ -30,6 +30,7 @@ impl LightGroup {
                 sampler_entry(3, wgpu::SamplerBindingType::Filtering),
                 texture_entry(4, FILTERABLE, flat),
                 sampler_entry(5, wgpu::SamplerBindingType::Filtering),
+                texture_entry(6, wgpu::TextureSampleType::Depth, flat),
             ],
         });
         let linear = wgpu::SamplerDescriptor {
@@ -48,7 +49,7 @@ impl LightGroup {
             ..linear
         });
         let noise = noise_view(device, queue);
-        let views = [(0, shadow_map), (2, shade_map), (4, &noise)];
+        let views = [(0, shadow_map), (2, shade_map), (4, &noise), (6, wide_map)];
         let samplers = [(1, &shadow_sampler), (3, &clamp_sampler), (5, &repeat_sampler)];
         let views = views.map(|(binding, view)| wgpu::BindGroupEntry {
             binding,

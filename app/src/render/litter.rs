@@ -5,7 +5,7 @@
 use glam::Vec3;
 use windfall_wgpu::LeafColumns;
 
-use super::scenery::{TreeInstance, scatter};
+use super::scenery::{Shedding, scatter};
 use super::upload;
 
 /// Most leaves of litter.
@@ -29,7 +29,7 @@ impl Litter {
         count: u32,
         species_count: u32,
         center: Vec3,
-        trees: &[TreeInstance],
+        trees: &[Shedding],
     ) -> Option<Self> {
         let count = count.min(MAX_LITTER);
         let columns = scatter(count, species_count, center, trees);

@@ -6,15 +6,20 @@
 //! shadow map, then one multisampled scene pass in linear light (leaves, grass, ground, trees, sky, trails), and the
 //! tone map. Leaves are cut out by coverage, so their order never matters. Nothing here needs a window.
 
+mod bark_mesh;
+mod bark_pass;
+mod branch_group;
 mod environment;
 mod error;
 mod frame;
+mod fruit_pass;
 mod grass_pass;
 mod ground_pass;
 mod leaf_kinds;
 mod leaf_mesh;
 mod leaf_pass;
 mod leaf_record;
+mod leaf_set;
 mod light_group;
 mod litter;
 mod pipeline;
@@ -23,6 +28,7 @@ mod renderer;
 mod scenery;
 mod shadow_pass;
 mod sky_pass;
+mod stems;
 mod targets;
 mod timing;
 mod tonemap_pass;
@@ -33,9 +39,11 @@ mod upload;
 pub use error::RenderError;
 pub use leaf_kinds::MAX_LAYERS;
 pub use readback::PictureTarget;
-pub use renderer::{FrameInput, Renderer, RendererOptions};
+pub use renderer::{FrameInput, Renderer, RendererOptions, Subject};
 pub(crate) use timing::GpuTimer;
 pub use trail_pass::MAX_TRAILS;
 
 #[cfg(test)]
 mod tests;
+#[cfg(test)]
+mod tree_tests;

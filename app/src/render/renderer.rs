@@ -6,26 +6,33 @@ use glam::{Vec2, Vec3};
 use windfall_core::Scene;
 use windfall_core::scene::{Release, View};
 use windfall_texgen::Atlas;
-use windfall_wgpu::LeafColumns;
+use windfall_wgpu::{BranchColumns, LeafColumns};
 
 use super::RenderError;
-use super::environment::{Environment, Path};
+use super::bark_mesh::StandMesh;
+use super::bark_pass::BarkPass;
+use super::branch_group::BranchGroup;
+use super::environment::{Ball, Environment, Path};
 use super::frame::FrameGroup;
+use super::fruit_pass::FruitPass;
 use super::grass_pass::GrassPass;
 use super::ground_pass::GroundPass;
 use super::leaf_kinds::LeafKinds;
 use super::leaf_pass::LeafPass;
+use super::leaf_set::{LeafMeshes, LeafPart, LeafSet};
 use super::light_group::LightGroup;
 use super::litter::Litter;
-use super::scenery::{Park, plant};
-use super::shadow_pass::ShadowPass;
+use super::scenery::{Park, Shedding, TreeInstance, plant};
+use super::shadow_pass::{Casters, SHADOW_SIZE, ShadowPass};
 use super::sky_pass::SkyPass;
+use super::stems::Stems;
 use super::targets::Targets;
 use super::timing::GpuTimer;
 use super::tonemap_pass::TonemapPass;
 use super::trail_pass::TrailPass;
 use super::tree_pass::{ShadePass, TreePass, Trees};
 use crate::camera::Camera;
+use crate::trees::Stand;
 
 /// Passes that are timed, in order of drawing.
 const TIMED_PASSES: [&str; 3] = ["shadows", "scene", "tone map"];
@@ -45,8 +52,27 @@ impl RendererOptions {
     pub fn for_scene(scene: &Scene) -> Self {
         let began = |release| matches!(release, Release::Rate { from_s, .. } if from_s < 0.0);
         let has_past = scene.sources.iter().any(|source| began(source.release));
-        Self { litter_count: if has_past && scene.view.trail_s == 0.0 { LITTER } else { 0 } }
+        // In summer there is none under the trees of a scene.
+        let season = if scene.trees.is_empty() { 1.0 } else { (2.0 * scene.autumn).min(1.0) };
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "a share of a small number"
+        )]
+        let litter_count = (season * LITTER as f32) as u32;
+        Self { litter_count: if has_past && scene.view.trail_s == 0.0 { litter_count } else { 0 } }
     }
+}
+
+/// What a renderer draws.
+#[derive(Clone, Copy, Debug)]
+pub struct Subject<'a> {
+    /// The scene.
+    pub scene: &'a Scene,
+    /// Its trees.
+    pub stand: &'a Stand,
+    /// The pictures of its species' leaves (see [`crate::leaves`]).
+    pub atlas: &'a Atlas,
 }
 
 /// What changes from frame to frame besides the leaves.
@@ -69,16 +95,28 @@ pub struct Renderer {
     queue: wgpu::Queue,
     environment: Environment,
     leaf_count: u32,
+    /// Where the scene's own camera stands.
+    eye_m: Vec3,
     targets: Targets,
     frame: FrameGroup,
     light: LightGroup,
     kinds: LeafKinds,
     trees: Trees,
     litter: Option<Litter>,
+    litter_parts: [LeafPart; 1],
+    stand: Stand,
+    leaf_parts: Vec<LeafPart>,
+    stems: Stems,
+    leaf_meshes: LeafMeshes,
+    bark: StandMesh,
+    branches: BranchGroup,
     shadow_pass: ShadowPass,
+    wide_pass: ShadowPass,
     shade_pass: ShadePass,
     shade_is_old: bool,
+    bark_pass: BarkPass,
     leaf_pass: LeafPass,
+    fruit_pass: FruitPass,
     grass_pass: GrassPass,
     ground_pass: GroundPass,
     tree_pass: TreePass,
@@ -89,20 +127,19 @@ pub struct Renderer {
 }
 
 impl Renderer {
-    /// A renderer of `scene` with its species' leaves from `atlas` (see [`crate::leaves`]), into textures of `output_format` and
-    /// `size` pixels. The picture is gamma encoded by the renderer unless the format does so.
+    /// A renderer of `subject` into textures of `output_format` and `size` pixels. The picture is gamma encoded by the renderer unless the format does so.
     ///
     /// # Errors
     /// A size or a number of images beyond the device's limits, or images that do not fit the scene.
     pub fn new(
         device: &wgpu::Device,
         queue: &wgpu::Queue,
-        scene: &Scene,
-        atlas: &Atlas,
+        subject: Subject<'_>,
         output_format: wgpu::TextureFormat,
         size: (u32, u32),
         options: RendererOptions,
     ) -> Result<Self, RenderError> {
+        let Subject { scene, stand, atlas } = subject;
         let camera = Camera::from(&scene.view.camera);
         let forward = camera.forward();
         let level = Vec2::new(forward.x, forward.z).normalize_or(Vec2::NEG_Y);
@@ -112,18 +149,39 @@ impl Renderer {
         let targets = Targets::new(device, size)?;
         let frame = FrameGroup::new(device);
         let kinds = LeafKinds::new(device, queue, scene, atlas)?;
-        let trees = Trees::new(device, queue, &planted);
-        let shadow_pass = ShadowPass::new(device, queue, &frame, &kinds);
+        let own = if scene.autumn > 0.0 { own_trees(stand) } else { Vec::new() };
+        let trees = Trees::new(device, queue, &planted, &own);
+        let branches = BranchGroup::new(device, queue, stand);
+        let shadow_pass = ShadowPass::new(device, &frame, &kinds, &branches, false, SHADOW_SIZE);
+        // Without trees nothing asks the wide map.
+        let wide_size = if stand.trees.is_empty() { 1 } else { SHADOW_SIZE };
+        let wide_pass = ShadowPass::new(device, &frame, &kinds, &branches, true, wide_size);
         let shade_pass = ShadePass::new(device, &frame, &trees);
-        let light = LightGroup::new(device, queue, &shadow_pass.map, &shade_pass.map);
+        let light = LightGroup::new(device, queue, [&shadow_pass.map, &wide_pass.map], &shade_pass.map);
+        let eye_m = camera.eye_m();
+        let shedding = shedding(&planted, stand);
         let species_count = u32::try_from(scene.species.len()).unwrap_or(1);
         let mut renderer = Self {
             device: device.clone(),
             queue: queue.clone(),
-            environment: Environment::new(&scene.view.sun, center, Path { lead: level, phase: path_phase }),
+            environment: Environment::new(
+                &scene.view.sun,
+                center,
+                Path { lead: level, phase: path_phase },
+                Ball::around(stand),
+            ),
             leaf_count: scene.leaf_count(),
-            litter: Litter::new(device, queue, options.litter_count, species_count, center, &planted),
-            leaf_pass: LeafPass::new(device, queue, &frame, &light, &kinds),
+            eye_m,
+            litter: Litter::new(device, queue, options.litter_count, species_count, center, &shedding),
+            litter_parts: [LeafPart::loose(0..options.litter_count)],
+            stand: stand.clone(),
+            leaf_parts: LeafPart::of_world(stand, scene.leaf_count(), eye_m),
+            stems: Stems::new(device, queue, stand),
+            leaf_meshes: LeafMeshes::new(device, queue, stand),
+            bark: StandMesh::new(device, queue, stand, eye_m),
+            bark_pass: BarkPass::new(device, &frame, &light, &branches),
+            leaf_pass: LeafPass::new(device, &frame, &light, &kinds),
+            fruit_pass: FruitPass::new(device, queue, &frame, &light, &branches, stand),
             grass_pass: GrassPass::new(device, &frame, &light),
             ground_pass: GroundPass::new(device, &frame, &light),
             tree_pass: TreePass::new(device, &frame, &light, &trees),
@@ -137,7 +195,9 @@ impl Renderer {
             light,
             kinds,
             trees,
+            branches,
             shadow_pass,
+            wide_pass,
             shade_pass,
         };
         renderer.update_scene_view(&scene.view);
@@ -163,8 +223,8 @@ impl Renderer {
 
     /// Takes over another sun and length of trails; the park stays where it is.
     pub fn update_scene_view(&mut self, view: &View) {
-        let Environment { park_center, path, .. } = self.environment;
-        self.environment = Environment::new(&view.sun, park_center, path);
+        let Environment { park_center, path, stand, .. } = self.environment;
+        self.environment = Environment::new(&view.sun, park_center, path, stand);
         self.shade_is_old = true;
         let drawn = self.trail_pass.as_ref().map_or(0.0, TrailPass::trail_s);
         if drawn != view.trail_s {
@@ -175,6 +235,7 @@ impl Renderer {
     /// Takes over another number of leaves.
     pub fn update_leaf_count(&mut self, leaf_count: u32) {
         self.leaf_count = leaf_count;
+        self.leaf_parts = LeafPart::of_world(&self.stand, leaf_count, self.eye_m);
         self.make_trails(self.trail_pass.as_ref().map_or(0.0, TrailPass::trail_s));
     }
 
@@ -184,13 +245,14 @@ impl Renderer {
             (trail_s > 0.0).then(|| TrailPass::new(device, &self.frame, &self.light, trail_s, leaf_count));
     }
 
-    /// Encodes one frame of `leaves` into `output`, a view of a texture of this renderer's format. What lies outside
-    /// of the picture becomes black.
+    /// Encodes one frame of `leaves` and `branches` into `output`, a view of a texture of this renderer's format. What
+    /// lies outside of the picture becomes black. Without branches the trees stand at rest.
     pub fn draw(
         &mut self,
         encoder: &mut wgpu::CommandEncoder,
         output: &wgpu::TextureView,
         leaves: &LeafColumns<'_>,
+        branches: Option<&BranchColumns<'_>>,
         input: &FrameInput,
     ) {
         let (width, height) = self.targets.size;
@@ -206,11 +268,25 @@ impl Renderer {
             self.shade_is_old = false;
         }
         self.observe(encoder, leaves, input.time_s);
-        let sets: Vec<LeafColumns<'_>> =
-            std::iter::once(*leaves).chain(self.litter.as_ref().map(Litter::columns)).collect();
+        let litter = self.litter.as_ref().map(Litter::columns);
+        let litter = litter.map(|columns| LeafSet { columns, parts: &self.litter_parts });
+        let leaves = LeafSet { columns: *leaves, parts: &self.leaf_parts };
+        let sets: Vec<LeafSet<'_>> = std::iter::once(leaves).chain(litter).collect();
+        let group = self.branches.bind(&self.device, branches);
+        let casters = Casters {
+            kinds: &self.kinds,
+            sets: &sets,
+            meshes: &self.leaf_meshes,
+            stems: &self.stems,
+            bark: &self.bark,
+            branches: &group,
+        };
         let writes = |pass| self.timer.as_ref().map(|timer| timer.render_writes(pass));
-        self.shadow_pass.draw(encoder, writes(0), &self.frame, &self.kinds, &sets);
-        self.draw_scene(encoder, writes(1), &sets);
+        self.shadow_pass.draw(encoder, writes(0), &self.frame, &casters);
+        if self.environment.stand.is_some() {
+            self.wide_pass.draw(encoder, None, &self.frame, &casters);
+        }
+        self.draw_scene(encoder, writes(1), &sets, &group);
         let area = (input.origin, self.targets.size);
         self.tonemap_pass.draw(encoder, writes(2), &self.frame, output, area);
         if let Some(timer) = &self.timer {
@@ -241,7 +317,8 @@ impl Renderer {
         &self,
         encoder: &mut wgpu::CommandEncoder,
         timestamps: Option<wgpu::RenderPassTimestampWrites<'_>>,
-        sets: &[LeafColumns<'_>],
+        sets: &[LeafSet<'_>],
+        branches: &wgpu::BindGroup,
     ) {
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("scene"),
@@ -268,15 +345,40 @@ impl Renderer {
         });
         pass.set_bind_group(0, &self.frame.group, &[]);
         pass.set_bind_group(1, &self.light.group, &[]);
-        for leaves in sets {
-            self.leaf_pass.draw(&mut pass, &self.kinds, leaves);
-        }
+        self.bark_pass.draw(&mut pass, branches, &self.bark, &self.stems);
+        self.leaf_pass.draw(&mut pass, &self.kinds, sets, &self.stems, &self.leaf_meshes);
+        self.fruit_pass.draw(&mut pass, branches);
         self.grass_pass.draw(&mut pass);
         self.ground_pass.draw(&mut pass);
         self.tree_pass.draw(&mut pass, &self.trees);
         self.sky_pass.draw(&mut pass);
         if let (Some(trails), Some(leaves)) = (&self.trail_pass, sets.first()) {
-            trails.draw(&mut pass, leaves.leaf_count);
+            trails.draw(&mut pass, leaves.columns.leaf_count);
         }
     }
+}
+
+/// The trees of a stand as those that strew litter on the far meadow.
+fn own_trees(stand: &Stand) -> Vec<TreeInstance> {
+    let tree = |tree: &crate::trees::StandingTree| TreeInstance {
+        foot_m: tree.foot_m,
+        height_m: tree.skeleton.height_m(),
+        width: 1.0,
+        sprite: 0,
+        hue: 0.0,
+        brightness: 1.0,
+    };
+    stand.trees.iter().filter(|tree| !tree.look.is_low).map(tree).collect()
+}
+
+/// All trees that have shed leaves before the scene begins.
+fn shedding(planted: &[TreeInstance], stand: &Stand) -> Vec<Shedding> {
+    let far = planted.iter();
+    let far = far.map(|tree| Shedding { foot_m: tree.foot_m, height_m: tree.height_m, species: None });
+    let own = stand.trees.iter().filter(|tree| !tree.look.is_low).map(|tree| Shedding {
+        foot_m: tree.foot_m,
+        height_m: tree.skeleton.height_m(),
+        species: tree.species,
+    });
+    far.chain(own).collect()
 }

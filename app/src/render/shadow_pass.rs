@@ -1,38 +1,54 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Draws the leaves' shadows around what the camera looks at.
+//! Draws the shadows of leaves and trees: finely around what the camera looks at, and coarsely of the whole stand.
 
-use windfall_wgpu::LeafColumns;
-
+use super::bark_mesh::{StandMesh, bark_layout};
+use super::bark_pass::{BARK_SHAPE, STEM};
+use super::branch_group::BranchGroup;
 use super::frame::FrameGroup;
 use super::leaf_kinds::LeafKinds;
-use super::leaf_mesh::LeafMesh;
-use super::leaf_pass::{LEAF_SHAPE, draw_instances, vertex_layouts};
+use super::leaf_pass::LEAF_SHAPE;
 use super::leaf_record::record_constants;
+use super::leaf_set::{LeafDetail, LeafMeshes, LeafSet, draw_leaves, vertex_layouts};
 use super::pipeline::{COMMON, layout, shader};
+use super::stems::Stems;
 
-/// Edge of the shadow map in texels; `light.wgsl` filters with this size.
+/// Edge of a shadow map in texels; `light.wgsl` filters with this size.
 pub(super) const SHADOW_SIZE: u32 = 2048;
 const SHADOW_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
 
-/// The shadow map and its pipeline.
+/// A shadow map and the pipelines that draw into it.
 #[derive(Debug)]
 pub(super) struct ShadowPass {
     pub(super) map: wgpu::TextureView,
-    pipeline: wgpu::RenderPipeline,
-    mesh: LeafMesh,
+    leaves: wgpu::RenderPipeline,
+    bark: wgpu::RenderPipeline,
+}
+
+/// What casts shadows.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Casters<'a> {
+    pub(super) kinds: &'a LeafKinds,
+    pub(super) sets: &'a [LeafSet<'a>],
+    pub(super) meshes: &'a LeafMeshes,
+    pub(super) stems: &'a Stems,
+    pub(super) bark: &'a StandMesh,
+    pub(super) branches: &'a wgpu::BindGroup,
 }
 
 impl ShadowPass {
+    /// The map around the camera's focus, or the `wide` one of `size` texels.
     pub(super) fn new(
         device: &wgpu::Device,
-        queue: &wgpu::Queue,
         frame: &FrameGroup,
         kinds: &LeafKinds,
+        branches: &BranchGroup,
+        wide: bool,
+        size: u32,
     ) -> Self {
         let texture = device.create_texture(&wgpu::TextureDescriptor {
             label: Some("shadow map"),
-            size: wgpu::Extent3d { width: SHADOW_SIZE, height: SHADOW_SIZE, depth_or_array_layers: 1 },
+            size: wgpu::Extent3d { width: size, height: size, depth_or_array_layers: 1 },
             mip_level_count: 1,
             sample_count: 1,
             dimension: wgpu::TextureDimension::D2,
@@ -40,47 +56,61 @@ impl ShadowPass {
             usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING,
             view_formats: &[],
         });
-        let text = [COMMON, &record_constants(), LEAF_SHAPE, include_str!("shaders/leaf_shadow.wgsl")];
-        let module = shader(device, "leaf shadow", &text);
-        let pipeline = device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-            label: Some("leaf shadows"),
-            layout: Some(&layout(device, &[Some(&frame.layout), None, Some(&kinds.layout)])),
-            vertex: wgpu::VertexState {
-                module: &module,
-                entry_point: Some("vertex"),
-                compilation_options: wgpu::PipelineCompilationOptions::default(),
-                buffers: &vertex_layouts().map(Some),
-            },
-            primitive: wgpu::PrimitiveState::default(),
-            depth_stencil: Some(wgpu::DepthStencilState {
-                format: SHADOW_FORMAT,
-                depth_write_enabled: Some(true),
-                depth_compare: Some(wgpu::CompareFunction::LessEqual),
-                stencil: wgpu::StencilState::default(),
-                bias: wgpu::DepthBiasState::default(),
-            }),
-            multisample: wgpu::MultisampleState::default(),
-            fragment: Some(wgpu::FragmentState {
-                module: &module,
-                entry_point: Some("fragment"),
-                compilation_options: wgpu::PipelineCompilationOptions::default(),
-                targets: &[],
-            }),
-            multiview_mask: None,
-            cache: None,
-        });
-        let map = texture.create_view(&wgpu::TextureViewDescriptor::default());
-        Self { map, pipeline, mesh: LeafMesh::grid(device, queue, 1, 1) }
+        let text = [COMMON, STEM, &record_constants(), LEAF_SHAPE, include_str!("shaders/leaf_shadow.wgsl")];
+        let leaf_shader = shader(device, "leaf shadow", &text);
+        let bark_shader =
+            shader(device, "bark shadow", &[COMMON, BARK_SHAPE, include_str!("shaders/bark_shadow.wgsl")]);
+        let pipeline = |label, module, group, buffers: &[wgpu::VertexBufferLayout<'_>], cut_out| {
+            let constants = [("WIDE", f64::from(u8::from(wide)))];
+            let compilation_options =
+                wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() };
+            let buffers: Vec<_> = buffers.iter().cloned().map(Some).collect();
+            device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+                label: Some(label),
+                layout: Some(&layout(device, &[Some(&frame.layout), None, Some(group)])),
+                vertex: wgpu::VertexState {
+                    module,
+                    entry_point: Some("vertex"),
+                    compilation_options: compilation_options.clone(),
+                    buffers: &buffers,
+                },
+                primitive: wgpu::PrimitiveState::default(),
+                depth_stencil: Some(wgpu::DepthStencilState {
+                    format: SHADOW_FORMAT,
+                    depth_write_enabled: Some(true),
+                    depth_compare: Some(wgpu::CompareFunction::LessEqual),
+                    stencil: wgpu::StencilState::default(),
+                    bias: wgpu::DepthBiasState::default(),
+                }),
+                multisample: wgpu::MultisampleState::default(),
+                fragment: if cut_out {
+                    Some(wgpu::FragmentState {
+                        module,
+                        entry_point: Some("fragment"),
+                        compilation_options,
+                        targets: &[],
+                    })
+                } else {
+                    None
+                },
+                multiview_mask: None,
+                cache: None,
+            })
+        };
+        Self {
+            map: texture.create_view(&wgpu::TextureViewDescriptor::default()),
+            leaves: pipeline("leaf shadows", &leaf_shader, &kinds.layout, &vertex_layouts(), true),
+            bark: pipeline("bark shadows", &bark_shader, &branches.layout, &[bark_layout()], false),
+        }
     }
 
-    /// Draws all sets of leaves into the map.
+    /// Draws all leaves and trees into the map.
     pub(super) fn draw(
         &self,
         encoder: &mut wgpu::CommandEncoder,
         timestamps: Option<wgpu::RenderPassTimestampWrites<'_>>,
         frame: &FrameGroup,
-        kinds: &LeafKinds,
-        leaves: &[LeafColumns<'_>],
+        casters: &Casters<'_>,
     ) {
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("shadows"),
@@ -97,11 +127,18 @@ impl ShadowPass {
             occlusion_query_set: None,
             multiview_mask: None,
         });
-        pass.set_pipeline(&self.pipeline);
         pass.set_bind_group(0, &frame.group, &[]);
-        pass.set_bind_group(2, &kinds.group, &[]);
-        for columns in leaves {
-            draw_instances(&mut pass, columns, &self.mesh);
+        if let Some(all) = casters.bark.all() {
+            pass.set_pipeline(&self.bark);
+            pass.set_bind_group(2, casters.branches, &[]);
+            pass.set_vertex_buffer(0, casters.bark.vertices.slice(..));
+            pass.set_index_buffer(casters.bark.indices.slice(..), wgpu::IndexFormat::Uint32);
+            pass.draw_indexed(all, 0, 0..1);
+        }
+        pass.set_pipeline(&self.leaves);
+        pass.set_bind_group(2, &casters.kinds.group, &[]);
+        for set in casters.sets {
+            draw_leaves(&mut pass, set, casters.stems, casters.meshes, LeafDetail::Coarsest);
         }
     }
 }

@@ -6,22 +6,32 @@
 use image::RgbaImage;
 use windfall_core::Scene;
 use windfall_texgen::{Atlas, AtlasEntry, AtlasRequest, Shape};
-use windfall_wgpu::LeafColumns;
+use windfall_wgpu::{BranchColumns, LeafColumns};
 
 use super::*;
 use crate::camera::Camera;
+use crate::trees::Stand;
 
 /// A width whose rows need padding on their way back.
-const SIZE: (u32, u32) = (150, 90);
+pub(super) const SIZE: (u32, u32) = (150, 90);
 
-struct Bench {
-    device: wgpu::Device,
-    queue: wgpu::Queue,
+pub(super) struct Bench {
+    pub(super) device: wgpu::Device,
+    pub(super) queue: wgpu::Queue,
     scene: Scene,
+    pub(super) stand: Stand,
     renderer: Renderer,
 }
 
 fn bench(change: impl FnOnce(&mut Scene)) -> Bench {
+    bench_with(|scene| {
+        change(scene);
+        Stand::default()
+    })
+}
+
+/// A bench for a changed scene and its trees.
+pub(super) fn bench_with(change: impl FnOnce(&mut Scene) -> Stand) -> Bench {
     let mut descriptor = wgpu::InstanceDescriptor::new_without_display_handle_from_env();
     descriptor.backends = wgpu::Backends::VULKAN;
     let instance = wgpu::Instance::new(descriptor);
@@ -31,20 +41,42 @@ fn bench(change: impl FnOnce(&mut Scene)) -> Bench {
     let descriptor = wgpu::DeviceDescriptor { required_features: features, ..Default::default() };
     let (device, queue) = pollster::block_on(adapter.request_device(&descriptor)).expect("a device");
     let mut scene = Scene::default();
-    change(&mut scene);
+    let stand = change(&mut scene);
     let entry = AtlasEntry { shape: Shape::Maple, season: (0.5, 0.9) };
     let entries = vec![entry; scene.species.len()];
     let request = AtlasRequest { entries, variants: 2, size_px: 32, seed: 1 };
     let atlas = Atlas::generate(&request).expect("an atlas");
     let options = RendererOptions { litter_count: 0 };
-    let renderer = Renderer::new(&device, &queue, &scene, &atlas, PictureTarget::FORMAT, SIZE, options)
+    let subject = Subject { scene: &scene, stand: &stand, atlas: &atlas };
+    let renderer = Renderer::new(&device, &queue, subject, PictureTarget::FORMAT, SIZE, options)
         .expect("a renderer within default limits");
-    Bench { device, queue, scene, renderer }
+    Bench { device, queue, scene, stand, renderer }
 }
 
 impl Bench {
+    /// Draws the trees alone.
+    pub(super) fn draw_trees(&mut self, branches: Option<&BranchColumns<'_>>) -> RgbaImage {
+        self.draw_all(branches, 0, 60_000, 0.0, 0.0)
+    }
+
+    /// Draws the trees, and their first leaf big before the middle of the picture as one that stands for others.
+    pub(super) fn draw_cluster(&mut self) -> RgbaImage {
+        self.draw_all(None, 1, 3 << 14 | 1 << 30, 0.0, 0.0)
+    }
+
     /// Draws one big leaf that faces the camera, in the given state, at an offset from the middle of the picture.
     fn draw(&mut self, state: u32, offset_m: f32, time_s: f64) -> RgbaImage {
+        self.draw_all(None, state, 60_000, offset_m, time_s)
+    }
+
+    fn draw_all(
+        &mut self,
+        branches: Option<&BranchColumns<'_>>,
+        state: u32,
+        size: u32,
+        offset_m: f32,
+        time_s: f64,
+    ) -> RgbaImage {
         let at = self.scene.view.camera.target_m;
         let usage = wgpu::BufferUsages::VERTEX | wgpu::BufferUsages::STORAGE;
         let column = |words: [u32; 4]| {
@@ -53,7 +85,7 @@ impl Bench {
         let half = std::f32::consts::FRAC_1_SQRT_2;
         let place = column([(at.x + offset_m).to_bits(), at.y.to_bits(), (at.z + 6.0).to_bits(), state]);
         let attitude = column([half.to_bits(), 0, 0, half.to_bits()]);
-        let (course, identity) = (column([0, 0, 60_000, 0]), column([0, 0, 0, 0x1_2345]));
+        let (course, identity) = (column([0, 0, size, 0]), column([0, 0, 0, 0x1_2345]));
         let leaves = LeafColumns {
             place: &place,
             drift: &place,
@@ -69,13 +101,14 @@ impl Bench {
             &mut encoder,
             &target.view(),
             &leaves,
+            branches,
             &FrameInput { camera, time_s, origin: (0, 0) },
         );
         target.submit_and_read(&self.device, &self.queue, encoder).expect("a picture")
     }
 }
 
-fn differing(a: &RgbaImage, b: &RgbaImage) -> usize {
+pub(super) fn differing(a: &RgbaImage, b: &RgbaImage) -> usize {
     a.pixels().zip(b.pixels()).filter(|(a, b)| a.0.iter().zip(b.0).any(|(a, b)| a.abs_diff(b) > 12)).count()
 }
 

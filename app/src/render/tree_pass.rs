@@ -31,10 +31,18 @@ pub(super) struct Trees {
     group: wgpu::BindGroup,
     instances: wgpu::Buffer,
     count: u32,
+    /// Trees of the scene, which strew litter as well but are drawn otherwise.
+    own_count: u32,
 }
 
 impl Trees {
-    pub(super) fn new(device: &wgpu::Device, queue: &wgpu::Queue, trees: &[TreeInstance]) -> Self {
+    /// The pictures of `trees`, and `own` for their litter alone.
+    pub(super) fn new(
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        trees: &[TreeInstance],
+        own: &[TreeInstance],
+    ) -> Self {
         let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
             label: Some("trees"),
             entries: &[
@@ -65,9 +73,11 @@ impl Trees {
                 wgpu::BindGroupEntry { binding: 1, resource: wgpu::BindingResource::Sampler(&sampler) },
             ],
         });
-        let bytes = bytemuck::cast_slice(trees);
+        let all = [trees, own].concat();
+        let bytes = bytemuck::cast_slice(&all);
         let instances = upload::buffer(device, queue, "trees", wgpu::BufferUsages::VERTEX, bytes);
-        Self { layout, group, instances, count: u32::try_from(trees.len()).unwrap_or(0) }
+        let number = |trees: &[TreeInstance]| u32::try_from(trees.len()).unwrap_or(0);
+        Self { layout, group, instances, count: number(trees), own_count: number(own) }
     }
 }
 
@@ -182,6 +192,6 @@ impl ShadePass {
         pass.set_vertex_buffer(0, trees.instances.slice(..));
         // All shadows first: litter must not be dimmed by them.
         pass.draw(0..4, 0..trees.count);
-        pass.draw(4..8, 0..trees.count);
+        pass.draw(4..8, 0..trees.count + trees.own_count);
     }
 }

@@ -9,11 +9,11 @@ use windfall_core::leaf::Leaves;
 use windfall_core::scene::limits;
 use windfall_core::{Environment, Scene, SimError, Simulator, Stats, World};
 use windfall_cpu::CpuOptions;
-use windfall_wgpu::{Gpu, LeafColumns};
+use windfall_wgpu::Gpu;
 
 use super::pace::Pace;
 use super::tuning::Tuning;
-use crate::backend::{Backend, BackendKind, Device};
+use crate::backend::{Backend, BackendKind, Columns, Device};
 use crate::commands::scene::{check_memory, scaled};
 use crate::render::GpuTimer;
 
@@ -194,6 +194,7 @@ impl Session {
             environment: self.environment.clone(),
             clock: self.backend.clock(),
             leaves: Leaves::zeroed(self.leaf_count() as usize),
+            branches: self.environment.forest().at_rest(),
         };
         self.backend.read_state(&mut world)?;
         self.backend = self.device(kind).simulator(&world)?;
@@ -256,7 +257,7 @@ impl Session {
     ///
     /// # Errors
     /// A lost device, or one that cannot hold them.
-    pub(super) fn columns(&mut self) -> Result<LeafColumns<'_>, SimError> {
+    pub(super) fn columns(&mut self) -> Result<Columns<'_>, SimError> {
         self.backend.columns(&self.gpu)
     }
 }

@@ -23,7 +23,8 @@ use super::screenshot::Screenshot;
 use super::session::Session;
 use crate::camera::Camera;
 use crate::drawing::Drawing;
-use crate::render::{FrameInput, MAX_TRAILS, PictureTarget, Renderer, RendererOptions};
+use crate::render::{FrameInput, MAX_TRAILS, PictureTarget, Renderer, RendererOptions, Subject};
+use crate::trees::Stand;
 use crate::{leaves, terminal};
 
 /// Time between two attempts to draw to a window that shows nothing.
@@ -83,7 +84,9 @@ impl Viewer {
         let settings = RendererOptions::for_scene(scene);
         let size = screen.size();
         let (device, queue) = (gpu.device(), gpu.queue());
-        let renderer = Renderer::new(device, queue, scene, &atlas, screen.format(), size, settings)?;
+        let stand = Stand::of(scene, world.environment.forest());
+        let subject = Subject { scene, stand: &stand, atlas: &atlas };
+        let renderer = Renderer::new(device, queue, subject, screen.format(), size, settings)?;
         let gui = Gui::new(&window, &gpu, screen.format());
         gpu.check()?;
         if let Some(reason) = reason {
@@ -190,7 +193,7 @@ impl Viewer {
             let columns = self.session.columns()?;
             let mut encoder =
                 self.gpu.device().create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-            self.renderer.observe(&mut encoder, &columns, time_s);
+            self.renderer.observe(&mut encoder, &columns.leaves, time_s);
             self.gpu.queue().submit([encoder.finish()]);
         }
         Ok(self.session.step(steps.min(1))?)
@@ -247,7 +250,7 @@ impl Viewer {
         let mut encoder =
             self.gpu.device().create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         let input = FrameInput { camera: self.camera, time_s, origin };
-        self.renderer.draw(&mut encoder, view, &columns, &input);
+        self.renderer.draw(&mut encoder, view, &columns.leaves, columns.branches.as_ref(), &input);
         self.meter.add(Stage::Draw, since);
         let since = Instant::now();
         self.gui.paint(&self.gpu, &mut encoder, view, self.screen.size(), painting);

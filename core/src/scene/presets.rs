@@ -10,6 +10,9 @@ pub const PRESETS: &[(&str, &str)] = &[
     ("six-motions", include_str!("../../scenes/six-motions.ron")),
     ("storm", include_str!("../../scenes/storm.ron")),
     ("million", include_str!("../../scenes/million.ron")),
+    ("forest", include_str!("../../scenes/forest.ron")),
+    ("gale", include_str!("../../scenes/gale.ron")),
+    ("hurricane", include_str!("../../scenes/hurricane.ron")),
 ];
 
 impl Scene {
@@ -35,13 +38,17 @@ mod tests {
             assert!(text.is_ascii(), "{name} is plain text in any editor");
         }
         let names: Vec<_> = PRESETS.iter().map(|(name, _)| *name).collect();
-        assert_eq!(names, ["autumn-park", "six-motions", "storm", "million"], "names and their order");
+        assert_eq!(
+            names,
+            ["autumn-park", "six-motions", "storm", "million", "forest", "gale", "hurricane"],
+            "names and their order"
+        );
         assert_eq!(Scene::preset("calm"), None, "unknown names");
     }
 
     #[test]
     fn rates_keep_the_number_of_leaves_in_the_air_constant() {
-        for name in ["autumn-park", "storm", "million"] {
+        for name in ["autumn-park", "storm", "million", "forest", "gale", "hurricane"] {
             for source in Scene::preset(name).expect("a preset").sources {
                 let Release::Rate { per_s, from_s } = source.release else {
                     panic!("{name} releases at a rate")
@@ -80,7 +87,16 @@ mod tests {
     #[test]
     fn presets_have_the_size_and_variety_that_they_promise() {
         let scene = |name| Scene::preset(name).expect("a preset");
-        assert_eq!(scene("autumn-park").leaf_count(), 17_860, "a park");
+        for name in ["autumn-park", "forest", "gale", "hurricane"] {
+            let scene = scene(name);
+            assert!(scene.trees.len() >= 12, "{name} has trees");
+            for tree in &scene.trees {
+                let kind = scene.tree_kinds.iter().find(|kind| kind.name == tree.kind);
+                let foliage = kind.and_then(|kind| kind.foliage.species.as_ref());
+                let is_known = |leaf: &String| scene.species.iter().any(|species| species.name == *leaf);
+                assert!(foliage.is_some_and(is_known), "{name}: a {} bears leaves of the scene", tree.kind);
+            }
+        }
         assert_eq!(scene("storm").leaf_count(), 20_000, "a storm");
         assert_eq!(scene("million").leaf_count(), 1_000_000, "a million");
         let shapes: HashSet<LeafShape> =

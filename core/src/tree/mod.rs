@@ -5,12 +5,12 @@
 pub mod bark;
 mod crown;
 pub mod forest;
+mod from_file;
 pub mod gltf;
 pub mod grammar;
 mod grow;
 pub mod growth;
 pub mod pipe;
-mod planted;
 mod presets;
 pub mod record;
 pub mod skeleton;

@@ -4,9 +4,9 @@
 
 use windfall_core::leaf::{LEAF_BYTES, Leaves};
 use windfall_core::{Contract, SimError, Simulator, World};
-use windfall_wgpu::{Gpu, LeafBuffers, LeafColumns};
+use windfall_wgpu::{Gpu, LeafBuffers};
 
-use crate::backend::{Backend, Device};
+use crate::backend::{Backend, Columns, Device};
 use crate::baseline::{ArrayOfStructs, Trajectories};
 
 /// A way to move leaves, by name.
@@ -114,7 +114,7 @@ impl Contender {
         &'a mut self,
         gpu: &Gpu,
         buffers: &'a LeafBuffers,
-    ) -> Result<LeafColumns<'a>, SimError> {
+    ) -> Result<Columns<'a>, SimError> {
         match self {
             Self::Trajectories(trajectories) => buffers.write(gpu, trajectories.leaves())?,
             Self::Structs { leaves, columns } => {
@@ -123,6 +123,6 @@ impl Contender {
             }
             Self::Backend(backend) => return backend.columns(gpu),
         }
-        Ok(buffers.columns())
+        Ok(Columns { leaves: buffers.columns(), branches: None })
     }
 }

@@ -10,7 +10,8 @@ use windfall_wgpu::{Gpu, LeafBuffers};
 use super::contender::Contender;
 use crate::camera::Camera;
 use crate::leaves::atlas_of;
-use crate::render::{FrameInput, PictureTarget, Renderer, RendererOptions};
+use crate::render::{FrameInput, PictureTarget, Renderer, RendererOptions, Subject};
+use crate::trees::Stand;
 
 /// Size of the pictures.
 const SIZE: (u32, u32) = (1280, 720);
@@ -28,12 +29,14 @@ pub(super) struct Stage {
 
 impl Stage {
     /// A stage for the leaves of `world`.
-    pub(super) fn new(gpu: &Gpu, scene: &Scene) -> anyhow::Result<Self> {
+    pub(super) fn new(gpu: &Gpu, scene: &Scene, world: &World) -> anyhow::Result<Self> {
         let target = PictureTarget::new(gpu.device(), SIZE)?;
         let atlas = atlas_of(scene)?;
         let options = RendererOptions::for_scene(scene);
         let format = PictureTarget::FORMAT;
-        let renderer = Renderer::new(gpu.device(), gpu.queue(), scene, &atlas, format, SIZE, options)?;
+        let stand = Stand::of(scene, world.environment.forest());
+        let subject = Subject { scene, stand: &stand, atlas: &atlas };
+        let renderer = Renderer::new(gpu.device(), gpu.queue(), subject, format, SIZE, options)?;
         let buffers = LeafBuffers::new(gpu, scene.leaf_count())?;
         gpu.check()?;
         let camera = Camera::from(&scene.view.camera);
@@ -60,7 +63,13 @@ impl Stage {
         let columns = contender.columns(&self.gpu, &self.buffers)?;
         let mut encoder =
             self.gpu.device().create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-        self.renderer.draw(&mut encoder, &self.target.view(), &columns, &input);
+        self.renderer.draw(
+            &mut encoder,
+            &self.target.view(),
+            &columns.leaves,
+            columns.branches.as_ref(),
+            &input,
+        );
         self.target.submit_and_read(self.gpu.device(), self.gpu.queue(), encoder)?;
         Ok(self.gpu.check()?)
     }

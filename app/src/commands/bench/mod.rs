@@ -83,7 +83,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     }
     for scene in &scenes {
         let world = World::build(scene)?;
-        let mut stage = gpu.as_ref().map(|gpu| Stage::new(gpu, scene)).transpose()?;
+        let mut stage = gpu.as_ref().map(|gpu| Stage::new(gpu, scene, &world)).transpose()?;
         let mut expected = None;
         for approach in &approaches {
             let needed = approach.leaf_bytes(scene.dt_s) as u64 * u64::from(scene.leaf_count());

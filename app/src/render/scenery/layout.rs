@@ -35,6 +35,8 @@ const NEAREST_M: f32 = 7.0;
 
 /// No tree but a source's own stands this near before the camera, in metres.
 const OPEN_M: f32 = 22.0;
+/// A scene with trees of its own has no others nearer to the centre than this, in metres.
+const OWN_M: f32 = 50.0;
 /// Half angle before the camera, in radians, in which no tree stands nearer than `FAR_M` metres in a scene with trails.
 const STAGE_RAD: f32 = 0.8;
 const FAR_M: f32 = 60.0;
@@ -52,13 +54,20 @@ pub(crate) struct Park {
 /// source of leaves in the shape of a crown gets its tree.
 pub(crate) fn plant(scene: &Scene, center: Vec3, view: Vec2) -> Park {
     let mut random = Random::new(41);
-    let crowns = scene.sources.iter().filter_map(|source| crown_tree(scene, source, &mut random));
+    // Where trees stand in the scene itself, sources of leaves need no picture of one.
+    let has_trees = !scene.trees.is_empty();
+    let sources = scene.sources.iter().filter(|_| !has_trees);
+    let crowns = sources.filter_map(|source| crown_tree(scene, source, &mut random));
     let mut trees: Vec<TreeInstance> = crowns.collect();
+    let own = scene.trees.iter().map(|tree| Vec3::new(tree.at_m[0], center.y, tree.at_m[1]));
+    let standing: Vec<Vec3> = own.chain(trees.iter().map(|tree| tree.foot_m)).collect();
+    // Far woods turn with the scene's own trees.
+    let season = if has_trees { (2.0 * scene.autumn).min(1.0) } else { 1.0 };
     let mut random = Random::new(43);
     let eye = scene.view.camera.eye_m;
     let on_ground = |point: Vec3| Vec2::new(point.x - center.x, point.z - center.z);
     let is_clear =
-        |phase: f32| trees.iter().all(|tree| beyond_path(on_ground(tree.foot_m), view, phase) > 2.5);
+        |phase: f32| standing.iter().all(|&foot_m| beyond_path(on_ground(foot_m), view, phase) > 2.5);
     let path_phase = PATH_PHASES.into_iter().find(|&phase| is_clear(phase)).unwrap_or(PATH_PHASES[0]);
     // Trails are to be read like a diagram: before a bare meadow and a far edge of woods.
     let stage_rad: f32 = if scene.view.trail_s > 0.0 { STAGE_RAD } else { 0.0 };
@@ -71,6 +80,9 @@ pub(crate) fn plant(scene: &Scene, center: Vec3, view: Vec2) -> Park {
         (70.0, 150.0, 110, 0.0, 0.25),
     ];
     for (inner, outer, count, open_rad, scale) in rings {
+        if has_trees && inner < OWN_M {
+            continue;
+        }
         let bush = scale < 0.9;
         let open_rad = if inner < FAR_M { stage_rad.max(open_rad) } else { open_rad };
         let mut left = count;
@@ -88,6 +100,7 @@ pub(crate) fn plant(scene: &Scene, center: Vec3, view: Vec2) -> Park {
             if !clear
                 || hides(eye, view, foot)
                 || apart < open_rad
+                || standing.iter().any(|&foot_m| foot_m.distance(foot) < spacing)
                 || trees.iter().any(|tree| tree.foot_m.distance(foot) < spacing)
             {
                 continue;
@@ -102,7 +115,7 @@ pub(crate) fn plant(scene: &Scene, center: Vec3, view: Vec2) -> Park {
             };
             let mirror = if random.word() & 1 == 0 { 1.0 } else { -1.0 };
             let width = random.range(0.85, 1.1) * mirror * if bush { 1.6 } else { 1.0 };
-            let hue = 0.1 + 0.85 * random.unit();
+            let hue = (0.1 + 0.85 * random.unit()) * season;
             let brightness = random.range(0.8, 1.15);
             trees.push(TreeInstance { foot_m: foot, height_m, width, sprite, hue, brightness });
         }

@@ -5,7 +5,6 @@
 use glam::{Quat, Vec2, Vec3};
 use windfall_core::leaf::record::{SPECIES_SHIFT, STATE_RESTING};
 
-use super::layout::TreeInstance;
 use super::random::Random;
 
 /// Leaf columns of the litter, laid out like a simulator's (see `LeafColumns`).
@@ -16,22 +15,34 @@ pub(crate) struct LitterColumns {
     pub(crate) identity: Vec<[u32; 4]>,
 }
 
+/// A tree that has shed leaves.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Shedding {
+    /// Foot in metres.
+    pub(crate) foot_m: Vec3,
+    /// Height in metres.
+    pub(crate) height_m: f32,
+    /// Species of its leaves; any when `None`.
+    pub(crate) species: Option<u32>,
+}
+
 /// Scatters `count` resting leaves of `species_count` species around `center`, denser near it and under the trees.
-pub(crate) fn scatter(count: u32, species_count: u32, center: Vec3, trees: &[TreeInstance]) -> LitterColumns {
+pub(crate) fn scatter(count: u32, species_count: u32, center: Vec3, trees: &[Shedding]) -> LitterColumns {
     let mut random = Random::new(7);
     let mut columns =
         LitterColumns { place: Vec::new(), attitude: Vec::new(), course: Vec::new(), identity: Vec::new() };
     let near: Vec<_> = trees.iter().filter(|tree| tree.foot_m.distance(center) < 55.0).collect();
     for index in 0..count {
         let under_tree = index % 5 < 2 && !near.is_empty();
-        let offset = if under_tree {
+        let (offset, own) = if under_tree {
             let tree = near[random.word() as usize % near.len()];
             let spread = 0.45 * tree.height_m * random.unit().sqrt();
-            (tree.foot_m - center) + on_circle(&mut random) * spread
+            ((tree.foot_m - center) + on_circle(&mut random) * spread, tree.species)
         } else {
-            on_circle(&mut random) * (1.0 + 33.0 * random.unit().powf(0.8))
+            (on_circle(&mut random) * (1.0 + 33.0 * random.unit().powf(0.8)), None)
         };
-        let species = random.word() % species_count.max(1);
+        let any = random.word() % species_count.max(1);
+        let species = own.unwrap_or(any);
         let at = center + offset;
         let bits = STATE_RESTING | species << SPECIES_SHIFT;
         columns.place.push([at.x.to_bits(), at.y.to_bits(), at.z.to_bits(), bits]);

@@ -4,8 +4,9 @@
 
 struct Frame {
     view_projection: mat4x4<f32>,
-    // World to the sun's clip space.
+    // World to the sun's clip space: around the camera's focus, and around all trees that stand in the scene.
     shadow_projection: mat4x4<f32>,
+    wide_projection: mat4x4<f32>,
     // Camera position; time in seconds.
     eye: vec4<f32>,
     // Camera axes, scaled so that forward + x * right + y * up is a ray through clip position (x, y). w of right and up:
@@ -27,6 +28,8 @@ struct Frame {
     park: vec4<f32>,
     // Width and height in pixels, and their reciprocals.
     viewport: vec4<f32>,
+    // Edge of a texel of the wide shadow map in metres; unused.
+    wide: vec4<f32>,
 }
 
 @group(0) @binding(0) var<uniform> frame: Frame;

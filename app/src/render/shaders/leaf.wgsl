@@ -10,11 +10,15 @@ struct Varyings {
     @location(3) @interpolate(flat) layer: u32,
     // Brightness, warmth, settled.
     @location(4) @interpolate(flat) look: vec3<f32>,
+    // Factor on the colour; open sky.
+    @location(5) @interpolate(flat) tint_open: vec4<f32>,
+    // Direction out of the crown, as far as the leaf is one of its surface.
+    @location(6) @interpolate(flat) outward: vec3<f32>,
 }
 
 @vertex
-fn vertex(leaf: Leaf, @location(4) at: vec2<f32>) -> Varyings {
-    let point = blade_point(leaf, at, true);
+fn vertex(leaf: Leaf, @location(4) at: vec3<f32>, stem: Stem) -> Varyings {
+    let point = blade_point(leaf, at, stem, true);
     var out: Varyings;
     out.world = point.world;
     out.clip = frame.view_projection * vec4(point.world, 1.0);
@@ -23,6 +27,13 @@ fn vertex(leaf: Leaf, @location(4) at: vec2<f32>) -> Varyings {
     out.layer = point.layer;
     let random = hash_u32(point.tint ^ 0x51u);
     out.look = vec3(unit_from(random), unit_from(hash_u32(random)), point.settled);
+    out.tint_open = vec4(stem.tint_cluster.rgb, 1.0);
+    out.outward = vec3(0.0);
+    if point.attached && stem.center_turned.w >= 0.0 {
+        let crown = crown_openness(stem, point.world);
+        out.tint_open.w = crown.w;
+        out.outward = crown.xyz * inverseSqrt(max(dot(crown.xyz, crown.xyz), 0.01)) * 0.55;
+    }
     return out;
 }
 
@@ -39,12 +50,13 @@ fn fragment(in: Varyings, @builtin(front_facing) front: bool) -> @location(0) ve
         discard;
     }
     var albedo = image.rgb * mix(0.78, 1.18, in.look.x);
-    albedo *= mix(vec3(0.94, 1.05, 0.95), vec3(1.08, 0.93, 0.92), in.look.y);
+    albedo *= mix(vec3(0.94, 1.05, 0.95), vec3(1.08, 0.93, 0.92), in.look.y) * in.tint_open.rgb;
 
     let to_eye = normalize(frame.eye.xyz - in.world);
     let blade = normalize(in.normal);
     let seen = select(-1.0, 1.0, dot(blade, to_eye) > 0.0);
-    let normal = blade * seen;
+    // A crown is lit like a rounded whole as well as leaf by leaf.
+    let normal = normalize(blade * seen + in.outward);
     // The underside is paler and duller.
     if seen < 0.0 {
         albedo = mix(albedo, vec3(luminance(albedo)) * vec3(1.1, 1.05, 0.9), 0.25) * 1.08;
@@ -61,7 +73,7 @@ fn fragment(in: Varyings, @builtin(front_facing) front: bool) -> @location(0) ve
         * (0.85 + 0.5 * pow(max(dot(-to_eye, light), 0.0), 4.0)) * mix(1.0, 0.55, in.look.z);
     let half_way = normalize(light + to_eye);
     let gloss = 0.06 * pow(max(dot(normal, half_way), 0.0), 24.0) * max(facing, 0.0) * select(0.4, 1.0, seen > 0.0);
-    let nearness = mix(1.0, 0.75, in.look.z);
+    let nearness = mix(1.0, 0.75, in.look.z) * in.tint_open.w;
     var color = sun * (reflected + through + gloss);
     color += albedo * ambient_light(normal) * nearness;
     // The sky also shines through.

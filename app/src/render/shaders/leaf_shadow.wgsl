@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // Leaves as the sun sees them.
 
+// Draws into the map of the whole stand instead of the one around the camera.
+override WIDE: bool = false;
+
 struct Varyings {
     @builtin(position) clip: vec4<f32>,
     @location(0) uv: vec2<f32>,
@@ -9,10 +12,13 @@ struct Varyings {
 }
 
 @vertex
-fn vertex(leaf: Leaf, @location(4) at: vec2<f32>) -> Varyings {
-    let point = blade_point(leaf, at, false);
+fn vertex(leaf: Leaf, @location(4) at: vec3<f32>, stem: Stem) -> Varyings {
+    let point = blade_point(leaf, at, stem, false);
     var out: Varyings;
     out.clip = frame.shadow_projection * vec4(point.world, 1.0);
+    if WIDE {
+        out.clip = frame.wide_projection * vec4(point.world, 1.0);
+    }
     out.uv = point.uv;
     out.layer = point.layer;
     return out;

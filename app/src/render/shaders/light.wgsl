@@ -9,21 +9,42 @@
 @group(1) @binding(3) var clamp_sampler: sampler;
 @group(1) @binding(4) var noise: texture_2d<f32>;
 @group(1) @binding(5) var repeat_sampler: sampler;
+@group(1) @binding(6) var wide_map: texture_depth_2d;
 
-// Sunlight that the leaves in the shadow map let through to `position`, 0 to 1.
-fn leaf_shadow(position: vec3<f32>) -> f32 {
-    let clip = frame.shadow_projection * vec4(position, 1.0);
+// Sunlight that reaches `position` past the leaves and trees of the map around the whole stand.
+fn wide_shadow(position: vec3<f32>) -> f32 {
+    // A texel is wide: what lies in it must not shade itself.
+    let clip = frame.wide_projection * vec4(position + frame.sun_direction.xyz * (1.5 * frame.wide.x), 1.0);
     let uv = clip.xy * vec2(0.5, -0.5) + 0.5;
     let edge = max(abs(clip.x), abs(clip.y));
     if edge > 0.99 || clip.z < 0.0 || clip.z > 1.0 {
         return 1.0;
     }
     let texel = 1.0 / 2048.0;
+    var sum = textureSampleCompareLevel(wide_map, shadow_sampler, uv + texel * vec2(-0.9, -0.4), clip.z);
+    sum += textureSampleCompareLevel(wide_map, shadow_sampler, uv + texel * vec2(0.4, -0.9), clip.z);
+    sum += textureSampleCompareLevel(wide_map, shadow_sampler, uv + texel * vec2(0.9, 0.4), clip.z);
+    sum += textureSampleCompareLevel(wide_map, shadow_sampler, uv + texel * vec2(-0.4, 0.9), clip.z);
+    return mix(sum * 0.25, 1.0, smoothstep(0.9, 0.99, edge));
+}
+
+// Sunlight that leaves and trees in the shadow maps let through to `position`, 0 to 1.
+fn leaf_shadow(position: vec3<f32>) -> f32 {
+    let clip = frame.shadow_projection * vec4(position, 1.0);
+    let uv = clip.xy * vec2(0.5, -0.5) + 0.5;
+    let edge = max(abs(clip.x), abs(clip.y));
+    if edge > 0.99 || clip.z < 0.0 || clip.z > 1.0 {
+        return wide_shadow(position);
+    }
+    let texel = 1.0 / 2048.0;
     var sum = textureSampleCompareLevel(shadow_map, shadow_sampler, uv + texel * vec2(-0.9, -0.4), clip.z);
     sum += textureSampleCompareLevel(shadow_map, shadow_sampler, uv + texel * vec2(0.4, -0.9), clip.z);
     sum += textureSampleCompareLevel(shadow_map, shadow_sampler, uv + texel * vec2(0.9, 0.4), clip.z);
     sum += textureSampleCompareLevel(shadow_map, shadow_sampler, uv + texel * vec2(-0.4, 0.9), clip.z);
-    return mix(sum * 0.25, 1.0, smoothstep(0.8, 0.99, edge));
+    if edge < 0.8 {
+        return sum * 0.25;
+    }
+    return mix(sum * 0.25, wide_shadow(position), smoothstep(0.8, 0.99, edge));
 }
 
 // Sunlight that the trees let through (r) and litter density (g) where the sun ray through `position` meets the ground.

@@ -125,11 +125,3 @@ fn what_no_tree_can_be_is_an_error() {
         assert!(source.to_string().starts_with(expected), "{text}\nfound    {source}\nexpected {expected}");
     }
 }
-
-#[test]
-fn files_that_are_not_there_are_named() {
-    let file = crate::scene::TreeForm::File("oak.glb".into());
-    let error = grow(&crate::scene::TreeKind { form: file, ..kind("") }, &Tree::default(), 1);
-    let error = error.expect_err("no file").to_string();
-    assert!(error.starts_with("tree kind 'maple': oak.glb: "), "{error}");
-}

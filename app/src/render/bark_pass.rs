@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Draws trunks, limbs and twigs, moved with the branches on the device.
+
+use super::bark_mesh::{StandMesh, bark_layout};
+use super::branch_group::BranchGroup;
+use super::frame::FrameGroup;
+use super::light_group::LightGroup;
+use super::pipeline::{COMMON, LIGHT, ScenePipeline, shader};
+use super::stems::Stems;
+
+/// WGSL from branch columns to places on the bark.
+pub(super) const BARK_SHAPE: &str = include_str!("shaders/bark_shape.wgsl");
+/// WGSL of what the parts of a tree share.
+pub(super) const STEM: &str = include_str!("shaders/stem.wgsl");
+
+/// The bark pipeline.
+#[derive(Debug)]
+pub(super) struct BarkPass {
+    pipeline: wgpu::RenderPipeline,
+}
+
+impl BarkPass {
+    pub(super) fn new(
+        device: &wgpu::Device,
+        frame: &FrameGroup,
+        light: &LightGroup,
+        branches: &BranchGroup,
+    ) -> Self {
+        let text = [COMMON, LIGHT, STEM, BARK_SHAPE, include_str!("shaders/bark.wgsl")];
+        let shader = shader(device, "bark", &text);
+        let pipeline = ScenePipeline {
+            label: "bark",
+            groups: &[Some(&frame.layout), Some(&light.layout), Some(&branches.layout)],
+            topology: wgpu::PrimitiveTopology::TriangleList,
+            shader: &shader,
+            buffers: &[bark_layout(), Stems::layout()],
+            blend: None,
+            depth_write: true,
+            alpha_to_coverage: true,
+        }
+        .build(device);
+        Self { pipeline }
+    }
+
+    /// Draws all trees; bind groups 0 and 1 are set.
+    pub(super) fn draw(
+        &self,
+        pass: &mut wgpu::RenderPass<'_>,
+        group: &wgpu::BindGroup,
+        mesh: &StandMesh,
+        stems: &Stems,
+    ) {
+        pass.set_pipeline(&self.pipeline);
+        pass.set_bind_group(2, group, &[]);
+        pass.set_vertex_buffer(0, mesh.vertices.slice(..));
+        pass.set_index_buffer(mesh.indices.slice(..), wgpu::IndexFormat::Uint32);
+        for (tree, range) in mesh.trees.iter().enumerate() {
+            pass.set_vertex_buffer(1, stems.of(Some(tree)));
+            pass.draw_indexed(range.clone(), 0, 0..1);
+        }
+    }
+}

@@ -1,0 +1,102 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// Trunks, limbs and twigs.
+
+@group(2) @binding(4) var barks: texture_2d_array<f32>;
+@group(2) @binding(5) var bark_sampler: sampler;
+
+struct Varyings {
+    @builtin(position) clip: vec4<f32>,
+    @location(0) @interpolate(perspective, centroid) world: vec3<f32>,
+    @location(1) @interpolate(perspective, centroid) normal: vec3<f32>,
+    @location(2) @interpolate(perspective, centroid) uv: vec2<f32>,
+    // Radius of the limb in metres, share of a pixel that it covers, open sky, height at rest.
+    @location(3) @interpolate(perspective, centroid) limb: vec4<f32>,
+    @location(4) @interpolate(flat) kind: vec2<f32>,
+}
+
+@vertex
+fn vertex(bark: BarkVertex, stem: Stem) -> Varyings {
+    let point = bark_point(bark);
+    let radius = bark.position_radius.w;
+    // A twig thinner than a pixel is drawn a pixel wide, and as faint as it is thin.
+    let pixel = distance(frame.eye.xyz, point.world) * length(frame.up.xyz) * 2.0 * frame.viewport.w;
+    let least = stem.bark.w * pixel;
+    var out: Varyings;
+    out.world = point.world + point.normal * max(least - radius, 0.0);
+    out.clip = frame.view_projection * vec4(out.world, 1.0);
+    out.normal = point.normal;
+    out.uv = bark.uv;
+    let height = bark.position_radius.y - frame.park.y;
+    out.limb = vec4(radius, min(radius / least, 1.0), crown_openness(stem, point.world).w, height);
+    out.kind = stem.bark.xy;
+    return out;
+}
+
+// Colour of this year's twigs.
+fn twig_color(kind: u32) -> vec3<f32> {
+    switch kind {
+        case 1u: { return vec3(0.085, 0.040, 0.030); }
+        case 2u: { return vec3(0.095, 0.078, 0.052); }
+        case 3u: { return vec3(0.110, 0.075, 0.038); }
+        case 4u: { return vec3(0.120, 0.150, 0.040); }
+        default: { return vec3(0.110, 0.068, 0.040); }
+    }
+}
+
+@fragment
+fn fragment(in: Varyings) -> @location(0) vec4<f32> {
+    let kind = u32(in.kind.x);
+    // Every tree begins elsewhere on its bark.
+    let uv = in.uv + in.kind.y * vec2(3.7, 11.3);
+    // Two looks at the tile, the second taller and elsewhere, take turns along the limb: no repeat shows.
+    let other_uv = vec2(uv.x + 0.37, uv.y * 0.61 + 0.19);
+    let choice = textureSample(noise, repeat_sampler, vec2(uv.x * 0.5, uv.y * 0.29)).r;
+    let blend = smoothstep(0.44, 0.56, choice);
+    let one = textureSample(barks, bark_sampler, uv, kind * 2u);
+    let other = textureSample(barks, bark_sampler, other_uv, kind * 2u);
+    let one_relief = textureSample(barks, bark_sampler, uv, kind * 2u + 1u);
+    let other_relief = textureSample(barks, bark_sampler, other_uv, kind * 2u + 1u);
+    let surface = mix(one, other, blend);
+    let relief = mix(one_relief, other_relief, blend);
+    let radius = in.limb.x;
+    let height = in.limb.w;
+    // Old bark cracks; twigs are smooth and have their own colour.
+    let old = smoothstep(0.006, select(0.05, 0.035, kind == 1u), radius);
+    let stain = textureSample(noise, repeat_sampler, vec2(uv.x * 0.5, uv.y * 0.13 + 0.4)).g;
+    var albedo = mix(twig_color(kind), surface.rgb * surface.rgb * (0.55 + 0.9 * stain), old);
+    // Some of the places where white bark may crack have done so, most of them low on the trunk.
+    let crack = textureSample(noise, repeat_sampler, vec2(uv.x * 0.5 + 0.3, uv.y * 0.21 + 0.7)).r;
+    let cracked = smoothstep(0.56, 0.62, crack + 0.35 * smoothstep(1.2, 0.1, height)) * relief.a * old;
+    albedo = mix(albedo, vec3(0.030, 0.026, 0.023), cracked);
+    // Green algae near the ground, on the side away from the sun.
+    let dull = smoothstep(1.3, 0.0, height) * smoothstep(0.03, 0.12, radius);
+    let away = 0.5 - 0.5 * dot(in.normal.xz, frame.sun_direction.xz);
+    albedo = mix(albedo, albedo * 0.55 + vec3(0.012, 0.022, 0.004), dull * (0.25 + 0.6 * away) * (1.2 - surface.a));
+
+    // Grooves, in the frame that the texture spans on the bark.
+    let across = dpdx(in.world);
+    let down = dpdy(in.world);
+    let smooth_normal = normalize(in.normal);
+    let du = cross(down, smooth_normal) * dpdx(uv.x) + cross(smooth_normal, across) * dpdy(uv.x);
+    let dv = cross(down, smooth_normal) * dpdx(uv.y) + cross(smooth_normal, across) * dpdy(uv.y);
+    let scale = inverseSqrt(max(max(dot(du, du), dot(dv, dv)), 1.0e-20));
+    let tilt = (relief.xy * 2.0 - 1.0) * old;
+    let normal = normalize(smooth_normal + scale * (du * tilt.x + dv * tilt.y));
+
+    let to_eye = normalize(frame.eye.xyz - in.world);
+    let light = frame.sun_direction.xyz;
+    let facing = dot(normal, light);
+    let deep = mix(1.0, relief.z, old);
+    let shade = tree_shade(in.world);
+    let sun = frame.sun_color.rgb * shade.r * leaf_shadow(in.world + smooth_normal * 0.02 + light * 0.03);
+    // Rough wood looks lit a little beyond the edge of the light.
+    let lit = clamp((facing + 0.08) / 1.08, 0.0, 1.0) * mix(0.6, 1.0, deep);
+    // Grass hides the sky from the foot.
+    let foot = mix(0.45, 1.0, smoothstep(-0.02, 0.35, height));
+    var color = sun * albedo * lit;
+    color += albedo * ambient_light(normal) * in.limb.z * deep * foot;
+    let half_way = normalize(light + to_eye);
+    color += sun * 0.012 * pow(max(dot(normal, half_way), 0.0), 12.0) * max(facing, 0.0);
+    return vec4(haze(color, in.world), in.limb.y);
+}

@@ -1,0 +1,91 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The trees of a scene as they are drawn: where each stands, what it looks like, and which row of the branch columns
+//! moves which of its segments.
+
+mod crown;
+mod look;
+
+use std::sync::Arc;
+
+use glam::Vec3;
+use windfall_core::Scene;
+use windfall_core::tree::{Forest, Skeleton};
+
+pub use crown::Crown;
+pub use look::{BarkKind, Look};
+
+/// Most leaves that one simulated leaf stands for on a tree.
+pub const MAX_CLUSTER: u32 = 16;
+
+/// A tree of the scene, grown.
+#[derive(Clone, Debug)]
+pub struct StandingTree {
+    /// The tree at rest, turned as it stands, with its foot at the origin.
+    pub skeleton: Arc<Skeleton>,
+    /// Foot in metres.
+    pub foot_m: Vec3,
+    /// Row of the branch columns for every segment.
+    pub rows: Vec<u32>,
+    /// Number of the species of its leaves in the scene.
+    pub species: Option<u32>,
+    /// Leaves that each of its simulated leaves stands for: 1 to [`MAX_CLUSTER`].
+    pub cluster: u32,
+    /// Slots of its leaves among those of the world, in the order of the stand's trees.
+    pub leaves: u32,
+    /// Where its leaves grow.
+    pub crown: Crown,
+    /// Bark, tint and colour of the season.
+    pub look: Look,
+}
+
+impl StandingTree {
+    /// A point of the tree's frame in the world.
+    pub fn place(&self, at_m: Vec3) -> Vec3 {
+        self.foot_m + at_m
+    }
+}
+
+/// All trees of a scene, with the rest pose of the branch columns.
+#[derive(Clone, Debug, Default)]
+pub struct Stand {
+    /// The trees in the scene's order.
+    pub trees: Vec<StandingTree>,
+    /// World position of every segment's lower joint at rest, in the order of the rows; w unused.
+    pub rest_base: Vec<[f32; 4]>,
+    /// World orientation of every segment at rest, x, y, z, w: y along the segment.
+    pub rest_pose: Vec<[f32; 4]>,
+}
+
+impl Stand {
+    /// The trees of a scene as they stand in its world.
+    pub fn of(scene: &Scene, forest: &Forest) -> Self {
+        let branches = forest.at_rest();
+        let mut trees = Vec::with_capacity(scene.trees.len());
+        for (tree, planted) in scene.trees.iter().zip(forest.trees()) {
+            let Some(kind) = scene.tree_kind(&tree.kind) else { continue };
+            let named = kind.foliage.species.as_ref();
+            let species = named.and_then(|name| scene.species.iter().position(|kind| kind.name == *name));
+            let species = species.and_then(|index| u32::try_from(index).ok());
+            let leaves_each = planted.facts.leaves_each.round().clamp(1.0, MAX_CLUSTER.into());
+            #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "1 to MAX_CLUSTER")]
+            let cluster = leaves_each as u32;
+            trees.push(StandingTree {
+                skeleton: Arc::clone(&planted.skeleton),
+                foot_m: planted.foot_m,
+                rows: planted.rows.clone(),
+                species,
+                cluster,
+                leaves: tree.leaves,
+                crown: Crown::of(&planted.skeleton, planted.foot_m),
+                look: Look::of(scene, tree, &kind, species),
+            });
+        }
+        Self { trees, rest_base: branches.base, rest_pose: branches.pose }
+    }
+
+    /// Number of leaf slots of all trees: the first of the world.
+    pub fn leaf_count(&self) -> u32 {
+        self.trees.iter().map(|tree| tree.leaves).sum()
+    }
+}
