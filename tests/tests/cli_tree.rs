@@ -93,6 +93,21 @@ fn trees_of_scenes_are_exported_as_text_too() {
 }
 
 #[test]
+fn scenes_plant_trees_of_files() {
+    let folder = folder();
+    windfall(&folder, &["tree", "export", "bush", "--out", "bush.glb"]).text();
+    let kind = "tree_kinds: [(name: \"mine\", form: File(\"bush.glb\"))]";
+    let scene = format!("({kind}, trees: [(kind: \"mine\", height_m: 2, leaves: 40)])");
+    file(&folder, "mine.ron", scene.as_bytes());
+    let report = info(&folder, &["mine.ron#0"]);
+    let height = report["height_m"].as_f64().expect("a number");
+    assert!((height - 2.0).abs() < 1e-3 && report["leaves"] == 40, "{report}");
+    assert_eq!(report["segments"], info(&folder, &["bush"])["segments"], "all of the wood");
+    fs::write(folder.path().join("bush.glb"), b"no glTF").expect("room");
+    assert_refused(&folder, &["tree", "info", "mine.ron#0"], &["'mine'", "bush.glb", "not a usable glTF"]);
+}
+
+#[test]
 fn bad_input_is_refused_in_one_line_and_leaves_nothing() {
     let folder = folder();
     let refuse = |rest: &[&str], essentials: &[&str]| {

@@ -7,11 +7,12 @@
 
 mod limb;
 mod path;
+mod stations;
 mod surface;
 #[cfg(test)]
 mod tests;
 
-use self::limb::limbs;
+use self::limb::{Limb, limbs};
 use self::path::Path;
 use self::surface::cover;
 use super::Skeleton;
@@ -41,6 +42,11 @@ impl BarkDetail {
             Self::Middle => 0.015,
             Self::Far => 0.06,
         }
+    }
+
+    /// The detail of the rings along a limb whose radius is `share` of the trunk's: nobody sees how twigs bend.
+    fn rings(self, share: f32) -> Self {
+        if self == Self::Full && share < 0.03 { Self::Middle } else { self }
     }
 
     /// Number of sides of a limb whose radius is `share` of the trunk's: as many as keep the flat sides within a fixed
@@ -87,11 +93,22 @@ impl BarkMesh {
 pub fn bark_mesh(skeleton: &Skeleton, detail: BarkDetail) -> BarkMesh {
     let mut mesh = BarkMesh::default();
     let Some(trunk) = skeleton.segments.first() else { return mesh };
-    let thinnest_m = detail.thinnest() * trunk.start_radius_m;
-    for limb in limbs(skeleton, thinnest_m) {
-        let path = Path::along(skeleton, &limb);
-        let sides = detail.sides(path.base_radius_m() / trunk.start_radius_m);
-        cover(&mut mesh, &path, &path.stations(detail), sides);
+    let limbs = limbs(skeleton, detail.thinnest() * trunk.start_radius_m);
+    for path in paths(skeleton, &limbs) {
+        let share = path.base_radius_m() / trunk.start_radius_m;
+        cover(&mut mesh, &path, &path.stations(detail.rings(share)), detail.sides(share));
     }
     mesh
+}
+
+/// The courses of limbs, of which each comes after the one it grows from.
+fn paths(skeleton: &Skeleton, limbs: &[Limb]) -> Vec<Path> {
+    let mut owner = vec![0; skeleton.segments.len()];
+    let mut paths: Vec<Path> = Vec::with_capacity(limbs.len());
+    for (index, limb) in limbs.iter().enumerate() {
+        limb.segments.iter().for_each(|&segment| owner[segment as usize] = index);
+        let parent = limb.parent.map(|segment| &paths[owner[segment as usize]]);
+        paths.push(Path::along(skeleton, limb, parent));
+    }
+    paths
 }

@@ -124,14 +124,11 @@ fn crown_m(skeleton: &Skeleton) -> f32 {
 
 /// Diameter of the trunk at breast height; none if it ends or parts below.
 fn diameter_m(skeleton: &Skeleton) -> Option<f32> {
-    let trunk = skeleton.segments.iter().filter(|segment| segment.order == 0);
-    trunk
-        .filter(|segment| segment.start_m.y <= BREAST_HEIGHT_M && BREAST_HEIGHT_M < segment.end_m.y)
-        .next()
-        .map(|segment| {
-            let share = (BREAST_HEIGHT_M - segment.start_m.y) / (segment.end_m.y - segment.start_m.y);
-            2.0 * (segment.start_radius_m + (segment.end_radius_m - segment.start_radius_m) * share)
-        })
+    let mut trunk = skeleton.segments.iter().filter(|segment| segment.order == 0);
+    let segment =
+        trunk.find(|segment| segment.start_m.y <= BREAST_HEIGHT_M && BREAST_HEIGHT_M < segment.end_m.y)?;
+    let share = (BREAST_HEIGHT_M - segment.start_m.y) / (segment.end_m.y - segment.start_m.y);
+    Some(2.0 * (segment.start_radius_m + (segment.end_radius_m - segment.start_radius_m) * share))
 }
 
 fn row(text: &mut String, name: &str, value: impl Display) {

@@ -6,12 +6,13 @@ use std::f32::consts::TAU;
 
 use glam::Vec3;
 
-use super::BarkDetail;
 use super::limb::Limb;
 use crate::tree::Skeleton;
 
 /// Share by which a branch is thicker where it leaves its parent.
-const COLLAR: f32 = 0.22;
+const COLLAR: f32 = 0.3;
+/// Way over which that share falls to 1/e, in radii.
+const COLLAR_REACH: f32 = 0.9;
 /// Share by which the foot of a big trunk is wider than the trunk.
 const FLARE: f32 = 0.55;
 /// Radii of a trunk without and with the whole flare, in metres.
@@ -19,42 +20,46 @@ const FLARE_RADII_M: [f32; 2] = [0.01, 0.1];
 /// How deep the foot goes into the ground, in radii.
 const SUNK: f32 = 0.3;
 /// Cosine of the weakest bend that is rounded.
-const ROUNDED_BEND: f32 = 0.985;
+const ROUNDED_BEND: f32 = 0.99;
+/// How far before and after a joint its bend is rounded, in radii. The middle of the limb leaves the joint by less than
+/// a radius then, so leaves still touch the bark.
+const ROUNDING: f32 = 4.0;
 
 /// A straight piece of the course.
 #[derive(Clone, Copy, Debug)]
-struct Piece {
+pub(super) struct Piece {
     segment: u32,
     from_m: Vec3,
-    direction: Vec3,
+    pub(super) direction: Vec3,
     /// Where it begins, along the course.
-    begin_m: f32,
+    pub(super) begin_m: f32,
     length_m: f32,
 }
 
 /// The course of a limb by length from its base.
 #[derive(Clone, Debug)]
 pub(super) struct Path {
-    pieces: Vec<Piece>,
+    pub(super) pieces: Vec<Piece>,
     /// Radius at the begin of every piece and at the end of the last.
     radii_m: Vec<f32>,
     /// Half the length over which the bend at the begin of every piece is rounded.
-    rounding_m: Vec<f32>,
-    root: Root,
+    pub(super) rounding_m: Vec<f32>,
+    pub(super) root: Root,
 }
 
 /// What a limb grows from.
 #[derive(Clone, Copy, Debug)]
-enum Root {
+pub(super) enum Root {
     /// The ground: height of the ground along the course, share of the flare.
     Ground { sunk_m: f32, flare: f32 },
-    /// Another limb: its segment, its radius, where along the course the branch comes out of it.
-    Limb { segment: u32, radius_m: f32, out_m: f32, axis: Vec3 },
+    /// Another limb: its segment, how thick the branch may be inside it, where along the course it comes out, which way
+    /// the other limb goes.
+    Limb { segment: u32, room_m: f32, out_m: f32, axis: Vec3 },
 }
 
 impl Path {
-    /// The course of a limb.
-    pub(super) fn along(skeleton: &Skeleton, limb: &Limb) -> Self {
+    /// The course of a limb that grows from another one's, or from the ground.
+    pub(super) fn along(skeleton: &Skeleton, limb: &Limb, parent: Option<&Self>) -> Self {
         let of = |index: u32| &skeleton.segments[index as usize];
         let first = of(limb.segments[0]);
         let mut points: Vec<(Vec3, u32)> = limb.segments.iter().map(|&s| (of(s).start_m, s)).collect();
@@ -64,7 +69,7 @@ impl Path {
         }
         let last = of(limb.segments[limb.segments.len() - 1]);
         radii_m.push(last.end_radius_m);
-        let root = match limb.parent {
+        let root = match limb.parent.zip(parent) {
             None => {
                 let [none, whole] = FLARE_RADII_M;
                 let share = ((first.start_radius_m - none) / (whole - none)).clamp(0.0, 1.0);
@@ -73,23 +78,25 @@ impl Path {
                 radii_m.insert(0, first.start_radius_m);
                 Root::Ground { sunk_m, flare: FLARE * share }
             }
-            Some(segment) => {
-                let wood = of(segment);
-                let axis = wood.direction();
-                let along_m = (first.start_m - wood.start_m).dot(axis).clamp(0.0, wood.length_m());
-                let share = along_m / wood.length_m();
-                let radius_m = wood.start_radius_m + (wood.end_radius_m - wood.start_radius_m) * share;
-                let anchor = wood.start_m + axis * along_m;
-                let mut aside_m = anchor.distance(first.start_m);
-                if aside_m > 0.3 * first.start_radius_m {
-                    points.insert(0, (anchor, segment));
+            Some((segment, parent)) => {
+                let at_m = parent.nearest_m(segment, first.start_m);
+                let (anchor, axis, radius_m) =
+                    (parent.center_m(at_m), parent.direction(at_m), parent.radius_m(at_m));
+                // Straight back into the parent, as far as that leads towards its middle.
+                let aside = first.start_m - anchor;
+                let mut back_m = aside.dot(first.direction());
+                if back_m > 0.1 * first.start_radius_m {
+                    points.insert(0, (first.start_m - first.direction() * back_m, segment));
                     radii_m.insert(0, first.start_radius_m);
                 } else {
-                    aside_m = 0.0;
+                    back_m = 0.0;
                 }
                 let across = first.direction().reject_from(axis).length().max(0.35);
-                let hidden_m = ((radius_m - aside_m).max(0.0) / across).min(0.5 * first.length_m());
-                Root::Limb { segment, radius_m, out_m: aside_m + hidden_m, axis }
+                let hidden_m = (radius_m - aside.length()).max(0.0) / across;
+                let out_m = back_m + hidden_m.min(0.5 * first.length_m());
+                let missed_m = (aside - first.direction() * back_m).length();
+                let room_m = (0.9 * radius_m - missed_m).max(0.3 * first.start_radius_m);
+                Root::Limb { segment, room_m, out_m, axis }
             }
         };
         let mut pieces: Vec<Piece> = Vec::with_capacity(points.len());
@@ -104,12 +111,19 @@ impl Path {
         let rounding_m = (0..pieces.len())
             .map(|at| match at.checked_sub(1).map(|before| (&pieces[before], &pieces[at])) {
                 Some((a, b)) if a.direction.dot(b.direction) < ROUNDED_BEND => {
-                    (1.2 * radii_m[at]).min(0.4 * a.length_m).min(0.4 * b.length_m)
+                    (ROUNDING * radii_m[at]).min(0.4 * a.length_m).min(0.4 * b.length_m)
                 }
                 _ => 0.0,
             })
             .collect();
         Self { pieces, radii_m, rounding_m, root }
+    }
+
+    /// The length at which a segment of the limb is nearest to a place.
+    fn nearest_m(&self, segment: u32, place: Vec3) -> f32 {
+        // The last piece of the segment: what is sunk before it belongs to the same one.
+        let piece = self.pieces.iter().rfind(|piece| piece.segment == segment).unwrap_or(&self.pieces[0]);
+        piece.begin_m + (place - piece.from_m).dot(piece.direction).clamp(0.0, piece.length_m)
     }
 
     /// Length from the base to the tip.
@@ -134,54 +148,6 @@ impl Path {
             Root::Ground { .. } => Vec3::X,
             Root::Limb { axis, .. } => axis,
         }
-    }
-
-    /// Where rings go: the base, the tip, the joints, and what shows flare, collar and bends.
-    pub(super) fn stations(&self, detail: BarkDetail) -> Vec<f32> {
-        let end_m = self.length_m();
-        let mut wanted = Vec::new();
-        match self.root {
-            Root::Ground { sunk_m, flare } if flare > 0.0 => {
-                let heights: &[f32] = match detail {
-                    BarkDetail::Full => &[0.35, 0.8, 1.4, 2.2, 3.4],
-                    BarkDetail::Middle => &[0.5, 1.2, 2.6],
-                    BarkDetail::Far => &[1.2],
-                };
-                wanted.extend(heights.iter().map(|height| sunk_m + height * self.base_radius_m()));
-            }
-            Root::Limb { out_m, .. } if detail != BarkDetail::Far => {
-                wanted.push(out_m);
-                wanted.push((out_m + 1.5 * self.base_radius_m()).min(0.5 * (out_m + end_m)));
-            }
-            _ => {}
-        }
-        for (piece, &rounding_m) in self.pieces.iter().zip(&self.rounding_m).skip(1) {
-            if rounding_m > 0.0 && detail == BarkDetail::Full {
-                wanted.extend([piece.begin_m - rounding_m, piece.begin_m + rounding_m]);
-            }
-            wanted.push(piece.begin_m);
-        }
-        wanted.retain(|at| *at > 0.0 && *at < end_m);
-        wanted.sort_by(f32::total_cmp);
-        // Rings closer than this would pass through each other in a bend, or show nothing.
-        let apart_m = |at: f32| 0.3 * self.radius_m(at).max(0.05 * self.base_radius_m());
-        let mut stations = vec![0.0];
-        let mut since_kept = 0;
-        for (place, &at) in wanted.iter().enumerate() {
-            let is_straight = detail == BarkDetail::Far
-                && since_kept < 2
-                && wanted.get(place + 1).is_some_and(|&next| {
-                    self.direction(next).dot(self.direction(stations[stations.len() - 1])) > 0.97
-                });
-            let is_close = at - stations[stations.len() - 1] < apart_m(at) || end_m - at < apart_m(at);
-            since_kept += 1;
-            if !(is_straight || is_close) {
-                stations.push(at);
-                since_kept = 0;
-            }
-        }
-        stations.push(end_m);
-        stations
     }
 
     /// The piece at a length, and the length within it.
@@ -231,11 +197,11 @@ impl Path {
         let plain = self.radii_m[index] + (self.radii_m[index + 1] - self.radii_m[index]) * share;
         match self.root {
             Root::Ground { .. } => plain,
-            Root::Limb { radius_m, out_m, .. } => {
-                let beyond = (at_m - out_m) / (1.5 * self.base_radius_m());
-                let thicker = plain * (1.0 + COLLAR * (1.0 - smooth(beyond)));
+            Root::Limb { room_m, out_m, .. } => {
+                let beyond = (at_m - out_m).max(0.0) / (COLLAR_REACH * self.base_radius_m());
+                let thicker = plain * (1.0 + COLLAR * libm::expf(-beyond));
                 // What is inside the parent stays inside.
-                if at_m < 0.5 * out_m { thicker.min(0.9 * radius_m) } else { thicker }
+                if at_m < 0.5 * out_m { thicker.min(room_m) } else { thicker }
             }
         }
     }
