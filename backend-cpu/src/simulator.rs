@@ -122,6 +122,7 @@ impl Simulator for CpuSimulator {
                             work,
                             leaves: on_trees,
                         },
+                        simd,
                     );
                 }
                 advance(&cx, leaves.as_mut(), simd);

@@ -8,6 +8,7 @@ pub(crate) mod carry;
 mod eight;
 pub(crate) mod measure;
 pub(crate) mod stand;
+mod sway_eight;
 pub(crate) mod sway_fold;
 pub(crate) mod sway_follow;
 pub(crate) mod sway_gather;

@@ -18,6 +18,7 @@ use super::sway_fold::sway_fold;
 use super::sway_follow::sway_follow;
 use super::sway_gather::sway_gather;
 use super::sway_unfold::sway_unfold;
+use crate::simd::Simd;
 
 /// A run of stands with all that belongs to them.
 pub(crate) struct Stands<'a> {
@@ -29,11 +30,11 @@ pub(crate) struct Stands<'a> {
 }
 
 /// Steps all stands, halving the run until a piece is one.
-pub(crate) fn sway(cx: &Context<'_>, run: Stands<'_>) {
+pub(crate) fn sway(cx: &Context<'_>, run: Stands<'_>, simd: Simd) {
     let Stands { stands, timber, branches, work, leaves } = run;
     let [first, .., last] = stands else {
         if let [stand] = stands {
-            sway_stand(cx, stand, timber, branches, work, leaves);
+            sway_stand(cx, stand, Stands { stands, timber, branches, work, leaves }, simd);
         }
         return;
     };
@@ -59,21 +60,15 @@ pub(crate) fn sway(cx: &Context<'_>, run: Stands<'_>) {
         work: back_work,
         leaves: back_leaves,
     };
-    join(|| sway(cx, front), || sway(cx, back));
+    join(|| sway(cx, front, simd), || sway(cx, back, simd));
 }
 
 /// A pass over one level of a stand.
-type Pass = fn(&Context<'_>, &mut Rows<'_>, Range<usize>);
+type Pass = fn(&Context<'_>, &mut Rows<'_>, Range<usize>, Simd);
 
 /// One stand: towards the foot, towards the tips, and the leaves after it.
-fn sway_stand(
-    cx: &Context<'_>,
-    stand: &Stand,
-    timber: &[Timber],
-    branches: BranchesMut<'_>,
-    work: &mut [Work],
-    mut leaves: LeavesMut<'_>,
-) {
+fn sway_stand(cx: &Context<'_>, stand: &Stand, run: Stands<'_>, simd: Simd) {
+    let Stands { timber, branches, work, mut leaves, .. } = run;
     let mut rows = Rows { first: stand.first, timber, branches, work };
     let articulated = cx.environment.crowns.0[3] == SCHEME_ARTICULATED;
     let (inwards, outwards) = if articulated {
@@ -82,10 +77,10 @@ fn sway_stand(
         (sway_gather as Pass, sway_follow as Pass)
     };
     for level in stand.levels().rev() {
-        inwards(cx, &mut rows, level);
+        inwards(cx, &mut rows, level, simd);
     }
     for level in stand.levels() {
-        outwards(cx, &mut rows, level);
+        outwards(cx, &mut rows, level, simd);
     }
     carry(cx, &mut rows, &mut leaves, stand.slots.start);
 }
