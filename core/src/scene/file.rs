@@ -14,7 +14,7 @@ use ron::extensions::Extensions;
 use ron::ser::PrettyConfig;
 
 use super::nearest::nearest;
-use super::{PRESETS, Scene};
+use super::{PRESETS, Scene, TreeForm};
 use crate::SceneError;
 
 /// Largest scene file in bytes; sixteen sources and thirty-two species take some ten thousand.
@@ -36,6 +36,11 @@ impl Scene {
                 for species in &mut scene.species {
                     for named in [&mut species.tables, &mut species.leaves].into_iter().flatten() {
                         // Both parts are text, so nothing is lost.
+                        *named = folder.join(&*named).to_string_lossy().into_owned();
+                    }
+                }
+                for kind in &mut scene.tree_kinds {
+                    if let TreeForm::File(named) = &mut kind.form {
                         *named = folder.join(&*named).to_string_lossy().into_owned();
                     }
                 }

@@ -88,6 +88,7 @@ limits! {
     AUTUMN: f32 = 0.0, 1.0, "", autumn;
     AT_M: f32 = -2048.0, 2048.0, "m", at_m;
     TREE_HEIGHT_M: f32 = 0.2, 60.0, "m", height_m;
+    REGROW_AFTER_S: f32 = 1.0, 86400.0, "s", regrow_after_s;
     AGE: f32 = 0.05, 1.0, "", age;
     HEADING_DEG: f32 = -360.0, 360.0, "degrees", heading_deg;
     NUMBER: u32 = 0, u32::MAX, "", number;
@@ -96,7 +97,9 @@ limits! {
     DENSITY_KG_M3: f32 = 100.0, 2000.0, "kg/m³", density_kg_m3;
     DAMPING: f32 = 0.0, 1.0, "", damping;
     WOOD_DRAG: f32 = 0.0, 3.0, "", drag;
+    ANCHORAGE: f32 = 0.01, 1000000.0, "", anchorage;
     LEAF_AREA_INDEX: f32 = 0.1, 12.0, "", leaf_area_index;
+    LEAF_DENSITY_KG_M2: f32 = 0.01, 1.0, "kg/m²", areal_density_kg_m2;
     LEAF_DRAG: f32 = 0.0, 2.0, "", drag;
     YIELD_M_S: f32 = 1.0, 1000.0, "m/s", yield_m_s;
     STRENGTH_N: f32 = 0.01, 100.0, "N", strength_n;

@@ -37,11 +37,13 @@ pub const MAX_VORTICES: usize = 8;
 pub const MAX_LEAVES: u32 = 1 << 28;
 
 /// Most kinds of trees a scene may have of its own.
-pub const MAX_TREE_KINDS: usize = 64;
+pub const MAX_TREE_KINDS: usize = 26;
 /// Most trees a scene may have.
 pub const MAX_TREES: usize = 4096;
-/// Most segments that the trees of a scene may have together.
-pub const MAX_FOREST_SEGMENTS: usize = 1 << 21;
+/// Most segments that the trees of a scene may have together: their work fits in one binding of any device.
+pub const MAX_FOREST_SEGMENTS: usize = 1 << 19;
+/// Most leaves that the trees of a scene may have together: their petioles fit in one binding of any device.
+pub const MAX_TREE_LEAVES: u32 = 1 << 21;
 
 /// A whole scene: what falls, from where, through which wind, onto what, seen from where.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

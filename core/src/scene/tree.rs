@@ -109,11 +109,15 @@ pub struct Wood {
     pub damping: f32,
     /// Drag coefficient of bare branches, 0 to 3.
     pub drag: f32,
+    /// Stiffness with which roots and soil hold the foot, relative to the trunk's own, that is E I at the foot over the
+    /// tree's height: 0.01 to 1000000. Soil that yields about as much as the trunk slows the sway of real trees to less
+    /// than half of what a clamped pole would do.
+    pub anchorage: f32,
 }
 
 impl Default for Wood {
     fn default() -> Self {
-        Self { youngs_modulus_gpa: 9.5, density_kg_m3: 800.0, damping: 0.03, drag: 1.0 }
+        Self { youngs_modulus_gpa: 9.5, density_kg_m3: 800.0, damping: 0.03, drag: 1.0, anchorage: 1.0 }
     }
 }
 
@@ -125,6 +129,9 @@ pub struct Foliage {
     pub species: Option<String>,
     /// Leaf area of the full crown per ground area beneath it, 0.1 to 12.
     pub leaf_area_index: f32,
+    /// Mass of green leaves with their petioles per leaf area in kg/m², 0.01 to 1: with the water that they lose before
+    /// they fall.
+    pub areal_density_kg_m2: f32,
     /// Drag coefficient of leaves on the twig in light wind, on their whole area, 0 to 2.
     pub drag: f32,
     /// Wind speed in m/s at which leaves and twigs have turned aside so far that their drag is halved, 1 to 1000.
@@ -135,6 +142,13 @@ pub struct Foliage {
 
 impl Default for Foliage {
     fn default() -> Self {
-        Self { species: None, leaf_area_index: 3.5, drag: 0.25, yield_m_s: 10.0, strength_n: 4.0 }
+        Self {
+            species: None,
+            leaf_area_index: 3.5,
+            areal_density_kg_m2: 0.2,
+            drag: 0.25,
+            yield_m_s: 10.0,
+            strength_n: 4.0,
+        }
     }
 }

@@ -9,8 +9,9 @@ mod tests;
 mod trees;
 
 use super::{
-    Camera, Ground, MAX_LEAVES, MAX_SOURCES, MAX_SPECIES, MAX_VORTICES, MeanSpeed, MotionParameters, Profile,
-    Release, RotationModel, Scene, Source, SourceShape, Species, Sun, View, Vortex, WindParameters, limits,
+    Camera, Ground, MAX_LEAVES, MAX_SOURCES, MAX_SPECIES, MAX_TREE_LEAVES, MAX_VORTICES, MeanSpeed,
+    MotionParameters, Profile, Release, RotationModel, Scene, Source, SourceShape, Species, Sun, View,
+    Vortex, WindParameters, limits,
 };
 use crate::SceneError;
 use check::Check;
@@ -44,9 +45,13 @@ impl Scene {
         self.ground.check(&check.inside("ground"))?;
         self.view.check(&check.inside("view"))?;
 
-        let leaves: u64 = self.sources.iter().map(|source| u64::from(source.count)).sum();
+        let on_trees: u64 = self.trees.iter().map(|tree| u64::from(tree.leaves)).sum();
+        check.holds(on_trees <= u64::from(MAX_TREE_LEAVES), "trees", || {
+            (format!("{on_trees} leaves"), format!("at most {MAX_TREE_LEAVES} leaves over all trees"))
+        })?;
+        let leaves = on_trees + self.sources.iter().map(|source| u64::from(source.count)).sum::<u64>();
         check.holds(leaves <= u64::from(MAX_LEAVES), "sources", || {
-            (format!("{leaves} leaves"), format!("at most {MAX_LEAVES} leaves over all sources"))
+            (format!("{leaves} leaves"), format!("at most {MAX_LEAVES} leaves over all sources and trees"))
         })?;
         self.check_species_names(&check)?;
         self.check_trees(&check)?;

@@ -28,6 +28,8 @@ const SPREAD_DEG: f64 = 15.0;
 const DROOP: f64 = 0.3;
 /// How far a leaf's upper side turns from the twig's end towards the sky.
 const SKYWARD: f64 = 1.5;
+/// Fewest leaves of a seedling.
+const FEWEST: f64 = 2.0;
 /// Growth at which fruit are ripe enough to be there.
 const FRUIT_GROWTH: f64 = 0.6;
 
@@ -38,24 +40,32 @@ pub(crate) fn full_count(
     settings: &Settings,
     leaf_area_index: f64,
 ) -> f64 {
-    let mut points: Vec<DVec2> = Vec::new();
+    if !bears_leaves(shoots) {
+        return 0.0;
+    }
+    let (mut points, mut twigs_m): (Vec<DVec2>, f64) = (Vec::new(), 0.0);
     for segment in grown.iter().filter(|segment| leafiness(segment, shoots) > 0.0) {
         points.push(DVec2::new(segment.start_m.x, segment.start_m.z));
         points.push(DVec2::new(segment.end_m.x, segment.end_m.z));
-    }
-    if points.is_empty() {
-        return 0.0;
+        twigs_m += segment.length_m;
     }
     let (area, edge) = hull(points);
-    let reach_m = settings.leaf_area_m2.sqrt();
+    // The leaves of a seedling are no longer than itself.
+    let reach_m = settings.leaf_area_m2.sqrt().min(twigs_m);
     let ground_m2 = area + edge * reach_m + std::f64::consts::PI * reach_m * reach_m;
-    (leaf_area_index * ground_m2 / settings.leaf_area_m2).round().max(1.0)
+    (leaf_area_index * ground_m2 / settings.leaf_area_m2).round().max(FEWEST)
+}
+
+/// Whether there will ever be leaves.
+fn bears_leaves(shoots: &[Shoot]) -> bool {
+    shoots.iter().any(|shoot| shoot.leaves > 0.0)
 }
 
 /// Leaves for a segment compared with others.
 fn leafiness(segment: &Grown, shoots: &[Shoot]) -> f64 {
     let young = 1.0 - segment.growth;
-    shoots[segment.shoot].leaves.max(young * young * young) * segment.length_m
+    let cube = young * young * young;
+    shoots[segment.shoot].leaves.max(cube * cube) * segment.length_m
 }
 
 /// What the tree bears: at most `most` leaves, and at most so many fruit.
@@ -68,8 +78,7 @@ pub(crate) fn attachments(
     draws: impl Fn(u32, u32) -> Draws,
 ) -> Vec<Attachment> {
     let mut attachments = Vec::new();
-    let bears_leaves = shoots.iter().any(|shoot| shoot.leaves > 0.0);
-    if bears_leaves {
+    if bears_leaves(shoots) {
         let weights = grown.iter().map(|segment| leafiness(segment, shoots)).collect::<Vec<_>>();
         let counts = shares(&weights, full_count.min(f64::from(most)));
         for ((index, segment), count) in (0u32..).zip(grown).zip(counts) {

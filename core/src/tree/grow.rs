@@ -1,22 +1,23 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Grows a tree of a scene: from its kind's grammar to its skeleton.
+//! Grows a tree of a scene: from its kind's grammar or file to its skeleton.
 
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 use thiserror::Error;
 
-use super::crown;
+use super::gltf::GltfError;
 use super::grammar::{Draws, Grammar, GrammarError};
 use super::growth::{self, Grown};
 use super::skeleton::{Segment, Skeleton, SkeletonError};
 use super::turtle::{self, Shoot, rotated};
+use super::{crown, from_file};
 use crate::scene::{Tree, TreeForm, TreeKind};
 
 /// Lowest full-grown tree in the grammar's unit.
 const LOWEST: f64 = 1e-6;
 
 /// A tree that cannot grow.
-#[derive(Clone, Debug, Error, PartialEq)]
+#[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum TreeError {
     /// The grammar of its kind is wrong, or leads past a limit.
@@ -37,53 +38,63 @@ pub enum TreeError {
         /// What is wrong.
         source: SkeletonError,
     },
-    /// A kind that is not grown but read from a file.
-    #[error("tree kind '{kind}' does not grow: its form is the file '{path}'")]
+    /// A kind that is a file which cannot be used.
+    #[error("tree kind '{kind}': {source}")]
     File {
         /// Name of the kind.
         kind: String,
+        /// What is wrong.
+        source: Box<GltfError>,
+    },
+    /// A kind that is a file of a tree without height, of which a height was asked.
+    #[error(
+        "tree kind '{kind}': the tree in '{file}' has no height; allowed: a tree above its foot, or no height_m"
+    )]
+    Flat {
+        /// Name of the kind.
+        kind: String,
         /// The file.
-        path: String,
+        file: String,
     },
 }
 
 /// The skeleton of a tree in its own frame: foot at the origin, y up, turned by its heading.
 ///
-/// Pure: the same kind, tree and seed give the same bits on every machine.
+/// The same kind, tree and seed give the same bits on every machine, as long as a file that the kind names stays the
+/// same.
 ///
 /// # Errors
-/// [`TreeError`] for a kind that does not grow.
+/// [`TreeError`] for a kind that does not grow, or a file that cannot be used.
 pub fn grow(kind: &TreeKind, tree: &Tree, seed: u64) -> Result<Skeleton, TreeError> {
-    let plan = Plan::new(kind, tree, seed)?;
-    let grown = plan.grown(tree);
-    let full_count = plan.full_leaf_count(&grown, kind);
-    let settings = plan.grammar.settings();
-    let draws = |step, index| Draws::new(seed, tree.number, step, index);
-    let mut attachments = crown::attachments(&grown, &plan.shoots, settings, full_count, tree.leaves, draws);
-
-    let radians = f64::from(tree.heading_deg).to_radians();
-    let turned = |vector: DVec3| rotated(vector, DVec3::Y, radians).as_vec3();
-    let segments = grown.iter().map(|segment| Segment {
-        parent: segment.parent.map(|parent| u32::try_from(parent).expect("at most MAX_SEGMENTS")),
-        start_m: turned(segment.start_m),
-        end_m: turned(segment.end_m),
-        start_radius_m: narrow(segment.start_radius_m),
-        end_radius_m: narrow(segment.end_radius_m),
-        order: plan.shoots[segment.shoot].order,
-    });
-    let segments = segments.collect();
-    for attachment in &mut attachments {
-        attachment.at_m = turned(attachment.at_m.as_dvec3());
-        attachment.direction = turned(attachment.direction.as_dvec3());
-        attachment.normal = turned(attachment.normal.as_dvec3());
-    }
-    let skeleton = Skeleton { segments, attachments };
+    let mut skeleton = match &kind.form {
+        TreeForm::File(file) => from_file::read(kind, file, tree, seed)?.0,
+        TreeForm::Preset(preset) => Plan::new(kind, preset.grammar(), tree, seed)?.skeleton(kind, tree, seed),
+        TreeForm::Grammar(text) => {
+            Plan::new(kind, parsed(kind, text)?, tree, seed)?.skeleton(kind, tree, seed)
+        }
+    };
+    turn(&mut skeleton, tree.heading_deg);
     skeleton.validate().map_err(|source| TreeError::Skeleton {
         kind: kind.name.clone(),
         number: tree.number,
         source,
     })?;
     Ok(skeleton)
+}
+
+/// Turns a tree about the vertical.
+fn turn(skeleton: &mut Skeleton, heading_deg: f32) {
+    let radians = f64::from(heading_deg).to_radians();
+    let turned = |vector: Vec3| rotated(vector.as_dvec3(), DVec3::Y, radians).as_vec3();
+    for segment in &mut skeleton.segments {
+        segment.start_m = turned(segment.start_m);
+        segment.end_m = turned(segment.end_m);
+    }
+    for attachment in &mut skeleton.attachments {
+        attachment.at_m = turned(attachment.at_m);
+        attachment.direction = turned(attachment.direction);
+        attachment.normal = turned(attachment.normal);
+    }
 }
 
 /// Number of segments of a tree by this grammar, without growing all of it.
@@ -101,8 +112,17 @@ pub(crate) fn segments_of(grammar: &Grammar, tree: &Tree, seed: u64) -> Result<u
 /// # Errors
 /// As [`grow`].
 pub fn full_leaf_count(kind: &TreeKind, tree: &Tree, seed: u64) -> Result<f64, TreeError> {
-    let plan = Plan::new(kind, tree, seed)?;
+    let grammar = match &kind.form {
+        TreeForm::File(file) => return Ok(from_file::read(kind, file, tree, seed)?.1),
+        TreeForm::Preset(preset) => preset.grammar(),
+        TreeForm::Grammar(text) => parsed(kind, text)?,
+    };
+    let plan = Plan::new(kind, grammar, tree, seed)?;
     Ok(plan.full_leaf_count(&plan.grown(tree), kind))
+}
+
+fn parsed(kind: &TreeKind, text: &str) -> Result<Grammar, TreeError> {
+    Grammar::parse(text).map_err(|source| TreeError::Grammar { kind: kind.name.clone(), source })
 }
 
 /// A full-grown tree before it has a size.
@@ -114,17 +134,27 @@ struct Plan {
 }
 
 impl Plan {
-    fn new(kind: &TreeKind, tree: &Tree, seed: u64) -> Result<Self, TreeError> {
-        let of_kind = |source| TreeError::Grammar { kind: kind.name.clone(), source };
-        let grammar = match &kind.form {
-            TreeForm::Preset(preset) => preset.grammar(),
-            TreeForm::Grammar(text) => Grammar::parse(text).map_err(of_kind)?,
-            TreeForm::File(path) => {
-                return Err(TreeError::File { kind: kind.name.clone(), path: path.clone() });
-            }
-        };
-        let (shoots, scale) = shoots(&grammar, tree, seed).map_err(of_kind)?;
+    fn new(kind: &TreeKind, grammar: Grammar, tree: &Tree, seed: u64) -> Result<Self, TreeError> {
+        let (shoots, scale) = shoots(&grammar, tree, seed)
+            .map_err(|source| TreeError::Grammar { kind: kind.name.clone(), source })?;
         Ok(Self { grammar, shoots, scale })
+    }
+
+    fn skeleton(&self, kind: &TreeKind, tree: &Tree, seed: u64) -> Skeleton {
+        let grown = self.grown(tree);
+        let full_count = self.full_leaf_count(&grown, kind);
+        let draws = |step, index| Draws::new(seed, tree.number, step, index);
+        let settings = self.grammar.settings();
+        let attachments = crown::attachments(&grown, &self.shoots, settings, full_count, tree.leaves, draws);
+        let segments = grown.iter().map(|segment| Segment {
+            parent: segment.parent.map(|parent| u32::try_from(parent).expect("at most MAX_SEGMENTS")),
+            start_m: segment.start_m.as_vec3(),
+            end_m: segment.end_m.as_vec3(),
+            start_radius_m: narrow(segment.start_radius_m),
+            end_radius_m: narrow(segment.end_radius_m),
+            order: self.shoots[segment.shoot].order,
+        });
+        Skeleton { segments: segments.collect(), attachments }
     }
 
     fn grown(&self, tree: &Tree) -> Vec<Grown> {

@@ -5,6 +5,7 @@
 pub mod bark;
 mod crown;
 pub mod forest;
+mod from_file;
 pub mod gltf;
 pub mod grammar;
 mod grow;

@@ -49,7 +49,7 @@ impl TreePreset {
             Self::Maple => 900,
             Self::Birch => 1150,
             Self::Oak => 1150,
-            Self::Bush => 700,
+            Self::Bush => 750,
             Self::Weed => 60,
             Self::BerryBush => 300,
         }
@@ -72,19 +72,20 @@ impl TreePreset {
     /// # Source
     /// Green wood of trees: T. Jackson et al. (2019). Bushes and herbs are estimates.
     pub fn kind(self) -> TreeKind {
-        let (youngs_modulus_gpa, density_kg_m3, leaf_area_index, strength_n) = match self {
-            Self::Maple => (8.4, 721.0, 4.5, 4.0),
-            Self::Birch => (9.9, 801.0, 3.0, 2.5),
-            Self::Oak => (10.5, 865.0, 4.0, 5.0),
-            Self::Bush => (7.0, 850.0, 3.5, 2.5),
-            Self::Weed => (1.0, 900.0, 3.0, 1.0),
-            Self::BerryBush => (5.0, 850.0, 2.5, 1.5),
-        };
+        let (youngs_modulus_gpa, density_kg_m3, anchorage, leaf_area_index, areal_density_kg_m2, strength_n) =
+            match self {
+                Self::Maple => (8.4, 721.0, 0.95, 4.5, 0.29, 4.0),
+                Self::Birch => (9.9, 801.0, 1.5, 3.0, 0.50, 2.5),
+                Self::Oak => (10.5, 865.0, 0.42, 4.0, 0.45, 5.0),
+                Self::Bush => (7.0, 850.0, 2.0, 3.5, 0.25, 2.5),
+                Self::Weed => (1.0, 900.0, 5.0, 3.0, 0.2, 1.0),
+                Self::BerryBush => (5.0, 850.0, 2.0, 2.5, 0.25, 1.5),
+            };
         TreeKind {
             name: self.name().into(),
             form: TreeForm::Preset(self),
-            wood: Wood { youngs_modulus_gpa, density_kg_m3, ..Wood::default() },
-            foliage: Foliage { leaf_area_index, strength_n, ..Foliage::default() },
+            wood: Wood { youngs_modulus_gpa, density_kg_m3, anchorage, ..Wood::default() },
+            foliage: Foliage { leaf_area_index, areal_density_kg_m2, strength_n, ..Foliage::default() },
         }
     }
 }

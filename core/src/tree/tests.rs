@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Trees as a whole: every preset at every age, growth in time, the pipe model, leaves.
 
+mod file;
 mod growth;
 mod leaves;
 mod presets;
@@ -24,6 +25,6 @@ fn grown(preset: TreePreset, tree: &Tree) -> Skeleton {
 }
 
 /// A full-grown tree by this grammar, as high as it says.
-fn grown_by(text: &str, tree: &Tree) -> Skeleton {
+pub(super) fn grown_by(text: &str, tree: &Tree) -> Skeleton {
     grow(&kind(text), tree, SEED).unwrap_or_else(|error| panic!("{text}: {error}"))
 }

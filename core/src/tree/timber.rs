@@ -26,7 +26,7 @@ const LEAST_AXIAL: f64 = 0.01;
 pub struct LeafFacts {
     /// Area of the blade in m².
     pub area_m2: f64,
-    /// Mass in kg.
+    /// Mass in kg when it falls.
     pub mass_kg: f64,
 }
 
@@ -90,7 +90,12 @@ pub(super) fn timber_of(
     let count = leaves.len() as f64;
     let full = f64::from(foliage.leaf_area_index) * crown_m2 / leaf.area_m2.max(1e-9);
     let leaves_each = if count > 0.0 { (full / count).max(1.0) } else { 0.0 };
-    let leaf_mass = leaves_each * leaf.mass_kg;
+    let leaf_mass = leaves_each * leaf.area_m2 * f64::from(foliage.areal_density_kg_m2);
+
+    let trunk = &skeleton.segments[0];
+    let anchor = f64::from(wood.anchorage) * young * area_moment(f64::from(trunk.start_radius_m))
+        / f64::from(skeleton.height_m()).max(1e-3);
+    drafts[0].bending = 1.0 / (1.0 / drafts[0].bending + 1.0 / anchor);
 
     let outboard = outboard_of(skeleton, &drafts, leaf_mass);
     let sway_hz = sway_frequency(skeleton, &drafts, &outboard, leaf_mass);
@@ -160,7 +165,7 @@ fn draft_of(segment: &Segment, parent: Option<(&Segment, &Draft)>, young: f64, d
     let flexibility = |segment: &Segment, share: f64| {
         let (a, b) = (f64::from(segment.start_radius_m), f64::from(segment.end_radius_m));
         let radius = a + (b - a) * share;
-        0.5 * f64::from(segment.length_m()) / (young * 0.25 * PI * radius * radius * radius * radius)
+        0.5 * f64::from(segment.length_m()) / (young * area_moment(radius))
     };
     let bending =
         1.0 / (flexibility(segment, 0.25) + parent.map_or(0.0, |(parent, _)| flexibility(parent, 0.75)));
@@ -176,6 +181,11 @@ fn draft_of(segment: &Segment, parent: Option<(&Segment, &Draft)>, young: f64, d
         leaves: 0,
         bending,
     }
+}
+
+/// Second moment of area of a round section in m⁴.
+fn area_moment(radius: f64) -> f64 {
+    0.25 * PI * radius * radius * radius * radius
 }
 
 /// Ground area beneath the leaves, or beneath the twigs of a tree that bears none: of the disc in which evenly spread

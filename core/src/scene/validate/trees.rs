@@ -19,6 +19,7 @@ impl Scene {
     /// Kinds and trees, each on its own.
     pub(super) fn check_trees(&self, check: &Check<'_>) -> Result<(), SceneError> {
         check.numbers([("autumn", self.autumn.into(), limits::AUTUMN)])?;
+        check.numbers([("regrow_after_s", self.regrow_after_s, limits::REGROW_AFTER_S)])?;
         check.length("tree_kinds", self.tree_kinds.len(), 0, MAX_TREE_KINDS)?;
         check.length("trees", self.trees.len(), 0, MAX_TREES)?;
         for (index, kind) in self.tree_kinds.iter().enumerate() {
@@ -148,6 +149,7 @@ impl Wood {
             ("density_kg_m3", self.density_kg_m3.into(), limits::DENSITY_KG_M3),
             ("damping", self.damping.into(), limits::DAMPING),
             ("drag", self.drag.into(), limits::WOOD_DRAG),
+            ("anchorage", self.anchorage.into(), limits::ANCHORAGE),
         ])
     }
 }
@@ -156,6 +158,7 @@ impl Foliage {
     fn check(&self, at: &Check<'_>) -> Result<(), SceneError> {
         at.numbers([
             ("leaf_area_index", self.leaf_area_index.into(), limits::LEAF_AREA_INDEX),
+            ("areal_density_kg_m2", self.areal_density_kg_m2.into(), limits::LEAF_DENSITY_KG_M2),
             ("drag", self.drag.into(), limits::LEAF_DRAG),
             ("yield_m_s", self.yield_m_s.into(), limits::YIELD_M_S),
             ("strength_n", self.strength_n.into(), limits::STRENGTH_N),

@@ -4,6 +4,9 @@
 
 use thiserror::Error;
 
+/// Most characters of what an error says was found, and of what is allowed.
+const LONGEST: usize = 300;
+
 /// A place in the text of a grammar.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Position {
@@ -51,7 +54,7 @@ pub enum GrammarError {
 impl GrammarError {
     /// An error in the text.
     pub(crate) fn text(at: Position, found: impl Into<String>, allowed: impl Into<String>) -> Self {
-        Self::Text { at, found: found.into(), allowed: allowed.into() }
+        Self::Text { at, found: shortened(found.into()), allowed: shortened(allowed.into()) }
     }
 
     /// What was found, and what is allowed.
@@ -59,5 +62,13 @@ impl GrammarError {
         let line = self.to_string();
         let (found, allowed) = line.rsplit_once("; allowed: ").expect("every variant says what is allowed");
         (found.to_owned(), allowed.to_owned())
+    }
+}
+
+/// At most [`LONGEST`] characters, for names may be as long as the text.
+fn shortened(text: String) -> String {
+    match text.char_indices().nth(LONGEST) {
+        Some((end, _)) => format!("{}…", &text[..end]),
+        None => text,
     }
 }

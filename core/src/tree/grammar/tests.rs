@@ -159,3 +159,43 @@ fn what_explodes_or_never_ends_is_given_up_soon() {
     // Far above what a slow machine needs.
     assert!(start.elapsed() < Duration::from_secs(20), "{:?}", start.elapsed());
 }
+
+/// The documentation of the language, without the marks of a comment.
+fn documentation() -> String {
+    let text = include_str!("mod.rs").lines().filter_map(|line| line.strip_prefix("//!"));
+    text.map(|line| line.strip_prefix(' ').unwrap_or(line)).collect::<Vec<_>>().join("\n")
+}
+
+#[test]
+fn the_documented_example_grows() {
+    let text = documentation();
+    let example =
+        text.split("```").nth(1).and_then(|block| block.strip_prefix("text\n")).expect("an example");
+    let tree = crate::tree::tests::grown_by(example, &crate::scene::Tree::default());
+    assert!(tree.segments.len() > 20 && tree.attachments.len() > 20, "{} segments", tree.segments.len());
+    assert!((tree.height_m() - 4.0).abs() < 1e-5, "as high as it says");
+}
+
+#[test]
+fn everything_in_the_language_is_documented() {
+    let text = documentation();
+    for function in super::function::Function::NAMES {
+        assert!(text.contains(&format!("`{function}(")), "{function}");
+    }
+    for command in super::Command::ALL {
+        let symbol = command.symbol().replace('|', "\\|");
+        assert!(text.contains(&format!("`{symbol}")), "{symbol}");
+    }
+    for (name, low, high) in super::Settings::NUMBERS {
+        let row = text.lines().find(|line| line.starts_with(&format!("| `{name}` |"))).expect(name);
+        assert!(row.contains(&format!("| {low} to {high} |")), "{row}");
+        let usual = Grammar::parse("axiom F;").map(|grammar| *grammar.settings()).expect("a valid grammar");
+        let mut changed = usual;
+        let given = row.trim_end_matches(" |").rsplit(' ').next().and_then(|number| number.parse().ok());
+        changed.set(name, given.expect("a number at the end of the row"));
+        assert_eq!(changed, usual, "what is otherwise: {row}");
+    }
+    for (name, _) in Phyllotaxis::NAMES {
+        assert!(text.contains(&format!("`{name}`")), "{name}");
+    }
+}

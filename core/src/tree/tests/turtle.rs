@@ -125,13 +125,3 @@ fn what_no_tree_can_be_is_an_error() {
         assert!(source.to_string().starts_with(expected), "{text}\nfound    {source}\nexpected {expected}");
     }
 }
-
-#[test]
-fn files_are_not_grown() {
-    let file = crate::scene::TreeForm::File("oak.glb".into());
-    let error = grow(&crate::scene::TreeKind { form: file, ..kind("") }, &Tree::default(), 1);
-    assert_eq!(
-        error.expect_err("not a grammar").to_string(),
-        "tree kind 'maple' does not grow: its form is the file 'oak.glb'"
-    );
-}

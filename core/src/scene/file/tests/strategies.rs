@@ -186,16 +186,18 @@ prop_compose! {
         ],
         (youngs_modulus_gpa, density_kg_m3) in
             (within(limits::YOUNGS_MODULUS_GPA), within(limits::DENSITY_KG_M3)),
-        (damping, wood_drag) in (within(limits::DAMPING), within(limits::WOOD_DRAG)),
+        (damping, wood_drag, anchorage) in
+            (within(limits::DAMPING), within(limits::WOOD_DRAG), within(limits::ANCHORAGE)),
         species in option::of(Just(String::new())),
         (leaf_area_index, leaf_drag) in (within(limits::LEAF_AREA_INDEX), within(limits::LEAF_DRAG)),
-        (yield_m_s, strength_n) in (within(limits::YIELD_M_S), within(limits::STRENGTH_N)),
+        (yield_m_s, strength_n, areal_density_kg_m2) in
+            (within(limits::YIELD_M_S), within(limits::STRENGTH_N), within(limits::LEAF_DENSITY_KG_M2)),
     ) -> TreeKind {
         TreeKind {
             name,
             form,
-            wood: Wood { youngs_modulus_gpa, density_kg_m3, damping, drag: wood_drag },
-            foliage: Foliage { species, leaf_area_index, drag: leaf_drag, yield_m_s, strength_n },
+            wood: Wood { youngs_modulus_gpa, density_kg_m3, damping, drag: wood_drag, anchorage },
+            foliage: Foliage { species, leaf_area_index, areal_density_kg_m2, drag: leaf_drag, yield_m_s, strength_n },
         }
     }
 }
@@ -223,7 +225,7 @@ prop_compose! {
         mut species in vec(species(), 1..5),
         mut sources in vec(source(), 1..=MAX_SOURCES),
         (mut tree_kinds, mut trees) in (vec(tree_kind(), 0..4), vec(tree(), 0..6)),
-        autumn in within(limits::AUTUMN),
+        (autumn, regrow_after_s) in (within(limits::AUTUMN), maybe(limits::REGROW_AFTER_S)),
         wind in wind(),
         ground in (-4.0f32..=4.0, within(limits::FRICTION))
             .prop_map(|(height_m, friction)| Ground { height_m, friction }),
@@ -248,7 +250,7 @@ prop_compose! {
             tree.kind.clone_from(&kind.name);
         }
         Scene {
-            name, seed, dt_s, fall_speed, rotation_speed, species, sources, tree_kinds, trees, autumn, wind, ground,
+            name, seed, dt_s, fall_speed, rotation_speed, species, sources, tree_kinds, trees, autumn, regrow_after_s, wind, ground,
             view,
         }
     }

@@ -158,3 +158,17 @@ fn limits_of_the_text_give_the_count_reached() {
         assert!(error.contains(expected), "{error}");
     }
 }
+
+#[test]
+fn errors_stay_short_whatever_the_names() {
+    let name = "x".repeat(60_000);
+    for text in [
+        format!("axiom {name};"),
+        format!("{name} = 1;"),
+        format!("axiom F({name});"),
+        format!("axiom F; {name} F;"),
+    ] {
+        let error = Grammar::parse(&text).expect_err("unknown").to_string();
+        assert!(error.chars().count() < 700 && !error.contains('\n'), "{} characters", error.len());
+    }
+}

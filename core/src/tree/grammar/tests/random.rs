@@ -176,8 +176,8 @@ proptest! {
         match grow(&kind(text.clone()), &tree, seed) {
             Ok(skeleton) => {
                 prop_assert_eq!(skeleton.validate(), Ok(()), "{}", text);
-                let again = grow(&kind(text.clone()), &tree, seed);
-                prop_assert_eq!(again.as_ref(), Ok(&skeleton), "{}", text);
+                let again = grow(&kind(text.clone()), &tree, seed).ok();
+                prop_assert_eq!(again.as_ref(), Some(&skeleton), "{}", text);
             }
             Err(TreeError::Grammar { .. } | TreeError::Skeleton { .. }) => {}
             Err(other) => prop_assert!(false, "{text}: {other}"),

@@ -1,0 +1,125 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Tier 0: whole trees sway as fast, and come to rest as soon, as measured ones do.
+
+use windfall_core::Scene;
+use windfall_core::scene::{MeanSpeed, Profile, Tree};
+use windfall_core::tree::forest::Seedling;
+use windfall_core::tree::{Branches, Forest, LeafFacts, grow};
+use windfall_tests::stand::Grove;
+
+const DT_S: f32 = 1.0 / 60.0;
+
+/// A preset tree by itself, as a scene with default species plants it.
+fn tree(kind: &str, height_m: f32, number: u32) -> Grove {
+    let scene = Scene::default();
+    let tree = Tree { kind: kind.into(), height_m: Some(height_m), number, leaves: 2000, ..Tree::default() };
+    let kind = scene.tree_kind(kind).expect("a preset");
+    let skeleton = grow(&kind, &tree, 1).expect("presets grow");
+    let leaf = LeafFacts { area_m2: 0.0035, mass_kg: 2.5e-4 };
+    let seedling =
+        Seedling { skeleton: skeleton.into(), kind, leaf, foot_m: glam::Vec3::ZERO, leaf_slots: 0 };
+    Grove::new(vec![seedling], DT_S)
+}
+
+/// Frequency in Hz and share of critical damping of a tree that is pulled over by a steady wind and let go.
+fn pull_and_release(mut grove: Grove, speed_m_s: f32) -> (f64, f64) {
+    grove.blow(|scene| {
+        scene.wind.speed = MeanSpeed::MetresPerSecond(speed_m_s);
+        scene.wind.direction_deg = 0.0;
+        scene.wind.profile = Profile::Power { exponent: 0.22 };
+        scene.wind.gusts.strength = 0.0;
+    });
+    for _ in 0..1200 {
+        grove.step();
+    }
+    grove.blow(|scene| scene.wind.speed = MeanSpeed::MetresPerSecond(0.0));
+    let rest = middle(&grove.forest, &grove.forest.at_rest());
+    let mut track: Vec<f64> = Vec::new();
+    for _ in 0..1800 {
+        grove.step();
+        track.push(middle(&grove.forest, &grove.branches) - rest);
+    }
+    let extremes = |is_peak: fn(&[f64]) -> bool| -> Vec<usize> {
+        track.windows(3).enumerate().filter(|(_, three)| is_peak(three)).map(|(at, _)| at + 1).collect()
+    };
+    let peaks = extremes(|three| three[1] > three[0] && three[1] >= three[2]);
+    let troughs = extremes(|three| three[1] < three[0] && three[1] <= three[2]);
+    let period_s = (peaks[1] - peaks[0]) as f64 * f64::from(DT_S);
+    // From peak to trough, so that it does not matter about which pose the tree sways.
+    let swing = |number: usize| track[peaks[number]] - track[troughs[number]];
+    let decrement = (swing(0) / swing(1)).ln();
+    (1.0 / period_s, decrement / (decrement * decrement + std::f64::consts::TAU.powi(2)).sqrt())
+}
+
+/// How far to the side the wood is on average, by mass, in m.
+fn middle(forest: &Forest, branches: &Branches) -> f64 {
+    let rows = forest.timber().iter().zip(&branches.base);
+    let (sum, mass) = rows.fold((0.0, 0.0), |(sum, mass), (timber, base)| {
+        let own = f64::from(timber.mass);
+        (sum + own * f64::from(base[0]), mass + own)
+    });
+    sum / mass
+}
+
+/// Measured trees of this height sway at 0.20 to 0.24 Hz (see `data/tree_sway_frequencies.csv`); 0.15 to 0.30 Hz is what
+/// is asked for. Without leaves they sway 10 to 25 % faster, and die down more slowly.
+fn sways_like_a_real_one(kind: &str, height_m: f32, number: u32) {
+    let mut leafy = tree(kind, height_m, number);
+    leafy.put_on_leaves();
+    let (hz, damping) = pull_and_release(leafy, 6.0);
+    let (bare_hz, bare_damping) = pull_and_release(tree(kind, height_m, number), 6.0);
+    let told = format!(
+        "{kind} of {height_m} m, number {number}: {hz:.3} Hz, {damping:.3} of critical; bare {bare_hz:.3} Hz, \
+         {bare_damping:.3}"
+    );
+    println!("{told}");
+    assert!((0.15..=0.30).contains(&hz), "{told}");
+    assert!((0.04..=0.12).contains(&damping), "{told}");
+    assert!((1.10..=1.25).contains(&(bare_hz / hz)), "{told}");
+    assert!(bare_damping < damping, "{told}");
+}
+
+#[test]
+fn maples_sway_like_measured_trees() {
+    for (height_m, number) in [(15.0, 0), (20.0, 1), (25.0, 0)] {
+        sways_like_a_real_one("maple", height_m, number);
+    }
+}
+
+#[test]
+fn birches_sway_like_measured_trees() {
+    for (height_m, number) in [(15.0, 0), (20.0, 1), (25.0, 0)] {
+        sways_like_a_real_one("birch", height_m, number);
+    }
+}
+
+#[test]
+fn oaks_sway_like_measured_trees() {
+    for (height_m, number) in [(15.0, 0), (20.0, 1), (25.0, 0)] {
+        sways_like_a_real_one("oak", height_m, number);
+    }
+}
+
+/// The mean of the field measurements that the range above is about lies in it.
+#[test]
+fn the_measurements_are_in_the_range() {
+    let text = include_str!("../data/tree_sway_frequencies.csv");
+    let field =
+        text.lines().filter(|line| line.starts_with("Jackson2019 field,\"") && line.contains("Wytham"));
+    let mut count = 0;
+    for line in field {
+        let hz: f64 = line
+            .rsplit('"')
+            .nth(if line.ends_with('"') { 2 } else { 0 })
+            .expect("cells")
+            .split(',')
+            .nth(4)
+            .expect("a frequency")
+            .parse()
+            .expect("a number");
+        assert!((0.15..=0.30).contains(&hz), "{line}");
+        count += 1;
+    }
+    assert_eq!(count, 4, "four kinds of trees in Wytham");
+}
