@@ -78,7 +78,7 @@ pub(crate) fn build(scene: &Scene) -> World {
 /// Steps a world leaf by leaf in a plain loop: the reference for every simulator.
 pub(crate) fn step(world: &mut World, count: u32) {
     for _ in 0..count {
-        let World { environment, clock, leaves } = &mut *world;
+        let World { environment, clock, leaves, branches: _ } = &mut *world;
         let block = environment.step_block(clock);
         let cx = environment.context(&block);
         for slot in 0..leaves.len() {
