@@ -128,7 +128,7 @@ fn no_steps_show_the_beginning() {
 #[test]
 fn the_whole_scene_is_the_default() {
     let report = simulate(&["--steps", "1", "--threads", "1"]);
-    assert_eq!(report["leaves"]["total"], 17_860, "{report}");
+    assert_eq!(report["leaves"]["total"], 45_600, "{report}");
     let report = simulate(&["six-motions", "--steps", "1", "--backend", "wgpu"]);
     assert_eq!(report["leaves"]["total"], 6, "{report}");
 }

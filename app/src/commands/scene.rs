@@ -4,7 +4,7 @@
 
 use clap::Args;
 use windfall_core::leaf::LEAF_BYTES;
-use windfall_core::scene::{MAX_LEAVES, Release};
+use windfall_core::scene::{MAX_LEAVES, Release, Tree, limits};
 use windfall_core::{Scene, SceneError};
 
 use crate::cli::whole;
@@ -15,10 +15,10 @@ pub const DEFAULT_SCENE: &str = "autumn-park";
 /// The scene to work on.
 #[derive(Clone, Debug, Default, Args)]
 pub struct SceneArguments {
-    /// Preset (autumn-park, six-motions, storm, million) or path of a RON file [default: autumn-park].
+    /// Preset (autumn-park, six-motions, storm, million, forest, gale, hurricane) or path of a RON file [default: autumn-park].
     #[arg(value_name = "SCENE")]
     pub scene: Option<String>,
-    /// Number of leaves; the sources share them as they share those of the scene, at rates that go along.
+    /// Number of leaves; trees and sources share them as they share those of the scene, at rates that go along.
     #[arg(long, value_name = "N", value_parser = whole::<u32, 1, { MAX_LEAVES as u64 }>)]
     pub leaves: Option<u32>,
     /// Seed of everything random, in place of the scene's.
@@ -49,8 +49,8 @@ impl SceneArguments {
     }
 }
 
-/// The scene with `leaves` leaves in total: every source gets its share of them and at least one, and lets them go at
-/// a rate that keeps the time it takes to let go of all.
+/// The scene with `leaves` leaves in total: every tree gets its share of them, as far as it may have so many, and every
+/// source the like and at least one, which it lets go at a rate that keeps the time it takes to let go of all.
 ///
 /// # Errors
 /// [`SceneError::Field`] for fewer leaves than sources, or for rates that are not allowed; `file` names the scene.
@@ -65,7 +65,9 @@ pub fn scaled(scene: &Scene, file: &str, leaves: u32) -> Result<Scene, SceneErro
         });
     }
     let mut scaled = scene.clone();
-    for (source, count) in scaled.sources.iter_mut().zip(shares(&counts, leaves)) {
+    let on_trees = tree_leaves(scene, leaves);
+    share_out(&mut scaled.trees, on_trees);
+    for (source, count) in scaled.sources.iter_mut().zip(shares(&counts, leaves - on_trees)) {
         if let Release::Rate { per_s, .. } = &mut source.release {
             #[expect(clippy::cast_possible_truncation, reason = "scene files hold single precision")]
             let rate = (f64::from(*per_s) * f64::from(count) / f64::from(source.count)) as f32;
@@ -75,6 +77,32 @@ pub fn scaled(scene: &Scene, file: &str, leaves: u32) -> Result<Scene, SceneErro
     }
     scaled.validate(file)?;
     Ok(scaled)
+}
+
+/// How many of `leaves` leaves grow on trees; `leaves` is at least the number of sources.
+fn tree_leaves(scene: &Scene, leaves: u32) -> u32 {
+    let (all, on_trees) = (u64::from(scene.leaf_count()), u64::from(scene.tree_leaf_count()));
+    let Some(largest) = scene.trees.iter().map(|tree| u64::from(tree.leaves)).max().filter(|&most| most > 0)
+    else {
+        return 0;
+    };
+    let allowed = on_trees * u64::from(limits::TREE_LEAVES.high) / largest;
+    let sources = scene.sources.len() as u64;
+    let share = (u64::from(leaves) * on_trees / all).min(allowed).min(u64::from(leaves) - sources);
+    u32::try_from(share).unwrap_or(u32::MAX)
+}
+
+/// Splits `total` leaves among trees in proportion to those that they have; nobody gets more than its share rounded up.
+fn share_out(trees: &mut [Tree], total: u32) {
+    let all: u64 = trees.iter().map(|tree| u64::from(tree.leaves)).sum();
+    let mut before = 0;
+    let mut given = 0;
+    for tree in trees.iter_mut().filter(|tree| tree.leaves > 0) {
+        before += u64::from(tree.leaves);
+        let so_far = before * u64::from(total) / all;
+        tree.leaves = u32::try_from(so_far - given).unwrap_or(u32::MAX);
+        given = so_far;
+    }
 }
 
 /// Splits `total` in proportion to `counts`, rounding by largest remainders; nobody goes empty-handed. `total` is at
@@ -149,13 +177,24 @@ mod tests {
             let all_s = f64::from(source.count) / f64::from(per_s);
             assert!((all_s - 95.0).abs() < 1e-4, "{all_s} s to let go of all");
         }
+        let share = |scene: &Scene| f64::from(scene.tree_leaf_count()) / f64::from(scene.leaf_count());
+        assert!((share(&scaled) / share(&scene) - 1.0).abs() < 0.01, "trees have their share");
+    }
+
+    #[test]
+    fn trees_take_no_more_leaves_than_they_may_have() {
+        let scene = Scene::preset("autumn-park").expect("a preset");
+        for leaves in [u32::try_from(scene.sources.len()).expect("few"), 37, 50_000_000] {
+            let scaled = scaled(&scene, "autumn-park", leaves).expect("allowed");
+            assert_eq!(scaled.leaf_count(), leaves, "as many as asked for");
+        }
     }
 
     #[test]
     fn impossible_numbers_of_leaves_are_refused() {
         let scene = Scene::preset("autumn-park").expect("a preset");
-        let error = scaled(&scene, "autumn-park", 6).expect_err("more sources").to_string();
-        assert!(error.contains("autumn-park") && error.contains("--leaves is 6"), "{error}");
+        let error = scaled(&scene, "autumn-park", 1).expect_err("more sources").to_string();
+        assert!(error.contains("autumn-park") && error.contains("--leaves is 1"), "{error}");
         assert!(error.contains(&format!("{} to 268435456", scene.sources.len())), "{error}");
     }
 }

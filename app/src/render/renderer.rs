@@ -104,7 +104,6 @@ pub struct Renderer {
     trees: Trees,
     litter: Option<Litter>,
     litter_parts: [LeafPart; 1],
-    stand: Stand,
     leaf_parts: Vec<LeafPart>,
     stems: Stems,
     leaf_meshes: LeafMeshes,
@@ -174,7 +173,6 @@ impl Renderer {
             eye_m,
             litter: Litter::new(device, queue, options.litter_count, species_count, center, &shedding),
             litter_parts: [LeafPart::loose(0..options.litter_count)],
-            stand: stand.clone(),
             leaf_parts: LeafPart::of_world(stand, scene.leaf_count(), eye_m),
             stems: Stems::new(device, queue, stand),
             leaf_meshes: LeafMeshes::new(device, queue, stand),
@@ -232,10 +230,12 @@ impl Renderer {
         }
     }
 
-    /// Takes over another number of leaves.
-    pub fn update_leaf_count(&mut self, leaf_count: u32) {
+    /// Takes over another number of leaves, with the same trees bearing other shares of them.
+    pub fn update_leaves(&mut self, stand: &Stand, leaf_count: u32) {
         self.leaf_count = leaf_count;
-        self.leaf_parts = LeafPart::of_world(&self.stand, leaf_count, self.eye_m);
+        self.stems = Stems::new(&self.device, &self.queue, stand);
+        self.leaf_meshes = LeafMeshes::new(&self.device, &self.queue, stand);
+        self.leaf_parts = LeafPart::of_world(stand, leaf_count, self.eye_m);
         self.make_trails(self.trail_pass.as_ref().map_or(0.0, TrailPass::trail_s));
     }
 

@@ -16,6 +16,7 @@ use super::tuning::Tuning;
 use crate::backend::{Backend, BackendKind, Columns, Device};
 use crate::commands::scene::{check_memory, scaled};
 use crate::render::GpuTimer;
+use crate::trees::Stand;
 
 /// Time between two counts of all leaves: counting waits for the device.
 const COUNT_EVERY: Duration = Duration::from_millis(250);
@@ -228,6 +229,11 @@ impl Session {
             Backend::Cpu(_) => BackendKind::Cpu,
             Backend::Wgpu(_) => BackendKind::Wgpu,
         }
+    }
+
+    /// The trees as they are drawn.
+    pub(super) fn stand(&self) -> Stand {
+        Stand::of(&self.scene, self.environment.forest())
     }
 
     /// The scene as it is now.

@@ -41,7 +41,7 @@ impl Viewer {
             Wish::Leaves(count) => {
                 let done = format!("Begun again with {} leaves; the camera stays.", grouped(count));
                 self.try_to(Some(done), |session| session.set_leaves(count))?;
-                self.renderer.update_leaf_count(self.session.leaf_count());
+                self.renderer.update_leaves(&self.session.stand(), self.session.leaf_count());
             }
             Wish::Backend(kind) => {
                 let name = if kind == BackendKind::Cpu { "cpu" } else { "wgpu" };
