@@ -4,7 +4,7 @@
 
 use windfall_core::scene::SwayScheme;
 use windfall_core::{Contract, Scene, Simulator, World};
-use windfall_cpu::{CpuOptions, CpuSimulator};
+use windfall_cpu::{CpuOptions, CpuSimulator, Simd};
 use windfall_tests::adapter;
 use windfall_tests::compare::{Difference, difference};
 use windfall_tests::strategies::wooded_scene;
@@ -111,6 +111,17 @@ fn the_number_of_threads_changes_nothing() {
         let several = on_cpu(&world, 300, CpuOptions { threads: Some(threads), ..CpuOptions::default() });
         assert_eq!(difference(&one, &several), Difference::default(), "{threads} threads");
         assert_eq!(one.state_hash(), several.state_hash(), "{threads} threads");
+    }
+}
+
+#[test]
+fn every_instruction_set_gives_the_same_bits() {
+    let world = world();
+    let scalar = on_cpu(&world, 200, CpuOptions { simd: Some(Simd::Scalar), ..CpuOptions::default() });
+    for simd in Simd::available() {
+        let lanes = on_cpu(&world, 200, CpuOptions { simd: Some(simd), ..CpuOptions::default() });
+        assert_eq!(difference(&scalar, &lanes), Difference::default(), "{simd:?}");
+        assert_eq!(scalar.state_hash(), lanes.state_hash(), "{simd:?}");
     }
 }
 

@@ -39,7 +39,7 @@ const FALL_DELAY: f64 = 0.12;
 /// Logarithm of what the strength loses in autumn.
 const WEAKENING: f64 = 6.0;
 /// Distance from the petiole's base to the blade's middle per diameter of the disc with the blade's area.
-const REACH_SHARE: f64 = 1.0;
+const REACH_SHARE: f64 = 0.82;
 /// Most times its own area that a leaf on a twig is drawn with, standing for others.
 const LARGEST_CLUSTER: f64 = 16.0;
 /// Random words of a leaf site.

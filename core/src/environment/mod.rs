@@ -13,7 +13,7 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use self::convert::{float4, len32, low_word, q16, single, steps};
+use self::convert::{float4, len32, q16, single, steps, word};
 pub(crate) use self::foliage::leaf_site;
 use self::foliage::{foliage_of, petiole_rows, seedlings, shed_rows};
 pub(crate) use self::source::{lifetime_steps, release_step};
@@ -252,7 +252,7 @@ fn compile_block(scene: &Scene, tables: &[MotionTables], first_petiole: u32) -> 
     block.crowns = Uint4([
         scene.tree_leaf_count(),
         first_petiole,
-        low_word((4_294_967_296.0 * f64::from(FLUTTER_HZ) * dt) as i64),
+        word(4_294_967_296.0 * f64::from(FLUTTER_HZ) * dt),
         scheme(scene),
     ]);
     block

@@ -107,7 +107,7 @@ pub struct Wood {
     pub density_kg_m3: f32,
     /// Damping of the wood itself at the main sway, as a share of critical, 0 to 1.
     pub damping: f32,
-    /// Drag coefficient of bare branches, 0 to 3.
+    /// Drag coefficient of bare branches, 0 to 3: about 1 of a single one, less of many that shelter each other.
     pub drag: f32,
     /// Stiffness with which roots and soil hold the foot, relative to the trunk's own, that is E I at the foot over the
     /// tree's height: 0.01 to 1000000. Soil that yields about as much as the trunk slows the sway of real trees to less
@@ -117,7 +117,7 @@ pub struct Wood {
 
 impl Default for Wood {
     fn default() -> Self {
-        Self { youngs_modulus_gpa: 9.5, density_kg_m3: 800.0, damping: 0.03, drag: 1.0, anchorage: 1.0 }
+        Self { youngs_modulus_gpa: 9.5, density_kg_m3: 800.0, damping: 0.03, drag: 0.5, anchorage: 1.0 }
     }
 }
 
