@@ -10,7 +10,7 @@ use std::time::Duration;
 
 use criterion::measurement::WallTime;
 use criterion::{BenchmarkGroup, BenchmarkId, Criterion, SamplingMode, Throughput};
-use windfall_benches::{contenders, time_steps, woods, world};
+use windfall_benches::{WARM_UP_STEPS, YOUNG, contenders, time_steps, woods, world};
 use windfall_core::{Simulator, World};
 use windfall_cpu::{CpuOptions, CpuSimulator};
 
@@ -33,7 +33,9 @@ fn simulators(world: &World) -> Vec<(&'static str, Box<dyn Simulator>)> {
     let mut all: Vec<_> =
         contenders(world).into_iter().map(|simulator| (simulator.info().backend, simulator)).collect();
     let one = CpuOptions { threads: Some(1), ..CpuOptions::default() };
-    all.push(("one-thread", Box::new(CpuSimulator::new(world, one).expect("a thread can be started"))));
+    let mut single = CpuSimulator::new(world, one).expect("a thread can be started");
+    single.step(WARM_UP_STEPS).expect("the CPU steps");
+    all.push(("one-thread", Box::new(single)));
     all
 }
 
@@ -49,7 +51,7 @@ fn is_sound(before: &World, simulator: &mut dyn Simulator) {
 fn sway(criterion: &mut Criterion) {
     let mut group = group(criterion, "sway");
     for trees in [10, 100, 1000] {
-        let world = world(&woods(trees, 0));
+        let world = world(&woods(trees, YOUNG, 0));
         let segments = world.branches.len();
         let mean = segments / usize::from(trees);
         assert!((400..600).contains(&mean), "trees have {mean} segments");
@@ -68,8 +70,9 @@ fn carry(criterion: &mut Criterion) {
     let mut group = group(criterion, "carry");
     group.throughput(Throughput::Elements(LEAVES.into()));
     for (kind, leaves) in [("bare", 0), ("in-leaf", LEAVES / u32::from(BEARERS))] {
-        let world = world(&woods(BEARERS, leaves));
-        assert!(world.stats().attached >= leaves * u32::from(BEARERS) / 10 * 9, "leaves hang on the trees");
+        let world = world(&woods(BEARERS, 1.0, leaves));
+        let attached = world.stats().attached;
+        assert!(attached >= leaves * u32::from(BEARERS) / 10 * 9, "{attached} leaves hang on the trees");
         for (name, mut simulator) in simulators(&world) {
             group.bench_function(BenchmarkId::new(kind, name), |bencher| {
                 bencher.iter_custom(|count| time_steps(simulator.as_mut(), count));
@@ -82,7 +85,7 @@ fn carry(criterion: &mut Criterion) {
 
 fn forest(criterion: &mut Criterion) {
     let mut group = group(criterion, "forest");
-    let scene = woods(FOREST, 100);
+    let scene = woods(FOREST, YOUNG, 100);
     let built = world(&scene);
     assert_eq!(built.state_hash(), world(&scene).state_hash(), "the same forest every time");
     group.throughput(Throughput::Elements(built.branches.len() as u64));

@@ -87,9 +87,9 @@ pub fn resting(leaves: u32) -> Scene {
     scene
 }
 
-/// A square of so many young trees in a fresh breeze: about five hundred segments each, with `leaves`
-/// leaves on every tree and none in the air or ever to be shed.
-pub fn woods(trees: u16, leaves: u32) -> Scene {
+/// A square of so many maples, birches and oaks of an age, in a fresh breeze, with `leaves` leaves on every tree, if it has
+/// as many, and none in the air or about to be shed.
+pub fn woods(trees: u16, age: f32, leaves: u32) -> Scene {
     let mut scene = Scene::preset("forest").expect("a preset");
     let side = f32::from(trees).sqrt().ceil();
     scene.sources.clear();
@@ -99,9 +99,9 @@ pub fn woods(trees: u16, leaves: u32) -> Scene {
         .map(|number| {
             let (row, column) = ((f32::from(number) / side).floor(), f32::from(number) % side);
             Tree {
-                kind: ["maple", "birch", "oak"][usize::from(number % 3)].into(),
+                kind: ["maple", "birch", "maple", "oak"][usize::from(number % 4)].into(),
                 at_m: [8.0 * (column - 0.5 * side), 8.0 * (row - 0.5 * side)],
-                age: WOODS_AGE,
+                age,
                 number: number.into(),
                 leaves,
                 ..Tree::default()
@@ -111,8 +111,8 @@ pub fn woods(trees: u16, leaves: u32) -> Scene {
     scene
 }
 
-/// Age at which maples, birches and oaks have about five hundred segments.
-const WOODS_AGE: f32 = 0.4;
+/// Age at which the trees of [`woods`] have about five hundred segments.
+pub const YOUNG: f32 = 0.4;
 
 /// A world of a scene.
 ///
