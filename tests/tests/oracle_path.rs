@@ -8,6 +8,7 @@ use common::{attitude, build, many_species, position, step, still_air, uniform, 
 use glam::Vec3;
 use windfall_core::World;
 use windfall_core::leaf::record::{SPECIES_MASK, SPECIES_SHIFT, STAGE_MASK, STAGE_SHIFT};
+use windfall_core::leaf::release::leaf_release;
 use windfall_core::leaf::seek::leaf_seek;
 use windfall_core::leaf::{LeafState, Leaves};
 use windfall_core::motion::MotionConstants;
@@ -108,7 +109,10 @@ fn stepping_equals_seeking() {
             elapsed += more;
             for slot in 0..LEAVES {
                 let id = world.leaves.identity[slot].id;
-                leaf_seek(&cx, &mut sought.as_mut().leaf_mut(slot), id, 0, 0, elapsed);
+                let mut columns = sought.as_mut();
+                let mut leaf = columns.leaf_mut(slot);
+                leaf_release(&cx, &mut leaf, id, 0, 0);
+                leaf_seek(&cx, &mut leaf, elapsed);
                 let (here, there) = (world.leaves.place[slot], sought.place[slot]);
                 if here.state() != LeafState::Falling || there.state() != LeafState::Falling {
                     continue;
