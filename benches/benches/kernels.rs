@@ -111,7 +111,7 @@ fn functions(criterion: &mut Criterion) {
     let mut group = group(criterion, "function");
     group.throughput(Throughput::Elements(CALLS as u64)).sampling_mode(SamplingMode::Auto);
     // What the functions meet in a step: falling leaves of all species, in wind with two vortices.
-    let World { environment, clock, leaves } = world(&scaled("storm", 1000));
+    let World { environment, clock, leaves, .. } = world(&scaled("storm", 1000));
     let block = environment.step_block(&clock);
     let cx = environment.context(&block);
     let flying = |&slot: &usize| leaves.place[slot].state() == LeafState::Falling;

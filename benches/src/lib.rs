@@ -5,7 +5,7 @@
 use std::sync::OnceLock;
 use std::time::{Duration, Instant};
 
-use windfall_core::scene::{Release, SourceShape};
+use windfall_core::scene::{MeanSpeed, Release, SourceShape, Tree};
 use windfall_core::{Contract, Scene, Simulator, World};
 use windfall_cpu::{CpuOptions, CpuSimulator};
 use windfall_wgpu::{Gpu, WgpuOptions, WgpuSimulator, describe_adapter};
@@ -86,6 +86,33 @@ pub fn resting(leaves: u32) -> Scene {
     }
     scene
 }
+
+/// A square of so many maples, birches and oaks of an age, in a fresh breeze, with `leaves` leaves on every tree, if it has
+/// as many, and none in the air or about to be shed.
+pub fn woods(trees: u16, age: f32, leaves: u32) -> Scene {
+    let mut scene = Scene::preset("forest").expect("a preset");
+    let side = f32::from(trees).sqrt().ceil();
+    scene.sources.clear();
+    scene.autumn = 0.0;
+    scene.wind.speed = MeanSpeed::MetresPerSecond(8.0);
+    scene.trees = (0..trees)
+        .map(|number| {
+            let (row, column) = ((f32::from(number) / side).floor(), f32::from(number) % side);
+            Tree {
+                kind: ["maple", "birch", "maple", "oak"][usize::from(number % 4)].into(),
+                at_m: [8.0 * (column - 0.5 * side), 8.0 * (row - 0.5 * side)],
+                age,
+                number: number.into(),
+                leaves,
+                ..Tree::default()
+            }
+        })
+        .collect();
+    scene
+}
+
+/// Age at which the trees of [`woods`] have about five hundred segments.
+pub const YOUNG: f32 = 0.4;
 
 /// A world of a scene.
 ///

@@ -12,6 +12,9 @@ pub const LONG_POSITION_M: f32 = 1e-4;
 pub const LONG_QUATERNION: f32 = 1e-5;
 /// Units in the last place of the largest operand that one step may differ by under the tolerant contract.
 pub const STEP_ULPS: f32 = 4.0;
+/// Largest difference of a segment's place in metres, and of the components of its orientation, after one step under the
+/// tolerant contract.
+pub const STEP_SEGMENT: f32 = 1e-5;
 
 /// What two worlds differ in.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

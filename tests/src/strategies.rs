@@ -11,25 +11,28 @@ use windfall_core::scene::{
 };
 
 use crate::functions::Input;
-use crate::runner::Words;
+use crate::runner::{NO_WORDS, Words};
 
 /// Cases for a function: every word as its input says.
 pub fn cases(inputs: &'static [Input], count: usize) -> impl Strategy<Value = Vec<Words>> {
-    proptest::collection::vec(proptest::array::uniform8(any::<u32>()), count)
-        .prop_map(move |cases| cases.iter().map(|raw| shape(inputs, raw)).collect())
+    let width: usize = inputs.iter().map(|input| input.width()).sum();
+    assert!(width <= NO_WORDS.len(), "a case holds {} words", NO_WORDS.len());
+    proptest::collection::vec(any::<u32>(), count * width)
+        .prop_map(move |raw| raw.chunks_exact(width).map(|raw| shape(inputs, raw)).collect())
 }
 
-fn shape(inputs: &[Input], raw: &Words) -> Words {
-    let mut words = Words::default();
+fn shape(inputs: &[Input], raw: &[u32]) -> Words {
+    let mut words = NO_WORDS;
+    let inputs = inputs.iter().flat_map(|input| std::iter::repeat_n(*input, input.width()));
     for ((word, input), raw) in words.iter_mut().zip(inputs).zip(raw) {
         let unit = f64::from(*raw) / f64::from(u32::MAX);
         #[expect(clippy::cast_possible_truncation, reason = "inputs are single precision")]
         let between =
             |low: f32, high: f32| (f64::from(low) + unit * (f64::from(high) - f64::from(low))) as f32;
-        *word = match *input {
+        *word = match input {
             Input::Word => *raw,
             Input::Below(bound) => raw % bound,
-            Input::Float(low, high) => between(low, high).to_bits(),
+            Input::Float(low, high) | Input::Floats(_, low, high) => between(low, high).to_bits(),
             Input::Scale(low, high) => 10f32.powf(between(low, high)).to_bits(),
         };
     }
@@ -141,7 +144,30 @@ fn f64_as_f32(value: f64) -> f32 {
     value as f32
 }
 
-/// Random scenes: varied ones, with all that can differ drawn at random.
+/// A tree small enough that a world of them is stepped in no time: up to a few hundred segments.
+fn small_tree() -> impl Strategy<Value = Tree> {
+    let kind = prop_oneof![Just(("bush", 0.3)), Just(("weed", 0.5)), Just(("maple", 0.15))];
+    let place = (-20f32..20.0, -20f32..20.0, -180f32..180.0);
+    (kind, 0.8f32..1.2, place, 0u32..1000, 0u32..150).prop_map(
+        |((kind, age), older, (x, z, heading_deg), number, leaves)| Tree {
+            kind: kind.into(),
+            at_m: [x, z],
+            height_m: None,
+            age: age * older,
+            heading_deg,
+            number,
+            leaves,
+        },
+    )
+}
+
+/// No trees half of the time, otherwise a few, in a season, coming into leaf again or not.
+fn woods() -> impl Strategy<Value = (Vec<Tree>, f32, Option<f32>)> {
+    let trees = prop_oneof![Just(Vec::new()), proptest::collection::vec(small_tree(), 1..4)];
+    (trees, 0f32..1.0, proptest::option::of(1f32..6.0))
+}
+
+/// Random scenes: varied ones, with all that can differ drawn at random, and trees in half of them.
 pub fn scenes(leaves: std::ops::Range<u32>) -> impl Strategy<Value = Scene> {
     let numbers = (
         any::<u64>(),
@@ -151,11 +177,12 @@ pub fn scenes(leaves: std::ops::Range<u32>) -> impl Strategy<Value = Scene> {
     );
     let motion = (0.3f32..2.5, 0.2f32..1.5, 0usize..6, 0f32..0.25, 0.05f32..2.0);
     let place = (-200f32..200.0, 0.1f32..1.0, 0usize..3, 0u32..2);
-    (numbers, motion, place)
-        .prop_map(|((seed, leaves, speed, dt), motion, place)| {
+    (numbers, motion, place, woods())
+        .prop_map(|((seed, leaves, speed, dt), motion, place, woods)| {
             let (fall_speed, rotation_speed, start, variation, friction) = motion;
             let (offset, intensity, profile, vortices) = place;
             let mut scene = varied_scene(seed, leaves, speed, dt);
+            (scene.trees, scene.autumn, scene.regrow_after_s) = woods;
             scene.fall_speed = fall_speed;
             scene.rotation_speed = rotation_speed;
             scene.species[0].start = Primitive::ALL[start];

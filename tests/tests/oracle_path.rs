@@ -109,8 +109,10 @@ fn stepping_equals_seeking() {
             elapsed += more;
             for slot in 0..LEAVES {
                 let id = world.leaves.identity[slot].id;
-                leaf_release(&cx, &mut sought.as_mut().leaf_mut(slot), id, 0, 0);
-                leaf_seek(&cx, &mut sought.as_mut().leaf_mut(slot), elapsed);
+                let mut columns = sought.as_mut();
+                let mut leaf = columns.leaf_mut(slot);
+                leaf_release(&cx, &mut leaf, id, 0, 0);
+                leaf_seek(&cx, &mut leaf, elapsed);
                 let (here, there) = (world.leaves.place[slot], sought.place[slot]);
                 if here.state() != LeafState::Falling || there.state() != LeafState::Falling {
                     continue;

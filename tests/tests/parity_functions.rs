@@ -8,9 +8,9 @@ use proptest::prelude::*;
 use proptest::test_runner::{Config, TestRunner};
 use windfall_core::{Contract, World};
 use windfall_tests::adapter;
-use windfall_tests::functions::{FUNCTIONS, Function};
+use windfall_tests::functions::{self, Function};
 use windfall_tests::runner::{FunctionRunner, Words};
-use windfall_tests::strategies::{cases, varied_scene};
+use windfall_tests::strategies::{cases, wooded_scene};
 use windfall_wgpu::{Gpu, Shaders};
 
 /// Cases in one dispatch; not a multiple of the workgroup size.
@@ -19,7 +19,7 @@ const CASES: usize = 1234;
 const ROUNDS: u32 = 6;
 
 fn world() -> World {
-    let mut world = World::build(&varied_scene(5, 300, 6.0, 1.0 / 60.0)).expect("the varied scene is valid");
+    let mut world = World::build(&wooded_scene(5, 300, 6.0, 1.0 / 60.0)).expect("the wooded scene is valid");
     for _ in 0..100 {
         world.clock.advance(&world.environment.clone());
     }
@@ -101,7 +101,7 @@ fn functions_agree_on_every_adapter() {
     let world = world();
     let mut failures = Vec::new();
     for (gpu, contract) in adapter::contracts() {
-        for function in FUNCTIONS {
+        for function in functions::all() {
             if let Err(message) = check(&gpu, contract, &Shaders::default(), function, &world) {
                 failures.push(format!("{} {contract}: {message}", gpu.info().name));
             }
@@ -120,15 +120,91 @@ fn a_changed_twin_is_noticed() {
         ("wind/gust", "row.y - row.x", "row.x - row.y", "wind_gust"),
         ("leaf/settle", "0.5 * seconds", "0.51 * seconds", "slide"),
         ("leaf/release", "<< 17u, extent", "<< 16u, extent", "release_place"),
+        ("kernel/matrix", "a.off - b.off", "a.off + b.off", "sym3_sums"),
+        ("kernel/matrix", "a.diagonal.z * PIVOT_SHARE", "a.diagonal.y * PIVOT_SHARE", "sym3_inverse"),
+        ("kernel/matrix", "a.x.z + a.z.x", "a.x.z + a.x.z", "mat3_times"),
+        ("kernel/quaternion", "y + y", "y + x", "quat_rotate_back"),
+        ("kernel/quaternion", "TURN_ASIN_11 + TURN_ASIN_9", "TURN_ASIN_11 + TURN_ASIN_11", "quat_of_turn"),
+        ("tree/sway/load", "wind, axis)", "wind, wind)", "segment_drag"),
+        ("tree/sway/load", "inertia_along - across", "inertia_along + across", "segment_body"),
+        ("tree/sway/fold", "ahead + STOP_DAMPING", "ahead - STOP_DAMPING", "joint_spring"),
+        ("tree/sway/fold", "body.base - parent.base", "body.base + parent.base", "joint_answer"),
+        ("tree/sway/fold", "cross(arm, body.force)", "cross(body.force, arm)", "articulated_shift"),
+        ("tree/sway/unfold", "- mat3_times", "+ mat3_times", "joint_motion"),
+        ("tree/sway/unfold", "inverse * JOINT_LIMIT", "inverse * JOINT_LIMIT_COSINE", "joint_step"),
+        ("tree/sway/unfold", "cross(parent.spin, arm)", "cross(arm, parent.spin)", "segment_place"),
+        ("leaf/carry", "SHED_SPEEDS - 1u", "SHED_SPEEDS - 9u", "shed_chance"),
     ];
     let world = world();
     for (gpu, contract) in adapter::contracts() {
         for (module, old, new, name) in edits {
             let shaders = Shaders::default().edited(module, old, new).expect("the edited text is there");
             let function =
-                FUNCTIONS.iter().find(|function| function.name == name).expect("a function of the table");
+                functions::all().find(|function| function.name == name).expect("a function of the table");
             let result = check(&gpu, contract, &shaders, function, &world);
-            assert!(result.is_err(), "{name} agrees on {} although {module} says '{new}'", gpu.info().name);
+            let noticed = result.expect_err(new);
+            assert!(noticed.contains(": input "), "{name} differs on {}: {noticed}", gpu.info().name);
         }
     }
+}
+
+/// What only a kernel can be asked for, as it reads or writes records of leaves and segments.
+const RECORDS: [&str; 11] = [
+    "places",
+    "drifts",
+    "attitudes",
+    "courses",
+    "identities",
+    "timber_rows",
+    "branch_rows",
+    "work_rows",
+    "bearings",
+    "carrier_rows",
+    "carried",
+];
+
+/// Names and bodies of the functions of a WGSL text.
+fn bodies(text: &str) -> Vec<(&str, &str)> {
+    let pieces = text.split("\nfn ").skip(1);
+    pieces.filter_map(|piece| Some((piece.split_once('(')?.0, piece.split_once("\n}")?.0))).collect()
+}
+
+/// Whether a text says this word, as `is_call` a call.
+fn says(text: &str, word: &str, is_call: bool) -> bool {
+    let is_part = |character: char| character.is_alphanumeric() || character == '_';
+    text.match_indices(word).any(|(at, _)| {
+        let (before, after) = (&text[..at], &text[at + word.len()..]);
+        !before.ends_with(is_part) && !after.starts_with(is_part) && (!is_call || after.starts_with('('))
+    })
+}
+
+/// Every device function that works on numbers alone is in the table, or called by one that is.
+#[test]
+fn the_table_reaches_every_function_of_numbers() {
+    let shaders = Shaders::default();
+    let names: Vec<_> = shaders.names().filter(|name| !name.starts_with("kernels/")).collect();
+    let all: Vec<_> =
+        names.iter().flat_map(|name| bodies(shaders.text(name).expect("a module of this name"))).collect();
+    assert!(all.len() > 80, "only {} functions found", all.len());
+    let mut reached: Vec<bool> = all
+        .iter()
+        .map(|(name, _)| functions::all().any(|function| says(function.wgsl, name, true)))
+        .collect();
+    let mut on_records: Vec<bool> =
+        all.iter().map(|(_, body)| RECORDS.iter().any(|record| says(body, record, false))).collect();
+    // Calls go at most as deep as there are functions.
+    for _ in 0..all.len() {
+        for (caller, (_, body)) in all.iter().enumerate() {
+            for (callee, (name, _)) in all.iter().enumerate().filter(|(callee, _)| *callee != caller) {
+                if says(body, name, true) {
+                    reached[callee] |= reached[caller];
+                    on_records[caller] |= on_records[callee];
+                }
+            }
+        }
+    }
+    let missing: Vec<_> =
+        (0..all.len()).filter(|&i| !reached[i] && !on_records[i]).map(|i| all[i].0).collect();
+    assert!(missing.is_empty(), "no case calls {missing:?}");
+    assert!(on_records.iter().filter(|&&is| is).count() < 40, "most functions are of numbers alone");
 }

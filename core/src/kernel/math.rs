@@ -121,7 +121,7 @@ pub fn sin_cos_turns(angle: u32) -> (f32, f32) {
 }
 
 /// Sine and cosine of half an angle, the angle being the low half of a word in units of 2^-16 turns, counted from minus
-/// a half to a half turn. Within 3e-7.
+/// a half to a half turn. Within 3.16e-7: the worst of all 65536 angles.
 #[inline(always)]
 pub fn sin_cos_half<W: Word>(angle: W) -> (W::Real, W::Real) {
     let r = (angle << 16).shift_signed(16).to_real() * HALF_TURN_UNIT;
@@ -216,14 +216,6 @@ mod tests {
         }
 
         #[test]
-        fn sin_cos_half_is_close(angle: u32) {
-            let x = f64::from((angle & 0xffff) as u16 as i16) / 65536.0 * std::f64::consts::PI;
-            let (s, c) = sin_cos_half(angle);
-            prop_assert!((f64::from(s) - x.sin()).abs() < 3e-7, "sin {s} for {x}");
-            prop_assert!((f64::from(c) - x.cos()).abs() < 3e-7, "cos {c} for {x}");
-        }
-
-        #[test]
         fn sin_cos_is_close(x in -1000f32..1000.0) {
             let (s, c) = sin_cos(x);
             prop_assert!((f64::from(s) - f64::from(x).sin()).abs() < 2e-7, "sin {s} for {x}");
@@ -250,6 +242,23 @@ mod tests {
             let expected = f64::from(y).atan2(f64::from(x));
             prop_assert!((f64::from(arctangent2(y, x)) - expected).abs() < 4e-7, "atan2 {y} {x}: {}", arctangent2(y, x));
         }
+    }
+
+    /// All angles there are.
+    #[test]
+    fn sin_cos_half_is_close() {
+        let mut worst = 0f64;
+        for angle in 0..=u32::from(u16::MAX) {
+            let x = f64::from((angle as u16).cast_signed()) / 65536.0 * std::f64::consts::PI;
+            let (s, c) = sin_cos_half(angle);
+            worst = worst.max((f64::from(s) - x.sin()).abs()).max((f64::from(c) - x.cos()).abs());
+            assert_eq!(
+                sin_cos_half(angle | 0xabcd_0000),
+                (s, c),
+                "the high half of {angle:x} does not count"
+            );
+        }
+        assert!(worst < 3.16e-7 && worst > 3.15e-7, "the worst error is {worst:e}");
     }
 
     #[test]

@@ -186,3 +186,68 @@ pub fn quat_blend<R: Real>(start: Quat<R>, end: Quat<R>, weight: R) -> Quat<R> {
         start.w * rest + end.w * signed_weight,
     ))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn vector(most: f32) -> impl Strategy<Value = Vec3> {
+        [-most..most, -most..most, -most..most].prop_map(Vec3::from)
+    }
+
+    fn unit() -> impl Strategy<Value = Quat> {
+        let component = || -1f32..1.0;
+        [component(), component(), component(), component()]
+            .prop_map(Quat::from)
+            .prop_filter("long enough", |q| quat_norm_squared(*q) > 0.01)
+            .prop_map(quat_normalize)
+    }
+
+    fn distance(a: Vec3, b: Vec3) -> f32 {
+        let d = a - b;
+        d.x.abs().max(d.y.abs()).max(d.z.abs())
+    }
+
+    proptest! {
+        /// Up to one radian, the largest turn of a joint in a step and nearly the largest that it ever has.
+        #[test]
+        fn a_turn_comes_back_from_its_quaternion(direction in vector(1.0), angle in 0f32..1.0) {
+            let squared = vec3_dot(direction, direction);
+            prop_assume!(squared > 0.01);
+            let turn = direction * (angle * inverse_sqrt(squared));
+            let q = quat_of_turn(turn);
+            prop_assert!((quat_norm_squared(q) - 1.0).abs() < 1e-6, "{q:?} is of unit length");
+            let back = turn_of_quat(q);
+            prop_assert!(distance(back, turn) < 1e-6, "{back:?} for {turn:?}");
+        }
+
+        /// Against sine and cosine in double precision.
+        #[test]
+        fn a_turn_is_by_its_length(x in -0.57f32..0.57, y in -0.57f32..0.57, z in -0.57f32..0.57) {
+            let wide = [f64::from(x), f64::from(y), f64::from(z)];
+            let angle = libm::sqrt(wide.iter().map(|x| x * x).sum());
+            let scale = if angle > 0.0 { libm::sin(0.5 * angle) / angle } else { 0.5 };
+            let q = quat_of_turn(Vec3::new(x, y, z)).to_array().map(f64::from);
+            for (part, component) in q.iter().zip(wide.map(|x| x * scale)) {
+                prop_assert!((part - component).abs() < 2e-7, "{part} for {component}");
+            }
+            prop_assert!((q[3] - libm::cos(0.5 * angle)).abs() < 2e-7, "{} for {angle}", q[3]);
+        }
+
+        #[test]
+        fn the_y_axis_turns_like_any_vector(q in unit()) {
+            let expected = quat_rotate(q, Vec3::new(0.0, 1.0, 0.0));
+            prop_assert!(distance(quat_axis_y(q), expected) < 1e-6, "{:?} for {expected:?}", quat_axis_y(q));
+        }
+
+        #[test]
+        fn turning_back_undoes_turning(q in unit(), v in vector(10.0)) {
+            let back = quat_rotate_back(q, quat_rotate(q, v));
+            prop_assert!(distance(back, v) < 2e-5, "{back:?} for {v:?}");
+            let conjugate = Quat::new(-q.x, -q.y, -q.z, q.w);
+            let turned = quat_rotate(conjugate, v);
+            prop_assert!(distance(quat_rotate_back(q, v), turned) < 1e-5, "like the conjugate: {turned:?}");
+        }
+    }
+}

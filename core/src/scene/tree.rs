@@ -117,7 +117,7 @@ pub struct Wood {
 
 impl Default for Wood {
     fn default() -> Self {
-        Self { youngs_modulus_gpa: 9.5, density_kg_m3: 800.0, damping: 0.03, drag: 0.5, anchorage: 1.0 }
+        Self { youngs_modulus_gpa: 9.5, density_kg_m3: 800.0, damping: 0.035, drag: 0.3, anchorage: 1.0 }
     }
 }
 

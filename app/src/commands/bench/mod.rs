@@ -7,6 +7,7 @@ mod bandwidth;
 mod contender;
 mod frames;
 mod row;
+mod trees;
 
 use std::time::Instant;
 
@@ -52,7 +53,8 @@ pub struct Arguments {
     steps: Option<u32>,
     #[command(flatten)]
     backend: BackendArguments,
-    /// Print one JSON object per line instead of a table: first the memory's speed, then a line for each row.
+    /// Print one JSON object per line instead of a table: first the memory's speed, then a line for each row, then one for
+    /// the trees by themselves if the scene has any.
     #[arg(long)]
     json: bool,
 }
@@ -92,6 +94,12 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
                 continue;
             }
             let row = measure(approach, &world, arguments, &floor, stage.as_mut(), &mut expected)?;
+            let line = if arguments.json { serde_json::to_string(&row)? } else { row.line() };
+            terminal::print(&format!("{line}\n"))?;
+        }
+    }
+    for approach in &approaches {
+        if let Some(row) = trees::measure(approach, &scene, arguments, &floor)? {
             let line = if arguments.json { serde_json::to_string(&row)? } else { row.line() };
             terminal::print(&format!("{line}\n"))?;
         }

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// twin: core/src/tree/sway/mod.rs
+// twin: core/src/tree/sway/body.rs
 #import kernel/matrix
 
 struct Constants {

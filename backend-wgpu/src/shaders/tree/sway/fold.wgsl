@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // twin: core/src/tree/sway/fold.rs
+#import bindings
 #import kernel/math
 #import kernel/matrix
 #import kernel/quaternion

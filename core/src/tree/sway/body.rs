@@ -1,0 +1,116 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! twin: backend-wgpu/src/shaders/tree/sway/body.wgsl
+//!
+//! What a segment is as a body: constants, state, inertia, and how its joint answers.
+
+use crate::kernel::{Mat3, Quat, Sym3, Vec3};
+use crate::tree::record::Timber;
+
+/// Constants of a segment, or of eight: see [`Timber`].
+#[derive(Clone, Copy, Debug)]
+#[expect(missing_docs, reason = "the fields of Timber")]
+pub struct Constants<R = f32> {
+    pub rest: Quat<R>,
+    pub offset: Vec3<R>,
+    pub length: R,
+    pub mass: R,
+    pub first_moment: R,
+    pub inertia_across: R,
+    pub inertia_along: R,
+    pub leaf_mass: R,
+    pub wood_drag: R,
+    pub leaf_drag: R,
+    pub leaf_yield: R,
+    pub preload: Vec3<R>,
+    pub damping: R,
+    pub bending: R,
+    pub twisting: R,
+    pub bending_inertia: R,
+    pub twisting_inertia: R,
+}
+
+impl From<&Timber> for Constants {
+    #[inline(always)]
+    fn from(timber: &Timber) -> Self {
+        Self {
+            rest: timber.rest.into(),
+            offset: timber.offset.into(),
+            length: timber.length,
+            mass: timber.mass,
+            first_moment: timber.first_moment,
+            inertia_across: timber.inertia_across,
+            inertia_along: timber.inertia_along,
+            leaf_mass: timber.leaf_mass,
+            wood_drag: timber.wood_drag,
+            leaf_drag: timber.leaf_drag,
+            leaf_yield: timber.leaf_yield,
+            preload: timber.preload.into(),
+            damping: timber.damping,
+            bending: timber.bending,
+            twisting: timber.twisting,
+            bending_inertia: timber.bending_inertia,
+            twisting_inertia: timber.twisting_inertia,
+        }
+    }
+}
+
+/// State of a joint.
+#[derive(Clone, Copy, Debug)]
+pub struct Joint<R = f32> {
+    /// Rotation relative to rest, in the segment's frame.
+    pub turn: Quat<R>,
+    /// Rate in rad/s, in the segment's frame.
+    pub rate: Vec3<R>,
+}
+
+/// Where a segment is and how it moves.
+#[derive(Clone, Copy, Debug)]
+pub struct Body<R = f32> {
+    /// Place of its joint in m.
+    pub base: Vec3<R>,
+    /// Orientation.
+    pub pose: Quat<R>,
+    /// Velocity of its joint in m/s.
+    pub velocity: Vec3<R>,
+    /// Angular velocity in rad/s.
+    pub spin: Vec3<R>,
+}
+
+impl Body {
+    /// The ground that trunks grow from.
+    pub const GROUND: Self =
+        Self { base: Vec3::ZERO, pose: Quat::IDENTITY, velocity: Vec3::ZERO, spin: Vec3::ZERO };
+}
+
+/// Inertia of a body and of what it carries, and the force and torque that hold it back, about its joint, in world axes.
+#[derive(Clone, Copy, Debug)]
+pub struct Articulated<R = f32> {
+    /// Torque per angular acceleration in kg m².
+    pub rotation: Sym3<R>,
+    /// Torque per acceleration in kg m; transposed, force per angular acceleration.
+    pub coupling: Mat3<R>,
+    /// Force per acceleration in kg.
+    pub mass: Sym3<R>,
+    /// Torque in N m that no acceleration would take.
+    pub moment: Vec3<R>,
+    /// Force in N that no acceleration would take.
+    pub force: Vec3<R>,
+}
+
+/// How a joint answers what its parent does.
+#[derive(Clone, Copy, Debug)]
+pub struct Answer<R = f32> {
+    /// Angular acceleration in rad/s² if the parent does nothing.
+    pub free: Vec3<R>,
+    /// Share of the spring in the joint's stiffness.
+    pub spring: Mat3<R>,
+    /// Angular acceleration per acceleration of the joint, opposed, in 1/m.
+    pub lever: Mat3<R>,
+    /// The joint's place relative to the parent's in m.
+    pub arm: Vec3<R>,
+    /// Angular acceleration from turning frames in rad/s².
+    pub turning: Vec3<R>,
+    /// Acceleration from turning frames in m/s².
+    pub centripetal: Vec3<R>,
+}

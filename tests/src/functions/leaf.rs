@@ -1,0 +1,268 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The functions that move leaves and make wind.
+
+use windfall_core::kernel::Vec3;
+use windfall_core::kernel::math::{
+    arctangent2, exponential, inverse_sqrt, reciprocal, sin_cos, sin_cos_half, sin_cos_turns,
+};
+use windfall_core::kernel::quaternion::{
+    quat_blend, quat_multiply, quat_normalize, quat_renormalize, quat_rotate, quat_turn_after,
+    quat_turn_before,
+};
+use windfall_core::kernel::rng::{below, mul_high, mul_q16, philox, triangular, unit_float};
+use windfall_core::kernel::vector::{vec3_cross, vec3_dot, vec3_length, vec3_lerp};
+use windfall_core::leaf::Course;
+use windfall_core::leaf::fall::{response_of, spin_advance};
+use windfall_core::leaf::join::part_of_step;
+use windfall_core::leaf::own::{own_advance, own_orientation, own_velocity, turn_to_heading};
+use windfall_core::leaf::record::SPECIES_SHIFT;
+use windfall_core::leaf::release::{
+    next_event, release_fall_time, release_place, release_rate, release_ratio, release_size_speed,
+    release_species,
+};
+use windfall_core::leaf::settle::{flatten, slide};
+use windfall_core::motion::feature::{stage_end, stage_words, transition_next};
+use windfall_core::motion::lookup::{motion_displacement, motion_period, motion_state, motion_velocity};
+use windfall_core::wind::gust::wind_gust;
+use windfall_core::wind::profile::wind_profile;
+use windfall_core::wind::sample::wind_at;
+use windfall_core::wind::turbulence::wind_turbulence;
+use windfall_core::wind::vortex::wind_vortex;
+
+use super::{Function, Input, float, floats, functions, integers, quaternion, vector};
+use crate::runner::Words;
+
+fn seed(words: &Words) -> [u32; 2] {
+    [words[0], words[1]]
+}
+
+const ANY: Input = Input::Word;
+const UNIT: Input = Input::Float(-1.0, 1.0);
+const SPEED: Input = Input::Float(-40.0, 40.0);
+const METRES: Input = Input::Float(-300.0, 300.0);
+/// Tables of the species of the test scene.
+const TABLE: Input = Input::Below(6);
+const SPECIES: Input = Input::Below(2);
+const SOURCE: Input = Input::Below(3);
+
+functions! {
+    LEAF_FUNCTIONS;
+
+    mul_high in "kernel/rng" (ANY, ANY) tolerance None;
+    wgsl "r.x = mul_high(a.x, a.y);";
+    rust |_cx, w| integers([mul_high(w[0], w[1])]);
+
+    mul_q16 in "kernel/rng" (ANY, Input::Below(65537)) tolerance None;
+    wgsl "r.x = mul_q16(a.x, a.y);";
+    rust |_cx, w| integers([mul_q16(w[0], w[1])]);
+
+    philox in "kernel/rng" (ANY, ANY, ANY, ANY, ANY, ANY) tolerance None;
+    wgsl "r = philox(a.xy, vec4<u32>(a.zw, b.xy));";
+    rust |_cx, w| integers(philox(seed(w), [w[2], w[3], w[4], w[5]]));
+
+    below in "kernel/rng" (ANY, ANY) tolerance None;
+    wgsl "r.x = below(a.x, a.y); r.y = bitcast<u32>(triangular(a.x));";
+    rust |_cx, w| integers([below(w[0], w[1]), triangular(w[0]) as u32]);
+
+    unit_float in "kernel/rng" (ANY) tolerance Some(0.0);
+    wgsl "r.x = bitcast<u32>(unit_float(a.x));";
+    rust |_cx, w| floats([unit_float(w[0])]);
+
+    sin_cos_turns in "kernel/math" (ANY) tolerance Some(2e-7);
+    wgsl "let t = sin_cos_turns(a.x); r = vec4<u32>(bitcast<vec2<u32>>(t), 0u, 0u);";
+    rust |_cx, w| { let (s, c) = sin_cos_turns(w[0]); floats([s, c]) };
+
+    sin_cos_half in "kernel/math" (ANY) tolerance Some(4e-7);
+    wgsl "let t = sin_cos_half(a.x); r = vec4<u32>(bitcast<vec2<u32>>(t), 0u, 0u);";
+    rust |_cx, w| { let (s, c) = sin_cos_half(w[0]); floats([s, c]) };
+
+    sin_cos in "kernel/math" (Input::Float(-1000.0, 1000.0)) tolerance Some(3e-7);
+    wgsl "let t = sin_cos(bitcast<f32>(a.x)); r = vec4<u32>(bitcast<vec2<u32>>(t), 0u, 0u);";
+    rust |_cx, w| { let (s, c) = sin_cos(float(w[0])); floats([s, c]) };
+
+    exponential in "kernel/math" (Input::Float(-80.0, 1.0)) tolerance Some(3e-7);
+    wgsl "r.x = bitcast<u32>(exponential(bitcast<f32>(a.x)));";
+    rust |_cx, w| floats([exponential(float(w[0]))]);
+
+    reciprocal in "kernel/math" (Input::Scale(-10.0, 10.0), Input::Below(2)) tolerance Some(3e-7);
+    wgsl "r.x = bitcast<u32>(reciprocal(bitcast<f32>(a.x | (a.y << 31u))));";
+    rust |_cx, w| floats([reciprocal(float(w[0] | (w[1] << 31)))]);
+
+    inverse_sqrt in "kernel/math" (Input::Scale(-12.0, 12.0)) tolerance Some(5e-7);
+    wgsl "r.x = bitcast<u32>(inverse_sqrt(bitcast<f32>(a.x)));";
+    rust |_cx, w| floats([inverse_sqrt(float(w[0]))]);
+
+    arctangent2 in "kernel/math" (SPEED, SPEED) tolerance Some(5e-7);
+    wgsl "r.x = bitcast<u32>(arctangent2(bitcast<f32>(a.x), bitcast<f32>(a.y)));";
+    rust |_cx, w| floats([arctangent2(float(w[0]), float(w[1]))]);
+
+    vec3_products in "kernel/vector" (SPEED, SPEED, SPEED, Input::Below(1), SPEED, SPEED, SPEED) tolerance Some(1e-4);
+    wgsl "let u = bitcast<vec3<f32>>(a.xyz); let v = bitcast<vec3<f32>>(b.xyz);
+        r = vec4<u32>(bitcast<vec3<u32>>(vec3_cross(u, v)), bitcast<u32>(vec3_dot(u, v)));
+        s.x = bitcast<u32>(vec3_length(u));";
+    rust |_cx, w| {
+        let (u, v) = (vector(w, 0), vector(w, 4));
+        let c = vec3_cross(u, v);
+        floats([c.x, c.y, c.z, vec3_dot(u, v), vec3_length(u)])
+    };
+
+    vec3_lerp in "kernel/vector" (SPEED, SPEED, SPEED, Input::Float(0.0, 1.0), SPEED, SPEED, SPEED) tolerance Some(3e-7);
+    wgsl "r = vec4<u32>(bitcast<vec3<u32>>(
+        vec3_lerp(bitcast<vec3<f32>>(a.xyz), bitcast<vec3<f32>>(b.xyz), bitcast<f32>(a.w))), 0u);";
+    rust |_cx, w| floats(vec3_lerp(vector(w, 0), vector(w, 4), float(w[3])).to_array());
+
+    quat_multiply in "kernel/quaternion" (UNIT, UNIT, UNIT, UNIT, UNIT, UNIT, UNIT, UNIT) tolerance Some(1e-6);
+    wgsl "let p = bitcast<vec4<f32>>(a); let q = bitcast<vec4<f32>>(b);
+        r = bitcast<vec4<u32>>(quat_multiply(p, q)); s = bitcast<vec4<u32>>(quat_normalize(p));";
+    rust |_cx, w| {
+        let (p, q) = (quaternion(w, 0), quaternion(w, 4));
+        let (r, s) = (quat_multiply(p, q).to_array(), quat_normalize(p).to_array());
+        floats([r[0], r[1], r[2], r[3], s[0], s[1], s[2], s[3]])
+    };
+
+    quat_turns in "kernel/quaternion" (UNIT, UNIT, UNIT, UNIT, UNIT, UNIT) tolerance Some(4e-7);
+    wgsl "let q = bitcast<vec4<f32>>(a); let t = bitcast<vec2<f32>>(b.xy);
+        r = bitcast<vec4<u32>>(quat_turn_after(q, t.x, t.y)); s = bitcast<vec4<u32>>(quat_turn_before(q, t.x, t.y));";
+    rust |_cx, w| {
+        let (q, sine, cosine) = (quaternion(w, 0), float(w[4]), float(w[5]));
+        let (r, s) = (quat_turn_after(q, sine, cosine), quat_turn_before(q, sine, cosine));
+        floats([r.x, r.y, r.z, r.w, s.x, s.y, s.z, s.w])
+    };
+
+    quat_rotate in "kernel/quaternion" (UNIT, UNIT, UNIT, UNIT, SPEED, SPEED, SPEED) tolerance Some(4e-6);
+    wgsl "let q = bitcast<vec4<f32>>(a);
+        r = vec4<u32>(bitcast<vec3<u32>>(quat_rotate(q, bitcast<vec3<f32>>(b.xyz))), 0u);
+        s = bitcast<vec4<u32>>(quat_renormalize(q));";
+    rust |_cx, w| {
+        let q = quaternion(w, 0);
+        let (v, n) = (quat_rotate(q, vector(w, 4)), quat_renormalize(q));
+        floats([v.x, v.y, v.z, 0.0, n.x, n.y, n.z, n.w])
+    };
+
+    quat_blend in "kernel/quaternion" (UNIT, UNIT, UNIT, UNIT, UNIT, UNIT, UNIT, UNIT) tolerance Some(1e-4);
+    wgsl "r = bitcast<vec4<u32>>(quat_blend(bitcast<vec4<f32>>(a), bitcast<vec4<f32>>(b), 0.25));";
+    rust |_cx, w| floats(quat_blend(quaternion(w, 0), quaternion(w, 4), 0.25).to_array());
+
+    motion_displacement in "motion/lookup" (TABLE, ANY, ANY) tolerance Some(5e-7);
+    wgsl "r = vec4<u32>(bitcast<vec3<u32>>(motion_displacement(a.x, a.y)), 0u);
+        s = vec4<u32>(bitcast<vec3<u32>>(motion_period(a.x)), 0u);";
+    rust |cx, w| {
+        let d = motion_displacement(&cx.motion, w[0], w[1]);
+        let m = motion_period(&cx.motion, w[0]);
+        floats([d.x, d.y, d.z, 0.0, m.x, m.y, m.z])
+    };
+
+    motion_state in "motion/lookup" (TABLE, ANY) tolerance Some(1e-6);
+    wgsl "let m = motion_state(a.x, a.y); r = bitcast<vec4<u32>>(m.orientation); s.w = bitcast<u32>(m.displacement.y);
+        s = vec4<u32>(bitcast<vec3<u32>>(motion_velocity(a.x, a.y)), s.w);";
+    rust |cx, w| {
+        let (d, q) = motion_state(&cx.motion, w[0], w[1]);
+        let v = motion_velocity(&cx.motion, w[0], w[1]);
+        floats([q.x, q.y, q.z, q.w, v.x, v.y, v.z, d.y])
+    };
+
+    stage_end in "motion/feature" (ANY, ANY, ANY, ANY, Input::Below(4)) tolerance None;
+    wgsl "r.x = stage_end(a.xy, a.z, a.w, b.x); s = stage_words(a.xy, a.z, b.x);";
+    rust |_cx, w| {
+        let s = stage_words(seed(w), w[2], w[4]);
+        integers([stage_end(seed(w), w[2], w[3], w[4]), 0, 0, 0, s[0], s[1], s[2], s[3]])
+    };
+
+    transition_next in "motion/feature" (SPECIES, Input::Below(6), ANY) tolerance None;
+    wgsl "r.x = transition_next(a.x, a.y, a.z);";
+    rust |cx, w| integers([transition_next(&cx.environment.species[w[0] as usize], w[1], w[2])]);
+
+    release_place in "leaf/release" (ANY, ANY, ANY, SOURCE, ANY) tolerance None;
+    wgsl "let p = release_place(a.w, a.xy, a.z); r = vec4<u32>(bitcast<vec3<u32>>(p), release_species(a.w, b.x));";
+    rust |cx, w| {
+        let source = &cx.environment.sources[w[3] as usize];
+        let p = release_place(source, seed(w), w[2]);
+        integers([p[0] as u32, p[1] as u32, p[2] as u32, release_species(source, w[4])])
+    };
+
+    release_size_speed in "leaf/release" (SPECIES, ANY, ANY, Input::Below(6), Input::Below(8_000_000)) tolerance None;
+    wgsl "let z = release_size_speed(a.x, a); let q = release_ratio(z);
+        r = vec4<u32>(z, q, release_rate(a.x, a.w, q)); s.x = release_fall_time(a.x, i32(b.x), z.y);";
+    rust |cx, w| {
+        let species = &cx.environment.species[w[0] as usize];
+        let z = release_size_speed(species, [w[0], w[1], w[2], w[3]]);
+        let q = release_ratio(z);
+        integers([z[0], z[1], q, release_rate(species, w[3], q), release_fall_time(species, w[4] as i32, z[1])])
+    };
+
+    next_event in "leaf/release" (ANY, Input::Below(1_000_000), Input::Below(60_000_000), Input::Below(5), SOURCE) tolerance None;
+    wgsl "r.x = next_event(a.x, a.y, a.z, a.w, b.x);";
+    rust |cx, w| integers([next_event(cx, w[0], w[1], w[2], w[3], w[4])]);
+
+    own_velocity in "leaf/own" (TABLE, ANY, Input::Below(100_000_000), Input::Below(30_000), ANY) tolerance Some(2e-6);
+    wgsl "r = vec4<u32>(bitcast<vec3<u32>>(
+        own_velocity(a.x << TABLE_SHIFT, a.y, vec4<u32>(0u, a.z, a.w, b.x))), 0u);";
+    rust |cx, w| {
+        let course = Course { event: 0, rate: w[2], size: w[3], heading: w[4] };
+        floats(own_velocity(cx, w[0] << 8, w[1], course.into()).to_array())
+    };
+
+    // A rounding that falls the other way is a grid unit of 4e-6 m; the one keeps it small against the whole case.
+    own_advance in "leaf/own" (TABLE, ANY, ANY, Input::Below(30_000), ANY) tolerance Some(1.6e-5);
+    wgsl "r = vec4<u32>(bitcast<vec3<u32>>(
+        own_advance(a.x << TABLE_SHIFT, vec4<u32>(0u, 0u, a.w, b.x), a.y, a.z)), bitcast<u32>(1f));";
+    rust |cx, w| {
+        let course = Course { event: 0, rate: 0, size: w[3], heading: w[4] };
+        let d = own_advance(cx, w[0] << 8, course.into(), w[1], w[2]);
+        floats([d.x, d.y, d.z, 1.0])
+    };
+
+    own_orientation in "leaf/own" (TABLE, ANY, ANY, ANY) tolerance Some(2e-6);
+    wgsl "r = bitcast<vec4<u32>>(own_orientation((a.x << TABLE_SHIFT) | (a.w << SPIN_SHIFT), a.y, a.z));
+        s = vec4<u32>(bitcast<vec3<u32>>(turn_to_heading(vec3<f32>(1.0, 2.0, 3.0), a.w >> 16u)), 0u);";
+    rust |cx, w| {
+        let q = own_orientation(cx, (w[0] << 8) | (w[3] << 16), w[1], w[2]);
+        let v = turn_to_heading(Vec3::new(1.0, 2.0, 3.0), w[3] >> 16);
+        floats([q.x, q.y, q.z, q.w, v.x, v.y, v.z])
+    };
+
+    spin_advance in "leaf/fall" (ANY, ANY, Input::Below(65536)) tolerance None;
+    wgsl "r.x = spin_advance(a.x, a.y, f32(a.z));";
+    rust |_cx, w| integers([spin_advance(w[0], w[1], w[2] as f32)]);
+
+    part_of_step in "leaf/join" (ANY, Input::Below(65537)) tolerance Some(4e-7);
+    wgsl "let p = part_of_step(response_of((a.x & 1u) << SPECIES_SHIFT), a.y);
+        r = vec4<u32>(bitcast<u32>(p.decay), bitcast<u32>(p.tau), p.length, 0u);";
+    rust |cx, w| {
+        let p = part_of_step(cx, response_of(cx, (w[0] & 1) << SPECIES_SHIFT), w[1]);
+        integers([p.decay.to_bits(), p.tau.to_bits(), p.length])
+    };
+
+    slide in "leaf/settle" (SPEED, SPEED, SPEED, Input::Float(0.0, 0.05)) tolerance Some(1e-5);
+    wgsl "let g = slide(bitcast<vec3<f32>>(a.xyz), bitcast<f32>(a.w));
+        r = vec4<u32>(bitcast<vec3<u32>>(g.way), 0u); s = vec4<u32>(bitcast<vec3<u32>>(g.velocity), 0u);";
+    rust |cx, w| {
+        let (d, v) = slide(cx, vector(w, 0), float(w[3]));
+        floats([d.x, d.y, d.z, 0.0, v.x, v.y, v.z])
+    };
+
+    flatten in "leaf/settle" (UNIT, UNIT, UNIT, UNIT) tolerance Some(2e-6);
+    wgsl "r = bitcast<vec4<u32>>(flatten(bitcast<vec4<f32>>(a), 0.6));";
+    rust |_cx, w| floats(flatten(quaternion(w, 0), 0.6).to_array());
+
+    wind_profile in "wind/profile" (Input::Float(-5.0, 90.0)) tolerance Some(1e-6);
+    wgsl "r.x = bitcast<u32>(wind_profile(bitcast<f32>(a.x)));";
+    rust |cx, w| floats([wind_profile(cx, float(w[0]))]);
+
+    wind_gust in "wind/gust" (METRES) tolerance Some(1e-6);
+    wgsl "r.x = bitcast<u32>(wind_gust(bitcast<f32>(a.x)));";
+    rust |cx, w| floats([wind_gust(cx, float(w[0]))]);
+
+    wind_turbulence in "wind/turbulence" (METRES, METRES, METRES) tolerance Some(2e-6);
+    wgsl "r = vec4<u32>(bitcast<vec3<u32>>(wind_turbulence(bitcast<vec3<f32>>(a.xyz))), 0u);";
+    rust |cx, w| floats(wind_turbulence(cx, vector(w, 0)).to_array());
+
+    wind_vortex in "wind/vortex" (METRES, METRES, METRES) tolerance Some(2e-6);
+    wgsl "r = vec4<u32>(bitcast<vec3<u32>>(wind_vortex(0u, bitcast<vec3<f32>>(a.xyz))), 0u);";
+    rust |cx, w| floats(wind_vortex(&cx.step.vortices[0], vector(w, 0)).to_array());
+
+    wind_at in "wind/sample" (METRES, METRES, METRES) tolerance Some(4e-6);
+    wgsl "r = vec4<u32>(bitcast<vec3<u32>>(wind_at(bitcast<vec3<f32>>(a.xyz))), 0u);";
+    rust |cx, w| floats(wind_at(cx, vector(w, 0)).to_array());
+}

@@ -1,0 +1,319 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The functions that sway trees and hold leaves on them.
+
+use windfall_core::kernel::matrix::{
+    Mat3, Sym3, mat3_add, mat3_cross, mat3_cross_from_left, mat3_cross_from_right, mat3_product,
+    mat3_product_symmetric, mat3_times, mat3_transposed_product_symmetric, mat3_transposed_times,
+    mat3_twice_symmetric, sym3_add, sym3_axial, sym3_inverse, sym3_minus, sym3_rows, sym3_times,
+};
+use windfall_core::kernel::quaternion::{quat_axis_y, quat_of_turn, quat_rotate_back, turn_of_quat};
+use windfall_core::kernel::{Quat, Vec3};
+use windfall_core::leaf::carry::{leaf_size_on_twig, petiole_of, shed_chance};
+use windfall_core::leaf::petiole::{PETIOLE_CLASS_SHIFT, PETIOLE_KIND_SHIFT};
+use windfall_core::tree::sway::fold::{articulated_add, articulated_shift, joint_answer, joint_spring};
+use windfall_core::tree::sway::load::{segment_axis, segment_body, segment_drag};
+use windfall_core::tree::sway::unfold::{Motion, joint_motion, joint_step, segment_place};
+use windfall_core::tree::sway::{Answer, Articulated, Body, Constants, Joint};
+
+use super::{Function, Input, float, functions, integers, quaternion, vector};
+use crate::runner::{NO_WORDS, Words};
+
+fn sym3(words: &Words, at: usize) -> Sym3 {
+    Sym3 { diagonal: vector(words, at), off: vector(words, at + 3) }
+}
+
+fn mat3(words: &Words, at: usize) -> Mat3 {
+    Mat3 { x: vector(words, at), y: vector(words, at + 3), z: vector(words, at + 6) }
+}
+
+fn constants(words: &Words, at: usize) -> Constants {
+    let number = |index| float(words[at + index]);
+    Constants {
+        rest: quaternion(words, at),
+        offset: vector(words, at + 4),
+        length: number(7),
+        mass: number(8),
+        first_moment: number(9),
+        inertia_across: number(10),
+        inertia_along: number(11),
+        leaf_mass: number(12),
+        wood_drag: number(13),
+        leaf_drag: number(14),
+        leaf_yield: number(15),
+        preload: vector(words, at + 16),
+        damping: number(19),
+        bending: number(20),
+        twisting: number(21),
+        bending_inertia: number(22),
+        twisting_inertia: number(23),
+    }
+}
+
+fn joint(words: &Words, at: usize) -> Joint {
+    Joint { turn: quaternion(words, at), rate: vector(words, at + 4) }
+}
+
+fn body(words: &Words, at: usize) -> Body {
+    Body {
+        base: vector(words, at),
+        pose: quaternion(words, at + 3),
+        velocity: vector(words, at + 7),
+        spin: vector(words, at + 10),
+    }
+}
+
+fn articulated(words: &Words, at: usize) -> Articulated {
+    Articulated {
+        rotation: sym3(words, at),
+        coupling: mat3(words, at + 6),
+        mass: sym3(words, at + 15),
+        moment: vector(words, at + 21),
+        force: vector(words, at + 24),
+    }
+}
+
+/// Results, written one after another.
+struct Results(Words, usize);
+
+impl Results {
+    fn new() -> Self {
+        Self(NO_WORDS, 0)
+    }
+
+    fn floats(mut self, values: &[f32]) -> Self {
+        for value in values {
+            self.0[self.1] = value.to_bits();
+            self.1 += 1;
+        }
+        self
+    }
+
+    fn vec3(self, v: Vec3) -> Self {
+        self.floats(&v.to_array())
+    }
+
+    fn quat(self, q: Quat) -> Self {
+        self.floats(&q.to_array())
+    }
+
+    fn sym3(self, a: Sym3) -> Self {
+        self.vec3(a.diagonal).vec3(a.off)
+    }
+
+    fn mat3(self, a: Mat3) -> Self {
+        self.vec3(a.x).vec3(a.y).vec3(a.z)
+    }
+
+    fn joint(self, joint: Joint) -> Self {
+        self.quat(joint.turn).vec3(joint.rate)
+    }
+
+    fn body(self, body: Body) -> Self {
+        self.vec3(body.base).quat(body.pose).vec3(body.velocity).vec3(body.spin)
+    }
+
+    fn articulated(self, a: Articulated) -> Self {
+        self.sym3(a.rotation).mat3(a.coupling).sym3(a.mass).vec3(a.moment).vec3(a.force)
+    }
+
+    fn answer(self, a: Answer) -> Self {
+        self.vec3(a.free).mat3(a.spring).mat3(a.lever).vec3(a.arm).vec3(a.turning).vec3(a.centripetal)
+    }
+}
+
+const DIRECTION: Input = Input::Floats(3, -1.0, 1.0);
+const QUATERNION: Input = Input::Floats(4, -1.0, 1.0);
+const PLACE: Input = Input::Floats(3, -300.0, 300.0);
+const VELOCITY: Input = Input::Floats(3, -20.0, 20.0);
+const MATRIX: Input = Input::Floats(9, -3.0, 3.0);
+/// With [`OFF`], always a positive definite matrix.
+const DIAGONAL: Input = Input::Floats(3, 2.0, 4.0);
+const OFF: Input = Input::Floats(3, -0.9, 0.9);
+/// Coupling of a body whose own matrices are those.
+const COUPLING: Input = Input::Floats(9, -0.5, 0.5);
+/// Vector and scalar part of a joint's rotation by up to one radian, beyond where its stop begins.
+const TURN: Input = Input::Floats(3, -0.28, 0.28);
+const TURN_COSINE: Input = Input::Float(0.85, 1.0);
+/// Rest, offset and length; then mass to the twisting inertia but for the preload, which is before damping and springs.
+const LENGTH: Input = Input::Float(0.05, 2.0);
+const SCALARS: Input = Input::Floats(8, 0.01, 3.0);
+const PRELOAD: Input = Input::Floats(3, -5.0, 5.0);
+const SPRINGS: Input = Input::Floats(5, 0.01, 50.0);
+
+functions! {
+    TREE_FUNCTIONS;
+
+    sym3_sums in "kernel/matrix" (DIAGONAL, OFF, DIAGONAL, OFF) tolerance Some(3e-7);
+    wgsl "let m = in_sym3(0u); let n = in_sym3(6u);
+        out_sym3(0u, sym3_add(m, n)); out_sym3(6u, sym3_minus(m, n)); out_mat3(12u, sym3_rows(m));";
+    rust |_cx, w| {
+        let (m, n) = (sym3(w, 0), sym3(w, 6));
+        Results::new().sym3(sym3_add(m, n)).sym3(sym3_minus(m, n)).mat3(sym3_rows(m)).0
+    };
+
+    sym3_axial in "kernel/matrix" (DIRECTION, Input::Floats(2, 0.0, 9.0)) tolerance Some(1e-6);
+    wgsl "out_sym3(0u, sym3_axial(in_vec3(0u), in_float(3u), in_float(4u)));";
+    rust |_cx, w| Results::new().sym3(sym3_axial(vector(w, 0), float(w[3]), float(w[4]))).0;
+
+    sym3_times in "kernel/matrix" (DIAGONAL, OFF, VELOCITY) tolerance Some(4e-6);
+    wgsl "let m = in_sym3(0u); out_vec3(0u, sym3_times(m, in_vec3(6u))); out_sym3(3u, sym3_inverse(m));";
+    rust |_cx, w| {
+        let m = sym3(w, 0);
+        Results::new().vec3(sym3_times(m, vector(w, 6))).sym3(sym3_inverse(m)).0
+    };
+
+    // Not positive definite: the pivots that the inverse raises.
+    sym3_inverse in "kernel/matrix" (Input::Floats(3, 0.5, 1.0), Input::Floats(3, -3.0, 3.0)) tolerance Some(2e-2);
+    wgsl "out_sym3(0u, sym3_inverse(in_sym3(0u)));";
+    rust |_cx, w| Results::new().sym3(sym3_inverse(sym3(w, 0))).0;
+
+    mat3_products in "kernel/matrix" (MATRIX, MATRIX) tolerance Some(4e-6);
+    wgsl "let m = in_mat3(0u); let n = in_mat3(9u);
+        out_mat3(0u, mat3_add(m, n)); out_mat3(9u, mat3_product(m, n));
+        out_sym3(18u, mat3_product_symmetric(m, n)); out_sym3(24u, mat3_transposed_product_symmetric(m, n));";
+    rust |_cx, w| {
+        let (m, n) = (mat3(w, 0), mat3(w, 9));
+        let sums = Results::new().mat3(mat3_add(m, n)).mat3(mat3_product(m, n));
+        sums.sym3(mat3_product_symmetric(m, n)).sym3(mat3_transposed_product_symmetric(m, n)).0
+    };
+
+    mat3_times in "kernel/matrix" (MATRIX, VELOCITY, Input::Float(-3.0, 3.0)) tolerance Some(4e-6);
+    wgsl "let m = in_mat3(0u); let v = in_vec3(9u);
+        out_mat3(0u, mat3_cross(v, in_float(12u))); out_vec3(9u, mat3_times(m, v));
+        out_vec3(12u, mat3_transposed_times(m, v)); out_mat3(15u, mat3_cross_from_left(v, m));
+        out_mat3(24u, mat3_cross_from_right(m, v)); out_sym3(33u, mat3_twice_symmetric(m));";
+    rust |_cx, w| {
+        let (m, v) = (mat3(w, 0), vector(w, 9));
+        let products = Results::new().mat3(mat3_cross(v, float(w[12]))).vec3(mat3_times(m, v));
+        let crossed = products.vec3(mat3_transposed_times(m, v)).mat3(mat3_cross_from_left(v, m));
+        crossed.mat3(mat3_cross_from_right(m, v)).sym3(mat3_twice_symmetric(m)).0
+    };
+
+    quat_rotate_back in "kernel/quaternion" (QUATERNION, VELOCITY) tolerance Some(4e-6);
+    wgsl "let q = in_vec4(0u); out_vec3(0u, quat_rotate_back(q, in_vec3(4u))); out_vec3(3u, quat_axis_y(q));";
+    rust |_cx, w| {
+        let q = quaternion(w, 0);
+        Results::new().vec3(quat_rotate_back(q, vector(w, 4))).vec3(quat_axis_y(q)).0
+    };
+
+    quat_of_turn in "kernel/quaternion" (TURN, TURN_COSINE) tolerance Some(4e-7);
+    wgsl "out_vec4(0u, quat_of_turn(in_vec3(0u) * 2.0)); out_vec3(4u, turn_of_quat(in_vec4(0u)));";
+    rust |_cx, w| {
+        Results::new().quat(quat_of_turn(vector(w, 0) * 2.0)).vec3(turn_of_quat(quaternion(w, 0))).0
+    };
+
+    segment_drag in "tree/sway/load" (
+        QUATERNION, DIRECTION, LENGTH, SCALARS, PRELOAD, SPRINGS, DIRECTION, VELOCITY, VELOCITY, Input::Below(500)
+    ) tolerance Some(4e-6);
+    wgsl "let d = segment_drag(in_constants(0u), in_vec3(24u), in_vec3(27u), in_vec3(30u), f32(in_word(33u)));
+        out_vec3(0u, d.wind); out_float(3u, d.wood); out_float(4u, d.leaves);";
+    rust |_cx, w| {
+        let d = segment_drag(&constants(w, 0), vector(w, 24), vector(w, 27), vector(w, 30), w[33] as f32);
+        Results::new().vec3(d.wind).floats(&[d.wood, d.leaves]).0
+    };
+
+    // The axis is a direction like any other here, so that wood feels a drag that no branch would.
+    segment_body in "tree/sway/load" (
+        QUATERNION, DIRECTION, LENGTH, SCALARS, PRELOAD, SPRINGS, PLACE, QUATERNION, VELOCITY, VELOCITY,
+        Input::Below(500)
+    ) tolerance Some(1e-5);
+    wgsl "let body = in_body(24u); let axis = segment_axis(body); out_vec3(27u, axis);
+        out_articulated(0u, segment_body(in_constants(0u), body, axis, f32(in_word(37u))));";
+    rust |cx, w| {
+        let body = body(w, 24);
+        let axis = segment_axis(&body);
+        let whole = segment_body(cx, &constants(w, 0), &body, axis, w[37] as f32);
+        Results::new().articulated(whole).vec3(axis).0
+    };
+
+    articulated_add in "tree/sway/fold" (Input::Floats(54, -9.0, 9.0)) tolerance Some(3e-7);
+    wgsl "out_articulated(0u, articulated_add(in_articulated(0u), in_articulated(27u)));";
+    rust |_cx, w| Results::new().articulated(articulated_add(&articulated(w, 0), &articulated(w, 27))).0;
+
+    joint_spring in "tree/sway/fold" (
+        QUATERNION, DIRECTION, LENGTH, SCALARS, PRELOAD, SPRINGS, TURN, TURN_COSINE, VELOCITY, PLACE, QUATERNION,
+        VELOCITY, VELOCITY, DIRECTION, DIAGONAL, OFF
+    ) tolerance Some(1e-5);
+    wgsl "let spring = joint_spring(in_constants(0u), in_joint(24u), in_body(31u), in_vec3(44u), in_sym3(47u));
+        out_vec3(0u, spring.torque); out_sym3(3u, spring.inertia);";
+    rust |cx, w| {
+        let (joint, body) = (joint(w, 24), body(w, 31));
+        let (torque, inertia) =
+            joint_spring(cx, &constants(w, 0), &joint, &body, vector(w, 44), sym3(w, 47));
+        Results::new().vec3(torque).sym3(inertia).0
+    };
+
+    joint_answer in "tree/sway/fold" (
+        VELOCITY, DIAGONAL, OFF, DIAGONAL, OFF, COUPLING, DIAGONAL, OFF, VELOCITY, VELOCITY, PLACE, QUATERNION,
+        VELOCITY, VELOCITY, PLACE, QUATERNION, VELOCITY, VELOCITY
+    ) tolerance Some(4e-6);
+    wgsl "let l = joint_answer(in_vec3(0u), in_sym3(3u), in_articulated(9u), in_body(36u), in_body(49u));
+        out_answer(0u, l.answer); out_articulated(30u, l.body);";
+    rust |_cx, w| {
+        let (answer, left) =
+            joint_answer(vector(w, 0), sym3(w, 3), &articulated(w, 9), &body(w, 36), &body(w, 49));
+        Results::new().answer(answer).articulated(left).0
+    };
+
+    articulated_shift in "tree/sway/fold" (DIAGONAL, OFF, COUPLING, DIAGONAL, OFF, VELOCITY, VELOCITY, DIRECTION)
+    tolerance Some(4e-6);
+    wgsl "out_articulated(0u, articulated_shift(in_articulated(0u), in_vec3(27u)));";
+    rust |_cx, w| Results::new().articulated(articulated_shift(&articulated(w, 0), vector(w, 27))).0;
+
+    joint_motion in "tree/sway/unfold" (
+        VELOCITY, Input::Floats(9, -1.0, 1.0), MATRIX, DIRECTION, VELOCITY, VELOCITY, VELOCITY, VELOCITY
+    ) tolerance Some(4e-6);
+    wgsl "let m = joint_motion(in_answer(0u), in_vec3(30u), in_vec3(33u));
+        out_vec3(0u, m.angular); out_vec3(3u, m.linear); out_vec3(6u, m.own);";
+    rust |_cx, w| {
+        let answer = Answer {
+            free: vector(w, 0),
+            spring: mat3(w, 3),
+            lever: mat3(w, 12),
+            arm: vector(w, 21),
+            turning: vector(w, 24),
+            centripetal: vector(w, 27),
+        };
+        let parent = Motion { angular: vector(w, 30), linear: vector(w, 33) };
+        let (motion, own) = joint_motion(&answer, &parent);
+        Results::new().vec3(motion.angular).vec3(motion.linear).vec3(own).0
+    };
+
+    // Rates and accelerations up to where a step's turn is cut short, and joints on both sides of their stop.
+    joint_step in "tree/sway/unfold" (
+        TURN, TURN_COSINE, Input::Floats(3, -50.0, 50.0), PLACE, QUATERNION, VELOCITY, VELOCITY,
+        Input::Floats(3, -4000.0, 4000.0)
+    ) tolerance Some(4e-6);
+    wgsl "out_joint(0u, joint_step(in_joint(0u), in_body(7u), in_vec3(20u)));";
+    rust |cx, w| Results::new().joint(joint_step(cx, &joint(w, 0), &body(w, 7), vector(w, 20))).0;
+
+    segment_place in "tree/sway/unfold" (
+        QUATERNION, DIRECTION, LENGTH, SCALARS, PRELOAD, SPRINGS, TURN, TURN_COSINE, VELOCITY, PLACE, QUATERNION,
+        VELOCITY, VELOCITY
+    ) tolerance Some(4e-6);
+    wgsl "out_body(0u, segment_place(in_constants(0u), in_joint(24u), in_body(31u)));";
+    rust |_cx, w| Results::new().body(segment_place(&constants(w, 0), &joint(w, 24), &body(w, 31))).0;
+
+    petiole_of in "leaf/carry" (Input::Below(2000)) tolerance Some(0.0);
+    wgsl "let p = petiole_of(a.x); out_vec3(0u, p.at); out_vec4(3u, p.rest);
+        answer[2] = vec4<u32>(p.segment, p.facts, 0u, 0u);";
+    rust |cx, w| {
+        let p = petiole_of(cx, w[0]);
+        let mut results = Results::new().floats(&p.at).floats(&p.rest).0;
+        (results[8], results[9]) = (p.segment, p.facts);
+        results
+    };
+
+    leaf_size_on_twig in "leaf/carry" (Input::Below(65536), Input::Word) tolerance None;
+    wgsl "r.x = leaf_size_on_twig(a.x, a.y);";
+    rust |_cx, w| integers([leaf_size_on_twig(w[0], w[1])]);
+
+    // The kinds of trees of the test scene; speeds beyond the table's end.
+    shed_chance in "leaf/carry" (Input::Below(6), Input::Below(64), Input::Float(0.0, 90.0)) tolerance None;
+    wgsl "r.x = shed_chance((a.x << PETIOLE_KIND_SHIFT) | (a.y << PETIOLE_CLASS_SHIFT), bitcast<f32>(a.z));";
+    rust |cx, w| {
+        let facts = (w[0] << PETIOLE_KIND_SHIFT) | (w[1] << PETIOLE_CLASS_SHIFT);
+        integers([shed_chance(cx, facts, float(w[2]))])
+    };
+}

@@ -1,0 +1,61 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// What trees are made of among the words of a case, field by field in their order.
+fn in_constants(at: u32) -> Constants {
+    let wood = in_vec4(at + 8u);
+    let air = in_vec4(at + 12u);
+    let spring = in_vec4(at + 20u);
+    return Constants(
+        in_vec4(at), in_vec3(at + 4u), in_float(at + 7u), wood.x, wood.y, wood.z, wood.w, air.x, air.y, air.z, air.w,
+        in_vec3(at + 16u), in_float(at + 19u), spring.x, spring.y, spring.z, spring.w,
+    );
+}
+
+fn in_joint(at: u32) -> Joint {
+    return Joint(in_vec4(at), in_vec3(at + 4u));
+}
+
+fn in_body(at: u32) -> Body {
+    return Body(in_vec3(at), in_vec4(at + 3u), in_vec3(at + 7u), in_vec3(at + 10u));
+}
+
+fn in_articulated(at: u32) -> Articulated {
+    return Articulated(
+        in_sym3(at), in_mat3(at + 6u), in_sym3(at + 15u), in_vec3(at + 21u), in_vec3(at + 24u),
+    );
+}
+
+fn in_answer(at: u32) -> Answer {
+    return Answer(
+        in_vec3(at), in_mat3(at + 3u), in_mat3(at + 12u), in_vec3(at + 21u), in_vec3(at + 24u), in_vec3(at + 27u),
+    );
+}
+
+fn out_joint(at: u32, value: Joint) {
+    out_vec4(at, value.turn);
+    out_vec3(at + 4u, value.rate);
+}
+
+fn out_body(at: u32, value: Body) {
+    out_vec3(at, value.base);
+    out_vec4(at + 3u, value.pose);
+    out_vec3(at + 7u, value.velocity);
+    out_vec3(at + 10u, value.spin);
+}
+
+fn out_articulated(at: u32, value: Articulated) {
+    out_sym3(at, value.rotation);
+    out_mat3(at + 6u, value.coupling);
+    out_sym3(at + 15u, value.mass);
+    out_vec3(at + 21u, value.moment);
+    out_vec3(at + 24u, value.force);
+}
+
+fn out_answer(at: u32, value: Answer) {
+    out_vec3(at, value.free);
+    out_mat3(at + 3u, value.spring);
+    out_mat3(at + 12u, value.lever);
+    out_vec3(at + 21u, value.arm);
+    out_vec3(at + 24u, value.turning);
+    out_vec3(at + 27u, value.centripetal);
+}
