@@ -11,9 +11,10 @@ use std::process::Stdio;
 use common_cli::{command, contents, file, folder, windfall};
 use serde_json::Value;
 use windfall_core::{Scene, World};
+use windfall_tests::strategies::wooded_scene;
 
 /// Keys of the report, in their order. They stay.
-const KEYS: [&str; 14] = [
+const KEYS: [&str; 15] = [
     "scene",
     "backend",
     "adapter",
@@ -22,6 +23,7 @@ const KEYS: [&str; 14] = [
     "steps",
     "time_s",
     "leaves",
+    "trees",
     "mean_position_m",
     "mean_velocity_m_s",
     "state_hash",
@@ -86,6 +88,60 @@ fn backends_and_threads_agree_to_the_bit() {
     }
     let other = simulate(&["storm", "--steps", "100", "--leaves", "5000", "--seed", "10", "--threads", "1"]);
     assert_ne!(reports[0]["state_hash"], other["state_hash"], "another seed");
+}
+
+#[test]
+fn trees_are_told_alike_by_both_backends() {
+    let there = folder();
+    let mut scene = wooded_scene(7, 300, 14.0, 1.0 / 60.0);
+    scene.trees.truncate(3);
+    scene.regrow_after_s = Some(1.0);
+    file(&there, "wood.ron", scene.to_ron());
+    let run = |arguments: &[&str]| {
+        let all = [&["simulate", "wood.ron", "--json"], arguments].concat();
+        windfall(&there, &all).json()
+    };
+    let reports: Vec<_> = [&["--threads", "1"], &["--threads", "3"], &["--backend", "wgpu"]]
+        .iter()
+        .map(|backend| run(&[&["--steps", "600"], &backend[..]].concat()))
+        .collect();
+    let trees = &reports[0]["trees"];
+    assert_eq!(trees["count"], 3, "{trees}");
+    assert!(trees["segments"].as_u64().is_some_and(|count| count > 300), "{trees}");
+    let angle = trees["max_joint_angle_rad"].as_f64().expect("a number");
+    assert!((0.001..2.0).contains(&angle), "joints bend: {trees}");
+    let speed = trees["tip_speed_max_m_s"].as_f64().expect("a number");
+    assert!((0.05..30.0).contains(&speed), "twigs move: {trees}");
+    let shed = trees["leaves_shed"].as_u64().expect("a whole number");
+    assert_eq!(&reports[1]["trees"], trees, "one thread and three");
+    if reports[2]["contract"] == "exact" {
+        assert_eq!(&reports[2]["trees"], trees, "both backends");
+    }
+
+    // Leaves that come back and come off again count again: parts of a run add up, states do not.
+    let start = run(&["--steps", "0"]);
+    let gone = |report: &Value| report["leaves"]["attached"].as_u64().expect("a whole number");
+    assert!(shed > gone(&start) - gone(&reports[0]), "{shed} shed, some grew back: {}", reports[0]);
+    let first = run(&["--steps", "250", "--checkpoint", "wood.ckpt", "--backend", "wgpu"]);
+    let rest = ["simulate", "--json", "--resume", "wood.ckpt", "--steps", "350"];
+    let rest = windfall(&there, &rest).json();
+    let part = |report: &Value| report["trees"]["leaves_shed"].as_u64().expect("a whole number");
+    if first["contract"] == "exact" {
+        assert_eq!(part(&first) + part(&rest), shed, "two parts of one run");
+    }
+    let text = windfall(&there, &["simulate", "wood.ron", "--steps", "60"]).text();
+    assert!(text.contains("trees") && text.contains("leaves shed"), "people are told as well: {text}");
+}
+
+#[test]
+fn a_scene_without_trees_has_none_to_tell_of() {
+    for backend in BACKENDS {
+        let report = simulate(&["six-motions", "--steps", "90", "--backend", backend]);
+        let none = serde_json::json!({
+            "count": 0, "segments": 0, "max_joint_angle_rad": 0.0, "tip_speed_max_m_s": 0.0, "leaves_shed": 0
+        });
+        assert_eq!(report["trees"], none, "{report}");
+    }
 }
 
 #[test]

@@ -143,3 +143,28 @@ fn bad_input_is_refused_in_one_line_and_leaves_nothing() {
     // What lies at the destination stays if the tree cannot be had.
     assert_refused(&folder, &["tree", "export", "half.glb", "--out", "weed.glb"], &["half.glb"]);
 }
+
+#[test]
+fn shedding_is_plotted() {
+    let folder = folder();
+    let arguments = ["tree", "shedding", "weed", "--minutes", "1", "--leaves", "200", "--out", "weed.png"];
+    let told = windfall(&folder, &arguments).text();
+    assert!(told.starts_with("weed.png: 5 seasons, "), "{told}");
+    let picture = image::open(folder.path().join("weed.png")).expect("a picture").to_rgb8();
+    assert_eq!(picture.dimensions(), (1600, 1000), "size");
+    // Curves, ink and the paper between them.
+    let count = |is: fn([u8; 3]) -> bool| picture.pixels().filter(|pixel| is(pixel.0)).count();
+    let (paper, ink) = (count(|[r, g, b]| r.min(g).min(b) > 225), count(|[r, g, b]| r.max(g).max(b) < 90));
+    let color = count(|[r, _, b]| r > 190 && b < 80);
+    assert!(paper > 1_200_000 && ink > 4000 && color > 3000, "{paper} paper, {ink} ink, {color} colour");
+
+    let out = ["--out", "other.png"];
+    assert_refused(
+        &folder,
+        &[&["tree", "shedding", "fern"], &out[..]].concat(),
+        &["fern", "allowed", "maple"],
+    );
+    assert_refused(&folder, &["tree", "shedding", "weed", "--out", "a.jpg"], &["a.jpg", ".png"]);
+    let minutes = ["tree", "shedding", "weed", "--minutes", "61", "--out", "other.png"];
+    assert_refused(&folder, &minutes, &["--minutes", "1 to 60"]);
+}

@@ -12,6 +12,7 @@ pub mod report;
 pub mod scene;
 pub mod simulate;
 pub mod stepping;
+pub mod swaying;
 pub mod tracks;
 pub mod tree;
 pub mod view;

@@ -10,6 +10,7 @@ use windfall_core::motion::Primitive;
 use windfall_core::{Simulator, Stats, World};
 
 use super::stepping::Stepping;
+use super::swaying::TreeReport;
 
 /// Numbers of leaves by what they do.
 #[derive(Clone, Copy, Debug, Serialize)]
@@ -45,6 +46,8 @@ pub struct Report {
     pub time_s: f64,
     /// Numbers of leaves.
     pub leaves: LeafCounts,
+    /// The trees.
+    pub trees: TreeReport,
     /// Mean position over the total.
     pub mean_position_m: [f64; 3],
     /// Mean velocity over the total.
@@ -67,6 +70,7 @@ impl Report {
         world: &World,
         steps: u32,
         stepping: &Stepping,
+        trees: TreeReport,
     ) -> Self {
         let info = simulator.info();
         let Stats { attached, falling, resting, dormant, .. } = world.stats();
@@ -81,6 +85,7 @@ impl Report {
             steps,
             time_s: world.clock.seconds(),
             leaves: LeafCounts { total, attached, falling, resting, dormant },
+            trees,
             mean_position_m,
             mean_velocity_m_s,
             state_hash: format!("{:016x}", world.state_hash()),
@@ -107,6 +112,9 @@ impl Report {
         row("steps", format!("{}, to {:.3} s", self.steps, self.time_s));
         row("leaves", format!("{total}: {attached} attached, {falling} falling, {resting} resting"));
         row("not let go yet", dormant.to_string());
+        let TreeReport { count, segments, max_joint_angle_rad, tip_speed_max_m_s, leaves_shed } = self.trees;
+        let sway = format!("joints to {max_joint_angle_rad:.3} rad, tips to {tip_speed_max_m_s:.2} m/s");
+        row("trees", format!("{count} of {segments} segments, {sway}, {leaves_shed} leaves shed"));
         row("motions", motions.join(", "));
         row("mean position", format!("{x:.4} {y:.4} {z:.4} m"));
         row("mean velocity", format!("{u:.4} {v:.4} {w:.4} m/s"));

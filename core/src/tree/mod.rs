@@ -4,6 +4,7 @@
 
 pub mod bark;
 mod crown;
+mod extent;
 pub mod forest;
 mod from_file;
 pub mod gltf;
@@ -24,6 +25,7 @@ mod timber;
 pub mod turtle;
 
 pub use bark::{BarkDetail, BarkMesh, bark_mesh};
+pub use extent::SwayExtent;
 pub use forest::Forest;
 pub(crate) use grow::segments_of;
 pub use grow::{TreeError, full_leaf_count, grow};

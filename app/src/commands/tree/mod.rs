@@ -4,6 +4,7 @@
 
 pub mod export;
 pub mod info;
+pub mod shedding;
 mod source;
 
 use clap::Subcommand;
@@ -15,6 +16,8 @@ pub enum Command {
     Export(export::Arguments),
     /// Tell how large a tree is, in numbers.
     Info(info::Arguments),
+    /// Plot how many leaves a tree sheds against the wind, for several times of the year.
+    Shedding(shedding::Arguments),
 }
 
 impl Command {
@@ -26,6 +29,7 @@ impl Command {
         match self {
             Self::Export(arguments) => export::run(&arguments),
             Self::Info(arguments) => info::run(&arguments),
+            Self::Shedding(arguments) => shedding::run(&arguments),
         }
     }
 }
