@@ -144,7 +144,7 @@ pub fn forked(depth: u32, height_m: f32) -> Skeleton {
             let direction = segment.direction();
             let normal = direction.any_orthonormal_vector();
             Attachment {
-                segment: index as u32,
+                segment: u32::try_from(index).expect("a small tree"),
                 bearing: Bearing::Leaf,
                 at_m: segment.end_m,
                 direction,
@@ -165,7 +165,7 @@ fn grow_fork(
     left: u32,
 ) {
     let order = parent.map_or(0, |parent| segments[parent as usize].order + 1);
-    let index = segments.len() as u32;
+    let index = u32::try_from(segments.len()).expect("a small tree");
     let end = start + direction * length;
     let (start_radius_m, end_radius_m) = (radius, 0.8 * radius);
     segments.push(Segment { parent, start_m: start, end_m: end, start_radius_m, end_radius_m, order });

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Tier 0: petioles break as often as the model says, and where a leaf comes off nothing jumps.
 
+#![expect(clippy::cast_possible_truncation, reason = "numbers of a test, small")]
+
 use std::time::Instant;
 
 use glam::{Quat, Vec3};

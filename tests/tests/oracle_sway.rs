@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Tier 0: the dynamics of trees against beams, statics and the promise never to blow up.
 
+#![expect(clippy::cast_possible_truncation, reason = "numbers of a test, small")]
+
 use glam::Vec3;
 use proptest::prelude::*;
 use windfall_core::scene::{MeanSpeed, Profile, SwayScheme, Wood};
@@ -68,8 +70,8 @@ fn a_chain_sways_like_the_cantilever_it_stands_for() {
 
 /// A wind that jumps between nothing and `speed` every `steps` steps.
 fn gusty(grove: &mut Grove, speed: f32, step: u32, steps: u32, direction_deg: f32) {
-    if step % steps == 0 {
-        let now = if step / steps % 2 == 0 { speed } else { 0.0 };
+    if step.is_multiple_of(steps) {
+        let now = if (step / steps).is_multiple_of(2) { speed } else { 0.0 };
         grove.blow(|scene| {
             scene.wind.speed = MeanSpeed::MetresPerSecond(now);
             scene.wind.direction_deg = direction_deg + 40.0 * (step / steps) as f32;

@@ -54,8 +54,8 @@ fn eight_of<T>(column: &[T], row: usize) -> &[T; LANES] {
 #[inline(always)]
 fn gather(column: &[Record], rows: &[usize; LANES]) -> [Record; LANES] {
     let mut out = [[0.0; 4]; LANES];
-    for lane in 0..LANES {
-        out[lane] = column[rows[lane]];
+    for (record, &row) in out.iter_mut().zip(rows) {
+        *record = column[row];
     }
     out
 }
@@ -64,8 +64,8 @@ fn gather(column: &[Record], rows: &[usize; LANES]) -> [Record; LANES] {
 #[inline(always)]
 fn work_part<S: Simd>(simd: S, work: &[Work], rows: &[usize; LANES], part: usize) -> Four<f32x8<S>> {
     let mut out = [[0.0; 4]; LANES];
-    for lane in 0..LANES {
-        out[lane] = work[rows[lane]][part];
+    for (record, &row) in out.iter_mut().zip(rows) {
+        *record = work[row][part];
     }
     columns(simd, &out)
 }
@@ -74,8 +74,8 @@ fn work_part<S: Simd>(simd: S, work: &[Work], rows: &[usize; LANES], part: usize
 #[inline(always)]
 fn store_part<S: Simd>(work: &mut [Work; LANES], part: usize, v: Vec3<f32x8<S>>, w: f32x8<S>) {
     let parts = records(v, w);
-    for lane in 0..LANES {
-        work[lane][part] = parts[lane];
+    for (work, record) in work.iter_mut().zip(parts) {
+        work[part] = record;
     }
 }
 
@@ -85,8 +85,8 @@ fn constants_of<S: Simd>(simd: S, timber: &[Timber; LANES]) -> Constants<f32x8<S
     let rows: &[[Record; TIMBER_ROWS as usize]; LANES] = must_cast_ref(timber);
     let part = |number: usize| {
         let mut out = [[0.0; 4]; LANES];
-        for lane in 0..LANES {
-            out[lane] = rows[lane][number];
+        for (record, row) in out.iter_mut().zip(rows) {
+            *record = row[number];
         }
         out
     };
@@ -154,8 +154,8 @@ fn joints_at<S: Simd>(simd: S, rows: &Rows<'_>, row: usize) -> Joint<f32x8<S>> {
 #[inline(always)]
 fn parents_of(rows: &Rows<'_>, row: usize) -> [usize; LANES] {
     let mut parents = [0; LANES];
-    for lane in 0..LANES {
-        parents[lane] = (rows.timber[row + lane].parent - rows.first) as usize;
+    for (parent, timber) in parents.iter_mut().zip(eight_of(rows.timber, row)) {
+        *parent = (timber.parent - rows.first) as usize;
     }
     parents
 }
@@ -263,12 +263,9 @@ fn store_eight<S: Simd>(column: &mut [Record], row: usize, v: Vec3<f32x8<S>>, w:
 /// The pass towards the tips at eight rows of a level above the trunks.
 #[inline(always)]
 pub(super) fn unfold_eight<S: Simd>(simd: S, cx: &Context<'_>, rows: &mut Rows<'_>, row: usize) {
-    let mut own = [0; LANES];
-    for lane in 0..LANES {
-        own[lane] = row + lane;
-    }
+    let rows_here: [usize; LANES] = [0, 1, 2, 3, 4, 5, 6, 7].map(|lane: usize| row + lane);
     let parents = parents_of(rows, row);
-    let answer = answers_at(simd, rows.work, &own);
+    let answer = answers_at(simd, rows.work, &rows_here);
     let angular = work_part(simd, rows.work, &parents, 0).0;
     let linear = work_part(simd, rows.work, &parents, 1).0;
     let (motion, own) = joint_motion(&answer, &Motion { angular, linear });

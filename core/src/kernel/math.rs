@@ -248,8 +248,9 @@ mod tests {
     #[test]
     fn sin_cos_half_is_close() {
         let mut worst = 0f64;
-        for angle in 0..=u32::from(u16::MAX) {
-            let x = f64::from((angle as u16).cast_signed()) / 65536.0 * std::f64::consts::PI;
+        for half in 0..=u16::MAX {
+            let angle = u32::from(half);
+            let x = f64::from(half.cast_signed()) / 65536.0 * std::f64::consts::PI;
             let (s, c) = sin_cos_half(angle);
             worst = worst.max((f64::from(s) - x.sin()).abs()).max((f64::from(c) - x.cos()).abs());
             assert_eq!(

@@ -158,7 +158,7 @@ pub fn swing_step(swing: Swing, stiffness: f32, a: f32, force: f32, dt: f32) -> 
         let inverse = inverse_sqrt(frequency);
         let (s, c) = sin_cos(((frequency * inverse) * dt).min(PHASE_MOST));
         sine = (cosine * s) * inverse;
-        cosine = cosine * c;
+        cosine *= c;
     } else if discriminant > small {
         let inverse = inverse_sqrt(discriminant);
         let root = discriminant * inverse;
