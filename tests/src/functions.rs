@@ -3,6 +3,7 @@
 //! Every device function, as it is called in Rust and in WGSL.
 
 mod leaf;
+mod schemes;
 mod tree;
 
 use windfall_core::Context;
@@ -93,5 +94,5 @@ use functions;
 
 /// All functions under test.
 pub fn all() -> impl Iterator<Item = &'static Function> {
-    leaf::LEAF_FUNCTIONS.iter().chain(tree::TREE_FUNCTIONS)
+    leaf::LEAF_FUNCTIONS.iter().chain(tree::TREE_FUNCTIONS).chain(schemes::SCHEME_FUNCTIONS)
 }

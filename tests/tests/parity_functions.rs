@@ -206,5 +206,10 @@ fn the_table_reaches_every_function_of_numbers() {
     let missing: Vec<_> =
         (0..all.len()).filter(|&i| !reached[i] && !on_records[i]).map(|i| all[i].0).collect();
     assert!(missing.is_empty(), "no case calls {missing:?}");
-    assert!(on_records.iter().filter(|&&is| is).count() < 40, "most functions are of numbers alone");
+    let of_records = on_records.iter().filter(|&&is| is).count();
+    assert!(
+        2 * of_records < all.len(),
+        "most functions are of numbers alone, all but {of_records} of {}",
+        all.len()
+    );
 }

@@ -182,5 +182,5 @@ fn bad_options_are_refused_before_a_window_opens() {
     assert_refused(&there, &["view", "--after", "3"], &["--screenshot"]);
     assert_refused(&there, &["view", "--screenshot", "a.png", "--after", "-1"], &["-1"]);
     assert_refused(&there, &["view", "--screenshot", "none/a.png"], &["none/a.png", "no folder"]);
-    assert_refused(&there, &["view", "--leaves", "2"], &["--leaves is 2"]);
+    assert_refused(&there, &["view", "--leaves", "1"], &["--leaves is 1"]);
 }

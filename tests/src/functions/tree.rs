@@ -19,7 +19,7 @@ use windfall_core::tree::sway::{Answer, Articulated, Body, Constants, Joint};
 use super::{Function, Input, float, functions, integers, quaternion, vector};
 use crate::runner::{NO_WORDS, Words};
 
-fn sym3(words: &Words, at: usize) -> Sym3 {
+pub(super) fn sym3(words: &Words, at: usize) -> Sym3 {
     Sym3 { diagonal: vector(words, at), off: vector(words, at + 3) }
 }
 
@@ -27,7 +27,7 @@ fn mat3(words: &Words, at: usize) -> Mat3 {
     Mat3 { x: vector(words, at), y: vector(words, at + 3), z: vector(words, at + 6) }
 }
 
-fn constants(words: &Words, at: usize) -> Constants {
+pub(super) fn constants(words: &Words, at: usize) -> Constants {
     let number = |index| float(words[at + index]);
     Constants {
         rest: quaternion(words, at),
@@ -50,11 +50,11 @@ fn constants(words: &Words, at: usize) -> Constants {
     }
 }
 
-fn joint(words: &Words, at: usize) -> Joint {
+pub(super) fn joint(words: &Words, at: usize) -> Joint {
     Joint { turn: quaternion(words, at), rate: vector(words, at + 4) }
 }
 
-fn body(words: &Words, at: usize) -> Body {
+pub(super) fn body(words: &Words, at: usize) -> Body {
     Body {
         base: vector(words, at),
         pose: quaternion(words, at + 3),
@@ -74,14 +74,14 @@ fn articulated(words: &Words, at: usize) -> Articulated {
 }
 
 /// Results, written one after another.
-struct Results(Words, usize);
+pub(super) struct Results(pub(super) Words, usize);
 
 impl Results {
-    fn new() -> Self {
+    pub(super) fn new() -> Self {
         Self(NO_WORDS, 0)
     }
 
-    fn floats(mut self, values: &[f32]) -> Self {
+    pub(super) fn floats(mut self, values: &[f32]) -> Self {
         for value in values {
             self.0[self.1] = value.to_bits();
             self.1 += 1;
@@ -89,7 +89,7 @@ impl Results {
         self
     }
 
-    fn vec3(self, v: Vec3) -> Self {
+    pub(super) fn vec3(self, v: Vec3) -> Self {
         self.floats(&v.to_array())
     }
 
@@ -97,7 +97,7 @@ impl Results {
         self.floats(&q.to_array())
     }
 
-    fn sym3(self, a: Sym3) -> Self {
+    pub(super) fn sym3(self, a: Sym3) -> Self {
         self.vec3(a.diagonal).vec3(a.off)
     }
 
@@ -105,7 +105,7 @@ impl Results {
         self.vec3(a.x).vec3(a.y).vec3(a.z)
     }
 
-    fn joint(self, joint: Joint) -> Self {
+    pub(super) fn joint(self, joint: Joint) -> Self {
         self.quat(joint.turn).vec3(joint.rate)
     }
 
@@ -122,24 +122,24 @@ impl Results {
     }
 }
 
-const DIRECTION: Input = Input::Floats(3, -1.0, 1.0);
-const QUATERNION: Input = Input::Floats(4, -1.0, 1.0);
-const PLACE: Input = Input::Floats(3, -300.0, 300.0);
-const VELOCITY: Input = Input::Floats(3, -20.0, 20.0);
+pub(super) const DIRECTION: Input = Input::Floats(3, -1.0, 1.0);
+pub(super) const QUATERNION: Input = Input::Floats(4, -1.0, 1.0);
+pub(super) const PLACE: Input = Input::Floats(3, -300.0, 300.0);
+pub(super) const VELOCITY: Input = Input::Floats(3, -20.0, 20.0);
 const MATRIX: Input = Input::Floats(9, -3.0, 3.0);
 /// With [`OFF`], always a positive definite matrix.
-const DIAGONAL: Input = Input::Floats(3, 2.0, 4.0);
-const OFF: Input = Input::Floats(3, -0.9, 0.9);
+pub(super) const DIAGONAL: Input = Input::Floats(3, 2.0, 4.0);
+pub(super) const OFF: Input = Input::Floats(3, -0.9, 0.9);
 /// Coupling of a body whose own matrices are those.
 const COUPLING: Input = Input::Floats(9, -0.5, 0.5);
 /// Vector and scalar part of a joint's rotation by up to one radian, beyond where its stop begins.
-const TURN: Input = Input::Floats(3, -0.28, 0.28);
-const TURN_COSINE: Input = Input::Float(0.85, 1.0);
+pub(super) const TURN: Input = Input::Floats(3, -0.28, 0.28);
+pub(super) const TURN_COSINE: Input = Input::Float(0.85, 1.0);
 /// Rest, offset and length; then mass to the twisting inertia but for the preload, which is before damping and springs.
-const LENGTH: Input = Input::Float(0.05, 2.0);
-const SCALARS: Input = Input::Floats(8, 0.01, 3.0);
-const PRELOAD: Input = Input::Floats(3, -5.0, 5.0);
-const SPRINGS: Input = Input::Floats(5, 0.01, 50.0);
+pub(super) const LENGTH: Input = Input::Float(0.05, 2.0);
+pub(super) const SCALARS: Input = Input::Floats(8, 0.01, 3.0);
+pub(super) const PRELOAD: Input = Input::Floats(3, -5.0, 5.0);
+pub(super) const SPRINGS: Input = Input::Floats(5, 0.01, 50.0);
 
 functions! {
     TREE_FUNCTIONS;

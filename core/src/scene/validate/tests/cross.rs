@@ -67,6 +67,7 @@ const SOURCES: &[Case] = &[
     (
         |s| {
             s.sources = vec![s.sources[0].clone(); 2];
+            s.trees.clear();
             s.sources[0].count = MAX_LEAVES - s.sources[1].count;
         },
         None,

@@ -136,7 +136,10 @@ const REALS: &[Row<f32>] = &[
 const COUNTS: &[Row<u32>] = &[
     ("species[0].motion.rose_swings", 2, 12, |s, v| s.species[0].motion.rose_swings = Some(v)),
     ("species[0].transitions[0]", 1, 65_535, |s, v| s.species[0].transitions.0[0] = [v, 0, 0, 0, 0, 0]),
-    ("sources[0].count", 1, 1 << 28, |s, v| s.sources[0].count = v),
+    ("sources[0].count", 1, 1 << 28, |s, v| {
+        s.trees.clear();
+        s.sources[0].count = v;
+    }),
     ("sources[0].species[0].weight", 1, 1000, |s, v| s.sources[0].species[0].weight = v),
 ];
 

@@ -40,10 +40,19 @@ const CASES: &[Case] = &[
     (|s| s.trees[0].leaves = 200_000, None),
     (|s| s.trees[0].leaves = 200_001, Some("trees[0].leaves")),
     (|s| s.trees[0].number = u32::MAX, None),
-    (|s| s.trees = vec![Tree { kind: "weed".into(), ..Tree::default() }; MAX_TREES], None),
-    (|s| s.trees = vec![Tree { kind: "weed".into(), ..Tree::default() }; MAX_TREES + 1], Some("trees")),
-    (|s| s.trees = vec![Tree { kind: "oak".into(), ..Tree::default() }; MAX_TREES], Some("trees")),
-    (|s| s.trees = vec![Tree { kind: "oak".into(), age: 0.1, ..Tree::default() }; MAX_TREES], None),
+    (|s| s.trees = vec![Tree { kind: "weed".into(), leaves: 500, ..Tree::default() }; MAX_TREES], None),
+    (
+        |s| s.trees = vec![Tree { kind: "weed".into(), leaves: 500, ..Tree::default() }; MAX_TREES + 1],
+        Some("trees"),
+    ),
+    (
+        |s| s.trees = vec![Tree { kind: "oak".into(), leaves: 500, ..Tree::default() }; MAX_TREES],
+        Some("trees"),
+    ),
+    (
+        |s| s.trees = vec![Tree { kind: "weed".into(), leaves: 513, ..Tree::default() }; MAX_TREES],
+        Some("trees"),
+    ),
     (|s| grammar(s, "axiom F L;"), None),
     (|s| grammar(s, "axiom F G;"), Some("tree_kinds[0].form")),
     (|s| grammar(s, "axiom A(1); A(l) -> F(l) A(l - 1);"), Some("tree_kinds[0].form")),
@@ -93,11 +102,11 @@ fn a_misspelt_kind_of_trees_is_recognised() {
 fn too_large_a_forest_gives_the_count_reached() {
     let line = line(|s| {
         grammar(s, PALISADE);
-        s.trees = vec![Tree::default(); MAX_TREES];
+        s.trees = vec![Tree { leaves: 0, ..Tree::default() }; MAX_TREES];
     });
     assert_eq!(
         line,
-        "park.ron: trees is 2098176 segments up to trees[2048] of 4096; allowed: at most 2097152 segments over all trees"
+        "park.ron: trees is 525312 segments up to trees[512] of 4096; allowed: at most 524288 segments over all trees"
     );
 }
 
