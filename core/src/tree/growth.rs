@@ -3,7 +3,7 @@
 //! Growth in time: from the shoots of the full-grown tree to the tree at an age.
 //!
 //! A shoot is born when its step of the derivation comes and grows from nothing to its full length within
-//! [`GROWING_TIME`]. With the growth function *g*, which rises from 0 to 1 in that time, its length goes with a power
+//! `GROWING_TIME`. With the growth function *g*, which rises from 0 to 1 in that time, its length goes with a power
 //! of *g* that is the larger the more branches lie between it and the foot, and its pipes with a higher power: thick
 //! branches come before thin ones. A shoot that is there at one age is there at every later one, and no length ever
 //! shrinks.

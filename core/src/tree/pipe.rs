@@ -4,7 +4,7 @@
 //! below, `r_p^n = Σ r_c^n`.
 //!
 //! Pipes also begin along a segment, for the leaves that it bears or bore itself: it tapers by them. A tip ends with
-//! [`TIP_TAPER`] of the radius at its base. The factor from the number of pipes to metres is chosen so that the
+//! `TIP_TAPER` of the radius at its base. The factor from the number of pipes to metres is chosen so that the
 //! full-grown trunk has the grammar's girth.
 //!
 //! # Source
