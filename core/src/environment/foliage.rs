@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Compiles trees: their seedlings, their petioles and how likely these are to break.
 //!
-//! # Source
-//! PHYSICS: a petiole bears F0 exp(-S) with F0 log-normal over the leaves and S rising from 0 in summer to 6; it breaks
+//! # Model
+//! A petiole bears F0 exp(-S) with F0 log-normal over the leaves and S rising from 0 in summer to 6; it breaks
 //! at a rate of lambda exp((F/Fb - 1)/0.15), one a day at S = 4 where the load F is its strength Fb. Both are assumptions
 //! in the range of what is measured: green petioles 1 to 20 N, ripe abscission zones below 0.1 N.
 
