@@ -63,21 +63,33 @@ impl VeinTree {
         (0..self.on.len()).filter(|i| self.on[*i] && price[*i].is_finite()).collect()
     }
 
-    /// The tree as nodes in the photo's pixels.
-    pub(super) fn into_graph(self, close_up: &CloseUp) -> VeinGraph {
-        let smooth = self.graph(close_up, SMOOTHING);
-        if is_planar(&smooth) { smooth } else { self.graph(close_up, 0) }
+    /// The tree as nodes in the photo's pixels. Veins that cross once they are smoothed and thinned out are taken as they
+    /// are, and the finest that still cross are left out: a few pixels of a mask may be all there is between two ways.
+    pub(super) fn into_graph(mut self, close_up: &CloseUp) -> VeinGraph {
+        let spacing = usize::try_from(floor_i32(SPACING * close_up.side)).unwrap_or(0).max(2);
+        for (smoothing, spacing) in [(SMOOTHING, spacing), (0, spacing), (0, 1)] {
+            let graph = self.graph(close_up, smoothing, spacing);
+            if is_planar(&graph) {
+                return graph;
+            }
+        }
+        loop {
+            self.ways.pop();
+            let graph = self.graph(close_up, 0, 1);
+            if self.ways.is_empty() || is_planar(&graph) {
+                return graph;
+            }
+        }
     }
 
-    /// Nodes along ways that are smoothed over `smoothing` pixels on either side.
-    fn graph(&self, close_up: &CloseUp, smoothing: usize) -> VeinGraph {
+    /// Nodes every `spacing` pixels along ways that are smoothed over `smoothing` pixels on either side.
+    fn graph(&self, close_up: &CloseUp, smoothing: usize, spacing: usize) -> VeinGraph {
         let centre = |i: usize| Vec2::new((i % self.width) as f32 + 0.5, (i / self.width) as f32 + 0.5);
         let first = VeinNode { position: centre(self.root), parent: None, order: 1, radius: 0.0 };
         let mut nodes = vec![first];
         // The node that stands for each pixel of the tree.
         let mut node_of = vec![NONE; self.on.len()];
         node_of[self.root] = 0;
-        let spacing = usize::try_from(floor_i32(SPACING * close_up.side)).unwrap_or(0).max(2);
         for (way, order) in &self.ways {
             let mut node = self.node_near(&node_of, way[0]);
             let last = way.len() - 1;
