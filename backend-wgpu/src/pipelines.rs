@@ -25,6 +25,7 @@ pub(crate) struct Pipelines {
     /// What carries them.
     pub(crate) carrier_layout: wgpu::BindGroupLayout,
     pub(crate) advance: wgpu::ComputePipeline,
+    pub(crate) fly: wgpu::ComputePipeline,
     pub(crate) attend: wgpu::ComputePipeline,
     pub(crate) measure: wgpu::ComputePipeline,
     /// Towards the foot and towards the tips: of articulated bodies, and of the schemes that move joints one by one.
@@ -106,6 +107,7 @@ impl Pipelines {
             gpu.check().map(|()| pipeline)
         };
         let advance = pipeline(KernelId::Advance)?;
+        let fly = pipeline(KernelId::Fly)?;
         let attend = pipeline(KernelId::Attend)?;
         let measure = pipeline(KernelId::Measure)?;
         let sway = [
@@ -121,6 +123,7 @@ impl Pipelines {
             carried_layout,
             carrier_layout,
             advance,
+            fly,
             attend,
             measure,
             sway,

@@ -3,7 +3,7 @@
 //! The generated head of every shader: structs and constants, from their one statement in `windfall-core`.
 
 use windfall_core::layout::WgslStruct;
-use windfall_core::{blocks, kernel, leaf, motion, stats, tree, wind};
+use windfall_core::{blocks, flight, kernel, leaf, motion, stats, tree, wind};
 
 /// Invocations per workgroup.
 pub const WORKGROUP_SIZE: u32 = 256;
@@ -14,6 +14,7 @@ pub(crate) fn structs() -> String {
         blocks::SpeciesBlock::declaration(),
         blocks::SourceBlock::declaration(),
         blocks::WindBlock::declaration(),
+        flight::block::BodyBlock::declaration(),
         blocks::EnvironmentBlock::declaration(),
         blocks::VortexBlock::declaration(),
         blocks::StepBlock::declaration(),
@@ -25,6 +26,9 @@ pub(crate) fn structs() -> String {
 pub(crate) fn constants() -> String {
     let lists = [
         blocks::wgsl_constants(),
+        flight::block::wgsl_constants(),
+        flight::rates::wgsl_constants(),
+        flight::runge_kutta::wgsl_constants(),
         kernel::math::wgsl_constants(),
         kernel::matrix::wgsl_constants(),
         kernel::quaternion::wgsl_constants(),
@@ -32,6 +36,7 @@ pub(crate) fn constants() -> String {
         kernel::vector::wgsl_constants(),
         leaf::carry::wgsl_constants(),
         leaf::fall::wgsl_constants(),
+        leaf::launch::wgsl_constants(),
         leaf::petiole::wgsl_constants(),
         leaf::record::wgsl_constants(),
         leaf::release::wgsl_constants(),

@@ -14,6 +14,8 @@ use crate::prelude;
 pub enum KernelId {
     /// Moves the leaves through one step to which nothing happens in it.
     Advance,
+    /// Moves the bodies among them.
+    Fly,
     /// Moves the others.
     Attend,
     /// Counts leaves by state and motion.
@@ -32,8 +34,9 @@ pub enum KernelId {
 
 impl KernelId {
     /// All kernels.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 9] = [
         Self::Advance,
+        Self::Fly,
         Self::Attend,
         Self::Measure,
         Self::SwayFold,
@@ -47,6 +50,7 @@ impl KernelId {
     pub const fn name(self) -> &'static str {
         match self {
             Self::Advance => "advance",
+            Self::Fly => "fly",
             Self::Attend => "attend",
             Self::Measure => "measure",
             Self::SwayFold => "sway_fold",
@@ -86,6 +90,9 @@ impl Default for Shaders {
     fn default() -> Self {
         let mut modules = modules![
             "bindings",
+            "flight/body",
+            "flight/rates",
+            "flight/runge_kutta",
             "kernel/math",
             "kernel/matrix",
             "kernel/quaternion",
@@ -95,6 +102,7 @@ impl Default for Shaders {
             "kernels/advance",
             "kernels/attend",
             "kernels/carry",
+            "kernels/fly",
             "kernels/measure",
             "kernels/sway_fold",
             "kernels/sway_follow",
@@ -103,7 +111,9 @@ impl Default for Shaders {
             "leaf/advance",
             "leaf/carry",
             "leaf/fall",
+            "leaf/fly",
             "leaf/join",
+            "leaf/launch",
             "leaf/own",
             "leaf/petioles",
             "leaf/release",

@@ -208,6 +208,10 @@ impl WgpuSimulator {
                     let groups = page.leaves.div_ceil(WORKGROUP_SIZE);
                     pass.set_pipeline(&self.pipelines.advance);
                     pass.dispatch_workgroups(groups.min(MAX_GROUPS), 1, 1);
+                    if self.environment.block().has_bodies() {
+                        pass.set_pipeline(&self.pipelines.fly);
+                        pass.dispatch_workgroups(groups.min(MAX_GROUPS), 1, 1);
+                    }
                     pass.set_pipeline(&self.pipelines.attend);
                     pass.dispatch_workgroups(groups.div_ceil(ATTEND_SHARE), 1, 1);
                 }

@@ -4,6 +4,7 @@
 //!
 //! Both backends get these same bytes, so nothing that depends on time or scene alone is computed twice.
 
+use crate::flight::block::BodyBlock;
 use crate::layout::{Float4, Uint4};
 use crate::scene::{MAX_SOURCES, MAX_SPECIES, MAX_VORTICES};
 
@@ -12,7 +13,7 @@ crate::shared_struct! {
     pub struct SpeciesBlock {
         /// Steps (2^-16) that a fall of one metre takes; half widths of the spread of size and of speed (2^-14); unused.
         pub scales: Uint4,
-        /// First primitive motion; three unused words.
+        /// First primitive motion, or that it flies as a body; three unused words.
         pub start: Uint4,
         /// Phase per step of each primitive motion for a leaf of nominal size and speed; two unused words.
         pub rates: [Uint4; 2],
@@ -61,7 +62,7 @@ crate::shared_struct! {
         /// Number of sources; steps until a landed leaf lies flat; steps of an orientation blend; rotation speed
         /// (2^-16).
         pub counts: Uint4,
-        /// First velocity row of the motion tables; zero; two unused words.
+        /// First velocity row of the motion tables; zero; whether leaves of some species fly as bodies; unused.
         pub motion: Uint4,
         /// Step length in s; its inverse in 1/s; turns per second of 2^-32 turns per step; displacement per table
         /// displacement (fall speed over rotation speed).
@@ -78,11 +79,20 @@ crate::shared_struct! {
         pub responses: [Float4; MAX_SPECIES],
         /// The species.
         pub species: [SpeciesBlock; MAX_SPECIES],
+        /// The species as bodies.
+        pub bodies: [BodyBlock; MAX_SPECIES],
         /// The sources, and behind them the trees as one.
         pub sources: [SourceBlock; MAX_SOURCES + 1],
         /// Leaf slots of trees, the first of all; first petiole in its table; phase per step of fluttering in 2^-32
         /// turns; scheme that moves joints.
         pub crowns: Uint4,
+    }
+}
+
+impl EnvironmentBlock {
+    /// Whether leaves of some species fly as bodies.
+    pub fn has_bodies(&self) -> bool {
+        self.motion.0[2] != 0
     }
 }
 

@@ -8,6 +8,7 @@
 //!
 //! - [`scene`]: what a scene file says.
 //! - [`motion`]: six primitive motions, their tables and the chain that joins them.
+//! - [`flight`]: leaves as bodies in the air.
 //! - [`wind`]: mean flow, gusts, turbulence, vortices.
 //! - [`leaf`]: the leaf store and the life of a leaf, step by step.
 //! - [`tree`]: how trees grow, what they weigh, how they sway.
@@ -22,6 +23,7 @@ mod clock;
 mod context;
 mod environment;
 pub mod error;
+pub mod flight;
 pub mod kernel;
 pub mod layout;
 pub mod leaf;

@@ -6,12 +6,14 @@ use crate::clock::Clock;
 use crate::context::Context;
 use crate::environment::{Environment, lifetime_steps, release_step};
 use crate::error::SceneError;
+use crate::flight::book::{FlightBook, flight_books};
 use crate::kernel::vector::Vec3;
+use crate::leaf::fly::flies;
 use crate::leaf::grow::{count_leaves, leaf_grow};
 use crate::leaf::own::own_velocity;
 use crate::leaf::record::SOURCE_SHIFT;
 use crate::leaf::release::leaf_release;
-use crate::leaf::seek::leaf_seek;
+use crate::leaf::seek::leaf_seek_any;
 use crate::leaf::{LeafState, Leaves, LeavesMut};
 use crate::scene::Scene;
 use crate::stats::Stats;
@@ -49,17 +51,18 @@ impl World {
         let threads = std::thread::available_parallelism().map_or(1, usize::from);
         let share = leaves.len().div_ceil(threads).max(SMALLEST_SHARE);
         let mut branches = environment.forest().at_rest();
-        let (compiled, still) = (&environment, &branches);
+        let books = flight_books(&cx);
+        let (compiled, still, books) = (&environment, &branches, books.as_slice());
         std::thread::scope(|scope| {
             let mut rest = leaves.as_mut();
             let mut first = 0;
             while rest.len() > share {
                 let (front, back) = rest.split_at(share);
-                scope.spawn(move || place_leaves(compiled, &cx, still, front, first));
+                scope.spawn(move || place_leaves(compiled, &cx, still, books, front, first));
                 first += share;
                 rest = back;
             }
-            place_leaves(compiled, &cx, still, rest, first);
+            place_leaves(compiled, &cx, still, books, rest, first);
         });
         count_leaves(&mut branches, &cx, &leaves);
         Ok(Self { environment, clock, leaves, branches })
@@ -96,6 +99,7 @@ impl World {
         match place.state() {
             LeafState::Dormant | LeafState::Attached => Vec3::ZERO,
             LeafState::Resting => drift,
+            LeafState::Falling if flies(place.bits) => drift,
             LeafState::Falling => {
                 let step = self.environment.step_block(&self.clock);
                 let cx = self.environment.context(&step);
@@ -116,6 +120,7 @@ fn place_leaves(
     environment: &Environment,
     cx: &Context<'_>,
     branches: &Branches,
+    books: &[Option<FlightBook>],
     mut leaves: LeavesMut<'_>,
     first: usize,
 ) {
@@ -124,7 +129,7 @@ fn place_leaves(
     let mut source_first = scene.tree_leaf_count() as usize;
     for slot in first..source_first.min(first + leaves.len()) {
         #[expect(clippy::cast_possible_truncation, reason = "slots are counted in words")]
-        leaf_grow(environment, cx, branches, &mut leaves.leaf_mut(slot - first), slot as u32);
+        leaf_grow(environment, cx, branches, books, &mut leaves.leaf_mut(slot - first), slot as u32);
     }
     for (index, source) in (0..).zip(&scene.sources) {
         let lifetime = i64::from(lifetime_steps(scene, source));
@@ -152,7 +157,7 @@ fn place_leaves(
             } else {
                 let id = id.wrapping_add(word(lives).wrapping_mul(total));
                 leaf_release(cx, &mut leaf, id, index, word(release));
-                leaf_seek(cx, &mut leaf, word(-release));
+                leaf_seek_any(cx, books, &mut leaf, word(-release));
             }
         }
     }

@@ -4,6 +4,7 @@
 
 use windfall_core::World;
 use windfall_core::leaf::LeafState;
+use windfall_core::leaf::fly::flies;
 use windfall_core::tree::Branches;
 
 /// Largest difference of positions after a thousand smooth steps under the tolerant contract, in metres.
@@ -44,10 +45,16 @@ pub fn difference(a: &World, b: &World) -> Difference {
     let (a, b) = (&a.leaves, &b.leaves);
     for slot in 0..a.len().max(b.len()) {
         let integers = |leaves: &windfall_core::leaf::Leaves| {
-            // On a twig the phase is a float.
-            let is_phase = leaves.place[slot].state() != LeafState::Attached;
-            let phase = if is_phase { leaves.drift[slot].phase } else { 0 };
-            (leaves.place[slot].bits, phase, leaves.course[slot], leaves.identity[slot])
+            let bits = leaves.place[slot].bits;
+            let (mut phase, mut course) = (leaves.drift[slot].phase, leaves.course[slot]);
+            // On a twig the phase is a float, and in flight so are three words.
+            if leaves.place[slot].state() == LeafState::Attached || flies(bits) {
+                phase = 0;
+            }
+            if flies(bits) {
+                (course.rate, course.heading) = (0, 0);
+            }
+            (bits, phase, course, leaves.identity[slot])
         };
         let same_integers = integers(a) == integers(b);
         let floats = |leaves: &windfall_core::leaf::Leaves| {
@@ -58,7 +65,7 @@ pub fn difference(a: &World, b: &World) -> Difference {
             all
         };
         let (fa, fb) = (floats(a), floats(b));
-        let same_phase = a.drift[slot].phase == b.drift[slot].phase;
+        let same_phase = a.drift[slot].phase == b.drift[slot].phase && a.course[slot] == b.course[slot];
         let same_bits = fa.map(f32::to_bits) == fb.map(f32::to_bits) && same_phase;
         found.integer_leaves += usize::from(!same_integers);
         found.bit_leaves += usize::from(!(same_integers && same_bits));

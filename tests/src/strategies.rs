@@ -6,8 +6,8 @@ use glam::Vec3;
 use proptest::prelude::*;
 use windfall_core::motion::Primitive;
 use windfall_core::scene::{
-    Gusts, MeanSpeed, Profile, Release, Scene, Share, Source, SourceShape, Species, Tree, Turbulence, Vortex,
-    WindParameters,
+    Aerodynamics, FlightModel, Foliage, Gusts, Hold, MeanSpeed, Profile, Release, Scene, Share, Source,
+    SourceShape, Species, Tree, TreeKind, Turbulence, Vortex, WindParameters,
 };
 
 use crate::functions::Input;
@@ -127,6 +127,38 @@ pub fn wooded_scene(seed: u64, leaves: u32, speed_m_s: f32, dt_s: f32) -> Scene 
     ];
     scene.autumn = 0.72;
     scene.regrow_after_s = Some(6.0);
+    scene
+}
+
+/// The same scene with trees, and with bodies: all that is slight flies, and a third species that is twisted and curled.
+pub fn flying_scene(seed: u64, leaves: u32, speed_m_s: f32, dt_s: f32) -> Scene {
+    let mut scene = wooded_scene(seed, leaves, speed_m_s, dt_s);
+    scene.species[1].flight = FlightModel::Aerodynamic(Aerodynamics::default());
+    let crooked = Aerodynamics {
+        aspect: 1.8,
+        moisture: 0.5,
+        mass_offset: (-0.1, 0.05),
+        curl: 0.15,
+        twist: 0.3,
+        irregularity: 0.1,
+        hold: Hold::EdgeOn,
+        tilt_deg: 20.0,
+    };
+    scene.species.push(Species {
+        name: "crooked".into(),
+        size_variation: 0.3,
+        flight: FlightModel::Aerodynamic(crooked),
+        ..Species::default()
+    });
+    for source in &mut scene.sources {
+        source.species.push(Share { species: "crooked".into(), weight: 1 });
+    }
+    scene.tree_kinds = vec![TreeKind {
+        name: "tree of bodies".into(),
+        foliage: Foliage { species: Some("crooked".into()), ..Foliage::default() },
+        ..TreeKind::default()
+    }];
+    scene.trees[0].kind = "tree of bodies".into();
     scene
 }
 

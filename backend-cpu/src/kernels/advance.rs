@@ -14,6 +14,7 @@ use windfall_core::leaf::advance::leaf_advance_plain;
 use super::CHUNK;
 use super::attend::{Attend, attend};
 use super::eight::advance_eight;
+use super::fly::fly;
 use crate::simd::Simd;
 
 /// Steps all leaves, halving the columns until a piece is one chunk.
@@ -38,6 +39,9 @@ fn advance_chunk(cx: &Context<'_>, leaves: &mut LeavesMut<'_>, simd: Simd) {
             }
         }
         Simd::Lanes(level) => dispatch!(level, simd => advance_lanes(simd, cx, leaves, &mut due)),
+    }
+    if cx.environment.has_bodies() {
+        fly(cx, leaves, simd, &mut due);
     }
     attend(cx, leaves, &due);
 }

@@ -9,26 +9,27 @@ use windfall_core::kernel::eight::{load_records, merge, store_records};
 use windfall_core::kernel::lane::{LANES, Mask, Real, Word};
 use windfall_core::kernel::{Quat, Vec3};
 use windfall_core::leaf::fall::{Glide, attitude_after, glide_step, response_of, spin_advance};
+use windfall_core::leaf::fly::flies;
 use windfall_core::leaf::own::Manner;
 use windfall_core::leaf::record::{STATE_FALLING, STATE_MASK, STATE_RESTING};
 use windfall_core::leaf::{Attitude, Course, Drift, Place};
 
 /// Three columns of float bits as a vector.
 #[inline(always)]
-fn vector<S: Simd>(words: [u32x8<S>; 4]) -> Vec3<f32x8<S>> {
+pub(super) fn vector<S: Simd>(words: [u32x8<S>; 4]) -> Vec3<f32x8<S>> {
     Vec3::new(Real::from_bits(words[0]), Real::from_bits(words[1]), Real::from_bits(words[2]))
 }
 
 /// A vector and a word as four columns.
 #[inline(always)]
-fn with_word<S: Simd>(v: Vec3<f32x8<S>>, word: u32x8<S>) -> [u32x8<S>; 4] {
+pub(super) fn with_word<S: Simd>(v: Vec3<f32x8<S>>, word: u32x8<S>) -> [u32x8<S>; 4] {
     [Real::to_bits(v.x), Real::to_bits(v.y), Real::to_bits(v.z), word]
 }
 
 /// A bit for each lane.
 #[expect(clippy::cast_possible_truncation, reason = "eight lanes")]
 #[inline(always)]
-fn bits_of<S: Simd>(mask: mask32x8<S>) -> u8 {
+pub(super) fn bits_of<S: Simd>(mask: mask32x8<S>) -> u8 {
     mask.to_bitmask() as u8
 }
 
@@ -49,7 +50,7 @@ pub(super) fn advance_eight<S: Simd>(
     let bits = places[3];
     let state = bits & STATE_MASK;
     let waits = u32x8::splat(simd, cx.step.index.0[0]).less_than(event);
-    let falls = state.equals(STATE_FALLING) & waits;
+    let falls = state.equals(STATE_FALLING) & waits & !flies(bits);
     let slides = !((drifts[0] | drifts[2]) << 1).equals(0);
     let stirs = slides | drifts[3].less_than(bits.all(cx.environment.counts.0[1]));
     let due = !waits | (state.equals(STATE_RESTING) & stirs);

@@ -6,6 +6,7 @@ pub(crate) mod advance;
 pub(crate) mod attend;
 pub(crate) mod carry;
 mod eight;
+mod fly;
 pub(crate) mod measure;
 pub(crate) mod stand;
 mod sway_eight;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Compiles a scene into the blocks and tables that kernels read.
 
+mod body;
 mod convert;
 mod foliage;
 mod source;
@@ -13,6 +14,7 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
+use self::body::body_block;
 use self::convert::{float4, len32, q16, single, steps, word};
 pub(crate) use self::foliage::leaf_site;
 use self::foliage::{foliage_of, petiole_rows, seedlings, shed_rows};
@@ -29,7 +31,7 @@ use crate::layout::{Float4, Uint4};
 use crate::motion::lookup::MotionRows;
 use crate::motion::table::TABLE_ROWS;
 use crate::motion::{GRAVITY, MotionTables};
-use crate::scene::{MAX_SOURCES, Scene, SwayScheme};
+use crate::scene::{FlightModel, MAX_SOURCES, Scene, SwayScheme};
 use crate::tree::Forest;
 use crate::tree::sway::{SCHEME_ARTICULATED, SCHEME_OLIAPURAM_KUMAR, SCHEME_QUIGLEY};
 use crate::wind::gust::{GUST_ROWS, gust_rows};
@@ -232,7 +234,8 @@ fn compile_block(scene: &Scene, tables: &[MotionTables], first_petiole: u32) -> 
         steps(BLEND_S, scene.dt_s).min(63),
         q16(scene.rotation_speed),
     ]);
-    block.motion = Uint4([len32(tables.len() * TABLES_PER_SPECIES * 2) * TABLE_ROWS, 0, 0, 0]);
+    let has_bodies = u32::from(scene.species.iter().any(|species| species.flight != FlightModel::Synthesis));
+    block.motion = Uint4([len32(tables.len() * TABLES_PER_SPECIES * 2) * TABLE_ROWS, 0, has_bodies, 0]);
     let dt = f64::from(scene.dt_s);
     block.time =
         Float4([scene.dt_s, single(1.0 / dt), single(1.0 / dt / 4_294_967_296.0), displacement_gain(scene)]);
@@ -242,6 +245,7 @@ fn compile_block(scene: &Scene, tables: &[MotionTables], first_petiole: u32) -> 
     for (index, (species, tables)) in scene.species.iter().zip(tables).enumerate() {
         block.species[index] = species_block(scene, species, tables);
         block.responses[index] = response(scene, species);
+        block.bodies[index] = body_block(species, scene.dt_s);
     }
     for (index, source) in scene.sources.iter().take(MAX_SOURCES).enumerate() {
         let earlier: u32 = scene.sources[..index].iter().map(|earlier| earlier.count).sum();

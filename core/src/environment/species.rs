@@ -6,9 +6,9 @@ use super::convert::{single, word};
 use super::wind::deviation_m_s;
 use crate::blocks::SpeciesBlock;
 use crate::layout::{Float4, Uint4};
-use crate::leaf::record::SIZE_ONE;
+use crate::leaf::record::{AERODYNAMIC, SIZE_ONE};
 use crate::motion::{MotionConstants, MotionTables};
-use crate::scene::{Scene, Species};
+use crate::scene::{FlightModel, Scene, Species};
 
 /// Cells of the turbulence box that an eddy of typical size spans.
 const EDDY_CELLS: f32 = 8.0;
@@ -24,6 +24,10 @@ pub(super) fn species_block(scene: &Scene, species: &Species, tables: &MotionTab
     for (count, entry) in transitions.iter_mut().zip(species.transitions.0.iter().flatten()) {
         *count = *entry;
     }
+    let start = match species.flight {
+        FlightModel::Synthesis => species.start as u32,
+        FlightModel::Aerodynamic(_) => AERODYNAMIC,
+    };
     SpeciesBlock {
         scales: Uint4([
             word(65536.0 / (constants.descent_m_s * dt)),
@@ -31,7 +35,7 @@ pub(super) fn species_block(scene: &Scene, species: &Species, tables: &MotionTab
             spread(species.speed_variation),
             0,
         ]),
-        start: Uint4([species.start as u32, 0, 0, 0]),
+        start: Uint4([start, 0, 0, 0]),
         rates: bytemuck::cast(rates),
         transitions: bytemuck::cast(transitions),
     }

@@ -21,7 +21,9 @@ use super::store::LeafMut;
 use crate::blocks::{NEVER, SOURCE_TREES};
 use crate::context::Context;
 use crate::kernel::math::{inverse_sqrt, reciprocal, sin_cos_turns};
-use crate::kernel::quaternion::{Quat, quat_multiply, quat_of_turn, quat_renormalize, quat_rotate};
+use crate::kernel::quaternion::{
+    Quat, quat_multiply, quat_of_turn, quat_renormalize, quat_rotate, quat_rotate_back,
+};
 use crate::kernel::rng::philox;
 use crate::kernel::vector::{TINY_SQUARED, Vec3, vec3_cross, vec3_dot};
 use crate::layout::Uint4;
@@ -130,7 +132,7 @@ pub fn leaf_carry(
     if is_back {
         leaf.place.bits = (leaf.place.bits & !(STATE_MASK | (BLEND_MASK << BLEND_SHIFT))) | STATE_ATTACHED;
         leaf.course.event = NEVER;
-        leaf.course.size = leaf_size_on_twig(leaf.course.size >> 16, petiole.facts);
+        leaf.course.size = leaf_size_on_twig(leaf.course.size & HALF_MASK, petiole.facts);
         leaf.drift.phase = 0;
         change = 1;
     }
@@ -152,5 +154,12 @@ pub fn leaf_carry(
         }
     }
     leaf_hang(cx, leaf, slot, petiole, segment);
+    if leaf.course.event == now + 1 {
+        // What flies as a body takes the twig's spin along.
+        let spin = quat_rotate_back(Quat::from(leaf.attitude.quaternion), segment.spin);
+        leaf.drift.phase = spin.x.to_bits();
+        leaf.course.rate = spin.y.to_bits();
+        leaf.course.heading = spin.z.to_bits();
+    }
     change
 }

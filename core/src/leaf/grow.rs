@@ -8,11 +8,12 @@ use super::record::{
     HALF_MASK, SOURCE_SHIFT, SPECIES_SHIFT, STATE_ATTACHED, STATE_MASK, VARIANT_MASK, VARIANT_SHIFT,
 };
 use super::release::{leaf_drop, release_fall_time, release_size_speed};
-use super::seek::leaf_seek;
+use super::seek::leaf_seek_any;
 use super::store::{LeafMut, Leaves};
 use crate::blocks::{NEVER, SOURCE_TREES};
 use crate::context::Context;
 use crate::environment::{Environment, leaf_site};
+use crate::flight::book::FlightBook;
 use crate::kernel::rng::random;
 use crate::motion::feature::STREAM_LOOK;
 use crate::tree::Branches;
@@ -26,6 +27,7 @@ pub(crate) fn leaf_grow(
     environment: &Environment,
     cx: &Context<'_>,
     branches: &Branches,
+    books: &[Option<FlightBook>],
     leaf: &mut LeafMut<'_>,
     slot: u32,
 ) {
@@ -42,8 +44,7 @@ pub(crate) fn leaf_grow(
     if leaf_site(environment.scene(), slot).1 {
         let release = 0u32.wrapping_sub(LONG_AGO);
         leaf_drop(cx, leaf, slot, look, SOURCE_TREES, species_index, petiole.place, release);
-        leaf_seek(cx, leaf, LONG_AGO);
-        leaf.course.size |= leaf.course.size << 16;
+        leaf_seek_any(cx, books, leaf, LONG_AGO);
         return;
     }
     let species = &cx.environment.species[species_index as usize];

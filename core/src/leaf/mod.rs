@@ -5,8 +5,10 @@
 pub mod advance;
 pub mod carry;
 pub mod fall;
+pub mod fly;
 pub(crate) mod grow;
 pub mod join;
+pub mod launch;
 pub mod own;
 pub mod petiole;
 pub mod record;

@@ -27,6 +27,12 @@ crate::shared_constants! {
     pub const PRIMITIVE_SHIFT: u32 = 8;
     /// Mask of the primitive motion.
     pub const PRIMITIVE_MASK: u32 = 7;
+    /// In place of a primitive motion: the leaf flies as a body in the air.
+    pub const AERODYNAMIC: u32 = 6;
+    /// Place of such a leaf's regime, where others keep their blend.
+    pub const REGIME_SHIFT: u32 = 2;
+    /// Mask of the regime.
+    pub const REGIME_MASK: u32 = 7;
     /// Place of the species.
     pub const SPECIES_SHIFT: u32 = 11;
     /// Mask of the species.
@@ -51,6 +57,14 @@ crate::shared_constants! {
     pub const SIZE_ONE: u32 = 16384;
     /// Inverse of it.
     pub const SIZE_UNIT: f32 = 1.0 / 16384.0;
+    /// Place of a body's quirks in the same word: four of four bits.
+    pub const QUIRK_SHIFT: u32 = 16;
+    /// Mask of one of them.
+    pub const QUIRK_MASK: u32 = 15;
+    /// Middle of their range.
+    pub const QUIRK_MIDDLE: f32 = 7.5;
+    /// Inverse of it.
+    pub const QUIRK_UNIT: f32 = 1.0 / 7.5;
     /// Middle of a range, 32 to 64, in which floats lie [`GRID_UNIT`] apart.
     pub const GRID_ANCHOR: f32 = 48.0;
     /// Distance of the grid that displacements lie on, in metres.
@@ -72,10 +86,11 @@ pub struct Place {
 #[repr(C, align(16))]
 pub struct Drift {
     /// Velocity beyond the leaf's own motion in m/s: the wind as far as the leaf follows it, and what is left of
-    /// earlier motion. On the ground: the velocity of sliding. On the twig: the velocity of the blade.
+    /// earlier motion. Of a body in the air: all its velocity. On the ground: the velocity of sliding. On the twig: the
+    /// velocity of the blade.
     pub velocity: [f32; 3],
-    /// Phase of the primitive motion in 2^-32 periods. On the ground: steps since landing. On the twig: float bits of
-    /// the speed in m/s of the air that it has got used to.
+    /// Phase of the primitive motion in 2^-32 periods. Of a body in the air: float bits of its spin about x in rad/s. On
+    /// the ground: steps since landing. On the twig: float bits of the speed in m/s of the air that it has got used to.
     pub phase: u32,
 }
 
@@ -88,22 +103,23 @@ pub struct Attitude {
     pub quaternion: [f32; 4],
 }
 
-/// What a leaf is up to until its next event. Read every step, written at events.
+/// What a leaf is up to until its next event. Read every step, written at events; of a body in the air at every step.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Pod, Zeroable)]
 #[repr(C, align(16))]
 pub struct Course {
     /// Step at which something happens: release, end of a stage, recycling, the petiole's break.
     pub event: u32,
-    /// Phase per step in 2^-32 periods.
+    /// Phase per step in 2^-32 periods. Of a body in the air: float bits of its spin about y, its normal.
     pub rate: u32,
-    /// Low half: size relative to the species' in 2^-14. High half: of a tree's leaf, its own size, for on its twig it may
-    /// stand for several and be drawn larger.
+    /// Low half: size relative to the species' in 2^-14. High half: of a leaf on its twig, its own size, for there it may
+    /// stand for several and be drawn larger; of a body in the air, its quirks.
     pub size: u32,
-    /// High half: heading in 2^-16 turns about +y. Low half: spin rate, signed, full scale the species' fastest.
+    /// High half: heading in 2^-16 turns about +y. Low half: spin rate, signed, full scale the species' fastest. Of a body
+    /// in the air: float bits of its spin about z.
     pub heading: u32,
 }
 
-/// Who a leaf is. Cold: read and written at events only.
+/// Who a leaf is. Cold: read and written at events only, but for what a body in the air remembers.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Pod, Zeroable)]
 #[repr(C, align(16))]
 pub struct Identity {
@@ -111,7 +127,7 @@ pub struct Identity {
     pub id: u32,
     /// Step of its release, two's complement.
     pub release: u32,
-    /// Time a fall through still air takes in 2^-16 steps.
+    /// Time a fall through still air takes in 2^-16 steps. Of a body in the air: what it remembers of its motion.
     pub fall_time: u32,
     /// Tint (low half), image variant, source and stage.
     pub look: u32,

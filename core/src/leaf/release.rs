@@ -4,10 +4,12 @@
 //!
 //! A leaf is let go: where, how big, how fast, in which motion. Integers throughout, but for the last conversion.
 
+use super::launch::{leaf_hold, leaf_launch};
 use super::own::own_velocity;
 use super::record::{
-    BLEND_MASK, BLEND_SHIFT, HALF_MASK, PRIMITIVE_SHIFT, SIZE_ONE, SOURCE_MASK, SOURCE_SHIFT, SPECIES_MASK,
-    SPECIES_SHIFT, SPIN_SHIFT, STAGE_MASK, STAGE_SHIFT, STATE_FALLING, VARIANT_MASK, VARIANT_SHIFT,
+    AERODYNAMIC, BLEND_MASK, BLEND_SHIFT, HALF_MASK, PRIMITIVE_SHIFT, SIZE_ONE, SOURCE_MASK, SOURCE_SHIFT,
+    SPECIES_MASK, SPECIES_SHIFT, SPIN_SHIFT, STAGE_MASK, STAGE_SHIFT, STATE_FALLING, VARIANT_MASK,
+    VARIANT_SHIFT,
 };
 use super::store::LeafMut;
 use crate::blocks::{
@@ -176,10 +178,13 @@ pub fn leaf_drop(
         [place[0] as f32 * LENGTH_UNIT, place[1] as f32 * LENGTH_UNIT, place[2] as f32 * LENGTH_UNIT];
     leaf.place.bits = (0 << BLEND_SHIFT) | (species_index << SPECIES_SHIFT);
     leaf.drift.velocity = [0.0, 0.0, 0.0];
+    if species.start.0[0] == AERODYNAMIC {
+        leaf_hold(cx, leaf, id);
+    }
     leaf_set_off(cx, leaf, id, release, size_speed);
 }
 
-/// Begins the first stage of a leaf's fall. It sets off with the velocity that `drift` says.
+/// Begins the first stage of a leaf's fall, or its flight. It sets off with the velocity that `drift` says.
 #[inline(always)]
 pub fn leaf_set_off(cx: &Context<'_>, leaf: &mut LeafMut<'_>, id: u32, release: u32, size_speed: [u32; 2]) {
     let seed = [cx.environment.seed.0[0], cx.environment.seed.0[1]];
@@ -191,6 +196,14 @@ pub fn leaf_set_off(cx: &Context<'_>, leaf: &mut LeafMut<'_>, id: u32, release: 
     leaf.identity.id = id;
     leaf.identity.release = release;
     leaf.identity.look &= !(STAGE_MASK << STAGE_SHIFT);
+    if primitive == AERODYNAMIC {
+        leaf.course.event = next_event(cx, id, release, 0, STAGE_COUNT, source);
+        leaf.place.bits = STATE_FALLING
+            | (leaf.place.bits & (SPECIES_MASK << SPECIES_SHIFT))
+            | (primitive << PRIMITIVE_SHIFT);
+        leaf_launch(cx, leaf, id);
+        return;
+    }
     leaf.course.event = next_event(cx, id, release, leaf.identity.fall_time, 0, source);
     leaf.course.rate = release_rate(species, primitive, release_ratio(size_speed));
     leaf.course.heading = (stage[2] & (HALF_MASK << 16)) | (leaf.course.heading & HALF_MASK);
@@ -212,7 +225,9 @@ pub fn leaf_detach(cx: &Context<'_>, leaf: &mut LeafMut<'_>, release: u32) {
     let species = &cx.environment.species[((leaf.place.bits >> SPECIES_SHIFT) & SPECIES_MASK) as usize];
     let size = leaf.course.size >> 16;
     leaf.course.size = size | (size << 16);
-    leaf.course.heading = look[3] >> 16;
+    if species.start.0[0] != AERODYNAMIC {
+        leaf.course.heading = look[3] >> 16;
+    }
     leaf.place.bits =
         (leaf.place.bits & !(BLEND_MASK << BLEND_SHIFT)) | (cx.environment.counts.0[2] << BLEND_SHIFT);
     leaf_set_off(cx, leaf, id, release, [size, release_size_speed(species, look)[1]]);

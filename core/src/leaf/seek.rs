@@ -3,15 +3,18 @@
 //! Finds a leaf's state at any moment of a fall through still air, without stepping there.
 
 use super::fall::{Glide, response_of, spin_advance};
+use super::fly::flight_write;
 use super::join::leaf_join;
 use super::own::{Manner, on_grid, own_advance, own_orientation, own_period, own_rate};
 use super::record::{
-    BLEND_MASK, BLEND_SHIFT, SOURCE_MASK, SOURCE_SHIFT, STAGE_MASK, STAGE_SHIFT, STATE_MASK, STATE_RESTING,
+    BLEND_MASK, BLEND_SHIFT, SOURCE_MASK, SOURCE_SHIFT, SPECIES_MASK, SPECIES_SHIFT, STAGE_MASK, STAGE_SHIFT,
+    STATE_MASK, STATE_RESTING,
 };
 use super::settle::flatten;
 use super::store::LeafMut;
 use crate::blocks::NEVER;
 use crate::context::Context;
+use crate::flight::book::FlightBook;
 use crate::kernel::math::exponential;
 use crate::kernel::quaternion::Quat;
 use crate::kernel::vector::Vec3;
@@ -20,7 +23,7 @@ use crate::motion::feature::{STAGE_COUNT, stage_end};
 /// Refinements of the moment of landing.
 const LANDING_ROUNDS: u32 = 6;
 
-/// Moves a leaf that has just been let go on to its state `elapsed` steps later, as a fall through still air gives it;
+/// Moves a synthesised leaf that has just been let go on to its state `elapsed` steps later, as a fall through still air gives it;
 /// on the ground, flat and still, if that fall is over. Orientation is that of the stage, without the short blend after
 /// a join.
 pub fn leaf_seek(cx: &Context<'_>, leaf: &mut LeafMut<'_>, elapsed: u32) {
@@ -50,6 +53,35 @@ pub fn leaf_seek(cx: &Context<'_>, leaf: &mut LeafMut<'_>, elapsed: u32) {
         glide = leaf_join(cx, leaf, glide);
     }
     arrive(cx, leaf, glide, target);
+}
+
+/// The same for a leaf that flies as a body: as one of its kind has flown.
+fn leaf_seek_flight(cx: &Context<'_>, book: &FlightBook, leaf: &mut LeafMut<'_>, elapsed: u32) {
+    if elapsed == 0 {
+        return;
+    }
+    let start = Vec3::from(leaf.place.position);
+    let height = (start.y - cx.environment.ground.0[1]).max(0.0);
+    let (mut flight, is_down) = book.look_up(cx, leaf.identity.id, elapsed, height);
+    flight.position = start + flight.position;
+    flight_write(leaf, flight);
+    if is_down {
+        rest(cx, leaf);
+    }
+}
+
+/// Moves a leaf of any species on from its release.
+pub(crate) fn leaf_seek_any(
+    cx: &Context<'_>,
+    books: &[Option<FlightBook>],
+    leaf: &mut LeafMut<'_>,
+    elapsed: u32,
+) {
+    let species = (leaf.place.bits >> SPECIES_SHIFT) & SPECIES_MASK;
+    match &books[species as usize] {
+        Some(book) => leaf_seek_flight(cx, book, leaf, elapsed),
+        None => leaf_seek(cx, leaf, elapsed),
+    }
 }
 
 /// Time from release to the end of a leaf's stage in 2^-16 steps.

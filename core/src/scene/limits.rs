@@ -59,6 +59,14 @@ limits! {
     SPIN_RAD_S: f32 = 0.0, 20.0, "rad/s", spin_rad_s;
     FRICTION_PER_S: f32 = 0.1, 1000.0, "1/s", friction_per_s;
 
+    ASPECT: f32 = 0.1, 10.0, "", aspect;
+    MOISTURE: f32 = 0.0, 4.0, "", moisture;
+    MASS_OFFSET: f32 = -1.0, 1.0, "", mass_offset;
+    CURL: f32 = -1.0, 1.0, "", curl;
+    TWIST: f32 = -1.0, 1.0, "", twist;
+    IRREGULARITY: f32 = 0.0, 0.5, "", irregularity;
+    TILT_DEG: f32 = 0.0, 90.0, "degrees", tilt_deg;
+
     DESCENT_M_S: f32 = 0.05, 10.0, "m/s", descent_m_s;
     HORIZONTAL_M_S: f32 = 0.0, 10.0, "m/s", horizontal_m_s;
     VERTICAL_M_S: f32 = 0.0, 10.0, "m/s", vertical_m_s;

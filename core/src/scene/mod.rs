@@ -6,6 +6,7 @@
 //! `()` is a whole scene. [`Scene::validate`] checks every number before anything is built from it.
 
 mod file;
+mod flight;
 mod ground;
 pub mod limits;
 pub(crate) mod nearest;
@@ -19,6 +20,7 @@ mod wind;
 
 use serde::{Deserialize, Serialize};
 
+pub use flight::{Aerodynamics, FlightModel, Hold};
 pub use ground::Ground;
 pub use presets::PRESETS;
 pub use source::{Release, Share, Source, SourceShape};
@@ -55,9 +57,9 @@ pub struct Scene {
     pub seed: u64,
     /// Length of one step in seconds, 0.001 to 0.05.
     pub dt_s: f32,
-    /// Multiplier of every leaf's own velocity through the air, 0 to 3.
+    /// Multiplier of every synthesised leaf's own velocity through the air, 0 to 3.
     pub fall_speed: f32,
-    /// Multiplier of every leaf's turning and swinging rate, 0.1 to 3; the path keeps its speed.
+    /// Multiplier of every synthesised leaf's turning and swinging rate, 0.1 to 3; the path keeps its speed.
     pub rotation_speed: f32,
     /// The kinds of leaves.
     pub species: Vec<Species>,

@@ -4,6 +4,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::FlightModel;
 use crate::motion::{Primitive, TransitionTable};
 
 /// Outline family of a leaf; texture makers paint one set of leaves for each.
@@ -56,10 +57,12 @@ pub struct Species {
     pub size_m: f32,
     /// Relative half width of the spread of sizes, 0 to 0.5.
     pub size_variation: f32,
-    /// Relative half width of the spread of falling speeds at equal size, 0 to 0.5.
+    /// Relative half width of the spread of falling speeds at equal size, 0 to 0.5; of bodies, size and quirks make it.
     pub speed_variation: f32,
     /// Mass per area in kg/m², 0.005 to 2.
     pub areal_density_kg_m2: f32,
+    /// The model that moves it. What follows down to `tables` is for [`FlightModel::Synthesis`] alone.
+    pub flight: FlightModel,
     /// Fastest spin about the leaf's own normal in rad/s, 0 to 20; each leaf takes a value up to it, either way round.
     pub spin_rad_s: f32,
     /// First primitive motion of every fall.
@@ -88,6 +91,7 @@ impl Default for Species {
             size_variation: 0.2,
             speed_variation: 0.12,
             areal_density_kg_m2: 0.055,
+            flight: FlightModel::Synthesis,
             spin_rad_s: 1.5,
             start: Primitive::SteadyDescent,
             transitions: TransitionTable::default(),

@@ -9,9 +9,9 @@ mod tests;
 mod trees;
 
 use super::{
-    Camera, Ground, MAX_LEAVES, MAX_SOURCES, MAX_SPECIES, MAX_TREE_LEAVES, MAX_VORTICES, MeanSpeed,
-    MotionParameters, Profile, Release, RotationModel, Scene, Source, SourceShape, Species, Sun, View,
-    Vortex, WindParameters, limits,
+    Aerodynamics, Camera, FlightModel, Ground, MAX_LEAVES, MAX_SOURCES, MAX_SPECIES, MAX_TREE_LEAVES,
+    MAX_VORTICES, MeanSpeed, MotionParameters, Profile, Release, RotationModel, Scene, Source, SourceShape,
+    Species, Sun, View, Vortex, WindParameters, limits,
 };
 use crate::SceneError;
 use check::Check;
@@ -86,7 +86,25 @@ impl Species {
             let at = at.inside("rotation");
             at.numbers([("friction_per_s", friction_per_s.into(), limits::FRICTION_PER_S)])?;
         }
+        if let FlightModel::Aerodynamic(body) = self.flight {
+            body.check(&at.inside("flight"))?;
+        }
         self.motion.check(&at.inside("motion"))
+    }
+}
+
+impl Aerodynamics {
+    fn check(&self, at: &Check<'_>) -> Result<(), SceneError> {
+        at.numbers([
+            ("aspect", self.aspect.into(), limits::ASPECT),
+            ("moisture", self.moisture.into(), limits::MOISTURE),
+            ("mass_offset.0", self.mass_offset.0.into(), limits::MASS_OFFSET),
+            ("mass_offset.1", self.mass_offset.1.into(), limits::MASS_OFFSET),
+            ("curl", self.curl.into(), limits::CURL),
+            ("twist", self.twist.into(), limits::TWIST),
+            ("irregularity", self.irregularity.into(), limits::IRREGULARITY),
+            ("tilt_deg", self.tilt_deg.into(), limits::TILT_DEG),
+        ])
     }
 }
 

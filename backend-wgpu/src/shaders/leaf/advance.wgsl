@@ -3,6 +3,7 @@
 // twin: core/src/leaf/advance.rs
 #import bindings
 #import leaf/fall
+#import leaf/fly
 #import leaf/join
 #import leaf/release
 #import leaf/settle
@@ -24,6 +25,9 @@ fn leaf_advance_plain(leaf: u32) -> bool {
     let place = places[leaf];
     let state = place.w & STATE_MASK;
     if (state == STATE_FALLING) {
+        if (flies(place.w)) {
+            return true;
+        }
         return leaf_glide(leaf, place, course);
     }
     return state != STATE_RESTING || !leaf_stirs(leaf);
@@ -42,7 +46,9 @@ fn leaf_advance_due(leaf: u32) {
     } else if (source != SOURCE_TREES && lifetime != 0u && now - identity.y >= lifetime) {
         leaf_release(leaf, identity.x + environment.seed.z, source, now);
     }
-    if ((places[leaf].w & STATE_MASK) == STATE_FALLING) {
+    if (flies(places[leaf].w)) {
+        leaf_fly(leaf);
+    } else if ((places[leaf].w & STATE_MASK) == STATE_FALLING) {
         leaf_fall_joining(leaf);
     }
 }
@@ -53,7 +59,9 @@ fn leaf_advance(leaf: u32) {
         return;
     }
     let state = places[leaf].w & STATE_MASK;
-    if (state == STATE_FALLING) {
+    if (flies(places[leaf].w)) {
+        leaf_fly(leaf);
+    } else if (state == STATE_FALLING) {
         leaf_fall(leaf);
     } else if (state == STATE_RESTING) {
         leaf_settle(leaf);

@@ -75,7 +75,7 @@ fn leaf_carry(leaf: u32, slot: u32, petiole: Petiole, segment: Body) -> u32 {
         bits = (bits & ~(STATE_MASK | (BLEND_MASK << BLEND_SHIFT))) | STATE_ATTACHED;
         places[leaf].w = bits;
         courses[leaf].x = NEVER;
-        courses[leaf].z = leaf_size_on_twig(courses[leaf].z >> 16u, petiole.facts);
+        courses[leaf].z = leaf_size_on_twig(courses[leaf].z & HALF_MASK, petiole.facts);
         habit = 0.0;
         change = 1u;
     }
@@ -96,5 +96,11 @@ fn leaf_carry(leaf: u32, slot: u32, petiole: Petiole, segment: Body) -> u32 {
         }
     }
     leaf_hang(leaf, habit, slot, petiole, segment);
+    if (courses[leaf].x == now + 1u) {
+        let spin = bitcast<vec3<u32>>(quat_rotate_back(attitudes[leaf], segment.spin));
+        drifts[leaf].w = spin.x;
+        courses[leaf].y = spin.y;
+        courses[leaf].w = spin.z;
+    }
     return change;
 }

@@ -4,6 +4,7 @@
 #import bindings
 #import kernel/rng
 #import motion/feature
+#import leaf/launch
 #import leaf/own
 
 fn offset_in_box(word: u32, extent: u32) -> i32 {
@@ -128,6 +129,9 @@ fn leaf_drop(
         vec3<f32>(f32(place.x) * LENGTH_UNIT, f32(place.y) * LENGTH_UNIT, f32(place.z) * LENGTH_UNIT);
     places[leaf] = vec4<u32>(bitcast<vec3<u32>>(position), (0u << BLEND_SHIFT) | (species << SPECIES_SHIFT));
     drifts[leaf] = vec4<u32>(0u, 0u, 0u, 0u);
+    if (environment.species[species].start.x == AERODYNAMIC) {
+        leaf_hold(leaf, id);
+    }
     leaf_set_off(leaf, id, release, size_speed);
 }
 
@@ -143,6 +147,16 @@ fn leaf_set_off(leaf: u32, id: u32, release: u32, size_speed: vec2<u32>) {
     identity.x = id;
     identity.y = release;
     identity.w = identity.w & ~(STAGE_MASK << STAGE_SHIFT);
+    if (primitive == AERODYNAMIC) {
+        course.x = next_event(id, release, 0u, STAGE_COUNT, source);
+        identities[leaf] = identity;
+        courses[leaf] = course;
+        places[leaf].w = STATE_FALLING
+            | (before & (SPECIES_MASK << SPECIES_SHIFT))
+            | (primitive << PRIMITIVE_SHIFT);
+        leaf_launch(leaf, id);
+        return;
+    }
     course.x = next_event(id, release, identity.z, 0u, source);
     course.y = release_rate(species, primitive, release_ratio(size_speed));
     course.w = (stage.z & (HALF_MASK << 16u)) | (course.w & HALF_MASK);
@@ -165,7 +179,9 @@ fn leaf_detach(leaf: u32, release: u32) {
     let species = (places[leaf].w >> SPECIES_SHIFT) & SPECIES_MASK;
     let size = courses[leaf].z >> 16u;
     courses[leaf].z = size | (size << 16u);
-    courses[leaf].w = look.w >> 16u;
+    if (environment.species[species].start.x != AERODYNAMIC) {
+        courses[leaf].w = look.w >> 16u;
+    }
     places[leaf].w = (places[leaf].w & ~(BLEND_MASK << BLEND_SHIFT)) | (environment.counts.z << BLEND_SHIFT);
     leaf_set_off(leaf, id, release, vec2<u32>(size, release_size_speed(species, look).y));
 }

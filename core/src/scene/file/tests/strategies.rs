@@ -46,6 +46,18 @@ prop_compose! {
 }
 
 prop_compose! {
+    fn aerodynamics()(
+        (aspect, moisture, curl, twist) in
+            (within(limits::ASPECT), within(limits::MOISTURE), within(limits::CURL), within(limits::TWIST)),
+        mass_offset in (within(limits::MASS_OFFSET), within(limits::MASS_OFFSET)),
+        (irregularity, tilt_deg) in (within(limits::IRREGULARITY), within(limits::TILT_DEG)),
+        hold in select(vec![Hold::Random, Hold::Broadside, Hold::EdgeOn]),
+    ) -> Aerodynamics {
+        Aerodynamics { aspect, moisture, mass_offset, curl, twist, irregularity, hold, tilt_deg }
+    }
+}
+
+prop_compose! {
     /// Every name is made unique later.
     fn species()(
         name in "[^\\p{C}]{0,12}",
@@ -57,6 +69,7 @@ prop_compose! {
         (size_m, size_variation, speed_variation) in
             (within(limits::SIZE_M), within(limits::SIZE_VARIATION), within(limits::SPEED_VARIATION)),
         (areal_density_kg_m2, spin_rad_s) in (within(limits::AREAL_DENSITY_KG_M2), within(limits::SPIN_RAD_S)),
+        flight in option::of(aerodynamics()),
         start in select(Primitive::ALL.to_vec()),
         rows in proptest::array::uniform6(proptest::array::uniform6(0u32..10_000)),
         motion in motion(),
@@ -72,7 +85,9 @@ prop_compose! {
             name,
             shape,
             season: (season.0.min(season.1), season.0.max(season.1)),
-            size_m, size_variation, speed_variation, areal_density_kg_m2, spin_rad_s, start, transitions, motion,
+            size_m, size_variation, speed_variation, areal_density_kg_m2,
+            flight: flight.map_or(FlightModel::Synthesis, FlightModel::Aerodynamic),
+            spin_rad_s, start, transitions, motion,
             rotation: friction.map_or(RotationModel::SpecificForce, |friction_per_s| {
                 RotationModel::TanabeKaneko { friction_per_s }
             }),

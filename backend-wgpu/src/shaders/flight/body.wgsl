@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// twin: core/src/flight/body.rs
+#import bindings
+#import kernel/math
+
+struct LeafBody {
+    size: vec2<f32>,
+    forces: vec4<f32>,
+    turning: vec4<f32>,
+    damping: vec4<f32>,
+    resistance: f32,
+    ease: vec3<f32>,
+    gyration: vec3<f32>,
+    arm: vec3<f32>,
+}
+
+fn body_quirk(size: u32, number: u32) -> f32 {
+    return (f32((size >> (QUIRK_SHIFT + 4u * number)) & QUIRK_MASK) - QUIRK_MIDDLE) * QUIRK_UNIT;
+}
+
+fn body_of(bits: u32, size: u32) -> LeafBody {
+    let species = (bits >> SPECIES_SHIFT) & SPECIES_MASK;
+    let forces = environment.bodies[species].forces;
+    let damping = environment.bodies[species].damping;
+    let inertia = environment.bodies[species].inertia;
+    let middle = environment.bodies[species].arm;
+    let quirks = environment.bodies[species].quirks;
+
+    let ratio = f32(size & HALF_MASK) * SIZE_UNIT;
+    let smallness = reciprocal(ratio);
+    let air = inertia.w * ratio;
+    let x = inertia.x + air;
+    let y = inertia.y;
+    let z = inertia.z + air;
+    let ease = vec3<f32>(reciprocal(x), reciprocal(y), reciprocal(z));
+    let gyration = vec3<f32>(
+        ((y - z) * ease.x) * smallness,
+        ((z - x) * ease.y) * smallness,
+        ((x - y) * ease.z) * smallness,
+    );
+    let arm = vec3<f32>(
+        middle.x + body_quirk(size, 0u) * quirks.x,
+        middle.y + body_quirk(size, 1u) * quirks.y,
+        middle.z + body_quirk(size, 2u) * quirks.z,
+    );
+    let added = forces.w * ratio;
+    let swing = (arm.x * arm.x) * ease.z + (arm.z * arm.z) * ease.x;
+    return LeafBody(
+        vec2<f32>(ratio, smallness),
+        forces,
+        environment.bodies[species].turning,
+        vec4<f32>(damping.xyz, damping.w + body_quirk(size, 3u) * quirks.w),
+        added * reciprocal((added + added * swing) + 1.0),
+        ease,
+        gyration,
+        arm,
+    );
+}

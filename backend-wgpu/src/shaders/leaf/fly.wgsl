@@ -1,0 +1,91 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// twin: core/src/leaf/fly.rs
+#import bindings
+#import flight/body
+#import flight/runge_kutta
+#import leaf/settle
+#import wind/sample
+
+struct Flight {
+    position: vec3<f32>,
+    velocity: vec3<f32>,
+    pose: vec4<f32>,
+    spin: vec3<f32>,
+}
+
+fn flies(bits: u32) -> bool {
+    let flying = STATE_FALLING | (AERODYNAMIC << PRIMITIVE_SHIFT);
+    return (bits & (STATE_MASK | (PRIMITIVE_MASK << PRIMITIVE_SHIFT))) == flying;
+}
+
+fn flight_load(bits: u32, relative: vec3<f32>, spin: vec3<f32>) -> f32 {
+    let load = environment.bodies[(bits >> SPECIES_SHIFT) & SPECIES_MASK].load;
+    let squared = max(vec3_dot(relative, relative), TINY_SQUARED);
+    let turned = max(vec3_dot(spin, spin), TINY_SQUARED);
+    return max(load.x * (squared * inverse_sqrt(squared)), load.y * (turned * inverse_sqrt(turned)));
+}
+
+fn flight_advance(flight: Flight, bits: u32, size: u32, wind: vec3<f32>) -> Flight {
+    let body = body_of(bits, size);
+    let relative = flight.velocity - wind;
+    let load = flight_load(bits, relative, flight.spin);
+    let cuts = flight_cuts(load);
+    let calm = select(1.0, FLIGHT_CUTS * reciprocal(load), FLIGHT_CUTS < load);
+    let air = flight.velocity - relative * calm;
+    let time = cuts.y * environment.time.x;
+    var position = flight.position;
+    var motion = FlightMotion(flight.velocity, flight.pose, flight.spin * (body.size.x * calm));
+    for (var done = 0.0; done < cuts.x; done += 1.0) {
+        let step = flight_step(body, motion, air, time);
+        position = position + step.way;
+        motion = step.end;
+    }
+    return Flight(position, motion.velocity, motion.pose, motion.turning * body.size.y);
+}
+
+fn flight_of(leaf: u32) -> Flight {
+    let drift = drifts[leaf];
+    let course = courses[leaf];
+    return Flight(
+        bitcast<vec3<f32>>(places[leaf].xyz),
+        bitcast<vec3<f32>>(drift.xyz),
+        attitudes[leaf],
+        bitcast<vec3<f32>>(vec3<u32>(drift.w, course.y, course.w)),
+    );
+}
+
+fn flight_write(leaf: u32, flight: Flight) {
+    let spin = bitcast<vec3<u32>>(flight.spin);
+    places[leaf] = vec4<u32>(bitcast<vec3<u32>>(flight.position), places[leaf].w);
+    drifts[leaf] = vec4<u32>(bitcast<vec3<u32>>(flight.velocity), spin.x);
+    attitudes[leaf] = flight.pose;
+    courses[leaf] = vec4<u32>(courses[leaf].x, spin.y, courses[leaf].z, spin.z);
+}
+
+fn flight_moved(leaf: u32) -> Flight {
+    let flight = flight_of(leaf);
+    let wind = wind_at(flight.position);
+    return flight_advance(flight, places[leaf].w, courses[leaf].z, wind);
+}
+
+fn leaf_fly(leaf: u32) {
+    let start = bitcast<vec3<f32>>(places[leaf].xyz);
+    let flight = flight_moved(leaf);
+    flight_write(leaf, flight);
+    if (flight.position.y < environment.ground.y) {
+        leaf_land(leaf, start);
+    }
+}
+
+fn leaf_fly_plain(leaf: u32) -> bool {
+    if (!flies(places[leaf].w) || step_block.index.x >= courses[leaf].x) {
+        return true;
+    }
+    let flight = flight_moved(leaf);
+    if (flight.position.y < environment.ground.y) {
+        return false;
+    }
+    flight_write(leaf, flight);
+    return true;
+}

@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// twin: core/src/leaf/launch.rs
+#import bindings
+#import kernel/math
+#import kernel/quaternion
+#import kernel/rng
+
+fn turn_about_y(angle: u32) -> vec4<f32> {
+    let half = sin_cos_turns(angle >> 1u);
+    return vec4<f32>(0.0, half.x, 0.0, half.y);
+}
+
+fn random_pose(words: vec4<u32>) -> vec4<f32> {
+    let share = unit_float(words.x);
+    let rest = 1.0 - share;
+    let turn = sin_cos_turns(words.y);
+    let other = sin_cos_turns(words.z);
+    let low = rest * inverse_sqrt(max(rest, TINY_SQUARED));
+    let high = share * inverse_sqrt(max(share, TINY_SQUARED));
+    return vec4<f32>(low * turn.x, low * turn.y, high * other.x, high * other.y);
+}
+
+fn hold_pose(species: u32, id: u32) -> vec4<f32> {
+    let words = random(environment.seed.xy, id, STREAM_HOLD);
+    let hold = environment.bodies[species].hold;
+    if (hold.x == HOLD_RANDOM) {
+        return random_pose(words);
+    }
+    let spread = (bitcast<i32>(hold.z) * (triangular(words.x) >> 4u)) >> 12u;
+    let tilt = bitcast<u32>(bitcast<i32>(hold.y) + spread);
+    let half = sin_cos_turns((tilt << 16u) >> 1u);
+    let tilted = quat_multiply(vec4<f32>(half.x, 0.0, 0.0, half.y), turn_about_y(words.y));
+    return quat_multiply(turn_about_y(words.z), tilted);
+}
+
+fn leaf_hold(leaf: u32, id: u32) {
+    let species = (places[leaf].w >> SPECIES_SHIFT) & SPECIES_MASK;
+    attitudes[leaf] = hold_pose(species, id);
+    drifts[leaf].w = 0u;
+    courses[leaf].y = 0u;
+    courses[leaf].w = 0u;
+}
+
+fn quirks_of(id: u32) -> u32 {
+    return random(environment.seed.xy, id, STREAM_QUIRKS).x & HALF_MASK;
+}
+
+fn leaf_launch(leaf: u32, id: u32) {
+    courses[leaf].z = (courses[leaf].z & HALF_MASK) | (quirks_of(id) << QUIRK_SHIFT);
+    identities[leaf].z = 0u;
+}

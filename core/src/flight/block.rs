@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! A species as a body, as kernels read it.
+
+use crate::layout::{Float4, Uint4};
+
+crate::shared_constants! {
+    /// Rows of four numbers in a body's block.
+    pub const BODY_ROWS: u32 = 8;
+    /// Held any way round.
+    pub const HOLD_RANDOM: u32 = 0;
+    /// Held at the angle that the block says.
+    pub const HOLD_TILTED: u32 = 1;
+}
+
+crate::shared_struct! {
+    /// A species as a body, for a leaf of nominal size, per unit of mass. x is across the leaf, y its normal, z along it.
+    pub struct BodyBlock {
+        /// Drag edge-on and what broadside adds to it, lift, all in 1/m; added mass over mass.
+        pub forces: Float4,
+        /// Lift of turning about x and z; damping of turning by speed about x and z in m.
+        pub turning: Float4,
+        /// Damping of turning by turning about x and z, and by speed about y, in m; torque of twist in m.
+        pub damping: Float4,
+        /// Inertia over mass about x, y, z in m²; that of the air about x and z.
+        pub inertia: Float4,
+        /// Middle of the area from the centre of mass in m; unused.
+        pub arm: Float4,
+        /// Half widths of the spread of that place and of the torque of twist.
+        pub quirks: Float4,
+        /// Load on a step per speed in s/m and per spin in s; two unused.
+        pub load: Float4,
+        /// How it is held before a release: kind, tilt and half width of its spread in 2^-16 turns; unused.
+        pub hold: Uint4,
+    }
+}

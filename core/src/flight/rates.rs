@@ -1,0 +1,112 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! twin: backend-wgpu/src/shaders/flight/rates.wgsl
+//!
+//! How a body's motion changes in air that moves: drag, lift, the lift of turning, added mass, damping.
+
+use super::body::Body;
+use crate::kernel::lane::Real;
+use crate::kernel::math::inverse_sqrt;
+use crate::kernel::quaternion::Quat;
+use crate::kernel::vector::{TINY_SQUARED, Vec3, vec3_cross, vec3_dot};
+
+crate::shared_constants! {
+    /// Acceleration of gravity in m/s².
+    pub const FLIGHT_GRAVITY: f32 = 9.81;
+}
+
+/// How a body moves, or eight of them.
+#[derive(Clone, Copy, Debug)]
+pub struct Motion<R: Real = f32> {
+    /// Velocity in m/s, y up.
+    pub velocity: Vec3<R>,
+    /// Orientation; of unit length but for what the stages of a step leave.
+    pub pose: Quat<R>,
+    /// Spin about the leaf's own axes times its size ratio, in rad/s.
+    pub turning: Vec3<R>,
+}
+
+/// Rates of change of a motion; the pose's is that of its four components.
+pub type Rates<R = f32> = Motion<R>;
+
+/// Rates of change of the motion of a body in wind.
+#[inline(always)]
+pub fn flight_rates<R: Real>(body: &Body<R>, motion: &Motion<R>, wind: Vec3<R>) -> Rates<R> {
+    let Quat { x, y, z, w } = motion.pose;
+    let (x2, y2, z2) = (x + x, y + y, z + z);
+    let (xx, yy, zz) = (x * x2, y * y2, z * z2);
+    let (xy, xz, yz) = (x * y2, x * z2, y * z2);
+    let (wx, wy, wz) = (w * x2, w * y2, w * z2);
+    let one = x.all(1.0);
+    // Columns of the rotation: the leaf's axes.
+    let across = Vec3::new(one - (yy + zz), xy + wz, xz - wy);
+    let normal = Vec3::new(xy - wz, one - (xx + zz), yz + wx);
+    let along = Vec3::new(xz + wy, yz - wx, one - (xx + yy));
+
+    let relative = motion.velocity - wind;
+    let u = Vec3::new(vec3_dot(across, relative), vec3_dot(normal, relative), vec3_dot(along, relative));
+    let turn = motion.turning;
+    let flow = u + vec3_cross(turn, body.arm);
+    let squared = vec3_dot(flow, flow).max(x.all(TINY_SQUARED));
+    let slowness = inverse_sqrt(squared);
+    let speed = squared * slowness;
+    let steep = flow.y * slowness;
+    let tangent = flow.x * flow.x + flow.z * flow.z;
+
+    let [drag, broad, lift, added] = body.forces;
+    let [lift_x, lift_z, slow_x, slow_z] = body.turning;
+    let [churn_x, churn_z, slow_y, twist] = body.damping;
+    let resist = drag * speed + (broad * flow.y) * steep;
+    let raise = lift * steep;
+    let whirl = vec3_cross(Vec3::new(lift_x * turn.x, x.all(0.0), lift_z * turn.z), flow);
+    let force = Vec3::new(
+        whirl.x + (raise * flow.y - resist) * flow.x,
+        whirl.y - (raise * tangent + resist * flow.y),
+        whirl.z + (raise * flow.y - resist) * flow.z,
+    );
+
+    // What the air that moves along adds, but for its resistance to acceleration along the normal.
+    let drawn = added * flow.y;
+    let push = Vec3::new(force.x + drawn * turn.z, force.y, force.z - drawn * turn.x);
+    let rate = (turn.x * turn.x + turn.z * turn.z).max(x.all(TINY_SQUARED));
+    let churn = rate * inverse_sqrt(rate);
+    let lever = vec3_cross(body.arm, push);
+    let gyration = body.gyration;
+    let freely = Vec3::new(
+        ((lever.x + drawn * flow.z) - (slow_x * speed + churn_x * churn) * turn.x) * body.ease.x
+            + gyration.x * (turn.y * turn.z),
+        ((lever.y + twist * (speed * flow.y)) - (slow_y * speed) * turn.y) * body.ease.y
+            + gyration.y * (turn.z * turn.x),
+        ((lever.z - drawn * flow.x) - (slow_z * speed + churn_z * churn) * turn.z) * body.ease.z
+            + gyration.z * (turn.x * turn.y),
+    );
+
+    // That resistance acts in the middle of the area: on the body's fall and, if this is not where its mass is, on its
+    // turning.
+    let weight = x.all(FLIGHT_GRAVITY);
+    let size = body.size[1];
+    let carried = (turn.z * u.x - turn.x * u.z) * size;
+    let swung = body.arm.x * freely.z - body.arm.z * freely.x;
+    let gathered = ((push.y - weight * normal.y) - carried) + swung;
+    let resistance = body.resistance * gathered;
+    let inner = Vec3::new(
+        push.x - weight * across.y,
+        (push.y - weight * normal.y) - resistance,
+        push.z - weight * along.y,
+    );
+    let acceleration = across * inner.x + normal * inner.y + along * inner.z;
+    let turning = Vec3::new(
+        freely.x + (resistance * body.arm.z) * body.ease.x,
+        freely.y,
+        freely.z - (resistance * body.arm.x) * body.ease.z,
+    );
+
+    let half = turn * (size * 0.5);
+    let pose = Quat::new(
+        w * half.x + (y * half.z - z * half.y),
+        w * half.y + (z * half.x - x * half.z),
+        w * half.z + (x * half.y - y * half.x),
+        x.all(0.0) - (x * half.x + y * half.y + z * half.z),
+    );
+    Motion { velocity: acceleration, pose, turning }
+}

@@ -1,0 +1,81 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! twin: backend-wgpu/src/shaders/flight/runge_kutta.wgsl
+//!
+//! The classical fourth-order Runge-Kutta step of a body, and how finely a step has to be cut.
+
+use super::body::Body;
+use super::rates::{Motion, Rates, flight_rates};
+use crate::kernel::lane::{Mask, Real};
+use crate::kernel::quaternion::{Quat, quat_normalize};
+use crate::kernel::vector::Vec3;
+
+crate::shared_constants! {
+    /// Most halvings of a step.
+    pub const FLIGHT_HALVINGS: u32 = 6;
+    /// Steps that this makes of one.
+    pub const FLIGHT_CUTS: f32 = 64.0;
+    /// A sixth.
+    pub const SIXTH: f32 = 1.0 / 6.0;
+}
+
+/// The motion that these rates lead to after a time in s.
+#[inline(always)]
+pub fn flight_stage<R: Real>(motion: &Motion<R>, rates: &Rates<R>, time: R) -> Motion<R> {
+    Motion {
+        velocity: motion.velocity + rates.velocity * time,
+        pose: Quat::new(
+            motion.pose.x + rates.pose.x * time,
+            motion.pose.y + rates.pose.y * time,
+            motion.pose.z + rates.pose.z * time,
+            motion.pose.w + rates.pose.w * time,
+        ),
+        turning: motion.turning + rates.turning * time,
+    }
+}
+
+/// The sum of two rates.
+#[inline(always)]
+pub fn flight_sum<R: Real>(a: &Rates<R>, b: &Rates<R>) -> Rates<R> {
+    Motion {
+        velocity: a.velocity + b.velocity,
+        pose: Quat::new(a.pose.x + b.pose.x, a.pose.y + b.pose.y, a.pose.z + b.pose.z, a.pose.w + b.pose.w),
+        turning: a.turning + b.turning,
+    }
+}
+
+/// One step of `time` seconds: way in m and the motion at its end.
+#[inline(always)]
+pub fn flight_step<R: Real>(
+    body: &Body<R>,
+    motion: &Motion<R>,
+    wind: Vec3<R>,
+    time: R,
+) -> (Vec3<R>, Motion<R>) {
+    let half = time * 0.5;
+    let k1 = flight_rates(body, motion, wind);
+    let k2 = flight_rates(body, &flight_stage(motion, &k1, half), wind);
+    let k3 = flight_rates(body, &flight_stage(motion, &k2, half), wind);
+    let k4 = flight_rates(body, &flight_stage(motion, &k3, time), wind);
+    let middle = flight_sum(&k2, &k3);
+    let all = flight_sum(&flight_sum(&k1, &k4), &flight_sum(&middle, &middle));
+    let sixth = time * SIXTH;
+    let mut end = flight_stage(motion, &all, sixth);
+    end.pose = quat_normalize(end.pose);
+    let way = motion.velocity * time + (k1.velocity + middle.velocity) * (time * sixth);
+    (way, end)
+}
+
+/// Into how many steps a step is cut that bears such a load, the power of two that is not below it, and the share of
+/// each.
+#[inline(always)]
+pub fn flight_cuts<R: Real>(load: R) -> [R; 2] {
+    let mut cuts = load.all(1.0);
+    let mut share = load.all(1.0);
+    for _ in 0..FLIGHT_HALVINGS {
+        let more = cuts.less_than(load);
+        cuts = more.select_real(cuts + cuts, cuts);
+        share = more.select_real(share * 0.5, share);
+    }
+    [cuts, share]
+}

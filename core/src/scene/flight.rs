@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! How a kind of leaf falls: which model moves it, and what that model knows of its body.
+
+use serde::{Deserialize, Serialize};
+
+/// The model that moves a leaf through the air.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub enum FlightModel {
+    /// Six primitive motions, synthesised and joined by chance; see [`crate::motion`].
+    #[default]
+    Synthesis,
+    /// A rigid body in the air, six degrees of freedom; see [`crate::flight`].
+    Aerodynamic(Aerodynamics),
+}
+
+/// How a body is held before it is let go at rest from a source. What breaks off a twig keeps its attitude.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Hold {
+    /// Any way round.
+    #[default]
+    Random,
+    /// Lying flat.
+    Broadside,
+    /// Standing on its edge.
+    EdgeOn,
+}
+
+/// A body, besides its size and mass per area, which are the species'. Lengths are shares of the radius of the disc
+/// with the body's area.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Aerodynamics {
+    /// Length from petiole to tip over width, 0.1 to 10, of the ellipse with the same second moments of area.
+    pub aspect: f32,
+    /// Water that the leaf holds, as a share of its dry mass, 0 to 4: a fallen leaf has next to none, a green one up
+    /// to 2. The species' areal density is that of the dry leaf.
+    pub moisture: f32,
+    /// Centre of mass before the middle of the area: towards the tip, and towards the right, -1 to 1.
+    pub mass_offset: (f32, f32),
+    /// Hollow of the upper side, -1 to 1: how far the middle of the forces lies above the centre of mass.
+    pub curl: f32,
+    /// Twist of the blade about its length, -1 to 1: how much it turns like a propeller in a flow along its normal.
+    pub twist: f32,
+    /// Half width of the spread of offsets, curl and twist among the leaves, 0 to 0.5.
+    pub irregularity: f32,
+    /// How it is held before it is let go.
+    pub hold: Hold,
+    /// Half width of the spread of its tilt then, in degrees, 0 to 90.
+    pub tilt_deg: f32,
+}
+
+impl Default for Aerodynamics {
+    fn default() -> Self {
+        Self {
+            aspect: 1.0,
+            moisture: 0.0,
+            mass_offset: (0.0, 0.0),
+            curl: 0.0,
+            twist: 0.0,
+            irregularity: 0.05,
+            hold: Hold::Random,
+            tilt_deg: 5.0,
+        }
+    }
+}
