@@ -27,6 +27,7 @@ pub(crate) fn constants() -> String {
     let lists = [
         blocks::wgsl_constants(),
         flight::block::wgsl_constants(),
+        flight::coefficients::wgsl_constants(),
         flight::rates::wgsl_constants(),
         flight::runge_kutta::wgsl_constants(),
         kernel::math::wgsl_constants(),

@@ -6,8 +6,8 @@ use glam::Vec3;
 use proptest::prelude::*;
 use windfall_core::motion::Primitive;
 use windfall_core::scene::{
-    Aerodynamics, FlightModel, Foliage, Gusts, Hold, MeanSpeed, Profile, Release, Scene, Share, Source,
-    SourceShape, Species, Tree, TreeKind, Turbulence, Vortex, WindParameters,
+    Aerodynamics, FlightModel, Foliage, Gusts, Hold, MeanSpeed, Planform, Profile, Release, Scene, Share,
+    Source, SourceShape, Species, Tree, TreeKind, Turbulence, Vortex, WindParameters,
 };
 
 use crate::functions::Input;
@@ -135,7 +135,7 @@ pub fn flying_scene(seed: u64, leaves: u32, speed_m_s: f32, dt_s: f32) -> Scene 
     let mut scene = wooded_scene(seed, leaves, speed_m_s, dt_s);
     scene.species[1].flight = FlightModel::Aerodynamic(Aerodynamics::default());
     let crooked = Aerodynamics {
-        aspect: 1.8,
+        planform: Some(Planform { aspect: 1.8, extent: 1.05 }),
         moisture: 0.5,
         mass_offset: (-0.1, 0.05),
         curl: 0.15,

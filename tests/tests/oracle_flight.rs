@@ -5,11 +5,12 @@
 use windfall_core::kernel::{Quat, Vec3};
 use windfall_core::leaf::fly::{Flight, flight_advance};
 use windfall_core::leaf::record::{AERODYNAMIC, PRIMITIVE_SHIFT, SIZE_ONE, STATE_FALLING};
-use windfall_core::scene::{Aerodynamics, FlightModel, Species};
+use windfall_core::scene::{Aerodynamics, FlightModel, Planform, Species};
 use windfall_core::{Clock, Environment, Scene};
 
 fn paper(size_m: f32, dt_s: f32) -> Environment {
-    let body = Aerodynamics { irregularity: 0.0, ..Aerodynamics::default() };
+    let body =
+        Aerodynamics { planform: Some(Planform::default()), irregularity: 0.0, ..Aerodynamics::default() };
     let species = Species {
         size_m,
         areal_density_kg_m2: 0.07,

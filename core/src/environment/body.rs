@@ -9,8 +9,8 @@ use glam::DVec3;
 use super::convert::{float4, single, word};
 use crate::flight::block::{BodyBlock, HOLD_RANDOM, HOLD_TILTED};
 use crate::flight::coefficients::{
-    ADDED_MASS, BROADSIDE_DRAG, DRAG_BORNE, EDGE_DRAG, LIFT, ROTATION_LIFT, SPEED_DAMPING, SPIN_BORNE_RAD,
-    SPIN_DAMPING, SWING_BORNE_RAD, TWIST_TORQUE,
+    DRAG_BEND, DRAG_BORNE, DRAG_EDGE, DRAG_RISE, LIFT_FLAT, LIFT_STEEP, MUNK_EDGE, SPIN_BORNE_RAD,
+    SWING_BORNE_RAD, TWIST_TORQUE,
 };
 use crate::layout::{Float4, Uint4};
 use crate::motion::AIR_DENSITY;
@@ -26,50 +26,39 @@ pub(super) fn body_block(species: &Species, dt_s: f32) -> BodyBlock {
     // Air per mass and area, in 1/m.
     let air = AIR_DENSITY / areal;
     let radius = 0.5 * f64::from(species.size_m);
-    let stretch = libm::sqrt(f64::from(body.aspect));
-    let (along, across) = (radius * stretch, radius / stretch);
+    let planform = body.planform.unwrap_or_else(|| species.shape.planform());
+    let stretch = libm::sqrt(f64::from(planform.aspect));
+    let reach = radius * f64::from(planform.extent);
+    let (along, across) = (reach * stretch, reach / stretch);
     let [along2, across2] = [along * along, across * across];
-    let added = ADDED_MASS * 8.0 / (3.0 * PI) * air * radius;
-    let added_inertia = ADDED_MASS * 16.0 / (45.0 * PI) * air;
+    // Of a disc in potential flow.
+    let added = 8.0 / (3.0 * PI) * air * radius;
+    let added_inertia = 16.0 / (45.0 * PI) * air * radius * radius * radius;
     let offset =
         DVec3::new(f64::from(body.mass_offset.1), -f64::from(body.curl), f64::from(body.mass_offset.0));
     let quirk = f64::from(body.irregularity) * radius;
     let dt = f64::from(dt_s);
     // Angular rate, per speed, at which the flow swings the body about the axis that resists least.
     let lever = offset.length() * radius + quirk;
-    let inertia = 0.25 * along2.min(across2) + added_inertia * radius * radius * radius;
-    let swing = libm::sqrt((added + (0.5 * BROADSIDE_DRAG + LIFT) * air * lever) / inertia);
-    let load = (0.5 * BROADSIDE_DRAG * air / DRAG_BORNE).max(swing / SWING_BORNE_RAD);
+    let inertia = 0.25 * along2.min(across2) + added_inertia;
+    let broadside = 0.5 * f64::from(DRAG_EDGE + DRAG_RISE - DRAG_BEND);
+    let lift = f64::from(LIFT_FLAT + LIFT_STEEP);
+    let swing = libm::sqrt((added * f64::from(MUNK_EDGE) + (broadside + lift) * air * lever) / inertia);
+    let load = (broadside * air / DRAG_BORNE).max(swing / SWING_BORNE_RAD);
     BodyBlock {
-        forces: Float4(
-            [0.5 * EDGE_DRAG * air, 0.5 * (BROADSIDE_DRAG - EDGE_DRAG) * air, LIFT * air, added].map(single),
-        ),
-        turning: Float4(
+        air: Float4([air, added, air * along, air * across].map(single)),
+        torque: Float4(
             [
-                ROTATION_LIFT * air * along,
-                ROTATION_LIFT * air * across,
-                SPEED_DAMPING * air * along2,
-                SPEED_DAMPING * air * across2,
-            ]
-            .map(single),
-        ),
-        damping: Float4(
-            [
-                SPIN_DAMPING * air * along2 * along,
-                SPIN_DAMPING * air * across2 * across,
-                SPEED_DAMPING * air * radius * radius,
+                air * along2,
+                air * across2,
+                air * radius * radius,
                 TWIST_TORQUE * f64::from(body.twist) * air * radius,
             ]
             .map(single),
         ),
+        reach: Float4([along, across, radius, 0.0].map(single)),
         inertia: Float4(
-            [
-                0.25 * along2,
-                0.25 * (along2 + across2),
-                0.25 * across2,
-                added_inertia * radius * radius * radius,
-            ]
-            .map(single),
+            [0.25 * along2, 0.25 * (along2 + across2), 0.25 * across2, added_inertia].map(single),
         ),
         arm: float4(offset * -radius, 0.0),
         quirks: float4(DVec3::new(quirk, 0.5 * quirk, quirk), TWIST_TORQUE * air * quirk),

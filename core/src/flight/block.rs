@@ -16,12 +16,14 @@ crate::shared_constants! {
 crate::shared_struct! {
     /// A species as a body, for a leaf of nominal size, per unit of mass. x is across the leaf, y its normal, z along it.
     pub struct BodyBlock {
-        /// Drag edge-on and what broadside adds to it, lift, all in 1/m; added mass over mass.
-        pub forces: Float4,
-        /// Lift of turning about x and z; damping of turning by speed about x and z in m.
-        pub turning: Float4,
-        /// Damping of turning by turning about x and z, and by speed about y, in m; torque of twist in m.
-        pub damping: Float4,
+        /// Density of the air over mass per area in 1/m; added mass over mass; the first times the half axes along and
+        /// across.
+        pub air: Float4,
+        /// The first times the squares of the half axes along and across and of the disc's radius, in m; torque of twist
+        /// in m.
+        pub torque: Float4,
+        /// Half axis along, half axis across, radius of the disc with the same area in m; unused.
+        pub reach: Float4,
         /// Inertia over mass about x, y, z in m²; that of the air about x and z.
         pub inertia: Float4,
         /// Middle of the area from the centre of mass in m; unused.

@@ -21,12 +21,13 @@ use crate::leaf::record::{
 pub struct Body<R: Real = f32> {
     /// Size relative to the species', and its inverse.
     pub size: [R; 2],
-    /// Drag edge-on, what broadside adds, lift, in 1/m; added mass over mass per size.
-    pub forces: [R; 4],
-    /// Lift of turning about x and z; damping of turning by speed about x and z, in m.
-    pub turning: [R; 4],
-    /// Damping of turning by turning about x and z, and by speed about y, in m; torque of twist in m.
-    pub damping: [R; 4],
+    /// Density of the air over mass per area in 1/m; added mass over mass per size; the first times the half axes along
+    /// and across.
+    pub air: [R; 4],
+    /// The first times the squares of the half axes along and across and of the disc's radius, in m; torque of twist in m.
+    pub torque: [R; 4],
+    /// Half axes along and across, radius of the disc, in m; unused.
+    pub reach: [R; 4],
     /// Force over mass, per acceleration that it had without it, with which the air resists being pushed along the normal.
     pub resistance: R,
     /// Inverse inertia over mass about x, y, z in 1/m².
@@ -48,19 +49,19 @@ pub fn body_quirk<W: Word>(size: W, number: u32) -> W::Real {
 pub fn body_of<W: Word>(cx: &Context<'_>, bits: W, size: W) -> Body<W::Real> {
     let first = ((bits >> SPECIES_SHIFT) & SPECIES_MASK).times(bits.all(BODY_ROWS));
     let rows: &[[f32; 4]] = bytemuck::cast_slice(&cx.environment.bodies);
-    let forces = first.look_up(rows);
-    let turning = first.plus(first.all(1)).look_up(rows);
-    let damping = first.plus(first.all(2)).look_up(rows);
+    let air = first.look_up(rows);
+    let torque = first.plus(first.all(1)).look_up(rows);
+    let reach = first.plus(first.all(2)).look_up(rows);
     let inertia = first.plus(first.all(3)).look_up(rows);
     let arm = first.plus(first.all(4)).look_up(rows);
     let quirks = first.plus(first.all(5)).look_up(rows);
 
     let ratio = (size & HALF_MASK).to_real() * SIZE_UNIT;
     let smallness = reciprocal(ratio);
-    let air = inertia[3] * ratio;
-    let x = inertia[0] + air;
+    let dragged = inertia[3] * ratio;
+    let x = inertia[0] + dragged;
     let y = inertia[1];
-    let z = inertia[2] + air;
+    let z = inertia[2] + dragged;
     let ease = Vec3::new(reciprocal(x), reciprocal(y), reciprocal(z));
     let gyration = Vec3::new(
         ((y - z) * ease.x) * smallness,
@@ -72,13 +73,13 @@ pub fn body_of<W: Word>(cx: &Context<'_>, bits: W, size: W) -> Body<W::Real> {
         arm[1] + body_quirk(size, 1) * quirks[1],
         arm[2] + body_quirk(size, 2) * quirks[2],
     );
-    let added = forces[3] * ratio;
+    let added = air[1] * ratio;
     let swing = (arm.x * arm.x) * ease.z + (arm.z * arm.z) * ease.x;
     Body {
         size: [ratio, smallness],
-        forces,
-        turning,
-        damping: [damping[0], damping[1], damping[2], damping[3] + body_quirk(size, 3) * quirks[3]],
+        air,
+        torque: [torque[0], torque[1], torque[2], torque[3] + body_quirk(size, 3) * quirks[3]],
+        reach,
         resistance: added * reciprocal((added + added * swing) + 1.0),
         ease,
         gyration,

@@ -6,5 +6,6 @@ pub mod block;
 pub mod body;
 pub(crate) mod book;
 pub mod coefficients;
+pub mod planform;
 pub mod rates;
 pub mod runge_kutta;

@@ -5,6 +5,10 @@
 //! How a body's motion changes in air that moves: drag, lift, the lift of turning, added mass, damping.
 
 use super::body::Body;
+use super::coefficients::{
+    DAMPING_NORMAL, DAMPING_PITCH, DAMPING_ROLL, DAMPING_SPEED, DAMPING_TURN, DRAG_BEND, DRAG_EDGE,
+    DRAG_RISE, LIFT_FLAT, LIFT_STEEP, MUNK_EDGE, MUNK_RISE, WHIRL_EDGE, WHIRL_RISE,
+};
 use crate::kernel::lane::Real;
 use crate::kernel::math::inverse_sqrt;
 use crate::kernel::quaternion::Quat;
@@ -50,15 +54,20 @@ pub fn flight_rates<R: Real>(body: &Body<R>, motion: &Motion<R>, wind: Vec3<R>) 
     let squared = vec3_dot(flow, flow).max(x.all(TINY_SQUARED));
     let slowness = inverse_sqrt(squared);
     let speed = squared * slowness;
-    let steep = flow.y * slowness;
     let tangent = flow.x * flow.x + flow.z * flow.z;
+    let incidence = flow.y * slowness;
+    let q = incidence * incidence;
 
-    let [drag, broad, lift, added] = body.forces;
-    let [lift_x, lift_z, slow_x, slow_z] = body.turning;
-    let [churn_x, churn_z, slow_y, twist] = body.damping;
-    let resist = drag * speed + (broad * flow.y) * steep;
-    let raise = lift * steep;
-    let whirl = vec3_cross(Vec3::new(lift_x * turn.x, x.all(0.0), lift_z * turn.z), flow);
+    let [air, added, air_along, air_across] = body.air;
+    let [slow_x, slow_z, slow_y, twist] = body.torque;
+    let [along_m, across_m, radius_m, _] = body.reach;
+    let resist = (air * 0.5) * ((q * (x.all(DRAG_RISE) - q * DRAG_BEND) + DRAG_EDGE) * speed);
+    let raise = air * (((q * q) * LIFT_STEEP + LIFT_FLAT) * incidence);
+    let circulation = q * WHIRL_RISE + WHIRL_EDGE;
+    let whirl = vec3_cross(
+        Vec3::new((air_along * circulation) * turn.x, x.all(0.0), (air_across * circulation) * turn.z),
+        flow,
+    );
     let force = Vec3::new(
         whirl.x + (raise * flow.y - resist) * flow.x,
         whirl.y - (raise * tangent + resist * flow.y),
@@ -68,17 +77,24 @@ pub fn flight_rates<R: Real>(body: &Body<R>, motion: &Motion<R>, wind: Vec3<R>) 
     // What the air that moves along adds, but for its resistance to acceleration along the normal.
     let drawn = added * flow.y;
     let push = Vec3::new(force.x + drawn * turn.z, force.y, force.z - drawn * turn.x);
-    let rate = (turn.x * turn.x + turn.z * turn.z).max(x.all(TINY_SQUARED));
-    let churn = rate * inverse_sqrt(rate);
+    let munk = drawn * (q * MUNK_RISE + MUNK_EDGE);
+    let (edge_x, edge_z) = (along_m * turn.x, across_m * turn.z);
+    let edge = (edge_x * edge_x + edge_z * edge_z).max(x.all(TINY_SQUARED));
+    let damping = speed * DAMPING_SPEED + (edge * inverse_sqrt(edge)) * DAMPING_TURN;
+    let spread = slow_y * slowness;
+    let roll = (spread * DAMPING_ROLL) * (turn.x * flow.x + turn.z * flow.z);
+    let pitch = (spread * (q * DAMPING_PITCH)) * (turn.x * flow.z - turn.z * flow.x);
+    let wheeling = (turn.y * radius_m).max(x.all(0.0) - turn.y * radius_m);
     let lever = vec3_cross(body.arm, push);
-    let gyration = body.gyration;
+    let torque = Vec3::new(
+        (lever.x + munk * flow.z) - ((slow_x * damping) * turn.x + (roll * flow.x + pitch * flow.z)),
+        (lever.y + twist * (speed * flow.y)) - (slow_y * ((speed + wheeling) * DAMPING_NORMAL)) * turn.y,
+        (lever.z - munk * flow.x) - ((slow_z * damping) * turn.z + (roll * flow.z - pitch * flow.x)),
+    );
     let freely = Vec3::new(
-        ((lever.x + drawn * flow.z) - (slow_x * speed + churn_x * churn) * turn.x) * body.ease.x
-            + gyration.x * (turn.y * turn.z),
-        ((lever.y + twist * (speed * flow.y)) - (slow_y * speed) * turn.y) * body.ease.y
-            + gyration.y * (turn.z * turn.x),
-        ((lever.z - drawn * flow.x) - (slow_z * speed + churn_z * churn) * turn.z) * body.ease.z
-            + gyration.z * (turn.x * turn.y),
+        torque.x * body.ease.x + body.gyration.x * (turn.y * turn.z),
+        torque.y * body.ease.y + body.gyration.y * (turn.z * turn.x),
+        torque.z * body.ease.z + body.gyration.z * (turn.x * turn.y),
     );
 
     // That resistance acts in the middle of the area: on the body's fall and, if this is not where its mass is, on its

@@ -26,13 +26,31 @@ pub enum Hold {
     EdgeOn,
 }
 
+/// How a body's area lies about its middle, x across it and z along it from petiole to tip.
+/// [`Planform::of_outline`] measures an outline.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Planform {
+    /// Length over width, 0.1 to 10, of the ellipse with the same second moments of area.
+    pub aspect: f32,
+    /// How far the area reaches out, 1 to 3: the geometric mean of that ellipse's half axes relative to the radius of the
+    /// disc with the body's area. 1 for every ellipse, 1.02 for a square; lobes make it larger.
+    pub extent: f32,
+}
+
+impl Default for Planform {
+    fn default() -> Self {
+        Self { aspect: 1.0, extent: 1.0 }
+    }
+}
+
 /// A body, besides its size and mass per area, which are the species'. Lengths are shares of the radius of the disc
 /// with the body's area.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Aerodynamics {
-    /// Length from petiole to tip over width, 0.1 to 10, of the ellipse with the same second moments of area.
-    pub aspect: f32,
+    /// How its area lies; as the species' shape has it when absent.
+    pub planform: Option<Planform>,
     /// Water that the leaf holds, as a share of its dry mass, 0 to 4: a fallen leaf has next to none, a green one up
     /// to 2. The species' areal density is that of the dry leaf.
     pub moisture: f32,
@@ -53,7 +71,7 @@ pub struct Aerodynamics {
 impl Default for Aerodynamics {
     fn default() -> Self {
         Self {
-            aspect: 1.0,
+            planform: None,
             moisture: 0.0,
             mass_offset: (0.0, 0.0),
             curl: 0.0,

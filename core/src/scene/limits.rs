@@ -60,6 +60,7 @@ limits! {
     FRICTION_PER_S: f32 = 0.1, 1000.0, "1/s", friction_per_s;
 
     ASPECT: f32 = 0.1, 10.0, "", aspect;
+    EXTENT: f32 = 1.0, 3.0, "", extent;
     MOISTURE: f32 = 0.0, 4.0, "", moisture;
     MASS_OFFSET: f32 = -1.0, 1.0, "", mass_offset;
     CURL: f32 = -1.0, 1.0, "", curl;
@@ -153,8 +154,9 @@ mod tests {
     use super::*;
 
     /// The text of every file that describes a scene.
-    const SOURCES: [&str; 7] = [
+    const SOURCES: [&str; 8] = [
         include_str!("mod.rs"),
+        include_str!("flight.rs"),
         include_str!("ground.rs"),
         include_str!("source.rs"),
         include_str!("species.rs"),

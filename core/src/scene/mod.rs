@@ -20,7 +20,7 @@ mod wind;
 
 use serde::{Deserialize, Serialize};
 
-pub use flight::{Aerodynamics, FlightModel, Hold};
+pub use flight::{Aerodynamics, FlightModel, Hold, Planform};
 pub use ground::Ground;
 pub use presets::PRESETS;
 pub use source::{Release, Share, Source, SourceShape};

@@ -4,7 +4,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::FlightModel;
+use super::{FlightModel, Planform};
 use crate::motion::{Primitive, TransitionTable};
 
 /// Outline family of a leaf; texture makers paint one set of leaves for each.
@@ -26,6 +26,23 @@ pub enum LeafShape {
     JapaneseMaple,
     /// Double-toothed ellipse with straight laterals (hornbeam).
     Hornbeam,
+}
+
+impl LeafShape {
+    /// How the area of such a leaf lies: means over outlines as leaves are made with, which a test compares.
+    pub fn planform(self) -> Planform {
+        let (aspect, extent) = match self {
+            Self::Maple => (1.0, 1.1),
+            Self::Oak => (1.8, 1.06),
+            Self::Birch => (1.2, 1.02),
+            Self::Beech => (1.6, 1.0),
+            Self::Linden => (1.1, 1.02),
+            Self::Ginkgo => (0.75, 1.05),
+            Self::JapaneseMaple => (1.0, 1.2),
+            Self::Hornbeam => (1.8, 1.0),
+        };
+        Planform { aspect, extent }
+    }
 }
 
 /// How the orientation along a primitive motion is found.

@@ -95,8 +95,13 @@ impl Species {
 
 impl Aerodynamics {
     fn check(&self, at: &Check<'_>) -> Result<(), SceneError> {
+        if let Some(planform) = self.planform {
+            at.inside("planform").numbers([
+                ("aspect", planform.aspect.into(), limits::ASPECT),
+                ("extent", planform.extent.into(), limits::EXTENT),
+            ])?;
+        }
         at.numbers([
-            ("aspect", self.aspect.into(), limits::ASPECT),
             ("moisture", self.moisture.into(), limits::MOISTURE),
             ("mass_offset.0", self.mass_offset.0.into(), limits::MASS_OFFSET),
             ("mass_offset.1", self.mass_offset.1.into(), limits::MASS_OFFSET),

@@ -6,9 +6,9 @@
 
 struct LeafBody {
     size: vec2<f32>,
-    forces: vec4<f32>,
-    turning: vec4<f32>,
-    damping: vec4<f32>,
+    air: vec4<f32>,
+    torque: vec4<f32>,
+    reach: vec4<f32>,
     resistance: f32,
     ease: vec3<f32>,
     gyration: vec3<f32>,
@@ -21,18 +21,18 @@ fn body_quirk(size: u32, number: u32) -> f32 {
 
 fn body_of(bits: u32, size: u32) -> LeafBody {
     let species = (bits >> SPECIES_SHIFT) & SPECIES_MASK;
-    let forces = environment.bodies[species].forces;
-    let damping = environment.bodies[species].damping;
+    let air = environment.bodies[species].air;
+    let torque = environment.bodies[species].torque;
     let inertia = environment.bodies[species].inertia;
     let middle = environment.bodies[species].arm;
     let quirks = environment.bodies[species].quirks;
 
     let ratio = f32(size & HALF_MASK) * SIZE_UNIT;
     let smallness = reciprocal(ratio);
-    let air = inertia.w * ratio;
-    let x = inertia.x + air;
+    let dragged = inertia.w * ratio;
+    let x = inertia.x + dragged;
     let y = inertia.y;
-    let z = inertia.z + air;
+    let z = inertia.z + dragged;
     let ease = vec3<f32>(reciprocal(x), reciprocal(y), reciprocal(z));
     let gyration = vec3<f32>(
         ((y - z) * ease.x) * smallness,
@@ -44,13 +44,13 @@ fn body_of(bits: u32, size: u32) -> LeafBody {
         middle.y + body_quirk(size, 1u) * quirks.y,
         middle.z + body_quirk(size, 2u) * quirks.z,
     );
-    let added = forces.w * ratio;
+    let added = air.y * ratio;
     let swing = (arm.x * arm.x) * ease.z + (arm.z * arm.z) * ease.x;
     return LeafBody(
         vec2<f32>(ratio, smallness),
-        forces,
-        environment.bodies[species].turning,
-        vec4<f32>(damping.xyz, damping.w + body_quirk(size, 3u) * quirks.w),
+        air,
+        vec4<f32>(torque.xyz, torque.w + body_quirk(size, 3u) * quirks.w),
+        environment.bodies[species].reach,
         added * reciprocal((added + added * swing) + 1.0),
         ease,
         gyration,

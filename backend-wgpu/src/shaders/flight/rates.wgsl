@@ -39,31 +39,46 @@ fn flight_rates(body: LeafBody, motion: FlightMotion, wind: vec3<f32>) -> Flight
     let squared = max(vec3_dot(flow, flow), TINY_SQUARED);
     let slowness = inverse_sqrt(squared);
     let speed = squared * slowness;
-    let steep = flow.y * slowness;
     let tangent = flow.x * flow.x + flow.z * flow.z;
+    let incidence = flow.y * slowness;
+    let q = incidence * incidence;
 
-    let resist = body.forces.x * speed + (body.forces.y * flow.y) * steep;
-    let raise = body.forces.z * steep;
-    let whirl = vec3_cross(vec3<f32>(body.turning.x * turn.x, 0.0, body.turning.y * turn.z), flow);
+    let air = body.air;
+    let slow = body.torque;
+    let resist = (air.x * 0.5) * ((q * (DRAG_RISE - q * DRAG_BEND) + DRAG_EDGE) * speed);
+    let raise = air.x * (((q * q) * LIFT_STEEP + LIFT_FLAT) * incidence);
+    let circulation = q * WHIRL_RISE + WHIRL_EDGE;
+    let whirl = vec3_cross(
+        vec3<f32>((air.z * circulation) * turn.x, 0.0, (air.w * circulation) * turn.z),
+        flow,
+    );
     let force = vec3<f32>(
         whirl.x + (raise * flow.y - resist) * flow.x,
         whirl.y - (raise * tangent + resist * flow.y),
         whirl.z + (raise * flow.y - resist) * flow.z,
     );
 
-    let drawn = body.forces.w * flow.y;
+    let drawn = air.y * flow.y;
     let push = vec3<f32>(force.x + drawn * turn.z, force.y, force.z - drawn * turn.x);
-    let rate = max(turn.x * turn.x + turn.z * turn.z, TINY_SQUARED);
-    let churn = rate * inverse_sqrt(rate);
+    let munk = drawn * (q * MUNK_RISE + MUNK_EDGE);
+    let edge_x = body.reach.x * turn.x;
+    let edge_z = body.reach.y * turn.z;
+    let edge = max(edge_x * edge_x + edge_z * edge_z, TINY_SQUARED);
+    let damping = speed * DAMPING_SPEED + (edge * inverse_sqrt(edge)) * DAMPING_TURN;
+    let spread = slow.z * slowness;
+    let roll = (spread * DAMPING_ROLL) * (turn.x * flow.x + turn.z * flow.z);
+    let pitch = (spread * (q * DAMPING_PITCH)) * (turn.x * flow.z - turn.z * flow.x);
+    let wheeling = max(turn.y * body.reach.z, 0.0 - turn.y * body.reach.z);
     let lever = vec3_cross(body.arm, push);
-    let gyration = body.gyration;
+    let torque = vec3<f32>(
+        (lever.x + munk * flow.z) - ((slow.x * damping) * turn.x + (roll * flow.x + pitch * flow.z)),
+        (lever.y + slow.w * (speed * flow.y)) - (slow.z * ((speed + wheeling) * DAMPING_NORMAL)) * turn.y,
+        (lever.z - munk * flow.x) - ((slow.y * damping) * turn.z + (roll * flow.z - pitch * flow.x)),
+    );
     let freely = vec3<f32>(
-        ((lever.x + drawn * flow.z) - (body.turning.z * speed + body.damping.x * churn) * turn.x) * body.ease.x
-            + gyration.x * (turn.y * turn.z),
-        ((lever.y + body.damping.w * (speed * flow.y)) - (body.damping.z * speed) * turn.y) * body.ease.y
-            + gyration.y * (turn.z * turn.x),
-        ((lever.z - drawn * flow.x) - (body.turning.w * speed + body.damping.y * churn) * turn.z) * body.ease.z
-            + gyration.z * (turn.x * turn.y),
+        torque.x * body.ease.x + body.gyration.x * (turn.y * turn.z),
+        torque.y * body.ease.y + body.gyration.y * (turn.z * turn.x),
+        torque.z * body.ease.z + body.gyration.z * (turn.x * turn.y),
     );
 
     let size = body.size.y;

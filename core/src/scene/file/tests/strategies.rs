@@ -47,13 +47,14 @@ prop_compose! {
 
 prop_compose! {
     fn aerodynamics()(
-        (aspect, moisture, curl, twist) in
-            (within(limits::ASPECT), within(limits::MOISTURE), within(limits::CURL), within(limits::TWIST)),
+        planform in option::of((within(limits::ASPECT), within(limits::EXTENT))),
+        (moisture, curl, twist) in (within(limits::MOISTURE), within(limits::CURL), within(limits::TWIST)),
         mass_offset in (within(limits::MASS_OFFSET), within(limits::MASS_OFFSET)),
         (irregularity, tilt_deg) in (within(limits::IRREGULARITY), within(limits::TILT_DEG)),
         hold in select(vec![Hold::Random, Hold::Broadside, Hold::EdgeOn]),
     ) -> Aerodynamics {
-        Aerodynamics { aspect, moisture, mass_offset, curl, twist, irregularity, hold, tilt_deg }
+        let planform = planform.map(|(aspect, extent)| Planform { aspect, extent });
+        Aerodynamics { planform, moisture, mass_offset, curl, twist, irregularity, hold, tilt_deg }
     }
 }
 
