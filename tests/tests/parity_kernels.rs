@@ -113,7 +113,7 @@ fn a_changed_kernel_is_noticed() {
         ("leaf/advance", "state == STATE_RESTING", "state == STATE_ATTACHED"),
         ("flight/rates", "- resistance,", "+ resistance,"),
         ("leaf/fly", "motion = step.end", "motion.velocity = step.end.velocity"),
-        ("kernels/fly", "!leaf_fly_plain(leaf)", "leaf_fly_plain(leaf)"),
+        ("kernels/fly", "leaf_fly(leaf)", "leaf_fly(leaf + 1u)"),
         ("wind/sample", "turbulence.y *", "turbulence.x *"),
         ("prelude", "const TABLE_ROWS: u32 = 513u", "const TABLE_ROWS: u32 = 512u"),
     ];
