@@ -78,6 +78,10 @@ crate::shared_constants! {
     pub const ROUND_MOST: f32 = 15.0;
 }
 
+/// Names of the regimes, by number.
+pub const REGIME_NAMES: [&str; REGIME_COUNT as usize] =
+    ["steady", "flutter", "tumble", "chaotic", "helical", "spiral"];
+
 /// Octant of a direction, counted from x by way of z.
 #[inline(always)]
 fn octant<R: Real>(x: R, z: R) -> R::Word {
