@@ -9,6 +9,7 @@
 //! - [`scene`]: what a scene file says.
 //! - [`motion`]: six primitive motions, their tables and the chain that joins them.
 //! - [`wind`]: mean flow, gusts, turbulence, vortices.
+//! - [`flight`]: rigid leaves under air forces.
 //! - [`leaf`]: the leaf store and the life of a leaf, step by step.
 //! - [`tree`]: how trees grow, what they weigh, how they sway.
 //! - [`kernel`]: arithmetic with the same bits in Rust and WGSL.
@@ -22,6 +23,7 @@ mod clock;
 mod context;
 mod environment;
 pub mod error;
+pub mod flight;
 pub mod kernel;
 pub mod layout;
 pub mod leaf;
