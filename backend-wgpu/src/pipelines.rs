@@ -25,7 +25,10 @@ pub(crate) struct Pipelines {
     /// What carries them.
     pub(crate) carrier_layout: wgpu::BindGroupLayout,
     pub(crate) advance: wgpu::ComputePipeline,
-    pub(crate) fly: wgpu::ComputePipeline,
+    /// For worlds in which leaves fly as bodies: it takes longest to compile.
+    pub(crate) fly: Option<wgpu::ComputePipeline>,
+    shaders: Shaders,
+    contract: Contract,
     pub(crate) attend: wgpu::ComputePipeline,
     pub(crate) measure: wgpu::ComputePipeline,
     /// Towards the foot and towards the tips: of articulated bodies, and of the schemes that move joints one by one.
@@ -81,33 +84,16 @@ impl Pipelines {
         // The bindings of shaders/leaf/petioles.wgsl.
         let carrier_layout = layout(gpu, "carriers", &[Block, Read, Read, Write]);
         let pipeline = |kernel: KernelId| {
-            let source =
-                shaders.kernel(kernel).map_err(|error| SimError::Device { reason: error.to_string() })?;
-            let module = shader_module(gpu, &source, kernel.name(), contract)?;
-            let layout = gpu.device().create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-                label: Some(kernel.name()),
-                bind_group_layouts: &match kernel {
-                    KernelId::SwayFold
-                    | KernelId::SwayUnfold
-                    | KernelId::SwayGather
-                    | KernelId::SwayFollow => [Some(&sway_layout), Some(&level_layout)],
-                    KernelId::Carry => [Some(&carried_layout), Some(&carrier_layout)],
-                    _ => [Some(&leaves_layout), Some(&extra_layout)],
-                },
-                immediate_size: 0,
-            });
-            let pipeline = gpu.device().create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-                label: Some(kernel.name()),
-                layout: Some(&layout),
-                module: &module,
-                entry_point: Some(kernel.name()),
-                compilation_options: wgpu::PipelineCompilationOptions::default(),
-                cache: None,
-            });
-            gpu.check().map(|()| pipeline)
+            let layouts = match kernel {
+                KernelId::SwayFold | KernelId::SwayUnfold | KernelId::SwayGather | KernelId::SwayFollow => {
+                    [&sway_layout, &level_layout]
+                }
+                KernelId::Carry => [&carried_layout, &carrier_layout],
+                _ => [&leaves_layout, &extra_layout],
+            };
+            pipeline(gpu, shaders, contract, kernel, layouts)
         };
         let advance = pipeline(KernelId::Advance)?;
-        let fly = pipeline(KernelId::Fly)?;
         let attend = pipeline(KernelId::Attend)?;
         let measure = pipeline(KernelId::Measure)?;
         let sway = [
@@ -123,13 +109,50 @@ impl Pipelines {
             carried_layout,
             carrier_layout,
             advance,
-            fly,
+            fly: None,
+            shaders: shaders.clone(),
+            contract,
             attend,
             measure,
             sway,
             carry,
         })
     }
+
+    /// Makes ready to fly bodies.
+    pub(crate) fn add_fly(&mut self, gpu: &Gpu) -> Result<(), SimError> {
+        if self.fly.is_none() {
+            let layouts = [&self.leaves_layout, &self.extra_layout];
+            self.fly = Some(pipeline(gpu, &self.shaders, self.contract, KernelId::Fly, layouts)?);
+        }
+        Ok(())
+    }
+}
+
+/// The pipeline of one kernel on bindings of these layouts.
+fn pipeline(
+    gpu: &Gpu,
+    shaders: &Shaders,
+    contract: Contract,
+    kernel: KernelId,
+    layouts: [&wgpu::BindGroupLayout; 2],
+) -> Result<wgpu::ComputePipeline, SimError> {
+    let source = shaders.kernel(kernel).map_err(|error| SimError::Device { reason: error.to_string() })?;
+    let module = shader_module(gpu, &source, kernel.name(), contract)?;
+    let layout = gpu.device().create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+        label: Some(kernel.name()),
+        bind_group_layouts: &layouts.map(Some),
+        immediate_size: 0,
+    });
+    let pipeline = gpu.device().create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+        label: Some(kernel.name()),
+        layout: Some(&layout),
+        module: &module,
+        entry_point: Some(kernel.name()),
+        compilation_options: wgpu::PipelineCompilationOptions::default(),
+        cache: None,
+    });
+    gpu.check().map(|()| pipeline)
 }
 
 /// A shader module: plain WGSL, or SPIR-V whose every float operation keeps its own rounding.

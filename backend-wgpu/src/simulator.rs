@@ -190,6 +190,7 @@ impl WgpuSimulator {
         {
             let descriptor = wgpu::ComputePassDescriptor { label: Some("advance"), timestamp_writes };
             let mut pass = encoder.begin_compute_pass(&descriptor);
+            let has_bodies = self.environment.block().has_bodies();
             let scheme = usize::from(self.environment.scene().sway != SwayScheme::Articulated);
             for step in 0..count {
                 let offset = step * self.step_stride;
@@ -208,12 +209,12 @@ impl WgpuSimulator {
                     let groups = page.leaves.div_ceil(WORKGROUP_SIZE);
                     pass.set_pipeline(&self.pipelines.advance);
                     pass.dispatch_workgroups(groups.min(MAX_GROUPS), 1, 1);
-                    if self.environment.block().has_bodies() {
-                        pass.set_pipeline(&self.pipelines.fly);
-                        pass.dispatch_workgroups(groups.min(MAX_GROUPS), 1, 1);
-                    }
                     pass.set_pipeline(&self.pipelines.attend);
                     pass.dispatch_workgroups(groups.div_ceil(ATTEND_SHARE), 1, 1);
+                    if let Some(fly) = self.pipelines.fly.as_ref().filter(|_| has_bodies) {
+                        pass.set_pipeline(fly);
+                        pass.dispatch_workgroups(groups.min(MAX_GROUPS), 1, 1);
+                    }
                 }
             }
         }
@@ -348,6 +349,9 @@ impl Simulator for WgpuSimulator {
 
     fn set_environment(&mut self, environment: &Environment) -> Result<(), SimError> {
         self.gpu.check()?;
+        if environment.block().has_bodies() {
+            self.pipelines.add_fly(&self.gpu)?;
+        }
         self.gpu.queue().write_buffer(&self.environment_buffer, 0, bytemuck::bytes_of(environment.block()));
         let mut moved = false;
         let replanted = !Arc::ptr_eq(self.environment.forest(), environment.forest());

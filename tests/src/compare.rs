@@ -4,7 +4,7 @@
 
 use windfall_core::World;
 use windfall_core::leaf::LeafState;
-use windfall_core::leaf::fly::flies;
+use windfall_core::leaf::record::{AERODYNAMIC, PRIMITIVE_MASK, PRIMITIVE_SHIFT};
 use windfall_core::tree::Branches;
 
 /// Largest difference of positions after a thousand smooth steps under the tolerant contract, in metres.
@@ -47,12 +47,13 @@ pub fn difference(a: &World, b: &World) -> Difference {
         let integers = |leaves: &windfall_core::leaf::Leaves| {
             let bits = leaves.place[slot].bits;
             let (mut phase, mut course) = (leaves.drift[slot].phase, leaves.course[slot]);
-            // On a twig the phase is a float, and in flight so are three words.
-            if leaves.place[slot].state() == LeafState::Attached || flies(bits) {
-                phase = 0;
-            }
-            if flies(bits) {
+            // A leaf on its twig and a body keep floats there.
+            let is_body = (bits >> PRIMITIVE_SHIFT) & PRIMITIVE_MASK == AERODYNAMIC;
+            if is_body || leaves.place[slot].state() == LeafState::Attached {
                 (course.rate, course.heading) = (0, 0);
+                if leaves.place[slot].state() != LeafState::Resting {
+                    phase = 0;
+                }
             }
             (bits, phase, course, leaves.identity[slot])
         };

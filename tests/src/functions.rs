@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Every device function, as it is called in Rust and in WGSL.
 
+mod flight;
 mod leaf;
 mod schemes;
 mod tree;
@@ -94,5 +95,9 @@ use functions;
 
 /// All functions under test.
 pub fn all() -> impl Iterator<Item = &'static Function> {
-    leaf::LEAF_FUNCTIONS.iter().chain(tree::TREE_FUNCTIONS).chain(schemes::SCHEME_FUNCTIONS)
+    leaf::LEAF_FUNCTIONS
+        .iter()
+        .chain(tree::TREE_FUNCTIONS)
+        .chain(schemes::SCHEME_FUNCTIONS)
+        .chain(flight::FLIGHT_FUNCTIONS)
 }

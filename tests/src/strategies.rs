@@ -199,7 +199,26 @@ fn woods() -> impl Strategy<Value = (Vec<Tree>, f32, Option<f32>)> {
     (trees, 0f32..1.0, proptest::option::of(1f32..6.0))
 }
 
-/// Random scenes: varied ones, with all that can differ drawn at random, and trees in half of them.
+/// A body of any kind.
+fn aerodynamics() -> impl Strategy<Value = Aerodynamics> {
+    let planform = proptest::option::of((0.3f32..3.0, 1.0f32..1.3));
+    let hold = prop_oneof![Just(Hold::Random), Just(Hold::Broadside), Just(Hold::EdgeOn)];
+    let bent = (-0.3f32..0.3, -0.3f32..0.3, -0.5f32..0.5, -1f32..1.0);
+    (planform, 0f32..2.0, bent, 0f32..0.2, hold, 0f32..90.0).prop_map(
+        |(planform, moisture, (along, across, curl, twist), irregularity, hold, tilt_deg)| Aerodynamics {
+            planform: planform.map(|(aspect, extent)| Planform { aspect, extent }),
+            moisture,
+            mass_offset: (along, across),
+            curl,
+            twist,
+            irregularity,
+            hold,
+            tilt_deg,
+        },
+    )
+}
+
+/// Random scenes: varied ones, with all that can differ drawn at random, trees in half of them, and bodies in half.
 pub fn scenes(leaves: std::ops::Range<u32>) -> impl Strategy<Value = Scene> {
     let numbers = (
         any::<u64>(),
@@ -209,8 +228,8 @@ pub fn scenes(leaves: std::ops::Range<u32>) -> impl Strategy<Value = Scene> {
     );
     let motion = (0.3f32..2.5, 0.2f32..1.5, 0usize..6, 0f32..0.25, 0.05f32..2.0);
     let place = (-200f32..200.0, 0.1f32..1.0, 0usize..3, 0u32..2);
-    (numbers, motion, place, woods())
-        .prop_map(|((seed, leaves, speed, dt), motion, place, woods)| {
+    (numbers, motion, place, woods(), proptest::option::of(aerodynamics()))
+        .prop_map(|((seed, leaves, speed, dt), motion, place, woods, body)| {
             let (fall_speed, rotation_speed, start, variation, friction) = motion;
             let (offset, intensity, profile, vortices) = place;
             let mut scene = varied_scene(seed, leaves, speed, dt);
@@ -219,6 +238,7 @@ pub fn scenes(leaves: std::ops::Range<u32>) -> impl Strategy<Value = Scene> {
             scene.rotation_speed = rotation_speed;
             scene.species[0].start = Primitive::ALL[start];
             scene.species[1].size_variation = variation;
+            scene.species[1].flight = body.map_or(FlightModel::Synthesis, FlightModel::Aerodynamic);
             scene.ground.friction = friction;
             scene.wind.turbulence.intensity = intensity;
             scene.wind.profile = [

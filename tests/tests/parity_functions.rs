@@ -10,7 +10,7 @@ use windfall_core::{Contract, World};
 use windfall_tests::adapter;
 use windfall_tests::functions::{self, Function};
 use windfall_tests::runner::{FunctionRunner, Words};
-use windfall_tests::strategies::{cases, wooded_scene};
+use windfall_tests::strategies::{cases, flying_scene};
 use windfall_wgpu::{Gpu, Shaders};
 
 /// Cases in one dispatch; not a multiple of the workgroup size.
@@ -19,7 +19,7 @@ const CASES: usize = 1234;
 const ROUNDS: u32 = 6;
 
 fn world() -> World {
-    let mut world = World::build(&wooded_scene(5, 300, 6.0, 1.0 / 60.0)).expect("the wooded scene is valid");
+    let mut world = World::build(&flying_scene(5, 300, 6.0, 1.0 / 60.0)).expect("the flying scene is valid");
     for _ in 0..100 {
         world.clock.advance(&world.environment.clone());
     }
@@ -133,6 +133,12 @@ fn a_changed_twin_is_noticed() {
         ("tree/sway/unfold", "- mat3_times", "+ mat3_times", "joint_motion"),
         ("tree/sway/unfold", "inverse * JOINT_LIMIT", "inverse * JOINT_LIMIT_COSINE", "joint_step"),
         ("tree/sway/unfold", "cross(parent.spin, arm)", "cross(arm, parent.spin)", "segment_place"),
+        ("flight/body", "(y - z) * ease.x", "(y + z) * ease.x", "body_of"),
+        ("flight/rates", "q * (DRAG_RISE - q", "q * (DRAG_RISE + q", "flight_rates"),
+        ("flight/rates", "drawn * turn.x);\n    let munk", "drawn * turn.y);\n    let munk", "flight_rates"),
+        ("flight/runge_kutta", "flight_sum(middle, middle)", "middle", "flight_step"),
+        ("leaf/fly", "cuts.y * environment", "cuts.x * environment", "flight_advance"),
+        ("leaf/launch", "share * inverse_sqrt", "rest * inverse_sqrt", "hold_pose"),
         ("leaf/carry", "SHED_SPEEDS - 1u", "SHED_SPEEDS - 9u", "shed_chance"),
     ];
     let world = world();

@@ -40,10 +40,10 @@ fn advance_chunk(cx: &Context<'_>, leaves: &mut LeavesMut<'_>, simd: Simd) {
         }
         Simd::Lanes(level) => dispatch!(level, simd => advance_lanes(simd, cx, leaves, &mut due)),
     }
-    if cx.environment.has_bodies() {
-        fly(cx, leaves, simd, &mut due);
-    }
     attend(cx, leaves, &due);
+    if cx.environment.has_bodies() {
+        fly(cx, leaves, simd);
+    }
 }
 
 /// Steps a chunk eight leaves at a time; the last few, if they are fewer than eight, are all left to `attend`.

@@ -2,69 +2,67 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! twin: backend-wgpu/src/shaders/kernels/fly.wgsl
 //!
-//! Moves the leaves of a chunk that fly as bodies through one step, and leaves those that land to `attend`.
+//! Moves the leaves of a chunk that fly as bodies through one step.
 
 use bytemuck::{must_cast_mut, must_cast_ref};
-use fearless_simd::{Simd as Lanes, SimdBase, dispatch, f32x8, u32x8};
+use fearless_simd::{Simd as Lanes, SimdBase, dispatch, f32x8};
 use windfall_core::Context;
 use windfall_core::kernel::Quat;
 use windfall_core::kernel::eight::{load_records, merge, store_records};
-use windfall_core::kernel::lane::{LANES, Mask, Real, Word};
-use windfall_core::leaf::fly::{Flight, flies, flight_advance, leaf_fly_plain};
-use windfall_core::leaf::{Attitude, Course, Drift, LeavesMut, Place};
+use windfall_core::kernel::lane::{LANES, Mask, Real};
+use windfall_core::leaf::LeavesMut;
+use windfall_core::leaf::fly::{Flight, flies, flight_advance, leaf_fly};
 use windfall_core::wind::sample::wind_at;
 
-use super::attend::Attend;
 use super::eight::{bits_of, vector, with_word};
 use crate::simd::Simd;
 
 /// Steps the bodies of one chunk.
-pub(crate) fn fly(cx: &Context<'_>, leaves: &mut LeavesMut<'_>, simd: Simd, due: &mut Attend) {
+pub(crate) fn fly(cx: &Context<'_>, leaves: &mut LeavesMut<'_>, simd: Simd) {
     match simd {
-        Simd::Scalar => {
-            for (slot, mut leaf) in leaves.iter_mut().enumerate() {
-                let attend = !leaf_fly_plain(cx, &mut leaf);
-                due.lanes[slot / LANES] |= u8::from(attend) << (slot % LANES);
-            }
+        Simd::Scalar => leaves.iter_mut().for_each(|mut leaf| leaf_fly(cx, &mut leaf)),
+        Simd::Lanes(level) => dispatch!(level, simd => fly_lanes(simd, cx, leaves)),
+    }
+}
+
+/// Steps the bodies of a chunk eight slots at a time; those that land, and the last few slots, one by one.
+#[inline(always)]
+fn fly_lanes<S: Lanes>(simd: S, cx: &Context<'_>, leaves: &mut LeavesMut<'_>) {
+    let count = leaves.len();
+    for first in (0..count - count % LANES).step_by(LANES) {
+        let mut landing = fly_eight(simd, cx, leaves, first);
+        while landing != 0 {
+            leaf_fly(cx, &mut leaves.leaf_mut(first + landing.trailing_zeros() as usize));
+            landing &= landing - 1;
         }
-        Simd::Lanes(level) => dispatch!(level, simd => fly_lanes(simd, cx, leaves, due)),
+    }
+    for slot in count - count % LANES..count {
+        leaf_fly(cx, &mut leaves.leaf_mut(slot));
     }
 }
 
-/// Steps the bodies of a chunk eight slots at a time; `advance` has left the last few, if they are fewer, to `attend`.
+/// Eight records of a column from a slot on.
 #[inline(always)]
-fn fly_lanes<S: Lanes>(simd: S, cx: &Context<'_>, leaves: &mut LeavesMut<'_>, due: &mut Attend) {
-    let (place, _) = leaves.place.as_chunks_mut::<LANES>();
-    let (drift, _) = leaves.drift.as_chunks_mut::<LANES>();
-    let (attitude, _) = leaves.attitude.as_chunks_mut::<LANES>();
-    let (course, _) = leaves.course.as_chunks_mut::<LANES>();
-    let records = place.iter_mut().zip(drift).zip(attitude).zip(course);
-    for (group, (((place, drift), attitude), course)) in records.enumerate() {
-        due.lanes[group] |= fly_eight(simd, cx, place, drift, attitude, course);
-    }
+fn eight_of<T>(column: &mut [T], first: usize) -> &mut [T; LANES] {
+    column[first..].first_chunk_mut().expect("eight slots are left")
 }
 
-/// Steps those of eight leaves that fly as bodies and do not land. A bit for each that does.
+/// Steps those of eight leaves from a slot on that fly as bodies and do not land. A bit for each that does.
 #[inline(always)]
-fn fly_eight<S: Lanes>(
-    simd: S,
-    cx: &Context<'_>,
-    place: &mut [Place; LANES],
-    drift: &mut [Drift; LANES],
-    attitude: &mut [Attitude; LANES],
-    course: &mut [Course; LANES],
-) -> u8 {
+fn fly_eight<S: Lanes>(simd: S, cx: &Context<'_>, leaves: &mut LeavesMut<'_>, first: usize) -> u8 {
+    let place = eight_of(leaves.place, first);
     let places = load_records(simd, must_cast_ref(place));
-    let courses = load_records(simd, must_cast_ref(course));
-    let [event, rate, size, heading] = courses;
     let bits = places[3];
-    let waits = u32x8::splat(simd, cx.step.index.0[0]).less_than(event);
-    let on = flies(bits) & waits;
+    let on = flies(bits);
     if !on.any() {
         return 0;
     }
+    let (drift, attitude) = (eight_of(leaves.drift, first), eight_of(leaves.attitude, first));
+    let course = eight_of(leaves.course, first);
     let drifts = load_records(simd, must_cast_ref(drift));
     let attitudes = load_records(simd, must_cast_ref(attitude));
+    let courses = load_records(simd, must_cast_ref(course));
+    let [event, rate, size, heading] = courses;
     let start = Flight {
         position: vector(places),
         velocity: vector(drifts),

@@ -30,7 +30,7 @@ impl Planform {
         let twice: f64 = edges().map(|(a, b)| a.perp_dot(*b)).sum();
         let area = 0.5 * twice;
         let size: f64 = corners.iter().map(|corner| corner.length_squared()).sum();
-        if !(area.abs() > 1e-12 * size) {
+        if area.is_nan() || area.abs() <= 1e-12 * size {
             return None;
         }
         let middle = edges().map(|(a, b)| (*a + *b) * a.perp_dot(*b)).sum::<DVec2>() / (6.0 * area);

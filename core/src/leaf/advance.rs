@@ -6,7 +6,7 @@
 //! few and long; kernels take them apart from the many short ones.
 
 use super::fall::{leaf_fall, leaf_glide};
-use super::fly::{flies, leaf_fly};
+use super::fly::flies;
 use super::join::leaf_fall_joining;
 use super::record::{
     SOURCE_MASK, SOURCE_SHIFT, STATE_ATTACHED, STATE_DORMANT, STATE_FALLING, STATE_MASK, STATE_RESTING,
@@ -31,7 +31,7 @@ pub fn leaf_stirs(cx: &Context<'_>, leaf: &LeafMut<'_>) -> bool {
 }
 
 /// One step of a leaf to which nothing happens in it: it goes on falling, or lies still. Other leaves are left alone, and
-/// what flies as a body is left to [`leaf_fly_plain`](super::fly::leaf_fly_plain). Whether the step is done.
+/// what flies as a body is left to [`leaf_fly`](super::fly::leaf_fly). Whether the step is done.
 #[inline(always)]
 pub fn leaf_advance_plain(cx: &Context<'_>, leaf: &mut LeafMut<'_>) -> bool {
     if leaf_is_due(cx, leaf) {
@@ -58,14 +58,12 @@ pub fn leaf_advance_due(cx: &Context<'_>, leaf: &mut LeafMut<'_>) {
     } else if source != SOURCE_TREES && lifetime != 0 && now.wrapping_sub(leaf.identity.release) >= lifetime {
         leaf_release(cx, leaf, leaf.identity.id.wrapping_add(cx.environment.seed.0[2]), source, now);
     }
-    if flies(leaf.place.bits) {
-        leaf_fly(cx, leaf);
-    } else if (leaf.place.bits & STATE_MASK) == STATE_FALLING {
+    if (leaf.place.bits & STATE_MASK) == STATE_FALLING && !flies(leaf.place.bits) {
         leaf_fall_joining(cx, leaf);
     }
 }
 
-/// One step of any leaf.
+/// One step of any leaf. What flies as a body is left to [`leaf_fly`](super::fly::leaf_fly), which comes after.
 #[inline(always)]
 pub fn leaf_advance(cx: &Context<'_>, leaf: &mut LeafMut<'_>) {
     if leaf_is_due(cx, leaf) {
@@ -73,9 +71,7 @@ pub fn leaf_advance(cx: &Context<'_>, leaf: &mut LeafMut<'_>) {
         return;
     }
     let state = leaf.place.bits & STATE_MASK;
-    if flies(leaf.place.bits) {
-        leaf_fly(cx, leaf);
-    } else if state == STATE_FALLING {
+    if state == STATE_FALLING && !flies(leaf.place.bits) {
         leaf_fall(cx, leaf);
     } else if state == STATE_RESTING {
         leaf_settle(cx, leaf);

@@ -127,35 +127,17 @@ pub fn flight_write(leaf: &mut LeafMut<'_>, flight: Flight) {
     leaf.course.heading = flight.spin.z.to_bits();
 }
 
-/// The step of a leaf that flies, without the ground.
-#[inline(always)]
-fn flight_moved(cx: &Context<'_>, leaf: &LeafMut<'_>) -> Flight {
-    let flight = flight_of(leaf);
-    let wind = wind_at(cx, flight.position);
-    flight_advance(cx, flight, leaf.place.bits, leaf.course.size, wind)
-}
-
-/// One step of a leaf that flies and may land.
+/// One step of a leaf, if it flies as a body: others are left alone.
 #[inline(always)]
 pub fn leaf_fly(cx: &Context<'_>, leaf: &mut LeafMut<'_>) {
-    let start = Vec3::from(leaf.place.position);
-    let flight = flight_moved(cx, leaf);
+    if !flies(leaf.place.bits) {
+        return;
+    }
+    let start = flight_of(leaf);
+    let wind = wind_at(cx, start.position);
+    let flight = flight_advance(cx, start, leaf.place.bits, leaf.course.size, wind);
     flight_write(leaf, flight);
     if flight.position.y < cx.environment.ground.0[1] {
-        leaf_land(cx, leaf, start);
+        leaf_land(cx, leaf, start.position);
     }
-}
-
-/// One step of a leaf, if it flies and does not land: others are left alone. Whether the step is done.
-#[inline(always)]
-pub fn leaf_fly_plain(cx: &Context<'_>, leaf: &mut LeafMut<'_>) -> bool {
-    if !flies(leaf.place.bits) || cx.step.index.0[0] >= leaf.course.event {
-        return true;
-    }
-    let flight = flight_moved(cx, leaf);
-    if flight.position.y < cx.environment.ground.0[1] {
-        return false;
-    }
-    flight_write(leaf, flight);
-    true
 }

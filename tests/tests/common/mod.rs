@@ -6,6 +6,7 @@
 use glam::{DQuat, DVec3, Vec3};
 use windfall_core::World;
 use windfall_core::leaf::advance::leaf_advance;
+use windfall_core::leaf::fly::leaf_fly;
 use windfall_core::motion::{Primitive, TransitionTable};
 use windfall_core::scene::{
     Gusts, MeanSpeed, Profile, Release, Scene, Source, SourceShape, Species, Turbulence, WindParameters,
@@ -83,6 +84,7 @@ pub(crate) fn step(world: &mut World, count: u32) {
         let cx = environment.context(&block);
         for slot in 0..leaves.len() {
             leaf_advance(&cx, &mut leaves.as_mut().leaf_mut(slot));
+            leaf_fly(&cx, &mut leaves.as_mut().leaf_mut(slot));
         }
         clock.advance(environment);
     }

@@ -2,15 +2,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // twin: backend-cpu/src/kernels/fly.rs
 #import bindings
-#import due
 #import leaf/fly
 
 @compute @workgroup_size(WORKGROUP_SIZE)
 fn fly(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>) {
     let count = arrayLength(&places);
     for (var leaf = id.x; leaf < count; leaf += groups.x * WORKGROUP_SIZE) {
-        if (!leaf_fly_plain(leaf)) {
-            due.leaves[atomicAdd(&due.counts[step_block.index.x & 1u], 1u)] = leaf;
-        }
+        leaf_fly(leaf);
     }
 }

@@ -46,9 +46,8 @@ fn leaf_advance_due(leaf: u32) {
     } else if (source != SOURCE_TREES && lifetime != 0u && now - identity.y >= lifetime) {
         leaf_release(leaf, identity.x + environment.seed.z, source, now);
     }
-    if (flies(places[leaf].w)) {
-        leaf_fly(leaf);
-    } else if ((places[leaf].w & STATE_MASK) == STATE_FALLING) {
+    let bits = places[leaf].w;
+    if ((bits & STATE_MASK) == STATE_FALLING && !flies(bits)) {
         leaf_fall_joining(leaf);
     }
 }
@@ -58,10 +57,9 @@ fn leaf_advance(leaf: u32) {
         leaf_advance_due(leaf);
         return;
     }
-    let state = places[leaf].w & STATE_MASK;
-    if (flies(places[leaf].w)) {
-        leaf_fly(leaf);
-    } else if (state == STATE_FALLING) {
+    let bits = places[leaf].w;
+    let state = bits & STATE_MASK;
+    if (state == STATE_FALLING && !flies(bits)) {
         leaf_fall(leaf);
     } else if (state == STATE_RESTING) {
         leaf_settle(leaf);

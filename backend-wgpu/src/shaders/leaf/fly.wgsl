@@ -63,29 +63,15 @@ fn flight_write(leaf: u32, flight: Flight) {
     courses[leaf] = vec4<u32>(courses[leaf].x, spin.y, courses[leaf].z, spin.z);
 }
 
-fn flight_moved(leaf: u32) -> Flight {
-    let flight = flight_of(leaf);
-    let wind = wind_at(flight.position);
-    return flight_advance(flight, places[leaf].w, courses[leaf].z, wind);
-}
-
 fn leaf_fly(leaf: u32) {
-    let start = bitcast<vec3<f32>>(places[leaf].xyz);
-    let flight = flight_moved(leaf);
+    if (!flies(places[leaf].w)) {
+        return;
+    }
+    let start = flight_of(leaf);
+    let wind = wind_at(start.position);
+    let flight = flight_advance(start, places[leaf].w, courses[leaf].z, wind);
     flight_write(leaf, flight);
     if (flight.position.y < environment.ground.y) {
-        leaf_land(leaf, start);
+        leaf_land(leaf, start.position);
     }
-}
-
-fn leaf_fly_plain(leaf: u32) -> bool {
-    if (!flies(places[leaf].w) || step_block.index.x >= courses[leaf].x) {
-        return true;
-    }
-    let flight = flight_moved(leaf);
-    if (flight.position.y < environment.ground.y) {
-        return false;
-    }
-    flight_write(leaf, flight);
-    return true;
 }

@@ -9,7 +9,7 @@ use crate::SceneError;
 use crate::motion::{MotionConstants, PRIMITIVE_COUNT, Primitive};
 use crate::scene::limits::{MAX_FALL_STEPS, MAX_PERIODS_PER_STEP, MAX_SCHEDULE_STEPS};
 use crate::scene::nearest::nearest;
-use crate::scene::{Release, Scene, Source, SourceShape, Species};
+use crate::scene::{FlightModel, Release, Scene, Source, SourceShape, Species};
 
 impl Scene {
     /// Species have names of their own, and every share names one of them, once.
@@ -65,9 +65,11 @@ impl Scene {
     }
 
     /// Every motion stays below a quarter period per step, also for the smallest and fastest leaf of a species, at the
-    /// fastest that chaotic motion draws, and at the scene's rotation speed.
+    /// fastest that chaotic motion draws, and at the scene's rotation speed. Bodies in the air have no such motions.
     pub(super) fn check_rates(&self, check: &Check<'_>) -> Result<(), SceneError> {
-        for (index, species) in self.species.iter().enumerate() {
+        let is_synthesised = |species: &Species| species.flight == FlightModel::Synthesis;
+        for (index, species) in self.species.iter().enumerate().filter(|(_, species)| is_synthesised(species))
+        {
             let at = check.inside(format!("species[{index}].motion"));
             let (given, used) = (&species.motion, MotionConstants::of(species));
             let leaf = (1.0 + f64::from(species.speed_variation)) / (1.0 - f64::from(species.size_variation));

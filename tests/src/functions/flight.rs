@@ -1,0 +1,127 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The functions that fly bodies.
+
+use windfall_core::flight::body::{Body, body_of};
+use windfall_core::flight::rates::{Motion, flight_rates};
+use windfall_core::flight::runge_kutta::{flight_cuts, flight_step};
+use windfall_core::leaf::fly::{Flight, flies, flight_advance, flight_load};
+use windfall_core::leaf::launch::{hold_pose, quirks_of, random_pose};
+use windfall_core::leaf::record::{SIZE_ONE, SPECIES_SHIFT};
+
+use super::{Function, Input, float, floats, functions, integers, quaternion, vector};
+use crate::runner::Words;
+
+const ANY: Input = Input::Word;
+const FLOW: Input = Input::Floats(3, -12.0, 12.0);
+const SPIN: Input = Input::Floats(3, -40.0, 40.0);
+/// Near enough to unit length, as between two stages of a step.
+const POSE: Input = Input::Floats(4, -0.55, 0.55);
+/// The species of the test scene that fly as bodies.
+const SPECIES: Input = Input::Below(2);
+const SIZE: Input = Input::Below(8192);
+
+fn body(cx: &windfall_core::Context<'_>, species: u32, size: u32, quirks: u32) -> Body {
+    body_of(cx, (1 + species) << SPECIES_SHIFT, (SIZE_ONE - 4096 + size) | (quirks << 16))
+}
+
+fn motion(words: &Words, at: usize) -> Motion {
+    Motion { velocity: vector(words, at), pose: quaternion(words, at + 3), turning: vector(words, at + 7) }
+}
+
+fn told(motion: &Motion) -> [f32; 10] {
+    let mut all = [0.0; 10];
+    all[..3].copy_from_slice(&motion.velocity.to_array());
+    all[3..7].copy_from_slice(&motion.pose.to_array());
+    all[7..].copy_from_slice(&motion.turning.to_array());
+    all
+}
+
+functions! {
+    FLIGHT_FUNCTIONS;
+
+    body_of in "flight/body" (SPECIES, SIZE, ANY) tolerance Some(1e-5);
+    wgsl "let body = body_of((1u + a.x) << SPECIES_SHIFT, (SIZE_ONE - 4096u + a.y) | (a.z << 16u));
+        out_vec4(0u, body.air); out_vec4(4u, body.torque); out_vec4(8u, body.reach); out_vec3(12u, body.ease);
+        out_vec3(15u, body.gyration); out_vec3(18u, body.arm); out_float(21u, body.resistance);
+        out_float(22u, body.size.x); out_float(23u, body.size.y);";
+    rust |cx, w| {
+        let body = body(cx, w[0], w[1], w[2]);
+        let mut all = [0.0; 24];
+        all[..4].copy_from_slice(&body.air);
+        all[4..8].copy_from_slice(&body.torque);
+        all[8..12].copy_from_slice(&body.reach);
+        all[12..15].copy_from_slice(&body.ease.to_array());
+        all[15..18].copy_from_slice(&body.gyration.to_array());
+        all[18..21].copy_from_slice(&body.arm.to_array());
+        all[21..].copy_from_slice(&[body.resistance, body.size[0], body.size[1]]);
+        floats(all)
+    };
+
+    flight_rates in "flight/rates" (SPECIES, SIZE, ANY, FLOW, POSE, SPIN, FLOW) tolerance Some(1e-4);
+    wgsl "let body = body_of((1u + a.x) << SPECIES_SHIFT, (SIZE_ONE - 4096u + a.y) | (a.z << 16u));
+        let rates = flight_rates(body, FlightMotion(in_vec3(3u), in_vec4(6u), in_vec3(10u)), in_vec3(13u));
+        out_vec3(0u, rates.velocity); out_vec4(3u, rates.pose); out_vec3(7u, rates.turning);";
+    rust |cx, w| {
+        let rates = flight_rates(&body(cx, w[0], w[1], w[2]), &motion(w, 3), vector(w, 13));
+        floats(told(&rates))
+    };
+
+    flight_step in "flight/runge_kutta" (
+        SPECIES, SIZE, ANY, FLOW, POSE, SPIN, FLOW, Input::Float(0.0001, 0.002)
+    ) tolerance Some(1e-4);
+    wgsl "let body = body_of((1u + a.x) << SPECIES_SHIFT, (SIZE_ONE - 4096u + a.y) | (a.z << 16u));
+        let motion = FlightMotion(in_vec3(3u), in_vec4(6u), in_vec3(10u));
+        let step = flight_step(body, motion, in_vec3(13u), in_float(16u));
+        out_vec3(0u, step.end.velocity); out_vec4(3u, step.end.pose); out_vec3(7u, step.end.turning);
+        out_vec3(10u, step.way);";
+    rust |cx, w| {
+        let (way, end) = flight_step(&body(cx, w[0], w[1], w[2]), &motion(w, 3), vector(w, 13), float(w[16]));
+        let mut all = [0.0; 13];
+        all[..10].copy_from_slice(&told(&end));
+        all[10..].copy_from_slice(&way.to_array());
+        floats(all)
+    };
+
+    flight_cuts in "flight/runge_kutta" (Input::Scale(-2.0, 3.0)) tolerance Some(0.0);
+    wgsl "r = vec4<u32>(bitcast<vec2<u32>>(flight_cuts(bitcast<f32>(a.x))), 0u, 0u);";
+    rust |_cx, w| floats(flight_cuts(float(w[0])));
+
+    flight_load in "leaf/fly" (SPECIES, FLOW, SPIN) tolerance Some(1e-6);
+    wgsl "r.x = bitcast<u32>(flight_load((1u + a.x) << SPECIES_SHIFT, in_vec3(1u), in_vec3(4u)));
+        r.y = u32(flies(in_word(1u)));";
+    rust |cx, w| integers([
+        flight_load(cx, (1 + w[0]) << SPECIES_SHIFT, vector(w, 1), vector(w, 4)).to_bits(),
+        u32::from(flies(w[1])),
+    ]);
+
+    flight_advance in "leaf/fly" (SPECIES, SIZE, ANY, FLOW, FLOW, POSE, SPIN, FLOW) tolerance Some(1e-2);
+    wgsl "let flight = flight_advance(
+            Flight(in_vec3(3u), in_vec3(6u), in_vec4(9u), in_vec3(13u)),
+            (1u + a.x) << SPECIES_SHIFT, (SIZE_ONE - 4096u + a.y) | (a.z << 16u), in_vec3(16u));
+        out_vec3(0u, flight.position); out_vec3(3u, flight.velocity); out_vec4(6u, flight.pose);
+        out_vec3(10u, flight.spin);";
+    rust |cx, w| {
+        let start =
+            Flight { position: vector(w, 3), velocity: vector(w, 6), pose: quaternion(w, 9), spin: vector(w, 13) };
+        let size = (SIZE_ONE - 4096 + w[1]) | (w[2] << 16);
+        let flight = flight_advance(cx, start, (1 + w[0]) << SPECIES_SHIFT, size, vector(w, 16));
+        let mut all = [0.0; 13];
+        all[..3].copy_from_slice(&flight.position.to_array());
+        all[3..6].copy_from_slice(&flight.velocity.to_array());
+        all[6..10].copy_from_slice(&flight.pose.to_array());
+        all[10..].copy_from_slice(&flight.spin.to_array());
+        floats(all)
+    };
+
+    hold_pose in "leaf/launch" (SPECIES, ANY) tolerance Some(1e-6);
+    wgsl "r = bitcast<vec4<u32>>(hold_pose(1u + a.x, a.y)); s = bitcast<vec4<u32>>(random_pose(vec4<u32>(a.y, a.y, ~a.y, 0u)));";
+    rust |cx, w| {
+        let (held, any) = (hold_pose(cx, 1 + w[0], w[1]), random_pose([w[1], w[1], !w[1], 0]));
+        floats([held.x, held.y, held.z, held.w, any.x, any.y, any.z, any.w])
+    };
+
+    quirks_of in "leaf/launch" (ANY) tolerance None;
+    wgsl "r.x = quirks_of(a.x);";
+    rust |cx, w| integers([quirks_of(cx, w[0])]);
+}
