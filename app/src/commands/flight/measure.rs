@@ -86,7 +86,7 @@ pub(super) fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let device = device(&arguments.backend)?;
     let (count, height_m, seed) = (arguments.drops, arguments.height, arguments.seed);
     let drops = Drops { species: &piece.species, count, height_m, seed };
-    let mut watches = vec![Watch::default(); count as usize];
+    let mut watches = vec![Watch::new(SETTLE_M); count as usize];
     let aloft = drops.run(&device, &mut |drop, sample| {
         watches[drop].add(sample);
         tracks.as_mut().map_or(Ok(()), |tracks| tracks.add(drop, sample))

@@ -10,21 +10,15 @@ use clap::{Args, ValueEnum};
 use glam::DVec2;
 use windfall_core::flight::planform::Measured;
 use windfall_core::scene::limits::{AREAL_DENSITY_KG_M2, ASPECT, EXTENT, SIZE_M};
-use windfall_core::scene::{Aerodynamics, FlightModel, Hold, LeafShape, Planform, Species};
+use windfall_core::scene::{Aerodynamics, FlightModel, Hold, Planform, Species};
 
 use super::outline;
 
-/// Names of the kinds of leaves.
-const KINDS: [(&str, LeafShape); 8] = [
-    ("maple", LeafShape::Maple),
-    ("oak", LeafShape::Oak),
-    ("birch", LeafShape::Birch),
-    ("beech", LeafShape::Beech),
-    ("linden", LeafShape::Linden),
-    ("ginkgo", LeafShape::Ginkgo),
-    ("japanese-maple", LeafShape::JapaneseMaple),
-    ("hornbeam", LeafShape::Hornbeam),
-];
+/// Half width of the spread of offsets of a cut piece: a standard deviation of 2 to 3 % of its radius, as cutting and damp
+/// make it.
+const IRREGULARITY: f32 = 0.05;
+/// Half width of the spread of tilts: a standard deviation of 5 degrees, as hands and suction cups let go.
+const TILT_DEG: f32 = 12.0;
 
 /// How a piece is held before it is let go.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -59,7 +53,8 @@ impl Release {
 /// What to drop.
 #[derive(Clone, Debug, Args)]
 pub(super) struct PieceArguments {
-    /// Kind of leaf: maple, oak, birch, beech, linden, ginkgo, japanese-maple, hornbeam.
+    /// Kind of leaf: maple, oak, birch, beech, linden, ginkgo, japanese-maple, hornbeam; or
+    /// feather, paper-scrap, plate, samara.
     #[arg(long, value_name = "SPECIES", conflicts_with = "shape")]
     species: Option<String>,
     /// Flat piece: disc, square, hexagon, or a CSV file of corners, a line `x,y` for each in any unit.
@@ -123,12 +118,9 @@ impl Piece {
     /// # Errors
     /// Unknown names, and sizes that are not allowed.
     pub(super) fn leaf(name: &str, size_m: Option<f32>, density: Option<f32>) -> anyhow::Result<Self> {
-        let Some((name, shape)) = KINDS.into_iter().find(|(kind, _)| *kind == name) else {
-            let kinds = KINDS.map(|(kind, _)| kind).join(", ");
-            bail!("--species is '{}'; allowed: {kinds}", name.escape_debug());
+        let Some(mut species) = Species::preset(name) else {
+            bail!("--species is '{}'; allowed: {}", name.escape_debug(), Species::PRESETS.join(", "));
         };
-        let flight = FlightModel::Aerodynamic(Aerodynamics::default());
-        let mut species = Species { name: name.into(), shape, flight, ..Species::default() };
         species.size_variation = 0.0;
         species.speed_variation = 0.0;
         if let Some(size_m) = size_m {
@@ -143,7 +135,7 @@ impl Piece {
             body.moisture = 0.0;
         }
         species.areal_density_kg_m2 = wet;
-        Ok(Self { name: name.into(), size_m: species.size_m, areal_density_kg_m2: wet, species })
+        Ok(Self { name: species.name.clone(), size_m: species.size_m, areal_density_kg_m2: wet, species })
     }
 
     /// A flat piece of a shape, or of the outline in a file.
@@ -164,7 +156,8 @@ impl Piece {
         }
         #[expect(clippy::cast_possible_truncation, reason = "scenes hold single precision")]
         let equal = (f64::from(size_m) * diameter) as f32;
-        let body = Aerodynamics { planform: Some(planform), ..Aerodynamics::default() };
+        let body =
+            Aerodynamics { planform: Some(planform), irregularity: IRREGULARITY, ..Aerodynamics::default() };
         let species = Species {
             name: "piece".into(),
             size_m: equal.clamp(SIZE_M.low, SIZE_M.high),
@@ -181,8 +174,18 @@ impl Piece {
     pub(super) fn held(mut self, release: Release) -> Self {
         if let FlightModel::Aerodynamic(body) = &mut self.species.flight {
             body.hold = release.hold();
+            body.tilt_deg = TILT_DEG;
         }
         self
+    }
+
+    /// How its area lies.
+    pub(super) fn planform(&self) -> Planform {
+        let own = match self.species.flight {
+            FlightModel::Aerodynamic(body) => body.planform,
+            FlightModel::Synthesis => None,
+        };
+        own.unwrap_or_else(|| self.species.shape.planform())
     }
 
     /// Planform of the outline in a file, and the diameter of the disc with its area when it is one metre long.
@@ -271,7 +274,7 @@ mod tests {
 
     #[test]
     fn kinds_of_leaves_have_their_own_numbers_or_others() {
-        for (name, _) in KINDS {
+        for &name in Species::PRESETS {
             let own = Piece::leaf(name, None, None).expect("a kind");
             assert_eq!(
                 (own.size_m, own.areal_density_kg_m2),

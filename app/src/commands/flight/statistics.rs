@@ -2,17 +2,19 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! What the drops of a piece come to, in double precision.
 //!
-//! Every number of a drop is taken from where it has fallen [`SETTLE_M`] to the ground, so that it does not tell of the
+//! Every number of a drop is taken from where it has fallen for a while to the ground, so that it does not tell of the
 //! release. Samples are evenly spaced in time.
 
 use glam::DVec3;
 
 use super::sample::{PerRegime, Regime, Sample};
 
-/// Way down in metres before a drop counts.
+/// Way down in metres before a drop of a small piece counts.
 pub(super) const SETTLE_M: f64 = 0.6;
 /// How far the projected area, relative to the area, falls after a peak and rises before it.
 const PEAK_RELIEF: f64 = 0.12;
+/// Share of the way on which a drop tumbles that is said to tumble; one that tumbles for less is chaotic.
+const TUMBLING: f64 = 0.75;
 
 /// Counts the peaks of a series that stand out.
 #[derive(Clone, Copy, Debug)]
@@ -54,8 +56,9 @@ struct Way {
 }
 
 /// Watches one drop.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug)]
 pub(super) struct Watch {
+    settle_m: f64,
     released_y_m: Option<f64>,
     way: Option<Way>,
 }
@@ -73,16 +76,21 @@ pub(super) struct DropNumbers {
     pub(super) drift: f64,
     /// Half the peaks of the area seen from above, per second: turns of what tumbles, swings of what flutters.
     pub(super) turns_per_s: f64,
-    /// The regime that it was in for longest.
+    /// The regime that it was in for longest; chaotic, if that is tumbling, but not for three quarters of the way.
     pub(super) regime: Regime,
 }
 
 impl Watch {
+    /// A drop counts after so many metres.
+    pub(super) fn new(settle_m: f64) -> Self {
+        Self { settle_m, released_y_m: None, way: None }
+    }
+
     /// Takes note of a moment.
     pub(super) fn add(&mut self, sample: &Sample) {
         let position = sample.position_m;
         let released = *self.released_y_m.get_or_insert(position.y);
-        if self.way.is_none() && released - position.y < SETTLE_M {
+        if self.way.is_none() && released - position.y < self.settle_m {
             return;
         }
         let seen_from_above = (sample.attitude * DVec3::Y).y.abs();
@@ -113,17 +121,28 @@ impl Watch {
         let (seconds, gone) = (way.end.0 - way.start.0, way.end.1 - way.start.1);
         let count = f64::from(way.samples);
         let mean = way.descent / count;
-        // Of equals the first.
-        let longest = way.regimes.iter().max().copied().unwrap_or(0);
-        let regime = Regime::ALL.into_iter().zip(way.regimes).find(|(_, steps)| *steps == longest);
+        let regime = prevailing(&way);
         Some(DropNumbers {
             descent_m_s: -gone.y / seconds,
             rms_vz_m_s: (way.descent_squared / count - mean * mean).max(0.0).sqrt(),
             horizontal_speed_m_s: way.horizontal / count,
             drift: gone.x.hypot(gone.z) / gone.y.abs().max(1e-9),
             turns_per_s: 0.5 * f64::from(way.peaks.count) / seconds,
-            regime: regime.map_or(Regime::Steady, |(regime, _)| regime),
+            regime,
         })
+    }
+}
+
+/// What a drop's steps agree on; of equals the first.
+fn prevailing(way: &Way) -> Regime {
+    let longest = way.regimes.iter().max().copied().unwrap_or(0);
+    let first = Regime::ALL.into_iter().zip(way.regimes).find(|(_, steps)| *steps == longest);
+    match first {
+        Some((Regime::Tumble, steps)) if f64::from(steps) < TUMBLING * f64::from(way.samples) => {
+            Regime::Chaotic
+        }
+        Some((regime, _)) => regime,
+        None => Regime::Steady,
     }
 }
 

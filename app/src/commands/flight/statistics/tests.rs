@@ -12,7 +12,7 @@ const DT_S: f64 = 1.0 / 240.0;
 
 /// Watches a drop from three metres whose velocity and attitude are functions of time.
 fn watch(velocity: impl Fn(f64) -> DVec3, attitude: impl Fn(f64) -> DQuat, regime: Regime) -> DropNumbers {
-    let mut watch = Watch::default();
+    let mut watch = Watch::new(SETTLE_M);
     let mut position_m = DVec3::new(0.3, 3.0, -0.2);
     for step in 0.. {
         let time_s = f64::from(step) * DT_S;
@@ -81,7 +81,7 @@ fn the_release_does_not_count() {
     let drop = watch(velocity, |_| DQuat::IDENTITY, Regime::Steady);
     near(drop.descent_m_s, 1.0, 0.01, "only the later speed");
     near(drop.drift, 0.0, 0.02, "only the later way");
-    let mut short = Watch::default();
+    let mut short = Watch::new(SETTLE_M);
     assert_eq!(short.finish(), None, "nothing seen");
     let sample = |time_s: f64, height_m: f64| Sample {
         time_s,
@@ -95,21 +95,27 @@ fn the_release_does_not_count() {
     assert_eq!(short.finish(), None, "one moment is no way");
 }
 
-#[test]
-fn the_regime_is_the_one_that_lasted_longest() {
-    let mut watch = Watch::default();
+/// The regime of a drop that counts for forty steps, labelled so.
+fn labelled(label: impl Fn(u32) -> Regime) -> Regime {
+    let mut watch = Watch::new(SETTLE_M);
     for step in 0..100 {
-        let time_s = f64::from(step) * DT_S;
-        let regime = match step {
-            0..60 => Regime::Steady,
-            60..73 => Regime::Chaotic,
-            _ => Regime::Tumble,
-        };
-        let position_m = DVec3::new(0.0, 3.0 - 0.0101 * f64::from(step), 0.0);
-        let velocity_m_s = DVec3::ZERO;
+        let before = f64::from(step.min(60)) * SETTLE_M / 60.0;
+        let position_m = DVec3::new(0.0, 3.0 - before - 0.01 * f64::from(step.max(60) - 60), 0.0);
+        let regime = if step < 60 { Regime::Steady } else { label(step - 60) };
+        let (time_s, velocity_m_s) = (f64::from(step) * DT_S, DVec3::ZERO);
         watch.add(&Sample { time_s, position_m, attitude: DQuat::IDENTITY, velocity_m_s, regime });
     }
-    assert_eq!(watch.finish().expect("far enough").regime, Regime::Tumble, "steady was before it counted");
+    watch.finish().expect("far enough").regime
+}
+
+#[test]
+fn the_regime_is_the_one_that_lasted_longest() {
+    let flutters = labelled(|step| if step < 18 { Regime::Chaotic } else { Regime::Flutter });
+    assert_eq!(flutters, Regime::Flutter, "steady was before it counted");
+    let tumbles = labelled(|step| if step < 8 { Regime::Flutter } else { Regime::Tumble });
+    assert_eq!(tumbles, Regime::Tumble, "four fifths");
+    let mixed = labelled(|step| if step < 12 { Regime::Flutter } else { Regime::Tumble });
+    assert_eq!(mixed, Regime::Chaotic, "seven tenths");
 }
 
 #[test]
