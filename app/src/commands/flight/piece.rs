@@ -14,12 +14,6 @@ use windfall_core::scene::{Aerodynamics, FlightModel, Hold, Planform, Species};
 
 use super::outline;
 
-/// Half width of the spread of offsets of a cut piece: a standard deviation of 2 to 3 % of its radius, as cutting and damp
-/// make it.
-const IRREGULARITY: f32 = 0.05;
-/// Half width of the spread of tilts: a standard deviation of 5 degrees, as hands and suction cups let go.
-const TILT_DEG: f32 = 12.0;
-
 /// How a piece is held before it is let go.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(super) enum Release {
@@ -156,8 +150,7 @@ impl Piece {
         }
         #[expect(clippy::cast_possible_truncation, reason = "scenes hold single precision")]
         let equal = (f64::from(size_m) * diameter) as f32;
-        let body =
-            Aerodynamics { planform: Some(planform), irregularity: IRREGULARITY, ..Aerodynamics::default() };
+        let body = Aerodynamics { planform: Some(planform), ..Aerodynamics::default() };
         let species = Species {
             name: "piece".into(),
             size_m: equal.clamp(SIZE_M.low, SIZE_M.high),
@@ -174,7 +167,6 @@ impl Piece {
     pub(super) fn held(mut self, release: Release) -> Self {
         if let FlightModel::Aerodynamic(body) = &mut self.species.flight {
             body.hold = release.hold();
-            body.tilt_deg = TILT_DEG;
         }
         self
     }
