@@ -232,7 +232,7 @@ fn outlines_that_make_no_sense() {
 fn pictures_are_drawn() {
     let there = folder();
     for (figure, size) in
-        [(&["diagram", "--drops", "1"][..], (1600, 1120)), (&["tracks3d", "--seed", "3"], (1800, 1130))]
+        [(&["diagram", "--drops", "1"][..], (1600, 1120)), (&["tracks3d", "--seed", "3"], (1800, 1090))]
     {
         let arguments = [&["flight"], figure, &["--out", "a.png"]].concat();
         let told = windfall(&there, &arguments).text();

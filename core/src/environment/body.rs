@@ -9,8 +9,8 @@ use glam::DVec3;
 use super::convert::{float4, single, word};
 use crate::flight::block::{BodyBlock, HOLD_RANDOM, HOLD_TILTED};
 use crate::flight::coefficients::{
-    DRAG_BEND, DRAG_BORNE, DRAG_EDGE, DRAG_RISE, LIFT_EDGE, QUIRK_CURL, SPIN_BORNE_RAD, SWING_BORNE_RAD,
-    TICKS_PER_S, TWIST_TORQUE,
+    DRAG_BEND, DRAG_BORNE, DRAG_RISE, LIFT_EDGE, QUIRK_CURL, SPIN_BORNE_RAD, SWING_BORNE_RAD, TICKS_PER_S,
+    TWIST_TORQUE,
 };
 use crate::layout::{Float4, Uint4};
 use crate::motion::AIR_DENSITY;
@@ -45,11 +45,13 @@ pub(super) fn body_block(species: &Species, dt_s: f32) -> BodyBlock {
     let offset =
         DVec3::new(f64::from(body.mass_offset.1), -f64::from(body.curl), f64::from(body.mass_offset.0));
     let quirk = f64::from(body.irregularity) * radius;
-    let inertia = DVec3::new(0.25 * along2, 0.25 * (along2 + across2), 0.25 * across2);
+    let [about_x, about_z] =
+        [body.gyration.0, body.gyration.1].map(|share| f64::from(share) * f64::from(share));
+    let inertia = DVec3::new(about_x * along2, about_x * along2 + about_z * across2, about_z * across2);
     let [air_x, air_z] = [(along, across), (across, along)]
         .map(|(sweeping, other)| added_inertia(sweeping, other) * air / (PI * radius * radius));
     // Angular rate, per speed, at which the flow swings the body about the axis that resists least.
-    let broadside = 0.5 * f64::from(DRAG_EDGE + DRAG_RISE - DRAG_BEND);
+    let broadside = 0.5 * f64::from(body.edge_drag + DRAG_RISE - DRAG_BEND);
     let lever = (broadside + f64::from(LIFT_EDGE)) * air * (offset.length() * radius + quirk);
     let swing = libm::sqrt((added + lever) / (inertia.x + air_x).min(inertia.z + air_z)) / SWING_BORNE_RAD;
     let dt = f64::from(dt_s);
@@ -60,8 +62,8 @@ pub(super) fn body_block(species: &Species, dt_s: f32) -> BodyBlock {
             [along, across, reach, TWIST_TORQUE * f64::from(body.twist) * air * radius].map(single),
         ),
         slope: Float4([lift_slope(along, across), lift_slope(across, along), air_x, air_z].map(single)),
-        inertia: float4(inertia, 0.0),
-        arm: float4(offset * -radius, 0.0),
+        inertia: float4(inertia, body.pitch_damping.into()),
+        arm: float4(offset * -radius, body.edge_drag.into()),
         quirks: float4(DVec3::new(quirk, QUIRK_CURL * quirk, quirk), TWIST_TORQUE * air * quirk),
         load: Float4([
             single(dt * (broadside * air / DRAG_BORNE).max(swing)),

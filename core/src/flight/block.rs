@@ -24,9 +24,9 @@ crate::shared_struct! {
         /// Slope of the lift of slip across and along relative to a disc's; inertia of the air over mass about x and z in
         /// m², for it grows with the cube of the size.
         pub slope: Float4,
-        /// Inertia over mass about x, y, z in m²; unused.
+        /// Inertia over mass about x, y, z in m²; damping of pitching.
         pub inertia: Float4,
-        /// Middle of the area from the centre of mass in m; unused.
+        /// Middle of the area from the centre of mass in m; drag edge-on.
         pub arm: Float4,
         /// Half widths of the spread of that place and of the torque of twist.
         pub quirks: Float4,

@@ -28,6 +28,8 @@ pub struct Body<R: Real = f32> {
     pub reach: [R; 4],
     /// Slope of the lift of slip across and along relative to a disc's.
     pub slope: [R; 2],
+    /// Damping of pitching; drag edge-on.
+    pub own: [R; 2],
     /// Force over mass, per acceleration that it had without it, with which the air resists being pushed along the normal.
     pub resistance: R,
     /// Inverse inertia over mass about x, y, z in 1/m².
@@ -53,7 +55,7 @@ pub fn body_of<W: Word>(cx: &Context<'_>, bits: W, size: W) -> Body<W::Real> {
     let reach = first.plus(first.all(1)).look_up(rows);
     let slope = first.plus(first.all(2)).look_up(rows);
     let inertia = first.plus(first.all(3)).look_up(rows);
-    let arm = first.plus(first.all(4)).look_up(rows);
+    let middle = first.plus(first.all(4)).look_up(rows);
     let quirks = first.plus(first.all(5)).look_up(rows);
 
     let ratio = (size & HALF_MASK).to_real() * SIZE_UNIT;
@@ -68,9 +70,9 @@ pub fn body_of<W: Word>(cx: &Context<'_>, bits: W, size: W) -> Body<W::Real> {
         ((x - y) * ease.z) * smallness,
     );
     let arm = Vec3::new(
-        arm[0] + body_quirk(size, 0) * quirks[0],
-        arm[1] + body_quirk(size, 1) * quirks[1],
-        arm[2] + body_quirk(size, 2) * quirks[2],
+        middle[0] + body_quirk(size, 0) * quirks[0],
+        middle[1] + body_quirk(size, 1) * quirks[1],
+        middle[2] + body_quirk(size, 2) * quirks[2],
     );
     let added = air[1] * ratio;
     let swing = (arm.x * arm.x) * ease.z + (arm.z * arm.z) * ease.x;
@@ -79,6 +81,7 @@ pub fn body_of<W: Word>(cx: &Context<'_>, bits: W, size: W) -> Body<W::Real> {
         air,
         reach: [reach[0], reach[1], reach[2], reach[3] + body_quirk(size, 3) * quirks[3]],
         slope: [slope[0], slope[1]],
+        own: [inertia[3], middle[3]],
         resistance: added * reciprocal((added + added * swing) + 1.0),
         ease,
         gyration,

@@ -8,8 +8,6 @@
 //! Fitted to drops of paper discs from 3.5 to 9.4 cm, let go broadside and edge-on (Howison, Hughes and Iida 2020).
 
 crate::shared_constants! {
-    /// Drag edge-on: the friction of a thin sheet.
-    pub const DRAG_EDGE: f32 = 0.05;
     /// What the drag gains with q.
     pub const DRAG_RISE: f32 = 5.52;
     /// What it loses with the square of q: separated flow resists most at middling incidence.
@@ -32,8 +30,6 @@ crate::shared_constants! {
     pub const DAMPING_TURN: f32 = 0.34;
     /// Damping of rolling about the direction of slip, as of a wing as short as broad. It keeps the axis of tumbling level.
     pub const DAMPING_ROLL: f32 = 0.22;
-    /// Damping of pitching, per q; negative: stall lags behind and drives it.
-    pub const DAMPING_PITCH: f32 = -0.60;
     /// Damping of turning about the normal.
     pub const DAMPING_NORMAL: f32 = 0.03;
 }

@@ -6,8 +6,8 @@
 
 use super::body::Body;
 use super::coefficients::{
-    DAMPING_NORMAL, DAMPING_PITCH, DAMPING_ROLL, DAMPING_TURN, DRAG_BEND, DRAG_EDGE, DRAG_RISE, LIFT_BEND,
-    LIFT_EDGE, LIFT_RISE, MUNK_EDGE, MUNK_RISE, WHIRL_EDGE, WHIRL_RISE,
+    DAMPING_NORMAL, DAMPING_ROLL, DAMPING_TURN, DRAG_BEND, DRAG_RISE, LIFT_BEND, LIFT_EDGE, LIFT_RISE,
+    MUNK_EDGE, MUNK_RISE, WHIRL_EDGE, WHIRL_RISE,
 };
 use crate::kernel::lane::Real;
 use crate::kernel::math::inverse_sqrt;
@@ -62,7 +62,8 @@ pub fn flight_rates<R: Real>(body: &Body<R>, motion: &Motion<R>, wind: Vec3<R>) 
     let [air, added, air_along, air_across] = body.air;
     let [along_m, across_m, mean_m, twist] = body.reach;
     let [slope_x, slope_z] = body.slope;
-    let resist = (air * 0.5) * ((q * (x.all(DRAG_RISE) - q * DRAG_BEND) + DRAG_EDGE) * speed);
+    let [pitch_damping, edge_drag] = body.own;
+    let resist = (air * 0.5) * ((q * (x.all(DRAG_RISE) - q * DRAG_BEND) + edge_drag) * speed);
     let slope = q + (slope_x * across2 + slope_z * along2) * (slowness * slowness);
     let raise = (air * slope) * ((q * (q * LIFT_BEND + LIFT_RISE) + LIFT_EDGE) * incidence);
     let circulation = q * WHIRL_RISE + WHIRL_EDGE;
@@ -84,7 +85,7 @@ pub fn flight_rates<R: Real>(body: &Body<R>, motion: &Motion<R>, wind: Vec3<R>) 
     let edge = (edge_x * edge_x + edge_z * edge_z).max(x.all(TINY_SQUARED));
     let damping = (edge * inverse_sqrt(edge)) * DAMPING_TURN;
     let roll = (slowness * DAMPING_ROLL) * (edge_x * flow.x + edge_z * flow.z);
-    let pitch = (slowness * (q * DAMPING_PITCH)) * (edge_x * flow.z - edge_z * flow.x);
+    let pitch = (slowness * (q * pitch_damping)) * (edge_x * flow.z - edge_z * flow.x);
     let wheel = turn.y * mean_m;
     let wheeling = (speed + wheel.max(x.all(0.0) - wheel)) * DAMPING_NORMAL;
     let lever = vec3_cross(body.arm, push);

@@ -46,16 +46,19 @@ functions! {
     wgsl "let body = body_of((1u + a.x) << SPECIES_SHIFT, (SIZE_ONE - 4096u + a.y) | (a.z << 16u));
         out_vec4(0u, body.air); out_vec4(4u, body.reach); out_vec3(8u, body.ease); out_vec3(11u, body.gyration);
         out_vec3(14u, body.arm); out_float(17u, body.resistance); out_float(18u, body.size.x);
-        out_float(19u, body.size.y); out_float(20u, body.slope.x); out_float(21u, body.slope.y);";
+        out_float(19u, body.size.y); out_float(20u, body.slope.x); out_float(21u, body.slope.y);
+        out_float(22u, body.own.x); out_float(23u, body.own.y);";
     rust |cx, w| {
         let body = body(cx, w[0], w[1], w[2]);
-        let mut all = [0.0; 22];
+        let mut all = [0.0; 24];
         all[..4].copy_from_slice(&body.air);
         all[4..8].copy_from_slice(&body.reach);
         all[8..11].copy_from_slice(&body.ease.to_array());
         all[11..14].copy_from_slice(&body.gyration.to_array());
         all[14..17].copy_from_slice(&body.arm.to_array());
-        all[17..].copy_from_slice(&[body.resistance, body.size[0], body.size[1], body.slope[0], body.slope[1]]);
+        all[17..].copy_from_slice(&[
+            body.resistance, body.size[0], body.size[1], body.slope[0], body.slope[1], body.own[0], body.own[1],
+        ]);
         floats(all)
     };
 

@@ -23,9 +23,9 @@ use crate::{interrupt, terminal};
 /// Kinematic viscosity of air at 20 °C in m²/s.
 const VISCOSITY_M2_S: f64 = 1.5e-5;
 /// Columns and rows of discs.
-const GRID: (u32, u32) = (11, 11);
+const GRID: (u32, u32) = (12, 13);
 /// Aimed Reynolds numbers of the first and the last column.
-const REYNOLDS: (f64, f64) = (80.0, 25_000.0);
+const REYNOLDS: (f64, f64) = (80.0, 24_000.0);
 /// Dimensionless moments of inertia of the first and the last row.
 const INERTIA: (f64, f64) = (0.002, 0.2);
 /// Speed of descent in m/s that a disc of 1 kg/m² is aimed with: 0.757 m/s at 70 g/m².

@@ -20,7 +20,8 @@ use clap::{Args, Subcommand};
 ///
 /// Every number is an average over drops of what each does from 0.6 m below its release to the ground. Turns are half the
 /// peaks of the area seen from above: turns of what tumbles, swings of what flutters. A drop's regime is the one that
-/// lasted longest; one that tumbles for less than three quarters of that way counts as chaotic.
+/// lasted longest since it was first seen to turn or swing a few times; one that tumbles for less than three quarters of
+/// that time counts as chaotic.
 #[derive(Clone, Debug, Args)]
 #[command(args_conflicts_with_subcommands = true)]
 pub struct Arguments {

@@ -13,7 +13,7 @@ use super::sample::{PerRegime, Regime, Sample};
 pub(super) const SETTLE_M: f64 = 0.6;
 /// How far the projected area, relative to the area, falls after a peak and rises before it.
 const PEAK_RELIEF: f64 = 0.12;
-/// Share of the way on which a drop tumbles that is said to tumble; one that tumbles for less is chaotic.
+/// Share of its regimes that a drop is said to tumble for; one that tumbles for less is chaotic.
 const TUMBLING: f64 = 0.75;
 
 /// Counts the peaks of a series that stand out.
@@ -52,7 +52,9 @@ struct Way {
     descent_squared: f64,
     horizontal: f64,
     peaks: Peaks,
+    /// Steps by regime, from the first on that is not steady, if there is one.
     regimes: [u32; 6],
+    is_told: bool,
 }
 
 /// Watches one drop.
@@ -76,7 +78,8 @@ pub(super) struct DropNumbers {
     pub(super) drift: f64,
     /// Half the peaks of the area seen from above, per second: turns of what tumbles, swings of what flutters.
     pub(super) turns_per_s: f64,
-    /// The regime that it was in for longest; chaotic, if that is tumbling, but not for three quarters of the way.
+    /// The regime that it was in for longest since it was first seen not to fall steadily; chaotic, if that is tumbling,
+    /// but not for three quarters of that time.
     pub(super) regime: Regime,
 }
 
@@ -104,6 +107,7 @@ impl Watch {
             horizontal: 0.0,
             peaks: Peaks::new(seen_from_above),
             regimes: [0; 6],
+            is_told: false,
         });
         let velocity = sample.velocity_m_s;
         way.end = at;
@@ -112,6 +116,11 @@ impl Watch {
         way.descent_squared += velocity.y * velocity.y;
         way.horizontal += velocity.x.hypot(velocity.z);
         way.peaks.add(seen_from_above);
+        // A fall is called steady until it has been seen to turn or swing a few times.
+        if !way.is_told && sample.regime != Regime::Steady {
+            way.is_told = true;
+            way.regimes = [0; 6];
+        }
         way.regimes[sample.regime as usize] += 1;
     }
 
@@ -136,11 +145,10 @@ impl Watch {
 /// What a drop's steps agree on; of equals the first.
 fn prevailing(way: &Way) -> Regime {
     let longest = way.regimes.iter().max().copied().unwrap_or(0);
+    let told: u32 = way.regimes.iter().sum();
     let first = Regime::ALL.into_iter().zip(way.regimes).find(|(_, steps)| *steps == longest);
     match first {
-        Some((Regime::Tumble, steps)) if f64::from(steps) < TUMBLING * f64::from(way.samples) => {
-            Regime::Chaotic
-        }
+        Some((Regime::Tumble, steps)) if f64::from(steps) < TUMBLING * f64::from(told) => Regime::Chaotic,
         Some((regime, _)) => regime,
         None => Regime::Steady,
     }

@@ -46,7 +46,7 @@ fn flight_rates(body: LeafBody, motion: FlightMotion, wind: vec3<f32>) -> Flight
     let q = incidence * incidence;
 
     let air = body.air;
-    let resist = (air.x * 0.5) * ((q * (DRAG_RISE - q * DRAG_BEND) + DRAG_EDGE) * speed);
+    let resist = (air.x * 0.5) * ((q * (DRAG_RISE - q * DRAG_BEND) + body.own.y) * speed);
     let slope = q + (body.slope.x * across2 + body.slope.y * along2) * (slowness * slowness);
     let raise = (air.x * slope) * ((q * (q * LIFT_BEND + LIFT_RISE) + LIFT_EDGE) * incidence);
     let circulation = q * WHIRL_RISE + WHIRL_EDGE;
@@ -68,7 +68,7 @@ fn flight_rates(body: LeafBody, motion: FlightMotion, wind: vec3<f32>) -> Flight
     let edge = max(edge_x * edge_x + edge_z * edge_z, TINY_SQUARED);
     let damping = (edge * inverse_sqrt(edge)) * DAMPING_TURN;
     let roll = (slowness * DAMPING_ROLL) * (edge_x * flow.x + edge_z * flow.z);
-    let pitch = (slowness * (q * DAMPING_PITCH)) * (edge_x * flow.z - edge_z * flow.x);
+    let pitch = (slowness * (q * body.own.x)) * (edge_x * flow.z - edge_z * flow.x);
     let wheel = turn.y * body.reach.z;
     let wheeling = (speed + max(wheel, 0.0 - wheel)) * DAMPING_NORMAL;
     let lever = vec3_cross(body.arm, push);

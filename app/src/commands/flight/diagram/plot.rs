@@ -46,20 +46,21 @@ pub(super) fn draw(area: &Area<'_>, drops: u32, spots: &[Spot]) -> Drawn {
         .y_label_formatter(&|inertia| format!("{inertia}"))
         .draw()?;
     for boundary in boundaries() {
-        let line = LineSeries::new(boundary.points, INK.mix(0.75).stroke_width(3 * UNIT));
+        let line = LineSeries::new(shown(&boundary.points), INK.mix(0.75).stroke_width(3 * UNIT));
         chart.draw_series(line)?;
     }
     for (regime, text, at) in [
         (Regime::Steady, "steady", (64.0, 0.0165)),
-        (Regime::Flutter, "periodic", (2300.0, 0.0020)),
-        (Regime::Chaotic, "chaotic", (21_000.0, 0.021)),
-        (Regime::Tumble, "tumbling", (19_000.0, 0.25)),
+        (Regime::Flutter, "periodic", (128.0, 0.0052)),
+        (Regime::Chaotic, "chaotic", (226.0, 0.0242)),
+        (Regime::Tumble, "tumbling", (182.0, 0.25)),
     ] {
         let shade = color(regime);
         let style = font(26).color(&shade).pos(Pos::new(HPos::Left, VPos::Center));
         chart.draw_series([Text::new(text, at, style)])?;
     }
-    for spot in spots {
+    let is_shown = |spot: &&Spot| REYNOLDS.contains(&spot.reynolds) && INERTIA.contains(&spot.inertia);
+    for spot in spots.iter().filter(is_shown) {
         let at = chart.backend_coord(&(spot.reynolds, spot.inertia));
         pie(area, at, spot)?;
     }
@@ -69,10 +70,8 @@ pub(super) fn draw(area: &Area<'_>, drops: u32, spots: &[Spot]) -> Drawn {
 /// The measured regions, as far as their boundaries were measured.
 fn regions() -> Vec<(Regime, Vec<(f64, f64)>)> {
     let all = boundaries();
-    let [steady, periodic, tumbling] = [0, 1, 2].map(|index| {
-        let points = all.get(index).map_or(&[][..], |boundary| boundary.points.as_slice());
-        points.iter().copied().filter(|point| INERTIA.contains(&point.1)).collect::<Vec<_>>()
-    });
+    let [steady, periodic, tumbling] =
+        [0, 1, 2].map(|index| all.get(index).map_or(Vec::new(), |boundary| shown(&boundary.points)));
     let (Some(foot), Some(head)) = (steady.first(), steady.last()) else { return Vec::new() };
     let (Some(split), Some(end)) = (periodic.first(), periodic.last()) else { return Vec::new() };
     let (Some(begin), Some(last)) = (tumbling.first(), tumbling.last()) else { return Vec::new() };
@@ -95,6 +94,17 @@ fn regions() -> Vec<(Regime, Vec<(f64, f64)>)> {
         (Regime::Chaotic, wild),
         (Regime::Tumble, turning),
     ]
+}
+
+/// The part of a boundary that begins where the plot does.
+fn shown(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
+    let low = INERTIA.start;
+    let mut part: Vec<_> = points.iter().copied().filter(|point| point.1 >= low).collect();
+    if let Some(&[from, to]) = points.array_windows().find(|&&[from, to]| from.1 < low && low < to.1) {
+        let share = (low / from.1).ln() / (to.1 / from.1).ln();
+        part.insert(0, (from.0 * (to.0 / from.0).powf(share), low));
+    }
+    part
 }
 
 /// Shares of drops, around a point of the picture.

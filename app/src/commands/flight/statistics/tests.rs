@@ -116,6 +116,11 @@ fn the_regime_is_the_one_that_lasted_longest() {
     assert_eq!(tumbles, Regime::Tumble, "four fifths");
     let mixed = labelled(|step| if step < 12 { Regime::Flutter } else { Regime::Tumble });
     assert_eq!(mixed, Regime::Chaotic, "seven tenths");
+    let late = labelled(|step| if step < 30 { Regime::Steady } else { Regime::Tumble });
+    assert_eq!(late, Regime::Tumble, "steady for want of a better name does not count");
+    let calmer = labelled(|step| if step < 10 { Regime::Flutter } else { Regime::Steady });
+    assert_eq!(calmer, Regime::Steady, "steady afterwards does");
+    assert_eq!(labelled(|_| Regime::Steady), Regime::Steady, "all the way");
 }
 
 #[test]

@@ -9,12 +9,12 @@ use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use super::{Regime, Track};
-use crate::commands::flight::picture::{Area, Drawn, INK, PAPER, UNIT, color, font};
+use crate::commands::flight::picture::{Area, Drawn, INK, UNIT, color, font};
 
 /// Drops beside each other and above each other.
 const PANELS: (usize, usize) = (6, 2);
 /// Size of the picture in pixels.
-pub(super) const SIZE: (u32, u32) = (1800, 1130);
+pub(super) const SIZE: (u32, u32) = (1800, 1090);
 /// Height of a panel in pixels.
 const PANEL_PX: f64 = 510.0;
 /// Pixels for a metre.
@@ -55,7 +55,7 @@ impl Panel {
         let middle = 0.5 * (low.unwrap_or(DVec3::ZERO) + high.unwrap_or(DVec3::ZERO));
         let (column, row) = (index % PANELS.0, index / PANELS.0);
         let width = f64::from(SIZE.0) / PANELS.0 as f64;
-        let foot = DVec2::new((column as f64 + 0.5) * width, 96.0 + (row as f64 + 1.0) * PANEL_PX - 100.0);
+        let foot = DVec2::new((column as f64 + 0.5) * width, 56.0 + (row as f64 + 1.0) * PANEL_PX - 100.0);
         Self { foot, turn, middle: middle.with_y(0.0) }
     }
 
@@ -98,8 +98,8 @@ fn ground(area: &Area<'_>, panel: &Panel) -> Drawn {
     let (wide, deep) = GROUND_M;
     let corners = [(-wide, -deep), (wide, -deep), (wide, deep), (-wide, deep)];
     let corners: Vec<_> = corners.map(|(x, z)| panel.fixed(DVec3::new(x, 0.0, z))).into();
-    area.draw(&Polygon::new(corners, INK.mix(0.05).filled()))?;
-    let style = INK.mix(0.10).stroke_width(UNIT);
+    area.draw(&Polygon::new(corners, INK.mix(0.07).filled()))?;
+    let style = INK.mix(0.14).stroke_width(UNIT);
     let count = |half: f64| (half / LINES_M).round() as i32;
     for line in -count(wide)..=count(wide) {
         let x = f64::from(line) * LINES_M;
@@ -184,14 +184,19 @@ fn legend(area: &Area<'_>) -> Drawn {
     let unit = UNIT as i32;
     let row = (SIZE.1 as i32 - 30) * unit;
     let style = font(23).pos(Pos::new(HPos::Left, VPos::Center));
-    for (index, regime) in (0..).zip(Regime::ALL) {
-        let x = (330 + 150 * index) * unit;
+    let mut x = 300 * unit;
+    for regime in Regime::ALL {
+        let name = match regime {
+            Regime::Steady => "steady, or not told yet",
+            _ => regime.name(),
+        };
         area.draw(&Circle::new((x, row), 9 * UNIT, color(regime).filled()))?;
-        area.draw(&Text::new(regime.name(), (x + 18 * unit, row), style.clone()))?;
+        area.draw(&Text::new(name, (x + 18 * unit, row), style.clone()))?;
+        let width = area.estimate_text_size(name, &style)?.0;
+        x += i32::try_from(width)? + 50 * unit;
     }
-    let text = "grey: way over the ground";
-    area.draw(&Text::new(text, (1240 * unit, row), style))?;
-    area.draw(&Circle::new((1222 * unit, row), 9 * UNIT, PAPER.filled()))?;
-    area.draw(&Circle::new((1222 * unit, row), 9 * UNIT, INK.mix(0.34).filled()))?;
+    let line = [(x - 9 * unit, row), (x + 9 * unit, row)];
+    area.draw(&PathElement::new(line, INK.mix(0.34).stroke_width(3 * UNIT)))?;
+    area.draw(&Text::new("way over the ground", (x + 18 * unit, row), style))?;
     Ok(())
 }
