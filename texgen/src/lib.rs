@@ -28,6 +28,7 @@ mod folder;
 pub mod form;
 pub mod growth;
 mod lab;
+mod light_body;
 mod making;
 mod maps;
 mod math;
@@ -59,6 +60,7 @@ pub use folder::{
     FOLDER_VERSION, FolderError, FolderLeaf, FormLevel, FormShape, LeafFacts, LeafFolder, LeafForm,
     MANIFEST_NAME, Manifest,
 };
+pub use light_body::LightBody;
 pub use making::{Assortment, Build, LeafMaker, MadeLeaf, MakeOptions, RECIPE};
 pub use maps::LeafMaps;
 pub use outline_model::OutlineModel;

@@ -7,7 +7,7 @@ mod cache;
 use image::{RgbaImage, imageops};
 use windfall_core::Scene;
 use windfall_core::scene::{LeafShape, Species};
-use windfall_texgen::{Assortment, Atlas, Layer, LeafFolder, Shape};
+use windfall_texgen::{Assortment, Atlas, Layer, LeafFolder, LightBody, Shape};
 
 use crate::render::MAX_LAYERS;
 
@@ -26,11 +26,13 @@ pub fn atlas_of(scene: &Scene) -> anyhow::Result<Atlas> {
     let most = MAX_LAYERS / scene.species.len().max(1);
     let mut folders = Vec::with_capacity(scene.species.len());
     for species in &scene.species {
-        let folder = match &species.leaves {
-            Some(path) => LeafFolder::load(path.as_ref())?,
-            None => cache::load_or_make(&assortment(species))?,
-        };
-        folders.push(pictures(&folder, species.season));
+        folders.push(match (&species.leaves, kind_of(species.shape)) {
+            (Some(path), _) => pictures(&LeafFolder::load(path.as_ref())?, species.season),
+            (None, Kind::Leaf(shape)) => {
+                pictures(&cache::load_or_make(&assortment(species, shape))?, species.season)
+            }
+            (None, Kind::Other(body)) => painted(body)?,
+        });
     }
     let variants = folders.iter().map(Vec::len).max().unwrap_or(1).clamp(1, most);
     let layers = folders
@@ -42,19 +44,41 @@ pub fn atlas_of(scene: &Scene) -> anyhow::Result<Atlas> {
     Ok(Atlas { size_px: PICTURE_SIZE, variants: u32::try_from(variants)?, layers })
 }
 
+/// What draws a shape.
+#[derive(Clone, Copy, Debug)]
+enum Kind {
+    /// The leaf maker.
+    Leaf(Shape),
+    /// The quick painter of other light bodies.
+    Other(LightBody),
+}
+
+fn kind_of(shape: LeafShape) -> Kind {
+    match shape {
+        LeafShape::Maple => Kind::Leaf(Shape::Maple),
+        LeafShape::Oak => Kind::Leaf(Shape::Oak),
+        LeafShape::Birch => Kind::Leaf(Shape::Birch),
+        LeafShape::Beech => Kind::Leaf(Shape::Beech),
+        LeafShape::Linden => Kind::Leaf(Shape::Linden),
+        LeafShape::Ginkgo => Kind::Leaf(Shape::Ginkgo),
+        LeafShape::JapaneseMaple => Kind::Leaf(Shape::JapaneseMaple),
+        LeafShape::Hornbeam => Kind::Leaf(Shape::Hornbeam),
+        LeafShape::Feather => Kind::Other(LightBody::Feather),
+        LeafShape::Paper => Kind::Other(LightBody::Paper),
+        LeafShape::Plate => Kind::Other(LightBody::Plate),
+        LeafShape::Samara => Kind::Other(LightBody::Samara),
+    }
+}
+
 /// What to make for a species without a folder.
-fn assortment(species: &Species) -> Assortment {
-    let shape = match species.shape {
-        LeafShape::Maple => Shape::Maple,
-        LeafShape::Oak => Shape::Oak,
-        LeafShape::Birch => Shape::Birch,
-        LeafShape::Beech => Shape::Beech,
-        LeafShape::Linden => Shape::Linden,
-        LeafShape::Ginkgo => Shape::Ginkgo,
-        LeafShape::JapaneseMaple => Shape::JapaneseMaple,
-        LeafShape::Hornbeam => Shape::Hornbeam,
-    };
+fn assortment(species: &Species, shape: Shape) -> Assortment {
     Assortment { shape, season: species.season, count: VARIANTS, size_px: PICTURE_SIZE, seed: SEED }
+}
+
+/// Pictures of a body that is no leaf; they are painted in no time.
+fn painted(body: LightBody) -> anyhow::Result<Vec<RgbaImage>> {
+    let pictures = (0..u64::from(VARIANTS)).map(|variant| body.paint(PICTURE_SIZE, SEED + variant));
+    Ok(pictures.collect::<Result<_, _>>()?)
 }
 
 /// The pictures of a folder that belong to a stretch of the season, all of them if none does, in the size of the atlas.

@@ -77,20 +77,25 @@ pub struct Aerodynamics {
     pub tilt_deg: f32,
 }
 
+impl Aerodynamics {
+    /// A flat dry body with its mass in the middle, as irregular as leaves are.
+    pub(super) const FLAT: Self = Self {
+        planform: None,
+        moisture: 0.0,
+        mass_offset: (0.0, 0.0),
+        curl: 0.0,
+        twist: 0.0,
+        gyration: (0.5, 0.5),
+        edge_drag: 0.05,
+        pitch_damping: -0.57,
+        irregularity: 0.035,
+        hold: Hold::Random,
+        tilt_deg: 12.0,
+    };
+}
+
 impl Default for Aerodynamics {
     fn default() -> Self {
-        Self {
-            planform: None,
-            moisture: 0.0,
-            mass_offset: (0.0, 0.0),
-            curl: 0.0,
-            twist: 0.0,
-            gyration: (0.5, 0.5),
-            edge_drag: 0.05,
-            pitch_damping: -0.57,
-            irregularity: 0.035,
-            hold: Hold::Random,
-            tilt_deg: 12.0,
-        }
+        Self::FLAT
     }
 }

@@ -13,6 +13,7 @@ pub(crate) mod nearest;
 mod presets;
 mod source;
 mod species;
+mod species_presets;
 mod tree;
 mod validate;
 mod view;

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use super::{FlightModel, Planform};
 use crate::motion::{Primitive, TransitionTable};
 
-/// Outline family of a leaf; texture makers paint one set of leaves for each.
+/// Outline family of a leaf, or of another light body; texture makers paint one set of pictures for each.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub enum LeafShape {
     /// Five-lobed palmate (Norway maple).
@@ -26,6 +26,14 @@ pub enum LeafShape {
     JapaneseMaple,
     /// Double-toothed ellipse with straight laterals (hornbeam).
     Hornbeam,
+    /// Vane on a shaft, no leaf (a small contour feather).
+    Feather,
+    /// Torn scrap of white paper, no leaf.
+    Paper,
+    /// Plain disc, no leaf (card or thin metal).
+    Plate,
+    /// Nut with one wing, no leaf (a maple's seed).
+    Samara,
 }
 
 impl LeafShape {
@@ -40,6 +48,10 @@ impl LeafShape {
             Self::Ginkgo => (0.75, 1.05),
             Self::JapaneseMaple => (1.0, 1.2),
             Self::Hornbeam => (1.8, 1.0),
+            Self::Feather => (3.5, 1.05),
+            Self::Paper => (1.3, 1.03),
+            Self::Plate => (1.0, 1.0),
+            Self::Samara => (3.0, 1.1),
         };
         Planform { aspect, extent }
     }

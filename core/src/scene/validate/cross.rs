@@ -65,12 +65,11 @@ impl Scene {
     }
 
     /// Every motion stays below a quarter period per step, also for the smallest and fastest leaf of a species, at the
-    /// fastest that chaotic motion draws, and at the scene's rotation speed.
+    /// fastest that chaotic motion draws, and at the scene's rotation speed. Bodies in the air have no such motions.
     pub(super) fn check_rates(&self, check: &Check<'_>) -> Result<(), SceneError> {
-        // Bodies cut their steps as finely as they need.
         let is_synthesised = |species: &Species| species.flight == FlightModel::Synthesis;
-        let species = self.species.iter().enumerate();
-        for (index, species) in species.filter(|(_, species)| is_synthesised(species)) {
+        for (index, species) in self.species.iter().enumerate().filter(|(_, species)| is_synthesised(species))
+        {
             let at = check.inside(format!("species[{index}].motion"));
             let (given, used) = (&species.motion, MotionConstants::of(species));
             let leaf = (1.0 + f64::from(species.speed_variation)) / (1.0 - f64::from(species.size_variation));

@@ -68,7 +68,8 @@ prop_compose! {
         name in "[^\\p{C}]{0,12}",
         shape in select(vec![
             LeafShape::Maple, LeafShape::Oak, LeafShape::Birch, LeafShape::Beech, LeafShape::Linden, LeafShape::Ginkgo,
-            LeafShape::JapaneseMaple, LeafShape::Hornbeam,
+            LeafShape::JapaneseMaple, LeafShape::Hornbeam, LeafShape::Feather, LeafShape::Paper, LeafShape::Plate,
+            LeafShape::Samara,
         ]),
         season in (within(limits::SEASON), within(limits::SEASON)),
         (size_m, size_variation, speed_variation) in

@@ -7,7 +7,8 @@ use glam::Vec3;
 use super::{failing_field, full};
 use crate::motion::Primitive;
 use crate::scene::{
-    MAX_LEAVES, MAX_SOURCES, MAX_SPECIES, MAX_VORTICES, Profile, Release, Scene, Share, SourceShape, Species,
+    Aerodynamics, FlightModel, MAX_LEAVES, MAX_SOURCES, MAX_SPECIES, MAX_VORTICES, Profile, Release, Scene,
+    Share, SourceShape, Species,
 };
 
 /// What a case does to a valid scene, and the field that must be named then; `None` where it stays valid.
@@ -164,6 +165,16 @@ const TIMES: &[Case] = &[
             s.species[0].motion.tumble_rad_s = None;
         },
         Some("species[0].motion.tumble_rad_s"),
+    ),
+    // Bodies in the air do none of these motions.
+    (
+        |s| {
+            s.dt_s = 0.006;
+            s.species[0].size_m = 0.005;
+            s.species[0].motion.tumble_rad_s = None;
+            s.species[0].flight = FlightModel::Aerodynamic(Aerodynamics::default());
+        },
+        None,
     ),
 ];
 
