@@ -176,9 +176,10 @@ fn pieces_that_make_no_sense() {
     flat("disc", "0.6", &["--size is 0.6", "0.0050 to 0.5000 m"]);
     flat("disc", "0.004", &["--size is 0.004"]);
     flat("square", "0.46", &["--size is 0.46", "0.0044 to 0.4431 m"]);
-    for size in ["0", "-1", "NaN", "inf", "small"] {
-        flat("disc", size, &[size, "--size"]);
+    for size in ["0", "NaN", "inf", "small"] {
+        flat("disc", size, &[size, "--size", "a number above 0"]);
     }
+    flat("disc", "-1", &["-1"]);
     let refuse = |arguments: &[&str], essentials: &[&str]| {
         assert_refused(&there, &[&["flight"], arguments].concat(), essentials);
     };

@@ -46,6 +46,13 @@ pub(super) fn font(size: u32) -> TextStyle<'static> {
     (FONT, size * UNIT).into_font().color(&INK)
 }
 
+/// The pixel nearest to a coordinate.
+pub(super) fn pixel(coordinate: f64) -> i32 {
+    #[expect(clippy::cast_possible_truncation, reason = "pictures have a few thousand pixels")]
+    let pixel = coordinate.round() as i32;
+    pixel
+}
+
 /// Reads the name of a picture.
 ///
 /// # Errors

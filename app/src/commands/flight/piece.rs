@@ -140,20 +140,19 @@ impl Piece {
         let (planform, diameter) = match name {
             "disc" => (Planform::default(), 1.0),
             "square" => measured(&polygon(4), 1.0 / 2f64.sqrt()),
-            "hexagon" => measured(&polygon(6), 1.0 / 3f64.sqrt()),
+            "hexagon" => measured(&polygon(6), 0.75f64.sqrt()),
             _ => Self::outlined(name)?,
         };
-        let lowest = f64::from(SIZE_M.low) / diameter;
-        let highest = f64::from(SIZE_M.high) / diameter;
-        if !(lowest..=highest).contains(&f64::from(size_m)) && !(diameter == 1.0 && SIZE_M.contains(size_m)) {
+        #[expect(clippy::cast_possible_truncation, reason = "scenes hold single precision")]
+        let equal_m = (f64::from(size_m) * diameter) as f32;
+        if !SIZE_M.contains(equal_m) {
+            let [lowest, highest] = [SIZE_M.low, SIZE_M.high].map(|limit| f64::from(limit) / diameter);
             bail!("--size is {size_m}; allowed: {lowest:.4} to {highest:.4} m for this shape");
         }
-        #[expect(clippy::cast_possible_truncation, reason = "scenes hold single precision")]
-        let equal = (f64::from(size_m) * diameter) as f32;
         let body = Aerodynamics { planform: Some(planform), ..Aerodynamics::default() };
         let species = Species {
             name: "piece".into(),
-            size_m: equal.clamp(SIZE_M.low, SIZE_M.high),
+            size_m: equal_m,
             size_variation: 0.0,
             speed_variation: 0.0,
             areal_density_kg_m2: density,
@@ -192,14 +191,14 @@ impl Piece {
         let measured = Planform::of_outline(&corners);
         let Measured { area, planform, .. } = measured
             .ok_or_else(|| anyhow!("{name}: the outline has no area; allowed: corners not all in line"))?;
+        // Rounding may put an ellipse below an extent of 1.
+        let planform = Planform { extent: planform.extent.max(1.0), ..planform };
         for (what, value, limit) in [("aspect", planform.aspect, ASPECT), ("extent", planform.extent, EXTENT)]
         {
-            // Rounding may put an ellipse below an extent of 1.
-            if !limit.contains(value) && !(what == "extent" && value > 0.999) {
+            if !limit.contains(value) {
                 bail!("{name}: the outline's {what} is {value}; allowed: {limit}");
             }
         }
-        let planform = Planform { extent: planform.extent.max(1.0), ..planform };
         let longest = corners.iter().flat_map(|a| corners.iter().map(|b| a.distance_squared(*b)));
         Ok((planform, (4.0 * area / PI / longest.fold(0.0, f64::max)).sqrt()))
     }
@@ -227,7 +226,7 @@ mod tests {
 
     #[test]
     fn sizes_become_discs_of_equal_area() {
-        let of_area = |area: f64| (4.0 * area / PI).sqrt() as f32;
+        let of_area = |area: f64| (4.0 * area / PI).sqrt();
         for (name, right) in [
             ("disc", 0.1),
             ("square", of_area(0.01)),
@@ -235,7 +234,7 @@ mod tests {
             ("hexagon", of_area(0.01 * 3f64.sqrt() / 2.0)),
         ] {
             let found = diameter(name);
-            assert!((found / right - 1.0).abs() < 1e-6, "{name}: {found}, should be {right}");
+            assert!((f64::from(found) / right - 1.0).abs() < 1e-6, "{name}: {found}, should be {right}");
         }
     }
 

@@ -9,7 +9,7 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use super::{Regime, Spot};
 use crate::commands::flight::boundaries::boundaries;
-use crate::commands::flight::picture::{Area, Drawn, INK, PAPER, UNIT, color, font};
+use crate::commands::flight::picture::{Area, Drawn, INK, PAPER, UNIT, color, font, pixel};
 
 /// Size of the picture in pixels.
 pub(super) const SIZE: (u32, u32) = (1600, 1120);
@@ -128,10 +128,10 @@ fn pie(area: &Area<'_>, (x, y): (i32, i32), spot: &Spot) -> Drawn {
 
 /// Corners of a slice of a pie, from one share of a turn to another, clockwise from the top.
 fn slice((x, y): (i32, i32), radius: f64, from: f64, to: f64) -> Vec<(i32, i32)> {
-    let steps = 2 + ((to - from) * 90.0) as i32;
+    let steps = 90;
     let rim = (0..=steps).map(|step| {
         let angle = TAU * (from + (to - from) * f64::from(step) / f64::from(steps));
-        (x + (radius * angle.sin()).round() as i32, y - (radius * angle.cos()).round() as i32)
+        (x + pixel(radius * angle.sin()), y - pixel(radius * angle.cos()))
     });
     [(x, y)].into_iter().chain(rim).collect()
 }

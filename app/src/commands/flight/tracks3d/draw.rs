@@ -9,7 +9,7 @@ use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use super::{Regime, Track};
-use crate::commands::flight::picture::{Area, Drawn, INK, UNIT, color, font};
+use crate::commands::flight::picture::{Area, Drawn, INK, PAPER, UNIT, color, font, pixel};
 
 /// Drops beside each other and above each other.
 const PANELS: (usize, usize) = (6, 2);
@@ -68,7 +68,7 @@ impl Panel {
     fn fixed(&self, place: DVec3) -> (i32, i32) {
         let flat = DVec2::new(place.x, place.y) + DEPTH * place.z;
         let point = (self.foot + SCALE_PX * DVec2::new(flat.x, -flat.y)) * f64::from(UNIT);
-        (point.x.round() as i32, point.y.round() as i32)
+        (pixel(point.x), pixel(point.y))
     }
 }
 
@@ -100,7 +100,7 @@ fn ground(area: &Area<'_>, panel: &Panel) -> Drawn {
     let corners: Vec<_> = corners.map(|(x, z)| panel.fixed(DVec3::new(x, 0.0, z))).into();
     area.draw(&Polygon::new(corners, INK.mix(0.07).filled()))?;
     let style = INK.mix(0.14).stroke_width(UNIT);
-    let count = |half: f64| (half / LINES_M).round() as i32;
+    let count = |half: f64| pixel(half / LINES_M);
     for line in -count(wide)..=count(wide) {
         let x = f64::from(line) * LINES_M;
         let ends = [-deep, deep].map(|z| panel.fixed(DVec3::new(x, 0.0, z)));
@@ -147,13 +147,8 @@ fn flashes(area: &Area<'_>, panel: &Panel, track: &Track) -> Drawn {
         };
         let corners: Vec<_> = rim.iter().map(corner).collect();
         let light = (panel.turn * (sample.attitude * DVec3::Y)).dot(LIGHT.normalize()).abs();
-        let RGBColor(red, green, blue) = color(sample.regime);
-        let lit =
-            |channel: u8| (f64::from(channel) + (255.0 - f64::from(channel)) * (0.25 + 0.5 * light)) as u8;
-        area.draw(&Polygon::new(
-            corners.clone(),
-            RGBColor(lit(red), lit(green), lit(blue)).mix(0.82).filled(),
-        ))?;
+        area.draw(&Polygon::new(corners.clone(), PAPER.mix(0.8).filled()))?;
+        area.draw(&Polygon::new(corners.clone(), color(sample.regime).mix(0.75 - 0.5 * light).filled()))?;
         let closed: Vec<_> = corners.iter().chain(corners.first()).copied().collect();
         area.draw(&PathElement::new(closed, color(sample.regime).stroke_width(UNIT)))?;
     }
