@@ -2,18 +2,19 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The CPU simulator.
 
-use std::sync::Arc;
+use std::sync::{Arc, Mutex};
 
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use windfall_core::leaf::Leaves;
-use windfall_core::tree::Branches;
-use windfall_core::tree::record::Work;
+use windfall_core::tree::forest::Stand;
+use windfall_core::tree::{Branches, Forest};
 use windfall_core::{Clock, Contract, Environment, SimError, Simulator, SimulatorInfo, Stats, World};
 
 use crate::kernels::CHUNK;
 use crate::kernels::advance::advance;
 use crate::kernels::measure::measure;
 use crate::kernels::stand::{Stands, sway};
+use crate::kernels::timber_eight::{Scratch, StandEight};
 use crate::simd::Simd;
 
 /// How the CPU simulator runs.
@@ -29,7 +30,8 @@ pub struct CpuOptions {
 #[derive(Debug)]
 pub struct CpuSimulator {
     world: World,
-    work: Vec<Work>,
+    eights: Vec<StandEight>,
+    scratches: Vec<Mutex<Scratch>>,
     pool: ThreadPool,
     simd: Simd,
 }
@@ -44,8 +46,11 @@ impl CpuSimulator {
             .num_threads(options.threads.unwrap_or(0))
             .build()
             .map_err(|error| SimError::Device { reason: error.to_string() })?;
-        let work = vec![Work::default(); world.branches.len()];
-        Ok(Self { world: world.clone(), work, pool, simd: options.simd.unwrap_or_else(Simd::best) })
+        let simd = options.simd.unwrap_or_else(Simd::best);
+        let mut simulator =
+            Self { world: world.clone(), eights: Vec::new(), scratches: Vec::new(), pool, simd };
+        simulator.plant(world.environment.forest());
+        Ok(simulator)
     }
 
     /// The segments of trees as they are now.
@@ -56,6 +61,19 @@ impl CpuSimulator {
     /// The leaf columns as they are now.
     pub fn leaves(&self) -> &Leaves {
         &self.world.leaves
+    }
+
+    /// Makes room for the trees.
+    fn plant(&mut self, forest: &Forest) {
+        let rows = forest.stands().iter().map(Stand::len).max().unwrap_or(0);
+        let of_stand = |stand: &Stand| {
+            let first = stand.first as usize;
+            StandEight::new(stand, &forest.timber()[first..first + stand.len()], rows)
+        };
+        self.eights = forest.stands().iter().map(of_stand).collect();
+        let blocks = self.eights.iter().map(|eights| eights.blocks.len()).max().unwrap_or(0);
+        let scratch = |_| Mutex::new(Scratch::new(rows, blocks));
+        self.scratches = (0..self.pool.current_num_threads()).map(scratch).collect();
     }
 
     fn same_size(&self, environment: &Environment) -> Result<(), SimError> {
@@ -79,7 +97,7 @@ impl Simulator for CpuSimulator {
     }
 
     fn write_state(&mut self, world: &World) -> Result<(), SimError> {
-        self.same_size(&world.environment)?;
+        self.set_environment(&world.environment)?;
         self.world = world.clone();
         Ok(())
     }
@@ -94,13 +112,16 @@ impl Simulator for CpuSimulator {
 
     fn set_environment(&mut self, environment: &Environment) -> Result<(), SimError> {
         self.same_size(environment)?;
+        if !Arc::ptr_eq(self.world.environment.forest(), environment.forest()) {
+            self.plant(environment.forest());
+        }
         self.world.environment = environment.clone();
         Ok(())
     }
 
     fn step(&mut self, count: u32) -> Result<(), SimError> {
         let World { environment, clock, leaves, branches } = &mut self.world;
-        let (simd, work) = (self.simd, &mut self.work);
+        let (simd, eights, scratches) = (self.simd, &self.eights, &self.scratches);
         let forest = Arc::clone(environment.forest());
         let is_small = leaves.len() <= CHUNK && forest.len() <= CHUNK / 16;
         let mut steps = || {
@@ -113,11 +134,12 @@ impl Simulator for CpuSimulator {
                         &cx,
                         Stands {
                             stands: forest.stands(),
+                            eights,
                             timber: forest.timber(),
                             branches: branches.as_mut(),
-                            work,
                             leaves: on_trees,
                         },
+                        scratches,
                         simd,
                     );
                 }

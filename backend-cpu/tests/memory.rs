@@ -3,6 +3,7 @@
 //! What a leaf takes, and that a step takes nothing more.
 
 use windfall_core::leaf::{HOT_BYTES_PER_STEP, LEAF_BYTES, Leaves};
+use windfall_core::scene::{MeanSpeed, Tree};
 use windfall_core::{Scene, Simulator, World};
 use windfall_cpu::{CpuOptions, CpuSimulator};
 
@@ -21,7 +22,15 @@ fn a_step_allocates_nothing() {
     for source in &mut scene.sources {
         source.count = 600;
     }
+    let weed = |number| Tree { kind: "weed".into(), number, leaves: 40, ..Tree::default() };
+    scene.trees = (0..3).map(weed).collect();
+    scene.wind.speed = MeanSpeed::MetresPerSecond(9.0);
     let world = World::build(&scene).expect("a valid scene");
+    assert!(
+        (10..=256).contains(&world.branches.len()),
+        "few enough for one thread: {}",
+        world.branches.len()
+    );
     let mut simulator = CpuSimulator::new(&world, CpuOptions::default()).expect("threads can be started");
     simulator.step(1).expect("the CPU can step");
     let info = allocation_counter::measure(|| simulator.step(500).expect("the CPU can step"));

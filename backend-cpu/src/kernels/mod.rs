@@ -14,6 +14,7 @@ pub(crate) mod sway_fold;
 pub(crate) mod sway_follow;
 pub(crate) mod sway_gather;
 pub(crate) mod sway_unfold;
+pub(crate) mod timber_eight;
 
 /// Leaves per chunk: a chunk's hot columns (64 bytes a leaf) fit in a core's level-two cache.
 pub(crate) const CHUNK: usize = 4096;

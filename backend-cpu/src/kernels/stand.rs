@@ -2,13 +2,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Steps stands of trees with the leaves on them, several at a time.
 
-use std::ops::Range;
+use std::sync::{Mutex, PoisonError};
 
-use rayon::join;
+use rayon::{current_thread_index, join};
 use windfall_core::Context;
 use windfall_core::leaf::LeavesMut;
 use windfall_core::tree::forest::Stand;
-use windfall_core::tree::record::Work;
 use windfall_core::tree::sway::SCHEME_ARTICULATED;
 use windfall_core::tree::sway::row::Rows;
 use windfall_core::tree::{BranchesMut, Timber};
@@ -18,69 +17,74 @@ use super::sway_fold::sway_fold;
 use super::sway_follow::sway_follow;
 use super::sway_gather::sway_gather;
 use super::sway_unfold::sway_unfold;
+use super::timber_eight::{AnswerEight, Scratch, StandEight};
 use crate::simd::Simd;
 
 /// A run of stands with all that belongs to them.
 pub(crate) struct Stands<'a> {
     pub(crate) stands: &'a [Stand],
+    pub(crate) eights: &'a [StandEight],
     pub(crate) timber: &'a [Timber],
     pub(crate) branches: BranchesMut<'a>,
-    pub(crate) work: &'a mut [Work],
     pub(crate) leaves: LeavesMut<'a>,
 }
 
-/// Steps all stands, halving the run until a piece is one.
-pub(crate) fn sway(cx: &Context<'_>, run: Stands<'_>, simd: Simd) {
-    let Stands { stands, timber, branches, work, leaves } = run;
+/// Steps all stands, halving the run until a piece is one. There is a scratch for each thread.
+pub(crate) fn sway(cx: &Context<'_>, run: Stands<'_>, scratches: &[Mutex<Scratch>], simd: Simd) {
+    let Stands { stands, eights, timber, branches, leaves } = run;
     let [first, .., last] = stands else {
-        if let [stand] = stands {
-            sway_stand(cx, stand, Stands { stands, timber, branches, work, leaves }, simd);
+        if let ([stand], [eights]) = (stands, eights) {
+            // A thread of another pool may have a larger number; then it waits for the scratch of another.
+            let own = current_thread_index().unwrap_or(0) % scratches.len();
+            let mut scratch = scratches[own].lock().unwrap_or_else(PoisonError::into_inner);
+            let Scratch { work, answers } = &mut *scratch;
+            let rows = Rows { first: stand.first, timber, branches, work };
+            sway_stand(cx, stand, eights, rows, answers, leaves, simd);
         }
         return;
     };
-    let (front, back) = stands.split_at(stands.len() / 2);
+    let half = stands.len() / 2;
+    let (front, back) = stands.split_at(half);
+    let (front_eights, back_eights) = eights.split_at(half);
     let rows = (back[0].first - first.first) as usize;
     let slots = (back[0].slots.start - first.slots.start) as usize;
     debug_assert_eq!(timber.len(), (last.first - first.first) as usize + last.len(), "all rows of the run");
     let (front_timber, back_timber) = timber.split_at(rows);
     let (front_branches, back_branches) = branches.split_at(rows);
-    let (front_work, back_work) = work.split_at_mut(rows);
     let (front_leaves, back_leaves) = leaves.split_at(slots);
     let front = Stands {
         stands: front,
+        eights: front_eights,
         timber: front_timber,
         branches: front_branches,
-        work: front_work,
         leaves: front_leaves,
     };
     let back = Stands {
         stands: back,
+        eights: back_eights,
         timber: back_timber,
         branches: back_branches,
-        work: back_work,
         leaves: back_leaves,
     };
-    join(|| sway(cx, front, simd), || sway(cx, back, simd));
+    join(|| sway(cx, front, scratches, simd), || sway(cx, back, scratches, simd));
 }
 
-/// A pass over one level of a stand.
-type Pass = fn(&Context<'_>, &mut Rows<'_>, Range<usize>, Simd);
-
 /// One stand: towards the foot, towards the tips, and the leaves after it.
-fn sway_stand(cx: &Context<'_>, stand: &Stand, run: Stands<'_>, simd: Simd) {
-    let Stands { timber, branches, work, mut leaves, .. } = run;
-    let mut rows = Rows { first: stand.first, timber, branches, work };
-    let articulated = cx.environment.crowns.0[3] == SCHEME_ARTICULATED;
-    let (inwards, outwards) = if articulated {
-        (sway_fold as Pass, sway_unfold as Pass)
+fn sway_stand(
+    cx: &Context<'_>,
+    stand: &Stand,
+    eights: &StandEight,
+    mut rows: Rows<'_>,
+    answers: &mut [AnswerEight],
+    mut leaves: LeavesMut<'_>,
+    simd: Simd,
+) {
+    if cx.environment.crowns.0[3] == SCHEME_ARTICULATED {
+        sway_fold(cx, &mut rows, stand, eights, answers, simd);
+        sway_unfold(cx, &mut rows, stand, eights, answers, simd);
     } else {
-        (sway_gather as Pass, sway_follow as Pass)
-    };
-    for level in stand.levels().rev() {
-        inwards(cx, &mut rows, level, simd);
-    }
-    for level in stand.levels() {
-        outwards(cx, &mut rows, level, simd);
+        stand.levels().rev().for_each(|level| sway_gather(cx, &mut rows, level));
+        stand.levels().for_each(|level| sway_follow(cx, &mut rows, level));
     }
     carry(cx, &mut rows, &mut leaves, stand.slots.start);
 }

@@ -9,10 +9,8 @@ use std::ops::Range;
 use windfall_core::Context;
 use windfall_core::tree::sway::row::{Rows, row_follow};
 
-use crate::simd::Simd;
-
 /// One level of a stand.
-pub(crate) fn sway_follow(cx: &Context<'_>, rows: &mut Rows<'_>, level: Range<usize>, _: Simd) {
+pub(crate) fn sway_follow(cx: &Context<'_>, rows: &mut Rows<'_>, level: Range<usize>) {
     for row in level {
         row_follow(cx, rows, row);
     }

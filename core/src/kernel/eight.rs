@@ -7,7 +7,7 @@ use fearless_simd::{
 };
 
 use super::lane::{LANES, Mask, Real, WHOLE_ANCHOR, Word};
-use super::transpose::{columns_of_eight, columns_of_four, rows_of_four};
+use super::transpose::{columns_of_eight, columns_of_four, rows_apart, rows_of_four};
 
 impl<S: Simd> Real for f32x8<S> {
     type Word = u32x8<S>;
@@ -177,6 +177,37 @@ pub fn store_records<S: Simd>(records: &mut [[u32; 4]; LANES], columns: [u32x8<S
     for (pair, row) in pairs.iter_mut().zip(rows) {
         row.bitcast::<u32x8<S>>().store_array(pair);
     }
+}
+
+/// Eight records of four floats, wherever each lies, to four columns.
+#[inline(always)]
+pub fn gather_records<S: Simd>(simd: S, records: [&[f32; 4]; LANES]) -> [f32x8<S>; 4] {
+    let [a, b, c, d, e, f, g, h] = records;
+    columns_of_four([
+        f32x4::load_array_ref(simd, a),
+        f32x4::load_array_ref(simd, b),
+        f32x4::load_array_ref(simd, c),
+        f32x4::load_array_ref(simd, d),
+        f32x4::load_array_ref(simd, e),
+        f32x4::load_array_ref(simd, f),
+        f32x4::load_array_ref(simd, g),
+        f32x4::load_array_ref(simd, h),
+    ])
+}
+
+/// Four columns to eight records of four floats, wherever each lies.
+#[inline(always)]
+pub fn scatter_records<S: Simd>(records: [&mut [f32; 4]; LANES], columns: [f32x8<S>; 4]) {
+    let [a, b, c, d, e, f, g, h] = records;
+    let [p, q, r, s, t, u, v, w] = rows_apart(columns);
+    p.store_array(a);
+    q.store_array(b);
+    r.store_array(c);
+    s.store_array(d);
+    t.store_array(e);
+    u.store_array(f);
+    v.store_array(g);
+    w.store_array(h);
 }
 
 /// The columns of `new` where the mask is true, those of `old` elsewhere. Without branches: where leaves fall and lie

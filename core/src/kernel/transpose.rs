@@ -48,6 +48,26 @@ pub(crate) fn rows_of_four<S: Simd>(columns: [f32x8<S>; 4]) -> [f32x8<S>; 4] {
     [simd.combine_f32x4(a, b), simd.combine_f32x4(c, d), simd.combine_f32x4(e, f), simd.combine_f32x4(g, h)]
 }
 
+/// Four columns of eight to eight rows of four, each by itself.
+#[inline(always)]
+pub(crate) fn rows_apart<S: Simd>(columns: [f32x8<S>; 4]) -> [f32x4<S>; 8] {
+    let simd = columns[0].simd;
+    #[cfg(target_arch = "x86_64")]
+    if let Some(avx2) = simd.level().as_avx2() {
+        let [a, b, c, d] = columns;
+        let [p, q, r, s] = x86::transpose_in_halves(avx2, [a.into(), b.into(), c.into(), d.into()]);
+        let (a, e) = simd.split_f32x8(fearless_simd::SimdInto::simd_into(p, simd));
+        let (b, f) = simd.split_f32x8(fearless_simd::SimdInto::simd_into(q, simd));
+        let (c, g) = simd.split_f32x8(fearless_simd::SimdInto::simd_into(r, simd));
+        let (d, h) = simd.split_f32x8(fearless_simd::SimdInto::simd_into(s, simd));
+        return [a, b, c, d, e, f, g, h];
+    }
+    let halves = columns.map(|column| simd.split_f32x8(column));
+    let [a, b, c, d] = transpose_four(halves.map(|(low, _)| low));
+    let [e, f, g, h] = transpose_four(halves.map(|(_, high)| high));
+    [a, b, c, d, e, f, g, h]
+}
+
 /// Eight rows of eight to eight columns.
 #[inline(always)]
 pub(crate) fn columns_of_eight<S: Simd>(rows: [f32x8<S>; 8]) -> [f32x8<S>; 8] {

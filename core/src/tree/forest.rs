@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! All trees of a world, laid out for stepping.
 //!
-//! Trees that follow one another form a stand, of a few thousand segments. The rows of a stand are contiguous, and within
-//! it lie level by level: first every trunk, then everything that grows from a trunk, and so on; siblings follow one
-//! another. A CPU takes a stand from level to level while it stays in the cache; a GPU takes the same level of all stands
-//! at once, by the list of rows in [`Forest::order`].
+//! Trees that follow one another form a stand, of a thousand segments and more. The rows of a stand are contiguous, and
+//! within it lie level by level: first every trunk, then everything that grows from a trunk, and so on; siblings follow
+//! one another. A CPU takes a stand from level to level while it stays in the cache; a GPU takes the same level of all
+//! stands at once, by the list of rows in [`Forest::order`].
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -22,7 +22,7 @@ use crate::kernel::{Quat, Vec3 as KernelVec3};
 use crate::scene::TreeKind;
 
 /// Segments from which on a stand takes no more trees.
-const STAND_SEGMENTS: usize = 2048;
+const STAND_SEGMENTS: usize = 1024;
 
 /// A tree to be planted.
 #[derive(Clone, Debug)]

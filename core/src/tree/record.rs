@@ -85,8 +85,6 @@ const _: () = assert!(size_of::<Timber>() == TIMBER_ROWS as usize * 16, "rows of
 /// Results of a step's pass towards the foot that the pass towards the tips needs.
 pub type Work = [[f32; 4]; WORK_ROWS as usize];
 
-/// Bytes that a step reads and writes for a segment: constants in both passes, state read in both and written in one,
-/// work written and read, and the number of leaves. Where the work stays in a cache, and the second pass finds there what
-/// the first has read, a third of it goes to memory: constants, and the state there and back.
-pub const SEGMENT_BYTES_PER_STEP: usize =
-    2 * size_of::<Timber>() + 3 * BRANCH_COLUMNS as usize * 16 + 2 * size_of::<Work>() + 4;
+/// Bytes that a step must bring from memory and back for a segment: constants once, state there and back, and the number
+/// of leaves. A thread's work, and what its second pass reads once more, can stay in its cache.
+pub const SEGMENT_BYTES_PER_STEP: usize = size_of::<Timber>() + 2 * BRANCH_COLUMNS as usize * 16 + 4;

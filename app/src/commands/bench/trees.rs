@@ -25,9 +25,9 @@ pub(super) struct TreeRow {
     /// Of the whole forest; the median over the batches.
     ms_per_step: f64,
     segment_steps_per_s: f64,
-    /// Of both passes.
+    /// That have to come from memory or go there.
     bytes_per_segment_step: usize,
-    /// Rate over what the memory's bandwidth would allow if all of those bytes went to memory.
+    /// Rate over what the memory's bandwidth would allow.
     floor_share: f64,
 }
 
