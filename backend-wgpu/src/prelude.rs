@@ -29,6 +29,7 @@ pub(crate) fn constants() -> String {
         flight::block::wgsl_constants(),
         flight::coefficients::wgsl_constants(),
         flight::rates::wgsl_constants(),
+        flight::regime::wgsl_constants(),
         flight::runge_kutta::wgsl_constants(),
         kernel::math::wgsl_constants(),
         kernel::matrix::wgsl_constants(),

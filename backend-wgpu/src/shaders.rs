@@ -92,6 +92,7 @@ impl Default for Shaders {
             "bindings",
             "flight/body",
             "flight/rates",
+            "flight/regime",
             "flight/runge_kutta",
             "kernel/math",
             "kernel/matrix",

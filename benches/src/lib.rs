@@ -5,7 +5,7 @@
 use std::sync::OnceLock;
 use std::time::{Duration, Instant};
 
-use windfall_core::scene::{MeanSpeed, Release, SourceShape, Tree};
+use windfall_core::scene::{Aerodynamics, FlightModel, MeanSpeed, Release, SourceShape, Tree};
 use windfall_core::{Contract, Scene, Simulator, World};
 use windfall_cpu::{CpuOptions, CpuSimulator};
 use windfall_wgpu::{Gpu, WgpuOptions, WgpuSimulator, describe_adapter};
@@ -56,6 +56,15 @@ pub fn falling(leaves: u32) -> Scene {
         if let SourceShape::Box { center_m, .. } = &mut source.shape {
             center_m.y = HIGH_M;
         }
+    }
+    scene
+}
+
+/// The same, flown as bodies: dry leaves of the same sizes and masses, in turbulent air.
+pub fn flying(leaves: u32) -> Scene {
+    let mut scene = falling(leaves);
+    for species in &mut scene.species {
+        species.flight = FlightModel::Aerodynamic(Aerodynamics::default());
     }
     scene
 }

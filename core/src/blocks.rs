@@ -62,7 +62,8 @@ crate::shared_struct! {
         /// Number of sources; steps until a landed leaf lies flat; steps of an orientation blend; rotation speed
         /// (2^-16).
         pub counts: Uint4,
-        /// First velocity row of the motion tables; zero; whether leaves of some species fly as bodies; unused.
+        /// First velocity row of the motion tables; zero; whether leaves of some species fly as bodies; ticks
+        /// per step in 2^-16.
         pub motion: Uint4,
         /// Step length in s; its inverse in 1/s; turns per second of 2^-32 turns per step; displacement per table
         /// displacement (fall speed over rotation speed).

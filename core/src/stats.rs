@@ -4,16 +4,22 @@
 //!
 //! Counts over all leaves: integers only, so their sum does not depend on order.
 
-use crate::leaf::record::{PRIMITIVE_MASK, PRIMITIVE_SHIFT, STATE_FALLING, STATE_MASK};
+use crate::flight::regime::REGIME_COUNT;
+use crate::leaf::fly::flies;
+use crate::leaf::record::{
+    PRIMITIVE_MASK, PRIMITIVE_SHIFT, REGIME_MASK, REGIME_SHIFT, STATE_FALLING, STATE_MASK,
+};
 use crate::leaf::{Leaves, Place};
 
 crate::shared_constants! {
     /// Number of counters.
-    pub const COUNTER_COUNT: u32 = 16;
+    pub const COUNTER_COUNT: u32 = 24;
     /// First counter of the primitive motions of falling leaves.
     pub const COUNTER_PRIMITIVE: u32 = 4;
     /// Counter of leaves with a position that is not a finite number.
     pub const COUNTER_BROKEN: u32 = 12;
+    /// First counter of the regimes of leaves that fly as bodies.
+    pub const COUNTER_REGIME: u32 = 16;
     /// Bits of infinity; a float whose bits without sign reach them is not finite.
     pub const INFINITY_BITS: u32 = 0x7f80_0000;
 }
@@ -31,17 +37,23 @@ pub struct Stats {
     pub falling: u32,
     /// Leaves on the ground.
     pub resting: u32,
-    /// Falling leaves by primitive motion.
+    /// Falling leaves that are synthesised, by primitive motion.
     pub primitives: [u32; 6],
+    /// Falling leaves that fly as bodies, by regime: steady, flutter, tumble, chaotic, helical, spiral.
+    pub regimes: [u32; REGIME_COUNT as usize],
     /// Leaves whose position is not a finite number: always zero unless something is wrong.
     pub broken: u32,
 }
 
-/// Counters that one leaf adds to: its state, its motion if it falls (else none), and whether it is broken.
+/// Counters that one leaf adds to: its state, its motion or regime if it falls (else none), and whether it is broken.
 #[inline(always)]
 pub fn leaf_counters(place: &Place) -> [u32; 3] {
     let state = place.bits & STATE_MASK;
-    let motion = COUNTER_PRIMITIVE + ((place.bits >> PRIMITIVE_SHIFT) & PRIMITIVE_MASK);
+    let motion = if flies(place.bits) {
+        COUNTER_REGIME + ((place.bits >> REGIME_SHIFT) & REGIME_MASK)
+    } else {
+        COUNTER_PRIMITIVE + ((place.bits >> PRIMITIVE_SHIFT) & PRIMITIVE_MASK)
+    };
     let bits = place.position.map(|x| x.to_bits() & 0x7fff_ffff);
     let broken = bits[0] >= INFINITY_BITS || bits[1] >= INFINITY_BITS || bits[2] >= INFINITY_BITS;
     [
@@ -74,6 +86,7 @@ impl Stats {
             falling: counters[2],
             resting: counters[3],
             primitives: core::array::from_fn(|index| counters[COUNTER_PRIMITIVE as usize + index]),
+            regimes: core::array::from_fn(|index| counters[COUNTER_REGIME as usize + index]),
             broken: counters[COUNTER_BROKEN as usize],
         }
     }

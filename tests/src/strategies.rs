@@ -140,6 +140,9 @@ pub fn flying_scene(seed: u64, leaves: u32, speed_m_s: f32, dt_s: f32) -> Scene 
         mass_offset: (-0.1, 0.05),
         curl: 0.15,
         twist: 0.3,
+        gyration: (0.4, 0.6),
+        edge_drag: 0.1,
+        pitch_damping: 0.2,
         irregularity: 0.1,
         hold: Hold::EdgeOn,
         tilt_deg: 20.0,
@@ -214,6 +217,7 @@ fn aerodynamics() -> impl Strategy<Value = Aerodynamics> {
             irregularity,
             hold,
             tilt_deg,
+            ..Aerodynamics::default()
         },
     )
 }

@@ -60,14 +60,10 @@ fn a_thousand_steps_are_equal_to_the_bit_under_the_exact_contract() {
 #[test]
 fn every_instruction_set_and_number_of_threads_gives_the_same_bits() {
     let world = world();
-    let plain = oracle(
-        &world,
-        CpuOptions { simd: Some(Simd::Scalar), threads: Some(1), ..CpuOptions::default() },
-        300,
-    );
+    let plain = oracle(&world, CpuOptions { simd: Some(Simd::Scalar), threads: Some(1) }, 300);
     for simd in Simd::available() {
         for threads in [1, 3] {
-            let options = CpuOptions { simd: Some(simd), threads: Some(threads), ..CpuOptions::default() };
+            let options = CpuOptions { simd: Some(simd), threads: Some(threads) };
             let found = oracle(&world, options, 300);
             assert_eq!(found.state_hash(), plain.state_hash(), "{simd:?} on {threads} threads");
         }

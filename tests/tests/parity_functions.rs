@@ -137,6 +137,7 @@ fn a_changed_twin_is_noticed() {
         ("flight/rates", "q * (DRAG_RISE - q", "q * (DRAG_RISE + q", "flight_rates"),
         ("flight/rates", "drawn * turn.x);\n    let munk", "drawn * turn.y);\n    let munk", "flight_rates"),
         ("flight/runge_kutta", "flight_sum(middle, middle)", "middle", "flight_step"),
+        ("flight/regime", "2u < octants_apart", "3u < octants_apart", "regime_memory"),
         ("leaf/fly", "cuts.y * environment", "cuts.x * environment", "flight_advance"),
         ("leaf/launch", "share * inverse_sqrt", "rest * inverse_sqrt", "hold_pose"),
         ("leaf/carry", "SHED_SPEEDS - 1u", "SHED_SPEEDS - 9u", "shed_chance"),

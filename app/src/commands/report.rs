@@ -5,6 +5,7 @@
 use std::fmt::Write as _;
 
 use serde::Serialize;
+use windfall_core::flight::regime::REGIME_NAMES;
 use windfall_core::leaf::{LEAF_BYTES, LeafState};
 use windfall_core::motion::Primitive;
 use windfall_core::{Simulator, Stats, World};
@@ -116,6 +117,9 @@ impl Report {
         let sway = format!("joints to {max_joint_angle_rad:.3} rad, tips to {tip_speed_max_m_s:.2} m/s");
         row("trees", format!("{count} of {segments} segments, {sway}, {leaves_shed} leaves shed"));
         row("motions", motions.join(", "));
+        let regimes = REGIME_NAMES.iter().zip(stats.regimes);
+        let regimes: Vec<_> = regimes.map(|(regime, count)| format!("{regime} {count}")).collect();
+        row("bodies", regimes.join(", "));
         row("mean position", format!("{x:.4} {y:.4} {z:.4} m"));
         row("mean velocity", format!("{u:.4} {v:.4} {w:.4} m/s"));
         row("state hash", self.state_hash.clone());

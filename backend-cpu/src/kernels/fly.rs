@@ -11,7 +11,7 @@ use windfall_core::kernel::Quat;
 use windfall_core::kernel::eight::{load_records, merge, store_records};
 use windfall_core::kernel::lane::{LANES, Mask, Real};
 use windfall_core::leaf::LeavesMut;
-use windfall_core::leaf::fly::{Flight, flies, flight_advance, leaf_fly};
+use windfall_core::leaf::fly::{Flight, flies, flight_advance, flight_told, leaf_fly};
 use windfall_core::wind::sample::wind_at;
 
 use super::eight::{bits_of, vector, with_word};
@@ -71,16 +71,22 @@ fn fly_eight<S: Lanes>(simd: S, cx: &Context<'_>, leaves: &mut LeavesMut<'_>, fi
     };
     let wind = wind_at(cx, start.position);
     let flight = flight_advance(cx, start, bits, size, wind);
+    let identity = eight_of(leaves.identity, first);
+    let identities = load_records(simd, must_cast_ref(identity));
+    let [id, release, memory, look] = identities;
+    let [memory, new_bits] = flight_told(cx, &flight, wind, memory, bits);
     let lands = flight.position.y.less_than(f32x8::splat(simd, cx.environment.ground.0[1]));
     let moved = on & !lands;
     let [x, y, z] = [flight.spin.x, flight.spin.y, flight.spin.z].map(Real::to_bits);
-    let new_places = merge(moved, with_word(flight.position, bits), places);
+    let new_places = merge(moved, with_word(flight.position, new_bits), places);
     let new_drifts = merge(moved, with_word(flight.velocity, x), drifts);
     let new_attitudes = merge(moved, flight.pose.to_array().map(Real::to_bits), attitudes);
     let new_courses = merge(moved, [event, y, size, z], courses);
+    let new_identities = merge(moved, [id, release, memory, look], identities);
     store_records(must_cast_mut(place), new_places);
     store_records(must_cast_mut(drift), new_drifts);
     store_records(must_cast_mut(attitude), new_attitudes);
     store_records(must_cast_mut(course), new_courses);
+    store_records(must_cast_mut(identity), new_identities);
     bits_of(on & lands)
 }

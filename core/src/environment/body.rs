@@ -9,12 +9,18 @@ use glam::DVec3;
 use super::convert::{float4, single, word};
 use crate::flight::block::{BodyBlock, HOLD_RANDOM, HOLD_TILTED};
 use crate::flight::coefficients::{
-    DRAG_BEND, DRAG_BORNE, DRAG_EDGE, DRAG_RISE, LIFT_FLAT, LIFT_STEEP, MUNK_EDGE, SPIN_BORNE_RAD,
-    SWING_BORNE_RAD, TWIST_TORQUE,
+    DRAG_BEND, DRAG_BORNE, DRAG_RISE, LIFT_EDGE, QUIRK_CURL, SPIN_BORNE_RAD, SWING_BORNE_RAD, TICKS_PER_S,
+    TWIST_TORQUE,
 };
 use crate::layout::{Float4, Uint4};
 use crate::motion::AIR_DENSITY;
 use crate::scene::{Aerodynamics, FlightModel, Hold, Species};
+
+/// Descent of a body of such a mass per area, measured on paper (Howison, Hughes and Iida 2020); others as the root of it.
+const USUAL_DESCENT_M_S: f64 = 0.757;
+const USUAL_AREAL_KG_M2: f64 = 0.07;
+/// Diameters that a body falls, and something happens to it if anything does.
+const PATIENCE: f64 = 10.0;
 
 /// The body of a species; of a synthesised one the numbers of a plain disc, which nothing uses.
 pub(super) fn body_block(species: &Species, dt_s: f32) -> BodyBlock {
@@ -30,41 +36,63 @@ pub(super) fn body_block(species: &Species, dt_s: f32) -> BodyBlock {
     let stretch = libm::sqrt(f64::from(planform.aspect));
     let reach = radius * f64::from(planform.extent);
     let (along, across) = (reach * stretch, reach / stretch);
-    let [along2, across2] = [along * along, across * across];
-    // Of a disc in potential flow.
-    let added = 8.0 / (3.0 * PI) * air * radius;
-    let added_inertia = 16.0 / (45.0 * PI) * air * radius * radius * radius;
+    let (along2, across2) = (along * along, across * across);
+    let (long, short) = (along.max(across), along.min(across));
+    // Of an ellipse in potential flow.
+    let flatness = libm::pow(short / long, 1.5);
+    let elliptic = 1.0 + (PI / 2.0 - 1.0) * flatness;
+    let added = 4.0 / 3.0 * air * long * short * short / (elliptic * radius * radius);
     let offset =
         DVec3::new(f64::from(body.mass_offset.1), -f64::from(body.curl), f64::from(body.mass_offset.0));
     let quirk = f64::from(body.irregularity) * radius;
-    let dt = f64::from(dt_s);
+    let [about_x, about_z] =
+        [body.gyration.0, body.gyration.1].map(|share| f64::from(share) * f64::from(share));
+    let inertia = DVec3::new(about_x * along2, about_x * along2 + about_z * across2, about_z * across2);
+    let [air_x, air_z] = [(along, across), (across, along)]
+        .map(|(sweeping, other)| added_inertia(sweeping, other) * air / (PI * radius * radius));
     // Angular rate, per speed, at which the flow swings the body about the axis that resists least.
-    let lever = offset.length() * radius + quirk;
-    let inertia = 0.25 * along2.min(across2) + added_inertia;
-    let broadside = 0.5 * f64::from(DRAG_EDGE + DRAG_RISE - DRAG_BEND);
-    let lift = f64::from(LIFT_FLAT + LIFT_STEEP);
-    let swing = libm::sqrt((added * f64::from(MUNK_EDGE) + (broadside + lift) * air * lever) / inertia);
-    let load = (broadside * air / DRAG_BORNE).max(swing / SWING_BORNE_RAD);
+    let broadside = 0.5 * f64::from(body.edge_drag + DRAG_RISE - DRAG_BEND);
+    let lever = (broadside + f64::from(LIFT_EDGE)) * air * (offset.length() * radius + quirk);
+    let swing = libm::sqrt((added + lever) / (inertia.x + air_x).min(inertia.z + air_z)) / SWING_BORNE_RAD;
+    let dt = f64::from(dt_s);
+    let usual_m_s = USUAL_DESCENT_M_S * libm::sqrt(areal / USUAL_AREAL_KG_M2);
     BodyBlock {
         air: Float4([air, added, air * along, air * across].map(single)),
-        torque: Float4(
-            [
-                air * along2,
-                air * across2,
-                air * radius * radius,
-                TWIST_TORQUE * f64::from(body.twist) * air * radius,
-            ]
-            .map(single),
+        reach: Float4(
+            [along, across, reach, TWIST_TORQUE * f64::from(body.twist) * air * radius].map(single),
         ),
-        reach: Float4([along, across, radius, 0.0].map(single)),
-        inertia: Float4(
-            [0.25 * along2, 0.25 * (along2 + across2), 0.25 * across2, added_inertia].map(single),
-        ),
-        arm: float4(offset * -radius, 0.0),
-        quirks: float4(DVec3::new(quirk, 0.5 * quirk, quirk), TWIST_TORQUE * air * quirk),
-        load: Float4([single(dt * load), single(dt / SPIN_BORNE_RAD), 0.0, 0.0]),
+        slope: Float4([lift_slope(along, across), lift_slope(across, along), air_x, air_z].map(single)),
+        inertia: float4(inertia, body.pitch_damping.into()),
+        arm: float4(offset * -radius, body.edge_drag.into()),
+        quirks: float4(DVec3::new(quirk, QUIRK_CURL * quirk, quirk), TWIST_TORQUE * air * quirk),
+        load: Float4([
+            single(dt * (broadside * air / DRAG_BORNE).max(swing)),
+            single(dt * (swing * long + 1.0 / SPIN_BORNE_RAD)),
+            single(libm::round(PATIENCE * 2.0 * reach / usual_m_s * TICKS_PER_S).clamp(2.0, 63.0)),
+            0.0,
+        ]),
         hold: hold_words(&body),
     }
+}
+
+/// Inertia over density, in m⁵, of the air that an ellipse with these half axes drags along as it turns about the second:
+/// within 2 % of potential flow.
+fn added_inertia(sweeping: f64, other: f64) -> f64 {
+    let cubed = sweeping * sweeping * sweeping;
+    if sweeping >= other {
+        0.838 * cubed * other * other * (1.0 - 0.576 * other / sweeping)
+    } else {
+        0.419 * cubed * sweeping * other * (1.0 - 0.151 * sweeping / other)
+    }
+}
+
+/// Slope of the lift of an ellipse that slips along its second half axis, relative to a disc's.
+///
+/// # Source
+/// Helmbold (1942), for wings of low aspect ratio.
+fn lift_slope(span: f64, chord: f64) -> f64 {
+    let slope = |aspect: f64| 2.0 * PI * aspect / (2.0 + libm::sqrt(4.0 + aspect * aspect));
+    slope(4.0 * span / (PI * chord)) / slope(4.0 / PI)
 }
 
 /// Kind, tilt and half width of its spread.

@@ -27,6 +27,7 @@ use crate::blocks::{EnvironmentBlock, SOURCE_TREES, StepBlock, VortexBlock};
 use crate::clock::Clock;
 use crate::context::Context;
 use crate::error::SceneError;
+use crate::flight::coefficients::TICKS_PER_S;
 use crate::layout::{Float4, Uint4};
 use crate::motion::lookup::MotionRows;
 use crate::motion::table::TABLE_ROWS;
@@ -234,9 +235,14 @@ fn compile_block(scene: &Scene, tables: &[MotionTables], first_petiole: u32) -> 
         steps(BLEND_S, scene.dt_s).min(63),
         q16(scene.rotation_speed),
     ]);
-    let has_bodies = u32::from(scene.species.iter().any(|species| species.flight != FlightModel::Synthesis));
-    block.motion = Uint4([len32(tables.len() * TABLES_PER_SPECIES * 2) * TABLE_ROWS, 0, has_bodies, 0]);
     let dt = f64::from(scene.dt_s);
+    let has_bodies = u32::from(scene.species.iter().any(|species| species.flight != FlightModel::Synthesis));
+    block.motion = Uint4([
+        len32(tables.len() * TABLES_PER_SPECIES * 2) * TABLE_ROWS,
+        0,
+        has_bodies,
+        word(TICKS_PER_S * dt * 65536.0),
+    ]);
     block.time =
         Float4([scene.dt_s, single(1.0 / dt), single(1.0 / dt / 4_294_967_296.0), displacement_gain(scene)]);
     block.ground = ground_numbers(scene);

@@ -19,18 +19,19 @@ crate::shared_struct! {
         /// Density of the air over mass per area in 1/m; added mass over mass; the first times the half axes along and
         /// across.
         pub air: Float4,
-        /// The first times the squares of the half axes along and across and of the disc's radius, in m; torque of twist
-        /// in m.
-        pub torque: Float4,
-        /// Half axis along, half axis across, radius of the disc with the same area in m; unused.
+        /// Half axis along, half axis across, their geometric mean in m; torque of twist in m.
         pub reach: Float4,
-        /// Inertia over mass about x, y, z in m²; that of the air about x and z.
+        /// Slope of the lift of slip across and along relative to a disc's; inertia of the air over mass about x and z in
+        /// m², for it grows with the cube of the size.
+        pub slope: Float4,
+        /// Inertia over mass about x, y, z in m²; damping of pitching.
         pub inertia: Float4,
-        /// Middle of the area from the centre of mass in m; unused.
+        /// Middle of the area from the centre of mass in m; drag edge-on.
         pub arm: Float4,
         /// Half widths of the spread of that place and of the torque of twist.
         pub quirks: Float4,
-        /// Load on a step per speed in s/m and per spin in s; two unused.
+        /// Load on a step per speed in s/m and per spin in s; ticks in which something happens to it if anything does;
+        /// unused.
         pub load: Float4,
         /// How it is held before a release: kind, tilt and half width of its spread in 2^-16 turns; unused.
         pub hold: Uint4,

@@ -24,10 +24,12 @@ pub struct Body<R: Real = f32> {
     /// Density of the air over mass per area in 1/m; added mass over mass per size; the first times the half axes along
     /// and across.
     pub air: [R; 4],
-    /// The first times the squares of the half axes along and across and of the disc's radius, in m; torque of twist in m.
-    pub torque: [R; 4],
-    /// Half axes along and across, radius of the disc, in m; unused.
+    /// Half axes along and across and their geometric mean in m; torque of twist in m.
     pub reach: [R; 4],
+    /// Slope of the lift of slip across and along relative to a disc's.
+    pub slope: [R; 2],
+    /// Damping of pitching; drag edge-on.
+    pub own: [R; 2],
     /// Force over mass, per acceleration that it had without it, with which the air resists being pushed along the normal.
     pub resistance: R,
     /// Inverse inertia over mass about x, y, z in 1/m².
@@ -50,18 +52,17 @@ pub fn body_of<W: Word>(cx: &Context<'_>, bits: W, size: W) -> Body<W::Real> {
     let first = ((bits >> SPECIES_SHIFT) & SPECIES_MASK).times(bits.all(BODY_ROWS));
     let rows: &[[f32; 4]] = bytemuck::cast_slice(&cx.environment.bodies);
     let air = first.look_up(rows);
-    let torque = first.plus(first.all(1)).look_up(rows);
-    let reach = first.plus(first.all(2)).look_up(rows);
+    let reach = first.plus(first.all(1)).look_up(rows);
+    let slope = first.plus(first.all(2)).look_up(rows);
     let inertia = first.plus(first.all(3)).look_up(rows);
-    let arm = first.plus(first.all(4)).look_up(rows);
+    let middle = first.plus(first.all(4)).look_up(rows);
     let quirks = first.plus(first.all(5)).look_up(rows);
 
     let ratio = (size & HALF_MASK).to_real() * SIZE_UNIT;
     let smallness = reciprocal(ratio);
-    let dragged = inertia[3] * ratio;
-    let x = inertia[0] + dragged;
+    let x = inertia[0] + slope[2] * ratio;
     let y = inertia[1];
-    let z = inertia[2] + dragged;
+    let z = inertia[2] + slope[3] * ratio;
     let ease = Vec3::new(reciprocal(x), reciprocal(y), reciprocal(z));
     let gyration = Vec3::new(
         ((y - z) * ease.x) * smallness,
@@ -69,17 +70,18 @@ pub fn body_of<W: Word>(cx: &Context<'_>, bits: W, size: W) -> Body<W::Real> {
         ((x - y) * ease.z) * smallness,
     );
     let arm = Vec3::new(
-        arm[0] + body_quirk(size, 0) * quirks[0],
-        arm[1] + body_quirk(size, 1) * quirks[1],
-        arm[2] + body_quirk(size, 2) * quirks[2],
+        middle[0] + body_quirk(size, 0) * quirks[0],
+        middle[1] + body_quirk(size, 1) * quirks[1],
+        middle[2] + body_quirk(size, 2) * quirks[2],
     );
     let added = air[1] * ratio;
     let swing = (arm.x * arm.x) * ease.z + (arm.z * arm.z) * ease.x;
     Body {
         size: [ratio, smallness],
         air,
-        torque: [torque[0], torque[1], torque[2], torque[3] + body_quirk(size, 3) * quirks[3]],
-        reach,
+        reach: [reach[0], reach[1], reach[2], reach[3] + body_quirk(size, 3) * quirks[3]],
+        slope: [slope[0], slope[1]],
+        own: [inertia[3], middle[3]],
         resistance: added * reciprocal((added + added * swing) + 1.0),
         ease,
         gyration,

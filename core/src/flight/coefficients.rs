@@ -8,41 +8,41 @@
 //! Fitted to drops of paper discs from 3.5 to 9.4 cm, let go broadside and edge-on (Howison, Hughes and Iida 2020).
 
 crate::shared_constants! {
-    /// Drag edge-on.
-    pub const DRAG_EDGE: f32 = 0.25;
     /// What the drag gains with q.
-    pub const DRAG_RISE: f32 = 5.62;
-    /// What it loses with the square of q.
-    pub const DRAG_BEND: f32 = 3.8;
-    /// Lift per product of sine and cosine of the incidence.
-    pub const LIFT_FLAT: f32 = 0.79;
-    /// What this gains with the square of q.
-    pub const LIFT_STEEP: f32 = 0.69;
-    /// Lift of turning edge-on.
-    pub const WHIRL_EDGE: f32 = 1.18;
-    /// What it gains with q: circulation dies broadside.
-    pub const WHIRL_RISE: f32 = -0.95;
-    /// Share of the torque of potential flow that turns a body broadside, edge-on.
-    pub const MUNK_EDGE: f32 = 0.62;
+    pub const DRAG_RISE: f32 = 5.52;
+    /// What it loses with the square of q: separated flow resists most at middling incidence.
+    pub const DRAG_BEND: f32 = 3.0;
+    /// Lift per product of sine and cosine of the incidence, edge-on.
+    pub const LIFT_EDGE: f32 = 1.30;
     /// What it gains with q.
-    pub const MUNK_RISE: f32 = -0.7;
-    /// Damping of turning that grows with speed.
-    pub const DAMPING_SPEED: f32 = 0.03;
-    /// Damping of turning that grows with turning.
-    pub const DAMPING_TURN: f32 = 0.28;
-    /// Damping of rolling about the direction of slip.
-    pub const DAMPING_ROLL: f32 = 0.16;
-    /// Damping of pitching, per q; negative: the stalled flow drives it.
-    pub const DAMPING_PITCH: f32 = -0.87;
+    pub const LIFT_RISE: f32 = -0.37;
+    /// What it gains with the square of q: it stalls.
+    pub const LIFT_BEND: f32 = -0.69;
+    /// Lift of turning, edge-on.
+    pub const WHIRL_EDGE: f32 = 0.56;
+    /// What it gains with q.
+    pub const WHIRL_RISE: f32 = 0.68;
+    /// Share of the torque of potential flow that turns a body broadside, edge-on.
+    pub const MUNK_EDGE: f32 = 0.50;
+    /// What it gains with q: the middle of the pressure moves to the middle of the area.
+    pub const MUNK_RISE: f32 = -0.45;
+    /// Damping of turning.
+    pub const DAMPING_TURN: f32 = 0.34;
+    /// Damping of rolling about the direction of slip, as of a wing as short as broad. It keeps the axis of tumbling level.
+    pub const DAMPING_ROLL: f32 = 0.22;
     /// Damping of turning about the normal.
-    pub const DAMPING_NORMAL: f32 = 0.016;
+    pub const DAMPING_NORMAL: f32 = 0.03;
 }
 
 /// Torque of a fully twisted blade about its normal.
 pub const TWIST_TORQUE: f64 = 0.2;
+/// Spread of the place of the forces along the normal, per spread within the blade.
+pub const QUIRK_CURL: f64 = 1.5;
 /// Share of its speed that drag may take from a body in a step: three quarters above it the steps blow up.
 pub const DRAG_BORNE: f64 = 1.6;
 /// Angle in rad by which the flow may swing a body within its oscillation in a step: at 2.8 the steps blow up.
-pub const SWING_BORNE_RAD: f64 = 1.5;
+pub const SWING_BORNE_RAD: f64 = 2.0;
 /// Angle in rad that a body may turn by in a step.
-pub const SPIN_BORNE_RAD: f64 = 0.6;
+pub const SPIN_BORNE_RAD: f64 = 5.0;
+/// Ticks of the clock by which a body tells that nothing happens to it.
+pub const TICKS_PER_S: f64 = 16.0;

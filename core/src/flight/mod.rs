@@ -8,4 +8,5 @@ pub(crate) mod book;
 pub mod coefficients;
 pub mod planform;
 pub mod rates;
+pub mod regime;
 pub mod runge_kutta;

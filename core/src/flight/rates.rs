@@ -6,8 +6,8 @@
 
 use super::body::Body;
 use super::coefficients::{
-    DAMPING_NORMAL, DAMPING_PITCH, DAMPING_ROLL, DAMPING_SPEED, DAMPING_TURN, DRAG_BEND, DRAG_EDGE,
-    DRAG_RISE, LIFT_FLAT, LIFT_STEEP, MUNK_EDGE, MUNK_RISE, WHIRL_EDGE, WHIRL_RISE,
+    DAMPING_NORMAL, DAMPING_ROLL, DAMPING_TURN, DRAG_BEND, DRAG_RISE, LIFT_BEND, LIFT_EDGE, LIFT_RISE,
+    MUNK_EDGE, MUNK_RISE, WHIRL_EDGE, WHIRL_RISE,
 };
 use crate::kernel::lane::Real;
 use crate::kernel::math::inverse_sqrt;
@@ -54,15 +54,18 @@ pub fn flight_rates<R: Real>(body: &Body<R>, motion: &Motion<R>, wind: Vec3<R>) 
     let squared = vec3_dot(flow, flow).max(x.all(TINY_SQUARED));
     let slowness = inverse_sqrt(squared);
     let speed = squared * slowness;
-    let tangent = flow.x * flow.x + flow.z * flow.z;
+    let (across2, along2) = (flow.x * flow.x, flow.z * flow.z);
+    let tangent = across2 + along2;
     let incidence = flow.y * slowness;
     let q = incidence * incidence;
 
     let [air, added, air_along, air_across] = body.air;
-    let [slow_x, slow_z, slow_y, twist] = body.torque;
-    let [along_m, across_m, radius_m, _] = body.reach;
-    let resist = (air * 0.5) * ((q * (x.all(DRAG_RISE) - q * DRAG_BEND) + DRAG_EDGE) * speed);
-    let raise = air * (((q * q) * LIFT_STEEP + LIFT_FLAT) * incidence);
+    let [along_m, across_m, mean_m, twist] = body.reach;
+    let [slope_x, slope_z] = body.slope;
+    let [pitch_damping, edge_drag] = body.own;
+    let resist = (air * 0.5) * ((q * (x.all(DRAG_RISE) - q * DRAG_BEND) + edge_drag) * speed);
+    let slope = q + (slope_x * across2 + slope_z * along2) * (slowness * slowness);
+    let raise = (air * slope) * ((q * (q * LIFT_BEND + LIFT_RISE) + LIFT_EDGE) * incidence);
     let circulation = q * WHIRL_RISE + WHIRL_EDGE;
     let whirl = vec3_cross(
         Vec3::new((air_along * circulation) * turn.x, x.all(0.0), (air_across * circulation) * turn.z),
@@ -80,16 +83,16 @@ pub fn flight_rates<R: Real>(body: &Body<R>, motion: &Motion<R>, wind: Vec3<R>) 
     let munk = drawn * (q * MUNK_RISE + MUNK_EDGE);
     let (edge_x, edge_z) = (along_m * turn.x, across_m * turn.z);
     let edge = (edge_x * edge_x + edge_z * edge_z).max(x.all(TINY_SQUARED));
-    let damping = speed * DAMPING_SPEED + (edge * inverse_sqrt(edge)) * DAMPING_TURN;
-    let spread = slow_y * slowness;
-    let roll = (spread * DAMPING_ROLL) * (turn.x * flow.x + turn.z * flow.z);
-    let pitch = (spread * (q * DAMPING_PITCH)) * (turn.x * flow.z - turn.z * flow.x);
-    let wheeling = (turn.y * radius_m).max(x.all(0.0) - turn.y * radius_m);
+    let damping = (edge * inverse_sqrt(edge)) * DAMPING_TURN;
+    let roll = (slowness * DAMPING_ROLL) * (edge_x * flow.x + edge_z * flow.z);
+    let pitch = (slowness * (q * pitch_damping)) * (edge_x * flow.z - edge_z * flow.x);
+    let wheel = turn.y * mean_m;
+    let wheeling = (speed + wheel.max(x.all(0.0) - wheel)) * DAMPING_NORMAL;
     let lever = vec3_cross(body.arm, push);
     let torque = Vec3::new(
-        (lever.x + munk * flow.z) - ((slow_x * damping) * turn.x + (roll * flow.x + pitch * flow.z)),
-        (lever.y + twist * (speed * flow.y)) - (slow_y * ((speed + wheeling) * DAMPING_NORMAL)) * turn.y,
-        (lever.z - munk * flow.x) - ((slow_z * damping) * turn.z + (roll * flow.z - pitch * flow.x)),
+        (lever.x + munk * flow.z) - air_along * (damping * edge_x + (roll * flow.x + pitch * flow.z)),
+        (lever.y + twist * (speed * flow.y)) - (air_along * across_m) * (wheeling * turn.y),
+        (lever.z - munk * flow.x) - air_across * (damping * edge_z + (roll * flow.z - pitch * flow.x)),
     );
     let freely = Vec3::new(
         torque.x * body.ease.x + body.gyration.x * (turn.y * turn.z),

@@ -5,7 +5,8 @@
 //! A leaf that flies as a body in the air: one step, cut as finely as its speed and spin ask for.
 
 use super::record::{
-    AERODYNAMIC, PRIMITIVE_MASK, PRIMITIVE_SHIFT, SPECIES_MASK, SPECIES_SHIFT, STATE_FALLING, STATE_MASK,
+    AERODYNAMIC, PRIMITIVE_MASK, PRIMITIVE_SHIFT, REGIME_MASK, REGIME_SHIFT, SPECIES_MASK, SPECIES_SHIFT,
+    STATE_FALLING, STATE_MASK,
 };
 use super::settle::leaf_land;
 use super::store::LeafMut;
@@ -13,10 +14,12 @@ use crate::context::Context;
 use crate::flight::block::BODY_ROWS;
 use crate::flight::body::body_of;
 use crate::flight::rates::Motion;
+use crate::flight::regime::{regime_memory, regime_of};
 use crate::flight::runge_kutta::{FLIGHT_CUTS, flight_cuts, flight_step};
 use crate::kernel::lane::{Mask, Real, Word};
 use crate::kernel::math::{inverse_sqrt, reciprocal};
-use crate::kernel::quaternion::Quat;
+use crate::kernel::quaternion::{Quat, quat_rotate_back};
+use crate::kernel::rng::mul_q16;
 use crate::kernel::vector::{TINY_SQUARED, Vec3, vec3_dot};
 use crate::wind::sample::wind_at;
 
@@ -40,15 +43,21 @@ pub fn flies<W: Word>(bits: W) -> W::Mask {
     (bits & (STATE_MASK | (PRIMITIVE_MASK << PRIMITIVE_SHIFT))).equals(flying)
 }
 
+/// Loads of a species' body: per speed, per spin; ticks of its patience; unused.
+#[inline(always)]
+fn loads_of<W: Word>(cx: &Context<'_>, bits: W) -> [W::Real; 4] {
+    let first = ((bits >> SPECIES_SHIFT) & SPECIES_MASK).times(bits.all(BODY_ROWS));
+    first.plus(first.all(6)).look_up(bytemuck::cast_slice(&cx.environment.bodies))
+}
+
 /// Load on a step: what it has to be cut for.
 #[inline(always)]
 pub fn flight_load<R: Real>(cx: &Context<'_>, bits: R::Word, relative: Vec3<R>, spin: Vec3<R>) -> R {
-    let first = ((bits >> SPECIES_SHIFT) & SPECIES_MASK).times(bits.all(BODY_ROWS));
-    let load = first.plus(first.all(6)).look_up(bytemuck::cast_slice(&cx.environment.bodies));
+    let load = loads_of(cx, bits);
     let tiny = load[0].all(TINY_SQUARED);
     let squared = vec3_dot(relative, relative).max(tiny);
     let turned = vec3_dot(spin, spin).max(tiny);
-    (load[0] * (squared * inverse_sqrt(squared))).max(load[1] * (turned * inverse_sqrt(turned)))
+    load[0] * (squared * inverse_sqrt(squared)) + load[1] * (turned * inverse_sqrt(turned))
 }
 
 /// The step of bodies, in wind that holds still during it: where they come to.
@@ -95,6 +104,25 @@ pub fn flight_advance<R: Real>(
     Flight { position, velocity: motion.velocity, pose: motion.pose, spin: motion.turning * body.size[1] }
 }
 
+/// What a body remembers after a step, and its bits with the regime that this tells of.
+#[inline(always)]
+pub fn flight_told<R: Real>(
+    cx: &Context<'_>,
+    flight: &Flight<R>,
+    wind: Vec3<R>,
+    memory: R::Word,
+    bits: R::Word,
+) -> [R::Word; 2] {
+    let path = flight.velocity - wind;
+    let flow = quat_rotate_back(flight.pose, path);
+    let now = cx.step.index.0[0];
+    let rate = cx.environment.motion.0[3];
+    let ticks = mul_q16(now.wrapping_add(1), rate).wrapping_sub(mul_q16(now, rate));
+    let patience = loads_of(cx, bits)[2].to_whole();
+    let told = regime_memory(memory, flow, flight.spin, path, ticks, patience);
+    [told, (bits & !(REGIME_MASK << REGIME_SHIFT)) | (regime_of(told) << REGIME_SHIFT)]
+}
+
 /// `yes` where the mask is true, `no` elsewhere.
 #[inline(always)]
 fn chosen<R: Real>(mask: R::Mask, yes: Vec3<R>, no: Vec3<R>) -> Vec3<R> {
@@ -137,6 +165,9 @@ pub fn leaf_fly(cx: &Context<'_>, leaf: &mut LeafMut<'_>) {
     let wind = wind_at(cx, start.position);
     let flight = flight_advance(cx, start, leaf.place.bits, leaf.course.size, wind);
     flight_write(leaf, flight);
+    let [memory, bits] = flight_told(cx, &flight, wind, leaf.identity.fall_time, leaf.place.bits);
+    leaf.identity.fall_time = memory;
+    leaf.place.bits = bits;
     if flight.position.y < cx.environment.ground.0[1] {
         leaf_land(cx, leaf, start.position);
     }

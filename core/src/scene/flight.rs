@@ -60,7 +60,16 @@ pub struct Aerodynamics {
     pub curl: f32,
     /// Twist of the blade about its length, -1 to 1: how much it turns like a propeller in a flow along its normal.
     pub twist: f32,
-    /// Half width of the spread of offsets, curl and twist among the leaves, 0 to 0.5.
+    /// Radii of gyration about the axes across and along, 0.05 to 1, as shares of the half length and the half width of the
+    /// ellipse: 0.5 for an even sheet, less for what has its mass in the middle.
+    pub gyration: (f32, f32),
+    /// Drag edge-on, 0 to 1: 0.05 is the friction of a thin sheet, a thick seed adds to it.
+    pub edge_drag: f32,
+    /// Damping of pitching in a stalled flow, -1 to 1: where the stall lags behind, as on thin sheets, it is negative and
+    /// drives the pitching; where a leading-edge vortex stays, as on winged seeds, it is positive.
+    pub pitch_damping: f32,
+    /// Half width of the spread of offsets and twist among the leaves, 0 to 0.5; curl spreads half as much again. 0.035 is
+    /// paper, well cut.
     pub irregularity: f32,
     /// How it is held before it is let go.
     pub hold: Hold,
@@ -76,9 +85,12 @@ impl Aerodynamics {
         mass_offset: (0.0, 0.0),
         curl: 0.0,
         twist: 0.0,
-        irregularity: 0.05,
+        gyration: (0.5, 0.5),
+        edge_drag: 0.05,
+        pitch_damping: -0.6,
+        irregularity: 0.035,
         hold: Hold::Random,
-        tilt_deg: 5.0,
+        tilt_deg: 12.0,
     };
 }
 

@@ -65,6 +65,9 @@ limits! {
     MASS_OFFSET: f32 = -1.0, 1.0, "", mass_offset;
     CURL: f32 = -1.0, 1.0, "", curl;
     TWIST: f32 = -1.0, 1.0, "", twist;
+    GYRATION: f32 = 0.05, 1.0, "", gyration;
+    EDGE_DRAG: f32 = 0.0, 1.0, "", edge_drag;
+    PITCH_DAMPING: f32 = -1.0, 1.0, "", pitch_damping;
     IRREGULARITY: f32 = 0.0, 0.5, "", irregularity;
     TILT_DEG: f32 = 0.0, 90.0, "degrees", tilt_deg;
 

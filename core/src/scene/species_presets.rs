@@ -2,10 +2,33 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Kinds of bodies that every scene knows by name.
 
-use super::{Aerodynamics, FlightModel, LeafShape, Species};
+use super::{Aerodynamics, FlightModel, LeafShape, Planform, Species};
 
-/// Hollow of a dry leaf and its twist, shares of its radius: it has bent into a shallow bowl, the more the softer.
-const DRY: Aerodynamics = Aerodynamics { curl: 0.04, twist: 0.02, ..Aerodynamics::FLAT };
+/// A dry leaf: slightly hollow and twisted, its mass towards the petiole, no two alike.
+const DRY: Aerodynamics = Aerodynamics {
+    mass_offset: (-0.03, 0.0),
+    curl: 0.04,
+    twist: 0.02,
+    irregularity: 0.06,
+    ..Aerodynamics::FLAT
+};
+
+/// Curved along its shaft, which is heavier than the vane.
+const FEATHER: Aerodynamics =
+    Aerodynamics { mass_offset: (-0.4, -0.05), curl: 0.2, twist: 0.15, ..Aerodynamics::FLAT };
+
+/// Nearly all the mass is in the nut at one end. The vortex at the wing's front edge stays where it is.
+const SAMARA: Aerodynamics = Aerodynamics {
+    planform: Some(Planform { aspect: 3.29, extent: 1.0 }),
+    mass_offset: (-0.544, 0.093),
+    curl: -0.022,
+    twist: 0.208,
+    gyration: (0.202, 0.415),
+    edge_drag: 0.127,
+    pitch_damping: 0.56,
+    irregularity: 0.01,
+    ..Aerodynamics::FLAT
+};
 
 impl Species {
     /// Names of the presets: dry, fallen leaves, and other light bodies.
@@ -28,8 +51,8 @@ impl Species {
     ///
     /// # Source
     /// Sizes and masses are round numbers for orientation, not measurements of one tree: leaves as the leaf maker
-    /// builds them, a small contour feather of 12 g/m², office paper of 80 g/m², a disc of card of 220 g/m² and the
-    /// winged seed of a Norway maple of 0.11 g.
+    /// builds them, a contour feather of 22 g/m², office paper of 80 g/m², a disc of card of 220 g/m² and the
+    /// winged seed of a maple of 0.12 g.
     pub fn preset(name: &str) -> Option<Self> {
         let is_known = |preset: &&&str| preset.eq_ignore_ascii_case(name);
         let name = *Self::PRESETS.iter().find(is_known)?;
@@ -42,12 +65,12 @@ impl Species {
             "ginkgo" => (LeafShape::Ginkgo, 0.062, 0.065, Aerodynamics { curl: -0.03, ..DRY }),
             "japanese-maple" => (LeafShape::JapaneseMaple, 0.055, 0.042, Aerodynamics { curl: 0.06, ..DRY }),
             "hornbeam" => (LeafShape::Hornbeam, 0.055, 0.048, DRY),
-            "feather" => (LeafShape::Feather, 0.04, 0.012, FEATHER),
-            "paper-scrap" => (LeafShape::Paper, 0.045, 0.08, Aerodynamics { irregularity: 0.08, ..DRY }),
+            "feather" => (LeafShape::Feather, 0.04, 0.022, FEATHER),
+            "paper-scrap" => (LeafShape::Paper, 0.045, 0.08, Aerodynamics::FLAT),
             "plate" => {
                 (LeafShape::Plate, 0.04, 0.22, Aerodynamics { irregularity: 0.01, ..Aerodynamics::FLAT })
             }
-            _ => (LeafShape::Samara, 0.024, 0.25, SAMARA),
+            _ => (LeafShape::Samara, 0.0252, 0.244, SAMARA),
         };
         Some(Self {
             name: name.into(),
@@ -59,14 +82,6 @@ impl Species {
         })
     }
 }
-
-/// Curved along its shaft, which is heavier than the vane.
-const FEATHER: Aerodynamics =
-    Aerodynamics { mass_offset: (-0.15, 0.05), curl: 0.2, twist: 0.1, ..Aerodynamics::FLAT };
-
-/// Nearly all the mass is in the nut at one end and in the rib at the front edge.
-const SAMARA: Aerodynamics =
-    Aerodynamics { mass_offset: (-0.9, 0.2), irregularity: 0.02, ..Aerodynamics::FLAT };
 
 #[cfg(test)]
 mod tests {

@@ -107,6 +107,10 @@ impl Aerodynamics {
             ("mass_offset.1", self.mass_offset.1.into(), limits::MASS_OFFSET),
             ("curl", self.curl.into(), limits::CURL),
             ("twist", self.twist.into(), limits::TWIST),
+            ("gyration.0", self.gyration.0.into(), limits::GYRATION),
+            ("gyration.1", self.gyration.1.into(), limits::GYRATION),
+            ("edge_drag", self.edge_drag.into(), limits::EDGE_DRAG),
+            ("pitch_damping", self.pitch_damping.into(), limits::PITCH_DAMPING),
             ("irregularity", self.irregularity.into(), limits::IRREGULARITY),
             ("tilt_deg", self.tilt_deg.into(), limits::TILT_DEG),
         ])

@@ -4,8 +4,10 @@
 
 use windfall_core::flight::body::{Body, body_of};
 use windfall_core::flight::rates::{Motion, flight_rates};
+use windfall_core::flight::regime::{regime_memory, regime_of};
 use windfall_core::flight::runge_kutta::{flight_cuts, flight_step};
-use windfall_core::leaf::fly::{Flight, flies, flight_advance, flight_load};
+use windfall_core::kernel::Vec3;
+use windfall_core::leaf::fly::{Flight, flies, flight_advance, flight_load, flight_told};
 use windfall_core::leaf::launch::{hold_pose, quirks_of, random_pose};
 use windfall_core::leaf::record::{SIZE_ONE, SPECIES_SHIFT};
 
@@ -42,19 +44,21 @@ functions! {
 
     body_of in "flight/body" (SPECIES, SIZE, ANY) tolerance Some(1e-5);
     wgsl "let body = body_of((1u + a.x) << SPECIES_SHIFT, (SIZE_ONE - 4096u + a.y) | (a.z << 16u));
-        out_vec4(0u, body.air); out_vec4(4u, body.torque); out_vec4(8u, body.reach); out_vec3(12u, body.ease);
-        out_vec3(15u, body.gyration); out_vec3(18u, body.arm); out_float(21u, body.resistance);
-        out_float(22u, body.size.x); out_float(23u, body.size.y);";
+        out_vec4(0u, body.air); out_vec4(4u, body.reach); out_vec3(8u, body.ease); out_vec3(11u, body.gyration);
+        out_vec3(14u, body.arm); out_float(17u, body.resistance); out_float(18u, body.size.x);
+        out_float(19u, body.size.y); out_float(20u, body.slope.x); out_float(21u, body.slope.y);
+        out_float(22u, body.own.x); out_float(23u, body.own.y);";
     rust |cx, w| {
         let body = body(cx, w[0], w[1], w[2]);
         let mut all = [0.0; 24];
         all[..4].copy_from_slice(&body.air);
-        all[4..8].copy_from_slice(&body.torque);
-        all[8..12].copy_from_slice(&body.reach);
-        all[12..15].copy_from_slice(&body.ease.to_array());
-        all[15..18].copy_from_slice(&body.gyration.to_array());
-        all[18..21].copy_from_slice(&body.arm.to_array());
-        all[21..].copy_from_slice(&[body.resistance, body.size[0], body.size[1]]);
+        all[4..8].copy_from_slice(&body.reach);
+        all[8..11].copy_from_slice(&body.ease.to_array());
+        all[11..14].copy_from_slice(&body.gyration.to_array());
+        all[14..17].copy_from_slice(&body.arm.to_array());
+        all[17..].copy_from_slice(&[
+            body.resistance, body.size[0], body.size[1], body.slope[0], body.slope[1], body.own[0], body.own[1],
+        ]);
         floats(all)
     };
 
@@ -112,6 +116,27 @@ functions! {
         all[6..10].copy_from_slice(&flight.pose.to_array());
         all[10..].copy_from_slice(&flight.spin.to_array());
         floats(all)
+    };
+
+    regime_memory in "flight/regime" (ANY, FLOW, SPIN, FLOW, Input::Below(9), Input::Below(64)) tolerance None;
+    wgsl "r.x = regime_memory(a.x, in_vec3(1u), in_vec3(4u), in_vec3(7u), in_word(10u), in_word(11u));
+        r.y = regime_of(a.x);";
+    rust |_cx, w| integers([
+        regime_memory(w[0], vector(w, 1), vector(w, 4), vector(w, 7), w[10], w[11]),
+        regime_of(w[0]),
+    ]);
+
+    flight_told in "leaf/fly" (SPECIES, ANY, FLOW, POSE, SPIN, FLOW) tolerance None;
+    wgsl "r = vec4<u32>(flight_told(Flight(vec3<f32>(), in_vec3(2u), in_vec4(5u), in_vec3(9u)), in_vec3(12u), a.y,
+        (1u + a.x) << SPECIES_SHIFT), 0u, 0u);";
+    rust |cx, w| {
+        let flight = Flight {
+            position: Vec3::ZERO,
+            velocity: vector(w, 2),
+            pose: quaternion(w, 5),
+            spin: vector(w, 9),
+        };
+        integers(flight_told(cx, &flight, vector(w, 12), w[1], (1 + w[0]) << SPECIES_SHIFT))
     };
 
     hold_pose in "leaf/launch" (SPECIES, ANY) tolerance Some(1e-6);

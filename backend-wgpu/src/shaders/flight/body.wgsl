@@ -7,8 +7,9 @@
 struct LeafBody {
     size: vec2<f32>,
     air: vec4<f32>,
-    torque: vec4<f32>,
     reach: vec4<f32>,
+    slope: vec2<f32>,
+    own: vec2<f32>,
     resistance: f32,
     ease: vec3<f32>,
     gyration: vec3<f32>,
@@ -22,17 +23,17 @@ fn body_quirk(size: u32, number: u32) -> f32 {
 fn body_of(bits: u32, size: u32) -> LeafBody {
     let species = (bits >> SPECIES_SHIFT) & SPECIES_MASK;
     let air = environment.bodies[species].air;
-    let torque = environment.bodies[species].torque;
+    let reach = environment.bodies[species].reach;
+    let slope = environment.bodies[species].slope;
     let inertia = environment.bodies[species].inertia;
     let middle = environment.bodies[species].arm;
     let quirks = environment.bodies[species].quirks;
 
     let ratio = f32(size & HALF_MASK) * SIZE_UNIT;
     let smallness = reciprocal(ratio);
-    let dragged = inertia.w * ratio;
-    let x = inertia.x + dragged;
+    let x = inertia.x + slope.z * ratio;
     let y = inertia.y;
-    let z = inertia.z + dragged;
+    let z = inertia.z + slope.w * ratio;
     let ease = vec3<f32>(reciprocal(x), reciprocal(y), reciprocal(z));
     let gyration = vec3<f32>(
         ((y - z) * ease.x) * smallness,
@@ -49,8 +50,9 @@ fn body_of(bits: u32, size: u32) -> LeafBody {
     return LeafBody(
         vec2<f32>(ratio, smallness),
         air,
-        vec4<f32>(torque.xyz, torque.w + body_quirk(size, 3u) * quirks.w),
-        environment.bodies[species].reach,
+        vec4<f32>(reach.xyz, reach.w + body_quirk(size, 3u) * quirks.w),
+        slope.xy,
+        vec2<f32>(inertia.w, middle.w),
         added * reciprocal((added + added * swing) + 1.0),
         ease,
         gyration,

@@ -39,14 +39,16 @@ fn flight_rates(body: LeafBody, motion: FlightMotion, wind: vec3<f32>) -> Flight
     let squared = max(vec3_dot(flow, flow), TINY_SQUARED);
     let slowness = inverse_sqrt(squared);
     let speed = squared * slowness;
-    let tangent = flow.x * flow.x + flow.z * flow.z;
+    let across2 = flow.x * flow.x;
+    let along2 = flow.z * flow.z;
+    let tangent = across2 + along2;
     let incidence = flow.y * slowness;
     let q = incidence * incidence;
 
     let air = body.air;
-    let slow = body.torque;
-    let resist = (air.x * 0.5) * ((q * (DRAG_RISE - q * DRAG_BEND) + DRAG_EDGE) * speed);
-    let raise = air.x * (((q * q) * LIFT_STEEP + LIFT_FLAT) * incidence);
+    let resist = (air.x * 0.5) * ((q * (DRAG_RISE - q * DRAG_BEND) + body.own.y) * speed);
+    let slope = q + (body.slope.x * across2 + body.slope.y * along2) * (slowness * slowness);
+    let raise = (air.x * slope) * ((q * (q * LIFT_BEND + LIFT_RISE) + LIFT_EDGE) * incidence);
     let circulation = q * WHIRL_RISE + WHIRL_EDGE;
     let whirl = vec3_cross(
         vec3<f32>((air.z * circulation) * turn.x, 0.0, (air.w * circulation) * turn.z),
@@ -64,16 +66,16 @@ fn flight_rates(body: LeafBody, motion: FlightMotion, wind: vec3<f32>) -> Flight
     let edge_x = body.reach.x * turn.x;
     let edge_z = body.reach.y * turn.z;
     let edge = max(edge_x * edge_x + edge_z * edge_z, TINY_SQUARED);
-    let damping = speed * DAMPING_SPEED + (edge * inverse_sqrt(edge)) * DAMPING_TURN;
-    let spread = slow.z * slowness;
-    let roll = (spread * DAMPING_ROLL) * (turn.x * flow.x + turn.z * flow.z);
-    let pitch = (spread * (q * DAMPING_PITCH)) * (turn.x * flow.z - turn.z * flow.x);
-    let wheeling = max(turn.y * body.reach.z, 0.0 - turn.y * body.reach.z);
+    let damping = (edge * inverse_sqrt(edge)) * DAMPING_TURN;
+    let roll = (slowness * DAMPING_ROLL) * (edge_x * flow.x + edge_z * flow.z);
+    let pitch = (slowness * (q * body.own.x)) * (edge_x * flow.z - edge_z * flow.x);
+    let wheel = turn.y * body.reach.z;
+    let wheeling = (speed + max(wheel, 0.0 - wheel)) * DAMPING_NORMAL;
     let lever = vec3_cross(body.arm, push);
     let torque = vec3<f32>(
-        (lever.x + munk * flow.z) - ((slow.x * damping) * turn.x + (roll * flow.x + pitch * flow.z)),
-        (lever.y + slow.w * (speed * flow.y)) - (slow.z * ((speed + wheeling) * DAMPING_NORMAL)) * turn.y,
-        (lever.z - munk * flow.x) - ((slow.y * damping) * turn.z + (roll * flow.z - pitch * flow.x)),
+        (lever.x + munk * flow.z) - air.z * (damping * edge_x + (roll * flow.x + pitch * flow.z)),
+        (lever.y + body.reach.w * (speed * flow.y)) - (air.z * body.reach.y) * (wheeling * turn.y),
+        (lever.z - munk * flow.x) - air.w * (damping * edge_z + (roll * flow.z - pitch * flow.x)),
     );
     let freely = vec3<f32>(
         torque.x * body.ease.x + body.gyration.x * (turn.y * turn.z),

@@ -11,7 +11,10 @@ fn count_leaf(place: vec4<u32>) {
     let state = place.w & STATE_MASK;
     atomicAdd(&local_counters[state], 1u);
     if (state == STATE_FALLING) {
-        atomicAdd(&local_counters[COUNTER_PRIMITIVE + ((place.w >> PRIMITIVE_SHIFT) & PRIMITIVE_MASK)], 1u);
+        let motion = (place.w >> PRIMITIVE_SHIFT) & PRIMITIVE_MASK;
+        let regime = (place.w >> REGIME_SHIFT) & REGIME_MASK;
+        let counter = select(COUNTER_PRIMITIVE + motion, COUNTER_REGIME + regime, motion == AERODYNAMIC);
+        atomicAdd(&local_counters[counter], 1u);
     }
     let bits = place.xyz & vec3<u32>(0x7fffffffu);
     if (bits.x >= INFINITY_BITS || bits.y >= INFINITY_BITS || bits.z >= INFINITY_BITS) {

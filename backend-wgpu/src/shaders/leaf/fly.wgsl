@@ -3,7 +3,9 @@
 // twin: core/src/leaf/fly.rs
 #import bindings
 #import flight/body
+#import flight/regime
 #import flight/runge_kutta
+#import kernel/rng
 #import leaf/settle
 #import wind/sample
 
@@ -19,11 +21,15 @@ fn flies(bits: u32) -> bool {
     return (bits & (STATE_MASK | (PRIMITIVE_MASK << PRIMITIVE_SHIFT))) == flying;
 }
 
+fn loads_of(bits: u32) -> vec4<f32> {
+    return environment.bodies[(bits >> SPECIES_SHIFT) & SPECIES_MASK].load;
+}
+
 fn flight_load(bits: u32, relative: vec3<f32>, spin: vec3<f32>) -> f32 {
-    let load = environment.bodies[(bits >> SPECIES_SHIFT) & SPECIES_MASK].load;
+    let load = loads_of(bits);
     let squared = max(vec3_dot(relative, relative), TINY_SQUARED);
     let turned = max(vec3_dot(spin, spin), TINY_SQUARED);
-    return max(load.x * (squared * inverse_sqrt(squared)), load.y * (turned * inverse_sqrt(turned)));
+    return load.x * (squared * inverse_sqrt(squared)) + load.y * (turned * inverse_sqrt(turned));
 }
 
 fn flight_advance(flight: Flight, bits: u32, size: u32, wind: vec3<f32>) -> Flight {
@@ -42,6 +48,17 @@ fn flight_advance(flight: Flight, bits: u32, size: u32, wind: vec3<f32>) -> Flig
         motion = step.end;
     }
     return Flight(position, motion.velocity, motion.pose, motion.turning * body.size.y);
+}
+
+fn flight_told(flight: Flight, wind: vec3<f32>, memory: u32, bits: u32) -> vec2<u32> {
+    let path = flight.velocity - wind;
+    let flow = quat_rotate_back(flight.pose, path);
+    let now = step_block.index.x;
+    let rate = environment.motion.w;
+    let ticks = mul_q16(now + 1u, rate) - mul_q16(now, rate);
+    let patience = u32(loads_of(bits).z);
+    let told = regime_memory(memory, flow, flight.spin, path, ticks, patience);
+    return vec2<u32>(told, (bits & ~(REGIME_MASK << REGIME_SHIFT)) | (regime_of(told) << REGIME_SHIFT));
 }
 
 fn flight_of(leaf: u32) -> Flight {
@@ -71,6 +88,9 @@ fn leaf_fly(leaf: u32) {
     let wind = wind_at(start.position);
     let flight = flight_advance(start, places[leaf].w, courses[leaf].z, wind);
     flight_write(leaf, flight);
+    let told = flight_told(flight, wind, identities[leaf].z, places[leaf].w);
+    identities[leaf].z = told.x;
+    places[leaf].w = told.y;
     if (flight.position.y < environment.ground.y) {
         leaf_land(leaf, start.position);
     }

@@ -51,10 +51,14 @@ prop_compose! {
         (moisture, curl, twist) in (within(limits::MOISTURE), within(limits::CURL), within(limits::TWIST)),
         mass_offset in (within(limits::MASS_OFFSET), within(limits::MASS_OFFSET)),
         (irregularity, tilt_deg) in (within(limits::IRREGULARITY), within(limits::TILT_DEG)),
+        gyration in (within(limits::GYRATION), within(limits::GYRATION)),
+        (edge_drag, pitch_damping) in (within(limits::EDGE_DRAG), within(limits::PITCH_DAMPING)),
         hold in select(vec![Hold::Random, Hold::Broadside, Hold::EdgeOn]),
     ) -> Aerodynamics {
         let planform = planform.map(|(aspect, extent)| Planform { aspect, extent });
-        Aerodynamics { planform, moisture, mass_offset, curl, twist, irregularity, hold, tilt_deg }
+        Aerodynamics {
+            planform, moisture, mass_offset, curl, twist, gyration, edge_drag, pitch_damping, irregularity, hold, tilt_deg,
+        }
     }
 }
 
