@@ -106,7 +106,8 @@ pub struct Species {
     /// the working directory; the tables are made from the equations when absent.
     pub tables: Option<String>,
     /// Folder of leaf pictures such as `windfall leaf make` writes, named like `tables`; shape and season choose
-    /// pictures when absent.
+    /// pictures when absent. A species that flies as a body and states no planform is built as the leaves of the folder
+    /// are, as far as their manifest tells: size, mass per area, planform and curl.
     pub leaves: Option<String>,
 }
 
