@@ -13,20 +13,21 @@ const DRY: Aerodynamics = Aerodynamics {
     ..Aerodynamics::FLAT
 };
 
-/// Curved along its shaft, which is heavier than the vane.
+/// Curved along its shaft, which is heavier than the vane, and twisted: it winds down.
 const FEATHER: Aerodynamics =
-    Aerodynamics { mass_offset: (-0.4, -0.05), curl: 0.2, twist: 0.15, ..Aerodynamics::FLAT };
+    Aerodynamics { mass_offset: (-0.4, 0.0), curl: 0.3, twist: 0.3, ..Aerodynamics::FLAT };
 
-/// Nearly all the mass is in the nut at one end. The vortex at the wing's front edge stays where it is.
+/// Nearly all the mass is in the nut at one end: after a dive of some three metres it spins like a rotor, as the
+/// seeds of maples do, at 1.05 m/s and 14 turns a second.
 const SAMARA: Aerodynamics = Aerodynamics {
-    planform: Some(Planform { aspect: 3.29, extent: 1.0 }),
-    mass_offset: (-0.544, 0.093),
-    curl: -0.022,
-    twist: 0.208,
-    gyration: (0.202, 0.415),
-    edge_drag: 0.127,
-    pitch_damping: 0.56,
-    irregularity: 0.01,
+    planform: Some(Planform { aspect: 3.577, extent: 1.0 }),
+    mass_offset: (-0.6691, -0.0863),
+    curl: 0.0655,
+    twist: 0.4346,
+    gyration: (0.2443, 0.3427),
+    edge_drag: 0.1067,
+    pitch_damping: 0.073,
+    irregularity: 0.02,
     ..Aerodynamics::FLAT
 };
 
@@ -52,7 +53,7 @@ impl Species {
     /// # Source
     /// Sizes and masses are round numbers for orientation, not measurements of one tree: leaves as the leaf maker
     /// builds them, a contour feather of 22 g/m², office paper of 80 g/m², a disc of card of 220 g/m² and the
-    /// winged seed of a maple of 0.12 g.
+    /// winged seed of a maple of 0.11 g.
     pub fn preset(name: &str) -> Option<Self> {
         let is_known = |preset: &&&str| preset.eq_ignore_ascii_case(name);
         let name = *Self::PRESETS.iter().find(is_known)?;
@@ -70,7 +71,7 @@ impl Species {
             "plate" => {
                 (LeafShape::Plate, 0.04, 0.22, Aerodynamics { irregularity: 0.01, ..Aerodynamics::FLAT })
             }
-            _ => (LeafShape::Samara, 0.0252, 0.244, SAMARA),
+            _ => (LeafShape::Samara, 0.0236, 0.251, SAMARA),
         };
         Some(Self {
             name: name.into(),
