@@ -58,13 +58,8 @@ impl CpuSimulator {
         &self.world.leaves
     }
 
-    fn same_size(&self, world: &World) -> Result<(), SimError> {
-        let (own, other) = (self.world.leaves.len(), world.leaves.len());
-        if own == other && self.world.branches.len() == world.branches.len() {
-            Ok(())
-        } else {
-            Err(SimError::Size { world: other, simulator: own })
-        }
+    fn same_size(&self, environment: &Environment) -> Result<(), SimError> {
+        environment.fits(self.world.environment.scene().leaf_count(), self.world.branches.len())
     }
 }
 
@@ -84,13 +79,13 @@ impl Simulator for CpuSimulator {
     }
 
     fn write_state(&mut self, world: &World) -> Result<(), SimError> {
-        self.same_size(world)?;
+        self.same_size(&world.environment)?;
         self.world = world.clone();
         Ok(())
     }
 
     fn read_state(&mut self, world: &mut World) -> Result<(), SimError> {
-        self.same_size(world)?;
+        self.same_size(&world.environment)?;
         world.clock = self.world.clock;
         world.leaves.clone_from(&self.world.leaves);
         world.branches.clone_from(&self.world.branches);
@@ -98,6 +93,7 @@ impl Simulator for CpuSimulator {
     }
 
     fn set_environment(&mut self, environment: &Environment) -> Result<(), SimError> {
+        self.same_size(environment)?;
         self.world.environment = environment.clone();
         Ok(())
     }

@@ -6,6 +6,7 @@ use windfall_core::SimError;
 use windfall_core::tree::record::{BRANCH_BASE, BRANCH_COLUMNS, BRANCH_POSE, WORK_ROWS};
 use windfall_core::tree::{Branches, Forest};
 
+use crate::buffers::{buffer, filled, group};
 use crate::columns::BranchColumns;
 use crate::gpu::Gpu;
 use crate::pipelines::Pipelines;
@@ -18,8 +19,8 @@ const COLUMN_STEP: u32 = 16;
 /// Bytes of a row.
 const ROW_BYTES: u64 = 16;
 
-/// The columns of all segments as one buffer.
-#[derive(Debug)]
+/// The columns of all segments as one buffer. A clone is the same buffer.
+#[derive(Clone, Debug)]
 pub struct BranchBuffer {
     rows: wgpu::Buffer,
     count: u32,
@@ -43,10 +44,10 @@ impl BranchBuffer {
     /// Replaces the state.
     ///
     /// # Errors
-    /// [`SimError::Size`] if there are more or fewer segments.
+    /// [`SimError::Segments`] if there are more or fewer segments.
     pub fn write(&self, gpu: &Gpu, branches: &Branches) -> Result<(), SimError> {
         if branches.len() != self.count as usize {
-            return Err(SimError::Size { world: branches.len(), simulator: self.count as usize });
+            return Err(SimError::Segments { world: branches.len(), simulator: self.count as usize });
         }
         for (column, rows) in (0..).zip(branches.columns()) {
             gpu.queue().write_buffer(&self.rows, self.offset(column), bytemuck::cast_slice(rows));
@@ -82,18 +83,26 @@ pub(crate) struct ForestBuffers {
 }
 
 impl ForestBuffers {
-    /// Room for a forest; state is written by `write`. `blocks` are the environment, the step and the wind tables.
+    /// Room for a forest, with the state of trees of the same size that are `standing`, else to be written by `write`.
+    /// `blocks` are the environment, the step and the wind tables.
     pub(crate) fn new(
         gpu: &Gpu,
         pipelines: &Pipelines,
         forest: &Forest,
         blocks: [wgpu::BindingResource<'_>; 3],
+        standing: Option<&Self>,
     ) -> Result<Self, SimError> {
-        let branches = BranchBuffer::new(gpu, forest.len())?;
+        let (branches, bearing) = match standing {
+            Some(standing) => (standing.branches.clone(), standing.bearing.clone()),
+            None => {
+                let branches = BranchBuffer::new(gpu, forest.len())?;
+                let bearing = storage(gpu, "bearing", u64::from(branches.stride) * 4);
+                (branches, bearing)
+            }
+        };
         let timber = filled(gpu, "timber", bytemuck::cast_slice(forest.timber()));
         let order = filled(gpu, "forest order", bytemuck::cast_slice(forest.order()));
         let work = storage(gpu, "sway", u64::from(branches.stride * WORK_ROWS) * ROW_BYTES);
-        let bearing = storage(gpu, "bearing", u64::from(branches.stride) * 4);
 
         let level_stride = 16u32.next_multiple_of(gpu.device().limits().min_uniform_buffer_offset_alignment);
         let mut bytes = Vec::new();
@@ -208,31 +217,7 @@ fn sway_group(gpu: &Gpu, pipelines: &Pipelines, blocks: [wgpu::BindingResource<'
     group(gpu, &pipelines.sway_layout, blocks)
 }
 
-/// Resources bound one after another.
-pub(crate) fn group<'a>(
-    gpu: &Gpu,
-    layout: &wgpu::BindGroupLayout,
-    resources: impl IntoIterator<Item = wgpu::BindingResource<'a>>,
-) -> wgpu::BindGroup {
-    let entries: Vec<_> =
-        (0..).zip(resources).map(|(binding, resource)| wgpu::BindGroupEntry { binding, resource }).collect();
-    let descriptor = wgpu::BindGroupDescriptor { label: None, layout, entries: &entries };
-    gpu.device().create_bind_group(&descriptor)
-}
-
 /// A storage buffer that can be copied from and to.
 fn storage(gpu: &Gpu, label: &str, size: u64) -> wgpu::Buffer {
-    gpu.device().create_buffer(&wgpu::BufferDescriptor {
-        label: Some(label),
-        size,
-        usage: wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC | wgpu::BufferUsages::COPY_DST,
-        mapped_at_creation: false,
-    })
-}
-
-/// A storage buffer that holds these bytes.
-fn filled(gpu: &Gpu, label: &str, bytes: &[u8]) -> wgpu::Buffer {
-    let buffer = storage(gpu, label, bytes.len() as u64);
-    gpu.queue().write_buffer(&buffer, 0, bytes);
-    buffer
+    buffer(gpu, label, size, wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC)
 }

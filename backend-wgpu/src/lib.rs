@@ -14,6 +14,7 @@
 
 #![warn(clippy::print_stdout, clippy::print_stderr)]
 
+mod buffers;
 mod columns;
 mod exact;
 mod forest;

@@ -2,16 +2,20 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The wgpu simulator.
 
+mod pages;
+
 use std::sync::Arc;
 
 use windfall_core::blocks::{EnvironmentBlock, StepBlock};
-use windfall_core::layout::{Float4, Uint4, Wgsl};
+use windfall_core::layout::{Float4, Uint4};
 use windfall_core::scene::SwayScheme;
 use windfall_core::stats::COUNTER_COUNT;
 use windfall_core::{Clock, Contract, Environment, SimError, Simulator, SimulatorInfo, Stats, World};
 
+use self::pages::Page;
+use crate::buffers::{buffer, group, table};
 use crate::columns::{BranchColumns, LeafBuffers, LeafColumns, RECORD_BYTES};
-use crate::forest::{ForestBuffers, group};
+use crate::forest::ForestBuffers;
 use crate::gpu::{Gpu, describe_adapter};
 use crate::pipelines::Pipelines;
 use crate::prelude::WORKGROUP_SIZE;
@@ -58,23 +62,6 @@ pub struct WgpuSimulator {
     counters: wgpu::Buffer,
     counters_group: wgpu::BindGroup,
     pages: Vec<Page>,
-}
-
-/// A window of the leaf columns that fits in one binding.
-#[derive(Debug)]
-struct Page {
-    leaves: u32,
-    columns: wgpu::BindGroup,
-    due: wgpu::BindGroup,
-    on_trees: Option<OnTrees>,
-}
-
-/// The leaves of a page that trees have.
-#[derive(Debug)]
-struct OnTrees {
-    leaves: u32,
-    carried: wgpu::BindGroup,
-    carriers: wgpu::BindGroup,
 }
 
 impl WgpuSimulator {
@@ -221,13 +208,15 @@ impl WgpuSimulator {
         self.gpu.queue().submit([encoder.finish()]);
     }
 
-    /// Makes room for the trees of the environment.
+    /// Makes room for the trees of the environment; trees that are there already go on as they stand.
     fn plant(&mut self) -> Result<(), SimError> {
         let forest = self.environment.forest();
-        self.forest = match forest.is_empty() {
-            true => None,
-            false => Some(ForestBuffers::new(&self.gpu, &self.pipelines, forest, self.sway_blocks())?),
-        };
+        if !forest.is_empty() {
+            let standing = self.forest.as_ref();
+            let blocks = self.sway_blocks();
+            let planted = ForestBuffers::new(&self.gpu, &self.pipelines, forest, blocks, standing)?;
+            self.forest = Some(planted);
+        }
         Ok(())
     }
 
@@ -245,69 +234,9 @@ impl WgpuSimulator {
         })
     }
 
-    /// One window of every column for each page.
-    fn bind_pages(&mut self) {
-        let count = self.leaves.leaf_count();
-        let pages: Vec<Page> =
-            (0..count).step_by(self.page_leaves as usize).map(|first| self.page(first)).collect();
-        self.pages = pages;
-    }
-
-    fn page(&self, first: u32) -> Page {
-        let leaves = self.page_leaves.min(self.leaves.leaf_count() - first);
-        let window = |buffer| {
-            wgpu::BindingResource::Buffer(wgpu::BufferBinding {
-                buffer,
-                offset: u64::from(first) * RECORD_BYTES,
-                size: wgpu::BufferSize::new(u64::from(leaves) * RECORD_BYTES),
-            })
-        };
-        let up_to_wind = || self.sway_blocks().into_iter();
-        let columns = || self.leaves.buffers().iter().map(window);
-        let resources = up_to_wind().chain(columns()).chain([self.motion.1.as_entire_binding()]);
-        let page = group(&self.gpu, &self.pipelines.leaves_layout, resources);
-        // Header of four counts, then a place for every leaf; new buffers are zero.
-        let due = buffer(&self.gpu, "due", 16 + u64::from(leaves) * 4, wgpu::BufferUsages::STORAGE);
-        let due = group(&self.gpu, &self.pipelines.extra_layout, [due.as_entire_binding()]);
-        let tree_leaves = self.environment.scene().tree_leaf_count().saturating_sub(first).min(leaves);
-        let forest = self.forest.as_ref().filter(|_| tree_leaves > 0);
-        let on_trees = forest.map(|forest| {
-            let carried = up_to_wind().chain(columns().take(4));
-            let block = buffer(&self.gpu, "carry", 16, wgpu::BufferUsages::UNIFORM);
-            self.gpu.queue().write_buffer(&block, 0, bytemuck::bytes_of(&[first, forest.stride(), 0, 0]));
-            let [branches, bearing] = forest.carriers();
-            let petioles = self.petioles.1.as_entire_binding();
-            let carriers = [block.as_entire_binding(), petioles, branches, bearing];
-            OnTrees {
-                leaves: tree_leaves,
-                carried: group(&self.gpu, &self.pipelines.carried_layout, carried),
-                carriers: group(&self.gpu, &self.pipelines.carrier_layout, carriers),
-            }
-        });
-        Page { leaves, columns: page, due, on_trees }
-    }
-
     fn same_size(&self, world: &World) -> Result<(), SimError> {
-        let (own, other) = (self.leaves.leaf_count() as usize, world.leaves.len());
-        let same_trees = self.environment.forest().len() == world.branches.len();
-        if own == other && same_trees { Ok(()) } else { Err(SimError::Size { world: other, simulator: own }) }
+        world.environment.fits(self.leaves.leaf_count(), self.environment.forest().len())
     }
-}
-
-fn buffer(gpu: &Gpu, label: &str, size: u64, usage: wgpu::BufferUsages) -> wgpu::Buffer {
-    gpu.device().create_buffer(&wgpu::BufferDescriptor {
-        label: Some(label),
-        size,
-        usage: usage | wgpu::BufferUsages::COPY_DST,
-        mapped_at_creation: false,
-    })
-}
-
-fn table<T: Wgsl>(gpu: &Gpu, label: &str, rows: &Arc<[T]>) -> (Arc<[T]>, wgpu::Buffer) {
-    let bytes: &[u8] = bytemuck::cast_slice(rows);
-    let buffer = buffer(gpu, label, bytes.len() as u64, wgpu::BufferUsages::STORAGE);
-    gpu.queue().write_buffer(&buffer, 0, bytes);
-    (Arc::clone(rows), buffer)
 }
 
 impl Simulator for WgpuSimulator {
@@ -349,6 +278,7 @@ impl Simulator for WgpuSimulator {
 
     fn set_environment(&mut self, environment: &Environment) -> Result<(), SimError> {
         self.gpu.check()?;
+        environment.fits(self.environment.scene().leaf_count(), self.environment.forest().len())?;
         if environment.block().has_bodies() {
             self.pipelines.add_fly(&self.gpu)?;
         }

@@ -86,6 +86,16 @@ pub enum SimError {
         /// Leaves of the simulator.
         simulator: usize,
     },
+    /// A world of other trees than the simulator was made for.
+    #[error(
+        "trees have {world} segments, those of the simulator {simulator}; make a new simulator for other trees"
+    )]
+    Segments {
+        /// Segments of the world's trees.
+        world: usize,
+        /// Segments of the simulator's.
+        simulator: usize,
+    },
     /// The device went away; the state since the last read is lost.
     #[error("device lost: {reason}")]
     DeviceLost {

@@ -10,6 +10,7 @@
 //! - [`motion`]: six primitive motions, their tables and the chain that joins them.
 //! - [`flight`]: leaves as bodies in the air.
 //! - [`wind`]: mean flow, gusts, turbulence, vortices.
+//! - [`flight`]: rigid leaves under air forces.
 //! - [`leaf`]: the leaf store and the life of a leaf, step by step.
 //! - [`tree`]: how trees grow, what they weigh, how they sway.
 //! - [`kernel`]: arithmetic with the same bits in Rust and WGSL.

@@ -49,22 +49,23 @@ pub trait Simulator {
     /// The present.
     fn clock(&self) -> Clock;
 
-    /// Replaces the whole state: leaves, clock and environment.
+    /// Replaces the whole state: leaves, trees, clock and environment.
     ///
     /// # Errors
-    /// [`SimError::Size`] if the world has another number of leaves.
+    /// [`SimError::Size`] or [`SimError::Segments`] if the world has another number of leaves or segments of trees.
     fn write_state(&mut self, world: &World) -> Result<(), SimError>;
 
-    /// Copies leaves and clock into the caller's world. Waits for all steps; slow on a GPU.
+    /// Copies leaves, trees and clock into the caller's world. Waits for all steps; slow on a GPU.
     ///
     /// # Errors
-    /// [`SimError::Size`] if the world has another number of leaves; a lost device.
+    /// [`SimError::Size`] or [`SimError::Segments`] if the world has another number of leaves or segments of trees; a
+    /// lost device.
     fn read_state(&mut self, world: &mut World) -> Result<(), SimError>;
 
-    /// Replaces wind, ground and speeds from the next step on.
+    /// Replaces wind, season, ground and speeds from the next step on. Leaves and trees stay as they are.
     ///
     /// # Errors
-    /// A lost device.
+    /// [`SimError::Size`] or [`SimError::Segments`] if it is one of other leaves or trees; a lost device.
     fn set_environment(&mut self, environment: &Environment) -> Result<(), SimError>;
 
     /// Submits `count` steps and does not wait for them.

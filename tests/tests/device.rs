@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Trouble with devices: errors, never panics.
 
-use windfall_core::{SimError, Simulator, World};
+use windfall_core::{Environment, SimError, Simulator, World};
 use windfall_tests::adapter;
-use windfall_tests::strategies::varied_scene;
+use windfall_tests::strategies::{varied_scene, wooded_scene};
 use windfall_wgpu::{Gpu, WgpuOptions, WgpuSimulator};
 
 #[test]
@@ -74,5 +74,39 @@ fn a_new_environment_takes_effect_alike() {
         }
         assert_eq!(hashes[0], hashes[1], "{}", gpu.info().name);
         world = World::build(&varied_scene(9, 1000, 2.0, 1.0 / 60.0)).expect("valid");
+    }
+}
+
+/// Trees go on as they stand when a scene is compiled anew, and other trees are refused.
+#[test]
+fn trees_stand_through_a_new_environment() {
+    let scene = wooded_scene(3, 300, 9.0, 1.0 / 60.0);
+    let mut world = World::build(&scene).expect("valid");
+    let mut windy = scene.clone();
+    windy.wind.speed = windfall_core::scene::MeanSpeed::MetresPerSecond(15.0);
+    let anew = Environment::compile(&windy).expect("valid");
+    let mut other = scene.clone();
+    other.trees[0].age = 0.4;
+    let other = Environment::compile(&other).expect("valid");
+    assert_eq!(other.scene().leaf_count(), world.environment.scene().leaf_count());
+    assert_ne!(other.forest().len(), world.environment.forest().len());
+    for gpu in adapter::all() {
+        let mut candidate =
+            WgpuSimulator::new(&gpu, &world, &WgpuOptions::default()).expect("the device takes it");
+        let mut oracle = windfall_cpu::CpuSimulator::new(&world, windfall_cpu::CpuOptions::default())
+            .expect("threads start");
+        let mut hashes = Vec::new();
+        for simulator in [&mut candidate as &mut dyn Simulator, &mut oracle] {
+            simulator.step(40).expect("it steps");
+            simulator.set_environment(&anew).expect("it is set");
+            simulator.step(40).expect("it steps");
+            let refused = simulator.set_environment(&other);
+            assert!(matches!(refused, Err(SimError::Segments { .. })), "{refused:?}");
+            let mut after = world.clone();
+            simulator.read_state(&mut after).expect("same size");
+            hashes.push(after.state_hash());
+        }
+        assert_eq!(hashes[0], hashes[1], "{}", gpu.info().name);
+        world = World::build(&scene).expect("valid");
     }
 }

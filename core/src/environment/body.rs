@@ -80,9 +80,9 @@ pub(super) fn body_block(species: &Species, dt_s: f32) -> BodyBlock {
 fn added_inertia(sweeping: f64, other: f64) -> f64 {
     let cubed = sweeping * sweeping * sweeping;
     if sweeping >= other {
-        0.838 * cubed * other * other * (1.0 - 0.576 * other / sweeping)
+        0.8386 * cubed * other * other * (1.0 - 0.576 * other / sweeping)
     } else {
-        0.419 * cubed * sweeping * other * (1.0 - 0.151 * sweeping / other)
+        0.4188 * cubed * sweeping * other * (1.0 - 0.151 * sweeping / other)
     }
 }
 

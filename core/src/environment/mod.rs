@@ -26,7 +26,7 @@ use self::wind::wind_block;
 use crate::blocks::{EnvironmentBlock, SOURCE_TREES, StepBlock, VortexBlock};
 use crate::clock::Clock;
 use crate::context::Context;
-use crate::error::SceneError;
+use crate::error::{SceneError, SimError};
 use crate::flight::coefficients::TICKS_PER_S;
 use crate::layout::{Float4, Uint4};
 use crate::motion::lookup::MotionRows;
@@ -132,6 +132,21 @@ impl Environment {
         for (species, block) in self.scene.species.iter().zip(&mut self.block.responses) {
             *block = response(&self.scene, species);
         }
+    }
+
+    /// Checks that a simulator with so many leaf slots and segments of trees can go on in this environment.
+    ///
+    /// # Errors
+    /// [`SimError::Size`] or [`SimError::Segments`] if it is one of another number of leaves or segments.
+    pub fn fits(&self, leaves: u32, segments: usize) -> Result<(), SimError> {
+        let own = (self.scene.leaf_count() as usize, self.forest.len());
+        if own.0 != leaves as usize {
+            return Err(SimError::Size { world: own.0, simulator: leaves as usize });
+        }
+        if own.1 != segments {
+            return Err(SimError::Segments { world: own.1, simulator: segments });
+        }
+        Ok(())
     }
 
     /// The scene this was compiled from.

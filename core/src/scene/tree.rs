@@ -130,7 +130,7 @@ pub struct Foliage {
     /// Leaf area of the full crown per ground area beneath it, 0.1 to 12.
     pub leaf_area_index: f32,
     /// Mass of green leaves with their petioles per leaf area in kg/m², 0.01 to 1: with the water that they lose before
-    /// they fall.
+    /// they fall, and with the twigs that are too thin for the skeleton.
     pub areal_density_kg_m2: f32,
     /// Drag coefficient of leaves on the twig in light wind, on their whole area, 0 to 2.
     pub drag: f32,
@@ -146,9 +146,9 @@ impl Default for Foliage {
             species: None,
             leaf_area_index: 3.5,
             areal_density_kg_m2: 0.2,
-            drag: 0.25,
+            drag: 0.2,
             yield_m_s: 10.0,
-            strength_n: 4.0,
+            strength_n: 3.2,
         }
     }
 }

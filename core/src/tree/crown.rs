@@ -49,11 +49,9 @@ pub(crate) fn full_count(
         points.push(DVec2::new(segment.end_m.x, segment.end_m.z));
         twigs_m += segment.length_m;
     }
-    let (area, edge) = hull(points);
     // The leaves of a seedling are no longer than itself.
     let reach_m = settings.leaf_area_m2.sqrt().min(twigs_m);
-    let ground_m2 = area + edge * reach_m + std::f64::consts::PI * reach_m * reach_m;
-    (leaf_area_index * ground_m2 / settings.leaf_area_m2).round().max(FEWEST)
+    (leaf_area_index * ground_m2(points, reach_m) / settings.leaf_area_m2).round().max(FEWEST)
 }
 
 /// Whether there will ever be leaves.
@@ -176,6 +174,12 @@ impl Place {
             normal: normal.as_vec3().normalize(),
         }
     }
+}
+
+/// Ground in m² beneath leaves that reach so far from the points, of which there is at least one.
+pub(super) fn ground_m2(points: Vec<DVec2>, reach_m: f64) -> f64 {
+    let (area, edge) = hull(points);
+    area + edge * reach_m + std::f64::consts::PI * reach_m * reach_m
 }
 
 /// Area and length of the edge of the convex hull of at least one point.

@@ -74,12 +74,12 @@ impl TreePreset {
     pub fn kind(self) -> TreeKind {
         let (youngs_modulus_gpa, density_kg_m3, anchorage, leaf_area_index, areal_density_kg_m2, strength_n) =
             match self {
-                Self::Maple => (8.4, 721.0, 0.95, 4.5, 0.30, 4.0),
-                Self::Birch => (9.9, 801.0, 1.5, 3.0, 0.52, 2.5),
-                Self::Oak => (10.5, 865.0, 0.42, 4.0, 0.53, 5.0),
-                Self::Bush => (7.0, 850.0, 2.0, 3.5, 0.25, 2.5),
+                Self::Maple => (8.4, 721.0, 0.95, 4.5, 0.24, 3.2),
+                Self::Birch => (9.9, 801.0, 1.5, 3.0, 0.36, 2.0),
+                Self::Oak => (10.5, 865.0, 0.42, 5.0, 0.42, 4.0),
+                Self::Bush => (7.0, 850.0, 2.0, 3.5, 0.25, 2.0),
                 Self::Weed => (1.0, 900.0, 5.0, 3.0, 0.2, 1.0),
-                Self::BerryBush => (5.0, 850.0, 2.0, 2.5, 0.25, 1.5),
+                Self::BerryBush => (5.0, 850.0, 2.0, 2.5, 0.25, 1.2),
             };
         TreeKind {
             name: self.name().into(),

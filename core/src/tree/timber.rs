@@ -8,8 +8,9 @@
 
 use std::f64::consts::{PI, TAU};
 
-use glam::{DQuat, DVec3};
+use glam::{DQuat, DVec3, swizzles::Vec3Swizzles};
 
+use super::crown::ground_m2;
 use super::record::{NO_SEGMENT, Timber};
 use super::skeleton::{Bearing, Segment, Skeleton};
 use super::sway::{GRAVITY_M_S2, IMPLICITNESS};
@@ -86,7 +87,7 @@ pub(super) fn timber_of(
     for attachment in &leaves {
         drafts[attachment.segment as usize].leaves += 1;
     }
-    let crown_m2 = crown_area(skeleton);
+    let crown_m2 = crown_area(skeleton, leaf);
     let count = leaves.len() as f64;
     let full = f64::from(foliage.leaf_area_index) * crown_m2 / leaf.area_m2.max(1e-9);
     let leaves_each = if count > 0.0 { (full / count).max(1.0) } else { 0.0 };
@@ -188,18 +189,14 @@ fn area_moment(radius: f64) -> f64 {
     0.25 * PI * radius * radius * radius * radius
 }
 
-/// Ground area beneath the leaves, or beneath the twigs of a tree that bears none: of the disc in which evenly spread
-/// points would lie as far from the middle as they do on average.
-fn crown_area(skeleton: &Skeleton) -> f64 {
-    let mut points: Vec<DVec3> = skeleton.attachments.iter().map(|at| at.at_m.as_dvec3()).collect();
-    if points.is_empty() {
-        points.extend(skeleton.segments.iter().map(|segment| segment.end_m.as_dvec3()));
+/// Ground area beneath the leaves, or beneath the twigs of a tree that bears none.
+fn crown_area(skeleton: &Skeleton, leaf: LeafFacts) -> f64 {
+    let mut places: Vec<_> = skeleton.attachments.iter().map(|at| at.at_m).collect();
+    if places.is_empty() {
+        places.extend(skeleton.segments.iter().map(|segment| segment.end_m));
     }
-    let count = points.len() as f64;
-    let middle = points.iter().sum::<DVec3>() / count;
-    let mean =
-        points.iter().map(|point| libm::hypot(point.x - middle.x, point.z - middle.z)).sum::<f64>() / count;
-    PI * (1.5 * mean) * (1.5 * mean)
+    let points = places.into_iter().map(|place| place.as_dvec3().xz()).collect();
+    ground_m2(points, libm::sqrt(leaf.area_m2))
 }
 
 /// Mass and first moment, about the tree's origin, of every segment with all that it carries.

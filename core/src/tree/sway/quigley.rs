@@ -85,10 +85,33 @@ fn jacobi_turn(p: f32, q: f32, off: f32) -> (f32, f32) {
     (signed * cosine, cosine)
 }
 
-/// Two columns of a matrix, turned into each other.
+/// Two axes of a symmetric matrix: their diagonal entries, what each shares with the third axis, and their shapes.
+#[derive(Clone, Copy)]
+struct Axes {
+    p: f32,
+    q: f32,
+    side_p: f32,
+    side_q: f32,
+    shape_p: Vec3,
+    shape_q: Vec3,
+}
+
+/// The axes turned into each other so that the entry `off` between them vanishes.
 #[inline(always)]
-fn turned(a: Vec3, b: Vec3, sine: f32, cosine: f32) -> (Vec3, Vec3) {
-    (a * cosine - b * sine, a * sine + b * cosine)
+fn jacobi_free(axes: Axes, off: f32) -> Axes {
+    let (sine, cosine) = jacobi_turn(axes.p, axes.q, off);
+    let p = axes.p * cosine - off * sine;
+    let q = off * cosine - axes.q * sine;
+    let p2 = axes.p * sine + off * cosine;
+    let q2 = off * sine + axes.q * cosine;
+    Axes {
+        p: p * cosine - q * sine,
+        q: p2 * sine + q2 * cosine,
+        side_p: axes.side_p * cosine - axes.side_q * sine,
+        side_q: axes.side_p * sine + axes.side_q * cosine,
+        shape_p: axes.shape_p * cosine - axes.shape_q * sine,
+        shape_q: axes.shape_p * sine + axes.shape_q * cosine,
+    }
 }
 
 /// Modes of inertia `inertia` on springs `springs`.
@@ -113,30 +136,18 @@ pub fn joint_modes(inertia: Sym3, springs: Sym3) -> Modes {
     let mut b = Vec3::new(m.x, d.y, 0.0);
     let mut c = Vec3::new(m.y, m.z, d.z);
     for _ in 0..JACOBI_SWEEPS {
-        let (sine, cosine) = jacobi_turn(xx, yy, xy);
-        let (x, y) = ((xx * cosine - xy * sine), (xy * cosine - yy * sine));
-        let (x2, y2) = ((xx * sine + xy * cosine), (xy * sine + yy * cosine));
-        xx = x * cosine - y * sine;
-        yy = x2 * sine + y2 * cosine;
-        xy = 0.0;
-        (xz, yz) = (xz * cosine - yz * sine, xz * sine + yz * cosine);
-        (a, b) = turned(a, b, sine, cosine);
-        let (sine, cosine) = jacobi_turn(xx, zz, xz);
-        let (x, z) = ((xx * cosine - xz * sine), (xz * cosine - zz * sine));
-        let (x2, z2) = ((xx * sine + xz * cosine), (xz * sine + zz * cosine));
-        xx = x * cosine - z * sine;
-        zz = x2 * sine + z2 * cosine;
-        xz = 0.0;
-        (xy, yz) = (xy * cosine - yz * sine, xy * sine + yz * cosine);
-        (a, c) = turned(a, c, sine, cosine);
-        let (sine, cosine) = jacobi_turn(yy, zz, yz);
-        let (y, z) = ((yy * cosine - yz * sine), (yz * cosine - zz * sine));
-        let (y2, z2) = ((yy * sine + yz * cosine), (yz * sine + zz * cosine));
-        yy = y * cosine - z * sine;
-        zz = y2 * sine + z2 * cosine;
-        yz = 0.0;
-        (xy, xz) = (xy * cosine - xz * sine, xy * sine + xz * cosine);
-        (b, c) = turned(b, c, sine, cosine);
+        let z = jacobi_free(Axes { p: xx, q: yy, side_p: xz, side_q: yz, shape_p: a, shape_q: b }, xy);
+        let y = jacobi_free(
+            Axes { p: z.p, q: zz, side_p: 0.0, side_q: z.side_q, shape_p: z.shape_p, shape_q: c },
+            z.side_p,
+        );
+        let x = jacobi_free(
+            Axes { p: z.q, q: y.q, side_p: y.side_p, side_q: 0.0, shape_p: z.shape_q, shape_q: y.shape_q },
+            y.side_q,
+        );
+        (xx, yy, zz) = (y.p, x.p, x.q);
+        (xy, xz, yz) = (x.side_p, x.side_q, 0.0);
+        (a, b, c) = (y.shape_p, x.shape_p, x.shape_q);
     }
     let shapes =
         Mat3 { x: Vec3::new(a.x, b.x, c.x), y: Vec3::new(a.y, b.y, c.y), z: Vec3::new(a.z, b.z, c.z) };

@@ -60,6 +60,33 @@ fn jacobi_turn(p: f32, q: f32, off: f32) -> vec2<f32> {
     return vec2<f32>(turned * cosine, cosine);
 }
 
+struct Axes {
+    p: f32,
+    q: f32,
+    side_p: f32,
+    side_q: f32,
+    shape_p: vec3<f32>,
+    shape_q: vec3<f32>,
+}
+
+fn jacobi_free(axes: Axes, off: f32) -> Axes {
+    let turn = jacobi_turn(axes.p, axes.q, off);
+    let sine = turn.x;
+    let cosine = turn.y;
+    let p = axes.p * cosine - off * sine;
+    let q = off * cosine - axes.q * sine;
+    let p2 = axes.p * sine + off * cosine;
+    let q2 = off * sine + axes.q * cosine;
+    return Axes(
+        p * cosine - q * sine,
+        p2 * sine + q2 * cosine,
+        axes.side_p * cosine - axes.side_q * sine,
+        axes.side_p * sine + axes.side_q * cosine,
+        axes.shape_p * cosine - axes.shape_q * sine,
+        axes.shape_p * sine + axes.shape_q * cosine,
+    );
+}
+
 fn joint_modes(inertia: Sym3, springs: Sym3) -> Modes {
     let factor = inverse_factor(inertia);
     let d = factor.diagonal;
@@ -80,57 +107,18 @@ fn joint_modes(inertia: Sym3, springs: Sym3) -> Modes {
     var b = r2;
     var c = r3;
     for (var sweep = 0u; sweep < JACOBI_SWEEPS; sweep++) {
-        let xy_turn = jacobi_turn(xx, yy, xy);
-        var sine = xy_turn.x;
-        var cosine = xy_turn.y;
-        var p = xx * cosine - xy * sine;
-        var q = xy * cosine - yy * sine;
-        var p2 = xx * sine + xy * cosine;
-        var q2 = xy * sine + yy * cosine;
-        xx = p * cosine - q * sine;
-        yy = p2 * sine + q2 * cosine;
-        xy = 0.0;
-        var first = xz * cosine - yz * sine;
-        var second = xz * sine + yz * cosine;
-        xz = first;
-        yz = second;
-        var column = a * cosine - b * sine;
-        b = a * sine + b * cosine;
-        a = column;
-        let xz_turn = jacobi_turn(xx, zz, xz);
-        sine = xz_turn.x;
-        cosine = xz_turn.y;
-        p = xx * cosine - xz * sine;
-        q = xz * cosine - zz * sine;
-        p2 = xx * sine + xz * cosine;
-        q2 = xz * sine + zz * cosine;
-        xx = p * cosine - q * sine;
-        zz = p2 * sine + q2 * cosine;
-        xz = 0.0;
-        first = xy * cosine - yz * sine;
-        second = xy * sine + yz * cosine;
-        xy = first;
-        yz = second;
-        column = a * cosine - c * sine;
-        c = a * sine + c * cosine;
-        a = column;
-        let yz_turn = jacobi_turn(yy, zz, yz);
-        sine = yz_turn.x;
-        cosine = yz_turn.y;
-        p = yy * cosine - yz * sine;
-        q = yz * cosine - zz * sine;
-        p2 = yy * sine + yz * cosine;
-        q2 = yz * sine + zz * cosine;
-        yy = p * cosine - q * sine;
-        zz = p2 * sine + q2 * cosine;
+        let z = jacobi_free(Axes(xx, yy, xz, yz, a, b), xy);
+        let y = jacobi_free(Axes(z.p, zz, 0.0, z.side_q, z.shape_p, c), z.side_p);
+        let x = jacobi_free(Axes(z.q, y.q, y.side_p, 0.0, z.shape_q, y.shape_q), y.side_q);
+        xx = y.p;
+        yy = x.p;
+        zz = x.q;
+        xy = x.side_p;
+        xz = x.side_q;
         yz = 0.0;
-        first = xy * cosine - xz * sine;
-        second = xy * sine + xz * cosine;
-        xy = first;
-        xz = second;
-        column = b * cosine - c * sine;
-        c = b * sine + c * cosine;
-        b = column;
+        a = y.shape_p;
+        b = x.shape_p;
+        c = x.shape_q;
     }
     return Modes(
         Mat3(vec3<f32>(a.x, b.x, c.x), vec3<f32>(a.y, b.y, c.y), vec3<f32>(a.z, b.z, c.z)),
