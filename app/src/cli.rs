@@ -7,7 +7,7 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
-use crate::commands::{bench, info, leaf, motions, render, simulate, tree, view};
+use crate::commands::{bench, flight, info, leaf, motions, render, simulate, tree, view};
 use crate::terminal;
 
 /// Exit code of everything that goes wrong.
@@ -35,6 +35,8 @@ pub enum Command {
     Info,
     /// Measure how fast this machine simulates.
     Bench(bench::Arguments),
+    /// Drop leaves or pieces of paper in still air, and measure how they fall.
+    Flight(flight::Arguments),
     /// Write the motion tables of every species of a scene as text files.
     Motions(motions::Arguments),
     /// Make leaves for scenes, and study them.
@@ -53,6 +55,7 @@ impl Command {
             Self::Simulate(arguments) => simulate::run(&arguments),
             Self::Info => info::run(),
             Self::Bench(arguments) => bench::run(&arguments),
+            Self::Flight(arguments) => flight::run(&arguments),
             Self::Motions(arguments) => motions::run(&arguments),
             Self::Leaf(command) => command.run(),
             Self::Tree(command) => command.run(),

@@ -78,7 +78,7 @@ pub struct Aerodynamics {
 }
 
 impl Aerodynamics {
-    /// A flat dry body with its mass in the middle, as irregular as leaves are.
+    /// A flat dry body with its mass in the middle, as irregular as paper, well cut.
     pub(super) const FLAT: Self = Self {
         planform: None,
         moisture: 0.0,
@@ -87,7 +87,7 @@ impl Aerodynamics {
         twist: 0.0,
         gyration: (0.5, 0.5),
         edge_drag: 0.05,
-        pitch_damping: -0.6,
+        pitch_damping: -0.57,
         irregularity: 0.035,
         hold: Hold::Random,
         tilt_deg: 12.0,

@@ -96,8 +96,9 @@ impl LeafDisc {
         let radius = self.radius_m;
         let area = PI * radius * radius;
         let mass = self.areal_kg_m2 * area;
-        let added_mass = k.added * 8.0 / 3.0 * AIR_KG_M3 * radius.powi(3);
-        let added_inertia = k.added * 16.0 / 45.0 * AIR_KG_M3 * radius.powi(5);
+        let cube = radius * radius * radius;
+        let added_mass = k.added * 8.0 / 3.0 * AIR_KG_M3 * cube;
+        let added_inertia = k.added * 16.0 / 45.0 * AIR_KG_M3 * cube * radius * radius;
         let inertia = mass * radius * radius * DVec3::new(0.25, 0.5, 0.25)
             + DVec3::new(added_inertia, 0.0, added_inertia);
 

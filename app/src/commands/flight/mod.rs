@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! `windfall flight`: a wind tunnel for leaves, and what it shows as pictures.
+
+mod boundaries;
+mod diagram;
+mod measure;
+mod outline;
+mod picture;
+mod piece;
+mod sample;
+mod statistics;
+mod track_file;
+mod tracks3d;
+mod tunnel;
+
+use clap::{Args, Subcommand};
+
+/// Options of `windfall flight`.
+///
+/// Every number is an average over drops of what each does from 0.6 m below its release to the ground. Turns are half the
+/// peaks of the area seen from above: turns of what tumbles, swings of what flutters. A drop's regime is the one that
+/// lasted longest since it was first seen to turn or swing a few times; one that tumbles for less than three quarters of
+/// that time counts as chaotic.
+#[derive(Clone, Debug, Args)]
+#[command(args_conflicts_with_subcommands = true)]
+pub struct Arguments {
+    #[command(subcommand)]
+    figure: Option<Figure>,
+    #[command(flatten)]
+    measure: measure::Arguments,
+}
+
+/// Pictures instead of numbers.
+#[derive(Clone, Debug, Subcommand)]
+enum Figure {
+    /// Draw how discs of many sizes and masses fall, beside the boundaries that were measured.
+    Diagram(diagram::Arguments),
+    /// Draw twelve drops as one sees them.
+    #[command(name = "tracks3d")]
+    Tracks3d(tracks3d::Arguments),
+}
+
+/// Runs the command.
+///
+/// # Errors
+/// What the command says.
+pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
+    match &arguments.figure {
+        None => measure::run(&arguments.measure),
+        Some(Figure::Diagram(figure)) => diagram::run(figure),
+        Some(Figure::Tracks3d(figure)) => tracks3d::run(figure),
+    }
+}

@@ -1,0 +1,282 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What is dropped: a kind of leaf, or a flat piece of some outline, size and mass.
+
+use std::f64::consts::{PI, TAU};
+use std::path::Path;
+
+use anyhow::{anyhow, bail};
+use clap::{Args, ValueEnum};
+use glam::DVec2;
+use windfall_core::flight::planform::Measured;
+use windfall_core::scene::limits::{AREAL_DENSITY_KG_M2, ASPECT, EXTENT, SIZE_M};
+use windfall_core::scene::{Aerodynamics, FlightModel, Hold, Planform, Species};
+
+use super::outline;
+
+/// How a piece is held before it is let go.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum Release {
+    /// Lying flat.
+    Broadside,
+    /// Standing on its edge.
+    EdgeOn,
+    /// Any way round.
+    Random,
+}
+
+impl Release {
+    /// As the command line calls it.
+    pub(super) fn name(self) -> &'static str {
+        match self {
+            Self::Broadside => "broadside",
+            Self::EdgeOn => "edge-on",
+            Self::Random => "random",
+        }
+    }
+
+    fn hold(self) -> Hold {
+        match self {
+            Self::Broadside => Hold::Broadside,
+            Self::EdgeOn => Hold::EdgeOn,
+            Self::Random => Hold::Random,
+        }
+    }
+}
+
+/// What to drop.
+#[derive(Clone, Debug, Args)]
+pub(super) struct PieceArguments {
+    /// Kind of leaf: maple, oak, birch, beech, linden, ginkgo, japanese-maple, hornbeam; or
+    /// feather, paper-scrap, plate, samara.
+    #[arg(long, value_name = "SPECIES", conflicts_with = "shape")]
+    species: Option<String>,
+    /// Flat piece: disc, square, hexagon, or a CSV file of corners, a line `x,y` for each in any unit.
+    #[arg(long, value_name = "SHAPE", requires_all = ["size", "areal_density"])]
+    shape: Option<String>,
+    /// Size in metres: diameter of a disc, side of a square, distance between opposite sides of a hexagon, longest
+    /// distance between corners of an outline. Of a kind of leaf, diameter of the disc with its area [default: the
+    /// kind's own].
+    #[arg(long, value_name = "METRES", value_parser = positive)]
+    size: Option<f32>,
+    /// Mass per area in kg/m², 0.005 to 2; office paper has 0.08 [default: the kind's own].
+    #[arg(long, value_name = "KG_PER_M2", value_parser = areal_density)]
+    areal_density: Option<f32>,
+}
+
+/// What is dropped.
+#[derive(Clone, Debug)]
+pub(super) struct Piece {
+    /// As the command line calls it.
+    pub(super) name: String,
+    /// Size in the measure of its shape, in metres.
+    pub(super) size_m: f32,
+    /// Mass per area in kg/m², water included.
+    pub(super) areal_density_kg_m2: f32,
+    /// The same as a scene says it.
+    pub(super) species: Species,
+}
+
+/// Reads a length.
+fn positive(text: &str) -> Result<f32, String> {
+    let number = text.parse().ok().filter(|number: &f32| *number > 0.0 && number.is_finite());
+    number.ok_or_else(|| "allowed: a number above 0, in metres".into())
+}
+
+/// Reads a mass per area.
+fn areal_density(text: &str) -> Result<f32, String> {
+    let number = text.parse().ok().filter(|number| AREAL_DENSITY_KG_M2.contains(*number));
+    number.ok_or_else(|| format!("allowed: {AREAL_DENSITY_KG_M2}"))
+}
+
+impl PieceArguments {
+    /// What the options ask for.
+    ///
+    /// # Errors
+    /// Options that are missing, unknown names, outlines that cannot be used, sizes that are not allowed.
+    pub(super) fn load(&self) -> anyhow::Result<Piece> {
+        let piece = match (&self.species, &self.shape, self.size, self.areal_density) {
+            (Some(name), ..) => Piece::leaf(name, self.size, self.areal_density)?,
+            (None, Some(name), Some(size_m), Some(density)) => Piece::flat(name, size_m, density)?,
+            _ => bail!(
+                "nothing to drop; allowed: --species with a kind, or --shape, --size and --areal-density"
+            ),
+        };
+        Ok(piece)
+    }
+}
+
+impl Piece {
+    /// A kind of leaf.
+    ///
+    /// # Errors
+    /// Unknown names, and sizes that are not allowed.
+    pub(super) fn leaf(name: &str, size_m: Option<f32>, density: Option<f32>) -> anyhow::Result<Self> {
+        let Some(mut species) = Species::preset(name) else {
+            bail!("--species is '{}'; allowed: {}", name.escape_debug(), Species::PRESETS.join(", "));
+        };
+        species.size_variation = 0.0;
+        species.speed_variation = 0.0;
+        if let Some(size_m) = size_m {
+            if !SIZE_M.contains(size_m) {
+                bail!("--size is {size_m}; allowed: {SIZE_M}");
+            }
+            species.size_m = size_m;
+        }
+        let mut wet = species.areal_density_kg_m2;
+        if let FlightModel::Aerodynamic(body) = &mut species.flight {
+            wet = density.unwrap_or(wet * (1.0 + body.moisture));
+            body.moisture = 0.0;
+        }
+        species.areal_density_kg_m2 = wet;
+        Ok(Self { name: species.name.clone(), size_m: species.size_m, areal_density_kg_m2: wet, species })
+    }
+
+    /// A flat piece of a shape, or of the outline in a file.
+    ///
+    /// # Errors
+    /// Unknown names, outlines that cannot be used, and sizes that are not allowed.
+    pub(super) fn flat(name: &str, size_m: f32, density: f32) -> anyhow::Result<Self> {
+        let (planform, diameter) = match name {
+            "disc" => (Planform::default(), 1.0),
+            "square" => measured(&polygon(4), 1.0 / 2f64.sqrt()),
+            "hexagon" => measured(&polygon(6), 1.0 / 3f64.sqrt()),
+            _ => Self::outlined(name)?,
+        };
+        let lowest = f64::from(SIZE_M.low) / diameter;
+        let highest = f64::from(SIZE_M.high) / diameter;
+        if !(lowest..=highest).contains(&f64::from(size_m)) && !(diameter == 1.0 && SIZE_M.contains(size_m)) {
+            bail!("--size is {size_m}; allowed: {lowest:.4} to {highest:.4} m for this shape");
+        }
+        #[expect(clippy::cast_possible_truncation, reason = "scenes hold single precision")]
+        let equal = (f64::from(size_m) * diameter) as f32;
+        let body = Aerodynamics { planform: Some(planform), ..Aerodynamics::default() };
+        let species = Species {
+            name: "piece".into(),
+            size_m: equal.clamp(SIZE_M.low, SIZE_M.high),
+            size_variation: 0.0,
+            speed_variation: 0.0,
+            areal_density_kg_m2: density,
+            flight: FlightModel::Aerodynamic(body),
+            ..Species::default()
+        };
+        Ok(Self { name: name.into(), size_m, areal_density_kg_m2: density, species })
+    }
+
+    /// The same, held in a way.
+    pub(super) fn held(mut self, release: Release) -> Self {
+        if let FlightModel::Aerodynamic(body) = &mut self.species.flight {
+            body.hold = release.hold();
+        }
+        self
+    }
+
+    /// How its area lies.
+    pub(super) fn planform(&self) -> Planform {
+        let own = match self.species.flight {
+            FlightModel::Aerodynamic(body) => body.planform,
+            FlightModel::Synthesis => None,
+        };
+        own.unwrap_or_else(|| self.species.shape.planform())
+    }
+
+    /// Planform of the outline in a file, and the diameter of the disc with its area when it is one metre long.
+    fn outlined(name: &str) -> anyhow::Result<(Planform, f64)> {
+        let path = Path::new(name);
+        let is_table = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("csv"));
+        if !is_table && !path.exists() {
+            let name = name.escape_debug();
+            bail!("--shape is '{name}'; allowed: disc, square, hexagon, or a CSV file of corners");
+        }
+        let corners = outline::read(path)?;
+        let measured = Planform::of_outline(&corners);
+        let Measured { area, planform, .. } = measured
+            .ok_or_else(|| anyhow!("{name}: the outline has no area; allowed: corners not all in line"))?;
+        for (what, value, limit) in [("aspect", planform.aspect, ASPECT), ("extent", planform.extent, EXTENT)]
+        {
+            // Rounding may put an ellipse below an extent of 1.
+            if !limit.contains(value) && !(what == "extent" && value > 0.999) {
+                bail!("{name}: the outline's {what} is {value}; allowed: {limit}");
+            }
+        }
+        let planform = Planform { extent: planform.extent.max(1.0), ..planform };
+        let longest = corners.iter().flat_map(|a| corners.iter().map(|b| a.distance_squared(*b)));
+        Ok((planform, (4.0 * area / PI / longest.fold(0.0, f64::max)).sqrt()))
+    }
+}
+
+/// Corners of a regular polygon on a circle of diameter 1 about the origin, turned so that a side lies across.
+fn polygon(corners: u32) -> Vec<DVec2> {
+    let angle = |index: u32| TAU * (f64::from(index) + 0.5) / f64::from(corners);
+    (0..corners).map(|index| 0.5 * DVec2::new(angle(index).sin(), angle(index).cos())).collect()
+}
+
+/// Planform of a polygon, and the diameter of the disc with its area, when its size is 1 and it now has size `size`.
+fn measured(corners: &[DVec2], size: f64) -> (Planform, f64) {
+    let Measured { area, planform, .. } = Planform::of_outline(corners).expect("a regular polygon");
+    (planform, (4.0 * area / PI).sqrt() / size)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn diameter(name: &str) -> f32 {
+        Piece::flat(name, 0.1, 0.07).expect("allowed").species.size_m
+    }
+
+    #[test]
+    fn sizes_become_discs_of_equal_area() {
+        let of_area = |area: f64| (4.0 * area / PI).sqrt() as f32;
+        for (name, right) in [
+            ("disc", 0.1),
+            ("square", of_area(0.01)),
+            // Six triangles whose height is half the width.
+            ("hexagon", of_area(0.01 * 3f64.sqrt() / 2.0)),
+        ] {
+            let found = diameter(name);
+            assert!((found / right - 1.0).abs() < 1e-6, "{name}: {found}, should be {right}");
+        }
+    }
+
+    #[test]
+    fn outlines_are_measured_by_their_greatest_extent() {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let path = folder.path().join("bar.csv");
+        std::fs::write(&path, "x,y\n0,0\n30,0\n30,40\n0,40\n").expect("writable");
+        let piece = Piece::flat(path.to_str().expect("plain"), 0.1, 0.07).expect("allowed");
+        // 6 by 8 cm, with a diagonal of 10 cm.
+        let right = (4.0 * 0.0048 / PI).sqrt();
+        assert!((f64::from(piece.species.size_m) / right - 1.0).abs() < 1e-6, "{piece:?}");
+        let FlightModel::Aerodynamic(body) = piece.species.flight else { panic!("a body") };
+        let aspect = body.planform.expect("measured").aspect;
+        assert!((aspect - 4.0 / 3.0).abs() < 1e-6, "{aspect}");
+    }
+
+    #[test]
+    fn sizes_out_of_range_are_refused_in_their_own_measure() {
+        let error = |name, size| Piece::flat(name, size, 0.07).expect_err("not allowed").to_string();
+        assert_eq!(error("disc", 0.6), "--size is 0.6; allowed: 0.0050 to 0.5000 m for this shape", "disc");
+        let square = error("square", 0.45);
+        assert!(square.contains("0.0044 to 0.4431 m"), "side of a square: {square}");
+        for (name, size) in [("disc", 0.005), ("disc", 0.5), ("square", 0.443)] {
+            assert!(Piece::flat(name, size, 0.07).is_ok(), "{name} of {size}");
+        }
+    }
+
+    #[test]
+    fn kinds_of_leaves_have_their_own_numbers_or_others() {
+        for &name in Species::PRESETS {
+            let own = Piece::leaf(name, None, None).expect("a kind");
+            assert_eq!(
+                (own.size_m, own.areal_density_kg_m2),
+                (own.species.size_m, own.species.areal_density_kg_m2),
+                "{name}"
+            );
+            let other = Piece::leaf(name, Some(0.11), Some(0.2)).expect("a kind").held(Release::EdgeOn);
+            assert_eq!((other.species.size_m, other.species.areal_density_kg_m2), (0.11, 0.2), "{name}");
+            let FlightModel::Aerodynamic(body) = other.species.flight else { panic!("a body") };
+            assert_eq!((body.moisture, body.hold), (0.0, Hold::EdgeOn), "{name}");
+        }
+    }
+}
