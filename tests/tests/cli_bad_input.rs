@@ -11,7 +11,7 @@ use common_cli::{assert_refused, assert_refused_without_adapter, file, folder, w
 #[test]
 fn unknown_scenes() {
     let there = folder();
-    let presets = "autumn-park, six-motions, storm, million, forest, gale, hurricane";
+    let presets = "autumn-park, six-motions, flight-lab, storm, million, forest, gale, hurricane";
     for command in [&["simulate"][..], &["bench"], &["motions", "--out", "tables"]] {
         let refuse = |scene, essentials: &[&str]| {
             assert_refused(&there, &[command, &[scene]].concat(), essentials);

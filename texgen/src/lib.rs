@@ -36,6 +36,7 @@ mod mipmap;
 mod noise;
 mod outline_model;
 mod paint;
+mod planform;
 mod raster;
 mod rng;
 pub mod season;
@@ -57,8 +58,8 @@ pub use contour::DrawnLeaf;
 pub use error::TexgenError;
 pub use extract::{Extraction, Overlay, Photo};
 pub use folder::{
-    FOLDER_VERSION, FolderError, FolderLeaf, FormLevel, FormShape, LeafFacts, LeafFolder, LeafForm,
-    MANIFEST_NAME, Manifest,
+    BodyFacts, FOLDER_VERSION, FolderError, FolderLeaf, FormLevel, FormShape, LeafFacts, LeafFolder,
+    LeafForm, MANIFEST_NAME, Manifest,
 };
 pub use light_body::LightBody;
 pub use making::{Assortment, Build, LeafMaker, MadeLeaf, MakeOptions, RECIPE};

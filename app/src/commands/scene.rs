@@ -8,6 +8,7 @@ use windfall_core::scene::{MAX_LEAVES, Release, Tree, limits};
 use windfall_core::{Scene, SceneError};
 
 use crate::cli::whole;
+use crate::leaves::load_scene;
 
 /// Scene of every command that is given none.
 pub const DEFAULT_SCENE: &str = "autumn-park";
@@ -15,7 +16,7 @@ pub const DEFAULT_SCENE: &str = "autumn-park";
 /// The scene to work on.
 #[derive(Clone, Debug, Default, Args)]
 pub struct SceneArguments {
-    /// Preset (autumn-park, six-motions, storm, million, forest, gale, hurricane) or path of a RON file [default: autumn-park].
+    /// Preset (autumn-park, six-motions, flight-lab, storm, million, forest, gale, hurricane) or path of a RON file [default: autumn-park].
     #[arg(value_name = "SCENE")]
     pub scene: Option<String>,
     /// Number of leaves; trees and sources share them as they share those of the scene, at rates that go along.
@@ -37,7 +38,7 @@ impl SceneArguments {
     /// # Errors
     /// A scene that cannot be read or used, or more leaves than memory holds.
     pub fn load(&self) -> anyhow::Result<Scene> {
-        let mut scene = Scene::load(self.name())?;
+        let mut scene = load_scene(self.name())?;
         if let Some(seed) = self.seed {
             scene.seed = seed;
         }

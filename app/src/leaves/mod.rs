@@ -2,12 +2,14 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The leaf pictures of a scene: from folders that its species name, or made once and kept.
 
+mod body;
 mod cache;
 
+pub use body::load_scene;
 use image::{RgbaImage, imageops};
 use windfall_core::Scene;
 use windfall_core::scene::{LeafShape, Species};
-use windfall_texgen::{Assortment, Atlas, Layer, LeafFolder, LightBody, Shape};
+use windfall_texgen::{Assortment, Atlas, Layer, LeafFacts, LeafFolder, LightBody, Shape};
 
 use crate::render::MAX_LAYERS;
 
@@ -81,12 +83,16 @@ fn painted(body: LightBody) -> anyhow::Result<Vec<RgbaImage>> {
     Ok(pictures.collect::<Result<_, _>>()?)
 }
 
-/// The pictures of a folder that belong to a stretch of the season, all of them if none does, in the size of the atlas.
-fn pictures(folder: &LeafFolder, (earliest, latest): (f32, f32)) -> Vec<RgbaImage> {
-    let in_season = |season: f32| (earliest - 1e-3..=latest + 1e-3).contains(&season);
-    let is_any = folder.leaves.iter().any(|leaf| in_season(leaf.facts.season));
-    let chosen = folder.leaves.iter().filter(|leaf| !is_any || in_season(leaf.facts.season));
-    chosen.map(|leaf| fitted(&leaf.maps.albedo)).collect()
+/// The pictures of a folder that belong to a stretch of the season, in the size of the atlas.
+fn pictures(folder: &LeafFolder, season: (f32, f32)) -> Vec<RgbaImage> {
+    in_season(&folder.leaves, season).into_iter().map(|leaf| fitted(&leaf.maps.albedo)).collect()
+}
+
+/// The leaves that belong to a stretch of the season, all of them if none does.
+fn in_season<L: AsRef<LeafFacts>>(leaves: &[L], (earliest, latest): (f32, f32)) -> Vec<&L> {
+    let fits = |leaf: &&L| (earliest - 1e-3..=latest + 1e-3).contains(&leaf.as_ref().season);
+    let chosen: Vec<&L> = leaves.iter().filter(fits).collect();
+    if chosen.is_empty() { leaves.iter().collect() } else { chosen }
 }
 
 /// A picture in the size of the atlas.

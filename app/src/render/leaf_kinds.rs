@@ -3,7 +3,7 @@
 //! What the shaders know of the species: sizes, and the texture array of leaf pictures.
 
 use windfall_core::Scene;
-use windfall_core::scene::MAX_SPECIES;
+use windfall_core::scene::{FlightModel, LeafShape, MAX_SPECIES, Species};
 use windfall_texgen::{Atlas, Layer};
 
 use super::pipeline::{FILTERABLE, sampler_entry, texture_entry, uniform_entry};
@@ -83,7 +83,7 @@ fn kinds(scene: &Scene, atlas: &Atlas) -> Kinds {
         counts: [atlas.variants, u32::try_from(atlas.layers.len()).unwrap_or(u32::MAX), 0, 0],
     };
     for (slot, species) in kinds.size.iter_mut().zip(&scene.species) {
-        slot[0] = species.size_m;
+        *slot = build(species);
     }
     for (slot, layer) in kinds.layer.iter_mut().zip(&atlas.layers) {
         // pi / 4 d^2 = area fraction * edge^2
@@ -100,6 +100,22 @@ fn kinds(scene: &Scene, atlas: &Atlas) -> Kinds {
         }
     }
     kinds
+}
+
+/// Size of a species; of a body, where the middle of its area lies from its centre of mass, in diameters; and how much
+/// of a dry leaf's folds it has.
+fn build(species: &Species) -> [f32; 4] {
+    let (ahead, right) = match species.flight {
+        FlightModel::Synthesis => (0.0, 0.0),
+        FlightModel::Aerodynamic(body) => body.mass_offset,
+    };
+    let folds = match species.shape {
+        LeafShape::Plate => 0.0,
+        LeafShape::Samara => 0.2,
+        LeafShape::Paper => 0.5,
+        _ => 1.0,
+    };
+    [species.size_m, -0.5 * right, -0.5 * ahead, folds]
 }
 
 /// How far a leaf has turned, from its colour: green is below 0, yellow about 0.1, red and brown above.
@@ -132,7 +148,7 @@ fn check(scene: &Scene, atlas: &Atlas, layer_limit: u32) -> Result<(), RenderErr
 
 #[cfg(test)]
 mod tests {
-    use windfall_core::scene::Species;
+    use windfall_core::scene::Aerodynamics;
     use windfall_texgen::{AtlasEntry, AtlasRequest, Shape};
 
     use super::*;
@@ -153,6 +169,24 @@ mod tests {
         let area = atlas.layers[1].area_fraction * edge_m * edge_m;
         let disc = std::f32::consts::FRAC_PI_4 * scene.species[0].size_m.powi(2);
         assert!((area / disc - 1.0).abs() < 1.0e-5, "blade {area} m2, disc {disc} m2");
+    }
+
+    #[test]
+    fn a_body_is_drawn_about_its_centre_of_mass() {
+        let body = Aerodynamics { mass_offset: (0.6, -0.2), ..Aerodynamics::default() };
+        let species = Species { flight: FlightModel::Aerodynamic(body), ..Species::default() };
+        assert_eq!(
+            build(&species),
+            [species.size_m, 0.1, -0.3, 1.0],
+            "its middle lies behind, half of it a diameter"
+        );
+        assert_eq!(
+            build(&Species::default()),
+            [0.08, 0.0, 0.0, 1.0],
+            "other leaves are drawn about their middle"
+        );
+        let plate = Species { shape: LeafShape::Plate, ..Species::default() };
+        assert_eq!(build(&plate)[3].to_bits(), 0, "a plate is flat");
     }
 
     #[test]

@@ -48,6 +48,9 @@ pub(super) struct Facts {
     pub(super) driver: String,
     pub(super) clock: Clock,
     pub(super) stats: Stats,
+    /// Whether any leaves are synthesised, and whether any fly as bodies.
+    pub(super) has_motions: bool,
+    pub(super) has_regimes: bool,
     pub(super) tuning: Tuning,
     /// Whether tuning differs from what the scene says.
     pub(super) is_tuned: bool,

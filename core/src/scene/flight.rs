@@ -49,7 +49,7 @@ impl Default for Planform {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Aerodynamics {
-    /// How its area lies; as the species' shape has it when absent.
+    /// How its area lies; as the species' shape has it when absent, or its folder of leaves.
     pub planform: Option<Planform>,
     /// Water that the leaf holds, as a share of its dry mass, 0 to 4: a fallen leaf has next to none, a green one up
     /// to 2. The species' areal density is that of the dry leaf.
@@ -78,7 +78,7 @@ pub struct Aerodynamics {
 }
 
 impl Aerodynamics {
-    /// A flat dry body with its mass in the middle, as irregular as leaves are.
+    /// A flat dry body with its mass in the middle, as irregular as paper, well cut.
     pub(super) const FLAT: Self = Self {
         planform: None,
         moisture: 0.0,

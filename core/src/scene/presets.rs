@@ -8,6 +8,7 @@ use super::Scene;
 pub const PRESETS: &[(&str, &str)] = &[
     ("autumn-park", include_str!("../../scenes/autumn-park.ron")),
     ("six-motions", include_str!("../../scenes/six-motions.ron")),
+    ("flight-lab", include_str!("../../scenes/flight-lab.ron")),
     ("storm", include_str!("../../scenes/storm.ron")),
     ("million", include_str!("../../scenes/million.ron")),
     ("forest", include_str!("../../scenes/forest.ron")),
@@ -29,7 +30,7 @@ mod tests {
 
     use super::*;
     use crate::motion::Primitive;
-    use crate::scene::{LeafShape, MeanSpeed, Release};
+    use crate::scene::{FlightModel, LeafShape, MeanSpeed, Release};
 
     #[test]
     fn every_preset_is_a_valid_scene() {
@@ -40,7 +41,7 @@ mod tests {
         let names: Vec<_> = PRESETS.iter().map(|(name, _)| *name).collect();
         assert_eq!(
             names,
-            ["autumn-park", "six-motions", "storm", "million", "forest", "gale", "hurricane"],
+            ["autumn-park", "six-motions", "flight-lab", "storm", "million", "forest", "gale", "hurricane"],
             "names and their order"
         );
         assert_eq!(Scene::preset("calm"), None, "unknown names");
@@ -79,6 +80,19 @@ mod tests {
             assert_eq!(source.species[0].species, species.name, "each source has its own species");
             assert_eq!(species.size_m, scene.species[0].size_m, "the same size");
             assert_eq!(species.areal_density_kg_m2, scene.species[0].areal_density_kg_m2, "the same mass");
+        }
+        assert_eq!(scene.wind.speed, MeanSpeed::MetresPerSecond(0.0), "still air");
+        assert!(scene.view.trail_s > 0.0, "with trails");
+    }
+
+    #[test]
+    fn the_flight_lab_lets_eight_bodies_fall_each_from_a_place_of_its_own() {
+        let scene = Scene::preset("flight-lab").expect("a preset");
+        assert_eq!((scene.species.len(), scene.sources.len()), (8, 8), "eight bodies");
+        for (species, source) in scene.species.iter().zip(&scene.sources) {
+            assert!(matches!(species.flight, FlightModel::Aerodynamic(_)), "{} is a body", species.name);
+            assert_eq!(source.species[0].species, species.name, "each source has its own species");
+            assert!(source.recycle_after_s.is_some(), "{} falls again and again", species.name);
         }
         assert_eq!(scene.wind.speed, MeanSpeed::MetresPerSecond(0.0), "still air");
         assert!(scene.view.trail_s > 0.0, "with trails");

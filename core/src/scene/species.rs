@@ -40,18 +40,18 @@ impl LeafShape {
     /// How the area of such a leaf lies: means over outlines as leaves are made with, which a test compares.
     pub fn planform(self) -> Planform {
         let (aspect, extent) = match self {
-            Self::Maple => (1.0, 1.1),
+            Self::Maple => (0.86, 1.1),
             Self::Oak => (1.8, 1.06),
             Self::Birch => (1.2, 1.02),
-            Self::Beech => (1.6, 1.0),
-            Self::Linden => (1.1, 1.02),
-            Self::Ginkgo => (0.75, 1.05),
-            Self::JapaneseMaple => (1.0, 1.2),
-            Self::Hornbeam => (1.8, 1.0),
-            Self::Feather => (3.5, 1.05),
-            Self::Paper => (1.3, 1.03),
+            Self::Beech => (1.45, 1.0),
+            Self::Linden => (1.04, 1.02),
+            Self::Ginkgo => (0.61, 1.02),
+            Self::JapaneseMaple => (0.82, 1.11),
+            Self::Hornbeam => (1.73, 1.01),
+            Self::Feather => (3.6, 1.01),
+            Self::Paper => (1.33, 1.03),
             Self::Plate => (1.0, 1.0),
-            Self::Samara => (3.0, 1.1),
+            Self::Samara => (4.4, 1.04),
         };
         Planform { aspect, extent }
     }
@@ -106,7 +106,8 @@ pub struct Species {
     /// the working directory; the tables are made from the equations when absent.
     pub tables: Option<String>,
     /// Folder of leaf pictures such as `windfall leaf make` writes, named like `tables`; shape and season choose
-    /// pictures when absent.
+    /// pictures when absent. A species that flies as a body and states no planform is built as the leaves of the folder
+    /// are, as far as their manifest tells: size, mass per area, planform and curl.
     pub leaves: Option<String>,
 }
 

@@ -2,10 +2,34 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Kinds of bodies that every scene knows by name.
 
-use super::{Aerodynamics, FlightModel, LeafShape, Species};
+use super::{Aerodynamics, FlightModel, LeafShape, Planform, Species};
 
-/// Hollow of a dry leaf and its twist, shares of its radius: it has bent into a shallow bowl, the more the softer.
-const DRY: Aerodynamics = Aerodynamics { curl: 0.04, twist: 0.02, ..Aerodynamics::FLAT };
+/// A dry leaf: slightly hollow and twisted, its mass towards the petiole, no two alike.
+const DRY: Aerodynamics = Aerodynamics {
+    mass_offset: (-0.03, 0.0),
+    curl: 0.04,
+    twist: 0.02,
+    irregularity: 0.06,
+    ..Aerodynamics::FLAT
+};
+
+/// Curved along its shaft, which is heavier than the vane, and twisted: it winds down.
+const FEATHER: Aerodynamics =
+    Aerodynamics { mass_offset: (-0.4, 0.0), curl: 0.3, twist: 0.3, ..Aerodynamics::FLAT };
+
+/// Nearly all the mass is in the nut at one end: after a dive of some three metres it spins like a rotor, as the
+/// seeds of maples do, at 1.05 m/s and 14 turns a second.
+const SAMARA: Aerodynamics = Aerodynamics {
+    planform: Some(Planform { aspect: 3.577, extent: 1.0 }),
+    mass_offset: (-0.6691, -0.0863),
+    curl: 0.0655,
+    twist: 0.4346,
+    gyration: (0.2443, 0.3427),
+    edge_drag: 0.1067,
+    pitch_damping: 0.073,
+    irregularity: 0.02,
+    ..Aerodynamics::FLAT
+};
 
 impl Species {
     /// Names of the presets: dry, fallen leaves, and other light bodies.
@@ -28,8 +52,8 @@ impl Species {
     ///
     /// # Source
     /// Sizes and masses are round numbers for orientation, not measurements of one tree: leaves as the leaf maker
-    /// builds them, a small contour feather of 12 g/m², office paper of 80 g/m², a disc of card of 220 g/m² and the
-    /// winged seed of a Norway maple of 0.11 g.
+    /// builds them, a contour feather of 22 g/m², office paper of 80 g/m², a disc of card of 220 g/m² and the
+    /// winged seed of a maple of 0.11 g.
     pub fn preset(name: &str) -> Option<Self> {
         let is_known = |preset: &&&str| preset.eq_ignore_ascii_case(name);
         let name = *Self::PRESETS.iter().find(is_known)?;
@@ -42,12 +66,12 @@ impl Species {
             "ginkgo" => (LeafShape::Ginkgo, 0.062, 0.065, Aerodynamics { curl: -0.03, ..DRY }),
             "japanese-maple" => (LeafShape::JapaneseMaple, 0.055, 0.042, Aerodynamics { curl: 0.06, ..DRY }),
             "hornbeam" => (LeafShape::Hornbeam, 0.055, 0.048, DRY),
-            "feather" => (LeafShape::Feather, 0.04, 0.012, FEATHER),
-            "paper-scrap" => (LeafShape::Paper, 0.045, 0.08, Aerodynamics { irregularity: 0.08, ..DRY }),
+            "feather" => (LeafShape::Feather, 0.04, 0.022, FEATHER),
+            "paper-scrap" => (LeafShape::Paper, 0.045, 0.08, Aerodynamics::FLAT),
             "plate" => {
                 (LeafShape::Plate, 0.04, 0.22, Aerodynamics { irregularity: 0.01, ..Aerodynamics::FLAT })
             }
-            _ => (LeafShape::Samara, 0.024, 0.25, SAMARA),
+            _ => (LeafShape::Samara, 0.0236, 0.251, SAMARA),
         };
         Some(Self {
             name: name.into(),
@@ -59,14 +83,6 @@ impl Species {
         })
     }
 }
-
-/// Curved along its shaft, which is heavier than the vane.
-const FEATHER: Aerodynamics =
-    Aerodynamics { mass_offset: (-0.15, 0.05), curl: 0.2, twist: 0.1, ..Aerodynamics::FLAT };
-
-/// Nearly all the mass is in the nut at one end and in the rib at the front edge.
-const SAMARA: Aerodynamics =
-    Aerodynamics { mass_offset: (-0.9, 0.2), irregularity: 0.02, ..Aerodynamics::FLAT };
 
 #[cfg(test)]
 mod tests {

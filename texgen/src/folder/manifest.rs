@@ -43,9 +43,30 @@ pub struct LeafFacts {
     pub mean_chord_m: f32,
     /// Side of the picture in metres.
     pub side_m: f32,
+    /// How its area lies and how hollow it is; none in folders of before.
+    #[serde(default)]
+    pub body: Option<BodyFacts>,
     /// Whether meshes lie beside the pictures.
     #[serde(default)]
     pub has_mesh: bool,
+}
+
+impl AsRef<Self> for LeafFacts {
+    fn as_ref(&self) -> &Self {
+        self
+    }
+}
+
+/// What the form of a leaf means to the air, relative to the disc with the blade's area.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct BodyFacts {
+    /// Length over width of the ellipse with the blade's second moments of area.
+    pub aspect: f32,
+    /// Geometric mean of that ellipse's half axes in radii of the disc: 1 for an ellipse, more for a lobed blade.
+    pub extent: f32,
+    /// Hollow of the upper side in radii, -1 to 1; 0 if no mesh was made, see [`LeafForm::curl`](crate::LeafForm::curl).
+    pub curl: f32,
 }
 
 /// Only the version, whatever else the text holds.
@@ -118,6 +139,16 @@ impl Manifest {
             for (name, value) in positive {
                 if !(value > 0.0 && value.is_finite()) {
                     return refuse(field(name), value.to_string(), "above 0");
+                }
+            }
+            let Some(body) = leaf.body else { continue };
+            for (name, value, (low, high), allowed) in [
+                ("aspect", body.aspect, (0.01, 100.0), "0.01 to 100"),
+                ("extent", body.extent, (0.9, 10.0), "0.9 to 10"),
+                ("curl", body.curl, (-1.0, 1.0), "-1 to 1"),
+            ] {
+                if !(low..=high).contains(&value) {
+                    return refuse(field(&format!("body.{name}")), value.to_string(), allowed);
                 }
             }
         }

@@ -6,6 +6,7 @@
 //! `NAME.height.png`, `NAME.translucency.png` and `NAME.mask.png`, see
 //! [`LeafMaps`]. `NAME.mesh.ron` holds its meshes if it has any, see [`LeafForm`].
 
+mod camber;
 mod error;
 mod manifest;
 mod mesh_file;
@@ -20,7 +21,7 @@ use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
 
 use crate::LeafMaps;
 pub use error::FolderError;
-pub use manifest::{FOLDER_VERSION, LeafFacts, MANIFEST_NAME, Manifest};
+pub use manifest::{BodyFacts, FOLDER_VERSION, LeafFacts, MANIFEST_NAME, Manifest};
 pub use mesh_file::{FormLevel, FormShape, LeafForm};
 
 /// Endings of a leaf's five pictures.
@@ -69,18 +70,16 @@ impl LeafFolder {
     /// # Errors
     /// [`FolderError`] for a file that is missing, cannot be read or decoded, or does not fit the manifest.
     pub fn load(folder: &Path) -> Result<Self, FolderError> {
-        let path = folder.join(MANIFEST_NAME);
-        let bytes = fs::read(&path).map_err(|source| FolderError::read(&path, source))?;
-        let text = std::str::from_utf8(&bytes).map_err(|error| FolderError::Manifest {
-            path: path.clone(),
-            line: 1,
-            column: 1,
-            problem: error.to_string(),
-        })?;
-        let manifest = Manifest::from_text(text, &path)?;
+        let manifest = Manifest::load(folder)?;
         let load = |facts: &LeafFacts| FolderLeaf::load(folder, facts, manifest.size_px);
         let leaves = manifest.leaves.par_iter().map(load).collect::<Result<_, _>>()?;
         Ok(Self { size_px: manifest.size_px, leaves })
+    }
+}
+
+impl AsRef<LeafFacts> for FolderLeaf {
+    fn as_ref(&self) -> &LeafFacts {
+        &self.facts
     }
 }
 
@@ -93,6 +92,22 @@ impl LeafFacts {
 }
 
 impl Manifest {
+    /// Reads the manifest of a folder, and no picture.
+    ///
+    /// # Errors
+    /// [`FolderError`] for a manifest that is missing, cannot be read, or holds what is not allowed.
+    pub fn load(folder: &Path) -> Result<Self, FolderError> {
+        let path = folder.join(MANIFEST_NAME);
+        let bytes = fs::read(&path).map_err(|source| FolderError::read(&path, source))?;
+        let text = std::str::from_utf8(&bytes).map_err(|error| FolderError::Manifest {
+            path: path.clone(),
+            line: 1,
+            column: 1,
+            problem: error.to_string(),
+        })?;
+        Self::from_text(text, &path)
+    }
+
     /// Writes the manifest into a folder.
     ///
     /// # Errors

@@ -13,6 +13,7 @@ fn sample() -> LeafFolder {
             mass_kg: 0.000_2,
             mean_chord_m: 0.04,
             side_m: 0.1,
+            body: Some(BodyFacts { aspect: 1.8, extent: 1.06, curl: 0.1 }),
             has_mesh: true,
         },
         maps: LeafMaps {
@@ -90,6 +91,8 @@ fn every_fault_is_told() {
         ("\"oak-2\"", "\"OAK-1\"", "leaves[1].name"),
         ("season: 0.4", "season: 1.5", "leaves[0].season"),
         ("mass_kg: 0.0002", "mass_kg: -1.0", "leaves[0].mass_kg"),
+        ("aspect: 1.8", "aspect: 0.0", "leaves[0].body.aspect"),
+        ("curl: 0.1", "curl: 1.5", "leaves[0].body.curl"),
     ] {
         let error = after(|at| rewrite(&at.join(MANIFEST_NAME), from, to));
         let told = matches!(&error, FolderError::Field { field: found, .. } if found == field);

@@ -4,7 +4,7 @@
 
 use crate::math::{lerp, smoothstep};
 use crate::rng::Rng;
-use crate::{DrawnLeaf, LeafFacts, LeafMaps, Shape};
+use crate::{BodyFacts, DrawnLeaf, LeafFacts, LeafMaps, Shape};
 
 /// Size and mass of a kind of leaf.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -67,6 +67,7 @@ impl Build {
             mass_kg: covered * pixel_m * pixel_m * areal,
             mean_chord_m: blade_px / length_px * pixel_m,
             side_m: leaf.blade.mask.width as f32 * pixel_m,
+            body: leaf.blade.mask.planform().map(|(aspect, extent)| BodyFacts { aspect, extent, curl: 0.0 }),
             has_mesh: false,
         }
     }

@@ -16,7 +16,7 @@ use clap::Args;
 use cpu_time::ProcessTime;
 use windfall_core::leaf::HOT_BYTES_PER_STEP;
 use windfall_core::scene::MAX_LEAVES;
-use windfall_core::{Scene, SimError, World};
+use windfall_core::{SimError, World};
 use windfall_wgpu::Gpu;
 
 use self::bandwidth::update_bandwidth;
@@ -26,6 +26,7 @@ use self::row::{Floor, HEADER, Row};
 use super::scene::{check_memory, free_memory, scaled};
 use crate::backend::{BackendArguments, BackendKind, Device};
 use crate::cli::whole;
+use crate::leaves::load_scene;
 use crate::terminal;
 
 /// Steps before anything is timed. Shaders are compiled and memory is touched; the state after them is compared.
@@ -64,7 +65,7 @@ pub struct Arguments {
 /// # Errors
 /// Bad input, a missing or lost device, or backends that disagree.
 pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
-    let scene = Scene::load(&arguments.scene)?;
+    let scene = load_scene(&arguments.scene)?;
     let mut scenes = Vec::with_capacity(arguments.leaves.len());
     for &leaves in &arguments.leaves {
         scenes.push(scaled(&scene, &arguments.scene, leaves)?);

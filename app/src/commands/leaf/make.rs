@@ -163,6 +163,9 @@ fn make_all(
         made.facts.name = numbered(&made.facts.name, job);
         made.facts.has_mesh = arguments.mesh;
         let form = arguments.mesh.then(|| makers[maker].form(number)).transpose()?;
+        if let (Some(body), Some(form)) = (&mut made.facts.body, &form) {
+            body.curl = form.curl();
+        }
         let leaf = FolderLeaf { facts: made.facts, maps: made.maps, form };
         leaf.save(out).map_err(|error| anyhow!("{}: {error}", arguments.out.display()))?;
         if let Some(stages) = stages {

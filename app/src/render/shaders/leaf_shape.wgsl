@@ -4,7 +4,8 @@
 // `leaf_kinds.rs`.
 
 struct Kinds {
-    // Species: diameter in metres of the disc with the blade's area.
+    // Species: diameter in metres of the disc with the blade's area; middle of the area from the centre of mass in x and z,
+    // in diameters; how much of a dry leaf's folds it has.
     size: array<vec4<f32>, 32>,
     // Layer: edge of its square relative to that diameter, centre of the blade from -1 to 1 in x and z; the variant that
     // has this layer's place in the order from green to brown.
@@ -97,8 +98,11 @@ fn blade_point(leaf: Leaf, at_copy: vec3<f32>, stem: Stem, curl: bool) -> BladeP
         height = 0.2;
         slope = vec2(0.0);
     }
-    height -= 0.2;
+    let build = kinds.size[species];
+    height = (height - 0.2) * build.w;
+    slope *= build.w;
     var local = half_edge * vec3(at.x - kinds.layer[layer].y, height, at.y - kinds.layer[layer].z);
+    local += one * vec3(build.y, 0.0, build.z);
     var blade = normalize(vec3(-slope.x, 1.0, -slope.y));
     if copy > 0u {
         let place = cluster_place(key, stem.tint_cluster.w);

@@ -4,6 +4,7 @@
 
 use egui::{Grid, Label, RichText, Ui};
 use windfall_core::Contract;
+use windfall_core::flight::regime::REGIME_NAMES;
 use windfall_core::motion::Primitive;
 
 use super::{Facts, Wish, rows, style};
@@ -17,6 +18,16 @@ const MOTIONS: [&str; 6] = [
     "periodic fluttering: swinging from side to side",
     "transitional helical: swings whose plane turns",
     "periodic spiraling: a helix",
+];
+
+/// What bodies in the air do, in the order of the regimes.
+const REGIMES: [&str; 6] = [
+    "bodies that come down steadily",
+    "bodies that swing from side to side",
+    "bodies that turn end over end",
+    "bodies that swing and turn over by turns",
+    "bodies whose swings go round",
+    "bodies that wind down",
 ];
 
 /// Where it simulates, and on what.
@@ -47,7 +58,7 @@ pub(super) fn backend(ui: &mut Ui, facts: &Facts, wishes: &mut Vec<Wish>) {
     ui.add(Label::new(drawn).truncate()).on_hover_text(&facts.driver);
 }
 
-/// Leaves by state and by motion.
+/// Leaves by state, bodies by regime, others by motion.
 pub(super) fn counts(ui: &mut Ui, facts: &Facts) {
     rows::title(ui, "Counts");
     let stats = &facts.stats;
@@ -58,6 +69,15 @@ pub(super) fn counts(ui: &mut Ui, facts: &Facts) {
         ("waiting", stats.dormant, "Not let go yet"),
     ];
     table(ui, "states", 64.0, states.map(|(name, count, tip)| (name, rows::grouped(count), tip)));
+    if facts.has_regimes {
+        let regimes = std::array::from_fn::<_, 6, _>(|index| {
+            (REGIME_NAMES[index], compact(stats.regimes[index]), REGIMES[index])
+        });
+        table(ui, "regimes", 40.6, regimes);
+    }
+    if !facts.has_motions {
+        return;
+    }
     let motions = std::array::from_fn::<_, 6, _>(|index| {
         (Primitive::ALL[index].code(), compact(stats.primitives[index]), MOTIONS[index])
     });

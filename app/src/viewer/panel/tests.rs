@@ -26,6 +26,8 @@ fn facts(scene: &Scene) -> Facts {
         driver: "adapter (driver)".into(),
         clock: world.clock,
         stats: world.stats(),
+        has_motions: true,
+        has_regimes: scene.name == "Flight lab",
         tuning: Tuning::from(scene),
         is_tuned: false,
         time_scale: 1.0,

@@ -5,6 +5,7 @@
 use std::time::Instant;
 
 use windfall_core::SimError;
+use windfall_core::scene::FlightModel;
 use windfall_wgpu::describe_adapter;
 
 use super::{Next, Viewer};
@@ -99,6 +100,8 @@ impl Viewer {
             driver: describe_adapter(self.gpu.info()),
             clock: simulator.clock(),
             stats,
+            has_motions: scene.species.iter().any(|species| species.flight == FlightModel::Synthesis),
+            has_regimes: scene.species.iter().any(|species| species.flight != FlightModel::Synthesis),
             is_tuned: tuning != session.own_tuning(),
             tuning,
             time_scale: session.pace.time_scale,

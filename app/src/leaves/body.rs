@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! How leaves from a folder fly: as the bodies that its manifest says they are.
+
+use windfall_core::Scene;
+use windfall_core::scene::{FlightModel, Planform, Species, limits};
+use windfall_texgen::{BodyFacts, LeafFacts, Manifest};
+
+use super::in_season;
+
+/// The scene that a preset's name or a file's path stands for, its bodies fitted to their folders.
+///
+/// # Errors
+/// A scene or a folder that cannot be used, or leaves of sizes and masses that no scene may have.
+pub fn load_scene(name: &str) -> anyhow::Result<Scene> {
+    let mut scene = Scene::load(name)?;
+    if fit_bodies(&mut scene)? {
+        scene.validate(name)?;
+    }
+    Ok(scene)
+}
+
+/// Gives every species that flies as a body, names a folder and states no planform the build of the folder's leaves
+/// of its season: mean area and mass, how the area lies and, if the leaves have meshes, how hollow they are. What the
+/// scene says of its moisture comes on top. A planform in the scene keeps all of the scene's own numbers. Whether
+/// there was such a species.
+///
+/// # Errors
+/// A folder whose manifest cannot be used.
+pub(super) fn fit_bodies(scene: &mut Scene) -> anyhow::Result<bool> {
+    let mut is_any = false;
+    for species in &mut scene.species {
+        if let (FlightModel::Aerodynamic(body), Some(path)) = (species.flight, &species.leaves)
+            && body.planform.is_none()
+        {
+            let manifest = Manifest::load(path.as_ref())?;
+            fit(species, &in_season(&manifest.leaves, species.season));
+            is_any = true;
+        }
+    }
+    Ok(is_any)
+}
+
+/// Fits one species to leaves, at least one.
+fn fit(species: &mut Species, leaves: &[&LeafFacts]) {
+    let mean = |value: &dyn Fn(&LeafFacts) -> f32| {
+        leaves.iter().map(|leaf| value(leaf)).sum::<f32>() / leaves.len() as f32
+    };
+    let (area, mass) = (mean(&|leaf| leaf.area_m2), mean(&|leaf| leaf.mass_kg));
+    species.size_m = (area / std::f32::consts::FRAC_PI_4).sqrt();
+    species.areal_density_kg_m2 = mass / area;
+    let FlightModel::Aerodynamic(body) = &mut species.flight else { return };
+    let bodies: Vec<BodyFacts> = leaves.iter().filter_map(|leaf| leaf.body).collect();
+    if bodies.is_empty() {
+        return;
+    }
+    let mean = |value: fn(&BodyFacts) -> f32| bodies.iter().map(value).sum::<f32>() / bodies.len() as f32;
+    body.planform = Some(Planform {
+        aspect: mean(|body| body.aspect),
+        // Pixels may fall a hair short of what any area must reach.
+        extent: mean(|body| body.extent).max(limits::EXTENT.low),
+    });
+    if leaves.iter().any(|leaf| leaf.has_mesh) {
+        body.curl = mean(|body| body.curl);
+    }
+}
