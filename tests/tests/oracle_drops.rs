@@ -4,6 +4,8 @@
 //!
 //! As in the published tracks, the beginning of a fall does not count: 1.8 m are fallen, the last 1.2 m are measured.
 
+#![expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "sizes and counts of a test")]
+
 mod common;
 
 use std::f64::consts::{PI, TAU};
