@@ -269,3 +269,25 @@ fn no_gust_blows_a_body_up() {
         }
     }
 }
+
+/// Most winged seeds of the preset, let go any way round, come to spin about the vertical within ten metres, and then come
+/// down as fast as maple seeds do and spin as fast: about a metre per second, a dozen to a score of turns.
+#[test]
+fn a_maple_seed_autorotates() {
+    let species = Species { size_variation: 0.0, ..Species::preset("samara").expect("a preset") };
+    let mut scene = still_scene(species, 60, 20.0);
+    scene.sources[0].count = 60;
+    let mut world = World::build(&scene).expect("valid");
+    let mut simulator = CpuSimulator::new(&world, CpuOptions::default()).expect("threads start");
+    simulator.step(480).expect("it steps");
+    simulator.read_state(&mut world).expect("same size");
+    let mut spinning = 0;
+    for slot in 0..60 {
+        let flight = flight_of(&world.leaves.as_mut().leaf_mut(slot));
+        let spin = common::attitude(&world, slot) * common::vector(flight.spin.to_array());
+        let turns = spin.y.abs() / TAU;
+        let descent = -velocity(&world, slot).y;
+        spinning += u32::from((12.0..20.0).contains(&turns) && (0.8..1.3).contains(&descent));
+    }
+    assert!(spinning >= 40, "{spinning} of 60 seeds autorotate");
+}

@@ -117,7 +117,9 @@ fn settled(radius_m: f64, start: DiscState, settle_s: f64, keep_s: f64, step_s: 
     let disc = LeafDisc { coefficients, areal_kg_m2: 0.07, radius_m, arm_m: DVec3::ZERO };
     let (mut state, mut turned) = (start, 0.0);
     let mut run = |seconds: f64| {
-        for _ in 0..(seconds / step_s).round() as usize {
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count of steps")]
+        let steps = (seconds / step_s).round() as usize;
+        for _ in 0..steps {
             let before = state.spin.x;
             state = disc.step(&state, DVec3::ZERO, step_s);
             turned += 0.5 * (before + state.spin.x) * step_s;

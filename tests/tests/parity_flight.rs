@@ -69,3 +69,28 @@ fn every_instruction_set_and_number_of_threads_gives_the_same_bits() {
         }
     }
 }
+
+/// Flight is chaos: under the tolerant contract paths part, but as many land, fall as fast and fall in the same ways.
+#[test]
+fn under_the_tolerant_contract_the_statistics_agree() {
+    let world = world();
+    let expected = oracle(&world, CpuOptions::default(), STEPS);
+    let height = |world: &World| {
+        let flying = world.leaves.place.iter().filter(|place| flies(place.bits));
+        flying.map(|place| f64::from(place.position[1])).sum::<f64>() / bodies(world) as f64
+    };
+    for gpu in adapter::all() {
+        let options = WgpuOptions { contract: Some(Contract::Tolerant), ..WgpuOptions::default() };
+        let found = candidate(&gpu, &world, &options, STEPS);
+        let (a, b) = (found.stats(), expected.stats());
+        let off = a.resting.abs_diff(b.resting);
+        assert!(off < 60, "{}: {} rest, expected {}", gpu.info().name, a.resting, b.resting);
+        for (regime, (a, b)) in a.regimes.iter().zip(b.regimes).enumerate() {
+            // Five standard deviations of the difference of two such counts.
+            let usual = 5.0 * f64::from(2 * b.max(10)).sqrt();
+            assert!(f64::from(a.abs_diff(b)) < usual, "{}: regime {regime}: {a} and {b}", gpu.info().name);
+        }
+        let (a, b) = (height(&found), height(&expected));
+        assert!((a - b).abs() < 0.3, "{}: mean heights {a} and {b} m", gpu.info().name);
+    }
+}
