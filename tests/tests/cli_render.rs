@@ -66,7 +66,8 @@ fn a_picture_has_the_usual_size_and_leaves_fall_from_frame_to_frame() {
     let [first, later] = ["first.png", "later.png"].map(|name| picture(&there.path().join(name)));
     assert_eq!(first.dimensions(), (1280, 720), "by default");
     let apart = difference(&first, &later);
-    assert!((0.02..20.0).contains(&apart), "something has moved, but not everything: {apart}");
+    // Crowns that sway are half of the picture.
+    assert!((0.02..35.0).contains(&apart), "something has moved, but not everything: {apart}");
 }
 
 #[test]
