@@ -21,6 +21,21 @@ fn sample_at(leaf: u32, age: u32) -> vec4<f32> {
     return ring[leaf * count + (trail.counts.z + count - min(age, count - 1u)) % count];
 }
 
+// Colours of the regimes of bodies, as `windfall flight` draws them: steady, flutter, tumble, chaotic, helical, spiral.
+const REGIMES = array<vec3<f32>, 6>(
+    vec3(0.19, 0.22, 0.24),
+    vec3(0.02, 0.20, 0.43),
+    vec3(0.73, 0.27, 0.01),
+    vec3(0.49, 0.04, 0.03),
+    vec3(0.04, 0.26, 0.08),
+    vec3(0.22, 0.08, 0.37),
+);
+
+// Whether there is a place, and whether it is joined to the one before it: 1 or 2, without the regime.
+fn joint(sample: vec4<f32>) -> f32 {
+    return sample.w % 4.0;
+}
+
 fn hue(at: f32) -> vec3<f32> {
     return clamp(abs(fract(at + vec3(1.0, 0.6666667, 0.3333333)) * 6.0 - 3.0) - 1.0, vec3(0.0), vec3(1.0));
 }
@@ -35,7 +50,7 @@ fn vertex(@builtin(vertex_index) index: u32, @builtin(instance_index) leaf: u32)
     var out: Varyings;
     let young = sample_at(leaf, segment);
     let old = sample_at(leaf, segment + 1u);
-    if young.w < 0.5 || young.w > 1.5 || old.w < 0.5 || segment + 2u > trail.counts.y {
+    if joint(young) < 0.5 || joint(young) > 1.5 || joint(old) < 0.5 || segment + 2u > trail.counts.y {
         out.clip = vec4(0.0, 0.0, -1.0, 1.0);
         return out;
     }
@@ -44,15 +59,15 @@ fn vertex(@builtin(vertex_index) index: u32, @builtin(instance_index) leaf: u32)
     // The ribbon's direction at a sample is that of its neighbours, so segments meet without a gap.
     var ahead = young.xyz;
     var behind = old.xyz;
-    if older == 0u && segment > 0u && young.w < 1.5 {
+    if older == 0u && segment > 0u && joint(young) < 1.5 {
         let next = sample_at(leaf, segment - 1u);
-        if next.w > 0.5 && next.w < 1.5 {
+        if joint(next) > 0.5 && joint(next) < 1.5 {
             ahead = next.xyz;
         }
     }
-    if older == 1u && old.w < 1.5 {
+    if older == 1u && joint(old) < 1.5 {
         let next = sample_at(leaf, segment + 2u);
-        if next.w > 0.5 && segment + 3u <= trail.counts.y {
+        if joint(next) > 0.5 && segment + 3u <= trail.counts.y {
             behind = next.xyz;
         }
     }
@@ -77,6 +92,10 @@ fn vertex(@builtin(vertex_index) index: u32, @builtin(instance_index) leaf: u32)
         let color = mix(vec3(1.0), hue(f32(leaf) * 0.61803399 + 0.06), 0.72);
         let thin = min(trail.shape.w / half_width, 1.0);
         out.color = vec4(color * 0.9, 0.85 * life * life * mix(0.5, 1.0, thin));
+    }
+    let regime = u32(sample_at(leaf, age).w / 4.0);
+    if regime > 0u {
+        out.color = vec4(REGIMES[min(regime, 6u) - 1u] * 1.5, out.color.a);
     }
     out.across = side;
     return out;

@@ -14,7 +14,8 @@ struct Trail {
 @group(0) @binding(1) var<storage, read> places: array<vec4<u32>>;
 @group(0) @binding(2) var<storage, read_write> ring: array<vec4<f32>>;
 
-// w of a sample: 0 nothing here, 1 a place, 2 a place that is not joined to the one before it.
+// w of a sample: 0 nothing here, 1 a place, 2 a place that is not joined to the one before it; of a body in the air, four
+// for every regime up to its own on top of this.
 @compute @workgroup_size(64)
 fn sample(@builtin(global_invocation_id) id: vec3<u32>) {
     let leaf = id.x;
@@ -33,6 +34,9 @@ fn sample(@builtin(global_invocation_id) id: vec3<u32>) {
     let place = bitcast<vec3<f32>>(record.xyz);
     let joined = last.w > 0.0 && distance(place, last.xyz) < trail.shape.x;
     // Within one sample a break stays a break until the next sample begins.
-    let broken = !joined || (!began && last.w > 1.5);
-    ring[base + newest] = vec4(place, select(1.0, 2.0, broken));
+    let broken = !joined || (!began && last.w % 4.0 > 1.5);
+    let flying = STATE_FALLING | (AERODYNAMIC << PRIMITIVE_SHIFT);
+    let is_body = (record.w & (STATE_MASK | (PRIMITIVE_MASK << PRIMITIVE_SHIFT))) == flying;
+    let regime = select(0u, 1u + ((record.w >> REGIME_SHIFT) & REGIME_MASK), is_body);
+    ring[base + newest] = vec4(place, select(1.0, 2.0, broken) + 4.0 * f32(regime));
 }
