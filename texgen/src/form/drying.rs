@@ -24,7 +24,7 @@ const OPENING_PASSES: u32 = 40;
 /// Most repetitions of those passes while a triangle is still inverted.
 const OPENING_ROUNDS: u32 = 12;
 /// Most repetitions of the passes that tighten a sheet.
-const TIGHTENING_ROUNDS: u32 = 3;
+const TIGHTENING_ROUNDS: u32 = 48;
 /// Share of its area at most that a blade keeps from one stage to the next.
 const SMALLER: f32 = 0.9995;
 /// Solver passes of a stage that starts from a coarser level.
