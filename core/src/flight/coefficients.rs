@@ -42,7 +42,7 @@ pub const QUIRK_CURL: f64 = 1.5;
 pub const DRAG_BORNE: f64 = 1.6;
 /// Angle in rad by which the flow may swing a body within its oscillation in a step: at 2.8 the steps blow up.
 pub const SWING_BORNE_RAD: f64 = 2.0;
-/// Angle in rad that a body may turn by in a step.
+/// Angle in rad that a body may turn by in a step, besides what its spin adds to the flow that swings it.
 pub const SPIN_BORNE_RAD: f64 = 5.0;
 /// Ticks of the clock by which a body tells that nothing happens to it.
 pub const TICKS_PER_S: f64 = 16.0;
