@@ -10,6 +10,7 @@ mod bending;
 mod drying;
 mod framework;
 mod mesh;
+mod sheet;
 
 pub use drying::{BlendShape, Drying};
 pub use mesh::{Detail, LeafMesh};

@@ -22,7 +22,7 @@ use turning::Turning;
 
 /// Changes with every change of what [`LeafMaker`] makes of equal options: whoever keeps leaves keeps them under this
 /// number and makes them again under another. Raise it with any change to outlines, veins, colours or maps.
-pub const RECIPE: u32 = 2;
+pub const RECIPE: u32 = 3;
 
 /// Season of leaves that nobody asked a season for.
 const MID_AUTUMN: f32 = 0.5;
