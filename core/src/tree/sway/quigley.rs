@@ -7,7 +7,7 @@
 //!
 //! The joint's modes are found first: with `J = L Lᵀ` the eigenvalues λ and eigenvectors of `L⁻¹ K L⁻ᵀ` take the equation
 //! apart into three of a single oscillator each. Statics are exact; dynamics leave out that joints move each other, so
-//! that a trunk of many segments sways too fast (`oracle_schemes` measures by how much).
+//! that a trunk of many segments sways too fast (`oracle::schemes` in the tests measures by how much).
 //!
 //! # Source
 //! Quigley et al., "Real-time interactive tree animation" (2018), pass 2.

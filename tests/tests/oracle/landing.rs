@@ -2,9 +2,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The end of a fall: flat within a fifth of a second, slid as far as friction lets it, at rest until it is recycled.
 
-mod common;
-
-use common::{
+use crate::common::{
     attitude, build, many_species, position, single_motion, steady_wind, step, still_scene, velocity,
 };
 use glam::{DVec3, Vec3};

@@ -2,12 +2,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! `windfall leaf make` in use, and scenes with leaves of their own.
 
-mod common_cli;
-
 use std::fs;
 use std::path::PathBuf;
 
-use common_cli::{assert_refused, command, contents, file, folder, windfall};
+use crate::common_cli::{assert_refused, command, contents, file, folder, windfall};
 use image::{GrayImage, Luma, Rgb, RgbImage};
 use tempfile::TempDir;
 

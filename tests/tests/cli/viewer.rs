@@ -2,14 +2,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! `windfall view` on a virtual display. Without Xvfb or an adapter these tests fail: scripts/test installs both.
 
-mod common_cli;
-
 use std::collections::HashSet;
 use std::io::{BufRead, BufReader};
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
-use common_cli::{Outcome, assert_refused, command, contents, folder};
+use crate::common_cli::{Outcome, assert_refused, command, contents, folder};
 use image::RgbaImage;
 use tempfile::TempDir;
 use windfall_tests::adapter;

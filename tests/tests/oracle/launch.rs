@@ -2,9 +2,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! How bodies begin to fly: held before they are let go, broken off a twig, or found in the air when time begins.
 
-mod common;
-
-use common::{attitude, position, still_scene};
+use crate::common::{attitude, position, still_scene};
 use glam::DVec3;
 use windfall_core::flight::regime::{
     REGIME_CHAOTIC, REGIME_FLUTTER, REGIME_STEADY, REGIME_TUMBLE, regime_memory, regime_of,

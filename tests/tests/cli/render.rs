@@ -2,15 +2,15 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! `windfall render`: pictures and clips of both backends, and what it refuses.
 
-mod common_cli;
-
 use std::fs::{self, File};
 use std::io::BufReader;
 use std::path::Path;
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
-use common_cli::{assert_refused, assert_refused_without_adapter, command, contents, file, folder, windfall};
+use crate::common_cli::{
+    assert_refused, assert_refused_without_adapter, command, contents, file, folder, windfall,
+};
 use image::codecs::gif::GifDecoder;
 use image::{AnimationDecoder, RgbaImage};
 use windfall_core::Contract;

@@ -2,11 +2,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The equations of the six primitive motions against analytic limits and published measurements.
 
-mod common;
-
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-use common::{csv, field, number, uniform, uniform_species};
+use crate::common::{csv, field, number, uniform, uniform_species};
 use glam::DVec3;
 use windfall_core::motion::{
     MotionConstants, Path, PeriodicFluttering, PeriodicSpiraling, PeriodicTumbling, Primitive, SteadyDescent,
@@ -255,10 +253,10 @@ fn reference_leaf_has_the_reference_numbers() {
 /// area come twice a turn. The two largest sizes flutter or change to and fro instead; they are compared with the flutter rate.)
 #[test]
 fn rates_agree_with_published_drops() {
-    let speeds = csv(include_str!("../data/leaf_fall_speeds.csv"));
+    let speeds = csv(include_str!("../../data/leaf_fall_speeds.csv"));
     let (slow, fast) = (number(&speeds[0], "p10_m_s"), number(&speeds[0], "p90_m_s"));
     let mut ratios = Vec::new();
-    for row in csv(include_str!("../data/flutter_tumble_measurements.csv")) {
+    for row in csv(include_str!("../../data/flutter_tumble_measurements.csv")) {
         let size = number(&row, "diameter_or_width_m");
         #[expect(clippy::cast_possible_truncation, reason = "centimetres")]
         let leaf = Species {

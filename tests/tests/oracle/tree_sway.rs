@@ -104,7 +104,7 @@ fn oaks_sway_like_measured_trees() {
 /// The mean of the field measurements that the range above is about lies in it.
 #[test]
 fn the_measurements_are_in_the_range() {
-    let text = include_str!("../data/tree_sway_frequencies.csv");
+    let text = include_str!("../../data/tree_sway_frequencies.csv");
     let field =
         text.lines().filter(|line| line.starts_with("Jackson2019 field,\"") && line.contains("Wytham"));
     let mut count = 0;

@@ -3,11 +3,9 @@
 //! The flight model: its kernel against the same equations in double precision, and those against solutions published
 //! for their earlier form.
 
-mod common;
-
 use std::f64::consts::TAU;
 
-use common::{csv, field, number};
+use crate::common::{csv, field, number};
 use glam::{DQuat, DVec3};
 use proptest::prelude::*;
 use windfall_core::flight::body::body_of;
@@ -141,7 +139,7 @@ type Row = Vec<(&'static str, &'static str)>;
 
 /// Rows of the table of solutions of this model.
 fn rows(model: &str) -> Vec<Row> {
-    let rows = csv(include_str!("../data/model_reference_solutions.csv"));
+    let rows = csv(include_str!("../../data/model_reference_solutions.csv"));
     let rows: Vec<_> = rows.into_iter().filter(|row| field(row, "model") == model).collect();
     assert!(!rows.is_empty(), "no row for {model}");
     rows

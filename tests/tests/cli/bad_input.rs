@@ -2,11 +2,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Bad input: one clear line, exit code 2, no output, no file touched.
 
-mod common_cli;
-
 use std::fs;
 
-use common_cli::{assert_refused, assert_refused_without_adapter, file, folder, windfall};
+use crate::common_cli::{assert_refused, assert_refused_without_adapter, file, folder, windfall};
 
 #[test]
 fn unknown_scenes() {
@@ -205,7 +203,7 @@ fn a_full_disk() {
     use std::process::Stdio;
     let there = folder();
     let arguments = ["simulate", "--steps", "1", "--leaves", "9", "--threads", "1"];
-    let mut command = common_cli::command(&there, &arguments);
+    let mut command = crate::common_cli::command(&there, &arguments);
     let full = fs::OpenOptions::new().write(true).open("/dev/full").expect("Linux has it");
     let output = command.stdout(Stdio::from(full)).output().expect("the program starts");
     let stderr = String::from_utf8_lossy(&output.stderr);

@@ -169,7 +169,7 @@ proptest! {
 /// Two links for each order of branches are what the scheme bears.
 #[test]
 fn joints_moved_one_by_one_sway_too_fast() {
-    let text = include_str!("../data/cantilever_chain_reference.csv");
+    let text = include_str!("../../data/cantilever_chain_reference.csv");
     let mut rows = 0;
     for line in text.lines().skip(1) {
         let cells: Vec<&str> = line.split(',').collect();

@@ -2,11 +2,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The one wind: profile, mean over time, gusts, vortices, the Beaufort scale, and tuning without compiling anew.
 
-mod common;
-
 use std::f64::consts::TAU;
 
-use common::{csv, number, steady_wind, still_scene, uniform, uniform_species, vector};
+use crate::common::{csv, number, steady_wind, still_scene, uniform, uniform_species, vector};
 use glam::{DVec3, Vec3};
 use windfall_core::kernel::Vec3 as Kernel;
 use windfall_core::scene::{Gusts, MeanSpeed, Profile, Scene, Turbulence, Vortex, WindParameters};
@@ -204,7 +202,7 @@ fn vortices_are_free_of_divergence() {
 
 #[test]
 fn beaufort_speeds_lie_in_their_classes() {
-    let rows = csv(include_str!("../data/beaufort.csv"));
+    let rows = csv(include_str!("../../data/beaufort.csv"));
     assert_eq!(rows.len(), usize::from(BEAUFORT_MAX) + 1, "classes of the scale");
     for (force, row) in (0..).zip(rows) {
         let speed = beaufort_speed(force);

@@ -2,9 +2,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The trajectory feature D = {L, T, P} x 5: transition counts, stage occupancies, shares, phases, independence.
 
-mod common;
-
-use common::{build, csv, field, number, step, still_scene, uniform_species};
+use crate::common::{build, csv, field, number, step, still_scene, uniform_species};
 use windfall_core::motion::feature::{Stage, feature, stage_end};
 use windfall_core::motion::{PRIMITIVE_COUNT, Primitive, TransitionTable};
 use windfall_core::scene::Species;
@@ -67,7 +65,7 @@ fn chi_square(counts: &[u32]) -> f64 {
 #[test]
 fn transition_rows_are_the_published_ones() {
     let table = TransitionTable::default();
-    let rows = csv(include_str!("../data/transition_table.csv"));
+    let rows = csv(include_str!("../../data/transition_table.csv"));
     assert_eq!(rows.len(), 36, "rows of the reference table");
     let primitive = |code: &str| {
         Primitive::ALL.into_iter().find(|primitive| primitive.code() == code).expect("a known code")

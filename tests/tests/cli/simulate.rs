@@ -2,13 +2,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! `windfall simulate` in use: report, checkpoints, tracks.
 
-mod common_cli;
-
 use std::fs;
 use std::io::Read as _;
 use std::process::Stdio;
 
-use common_cli::{command, contents, file, folder, windfall};
+use crate::common_cli::{command, contents, file, folder, windfall};
 use serde_json::Value;
 use windfall_core::{Scene, World};
 use windfall_tests::strategies::wooded_scene;

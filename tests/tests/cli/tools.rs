@@ -2,11 +2,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! `windfall info`, `windfall bench` and `windfall motions` in use.
 
-mod common_cli;
-
 use std::fs;
 
-use common_cli::{contents, folder, windfall, windfall_without_adapter};
+use crate::common_cli::{contents, folder, windfall, windfall_without_adapter};
 use serde_json::Value;
 use windfall_core::Scene;
 use windfall_core::motion::MotionTables;

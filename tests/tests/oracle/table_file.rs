@@ -2,11 +2,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Motion tables on disk: read back to the bit, refused with the right line when broken, used like generated ones.
 
-mod common;
-
 use std::sync::OnceLock;
 
-use common::{build, quaternion, step, still_scene, uniform_species};
+use crate::common::{build, quaternion, step, still_scene, uniform_species};
 use proptest::prelude::*;
 use windfall_core::motion::lookup::motion_state;
 use windfall_core::motion::{MotionTables, PrimitiveTable};

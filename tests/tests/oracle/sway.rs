@@ -17,7 +17,7 @@ fn bend(grove: &mut Grove, row: usize, half: Vec3) {
 
 /// Rows of a table of the reference data: links and the first two frequencies of the coupled chain.
 fn reference() -> Vec<(u32, f64)> {
-    let text = include_str!("../data/cantilever_chain_reference.csv");
+    let text = include_str!("../../data/cantilever_chain_reference.csv");
     let rows = text.lines().skip(1).filter_map(|line| {
         let mut cells = line.split(',');
         Some((cells.next()?.parse().ok()?, cells.next()?.parse().ok()?))

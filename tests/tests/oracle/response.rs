@@ -2,11 +2,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! How a leaf answers gravity, the wind and the two speeds of a scene.
 
-mod common;
-
 use std::f64::consts::TAU;
 
-use common::{
+use crate::common::{
     build, position, single_motion, steady_wind, step, still_scene, uniform_species, vector, velocity,
 };
 use glam::DVec3;

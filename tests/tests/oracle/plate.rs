@@ -2,11 +2,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The falling plate of Andersen, Pesavento and Wang: its regimes, periods and speeds as published solutions have them.
 
-mod common;
-
 use std::f64::consts::PI;
 
-use common::{csv, field, number};
+use crate::common::{csv, field, number};
 use ode_solvers::dop_shared::IntegrationError;
 use ode_solvers::{Dop853, SVector, System};
 use windfall_core::flight::reference::FallingPlate;
@@ -72,7 +70,7 @@ fn motion(states: &[State], per_repeat: usize) -> Motion {
 #[test]
 fn the_plate_falls_as_its_published_solutions() {
     let mut regimes = [0, 0];
-    for row in csv(include_str!("../data/model_reference_solutions.csv")) {
+    for row in csv(include_str!("../../data/model_reference_solutions.csv")) {
         if field(&row, "model") != "APW_2D_nondim" {
             continue;
         }

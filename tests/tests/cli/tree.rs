@@ -2,11 +2,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! `windfall tree` in use: trees as glTF files, and trees in numbers.
 
-mod common_cli;
-
 use std::fs;
 
-use common_cli::{assert_refused, file, folder, windfall};
+use crate::common_cli::{assert_refused, file, folder, windfall};
 use serde_json::Value;
 use tempfile::TempDir;
 use windfall_core::tree::{Bearing, gltf};

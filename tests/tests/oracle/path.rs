@@ -2,9 +2,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The path of a leaf: independent of the time step, equal to a direct seek, without a jump at joins.
 
-mod common;
-
-use common::{attitude, build, many_species, position, step, still_air, uniform, vector, velocity};
+use crate::common::{attitude, build, many_species, position, step, still_air, uniform, vector, velocity};
 use glam::Vec3;
 use windfall_core::World;
 use windfall_core::leaf::record::{SPECIES_MASK, SPECIES_SHIFT, STAGE_MASK, STAGE_SHIFT};

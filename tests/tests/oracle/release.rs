@@ -2,9 +2,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Where and when leaves are let go, and how large, fast and of which species they are.
 
-mod common;
-
-use common::{build, many_species, position, single_motion, step, still_scene, uniform_species};
+use crate::common::{build, many_species, position, single_motion, step, still_scene, uniform_species};
 use glam::{DVec3, Vec3};
 use windfall_core::World;
 use windfall_core::leaf::LeafState;

@@ -2,11 +2,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The rotation equation of Tanabe and Kaneko: broadside is stable, and the torque grows with the square of the speed.
 
-mod common;
-
 use std::f64::consts::{PI, TAU};
 
-use common::{build, quaternion, step, still_scene, uniform_species};
+use crate::common::{build, quaternion, step, still_scene, uniform_species};
 use rustfft::num_complex::Complex64;
 use windfall_core::Scene;
 use windfall_core::motion::{

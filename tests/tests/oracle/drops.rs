@@ -6,11 +6,9 @@
 
 #![expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "sizes and counts of a test")]
 
-mod common;
-
 use std::f64::consts::{PI, TAU};
 
-use common::{csv, field, number, still_scene, velocity};
+use crate::common::{csv, field, number, still_scene, velocity};
 use glam::DVec3;
 use windfall_core::flight::regime::REGIME_TUMBLE;
 use windfall_core::kernel::{Quat, Vec3};
@@ -107,7 +105,7 @@ fn hold_of(row: &[(&str, &str)]) -> Hold {
 
 /// Rows of the measured discs.
 fn circles() -> Vec<Vec<(&'static str, &'static str)>> {
-    let rows = csv(include_str!("../data/flutter_tumble_measurements.csv"));
+    let rows = csv(include_str!("../../data/flutter_tumble_measurements.csv"));
     let rows: Vec<_> = rows.into_iter().filter(|row| field(row, "shape") == "circle").collect();
     assert_eq!(rows.len(), 12, "six sizes, two releases");
     rows
@@ -123,7 +121,7 @@ fn is_usual(value: f64, mean: f64, deviation: f64) -> bool {
 /// 7.7 cm let go broadside turned slower), and of descent over all measured drops in every row.
 #[test]
 fn discs_come_down_and_turn_as_measured() {
-    let all = &csv(include_str!("../data/leaf_fall_speeds.csv"))[0];
+    let all = &csv(include_str!("../../data/leaf_fall_speeds.csv"))[0];
     let (slow, fast) = (number(all, "p10_m_s"), number(all, "p90_m_s"));
     let (mut usual, mut usual_turns) = (0, 0);
     for row in circles() {
@@ -152,7 +150,7 @@ fn discs_come_down_and_turn_as_measured() {
 /// the measured share, half of them where half of the measured discs did, at six centimetres.
 #[test]
 fn as_many_discs_tumble_as_measured() {
-    let sizes = csv(include_str!("../data/tumble_chaos_fraction.csv"));
+    let sizes = csv(include_str!("../../data/tumble_chaos_fraction.csv"));
     let rows = circles();
     let mut shares = Vec::new();
     for (size, pair) in sizes.iter().zip((0..6).map(|index| [&rows[index], &rows[index + 6]])) {
@@ -284,7 +282,7 @@ fn a_maple_seed_autorotates() {
     let mut spinning = 0;
     for slot in 0..60 {
         let flight = flight_of(&world.leaves.as_mut().leaf_mut(slot));
-        let spin = common::attitude(&world, slot) * common::vector(flight.spin.to_array());
+        let spin = crate::common::attitude(&world, slot) * crate::common::vector(flight.spin.to_array());
         let turns = spin.y.abs() / TAU;
         let descent = -velocity(&world, slot).y;
         spinning += u32::from((12.0..20.0).contains(&turns) && (0.8..1.3).contains(&descent));

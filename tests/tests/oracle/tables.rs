@@ -2,11 +2,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The cumulative tables of the primitive motions against the equations, and the orientations along them.
 
-mod common;
-
 use std::f64::consts::TAU;
 
-use common::{
+use crate::common::{
     attitude, build, quaternion, single_motion, step, still_scene, uniform, uniform_species, vector,
 };
 use glam::{DQuat, DVec3};

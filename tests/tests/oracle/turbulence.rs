@@ -2,11 +2,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The turbulence that leaves meet: variance, spectra, net flux, seams.
 
-mod common;
-
 use std::f64::consts::{PI, TAU};
 
-use common::{slope, steady_wind, still_scene, uniform, uniform_species};
+use crate::common::{slope, steady_wind, still_scene, uniform, uniform_species};
 use glam::DVec3;
 use rustfft::FftPlanner;
 use rustfft::num_complex::Complex64;
@@ -47,7 +45,7 @@ fn fluctuations(environment: &Environment, clock: &Clock, places: &[DVec3]) -> V
     let mean = DVec3::X * f64::from(SPEED_M_S);
     let at = |place: &DVec3| {
         let wind = wind_at(&cx, Vec3::from(place.as_vec3().to_array()));
-        (common::vector(wind.to_array()) - mean) / DEVIATION
+        (crate::common::vector(wind.to_array()) - mean) / DEVIATION
     };
     places.iter().map(at).collect()
 }

@@ -2,12 +2,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! `windfall flight` in use: numbers, tracks, pictures, bad input.
 
-mod common_cli;
-
 use std::collections::HashMap;
 use std::fs;
 
-use common_cli::{assert_refused, contents, file, folder, windfall};
+use crate::common_cli::{assert_refused, contents, file, folder, windfall};
 use serde_json::Value;
 
 /// Keys of the report, in their order. They stay.

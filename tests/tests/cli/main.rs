@@ -1,0 +1,14 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The program as its users call it: every command, bad input, and the viewer on a virtual display.
+
+mod common_cli;
+
+mod bad_input;
+mod flight;
+mod leaf;
+mod render;
+mod simulate;
+mod tools;
+mod tree;
+mod viewer;

@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The oracle, the CPU backend, against equations written down anew, published numbers and limits. One program: its
+//! parts share their linking.
+
+#[path = "../common/mod.rs"]
+mod common;
+
+mod drops;
+mod feature;
+mod flight;
+mod landing;
+mod launch;
+mod motion;
+mod path;
+mod plate;
+mod release;
+mod response;
+mod rotation;
+mod schemes;
+mod sectional;
+mod shedding;
+mod sway;
+mod table_file;
+mod tables;
+mod tree_sway;
+mod turbulence;
+mod wind;
