@@ -121,6 +121,7 @@ impl Default for Shaders {
             "leaf/settle",
             "motion/feature",
             "motion/lookup",
+            "terrain/ground",
             "tree/bindings",
             "tree/sway/body",
             "tree/sway/composite",

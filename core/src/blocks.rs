@@ -73,6 +73,12 @@ crate::shared_struct! {
         pub ground: Float4,
         /// Tilt kept per step while settling; three unused.
         pub settle: Float4,
+        /// First row of the hills' table in that of the wind; cells along its edge less one; their binary logarithm;
+        /// whether there are hills.
+        pub terrain: Uint4,
+        /// Cells per metre; height in m above which no leaf meets the ground; height of water above the lowest point in
+        /// m; gravity in m/s².
+        pub relief: Float4,
         /// The wind.
         pub wind: WindBlock,
         /// Of each species: drift kept over a step `e^(-dt/tau)`; fastest spin per step in 2^-18 turns, a whole number;
@@ -91,6 +97,12 @@ crate::shared_struct! {
 }
 
 impl EnvironmentBlock {
+    /// Whether the ground has hills.
+    #[inline(always)]
+    pub fn has_terrain(&self) -> bool {
+        self.terrain.0[3] != 0
+    }
+
     /// Whether leaves of some species fly as bodies.
     pub fn has_bodies(&self) -> bool {
         self.motion.0[2] != 0

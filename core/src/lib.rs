@@ -12,6 +12,7 @@
 //! - [`wind`]: mean flow, gusts, turbulence, vortices.
 //! - [`flight`]: rigid leaves under air forces.
 //! - [`leaf`]: the leaf store and the life of a leaf, step by step.
+//! - [`terrain`]: hills, and how leaves see them.
 //! - [`tree`]: how trees grow, what they weigh, how they sway.
 //! - [`kernel`]: arithmetic with the same bits in Rust and WGSL.
 //! - [`blocks`], [`layout`]: what Rust and WGSL share.
@@ -32,13 +33,14 @@ pub mod motion;
 pub mod scene;
 mod simulator;
 pub mod stats;
+pub mod terrain;
 pub mod tree;
 pub mod wind;
 mod world;
 
 pub use clock::Clock;
 pub use context::Context;
-pub use environment::Environment;
+pub use environment::{Environment, Hills};
 pub use error::{SceneError, SimError};
 pub use scene::Scene;
 pub use simulator::{Contract, Simulator, SimulatorInfo};

@@ -13,6 +13,7 @@ use windfall_core::leaf::fly::flies;
 use windfall_core::leaf::own::Manner;
 use windfall_core::leaf::record::{STATE_FALLING, STATE_MASK, STATE_RESTING};
 use windfall_core::leaf::{Attitude, Course, Drift, Place};
+use windfall_core::terrain::ground::ground_met;
 
 /// Three columns of float bits as a vector.
 #[inline(always)]
@@ -65,7 +66,7 @@ pub(super) fn advance_eight<S: Simd>(
         || Quat::from(load_records(simd, must_cast_ref(attitude)).map(<f32x8<S> as Real>::from_bits));
     let (bits, turned) = attitude_after(cx, spun, glide.phase, heading, before);
 
-    let lands = glide.position.y.less_than(f32x8::splat(simd, cx.environment.ground.0[1]));
+    let lands = ground_met(cx, glide.position);
     let moved = falls & !lands;
     let mut new_places = with_word(glide.position, bits);
     let mut new_drifts = with_word(glide.drift, glide.phase);

@@ -5,13 +5,14 @@
 //! Moves the leaves of a chunk that fly as bodies through one step.
 
 use bytemuck::{must_cast_mut, must_cast_ref};
-use fearless_simd::{Simd as Lanes, SimdBase, dispatch, f32x8};
+use fearless_simd::{Simd as Lanes, dispatch, f32x8};
 use windfall_core::Context;
 use windfall_core::kernel::Quat;
 use windfall_core::kernel::eight::{load_records, merge, store_records};
 use windfall_core::kernel::lane::{LANES, Mask, Real};
 use windfall_core::leaf::LeavesMut;
 use windfall_core::leaf::fly::{Flight, flies, flight_advance, flight_told, leaf_fly};
+use windfall_core::terrain::ground::ground_met;
 use windfall_core::wind::sample::wind_at;
 
 use super::eight::{bits_of, vector, with_word};
@@ -75,7 +76,7 @@ fn fly_eight<S: Lanes>(simd: S, cx: &Context<'_>, leaves: &mut LeavesMut<'_>, fi
     let identities = load_records(simd, must_cast_ref(identity));
     let [id, release, memory, look] = identities;
     let [memory, new_bits] = flight_told(cx, &flight, wind, memory, bits);
-    let lands = flight.position.y.less_than(f32x8::splat(simd, cx.environment.ground.0[1]));
+    let lands = ground_met(cx, flight.position);
     let moved = on & !lands;
     let [x, y, z] = [flight.spin.x, flight.spin.y, flight.spin.z].map(Real::to_bits);
     let new_places = merge(moved, with_word(flight.position, new_bits), places);

@@ -56,8 +56,11 @@ pub(super) fn foliage_of(scene: &Scene) -> Vec<TreeKind> {
     kinds
 }
 
-/// All trees, grown. Skeletons of equal trees are shared.
-pub(super) fn seedlings(scene: &Scene) -> Result<Vec<Seedling>, SceneError> {
+/// All trees, grown on ground of these heights. Skeletons of equal trees are shared.
+pub(super) fn seedlings(
+    scene: &Scene,
+    ground_height: impl Fn(f32, f32) -> f32,
+) -> Result<Vec<Seedling>, SceneError> {
     let mut seedlings = Vec::with_capacity(scene.trees.len());
     for (index, tree) in scene.trees.iter().enumerate() {
         let field = |reason: String, allowed: &str| SceneError::Field {
@@ -74,7 +77,7 @@ pub(super) fn seedlings(scene: &Scene) -> Result<Vec<Seedling>, SceneError> {
         let leaf = species_of(scene, &kind.foliage)
             .map_or_else(LeafFacts::default, |(_, species)| leaf_facts(species));
         let [x, z] = tree.at_m;
-        let foot_m = glam::Vec3::new(x, scene.ground.height_m, z);
+        let foot_m = glam::Vec3::new(x, ground_height(x, z), z);
         seedlings.push(Seedling {
             skeleton: Arc::new(skeleton),
             kind,

@@ -33,11 +33,13 @@ use crate::motion::lookup::MotionRows;
 use crate::motion::table::TABLE_ROWS;
 use crate::motion::{GRAVITY, MotionTables};
 use crate::scene::{FlightModel, MAX_SOURCES, Scene, SwayScheme};
+use crate::terrain::ground::ground_relief;
+use crate::terrain::subdivision::terrain_rows;
 use crate::tree::Forest;
 use crate::tree::sway::{SCHEME_ARTICULATED, SCHEME_OLIAPURAM_KUMAR, SCHEME_QUIGLEY};
 use crate::wind::gust::{GUST_ROWS, gust_rows};
 use crate::wind::profile::{PROFILE_ROWS, profile_rows};
-use crate::wind::turbulence::{TURBULENCE_X, turbulence_rows};
+use crate::wind::turbulence::{TURBULENCE_NODES, TURBULENCE_X, turbulence_rows};
 use crate::wind::turbulence_box;
 
 /// Height of resting leaves above the ground in metres: half the thickness of a curled dry leaf.
@@ -50,6 +52,18 @@ const SETTLE_S: f32 = 0.3;
 const SETTLE_TAU_S: f32 = 0.04;
 /// Rate at which the slowest leaf flutters on its twig in Hz; the fastest flutter half as fast again.
 const FLUTTER_HZ: f32 = 3.2;
+
+/// Hills as a grid that repeats; see [`Environment::hills`].
+#[derive(Clone, Debug, PartialEq)]
+pub struct Hills {
+    /// Cells along an edge, a power of two.
+    pub cells: u32,
+    /// Edge of a cell in metres.
+    pub cell_m: f32,
+    /// Heights in metres above the lowest point.
+    pub heights_m: Vec<f32>,
+}
+
 /// A compiled scene: uniform block and tables, ready for any backend.
 #[derive(Clone, Debug)]
 pub struct Environment {
@@ -78,12 +92,12 @@ impl Environment {
         wind.extend(profile_rows(scene.wind.profile, scene.wind.reference_height_m));
         wind.extend(gust_rows(seed));
         wind.extend(turbulence_rows(&turbulence_box(seed)));
-        let forest = Forest::plant(seedlings(scene)?, scene.dt_s);
+        wind.extend(scene.ground.terrain.iter().flat_map(terrain_rows));
         let kinds = foliage_of(scene);
         let mut petioles = shed_rows(scene, &kinds);
-        let first_petiole = len32(petioles.len());
+        let block = compile_block(scene, &tables, len32(petioles.len()));
+        let forest = Forest::plant(seedlings(scene, |x, z| foot_height(&block, &wind, x, z))?, scene.dt_s);
         petioles.extend(petiole_rows(scene, &forest, &kinds));
-        let block = compile_block(scene, &tables, first_petiole);
         Ok(Self {
             scene: scene.clone(),
             block,
@@ -94,8 +108,8 @@ impl Environment {
         })
     }
 
-    /// The same environment with another wind, season, ground, fall and rotation speed; species, sources, trees, seed
-    /// and step length stay. Much cheaper than compiling anew.
+    /// The same environment with another wind, season, ground, fall and rotation speed; species, sources, trees, hills,
+    /// seed and step length stay. Much cheaper than compiling anew.
     pub fn retune(&mut self, scene: &Scene) {
         let keep_trees = (self.scene.trees.clone(), self.scene.tree_kinds.clone());
         let keep = (self.scene.species.clone(), self.scene.sources.clone(), self.scene.seed, self.scene.dt_s);
@@ -107,9 +121,11 @@ impl Environment {
             self.wind = wind.into();
         }
         let autumn = self.scene.autumn;
+        let terrain = self.scene.ground.terrain;
         self.scene = scene.clone();
         (self.scene.species, self.scene.sources, self.scene.seed, self.scene.dt_s) = keep;
         (self.scene.trees, self.scene.tree_kinds) = keep_trees;
+        self.scene.ground.terrain = terrain;
         if self.scene.autumn != autumn {
             let mut petioles = shed_rows(&self.scene, &foliage_of(&self.scene));
             petioles.extend_from_slice(&self.petioles[petioles.len()..]);
@@ -125,6 +141,7 @@ impl Environment {
             ]),
             time: Float4([old.time.0[0], old.time.0[1], old.time.0[2], displacement_gain(&self.scene)]),
             ground: ground_numbers(&self.scene),
+            relief: relief_numbers(&self.scene),
             wind: wind_block(&self.scene),
             crowns: Uint4([old.crowns.0[0], old.crowns.0[1], old.crowns.0[2], scheme(&self.scene)]),
             ..old
@@ -227,6 +244,21 @@ impl Environment {
         }
     }
 
+    /// Height of the ground at a place in metres, whatever the water above it.
+    pub fn ground_height(&self, x_m: f32, z_m: f32) -> f32 {
+        foot_height(&self.block, &self.wind, x_m, z_m)
+    }
+
+    /// The hills: heights in metres above the lowest point on a square grid that repeats, `cells` along an edge, row by row
+    /// along x from the origin; `None` on level ground.
+    pub fn hills(&self) -> Option<Hills> {
+        let terrain = self.scene.ground.terrain?;
+        let first = self.block.terrain.0[0] as usize;
+        let heights_m = self.wind[first..].iter().map(|row| f32::from_bits(row.0[0])).collect();
+        let cells = 1 << terrain.levels;
+        Some(Hills { cells, cell_m: terrain.edge_m / cells as f32, heights_m })
+    }
+
     /// Distance in metres that the mean wind travels in one step.
     pub fn wind_travel_per_step_m(&self) -> f64 {
         f64::from(self.block.wind.mean.0[2]) * f64::from(self.scene.dt_s)
@@ -261,6 +293,8 @@ fn compile_block(scene: &Scene, tables: &[MotionTables], first_petiole: u32) -> 
     block.time =
         Float4([scene.dt_s, single(1.0 / dt), single(1.0 / dt / 4_294_967_296.0), displacement_gain(scene)]);
     block.ground = ground_numbers(scene);
+    block.terrain = terrain_words(scene);
+    block.relief = relief_numbers(scene);
     block.settle = Float4([single(libm::exp(-dt / f64::from(SETTLE_TAU_S))), 0.0, 0.0, 0.0]);
     block.wind = wind_block(scene);
     for (index, (species, tables)) in scene.species.iter().zip(tables).enumerate() {
@@ -297,6 +331,36 @@ fn displacement_gain(scene: &Scene) -> f32 {
 
 fn ground_numbers(scene: &Scene) -> Float4 {
     let loss = f64::from(scene.ground.friction) * GRAVITY;
-    let height = scene.ground.height_m;
+    let height = match (scene.ground.terrain, scene.ground.water) {
+        (None, Some(water)) => scene.ground.height_m.max(water.height_m),
+        _ => scene.ground.height_m,
+    };
     Float4([height, height + REST_OFFSET_M, single(loss), single(0.5 / loss)])
+}
+
+fn terrain_words(scene: &Scene) -> Uint4 {
+    let first = PROFILE_ROWS + GUST_ROWS + 2 * TURBULENCE_NODES;
+    scene
+        .ground
+        .terrain
+        .map_or(Uint4::default(), |terrain| Uint4([first, (1 << terrain.levels) - 1, terrain.levels, 1]))
+}
+
+fn relief_numbers(scene: &Scene) -> Float4 {
+    let ground = &scene.ground;
+    let rest = ground_numbers(scene).0[1];
+    let Some(terrain) = ground.terrain else {
+        return Float4([0.0, rest, 0.0, single(GRAVITY)]);
+    };
+    let water = ground.water.map_or(0.0, |water| (water.height_m - ground.height_m).max(0.0));
+    let per_metre = f64::from(1u32 << terrain.levels) / f64::from(terrain.edge_m);
+    Float4([single(per_metre), rest + terrain.relief_m.max(water) + 0.001, water, single(GRAVITY)])
+}
+
+/// Height of the ground in metres, whatever the water above it.
+fn foot_height(block: &EnvironmentBlock, wind: &[Uint4], x_m: f32, z_m: f32) -> f32 {
+    let step = bytemuck::Zeroable::zeroed();
+    let cx = Context { environment: block, step: &step, motion: MotionRows::new(&[]), wind, petioles: &[] };
+    let relief = if block.has_terrain() { ground_relief(&cx, x_m, z_m) } else { 0.0 };
+    block.wind.gust.0[2] + relief
 }

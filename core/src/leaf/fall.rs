@@ -17,6 +17,7 @@ use crate::kernel::math::reciprocal;
 use crate::kernel::quaternion::{Quat, quat_blend};
 use crate::kernel::rng::mul_q16;
 use crate::kernel::vector::Vec3;
+use crate::terrain::ground::ground_met;
 use crate::wind::sample::wind_at;
 
 crate::shared_constants! {
@@ -118,7 +119,7 @@ pub fn glide_end(cx: &Context<'_>, leaf: &mut LeafMut<'_>, start: Vec3, glide: G
     let before = || Quat::from(leaf.attitude.quaternion);
     let (bits, attitude) = attitude_after(cx, spun, glide.phase, heading, before);
     glide_write(leaf, glide, bits, attitude);
-    if glide.position.y < cx.environment.ground.0[1] {
+    if ground_met(cx, glide.position) {
         leaf_land(cx, leaf, start);
     }
 }
@@ -169,7 +170,7 @@ pub fn leaf_glide(cx: &Context<'_>, leaf: &mut LeafMut<'_>) -> bool {
     };
     let response = response_of(cx, bits);
     let moved = glide_step(cx, glide, bits, (*leaf.course).into(), response);
-    if moved.position.y < cx.environment.ground.0[1] {
+    if ground_met(cx, moved.position) {
         return false;
     }
     let spun = spin_advance(bits, heading, response[1]);

@@ -21,6 +21,7 @@ use crate::kernel::math::{inverse_sqrt, reciprocal};
 use crate::kernel::quaternion::{Quat, quat_rotate_back};
 use crate::kernel::rng::mul_q16;
 use crate::kernel::vector::{TINY_SQUARED, Vec3, vec3_dot};
+use crate::terrain::ground::ground_met;
 use crate::wind::sample::wind_at;
 
 /// A body on its way, or eight of them.
@@ -168,7 +169,7 @@ pub fn leaf_fly(cx: &Context<'_>, leaf: &mut LeafMut<'_>) {
     let [memory, bits] = flight_told(cx, &flight, wind, leaf.identity.fall_time, leaf.place.bits);
     leaf.identity.fall_time = memory;
     leaf.place.bits = bits;
-    if flight.position.y < cx.environment.ground.0[1] {
+    if ground_met(cx, flight.position) {
         leaf_land(cx, leaf, start.position);
     }
 }

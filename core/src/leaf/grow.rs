@@ -10,12 +10,13 @@ use super::record::{
 use super::release::{leaf_drop, release_fall_time, release_size_speed};
 use super::seek::leaf_seek_any;
 use super::store::{LeafMut, Leaves};
-use crate::blocks::{NEVER, SOURCE_TREES};
+use crate::blocks::{LENGTH_UNIT, NEVER, SOURCE_TREES};
 use crate::context::Context;
 use crate::environment::{Environment, leaf_site};
 use crate::flight::book::FlightBook;
 use crate::kernel::rng::random;
 use crate::motion::feature::STREAM_LOOK;
+use crate::terrain::ground::ground_surface;
 use crate::tree::Branches;
 use crate::tree::record::NO_SEGMENT;
 
@@ -49,7 +50,8 @@ pub(crate) fn leaf_grow(
     }
     let species = &cx.environment.species[species_index as usize];
     let [size, speed] = release_size_speed(species, look);
-    let ground = (cx.environment.ground.0[0] * 1024.0).floor();
+    let [x, z] = [petiole.place[0], petiole.place[2]].map(|units| units as f32 * LENGTH_UNIT);
+    let ground = ((ground_surface(cx, x, z) + cx.environment.ground.0[0]) * 1024.0).floor();
     #[expect(clippy::cast_possible_truncation, reason = "a whole number in range")]
     let height = petiole.place[1] - ground as i32;
     leaf.identity.fall_time = release_fall_time(species, height, speed);

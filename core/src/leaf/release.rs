@@ -19,6 +19,7 @@ use crate::context::Context;
 use crate::kernel::rng::{mul_high, mul_q16, random, triangular};
 use crate::kernel::vector::Vec3;
 use crate::motion::feature::{STAGE_COUNT, STREAM_LOOK, STREAM_PLACE, stage_end, stage_words};
+use crate::terrain::ground::ground_surface;
 
 crate::shared_constants! {
     /// Tries to draw a point inside a disc or ball before a point of the inscribed box is taken.
@@ -166,16 +167,17 @@ pub fn leaf_drop(
 ) {
     let species = &cx.environment.species[species_index as usize];
     let size_speed = release_size_speed(species, look);
-    let ground = (cx.environment.ground.0[0] * 1024.0).floor() as i32;
-    leaf.identity.fall_time = release_fall_time(species, place[1] - ground, size_speed[1]);
+    let position =
+        [place[0] as f32 * LENGTH_UNIT, place[1] as f32 * LENGTH_UNIT, place[2] as f32 * LENGTH_UNIT];
+    let ground = (ground_surface(cx, position[0], position[2]) + cx.environment.ground.0[0]) * 1024.0;
+    leaf.identity.fall_time = release_fall_time(species, place[1] - ground.floor() as i32, size_speed[1]);
     leaf.identity.look = (look[3] & HALF_MASK)
         | ((look[0] & VARIANT_MASK) << VARIANT_SHIFT)
         | (source << SOURCE_SHIFT)
         | (0 << STAGE_SHIFT);
     leaf.course.size = size_speed[0];
     leaf.course.heading = look[3] >> 16;
-    leaf.place.position =
-        [place[0] as f32 * LENGTH_UNIT, place[1] as f32 * LENGTH_UNIT, place[2] as f32 * LENGTH_UNIT];
+    leaf.place.position = position;
     leaf.place.bits = (0 << BLEND_SHIFT) | (species_index << SPECIES_SHIFT);
     leaf.drift.velocity = [0.0, 0.0, 0.0];
     if species.start.0[0] == AERODYNAMIC {

@@ -10,7 +10,7 @@ use super::record::{
     BLEND_MASK, BLEND_SHIFT, SOURCE_MASK, SOURCE_SHIFT, SPECIES_MASK, SPECIES_SHIFT, STAGE_MASK, STAGE_SHIFT,
     STATE_MASK, STATE_RESTING,
 };
-use super::settle::flatten;
+use super::settle::{flatten, flatten_on};
 use super::store::LeafMut;
 use crate::blocks::NEVER;
 use crate::context::Context;
@@ -19,6 +19,7 @@ use crate::kernel::math::exponential;
 use crate::kernel::quaternion::Quat;
 use crate::kernel::vector::Vec3;
 use crate::motion::feature::{STAGE_COUNT, stage_end};
+use crate::terrain::ground::{ground_rest, ground_slope};
 
 /// Refinements of the moment of landing.
 const LANDING_ROUNDS: u32 = 6;
@@ -27,7 +28,6 @@ const LANDING_ROUNDS: u32 = 6;
 /// on the ground, flat and still, if that fall is over. Orientation is that of the stage, without the short blend after
 /// a join.
 pub fn leaf_seek(cx: &Context<'_>, leaf: &mut LeafMut<'_>, elapsed: u32) {
-    let rest_height = cx.environment.ground.0[1];
     let target = u64::from(elapsed) << 16;
     let mut glide = Glide {
         position: leaf.place.position.into(),
@@ -39,7 +39,7 @@ pub fn leaf_seek(cx: &Context<'_>, leaf: &mut LeafMut<'_>, elapsed: u32) {
         let end = stage_end_after(cx, leaf);
         let part = end.min(target) - now;
         let next = glide_long(cx, leaf, glide, part);
-        if part > 0 && next.position.y < rest_height {
+        if part > 0 && above_rest(cx, next.position) < 0.0 {
             let landing = landing_within(cx, leaf, glide, part);
             arrive(cx, leaf, glide_long(cx, leaf, glide, landing), now + landing);
             rest(cx, leaf);
@@ -61,11 +61,11 @@ fn leaf_seek_flight(cx: &Context<'_>, book: &FlightBook, leaf: &mut LeafMut<'_>,
         return;
     }
     let start = Vec3::from(leaf.place.position);
-    let height = (start.y - cx.environment.ground.0[1]).max(0.0);
+    let height = above_rest(cx, start).max(0.0);
     let (mut flight, is_down) = book.look_up(cx, leaf.identity.id, elapsed, height);
     flight.position = start + flight.position;
     flight_write(leaf, flight);
-    if is_down {
+    if is_down || above_rest(cx, flight.position) < 0.0 {
         rest(cx, leaf);
     }
 }
@@ -84,6 +84,11 @@ pub(crate) fn leaf_seek_any(
     }
 }
 
+/// Height in metres above where a leaf would rest.
+fn above_rest(cx: &Context<'_>, place: Vec3) -> f32 {
+    place.y - ground_rest(cx, place.x, place.z)
+}
+
 /// Time from release to the end of a leaf's stage in 2^-16 steps.
 fn stage_end_after(cx: &Context<'_>, leaf: &LeafMut<'_>) -> u64 {
     let seed = [cx.environment.seed.0[0], cx.environment.seed.0[1]];
@@ -100,7 +105,7 @@ fn stage_end_after(cx: &Context<'_>, leaf: &LeafMut<'_>) -> u64 {
 fn landing_within(cx: &Context<'_>, leaf: &LeafMut<'_>, glide: Glide, part: u64) -> u64 {
     let height = |part| {
         let position = glide_long(cx, leaf, glide, part).position;
-        f64::from(position.y - cx.environment.ground.0[1])
+        f64::from(above_rest(cx, position))
     };
     let (mut early, mut early_height) = (0, height(0).max(0.0));
     let (mut late, mut late_height) = (part, height(part).min(-1e-9));
@@ -160,10 +165,14 @@ fn glide_long(cx: &Context<'_>, leaf: &LeafMut<'_>, glide: Glide, part_q16: u64)
 fn rest(cx: &Context<'_>, leaf: &mut LeafMut<'_>) {
     let source = (leaf.identity.look >> SOURCE_SHIFT) & SOURCE_MASK;
     let lifetime = cx.environment.sources[source as usize].timing.0[3];
-    leaf.place.position[1] = cx.environment.ground.0[1];
+    let [x, _, z] = leaf.place.position;
+    leaf.place.position[1] = ground_rest(cx, x, z);
     leaf.place.bits = (leaf.place.bits & !STATE_MASK) | STATE_RESTING;
     leaf.drift.velocity = Vec3::ZERO.to_array();
     leaf.drift.phase = cx.environment.counts.0[1];
-    leaf.attitude.quaternion = flatten(Quat::from(leaf.attitude.quaternion), 0.0).to_array();
+    let before = Quat::from(leaf.attitude.quaternion);
+    let is_hilly = cx.environment.has_terrain();
+    let flat = if is_hilly { flatten_on(ground_slope(cx, x, z), before, 0.0) } else { flatten(before, 0.0) };
+    leaf.attitude.quaternion = flat.to_array();
     leaf.course.event = if lifetime == 0 { NEVER } else { leaf.identity.release.wrapping_add(lifetime) };
 }

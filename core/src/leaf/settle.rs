@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! twin: backend-wgpu/src/shaders/leaf/settle.wgsl
 //!
-//! A leaf on the ground: it keeps the horizontal speed it came with, loses it to friction and lies down flat.
+//! A leaf on the ground: it keeps the horizontal speed it came with, gains some downhill, loses it to friction and lies
+//! down flat on the slope. Speeds and ways are horizontal ones; on a rise s gravity and friction act on these as
+//! g s / (1 + s²) and mu g / (1 + s²), exactly so up and down the slope, and a leaf stays where s is below mu.
 //!
 //! Landing is decided by a float comparison, the one place where the backends' integers could part for a step under
 //! the tolerant contract; the step is continuous across that decision, and what it writes is the same a moment later.
@@ -12,21 +14,28 @@ use super::store::LeafMut;
 use crate::blocks::NEVER;
 use crate::context::Context;
 use crate::kernel::math::{inverse_sqrt, reciprocal};
-use crate::kernel::quaternion::{Quat, quat_normalize};
+use crate::kernel::quaternion::{Quat, quat_multiply, quat_normalize};
 use crate::kernel::vector::Vec3;
+use crate::terrain::ground::{Slope, ground_lean, ground_rest, ground_slope};
 
-/// A sliding leaf after `seconds` of Coulomb friction: displacement and velocity left.
+/// A sliding leaf after `seconds` of gravity and Coulomb friction: displacement and velocity left. One that would turn
+/// round lies still.
 #[inline(always)]
-pub fn slide(cx: &Context<'_>, velocity: Vec3, seconds: f32) -> (Vec3, Vec3) {
+pub fn slide(cx: &Context<'_>, came: Vec3, seconds: f32, slope: Slope) -> (Vec3, Vec3) {
+    let pull = (cx.environment.relief.0[3] * seconds) * slope.ease;
+    let velocity = Vec3::new(came.x - slope.x * pull, came.y, came.z - slope.z * pull);
+    if velocity.x * came.x + velocity.z * came.z < 0.0 {
+        return (Vec3::ZERO, Vec3::ZERO);
+    }
     let squared = velocity.x * velocity.x + velocity.z * velocity.z;
     if squared < 1e-12 {
         return (Vec3::ZERO, Vec3::ZERO);
     }
     let inverse = inverse_sqrt(squared);
     let speed = squared * inverse;
-    let left = (speed - cx.environment.ground.0[2] * seconds).max(0.0);
-    let way =
-        if left > 0.0 { (0.5 * seconds) * (speed + left) } else { squared * cx.environment.ground.0[3] };
+    let left = (speed - (cx.environment.ground.0[2] * slope.ease) * seconds).max(0.0);
+    let stop = squared * (cx.environment.ground.0[3] * slope.gain);
+    let way = if left > 0.0 { (0.5 * seconds) * (speed + left) } else { stop };
     (velocity * (way * inverse), velocity * (left * inverse))
 }
 
@@ -39,21 +48,32 @@ pub fn flatten(q: Quat, kept: f32) -> Quat {
     quat_normalize(Quat::new(q.x * tilted, q.y * upright, q.z * tilted, q.w * upright))
 }
 
+/// The same on a slope: flat along the ground.
+#[inline(always)]
+pub fn flatten_on(slope: Slope, q: Quat, kept: f32) -> Quat {
+    let lean = ground_lean(slope);
+    let back = Quat::new(0.0 - lean.x, 0.0 - lean.y, 0.0 - lean.z, lean.w);
+    quat_multiply(lean, flatten(quat_multiply(back, q), kept))
+}
+
 /// Puts a leaf that has just passed below the resting height on the ground, where its path from `start` met it.
 #[expect(clippy::manual_clamp, reason = "written as in WGSL")]
 #[inline(always)]
 pub fn leaf_land(cx: &Context<'_>, leaf: &mut LeafMut<'_>, start: Vec3) {
-    let rest_height = cx.environment.ground.0[1];
     let end = Vec3::from(leaf.place.position);
-    let drop = (start.y - end.y).max(1e-6);
-    let share = ((start.y - rest_height) * reciprocal(drop)).max(0.0).min(1.0);
+    let above = ground_rest(cx, start.x, start.z);
+    let rise = ground_rest(cx, end.x, end.z) - above;
+    let drop = ((start.y - end.y) + rise).max(1e-6);
+    let share = ((start.y - above) * reciprocal(drop)).max(0.0).min(1.0);
     let way = end - start;
     let hit = start + way * share;
     let dt = cx.environment.time.0[0];
-    let (slid, velocity) = slide(cx, way * cx.environment.time.0[1], (1.0 - share) * dt);
+    let (slid, velocity) =
+        slide(cx, way * cx.environment.time.0[1], (1.0 - share) * dt, ground_slope(cx, hit.x, hit.z));
     let lifetime =
         cx.environment.sources[((leaf.identity.look >> SOURCE_SHIFT) & SOURCE_MASK) as usize].timing.0[3];
-    leaf.place.position = [hit.x + slid.x, rest_height, hit.z + slid.z];
+    let (x, z) = (hit.x + slid.x, hit.z + slid.z);
+    leaf.place.position = [x, ground_rest(cx, x, z), z];
     leaf.place.bits = (leaf.place.bits & !(STATE_MASK | (BLEND_MASK << BLEND_SHIFT))) | STATE_RESTING;
     leaf.drift.velocity = [velocity.x, 0.0, velocity.z];
     leaf.drift.phase = 0;
@@ -65,15 +85,21 @@ pub fn leaf_land(cx: &Context<'_>, leaf: &mut LeafMut<'_>, start: Vec3) {
 pub fn leaf_settle(cx: &Context<'_>, leaf: &mut LeafMut<'_>) {
     let counter = leaf.drift.phase;
     let velocity = Vec3::from(leaf.drift.velocity);
-    if counter < cx.environment.counts.0[1] {
-        let flat = flatten(Quat::from(leaf.attitude.quaternion), cx.environment.settle.0[0]);
+    let position = leaf.place.position;
+    let slides = velocity.x != 0.0 || velocity.z != 0.0;
+    let is_hilly = cx.environment.has_terrain();
+    let slope = ground_slope(cx, position[0], position[2]);
+    if counter < cx.environment.counts.0[1] || (slides && is_hilly) {
+        let (before, kept) = (Quat::from(leaf.attitude.quaternion), cx.environment.settle.0[0]);
+        let flat = if is_hilly { flatten_on(slope, before, kept) } else { flatten(before, kept) };
         leaf.attitude.quaternion = flat.to_array();
-        leaf.drift.phase = counter + 1;
+        // On hills what slides comes to other slopes.
+        leaf.drift.phase = if slides && is_hilly { 0 } else { counter + 1 };
     }
-    if velocity.x != 0.0 || velocity.z != 0.0 {
-        let (slid, left) = slide(cx, velocity, cx.environment.time.0[0]);
-        leaf.place.position =
-            [leaf.place.position[0] + slid.x, leaf.place.position[1], leaf.place.position[2] + slid.z];
+    if slides {
+        let (slid, left) = slide(cx, velocity, cx.environment.time.0[0], slope);
+        let (x, z) = (position[0] + slid.x, position[2] + slid.z);
+        leaf.place.position = [x, if is_hilly { ground_rest(cx, x, z) } else { position[1] }, z];
         leaf.drift.velocity = left.to_array();
     }
 }

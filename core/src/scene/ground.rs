@@ -4,18 +4,24 @@
 
 use serde::{Deserialize, Serialize};
 
-/// A level ground plane.
+use super::{Terrain, Water};
+
+/// A level plane, or hills; with or without water.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Ground {
-    /// Height of the plane in metres, -4096 to 4096.
+    /// Height of the plane, or of the hills' lowest point, in metres, -4096 to 4096.
     pub height_m: f32,
     /// Coulomb friction coefficient between leaf and ground, 0.05 to 5: dry grass 0.4 to 0.6, wet 0.8.
     pub friction: f32,
+    /// Hills.
+    pub terrain: Option<Terrain>,
+    /// Water: what of the ground lies lower is under it.
+    pub water: Option<Water>,
 }
 
 impl Default for Ground {
     fn default() -> Self {
-        Self { height_m: 0.0, friction: 0.5 }
+        Self { height_m: 0.0, friction: 0.5, terrain: None, water: None }
     }
 }

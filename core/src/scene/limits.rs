@@ -118,6 +118,12 @@ limits! {
 
     HEIGHT_M: f32 = -4096.0, 4096.0, "m", height_m;
     FRICTION: f32 = 0.05, 5.0, "", friction;
+    EDGE_M: f32 = 16.0, 4096.0, "m", edge_m;
+    RELIEF_M: f32 = 0.0, 500.0, "m", relief_m;
+    TERRAIN_LEVELS: u32 = 2, 9, "", levels;
+    NOISE: f32 = 0.0, 1.0, "", noise;
+    PULLED: f32 = 0.0, 1.0, "", pulled;
+    SMOOTHING: u32 = 0, 8, "", smoothing;
 
     DIRECTION_DEG: f32 = -360.0, 360.0, "degrees", direction_deg;
     METRES_PER_SECOND: f32 = 0.0, 80.0, "m/s", MetresPerSecond;
@@ -157,12 +163,13 @@ mod tests {
     use super::*;
 
     /// The text of every file that describes a scene.
-    const SOURCES: [&str; 8] = [
+    const SOURCES: [&str; 9] = [
         include_str!("mod.rs"),
         include_str!("flight.rs"),
         include_str!("ground.rs"),
         include_str!("source.rs"),
         include_str!("species.rs"),
+        include_str!("terrain.rs"),
         include_str!("tree.rs"),
         include_str!("view.rs"),
         include_str!("wind.rs"),

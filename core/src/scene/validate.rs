@@ -11,7 +11,7 @@ mod trees;
 use super::{
     Aerodynamics, Camera, FlightModel, Ground, MAX_LEAVES, MAX_SOURCES, MAX_SPECIES, MAX_TREE_LEAVES,
     MAX_VORTICES, MeanSpeed, MotionParameters, Profile, Release, RotationModel, Scene, Source, SourceShape,
-    Species, Sun, View, Vortex, WindParameters, limits,
+    Species, Sun, Terrain, View, Vortex, WindParameters, limits,
 };
 use crate::SceneError;
 use check::Check;
@@ -234,6 +234,28 @@ impl Ground {
         at.numbers([
             ("height_m", self.height_m.into(), limits::HEIGHT_M),
             ("friction", self.friction.into(), limits::FRICTION),
+        ])?;
+        if let Some(terrain) = &self.terrain {
+            terrain.check(&at.inside("terrain"))?;
+        }
+        if let Some(water) = &self.water {
+            at.inside("water").numbers([("height_m", water.height_m.into(), limits::HEIGHT_M)])?;
+        }
+        Ok(())
+    }
+}
+
+impl Terrain {
+    fn check(&self, at: &Check<'_>) -> Result<(), SceneError> {
+        at.numbers([
+            ("edge_m", self.edge_m.into(), limits::EDGE_M),
+            ("relief_m", self.relief_m.into(), limits::RELIEF_M),
+            ("noise", self.noise.into(), limits::NOISE),
+            ("pulled", self.pulled.into(), limits::PULLED),
+        ])?;
+        at.numbers([
+            ("levels", Some(self.levels), limits::TERRAIN_LEVELS),
+            ("smoothing", Some(self.smoothing), limits::SMOOTHING),
         ])
     }
 }

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! twin: backend-wgpu/src/shaders/wind/sample.wgsl
 //!
-//! The wind at a place and step.
+//! The wind at a place and step. The mean wind grows with height above the ground beneath; turbulence is carried on
+//! the level.
 
 use super::gust::wind_gust;
 use super::profile::wind_profile;
@@ -11,6 +12,7 @@ use super::vortex::wind_vortex;
 use crate::context::Context;
 use crate::kernel::lane::Real;
 use crate::kernel::vector::Vec3;
+use crate::terrain::ground::ground_relief;
 
 /// Velocity of the air at `place` in m/s.
 #[inline(always)]
@@ -21,7 +23,9 @@ pub fn wind_at<R: Real>(cx: &Context<'_>, place: Vec3<R>) -> Vec3<R> {
     let along = place.x * direction_x + place.z * direction_z;
     let across = place.z * direction_x - place.x * direction_z;
     let height = place.y - wind.gust.0[2];
-    let mean = (wind_profile(cx, height) * wind.mean.0[2]) * (wind_gust(cx, along) * wind.gust.0[0] + 1.0);
+    let above =
+        if cx.environment.has_terrain() { height - ground_relief(cx, place.x, place.z) } else { height };
+    let mean = (wind_profile(cx, above) * wind.mean.0[2]) * (wind_gust(cx, along) * wind.gust.0[0] + 1.0);
     let mut turbulence = Vec3::<f32>::ZERO.spread(height);
     if wind.deviation.0[0] != 0.0 {
         turbulence = wind_turbulence(cx, Vec3::new(along, height, across));

@@ -8,6 +8,7 @@
 #import leaf/own
 #import leaf/settle
 #import motion/lookup
+#import terrain/ground
 #import wind/sample
 
 struct Glide {
@@ -64,7 +65,7 @@ fn glide_end(leaf: u32, start: vec3<f32>, glide: Glide) {
     let spun = spin_advance(old_bits, heading, response_of(old_bits).y);
     let turned = attitude_after(leaf, spun, glide.phase, heading);
     glide_write(leaf, glide, turned);
-    if (glide.position.y < environment.ground.y) {
+    if (ground_met(glide.position)) {
         leaf_land(leaf, start);
     }
 }
@@ -93,7 +94,7 @@ fn leaf_glide(leaf: u32, place: vec4<u32>, course: vec4<u32>) -> bool {
     let glide = Glide(bitcast<vec3<f32>>(place.xyz), bitcast<vec3<f32>>(drift.xyz), drift.w);
     let response = response_of(place.w);
     let moved = glide_step(glide, place.w, course, response);
-    if (moved.position.y < environment.ground.y) {
+    if (ground_met(moved.position)) {
         return false;
     }
     let spun = spin_advance(place.w, course.w, response.y);

@@ -7,6 +7,7 @@
 #import flight/runge_kutta
 #import kernel/rng
 #import leaf/settle
+#import terrain/ground
 #import wind/sample
 
 struct Flight {
@@ -91,7 +92,7 @@ fn leaf_fly(leaf: u32) {
     let told = flight_told(flight, wind, identities[leaf].z, places[leaf].w);
     identities[leaf].z = told.x;
     places[leaf].w = told.y;
-    if (flight.position.y < environment.ground.y) {
+    if (ground_met(flight.position)) {
         leaf_land(leaf, start.position);
     }
 }

@@ -6,6 +6,7 @@
 #import motion/feature
 #import leaf/launch
 #import leaf/own
+#import terrain/ground
 
 fn offset_in_box(word: u32, extent: u32) -> i32 {
     return bitcast<i32>(mul_high(word, 2u * extent + 1u)) - bitcast<i32>(extent);
@@ -117,16 +118,16 @@ fn leaf_drop(
     release: u32,
 ) {
     let size_speed = release_size_speed(species, look);
-    let ground = i32(floor(environment.ground.x * 1024.0));
-    identities[leaf].z = release_fall_time(species, place.y - ground, size_speed.y);
+    let position =
+        vec3<f32>(f32(place.x) * LENGTH_UNIT, f32(place.y) * LENGTH_UNIT, f32(place.z) * LENGTH_UNIT);
+    let ground = (ground_surface(position.x, position.z) + environment.ground.x) * 1024.0;
+    identities[leaf].z = release_fall_time(species, place.y - i32(floor(ground)), size_speed.y);
     identities[leaf].w = (look.w & HALF_MASK)
         | ((look.x & VARIANT_MASK) << VARIANT_SHIFT)
         | (source << SOURCE_SHIFT)
         | (0u << STAGE_SHIFT);
     courses[leaf].z = size_speed.x;
     courses[leaf].w = look.w >> 16u;
-    let position =
-        vec3<f32>(f32(place.x) * LENGTH_UNIT, f32(place.y) * LENGTH_UNIT, f32(place.z) * LENGTH_UNIT);
     places[leaf] = vec4<u32>(bitcast<vec3<u32>>(position), (0u << BLEND_SHIFT) | (species << SPECIES_SHIFT));
     drifts[leaf] = vec4<u32>(0u, 0u, 0u, 0u);
     if (environment.species[species].start.x == AERODYNAMIC) {

@@ -4,21 +4,28 @@
 #import bindings
 #import kernel/math
 #import kernel/quaternion
+#import terrain/ground
 
 struct Slide {
     way: vec3<f32>,
     velocity: vec3<f32>,
 }
 
-fn slide(velocity: vec3<f32>, seconds: f32) -> Slide {
+fn slide(came: vec3<f32>, seconds: f32, slope: Slope) -> Slide {
+    let pull = (environment.relief.w * seconds) * slope.ease;
+    let velocity = vec3<f32>(came.x - slope.x * pull, came.y, came.z - slope.z * pull);
+    if (velocity.x * came.x + velocity.z * came.z < 0.0) {
+        return Slide(vec3<f32>(0.0, 0.0, 0.0), vec3<f32>(0.0, 0.0, 0.0));
+    }
     let squared = velocity.x * velocity.x + velocity.z * velocity.z;
     if (squared < 1e-12) {
         return Slide(vec3<f32>(0.0, 0.0, 0.0), vec3<f32>(0.0, 0.0, 0.0));
     }
     let inverse = inverse_sqrt(squared);
     let speed = squared * inverse;
-    let left = max(speed - environment.ground.z * seconds, 0.0);
-    let way = select(squared * environment.ground.w, (0.5 * seconds) * (speed + left), left > 0.0);
+    let left = max(speed - (environment.ground.z * slope.ease) * seconds, 0.0);
+    let stop = squared * (environment.ground.w * slope.gain);
+    let way = select(stop, (0.5 * seconds) * (speed + left), left > 0.0);
     return Slide(velocity * (way * inverse), velocity * (left * inverse));
 }
 
@@ -29,19 +36,28 @@ fn flatten(q: vec4<f32>, kept: f32) -> vec4<f32> {
     return quat_normalize(vec4<f32>(q.x * tilted, q.y * upright, q.z * tilted, q.w * upright));
 }
 
+fn flatten_on(slope: Slope, q: vec4<f32>, kept: f32) -> vec4<f32> {
+    let lean = ground_lean(slope);
+    let back = vec4<f32>(0.0 - lean.x, 0.0 - lean.y, 0.0 - lean.z, lean.w);
+    return quat_multiply(lean, flatten(quat_multiply(back, q), kept));
+}
+
 fn leaf_land(leaf: u32, start: vec3<f32>) {
-    let rest_height = environment.ground.y;
     let place = places[leaf];
     let end = bitcast<vec3<f32>>(place.xyz);
-    let drop = max(start.y - end.y, 1e-6);
-    let share = min(max((start.y - rest_height) * reciprocal(drop), 0.0), 1.0);
+    let above = ground_rest(start.x, start.z);
+    let rise = ground_rest(end.x, end.z) - above;
+    let drop = max((start.y - end.y) + rise, 1e-6);
+    let share = min(max((start.y - above) * reciprocal(drop), 0.0), 1.0);
     let way = end - start;
     let hit = start + way * share;
     let dt = environment.time.x;
-    let slid = slide(way * environment.time.y, (1.0 - share) * dt);
+    let slid = slide(way * environment.time.y, (1.0 - share) * dt, ground_slope(hit.x, hit.z));
     let identity = identities[leaf];
     let lifetime = environment.sources[(identity.w >> SOURCE_SHIFT) & SOURCE_MASK].timing.w;
-    let position = vec3<f32>(hit.x + slid.way.x, rest_height, hit.z + slid.way.z);
+    let x = hit.x + slid.way.x;
+    let z = hit.z + slid.way.z;
+    let position = vec3<f32>(x, ground_rest(x, z), z);
     let bits = (place.w & ~(STATE_MASK | (BLEND_MASK << BLEND_SHIFT))) | STATE_RESTING;
     places[leaf] = vec4<u32>(bitcast<vec3<u32>>(position), bits);
     drifts[leaf] = vec4<u32>(bitcast<vec3<u32>>(vec3<f32>(slid.velocity.x, 0.0, slid.velocity.z)), 0u);
@@ -51,16 +67,28 @@ fn leaf_land(leaf: u32, start: vec3<f32>) {
 fn leaf_settle(leaf: u32) {
     let drift = drifts[leaf];
     let velocity = bitcast<vec3<f32>>(drift.xyz);
-    if (drift.w < environment.counts.y) {
-        attitudes[leaf] = flatten(attitudes[leaf], environment.settle.x);
-        drifts[leaf].w = drift.w + 1u;
+    let place = places[leaf];
+    let position = bitcast<vec3<f32>>(place.xyz);
+    let slides = velocity.x != 0.0 || velocity.z != 0.0;
+    let is_hilly = environment.terrain.w != 0u;
+    let slope = ground_slope(position.x, position.z);
+    if (drift.w < environment.counts.y || (slides && is_hilly)) {
+        if (is_hilly) {
+            attitudes[leaf] = flatten_on(slope, attitudes[leaf], environment.settle.x);
+        } else {
+            attitudes[leaf] = flatten(attitudes[leaf], environment.settle.x);
+        }
+        drifts[leaf].w = select(drift.w + 1u, 0u, slides && is_hilly);
     }
-    if (velocity.x != 0.0 || velocity.z != 0.0) {
-        let slid = slide(velocity, environment.time.x);
-        let place = places[leaf];
-        let position = bitcast<vec3<f32>>(place.xyz);
-        let moved = vec3<f32>(position.x + slid.way.x, position.y, position.z + slid.way.z);
-        places[leaf] = vec4<u32>(bitcast<vec3<u32>>(moved), place.w);
+    if (slides) {
+        let slid = slide(velocity, environment.time.x, slope);
+        let x = position.x + slid.way.x;
+        let z = position.z + slid.way.z;
+        var y = position.y;
+        if (is_hilly) {
+            y = ground_rest(x, z);
+        }
+        places[leaf] = vec4<u32>(bitcast<vec3<u32>>(vec3<f32>(x, y, z)), place.w);
         drifts[leaf] = vec4<u32>(bitcast<vec3<u32>>(slid.velocity), drifts[leaf].w);
     }
 }

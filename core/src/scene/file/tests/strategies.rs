@@ -178,6 +178,17 @@ prop_compose! {
 }
 
 prop_compose! {
+    fn terrain()(
+        seed in any::<u64>(),
+        (edge_m, relief_m) in (within(limits::EDGE_M), within(limits::RELIEF_M)),
+        (levels, smoothing) in (2u32..=9, 0u32..=8),
+        (noise, pulled) in (within(limits::NOISE), within(limits::PULLED)),
+    ) -> Terrain {
+        Terrain { seed, edge_m, relief_m, levels, noise, pulled, smoothing }
+    }
+}
+
+prop_compose! {
     fn view()(
         eye_m in (vector(limits::CAMERA_M), -1e5f32..=0.0).prop_map(|(eye, z)| eye.with_z(z)),
         target_m in (vector(limits::CAMERA_M), 1.0f32..=1e5).prop_map(|(target, z)| target.with_z(z)),
@@ -249,8 +260,10 @@ prop_compose! {
         sway in select(vec![SwayScheme::Articulated, SwayScheme::Quigley, SwayScheme::OliapuramKumar]),
         (autumn, regrow_after_s) in (within(limits::AUTUMN), maybe(limits::REGROW_AFTER_S)),
         wind in wind(),
-        ground in (-4.0f32..=4.0, within(limits::FRICTION))
-            .prop_map(|(height_m, friction)| Ground { height_m, friction }),
+        ground in (-4.0f32..=4.0, within(limits::FRICTION), option::of(terrain()), maybe(limits::HEIGHT_M))
+            .prop_map(|(height_m, friction, terrain, water)| {
+                Ground { height_m, friction, terrain, water: water.map(|height_m| Water { height_m }) }
+            }),
         view in view(),
     ) -> Scene {
         for (index, species) in species.iter_mut().enumerate() {

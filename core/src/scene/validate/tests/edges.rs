@@ -5,7 +5,7 @@
 use glam::Vec3;
 
 use super::{failing_field, full};
-use crate::scene::{MeanSpeed, Profile, Release, RotationModel, Scene, SourceShape};
+use crate::scene::{MeanSpeed, Profile, Release, RotationModel, Scene, SourceShape, Terrain, Water};
 
 /// Path, smallest and largest allowed value, assignment.
 type Row<T> = (&'static str, T, T, fn(&mut Scene, T));
@@ -20,6 +20,11 @@ fn tall(scene: &mut Scene, shape: SourceShape) {
     scene.ground.height_m = -4096.0;
     scene.species[0].motion.descent_m_s = Some(10.0);
     scene.sources[0].shape = shape;
+}
+
+/// The scene's hills.
+fn hills(scene: &mut Scene) -> &mut Terrain {
+    scene.ground.terrain.get_or_insert_default()
 }
 
 #[rustfmt::skip]
@@ -95,6 +100,11 @@ const REALS: &[Row<f32>] = &[
         s.ground.height_m = v;
     }),
     ("ground.friction", 0.05, 5.0, |s, v| s.ground.friction = v),
+    ("ground.terrain.edge_m", 16.0, 4096.0, |s, v| hills(s).edge_m = v),
+    ("ground.terrain.relief_m", 0.0, 500.0, |s, v| hills(s).relief_m = v),
+    ("ground.terrain.noise", 0.0, 1.0, |s, v| hills(s).noise = v),
+    ("ground.terrain.pulled", 0.0, 1.0, |s, v| hills(s).pulled = v),
+    ("ground.water.height_m", -4096.0, 4096.0, |s, v| s.ground.water = Some(Water { height_m: v })),
     ("wind.direction_deg", -360.0, 360.0, |s, v| s.wind.direction_deg = v),
     ("wind.speed", 0.0, 80.0, |s, v| s.wind.speed = MeanSpeed::MetresPerSecond(v)),
     ("wind.reference_height_m", 1.0, 100.0, |s, v| s.wind.reference_height_m = v),
@@ -134,6 +144,8 @@ const REALS: &[Row<f32>] = &[
 
 #[rustfmt::skip]
 const COUNTS: &[Row<u32>] = &[
+    ("ground.terrain.levels", 2, 9, |s, v| hills(s).levels = v),
+    ("ground.terrain.smoothing", 0, 8, |s, v| hills(s).smoothing = v),
     ("species[0].motion.rose_swings", 2, 12, |s, v| s.species[0].motion.rose_swings = Some(v)),
     ("species[0].transitions[0]", 1, 65_535, |s, v| s.species[0].transitions.0[0] = [v, 0, 0, 0, 0, 0]),
     ("sources[0].count", 1, 1 << 28, |s, v| {
