@@ -7,7 +7,7 @@ use proptest::prelude::*;
 use windfall_core::motion::Primitive;
 use windfall_core::scene::{
     Aerodynamics, FlightModel, Foliage, Gusts, Hold, MeanSpeed, Planform, Profile, Release, Scene, Share,
-    Source, SourceShape, Species, Tree, TreeKind, Turbulence, Vortex, WindParameters,
+    Source, SourceShape, Species, Terrain, Tree, TreeKind, Turbulence, Vortex, Water, WindParameters,
 };
 
 use crate::functions::Input;
@@ -165,6 +165,32 @@ pub fn flying_scene(seed: u64, leaves: u32, speed_m_s: f32, dt_s: f32) -> Scene 
     scene
 }
 
+/// The same scene on steep hills with a pond between them.
+pub fn hilly_scene(mut scene: Scene) -> Scene {
+    let hills = Terrain { seed: 7, edge_m: 64.0, relief_m: 9.0, levels: 6, noise: 0.6, ..Terrain::default() };
+    scene.ground.terrain = Some(hills);
+    scene.ground.water = Some(Water { height_m: 3.0 });
+    scene
+}
+
+/// Level ground half of the time, otherwise hills from rolling to jagged; either with water or without.
+fn ground() -> impl Strategy<Value = (Option<Terrain>, Option<Water>)> {
+    let rough = (0f32..1.0, 0f32..0.5, 0u32..4);
+    let terrain = (any::<u64>(), 16f32..400.0, 0f32..30.0, 2u32..8, rough).prop_map(
+        |(seed, edge_m, relief_m, levels, (noise, pulled, smoothing))| Terrain {
+            seed,
+            edge_m,
+            relief_m,
+            levels,
+            noise,
+            pulled,
+            smoothing,
+        },
+    );
+    let water = (-1f32..4.0).prop_map(|height_m| Water { height_m });
+    (proptest::option::of(terrain), proptest::option::of(water))
+}
+
 /// The same scene in a wind without chaos: profile and gusts, but eddies of tens of metres and no vortex, so that two
 /// leaves a rounding error apart stay about that far apart.
 pub fn smooth_scene(seed: u64, leaves: u32, speed_m_s: f32, dt_s: f32) -> Scene {
@@ -222,7 +248,8 @@ fn aerodynamics() -> impl Strategy<Value = Aerodynamics> {
     )
 }
 
-/// Random scenes: varied ones, with all that can differ drawn at random, trees in half of them, and bodies in half.
+/// Random scenes: varied ones, with all that can differ drawn at random, trees in half of them, bodies in half, hills in
+/// half.
 pub fn scenes(leaves: std::ops::Range<u32>) -> impl Strategy<Value = Scene> {
     let numbers = (
         any::<u64>(),
@@ -232,8 +259,8 @@ pub fn scenes(leaves: std::ops::Range<u32>) -> impl Strategy<Value = Scene> {
     );
     let motion = (0.3f32..2.5, 0.2f32..1.5, 0usize..6, 0f32..0.25, 0.05f32..2.0);
     let place = (-200f32..200.0, 0.1f32..1.0, 0usize..3, 0u32..2);
-    (numbers, motion, place, woods(), proptest::option::of(aerodynamics()))
-        .prop_map(|((seed, leaves, speed, dt), motion, place, woods, body)| {
+    (numbers, motion, place, woods(), proptest::option::of(aerodynamics()), ground())
+        .prop_map(|((seed, leaves, speed, dt), motion, place, woods, body, ground)| {
             let (fall_speed, rotation_speed, start, variation, friction) = motion;
             let (offset, intensity, profile, vortices) = place;
             let mut scene = varied_scene(seed, leaves, speed, dt);
@@ -244,6 +271,7 @@ pub fn scenes(leaves: std::ops::Range<u32>) -> impl Strategy<Value = Scene> {
             scene.species[1].size_variation = variation;
             scene.species[1].flight = body.map_or(FlightModel::Synthesis, FlightModel::Aerodynamic);
             scene.ground.friction = friction;
+            (scene.ground.terrain, scene.ground.water) = ground;
             scene.wind.turbulence.intensity = intensity;
             scene.wind.profile = [
                 Profile::Uniform,

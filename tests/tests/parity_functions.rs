@@ -10,7 +10,7 @@ use windfall_core::{Contract, World};
 use windfall_tests::adapter;
 use windfall_tests::functions::{self, Function};
 use windfall_tests::runner::{FunctionRunner, Words};
-use windfall_tests::strategies::{cases, flying_scene};
+use windfall_tests::strategies::{cases, flying_scene, hilly_scene};
 use windfall_wgpu::{Gpu, Shaders};
 
 /// Cases in one dispatch; not a multiple of the workgroup size.
@@ -19,7 +19,8 @@ const CASES: usize = 1234;
 const ROUNDS: u32 = 6;
 
 fn world() -> World {
-    let mut world = World::build(&flying_scene(5, 300, 6.0, 1.0 / 60.0)).expect("the flying scene is valid");
+    let scene = hilly_scene(flying_scene(5, 300, 6.0, 1.0 / 60.0));
+    let mut world = World::build(&scene).expect("the flying scene is valid on hills");
     for _ in 0..100 {
         world.clock.advance(&world.environment.clone());
     }
@@ -119,6 +120,10 @@ fn a_changed_twin_is_noticed() {
         ("motion/lookup", "row + 1u), fraction_of", "row + 2u), fraction_of", "motion_displacement"),
         ("wind/gust", "row.y - row.x", "row.x - row.y", "wind_gust"),
         ("leaf/settle", "0.5 * seconds", "0.51 * seconds", "slide"),
+        ("terrain/ground", "corners.w - corners.z)", "corners.z - corners.w)", "ground_relief"),
+        ("terrain/ground", "<< terrain.z", "<< (terrain.z - 1u)", "ground_relief"),
+        ("terrain/ground", "1.0 + up)", "2.0 - up)", "flatten_on"),
+        ("terrain/ground", "let west = corners.z", "let west = corners.w", "ground_slope"),
         ("leaf/release", "<< 17u, extent", "<< 16u, extent", "release_place"),
         ("kernel/matrix", "a.off - b.off", "a.off + b.off", "sym3_sums"),
         ("kernel/matrix", "a.diagonal.z * PIVOT_SHARE", "a.diagonal.y * PIVOT_SHARE", "sym3_inverse"),

@@ -10,7 +10,7 @@ use windfall_core::{Contract, Scene, Simulator, World};
 use windfall_cpu::{CpuOptions, CpuSimulator};
 use windfall_tests::adapter;
 use windfall_tests::compare::{STEP_SEGMENT, STEP_ULPS, difference, ulp};
-use windfall_tests::strategies::{flying_scene, scenes, varied_scene};
+use windfall_tests::strategies::{flying_scene, hilly_scene, scenes, varied_scene};
 use windfall_wgpu::{Gpu, KernelId, Shaders, WgpuOptions, WgpuSimulator};
 
 /// Worlds for each adapter and contract.
@@ -120,12 +120,21 @@ fn a_changed_kernel_is_noticed() {
         ("leaf/fly", "motion = step.end", "motion.velocity = step.end.velocity"),
         ("kernels/fly", "arrayLength(&places)", "arrayLength(&places) / 2u"),
     ];
+    let hilly = [
+        ("terrain/ground", "cell.z * (far - near)", "cell.x * (far - near)"),
+        ("terrain/ground", "max(ground_relief(x, z), environment.relief.z)", "ground_relief(x, z)"),
+        ("leaf/settle", "came.x - slope.x * pull", "came.x + slope.x * pull"),
+        ("leaf/settle", "flatten(quat_multiply(back, q), kept)", "flatten(q, kept)"),
+        ("wind/sample", "above = height - ground_relief", "above = height + ground_relief"),
+    ];
     let mut calm = [varied_scene(3, 3000, 5.0, 1.0 / 60.0), flying_scene(3, 3000, 5.0, 1.0 / 60.0)];
     calm.iter_mut().for_each(|scene| scene.wind.vortices.clear());
+    let hills = warmed(&hilly_scene(calm[0].clone()), 400);
     let [plain, flying] = calm.map(|scene| warmed(&scene, 400));
     for (gpu, contract) in adapter::contracts() {
         let edits = synthesised.map(|edit| (edit, &plain)).into_iter();
-        for ((module, old, new), world) in edits.chain(flown.map(|edit| (edit, &flying))) {
+        let edits = edits.chain(flown.map(|edit| (edit, &flying))).chain(hilly.map(|edit| (edit, &hills)));
+        for ((module, old, new), world) in edits {
             let shaders = Shaders::default().edited(module, old, new).expect("the edited text is there");
             let (oracle, candidate) = one_step(&gpu, contract, Some(shaders), world);
             let agreed = agree(contract, &oracle, &candidate);

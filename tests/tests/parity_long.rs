@@ -8,7 +8,7 @@ use windfall_core::{Contract, Simulator, World};
 use windfall_cpu::{CpuOptions, CpuSimulator};
 use windfall_tests::adapter;
 use windfall_tests::compare::{Difference, LONG_POSITION_M, LONG_QUATERNION, difference};
-use windfall_tests::strategies::{smooth_scene, varied_scene};
+use windfall_tests::strategies::{flying_scene, hilly_scene, smooth_scene, varied_scene};
 use windfall_wgpu::{Gpu, Shaders, WgpuOptions, WgpuSimulator};
 
 const LEAVES: u32 = 10_000;
@@ -57,6 +57,23 @@ fn a_thousand_steps_are_equal_to_the_bit_under_the_exact_contract() {
         let found = difference(&oracle, &candidate);
         assert_eq!(found, Difference::default(), "{}", gpu.info().name);
         assert_eq!(oracle.state_hash(), candidate.state_hash(), "{}", gpu.info().name);
+    }
+}
+
+/// The same on hills with a pond between them, with trees and bodies.
+#[test]
+fn a_thousand_steps_on_hills_are_equal_to_the_bit_under_the_exact_contract() {
+    let scene = hilly_scene(flying_scene(2016, LEAVES / 4, 3.0, 1.0 / 60.0));
+    let world = World::build(&scene).expect("the hilly scene is valid");
+    let oracle = oracle(&world);
+    is_lively(&oracle);
+    for (gpu, contract) in adapter::contracts() {
+        if contract == Contract::Exact {
+            let options = WgpuOptions { contract: Some(contract), ..WgpuOptions::default() };
+            let candidate = candidate(&gpu, &world, &options);
+            assert_eq!(difference(&oracle, &candidate), Difference::default(), "{}", gpu.info().name);
+            assert_eq!(oracle.state_hash(), candidate.state_hash(), "{}", gpu.info().name);
+        }
     }
 }
 

@@ -21,9 +21,10 @@ use windfall_core::leaf::release::{
     next_event, release_fall_time, release_place, release_rate, release_ratio, release_size_speed,
     release_species,
 };
-use windfall_core::leaf::settle::{flatten, slide};
+use windfall_core::leaf::settle::{flatten, flatten_on, slide};
 use windfall_core::motion::feature::{stage_end, stage_words, transition_next};
 use windfall_core::motion::lookup::{motion_displacement, motion_period, motion_state, motion_velocity};
+use windfall_core::terrain::ground::{ground_met, ground_relief, ground_rest, ground_slope};
 use windfall_core::wind::gust::wind_gust;
 use windfall_core::wind::profile::wind_profile;
 use windfall_core::wind::sample::wind_at;
@@ -234,17 +235,47 @@ functions! {
         integers([p.decay.to_bits(), p.tau.to_bits(), p.length])
     };
 
-    slide in "leaf/settle" (SPEED, SPEED, SPEED, Input::Float(0.0, 0.05)) tolerance Some(1e-5);
-    wgsl "let g = slide(bitcast<vec3<f32>>(a.xyz), bitcast<f32>(a.w));
+    slide in "leaf/settle" (SPEED, SPEED, SPEED, Input::Float(0.0, 0.05), METRES, METRES) tolerance Some(1e-5);
+    wgsl "let p = bitcast<vec2<f32>>(b.xy);
+        let g = slide(bitcast<vec3<f32>>(a.xyz), bitcast<f32>(a.w), ground_slope(p.x, p.y));
         r = vec4<u32>(bitcast<vec3<u32>>(g.way), 0u); s = vec4<u32>(bitcast<vec3<u32>>(g.velocity), 0u);";
     rust |cx, w| {
-        let (d, v) = slide(cx, vector(w, 0), float(w[3]));
+        let slope = ground_slope(cx, float(w[4]), float(w[5]));
+        let (d, v) = slide(cx, vector(w, 0), float(w[3]), slope);
         floats([d.x, d.y, d.z, 0.0, v.x, v.y, v.z])
     };
 
     flatten in "leaf/settle" (UNIT, UNIT, UNIT, UNIT) tolerance Some(2e-6);
     wgsl "r = bitcast<vec4<u32>>(flatten(bitcast<vec4<f32>>(a), 0.6));";
     rust |_cx, w| floats(flatten(quaternion(w, 0), 0.6).to_array());
+
+    flatten_on in "leaf/settle" (UNIT, UNIT, UNIT, UNIT, METRES, METRES) tolerance Some(4e-6);
+    wgsl "let p = bitcast<vec2<f32>>(b.xy);
+        r = bitcast<vec4<u32>>(flatten_on(ground_slope(p.x, p.y), bitcast<vec4<f32>>(a), 0.6));";
+    rust |cx, w| {
+        let slope = ground_slope(cx, float(w[4]), float(w[5]));
+        floats(flatten_on(slope, quaternion(w, 0), 0.6).to_array())
+    };
+
+    ground_relief in "terrain/ground" (METRES, METRES) tolerance Some(1e-6);
+    wgsl "let p = bitcast<vec2<f32>>(a.xy);
+        r.x = bitcast<u32>(ground_relief(p.x, p.y)); r.y = bitcast<u32>(ground_rest(p.x, p.y));";
+    rust |cx, w| {
+        let [x, z] = [float(w[0]), float(w[1])];
+        floats([ground_relief(cx, x, z), ground_rest(cx, x, z)])
+    };
+
+    ground_met in "terrain/ground" (METRES, Input::Float(-1.0, 11.0), METRES) tolerance None;
+    wgsl "r.x = u32(ground_met(bitcast<vec3<f32>>(a.xyz)));";
+    rust |cx, w| integers([u32::from(ground_met(cx, vector(w, 0)))]);
+
+    ground_slope in "terrain/ground" (METRES, METRES) tolerance Some(1e-5);
+    wgsl "let g = ground_slope(bitcast<f32>(a.x), bitcast<f32>(a.y));
+        r = bitcast<vec4<u32>>(vec4<f32>(g.x, g.z, g.gain, g.ease));";
+    rust |cx, w| {
+        let slope = ground_slope(cx, float(w[0]), float(w[1]));
+        floats([slope.x, slope.z, slope.gain, slope.ease])
+    };
 
     wind_profile in "wind/profile" (Input::Float(-5.0, 90.0)) tolerance Some(1e-6);
     wgsl "r.x = bitcast<u32>(wind_profile(bitcast<f32>(a.x)));";

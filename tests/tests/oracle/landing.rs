@@ -38,7 +38,7 @@ fn landing_scene() -> Scene {
             species: Vec::new(),
         }],
         wind: steady_wind(1.5),
-        ground: Ground { height_m: 1.5, friction: 0.5 },
+        ground: Ground { height_m: 1.5, friction: 0.5, ..Ground::default() },
         ..still_scene(single_motion(Primitive::SteadyDescent), 1, 5.0)
     }
 }
