@@ -23,6 +23,7 @@ mod shedding;
 mod sway;
 mod table_file;
 mod tables;
+mod terrain;
 mod tree_sway;
 mod turbulence;
 mod wind;

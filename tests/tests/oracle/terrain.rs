@@ -2,9 +2,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Leaves and trees on hills, held to the hills' grid and to the mechanics of an inclined plane, in double precision.
 
-mod common;
-
-use common::{attitude, build, position, step, velocity};
+use crate::common::{attitude, build, position, step, velocity};
 use glam::DVec3;
 use windfall_core::kernel::Vec3;
 use windfall_core::leaf::LeafState;
