@@ -12,6 +12,7 @@ pub mod drawing;
 pub mod frame;
 pub mod interrupt;
 pub mod leaves;
+pub mod light;
 pub mod output;
 pub mod render;
 pub mod terminal;

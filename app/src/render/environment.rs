@@ -2,13 +2,16 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Light and air of a day: everything follows from the sun's place in the sky.
 
+use std::f32::consts::PI;
+
 use glam::{Mat4, Vec2, Vec3, Vec4};
-use windfall_core::scene::Sun;
+use windfall_core::scene::{Haze, PhysicalSky, Sky, View};
 
 use super::renderer::FrameInput;
 use super::scenery::PARK_RADIUS_M;
 use super::shadow_pass::SHADOW_SIZE;
 use crate::camera::Camera;
+use crate::light::{Daylight, SphericalHarmonics, luminance};
 use crate::trees::Stand;
 
 /// Half edge of the square around the camera's focus in which leaves cast shadows, in metres.
@@ -19,10 +22,12 @@ const SHADOW_DEPTH_M: f32 = 60.0;
 const FOCUS_LIMIT_M: f32 = 11.0;
 /// Largest radius of the ball around the scene's trees in which they cast shadows, in metres.
 const WIDE_LIMIT_M: f32 = 70.0;
-/// Haze per metre: a bright, slightly misty autumn day.
-const HAZE_PER_M: f32 = 0.0042;
-/// Scale from light to picture.
-const EXPOSURE: f32 = 0.78;
+/// Optical depth of haze at which contrast has fallen to 2 % (Koschmieder 1924).
+const VISIBILITY_DEPTH: f32 = 3.912;
+/// Calibration of incident light meters in lx s (ISO 2720).
+const METER_LX_S: f32 = 250.0;
+/// Stops by which a picture is brighter than a meter for grey cards would have it: autumn leaves are bright.
+const BRIGHTER_BY: f32 = 1.2;
 
 /// `Frame` of `common.wgsl`.
 #[repr(C)]
@@ -44,6 +49,10 @@ pub(super) struct FrameUniform {
     park: [f32; 4],
     viewport: [f32; 4],
     wide: [f32; 4],
+    ambient: [[f32; 4]; 9],
+    sky: [f32; 4],
+    cloud_light: [f32; 4],
+    cloud_shade: [f32; 4],
 }
 
 /// How the park's path winds.
@@ -79,10 +88,16 @@ impl Ball {
 }
 
 /// What a frame's light and place are computed from.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Environment {
-    /// Direction towards the sun.
-    pub(super) sun_direction: Vec3,
+    /// Sun and sky.
+    pub(super) daylight: Daylight,
+    /// What the sky does to matt surfaces.
+    ambient: [Vec3; 9],
+    /// Exposure value at ISO 100 that light on level ground asks for.
+    exposure_value: f32,
+    /// Haze.
+    haze: Haze,
     /// Centre of the park, on the ground.
     pub(super) park_center: Vec3,
     /// Its path.
@@ -92,8 +107,16 @@ pub(super) struct Environment {
 }
 
 impl Environment {
-    pub(super) fn new(sun: &Sun, park_center: Vec3, path: Path, stand: Option<Ball>) -> Self {
-        Self { sun_direction: sun_direction(sun), park_center, path, stand }
+    pub(super) fn new(view: &View, park_center: Vec3, path: Path, stand: Option<Ball>) -> Self {
+        let daylight = match &view.sky {
+            Sky::Physical(sky) => Daylight::physical(&view.sun, *sky),
+            Sky::Map(_) => Daylight::physical(&view.sun, PhysicalSky::default()),
+        };
+        let ambient = SphericalHarmonics::of(&daylight.sky).white_surface();
+        let sun = daylight.sun.illuminance * daylight.sun.direction.y.max(0.0);
+        let level = luminance(daylight.sky.irradiance(Vec3::Y) + sun);
+        let exposure_value = (1000.0 * level * 100.0 / METER_LX_S).log2() - BRIGHTER_BY;
+        Self { daylight, ambient, exposure_value, haze: view.haze, park_center, path, stand }
     }
 
     /// The uniform block of one frame.
@@ -102,15 +125,11 @@ impl Environment {
         let (width, height) = (size.0 as f32, size.1 as f32);
         let aspect = width / height;
         let tangent = (0.5 * camera.vertical_fov_rad).tan();
-        let sun = self.sun_direction;
-        // Sunlight after its way through the air, and a sky that pales and warms with it.
-        let air_mass = 1.0 / (sun.y + 0.05);
-        let sun_color = 3.5 * exp(-air_mass * Vec3::new(0.055, 0.105, 0.19));
-        let day = (sun.y * 3.0).clamp(0.4, 1.0);
-        let warm = sun_color / sun_color.max_element();
-        let zenith = Vec3::new(0.08, 0.23, 0.62) * day;
-        let horizon = Vec3::new(0.62, 0.71, 0.82) * Vec3::ONE.lerp(warm, 0.35) * day;
-        let bounce = (sun_color * sun.y * 0.55 + zenith) * Vec3::new(0.20, 0.18, 0.08);
+        let sun = self.daylight.sun.direction;
+        let sky = &self.daylight.sky;
+        let zenith = sky.sample(Vec3::Y);
+        let horizon = 0.25 * [Vec3::X, Vec3::Z, -Vec3::X, -Vec3::Z].map(|to| sky.sample(to + 0.1 * Vec3::Y)).iter().sum::<Vec3>();
+        let bounce = sky.sample(Vec3::NEG_Y);
         let full = |v: Vec3, w: f32| v.extend(w).to_array();
         FrameUniform {
             view_projection: camera.view_projection(aspect).to_cols_array_2d(),
@@ -120,15 +139,19 @@ impl Environment {
             right: full(camera.right() * tangent * aspect, input.origin.0 as f32),
             up: full(camera.up() * tangent, input.origin.1 as f32),
             forward: full(camera.forward(), 0.0),
-            sun_direction: full(sun, Vec2::new(sun.x, sun.z).length() / sun.y),
-            sun_color: full(sun_color, 0.0),
+            sun_direction: full(sun, Vec2::new(sun.x, sun.z).length() / sun.y.max(0.02)),
+            sun_color: full(self.daylight.sun.illuminance / PI, 0.0),
             sky_zenith: full(zenith, self.path.lead.x),
             sky_horizon: full(horizon, self.path.lead.y),
             ground_bounce: full(bounce, self.path.phase),
-            air: [HAZE_PER_M, EXPOSURE, PARK_RADIUS_M, 2.0 * SHADOW_RADIUS_M / SHADOW_SIZE as f32],
+            air: [VISIBILITY_DEPTH / self.haze.visibility_m, exposure(self.exposure_value), PARK_RADIUS_M, 2.0 * SHADOW_RADIUS_M / SHADOW_SIZE as f32],
             park: full(self.park_center, SHADOW_RADIUS_M),
             viewport: [width, height, 1.0 / width, 1.0 / height],
             wide: [self.stand.map_or(0.0, |ball| 2.0 * ball.radius_m / SHADOW_SIZE as f32), 0.0, 0.0, 0.0],
+            ambient: self.ambient.map(|light| full(light, 0.0)),
+            sky: [self.daylight.cloud_cover, 1.0 / self.haze.depth_m, 0.0, 0.0],
+            cloud_light: full(self.daylight.clouds[0], 0.0),
+            cloud_shade: full(self.daylight.clouds[1], 0.0),
         }
     }
 
@@ -159,7 +182,7 @@ impl Environment {
 
     /// Unit vectors to the right and up as the sun sees the park, and towards the sun.
     fn sun_axes(&self) -> [Vec3; 3] {
-        let toward = self.sun_direction;
+        let toward = self.daylight.sun.direction;
         let side = toward.cross(if toward.y > 0.99 { Vec3::Z } else { Vec3::Y }).normalize();
         [side, side.cross(toward), toward]
     }
@@ -175,20 +198,16 @@ fn project([side, upward, toward]: [Vec3; 3], middle: Vec3, scale: f32, depth: f
     ])
 }
 
-fn exp(v: Vec3) -> Vec3 {
-    Vec3::new(v.x.exp(), v.y.exp(), v.z.exp())
-}
-
-fn sun_direction(sun: &Sun) -> Vec3 {
-    let (elevation_sin, elevation_cos) = sun.elevation_deg.to_radians().sin_cos();
-    let (azimuth_sin, azimuth_cos) = sun.azimuth_deg.to_radians().sin_cos();
-    Vec3::new(elevation_cos * azimuth_cos, elevation_sin, elevation_cos * azimuth_sin)
+/// Scale from light in kcd/m² to picture, for a camera that saturates at 1.2 times what the exposure value is for
+/// (ISO 12232).
+fn exposure(value: f32) -> f32 {
+    1000.0 / (1.2 * value.exp2())
 }
 
 #[cfg(test)]
 mod tests {
     use glam::Vec3;
-    use windfall_core::scene;
+    use windfall_core::scene::{self, Sun};
 
     use super::*;
 
@@ -196,10 +215,10 @@ mod tests {
 
     #[test]
     fn shadow_projection_separates_leaf_from_ground_along_the_sun() {
-        let environment = Environment::new(&Sun::default(), Vec3::ZERO, PATH, None);
+        let environment = Environment::new(&View::default(), Vec3::ZERO, PATH, None);
         let matrix = environment.shadow_projection(&Camera::from(&scene::Camera::default()));
         let ground = Vec3::new(0.5, 0.0, -0.5);
-        let leaf = ground + 3.0 * environment.sun_direction;
+        let leaf = ground + 3.0 * environment.daylight.sun.direction;
         let (low, high) = (matrix.project_point3(ground), matrix.project_point3(leaf));
         assert!((low - high).truncate().length() < 1.0e-4, "a sun ray must be one point: {low} {high}");
         assert!(high.z < low.z, "the leaf is nearer to the sun: {low} {high}");
@@ -208,9 +227,9 @@ mod tests {
 
     #[test]
     fn light_stays_finite_for_every_sun() {
-        for elevation_deg in [1.0, 5.0, 45.0, 90.0] {
+        for elevation_deg in [-6.0, 0.0, 1.0, 5.0, 45.0, 90.0] {
             let sun = Sun { azimuth_deg: 30.0, elevation_deg };
-            let environment = Environment::new(&sun, Vec3::ZERO, PATH, None);
+            let environment = Environment::new(&View { sun, ..View::default() }, Vec3::ZERO, PATH, None);
             let camera = Camera::from(&scene::Camera::default());
             let input = FrameInput { camera, time_s: 1.0, origin: (0, 0) };
             let frame = environment.frame(&input, 1.0, (640, 480));

@@ -1,16 +1,21 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Bind group 1: shadows, shade and noise.
+//! Bind group 1: shadows, shade, noise and the sky.
 
 use super::pipeline::{FILTERABLE, sampler_entry, texture_entry};
 use super::scenery::{NOISE_SIZE, noise_mips};
+use super::sky_texture::radiance_texture;
 use super::upload;
+use crate::light::Daylight;
 
 /// What `light.wgsl` binds.
 #[derive(Debug)]
 pub(super) struct LightGroup {
     pub(super) layout: wgpu::BindGroupLayout,
     pub(super) group: wgpu::BindGroup,
+    /// Bindings that stay when the sky changes.
+    views: Vec<(u32, wgpu::TextureView)>,
+    samplers: [(u32, wgpu::Sampler); 4],
 }
 
 impl LightGroup {
@@ -19,6 +24,7 @@ impl LightGroup {
         queue: &wgpu::Queue,
         [shadow_map, wide_map]: [&wgpu::TextureView; 2],
         shade_map: &wgpu::TextureView,
+        daylight: &Daylight,
     ) -> Self {
         let flat = wgpu::TextureViewDimension::D2;
         let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
@@ -31,6 +37,8 @@ impl LightGroup {
                 texture_entry(4, FILTERABLE, flat),
                 sampler_entry(5, wgpu::SamplerBindingType::Filtering),
                 texture_entry(6, wgpu::TextureSampleType::Depth, flat),
+                texture_entry(7, FILTERABLE, flat),
+                sampler_entry(8, wgpu::SamplerBindingType::Filtering),
             ],
         });
         let linear = wgpu::SamplerDescriptor {
@@ -40,33 +48,51 @@ impl LightGroup {
             ..Default::default()
         };
         let compare = Some(wgpu::CompareFunction::LessEqual);
-        let shadow_sampler = device.create_sampler(&wgpu::SamplerDescriptor { compare, ..linear.clone() });
-        let clamp_sampler = device.create_sampler(&linear);
         let repeat = wgpu::AddressMode::Repeat;
-        let repeat_sampler = device.create_sampler(&wgpu::SamplerDescriptor {
-            address_mode_u: repeat,
-            address_mode_v: repeat,
-            ..linear
-        });
-        let noise = noise_view(device, queue);
-        let views = [(0, shadow_map), (2, shade_map), (4, &noise), (6, wide_map)];
-        let samplers = [(1, &shadow_sampler), (3, &clamp_sampler), (5, &repeat_sampler)];
-        let views = views.map(|(binding, view)| wgpu::BindGroupEntry {
-            binding,
-            resource: wgpu::BindingResource::TextureView(view),
-        });
-        let samplers = samplers.map(|(binding, sampler)| wgpu::BindGroupEntry {
-            binding,
-            resource: wgpu::BindingResource::Sampler(sampler),
-        });
-        let entries: Vec<_> = views.into_iter().chain(samplers).collect();
-        let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: Some("light"),
-            layout: &layout,
-            entries: &entries,
-        });
-        Self { layout, group }
+        let around = wgpu::SamplerDescriptor { address_mode_u: repeat, ..linear.clone() };
+        let repeating = wgpu::SamplerDescriptor { address_mode_v: repeat, ..around.clone() };
+        let samplers = [
+            (1, device.create_sampler(&wgpu::SamplerDescriptor { compare, ..linear.clone() })),
+            (3, device.create_sampler(&linear)),
+            (5, device.create_sampler(&repeating)),
+            (8, device.create_sampler(&around)),
+        ];
+        let views = vec![
+            (0, shadow_map.clone()),
+            (2, shade_map.clone()),
+            (4, noise_view(device, queue)),
+            (6, wide_map.clone()),
+        ];
+        let sky = radiance_texture(device, queue, "sky", &[&daylight.sky]);
+        let group = bind(device, &layout, &views, &samplers, &sky);
+        Self { layout, group, views, samplers }
     }
+
+    /// Takes over another sky.
+    pub(super) fn set_sky(&mut self, device: &wgpu::Device, queue: &wgpu::Queue, daylight: &Daylight) {
+        let sky = radiance_texture(device, queue, "sky", &[&daylight.sky]);
+        self.group = bind(device, &self.layout, &self.views, &self.samplers, &sky);
+    }
+}
+
+fn bind(
+    device: &wgpu::Device,
+    layout: &wgpu::BindGroupLayout,
+    views: &[(u32, wgpu::TextureView)],
+    samplers: &[(u32, wgpu::Sampler)],
+    sky: &wgpu::TextureView,
+) -> wgpu::BindGroup {
+    let view = |binding, view| wgpu::BindGroupEntry {
+        binding,
+        resource: wgpu::BindingResource::TextureView(view),
+    };
+    let samplers = samplers.iter().map(|(binding, sampler)| wgpu::BindGroupEntry {
+        binding: *binding,
+        resource: wgpu::BindingResource::Sampler(sampler),
+    });
+    let fixed = views.iter().map(|(binding, texture)| view(*binding, texture));
+    let entries: Vec<_> = fixed.chain([view(7, sky)]).chain(samplers).collect();
+    device.create_bind_group(&wgpu::BindGroupDescriptor { label: Some("light"), layout, entries: &entries })
 }
 
 fn noise_view(device: &wgpu::Device, queue: &wgpu::Queue) -> wgpu::TextureView {

@@ -29,6 +29,7 @@ mod renderer;
 mod scenery;
 mod shadow_pass;
 mod sky_pass;
+mod sky_texture;
 mod stems;
 mod targets;
 mod timing;

@@ -156,19 +156,21 @@ impl Renderer {
         let wide_size = if stand.trees.is_empty() { 1 } else { SHADOW_SIZE };
         let wide_pass = ShadowPass::new(device, &frame, &kinds, &branches, true, wide_size);
         let shade_pass = ShadePass::new(device, &frame, &trees);
-        let light = LightGroup::new(device, queue, [&shadow_pass.map, &wide_pass.map], &shade_pass.map);
+        let environment = Environment::new(
+            &scene.view,
+            center,
+            Path { lead: level, phase: path_phase },
+            Ball::around(stand),
+        );
+        let maps = [&shadow_pass.map, &wide_pass.map];
+        let light = LightGroup::new(device, queue, maps, &shade_pass.map, &environment.daylight);
         let eye_m = camera.eye_m();
         let shedding = shedding(&planted, stand);
         let species_count = u32::try_from(scene.species.len()).unwrap_or(1);
         let mut renderer = Self {
             device: device.clone(),
             queue: queue.clone(),
-            environment: Environment::new(
-                &scene.view.sun,
-                center,
-                Path { lead: level, phase: path_phase },
-                Ball::around(stand),
-            ),
+            environment,
             leaf_count: scene.leaf_count(),
             eye_m,
             litter: Litter::new(device, queue, options.litter_count, species_count, center, &shedding),
@@ -198,7 +200,7 @@ impl Renderer {
             wide_pass,
             shade_pass,
         };
-        renderer.update_scene_view(&scene.view);
+        renderer.make_trails(scene.view.trail_s);
         Ok(renderer)
     }
 
@@ -219,10 +221,11 @@ impl Renderer {
         Ok(())
     }
 
-    /// Takes over another sun and length of trails; the park stays where it is.
+    /// Takes over another sun, sky and length of trails; the park stays where it is.
     pub fn update_scene_view(&mut self, view: &View) {
         let Environment { park_center, path, stand, .. } = self.environment;
-        self.environment = Environment::new(&view.sun, park_center, path, stand);
+        self.environment = Environment::new(view, park_center, path, stand);
+        self.light.set_sky(&self.device, &self.queue, &self.environment.daylight);
         self.shade_is_old = true;
         let drawn = self.trail_pass.as_ref().map_or(0.0, TrailPass::trail_s);
         if drawn != view.trail_s {

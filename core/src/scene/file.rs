@@ -14,7 +14,7 @@ use ron::extensions::Extensions;
 use ron::ser::PrettyConfig;
 
 use super::nearest::nearest;
-use super::{PRESETS, Scene, TreeForm};
+use super::{PRESETS, Scene, Sky, TreeForm};
 use crate::SceneError;
 
 /// Largest scene file in bytes; sixteen sources and thirty-two species take some ten thousand.
@@ -43,6 +43,9 @@ impl Scene {
                     if let TreeForm::File(named) = &mut kind.form {
                         *named = folder.join(&*named).to_string_lossy().into_owned();
                     }
+                }
+                if let Sky::Map(map) = &mut scene.view.sky {
+                    map.path = folder.join(&map.path).to_string_lossy().into_owned();
                 }
                 Ok(scene)
             }

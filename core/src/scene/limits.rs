@@ -146,7 +146,13 @@ limits! {
     CAMERA_M: f32 = -100_000.0, 100_000.0, "m", eye_m target_m;
     VERTICAL_FOV_DEG: f32 = 5.0, 120.0, "degrees", vertical_fov_deg;
     AZIMUTH_DEG: f32 = -360.0, 360.0, "degrees", azimuth_deg;
-    ELEVATION_DEG: f32 = 1.0, 90.0, "degrees", elevation_deg;
+    ELEVATION_DEG: f32 = -6.0, 90.0, "degrees", elevation_deg;
+    AEROSOL: f32 = 0.0, 1.0, "", aerosol;
+    CLOUD_COVER: f32 = 0.0, 1.0, "", cloud_cover;
+    ROTATION_DEG: f32 = -360.0, 360.0, "degrees", rotation_deg;
+    INTENSITY_KCD_M2: f32 = 0.001, 1000.0, "kcd/m²", intensity_kcd_m2;
+    VISIBILITY_M: f32 = 20.0, 100_000.0, "m", visibility_m;
+    HAZE_DEPTH_M: f32 = 1.0, 10_000.0, "m", depth_m;
     TRAIL_S: f32 = 0.0, 30.0, "s", trail_s;
 }
 
@@ -167,6 +173,7 @@ mod tests {
         include_str!("mod.rs"),
         include_str!("flight.rs"),
         include_str!("ground.rs"),
+        include_str!("sky.rs"),
         include_str!("source.rs"),
         include_str!("species.rs"),
         include_str!("terrain.rs"),

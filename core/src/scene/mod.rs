@@ -11,6 +11,7 @@ mod ground;
 pub mod limits;
 pub(crate) mod nearest;
 mod presets;
+mod sky;
 mod source;
 mod species;
 mod species_presets;
@@ -25,6 +26,7 @@ use serde::{Deserialize, Serialize};
 pub use flight::{Aerodynamics, FlightModel, Hold, Planform};
 pub use ground::Ground;
 pub use presets::PRESETS;
+pub use sky::{Haze, PhysicalSky, Sky, SkyMap};
 pub use source::{Release, Share, Source, SourceShape};
 pub use species::{LeafShape, MotionParameters, RotationModel, Species};
 pub use terrain::{Terrain, Water};
@@ -84,7 +86,7 @@ pub struct Scene {
     pub wind: WindParameters,
     /// What leaves land on.
     pub ground: Ground,
-    /// Camera, sun and trails; no effect on the simulation.
+    /// Camera, sun, sky, haze and trails; no effect on the simulation.
     pub view: View,
 }
 

@@ -9,9 +9,9 @@ mod tests;
 mod trees;
 
 use super::{
-    Aerodynamics, Camera, FlightModel, Ground, MAX_LEAVES, MAX_SOURCES, MAX_SPECIES, MAX_TREE_LEAVES,
-    MAX_VORTICES, MeanSpeed, MotionParameters, Profile, Release, RotationModel, Scene, Source, SourceShape,
-    Species, Sun, Terrain, View, Vortex, WindParameters, limits,
+    Aerodynamics, Camera, FlightModel, Ground, Haze, MAX_LEAVES, MAX_SOURCES, MAX_SPECIES, MAX_TREE_LEAVES,
+    MAX_VORTICES, MeanSpeed, MotionParameters, PhysicalSky, Profile, Release, RotationModel, Scene, Sky, SkyMap,
+    Source, SourceShape, Species, Sun, Terrain, View, Vortex, WindParameters, limits,
 };
 use crate::SceneError;
 use check::Check;
@@ -262,7 +262,8 @@ impl Terrain {
 
 impl View {
     fn check(&self, at: &Check<'_>) -> Result<(), SceneError> {
-        let Self { camera: Camera { eye_m, target_m, vertical_fov_deg }, sun, trail_s } = *self;
+        let Self { camera: Camera { eye_m, target_m, vertical_fov_deg }, sun, sky: _, haze, trail_s } = *self;
+        let Haze { visibility_m, depth_m } = haze;
         let Sun { azimuth_deg, elevation_deg } = sun;
         at.vector("camera.eye_m", eye_m, limits::CAMERA_M)?;
         at.vector("camera.target_m", target_m, limits::CAMERA_M)?;
@@ -273,7 +274,28 @@ impl View {
             ("camera.vertical_fov_deg", vertical_fov_deg.into(), limits::VERTICAL_FOV_DEG),
             ("sun.azimuth_deg", azimuth_deg.into(), limits::AZIMUTH_DEG),
             ("sun.elevation_deg", elevation_deg.into(), limits::ELEVATION_DEG),
+            ("haze.visibility_m", visibility_m.into(), limits::VISIBILITY_M),
+            ("haze.depth_m", depth_m.into(), limits::HAZE_DEPTH_M),
             ("trail_s", trail_s.into(), limits::TRAIL_S),
-        ])
+        ])?;
+        self.sky.check(&at.inside("sky"))
+    }
+}
+
+impl Sky {
+    fn check(&self, at: &Check<'_>) -> Result<(), SceneError> {
+        match self {
+            Self::Physical(PhysicalSky { aerosol, cloud_cover }) => at.numbers([
+                ("aerosol", (*aerosol).into(), limits::AEROSOL),
+                ("cloud_cover", (*cloud_cover).into(), limits::CLOUD_COVER),
+            ]),
+            Self::Map(SkyMap { path, rotation_deg, intensity_kcd_m2 }) => {
+                at.holds(!path.is_empty(), "path", || ("\"\"".into(), "a file".into()))?;
+                at.numbers([
+                    ("rotation_deg", (*rotation_deg).into(), limits::ROTATION_DEG),
+                    ("intensity_kcd_m2", (*intensity_kcd_m2).into(), limits::INTENSITY_KCD_M2),
+                ])
+            }
+        }
     }
 }

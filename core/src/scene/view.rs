@@ -5,6 +5,8 @@
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
+use super::{Haze, Sky};
+
 /// A perspective camera.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
@@ -29,7 +31,7 @@ impl Default for Camera {
 pub struct Sun {
     /// Direction it is seen in, degrees from +x turning to +z, -360 to 360.
     pub azimuth_deg: f32,
-    /// Height above the horizon in degrees, 1 to 90.
+    /// Height above the horizon in degrees, -6 to 90. Below the horizon it lights the sky alone.
     pub elevation_deg: f32,
 }
 
@@ -40,13 +42,17 @@ impl Default for Sun {
 }
 
 /// How a scene is looked at.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct View {
     /// The camera.
     pub camera: Camera,
     /// The sun.
     pub sun: Sun,
+    /// What lights the scene besides; a picture of the sky brings its own sun.
+    pub sky: Sky,
+    /// Haze between the eye and what it sees.
+    pub haze: Haze,
     /// Length of the trail drawn behind every leaf in seconds, 0 to 30: none at 0. Trails are drawn for the first
     /// 4096 leaves.
     pub trail_s: f32,

@@ -16,11 +16,12 @@ struct Frame {
     forward: vec4<f32>,
     // Direction towards the sun; tangent of its distance from the zenith.
     sun_direction: vec4<f32>,
+    // Radiance of a white matt surface that faces the sun; light is in kcd/m² throughout.
     sun_color: vec4<f32>,
     // w: x and z of the direction the park's path leads.
     sky_zenith: vec4<f32>,
     sky_horizon: vec4<f32>,
-    // Light that comes back from the ground; w: phase of the path's bends.
+    // Radiance of the ground; w: phase of the path's bends.
     ground_bounce: vec4<f32>,
     // Haze per metre; exposure; half edge of the shade map in metres; edge of a shadow texel in metres.
     air: vec4<f32>,
@@ -30,6 +31,13 @@ struct Frame {
     viewport: vec4<f32>,
     // Edge of a texel of the wide shadow map in metres; unused.
     wide: vec4<f32>,
+    // Light of the sky on white matt surfaces: coefficients of spherical harmonics.
+    ambient: array<vec4<f32>, 9>,
+    // Cloud cover; reciprocal of the depth of the haze in metres; unused.
+    sky: vec4<f32>,
+    // Radiance of clouds, at their brightest and at their darkest.
+    cloud_light: vec4<f32>,
+    cloud_shade: vec4<f32>,
 }
 
 @group(0) @binding(0) var<uniform> frame: Frame;

@@ -10,6 +10,9 @@
 @group(1) @binding(4) var noise: texture_2d<f32>;
 @group(1) @binding(5) var repeat_sampler: sampler;
 @group(1) @binding(6) var wide_map: texture_depth_2d;
+// Radiance by latitude and longitude.
+@group(1) @binding(7) var sky_map: texture_2d<f32>;
+@group(1) @binding(8) var sky_sampler: sampler;
 
 // Sunlight that reaches `position` past the leaves and trees of the map around the whole stand.
 fn wide_shadow(position: vec3<f32>) -> f32 {
@@ -50,7 +53,7 @@ fn leaf_shadow(position: vec3<f32>) -> f32 {
 // Sunlight that the trees let through (r) and litter density (g) where the sun ray through `position` meets the ground.
 fn tree_shade(position: vec3<f32>) -> vec2<f32> {
     let height = position.y - frame.park.y;
-    let down = frame.sun_direction.xz * (height / frame.sun_direction.y);
+    let down = frame.sun_direction.xz * (height / max(frame.sun_direction.y, 0.02));
     let offset = (position.xz - down - frame.park.xz) / frame.air.z;
     let uv = offset * 0.5 + 0.5;
     let shade = textureSampleLevel(shade_map, clamp_sampler, uv, 0.0).rg;
@@ -59,29 +62,39 @@ fn tree_shade(position: vec3<f32>) -> vec2<f32> {
     return vec2(mix(shade.r, 1.0, free), shade.g);
 }
 
-// Light of the whole sky and the ground on a surface facing `normal`.
-fn ambient_light(normal: vec3<f32>) -> vec3<f32> {
-    let sky = mix(frame.sky_horizon.rgb, frame.sky_zenith.rgb, 0.30);
-    return mix(frame.ground_bounce.rgb, sky, normal.y * 0.5 + 0.5);
+// Light of the whole sky and the ground on a white matt surface facing `n`, of unit length.
+fn ambient_light(n: vec3<f32>) -> vec3<f32> {
+    var sum = 0.282095 * frame.ambient[0].rgb;
+    sum += 0.488603 * (n.y * frame.ambient[1].rgb + n.z * frame.ambient[2].rgb + n.x * frame.ambient[3].rgb);
+    sum += 1.092548 * (n.x * n.y * frame.ambient[4].rgb + n.y * n.z * frame.ambient[5].rgb + n.x * n.z * frame.ambient[7].rgb);
+    sum += 0.315392 * (3.0 * n.z * n.z - 1.0) * frame.ambient[6].rgb;
+    sum += 0.546274 * (n.x * n.x - n.y * n.y) * frame.ambient[8].rgb;
+    return max(sum, vec3(0.0));
 }
 
-// Sky without clouds in a direction.
-fn clear_sky(direction: vec3<f32>) -> vec3<f32> {
-    let height = max(direction.y, 0.0);
-    let toward_sun = max(dot(direction, frame.sun_direction.xyz), 0.0);
-    var color = mix(frame.sky_horizon.rgb, frame.sky_zenith.rgb, 1.0 - exp(-4.2 * height));
-    // Forward scattering: a wide warm veil and a tighter glow.
-    let veil = 0.07 * pow(toward_sun, 5.0) + 0.22 * pow(toward_sun, 24.0) + 0.8 * pow(toward_sun, 300.0);
-    color += frame.sun_color.rgb * veil;
-    return color;
+// Place of a direction in a map by latitude and longitude.
+fn sky_place(direction: vec3<f32>) -> vec2<f32> {
+    let turn = atan2(direction.z, direction.x) * 0.15915494 + 0.75;
+    return vec2(turn, acos(clamp(direction.y, -1.0, 1.0)) * 0.31830989);
 }
 
-// Adds the air between the eye and a surface at `position`.
+// Radiance of the sky in a direction, as if clouds were spread evenly.
+fn sky_radiance(direction: vec3<f32>) -> vec3<f32> {
+    return textureSampleLevel(sky_map, sky_sampler, sky_place(direction), 0.0).rgb;
+}
+
+// Adds the air between the eye and a surface at `position`: it is as bright as the sky above the horizon, since that
+// is what haze without end looks like.
 fn haze(color: vec3<f32>, position: vec3<f32>) -> vec3<f32> {
     let ray = position - frame.eye.xyz;
     let distance_m = length(ray);
     let direction = ray / max(distance_m, 1.0e-4);
-    let level = normalize(vec3(direction.x, max(direction.y, 0.0) * 0.4 + 0.04, direction.z));
-    let veil = 1.0 - exp(-max(distance_m - 4.0, 0.0) * frame.air.x);
-    return mix(color, clear_sky(level), veil);
+    // Haze thins with height: its mean density along the ray.
+    let low = max(frame.eye.y - frame.park.y, 0.0) * frame.sky.y;
+    let high = max(position.y - frame.park.y, 0.0) * frame.sky.y;
+    let span = high - low;
+    let mean = select((exp(-low) - exp(-high)) / span, exp(-low), abs(span) < 1.0e-3);
+    let veil = 1.0 - exp(-distance_m * frame.air.x * mean);
+    let level = normalize(vec3(direction.x, max(direction.y, 0.0) * 0.4 + 0.05, direction.z));
+    return mix(color, sky_radiance(level), veil);
 }

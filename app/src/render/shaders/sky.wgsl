@@ -27,31 +27,36 @@ fn skyline(azimuth: f32, row: f32, height: f32) -> f32 {
 @fragment
 fn fragment(in: Varyings) -> @location(0) vec4<f32> {
     let direction = normalize(in.ray);
-    var color = clear_sky(direction);
+    var color = sky_radiance(direction);
     let toward_sun = max(dot(direction, frame.sun_direction.xyz), 0.0);
-    // Thin high clouds on a plane overhead.
+    // Clouds on a plane overhead.
     let up = max(direction.y, 0.0);
     let plane = direction.xz / (up + 0.12);
     let drift = frame.eye.w * 0.0006;
     let lod = clamp(1.6 - 6.0 * up, 0.0, 3.0);
     let broad = textureSampleLevel(noise, repeat_sampler, plane * 0.055 + drift, lod).r;
     let streak = textureSampleLevel(noise, repeat_sampler, plane * vec2(0.10, 0.21) + 0.4 + drift, lod).g;
-    let cover = smoothstep(0.57, 0.86, 0.72 * broad + 0.30 * streak) * smoothstep(0.02, 0.22, up);
-    let cloud = frame.sky_horizon.rgb * 1.12 + frame.sun_color.rgb * (0.16 + 0.30 * pow(toward_sun, 6.0));
-    color = mix(color, cloud, cover * 0.75);
-    color += frame.sun_color.rgb * smoothstep(0.9994, 0.99997, toward_sun) * 6.0;
+    let body = 0.72 * broad + 0.30 * streak;
+    let edge = mix(0.80, 0.18, frame.sky.x);
+    let cover = smoothstep(edge - 0.02, edge + 0.25, body) * smoothstep(0.02, 0.22, up);
+    let cloud = mix(frame.cloud_light.rgb, frame.cloud_shade.rgb, 0.6 * smoothstep(edge, edge + 0.5, body))
+        + frame.sun_color.rgb * 0.30 * pow(toward_sun, 6.0);
+    color = mix(color, cloud, cover * 0.85);
+    // The sun's disc, half a degree wide: as bright as it would have to be, or as 16 bits allow.
+    let disc = smoothstep(0.999985, 0.999991, toward_sun) * (1.0 - cover);
+    color += min(frame.sun_color.rgb * (3.14159265 / 6.8e-5), vec3(30000.0)) * disc;
 
     // Two rows of far woods in the haze.
     let azimuth = atan2(direction.z, direction.x);
     let slope = direction.y / max(length(direction.xz), 1.0e-3);
     let pixel = frame.viewport.w * 2.0 * length(frame.up.xyz) * 1.5;
-    let level = clear_sky(normalize(vec3(direction.x, 0.05, direction.z)));
+    let level = sky_radiance(normalize(vec3(direction.x, 0.05, direction.z)));
     for (var row = 0u; row < 2u; row++) {
         let near = f32(row);
         let top = skyline(azimuth, 0.21 + near * 0.4, mix(0.060, 0.042, near));
-        let wood = mix(vec3(0.10, 0.085, 0.05), vec3(0.17, 0.10, 0.035), near) * frame.sun_color.rgb * 0.55;
+        let wood = mix(vec3(0.10, 0.085, 0.05), vec3(0.17, 0.10, 0.035), near) * (0.3 * frame.sun_color.rgb + ambient_light(vec3(0.0, 1.0, 0.0)));
         let seen = mix(wood, level, mix(0.90, 0.80, near));
         color = mix(color, seen, smoothstep(pixel, -pixel, slope - top));
     }
-    return vec4(min(color, vec3(24.0)), 1.0);
+    return vec4(color, 1.0);
 }

@@ -195,11 +195,22 @@ prop_compose! {
         vertical_fov_deg in within(limits::VERTICAL_FOV_DEG),
         azimuth_deg in within(limits::AZIMUTH_DEG),
         elevation_deg in within(limits::ELEVATION_DEG),
+        sky in prop_oneof![
+            (within(limits::AEROSOL), within(limits::CLOUD_COVER))
+                .prop_map(|(aerosol, cloud_cover)| Sky::Physical(PhysicalSky { aerosol, cloud_cover })),
+            ("[^\\p{C}]{1,20}", within(limits::ROTATION_DEG), within(limits::INTENSITY_KCD_M2)).prop_map(
+                |(path, rotation_deg, intensity_kcd_m2)| Sky::Map(SkyMap { path, rotation_deg, intensity_kcd_m2 })
+            ),
+        ],
+        haze in (within(limits::VISIBILITY_M), within(limits::HAZE_DEPTH_M))
+            .prop_map(|(visibility_m, depth_m)| Haze { visibility_m, depth_m }),
         trail_s in within(limits::TRAIL_S),
     ) -> View {
         View {
             camera: Camera { eye_m, target_m, vertical_fov_deg },
             sun: Sun { azimuth_deg, elevation_deg },
+            sky,
+            haze,
             trail_s,
         }
     }

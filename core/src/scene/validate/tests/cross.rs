@@ -43,6 +43,7 @@ const SPECIES: &[Case] = &[
     (|s| s.species[0].tables = Some(String::new()), Some("species[0].tables")),
     (|s| s.species[0].leaves = Some("oaks".into()), None),
     (|s| s.species[0].leaves = Some(String::new()), Some("species[0].leaves")),
+    (|s| s.view.sky = Sky::Map(SkyMap::new(String::new())), Some("view.sky.path")),
     (|s| s.species[0].transitions.0[5] = [0; 6], Some("species[0].transitions[5]")),
     (|s| s.species[0].transitions.0[3] = [u32::MAX; 6], Some("species[0].transitions[3]")),
     (|s| s.species[0].start = Primitive::PeriodicSpiraling, None),

@@ -138,7 +138,17 @@ const REALS: &[Row<f32>] = &[
     ("view.camera.target_m.z", -1e5, 1e5, |s, v| s.view.camera.target_m.z = v),
     ("view.camera.vertical_fov_deg", 5.0, 120.0, |s, v| s.view.camera.vertical_fov_deg = v),
     ("view.sun.azimuth_deg", -360.0, 360.0, |s, v| s.view.sun.azimuth_deg = v),
-    ("view.sun.elevation_deg", 1.0, 90.0, |s, v| s.view.sun.elevation_deg = v),
+    ("view.sun.elevation_deg", -6.0, 90.0, |s, v| s.view.sun.elevation_deg = v),
+    ("view.sky.aerosol", 0.0, 1.0,
+        |s, v| s.view.sky = Sky::Physical(PhysicalSky { aerosol: v, ..PhysicalSky::default() })),
+    ("view.sky.cloud_cover", 0.0, 1.0,
+        |s, v| s.view.sky = Sky::Physical(PhysicalSky { cloud_cover: v, ..PhysicalSky::default() })),
+    ("view.sky.rotation_deg", -360.0, 360.0,
+        |s, v| s.view.sky = Sky::Map(SkyMap { rotation_deg: v, ..SkyMap::new("a.hdr".into()) })),
+    ("view.sky.intensity_kcd_m2", 0.001, 1000.0,
+        |s, v| s.view.sky = Sky::Map(SkyMap { intensity_kcd_m2: v, ..SkyMap::new("a.hdr".into()) })),
+    ("view.haze.visibility_m", 20.0, 100_000.0, |s, v| s.view.haze.visibility_m = v),
+    ("view.haze.depth_m", 1.0, 10_000.0, |s, v| s.view.haze.depth_m = v),
     ("view.trail_s", 0.0, 30.0, |s, v| s.view.trail_s = v),
 ];
 

@@ -1,0 +1,115 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Sun and sky of a moment.
+
+use std::f32::consts::{FRAC_PI_2, PI, TAU};
+
+use glam::Vec3;
+use rayon::prelude::*;
+use windfall_core::scene::{PhysicalSky, Sun};
+
+use super::clouds::{OVERCAST_ILLUMINANCE, cloud_share, overcast};
+use super::scattering::ClearAir;
+use super::spectrum::ToRgb;
+use super::{Atmosphere, EnvironmentMap};
+
+/// Width and height of a computed sky in pixels.
+const SIZE: (usize, usize) = (256, 128);
+/// Share of light that autumn meadows and woods throw back.
+const GROUND_ALBEDO: Vec3 = Vec3::new(0.125, 0.115, 0.055);
+
+/// A directional light.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SunLight {
+    /// Direction towards it.
+    pub direction: Vec3,
+    /// Illuminance in klx of a surface that faces it.
+    pub illuminance: Vec3,
+}
+
+/// All light that comes from above, and what the ground returns of it.
+#[derive(Clone, Debug)]
+pub struct Daylight {
+    /// The sun.
+    pub sun: SunLight,
+    /// Everything else.
+    pub sky: EnvironmentMap,
+    /// Clouds to be drawn before the sky, 0 to 1.
+    pub cloud_cover: f32,
+    /// Radiance of the brightest and of the darkest clouds.
+    pub clouds: [Vec3; 2],
+}
+
+impl Daylight {
+    /// Sun and sky as the model has them.
+    pub fn physical(sun: &Sun, sky: PhysicalSky) -> Self {
+        let direction = sun_direction(sun);
+        let elevation = f64::from(sun.elevation_deg).to_radians();
+        let air = ClearAir::new(Atmosphere::new(sky.aerosol), elevation);
+        let to_rgb = ToRgb::new();
+        let beam = to_rgb.rgb(&air.sun()).max(Vec3::ZERO);
+        let clear = clear_sky(&air, &to_rgb, direction);
+        let level = Vec3::Y;
+        let sky_light = clear.irradiance(level);
+        let sun_light = beam * direction.y.max(0.0);
+        let [all, from_sky] = [luminance(sky_light + sun_light), luminance(sky_light)];
+        let share = cloud_share(sky.cloud_cover, (from_sky / all.max(1e-9)).min(1.0));
+        let diffuse = share.global * share.diffuse * all;
+        let direct = share.global * (1.0 - share.diffuse) * all;
+        // Clouds are white: they have the colour of all light that falls on them.
+        let tint = (sky_light + sun_light) / all.max(1e-9);
+        let zenith = (diffuse - (1.0 - sky.cloud_cover) * from_sky).max(0.0) / OVERCAST_ILLUMINANCE;
+        let above = clear.map(|towards, radiance| {
+            radiance * (1.0 - sky.cloud_cover) + tint * (zenith * overcast(towards.y))
+        });
+        let illuminance = beam * (direct / luminance(sun_light).max(1e-9)).min(1.0);
+        let ground =
+            GROUND_ALBEDO / PI * (above.irradiance(level) + illuminance * direction.y.max(0.0));
+        let cover = sky.cloud_cover.max(0.05);
+        Self {
+            sun: SunLight { direction, illuminance },
+            sky: above.map(|towards, radiance| if towards.y < 0.0 { ground } else { radiance }),
+            cloud_cover: sky.cloud_cover,
+            clouds: [tint * (zenith / cover), ground],
+        }
+    }
+}
+
+/// Unit vector towards the sun.
+pub(crate) fn sun_direction(sun: &Sun) -> Vec3 {
+    let (elevation_sin, elevation_cos) = sun.elevation_deg.to_radians().sin_cos();
+    let (azimuth_sin, azimuth_cos) = sun.azimuth_deg.to_radians().sin_cos();
+    Vec3::new(elevation_cos * azimuth_cos, elevation_sin, elevation_cos * azimuth_sin)
+}
+
+/// Luminance of linear sRGB.
+pub(crate) fn luminance(color: Vec3) -> f32 {
+    color.dot(Vec3::new(0.2126, 0.7152, 0.0722))
+}
+
+/// The upper half of the sky without clouds; the lower half is black. The sky is alike on both sides of the sun, so half of it is computed.
+fn clear_sky(air: &ClearAir, to_rgb: &ToRgb, sun: Vec3) -> EnvironmentMap {
+    let (width, height) = SIZE;
+    let half = width / 2;
+    let sun_azimuth = sun.z.atan2(sun.x);
+    let rows: Vec<Vec<Vec3>> = (0..height / 2)
+        .into_par_iter()
+        .map(|row| {
+            let elevation = f64::from(FRAC_PI_2 - PI * (row as f32 + 0.5) / height as f32);
+            let away = |step: usize| std::f64::consts::PI * step as f64 / half as f64;
+            // Some colours of the air lie outside of what a screen can show.
+            (0..=half).map(|step| to_rgb.rgb(&air.radiance(elevation, away(step))).max(Vec3::ZERO)).collect()
+        })
+        .collect();
+    EnvironmentMap::from_fn(width, height, |direction| {
+        if direction.y <= 0.0 {
+            return Vec3::ZERO;
+        }
+        let turned = (direction.z.atan2(direction.x) - sun_azimuth).rem_euclid(TAU);
+        let away = turned.min(TAU - turned) / PI * half as f32;
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a number of pixels")]
+        let [row, left] =
+            [(direction.y.acos() / PI * height as f32) as usize, (away as usize).min(half - 1)];
+        rows[row.min(height / 2 - 1)][left].lerp(rows[row.min(height / 2 - 1)][left + 1], away - left as f32)
+    })
+}

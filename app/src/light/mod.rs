@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The light of a day, computed on the CPU: radiance of the sky from a model or from a file, the sun, and what shaders ask of
+//! both. Radiance is in kcd/m² (a thousand candelas per square metre), illuminance in klx, colours in linear sRGB.
+
+mod atmosphere;
+mod clouds;
+mod column_table;
+mod daylight;
+mod environment_map;
+mod scattering;
+mod spectrum;
+mod spherical_harmonics;
+
+pub use atmosphere::Atmosphere;
+pub use daylight::{Daylight, SunLight};
+pub(crate) use daylight::luminance;
+pub use environment_map::EnvironmentMap;
+pub use spherical_harmonics::SphericalHarmonics;
+
+#[cfg(test)]
+mod tests;
