@@ -55,9 +55,8 @@ impl ColumnTable {
         let at = row * DIRECTIONS + column;
         let [a, b] = [&self.0[at], &self.0[at + 1]];
         let [c, d] = [&self.0[at + DIRECTIONS], &self.0[at + DIRECTIONS + 1]];
-        let mix = |i: usize| {
-            (a[i] * (1.0 - fx) + b[i] * fx) * (1.0 - fy) + (c[i] * (1.0 - fx) + d[i] * fx) * fy
-        };
+        let mix =
+            |i: usize| (a[i] * (1.0 - fx) + b[i] * fx) * (1.0 - fy) + (c[i] * (1.0 - fx) + d[i] * fx) * fy;
         (std::array::from_fn(mix), visible)
     }
 }

@@ -18,6 +18,9 @@ const SIZE: (usize, usize) = (256, 128);
 /// Share of light that autumn meadows and woods throw back.
 const GROUND_ALBEDO: Vec3 = Vec3::new(0.125, 0.115, 0.055);
 
+/// Colour of an overcast sky, of luminance 1: about 6800 K (Lee and Hernández-Andrés 2005).
+const OVERCAST_COLOR: Vec3 = Vec3::new(0.975, 1.0, 1.075);
+
 /// A directional light.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SunLight {
@@ -56,15 +59,15 @@ impl Daylight {
         let share = cloud_share(sky.cloud_cover, (from_sky / all.max(1e-9)).min(1.0));
         let diffuse = share.global * share.diffuse * all;
         let direct = share.global * (1.0 - share.diffuse) * all;
-        // Clouds are white: they have the colour of all light that falls on them.
-        let tint = (sky_light + sun_light) / all.max(1e-9);
+        // Clouds have the colour of all light that falls on them, and a closed cover that of daylight at any hour.
+        let tint =
+            ((sky_light + sun_light) / all.max(1e-9)).lerp(OVERCAST_COLOR, sky.cloud_cover * sky.cloud_cover);
         let zenith = (diffuse - (1.0 - sky.cloud_cover) * from_sky).max(0.0) / OVERCAST_ILLUMINANCE;
         let above = clear.map(|towards, radiance| {
             radiance * (1.0 - sky.cloud_cover) + tint * (zenith * overcast(towards.y))
         });
         let illuminance = beam * (direct / luminance(sun_light).max(1e-9)).min(1.0);
-        let ground =
-            GROUND_ALBEDO / PI * (above.irradiance(level) + illuminance * direction.y.max(0.0));
+        let ground = GROUND_ALBEDO / PI * (above.irradiance(level) + illuminance * direction.y.max(0.0));
         let cover = sky.cloud_cover.max(0.05);
         Self {
             sun: SunLight { direction, illuminance },
@@ -108,8 +111,7 @@ fn clear_sky(air: &ClearAir, to_rgb: &ToRgb, sun: Vec3) -> EnvironmentMap {
         let turned = (direction.z.atan2(direction.x) - sun_azimuth).rem_euclid(TAU);
         let away = turned.min(TAU - turned) / PI * half as f32;
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a number of pixels")]
-        let [row, left] =
-            [(direction.y.acos() / PI * height as f32) as usize, (away as usize).min(half - 1)];
+        let [row, left] = [(direction.y.acos() / PI * height as f32) as usize, (away as usize).min(half - 1)];
         rows[row.min(height / 2 - 1)][left].lerp(rows[row.min(height / 2 - 1)][left + 1], away - left as f32)
     })
 }

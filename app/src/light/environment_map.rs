@@ -44,9 +44,10 @@ impl EnvironmentMap {
 
     /// Directions, radiances and solid angles of all pixels. The solid angles sum up to 4 pi.
     pub fn parts(&self) -> impl Iterator<Item = (Vec3, Vec3, f32)> {
-        self.pixels.iter().enumerate().map(|(index, &radiance)| {
-            (self.direction(index), radiance, self.solid_angle(index / self.width))
-        })
+        self.pixels
+            .iter()
+            .enumerate()
+            .map(|(index, &radiance)| (self.direction(index), radiance, self.solid_angle(index / self.width)))
     }
 
     /// Direction of the middle of a pixel.
@@ -82,7 +83,9 @@ impl EnvironmentMap {
 
     /// Illuminance of a surface that faces `normal`, summed over all pixels.
     pub fn irradiance(&self, normal: Vec3) -> Vec3 {
-        self.parts().map(|(direction, radiance, angle)| radiance * (angle * direction.dot(normal).max(0.0))).sum()
+        self.parts()
+            .map(|(direction, radiance, angle)| radiance * (angle * direction.dot(normal).max(0.0)))
+            .sum()
     }
 
     /// The map with every pixel replaced.
@@ -95,6 +98,7 @@ impl EnvironmentMap {
 fn direction(width: usize, height: usize, index: usize) -> Vec3 {
     let (row, column) = (index / width, index % width);
     let (sin, cos) = (PI * (row as f32 + 0.5) / height as f32).sin_cos();
-    let (azimuth_sin, azimuth_cos) = (TAU * ((column as f32 + 0.5) / width as f32 - 0.5) - FRAC_PI_2).sin_cos();
+    let (azimuth_sin, azimuth_cos) =
+        (TAU * ((column as f32 + 0.5) / width as f32 - 0.5) - FRAC_PI_2).sin_cos();
     Vec3::new(sin * azimuth_cos, cos, sin * azimuth_sin)
 }

@@ -13,8 +13,8 @@ mod spectrum;
 mod spherical_harmonics;
 
 pub use atmosphere::Atmosphere;
-pub use daylight::{Daylight, SunLight};
 pub(crate) use daylight::luminance;
+pub use daylight::{Daylight, SunLight};
 pub use environment_map::EnvironmentMap;
 pub use spherical_harmonics::SphericalHarmonics;
 

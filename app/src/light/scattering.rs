@@ -74,7 +74,15 @@ impl ClearAir {
     }
 
     /// Adds up what a ray meets until it leaves the air or hits the ground.
-    fn march(&self, radius: f64, ray: [f64; 3], sun: [f64; 3], phases: [f32; 2], steps: u32, all: bool) -> Ray {
+    fn march(
+        &self,
+        radius: f64,
+        ray: [f64; 3],
+        sun: [f64; 3],
+        phases: [f32; 2],
+        steps: u32,
+        all: bool,
+    ) -> Ray {
         let from = [0.0, radius, 0.0];
         let cos = ray[1];
         let to_ground = radius * radius * (cos * cos - 1.0) + EARTH_KM * EARTH_KM;
@@ -87,7 +95,8 @@ impl ClearAir {
         let mut passed = [1.0; BANDS];
         let mut out = Ray { light: [0.0; BANDS], scattered: [0.0; BANDS] };
         for step in 0..steps {
-            let [near, far] = [step, step + 1].map(|edge| (f64::from(edge) / f64::from(steps)).powi(2) * length);
+            let [near, far] =
+                [step, step + 1].map(|edge| (f64::from(edge) / f64::from(steps)).powi(2) * length);
             let at = 0.5 * (near + far);
             let place = std::array::from_fn(|axis| from[axis] + ray[axis] * at);
             let here = dot(place, place).sqrt();

@@ -37,7 +37,8 @@ impl SphericalHarmonics {
 
     /// Illuminance of a surface that faces `normal`.
     pub fn irradiance(&self, normal: Vec3) -> Vec3 {
-        let sum: Vec3 = self.white_surface().iter().zip(basis(normal)).map(|(&light, basis)| light * basis).sum();
+        let sum: Vec3 =
+            self.white_surface().iter().zip(basis(normal)).map(|(&light, basis)| light * basis).sum();
         sum * PI
     }
 }

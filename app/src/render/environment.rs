@@ -128,7 +128,11 @@ impl Environment {
         let sun = self.daylight.sun.direction;
         let sky = &self.daylight.sky;
         let zenith = sky.sample(Vec3::Y);
-        let horizon = 0.25 * [Vec3::X, Vec3::Z, -Vec3::X, -Vec3::Z].map(|to| sky.sample(to + 0.1 * Vec3::Y)).iter().sum::<Vec3>();
+        let horizon = 0.25
+            * [Vec3::X, Vec3::Z, -Vec3::X, -Vec3::Z]
+                .map(|to| sky.sample(to + 0.1 * Vec3::Y))
+                .iter()
+                .sum::<Vec3>();
         let bounce = sky.sample(Vec3::NEG_Y);
         let full = |v: Vec3, w: f32| v.extend(w).to_array();
         FrameUniform {
@@ -144,7 +148,12 @@ impl Environment {
             sky_zenith: full(zenith, self.path.lead.x),
             sky_horizon: full(horizon, self.path.lead.y),
             ground_bounce: full(bounce, self.path.phase),
-            air: [VISIBILITY_DEPTH / self.haze.visibility_m, exposure(self.exposure_value), PARK_RADIUS_M, 2.0 * SHADOW_RADIUS_M / SHADOW_SIZE as f32],
+            air: [
+                VISIBILITY_DEPTH / self.haze.visibility_m,
+                exposure(self.exposure_value),
+                PARK_RADIUS_M,
+                2.0 * SHADOW_RADIUS_M / SHADOW_SIZE as f32,
+            ],
             park: full(self.park_center, SHADOW_RADIUS_M),
             viewport: [width, height, 1.0 / width, 1.0 / height],
             wide: [self.stand.map_or(0.0, |ball| 2.0 * ball.radius_m / SHADOW_SIZE as f32), 0.0, 0.0, 0.0],

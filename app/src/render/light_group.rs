@@ -82,10 +82,8 @@ fn bind(
     samplers: &[(u32, wgpu::Sampler)],
     sky: &wgpu::TextureView,
 ) -> wgpu::BindGroup {
-    let view = |binding, view| wgpu::BindGroupEntry {
-        binding,
-        resource: wgpu::BindingResource::TextureView(view),
-    };
+    let view =
+        |binding, view| wgpu::BindGroupEntry { binding, resource: wgpu::BindingResource::TextureView(view) };
     let samplers = samplers.iter().map(|(binding, sampler)| wgpu::BindGroupEntry {
         binding: *binding,
         resource: wgpu::BindingResource::Sampler(sampler),

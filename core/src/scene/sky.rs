@@ -37,28 +37,29 @@ impl Default for PhysicalSky {
 
 /// A picture of a whole sky.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(default, deny_unknown_fields)]
 pub struct SkyMap {
     /// A Radiance file (`.hdr`) or an OpenEXR file (`.exr`): latitude and longitude (2:1), or a cube laid out as a cross
     /// (3:4 or 4:3). A path in a scene file is relative to the file's folder.
     pub path: String,
     /// Turn about the vertical in degrees, -360 to 360, from +x to +z. At 0 the middle of a 2:1 picture is seen towards -z.
-    #[serde(default)]
     pub rotation_deg: f32,
     /// Luminance of the picture's value 1 in kcd/m², 0.001 to 1000. Pictures are rarely calibrated.
-    #[serde(default = "unit_luminance")]
     pub intensity_kcd_m2: f32,
 }
 
-impl SkyMap {
-    /// A picture as it is, its value 1 about as bright as a clear sky.
-    pub fn new(path: String) -> Self {
-        Self { path, rotation_deg: 0.0, intensity_kcd_m2: unit_luminance() }
+impl Default for SkyMap {
+    /// No file yet, which is not allowed; value 1 about as bright as a clear sky.
+    fn default() -> Self {
+        Self { path: String::new(), rotation_deg: 0.0, intensity_kcd_m2: 5.0 }
     }
 }
 
-fn unit_luminance() -> f32 {
-    5.0
+impl SkyMap {
+    /// A picture as it is.
+    pub fn new(path: String) -> Self {
+        Self { path, ..Self::default() }
+    }
 }
 
 /// Mist near the ground, which fades what lies far away.

@@ -10,6 +10,7 @@ mod trees;
 
 use super::{
     Aerodynamics, Camera, FlightModel, Ground, Haze, MAX_LEAVES, MAX_SOURCES, MAX_SPECIES, MAX_TREE_LEAVES,
+    Aerodynamics, Camera, FlightModel, Ground, Haze, MAX_LEAVES, MAX_SOURCES, MAX_SPECIES, MAX_TREE_LEAVES,
     MAX_VORTICES, MeanSpeed, MotionParameters, PhysicalSky, Profile, Release, RotationModel, Scene, Sky, SkyMap,
     Source, SourceShape, Species, Sun, Terrain, View, Vortex, WindParameters, limits,
 };

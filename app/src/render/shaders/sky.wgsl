@@ -29,19 +29,24 @@ fn fragment(in: Varyings) -> @location(0) vec4<f32> {
     let direction = normalize(in.ray);
     var color = sky_radiance(direction);
     let toward_sun = max(dot(direction, frame.sun_direction.xyz), 0.0);
-    // Clouds on a plane overhead.
+    // Clouds on a plane overhead. A full cover is closed everywhere, but not even.
     let up = max(direction.y, 0.0);
     let plane = direction.xz / (up + 0.12);
     let drift = frame.eye.w * 0.0006;
     let lod = clamp(1.6 - 6.0 * up, 0.0, 3.0);
     let broad = textureSampleLevel(noise, repeat_sampler, plane * 0.055 + drift, lod).r;
     let streak = textureSampleLevel(noise, repeat_sampler, plane * vec2(0.10, 0.21) + 0.4 + drift, lod).g;
-    let body = 0.72 * broad + 0.30 * streak;
-    let edge = mix(0.80, 0.18, frame.sky.x);
-    let cover = smoothstep(edge - 0.02, edge + 0.25, body) * smoothstep(0.02, 0.22, up);
-    let cloud = mix(frame.cloud_light.rgb, frame.cloud_shade.rgb, 0.6 * smoothstep(edge, edge + 0.5, body))
-        + frame.sun_color.rgb * 0.30 * pow(toward_sun, 6.0);
-    color = mix(color, cloud, cover * 0.85);
+    let body = 0.66 * broad + 0.34 * streak;
+    // Values between 0.2 and 0.8 are common.
+    let edge = mix(0.82, 0.05, frame.sky.x);
+    let cover = smoothstep(edge, edge + 0.22, body) * mix(smoothstep(0.02, 0.22, up), 1.0, frame.sky.x * frame.sky.x);
+    // The thicker, the darker from below; thin rims pass the sun on.
+    let thick = smoothstep(edge, edge + 0.55, body) * frame.sky.x;
+    let deep = smoothstep(0.38, 0.68, 0.6 * streak + 0.4 * broad) * frame.sky.x;
+    let overcast = (1.0 + 2.0 * up) / 3.0;
+    var cloud = frame.cloud_light.rgb * mix(1.0, overcast, frame.sky.x) * (1.25 - 0.55 * thick - 0.55 * deep);
+    cloud += frame.sun_color.rgb * (0.05 + 0.35 * pow(toward_sun, 8.0)) * (1.0 - cover * 0.7);
+    color = mix(color, cloud, cover * 0.9);
     // The sun's disc, half a degree wide: as bright as it would have to be, or as 16 bits allow.
     let disc = smoothstep(0.999985, 0.999991, toward_sun) * (1.0 - cover);
     color += min(frame.sun_color.rgb * (3.14159265 / 6.8e-5), vec3(30000.0)) * disc;

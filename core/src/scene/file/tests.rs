@@ -156,7 +156,7 @@ fn named_files_are_looked_for_beside_the_scene_file() {
     let loaded = Scene::load(path.to_str().expect("a UTF-8 path")).expect("a scene");
     fs::remove_dir_all(&at).expect("temporary files can be removed");
     let noon = at.join("skies/noon.hdr").to_str().expect("a UTF-8 path").to_owned();
-    assert_eq!(loaded.view.sky, Sky::Map(SkyMap::new(noon)), "the map lies beside it");
+    assert_eq!(loaded.view.sky, Sky::Map(crate::scene::SkyMap::new(noon)), "the map lies beside it");
     let [a, b] = loaded.tree_kinds.as_slice() else { panic!("two kinds: {:?}", loaded.tree_kinds) };
     assert_eq!(a.form, TreeForm::File(at.join("a.glb").to_str().expect("a UTF-8 path").into()), "beside it");
     assert_eq!(b.form, TreeForm::File("/b.glb".into()), "where it says");

@@ -8,7 +8,7 @@ use super::{failing_field, full};
 use crate::motion::Primitive;
 use crate::scene::{
     Aerodynamics, FlightModel, MAX_LEAVES, MAX_SOURCES, MAX_SPECIES, MAX_VORTICES, Profile, Release, Scene,
-    Share, SourceShape, Species,
+    Share, Sky, SkyMap, SourceShape, Species,
 };
 
 /// What a case does to a valid scene, and the field that must be named then; `None` where it stays valid.
