@@ -10,9 +10,8 @@ mod trees;
 
 use super::{
     Aerodynamics, Camera, FlightModel, Ground, Haze, MAX_LEAVES, MAX_SOURCES, MAX_SPECIES, MAX_TREE_LEAVES,
-    Aerodynamics, Camera, FlightModel, Ground, Haze, MAX_LEAVES, MAX_SOURCES, MAX_SPECIES, MAX_TREE_LEAVES,
-    MAX_VORTICES, MeanSpeed, MotionParameters, PhysicalSky, Profile, Release, RotationModel, Scene, Sky, SkyMap,
-    Source, SourceShape, Species, Sun, Terrain, View, Vortex, WindParameters, limits,
+    MAX_VORTICES, MeanSpeed, MotionParameters, PhysicalSky, Profile, Release, RotationModel, Scene, Sky,
+    SkyMap, Source, SourceShape, Species, Sun, Terrain, View, Vortex, WindParameters, limits,
 };
 use crate::SceneError;
 use check::Check;

@@ -5,13 +5,9 @@
 use glam::Vec3;
 
 use super::{failing_field, full};
-<<<<<<< HEAD
-use crate::scene::{MeanSpeed, Profile, Release, RotationModel, Scene, SourceShape, Terrain, Water};
-=======
 use crate::scene::{
-    MeanSpeed, PhysicalSky, Profile, Release, RotationModel, Scene, Sky, SkyMap, SourceShape,
+    MeanSpeed, PhysicalSky, Profile, Release, RotationModel, Scene, Sky, SkyMap, SourceShape, Terrain, Water,
 };
->>>>>>> 1d6745f (app: Draw clouds as thick as the sky is covered; core: Let storms be overcast)
 
 /// Path, smallest and largest allowed value, assignment.
 type Row<T> = (&'static str, T, T, fn(&mut Scene, T));
