@@ -143,13 +143,13 @@ impl Renderer {
         let forward = camera.forward();
         let level = Vec2::new(forward.x, forward.z).normalize_or(Vec2::NEG_Y);
         let center = Vec3::new(camera.target_m.x, scene.ground.height_m, camera.target_m.z);
-        let Park { trees: planted, path_phase } = plant(scene, center, level);
+        let Park { trees: planted, leaves, path_phase } = plant(scene, center, level);
 
         let targets = Targets::new(device, size)?;
         let frame = FrameGroup::new(device);
         let kinds = LeafKinds::new(device, queue, scene, atlas)?;
         let own = if scene.autumn > 0.0 { own_trees(stand) } else { Vec::new() };
-        let trees = Trees::new(device, queue, &planted, &own);
+        let trees = Trees::new(device, queue, (&planted, leaves), &own);
         let branches = BranchGroup::new(device, queue, stand);
         let shadow_pass = ShadowPass::new(device, &frame, &kinds, &branches, false, SHADOW_SIZE);
         // Without trees nothing asks the wide map.

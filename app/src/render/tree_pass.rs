@@ -36,11 +36,11 @@ pub(super) struct Trees {
 }
 
 impl Trees {
-    /// The pictures of `trees`, and `own` for their litter alone.
+    /// The pictures of `trees` with a share of their leaves, and `own` for their litter alone.
     pub(super) fn new(
         device: &wgpu::Device,
         queue: &wgpu::Queue,
-        trees: &[TreeInstance],
+        (trees, leaves): (&[TreeInstance], f32),
         own: &[TreeInstance],
     ) -> Self {
         let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
@@ -50,7 +50,7 @@ impl Trees {
                 sampler_entry(1, wgpu::SamplerBindingType::Filtering),
             ],
         });
-        let sprites: Vec<_> = (0..SPRITE_COUNT).map(paint_tree).collect();
+        let sprites: Vec<_> = (0..SPRITE_COUNT).map(|index| paint_tree(index, leaves)).collect();
         let images: Vec<Vec<&[u8]>> = sprites
             .iter()
             .flat_map(|sprite| [&sprite.surface, &sprite.relief])

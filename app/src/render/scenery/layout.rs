@@ -40,12 +40,16 @@ const OWN_M: f32 = 50.0;
 /// Half angle before the camera, in radians, in which no tree stands nearer than `FAR_M` metres in a scene with trails.
 const STAGE_RAD: f32 = 0.8;
 const FAR_M: f32 = 60.0;
+/// The last part of the autumn, in which far woods lose their leaves.
+const LATE: f32 = 0.4;
 /// Phases the path's bends may have, in radians; the first that keeps clear of the sources' trees is taken.
 const PATH_PHASES: [f32; 6] = [-0.9, 2.2, 0.3, -2.0, 1.2, 3.4];
 
 /// A planted park.
 pub(crate) struct Park {
     pub(crate) trees: Vec<TreeInstance>,
+    /// Share of their leaves that they still have, 0 to 1.
+    pub(crate) leaves: f32,
     /// Phase of the path's bends in radians.
     pub(crate) path_phase: f32,
 }
@@ -120,7 +124,9 @@ pub(crate) fn plant(scene: &Scene, center: Vec3, view: Vec2) -> Park {
             trees.push(TreeInstance { foot_m: foot, height_m, width, sprite, hue, brightness });
         }
     }
-    Park { trees, path_phase }
+    // Late in the year the far woods, too, are bare.
+    let leaves = if has_trees { ((1.0 - scene.autumn) / LATE).min(1.0) } else { 1.0 };
+    Park { trees, leaves, path_phase }
 }
 
 /// Whether a tree at `foot` would stand right before the viewer.
@@ -178,7 +184,7 @@ mod tests {
     #[test]
     fn trees_leave_room_for_leaves_and_path() {
         let center = Vec3::new(100.0, 2.0, -50.0);
-        let Park { trees, path_phase } = plant(&Scene::default(), center, Vec2::NEG_Y);
+        let Park { trees, path_phase, .. } = plant(&Scene::default(), center, Vec2::NEG_Y);
         assert!(trees.len() > 150, "{} trees", trees.len());
         for tree in &trees {
             let local = tree.foot_m - center;

@@ -12,6 +12,8 @@ pub(crate) const SPRITE_SIZE: usize = 512;
 pub(crate) const SPRITE_COUNT: u32 = 8;
 
 const EDGE: f32 = 512.0;
+/// Twigs of a clump in a crown that is not full.
+const TWIGS: usize = 26;
 
 /// One tree: two images of `SPRITE_SIZE` squared, with their halvings.
 pub(crate) struct TreeSprite {
@@ -37,8 +39,8 @@ struct Dab {
     relief: [f32; 3],
 }
 
-/// Paints tree number `index`.
-pub(crate) fn paint_tree(index: u32) -> TreeSprite {
+/// Paints tree number `index` with a share of its leaves, 0 to 1.
+pub(crate) fn paint_tree(index: u32, leaves: f32) -> TreeSprite {
     let mut random = Random::new(977 + index);
     let bush = index >= SPRITE_COUNT - SPRITE_COUNT / 4;
     // The crown lies in a unit frame: x from -0.5 to 0.5, y from 0 (ground) to 1 (top).
@@ -72,9 +74,14 @@ pub(crate) fn paint_tree(index: u32) -> TreeSprite {
         branches(&mut random, &clumps, &mut dabs);
     }
     let middle = Vec3::new(0.0, crown.x, 0.0);
-    for clump in &clumps {
+    if leaves < 1.0 {
+        for clump in &clumps {
+            twigs(&mut random, clump, middle, &mut dabs);
+        }
+    }
+    for clump in clumps.iter().filter(|_| leaves > 0.0) {
         let dab_count = 170 + 900 * usize::from(clump.radius > 0.07) / 2;
-        for _ in 0..dab_count {
+        for _ in 0..share(dab_count, leaves) {
             foliage(&mut random, clump, middle, half_width.max(half_height), &mut dabs);
         }
     }
@@ -92,6 +99,32 @@ fn branches(random: &mut Random, clumps: &[Clump], dabs: &mut Vec<Dab>) {
         let from = fork * random.range(0.75, 1.0) + Vec3::Y * random.range(0.0, 0.28);
         let start = random.range(0.004, 0.008);
         limb(random, from, clump.center, start, 0.0014, dabs);
+    }
+}
+
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a share of a small number")]
+fn share(count: usize, of_all: f32) -> usize {
+    (count as f32 * of_all) as usize
+}
+
+/// The fine twigs of a clump, which leaves hide: they reach out and up.
+fn twigs(random: &mut Random, clump: &Clump, middle: Vec3, dabs: &mut Vec<Dab>) {
+    for _ in 0..TWIGS {
+        let from = clump.center + 0.45 * clump.radius * random.in_ball();
+        let outward = (from - middle).normalize_or(Vec3::Y);
+        let toward = (0.6 * outward + 0.35 * Vec3::Y + 0.75 * random.in_ball()).normalize_or(Vec3::Y);
+        let to = from + toward * random.range(0.03, 0.085);
+        let flat = (to - from).truncate().normalize_or(Vec2::Y);
+        for step in 0..10u8 {
+            let t = f32::from(step) / 9.0;
+            dabs.push(Dab {
+                at: from + (to - from) * t,
+                half: Vec2::new(0.006, 0.0012 - 0.0008 * t),
+                angle: flat.y.atan2(flat.x),
+                surface: [random.range(0.5, 0.8), 0.5, 1.0],
+                relief: [0.5 + 0.5 * toward.x, 0.5 + 0.5 * toward.y, random.range(0.6, 0.9)],
+            });
+        }
     }
 }
 
