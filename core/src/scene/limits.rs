@@ -154,6 +154,18 @@ limits! {
     VISIBILITY_M: f32 = 20.0, 100_000.0, "m", visibility_m;
     HAZE_DEPTH_M: f32 = 1.0, 10_000.0, "m", depth_m;
     TRAIL_S: f32 = 0.0, 30.0, "s", trail_s;
+    KEY_TIME_S: f32 = 0.0, 86_400.0, "s", time_s;
+    COMPENSATION_EV: f32 = -8.0, 8.0, "EV", compensation_ev;
+    ADAPTATION_S: f32 = 0.0, 60.0, "s", adaptation_s;
+    EV100: f32 = -6.0, 24.0, "EV", ev100;
+    GAMMA: f32 = 1.0, 4.0, "", gamma;
+    WHITE: f32 = 1.0, 1000.0, "", white;
+    GLARE_THRESHOLD: f32 = 0.0, 0.99, "", threshold;
+    GLARE_STRENGTH: f32 = 0.0, 1.0, "", strength;
+    FOCUS_DISTANCE_M: f32 = 0.1, 10_000.0, "m", distance_m;
+    F_NUMBER: f32 = 0.5, 64.0, "", f_number;
+    SATURATION: f32 = 0.0, 2.0, "", saturation;
+    VIGNETTE: f32 = 0.0, 1.0, "", vignette;
 }
 
 /// Most steps from time zero to the end of the first life of a source's last leaf: step indices are `u32`, and a
@@ -169,10 +181,12 @@ mod tests {
     use super::*;
 
     /// The text of every file that describes a scene.
-    const SOURCES: [&str; 9] = [
+    const SOURCES: &[&str] = &[
         include_str!("mod.rs"),
         include_str!("flight.rs"),
         include_str!("ground.rs"),
+        include_str!("lens.rs"),
+        include_str!("path.rs"),
         include_str!("sky.rs"),
         include_str!("source.rs"),
         include_str!("species.rs"),
@@ -199,6 +213,9 @@ mod tests {
             for line in source.lines().map(str::trim) {
                 if let Some(text) = line.strip_prefix("///") {
                     documentation.push_str(text);
+                    continue;
+                }
+                if line.starts_with("#[") {
                     continue;
                 }
                 let declaration = line.strip_prefix("pub ").unwrap_or(line);

@@ -8,8 +8,10 @@
 mod file;
 mod flight;
 mod ground;
+mod lens;
 pub mod limits;
 pub(crate) mod nearest;
+mod path;
 mod presets;
 mod sky;
 mod source;
@@ -25,6 +27,8 @@ use serde::{Deserialize, Serialize};
 
 pub use flight::{Aerodynamics, FlightModel, Hold, Planform};
 pub use ground::Ground;
+pub use lens::{Exposure, Focus, Glare, Lens, ToneMap};
+pub use path::{CameraKey, camera_at};
 pub use presets::PRESETS;
 pub use sky::{Haze, PhysicalSky, Sky, SkyMap};
 pub use source::{Release, Share, Source, SourceShape};
@@ -40,6 +44,8 @@ pub const MAX_SPECIES: usize = 32;
 pub const MAX_SOURCES: usize = 16;
 /// Most point vortices a scene may have: they travel in the uniform block of every step.
 pub const MAX_VORTICES: usize = 8;
+/// Most keys the path of a camera may have.
+pub const MAX_CAMERA_KEYS: usize = 1024;
 /// Most leaves a scene may have, over all sources (four billion words of state would not fit anywhere yet).
 pub const MAX_LEAVES: u32 = 1 << 28;
 

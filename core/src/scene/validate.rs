@@ -4,6 +4,7 @@
 
 mod check;
 mod cross;
+mod lens;
 #[cfg(test)]
 mod tests;
 mod trees;
@@ -262,7 +263,15 @@ impl Terrain {
 
 impl View {
     fn check(&self, at: &Check<'_>) -> Result<(), SceneError> {
-        let Self { camera: Camera { eye_m, target_m, vertical_fov_deg }, sun, sky: _, haze, trail_s } = *self;
+        let Self {
+            camera: Camera { eye_m, target_m, vertical_fov_deg },
+            sun,
+            sky: _,
+            haze,
+            trail_s,
+            path: _,
+            lens,
+        } = *self;
         let Haze { visibility_m, depth_m } = haze;
         let Sun { azimuth_deg, elevation_deg } = sun;
         at.vector("camera.eye_m", eye_m, limits::CAMERA_M)?;
@@ -278,7 +287,9 @@ impl View {
             ("haze.depth_m", depth_m.into(), limits::HAZE_DEPTH_M),
             ("trail_s", trail_s.into(), limits::TRAIL_S),
         ])?;
-        self.sky.check(&at.inside("sky"))
+        self.sky.check(&at.inside("sky"))?;
+        lens::check_path(&self.path, at)?;
+        lens.check(&at.inside("lens"))
     }
 }
 

@@ -5,7 +5,7 @@
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
-use super::{Haze, Sky};
+use super::{CameraKey, Haze, Lens, Sky};
 
 /// A perspective camera.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -47,6 +47,10 @@ impl Default for Sun {
 pub struct View {
     /// The camera.
     pub camera: Camera,
+    /// Keys that the camera follows instead, at most 1024. The park is laid out around what `camera` sees all the same.
+    pub path: Vec<CameraKey>,
+    /// The lens.
+    pub lens: Lens,
     /// The sun.
     pub sun: Sun,
     /// What lights the scene besides; a picture of the sky brings its own sun.

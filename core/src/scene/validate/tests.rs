@@ -11,8 +11,8 @@ use glam::Vec3;
 use crate::SceneError;
 use crate::motion::{Primitive, TransitionTable};
 use crate::scene::{
-    Foliage, MeanSpeed, MotionParameters, Profile, Release, RotationModel, Scene, Share, Source, SourceShape,
-    Species, Tree, TreeKind, Vortex, WindParameters,
+    CameraKey, Exposure, Focus, Foliage, Lens, MeanSpeed, MotionParameters, Profile, Release, RotationModel,
+    Scene, Share, Source, SourceShape, Species, ToneMap, Tree, TreeKind, View, Vortex, WindParameters,
 };
 
 /// A valid scene in which every optional number is present.
@@ -54,6 +54,9 @@ fn full() -> Scene {
         drift_m_s: Vec3::X,
     };
     let foliage = Foliage { species: Some("maple".into()), ..Foliage::default() };
+    let key = |time_s| CameraKey { time_s, eye_m: Vec3::Y, target_m: Vec3::ZERO, vertical_fov_deg: 50.0 };
+    let lens = Lens { focus: Some(Focus { distance_m: 4.0, f_number: 2.8 }), ..Lens::default() };
+    let view = View { path: vec![key(0.0), key(5.0)], lens, ..View::default() };
     Scene {
         dt_s: 0.004,
         species: vec![species],
@@ -61,12 +64,13 @@ fn full() -> Scene {
         tree_kinds: vec![TreeKind { foliage, ..TreeKind::default() }],
         trees: vec![Tree { height_m: Some(12.0), ..Tree::default() }],
         wind: WindParameters { vortices: vec![vortex], ..WindParameters::default() },
+        view,
         ..Scene::default()
     }
 }
 
 /// The field that validation complains about.
-fn failing_field(scene: &Scene) -> Option<String> {
+pub(super) fn failing_field(scene: &Scene) -> Option<String> {
     match scene.validate("test") {
         Ok(()) => None,
         Err(SceneError::Field { file, field, .. }) if file == "test" => Some(field),
@@ -125,7 +129,11 @@ fn no_number_may_be_absurd() {
         other.sources.push(source);
     }
     let mut tried = 0;
-    for text in [full().to_ron(), other.to_ron()] {
+    other.view.lens.exposure = Exposure::Manual { ev100: 12.0 };
+    other.view.lens.tone_map = ToneMap::Linear { gamma: 2.2 };
+    let mut third = full();
+    third.view.lens.tone_map = ToneMap::Reinhard { white: 3.0 };
+    for text in [full().to_ron(), other.to_ron(), third.to_ron()] {
         assert!(Scene::from_ron(&text, "test").is_ok(), "the unchanged text is a valid scene");
         for absurd in ["NaN", "inf", "-1e30"] {
             for index in 0.. {

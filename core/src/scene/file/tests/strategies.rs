@@ -189,6 +189,41 @@ prop_compose! {
 }
 
 prop_compose! {
+    fn lens()(
+        exposure in prop_oneof![
+            (within(limits::COMPENSATION_EV), within(limits::ADAPTATION_S))
+                .prop_map(|(compensation_ev, adaptation_s)| Exposure::Auto { compensation_ev, adaptation_s }),
+            within(limits::EV100).prop_map(|ev100| Exposure::Manual { ev100 }),
+        ],
+        tone_map in prop_oneof![
+            within(limits::GAMMA).prop_map(|gamma| ToneMap::Linear { gamma }),
+            within(limits::WHITE).prop_map(|white| ToneMap::Reinhard { white }),
+            Just(ToneMap::AgX),
+        ],
+        (threshold, strength) in (within(limits::GLARE_THRESHOLD), within(limits::GLARE_STRENGTH)),
+        focus in option::of((within(limits::FOCUS_DISTANCE_M), within(limits::F_NUMBER))),
+        (saturation, vignette) in (within(limits::SATURATION), within(limits::VIGNETTE)),
+    ) -> Lens {
+        Lens {
+            exposure, tone_map, glare: Glare { threshold, strength },
+            focus: focus.map(|(distance_m, f_number)| Focus { distance_m, f_number }), saturation, vignette,
+        }
+    }
+}
+
+prop_compose! {
+    /// Its time is the span since the key before, until the path is put together.
+    fn camera_key()(
+        time_s in 0.01f32..1000.0,
+        eye_m in (vector(limits::CAMERA_M), -1e5f32..=0.0).prop_map(|(eye, z)| eye.with_z(z)),
+        target_m in (vector(limits::CAMERA_M), 1.0f32..=1e5).prop_map(|(target, z)| target.with_z(z)),
+        vertical_fov_deg in within(limits::VERTICAL_FOV_DEG),
+    ) -> CameraKey {
+        CameraKey { time_s, eye_m, target_m, vertical_fov_deg }
+    }
+}
+
+prop_compose! {
     fn view()(
         eye_m in (vector(limits::CAMERA_M), -1e5f32..=0.0).prop_map(|(eye, z)| eye.with_z(z)),
         target_m in (vector(limits::CAMERA_M), 1.0f32..=1e5).prop_map(|(target, z)| target.with_z(z)),
@@ -205,9 +240,16 @@ prop_compose! {
         haze in (within(limits::VISIBILITY_M), within(limits::HAZE_DEPTH_M))
             .prop_map(|(visibility_m, depth_m)| Haze { visibility_m, depth_m }),
         trail_s in within(limits::TRAIL_S),
+        mut path in vec(camera_key(), 0..6),
+        lens in lens(),
     ) -> View {
+        for index in 1..path.len() {
+            path[index].time_s += path[index - 1].time_s;
+        }
         View {
             camera: Camera { eye_m, target_m, vertical_fov_deg },
+            path,
+            lens,
             sun: Sun { azimuth_deg, elevation_deg },
             sky,
             haze,

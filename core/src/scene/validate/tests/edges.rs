@@ -6,7 +6,8 @@ use glam::Vec3;
 
 use super::{failing_field, full};
 use crate::scene::{
-    MeanSpeed, PhysicalSky, Profile, Release, RotationModel, Scene, Sky, SkyMap, SourceShape, Terrain, Water,
+    Exposure, Focus, MeanSpeed, PhysicalSky, Profile, Release, RotationModel, Scene, Sky, SkyMap,
+    SourceShape, Terrain, ToneMap, Water,
 };
 
 /// Path, smallest and largest allowed value, assignment.
@@ -152,6 +153,32 @@ const REALS: &[Row<f32>] = &[
     ("view.haze.visibility_m", 20.0, 100_000.0, |s, v| s.view.haze.visibility_m = v),
     ("view.haze.depth_m", 1.0, 10_000.0, |s, v| s.view.haze.depth_m = v),
     ("view.trail_s", 0.0, 30.0, |s, v| s.view.trail_s = v),
+    ("view.path[0].time_s", 0.0, 86_400.0, |s, v| {
+        s.view.path.truncate(1);
+        s.view.path[0].time_s = v;
+    }),
+    ("view.path[0].eye_m.x", -1e5, 1e5, |s, v| s.view.path[0].eye_m.x = v),
+    ("view.path[0].eye_m.y", -1e5, 1e5, |s, v| s.view.path[0].eye_m.y = v),
+    ("view.path[0].eye_m.z", -1e5, 1e5, |s, v| s.view.path[0].eye_m.z = v),
+    ("view.path[0].target_m.x", -1e5, 1e5, |s, v| s.view.path[0].target_m.x = v),
+    ("view.path[0].target_m.y", -1e5, 1e5, |s, v| s.view.path[0].target_m.y = v),
+    ("view.path[0].target_m.z", -1e5, 1e5, |s, v| s.view.path[0].target_m.z = v),
+    ("view.path[0].vertical_fov_deg", 5.0, 120.0, |s, v| s.view.path[0].vertical_fov_deg = v),
+    ("view.lens.exposure.ev100", -6.0, 24.0, |s, v| s.view.lens.exposure = Exposure::Manual { ev100: v }),
+    ("view.lens.exposure.compensation_ev", -8.0, 8.0,
+        |s, v| s.view.lens.exposure = Exposure::Auto { compensation_ev: v, adaptation_s: 1.0 }),
+    ("view.lens.exposure.adaptation_s", 0.0, 60.0,
+        |s, v| s.view.lens.exposure = Exposure::Auto { compensation_ev: 0.0, adaptation_s: v }),
+    ("view.lens.tone_map.gamma", 1.0, 4.0, |s, v| s.view.lens.tone_map = ToneMap::Linear { gamma: v }),
+    ("view.lens.tone_map.white", 1.0, 1000.0, |s, v| s.view.lens.tone_map = ToneMap::Reinhard { white: v }),
+    ("view.lens.glare.threshold", 0.0, 0.99, |s, v| s.view.lens.glare.threshold = v),
+    ("view.lens.glare.strength", 0.0, 1.0, |s, v| s.view.lens.glare.strength = v),
+    ("view.lens.focus.distance_m", 0.1, 10_000.0,
+        |s, v| s.view.lens.focus = Some(Focus { distance_m: v, f_number: 4.0 })),
+    ("view.lens.focus.f_number", 0.5, 64.0,
+        |s, v| s.view.lens.focus = Some(Focus { distance_m: 4.0, f_number: v })),
+    ("view.lens.saturation", 0.0, 2.0, |s, v| s.view.lens.saturation = v),
+    ("view.lens.vignette", 0.0, 1.0, |s, v| s.view.lens.vignette = v),
 ];
 
 #[rustfmt::skip]
