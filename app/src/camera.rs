@@ -8,7 +8,7 @@ use windfall_core::scene;
 
 /// Distance of the near plane in metres: small enough to fly among leaves, and reversed infinite depth keeps the
 /// far trees apart from the ground all the same.
-const NEAR_M: f32 = 0.05;
+pub(crate) const NEAR_M: f32 = 0.05;
 /// Closest and farthest the camera goes from its target, in metres.
 const DISTANCE_RANGE_M: (f32, f32) = (0.2, 2000.0);
 /// Width of a picture relative to its height that scenes are composed for.

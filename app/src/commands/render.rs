@@ -8,6 +8,7 @@ use std::time::Duration;
 use anyhow::bail;
 use clap::Args;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use windfall_core::scene::{CameraKey, camera_at};
 use windfall_core::{Scene, Simulator, World};
 use windfall_wgpu::Gpu;
 
@@ -78,7 +79,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let mut writer = output.start(size, arguments.fps)?;
     let drawing = Drawing::without_window(&arguments.backend)?;
     let mut studio = Studio::new(&scene, drawing, size)?;
-    studio.film(&mut writer, steps, frames)?;
+    studio.film(&mut writer, steps, frames, arguments.fps)?;
     let path = writer.finish()?;
     terminal::print(&format!("{}\n", path.display()))
 }
@@ -90,6 +91,8 @@ struct Studio {
     renderer: Renderer,
     target: PictureTarget,
     camera: Camera,
+    /// Keys the camera follows, if any.
+    path: Vec<CameraKey>,
     trail_s: f64,
     stepping: Stepping,
     /// Steps done.
@@ -119,6 +122,7 @@ impl Studio {
             renderer,
             target,
             camera: Camera::from(&scene.view.camera),
+            path: scene.view.path.clone(),
             trail_s: scene.view.trail_s.into(),
             stepping: Stepping::default(),
             step: 0,
@@ -126,14 +130,17 @@ impl Studio {
     }
 
     /// Draws the frames that will be seen, and simulates the others.
-    fn film(&mut self, writer: &mut Writer, steps: FrameSteps, frames: u32) -> anyhow::Result<()> {
+    fn film(&mut self, writer: &mut Writer, steps: FrameSteps, frames: u32, fps: f64) -> anyhow::Result<()> {
+        let mut drawn = None;
         let bar = progress_bar(frames);
         let dt_s = f64::from(self.backend.clock().dt_s());
         let end = steps.before(frames - 1);
         for number in 0..frames {
             self.advance(steps.before(number))?;
             if writer.wants(number, frames) {
-                let picture = self.draw();
+                let since = drawn.map_or(f64::INFINITY, |drawn| f64::from(number - drawn) / fps);
+                drawn = Some(number);
+                let picture = self.draw(since);
                 interrupt::check()?;
                 writer.push(&picture?)?;
             } else {
@@ -162,9 +169,12 @@ impl Studio {
         Ok(())
     }
 
-    fn draw(&mut self) -> anyhow::Result<image::RgbaImage> {
+    /// The picture as it is `since_s` seconds of the clip after the one before.
+    fn draw(&mut self, since_s: f64) -> anyhow::Result<image::RgbaImage> {
         let time_s = self.backend.clock().seconds();
-        let input = FrameInput { camera: self.camera, time_s, origin: (0, 0) };
+        let camera = camera_at(&self.path, time_s).as_ref().map_or(self.camera, Camera::from);
+        #[expect(clippy::cast_possible_truncation, reason = "a duration")]
+        let input = FrameInput { camera, time_s, since_s: since_s as f32, origin: (0, 0) };
         let columns = self.backend.columns(&self.gpu)?;
         let mut encoder =
             self.gpu.device().create_command_encoder(&wgpu::CommandEncoderDescriptor::default());

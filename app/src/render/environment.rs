@@ -240,7 +240,7 @@ mod tests {
             let sun = Sun { azimuth_deg: 30.0, elevation_deg };
             let environment = Environment::new(&View { sun, ..View::default() }, Vec3::ZERO, PATH, None);
             let camera = Camera::from(&scene::Camera::default());
-            let input = FrameInput { camera, time_s: 1.0, origin: (0, 0) };
+            let input = FrameInput { camera, time_s: 1.0, since_s: f32::INFINITY, origin: (0, 0) };
             let frame = environment.frame(&input, 1.0, (640, 480));
             let all: &[f32] = bytemuck::cast_slice(std::slice::from_ref(&frame));
             assert!(all.iter().all(|value| value.is_finite()), "elevation {elevation_deg}: {frame:?}");

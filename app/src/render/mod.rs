@@ -7,13 +7,17 @@
 //! in linear light (bark, leaves, fruit, grass, ground, far trees, sky, trails), and the tone map. Bark, leaves and fruit
 //! of the scene's trees move with the branch columns on the device; the far woods are pictures. Leaves are cut out by coverage, so their order never matters. Nothing here needs a window.
 
+mod agx;
 mod bark_mesh;
 mod bark_pass;
 mod branch_group;
 mod environment;
 mod error;
+mod exposure_pass;
 mod frame;
 mod fruit_pass;
+mod fullscreen;
+mod glare_pass;
 mod grass_pass;
 mod ground_pass;
 mod leaf_kinds;
@@ -21,9 +25,11 @@ mod leaf_mesh;
 mod leaf_pass;
 mod leaf_record;
 mod leaf_set;
+mod lens_group;
 mod light_group;
 mod litter;
 mod pipeline;
+mod post;
 mod readback;
 mod renderer;
 mod scenery;
@@ -45,6 +51,8 @@ pub use renderer::{FrameInput, Renderer, RendererOptions, Subject};
 pub(crate) use timing::GpuTimer;
 pub use trail_pass::MAX_TRAILS;
 
+#[cfg(test)]
+mod lens_tests;
 #[cfg(test)]
 mod tests;
 #[cfg(test)]

@@ -20,22 +20,25 @@ use super::ground_pass::GroundPass;
 use super::leaf_kinds::LeafKinds;
 use super::leaf_pass::LeafPass;
 use super::leaf_set::{LeafMeshes, LeafPart, LeafSet};
+use super::lens_group::Shot;
 use super::light_group::LightGroup;
 use super::litter::Litter;
+use super::post::{Post, TimedPosts};
 use super::scenery::{Park, Shedding, TreeInstance, plant};
 use super::shadow_pass::{Casters, SHADOW_SIZE, ShadowPass};
 use super::sky_pass::SkyPass;
 use super::stems::Stems;
 use super::targets::Targets;
 use super::timing::GpuTimer;
-use super::tonemap_pass::TonemapPass;
 use super::trail_pass::TrailPass;
 use super::tree_pass::{ShadePass, TreePass, Trees};
-use crate::camera::Camera;
+use crate::camera::{Camera, NEAR_M};
 use crate::trees::Stand;
 
 /// Passes that are timed, in order of drawing.
-const TIMED_PASSES: [&str; 3] = ["shadows", "scene", "tone map"];
+const TIMED_PASSES: [&str; 5] = ["shadows", "scene", "exposure", "glare", "tone map"];
+/// Where those after the scene are among them.
+const TIMED_POSTS: TimedPosts = TimedPosts { exposure: 2, glare: 3, tone_map: 4 };
 /// Leaves of litter on a meadow in autumn.
 const LITTER: u32 = 14_000;
 
@@ -82,6 +85,8 @@ pub struct FrameInput {
     pub camera: Camera,
     /// Time of the simulation in seconds: moves clouds and grass, and ages trails.
     pub time_s: f64,
+    /// Seconds since the frame before, for the lens to adapt to brightness; infinite adapts at once.
+    pub since_s: f32,
     /// Where in the output the picture's upper left corner lies, in pixels; the picture must lie inside the output.
     pub origin: (u32, u32),
 }
@@ -121,7 +126,7 @@ pub struct Renderer {
     tree_pass: TreePass,
     sky_pass: SkyPass,
     trail_pass: Option<TrailPass>,
-    tonemap_pass: TonemapPass,
+    post: Post,
     timer: Option<GpuTimer>,
 }
 
@@ -186,7 +191,7 @@ impl Renderer {
             ground_pass: GroundPass::new(device, &frame, &light),
             tree_pass: TreePass::new(device, &frame, &light, &trees),
             sky_pass: SkyPass::new(device, &frame, &light),
-            tonemap_pass: TonemapPass::new(device, &frame, &targets, output_format),
+            post: Post::new(device, queue, &targets, output_format, scene.view.lens),
             timer: GpuTimer::new(device, queue, &TIMED_PASSES),
             trail_pass: None,
             shade_is_old: true,
@@ -216,16 +221,17 @@ impl Renderer {
     pub fn resize(&mut self, size: (u32, u32)) -> Result<(), RenderError> {
         if size != self.targets.size {
             self.targets = Targets::new(&self.device, size)?;
-            self.tonemap_pass.rebind(&self.device, &self.targets);
+            self.post.rebind(&self.device, &self.queue, &self.targets);
         }
         Ok(())
     }
 
-    /// Takes over another sun, sky and length of trails; the park stays where it is.
+    /// Takes over another sun, sky, lens and length of trails; the park stays where it is.
     pub fn update_scene_view(&mut self, view: &View) {
         let Environment { park_center, path, stand, .. } = self.environment;
         self.environment = Environment::new(view, park_center, path, stand);
         self.light.set_sky(&self.device, &self.queue, &self.environment.daylight);
+        self.post.set_lens(view.lens);
         self.shade_is_old = true;
         let drawn = self.trail_pass.as_ref().map_or(0.0, TrailPass::trail_s);
         if drawn != view.trail_s {
@@ -290,8 +296,15 @@ impl Renderer {
             self.wide_pass.draw(encoder, None, &self.frame, &casters);
         }
         self.draw_scene(encoder, writes(1), &sets, &group);
-        let area = (input.origin, self.targets.size);
-        self.tonemap_pass.draw(encoder, writes(2), &self.frame, output, area);
+        let shot = Shot {
+            size: self.targets.size,
+            origin: input.origin,
+            since_s: input.since_s,
+            vertical_fov_rad: input.camera.vertical_fov_rad,
+            near_m: NEAR_M,
+        };
+        let timer = self.timer.as_ref().map(|timer| (timer, TIMED_POSTS));
+        self.post.draw(&self.queue, encoder, timer, output, &shot);
         if let Some(timer) = &self.timer {
             // An earlier frame may still be on its way; the next one will do.
             let _ = timer.resolve(encoder);

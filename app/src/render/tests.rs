@@ -30,8 +30,8 @@ fn bench(change: impl FnOnce(&mut Scene)) -> Bench {
     })
 }
 
-/// A bench for a changed scene and its trees.
-pub(super) fn bench_with(change: impl FnOnce(&mut Scene) -> Stand) -> Bench {
+/// A device of the best Vulkan adapter.
+pub(super) fn device() -> (wgpu::Device, wgpu::Queue) {
     let mut descriptor = wgpu::InstanceDescriptor::new_without_display_handle_from_env();
     descriptor.backends = wgpu::Backends::VULKAN;
     let instance = wgpu::Instance::new(descriptor);
@@ -39,7 +39,12 @@ pub(super) fn bench_with(change: impl FnOnce(&mut Scene) -> Stand) -> Bench {
         .expect("a Vulkan adapter; apt install mesa-vulkan-drivers");
     let features = adapter.features() & wgpu::Features::TIMESTAMP_QUERY;
     let descriptor = wgpu::DeviceDescriptor { required_features: features, ..Default::default() };
-    let (device, queue) = pollster::block_on(adapter.request_device(&descriptor)).expect("a device");
+    pollster::block_on(adapter.request_device(&descriptor)).expect("a device")
+}
+
+/// A bench for a changed scene and its trees.
+pub(super) fn bench_with(change: impl FnOnce(&mut Scene) -> Stand) -> Bench {
+    let (device, queue) = device();
     let mut scene = Scene::default();
     let stand = change(&mut scene);
     let entry = AtlasEntry { shape: Shape::Maple, season: (0.5, 0.9) };
@@ -102,7 +107,7 @@ impl Bench {
             &target.view(),
             &leaves,
             branches,
-            &FrameInput { camera, time_s, origin: (0, 0) },
+            &FrameInput { camera, time_s, since_s: f32::INFINITY, origin: (0, 0) },
         );
         target.submit_and_read(&self.device, &self.queue, encoder).expect("a picture")
     }

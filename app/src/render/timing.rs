@@ -3,7 +3,10 @@
 //! How long the device works on each pass, where it can tell.
 
 use std::sync::Arc;
-use std::sync::atomic::{AtomicU8, Ordering};
+use std::sync::atomic::{AtomicU8, AtomicU64, Ordering};
+
+/// Bytes from one pass's timestamps to the next one's: where a resolve may begin.
+const STRIDE: u64 = wgpu::QUERY_RESOLVE_BUFFER_ALIGNMENT;
 
 const IDLE: u8 = 0;
 const COPIED: u8 = 1;
@@ -20,6 +23,9 @@ pub(crate) struct GpuTimer {
     readable: wgpu::Buffer,
     period_ns: f32,
     state: Arc<AtomicU8>,
+    /// A bit for each pass that was encoded since the last resolve, and those whose timestamps are on their way.
+    encoded: AtomicU64,
+    copied: AtomicU64,
     latest: Vec<(&'static str, f32)>,
     answers: u32,
 }
@@ -34,11 +40,11 @@ impl GpuTimer {
         if !device.features().contains(wgpu::Features::TIMESTAMP_QUERY) {
             return None;
         }
-        let count = 2 * u32::try_from(passes.len()).ok()?;
+        let count = u32::try_from(passes.len()).ok().filter(|count| *count <= u64::BITS)?;
         let buffer = |usage| {
             device.create_buffer(&wgpu::BufferDescriptor {
                 label: Some("timestamps"),
-                size: u64::from(count) * 8,
+                size: u64::from(count) * STRIDE,
                 usage,
                 mapped_at_creation: false,
             })
@@ -48,12 +54,14 @@ impl GpuTimer {
             queries: device.create_query_set(&wgpu::QuerySetDescriptor {
                 label: Some("timestamps"),
                 ty: wgpu::QueryType::Timestamp,
-                count,
+                count: 2 * count,
             }),
             resolved: buffer(wgpu::BufferUsages::QUERY_RESOLVE | wgpu::BufferUsages::COPY_SRC),
             readable: buffer(wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST),
             period_ns: queue.get_timestamp_period(),
             state: Arc::new(AtomicU8::new(IDLE)),
+            encoded: AtomicU64::new(0),
+            copied: AtomicU64::new(0),
             latest: Vec::new(),
             answers: 0,
         })
@@ -61,6 +69,7 @@ impl GpuTimer {
 
     /// What the descriptor of the pass of this number needs to be timed.
     pub(crate) fn render_writes(&self, pass: u32) -> wgpu::RenderPassTimestampWrites<'_> {
+        self.encoded.fetch_or(1 << pass, Ordering::Relaxed);
         wgpu::RenderPassTimestampWrites {
             query_set: &self.queries,
             beginning_of_pass_write_index: Some(2 * pass),
@@ -68,8 +77,18 @@ impl GpuTimer {
         }
     }
 
+    /// The same for a pass that is many: for the first and for the last of them.
+    pub(crate) fn split_writes(&self, pass: u32) -> [wgpu::RenderPassTimestampWrites<'_>; 2] {
+        let whole = self.render_writes(pass);
+        [
+            wgpu::RenderPassTimestampWrites { end_of_pass_write_index: None, ..whole.clone() },
+            wgpu::RenderPassTimestampWrites { beginning_of_pass_write_index: None, ..whole },
+        ]
+    }
+
     /// The same for a compute pass.
     pub(crate) fn compute_writes(&self, pass: u32) -> wgpu::ComputePassTimestampWrites<'_> {
+        self.encoded.fetch_or(1 << pass, Ordering::Relaxed);
         wgpu::ComputePassTimestampWrites {
             query_set: &self.queries,
             beginning_of_pass_write_index: Some(2 * pass),
@@ -79,11 +98,16 @@ impl GpuTimer {
 
     /// Copies the frame's timestamps, unless an earlier frame's are still on their way; tells whether it did.
     pub(crate) fn resolve(&self, encoder: &mut wgpu::CommandEncoder) -> bool {
-        let count = 2 * u32::try_from(self.passes.len()).unwrap_or(0);
+        let encoded = self.encoded.swap(0, Ordering::Relaxed);
         let is_free = self.state.compare_exchange(IDLE, COPIED, Ordering::AcqRel, Ordering::Acquire).is_ok();
         if is_free {
-            encoder.resolve_query_set(&self.queries, 0..count, &self.resolved, 0);
-            encoder.copy_buffer_to_buffer(&self.resolved, 0, &self.readable, 0, u64::from(count) * 8);
+            // A query that was never written must not be resolved: drivers wait for it.
+            for pass in (0..u64::BITS).filter(|pass| encoded >> pass & 1 == 1) {
+                let range = 2 * pass..2 * pass + 2;
+                encoder.resolve_query_set(&self.queries, range, &self.resolved, u64::from(pass) * STRIDE);
+            }
+            encoder.copy_buffer_to_buffer(&self.resolved, 0, &self.readable, 0, self.resolved.size());
+            self.copied.store(encoded, Ordering::Relaxed);
         }
         is_free
     }
@@ -118,12 +142,15 @@ impl GpuTimer {
     fn read(&mut self) {
         let Ok(view) = self.readable.get_mapped_range(..) else { return };
         let ticks: Vec<u64> = bytemuck::pod_collect_to_vec(&view);
+        let copied = self.copied.load(Ordering::Relaxed);
         self.answers = self.answers.wrapping_add(1);
-        self.latest = self
-            .passes
-            .iter()
-            .zip(ticks.chunks_exact(2))
-            .map(|(&name, pair)| (name, pair[1].saturating_sub(pair[0]) as f32 * self.period_ns * 1.0e-6))
+        // A pass that the frame did without is left out.
+        let passes = self.passes.iter().zip(ticks.chunks(STRIDE as usize / size_of::<u64>())).enumerate();
+        self.latest = passes
+            .filter(|(pass, _)| copied >> pass & 1 == 1)
+            .map(|(_, (&name, ticks))| {
+                (name, ticks[1].saturating_sub(ticks[0]) as f32 * self.period_ns * 1.0e-6)
+            })
             .collect();
     }
 }

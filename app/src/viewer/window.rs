@@ -64,6 +64,8 @@ pub(super) struct Viewer {
     has_news: bool,
     /// There was nothing to draw before this frame.
     was_idle: bool,
+    /// Seconds since the frame before; infinite if nothing was drawn for a while.
+    since_s: f32,
 }
 
 impl Viewer {
@@ -111,6 +113,7 @@ impl Viewer {
             next: Next::Frame,
             has_news: false,
             was_idle: true,
+            since_s: f32::INFINITY,
         })
     }
 
@@ -147,6 +150,9 @@ impl Viewer {
             self.was_idle = true;
             return Ok(self.next);
         }
+        #[expect(clippy::cast_possible_truncation, reason = "a duration")]
+        let since_s = if self.was_idle { f32::INFINITY } else { frame_s as f32 };
+        self.since_s = since_s;
         self.has_news = false;
         let painting = self.panel()?;
         if self.next == Next::Quit {
@@ -249,7 +255,7 @@ impl Viewer {
         let since = Instant::now();
         let mut encoder =
             self.gpu.device().create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-        let input = FrameInput { camera: self.camera, time_s, origin };
+        let input = FrameInput { camera: self.camera, time_s, since_s: self.since_s, origin };
         self.renderer.draw(&mut encoder, view, &columns.leaves, columns.branches.as_ref(), &input);
         self.meter.add(Stage::Draw, since);
         let since = Instant::now();

@@ -59,7 +59,12 @@ impl Stage {
 
     /// Draws one picture and waits for it.
     fn frame(&mut self, contender: &mut Contender, world: &World) -> anyhow::Result<()> {
-        let input = FrameInput { camera: self.camera, time_s: world.clock.seconds(), origin: (0, 0) };
+        let input = FrameInput {
+            camera: self.camera,
+            time_s: world.clock.seconds(),
+            since_s: f32::INFINITY,
+            origin: (0, 0),
+        };
         let columns = contender.columns(&self.gpu, &self.buffers)?;
         let mut encoder =
             self.gpu.device().create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
