@@ -127,8 +127,10 @@ impl GlarePass {
         let halvings = halvings(size.1);
         let deviation = WIDEST * size.1 as f32 / (1u32 << halvings) as f32;
         let kernel = kernel(deviation);
+        // A small picture has fewer sizes.
+        let all: f32 = SHARES.iter().take(halvings as usize).sum();
         for (buffer, share) in self.scales.iter().zip(SHARES) {
-            let mut scale = Scale { kernel: [0.0; 12], share, unused: [0.0; 3] };
+            let mut scale = Scale { kernel: [0.0; 12], share: share / all, unused: [0.0; 3] };
             scale.kernel[..WEIGHTS].copy_from_slice(&kernel);
             queue.write_buffer(buffer, 0, bytemuck::bytes_of(&scale));
         }
