@@ -145,7 +145,8 @@ impl GpuTimer {
         let copied = self.copied.load(Ordering::Relaxed);
         self.answers = self.answers.wrapping_add(1);
         // A pass that the frame did without is left out.
-        let passes = self.passes.iter().zip(ticks.chunks(STRIDE as usize / size_of::<u64>())).enumerate();
+        let stride = ticks.len() / self.passes.len();
+        let passes = self.passes.iter().zip(ticks.chunks(stride)).enumerate();
         self.latest = passes
             .filter(|(pass, _)| copied >> pass & 1 == 1)
             .map(|(_, (&name, ticks))| {
