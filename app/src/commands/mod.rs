@@ -12,6 +12,7 @@ pub mod render;
 pub mod report;
 pub mod scene;
 pub mod simulate;
+pub mod sky;
 pub mod stepping;
 pub mod swaying;
 pub mod tracks;

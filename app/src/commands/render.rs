@@ -13,6 +13,7 @@ use windfall_core::{Scene, Simulator, World};
 use windfall_wgpu::Gpu;
 
 use super::scene::SceneArguments;
+use super::sky::SkyArguments;
 use super::stepping::Stepping;
 use crate::backend::{Backend, BackendArguments};
 use crate::camera::Camera;
@@ -39,6 +40,8 @@ pub struct Arguments {
     #[command(flatten)]
     scene: SceneArguments,
     #[command(flatten)]
+    sky: SkyArguments,
+    #[command(flatten)]
     backend: BackendArguments,
     /// What to write: FILE.png (the last frame), FILE.gif, FILE.mp4 (by ffmpeg), or a folder of numbered PNG files.
     #[arg(long, value_name = "FILE|DIR")]
@@ -62,7 +65,8 @@ pub struct Arguments {
 /// # Errors
 /// Bad input, an output that cannot be written, no adapter, a lost device, an interrupt. Then no file has changed.
 pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
-    let scene = arguments.scene.load()?;
+    let mut scene = arguments.scene.load()?;
+    arguments.sky.apply(&mut scene, arguments.scene.name())?;
     let output = Output::from_path(&arguments.out)?;
     let size = arguments.size.unwrap_or(match output {
         Output::Gif(_) => (640, 360),

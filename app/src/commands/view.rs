@@ -8,6 +8,7 @@ use clap::Args;
 
 use super::render::{picture_size, within};
 use super::scene::SceneArguments;
+use super::sky::SkyArguments;
 use crate::backend::BackendArguments;
 use crate::viewer;
 
@@ -16,6 +17,8 @@ use crate::viewer;
 pub struct Arguments {
     #[command(flatten)]
     scene: SceneArguments,
+    #[command(flatten)]
+    sky: SkyArguments,
     #[command(flatten)]
     backend: BackendArguments,
     /// Width and height of the window in pixels.
@@ -34,7 +37,8 @@ pub struct Arguments {
 /// # Errors
 /// Bad input, no display, no adapter, a lost device, a picture that cannot be saved.
 pub fn run(arguments: Arguments) -> anyhow::Result<()> {
-    let scene = arguments.scene.load()?;
+    let mut scene = arguments.scene.load()?;
+    arguments.sky.apply(&mut scene, arguments.scene.name())?;
     viewer::run(viewer::Options {
         scene,
         backend: arguments.backend,

@@ -6,12 +6,14 @@ use std::f32::consts::{FRAC_PI_2, PI, TAU};
 
 use glam::Vec3;
 use rayon::prelude::*;
-use windfall_core::scene::{PhysicalSky, Sun};
+use windfall_core::scene::{PhysicalSky, Sky, SkyMap, Sun, View};
 
 use super::clouds::{OVERCAST_ILLUMINANCE, cloud_share, overcast};
+use super::picture_file::Picture;
 use super::scattering::ClearAir;
 use super::spectrum::ToRgb;
-use super::{Atmosphere, EnvironmentMap};
+use super::sun_search::take_sun;
+use super::{Atmosphere, EnvironmentMap, MapError};
 
 /// Width and height of a computed sky in pixels.
 const SIZE: (usize, usize) = (256, 128);
@@ -35,8 +37,10 @@ pub struct SunLight {
 pub struct Daylight {
     /// The sun.
     pub sun: SunLight,
-    /// Everything else.
+    /// Everything else that lights.
     pub sky: EnvironmentMap,
+    /// The picture of the sky that is seen with its sun in it, where the light comes from one.
+    pub picture: Option<EnvironmentMap>,
     /// Clouds to be drawn before the sky, 0 to 1.
     pub cloud_cover: f32,
     /// Radiance of the brightest and of the darkest clouds.
@@ -44,6 +48,28 @@ pub struct Daylight {
 }
 
 impl Daylight {
+    /// The light that a view asks for.
+    ///
+    /// # Errors
+    /// A picture that cannot be used.
+    pub fn new(view: &View) -> Result<Self, MapError> {
+        match &view.sky {
+            Sky::Physical(sky) => Ok(Self::physical(&view.sun, *sky)),
+            Sky::Map(map) => Self::of_picture(map),
+        }
+    }
+
+    /// Sun and sky that a picture shows.
+    ///
+    /// # Errors
+    /// A file that cannot be used.
+    pub fn of_picture(map: &SkyMap) -> Result<Self, MapError> {
+        let whole = EnvironmentMap::of_picture(Picture::read(&map.path)?).turned(map.rotation_deg);
+        let whole = whole.map(|_, radiance| radiance * map.intensity_kcd_m2);
+        let (sun, sky) = take_sun(&whole);
+        Ok(Self { sun, sky, picture: Some(whole), cloud_cover: 0.0, clouds: [Vec3::ZERO; 2] })
+    }
+
     /// Sun and sky as the model has them.
     pub fn physical(sun: &Sun, sky: PhysicalSky) -> Self {
         let direction = sun_direction(sun);
@@ -72,6 +98,7 @@ impl Daylight {
         Self {
             sun: SunLight { direction, illuminance },
             sky: above.map(|towards, radiance| if towards.y < 0.0 { ground } else { radiance }),
+            picture: None,
             cloud_cover: sky.cloud_cover,
             clouds: [tint * (zenith / cover), ground],
         }

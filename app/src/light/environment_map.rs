@@ -81,6 +81,37 @@ impl EnvironmentMap {
         top.lerp(bottom, fy)
     }
 
+    /// The map with fewer rows, and twice as many columns: means over the pixels that fall into each, by solid angle.
+    pub(super) fn shrunk(&self, rows: usize) -> Self {
+        let span = |at: usize, from: usize, to: usize| at * from / to..((at + 1) * from).div_ceil(to);
+        let mut pixels = Vec::with_capacity(2 * rows * rows);
+        for row in 0..rows {
+            for column in 0..2 * rows {
+                let (mut sum, mut angles) = (Vec3::ZERO, 0.0);
+                for y in span(row, self.height, rows) {
+                    let angle = self.solid_angle(y);
+                    for x in span(column, self.width, 2 * rows) {
+                        sum += self.pixels[y * self.width + x] * angle;
+                        angles += angle;
+                    }
+                }
+                pixels.push(sum / angles);
+            }
+        }
+        Self { width: 2 * rows, height: rows, pixels }
+    }
+
+    /// The map turned about the vertical, from +x to +z, to the nearest pixel.
+    pub(super) fn turned(mut self, angle_deg: f32) -> Self {
+        #[expect(clippy::cast_possible_truncation, reason = "a number of pixels")]
+        let columns = (angle_deg / 360.0 * self.width as f32).round() as i64;
+        let columns = usize::try_from(columns.rem_euclid(self.width as i64)).unwrap_or(0);
+        for row in self.pixels.chunks_exact_mut(self.width) {
+            row.rotate_right(columns);
+        }
+        self
+    }
+
     /// Illuminance of a surface that faces `normal`, summed over all pixels.
     pub fn irradiance(&self, normal: Vec3) -> Vec3 {
         self.parts()

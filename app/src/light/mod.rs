@@ -8,15 +8,24 @@ mod clouds;
 mod column_table;
 mod daylight;
 mod environment_map;
+mod map_error;
+mod map_layout;
+mod picture_file;
+mod prefilter;
 mod scattering;
 mod spectrum;
 mod spherical_harmonics;
+mod sun_search;
 
 pub use atmosphere::Atmosphere;
 pub(crate) use daylight::luminance;
 pub use daylight::{Daylight, SunLight};
 pub use environment_map::EnvironmentMap;
+pub use map_error::MapError;
+pub use prefilter::{ROUGHNESS, prefiltered};
 pub use spherical_harmonics::SphericalHarmonics;
 
+#[cfg(test)]
+mod map_tests;
 #[cfg(test)]
 mod tests;

@@ -5,13 +5,13 @@
 use std::f32::consts::PI;
 
 use glam::{Mat4, Vec2, Vec3, Vec4};
-use windfall_core::scene::{Haze, PhysicalSky, Sky, View};
+use windfall_core::scene::{Haze, View};
 
 use super::renderer::FrameInput;
 use super::scenery::PARK_RADIUS_M;
 use super::shadow_pass::SHADOW_SIZE;
 use crate::camera::Camera;
-use crate::light::{Daylight, SphericalHarmonics, luminance};
+use crate::light::{Daylight, MapError, SphericalHarmonics, luminance};
 use crate::trees::Stand;
 
 /// Half edge of the square around the camera's focus in which leaves cast shadows, in metres.
@@ -107,16 +107,18 @@ pub(super) struct Environment {
 }
 
 impl Environment {
-    pub(super) fn new(view: &View, park_center: Vec3, path: Path, stand: Option<Ball>) -> Self {
-        let daylight = match &view.sky {
-            Sky::Physical(sky) => Daylight::physical(&view.sun, *sky),
-            Sky::Map(_) => Daylight::physical(&view.sun, PhysicalSky::default()),
-        };
+    pub(super) fn new(
+        view: &View,
+        park_center: Vec3,
+        path: Path,
+        stand: Option<Ball>,
+    ) -> Result<Self, MapError> {
+        let daylight = Daylight::new(view)?;
         let ambient = SphericalHarmonics::of(&daylight.sky).white_surface();
         let sun = daylight.sun.illuminance * daylight.sun.direction.y.max(0.0);
         let level = luminance(daylight.sky.irradiance(Vec3::Y) + sun);
         let exposure_value = (1000.0 * level * 100.0 / METER_LX_S).log2() - BRIGHTER_BY;
-        Self { daylight, ambient, exposure_value, haze: view.haze, park_center, path, stand }
+        Ok(Self { daylight, ambient, exposure_value, haze: view.haze, park_center, path, stand })
     }
 
     /// The uniform block of one frame.
@@ -158,7 +160,12 @@ impl Environment {
             viewport: [width, height, 1.0 / width, 1.0 / height],
             wide: [self.stand.map_or(0.0, |ball| 2.0 * ball.radius_m / SHADOW_SIZE as f32), 0.0, 0.0, 0.0],
             ambient: self.ambient.map(|light| full(light, 0.0)),
-            sky: [self.daylight.cloud_cover, 1.0 / self.haze.depth_m, 0.0, 0.0],
+            sky: [
+                self.daylight.cloud_cover,
+                1.0 / self.haze.depth_m,
+                f32::from(u8::from(self.daylight.picture.is_none())),
+                0.0,
+            ],
             cloud_light: full(self.daylight.clouds[0], 0.0),
             cloud_shade: full(self.daylight.clouds[1], 0.0),
         }
@@ -224,7 +231,8 @@ mod tests {
 
     #[test]
     fn shadow_projection_separates_leaf_from_ground_along_the_sun() {
-        let environment = Environment::new(&View::default(), Vec3::ZERO, PATH, None);
+        let environment =
+            Environment::new(&View::default(), Vec3::ZERO, PATH, None).expect("no file is needed");
         let matrix = environment.shadow_projection(&Camera::from(&scene::Camera::default()));
         let ground = Vec3::new(0.5, 0.0, -0.5);
         let leaf = ground + 3.0 * environment.daylight.sun.direction;
@@ -238,7 +246,8 @@ mod tests {
     fn light_stays_finite_for_every_sun() {
         for elevation_deg in [-6.0, 0.0, 1.0, 5.0, 45.0, 90.0] {
             let sun = Sun { azimuth_deg: 30.0, elevation_deg };
-            let environment = Environment::new(&View { sun, ..View::default() }, Vec3::ZERO, PATH, None);
+            let environment = Environment::new(&View { sun, ..View::default() }, Vec3::ZERO, PATH, None)
+                .expect("no file is needed");
             let camera = Camera::from(&scene::Camera::default());
             let input = FrameInput { camera, time_s: 1.0, since_s: f32::INFINITY, origin: (0, 0) };
             let frame = environment.frame(&input, 1.0, (640, 480));

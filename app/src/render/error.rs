@@ -4,6 +4,8 @@
 
 use thiserror::Error;
 
+use crate::light::MapError;
+
 /// A renderer that cannot be made or a picture that cannot be read back.
 #[derive(Debug, Error)]
 #[non_exhaustive]
@@ -31,6 +33,9 @@ pub enum RenderError {
     /// Leaf images that do not belong together.
     #[error("leaf images: {0}")]
     Images(String),
+    /// A picture of a sky that cannot be used.
+    #[error(transparent)]
+    Sky(#[from] MapError),
     /// A picture that could not be read back.
     #[error("cannot read the picture back from the device: {0}")]
     Readback(String),

@@ -6,7 +6,7 @@ use super::pipeline::{FILTERABLE, sampler_entry, texture_entry};
 use super::scenery::{NOISE_SIZE, noise_mips};
 use super::sky_texture::radiance_texture;
 use super::upload;
-use crate::light::Daylight;
+use crate::light::{Daylight, prefiltered};
 
 /// What `light.wgsl` binds.
 #[derive(Debug)]
@@ -39,6 +39,7 @@ impl LightGroup {
                 texture_entry(6, wgpu::TextureSampleType::Depth, flat),
                 texture_entry(7, FILTERABLE, flat),
                 sampler_entry(8, wgpu::SamplerBindingType::Filtering),
+                texture_entry(9, FILTERABLE, flat),
             ],
         });
         let linear = wgpu::SamplerDescriptor {
@@ -63,16 +64,24 @@ impl LightGroup {
             (4, noise_view(device, queue)),
             (6, wide_map.clone()),
         ];
-        let sky = radiance_texture(device, queue, "sky", &[&daylight.sky]);
-        let group = bind(device, &layout, &views, &samplers, &sky);
+        let group = bind(device, &layout, &views, &samplers, &skies(device, queue, daylight));
         Self { layout, group, views, samplers }
     }
 
     /// Takes over another sky.
     pub(super) fn set_sky(&mut self, device: &wgpu::Device, queue: &wgpu::Queue, daylight: &Daylight) {
-        let sky = radiance_texture(device, queue, "sky", &[&daylight.sky]);
-        self.group = bind(device, &self.layout, &self.views, &self.samplers, &sky);
+        let skies = skies(device, queue, daylight);
+        self.group = bind(device, &self.layout, &self.views, &self.samplers, &skies);
     }
+}
+
+/// The sky as it is seen, and as surfaces of rising roughness mirror it, without the sun.
+fn skies(device: &wgpu::Device, queue: &wgpu::Queue, daylight: &Daylight) -> [wgpu::TextureView; 2] {
+    let seen = daylight.picture.as_ref().unwrap_or(&daylight.sky);
+    let mirrored = prefiltered(&daylight.sky);
+    let mirrored: Vec<_> = mirrored.iter().collect();
+    [("sky", vec![seen]), ("mirrored sky", mirrored)]
+        .map(|(label, levels)| radiance_texture(device, queue, label, &levels))
 }
 
 fn bind(
@@ -80,7 +89,7 @@ fn bind(
     layout: &wgpu::BindGroupLayout,
     views: &[(u32, wgpu::TextureView)],
     samplers: &[(u32, wgpu::Sampler)],
-    sky: &wgpu::TextureView,
+    [seen, mirrored]: &[wgpu::TextureView; 2],
 ) -> wgpu::BindGroup {
     let view =
         |binding, view| wgpu::BindGroupEntry { binding, resource: wgpu::BindingResource::TextureView(view) };
@@ -89,7 +98,7 @@ fn bind(
         resource: wgpu::BindingResource::Sampler(sampler),
     });
     let fixed = views.iter().map(|(binding, texture)| view(*binding, texture));
-    let entries: Vec<_> = fixed.chain([view(7, sky)]).chain(samplers).collect();
+    let entries: Vec<_> = fixed.chain([view(7, seen), view(9, mirrored)]).chain(samplers).collect();
     device.create_bind_group(&wgpu::BindGroupDescriptor { label: Some("light"), layout, entries: &entries })
 }
 

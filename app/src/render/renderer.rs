@@ -166,7 +166,7 @@ impl Renderer {
             center,
             Path { lead: level, phase: path_phase },
             Ball::around(stand),
-        );
+        )?;
         let maps = [&shadow_pass.map, &wide_pass.map];
         let light = LightGroup::new(device, queue, maps, &shade_pass.map, &environment.daylight);
         let eye_m = camera.eye_m();
@@ -227,9 +227,12 @@ impl Renderer {
     }
 
     /// Takes over another sun, sky, lens and length of trails; the park stays where it is.
-    pub fn update_scene_view(&mut self, view: &View) {
+    ///
+    /// # Errors
+    /// A picture of a sky that cannot be used; the renderer keeps its own.
+    pub fn update_scene_view(&mut self, view: &View) -> Result<(), RenderError> {
         let Environment { park_center, path, stand, .. } = self.environment;
-        self.environment = Environment::new(view, park_center, path, stand);
+        self.environment = Environment::new(view, park_center, path, stand)?;
         self.light.set_sky(&self.device, &self.queue, &self.environment.daylight);
         self.post.set_lens(view.lens);
         self.shade_is_old = true;
@@ -237,6 +240,7 @@ impl Renderer {
         if drawn != view.trail_s {
             self.make_trails(view.trail_s);
         }
+        Ok(())
     }
 
     /// Takes over another number of leaves, with the same trees bearing other shares of them.

@@ -13,6 +13,8 @@
 // Radiance by latitude and longitude.
 @group(1) @binding(7) var sky_map: texture_2d<f32>;
 @group(1) @binding(8) var sky_sampler: sampler;
+// The sky without its sun as surfaces mirror it, rougher from level to level.
+@group(1) @binding(9) var mirrored_sky: texture_2d<f32>;
 
 // Sunlight that reaches `position` past the leaves and trees of the map around the whole stand.
 fn wide_shadow(position: vec3<f32>) -> f32 {
@@ -78,6 +80,12 @@ fn sky_place(direction: vec3<f32>) -> vec2<f32> {
     return vec2(turn, acos(clamp(direction.y, -1.0, 1.0)) * 0.31830989);
 }
 
+// What a surface of a roughness from 0.1 to 1 mirrors of the sky along a direction.
+fn sky_reflection(direction: vec3<f32>, roughness: f32) -> vec3<f32> {
+    let level = (roughness - 0.1) / 0.225;
+    return textureSampleLevel(mirrored_sky, sky_sampler, sky_place(direction), level).rgb;
+}
+
 // Radiance of the sky in a direction, as if clouds were spread evenly.
 fn sky_radiance(direction: vec3<f32>) -> vec3<f32> {
     return textureSampleLevel(sky_map, sky_sampler, sky_place(direction), 0.0).rgb;
@@ -96,5 +104,5 @@ fn haze(color: vec3<f32>, position: vec3<f32>) -> vec3<f32> {
     let mean = select((exp(-low) - exp(-high)) / span, exp(-low), abs(span) < 1.0e-3);
     let veil = 1.0 - exp(-distance_m * frame.air.x * mean);
     let level = normalize(vec3(direction.x, max(direction.y, 0.0) * 0.4 + 0.05, direction.z));
-    return mix(color, sky_radiance(level), veil);
+    return mix(color, sky_reflection(level, 0.1), veil);
 }

@@ -50,12 +50,16 @@ fn fragment(in: Varyings) -> @location(0) vec4<f32> {
     // The sun's disc, half a degree wide: as bright as it would have to be, or as 16 bits allow.
     let disc = smoothstep(0.999985, 0.999991, toward_sun) * (1.0 - cover);
     color += min(frame.sun_color.rgb * (3.14159265 / 6.8e-5), vec3(30000.0)) * disc;
+    // A picture of a sky has its own sun, clouds and horizon.
+    if frame.sky.z == 0.0 {
+        return vec4(min(sky_radiance(direction), vec3(30000.0)), 1.0);
+    }
 
     // Two rows of far woods in the haze.
     let azimuth = atan2(direction.z, direction.x);
     let slope = direction.y / max(length(direction.xz), 1.0e-3);
     let pixel = frame.viewport.w * 2.0 * length(frame.up.xyz) * 1.5;
-    let level = sky_radiance(normalize(vec3(direction.x, 0.05, direction.z)));
+    let level = sky_reflection(normalize(vec3(direction.x, 0.05, direction.z)), 0.1);
     for (var row = 0u; row < 2u; row++) {
         let near = f32(row);
         let top = skyline(azimuth, 0.21 + near * 0.4, mix(0.060, 0.042, near));
