@@ -12,12 +12,12 @@ use super::column_table::ColumnTable;
 use super::spectrum::{BANDS, SUN, Spectrum};
 
 /// Steps along a ray that is seen.
-const STEPS: u32 = 40;
+const STEPS: u32 = 28;
 /// Steps along a ray that only lights others.
-const COARSE_STEPS: u32 = 16;
+const COARSE_STEPS: u32 = 12;
 /// Heights and suns for which multiple scattering is tabulated.
-const HEIGHTS: usize = 16;
-const SUNS: usize = 11;
+const HEIGHTS: usize = 12;
+const SUNS: usize = 9;
 /// How far the sun of a place in sight may stand from the sun here, in radians.
 const SUN_RANGE: f64 = 0.17;
 /// Share of light that the land throws back into the air.

@@ -22,7 +22,7 @@ impl LightGroup {
     pub(super) fn new(
         device: &wgpu::Device,
         queue: &wgpu::Queue,
-        [shadow_map, wide_map]: [&wgpu::TextureView; 2],
+        shadow_maps: &wgpu::TextureView,
         shade_map: &wgpu::TextureView,
         daylight: &Daylight,
     ) -> Self {
@@ -30,13 +30,12 @@ impl LightGroup {
         let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
             label: Some("light"),
             entries: &[
-                texture_entry(0, wgpu::TextureSampleType::Depth, flat),
+                texture_entry(0, wgpu::TextureSampleType::Depth, wgpu::TextureViewDimension::D2Array),
                 sampler_entry(1, wgpu::SamplerBindingType::Comparison),
                 texture_entry(2, FILTERABLE, flat),
                 sampler_entry(3, wgpu::SamplerBindingType::Filtering),
                 texture_entry(4, FILTERABLE, flat),
                 sampler_entry(5, wgpu::SamplerBindingType::Filtering),
-                texture_entry(6, wgpu::TextureSampleType::Depth, flat),
                 texture_entry(7, FILTERABLE, flat),
                 sampler_entry(8, wgpu::SamplerBindingType::Filtering),
                 texture_entry(9, FILTERABLE, flat),
@@ -58,12 +57,7 @@ impl LightGroup {
             (5, device.create_sampler(&repeating)),
             (8, device.create_sampler(&around)),
         ];
-        let views = vec![
-            (0, shadow_map.clone()),
-            (2, shade_map.clone()),
-            (4, noise_view(device, queue)),
-            (6, wide_map.clone()),
-        ];
+        let views = vec![(0, shadow_maps.clone()), (2, shade_map.clone()), (4, noise_view(device, queue))];
         let group = bind(device, &layout, &views, &samplers, &skies(device, queue, daylight));
         Self { layout, group, views, samplers }
     }

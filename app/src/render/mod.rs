@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Draws leaves in a park, from buffers that any simulator lends.
 //!
-//! A frame: the shade of the far trees from above (once per sun), past positions of leaves for their trails, two shadow
-//! maps of leaves and bark (around the camera's focus, and of all trees of the scene), then one multisampled scene pass
+//! A frame: the shade of the far trees from above (once per sun), past positions of leaves for their trails, three shadow
+//! maps of leaves and bark (each around a slice of what is seen), then one multisampled scene pass
 //! in linear light (bark, leaves, fruit, grass, ground, far trees, sky, trails), and the tone map. Bark, leaves and fruit
 //! of the scene's trees move with the branch columns on the device; the far woods are pictures. Leaves are cut out by coverage, so their order never matters. Nothing here needs a window.
 
@@ -11,6 +11,7 @@ mod agx;
 mod bark_mesh;
 mod bark_pass;
 mod branch_group;
+mod cascades;
 mod environment;
 mod error;
 mod exposure_pass;

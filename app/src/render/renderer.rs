@@ -12,7 +12,7 @@ use super::RenderError;
 use super::bark_mesh::StandMesh;
 use super::bark_pass::BarkPass;
 use super::branch_group::BranchGroup;
-use super::environment::{Ball, Environment, Path};
+use super::environment::{Environment, Path};
 use super::frame::FrameGroup;
 use super::fruit_pass::FruitPass;
 use super::grass_pass::GrassPass;
@@ -25,7 +25,7 @@ use super::light_group::LightGroup;
 use super::litter::Litter;
 use super::post::{Post, TimedPosts};
 use super::scenery::{Park, Shedding, TreeInstance, plant};
-use super::shadow_pass::{Casters, SHADOW_SIZE, ShadowPass};
+use super::shadow_pass::{Casters, ShadowPass};
 use super::sky_pass::SkyPass;
 use super::stems::Stems;
 use super::targets::Targets;
@@ -115,7 +115,6 @@ pub struct Renderer {
     bark: StandMesh,
     branches: BranchGroup,
     shadow_pass: ShadowPass,
-    wide_pass: ShadowPass,
     shade_pass: ShadePass,
     shade_is_old: bool,
     bark_pass: BarkPass,
@@ -156,19 +155,10 @@ impl Renderer {
         let own = if scene.autumn > 0.0 { own_trees(stand) } else { Vec::new() };
         let trees = Trees::new(device, queue, (&planted, leaves), &own);
         let branches = BranchGroup::new(device, queue, stand);
-        let shadow_pass = ShadowPass::new(device, &frame, &kinds, &branches, false, SHADOW_SIZE);
-        // Without trees nothing asks the wide map.
-        let wide_size = if stand.trees.is_empty() { 1 } else { SHADOW_SIZE };
-        let wide_pass = ShadowPass::new(device, &frame, &kinds, &branches, true, wide_size);
+        let shadow_pass = ShadowPass::new(device, &frame, &kinds, &branches);
         let shade_pass = ShadePass::new(device, &frame, &trees);
-        let environment = Environment::new(
-            &scene.view,
-            center,
-            Path { lead: level, phase: path_phase },
-            Ball::around(stand),
-        )?;
-        let maps = [&shadow_pass.map, &wide_pass.map];
-        let light = LightGroup::new(device, queue, maps, &shade_pass.map, &environment.daylight);
+        let environment = Environment::new(&scene.view, center, Path { lead: level, phase: path_phase })?;
+        let light = LightGroup::new(device, queue, &shadow_pass.maps, &shade_pass.map, &environment.daylight);
         let eye_m = camera.eye_m();
         let shedding = shedding(&planted, stand);
         let species_count = u32::try_from(scene.species.len()).unwrap_or(1);
@@ -202,7 +192,6 @@ impl Renderer {
             trees,
             branches,
             shadow_pass,
-            wide_pass,
             shade_pass,
         };
         renderer.make_trails(scene.view.trail_s);
@@ -231,8 +220,8 @@ impl Renderer {
     /// # Errors
     /// A picture of a sky that cannot be used; the renderer keeps its own.
     pub fn update_scene_view(&mut self, view: &View) -> Result<(), RenderError> {
-        let Environment { park_center, path, stand, .. } = self.environment;
-        self.environment = Environment::new(view, park_center, path, stand)?;
+        let Environment { park_center, path, .. } = self.environment;
+        self.environment = Environment::new(view, park_center, path)?;
         self.light.set_sky(&self.device, &self.queue, &self.environment.daylight);
         self.post.set_lens(view.lens);
         self.shade_is_old = true;
@@ -295,10 +284,8 @@ impl Renderer {
             branches: &group,
         };
         let writes = |pass| self.timer.as_ref().map(|timer| timer.render_writes(pass));
-        self.shadow_pass.draw(encoder, writes(0), &self.frame, &casters);
-        if self.environment.stand.is_some() {
-            self.wide_pass.draw(encoder, None, &self.frame, &casters);
-        }
+        let shadow_writes = self.timer.as_ref().map(|timer| timer.split_writes(0));
+        self.shadow_pass.draw(encoder, shadow_writes, &self.frame, &casters);
         self.draw_scene(encoder, writes(1), &sets, &group);
         let shot = Shot {
             size: self.targets.size,

@@ -1,10 +1,11 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Draws the shadows of leaves and trees: finely around what the camera looks at, and coarsely of the whole stand.
+//! Draws the shadows of leaves and trees, finer near the camera than far from it.
 
 use super::bark_mesh::{StandMesh, bark_layout};
 use super::bark_pass::{BARK_SHAPE, STEM};
 use super::branch_group::BranchGroup;
+use super::cascades::{CASCADES, SHADOW_SIZE};
 use super::frame::FrameGroup;
 use super::leaf_kinds::LeafKinds;
 use super::leaf_pass::LEAF_SHAPE;
@@ -13,14 +14,22 @@ use super::leaf_set::{LeafDetail, LeafMeshes, LeafSet, draw_leaves, vertex_layou
 use super::pipeline::{COMMON, layout, shader};
 use super::stems::Stems;
 
-/// Edge of a shadow map in texels; `light.wgsl` filters with this size.
-pub(super) const SHADOW_SIZE: u32 = 2048;
 const SHADOW_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
+#[expect(clippy::cast_possible_truncation, reason = "a small number")]
+const LAYERS: u32 = CASCADES as u32;
 
-/// A shadow map and the pipelines that draw into it.
+/// The shadow maps and the pipelines that draw into them.
 #[derive(Debug)]
 pub(super) struct ShadowPass {
-    pub(super) map: wgpu::TextureView,
+    /// All maps, near to far.
+    pub(super) maps: wgpu::TextureView,
+    cascades: [CascadePass; CASCADES],
+}
+
+/// One of the maps.
+#[derive(Debug)]
+struct CascadePass {
+    map: wgpu::TextureView,
     leaves: wgpu::RenderPipeline,
     bark: wgpu::RenderPipeline,
 }
@@ -37,18 +46,15 @@ pub(super) struct Casters<'a> {
 }
 
 impl ShadowPass {
-    /// The map around the camera's focus, or the `wide` one of `size` texels.
     pub(super) fn new(
         device: &wgpu::Device,
         frame: &FrameGroup,
         kinds: &LeafKinds,
         branches: &BranchGroup,
-        wide: bool,
-        size: u32,
     ) -> Self {
         let texture = device.create_texture(&wgpu::TextureDescriptor {
-            label: Some("shadow map"),
-            size: wgpu::Extent3d { width: size, height: size, depth_or_array_layers: 1 },
+            label: Some("shadow maps"),
+            size: wgpu::Extent3d { width: SHADOW_SIZE, height: SHADOW_SIZE, depth_or_array_layers: LAYERS },
             mip_level_count: 1,
             sample_count: 1,
             dimension: wgpu::TextureDimension::D2,
@@ -60,52 +66,93 @@ impl ShadowPass {
         let leaf_shader = shader(device, "leaf shadow", &text);
         let bark_shader =
             shader(device, "bark shadow", &[COMMON, BARK_SHAPE, include_str!("shaders/bark_shadow.wgsl")]);
-        let pipeline = |label, module, group, buffers: &[wgpu::VertexBufferLayout<'_>], cut_out| {
-            let constants = [("WIDE", f64::from(u8::from(wide)))];
-            let compilation_options =
-                wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() };
-            let buffers: Vec<_> = buffers.iter().cloned().map(Some).collect();
-            device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-                label: Some(label),
-                layout: Some(&layout(device, &[Some(&frame.layout), None, Some(group)])),
-                vertex: wgpu::VertexState {
-                    module,
-                    entry_point: Some("vertex"),
-                    compilation_options: compilation_options.clone(),
-                    buffers: &buffers,
-                },
-                primitive: wgpu::PrimitiveState::default(),
-                depth_stencil: Some(wgpu::DepthStencilState {
-                    format: SHADOW_FORMAT,
-                    depth_write_enabled: Some(true),
-                    depth_compare: Some(wgpu::CompareFunction::LessEqual),
-                    stencil: wgpu::StencilState::default(),
-                    bias: wgpu::DepthBiasState::default(),
-                }),
-                multisample: wgpu::MultisampleState::default(),
-                fragment: if cut_out {
-                    Some(wgpu::FragmentState {
+        let pipeline =
+            |label, cascade: u32, module, group, buffers: &[wgpu::VertexBufferLayout<'_>], cut_out| {
+                let constants = [("CASCADE", f64::from(cascade))];
+                let compilation_options =
+                    wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() };
+                let buffers: Vec<_> = buffers.iter().cloned().map(Some).collect();
+                device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+                    label: Some(label),
+                    layout: Some(&layout(device, &[Some(&frame.layout), None, Some(group)])),
+                    vertex: wgpu::VertexState {
                         module,
-                        entry_point: Some("fragment"),
-                        compilation_options,
-                        targets: &[],
-                    })
-                } else {
-                    None
-                },
-                multiview_mask: None,
-                cache: None,
-            })
-        };
-        Self {
-            map: texture.create_view(&wgpu::TextureViewDescriptor::default()),
-            leaves: pipeline("leaf shadows", &leaf_shader, &kinds.layout, &vertex_layouts(), true),
-            bark: pipeline("bark shadows", &bark_shader, &branches.layout, &[bark_layout()], false),
-        }
+                        entry_point: Some("vertex"),
+                        compilation_options: compilation_options.clone(),
+                        buffers: &buffers,
+                    },
+                    primitive: wgpu::PrimitiveState::default(),
+                    depth_stencil: Some(wgpu::DepthStencilState {
+                        format: SHADOW_FORMAT,
+                        depth_write_enabled: Some(true),
+                        depth_compare: Some(wgpu::CompareFunction::LessEqual),
+                        stencil: wgpu::StencilState::default(),
+                        bias: wgpu::DepthBiasState::default(),
+                    }),
+                    multisample: wgpu::MultisampleState::default(),
+                    fragment: if cut_out {
+                        Some(wgpu::FragmentState {
+                            module,
+                            entry_point: Some("fragment"),
+                            compilation_options,
+                            targets: &[],
+                        })
+                    } else {
+                        None
+                    },
+                    multiview_mask: None,
+                    cache: None,
+                })
+            };
+        let mut layers = 0..LAYERS;
+        let cascades = [(); CASCADES].map(|()| {
+            let cascade = layers.next().unwrap_or(0);
+            CascadePass {
+                map: texture.create_view(&wgpu::TextureViewDescriptor {
+                    dimension: Some(wgpu::TextureViewDimension::D2),
+                    base_array_layer: cascade,
+                    array_layer_count: Some(1),
+                    ..Default::default()
+                }),
+                leaves: pipeline(
+                    "leaf shadows",
+                    cascade,
+                    &leaf_shader,
+                    &kinds.layout,
+                    &vertex_layouts(),
+                    true,
+                ),
+                bark: pipeline(
+                    "bark shadows",
+                    cascade,
+                    &bark_shader,
+                    &branches.layout,
+                    &[bark_layout()],
+                    false,
+                ),
+            }
+        });
+        Self { maps: texture.create_view(&wgpu::TextureViewDescriptor::default()), cascades }
     }
 
-    /// Draws all leaves and trees into the map.
+    /// Draws all leaves and trees into all maps; `timestamps` are those of the first and of the last.
     pub(super) fn draw(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        timestamps: Option<[wgpu::RenderPassTimestampWrites<'_>; 2]>,
+        frame: &FrameGroup,
+        casters: &Casters<'_>,
+    ) {
+        let [begin, end] = timestamps.map_or([None, None], |writes| writes.map(Some));
+        let [near, middle, far] = &self.cascades;
+        near.draw(encoder, begin, frame, casters);
+        middle.draw(encoder, None, frame, casters);
+        far.draw(encoder, end, frame, casters);
+    }
+}
+
+impl CascadePass {
+    fn draw(
         &self,
         encoder: &mut wgpu::CommandEncoder,
         timestamps: Option<wgpu::RenderPassTimestampWrites<'_>>,

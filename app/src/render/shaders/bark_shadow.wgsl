@@ -2,14 +2,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // Bark as the sun sees it.
 
-// Draws into the map of the whole stand instead of the one around the camera.
-override WIDE: bool = false;
+// Which of the shadow maps this draws into.
+override CASCADE: u32 = 0u;
 
 @vertex
 fn vertex(bark: BarkVertex) -> @builtin(position) vec4<f32> {
     let world = vec4(bark_point(bark).world, 1.0);
-    if WIDE {
-        return frame.wide_projection * world;
-    }
-    return frame.shadow_projection * world;
+    return frame.shadows[CASCADE] * world;
 }

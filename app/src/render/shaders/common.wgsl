@@ -4,9 +4,8 @@
 
 struct Frame {
     view_projection: mat4x4<f32>,
-    // World to the sun's clip space: around the camera's focus, and around all trees that stand in the scene.
-    shadow_projection: mat4x4<f32>,
-    wide_projection: mat4x4<f32>,
+    // World to the sun's clip space, for the slices of the view from near to far.
+    shadows: array<mat4x4<f32>, 3>,
     // Camera position; time in seconds.
     eye: vec4<f32>,
     // Camera axes, scaled so that forward + x * right + y * up is a ray through clip position (x, y). w of right and up:
@@ -29,8 +28,8 @@ struct Frame {
     park: vec4<f32>,
     // Width and height in pixels, and their reciprocals.
     viewport: vec4<f32>,
-    // Edge of a texel of the wide shadow map in metres; unused.
-    wide: vec4<f32>,
+    // Edges of the texels of the shadow maps in metres.
+    texels: vec4<f32>,
     // Light of the sky on white matt surfaces: coefficients of spherical harmonics.
     ambient: array<vec4<f32>, 9>,
     // Cloud cover; reciprocal of the depth of the haze in metres; 0 where a picture is the sky.

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // Leaves as the sun sees them.
 
-// Draws into the map of the whole stand instead of the one around the camera.
-override WIDE: bool = false;
+// Which of the shadow maps this draws into.
+override CASCADE: u32 = 0u;
 
 struct Varyings {
     @builtin(position) clip: vec4<f32>,
@@ -15,10 +15,7 @@ struct Varyings {
 fn vertex(leaf: Leaf, @location(4) at: vec3<f32>, stem: Stem) -> Varyings {
     let point = blade_point(leaf, at, stem, false);
     var out: Varyings;
-    out.clip = frame.shadow_projection * vec4(point.world, 1.0);
-    if WIDE {
-        out.clip = frame.wide_projection * vec4(point.world, 1.0);
-    }
+    out.clip = frame.shadows[CASCADE] * vec4(point.world, 1.0);
     out.uv = point.uv;
     out.layer = point.layer;
     return out;

@@ -2,54 +2,61 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // Sun, sky and haze.
 
-@group(1) @binding(0) var shadow_map: texture_depth_2d;
+@group(1) @binding(0) var shadow_maps: texture_depth_2d_array;
 @group(1) @binding(1) var shadow_sampler: sampler_comparison;
 // Top view of the park: sunlight let through by the trees (r), litter under them (g).
 @group(1) @binding(2) var shade_map: texture_2d<f32>;
 @group(1) @binding(3) var clamp_sampler: sampler;
 @group(1) @binding(4) var noise: texture_2d<f32>;
 @group(1) @binding(5) var repeat_sampler: sampler;
-@group(1) @binding(6) var wide_map: texture_depth_2d;
 // Radiance by latitude and longitude.
 @group(1) @binding(7) var sky_map: texture_2d<f32>;
 @group(1) @binding(8) var sky_sampler: sampler;
 // The sky without its sun as surfaces mirror it, rougher from level to level.
 @group(1) @binding(9) var mirrored_sky: texture_2d<f32>;
 
-// Sunlight that reaches `position` past the leaves and trees of the map around the whole stand.
-fn wide_shadow(position: vec3<f32>) -> f32 {
-    // A texel is wide: what lies in it must not shade itself.
-    let clip = frame.wide_projection * vec4(position + frame.sun_direction.xyz * (1.5 * frame.wide.x), 1.0);
+// Sunlight that reaches a place past what one shadow map holds: four taps that are turned from place to place.
+fn map_shadow(map: u32, clip: vec3<f32>, turn: vec2<f32>) -> f32 {
     let uv = clip.xy * vec2(0.5, -0.5) + 0.5;
-    let edge = max(abs(clip.x), abs(clip.y));
-    if edge > 0.99 || clip.z < 0.0 || clip.z > 1.0 {
-        return 1.0;
-    }
-    let texel = 1.0 / 2048.0;
-    var sum = textureSampleCompareLevel(wide_map, shadow_sampler, uv + texel * vec2(-0.9, -0.4), clip.z);
-    sum += textureSampleCompareLevel(wide_map, shadow_sampler, uv + texel * vec2(0.4, -0.9), clip.z);
-    sum += textureSampleCompareLevel(wide_map, shadow_sampler, uv + texel * vec2(0.9, 0.4), clip.z);
-    sum += textureSampleCompareLevel(wide_map, shadow_sampler, uv + texel * vec2(-0.4, 0.9), clip.z);
-    return mix(sum * 0.25, 1.0, smoothstep(0.9, 0.99, edge));
+    // Near maps are finer: their edges are as soft in metres only with wider taps.
+    let reach = select(select(1.0, 1.3, map == 1u), 2.0, map == 0u) / 2048.0;
+    let one = turn * reach;
+    let two = vec2(-one.y, one.x) * 0.55;
+    var sum = textureSampleCompareLevel(shadow_maps, shadow_sampler, uv + one, map, clip.z);
+    sum += textureSampleCompareLevel(shadow_maps, shadow_sampler, uv - one, map, clip.z);
+    sum += textureSampleCompareLevel(shadow_maps, shadow_sampler, uv + two, map, clip.z);
+    sum += textureSampleCompareLevel(shadow_maps, shadow_sampler, uv - two, map, clip.z);
+    return sum * 0.25;
 }
 
-// Sunlight that leaves and trees in the shadow maps let through to `position`, 0 to 1.
+// Place in a shadow map. A texel is wide: what lies in it must not shade itself.
+fn map_place(map: u32, position: vec3<f32>) -> vec3<f32> {
+    let lifted = position + frame.sun_direction.xyz * (1.5 * frame.texels[map]);
+    return (frame.shadows[map] * vec4(lifted, 1.0)).xyz;
+}
+
+// Sunlight that leaves and trees in the shadow maps let through to `position`, 0 to 1: by the finest map that holds it,
+// and near its edge by the next one as well.
 fn leaf_shadow(position: vec3<f32>) -> f32 {
-    let clip = frame.shadow_projection * vec4(position, 1.0);
-    let uv = clip.xy * vec2(0.5, -0.5) + 0.5;
-    let edge = max(abs(clip.x), abs(clip.y));
-    if edge > 0.99 || clip.z < 0.0 || clip.z > 1.0 {
-        return wide_shadow(position);
+    let spin = fract(dot(position, vec3(127.1, 311.7, 74.7))) * 6.2831853;
+    let turn = vec2(cos(spin), sin(spin));
+    for (var map = 0u; map < 3u; map++) {
+        let clip = map_place(map, position);
+        let edge = max(abs(clip.x), abs(clip.y));
+        if edge < 0.985 && clip.z > 0.0 && clip.z < 1.0 {
+            let here = map_shadow(map, clip, turn);
+            let over = smoothstep(0.86, 0.985, edge);
+            if over <= 0.0 {
+                return here;
+            }
+            var next = 1.0;
+            if map < 2u {
+                next = map_shadow(map + 1u, map_place(map + 1u, position), turn);
+            }
+            return mix(here, next, over);
+        }
     }
-    let texel = 1.0 / 2048.0;
-    var sum = textureSampleCompareLevel(shadow_map, shadow_sampler, uv + texel * vec2(-0.9, -0.4), clip.z);
-    sum += textureSampleCompareLevel(shadow_map, shadow_sampler, uv + texel * vec2(0.4, -0.9), clip.z);
-    sum += textureSampleCompareLevel(shadow_map, shadow_sampler, uv + texel * vec2(0.9, 0.4), clip.z);
-    sum += textureSampleCompareLevel(shadow_map, shadow_sampler, uv + texel * vec2(-0.4, 0.9), clip.z);
-    if edge < 0.8 {
-        return sum * 0.25;
-    }
-    return mix(sum * 0.25, wide_shadow(position), smoothstep(0.8, 0.99, edge));
+    return 1.0;
 }
 
 // Sunlight that the trees let through (r) and litter density (g) where the sun ray through `position` meets the ground.
