@@ -124,6 +124,7 @@ mod tests {
     use windfall_core::scene::{self, Sun};
 
     use super::*;
+    use crate::camera::Camera;
 
     const PATH: Path = Path { lead: Vec2::X, phase: 0.0 };
 
