@@ -6,6 +6,8 @@ use glam::camera::rh::{proj::directx, view};
 use glam::{Mat4, Vec3};
 use windfall_core::scene;
 
+use crate::land::Land;
+
 /// Distance of the near plane in metres: small enough to fly among leaves, and reversed infinite depth keeps the
 /// far trees apart from the ground all the same.
 pub(crate) const NEAR_M: f32 = 0.05;
@@ -15,6 +17,8 @@ const DISTANCE_RANGE_M: (f32, f32) = (0.2, 2000.0);
 const USUAL_ASPECT: f32 = 16.0 / 9.0;
 /// Widest a narrow picture opens the camera, in radians from top to bottom.
 const MAX_FOV_RAD: f32 = 2.2;
+/// Times the camera is lifted out of a hill.
+const LIFTS: u32 = 4;
 /// Steepest view up or down in radians; straight down would lose the sense of "up".
 const MAX_PITCH_RAD: f32 = 1.54;
 
@@ -105,11 +109,19 @@ impl Camera {
         self.target_m += height_m * (right * self.right() + up * self.up());
     }
 
-    /// Lifts the camera above a ground at `height_m`, keeping what it looks at.
-    pub fn stay_above(&mut self, height_m: f32) {
-        self.target_m.y = self.target_m.y.max(height_m);
-        let lowest = ((height_m - self.target_m.y) / self.distance_m).clamp(-1.0, 1.0).asin();
-        self.pitch_rad = self.pitch_rad.max(lowest);
+    /// Lifts the camera to `clearance_m` metres above the land, keeping what it looks at.
+    pub fn stay_above(&mut self, land: &Land, clearance_m: f32) {
+        self.target_m.y = self.target_m.y.max(land.surface_m(self.target_m.x, self.target_m.z) + clearance_m);
+        // Lifted along a circle the eye comes to stand elsewhere, where the land may be higher.
+        for _ in 0..LIFTS {
+            let eye = self.eye_m();
+            let least_m = land.surface_m(eye.x, eye.z) + clearance_m;
+            if eye.y >= least_m {
+                break;
+            }
+            let lowest = ((least_m - self.target_m.y) / self.distance_m).clamp(-1.0, 1.0).asin();
+            self.pitch_rad = self.pitch_rad.max(lowest).min(MAX_PITCH_RAD);
+        }
     }
 }
 
@@ -153,7 +165,25 @@ mod tests {
         assert!(camera.pitch_rad <= MAX_PITCH_RAD, "pitch {}", camera.pitch_rad);
         assert!(camera.distance_m <= DISTANCE_RANGE_M.1, "distance {}", camera.distance_m);
         camera.orbit(0.0, -100.0);
-        camera.stay_above(0.0);
+        camera.stay_above(&Land::of(&scene::Ground::default()), 0.0);
         assert!(camera.eye_m().y >= -1.0e-4, "eye below ground: {}", camera.eye_m());
+    }
+
+    #[test]
+    fn hills_lift_the_camera() {
+        let terrain = scene::Terrain { relief_m: 60.0, ..scene::Terrain::default() };
+        let land = Land::of(&scene::Ground { terrain: Some(terrain), ..scene::Ground::default() });
+        let mut lifted = 0;
+        for step in 0..64u8 {
+            let mut camera = Camera::from(&scene::Camera::default());
+            camera.distance_m = 40.0;
+            camera.orbit(0.1 * f32::from(step), -2.0);
+            let before = camera;
+            camera.stay_above(&land, 0.1);
+            let eye = camera.eye_m();
+            assert!(eye.y > land.surface_m(eye.x, eye.z), "in a hill at {eye}");
+            lifted += u32::from(camera != before);
+        }
+        assert!(lifted > 30, "{lifted} views began in the ground");
     }
 }

@@ -11,6 +11,7 @@ pub mod commands;
 pub mod drawing;
 pub mod frame;
 pub mod interrupt;
+pub mod land;
 pub mod leaves;
 pub mod light;
 pub mod output;

@@ -1,9 +1,12 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Bind group 0: the uniform block of the frame.
+//! Bind group 0: the uniform block of the frame, and the land.
 
 use super::environment::FrameUniform;
-use super::pipeline::uniform_entry;
+use super::land_texture::{LandUniform, land_texture};
+use super::pipeline::{texture_entry, uniform_entry};
+use super::upload;
+use crate::land::Land;
 
 /// The frame's uniform buffer and bind group.
 #[derive(Debug)]
@@ -14,10 +17,15 @@ pub(super) struct FrameGroup {
 }
 
 impl FrameGroup {
-    pub(super) fn new(device: &wgpu::Device) -> Self {
+    pub(super) fn new(device: &wgpu::Device, queue: &wgpu::Queue, land: &Land) -> Self {
+        let hills = wgpu::TextureSampleType::Float { filterable: false };
         let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
             label: Some("frame"),
-            entries: &[uniform_entry(0)],
+            entries: &[
+                uniform_entry(0),
+                uniform_entry(1),
+                texture_entry(2, hills, wgpu::TextureViewDimension::D2),
+            ],
         });
         let buffer = device.create_buffer(&wgpu::BufferDescriptor {
             label: Some("frame"),
@@ -25,10 +33,18 @@ impl FrameGroup {
             usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
             mapped_at_creation: false,
         });
+        let shape = LandUniform::of(land);
+        let shape =
+            upload::buffer(device, queue, "land", wgpu::BufferUsages::UNIFORM, bytemuck::bytes_of(&shape));
+        let hills = land_texture(device, queue, land);
         let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some("frame"),
             layout: &layout,
-            entries: &[wgpu::BindGroupEntry { binding: 0, resource: buffer.as_entire_binding() }],
+            entries: &[
+                wgpu::BindGroupEntry { binding: 0, resource: buffer.as_entire_binding() },
+                wgpu::BindGroupEntry { binding: 1, resource: shape.as_entire_binding() },
+                wgpu::BindGroupEntry { binding: 2, resource: wgpu::BindingResource::TextureView(&hills) },
+            ],
         });
         Self { layout, group, buffer }
     }

@@ -9,6 +9,7 @@ use super::ground_pass::GRASS_COLOR;
 use super::light_group::LightGroup;
 use super::pipeline::{COMMON, LIGHT, ScenePipeline, shader};
 use crate::camera::Camera;
+use crate::land::Land;
 
 /// Edge of a square in metres.
 const CELL_M: f32 = 1.0;
@@ -61,9 +62,9 @@ impl GrassPass {
         Self { pipeline, cells, counts: [0; SHARES.len()] }
     }
 
-    /// Finds the squares that `camera` sees on the ground at `ground_m`.
-    pub(super) fn prepare(&mut self, queue: &wgpu::Queue, camera: &Camera, aspect: f32, ground_m: f32) {
-        let classes = visible_cells(camera, aspect, ground_m);
+    /// Finds the squares of the land that `camera` sees.
+    pub(super) fn prepare(&mut self, queue: &wgpu::Queue, camera: &Camera, aspect: f32, land: &Land) {
+        let classes = visible_cells(camera, aspect, land);
         self.counts = std::array::from_fn(|class| u32::try_from(classes[class].len()).unwrap_or(0));
         queue.write_buffer(&self.cells, 0, bytemuck::cast_slice(&classes.concat()));
     }
@@ -86,10 +87,10 @@ fn blades(share: f32) -> u32 {
 }
 
 /// Squares in sight by class: corner x, z, blades of a full square, edge.
-fn visible_cells(camera: &Camera, aspect: f32, ground_m: f32) -> [Vec<[f32; 4]>; SHARES.len()] {
+fn visible_cells(camera: &Camera, aspect: f32, land: &Land) -> [Vec<[f32; 4]>; SHARES.len()] {
     let mut classes: [Vec<[f32; 4]>; SHARES.len()] = std::array::from_fn(|_| Vec::new());
     let eye = camera.eye_m();
-    let height = (eye.y - ground_m).abs();
+    let height = (eye.y - land.ground_m(eye.x, eye.z)).abs();
     if height >= REACH_M {
         return classes;
     }
@@ -111,7 +112,8 @@ fn visible_cells(camera: &Camera, aspect: f32, ground_m: f32) -> [Vec<[f32; 4]>;
         let mut x = low.x;
         while x * CELL_M < eye.x + reach {
             let corner = Vec2::new(x, z) * CELL_M;
-            let center = Vec3::new(corner.x + 0.5 * CELL_M, ground_m, corner.y + 0.5 * CELL_M);
+            let middle = corner + 0.5 * CELL_M;
+            let center = Vec3::new(middle.x, land.ground_m(middle.x, middle.y), middle.y);
             let offset = center - eye;
             let seen = sides.iter().all(|side| side.dot(offset) > -0.8 * CELL_M);
             let near = (offset.length() - 0.75 * CELL_M).max(0.0);
@@ -134,10 +136,14 @@ mod tests {
 
     use super::*;
 
+    fn level() -> Land {
+        Land::of(&scene::Ground::default())
+    }
+
     #[test]
     fn squares_lie_before_the_camera_and_stay_few() {
         let camera = Camera::from(&scene::Camera::default());
-        let classes = visible_cells(&camera, 16.0 / 9.0, 0.0);
+        let classes = visible_cells(&camera, 16.0 / 9.0, &level());
         let drawn: usize =
             SHARES.into_iter().zip(&classes).map(|(share, cells)| blades(share) as usize * cells.len()).sum();
         assert!(
@@ -151,6 +157,6 @@ mod tests {
     fn no_grass_from_high_above() {
         let mut camera = Camera::from(&scene::Camera::default());
         camera.target_m.y = 500.0;
-        assert!(visible_cells(&camera, 1.0, 0.0).iter().all(Vec::is_empty), "grass seen from 500 m");
+        assert!(visible_cells(&camera, 1.0, &level()).iter().all(Vec::is_empty), "grass seen from 500 m");
     }
 }

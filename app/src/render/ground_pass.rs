@@ -5,6 +5,8 @@
 use super::frame::FrameGroup;
 use super::light_group::LightGroup;
 use super::pipeline::{COMMON, LIGHT, ScenePipeline, shader};
+use super::terrain_mesh::{RING_CELLS, TerrainMesh};
+use crate::land::Land;
 
 /// WGSL of the meadow's colours.
 pub(super) const GRASS_COLOR: &str = include_str!("shaders/grass_color.wgsl");
@@ -13,29 +15,47 @@ pub(super) const GRASS_COLOR: &str = include_str!("shaders/grass_color.wgsl");
 #[derive(Debug)]
 pub(super) struct GroundPass {
     pipeline: wgpu::RenderPipeline,
+    /// The grid that hills are drawn with; level ground needs none.
+    mesh: Option<TerrainMesh>,
 }
 
 impl GroundPass {
-    pub(super) fn new(device: &wgpu::Device, frame: &FrameGroup, light: &LightGroup) -> Self {
-        let text = [COMMON, LIGHT, GRASS_COLOR, include_str!("shaders/ground.wgsl")];
+    pub(super) fn new(
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        frame: &FrameGroup,
+        light: &LightGroup,
+        land: &Land,
+    ) -> Self {
+        let mesh = land.hills().map(|_| TerrainMesh::new(device, queue));
+        let rings = format!("const RING_CELLS: u32 = {RING_CELLS}u;\n");
+        let place = if mesh.is_some() {
+            [rings.as_str(), include_str!("shaders/terrain.wgsl")]
+        } else {
+            ["", include_str!("shaders/plain.wgsl")]
+        };
+        let text = [COMMON, LIGHT, GRASS_COLOR, include_str!("shaders/ground.wgsl"), place[0], place[1]];
         let shader = shader(device, "ground", &text);
         let pipeline = ScenePipeline {
             label: "ground",
             groups: &[Some(&frame.layout), Some(&light.layout)],
             topology: wgpu::PrimitiveTopology::TriangleList,
             shader: &shader,
-            buffers: &[],
+            buffers: if mesh.is_some() { &[TerrainMesh::LAYOUT] } else { &[] },
             blend: None,
             depth_write: true,
             alpha_to_coverage: false,
         }
         .build(device);
-        Self { pipeline }
+        Self { pipeline, mesh }
     }
 
     /// Draws the ground; bind groups 0 and 1 are set.
     pub(super) fn draw(&self, pass: &mut wgpu::RenderPass<'_>) {
         pass.set_pipeline(&self.pipeline);
-        pass.draw(0..24, 0..1);
+        match &self.mesh {
+            Some(mesh) => mesh.draw(pass),
+            None => pass.draw(0..24, 0..1),
+        }
     }
 }

@@ -7,6 +7,7 @@ use windfall_wgpu::LeafColumns;
 
 use super::scenery::{Shedding, scatter};
 use super::upload;
+use crate::land::Land;
 
 /// Most leaves of litter.
 const MAX_LITTER: u32 = 100_000;
@@ -28,11 +29,12 @@ impl Litter {
         queue: &wgpu::Queue,
         count: u32,
         species_count: u32,
+        land: &Land,
         center: Vec3,
         trees: &[Shedding],
     ) -> Option<Self> {
         let count = count.min(MAX_LITTER);
-        let columns = scatter(count, species_count, center, trees);
+        let columns = scatter(count, species_count, land, center, trees);
         let column =
             |bytes: &[u8]| upload::buffer(device, queue, "litter", wgpu::BufferUsages::VERTEX, bytes);
         (count > 0).then(|| Self {

@@ -33,6 +33,7 @@ use super::timing::GpuTimer;
 use super::trail_pass::TrailPass;
 use super::tree_pass::{ShadePass, TreePass, Trees};
 use crate::camera::{Camera, NEAR_M};
+use crate::land::Land;
 use crate::trees::Stand;
 
 /// Passes that are timed, in order of drawing.
@@ -99,6 +100,7 @@ pub struct Renderer {
     device: wgpu::Device,
     queue: wgpu::Queue,
     environment: Environment,
+    land: Land,
     leaf_count: u32,
     /// Where the scene's own camera stands.
     eye_m: Vec3,
@@ -146,11 +148,13 @@ impl Renderer {
         let camera = Camera::from(&scene.view.camera);
         let forward = camera.forward();
         let level = Vec2::new(forward.x, forward.z).normalize_or(Vec2::NEG_Y);
-        let center = Vec3::new(camera.target_m.x, scene.ground.height_m, camera.target_m.z);
-        let Park { trees: planted, leaves, path_phase } = plant(scene, center, level);
+        let land = Land::of(&scene.ground);
+        let Vec3 { x, z, .. } = camera.target_m;
+        let center = Vec3::new(x, land.ground_m(x, z), z);
+        let Park { trees: planted, leaves, path_phase } = plant(scene, &land, center, level);
 
         let targets = Targets::new(device, size)?;
-        let frame = FrameGroup::new(device);
+        let frame = FrameGroup::new(device, queue, &land);
         let kinds = LeafKinds::new(device, queue, scene, atlas)?;
         let own = if scene.autumn > 0.0 { own_trees(stand) } else { Vec::new() };
         let trees = Trees::new(device, queue, (&planted, leaves), &own);
@@ -168,7 +172,7 @@ impl Renderer {
             environment,
             leaf_count: scene.leaf_count(),
             eye_m,
-            litter: Litter::new(device, queue, options.litter_count, species_count, center, &shedding),
+            litter: Litter::new(device, queue, options.litter_count, species_count, &land, center, &shedding),
             litter_parts: [LeafPart::loose(0..options.litter_count)],
             leaf_parts: LeafPart::of_world(stand, scene.leaf_count(), eye_m),
             stems: Stems::new(device, queue, stand),
@@ -178,7 +182,7 @@ impl Renderer {
             leaf_pass: LeafPass::new(device, &frame, &light, &kinds),
             fruit_pass: FruitPass::new(device, queue, &frame, &light, &branches, stand),
             grass_pass: GrassPass::new(device, &frame, &light),
-            ground_pass: GroundPass::new(device, &frame, &light),
+            ground_pass: GroundPass::new(device, queue, &frame, &light, &land),
             tree_pass: TreePass::new(device, &frame, &light, &trees),
             sky_pass: SkyPass::new(device, &frame, &light),
             post: Post::new(device, queue, &targets, output_format, scene.view.lens),
@@ -186,6 +190,7 @@ impl Renderer {
             trail_pass: None,
             shade_is_old: true,
             targets,
+            land,
             frame,
             light,
             kinds,
@@ -201,6 +206,11 @@ impl Renderer {
     /// Size of the pictures in pixels.
     pub fn size(&self) -> (u32, u32) {
         self.targets.size
+    }
+
+    /// The land that is drawn.
+    pub fn land(&self) -> &Land {
+        &self.land
     }
 
     /// Draws pictures of another size from now on.
@@ -263,8 +273,7 @@ impl Renderer {
         #[expect(clippy::cast_possible_truncation, reason = "wraps long before f32 seconds grow coarse")]
         let time_s = input.time_s.rem_euclid(3600.0) as f32;
         self.frame.write(&self.queue, &self.environment.frame(input, time_s, self.targets.size));
-        let ground_m = self.environment.park_center.y;
-        self.grass_pass.prepare(&self.queue, &input.camera, aspect, ground_m);
+        self.grass_pass.prepare(&self.queue, &input.camera, aspect, &self.land);
         if self.shade_is_old {
             self.shade_pass.draw(encoder, &self.frame, &self.trees);
             self.shade_is_old = false;

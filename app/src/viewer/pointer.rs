@@ -5,6 +5,7 @@
 use egui::{PointerButton, Response};
 
 use crate::camera::Camera;
+use crate::land::Land;
 
 /// Radians per point of a drag.
 const ORBIT_RAD: f32 = 0.006;
@@ -13,8 +14,8 @@ const ZOOM: f32 = 0.0046;
 /// Lowest the camera goes above the ground, in metres.
 const CLEARANCE_M: f32 = 0.08;
 
-/// Applies what the pointer did on the picture of the scene, whose ground lies at `ground_m`.
-pub(super) fn steer(camera: &mut Camera, picture: &Response, ground_m: f32) {
+/// Applies what the pointer did on the picture of the scene.
+pub(super) fn steer(camera: &mut Camera, picture: &Response, land: &Land) {
     let ui = &picture.ctx;
     let (shift, scroll, pinch) =
         ui.input(|input| (input.modifiers.shift, input.smooth_scroll_delta(), input.zoom_delta()));
@@ -33,5 +34,5 @@ pub(super) fn steer(camera: &mut Camera, picture: &Response, ground_m: f32) {
         let turn = if scroll.y == 0.0 { scroll.x } else { scroll.y };
         camera.zoom((turn * ZOOM).exp() * pinch);
     }
-    camera.stay_above(ground_m + CLEARANCE_M);
+    camera.stay_above(land, CLEARANCE_M);
 }

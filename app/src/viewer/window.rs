@@ -228,10 +228,9 @@ impl Viewer {
         self.message.take_if(|(_, since)| since.elapsed() >= MESSAGE_TIME);
         let facts = self.facts()?;
         let since = Instant::now();
-        let Self { gui, panel, camera, window, gpu, session, .. } = self;
-        let ground_m = session.scene().ground.height_m;
+        let Self { gui, panel, camera, window, gpu, renderer, .. } = self;
         let mut wishes = Vec::new();
-        let painting = gui.run(window, gpu, |ui| wishes = panel.show(ui, &facts, camera, ground_m));
+        let painting = gui.run(window, gpu, |ui| wishes = panel.show(ui, &facts, camera, renderer.land()));
         self.meter.add(Stage::Panel, since);
         for wish in wishes {
             self.has_news = true;

@@ -33,8 +33,8 @@ use crate::motion::lookup::MotionRows;
 use crate::motion::table::TABLE_ROWS;
 use crate::motion::{GRAVITY, MotionTables};
 use crate::scene::{FlightModel, MAX_SOURCES, Scene, SwayScheme};
+use crate::terrain::Hills;
 use crate::terrain::ground::ground_relief;
-use crate::terrain::subdivision::terrain_rows;
 use crate::tree::Forest;
 use crate::tree::sway::{SCHEME_ARTICULATED, SCHEME_OLIAPURAM_KUMAR, SCHEME_QUIGLEY};
 use crate::wind::gust::{GUST_ROWS, gust_rows};
@@ -52,18 +52,6 @@ const SETTLE_S: f32 = 0.3;
 const SETTLE_TAU_S: f32 = 0.04;
 /// Rate at which the slowest leaf flutters on its twig in Hz; the fastest flutter half as fast again.
 const FLUTTER_HZ: f32 = 3.2;
-
-/// Hills as a grid that repeats; see [`Environment::hills`].
-#[derive(Clone, Debug, PartialEq)]
-pub struct Hills {
-    /// Cells along an edge, a power of two.
-    pub cells: u32,
-    /// Edge of a cell in metres.
-    pub cell_m: f32,
-    /// Heights in metres above the lowest point.
-    pub heights_m: Vec<f32>,
-}
-
 /// A compiled scene: uniform block and tables, ready for any backend.
 #[derive(Clone, Debug)]
 pub struct Environment {
@@ -92,7 +80,7 @@ impl Environment {
         wind.extend(profile_rows(scene.wind.profile, scene.wind.reference_height_m));
         wind.extend(gust_rows(seed));
         wind.extend(turbulence_rows(&turbulence_box(seed)));
-        wind.extend(scene.ground.terrain.iter().flat_map(terrain_rows));
+        wind.extend(scene.ground.terrain.iter().flat_map(|terrain| Hills::grow(terrain).rows()));
         let kinds = foliage_of(scene);
         let mut petioles = shed_rows(scene, &kinds);
         let block = compile_block(scene, &tables, len32(petioles.len()));
@@ -247,16 +235,6 @@ impl Environment {
     /// Height of the ground at a place in metres, whatever the water above it.
     pub fn ground_height(&self, x_m: f32, z_m: f32) -> f32 {
         foot_height(&self.block, &self.wind, x_m, z_m)
-    }
-
-    /// The hills: heights in metres above the lowest point on a square grid that repeats, `cells` along an edge, row by row
-    /// along x from the origin; `None` on level ground.
-    pub fn hills(&self) -> Option<Hills> {
-        let terrain = self.scene.ground.terrain?;
-        let first = self.block.terrain.0[0] as usize;
-        let heights_m = self.wind[first..].iter().map(|row| f32::from_bits(row.0[0])).collect();
-        let cells = 1 << terrain.levels;
-        Some(Hills { cells, cell_m: terrain.edge_m / cells as f32, heights_m })
     }
 
     /// Distance in metres that the mean wind travels in one step.

@@ -3,4 +3,7 @@
 //! Hills: how they are made, and how kernels see them.
 
 pub mod ground;
+mod hills;
 pub mod subdivision;
+
+pub use hills::Hills;

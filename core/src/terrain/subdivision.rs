@@ -7,7 +7,6 @@
 //! halving leaves no crease of a coarse level in the finished surface, as a filter applied only to the finest would.
 
 use crate::kernel::rng::{philox, triangular};
-use crate::layout::Uint4;
 use crate::scene::Terrain;
 
 /// Offset of the corners. Every halving takes two bits of the means, every smoothing four.
@@ -104,27 +103,6 @@ fn whole(value: f64) -> i64 {
 #[expect(clippy::cast_possible_truncation, reason = "grids have at most 512 points along an edge")]
 fn random_of(terrain: &Terrain, x: usize, z: usize, level: u32) -> [u32; 4] {
     philox(crate::environment::seed_words(terrain.seed), [x as u32, z as u32, level, STREAM_POINT])
-}
-
-/// Table of the hills: for every cell the heights in metres above the lowest point of its corners, x running fastest.
-pub(crate) fn terrain_rows(terrain: &Terrain) -> Vec<Uint4> {
-    let grid = HeightGrid::grow(terrain);
-    let lowest = grid.heights.iter().copied().min().unwrap_or(0);
-    let highest = grid.heights.iter().copied().max().unwrap_or(0);
-    #[expect(clippy::cast_precision_loss, reason = "heights are rounded to single precision in any case")]
-    let per_unit = f64::from(terrain.relief_m) / ((highest - lowest).max(1) as f64);
-    #[expect(
-        clippy::cast_precision_loss,
-        clippy::cast_possible_truncation,
-        reason = "kernels work in single precision"
-    )]
-    let word = |x, z| ((((grid.at(x, z) - lowest) as f64) * per_unit) as f32).to_bits();
-    (0..grid.size * grid.size)
-        .map(|index| {
-            let (x, z) = (index % grid.size, index / grid.size);
-            Uint4([word(x, z), word(x + 1, z), word(x, z + 1), word(x + 1, z + 1)])
-        })
-        .collect()
 }
 
 #[cfg(test)]

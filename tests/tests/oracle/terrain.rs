@@ -8,8 +8,9 @@ use windfall_core::kernel::Vec3;
 use windfall_core::leaf::LeafState;
 use windfall_core::leaf::settle::slide;
 use windfall_core::motion::GRAVITY;
+use windfall_core::terrain::Hills;
 use windfall_core::terrain::ground::Slope;
-use windfall_core::{Hills, Scene, World};
+use windfall_core::{Scene, World};
 use windfall_tests::strategies::{flying_scene, hilly_scene, varied_scene};
 
 /// Height of resting leaves above the ground in metres.
@@ -41,6 +42,10 @@ fn ground(hills: &Hills, x: f64, z: f64) -> DVec3 {
     DVec3::new(height, along_x, along_z)
 }
 
+fn hills_of(world: &World) -> Hills {
+    Hills::grow(&world.environment.scene().ground.terrain.expect("the scene has hills"))
+}
+
 fn hilly(leaves: u32) -> Scene {
     hilly_scene(varied_scene(11, leaves, 2.0, 1.0 / 60.0))
 }
@@ -48,7 +53,7 @@ fn hilly(leaves: u32) -> Scene {
 #[test]
 fn leaves_lie_on_hills_and_water_along_the_slope() {
     let mut world = build(&hilly(1500));
-    let hills = world.environment.hills().expect("the scene has hills");
+    let hills = hills_of(&world);
     let mut contact = vec![None; world.leaves.len()];
     let (mut on_water, mut on_slopes, mut still_steep, mut still) = (0, 0, 0, 0);
     for now in 0..700u32 {
@@ -126,7 +131,7 @@ fn slides_obey_the_inclined_plane() {
 #[test]
 fn trees_stand_on_the_hills() {
     let world: World = build(&hilly_scene(flying_scene(3, 30, 2.0, 1.0 / 60.0)));
-    let hills = world.environment.hills().expect("the scene has hills");
+    let hills = hills_of(&world);
     let mut heights = Vec::new();
     for tree in world.environment.forest().trees() {
         let [x, y, z] = tree.foot_m.to_array().map(f64::from);
@@ -142,11 +147,14 @@ fn trees_stand_on_the_hills() {
 #[test]
 fn other_winds_leave_the_hills_where_they_are() {
     let mut world = build(&hilly(30));
-    let before = world.environment.hills();
+    let before = (hills_of(&world), world.environment.wind().clone());
     let mut scene = world.environment.scene().clone();
     scene.wind.reference_height_m = 20.0;
     scene.ground.terrain = None;
     world.environment.retune(&scene);
-    assert!(before.is_some(), "there are hills");
-    assert_eq!(world.environment.hills(), before, "hills stay as they were compiled");
+    assert_eq!(before.0, hills_of(&world), "the scene keeps its hills");
+    let rows = before.0.heights_m.len();
+    let wind = world.environment.wind();
+    assert_ne!(before.1, *wind, "the profile is another");
+    assert_eq!(before.1[before.1.len() - rows..], wind[wind.len() - rows..], "the table of the hills stays");
 }

@@ -8,6 +8,7 @@ use windfall_core::scene::{Source, SourceShape};
 
 use super::random::Random;
 use super::tree_sprite::SPRITE_COUNT;
+use crate::land::Land;
 
 /// Half edge of the square in which trees cast shade, in metres.
 pub(crate) const PARK_RADIUS_M: f32 = 64.0;
@@ -56,12 +57,12 @@ pub(crate) struct Park {
 
 /// Plants the park around `center`, leaving open what `view` (a unit vector in the ground plane) looks along. Every
 /// source of leaves in the shape of a crown gets its tree.
-pub(crate) fn plant(scene: &Scene, center: Vec3, view: Vec2) -> Park {
+pub(crate) fn plant(scene: &Scene, land: &Land, center: Vec3, view: Vec2) -> Park {
     let mut random = Random::new(41);
     // Where trees stand in the scene itself, sources of leaves need no picture of one.
     let has_trees = !scene.trees.is_empty();
     let sources = scene.sources.iter().filter(|_| !has_trees);
-    let crowns = sources.filter_map(|source| crown_tree(scene, source, &mut random));
+    let crowns = sources.filter_map(|source| crown_tree(scene, land, source, &mut random));
     let mut trees: Vec<TreeInstance> = crowns.collect();
     let own = scene.trees.iter().map(|tree| Vec3::new(tree.at_m[0], center.y, tree.at_m[1]));
     let standing: Vec<Vec3> = own.chain(trees.iter().map(|tree| tree.foot_m)).collect();
@@ -102,6 +103,7 @@ pub(crate) fn plant(scene: &Scene, center: Vec3, view: Vec2) -> Park {
             let clear = beyond_path(toward * radius, view, path_phase) > if bush { 2.5 } else { 1.2 };
             let spacing = if bush { 2.0 } else { 3.5 + 0.07 * radius };
             if !clear
+                || land.is_wet(foot.x, foot.z)
                 || hides(eye, view, foot)
                 || apart < open_rad
                 || standing.iter().any(|&foot_m| foot_m.distance(foot) < spacing)
@@ -121,7 +123,8 @@ pub(crate) fn plant(scene: &Scene, center: Vec3, view: Vec2) -> Park {
             let width = random.range(0.85, 1.1) * mirror * if bush { 1.6 } else { 1.0 };
             let hue = (0.1 + 0.85 * random.unit()) * season;
             let brightness = random.range(0.8, 1.15);
-            trees.push(TreeInstance { foot_m: foot, height_m, width, sprite, hue, brightness });
+            let foot_m = Vec3 { y: land.ground_m(foot.x, foot.z), ..foot };
+            trees.push(TreeInstance { foot_m, height_m, width, sprite, hue, brightness });
         }
     }
     // Late in the year the far woods, too, are bare.
@@ -137,9 +140,9 @@ fn hides(eye: Vec3, view: Vec2, foot: Vec3) -> bool {
 }
 
 /// The tree whose crown is a source's ball of leaves.
-fn crown_tree(scene: &Scene, source: &Source, random: &mut Random) -> Option<TreeInstance> {
+fn crown_tree(scene: &Scene, land: &Land, source: &Source, random: &mut Random) -> Option<TreeInstance> {
     let SourceShape::Sphere { center_m, radius_m } = source.shape else { return None };
-    let foot_m = Vec3::new(center_m.x, scene.ground.height_m, center_m.z);
+    let foot_m = Vec3::new(center_m.x, land.ground_m(center_m.x, center_m.z), center_m.z);
     let under = center_m.y - radius_m - foot_m.y;
     let hidden = foot_m.distance(scene.view.camera.eye_m) < NEAREST_M;
     if radius_m < 1.5 || !(1.0..30.0).contains(&under) || hidden {
@@ -174,7 +177,7 @@ mod tests {
     fn a_crown_of_leaves_gets_its_tree_and_the_path_goes_round_it() {
         let shape = SourceShape::Sphere { center_m: Vec3::new(-2.4, 9.0, -3.0), radius_m: 4.0 };
         let scene = Scene { sources: vec![Source { shape, ..Source::default() }], ..Scene::default() };
-        let park = plant(&scene, Vec3::ZERO, Vec2::NEG_Y);
+        let park = plant(&scene, &Land::of(&scene.ground), Vec3::ZERO, Vec2::NEG_Y);
         let foot = park.trees[0].foot_m;
         assert_eq!(foot, Vec3::new(-2.4, 0.0, -3.0), "the first tree is the source's");
         let clear = beyond_path(Vec2::new(foot.x, foot.z), Vec2::NEG_Y, park.path_phase);
@@ -184,7 +187,9 @@ mod tests {
     #[test]
     fn trees_leave_room_for_leaves_and_path() {
         let center = Vec3::new(100.0, 2.0, -50.0);
-        let Park { trees, path_phase, .. } = plant(&Scene::default(), center, Vec2::NEG_Y);
+        let ground = windfall_core::scene::Ground { height_m: 2.0, ..Default::default() };
+        let land = Land::of(&ground);
+        let Park { trees, path_phase, .. } = plant(&Scene::default(), &land, center, Vec2::NEG_Y);
         assert!(trees.len() > 150, "{} trees", trees.len());
         for tree in &trees {
             let local = tree.foot_m - center;

@@ -6,6 +6,7 @@ use glam::{Quat, Vec2, Vec3};
 use windfall_core::leaf::record::{SPECIES_SHIFT, STATE_RESTING};
 
 use super::random::Random;
+use crate::land::Land;
 
 /// Leaf columns of the litter, laid out like a simulator's (see `LeafColumns`).
 pub(crate) struct LitterColumns {
@@ -27,7 +28,13 @@ pub(crate) struct Shedding {
 }
 
 /// Scatters `count` resting leaves of `species_count` species around `center`, denser near it and under the trees.
-pub(crate) fn scatter(count: u32, species_count: u32, center: Vec3, trees: &[Shedding]) -> LitterColumns {
+pub(crate) fn scatter(
+    count: u32,
+    species_count: u32,
+    land: &Land,
+    center: Vec3,
+    trees: &[Shedding],
+) -> LitterColumns {
     let mut random = Random::new(7);
     let mut columns =
         LitterColumns { place: Vec::new(), attitude: Vec::new(), course: Vec::new(), identity: Vec::new() };
@@ -44,12 +51,14 @@ pub(crate) fn scatter(count: u32, species_count: u32, center: Vec3, trees: &[She
         let any = random.word() % species_count.max(1);
         let species = own.unwrap_or(any);
         let at = center + offset;
+        let at = Vec3 { y: land.surface_m(at.x, at.z), ..at };
         let bits = STATE_RESTING | species << SPECIES_SHIFT;
         columns.place.push([at.x.to_bits(), at.y.to_bits(), at.z.to_bits(), bits]);
         let turn = Quat::from_rotation_y(random.range(0.0, std::f32::consts::TAU));
         let face =
             if random.word() & 1 == 0 { Quat::IDENTITY } else { Quat::from_rotation_z(std::f32::consts::PI) };
-        columns.attitude.push((turn * face).to_array());
+        let lean = Quat::from_rotation_arc(Vec3::Y, land.normal(at.x, at.z));
+        columns.attitude.push((lean * turn * face).to_array());
         let size = 13_000 + random.word() % 6_000;
         columns.course.push([0, 0, size, 0]);
         columns.identity.push([0, 0, 0, random.word() & 0x00ff_ffff]);

@@ -41,6 +41,41 @@ struct Frame {
 
 @group(0) @binding(0) var<uniform> frame: Frame;
 
+// Laid out by `land_texture.rs`.
+struct Land {
+    // Cells of the hills per metre, 0 on level ground; cells along an edge; height of the lowest point and of water in m.
+    shape: vec4<f32>,
+}
+
+@group(0) @binding(1) var<uniform> land: Land;
+// Of every grid point: height above the lowest in metres, rise along x and z, how much of a hollow (1) or knoll (-1) it is.
+@group(0) @binding(2) var hills: texture_2d<f32>;
+
+// The hills at a place, as the simulation has them.
+fn hills_at(at: vec2<f32>) -> vec4<f32> {
+    if land.shape.x == 0.0 {
+        return vec4(0.0);
+    }
+    let place = at * land.shape.x;
+    let t = fract(place);
+    let mask = vec2(i32(land.shape.y) - 1);
+    let low = vec2<i32>(floor(place)) & mask;
+    let high = (low + 1) & mask;
+    let near = mix(textureLoad(hills, low, 0), textureLoad(hills, vec2(high.x, low.y), 0), t.x);
+    let far = mix(textureLoad(hills, vec2(low.x, high.y), 0), textureLoad(hills, high, 0), t.x);
+    return mix(near, far, t.y);
+}
+
+// Height of the ground at a place in metres.
+fn ground_height(at: vec2<f32>) -> f32 {
+    return land.shape.z + hills_at(at).x;
+}
+
+// Height of ground or water at a place in metres, whichever is higher.
+fn surface_height(at: vec2<f32>) -> f32 {
+    return max(ground_height(at), land.shape.w);
+}
+
 // Grass stands this deep below the leaves that lie on its tips, in metres.
 const SWARD_M: f32 = 0.028;
 

@@ -26,7 +26,7 @@ fn vertex(
     let key_2 = hash_u32(key);
     let key_3 = hash_u32(key_2);
     let at = cell.xy + vec2(unit_from(key), unit_from(key_2)) * cell.w;
-    let foot = vec3(at.x, frame.park.y - SWARD_M, at.y);
+    let foot = vec3(at.x, ground_height(at) - SWARD_M, at.y);
     let to_eye = frame.eye.xyz - foot;
     let distance_m = length(to_eye);
 
@@ -34,7 +34,7 @@ fn vertex(
     let rank = f32(blade) / cell.z;
     let kept = standing(distance_m);
     let verge = smoothstep(-0.1, 0.2, beyond_path(at) - 0.25 * (unit_from(key_3) - 0.5));
-    let grown = smoothstep(rank, rank * 1.25 + 0.002, kept) * verge;
+    let grown = smoothstep(rank, rank * 1.25 + 0.002, kept) * verge * step(land.shape.w, foot.y);
     let tall = 0.6 + 0.8 * textureSampleLevel(noise, repeat_sampler, at * 0.31, 0.0).g;
     let height = SWARD_M * 1.45 * tall * mix(0.65, 1.35, unit_from(key_3)) * grown;
     // Wide enough to be seen: a pixel at least.

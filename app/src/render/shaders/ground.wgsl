@@ -1,24 +1,10 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// The ground under the grass, out to the horizon.
+// The ground under the grass; `plain.wgsl` and `terrain.wgsl` say where it lies.
 
 struct Varyings {
     @builtin(position) clip: vec4<f32>,
     @location(0) world: vec3<f32>,
-}
-
-// A fan of eight triangles around the eye, far beyond the haze.
-@vertex
-fn vertex(@builtin(vertex_index) index: u32) -> Varyings {
-    let corner = index % 3u;
-    let angle = f32(index / 3u + select(0u, 1u, corner == 2u)) * 0.78539816;
-    let radius = select(4000.0, 0.0, corner == 0u);
-    // Cut the near end of the fan just under the camera, the far end beyond sight.
-    let at = frame.eye.xz + radius * vec2(cos(angle), -sin(angle));
-    var out: Varyings;
-    out.world = vec3(at.x, frame.park.y - SWARD_M, at.y);
-    out.clip = frame.view_projection * vec4(out.world, 1.0);
-    return out;
 }
 
 @fragment
@@ -28,6 +14,8 @@ fn fragment(in: Varyings) -> @location(0) vec4<f32> {
     let fine = textureSample(noise, repeat_sampler, at * 0.9).b;
     let coarse = textureSample(noise, repeat_sampler, at * 0.17 + 0.2).a;
     let specks = textureSample(noise, repeat_sampler, at * 1.7 + 0.6).b;
+    let hill = hills_at(at);
+    let normal = normalize(vec3(-hill.y, 1.0, -hill.z));
     let grass = meadow(at, clamp(log2(distance_m * 0.02), 0.0, 5.0));
     // Between the blades near by one sees thatch; far away only the blades' tips.
     let far = smoothstep(5.0, 26.0, distance_m);
@@ -52,8 +40,8 @@ fn fragment(in: Varyings) -> @location(0) vec4<f32> {
     let view = normalize(frame.eye.xyz - in.world);
     let against = pow(max(dot(-view, frame.sun_direction.xyz), 0.0), 3.0);
     let rough = far * (1.0 - path);
-    let facing = mix(0.75, 1.0, max(far, path)) * frame.sun_direction.y + 0.12;
+    let facing = mix(0.75, 1.0, max(far, path)) * max(dot(normal, frame.sun_direction.xyz), 0.0) + 0.12;
     var color = albedo * (frame.sun_color.rgb * sun * (facing + 0.55 * rough * against));
-    color += albedo * ambient_light(vec3(0.0, 1.0, 0.0)) * mix(0.55, 0.95, max(far, path));
+    color += albedo * ambient_light(normal) * mix(0.55, 0.95, max(far, path));
     return vec4(haze(color, in.world), 1.0);
 }

@@ -115,7 +115,7 @@ fn blade_point(leaf: Leaf, at_copy: vec3<f32>, stem: Stem, curl: bool) -> BladeP
     out.world = rotate(leaf.attitude, local);
     out.normal = rotate(leaf.attitude, blade);
     // On the ground a leaf leans on the grass under it, a little differently each.
-    out.settled = select(1.0 - smoothstep(0.0, 0.15, center.y - frame.park.y), 0.0, attached);
+    out.settled = select(1.0 - smoothstep(0.0, 0.15, center.y - surface_height(center.xz)), 0.0, attached);
     let lean = out.settled * 0.28 * random.yz;
     out.world.y += dot(lean, out.world.xz);
     out.normal = normalize(out.normal - vec3(lean.x, 0.0, lean.y) * out.normal.y);

@@ -61,7 +61,7 @@ fn leaf_shadow(position: vec3<f32>) -> f32 {
 
 // Sunlight that the trees let through (r) and litter density (g) where the sun ray through `position` meets the ground.
 fn tree_shade(position: vec3<f32>) -> vec2<f32> {
-    let height = position.y - frame.park.y;
+    let height = position.y - ground_height(position.xz);
     let down = frame.sun_direction.xz * (height / max(frame.sun_direction.y, 0.02));
     let offset = (position.xz - down - frame.park.xz) / frame.air.z;
     let uv = offset * 0.5 + 0.5;

@@ -14,6 +14,7 @@ use egui::{Area, Id, Pos2, RichText, ScrollArea, Sense, Ui, vec2};
 use super::controls::{Facts, Message, Wish};
 use super::{keys, pointer};
 use crate::camera::Camera;
+use crate::land::Land;
 pub(super) use rows::grouped;
 
 /// Width of the panel in points.
@@ -42,13 +43,7 @@ impl Panel {
     }
 
     /// Shows the panel, lets the pointer steer the camera, and returns what the user asks for.
-    pub(super) fn show(
-        &mut self,
-        ui: &mut Ui,
-        facts: &Facts,
-        camera: &mut Camera,
-        ground_m: f32,
-    ) -> Vec<Wish> {
+    pub(super) fn show(&mut self, ui: &mut Ui, facts: &Facts, camera: &mut Camera, land: &Land) -> Vec<Wish> {
         let mut wishes = keys::wishes(ui.ctx(), facts.is_paused);
         if self.is_open {
             egui::Panel::left("panel").resizable(false).exact_size(WIDTH).frame(style::panel_frame()).show(
@@ -63,7 +58,7 @@ impl Panel {
         let picture = ui.available_rect_before_wrap();
         self.picture_left = pixels(picture.left() * ui.ctx().pixels_per_point());
         let response = ui.interact(picture, Id::unique("picture"), Sense::click_and_drag());
-        pointer::steer(camera, &response, ground_m);
+        pointer::steer(camera, &response, land);
         self.notice(ui, facts, picture.left_top());
         wishes
     }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 
 use super::*;
+use crate::terrain::Hills;
 
 const SEEDS: std::ops::Range<u64> = 0..6;
 
@@ -11,7 +12,7 @@ fn hills(seed: u64) -> Terrain {
 
 /// Heights of the table in metres.
 fn heights(terrain: &Terrain) -> Vec<[f32; 4]> {
-    terrain_rows(terrain).iter().map(|row| row.0.map(f32::from_bits)).collect()
+    Hills::grow(terrain).rows().iter().map(|row| row.0.map(f32::from_bits)).collect()
 }
 
 /// Steepest rise between neighbours and sharpest bend from one rise to the next along x, in units of the grid.
