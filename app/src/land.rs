@@ -9,7 +9,7 @@ use windfall_core::terrain::Hills;
 /// Heights of a scene's ground and of the water on it.
 #[derive(Clone, Debug)]
 pub struct Land {
-    /// Height of level ground, or of the lowest point, in metres.
+    /// Height of level ground, or of hilly ground at the origin, in metres.
     base_m: f32,
     hills: Option<Hills>,
     water_m: Option<f32>,
@@ -25,7 +25,7 @@ impl Land {
         }
     }
 
-    /// Height of level ground, or of the lowest point, in metres.
+    /// Height of level ground, or of hilly ground at the origin, in metres.
     pub(crate) fn base_m(&self) -> f32 {
         self.base_m
     }

@@ -76,8 +76,8 @@ crate::shared_struct! {
         /// First row of the hills' table in that of the wind; cells along its edge less one; their binary logarithm;
         /// whether there are hills.
         pub terrain: Uint4,
-        /// Cells per metre; height in m above which no leaf meets the ground; height of water above the lowest point in
-        /// m; gravity in m/s².
+        /// Cells per metre; height in m above which no leaf meets the ground; height of water above the ground at the
+        /// origin in m; gravity in m/s².
         pub relief: Float4,
         /// The wind.
         pub wind: WindBlock,

@@ -169,7 +169,7 @@ pub fn flying_scene(seed: u64, leaves: u32, speed_m_s: f32, dt_s: f32) -> Scene 
 pub fn hilly_scene(mut scene: Scene) -> Scene {
     let hills = Terrain { seed: 7, edge_m: 64.0, relief_m: 9.0, levels: 6, noise: 0.6, ..Terrain::default() };
     scene.ground.terrain = Some(hills);
-    scene.ground.water = Some(Water { height_m: 3.0 });
+    scene.ground.water = Some(Water { height_m: 1.5 });
     scene
 }
 

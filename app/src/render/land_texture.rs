@@ -17,7 +17,8 @@ const NO_WATER_M: f32 = -1.0e6;
 #[repr(C)]
 #[derive(Clone, Copy, Debug, bytemuck::Pod, bytemuck::Zeroable)]
 pub(super) struct LandUniform {
-    /// Cells per metre, 0 on level ground; cells along an edge; height of the lowest point and of water in metres.
+    /// Cells per metre, 0 on level ground; cells along an edge; height of the ground at the origin and of water in
+    /// metres.
     pub(super) shape: [f32; 4],
 }
 
@@ -29,7 +30,7 @@ impl LandUniform {
     }
 }
 
-/// Height above the lowest point in metres, rise along x and along z, and how much of a hollow (1) or a knoll (-1) a grid
+/// Height above the origin's in metres, rise along x and along z, and how much of a hollow (1) or a knoll (-1) a grid
 /// point is; row by row.
 pub(super) fn land_texels(hills: &Hills) -> Vec<[f32; 4]> {
     let cells = i64::from(hills.cells);

@@ -52,6 +52,9 @@ const SETTLE_S: f32 = 0.3;
 const SETTLE_TAU_S: f32 = 0.04;
 /// Rate at which the slowest leaf flutters on its twig in Hz; the fastest flutter half as fast again.
 const FLUTTER_HZ: f32 = 3.2;
+/// Where water lies that is not there, in metres.
+const NO_WATER_M: f32 = -1.0e6;
+
 /// A compiled scene: uniform block and tables, ready for any backend.
 #[derive(Clone, Debug)]
 pub struct Environment {
@@ -330,7 +333,7 @@ fn relief_numbers(scene: &Scene) -> Float4 {
     let Some(terrain) = ground.terrain else {
         return Float4([0.0, rest, 0.0, single(GRAVITY)]);
     };
-    let water = ground.water.map_or(0.0, |water| (water.height_m - ground.height_m).max(0.0));
+    let water = ground.water.map_or(NO_WATER_M, |water| water.height_m - ground.height_m);
     let per_metre = f64::from(1u32 << terrain.levels) / f64::from(terrain.edge_m);
     Float4([single(per_metre), rest + terrain.relief_m.max(water) + 0.001, water, single(GRAVITY)])
 }

@@ -10,7 +10,7 @@ use super::{Terrain, Water};
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Ground {
-    /// Height of the plane, or of the hills' lowest point, in metres, -4096 to 4096.
+    /// Height of the plane, or of hilly ground at the origin, in metres, -4096 to 4096.
     pub height_m: f32,
     /// Coulomb friction coefficient between leaf and ground, 0.05 to 5: dry grass 0.4 to 0.6, wet 0.8.
     pub friction: f32,

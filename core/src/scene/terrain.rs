@@ -14,7 +14,8 @@ use serde::{Deserialize, Serialize};
 pub struct Terrain {
     /// Seed of the hills, any number. The scene's own seed does not move them.
     pub seed: u64,
-    /// Edge of the square in metres, 16 to 4096. A hollow lies at the origin, hills half an edge from it.
+    /// Edge of the square in metres, 16 to 4096. Hollows and hills are about half an edge apart, and a hollow lies near
+    /// the origin.
     pub edge_m: f32,
     /// Height of the highest point above the lowest in metres, 0 to 500.
     pub relief_m: f32,

@@ -12,7 +12,7 @@ use crate::kernel::vector::Vec3;
 
 /// The corners of the cell at a place, and the place within it.
 struct Cell<R> {
-    /// Heights at its corners in metres above the lowest point: along x, then along z.
+    /// Heights at its corners in metres above the ground at the origin: along x, then along z.
     corners: [R; 4],
     /// Share of the way along x.
     x: R,
@@ -46,7 +46,7 @@ fn ground_cell<R: Real>(cx: &Context<'_>, x: R, z: R) -> Cell<R> {
     Cell { corners, x: u - ku, z: v - kv }
 }
 
-/// Height of the hills at a place in metres above their lowest point. Only where there are hills.
+/// Height of the hills at a place in metres above the ground at the origin. Only where there are hills.
 #[inline(always)]
 pub fn ground_relief<R: Real>(cx: &Context<'_>, x: R, z: R) -> R {
     let cell = ground_cell(cx, x, z);
@@ -56,7 +56,8 @@ pub fn ground_relief<R: Real>(cx: &Context<'_>, x: R, z: R) -> R {
     near + cell.z * (far - near)
 }
 
-/// Height of what leaves lie on, hills or water, in metres above the lowest point; zero on level ground.
+/// Height of what leaves lie on, hills or water, in metres above the ground at the origin; zero on level
+/// ground.
 #[inline(always)]
 pub fn ground_surface<R: Real>(cx: &Context<'_>, x: R, z: R) -> R {
     if !cx.environment.has_terrain() {

@@ -13,7 +13,7 @@ pub struct Hills {
     pub cells: u32,
     /// Edge of a cell in metres.
     pub cell_m: f32,
-    /// Heights in metres above the lowest point, row by row along x.
+    /// Heights in metres above the ground at the origin, row by row along x.
     pub heights_m: Vec<f32>,
 }
 
@@ -30,7 +30,7 @@ impl Hills {
             clippy::cast_possible_truncation,
             reason = "kernels work in single precision"
         )]
-        let metres = |height: &i64| (((height - lowest) as f64) * per_unit) as f32;
+        let metres = |height: &i64| (((height - grid.at(0, 0)) as f64) * per_unit) as f32;
         let cells = 1 << terrain.levels;
         let heights_m = grid.heights.iter().map(metres).collect();
         Self { cells, cell_m: terrain.edge_m / cells as f32, heights_m }

@@ -16,7 +16,7 @@ use windfall_tests::strategies::{flying_scene, hilly_scene, varied_scene};
 /// Height of resting leaves above the ground in metres.
 const REST_M: f64 = 0.004;
 /// Height of the pond's surface in [`hilly_scene`] in metres.
-const WATER_M: f64 = 3.0;
+const WATER_M: f64 = 1.5;
 
 /// Height of the hills and their rise along x and z, interpolated between the four grid points around a place.
 fn ground(hills: &Hills, x: f64, z: f64) -> DVec3 {

@@ -43,12 +43,12 @@ struct Frame {
 
 // Laid out by `land_texture.rs`.
 struct Land {
-    // Cells of the hills per metre, 0 on level ground; cells along an edge; height of the lowest point and of water in m.
+    // Cells of the hills per metre, 0 on level ground; cells along an edge; height at the origin and of water in m.
     shape: vec4<f32>,
 }
 
 @group(0) @binding(1) var<uniform> land: Land;
-// Of every grid point: height above the lowest in metres, rise along x and z, how much of a hollow (1) or knoll (-1) it is.
+// Of every grid point: height above the origin's in metres, rise along x and z, how much of a hollow (1) or knoll (-1) it is.
 @group(0) @binding(2) var hills: texture_2d<f32>;
 
 // The hills at a place, as the simulation has them.

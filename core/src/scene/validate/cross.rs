@@ -96,7 +96,9 @@ impl Scene {
         for (index, source) in self.sources.iter().enumerate() {
             let at = check.inside(format!("sources[{index}]"));
             let (lowest_m, highest_m) = source.shape.heights_m();
-            let ground_m = f64::from(self.ground.height_m);
+            // A hollow may be as deep as all hills are high.
+            let relief_m = self.ground.terrain.map_or(0.0, |terrain| terrain.relief_m);
+            let ground_m = f64::from(self.ground.height_m) - f64::from(relief_m);
             at.holds(lowest_m >= ground_m, "shape", || {
                 let allowed = format!("at or above the ground at {ground_m} m");
                 (format!("reaching down to {lowest_m} m"), allowed)
