@@ -46,6 +46,7 @@ mod tonemap_pass;
 mod trail_pass;
 mod tree_pass;
 mod upload;
+mod water_pass;
 
 pub use error::RenderError;
 pub use leaf_kinds::MAX_LAYERS;

@@ -32,6 +32,7 @@ use super::targets::Targets;
 use super::timing::GpuTimer;
 use super::trail_pass::TrailPass;
 use super::tree_pass::{ShadePass, TreePass, Trees};
+use super::water_pass::WaterPass;
 use crate::camera::{Camera, NEAR_M};
 use crate::land::Land;
 use crate::trees::Stand;
@@ -124,6 +125,7 @@ pub struct Renderer {
     fruit_pass: FruitPass,
     grass_pass: GrassPass,
     ground_pass: GroundPass,
+    water_pass: Option<WaterPass>,
     tree_pass: TreePass,
     sky_pass: SkyPass,
     trail_pass: Option<TrailPass>,
@@ -183,6 +185,7 @@ impl Renderer {
             fruit_pass: FruitPass::new(device, queue, &frame, &light, &branches, stand),
             grass_pass: GrassPass::new(device, &frame, &light),
             ground_pass: GroundPass::new(device, queue, &frame, &light, &land),
+            water_pass: WaterPass::new(device, &frame, &light, &land),
             tree_pass: TreePass::new(device, &frame, &light, &trees),
             sky_pass: SkyPass::new(device, &frame, &light),
             post: Post::new(device, queue, &targets, output_format, scene.view.lens),
@@ -366,6 +369,9 @@ impl Renderer {
         self.fruit_pass.draw(&mut pass, branches);
         self.grass_pass.draw(&mut pass);
         self.ground_pass.draw(&mut pass);
+        if let Some(water) = &self.water_pass {
+            water.draw(&mut pass);
+        }
         self.tree_pass.draw(&mut pass, &self.trees);
         self.sky_pass.draw(&mut pass);
         if let (Some(trails), Some(leaves)) = (&self.trail_pass, sets.first()) {

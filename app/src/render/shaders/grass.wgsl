@@ -26,7 +26,8 @@ fn vertex(
     let key_2 = hash_u32(key);
     let key_3 = hash_u32(key_2);
     let at = cell.xy + vec2(unit_from(key), unit_from(key_2)) * cell.w;
-    let foot = vec3(at.x, ground_height(at) - SWARD_M, at.y);
+    let hill = hills_at(at);
+    let foot = vec3(at.x, land.shape.z + hill.x - SWARD_M, at.y);
     let to_eye = frame.eye.xyz - foot;
     let distance_m = length(to_eye);
 
@@ -34,7 +35,8 @@ fn vertex(
     let rank = f32(blade) / cell.z;
     let kept = standing(distance_m);
     let verge = smoothstep(-0.1, 0.2, beyond_path(at) - 0.25 * (unit_from(key_3) - 0.5));
-    let grown = smoothstep(rank, rank * 1.25 + 0.002, kept) * verge * step(land.shape.w, foot.y);
+    let grown = smoothstep(rank, rank * 1.25 + 0.002, kept) * verge
+        * (1.0 - smoothstep(0.3, 0.6, bare_soil(at, foot.y, length(hill.yz)) + 0.2 * (unit_from(key_3) - 0.5)));
     let tall = 0.6 + 0.8 * textureSampleLevel(noise, repeat_sampler, at * 0.31, 0.0).g;
     let height = SWARD_M * 1.45 * tall * mix(0.65, 1.35, unit_from(key_3)) * grown;
     // Wide enough to be seen: a pixel at least.

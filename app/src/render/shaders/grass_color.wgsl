@@ -19,8 +19,23 @@ fn beyond_path(at: vec2<f32>) -> f32 {
 fn meadow(at: vec2<f32>, lod: f32) -> vec4<f32> {
     let wide = textureSampleLevel(noise, repeat_sampler, at * 0.011, lod).r;
     let patches = textureSampleLevel(noise, repeat_sampler, at * 0.063 + 0.37, lod).g;
-    let dry = clamp(0.28 + 1.3 * (wide - 0.5) + 1.2 * (patches - 0.5), 0.0, 1.0);
-    let lush = vec3(0.062, 0.145, 0.022);
-    let straw = vec3(0.200, 0.190, 0.058);
-    return vec4(mix(lush, straw, dry * 0.75) * (0.85 + 0.5 * (patches - 0.5)), dry);
+    // Knolls dry out, hollows stay moist.
+    let hill = hills_at(at);
+    let dry = clamp(0.28 + 1.3 * (wide - 0.5) + 1.2 * (patches - 0.5) - 0.35 * hill.w, 0.0, 1.0);
+    let lush = vec3(0.066, 0.115, 0.028);
+    let straw = vec3(0.205, 0.180, 0.076);
+    // Clover and moss, darker than grass.
+    let other = textureSampleLevel(noise, repeat_sampler, at * 0.17 + 0.71, max(lod - 1.0, 0.0)).g;
+    let green = mix(lush, vec3(0.040, 0.085, 0.030), 0.8 * smoothstep(0.56, 0.70, other));
+    return vec4(mix(green, straw, dry * 0.75) * (0.85 + 0.5 * (patches - 0.5)), dry);
+}
+
+// Share of bare soil at a place on ground that lies at `height` in metres and rises by `rise`: steep slopes, some worn
+// spots and the shore have it.
+fn bare_soil(at: vec2<f32>, height: f32, rise: f32) -> f32 {
+    let coarse = textureSampleLevel(noise, repeat_sampler, at * 0.09 + 0.13, 0.0).g - 0.5;
+    let steep = smoothstep(0.50, 0.85, rise + 0.5 * coarse);
+    let worn = 0.7 * smoothstep(0.30, 0.42, coarse);
+    let shore = 1.0 - smoothstep(0.06, 0.34, height - land.shape.w - 0.5 * coarse);
+    return max(max(steep, worn), shore);
 }

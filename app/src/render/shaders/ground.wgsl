@@ -22,6 +22,12 @@ fn fragment(in: Varyings) -> @location(0) vec4<f32> {
     let thatch = mix(vec3(0.055, 0.050, 0.022), grass.rgb * 0.55, 0.55);
     var albedo = mix(thatch, grass.rgb, far);
     albedo *= 1.0 + 1.1 * (fine - 0.5) + 0.8 * (coarse - 0.5);
+    let rise = length(hill.yz);
+    let bare = bare_soil(at, in.world.y, rise);
+    let moist = 1.0 - smoothstep(-0.1, 0.5, in.world.y - land.shape.w);
+    let soil = mix(vec3(0.105, 0.074, 0.046), vec3(0.048, 0.036, 0.025), moist)
+        * (0.75 + 0.9 * (fine - 0.5) + 0.8 * (coarse - 0.5) + 0.5 * (specks - 0.5));
+    albedo = mix(albedo, soil, bare);
     let softness = 0.06 + 0.004 * distance_m;
     let path = 1.0 - smoothstep(-softness, softness + 0.1, beyond_path(at));
     let gravel = vec3(0.235, 0.185, 0.130) * (0.82 + 0.5 * (fine - 0.5) + 0.5 * (coarse - 0.5) + 0.3 * (specks - 0.5));

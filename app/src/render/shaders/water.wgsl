@@ -1,0 +1,75 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// Still water: it mirrors the sky, more so at a glance, and shows its dark bottom where it is shallow.
+
+// Reflectance of water seen from straight above (Fresnel, index of refraction 1.33).
+const WATER_F0: f32 = 0.02;
+// Light that a metre of pond water takes away, per metre: red first, and blue by what is dissolved in it.
+const WATER_EXTINCTION: vec3<f32> = vec3(1.5, 0.9, 1.3);
+// Albedo of deep pond water and of its bottom.
+const WATER_DEEP: vec3<f32> = vec3(0.010, 0.017, 0.011);
+const WATER_BOTTOM: vec3<f32> = vec3(0.095, 0.075, 0.042);
+
+struct Varyings {
+    @builtin(position) clip: vec4<f32>,
+    @location(0) world: vec3<f32>,
+}
+
+// A fan of eight triangles around the eye, far beyond the haze.
+@vertex
+fn vertex(@builtin(vertex_index) index: u32) -> Varyings {
+    let corner = index % 3u;
+    let angle = f32(index / 3u + select(0u, 1u, corner == 2u)) * 0.78539816;
+    let radius = select(4000.0, 0.0, corner == 0u);
+    let at = frame.eye.xz + radius * vec2(cos(angle), -sin(angle));
+    var out: Varyings;
+    out.world = vec3(at.x, land.shape.w, at.y);
+    out.clip = frame.view_projection * vec4(out.world, 1.0);
+    return out;
+}
+
+// Slope of the ripples that a breath of air makes: two sets that cross, by differences of the noise.
+fn ripples(at: vec2<f32>, lod: f32) -> vec2<f32> {
+    let time_s = frame.eye.w;
+    let step = 0.04;
+    var slope = vec2(0.0);
+    for (var wave = 0u; wave < 2u; wave++) {
+        let scale = select(0.11, 0.29, wave == 1u);
+        let drift = select(vec2(0.012, 0.007), vec2(-0.010, 0.016), wave == 1u) * time_s;
+        let place = at * scale + drift;
+        let here = textureSampleLevel(noise, repeat_sampler, place, lod).b;
+        let east = textureSampleLevel(noise, repeat_sampler, place + vec2(step * scale, 0.0), lod).b;
+        let south = textureSampleLevel(noise, repeat_sampler, place + vec2(0.0, step * scale), lod).b;
+        slope += vec2(east - here, south - here) * (0.0011 / (scale * step));
+    }
+    return slope;
+}
+
+@fragment
+fn fragment(in: Varyings) -> @location(0) vec4<f32> {
+    let to_eye = frame.eye.xyz - in.world;
+    let distance_m = length(to_eye);
+    let view = to_eye / distance_m;
+    let slope = ripples(in.world.xz, clamp(log2(distance_m * 0.12), 0.0, 6.0));
+    let normal = normalize(vec3(-slope.x, 1.0, -slope.y));
+    let facing = max(dot(normal, view), 0.0);
+    let mirrored = WATER_F0 + (1.0 - WATER_F0) * pow(1.0 - facing, 5.0);
+
+    // What lies under it, by the way that light goes down and back up.
+    let depth = max(land.shape.w - ground_height(in.world.xz), 0.0);
+    let kept = exp(-WATER_EXTINCTION * depth * (1.0 / max(view.y, 0.25) + 1.0));
+    let grain = textureSample(noise, repeat_sampler, in.world.xz * 0.35).a;
+    let albedo = mix(WATER_DEEP, WATER_BOTTOM * (0.6 + 0.8 * grain), kept);
+    let up = vec3(0.0, 1.0, 0.0);
+    let sun = tree_shade(in.world).r * leaf_shadow(in.world);
+    let below = albedo * (frame.sun_color.rgb * (sun * max(frame.sun_direction.y, 0.0)) + ambient_light(up));
+
+    var away = reflect(-view, normal);
+    away.y = abs(away.y) + 0.01;
+    away = normalize(away);
+    var color = mix(below, sky_radiance(away), mirrored);
+    // The sun on the ripples, wider than it is by the ripples that are too small to be seen.
+    let glint = pow(max(dot(away, frame.sun_direction.xyz), 0.0), 1500.0);
+    color += frame.sun_color.rgb * (90.0 * glint * mirrored * sun);
+    return vec4(haze(color, in.world), 1.0);
+}
