@@ -40,6 +40,40 @@ pub(super) struct FrameUniform {
     cloud_shade: [f32; 4],
 }
 
+/// Share of the distance that heights above the water count as nearness in the mirror: they must stay below the distance.
+const MIRROR_SLANT: f32 = 0.01;
+
+impl FrameUniform {
+    /// The frame as water with its surface at `water_m` mirrors it: seen from as far beneath. Nothing under the surface is
+    /// drawn.
+    ///
+    /// # Source
+    /// The near plane laid into the surface: Lengyel, "Oblique view frustum depth projection and clipping" (2005), here for
+    /// reversed depth without a far plane.
+    pub(super) fn mirrored(mut self, water_m: f32) -> Self {
+        let turned = Mat4::from_translation(Vec3::new(0.0, 2.0 * water_m, 0.0))
+            * Mat4::from_scale(Vec3::new(1.0, -1.0, 1.0));
+        let mut matrix = (Mat4::from_cols_array_2d(&self.view_projection) * turned).to_cols_array_2d();
+        let surface = [0.0, 1.0, 0.0, -water_m];
+        for (column, part) in matrix.iter_mut().zip(surface) {
+            column[2] = column[3] - MIRROR_SLANT * part;
+        }
+        self.view_projection = matrix;
+        self.eye[1] = 2.0 * water_m - self.eye[1];
+        for axis in [&mut self.right, &mut self.up, &mut self.forward] {
+            axis[1] = -axis[1];
+        }
+        self
+    }
+
+    /// The same for a picture of another size.
+    pub(super) fn sized(mut self, (width, height): (u32, u32)) -> Self {
+        let (width, height) = (width as f32, height as f32);
+        self.viewport = [width, height, 1.0 / width, 1.0 / height];
+        self
+    }
+}
+
 /// How the park's path winds.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Path {
@@ -127,6 +161,35 @@ mod tests {
     use crate::camera::Camera;
 
     const PATH: Path = Path { lead: Vec2::X, phase: 0.0 };
+
+    #[test]
+    fn a_mirror_shows_what_a_reflected_ray_meets() {
+        let environment = Environment::new(&View::default(), Vec3::ZERO, PATH).expect("no picture of a sky");
+        let camera = Camera::from(&scene::Camera::default());
+        let input = FrameInput { camera, time_s: 0.0, since_s: f32::INFINITY, origin: (0, 0) };
+        let frame = environment.frame(&input, 0.0, (640, 360));
+        let water_m = 0.3;
+        let mirrored = frame.mirrored(water_m);
+        let plain = Mat4::from_cols_array_2d(&frame.view_projection);
+        let mirror = Mat4::from_cols_array_2d(&mirrored.view_projection);
+        let eye = camera.eye_m();
+        for x in [-3.0, 0.0, 2.5] {
+            let surface = Vec3::new(x, water_m, -4.0);
+            let away = (surface - eye).normalize() * Vec3::new(1.0, -1.0, 1.0);
+            let in_place = plain.project_point3(surface).truncate();
+            let mut before = f32::MAX;
+            for distance in [0.5, 3.0, 40.0, 400.0] {
+                let clip = mirror * (surface + distance * away).extend(1.0);
+                let shown = clip.truncate().truncate() / clip.w;
+                assert!(shown.distance(in_place) < 1.0e-4, "{shown} is not over {in_place}");
+                let depth = clip.z / clip.w;
+                assert!((0.0..=1.0).contains(&depth) && depth < before, "depth {depth} after {before}");
+                before = depth;
+            }
+            let under = mirror * (surface - 0.2 * Vec3::Y).extend(1.0);
+            assert!(under.z > under.w, "what is under water is cut off");
+        }
+    }
 
     #[test]
     fn light_stays_finite_for_every_sun() {

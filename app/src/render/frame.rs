@@ -14,6 +14,8 @@ pub(super) struct FrameGroup {
     pub(super) layout: wgpu::BindGroupLayout,
     pub(super) group: wgpu::BindGroup,
     buffer: wgpu::Buffer,
+    shape: wgpu::Buffer,
+    hills: wgpu::TextureView,
 }
 
 impl FrameGroup {
@@ -27,16 +29,30 @@ impl FrameGroup {
                 texture_entry(2, hills, wgpu::TextureViewDimension::D2),
             ],
         });
+        let shape = LandUniform::of(land);
+        let shape =
+            upload::buffer(device, queue, "land", wgpu::BufferUsages::UNIFORM, bytemuck::bytes_of(&shape));
+        let hills = land_texture(device, queue, land);
+        Self::bind(device, layout, shape, hills)
+    }
+
+    /// Another frame on the same land.
+    pub(super) fn another(&self, device: &wgpu::Device) -> Self {
+        Self::bind(device, self.layout.clone(), self.shape.clone(), self.hills.clone())
+    }
+
+    fn bind(
+        device: &wgpu::Device,
+        layout: wgpu::BindGroupLayout,
+        shape: wgpu::Buffer,
+        hills: wgpu::TextureView,
+    ) -> Self {
         let buffer = device.create_buffer(&wgpu::BufferDescriptor {
             label: Some("frame"),
             size: size_of::<FrameUniform>() as u64,
             usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
             mapped_at_creation: false,
         });
-        let shape = LandUniform::of(land);
-        let shape =
-            upload::buffer(device, queue, "land", wgpu::BufferUsages::UNIFORM, bytemuck::bytes_of(&shape));
-        let hills = land_texture(device, queue, land);
         let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some("frame"),
             layout: &layout,
@@ -46,7 +62,7 @@ impl FrameGroup {
                 wgpu::BindGroupEntry { binding: 2, resource: wgpu::BindingResource::TextureView(&hills) },
             ],
         });
-        Self { layout, group, buffer }
+        Self { layout, group, buffer, shape, hills }
     }
 
     pub(super) fn write(&self, queue: &wgpu::Queue, frame: &FrameUniform) {

@@ -275,7 +275,11 @@ impl Renderer {
         let input = &FrameInput { camera: input.camera.fitted(aspect), ..*input };
         #[expect(clippy::cast_possible_truncation, reason = "wraps long before f32 seconds grow coarse")]
         let time_s = input.time_s.rem_euclid(3600.0) as f32;
-        self.frame.write(&self.queue, &self.environment.frame(input, time_s, self.targets.size));
+        let frame = self.environment.frame(input, time_s, self.targets.size);
+        self.frame.write(&self.queue, &frame);
+        if let Some(water) = &mut self.water_pass {
+            water.prepare(&self.device, &self.queue, frame, self.targets.size);
+        }
         self.grass_pass.prepare(&self.queue, &input.camera, aspect, &self.land);
         if self.shade_is_old {
             self.shade_pass.draw(encoder, &self.frame, &self.trees);
@@ -298,6 +302,7 @@ impl Renderer {
         let writes = |pass| self.timer.as_ref().map(|timer| timer.render_writes(pass));
         let shadow_writes = self.timer.as_ref().map(|timer| timer.split_writes(0));
         self.shadow_pass.draw(encoder, shadow_writes, &self.frame, &casters);
+        self.draw_mirror(encoder, &sets, &group);
         self.draw_scene(encoder, writes(1), &sets, &group);
         let shot = Shot {
             size: self.targets.size,
@@ -331,6 +336,31 @@ impl Renderer {
         self.timer.as_mut().map_or_else(Vec::new, |timer| timer.collect(&self.device).to_vec())
     }
 
+    /// Draws what the water mirrors; grass is too low to be seen in it.
+    fn draw_mirror(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        sets: &[LeafSet<'_>],
+        branches: &wgpu::BindGroup,
+    ) {
+        let Some(water) = &self.water_pass else { return };
+        let Some(targets) = water.targets() else { return };
+        let mut pass = begin_scene(encoder, targets, None);
+        pass.set_bind_group(0, &water.frame.group, &[]);
+        pass.set_bind_group(1, &self.light.group, &[]);
+        self.draw_stand(&mut pass, sets, branches);
+        self.ground_pass.draw(&mut pass);
+        self.tree_pass.draw(&mut pass, &self.trees);
+        self.sky_pass.draw(&mut pass);
+    }
+
+    /// Draws the scene's own trees and all leaves; bind groups 0 and 1 are set.
+    fn draw_stand(&self, pass: &mut wgpu::RenderPass<'_>, sets: &[LeafSet<'_>], branches: &wgpu::BindGroup) {
+        self.bark_pass.draw(pass, branches, &self.bark, &self.stems);
+        self.leaf_pass.draw(pass, &self.kinds, sets, &self.stems, &self.leaf_meshes);
+        self.fruit_pass.draw(pass, branches);
+    }
+
     /// Near things first, so that what they hide is not shaded.
     fn draw_scene(
         &self,
@@ -339,34 +369,10 @@ impl Renderer {
         sets: &[LeafSet<'_>],
         branches: &wgpu::BindGroup,
     ) {
-        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-            label: Some("scene"),
-            color_attachments: &[Some(wgpu::RenderPassColorAttachment {
-                view: &self.targets.color,
-                depth_slice: None,
-                resolve_target: Some(&self.targets.resolved),
-                ops: wgpu::Operations {
-                    load: wgpu::LoadOp::Clear(wgpu::Color::BLACK),
-                    store: wgpu::StoreOp::Discard,
-                },
-            })],
-            depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
-                view: &self.targets.depth,
-                depth_ops: Some(wgpu::Operations {
-                    load: wgpu::LoadOp::Clear(0.0),
-                    store: wgpu::StoreOp::Discard,
-                }),
-                stencil_ops: None,
-            }),
-            timestamp_writes: timestamps,
-            occlusion_query_set: None,
-            multiview_mask: None,
-        });
+        let mut pass = begin_scene(encoder, &self.targets, timestamps);
         pass.set_bind_group(0, &self.frame.group, &[]);
         pass.set_bind_group(1, &self.light.group, &[]);
-        self.bark_pass.draw(&mut pass, branches, &self.bark, &self.stems);
-        self.leaf_pass.draw(&mut pass, &self.kinds, sets, &self.stems, &self.leaf_meshes);
-        self.fruit_pass.draw(&mut pass, branches);
+        self.draw_stand(&mut pass, sets, branches);
         self.grass_pass.draw(&mut pass);
         self.ground_pass.draw(&mut pass);
         if let Some(water) = &self.water_pass {
@@ -378,6 +384,37 @@ impl Renderer {
             trails.draw(&mut pass, leaves.columns.leaf_count);
         }
     }
+}
+
+/// Begins a pass that draws the scene into `targets`.
+fn begin_scene<'a>(
+    encoder: &'a mut wgpu::CommandEncoder,
+    targets: &Targets,
+    timestamp_writes: Option<wgpu::RenderPassTimestampWrites<'_>>,
+) -> wgpu::RenderPass<'a> {
+    encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+        label: Some("scene"),
+        color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+            view: &targets.color,
+            depth_slice: None,
+            resolve_target: Some(&targets.resolved),
+            ops: wgpu::Operations {
+                load: wgpu::LoadOp::Clear(wgpu::Color::BLACK),
+                store: wgpu::StoreOp::Discard,
+            },
+        })],
+        depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
+            view: &targets.depth,
+            depth_ops: Some(wgpu::Operations {
+                load: wgpu::LoadOp::Clear(0.0),
+                store: wgpu::StoreOp::Discard,
+            }),
+            stencil_ops: None,
+        }),
+        timestamp_writes,
+        occlusion_query_set: None,
+        multiview_mask: None,
+    })
 }
 
 /// The trees of a stand as those that strew litter on the far meadow.

@@ -1,16 +1,26 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Draws the water, in every hollow that it fills.
+//! Draws the water in every hollow that it fills, and keeps the picture that it mirrors.
 
+use super::environment::FrameUniform;
 use super::frame::FrameGroup;
 use super::light_group::LightGroup;
-use super::pipeline::{COMMON, LIGHT, ScenePipeline, shader};
+use super::pipeline::{COMMON, FILTERABLE, LIGHT, ScenePipeline, shader, texture_entry};
+use super::targets::Targets;
 use crate::land::Land;
 
-/// The water pipeline.
+/// Edge of a pixel of the mirrored picture in pixels: ripples blur it in any case.
+const COARSER: u32 = 2;
+
+/// The water pipeline, and the mirrored picture.
 #[derive(Debug)]
 pub(super) struct WaterPass {
     pipeline: wgpu::RenderPipeline,
+    layout: wgpu::BindGroupLayout,
+    water_m: f32,
+    /// The frame that the mirrored picture is drawn with.
+    pub(super) frame: FrameGroup,
+    mirror: Option<(Targets, wgpu::BindGroup)>,
 }
 
 impl WaterPass {
@@ -21,11 +31,15 @@ impl WaterPass {
         light: &LightGroup,
         land: &Land,
     ) -> Option<Self> {
-        land.water_m()?;
+        let water_m = land.water_m()?;
         let shader = shader(device, "water", &[COMMON, LIGHT, include_str!("shaders/water.wgsl")]);
+        let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+            label: Some("mirror"),
+            entries: &[texture_entry(0, FILTERABLE, wgpu::TextureViewDimension::D2)],
+        });
         let pipeline = ScenePipeline {
             label: "water",
-            groups: &[Some(&frame.layout), Some(&light.layout)],
+            groups: &[Some(&frame.layout), Some(&light.layout), Some(&layout)],
             topology: wgpu::PrimitiveTopology::TriangleList,
             shader: &shader,
             buffers: &[],
@@ -34,12 +48,46 @@ impl WaterPass {
             alpha_to_coverage: false,
         }
         .build(device);
-        Some(Self { pipeline })
+        Some(Self { pipeline, layout, water_m, frame: frame.another(device), mirror: None })
+    }
+
+    /// Makes ready to mirror a frame of a picture of that size in pixels.
+    pub(super) fn prepare(
+        &mut self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        frame: FrameUniform,
+        (width, height): (u32, u32),
+    ) {
+        let size = (width.div_ceil(COARSER), height.div_ceil(COARSER));
+        if self.mirror.as_ref().is_none_or(|(targets, _)| targets.size != size) {
+            // A part of a size that fits does so too.
+            self.mirror = Targets::new(device, size).ok().map(|targets| {
+                let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
+                    label: Some("mirror"),
+                    layout: &self.layout,
+                    entries: &[wgpu::BindGroupEntry {
+                        binding: 0,
+                        resource: wgpu::BindingResource::TextureView(&targets.resolved),
+                    }],
+                });
+                (targets, group)
+            });
+        }
+        self.frame.write(queue, &frame.mirrored(self.water_m).sized(size));
+    }
+
+    /// Where what is mirrored is drawn.
+    pub(super) fn targets(&self) -> Option<&Targets> {
+        self.mirror.as_ref().map(|(targets, _)| targets)
     }
 
     /// Draws the water; bind groups 0 and 1 are set.
     pub(super) fn draw(&self, pass: &mut wgpu::RenderPass<'_>) {
-        pass.set_pipeline(&self.pipeline);
-        pass.draw(0..24, 0..1);
+        if let Some((_, group)) = &self.mirror {
+            pass.set_pipeline(&self.pipeline);
+            pass.set_bind_group(2, group, &[]);
+            pass.draw(0..24, 0..1);
+        }
     }
 }

@@ -1,6 +1,9 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// Still water: it mirrors the sky, more so at a glance, and shows its dark bottom where it is shallow.
+// Still water: it mirrors what stands around it, more so at a glance, and shows its dark bottom where it is shallow.
+
+// What the water mirrors, as the same pixels of the picture show it.
+@group(2) @binding(0) var mirror: texture_2d<f32>;
 
 // Reflectance of water seen from straight above (Fresnel, index of refraction 1.33).
 const WATER_F0: f32 = 0.02;
@@ -40,7 +43,7 @@ fn ripples(at: vec2<f32>, lod: f32) -> vec2<f32> {
         let here = textureSampleLevel(noise, repeat_sampler, place, lod).b;
         let east = textureSampleLevel(noise, repeat_sampler, place + vec2(step * scale, 0.0), lod).b;
         let south = textureSampleLevel(noise, repeat_sampler, place + vec2(0.0, step * scale), lod).b;
-        slope += vec2(east - here, south - here) * (0.0011 / (scale * step));
+        slope += vec2(east - here, south - here) * (0.0004 / (scale * step));
     }
     return slope;
 }
@@ -64,12 +67,12 @@ fn fragment(in: Varyings) -> @location(0) vec4<f32> {
     let sun = tree_shade(in.world).r * leaf_shadow(in.world);
     let below = albedo * (frame.sun_color.rgb * (sun * max(frame.sun_direction.y, 0.0)) + ambient_light(up));
 
-    var away = reflect(-view, normal);
-    away.y = abs(away.y) + 0.01;
-    away = normalize(away);
-    var color = mix(below, sky_radiance(away), mirrored);
-    // The sun on the ripples, wider than it is by the ripples that are too small to be seen.
-    let glint = pow(max(dot(away, frame.sun_direction.xyz), 0.0), 1500.0);
-    color += frame.sun_color.rgb * (90.0 * glint * mirrored * sun);
-    return vec4(haze(color, in.world), 1.0);
+    // A slope turns the mirrored ray by twice as much, which is as far in the picture, as that reaches twice its axes.
+    let across = normalize(frame.right.xz);
+    let along = vec2(across.y, -across.x);
+    let shift = vec2(dot(slope, across) / length(frame.right.xyz), dot(slope, along) / length(frame.up.xyz));
+    let place = in.clip.xy * frame.viewport.zw + shift;
+    let image = textureSampleLevel(mirror, clamp_sampler, place, 0.0).rgb;
+    // The mirrored picture has its haze already.
+    return vec4(mix(haze(below, in.world), image, mirrored), 1.0);
 }

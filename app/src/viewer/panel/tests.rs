@@ -64,9 +64,10 @@ impl Bench {
     fn pass(&mut self, events: Vec<Event>) -> Vec<Wish> {
         let screen_rect = Some(Rect::from_min_size(pos2(0.0, 0.0), vec2(1280.0, 720.0)));
         let input = RawInput { screen_rect, events, focused: true, ..RawInput::default() };
+        let land = Land::of(&scene::Ground::default());
         let mut wishes = Vec::new();
         let mut output = self.context.run_ui(input, |ui| {
-            wishes = self.panel.show(ui, &self.facts, &mut self.camera, 0.0);
+            wishes = self.panel.show(ui, &self.facts, &mut self.camera, &land);
         });
         output.textures_delta.clear();
         wishes
