@@ -3,6 +3,7 @@
 //! What the air is made of: molecules, aerosol and ozone over a round Earth. Lengths are in km.
 
 use super::spectrum::{BANDS, OZONE, Spectrum, WAVELENGTHS_NM};
+use super::table::single;
 
 /// Radius of the Earth.
 pub(super) const EARTH_KM: f64 = 6371.0;
@@ -41,7 +42,7 @@ impl Atmosphere {
     /// Air with an aerosol of this vertical optical depth at 550 nm.
     pub fn new(aerosol: f32) -> Self {
         let rayleigh = WAVELENGTHS_NM.map(|nm| RAYLEIGH_PER_KM * (nm / 1000.0).powi(-4));
-        let at_550 = aerosol / AEROSOL_HEIGHT_KM as f32;
+        let at_550 = aerosol / single(AEROSOL_HEIGHT_KM);
         let aerosol = WAVELENGTHS_NM.map(|nm| at_550 * (nm / 550.0).powf(-ANGSTROM_EXPONENT));
         // The layer is a triangle 30 km wide, so its densest part holds a fifteenth of it in each km.
         let ozone = OZONE.map(|cross_section| cross_section * 1e-25 * OZONE_PER_M2 / 15.0);
@@ -50,7 +51,7 @@ impl Atmosphere {
 
     /// Extinction of a path that met `columns`.
     pub(super) fn depth(&self, columns: Columns) -> Spectrum {
-        let [molecules, aerosol, ozone] = columns.map(|column| column as f32);
+        let [molecules, aerosol, ozone] = columns.map(single);
         std::array::from_fn(|band| {
             self.rayleigh[band] * molecules + self.aerosol[band] * aerosol + self.ozone[band] * ozone
         })
@@ -59,7 +60,7 @@ impl Atmosphere {
     /// Scattering at a density: by molecules and by aerosol.
     pub(super) fn scattering(&self, [molecules, aerosol, _]: Columns) -> [Spectrum; 2] {
         let scaled = |spectrum: &Spectrum, by: f32| spectrum.map(|value| value * by);
-        [scaled(&self.rayleigh, molecules as f32), scaled(&self.aerosol, aerosol as f32 * AEROSOL_ALBEDO)]
+        [scaled(&self.rayleigh, single(molecules)), scaled(&self.aerosol, single(aerosol) * AEROSOL_ALBEDO)]
     }
 }
 
@@ -79,12 +80,12 @@ pub(super) fn transmitted(depth: &Spectrum) -> Spectrum {
 
 /// Share of light that molecules scatter by an angle, per steradian.
 pub(super) fn rayleigh_phase(cos: f64) -> f32 {
-    (3.0 / (16.0 * std::f64::consts::PI) * (1.0 + cos * cos)) as f32
+    single(3.0 / (16.0 * std::f64::consts::PI) * (1.0 + cos * cos))
 }
 
 /// Share of light that aerosol scatters by an angle, per steradian (Cornette and Shanks 1992).
 pub(super) fn aerosol_phase(cos: f64) -> f32 {
     let g = AEROSOL_ASYMMETRY;
     let scale = 3.0 / (8.0 * std::f64::consts::PI) * (1.0 - g * g) / (2.0 + g * g);
-    (scale * (1.0 + cos * cos) / (1.0 + g * g - 2.0 * g * cos).powf(1.5)) as f32
+    single(scale * (1.0 + cos * cos) / (1.0 + g * g - 2.0 * g * cos).powf(1.5))
 }

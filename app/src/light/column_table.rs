@@ -3,6 +3,7 @@
 //! How much air lies between a place and the sun, tabulated.
 
 use super::atmosphere::{Columns, EARTH_KM, TOP_KM, densities};
+use super::table::{cell, single};
 
 const HEIGHTS: usize = 48;
 const DIRECTIONS: usize = 96;
@@ -43,15 +44,14 @@ impl ColumnTable {
     pub(super) fn toward_sun(&self, radius: f64, cos: f64) -> (Columns, f32) {
         let to_horizon = (radius * radius - EARTH_KM * EARTH_KM).max(0.0).sqrt();
         let lowest = -to_horizon / radius;
-        let visible = ((cos - lowest) / (2.0 * SUN_RADIUS) + 0.5).clamp(0.0, 1.0) as f32;
+        let visible = single(((cos - lowest) / (2.0 * SUN_RADIUS) + 0.5).clamp(0.0, 1.0));
         let cos = cos.max(lowest);
         let reach = (radius * radius * (cos * cos - 1.0) + TOP_KM * TOP_KM).max(0.0).sqrt();
         let length = reach - radius * cos;
         let (shortest, longest) = (TOP_KM - radius, to_horizon + horizon_of_top());
-        let x = ((length - shortest) / (longest - shortest)).clamp(0.0, 1.0) * (DIRECTIONS - 1) as f64;
-        let y = (to_horizon / horizon_of_top()).clamp(0.0, 1.0) * (HEIGHTS - 1) as f64;
-        let (column, row) = ((x as usize).min(DIRECTIONS - 2), (y as usize).min(HEIGHTS - 2));
-        let (fx, fy) = (x - column as f64, y - row as f64);
+        let x = (length - shortest) / (longest - shortest) * (DIRECTIONS - 1) as f64;
+        let y = to_horizon / horizon_of_top() * (HEIGHTS - 1) as f64;
+        let ((column, fx), (row, fy)) = (cell(x, DIRECTIONS), cell(y, HEIGHTS));
         let at = row * DIRECTIONS + column;
         let [a, b] = [&self.0[at], &self.0[at + 1]];
         let [c, d] = [&self.0[at + DIRECTIONS], &self.0[at + DIRECTIONS + 1]];

@@ -16,6 +16,7 @@ mod scattering;
 mod spectrum;
 mod spherical_harmonics;
 mod sun_search;
+mod table;
 
 pub use atmosphere::Atmosphere;
 pub(crate) use daylight::luminance;

@@ -10,6 +10,7 @@ use super::atmosphere::{
 };
 use super::column_table::ColumnTable;
 use super::spectrum::{BANDS, SUN, Spectrum};
+use super::table::{cell, single};
 
 /// Steps along a ray that is seen.
 const STEPS: u32 = 28;
@@ -102,7 +103,7 @@ impl ClearAir {
             let here = dot(place, place).sqrt();
             let density = densities((here - EARTH_KM).max(0.0));
             let extinction = self.atmosphere.depth(density);
-            let kept = transmitted(&extinction.map(|value| value * (far - near) as f32));
+            let kept = transmitted(&extinction.map(|value| value * single(far - near)));
             let [molecules, aerosol] = self.atmosphere.scattering(density);
             let sun_cos = dot(place, sun) / here;
             let sunlight = self.sunlight(here, sun_cos);
@@ -122,7 +123,7 @@ impl ClearAir {
             let sun_cos = dot(place, sun) / dot(place, place).sqrt();
             let sunlight = self.sunlight(EARTH_KM, sun_cos);
             for band in 0..BANDS {
-                let ground = LAND_ALBEDO / std::f32::consts::PI * sunlight[band] * (sun_cos.max(0.0) as f32);
+                let ground = LAND_ALBEDO / std::f32::consts::PI * sunlight[band] * single(sun_cos.max(0.0));
                 out.light[band] += passed[band] * ground;
             }
         }
@@ -157,11 +158,11 @@ impl ClearAir {
 
     /// Interpolates the table of multiple scattering.
     fn often(&self, height_km: f64, sun_cos: f64) -> Spectrum {
-        let y = (height_km.max(0.0) / height_of(HEIGHTS - 1)).sqrt().min(1.0) * (HEIGHTS - 1) as f64;
+        let y = (height_km.max(0.0) / height_of(HEIGHTS - 1)).sqrt() * (HEIGHTS - 1) as f64;
         let zenith = sun_cos.clamp(-1.0, 1.0).acos();
-        let x = ((zenith - self.sun_zenith) / SUN_RANGE * 0.5 + 0.5).clamp(0.0, 1.0) * (SUNS - 1) as f64;
-        let (column, row) = ((x as usize).min(SUNS - 2), (y as usize).min(HEIGHTS - 2));
-        let (fx, fy) = ((x - column as f64) as f32, (y - row as f64) as f32);
+        let x = ((zenith - self.sun_zenith) / SUN_RANGE * 0.5 + 0.5) * (SUNS - 1) as f64;
+        let ((column, fx), (row, fy)) = (cell(x, SUNS), cell(y, HEIGHTS));
+        let (fx, fy) = (single(fx), single(fy));
         let at = row * SUNS + column;
         let rows = [at, at + 1, at + SUNS, at + SUNS + 1].map(|index| &self.multiple[index]);
         std::array::from_fn(|band| {

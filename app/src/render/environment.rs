@@ -4,7 +4,7 @@
 
 use std::f32::consts::PI;
 
-use glam::{Vec2, Vec3};
+use glam::{Mat4, Vec2, Vec3};
 use windfall_core::scene::{Haze, View};
 
 use super::cascades::{CASCADES, cascades};

@@ -158,7 +158,7 @@ impl Renderer {
         let targets = Targets::new(device, size)?;
         let frame = FrameGroup::new(device, queue, &land);
         let kinds = LeafKinds::new(device, queue, scene, atlas)?;
-        let own = if scene.autumn > 0.0 { own_trees(stand) } else { Vec::new() };
+        let own = own_trees(stand, scene.autumn > 0.0);
         let trees = Trees::new(device, queue, (&planted, leaves), &own);
         let branches = BranchGroup::new(device, queue, stand);
         let shadow_pass = ShadowPass::new(device, &frame, &kinds, &branches);
@@ -417,15 +417,15 @@ fn begin_scene<'a>(
     })
 }
 
-/// The trees of a stand as those that strew litter on the far meadow.
-fn own_trees(stand: &Stand) -> Vec<TreeInstance> {
+/// The trees of a stand as those that hide the sky from the meadow and may strew litter on it.
+fn own_trees(stand: &Stand, strew: bool) -> Vec<TreeInstance> {
     let tree = |tree: &crate::trees::StandingTree| TreeInstance {
         foot_m: tree.foot_m,
         height_m: tree.skeleton.height_m(),
         width: 1.0,
         sprite: 0,
         hue: 0.0,
-        brightness: 1.0,
+        brightness: f32::from(u8::from(strew)),
     };
     stand.trees.iter().filter(|tree| !tree.look.is_low).map(tree).collect()
 }

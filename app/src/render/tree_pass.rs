@@ -31,12 +31,13 @@ pub(super) struct Trees {
     group: wgpu::BindGroup,
     instances: wgpu::Buffer,
     count: u32,
-    /// Trees of the scene, which strew litter as well but are drawn otherwise.
+    /// Trees of the scene, which strew litter and hide the sky as well but are drawn otherwise.
     own_count: u32,
 }
 
 impl Trees {
-    /// The pictures of `trees` with a share of their leaves, and `own` for their litter alone.
+    /// The pictures of `trees` with a share of their leaves, and `own` for what is under them alone: litter where they
+    /// are bright.
     pub(super) fn new(
         device: &wgpu::Device,
         queue: &wgpu::Queue,

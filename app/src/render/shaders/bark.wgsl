@@ -98,5 +98,8 @@ fn fragment(in: Varyings) -> @location(0) vec4<f32> {
     color += albedo * ambient_light(normal) * in.limb.z * deep * foot;
     let half_way = normalize(light + to_eye);
     color += sun * 0.012 * pow(max(dot(normal, half_way), 0.0), 12.0) * max(facing, 0.0);
+    // Bark is dull, but at a grazing view it mirrors the sky.
+    let fresnel = 0.03 + 0.35 * pow(1.0 - clamp(dot(normal, to_eye), 0.0, 1.0), 5.0);
+    color += sky_reflection(reflect(-to_eye, normal), 0.8) * fresnel * in.limb.z * deep * foot;
     return vec4(haze(color, in.world), in.limb.y);
 }

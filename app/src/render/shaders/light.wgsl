@@ -4,7 +4,7 @@
 
 @group(1) @binding(0) var shadow_maps: texture_depth_2d_array;
 @group(1) @binding(1) var shadow_sampler: sampler_comparison;
-// Top view of the park: sunlight let through by the trees (r), litter under them (g).
+// Top view of the park: sunlight let through by the trees (r), litter under them (g), sky hidden by their crowns (b).
 @group(1) @binding(2) var shade_map: texture_2d<f32>;
 @group(1) @binding(3) var clamp_sampler: sampler;
 @group(1) @binding(4) var noise: texture_2d<f32>;
@@ -69,6 +69,12 @@ fn tree_shade(position: vec3<f32>) -> vec2<f32> {
     // Trees are as high as they are: far above them the sun is free again.
     let free = max(smoothstep(2.0, 14.0, height), smoothstep(0.9, 1.0, max(abs(offset.x), abs(offset.y))));
     return vec2(mix(shade.r, 1.0, free), shade.g);
+}
+
+// Part of the sky that crowns leave open above a place on the ground.
+fn sky_openness(position: vec3<f32>) -> f32 {
+    let uv = (position.xz - frame.park.xz) / frame.air.z * 0.5 + 0.5;
+    return 1.0 - 0.75 * textureSampleLevel(shade_map, clamp_sampler, uv, 0.0).b;
 }
 
 // Light of the whole sky and the ground on a white matt surface facing `n`, of unit length.
