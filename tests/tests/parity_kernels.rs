@@ -78,7 +78,7 @@ fn agree(contract: Contract, oracle: &World, candidate: &World) -> TestCaseResul
                 found,
                 drift
             );
-            prop_assert!(found.quaternion <= 1e-5 + 0.1 * flown, "{:?}", found);
+            prop_assert!(found.quaternion <= 1e-5 + carried + 0.1 * flown, "{:?}", found);
         }
     }
     Ok(())
