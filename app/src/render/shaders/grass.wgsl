@@ -66,7 +66,7 @@ fn vertex(
     albedo = mix(albedo, vec3(0.34, 0.27, 0.11), step(0.86 - 0.25 * ground.a, own) * 0.7);
     let light = frame.sun_direction.xyz;
     let view = to_eye / distance_m;
-    let normal = normalize(vec3(lean.x, 0.9, lean.y));
+    let normal = normalize(vec3(lean.x - hill.y, 0.9, lean.y - hill.z));
     let reflected = 0.25 + 0.75 * max(dot(normal, light), 0.0);
     let against = pow(max(dot(-view, light), 0.0), 2.0);
     let glow = albedo * vec3(1.12, 1.25, 0.45) * against * 1.1;

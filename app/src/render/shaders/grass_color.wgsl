@@ -36,6 +36,6 @@ fn bare_soil(at: vec2<f32>, height: f32, rise: f32) -> f32 {
     let coarse = textureSampleLevel(noise, repeat_sampler, at * 0.09 + 0.13, 0.0).g - 0.5;
     let steep = smoothstep(0.50, 0.85, rise + 0.5 * coarse);
     let worn = 0.6 * smoothstep(0.36, 0.50, coarse);
-    let shore = 1.0 - smoothstep(0.06, 0.34, height - land.shape.w - 0.5 * coarse);
+    let shore = 1.0 - smoothstep(0.0, 0.20, height - land.shape.w - 0.22 * coarse);
     return max(max(steep, worn), shore);
 }

@@ -31,21 +31,23 @@ fn vertex(@builtin(vertex_index) index: u32) -> Varyings {
     return out;
 }
 
-// Slope of the ripples that a breath of air makes: two sets that cross, by differences of the noise.
+// Slope of the ripples that a breath of air makes: two trains that cross, by differences of soft noise, and patches where
+// the air is quite still.
 fn ripples(at: vec2<f32>, lod: f32) -> vec2<f32> {
     let time_s = frame.eye.w;
-    let step = 0.04;
+    let apart = 1.0 / 256.0;
     var slope = vec2(0.0);
-    for (var wave = 0u; wave < 2u; wave++) {
-        let scale = select(0.11, 0.29, wave == 1u);
-        let drift = select(vec2(0.012, 0.007), vec2(-0.010, 0.016), wave == 1u) * time_s;
+    for (var train = 0u; train < 2u; train++) {
+        let scale = select(0.21, 0.53, train == 1u);
+        let drift = select(vec2(0.012, 0.007), vec2(-0.010, 0.016), train == 1u) * time_s;
         let place = at * scale + drift;
-        let here = textureSampleLevel(noise, repeat_sampler, place, lod).b;
-        let east = textureSampleLevel(noise, repeat_sampler, place + vec2(step * scale, 0.0), lod).b;
-        let south = textureSampleLevel(noise, repeat_sampler, place + vec2(0.0, step * scale), lod).b;
-        slope += vec2(east - here, south - here) * (0.0004 / (scale * step));
+        let here = textureSampleLevel(noise, repeat_sampler, place, lod).g;
+        let east = textureSampleLevel(noise, repeat_sampler, place + vec2(apart, 0.0), lod).g;
+        let south = textureSampleLevel(noise, repeat_sampler, place + vec2(0.0, apart), lod).g;
+        slope += vec2(east - here, south - here);
     }
-    return slope;
+    let breath = textureSampleLevel(noise, repeat_sampler, at * 0.021 + time_s * 0.002, 0.0).r;
+    return slope * (0.22 * smoothstep(0.35, 0.75, breath) + 0.03);
 }
 
 @fragment
