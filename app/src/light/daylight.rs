@@ -39,8 +39,10 @@ pub struct Daylight {
     pub sun: SunLight,
     /// Everything else that lights.
     pub sky: EnvironmentMap,
-    /// The picture of the sky that is seen with its sun in it, where the light comes from one.
-    pub picture: Option<EnvironmentMap>,
+    /// What is seen of it behind sun and clouds.
+    pub seen: EnvironmentMap,
+    /// Whether `seen` is a picture, which has a sun, clouds and a horizon of its own.
+    pub is_picture: bool,
     /// Clouds to be drawn before the sky, 0 to 1.
     pub cloud_cover: f32,
     /// Radiance of the brightest and of the darkest clouds.
@@ -67,7 +69,7 @@ impl Daylight {
         let whole = EnvironmentMap::of_picture(Picture::read(&map.path)?).turned(map.rotation_deg);
         let whole = whole.map(|_, radiance| radiance * map.intensity_kcd_m2);
         let (sun, sky) = take_sun(&whole);
-        Ok(Self { sun, sky, picture: Some(whole), cloud_cover: 0.0, clouds: [Vec3::ZERO; 2] })
+        Ok(Self { sun, sky, seen: whole, is_picture: true, cloud_cover: 0.0, clouds: [Vec3::ZERO; 2] })
     }
 
     /// Sun and sky as the model has them.
@@ -94,11 +96,17 @@ impl Daylight {
         });
         let illuminance = beam * (direct / luminance(sun_light).max(1e-9)).min(1.0);
         let ground = GROUND_ALBEDO / PI * (above.irradiance(level) + illuminance * direction.y.max(0.0));
+        // Few clouds leave the sky between them clear.
+        let veil = sky.cloud_cover * sky.cloud_cover;
+        let gaps = clear.map(|towards, radiance| radiance.lerp(above.sample(towards), veil));
+        let with_ground =
+            |map: &EnvironmentMap| map.map(|towards, radiance| if towards.y < 0.0 { ground } else { radiance });
         let cover = sky.cloud_cover.max(0.05);
         Self {
             sun: SunLight { direction, illuminance },
-            sky: above.map(|towards, radiance| if towards.y < 0.0 { ground } else { radiance }),
-            picture: None,
+            sky: with_ground(&above),
+            seen: with_ground(&gaps),
+            is_picture: false,
             cloud_cover: sky.cloud_cover,
             clouds: [tint * (zenith / cover), ground],
         }

@@ -143,7 +143,7 @@ impl Environment {
             sky: [
                 self.daylight.cloud_cover,
                 1.0 / self.haze.depth_m,
-                f32::from(u8::from(self.daylight.picture.is_none())),
+                f32::from(u8::from(!self.daylight.is_picture)),
                 0.0,
             ],
             cloud_light: full(self.daylight.clouds[0], 0.0),

@@ -71,10 +71,9 @@ impl LightGroup {
 
 /// The sky as it is seen, and as surfaces of rising roughness mirror it, without the sun.
 fn skies(device: &wgpu::Device, queue: &wgpu::Queue, daylight: &Daylight) -> [wgpu::TextureView; 2] {
-    let seen = daylight.picture.as_ref().unwrap_or(&daylight.sky);
     let mirrored = prefiltered(&daylight.sky);
     let mirrored: Vec<_> = mirrored.iter().collect();
-    [("sky", vec![seen]), ("mirrored sky", mirrored)]
+    [("sky", vec![&daylight.seen]), ("mirrored sky", mirrored)]
         .map(|(label, levels)| radiance_texture(device, queue, label, &levels))
 }
 
