@@ -99,8 +99,9 @@ impl Daylight {
         // Few clouds leave the sky between them clear.
         let veil = sky.cloud_cover * sky.cloud_cover;
         let gaps = clear.map(|towards, radiance| radiance.lerp(above.sample(towards), veil));
-        let with_ground =
-            |map: &EnvironmentMap| map.map(|towards, radiance| if towards.y < 0.0 { ground } else { radiance });
+        let with_ground = |map: &EnvironmentMap| {
+            map.map(|towards, radiance| if towards.y < 0.0 { ground } else { radiance })
+        };
         let cover = sky.cloud_cover.max(0.05);
         Self {
             sun: SunLight { direction, illuminance },

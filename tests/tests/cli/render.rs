@@ -213,3 +213,23 @@ fn an_interrupt_leaves_nothing_behind() {
         assert_eq!(contents(there.path()), [], "{out}: nothing is left");
     }
 }
+
+#[test]
+fn pictures_of_skies_light_scenes_or_are_refused() {
+    let there = folder();
+    // Eight rows of a grey sky, not compressed.
+    let mut sky = b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 8 +X 16\n".to_vec();
+    sky.extend([128, 128, 128, 129].repeat(128));
+    file(&there, "sky.hdr", &sky);
+    file(&there, "cut.hdr", &sky[..300]);
+    file(&there, "grey.ron", b"(view: (sky: Map((path: \"sky.hdr\"))))");
+    file(&there, "lost.ron", b"(view: (sky: Map((path: \"nowhere.exr\"))))");
+    let options = ["--leaves", "100", "--frames", "1", "--size", "64x48", "--out"];
+    let draw =
+        |scene: &[&'static str], out: &'static str| [&["render"], scene, &options[..], &[out]].concat();
+    windfall(&there, &draw(&["grey.ron"], "a.png")).text();
+    windfall(&there, &draw(&["--sky", "sky.hdr"], "b.png")).text();
+    assert_refused(&there, &draw(&["lost.ron"], "c.png"), &["nowhere.exr"]);
+    assert_refused(&there, &draw(&["--sky", "cut.hdr"], "c.png"), &["cut.hdr", "cut off", "allowed"]);
+    assert_refused(&there, &draw(&["--sky", "grey.ron"], "c.png"), &["grey.ron", "Radiance", "OpenEXR"]);
+}
