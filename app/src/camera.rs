@@ -109,6 +109,18 @@ impl Camera {
         self.target_m += height_m * (right * self.right() + up * self.up());
     }
 
+    /// Moves camera and target through the scene, in metres to the right, up and ahead.
+    pub fn fly(&mut self, right_m: f32, up_m: f32, ahead_m: f32) {
+        self.target_m += right_m * self.right() + up_m * Vec3::Y + ahead_m * self.forward();
+    }
+
+    /// Turns the view about the eye; positive angles look to the left and up.
+    pub fn look(&mut self, yaw_rad: f32, pitch_rad: f32) {
+        let eye_m = self.eye_m();
+        self.orbit(yaw_rad, -pitch_rad);
+        self.target_m += eye_m - self.eye_m();
+    }
+
     /// Lifts the camera to `clearance_m` metres above the land, keeping what it looks at.
     pub fn stay_above(&mut self, land: &Land, clearance_m: f32) {
         self.target_m.y = self.target_m.y.max(land.surface_m(self.target_m.x, self.target_m.z) + clearance_m);
@@ -155,6 +167,21 @@ mod tests {
         assert!((edge(4.0 / 3.0) - edge(16.0 / 9.0)).abs() < 1.0e-5, "{} from the side", edge(4.0 / 3.0));
         assert_eq!(camera.fitted(2.0), camera, "a wide picture is as the scene says");
         assert!(camera.fitted(0.01).vertical_fov_rad <= MAX_FOV_RAD, "within bounds");
+    }
+
+    #[test]
+    fn flying_keeps_the_view_and_looking_keeps_the_place() {
+        let mut camera = Camera::from(&scene::Camera::default());
+        let (eye_m, forward) = (camera.eye_m(), camera.forward());
+        camera.fly(1.0, 2.0, 3.0);
+        let wanted = eye_m + camera.right() + 2.0 * Vec3::Y + 3.0 * forward;
+        assert!(camera.eye_m().distance(wanted) < 1.0e-5, "flown to {}", camera.eye_m());
+        assert!(camera.forward().distance(forward) < 1.0e-5, "looks ahead: {}", camera.forward());
+        let (eye_m, right) = (camera.eye_m(), camera.right());
+        camera.look(0.3, 0.2);
+        assert!(camera.eye_m().distance(eye_m) < 1.0e-5, "stays: {}", camera.eye_m());
+        assert!(camera.forward().dot(right) < -0.2, "looks to the left: {}", camera.forward());
+        assert!(camera.forward().y > forward.y + 0.1, "and up: {}", camera.forward());
     }
 
     #[test]

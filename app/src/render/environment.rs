@@ -10,6 +10,7 @@ use windfall_core::scene::{Haze, View};
 use super::cascades::{CASCADES, cascades};
 use super::renderer::FrameInput;
 use super::scenery::PARK_RADIUS_M;
+use super::tile::Tile;
 use crate::light::{Daylight, MapError, SphericalHarmonics};
 
 /// Optical depth of haze at which contrast has fallen to 2 % (Koschmieder 1924).
@@ -33,6 +34,7 @@ pub(super) struct FrameUniform {
     air: [f32; 4],
     park: [f32; 4],
     viewport: [f32; 4],
+    tile: [f32; 4],
     texels: [f32; 4],
     ambient: [[f32; 4]; 9],
     sky: [f32; 4],
@@ -106,7 +108,13 @@ impl Environment {
     }
 
     /// The uniform block of one frame.
-    pub(super) fn frame(&self, input: &FrameInput, time_s: f32, size: (u32, u32)) -> FrameUniform {
+    pub(super) fn frame(
+        &self,
+        input: &FrameInput,
+        time_s: f32,
+        size: (u32, u32),
+        tile: &Tile,
+    ) -> FrameUniform {
         let camera = &input.camera;
         let (width, height) = (size.0 as f32, size.1 as f32);
         let aspect = width / height;
@@ -124,11 +132,11 @@ impl Environment {
         let bounce = sky.sample(Vec3::NEG_Y);
         let full = |v: Vec3, w: f32| v.extend(w).to_array();
         FrameUniform {
-            view_projection: camera.view_projection(aspect).to_cols_array_2d(),
+            view_projection: (tile.crop() * camera.view_projection(aspect)).to_cols_array_2d(),
             shadows: shadows.map(|map| map.projection.to_cols_array_2d()),
             eye: full(camera.eye_m(), time_s),
-            right: full(camera.right() * tangent * aspect, input.origin.0 as f32),
-            up: full(camera.up() * tangent, input.origin.1 as f32),
+            right: full(camera.right() * tangent * aspect, 0.0),
+            up: full(camera.up() * tangent, 0.0),
             forward: full(camera.forward(), 0.0),
             sun_direction: full(sun, Vec2::new(sun.x, sun.z).length() / sun.y.max(0.02)),
             sun_color: full(self.daylight.sun.illuminance / PI, 0.0),
@@ -138,6 +146,7 @@ impl Environment {
             air: [VISIBILITY_DEPTH / self.haze.visibility_m, 0.0, PARK_RADIUS_M, 0.0],
             park: full(self.park_center, 0.0),
             viewport: [width, height, 1.0 / width, 1.0 / height],
+            tile: tile.clip_area(),
             texels: [near, middle, far, 0.0],
             ambient: self.ambient.map(|light| full(light, 0.0)),
             sky: [
@@ -157,6 +166,7 @@ mod tests {
     use glam::Vec3;
     use windfall_core::scene::{self, Sun};
 
+    use super::super::tile::tiles;
     use super::*;
     use crate::camera::Camera;
 
@@ -199,7 +209,8 @@ mod tests {
                 .expect("no file is needed");
             let camera = Camera::from(&scene::Camera::default());
             let input = FrameInput { camera, time_s: 1.0, since_s: f32::INFINITY, origin: (0, 0) };
-            let frame = environment.frame(&input, 1.0, (640, 480));
+            let tile = tiles((640, 480), (640, 480)).next().expect("a tile");
+            let frame = environment.frame(&input, 1.0, (640, 480), &tile);
             let all: &[f32] = bytemuck::cast_slice(std::slice::from_ref(&frame));
             assert!(all.iter().all(|value| value.is_finite()), "elevation {elevation_deg}: {frame:?}");
         }

@@ -8,6 +8,9 @@ use super::pipeline::{layout, shader};
 /// What such a shader begins with.
 const HEAD: [&str; 2] = [include_str!("shaders/lens.wgsl"), include_str!("shaders/fullscreen.wgsl")];
 
+/// Corner and size of a part of a target, in pixels.
+pub(super) type Area = ((u32, u32), (u32, u32));
+
 /// A pipeline whose fragments come from one triangle over the target.
 #[derive(Debug)]
 pub(super) struct Fullscreen {
@@ -50,14 +53,37 @@ impl Fullscreen {
         Self { label, pipeline }
     }
 
-    /// Fills `area` (corner and size) of `target`, or all of it, which becomes black elsewhere.
+    /// Fills `area` of `target`, or all of it; elsewhere it becomes black.
     pub(super) fn draw(
         &self,
         encoder: &mut wgpu::CommandEncoder,
         timestamps: Option<wgpu::RenderPassTimestampWrites<'_>>,
         [lens, group]: [&wgpu::BindGroup; 2],
         target: &wgpu::TextureView,
-        area: Option<((u32, u32), (u32, u32))>,
+        area: Option<Area>,
+    ) {
+        let black = wgpu::LoadOp::Clear(wgpu::Color::BLACK);
+        self.pass(encoder, timestamps, [lens, group], (target, black), area);
+    }
+
+    /// Fills `area` of `target`, which keeps what it has elsewhere.
+    pub(super) fn draw_part(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        groups: [&wgpu::BindGroup; 2],
+        target: &wgpu::TextureView,
+        area: Area,
+    ) {
+        self.pass(encoder, None, groups, (target, wgpu::LoadOp::Load), Some(area));
+    }
+
+    fn pass(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        timestamps: Option<wgpu::RenderPassTimestampWrites<'_>>,
+        [lens, group]: [&wgpu::BindGroup; 2],
+        (target, load): (&wgpu::TextureView, wgpu::LoadOp<wgpu::Color>),
+        area: Option<Area>,
     ) {
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some(self.label),
@@ -65,10 +91,7 @@ impl Fullscreen {
                 view: target,
                 depth_slice: None,
                 resolve_target: None,
-                ops: wgpu::Operations {
-                    load: wgpu::LoadOp::Clear(wgpu::Color::BLACK),
-                    store: wgpu::StoreOp::Store,
-                },
+                ops: wgpu::Operations { load, store: wgpu::StoreOp::Store },
             })],
             depth_stencil_attachment: None,
             timestamp_writes: timestamps,

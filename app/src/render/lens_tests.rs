@@ -51,7 +51,7 @@ struct Bench {
 impl Bench {
     fn new(size: (u32, u32), lens: Lens) -> Self {
         let (device, queue) = tests::device();
-        let targets = Targets::new(&device, size).expect("targets");
+        let targets = Targets::new(&device, size, u32::MAX).expect("targets");
         let post = Post::new(&device, &queue, &targets, PictureTarget::FORMAT, lens);
         let target = PictureTarget::new(&device, size).expect("a target");
         Self { device, queue, targets, post, target }
@@ -81,7 +81,8 @@ impl Bench {
             vertical_fov_rad: 0.8,
             near_m: crate::camera::NEAR_M,
         };
-        self.post.draw(&self.queue, &mut encoder, None, &self.target.view(), &shot);
+        self.post.begin(&self.queue, &shot);
+        self.post.draw(&mut encoder, None, &self.target.view(), &shot);
         self.target.submit_and_read(&self.device, &self.queue, encoder).expect("a picture")
     }
 
@@ -148,7 +149,7 @@ fn reinhard_follows_the_published_curve() {
     }
     // Equation 2 with the key 0.18: the log-average of 0.2 and 0.8 is 0.4, which makes 0.09 and 0.36 of them.
     let lens = Lens { exposure: Exposure::default(), ..plain(ToneMap::Reinhard { white: 1000.0 }) };
-    bench.post.set_lens(lens);
+    bench.post.set_lens(&bench.device, &bench.queue, &bench.targets, lens);
     let picture = bench.draw(f32::INFINITY, |x, _| if x % 2 == 0 { 0.2 } else { 0.8 });
     assert_displays(&picture, (2, 1), 0.09 / 1.09);
     assert_displays(&picture, (3, 1), 0.36 / 1.36);

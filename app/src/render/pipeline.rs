@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! What all drawing pipelines have in common.
 
+use super::shader_edit;
 use super::targets::{DEPTH_FORMAT, HDR_FORMAT, SAMPLE_COUNT};
 
 /// WGSL every drawing shader begins with: the frame's uniform block and small helpers.
@@ -13,7 +14,7 @@ pub(super) const LIGHT: &str = include_str!("shaders/light.wgsl");
 pub(super) fn shader(device: &wgpu::Device, label: &str, parts: &[&str]) -> wgpu::ShaderModule {
     device.create_shader_module(wgpu::ShaderModuleDescriptor {
         label: Some(label),
-        source: wgpu::ShaderSource::Wgsl(parts.concat().into()),
+        source: wgpu::ShaderSource::Wgsl(shader_edit::edited(parts.concat()).into()),
     })
 }
 

@@ -5,34 +5,45 @@
 use windfall_core::scene::Lens;
 
 use super::exposure_pass::ExposurePass;
+use super::focus_pass::{FocusChain, FocusPass};
 use super::glare_pass::{GlareChain, GlarePass};
 use super::lens_group::{LensGroup, LensUniform, Shot};
 use super::targets::Targets;
+use super::tile::Tile;
 use super::timing::GpuTimer;
 use super::tonemap_pass::TonemapPass;
 
 /// Numbers of the timed passes here, in order.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct TimedPosts {
+    pub(super) focus: u32,
     pub(super) exposure: u32,
     pub(super) glare: u32,
     pub(super) tone_map: u32,
 }
 
-/// The passes, and what they read in pictures of one size.
+/// The lens, the passes, and what they read in pictures of one size.
 #[derive(Debug)]
 pub(super) struct Post {
     lens: Lens,
     group: LensGroup,
-    exposure_pass: ExposurePass,
-    glare_pass: GlarePass,
-    tonemap_pass: TonemapPass,
+    passes: Passes,
     bound: Bound,
+}
+
+/// The passes, in their order.
+#[derive(Debug)]
+struct Passes {
+    focus: FocusPass,
+    exposure: ExposurePass,
+    glare: GlarePass,
+    tonemap: TonemapPass,
 }
 
 /// What depends on the textures.
 #[derive(Debug)]
 struct Bound {
+    focus: Option<FocusChain>,
     exposure: wgpu::BindGroup,
     glare: GlareChain,
     tonemap: wgpu::BindGroup,
@@ -47,22 +58,34 @@ impl Post {
         lens: Lens,
     ) -> Self {
         let group = LensGroup::new(device);
-        let exposure_pass = ExposurePass::new(device, &group);
-        let glare_pass = GlarePass::new(device, &group);
-        let tonemap_pass = TonemapPass::new(device, &group, format);
-        let bound = Bound::new(device, queue, targets, &group, (&exposure_pass, &glare_pass, &tonemap_pass));
-        Self { lens, group, exposure_pass, glare_pass, tonemap_pass, bound }
+        let passes = Passes {
+            focus: FocusPass::new(device, &group),
+            exposure: ExposurePass::new(device, &group),
+            glare: GlarePass::new(device, &group),
+            tonemap: TonemapPass::new(device, &group, format),
+        };
+        let bound = Bound::new(device, queue, targets, &group, &passes, &lens);
+        Self { lens, group, passes, bound }
     }
 
     /// Takes over another lens.
-    pub(super) fn set_lens(&mut self, lens: Lens) {
+    pub(super) fn set_lens(
+        &mut self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        targets: &Targets,
+        lens: Lens,
+    ) {
+        let needs_other_textures = self.lens.focus.is_some() != lens.focus.is_some();
         self.lens = lens;
+        if needs_other_textures {
+            self.rebind(device, queue, targets);
+        }
     }
 
     /// Reads from new targets.
     pub(super) fn rebind(&mut self, device: &wgpu::Device, queue: &wgpu::Queue, targets: &Targets) {
-        let passes = (&self.exposure_pass, &self.glare_pass, &self.tonemap_pass);
-        self.bound = Bound::new(device, queue, targets, &self.group, passes);
+        self.bound = Bound::new(device, queue, targets, &self.group, &self.passes, &self.lens);
     }
 
     /// The glare of the last picture, and pixels of the picture along one of it.
@@ -71,26 +94,41 @@ impl Post {
         (&self.bound.glare.result, self.bound.glare.pixels)
     }
 
+    /// Makes everything ready for a picture, before its tiles are drawn.
+    pub(super) fn begin(&self, queue: &wgpu::Queue, shot: &Shot) {
+        self.group.write(queue, &LensUniform::new(&self.lens, shot));
+    }
+
+    /// Takes what it needs of a tile before the next is drawn.
+    pub(super) fn take_tile(&self, queue: &wgpu::Queue, encoder: &mut wgpu::CommandEncoder, tile: &Tile) {
+        if let Some(chain) = &self.bound.focus {
+            self.passes.focus.take_depth(queue, encoder, &self.group, chain, tile);
+        }
+    }
+
     /// Makes the picture in its place in `output`.
     pub(super) fn draw(
         &self,
-        queue: &wgpu::Queue,
         encoder: &mut wgpu::CommandEncoder,
         timer: Option<(&GpuTimer, TimedPosts)>,
         output: &wgpu::TextureView,
         shot: &Shot,
     ) {
-        self.group.write(queue, &LensUniform::new(&self.lens, shot));
+        let split = |pass: fn(TimedPosts) -> u32| {
+            let writes = timer.map(|(timer, passes)| timer.split_writes(pass(passes)));
+            writes.map_or([None, None], |writes| writes.map(Some))
+        };
+        if let Some(chain) = &self.bound.focus {
+            self.passes.focus.draw(encoder, split(|passes| passes.focus), &self.group, chain);
+        }
         let writes = timer.map(|(timer, passes)| timer.compute_writes(passes.exposure));
-        self.exposure_pass.run(encoder, writes, &self.group, &self.bound.exposure);
+        self.passes.exposure.run(encoder, writes, &self.group, &self.bound.exposure);
         if self.lens.glare.strength > 0.0 {
-            let writes = timer.map(|(timer, passes)| timer.split_writes(passes.glare));
-            let [begin, end] = writes.map_or([None, None], |writes| writes.map(Some));
-            self.glare_pass.draw(encoder, [begin, end], &self.group, &self.bound.glare);
+            self.passes.glare.draw(encoder, split(|passes| passes.glare), &self.group, &self.bound.glare);
         }
         let writes = timer.map(|(timer, passes)| timer.render_writes(passes.tone_map));
         let groups = [&self.group.group, &self.bound.tonemap];
-        self.tonemap_pass.draw(encoder, writes, groups, output, (shot.origin, shot.size));
+        self.passes.tonemap.draw(encoder, writes, groups, output, (shot.origin, shot.size));
     }
 }
 
@@ -100,14 +138,17 @@ impl Bound {
         queue: &wgpu::Queue,
         targets: &Targets,
         group: &LensGroup,
-        (exposure, glare, tonemap): (&ExposurePass, &GlarePass, &TonemapPass),
+        passes: &Passes,
+        lens: &Lens,
     ) -> Self {
-        let light = &targets.resolved;
-        let chain = glare.chain(device, queue, light, targets.size);
+        let focus = lens.focus.map(|_| passes.focus.chain(device, targets));
+        let light = focus.as_ref().map_or(&targets.resolved, |chain| &chain.result);
+        let glare = passes.glare.chain(device, queue, light, targets.size);
         Self {
-            exposure: exposure.bind(device, group, light),
-            tonemap: tonemap.bind(device, queue, light, &chain),
-            glare: chain,
+            exposure: passes.exposure.bind(device, group, light),
+            tonemap: passes.tonemap.bind(device, queue, light, &glare),
+            glare,
+            focus,
         }
     }
 }

@@ -4,7 +4,7 @@
 
 use glam::{Vec2, Vec3};
 use windfall_core::Scene;
-use windfall_core::scene::{Release, View};
+use windfall_core::scene::{Lens, Release, View};
 use windfall_texgen::Atlas;
 use windfall_wgpu::{BranchColumns, LeafColumns};
 
@@ -29,6 +29,7 @@ use super::shadow_pass::{Casters, ShadowPass};
 use super::sky_pass::SkyPass;
 use super::stems::Stems;
 use super::targets::Targets;
+use super::tile::Tile;
 use super::timing::GpuTimer;
 use super::trail_pass::TrailPass;
 use super::tree_pass::{ShadePass, TreePass, Trees};
@@ -38,17 +39,22 @@ use crate::land::Land;
 use crate::trees::Stand;
 
 /// Passes that are timed, in order of drawing.
-const TIMED_PASSES: [&str; 5] = ["shadows", "scene", "exposure", "glare", "tone map"];
+const TIMED_PASSES: [&str; 6] = ["shadows", "scene", "focus", "exposure", "glare", "tone map"];
 /// Where those after the scene are among them.
-const TIMED_POSTS: TimedPosts = TimedPosts { exposure: 2, glare: 3, tone_map: 4 };
+const TIMED_POSTS: TimedPosts = TimedPosts { focus: 2, exposure: 3, glare: 4, tone_map: 5 };
 /// Leaves of litter on a meadow in autumn.
 const LITTER: u32 = 14_000;
+
+/// Most pixels drawn at once by default: 4K UHD, whose multisampled targets take 400 MB.
+const TILE_PX: u32 = 3840 * 2160;
 
 /// Choices of a renderer that are no part of a scene.
 #[derive(Clone, Copy, Debug)]
 pub struct RendererOptions {
     /// Leaves strewn over the meadow before the scene begins, not simulated: 0 to 100000.
     pub litter_count: u32,
+    /// Most pixels of a picture that are drawn at once, at least 1: larger pictures are drawn by tiles.
+    pub tile_px: u32,
 }
 
 impl RendererOptions {
@@ -65,7 +71,8 @@ impl RendererOptions {
             reason = "a share of a small number"
         )]
         let litter_count = (season * LITTER as f32) as u32;
-        Self { litter_count: if has_past && scene.view.trail_s == 0.0 { litter_count } else { 0 } }
+        let litter_count = if has_past && scene.view.trail_s == 0.0 { litter_count } else { 0 };
+        Self { litter_count, tile_px: TILE_PX }
     }
 }
 
@@ -106,6 +113,7 @@ pub struct Renderer {
     /// Where the scene's own camera stands.
     eye_m: Vec3,
     targets: Targets,
+    tile_px: u32,
     frame: FrameGroup,
     light: LightGroup,
     kinds: LeafKinds,
@@ -155,7 +163,7 @@ impl Renderer {
         let center = Vec3::new(x, land.ground_m(x, z), z);
         let Park { trees: planted, leaves, path_phase } = plant(scene, &land, center, level);
 
-        let targets = Targets::new(device, size)?;
+        let targets = Targets::new(device, size, options.tile_px)?;
         let frame = FrameGroup::new(device, queue, &land);
         let kinds = LeafKinds::new(device, queue, scene, atlas)?;
         let own = own_trees(stand, scene.autumn > 0.0);
@@ -194,6 +202,7 @@ impl Renderer {
             shade_is_old: true,
             targets,
             land,
+            tile_px: options.tile_px,
             frame,
             light,
             kinds,
@@ -222,7 +231,7 @@ impl Renderer {
     /// A size beyond the device's limits; the renderer keeps its size.
     pub fn resize(&mut self, size: (u32, u32)) -> Result<(), RenderError> {
         if size != self.targets.size {
-            self.targets = Targets::new(&self.device, size)?;
+            self.targets = Targets::new(&self.device, size, self.tile_px)?;
             self.post.rebind(&self.device, &self.queue, &self.targets);
         }
         Ok(())
@@ -236,13 +245,27 @@ impl Renderer {
         let Environment { park_center, path, .. } = self.environment;
         self.environment = Environment::new(view, park_center, path)?;
         self.light.set_sky(&self.device, &self.queue, &self.environment.daylight);
-        self.post.set_lens(view.lens);
+        self.set_lens(view.lens);
         self.shade_is_old = true;
         let drawn = self.trail_pass.as_ref().map_or(0.0, TrailPass::trail_s);
         if drawn != view.trail_s {
             self.make_trails(view.trail_s);
         }
         Ok(())
+    }
+
+    /// Draws at most so many pixels at once from now on.
+    #[cfg(test)]
+    pub(super) fn set_tile_px(&mut self, tile_px: u32) -> Result<(), RenderError> {
+        self.tile_px = tile_px;
+        self.targets = Targets::new(&self.device, self.targets.size, tile_px)?;
+        self.post.rebind(&self.device, &self.queue, &self.targets);
+        Ok(())
+    }
+
+    /// Takes over another lens.
+    pub fn set_lens(&mut self, lens: Lens) {
+        self.post.set_lens(&self.device, &self.queue, &self.targets, lens);
     }
 
     /// Takes over another number of leaves, with the same trees bearing other shares of them.
@@ -271,21 +294,59 @@ impl Renderer {
         input: &FrameInput,
     ) {
         let (width, height) = self.targets.size;
-        let aspect = width as f32 / height as f32;
-        let input = &FrameInput { camera: input.camera.fitted(aspect), ..*input };
+        let camera = input.camera.fitted(width as f32 / height as f32);
+        let input = &FrameInput { camera, ..*input };
+        let shot = Shot {
+            size: self.targets.size,
+            origin: input.origin,
+            since_s: input.since_s,
+            vertical_fov_rad: camera.vertical_fov_rad,
+            near_m: NEAR_M,
+        };
+        self.post.begin(&self.queue, &shot);
+        let mut is_first = true;
+        for tile in self.targets.tiles() {
+            // Every tile has uniforms of its own, which are written when its commands are submitted.
+            let mut own = (tile.left > 0).then(|| self.device.create_command_encoder(&Default::default()));
+            let encoder = own.as_mut().unwrap_or(encoder);
+            if std::mem::take(&mut is_first) {
+                self.observe(encoder, leaves, input.time_s);
+            }
+            self.draw_tile(encoder, leaves, branches, input, &tile);
+            if let Some(own) = own {
+                self.queue.submit([own.finish()]);
+            }
+        }
+        let timer = self.timer.as_ref().map(|timer| (timer, TIMED_POSTS));
+        self.post.draw(encoder, timer, output, &shot);
+        if let Some(timer) = &self.timer {
+            // An earlier frame may still be on its way; the next one will do.
+            let _ = timer.resolve(encoder);
+        }
+    }
+
+    /// Encodes light and depth of a part of the picture.
+    fn draw_tile(
+        &mut self,
+        encoder: &mut wgpu::CommandEncoder,
+        leaves: &LeafColumns<'_>,
+        branches: Option<&BranchColumns<'_>>,
+        input: &FrameInput,
+        tile: &Tile,
+    ) {
+        let (width, height) = self.targets.size;
         #[expect(clippy::cast_possible_truncation, reason = "wraps long before f32 seconds grow coarse")]
         let time_s = input.time_s.rem_euclid(3600.0) as f32;
-        let frame = self.environment.frame(input, time_s, self.targets.size);
+        let frame = self.environment.frame(input, time_s, self.targets.size, tile);
         self.frame.write(&self.queue, &frame);
         if let Some(water) = &mut self.water_pass {
-            water.prepare(&self.device, &self.queue, frame, self.targets.size);
+            water.prepare(&self.device, &self.queue, frame, self.targets.tile_size);
         }
-        self.grass_pass.prepare(&self.queue, &input.camera, aspect, &self.land);
+        self.grass_pass.prepare(&self.queue, &input.camera, width as f32 / height as f32, &self.land);
         if self.shade_is_old {
             self.shade_pass.draw(encoder, &self.frame, &self.trees);
             self.shade_is_old = false;
         }
-        self.observe(encoder, leaves, input.time_s);
         let litter = self.litter.as_ref().map(Litter::columns);
         let litter = litter.map(|columns| LeafSet { columns, parts: &self.litter_parts });
         let leaves = LeafSet { columns: *leaves, parts: &self.leaf_parts };
@@ -299,24 +360,15 @@ impl Renderer {
             bark: &self.bark,
             branches: &group,
         };
-        let writes = |pass| self.timer.as_ref().map(|timer| timer.render_writes(pass));
-        let shadow_writes = self.timer.as_ref().map(|timer| timer.split_writes(0));
+        // The last tile is timed: its commands are those that are resolved.
+        let timer = self.timer.as_ref().filter(|_| tile.left == 0);
+        let writes = |pass| timer.map(|timer| timer.render_writes(pass));
+        let shadow_writes = timer.map(|timer| timer.split_writes(0));
         self.shadow_pass.draw(encoder, shadow_writes, &self.frame, &casters);
         self.draw_mirror(encoder, &sets, &group);
         self.draw_scene(encoder, writes(1), &sets, &group);
-        let shot = Shot {
-            size: self.targets.size,
-            origin: input.origin,
-            since_s: input.since_s,
-            vertical_fov_rad: input.camera.vertical_fov_rad,
-            near_m: NEAR_M,
-        };
-        let timer = self.timer.as_ref().map(|timer| (timer, TIMED_POSTS));
-        self.post.draw(&self.queue, encoder, timer, output, &shot);
-        if let Some(timer) = &self.timer {
-            // An earlier frame may still be on its way; the next one will do.
-            let _ = timer.resolve(encoder);
-        }
+        self.targets.place(encoder, tile);
+        self.post.take_tile(&self.queue, encoder, tile);
     }
 
     /// Whether leaves draw trails.
@@ -397,7 +449,7 @@ fn begin_scene<'a>(
         color_attachments: &[Some(wgpu::RenderPassColorAttachment {
             view: &targets.color,
             depth_slice: None,
-            resolve_target: Some(&targets.resolved),
+            resolve_target: Some(targets.resolve()),
             ops: wgpu::Operations {
                 load: wgpu::LoadOp::Clear(wgpu::Color::BLACK),
                 store: wgpu::StoreOp::Discard,
@@ -405,10 +457,7 @@ fn begin_scene<'a>(
         })],
         depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
             view: &targets.depth,
-            depth_ops: Some(wgpu::Operations {
-                load: wgpu::LoadOp::Clear(0.0),
-                store: wgpu::StoreOp::Discard,
-            }),
+            depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(0.0), store: wgpu::StoreOp::Store }),
             stencil_ops: None,
         }),
         timestamp_writes,

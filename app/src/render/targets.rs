@@ -3,6 +3,7 @@
 //! The textures a frame is drawn into before it is tone mapped.
 
 use super::RenderError;
+use super::tile::{Tile, tile_size, tiles};
 
 /// Samples per pixel: four is what every WebGPU adapter offers.
 pub(super) const SAMPLE_COUNT: u32 = 4;
@@ -11,25 +12,32 @@ pub(super) const HDR_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Fl
 /// Format of depth, reversed: 0 is infinity.
 pub(super) const DEPTH_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
 
-/// Multisampled light and depth, and the resolved light.
+/// Multisampled light and depth of a tile, and the resolved light of the picture. Most pictures are one tile.
 #[derive(Debug)]
 pub(super) struct Targets {
     pub(super) size: (u32, u32),
     pub(super) color: wgpu::TextureView,
     pub(super) depth: wgpu::TextureView,
     pub(super) resolved: wgpu::TextureView,
+    /// Resolved light of a tile of a picture that has more than one.
+    resolved_tile: Option<wgpu::TextureView>,
+    /// Size of a tile in pixels.
+    pub(super) tile_size: (u32, u32),
 }
 
 impl Targets {
-    pub(super) fn new(device: &wgpu::Device, size: (u32, u32)) -> Result<Self, RenderError> {
+    /// Targets of pictures of `size` pixels, of which at most `tile_px` are drawn at once.
+    pub(super) fn new(device: &wgpu::Device, size: (u32, u32), tile_px: u32) -> Result<Self, RenderError> {
         let limit = device.limits().max_texture_dimension_2d;
         let (width, height) = size;
         if width == 0 || height == 0 || width > limit || height > limit {
             return Err(RenderError::Size { width, height, limit });
         }
+        let tile_size = tile_size(size, tile_px);
         let attachment = wgpu::TextureUsages::RENDER_ATTACHMENT;
-        let readable = attachment | wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST;
-        let view = |label, format, sample_count, usage| {
+        let sampled = attachment | wgpu::TextureUsages::TEXTURE_BINDING;
+        let readable = sampled | wgpu::TextureUsages::COPY_DST;
+        let view = |label, format, (width, height), sample_count, usage| {
             let texture = device.create_texture(&wgpu::TextureDescriptor {
                 label: Some(label),
                 size: wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
@@ -42,11 +50,36 @@ impl Targets {
             });
             texture.create_view(&wgpu::TextureViewDescriptor::default())
         };
+        let resolved_tile = (tile_size != size).then(|| {
+            view("resolved tile", HDR_FORMAT, tile_size, 1, attachment | wgpu::TextureUsages::COPY_SRC)
+        });
         Ok(Self {
             size,
-            color: view("light", HDR_FORMAT, SAMPLE_COUNT, attachment),
-            depth: view("depth", DEPTH_FORMAT, SAMPLE_COUNT, attachment),
-            resolved: view("resolved light", HDR_FORMAT, 1, readable),
+            color: view("light", HDR_FORMAT, tile_size, SAMPLE_COUNT, attachment),
+            depth: view("depth", DEPTH_FORMAT, tile_size, SAMPLE_COUNT, sampled),
+            resolved: view("resolved light", HDR_FORMAT, size, 1, readable),
+            resolved_tile,
+            tile_size,
         })
+    }
+
+    /// The tiles of the picture, one after another.
+    pub(super) fn tiles(&self) -> impl Iterator<Item = Tile> + use<> {
+        tiles(self.size, self.tile_size)
+    }
+
+    /// What the scene pass resolves to.
+    pub(super) fn resolve(&self) -> &wgpu::TextureView {
+        self.resolved_tile.as_ref().unwrap_or(&self.resolved)
+    }
+
+    /// Puts a tile that has been resolved into its place in the picture.
+    pub(super) fn place(&self, encoder: &mut wgpu::CommandEncoder, tile: &Tile) {
+        let Some(resolved_tile) = &self.resolved_tile else { return };
+        let mut to = self.resolved.texture().as_image_copy();
+        (to.origin.x, to.origin.y) = tile.corner;
+        let (width, height) = tile.inside;
+        let extent = wgpu::Extent3d { width, height, depth_or_array_layers: 1 };
+        encoder.copy_texture_to_texture(resolved_tile.texture().as_image_copy(), to, extent);
     }
 }

@@ -5,6 +5,7 @@
 
 use image::RgbaImage;
 use windfall_core::Scene;
+use windfall_core::scene::Focus;
 use windfall_texgen::{Atlas, AtlasEntry, AtlasRequest, Shape};
 use windfall_wgpu::{BranchColumns, LeafColumns};
 
@@ -51,7 +52,7 @@ pub(super) fn bench_with(change: impl FnOnce(&mut Scene) -> Stand) -> Bench {
     let entries = vec![entry; scene.species.len()];
     let request = AtlasRequest { entries, variants: 2, size_px: 32, seed: 1 };
     let atlas = Atlas::generate(&request).expect("an atlas");
-    let options = RendererOptions { litter_count: 0 };
+    let options = RendererOptions { litter_count: 0, tile_px: u32::MAX };
     let subject = Subject { scene: &scene, stand: &stand, atlas: &atlas };
     let renderer = Renderer::new(&device, &queue, subject, PictureTarget::FORMAT, SIZE, options)
         .expect("a renderer within default limits");
@@ -181,4 +182,45 @@ fn sizes_beyond_the_device_are_refused() {
         assert!(PictureTarget::new(&bench.device, size).is_err(), "{size:?} as a target");
     }
     assert_eq!(bench.renderer.size(), SIZE, "the renderer keeps its size");
+}
+
+#[test]
+fn tiles_join_without_a_seam() {
+    let draw = |tile_px: u32, focus: Option<Focus>| {
+        let mut bench = bench(|scene| scene.view.lens.focus = focus);
+        bench.renderer.set_tile_px(tile_px).expect("the same size");
+        bench.draw(2, 0.3, 1.5)
+    };
+    let focus = Focus { distance_m: 4.0, f_number: 1.4 };
+    for focus in [None, Some(focus)] {
+        let whole = draw(u32::MAX, focus);
+        // Five tiles across three, of which the last ones reach beyond the edge.
+        let tiled = draw(1500, focus);
+        let largest = whole.as_raw().iter().zip(tiled.as_raw()).map(|(a, b)| a.abs_diff(*b)).max();
+        let sum: u64 =
+            whole.as_raw().iter().zip(tiled.as_raw()).map(|(a, b)| u64::from(a.abs_diff(*b))).sum();
+        let mean = sum as f64 / whole.as_raw().len() as f64;
+        println!("{focus:?}: {largest:?} at most, {mean} on average");
+        assert!(mean < 0.05, "{focus:?}: {mean} of 255 apart on average");
+        let seen = differing(&whole, &tiled);
+        assert!(seen < 20, "{focus:?}: {seen} pixels differ by more than 12 of 255");
+    }
+}
+
+#[test]
+fn focus_blurs_what_is_far_from_it() {
+    let sharpness = |focus: Option<Focus>| {
+        let mut bench = bench(|scene| scene.view.lens.focus = focus);
+        let picture = bench.draw(0, 0.0, 0.0);
+        let row = |y: u32| (1..SIZE.0).map(move |x| (x, y));
+        let steps = (50..SIZE.1)
+            .flat_map(row)
+            .map(|(x, y)| u64::from(picture.get_pixel(x, y).0[1].abs_diff(picture.get_pixel(x - 1, y).0[1])));
+        steps.sum::<u64>()
+    };
+    let sharp = sharpness(None);
+    let near = sharpness(Some(Focus { distance_m: 0.2, f_number: 1.0 }));
+    let stopped_down = sharpness(Some(Focus { distance_m: 8.0, f_number: 64.0 }));
+    assert!(2 * near < sharp, "the meadow is blurred: {near} and {sharp}");
+    assert!(10 * stopped_down > 9 * sharp, "a small aperture keeps it sharp: {stopped_down} and {sharp}");
 }

@@ -4,6 +4,7 @@
 
 use std::ops::RangeInclusive;
 
+use windfall_core::scene::Lens;
 use windfall_core::{Clock, SimulatorInfo, Stats};
 
 use super::tuning::Tuning;
@@ -24,6 +25,8 @@ pub(super) enum Wish {
     Tune(Tuning),
     /// The scene's own numbers for wind and speeds.
     Untune,
+    /// Another lens.
+    Lens(Lens),
     /// Another number of leaves.
     Leaves(u32),
     /// Simulate elsewhere.
@@ -52,6 +55,7 @@ pub(super) struct Facts {
     pub(super) has_motions: bool,
     pub(super) has_regimes: bool,
     pub(super) tuning: Tuning,
+    pub(super) lens: Lens,
     /// Whether tuning differs from what the scene says.
     pub(super) is_tuned: bool,
     pub(super) time_scale: f32,

@@ -7,8 +7,24 @@ use egui::{Event, Key};
 use super::controls::Wish;
 
 /// Keys and what they do, for the panel.
-pub(super) const HELP: &str = "Drag to orbit, right-drag or Shift-drag to pan, wheel to zoom. Space pauses, . steps, \
-                               R resets, C camera, F1 hides this, Esc quits.";
+pub(super) const HELP: &str = "Drag to orbit, right-drag or Shift-drag to pan, wheel to zoom. W A S D fly, E and Q up \
+                               and down, Shift faster; Ctrl-drag, or drag while flying, to look around. Space pauses, \
+                               . steps, R resets, C camera, F1 hides this, Esc quits.";
+
+/// Where the keys held down fly to: right, up, ahead, each -1 to 1 times the speed.
+pub(super) fn flight(context: &egui::Context) -> [f32; 3] {
+    if context.egui_wants_keyboard_input() {
+        return [0.0; 3];
+    }
+    context.input(|input| {
+        let speed = if input.modifiers.shift { FAST } else { 1.0 };
+        let axis = |more, less| f32::from(input.key_down(more)) - f32::from(input.key_down(less));
+        [axis(Key::D, Key::A), axis(Key::E, Key::Q), axis(Key::W, Key::S)].map(|axis| speed * axis)
+    })
+}
+
+/// How much faster Shift flies.
+const FAST: f32 = 5.0;
 
 /// What the keys pressed since the last frame ask for.
 pub(super) fn wishes(context: &egui::Context, is_paused: bool) -> Vec<Wish> {
@@ -49,7 +65,7 @@ mod tests {
         assert_eq!(press(Key::Space, true), None, "once");
         assert_eq!(press(Key::Period, true), Some(Wish::SingleStep), "a held step goes on");
         assert_eq!(press(Key::Escape, false), Some(Wish::Quit), "Esc quits");
-        for key in ["Space", ".", "R ", "C ", "F1", "Esc"] {
+        for key in ["Space", ".", "R ", "C ", "F1", "Esc", "W A S D", "E ", "Q ", "Shift", "Ctrl"] {
             assert!(HELP.contains(key), "{key} is explained");
         }
     }

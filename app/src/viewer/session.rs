@@ -6,7 +6,7 @@ use std::ops::RangeInclusive;
 use std::time::{Duration, Instant};
 
 use windfall_core::leaf::Leaves;
-use windfall_core::scene::limits;
+use windfall_core::scene::{Lens, limits};
 use windfall_core::{Environment, Scene, SimError, Simulator, Stats, World};
 use windfall_cpu::CpuOptions;
 use windfall_wgpu::Gpu;
@@ -149,6 +149,11 @@ impl Session {
         self.environment.retune(&scene);
         self.scene = scene;
         Ok(self.backend.set_environment(&self.environment)?)
+    }
+
+    /// Takes over another lens, also for worlds to come.
+    pub(super) fn set_lens(&mut self, lens: Lens) {
+        (self.scene.view.lens, self.loaded.view.lens) = (lens, lens);
     }
 
     /// What the scene said at first.

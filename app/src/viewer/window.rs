@@ -9,6 +9,7 @@ use std::time::{Duration, Instant};
 
 use anyhow::Context;
 use windfall_core::World;
+use windfall_core::scene::camera_at;
 use windfall_wgpu::Gpu;
 use winit::event::WindowEvent;
 use winit::window::Window;
@@ -56,6 +57,8 @@ pub(super) struct Viewer {
     session: Session,
     renderer: Renderer,
     camera: Camera,
+    /// Whether the camera goes where the scene's keys say, if it has any: until the user moves it.
+    follows_path: bool,
     meter: Meter,
     message: Option<(Message, Instant)>,
     screenshot: Option<Screenshot>,
@@ -99,6 +102,7 @@ impl Viewer {
         }
         Ok(Self {
             camera: Camera::from(&scene.view.camera),
+            follows_path: true,
             instance,
             window,
             gpu,
@@ -228,9 +232,17 @@ impl Viewer {
         self.message.take_if(|(_, since)| since.elapsed() >= MESSAGE_TIME);
         let facts = self.facts()?;
         let since = Instant::now();
+        let time_s = self.session.simulator().clock().seconds();
+        if self.follows_path
+            && let Some(camera) = camera_at(&self.session.scene().view.path, time_s)
+        {
+            self.camera = Camera::from(&camera);
+        }
+        let before = self.camera;
         let Self { gui, panel, camera, window, gpu, renderer, .. } = self;
         let mut wishes = Vec::new();
         let painting = gui.run(window, gpu, |ui| wishes = panel.show(ui, &facts, camera, renderer.land()));
+        self.follows_path &= self.camera == before;
         self.meter.add(Stage::Panel, since);
         for wish in wishes {
             self.has_news = true;

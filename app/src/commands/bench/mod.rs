@@ -5,6 +5,7 @@
 
 mod bandwidth;
 mod contender;
+mod draw;
 mod frames;
 mod row;
 mod trees;
@@ -23,6 +24,7 @@ use self::bandwidth::update_bandwidth;
 use self::contender::{Approach, Contender};
 use self::frames::Stage;
 use self::row::{Floor, HEADER, Row};
+use super::render::picture_size;
 use super::scene::{check_memory, free_memory, scaled};
 use crate::backend::{BackendArguments, BackendKind, Device};
 use crate::cli::whole;
@@ -54,8 +56,16 @@ pub struct Arguments {
     steps: Option<u32>,
     #[command(flatten)]
     backend: BackendArguments,
+    /// Measure drawing instead: frames per second, a step before each, and the time that each pass takes by the
+    /// device's own clock. On a software adapter that is the processor's clock, and passes that overlap are counted
+    /// by when their last triangle was done.
+    #[arg(long)]
+    draw: bool,
+    /// Width and height of the pictures in pixels [default: 1920x1080].
+    #[arg(long, value_name = "WxH", value_parser = picture_size, requires = "draw")]
+    size: Option<(u32, u32)>,
     /// Print one JSON object per line instead of a table: first the memory's speed, then a line for each row, then one for
-    /// the trees by themselves if the scene has any.
+    /// the trees by themselves if the scene has any; with --draw a line for each number of leaves.
     #[arg(long)]
     json: bool,
 }
@@ -70,6 +80,9 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     for &leaves in &arguments.leaves {
         scenes.push(scaled(&scene, &arguments.scene, leaves)?);
         check_memory(&arguments.scene, leaves)?;
+    }
+    if arguments.draw {
+        return draw::run(&scenes, arguments);
     }
     let (approaches, gpu) = approaches(&arguments.backend)?;
     let threads = std::thread::available_parallelism().map_or(1, usize::from);

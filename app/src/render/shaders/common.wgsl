@@ -8,8 +8,8 @@ struct Frame {
     shadows: array<mat4x4<f32>, 3>,
     // Camera position; time in seconds.
     eye: vec4<f32>,
-    // Camera axes, scaled so that forward + x * right + y * up is a ray through clip position (x, y). w of right and up:
-    // where the picture's corner lies in the output, in pixels.
+    // Camera axes, scaled so that forward + x * right + y * up is a ray through place (x, y) of the whole picture's clip
+    // space.
     right: vec4<f32>,
     up: vec4<f32>,
     forward: vec4<f32>,
@@ -26,8 +26,10 @@ struct Frame {
     air: vec4<f32>,
     // Centre of the park: x, height of the ground, z; radius of the shadow map in metres.
     park: vec4<f32>,
-    // Width and height in pixels, and their reciprocals.
+    // Width and height of the whole picture in pixels, and their reciprocals.
     viewport: vec4<f32>,
+    // Middle and size, in clip coordinates of the whole picture, of the part of it that is drawn.
+    tile: vec4<f32>,
     // Edges of the texels of the shadow maps in metres.
     texels: vec4<f32>,
     // Light of the sky on white matt surfaces: coefficients of spherical harmonics.
@@ -74,6 +76,12 @@ fn ground_height(at: vec2<f32>) -> f32 {
 // Height of ground or water at a place in metres, whichever is higher.
 fn surface_height(at: vec2<f32>) -> f32 {
     return max(ground_height(at), land.shape.w);
+}
+
+// Direction, not of unit length, of what is seen at a place in clip space.
+fn view_ray(clip: vec2<f32>) -> vec3<f32> {
+    let whole = frame.tile.xy + clip * frame.tile.zw;
+    return frame.forward.xyz + whole.x * frame.right.xyz + whole.y * frame.up.xyz;
 }
 
 // Grass stands this deep below the leaves that lie on its tips, in metres.

@@ -12,7 +12,7 @@ fn vertex(@builtin(vertex_index) index: u32) -> Varyings {
     let corner = vec2(f32(index & 1u) * 4.0 - 1.0, f32(index >> 1u) * 4.0 - 1.0);
     var out: Varyings;
     out.clip = vec4(corner, 0.0, 1.0);
-    out.ray = frame.forward.xyz + corner.x * frame.right.xyz + corner.y * frame.up.xyz;
+    out.ray = view_ray(corner);
     return out;
 }
 

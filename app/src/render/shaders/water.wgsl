@@ -73,7 +73,7 @@ fn fragment(in: Varyings) -> @location(0) vec4<f32> {
     let across = normalize(frame.right.xz);
     let along = vec2(across.y, -across.x);
     let shift = vec2(dot(slope, across) / length(frame.right.xyz), dot(slope, along) / length(frame.up.xyz));
-    let place = in.clip.xy * frame.viewport.zw + shift;
+    let place = (in.clip.xy * frame.viewport.zw + shift) / frame.tile.zw;
     let image = textureSampleLevel(mirror, clamp_sampler, place, 0.0).rgb;
     // The mirrored picture has its haze already.
     return vec4(mix(haze(below, in.world), image, mirrored), 1.0);

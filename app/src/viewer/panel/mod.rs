@@ -3,6 +3,7 @@
 //! The panel beside the scene, group by group.
 
 mod leaves;
+mod lens;
 mod numbers;
 mod rows;
 pub(super) mod style;
@@ -51,7 +52,7 @@ impl Panel {
                 |ui| {
                     ScrollArea::vertical()
                         .auto_shrink(false)
-                        .show(ui, |ui| self.groups(ui, facts, &mut wishes));
+                        .show(ui, |ui| self.groups(ui, facts, camera, &mut wishes));
                 },
             );
         }
@@ -63,11 +64,12 @@ impl Panel {
         wishes
     }
 
-    fn groups(&mut self, ui: &mut Ui, facts: &Facts, wishes: &mut Vec<Wish>) {
+    fn groups(&mut self, ui: &mut Ui, facts: &Facts, camera: &mut Camera, wishes: &mut Vec<Wish>) {
         ui.label(RichText::new(&facts.scene).size(17.0).strong().color(style::TITLE));
         time::show(ui, facts, wishes);
         leaves::show(ui, facts, &mut self.leaves, wishes);
         wind::show(ui, facts, wishes);
+        lens::show(ui, facts, camera, wishes);
         numbers::backend(ui, facts, wishes);
         numbers::counts(ui, facts);
         numbers::timings(ui, facts);

@@ -29,6 +29,7 @@ fn facts(scene: &Scene) -> Facts {
         has_motions: true,
         has_regimes: scene.name == "Flight lab",
         tuning: Tuning::from(scene),
+        lens: scene.view.lens,
         is_tuned: false,
         time_scale: 1.0,
         is_paused: false,

@@ -31,7 +31,14 @@ impl Viewer {
                 self.session.step(1)?;
             }
             Wish::TogglePanel => self.panel.is_open = !self.panel.is_open,
-            Wish::ResetCamera => self.camera = Camera::from(&self.session.scene().view.camera),
+            Wish::ResetCamera => {
+                self.camera = Camera::from(&self.session.scene().view.camera);
+                self.follows_path = true;
+            }
+            Wish::Lens(lens) => {
+                self.session.set_lens(lens);
+                self.renderer.set_lens(lens);
+            }
             Wish::Quit => self.next = Next::Quit,
             Wish::Tune(tuning) => self.try_to(None, |session| session.tune(&tuning))?,
             Wish::Untune => {
@@ -104,6 +111,7 @@ impl Viewer {
             has_regimes: scene.species.iter().any(|species| species.flight != FlightModel::Synthesis),
             is_tuned: tuning != session.own_tuning(),
             tuning,
+            lens: scene.view.lens,
             time_scale: session.pace.time_scale,
             is_paused: session.pace.is_paused,
             behind: session.pace.behind(),
