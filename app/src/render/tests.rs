@@ -191,10 +191,10 @@ fn tiles_join_without_a_seam() {
         bench.renderer.set_tile_px(tile_px).expect("the same size");
         bench.draw(2, 0.3, 1.5)
     };
-    let focus = Focus { distance_m: 4.0, f_number: 1.4 };
+    let focus = Focus { distance_m: 0.5, f_number: 1.0 };
     for focus in [None, Some(focus)] {
         let whole = draw(u32::MAX, focus);
-        // Five tiles across three, of which the last ones reach beyond the edge.
+        // Tiles of 40 by 24, of which the last ones reach beyond the edge.
         let tiled = draw(1500, focus);
         let largest = whole.as_raw().iter().zip(tiled.as_raw()).map(|(a, b)| a.abs_diff(*b)).max();
         let sum: u64 =

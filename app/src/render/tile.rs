@@ -41,13 +41,21 @@ impl Tile {
     }
 }
 
-/// Size of the tiles of a picture of `size` that have at most `tile_px` pixels: halved across its longer edge until they fit.
+/// Edges of tiles are multiples of this, so that a device takes the same pixels together for its derivatives.
+const ALIGNMENT: u32 = 8;
+
+/// Size of the tiles of a picture of `size` that have at most `tile_px` pixels, or are the smallest there are: halved across
+/// their longer edge until they fit.
 pub(super) fn tile_size((width, height): (u32, u32), tile_px: u32) -> (u32, u32) {
     let (mut across, mut down) = (1, 1);
     loop {
-        let (tile_width, tile_height) = (width.div_ceil(across), height.div_ceil(down));
-        let area = u64::from(tile_width) * u64::from(tile_height);
-        if area <= u64::from(tile_px) || area == 1 {
+        let part = |edge: u32, count: u32| match count {
+            1 => edge,
+            _ => edge.div_ceil(count).next_multiple_of(ALIGNMENT).min(edge),
+        };
+        let (tile_width, tile_height) = (part(width, across), part(height, down));
+        let fits = u64::from(tile_width) * u64::from(tile_height) <= u64::from(tile_px);
+        if fits || tile_width.max(tile_height) <= ALIGNMENT {
             return (tile_width, tile_height);
         }
         if tile_width >= tile_height { across *= 2 } else { down *= 2 }
@@ -82,7 +90,7 @@ mod tests {
     #[test]
     fn tiles_cover_every_pixel_once() {
         for (size, tile_px) in
-            [((7680, 4320), 4_000_000), ((101, 37), 100), ((5, 1), 1), ((640, 360), 1 << 24)]
+            [((7680, 4320), 4_000_000), ((101, 37), 100), ((5, 1), 8), ((640, 360), 1 << 24)]
         {
             let tile_size = tile_size(size, tile_px);
             assert!(tile_size.0 * tile_size.1 <= tile_px, "{size:?}: {tile_size:?}");
