@@ -16,6 +16,7 @@ pub mod leaves;
 pub mod light;
 pub mod output;
 pub mod render;
+pub mod studio;
 pub mod terminal;
 pub mod trees;
 pub mod viewer;

@@ -8,22 +8,16 @@ use std::time::Duration;
 use anyhow::bail;
 use clap::Args;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use windfall_core::scene::{CameraKey, camera_at};
-use windfall_core::{Scene, Simulator, World};
-use windfall_wgpu::Gpu;
 
 use super::scene::SceneArguments;
 use super::sky::SkyArguments;
-use super::stepping::Stepping;
-use crate::backend::{Backend, BackendArguments};
-use crate::camera::Camera;
+use crate::backend::BackendArguments;
 use crate::cli::whole;
 use crate::drawing::Drawing;
 use crate::frame::FrameSteps;
 use crate::output::{Output, Writer};
-use crate::render::{FrameInput, PictureTarget, Renderer, RendererOptions, Subject};
-use crate::trees::Stand;
-use crate::{interrupt, leaves, terminal};
+use crate::studio::Studio;
+use crate::{interrupt, terminal};
 
 /// Largest edge of a picture in pixels.
 const MAX_EDGE: u32 = 16_384;
@@ -83,127 +77,43 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let mut writer = output.start(size, arguments.fps)?;
     let drawing = Drawing::without_window(&arguments.backend)?;
     let mut studio = Studio::new(&scene, drawing, size)?;
-    studio.film(&mut writer, steps, frames, arguments.fps)?;
+    film(&mut studio, &mut writer, steps, frames, arguments.fps)?;
     let path = writer.finish()?;
     terminal::print(&format!("{}\n", path.display()))
 }
 
-/// A simulator and a renderer of the same scene.
-struct Studio {
-    gpu: Gpu,
-    backend: Backend,
-    renderer: Renderer,
-    target: PictureTarget,
-    camera: Camera,
-    /// Keys the camera follows, if any.
-    path: Vec<CameraKey>,
-    trail_s: f64,
-    stepping: Stepping,
-    /// Steps done.
-    step: u64,
-}
-
-impl Studio {
-    fn new(scene: &Scene, drawing: Drawing, size: (u32, u32)) -> anyhow::Result<Self> {
-        let Drawing { device, gpu, reason, .. } = drawing;
-        let target = PictureTarget::new(gpu.device(), size)?;
-        let world = World::build(scene)?;
-        let backend = device.simulator(&world)?;
-        interrupt::check()?;
-        let atlas = leaves::atlas_of(scene)?;
-        let options = RendererOptions::for_scene(scene);
-        let format = PictureTarget::FORMAT;
-        let stand = Stand::of(scene, world.environment.forest());
-        let subject = Subject { scene, stand: &stand, atlas: &atlas };
-        let renderer = Renderer::new(gpu.device(), gpu.queue(), subject, format, size, options)?;
-        gpu.check()?;
-        if let Some(reason) = reason {
-            terminal::note(&reason);
-        }
-        Ok(Self {
-            gpu,
-            backend,
-            renderer,
-            target,
-            camera: Camera::from(&scene.view.camera),
-            path: scene.view.path.clone(),
-            trail_s: scene.view.trail_s.into(),
-            stepping: Stepping::default(),
-            step: 0,
-        })
-    }
-
-    /// Draws the frames that will be seen, and simulates the others.
-    fn film(&mut self, writer: &mut Writer, steps: FrameSteps, frames: u32, fps: f64) -> anyhow::Result<()> {
-        let mut drawn = None;
-        let bar = progress_bar(frames);
-        let dt_s = f64::from(self.backend.clock().dt_s());
-        let end = steps.before(frames - 1);
-        for number in 0..frames {
-            self.advance(steps.before(number))?;
-            if writer.wants(number, frames) {
-                let since = drawn.map_or(f64::INFINITY, |drawn| f64::from(number - drawn) / fps);
-                drawn = Some(number);
-                let picture = self.draw(since);
-                interrupt::check()?;
-                writer.push(&picture?)?;
-            } else {
-                writer.skip();
-                // Trails remember the frames before.
-                let ahead = end.saturating_sub(self.step);
-                if self.trail_s > 0.0 && ahead as f64 * dt_s <= self.trail_s {
-                    self.observe()?;
-                }
-            }
-            bar.inc(1);
-        }
-        bar.finish_and_clear();
-        Ok(())
-    }
-
-    /// Simulates until `step` steps are done.
-    fn advance(&mut self, step: u64) -> anyhow::Result<()> {
-        while self.step < step {
+/// Draws the frames that will be seen, and simulates the others.
+fn film(
+    studio: &mut Studio,
+    writer: &mut Writer,
+    steps: FrameSteps,
+    frames: u32,
+    fps: f64,
+) -> anyhow::Result<()> {
+    let mut drawn = None;
+    let bar = progress_bar(frames);
+    let dt_s = studio.dt_s();
+    let end = steps.before(frames - 1);
+    for number in 0..frames {
+        studio.advance(steps.before(number))?;
+        if writer.wants(number, frames) {
+            let since = drawn.map_or(f64::INFINITY, |drawn| f64::from(number - drawn) / fps);
+            drawn = Some(number);
+            let picture = studio.draw(since);
             interrupt::check()?;
-            let left = u32::try_from(step - self.step).unwrap_or(u32::MAX);
-            let batch = self.stepping.batch().min(left);
-            self.stepping.run(&mut self.backend, batch)?;
-            self.step += u64::from(batch);
+            writer.push(&picture?)?;
+        } else {
+            writer.skip();
+            // Trails remember the frames before.
+            let ahead = end.saturating_sub(studio.step());
+            if studio.trail_s() > 0.0 && ahead as f64 * dt_s <= studio.trail_s() {
+                studio.observe()?;
+            }
         }
-        Ok(())
+        bar.inc(1);
     }
-
-    /// The picture as it is `since_s` seconds of the clip after the one before.
-    fn draw(&mut self, since_s: f64) -> anyhow::Result<image::RgbaImage> {
-        let time_s = self.backend.clock().seconds();
-        let camera = camera_at(&self.path, time_s).as_ref().map_or(self.camera, Camera::from);
-        #[expect(clippy::cast_possible_truncation, reason = "a duration")]
-        let input = FrameInput { camera, time_s, since_s: since_s as f32, origin: (0, 0) };
-        let columns = self.backend.columns(&self.gpu)?;
-        let mut encoder =
-            self.gpu.device().create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-        self.renderer.draw(
-            &mut encoder,
-            &self.target.view(),
-            &columns.leaves,
-            columns.branches.as_ref(),
-            &input,
-        );
-        let picture = self.target.submit_and_read(self.gpu.device(), self.gpu.queue(), encoder);
-        // What the driver says about a failure is better than that the picture did not come.
-        self.gpu.check()?;
-        Ok(picture?)
-    }
-
-    fn observe(&mut self) -> anyhow::Result<()> {
-        let time_s = self.backend.clock().seconds();
-        let columns = self.backend.columns(&self.gpu)?;
-        let mut encoder =
-            self.gpu.device().create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-        self.renderer.observe(&mut encoder, &columns.leaves, time_s);
-        self.gpu.queue().submit([encoder.finish()]);
-        Ok(self.gpu.check()?)
-    }
+    bar.finish_and_clear();
+    Ok(())
 }
 
 /// Reads a size such as 1280x720.

@@ -1,0 +1,134 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Pictures of a scene as it goes on, without a window.
+
+use windfall_core::scene::{CameraKey, camera_at};
+use windfall_core::{Scene, Simulator, World};
+use windfall_wgpu::Gpu;
+
+use crate::backend::Backend;
+use crate::camera::Camera;
+use crate::commands::stepping::Stepping;
+use crate::drawing::Drawing;
+use crate::render::{FrameInput, PictureTarget, Renderer, RendererOptions, Subject};
+use crate::trees::Stand;
+use crate::{interrupt, leaves, terminal};
+
+/// A simulator and a renderer of the same scene.
+pub struct Studio {
+    gpu: Gpu,
+    backend: Backend,
+    renderer: Renderer,
+    target: PictureTarget,
+    camera: Camera,
+    /// Keys the camera follows, if any.
+    path: Vec<CameraKey>,
+    trail_s: f64,
+    stepping: Stepping,
+    /// Steps done.
+    step: u64,
+}
+
+impl Studio {
+    /// A studio for pictures of `size` pixels.
+    ///
+    /// # Errors
+    /// A scene, a device or a size that cannot be used.
+    pub fn new(scene: &Scene, drawing: Drawing, size: (u32, u32)) -> anyhow::Result<Self> {
+        let Drawing { device, gpu, reason, .. } = drawing;
+        let target = PictureTarget::new(gpu.device(), size)?;
+        let world = World::build(scene)?;
+        let backend = device.simulator(&world)?;
+        interrupt::check()?;
+        let atlas = leaves::atlas_of(scene)?;
+        let options = RendererOptions::for_scene(scene);
+        let format = PictureTarget::FORMAT;
+        let stand = Stand::of(scene, world.environment.forest());
+        let subject = Subject { scene, stand: &stand, atlas: &atlas };
+        let renderer = Renderer::new(gpu.device(), gpu.queue(), subject, format, size, options)?;
+        gpu.check()?;
+        if let Some(reason) = reason {
+            terminal::note(&reason);
+        }
+        Ok(Self {
+            gpu,
+            backend,
+            renderer,
+            target,
+            camera: Camera::from(&scene.view.camera),
+            path: scene.view.path.clone(),
+            trail_s: scene.view.trail_s.into(),
+            stepping: Stepping::default(),
+            step: 0,
+        })
+    }
+
+    /// Length of a step in seconds.
+    pub fn dt_s(&self) -> f64 {
+        f64::from(self.backend.clock().dt_s())
+    }
+
+    /// Steps done.
+    pub fn step(&self) -> u64 {
+        self.step
+    }
+
+    /// Length of trails in seconds.
+    pub fn trail_s(&self) -> f64 {
+        self.trail_s
+    }
+
+    /// Simulates until `step` steps are done.
+    ///
+    /// # Errors
+    /// A lost device, an interrupt.
+    pub fn advance(&mut self, step: u64) -> anyhow::Result<()> {
+        while self.step < step {
+            interrupt::check()?;
+            let left = u32::try_from(step - self.step).unwrap_or(u32::MAX);
+            let batch = self.stepping.batch().min(left);
+            self.stepping.run(&mut self.backend, batch)?;
+            self.step += u64::from(batch);
+        }
+        Ok(())
+    }
+
+    /// The picture as it is `since_s` seconds of the clip after the one before; infinite for the first.
+    ///
+    /// # Errors
+    /// A lost device.
+    pub fn draw(&mut self, since_s: f64) -> anyhow::Result<image::RgbaImage> {
+        let time_s = self.backend.clock().seconds();
+        let camera = camera_at(&self.path, time_s).as_ref().map_or(self.camera, Camera::from);
+        #[expect(clippy::cast_possible_truncation, reason = "a duration")]
+        let input = FrameInput { camera, time_s, since_s: since_s as f32, origin: (0, 0) };
+        let columns = self.backend.columns(&self.gpu)?;
+        let mut encoder =
+            self.gpu.device().create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        self.renderer.draw(
+            &mut encoder,
+            &self.target.view(),
+            &columns.leaves,
+            columns.branches.as_ref(),
+            &input,
+        );
+        let picture = self.target.submit_and_read(self.gpu.device(), self.gpu.queue(), encoder);
+        // What the driver says about a failure is better than that the picture did not come.
+        self.gpu.check()?;
+        Ok(picture?)
+    }
+
+    /// Notes where the leaves are for their trails, without drawing.
+    ///
+    /// # Errors
+    /// A lost device.
+    pub fn observe(&mut self) -> anyhow::Result<()> {
+        let time_s = self.backend.clock().seconds();
+        let columns = self.backend.columns(&self.gpu)?;
+        let mut encoder =
+            self.gpu.device().create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        self.renderer.observe(&mut encoder, &columns.leaves, time_s);
+        self.gpu.queue().submit([encoder.finish()]);
+        Ok(self.gpu.check()?)
+    }
+}

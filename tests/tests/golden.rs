@@ -1,0 +1,158 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Pictures of scenes against those in `tests/golden`, by a perceptual metric, and broken shaders, which it must notice.
+//!
+//! The metric is SSIMULACRA 2 (Cloudinary 2022): 100 is the same picture, 90 cannot be told apart side by side, 70 is what a
+//! photograph loses as a good JPEG. `scripts/bless` draws the pictures anew. A failure leaves a sheet (golden, now, what differs) in
+//! `target/tmp/golden`.
+
+use std::path::{Path, PathBuf};
+
+use image::{Rgba, RgbaImage, imageops};
+use ssimulacra2::{ColorPrimaries, Rgb, TransferCharacteristic, compute_frame_ssimulacra2};
+use windfall::backend::{BackendArguments, BackendKind};
+use windfall::drawing::Drawing;
+use windfall::render::with_shader_edit;
+use windfall::studio::Studio;
+use windfall_core::Scene;
+use windfall_core::scene::{Exposure, Focus, ToneMap};
+
+/// Size of the pictures: small, but nothing of a scene is lost.
+const SIZE: (u32, u32) = (256, 144);
+/// Lowest score of a picture that is as it was. Two software rasterisers (Mesa's llvmpipe and Chromium's SwiftShader) score
+/// @SAME@ and more against each other; the faintest of the breaks below @BROKEN@.
+const LEAST_SCORE: f64 = 80.0;
+
+/// A picture: its name, its preset and what is changed in it, and the steps before it.
+struct Case {
+    name: &'static str,
+    preset: &'static str,
+    change: fn(&mut Scene),
+    steps: u64,
+}
+
+#[rustfmt::skip]
+const CASES: [Case; 5] = [
+    Case { name: "park", preset: "autumn-park", change: |_| {}, steps: 0 },
+    Case { name: "dusk", preset: "autumn-park", change: dusk, steps: 30 },
+    Case { name: "storm", preset: "storm", change: |_| {}, steps: 120 },
+    Case { name: "motions", preset: "six-motions", change: |_| {}, steps: 90 },
+    Case { name: "focus", preset: "six-motions", change: focus, steps: 20 },
+];
+
+/// The sun low behind the trees, as Reinhard would develop it.
+fn dusk(scene: &mut Scene) {
+    scene.view.sun.elevation_deg = 5.0;
+    scene.view.sun.azimuth_deg = -95.0;
+    scene.view.lens.tone_map = ToneMap::Reinhard { white: 4.0 };
+    scene.view.lens.glare.strength = 0.08;
+}
+
+/// Sharp at the leaves and nowhere else, with exposure and gamma set by hand.
+fn focus(scene: &mut Scene) {
+    let camera = &mut scene.view.camera;
+    camera.eye_m = camera.target_m + 0.35 * (camera.eye_m - camera.target_m);
+    let distance_m = camera.eye_m.distance(camera.target_m);
+    scene.view.lens.focus = Some(Focus { distance_m, f_number: 0.5 });
+    scene.view.lens.exposure = Exposure::Manual { ev100: 14.0 };
+    scene.view.lens.tone_map = ToneMap::Linear { gamma: 2.2 };
+}
+
+impl Case {
+    fn draw(&self) -> RgbaImage {
+        let mut scene = Scene::preset(self.preset).expect("a preset");
+        (self.change)(&mut scene);
+        let arguments = BackendArguments { backend: Some(BackendKind::Cpu), ..BackendArguments::default() };
+        let drawing = Drawing::without_window(&arguments)
+            .expect("an adapter: install software Vulkan (mesa-vulkan-drivers); scripts/test does");
+        let mut studio = Studio::new(&scene, drawing, SIZE).expect("a preset can be drawn");
+        studio.advance(self.steps).expect("the cpu simulates");
+        studio.draw(f64::INFINITY).expect("a picture")
+    }
+
+    fn golden(&self) -> PathBuf {
+        Path::new(env!("CARGO_MANIFEST_DIR")).join("golden").join(format!("{}.png", self.name))
+    }
+}
+
+/// SSIMULACRA 2 of two pictures of one size.
+fn score(a: &RgbaImage, b: &RgbaImage) -> f64 {
+    let linear = |picture: &RgbaImage| {
+        let channel = |byte: u8| f32::from(byte) / 255.0;
+        let pixels = picture.pixels().map(|pixel| [0, 1, 2].map(|index| channel(pixel.0[index]))).collect();
+        let (width, height) = (SIZE.0 as usize, SIZE.1 as usize);
+        Rgb::new(pixels, width, height, TransferCharacteristic::SRGB, ColorPrimaries::BT709)
+            .expect("a picture")
+    };
+    compute_frame_ssimulacra2(linear(a), linear(b)).expect("pictures of one size")
+}
+
+/// Writes two pictures beside each other, and four times their difference.
+fn write_sheet(name: &str, old: &RgbaImage, new: &RgbaImage) -> PathBuf {
+    let mut sheet = RgbaImage::new(3 * SIZE.0, SIZE.1);
+    imageops::replace(&mut sheet, old, 0, 0);
+    imageops::replace(&mut sheet, new, SIZE.0.into(), 0);
+    for (x, y, pixel) in new.enumerate_pixels() {
+        let before = old.get_pixel(x, y).0;
+        let apart = |index: usize| pixel.0[index].abs_diff(before[index]).saturating_mul(4);
+        sheet.put_pixel(2 * SIZE.0 + x, y, Rgba([apart(0), apart(1), apart(2), 255]));
+    }
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("golden");
+    std::fs::create_dir_all(&folder).expect("the target folder is writable");
+    let path = folder.join(format!("{name}.png"));
+    sheet.save(&path).expect("the target folder is writable");
+    path
+}
+
+fn golden(case: &Case) -> Option<RgbaImage> {
+    image::open(case.golden()).ok().map(|picture| picture.to_rgba8())
+}
+
+#[test]
+fn pictures_are_as_they_were() {
+    let is_blessing = std::env::var_os("WINDFALL_BLESS").is_some();
+    let mut failures = Vec::new();
+    for case in &CASES {
+        let new = case.draw();
+        let old = golden(case).filter(|old| old.dimensions() == SIZE);
+        let found = old.as_ref().map(|old| score(old, &new));
+        println!("{}: {found:?}", case.name);
+        if is_blessing {
+            let sheet = write_sheet(case.name, old.as_ref().unwrap_or(&new), &new);
+            println!("  {}", sheet.display());
+            std::fs::create_dir_all(case.golden().parent().expect("a folder"))
+                .expect("tests/golden is writable");
+            new.save(case.golden()).expect("tests/golden is writable");
+        } else if found.is_none_or(|found| found < LEAST_SCORE) {
+            let sheet = write_sheet(case.name, old.as_ref().unwrap_or(&new), &new);
+            failures.push(format!("{} scores {found:?}: look at {}", case.name, sheet.display()));
+        }
+    }
+    assert!(failures.is_empty(), "{failures:#?}; if they are meant to be so, run scripts/bless");
+}
+
+/// What is broken, in which picture, and how.
+#[rustfmt::skip]
+const BREAKS: [(&str, usize, &str, &str); 8] = [
+    ("sunlight is blue", 0, "frame.sun_color.rgb", "frame.sun_color.bgr"),
+    ("leaves face the other way", 0, "let facing = dot(normal, light);", "let facing = dot(-normal, light);"),
+    ("leaves are whole squares", 0, "return vec4(haze(color, in.world), alpha);", "return vec4(haze(color, in.world), 1.0);"),
+    ("no ambient light", 0, "return max(sum, vec3(0.0));", "return vec3(0.0);"),
+    ("the picture is a third of a stop too bright", 0, "lens.key * exp2(", "1.26 * lens.key * exp2("),
+    ("the filmic curve has too much contrast", 0, "const STOPS: f32 = 16.5;", "const STOPS: f32 = 14.0;"),
+    ("Reinhard without white", 1, "(1.0 + bright / (white * white))", "1.0"),
+    ("glare four times too strong", 1, "color += lens.strength *", "color += 4.0 * lens.strength *"),
+];
+
+#[test]
+fn broken_shaders_are_noticed() {
+    let whole: Vec<RgbaImage> = CASES[..2].iter().map(Case::draw).collect();
+    for (name, case, from, to) in BREAKS {
+        let broken = with_shader_edit(from, to, || CASES[case].draw());
+        let found = score(&whole[case], &broken);
+        println!("{name}: {found}");
+        assert!(found < LEAST_SCORE, "{name}: {found} is no worse than {LEAST_SCORE}");
+    }
+    let again = CASES[0].draw();
+    assert_eq!(whole[0], again, "whole shaders draw the same picture again");
+}
