@@ -177,7 +177,8 @@ mod tests {
         let environment = Environment::new(&View::default(), Vec3::ZERO, PATH).expect("no picture of a sky");
         let camera = Camera::from(&scene::Camera::default());
         let input = FrameInput { camera, time_s: 0.0, since_s: f32::INFINITY, origin: (0, 0) };
-        let frame = environment.frame(&input, 0.0, (640, 360));
+        let tile = tiles((640, 360), (640, 360)).next().expect("a tile");
+        let frame = environment.frame(&input, 0.0, (640, 360), &tile);
         let water_m = 0.3;
         let mirrored = frame.mirrored(water_m);
         let plain = Mat4::from_cols_array_2d(&frame.view_projection);
