@@ -134,25 +134,26 @@ fn pictures_are_as_they_were() {
 /// What is broken, in which picture, and how.
 #[rustfmt::skip]
 const BREAKS: [(&str, usize, &str, &str); 8] = [
-    ("sunlight is blue", 0, "frame.sun_color.rgb", "frame.sun_color.bgr"),
-    ("leaves face the other way", 0, "let facing = dot(normal, light);", "let facing = dot(-normal, light);"),
-    ("leaves are whole squares", 0, "return vec4(haze(color, in.world), alpha);", "return vec4(haze(color, in.world), 1.0);"),
-    ("no ambient light", 0, "return max(sum, vec3(0.0));", "return vec3(0.0);"),
-    ("the picture is a third of a stop too bright", 0, "lens.key * exp2(", "1.26 * lens.key * exp2("),
-    ("the filmic curve has too much contrast", 0, "const STOPS: f32 = 16.5;", "const STOPS: f32 = 14.0;"),
+    ("sunlight is blue", 2, "frame.sun_color.rgb", "frame.sun_color.bgr"),
+    ("leaves face the other way", 2, "let facing = dot(normal, light);", "let facing = dot(-normal, light);"),
+    ("leaves are whole squares", 2, "return vec4(haze(color, in.world), alpha);", "return vec4(haze(color, in.world), 1.0);"),
+    ("no ambient light", 2, "return max(sum, vec3(0.0));", "return vec3(0.0);"),
+    ("the picture is a third of a stop too bright", 2, "lens.key * exp2(", "1.26 * lens.key * exp2("),
+    ("the filmic curve has too much contrast", 2, "const STOPS: f32 = 16.5;", "const STOPS: f32 = 14.0;"),
     ("Reinhard without white", 1, "(1.0 + bright / (white * white))", "1.0"),
     ("glare four times too strong", 1, "color += lens.strength *", "color += 4.0 * lens.strength *"),
 ];
 
 #[test]
 fn broken_shaders_are_noticed() {
-    let whole: Vec<RgbaImage> = CASES[..2].iter().map(Case::draw).collect();
+    let whole = [1, 2].map(|case| (case, CASES[case].draw()));
     for (name, case, from, to) in BREAKS {
         let broken = with_shader_edit(from, to, || CASES[case].draw());
-        let found = score(&whole[case], &broken);
+        let (_, right) = whole.iter().find(|(number, _)| *number == case).expect("drawn above");
+        let found = score(right, &broken);
         println!("{name}: {found}");
         assert!(found < LEAST_SCORE, "{name}: {found} is no worse than {LEAST_SCORE}");
     }
-    let again = CASES[0].draw();
-    assert_eq!(whole[0], again, "whole shaders draw the same picture again");
+    let again = CASES[2].draw();
+    assert!(whole[1].1 == again, "whole shaders draw the same picture again");
 }
