@@ -2,12 +2,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Requests for leaf textures and the textures themselves.
 
-use glam::Vec2;
-use image::RgbaImage;
-
 use crate::paint::{Leaf, paint};
 use crate::rng::Rng;
-use crate::{Shape, TexgenError, bleed, mipmap};
+use crate::{Layer, Shape, TexgenError, bleed};
 
 /// What to draw.
 #[derive(Clone, Debug, PartialEq)]
@@ -40,17 +37,6 @@ pub struct Atlas {
     pub variants: u32,
     /// All leaves: entry `e`, variant `v` is layer `e * variants + v`.
     pub layers: Vec<Layer>,
-}
-
-/// One leaf: upright, petiole at the bottom, straight alpha, sRGB colour that runs on past the edge.
-#[derive(Clone, Debug)]
-pub struct Layer {
-    /// Mip levels from full size down to one texel.
-    pub mips: Vec<RgbaImage>,
-    /// Share of the square that the leaf covers, petiole included.
-    pub area_fraction: f32,
-    /// Centre of the covered area: x to the right and y down, as shares of the square.
-    pub centre: Vec2,
 }
 
 impl Default for AtlasRequest {
@@ -106,7 +92,9 @@ impl Atlas {
             for (variant, stratum) in strata.into_iter().enumerate() {
                 let rng = entry_seed.fork(variant as u64);
                 let season = entry.season_of(stratum, request.variants, &mut rng.fork(0));
-                layers.push(Layer::draw(entry.shape, season, request.size_px, &rng));
+                let mut image = paint(&Leaf { shape: entry.shape, season, size_px: request.size_px }, &rng);
+                bleed::bleed(&mut image);
+                layers.push(Layer::from_picture(image));
             }
         }
         Ok(Self { size_px: request.size_px, variants: request.variants, layers })
@@ -122,42 +110,6 @@ impl AtlasEntry {
     }
 }
 
-impl Layer {
-    /// Draws one leaf.
-    fn draw(shape: Shape, season: f32, size_px: u32, rng: &Rng) -> Self {
-        let mut image = paint(&Leaf { shape, season, size_px }, rng);
-        bleed::bleed(&mut image);
-        Self::from_picture(image)
-    }
-
-    /// A layer from a square picture whose side is a power of two and whose colour runs on past the edge, such as
-    /// [`LeafMaps::albedo`](crate::LeafMaps::albedo).
-    ///
-    /// # Panics
-    /// If the picture is not square or its side no power of two.
-    pub fn from_picture(image: RgbaImage) -> Self {
-        let size_px = image.width();
-        assert!(size_px.is_power_of_two() && image.height() == size_px, "square, a power of two a side");
-        let (mut covered, mut moment) = (0.0_f64, [0.0_f64; 2]);
-        for (x, y, texel) in image.enumerate_pixels() {
-            let alpha = f64::from(texel[3]) / 255.0;
-            covered += alpha;
-            moment[0] += alpha * (f64::from(x) + 0.5);
-            moment[1] += alpha * (f64::from(y) + 0.5);
-        }
-        let side = f64::from(size_px);
-        #[expect(clippy::cast_possible_truncation, reason = "shares of the square lose nothing that matters")]
-        let share = |x: f64| x as f32;
-        let centre = moment.map(|m| share(m / covered.max(1.0) / side));
-        Self {
-            mips: mipmap::chain(image),
-            area_fraction: share(covered / (side * side)),
-            centre: centre.into(),
-        }
-    }
-}
-
-/// 0 to `count` - 1 in random order, so that neighbouring layers differ in season.
 fn shuffled(count: u32, rng: &mut Rng) -> Vec<u32> {
     let mut order: Vec<u32> = (0..count).collect();
     for last in (1..order.len()).rev() {
@@ -169,6 +121,9 @@ fn shuffled(count: u32, rng: &mut Rng) -> Vec<u32> {
 
 #[cfg(test)]
 mod tests {
+    use glam::Vec2;
+    use image::RgbaImage;
+
     use super::*;
     use crate::mipmap::covered_share;
     use proptest::prelude::{ProptestConfig, any, prop_assert, prop_assert_eq, proptest};

@@ -28,6 +28,7 @@ mod folder;
 pub mod form;
 pub mod growth;
 mod lab;
+mod layer;
 mod light_body;
 mod making;
 mod maps;
@@ -48,7 +49,7 @@ mod vein_graph;
 mod veins;
 mod warp;
 
-pub use atlas::{Atlas, AtlasEntry, AtlasRequest, Layer};
+pub use atlas::{Atlas, AtlasEntry, AtlasRequest};
 pub use blade::{Blade, Mask};
 pub use compare::{
     ComparedLeaf, Comparison, Distances, Levels, Measured, Metric, Variety, leaf_pictures,
@@ -61,6 +62,7 @@ pub use folder::{
     BodyFacts, FOLDER_VERSION, FolderError, FolderLeaf, FormLevel, FormShape, LeafFacts, LeafFolder,
     LeafForm, MANIFEST_NAME, Manifest,
 };
+pub use layer::Layer;
 pub use light_body::LightBody;
 pub use making::{Assortment, Build, LeafMaker, MadeLeaf, MakeOptions, RECIPE};
 pub use maps::LeafMaps;

@@ -45,6 +45,25 @@ pub(crate) fn chain(base: RgbaImage) -> Vec<RgbaImage> {
     levels
 }
 
+/// All levels of a square picture of plain numbers whose side is a power of two, each the average of four.
+pub(crate) fn plain_chain(base: RgbaImage) -> Vec<RgbaImage> {
+    let mut levels = vec![base];
+    while let Some(fine) = levels.last().filter(|level| level.width() > 1) {
+        let half = fine.width() / 2;
+        let coarse = RgbaImage::from_fn(half, half, |x, y| {
+            let sum = |channel: usize| {
+                [(0, 0), (1, 0), (0, 1), (1, 1)]
+                    .map(|(right, down)| u32::from(fine.get_pixel(2 * x + right, 2 * y + down)[channel]))
+                    .iter()
+                    .sum::<u32>()
+            };
+            image::Rgba(std::array::from_fn(|channel| u8::try_from((sum(channel) + 2) / 4).unwrap_or(u8::MAX)))
+        });
+        levels.push(coarse);
+    }
+    levels
+}
+
 /// Share of texels that count as covered.
 pub(crate) fn covered_share(image: &RgbaImage) -> f32 {
     let covered = image.pixels().filter(|texel| texel[3] >= COVERED).count();
@@ -142,6 +161,14 @@ mod tests {
             [188, 188, 188, 255],
             "half of the light is sRGB 188"
         );
+    }
+
+    #[test]
+    fn plain_numbers_keep_their_mean() {
+        let ramp = RgbaImage::from_fn(4, 4, |x, y| Rgba([u8::try_from(16 * x).expect("small"), u8::try_from(60 * y).expect("small"), 7, 255]));
+        let levels = plain_chain(ramp);
+        assert_eq!(levels.iter().map(RgbaImage::width).collect::<Vec<_>>(), [4, 2, 1], "halved to one texel");
+        assert_eq!(levels[2].get_pixel(0, 0).0, [24, 90, 7, 255], "the mean of each channel");
     }
 
     #[test]

@@ -20,9 +20,9 @@ const VISIBILITY_DEPTH: f32 = 3.912;
 #[repr(C)]
 #[derive(Clone, Copy, Debug, bytemuck::Pod, bytemuck::Zeroable)]
 pub(super) struct FrameUniform {
-    view_projection: [[f32; 4]; 4],
-    shadows: [[[f32; 4]; 4]; CASCADES],
-    eye: [f32; 4],
+    pub(super) view_projection: [[f32; 4]; 4],
+    pub(super) shadows: [[[f32; 4]; 4]; CASCADES],
+    pub(super) eye: [f32; 4],
     right: [f32; 4],
     up: [f32; 4],
     forward: [f32; 4],

@@ -1,30 +1,40 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What the shaders know of the species: sizes, and the texture array of leaf pictures.
+//! What the shaders know of the species: sizes, the texture arrays of leaf pictures and surfaces, and meshes.
 
+use image::RgbaImage;
 use windfall_core::Scene;
 use windfall_core::scene::{FlightModel, LeafShape, MAX_SPECIES, Species};
 use windfall_texgen::{Atlas, Layer};
 
-use super::pipeline::{FILTERABLE, sampler_entry, texture_entry, uniform_entry};
+use super::leaf_forms::{LEVELS, LeafForms, STAGES, two_shares};
+use super::pipeline::{FILTERABLE, buffer_entry, sampler_entry, texture_entry, uniform_entry};
 use super::{RenderError, upload};
 
 /// Most leaf pictures: what the uniform block of the species holds.
 pub const MAX_LAYERS: usize = 512;
-/// `Kinds` of `leaf_shape.wgsl`.
+/// Leaves are mostly seen at a slant.
+const ANISOTROPY: u16 = 4;
+/// Stages that the greenest leaf has dried, and the brownest has besides.
+const DRY_STAGES: [f32; 2] = [0.5, 2.7];
+
+/// `Kinds` of `leaf_kinds.wgsl`.
 #[repr(C)]
 #[derive(Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
 struct Kinds {
     size: [[f32; 4]; MAX_SPECIES],
     layer: [[f32; 4]; MAX_LAYERS],
+    heights: [[u32; 8]; MAX_LAYERS],
     counts: [u32; 4],
+    strips: [u32; LEVELS],
 }
 
-/// Bind group of the species, shared by the leaf and the shadow pass.
+/// Bind group of the species, shared by the leaf and the shadow passes; the culling takes only the uniform block.
 #[derive(Debug)]
 pub(super) struct LeafKinds {
     pub(super) layout: wgpu::BindGroupLayout,
     pub(super) group: wgpu::BindGroup,
+    pub(super) uniform: wgpu::Buffer,
 }
 
 impl LeafKinds {
@@ -35,51 +45,69 @@ impl LeafKinds {
         atlas: &Atlas,
     ) -> Result<Self, RenderError> {
         check(scene, atlas, device.limits().max_texture_array_layers)?;
+        let read = wgpu::BufferBindingType::Storage { read_only: true };
         let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
             label: Some("leaf kinds"),
             entries: &[
                 uniform_entry(0),
                 texture_entry(1, FILTERABLE, wgpu::TextureViewDimension::D2Array),
                 sampler_entry(2, wgpu::SamplerBindingType::Filtering),
+                texture_entry(3, FILTERABLE, wgpu::TextureViewDimension::D2Array),
+                buffer_entry(4, read, wgpu::ShaderStages::VERTEX),
+                buffer_entry(5, read, wgpu::ShaderStages::VERTEX),
+                buffer_entry(6, read, wgpu::ShaderStages::VERTEX),
             ],
         });
-        let mips: Vec<Vec<&[u8]>> = atlas
-            .layers
-            .iter()
-            .map(|layer| layer.mips.iter().map(|mip| mip.as_raw().as_slice()).collect())
-            .collect();
-        let format = wgpu::TextureFormat::Rgba8UnormSrgb;
-        let view = upload::texture_array(device, queue, "leaf images", format, atlas.size_px, &mips);
+        let array = |label, format, mips: fn(&Layer) -> &Vec<RgbaImage>| {
+            let bytes = |layer| mips(layer).iter().map(|mip| mip.as_raw().as_slice()).collect();
+            let layers: Vec<Vec<&[u8]>> = atlas.layers.iter().map(bytes).collect();
+            upload::texture_array(device, queue, label, format, atlas.size_px, &layers)
+        };
+        let view = array("leaf images", wgpu::TextureFormat::Rgba8UnormSrgb, |layer| &layer.mips);
+        let surfaces = array("leaf surfaces", wgpu::TextureFormat::Rgba8Unorm, |layer| &layer.surface);
+        let forms = LeafForms::new(atlas);
+        let storage =
+            |label, bytes: &[u8]| upload::buffer(device, queue, label, wgpu::BufferUsages::STORAGE, bytes);
+        let corners = storage("leaf corners", bytemuck::cast_slice(&forms.corners));
+        let strips = storage("leaf strips", bytemuck::cast_slice(&forms.strips));
+        let meshes = storage("leaf meshes", bytemuck::cast_slice(&forms.meshes));
         let sampler = device.create_sampler(&wgpu::SamplerDescriptor {
             mag_filter: wgpu::FilterMode::Linear,
             min_filter: wgpu::FilterMode::Linear,
             mipmap_filter: wgpu::MipmapFilterMode::Linear,
+            anisotropy_clamp: ANISOTROPY,
             ..Default::default()
         });
-        let buffer = upload::buffer(
+        let uniform = upload::buffer(
             device,
             queue,
             "leaf kinds",
             wgpu::BufferUsages::UNIFORM,
-            bytemuck::bytes_of(&kinds(scene, atlas)),
+            bytemuck::bytes_of(&kinds(scene, atlas, &forms)),
         );
         let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some("leaf kinds"),
             layout: &layout,
             entries: &[
-                wgpu::BindGroupEntry { binding: 0, resource: buffer.as_entire_binding() },
+                wgpu::BindGroupEntry { binding: 0, resource: uniform.as_entire_binding() },
                 wgpu::BindGroupEntry { binding: 1, resource: wgpu::BindingResource::TextureView(&view) },
                 wgpu::BindGroupEntry { binding: 2, resource: wgpu::BindingResource::Sampler(&sampler) },
+                wgpu::BindGroupEntry { binding: 3, resource: wgpu::BindingResource::TextureView(&surfaces) },
+                wgpu::BindGroupEntry { binding: 4, resource: corners.as_entire_binding() },
+                wgpu::BindGroupEntry { binding: 5, resource: strips.as_entire_binding() },
+                wgpu::BindGroupEntry { binding: 6, resource: meshes.as_entire_binding() },
             ],
         });
-        Ok(Self { layout, group })
+        Ok(Self { layout, group, uniform })
     }
 }
 
-fn kinds(scene: &Scene, atlas: &Atlas) -> Kinds {
+fn kinds(scene: &Scene, atlas: &Atlas, forms: &LeafForms) -> Kinds {
     let mut kinds = Kinds {
         size: [[0.0; 4]; MAX_SPECIES],
         layer: [[0.0; 4]; MAX_LAYERS],
+        heights: [[0; 8]; MAX_LAYERS],
+        strips: forms.longest,
         counts: [atlas.variants, u32::try_from(atlas.layers.len()).unwrap_or(u32::MAX), 0, 0],
     };
     for (slot, species) in kinds.size.iter_mut().zip(&scene.species) {
@@ -88,7 +116,12 @@ fn kinds(scene: &Scene, atlas: &Atlas) -> Kinds {
     for (slot, layer) in kinds.layer.iter_mut().zip(&atlas.layers) {
         // pi / 4 d^2 = area fraction * edge^2
         let edge = (std::f32::consts::FRAC_PI_4 / layer.area_fraction).sqrt();
-        *slot = [edge, 1.0 - 2.0 * layer.centre.x, 1.0 - 2.0 * layer.centre.y, 0.0];
+        *slot = [edge, dryness(layer), 0.0, 0.0];
+    }
+    for (slot, heights) in kinds.heights.iter_mut().zip(&forms.heights) {
+        for (word, [low, high]) in slot.iter_mut().zip(heights) {
+            *word = two_shares(*low, *high);
+        }
     }
     let variants = (atlas.variants as usize).max(1);
     for (slots, layers) in kinds.layer.chunks_mut(variants).zip(atlas.layers.chunks(variants)) {
@@ -116,6 +149,14 @@ fn build(species: &Species) -> [f32; 4] {
         _ => 1.0,
     };
     [species.size_m, -0.5 * right, -0.5 * ahead, folds]
+}
+
+/// Mean stage of drying of a leaf; -1 for what has no shapes of it.
+fn dryness(layer: &Layer) -> f32 {
+    let [fresh, more] = DRY_STAGES;
+    let is_drying = layer.form.levels.iter().any(|level| !level.shapes.is_empty());
+    let season = layer.season.unwrap_or(0.5);
+    if is_drying { (fresh + more * season).min(STAGES as f32) } else { -1.0 }
 }
 
 /// How far a leaf has turned, from its colour: green is below 0, yellow about 0.1, red and brown above.
@@ -164,7 +205,7 @@ mod tests {
     fn blade_has_the_area_the_species_says() {
         let scene = Scene::default();
         let atlas = small_atlas(&scene);
-        let kinds = kinds(&scene, &atlas);
+        let kinds = kinds(&scene, &atlas, &LeafForms::new(&atlas));
         let edge_m = kinds.size[0][0] * kinds.layer[1][0];
         let area = atlas.layers[1].area_fraction * edge_m * edge_m;
         let disc = std::f32::consts::FRAC_PI_4 * scene.species[0].size_m.powi(2);

@@ -2,17 +2,19 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Draws leaves: instanced, cut out by coverage, in any order.
 
-use super::bark_pass::STEM;
 use super::frame::FrameGroup;
+use super::leaf_crowd::LeafCrowd;
+use super::leaf_cull::CullPass;
 use super::leaf_kinds::LeafKinds;
-use super::leaf_record::record_constants;
-use super::leaf_set::{LeafDetail, LeafMeshes, LeafSet, draw_leaves, vertex_layouts};
 use super::light_group::LightGroup;
 use super::pipeline::{COMMON, LIGHT, ScenePipeline, shader};
-use super::stems::Stems;
 
-/// WGSL from leaf columns to points on blades.
-pub(super) const LEAF_SHAPE: &str = include_str!("shaders/leaf_shape.wgsl");
+/// WGSL from the records of leaves to points on blades; uses bind groups 2 and 3.
+pub(super) const LEAF_SHAPE: [&str; 3] = [
+    include_str!("shaders/leaf_kinds.wgsl"),
+    include_str!("shaders/leaf_record.wgsl"),
+    include_str!("shaders/leaf_shape.wgsl"),
+];
 
 /// The leaf pipeline.
 #[derive(Debug)]
@@ -26,15 +28,17 @@ impl LeafPass {
         frame: &FrameGroup,
         light: &LightGroup,
         kinds: &LeafKinds,
+        cull: &CullPass,
     ) -> Self {
-        let text = [COMMON, LIGHT, STEM, &record_constants(), LEAF_SHAPE, include_str!("shaders/leaf.wgsl")];
+        let [kind, record, shape] = LEAF_SHAPE;
+        let text = [COMMON, LIGHT, kind, record, shape, include_str!("shaders/leaf.wgsl")];
         let shader = shader(device, "leaf", &text);
         let pipeline = ScenePipeline {
             label: "leaves",
-            groups: &[Some(&frame.layout), Some(&light.layout), Some(&kinds.layout)],
-            topology: wgpu::PrimitiveTopology::TriangleList,
+            groups: &[Some(&frame.layout), Some(&light.layout), Some(&kinds.layout), Some(&cull.records_layout)],
+            topology: wgpu::PrimitiveTopology::TriangleStrip,
             shader: &shader,
-            buffers: &vertex_layouts(),
+            buffers: &[LeafCrowd::layout()],
             blend: None,
             depth_write: true,
             alpha_to_coverage: true,
@@ -43,19 +47,17 @@ impl LeafPass {
         Self { pipeline }
     }
 
-    /// Draws sets of leaves; bind groups 0 and 1 are set.
-    pub(super) fn draw(
+    /// Draws crowds of leaves as the camera's culling left them; bind groups 0 and 1 are set.
+    pub(super) fn draw<'a>(
         &self,
         pass: &mut wgpu::RenderPass<'_>,
         kinds: &LeafKinds,
-        sets: &[LeafSet<'_>],
-        stems: &Stems,
-        meshes: &LeafMeshes,
+        crowds: impl Iterator<Item = &'a LeafCrowd>,
     ) {
         pass.set_pipeline(&self.pipeline);
         pass.set_bind_group(2, &kinds.group, &[]);
-        for set in sets {
-            draw_leaves(pass, set, stems, meshes, LeafDetail::Own);
+        for crowd in crowds {
+            crowd.draw(pass);
         }
     }
 }

@@ -36,7 +36,7 @@ impl Litter {
         let count = count.min(MAX_LITTER);
         let columns = scatter(count, species_count, land, center, trees);
         let column =
-            |bytes: &[u8]| upload::buffer(device, queue, "litter", wgpu::BufferUsages::VERTEX, bytes);
+            |bytes: &[u8]| upload::buffer(device, queue, "litter", wgpu::BufferUsages::STORAGE, bytes);
         (count > 0).then(|| Self {
             place: column(bytemuck::cast_slice(&columns.place)),
             attitude: column(bytemuck::cast_slice(&columns.attitude)),

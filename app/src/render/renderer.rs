@@ -12,14 +12,16 @@ use super::RenderError;
 use super::bark_mesh::StandMesh;
 use super::bark_pass::BarkPass;
 use super::branch_group::BranchGroup;
-use super::environment::{Environment, Path};
+use super::cascades::SHADOW_SIZE;
+use super::environment::{Environment, FrameUniform, Path};
 use super::frame::FrameGroup;
 use super::fruit_pass::FruitPass;
 use super::grass_pass::GrassPass;
 use super::ground_pass::GroundPass;
+use super::leaf_crowd::LeafCrowd;
+use super::leaf_cull::{CullPass, View as LeafView, ViewUniform};
 use super::leaf_kinds::LeafKinds;
 use super::leaf_pass::LeafPass;
-use super::leaf_set::{LeafMeshes, LeafPart, LeafSet};
 use super::lens_group::Shot;
 use super::light_group::LightGroup;
 use super::litter::Litter;
@@ -110,8 +112,6 @@ pub struct Renderer {
     environment: Environment,
     land: Land,
     leaf_count: u32,
-    /// Where the scene's own camera stands.
-    eye_m: Vec3,
     targets: Targets,
     tile_px: u32,
     frame: FrameGroup,
@@ -119,10 +119,10 @@ pub struct Renderer {
     kinds: LeafKinds,
     trees: Trees,
     litter: Option<Litter>,
-    litter_parts: [LeafPart; 1],
-    leaf_parts: Vec<LeafPart>,
+    litter_crowd: LeafCrowd,
+    leaf_crowd: LeafCrowd,
     stems: Stems,
-    leaf_meshes: LeafMeshes,
+    cull: CullPass,
     bark: StandMesh,
     branches: BranchGroup,
     shadow_pass: ShadowPass,
@@ -169,7 +169,8 @@ impl Renderer {
         let own = own_trees(stand, scene.autumn > 0.0);
         let trees = Trees::new(device, queue, (&planted, leaves), &own);
         let branches = BranchGroup::new(device, queue, stand);
-        let shadow_pass = ShadowPass::new(device, &frame, &kinds, &branches);
+        let cull = CullPass::new(device, &frame, &kinds);
+        let shadow_pass = ShadowPass::new(device, &frame, &kinds, &cull, &branches);
         let shade_pass = ShadePass::new(device, &frame, &trees);
         let environment = Environment::new(&scene.view, center, Path { lead: level, phase: path_phase })?;
         let light = LightGroup::new(device, queue, &shadow_pass.maps, &shade_pass.map, &environment.daylight);
@@ -181,15 +182,13 @@ impl Renderer {
             queue: queue.clone(),
             environment,
             leaf_count: scene.leaf_count(),
-            eye_m,
             litter: Litter::new(device, queue, options.litter_count, species_count, &land, center, &shedding),
-            litter_parts: [LeafPart::loose(0..options.litter_count)],
-            leaf_parts: LeafPart::of_world(stand, scene.leaf_count(), eye_m),
+            litter_crowd: LeafCrowd::new(device, queue, &cull, &Stand::default(), options.litter_count),
+            leaf_crowd: LeafCrowd::new(device, queue, &cull, stand, scene.leaf_count()),
             stems: Stems::new(device, queue, stand),
-            leaf_meshes: LeafMeshes::new(device, queue, stand),
             bark: StandMesh::new(device, queue, stand, eye_m),
             bark_pass: BarkPass::new(device, &frame, &light, &branches),
-            leaf_pass: LeafPass::new(device, &frame, &light, &kinds),
+            leaf_pass: LeafPass::new(device, &frame, &light, &kinds, &cull),
             fruit_pass: FruitPass::new(device, queue, &frame, &light, &branches, stand),
             grass_pass: GrassPass::new(device, &frame, &light),
             ground_pass: GroundPass::new(device, queue, &frame, &light, &land),
@@ -206,6 +205,7 @@ impl Renderer {
             frame,
             light,
             kinds,
+            cull,
             trees,
             branches,
             shadow_pass,
@@ -272,8 +272,7 @@ impl Renderer {
     pub fn update_leaves(&mut self, stand: &Stand, leaf_count: u32) {
         self.leaf_count = leaf_count;
         self.stems = Stems::new(&self.device, &self.queue, stand);
-        self.leaf_meshes = LeafMeshes::new(&self.device, &self.queue, stand);
-        self.leaf_parts = LeafPart::of_world(stand, leaf_count, self.eye_m);
+        self.leaf_crowd = LeafCrowd::new(&self.device, &self.queue, &self.cull, stand, leaf_count);
         self.make_trails(self.trail_pass.as_ref().map_or(0.0, TrailPass::trail_s));
     }
 
@@ -342,21 +341,17 @@ impl Renderer {
         if let Some(water) = &mut self.water_pass {
             water.prepare(&self.device, &self.queue, frame, self.targets.tile_size);
         }
+        self.write_views(&frame, &input.camera);
         self.grass_pass.prepare(&self.queue, &input.camera, width as f32 / height as f32, &self.land);
         if self.shade_is_old {
             self.shade_pass.draw(encoder, &self.frame, &self.trees);
             self.shade_is_old = false;
         }
-        let litter = self.litter.as_ref().map(Litter::columns);
-        let litter = litter.map(|columns| LeafSet { columns, parts: &self.litter_parts });
-        let leaves = LeafSet { columns: *leaves, parts: &self.leaf_parts };
-        let sets: Vec<LeafSet<'_>> = std::iter::once(leaves).chain(litter).collect();
+        let crowds = [&self.leaf_crowd, &self.litter_crowd];
         let group = self.branches.bind(&self.device, branches);
         let casters = Casters {
             kinds: &self.kinds,
-            sets: &sets,
-            meshes: &self.leaf_meshes,
-            stems: &self.stems,
+            crowds: &crowds,
             bark: &self.bark,
             branches: &group,
         };
@@ -364,9 +359,16 @@ impl Renderer {
         let timer = self.timer.as_ref().filter(|_| tile.left == 0);
         let writes = |pass| timer.map(|timer| timer.render_writes(pass));
         let shadow_writes = timer.map(|timer| timer.split_writes(0));
-        self.shadow_pass.draw(encoder, shadow_writes, &self.frame, &casters);
-        self.draw_mirror(encoder, &sets, &group);
-        self.draw_scene(encoder, writes(1), &sets, &group);
+        let cull_for = |encoder: &mut wgpu::CommandEncoder, cascade| {
+            self.cull_leaves(encoder, leaves, LeafView::Shadow(cascade));
+        };
+        self.shadow_pass.draw(encoder, shadow_writes, &self.frame, &casters, &cull_for);
+        if self.water_pass.is_some() {
+            self.cull_leaves(encoder, leaves, LeafView::Mirror);
+        }
+        self.draw_mirror(encoder, &group);
+        self.cull_leaves(encoder, leaves, LeafView::Camera);
+        self.draw_scene(encoder, writes(1), leaves.leaf_count, &group);
         self.targets.place(encoder, tile);
         self.post.take_tile(&self.queue, encoder, tile);
     }
@@ -389,28 +391,49 @@ impl Renderer {
     }
 
     /// Draws what the water mirrors; grass is too low to be seen in it.
-    fn draw_mirror(
-        &self,
-        encoder: &mut wgpu::CommandEncoder,
-        sets: &[LeafSet<'_>],
-        branches: &wgpu::BindGroup,
-    ) {
+    fn draw_mirror(&self, encoder: &mut wgpu::CommandEncoder, branches: &wgpu::BindGroup) {
         let Some(water) = &self.water_pass else { return };
         let Some(targets) = water.targets() else { return };
         let mut pass = begin_scene(encoder, targets, None);
         pass.set_bind_group(0, &water.frame.group, &[]);
         pass.set_bind_group(1, &self.light.group, &[]);
-        self.draw_stand(&mut pass, sets, branches);
+        self.draw_stand(&mut pass, branches);
         self.ground_pass.draw(&mut pass);
         self.tree_pass.draw(&mut pass, &self.trees);
         self.sky_pass.draw(&mut pass);
     }
 
     /// Draws the scene's own trees and all leaves; bind groups 0 and 1 are set.
-    fn draw_stand(&self, pass: &mut wgpu::RenderPass<'_>, sets: &[LeafSet<'_>], branches: &wgpu::BindGroup) {
+    fn draw_stand(&self, pass: &mut wgpu::RenderPass<'_>, branches: &wgpu::BindGroup) {
         self.bark_pass.draw(pass, branches, &self.bark, &self.stems);
-        self.leaf_pass.draw(pass, &self.kinds, sets, &self.stems, &self.leaf_meshes);
+        self.leaf_pass.draw(pass, &self.kinds, [&self.leaf_crowd, &self.litter_crowd].into_iter());
         self.fruit_pass.draw(pass, branches);
+    }
+
+    /// Tells the culling what each view of a frame sees.
+    fn write_views(&self, uniform: &FrameUniform, camera: &Camera) {
+        let height_px = self.targets.size.1 as f32;
+        let pixels_per_m = 0.5 * height_px / (0.5 * camera.vertical_fov_rad).tan();
+        let seen = |frame: &FrameUniform| ViewUniform::perspective(frame.view_projection, frame.eye, pixels_per_m);
+        self.cull.write(&self.queue, LeafView::Camera, &seen(uniform));
+        if let Some(water) = &self.water_pass {
+            self.cull.write(&self.queue, LeafView::Mirror, &seen(&water.mirrored(*uniform)));
+        }
+        for (cascade, clip) in uniform.shadows.into_iter().enumerate() {
+            // The projection is parallel: half a map's edge is one in clip space.
+            let scale = Vec3::new(clip[0][0], clip[1][0], clip[2][0]).length();
+            let seen = ViewUniform::parallel(clip, 0.5 * SHADOW_SIZE as f32 * scale);
+            self.cull.write(&self.queue, LeafView::Shadow(cascade), &seen);
+        }
+    }
+
+    /// Chooses the leaves of the world and of the litter that a view shows.
+    fn cull_leaves(&self, encoder: &mut wgpu::CommandEncoder, leaves: &LeafColumns<'_>, view: LeafView) {
+        let (device, cull) = (&self.device, &self.cull);
+        self.leaf_crowd.cull(device, encoder, cull, (&self.frame, leaves, &self.stems), view);
+        if let Some(litter) = &self.litter {
+            self.litter_crowd.cull(device, encoder, cull, (&self.frame, &litter.columns(), &self.stems), view);
+        }
     }
 
     /// Near things first, so that what they hide is not shaded.
@@ -418,13 +441,13 @@ impl Renderer {
         &self,
         encoder: &mut wgpu::CommandEncoder,
         timestamps: Option<wgpu::RenderPassTimestampWrites<'_>>,
-        sets: &[LeafSet<'_>],
+        leaf_count: u32,
         branches: &wgpu::BindGroup,
     ) {
         let mut pass = begin_scene(encoder, &self.targets, timestamps);
         pass.set_bind_group(0, &self.frame.group, &[]);
         pass.set_bind_group(1, &self.light.group, &[]);
-        self.draw_stand(&mut pass, sets, branches);
+        self.draw_stand(&mut pass, branches);
         self.grass_pass.draw(&mut pass);
         self.ground_pass.draw(&mut pass);
         if let Some(water) = &self.water_pass {
@@ -432,8 +455,8 @@ impl Renderer {
         }
         self.tree_pass.draw(&mut pass, &self.trees);
         self.sky_pass.draw(&mut pass);
-        if let (Some(trails), Some(leaves)) = (&self.trail_pass, sets.first()) {
-            trails.draw(&mut pass, leaves.columns.leaf_count);
+        if let Some(trails) = &self.trail_pass {
+            trails.draw(&mut pass, leaf_count);
         }
     }
 }

@@ -3,16 +3,15 @@
 //! Draws the shadows of leaves and trees, finer near the camera than far from it.
 
 use super::bark_mesh::{StandMesh, bark_layout};
-use super::bark_pass::{BARK_SHAPE, STEM};
+use super::bark_pass::BARK_SHAPE;
 use super::branch_group::BranchGroup;
 use super::cascades::{CASCADES, SHADOW_SIZE};
 use super::frame::FrameGroup;
+use super::leaf_crowd::LeafCrowd;
+use super::leaf_cull::CullPass;
 use super::leaf_kinds::LeafKinds;
 use super::leaf_pass::LEAF_SHAPE;
-use super::leaf_record::record_constants;
-use super::leaf_set::{LeafDetail, LeafMeshes, LeafSet, draw_leaves, vertex_layouts};
 use super::pipeline::{COMMON, layout, shader};
-use super::stems::Stems;
 
 const SHADOW_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
 #[expect(clippy::cast_possible_truncation, reason = "a small number")]
@@ -38,9 +37,7 @@ struct CascadePass {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Casters<'a> {
     pub(super) kinds: &'a LeafKinds,
-    pub(super) sets: &'a [LeafSet<'a>],
-    pub(super) meshes: &'a LeafMeshes,
-    pub(super) stems: &'a Stems,
+    pub(super) crowds: &'a [&'a LeafCrowd],
     pub(super) bark: &'a StandMesh,
     pub(super) branches: &'a wgpu::BindGroup,
 }
@@ -50,6 +47,7 @@ impl ShadowPass {
         device: &wgpu::Device,
         frame: &FrameGroup,
         kinds: &LeafKinds,
+        cull: &CullPass,
         branches: &BranchGroup,
     ) -> Self {
         let texture = device.create_texture(&wgpu::TextureDescriptor {
@@ -62,26 +60,33 @@ impl ShadowPass {
             usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING,
             view_formats: &[],
         });
-        let text = [COMMON, STEM, &record_constants(), LEAF_SHAPE, include_str!("shaders/leaf_shadow.wgsl")];
+        let [kind, record, shape] = LEAF_SHAPE;
+        let text = [COMMON, kind, record, shape, include_str!("shaders/leaf_shadow.wgsl")];
         let leaf_shader = shader(device, "leaf shadow", &text);
         let bark_shader =
             shader(device, "bark shadow", &[COMMON, BARK_SHAPE, include_str!("shaders/bark_shadow.wgsl")]);
         let pipeline =
-            |label, cascade: u32, module, group, buffers: &[wgpu::VertexBufferLayout<'_>], cut_out| {
+            |label, cascade: u32, module, groups: [Option<&wgpu::BindGroupLayout>; 2], buffers: &[wgpu::VertexBufferLayout<'_>], cut_out| {
+                // Leaves are strips, bark is not.
+                let topology = if cut_out {
+                    wgpu::PrimitiveTopology::TriangleStrip
+                } else {
+                    wgpu::PrimitiveTopology::TriangleList
+                };
                 let constants = [("CASCADE", f64::from(cascade))];
                 let compilation_options =
                     wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() };
                 let buffers: Vec<_> = buffers.iter().cloned().map(Some).collect();
                 device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
                     label: Some(label),
-                    layout: Some(&layout(device, &[Some(&frame.layout), None, Some(group)])),
+                    layout: Some(&layout(device, &[Some(&frame.layout), None, groups[0], groups[1]])),
                     vertex: wgpu::VertexState {
                         module,
                         entry_point: Some("vertex"),
                         compilation_options: compilation_options.clone(),
                         buffers: &buffers,
                     },
-                    primitive: wgpu::PrimitiveState::default(),
+                    primitive: wgpu::PrimitiveState { topology, ..Default::default() },
                     depth_stencil: Some(wgpu::DepthStencilState {
                         format: SHADOW_FORMAT,
                         depth_write_enabled: Some(true),
@@ -118,15 +123,15 @@ impl ShadowPass {
                     "leaf shadows",
                     cascade,
                     &leaf_shader,
-                    &kinds.layout,
-                    &vertex_layouts(),
+                    [Some(&kinds.layout), Some(&cull.records_layout)],
+                    &[LeafCrowd::layout()],
                     true,
                 ),
                 bark: pipeline(
                     "bark shadows",
                     cascade,
                     &bark_shader,
-                    &branches.layout,
+                    [Some(&branches.layout), None],
                     &[bark_layout()],
                     false,
                 ),
@@ -135,19 +140,22 @@ impl ShadowPass {
         Self { maps: texture.create_view(&wgpu::TextureViewDescriptor::default()), cascades }
     }
 
-    /// Draws all leaves and trees into all maps; `timestamps` are those of the first and of the last.
+    /// Draws all trees into all maps, and the leaves that `cull` keeps of each; `timestamps` are those of the first and of
+    /// the last.
     pub(super) fn draw(
         &self,
         encoder: &mut wgpu::CommandEncoder,
         timestamps: Option<[wgpu::RenderPassTimestampWrites<'_>; 2]>,
         frame: &FrameGroup,
         casters: &Casters<'_>,
+        cull: &dyn Fn(&mut wgpu::CommandEncoder, usize),
     ) {
         let [begin, end] = timestamps.map_or([None, None], |writes| writes.map(Some));
         let [near, middle, far] = &self.cascades;
-        near.draw(encoder, begin, frame, casters);
-        middle.draw(encoder, None, frame, casters);
-        far.draw(encoder, end, frame, casters);
+        for (cascade, (pass, writes)) in [(near, begin), (middle, None), (far, end)].into_iter().enumerate() {
+            cull(encoder, cascade);
+            pass.draw(encoder, writes, frame, casters);
+        }
     }
 }
 
@@ -184,8 +192,8 @@ impl CascadePass {
         }
         pass.set_pipeline(&self.leaves);
         pass.set_bind_group(2, &casters.kinds.group, &[]);
-        for set in casters.sets {
-            draw_leaves(&mut pass, set, casters.stems, casters.meshes, LeafDetail::Coarsest);
+        for crowd in casters.crowds {
+            crowd.draw(&mut pass);
         }
     }
 }

@@ -16,6 +16,8 @@ struct StemRecord {
     radii_range: [f32; 4],
     tint_cluster: [f32; 4],
     bark: [f32; 4],
+    /// First slot of its leaves and the one after the last.
+    slots: [u32; 4],
 }
 
 /// Leaves that belong to no tree.
@@ -24,6 +26,7 @@ const NO_STEM: StemRecord = StemRecord {
     radii_range: [1.0, 1.0, 1.0, 0.0],
     tint_cluster: [1.0; 4],
     bark: [0.0; 4],
+    slots: [0; 4],
 };
 
 /// Bytes of a record.
@@ -39,10 +42,17 @@ pub(super) struct Stems {
 
 impl Stems {
     pub(super) fn new(device: &wgpu::Device, queue: &wgpu::Queue, stand: &Stand) -> Self {
+        let mut next = 0;
         let records: Vec<StemRecord> =
-            std::iter::once(NO_STEM).chain(stand.trees.iter().map(record)).collect();
+            std::iter::once(NO_STEM).chain(stand.trees.iter().map(|tree| record(tree, &mut next))).collect();
+        let usage = wgpu::BufferUsages::VERTEX | wgpu::BufferUsages::STORAGE;
         let bytes = bytemuck::cast_slice(&records);
-        Self { buffer: upload::buffer(device, queue, "stems", wgpu::BufferUsages::VERTEX, bytes) }
+        Self { buffer: upload::buffer(device, queue, "stems", usage, bytes) }
+    }
+
+    /// The records of no tree and of all trees.
+    pub(super) fn buffer(&self) -> &wgpu::Buffer {
+        &self.buffer
     }
 
     /// The record of a tree, or of no tree, as the only one of a vertex buffer.
@@ -58,7 +68,10 @@ impl Stems {
     }
 }
 
-fn record(tree: &StandingTree) -> StemRecord {
+/// The record of a tree whose leaves have the slots from `next` on, which moves behind them.
+fn record(tree: &StandingTree, next: &mut u32) -> StemRecord {
+    let first = *next;
+    *next += tree.leaves;
     let (crown, look) = (&tree.crown, &tree.look);
     let kind = BarkKind::ALL.iter().position(|&kind| kind == look.bark).unwrap_or(0);
     StemRecord {
@@ -66,5 +79,6 @@ fn record(tree: &StandingTree) -> StemRecord {
         radii_range: crown.radii_m.extend(look.turned_range).to_array(),
         tint_cluster: look.tint.extend(tree.cluster as f32).to_array(),
         bark: [kind as f32, look.own, f32::from(u8::from(look.is_low)), TWIG_PX],
+        slots: [first, *next, 0, 0],
     }
 }

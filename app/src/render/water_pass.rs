@@ -74,7 +74,12 @@ impl WaterPass {
                 (targets, group)
             });
         }
-        self.frame.write(queue, &frame.mirrored(self.water_m).sized(size));
+        self.frame.write(queue, &self.mirrored(frame).sized(size));
+    }
+
+    /// What the water mirrors of a frame.
+    pub(super) fn mirrored(&self, frame: FrameUniform) -> FrameUniform {
+        frame.mirrored(self.water_m)
     }
 
     /// Where what is mirrored is drawn.

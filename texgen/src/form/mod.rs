@@ -9,8 +9,11 @@
 mod bending;
 mod drying;
 mod framework;
+mod grid;
+mod margin;
 mod mesh;
 mod sheet;
+mod stalk;
 
 pub use drying::{BlendShape, Drying};
 pub use mesh::{Detail, LeafMesh};

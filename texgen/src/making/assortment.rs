@@ -56,9 +56,15 @@ impl Assortment {
             (0..seasons).into_par_iter().map(maker).collect::<Result<Vec<LeafMaker>, TexgenError>>()?;
         let numbers: Vec<u32> = (0..self.count).collect();
         let make = |&number: &u32| {
-            let made = makers[(number % seasons) as usize].make(number, false)?;
+            let maker = &makers[(number % seasons) as usize];
+            let mut made = maker.make(number, false)?;
+            let form = maker.form(number)?;
+            made.facts.has_mesh = true;
+            if let Some(body) = &mut made.facts.body {
+                body.curl = form.curl();
+            }
             done();
-            Ok(FolderLeaf { facts: made.facts, maps: made.maps, form: None })
+            Ok(FolderLeaf { facts: made.facts, maps: made.maps, form: Some(form) })
         };
         let leaves = numbers.par_iter().map(make).collect::<Result<_, TexgenError>>()?;
         Ok(LeafFolder { size_px: self.size_px, leaves })

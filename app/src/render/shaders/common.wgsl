@@ -84,6 +84,8 @@ fn view_ray(clip: vec2<f32>) -> vec3<f32> {
     return frame.forward.xyz + whole.x * frame.right.xyz + whole.y * frame.up.xyz;
 }
 
+const PI: f32 = 3.14159265;
+
 // Grass stands this deep below the leaves that lie on its tips, in metres.
 const SWARD_M: f32 = 0.028;
 

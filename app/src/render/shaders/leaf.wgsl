@@ -8,75 +8,104 @@ struct Varyings {
     @location(1) @interpolate(perspective, centroid) normal: vec3<f32>,
     @location(2) @interpolate(perspective, centroid) uv: vec2<f32>,
     @location(3) @interpolate(flat) layer: u32,
-    // Brightness, warmth, settled.
-    @location(4) @interpolate(flat) look: vec3<f32>,
+    @location(4) @interpolate(flat) attitude: vec4<f32>,
     // Factor on the colour; open sky.
     @location(5) @interpolate(flat) tint_open: vec4<f32>,
-    // Direction out of the crown, as far as the leaf is one of its surface.
-    @location(6) @interpolate(flat) outward: vec3<f32>,
+    // Direction out of the crown, as far as the leaf is one of its surface; 1, or -1 if the picture is mirrored.
+    @location(6) @interpolate(flat) outward_mirror: vec4<f32>,
+    @location(7) @interpolate(flat) settled: f32,
 }
 
+// Roughness (GGX alpha is its square) of the waxy upper and the dull lower side; reflectance of wax head-on.
+const ROUGHNESS: vec2<f32> = vec2(0.42, 0.62);
+const WAX: f32 = 0.04;
+// Most light that leaves a blade on both sides together.
+const MOST: f32 = 0.94;
+
 @vertex
-fn vertex(leaf: Leaf, @location(4) at: vec3<f32>, stem: Stem) -> Varyings {
-    let point = blade_point(leaf, at, stem, true);
+fn vertex(
+    @builtin(vertex_index) vertex: u32,
+    @builtin(instance_index) instance: u32,
+    @location(0) first_level: vec2<u32>,
+) -> Varyings {
+    let record = records[first_level.x + instance];
+    let point = blade_point(record, first_level.y, vertex);
     var out: Varyings;
     out.world = point.world;
     out.clip = frame.view_projection * vec4(point.world, 1.0);
     out.normal = point.normal;
     out.uv = point.uv;
-    out.layer = point.layer;
-    let random = hash_u32(point.tint ^ 0x51u);
-    out.look = vec3(unit_from(random), unit_from(hash_u32(random)), point.settled);
-    out.tint_open = vec4(stem.tint_cluster.rgb, 1.0);
-    out.outward = vec3(0.0);
-    if point.attached && stem.center_turned.w >= 0.0 {
-        let crown = crown_openness(stem, point.world);
-        out.tint_open.w = crown.w;
-        out.outward = crown.xyz * inverseSqrt(max(dot(crown.xyz, crown.xyz), 0.01)) * 0.55;
-    }
+    out.layer = record.look.x;
+    out.attitude = point.attitude;
+    let blue_open = unpack2x16float(record.look.z);
+    out.tint_open = vec4(unpack2x16float(record.look.y), blue_open);
+    let outward = unpack4x8snorm(record.look.w);
+    out.outward_mirror = vec4(outward.xyz, point.mirror);
+    out.settled = outward.w;
     return out;
 }
 
+// GGX distribution with Smith's visibility and Schlick's Fresnel term, times the cosine at the light.
+fn gloss(normal: vec3<f32>, to_eye: vec3<f32>, to_light: vec3<f32>, roughness: f32) -> f32 {
+    let half_way = normalize(to_light + to_eye);
+    let nl = max(dot(normal, to_light), 0.0);
+    let nv = max(dot(normal, to_eye), 0.02);
+    let nh = max(dot(normal, half_way), 0.0);
+    let alpha = roughness * roughness;
+    let a2 = alpha * alpha;
+    let lobe = nh * nh * (a2 - 1.0) + 1.0;
+    let visible = 0.5 / (nl * sqrt(nv * nv * (1.0 - a2) + a2) + nv * sqrt(nl * nl * (1.0 - a2) + a2) + 1.0e-4);
+    let fresnel = WAX + (1.0 - WAX) * pow(1.0 - max(dot(to_eye, half_way), 0.0), 5.0);
+    return a2 / (PI * lobe * lobe) * visible * fresnel * nl;
+}
+
 @fragment
-fn fragment(in: Varyings, @builtin(front_facing) front: bool) -> @location(0) vec4<f32> {
+fn fragment(in: Varyings) -> @location(0) vec4<f32> {
     let image = textureSample(images, image_sampler, in.uv, in.layer);
-    // A sharp rim at any size: the alpha ramp is made one pixel wide.
+    let surface = textureSample(surfaces, image_sampler, in.uv, in.layer);
+    // A sharp rim at any size: the alpha ramp is made one pixel wide. A leaf of a few texels has no rim: its alpha is the
+    // share of the pixel that it covers.
     let size = vec2<f32>(textureDimensions(images));
     let span = max(length(dpdx(in.uv) * size), length(dpdy(in.uv) * size));
-    let lod = max(log2(span), 0.0);
-    let rim = max(fwidth(image.a), 0.04);
-    let alpha = clamp((image.a * (1.0 + 0.12 * lod) - 0.5) / rim + 0.5, 0.0, 1.0);
+    let levels_left = f32(textureNumLevels(images)) - 1.0 - log2(max(span, 1.0));
+    let rim = max(fwidth(image.a), mix(1.0, 0.04, smoothstep(1.5, 4.0, levels_left)));
+    let alpha = clamp((image.a - 0.5) / rim + 0.5, 0.0, 1.0);
     if alpha <= 0.0 {
         discard;
     }
-    var albedo = image.rgb * mix(0.78, 1.18, in.look.x);
-    albedo *= mix(vec3(0.94, 1.05, 0.95), vec3(1.08, 0.93, 0.92), in.look.y) * in.tint_open.rgb;
-
     let to_eye = normalize(frame.eye.xyz - in.world);
     let blade = normalize(in.normal);
     let seen = select(-1.0, 1.0, dot(blade, to_eye) > 0.0);
+    // Right and up of the picture, in the plane of the blade; ribs stand out more below.
+    let right = rotate(in.attitude, vec3(-in.outward_mirror.w, 0.0, 0.0));
+    let up = rotate(in.attitude, vec3(0.0, 0.0, 1.0));
+    let relief = (surface.xy * 2.0 - 1.0) * select(1.5, 1.0, seen > 0.0);
+    let bumped = normalize(blade + relief.x * (right - blade * dot(right, blade)) + relief.y * (up - blade * dot(up, blade)));
     // A crown is lit like a rounded whole as well as leaf by leaf.
-    let normal = normalize(blade * seen + in.outward);
-    // The underside is paler and duller.
+    let normal = normalize(bumped * seen + in.outward_mirror.xyz);
+
+    var reflectance = image.rgb * in.tint_open.rgb;
+    // Light that crosses a blade meets its pigments on a longer way: deeper colour for the same lightness.
+    let deep = reflectance * sqrt(reflectance);
+    var transmittance = deep * (surface.z / max(luminance(deep), 0.004)) * mix(1.0, 0.7, in.settled);
+    // The underside, seen through its air spaces, is paler.
     if seen < 0.0 {
-        albedo = mix(albedo, vec3(luminance(albedo)) * vec3(1.1, 1.05, 0.9), 0.25) * 1.08;
+        reflectance = mix(reflectance, vec3(luminance(reflectance)) * vec3(1.08, 1.05, 0.92), 0.25) * 1.12 + 0.008;
     }
+    reflectance = min(reflectance, vec3(0.8));
+    transmittance = min(transmittance, MOST - reflectance);
+
     let light = frame.sun_direction.xyz;
-    let facing = dot(normal, light);
     let shade = tree_shade(in.world);
     let sun = frame.sun_color.rgb * shade.r * leaf_shadow(in.world + light * 0.035);
+    let facing = dot(normal, light);
+    let roughness = select(ROUGHNESS.y, ROUGHNESS.x, seen > 0.0);
+    var color = sun * (reflectance * max(facing, 0.0) + transmittance * max(-facing, 0.0));
+    color += sun * PI * gloss(normal, to_eye, light, roughness);
 
-    let reflected = albedo * clamp(facing * 0.9 + 0.1, 0.0, 1.0);
-    // Light that crossed the blade has lost its blue and gained colour.
-    let deep = albedo * (albedo + 0.10) / (luminance(albedo) + 0.10);
-    let through = mix(deep, albedo, 0.25) * vec3(1.25, 1.08, 0.70) * max(-facing * 0.92 + 0.08, 0.0)
-        * (0.85 + 0.5 * pow(max(dot(-to_eye, light), 0.0), 4.0)) * mix(1.0, 0.55, in.look.z);
-    let half_way = normalize(light + to_eye);
-    let gloss = 0.06 * pow(max(dot(normal, half_way), 0.0), 24.0) * max(facing, 0.0) * select(0.4, 1.0, seen > 0.0);
-    let nearness = mix(1.0, 0.75, in.look.z) * in.tint_open.w;
-    var color = sun * (reflected + through + gloss);
-    color += albedo * ambient_light(normal) * nearness;
-    // The sky also shines through.
-    color += deep * ambient_light(-normal) * 0.25 * nearness;
+    let nearness = mix(1.0, 0.75, in.settled) * in.tint_open.w;
+    color += (reflectance * ambient_light(normal) + transmittance * ambient_light(-normal)) * nearness;
+    let fresnel = WAX + (max(1.0 - roughness, WAX) - WAX) * pow(1.0 - max(dot(normal, to_eye), 0.0), 5.0);
+    color += sky_reflection(reflect(-to_eye, normal), roughness) * fresnel * nearness;
     return vec4(haze(color, in.world), alpha);
 }

@@ -12,18 +12,25 @@ struct Varyings {
 }
 
 @vertex
-fn vertex(leaf: Leaf, @location(4) at: vec3<f32>, stem: Stem) -> Varyings {
-    let point = blade_point(leaf, at, stem, false);
+fn vertex(
+    @builtin(vertex_index) vertex: u32,
+    @builtin(instance_index) instance: u32,
+    @location(0) first_level: vec2<u32>,
+) -> Varyings {
+    let record = records[first_level.x + instance];
+    let point = blade_point(record, first_level.y, vertex);
     var out: Varyings;
     out.clip = frame.shadows[CASCADE] * vec4(point.world, 1.0);
     out.uv = point.uv;
-    out.layer = point.layer;
+    out.layer = record.look.x;
     return out;
 }
 
 @fragment
 fn fragment(in: Varyings) {
-    if textureSampleLevel(images, image_sampler, in.uv, in.layer, 3.0).a < 0.5 {
+    // An eighth of a leaf is as fine as the map.
+    let level = max(f32(textureNumLevels(images)) - 6.0, 0.0);
+    if textureSampleLevel(images, image_sampler, in.uv, in.layer, level).a < 0.5 {
         discard;
     }
 }

@@ -1,0 +1,202 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Chooses on the device which leaves a view shows, and how finely.
+//!
+//! Two passes over the leaves: one counts how many each thread keeps of every level of detail, the other writes their
+//! records behind one another, in the order of their slots. In between one workgroup adds the counts up. There are no
+//! atomics: their order would show where two leaves lie equally deep.
+
+use super::cascades::CASCADES;
+use super::frame::FrameGroup;
+use super::leaf_crowd::{Page, SLOTS_PER_THREAD};
+use super::leaf_kinds::LeafKinds;
+use super::leaf_record::record_constants;
+use super::pipeline::{COMMON, buffer_entry, layout, shader};
+use super::stems::Stems;
+use crate::trees::MAX_CLUSTER;
+
+/// Views of a frame, each with its own uniform block.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum View {
+    /// What the camera sees.
+    Camera,
+    /// What the camera sees in water.
+    Mirror,
+    /// What the sun sees in a shadow map.
+    Shadow(usize),
+}
+
+/// `View` of `leaf_cull.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, bytemuck::Pod, bytemuck::Zeroable)]
+pub(super) struct ViewUniform {
+    pub(super) clip: [[f32; 4]; 4],
+    /// Eye; pixels of a metre at one metre, or anywhere in a parallel projection.
+    pub(super) eye: [f32; 4],
+    pub(super) limits: [f32; 4],
+    /// Least share; whether it is parallel; unused.
+    pub(super) rule: [f32; 4],
+}
+
+/// Least edges in pixels of the pictures of leaves drawn as coarse, medium and fine meshes: a triangle then covers about
+/// eight pixels or more. Below the last one pictures are thinned out.
+const LIMITS_PX: [f32; 4] = [18.0, 48.0, 150.0, 1.4];
+/// The same for shadows, whose texels are averaged: no finer mesh than the coarse one.
+const SHADOW_LIMITS_PX: [f32; 4] = [40.0, f32::MAX, f32::MAX, 1.4];
+/// Least share of leaves that are kept, however small: those that are kept are at most four times as wide.
+const LEAST_SHARE: f32 = 1.0 / 16.0;
+
+impl ViewUniform {
+    /// What a camera at x, y, z sees, with `pixels_per_m` at one metre.
+    pub(super) fn perspective(clip: [[f32; 4]; 4], [x, y, z, _]: [f32; 4], pixels_per_m: f32) -> Self {
+        let (eye, rule) = ([x, y, z, pixels_per_m], [LEAST_SHARE, 0.0, 0.0, 0.0]);
+        Self { clip, eye, limits: LIMITS_PX, rule }
+    }
+
+    /// What the camera sees in water.
+    Mirror,
+    /// What the sun sees in a map of `pixels_per_m`.
+    pub(super) fn parallel(clip: [[f32; 4]; 4], pixels_per_m: f32) -> Self {
+        let (eye, rule) = ([0.0, 0.0, 0.0, pixels_per_m], [LEAST_SHARE, 1.0, 0.0, 0.0]);
+        Self { clip, eye, limits: SHADOW_LIMITS_PX, rule }
+    }
+}
+
+/// The pipelines of the culling.
+#[derive(Debug)]
+pub(super) struct CullPass {
+    /// Layout of what drawing reads of a page.
+    pub(super) records_layout: wgpu::BindGroupLayout,
+    page_layout: wgpu::BindGroupLayout,
+    columns_layout: wgpu::BindGroupLayout,
+    kinds: wgpu::BindGroup,
+    views: [wgpu::Buffer; 2 + CASCADES],
+    steps: [wgpu::ComputePipeline; 3],
+}
+
+impl CullPass {
+    pub(super) fn new(device: &wgpu::Device, frame: &FrameGroup, kinds: &LeafKinds) -> Self {
+        let compute = wgpu::ShaderStages::COMPUTE;
+        let read = wgpu::BufferBindingType::Storage { read_only: true };
+        let write = wgpu::BufferBindingType::Storage { read_only: false };
+        let uniform = |binding| buffer_entry(binding, wgpu::BufferBindingType::Uniform, compute);
+        let group = |label, entries: &[wgpu::BindGroupLayoutEntry]| {
+            device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: Some(label), entries })
+        };
+        let page_layout = group(
+            "leaf page",
+            &[
+                uniform(0),
+                uniform(1),
+                buffer_entry(2, read, compute),
+                buffer_entry(3, write, compute),
+                buffer_entry(4, write, compute),
+                buffer_entry(5, write, compute),
+            ],
+        );
+        let columns_layout =
+            group("leaf columns", &[0, 1, 2, 3].map(|binding| buffer_entry(binding, read, compute)));
+        let records_layout =
+            group("leaf records", &[buffer_entry(0, read, wgpu::ShaderStages::VERTEX)]);
+        let kinds_layout = group("leaf kinds", &[uniform(0)]);
+        let text = [
+            &format!("const SLOTS_PER_THREAD: u32 = {SLOTS_PER_THREAD}u;\nconst MAX_CLUSTER: u32 = {MAX_CLUSTER}u;\n"),
+            COMMON,
+            &record_constants(),
+            include_str!("shaders/leaf_kinds.wgsl"),
+            include_str!("shaders/leaf_record.wgsl"),
+            include_str!("shaders/leaf_cull.wgsl"),
+        ];
+        let module = shader(device, "leaf culling", &text);
+        let layout = layout(device, &[Some(&frame.layout), Some(&columns_layout), Some(&kinds_layout), Some(&page_layout)]);
+        let steps = ["count", "arrange", "write"].map(|entry_point| {
+            device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+                label: Some(entry_point),
+                layout: Some(&layout),
+                module: &module,
+                entry_point: Some(entry_point),
+                compilation_options: wgpu::PipelineCompilationOptions::default(),
+                cache: None,
+            })
+        });
+        let views = [(); 2 + CASCADES].map(|()| {
+            device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some("leaf view"),
+                size: size_of::<ViewUniform>() as u64,
+                usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
+                mapped_at_creation: false,
+            })
+        });
+        let kinds = device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("leaf kinds"),
+            layout: &kinds_layout,
+            entries: &[wgpu::BindGroupEntry { binding: 0, resource: kinds.uniform.as_entire_binding() }],
+        });
+        Self { records_layout, page_layout, columns_layout, kinds, views, steps }
+    }
+
+    /// Sets what a view sees in the frames to come.
+    pub(super) fn write(&self, queue: &wgpu::Queue, view: View, uniform: &ViewUniform) {
+        queue.write_buffer(self.buffer(view), 0, bytemuck::bytes_of(uniform));
+    }
+
+    fn buffer(&self, view: View) -> &wgpu::Buffer {
+        match view {
+            View::Camera => &self.views[0],
+            View::Mirror => &self.views[1],
+            View::Shadow(cascade) => &self.views[2 + cascade.min(CASCADES - 1)],
+        }
+    }
+
+    /// Fills the records and draws of a page from a window of place, attitude, course and identity.
+    pub(super) fn run(
+        &self,
+        device: &wgpu::Device,
+        encoder: &mut wgpu::CommandEncoder,
+        frame: &FrameGroup,
+        page: &Page,
+        columns: [wgpu::BufferBinding<'_>; 4],
+        stems: &Stems,
+        view: View,
+    ) {
+        let entries = [
+            self.buffer(view),
+            &page.buffers.uniform,
+            stems.buffer(),
+            &page.buffers.counts,
+            &page.draws,
+            &page.records,
+        ];
+        let entries: Vec<_> = (0u32..)
+            .zip(entries)
+            .map(|(binding, buffer)| wgpu::BindGroupEntry { binding, resource: buffer.as_entire_binding() })
+            .collect();
+        let own = device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("leaf page"),
+            layout: &self.page_layout,
+            entries: &entries,
+        });
+        let entries: Vec<_> = (0u32..)
+            .zip(columns)
+            .map(|(binding, window)| wgpu::BindGroupEntry { binding, resource: wgpu::BindingResource::Buffer(window) })
+            .collect();
+        let columns = device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("leaf columns"),
+            layout: &self.columns_layout,
+            entries: &entries,
+        });
+        let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
+            label: Some("leaf culling"),
+            timestamp_writes: None,
+        });
+        pass.set_bind_group(0, &frame.group, &[]);
+        pass.set_bind_group(3, &own, &[]);
+        pass.set_bind_group(1, &columns, &[]);
+        pass.set_bind_group(2, &self.kinds, &[]);
+        let groups = page.uniform.threads.div_ceil(64);
+        for (step, groups) in self.steps.iter().zip([groups, 1, groups]) {
+            pass.set_pipeline(step);
+            pass.dispatch_workgroups(groups, 1, 1);
+        }
+    }
+}

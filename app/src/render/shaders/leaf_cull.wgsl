@@ -1,0 +1,303 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// Which leaves are drawn, and how finely: counts them, makes room, and writes a record for each, in the order of their
+// slots whatever the order of threads, so that equal frames give equal pictures. Laid out by `leaf_cull.rs`.
+
+struct View {
+    // World to clip space.
+    clip: mat4x4<f32>,
+    // Camera; pixels of a metre at a distance of a metre, or anywhere if the projection is parallel.
+    eye: vec4<f32>,
+    // Least edge in pixels of the pictures of leaves drawn as coarse, medium and fine meshes; edge below which leaves are
+    // thinned out.
+    limits: vec4<f32>,
+    // Least share of leaves that are kept; 1 if the projection is parallel; unused.
+    rule: vec4<f32>,
+}
+
+struct Page {
+    // First slot, number of slots, threads, trees and one.
+    first: u32,
+    count: u32,
+    threads: u32,
+    stems: u32,
+}
+
+struct StemRecord {
+    center_turned: vec4<f32>,
+    radii_range: vec4<f32>,
+    tint_cluster: vec4<f32>,
+    bark: vec4<f32>,
+    // First slot of its leaves and the one after the last.
+    slots: vec4<u32>,
+}
+
+// Arguments of an indirect draw, and what the vertices ask for.
+struct Draw {
+    vertex_count: u32,
+    instance_count: u32,
+    first_vertex: u32,
+    first_instance: u32,
+    first_record: u32,
+    level: u32,
+    unused_a: u32,
+    unused_b: u32,
+}
+
+@group(3) @binding(0) var<uniform> view: View;
+@group(3) @binding(1) var<uniform> page: Page;
+@group(3) @binding(2) var<storage, read> stems: array<StemRecord>;
+@group(3) @binding(3) var<storage, read_write> counts: array<vec4<u32>>;
+@group(3) @binding(4) var<storage, read_write> draws: array<Draw, 4>;
+@group(3) @binding(5) var<storage, read_write> records: array<LeafRecord>;
+
+@group(1) @binding(0) var<storage, read> places: array<vec4<u32>>;
+@group(1) @binding(1) var<storage, read> attitudes: array<vec4<f32>>;
+@group(1) @binding(2) var<storage, read> courses: array<vec4<u32>>;
+@group(1) @binding(3) var<storage, read> identities: array<vec4<u32>>;
+
+// Edge of a picture in diameters of the disc with the leaf's area, roughly.
+const EDGE: f32 = 1.6;
+
+fn signed_bytes(word: u32) -> vec4<f32> {
+    return vec4<f32>((vec4<u32>(word) >> vec4(0u, 8u, 16u, 24u)) & vec4(255u)) / 127.5 - 1.0;
+}
+
+// The tree of a slot; 0 for leaves of none. Trees follow each other in the order of their slots: the last that begins at or
+// before the slot.
+fn stem_of(slot: u32) -> u32 {
+    var stem = 0u;
+    for (var step = 32768u; step > 0u; step >>= 1u) {
+        let next = stem + step;
+        if next < page.stems && stems[min(next, page.stems - 1u)].slots.x <= slot {
+            stem = next;
+        }
+    }
+    return select(0u, stem, slot < stems[stem].slots.y);
+}
+
+// How a leaf is drawn in this view.
+struct Sight {
+    // Leaves that it stands for; 0 if it is out of sight.
+    copies: u32,
+    level: u32,
+    // Share of such leaves that are kept.
+    share: f32,
+    // Diameter of the disc with the area of one.
+    diameter: f32,
+    stem: u32,
+    key: u32,
+}
+
+fn is_outside(plane: vec4<f32>, center: vec3<f32>, radius: f32) -> bool {
+    // A projection without far plane has one that is none.
+    return dot(plane.xyz, center) + plane.w < -radius * length(plane.xyz) - 1.0e-6;
+}
+
+fn sight_of(index: u32) -> Sight {
+    var out: Sight;
+    let place = places[index];
+    let state = place.w & STATE_MASK;
+    out.stem = stem_of(page.first + index);
+    let cluster = stems[out.stem].tint_cluster.w;
+    let word = courses[index].z;
+    let relative = f32(word & HALF_MASK) * SIZE_UNIT;
+    // On its twig a leaf may stand for several: the high half is then its own size. Of those, one falls.
+    let stated = f32(word >> 16u) * SIZE_UNIT;
+    let on_twig = select(relative * inverseSqrt(cluster), stated, stated > 0.0);
+    let is_attached = state == STATE_ATTACHED;
+    let copies = select(1u, clamp(u32(cluster), 1u, MAX_CLUSTER), is_attached);
+    let species = (place.w >> SPECIES_SHIFT) & SPECIES_MASK;
+    out.diameter = kinds.size[species].x * select(relative, on_twig, is_attached);
+    let center = bitcast<vec3<f32>>(place.xyz);
+    let radius = out.diameter * (EDGE + 1.2 * sqrt(f32(copies) - 1.0));
+    let m = transpose(view.clip);
+    let is_hidden = is_outside(m[3] + m[0], center, radius) || is_outside(m[3] - m[0], center, radius)
+        || is_outside(m[3] + m[1], center, radius) || is_outside(m[3] - m[1], center, radius)
+        || is_outside(m[2], center, radius) || is_outside(m[3] - m[2], center, radius);
+    out.copies = select(copies, 0u, is_hidden || state == STATE_DORMANT);
+    let distance_m = select(max(distance(view.eye.xyz, center), 0.01), 1.0, view.rule.y > 0.5);
+    let pixels = EDGE * out.diameter * view.eye.w / distance_m;
+    out.level = u32(pixels >= view.limits.x) + u32(pixels >= view.limits.y) + u32(pixels >= view.limits.z);
+    let small = pixels / view.limits.w;
+    out.share = clamp(small * small, view.rule.x, 1.0);
+    let identity = identities[index];
+    out.key = hash_u32(identity.w + hash_u32(identity.x));
+    return out;
+}
+
+fn copy_key(key: u32, copy: u32) -> u32 {
+    return hash_u32(key + copy * 2654435769u);
+}
+
+fn is_kept(sight: Sight, copy: u32) -> bool {
+    return sight.share >= 1.0 || unit_from(hash_u32(copy_key(sight.key, copy) ^ 0x7111u)) < sight.share;
+}
+
+fn one_of(level: u32) -> vec4<u32> {
+    return vec4<u32>(vec4<u32>(level) == vec4(0u, 1u, 2u, 3u));
+}
+
+@compute @workgroup_size(64)
+fn count(@builtin(global_invocation_id) id: vec3<u32>) {
+    if id.x >= page.threads {
+        return;
+    }
+    var found = vec4(0u);
+    let first = id.x * SLOTS_PER_THREAD;
+    for (var index = first; index < min(first + SLOTS_PER_THREAD, page.count); index++) {
+        let sight = sight_of(index);
+        for (var copy = 0u; copy < sight.copies; copy++) {
+            if is_kept(sight, copy) {
+                found += one_of(sight.level);
+            }
+        }
+    }
+    counts[id.x] = found;
+}
+
+var<workgroup> sums: array<vec4<u32>, 64>;
+
+// Turns counts into the numbers of leaves before each thread, and writes the draws.
+@compute @workgroup_size(64)
+fn arrange(@builtin(local_invocation_id) id: vec3<u32>) {
+    let share = (page.threads + 63u) / 64u;
+    let first = id.x * share;
+    let end = min(first + share, page.threads);
+    var sum = vec4(0u);
+    for (var thread = first; thread < end; thread++) {
+        sum += counts[thread];
+    }
+    sums[id.x] = sum;
+    workgroupBarrier();
+    var before = vec4(0u);
+    for (var other = 0u; other < id.x; other++) {
+        before += sums[other];
+    }
+    for (var thread = first; thread < end; thread++) {
+        let own = counts[thread];
+        counts[thread] = before;
+        before += own;
+    }
+    if id.x == 63u {
+        var base = 0u;
+        for (var level = 0u; level < 4u; level++) {
+            draws[level] = Draw(kinds.strips[level], before[level], 0u, 0u, base, level, 0u, 0u);
+            base += before[level];
+        }
+    }
+}
+
+@compute @workgroup_size(64)
+fn write(@builtin(global_invocation_id) id: vec3<u32>) {
+    if id.x >= page.threads {
+        return;
+    }
+    var next = counts[id.x]
+        + vec4(draws[0].first_record, draws[1].first_record, draws[2].first_record, draws[3].first_record);
+    let first = id.x * SLOTS_PER_THREAD;
+    for (var index = first; index < min(first + SLOTS_PER_THREAD, page.count); index++) {
+        let sight = sight_of(index);
+        for (var copy = 0u; copy < sight.copies; copy++) {
+            if is_kept(sight, copy) {
+                records[next[sight.level]] = record_of(index, sight, copy);
+                next += one_of(sight.level);
+            }
+        }
+    }
+}
+
+// Height of a picture's corners at a stage, lowest and highest, in sides.
+fn height_range(layer: u32, stage: f32) -> vec2<f32> {
+    let before = min(u32(stage), 4u);
+    let words = kinds.heights[2u * layer + before / 4u];
+    let beyond = kinds.heights[2u * layer + (before + 1u) / 4u];
+    let low = unpack2x16snorm(words[before % 4u]);
+    return 2.0 * mix(low, unpack2x16snorm(beyond[(before + 1u) % 4u]), stage - f32(before));
+}
+
+fn record_of(index: u32, sight: Sight, copy: u32) -> LeafRecord {
+    let place = places[index];
+    let identity = identities[index];
+    let stem = stems[sight.stem];
+    let species = (place.w >> SPECIES_SHIFT) & SPECIES_MASK;
+    let state = place.w & STATE_MASK;
+    let key = copy_key(sight.key, copy);
+    let tint = select(key & HALF_MASK, identity.w & HALF_MASK, copy == 0u);
+    let variants = kinds.counts.x;
+    var variant = ((identity.w >> VARIANT_SHIFT) & VARIANT_MASK) % variants;
+    if sight.stem > 0u && stem.center_turned.w >= 0.0 {
+        // Leaves of one tree have turned about as far as each other.
+        let spread = stem.radii_range.w * (unit_from(hash_u32(tint ^ hash_u32(identity.x))) - 0.5);
+        let rank = u32(clamp(stem.center_turned.w + spread, 0.0, 0.9999) * f32(variants));
+        variant = u32(kinds.layer[min(species * variants + rank, kinds.counts.y - 1u)].w);
+    }
+    let layer = min(species * variants + variant, kinds.counts.y - 1u);
+    let build = kinds.size[species];
+    // Those that are kept grow by the area of those that are not.
+    let diameter = sight.diameter * inverseSqrt(sight.share);
+    let edge = diameter * kinds.layer[layer].x;
+
+    var center = bitcast<vec3<f32>>(place.xyz);
+    var attitude = attitudes[index];
+    var offset = vec3(build.y, 0.0, build.z) * diameter;
+    if copy > 0u {
+        let a = signed_bytes(key);
+        let b = signed_bytes(hash_u32(key));
+        offset += a.xyz * vec3(1.0, 0.6, 1.0) * 0.9 * sqrt(stem.tint_cluster.w) * sight.diameter;
+        center += rotate(attitude, offset);
+        attitude = quaternion_product(attitude, normalize(vec4(0.35 * b.x, 0.9 * b.y, 0.35 * b.z, 1.0)));
+    } else {
+        center += rotate(attitude, offset);
+    }
+
+    // Every leaf has dried as far as its colour says and a little more or less, and bends in its own way.
+    let random = signed_bytes(hash_u32(tint));
+    let other = signed_bytes(hash_u32(tint ^ 0x3c6eu));
+    let dry = kinds.layer[layer].y;
+    let is_attached = state == STATE_ATTACHED;
+    let stage = clamp((max(dry, 0.0) + 1.1 * other.x) * select(1.0, 0.6, is_attached), 0.0, 5.0);
+    let own = select(build.w, 0.35 * build.w, dry >= 0.0);
+    let fold = own * (0.28 + 0.22 * random.x);
+    let bend = own * (0.05 + 0.22 * random.y);
+    let twist = own * 0.24 * random.z;
+
+    // On the ground a leaf lies on its lowest point, and leans a little differently each.
+    let height = center.y - surface_height(center.xz);
+    let settled = select(1.0 - smoothstep(0.0, 0.15, height), 0.0, is_attached);
+    let lean = settled * 0.24 * random.yz;
+    attitude = quaternion_product(normalize(vec4(-lean.y, 0.0, lean.x, 2.0)), attitude);
+    let is_face_up = rotate(attitude, vec3(0.0, 1.0, 0.0)).y > 0.0;
+    let range = select(vec2(0.0), height_range(layer, stage), dry >= 0.0);
+    let lift = select(range.y, -range.x, is_face_up) * 0.7 * edge + LITTER_M * (1.0 + random.w);
+    center.y += settled * lift;
+
+    let looks = hash_u32(tint ^ 0x51u);
+    var color = mix(vec3(0.94, 1.05, 0.95), vec3(1.08, 0.93, 0.92), unit_from(hash_u32(looks)));
+    color *= mix(0.80, 1.16, unit_from(looks)) * stem.tint_cluster.rgb;
+    var open = 1.0;
+    var outward = vec3(0.0);
+    if is_attached && sight.stem > 0u {
+        let out = (center - stem.center_turned.xyz) / stem.radii_range.xyz;
+        let reach = length(out);
+        // Leaves hide the sky above more than the light from the sides.
+        open = mix(0.22, 1.0, smoothstep(0.35, 1.1, reach + 0.3 * out.y));
+        outward = 0.55 * out / max(reach, 0.1);
+    }
+    let is_mirrored = (tint & 1u) == 1u;
+    var record: LeafRecord;
+    record.place = vec4(center, select(edge, -edge, is_mirrored));
+    record.form = vec4(
+        pack2x16snorm(attitude.xy),
+        pack2x16snorm(attitude.zw),
+        pack2x16float(vec2(stage, fold)),
+        pack2x16float(vec2(bend, twist)),
+    );
+    record.look = vec4(
+        layer,
+        pack2x16float(color.rg),
+        pack2x16float(vec2(color.b, open)),
+        pack4x8snorm(vec4(outward, settled)),
+    );
+    return record;
+}
