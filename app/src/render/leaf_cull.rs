@@ -40,7 +40,7 @@ pub(super) struct ViewUniform {
 
 /// Least edges in pixels of the pictures of leaves drawn as coarse, medium and fine meshes: a triangle then covers about
 /// eight pixels or more. Below the last one pictures are thinned out.
-const LIMITS_PX: [f32; 4] = [18.0, 48.0, 150.0, 1.4];
+pub(super) const LIMITS_PX: [f32; 4] = [18.0, 48.0, 150.0, 1.4];
 /// The same for shadows, whose texels are averaged: no finer mesh than the coarse one.
 const SHADOW_LIMITS_PX: [f32; 4] = [40.0, f32::MAX, f32::MAX, 1.4];
 /// Least share of leaves that are kept, however small: those that are kept are at most four times as wide.

@@ -13,8 +13,6 @@ use super::{RenderError, upload};
 
 /// Most leaf pictures: what the uniform block of the species holds.
 pub const MAX_LAYERS: usize = 512;
-/// Leaves are mostly seen at a slant.
-const ANISOTROPY: u16 = 4;
 /// Stages that the greenest leaf has dried, and the brownest has besides.
 const DRY_STAGES: [f32; 2] = [0.5, 2.7];
 
@@ -75,7 +73,6 @@ impl LeafKinds {
             mag_filter: wgpu::FilterMode::Linear,
             min_filter: wgpu::FilterMode::Linear,
             mipmap_filter: wgpu::MipmapFilterMode::Linear,
-            anisotropy_clamp: ANISOTROPY,
             ..Default::default()
         });
         let uniform = upload::buffer(

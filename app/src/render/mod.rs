@@ -64,6 +64,8 @@ pub use trail_pass::MAX_TRAILS;
 #[cfg(test)]
 mod lens_tests;
 #[cfg(test)]
+mod cull_tests;
+#[cfg(test)]
 mod tests;
 #[cfg(test)]
 mod tree_tests;

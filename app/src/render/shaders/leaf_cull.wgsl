@@ -239,7 +239,9 @@ fn record_of(index: u32, sight: Sight, copy: u32) -> LeafRecord {
     let edge = diameter * kinds.layer[layer].x;
 
     var center = bitcast<vec3<f32>>(place.xyz);
+    // A leaf that nothing has turned yet has no attitude.
     var attitude = attitudes[index];
+    attitude = select(vec4(0.0, 0.0, 0.0, 1.0), attitude, dot(attitude, attitude) > 0.25);
     var offset = vec3(build.y, 0.0, build.z) * diameter;
     if copy > 0u {
         let a = signed_bytes(key);

@@ -1,0 +1,143 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Holds the culling of leaves to what a plain loop over them finds.
+
+use glam::{Mat4, Vec3, Vec4};
+use windfall_core::Scene;
+use windfall_core::leaf::record::{SIZE_ONE, STATE_DORMANT, STATE_FALLING};
+use windfall_texgen::{Atlas, AtlasEntry, AtlasRequest, Shape};
+use windfall_wgpu::LeafColumns;
+
+use super::leaf_crowd::{LeafCrowd, Page, RECORD_BYTES};
+use super::leaf_cull::{CullPass, LIMITS_PX, View, ViewUniform};
+use super::leaf_kinds::LeafKinds;
+use super::stems::Stems;
+use super::{tests, upload};
+use crate::camera::Camera;
+use crate::trees::Stand;
+
+/// Leaves that are strewn around the camera.
+const LEAVES: u32 = 3000;
+/// Pixels of a metre at one metre.
+const PIXELS_PER_M: f32 = 900.0;
+
+/// A pseudo-random number from 0 to 1 for each leaf and axis.
+fn unit(leaf: u32, axis: u32) -> f32 {
+    let bits = (leaf * 4 + axis).wrapping_mul(2_654_435_769);
+    let bits = (bits ^ bits >> 15).wrapping_mul(2_246_822_519);
+    (bits >> 8) as f32 / 16_777_216.0
+}
+
+/// Where a leaf is; every ninth is dormant.
+fn place(leaf: u32) -> [u32; 4] {
+    let at = Vec3::from([0, 1, 2].map(|axis| unit(leaf, axis) - 0.5)) * Vec3::new(40.0, 12.0, 40.0);
+    let state = if leaf % 9 == 0 { STATE_DORMANT } else { STATE_FALLING };
+    [at.x.to_bits(), at.y.to_bits(), at.z.to_bits(), state]
+}
+
+/// What a buffer of the device holds.
+fn read(device: &wgpu::Device, queue: &wgpu::Queue, buffer: &wgpu::Buffer) -> Vec<u32> {
+    let copy = device.create_buffer(&wgpu::BufferDescriptor {
+        label: None,
+        size: buffer.size(),
+        usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
+        mapped_at_creation: false,
+    });
+    let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+    encoder.copy_buffer_to_buffer(buffer, 0, &copy, 0, buffer.size());
+    queue.submit([encoder.finish()]);
+    copy.map_async(wgpu::MapMode::Read, .., |result| result.expect("a mapped buffer"));
+    device.poll(wgpu::PollType::wait_indefinitely()).expect("a device that answers");
+    let words = bytemuck::pod_collect_to_vec(&copy.get_mapped_range(..).expect("mapped"));
+    copy.unmap();
+    words
+}
+
+/// Middles of the records of every level, as the bits of their coordinates.
+fn found(device: &wgpu::Device, queue: &wgpu::Queue, page: &Page) -> [Vec<[u32; 3]>; 4] {
+    let (draws, records) = (read(device, queue, &page.draws), read(device, queue, &page.records));
+    let words = usize::try_from(RECORD_BYTES / 4).expect("small");
+    std::array::from_fn(|level| {
+        let [count, first] = [draws[8 * level + 1] as usize, draws[8 * level + 4] as usize];
+        records[first * words..(first + count) * words].chunks(words).map(|r| [r[0], r[1], r[2]]).collect()
+    })
+}
+
+#[test]
+fn culling_finds_what_a_plain_loop_finds() {
+    let (device, queue) = tests::device();
+    let scene = Scene::default();
+    let entries = vec![AtlasEntry { shape: Shape::Maple, season: (0.5, 0.9) }; scene.species.len()];
+    let atlas = Atlas::generate(&AtlasRequest { entries, variants: 2, size_px: 16, seed: 1 }).expect("an atlas");
+    let kinds = LeafKinds::new(&device, &queue, &scene, &atlas).expect("kinds within default limits");
+    let cull = CullPass::new(&device, &kinds);
+    let stand = Stand::default();
+    let stems = Stems::new(&device, &queue, &stand);
+    let crowd = LeafCrowd::new(&device, &queue, &cull, &stand, LEAVES);
+    let column = |row: &dyn Fn(u32) -> [u32; 4]| {
+        let rows: Vec<[u32; 4]> = (0..LEAVES).map(row).collect();
+        let usage = wgpu::BufferUsages::STORAGE;
+        upload::buffer(&device, &queue, "column", usage, bytemuck::cast_slice(&rows))
+    };
+    let places = column(&place);
+    let attitude = column(&|_| [0, 0, 0, 1.0f32.to_bits()]);
+    let course = column(&|_| [0, 0, SIZE_ONE, 0]);
+    let identity = column(&|leaf| [leaf, 0, 0, leaf * 77]);
+    let columns = LeafColumns {
+        place: &places,
+        drift: &places,
+        attitude: &attitude,
+        course: &course,
+        identity: &identity,
+        leaf_count: LEAVES,
+    };
+    let camera = Camera { target_m: Vec3::new(3.0, 1.0, -2.0), ..Camera::from(&scene.view.camera) };
+    let clip = camera.view_projection(1.6);
+    let eye_m = camera.eye_m();
+    // So far below that no leaf lies on it and is moved.
+    let seen =
+        ViewUniform::perspective(clip.to_cols_array_2d(), eye_m.to_array(), PIXELS_PER_M, -100.0);
+    cull.write(&queue, View::Camera, &seen);
+    let run = || {
+        let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        crowd.cull(&device, &mut encoder, &cull, (&columns, &stems), View::Camera);
+        queue.submit([encoder.finish()]);
+        found(&device, &queue, &crowd.pages[0])
+    };
+    let levels = run();
+    assert_eq!(levels, run(), "equal leaves in the same order");
+
+    let edge_m = 1.6 * scene.species[0].size_m;
+    let (mut inside, mut kept) = (0, 0);
+    for leaf in 0..LEAVES {
+        let [x, y, z, state] = place(leaf);
+        let at = Vec3::from([x, y, z].map(f32::from_bits));
+        let in_level: Vec<usize> = (0..4).filter(|&level| levels[level].contains(&[x, y, z])).collect();
+        if state == STATE_DORMANT || is_beyond(clip, at, 1.05 * edge_m) {
+            assert_eq!(in_level, [0; 0], "leaf {leaf} is dormant or out of sight");
+            continue;
+        }
+        let pixels = edge_m * PIXELS_PER_M / at.distance(eye_m);
+        let wanted = LIMITS_PX[..3].iter().filter(|&&limit| pixels >= limit).count();
+        let is_close = LIMITS_PX.iter().any(|limit| (pixels / limit - 1.0).abs() < 1e-3);
+        if !is_beyond(clip, at, 0.0) && pixels > LIMITS_PX[3] && !is_close {
+            inside += 1;
+            assert_eq!(in_level, [wanted], "leaf {leaf} of {pixels} pixels");
+        }
+        kept += in_level.len();
+    }
+    assert!(inside > 200, "too few leaves in sight to tell: {inside}");
+    assert_eq!(levels.iter().map(Vec::len).sum::<usize>(), kept, "nothing besides");
+    assert!(levels[..3].iter().all(|level| !level.is_empty()), "leaves of several levels");
+    for level in &levels {
+        let slot = |at: &[u32; 3]| (0..LEAVES).find(|&leaf| place(leaf)[..3] == at[..]);
+        assert!(level.iter().map(slot).is_sorted(), "in the order of their slots");
+    }
+}
+
+/// Whether a ball lies wholly beyond a side of the view, or behind the camera.
+fn is_beyond(clip: Mat4, at: Vec3, radius_m: f32) -> bool {
+    let row = |index: usize| clip.row(index);
+    let sides = [row(3) + row(0), row(3) - row(0), row(3) + row(1), row(3) - row(1), row(3) - row(2)];
+    sides.iter().any(|side: &Vec4| side.dot(at.extend(1.0)) < -radius_m * side.truncate().length())
+}
