@@ -57,7 +57,9 @@ pub(crate) fn plain_chain(base: RgbaImage) -> Vec<RgbaImage> {
                     .iter()
                     .sum::<u32>()
             };
-            image::Rgba(std::array::from_fn(|channel| u8::try_from((sum(channel) + 2) / 4).unwrap_or(u8::MAX)))
+            image::Rgba(std::array::from_fn(|channel| {
+                u8::try_from((sum(channel) + 2) / 4).unwrap_or(u8::MAX)
+            }))
         });
         levels.push(coarse);
     }
@@ -165,7 +167,9 @@ mod tests {
 
     #[test]
     fn plain_numbers_keep_their_mean() {
-        let ramp = RgbaImage::from_fn(4, 4, |x, y| Rgba([u8::try_from(16 * x).expect("small"), u8::try_from(60 * y).expect("small"), 7, 255]));
+        let ramp = RgbaImage::from_fn(4, 4, |x, y| {
+            Rgba([u8::try_from(16 * x).expect("small"), u8::try_from(60 * y).expect("small"), 7, 255])
+        });
         let levels = plain_chain(ramp);
         assert_eq!(levels.iter().map(RgbaImage::width).collect::<Vec<_>>(), [4, 2, 1], "halved to one texel");
         assert_eq!(levels[2].get_pixel(0, 0).0, [24, 90, 7, 255], "the mean of each channel");

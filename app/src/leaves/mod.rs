@@ -40,7 +40,9 @@ pub fn atlas_of(scene: &Scene) -> anyhow::Result<Atlas> {
         };
         kinds.push(match (&species.leaves, kind_of(species.shape)) {
             (Some(path), _) => of_folder(&LeafFolder::load(path.as_ref())?),
-            (None, Kind::Leaf(shape)) => of_folder(&cache::load_or_make(&assortment(species, shape, size_px))?),
+            (None, Kind::Leaf(shape)) => {
+                of_folder(&cache::load_or_make(&assortment(species, shape, size_px))?)
+            }
             (None, Kind::Other(body)) => painted(body, size_px)?,
         });
     }
@@ -86,7 +88,9 @@ fn assortment(species: &Species, shape: Shape, size_px: u32) -> Assortment {
 /// A body that is no leaf; they are painted in no time.
 fn painted(body: LightBody, size_px: u32) -> anyhow::Result<Vec<Layer>> {
     let pictures = (0..u64::from(VARIANTS)).map(|variant| body.paint(size_px, SEED + variant));
-    Ok(pictures.map(|picture| Ok(Layer::from_picture(picture?))).collect::<Result<_, windfall_texgen::TexgenError>>()?)
+    Ok(pictures
+        .map(|picture| Ok(Layer::from_picture(picture?)))
+        .collect::<Result<_, windfall_texgen::TexgenError>>()?)
 }
 
 /// The leaves that belong to a stretch of the season, all of them if none does.

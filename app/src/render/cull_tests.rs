@@ -8,12 +8,14 @@ use windfall_core::leaf::record::{SIZE_ONE, STATE_DORMANT, STATE_FALLING};
 use windfall_texgen::{Atlas, AtlasEntry, AtlasRequest, Shape};
 use windfall_wgpu::LeafColumns;
 
+use super::frame::FrameGroup;
 use super::leaf_crowd::{LeafCrowd, Page, RECORD_BYTES};
 use super::leaf_cull::{CullPass, LIMITS_PX, View, ViewUniform};
 use super::leaf_kinds::LeafKinds;
 use super::stems::Stems;
 use super::{tests, upload};
 use crate::camera::Camera;
+use crate::land::Land;
 use crate::trees::Stand;
 
 /// Leaves that are strewn around the camera.
@@ -28,9 +30,10 @@ fn unit(leaf: u32, axis: u32) -> f32 {
     (bits >> 8) as f32 / 16_777_216.0
 }
 
-/// Where a leaf is; every ninth is dormant.
+/// Where a leaf is, in the air; every ninth is dormant.
 fn place(leaf: u32) -> [u32; 4] {
-    let at = Vec3::from([0, 1, 2].map(|axis| unit(leaf, axis) - 0.5)) * Vec3::new(40.0, 12.0, 40.0);
+    let at = Vec3::from([0, 1, 2].map(|axis| unit(leaf, axis) - 0.5)) * Vec3::new(40.0, 10.0, 40.0)
+        + 7.0 * Vec3::Y;
     let state = if leaf % 9 == 0 { STATE_DORMANT } else { STATE_FALLING };
     [at.x.to_bits(), at.y.to_bits(), at.z.to_bits(), state]
 }
@@ -68,9 +71,11 @@ fn culling_finds_what_a_plain_loop_finds() {
     let (device, queue) = tests::device();
     let scene = Scene::default();
     let entries = vec![AtlasEntry { shape: Shape::Maple, season: (0.5, 0.9) }; scene.species.len()];
-    let atlas = Atlas::generate(&AtlasRequest { entries, variants: 2, size_px: 16, seed: 1 }).expect("an atlas");
+    let atlas =
+        Atlas::generate(&AtlasRequest { entries, variants: 2, size_px: 16, seed: 1 }).expect("an atlas");
+    let frame = FrameGroup::new(&device, &queue, &Land::of(&scene.ground));
     let kinds = LeafKinds::new(&device, &queue, &scene, &atlas).expect("kinds within default limits");
-    let cull = CullPass::new(&device, &kinds);
+    let cull = CullPass::new(&device, &frame, &kinds);
     let stand = Stand::default();
     let stems = Stems::new(&device, &queue, &stand);
     let crowd = LeafCrowd::new(&device, &queue, &cull, &stand, LEAVES);
@@ -94,13 +99,11 @@ fn culling_finds_what_a_plain_loop_finds() {
     let camera = Camera { target_m: Vec3::new(3.0, 1.0, -2.0), ..Camera::from(&scene.view.camera) };
     let clip = camera.view_projection(1.6);
     let eye_m = camera.eye_m();
-    // So far below that no leaf lies on it and is moved.
-    let seen =
-        ViewUniform::perspective(clip.to_cols_array_2d(), eye_m.to_array(), PIXELS_PER_M, -100.0);
+    let seen = ViewUniform::perspective(clip.to_cols_array_2d(), eye_m.extend(0.0).to_array(), PIXELS_PER_M);
     cull.write(&queue, View::Camera, &seen);
     let run = || {
         let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-        crowd.cull(&device, &mut encoder, &cull, (&columns, &stems), View::Camera);
+        crowd.cull(&device, &mut encoder, &cull, (&frame, &columns, &stems), View::Camera);
         queue.submit([encoder.finish()]);
         found(&device, &queue, &crowd.pages[0])
     };

@@ -133,7 +133,12 @@ impl Page {
         records: u32,
     ) -> Self {
         let buffer = |label, size: u64, usage| {
-            device.create_buffer(&wgpu::BufferDescriptor { label: Some(label), size, usage, mapped_at_creation: false })
+            device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some(label),
+                size,
+                usage,
+                mapped_at_creation: false,
+            })
         };
         let storage = wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC;
         let indirect =
@@ -190,7 +195,10 @@ mod tests {
     fn pages_hold_every_leaf_and_its_copies() {
         assert_eq!(split(&[(10, 3), (5, 1)], 20), [(0, 20, 40)], "ten stand for three, ten for one");
         let pages = split(&[(1_000_000, 4)], 1_500_000);
-        assert!(pages.iter().all(|(_, count, records)| *count <= PAGE_SLOTS && *records <= PAGE_RECORDS), "{pages:?}");
+        assert!(
+            pages.iter().all(|(_, count, records)| *count <= PAGE_SLOTS && *records <= PAGE_RECORDS),
+            "{pages:?}"
+        );
         assert!(pages.iter().all(|(first, ..)| first % 16 == 0), "columns can be bound there: {pages:?}");
         assert_eq!(pages.iter().map(|page| page.1).sum::<u32>(), 1_500_000, "every slot");
         assert_eq!(pages.iter().map(|page| page.2).sum::<u32>(), 4_500_000, "every copy");

@@ -53,8 +53,6 @@ impl ViewUniform {
         Self { clip, eye, limits: LIMITS_PX, rule }
     }
 
-    /// What the camera sees in water.
-    Mirror,
     /// What the sun sees in a map of `pixels_per_m`.
     pub(super) fn parallel(clip: [[f32; 4]; 4], pixels_per_m: f32) -> Self {
         let (eye, rule) = ([0.0, 0.0, 0.0, pixels_per_m], [LEAST_SHARE, 1.0, 0.0, 0.0]);
@@ -96,11 +94,12 @@ impl CullPass {
         );
         let columns_layout =
             group("leaf columns", &[0, 1, 2, 3].map(|binding| buffer_entry(binding, read, compute)));
-        let records_layout =
-            group("leaf records", &[buffer_entry(0, read, wgpu::ShaderStages::VERTEX)]);
+        let records_layout = group("leaf records", &[buffer_entry(0, read, wgpu::ShaderStages::VERTEX)]);
         let kinds_layout = group("leaf kinds", &[uniform(0)]);
         let text = [
-            &format!("const SLOTS_PER_THREAD: u32 = {SLOTS_PER_THREAD}u;\nconst MAX_CLUSTER: u32 = {MAX_CLUSTER}u;\n"),
+            &format!(
+                "const SLOTS_PER_THREAD: u32 = {SLOTS_PER_THREAD}u;\nconst MAX_CLUSTER: u32 = {MAX_CLUSTER}u;\n"
+            ),
             COMMON,
             &record_constants(),
             include_str!("shaders/leaf_kinds.wgsl"),
@@ -108,7 +107,10 @@ impl CullPass {
             include_str!("shaders/leaf_cull.wgsl"),
         ];
         let module = shader(device, "leaf culling", &text);
-        let layout = layout(device, &[Some(&frame.layout), Some(&columns_layout), Some(&kinds_layout), Some(&page_layout)]);
+        let layout = layout(
+            device,
+            &[Some(&frame.layout), Some(&columns_layout), Some(&kinds_layout), Some(&page_layout)],
+        );
         let steps = ["count", "arrange", "write"].map(|entry_point| {
             device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
                 label: Some(entry_point),
@@ -178,7 +180,10 @@ impl CullPass {
         });
         let entries: Vec<_> = (0u32..)
             .zip(columns)
-            .map(|(binding, window)| wgpu::BindGroupEntry { binding, resource: wgpu::BindingResource::Buffer(window) })
+            .map(|(binding, window)| wgpu::BindGroupEntry {
+                binding,
+                resource: wgpu::BindingResource::Buffer(window),
+            })
             .collect();
         let columns = device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some("leaf columns"),

@@ -181,7 +181,11 @@ fn card(layer: &Layer, level: &FormLevel) -> FormLevel {
         };
         windfall_texgen::FormShape { water: shape.water, offsets: positions.iter().map(offset).collect() }
     });
-    FormLevel { shapes: shapes.collect(), positions: positions.clone(), triangles: vec![[0, 2, 1], [1, 2, 3]] }
+    FormLevel {
+        shapes: shapes.collect(),
+        positions: positions.clone(),
+        triangles: vec![[0, 2, 1], [1, 2, 3]],
+    }
 }
 
 /// A unit vector on the octahedron, unfolded into a square of -1 to 1 (Meyer et al. 2010).
@@ -247,12 +251,16 @@ mod tests {
                 for corner in [1, level.positions.len() - 1] {
                     let found = read(&forms, first + corner, stage) - root;
                     let place = |corner: usize| {
-                        let offset = stage.checked_sub(1).map_or([0.0; 3], |s| level.shapes[s].offsets[corner]);
+                        let offset =
+                            stage.checked_sub(1).map_or([0.0; 3], |s| level.shapes[s].offsets[corner]);
                         Vec2::from(level.positions[corner]).extend(0.0) + Vec3::from(offset)
                     };
                     let wanted = place(corner) - place(0);
                     let error = (found - wanted).length();
-                    assert!(error < 4.0e-4, "level {number}, stage {stage}, corner {corner}: off by {error} sides");
+                    assert!(
+                        error < 4.0e-4,
+                        "level {number}, stage {stage}, corner {corner}: off by {error} sides"
+                    );
                 }
             }
         }
@@ -266,7 +274,8 @@ mod tests {
             let flat = octahedral(n);
             let z = 1.0 - flat.x.abs() - flat.y.abs();
             let over = (-z).max(0.0);
-            let back = Vec3::new(flat.x - over * flat.x.signum(), flat.y - over * flat.y.signum(), z).normalize();
+            let back =
+                Vec3::new(flat.x - over * flat.x.signum(), flat.y - over * flat.y.signum(), z).normalize();
             assert!(back.distance(n) < 1.0e-5, "{n} came back as {back}");
         }
     }

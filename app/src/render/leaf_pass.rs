@@ -35,7 +35,12 @@ impl LeafPass {
         let shader = shader(device, "leaf", &text);
         let pipeline = ScenePipeline {
             label: "leaves",
-            groups: &[Some(&frame.layout), Some(&light.layout), Some(&kinds.layout), Some(&cull.records_layout)],
+            groups: &[
+                Some(&frame.layout),
+                Some(&light.layout),
+                Some(&kinds.layout),
+                Some(&cull.records_layout),
+            ],
             topology: wgpu::PrimitiveTopology::TriangleStrip,
             shader: &shader,
             buffers: &[LeafCrowd::layout()],

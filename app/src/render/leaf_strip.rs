@@ -22,7 +22,8 @@ pub(super) fn strip(triangles: &[[u32; 3]]) -> Vec<u16> {
         let (mut from, mut to) = (b, c);
         while let Some(index) = next(is_open, from, to) {
             is_open[index] = false;
-            let Some(third) = triangles[index].into_iter().find(|&corner| corner != from && corner != to) else {
+            let Some(third) = triangles[index].into_iter().find(|&corner| corner != from && corner != to)
+            else {
                 break;
             };
             line.push(third);

@@ -62,9 +62,9 @@ pub(crate) use timing::GpuTimer;
 pub use trail_pass::MAX_TRAILS;
 
 #[cfg(test)]
-mod lens_tests;
-#[cfg(test)]
 mod cull_tests;
+#[cfg(test)]
+mod lens_tests;
 #[cfg(test)]
 mod tests;
 #[cfg(test)]

@@ -87,7 +87,11 @@ impl ScenePipeline<'_> {
 
 /// Bind group layout entry of a uniform buffer.
 pub(super) fn uniform_entry(binding: u32) -> wgpu::BindGroupLayoutEntry {
-    buffer_entry(binding, wgpu::BufferBindingType::Uniform, wgpu::ShaderStages::VERTEX_FRAGMENT | wgpu::ShaderStages::COMPUTE)
+    buffer_entry(
+        binding,
+        wgpu::BufferBindingType::Uniform,
+        wgpu::ShaderStages::VERTEX_FRAGMENT | wgpu::ShaderStages::COMPUTE,
+    )
 }
 
 /// Bind group layout entry of a buffer.

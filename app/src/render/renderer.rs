@@ -349,12 +349,7 @@ impl Renderer {
         }
         let crowds = [&self.leaf_crowd, &self.litter_crowd];
         let group = self.branches.bind(&self.device, branches);
-        let casters = Casters {
-            kinds: &self.kinds,
-            crowds: &crowds,
-            bark: &self.bark,
-            branches: &group,
-        };
+        let casters = Casters { kinds: &self.kinds, crowds: &crowds, bark: &self.bark, branches: &group };
         // The last tile is timed: its commands are those that are resolved.
         let timer = self.timer.as_ref().filter(|_| tile.left == 0);
         let writes = |pass| timer.map(|timer| timer.render_writes(pass));
@@ -414,7 +409,8 @@ impl Renderer {
     fn write_views(&self, uniform: &FrameUniform, camera: &Camera) {
         let height_px = self.targets.size.1 as f32;
         let pixels_per_m = 0.5 * height_px / (0.5 * camera.vertical_fov_rad).tan();
-        let seen = |frame: &FrameUniform| ViewUniform::perspective(frame.view_projection, frame.eye, pixels_per_m);
+        let seen =
+            |frame: &FrameUniform| ViewUniform::perspective(frame.view_projection, frame.eye, pixels_per_m);
         self.cull.write(&self.queue, LeafView::Camera, &seen(uniform));
         if let Some(water) = &self.water_pass {
             self.cull.write(&self.queue, LeafView::Mirror, &seen(&water.mirrored(*uniform)));
@@ -432,7 +428,13 @@ impl Renderer {
         let (device, cull) = (&self.device, &self.cull);
         self.leaf_crowd.cull(device, encoder, cull, (&self.frame, leaves, &self.stems), view);
         if let Some(litter) = &self.litter {
-            self.litter_crowd.cull(device, encoder, cull, (&self.frame, &litter.columns(), &self.stems), view);
+            self.litter_crowd.cull(
+                device,
+                encoder,
+                cull,
+                (&self.frame, &litter.columns(), &self.stems),
+                view,
+            );
         }
     }
 

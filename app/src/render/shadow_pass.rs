@@ -65,50 +65,54 @@ impl ShadowPass {
         let leaf_shader = shader(device, "leaf shadow", &text);
         let bark_shader =
             shader(device, "bark shadow", &[COMMON, BARK_SHAPE, include_str!("shaders/bark_shadow.wgsl")]);
-        let pipeline =
-            |label, cascade: u32, module, groups: [Option<&wgpu::BindGroupLayout>; 2], buffers: &[wgpu::VertexBufferLayout<'_>], cut_out| {
-                // Leaves are strips, bark is not.
-                let topology = if cut_out {
-                    wgpu::PrimitiveTopology::TriangleStrip
-                } else {
-                    wgpu::PrimitiveTopology::TriangleList
-                };
-                let constants = [("CASCADE", f64::from(cascade))];
-                let compilation_options =
-                    wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() };
-                let buffers: Vec<_> = buffers.iter().cloned().map(Some).collect();
-                device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-                    label: Some(label),
-                    layout: Some(&layout(device, &[Some(&frame.layout), None, groups[0], groups[1]])),
-                    vertex: wgpu::VertexState {
+        let pipeline = |label,
+                        cascade: u32,
                         module,
-                        entry_point: Some("vertex"),
-                        compilation_options: compilation_options.clone(),
-                        buffers: &buffers,
-                    },
-                    primitive: wgpu::PrimitiveState { topology, ..Default::default() },
-                    depth_stencil: Some(wgpu::DepthStencilState {
-                        format: SHADOW_FORMAT,
-                        depth_write_enabled: Some(true),
-                        depth_compare: Some(wgpu::CompareFunction::LessEqual),
-                        stencil: wgpu::StencilState::default(),
-                        bias: wgpu::DepthBiasState::default(),
-                    }),
-                    multisample: wgpu::MultisampleState::default(),
-                    fragment: if cut_out {
-                        Some(wgpu::FragmentState {
-                            module,
-                            entry_point: Some("fragment"),
-                            compilation_options,
-                            targets: &[],
-                        })
-                    } else {
-                        None
-                    },
-                    multiview_mask: None,
-                    cache: None,
-                })
+                        groups: [Option<&wgpu::BindGroupLayout>; 2],
+                        buffers: &[wgpu::VertexBufferLayout<'_>],
+                        cut_out| {
+            // Leaves are strips, bark is not.
+            let topology = if cut_out {
+                wgpu::PrimitiveTopology::TriangleStrip
+            } else {
+                wgpu::PrimitiveTopology::TriangleList
             };
+            let constants = [("CASCADE", f64::from(cascade))];
+            let compilation_options =
+                wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() };
+            let buffers: Vec<_> = buffers.iter().cloned().map(Some).collect();
+            device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+                label: Some(label),
+                layout: Some(&layout(device, &[Some(&frame.layout), None, groups[0], groups[1]])),
+                vertex: wgpu::VertexState {
+                    module,
+                    entry_point: Some("vertex"),
+                    compilation_options: compilation_options.clone(),
+                    buffers: &buffers,
+                },
+                primitive: wgpu::PrimitiveState { topology, ..Default::default() },
+                depth_stencil: Some(wgpu::DepthStencilState {
+                    format: SHADOW_FORMAT,
+                    depth_write_enabled: Some(true),
+                    depth_compare: Some(wgpu::CompareFunction::LessEqual),
+                    stencil: wgpu::StencilState::default(),
+                    bias: wgpu::DepthBiasState::default(),
+                }),
+                multisample: wgpu::MultisampleState::default(),
+                fragment: if cut_out {
+                    Some(wgpu::FragmentState {
+                        module,
+                        entry_point: Some("fragment"),
+                        compilation_options,
+                        targets: &[],
+                    })
+                } else {
+                    None
+                },
+                multiview_mask: None,
+                cache: None,
+            })
+        };
         let mut layers = 0..LAYERS;
         let cascades = [(); CASCADES].map(|()| {
             let cascade = layers.next().unwrap_or(0);

@@ -21,7 +21,8 @@ impl LeafForm {
 fn sheet(picture: &RgbaImage, cells: u32) -> FormLevel {
     let size = picture.width();
     let shows = |column: u32, row: u32| {
-        let range = |cell: u32| (cell * size / cells).saturating_sub(1)..((cell + 1) * size / cells + 1).min(size);
+        let range =
+            |cell: u32| (cell * size / cells).saturating_sub(1)..((cell + 1) * size / cells + 1).min(size);
         range(row).any(|y| range(column).any(|x| picture.get_pixel(x, y)[3] > 0))
     };
     let mut number = vec![None; ((cells + 1) * (cells + 1)) as usize];

@@ -46,8 +46,7 @@ mod tests {
     #[test]
     fn a_square_grows_on_every_side() {
         let positions = vec![[0.25, 0.25], [0.75, 0.25], [0.25, 0.75], [0.75, 0.75]];
-        let mut level =
-            FormLevel { positions, triangles: vec![[0, 2, 1], [1, 2, 3]], shapes: Vec::new() };
+        let mut level = FormLevel { positions, triangles: vec![[0, 2, 1], [1, 2, 3]], shapes: Vec::new() };
         level.widen(0.05);
         for (corner, wanted) in level.positions.iter().zip([[0.2, 0.2], [0.8, 0.2], [0.2, 0.8], [0.8, 0.8]]) {
             for (found, wanted) in corner.iter().zip(wanted) {

@@ -66,7 +66,9 @@ fn largest_patch(picture: &RgbaImage, level: &FormLevel) -> Vec<Vec2> {
     for triangle in &level.triangles {
         let [a, b, c] = triangle.map(|i| Vec2::from(level.positions[i as usize]));
         let (low, high) = (a.min(b).min(c), a.max(b).max(c));
-        for (x, y) in (texel(low.y)..=texel(high.y)).flat_map(|y| (texel(low.x)..=texel(high.x)).map(move |x| (x, y))) {
+        for (x, y) in
+            (texel(low.y)..=texel(high.y)).flat_map(|y| (texel(low.x)..=texel(high.x)).map(move |x| (x, y)))
+        {
             let p = centre(x, y);
             let side = |a: Vec2, b: Vec2| (b - a).perp_dot(p - a) <= 0.0;
             if side(a, b) && side(b, c) && side(c, a) {
@@ -121,7 +123,8 @@ fn rungs(stalk: &[Vec2], root: Vec2, pieces: usize, texel: f32) -> Vec<[Vec2; 2]
     (0..line.len())
         .map(|i| {
             let (before, after) = (line[i.saturating_sub(1)].0, line[(i + 1).min(line.len() - 1)].0);
-            let side = (after - before).perp().normalize_or_zero() * (ROOM * 0.5 * line[i].1.max(line[1].1) + texel);
+            let side =
+                (after - before).perp().normalize_or_zero() * (ROOM * 0.5 * line[i].1.max(line[1].1) + texel);
             // Counter-clockwise as seen with y up.
             [line[i].0 - side, line[i].0 + side]
         })
