@@ -4,7 +4,6 @@
 
 use windfall_wgpu::LeafColumns;
 
-use super::frame::FrameGroup;
 use super::leaf_cull::{CullPass, View};
 use super::leaf_forms::LEVELS;
 use super::stems::Stems;
@@ -82,13 +81,13 @@ impl LeafCrowd {
         device: &wgpu::Device,
         encoder: &mut wgpu::CommandEncoder,
         cull: &CullPass,
-        (frame, columns, stems): (&FrameGroup, &LeafColumns<'_>, &Stems),
+        (columns, stems): (&LeafColumns<'_>, &Stems),
         view: View,
     ) {
         for page in &self.pages {
             // The columns may be shorter than announced while their number changes.
             let count = page.uniform.count.min(columns.leaf_count.saturating_sub(page.uniform.first));
-            if count < page.uniform.count {
+            if count == 0 {
                 encoder.clear_buffer(&page.draws, 0, None);
             } else {
                 let window = |column| wgpu::BufferBinding {
@@ -97,7 +96,7 @@ impl LeafCrowd {
                     size: wgpu::BufferSize::new(u64::from(count) * COLUMN_BYTES),
                 };
                 let columns = [columns.place, columns.attitude, columns.course, columns.identity].map(window);
-                cull.run(device, encoder, frame, page, columns, stems, view);
+                cull.run(device, encoder, page, columns, stems, view);
             }
         }
     }

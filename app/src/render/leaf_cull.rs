@@ -7,11 +7,10 @@
 //! atomics: their order would show where two leaves lie equally deep.
 
 use super::cascades::CASCADES;
-use super::frame::FrameGroup;
 use super::leaf_crowd::{Page, SLOTS_PER_THREAD};
 use super::leaf_kinds::LeafKinds;
 use super::leaf_record::record_constants;
-use super::pipeline::{COMMON, buffer_entry, layout, shader};
+use super::pipeline::{buffer_entry, layout, shader};
 use super::stems::Stems;
 use crate::trees::MAX_CLUSTER;
 
@@ -73,7 +72,7 @@ pub(super) struct CullPass {
 }
 
 impl CullPass {
-    pub(super) fn new(device: &wgpu::Device, frame: &FrameGroup, kinds: &LeafKinds) -> Self {
+    pub(super) fn new(device: &wgpu::Device, kinds: &LeafKinds) -> Self {
         let compute = wgpu::ShaderStages::COMPUTE;
         let read = wgpu::BufferBindingType::Storage { read_only: true };
         let write = wgpu::BufferBindingType::Storage { read_only: false };
@@ -100,17 +99,13 @@ impl CullPass {
             &format!(
                 "const SLOTS_PER_THREAD: u32 = {SLOTS_PER_THREAD}u;\nconst MAX_CLUSTER: u32 = {MAX_CLUSTER}u;\n"
             ),
-            COMMON,
             &record_constants(),
             include_str!("shaders/leaf_kinds.wgsl"),
             include_str!("shaders/leaf_record.wgsl"),
             include_str!("shaders/leaf_cull.wgsl"),
         ];
         let module = shader(device, "leaf culling", &text);
-        let layout = layout(
-            device,
-            &[Some(&frame.layout), Some(&columns_layout), Some(&kinds_layout), Some(&page_layout)],
-        );
+        let layout = layout(device, &[Some(&page_layout), Some(&columns_layout), Some(&kinds_layout)]);
         let steps = ["count", "arrange", "write"].map(|entry_point| {
             device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
                 label: Some(entry_point),
@@ -155,7 +150,6 @@ impl CullPass {
         &self,
         device: &wgpu::Device,
         encoder: &mut wgpu::CommandEncoder,
-        frame: &FrameGroup,
         page: &Page,
         columns: [wgpu::BufferBinding<'_>; 4],
         stems: &Stems,
@@ -194,8 +188,7 @@ impl CullPass {
             label: Some("leaf culling"),
             timestamp_writes: None,
         });
-        pass.set_bind_group(0, &frame.group, &[]);
-        pass.set_bind_group(3, &own, &[]);
+        pass.set_bind_group(0, &own, &[]);
         pass.set_bind_group(1, &columns, &[]);
         pass.set_bind_group(2, &self.kinds, &[]);
         let groups = page.uniform.threads.div_ceil(64);

@@ -169,7 +169,7 @@ impl Renderer {
         let own = own_trees(stand, scene.autumn > 0.0);
         let trees = Trees::new(device, queue, (&planted, leaves), &own);
         let branches = BranchGroup::new(device, queue, stand);
-        let cull = CullPass::new(device, &frame, &kinds);
+        let cull = CullPass::new(device, &kinds);
         let shadow_pass = ShadowPass::new(device, &frame, &kinds, &cull, &branches);
         let shade_pass = ShadePass::new(device, &frame, &trees);
         let environment = Environment::new(&scene.view, center, Path { lead: level, phase: path_phase })?;
@@ -426,15 +426,9 @@ impl Renderer {
     /// Chooses the leaves of the world and of the litter that a view shows.
     fn cull_leaves(&self, encoder: &mut wgpu::CommandEncoder, leaves: &LeafColumns<'_>, view: LeafView) {
         let (device, cull) = (&self.device, &self.cull);
-        self.leaf_crowd.cull(device, encoder, cull, (&self.frame, leaves, &self.stems), view);
+        self.leaf_crowd.cull(device, encoder, cull, (leaves, &self.stems), view);
         if let Some(litter) = &self.litter {
-            self.litter_crowd.cull(
-                device,
-                encoder,
-                cull,
-                (&self.frame, &litter.columns(), &self.stems),
-                view,
-            );
+            self.litter_crowd.cull(device, encoder, cull, (&litter.columns(), &self.stems), view);
         }
     }
 

@@ -16,7 +16,7 @@ struct View {
 }
 
 struct Page {
-    // First slot, number of slots, threads, trees and one.
+    // First slot, number of slots at most, threads, trees and one.
     first: u32,
     count: u32,
     threads: u32,
@@ -44,12 +44,12 @@ struct Draw {
     unused_b: u32,
 }
 
-@group(3) @binding(0) var<uniform> view: View;
-@group(3) @binding(1) var<uniform> page: Page;
-@group(3) @binding(2) var<storage, read> stems: array<StemRecord>;
-@group(3) @binding(3) var<storage, read_write> counts: array<vec4<u32>>;
-@group(3) @binding(4) var<storage, read_write> draws: array<Draw, 4>;
-@group(3) @binding(5) var<storage, read_write> records: array<LeafRecord>;
+@group(0) @binding(0) var<uniform> view: View;
+@group(0) @binding(1) var<uniform> page: Page;
+@group(0) @binding(2) var<storage, read> stems: array<StemRecord>;
+@group(0) @binding(3) var<storage, read_write> counts: array<vec4<u32>>;
+@group(0) @binding(4) var<storage, read_write> draws: array<Draw, 4>;
+@group(0) @binding(5) var<storage, read_write> records: array<LeafRecord>;
 
 @group(1) @binding(0) var<storage, read> places: array<vec4<u32>>;
 @group(1) @binding(1) var<storage, read> attitudes: array<vec4<f32>>;
@@ -58,6 +58,21 @@ struct Draw {
 
 // Edge of a picture in diameters of the disc with the leaf's area, roughly.
 const EDGE: f32 = 1.6;
+
+fn hash_u32(value: u32) -> u32 {
+    let state = value * 747796405u + 2891336453u;
+    let word = ((state >> ((state >> 28u) + 4u)) ^ state) * 277803737u;
+    return (word >> 22u) ^ word;
+}
+
+fn unit_from(value: u32) -> f32 {
+    return f32(value >> 8u) * 5.9604645e-8;
+}
+
+fn rotate(q: vec4<f32>, v: vec3<f32>) -> vec3<f32> {
+    let t = 2.0 * cross(q.xyz, v);
+    return v + q.w * t + cross(q.xyz, t);
+}
 
 fn signed_bytes(word: u32) -> vec4<f32> {
     return vec4<f32>((vec4<u32>(word) >> vec4(0u, 8u, 16u, 24u)) & vec4(255u)) / 127.5 - 1.0;
@@ -145,7 +160,7 @@ fn count(@builtin(global_invocation_id) id: vec3<u32>) {
     }
     var found = vec4(0u);
     let first = id.x * SLOTS_PER_THREAD;
-    for (var index = first; index < min(first + SLOTS_PER_THREAD, page.count); index++) {
+    for (var index = first; index < min(first + SLOTS_PER_THREAD, arrayLength(&places)); index++) {
         let sight = sight_of(index);
         for (var copy = 0u; copy < sight.copies; copy++) {
             if is_kept(sight, copy) {
@@ -196,7 +211,7 @@ fn write(@builtin(global_invocation_id) id: vec3<u32>) {
     var next = counts[id.x]
         + vec4(draws[0].first_record, draws[1].first_record, draws[2].first_record, draws[3].first_record);
     let first = id.x * SLOTS_PER_THREAD;
-    for (var index = first; index < min(first + SLOTS_PER_THREAD, page.count); index++) {
+    for (var index = first; index < min(first + SLOTS_PER_THREAD, arrayLength(&places)); index++) {
         let sight = sight_of(index);
         for (var copy = 0u; copy < sight.copies; copy++) {
             if is_kept(sight, copy) {
@@ -265,8 +280,7 @@ fn record_of(index: u32, sight: Sight, copy: u32) -> LeafRecord {
     let twist = own * 0.24 * random.z;
 
     // On the ground a leaf lies on its lowest point, and leans a little differently each.
-    let height = center.y - surface_height(center.xz);
-    let settled = select(1.0 - smoothstep(0.0, 0.15, height), 0.0, is_attached);
+    let settled = select(0.0, 1.0, state == STATE_RESTING);
     let lean = settled * 0.24 * random.yz;
     attitude = quaternion_product(normalize(vec4(-lean.y, 0.0, lean.x, 2.0)), attitude);
     let is_face_up = rotate(attitude, vec3(0.0, 1.0, 0.0)).y > 0.0;
