@@ -17,7 +17,7 @@ use crate::camera::Camera;
 use crate::trees::Stand;
 
 /// Leaves that are strewn around the camera.
-const LEAVES: u32 = 3000;
+const LEAVES: u32 = 12000;
 /// Pixels of a metre at one metre.
 const PIXELS_PER_M: f32 = 900.0;
 

@@ -46,7 +46,7 @@ impl LeafPass {
             buffers: &[LeafCrowd::layout()],
             blend: None,
             depth_write: true,
-            alpha_to_coverage: true,
+            alpha_to_coverage: false,
         }
         .build(device);
         Self { pipeline }

@@ -59,8 +59,23 @@ fn gloss(normal: vec3<f32>, to_eye: vec3<f32>, to_light: vec3<f32>, roughness: f
     return a2 / (PI * lobe * lobe) * visible * fresnel * nl;
 }
 
+struct Painted {
+    @location(0) color: vec4<f32>,
+    @builtin(sample_mask) mask: u32,
+}
+
+// Which of a pixel's four samples a leaf covers: as many as its share says on average, others for every leaf and pixel, so
+// that leaves behind one another hide what is behind them all.
+fn covered(share: f32, pixel: vec2<f32>, leaf: u32) -> u32 {
+    let random = hash_u32(leaf ^ (u32(pixel.x) * 73856093u) ^ (u32(pixel.y) * 19349663u));
+    let count = u32(share * 4.0 + unit_from(random));
+    let first = random & 3u;
+    let bits = ((1u << min(count, 4u)) - 1u) << first;
+    return (bits | (bits >> 4u)) & 15u;
+}
+
 @fragment
-fn fragment(in: Varyings) -> @location(0) vec4<f32> {
+fn fragment(in: Varyings) -> Painted {
     let image = textureSample(images, image_sampler, in.uv, in.layer);
     let surface = textureSample(surfaces, image_sampler, in.uv, in.layer);
     // A sharp rim at any size: the alpha ramp is made one pixel wide. A leaf of a few texels has no rim: its alpha is the
@@ -68,9 +83,10 @@ fn fragment(in: Varyings) -> @location(0) vec4<f32> {
     let size = vec2<f32>(textureDimensions(images));
     let span = max(length(dpdx(in.uv) * size), length(dpdy(in.uv) * size));
     let levels_left = f32(textureNumLevels(images)) - 1.0 - log2(max(span, 1.0));
-    let rim = max(fwidth(image.a), mix(1.0, 0.04, smoothstep(1.5, 4.0, levels_left)));
+    let rim = max(fwidth(image.a), mix(1.0, 0.04, smoothstep(4.0, 6.0, levels_left)));
     let alpha = clamp((image.a - 0.5) / rim + 0.5, 0.0, 1.0);
-    if alpha <= 0.0 {
+    let mask = covered(alpha, in.clip.xy, bitcast<u32>(in.attitude.x) ^ bitcast<u32>(in.attitude.y));
+    if mask == 0u {
         discard;
     }
     let to_eye = normalize(frame.eye.xyz - in.world);
@@ -82,7 +98,8 @@ fn fragment(in: Varyings) -> @location(0) vec4<f32> {
     let relief = (surface.xy * 2.0 - 1.0) * select(1.5, 1.0, seen > 0.0);
     let bumped = normalize(blade + relief.x * (right - blade * dot(right, blade)) + relief.y * (up - blade * dot(up, blade)));
     // A crown is lit like a rounded whole as well as leaf by leaf.
-    let normal = normalize(bumped * seen + in.outward_mirror.xyz);
+    let sheet = bumped * seen;
+    let normal = normalize(sheet + in.outward_mirror.xyz);
 
     var reflectance = image.rgb * in.tint_open.rgb;
     // Light that crosses a blade meets its pigments on a longer way: deeper colour for the same lightness.
@@ -101,11 +118,12 @@ fn fragment(in: Varyings) -> @location(0) vec4<f32> {
     let facing = dot(normal, light);
     let roughness = select(ROUGHNESS.y, ROUGHNESS.x, seen > 0.0);
     var color = sun * (reflectance * max(facing, 0.0) + transmittance * max(-facing, 0.0));
-    color += sun * PI * gloss(normal, to_eye, light, roughness);
+    color += sun * PI * gloss(sheet, to_eye, light, roughness);
 
     let nearness = mix(1.0, 0.75, in.settled) * in.tint_open.w;
     color += (reflectance * ambient_light(normal) + transmittance * ambient_light(-normal)) * nearness;
-    let fresnel = WAX + (max(1.0 - roughness, WAX) - WAX) * pow(1.0 - max(dot(normal, to_eye), 0.0), 5.0);
-    color += sky_reflection(reflect(-to_eye, normal), roughness) * fresnel * nearness;
-    return vec4(haze(color, in.world), alpha);
+    // What a rough and uneven sheet mirrors at a slant, it mirrors mostly onto itself.
+    let fresnel = WAX + (0.25 - WAX) * pow(1.0 - clamp(dot(sheet, to_eye), 0.0, 1.0), 5.0);
+    color += sky_reflection(reflect(-to_eye, sheet), roughness) * fresnel * nearness;
+    return Painted(vec4(haze(color, in.world), 1.0), mask);
 }
