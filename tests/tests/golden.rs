@@ -19,6 +19,8 @@ use windfall_core::scene::{Exposure, Focus, ToneMap};
 
 /// Size of the pictures: small, but nothing of a scene is lost.
 const SIZE: (u32, u32) = (256, 144);
+/// They are drawn so many times as large and made smaller: how a rasteriser breaks edges into pixels does not matter.
+const FINER: u32 = 3;
 /// Lowest score of a picture that is as it was. Two software rasterisers (Mesa's llvmpipe and Chromium's SwiftShader) score
 /// @SAME@ and more against each other; the faintest of the breaks below @BROKEN@.
 const LEAST_SCORE: f64 = 80.0;
@@ -65,9 +67,11 @@ impl Case {
         let arguments = BackendArguments { backend: Some(BackendKind::Cpu), ..BackendArguments::default() };
         let drawing = Drawing::without_window(&arguments)
             .expect("an adapter: install software Vulkan (mesa-vulkan-drivers); scripts/test does");
-        let mut studio = Studio::new(&scene, drawing, SIZE).expect("a preset can be drawn");
+        let mut studio =
+            Studio::new(&scene, drawing, (FINER * SIZE.0, FINER * SIZE.1)).expect("a preset can be drawn");
         studio.advance(self.steps).expect("the cpu simulates");
-        studio.draw(f64::INFINITY).expect("a picture")
+        let picture = studio.draw(f64::INFINITY).expect("a picture");
+        imageops::resize(&picture, SIZE.0, SIZE.1, imageops::FilterType::Triangle)
     }
 
     fn golden(&self) -> PathBuf {
@@ -134,7 +138,7 @@ fn pictures_are_as_they_were() {
 /// What is broken, in which picture, and how.
 #[rustfmt::skip]
 const BREAKS: [(&str, usize, &str, &str); 8] = [
-    ("sunlight is blue", 2, "frame.sun_color.rgb", "frame.sun_color.bgr"),
+    ("sunlight is blue", 0, "frame.sun_color.rgb", "frame.sun_color.bgr"),
     ("leaves face the other way", 2, "let facing = dot(normal, light);", "let facing = dot(-normal, light);"),
     ("leaves are whole squares", 2, "return vec4(haze(color, in.world), alpha);", "return vec4(haze(color, in.world), 1.0);"),
     ("no ambient light", 2, "return max(sum, vec3(0.0));", "return vec3(0.0);"),
@@ -146,14 +150,17 @@ const BREAKS: [(&str, usize, &str, &str); 8] = [
 
 #[test]
 fn broken_shaders_are_noticed() {
-    let whole = [1, 2].map(|case| (case, CASES[case].draw()));
+    let whole = [0, 1, 2].map(|case| CASES[case].draw());
+    let mut unnoticed = Vec::new();
     for (name, case, from, to) in BREAKS {
         let broken = with_shader_edit(from, to, || CASES[case].draw());
-        let (_, right) = whole.iter().find(|(number, _)| *number == case).expect("drawn above");
-        let found = score(right, &broken);
+        let found = score(&whole[case], &broken);
         println!("{name}: {found}");
-        assert!(found < LEAST_SCORE, "{name}: {found} is no worse than {LEAST_SCORE}");
+        if found >= LEAST_SCORE {
+            unnoticed.push((name, found));
+        }
     }
+    assert!(unnoticed.is_empty(), "no worse than {LEAST_SCORE}: {unnoticed:?}");
     let again = CASES[2].draw();
-    assert!(whole[1].1 == again, "whole shaders draw the same picture again");
+    assert!(whole[2] == again, "whole shaders draw the same picture again");
 }
