@@ -64,10 +64,10 @@ struct Painted {
     @builtin(sample_mask) mask: u32,
 }
 
-// Which of a pixel's four samples a leaf covers: as many as its share says on average, others for every leaf and pixel, so
-// that leaves behind one another hide what is behind them all.
-fn covered(share: f32, pixel: vec2<f32>, leaf: u32) -> u32 {
-    let random = hash_u32(leaf ^ (u32(pixel.x) * 73856093u) ^ (u32(pixel.y) * 19349663u));
+// Which of a pixel's four samples a leaf covers: as many as its share says on average over leaves, others for every leaf,
+// so that leaves behind one another hide what is behind them all.
+fn covered(share: f32, leaf: u32) -> u32 {
+    let random = hash_u32(leaf);
     let count = u32(share * 4.0 + unit_from(random));
     let first = random & 3u;
     let bits = ((1u << min(count, 4u)) - 1u) << first;
@@ -85,7 +85,7 @@ fn fragment(in: Varyings) -> Painted {
     let levels_left = f32(textureNumLevels(images)) - 1.0 - log2(max(span, 1.0));
     let rim = max(fwidth(image.a), mix(1.0, 0.04, smoothstep(4.0, 6.0, levels_left)));
     let alpha = clamp((image.a - 0.5) / rim + 0.5, 0.0, 1.0);
-    let mask = covered(alpha, in.clip.xy, bitcast<u32>(in.attitude.x) ^ bitcast<u32>(in.attitude.y));
+    let mask = covered(alpha, bitcast<u32>(in.attitude.x) ^ bitcast<u32>(in.attitude.y));
     if mask == 0u {
         discard;
     }
