@@ -19,6 +19,13 @@ struct Varyings {
 // Roughness (GGX alpha is its square) of the waxy upper and the dull lower side; reflectance of wax head-on.
 const ROUGHNESS: vec2<f32> = vec2(0.42, 0.62);
 const WAX: f32 = 0.04;
+// What an uneven sheet mirrors at a slant; the rest it mirrors onto itself.
+const SLANTED: f32 = 0.25;
+// Chance that light which leaves a leaf of a crown meets another one (recollision probability of Smolander and Stenberg,
+// 2005), for leaves that the sky can see.
+const RECOLLISION: f32 = 0.55;
+// Light that a thin dry blade lets through for each unit that the map of a fresh one says.
+const CLEARNESS: f32 = 1.6;
 // Most light that leaves a blade on both sides together.
 const MOST: f32 = 0.94;
 
@@ -55,7 +62,7 @@ fn gloss(normal: vec3<f32>, to_eye: vec3<f32>, to_light: vec3<f32>, roughness: f
     let a2 = alpha * alpha;
     let lobe = nh * nh * (a2 - 1.0) + 1.0;
     let visible = 0.5 / (nl * sqrt(nv * nv * (1.0 - a2) + a2) + nv * sqrt(nl * nl * (1.0 - a2) + a2) + 1.0e-4);
-    let fresnel = WAX + (1.0 - WAX) * pow(1.0 - max(dot(to_eye, half_way), 0.0), 5.0);
+    let fresnel = WAX + (SLANTED - WAX) * pow(1.0 - max(dot(to_eye, half_way), 0.0), 5.0);
     return a2 / (PI * lobe * lobe) * visible * fresnel * nl;
 }
 
@@ -104,7 +111,7 @@ fn fragment(in: Varyings) -> Painted {
     var reflectance = image.rgb * in.tint_open.rgb;
     // Light that crosses a blade meets its pigments on a longer way: deeper colour for the same lightness.
     let deep = reflectance * sqrt(reflectance);
-    var transmittance = deep * (surface.z / max(luminance(deep), 0.004)) * mix(1.0, 0.7, in.settled);
+    var transmittance = deep * (CLEARNESS * surface.z / max(luminance(deep), 0.004)) * mix(1.0, 0.6, in.settled);
     // The underside, seen through its air spaces, is paler.
     if seen < 0.0 {
         reflectance = mix(reflectance, vec3(luminance(reflectance)) * vec3(1.08, 1.05, 0.92), 0.25) * 1.12 + 0.008;
@@ -118,12 +125,13 @@ fn fragment(in: Varyings) -> Painted {
     let facing = dot(normal, light);
     let roughness = select(ROUGHNESS.y, ROUGHNESS.x, seen > 0.0);
     var color = sun * (reflectance * max(facing, 0.0) + transmittance * max(-facing, 0.0));
-    color += sun * PI * gloss(sheet, to_eye, light, roughness);
+    color += sun * PI * gloss(sheet, to_eye, light, roughness) * mix(1.0, 0.35, in.settled);
 
     let nearness = mix(1.0, 0.75, in.settled) * in.tint_open.w;
     color += (reflectance * ambient_light(normal) + transmittance * ambient_light(-normal)) * nearness;
-    // What a rough and uneven sheet mirrors at a slant, it mirrors mostly onto itself.
-    let fresnel = WAX + (0.25 - WAX) * pow(1.0 - clamp(dot(sheet, to_eye), 0.0, 1.0), 5.0);
+    let again = RECOLLISION * min(length(in.outward_mirror.xyz) / 0.5, 1.0);
+    color /= 1.0 - again * (reflectance + transmittance);
+    let fresnel = WAX + (SLANTED - WAX) * pow(1.0 - clamp(dot(sheet, to_eye), 0.0, 1.0), 5.0);
     color += sky_reflection(reflect(-to_eye, sheet), roughness) * fresnel * nearness;
     return Painted(vec4(haze(color, in.world), 1.0), mask);
 }

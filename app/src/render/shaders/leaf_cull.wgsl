@@ -56,6 +56,8 @@ struct Draw {
 @group(1) @binding(2) var<storage, read> courses: array<vec4<u32>>;
 @group(1) @binding(3) var<storage, read> identities: array<vec4<u32>>;
 
+// Leaves on twigs are drawn larger than they fly, so that crowns close as they do in nature, where twigs bear more of them.
+const CROWN: f32 = 1.42;
 // Edge of a picture in diameters of the disc with the leaf's area, roughly.
 const EDGE: f32 = 1.6;
 
@@ -123,7 +125,7 @@ fn sight_of(index: u32) -> Sight {
     let is_attached = state == STATE_ATTACHED;
     let copies = select(1u, clamp(u32(cluster), 1u, MAX_CLUSTER), is_attached);
     let species = (place.w >> SPECIES_SHIFT) & SPECIES_MASK;
-    out.diameter = kinds.size[species].x * select(relative, on_twig, is_attached);
+    out.diameter = kinds.size[species].x * select(relative, CROWN * on_twig, is_attached);
     let center = bitcast<vec3<f32>>(place.xyz);
     let radius = out.diameter * (EDGE + 1.2 * sqrt(f32(copies) - 1.0));
     let m = transpose(view.clip);
@@ -273,7 +275,7 @@ fn record_of(index: u32, sight: Sight, copy: u32) -> LeafRecord {
     let other = signed_bytes(hash_u32(tint ^ 0x3c6eu));
     let dry = kinds.layer[layer].y;
     let is_attached = state == STATE_ATTACHED;
-    let stage = clamp((max(dry, 0.0) + 1.1 * other.x) * select(1.0, 0.6, is_attached), 0.0, 5.0);
+    let stage = clamp((max(dry, 0.0) + 1.1 * other.x) * select(1.0, 0.3, is_attached), 0.0, 5.0);
     let own = select(build.w, 0.35 * build.w, dry >= 0.0);
     let fold = own * (0.28 + 0.22 * random.x);
     let bend = own * (0.05 + 0.22 * random.y);
