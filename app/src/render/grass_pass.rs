@@ -11,12 +11,15 @@ use super::pipeline::{COMMON, LIGHT, ScenePipeline, shader};
 use crate::camera::Camera;
 use crate::land::Land;
 
-/// Edge of a square in metres.
+/// Edge of a square in metres, as in `grass.wgsl`.
 const CELL_M: f32 = 1.0;
 /// Blades on a square close by; beyond a distance its share falls with the square (`standing` in `grass.wgsl`).
 const BLADES: u32 = 3000;
-/// Full density reaches this far, in metres.
+/// Full density reaches this far, in metres, where a pixel is as fine as `FINE_RAD`; less far where it is coarser, since blades
+/// are a pixel wide at least and cover as much.
 const DENSE_M: f32 = 6.5;
+/// Angle of a pixel of a picture 720 pixels high with the usual camera, in radians.
+const FINE_RAD: f32 = 0.0013;
 /// Grass ends here, in metres.
 const REACH_M: f32 = 34.0;
 /// Classes of squares by the share of their blades that is drawn.
@@ -62,9 +65,9 @@ impl GrassPass {
         Self { pipeline, cells, counts: [0; SHARES.len()] }
     }
 
-    /// Finds the squares of the land that `camera` sees.
-    pub(super) fn prepare(&mut self, queue: &wgpu::Queue, camera: &Camera, aspect: f32, land: &Land) {
-        let classes = visible_cells(camera, aspect, land);
+    /// Finds the squares of the land that `camera` sees in a picture of this size in pixels.
+    pub(super) fn prepare(&mut self, queue: &wgpu::Queue, camera: &Camera, size: (u32, u32), land: &Land) {
+        let classes = visible_cells(camera, size, land);
         self.counts = std::array::from_fn(|class| u32::try_from(classes[class].len()).unwrap_or(0));
         queue.write_buffer(&self.cells, 0, bytemuck::cast_slice(&classes.concat()));
     }
@@ -86,8 +89,8 @@ fn blades(share: f32) -> u32 {
     (BLADES as f32 * share) as u32
 }
 
-/// Squares in sight by class: corner x, z, blades of a full square, edge.
-fn visible_cells(camera: &Camera, aspect: f32, land: &Land) -> [Vec<[f32; 4]>; SHARES.len()] {
+/// Squares in sight by class: corner x, z, blades of a full square, how far full density reaches.
+fn visible_cells(camera: &Camera, size: (u32, u32), land: &Land) -> [Vec<[f32; 4]>; SHARES.len()] {
     let mut classes: [Vec<[f32; 4]>; SHARES.len()] = std::array::from_fn(|_| Vec::new());
     let eye = camera.eye_m();
     let height = (eye.y - land.ground_m(eye.x, eye.z)).abs();
@@ -95,6 +98,8 @@ fn visible_cells(camera: &Camera, aspect: f32, land: &Land) -> [Vec<[f32; 4]>; S
         return classes;
     }
     let tangent = (0.5 * camera.vertical_fov_rad).tan();
+    let aspect = size.0 as f32 / size.1 as f32;
+    let dense_m = DENSE_M * (FINE_RAD * size.1 as f32 / (2.0 * tangent)).clamp(0.4, 1.0);
     let (forward, right, up) = (camera.forward(), camera.right(), camera.up());
     // Inward normals of the four sides of the view.
     let sides = [
@@ -119,9 +124,9 @@ fn visible_cells(camera: &Camera, aspect: f32, land: &Land) -> [Vec<[f32; 4]>; S
             let near = (offset.length() - 0.75 * CELL_M).max(0.0);
             if seen && near < REACH_M && count < MAX_CELLS {
                 count += 1;
-                let share = (DENSE_M / near.max(DENSE_M)).powi(2);
+                let share = (dense_m / near.max(dense_m)).powi(2);
                 let class = SHARES.iter().rposition(|&limit| limit >= share).unwrap_or(0);
-                classes[class].push([corner.x, corner.y, BLADES as f32, CELL_M]);
+                classes[class].push([corner.x, corner.y, BLADES as f32, dense_m]);
             }
             x += 1.0;
         }
@@ -143,7 +148,7 @@ mod tests {
     #[test]
     fn squares_lie_before_the_camera_and_stay_few() {
         let camera = Camera::from(&scene::Camera::default());
-        let classes = visible_cells(&camera, 16.0 / 9.0, &level());
+        let classes = visible_cells(&camera, (1280, 720), &level());
         let drawn: usize =
             SHARES.into_iter().zip(&classes).map(|(share, cells)| blades(share) as usize * cells.len()).sum();
         assert!(
@@ -151,12 +156,20 @@ mod tests {
             "a square behind the camera"
         );
         assert!((20_000..600_000).contains(&drawn), "{drawn} blades");
+        let count = |classes: &[Vec<[f32; 4]>]| -> usize {
+            SHARES.into_iter().zip(classes).map(|(share, cells)| blades(share) as usize * cells.len()).sum()
+        };
+        let coarse = count(&visible_cells(&camera, (640, 360), &level()));
+        assert!(2 * coarse < drawn, "{coarse} blades in a quarter of the pixels, {drawn} in all");
     }
 
     #[test]
     fn no_grass_from_high_above() {
         let mut camera = Camera::from(&scene::Camera::default());
         camera.target_m.y = 500.0;
-        assert!(visible_cells(&camera, 1.0, &level()).iter().all(Vec::is_empty), "grass seen from 500 m");
+        assert!(
+            visible_cells(&camera, (64, 64), &level()).iter().all(Vec::is_empty),
+            "grass seen from 500 m"
+        );
     }
 }

@@ -40,8 +40,8 @@ pub(super) struct ViewUniform {
 /// Least edges in pixels of the pictures of leaves drawn as coarse, medium and fine meshes: a triangle then covers about
 /// eight pixels or more. Below the last one pictures are thinned out.
 pub(super) const LIMITS_PX: [f32; 4] = [18.0, 48.0, 150.0, 1.4];
-/// The same for shadows, whose texels are averaged: no finer mesh than the coarse one.
-const SHADOW_LIMITS_PX: [f32; 4] = [40.0, f32::MAX, f32::MAX, 1.4];
+/// The same for shadows, whose texels are averaged: no finer mesh than the coarse one, and thinned out sooner.
+const SHADOW_LIMITS_PX: [f32; 4] = [60.0, f32::MAX, f32::MAX, 4.0];
 /// Least share of leaves that are kept, however small: those that are kept are at most four times as wide.
 const LEAST_SHARE: f32 = 1.0 / 16.0;
 

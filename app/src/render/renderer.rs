@@ -333,7 +333,6 @@ impl Renderer {
         input: &FrameInput,
         tile: &Tile,
     ) {
-        let (width, height) = self.targets.size;
         #[expect(clippy::cast_possible_truncation, reason = "wraps long before f32 seconds grow coarse")]
         let time_s = input.time_s.rem_euclid(3600.0) as f32;
         let frame = self.environment.frame(input, time_s, self.targets.size, tile);
@@ -342,7 +341,7 @@ impl Renderer {
             water.prepare(&self.device, &self.queue, frame, self.targets.tile_size);
         }
         self.write_views(&frame, &input.camera);
-        self.grass_pass.prepare(&self.queue, &input.camera, width as f32 / height as f32, &self.land);
+        self.grass_pass.prepare(&self.queue, &input.camera, self.targets.size, &self.land);
         if self.shade_is_old {
             self.shade_pass.draw(encoder, &self.frame, &self.trees);
             self.shade_is_old = false;

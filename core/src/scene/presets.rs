@@ -14,6 +14,10 @@ pub const PRESETS: &[(&str, &str)] = &[
     ("forest", include_str!("../../scenes/forest.ron")),
     ("gale", include_str!("../../scenes/gale.ron")),
     ("hurricane", include_str!("../../scenes/hurricane.ron")),
+    ("evening", include_str!("../../scenes/evening.ron")),
+    ("macro", include_str!("../../scenes/macro.ron")),
+    ("winter", include_str!("../../scenes/winter.ron")),
+    ("hills", include_str!("../../scenes/hills.ron")),
 ];
 
 impl Scene {
@@ -41,7 +45,20 @@ mod tests {
         let names: Vec<_> = PRESETS.iter().map(|(name, _)| *name).collect();
         assert_eq!(
             names,
-            ["autumn-park", "six-motions", "flight-lab", "storm", "million", "forest", "gale", "hurricane"],
+            [
+                "autumn-park",
+                "six-motions",
+                "flight-lab",
+                "storm",
+                "million",
+                "forest",
+                "gale",
+                "hurricane",
+                "evening",
+                "macro",
+                "winter",
+                "hills"
+            ],
             "names and their order"
         );
         assert_eq!(Scene::preset("calm"), None, "unknown names");
@@ -49,7 +66,18 @@ mod tests {
 
     #[test]
     fn rates_keep_the_number_of_leaves_in_the_air_constant() {
-        for name in ["autumn-park", "storm", "million", "forest", "gale", "hurricane"] {
+        for name in [
+            "autumn-park",
+            "storm",
+            "million",
+            "forest",
+            "gale",
+            "hurricane",
+            "evening",
+            "macro",
+            "winter",
+            "hills",
+        ] {
             for source in Scene::preset(name).expect("a preset").sources {
                 let Release::Rate { per_s, from_s } = source.release else {
                     panic!("{name} releases at a rate")

@@ -13,7 +13,7 @@ pub(crate) const SPRITE_COUNT: u32 = 8;
 
 const EDGE: f32 = 512.0;
 /// Twigs of a clump in a crown that is not full.
-const TWIGS: usize = 26;
+const TWIGS: usize = 14;
 
 /// One tree: two images of `SPRITE_SIZE` squared, with their halvings.
 pub(crate) struct TreeSprite {

@@ -7,16 +7,16 @@ struct Varyings {
     @location(0) @interpolate(perspective, centroid) color: vec3<f32>,
 }
 
-// Part of the blades that still stand at a distance.
-fn standing(distance_m: f32) -> f32 {
-    let near = 6.5 / max(distance_m, 6.5);
+// Part of the blades that still stand at a distance, if all do up to another.
+fn standing(distance_m: f32, dense_m: f32) -> f32 {
+    let near = dense_m / max(distance_m, dense_m);
     return near * near * (1.0 - smoothstep(22.0, 34.0, distance_m));
 }
 
 @vertex
 fn vertex(
     @builtin(vertex_index) index: u32,
-    // Corner of a square metre, number of blades on it, side of the square.
+    // Corner of a square metre, number of blades on it, how far all of them stand.
     @location(0) cell: vec4<f32>,
 ) -> Varyings {
     let blade = index / 3u;
@@ -25,7 +25,7 @@ fn vertex(
     let key = hash_u32(cell_key ^ (blade * 2654435769u));
     let key_2 = hash_u32(key);
     let key_3 = hash_u32(key_2);
-    let at = cell.xy + vec2(unit_from(key), unit_from(key_2)) * cell.w;
+    let at = cell.xy + vec2(unit_from(key), unit_from(key_2));
     let hill = hills_at(at);
     let foot = vec3(at.x, land.shape.z + hill.x - SWARD_M, at.y);
     let to_eye = frame.eye.xyz - foot;
@@ -33,7 +33,7 @@ fn vertex(
 
     // The rank of a blade is its number: fewer stand farther away, and the last ones shrink before they vanish.
     let rank = f32(blade) / cell.z;
-    let kept = standing(distance_m);
+    let kept = standing(distance_m, cell.w);
     let verge = smoothstep(-0.1, 0.2, beyond_path(at) - 0.25 * (unit_from(key_3) - 0.5));
     let grown = smoothstep(rank, rank * 1.25 + 0.002, kept) * verge
         * (1.0 - smoothstep(0.3, 0.6, bare_soil(at, foot.y, length(hill.yz)) + 0.2 * (unit_from(key_3) - 0.5)));
