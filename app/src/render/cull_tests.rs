@@ -32,7 +32,7 @@ fn unit(leaf: u32, axis: u32) -> f32 {
 fn place(leaf: u32) -> [u32; 4] {
     let at = Vec3::from([0, 1, 2].map(|axis| unit(leaf, axis) - 0.5)) * Vec3::new(40.0, 10.0, 40.0)
         + 7.0 * Vec3::Y;
-    let state = if leaf % 9 == 0 { STATE_DORMANT } else { STATE_FALLING };
+    let state = if leaf.is_multiple_of(9) { STATE_DORMANT } else { STATE_FALLING };
     [at.x.to_bits(), at.y.to_bits(), at.z.to_bits(), state]
 }
 
