@@ -337,9 +337,17 @@ prop_compose! {
         for (tree, kind) in trees.iter_mut().zip(&tree_kinds) {
             tree.kind.clone_from(&kind.name);
         }
-        Scene {
+        let mut scene = Scene {
             name, seed, dt_s, fall_speed, rotation_speed, species, sources, tree_kinds, trees, sway, autumn, regrow_after_s, wind, ground,
             view,
+        };
+        // Hills no deeper than the slowest leaf has time to fall.
+        while scene.validate("random").is_err() {
+            match &mut scene.ground.terrain {
+                Some(terrain) if terrain.relief_m > 0.01 => terrain.relief_m *= 0.5,
+                _ => break,
+            }
         }
+        scene
     }
 }

@@ -104,7 +104,11 @@ const REALS: &[Row<f32>] = &[
     }),
     ("ground.friction", 0.05, 5.0, |s, v| s.ground.friction = v),
     ("ground.terrain.edge_m", 16.0, 4096.0, |s, v| hills(s).edge_m = v),
-    ("ground.terrain.relief_m", 0.0, 500.0, |s, v| hills(s).relief_m = v),
+    ("ground.terrain.relief_m", 0.0, 500.0, |s, v| {
+        hills(s).relief_m = v;
+        // Steps long enough to come down from there.
+        s.dt_s = 0.03;
+    }),
     ("ground.terrain.noise", 0.0, 1.0, |s, v| hills(s).noise = v),
     ("ground.terrain.pulled", 0.0, 1.0, |s, v| hills(s).pulled = v),
     ("ground.water.height_m", -4096.0, 4096.0, |s, v| s.ground.water = Some(Water { height_m: v })),
