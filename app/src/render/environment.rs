@@ -8,8 +8,8 @@ use glam::{Mat4, Vec2, Vec3};
 use windfall_core::scene::{Haze, View};
 
 use super::cascades::{CASCADES, cascades};
-use super::renderer::FrameInput;
 use super::scenery::PARK_RADIUS_M;
+use super::subject::FrameInput;
 use super::tile::Tile;
 use crate::light::{Daylight, MapError, SphericalHarmonics};
 

@@ -1,0 +1,202 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! One frame: which pass follows which.
+
+use glam::Vec3;
+use windfall_wgpu::{BranchColumns, LeafColumns};
+
+use super::{FrameInput, Renderer, TIMED_POSTS};
+use crate::camera::{Camera, NEAR_M};
+use crate::render::cascades::SHADOW_SIZE;
+use crate::render::environment::FrameUniform;
+use crate::render::leaf_cull::{View as LeafView, ViewUniform};
+use crate::render::lens_group::Shot;
+use crate::render::shadow_pass::Casters;
+use crate::render::targets::Targets;
+use crate::render::tile::Tile;
+
+impl Renderer {
+    /// Encodes one frame of `leaves` and `branches` into `output`, a view of a texture of this renderer's format. What
+    /// lies outside of the picture becomes black. Without branches the trees stand at rest.
+    pub fn draw(
+        &mut self,
+        encoder: &mut wgpu::CommandEncoder,
+        output: &wgpu::TextureView,
+        leaves: &LeafColumns<'_>,
+        branches: Option<&BranchColumns<'_>>,
+        input: &FrameInput,
+    ) {
+        let (width, height) = self.targets.size;
+        let camera = input.camera.fitted(width as f32 / height as f32);
+        let input = &FrameInput { camera, ..*input };
+        let shot = Shot {
+            size: self.targets.size,
+            origin: input.origin,
+            since_s: input.since_s,
+            vertical_fov_rad: camera.vertical_fov_rad,
+            near_m: NEAR_M,
+        };
+        self.post.begin(&self.queue, &shot);
+        let mut is_first = true;
+        for tile in self.targets.tiles() {
+            // Every tile has uniforms of its own, which are written when its commands are submitted.
+            let mut own = (tile.left > 0).then(|| self.device.create_command_encoder(&Default::default()));
+            let encoder = own.as_mut().unwrap_or(encoder);
+            if std::mem::take(&mut is_first) {
+                self.observe(encoder, leaves, input.time_s);
+            }
+            self.draw_tile(encoder, leaves, branches, input, &tile);
+            if let Some(own) = own {
+                self.queue.submit([own.finish()]);
+            }
+        }
+        let timer = self.timer.as_ref().map(|timer| (timer, TIMED_POSTS));
+        self.post.draw(encoder, timer, output, &shot);
+        if let Some(timer) = &self.timer {
+            // An earlier frame may still be on its way; the next one will do.
+            let _ = timer.resolve(encoder);
+        }
+    }
+
+    /// Encodes light and depth of a part of the picture.
+    fn draw_tile(
+        &mut self,
+        encoder: &mut wgpu::CommandEncoder,
+        leaves: &LeafColumns<'_>,
+        branches: Option<&BranchColumns<'_>>,
+        input: &FrameInput,
+        tile: &Tile,
+    ) {
+        #[expect(clippy::cast_possible_truncation, reason = "wraps long before f32 seconds grow coarse")]
+        let time_s = input.time_s.rem_euclid(3600.0) as f32;
+        let frame = self.environment.frame(input, time_s, self.targets.size, tile);
+        self.frame.write(&self.queue, &frame);
+        if let Some(water) = &mut self.water_pass {
+            water.prepare(&self.device, &self.queue, frame, self.targets.tile_size);
+        }
+        self.write_views(&frame, &input.camera);
+        self.grass_pass.prepare(&self.queue, &input.camera, self.targets.size, &self.land);
+        if self.shade_is_old {
+            self.shade_pass.draw(encoder, &self.frame, &self.trees);
+            self.shade_is_old = false;
+        }
+        let crowds = [&self.leaf_crowd, &self.litter_crowd];
+        let group = self.branches.bind(&self.device, branches);
+        let casters = Casters { kinds: &self.kinds, crowds: &crowds, bark: &self.bark, branches: &group };
+        // The last tile is timed: its commands are those that are resolved.
+        let timer = self.timer.as_ref().filter(|_| tile.left == 0);
+        let writes = |pass| timer.map(|timer| timer.render_writes(pass));
+        let shadow_writes = timer.map(|timer| timer.split_writes(0));
+        let cull_for = |encoder: &mut wgpu::CommandEncoder, cascade| {
+            self.cull_leaves(encoder, leaves, LeafView::Shadow(cascade));
+        };
+        self.shadow_pass.draw(encoder, shadow_writes, &self.frame, &casters, &cull_for);
+        if self.water_pass.is_some() {
+            self.cull_leaves(encoder, leaves, LeafView::Mirror);
+        }
+        self.draw_mirror(encoder, &group);
+        self.cull_leaves(encoder, leaves, LeafView::Camera);
+        self.draw_scene(encoder, writes(1), leaves.leaf_count, &group);
+        self.targets.place(encoder, tile);
+        self.post.take_tile(&self.queue, encoder, tile);
+    }
+
+    /// Draws what the water mirrors; grass is too low to be seen in it.
+    fn draw_mirror(&self, encoder: &mut wgpu::CommandEncoder, branches: &wgpu::BindGroup) {
+        let Some(water) = &self.water_pass else { return };
+        let Some(targets) = water.targets() else { return };
+        let mut pass = begin_scene(encoder, targets, None);
+        pass.set_bind_group(0, &water.frame.group, &[]);
+        pass.set_bind_group(1, &self.light.group, &[]);
+        self.draw_stand(&mut pass, branches);
+        self.ground_pass.draw(&mut pass);
+        self.tree_pass.draw(&mut pass, &self.trees);
+        self.sky_pass.draw(&mut pass);
+    }
+
+    /// Draws the scene's own trees and all leaves; bind groups 0 and 1 are set.
+    fn draw_stand(&self, pass: &mut wgpu::RenderPass<'_>, branches: &wgpu::BindGroup) {
+        self.bark_pass.draw(pass, branches, &self.bark, &self.stems);
+        self.leaf_pass.draw(pass, &self.kinds, [&self.leaf_crowd, &self.litter_crowd].into_iter());
+        self.fruit_pass.draw(pass, branches);
+    }
+
+    /// Tells the culling what each view of a frame sees.
+    fn write_views(&self, uniform: &FrameUniform, camera: &Camera) {
+        let height_px = self.targets.size.1 as f32;
+        let pixels_per_m = 0.5 * height_px / (0.5 * camera.vertical_fov_rad).tan();
+        let seen =
+            |frame: &FrameUniform| ViewUniform::perspective(frame.view_projection, frame.eye, pixels_per_m);
+        self.cull.write(&self.queue, LeafView::Camera, &seen(uniform));
+        if let Some(water) = &self.water_pass {
+            self.cull.write(&self.queue, LeafView::Mirror, &seen(&water.mirrored(*uniform)));
+        }
+        for (cascade, clip) in uniform.shadows.into_iter().enumerate() {
+            // The projection is parallel: half a map's edge is one in clip space.
+            let scale = Vec3::new(clip[0][0], clip[1][0], clip[2][0]).length();
+            let seen = ViewUniform::parallel(clip, 0.5 * SHADOW_SIZE as f32 * scale);
+            self.cull.write(&self.queue, LeafView::Shadow(cascade), &seen);
+        }
+    }
+
+    /// Chooses the leaves of the world and of the litter that a view shows.
+    fn cull_leaves(&self, encoder: &mut wgpu::CommandEncoder, leaves: &LeafColumns<'_>, view: LeafView) {
+        let (device, cull) = (&self.device, &self.cull);
+        self.leaf_crowd.cull(device, encoder, cull, (leaves, &self.stems), view);
+        if let Some(litter) = &self.litter {
+            self.litter_crowd.cull(device, encoder, cull, (&litter.columns(), &self.stems), view);
+        }
+    }
+
+    /// Near things first, so that what they hide is not shaded.
+    fn draw_scene(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        timestamps: Option<wgpu::RenderPassTimestampWrites<'_>>,
+        leaf_count: u32,
+        branches: &wgpu::BindGroup,
+    ) {
+        let mut pass = begin_scene(encoder, &self.targets, timestamps);
+        pass.set_bind_group(0, &self.frame.group, &[]);
+        pass.set_bind_group(1, &self.light.group, &[]);
+        self.draw_stand(&mut pass, branches);
+        self.grass_pass.draw(&mut pass);
+        self.ground_pass.draw(&mut pass);
+        if let Some(water) = &self.water_pass {
+            water.draw(&mut pass);
+        }
+        self.tree_pass.draw(&mut pass, &self.trees);
+        self.sky_pass.draw(&mut pass);
+        if let Some(trails) = &self.trail_pass {
+            trails.draw(&mut pass, leaf_count);
+        }
+    }
+}
+
+/// Begins a pass that draws the scene into `targets`.
+fn begin_scene<'a>(
+    encoder: &'a mut wgpu::CommandEncoder,
+    targets: &Targets,
+    timestamp_writes: Option<wgpu::RenderPassTimestampWrites<'_>>,
+) -> wgpu::RenderPass<'a> {
+    encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+        label: Some("scene"),
+        color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+            view: &targets.color,
+            depth_slice: None,
+            resolve_target: Some(targets.resolve()),
+            ops: wgpu::Operations {
+                load: wgpu::LoadOp::Clear(wgpu::Color::BLACK),
+                store: wgpu::StoreOp::Discard,
+            },
+        })],
+        depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
+            view: &targets.depth,
+            depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(0.0), store: wgpu::StoreOp::Store }),
+            stencil_ops: None,
+        }),
+        timestamp_writes,
+        occlusion_query_set: None,
+        multiview_mask: None,
+    })
+}
