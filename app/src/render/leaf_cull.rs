@@ -10,7 +10,7 @@ use super::cascades::CASCADES;
 use super::leaf_crowd::{Page, SLOTS_PER_THREAD};
 use super::leaf_kinds::LeafKinds;
 use super::leaf_record::record_constants;
-use super::pipeline::{buffer_entry, layout, shader};
+use super::pipeline::{NUMBERS, buffer_entry, layout, shader};
 use super::stems::Stems;
 use crate::trees::MAX_CLUSTER;
 
@@ -99,6 +99,7 @@ impl CullPass {
             &format!(
                 "const SLOTS_PER_THREAD: u32 = {SLOTS_PER_THREAD}u;\nconst MAX_CLUSTER: u32 = {MAX_CLUSTER}u;\n"
             ),
+            NUMBERS,
             &record_constants(),
             include_str!("shaders/leaf_kinds.wgsl"),
             include_str!("shaders/leaf_record.wgsl"),

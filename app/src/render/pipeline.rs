@@ -6,7 +6,10 @@ use super::shader_edit;
 use super::targets::{DEPTH_FORMAT, HDR_FORMAT, SAMPLE_COUNT};
 
 /// WGSL every drawing shader begins with: the frame's uniform block and small helpers.
-pub(super) const COMMON: &str = include_str!("shaders/common.wgsl");
+pub(super) const COMMON: &str =
+    concat!(include_str!("shaders/numbers.wgsl"), include_str!("shaders/common.wgsl"));
+/// The part of it that binds nothing.
+pub(super) const NUMBERS: &str = include_str!("shaders/numbers.wgsl");
 /// WGSL of shadows, ambient light and haze; uses bind group 1.
 pub(super) const LIGHT: &str = include_str!("shaders/light.wgsl");
 

@@ -89,21 +89,6 @@ const PI: f32 = 3.14159265;
 // Grass stands this deep below the leaves that lie on its tips, in metres.
 const SWARD_M: f32 = 0.028;
 
-fn hash_u32(value: u32) -> u32 {
-    let state = value * 747796405u + 2891336453u;
-    let word = ((state >> ((state >> 28u) + 4u)) ^ state) * 277803737u;
-    return (word >> 22u) ^ word;
-}
-
-fn unit_from(value: u32) -> f32 {
-    return f32(value >> 8u) * 5.9604645e-8;
-}
-
-fn rotate(q: vec4<f32>, v: vec3<f32>) -> vec3<f32> {
-    let t = 2.0 * cross(q.xyz, v);
-    return v + q.w * t + cross(q.xyz, t);
-}
-
 fn luminance(color: vec3<f32>) -> f32 {
     return dot(color, vec3(0.2126, 0.7152, 0.0722));
 }

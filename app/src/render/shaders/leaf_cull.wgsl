@@ -61,21 +61,6 @@ const CROWN: f32 = 1.42;
 // Edge of a picture in diameters of the disc with the leaf's area, roughly.
 const EDGE: f32 = 1.6;
 
-fn hash_u32(value: u32) -> u32 {
-    let state = value * 747796405u + 2891336453u;
-    let word = ((state >> ((state >> 28u) + 4u)) ^ state) * 277803737u;
-    return (word >> 22u) ^ word;
-}
-
-fn unit_from(value: u32) -> f32 {
-    return f32(value >> 8u) * 5.9604645e-8;
-}
-
-fn rotate(q: vec4<f32>, v: vec3<f32>) -> vec3<f32> {
-    let t = 2.0 * cross(q.xyz, v);
-    return v + q.w * t + cross(q.xyz, t);
-}
-
 fn signed_bytes(word: u32) -> vec4<f32> {
     return vec4<f32>((vec4<u32>(word) >> vec4(0u, 8u, 16u, 24u)) & vec4(255u)) / 127.5 - 1.0;
 }
