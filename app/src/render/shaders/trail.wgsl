@@ -105,6 +105,7 @@ fn vertex(@builtin(vertex_index) index: u32, @builtin(instance_index) leaf: u32)
 fn fragment(in: Varyings) -> @location(0) vec4<f32> {
     let soft = 1.0 - in.across * in.across;
     let alpha = in.color.a * smoothstep(0.0, 0.6, soft);
-    // A darker rim sets the ribbon off from a bright sky.
-    return vec4(in.color.rgb * alpha * mix(0.35, 1.0, smoothstep(0.2, 0.75, soft)), alpha);
+    // As bright as paint would be in this light, and a little more; a darker rim sets the ribbon off from a bright sky.
+    let glow = 1.6 * luminance(ambient_light(vec3(0.0, 1.0, 0.0)) + frame.sun_color.rgb);
+    return vec4(in.color.rgb * glow * alpha * mix(0.35, 1.0, smoothstep(0.2, 0.75, soft)), alpha);
 }
