@@ -19,12 +19,12 @@ struct Varyings {
 // Roughness (GGX alpha is its square) of the waxy upper and the dull lower side; reflectance of wax head-on.
 const ROUGHNESS: vec2<f32> = vec2(0.42, 0.62);
 const WAX: f32 = 0.04;
-// What an uneven sheet mirrors at a slant; the rest it mirrors onto itself.
+// What an uneven sheet mirrors at a slant, set by eye; the rest it mirrors onto itself.
 const SLANTED: f32 = 0.25;
 // Chance that light which leaves a leaf of a crown meets another one (recollision probability of Smolander and Stenberg,
-// 2005), for leaves that the sky can see.
+// 2005), for leaves that the sky can see; the value is set by eye.
 const RECOLLISION: f32 = 0.55;
-// Light that a thin dry blade lets through for each unit that the map of a fresh one says.
+// Light that a blade lets through for each unit that its map says: set by eye.
 const CLEARNESS: f32 = 1.6;
 // Most light that leaves a blade on both sides together.
 const MOST: f32 = 0.94;
