@@ -24,6 +24,7 @@ pub struct Studio {
     /// Keys the camera follows, if any.
     path: Vec<CameraKey>,
     trail_s: f64,
+    is_moving: bool,
     stepping: Stepping,
     /// Steps done.
     step: u64,
@@ -58,6 +59,7 @@ impl Studio {
             camera: Camera::from(&scene.view.camera),
             path: scene.view.path.clone(),
             trail_s: scene.view.trail_s.into(),
+            is_moving: scene.view.lens.shutter_s > 0.0,
             stepping: Stepping::default(),
             step: 0,
         })
@@ -73,9 +75,9 @@ impl Studio {
         self.step
     }
 
-    /// Length of trails in seconds.
-    pub fn trail_s(&self) -> f64 {
-        self.trail_s
+    /// Whether a picture this many seconds after a moment, at the next frame or later, shows something of that moment.
+    pub fn remembers(&self, seconds: f64, is_next: bool) -> bool {
+        self.trail_s > 0.0 && seconds <= self.trail_s || self.is_moving && is_next
     }
 
     /// Simulates until `step` steps are done.
@@ -118,7 +120,7 @@ impl Studio {
         Ok(picture?)
     }
 
-    /// Notes where the leaves are for their trails, without drawing.
+    /// Notes where the leaves are for pictures to come, without drawing.
     ///
     /// # Errors
     /// A lost device.

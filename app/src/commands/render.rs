@@ -104,9 +104,8 @@ fn film(
             writer.push(&picture?)?;
         } else {
             writer.skip();
-            // Trails remember the frames before.
             let ahead = end.saturating_sub(studio.step());
-            if studio.trail_s() > 0.0 && ahead as f64 * dt_s <= studio.trail_s() {
+            if studio.remembers(ahead as f64 * dt_s, number + 2 == frames) {
                 studio.observe()?;
             }
         }

@@ -82,7 +82,13 @@ impl FocusPass {
         }
     }
 
-    pub(super) fn chain(&self, device: &wgpu::Device, targets: &Targets) -> FocusChain {
+    /// Textures for `targets`; what is gathered is `light`.
+    pub(super) fn chain(
+        &self,
+        device: &wgpu::Device,
+        targets: &Targets,
+        light: &wgpu::TextureView,
+    ) -> FocusChain {
         let (width, height) = targets.size;
         #[expect(
             clippy::cast_possible_truncation,
@@ -119,7 +125,7 @@ impl FocusPass {
                     entry(1, &targets.depth),
                     entry(2, circles),
                     entry(3, widest),
-                    entry(4, &targets.resolved),
+                    entry(4, light),
                 ],
             })
         };

@@ -20,10 +20,11 @@ const BLADES: u32 = 3000;
 const DENSE_M: f32 = 6.5;
 /// Angle of a pixel of a picture 720 pixels high with the usual camera, in radians.
 const FINE_RAD: f32 = 0.0013;
-/// Grass ends here, in metres.
+/// Grass grows sparser from here on and ends there, in metres.
+const SPARSE_M: f32 = 22.0;
 const REACH_M: f32 = 34.0;
-/// Classes of squares by the share of their blades that is drawn.
-const SHARES: [f32; 5] = [1.0, 0.5, 0.25, 0.12, 0.05];
+/// Classes of squares by the share of their blades that is drawn: shaders run for every blade of a class, standing or not.
+const SHARES: [f32; 12] = [1.0, 0.75, 0.56, 0.42, 0.32, 0.24, 0.18, 0.13, 0.09, 0.06, 0.03, 0.01];
 /// Most squares drawn in a frame.
 const MAX_CELLS: usize = 4096;
 
@@ -89,6 +90,13 @@ fn blades(share: f32) -> u32 {
     (BLADES as f32 * share) as u32
 }
 
+/// Part of the blades that still stand at a distance, if all do up to another: as in `grass.wgsl`.
+fn standing(distance_m: f32, dense_m: f32) -> f32 {
+    let near = dense_m / distance_m.max(dense_m);
+    let sparse = ((distance_m - SPARSE_M) / (REACH_M - SPARSE_M)).clamp(0.0, 1.0);
+    near * near * (1.0 - sparse * sparse * (3.0 - 2.0 * sparse))
+}
+
 /// Squares in sight by class: corner x, z, blades of a full square, how far full density reaches.
 fn visible_cells(camera: &Camera, size: (u32, u32), land: &Land) -> [Vec<[f32; 4]>; SHARES.len()] {
     let mut classes: [Vec<[f32; 4]>; SHARES.len()] = std::array::from_fn(|_| Vec::new());
@@ -124,7 +132,7 @@ fn visible_cells(camera: &Camera, size: (u32, u32), land: &Land) -> [Vec<[f32; 4
             let near = (offset.length() - 0.75 * CELL_M).max(0.0);
             if seen && near < REACH_M && count < MAX_CELLS {
                 count += 1;
-                let share = (dense_m / near.max(dense_m)).powi(2);
+                let share = standing(near, dense_m);
                 let class = SHARES.iter().rposition(|&limit| limit >= share).unwrap_or(0);
                 classes[class].push([corner.x, corner.y, BLADES as f32, dense_m]);
             }

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A set of leaves as it is drawn: pages of slots, each with room for the records of what a view shows.
 
+use std::iter;
+
 use windfall_wgpu::LeafColumns;
 
 use super::leaf_cull::{CullPass, View};
@@ -85,18 +87,10 @@ impl LeafCrowd {
         view: View,
     ) {
         for page in &self.pages {
-            // The columns may be shorter than announced while their number changes.
-            let count = page.uniform.count.min(columns.leaf_count.saturating_sub(page.uniform.first));
-            if count == 0 {
-                encoder.clear_buffer(&page.draws, 0, None);
-            } else {
-                let window = |column| wgpu::BufferBinding {
-                    buffer: column,
-                    offset: u64::from(page.uniform.first) * COLUMN_BYTES,
-                    size: wgpu::BufferSize::new(u64::from(count) * COLUMN_BYTES),
-                };
-                let columns = [columns.place, columns.attitude, columns.course, columns.identity].map(window);
-                cull.run(device, encoder, page, columns, stems, view);
+            let bound = [columns.place, columns.attitude, columns.course, columns.identity];
+            match page.windows(bound, columns.leaf_count) {
+                None => encoder.clear_buffer(&page.draws, 0, None),
+                Some(windows) => cull.run(device, encoder, page, windows, stems, view),
             }
         }
     }
@@ -105,12 +99,33 @@ impl LeafCrowd {
     pub(super) fn draw(&self, pass: &mut wgpu::RenderPass<'_>) {
         for page in &self.pages {
             pass.set_bind_group(3, &page.group, &[]);
-            // Near leaves are finer: they hide the others.
-            for level in (0..LEVELS as u64).rev() {
-                let at = level * DRAW_BYTES;
-                pass.set_vertex_buffer(0, page.draws.slice(at..at + DRAW_BYTES));
-                pass.draw_indirect(&page.draws, at);
-            }
+            page.draw(pass);
+        }
+    }
+
+    /// The same with the rows of `columns`, of which `leaf_count` are used, bound behind the records.
+    pub(super) fn draw_with<const N: usize>(
+        &self,
+        device: &wgpu::Device,
+        pass: &mut wgpu::RenderPass<'_>,
+        layout: &wgpu::BindGroupLayout,
+        columns: [&wgpu::Buffer; N],
+        leaf_count: u32,
+    ) {
+        for page in &self.pages {
+            let Some(windows) = page.windows(columns, leaf_count) else { continue };
+            let records = page.records.as_entire_buffer_binding();
+            let bound = iter::once(records).chain(windows).zip(0..);
+            let entries: Vec<_> = bound
+                .map(|(buffer, binding)| wgpu::BindGroupEntry {
+                    binding,
+                    resource: wgpu::BindingResource::Buffer(buffer),
+                })
+                .collect();
+            let descriptor =
+                wgpu::BindGroupDescriptor { label: Some("leaf records and columns"), layout, entries: &entries };
+            pass.set_bind_group(3, &device.create_bind_group(&descriptor), &[]);
+            page.draw(pass);
         }
     }
 
@@ -158,6 +173,31 @@ impl Page {
             },
             records,
             group,
+        }
+    }
+}
+
+impl Page {
+    /// The parts of columns of `leaf_count` rows that this page's slots are in, if there are any.
+    fn windows<'a, const N: usize>(
+        &self,
+        columns: [&'a wgpu::Buffer; N],
+        leaf_count: u32,
+    ) -> Option<[wgpu::BufferBinding<'a>; N]> {
+        // The columns may be shorter than announced while their number changes.
+        let count = self.uniform.count.min(leaf_count.saturating_sub(self.uniform.first));
+        let size = wgpu::BufferSize::new(u64::from(count) * COLUMN_BYTES)?;
+        let offset = u64::from(self.uniform.first) * COLUMN_BYTES;
+        Some(columns.map(|buffer| wgpu::BufferBinding { buffer, offset, size: Some(size) }))
+    }
+
+    /// Draws its levels; all bind groups are set.
+    fn draw(&self, pass: &mut wgpu::RenderPass<'_>) {
+        // Near leaves are finer: they hide the others.
+        for level in (0..LEVELS as u64).rev() {
+            let at = level * DRAW_BYTES;
+            pass.set_vertex_buffer(0, self.draws.slice(at..at + DRAW_BYTES));
+            pass.draw_indirect(&self.draws, at);
         }
     }
 }

@@ -51,7 +51,7 @@ struct Bench {
 impl Bench {
     fn new(size: (u32, u32), lens: Lens) -> Self {
         let (device, queue) = tests::device();
-        let targets = Targets::new(&device, size, u32::MAX).expect("targets");
+        let targets = Targets::new(&device, size, u32::MAX, false).expect("targets");
         let post = Post::new(&device, &queue, &targets, PictureTarget::FORMAT, lens);
         let target = PictureTarget::new(&device, size).expect("a target");
         Self { device, queue, targets, post, target }

@@ -8,6 +8,7 @@ use super::exposure_pass::ExposurePass;
 use super::focus_pass::{FocusChain, FocusPass};
 use super::glare_pass::{GlareChain, GlarePass};
 use super::lens_group::{LensGroup, LensUniform, Shot};
+use super::shutter_pass::{ShutterChain, ShutterPass};
 use super::targets::Targets;
 use super::tile::Tile;
 use super::timing::GpuTimer;
@@ -16,6 +17,7 @@ use super::tonemap_pass::TonemapPass;
 /// Numbers of the timed passes here, in order.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct TimedPosts {
+    pub(super) shutter: u32,
     pub(super) focus: u32,
     pub(super) exposure: u32,
     pub(super) glare: u32,
@@ -34,6 +36,7 @@ pub(super) struct Post {
 /// The passes, in their order.
 #[derive(Debug)]
 struct Passes {
+    shutter: ShutterPass,
     focus: FocusPass,
     exposure: ExposurePass,
     glare: GlarePass,
@@ -43,6 +46,7 @@ struct Passes {
 /// What depends on the textures.
 #[derive(Debug)]
 struct Bound {
+    shutter: Option<ShutterChain>,
     focus: Option<FocusChain>,
     exposure: wgpu::BindGroup,
     glare: GlareChain,
@@ -59,6 +63,7 @@ impl Post {
     ) -> Self {
         let group = LensGroup::new(device);
         let passes = Passes {
+            shutter: ShutterPass::new(device, &group),
             focus: FocusPass::new(device, &group),
             exposure: ExposurePass::new(device, &group),
             glare: GlarePass::new(device, &group),
@@ -76,11 +81,17 @@ impl Post {
         targets: &Targets,
         lens: Lens,
     ) {
-        let needs_other_textures = self.lens.focus.is_some() != lens.focus.is_some();
+        let needs_other_textures = self.lens.focus.is_some() != lens.focus.is_some()
+            || self.bound.shutter.is_some() != targets.ways.is_some();
         self.lens = lens;
         if needs_other_textures {
             self.rebind(device, queue, targets);
         }
+    }
+
+    /// How long the shutter is open, in seconds.
+    pub(super) fn shutter_s(&self) -> f32 {
+        self.lens.shutter_s
     }
 
     /// Reads from new targets.
@@ -100,7 +111,16 @@ impl Post {
     }
 
     /// Takes what it needs of a tile before the next is drawn.
-    pub(super) fn take_tile(&self, queue: &wgpu::Queue, encoder: &mut wgpu::CommandEncoder, tile: &Tile) {
+    pub(super) fn take_tile(
+        &self,
+        queue: &wgpu::Queue,
+        encoder: &mut wgpu::CommandEncoder,
+        tile: &Tile,
+        shot: &Shot,
+    ) {
+        if let Some(chain) = &self.bound.shutter {
+            self.passes.shutter.take(queue, encoder, &self.group, chain, (tile, shot));
+        }
         if let Some(chain) = &self.bound.focus {
             self.passes.focus.take_depth(queue, encoder, &self.group, chain, tile);
         }
@@ -118,6 +138,9 @@ impl Post {
             let writes = timer.map(|(timer, passes)| timer.split_writes(pass(passes)));
             writes.map_or([None, None], |writes| writes.map(Some))
         };
+        if let Some(chain) = &self.bound.shutter {
+            self.passes.shutter.draw(encoder, split(|passes| passes.shutter), &self.group, chain);
+        }
         if let Some(chain) = &self.bound.focus {
             self.passes.focus.draw(encoder, split(|passes| passes.focus), &self.group, chain);
         }
@@ -141,14 +164,17 @@ impl Bound {
         passes: &Passes,
         lens: &Lens,
     ) -> Self {
-        let focus = lens.focus.map(|_| passes.focus.chain(device, targets));
-        let light = focus.as_ref().map_or(&targets.resolved, |chain| &chain.result);
+        let shutter = passes.shutter.chain(device, targets);
+        let light = shutter.as_ref().map_or(&targets.resolved, |chain| &chain.result);
+        let focus = lens.focus.map(|_| passes.focus.chain(device, targets, light));
+        let light = focus.as_ref().map_or(light, |chain| &chain.result);
         let glare = passes.glare.chain(device, queue, light, targets.size);
         Self {
             exposure: passes.exposure.bind(device, group, light),
             tonemap: passes.tonemap.bind(device, queue, light, &glare),
             glare,
             focus,
+            shutter,
         }
     }
 }

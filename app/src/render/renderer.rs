@@ -23,6 +23,7 @@ use super::leaf_kinds::LeafKinds;
 use super::leaf_pass::LeafPass;
 use super::light_group::LightGroup;
 use super::litter::Litter;
+use super::motion_pass::MotionPass;
 use super::post::{Post, TimedPosts};
 use super::scenery::{Park, plant};
 use super::shadow_pass::ShadowPass;
@@ -40,9 +41,9 @@ use crate::land::Land;
 use crate::trees::Stand;
 
 /// Passes that are timed, in order of drawing.
-const TIMED_PASSES: [&str; 6] = ["shadows", "scene", "focus", "exposure", "glare", "tone map"];
+const TIMED_PASSES: [&str; 7] = ["shadows", "scene", "shutter", "focus", "exposure", "glare", "tone map"];
 /// Where those after the scene are among them.
-const TIMED_POSTS: TimedPosts = TimedPosts { focus: 2, exposure: 3, glare: 4, tone_map: 5 };
+const TIMED_POSTS: TimedPosts = TimedPosts { shutter: 2, focus: 3, exposure: 4, glare: 5, tone_map: 6 };
 /// Draws a scene's leaves in their park.
 ///
 /// One `draw` per submission: the uniforms of a frame are written through the queue.
@@ -71,6 +72,7 @@ pub struct Renderer {
     shade_is_old: bool,
     bark_pass: BarkPass,
     leaf_pass: LeafPass,
+    motion_pass: Option<MotionPass>,
     fruit_pass: FruitPass,
     grass_pass: GrassPass,
     ground_pass: GroundPass,
@@ -104,7 +106,7 @@ impl Renderer {
         let center = Vec3::new(x, land.ground_m(x, z), z);
         let Park { trees: planted, leaves, path_phase } = plant(scene, &land, center, level);
 
-        let targets = Targets::new(device, size, options.tile_px)?;
+        let targets = Targets::new(device, size, options.tile_px, is_moving(&scene.view.lens))?;
         let frame = FrameGroup::new(device, queue, &land);
         let kinds = LeafKinds::new(device, queue, scene, atlas)?;
         let own = own_trees(stand, scene.autumn > 0.0);
@@ -139,6 +141,7 @@ impl Renderer {
             post: Post::new(device, queue, &targets, output_format, scene.view.lens),
             timer: GpuTimer::new(device, queue, &TIMED_PASSES),
             trail_pass: None,
+            motion_pass: None,
             shade_is_old: true,
             targets,
             land,
@@ -153,6 +156,7 @@ impl Renderer {
             shade_pass,
         };
         renderer.make_trails(scene.view.trail_s);
+        renderer.motion_pass = is_moving(&scene.view.lens).then(|| renderer.new_motion());
         Ok(renderer)
     }
 
@@ -172,7 +176,7 @@ impl Renderer {
     /// A size beyond the device's limits; the renderer keeps its size.
     pub fn resize(&mut self, size: (u32, u32)) -> Result<(), RenderError> {
         if size != self.targets.size {
-            self.targets = Targets::new(&self.device, size, self.tile_px)?;
+            self.targets = self.targets_of(size)?;
             self.post.rebind(&self.device, &self.queue, &self.targets);
         }
         Ok(())
@@ -199,13 +203,24 @@ impl Renderer {
     #[cfg(test)]
     pub(super) fn set_tile_px(&mut self, tile_px: u32) -> Result<(), RenderError> {
         self.tile_px = tile_px;
-        self.targets = Targets::new(&self.device, self.targets.size, tile_px)?;
+        self.targets = self.targets_of(self.targets.size)?;
         self.post.rebind(&self.device, &self.queue, &self.targets);
         Ok(())
     }
 
+    fn targets_of(&self, size: (u32, u32)) -> Result<Targets, RenderError> {
+        Targets::new(&self.device, size, self.tile_px, self.motion_pass.is_some())
+    }
+
     /// Takes over another lens.
     pub fn set_lens(&mut self, lens: Lens) {
+        if is_moving(&lens) != self.motion_pass.is_some() {
+            self.motion_pass = is_moving(&lens).then(|| self.new_motion());
+            // They were made for this size before.
+            if let Ok(targets) = self.targets_of(self.targets.size) {
+                self.targets = targets;
+            }
+        }
         self.post.set_lens(&self.device, &self.queue, &self.targets, lens);
     }
 
@@ -215,6 +230,11 @@ impl Renderer {
         self.stems = Stems::new(&self.device, &self.queue, stand);
         self.leaf_crowd = LeafCrowd::new(&self.device, &self.queue, &self.cull, stand, leaf_count);
         self.make_trails(self.trail_pass.as_ref().map_or(0.0, TrailPass::trail_s));
+        self.motion_pass = self.motion_pass.is_some().then(|| self.new_motion());
+    }
+
+    fn new_motion(&self) -> MotionPass {
+        MotionPass::new(&self.device, &self.frame, &self.kinds, self.leaf_count)
     }
 
     fn make_trails(&mut self, trail_s: f32) {
@@ -228,8 +248,20 @@ impl Renderer {
         self.trail_pass.is_some()
     }
 
-    /// Notes where `leaves` are at `time_s` for their trails, without drawing; nothing to do in a scene without trails.
+    /// Notes where `leaves` are at `time_s` for their trails and for the motion until the next frame, without drawing; nothing
+    /// to do in a scene without either.
     pub fn observe(&mut self, encoder: &mut wgpu::CommandEncoder, leaves: &LeafColumns<'_>, time_s: f64) {
+        self.sample_trails(encoder, leaves, time_s);
+        self.note_motion(encoder, leaves, time_s);
+    }
+
+    fn note_motion(&mut self, encoder: &mut wgpu::CommandEncoder, leaves: &LeafColumns<'_>, time_s: f64) {
+        if let Some(motion) = &mut self.motion_pass {
+            motion.past.note(encoder, leaves, time_s);
+        }
+    }
+
+    fn sample_trails(&mut self, encoder: &mut wgpu::CommandEncoder, leaves: &LeafColumns<'_>, time_s: f64) {
         if let Some(trails) = &mut self.trail_pass {
             trails.sample(&self.device, &self.queue, encoder, leaves, time_s);
         }
@@ -239,4 +271,9 @@ impl Renderer {
     pub fn timings(&mut self) -> Vec<(&'static str, f32)> {
         self.timer.as_mut().map_or_else(Vec::new, |timer| timer.collect(&self.device).to_vec())
     }
+}
+
+/// Whether leaves are drawn longer than they are.
+fn is_moving(lens: &Lens) -> bool {
+    lens.shutter_s > 0.0
 }

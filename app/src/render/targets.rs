@@ -3,6 +3,7 @@
 //! The textures a frame is drawn into before it is tone mapped.
 
 use super::RenderError;
+use super::motion_pass::WAY_FORMAT;
 use super::tile::{Tile, tile_size, tiles};
 
 /// Samples per pixel: four is what every WebGPU adapter offers.
@@ -23,11 +24,25 @@ pub(super) struct Targets {
     resolved_tile: Option<wgpu::TextureView>,
     /// Size of a tile in pixels.
     pub(super) tile_size: (u32, u32),
+    /// How far what moves in a tile goes while the shutter is open; only if the lens asks for it.
+    pub(super) ways: Option<Ways>,
+}
+
+/// Ways over a tile: of every sample, and of pixels on average.
+#[derive(Debug)]
+pub(super) struct Ways {
+    pub(super) samples: wgpu::TextureView,
+    pub(super) resolved: wgpu::TextureView,
 }
 
 impl Targets {
-    /// Targets of pictures of `size` pixels, of which at most `tile_px` are drawn at once.
-    pub(super) fn new(device: &wgpu::Device, size: (u32, u32), tile_px: u32) -> Result<Self, RenderError> {
+    /// Targets of pictures of `size` pixels, of which at most `tile_px` are drawn at once, with room for ways or without.
+    pub(super) fn new(
+        device: &wgpu::Device,
+        size: (u32, u32),
+        tile_px: u32,
+        has_ways: bool,
+    ) -> Result<Self, RenderError> {
         let limit = device.limits().max_texture_dimension_2d;
         let (width, height) = size;
         if width == 0 || height == 0 || width > limit || height > limit {
@@ -60,6 +75,10 @@ impl Targets {
             resolved: view("resolved light", HDR_FORMAT, size, 1, readable),
             resolved_tile,
             tile_size,
+            ways: has_ways.then(|| Ways {
+                samples: view("ways", WAY_FORMAT, tile_size, SAMPLE_COUNT, attachment),
+                resolved: view("resolved ways", WAY_FORMAT, tile_size, 1, sampled),
+            }),
         })
     }
 

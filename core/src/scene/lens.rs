@@ -101,6 +101,9 @@ pub struct Lens {
     pub glare: Glare,
     /// Blur of what is nearer or farther than the focus; all is sharp without.
     pub focus: Option<Focus>,
+    /// How long the shutter is open, in simulated seconds, 0 to 0.1: leaves are drawn as long as they move meanwhile, with the
+    /// frame's time in the middle. 0.02 is usual for film. A picture that none came before is sharp.
+    pub shutter_s: f32,
     /// Colourfulness of the picture, 0 to 2: grey at 0.
     pub saturation: f32,
     /// How much darker the corners are than the middle, 0 to 1.
@@ -114,6 +117,7 @@ impl Default for Lens {
             tone_map: ToneMap::default(),
             glare: Glare::default(),
             focus: None,
+            shutter_s: 0.0,
             saturation: 1.15,
             vignette: 0.15,
         }

@@ -164,6 +164,7 @@ limits! {
     GLARE_STRENGTH: f32 = 0.0, 1.0, "", strength;
     FOCUS_DISTANCE_M: f32 = 0.1, 10_000.0, "m", distance_m;
     F_NUMBER: f32 = 0.5, 64.0, "", f_number;
+    SHUTTER_S: f32 = 0.0, 0.1, "s", shutter_s;
     SATURATION: f32 = 0.0, 2.0, "", saturation;
     VIGNETTE: f32 = 0.0, 1.0, "", vignette;
 }

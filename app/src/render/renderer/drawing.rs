@@ -43,15 +43,16 @@ impl Renderer {
             let mut own = (tile.left > 0).then(|| self.device.create_command_encoder(&Default::default()));
             let encoder = own.as_mut().unwrap_or(encoder);
             if std::mem::take(&mut is_first) {
-                self.observe(encoder, leaves, input.time_s);
+                self.sample_trails(encoder, leaves, input.time_s);
             }
-            self.draw_tile(encoder, leaves, branches, input, &tile);
+            self.draw_tile(encoder, leaves, branches, input, (&tile, &shot));
             if let Some(own) = own {
                 self.queue.submit([own.finish()]);
             }
         }
         let timer = self.timer.as_ref().map(|timer| (timer, TIMED_POSTS));
         self.post.draw(encoder, timer, output, &shot);
+        self.note_motion(encoder, leaves, input.time_s);
         if let Some(timer) = &self.timer {
             // An earlier frame may still be on its way; the next one will do.
             let _ = timer.resolve(encoder);
@@ -65,7 +66,7 @@ impl Renderer {
         leaves: &LeafColumns<'_>,
         branches: Option<&BranchColumns<'_>>,
         input: &FrameInput,
-        tile: &Tile,
+        (tile, shot): (&Tile, &Shot),
     ) {
         #[expect(clippy::cast_possible_truncation, reason = "wraps long before f32 seconds grow coarse")]
         let time_s = input.time_s.rem_euclid(3600.0) as f32;
@@ -97,8 +98,17 @@ impl Renderer {
         self.draw_mirror(encoder, &group);
         self.cull_leaves(encoder, leaves, LeafView::Camera);
         self.draw_scene(encoder, writes(1), leaves.leaf_count, &group);
+        self.draw_motion(encoder, leaves, input.time_s);
         self.targets.place(encoder, tile);
-        self.post.take_tile(&self.queue, encoder, tile);
+        self.post.take_tile(&self.queue, encoder, tile, shot);
+    }
+
+    /// Draws how far the leaves of the world move; litter lies.
+    fn draw_motion(&self, encoder: &mut wgpu::CommandEncoder, leaves: &LeafColumns<'_>, time_s: f64) {
+        let Some(motion) = &self.motion_pass else { return };
+        let device = (&self.device, &self.queue);
+        let scene = (&self.frame, &self.kinds, &self.leaf_crowd);
+        motion.draw(device, encoder, &self.targets, scene, leaves, (time_s, self.post.shutter_s()));
     }
 
     /// Draws what the water mirrors; grass is too low to be seen in it.

@@ -3,7 +3,7 @@
 // Leaves, lit by the sun in front of them and through them.
 
 struct Varyings {
-    @builtin(position) clip: vec4<f32>,
+    @builtin(position) @invariant clip: vec4<f32>,
     @location(0) @interpolate(perspective, centroid) world: vec3<f32>,
     @location(1) @interpolate(perspective, centroid) normal: vec3<f32>,
     @location(2) @interpolate(perspective, centroid) uv: vec2<f32>,
@@ -42,7 +42,7 @@ fn vertex(
     out.clip = frame.view_projection * vec4(point.world, 1.0);
     out.normal = point.normal;
     out.uv = point.uv;
-    out.layer = record.look.x;
+    out.layer = record.look.x & LAYER_MASK;
     out.attitude = point.attitude;
     let blue_open = unpack2x16float(record.look.z);
     out.tint_open = vec4(unpack2x16float(record.look.y), blue_open);

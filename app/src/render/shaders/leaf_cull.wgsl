@@ -297,7 +297,7 @@ fn record_of(index: u32, sight: Sight, copy: u32) -> LeafRecord {
         pack2x16float(vec2(bend, twist)),
     );
     record.look = vec4(
-        layer,
+        layer | (index << SLOT_SHIFT),
         pack2x16float(color.rg),
         pack2x16float(vec2(color.b, open)),
         pack4x8snorm(vec4(outward, settled)),

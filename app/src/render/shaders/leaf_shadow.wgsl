@@ -22,7 +22,7 @@ fn vertex(
     var out: Varyings;
     out.clip = frame.shadows[CASCADE] * vec4(point.world, 1.0);
     out.uv = point.uv;
-    out.layer = record.look.x;
+    out.layer = record.look.x & LAYER_MASK;
     return out;
 }
 

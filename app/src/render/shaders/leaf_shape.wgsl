@@ -32,7 +32,7 @@ fn octahedral_normal(flat: vec2<f32>) -> vec3<f32> {
 
 // Corner `vertex` of the strip of a leaf's mesh at a level of detail.
 fn blade_point(record: LeafRecord, level: u32, vertex: u32) -> BladePoint {
-    let mesh = meshes[4u * record.look.x + level];
+    let mesh = meshes[4u * (record.look.x & LAYER_MASK) + level];
     let piece = mesh.x + min(vertex, mesh.y - 1u);
     let number = (strips[piece / 2u] >> (16u * (piece & 1u))) & 0xffffu;
     let first = (mesh.z + number) * CORNER_WORDS;

@@ -31,6 +31,7 @@ impl Lens {
         at.numbers([
             ("glare.threshold", self.glare.threshold.into(), limits::GLARE_THRESHOLD),
             ("glare.strength", self.glare.strength.into(), limits::GLARE_STRENGTH),
+            ("shutter_s", self.shutter_s.into(), limits::SHUTTER_S),
             ("saturation", self.saturation.into(), limits::SATURATION),
             ("vignette", self.vignette.into(), limits::VIGNETTE),
         ])

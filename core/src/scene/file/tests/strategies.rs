@@ -203,10 +203,11 @@ prop_compose! {
         (threshold, strength) in (within(limits::GLARE_THRESHOLD), within(limits::GLARE_STRENGTH)),
         focus in option::of((within(limits::FOCUS_DISTANCE_M), within(limits::F_NUMBER))),
         (saturation, vignette) in (within(limits::SATURATION), within(limits::VIGNETTE)),
+        shutter_s in within(limits::SHUTTER_S),
     ) -> Lens {
         Lens {
             exposure, tone_map, glare: Glare { threshold, strength },
-            focus: focus.map(|(distance_m, f_number)| Focus { distance_m, f_number }), saturation, vignette,
+            focus: focus.map(|(distance_m, f_number)| Focus { distance_m, f_number }), shutter_s, saturation, vignette,
         }
     }
 }

@@ -181,6 +181,7 @@ const REALS: &[Row<f32>] = &[
         |s, v| s.view.lens.focus = Some(Focus { distance_m: v, f_number: 4.0 })),
     ("view.lens.focus.f_number", 0.5, 64.0,
         |s, v| s.view.lens.focus = Some(Focus { distance_m: 4.0, f_number: v })),
+    ("view.lens.shutter_s", 0.0, 0.1, |s, v| s.view.lens.shutter_s = v),
     ("view.lens.saturation", 0.0, 2.0, |s, v| s.view.lens.saturation = v),
     ("view.lens.vignette", 0.0, 1.0, |s, v| s.view.lens.vignette = v),
 ];

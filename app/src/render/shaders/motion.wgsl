@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// How far leaves move over the picture while the shutter is open. Drawn where leaves were drawn before: the same points, at
+// the same depth.
+
+struct Motion {
+    // Part of the way since the frame before that the shutter is open for; farthest way in metres: a leaf that went farther
+    // was put elsewhere.
+    rule: vec2<f32>,
+    // Size of the tile in pixels.
+    size: vec2<f32>,
+}
+
+@group(1) @binding(0) var<uniform> motion: Motion;
+
+@group(3) @binding(1) var<storage, read> places: array<vec4<u32>>;
+@group(3) @binding(2) var<storage, read> attitudes: array<vec4<f32>>;
+@group(3) @binding(3) var<storage, read> past_places: array<vec4<u32>>;
+@group(3) @binding(4) var<storage, read> past_attitudes: array<vec4<f32>>;
+
+struct Varyings {
+    @builtin(position) @invariant clip: vec4<f32>,
+    @location(0) way: vec2<f32>,
+}
+
+// A leaf that nothing has turned yet has no attitude.
+fn turned(attitude: vec4<f32>) -> vec4<f32> {
+    return select(vec4(0.0, 0.0, 0.0, 1.0), attitude, dot(attitude, attitude) > 0.25);
+}
+
+// Where a point of a leaf was, as the leaf moved and turned without bending.
+fn past_of(point: vec3<f32>, slot: u32) -> vec3<f32> {
+    let now = bitcast<vec3<f32>>(places[slot].xyz);
+    let before = past_places[slot];
+    let there = bitcast<vec3<f32>>(before.xyz);
+    if distance(now, there) > motion.rule.y || (before.w & STATE_MASK) == STATE_DORMANT {
+        return point;
+    }
+    let back = turned(attitudes[slot]) * vec4(-1.0, -1.0, -1.0, 1.0);
+    let turn = quaternion_product(turned(past_attitudes[slot]), back);
+    return there + rotate(turn, point - now);
+}
+
+@vertex
+fn vertex(
+    @builtin(vertex_index) vertex: u32,
+    @builtin(instance_index) instance: u32,
+    @location(0) first_level: vec2<u32>,
+) -> Varyings {
+    let record = records[first_level.x + instance];
+    let point = blade_point(record, first_level.y, vertex);
+    let past = frame.view_projection * vec4(past_of(point.world, record.look.x >> SLOT_SHIFT), 1.0);
+    var out: Varyings;
+    out.clip = frame.view_projection * vec4(point.world, 1.0);
+    // Before and after the middle of the exposure by as much; half of clip space is the tile.
+    let way = out.clip.xy / out.clip.w - past.xy / past.w;
+    let is_seen = out.clip.w > 0.0 && past.w > 0.0;
+    out.way = select(vec2(0.0), 0.25 * motion.rule.x * motion.size * vec2(way.x, -way.y), is_seen);
+    return out;
+}
+
+@fragment
+fn fragment(in: Varyings) -> @location(0) vec4<f32> {
+    return vec4(in.way, 0.0, 1.0);
+}

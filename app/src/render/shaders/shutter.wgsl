@@ -1,0 +1,108 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// What moves while the shutter is open is drawn out along its way: every pixel gathers the light of those that cross it
+// meanwhile, and sees what is behind them for as long as none does.
+//
+// Source: McGuire, Hennessy, Bukowski, Osman, "A reconstruction filter for plausible motion blur" (I3D 2012); their weights.
+
+struct Shutter {
+    // Corner of the tile in the picture, in pixels; edge of a block in pixels.
+    corner: vec2<i32>,
+    block: i32,
+    unused: i32,
+    // Most pixels a way is long to either side; distance of the near plane in metres.
+    most: f32,
+    near_m: f32,
+}
+
+@group(1) @binding(0) var<uniform> shutter: Shutter;
+@group(1) @binding(1) var depth: texture_depth_multisampled_2d;
+@group(1) @binding(2) var drawn: texture_2d<f32>;
+// Half the way in pixels, and distance in metres.
+@group(1) @binding(3) var ways: texture_2d<f32>;
+@group(1) @binding(4) var longest: texture_2d<f32>;
+@group(1) @binding(5) var light: texture_2d<f32>;
+
+const TAPS: i32 = 17;
+// Part of a distance over which before and behind fade into each other.
+const SOFT: f32 = 0.02;
+const FARTHEST_M: f32 = 60000.0;
+
+// Puts the ways of a tile, and how far away what moves is, into the picture.
+@fragment
+fn take(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
+    let at = vec2<i32>(position.xy) - shutter.corner;
+    let way = textureLoad(drawn, at, 0).xy;
+    let span = length(way);
+    let distance_m = shutter.near_m / max(textureLoad(depth, at, 0), shutter.near_m / FARTHEST_M);
+    return vec4(way * min(1.0, shutter.most / max(span, 1.0e-6)), distance_m, 1.0);
+}
+
+fn longer(a: vec2<f32>, b: vec2<f32>) -> vec2<f32> {
+    return select(a, b, dot(b, b) > dot(a, a));
+}
+
+// The longest way in a block.
+@fragment
+fn block_longest(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
+    let corner = vec2<i32>(position.xy) * shutter.block;
+    let end = min(corner + shutter.block, vec2<i32>(textureDimensions(ways)));
+    var way = vec2(0.0);
+    for (var y = corner.y; y < end.y; y++) {
+        for (var x = corner.x; x < end.x; x++) {
+            way = longer(way, textureLoad(ways, vec2(x, y), 0).xy);
+        }
+    }
+    return vec4(way, 0.0, 1.0);
+}
+
+// How much the first of two distances is before the second.
+fn before(first_m: f32, second_m: f32) -> f32 {
+    return clamp(1.0 - (first_m - second_m) / (SOFT * min(first_m, second_m)), 0.0, 1.0);
+}
+
+// Share of the time that something is this far from its place, if it goes evenly: it is there, or it has gone.
+fn cone(distance_px: f32, span: f32) -> f32 {
+    return clamp(1.0 - distance_px / max(span, 1.0e-3), 0.0, 1.0);
+}
+
+fn cylinder(distance_px: f32, span: f32) -> f32 {
+    return 1.0 - smoothstep(0.95 * span, 1.05 * span + 1.0e-3, distance_px);
+}
+
+@fragment
+fn gather(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
+    let at = vec2<i32>(position.xy);
+    // Blocks are as wide as the longest way: nothing comes from beyond the neighbours.
+    let last_block = vec2<i32>(textureDimensions(longest)) - 1;
+    var way = vec2(0.0);
+    for (var part = 0; part < 9; part++) {
+        let block = clamp(at / shutter.block + vec2(part % 3, part / 3) - 1, vec2(0), last_block);
+        way = longer(way, textureLoad(longest, block, 0).xy);
+    }
+    let own_light = textureLoad(light, at, 0).rgb;
+    if length(way) < 0.5 {
+        return vec4(own_light, 1.0);
+    }
+    let own = textureLoad(ways, at, 0);
+    let own_span = max(length(own.xy), 0.5);
+    var weights = 1.0 / own_span;
+    var sum = own_light * weights;
+    let last = vec2<i32>(textureDimensions(light)) - 1;
+    // Taps of neighbouring pixels lie between one another.
+    let shift = f32((at.x * 5 + at.y * 3) & 7) / 8.0 - 0.4375;
+    for (var tap = 0; tap < TAPS; tap++) {
+        let along = 2.0 * (f32(tap) + 0.5 + shift) / f32(TAPS) - 1.0;
+        let offset = way * along;
+        let there = clamp(vec2<i32>(floor(position.xy + offset)), vec2(0), last);
+        let other = textureLoad(ways, there, 0);
+        let distance_px = length(offset);
+        let other_span = max(length(other.xy), 0.5);
+        let weight = before(other.z, own.z) * cone(distance_px, other_span)
+            + before(own.z, other.z) * cone(distance_px, own_span)
+            + 2.0 * cylinder(distance_px, other_span) * cylinder(distance_px, own_span);
+        weights += weight;
+        sum += weight * textureLoad(light, there, 0).rgb;
+    }
+    return vec4(sum / weights, 1.0);
+}
