@@ -122,8 +122,11 @@ impl LeafCrowd {
                     resource: wgpu::BindingResource::Buffer(buffer),
                 })
                 .collect();
-            let descriptor =
-                wgpu::BindGroupDescriptor { label: Some("leaf records and columns"), layout, entries: &entries };
+            let descriptor = wgpu::BindGroupDescriptor {
+                label: Some("leaf records and columns"),
+                layout,
+                entries: &entries,
+            };
             pass.set_bind_group(3, &device.create_bind_group(&descriptor), &[]);
             page.draw(pass);
         }

@@ -35,7 +35,12 @@ impl LeafPast {
                 mapped_at_creation: false,
             })
         };
-        Self { place: column("past places"), attitude: column("past attitudes"), room: leaf_count, noted: None }
+        Self {
+            place: column("past places"),
+            attitude: column("past attitudes"),
+            room: leaf_count,
+            noted: None,
+        }
     }
 
     /// Seconds from what was noted to `time_s`, if it was the same leaves a moment ago.

@@ -37,7 +37,7 @@ fn plain(tone_map: ToneMap) -> Lens {
     // 1000 / (1.2 · 2^EV) is 1.
     let exposure = Exposure::Manual { ev100: (1000.0f32 / 1.2).log2() };
     let glare = Glare { strength: 0.0, ..Glare::default() };
-    Lens { exposure, tone_map, glare, focus: None, saturation: 1.0, vignette: 0.0 }
+    Lens { exposure, tone_map, glare, focus: None, shutter_s: 0.0, saturation: 1.0, vignette: 0.0 }
 }
 
 struct Bench {

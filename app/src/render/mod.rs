@@ -70,7 +70,11 @@ pub use trail_pass::MAX_TRAILS;
 #[cfg(test)]
 mod cull_tests;
 #[cfg(test)]
+mod halo_tests;
+#[cfg(test)]
 mod lens_tests;
+#[cfg(test)]
+mod motion_tests;
 #[cfg(test)]
 mod tests;
 #[cfg(test)]

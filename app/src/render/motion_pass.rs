@@ -60,11 +60,9 @@ impl MotionPass {
             entries: &[wgpu::BindGroupEntry { binding: 0, resource: uniform.as_entire_binding() }],
         });
         let [kind, record, shape] = LEAF_SHAPE;
-        let text =
-            [COMMON, &record_constants(), kind, record, shape, include_str!("shaders/motion.wgsl")];
+        let text = [COMMON, &record_constants(), kind, record, shape, include_str!("shaders/motion.wgsl")];
         let module = shader(device, "leaf motion", &text);
-        let groups =
-            [Some(&frame.layout), Some(&uniform_layout), Some(&kinds.layout), Some(&columns_layout)];
+        let groups = [Some(&frame.layout), Some(&uniform_layout), Some(&kinds.layout), Some(&columns_layout)];
         let pipeline = device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
             label: Some("leaf motion"),
             layout: Some(&layout(device, &groups)),

@@ -12,29 +12,28 @@ struct Edit {
 }
 
 thread_local! {
-    static EDIT: RefCell<Option<Edit>> = const { RefCell::new(None) };
+    static EDITS: RefCell<Vec<Edit>> = const { RefCell::new(Vec::new()) };
 }
 
 /// Does `work` while every shader that this thread compiles has `to` in place of `from`. A renderer made then keeps its
-/// shaders.
+/// shaders. Edits may lie within one another.
 ///
 /// # Panics
 /// If no shader had `from`: then nothing was broken.
 pub fn with_shader_edit<T>(from: &str, to: &str, work: impl FnOnce() -> T) -> T {
-    EDIT.set(Some(Edit { from: from.into(), to: to.into(), found: 0 }));
+    EDITS.with_borrow_mut(|edits| edits.push(Edit { from: from.into(), to: to.into(), found: 0 }));
     let outcome = work();
-    let found = EDIT.take().map_or(0, |edit| edit.found);
+    let found = EDITS.with_borrow_mut(Vec::pop).map_or(0, |edit| edit.found);
     assert!(found > 0, "no shader says {from:?}");
     outcome
 }
 
 /// The text that is compiled.
 pub(super) fn edited(source: String) -> String {
-    EDIT.with_borrow_mut(|edit| match edit {
-        Some(edit) => {
+    EDITS.with_borrow_mut(|edits| {
+        edits.iter_mut().fold(source, |source, edit| {
             edit.found += source.matches(&edit.from).count();
             source.replace(&edit.from, &edit.to)
-        }
-        None => source,
+        })
     })
 }

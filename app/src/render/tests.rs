@@ -19,12 +19,12 @@ pub(super) const SIZE: (u32, u32) = (150, 90);
 pub(super) struct Bench {
     pub(super) device: wgpu::Device,
     pub(super) queue: wgpu::Queue,
-    scene: Scene,
+    pub(super) scene: Scene,
     pub(super) stand: Stand,
-    renderer: Renderer,
+    pub(super) renderer: Renderer,
 }
 
-fn bench(change: impl FnOnce(&mut Scene)) -> Bench {
+pub(super) fn bench(change: impl FnOnce(&mut Scene)) -> Bench {
     bench_with(|scene| {
         change(scene);
         Stand::default()
@@ -45,15 +45,20 @@ pub(super) fn device() -> (wgpu::Device, wgpu::Queue) {
 
 /// A bench for a changed scene and its trees.
 pub(super) fn bench_with(change: impl FnOnce(&mut Scene) -> Stand) -> Bench {
-    let (device, queue) = device();
     let mut scene = Scene::default();
     let stand = change(&mut scene);
     let entry = AtlasEntry { shape: Shape::Maple, season: (0.5, 0.9) };
     let entries = vec![entry; scene.species.len()];
     let request = AtlasRequest { entries, variants: 2, size_px: 32, seed: 1 };
     let atlas = Atlas::generate(&request).expect("an atlas");
+    bench_of(scene, stand, &atlas)
+}
+
+/// A bench for a scene with pictures of its own.
+pub(super) fn bench_of(scene: Scene, stand: Stand, atlas: &Atlas) -> Bench {
+    let (device, queue) = device();
     let options = RendererOptions { litter_count: 0, tile_px: u32::MAX };
-    let subject = Subject { scene: &scene, stand: &stand, atlas: &atlas };
+    let subject = Subject { scene: &scene, stand: &stand, atlas };
     let renderer = Renderer::new(&device, &queue, subject, PictureTarget::FORMAT, SIZE, options)
         .expect("a renderer within default limits");
     Bench { device, queue, scene, stand, renderer }
@@ -71,7 +76,7 @@ impl Bench {
     }
 
     /// Draws one big leaf that faces the camera, in the given state, at an offset from the middle of the picture.
-    fn draw(&mut self, state: u32, offset_m: f32, time_s: f64) -> RgbaImage {
+    pub(super) fn draw(&mut self, state: u32, offset_m: f32, time_s: f64) -> RgbaImage {
         self.draw_all(None, state, 60_000, offset_m, time_s)
     }
 
