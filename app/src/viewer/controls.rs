@@ -7,6 +7,7 @@ use std::ops::RangeInclusive;
 use windfall_core::scene::Lens;
 use windfall_core::{Clock, SimulatorInfo, Stats};
 
+use super::session::Timeline;
 use super::tuning::Tuning;
 use crate::backend::BackendKind;
 
@@ -19,6 +20,10 @@ pub(super) enum Wish {
     Pause(bool),
     /// One step, and then stand still.
     SingleStep,
+    /// One step back, and then stand still.
+    StepBack,
+    /// Go to this step.
+    Seek(u32),
     /// Begin again at time zero.
     Reset,
     /// Other numbers for wind and speeds.
@@ -50,6 +55,7 @@ pub(super) struct Facts {
     /// The same with its driver.
     pub(super) driver: String,
     pub(super) clock: Clock,
+    pub(super) timeline: Timeline,
     pub(super) stats: Stats,
     /// Whether any leaves are synthesised, and whether any fly as bodies.
     pub(super) has_motions: bool,

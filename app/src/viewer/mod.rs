@@ -10,6 +10,7 @@ mod app;
 mod beaufort;
 mod controls;
 mod gui;
+mod history;
 mod keys;
 mod meter;
 mod pace;

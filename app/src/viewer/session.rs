@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The scene that goes on: its simulator, its pace, and everything that may change about it.
 
+mod seek;
+
 use std::ops::RangeInclusive;
 use std::time::{Duration, Instant};
 
@@ -11,12 +13,14 @@ use windfall_core::{Environment, Scene, SimError, Simulator, Stats, World};
 use windfall_cpu::CpuOptions;
 use windfall_wgpu::Gpu;
 
+use super::history::History;
 use super::pace::Pace;
 use super::tuning::Tuning;
 use crate::backend::{Backend, BackendKind, Columns, Device};
 use crate::commands::scene::{check_memory, scaled};
 use crate::render::GpuTimer;
 use crate::trees::Stand;
+pub(super) use seek::Timeline;
 
 /// Time between two counts of all leaves: counting waits for the device.
 const COUNT_EVERY: Duration = Duration::from_millis(250);
@@ -37,6 +41,11 @@ pub(super) struct Session {
     gpu: Gpu,
     threads: Option<usize>,
     backend: Backend,
+    history: History,
+    /// Step that is to be reached before time goes on.
+    target: Option<u32>,
+    /// When a moment was last kept, and how long that took.
+    kept: Option<(Instant, Duration)>,
     stats: Stats,
     counted: Option<Instant>,
     timer: Option<GpuTimer>,
@@ -65,6 +74,9 @@ impl Session {
             environment: world.environment.clone(),
             threads,
             backend: device.simulator(world)?,
+            history: History::new(world),
+            target: None,
+            kept: None,
             stats: world.stats(),
             counted: None,
             timer: GpuTimer::new(gpu.device(), gpu.queue(), &["advance"]),
@@ -88,9 +100,18 @@ impl Session {
     /// # Errors
     /// A lost device.
     pub(super) fn step(&mut self, steps: u32) -> Result<(), SimError> {
-        if steps == 0 {
-            return Ok(());
+        let mut left = steps;
+        while left > 0 {
+            let batch = self.steps_to_change().min(left);
+            self.submit(batch)?;
+            self.take_note()?;
+            left -= batch;
         }
+        Ok(())
+    }
+
+    /// Takes at least one step, all under the same wind.
+    fn submit(&mut self, steps: u32) -> Result<(), SimError> {
         let since = Instant::now();
         match (&mut self.backend, &self.timer) {
             (Backend::Wgpu(simulator), Some(timer)) => {
@@ -148,7 +169,10 @@ impl Session {
         scene.validate(&self.scene.name)?;
         self.environment.retune(&scene);
         self.scene = scene;
-        Ok(self.backend.set_environment(&self.environment)?)
+        self.backend.set_environment(&self.environment)?;
+        self.history.change(self.backend.clock().step(), self.environment.clone());
+        self.target = None;
+        Ok(())
     }
 
     /// Takes over another lens, also for worlds to come.
@@ -169,7 +193,7 @@ impl Session {
         let world = World::build(&self.scene)?;
         self.environment = world.environment.clone();
         self.backend.write_state(&world)?;
-        self.begin_again();
+        self.begin_again(&world);
         Ok(())
     }
 
@@ -183,8 +207,8 @@ impl Session {
         let world = World::build(&scene)?;
         self.backend = self.device(self.kind()).simulator(&world)?;
         self.scene = scene;
-        self.environment = world.environment;
-        self.begin_again();
+        self.environment = world.environment.clone();
+        self.begin_again(&world);
         Ok(())
     }
 
@@ -196,6 +220,17 @@ impl Session {
         if kind == self.kind() {
             return Ok(());
         }
+        let world = self.world()?;
+        self.backend = self.device(kind).simulator(&world)?;
+        self.forget_cost();
+        Ok(())
+    }
+
+    /// The whole state as it is now.
+    ///
+    /// # Errors
+    /// A lost device.
+    pub(super) fn world(&mut self) -> Result<World, SimError> {
         let mut world = World {
             environment: self.environment.clone(),
             clock: self.backend.clock(),
@@ -203,13 +238,13 @@ impl Session {
             branches: self.environment.forest().at_rest(),
         };
         self.backend.read_state(&mut world)?;
-        self.backend = self.device(kind).simulator(&world)?;
-        self.forget_cost();
-        Ok(())
+        Ok(world)
     }
 
-    fn begin_again(&mut self) {
+    fn begin_again(&mut self, world: &World) {
         self.counted = None;
+        self.history = History::new(world);
+        self.target = None;
         self.forget_cost();
     }
 

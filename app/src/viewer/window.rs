@@ -192,6 +192,9 @@ impl Viewer {
 
     /// Takes the steps that are due.
     fn simulate(&mut self, frame_s: f64) -> anyhow::Result<()> {
+        if self.session.is_seeking() {
+            return Ok(self.session.pursue()?);
+        }
         let steps = self.session.due_steps(frame_s);
         if !self.renderer.has_trails() || self.session.leaf_count() > MAX_TRAILS {
             return Ok(self.session.step(steps)?);
@@ -214,7 +217,11 @@ impl Viewer {
         if !is_shown {
             return Next::At(now + HIDDEN_PAUSE);
         }
-        if !self.session.pace.is_paused || self.has_news || self.screenshot.is_some() {
+        if !self.session.pace.is_paused
+            || self.session.is_seeking()
+            || self.has_news
+            || self.screenshot.is_some()
+        {
             return Next::Frame;
         }
         // A message has to go away again.

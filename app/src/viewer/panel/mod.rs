@@ -8,6 +8,7 @@ mod numbers;
 mod rows;
 pub(super) mod style;
 mod time;
+mod timeline;
 mod wind;
 
 use egui::{Area, Id, Pos2, RichText, ScrollArea, Sense, Ui, vec2};
@@ -60,6 +61,9 @@ impl Panel {
         self.picture_left = pixels(picture.left() * ui.ctx().pixels_per_point());
         let response = ui.interact(picture, Id::unique("picture"), Sense::click_and_drag());
         pointer::steer(camera, &response, land);
+        if self.is_open {
+            timeline::show(ui, facts, picture, &mut wishes);
+        }
         self.notice(ui, facts, picture.left_top());
         wishes
     }

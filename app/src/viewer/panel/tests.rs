@@ -9,6 +9,7 @@ use windfall_core::{Contract, Scene, SimulatorInfo, World};
 
 use super::*;
 use crate::backend::BackendKind;
+use crate::viewer::session::Timeline;
 use crate::viewer::tuning::Tuning;
 
 fn facts(scene: &Scene) -> Facts {
@@ -25,6 +26,7 @@ fn facts(scene: &Scene) -> Facts {
         adapter: "adapter".into(),
         driver: "adapter (driver)".into(),
         clock: world.clock,
+        timeline: Timeline { range: (0, 600), target: None, kept: vec![0, 300, 600] },
         stats: world.stats(),
         has_motions: true,
         has_regimes: scene.name == "Flight lab",
@@ -157,4 +159,18 @@ fn a_slider_that_is_dragged_tunes_the_scene() {
     }
     let counts: Vec<_> = wishes.iter().filter(|wish| matches!(wish, Wish::Leaves(_))).collect();
     assert!((1..=4).contains(&counts.len()), "the number of leaves only when let go: {counts:?}");
+}
+
+#[test]
+fn the_bar_of_time_goes_where_it_is_dragged() {
+    let mut bench = Bench::new(&Scene::default());
+    let camera = bench.camera;
+    let wishes = bench.drag((500.0, 703.0), (796.0, 703.0), PointerButton::Primary);
+    let steps: Vec<u32> = wishes
+        .iter()
+        .filter_map(|wish| if let Wish::Seek(step) = wish { Some(*step) } else { None })
+        .collect();
+    assert!(steps.is_sorted() && steps.len() >= 2, "follows the pointer: {wishes:?}");
+    assert!((280..=320).contains(&steps[steps.len() - 1]), "about the middle of 600 steps: {steps:?}");
+    assert_eq!(bench.camera, camera, "the picture is not dragged");
 }

@@ -14,13 +14,14 @@ pub(super) fn show(ui: &mut Ui, facts: &Facts, wishes: &mut Vec<Wish>) {
     rows::title(ui, "Time");
     ui.horizontal(|ui| {
         let mut button = |ui: &mut Ui, text: &str, tip: &str, wish: Wish| {
-            let button = Button::new(text).min_size(vec2(66.0, 22.0));
+            let button = Button::new(text).min_size(vec2(52.0, 22.0));
             if ui.add(button).on_hover_text(tip).clicked() {
                 wishes.push(wish);
             }
         };
         let text = if facts.is_paused { "Go on" } else { "Pause" };
         button(ui, text, "Stop time or let it go on (Space)", Wish::Pause(!facts.is_paused));
+        button(ui, "Back", "One step back, then stand still (, key)", Wish::StepBack);
         button(ui, "Step", "One step, then stand still (. key)", Wish::SingleStep);
         button(ui, "Reset", "Begin again at time zero (R)", Wish::Reset);
         button(ui, "Camera", "Look from where the scene says (C)", Wish::ResetCamera);

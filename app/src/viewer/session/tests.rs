@@ -16,9 +16,7 @@ fn session(kind: BackendKind) -> Session {
 }
 
 fn hash(session: &mut Session) -> u64 {
-    let mut world = World::build(session.scene()).expect("valid");
-    session.backend.read_state(&mut world).expect("same size");
-    world.state_hash()
+    session.world().expect("the device tells").state_hash()
 }
 
 #[test]
@@ -65,4 +63,62 @@ fn another_number_of_leaves_keeps_what_was_tuned_and_begins_again() {
     session.step(5).expect("it steps");
     session.reset().expect("begins again");
     assert_eq!(session.simulator().clock().step(), 0, "at time zero");
+}
+
+/// Goes to a step, however many frames it takes.
+fn go_to(session: &mut Session, step: u32) -> u64 {
+    session.seek(step);
+    while session.is_seeking() {
+        session.pursue().expect("it steps");
+    }
+    assert_eq!(session.simulator().clock().step(), step, "arrived");
+    hash(session)
+}
+
+#[test]
+fn every_step_comes_back_with_the_same_bits() {
+    for kind in [BackendKind::Cpu, BackendKind::Wgpu] {
+        let mut straight = session(kind);
+        let tuning = Tuning { speed_m_s: 7.0, ..straight.own_tuning() };
+        let mut hashes = Vec::new();
+        for step in 0..=130 {
+            if step == 70 {
+                straight.tune(&tuning).expect("allowed");
+            }
+            hashes.push(hash(&mut straight));
+            straight.step(1).expect("it steps");
+        }
+        // The way there goes in strides that no change respects.
+        let mut scrubbed = session(kind);
+        scrubbed.step(70).expect("it steps");
+        scrubbed.tune(&tuning).expect("allowed");
+        scrubbed.step(60).expect("it steps");
+        for step in [130, 12, 90, 69, 70, 71, 0, 129] {
+            assert_eq!(go_to(&mut scrubbed, step), hashes[step as usize], "{kind:?}, step {step}");
+            let speed = Tuning::from(scrubbed.scene()).speed_m_s;
+            assert_eq!(speed == tuning.speed_m_s, step >= 70, "the panel shows the wind of step {step}");
+        }
+        go_to(&mut scrubbed, 40);
+        scrubbed.step(60).expect("it steps");
+        assert_eq!(hash(&mut scrubbed), hashes[100], "{kind:?}: the wind changes again when time goes on");
+        go_to(&mut scrubbed, 40);
+        scrubbed.tune(&tuning).expect("allowed");
+        assert_eq!(scrubbed.timeline().range, (0, 40), "{kind:?}: another wind is another future");
+        assert_ne!(go_to(&mut scrubbed, 0), hashes[40], "{kind:?}: the past is still there");
+    }
+}
+
+#[test]
+fn moments_are_kept_along_the_way() {
+    let mut session = session(BackendKind::Cpu);
+    for _ in 0..12 {
+        session.step(40).expect("it steps");
+        std::thread::sleep(Duration::from_millis(2));
+    }
+    let before = hash(&mut session);
+    let Timeline { range, kept, .. } = session.timeline();
+    assert_eq!(range, (0, 480), "all of it can be reached");
+    assert!(kept.len() >= 3 && kept.is_sorted() && kept[0] == 0, "moments are kept: {kept:?}");
+    go_to(&mut session, 475);
+    assert_eq!(go_to(&mut session, 9999.min(range.1)), before, "there and back");
 }

@@ -28,8 +28,14 @@ impl Viewer {
             Wish::Pause(pause) => self.session.pace.is_paused = pause,
             Wish::SingleStep => {
                 self.session.pace.is_paused = true;
+                self.session.arrive();
                 self.session.step(1)?;
             }
+            Wish::StepBack => {
+                self.session.pace.is_paused = true;
+                self.session.seek(self.session.simulator().clock().step().saturating_sub(1));
+            }
+            Wish::Seek(step) => self.session.seek(step),
             Wish::TogglePanel => self.panel.is_open = !self.panel.is_open,
             Wish::ResetCamera => {
                 self.camera = Camera::from(&self.session.scene().view.camera);
@@ -106,6 +112,7 @@ impl Viewer {
             adapter: self.gpu.info().name.clone(),
             driver: describe_adapter(self.gpu.info()),
             clock: simulator.clock(),
+            timeline: session.timeline(),
             stats,
             has_motions: scene.species.iter().any(|species| species.flight == FlightModel::Synthesis),
             has_regimes: scene.species.iter().any(|species| species.flight != FlightModel::Synthesis),
