@@ -24,6 +24,9 @@ pub struct Arguments {
     /// Width and height of the window in pixels.
     #[arg(long, value_name = "WxH", value_parser = picture_size)]
     size: Option<(u32, u32)>,
+    /// What to show beside the scene from the beginning.
+    #[arg(long, value_name = "WHAT", value_delimiter = ',')]
+    show: Vec<viewer::Show>,
     /// Save a picture of the window as PNG, panel and all, and quit.
     #[arg(long, value_name = "FILE.png")]
     screenshot: Option<PathBuf>,
@@ -43,6 +46,7 @@ pub fn run(arguments: Arguments) -> anyhow::Result<()> {
         scene,
         backend: arguments.backend,
         size: arguments.size,
+        show: arguments.show,
         screenshot: arguments.screenshot.map(|path| (path, arguments.after)),
     })
 }

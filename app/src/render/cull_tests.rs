@@ -72,7 +72,7 @@ fn culling_finds_what_a_plain_loop_finds() {
     let atlas =
         Atlas::generate(&AtlasRequest { entries, variants: 2, size_px: 16, seed: 1 }).expect("an atlas");
     let kinds = LeafKinds::new(&device, &queue, &scene, &atlas).expect("kinds within default limits");
-    let cull = CullPass::new(&device, &kinds);
+    let cull = CullPass::new(&device, &kinds, false);
     let stand = Stand::default();
     let stems = Stems::new(&device, &queue, &stand);
     let crowd = LeafCrowd::new(&device, &queue, &cull, &stand, LEAVES);
@@ -100,7 +100,7 @@ fn culling_finds_what_a_plain_loop_finds() {
     cull.write(&queue, View::Camera, &seen);
     let run = || {
         let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-        crowd.cull(&device, &mut encoder, &cull, (&columns, &stems), View::Camera);
+        crowd.cull(&device, &mut encoder, &cull, (&columns, None, &stems), View::Camera);
         queue.submit([encoder.finish()]);
         found(&device, &queue, &crowd.pages[0])
     };

@@ -13,7 +13,7 @@ use super::upload;
 use crate::trees::Stand;
 
 /// Most slots of a page, and most leaves drawn from it: what the smallest binding that WebGPU allows can hold.
-const PAGE_SLOTS: u32 = 1 << 20;
+pub(super) const PAGE_SLOTS: u32 = 1 << 20;
 const PAGE_RECORDS: u32 = 1 << 21;
 /// Slots that one thread goes through, in order.
 pub(super) const SLOTS_PER_THREAD: u32 = 32;
@@ -77,18 +77,20 @@ impl LeafCrowd {
         Self { pages: split(&trees, leaf_count).into_iter().map(page).collect() }
     }
 
-    /// Culls the leaves of `columns` for a view, a number of those that were announced.
+    /// Culls the leaves of `columns`, with their `marks` if they are painted, for a view: a number of those that were
+    /// announced.
     pub(super) fn cull(
         &self,
         device: &wgpu::Device,
         encoder: &mut wgpu::CommandEncoder,
         cull: &CullPass,
-        (columns, stems): (&LeafColumns<'_>, &Stems),
+        (columns, marks, stems): (&LeafColumns<'_>, Option<&wgpu::Buffer>, &Stems),
         view: View,
     ) {
+        let leaf_count = columns.leaf_count;
         for page in &self.pages {
-            let bound = [columns.place, columns.attitude, columns.course, columns.identity];
-            match page.windows(bound, columns.leaf_count) {
+            let columns = [columns.place, columns.attitude, columns.course, columns.identity];
+            match page.windows(columns.into_iter().chain(marks), leaf_count) {
                 None => encoder.clear_buffer(&page.draws, 0, None),
                 Some(windows) => cull.run(device, encoder, page, windows, stems, view),
             }
@@ -104,16 +106,16 @@ impl LeafCrowd {
     }
 
     /// The same with the rows of `columns`, of which `leaf_count` are used, bound behind the records.
-    pub(super) fn draw_with<const N: usize>(
+    pub(super) fn draw_with(
         &self,
         device: &wgpu::Device,
         pass: &mut wgpu::RenderPass<'_>,
         layout: &wgpu::BindGroupLayout,
-        columns: [&wgpu::Buffer; N],
+        columns: &[&wgpu::Buffer],
         leaf_count: u32,
     ) {
         for page in &self.pages {
-            let Some(windows) = page.windows(columns, leaf_count) else { continue };
+            let Some(windows) = page.windows(columns.iter().copied(), leaf_count) else { continue };
             let records = page.records.as_entire_buffer_binding();
             let bound = iter::once(records).chain(windows).zip(0..);
             let entries: Vec<_> = bound
@@ -182,16 +184,16 @@ impl Page {
 
 impl Page {
     /// The parts of columns of `leaf_count` rows that this page's slots are in, if there are any.
-    fn windows<'a, const N: usize>(
+    fn windows<'a>(
         &self,
-        columns: [&'a wgpu::Buffer; N],
+        columns: impl Iterator<Item = &'a wgpu::Buffer>,
         leaf_count: u32,
-    ) -> Option<[wgpu::BufferBinding<'a>; N]> {
+    ) -> Option<Vec<wgpu::BufferBinding<'a>>> {
         // The columns may be shorter than announced while their number changes.
         let count = self.uniform.count.min(leaf_count.saturating_sub(self.uniform.first));
         let size = wgpu::BufferSize::new(u64::from(count) * COLUMN_BYTES)?;
         let offset = u64::from(self.uniform.first) * COLUMN_BYTES;
-        Some(columns.map(|buffer| wgpu::BufferBinding { buffer, offset, size: Some(size) }))
+        Some(columns.map(|buffer| wgpu::BufferBinding { buffer, offset, size: Some(size) }).collect())
     }
 
     /// Draws its levels; all bind groups are set.

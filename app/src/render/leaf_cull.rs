@@ -69,10 +69,13 @@ pub(super) struct CullPass {
     kinds: wgpu::BindGroup,
     views: [wgpu::Buffer; 2 + CASCADES],
     steps: [wgpu::ComputePipeline; 3],
+    /// Whether leaves bring marks with them.
+    pub(super) is_painted: bool,
 }
 
 impl CullPass {
-    pub(super) fn new(device: &wgpu::Device, kinds: &LeafKinds) -> Self {
+    /// The pipelines; `is_painted` for leaves in the colours of their marks.
+    pub(super) fn new(device: &wgpu::Device, kinds: &LeafKinds, is_painted: bool) -> Self {
         let compute = wgpu::ShaderStages::COMPUTE;
         let read = wgpu::BufferBindingType::Storage { read_only: true };
         let write = wgpu::BufferBindingType::Storage { read_only: false };
@@ -91,8 +94,14 @@ impl CullPass {
                 buffer_entry(5, write, compute),
             ],
         );
-        let columns_layout =
-            group("leaf columns", &[0, 1, 2, 3].map(|binding| buffer_entry(binding, read, compute)));
+        let columns = if is_painted { 0..5 } else { 0..4 };
+        let columns: Vec<_> = columns.map(|binding| buffer_entry(binding, read, compute)).collect();
+        let columns_layout = group("leaf columns", &columns);
+        let marks = if is_painted {
+            include_str!("shaders/marks.wgsl")
+        } else {
+            include_str!("shaders/marks_none.wgsl")
+        };
         let records_layout = group("leaf records", &[buffer_entry(0, read, wgpu::ShaderStages::VERTEX)]);
         let kinds_layout = group("leaf kinds", &[uniform(0)]);
         let text = [
@@ -103,6 +112,7 @@ impl CullPass {
             &record_constants(),
             include_str!("shaders/leaf_kinds.wgsl"),
             include_str!("shaders/leaf_record.wgsl"),
+            marks,
             include_str!("shaders/leaf_cull.wgsl"),
         ];
         let module = shader(device, "leaf culling", &text);
@@ -130,7 +140,7 @@ impl CullPass {
             layout: &kinds_layout,
             entries: &[wgpu::BindGroupEntry { binding: 0, resource: kinds.uniform.as_entire_binding() }],
         });
-        Self { records_layout, page_layout, columns_layout, kinds, views, steps }
+        Self { records_layout, page_layout, columns_layout, kinds, views, steps, is_painted }
     }
 
     /// Sets what a view sees in the frames to come.
@@ -146,13 +156,14 @@ impl CullPass {
         }
     }
 
-    /// Fills the records and draws of a page from a window of place, attitude, course and identity.
+    /// Fills the records and draws of a page from a window of place, attitude, course and identity, and of the marks of painted
+    /// leaves.
     pub(super) fn run(
         &self,
         device: &wgpu::Device,
         encoder: &mut wgpu::CommandEncoder,
         page: &Page,
-        columns: [wgpu::BufferBinding<'_>; 4],
+        columns: Vec<wgpu::BufferBinding<'_>>,
         stems: &Stems,
         view: View,
     ) {

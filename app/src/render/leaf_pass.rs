@@ -9,6 +9,10 @@ use super::leaf_kinds::LeafKinds;
 use super::light_group::LightGroup;
 use super::pipeline::{COMMON, LIGHT, ScenePipeline, shader};
 
+/// WGSL of the colour of a blade: its own, or that of its mark.
+const COLORS: [&str; 2] =
+    [include_str!("shaders/colors_own.wgsl"), include_str!("shaders/colors_painted.wgsl")];
+
 /// WGSL from the records of leaves to points on blades; uses bind groups 2 and 3.
 pub(super) const LEAF_SHAPE: [&str; 3] = [
     include_str!("shaders/leaf_kinds.wgsl"),
@@ -31,7 +35,8 @@ impl LeafPass {
         cull: &CullPass,
     ) -> Self {
         let [kind, record, shape] = LEAF_SHAPE;
-        let text = [COMMON, LIGHT, kind, record, shape, include_str!("shaders/leaf.wgsl")];
+        let colors = COLORS[usize::from(cull.is_painted)];
+        let text = [COMMON, LIGHT, kind, record, shape, colors, include_str!("shaders/leaf.wgsl")];
         let shader = shader(device, "leaf", &text);
         let pipeline = ScenePipeline {
             label: "leaves",

@@ -17,6 +17,7 @@ use super::frame::FrameGroup;
 use super::fruit_pass::FruitPass;
 use super::grass_pass::GrassPass;
 use super::ground_pass::GroundPass;
+use super::landing_pass::LandingPass;
 use super::leaf_crowd::LeafCrowd;
 use super::leaf_cull::CullPass;
 use super::leaf_kinds::LeafKinds;
@@ -24,6 +25,7 @@ use super::leaf_pass::LeafPass;
 use super::light_group::LightGroup;
 use super::litter::Litter;
 use super::motion_pass::MotionPass;
+use super::paint::{Paint, PaintPass};
 use super::post::{Post, TimedPosts};
 use super::scenery::{Park, plant};
 use super::shadow_pass::ShadowPass;
@@ -54,6 +56,7 @@ pub struct Renderer {
     environment: Environment,
     land: Land,
     leaf_count: u32,
+    dt_s: f32,
     targets: Targets,
     tile_px: u32,
     frame: FrameGroup,
@@ -80,6 +83,8 @@ pub struct Renderer {
     tree_pass: TreePass,
     sky_pass: SkyPass,
     trail_pass: Option<TrailPass>,
+    paint_pass: Option<PaintPass>,
+    landing_pass: Option<LandingPass>,
     post: Post,
     timer: Option<GpuTimer>,
 }
@@ -112,7 +117,7 @@ impl Renderer {
         let own = own_trees(stand, scene.autumn > 0.0);
         let trees = Trees::new(device, queue, (&planted, leaves), &own);
         let branches = BranchGroup::new(device, queue, stand);
-        let cull = CullPass::new(device, &kinds);
+        let cull = CullPass::new(device, &kinds, false);
         let shadow_pass = ShadowPass::new(device, &frame, &kinds, &cull, &branches);
         let shade_pass = ShadePass::new(device, &frame, &trees);
         let environment = Environment::new(&scene.view, center, Path { lead: level, phase: path_phase })?;
@@ -125,6 +130,7 @@ impl Renderer {
             queue: queue.clone(),
             environment,
             leaf_count: scene.leaf_count(),
+            dt_s: scene.dt_s,
             litter: Litter::new(device, queue, options.litter_count, species_count, &land, center, &shedding),
             litter_crowd: LeafCrowd::new(device, queue, &cull, &Stand::default(), options.litter_count),
             leaf_crowd: LeafCrowd::new(device, queue, &cull, stand, scene.leaf_count()),
@@ -142,6 +148,8 @@ impl Renderer {
             timer: GpuTimer::new(device, queue, &TIMED_PASSES),
             trail_pass: None,
             motion_pass: None,
+            paint_pass: None,
+            landing_pass: None,
             shade_is_old: true,
             targets,
             land,
@@ -231,10 +239,46 @@ impl Renderer {
         self.leaf_crowd = LeafCrowd::new(&self.device, &self.queue, &self.cull, stand, leaf_count);
         self.make_trails(self.trail_pass.as_ref().map_or(0.0, TrailPass::trail_s));
         self.motion_pass = self.motion_pass.is_some().then(|| self.new_motion());
+        if let Some(paint) = self.paint_pass.take().map(|pass| pass.paint()) {
+            self.set_paint(Some(paint));
+        }
     }
 
     fn new_motion(&self) -> MotionPass {
         MotionPass::new(&self.device, &self.frame, &self.kinds, self.leaf_count)
+    }
+
+    /// Paints leaves by what they do, or leaves them their own colours. Litter that is not simulated is not drawn then.
+    pub fn set_paint(&mut self, paint: Option<Paint>) {
+        match (&mut self.paint_pass, paint) {
+            (Some(pass), Some(paint)) => pass.set(paint),
+            (None, None) => {}
+            (_, paint) => {
+                let (device, base_m) = (&self.device, self.land.base_m());
+                let pass = |paint| PaintPass::new(device, paint, self.leaf_count, self.dt_s, base_m);
+                self.paint_pass = paint.map(pass);
+                if self.cull.is_painted != paint.is_some() {
+                    self.cull = CullPass::new(device, &self.kinds, paint.is_some());
+                    self.leaf_pass = LeafPass::new(device, &self.frame, &self.light, &self.kinds, &self.cull);
+                }
+            }
+        }
+    }
+
+    /// Shows how densely leaves lie on the ground, or no longer.
+    pub fn set_landings(&mut self, are_shown: bool) {
+        if are_shown != self.landing_pass.is_some() {
+            let center = self.environment.park_center;
+            let pass = || LandingPass::new(&self.device, &self.queue, &self.frame, &self.light, center);
+            self.landing_pass = are_shown.then(pass);
+        }
+    }
+
+    /// Draws trails of so many seconds from now on; none for 0.
+    pub fn set_trails(&mut self, trail_s: f32) {
+        if self.trail_pass.as_ref().map_or(0.0, TrailPass::trail_s) != trail_s {
+            self.make_trails(trail_s);
+        }
     }
 
     fn make_trails(&mut self, trail_s: f32) {

@@ -15,6 +15,7 @@ use winit::window::{Window, WindowId};
 
 use windfall_core::{Scene, World};
 
+use super::looking::Show;
 use super::screenshot::Screenshot;
 use super::window::{Next, Viewer};
 use crate::backend::BackendArguments;
@@ -34,6 +35,8 @@ pub struct Options {
     pub backend: BackendArguments,
     /// Size of the window in pixels.
     pub size: Option<(u32, u32)>,
+    /// What to show beside the scene from the beginning.
+    pub show: Vec<Show>,
     /// A picture of the window to be saved after so many seconds; then the program ends.
     pub screenshot: Option<(PathBuf, f64)>,
 }

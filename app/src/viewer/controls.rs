@@ -4,9 +4,13 @@
 
 use std::ops::RangeInclusive;
 
+use egui::Pos2;
+use glam::Vec3;
 use windfall_core::scene::Lens;
 use windfall_core::{Clock, SimulatorInfo, Stats};
 
+use super::card::Card;
+use super::looking::Looking;
 use super::session::Timeline;
 use super::tuning::Tuning;
 use crate::backend::BackendKind;
@@ -38,6 +42,10 @@ pub(super) enum Wish {
     Backend(BackendKind),
     /// Look from where the scene says.
     ResetCamera,
+    /// Other instruments.
+    Look(Looking),
+    /// Follow the leaf at this place of the screen, or none if there is none.
+    Pick(Pos2),
     /// Show or hide the panel.
     TogglePanel,
     /// Close the window.
@@ -64,6 +72,13 @@ pub(super) struct Facts {
     pub(super) lens: Lens,
     /// Whether tuning differs from what the scene says.
     pub(super) is_tuned: bool,
+    pub(super) looking: Looking,
+    /// The leaf that is followed, and where it has been.
+    pub(super) card: Option<Card>,
+    pub(super) track: Option<Vec<Vec3>>,
+    /// Places and winds of arrows, and the speed at the light end of their colours.
+    pub(super) arrows: Vec<(Vec3, Vec3)>,
+    pub(super) arrow_most_m_s: f32,
     pub(super) time_scale: f32,
     pub(super) is_paused: bool,
     /// Simulated seconds in each second, if fewer than asked for.

@@ -8,18 +8,25 @@
 
 mod app;
 mod beaufort;
+mod card;
 mod controls;
 mod gui;
 mod history;
 mod keys;
+mod looking;
 mod meter;
 mod pace;
 mod panel;
+mod pick;
 mod pointer;
+mod probe;
 mod screen;
 mod screenshot;
+mod selection;
 mod session;
+mod slice;
 mod tuning;
 mod window;
 
 pub use app::{Options, run};
+pub use looking::Show;

@@ -281,6 +281,11 @@ impl Session {
         &self.scene
     }
 
+    /// What the scene compiles to, as it is now.
+    pub(super) fn environment(&self) -> &Environment {
+        &self.environment
+    }
+
     /// The simulator.
     pub(super) fn simulator(&self) -> &dyn Simulator {
         &self.backend

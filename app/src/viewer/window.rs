@@ -2,12 +2,14 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The window with all that is in it, frame by frame.
 
+mod looking;
 mod wishes;
 
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use anyhow::Context;
+use looking::Instruments;
 use windfall_core::World;
 use windfall_core::scene::camera_at;
 use windfall_wgpu::Gpu;
@@ -59,6 +61,7 @@ pub(super) struct Viewer {
     camera: Camera,
     /// Whether the camera goes where the scene's keys say, if it has any: until the user moves it.
     follows_path: bool,
+    instruments: Instruments,
     meter: Meter,
     message: Option<(Message, Instant)>,
     screenshot: Option<Screenshot>,
@@ -101,6 +104,7 @@ impl Viewer {
             screenshot.begin();
         }
         Ok(Self {
+            instruments: Instruments::new(gpu.device(), &options.show),
             camera: Camera::from(&scene.view.camera),
             follows_path: true,
             instance,
@@ -237,6 +241,7 @@ impl Viewer {
     /// Shows the panel, steers the camera and grants the wishes.
     fn panel(&mut self) -> anyhow::Result<Painting> {
         self.message.take_if(|(_, since)| since.elapsed() >= MESSAGE_TIME);
+        self.observe()?;
         let facts = self.facts()?;
         let since = Instant::now();
         let time_s = self.session.simulator().clock().seconds();
@@ -266,7 +271,8 @@ impl Viewer {
     ) -> anyhow::Result<wgpu::CommandEncoder> {
         let (origin, size) = self.panel.picture_area(self.screen.size());
         self.renderer.resize(size).context("the window is too large")?;
-        let time_s = self.session.simulator().clock().seconds();
+        let clock = self.session.simulator().clock();
+        let (time_s, step) = (clock.seconds(), clock.step());
         let since = Instant::now();
         let columns = self.session.columns()?;
         self.meter.add(Stage::Upload, since);
@@ -275,6 +281,7 @@ impl Viewer {
             self.gpu.device().create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         let input = FrameInput { camera: self.camera, time_s, since_s: self.since_s, origin };
         self.renderer.draw(&mut encoder, view, &columns.leaves, columns.branches.as_ref(), &input);
+        self.instruments.ask(&mut encoder, &columns.leaves, step);
         self.meter.add(Stage::Draw, since);
         let since = Instant::now();
         self.gui.paint(&self.gpu, &mut encoder, view, self.screen.size(), painting);

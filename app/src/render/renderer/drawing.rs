@@ -9,6 +9,7 @@ use super::{FrameInput, Renderer, TIMED_POSTS};
 use crate::camera::{Camera, NEAR_M};
 use crate::render::cascades::SHADOW_SIZE;
 use crate::render::environment::FrameUniform;
+use crate::render::leaf_crowd::LeafCrowd;
 use crate::render::leaf_cull::{View as LeafView, ViewUniform};
 use crate::render::lens_group::Shot;
 use crate::render::shadow_pass::Casters;
@@ -44,6 +45,12 @@ impl Renderer {
             let encoder = own.as_mut().unwrap_or(encoder);
             if std::mem::take(&mut is_first) {
                 self.sample_trails(encoder, leaves, input.time_s);
+                if let Some(landings) = &self.landing_pass {
+                    landings.count(&self.device, encoder, leaves);
+                }
+                if let Some(paint) = &mut self.paint_pass {
+                    paint.mark(&self.device, &self.queue, encoder, leaves, input.time_s);
+                }
             }
             self.draw_tile(encoder, leaves, branches, input, (&tile, &shot));
             if let Some(own) = own {
@@ -81,7 +88,7 @@ impl Renderer {
             self.shade_pass.draw(encoder, &self.frame, &self.trees);
             self.shade_is_old = false;
         }
-        let crowds = [&self.leaf_crowd, &self.litter_crowd];
+        let crowds = self.crowds();
         let group = self.branches.bind(&self.device, branches);
         let casters = Casters { kinds: &self.kinds, crowds: &crowds, bark: &self.bark, branches: &group };
         // The last tile is timed: its commands are those that are resolved.
@@ -127,8 +134,14 @@ impl Renderer {
     /// Draws the scene's own trees and all leaves; bind groups 0 and 1 are set.
     fn draw_stand(&self, pass: &mut wgpu::RenderPass<'_>, branches: &wgpu::BindGroup) {
         self.bark_pass.draw(pass, branches, &self.bark, &self.stems);
-        self.leaf_pass.draw(pass, &self.kinds, [&self.leaf_crowd, &self.litter_crowd].into_iter());
+        self.leaf_pass.draw(pass, &self.kinds, self.crowds().into_iter());
         self.fruit_pass.draw(pass, branches);
+    }
+
+    /// What is drawn as leaves: nothing has a mark that is not simulated.
+    fn crowds(&self) -> Vec<&LeafCrowd> {
+        let litter = (!self.cull.is_painted).then_some(&self.litter_crowd);
+        std::iter::once(&self.leaf_crowd).chain(litter).collect()
     }
 
     /// Tells the culling what each view of a frame sees.
@@ -152,9 +165,10 @@ impl Renderer {
     /// Chooses the leaves of the world and of the litter that a view shows.
     fn cull_leaves(&self, encoder: &mut wgpu::CommandEncoder, leaves: &LeafColumns<'_>, view: LeafView) {
         let (device, cull) = (&self.device, &self.cull);
-        self.leaf_crowd.cull(device, encoder, cull, (leaves, &self.stems), view);
-        if let Some(litter) = &self.litter {
-            self.litter_crowd.cull(device, encoder, cull, (&litter.columns(), &self.stems), view);
+        let marks = self.paint_pass.as_ref().map(|pass| &pass.marks);
+        self.leaf_crowd.cull(device, encoder, cull, (leaves, marks, &self.stems), view);
+        if let Some(litter) = self.litter.as_ref().filter(|_| !cull.is_painted) {
+            self.litter_crowd.cull(device, encoder, cull, (&litter.columns(), None, &self.stems), view);
         }
     }
 
@@ -177,6 +191,9 @@ impl Renderer {
         }
         self.tree_pass.draw(&mut pass, &self.trees);
         self.sky_pass.draw(&mut pass);
+        if let Some(landings) = &self.landing_pass {
+            landings.draw(&mut pass);
+        }
         if let Some(trails) = &self.trail_pass {
             trails.draw(&mut pass, leaf_count);
         }

@@ -278,6 +278,7 @@ fn record_of(index: u32, sight: Sight, copy: u32) -> LeafRecord {
     let looks = hash_u32(tint ^ 0x51u);
     var color = mix(vec3(0.94, 1.05, 0.95), vec3(1.08, 0.93, 0.92), unit_from(hash_u32(looks)));
     color *= mix(0.80, 1.16, unit_from(looks)) * stem.tint_cluster.rgb;
+    color = marked(index, color);
     var open = 1.0;
     var outward = vec3(0.0);
     if is_attached && sight.stem > 0u {

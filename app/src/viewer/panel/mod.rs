@@ -4,16 +4,19 @@
 
 mod leaves;
 mod lens;
+mod looking;
 mod numbers;
+mod overlay;
 mod rows;
 pub(super) mod style;
 mod time;
 mod timeline;
 mod wind;
 
-use egui::{Area, Id, Pos2, RichText, ScrollArea, Sense, Ui, vec2};
+use egui::{Area, Id, Pos2, Rect, RichText, ScrollArea, Sense, Ui, vec2};
 
 use super::controls::{Facts, Message, Wish};
+use super::pick::Projection;
 use super::{keys, pointer};
 use crate::camera::Camera;
 use crate::land::Land;
@@ -29,13 +32,20 @@ pub(super) struct Panel {
     pub(super) is_open: bool,
     /// The number of leaves while its slider is being dragged.
     leaves: Option<u32>,
+    /// The picture on the screen in points.
+    picture: Rect,
     /// Left edge of the picture in pixels.
     picture_left: u32,
 }
 
 impl Panel {
     pub(super) fn new() -> Self {
-        Self { is_open: true, leaves: None, picture_left: 0 }
+        Self { is_open: true, leaves: None, picture: Rect::ZERO, picture_left: 0 }
+    }
+
+    /// The picture on the screen, in points, as it was last laid out.
+    pub(super) fn picture(&self) -> Rect {
+        self.picture
     }
 
     /// Corner and size in pixels of what the panel leaves of a window of `size`.
@@ -61,6 +71,11 @@ impl Panel {
         self.picture_left = pixels(picture.left() * ui.ctx().pixels_per_point());
         let response = ui.interact(picture, Id::unique("picture"), Sense::click_and_drag());
         pointer::steer(camera, &response, land);
+        if let Some(pointer) = response.interact_pointer_pos().filter(|_| response.clicked()) {
+            wishes.push(Wish::Pick(pointer));
+        }
+        self.picture = picture;
+        overlay::show(ui, facts, &Projection::new(camera, picture), picture);
         if self.is_open {
             timeline::show(ui, facts, picture, &mut wishes);
         }
@@ -71,6 +86,7 @@ impl Panel {
     fn groups(&mut self, ui: &mut Ui, facts: &Facts, camera: &mut Camera, wishes: &mut Vec<Wish>) {
         ui.label(RichText::new(&facts.scene).size(17.0).strong().color(style::TITLE));
         time::show(ui, facts, wishes);
+        looking::show(ui, facts, wishes);
         leaves::show(ui, facts, &mut self.leaves, wishes);
         wind::show(ui, facts, wishes);
         lens::show(ui, facts, camera, wishes);

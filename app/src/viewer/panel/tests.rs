@@ -9,6 +9,7 @@ use windfall_core::{Contract, Scene, SimulatorInfo, World};
 
 use super::*;
 use crate::backend::BackendKind;
+use crate::viewer::looking::Looking;
 use crate::viewer::session::Timeline;
 use crate::viewer::tuning::Tuning;
 
@@ -30,6 +31,11 @@ fn facts(scene: &Scene) -> Facts {
         stats: world.stats(),
         has_motions: true,
         has_regimes: scene.name == "Flight lab",
+        looking: Looking::default(),
+        card: None,
+        track: None,
+        arrows: Vec::new(),
+        arrow_most_m_s: 1.0,
         tuning: Tuning::from(scene),
         lens: scene.view.lens,
         is_tuned: false,

@@ -45,6 +45,8 @@ impl Viewer {
                 self.session.set_lens(lens);
                 self.renderer.set_lens(lens);
             }
+            Wish::Look(looking) => self.look(looking),
+            Wish::Pick(pointer) => self.pick(pointer)?,
             Wish::Quit => self.next = Next::Quit,
             Wish::Tune(tuning) => self.try_to(None, |session| session.tune(&tuning))?,
             Wish::Untune => {
@@ -101,6 +103,8 @@ impl Viewer {
         let mut gpu_ms = self.session.device_ms();
         gpu_ms.extend(self.renderer.timings());
         let stats = self.session.stats()?;
+        let arrows = self.arrows();
+        let arrow_most_m_s = self.arrow_most_m_s();
         let session = &self.session;
         let (scene, simulator) = (session.scene(), session.simulator());
         let tuning = Tuning::from(scene);
@@ -117,6 +121,11 @@ impl Viewer {
             has_motions: scene.species.iter().any(|species| species.flight == FlightModel::Synthesis),
             has_regimes: scene.species.iter().any(|species| species.flight != FlightModel::Synthesis),
             is_tuned: tuning != session.own_tuning(),
+            looking: self.instruments.looking,
+            card: self.card(),
+            track: self.track(),
+            arrows,
+            arrow_most_m_s,
             tuning,
             lens: scene.view.lens,
             time_scale: session.pace.time_scale,
