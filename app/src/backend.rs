@@ -9,6 +9,7 @@ use std::fmt;
 
 use anyhow::bail;
 use clap::{Args, ValueEnum};
+use windfall_core::leaf::Leaves;
 use windfall_core::{Clock, Environment, SimError, Simulator, SimulatorInfo, Stats, World};
 use windfall_cpu::{CpuOptions, CpuSimulator};
 use windfall_wgpu::{
@@ -224,6 +225,14 @@ impl Backend {
                 let branches = cpu.branches.as_ref().map(BranchBuffer::columns);
                 Ok(Columns { leaves: buffers.columns(), branches })
             }
+        }
+    }
+
+    /// The leaves where they are on this side of the device; `None` if they are on the other.
+    pub fn host_leaves(&self) -> Option<&Leaves> {
+        match self {
+            Self::Cpu(cpu) => Some(cpu.simulator.leaves()),
+            Self::Wgpu(_) => None,
         }
     }
 

@@ -63,7 +63,7 @@ mod water_pass;
 pub use error::RenderError;
 pub use landing_pass::LANDINGS_PER_M2;
 pub use leaf_kinds::MAX_LAYERS;
-pub use paint::{ATTACHED, MOTIONS, Measure, Paint, RESTING, SHADES, shade_bytes};
+pub use paint::{ATTACHED, MOTIONS, Measure, Paint, RESTING, shade_bytes};
 pub use readback::PictureTarget;
 pub use renderer::Renderer;
 pub use shader_edit::with_shader_edit;

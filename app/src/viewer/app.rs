@@ -122,7 +122,10 @@ impl ApplicationHandler for App {
     fn window_event(&mut self, event_loop: &ActiveEventLoop, _window: WindowId, event: WindowEvent) {
         let Some(viewer) = &mut self.viewer else { return };
         match event {
-            WindowEvent::CloseRequested => event_loop.exit(),
+            WindowEvent::CloseRequested => {
+                viewer.finish_recording();
+                event_loop.exit();
+            }
             WindowEvent::RedrawRequested => match viewer.frame() {
                 Ok(Next::Quit) => event_loop.exit(),
                 Ok(_) => {}
@@ -138,6 +141,10 @@ impl ApplicationHandler for App {
         }
         let interrupted = interrupt::check();
         let Some(viewer) = &mut self.viewer else { return };
+        if interrupted.is_err() && viewer.finish_recording() {
+            event_loop.exit();
+            return;
+        }
         match viewer.next() {
             Next::Frame => {
                 viewer.request_frame();

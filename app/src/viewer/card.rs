@@ -42,7 +42,7 @@ pub(super) fn card(environment: &Environment, clock: &Clock, slot: u32, leaf: &L
     let is_body = flies(bits);
 
     let mut rows = vec![("leaf", format!("{}, slot {}", grouped(leaf.identity.id), grouped(slot)))];
-    rows.push(("does", doing(state, bits, is_body)));
+    rows.push(("state", doing(state, bits, is_body)));
     let velocity = match state {
         LeafState::Dormant => Vec3::ZERO,
         LeafState::Falling if !is_body => {
@@ -154,7 +154,7 @@ mod tests {
     fn synthesised_leaves_tell_their_feature() {
         let falling: Vec<Card> = cards("autumn-park")
             .into_iter()
-            .filter(|card| row(card, "does").is_some_and(|text| text.starts_with("falls")))
+            .filter(|card| row(card, "state").is_some_and(|text| text.starts_with("falls")))
             .collect();
         assert!(!falling.is_empty(), "leaves are in the air");
         for card in falling {
@@ -168,7 +168,7 @@ mod tests {
     fn bodies_tell_what_the_air_does() {
         let falling: Vec<Card> = cards("flight-lab")
             .into_iter()
-            .filter(|card| row(card, "does").is_some_and(|text| text.starts_with("falls")))
+            .filter(|card| row(card, "state").is_some_and(|text| text.starts_with("falls")))
             .collect();
         assert!(!falling.is_empty(), "bodies are in the air");
         let mut up = 0.0;

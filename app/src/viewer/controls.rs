@@ -10,8 +10,10 @@ use windfall_core::scene::Lens;
 use windfall_core::{Clock, SimulatorInfo, Stats};
 
 use super::card::Card;
+use super::frames::Frames;
 use super::looking::Looking;
-use super::session::Timeline;
+use super::record::RecordFacts;
+use super::session::{Difference, Timeline};
 use super::tuning::Tuning;
 use crate::backend::BackendKind;
 
@@ -46,6 +48,12 @@ pub(super) enum Wish {
     Look(Looking),
     /// Follow the leaf at this place of the screen, or none if there is none.
     Pick(Pos2),
+    /// Run the other backend beside this one, or no longer.
+    Compare(bool),
+    /// Record to this file or folder.
+    RecordTo(String),
+    /// Begin or complete a clip.
+    ToggleRecord,
     /// Show or hide the panel.
     TogglePanel,
     /// Close the window.
@@ -79,6 +87,7 @@ pub(super) struct Facts {
     /// Places and winds of arrows, and the speed at the light end of their colours.
     pub(super) arrows: Vec<(Vec3, Vec3)>,
     pub(super) arrow_most_m_s: f32,
+    pub(super) recording: RecordFacts,
     pub(super) time_scale: f32,
     pub(super) is_paused: bool,
     /// Simulated seconds in each second, if fewer than asked for.
@@ -86,6 +95,10 @@ pub(super) struct Facts {
     pub(super) leaf_count: u32,
     pub(super) leaf_range: RangeInclusive<u32>,
     pub(super) fps: f32,
+    pub(super) frames: Frames,
+    /// Whether the other backend runs as well, and how far it is apart.
+    pub(super) compares: bool,
+    pub(super) difference: Option<Difference>,
     /// Milliseconds on the processor.
     pub(super) cpu_ms: Vec<(&'static str, f32)>,
     /// Milliseconds on the device; empty where it cannot tell.

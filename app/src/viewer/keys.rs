@@ -9,7 +9,7 @@ use super::controls::Wish;
 /// Keys and what they do, for the panel.
 pub(super) const HELP: &str = "Drag to orbit, right-drag or Shift-drag to pan, wheel to zoom. W A S D fly, E and Q up \
                                and down, Shift faster; Ctrl-drag, or drag while flying, to look around. Space pauses, \
-                               . and , step on and back, R resets, C camera, F1 hides this, Esc quits.";
+                               . and , step on and back, R resets, C camera, F9 records, F1 hides this, Esc quits.";
 
 /// Where the keys held down fly to: right, up, ahead, each -1 to 1 times the speed.
 pub(super) fn flight(context: &egui::Context) -> [f32; 3] {
@@ -44,6 +44,7 @@ fn wish(event: &Event, is_paused: bool) -> Option<Wish> {
         Key::Space => Some(Wish::Pause(!is_paused)),
         Key::R => Some(Wish::Reset),
         Key::C => Some(Wish::ResetCamera),
+        Key::F9 => Some(Wish::ToggleRecord),
         Key::F1 | Key::H => Some(Wish::TogglePanel),
         Key::Escape => Some(Wish::Quit),
         _ => None,
@@ -66,7 +67,8 @@ mod tests {
         assert_eq!(press(Key::Space, true), None, "once");
         assert_eq!(press(Key::Period, true), Some(Wish::SingleStep), "a held step goes on");
         assert_eq!(press(Key::Escape, false), Some(Wish::Quit), "Esc quits");
-        for key in ["Space", ". and ,", "R ", "C ", "F1", "Esc", "W A S D", "E ", "Q ", "Shift", "Ctrl"] {
+        for key in ["Space", ". and ,", "R ", "C ", "F1", "F9", "Esc", "W A S D", "E ", "Q ", "Shift", "Ctrl"]
+        {
             assert!(HELP.contains(key), "{key} is explained");
         }
     }

@@ -4,6 +4,8 @@
 
 use std::time::{Duration, Instant};
 
+use super::frames::{FrameTimes, Frames};
+
 /// Time in seconds over which numbers are averaged.
 const MEMORY_S: f32 = 0.7;
 
@@ -27,12 +29,13 @@ pub(super) struct Meter {
     frame_s: Option<f32>,
     running: [Duration; STAGES.len()],
     mean_ms: Option<[f32; STAGES.len()]>,
+    frames: Frames,
 }
 
 impl Meter {
     pub(super) fn new() -> Self {
         let running = [Duration::ZERO; STAGES.len()];
-        Self { began: Instant::now(), frame_s: None, running, mean_ms: None }
+        Self { began: Instant::now(), frame_s: None, running, mean_ms: None, frames: Frames::default() }
     }
 
     /// Starts the next frame and returns the seconds since the last one started.
@@ -44,6 +47,7 @@ impl Meter {
         let keep = (-frame_s / MEMORY_S).exp();
         let blend = |mean: f32, new: f32| mean * keep + new * (1.0 - keep);
         let new: [f32; STAGES.len()] = std::array::from_fn(|stage| self.running[stage].as_secs_f32() * 1.0e3);
+        self.frames.push(FrameTimes { whole_ms: frame_s * 1.0e3, stages_ms: new });
         self.frame_s = Some(self.frame_s.map_or(frame_s, |mean| blend(mean, frame_s)));
         self.mean_ms = Some(
             self.mean_ms.map_or(new, |mean| std::array::from_fn(|stage| blend(mean[stage], new[stage]))),
@@ -69,6 +73,11 @@ impl Meter {
         let result = work();
         self.add(stage, since);
         result
+    }
+
+    /// The latest frames.
+    pub(super) fn frames(&self) -> &Frames {
+        &self.frames
     }
 
     /// Frames per second; zero before the second frame.

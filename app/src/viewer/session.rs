@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The scene that goes on: its simulator, its pace, and everything that may change about it.
 
+mod compare;
 mod seek;
 
 use std::ops::RangeInclusive;
@@ -20,6 +21,8 @@ use crate::backend::{Backend, BackendKind, Columns, Device};
 use crate::commands::scene::{check_memory, scaled};
 use crate::render::GpuTimer;
 use crate::trees::Stand;
+pub(super) use compare::Difference;
+use compare::Twin;
 pub(super) use seek::Timeline;
 
 /// Time between two counts of all leaves: counting waits for the device.
@@ -41,6 +44,8 @@ pub(super) struct Session {
     gpu: Gpu,
     threads: Option<usize>,
     backend: Backend,
+    /// The other backend, if both run.
+    twin: Option<Twin>,
     history: History,
     /// Step that is to be reached before time goes on.
     target: Option<u32>,
@@ -74,6 +79,7 @@ impl Session {
             environment: world.environment.clone(),
             threads,
             backend: device.simulator(world)?,
+            twin: None,
             history: History::new(world),
             target: None,
             kept: None,
@@ -104,6 +110,9 @@ impl Session {
         while left > 0 {
             let batch = self.steps_to_change().min(left);
             self.submit(batch)?;
+            if let Some(twin) = &mut self.twin {
+                twin.backend.step(batch)?;
+            }
             self.take_note()?;
             left -= batch;
         }
@@ -169,7 +178,7 @@ impl Session {
         scene.validate(&self.scene.name)?;
         self.environment.retune(&scene);
         self.scene = scene;
-        self.backend.set_environment(&self.environment)?;
+        self.impose()?;
         self.history.change(self.backend.clock().step(), self.environment.clone());
         self.target = None;
         Ok(())
@@ -192,7 +201,7 @@ impl Session {
     pub(super) fn reset(&mut self) -> anyhow::Result<()> {
         let world = World::build(&self.scene)?;
         self.environment = world.environment.clone();
-        self.backend.write_state(&world)?;
+        self.put_back(&world)?;
         self.begin_again(&world);
         Ok(())
     }
@@ -205,11 +214,13 @@ impl Session {
         check_memory(&self.scene.name, leaves)?;
         let scene = Tuning::from(&self.scene).applied(&scaled(&self.loaded, &self.scene.name, leaves)?);
         let world = World::build(&scene)?;
+        let compares = self.is_comparing();
         self.backend = self.device(self.kind()).simulator(&world)?;
+        self.twin = None;
         self.scene = scene;
         self.environment = world.environment.clone();
         self.begin_again(&world);
-        Ok(())
+        Ok(self.set_comparing(compares)?)
     }
 
     /// Goes on elsewhere: the leaves go on falling where they are.
@@ -221,9 +232,11 @@ impl Session {
             return Ok(());
         }
         let world = self.world()?;
+        let compares = self.is_comparing();
         self.backend = self.device(kind).simulator(&world)?;
+        self.twin = None;
         self.forget_cost();
-        Ok(())
+        self.set_comparing(compares)
     }
 
     /// The whole state as it is now.
@@ -239,6 +252,20 @@ impl Session {
         };
         self.backend.read_state(&mut world)?;
         Ok(world)
+    }
+
+    /// Makes the environment hold from the next step on.
+    fn impose(&mut self) -> Result<(), SimError> {
+        let twin = self.twin.as_mut().map(|twin| &mut twin.backend);
+        std::iter::once(&mut self.backend)
+            .chain(twin)
+            .try_for_each(|backend| backend.set_environment(&self.environment))
+    }
+
+    /// Makes `world` the present.
+    fn put_back(&mut self, world: &World) -> Result<(), SimError> {
+        let twin = self.twin.as_mut().map(|twin| &mut twin.backend);
+        std::iter::once(&mut self.backend).chain(twin).try_for_each(|backend| backend.write_state(world))
     }
 
     fn begin_again(&mut self, world: &World) {
@@ -302,6 +329,11 @@ impl Session {
         let held = self.gpu.device().limits().max_buffer_size / RECORD_BYTES;
         let most = u32::try_from(held).unwrap_or(u32::MAX).min(limits::COUNT.high);
         fewest..=most.max(fewest)
+    }
+
+    /// The leaves as they are now, if they need not be brought from a device.
+    pub(super) fn host_leaves(&self) -> Option<&Leaves> {
+        self.backend.host_leaves()
     }
 
     /// The leaves, to be drawn.

@@ -3,6 +3,7 @@
 //! The window with all that is in it, frame by frame.
 
 mod looking;
+mod recording;
 mod wishes;
 
 use std::sync::Arc;
@@ -21,6 +22,7 @@ use super::controls::Message;
 use super::gui::{Gui, Painting};
 use super::meter::{Meter, Stage};
 use super::panel::Panel;
+use super::record::Recording;
 use super::screen::Screen;
 use super::screenshot::Screenshot;
 use super::session::Session;
@@ -65,6 +67,9 @@ pub(super) struct Viewer {
     meter: Meter,
     message: Option<(Message, Instant)>,
     screenshot: Option<Screenshot>,
+    recording: Option<Recording>,
+    /// Where the next clip goes to, if the user has said so.
+    record_to: Option<String>,
     next: Next,
     /// Something was changed after the panel was laid out: it does not show it yet.
     has_news: bool,
@@ -118,6 +123,8 @@ impl Viewer {
             meter: Meter::new(),
             message: None,
             screenshot,
+            recording: None,
+            record_to: None,
             next: Next::Frame,
             has_news: false,
             was_idle: true,
@@ -162,13 +169,17 @@ impl Viewer {
         let since_s = if self.was_idle { f32::INFINITY } else { frame_s as f32 };
         self.since_s = since_s;
         self.has_news = false;
-        let painting = self.panel()?;
-        if self.next == Next::Quit {
-            return Ok(Next::Quit);
-        }
         let since = Instant::now();
         self.simulate(frame_s)?;
         self.meter.add(Stage::Simulate, since);
+        let painting = self.panel()?;
+        if self.next == Next::Quit {
+            self.finish_recording();
+            return Ok(Next::Quit);
+        }
+        if !self.session.is_seeking() {
+            self.record_frame()?;
+        }
 
         let since = Instant::now();
         let texture = self.screen.acquire(&self.instance, &self.gpu)?;
@@ -199,7 +210,11 @@ impl Viewer {
         if self.session.is_seeking() {
             return Ok(self.session.pursue()?);
         }
-        let steps = self.session.due_steps(frame_s);
+        let steps = match &self.recording {
+            Some(_) if self.session.pace.is_paused => 0,
+            Some(recording) => recording.due_steps(),
+            None => self.session.due_steps(frame_s),
+        };
         if !self.renderer.has_trails() || self.session.leaf_count() > MAX_TRAILS {
             return Ok(self.session.step(steps)?);
         }
@@ -223,6 +238,7 @@ impl Viewer {
         }
         if !self.session.pace.is_paused
             || self.session.is_seeking()
+            || self.recording.is_some()
             || self.has_news
             || self.screenshot.is_some()
         {
@@ -270,10 +286,12 @@ impl Viewer {
         painting: &Painting,
     ) -> anyhow::Result<wgpu::CommandEncoder> {
         let (origin, size) = self.panel.picture_area(self.screen.size());
+        let size = self.recording.as_ref().map_or(size, |recording| recording.size);
         self.renderer.resize(size).context("the window is too large")?;
         let clock = self.session.simulator().clock();
         let (time_s, step) = (clock.seconds(), clock.step());
         let since = Instant::now();
+        let is_far = self.session.host_leaves().is_none();
         let columns = self.session.columns()?;
         self.meter.add(Stage::Upload, since);
         let since = Instant::now();
@@ -281,7 +299,7 @@ impl Viewer {
             self.gpu.device().create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         let input = FrameInput { camera: self.camera, time_s, since_s: self.since_s, origin };
         self.renderer.draw(&mut encoder, view, &columns.leaves, columns.branches.as_ref(), &input);
-        self.instruments.ask(&mut encoder, &columns.leaves, step);
+        self.instruments.ask(&mut encoder, &columns.leaves, step, is_far);
         self.meter.add(Stage::Draw, since);
         let since = Instant::now();
         self.gui.paint(&self.gpu, &mut encoder, view, self.screen.size(), painting);

@@ -8,7 +8,7 @@
 use glam::Vec3;
 
 /// Colours of an amount.
-pub const SHADES: usize = 16;
+pub(in crate::render) const SHADES: usize = 16;
 /// Lightness, chroma and hue in degrees of OKLCH at the ends of the amounts.
 const LOW: [f32; 3] = [0.30, 0.12, 295.0];
 const HIGH: [f32; 3] = [0.92, 0.15, 100.0];

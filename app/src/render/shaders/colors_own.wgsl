@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // Leaves in their own colours. `colors_painted.wgsl` stands here instead when they are painted by what they do.
 
-// How much paler the underside is.
-const PALER: f32 = 1.0;
+// Whether a blade lets light through and is paler beneath.
+const IS_LEAF: f32 = 1.0;
 
 fn blade_color(image: vec3<f32>, tint: vec3<f32>) -> vec3<f32> {
     return image * tint;

@@ -58,6 +58,6 @@ fn fragment(in: Varyings) -> @location(0) vec4<f32> {
     let color = mix(landing.palette[first].rgb, landing.palette[first + 1u].rgb, at - f32(first));
     // Fades out where there is less than the scale begins with.
     let alpha = 0.82 * smoothstep(0.15 * low, low, in.density);
-    let light = luminance(ambient_light(vec3(0.0, 1.0, 0.0)) + frame.sun_color.rgb);
+    let light = 0.42 * luminance(ambient_light(vec3(0.0, 1.0, 0.0)) + frame.sun_color.rgb);
     return vec4(color * light * alpha, alpha);
 }

@@ -112,10 +112,11 @@ fn fragment(in: Varyings) -> Painted {
     // Light that crosses a blade meets its pigments on a longer way: deeper colour for the same lightness.
     let deep = reflectance * sqrt(reflectance);
     var transmittance = deep * (CLEARNESS * surface.z / max(luminance(deep), 0.004)) * mix(1.0, 0.6, in.settled);
+    transmittance = mix(0.4 * reflectance, transmittance, IS_LEAF);
     // The underside, seen through its air spaces, is paler.
     if seen < 0.0 {
         let pale = mix(reflectance, vec3(luminance(reflectance)) * vec3(1.08, 1.05, 0.92), 0.25) * 1.12 + 0.008;
-        reflectance = mix(reflectance, pale, PALER);
+        reflectance = mix(reflectance, pale, IS_LEAF);
     }
     reflectance = min(reflectance, vec3(0.8));
     transmittance = min(transmittance, MOST - reflectance);

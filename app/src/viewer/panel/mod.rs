@@ -2,11 +2,14 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The panel beside the scene, group by group.
 
+mod compare;
+mod graph;
 mod leaves;
 mod lens;
 mod looking;
 mod numbers;
 mod overlay;
+mod record;
 mod rows;
 pub(super) mod style;
 mod time;
@@ -87,6 +90,7 @@ impl Panel {
         ui.label(RichText::new(&facts.scene).size(17.0).strong().color(style::TITLE));
         time::show(ui, facts, wishes);
         looking::show(ui, facts, wishes);
+        record::show(ui, facts, wishes);
         leaves::show(ui, facts, &mut self.leaves, wishes);
         wind::show(ui, facts, wishes);
         lens::show(ui, facts, camera, wishes);

@@ -7,7 +7,7 @@ use windfall_core::Contract;
 use windfall_core::flight::regime::REGIME_NAMES;
 use windfall_core::motion::Primitive;
 
-use super::{Facts, Wish, rows, style};
+use super::{Facts, Wish, compare, graph, rows, style};
 use crate::backend::BackendKind;
 
 /// Names of the primitive motions, in their order.
@@ -56,6 +56,7 @@ pub(super) fn backend(ui: &mut Ui, facts: &Facts, wishes: &mut Vec<Wish>) {
     });
     let drawn = RichText::new(format!("Draws: {}", facts.adapter)).small().color(style::QUIET);
     ui.add(Label::new(drawn).truncate()).on_hover_text(&facts.driver);
+    compare::show(ui, facts, wishes);
 }
 
 /// Leaves by state, bodies by regime, others by motion.
@@ -107,6 +108,7 @@ pub(super) fn timings(ui: &mut Ui, facts: &Facts) {
     rows::title(ui, "Timings");
     let frame_ms = if facts.fps > 0.0 { 1.0e3 / facts.fps } else { 0.0 };
     ui.label(format!("{:.1} frames/s, {} a frame", facts.fps, milliseconds(frame_ms)));
+    graph::show(ui, &facts.frames);
     ui.columns(2, |columns| {
         let [left, right] = columns else { return };
         stages(left, "processor", &facts.cpu_ms, "What the program's own thread does in a frame");

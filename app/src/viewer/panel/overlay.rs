@@ -9,14 +9,19 @@ use egui::{
 use glam::Vec3;
 
 use super::{Facts, style};
-use crate::render::{ATTACHED, MOTIONS, Measure, RESTING, SHADES, shade_bytes};
+use crate::render::{ATTACHED, MOTIONS, Measure, RESTING, shade_bytes};
 use crate::viewer::looking::Looking;
 use crate::viewer::pick::Projection;
 
 /// Width of the scale of the legend in points.
 const SCALE_WIDTH: f32 = 220.0;
+/// Colours in it.
+const STEPS: usize = 64;
 /// Seconds of wind that an arrow shows.
 const ARROW_S: f32 = 0.35;
+
+/// Longest arrow in points: what is nearer to the camera would hide the picture.
+const LONGEST: f32 = 90.0;
 
 /// Draws everything that is asked for over `picture`.
 pub(super) fn show(ui: &Ui, facts: &Facts, projection: &Projection, picture: Rect) {
@@ -48,8 +53,7 @@ fn arrow(painter: &Painter, projection: &Projection, from: Vec3, wind: Vec3, mos
     };
     let color = rgb(shade_bytes(wind.length() / most_m_s.max(0.01)));
     let along = tip - tail;
-    painter.circle_filled(tail, 1.2, color);
-    if along.length() < 2.0 {
+    if along.length() < 2.0 || along.length() > LONGEST {
         return;
     }
     let dark = Stroke::new(3.2, Color32::from_black_alpha(110));
@@ -105,10 +109,10 @@ fn scale_legend(ui: &Ui, id: &str, title: &str, ends: [&str; 2], corner: egui::P
             ui.set_width(SCALE_WIDTH);
             ui.add(Label::new(RichText::new(title).small().color(style::TITLE)));
             let (strip, _) = ui.allocate_exact_size(vec2(SCALE_WIDTH, 9.0), egui::Sense::hover());
-            let step = strip.width() / SHADES as f32;
-            for index in 0..SHADES {
+            let step = strip.width() / STEPS as f32;
+            for index in 0..STEPS {
                 let left = strip.left() + step * index as f32;
-                let share = index as f32 / (SHADES - 1) as f32;
+                let share = index as f32 / (STEPS - 1) as f32;
                 let cell = Rect::from_min_size(pos2(left, strip.top()), vec2(step + 0.5, strip.height()));
                 ui.painter().rect_filled(cell, CornerRadius::ZERO, rgb(shade_bytes(share)));
             }

@@ -9,7 +9,9 @@ use windfall_core::{Contract, Scene, SimulatorInfo, World};
 
 use super::*;
 use crate::backend::BackendKind;
+use crate::viewer::frames::Frames;
 use crate::viewer::looking::Looking;
+use crate::viewer::record::RecordFacts;
 use crate::viewer::session::Timeline;
 use crate::viewer::tuning::Tuning;
 
@@ -32,6 +34,7 @@ fn facts(scene: &Scene) -> Facts {
         has_motions: true,
         has_regimes: scene.name == "Flight lab",
         looking: Looking::default(),
+        recording: RecordFacts::default(),
         card: None,
         track: None,
         arrows: Vec::new(),
@@ -45,6 +48,9 @@ fn facts(scene: &Scene) -> Facts {
         leaf_count: scene.leaf_count(),
         leaf_range: 6..=10_000_000,
         fps: 60.0,
+        frames: Frames::default(),
+        compares: false,
+        difference: None,
         cpu_ms: vec![("simulate", 1.0)],
         gpu_ms: Vec::new(),
         look_deg: -90.0,

@@ -78,7 +78,7 @@ impl Session {
     /// Puts back the last kept moment at or before `step`.
     fn go_back(&mut self, step: u32) -> Result<(), SimError> {
         let Some(world) = self.history.before(step) else { return Ok(()) };
-        self.backend.write_state(&world)?;
+        self.put_back(&world)?;
         self.adopt(world.environment);
         self.counted = None;
         Ok(())
@@ -96,8 +96,8 @@ impl Session {
         if self.history.changes_at(now)
             && let Some(environment) = self.history.environment(now).cloned()
         {
-            self.backend.set_environment(&environment)?;
             self.adopt(environment);
+            self.impose()?;
         }
         let is_rested = self.kept.is_none_or(|(since, took)| since.elapsed() >= took * KEEPING_SHARE);
         if self.history.reach(now) && is_rested {

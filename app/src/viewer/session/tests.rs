@@ -122,3 +122,27 @@ fn moments_are_kept_along_the_way() {
     go_to(&mut session, 475);
     assert_eq!(go_to(&mut session, 9999.min(range.1)), before, "there and back");
 }
+
+#[test]
+fn both_backends_stay_together_through_everything() {
+    let mut session = session(BackendKind::Cpu);
+    session.step(7).expect("it steps");
+    session.set_comparing(true).expect("the device takes it");
+    let tuning = Tuning { speed_m_s: 6.0, ..session.own_tuning() };
+    session.step(20).expect("it steps");
+    session.tune(&tuning).expect("allowed");
+    session.step(20).expect("it steps");
+    go_to(&mut session, 12);
+    session.switch(BackendKind::Wgpu).expect("the device takes it");
+    session.step(20).expect("it steps");
+    let found = session.difference().expect("both tell").expect("they are compared");
+    assert_eq!((found.step, found.is_equal), (32, true), "the same bits: {found:?}");
+    // What one backend alone is told, the other does not know.
+    session.twin = None;
+    session.set_comparing(true).expect("the processor takes it");
+    session.backend.step(1).expect("it steps");
+    let found = session.difference().expect("both tell").expect("they are compared");
+    assert!(!found.is_equal && found.farthest_m > 0.0, "a step apart: {found:?}");
+    session.set_comparing(false).expect("nothing to do");
+    assert_eq!(session.difference().expect("nothing to ask"), None, "no longer compared");
+}

@@ -5,12 +5,13 @@
 use egui::Pos2;
 use glam::Vec3;
 use windfall_core::World;
+use windfall_core::leaf::{LeafState, Leaves, Place};
 use windfall_wgpu::LeafColumns;
 
 use super::Viewer;
 use crate::viewer::card::{Card, card};
 use crate::viewer::looking::{Looking, Show};
-use crate::viewer::pick::Projection;
+use crate::viewer::pick::{Projection, REACH};
 use crate::viewer::probe::{LeafRecords, Probe};
 use crate::viewer::selection::Selection;
 use crate::viewer::slice::wind_slice;
@@ -44,9 +45,15 @@ impl Instruments {
         }
     }
 
-    /// Asks what has become of the leaf that is followed.
-    pub(super) fn ask(&mut self, encoder: &mut wgpu::CommandEncoder, leaves: &LeafColumns<'_>, step: u32) {
-        if let Some(selection) = &self.selection {
+    /// Asks what has become of the leaf that is followed, if it lies on the other side of a device.
+    pub(super) fn ask(
+        &mut self,
+        encoder: &mut wgpu::CommandEncoder,
+        leaves: &LeafColumns<'_>,
+        step: u32,
+        is_far: bool,
+    ) {
+        if let Some(selection) = self.selection.as_ref().filter(|_| is_far) {
             self.probe.ask(encoder, leaves, selection.slot, step);
         }
     }
@@ -59,6 +66,12 @@ impl Viewer {
     /// A lost device.
     pub(super) fn observe(&mut self) -> anyhow::Result<()> {
         let told = self.instruments.probe.collect(self.gpu.device());
+        let step = self.session.simulator().clock().step();
+        let slot = self.instruments.selection.as_ref().map(|selection| selection.slot);
+        // What is here needs no way back.
+        let here = self.session.host_leaves().zip(slot);
+        let here = here.map(|(leaves, slot)| (slot, records(leaves, step, slot as usize)));
+        let told = here.or(told);
         if let Some((slot, records)) = told
             && let Some(selection) = self.instruments.selection.as_mut().filter(|leaf| leaf.slot == slot)
         {
@@ -69,10 +82,11 @@ impl Viewer {
             looking.trails = self.renderer.has_trails();
             let looking = self.instruments.asked.iter().fold(looking, |looking, show| looking.with(*show));
             self.look(looking);
+            self.session.set_comparing(self.instruments.asked.contains(&Show::Compare))?;
         }
         self.instruments.frames = self.instruments.frames.saturating_add(1);
         if self.instruments.frames == FRAMES_BEFORE_PICK && self.instruments.asked.contains(&Show::Leaf) {
-            self.pick_within(self.panel.picture().center(), f32::INFINITY)?;
+            self.pick_any()?;
         }
         Ok(())
     }
@@ -92,19 +106,30 @@ impl Viewer {
     /// # Errors
     /// A lost device.
     pub(super) fn pick(&mut self, pointer: Pos2) -> anyhow::Result<()> {
-        self.pick_within(pointer, crate::viewer::pick::REACH)
+        let world = self.session.world()?;
+        self.follow(&world, &world.leaves.place, pointer, REACH);
+        Ok(())
     }
 
-    /// The same within so many points.
-    fn pick_within(&mut self, pointer: Pos2, reach: f32) -> anyhow::Result<()> {
+    /// Follows the leaf in the air that is nearest to the middle of the picture.
+    fn pick_any(&mut self) -> anyhow::Result<()> {
         let world = self.session.world()?;
+        let mut places = world.leaves.place.clone();
+        for place in &mut places {
+            // As if no other leaf were there.
+            place.bits = if place.state() == LeafState::Falling { place.bits } else { 0 };
+        }
+        self.follow(&world, &places, self.panel.picture().center(), f32::INFINITY);
+        Ok(())
+    }
+
+    fn follow(&mut self, world: &World, places: &[Place], pointer: Pos2, reach: f32) {
         let projection = Projection::new(&self.camera, self.panel.picture());
-        let slot = projection.nearest(&world.leaves.place, pointer, reach);
+        let slot = projection.nearest(places, pointer, reach);
         self.instruments.selection = slot.and_then(|slot| {
             let number = u32::try_from(slot).ok()?;
-            Some(Selection::new(number, records(&world, slot)))
+            Some(Selection::new(number, records(&world.leaves, world.clock.step(), slot)))
         });
-        Ok(())
     }
 
     /// What is told about the leaf that is followed.
@@ -140,10 +165,9 @@ impl Viewer {
 }
 
 /// All columns of a slot.
-fn records(world: &World, slot: usize) -> LeafRecords {
-    let leaves = &world.leaves;
+fn records(leaves: &Leaves, step: u32, slot: usize) -> LeafRecords {
     LeafRecords {
-        step: world.clock.step(),
+        step,
         place: leaves.place[slot],
         drift: leaves.drift[slot],
         attitude: leaves.attitude[slot],

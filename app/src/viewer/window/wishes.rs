@@ -46,7 +46,10 @@ impl Viewer {
                 self.renderer.set_lens(lens);
             }
             Wish::Look(looking) => self.look(looking),
+            Wish::Compare(compares) => self.try_to(None, |session| Ok(session.set_comparing(compares)?))?,
             Wish::Pick(pointer) => self.pick(pointer)?,
+            Wish::RecordTo(path) => self.record_to = Some(path),
+            Wish::ToggleRecord => self.toggle_recording(),
             Wish::Quit => self.next = Next::Quit,
             Wish::Tune(tuning) => self.try_to(None, |session| session.tune(&tuning))?,
             Wish::Untune => {
@@ -91,7 +94,7 @@ impl Viewer {
         }
     }
 
-    fn say(&mut self, text: String, is_error: bool) {
+    pub(super) fn say(&mut self, text: String, is_error: bool) {
         self.message = Some((Message { text, is_error }, Instant::now()));
     }
 
@@ -103,6 +106,7 @@ impl Viewer {
         let mut gpu_ms = self.session.device_ms();
         gpu_ms.extend(self.renderer.timings());
         let stats = self.session.stats()?;
+        let difference = self.session.difference()?;
         let arrows = self.arrows();
         let arrow_most_m_s = self.arrow_most_m_s();
         let session = &self.session;
@@ -121,6 +125,7 @@ impl Viewer {
             has_motions: scene.species.iter().any(|species| species.flight == FlightModel::Synthesis),
             has_regimes: scene.species.iter().any(|species| species.flight != FlightModel::Synthesis),
             is_tuned: tuning != session.own_tuning(),
+            recording: self.record_facts(),
             looking: self.instruments.looking,
             card: self.card(),
             track: self.track(),
@@ -133,6 +138,9 @@ impl Viewer {
             behind: session.pace.behind(),
             leaf_count: session.leaf_count(),
             leaf_range: session.leaf_range(),
+            frames: self.meter.frames().clone(),
+            compares: session.is_comparing(),
+            difference,
             fps: self.meter.fps(),
             cpu_ms: STAGES.into_iter().zip(self.meter.stages_ms()).collect(),
             gpu_ms,
