@@ -74,7 +74,7 @@ fn a_leaf_has_no_halo() {
     assert!(share.iter().all(|share| (0.75..1.25).contains(share)), "as inside: {share:?}");
 
     // As it would be if the pictures had white or black ground that their edges take a part of.
-    let painted = "    var reflectance = image.rgb * in.tint_open.rgb;";
+    let painted = "blade_color(image.rgb, in.tint_open.rgb)";
     for (ground, sign) in [("vec3(1.0)", 1.0), ("vec3(0.0)", -1.0)] {
         let haloed = format!(
             "    var reflectance = mix({ground}, image.rgb, clamp(2.0 * image.a - 1.0, 0.0, 1.0)) * in.tint_open.rgb;"
