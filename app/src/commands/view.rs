@@ -27,6 +27,9 @@ pub struct Arguments {
     /// What to show beside the scene from the beginning.
     #[arg(long, value_name = "WHAT", value_delimiter = ',')]
     show: Vec<viewer::Show>,
+    /// Group of the panel to begin with, in place of the usual ones; may be given more than once.
+    #[arg(long, value_name = "GROUP", value_enum)]
+    open: Vec<viewer::Group>,
     /// Save a picture of the window as PNG, panel and all, and quit.
     #[arg(long, value_name = "FILE.png")]
     screenshot: Option<PathBuf>,
@@ -44,6 +47,8 @@ pub fn run(arguments: Arguments) -> anyhow::Result<()> {
     arguments.sky.apply(&mut scene, arguments.scene.name())?;
     viewer::run(viewer::Options {
         scene,
+        name: arguments.scene.name().to_owned(),
+        open: arguments.open,
         backend: arguments.backend,
         size: arguments.size,
         show: arguments.show,

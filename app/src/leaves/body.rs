@@ -27,7 +27,7 @@ pub fn load_scene(name: &str) -> anyhow::Result<Scene> {
 ///
 /// # Errors
 /// A folder whose manifest cannot be used.
-pub(super) fn fit_bodies(scene: &mut Scene) -> anyhow::Result<bool> {
+pub(crate) fn fit_bodies(scene: &mut Scene) -> anyhow::Result<bool> {
     let mut is_any = false;
     for species in &mut scene.species {
         if let (FlightModel::Aerodynamic(body), Some(path)) = (species.flight, &species.leaves)

@@ -5,6 +5,7 @@
 mod body;
 mod cache;
 
+pub(crate) use body::fit_bodies;
 pub use body::load_scene;
 use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
 use windfall_core::Scene;

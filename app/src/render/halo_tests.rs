@@ -77,7 +77,7 @@ fn a_leaf_has_no_halo() {
     let painted = "blade_color(image.rgb, in.tint_open.rgb)";
     for (ground, sign) in [("vec3(1.0)", 1.0), ("vec3(0.0)", -1.0)] {
         let haloed = format!(
-            "    var reflectance = mix({ground}, image.rgb, clamp(2.0 * image.a - 1.0, 0.0, 1.0)) * in.tint_open.rgb;"
+            "blade_color(mix({ground}, image.rgb, clamp(2.0 * image.a - 1.0, 0.0, 1.0)), in.tint_open.rgb)"
         );
         let share = with_shader_edit(painted, &haloed, || edge_against_inside(&atlas));
         let is_seen = share.iter().any(|share| sign * (share - 1.0) > 0.25);

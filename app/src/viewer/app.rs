@@ -16,6 +16,7 @@ use winit::window::{Window, WindowId};
 use windfall_core::{Scene, World};
 
 use super::looking::Show;
+use super::panel::Group;
 use super::screenshot::Screenshot;
 use super::window::{Next, Viewer};
 use crate::backend::BackendArguments;
@@ -31,6 +32,10 @@ const SMALLEST_SIZE: (u32, u32) = (480, 360);
 pub struct Options {
     /// The scene.
     pub scene: Scene,
+    /// The preset's name or the file's path that it was loaded by.
+    pub name: String,
+    /// The groups of the panel to begin with, all others closed; the usual ones if there are none.
+    pub open: Vec<Group>,
     /// Where to simulate.
     pub backend: BackendArguments,
     /// Size of the window in pixels.
@@ -74,6 +79,11 @@ fn no_display(error: &dyn std::fmt::Display) -> anyhow::Error {
     anyhow!("no window can be opened: {reason}; `windfall render` draws pictures and clips without one")
 }
 
+/// What the window is called while it shows a scene of this name.
+pub(super) fn title(scene: &str) -> String {
+    format!("Windfall \u{2013} {scene}")
+}
+
 struct App {
     options: Options,
     /// Until the window is there.
@@ -91,7 +101,7 @@ impl App {
         let (width, height) = DEFAULT_SIZE;
         let (least_width, least_height) = SMALLEST_SIZE;
         let mut attributes = Window::default_attributes()
-            .with_title(format!("Windfall \u{2013} {name}"))
+            .with_title(title(name))
             .with_inner_size(LogicalSize::new(width, height))
             .with_min_inner_size(LogicalSize::new(least_width, least_height));
         if let Some((width, height)) = self.options.size {

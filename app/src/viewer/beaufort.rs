@@ -21,14 +21,19 @@ const NAMES: [&str; BEAUFORT_MAX as usize + 1] = [
     "hurricane",
 ];
 
-/// The Beaufort number whose speed is nearest to `speed_m_s`, with its name.
-pub(super) fn beaufort_label(speed_m_s: f64) -> String {
+/// The Beaufort number whose speed is nearest to `speed_m_s`.
+pub(super) fn beaufort_number(speed_m_s: f64) -> u8 {
     // Halfway in the number, as the official limits are.
     let limit = |number: u8| {
         let half = f64::from(number) + 0.5;
         beaufort_speed(1) * half * half.sqrt()
     };
-    let number = (0..BEAUFORT_MAX).find(|&number| speed_m_s < limit(number)).unwrap_or(BEAUFORT_MAX);
+    (0..BEAUFORT_MAX).find(|&number| speed_m_s < limit(number)).unwrap_or(BEAUFORT_MAX)
+}
+
+/// The same with its name.
+pub(super) fn beaufort_label(speed_m_s: f64) -> String {
+    let number = beaufort_number(speed_m_s);
     format!("Beaufort {number}, {}", NAMES[usize::from(number)])
 }
 

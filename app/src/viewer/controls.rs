@@ -3,18 +3,18 @@
 //! What the panel shows, and what it asks for.
 
 use std::ops::RangeInclusive;
+use std::path::PathBuf;
+use std::sync::Arc;
 
 use egui::Pos2;
 use glam::Vec3;
-use windfall_core::scene::Lens;
-use windfall_core::{Clock, SimulatorInfo, Stats};
+use windfall_core::{Clock, Scene, SimulatorInfo, Stats};
 
 use super::card::Card;
 use super::frames::Frames;
 use super::looking::Looking;
 use super::record::RecordFacts;
 use super::session::{Difference, Timeline};
-use super::tuning::Tuning;
 use crate::backend::BackendKind;
 
 /// Something the user wants.
@@ -32,14 +32,20 @@ pub(super) enum Wish {
     Seek(u32),
     /// Begin again at time zero.
     Reset,
-    /// Other numbers for wind and speeds.
-    Tune(Tuning),
-    /// The scene's own numbers for wind and speeds.
-    Untune,
-    /// Another lens.
-    Lens(Lens),
-    /// Another number of leaves.
-    Leaves(u32),
+    /// Another scene in the place of the one that runs; edits of one gesture are one step to undo.
+    Edit { scene: Box<Scene>, gesture: u64 },
+    /// Take the last edit back.
+    Undo,
+    /// Make the edit again that was taken back last.
+    Redo,
+    /// Another scene from the start: a preset's name, or the path of a file.
+    Open(String),
+    /// Save the scene, wherever the panel says.
+    Save,
+    /// Save the scene to this file, whether or not it is there.
+    SaveTo(PathBuf),
+    /// A file was dropped on the window.
+    Drop(PathBuf),
     /// Simulate elsewhere.
     Backend(BackendKind),
     /// Look from where the scene says.
@@ -56,6 +62,8 @@ pub(super) enum Wish {
     ToggleRecord,
     /// Show or hide the panel.
     TogglePanel,
+    /// Show or hide what the keys do.
+    ToggleHelp,
     /// Close the window.
     Quit,
 }
@@ -63,7 +71,13 @@ pub(super) enum Wish {
 /// What there is to know at the moment.
 #[derive(Clone, Debug)]
 pub(super) struct Facts {
-    pub(super) scene: String,
+    /// The scene that runs, and what it was when it was loaded.
+    pub(super) scene: Arc<Scene>,
+    pub(super) loaded: Arc<Scene>,
+    /// Whether something is about to be built anew.
+    pub(super) is_building: bool,
+    /// Numbers of edits that can be undone and redone.
+    pub(super) history: (usize, usize),
     pub(super) info: SimulatorInfo,
     pub(super) backend: BackendKind,
     /// The adapter that draws.
@@ -76,10 +90,6 @@ pub(super) struct Facts {
     /// Whether any leaves are synthesised, and whether any fly as bodies.
     pub(super) has_motions: bool,
     pub(super) has_regimes: bool,
-    pub(super) tuning: Tuning,
-    pub(super) lens: Lens,
-    /// Whether tuning differs from what the scene says.
-    pub(super) is_tuned: bool,
     pub(super) looking: Looking,
     /// The leaf that is followed, and where it has been.
     pub(super) card: Option<Card>,
@@ -92,7 +102,6 @@ pub(super) struct Facts {
     pub(super) is_paused: bool,
     /// Simulated seconds in each second, if fewer than asked for.
     pub(super) behind: Option<f64>,
-    pub(super) leaf_count: u32,
     pub(super) leaf_range: RangeInclusive<u32>,
     pub(super) fps: f32,
     pub(super) frames: Frames,

@@ -9,7 +9,9 @@
 mod app;
 mod beaufort;
 mod card;
+mod change;
 mod controls;
+mod dropped;
 mod frames;
 mod gui;
 mod history;
@@ -22,13 +24,15 @@ mod pick;
 mod pointer;
 mod probe;
 mod record;
+mod scene_folder;
 mod screen;
 mod screenshot;
 mod selection;
 mod session;
 mod slice;
-mod tuning;
+mod undo;
 mod window;
 
 pub use app::{Options, run};
 pub use looking::Show;
+pub use panel::Group;

@@ -6,21 +6,20 @@ mod compare;
 mod seek;
 
 use std::ops::RangeInclusive;
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use windfall_core::leaf::Leaves;
-use windfall_core::scene::{Lens, limits};
+use windfall_core::scene::limits;
 use windfall_core::{Environment, Scene, SimError, Simulator, Stats, World};
 use windfall_cpu::CpuOptions;
 use windfall_wgpu::Gpu;
 
 use super::history::History;
 use super::pace::Pace;
-use super::tuning::Tuning;
 use crate::backend::{Backend, BackendKind, Columns, Device};
-use crate::commands::scene::{check_memory, scaled};
+use crate::commands::scene::check_memory;
 use crate::render::GpuTimer;
-use crate::trees::Stand;
 pub(super) use compare::Difference;
 use compare::Twin;
 pub(super) use seek::Timeline;
@@ -36,9 +35,8 @@ const RECORD_BYTES: u64 = 16;
 #[derive(Debug)]
 pub(super) struct Session {
     pub(super) pace: Pace,
-    /// The scene as it was loaded, and with what the user has changed.
-    loaded: Scene,
-    scene: Scene,
+    /// The scene with what the user has changed.
+    scene: Arc<Scene>,
     /// What `scene` compiles to.
     environment: Environment,
     gpu: Gpu,
@@ -74,8 +72,7 @@ impl Session {
         };
         Ok(Self {
             pace: Pace::default(),
-            loaded: scene.clone(),
-            scene,
+            scene: Arc::new(scene),
             environment: world.environment.clone(),
             threads,
             backend: device.simulator(world)?,
@@ -169,29 +166,49 @@ impl Session {
         Ok(self.stats)
     }
 
-    /// Takes over other numbers for wind and speeds from the next step on.
+    /// Takes over another scene, whose world is the same: from the next step on with the other numbers for wind, season
+    /// and speeds, if they are others.
     ///
     /// # Errors
-    /// Numbers that do not go together; nothing has changed then. A lost device.
-    pub(super) fn tune(&mut self, tuning: &Tuning) -> anyhow::Result<()> {
-        let scene = tuning.applied(&self.scene);
-        scene.validate(&self.scene.name)?;
-        self.environment.retune(&scene);
+    /// A lost device.
+    pub(super) fn take_over(&mut self, scene: Arc<Scene>, has_other_numbers: bool) -> Result<(), SimError> {
         self.scene = scene;
-        self.impose()?;
-        self.history.change(self.backend.clock().step(), self.environment.clone());
-        self.target = None;
+        if has_other_numbers {
+            self.environment.retune(&self.scene);
+            self.impose()?;
+            self.history.change(self.backend.clock().step(), self.environment.clone());
+            self.target = None;
+        }
         Ok(())
     }
 
-    /// Takes over another lens, also for worlds to come.
-    pub(super) fn set_lens(&mut self, lens: Lens) {
-        (self.scene.view.lens, self.loaded.view.lens) = (lens, lens);
+    /// A simulator of another world, where this one simulates.
+    ///
+    /// # Errors
+    /// More leaves than memory or the device hold; a device that refuses or is lost.
+    pub(super) fn simulator_of(&self, world: &World) -> anyhow::Result<Backend> {
+        let scene = world.environment.scene();
+        check_memory(&scene.name, scene.leaf_count())?;
+        Ok(self.device(self.kind()).simulator(world)?)
     }
 
-    /// What the scene said at first.
-    pub(super) fn own_tuning(&self) -> Tuning {
-        Tuning::from(&self.loaded)
+    /// Begins another scene in its world, with the simulator that was made of it.
+    ///
+    /// # Errors
+    /// A device that is lost, or cannot hold the leaves twice while both backends run.
+    pub(super) fn begin(
+        &mut self,
+        scene: Arc<Scene>,
+        world: &World,
+        simulator: Backend,
+    ) -> Result<(), SimError> {
+        let compares = self.is_comparing();
+        self.twin = None;
+        self.scene = scene;
+        self.environment = world.environment.clone();
+        self.backend = simulator;
+        self.begin_again(world);
+        self.set_comparing(compares)
     }
 
     /// Begins again at time zero, with the numbers as they are.
@@ -204,23 +221,6 @@ impl Session {
         self.put_back(&world)?;
         self.begin_again(&world);
         Ok(())
-    }
-
-    /// Begins again with another number of leaves.
-    ///
-    /// # Errors
-    /// A number that scene, memory or device do not allow; nothing has changed then.
-    pub(super) fn set_leaves(&mut self, leaves: u32) -> anyhow::Result<()> {
-        check_memory(&self.scene.name, leaves)?;
-        let scene = Tuning::from(&self.scene).applied(&scaled(&self.loaded, &self.scene.name, leaves)?);
-        let world = World::build(&scene)?;
-        let compares = self.is_comparing();
-        self.backend = self.device(self.kind()).simulator(&world)?;
-        self.twin = None;
-        self.scene = scene;
-        self.environment = world.environment.clone();
-        self.begin_again(&world);
-        Ok(self.set_comparing(compares)?)
     }
 
     /// Goes on elsewhere: the leaves go on falling where they are.
@@ -298,13 +298,13 @@ impl Session {
         }
     }
 
-    /// The trees as they are drawn.
-    pub(super) fn stand(&self) -> Stand {
-        Stand::of(&self.scene, self.environment.forest())
+    /// What the scene compiles to.
+    pub(super) fn environment(&self) -> &Environment {
+        &self.environment
     }
 
     /// The scene as it is now.
-    pub(super) fn scene(&self) -> &Scene {
+    pub(super) fn scene(&self) -> &Arc<Scene> {
         &self.scene
     }
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The window with all that is in it, frame by frame.
 
+mod editing;
 mod looking;
 mod recording;
 mod wishes;
@@ -10,15 +11,16 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use anyhow::Context;
-use looking::Instruments;
-use windfall_core::World;
 use windfall_core::scene::camera_at;
+use windfall_core::{Environment, Scene, World};
 use windfall_wgpu::Gpu;
 use winit::event::WindowEvent;
 use winit::window::Window;
 
+use self::editing::Document;
+use self::looking::Instruments;
 use super::app::Options;
-use super::controls::Message;
+use super::controls::{Message, Wish};
 use super::gui::{Gui, Painting};
 use super::meter::{Meter, Stage};
 use super::panel::Panel;
@@ -26,6 +28,7 @@ use super::record::Recording;
 use super::screen::Screen;
 use super::screenshot::Screenshot;
 use super::session::Session;
+use super::undo::Undo;
 use crate::camera::Camera;
 use crate::drawing::Drawing;
 use crate::render::{FrameInput, MAX_TRAILS, PictureTarget, Renderer, RendererOptions, Subject};
@@ -59,6 +62,11 @@ pub(super) struct Viewer {
     gui: Gui,
     panel: Panel,
     session: Session,
+    /// What the scene said when it was loaded.
+    loaded: Arc<Scene>,
+    history: Undo<Document>,
+    /// What takes building anew, and in how many frames: the user is told before.
+    building: Option<(Wish, u8)>,
     renderer: Renderer,
     camera: Camera,
     /// Whether the camera goes where the scene's keys say, if it has any: until the user moves it.
@@ -93,13 +101,7 @@ impl Viewer {
             Drawing::choose(&options.backend, &instance, Some(&surface))?;
         let screen = Screen::new(Arc::clone(&window), surface, &adapter, &gpu)?;
         let session = Session::new(scene.clone(), world, &device, gpu.clone())?;
-        let atlas = leaves::atlas_of(scene)?;
-        let settings = RendererOptions::for_scene(scene);
-        let size = screen.size();
-        let (device, queue) = (gpu.device(), gpu.queue());
-        let stand = Stand::of(scene, world.environment.forest());
-        let subject = Subject { scene, stand: &stand, atlas: &atlas };
-        let renderer = Renderer::new(device, queue, subject, screen.format(), size, settings)?;
+        let renderer = renderer_of(&gpu, &world.environment, scene, screen.format(), screen.size())?;
         let gui = Gui::new(&window, &gpu, screen.format());
         gpu.check()?;
         if let Some(reason) = reason {
@@ -117,7 +119,10 @@ impl Viewer {
             gpu,
             screen,
             gui,
-            panel: Panel::new(),
+            panel: Panel::new(&options.name, options.open.clone()),
+            loaded: Arc::clone(session.scene()),
+            history: Undo::default(),
+            building: None,
             session,
             renderer,
             meter: Meter::new(),
@@ -169,6 +174,7 @@ impl Viewer {
         let since_s = if self.was_idle { f32::INFINITY } else { frame_s as f32 };
         self.since_s = since_s;
         self.has_news = false;
+        self.build_what_was_announced()?;
         let since = Instant::now();
         self.simulate(frame_s)?;
         self.meter.add(Stage::Simulate, since);
@@ -274,7 +280,7 @@ impl Viewer {
         self.meter.add(Stage::Panel, since);
         for wish in wishes {
             self.has_news = true;
-            self.grant(wish)?;
+            self.announce_or_grant(wish)?;
         }
         Ok(painting)
     }
@@ -317,4 +323,19 @@ impl Viewer {
         self.gpu.check()?;
         screenshot.save(&picture?)
     }
+}
+
+/// A renderer of a scene whose trees stand as in `environment`.
+fn renderer_of(
+    gpu: &Gpu,
+    environment: &Environment,
+    scene: &Scene,
+    format: wgpu::TextureFormat,
+    size: (u32, u32),
+) -> anyhow::Result<Renderer> {
+    let atlas = leaves::atlas_of(scene)?;
+    let stand = Stand::of(scene, environment.forest());
+    let subject = Subject { scene, stand: &stand, atlas: &atlas };
+    let options = RendererOptions::for_scene(scene);
+    Ok(Renderer::new(gpu.device(), gpu.queue(), subject, format, size, options)?)
 }

@@ -13,7 +13,7 @@ use tempfile::TempDir;
 use windfall_tests::adapter;
 
 /// Width of the panel in pixels on a display of usual density.
-const PANEL: u32 = 316;
+const PANEL: u32 = 336;
 /// Longest time a test waits for the program: software adapters are slow, and tests run side by side.
 const PATIENCE: Duration = Duration::from_secs(180);
 

@@ -2,40 +2,41 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Leaves: how many, how fast.
 
-use egui::{Slider, Ui};
+use std::ops::RangeInclusive;
+
+use egui::Ui;
 use windfall_core::scene::limits;
+use windfall_core::scene::limits::Limit;
+use windfall_core::{Scene, SceneError};
 
-use super::rows::{Scale, slider};
-use super::{Facts, Wish, rows};
+use super::field::field;
+use crate::commands::scene::scaled;
 
-/// `dragged` is the number while its slider is being dragged: a new world is made when it is let go.
-pub(super) fn show(ui: &mut Ui, facts: &Facts, dragged: &mut Option<u32>, wishes: &mut Vec<Wish>) {
-    rows::title(ui, "Leaves");
-    let mut count = dragged.unwrap_or(facts.leaf_count);
-    let tip = "Number of leaves. Another number makes a new world, which begins again; the camera stays.";
-    let response = rows::row(ui, "Number", tip, |ui| {
-        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "within the range")]
-        let format = |number: f64, _: std::ops::RangeInclusive<usize>| rows::grouped(number as u32);
-        let slider = Slider::new(&mut count, facts.leaf_range.clone()).logarithmic(true);
-        let parse = |text: &str| text.replace([',', ' ', '_'], "").parse().ok();
-        ui.add(slider.custom_formatter(format).custom_parser(parse))
-    });
-    if response.changed() {
-        *dragged = Some(count);
-    }
-    let is_done = !response.dragged() && !response.has_focus();
-    if let Some(count) = dragged.take_if(|_| is_done)
-        && count != facts.leaf_count
-    {
-        wishes.push(Wish::Leaves(count));
-    }
-
-    let mut tuning = facts.tuning;
+/// `base` is the scene before the edit that is going on; `range` is what scene and device allow.
+///
+/// # Errors
+/// A number of leaves that trees and sources cannot share.
+pub(super) fn show(
+    ui: &mut Ui,
+    scene: &mut Scene,
+    base: &Scene,
+    own: &Scene,
+    range: &RangeInclusive<u32>,
+) -> Result<(), SceneError> {
+    let before = scene.leaf_count();
+    let mut count = before;
+    let tip = "Number of leaves, shared by trees and sources as they share those of the scene";
+    let limit = Limit { low: *range.start(), high: *range.end(), unit: "" };
+    field("Number", tip, limit).fine(1.0).show(ui, &mut count, own.leaf_count());
     let tip = "Multiplies every leaf's own velocity through the air";
-    slider(ui, "Fall speed", tip, &mut tuning.fall_speed, limits::FALL_SPEED, Scale::Linear);
+    field("Fall speed", tip, limits::FALL_SPEED).show(ui, &mut scene.fall_speed, own.fall_speed);
     let tip = "Multiplies every leaf's turning and swinging; its path keeps its speed";
-    slider(ui, "Rotation", tip, &mut tuning.rotation_speed, limits::ROTATION_SPEED, Scale::Linear);
-    if tuning != facts.tuning {
-        wishes.push(Wish::Tune(tuning));
+    field("Rotation", tip, limits::ROTATION_SPEED).show(ui, &mut scene.rotation_speed, own.rotation_speed);
+    let tip =
+        "Length of the trail behind every leaf, in the picture alone; the first 4096 leaves have trails";
+    field("Trails", tip, limits::TRAIL_S).fine(0.1).show(ui, &mut scene.view.trail_s, own.view.trail_s);
+    if count != before {
+        *scene = scaled(base, &base.name, count)?;
     }
+    Ok(())
 }

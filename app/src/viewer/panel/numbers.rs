@@ -32,7 +32,6 @@ const REGIMES: [&str; 6] = [
 
 /// Where it simulates, and on what.
 pub(super) fn backend(ui: &mut Ui, facts: &Facts, wishes: &mut Vec<Wish>) {
-    rows::title(ui, "Backend");
     ui.horizontal(|ui| {
         for (kind, text, tip) in [
             (BackendKind::Cpu, "cpu", "Simulate on the processor; the leaves go on where they are"),
@@ -61,7 +60,6 @@ pub(super) fn backend(ui: &mut Ui, facts: &Facts, wishes: &mut Vec<Wish>) {
 
 /// Leaves by state, bodies by regime, others by motion.
 pub(super) fn counts(ui: &mut Ui, facts: &Facts) {
-    rows::title(ui, "Counts");
     let stats = &facts.stats;
     let states = [
         ("attached", stats.attached, "On branches"),
@@ -105,7 +103,6 @@ fn table<const N: usize>(ui: &mut Ui, id: &str, width: f32, cells: [(&str, Strin
 
 /// Frames per second, and the milliseconds that the parts of a frame take.
 pub(super) fn timings(ui: &mut Ui, facts: &Facts) {
-    rows::title(ui, "Timings");
     let frame_ms = if facts.fps > 0.0 { 1.0e3 / facts.fps } else { 0.0 };
     ui.label(format!("{:.1} frames/s, {} a frame", facts.fps, milliseconds(frame_ms)));
     graph::show(ui, &facts.frames);

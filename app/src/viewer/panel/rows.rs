@@ -5,7 +5,6 @@
 use std::ops::RangeInclusive;
 
 use egui::{Align, Label, Layout, Response, RichText, Sense, Slider, Ui, vec2};
-use windfall_core::scene::limits::Limit;
 
 use super::style;
 
@@ -30,13 +29,14 @@ pub(super) fn row(ui: &mut Ui, name: &str, tip: &str, control: impl FnOnce(&mut 
     ui.horizontal(|ui| {
         let size = vec2(NAME_WIDTH, ui.spacing().interact_size.y);
         let layout = Layout::left_to_right(Align::Center);
-        ui.allocate_ui_with_layout(size, layout, |ui| {
+        let label = ui.allocate_ui_with_layout(size, layout, |ui| {
             ui.set_min_width(NAME_WIDTH);
-            ui.add(Label::new(name).selectable(false).sense(Sense::hover())).on_hover_text(tip);
+            let label = Label::new(name).selectable(false).sense(Sense::hover()).truncate();
+            ui.add(label).on_hover_text(tip)
         });
         ui.spacing_mut().slider_width = SLIDER_WIDTH;
         ui.spacing_mut().interact_size.x = VALUE_WIDTH;
-        control(ui).on_hover_text(tip)
+        control(ui).labelled_by(label.inner.id).on_hover_text(tip)
     })
     .inner
 }
@@ -49,24 +49,7 @@ pub(super) enum Scale {
     Logarithmic(f64),
 }
 
-/// A number that may take what `limit` allows. True if it has changed.
-pub(super) fn slider(
-    ui: &mut Ui,
-    name: &str,
-    tip: &str,
-    value: &mut f32,
-    limit: Limit<f32>,
-    scale: Scale,
-) -> bool {
-    let suffix = match limit.unit {
-        "" => String::new(),
-        "degrees" => "\u{b0}".to_owned(),
-        unit => format!(" {unit}"),
-    };
-    slider_in(ui, name, tip, value, limit.low..=limit.high, &suffix, scale)
-}
-
-/// The same in a range of its own.
+/// A number in a range. True if it has changed.
 pub(super) fn slider_in(
     ui: &mut Ui,
     name: &str,
@@ -89,11 +72,18 @@ pub(super) fn slider_in(
 }
 
 /// A number with as many decimals as matter.
-fn decimals(number: f64) -> String {
+pub(super) fn decimals(number: f64) -> String {
     match number.abs() {
         size if size >= 100.0 => format!("{number:.0}"),
         size if size >= 10.0 => format!("{number:.1}"),
-        _ => format!("{number:.2}"),
+        size if size >= 1.0 || size == 0.0 => format!("{number:.2}"),
+        size if size >= 0.1 => {
+            let text = format!("{number:.3}");
+            text.strip_suffix('0').map(str::to_owned).unwrap_or(text)
+        }
+        size if size >= 0.01 => format!("{number:.3}"),
+        size if size >= 0.001 => format!("{number:.4}"),
+        _ => format!("{number:.1e}"),
     }
 }
 

@@ -66,3 +66,8 @@ pub(super) fn notice_frame() -> Frame {
         .corner_radius(CornerRadius::same(4))
         .inner_margin(Margin::symmetric(10, 6))
 }
+
+/// Ground of what covers the picture.
+pub(super) fn sheet() -> Color32 {
+    BARK.gamma_multiply(0.96)
+}

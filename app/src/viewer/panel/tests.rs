@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
 
+use std::sync::Arc;
+
 use egui::{
     Event, Modifiers, MouseWheelSource, MouseWheelUnit, PointerButton, RawInput, Rect, TouchPhase, pos2,
 };
@@ -13,12 +15,16 @@ use crate::viewer::frames::Frames;
 use crate::viewer::looking::Looking;
 use crate::viewer::record::RecordFacts;
 use crate::viewer::session::Timeline;
-use crate::viewer::tuning::Tuning;
+
+mod every_control;
 
 fn facts(scene: &Scene) -> Facts {
     let world = World::build(scene).expect("valid");
     Facts {
-        scene: scene.name.clone(),
+        scene: Arc::new(scene.clone()),
+        loaded: Arc::new(scene.clone()),
+        history: (0, 0),
+        is_building: false,
         info: SimulatorInfo {
             backend: "cpu",
             adapter: "2 threads".into(),
@@ -39,13 +45,9 @@ fn facts(scene: &Scene) -> Facts {
         track: None,
         arrows: Vec::new(),
         arrow_most_m_s: 1.0,
-        tuning: Tuning::from(scene),
-        lens: scene.view.lens,
-        is_tuned: false,
         time_scale: 1.0,
         is_paused: false,
         behind: None,
-        leaf_count: scene.leaf_count(),
         leaf_range: 6..=10_000_000,
         fps: 60.0,
         frames: Frames::default(),
@@ -71,7 +73,12 @@ impl Bench {
         let context = egui::Context::default();
         style::apply(&context);
         let camera = Camera::from(&scene::Camera::default());
-        let mut bench = Self { context, panel: Panel::new(), camera, facts: facts(scene) };
+        let mut bench = Self {
+            context,
+            panel: Panel::new("autumn-park", Group::ALL.into()),
+            camera,
+            facts: facts(scene),
+        };
         bench.pass(Vec::new());
         bench
     }
@@ -150,27 +157,6 @@ fn dragging_the_picture_moves_the_camera_and_dragging_the_panel_does_not() {
         bench.pass(Vec::new());
     }
     assert!(bench.camera.distance_m < 0.9 * distance_m, "zooms: {} m", bench.camera.distance_m);
-}
-
-#[test]
-fn a_slider_that_is_dragged_tunes_the_scene() {
-    let mut bench = Bench::new(&Scene::default());
-    // Whichever row it is: one of these heights hits the slider of the wind's speed.
-    let dragged = |bench: &mut Bench, y: f32| bench.drag((150.0, y), (215.0, y), PointerButton::Primary);
-    let wishes: Vec<Wish> = (60..400u16).step_by(6).flat_map(|y| dragged(&mut bench, y.into())).collect();
-    let own = bench.facts.tuning;
-    let changes: [fn(&Tuning, &Tuning) -> bool; 4] = [
-        |a, b| a.speed_m_s != b.speed_m_s,
-        |a, b| a.fall_speed != b.fall_speed,
-        |a, b| a.direction_deg != b.direction_deg,
-        |a, b| a.turbulence != b.turbulence,
-    ];
-    for (number, changed) in changes.into_iter().enumerate() {
-        let found = wishes.iter().any(|wish| matches!(wish, Wish::Tune(tuning) if changed(tuning, &own)));
-        assert!(found, "slider {number}: {wishes:?}");
-    }
-    let counts: Vec<_> = wishes.iter().filter(|wish| matches!(wish, Wish::Leaves(_))).collect();
-    assert!((1..=4).contains(&counts.len()), "the number of leaves only when let go: {counts:?}");
 }
 
 #[test]

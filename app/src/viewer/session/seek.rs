@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Time there and back: any step that was reached is reached again, with the same bits.
 
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use windfall_core::{Scene, SimError, Simulator};
@@ -112,7 +113,7 @@ impl Session {
     /// Takes over wind and speeds as they were; the picture stays as it is set now.
     fn adopt(&mut self, environment: windfall_core::Environment) {
         let view = self.scene.view.clone();
-        self.scene = Scene { view, ..environment.scene().clone() };
+        self.scene = Arc::new(Scene { view, ..environment.scene().clone() });
         self.environment = environment;
     }
 

@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 
 use super::*;
+use windfall_core::scene::{MeanSpeed, Profile};
+
+use crate::commands::scene::scaled;
 
 fn session(kind: BackendKind) -> Session {
     let mut scene = Scene::preset("autumn-park").expect("a preset");
@@ -19,14 +22,30 @@ fn hash(session: &mut Session) -> u64 {
     session.world().expect("the device tells").state_hash()
 }
 
+/// The session's scene in a stronger wind, with leaves that fall faster.
+fn windier(session: &Session) -> Arc<Scene> {
+    let mut scene = Scene::clone(session.scene());
+    scene.wind.speed = MeanSpeed::MetresPerSecond(6.0);
+    scene.wind.profile = Profile::Uniform;
+    scene.fall_speed = 1.3;
+    scene.validate("windier").expect("allowed");
+    Arc::new(scene)
+}
+
+/// The session's scene with another mean wind.
+fn in_wind(session: &Session, m_s: f32) -> Arc<Scene> {
+    let mut scene = Scene::clone(session.scene());
+    scene.wind.speed = MeanSpeed::MetresPerSecond(m_s);
+    Arc::new(scene)
+}
+
 #[test]
 fn leaves_go_on_falling_when_the_backend_changes() {
     let mut plain = session(BackendKind::Cpu);
     let mut switched = session(BackendKind::Wgpu);
-    let tuning = Tuning { speed_m_s: 6.0, fall_speed: 1.3, ..plain.own_tuning() };
     for session in [&mut plain, &mut switched] {
         session.step(20).expect("it steps");
-        session.tune(&tuning).expect("allowed");
+        session.take_over(windier(session), true).expect("allowed");
         session.step(20).expect("it steps");
     }
     let before = hash(&mut switched);
@@ -40,25 +59,29 @@ fn leaves_go_on_falling_when_the_backend_changes() {
 }
 
 #[test]
-fn numbers_that_do_not_go_together_change_nothing() {
-    let mut session = session(BackendKind::Cpu);
-    let wrong = Tuning { gust_interval_s: 0.0, speed_m_s: 3.0, ..session.own_tuning() };
-    let error = session.tune(&wrong).expect_err("no interval").to_string();
-    assert!(error.contains("interval_s"), "{error}");
-    assert_eq!(Tuning::from(session.scene()), session.own_tuning(), "as before");
-    assert!(session.set_leaves(1).is_err(), "fewer leaves than sources");
-    assert_eq!(session.leaf_count(), 500, "as before");
+fn what_is_only_looked_at_leaves_the_simulation_alone() {
+    let mut plain = session(BackendKind::Cpu);
+    let mut other = session(BackendKind::Cpu);
+    let mut scene = Scene::clone(other.scene());
+    scene.view.sun.elevation_deg = 5.0;
+    other.take_over(Arc::new(scene), false).expect("allowed");
+    for session in [&mut plain, &mut other] {
+        session.step(20).expect("it steps");
+    }
+    assert_eq!(hash(&mut plain), hash(&mut other), "not a bit differs");
 }
 
 #[test]
-fn another_number_of_leaves_keeps_what_was_tuned_and_begins_again() {
+fn another_world_begins_again_with_what_was_tuned() {
     let mut session = session(BackendKind::Wgpu);
-    let tuning = Tuning { speed_m_s: 6.0, ..session.own_tuning() };
-    session.tune(&tuning).expect("allowed");
+    session.take_over(windier(&session), true).expect("allowed");
     session.step(5).expect("it steps");
-    session.set_leaves(900).expect("allowed");
+    let scene = Arc::new(scaled(session.scene(), "autumn-park", 900).expect("allowed"));
+    let world = World::build(&scene).expect("valid");
+    let simulator = session.simulator_of(&world).expect("the device takes it");
+    session.begin(Arc::clone(&scene), &world, simulator).expect("it begins");
     assert_eq!((session.leaf_count(), session.simulator().clock().step()), (900, 0), "anew");
-    assert_eq!(Tuning::from(session.scene()), tuning, "with the same wind");
+    assert_eq!(session.scene().wind.speed, MeanSpeed::MetresPerSecond(6.0), "with the same wind");
     assert_eq!(session.stats().expect("counts").dormant, 0, "counted anew");
     session.step(5).expect("it steps");
     session.reset().expect("begins again");
@@ -79,11 +102,10 @@ fn go_to(session: &mut Session, step: u32) -> u64 {
 fn every_step_comes_back_with_the_same_bits() {
     for kind in [BackendKind::Cpu, BackendKind::Wgpu] {
         let mut straight = session(kind);
-        let tuning = Tuning { speed_m_s: 7.0, ..straight.own_tuning() };
         let mut hashes = Vec::new();
         for step in 0..=130 {
             if step == 70 {
-                straight.tune(&tuning).expect("allowed");
+                straight.take_over(in_wind(&straight, 7.0), true).expect("allowed");
             }
             hashes.push(hash(&mut straight));
             straight.step(1).expect("it steps");
@@ -91,18 +113,18 @@ fn every_step_comes_back_with_the_same_bits() {
         // The way there goes in strides that no change respects.
         let mut scrubbed = session(kind);
         scrubbed.step(70).expect("it steps");
-        scrubbed.tune(&tuning).expect("allowed");
+        scrubbed.take_over(in_wind(&scrubbed, 7.0), true).expect("allowed");
         scrubbed.step(60).expect("it steps");
         for step in [130, 12, 90, 69, 70, 71, 0, 129] {
             assert_eq!(go_to(&mut scrubbed, step), hashes[step as usize], "{kind:?}, step {step}");
-            let speed = Tuning::from(scrubbed.scene()).speed_m_s;
-            assert_eq!(speed == tuning.speed_m_s, step >= 70, "the panel shows the wind of step {step}");
+            let is_tuned = scrubbed.scene().wind.speed == MeanSpeed::MetresPerSecond(7.0);
+            assert_eq!(is_tuned, step >= 70, "the panel shows the wind of step {step}");
         }
         go_to(&mut scrubbed, 40);
         scrubbed.step(60).expect("it steps");
         assert_eq!(hash(&mut scrubbed), hashes[100], "{kind:?}: the wind changes again when time goes on");
         go_to(&mut scrubbed, 40);
-        scrubbed.tune(&tuning).expect("allowed");
+        scrubbed.take_over(in_wind(&scrubbed, 7.0), true).expect("allowed");
         assert_eq!(scrubbed.timeline().range, (0, 40), "{kind:?}: another wind is another future");
         assert_ne!(go_to(&mut scrubbed, 0), hashes[40], "{kind:?}: the past is still there");
     }
@@ -128,9 +150,8 @@ fn both_backends_stay_together_through_everything() {
     let mut session = session(BackendKind::Cpu);
     session.step(7).expect("it steps");
     session.set_comparing(true).expect("the device takes it");
-    let tuning = Tuning { speed_m_s: 6.0, ..session.own_tuning() };
     session.step(20).expect("it steps");
-    session.tune(&tuning).expect("allowed");
+    session.take_over(in_wind(&session, 6.0), true).expect("allowed");
     session.step(20).expect("it steps");
     go_to(&mut session, 12);
     session.switch(BackendKind::Wgpu).expect("the device takes it");

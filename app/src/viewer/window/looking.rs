@@ -45,6 +45,11 @@ impl Instruments {
         }
     }
 
+    /// Follows no leaf: there are others now.
+    pub(super) fn forget_leaf(&mut self) {
+        self.selection = None;
+    }
+
     /// Asks what has become of the leaf that is followed, if it lies on the other side of a device.
     pub(super) fn ask(
         &mut self,

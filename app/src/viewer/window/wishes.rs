@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! What the panel is told, and what becomes of the wishes it brings back.
 
+use std::sync::Arc;
 use std::time::Instant;
 
 use windfall_core::SimError;
@@ -13,9 +14,6 @@ use crate::backend::BackendKind;
 use crate::camera::Camera;
 use crate::viewer::controls::{Facts, Message, Wish};
 use crate::viewer::meter::STAGES;
-use crate::viewer::panel::grouped;
-use crate::viewer::session::Session;
-use crate::viewer::tuning::Tuning;
 
 impl Viewer {
     /// Does what the user wants, or says why not.
@@ -41,53 +39,46 @@ impl Viewer {
                 self.camera = Camera::from(&self.session.scene().view.camera);
                 self.follows_path = true;
             }
-            Wish::Lens(lens) => {
-                self.session.set_lens(lens);
-                self.renderer.set_lens(lens);
-            }
             Wish::Look(looking) => self.look(looking),
-            Wish::Compare(compares) => self.try_to(None, |session| Ok(session.set_comparing(compares)?))?,
+            Wish::Compare(compares) => self.try_it(|viewer| Ok(viewer.session.set_comparing(compares)?))?,
             Wish::Pick(pointer) => self.pick(pointer)?,
             Wish::RecordTo(path) => self.record_to = Some(path),
             Wish::ToggleRecord => self.toggle_recording(),
             Wish::Quit => self.next = Next::Quit,
-            Wish::Tune(tuning) => self.try_to(None, |session| session.tune(&tuning))?,
-            Wish::Untune => {
-                let own = self.session.own_tuning();
-                self.try_to(None, |session| session.tune(&own))?;
-            }
-            Wish::Reset => self.try_to(Some("Begun again at time zero.".into()), Session::reset)?,
-            Wish::Leaves(count) => {
-                let done = format!("Begun again with {} leaves; the camera stays.", grouped(count));
-                self.try_to(Some(done), |session| session.set_leaves(count))?;
-                self.renderer.update_leaves(&self.session.stand(), self.session.leaf_count());
-            }
+            // The panel sees to these itself.
+            Wish::Save | Wish::ToggleHelp => {}
+            Wish::Edit { scene, gesture } => self.try_it(|viewer| viewer.edit(*scene, gesture))?,
+            Wish::Undo => self.try_it(|viewer| viewer.step_back(true))?,
+            Wish::Redo => self.try_it(|viewer| viewer.step_back(false))?,
+            Wish::Open(name) => self.try_it(|viewer| viewer.open(&name))?,
+            Wish::Drop(path) => self.try_it(|viewer| viewer.take_in(&path))?,
+            Wish::SaveTo(path) => self.try_it(|viewer| viewer.save(&path))?,
+            Wish::Reset => self.try_it(|viewer| {
+                viewer.session.reset()?;
+                viewer.say("Begun again at time zero.".into(), false);
+                Ok(())
+            })?,
             Wish::Backend(kind) => {
                 let name = if kind == BackendKind::Cpu { "cpu" } else { "wgpu" };
-                let done = format!("Goes on with backend {name}; the leaves are where they were.");
-                self.try_to(Some(done), |session| Ok(session.switch(kind)?))?;
+                self.try_it(|viewer| {
+                    viewer.session.switch(kind)?;
+                    viewer
+                        .say(format!("Goes on with backend {name}; the leaves are where they were."), false);
+                    Ok(())
+                })?;
             }
         }
         Ok(())
     }
 
     /// Does something that may be refused, which the user is told; only a lost device ends the program.
-    fn try_to(
-        &mut self,
-        done: Option<String>,
-        work: impl FnOnce(&mut Session) -> anyhow::Result<()>,
-    ) -> anyhow::Result<()> {
-        match work(&mut self.session) {
-            Ok(()) => {
-                if let Some(text) = done {
-                    self.say(text, false);
-                }
-                Ok(())
-            }
+    fn try_it(&mut self, work: impl FnOnce(&mut Self) -> anyhow::Result<()>) -> anyhow::Result<()> {
+        match work(self) {
+            Ok(()) => Ok(()),
             Err(error) => match error.downcast_ref::<SimError>() {
                 Some(SimError::DeviceLost { .. } | SimError::Device { .. }) => Err(error),
                 _ => {
-                    self.say(error.to_string(), true);
+                    self.say(format!("{error:#}"), true);
                     Ok(())
                 }
             },
@@ -111,10 +102,12 @@ impl Viewer {
         let arrow_most_m_s = self.arrow_most_m_s();
         let session = &self.session;
         let (scene, simulator) = (session.scene(), session.simulator());
-        let tuning = Tuning::from(scene);
         let forward = self.camera.forward();
         Ok(Facts {
-            scene: scene.name.clone(),
+            scene: Arc::clone(scene),
+            loaded: Arc::clone(&self.loaded),
+            history: self.history.depths(),
+            is_building: self.building.is_some(),
             info: simulator.info(),
             backend: session.kind(),
             adapter: self.gpu.info().name.clone(),
@@ -124,19 +117,15 @@ impl Viewer {
             stats,
             has_motions: scene.species.iter().any(|species| species.flight == FlightModel::Synthesis),
             has_regimes: scene.species.iter().any(|species| species.flight != FlightModel::Synthesis),
-            is_tuned: tuning != session.own_tuning(),
             recording: self.record_facts(),
             looking: self.instruments.looking,
             card: self.card(),
             track: self.track(),
             arrows,
             arrow_most_m_s,
-            tuning,
-            lens: scene.view.lens,
             time_scale: session.pace.time_scale,
             is_paused: session.pace.is_paused,
             behind: session.pace.behind(),
-            leaf_count: session.leaf_count(),
             leaf_range: session.leaf_range(),
             frames: self.meter.frames().clone(),
             compares: session.is_comparing(),

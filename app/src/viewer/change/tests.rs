@@ -1,0 +1,101 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+
+use windfall_core::scene::{Exposure, Haze, Profile, Release, Sky, SkyMap, SwayScheme, Terrain, Tree, Water};
+
+use super::*;
+
+/// What an edit of the park asks for.
+fn change(edit: impl FnOnce(&mut Scene)) -> Change {
+    let old = Scene::preset("autumn-park").expect("a preset");
+    let mut new = old.clone();
+    edit(&mut new);
+    Change::between(&old, &new)
+}
+
+#[test]
+fn what_stays_asks_for_nothing() {
+    assert_eq!(change(|_| ()), Change::default(), "the same scene");
+    assert_eq!(change(|scene| scene.name = "other".into()), Change::default(), "a name is only shown");
+    let change = change(|scene| scene.view.path.clear());
+    assert!(change.is_live() && change.message().is_none(), "a path is followed as it is: {change:?}");
+}
+
+#[test]
+fn wind_and_speeds_go_on_at_once() {
+    let edits: [fn(&mut Scene); 7] = [
+        |scene| scene.wind.direction_deg += 1.0,
+        |scene| scene.wind.profile = Profile::Uniform,
+        |scene| scene.wind.turbulence.cell_m *= 2.0,
+        |scene| scene.fall_speed = 0.5,
+        |scene| scene.rotation_speed = 0.5,
+        |scene| scene.sway = SwayScheme::Quigley,
+        |scene| scene.ground.friction = 0.9,
+    ];
+    for (number, edit) in edits.into_iter().enumerate() {
+        let change = change(edit);
+        assert_eq!(change, Change { retune: true, ..Change::default() }, "edit {number}");
+    }
+}
+
+#[test]
+fn what_is_only_seen_leaves_the_simulation_alone() {
+    let seen = change(|scene| scene.view.lens.exposure = Exposure::Manual { ev100: 14.0 });
+    assert_eq!(seen, Change { lens: true, ..Change::default() }, "a lens");
+    let edits: [fn(&mut Scene); 3] = [
+        |scene| scene.view.sun.elevation_deg = 4.0,
+        |scene| scene.view.haze = Haze { visibility_m: 100.0, depth_m: 5.0 },
+        |scene| scene.view.sky = Sky::Map(SkyMap::new("sky.hdr".into())),
+    ];
+    for (number, edit) in edits.into_iter().enumerate() {
+        assert_eq!(change(edit), Change { view: true, ..Change::default() }, "edit {number}");
+    }
+    let moved = change(|scene| scene.view.camera.eye_m.x += 1.0);
+    assert!(moved.camera && moved.picture && !moved.world && !moved.retune, "the park moves: {moved:?}");
+    // Where there are trails there is no litter.
+    let trails = change(|scene| scene.view.trail_s = 2.0);
+    assert!(trails.picture && !trails.world && trails.parts == ["litter"], "{trails:?}");
+}
+
+#[test]
+fn what_the_world_is_made_of_begins_it_again() {
+    let edits: [(&str, bool, fn(&mut Scene)); 9] = [
+        ("seed", true, |scene| scene.seed += 1),
+        ("step length", false, |scene| scene.dt_s = 0.01),
+        ("species", false, |scene| scene.species[0].spin_rad_s += 1.0),
+        ("species", true, |scene| scene.species[0].season.0 = 0.0),
+        ("sources", false, |scene| scene.sources[0].count += 1),
+        ("trees", true, |scene| scene.trees.push(Tree::default())),
+        ("regrowth", false, |scene| scene.regrow_after_s = Some(77.0)),
+        ("ground", true, |scene| scene.ground.height_m -= 1.0),
+        ("hills", true, |scene| scene.ground.terrain = Some(Terrain::default())),
+    ];
+    for (part, picture, edit) in edits {
+        let change = change(edit);
+        assert!(change.world && !change.is_live(), "{part}: {change:?}");
+        assert_eq!(change.picture, picture, "{part}");
+        assert_eq!(change.parts, [part], "named");
+        let message = change.message().expect("told");
+        assert!(message.contains(part) && message.contains("zero"), "{message}");
+    }
+}
+
+#[test]
+fn season_and_water_are_drawn_anew_while_time_goes_on() {
+    for (part, edit) in [
+        ("season", (|scene| scene.autumn *= 0.99) as fn(&mut Scene)),
+        ("water", |scene| scene.ground.water = Some(Water { height_m: -0.5 })),
+    ] {
+        let change = change(edit);
+        assert!(change.picture && !change.world && change.retune, "{part}: {change:?}");
+        assert_eq!(change.parts, [part], "named");
+    }
+    // Both at once: one rebuild, which takes the wind along.
+    let both = change(|scene| {
+        scene.wind.direction_deg += 1.0;
+        scene.sources[0].release = Release::Burst { at_s: 0.0 };
+        scene.autumn *= 0.99;
+    });
+    assert!(both.world && both.picture && !both.retune, "{both:?}");
+    assert_eq!(both.parts, ["sources", "season"], "both named");
+}

@@ -1,0 +1,338 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Moves every control of the panel that assistive technology can see, once, and asks what became of it. A control that
+//! somebody adds is among them by itself.
+
+use egui::accesskit::{Role, Toggled};
+use egui_kittest::kittest::NodeT;
+use egui_kittest::{Harness, Node};
+use glam::Vec3;
+use windfall_core::scene::{
+    Aerodynamics, CameraKey, Exposure, FlightModel, Focus, MeanSpeed, Planform, Profile, Release,
+    RotationModel, Share, Sky, SkyMap, SourceShape, Terrain, ToneMap, Tree, TreeForm, TreeKind, Vortex,
+    Water,
+};
+
+use super::*;
+
+/// A panel whose edits are taken over as a window would.
+struct Window {
+    panel: Panel,
+    camera: Camera,
+    facts: Facts,
+    land: Land,
+    wishes: Vec<Wish>,
+}
+
+fn open(scene: &Scene) -> Harness<'static, Window> {
+    scene.validate("test").expect("a scene that is allowed");
+    let facts = Facts { history: (1, 1), ..facts(scene) };
+    let window = Window {
+        panel: Panel::new("nowhere", Group::ALL.into()),
+        camera: Camera::from(&scene.view.camera),
+        facts,
+        land: Land::of(&scene.ground),
+        wishes: Vec::new(),
+    };
+    let show = |ui: &mut Ui, window: &mut Window| {
+        let Window { panel, camera, facts, land, wishes } = window;
+        wishes.extend(panel.show(ui, facts, camera, land));
+    };
+    let builder = Harness::builder().with_size((900.0, 6000.0)).with_step_dt(0.3);
+    let mut harness = builder.with_context_setup(style::apply).build_ui_state(show, window);
+    harness.run_steps(3);
+    harness
+}
+
+/// One control as it is seen from outside.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+struct Control {
+    role: String,
+    name: String,
+    /// Among those of the same role and name.
+    number: usize,
+}
+
+/// The controls that can be moved, from top to bottom.
+fn controls(harness: &Harness<'_, Window>) -> Vec<Control> {
+    let mut all: Vec<Control> = Vec::new();
+    for node in harness.root().children_recursive() {
+        let (is_moved, role, name) = seen(&node);
+        if is_moved {
+            let number = all.iter().filter(|other| other.role == role && other.name == name).count();
+            all.push(Control { role, name, number });
+        }
+    }
+    all
+}
+
+/// Whether a node is a control that can be moved; its role and name.
+fn seen(node: &Node<'_>) -> (bool, String, String) {
+    let inner = node.accesskit_node();
+    let role = inner.role();
+    let is_control = matches!(
+        role,
+        Role::Slider | Role::SpinButton | Role::Button | Role::CheckBox | Role::ComboBox | Role::TextInput
+    );
+    let name = inner.label().map(|label| label.clone()).unwrap_or_default();
+    // Of several options, the one that is chosen already is no way to change anything.
+    let is_chosen = role == Role::Button && inner.toggled() == Some(Toggled::True);
+    (is_control && !is_chosen && !inner.is_disabled(), format!("{role:?}"), name.to_string())
+}
+
+fn find<'a>(harness: &'a Harness<'_, Window>, wanted: &Control) -> Node<'a> {
+    let like = |node: &Node<'_>| {
+        let (is_moved, role, name) = seen(node);
+        is_moved && role == wanted.role && name == wanted.name
+    };
+    harness.root().children_recursive().filter(like).nth(wanted.number).expect("it is still there")
+}
+
+/// Moves a control; true if something came of it.
+fn moves(harness: &mut Harness<'_, Window>, control: &Control) -> bool {
+    let before = (harness.state().camera, harness.state().panel.file.path().to_owned());
+    let node = find(harness, control);
+    let inner = node.accesskit_node();
+    match inner.role() {
+        Role::Slider | Role::SpinButton => {
+            // Some stand at the end of their range.
+            node.increment_accesskit();
+            harness.run_steps(4);
+            if harness.state().wishes.is_empty() && before.0 == harness.state().camera {
+                find(harness, control).decrement_accesskit();
+            }
+        }
+        Role::TextInput => {
+            node.focus();
+            harness.run_steps(1);
+            find(harness, control).type_text("x");
+            harness.run_steps(1);
+            harness.key_press(egui::Key::Tab);
+        }
+        Role::ComboBox => {
+            node.click_accesskit();
+            harness.run_steps(2);
+            let options = harness.root().children_recursive();
+            let unchosen = |node: &Node<'_>| {
+                let inner = node.accesskit_node();
+                inner.toggled() == Some(Toggled::False) && inner.role() == Role::Button
+            };
+            // What was opened last stands behind all the rest.
+            if let Some(option) = options.filter(unchosen).last() {
+                option.click_accesskit();
+            }
+        }
+        _ => node.click_accesskit(),
+    }
+    harness.run_steps(4);
+    let state = harness.state();
+    !state.wishes.is_empty() || before != (state.camera, state.panel.file.path().to_owned())
+}
+
+/// Makes everything as it was.
+fn restore(harness: &mut Harness<'_, Window>, scene: &Scene) {
+    harness.key_press(egui::Key::Escape);
+    harness.run_steps(1);
+    let state = harness.state_mut();
+    state.facts.scene = Arc::new(scene.clone());
+    state.camera = Camera::from(&scene.view.camera);
+    state.panel.is_helping = false;
+    state.wishes.clear();
+    harness.run_steps(2);
+    harness.state_mut().wishes.clear();
+}
+
+fn move_everything(scene: &Scene) -> Vec<Control> {
+    let mut harness = open(scene);
+    assert_eq!(harness.state().wishes, [], "nobody has touched anything");
+    let all = controls(&harness);
+    let mut idle = Vec::new();
+    for control in &all {
+        if !moves(&mut harness, control) {
+            idle.push(control.clone());
+        }
+        for wish in &harness.state().wishes {
+            if let Wish::Edit { scene: edited, .. } = wish {
+                assert_ne!(**edited, *scene, "{control:?} edits something");
+            }
+        }
+        restore(&mut harness, scene);
+        assert_eq!(harness.state().wishes, [], "nothing is left of {control:?}");
+    }
+    assert_eq!(idle, [], "nothing comes of these");
+    all
+}
+
+/// A park with one of everything that may be added to a scene.
+fn full() -> Scene {
+    let mut scene = Scene::default();
+    scene.trees = vec![Tree { kind: "own".into(), leaves: 10, height_m: Some(6.0), ..Tree::default() }];
+    scene.tree_kinds = vec![TreeKind { name: "own".into(), ..TreeKind::default() }];
+    scene.sources[0].species = vec![Share { species: "maple".into(), weight: 2 }];
+    scene.regrow_after_s = Some(50.0);
+    scene.autumn = 0.4;
+    scene.wind.speed = MeanSpeed::Beaufort(3);
+    scene.wind.vortices = vec![Vortex {
+        center_m: Vec3::ONE,
+        axis: Vec3::Y,
+        circulation_m2_s: 3.0,
+        core_m: 1.0,
+        axial_m_s: 1.0,
+        drift_m_s: Vec3::X,
+    }];
+    scene.ground.terrain = Some(Terrain { levels: 4, ..Terrain::default() });
+    scene.ground.water = Some(Water { height_m: -0.5 });
+    scene.view.path =
+        vec![CameraKey { time_s: 1.0, eye_m: Vec3::ONE, target_m: Vec3::ZERO, vertical_fov_deg: 40.0 }];
+    scene.view.lens.focus = Some(Focus { distance_m: 3.0, f_number: 4.0 });
+    scene
+}
+
+/// The other variant of every choice.
+fn other() -> Scene {
+    let mut scene = full();
+    let body = Aerodynamics { planform: Some(Planform::default()), ..Aerodynamics::default() };
+    scene.species[0].flight = FlightModel::Aerodynamic(body);
+    scene.sources[0].shape = SourceShape::Disc { center_m: Vec3::new(0.0, 6.0, 0.0), radius_m: 3.0 };
+    scene.sources[0].release = Release::Burst { at_s: 1.0 };
+    scene.wind.profile = Profile::Log { roughness_m: 0.05, displacement_m: 0.5 };
+    scene.wind.speed = MeanSpeed::MetresPerSecond(2.0);
+    scene.tree_kinds[0].form = TreeForm::File("a.glb".into());
+    scene.trees[0].kind = "maple".into();
+    scene.view.sky = Sky::Map(SkyMap::new("a.hdr".into()));
+    scene.view.lens.exposure = Exposure::Manual { ev100: 12.0 };
+    scene.view.lens.tone_map = ToneMap::Reinhard { white: 3.0 };
+    scene
+}
+
+/// What neither of the two has.
+fn third() -> Scene {
+    let mut scene = Scene::default();
+    scene.species[0].rotation = RotationModel::TanabeKaneko { friction_per_s: 5.0 };
+    let motion = &mut scene.species[0].motion;
+    (motion.descent_m_s, motion.rose_swings) = (Some(1.0), Some(5));
+    scene.species[0].tables = Some("a.tables".into());
+    scene.view.lens.tone_map = ToneMap::Linear { gamma: 2.0 };
+    scene
+}
+
+#[test]
+fn every_control_does_something() {
+    let scenes = [full(), other(), third()];
+    let all: Vec<Control> = scenes.iter().flat_map(move_everything).collect();
+    assert!(all.len() > 300, "only {} controls were found", all.len());
+    let nameless: Vec<_> = all.iter().filter(|control| control.name.is_empty()).collect();
+    // The number beside a slider goes by the slider's name.
+    assert!(nameless.iter().all(|control| control.role == "SpinButton"), "{nameless:?}");
+}
+
+#[test]
+fn what_was_changed_can_be_reset_row_by_row() {
+    let scene = full();
+    let mut harness = open(&scene);
+    let mut edited = scene.clone();
+    edited.wind.direction_deg += 5.0;
+    edited.ground.water = None;
+    edited.species[0].name = "other".into();
+    harness.state_mut().facts.scene = Arc::new(edited.clone());
+    harness.run_steps(2);
+    let resets: Vec<Control> =
+        controls(&harness).into_iter().filter(|control| control.name.starts_with("Reset ")).collect();
+    let names: Vec<&str> = resets.iter().map(|control| &*control.name).collect();
+    assert_eq!(names, ["Reset Name", "Reset Direction", "Reset Water"], "one for each");
+    for control in &resets {
+        assert!(moves(&mut harness, control), "{control:?}");
+        let wish = harness.state_mut().wishes.pop();
+        let Some(Wish::Edit { scene, .. }) = wish else { panic!("{control:?} edits: {wish:?}") };
+        harness.state_mut().facts.scene = Arc::new(*scene);
+        harness.state_mut().wishes.clear();
+        harness.run_steps(2);
+    }
+    assert_eq!(*harness.state().facts.scene, scene, "all as loaded");
+}
+
+#[test]
+fn what_takes_building_anew_waits_for_the_end_of_a_drag() {
+    let scene = full();
+    let mut harness = open(&scene);
+    let slider = |name: &str| Control { role: "Slider".into(), name: name.into(), number: 0 };
+    for (name, is_live) in [("Turbulence", true), ("Size", false)] {
+        let rect = find(&harness, &slider(name)).rect();
+        let at = |share: f32| pos2(rect.left() + share * rect.width(), rect.center().y);
+        harness.drag_at(at(0.1));
+        harness.run_steps(1);
+        for share in [0.2, 0.3, 0.4] {
+            harness.hover_at(at(share));
+            harness.run_steps(1);
+        }
+        let during = harness.state().wishes.len();
+        harness.drop_at(at(0.4));
+        harness.run_steps(3);
+        let wishes = std::mem::take(&mut harness.state_mut().wishes);
+        assert_eq!(during > 0, is_live, "{name}: {during} edits in the drag");
+        assert!(!wishes.is_empty(), "{name}: an edit in the end");
+        let gestures = |wish: &Wish| if let Wish::Edit { gesture, .. } = wish { *gesture } else { 0 };
+        assert!(wishes.iter().all(|wish| gestures(wish) == gestures(&wishes[0])), "{name}: one gesture");
+        restore(&mut harness, &scene);
+    }
+}
+
+#[test]
+fn every_control_can_be_reached_and_seen_with_the_tab_key() {
+    let mut harness = open(&other());
+    let wanted = controls(&harness).len();
+    harness.set_size(egui::vec2(900.0, 500.0));
+    harness.run_steps(2);
+    let mut reached = std::collections::HashSet::new();
+    for _ in 0..2 * wanted {
+        harness.key_press(egui::Key::Tab);
+        harness.run_steps(2);
+        let focused = harness.root().children_recursive().find(|node| node.is_focused());
+        let Some(node) = focused.filter(|node| seen(node).0) else { continue };
+        let place = node.rect().center().y;
+        assert!((0.0..=500.0).contains(&place), "{:?} is out of sight at {place}", seen(&node));
+        reached.insert(node.accesskit_node().id());
+    }
+    let reached = reached.len();
+    assert!(reached >= wanted, "{reached} of {wanted} controls are reached");
+    assert_eq!(harness.state().wishes, [], "going there changes nothing");
+}
+
+/// A file that is dropped, whose contents nobody reads here.
+#[derive(Debug)]
+struct File(std::path::PathBuf);
+
+impl egui::DroppedFile for File {
+    fn path(&self) -> &std::path::Path {
+        &self.0
+    }
+
+    fn bytes(&self) -> Result<Vec<u8>, String> {
+        Err("not read".into())
+    }
+}
+
+#[test]
+fn files_that_are_dropped_and_keys_make_wishes() {
+    let scene = third();
+    let mut harness = open(&scene);
+    harness.input_mut().dropped_files = vec![Arc::new(File("a.ron".into()))];
+    harness.run_steps(1);
+    assert_eq!(harness.state().wishes, [Wish::Drop("a.ron".into())], "a file");
+    restore(&mut harness, &scene);
+    harness.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::S);
+    harness.run_steps(1);
+    assert_eq!(harness.state().wishes, [Wish::SaveTo("nowhere.ron".into())], "the file in the field");
+    restore(&mut harness, &scene);
+    harness.key_press(egui::Key::F1);
+    harness.run_steps(2);
+    let reads = |harness: &Harness<'_, Window>, text: &str| {
+        let mut nodes = harness.root().children_recursive();
+        nodes.any(|node| node.value().as_deref() == Some(text))
+    };
+    assert!(reads(&harness, "Ctrl+Shift+Z, Ctrl+Y"), "the help is there");
+    harness.key_press(egui::Key::Escape);
+    harness.run_steps(2);
+    assert!(!reads(&harness, "Ctrl+Shift+Z, Ctrl+Y"), "and gone");
+    assert_eq!(harness.state().wishes, [], "the window stays open");
+}
