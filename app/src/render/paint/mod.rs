@@ -7,8 +7,8 @@
 mod palette;
 mod pass;
 
-pub(super) use palette::{SHADES, shade};
 pub use palette::{ATTACHED, MOTIONS, RESTING, shade_bytes};
+pub(super) use palette::{SHADES, shade};
 pub(super) use pass::PaintPass;
 
 /// What colours tell.
