@@ -7,7 +7,7 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
-use crate::commands::{bench, flight, info, leaf, motions, render, simulate, tree, view};
+use crate::commands::{bench, export, flight, info, leaf, motions, render, simulate, tree, view};
 use crate::terminal;
 
 /// Exit code of everything that goes wrong.
@@ -31,6 +31,8 @@ pub enum Command {
     Render(render::Arguments),
     /// Simulate a scene without drawing it: statistics, tracks, checkpoints.
     Simulate(simulate::Arguments),
+    /// Write a stretch of a scene for other programs: USD, glTF, a table or point clouds.
+    Export(export::Arguments),
     /// List graphics adapters with their limits, and what is chosen by default.
     Info,
     /// Measure how fast this machine simulates.
@@ -53,6 +55,7 @@ impl Command {
             Self::View(arguments) => view::run(arguments),
             Self::Render(arguments) => render::run(&arguments),
             Self::Simulate(arguments) => simulate::run(&arguments),
+            Self::Export(arguments) => export::run(&arguments),
             Self::Info => info::run(),
             Self::Bench(arguments) => bench::run(&arguments),
             Self::Flight(arguments) => flight::run(&arguments),

@@ -9,6 +9,7 @@ pub mod camera;
 pub mod cli;
 pub mod commands;
 pub mod drawing;
+pub mod export;
 pub mod frame;
 pub mod interrupt;
 pub mod land;

@@ -3,6 +3,7 @@
 //! One file per command, each with its options and what it does; and what several of them share.
 
 pub mod bench;
+pub mod export;
 pub mod flight;
 pub mod info;
 pub mod leaf;

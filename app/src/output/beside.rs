@@ -10,7 +10,7 @@ use super::OutputError;
 
 /// A path beside the destination; removed on drop unless it was put in place.
 #[derive(Debug)]
-pub(super) struct Beside {
+pub(crate) struct Beside {
     destination: PathBuf,
     partial: PathBuf,
     /// Directories that had to be made, the outermost first.
@@ -19,14 +19,14 @@ pub(super) struct Beside {
 
 impl Beside {
     /// Makes the parent directories of `destination` and an empty file beside it, ending in `extension`.
-    pub(super) fn file(destination: &Path, extension: &str) -> Result<Self, OutputError> {
+    pub(crate) fn file(destination: &Path, extension: &str) -> Result<Self, OutputError> {
         let beside = Self::prepare(destination, extension)?;
         fs::File::create(&beside.partial).map_err(OutputError::write(destination))?;
         Ok(beside)
     }
 
     /// The same for a directory.
-    pub(super) fn directory(destination: &Path) -> Result<Self, OutputError> {
+    pub(crate) fn directory(destination: &Path) -> Result<Self, OutputError> {
         let beside = Self::prepare(destination, "d")?;
         fs::create_dir(&beside.partial).map_err(OutputError::write(destination))?;
         Ok(beside)
@@ -50,17 +50,17 @@ impl Beside {
     }
 
     /// Where to write for now.
-    pub(super) fn partial(&self) -> &Path {
+    pub(crate) fn partial(&self) -> &Path {
         &self.partial
     }
 
     /// Where the result will lie.
-    pub(super) fn destination(&self) -> &Path {
+    pub(crate) fn destination(&self) -> &Path {
         &self.destination
     }
 
     /// Gives the finished file its name.
-    pub(super) fn put_in_place(&self) -> Result<(), OutputError> {
+    pub(crate) fn put_in_place(&self) -> Result<(), OutputError> {
         fs::rename(&self.partial, &self.destination).map_err(OutputError::write(&self.destination))
     }
 }

@@ -1,0 +1,124 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! `windfall export`: a scene's motion for other programs.
+
+use std::path::PathBuf;
+use std::time::Duration;
+
+use anyhow::bail;
+use clap::Args;
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use windfall_core::{Simulator, World};
+
+use super::render::within;
+use super::scene::SceneArguments;
+use super::stepping::Stepping;
+use crate::backend::{Backend, BackendArguments};
+use crate::export::{self, Estimate, Format, FrameRange, Job, Observer, check_space};
+use crate::frame::FrameSteps;
+use crate::trees::Stand;
+use crate::{interrupt, terminal};
+
+/// Most steps of an export.
+const MAX_STEPS: u64 = 1_000_000_000;
+
+/// Options of `windfall export`.
+#[derive(Clone, Debug, Args)]
+pub struct Arguments {
+    #[command(flatten)]
+    scene: SceneArguments,
+    #[command(flatten)]
+    backend: BackendArguments,
+    /// First and last frame, both written; frame 0 shows the scene as it begins.
+    #[arg(long, value_name = "A..B", value_parser = FrameRange::parse, allow_hyphen_values = true)]
+    frames: FrameRange,
+    /// What to write [default: what the ending of --out tells].
+    #[arg(long, value_name = "FORMAT")]
+    format: Option<Format>,
+    /// Where to write: FILE.usda (with a folder FILE_layers beside it), FILE.glb, FILE.csv, or a folder of PLY files.
+    #[arg(long, value_name = "FILE|DIR")]
+    out: PathBuf,
+    /// Frames per second.
+    #[arg(long, value_name = "FPS", default_value = "60", value_parser = frame_rate)]
+    fps: f64,
+}
+
+/// Runs the command. Everything that can be found wrong is found before the first step.
+///
+/// # Errors
+/// Bad input, an output that cannot be written or does not fit, a device that is missing or lost, an interrupt. Then no
+/// file has changed.
+pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
+    let format = Format::of(arguments.format, &arguments.out)?;
+    let scene = arguments.scene.load()?;
+    let (frames, path) = (arguments.frames, arguments.out.as_path());
+    let steps = FrameSteps::new(arguments.fps, 1.0, scene.dt_s);
+    let last = steps.before(frames.last);
+    if last > MAX_STEPS {
+        bail!("--frames and --fps ask for {last} steps; allowed: at most {MAX_STEPS}");
+    }
+    let leaves = scene.leaf_count();
+    check_space(Estimate::new(format, frames, leaves, path), frames, leaves, path)?;
+    let choice = arguments.backend.choose()?;
+    interrupt::listen();
+    let mut world = World::build(&scene)?;
+    let mut backend = choice.device.simulator(&world)?;
+    let stand = Stand::of(&scene, world.environment.forest());
+    let mut observer = Observer::new(&stand);
+    let job = Job { scene: &scene, world: &world, stand: &stand, path, frames, fps: arguments.fps };
+    let mut exporter = export::start(format, &job)?;
+    if let Some(reason) = choice.reason {
+        terminal::note(&reason);
+    }
+    let bar = progress_bar(frames.count());
+    let mut clip = Clip { backend: &mut backend, stepping: Stepping::default(), step: 0 };
+    for number in frames.first..=frames.last {
+        clip.advance(steps.before(number))?;
+        clip.backend.read_state(&mut world)?;
+        exporter.push(&observer.look(&world, number))?;
+        interrupt::check()?;
+        bar.inc(1);
+    }
+    bar.finish_and_clear();
+    let broken = world.stats().broken;
+    if broken > 0 {
+        bail!("{broken} leaves have positions that are not numbers; nothing was written");
+    }
+    let written = exporter.finish()?;
+    terminal::print(&format!("{}\n", written.display()))
+}
+
+/// A simulation that goes on from frame to frame.
+struct Clip<'a> {
+    backend: &'a mut Backend,
+    stepping: Stepping,
+    step: u64,
+}
+
+impl Clip<'_> {
+    /// Simulates until `step` steps are done, or the user asks to end.
+    fn advance(&mut self, step: u64) -> anyhow::Result<()> {
+        while self.step < step {
+            interrupt::check()?;
+            let left = u32::try_from(step - self.step).unwrap_or(u32::MAX);
+            let batch = self.stepping.batch().min(left);
+            self.stepping.run(self.backend, batch)?;
+            self.step += u64::from(batch);
+        }
+        Ok(())
+    }
+}
+
+fn frame_rate(text: &str) -> Result<f64, String> {
+    within(text, 1.0, 1000.0)
+}
+
+/// A bar on the standard error, if that is a terminal.
+fn progress_bar(frames: u32) -> ProgressBar {
+    let bar = ProgressBar::with_draw_target(Some(frames.into()), ProgressDrawTarget::stderr());
+    if let Ok(style) = ProgressStyle::with_template("{bar:40} frame {pos} of {len}, {eta} left") {
+        bar.set_style(style);
+    }
+    bar.enable_steady_tick(Duration::from_millis(200));
+    bar
+}

@@ -1,0 +1,69 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The formats, and how the ending of a path tells which is meant.
+
+use std::ffi::OsStr;
+use std::path::Path;
+
+use anyhow::bail;
+use clap::ValueEnum;
+
+/// What an export is written as.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Format {
+    /// A table with a row for every leaf and frame.
+    Csv,
+    /// A folder with a binary point cloud for every frame.
+    Ply,
+}
+
+impl Format {
+    /// The format asked for, or the one that the ending of `path` tells.
+    ///
+    /// # Errors
+    /// A path whose ending tells none, or another than the one asked for.
+    pub fn of(asked: Option<Self>, path: &Path) -> anyhow::Result<Self> {
+        let ending = path.extension().and_then(OsStr::to_str).map(str::to_ascii_lowercase);
+        let told = match ending.as_deref() {
+            Some("csv") => Some(Self::Csv),
+            None if path.file_name().is_some() => Some(Self::Ply),
+            _ => None,
+        };
+        let wanted = |format: Self| match format {
+            Self::Csv => "FILE.csv",
+            Self::Ply => "a folder, a path without an ending",
+        };
+        match (asked, told) {
+            (Some(asked), Some(told)) if asked == told => Ok(told),
+            (None, Some(told)) => Ok(told),
+            (Some(asked), _) => {
+                let name =
+                    asked.to_possible_value().map_or_else(String::new, |name| name.get_name().to_owned());
+                bail!("--out is '{}'; allowed with --format {name}: {}", path.display(), wanted(asked))
+            }
+            (None, None) => {
+                let all: Vec<&str> = Self::value_variants().iter().map(|&format| wanted(format)).collect();
+                bail!("--out is '{}'; allowed: {}", path.display(), all.join(", "))
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn endings_tell_the_format() {
+        let of = |asked, path: &str| Format::of(asked, Path::new(path)).map_err(|error| error.to_string());
+        assert_eq!(of(None, "a/B.CSV"), Ok(Format::Csv), "in any case");
+        assert_eq!(of(None, "frames"), Ok(Format::Ply), "a folder");
+        assert_eq!(of(Some(Format::Ply), "frames"), Ok(Format::Ply), "said twice");
+        for (asked, path) in
+            [(None, "a.obj"), (None, ".."), (Some(Format::Csv), "a"), (Some(Format::Ply), "a.csv")]
+        {
+            let error = of(asked, path).expect_err("no such output");
+            assert!(error.contains("--out is") && error.contains("allowed"), "{path}: {error}");
+        }
+    }
+}

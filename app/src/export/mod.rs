@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! A scene's motion for other programs: USD, glTF, a table and point clouds, fed frame by frame.
+//!
+//! Every writer works beside its destination and renames at the end, so an interrupted or failed run leaves nothing
+//! half-written behind. `docs/exchange.md` tells users what is written.
+
+mod csv;
+mod format;
+mod frame;
+mod ply;
+mod range;
+mod space;
+
+use std::path::{Path, PathBuf};
+
+pub use format::Format;
+pub(crate) use frame::Observer;
+pub use frame::{Frame, FrameLeaf};
+pub use range::FrameRange;
+pub(crate) use space::{Estimate, check_space};
+use windfall_core::{Scene, World};
+
+use crate::trees::Stand;
+
+/// What is to be written.
+#[derive(Clone, Copy, Debug)]
+pub struct Job<'a> {
+    /// The scene, scaled and seeded.
+    pub scene: &'a Scene,
+    /// The scene at time zero.
+    pub world: &'a World,
+    /// Its trees.
+    pub stand: &'a Stand,
+    /// Where the result will lie.
+    pub path: &'a Path,
+    /// Which frames come.
+    pub frames: FrameRange,
+    /// Frames per second.
+    pub fps: f64,
+}
+
+/// Takes the frames of one export in their order. Dropped without [`Exporter::finish`], it removes what it wrote.
+pub trait Exporter {
+    /// Takes the next frame.
+    ///
+    /// # Errors
+    /// What the system says, named with the path.
+    fn push(&mut self, frame: &Frame<'_>) -> anyhow::Result<()>;
+
+    /// Completes the output under its own name and returns that.
+    ///
+    /// # Errors
+    /// What the system says, named with the path.
+    fn finish(self: Box<Self>) -> anyhow::Result<PathBuf>;
+}
+
+/// Begins an export. Whatever can be found wrong before the first step is found here.
+///
+/// # Errors
+/// A path that cannot be written, more leaves or frames than the format holds, leaf folders that cannot be used.
+pub fn start(format: Format, job: &Job<'_>) -> anyhow::Result<Box<dyn Exporter>> {
+    Ok(match format {
+        Format::Csv => Box::new(csv::CsvExport::start(job.path)?),
+        Format::Ply => Box::new(ply::PlyExport::start(job.path)?),
+    })
+}

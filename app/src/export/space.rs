@@ -1,0 +1,104 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Whether the disk holds what is going to be written.
+
+use std::path::Path;
+
+use anyhow::bail;
+
+use super::{Format, FrameRange, csv, ply};
+use crate::terminal;
+
+/// Bytes from which the user is told how much it will be.
+const LARGE: u64 = 1_000_000_000;
+
+/// What an export is expected to come to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Estimate {
+    /// Bytes, about.
+    pub(crate) bytes: u64,
+    /// Bytes that are free there, if the system tells.
+    pub(crate) free: Option<u64>,
+}
+
+impl Estimate {
+    /// For so many leaves in these frames at a path.
+    pub(crate) fn new(format: Format, frames: FrameRange, leaves: u32, path: &Path) -> Self {
+        let row = match format {
+            Format::Csv => csv::ROW_BYTES,
+            Format::Ply => ply::VERTEX_BYTES,
+        };
+        Self { bytes: row * u64::from(leaves) * u64::from(frames.count()), free: free(path) }
+    }
+}
+
+/// Refuses what does not fit on the disk, and tells of what is large.
+///
+/// # Errors
+/// Names the frames, the leaves and the room there is.
+pub(crate) fn check_space(
+    estimate: Estimate,
+    frames: FrameRange,
+    leaves: u32,
+    path: &Path,
+) -> anyhow::Result<()> {
+    let FrameRange { first, last } = frames;
+    let gigabytes = |bytes: u64| bytes as f64 * 1e-9;
+    if let Some(free) = estimate.free.filter(|&free| estimate.bytes > free) {
+        bail!(
+            "--frames is {first}..{last}, which with {leaves} leaves takes about {:.1} GB; allowed: what fits into the              {:.1} GB that are free where {} will lie",
+            gigabytes(estimate.bytes),
+            gigabytes(free),
+            path.display()
+        );
+    }
+    if estimate.bytes >= LARGE {
+        let bytes = gigabytes(estimate.bytes);
+        terminal::note(&format!("about {bytes:.1} GB for {} frames of {leaves} leaves", frames.count()));
+    }
+    Ok(())
+}
+
+/// Bytes free for this user on the disk where `path` will lie.
+#[cfg(unix)]
+fn free(path: &Path) -> Option<u64> {
+    let whole = std::path::absolute(path).ok()?;
+    let disk = whole.ancestors().skip(1).find_map(|folder| rustix::fs::statvfs(folder).ok())?;
+    disk.f_bavail.checked_mul(disk.f_frsize)
+}
+
+/// Other systems are not asked.
+#[cfg(not(unix))]
+fn free(_path: &Path) -> Option<u64> {
+    None
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_does_not_fit_is_refused_with_its_size() {
+        let frames = FrameRange { first: 0, last: 9999 };
+        let path = Path::new("a.csv");
+        let mut estimate = Estimate::new(Format::Csv, frames, 10_000, path);
+        assert_eq!(estimate.bytes, 10_000 * 10_000 * csv::ROW_BYTES, "a row for each leaf and frame");
+        estimate.free = Some(3_000_000_000);
+        let error = check_space(estimate, frames, 10_000, path).expect_err("too much").to_string();
+        assert!(
+            error.contains("0..9999") && error.contains("10000 leaves") && error.contains("17.0 GB"),
+            "{error}"
+        );
+        assert!(error.contains("3.0 GB that are free") && error.contains("a.csv"), "{error}");
+        estimate.free = Some(estimate.bytes);
+        assert!(check_space(estimate, frames, 10_000, path).is_ok(), "just fits");
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn the_system_tells_what_is_free() {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let free = free(&folder.path().join("new").join("a.csv")).expect("it tells");
+        assert!(free > 0, "there is room");
+    }
+}
