@@ -11,6 +11,8 @@ use clap::ValueEnum;
 /// What an export is written as.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Format {
+    /// A USD stage: a point instancer, skinned trees, camera and lights.
+    Usd,
     /// A table with a row for every leaf and frame.
     Csv,
     /// A folder with a binary point cloud for every frame.
@@ -25,11 +27,13 @@ impl Format {
     pub fn of(asked: Option<Self>, path: &Path) -> anyhow::Result<Self> {
         let ending = path.extension().and_then(OsStr::to_str).map(str::to_ascii_lowercase);
         let told = match ending.as_deref() {
+            Some("usda") => Some(Self::Usd),
             Some("csv") => Some(Self::Csv),
             None if path.file_name().is_some() => Some(Self::Ply),
             _ => None,
         };
         let wanted = |format: Self| match format {
+            Self::Usd => "FILE.usda",
             Self::Csv => "FILE.csv",
             Self::Ply => "a folder, a path without an ending",
         };

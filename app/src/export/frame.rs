@@ -35,6 +35,8 @@ pub struct FrameLeaf {
     pub velocity_m_s: [f32; 3],
     /// Size relative to its species'.
     pub size: f32,
+    /// Tint (low half) and image variant, as [`Identity::look`](windfall_core::leaf::Identity) has them.
+    pub look: u32,
 }
 
 /// One frame.
@@ -117,6 +119,7 @@ fn leaf(world: &World, cx: &Context<'_>, slot: usize, share: f32) -> FrameLeaf {
         quaternion: if is_turned { quaternion } else { [0.0, 0.0, 0.0, 1.0] },
         velocity_m_s: std::array::from_fn(|axis| drift.velocity[axis] + own[axis]),
         size,
+        look: leaves.identity[slot].look,
     }
 }
 

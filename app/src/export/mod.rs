@@ -6,11 +6,13 @@
 //! half-written behind. `docs/exchange.md` tells users what is written.
 
 mod csv;
+mod foliage;
 mod format;
 mod frame;
 mod ply;
 mod range;
 mod space;
+mod usd;
 
 use std::path::{Path, PathBuf};
 
@@ -62,6 +64,7 @@ pub trait Exporter {
 pub fn start(format: Format, job: &Job<'_>) -> anyhow::Result<Box<dyn Exporter>> {
     Ok(match format {
         Format::Csv => Box::new(csv::CsvExport::start(job.path)?),
+        Format::Usd => Box::new(usd::UsdExport::start(job)?),
         Format::Ply => Box::new(ply::PlyExport::start(job.path)?),
     })
 }

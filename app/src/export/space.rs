@@ -6,7 +6,7 @@ use std::path::Path;
 
 use anyhow::bail;
 
-use super::{Format, FrameRange, csv, ply};
+use super::{Format, FrameRange, csv, ply, usd};
 use crate::terminal;
 
 /// Bytes from which the user is told how much it will be.
@@ -25,6 +25,7 @@ impl Estimate {
     /// For so many leaves in these frames at a path.
     pub(crate) fn new(format: Format, frames: FrameRange, leaves: u32, path: &Path) -> Self {
         let row = match format {
+            Format::Usd => usd::LEAF_BYTES,
             Format::Csv => csv::ROW_BYTES,
             Format::Ply => ply::VERTEX_BYTES,
         };
@@ -46,7 +47,8 @@ pub(crate) fn check_space(
     let gigabytes = |bytes: u64| bytes as f64 * 1e-9;
     if let Some(free) = estimate.free.filter(|&free| estimate.bytes > free) {
         bail!(
-            "--frames is {first}..{last}, which with {leaves} leaves takes about {:.1} GB; allowed: what fits into the              {:.1} GB that are free where {} will lie",
+            "--frames is {first}..{last}, which with {leaves} leaves takes about {:.1} GB; allowed: what fits into the \
+            {:.1} GB that are free where {} will lie",
             gigabytes(estimate.bytes),
             gigabytes(free),
             path.display()

@@ -9,7 +9,7 @@ mod noise;
 mod random;
 mod tree_sprite;
 
-pub(super) use bark_texture::{BARK_SIZE, paint_bark};
+pub(crate) use bark_texture::{BARK_SIZE, paint_bark};
 pub(super) use layout::{PARK_RADIUS_M, Park, TreeInstance, plant};
 pub(super) use litter::{Shedding, scatter};
 pub(super) use noise::{NOISE_SIZE, noise_mips};

@@ -1,0 +1,219 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! A USD stage in text: a root layer, and beside it a folder with a layer of what does not move, layers of time samples and
+//! pictures.
+//!
+//! A short export has its samples in one layer, which any reader takes. A long one has them in value clips, of which a
+//! reader has one or two in memory.
+
+mod prototypes;
+mod samples;
+mod stage;
+mod text;
+mod trees;
+mod view;
+
+use std::fs::{self, File};
+use std::io::{BufWriter, Write};
+use std::path::{Path, PathBuf};
+
+use anyhow::bail;
+use windfall_core::leaf::LeafState;
+
+use self::samples::{Handle, Samples};
+use self::trees::TreeSamples;
+use self::view::ViewSamples;
+use super::foliage::Foliage;
+use super::{Exporter, Frame, FrameLeaf, Job};
+use crate::commands::output_file::{OutputFile, write_error};
+use crate::light::Daylight;
+use crate::output::beside::Beside;
+use crate::{interrupt, leaves};
+
+/// Bytes of a leaf in a frame, about.
+pub(super) const LEAF_BYTES: u64 = 200;
+/// Name of the layer that tells which attributes have samples.
+const MANIFEST: &str = "manifest.usda";
+/// Name of the layer of what does not move.
+const STAGE: &str = "stage.usda";
+
+/// A stage in the making.
+#[derive(Debug)]
+pub(super) struct UsdExport {
+    root: OutputFile,
+    folder: Beside,
+    foliage: Foliage,
+    samples: Samples,
+    attributes: LeafAttributes,
+    trees: TreeSamples,
+    view: ViewSamples,
+    clock: stage::Clock,
+    /// Greatest distance of a leaf's corners from its place in metres.
+    reach_m: f32,
+}
+
+impl UsdExport {
+    /// Writes everything that does not move.
+    pub(super) fn start(job: &Job<'_>) -> anyhow::Result<Self> {
+        let root = OutputFile::create(job.path)?;
+        let folder = layer_folder(root.destination());
+        check_folder(&folder)?;
+        let folder = Beside::directory(&folder)?;
+        let daylight = Daylight::new(&job.scene.view)?;
+        let atlas = leaves::atlas_of(job.scene)?;
+        interrupt::check()?;
+        let foliage = Foliage::new(job.scene, job.stand, &atlas);
+        drop(atlas);
+        let clock = stage::Clock::new(job.frames, job.fps);
+        let mut samples = Samples::new();
+        let attributes = LeafAttributes::declare(&mut samples);
+        let trees = TreeSamples::declare(&mut samples, job.stand);
+        let view = ViewSamples::declare(&mut samples, job.scene);
+        let written = File::create(folder.partial().join(STAGE)).and_then(|file| {
+            let mut out = BufWriter::new(file);
+            stage::write_stage(&mut out, job, &foliage, clock, &daylight)?;
+            out.flush()?;
+            let mut manifest = BufWriter::new(File::create(folder.partial().join(MANIFEST))?);
+            samples.manifest(&mut manifest, &clock.head())?;
+            manifest.flush()
+        });
+        written.map_err(|error| write_error(folder.destination(), &error))?;
+        prototypes::write_pictures(folder.partial(), folder.destination(), &foliage)?;
+        trees::write_pictures(folder.partial(), folder.destination(), job.stand)?;
+        let reach_m = foliage
+            .meshes
+            .iter()
+            .flat_map(|mesh| &mesh.positions_m)
+            .fold(0.0_f32, |most, corner| most.max(glam::Vec3::from(*corner).length()));
+        Ok(Self { root, folder, foliage, samples, attributes, trees, view, clock, reach_m })
+    }
+
+    fn add(&mut self, frame: &Frame<'_>) {
+        self.samples.begin(frame.number);
+        self.attributes.add(&mut self.samples, frame, &self.foliage, self.reach_m);
+        self.trees.add(&mut self.samples, frame);
+        self.view.add(&mut self.samples, frame);
+    }
+}
+
+impl Exporter for UsdExport {
+    fn push(&mut self, frame: &Frame<'_>) -> anyhow::Result<()> {
+        self.add(frame);
+        if self.samples.is_full() {
+            let written = self.samples.flush(self.folder.partial(), &self.clock.head());
+            written.map_err(|error| write_error(self.folder.destination(), &error))?;
+            self.add(frame);
+        }
+        Ok(())
+    }
+
+    /// The folder first: a root layer that is there has all that it names.
+    fn finish(mut self: Box<Self>) -> anyhow::Result<PathBuf> {
+        let folder = self.folder.destination().to_owned();
+        let path = self.root.destination().to_owned();
+        let head = self.clock.head();
+        let layers = self.samples.finish(self.folder.partial(), &head);
+        let layers = layers.map_err(|error| write_error(&folder, &error))?;
+        let name = folder.file_name().unwrap_or_default().to_string_lossy();
+        let text = stage::root(self.clock, &name, layers);
+        self.root.write_all(text.as_bytes()).map_err(|error| write_error(&path, &error))?;
+        let old = folder.with_file_name(format!(".{name}.{}.old", std::process::id()));
+        let was_there = folder.exists();
+        if was_there {
+            fs::rename(&folder, &old).map_err(|error| write_error(&folder, &error))?;
+        }
+        self.folder.put_in_place()?;
+        self.root.finish()?;
+        if was_there {
+            // The new stage is complete; nobody asks for the old one.
+            let _ = fs::remove_dir_all(&old);
+        }
+        Ok(path)
+    }
+}
+
+/// The folder beside a root layer.
+fn layer_folder(root: &Path) -> PathBuf {
+    let mut name = root.file_stem().unwrap_or_default().to_owned();
+    name.push("_layers");
+    root.with_file_name(name)
+}
+
+/// A folder that is there is replaced, so it must be one of ours.
+fn check_folder(folder: &Path) -> anyhow::Result<()> {
+    let is_empty = || fs::read_dir(folder).is_ok_and(|mut entries| entries.next().is_none());
+    if folder.exists() && !folder.join(MANIFEST).is_file() && !is_empty() {
+        bail!(
+            "{}: is there and holds no layers of an export; allowed: another --out, or to move it",
+            folder.display()
+        );
+    }
+    Ok(())
+}
+
+/// The attributes of the point instancer.
+#[derive(Debug)]
+struct LeafAttributes {
+    ids: Handle,
+    kinds: Handle,
+    positions: Handle,
+    orientations: Handle,
+    half_orientations: Handle,
+    scales: Handle,
+    velocities: Handle,
+    invisible: Handle,
+    states: Handle,
+    extent: Handle,
+}
+
+impl LeafAttributes {
+    fn declare(samples: &mut Samples) -> Self {
+        let mut declare = |declaration| samples.declare("World/Leaves", declaration);
+        Self {
+            ids: declare("int64[] ids"),
+            kinds: declare("int[] protoIndices"),
+            positions: declare("point3f[] positions"),
+            orientations: declare("quatf[] orientationsf"),
+            half_orientations: declare("quath[] orientations"),
+            scales: declare("float3[] scales"),
+            velocities: declare("vector3f[] velocities"),
+            invisible: declare("int64[] invisibleIds"),
+            states: declare("int[] primvars:windfall:state"),
+            extent: declare("float3[] extent"),
+        }
+    }
+
+    /// Adds a frame. A dormant leaf is invisible, and for readers that do not know invisible ones of no size.
+    fn add(&self, samples: &mut Samples, frame: &Frame<'_>, foliage: &Foliage, reach_m: f32) {
+        let (number, leaves) = (frame.number, frame.leaves);
+        let all = || leaves.iter();
+        let is_dormant = |leaf: &&FrameLeaf| leaf.state == LeafState::Dormant;
+        samples.add(self.ids, number, |out| text::numbers(out, all().map(|leaf| leaf.id)));
+        samples.add(self.kinds, number, |out| text::numbers(out, all().map(|leaf| foliage.kind(leaf))));
+        samples.add(self.positions, number, |out| text::vectors(out, all().map(|leaf| leaf.position_m)));
+        samples
+            .add(self.orientations, number, |out| text::quaternions(out, all().map(|leaf| leaf.quaternion)));
+        samples.add(self.half_orientations, number, |out| {
+            text::half_quaternions(out, all().map(|leaf| leaf.quaternion));
+        });
+        samples.add(self.scales, number, |out| {
+            text::vectors(out, all().map(|leaf| [if is_dormant(&leaf) { 0.0 } else { leaf.size }; 3]));
+        });
+        samples.add(self.velocities, number, |out| text::vectors(out, all().map(|leaf| leaf.velocity_m_s)));
+        samples.add(self.invisible, number, |out| {
+            text::numbers(out, all().filter(is_dormant).map(|leaf| leaf.id))
+        });
+        samples.add(self.states, number, |out| text::numbers(out, all().map(|leaf| leaf.state as u32)));
+        let mut bounds = [[f32::MAX; 3], [f32::MIN; 3]];
+        for leaf in all().filter(|leaf| !is_dormant(leaf)) {
+            for axis in 0..3 {
+                bounds[0][axis] = bounds[0][axis].min(leaf.position_m[axis] - reach_m * leaf.size);
+                bounds[1][axis] = bounds[1][axis].max(leaf.position_m[axis] + reach_m * leaf.size);
+            }
+        }
+        if bounds[0][0] > bounds[1][0] {
+            bounds = [[0.0; 3]; 2];
+        }
+        samples.add(self.extent, number, |out| text::vectors(out, bounds));
+    }
+}

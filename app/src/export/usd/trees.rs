@@ -1,0 +1,212 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Trees as skinned bark: joints are the segments, so a frame takes a quaternion for each of them and not a place and a
+//! normal for every corner, of which there are twenty times as many.
+
+use std::fs;
+use std::io::{self, Write};
+use std::path::Path;
+
+use glam::{Mat4, Quat, Vec3};
+use image::{Rgb, RgbImage};
+use windfall_core::tree::{BarkDetail, bark_mesh};
+
+use super::prototypes::{Coat, PICTURES, extent_of, write_material};
+use super::samples::{Handle, Samples};
+use super::text;
+use crate::commands::output_file::write_error;
+use crate::export::Frame;
+use crate::render::{BARK_SIZE, paint_bark};
+use crate::trees::{BarkKind, Stand, StandingTree};
+
+/// The joints of all trees.
+#[derive(Debug)]
+pub(super) struct TreeSamples {
+    trees: Vec<(Handle, Vec<Joint>)>,
+}
+
+/// Row of the branch columns of a segment, and of the one that it grows from.
+type Joint = (usize, Option<usize>);
+
+impl TreeSamples {
+    pub(super) fn declare(samples: &mut Samples, stand: &Stand) -> Self {
+        let trees = stand.trees.iter().enumerate().map(|(number, tree)| {
+            let prim = format!("World/Trees/Tree_{number}/Sway");
+            (samples.declare(&prim, "quatf[] rotations"), joints(tree))
+        });
+        Self { trees: trees.collect() }
+    }
+
+    pub(super) fn add(&self, samples: &mut Samples, frame: &Frame<'_>) {
+        let pose = &frame.world.branches.pose;
+        for (handle, joints) in &self.trees {
+            samples.add(*handle, frame.number, |out| text::quaternions(out, rotations(joints, pose)));
+        }
+    }
+}
+
+/// The rows of a tree's segments.
+fn joints(tree: &StandingTree) -> Vec<Joint> {
+    let row = |segment: u32| tree.rows[segment as usize] as usize;
+    let parents = tree.skeleton.segments.iter().map(|segment| segment.parent.map(row));
+    tree.rows.iter().map(|&row| row as usize).zip(parents).collect()
+}
+
+/// How each segment is turned against the one that it grows from.
+fn rotations(joints: &[Joint], pose: &[[f32; 4]]) -> impl Iterator<Item = [f32; 4]> {
+    let turn = |row: usize| Quat::from_array(pose[row]);
+    joints.iter().map(move |&(row, parent)| {
+        let above = parent.map_or(Quat::IDENTITY, turn);
+        (above.conjugate() * turn(row)).normalize().to_array()
+    })
+}
+
+/// Writes the trees.
+pub(super) fn write_trees(out: &mut impl Write, stand: &Stand) -> io::Result<()> {
+    if stand.trees.is_empty() {
+        return Ok(());
+    }
+    writeln!(out, "def Scope \"Trees\"\n{{")?;
+    for (number, tree) in stand.trees.iter().enumerate() {
+        write_tree(out, stand, tree, &format!("Tree_{number}"))?;
+    }
+    writeln!(out, "}}")
+}
+
+fn write_tree(out: &mut impl Write, stand: &Stand, tree: &StandingTree, name: &str) -> io::Result<()> {
+    let path = format!("/World/Trees/{name}");
+    let joints = joints(tree);
+    let mut names: Vec<String> = Vec::with_capacity(joints.len());
+    for (number, segment) in tree.skeleton.segments.iter().enumerate() {
+        let own = format!("s{number}");
+        names.push(match segment.parent {
+            Some(parent) => format!("{}/{own}", names[parent as usize]),
+            None => own,
+        });
+    }
+    let place = |row: usize| {
+        let [x, y, z, _] = stand.rest_base[row];
+        (Vec3::new(x, y, z), Quat::from_array(stand.rest_pose[row]).normalize())
+    };
+    let rest = joints.iter().map(|&(row, parent)| {
+        let (at, turn) = place(row);
+        let (above, above_turn) = parent.map_or((Vec3::ZERO, Quat::IDENTITY), place);
+        let back = above_turn.conjugate();
+        (back * (at - above), back * turn)
+    });
+    let rest: Vec<(Vec3, Quat)> = rest.collect();
+    let mut list = String::new();
+    text::texts(&mut list, names);
+    let mut bind = String::new();
+    text::matrices(
+        &mut bind,
+        joints.iter().map(|&(row, _)| {
+            let (at, turn) = place(row);
+            Mat4::from_rotation_translation(turn, at)
+        }),
+    );
+    let mut resting = String::new();
+    text::matrices(&mut resting, rest.iter().map(|&(at, turn)| Mat4::from_rotation_translation(turn, at)));
+    let mut translations = String::new();
+    text::vectors(&mut translations, rest.iter().map(|(at, _)| at.to_array()));
+    let mut scales = String::new();
+    text::vectors(&mut scales, rest.iter().map(|_| [1.0; 3]));
+    write!(
+        out,
+        "def SkelRoot \"{name}\" (\nprepend apiSchemas = [\"SkelBindingAPI\"]\n)\n{{\nrel skel:skeleton = <{path}/Segments>\n\
+        def Skeleton \"Segments\" (\nprepend apiSchemas = [\"SkelBindingAPI\"]\n)\n{{\n\
+        uniform token[] joints = {list}\nuniform matrix4d[] bindTransforms = {bind}\n\
+        uniform matrix4d[] restTransforms = {resting}\nrel skel:animationSource = <{path}/Sway>\n}}\n\
+        def SkelAnimation \"Sway\"\n{{\nuniform token[] joints = {list}\nquatf[] rotations\n\
+        half3[] scales = {scales}\nfloat3[] translations = {translations}\n}}\n"
+    )?;
+    write_bark(out, tree, &path)?;
+    writeln!(out, "}}")
+}
+
+fn write_bark(out: &mut impl Write, tree: &StandingTree, path: &str) -> io::Result<()> {
+    let mesh = bark_mesh(&tree.skeleton, BarkDetail::Middle);
+    let points: Vec<[f32; 3]> =
+        mesh.positions_m.iter().map(|at| tree.place(Vec3::from(*at)).to_array()).collect();
+    let mut extent = String::new();
+    text::vectors(&mut extent, extent_of(&points));
+    let mut places = String::new();
+    text::vectors(&mut places, points.iter().copied());
+    let mut normals = String::new();
+    text::vectors(&mut normals, mesh.normals.iter().copied());
+    let mut texcoords = String::new();
+    text::vectors(&mut texcoords, mesh.texcoords.iter().copied());
+    let mut counts = String::new();
+    text::numbers(&mut counts, (0..mesh.triangle_count()).map(|_| 3));
+    let mut indices = String::new();
+    text::numbers(&mut indices, &mesh.indices);
+    let mut joints = String::new();
+    text::numbers(&mut joints, mesh.joints.as_flattened());
+    let mut weights = String::new();
+    text::numbers(&mut weights, mesh.weights.as_flattened());
+    write!(
+        out,
+        "def Mesh \"Bark\" (\nprepend apiSchemas = [\"MaterialBindingAPI\", \"SkelBindingAPI\"]\n)\n{{\n\
+        float3[] extent = {extent}\nint[] faceVertexCounts = {counts}\nint[] faceVertexIndices = {indices}\n\
+        rel material:binding = </World/Materials/{bark}>\nnormal3f[] normals = {normals} (\ninterpolation = \"vertex\"\n)\n\
+        point3f[] points = {places}\nmatrix4d primvars:skel:geomBindTransform = ((1, 0, 0, 0), (0, 1, 0, 0), (0, 0, 1, 0), (0, 0, 0, 1))\n\
+        int[] primvars:skel:jointIndices = {joints} (\nelementSize = 4\ninterpolation = \"vertex\"\n)\n\
+        float[] primvars:skel:jointWeights = {weights} (\nelementSize = 4\ninterpolation = \"vertex\"\n)\n\
+        texCoord2f[] primvars:st = {texcoords} (\ninterpolation = \"vertex\"\n)\nrel skel:skeleton = <{path}/Segments>\n\
+        uniform token subdivisionScheme = \"none\"\n}}\n",
+        bark = bark_name(tree.look.bark),
+    )
+}
+
+/// Name of a bark's material and picture.
+fn bark_name(kind: BarkKind) -> &'static str {
+    match kind {
+        BarkKind::Maple => "bark_maple",
+        BarkKind::Birch => "bark_birch",
+        BarkKind::Oak => "bark_oak",
+        BarkKind::Shrub => "bark_shrub",
+        BarkKind::Herb => "bark_herb",
+    }
+}
+
+/// The barks of a stand, each once.
+fn barks(stand: &Stand) -> impl Iterator<Item = BarkKind> {
+    BarkKind::ALL.into_iter().filter(|kind| stand.trees.iter().any(|tree| tree.look.bark == *kind))
+}
+
+/// Writes the materials of all barks.
+pub(super) fn write_materials(out: &mut impl Write, stand: &Stand) -> io::Result<()> {
+    barks(stand).try_for_each(|kind| {
+        write_material(out, &Coat { name: bark_name(kind), is_cut_out: false, roughness: 0.9 })
+    })
+}
+
+/// Writes the pictures of all barks into the folder that is there; `told` is the folder that errors name.
+pub(super) fn write_pictures(folder: &Path, told: &Path, stand: &Stand) -> anyhow::Result<()> {
+    let folder = folder.join(PICTURES);
+    fs::create_dir_all(&folder).map_err(|error| write_error(told, &error))?;
+    for kind in barks(stand) {
+        let saved = bark_picture(kind).save(folder.join(format!("{}.png", bark_name(kind))));
+        saved.map_err(|error| write_error(told, &io::Error::other(error)))?;
+    }
+    Ok(())
+}
+
+/// The colour of a bark, up the trunk from its lower edge.
+fn bark_picture(kind: BarkKind) -> RgbImage {
+    let bark = paint_bark(kind);
+    let size = u32::try_from(BARK_SIZE).unwrap_or(u32::MAX);
+    RgbImage::from_fn(size, size, |x, y| {
+        let at = 4 * ((size - 1 - y) * size + x) as usize;
+        Rgb(std::array::from_fn(|channel| srgb_from_root(bark.surface[0][at + channel])))
+    })
+}
+
+/// From the square root of a colour, as bark is painted, to sRGB.
+fn srgb_from_root(root: u8) -> u8 {
+    let linear = (f32::from(root) / 255.0).powi(2);
+    let encoded = if linear <= 0.003_130_8 { 12.92 * linear } else { 1.055 * linear.powf(1.0 / 2.4) - 0.055 };
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "from 0 to 255")]
+    let byte = (encoded * 255.0).round() as u8;
+    byte
+}
