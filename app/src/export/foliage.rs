@@ -148,7 +148,7 @@ mod tests {
 
     #[test]
     fn meshes_lie_in_the_leaf_frame_with_the_area_of_the_species() {
-        let (scene, foliage) = foliage(LeafShape::Paper);
+        let (scene, foliage) = foliage(LeafShape::Plate);
         for mesh in &foliage.meshes {
             let corner = |index: u32| Vec3::from(mesh.positions_m[index as usize]);
             let mut up_m2 = 0.0;

@@ -13,6 +13,8 @@ use clap::ValueEnum;
 pub enum Format {
     /// A USD stage: a point instancer, skinned trees, camera and lights.
     Usd,
+    /// A binary glTF file: one frame as instances, several as animated nodes of up to 4096 leaves.
+    Gltf,
     /// A table with a row for every leaf and frame.
     Csv,
     /// A folder with a binary point cloud for every frame.
@@ -28,12 +30,14 @@ impl Format {
         let ending = path.extension().and_then(OsStr::to_str).map(str::to_ascii_lowercase);
         let told = match ending.as_deref() {
             Some("usda") => Some(Self::Usd),
+            Some("glb") => Some(Self::Gltf),
             Some("csv") => Some(Self::Csv),
             None if path.file_name().is_some() => Some(Self::Ply),
             _ => None,
         };
         let wanted = |format: Self| match format {
             Self::Usd => "FILE.usda",
+            Self::Gltf => "FILE.glb",
             Self::Csv => "FILE.csv",
             Self::Ply => "a folder, a path without an ending",
         };

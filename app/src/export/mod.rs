@@ -9,10 +9,12 @@ mod csv;
 mod foliage;
 mod format;
 mod frame;
+mod gltf;
 mod ply;
 mod range;
 mod space;
 mod usd;
+mod wood;
 
 use std::path::{Path, PathBuf};
 
@@ -65,6 +67,7 @@ pub fn start(format: Format, job: &Job<'_>) -> anyhow::Result<Box<dyn Exporter>>
     Ok(match format {
         Format::Csv => Box::new(csv::CsvExport::start(job.path)?),
         Format::Usd => Box::new(usd::UsdExport::start(job)?),
+        Format::Gltf => gltf::start(job)?,
         Format::Ply => Box::new(ply::PlyExport::start(job.path)?),
     })
 }

@@ -6,7 +6,7 @@ use std::path::Path;
 
 use anyhow::bail;
 
-use super::{Format, FrameRange, csv, ply, usd};
+use super::{Format, FrameRange, csv, gltf, ply, usd};
 use crate::terminal;
 
 /// Bytes from which the user is told how much it will be.
@@ -26,6 +26,7 @@ impl Estimate {
     pub(crate) fn new(format: Format, frames: FrameRange, leaves: u32, path: &Path) -> Self {
         let row = match format {
             Format::Usd => usd::LEAF_BYTES,
+            Format::Gltf => gltf::LEAF_BYTES,
             Format::Csv => csv::ROW_BYTES,
             Format::Ply => ply::VERTEX_BYTES,
         };

@@ -11,7 +11,7 @@ mod samples;
 mod stage;
 mod text;
 mod trees;
-mod view;
+pub(super) mod view;
 
 use std::fs::{self, File};
 use std::io::{BufWriter, Write};

@@ -9,7 +9,7 @@ use std::io::{self, BufWriter, Write};
 use std::path::Path;
 
 /// Text of samples from which a layer is full.
-const LAYER_BYTES: usize = 8 << 20;
+const LAYER_BYTES: usize = 16 << 20;
 
 /// An attribute that has samples.
 #[derive(Debug)]

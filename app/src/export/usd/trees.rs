@@ -8,25 +8,22 @@ use std::io::{self, Write};
 use std::path::Path;
 
 use glam::{Mat4, Quat, Vec3};
-use image::{Rgb, RgbImage};
-use windfall_core::tree::{BarkDetail, bark_mesh};
 
 use super::prototypes::{Coat, PICTURES, extent_of, write_material};
 use super::samples::{Handle, Samples};
 use super::text;
 use crate::commands::output_file::write_error;
 use crate::export::Frame;
-use crate::render::{BARK_SIZE, paint_bark};
-use crate::trees::{BarkKind, Stand, StandingTree};
+use crate::export::wood::{
+    Joint, at_rest, at_rest_above, bark, bark_name, bark_picture, barks, joints, rotations,
+};
+use crate::trees::{Stand, StandingTree};
 
 /// The joints of all trees.
 #[derive(Debug)]
 pub(super) struct TreeSamples {
     trees: Vec<(Handle, Vec<Joint>)>,
 }
-
-/// Row of the branch columns of a segment, and of the one that it grows from.
-type Joint = (usize, Option<usize>);
 
 impl TreeSamples {
     pub(super) fn declare(samples: &mut Samples, stand: &Stand) -> Self {
@@ -43,22 +40,6 @@ impl TreeSamples {
             samples.add(*handle, frame.number, |out| text::quaternions(out, rotations(joints, pose)));
         }
     }
-}
-
-/// The rows of a tree's segments.
-fn joints(tree: &StandingTree) -> Vec<Joint> {
-    let row = |segment: u32| tree.rows[segment as usize] as usize;
-    let parents = tree.skeleton.segments.iter().map(|segment| segment.parent.map(row));
-    tree.rows.iter().map(|&row| row as usize).zip(parents).collect()
-}
-
-/// How each segment is turned against the one that it grows from.
-fn rotations(joints: &[Joint], pose: &[[f32; 4]]) -> impl Iterator<Item = [f32; 4]> {
-    let turn = |row: usize| Quat::from_array(pose[row]);
-    joints.iter().map(move |&(row, parent)| {
-        let above = parent.map_or(Quat::IDENTITY, turn);
-        (above.conjugate() * turn(row)).normalize().to_array()
-    })
 }
 
 /// Writes the trees.
@@ -84,16 +65,7 @@ fn write_tree(out: &mut impl Write, stand: &Stand, tree: &StandingTree, name: &s
             None => own,
         });
     }
-    let place = |row: usize| {
-        let [x, y, z, _] = stand.rest_base[row];
-        (Vec3::new(x, y, z), Quat::from_array(stand.rest_pose[row]).normalize())
-    };
-    let rest = joints.iter().map(|&(row, parent)| {
-        let (at, turn) = place(row);
-        let (above, above_turn) = parent.map_or((Vec3::ZERO, Quat::IDENTITY), place);
-        let back = above_turn.conjugate();
-        (back * (at - above), back * turn)
-    });
+    let rest = joints.iter().map(|&joint| at_rest_above(stand, joint));
     let rest: Vec<(Vec3, Quat)> = rest.collect();
     let mut list = String::new();
     text::texts(&mut list, names);
@@ -101,7 +73,7 @@ fn write_tree(out: &mut impl Write, stand: &Stand, tree: &StandingTree, name: &s
     text::matrices(
         &mut bind,
         joints.iter().map(|&(row, _)| {
-            let (at, turn) = place(row);
+            let (at, turn) = at_rest(stand, row);
             Mat4::from_rotation_translation(turn, at)
         }),
     );
@@ -125,13 +97,11 @@ fn write_tree(out: &mut impl Write, stand: &Stand, tree: &StandingTree, name: &s
 }
 
 fn write_bark(out: &mut impl Write, tree: &StandingTree, path: &str) -> io::Result<()> {
-    let mesh = bark_mesh(&tree.skeleton, BarkDetail::Middle);
-    let points: Vec<[f32; 3]> =
-        mesh.positions_m.iter().map(|at| tree.place(Vec3::from(*at)).to_array()).collect();
+    let mesh = bark(tree);
     let mut extent = String::new();
-    text::vectors(&mut extent, extent_of(&points));
+    text::vectors(&mut extent, extent_of(&mesh.positions_m));
     let mut places = String::new();
-    text::vectors(&mut places, points.iter().copied());
+    text::vectors(&mut places, mesh.positions_m.iter().copied());
     let mut normals = String::new();
     text::vectors(&mut normals, mesh.normals.iter().copied());
     let mut texcoords = String::new();
@@ -158,22 +128,6 @@ fn write_bark(out: &mut impl Write, tree: &StandingTree, path: &str) -> io::Resu
     )
 }
 
-/// Name of a bark's material and picture.
-fn bark_name(kind: BarkKind) -> &'static str {
-    match kind {
-        BarkKind::Maple => "bark_maple",
-        BarkKind::Birch => "bark_birch",
-        BarkKind::Oak => "bark_oak",
-        BarkKind::Shrub => "bark_shrub",
-        BarkKind::Herb => "bark_herb",
-    }
-}
-
-/// The barks of a stand, each once.
-fn barks(stand: &Stand) -> impl Iterator<Item = BarkKind> {
-    BarkKind::ALL.into_iter().filter(|kind| stand.trees.iter().any(|tree| tree.look.bark == *kind))
-}
-
 /// Writes the materials of all barks.
 pub(super) fn write_materials(out: &mut impl Write, stand: &Stand) -> io::Result<()> {
     barks(stand).try_for_each(|kind| {
@@ -190,23 +144,4 @@ pub(super) fn write_pictures(folder: &Path, told: &Path, stand: &Stand) -> anyho
         saved.map_err(|error| write_error(told, &io::Error::other(error)))?;
     }
     Ok(())
-}
-
-/// The colour of a bark, up the trunk from its lower edge.
-fn bark_picture(kind: BarkKind) -> RgbImage {
-    let bark = paint_bark(kind);
-    let size = u32::try_from(BARK_SIZE).unwrap_or(u32::MAX);
-    RgbImage::from_fn(size, size, |x, y| {
-        let at = 4 * ((size - 1 - y) * size + x) as usize;
-        Rgb(std::array::from_fn(|channel| srgb_from_root(bark.surface[0][at + channel])))
-    })
-}
-
-/// From the square root of a colour, as bark is painted, to sRGB.
-fn srgb_from_root(root: u8) -> u8 {
-    let linear = (f32::from(root) / 255.0).powi(2);
-    let encoded = if linear <= 0.003_130_8 { 12.92 * linear } else { 1.055 * linear.powf(1.0 / 2.4) - 0.055 };
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "from 0 to 255")]
-    let byte = (encoded * 255.0).round() as u8;
-    byte
 }

@@ -91,7 +91,7 @@ pub(super) fn write_view(out: &mut impl Write, scene: &Scene, daylight: &Dayligh
 }
 
 /// From the camera's frame, which looks along -z with y up, to the world.
-fn pose(camera: &scene::Camera) -> Mat4 {
+pub(in crate::export) fn pose(camera: &scene::Camera) -> Mat4 {
     let camera = Camera::from(camera);
     let back = -camera.forward();
     Mat4::from_cols(

@@ -1,0 +1,253 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Several frames: a node for every leaf and a joint for every segment of the trees, all moved by one animation.
+
+use std::collections::HashMap;
+use std::io;
+use std::path::PathBuf;
+
+use glam::{Mat4, Quat};
+use serde_json::{Value, json};
+use windfall_core::leaf::LeafState;
+
+use super::file::Document;
+use super::scenery::{Barks, leaf_mesh, view};
+use crate::commands::output_file::{OutputFile, write_error};
+use crate::export::foliage::Foliage;
+use crate::export::wood::{Joint, at_rest, at_rest_above, bark, joints, rotations};
+use crate::export::{Exporter, Frame, FrameLeaf, Job};
+use crate::leaves::atlas_of;
+use crate::light::{Daylight, SunLight};
+use crate::trees::Stand;
+
+/// A clip in the making. The format wants everything of a node together, so it is gathered in memory, of which
+/// [`start`](super::start) sees that it is not too much.
+#[derive(Debug)]
+pub(super) struct ClipExport {
+    file: OutputFile,
+    document: Document,
+    foliage: Foliage,
+    stand: Stand,
+    sun: SunLight,
+    name: String,
+    first: u32,
+    fps: f64,
+    times: Vec<[f32; 1]>,
+    leaves: Vec<Track>,
+    /// For every tree its joints, and how each is turned in every frame.
+    trees: Vec<(Vec<Joint>, Vec<Vec<[f32; 4]>>)>,
+}
+
+/// What a leaf does.
+#[derive(Clone, Debug, Default)]
+struct Track {
+    /// Number of its kind when it is first seen.
+    kind: Option<usize>,
+    places: Vec<[f32; 3]>,
+    turns: Vec<[f32; 4]>,
+    /// Frames from which it has another size, and that size: none while it is nowhere.
+    sizes: Vec<(usize, f32)>,
+}
+
+impl ClipExport {
+    pub(super) fn start(job: &Job<'_>) -> anyhow::Result<Self> {
+        let file = OutputFile::create(job.path)?;
+        let sun = Daylight::new(&job.scene.view)?.sun;
+        let foliage = Foliage::new(job.scene, job.stand, &atlas_of(job.scene)?);
+        let trees = job.stand.trees.iter().map(|tree| (joints(tree), vec![Vec::new(); tree.rows.len()]));
+        Ok(Self {
+            file,
+            document: Document::default(),
+            foliage,
+            stand: job.stand.clone(),
+            sun,
+            name: job.scene.name.clone(),
+            first: job.frames.first,
+            fps: job.fps,
+            times: Vec::new(),
+            leaves: vec![Track::default(); job.scene.leaf_count() as usize],
+            trees: trees.collect(),
+        })
+    }
+
+    /// The document with everything that was gathered.
+    fn assemble(&mut self) -> io::Result<()> {
+        let mut movement = Movement { times: self.document.times(&self.times), ..Movement::default() };
+        let mut kinds: HashMap<usize, usize> = HashMap::new();
+        for (slot, track) in self.leaves.iter().enumerate() {
+            // A leaf that is never seen has none.
+            let Some(kind) = track.kind else { continue };
+            let mesh = match kinds.get(&kind) {
+                Some(&mesh) => mesh,
+                None => {
+                    *kinds.entry(kind).or_insert(leaf_mesh(&mut self.document, &self.foliage.meshes[kind])?)
+                }
+            };
+            let mut node = json!({ "name": format!("leaf.{slot}"), "mesh": mesh });
+            if let [(_, size)] = track.sizes[..] {
+                node["scale"] = json!([size, size, size]);
+            }
+            let node = self.document.add_root(node);
+            let (places, turns) = (self.document.floats(&track.places), self.document.floats(&track.turns));
+            movement.add(node, "translation", places);
+            movement.add(node, "rotation", turns);
+            if track.sizes.len() > 1 {
+                let times: Vec<[f32; 1]> = track.sizes.iter().map(|&(frame, _)| self.times[frame]).collect();
+                let sizes: Vec<[f32; 3]> = track.sizes.iter().map(|&(_, size)| [size; 3]).collect();
+                let (times, sizes) = (self.document.times(&times), self.document.floats(&sizes));
+                movement.add_steps(node, "scale", times, sizes);
+            }
+        }
+        let mut barks = Barks::default();
+        for (number, (joints, turns)) in self.trees.iter().enumerate() {
+            self.stand.trees[number].rows.first().map_or(Ok(()), |_| {
+                add_tree(&mut self.document, &mut movement, &mut barks, &self.stand, number, (joints, turns))
+            })?;
+        }
+        if !movement.channels.is_empty() {
+            let Movement { channels, samplers, .. } = movement;
+            self.document
+                .add("animations", json!({ "name": "fall", "channels": channels, "samplers": samplers }));
+        }
+        Ok(())
+    }
+}
+
+impl Exporter for ClipExport {
+    fn push(&mut self, frame: &Frame<'_>) -> anyhow::Result<()> {
+        if self.times.is_empty() {
+            view(&mut self.document, frame.world.environment.scene(), self.sun, frame.world.clock.seconds());
+        }
+        #[expect(clippy::cast_possible_truncation, reason = "the format has single precision")]
+        let time_s = (f64::from(frame.number - self.first) / self.fps) as f32;
+        self.times.push([time_s]);
+        for (track, leaf) in self.leaves.iter_mut().zip(frame.leaves) {
+            track.push(leaf, &self.foliage);
+        }
+        let pose = &frame.world.branches.pose;
+        for (joints, turns) in &mut self.trees {
+            for (turns, turn) in turns.iter_mut().zip(rotations(joints, pose)) {
+                turns.push(near(turn, turns.last()));
+            }
+        }
+        Ok(())
+    }
+
+    fn finish(mut self: Box<Self>) -> anyhow::Result<PathBuf> {
+        let assembled = self.assemble();
+        assembled.map_err(|error| write_error(self.file.destination(), &error))?;
+        self.document.finish(&self.name, self.file)
+    }
+}
+
+impl Track {
+    /// A leaf that is nowhere waits where it was last, or where it is going to be first, with no size: so it does not
+    /// sweep through the scene.
+    fn push(&mut self, leaf: &FrameLeaf, foliage: &Foliage) {
+        let frame = self.places.len();
+        let is_seen = leaf.state != LeafState::Dormant;
+        let size = if is_seen { leaf.size } else { 0.0 };
+        if self.sizes.last().is_none_or(|&(_, last)| last.to_bits() != size.to_bits()) {
+            self.sizes.push((frame, size));
+        }
+        let (place, turn) = match (is_seen, self.places.last(), self.turns.last()) {
+            (false, Some(place), Some(turn)) => (*place, *turn),
+            (false, ..) => ([0.0; 3], [0.0, 0.0, 0.0, 1.0]),
+            (true, _, before) => (leaf.position_m, near(leaf.quaternion, before)),
+        };
+        if is_seen && self.kind.is_none() {
+            self.kind = Some(foliage.kind(leaf));
+            self.places.fill(place);
+            self.turns.fill(turn);
+        }
+        self.places.push(place);
+        self.turns.push(turn);
+    }
+}
+
+/// Of the two quaternions of an orientation the one closer to that of the frame before: some programs interpolate each
+/// component by itself.
+fn near(turn: [f32; 4], before: Option<&[f32; 4]>) -> [f32; 4] {
+    let is_far = before.is_some_and(|before| Quat::from_array(*before).dot(Quat::from_array(turn)) < 0.0);
+    if is_far { turn.map(|part| -part) } else { turn }
+}
+
+/// The channels of the animation.
+#[derive(Debug, Default)]
+struct Movement {
+    /// Accessor of the times of all frames.
+    times: usize,
+    channels: Vec<Value>,
+    samplers: Vec<Value>,
+}
+
+impl Movement {
+    fn add(&mut self, node: usize, path: &str, output: usize) {
+        let times = self.times;
+        self.channel(node, path, json!({ "input": times, "output": output }));
+    }
+
+    fn add_steps(&mut self, node: usize, path: &str, times: usize, output: usize) {
+        self.channel(node, path, json!({ "input": times, "output": output, "interpolation": "STEP" }));
+    }
+
+    fn channel(&mut self, node: usize, path: &str, sampler: Value) {
+        let target = json!({ "node": node, "path": path });
+        self.channels.push(json!({ "sampler": self.samplers.len(), "target": target }));
+        self.samplers.push(sampler);
+    }
+}
+
+/// Adds a tree: bark, joints and how they turn.
+fn add_tree(
+    document: &mut Document,
+    movement: &mut Movement,
+    barks: &mut Barks,
+    stand: &Stand,
+    number: usize,
+    (joints, turns): (&[Joint], &[Vec<[f32; 4]>]),
+) -> io::Result<()> {
+    let tree = &stand.trees[number];
+    // One node above all joints, then these.
+    let first = document.node_count() + 1;
+    let mut children: Vec<Vec<usize>> = vec![Vec::new(); joints.len()];
+    let mut lowest = Vec::new();
+    for (index, segment) in tree.skeleton.segments.iter().enumerate() {
+        match segment.parent {
+            Some(parent) => children[parent as usize].push(first + index),
+            None => lowest.push(first + index),
+        }
+    }
+    document.add_root(json!({ "name": format!("tree.{number}"), "children": lowest }));
+    for (index, (&joint, children)) in joints.iter().zip(children).enumerate() {
+        let (place, turn) = at_rest_above(stand, joint);
+        let mut node = json!({
+            "name": format!("tree.{number}.segment.{index}"),
+            "translation": place.to_array(),
+            "rotation": turn.normalize().to_array(),
+        });
+        if !children.is_empty() {
+            node["children"] = json!(children);
+        }
+        let node = document.add("nodes", node);
+        let output = document.floats(&turns[index]);
+        movement.add(node, "rotation", output);
+    }
+    let binds: Vec<[f32; 16]> = joints
+        .iter()
+        .map(|&(row, _)| {
+            let (place, turn) = at_rest(stand, row);
+            let back = turn.conjugate();
+            Mat4::from_rotation_translation(back, back * -place).to_cols_array()
+        })
+        .collect();
+    let skin = json!({
+        "inverseBindMatrices": document.matrices(&binds),
+        "joints": (first..first + joints.len()).collect::<Vec<_>>(),
+        "skeleton": first - 1,
+    });
+    let skin = document.add("skins", skin);
+    let mesh = barks.mesh(document, tree.look.bark, &bark(tree), true)?;
+    document.add_root(json!({ "name": format!("tree.{number}.bark"), "mesh": mesh, "skin": skin }));
+    Ok(())
+}

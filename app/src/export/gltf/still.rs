@@ -1,0 +1,87 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! One frame: a node for every kind of leaf, which says where all leaves of it are (`EXT_mesh_gpu_instancing`).
+
+use std::io;
+use std::path::PathBuf;
+
+use serde_json::json;
+use windfall_core::leaf::LeafState;
+
+use super::file::Document;
+use super::scenery::{Barks, leaf_mesh, view};
+use crate::commands::output_file::{OutputFile, write_error};
+use crate::export::foliage::Foliage;
+use crate::export::{Exporter, Frame, FrameLeaf, Job, wood};
+use crate::leaves::atlas_of;
+use crate::light::{Daylight, SunLight};
+use crate::trees::Stand;
+
+/// A frame in the making.
+#[derive(Debug)]
+pub(super) struct StillExport {
+    file: OutputFile,
+    document: Document,
+    foliage: Foliage,
+    stand: Stand,
+    sun: SunLight,
+    name: String,
+}
+
+impl StillExport {
+    pub(super) fn start(job: &Job<'_>) -> anyhow::Result<Self> {
+        let file = OutputFile::create(job.path)?;
+        let sun = Daylight::new(&job.scene.view)?.sun;
+        let foliage = Foliage::new(job.scene, job.stand, &atlas_of(job.scene)?);
+        let name = job.scene.name.clone();
+        Ok(Self { file, document: Document::default(), foliage, stand: job.stand.clone(), sun, name })
+    }
+
+    fn add(&mut self, frame: &Frame<'_>) -> io::Result<()> {
+        let document = &mut self.document;
+        view(document, frame.world.environment.scene(), self.sun, frame.world.clock.seconds());
+        let mut kinds: Vec<Vec<&FrameLeaf>> = vec![Vec::new(); self.foliage.meshes.len()];
+        for leaf in frame.leaves.iter().filter(|leaf| leaf.state != LeafState::Dormant) {
+            kinds[self.foliage.kind(leaf)].push(leaf);
+        }
+        document.extend("EXT_mesh_gpu_instancing", true);
+        for (mesh, leaves) in self.foliage.meshes.iter().zip(kinds).filter(|(_, leaves)| !leaves.is_empty()) {
+            let places: Vec<[f32; 3]> = leaves.iter().map(|leaf| leaf.position_m).collect();
+            let turns: Vec<[f32; 4]> = leaves.iter().map(|leaf| leaf.quaternion).collect();
+            let sizes: Vec<[f32; 3]> = leaves.iter().map(|leaf| [leaf.size; 3]).collect();
+            let ids: Vec<u32> = leaves.iter().map(|leaf| leaf.id).collect();
+            let attributes = json!({
+                "TRANSLATION": document.floats(&places),
+                "ROTATION": document.floats(&turns),
+                "SCALE": document.floats(&sizes),
+            });
+            let index = leaf_mesh(document, mesh)?;
+            document.add_root(json!({
+                "name": mesh.name,
+                "mesh": index,
+                "extensions": { "EXT_mesh_gpu_instancing": { "attributes": attributes } },
+                "extras": { "ids": ids },
+            }));
+        }
+        let mut barks = Barks::default();
+        for (number, tree) in self.stand.trees.iter().enumerate() {
+            let mut mesh = wood::bark(tree);
+            let branches = &frame.world.branches;
+            wood::bend(&mut mesh, &self.stand, tree, &branches.base, &branches.pose);
+            let index = barks.mesh(document, tree.look.bark, &mesh, false)?;
+            document.add_root(json!({ "name": format!("tree.{number}"), "mesh": index }));
+        }
+        Ok(())
+    }
+}
+
+impl Exporter for StillExport {
+    fn push(&mut self, frame: &Frame<'_>) -> anyhow::Result<()> {
+        let added = self.add(frame);
+        added.map_err(|error| write_error(self.file.destination(), &error))
+    }
+
+    fn finish(self: Box<Self>) -> anyhow::Result<PathBuf> {
+        self.document.finish(&self.name, self.file)
+    }
+}
