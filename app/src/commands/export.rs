@@ -58,7 +58,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
         bail!("--frames and --fps ask for {last} steps; allowed: at most {MAX_STEPS}");
     }
     let leaves = scene.leaf_count();
-    check_space(Estimate::new(format, frames, leaves, path), frames, leaves, path)?;
+    let note = check_space(Estimate::new(format, frames, leaves, path), frames, leaves, path)?;
     let choice = arguments.backend.choose()?;
     interrupt::listen();
     let mut world = World::build(&scene)?;
@@ -67,8 +67,8 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let mut observer = Observer::new(&stand);
     let job = Job { scene: &scene, world: &world, stand: &stand, path, frames, fps: arguments.fps };
     let mut exporter = export::start(format, &job)?;
-    if let Some(reason) = choice.reason {
-        terminal::note(&reason);
+    for line in [choice.reason, note].into_iter().flatten() {
+        terminal::note(&line);
     }
     let bar = progress_bar(frames.count());
     let mut clip = Clip { backend: &mut backend, stepping: Stepping::default(), step: 0 };

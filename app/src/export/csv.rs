@@ -93,3 +93,68 @@ fn field(text: &str) -> String {
         text.to_owned()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use windfall_core::{Scene, World};
+
+    use super::*;
+    use crate::export::Observer;
+    use crate::trees::Stand;
+
+    /// A disk with little room.
+    struct Small(usize);
+
+    impl Write for Small {
+        fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+            let room = self.0.checked_sub(bytes.len()).ok_or(io::ErrorKind::StorageFull)?;
+            self.0 = room;
+            Ok(bytes.len())
+        }
+
+        fn flush(&mut self) -> io::Result<()> {
+            Ok(())
+        }
+    }
+
+    #[test]
+    fn a_full_disk_is_told_by_every_writer() {
+        let world = World::build(&Scene::default()).expect("a scene");
+        let stand = Stand::of(world.environment.scene(), world.environment.forest());
+        let mut observer = Observer::new(&stand);
+        let frame = observer.look(&world, 0);
+        let full =
+            |result: io::Result<()>| result.map_err(|error| error.kind()) == Err(io::ErrorKind::StorageFull);
+        for room in [0, 100, 4000] {
+            assert!(
+                full(write_frame(&mut Small(room), &mut String::new(), &frame)),
+                "{room} bytes of a table"
+            );
+            assert!(full(super::super::ply::write_frame(&mut Small(room), &frame)), "{room} bytes of points");
+        }
+        assert!(write_frame(&mut Small(usize::MAX), &mut String::new(), &frame).is_ok(), "with room");
+    }
+
+    #[test]
+    fn every_row_has_as_many_fields_as_the_header() {
+        let leaf = |state| FrameLeaf {
+            slot: 1,
+            id: 2,
+            state,
+            motion: "SD",
+            species: 0,
+            position_m: [1.0, 2.0, 3.0],
+            quaternion: [0.0, 0.0, 0.0, 1.0],
+            velocity_m_s: [0.0; 3],
+            size: 2.0,
+            look: 0,
+        };
+        for state in [LeafState::Dormant, LeafState::Falling] {
+            let mut row = "0,0,0".to_owned();
+            write_row(&mut row, &leaf(state), &field("maple"), 0.5);
+            assert_eq!(row.matches(',').count(), HEADER.matches(',').count(), "{row}");
+            assert_eq!(row.ends_with(",1\n"), state == LeafState::Falling, "size in metres: {row}");
+        }
+        assert_eq!(field("a \"b\", c"), "\"a \"\"b\"\", c\"", "quoted");
+    }
+}

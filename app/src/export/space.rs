@@ -7,7 +7,6 @@ use std::path::Path;
 use anyhow::bail;
 
 use super::{Format, FrameRange, csv, gltf, ply, usd};
-use crate::terminal;
 
 /// Bytes from which the user is told how much it will be.
 const LARGE: u64 = 1_000_000_000;
@@ -34,7 +33,7 @@ impl Estimate {
     }
 }
 
-/// Refuses what does not fit on the disk, and tells of what is large.
+/// Refuses what does not fit on the disk; of what is large, a line for the user.
 ///
 /// # Errors
 /// Names the frames, the leaves and the room there is.
@@ -43,7 +42,7 @@ pub(crate) fn check_space(
     frames: FrameRange,
     leaves: u32,
     path: &Path,
-) -> anyhow::Result<()> {
+) -> anyhow::Result<Option<String>> {
     let FrameRange { first, last } = frames;
     let gigabytes = |bytes: u64| bytes as f64 * 1e-9;
     if let Some(free) = estimate.free.filter(|&free| estimate.bytes > free) {
@@ -55,11 +54,10 @@ pub(crate) fn check_space(
             path.display()
         );
     }
-    if estimate.bytes >= LARGE {
-        let bytes = gigabytes(estimate.bytes);
-        terminal::note(&format!("about {bytes:.1} GB for {} frames of {leaves} leaves", frames.count()));
-    }
-    Ok(())
+    let frames = frames.count();
+    let is_large = estimate.bytes >= LARGE;
+    Ok(is_large
+        .then(|| format!("about {:.1} GB for {frames} frames of {leaves} leaves", gigabytes(estimate.bytes))))
 }
 
 /// Bytes free for this user on the disk where `path` will lie.
@@ -94,7 +92,8 @@ mod tests {
         );
         assert!(error.contains("3.0 GB that are free") && error.contains("a.csv"), "{error}");
         estimate.free = Some(estimate.bytes);
-        assert!(check_space(estimate, frames, 10_000, path).is_ok(), "just fits");
+        let note = check_space(estimate, frames, 10_000, path).expect("just fits").expect("much");
+        assert!(note.contains("17.0 GB for 10000 frames of 10000 leaves"), "{note}");
     }
 
     #[cfg(unix)]

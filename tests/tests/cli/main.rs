@@ -5,6 +5,7 @@
 mod common_cli;
 
 mod bad_input;
+mod export;
 mod flight;
 mod leaf;
 mod render;

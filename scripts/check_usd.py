@@ -1,0 +1,132 @@
+# SPDX-FileCopyrightText: The Windfall authors
+# SPDX-License-Identifier: MIT OR Apache-2.0
+"""Validates stages of `windfall export` and compares them with the tables of the same frames; see check-usd."""
+
+import csv
+import struct
+import sys
+
+from pxr import Gf, Usd, UsdGeom, UsdShade, UsdSkel, UsdValidation
+
+# Greatest difference of a component of an orientation in half precision: half a unit in the last place below one, and
+# the rounding of the text.
+HALF = 2.5e-4 + 5e-5
+
+
+def single(text):
+    """The number as single precision has it."""
+    return struct.unpack("<f", struct.pack("<f", float(text)))[0]
+
+
+def issues(stage):
+    validators = UsdValidation.ValidationRegistry().GetOrLoadAllValidators()
+    assert len(validators) > 20, f"only {len(validators)} validators"
+    found = UsdValidation.ValidationContext(validators).Validate(stage)
+    return [f"{error.GetName()}: {error.GetMessage()}" for error in found]
+
+
+def compare(stage, rows):
+    """Compares every frame of a stage with the rows of its table; how many leaves were compared."""
+    leaves = UsdGeom.PointInstancer(stage.GetPrimAtPath("/World/Leaves"))
+    prototypes = leaves.GetPrototypesRel().GetTargets()
+    compared = 0
+    frames = {}
+    for row in rows:
+        frames.setdefault(int(row["frame"]), []).append(row)
+    assert stage.GetStartTimeCode() == min(frames) and stage.GetEndTimeCode() == max(frames), "another range"
+    assert leaves.GetPositionsAttr().GetTimeSamples() == sorted(frames), "samples at other frames"
+    for frame, rows in frames.items():
+        positions = leaves.GetPositionsAttr().Get(frame)
+        halves = leaves.GetOrientationsAttr().Get(frame)
+        turns = leaves.GetOrientationsfAttr().Get(frame)
+        speeds = leaves.GetVelocitiesAttr().Get(frame)
+        scales = leaves.GetScalesAttr().Get(frame)
+        ids = leaves.GetIdsAttr().Get(frame)
+        hidden = set(leaves.GetInvisibleIdsAttr().Get(frame))
+        kinds = leaves.GetProtoIndicesAttr().Get(frame)
+        for column in (positions, halves, turns, speeds, scales, ids, kinds):
+            assert len(column) == len(rows), f"frame {frame}: {len(column)} of {len(rows)} leaves"
+        visible = sum(row["state"] != "dormant" for row in rows)
+        assert len(leaves.ComputeInstanceTransformsAtTime(frame, frame)) == visible, f"frame {frame}: other leaves are seen"
+        for at, row in enumerate(rows):
+            where = f"frame {frame}, leaf {at}"
+            assert ids[at] == int(row["id"]), f"{where}: id {ids[at]} is not {row['id']}"
+            assert 0 <= kinds[at] < len(prototypes), f"{where}: no prototype {kinds[at]}"
+            assert (ids[at] in hidden) == (row["state"] == "dormant"), f"{where}: {row['state']}"
+            if row["state"] == "dormant":
+                continue
+            told = lambda *names: tuple(single(row[name]) for name in names)
+            assert tuple(positions[at]) == told("x_m", "y_m", "z_m"), f"{where}: {positions[at]}"
+            assert tuple(speeds[at]) == told("vx_m_s", "vy_m_s", "vz_m_s"), f"{where}: {speeds[at]}"
+            turn = (*turns[at].GetImaginary(), turns[at].GetReal())
+            assert turn == told("qx", "qy", "qz", "qw"), f"{where}: {turn}"
+            half = (*halves[at].GetImaginary(), halves[at].GetReal())
+            assert max(abs(a - b) for a, b in zip(half, turn)) <= HALF, f"{where}: {half} is not {turn}"
+            compared += 1
+    return compared
+
+
+def check_tree(stage, moment):
+    """Bark and joints fit each other, and at rest the skeleton is where it was bound."""
+    cache = UsdSkel.Cache()
+    roots = [prim for prim in stage.Traverse() if prim.IsA(UsdSkel.Root)]
+    assert len(roots) == 1, f"{len(roots)} trees"
+    skeleton = UsdSkel.Skeleton(stage.GetPrimAtPath(roots[0].GetPath().AppendChild("Segments")))
+    query = cache.GetSkelQuery(skeleton)
+    assert query and query.GetAnimQuery(), "a skeleton with an animation"
+    bind = skeleton.GetBindTransformsAttr().Get()
+    rest = UsdSkel.ConcatJointTransforms(query.GetTopology(), skeleton.GetRestTransformsAttr().Get())
+    off = max((a.ExtractTranslation() - b.ExtractTranslation()).GetLength() for a, b in zip(bind, rest))
+    assert off < 1e-4, f"joints at rest are {off} m from where they are bound"
+    moved = query.ComputeJointSkelTransforms(moment)
+    sway = max((a.ExtractTranslation() - b.ExtractTranslation()).GetLength() for a, b in zip(bind, moved))
+    assert 1e-6 < sway < 1.0, f"segments sway by {sway} m"
+
+
+def check(path):
+    stage = Usd.Stage.Open(path + ".usda")
+    found = issues(stage)
+    assert not found, f"{path}: " + "; ".join(found)
+    assert stage.GetDefaultPrim().GetPath() == "/World" and UsdGeom.GetStageMetersPerUnit(stage) == 1.0, "metres"
+    assert UsdGeom.GetStageUpAxis(stage) == UsdGeom.Tokens.y and stage.GetTimeCodesPerSecond() == 30.0, "y up, 30 fps"
+    with open(path + ".csv", newline="") as file:
+        rows = list(csv.DictReader(file))
+    compared = compare(stage, rows)
+    assert compared > 500, f"only {compared} leaves were there to compare"
+    check_tree(stage, stage.GetEndTimeCode())
+    camera = UsdGeom.Camera(stage.GetPrimAtPath("/World/Camera")).GetCamera(stage.GetStartTimeCode())
+    assert 30.0 < camera.GetFieldOfView(Gf.Camera.FOVVertical) < 51.0, "a camera"
+    mesh = next(prim for prim in Usd.PrimRange(stage.GetPrimAtPath("/World/Leaves")) if prim.IsA(UsdGeom.Mesh))
+    material, _ = UsdShade.MaterialBindingAPI(mesh).ComputeBoundMaterial()
+    assert material, "a leaf has a material"
+    clips = len(Usd.ClipsAPI(stage.GetPrimAtPath("/World")).GetClipAssetPaths() or [])
+    print(f"{path.rsplit('/', 1)[-1]}: no issue, {compared} leaves equal, {clips} value clips")
+    return clips, rows
+
+
+def check_broken(path, rows):
+    """What the checks must not let pass: a leaf upside down, a shader without an identifier."""
+    stage = Usd.Stage.Open(path + ".usda")
+    positions = UsdGeom.PointInstancer(stage.GetPrimAtPath("/World/Leaves")).GetPositionsAttr()
+    frame = stage.GetEndTimeCode()
+    positions.Set([(x, -y, z) for x, y, z in positions.Get(frame)], frame)
+    try:
+        compare(stage, rows)
+    except AssertionError:
+        pass
+    else:
+        sys.exit("leaves below the ground are not found out")
+    shader = next(prim for prim in stage.Traverse() if prim.IsA(UsdShade.Shader))
+    UsdShade.Shader(shader).SetShaderId("NoSuchShader")
+    UsdGeom.SetStageUpAxis(stage, UsdGeom.Tokens.z)
+    stage.GetRootLayer().defaultPrim = ""
+    if not issues(stage):
+        sys.exit("a broken stage is not found out")
+
+
+short, long = sys.argv[1:]
+clips, rows = check(short)
+assert clips == 0, "a short stage has its samples in one layer"
+check_broken(short, rows)
+clips, _ = check(long)
+assert clips > 1, "a long stage has clips"

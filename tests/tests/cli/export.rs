@@ -1,0 +1,409 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! `windfall export`: every format tells what `simulate` does, and what is refused leaves nothing behind.
+
+use std::collections::HashMap;
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Stdio};
+use std::time::{Duration, Instant};
+
+use serde_json::Value;
+use tempfile::TempDir;
+
+use crate::common_cli::{assert_refused, command, contents, file, folder, windfall};
+
+/// A scene in which leaves hang, fall, lie and wait, and whose pictures are made in no time.
+const SCENE: &str = r#"(
+    wind: (speed: Beaufort(5)),
+    species: [(name: "plate, \"thin\"", shape: Plate, size_m: 0.06)],
+    sources: [(shape: Sphere(center_m: (0.0, 1.5, 0.0), radius_m: 0.5), count: 30,
+               release: Rate(per_s: 20.0, from_s: -1.0), recycle_after_s: 0.2)],
+    tree_kinds: [(name: "mine", form: Preset(Weed), foliage: (species: Some("plate, \"thin\"")))],
+    trees: [(kind: "mine", at_m: (2.0, -1.0), leaves: 10)],
+)"#;
+const LEAVES: usize = 40;
+
+fn scene() -> TempDir {
+    let there = folder();
+    file(&there, "scene.ron", SCENE);
+    there
+}
+
+fn export(there: &TempDir, frames: &str, out: &str, more: &[&str]) {
+    let options = ["export", "scene.ron", "--backend", "cpu", "--frames", frames, "--out", out];
+    let told = windfall(there, &[&options, more].concat()).text();
+    assert!(told.trim().ends_with(out), "it tells what it wrote: {told}");
+}
+
+/// Rows of a table as columns by name; no field of these tables but the species' holds a comma.
+fn table(path: &Path) -> Vec<HashMap<String, String>> {
+    let text = fs::read_to_string(path).expect("a table").replace("\"plate, \"\"thin\"\"\"", "plate");
+    let mut lines = text.lines();
+    let names: Vec<&str> = lines.next().expect("a header").split(',').collect();
+    let row = |line: &str| {
+        let fields: Vec<&str> = line.split(',').collect();
+        assert_eq!(fields.len(), names.len(), "{line}");
+        names.iter().zip(fields).map(|(name, field)| ((*name).to_owned(), field.to_owned())).collect()
+    };
+    lines.map(row).collect()
+}
+
+/// The numbers in the columns of a row.
+fn numbers<const N: usize>(row: &HashMap<String, String>, names: [&str; N]) -> [f32; N] {
+    names.map(|name| row[name].parse().expect("a number"))
+}
+
+const PLACE: [&str; 3] = ["x_m", "y_m", "z_m"];
+const SPEED: [&str; 3] = ["vx_m_s", "vy_m_s", "vz_m_s"];
+const TURN: [&str; 4] = ["qx", "qy", "qz", "qw"];
+
+/// The rows that the table has for a frame, slot by slot.
+fn frame(there: &TempDir, number: u32) -> Vec<HashMap<String, String>> {
+    let range = format!("{number}..{number}");
+    export(there, &range, "frame.csv", &["--fps", "30"]);
+    table(&there.path().join("frame.csv"))
+}
+
+#[test]
+fn tables_tell_what_simulate_does() {
+    let there = scene();
+    let tracks = ["--steps", "60", "--track-every", "2", "--tracks", "t.csv"];
+    windfall(&there, &[&["simulate", "scene.ron", "--backend", "cpu"], &tracks[..]].concat()).text();
+    let simulated = table(&there.path().join("t.csv"));
+    export(&there, "0..30", "a.csv", &["--fps", "30"]);
+    let exported = table(&there.path().join("a.csv"));
+    assert_eq!(exported.len(), 31 * LEAVES, "a row for every leaf and frame");
+    let mut seen = HashMap::new();
+    for (row, wanted) in exported.iter().zip(&simulated) {
+        *seen.entry(wanted["state"].clone()).or_insert(0) += 1;
+        let step: u32 = row["step"].parse().expect("a number");
+        assert_eq!(step, 2 * row["frame"].parse::<u32>().expect("a number"), "two steps a frame");
+        let is_attached = wanted["state"] == "attached";
+        for (name, value) in wanted {
+            // Of a leaf on its twig the blade's velocity is told, of one not turned yet that it is not.
+            let is_zero = TURN.contains(&name.as_str()) && TURN.iter().all(|part| wanted[*part] == "0");
+            if !(is_zero || is_attached && SPEED.contains(&name.as_str())) {
+                assert_eq!(&row[name], value, "{name} of {row:?}");
+            }
+        }
+        if wanted["state"] == "dormant" {
+            assert_eq!(row["size_m"], "", "nowhere and of no size");
+        } else {
+            assert!((0.01..0.2).contains(&numbers(row, ["size_m"])[0]), "{row:?}");
+        }
+    }
+    let states = ["attached", "falling", "resting", "dormant"];
+    assert!(states.iter().all(|state| seen.contains_key(*state)), "every state is compared: {seen:?}");
+    export(&there, "30..30", "b.csv", &["--fps", "30"]);
+    assert_eq!(table(&there.path().join("b.csv")), exported[30 * LEAVES..], "a later start changes nothing");
+}
+
+#[test]
+fn point_clouds_have_the_numbers_of_the_table() {
+    let there = scene();
+    export(&there, "19..20", "new/clouds", &["--fps", "30"]);
+    let path = there.path().join("new/clouds/frame_000020.ply");
+    assert!(there.path().join("new/clouds/frame_000019.ply").is_file(), "both frames are there");
+    let bytes = fs::read(path).expect("a file");
+    let end = b"end_header\n";
+    let start = bytes.windows(end.len()).position(|part| part == end).expect("a header") + end.len();
+    let header = String::from_utf8_lossy(&bytes[..start]);
+    assert!(header.starts_with("ply\nformat binary_little_endian 1.0\n"), "{header}");
+    let names: Vec<&str> = header.lines().filter_map(|line| line.strip_prefix("property float ")).collect();
+    let wanted: Vec<_> = frame(&there, 20).into_iter().filter(|row| row["state"] != "dormant").collect();
+    assert!(header.contains(&format!("element vertex {}\n", wanted.len())), "{header}");
+    let width = 4 * names.len() + 6;
+    assert_eq!(bytes.len() - start, width * wanted.len(), "as long as the header says");
+    for (vertex, row) in bytes[start..].chunks(width).zip(&wanted) {
+        let word = |at: usize| [vertex[at], vertex[at + 1], vertex[at + 2], vertex[at + 3]];
+        let value = |name: &str| {
+            let at = names.iter().position(|known| *known == name).expect("a property");
+            f32::from_le_bytes(word(4 * at))
+        };
+        assert_eq!(["x", "y", "z"].map(value), numbers(row, PLACE), "{row:?}");
+        assert_eq!(["vx", "vy", "vz"].map(value), numbers(row, SPEED), "{row:?}");
+        assert_eq!(["qx", "qy", "qz", "qw"].map(value), numbers(row, TURN), "{row:?}");
+        assert_eq!([value("size")], numbers(row, ["size_m"]), "{row:?}");
+        let normal = glam::Quat::from_array(numbers(row, TURN)) * glam::Vec3::Y;
+        assert!(normal.distance(["nx", "ny", "nz"].map(value).into()) < 1e-6, "{row:?}");
+        assert_eq!(u32::from_le_bytes(word(4 * names.len())).to_string(), row["id"], "{row:?}");
+        let state = ["dormant", "attached", "falling", "resting"][usize::from(vertex[width - 2])];
+        assert_eq!((state, vertex[width - 1]), (row["state"].as_str(), 0), "{row:?}");
+    }
+}
+
+/// The sample of an attribute at a frame, as rows of numbers; one that stays is that of a frame before.
+fn sample(layer: &str, declaration: &str, frame: u32) -> Vec<f32> {
+    let samples = layer.split_once(&format!("{declaration}.timeSamples = {{\n")).expect("samples").1;
+    let samples = samples.split_once("\n}").expect("an end").0;
+    let parsed = samples.lines().filter_map(|line| line.split_once(": "));
+    let (_, text) = parsed
+        .filter(|(number, _)| number.parse::<u32>().expect("a frame") <= frame)
+        .last()
+        .expect("a sample before");
+    let parts = text.split(|c: char| "[](), ".contains(c)).filter(|part| !part.is_empty());
+    parts.map(|part| part.parse().expect("a number")).collect()
+}
+
+#[test]
+fn a_stage_has_the_numbers_of_the_table() {
+    let there = scene();
+    export(&there, "0..20", "shot.usda", &["--fps", "30"]);
+    let read = |name: &str| fs::read_to_string(there.path().join(name)).expect("a layer");
+    let root = read("shot.usda");
+    for line in ["endTimeCode = 20", "timeCodesPerSecond = 30", "metersPerUnit = 1", "upAxis = \"Y\""] {
+        assert!(root.contains(line), "{line} is missing in {root}");
+    }
+    let stage = read("shot_layers/stage.usda");
+    for layer in [&root, &stage] {
+        for asset in layer.split('@').skip(1).step_by(2).filter(|asset| !asset.is_empty()) {
+            let folder =
+                if layer == &root { there.path().to_owned() } else { there.path().join("shot_layers") };
+            assert!(folder.join(asset).is_file(), "{asset} is there");
+        }
+    }
+    let layer = read("shot_layers/frames_00000.usda");
+    for number in [0, 20] {
+        let rows = frame(&there, number);
+        let dormant: Vec<f32> = rows
+            .iter()
+            .filter(|row| row["state"] == "dormant")
+            .flat_map(|row| numbers(row, ["id"]))
+            .collect();
+        assert_eq!(sample(&layer, "int64[] invisibleIds", number), dormant, "frame {number}");
+        let of = |declaration, width: usize| {
+            let all = sample(&layer, declaration, number);
+            assert_eq!(all.len(), width * LEAVES, "{declaration} of every leaf");
+            all.chunks(width).map(<[f32]>::to_vec).collect::<Vec<_>>()
+        };
+        let (places, speeds) = (of("point3f[] positions", 3), of("vector3f[] velocities", 3));
+        let (turns, halves) = (of("quatf[] orientationsf", 4), of("quath[] orientations", 4));
+        let (scales, ids) = (of("float3[] scales", 3), of("int64[] ids", 1));
+        for (slot, row) in rows.iter().enumerate() {
+            assert_eq!(ids[slot], numbers(row, ["id"]), "{row:?}");
+            if row["state"] == "dormant" {
+                assert_eq!(scales[slot], [0.0; 3], "of no size: {row:?}");
+                continue;
+            }
+            assert_eq!(places[slot], numbers(row, PLACE), "{row:?}");
+            assert_eq!(speeds[slot], numbers(row, SPEED), "{row:?}");
+            let [x, y, z, w] = numbers(row, TURN);
+            assert_eq!(turns[slot], [w, x, y, z], "{row:?}");
+            let apart = halves[slot].iter().zip(&turns[slot]).map(|(a, b)| (a - b).abs()).fold(0.0, f32::max);
+            assert!(apart < 1e-4, "{row:?}: {:?}", halves[slot]);
+            let [size_m] = numbers(row, ["size_m"]);
+            assert!((scales[slot][1] * 0.06 / size_m - 1.0).abs() < 1e-5, "{row:?}: {:?}", scales[slot]);
+        }
+    }
+    // Again over what is there, with fewer frames.
+    export(&there, "3..4", "shot.usda", &[]);
+    assert!(read("shot.usda").contains("endTimeCode = 4"), "the new one");
+    assert!(!read("shot_layers/frames_00000.usda").contains("\n20: "), "its layers too");
+    let names =
+        fs::read_dir(there.path()).expect("a folder").map(|entry| entry.expect("an entry").file_name());
+    let left: Vec<_> = names.filter(|name| name.to_string_lossy().starts_with('.')).collect();
+    assert_eq!(left, Vec::<std::ffi::OsString>::new(), "nothing of the old one is left");
+}
+
+/// The document of a `.glb` file and its buffer.
+fn glb(path: &Path) -> (Value, Vec<u8>) {
+    let bytes = fs::read(path).expect("a file");
+    let word = |at: usize| {
+        let word = [bytes[at], bytes[at + 1], bytes[at + 2], bytes[at + 3]];
+        usize::try_from(u32::from_le_bytes(word)).expect("a length")
+    };
+    assert_eq!((&bytes[..4], word(8)), (&b"glTF"[..], bytes.len()), "a whole file");
+    let text = word(12);
+    (serde_json::from_slice(&bytes[20..20 + text]).expect("JSON"), bytes[28 + text..].to_vec())
+}
+
+/// The floats of an accessor.
+fn floats(document: &Value, buffer: &[u8], accessor: &Value) -> Vec<f32> {
+    let index = |value: &Value| usize::try_from(value.as_u64().expect("an index")).expect("small");
+    let accessor = &document["accessors"][index(accessor)];
+    assert_eq!(accessor["componentType"], 5126, "floats");
+    let view = &document["bufferViews"][index(&accessor["bufferView"])];
+    let start = index(&view["byteOffset"]);
+    let bytes = buffer[start..start + index(&view["byteLength"])].chunks(4);
+    bytes.map(|word| f32::from_le_bytes([word[0], word[1], word[2], word[3]])).collect()
+}
+
+/// Whether two quaternions turn the same way.
+fn same_turn(a: &[f32], b: [f32; 4]) -> bool {
+    let dot: f32 = a.iter().zip(b).map(|(a, b)| a * b).sum();
+    (dot.abs() - 1.0).abs() < 1e-5
+}
+
+#[test]
+fn a_moving_gltf_file_has_the_numbers_of_the_table() {
+    let there = scene();
+    export(&there, "10..20", "clip.glb", &["--fps", "30"]);
+    let (document, buffer) = glb(&there.path().join("clip.glb"));
+    let rows = [frame(&there, 10), frame(&there, 20)];
+    let animation = &document["animations"][0];
+    let track = |node: usize, path: &str| {
+        let mut channels = animation["channels"].as_array().expect("channels").iter();
+        let channel = channels
+            .find(|channel| channel["target"]["node"] == node && channel["target"]["path"] == path)?;
+        let sampler =
+            &animation["samplers"][channel["sampler"].as_u64().and_then(|at| usize::try_from(at).ok())?];
+        Some((floats(&document, &buffer, &sampler["input"]), floats(&document, &buffer, &sampler["output"])))
+    };
+    let mut compared = 0;
+    for (node, name) in document["nodes"].as_array().expect("nodes").iter().enumerate() {
+        let Some(slot) = name["name"].as_str().and_then(|name| name.strip_prefix("leaf.")) else { continue };
+        let slot: usize = slot.parse().expect("a slot");
+        let (times, places) = track(node, "translation").expect("it moves");
+        let (_, turns) = track(node, "rotation").expect("it turns");
+        assert_eq!((times.len(), times[0], places.len()), (11, 0.0, 33), "eleven frames from nought on");
+        assert!((times[10] - 10.0 / 30.0).abs() < 1e-6, "ten frames later: {times:?}");
+        for (at, rows) in [(0, &rows[0]), (10, &rows[1])] {
+            let row = &rows[slot];
+            let size = match track(node, "scale") {
+                Some((when, sizes)) => {
+                    let now = when.iter().rposition(|time| *time <= times[at] + 1e-6).expect("a size");
+                    sizes[3 * now]
+                }
+                None => numbers_of(&name["scale"])[0],
+            };
+            if row["state"] == "dormant" {
+                assert_eq!(size.to_bits(), 0, "of no size: {row:?}");
+                continue;
+            }
+            assert_eq!(places[3 * at..3 * at + 3], numbers(row, PLACE), "{row:?}");
+            assert!(same_turn(&turns[4 * at..4 * at + 4], numbers(row, TURN)), "{row:?}");
+            assert!((size * 0.06 / numbers(row, ["size_m"])[0] - 1.0).abs() < 1e-5, "{size}: {row:?}");
+            compared += 1;
+        }
+    }
+    assert!(compared > LEAVES, "{compared} leaves compared");
+    assert_eq!(document["skins"].as_array().map(Vec::len), Some(1), "a tree that sways");
+}
+
+fn numbers_of(values: &Value) -> Vec<f32> {
+    serde_json::from_value(values.clone()).expect("numbers")
+}
+
+#[test]
+fn a_still_gltf_file_has_the_numbers_of_the_table() {
+    let there = scene();
+    export(&there, "20..20", "still.glb", &["--fps", "30"]);
+    let (document, buffer) = glb(&there.path().join("still.glb"));
+    let rows = frame(&there, 20);
+    let mut found = 0;
+    for node in document["nodes"].as_array().expect("nodes") {
+        let attributes = &node["extensions"]["EXT_mesh_gpu_instancing"]["attributes"];
+        let Some(ids) = node["extras"]["ids"].as_array() else { continue };
+        let [places, turns] =
+            ["TRANSLATION", "ROTATION"].map(|name| floats(&document, &buffer, &attributes[name]));
+        for (at, id) in ids.iter().enumerate() {
+            let row = rows.iter().find(|row| row["id"] == id.to_string()).expect("a leaf of this number");
+            assert_eq!(places[3 * at..3 * at + 3], numbers(row, PLACE), "{row:?}");
+            assert!(same_turn(&turns[4 * at..4 * at + 4], numbers(row, TURN)), "{row:?}");
+            found += 1;
+        }
+    }
+    let present = rows.iter().filter(|row| row["state"] != "dormant").count();
+    assert_eq!(found, present, "all leaves that are somewhere");
+    assert_eq!(
+        document["extensionsRequired"][0], "EXT_mesh_gpu_instancing",
+        "without it nothing is in its place"
+    );
+}
+
+#[test]
+fn both_backends_write_the_same_stage() {
+    let there = scene();
+    for backend in ["cpu", "wgpu"] {
+        let out = format!("{backend}.csv");
+        let options = ["--backend", backend, "--frames", "0..12", "--out", &out];
+        windfall(&there, &[&["export", "scene.ron"], &options[..]].concat()).text();
+    }
+    let [cpu, wgpu] = ["cpu.csv", "wgpu.csv"].map(|name| table(&there.path().join(name)));
+    assert_eq!(cpu.len(), wgpu.len(), "as many rows");
+    for (a, b) in cpu.iter().zip(&wgpu) {
+        assert_eq!((&a["id"], &a["state"]), (&b["id"], &b["state"]), "the same leaf");
+        if a["state"] != "dormant" {
+            let apart = glam::Vec3::from(numbers(a, PLACE)).distance(numbers(b, PLACE).into());
+            assert!(apart < 1e-3, "{apart} m apart: {a:?} {b:?}");
+        }
+    }
+}
+
+#[test]
+fn bad_input_is_refused_in_one_line() {
+    let there = scene();
+    file(&there, "plain", "a file");
+    fs::create_dir(there.path().join("mine_layers")).expect("a folder");
+    file(&there, "mine_layers/notes.txt", "not of an export");
+    let refuse = |arguments: &[&str], essentials: &[&str]| {
+        assert_refused(&there, &[&["export", "scene.ron"], arguments].concat(), essentials);
+    };
+    for range in ["9..3", "-1..4", "4", "1..x", "0..1000000"] {
+        refuse(
+            &["--frames", range, "--out", "a.csv"],
+            &["--frames", range, "allowed: FIRST..LAST", "999999"],
+        );
+    }
+    refuse(&["--out", "a.csv"], &["--frames"]);
+    refuse(&["--frames", "0..1"], &["--out"]);
+    refuse(&["--frames", "0..1", "--out", "a.obj"], &["--out", "a.obj", "FILE.usda", "FILE.glb", "FILE.csv"]);
+    refuse(
+        &["--frames", "0..1", "--out", "a.csv", "--format", "usd"],
+        &["--out", "a.csv", "usd", "FILE.usda"],
+    );
+    refuse(&["--frames", "0..1", "--out", "a.csv", "--format", "fbx"], &["--format", "fbx", "usd", "ply"]);
+    for out in ["no/a.csv", "no/a.usda", "no/a.glb"] {
+        refuse(&["--frames", "0..1", "--out", out], &[out, "there is no folder"]);
+    }
+    refuse(&["--frames", "0..1", "--out", "plain/frames"], &["plain/frames", "cannot write"]);
+    refuse(&["--frames", "0..1", "--out", "plain"], &["plain", "cannot write"]);
+    refuse(&["--frames", "0..1", "--out", "mine.usda"], &["mine_layers", "no layers of an export"]);
+    refuse(&["--frames", "0..1", "--out", "/dev/full", "--format", "csv"], &["/dev/full", "FILE.csv"]);
+    refuse(&["--frames", "0..1", "--out", "a.csv", "--fps", "0"], &["--fps", "0", "1 to 1000"]);
+    refuse(&["--frames", "0..1", "--out", "a.csv", "--backend", "cpu", "--adapter", "x"], &["--adapter"]);
+    let many = ["--leaves", "5000", "--backend", "cpu", "--frames", "0..1", "--out", "a.glb"];
+    refuse(&many, &["a.glb", "5000 leaves", "4096", "--leaves", "USD"]);
+    let long = ["--leaves", "4000", "--backend", "cpu", "--frames", "0..99999", "--out", "a.glb"];
+    refuse(&long, &["a.glb", "100000 frames", "allowed as glTF: 1024 MiB"]);
+    let huge = ["--leaves", "1e7", "--frames", "0..999999", "--out", "a.csv"];
+    refuse(&huge, &["--frames", "0..999999", "10000000 leaves", "GB that are free"]);
+}
+
+#[test]
+fn an_interrupt_leaves_nothing_behind() {
+    for out in ["a.csv", "a.usda", "a.glb", "clouds"] {
+        let there = scene();
+        let before = contents(there.path());
+        let mut child = command(
+            &there,
+            &["export", "scene.ron", "--frames", "0..99999", "--backend", "cpu", "--out", out],
+        )
+        .stderr(Stdio::piped())
+        .stdout(Stdio::piped())
+        .spawn()
+        .expect("the program starts");
+        let began = Instant::now();
+        while contents_or_none(there.path()) == before.len() {
+            assert!(began.elapsed() < Duration::from_secs(60), "{out}: it does not begin");
+            std::thread::sleep(Duration::from_millis(10));
+        }
+        std::thread::sleep(Duration::from_millis(500));
+        let sent = Command::new("kill").args(["-INT", &child.id().to_string()]).status();
+        assert!(sent.is_ok_and(|status| status.success()), "{out}: the interrupt is sent");
+        let status = child.wait().expect("it ends");
+        let mut stderr = String::new();
+        if let Some(mut pipe) = child.stderr.take() {
+            std::io::Read::read_to_string(&mut pipe, &mut stderr).expect("text");
+        }
+        assert_eq!(status.code(), Some(2), "{out}: {stderr}");
+        assert_eq!(stderr.trim(), "error: interrupted; nothing was written", "{out}");
+        assert_eq!(contents(there.path()), before, "{out}: nothing is left");
+    }
+}
+
+/// Number of entries of a folder that changes meanwhile.
+fn contents_or_none(folder: &Path) -> usize {
+    fs::read_dir(folder).map_or(0, Iterator::count)
+}
