@@ -79,6 +79,17 @@ impl BackendArguments {
         })
     }
 
+    /// The device to simulate on: the processor, if nothing else is asked for.
+    ///
+    /// # Errors
+    /// Options that exclude each other; [`SimError::NoAdapter`] if an adapter was asked for and there is none.
+    pub fn or_cpu(&self) -> anyhow::Result<Device> {
+        match self.kind()? {
+            None | Some(BackendKind::Cpu) => Ok(self.cpu()),
+            Some(BackendKind::Wgpu) => Ok(self.wgpu()?),
+        }
+    }
+
     /// The processor, with the threads asked for.
     pub fn cpu(&self) -> Device {
         Device::Cpu(CpuOptions { threads: self.threads, ..CpuOptions::default() })

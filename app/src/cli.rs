@@ -8,6 +8,7 @@ use std::process::ExitCode;
 use clap::{Parser, Subcommand};
 
 use crate::commands::{bench, export, flight, info, leaf, motions, render, simulate, tree, view};
+use crate::commands::{bench, flight, info, leaf, motions, render, simulate, study, tree, view};
 use crate::terminal;
 
 /// Exit code of everything that goes wrong.
@@ -39,6 +40,8 @@ pub enum Command {
     Bench(bench::Arguments),
     /// Drop leaves or pieces of paper in still air, and measure how they fall.
     Flight(flight::Arguments),
+    /// Drop leaves under many settings of a scene, and compare how they fall and where they land.
+    Study(study::Arguments),
     /// Write the motion tables of every species of a scene as text files.
     Motions(motions::Arguments),
     /// Make leaves for scenes, and study them.
@@ -59,6 +62,7 @@ impl Command {
             Self::Info => info::run(),
             Self::Bench(arguments) => bench::run(&arguments),
             Self::Flight(arguments) => flight::run(&arguments),
+            Self::Study(arguments) => study::run(&arguments),
             Self::Motions(arguments) => motions::run(&arguments),
             Self::Leaf(command) => command.run(),
             Self::Tree(command) => command.run(),

@@ -18,6 +18,7 @@ pub mod light;
 pub mod output;
 pub mod render;
 pub mod studio;
+pub mod study;
 pub mod terminal;
 pub mod trees;
 pub mod viewer;

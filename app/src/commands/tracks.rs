@@ -41,14 +41,7 @@ impl TrackArguments {
     /// Whatever would keep the file from being written.
     pub fn create(&self) -> anyhow::Result<Option<Tracks>> {
         let Some(path) = &self.tracks else { return Ok(None) };
-        let mut out = BufWriter::new(OutputFile::create(path)?);
-        out.write_all(HEADER.as_bytes()).map_err(|error| write_error(path, &error))?;
-        Ok(Some(Tracks {
-            out,
-            every: self.track_every,
-            leaves: self.track_leaves as usize,
-            row: String::new(),
-        }))
+        Tracks::create(path, self.track_every, self.track_leaves as usize).map(Some)
     }
 }
 
@@ -62,6 +55,16 @@ pub struct Tracks {
 }
 
 impl Tracks {
+    /// Begins a table of the first `leaves` leaves at every step whose number is a multiple of `every`, at least 1.
+    ///
+    /// # Errors
+    /// Whatever would keep the file from being written.
+    pub fn create(path: &Path, every: u32, leaves: usize) -> anyhow::Result<Self> {
+        let mut out = BufWriter::new(OutputFile::create(path)?);
+        out.write_all(HEADER.as_bytes()).map_err(|error| write_error(path, &error))?;
+        Ok(Self { out, every, leaves, row: String::new() })
+    }
+
     /// Where the table will lie.
     pub fn destination(&self) -> &Path {
         self.out.get_ref().destination()
@@ -80,12 +83,17 @@ impl Tracks {
     /// # Errors
     /// What the system says, named with the path.
     pub fn sample(&mut self, world: &World) -> anyhow::Result<()> {
-        for slot in 0..world.leaves.len().min(self.leaves) {
-            self.row.clear();
-            write_row(&mut self.row, world, slot);
-            self.out.write_all(self.row.as_bytes()).map_err(|error| self.failed(&error))?;
-        }
-        Ok(())
+        (0..world.leaves.len().min(self.leaves)).try_for_each(|slot| self.add(world, slot))
+    }
+
+    /// Adds the row of one leaf.
+    ///
+    /// # Errors
+    /// What the system says, named with the path.
+    pub fn add(&mut self, world: &World, slot: usize) -> anyhow::Result<()> {
+        self.row.clear();
+        write_row(&mut self.row, world, slot);
+        self.out.write_all(self.row.as_bytes()).map_err(|error| self.failed(&error))
     }
 
     /// Completes the table under its own name.
@@ -138,7 +146,7 @@ fn write_row(row: &mut String, world: &World, slot: usize) {
 }
 
 /// Text as a field of the table: in quotes if it would not stay one otherwise (RFC 4180).
-fn field(text: &str) -> String {
+pub(crate) fn field(text: &str) -> String {
     if text.contains([',', '"', '\n', '\r']) {
         format!("\"{}\"", text.replace('"', "\"\""))
     } else {

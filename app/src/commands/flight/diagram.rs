@@ -10,13 +10,13 @@ use clap::Args;
 use windfall_core::motion::AIR_DENSITY;
 use windfall_core::scene::limits::{AREAL_DENSITY_KG_M2, SIZE_M};
 
-use super::picture;
 use super::piece::{Piece, Release};
 use super::sample::Regime;
 use super::statistics::{Summary, Watch};
 use super::tunnel::Drops;
 use crate::backend::BackendArguments;
 use crate::cli::whole;
+use crate::commands::figure;
 use crate::commands::output_file::OutputFile;
 use crate::{interrupt, terminal};
 
@@ -43,7 +43,7 @@ const SETTLED: f64 = 0.5;
 #[derive(Clone, Debug, Args)]
 pub(super) struct Arguments {
     /// File to write: .png.
-    #[arg(long, value_name = "FILE", value_parser = picture::png_file)]
+    #[arg(long, value_name = "FILE", value_parser = figure::png_file)]
     out: PathBuf,
     /// Drops of each disc.
     #[arg(long, value_name = "N", default_value = "40", value_parser = whole::<u32, 1, 10_000>)]
@@ -90,7 +90,7 @@ pub(super) fn run(arguments: &Arguments) -> anyhow::Result<()> {
     }
     let spots: Vec<Spot> =
         spots.into_iter().collect::<anyhow::Result<Vec<_>>>()?.into_iter().flatten().collect();
-    picture::write(file, &arguments.out, plot::SIZE, |area| plot::draw(area, arguments.drops, &spots))?;
+    figure::write(file, &arguments.out, plot::SIZE, |area| plot::draw(area, arguments.drops, &spots))?;
     let counts =
         Regime::ALL.map(|regime| (regime, spots.iter().filter(|spot| spot.prevailing() == regime).count()));
     let counts = counts.map(|(regime, count)| format!("{} {count}", regime.name())).join(", ");

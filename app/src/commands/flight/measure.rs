@@ -5,7 +5,7 @@
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
-use anyhow::{anyhow, bail};
+use anyhow::bail;
 use clap::Args;
 use serde::Serialize;
 
@@ -14,7 +14,7 @@ use super::sample::{PerRegime, Regime};
 use super::statistics::{DropNumbers, SETTLE_M, Summary, Watch};
 use super::track_file::TrackFile;
 use super::tunnel::Drops;
-use crate::backend::{BackendArguments, BackendKind, Device};
+use crate::backend::BackendArguments;
 use crate::cli::whole;
 use crate::{interrupt, terminal};
 
@@ -83,7 +83,7 @@ pub(super) fn run(arguments: &Arguments) -> anyhow::Result<()> {
     interrupt::listen();
     let piece = arguments.piece.load()?.held(arguments.release);
     let mut tracks = arguments.tracks.as_deref().map(TrackFile::create).transpose()?;
-    let device = device(&arguments.backend)?;
+    let device = arguments.backend.or_cpu()?;
     let (count, height_m, seed) = (arguments.drops, arguments.height, arguments.seed);
     let drops = Drops { species: &piece.species, count, height_m, seed };
     let mut watches = vec![Watch::new(SETTLE_M); count as usize];
@@ -120,14 +120,6 @@ pub(super) fn run(arguments: &Arguments) -> anyhow::Result<()> {
     match arguments.json {
         true => terminal::print(&format!("{}\n", serde_json::to_string(&report)?)),
         false => terminal::print(&report.to_text(height_m)),
-    }
-}
-
-/// Where to simulate: on the processor, if nothing else is asked for.
-fn device(arguments: &BackendArguments) -> anyhow::Result<Device> {
-    match arguments.kind()? {
-        None | Some(BackendKind::Cpu) => Ok(arguments.cpu()),
-        Some(BackendKind::Wgpu) => arguments.wgpu().map_err(|error| anyhow!(error)),
     }
 }
 

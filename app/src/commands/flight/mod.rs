@@ -6,7 +6,6 @@ mod boundaries;
 mod diagram;
 mod measure;
 mod outline;
-mod picture;
 mod piece;
 mod sample;
 mod statistics;

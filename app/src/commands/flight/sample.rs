@@ -3,6 +3,7 @@
 //! A falling piece at a moment.
 
 use glam::{DQuat, DVec3};
+use plotters::style::RGBColor;
 use serde::Serialize;
 use windfall_core::World;
 use windfall_core::leaf::record::{REGIME_MASK, REGIME_SHIFT};
@@ -39,6 +40,18 @@ impl Regime {
             Self::Helical => "helical",
             Self::Spiral => "spiral",
         }
+    }
+}
+
+/// The colour of a regime.
+pub(super) fn color(regime: Regime) -> RGBColor {
+    match regime {
+        Regime::Steady => RGBColor(120, 132, 140),
+        Regime::Flutter => RGBColor(44, 124, 176),
+        Regime::Tumble => RGBColor(222, 142, 28),
+        Regime::Chaotic => RGBColor(186, 60, 48),
+        Regime::Helical => RGBColor(62, 138, 84),
+        Regime::Spiral => RGBColor(126, 84, 162),
     }
 }
 

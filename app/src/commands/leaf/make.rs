@@ -16,9 +16,9 @@ use windfall_texgen::{
     Photo, Shape, Stage,
 };
 
-use super::output_folder::OutputFolder;
 use super::photo_arguments::PhotoArguments;
 use crate::cli::whole;
+use crate::commands::output_folder::OutputFolder;
 use crate::{interrupt, terminal};
 
 /// A kind of leaf that can be drawn without photos.

@@ -4,7 +4,6 @@
 
 pub mod compare;
 pub mod make;
-mod output_folder;
 mod photo_arguments;
 mod picture_file;
 pub mod season_strip;

@@ -8,11 +8,11 @@ use std::path::{Path, PathBuf};
 
 use anyhow::anyhow;
 
-use crate::commands::output_file::write_error;
+use super::output_file::write_error;
 
 /// A folder in the making. Dropped without [`OutputFolder::finish`], it leaves no trace.
 #[derive(Debug)]
-pub(super) struct OutputFolder {
+pub(crate) struct OutputFolder {
     destination: PathBuf,
     partial: PathBuf,
     /// Folders above it that had to be made, the outermost first.
@@ -24,7 +24,7 @@ impl OutputFolder {
     ///
     /// # Errors
     /// Whatever would keep it from lying there, named with the path.
-    pub(super) fn create(path: &Path) -> anyhow::Result<Self> {
+    pub(crate) fn create(path: &Path) -> anyhow::Result<Self> {
         if path.exists() && !path.is_dir() {
             return Err(anyhow!(
                 "{}: cannot write: something that is not a folder lies there",
@@ -48,7 +48,7 @@ impl OutputFolder {
     }
 
     /// Where to write for now.
-    pub(super) fn partial(&self) -> &Path {
+    pub(crate) fn partial(&self) -> &Path {
         &self.partial
     }
 
@@ -57,7 +57,7 @@ impl OutputFolder {
     ///
     /// # Errors
     /// What the system says, named with the path.
-    pub(super) fn finish(self, last: &str) -> anyhow::Result<()> {
+    pub(crate) fn finish(self, last: &str) -> anyhow::Result<()> {
         if !self.destination.exists() {
             return fs::rename(&self.partial, &self.destination)
                 .map_err(|error| write_error(&self.destination, &error));

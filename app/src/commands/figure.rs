@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What the pictures of flights share: paper, ink, colours of the regimes, and how they become files.
+//! What plots share: paper, ink, text, and how they become files.
 
 use std::io::BufWriter;
 use std::path::{Path, PathBuf};
@@ -13,41 +13,28 @@ use plotters::coord::Shift;
 use plotters::prelude::*;
 use plotters::style::{FontStyle, register_font};
 
-use super::sample::Regime;
-use crate::commands::output_file::OutputFile;
+use super::output_file::OutputFile;
 
 /// Pictures are drawn so many times larger and then reduced, for smooth edges.
-pub(super) const UNIT: u32 = 3;
+pub(crate) const UNIT: u32 = 3;
 /// Lines and text.
-pub(super) const INK: RGBColor = RGBColor(46, 42, 38);
+pub(crate) const INK: RGBColor = RGBColor(46, 42, 38);
 /// Background.
-pub(super) const PAPER: RGBColor = RGBColor(252, 250, 246);
+pub(crate) const PAPER: RGBColor = RGBColor(252, 250, 246);
 const FONT: &str = "Ubuntu";
 
 /// What is drawn on.
-pub(super) type Area<'a> = DrawingArea<BitMapBackend<'a>, Shift>;
+pub(crate) type Area<'a> = DrawingArea<BitMapBackend<'a>, Shift>;
 /// What drawing may fail with.
-pub(super) type Drawn = Result<(), Box<dyn std::error::Error>>;
-
-/// The colour of a regime.
-pub(super) fn color(regime: Regime) -> RGBColor {
-    match regime {
-        Regime::Steady => RGBColor(120, 132, 140),
-        Regime::Flutter => RGBColor(44, 124, 176),
-        Regime::Tumble => RGBColor(222, 142, 28),
-        Regime::Chaotic => RGBColor(186, 60, 48),
-        Regime::Helical => RGBColor(62, 138, 84),
-        Regime::Spiral => RGBColor(126, 84, 162),
-    }
-}
+pub(crate) type Drawn = Result<(), Box<dyn std::error::Error>>;
 
 /// Text of a size in pixels of the finished picture.
-pub(super) fn font(size: u32) -> TextStyle<'static> {
+pub(crate) fn font(size: u32) -> TextStyle<'static> {
     (FONT, size * UNIT).into_font().color(&INK)
 }
 
 /// The pixel nearest to a coordinate.
-pub(super) fn pixel(coordinate: f64) -> i32 {
+pub(crate) fn pixel(coordinate: f64) -> i32 {
     #[expect(clippy::cast_possible_truncation, reason = "pictures have a few thousand pixels")]
     let pixel = coordinate.round() as i32;
     pixel
@@ -57,7 +44,7 @@ pub(super) fn pixel(coordinate: f64) -> i32 {
 ///
 /// # Errors
 /// Says what is allowed.
-pub(super) fn png_file(text: &str) -> Result<PathBuf, String> {
+pub(crate) fn png_file(text: &str) -> Result<PathBuf, String> {
     let path = PathBuf::from(text);
     match path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("png")) {
         true => Ok(path),
@@ -69,7 +56,7 @@ pub(super) fn png_file(text: &str) -> Result<PathBuf, String> {
 ///
 /// # Errors
 /// What the plotting library or the system says, named with the path.
-pub(super) fn write(
+pub(crate) fn write(
     mut file: OutputFile,
     path: &Path,
     size: (u32, u32),

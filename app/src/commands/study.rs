@@ -1,0 +1,167 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! `windfall study`: leaves dropped under many settings of a scene.
+
+use std::path::PathBuf;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::thread;
+
+use anyhow::{anyhow, bail};
+use clap::Args;
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use windfall_core::Contract;
+use windfall_cpu::CpuOptions;
+
+use super::render::within;
+use super::scene::{DEFAULT_SCENE, check_memory};
+use crate::backend::{BackendArguments, Device};
+use crate::cli::whole;
+use crate::leaves::load_scene;
+use crate::study::drops::DropOptions;
+use crate::study::{Point, StudyFolder, Summary, Variation, draw, points_of};
+use crate::{interrupt, terminal};
+
+/// Options of `windfall study`.
+///
+/// A drop is a leaf of one of the scene's sources, let go once: at a steady rate in the time that --over says, in place
+/// of the scene's own releases and without coming back. Leaves of trees are not dropped; `windfall tree shedding` studies
+/// them. A drop has landed when it touches the ground. Means are over those that land in time.
+///
+/// DIR gets summary.csv with a row for each point, overview.png and landings.png, and for each point a folder with its
+/// landings.csv, landings.png and tracks.csv. Finished points are kept: run again, an interrupted study goes on.
+#[derive(Clone, Debug, Args)]
+#[command(mut_arg("backend", |arg| arg.help("Where to simulate [default: cpu]")))]
+#[command(mut_arg("threads", |arg| arg.help("Points that are worked on at once [default: one for each core]; implies --backend cpu")))]
+pub struct Arguments {
+    /// Preset or path of a RON file [default: autumn-park].
+    #[arg(value_name = "SCENE")]
+    scene: Option<String>,
+    /// What to vary: a path of fields in the scene, and values from the lowest to the highest with their number, or a
+    /// list: wind.speed=0..20/5, sources.0.shape.radius_m=1,2,4, wind.profile=Uniform. Several make all combinations.
+    /// Where the scene has a variant, its number is meant; another is named: wind.speed.Beaufort=0..6/7.
+    #[arg(long, value_name = "PATH=VALUES", required = true)]
+    vary: Vec<Variation>,
+    /// Drops at each point, shared by the sources as they share the scene's leaves [default: all leaves of the sources].
+    #[arg(long, value_name = "N", value_parser = whole::<u32, 1, 10_000_000>)]
+    drops: Option<u32>,
+    /// Seconds over which the drops are let go, so that they meet many gusts; 0 to 600.
+    #[arg(long, value_name = "SECONDS", default_value = "60", value_parser = |text: &str| within(text, 0.0, 600.0))]
+    over: f64,
+    /// Seconds that are waited for leaves in the air after the last was let go; 1 to 3600.
+    #[arg(long, value_name = "SECONDS", default_value = "120", value_parser = |text: &str| within(text, 1.0, 3600.0))]
+    seconds: f64,
+    /// Drops at each point whose tracks are written, ten places a second.
+    #[arg(long, value_name = "N", default_value = "10", value_parser = whole::<u32, 0, 100_000>)]
+    tracks: u32,
+    /// Seed of everything random, in place of the scene's.
+    #[arg(long, value_name = "N", value_parser = whole::<u64, 0, { u64::MAX }>)]
+    seed: Option<u64>,
+    #[command(flatten)]
+    backend: BackendArguments,
+    /// Folder to write to: new, empty, or of this same study.
+    #[arg(long, value_name = "DIR")]
+    out: PathBuf,
+}
+
+/// Runs the command. Everything that can be found wrong is found before the first point.
+///
+/// # Errors
+/// Bad input, a folder that cannot be written or is another study's, a device that is missing or lost, an interrupt.
+/// Finished points are kept.
+pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
+    let name = arguments.scene.as_deref().unwrap_or(DEFAULT_SCENE);
+    let mut scene = load_scene(name)?;
+    scene.seed = arguments.seed.unwrap_or(scene.seed);
+    #[expect(clippy::cast_possible_truncation, reason = "times of an option")]
+    let options = DropOptions {
+        drops: arguments.drops,
+        over_s: arguments.over as f32,
+        seconds: arguments.seconds as f32,
+        tracks: arguments.tracks,
+    };
+    let points = points_of(&scene, name, &arguments.vary, &options)?;
+    let most = points.iter().map(|point| point.scene.leaf_count()).max().unwrap_or(0);
+    check_memory(name, most)?;
+    let device = arguments.backend.or_cpu()?;
+    let contract = match &device {
+        Device::Cpu(_) => Contract::Exact,
+        Device::Wgpu(gpu) => gpu.contract(),
+    };
+    interrupt::listen();
+    let folder = StudyFolder::open(&arguments.out, &scene, &arguments.vary, &options, contract)?;
+    let summaries = work(&folder, &points, &device, &options)?;
+    folder.write_summary(&arguments.vary, &points, &summaries)?;
+    draw(&folder, name, &scene, &arguments.vary, &points, &summaries)?;
+    let aloft: u64 = summaries.iter().map(|summary| u64::from(summary.drops - summary.landed)).sum();
+    if aloft > 0 {
+        let drops: u64 = summaries.iter().map(|summary| u64::from(summary.drops)).sum();
+        terminal::note(&format!("{aloft} of {drops} drops had not landed when they were given up"));
+    }
+    terminal::print(&format!("{}\n", arguments.out.display()))
+}
+
+/// Works on all points that are not finished, several at once on the processor.
+fn work(
+    folder: &StudyFolder,
+    points: &[Point],
+    device: &Device,
+    options: &DropOptions,
+) -> anyhow::Result<Vec<Summary>> {
+    let (workers, device) = match device {
+        Device::Cpu(cpu) => {
+            let cores = || thread::available_parallelism().map_or(1, usize::from);
+            let one = CpuOptions { threads: Some(1), ..*cpu };
+            (cpu.threads.unwrap_or_else(cores), Device::Cpu(one))
+        }
+        Device::Wgpu(gpu) => (1, Device::Wgpu(gpu.clone())),
+    };
+    let bar = progress_bar(points.len());
+    let (next, failed) = (AtomicUsize::new(0), AtomicBool::new(false));
+    let summaries: Mutex<Vec<Option<Summary>>> = Mutex::new(vec![None; points.len()]);
+    let point = |number: usize| -> anyhow::Result<()> {
+        let summary = match folder.read(number)? {
+            Some(summary) => summary,
+            None => folder.run(number, &points[number], &device, options)?,
+        };
+        if let Ok(mut summaries) = summaries.lock() {
+            summaries[number] = Some(summary);
+        }
+        bar.inc(1);
+        Ok(())
+    };
+    let worker = || loop {
+        let number = next.fetch_add(1, Ordering::Relaxed);
+        if number >= points.len() || failed.load(Ordering::Relaxed) {
+            return Ok(());
+        }
+        if let Err(error) = point(number) {
+            failed.store(true, Ordering::Relaxed);
+            return Err(error);
+        }
+    };
+    let outcome = thread::scope(|scope| {
+        let workers: Vec<_> = (0..workers.min(points.len())).map(|_| scope.spawn(worker)).collect();
+        let ended = workers.into_iter().map(|worker| worker.join());
+        let ended: Vec<_> =
+            ended.map(|end| end.map_err(|_| anyhow!("a thread of the study ended early"))).collect();
+        ended.into_iter().try_for_each(|end| end.and_then(|outcome| outcome))
+    });
+    bar.finish_and_clear();
+    let summaries = summaries.into_inner().map_err(|_| anyhow!("a thread of the study ended early"))?;
+    if interrupt::check().is_err() {
+        let kept = summaries.iter().flatten().count();
+        bail!("interrupted; {kept} of {} points are kept in {}", points.len(), folder.path().display());
+    }
+    outcome?;
+    Ok(summaries.into_iter().flatten().collect())
+}
+
+/// A bar on the standard error, if that is a terminal.
+fn progress_bar(points: usize) -> ProgressBar {
+    let bar = ProgressBar::with_draw_target(Some(points as u64), ProgressDrawTarget::stderr());
+    if let Ok(style) = ProgressStyle::with_template("{bar:40} point {pos} of {len}, {eta} left") {
+        bar.set_style(style);
+    }
+    bar
+}

@@ -1,0 +1,153 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Drops: every leaf of a scene's sources let go once, one after another, and followed to the ground.
+
+use anyhow::bail;
+use windfall_core::leaf::LeafState;
+use windfall_core::leaf::fly::flies;
+use windfall_core::leaf::record::{
+    PRIMITIVE_MASK, PRIMITIVE_SHIFT, REGIME_MASK, REGIME_SHIFT, SPECIES_MASK, SPECIES_SHIFT,
+};
+use windfall_core::scene::{Release, View};
+use windfall_core::{Scene, Simulator, World};
+
+use super::landing::{Landing, MOTION_COUNT};
+use crate::backend::Device;
+use crate::commands::scene::scaled;
+use crate::commands::tracks::Tracks;
+use crate::interrupt;
+
+/// Motions that synthesised leaves have; those of bodies follow.
+const PRIMITIVES: usize = 6;
+
+/// How leaves are dropped.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DropOptions {
+    /// Number of drops, which the sources share as they share the scene's leaves; as many as these for `None`.
+    pub drops: Option<u32>,
+    /// Seconds over which each source lets its leaves go, evenly, 0 to 600: they meet many gusts.
+    pub over_s: f32,
+    /// Seconds that are waited for leaves in the air after the last was let go.
+    pub seconds: f32,
+    /// Number of drops whose tracks are kept, evenly chosen.
+    pub tracks: u32,
+}
+
+/// The scene in which each leaf of the sources falls once: none before time zero, none again. Trees and view, which no
+/// drop depends on, are left out.
+///
+/// # Errors
+/// A scene without sources, fewer drops than sources, numbers that are not allowed; `file` names the scene.
+pub fn drop_scene(scene: &Scene, file: &str, options: &DropOptions) -> anyhow::Result<Scene> {
+    let plain = Scene::default();
+    let mut bare = Scene {
+        name: "study".into(),
+        trees: Vec::new(),
+        tree_kinds: Vec::new(),
+        sway: plain.sway,
+        autumn: plain.autumn,
+        regrow_after_s: None,
+        view: View::default(),
+        ..scene.clone()
+    };
+    let sources = bare.sources.len();
+    if sources == 0 {
+        bail!("{file}: sources is empty; allowed: at least one, for leaves of trees are not dropped");
+    }
+    if let Some(drops) = options.drops {
+        if (drops as usize) < sources {
+            bail!("--drops is {drops}; allowed: at least one for each of the {sources} sources of {file}");
+        }
+        bare = scaled(&bare, file, drops)?;
+    }
+    for source in &mut bare.sources {
+        source.recycle_after_s = None;
+        source.release = match options.over_s > 0.0 {
+            true => Release::Rate { per_s: source.count as f32 / options.over_s, from_s: 0.0 },
+            false => Release::Burst { at_s: 0.0 },
+        };
+    }
+    bare.validate(file)?;
+    Ok(bare)
+}
+
+/// Drops all leaves of a scene that [`drop_scene`] made, and tells of each in the order of their slots. Tracks have ten
+/// places a second.
+///
+/// # Errors
+/// A scene that cannot be built, a device that is lost, an interrupt, tracks that cannot be written.
+pub fn drop_all(
+    scene: &Scene,
+    device: &Device,
+    options: &DropOptions,
+    tracks: &mut Option<Tracks>,
+) -> anyhow::Result<Vec<Landing>> {
+    let mut world = World::build(scene)?;
+    let mut simulator = device.simulator(&world)?;
+    let mut landings: Vec<Landing> = (0..world.leaves.len()).map(|_| Landing::default()).collect();
+    let tracked = tracked(world.leaves.len(), options.tracks as usize);
+    let limit_s = f64::from(options.over_s) + f64::from(options.seconds);
+    let (sin, cos) = f64::from(scene.wind.direction_deg).to_radians().sin_cos();
+    loop {
+        let mut left = 0;
+        for (slot, landing) in landings.iter_mut().enumerate().filter(|(_, landing)| !landing.is_landed()) {
+            left += usize::from(!look(&world, slot, landing));
+        }
+        if let Some(tracks) = tracks.as_mut().filter(|tracks| tracks.wait(world.clock.step()) == 0) {
+            for &slot in &tracked {
+                if world.leaves.place[slot].state() == LeafState::Falling {
+                    tracks.add(&world, slot)?;
+                }
+            }
+        }
+        if left == 0 || world.clock.seconds() >= limit_s {
+            break;
+        }
+        interrupt::check()?;
+        simulator.step(1)?;
+        simulator.read_state(&mut world)?;
+    }
+    let broken = world.stats().broken;
+    if broken > 0 {
+        bail!("{broken} leaves have positions that are not numbers");
+    }
+    for landing in &mut landings {
+        landing.turn(cos, sin);
+    }
+    Ok(landings)
+}
+
+/// Notes what a leaf does; whether it has landed.
+fn look(world: &World, slot: usize, landing: &mut Landing) -> bool {
+    let place = &world.leaves.place[slot];
+    let state = place.state();
+    let here = place.position.map(f64::from);
+    let is_new = landing.begin.is_none() && state != LeafState::Dormant;
+    if is_new {
+        let release = world.leaves.identity[slot].release;
+        landing.begin = Some(here);
+        landing.release_s = f64::from(release) * f64::from(world.clock.dt_s());
+        landing.species = ((place.bits >> SPECIES_SHIFT) & SPECIES_MASK) as usize;
+    }
+    match state {
+        LeafState::Falling => {
+            let motion = match flies(place.bits) {
+                true => PRIMITIVES + ((place.bits >> REGIME_SHIFT) & REGIME_MASK) as usize,
+                false => ((place.bits >> PRIMITIVE_SHIFT) & PRIMITIVE_MASK) as usize,
+            };
+            landing.steps[motion.min(MOTION_COUNT - 1)] += 1;
+            false
+        }
+        LeafState::Resting => {
+            landing.land(here, world.clock.seconds());
+            true
+        }
+        LeafState::Dormant | LeafState::Attached => false,
+    }
+}
+
+/// Slots whose tracks are kept.
+fn tracked(slots: usize, tracks: usize) -> Vec<usize> {
+    let count = tracks.min(slots);
+    (0..count).map(|index| index * slots / count).collect()
+}

@@ -1,0 +1,207 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The folder of a study: what study it is, and every finished point as a folder of its own.
+
+use std::fs;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use anyhow::{anyhow, bail};
+use serde_json::json;
+use windfall_core::{Contract, Scene};
+
+use super::drops::{DropOptions, drop_all};
+use super::landing::{read_drifts, write_landings};
+use super::point::Point;
+use super::summary::{COLUMNS, Summary};
+use super::variation::Variation;
+use crate::backend::Device;
+use crate::commands::output_file::{OutputFile, write_error};
+use crate::commands::output_folder::OutputFolder;
+use crate::commands::tracks::{Tracks, field};
+
+/// Tells which study a folder belongs to.
+const STUDY: &str = "study.json";
+/// A point's row.
+const SUMMARY: &str = "summary.csv";
+/// A point's drops.
+const LANDINGS: &str = "landings.csv";
+/// Places of a track in a second.
+const TRACKED_PER_S: f64 = 10.0;
+
+/// The folder of a study.
+#[derive(Debug)]
+pub struct StudyFolder {
+    path: PathBuf,
+}
+
+impl StudyFolder {
+    /// Begins a study in a folder that is new or empty, or goes on with the same one: the same scene, variations and
+    /// options, contract of the backend and version of the program.
+    ///
+    /// # Errors
+    /// A folder of another study or of something else; one that cannot be written.
+    pub fn open(
+        path: &Path,
+        scene: &Scene,
+        variations: &[Variation],
+        options: &DropOptions,
+        contract: Contract,
+    ) -> anyhow::Result<Self> {
+        let text = identity(scene, variations, options, contract)?;
+        let folder = Self { path: path.to_owned() };
+        let known = path.join(STUDY);
+        match fs::read_to_string(&known) {
+            Ok(found) if found == text => return Ok(folder),
+            Ok(found) => bail!(
+                "{}: holds another study ({}); allowed: a new or empty folder, or this study's own",
+                path.display(),
+                difference(&found, &text)
+            ),
+            Err(_) if path.is_dir() => {
+                let mut entries = fs::read_dir(path).map_err(|error| write_error(path, &error))?;
+                if entries.next().is_some() {
+                    bail!(
+                        "{}: holds something that is no study; allowed: a new or empty folder, or this study's own",
+                        path.display()
+                    );
+                }
+            }
+            Err(_) if path.exists() => bail!("{}: not a folder", path.display()),
+            Err(_) => fs::create_dir_all(path).map_err(|error| write_error(path, &error))?,
+        }
+        let mut file = OutputFile::create(&known)?;
+        file.write_all(text.as_bytes()).map_err(|error| write_error(&known, &error))?;
+        file.finish()?;
+        Ok(folder)
+    }
+
+    /// Where it lies.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// The folder of a point, numbered from 0.
+    pub fn of_point(&self, number: usize) -> PathBuf {
+        self.path.join(format!("point_{:04}", number + 1))
+    }
+
+    /// The row of a finished point; `None` for one that is not.
+    ///
+    /// # Errors
+    /// A file that is no such row.
+    pub fn read(&self, number: usize) -> anyhow::Result<Option<Summary>> {
+        let path = self.of_point(number).join(SUMMARY);
+        let Ok(text) = fs::read_to_string(&path) else { return Ok(None) };
+        let row = text.lines().nth(1).and_then(Summary::from_row);
+        row.map(Some).ok_or_else(|| anyhow!("{}: not the row of a point; remove its folder", path.display()))
+    }
+
+    /// Where the drops of a finished point landed, seen from where they were let go: along and across the wind, in m.
+    ///
+    /// # Errors
+    /// A table that cannot be read.
+    pub fn read_drifts(&self, number: usize) -> anyhow::Result<Vec<(f64, f64)>> {
+        read_drifts(&self.of_point(number).join(LANDINGS))
+    }
+
+    /// Drops the leaves of a point and keeps what became of them: a folder that appears when it is whole.
+    ///
+    /// # Errors
+    /// What [`drop_all`] says; files that cannot be written.
+    pub fn run(
+        &self,
+        number: usize,
+        point: &Point,
+        device: &Device,
+        options: &DropOptions,
+    ) -> anyhow::Result<Summary> {
+        let folder = OutputFolder::create(&self.of_point(number))?;
+        let within = |name: &str| folder.partial().join(name);
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "steps take 1 to 50 ms")]
+        let every = (1.0 / (TRACKED_PER_S * f64::from(point.scene.dt_s))).round() as u32;
+        let mut tracks = match options.tracks {
+            0 => None,
+            _ => Some(Tracks::create(&within("tracks.csv"), every.max(1), 0)?),
+        };
+        let landings = drop_all(&point.scene, device, options, &mut tracks)?;
+        if let Some(tracks) = tracks {
+            tracks.finish()?;
+        }
+        write_landings(&within(LANDINGS), &point.scene, &landings)?;
+        let summary = Summary::of(&landings);
+        let path = within(SUMMARY);
+        write_text(&path, &format!("{}\n{}\n", COLUMNS.join(","), summary.to_row()))?;
+        folder.finish(SUMMARY)?;
+        Ok(summary)
+    }
+
+    /// Writes the table of all points.
+    ///
+    /// # Errors
+    /// What the system says, named with the path.
+    pub fn write_summary(
+        &self,
+        variations: &[Variation],
+        points: &[Point],
+        summaries: &[Summary],
+    ) -> anyhow::Result<()> {
+        let paths = variations.iter().map(|to| field(&to.path) + ",").collect::<String>();
+        let mut text = format!("point,{paths}{}\n", COLUMNS.join(","));
+        for (number, (point, summary)) in (1..).zip(points.iter().zip(summaries)) {
+            let values = point.settings.iter().map(|setting| field(&setting.text) + ",").collect::<String>();
+            text += &format!("{number},{values}{}\n", summary.to_row());
+        }
+        write_text(&self.path.join(SUMMARY), &text)
+    }
+}
+
+/// A whole file at once.
+fn write_text(path: &Path, text: &str) -> anyhow::Result<()> {
+    let mut file = OutputFile::create(path)?;
+    file.write_all(text.as_bytes()).map_err(|error| write_error(path, &error))?;
+    file.finish()
+}
+
+/// Everything that the numbers of a study depend on.
+fn identity(
+    scene: &Scene,
+    variations: &[Variation],
+    options: &DropOptions,
+    contract: Contract,
+) -> anyhow::Result<String> {
+    // Of the files that a scene names, these alone decide how leaves fall.
+    let tables = scene.species.iter().filter_map(|species| species.tables.as_ref());
+    let tables: Vec<_> = tables
+        .map(|path| {
+            let bytes = fs::read(path).map_err(|error| anyhow!("{path}: {error}"))?;
+            Ok(json!({ "file": path, "crc32": crc32fast::hash(&bytes) }))
+        })
+        .collect::<anyhow::Result<_>>()?;
+    let vary: Vec<_> = variations
+        .iter()
+        .map(|to| json!({ "path": to.path, "values": to.settings.iter().map(|s| &s.value).collect::<Vec<_>>() }))
+        .collect();
+    let identity = json!({
+        "version": env!("CARGO_PKG_VERSION"),
+        "contract": contract.to_string(),
+        "drops": options.drops,
+        "over_s": options.over_s,
+        "seconds": options.seconds,
+        "tracks": options.tracks,
+        "vary": vary,
+        "tables": tables,
+        "scene": scene,
+    });
+    Ok(serde_json::to_string_pretty(&identity)? + "\n")
+}
+
+/// What two studies differ in, by name.
+fn difference(found: &str, expected: &str) -> String {
+    let read = |text| serde_json::from_str::<serde_json::Value>(text).unwrap_or_default();
+    let (found, expected) = (read(found), read(expected));
+    let Some(fields) = expected.as_object() else { return "unreadable".into() };
+    let names: Vec<_> = fields.iter().filter(|(name, value)| found.get(name) != Some(value)).collect();
+    let names: Vec<_> = names.into_iter().map(|(name, _)| name.as_str()).collect();
+    if names.is_empty() { "written otherwise".into() } else { format!("other {}", names.join(", ")) }
+}

@@ -1,0 +1,124 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What became of one drop, and the table of all of them.
+
+use std::fmt::Write as _;
+use std::io::{BufWriter, Write};
+use std::path::Path;
+
+use anyhow::{Context as _, anyhow};
+use windfall_core::Scene;
+
+use crate::commands::output_file::{OutputFile, write_error};
+use crate::commands::tracks::field;
+
+/// Six motions of synthesised leaves, then six regimes of bodies.
+pub(super) const MOTION_COUNT: usize = 12;
+/// The table's head; readers take along and across by their place.
+const HEADER: &str =
+    "drop,release_s,aloft_s,along_m,across_m,from_x_m,from_y_m,from_z_m,x_m,y_m,z_m,species\n";
+
+/// What became of one drop. Lengths in metres, times in seconds.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Landing {
+    /// When it was let go.
+    pub release_s: f64,
+    /// Where, after the step in which it was; `None` before.
+    pub begin: Option<[f64; 3]>,
+    /// Where it touched the ground, and how long after its release; `None` for one still in the air.
+    pub end: Option<([f64; 3], f64)>,
+    /// From its release to where it landed: down the mean wind, and across, to the right of it.
+    pub drift: (f64, f64),
+    /// Number of its species.
+    pub species: usize,
+    /// Steps spent in each motion.
+    pub(super) steps: [u32; MOTION_COUNT],
+}
+
+impl Landing {
+    /// Whether it lies on the ground.
+    pub fn is_landed(&self) -> bool {
+        self.end.is_some()
+    }
+
+    /// It touches the ground.
+    pub(super) fn land(&mut self, place: [f64; 3], now_s: f64) {
+        self.end = Some((place, now_s - self.release_s));
+    }
+
+    /// Takes the drift along a wind towards (`cos`, `sin`).
+    pub(super) fn turn(&mut self, cos: f64, sin: f64) {
+        if let (Some(from), Some((to, _))) = (self.begin, self.end) {
+            let (x, z) = (to[0] - from[0], to[2] - from[2]);
+            self.drift = (x * cos + z * sin, z * cos - x * sin);
+        }
+    }
+
+    /// Horizontal distance from its release to where it landed.
+    pub fn distance_m(&self) -> f64 {
+        self.drift.0.hypot(self.drift.1)
+    }
+
+    /// Mean speed downwards in m/s; `None` before it has landed.
+    pub fn descent_m_s(&self) -> Option<f64> {
+        let (from, (to, aloft_s)) = (self.begin?, self.end?);
+        (aloft_s > 0.0).then(|| (from[1] - to[1]) / aloft_s)
+    }
+}
+
+/// Writes the table of all drops of a scene.
+///
+/// # Errors
+/// What the system says, named with the path.
+pub(super) fn write_landings(path: &Path, scene: &Scene, landings: &[Landing]) -> anyhow::Result<()> {
+    let mut out = BufWriter::new(OutputFile::create(path)?);
+    let fail = |error: std::io::Error| write_error(path, &error);
+    out.write_all(HEADER.as_bytes()).map_err(fail)?;
+    for (drop, landing) in landings.iter().enumerate() {
+        let mut row = format!("{drop},");
+        let Landing { release_s, begin, end, drift, species, .. } = landing;
+        let point = |row: &mut String, point: Option<[f64; 3]>| {
+            // Writing to a String cannot fail.
+            let _ = match point {
+                Some([x, y, z]) => write!(row, "{x},{y},{z},"),
+                None => write!(row, ",,,"),
+            };
+        };
+        let _ = match (begin, end) {
+            (None, _) => write!(row, ",,,,"),
+            (Some(_), None) => write!(row, "{release_s},,,,"),
+            (Some(_), Some((_, aloft_s))) => write!(row, "{release_s},{aloft_s},{},{},", drift.0, drift.1),
+        };
+        point(&mut row, *begin);
+        point(&mut row, end.map(|(place, _)| place));
+        let name = scene.species.get(*species).filter(|_| begin.is_some());
+        row += &field(name.map_or("", |species| &species.name));
+        row.push('\n');
+        out.write_all(row.as_bytes()).map_err(fail)?;
+    }
+    out.into_inner().map_err(|error| write_error(path, error.error()))?.finish()
+}
+
+/// Reads from such a table where drops landed, seen from where they were let go: along and across the wind, in metres.
+///
+/// # Errors
+/// A file that cannot be read or is no such table, named with the path.
+pub(super) fn read_drifts(path: &Path) -> anyhow::Result<Vec<(f64, f64)>> {
+    let name = path.display();
+    let text = std::fs::read_to_string(path).map_err(|error| anyhow!("{name}: {error}"))?;
+    let rows = text.strip_prefix(HEADER).with_context(|| format!("{name}:1: not a table of landings"))?;
+    let mut drifts = Vec::new();
+    for (number, row) in (2..).zip(rows.lines()) {
+        let mut fields = row.split(',').skip(3);
+        let (Some(along), Some(across)) = (fields.next(), fields.next()) else {
+            return Err(anyhow!("{name}:{number}: a row without along and across"));
+        };
+        if !along.is_empty() {
+            let number = |text: &str| {
+                text.parse::<f64>().map_err(|_| anyhow!("{name}:{number}: '{text}' is not a number"))
+            };
+            drifts.push((number(along)?, number(across)?));
+        }
+    }
+    Ok(drifts)
+}

@@ -1,0 +1,172 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! A point of a study in one row.
+
+use std::fmt::Write as _;
+
+use windfall_core::motion::Primitive;
+
+use super::landing::{Landing, MOTION_COUNT};
+
+/// Names of the columns behind the point's number and settings. A mean and a standard deviation of drops that landed for
+/// each quantity; then shares of all time in the air: the six motions of synthesised leaves, and the regimes of bodies.
+pub const COLUMNS: [&str; 2 + NUMBERS] = [
+    "drops",
+    "landed",
+    "aloft_mean_s",
+    "aloft_std_s",
+    "descent_mean_m_s",
+    "descent_std_m_s",
+    "drift_mean_m",
+    "drift_std_m",
+    "along_mean_m",
+    "along_std_m",
+    "across_mean_m",
+    "across_std_m",
+    Primitive::SteadyDescent.code(),
+    Primitive::PeriodicTumbling.code(),
+    Primitive::TransitionalChaotic.code(),
+    Primitive::PeriodicFluttering.code(),
+    Primitive::TransitionalHelical.code(),
+    Primitive::PeriodicSpiraling.code(),
+    "steady",
+    "flutter",
+    "tumble",
+    "chaotic",
+    "helical",
+    "spiral",
+];
+/// Quantities with mean and standard deviation.
+pub(super) const QUANTITIES: usize = 5;
+/// Numbers behind the counts.
+const NUMBERS: usize = 2 * QUANTITIES + MOTION_COUNT;
+
+/// What is told of a point. A number that there is none of (nothing landed, one drop has no spread) is NaN.
+#[derive(Clone, Copy, Debug)]
+pub struct Summary {
+    /// Drops.
+    pub drops: u32,
+    /// Those that landed in time.
+    pub landed: u32,
+    /// Mean and standard deviation of time aloft in s, mean descent in m/s, horizontal distance in m, and how far along
+    /// and across the wind in m.
+    pub quantities: [(f64, f64); QUANTITIES],
+    /// Shares of the time in the air, as in [`COLUMNS`].
+    pub motions: [f64; MOTION_COUNT],
+}
+
+impl Summary {
+    /// Of all drops of a point.
+    pub fn of(landings: &[Landing]) -> Self {
+        let landed: Vec<&Landing> = landings.iter().filter(|landing| landing.is_landed()).collect();
+        let spread = |value: &dyn Fn(&Landing) -> Option<f64>| {
+            let values: Vec<f64> = landed.iter().filter_map(|landing| value(landing)).collect();
+            mean_and_deviation(&values)
+        };
+        let mut steps = [0u64; MOTION_COUNT];
+        for landing in landings {
+            for (sum, own) in steps.iter_mut().zip(landing.steps) {
+                *sum += u64::from(own);
+            }
+        }
+        let all: u64 = steps.iter().sum();
+        let count = |length: usize| u32::try_from(length).unwrap_or(u32::MAX);
+        Self {
+            drops: count(landings.len()),
+            landed: count(landed.len()),
+            quantities: [
+                spread(&|landing| landing.end.map(|(_, aloft_s)| aloft_s)),
+                spread(&Landing::descent_m_s),
+                spread(&|landing| Some(landing.distance_m())),
+                spread(&|landing| Some(landing.drift.0)),
+                spread(&|landing| Some(landing.drift.1)),
+            ],
+            motions: steps.map(|own| own as f64 / all as f64),
+        }
+    }
+
+    /// Its fields in the order of [`COLUMNS`]; what is NaN is empty.
+    pub fn to_row(&self) -> String {
+        let mut row = format!("{},{}", self.drops, self.landed);
+        let pairs = self.quantities.iter().flat_map(|&(mean, deviation)| [mean, deviation]);
+        for number in pairs.chain(self.motions) {
+            // Writing to a String cannot fail.
+            let _ = if number.is_nan() { write!(row, ",") } else { write!(row, ",{number}") };
+        }
+        row
+    }
+
+    /// Reads what [`Summary::to_row`] wrote, bit for bit; `None` for anything else.
+    pub fn from_row(row: &str) -> Option<Self> {
+        let fields: Vec<&str> = row.trim_end().split(',').collect();
+        let [drops, landed, numbers @ ..] = fields.as_slice() else { return None };
+        let number = |text: &&str| if text.is_empty() { Some(f64::NAN) } else { text.parse().ok() };
+        let numbers: Vec<f64> = numbers.iter().map(number).collect::<Option<_>>()?;
+        let (pairs, motions) = numbers.split_at_checked(2 * QUANTITIES)?;
+        let mut quantities = [(0.0, 0.0); QUANTITIES];
+        for (quantity, pair) in quantities.iter_mut().zip(pairs.chunks_exact(2)) {
+            *quantity = (pair[0], pair[1]);
+        }
+        Some(Self {
+            drops: drops.parse().ok()?,
+            landed: landed.parse().ok()?,
+            quantities,
+            motions: motions.try_into().ok()?,
+        })
+    }
+}
+
+/// Mean and sample standard deviation.
+fn mean_and_deviation(values: &[f64]) -> (f64, f64) {
+    let count = values.len() as f64;
+    let mean = values.iter().sum::<f64>() / count;
+    let squares: f64 = values.iter().map(|value| (value - mean) * (value - mean)).sum();
+    let deviation = if values.len() > 1 { (squares / (count - 1.0)).sqrt() } else { f64::NAN };
+    (mean, deviation)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn landing(along: f64, aloft_s: f64) -> Landing {
+        let mut landing = Landing { begin: Some([1.0, 6.0, 2.0]), ..Landing::default() };
+        landing.steps[1] = 3;
+        landing.steps[7] = 1;
+        landing.land([1.0, 0.0, 2.0 + along], aloft_s);
+        // A wind towards +z.
+        landing.turn(0.0, 1.0);
+        landing
+    }
+
+    #[test]
+    fn a_summary_tells_means_spreads_and_shares() {
+        let aloft = Landing { begin: Some([0.0; 3]), ..Landing::default() };
+        let summary = Summary::of(&[landing(3.0, 2.0), landing(5.0, 4.0), aloft]);
+        assert_eq!((summary.drops, summary.landed), (3, 2), "one is still in the air");
+        let half = 0.5f64.sqrt();
+        let expected =
+            [(3.0, 2.0 * half), (2.25, 1.5 * half), (4.0, 2.0 * half), (4.0, 2.0 * half), (0.0, 0.0)];
+        for (found, expected) in summary.quantities.iter().zip(expected) {
+            assert!(
+                (found.0 - expected.0).abs() < 1e-12 && (found.1 - expected.1).abs() < 1e-12,
+                "{summary:?}"
+            );
+        }
+        assert_eq!((summary.motions[1], summary.motions[7]), (0.75, 0.25), "of time in the air");
+    }
+
+    #[test]
+    fn rows_are_read_back_to_the_bit() {
+        for landings in
+            [&[landing(0.1, 0.3), landing(0.7, 1.1), landing(1e-9, 3.3)][..], &[landing(1.0, 1.0)], &[]]
+        {
+            let row = Summary::of(landings).to_row();
+            assert_eq!(row.matches(',').count() + 1, COLUMNS.len(), "as many fields as columns: {row}");
+            let read = Summary::from_row(&row).expect("a row");
+            assert_eq!(read.to_row(), row, "the same again");
+        }
+        assert!(Summary::from_row("1,2,3").is_none(), "too few");
+        assert!(Summary::from_row(&format!("{},0", Summary::of(&[]).to_row())).is_none(), "too many");
+    }
+}
