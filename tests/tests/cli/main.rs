@@ -10,6 +10,7 @@ mod flight;
 mod leaf;
 mod render;
 mod simulate;
+mod study;
 mod tools;
 mod tree;
 mod viewer;

@@ -19,7 +19,7 @@ const BAR: u32 = 130;
 /// Cells of a map.
 const CELLS: (usize, usize) = (48, 32);
 /// Share of drops that may lie beyond the map's edges at each of its four sides.
-const BEYOND: f64 = 0.002;
+const BEYOND: f64 = 0.01;
 
 /// What all maps of a study have in common.
 #[derive(Clone, Debug)]
@@ -123,13 +123,17 @@ pub(super) fn draw_grid(
 
 /// One map.
 fn panel(area: &Area<'_>, frame: &Frame, title: &str, drifts: &[(f64, f64)], text: u32) -> Drawn {
+    let cells = frame.cells(drifts);
+    let beyond = drifts.len() as f64 - f64::from(cells.iter().sum::<u32>());
+    let share = 100.0 * beyond / drifts.len().max(1) as f64;
+    let caption = if beyond > 0.0 { format!("{title} ({share:.1} % farther out)") } else { title.to_owned() };
     let mut chart = ChartBuilder::on(area)
         .margin(10 * UNIT)
-        .caption(title, font(text))
+        .margin_top(14 * UNIT)
+        .caption(caption, font(text))
         .x_label_area_size(text * 26 / 10 * UNIT)
         .y_label_area_size(text * 34 / 10 * UNIT)
         .build_cartesian_2d(frame.along.clone(), frame.across.clone())?;
-    let cells = frame.cells(drifts);
     let width = (frame.along.end - frame.along.start) / CELLS.0 as f64;
     let height = (frame.across.end - frame.across.start) / CELLS.1 as f64;
     chart.draw_series(cells.iter().enumerate().filter(|(_, count)| **count > 0).map(|(index, &count)| {
@@ -170,9 +174,9 @@ fn panel(area: &Area<'_>, frame: &Frame, title: &str, drifts: &[(f64, f64)], tex
     Ok(())
 }
 
-/// Metres without digits that say nothing.
-fn short(metres: f64) -> String {
-    let text = format!("{metres:.2}");
+/// A number without digits that say nothing.
+pub(super) fn short(number: f64) -> String {
+    let text = format!("{number:.2}");
     let text = text.trim_end_matches('0').trim_end_matches('.');
     if text == "-0" { "0".into() } else { text.into() }
 }
@@ -194,7 +198,8 @@ fn color_bar(area: &Area<'_>, frame: &Frame, height: u32) -> Drawn {
     }
     for tick in 0..=4 {
         let y = height * tick / 4;
-        let text = format!("{:.2}", 100.0 * share_at(y));
+        let percent = 100.0 * share_at(y);
+        let text = if percent >= 10.0 { format!("{percent:.0}") } else { short(percent) };
         area.draw(&PathElement::new(
             [(x + 22 * unit, top + y), (x + 28 * unit, top + y)],
             INK.stroke_width(UNIT),

@@ -7,6 +7,7 @@ use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 use windfall_core::motion::Primitive;
 
+use super::heat_map::short;
 use crate::commands::figure::{Area, Drawn, INK, UNIT, font};
 use crate::study::landing::MOTION_COUNT;
 use crate::study::point::Point;
@@ -174,6 +175,7 @@ where
         .x_labels(labels)
         .y_labels(7)
         .x_label_formatter(&|place| axis.name(*place))
+        .y_label_formatter(&|value| short(*value))
         .draw()
         .map_err(|error| error.to_string())?;
     Ok(chart)
