@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Which steps lie before which frame of a clip.
 
+use windfall_core::Cycle;
+
 /// Picoseconds in a second.
 const TICKS_PER_S: f64 = 1.0e12;
 
@@ -24,6 +26,40 @@ impl FrameSteps {
     pub fn before(&self, number: u32) -> u64 {
         let time = self.frame_ticks * u128::from(number);
         u64::try_from((time + self.step_ticks / 2) / self.step_ticks).unwrap_or(u64::MAX)
+    }
+}
+
+/// The steps of one round of a scene that repeats: frames that divide it evenly, so that the first follows the last as
+/// every other the one before.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct LoopFrames {
+    run_in: u64,
+    steps: u64,
+    count: u32,
+}
+
+impl LoopFrames {
+    /// About `rate` frames, at least one, for each simulated second of the cycle, whose steps take `dt_s`.
+    pub fn new(cycle: &Cycle, rate: f64, dt_s: f32) -> Self {
+        let frames = (f64::from(cycle.steps) * f64::from(dt_s) * rate).round().max(1.0);
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "positive, saturating")]
+        let count = frames as u32;
+        Self { run_in: cycle.run_in.into(), steps: cycle.steps.into(), count }
+    }
+
+    /// Number of frames.
+    pub fn count(&self) -> u32 {
+        self.count
+    }
+
+    /// Number of steps from time zero to frame `number`, counted from 0; [`LoopFrames::count`] is the first again.
+    pub fn step(&self, number: u32) -> u64 {
+        self.run_in + u64::from(number) * self.steps / u64::from(self.count)
+    }
+
+    /// Number of steps from time zero to so many frames before the first.
+    pub fn step_before(&self, number: u32) -> u64 {
+        self.run_in.saturating_sub(u64::from(number) * self.steps / u64::from(self.count))
     }
 }
 

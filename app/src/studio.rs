@@ -36,10 +36,22 @@ impl Studio {
     /// # Errors
     /// A scene, a device or a size that cannot be used.
     pub fn new(scene: &Scene, drawing: Drawing, size: (u32, u32)) -> anyhow::Result<Self> {
+        Self::of_world(scene, &World::build(scene)?, drawing, size)
+    }
+
+    /// A studio for pictures of a world of this scene, one that repeats for example.
+    ///
+    /// # Errors
+    /// A device or a size that cannot be used.
+    pub fn of_world(
+        scene: &Scene,
+        world: &World,
+        drawing: Drawing,
+        size: (u32, u32),
+    ) -> anyhow::Result<Self> {
         let Drawing { device, gpu, reason, .. } = drawing;
         let target = PictureTarget::new(gpu.device(), size)?;
-        let world = World::build(scene)?;
-        let backend = device.simulator(&world)?;
+        let backend = device.simulator(world)?;
         interrupt::check()?;
         let atlas = leaves::atlas_of(scene)?;
         let options = RendererOptions::for_scene(scene);

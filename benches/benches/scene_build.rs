@@ -34,7 +34,7 @@ fn environment(criterion: &mut Criterion) {
     group.bench_function("compile/autumn-park", |bencher| {
         bencher.iter(|| Environment::compile(black_box(&park)).expect("a valid scene"));
     });
-    group.bench_function("turbulence_box", |bencher| bencher.iter(|| turbulence_box(black_box([20, 0]))));
+    group.bench_function("turbulence_box", |bencher| bencher.iter(|| turbulence_box(black_box([20, 0]), 64)));
     group.finish();
 }
 

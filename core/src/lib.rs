@@ -40,7 +40,7 @@ mod world;
 
 pub use clock::Clock;
 pub use context::Context;
-pub use environment::Environment;
+pub use environment::{Cycle, Environment};
 pub use error::{SceneError, SimError};
 pub use scene::Scene;
 pub use simulator::{Contract, Simulator, SimulatorInfo};

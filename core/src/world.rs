@@ -4,7 +4,7 @@
 
 use crate::clock::Clock;
 use crate::context::Context;
-use crate::environment::{Environment, lifetime_steps, release_step};
+use crate::environment::{Cycle, Environment, lifetime_steps, release_step};
 use crate::error::SceneError;
 use crate::flight::book::{FlightBook, flight_books};
 use crate::kernel::vector::Vec3;
@@ -43,7 +43,25 @@ impl World {
     /// What [`Scene::validate`] or [`Environment::compile`] reject.
     pub fn build(scene: &Scene) -> Result<Self, SceneError> {
         scene.validate(&scene.name)?;
-        let environment = Environment::compile(scene)?;
+        Self::fill(Environment::compile(scene)?)
+    }
+
+    /// A world that repeats after about `seconds`, to be stepped [`Cycle::run_in`] steps before it does: from then on
+    /// every leaf is where another one was [`Cycle::steps`] before, to the bit, and trees nearly so. `file` names the
+    /// scene in errors. A checkpoint of it does not go on repeating.
+    ///
+    /// # Errors
+    /// What [`Cycle::of`] finds cannot repeat, and what [`World::build`] rejects.
+    pub fn build_cycle(scene: &Scene, file: &str, seconds: f64) -> Result<(Self, Cycle), SceneError> {
+        let (scene, cycle) = Cycle::of(scene, file, seconds)?;
+        let mut world = Self::fill(Environment::compile_with(&scene, Some(cycle.clone()))?)?;
+        cycle.schedule(&scene, &mut world.leaves);
+        Ok((world, cycle))
+    }
+
+    /// Fills the store of a compiled scene.
+    fn fill(environment: Environment) -> Result<Self, SceneError> {
+        let scene = environment.scene();
         let clock = Clock::new(scene.dt_s);
         let mut leaves = Leaves::zeroed(scene.leaf_count() as usize);
         let step = environment.step_block(&clock);

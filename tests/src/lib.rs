@@ -8,3 +8,4 @@ pub mod functions;
 pub mod runner;
 pub mod stand;
 pub mod strategies;
+pub mod suite;

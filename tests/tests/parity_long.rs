@@ -6,9 +6,9 @@
 
 use windfall_core::{Contract, Simulator, World};
 use windfall_cpu::{CpuOptions, CpuSimulator};
-use windfall_tests::adapter;
 use windfall_tests::compare::{Difference, LONG_POSITION_M, LONG_QUATERNION, difference};
 use windfall_tests::strategies::{flying_scene, hilly_scene, smooth_scene, varied_scene};
+use windfall_tests::{adapter, suite};
 use windfall_wgpu::{Gpu, Shaders, WgpuOptions, WgpuSimulator};
 
 const LEAVES: u32 = 10_000;
@@ -132,5 +132,24 @@ fn one_bit_of_one_constant_is_noticed() {
         let found = difference(&oracle, &candidate);
         assert!(found.bit_leaves > 0, "{}: nobody noticed: {found:?}", gpu.info().name);
         assert_ne!(oracle.state_hash(), candidate.state_hash(), "{}", gpu.info().name);
+    }
+}
+
+/// The suite that backends of others are checked with: ours pass it, and one with a wrong constant does not.
+#[test]
+fn the_suite_for_other_backends_passes_ours_and_notices_a_wrong_bit() {
+    let old = "const LENGTH_UNIT: f32 = 0.0009765625f";
+    let shaders = Shaders::default().edited("prelude", old, "const LENGTH_UNIT: f32 = 0.00097656262f");
+    let wrong =
+        WgpuOptions { shaders: Some(shaders.expect("the constant is there")), ..WgpuOptions::default() };
+    for gpu in adapter::all() {
+        for case in suite::worlds(300) {
+            let passed =
+                suite::check(&case, |world| WgpuSimulator::new(&gpu, world, &WgpuOptions::default()));
+            assert_eq!(passed, Ok(()), "{}", gpu.info().name);
+        }
+        let case = &suite::worlds(300)[1];
+        let error = suite::check(case, |world| WgpuSimulator::new(&gpu, world, &wrong)).expect_err("wrong");
+        assert!(gpu.contract() == Contract::Tolerant || error.contains("too far"), "{error}");
     }
 }

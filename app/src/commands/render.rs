@@ -8,13 +8,14 @@ use std::time::Duration;
 use anyhow::bail;
 use clap::Args;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use windfall_core::{Scene, World};
 
 use super::scene::SceneArguments;
 use super::sky::SkyArguments;
 use crate::backend::BackendArguments;
 use crate::cli::whole;
 use crate::drawing::Drawing;
-use crate::frame::FrameSteps;
+use crate::frame::{FrameSteps, LoopFrames};
 use crate::output::{Output, Writer};
 use crate::studio::Studio;
 use crate::{interrupt, terminal};
@@ -52,6 +53,11 @@ pub struct Arguments {
     /// Simulated seconds in each second of the clip: below 1 is slow motion.
     #[arg(long, value_name = "X", default_value = "1", value_parser = playback_speed)]
     speed: f64,
+    /// Make a clip that repeats without a seam after this many simulated seconds, 1 to 120, and with trees at least 6.
+    /// The same leaves fall in every round, evenly let go; gusts become a little longer or shorter, trees keep their leaves,
+    /// and what can never repeat (water, a camera or a vortex on its way, leaves that fall only once) is refused.
+    #[arg(long = "loop", value_name = "SECONDS", conflicts_with = "frames", value_parser = loop_length)]
+    looped: Option<f64>,
 }
 
 /// Runs the command. Everything that can be found wrong is found before the first step.
@@ -68,6 +74,9 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     });
     let is_still = matches!(output, Output::Png(_));
     let frames = arguments.frames.unwrap_or(if is_still { DEFAULT_FRAMES.0 } else { DEFAULT_FRAMES.1 });
+    if let Some(seconds) = arguments.looped {
+        return render_loop(arguments, &scene, &output, size, seconds);
+    }
     let steps = FrameSteps::new(arguments.fps, arguments.speed, scene.dt_s);
     let last = steps.before(frames - 1);
     if last > MAX_STEPS {
@@ -78,6 +87,46 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let drawing = Drawing::without_window(&arguments.backend)?;
     let mut studio = Studio::new(&scene, drawing, size)?;
     film(&mut studio, &mut writer, steps, frames, arguments.fps)?;
+    let path = writer.finish()?;
+    terminal::print(&format!("{}\n", path.display()))
+}
+
+/// Draws one round of a scene that repeats.
+fn render_loop(
+    arguments: &Arguments,
+    scene: &Scene,
+    output: &Output,
+    size: (u32, u32),
+    seconds: f64,
+) -> anyhow::Result<()> {
+    let rate = arguments.fps / arguments.speed;
+    interrupt::listen();
+    let (world, cycle) = World::build_cycle(scene, arguments.scene.name(), seconds)?;
+    let round = LoopFrames::new(&cycle, rate, scene.dt_s);
+    let mut writer = output.start(size, arguments.fps)?;
+    let drawing = Drawing::without_window(&arguments.backend)?;
+    let mut studio = Studio::of_world(scene, &world, drawing, size)?;
+    let bar = progress_bar(round.count());
+    // Trails remember the frames before.
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a few seconds of frames")]
+    let before = (studio.trail_s() * rate).ceil() as u32;
+    for number in (1..=before).rev() {
+        studio.advance(round.step_before(number))?;
+        studio.observe()?;
+    }
+    for number in 0..round.count() {
+        studio.advance(round.step(number))?;
+        if writer.wants(number, round.count()) {
+            let since = if number == 0 { f64::INFINITY } else { 1.0 / arguments.fps };
+            let picture = studio.draw(since);
+            interrupt::check()?;
+            writer.push(&picture?)?;
+        } else {
+            writer.skip();
+        }
+        bar.inc(1);
+    }
+    bar.finish_and_clear();
     let path = writer.finish()?;
     terminal::print(&format!("{}\n", path.display()))
 }
@@ -126,6 +175,10 @@ pub(super) fn picture_size(text: &str) -> Result<(u32, u32), String> {
 
 fn frame_rate(text: &str) -> Result<f64, String> {
     within(text, 1.0, 1000.0)
+}
+
+fn loop_length(text: &str) -> Result<f64, String> {
+    within(text, 1.0, 120.0)
 }
 
 fn playback_speed(text: &str) -> Result<f64, String> {

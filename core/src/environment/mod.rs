@@ -4,6 +4,8 @@
 
 mod body;
 mod convert;
+mod cycle;
+mod field;
 mod foliage;
 mod source;
 mod species;
@@ -16,6 +18,8 @@ use glam::DVec3;
 
 use self::body::body_block;
 use self::convert::{float4, len32, q16, single, steps, word};
+pub use self::cycle::Cycle;
+use self::cycle::firm;
 pub(crate) use self::foliage::leaf_site;
 use self::foliage::{foliage_of, petiole_rows, seedlings, shed_rows};
 pub(crate) use self::source::{lifetime_steps, release_step};
@@ -37,7 +41,7 @@ use crate::terrain::Hills;
 use crate::terrain::ground::ground_relief;
 use crate::tree::Forest;
 use crate::tree::sway::{SCHEME_ARTICULATED, SCHEME_OLIAPURAM_KUMAR, SCHEME_QUIGLEY};
-use crate::wind::gust::{GUST_ROWS, gust_rows};
+use crate::wind::gust::{GUST_ROWS, GUST_SPACING, gust_rows};
 use crate::wind::profile::{PROFILE_ROWS, profile_rows};
 use crate::wind::turbulence::{TURBULENCE_NODES, TURBULENCE_X, turbulence_rows};
 use crate::wind::turbulence_box;
@@ -64,6 +68,7 @@ pub struct Environment {
     wind: Arc<[Uint4]>,
     petioles: Arc<[Uint4]>,
     forest: Arc<Forest>,
+    cycle: Option<Cycle>,
 }
 
 impl Environment {
@@ -72,6 +77,14 @@ impl Environment {
     /// # Errors
     /// A motion table file that cannot be read or used, a tree that does not grow.
     pub fn compile(scene: &Scene) -> Result<Self, SceneError> {
+        Self::compile_with(scene, None)
+    }
+
+    /// Compiles a scene as [`Environment::compile`] does; one that [`Cycle::of`] made together with its cycle.
+    ///
+    /// # Errors
+    /// As there.
+    pub fn compile_with(scene: &Scene, cycle: Option<Cycle>) -> Result<Self, SceneError> {
         let seed = seed_words(scene.seed);
         let tables = scene
             .species
@@ -81,12 +94,20 @@ impl Environment {
         let motion = pack_motion(&tables);
         let mut wind = Vec::with_capacity((PROFILE_ROWS + GUST_ROWS) as usize + 65536);
         wind.extend(profile_rows(scene.wind.profile, scene.wind.reference_height_m));
-        wind.extend(gust_rows(seed));
-        wind.extend(turbulence_rows(&turbulence_box(seed)));
+        let gusts = cycle.as_ref().map_or(GUST_ROWS / GUST_SPACING, Cycle::gusts);
+        let cells = cycle.as_ref().map_or(TURBULENCE_X, Cycle::cell_period);
+        wind.extend(gust_rows(seed, gusts));
+        wind.extend(turbulence_rows(&turbulence_box(seed, cells)));
         wind.extend(scene.ground.terrain.iter().flat_map(|terrain| Hills::grow(terrain).rows()));
         let kinds = foliage_of(scene);
         let mut petioles = shed_rows(scene, &kinds);
-        let block = compile_block(scene, &tables, len32(petioles.len()));
+        let mut block = compile_block(scene, &tables, len32(petioles.len()));
+        if let Some(cycle) = &cycle {
+            firm(&mut petioles);
+            // A slot's next leaf is its last one again.
+            block.seed.0[2] = 0;
+            block.crowns.0[2] = cycle.flutter(scene.dt_s);
+        }
         let forest = Forest::plant(seedlings(scene, |x, z| foot_height(&block, &wind, x, z))?, scene.dt_s);
         petioles.extend(petiole_rows(scene, &forest, &kinds));
         Ok(Self {
@@ -96,6 +117,7 @@ impl Environment {
             wind: wind.into(),
             petioles: petioles.into(),
             forest: forest.into(),
+            cycle,
         })
     }
 
@@ -191,8 +213,11 @@ impl Environment {
     /// The block of one step.
     pub fn step_block(&self, clock: &Clock) -> StepBlock {
         let wind = &self.block.wind;
-        let carried = |per_metre: f32, period: u32| {
-            let places = clock.wind_travel_m() * f64::from(per_metre);
+        let carried = |per_metre: f32, period: u32, of_cycle: fn(&Cycle) -> u32| {
+            let places = match &self.cycle {
+                None => clock.wind_travel_m() * f64::from(per_metre),
+                Some(cycle) => cycle.share(clock.step()) * f64::from(of_cycle(cycle)),
+            };
             let period = f64::from(period);
             #[expect(
                 clippy::cast_possible_truncation,
@@ -215,8 +240,8 @@ impl Environment {
         StepBlock {
             index: Uint4([clock.step(), 0, 0, 0]),
             offsets: Float4([
-                carried(wind.gust.0[1], GUST_ROWS),
-                carried(wind.cells.0[0], TURBULENCE_X),
+                carried(wind.gust.0[1], GUST_ROWS, |cycle| cycle.gust_rows),
+                carried(wind.cells.0[0], TURBULENCE_X, |cycle| cycle.cells),
                 0.0,
                 0.0,
             ]),

@@ -32,15 +32,15 @@ pub fn wind_gust<R: Real>(cx: &Context<'_>, along: R) -> R {
     row[0] + (x - k) * (row[1] - row[0])
 }
 
-/// Rows of the table: the value at a place and at the next. Gusts are `1 - cos` humps of random height, length and
+/// Rows of the table: the value at a place and at the next, for so many different gusts, a divisor of all. Gusts are `1 - cos` humps of random height, length and
 /// place, one to a spacing. The mean over the table is zero, so that gusts leave the mean wind alone, and the mean of
 /// the humps' peaks is one. Lulls come to -1/2, so that the air never turns back at any strength a scene may ask for.
-pub(crate) fn gust_rows(seed: [u32; 2]) -> Vec<Uint4> {
+pub(crate) fn gust_rows(seed: [u32; 2], different: u32) -> Vec<Uint4> {
     let rows = GUST_ROWS as usize;
     let mut values = vec![0.0; rows];
     for gust in 0..GUST_ROWS / GUST_SPACING {
         let [place, length, height, _] =
-            random(seed, gust, STREAM).map(|word| f64::from(word) / 4_294_967_296.0);
+            random(seed, gust % different, STREAM).map(|word| f64::from(word) / 4_294_967_296.0);
         let spacing = f64::from(GUST_SPACING);
         let centre = (f64::from(gust) + 0.2 + 0.6 * place) * spacing;
         let width = (0.4 + 0.5 * length) * spacing;

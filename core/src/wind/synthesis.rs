@@ -26,13 +26,13 @@ const BALANCE_ROUNDS: u32 = 8;
 
 /// Velocities at the nodes of the box, x running fastest, then y, then z. Interpolated, each
 /// component has mean zero along every line in x and mean square one over the box. Distances count in cells, which
-/// are cubes here; a box stretched by the same factors in its cells and in its velocities stays divergence-free.
-pub fn turbulence_box(seed: [u32; 2]) -> Vec<[f32; 3]> {
+/// are cubes here; after `period` of them along x, a divisor of all, it repeats. A box stretched by the same factors in its cells and in its velocities stays divergence-free.
+pub fn turbulence_box(seed: [u32; 2], period: u32) -> Vec<[f32; 3]> {
     let mut field: [Vec<Complex64>; 3] = std::array::from_fn(|axis| noise(seed, axis));
     for component in &mut field {
         transform(component, FftDirection::Forward);
     }
-    let waves: Vec<Wave> = (0..NODES).map(wave).collect();
+    let waves: Vec<Wave> = (0..NODES).map(|node| wave(node, SIZE[0] / period as usize)).collect();
     // The box is longer than it is high and wide, and waves across the wind are missing: without weights on the noise
     // one component would be livelier than another.
     let mut weights = [1.0; 3];
@@ -88,7 +88,8 @@ struct Wave {
     interpolated: f64,
 }
 
-fn wave(node: usize) -> Wave {
+/// One of the modes; of those along x only each so many, which repeat within the box.
+fn wave(node: usize, stride: usize) -> Wave {
     let index = [node % SIZE[0], node / SIZE[0] % SIZE[1], node / (SIZE[0] * SIZE[1])];
     let wave = [0, 1, 2].map(|axis: usize| {
         let half = SIZE[axis] / 2;
@@ -102,7 +103,7 @@ fn wave(node: usize) -> Wave {
     // have no direction, and the corners beyond the sphere of the shortest resolved wave no counterpart along the axes.
     let longest = TAU / SIZE[1].min(SIZE[2]) as f64;
     let nyquist = (0..3).any(|axis| index[axis] == SIZE[axis] / 2);
-    if index[0] == 0 || nyquist || k2 < 0.999 * longest * longest || k2 >= PI * PI {
+    if index[0] % stride != 0 || index[0] == 0 || nyquist || k2 < 0.999 * longest * longest || k2 >= PI * PI {
         return Wave { cell: [0.0; 3], amplitude: 0.0, interpolated: 0.0 };
     }
     let kept: f64 =

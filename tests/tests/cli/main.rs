@@ -6,8 +6,10 @@ mod common_cli;
 
 mod bad_input;
 mod export;
+mod examples;
 mod flight;
 mod leaf;
+mod loops;
 mod render;
 mod simulate;
 mod study;

@@ -84,7 +84,7 @@ fn variance_of_each_component_is_the_stated_one() {
 fn shell_spectrum_falls_with_the_five_thirds_power() {
     for seed in SEEDS {
         let words = [u32::try_from(seed & 0xffff_ffff), u32::try_from(seed >> 32)];
-        let rows = turbulence_box(words.map(|word| word.expect("half of a u64")));
+        let rows = turbulence_box(words.map(|word| word.expect("half of a u64")), 64);
         // Energy and number of waves in shells of equal ratio.
         let mut shells = vec![(0.0, 0.0, 0.0); 12];
         let (low, high) = (TAU / 32.0, PI);

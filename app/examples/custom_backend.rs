@@ -1,0 +1,102 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! A backend of one's own: any type that implements `Simulator`, here leaf by leaf on one thread, without trees. The parity
+//! suite compares it with the oracle. `cargo run --release --example custom_backend`
+
+use std::error::Error;
+
+use windfall_core::leaf::advance::leaf_advance;
+use windfall_core::leaf::fly::leaf_fly;
+use windfall_core::{Clock, Contract, Environment, SimError, Simulator, SimulatorInfo, Stats, World};
+use windfall_tests::suite;
+
+fn main() -> Result<(), Box<dyn Error>> {
+    run(1000)
+}
+
+/// Runs the backend through all worlds of the suite that it takes.
+pub(crate) fn run(leaves: u32) -> Result<(), Box<dyn Error>> {
+    for case in suite::worlds(leaves).iter().filter(|case| !case.has_trees()) {
+        suite::check(case, Plain::new)?;
+        println!("{}: equal to the oracle", case.name);
+    }
+    Ok(())
+}
+
+/// One leaf after another.
+pub(crate) struct Plain {
+    world: World,
+}
+
+impl Plain {
+    /// A simulator of a world without trees.
+    pub(crate) fn new(world: &World) -> Result<Self, SimError> {
+        if !world.environment.forest().is_empty() {
+            return Err(SimError::Device { reason: "trees are not simulated here".into() });
+        }
+        Ok(Self { world: world.clone() })
+    }
+
+    /// The same leaves, and no trees.
+    fn same_size(&self, environment: &Environment) -> Result<(), SimError> {
+        environment.fits(self.info().capacity, 0)
+    }
+}
+
+impl Simulator for Plain {
+    fn info(&self) -> SimulatorInfo {
+        SimulatorInfo {
+            backend: "plain",
+            adapter: "one thread".into(),
+            // It calls the oracle's own functions, in their order; another one would write twins of them.
+            contract: Contract::Exact,
+            capacity: self.world.environment.scene().leaf_count(),
+        }
+    }
+
+    fn clock(&self) -> Clock {
+        self.world.clock
+    }
+
+    fn step(&mut self, count: u32) -> Result<(), SimError> {
+        let World { environment, clock, leaves, .. } = &mut self.world;
+        for _ in 0..count {
+            // What depends on time alone, once a step.
+            let block = environment.step_block(clock);
+            let cx = environment.context(&block);
+            for slot in 0..leaves.len() {
+                leaf_advance(&cx, &mut leaves.as_mut().leaf_mut(slot));
+                leaf_fly(&cx, &mut leaves.as_mut().leaf_mut(slot));
+            }
+            clock.advance(environment);
+        }
+        Ok(())
+    }
+
+    fn write_state(&mut self, world: &World) -> Result<(), SimError> {
+        self.same_size(&world.environment)?;
+        self.world = world.clone();
+        Ok(())
+    }
+
+    fn read_state(&mut self, world: &mut World) -> Result<(), SimError> {
+        self.same_size(&world.environment)?;
+        world.clock = self.world.clock;
+        world.leaves.clone_from(&self.world.leaves);
+        Ok(())
+    }
+
+    fn set_environment(&mut self, environment: &Environment) -> Result<(), SimError> {
+        self.same_size(environment)?;
+        self.world.environment = environment.clone();
+        Ok(())
+    }
+
+    fn sync(&mut self) -> Result<(), SimError> {
+        Ok(())
+    }
+
+    fn stats(&mut self) -> Result<Stats, SimError> {
+        Ok(self.world.stats())
+    }
+}

@@ -1,0 +1,211 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Scenes that repeat after so many steps, to the bit for leaves, for clips without a seam.
+//!
+//! Wind: gusts and turbulence of a period that divides the cycle, carried at the speed of the mean wind by whole
+//! periods. Leaves: a source lets go the same leaves in every cycle, and each of them comes down over several; its slot
+//! is then released again as the same leaf. What is in the air at a moment is the same as a cycle later, of other slots.
+//! Trees: petioles hold, flutter fits the cycle, and damping brings segments to the motion that the wind repeats.
+
+use super::FLUTTER_HZ;
+use crate::SceneError;
+use crate::layout::Uint4;
+use crate::leaf::record::SOURCE_SHIFT;
+use crate::leaf::{Course, Identity, Leaves, Place};
+use crate::scene::{Release, Scene, limits};
+use crate::wind::gust::{GUST_ROWS, GUST_SPACING};
+use crate::wind::turbulence::TURBULENCE_X;
+
+/// Seconds in which trees come to repeat what the wind does: ten times what the slowest sway takes to fade e-fold.
+const TREES_SETTLE_S: f64 = 120.0;
+/// Petioles look at the wind every so many steps.
+const STEP_GRID: u32 = 8;
+/// Shortest cycle in seconds, and the shortest with trees, whose leaves would flutter too fast.
+const SHORTEST_S: [f64; 2] = [1.0, 6.0];
+/// Longest cycle in seconds.
+const LONGEST_S: f64 = 120.0;
+/// Least cells of turbulence that the wind carries past in a cycle.
+const FEWEST_CELLS: u32 = 8;
+
+/// The rhythm of a scene that repeats.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Cycle {
+    /// Steps after which everything repeats.
+    pub steps: u32,
+    /// Steps from time zero until it does, a multiple of the cycle's.
+    pub run_in: u32,
+    /// Rows of the gust table that pass in a cycle.
+    pub(super) gust_rows: u32,
+    /// Cells of the turbulence box that pass in a cycle.
+    pub(super) cells: u32,
+    /// Leaves that each source lets go in a cycle, and cycles until a slot is released again; of sources that let go
+    /// nothing any more, none.
+    sources: Vec<Option<(u32, u32)>>,
+}
+
+impl Cycle {
+    /// The cycle of about `seconds` of a scene, and the scene as it must be for that: sources let go as many leaves a
+    /// second as they do on average, evenly, gusts and cells of turbulence are a little longer or shorter.
+    ///
+    /// # Errors
+    /// [`SceneError::Field`] for what cannot repeat: leaves let go once, vortices and cameras that travel, water.
+    pub fn of(scene: &Scene, file: &str, seconds: f64) -> Result<(Scene, Self), SceneError> {
+        let refuse = |field: String, value: String, allowed: &str| {
+            Err(SceneError::Field {
+                file: file.into(),
+                field,
+                value,
+                allowed: format!("{allowed} in a loop"),
+            })
+        };
+        let shortest = SHORTEST_S[usize::from(scene.tree_leaf_count() > 0)];
+        if !(shortest..=LONGEST_S).contains(&seconds) {
+            let allowed = format!("{shortest} to {LONGEST_S} s for this scene");
+            return refuse("--loop".into(), seconds.to_string(), &allowed);
+        }
+        for (index, vortex) in scene.wind.vortices.iter().enumerate() {
+            if vortex.drift_m_s != glam::Vec3::ZERO {
+                let field = format!("wind.vortices[{index}].drift_m_s");
+                return refuse(field, vortex.drift_m_s.to_string(), "vortices that stay where they are");
+            }
+        }
+        if scene.ground.water.is_some() {
+            return refuse("ground.water".into(), "there".into(), "no water, whose ripples never repeat,");
+        }
+        if !scene.view.path.is_empty() {
+            return refuse("view.path".into(), "there".into(), "a camera that stays");
+        }
+        let mut looped = scene.clone();
+        looped.regrow_after_s = None;
+        let dt = f64::from(scene.dt_s);
+        let steps = round(seconds / dt / f64::from(STEP_GRID)).max(1) * STEP_GRID;
+        let length_s = f64::from(steps) * dt;
+        let mut sources = Vec::with_capacity(scene.sources.len());
+        let mut longest = 1;
+        for (index, source) in looped.sources.iter_mut().enumerate() {
+            let Some(life_s) = source.recycle_after_s.map(f64::from) else {
+                let last_s = match source.release {
+                    Release::Burst { at_s } => f64::from(at_s),
+                    Release::Rate { per_s, from_s } => {
+                        f64::from(from_s) + f64::from(source.count - 1) / f64::from(per_s)
+                    }
+                };
+                if last_s > 0.0 {
+                    let allowed = "a time, or releases that end before time zero,";
+                    return refuse(format!("sources[{index}].recycle_after_s"), "None".into(), allowed);
+                }
+                sources.push(None);
+                continue;
+            };
+            if matches!(source.release, Release::Burst { .. }) {
+                let allowed = "Rate: leaves let go one after another";
+                return refuse(format!("sources[{index}].release"), "Burst".into(), allowed);
+            }
+            let each = round(f64::from(source.count) * length_s / life_s).max(1);
+            let cycles = ceil(life_s / length_s).max(1);
+            longest = longest.max(cycles);
+            source.count = each.saturating_mul(cycles);
+            source.recycle_after_s = Some(super::single(f64::from(cycles * steps) * dt));
+            source.release = Release::Rate {
+                per_s: super::single(f64::from(each) / length_s).max(limits::PER_S.low),
+                from_s: 0.0,
+            };
+            sources.push(Some((each, cycles)));
+        }
+        let way_m = scene.wind.speed.metres_per_second() * length_s;
+        let gusts = periods(length_s / f64::from(scene.wind.gusts.interval_s), 1, GUST_ROWS / GUST_SPACING);
+        let (mut gust_rows, mut cells) = (0, 0);
+        let interval_s = super::single(length_s / f64::from(gusts));
+        if way_m > 0.0 && limits::INTERVAL_S.contains(interval_s) {
+            looped.wind.gusts.interval_s = interval_s;
+            gust_rows = gusts * GUST_SPACING;
+        } else {
+            looped.wind.gusts.strength = 0.0;
+        }
+        let passing = periods(way_m / f64::from(scene.wind.turbulence.cell_m), FEWEST_CELLS, TURBULENCE_X);
+        let cell_m = super::single(way_m / f64::from(passing));
+        // In air that hardly moves turbulence stands still.
+        if limits::CELL_M.contains(cell_m) {
+            looped.wind.turbulence.cell_m = cell_m;
+            cells = passing;
+        }
+        let run_in =
+            if scene.trees.is_empty() { longest } else { longest.max(ceil(TREES_SETTLE_S / length_s)) };
+        looped.validate(file)?;
+        Ok((looped, Self { steps, run_in: run_in * steps, gust_rows, cells, sources }))
+    }
+
+    /// Gusts after which those of the table repeat.
+    pub(super) fn gusts(&self) -> u32 {
+        period(self.gust_rows / GUST_SPACING, GUST_ROWS / GUST_SPACING)
+    }
+
+    /// Cells after which those of the turbulence box repeat.
+    pub(super) fn cell_period(&self) -> u32 {
+        period(self.cells, TURBULENCE_X)
+    }
+
+    /// Share of the cycle that has passed at a step.
+    pub(super) fn share(&self, step: u32) -> f64 {
+        f64::from(step % self.steps) / f64::from(self.steps)
+    }
+
+    /// Rate of a fluttering leaf in 2^-32 turns a step: as near to the usual as a whole number of turns in a cycle
+    /// allows to every leaf, the fastest of which flutter by half faster in steps of 1/32.
+    pub(super) fn flutter(&self, dt_s: f32) -> u32 {
+        let turns = round(f64::from(FLUTTER_HZ) * f64::from(self.steps) * f64::from(dt_s) / 32.0).max(1);
+        32 * round(f64::from(turns) * 4_294_967_296.0 / f64::from(self.steps))
+    }
+
+    /// Makes all slots of the sources wait for their releases: the same leaves in every cycle, in slots of their own.
+    pub(crate) fn schedule(&self, scene: &Scene, leaves: &mut Leaves) {
+        let mut first = scene.tree_leaf_count();
+        for (index, (source, rhythm)) in (0u32..).zip(scene.sources.iter().zip(&self.sources)) {
+            if let &Some((each, _)) = rhythm {
+                for place in 0..source.count {
+                    let slot = (first + place) as usize;
+                    let (cycle, leaf) = (place / each, place % each);
+                    let within = u64::from(leaf) * u64::from(self.steps) / u64::from(each);
+                    #[expect(clippy::cast_possible_truncation, reason = "within the steps of a cycle")]
+                    let event = 1 + within as u32 + cycle * self.steps;
+                    leaves.place[slot] = Place::default();
+                    leaves.drift[slot] = Default::default();
+                    leaves.attitude[slot] = Default::default();
+                    leaves.course[slot] = Course { event, ..Course::default() };
+                    leaves.identity[slot] =
+                        Identity { id: first + leaf, look: index << SOURCE_SHIFT, ..Identity::default() };
+                }
+            }
+            first += source.count;
+        }
+    }
+}
+
+/// Rows of petioles that never break.
+pub(super) fn firm(chances: &mut [Uint4]) {
+    chances.fill(Uint4::default());
+}
+
+/// The number nearest to `natural` (by ratio) that is a power of two up to `table`, or so many tables.
+fn periods(natural: f64, fewest: u32, table: u32) -> u32 {
+    if natural >= f64::from(table) {
+        return round(natural / f64::from(table)) * table;
+    }
+    let power = round(libm::log2(natural.max(1.0)));
+    (1 << power).clamp(fewest, table)
+}
+
+/// After how many of a table a pattern repeats of which `passing` pass in a cycle; a still one fills the table.
+fn period(passing: u32, table: u32) -> u32 {
+    if passing == 0 { table } else { passing.min(table) }
+}
+
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "positive, saturating")]
+fn round(value: f64) -> u32 {
+    libm::floor(value + 0.5) as u32
+}
+
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "positive, saturating")]
+fn ceil(value: f64) -> u32 {
+    libm::ceil(value - 1e-6) as u32
+}

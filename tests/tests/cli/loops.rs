@@ -1,0 +1,161 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Scenes that repeat: leaves to the bit on both backends, trees nearly, pictures without a seam.
+
+use std::path::Path;
+
+use tempfile::TempDir;
+use windfall_core::{Cycle, Scene, Simulator, World};
+use windfall_cpu::{CpuOptions, CpuSimulator};
+use windfall_wgpu::{Gpu, WgpuOptions, WgpuSimulator};
+
+use crate::common_cli::{assert_refused, file, folder, windfall};
+
+/// Two sources, one of bodies, in gusts, turbulence and a vortex.
+const SCENE: &str = "(
+    species: [(name: \"leaf\"), (name: \"body\", flight: Aerodynamic(()))],
+    sources: [
+        (shape: Box(center_m: (0.0, 3.0, 0.0), half_extent_m: (2.0, 0.5, 2.0)), count: 120,
+         release: Rate(per_s: 20.0, from_s: -6.0), recycle_after_s: 6.0, species: [(species: \"leaf\", weight: 1)]),
+        (shape: Disc(center_m: (0.0, 3.0, 0.0), radius_m: 2.0), count: 70,
+         release: Rate(per_s: 20.0, from_s: -4.0), recycle_after_s: 5.0, species: [(species: \"body\", weight: 1)]),
+    ],
+    wind: (speed: MetresPerSecond(2.0), vortices: [(center_m: (1.0, 1.0, 0.0), axis: (0.0, 1.0, 0.0),
+        circulation_m2_s: 2.0, core_m: 0.5, axial_m_s: 0.0, drift_m_s: (0.0, 0.0, 0.0))]),
+    view: (camera: (position_m: (0.0, 2.0, 8.0), target_m: (0.0, 1.6, 0.0))),
+)";
+
+/// The worlds after the run-in and `steps` later.
+fn two_rounds(simulator: &mut dyn Simulator, world: &World, cycle: &Cycle, steps: u32) -> [World; 2] {
+    let mut worlds = [world.clone(), world.clone()];
+    for (world, count) in worlds.iter_mut().zip([cycle.run_in, steps]) {
+        simulator.step(count).expect("it steps");
+        simulator.read_state(world).expect("the same size");
+    }
+    worlds
+}
+
+/// Falling leaves, and leaves of which another slot has not every bit one round before.
+fn off_after(cycle: &Cycle, [before, after]: &[World; 2]) -> (usize, usize) {
+    let scene = after.environment.scene();
+    let dt = f64::from(scene.dt_s);
+    let mut first = scene.tree_leaf_count() as usize;
+    let (mut falling, mut off) = (0, 0);
+    for source in &scene.sources {
+        let rounds = f64::from(source.recycle_after_s.expect("recycled")) / dt / f64::from(cycle.steps);
+        let (count, rounds) = (source.count as usize, rounds.round() as usize);
+        let each = count / rounds;
+        for place in 0..count {
+            let (one, other) = (first + place, first + (place + each) % count);
+            let bits = |world: &World, slot: usize| {
+                let leaves = &world.leaves;
+                let course = leaves.course[slot];
+                (
+                    leaves.place[slot],
+                    leaves.drift[slot],
+                    leaves.attitude[slot],
+                    (course.rate, course.size, course.heading),
+                    (leaves.identity[slot].id, leaves.identity[slot].look),
+                )
+            };
+            falling +=
+                usize::from(before.leaves.place[one].state() == windfall_core::leaf::LeafState::Falling);
+            off += usize::from(bits(before, one) != bits(after, other));
+        }
+        first += count;
+    }
+    (falling, off)
+}
+
+#[test]
+fn leaves_repeat_to_the_bit_on_both_backends() {
+    let scene = Scene::from_ron(SCENE, "loop").expect("valid");
+    let (world, cycle) = World::build_cycle(&scene, "loop", 2.0).expect("it can repeat");
+    assert_eq!(cycle.steps, 120, "two seconds");
+    let mut cpu = CpuSimulator::new(&world, CpuOptions::default()).expect("threads start");
+    let rounds = two_rounds(&mut cpu, &world, &cycle, cycle.steps);
+    let (falling, off) = off_after(&cycle, &rounds);
+    assert!(falling > 40, "{falling} leaves are in the air");
+    assert_eq!(off, 0, "every leaf is where another was a round ago");
+    // A step too many: what the comparison would say of a cut somewhere else.
+    let mut late = CpuSimulator::new(&world, CpuOptions::default()).expect("threads start");
+    let (_, off) = off_after(&cycle, &two_rounds(&mut late, &world, &cycle, cycle.steps + 1));
+    assert!(off >= falling, "only {off} leaves notice a step too many");
+    let gpu = Gpu::request(None).expect("an adapter");
+    let mut wgpu = WgpuSimulator::new(&gpu, &world, &WgpuOptions::default()).expect("the device takes it");
+    let [_, end] = two_rounds(&mut wgpu, &world, &cycle, cycle.steps);
+    assert_eq!(end.state_hash(), rounds[1].state_hash(), "the same bits on the device");
+}
+
+#[test]
+fn trees_repeat_within_a_tenth_of_a_millimetre() {
+    let text = "(sources: [], trees: [(kind: \"bush\", leaves: 200)],
+        wind: (speed: MetresPerSecond(5.0)), autumn: 0.6)";
+    let scene = Scene::from_ron(text, "bush").expect("valid");
+    let (world, cycle) = World::build_cycle(&scene, "bush", 6.0).expect("it can repeat");
+    let mut cpu = CpuSimulator::new(&world, CpuOptions::default()).expect("threads start");
+    let apart = |[before, after]: &[World; 2]| {
+        let places = before.leaves.place.iter().zip(&after.leaves.place);
+        let axes = places.flat_map(|(a, b)| (0..3).map(|axis| (a.position[axis] - b.position[axis]).abs()));
+        axes.fold(0.0, f32::max)
+    };
+    let rounds = two_rounds(&mut cpu, &world, &cycle, cycle.steps);
+    assert!(apart(&rounds) < 1e-4, "leaves on twigs are {} m off after a round", apart(&rounds));
+    let half = two_rounds(&mut cpu, &world, &cycle, cycle.steps / 2);
+    assert!(apart(&half) > 1e-2, "they move: {} m in half a round", apart(&half));
+    assert_eq!(rounds[0].stats().attached, rounds[1].stats().attached, "none comes off");
+}
+
+/// Mean differences of each frame of a clip to the next, the last to the first.
+fn differences(frames: &Path) -> Vec<f64> {
+    let mut paths: Vec<_> =
+        std::fs::read_dir(frames).expect("a folder").map(|entry| entry.expect("an entry").path()).collect();
+    paths.sort();
+    let pictures: Vec<_> = paths.iter().map(|path| image::open(path).expect("a picture").to_rgb8()).collect();
+    let next = pictures.iter().cycle().skip(1);
+    let apart = |a: &image::RgbImage, b: &image::RgbImage| {
+        let sum: u64 = a.as_raw().iter().zip(b.as_raw()).map(|(a, b)| u64::from(a.abs_diff(*b))).sum();
+        sum as f64 / a.as_raw().len() as f64
+    };
+    pictures.iter().zip(next).map(|(a, b)| apart(a, b)).collect()
+}
+
+fn seam(there: &TempDir, out: &str, length: &[&str]) -> (f64, f64) {
+    let fixed = ["render", "loop.ron", "--size", "160x90", "--fps", "20", "--out", out];
+    windfall(there, &[&fixed[..], length].concat()).text();
+    let mut all = differences(&there.path().join(out));
+    assert_eq!(all.len(), 20, "a second of frames");
+    let seam = all.pop().expect("the last");
+    (seam, all.into_iter().fold(0.0, f64::max))
+}
+
+#[test]
+fn a_looped_clip_has_no_seam_and_a_plain_one_has() {
+    let there = folder();
+    file(&there, "loop.ron", SCENE);
+    let (at_seam, elsewhere) = seam(&there, "looped", &["--loop", "1"]);
+    assert!(at_seam <= 1.1 * elsewhere, "the seam differs by {at_seam}, other frames by up to {elsewhere}");
+    let (at_cut, elsewhere) = seam(&there, "plain", &["--frames", "20"]);
+    assert!(at_cut > 1.1 * elsewhere, "a cut differs by {at_cut}, other frames by up to {elsewhere}");
+}
+
+#[test]
+fn what_cannot_repeat_is_refused() {
+    let there = folder();
+    let refuse = |text: &str, seconds: &str, essentials: &[&str]| {
+        file(&there, "no.ron", text);
+        assert_refused(&there, &["render", "no.ron", "--loop", seconds, "--out", "x.gif"], essentials);
+    };
+    refuse("()", "0.5", &["--loop", "1", "120"]);
+    refuse("(trees: [(kind: \"oak\")])", "2", &["no.ron: --loop is 2", "6 to 120 s"]);
+    refuse("(sources: [(recycle_after_s: None)])", "4", &["sources[0].recycle_after_s is None", "in a loop"]);
+    refuse("(sources: [(release: Burst(at_s: 0.0))])", "4", &["sources[0].release is Burst", "Rate"]);
+    refuse("(ground: (water: Some((height_m: -1.0))))", "4", &["ground.water", "ripples"]);
+    let vortex =
+        "(wind: (vortices: [(center_m: (0.0, 0.0, 0.0), axis: (0.0, 1.0, 0.0), circulation_m2_s: 1.0,
+        core_m: 1.0, axial_m_s: 0.0, drift_m_s: (1.0, 0.0, 0.0))]))";
+    refuse(vortex, "4", &["wind.vortices[0].drift_m_s", "stay"]);
+    file(&there, "no.ron", "()");
+    let both = ["render", "no.ron", "--loop", "2", "--frames", "3", "--out", "x.gif"];
+    assert_refused(&there, &both, &["--loop", "--frames"]);
+}
