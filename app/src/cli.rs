@@ -7,8 +7,7 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
-use crate::commands::{bench, export, flight, info, leaf, motions, render, simulate, tree, view};
-use crate::commands::{bench, flight, info, leaf, motions, render, simulate, study, tree, view};
+use crate::commands::{bench, export, flight, info, leaf, motions, render, simulate, study, tree, view};
 use crate::terminal;
 
 /// Exit code of everything that goes wrong.

@@ -18,8 +18,9 @@ const WHITE: f32 = 10.0;
 /// The scene: a leaf before the sky, in pictures proportional to light.
 fn scene() -> Scene {
     let mut scene = Scene::default();
-    scene.view.camera.eye_m = [0.0, 60.0, 12.0].into();
-    scene.view.camera.target_m = [0.0, 66.0, 0.0].into();
+    // The leaf hangs 6 m before the target, a metre from the eye and above the horizon.
+    scene.view.camera.eye_m = [0.0, 60.0, 7.0].into();
+    scene.view.camera.target_m = [0.0, 60.25, 0.0].into();
     scene.view.lens.tone_map = ToneMap::Linear { gamma: 1.0 };
     scene.view.lens.exposure = Exposure::Manual { ev100: (1000.0 * WHITE / 1.2).log2() };
     scene.view.lens.glare.strength = 0.0;

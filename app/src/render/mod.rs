@@ -62,7 +62,6 @@ mod water_pass;
 
 pub use error::RenderError;
 pub use landing_pass::LANDINGS_PER_M2;
-pub use leaf_kinds::MAX_LAYERS;
 pub use paint::{ATTACHED, MOTIONS, Measure, Paint, RESTING, shade_bytes};
 pub(crate) use leaf_forms::shaped;
 pub use leaf_kinds::MAX_LAYERS;
