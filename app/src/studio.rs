@@ -87,6 +87,17 @@ impl Studio {
         self.step
     }
 
+    /// How many frames at `rate` before a picture show in it.
+    pub fn remembered_frames(&self, rate: f64) -> u32 {
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "a few seconds of frames"
+        )]
+        let trail = (self.trail_s * rate).ceil() as u32;
+        trail.max(u32::from(self.is_moving))
+    }
+
     /// Whether a picture this many seconds after a moment, at the next frame or later, shows something of that moment.
     pub fn remembers(&self, seconds: f64, is_next: bool) -> bool {
         self.trail_s > 0.0 && seconds <= self.trail_s || self.is_moving && is_next

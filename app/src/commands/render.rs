@@ -107,10 +107,7 @@ fn render_loop(
     let drawing = Drawing::without_window(&arguments.backend)?;
     let mut studio = Studio::of_world(scene, &world, drawing, size)?;
     let bar = progress_bar(round.count());
-    // Trails remember the frames before.
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a few seconds of frames")]
-    let before = (studio.trail_s() * rate).ceil() as u32;
-    for number in (1..=before).rev() {
+    for number in (1..=studio.remembered_frames(rate)).rev() {
         studio.advance(round.step_before(number))?;
         studio.observe()?;
     }

@@ -62,10 +62,10 @@ mod water_pass;
 
 pub use error::RenderError;
 pub use landing_pass::LANDINGS_PER_M2;
-pub use paint::{ATTACHED, MOTIONS, Measure, Paint, RESTING, shade_bytes};
 pub(crate) use leaf_forms::shaped;
 pub use leaf_kinds::MAX_LAYERS;
 pub(crate) use leaf_kinds::{build, dryness, turned};
+pub use paint::{ATTACHED, MOTIONS, Measure, Paint, RESTING, shade_bytes};
 pub use readback::PictureTarget;
 pub use renderer::Renderer;
 pub(crate) use scenery::{BARK_SIZE, paint_bark};

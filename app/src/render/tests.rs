@@ -89,8 +89,7 @@ impl Bench {
         time_s: f64,
     ) -> RgbaImage {
         let at = self.scene.view.camera.target_m;
-        let usage =
-            wgpu::BufferUsages::VERTEX | wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC;
+        let usage = wgpu::BufferUsages::VERTEX | wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC;
         let column = |words: [u32; 4]| {
             upload::buffer(&self.device, &self.queue, "column", usage, bytemuck::bytes_of(&words))
         };

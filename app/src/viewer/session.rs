@@ -298,11 +298,6 @@ impl Session {
         }
     }
 
-    /// What the scene compiles to.
-    pub(super) fn environment(&self) -> &Environment {
-        &self.environment
-    }
-
     /// The scene as it is now.
     pub(super) fn scene(&self) -> &Arc<Scene> {
         &self.scene

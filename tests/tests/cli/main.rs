@@ -5,8 +5,8 @@
 mod common_cli;
 
 mod bad_input;
-mod export;
 mod examples;
+mod export;
 mod flight;
 mod leaf;
 mod loops;

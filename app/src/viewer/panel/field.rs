@@ -8,8 +8,8 @@ use std::ops::RangeInclusive;
 
 use egui::emath::Numeric;
 use egui::{
-    ComboBox, DragValue, Key, Painter, Pos2, Response, RichText, Sense, Slider, Stroke, TextEdit, Ui, Vec2,
-    WidgetInfo, WidgetType, vec2,
+    ComboBox, DragValue, Key, Painter, Pos2, Response, RichText, Role, Sense, Slider, Stroke, TextEdit, Ui,
+    Vec2, WidgetInfo, vec2,
 };
 use glam::Vec3;
 use windfall_core::scene::limits::Limit;
@@ -307,7 +307,7 @@ pub(super) fn optional_text(
 /// The little arrow behind what was changed; true if it was pressed.
 fn reset(ui: &mut Ui, name: &str) -> bool {
     let (rect, response) = ui.allocate_exact_size(vec2(16.0, 16.0), Sense::click());
-    response.widget_info(|| WidgetInfo::labeled(WidgetType::Button, true, format!("Reset {name}")));
+    response.widget_info(|| WidgetInfo::labeled(Role::Button, true, format!("Reset {name}")));
     let is_chosen = response.hovered() || response.has_focus();
     let color = if is_chosen { style::TEXT } else { style::TITLE };
     turning_arrow(ui.painter(), rect.center(), Stroke::new(1.5, color));

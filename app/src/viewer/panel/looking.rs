@@ -5,7 +5,7 @@
 use egui::{CollapsingHeader, RichText, Ui};
 use windfall_core::scene::limits::Limit;
 
-use super::rows::{Scale, slider};
+use super::field::field;
 use super::{Facts, Wish, style};
 use crate::render::Measure;
 use crate::viewer::looking::Looking;
@@ -34,8 +34,7 @@ pub(super) fn show(ui: &mut Ui, facts: &Facts, wishes: &mut Vec<Wish>) {
         });
         if looking.wind {
             let tip = "Height above the ground of the slice of arrows";
-            let scale = Scale::Logarithmic(0.1);
-            slider(ui, "Slice at", tip, &mut looking.wind_height_m, WIND_HEIGHT_M, scale);
+            field("Slice at", tip, WIND_HEIGHT_M).fine(0.1).show(ui, &mut looking.wind_height_m, None);
         }
         let hint = match &facts.card {
             Some(_) => "Click beside any leaf to let go of this one.",
@@ -67,6 +66,6 @@ fn colors(ui: &mut Ui, looking: &mut Looking) {
     if let Some(index) = looking.measure.and_then(Looking::scale_of) {
         let (name, limit) = MOST[index];
         let tip = "What the light end of the colours stands for";
-        slider(ui, name, tip, &mut looking.most[index], limit, Scale::Logarithmic(0.1));
+        field(name, tip, limit).fine(0.1).show(ui, &mut looking.most[index], None);
     }
 }
