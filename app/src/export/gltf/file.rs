@@ -17,6 +17,10 @@ const U16: u32 = 5123;
 const U32: u32 = 5125;
 /// Component type of floats.
 const F32: u32 = 5126;
+/// Target of a view with attributes of vertices.
+const VERTICES: u32 = 34962;
+/// Target of a view with indices.
+const INDICES: u32 = 34963;
 
 /// Everything that a document lists, and its buffer. Functions that add something give its index.
 #[derive(Debug, Default)]
@@ -73,9 +77,16 @@ impl Document {
         self.accessor(view, values.len(), F32, N)
     }
 
-    /// Adds places, with their bounds.
+    /// Adds floats of vertices.
+    pub(super) fn vertices<const N: usize>(&mut self, values: &[[f32; N]]) -> usize {
+        let index = self.floats(values);
+        self.aim(VERTICES);
+        index
+    }
+
+    /// Adds places of vertices, with their bounds.
     pub(super) fn positions(&mut self, places: &[[f32; 3]]) -> usize {
-        let index = self.floats(places);
+        let index = self.vertices(places);
         let vectors = || places.iter().copied().map(Vec3::from_array);
         let (low, high) = (vectors().reduce(Vec3::min), vectors().reduce(Vec3::max));
         if let (Some(low), Some(high)) = (low, high) {
@@ -96,12 +107,14 @@ impl Document {
     /// Adds the joints of vertices.
     pub(super) fn joints(&mut self, joints: &[[u16; 4]]) -> usize {
         let view = self.view(joints.as_flattened().iter().flat_map(|value| value.to_le_bytes()));
+        self.aim(VERTICES);
         self.accessor(view, joints.len(), U16, 4)
     }
 
     /// Adds indices.
     pub(super) fn indices(&mut self, indices: &[u32]) -> usize {
         let view = self.view(indices.iter().flat_map(|value| value.to_le_bytes()));
+        self.aim(INDICES);
         self.accessor(view, indices.len(), U32, 1)
     }
 
@@ -118,6 +131,14 @@ impl Document {
         let view = self.view(png.into_inner());
         let source = self.add("images", json!({ "bufferView": view, "mimeType": "image/png" }));
         Ok(self.add("textures", json!({ "source": source })))
+    }
+
+    /// Says what the view added last is for.
+    fn aim(&mut self, target: u32) {
+        let views = self.lists.get_mut("bufferViews").and_then(Value::as_array_mut);
+        if let Some(view) = views.and_then(|views| views.last_mut()) {
+            view["target"] = target.into();
+        }
     }
 
     fn set_bounds(&mut self, accessor: usize, low: Value, high: Value) {

@@ -37,8 +37,8 @@ pub(super) fn leaf_mesh(document: &mut Document, mesh: &LeafMesh) -> io::Result<
     );
     let attributes = json!({
         "POSITION": document.positions(&mesh.positions_m),
-        "NORMAL": document.floats(&mesh.normals),
-        "TEXCOORD_0": document.floats(&mesh.texcoords),
+        "NORMAL": document.vertices(&mesh.normals),
+        "TEXCOORD_0": document.vertices(&mesh.texcoords),
     });
     let indices = document.indices(mesh.triangles.as_flattened());
     let primitive = json!({ "attributes": attributes, "indices": indices, "material": material });
@@ -79,11 +79,11 @@ impl Barks {
         let mut attributes = Map::new();
         let mut set = |name: &str, accessor: usize| attributes.insert(name.into(), accessor.into());
         set("POSITION", document.positions(&mesh.positions_m));
-        set("NORMAL", document.floats(&mesh.normals));
-        set("TEXCOORD_0", document.floats(&mesh.texcoords));
+        set("NORMAL", document.vertices(&mesh.normals));
+        set("TEXCOORD_0", document.vertices(&mesh.texcoords));
         if bends {
             set("JOINTS_0", document.joints(&mesh.joints));
-            set("WEIGHTS_0", document.floats(&mesh.weights));
+            set("WEIGHTS_0", document.vertices(&mesh.weights));
         }
         let indices = document.indices(&mesh.indices);
         let primitive = json!({ "attributes": attributes, "indices": indices, "material": material });
