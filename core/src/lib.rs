@@ -1,17 +1,46 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Scenes, leaf stores and the physics of falling leaves as pure functions.
+//! Falling leaves: scenes, leaf stores, and the physics as pure functions.
 //!
 //! Data flows one way: a [`Scene`] (RON file or preset) becomes a [`World`] (leaf columns, clock and compiled
 //! [`Environment`]), which a [`Simulator`] steps. SI units, y up, right-handed; state is `f32`, time a step index times
 //! a fixed step.
 //!
-//! - [`scene`]: what a scene file says.
-//! - [`motion`]: six primitive motions, their tables and the chain that joins them.
-//! - [`flight`]: leaves as bodies in the air.
-//! - [`wind`]: mean flow, gusts, turbulence, vortices.
-//! - [`flight`]: rigid leaves under air forces.
+//! # A first world
+//!
+//! A scene is plain data in which everything has a default, so text can say as little as it likes:
+//!
+//! ```
+//! use windfall_core::leaf::LeafState;
+//! use windfall_core::{Scene, World};
+//!
+//! let text = "(wind: (speed: Beaufort(3)), sources: [(count: 200, recycle_after_s: 12.0)])";
+//! let mut scene = Scene::from_ron(text, "my scene")?;
+//! scene.seed = 7;
+//! let world = World::build(&scene)?;
+//!
+//! // Five columns of 16-byte records, one of each for every leaf.
+//! let falling = world.leaves.place.iter().filter(|place| place.state() == LeafState::Falling);
+//! let highest = falling.map(|place| place.position[1]).fold(0.0, f32::max);
+//! assert!(highest > 1.0 && world.stats().falling > 0);
+//! # Ok::<(), windfall_core::SceneError>(())
+//! ```
+//!
+//! # Choosing a backend
+//!
+//! Backends are crates of their own that implement [`Simulator`]: `windfall-cpu` on threads, the oracle, and
+//! `windfall-wgpu` on graphics adapters, with the same bits on Vulkan. A world fills either, and takes back what has become
+//! of it ([`Simulator::read_state`]). The front page of the crate `windfall` shows both at work.
+//!
+//! # Where to go on
+//!
+//! - [`scene`]: what a scene file says, field by field, with ranges.
+//! - [`World::build_cycle`]: worlds that repeat, for clips without a seam; [`Environment::set_wind_field`]: a wind of
+//!   your own.
 //! - [`leaf`]: the leaf store and the life of a leaf, step by step.
+//! - [`motion`]: six primitive motions, their tables and the chain that joins them.
+//! - [`flight`]: leaves as rigid bodies under air forces.
+//! - [`wind`]: mean flow, gusts, turbulence, vortices.
 //! - [`terrain`]: hills, and how leaves see them.
 //! - [`tree`]: how trees grow, what they weigh, how they sway.
 //! - [`kernel`]: arithmetic with the same bits in Rust and WGSL.

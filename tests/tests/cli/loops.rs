@@ -22,7 +22,7 @@ const SCENE: &str = "(
     ],
     wind: (speed: MetresPerSecond(2.0), vortices: [(center_m: (1.0, 1.0, 0.0), axis: (0.0, 1.0, 0.0),
         circulation_m2_s: 2.0, core_m: 0.5, axial_m_s: 0.0, drift_m_s: (0.0, 0.0, 0.0))]),
-    view: (camera: (position_m: (0.0, 2.0, 8.0), target_m: (0.0, 1.6, 0.0))),
+    view: (camera: (eye_m: (0.0, 2.0, 8.0), target_m: (0.0, 1.6, 0.0))),
 )";
 
 /// The worlds after the run-in and `steps` later.
