@@ -23,6 +23,7 @@ mod glare_pass;
 mod grass_pass;
 mod ground_pass;
 mod land_texture;
+mod landing_count;
 mod landing_pass;
 mod leaf_crowd;
 mod leaf_cull;
@@ -61,7 +62,7 @@ mod upload;
 mod water_pass;
 
 pub use error::RenderError;
-pub use landing_pass::LANDINGS_PER_M2;
+pub use landing_count::LANDINGS_PER_M2;
 pub(crate) use leaf_forms::shaped;
 pub use leaf_kinds::MAX_LAYERS;
 pub(crate) use leaf_kinds::{build, dryness, turned};
@@ -80,6 +81,8 @@ mod cull_tests;
 mod halo_tests;
 #[cfg(test)]
 mod lens_tests;
+#[cfg(test)]
+mod look_tests;
 #[cfg(test)]
 mod motion_tests;
 #[cfg(test)]

@@ -17,6 +17,7 @@ use super::frame::FrameGroup;
 use super::fruit_pass::FruitPass;
 use super::grass_pass::GrassPass;
 use super::ground_pass::GroundPass;
+use super::landing_count::LandingCount;
 use super::landing_pass::LandingPass;
 use super::leaf_crowd::LeafCrowd;
 use super::leaf_cull::CullPass;
@@ -269,7 +270,8 @@ impl Renderer {
     pub fn set_landings(&mut self, are_shown: bool) {
         if are_shown != self.landing_pass.is_some() {
             let center = self.environment.park_center;
-            let pass = || LandingPass::new(&self.device, &self.queue, &self.frame, &self.light, center);
+            let count = || LandingCount::new(&self.device, &self.queue, center);
+            let pass = || LandingPass::new(&self.device, &self.frame, &self.light, count());
             self.landing_pass = are_shown.then(pass);
         }
     }

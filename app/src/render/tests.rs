@@ -135,6 +135,25 @@ fn a_leaf_is_seen_unless_dormant() {
 }
 
 #[test]
+fn painted_leaves_look_otherwise_and_leave_nothing_behind() {
+    let mut bench = bench(|_| {});
+    let own = bench.draw(2, 0.0, 0.0);
+    bench.renderer.set_paint(Some(Paint { measure: Measure::Height, most: 50.0 }));
+    let low = bench.draw(2, 0.0, 0.0);
+    bench.renderer.set_paint(Some(Paint { measure: Measure::Height, most: 0.1 }));
+    let high = bench.draw(2, 0.0, 0.0);
+    for (name, other) in [("in its own colours", &own), ("at the other end of the scale", &low)] {
+        let seen = differing(&high, other);
+        assert!((30..6000).contains(&seen), "{name}: {seen} pixels differ");
+    }
+    bench.renderer.set_paint(None);
+    assert_eq!(bench.draw(2, 0.0, 0.0), own, "as if nothing had been painted");
+    bench.renderer.set_landings(true);
+    assert_eq!(bench.draw(2, 0.0, 0.0), own, "nothing lies there");
+    bench.renderer.set_landings(false);
+}
+
+#[test]
 fn same_frame_gives_same_picture() {
     let mut bench = bench(|_| {});
     assert_eq!(bench.draw(2, 0.3, 1.5), bench.draw(2, 0.3, 1.5), "nothing random in a frame");

@@ -135,7 +135,7 @@ mod tests {
         }
         assert_eq!(
             steps,
-            [0, 2, 1, 2, 1],
+            [0, 1, 2, 1, 2],
             "one and a half of a 120th of a second each, whatever the wall says"
         );
         assert!(!path.exists(), "nothing half-written");

@@ -3,13 +3,13 @@
 //! The scene that goes on: its simulator, its pace, and everything that may change about it.
 
 mod compare;
+mod reading;
 mod seek;
 
 use std::ops::RangeInclusive;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use windfall_core::leaf::Leaves;
 use windfall_core::scene::limits;
 use windfall_core::{Environment, Scene, SimError, Simulator, Stats, World};
 use windfall_cpu::CpuOptions;
@@ -24,8 +24,6 @@ pub(super) use compare::Difference;
 use compare::Twin;
 pub(super) use seek::Timeline;
 
-/// Time between two counts of all leaves: counting waits for the device.
-const COUNT_EVERY: Duration = Duration::from_millis(250);
 /// What a step is taken to cost before it is known, in seconds: a few steps in the first frames.
 const UNKNOWN_STEP_S: f64 = 0.015;
 /// Bytes of one record in one column.
@@ -153,19 +151,6 @@ impl Session {
         }
     }
 
-    /// Counts over all leaves, at most a few times a second old.
-    ///
-    /// # Errors
-    /// A lost device.
-    pub(super) fn stats(&mut self) -> Result<Stats, SimError> {
-        let is_old = self.counted.is_none_or(|counted| counted.elapsed() >= COUNT_EVERY);
-        if is_old && self.stats.step != self.backend.clock().step() || self.counted.is_none() {
-            self.stats = self.backend.stats()?;
-            self.counted = Some(Instant::now());
-        }
-        Ok(self.stats)
-    }
-
     /// Takes over another scene, whose world is the same: from the next step on with the other numbers for wind, season
     /// and speeds, if they are others.
     ///
@@ -239,35 +224,6 @@ impl Session {
         self.set_comparing(compares)
     }
 
-    /// The whole state as it is now.
-    ///
-    /// # Errors
-    /// A lost device.
-    pub(super) fn world(&mut self) -> Result<World, SimError> {
-        let mut world = World {
-            environment: self.environment.clone(),
-            clock: self.backend.clock(),
-            leaves: Leaves::zeroed(self.leaf_count() as usize),
-            branches: self.environment.forest().at_rest(),
-        };
-        self.backend.read_state(&mut world)?;
-        Ok(world)
-    }
-
-    /// Makes the environment hold from the next step on.
-    fn impose(&mut self) -> Result<(), SimError> {
-        let twin = self.twin.as_mut().map(|twin| &mut twin.backend);
-        std::iter::once(&mut self.backend)
-            .chain(twin)
-            .try_for_each(|backend| backend.set_environment(&self.environment))
-    }
-
-    /// Makes `world` the present.
-    fn put_back(&mut self, world: &World) -> Result<(), SimError> {
-        let twin = self.twin.as_mut().map(|twin| &mut twin.backend);
-        std::iter::once(&mut self.backend).chain(twin).try_for_each(|backend| backend.write_state(world))
-    }
-
     fn begin_again(&mut self, world: &World) {
         self.counted = None;
         self.history = History::new(world);
@@ -303,11 +259,6 @@ impl Session {
         &self.scene
     }
 
-    /// What the scene compiles to, as it is now.
-    pub(super) fn environment(&self) -> &Environment {
-        &self.environment
-    }
-
     /// The simulator.
     pub(super) fn simulator(&self) -> &dyn Simulator {
         &self.backend
@@ -324,11 +275,6 @@ impl Session {
         let held = self.gpu.device().limits().max_buffer_size / RECORD_BYTES;
         let most = u32::try_from(held).unwrap_or(u32::MAX).min(limits::COUNT.high);
         fewest..=most.max(fewest)
-    }
-
-    /// The leaves as they are now, if they need not be brought from a device.
-    pub(super) fn host_leaves(&self) -> Option<&Leaves> {
-        self.backend.host_leaves()
     }
 
     /// The leaves, to be drawn.

@@ -5,6 +5,7 @@
 mod editing;
 mod looking;
 mod recording;
+mod stepping;
 mod wishes;
 
 use std::sync::Arc;
@@ -31,7 +32,7 @@ use super::session::Session;
 use super::undo::Undo;
 use crate::camera::Camera;
 use crate::drawing::Drawing;
-use crate::render::{FrameInput, MAX_TRAILS, PictureTarget, Renderer, RendererOptions, Subject};
+use crate::render::{FrameInput, PictureTarget, Renderer, RendererOptions, Subject};
 use crate::trees::Stand;
 use crate::{leaves, terminal};
 
@@ -76,7 +77,7 @@ pub(super) struct Viewer {
     message: Option<(Message, Instant)>,
     screenshot: Option<Screenshot>,
     recording: Option<Recording>,
-    /// Where the next clip goes to, if the user has said so.
+    /// Where the next clip goes to, once that is known.
     record_to: Option<String>,
     next: Next,
     /// Something was changed after the panel was laid out: it does not show it yet.
@@ -209,32 +210,6 @@ impl Viewer {
         self.next = self.after(&painting, is_shown);
         self.was_idle = self.next != Next::Frame;
         Ok(self.next)
-    }
-
-    /// Takes the steps that are due.
-    fn simulate(&mut self, frame_s: f64) -> anyhow::Result<()> {
-        if self.session.is_seeking() {
-            return Ok(self.session.pursue()?);
-        }
-        let steps = match &self.recording {
-            Some(_) if self.session.pace.is_paused => 0,
-            Some(recording) => recording.due_steps(),
-            None => self.session.due_steps(frame_s),
-        };
-        if !self.renderer.has_trails() || self.session.leaf_count() > MAX_TRAILS {
-            return Ok(self.session.step(steps)?);
-        }
-        // Few leaves, whose trails would be all corners if they only knew about what is shown.
-        for _ in 1..steps {
-            self.session.step(1)?;
-            let time_s = self.session.simulator().clock().seconds();
-            let columns = self.session.columns()?;
-            let mut encoder =
-                self.gpu.device().create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-            self.renderer.observe(&mut encoder, &columns.leaves, time_s);
-            self.gpu.queue().submit([encoder.finish()]);
-        }
-        Ok(self.session.step(steps.min(1))?)
     }
 
     fn after(&self, painting: &Painting, is_shown: bool) -> Next {

@@ -134,9 +134,12 @@ fn every_preset_can_be_watched() {
     adapter::all();
     let display = Display::start();
     let there = folder();
-    for scene in ["six-motions", "storm"] {
+    // One of them through every instrument there is.
+    let all = "speed,landings,wind,trails,leaf,compare";
+    for (scene, show) in [("six-motions", Some(all)), ("storm", None)] {
         let shot = format!("{scene}.png");
-        let options = [scene, "--size", "700x400", "--screenshot", &shot, "--after", "0"];
+        let mut options = vec![scene, "--size", "700x400", "--screenshot", &shot, "--after", "0"];
+        options.extend(show.into_iter().flat_map(|show| ["--show", show]));
         view(&display, &there, &options).text();
         let picture = image::open(there.path().join(shot)).expect("a picture").to_rgba8();
         assert_scene(&picture);
@@ -180,5 +183,6 @@ fn bad_options_are_refused_before_a_window_opens() {
     assert_refused(&there, &["view", "--after", "3"], &["--screenshot"]);
     assert_refused(&there, &["view", "--screenshot", "a.png", "--after", "-1"], &["-1"]);
     assert_refused(&there, &["view", "--screenshot", "none/a.png"], &["none/a.png", "no folder"]);
+    assert_refused(&there, &["view", "--show", "sped"], &["'sped'", "speed"]);
     assert_refused(&there, &["view", "--leaves", "1"], &["--leaves is 1"]);
 }

@@ -46,7 +46,7 @@ impl Renderer {
             if std::mem::take(&mut is_first) {
                 self.sample_trails(encoder, leaves, input.time_s);
                 if let Some(landings) = &self.landing_pass {
-                    landings.count(&self.device, encoder, leaves);
+                    landings.count.run(&self.device, encoder, leaves);
                 }
                 if let Some(paint) = &mut self.paint_pass {
                     paint.mark(&self.device, &self.queue, encoder, leaves, input.time_s);

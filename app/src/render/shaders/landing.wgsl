@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// How densely leaves lie, as a cloth of colours on the ground. Laid out by `landing_pass.rs`.
+// How densely leaves lie, as a cloth of colours on the ground. Laid out by `landing_count.rs`.
 
 struct Landing {
     // Lower corner of the square in x and z, edge of a cell in metres, cells along an edge.

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// Counts the leaves at rest in the cells of a square. `Landing` is laid out by `landing_pass.rs`.
+// Counts the leaves at rest in the cells of a square. `Landing` is laid out by `landing_count.rs`.
 
 struct Landing {
     // Lower corner of the square in x and z, edge of a cell in metres, cells along an edge.

@@ -26,7 +26,7 @@ pub(super) fn show(ui: &mut Ui, facts: &Facts, wishes: &mut Vec<Wish>) {
     }
     let slot = rows::grouped(u32::try_from(found.slot).unwrap_or(u32::MAX));
     let farthest = match found.farthest_m {
-        far if far == 0.0 => "all leaves in the same places".to_owned(),
+        0.0 => "all leaves in the same places".to_owned(),
         far if far < 0.01 => format!("at most {:.3} mm apart (slot {slot})", 1000.0 * far),
         far => format!("at most {far:.3} m apart (slot {slot})"),
     };

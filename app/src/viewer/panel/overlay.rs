@@ -53,7 +53,11 @@ fn arrow(painter: &Painter, projection: &Projection, from: Vec3, wind: Vec3, mos
     };
     let color = rgb(shade_bytes(wind.length() / most_m_s.max(0.01)));
     let along = tip - tail;
-    if along.length() < 2.0 || along.length() > LONGEST {
+    if along.length() < 2.0 {
+        // Hardly any wind.
+        painter.circle_filled(tail, 1.2, color);
+    }
+    if !(2.0..LONGEST).contains(&along.length()) {
         return;
     }
     let dark = Stroke::new(3.2, Color32::from_black_alpha(110));

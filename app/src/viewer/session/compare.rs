@@ -60,6 +60,20 @@ impl Session {
         self.twin.is_some()
     }
 
+    /// Makes the environment hold from the next step on.
+    pub(super) fn impose(&mut self) -> Result<(), SimError> {
+        let twin = self.twin.as_mut().map(|twin| &mut twin.backend);
+        std::iter::once(&mut self.backend)
+            .chain(twin)
+            .try_for_each(|backend| backend.set_environment(&self.environment))
+    }
+
+    /// Makes `world` the present.
+    pub(super) fn put_back(&mut self, world: &World) -> Result<(), SimError> {
+        let twin = self.twin.as_mut().map(|twin| &mut twin.backend);
+        std::iter::once(&mut self.backend).chain(twin).try_for_each(|backend| backend.write_state(world))
+    }
+
     /// The largest difference between the backends, at most a few tenths of a second old.
     ///
     /// # Errors

@@ -32,6 +32,11 @@ impl Session {
         self.target = Some(step.clamp(first, last));
     }
 
+    /// The step where time is or wants to be.
+    pub(in crate::viewer) fn heading(&self) -> u32 {
+        self.target.unwrap_or(self.backend.clock().step())
+    }
+
     /// Stays where it is.
     pub(in crate::viewer) fn arrive(&mut self) {
         self.target = None;

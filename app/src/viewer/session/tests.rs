@@ -100,33 +100,38 @@ fn go_to(session: &mut Session, step: u32) -> u64 {
 
 #[test]
 fn every_step_comes_back_with_the_same_bits() {
-    for kind in [BackendKind::Cpu, BackendKind::Wgpu] {
+    for (kind, steps) in [
+        (BackendKind::Cpu, [90, 12, 49, 69, 50, 51, 0, 99].as_slice()),
+        (BackendKind::Wgpu, [49, 51, 0].as_slice()),
+    ] {
         let mut straight = session(kind);
-        let mut hashes = Vec::new();
-        for step in 0..=130 {
-            if step == 70 {
+        let mut hashes = vec![0; 100];
+        for step in 0..100 {
+            if step == 50 {
                 straight.take_over(in_wind(&straight, 7.0), true).expect("allowed");
             }
-            hashes.push(hash(&mut straight));
+            if steps.contains(&step) || [30, 80].contains(&step) {
+                hashes[step as usize] = hash(&mut straight);
+            }
             straight.step(1).expect("it steps");
         }
         // The way there goes in strides that no change respects.
         let mut scrubbed = session(kind);
-        scrubbed.step(70).expect("it steps");
+        scrubbed.step(50).expect("it steps");
         scrubbed.take_over(in_wind(&scrubbed, 7.0), true).expect("allowed");
-        scrubbed.step(60).expect("it steps");
-        for step in [130, 12, 90, 69, 70, 71, 0, 129] {
+        scrubbed.step(50).expect("it steps");
+        for &step in steps {
             assert_eq!(go_to(&mut scrubbed, step), hashes[step as usize], "{kind:?}, step {step}");
             let is_tuned = scrubbed.scene().wind.speed == MeanSpeed::MetresPerSecond(7.0);
-            assert_eq!(is_tuned, step >= 70, "the panel shows the wind of step {step}");
+            assert_eq!(is_tuned, step >= 50, "the panel shows the wind of step {step}");
         }
-        go_to(&mut scrubbed, 40);
-        scrubbed.step(60).expect("it steps");
-        assert_eq!(hash(&mut scrubbed), hashes[100], "{kind:?}: the wind changes again when time goes on");
-        go_to(&mut scrubbed, 40);
+        go_to(&mut scrubbed, 30);
+        scrubbed.step(50).expect("it steps");
+        assert_eq!(hash(&mut scrubbed), hashes[80], "{kind:?}: the wind changes again when time goes on");
+        go_to(&mut scrubbed, 30);
         scrubbed.take_over(in_wind(&scrubbed, 7.0), true).expect("allowed");
-        assert_eq!(scrubbed.timeline().range, (0, 40), "{kind:?}: another wind is another future");
-        assert_ne!(go_to(&mut scrubbed, 0), hashes[40], "{kind:?}: the past is still there");
+        assert_eq!(scrubbed.timeline().range, (0, 30), "{kind:?}: another wind is another future");
+        assert_eq!(go_to(&mut scrubbed, 0), hashes[0], "{kind:?}: the past is still there");
     }
 }
 

@@ -31,13 +31,14 @@ impl Viewer {
     }
 
     /// Where the next clip goes to.
-    fn record_path(&self) -> String {
+    fn record_path(&mut self) -> String {
         let is_taken = |name: &str| Path::new(name).exists();
-        self.record_to.clone().unwrap_or_else(|| free_name(&self.session.scene().name, is_taken))
+        let name = || free_name(&self.session.scene().name, is_taken);
+        self.record_to.get_or_insert_with(name).clone()
     }
 
     /// What the panel knows of recording.
-    pub(super) fn record_facts(&self) -> RecordFacts {
+    pub(super) fn record_facts(&mut self) -> RecordFacts {
         RecordFacts { path: self.record_path(), frames: self.recording.as_ref().map(Recording::frames) }
     }
 

@@ -31,7 +31,7 @@ impl Viewer {
             }
             Wish::StepBack => {
                 self.session.pace.is_paused = true;
-                self.session.seek(self.session.simulator().clock().step().saturating_sub(1));
+                self.session.seek(self.session.heading().saturating_sub(1));
             }
             Wish::Seek(step) => self.session.seek(step),
             Wish::TogglePanel => self.panel.is_open = !self.panel.is_open,
@@ -99,6 +99,7 @@ impl Viewer {
         let stats = self.session.stats()?;
         let difference = self.session.difference()?;
         let arrows = self.arrows();
+        let recording = self.record_facts();
         let arrow_most_m_s = self.arrow_most_m_s();
         let session = &self.session;
         let (scene, simulator) = (session.scene(), session.simulator());
@@ -117,7 +118,7 @@ impl Viewer {
             stats,
             has_motions: scene.species.iter().any(|species| species.flight == FlightModel::Synthesis),
             has_regimes: scene.species.iter().any(|species| species.flight != FlightModel::Synthesis),
-            recording: self.record_facts(),
+            recording,
             looking: self.instruments.looking,
             card: self.card(),
             track: self.track(),
