@@ -180,6 +180,7 @@ fn bad_options_are_refused_before_a_window_opens() {
     let there = folder();
     assert_refused(&there, &["view", "autum-park"], &["'autum-park'", "did you mean"]);
     assert_refused(&there, &["view", "--size", "0x0"], &["--size", "1280x720"]);
+    assert_refused(&there, &["view", "--open", "walls"], &["walls", "tree-kinds"]);
     assert_refused(&there, &["view", "--after", "3"], &["--screenshot"]);
     assert_refused(&there, &["view", "--screenshot", "a.png", "--after", "-1"], &["-1"]);
     assert_refused(&there, &["view", "--screenshot", "none/a.png"], &["none/a.png", "no folder"]);

@@ -116,6 +116,10 @@ impl<T: Numeric> Field<'_, T> {
             );
         };
         let mut slider = Slider::new(value, range).suffix(suffix).update_while_editing(false);
+        if T::INTEGRAL {
+            // What a press of an arrow key does; less than one would round to nothing.
+            slider = slider.drag_value_speed(1.0);
+        }
         if let Scale::Logarithmic(smallest) = scale {
             slider = slider.logarithmic(true).smallest_positive(smallest);
         }

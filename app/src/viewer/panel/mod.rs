@@ -35,6 +35,7 @@ mod vortices;
 mod wind;
 
 use egui::{Area, Id, Pos2, Rect, RichText, ScrollArea, Sense, Ui, vec2};
+use egui::{Area, Id, Pos2, Response, RichText, ScrollArea, Sense, Ui, vec2};
 use windfall_core::Scene;
 
 use super::controls::{Facts, Message, Wish};
@@ -66,6 +67,8 @@ pub(super) struct Panel {
     draft: Draft,
     /// The groups to open in the first frame.
     open: Vec<Group>,
+    /// What the keyboard acts on.
+    focused: Option<Id>,
     /// What kept an edit from being made in this frame.
     refused: Option<String>,
     /// Left edge of the picture in pixels.
@@ -85,6 +88,16 @@ impl Panel {
     /// The picture on the screen, in points, as it was last laid out.
     pub(super) fn picture(&self) -> Rect {
         self.picture
+        Self {
+            is_open: true,
+            is_helping: false,
+            file,
+            draft,
+            open,
+            focused: None,
+            refused: None,
+            picture_left: 0,
+        }
     }
 
     /// Corner and size in pixels of what the panel leaves of a window of `size`.
@@ -104,9 +117,10 @@ impl Panel {
             egui::Panel::left("panel").resizable(false).exact_size(WIDTH).frame(style::panel_frame()).show(
                 ui,
                 |ui| {
-                    ScrollArea::vertical()
-                        .auto_shrink(false)
-                        .show(ui, |ui| self.groups(ui, facts, camera, &mut wishes));
+                    ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+                        self.groups(ui, facts, camera, &mut wishes);
+                        self.follow_focus(ui);
+                    });
                 },
             );
         }
@@ -146,6 +160,19 @@ impl Panel {
                 }
                 wish => wishes.push(wish),
             }
+        }
+    }
+
+    /// Keeps what the Tab key chooses in sight.
+    fn follow_focus(&mut self, ui: &Ui) {
+        let focused = ui.ctx().memory(|memory| memory.focused());
+        if std::mem::replace(&mut self.focused, focused) == focused {
+            return;
+        }
+        let response = focused.and_then(|id| ui.ctx().read_response(id));
+        let is_here = |response: &Response| response.layer_id == ui.layer_id();
+        if let Some(response) = response.filter(is_here).filter(|it| it.rect.left() < ui.max_rect().right()) {
+            ui.scroll_to_rect(response.rect, None);
         }
     }
 

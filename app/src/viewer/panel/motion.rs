@@ -35,7 +35,7 @@ fn transitions(ui: &mut Ui, table: &mut TransitionTable) {
         for (from, counts) in Primitive::ALL.into_iter().zip(&mut table.0) {
             ui.label(RichText::new(from.code()).small().color(style::QUIET));
             for (to, count) in Primitive::ALL.into_iter().zip(counts) {
-                let drag = DragValue::new(count).range(0..=65_535).update_while_editing(false);
+                let drag = DragValue::new(count).range(0..=65_535).speed(1.0).update_while_editing(false);
                 let response = ui.add_sized(vec2(40.0, 17.0), drag);
                 let words = format!("Changes from {} to {}", from.code(), to.code());
                 response.accessible_name(&*words).on_hover_text(words);
