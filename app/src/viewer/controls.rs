@@ -44,6 +44,8 @@ pub(super) enum Wish {
     Save,
     /// Save the scene to this file, whether or not it is there.
     SaveTo(PathBuf),
+    /// Tell the user why something is not done.
+    Complain(String),
     /// A file was dropped on the window.
     Drop(PathBuf),
     /// Simulate elsewhere.

@@ -96,6 +96,8 @@ impl Group {
 pub(super) struct Groups<'a> {
     /// The groups to open now, with all others closed; otherwise they are as the user has left them.
     pub(super) open: Option<&'a [Group]>,
+    /// A group to open besides, whatever the user did.
+    pub(super) also: Option<Group>,
 }
 
 impl Groups<'_> {
@@ -105,6 +107,7 @@ impl Groups<'_> {
         let mark = if differs { " \u{2022}" } else { "" };
         let text = RichText::new(format!("{}{mark}", group.title())).strong().color(style::TITLE);
         let open = self.open.map(|open| open.contains(&group));
+        let open = if self.also == Some(group) { Some(true) } else { open };
         let header = CollapsingHeader::new(text)
             .id_salt(group.title())
             .default_open(group.is_open_at_first())

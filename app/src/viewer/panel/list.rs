@@ -4,7 +4,7 @@
 
 use std::hash::Hash;
 
-use egui::{ComboBox, Id, Ui};
+use egui::{ComboBox, Id, Ui, vec2};
 
 use super::rows::row;
 
@@ -39,16 +39,17 @@ impl List<'_> {
         row(ui, self.name, &tip, |ui| {
             let text = entries.get(chosen).map_or_else(|| "none".into(), |entry| name_of(chosen, entry));
             let combo = ComboBox::from_id_salt(self.name).selected_text(text).width(MENU_WIDTH).truncate();
-            let response = combo.show_ui(ui, |ui| {
+            let menu = |ui: &mut Ui| {
                 for (index, entry) in entries.iter().enumerate() {
                     if ui.selectable_label(index == chosen, name_of(index, entry)).clicked() {
                         chosen = index;
                     }
                 }
-            });
+            };
+            let size = vec2(MENU_WIDTH, ui.spacing().interact_size.y);
+            let response = ui.allocate_ui(size, |ui| combo.show_ui(ui, menu)).inner;
             let button = |ui: &mut Ui, text: &str, words: String, enabled: bool| {
-                let response =
-                    ui.add_enabled(enabled, egui::Button::new(text).min_size(egui::vec2(19.0, 18.0)));
+                let response = ui.add_enabled(enabled, egui::Button::new(text).min_size(vec2(19.0, 18.0)));
                 response.accessible_name(words.as_str()).on_hover_text(words).clicked()
             };
             if button(ui, "+", format!("Add {} like this", self.entry), entries.len() < self.most) {

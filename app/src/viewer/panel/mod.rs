@@ -69,8 +69,6 @@ pub(super) struct Panel {
     open: Vec<Group>,
     /// What the keyboard acts on.
     focused: Option<Id>,
-    /// What kept an edit from being made in this frame.
-    refused: Option<String>,
     /// Left edge of the picture in pixels.
     picture_left: u32,
 }
@@ -98,6 +96,7 @@ impl Panel {
             refused: None,
             picture_left: 0,
         }
+        Self { is_open: true, is_helping: false, file, draft, open, focused: None, picture_left: 0 }
     }
 
     /// Corner and size in pixels of what the panel leaves of a window of `size`.
@@ -182,7 +181,8 @@ impl Panel {
         looking::show(ui, facts, wishes);
         record::show(ui, facts, wishes);
         let open = std::mem::take(&mut self.open);
-        let groups = Groups { open: (!open.is_empty()).then_some(&open) };
+        let asking = self.file.is_asking().then_some(Group::Scene);
+        let groups = Groups { open: (!open.is_empty()).then_some(&open), also: asking };
         self.scene_groups(ui, &groups, facts, wishes);
         self.view_groups(ui, &groups, facts, camera);
         let (scene, own) = (&mut self.draft.scene, &*facts.loaded);
@@ -196,7 +196,7 @@ impl Panel {
 
     /// What falls, from where, through which wind, onto what.
     fn scene_groups(&mut self, ui: &mut Ui, groups: &Groups<'_>, facts: &Facts, wishes: &mut Vec<Wish>) {
-        let Self { draft, file, refused, .. } = self;
+        let Self { draft, file, .. } = self;
         let (scene, own) = (&mut draft.scene, &*facts.loaded);
         let differs = scene.name != own.name;
         groups.show(ui, Group::Scene, differs, |ui| file.show(ui, scene, own, facts, wishes));
@@ -205,7 +205,7 @@ impl Panel {
         let differs = scene.leaf_count() != own.leaf_count() || speeds(scene) != speeds(own);
         groups.show(ui, Group::Leaves, differs, |ui| {
             let shared = leaves::show(ui, scene, &facts.scene, own, &facts.leaf_range);
-            *refused = shared.err().map(|error| error.to_string());
+            wishes.extend(shared.err().map(|error| Wish::Complain(error.to_string())));
         });
         let differs = scene.species != own.species;
         groups.show(ui, Group::Species, differs, |ui| species::show(ui, scene, own));
@@ -238,9 +238,7 @@ impl Panel {
 
     /// A line over the picture, if there is something to say.
     fn notice(&self, ui: &Ui, facts: &Facts, corner: Pos2) {
-        let refused = self.refused.as_ref().map(|text| Message { text: text.clone(), is_error: true });
-        let message = refused.or_else(|| facts.message.clone());
-        let text = match (&message, facts.is_paused && !self.is_open) {
+        let text = match (&facts.message, facts.is_paused && !self.is_open) {
             (Some(Message { text, is_error: true }), _) => RichText::new(text).color(style::WARNING),
             (Some(Message { text, .. }), _) => RichText::new(text).color(style::GOOD),
             (None, true) => RichText::new("Paused. Space goes on, H shows the panel."),

@@ -22,13 +22,7 @@ const FRESH: Vortex = Vortex {
 pub(super) fn show(ui: &mut Ui, vortices: &mut Vec<Vortex>, own: &[Vortex]) {
     let list = List { name: "Vortices", entry: "vortex", fewest: 0, most: MAX_VORTICES };
     let name = |index: usize, vortex: &Vortex| {
-        format!(
-            "{}: {:.1} m at x {:.1}, z {:.1}",
-            index + 1,
-            vortex.core_m,
-            vortex.center_m.x,
-            vortex.center_m.z
-        )
+        format!("{}: at {:.1}, {:.1}", index + 1, vortex.center_m.x, vortex.center_m.z)
     };
     let chosen = list.show(ui, vortices, name, |like, _| like.copied().unwrap_or(FRESH));
     let Some(vortex) = chosen.and_then(|index| vortices.get_mut(index)) else { return };

@@ -47,6 +47,7 @@ impl Viewer {
             Wish::Quit => self.next = Next::Quit,
             // The panel sees to these itself.
             Wish::Save | Wish::ToggleHelp => {}
+            Wish::Complain(text) => self.say(text, true),
             Wish::Edit { scene, gesture } => self.try_it(|viewer| viewer.edit(*scene, gesture))?,
             Wish::Undo => self.try_it(|viewer| viewer.step_back(true))?,
             Wish::Redo => self.try_it(|viewer| viewer.step_back(false))?,
