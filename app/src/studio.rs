@@ -103,6 +103,11 @@ impl Studio {
         self.trail_s > 0.0 && seconds <= self.trail_s || self.is_moving && is_next
     }
 
+    /// Lets grass repeat after `length_s` seconds from `begin_s` on, and clouds stand still: for clips without a seam.
+    pub fn repeat(&mut self, begin_s: f64, length_s: f64) {
+        self.renderer.repeat(begin_s, length_s);
+    }
+
     /// Simulates until `step` steps are done.
     ///
     /// # Errors

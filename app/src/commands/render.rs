@@ -26,6 +26,9 @@ const MAX_EDGE: u32 = 16_384;
 const MAX_PIXELS: u32 = 7680 * 4320;
 /// Most steps of a clip.
 const MAX_STEPS: u64 = 1_000_000_000;
+/// Frames that are drawn before a loop and not kept, and the seconds that the lens takes each to last.
+const SETTLING_FRAMES: u32 = 6;
+const SETTLING_S: f64 = 2.0;
 /// Frames of a picture and of a clip when the user does not say.
 const DEFAULT_FRAMES: (u32, u32) = (60, 240);
 
@@ -55,7 +58,7 @@ pub struct Arguments {
     speed: f64,
     /// Make a clip that repeats without a seam after this many simulated seconds, 1 to 120, and with trees at least 6.
     /// The same leaves fall in every round, evenly let go; gusts become a little longer or shorter, trees keep their leaves,
-    /// and what can never repeat (water, a camera or a vortex on its way, leaves that fall only once) is refused.
+    /// clouds stand still, and what can never repeat (water, a camera or a vortex on its way, leaves that fall only once) is refused.
     #[arg(long = "loop", value_name = "SECONDS", conflicts_with = "frames", value_parser = loop_length)]
     looped: Option<f64>,
 }
@@ -105,16 +108,23 @@ fn render_loop(
     let round = LoopFrames::new(&cycle, rate, scene.dt_s);
     let mut writer = output.start(size, arguments.fps)?;
     let drawing = Drawing::without_window(&arguments.backend)?;
-    let mut studio = Studio::of_world(scene, &world, drawing, size)?;
+    let mut studio = Studio::of_world(world.environment.scene(), &world, drawing, size)?;
+    let dt_s = studio.dt_s();
+    studio.repeat(f64::from(cycle.run_in) * dt_s, f64::from(cycle.steps) * dt_s);
     let bar = progress_bar(round.count());
-    for number in (1..=studio.remembered_frames(rate)).rev() {
+    // A metered exposure has long settled when a round begins.
+    for number in (1..=studio.remembered_frames(rate).max(SETTLING_FRAMES)).rev() {
         studio.advance(round.step_before(number))?;
-        studio.observe()?;
+        if number > SETTLING_FRAMES {
+            studio.observe()?;
+        } else {
+            studio.draw(SETTLING_S)?;
+        }
     }
     for number in 0..round.count() {
         studio.advance(round.step(number))?;
         if writer.wants(number, round.count()) {
-            let since = if number == 0 { f64::INFINITY } else { 1.0 / arguments.fps };
+            let since = 1.0 / arguments.fps;
             let picture = studio.draw(since);
             interrupt::check()?;
             writer.push(&picture?)?;

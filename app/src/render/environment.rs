@@ -37,7 +37,7 @@ pub(super) struct FrameUniform {
     tile: [f32; 4],
     texels: [f32; 4],
     ambient: [[f32; 4]; 9],
-    sky: [f32; 4],
+    pub(super) sky: [f32; 4],
     cloud_light: [f32; 4],
     cloud_shade: [f32; 4],
 }
@@ -153,7 +153,7 @@ impl Environment {
                 self.daylight.cloud_cover,
                 1.0 / self.haze.depth_m,
                 f32::from(u8::from(!self.daylight.is_picture)),
-                0.0,
+                time_s,
             ],
             cloud_light: full(self.daylight.clouds[0], 0.0),
             cloud_shade: full(self.daylight.clouds[1], 0.0),

@@ -88,6 +88,8 @@ pub struct Renderer {
     landing_pass: Option<LandingPass>,
     post: Post,
     timer: Option<GpuTimer>,
+    /// Beginning and length in seconds of a round that scenery repeats.
+    round: Option<(f64, f64)>,
 }
 
 impl Renderer {
@@ -147,6 +149,7 @@ impl Renderer {
             sky_pass: SkyPass::new(device, &frame, &light),
             post: Post::new(device, queue, &targets, output_format, scene.view.lens),
             timer: GpuTimer::new(device, queue, &TIMED_PASSES),
+            round: None,
             trail_pass: None,
             motion_pass: None,
             paint_pass: None,
@@ -206,6 +209,11 @@ impl Renderer {
             self.make_trails(view.trail_s);
         }
         Ok(())
+    }
+
+    /// Lets grass repeat after `length_s` seconds from `begin_s` on, and clouds stand still.
+    pub fn repeat(&mut self, begin_s: f64, length_s: f64) {
+        self.round = Some((begin_s, length_s));
     }
 
     /// Draws at most so many pixels at once from now on.

@@ -16,6 +16,9 @@ use crate::render::shadow_pass::Casters;
 use crate::render::targets::Targets;
 use crate::render::tile::Tile;
 
+/// Rate at which grass sways in rad/s, as `grass.wgsl` has it.
+const GRASS_RAD_S: f64 = 2.1;
+
 impl Renderer {
     /// Encodes one frame of `leaves` and `branches` into `output`, a view of a texture of this renderer's format. What
     /// lies outside of the picture becomes black. Without branches the trees stand at rest.
@@ -77,7 +80,10 @@ impl Renderer {
     ) {
         #[expect(clippy::cast_possible_truncation, reason = "wraps long before f32 seconds grow coarse")]
         let time_s = input.time_s.rem_euclid(3600.0) as f32;
-        let frame = self.environment.frame(input, time_s, self.targets.size, tile);
+        let mut frame = self.environment.frame(input, time_s, self.targets.size, tile);
+        if let Some((begin_s, length_s)) = self.round {
+            (frame.eye[3], frame.sky[3]) = (grass_time(input.time_s - begin_s, length_s), 0.0);
+        }
         self.frame.write(&self.queue, &frame);
         if let Some(water) = &mut self.water_pass {
             water.prepare(&self.device, &self.queue, frame, self.targets.tile_size);
@@ -226,4 +232,13 @@ fn begin_scene<'a>(
         occlusion_query_set: None,
         multiview_mask: None,
     })
+}
+
+/// Time for grass that is back where it was after a round: it sways as often as is nearest to its own rate.
+fn grass_time(since_s: f64, round_s: f64) -> f32 {
+    let own_s = std::f64::consts::TAU / GRASS_RAD_S;
+    let swings = (round_s / own_s).round().max(1.0);
+    #[expect(clippy::cast_possible_truncation, reason = "some seconds")]
+    let time_s = ((since_s / round_s).rem_euclid(1.0) * swings * own_s) as f32;
+    time_s
 }

@@ -34,7 +34,8 @@ struct Frame {
     texels: vec4<f32>,
     // Light of the sky on white matt surfaces: coefficients of spherical harmonics.
     ambient: array<vec4<f32>, 9>,
-    // Cloud cover; reciprocal of the depth of the haze in metres; 0 where a picture is the sky.
+    // Cloud cover; reciprocal of the depth of the haze in metres; 0 where a picture is the sky;
+    // time of the clouds in seconds.
     sky: vec4<f32>,
     // Radiance of clouds, at their brightest and at their darkest.
     cloud_light: vec4<f32>,

@@ -32,7 +32,7 @@ fn fragment(in: Varyings) -> @location(0) vec4<f32> {
     // Clouds on a plane overhead. A full cover is closed everywhere, but not even.
     let up = max(direction.y, 0.0);
     let plane = direction.xz / (up + 0.12);
-    let drift = frame.eye.w * 0.0006;
+    let drift = frame.sky.w * 0.0006;
     let lod = clamp(1.6 - 6.0 * up, 0.0, 3.0);
     let broad = textureSampleLevel(noise, repeat_sampler, plane * 0.055 + drift, lod).r;
     let streak = textureSampleLevel(noise, repeat_sampler, plane * vec2(0.10, 0.21) + 0.4 + drift, lod).g;
