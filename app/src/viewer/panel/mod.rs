@@ -34,8 +34,7 @@ mod trees;
 mod vortices;
 mod wind;
 
-use egui::{Area, Id, Pos2, Rect, RichText, ScrollArea, Sense, Ui, vec2};
-use egui::{Area, Id, Pos2, Response, RichText, ScrollArea, Sense, Ui, vec2};
+use egui::{Area, Id, Pos2, Rect, Response, RichText, ScrollArea, Sense, Ui, vec2};
 use windfall_core::Scene;
 
 use super::controls::{Facts, Message, Wish};
@@ -79,24 +78,21 @@ impl Panel {
         let mut file = SceneFile::default();
         file.opened(name);
         let draft = Draft::default();
-        let picture = Rect::ZERO;
-        Self { is_open: true, is_helping: false, file, draft, open, refused: None, picture, picture_left: 0 }
-    }
-
-    /// The picture on the screen, in points, as it was last laid out.
-    pub(super) fn picture(&self) -> Rect {
-        self.picture
         Self {
             is_open: true,
+            picture: Rect::ZERO,
             is_helping: false,
             file,
             draft,
             open,
             focused: None,
-            refused: None,
             picture_left: 0,
         }
-        Self { is_open: true, is_helping: false, file, draft, open, focused: None, picture_left: 0 }
+    }
+
+    /// The picture on the screen, in points, as it was last laid out.
+    pub(super) fn picture(&self) -> Rect {
+        self.picture
     }
 
     /// Corner and size in pixels of what the panel leaves of a window of `size`.
