@@ -35,8 +35,11 @@ pub(super) struct ClipExport {
     times: Vec<[f32; 1]>,
     leaves: Vec<Track>,
     /// For every tree its joints, and how each is turned in every frame.
-    trees: Vec<(Vec<Joint>, Vec<Vec<[f32; 4]>>)>,
+    trees: Vec<(Vec<Joint>, Vec<Turns>)>,
 }
+
+/// How a joint is turned in every frame.
+type Turns = Vec<[f32; 4]>;
 
 /// What a leaf does.
 #[derive(Clone, Debug, Default)]
@@ -205,7 +208,7 @@ fn add_tree(
     barks: &mut Barks,
     stand: &Stand,
     number: usize,
-    (joints, turns): (&[Joint], &[Vec<[f32; 4]>]),
+    (joints, turns): (&[Joint], &[Turns]),
 ) -> io::Result<()> {
     let tree = &stand.trees[number];
     // One node above all joints, then these.

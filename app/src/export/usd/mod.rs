@@ -18,6 +18,7 @@ use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
 
 use anyhow::bail;
+use glam::Vec3;
 use windfall_core::leaf::LeafState;
 
 use self::samples::{Handle, Samples};
@@ -84,7 +85,7 @@ impl UsdExport {
             .meshes
             .iter()
             .flat_map(|mesh| &mesh.positions_m)
-            .fold(0.0_f32, |most, corner| most.max(glam::Vec3::from(*corner).length()));
+            .fold(0.0_f32, |most, corner| most.max(Vec3::from(*corner).length()));
         Ok(Self { root, folder, foliage, samples, attributes, trees, view, clock, reach_m })
     }
 
@@ -204,16 +205,13 @@ impl LeafAttributes {
             text::numbers(out, all().filter(is_dormant).map(|leaf| leaf.id))
         });
         samples.add(self.states, number, |out| text::numbers(out, all().map(|leaf| leaf.state as u32)));
-        let mut bounds = [[f32::MAX; 3], [f32::MIN; 3]];
+        let mut bounds: Option<[Vec3; 2]> = None;
         for leaf in all().filter(|leaf| !is_dormant(leaf)) {
-            for axis in 0..3 {
-                bounds[0][axis] = bounds[0][axis].min(leaf.position_m[axis] - reach_m * leaf.size);
-                bounds[1][axis] = bounds[1][axis].max(leaf.position_m[axis] + reach_m * leaf.size);
-            }
+            let (place, reach) = (Vec3::from(leaf.position_m), Vec3::splat(reach_m * leaf.size));
+            let [low, high] = bounds.unwrap_or([place; 2]);
+            bounds = Some([low.min(place - reach), high.max(place + reach)]);
         }
-        if bounds[0][0] > bounds[1][0] {
-            bounds = [[0.0; 3]; 2];
-        }
+        let bounds = bounds.unwrap_or_default().map(|corner| corner.to_array());
         samples.add(self.extent, number, |out| text::vectors(out, bounds));
     }
 }

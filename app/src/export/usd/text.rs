@@ -6,7 +6,7 @@ use std::fmt::Write as _;
 
 /// Adds an array of vectors, each in parentheses.
 pub(super) fn vectors<const N: usize>(out: &mut String, values: impl IntoIterator<Item = [f32; N]>) {
-    list(out, values, |out, value| tuple(out, value));
+    list(out, values, tuple);
 }
 
 /// Adds an array of pairs in double precision.
