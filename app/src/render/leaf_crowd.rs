@@ -89,8 +89,9 @@ impl LeafCrowd {
     ) {
         let leaf_count = columns.leaf_count;
         for page in &self.pages {
-            let columns = [columns.place, columns.attitude, columns.course, columns.identity];
-            match page.windows(columns.into_iter().chain(marks), leaf_count) {
+            let identity = marks.unwrap_or(columns.identity);
+            let columns = [columns.place, columns.attitude, columns.course, identity];
+            match page.windows(columns, leaf_count) {
                 None => encoder.clear_buffer(&page.draws, 0, None),
                 Some(windows) => cull.run(device, encoder, page, windows, stems, view),
             }
@@ -106,16 +107,16 @@ impl LeafCrowd {
     }
 
     /// The same with the rows of `columns`, of which `leaf_count` are used, bound behind the records.
-    pub(super) fn draw_with(
+    pub(super) fn draw_with<const N: usize>(
         &self,
         device: &wgpu::Device,
         pass: &mut wgpu::RenderPass<'_>,
         layout: &wgpu::BindGroupLayout,
-        columns: &[&wgpu::Buffer],
+        columns: [&wgpu::Buffer; N],
         leaf_count: u32,
     ) {
         for page in &self.pages {
-            let Some(windows) = page.windows(columns.iter().copied(), leaf_count) else { continue };
+            let Some(windows) = page.windows(columns, leaf_count) else { continue };
             let records = page.records.as_entire_buffer_binding();
             let bound = iter::once(records).chain(windows).zip(0..);
             let entries: Vec<_> = bound
@@ -184,16 +185,16 @@ impl Page {
 
 impl Page {
     /// The parts of columns of `leaf_count` rows that this page's slots are in, if there are any.
-    fn windows<'a>(
+    fn windows<'a, const N: usize>(
         &self,
-        columns: impl Iterator<Item = &'a wgpu::Buffer>,
+        columns: [&'a wgpu::Buffer; N],
         leaf_count: u32,
-    ) -> Option<Vec<wgpu::BufferBinding<'a>>> {
+    ) -> Option<[wgpu::BufferBinding<'a>; N]> {
         // The columns may be shorter than announced while their number changes.
         let count = self.uniform.count.min(leaf_count.saturating_sub(self.uniform.first));
         let size = wgpu::BufferSize::new(u64::from(count) * COLUMN_BYTES)?;
         let offset = u64::from(self.uniform.first) * COLUMN_BYTES;
-        Some(columns.map(|buffer| wgpu::BufferBinding { buffer, offset, size: Some(size) }).collect())
+        Some(columns.map(|buffer| wgpu::BufferBinding { buffer, offset, size: Some(size) }))
     }
 
     /// Draws its levels; all bind groups are set.

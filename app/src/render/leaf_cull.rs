@@ -94,9 +94,8 @@ impl CullPass {
                 buffer_entry(5, write, compute),
             ],
         );
-        let columns = if is_painted { 0..5 } else { 0..4 };
-        let columns: Vec<_> = columns.map(|binding| buffer_entry(binding, read, compute)).collect();
-        let columns_layout = group("leaf columns", &columns);
+        let columns_layout =
+            group("leaf columns", &[0, 1, 2, 3].map(|binding| buffer_entry(binding, read, compute)));
         let marks = if is_painted {
             include_str!("shaders/marks.wgsl")
         } else {
@@ -156,14 +155,14 @@ impl CullPass {
         }
     }
 
-    /// Fills the records and draws of a page from a window of place, attitude, course and identity, and of the marks of painted
-    /// leaves.
+    /// Fills the records and draws of a page from a window of place, attitude, course and identity, or marks in place of
+    /// identities if leaves are painted.
     pub(super) fn run(
         &self,
         device: &wgpu::Device,
         encoder: &mut wgpu::CommandEncoder,
         page: &Page,
-        columns: Vec<wgpu::BufferBinding<'_>>,
+        columns: [wgpu::BufferBinding<'_>; 4],
         stems: &Stems,
         view: View,
     ) {

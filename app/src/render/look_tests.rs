@@ -86,7 +86,7 @@ fn is_color(mark: u32, wanted: [u8; 3]) -> bool {
     };
     wanted.into_iter().zip(bytes).all(|(wanted, root)| {
         let root = f32::from(root) / 255.0;
-        (linear(wanted).sqrt() - root).abs() < 0.01
+        (linear(wanted).sqrt() - root).abs() < 0.02
     })
 }
 
@@ -108,7 +108,7 @@ fn marks_tell_what_leaves_do() {
         paint.set(chosen);
         let mut encoder = gpu.device().create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         paint.mark(gpu.device(), gpu.queue(), &mut encoder, &buffers.columns(), time_s);
-        words(&gpu, encoder, &paint.marks).chunks(4).map(|mark| mark[3]).collect()
+        words(&gpu, encoder, &paint.marks).chunks(4).map(|mark| mark[1]).collect()
     };
     let found = marks(&leaves, Paint { measure: Measure::Motion, most: 1.0 }, 1.0);
     for (mark, wanted) in found.iter().zip([MOTIONS[1].1, MOTIONS[3].1, RESTING, ATTACHED]) {

@@ -145,6 +145,6 @@ impl MotionPass {
         pass.set_bind_group(1, &self.group, &[]);
         pass.set_bind_group(2, &kinds.group, &[]);
         let columns = [leaves.place, leaves.attitude, &self.past.place, &self.past.attitude];
-        crowd.draw_with(device, &mut pass, &self.columns_layout, &columns, leaves.leaf_count);
+        crowd.draw_with(device, &mut pass, &self.columns_layout, columns, leaves.leaf_count);
     }
 }

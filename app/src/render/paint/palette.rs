@@ -13,7 +13,7 @@ pub(in crate::render) const SHADES: usize = 16;
 const LOW: [f32; 3] = [0.30, 0.12, 295.0];
 const HIGH: [f32; 3] = [0.92, 0.15, 100.0];
 /// Least chroma on the way, where the hues between have less room.
-const WAIST: f32 = 0.10;
+const WAIST: f32 = 0.07;
 
 /// The kinds of motion in the order of their primitives, with their colours in sRGB.
 pub const MOTIONS: [(&str, [u8; 3]); 6] = [

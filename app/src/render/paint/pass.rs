@@ -35,8 +35,10 @@ pub(in crate::render) struct PaintPass {
     base_m: f32,
     seen_s: Option<f64>,
     uniform: wgpu::Buffer,
-    /// A mark for each leaf.
+    /// A mark for each leaf, in place of its identity.
     pub(in crate::render) marks: wgpu::Buffer,
+    /// Where each leaf was.
+    past: wgpu::Buffer,
     group_layout: wgpu::BindGroupLayout,
     pipeline: wgpu::ComputePipeline,
 }
@@ -59,6 +61,7 @@ impl PaintPass {
                 buffer_entry(1, storage(true), compute),
                 buffer_entry(2, storage(true), compute),
                 buffer_entry(3, storage(false), compute),
+                buffer_entry(4, storage(false), compute),
             ],
         });
         let module = shader(device, "paint", &[&record_constants(), include_str!("../shaders/paint.wgsl")]);
@@ -80,13 +83,15 @@ impl PaintPass {
         };
         let uniform_usage = wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST;
         let marks_usage = wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC;
+        let bytes = u64::from(leaf_count.max(1)) * MARK_BYTES;
         Self {
             paint,
             dt_s,
             base_m,
             seen_s: None,
             uniform: buffer("paint", size_of::<PaintUniform>() as u64, uniform_usage),
-            marks: buffer("leaf marks", u64::from(leaf_count.max(1)) * MARK_BYTES, marks_usage),
+            marks: buffer("leaf marks", bytes, marks_usage),
+            past: buffer("leaf marks before", bytes, wgpu::BufferUsages::STORAGE),
             group_layout,
             pipeline,
         }
@@ -153,6 +158,7 @@ impl PaintPass {
                     wgpu::BindGroupEntry { binding: 1, resource: window(leaves.place) },
                     wgpu::BindGroupEntry { binding: 2, resource: window(leaves.identity) },
                     wgpu::BindGroupEntry { binding: 3, resource: window(&self.marks) },
+                    wgpu::BindGroupEntry { binding: 4, resource: window(&self.past) },
                 ],
             });
             let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {

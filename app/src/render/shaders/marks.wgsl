@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// Marks of leaves, written by `paint.wgsl`: where each was, and roots of its colour in bytes.
-
-@group(1) @binding(4) var<storage, read> marks: array<vec4<u32>>;
+// Leaves with marks, written by `paint.wgsl`, which stand in for their identities: the second word holds the roots of the
+// colour in bytes.
 
 fn marked(index: u32, color: vec3<f32>) -> vec3<f32> {
-    let root = unpack4x8unorm(marks[index].w).rgb;
+    let root = unpack4x8unorm(identities[index].y).rgb;
     return root * root;
 }

@@ -14,7 +14,10 @@ struct Paint {
 @group(0) @binding(0) var<uniform> paint: Paint;
 @group(0) @binding(1) var<storage, read> places: array<vec4<u32>>;
 @group(0) @binding(2) var<storage, read> identities: array<vec4<u32>>;
+// The identities, with a colour in place of the release.
 @group(0) @binding(3) var<storage, read_write> marks: array<vec4<u32>>;
+// Where each leaf was, and its colour then; 0 before the first time.
+@group(0) @binding(4) var<storage, read_write> past: array<vec4<u32>>;
 
 const SHADES: u32 = 16u;
 const RESTING: u32 = 16u;
@@ -40,7 +43,7 @@ fn mark(@builtin(global_invocation_id) id: vec3<u32>) {
     }
     let place = places[index];
     let state = place.w & STATE_MASK;
-    let before = marks[index];
+    let before = past[index];
     let here = bitcast<vec3<f32>>(place.xyz);
     var color = select(paint.palette[RESTING].rgb, paint.palette[ATTACHED].rgb, state == STATE_ATTACHED);
     var keeps = false;
@@ -73,5 +76,8 @@ fn mark(@builtin(global_invocation_id) id: vec3<u32>) {
     }
     let packed = pack4x8unorm(vec4(sqrt(color), 1.0));
     let is_new = !keeps || before.w == 0u;
-    marks[index] = vec4(place.xyz, select(before.w, packed, is_new));
+    let shown = select(before.w, packed, is_new);
+    past[index] = vec4(place.xyz, shown);
+    let identity = identities[index];
+    marks[index] = vec4(identity.x, shown, identity.zw);
 }

@@ -101,7 +101,7 @@ fn go_to(session: &mut Session, step: u32) -> u64 {
 #[test]
 fn every_step_comes_back_with_the_same_bits() {
     for (kind, steps) in [
-        (BackendKind::Cpu, [90, 12, 49, 69, 50, 51, 0, 99].as_slice()),
+        (BackendKind::Cpu, [90, 12, 49, 69, 50, 51, 99, 0].as_slice()),
         (BackendKind::Wgpu, [49, 51, 0].as_slice()),
     ] {
         let mut straight = session(kind);
@@ -125,7 +125,7 @@ fn every_step_comes_back_with_the_same_bits() {
             let is_tuned = scrubbed.scene().wind.speed == MeanSpeed::MetresPerSecond(7.0);
             assert_eq!(is_tuned, step >= 50, "the panel shows the wind of step {step}");
         }
-        go_to(&mut scrubbed, 30);
+        assert_eq!(go_to(&mut scrubbed, 30), hashes[30], "{kind:?}: on the way");
         scrubbed.step(50).expect("it steps");
         assert_eq!(hash(&mut scrubbed), hashes[80], "{kind:?}: the wind changes again when time goes on");
         go_to(&mut scrubbed, 30);
