@@ -258,6 +258,7 @@ impl Simulator for WgpuSimulator {
         self.leaves.write(&self.gpu, &world.leaves)?;
         self.clock = world.clock;
         self.set_environment(&world.environment)?;
+        self.clear_due();
         match &self.forest {
             Some(forest) => forest.write(&self.gpu, &world.branches),
             None => Ok(()),

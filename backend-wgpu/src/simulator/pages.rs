@@ -6,12 +6,17 @@ use super::WgpuSimulator;
 use crate::buffers::{buffer, group};
 use crate::columns::RECORD_BYTES;
 
+/// Bytes before the list of due leaves.
+const DUE_HEADER_BYTES: u64 = 16;
+
 /// A window of the leaf columns that fits in one binding.
 #[derive(Debug)]
 pub(super) struct Page {
     pub(super) leaves: u32,
     pub(super) columns: wgpu::BindGroup,
     pub(super) due: wgpu::BindGroup,
+    /// Header of `due`: lengths of the lists of even and odd steps.
+    due_counts: wgpu::Buffer,
     pub(super) on_trees: Option<OnTrees>,
 }
 
@@ -32,6 +37,13 @@ impl WgpuSimulator {
         self.pages = pages;
     }
 
+    /// Forgets which leaves were due. A step clears the list of the next one; after a jump in time that is another.
+    pub(super) fn clear_due(&self) {
+        for page in &self.pages {
+            self.gpu.queue().write_buffer(&page.due_counts, 0, &[0; DUE_HEADER_BYTES as usize]);
+        }
+    }
+
     fn page(&self, first: u32) -> Page {
         let leaves = self.page_leaves.min(self.leaves.leaf_count() - first);
         let window = |buffer| {
@@ -46,8 +58,9 @@ impl WgpuSimulator {
         let resources = up_to_wind().chain(columns()).chain([self.motion.1.as_entire_binding()]);
         let page = group(&self.gpu, &self.pipelines.leaves_layout, resources);
         // Header of four counts, then a place for every leaf; new buffers are zero.
-        let due = buffer(&self.gpu, "due", 16 + u64::from(leaves) * 4, wgpu::BufferUsages::STORAGE);
-        let due = group(&self.gpu, &self.pipelines.extra_layout, [due.as_entire_binding()]);
+        let usage = wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST;
+        let due_counts = buffer(&self.gpu, "due", DUE_HEADER_BYTES + u64::from(leaves) * 4, usage);
+        let due = group(&self.gpu, &self.pipelines.extra_layout, [due_counts.as_entire_binding()]);
         let tree_leaves = self.environment.scene().tree_leaf_count().saturating_sub(first).min(leaves);
         let forest = self.forest.as_ref().filter(|_| tree_leaves > 0);
         let on_trees = forest.map(|forest| {
@@ -63,6 +76,6 @@ impl WgpuSimulator {
                 carriers: group(&self.gpu, &self.pipelines.carrier_layout, carriers),
             }
         });
-        Page { leaves, columns: page, due, on_trees }
+        Page { leaves, columns: page, due, due_counts, on_trees }
     }
 }
