@@ -13,12 +13,12 @@ use std::time::{Duration, Instant};
 
 use anyhow::Context;
 use windfall_core::scene::camera_at;
-use windfall_core::{Environment, Scene, World};
+use windfall_core::{Scene, World};
 use windfall_wgpu::Gpu;
 use winit::event::WindowEvent;
 use winit::window::Window;
 
-use self::editing::Document;
+use self::editing::{Document, renderer_of};
 use self::looking::Instruments;
 use super::app::Options;
 use super::controls::{Message, Wish};
@@ -32,9 +32,8 @@ use super::session::Session;
 use super::undo::Undo;
 use crate::camera::Camera;
 use crate::drawing::Drawing;
-use crate::render::{FrameInput, PictureTarget, Renderer, RendererOptions, Subject};
-use crate::trees::Stand;
-use crate::{leaves, terminal};
+use crate::render::{FrameInput, PictureTarget, Renderer};
+use crate::terminal;
 
 /// Time between two attempts to draw to a window that shows nothing.
 const HIDDEN_PAUSE: Duration = Duration::from_millis(100);
@@ -298,19 +297,4 @@ impl Viewer {
         self.gpu.check()?;
         screenshot.save(&picture?)
     }
-}
-
-/// A renderer of a scene whose trees stand as in `environment`.
-fn renderer_of(
-    gpu: &Gpu,
-    environment: &Environment,
-    scene: &Scene,
-    format: wgpu::TextureFormat,
-    size: (u32, u32),
-) -> anyhow::Result<Renderer> {
-    let atlas = leaves::atlas_of(scene)?;
-    let stand = Stand::of(scene, environment.forest());
-    let subject = Subject { scene, stand: &stand, atlas: &atlas };
-    let options = RendererOptions::for_scene(scene);
-    Ok(Renderer::new(gpu.device(), gpu.queue(), subject, format, size, options)?)
 }

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Rows that edit one field of a scene: a number, a choice, a text. Each knows its range and what the loaded scene says,
+//! Rows that edit one field of a scene: a number, a vector, a choice. Each knows its range and what the loaded scene says,
 //! and offers to go back to that.
 
 use std::f32::consts::TAU;
@@ -8,8 +8,8 @@ use std::ops::RangeInclusive;
 
 use egui::emath::Numeric;
 use egui::{
-    ComboBox, DragValue, Key, Painter, Pos2, Response, RichText, Role, Sense, Slider, Stroke, TextEdit, Ui,
-    Vec2, WidgetInfo, vec2,
+    ComboBox, DragValue, Painter, Pos2, Response, RichText, Role, Sense, Slider, Stroke, Ui, Vec2,
+    WidgetInfo, vec2,
 };
 use glam::Vec3;
 use windfall_core::scene::limits::Limit;
@@ -18,7 +18,7 @@ use super::rows::{Scale, decimals, row};
 use super::style;
 
 /// Width of a control and its number in points.
-const CONTROL_WIDTH: f32 = 184.0;
+pub(super) const CONTROL_WIDTH: f32 = 184.0;
 /// Most options that stand beside each other instead of in a menu.
 const MOST_BESIDE: usize = 3;
 
@@ -237,79 +237,8 @@ pub(super) fn choice<T: Clone + PartialEq>(
     }
 }
 
-/// A name out of several.
-pub(super) fn name_of(
-    ui: &mut Ui,
-    name: &str,
-    tip: &str,
-    value: &mut String,
-    own: Option<&String>,
-    names: &[String],
-) {
-    let own = own.filter(|own| *own != value);
-    let mut back = false;
-    row(ui, name, tip, |ui| {
-        let combo = ComboBox::from_id_salt(name).selected_text(value.as_str()).width(CONTROL_WIDTH);
-        let inner = combo.show_ui(ui, |ui| {
-            for other in names {
-                if ui.selectable_label(other == value, other).clicked() {
-                    value.clone_from(other);
-                }
-            }
-        });
-        back = own.is_some() && reset(ui, name);
-        inner.response
-    });
-    if let Some(own) = own.filter(|_| back) {
-        value.clone_from(own);
-    }
-}
-
-/// A line of text, or several; it counts when it is left, and Esc leaves it as it was.
-pub(super) fn text(ui: &mut Ui, name: &str, tip: &str, value: &mut String, own: Option<&str>, rows: usize) {
-    let own = own.filter(|own| own != value);
-    let mut back = false;
-    row(ui, name, tip, |ui| {
-        let id = ui.scope_id().with(("text", name));
-        let mut typed = ui.data(|data| data.get_temp::<String>(id)).unwrap_or_else(|| value.clone());
-        let edit = if rows > 1 { TextEdit::multiline(&mut typed) } else { TextEdit::singleline(&mut typed) };
-        let edit = edit.id(id).desired_width(CONTROL_WIDTH - 8.0).desired_rows(rows);
-        let response = ui.add(if rows > 1 { edit.code_editor() } else { edit });
-        if response.has_focus() {
-            ui.data_mut(|data| data.insert_temp(id, typed));
-        } else {
-            ui.data_mut(|data| data.remove::<String>(id));
-            let is_meant = response.lost_focus() && !ui.input(|input| input.key_pressed(Key::Escape));
-            if is_meant && typed != *value {
-                *value = typed;
-            }
-        }
-        back = own.is_some() && reset(ui, name);
-        response
-    });
-    if let Some(own) = own.filter(|_| back) {
-        *value = own.to_owned();
-    }
-}
-
-/// A text that may be left out.
-pub(super) fn optional_text(
-    ui: &mut Ui,
-    name: &str,
-    tip: &str,
-    value: &mut Option<String>,
-    own: Option<&Option<String>>,
-) {
-    let mut typed = value.clone().unwrap_or_default();
-    let own = own.map(|own| own.as_deref().unwrap_or_default());
-    text(ui, name, tip, &mut typed, own, 1);
-    if typed != value.as_deref().unwrap_or_default() {
-        *value = Some(typed).filter(|text| !text.is_empty());
-    }
-}
-
 /// The little arrow behind what was changed; true if it was pressed.
-fn reset(ui: &mut Ui, name: &str) -> bool {
+pub(super) fn reset(ui: &mut Ui, name: &str) -> bool {
     let (rect, response) = ui.allocate_exact_size(vec2(16.0, 16.0), Sense::click());
     response.widget_info(|| WidgetInfo::labeled(Role::Button, true, format!("Reset {name}")));
     let is_chosen = response.hovered() || response.has_focus();

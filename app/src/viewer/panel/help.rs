@@ -2,36 +2,39 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! What the keys do, over the picture.
 
-use egui::{Area, Frame, Grid, Id, Margin, Order, RichText, Ui};
+use egui::{Area, Frame, Grid, Id, Margin, Order, Rect, RichText, Ui};
 
 use super::style;
 use crate::viewer::keys::HELP;
 
-/// Shows the help in the middle of the window.
-pub(super) fn show(ui: &Ui) {
-    sheet(ui, |ui| {
+/// Width in points that two columns of help take.
+const TWO_COLUMNS: f32 = 850.0;
+
+/// Shows the help in the middle of the picture.
+pub(super) fn show(ui: &Ui, picture: Rect) {
+    let columns = if picture.width() < TWO_COLUMNS { 1 } else { 2 };
+    sheet(ui, picture, |ui| {
         ui.spacing_mut().item_spacing = egui::vec2(24.0, 5.0);
         ui.horizontal_top(|ui| {
-            for half in HELP.chunks(2) {
-                ui.vertical(|ui| half.iter().for_each(|(title, rows)| section(ui, title, rows)));
+            for column in HELP.chunks(HELP.len() / columns) {
+                ui.vertical(|ui| column.iter().for_each(|(title, rows)| section(ui, title, rows)));
             }
         });
     });
 }
 
 /// Says what becomes of a file that is being dragged over the window.
-pub(super) fn show_drop_hint(ui: &Ui) {
-    sheet(ui, |ui| {
+pub(super) fn show_drop_hint(ui: &Ui, picture: Rect) {
+    sheet(ui, picture, |ui| {
         ui.label(RichText::new("Drop it to open it").strong().color(style::TITLE));
         ui.label("a scene (.ron), a sky (.hdr, .exr) or a tree (.gltf, .glb)");
     });
 }
 
-/// A sheet in the middle of the window.
-fn sheet(ui: &Ui, content: impl FnOnce(&mut Ui)) {
-    let screen = ui.ctx().content_rect();
+/// A sheet in the middle of the picture.
+fn sheet(ui: &Ui, picture: Rect, content: impl FnOnce(&mut Ui)) {
     let area = Area::new(Id::unique("help")).order(Order::Foreground).interactable(false);
-    area.pivot(egui::Align2::CENTER_CENTER).fixed_pos(screen.center()).show(ui.ctx(), |ui| {
+    area.pivot(egui::Align2::CENTER_CENTER).fixed_pos(picture.center()).show(ui.ctx(), |ui| {
         let frame = Frame::new().fill(style::sheet()).corner_radius(6).inner_margin(Margin::same(18));
         frame.show(ui, content);
     });

@@ -6,8 +6,9 @@ use egui::Ui;
 use windfall_core::Scene;
 use windfall_core::scene::{Foliage, MAX_TREE_KINDS, TreeForm, TreeKind, TreePreset, Wood, limits};
 
-use super::field::{choice, field, name_of, text};
+use super::field::{choice, field};
 use super::list::{List, free_name};
+use super::words::{name_of, text};
 
 const PRESETS: [(&str, TreePreset); 6] = [
     ("maple", TreePreset::Maple),

@@ -33,6 +33,7 @@ mod timeline;
 mod trees;
 mod vortices;
 mod wind;
+mod words;
 
 use egui::{Area, Id, Pos2, Rect, Response, RichText, ScrollArea, Sense, Ui, vec2};
 use windfall_core::Scene;
@@ -134,9 +135,9 @@ impl Panel {
         }
         self.notice(ui, facts, picture.left_top());
         if self.is_helping {
-            help::show(ui);
+            help::show(ui, picture);
         } else if ui.input(|input| !input.raw.hovered_files.is_empty()) {
-            help::show_drop_hint(ui);
+            help::show_drop_hint(ui, picture);
         }
         wishes
     }

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use egui::{Button, RichText, TextEdit, Ui};
 use windfall_core::Scene;
 
-use super::field::text;
+use super::words::text;
 use super::{Facts, Wish, style};
 
 /// Where the scene is to be saved.

@@ -5,7 +5,8 @@
 use egui::Ui;
 use windfall_core::scene::{PhysicalSky, Sky, SkyMap, View, limits};
 
-use super::field::{choice, field, text};
+use super::field::{choice, field};
+use super::words::text;
 
 pub(super) fn show(ui: &mut Ui, view: &mut View, own: &View) {
     let (sun, haze) = (&mut view.sun, &mut view.haze);

@@ -7,8 +7,9 @@ use glam::Vec3;
 use windfall_core::Scene;
 use windfall_core::scene::{MAX_SOURCES, Release, Share, Source, SourceShape, limits};
 
-use super::field::{choice, field, name_of, vector};
+use super::field::{choice, field, vector};
 use super::list::List;
+use super::words::name_of;
 
 pub(super) fn show(ui: &mut Ui, scene: &mut Scene, own: &Scene) {
     let fewest = usize::from(scene.trees.is_empty());

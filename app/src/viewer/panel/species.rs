@@ -8,8 +8,9 @@ use windfall_core::scene::{
     Aerodynamics, FlightModel, LeafShape, MAX_SPECIES, RotationModel, Share, Species, limits,
 };
 
-use super::field::{choice, field, optional_text, text};
+use super::field::{choice, field};
 use super::list::{List, free_name};
+use super::words::{optional_text, text};
 use super::{body, motion};
 
 const SHAPES: [(&str, LeafShape); 12] = [

@@ -17,6 +17,7 @@ use crate::viewer::record::RecordFacts;
 use crate::viewer::session::Timeline;
 
 mod every_control;
+mod scenes;
 
 fn facts(scene: &Scene) -> Facts {
     let world = World::build(scene).expect("valid");

@@ -6,8 +6,9 @@ use egui::Ui;
 use windfall_core::Scene;
 use windfall_core::scene::{MAX_TREES, SwayScheme, Tree, TreePreset, limits};
 
-use super::field::{choice, field, name_of};
+use super::field::{choice, field};
 use super::list::List;
+use super::words::name_of;
 
 pub(super) fn show(ui: &mut Ui, scene: &mut Scene, own: &Scene) {
     let tip = "How far the year has come for the leaves on the trees: 0 in summer, 1 when none are left";

@@ -5,11 +5,13 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use windfall_core::{Scene, World};
+use windfall_core::{Environment, Scene, World};
+use windfall_wgpu::Gpu;
 
-use super::{Viewer, renderer_of};
+use super::Viewer;
 use crate::camera::Camera;
 use crate::leaves;
+use crate::render::{Renderer, RendererOptions, Subject};
 use crate::trees::Stand;
 use crate::viewer::app::title;
 use crate::viewer::change::Change;
@@ -193,4 +195,19 @@ impl Viewer {
         }
         Ok(())
     }
+}
+
+/// A renderer of a scene whose trees stand as in `environment`.
+pub(super) fn renderer_of(
+    gpu: &Gpu,
+    environment: &Environment,
+    scene: &Scene,
+    format: wgpu::TextureFormat,
+    size: (u32, u32),
+) -> anyhow::Result<Renderer> {
+    let atlas = leaves::atlas_of(scene)?;
+    let stand = Stand::of(scene, environment.forest());
+    let subject = Subject { scene, stand: &stand, atlas: &atlas };
+    let options = RendererOptions::for_scene(scene);
+    Ok(Renderer::new(gpu.device(), gpu.queue(), subject, format, size, options)?)
 }

@@ -6,13 +6,8 @@
 use egui::accesskit::{Role, Toggled};
 use egui_kittest::kittest::NodeT;
 use egui_kittest::{Harness, Node};
-use glam::Vec3;
-use windfall_core::scene::{
-    Aerodynamics, CameraKey, Exposure, FlightModel, Focus, MeanSpeed, Planform, Profile, Release,
-    RotationModel, Share, Sky, SkyMap, SourceShape, Terrain, ToneMap, Tree, TreeForm, TreeKind, Vortex,
-    Water,
-};
 
+use super::scenes::{full, other, third};
 use super::*;
 
 /// A panel whose edits are taken over as a window would.
@@ -169,59 +164,6 @@ fn move_everything((scene, groups): &(Scene, &[Group])) -> Vec<Control> {
     }
     assert_eq!(idle, [], "nothing comes of these");
     all
-}
-
-/// A park with one of everything that may be added to a scene.
-fn full() -> Scene {
-    let mut scene = Scene::default();
-    scene.trees = vec![Tree { kind: "own".into(), leaves: 10, height_m: Some(6.0), ..Tree::default() }];
-    scene.tree_kinds = vec![TreeKind { name: "own".into(), ..TreeKind::default() }];
-    scene.sources[0].species = vec![Share { species: "maple".into(), weight: 2 }];
-    scene.regrow_after_s = Some(50.0);
-    scene.autumn = 0.4;
-    scene.wind.speed = MeanSpeed::Beaufort(3);
-    scene.wind.vortices = vec![Vortex {
-        center_m: Vec3::ONE,
-        axis: Vec3::Y,
-        circulation_m2_s: 3.0,
-        core_m: 1.0,
-        axial_m_s: 1.0,
-        drift_m_s: Vec3::X,
-    }];
-    scene.ground.terrain = Some(Terrain { levels: 4, ..Terrain::default() });
-    scene.ground.water = Some(Water { height_m: -0.5 });
-    scene.view.path =
-        vec![CameraKey { time_s: 1.0, eye_m: Vec3::ONE, target_m: Vec3::ZERO, vertical_fov_deg: 40.0 }];
-    scene.view.lens.focus = Some(Focus { distance_m: 3.0, f_number: 4.0 });
-    scene
-}
-
-/// The other variant of every choice.
-fn other() -> Scene {
-    let mut scene = full();
-    let body = Aerodynamics { planform: Some(Planform::default()), ..Aerodynamics::default() };
-    scene.species[0].flight = FlightModel::Aerodynamic(body);
-    scene.sources[0].shape = SourceShape::Disc { center_m: Vec3::new(0.0, 6.0, 0.0), radius_m: 3.0 };
-    scene.sources[0].release = Release::Burst { at_s: 1.0 };
-    scene.wind.profile = Profile::Log { roughness_m: 0.05, displacement_m: 0.5 };
-    scene.wind.speed = MeanSpeed::MetresPerSecond(2.0);
-    scene.tree_kinds[0].form = TreeForm::File("a.glb".into());
-    scene.trees[0].kind = "maple".into();
-    scene.view.sky = Sky::Map(SkyMap::new("a.hdr".into()));
-    scene.view.lens.exposure = Exposure::Manual { ev100: 12.0 };
-    scene.view.lens.tone_map = ToneMap::Reinhard { white: 3.0 };
-    scene
-}
-
-/// What neither of the two has.
-fn third() -> Scene {
-    let mut scene = Scene::default();
-    scene.species[0].rotation = RotationModel::TanabeKaneko { friction_per_s: 5.0 };
-    let motion = &mut scene.species[0].motion;
-    (motion.descent_m_s, motion.rose_swings) = (Some(1.0), Some(5));
-    scene.species[0].tables = Some("a.tables".into());
-    scene.view.lens.tone_map = ToneMap::Linear { gamma: 2.0 };
-    scene
 }
 
 #[test]
