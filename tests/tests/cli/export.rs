@@ -137,11 +137,9 @@ fn point_clouds_have_the_numbers_of_the_table() {
 fn sample(layer: &str, declaration: &str, frame: u32) -> Vec<f32> {
     let samples = layer.split_once(&format!("{declaration}.timeSamples = {{\n")).expect("samples").1;
     let samples = samples.split_once("\n}").expect("an end").0;
-    let parsed = samples.lines().filter_map(|line| line.split_once(": "));
-    let (_, text) = parsed
-        .filter(|(number, _)| number.parse::<u32>().expect("a frame") <= frame)
-        .last()
-        .expect("a sample before");
+    let mut parsed = samples.lines().filter_map(|line| line.split_once(": "));
+    let is_before = |number: &str| number.parse::<u32>().expect("a frame") <= frame;
+    let (_, text) = parsed.rfind(|(number, _)| is_before(number)).expect("a sample before");
     let parts = text.split(|c: char| "[](), ".contains(c)).filter(|part| !part.is_empty());
     parts.map(|part| part.parse().expect("a number")).collect()
 }
@@ -298,7 +296,8 @@ fn a_still_gltf_file_has_the_numbers_of_the_table() {
         let [places, turns] =
             ["TRANSLATION", "ROTATION"].map(|name| floats(&document, &buffer, &attributes[name]));
         for (at, id) in ids.iter().enumerate() {
-            let row = rows.iter().find(|row| row["id"] == id.to_string()).expect("a leaf of this number");
+            let id = id.to_string();
+            let row = rows.iter().find(|row| row["id"] == id).expect("a leaf of this number");
             assert_eq!(places[3 * at..3 * at + 3], numbers(row, PLACE), "{row:?}");
             assert!(same_turn(&turns[4 * at..4 * at + 4], numbers(row, TURN)), "{row:?}");
             found += 1;
