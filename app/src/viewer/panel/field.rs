@@ -130,7 +130,12 @@ impl<T: Numeric> Field<'_, T> {
     fn tip(&self, own: Option<T>) -> String {
         let text = |number: T| {
             let number = number.to_f64();
-            if T::INTEGRAL { whole(number) } else { format!("{}", number as f32) }
+            #[expect(
+                clippy::cast_possible_truncation,
+                reason = "fields that are not whole are in single precision"
+            )]
+            let single = number as f32;
+            if T::INTEGRAL { whole(number) } else { format!("{single}") }
         };
         let unit = suffix(self.limit.unit);
         let mut tip = format!("{}\n{} to {}{unit}", self.tip, text(self.limit.low), text(self.limit.high));
