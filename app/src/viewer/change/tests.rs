@@ -5,6 +5,8 @@ use windfall_core::scene::{Exposure, Haze, Profile, Release, Sky, SkyMap, SwaySc
 
 use super::*;
 
+type Edit = fn(&mut Scene);
+
 /// What an edit of the park asks for.
 fn change(edit: impl FnOnce(&mut Scene)) -> Change {
     let old = Scene::preset("autumn-park").expect("a preset");
@@ -59,7 +61,7 @@ fn what_is_only_seen_leaves_the_simulation_alone() {
 
 #[test]
 fn what_the_world_is_made_of_begins_it_again() {
-    let edits: [(&str, bool, fn(&mut Scene)); 9] = [
+    let edits: [(&str, bool, Edit); 9] = [
         ("seed", true, |scene| scene.seed += 1),
         ("step length", false, |scene| scene.dt_s = 0.01),
         ("species", false, |scene| scene.species[0].spin_rad_s += 1.0),

@@ -77,7 +77,7 @@ fn seen(node: &Node<'_>) -> (bool, String, String) {
         role,
         Role::Slider | Role::SpinButton | Role::Button | Role::CheckBox | Role::ComboBox | Role::TextInput
     );
-    let name = inner.label().map(|label| label.clone()).unwrap_or_default();
+    let name = inner.label().unwrap_or_default();
     // Of several options, the one that is chosen already is no way to change anything.
     let is_chosen = role == Role::Button && inner.toggled() == Some(Toggled::True);
     (is_control && !is_chosen && !inner.is_disabled(), format!("{role:?}"), name.to_string())
