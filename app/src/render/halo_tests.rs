@@ -36,11 +36,14 @@ fn edge_against_inside(atlas: &Atlas) -> [f32; 3] {
         let sky = "    var color = sky_radiance(direction);";
         let plain = format!("    if true {{ return vec4(vec3({backdrop:?}), 1.0); }}\n{sky}");
         let mut bench = with_shader_edit(sky, &plain, || bench_of(scene(), Stand::default(), atlas));
-        bench.draw(FALLING, 0.0, 0.0)
+        (bench.draw(FALLING, 0.0, 0.0), bench.draw(0, 0.0, 0.0))
     };
-    let (black, white) = (draw(0.0), draw(WHITE));
+    let ((black, _), (white, without)) = (draw(0.0), draw(WHITE));
     let (mut inside, mut edge) = (([0.0f32; 3], 0.0f32), ([0.0f32; 3], 0.0f32));
-    for (dark, light) in black.pixels().zip(white.pixels()) {
+    for ((dark, light), free) in black.pixels().zip(white.pixels()).zip(without.pixels()) {
+        if free.0.iter().any(|&channel| channel < 250) {
+            continue;
+        }
         let (dark, light) = (dark.0.map(f32::from), light.0.map(f32::from));
         // What is not covered shows the ground.
         let open = (0..3).map(|c| (light[c] - dark[c]) / 255.0).sum::<f32>() / 3.0;

@@ -13,8 +13,8 @@ use super::leaf_record::record_constants;
 use super::pipeline::{COMMON, buffer_entry, layout, shader};
 use super::targets::{DEPTH_FORMAT, SAMPLE_COUNT, Targets};
 
-/// Format of ways over the picture, in pixels.
-pub(super) const WAY_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rg16Float;
+/// Format of ways over the picture, in pixels; the last component is the part of a pixel that moves.
+pub(super) const WAY_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
 /// A leaf faster than this was put elsewhere, in m/s.
 const FASTEST_M_S: f32 = 80.0;
 

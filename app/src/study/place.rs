@@ -117,7 +117,11 @@ fn inside(place: &mut Value) -> &mut Value {
 /// What can stand next in a path.
 fn names(place: &Value) -> String {
     match place {
-        Value::Object(fields) => fields.keys().map(String::as_str).collect::<Vec<_>>().join(", "),
+        Value::Object(fields) => {
+            let mut names: Vec<&str> = fields.keys().map(String::as_str).collect();
+            names.sort_unstable();
+            names.join(", ")
+        }
         Value::Array(entries) if entries.is_empty() => "an empty list".into(),
         Value::Array(entries) => format!("entries 0 to {}", entries.len() - 1),
         Value::Null => "nothing, for the scene says None".into(),
@@ -187,7 +191,7 @@ mod tests {
             ("sources.x", 1.into(), &["no 'x' in sources"]),
             ("seed.x", 1.into(), &["no 'x' in seed", "and no more"]),
             ("ground.water.height_m", 1.into(), &["ground.water", "None"]),
-            ("wind.gusts", 1.into(), &["several", "strength, interval_s"]),
+            ("wind.gusts", 1.into(), &["several", "interval_s, strength"]),
             ("wind.speed.Knots", 1.into(), &["does not fit", "Knots", "Beaufort"]),
             ("wind.speed.Beaufort", 2.5.into(), &["2.5 does not fit", "u8"]),
             ("sources.0.count", 2.5.into(), &["2.5 does not fit", "u32"]),

@@ -3,7 +3,8 @@
 // What moves while the shutter is open is drawn out along its way: every pixel gathers the light of those that cross it
 // meanwhile, and sees what is behind them for as long as none does.
 //
-// Source: McGuire, Hennessy, Bukowski, Osman, "A reconstruction filter for plausible motion blur" (I3D 2012); their weights.
+// Source: the blocks and taps of McGuire, Hennessy, Bukowski, Osman, "A reconstruction filter for plausible motion blur"
+// (I3D 2012). The weights are shares of time, so that what moves keeps its light.
 
 struct Shutter {
     // Corner of the tile in the picture, in pixels; edge of a block in pixels.
@@ -27,12 +28,16 @@ const TAPS: i32 = 17;
 // Part of a distance over which before and behind fade into each other.
 const SOFT: f32 = 0.02;
 const FARTHEST_M: f32 = 60000.0;
+// Half a way in pixels from which on something moves.
+const MOVING: f32 = 0.25;
 
 // Puts the ways of a tile, and how far away what moves is, into the picture.
 @fragment
 fn take(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
     let at = vec2<i32>(position.xy) - shutter.corner;
-    let way = textureLoad(drawn, at, 0).xy;
+    // A pixel that something covers in part moves as that does.
+    let mean = textureLoad(drawn, at, 0);
+    let way = mean.xy / max(mean.a, 1.0e-3);
     let span = length(way);
     let distance_m = shutter.near_m / max(textureLoad(depth, at, 0), shutter.near_m / FARTHEST_M);
     return vec4(way * min(1.0, shutter.most / max(span, 1.0e-6)), distance_m, 1.0);
@@ -61,15 +66,6 @@ fn before(first_m: f32, second_m: f32) -> f32 {
     return clamp(1.0 - (first_m - second_m) / (SOFT * min(first_m, second_m)), 0.0, 1.0);
 }
 
-// Share of the time that something is this far from its place, if it goes evenly: it is there, or it has gone.
-fn cone(distance_px: f32, span: f32) -> f32 {
-    return clamp(1.0 - distance_px / max(span, 1.0e-3), 0.0, 1.0);
-}
-
-fn cylinder(distance_px: f32, span: f32) -> f32 {
-    return 1.0 - smoothstep(0.95 * span, 1.05 * span + 1.0e-3, distance_px);
-}
-
 @fragment
 fn gather(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
     let at = vec2<i32>(position.xy);
@@ -81,28 +77,30 @@ fn gather(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
         way = longer(way, textureLoad(longest, block, 0).xy);
     }
     let own_light = textureLoad(light, at, 0).rgb;
-    if length(way) < 0.5 {
+    if length(way) < MOVING {
         return vec4(own_light, 1.0);
     }
     let own = textureLoad(ways, at, 0);
-    let own_span = max(length(own.xy), 0.5);
-    var weights = 1.0 / own_span;
-    var sum = own_light * weights;
+    // What passes here, by the share of the time that it does, and what is there all the while.
+    var passing = vec4(0.0);
+    var staying = vec4(0.0);
     let last = vec2<i32>(textureDimensions(light)) - 1;
+    let apart = 2.0 * length(way) / f32(TAPS);
     // Taps of neighbouring pixels lie between one another.
     let shift = f32((at.x * 5 + at.y * 3) & 7) / 8.0 - 0.4375;
     for (var tap = 0; tap < TAPS; tap++) {
         let along = 2.0 * (f32(tap) + 0.5 + shift) / f32(TAPS) - 1.0;
-        let offset = way * along;
-        let there = clamp(vec2<i32>(floor(position.xy + offset)), vec2(0), last);
+        let there = clamp(vec2<i32>(floor(position.xy + way * along)), vec2(0), last);
         let other = textureLoad(ways, there, 0);
-        let distance_px = length(offset);
-        let other_span = max(length(other.xy), 0.5);
-        let weight = before(other.z, own.z) * cone(distance_px, other_span)
-            + before(own.z, other.z) * cone(distance_px, own_span)
-            + 2.0 * cylinder(distance_px, other_span) * cylinder(distance_px, own_span);
-        weights += weight;
-        sum += weight * textureLoad(light, there, 0).rgb;
+        let span = length(other.xy);
+        let color = textureLoad(light, there, 0).rgb;
+        let reaches = step(MOVING, span) * clamp(span + 0.5 - abs(along) * length(way), 0.0, 1.0);
+        // It goes over twice its span, evenly, and is an interval of taps wide.
+        passing += reaches * before(other.z, own.z) * apart / (2.0 * max(span, MOVING)) * vec4(color, 1.0);
+        staying += (1.0 - reaches) * vec4(color, 1.0);
     }
-    return vec4(sum / weights, 1.0);
+    let is_still = length(own.xy) < MOVING;
+    let behind = select(staying.rgb / max(staying.a, 1.0e-3), own_light, is_still || staying.a < 1.0e-3);
+    let over = passing.rgb / max(passing.a, 1.0e-3);
+    return vec4(mix(behind, over, min(passing.a, 1.0)), 1.0);
 }

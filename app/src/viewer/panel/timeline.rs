@@ -2,7 +2,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The bar of time over the lower edge of the picture: drag it to go back and forth.
 
-use egui::{Align2, Color32, CornerRadius, FontId, Id, Key, Rect, Sense, Stroke, Ui, WidgetInfo, pos2, vec2};
+use egui::accesskit::Action;
+use egui::{
+    Align2, Color32, CornerRadius, FontId, Id, Key, Rect, Response, Sense, Stroke, Ui, WidgetInfo, pos2, vec2,
+};
 
 use super::{Facts, Wish, rows, style};
 
@@ -33,12 +36,9 @@ pub(super) fn show(ui: &mut Ui, facts: &Facts, picture: Rect, wishes: &mut Vec<W
             wishes.push(Wish::Seek(step.min(last)));
         }
     }
-    if response.has_focus() {
-        let moved = |ui: &Ui, key| ui.input(|input| u32::try_from(input.num_presses(key)).unwrap_or(0));
-        let (back, on) = (moved(ui, Key::ArrowLeft), moved(ui, Key::ArrowRight));
-        if back + on > 0 {
-            wishes.push(Wish::Seek(now.saturating_sub(back).saturating_add(on)));
-        }
+    let (back, on) = steps_asked(ui, &response);
+    if back + on > 0 {
+        wishes.push(Wish::Seek(now.saturating_sub(back).saturating_add(on)));
     }
 
     let painter = ui.painter_at(strip);
@@ -78,4 +78,16 @@ pub(super) fn show(ui: &mut Ui, facts: &Facts, picture: Rect, wishes: &mut Vec<W
         )
     };
     response.on_hover_text(tip);
+}
+
+/// Steps back and on that keys ask for, or who reads the screen to the user.
+fn steps_asked(ui: &Ui, response: &Response) -> (u32, u32) {
+    let has_focus = response.has_focus();
+    let asked = |key, action| {
+        ui.input(|input| {
+            let presses = if has_focus { input.num_presses(key) } else { 0 };
+            u32::try_from(presses + input.num_accesskit_action_requests(response.id, action)).unwrap_or(0)
+        })
+    };
+    (asked(Key::ArrowLeft, Action::Decrement), asked(Key::ArrowRight, Action::Increment))
 }
