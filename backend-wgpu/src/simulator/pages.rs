@@ -6,8 +6,8 @@ use super::WgpuSimulator;
 use crate::buffers::{buffer, group};
 use crate::columns::RECORD_BYTES;
 
-/// Bytes before the list of due leaves.
-const DUE_HEADER_BYTES: u64 = 16;
+/// What stands before the list of due leaves while it is empty.
+const DUE_HEADER: [u8; 16] = [0; 16];
 
 /// A window of the leaf columns that fits in one binding.
 #[derive(Debug)]
@@ -40,7 +40,7 @@ impl WgpuSimulator {
     /// Forgets which leaves were due. A step clears the list of the next one; after a jump in time that is another.
     pub(super) fn clear_due(&self) {
         for page in &self.pages {
-            self.gpu.queue().write_buffer(&page.due_counts, 0, &[0; DUE_HEADER_BYTES as usize]);
+            self.gpu.queue().write_buffer(&page.due_counts, 0, &DUE_HEADER);
         }
     }
 
@@ -59,7 +59,7 @@ impl WgpuSimulator {
         let page = group(&self.gpu, &self.pipelines.leaves_layout, resources);
         // Header of four counts, then a place for every leaf; new buffers are zero.
         let usage = wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST;
-        let due_counts = buffer(&self.gpu, "due", DUE_HEADER_BYTES + u64::from(leaves) * 4, usage);
+        let due_counts = buffer(&self.gpu, "due", DUE_HEADER.len() as u64 + u64::from(leaves) * 4, usage);
         let due = group(&self.gpu, &self.pipelines.extra_layout, [due_counts.as_entire_binding()]);
         let tree_leaves = self.environment.scene().tree_leaf_count().saturating_sub(first).min(leaves);
         let forest = self.forest.as_ref().filter(|_| tree_leaves > 0);

@@ -103,7 +103,12 @@ fn wave(node: usize, stride: usize) -> Wave {
     // have no direction, and the corners beyond the sphere of the shortest resolved wave no counterpart along the axes.
     let longest = TAU / SIZE[1].min(SIZE[2]) as f64;
     let nyquist = (0..3).any(|axis| index[axis] == SIZE[axis] / 2);
-    if index[0] % stride != 0 || index[0] == 0 || nyquist || k2 < 0.999 * longest * longest || k2 >= PI * PI {
+    if !index[0].is_multiple_of(stride)
+        || index[0] == 0
+        || nyquist
+        || k2 < 0.999 * longest * longest
+        || k2 >= PI * PI
+    {
         return Wave { cell: [0.0; 3], amplitude: 0.0, interpolated: 0.0 };
     }
     let kept: f64 =

@@ -43,8 +43,9 @@ fn off_after(cycle: &Cycle, [before, after]: &[World; 2]) -> (usize, usize) {
     let (mut falling, mut off) = (0, 0);
     for source in &scene.sources {
         let rounds = f64::from(source.recycle_after_s.expect("recycled")) / dt / f64::from(cycle.steps);
-        let (count, rounds) = (source.count as usize, rounds.round() as usize);
-        let each = count / rounds;
+        #[expect(clippy::cast_possible_truncation, reason = "a small whole number")]
+        let each = source.count as usize / rounds.round() as usize;
+        let count = source.count as usize;
         for place in 0..count {
             let (one, other) = (first + place, first + (place + each) % count);
             let bits = |world: &World, slot: usize| {

@@ -19,6 +19,8 @@ pub(super) fn show(ui: &mut Ui, lens: &mut Lens, own: &Lens, distance_m: f32) {
     threshold.show(ui, &mut lens.glare.threshold, own.glare.threshold);
     focus(ui, &mut lens.focus, own.focus, distance_m);
     let tip = "Colourfulness of the picture: grey at 0";
+    let shutter = "How long the shutter is open: leaves are drawn along their way";
+    field("Shutter", shutter, limits::SHUTTER_S).show(ui, &mut lens.shutter_s, own.shutter_s);
     field("Saturation", tip, limits::SATURATION).show(ui, &mut lens.saturation, own.saturation);
     let tip = "How much darker the corners are";
     field("Vignette", tip, limits::VIGNETTE).show(ui, &mut lens.vignette, own.vignette);
