@@ -109,9 +109,15 @@ impl Fullscreen {
 }
 
 /// A texture of light that a pass fills and others read.
-pub(super) fn light_texture(
+pub(super) fn light_texture(device: &wgpu::Device, label: &str, size: (u32, u32)) -> wgpu::TextureView {
+    number_texture(device, label, super::targets::HDR_FORMAT, size)
+}
+
+/// A texture of any numbers that a pass fills and others read.
+pub(super) fn number_texture(
     device: &wgpu::Device,
     label: &str,
+    format: wgpu::TextureFormat,
     (width, height): (u32, u32),
 ) -> wgpu::TextureView {
     let texture = device.create_texture(&wgpu::TextureDescriptor {
@@ -120,7 +126,7 @@ pub(super) fn light_texture(
         mip_level_count: 1,
         sample_count: 1,
         dimension: wgpu::TextureDimension::D2,
-        format: super::targets::HDR_FORMAT,
+        format,
         usage: wgpu::TextureUsages::RENDER_ATTACHMENT
             | wgpu::TextureUsages::TEXTURE_BINDING
             | wgpu::TextureUsages::COPY_SRC,

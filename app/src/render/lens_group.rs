@@ -36,6 +36,12 @@ const SENSOR_M: f32 = 0.024;
 /// Largest radius of a circle of confusion, as a part of the picture's height.
 pub(super) const MAX_BLUR: f32 = 0.04;
 
+/// Edge in pixels of blocks as wide as the farthest that light is spread in a picture of this height.
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small positive number")]
+pub(super) fn blur_block(height: u32) -> u32 {
+    (MAX_BLUR * height as f32).ceil().max(1.0) as u32
+}
+
 /// What of a frame matters to its lens.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Shot {

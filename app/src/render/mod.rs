@@ -10,6 +10,7 @@
 mod agx;
 mod bark_mesh;
 mod bark_pass;
+mod blur_group;
 mod branch_group;
 mod cascades;
 mod environment;

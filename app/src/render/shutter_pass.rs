@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Motion blur: draws leaves out along their ways, from those, depth and resolved light.
 
-use super::fullscreen::{Fullscreen, light_texture};
-use super::lens_group::{LensGroup, MAX_BLUR, Shot};
+use super::blur_group::BlurGroup;
+use super::fullscreen::{Fullscreen, light_texture, number_texture};
+use super::lens_group::{LensGroup, MAX_BLUR, Shot, blur_block};
 use super::motion_pass::WAY_FORMAT;
-use super::pipeline::{texture_entry, uniform_entry};
 use super::targets::{HDR_FORMAT, Targets};
 use super::tile::Tile;
 
@@ -27,8 +27,7 @@ pub(super) struct ShutterPass {
     take: Fullscreen,
     longest: Fullscreen,
     gather: Fullscreen,
-    layout: wgpu::BindGroupLayout,
-    uniform: wgpu::Buffer,
+    group: BlurGroup,
 }
 
 /// What pictures of one size need.
@@ -38,7 +37,7 @@ pub(super) struct ShutterChain {
     pub(super) result: wgpu::TextureView,
     ways: wgpu::TextureView,
     longest_ways: wgpu::TextureView,
-    /// By what they write: what a pass writes it must not have bound.
+    /// By what they write.
     take: wgpu::BindGroup,
     longest: wgpu::BindGroup,
     gather: wgpu::BindGroup,
@@ -47,40 +46,16 @@ pub(super) struct ShutterChain {
 
 impl ShutterPass {
     pub(super) fn new(device: &wgpu::Device, lens: &LensGroup) -> Self {
-        let unfiltered = wgpu::TextureSampleType::Float { filterable: false };
-        let dimension = wgpu::TextureViewDimension::D2;
-        let mut depth = texture_entry(1, wgpu::TextureSampleType::Depth, dimension);
-        depth.ty = wgpu::BindingType::Texture {
-            sample_type: wgpu::TextureSampleType::Depth,
-            view_dimension: dimension,
-            multisampled: true,
-        };
-        let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-            label: Some("shutter"),
-            entries: &[
-                uniform_entry(0),
-                depth,
-                texture_entry(2, unfiltered, dimension),
-                texture_entry(3, unfiltered, dimension),
-                texture_entry(4, unfiltered, dimension),
-                texture_entry(5, unfiltered, dimension),
-            ],
-        });
+        let group = BlurGroup::new(device, "shutter", size_of::<ShutterUniform>(), 4);
         let pipeline = |entry, format| {
             let source = ("shutter", include_str!("shaders/shutter.wgsl"), entry);
-            Fullscreen::new(device, lens, &layout, source, format, &[])
+            Fullscreen::new(device, lens, &group.layout, source, format, &[])
         };
         Self {
             take: pipeline("take", HDR_FORMAT),
             longest: pipeline("block_longest", WAY_FORMAT),
             gather: pipeline("gather", HDR_FORMAT),
-            uniform: device.create_buffer(&wgpu::BufferDescriptor {
-                label: Some("shutter"),
-                size: size_of::<ShutterUniform>() as u64,
-                usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
-                mapped_at_creation: false,
-            }),
-            layout,
+            group,
         }
     }
 
@@ -88,46 +63,13 @@ impl ShutterPass {
     pub(super) fn chain(&self, device: &wgpu::Device, targets: &Targets) -> Option<ShutterChain> {
         let drawn = targets.ways.as_ref()?;
         let (width, height) = targets.size;
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "a small positive number"
-        )]
-        let block = (MAX_BLUR * height as f32).ceil().max(1.0) as u32;
-        let view = |label, format, (width, height)| {
-            let texture = device.create_texture(&wgpu::TextureDescriptor {
-                label: Some(label),
-                size: wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
-                mip_level_count: 1,
-                sample_count: 1,
-                dimension: wgpu::TextureDimension::D2,
-                format,
-                usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING,
-                view_formats: &[],
-            });
-            texture.create_view(&wgpu::TextureViewDescriptor::default())
-        };
+        let block = blur_block(height);
+        let view = |label, format, size| number_texture(device, label, format, size);
         let ways = view("ways", HDR_FORMAT, targets.size);
         let longest_ways = view("longest ways", WAY_FORMAT, (width.div_ceil(block), height.div_ceil(block)));
         let none = view("no ways", WAY_FORMAT, (1, 1));
-        let bind = |ways: &wgpu::TextureView, longest: &wgpu::TextureView| {
-            let entry = |binding, view| wgpu::BindGroupEntry {
-                binding,
-                resource: wgpu::BindingResource::TextureView(view),
-            };
-            device.create_bind_group(&wgpu::BindGroupDescriptor {
-                label: Some("shutter"),
-                layout: &self.layout,
-                entries: &[
-                    wgpu::BindGroupEntry { binding: 0, resource: self.uniform.as_entire_binding() },
-                    entry(1, &targets.depth),
-                    entry(2, &drawn.resolved),
-                    entry(3, ways),
-                    entry(4, longest),
-                    entry(5, &targets.resolved),
-                ],
-            })
-        };
+        let (depth, light) = (&targets.depth, &targets.resolved);
+        let bind = |ways, longest| self.group.bind(device, depth, &[&drawn.resolved, ways, longest, light]);
         Some(ShutterChain {
             result: light_texture(device, "light while the shutter is open", targets.size),
             take: bind(&none, &none),
@@ -157,7 +99,7 @@ impl ShutterPass {
             near_m: shot.near_m,
             unused_too: [0.0; 2],
         };
-        queue.write_buffer(&self.uniform, 0, bytemuck::bytes_of(&uniform));
+        queue.write_buffer(&self.group.uniform, 0, bytemuck::bytes_of(&uniform));
         let area = (tile.corner, tile.inside);
         self.take.draw_part(encoder, [&lens.group, &chain.take], &chain.ways, area);
     }

@@ -5,13 +5,11 @@
 use std::collections::HashMap;
 use std::fs;
 use std::path::Path;
-use std::process::{Command, Stdio};
-use std::time::{Duration, Instant};
 
 use serde_json::Value;
 use tempfile::TempDir;
 
-use crate::common_cli::{assert_refused, command, contents, file, folder, windfall};
+use crate::common_cli::{assert_interrupted, assert_refused, file, folder, windfall};
 
 /// A scene in which leaves hang, fall, lie and wait, and whose pictures are made in no time.
 const SCENE: &str = r#"(
@@ -373,36 +371,7 @@ fn bad_input_is_refused_in_one_line() {
 #[test]
 fn an_interrupt_leaves_nothing_behind() {
     for out in ["a.csv", "a.usda", "a.glb", "clouds"] {
-        let there = scene();
-        let before = contents(there.path());
-        let mut child = command(
-            &there,
-            &["export", "scene.ron", "--frames", "0..99999", "--backend", "cpu", "--out", out],
-        )
-        .stderr(Stdio::piped())
-        .stdout(Stdio::piped())
-        .spawn()
-        .expect("the program starts");
-        let began = Instant::now();
-        while contents_or_none(there.path()) == before.len() {
-            assert!(began.elapsed() < Duration::from_secs(60), "{out}: it does not begin");
-            std::thread::sleep(Duration::from_millis(10));
-        }
-        std::thread::sleep(Duration::from_millis(500));
-        let sent = Command::new("kill").args(["-INT", &child.id().to_string()]).status();
-        assert!(sent.is_ok_and(|status| status.success()), "{out}: the interrupt is sent");
-        let status = child.wait().expect("it ends");
-        let mut stderr = String::new();
-        if let Some(mut pipe) = child.stderr.take() {
-            std::io::Read::read_to_string(&mut pipe, &mut stderr).expect("text");
-        }
-        assert_eq!(status.code(), Some(2), "{out}: {stderr}");
-        assert_eq!(stderr.trim(), "error: interrupted; nothing was written", "{out}");
-        assert_eq!(contents(there.path()), before, "{out}: nothing is left");
+        let options = ["--frames", "0..99999", "--backend", "cpu", "--out", out];
+        assert_interrupted(&scene(), &[&["export", "scene.ron"], &options[..]].concat());
     }
-}
-
-/// Number of entries of a folder that changes meanwhile.
-fn contents_or_none(folder: &Path) -> usize {
-    fs::read_dir(folder).map_or(0, Iterator::count)
 }

@@ -5,11 +5,11 @@
 use std::fs::{self, File};
 use std::io::BufReader;
 use std::path::Path;
-use std::process::{Command, Stdio};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use crate::common_cli::{
-    assert_refused, assert_refused_without_adapter, command, contents, file, folder, windfall,
+    assert_interrupted, assert_refused, assert_refused_without_adapter, command, contents, file, folder,
+    windfall,
 };
 use image::codecs::gif::GifDecoder;
 use image::{AnimationDecoder, RgbaImage};
@@ -189,28 +189,7 @@ fn an_interrupt_leaves_nothing_behind() {
     let there = folder();
     for out in ["a.gif", "a.png", "frames"] {
         let options = ["--backend", "cpu", "--frames", "100000", "--size", "96x54", "--out", out];
-        let mut child = command(&there, &[&["render", "--leaves", "20000"], &options[..]].concat())
-            .stderr(Stdio::piped())
-            .stdout(Stdio::piped())
-            .spawn()
-            .expect("the program starts");
-        // Once something lies there, it is at work.
-        let began = Instant::now();
-        while contents(there.path()).is_empty() {
-            assert!(began.elapsed() < Duration::from_secs(60), "{out}: it does not begin");
-            std::thread::sleep(Duration::from_millis(20));
-        }
-        std::thread::sleep(Duration::from_millis(1500));
-        let sent = Command::new("kill").args(["-INT", &child.id().to_string()]).status();
-        assert!(sent.is_ok_and(|status| status.success()), "{out}: the interrupt is sent");
-        let status = child.wait().expect("it ends");
-        let mut stderr = String::new();
-        if let Some(mut pipe) = child.stderr.take() {
-            std::io::Read::read_to_string(&mut pipe, &mut stderr).expect("text");
-        }
-        assert_eq!(status.code(), Some(2), "{out}: {stderr}");
-        assert_eq!(stderr.trim(), "error: interrupted; nothing was written", "{out}");
-        assert_eq!(contents(there.path()), [], "{out}: nothing is left");
+        assert_interrupted(&there, &[&["render", "--leaves", "20000"], &options[..]].concat());
     }
 }
 

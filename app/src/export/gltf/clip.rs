@@ -75,7 +75,7 @@ impl ClipExport {
 
     /// The document with everything that was gathered.
     fn assemble(&mut self) -> io::Result<()> {
-        let mut movement = Movement { times: self.document.times(&self.times), ..Movement::default() };
+        let mut movement = Movement { times: self.document.buffer.times(&self.times), ..Movement::default() };
         let mut kinds: HashMap<usize, usize> = HashMap::new();
         for (slot, track) in self.leaves.iter().enumerate() {
             // A leaf that is never seen has none.
@@ -91,13 +91,15 @@ impl ClipExport {
                 node["scale"] = json!([size, size, size]);
             }
             let node = self.document.add_root(node);
-            let (places, turns) = (self.document.floats(&track.places), self.document.floats(&track.turns));
+            let (places, turns) =
+                (self.document.buffer.floats(&track.places), self.document.buffer.floats(&track.turns));
             movement.add(node, "translation", places);
             movement.add(node, "rotation", turns);
             if track.sizes.len() > 1 {
                 let times: Vec<[f32; 1]> = track.sizes.iter().map(|&(frame, _)| self.times[frame]).collect();
                 let sizes: Vec<[f32; 3]> = track.sizes.iter().map(|&(_, size)| [size; 3]).collect();
-                let (times, sizes) = (self.document.times(&times), self.document.floats(&sizes));
+                let (times, sizes) =
+                    (self.document.buffer.times(&times), self.document.buffer.floats(&sizes));
                 movement.add_steps(node, "scale", times, sizes);
             }
         }
@@ -233,7 +235,7 @@ fn add_tree(
             node["children"] = json!(children);
         }
         let node = document.add("nodes", node);
-        let output = document.floats(&turns[index]);
+        let output = document.buffer.floats(&turns[index]);
         movement.add(node, "rotation", output);
     }
     let binds: Vec<[f32; 16]> = joints
@@ -245,7 +247,7 @@ fn add_tree(
         })
         .collect();
     let skin = json!({
-        "inverseBindMatrices": document.matrices(&binds),
+        "inverseBindMatrices": document.buffer.matrices(&binds),
         "joints": (first..first + joints.len()).collect::<Vec<_>>(),
         "skeleton": first - 1,
     });

@@ -36,11 +36,11 @@ pub(super) fn leaf_mesh(document: &mut Document, mesh: &LeafMesh) -> io::Result<
         }),
     );
     let attributes = json!({
-        "POSITION": document.positions(&mesh.positions_m),
-        "NORMAL": document.vertices(&mesh.normals),
-        "TEXCOORD_0": document.vertices(&mesh.texcoords),
+        "POSITION": document.buffer.positions(&mesh.positions_m),
+        "NORMAL": document.buffer.vertices(&mesh.normals),
+        "TEXCOORD_0": document.buffer.vertices(&mesh.texcoords),
     });
-    let indices = document.indices(mesh.triangles.as_flattened());
+    let indices = document.buffer.indices(mesh.triangles.as_flattened());
     let primitive = json!({ "attributes": attributes, "indices": indices, "material": material });
     Ok(document.add("meshes", json!({ "name": mesh.name, "primitives": [primitive] })))
 }
@@ -78,14 +78,14 @@ impl Barks {
         };
         let mut attributes = Map::new();
         let mut set = |name: &str, accessor: usize| attributes.insert(name.into(), accessor.into());
-        set("POSITION", document.positions(&mesh.positions_m));
-        set("NORMAL", document.vertices(&mesh.normals));
-        set("TEXCOORD_0", document.vertices(&mesh.texcoords));
+        set("POSITION", document.buffer.positions(&mesh.positions_m));
+        set("NORMAL", document.buffer.vertices(&mesh.normals));
+        set("TEXCOORD_0", document.buffer.vertices(&mesh.texcoords));
         if bends {
-            set("JOINTS_0", document.joints(&mesh.joints));
-            set("WEIGHTS_0", document.vertices(&mesh.weights));
+            set("JOINTS_0", document.buffer.joints(&mesh.joints));
+            set("WEIGHTS_0", document.buffer.vertices(&mesh.weights));
         }
-        let indices = document.indices(&mesh.indices);
+        let indices = document.buffer.indices(&mesh.indices);
         let primitive = json!({ "attributes": attributes, "indices": indices, "material": material });
         Ok(document.add("meshes", json!({ "name": "bark", "primitives": [primitive] })))
     }

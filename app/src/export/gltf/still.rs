@@ -51,9 +51,9 @@ impl StillExport {
             let sizes: Vec<[f32; 3]> = leaves.iter().map(|leaf| [leaf.size; 3]).collect();
             let ids: Vec<u32> = leaves.iter().map(|leaf| leaf.id).collect();
             let attributes = json!({
-                "TRANSLATION": document.floats(&places),
-                "ROTATION": document.floats(&turns),
-                "SCALE": document.floats(&sizes),
+                "TRANSLATION": document.buffer.floats(&places),
+                "ROTATION": document.buffer.floats(&turns),
+                "SCALE": document.buffer.floats(&sizes),
             });
             let index = leaf_mesh(document, mesh)?;
             document.add_root(json!({

@@ -9,6 +9,7 @@
 //! # Source
 //! glTF 2.0 Specification, version 2.0.1, The Khronos Group (2021).
 
+mod buffer;
 mod convention;
 mod error;
 mod read;
@@ -16,6 +17,7 @@ mod read;
 mod tests;
 mod write;
 
+pub use buffer::{GltfBuffer, write_glb};
 pub use convention::{BEARING, DIRECTION, WIND_WEIGHT};
 pub use error::GltfError;
 pub use read::{MAX_FILE_BYTES, MAX_VERTICES, RiggedTree, read, read_bytes};

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Trees as glTF files.
 
-mod data;
 mod wind;
 
 use base64::Engine;
@@ -10,7 +9,7 @@ use base64::engine::general_purpose::STANDARD;
 use glam::{DMat4, DQuat, DVec3};
 use serde_json::{Map, Value, json};
 
-use self::data::Data;
+use super::buffer::{GltfBuffer, write_glb};
 use super::convention::{BEARING, DIRECTION, JointExtras, WIND_WEIGHT};
 use crate::tree::{BarkMesh, Bearing, Skeleton};
 
@@ -45,22 +44,10 @@ impl Default for GltfLook {
 /// give length and radii of its segment.
 pub fn to_glb(skeleton: &Skeleton, mesh: &BarkMesh, look: &GltfLook) -> Vec<u8> {
     let (document, data) = document(skeleton, mesh, look);
-    let mut text = document.to_string().into_bytes();
-    text.resize(text.len().next_multiple_of(4), b' ');
-    let mut file = Vec::with_capacity(28 + text.len() + data.len());
-    // The largest skeleton with the finest bark stays far below four gibibytes.
-    let word = |file: &mut Vec<u8>, value: usize| {
-        file.extend(u32::try_from(value).unwrap_or(u32::MAX).to_le_bytes());
-    };
-    file.extend(b"glTF");
-    word(&mut file, 2);
-    word(&mut file, 12 + 8 + text.len() + 8 + data.len());
-    word(&mut file, text.len());
-    file.extend(b"JSON");
-    file.extend(text);
-    word(&mut file, data.len());
-    file.extend(b"BIN\0");
-    file.extend(data);
+    let mut file = Vec::new();
+    // The largest skeleton with the finest bark stays far below four gibibytes, and memory refuses nothing.
+    let written = write_glb(&document, &data, &mut file);
+    debug_assert!(written.is_ok(), "{written:?}");
     file
 }
 
@@ -74,7 +61,7 @@ pub fn to_gltf(skeleton: &Skeleton, mesh: &BarkMesh, look: &GltfLook) -> String 
 
 /// The document and its buffer, which is a multiple of four bytes long.
 fn document(skeleton: &Skeleton, mesh: &BarkMesh, look: &GltfLook) -> (Value, Vec<u8>) {
-    let mut data = Data::default();
+    let mut data = GltfBuffer::default();
     let mut nodes = vec![json!({ "name": "bark", "mesh": 0, "skin": 0 })];
     let mut meshes = vec![bark(&mut data, skeleton, mesh, look)];
     if !skeleton.attachments.is_empty() {
@@ -116,42 +103,42 @@ fn document(skeleton: &Skeleton, mesh: &BarkMesh, look: &GltfLook) -> (Value, Ve
 }
 
 /// The mesh of the bark.
-fn bark(data: &mut Data, skeleton: &Skeleton, mesh: &BarkMesh, look: &GltfLook) -> Value {
+fn bark(data: &mut GltfBuffer, skeleton: &Skeleton, mesh: &BarkMesh, look: &GltfLook) -> Value {
     let wind = wind::weights(skeleton, mesh);
     let mut attributes = Map::new();
-    attributes.insert("POSITION".into(), data.positions(&mesh.positions_m));
-    attributes.insert("NORMAL".into(), data.floats(&mesh.normals));
-    attributes.insert("TEXCOORD_0".into(), data.floats(&mesh.texcoords));
-    attributes.insert("JOINTS_0".into(), data.joints(&mesh.joints));
-    attributes.insert("WEIGHTS_0".into(), data.floats(&mesh.weights));
-    let wind = data.floats(&wind);
+    attributes.insert("POSITION".into(), data.positions(&mesh.positions_m).into());
+    attributes.insert("NORMAL".into(), data.vertices(&mesh.normals).into());
+    attributes.insert("TEXCOORD_0".into(), data.vertices(&mesh.texcoords).into());
+    attributes.insert("JOINTS_0".into(), data.joints(&mesh.joints).into());
+    attributes.insert("WEIGHTS_0".into(), data.vertices(&mesh.weights).into());
+    let wind = data.vertices(&wind);
     if look.has_wind_colors {
-        attributes.insert("COLOR_0".into(), wind.clone());
+        attributes.insert("COLOR_0".into(), wind.into());
     }
-    attributes.insert(WIND_WEIGHT.into(), wind);
+    attributes.insert(WIND_WEIGHT.into(), wind.into());
     let indices = data.indices(&mesh.indices);
     let primitive = json!({ "attributes": attributes, "indices": indices, "material": 0, "mode": 4 });
     json!({ "name": "bark", "primitives": [primitive] })
 }
 
 /// The points of the attachments.
-fn attachments(data: &mut Data, skeleton: &Skeleton) -> Value {
+fn attachments(data: &mut GltfBuffer, skeleton: &Skeleton) -> Value {
     let all = || skeleton.attachments.iter();
     let mut attributes = Map::new();
     let places: Vec<[f32; 3]> = all().map(|attachment| attachment.at_m.to_array()).collect();
-    attributes.insert("POSITION".into(), data.positions(&places));
+    attributes.insert("POSITION".into(), data.positions(&places).into());
     let normals: Vec<[f32; 3]> = all().map(|attachment| attachment.normal.to_array()).collect();
-    attributes.insert("NORMAL".into(), data.floats(&normals));
+    attributes.insert("NORMAL".into(), data.vertices(&normals).into());
     let directions: Vec<[f32; 3]> = all().map(|attachment| attachment.direction.to_array()).collect();
-    attributes.insert(DIRECTION.into(), data.floats(&directions));
+    attributes.insert(DIRECTION.into(), data.vertices(&directions).into());
     let bearings: Vec<[f32; 1]> =
         all().map(|a| [if a.bearing == Bearing::Leaf { 0.0 } else { 1.0 }]).collect();
-    attributes.insert(BEARING.into(), data.floats(&bearings));
+    attributes.insert(BEARING.into(), data.vertices(&bearings).into());
     // A skeleton has no more than 65536 segments.
     let joints: Vec<[u16; 4]> =
         all().map(|a| [u16::try_from(a.segment).unwrap_or(u16::MAX), 0, 0, 0]).collect();
-    attributes.insert("JOINTS_0".into(), data.joints(&joints));
-    attributes.insert("WEIGHTS_0".into(), data.floats(&vec![[1.0, 0.0, 0.0, 0.0]; joints.len()]));
+    attributes.insert("JOINTS_0".into(), data.joints(&joints).into());
+    attributes.insert("WEIGHTS_0".into(), data.vertices(&vec![[1.0, 0.0, 0.0, 0.0]; joints.len()]).into());
     json!({ "name": "attachments", "primitives": [{ "attributes": attributes, "mode": 0 }] })
 }
 

@@ -6,6 +6,7 @@
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::sync::OnceLock;
+use std::time::{Duration, Instant};
 
 use serde_json::Value;
 use tempfile::TempDir;
@@ -93,6 +94,31 @@ fn assert_refusal(
     }
     assert_eq!(outcome.stdout, "", "{arguments:?} prints nothing");
     assert_eq!(contents(folder.path()), before, "{arguments:?} leaves no file and changes none");
+}
+
+/// Asserts that an interrupt while the program is at work ends it as it should: exit code 2, one line, and every file in
+/// the folder as it was before.
+pub(crate) fn assert_interrupted(folder: &TempDir, arguments: &[&str]) {
+    let before = contents(folder.path());
+    let child = command(folder, arguments)
+        .stderr(Stdio::piped())
+        .stdout(Stdio::piped())
+        .spawn()
+        .expect("the program starts");
+    // Once something new lies there, it is at work.
+    let began = Instant::now();
+    while std::fs::read_dir(folder.path()).expect("a folder").count() == before.len() {
+        assert!(began.elapsed() < Duration::from_secs(60), "{arguments:?}: it does not begin");
+        std::thread::sleep(Duration::from_millis(10));
+    }
+    std::thread::sleep(Duration::from_millis(500));
+    let sent = Command::new("kill").args(["-INT", &child.id().to_string()]).status();
+    assert!(sent.is_ok_and(|status| status.success()), "{arguments:?}: the interrupt is sent");
+    let output = child.wait_with_output().expect("it ends");
+    let stderr = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(2), "{arguments:?}: {stderr}");
+    assert_eq!(stderr.trim(), "error: interrupted; nothing was written", "{arguments:?}");
+    assert_eq!(contents(folder.path()), before, "{arguments:?}: nothing is left");
 }
 
 /// Paths and bytes of everything in a folder.
