@@ -31,7 +31,8 @@ impl BarkPass {
         let shader = shader(device, "bark", &text);
         let pipeline = ScenePipeline {
             label: "bark",
-            groups: &[Some(&frame.layout), Some(&light.layout), Some(&branches.layout)],
+            frame,
+            groups: &[&light.layout, &branches.layout],
             topology: wgpu::PrimitiveTopology::TriangleList,
             shader: &shader,
             buffers: &[bark_layout(), Stems::layout()],

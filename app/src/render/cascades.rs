@@ -12,8 +12,10 @@ use crate::camera::Camera;
 
 /// Number of shadow maps; `common.wgsl` has as many.
 pub(super) const CASCADES: usize = 3;
-/// Edge of a shadow map in texels; `light.wgsl` filters with this size.
-pub(super) const SHADOW_SIZE: u32 = 2048;
+/// Edge of a shadow map in texels for a picture so many pixels high: its texels are about as fine as the pixels.
+pub(super) fn shadow_size(picture_height: u32) -> u32 {
+    if picture_height > 512 { 2048 } else { 1024 }
+}
 
 /// Where the slices end, in metres from the camera. Trees farther away only have the shade of their pictures.
 const ENDS_M: [f32; CASCADES] = [8.0, 26.0, 80.0];
@@ -34,8 +36,8 @@ pub(super) struct Cascade {
     pub(super) texel_m: f32,
 }
 
-/// The shadow maps for what `camera` sees, by the light from `sun`.
-pub(super) fn cascades(camera: &Camera, aspect: f32, sun: Vec3) -> [Cascade; CASCADES] {
+/// The shadow maps of `size_px` for what `camera` sees, by the light from `sun`.
+pub(super) fn cascades(camera: &Camera, aspect: f32, sun: Vec3, size_px: u32) -> [Cascade; CASCADES] {
     let near = (BEYOND_TARGET * camera.distance_m).clamp(FIRST_END_M, ENDS_M[0]);
     let ends = ENDS_M.map(|end| end * near / ENDS_M[0]);
     // The last one reaches beyond what is looked at.
@@ -46,7 +48,7 @@ pub(super) fn cascades(camera: &Camera, aspect: f32, sun: Vec3) -> [Cascade; CAS
     std::array::from_fn(|index| {
         let start = if index == 0 { 0.0 } else { ends[index - 1] };
         let (along, radius) = ball(start, ends[index], slope);
-        cascade(camera.eye_m() + camera.forward() * along, radius, sun)
+        cascade(camera.eye_m() + camera.forward() * along, radius, sun, size_px)
     })
 }
 
@@ -58,11 +60,11 @@ fn ball(start: f32, end: f32, slope: f32) -> (f32, f32) {
 }
 
 /// The map of a ball.
-fn cascade(center: Vec3, radius: f32, sun: Vec3) -> Cascade {
+fn cascade(center: Vec3, radius: f32, sun: Vec3, size_px: u32) -> Cascade {
     let [side, upward, toward] = sun_axes(sun);
     // A little room, so that moving by whole texels leaves nothing out.
-    let radius = radius * (1.0 + 4.0 / SHADOW_SIZE as f32);
-    let texel_m = 2.0 * radius / SHADOW_SIZE as f32;
+    let radius = radius * (1.0 + 4.0 / size_px as f32);
+    let texel_m = 2.0 * radius / size_px as f32;
     let snap = |axis: Vec3| (center.dot(axis) / texel_m).round() * texel_m;
     let (x, y, z) = (snap(side), snap(upward), center.dot(toward));
     let (scale, depth) = (1.0 / radius, 1.0 / (2.0 * radius + TOWARD_SUN_M));
@@ -88,6 +90,8 @@ mod tests {
 
     use super::*;
 
+    const SIZE_PX: u32 = 2048;
+
     fn cameras() -> Vec<Camera> {
         let look = |eye: [f32; 3], target: [f32; 3], vertical_fov_deg| {
             Camera::from(&scene::Camera { eye_m: eye.into(), target_m: target.into(), vertical_fov_deg })
@@ -108,7 +112,7 @@ mod tests {
     fn every_place_in_sight_lies_in_a_map() {
         let aspect = 16.0 / 9.0;
         for (camera, sun) in cameras().iter().flat_map(|camera| suns().map(|sun| (camera, sun))) {
-            let maps = cascades(camera, aspect, sun);
+            let maps = cascades(camera, aspect, sun, SIZE_PX);
             let tangent = (0.5 * camera.vertical_fov_rad).tan();
             for step in 1..=160u16 {
                 let depth = 0.5 * f32::from(step);
@@ -133,7 +137,7 @@ mod tests {
     fn a_ray_of_the_sun_is_one_point_and_goes_deeper() {
         let camera = &cameras()[0];
         for sun in suns() {
-            for map in cascades(camera, 1.5, sun) {
+            for map in cascades(camera, 1.5, sun, SIZE_PX) {
                 let ground = Vec3::new(0.5, 0.0, 1.0);
                 let leaf = ground + 3.0 * sun;
                 let [low, high] = [ground, leaf].map(|place| map.projection.project_point3(place));
@@ -152,10 +156,11 @@ mod tests {
                 &Camera::from(&scene::Camera { eye_m, target_m, vertical_fov_deg: 50.0 }),
                 1.5,
                 suns()[2],
+                SIZE_PX,
             )
         };
         let in_texels =
-            |map: &Cascade| map.projection.project_point3(Vec3::ZERO).truncate() * 0.5 * SHADOW_SIZE as f32;
+            |map: &Cascade| map.projection.project_point3(Vec3::ZERO).truncate() * 0.5 * SIZE_PX as f32;
         for (map, moved) in view(0.0).iter().zip(&view(0.0137)) {
             assert!((map.texel_m / moved.texel_m - 1.0).abs() < 1e-5, "maps keep their size");
             let off = in_texels(map) - in_texels(moved);

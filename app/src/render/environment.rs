@@ -7,7 +7,7 @@ use std::f32::consts::PI;
 use glam::{Mat4, Vec2, Vec3};
 use windfall_core::scene::{Haze, View};
 
-use super::cascades::{CASCADES, cascades};
+use super::cascades::{CASCADES, cascades, shadow_size};
 use super::scenery::PARK_RADIUS_M;
 use super::subject::FrameInput;
 use super::tile::Tile;
@@ -120,7 +120,7 @@ impl Environment {
         let aspect = width / height;
         let tangent = (0.5 * camera.vertical_fov_rad).tan();
         let sun = self.daylight.sun.direction;
-        let shadows = cascades(camera, aspect, sun);
+        let shadows = cascades(camera, aspect, sun, shadow_size(size.1));
         let [near, middle, far] = shadows.map(|map| map.texel_m);
         let sky = &self.daylight.sky;
         let zenith = sky.sample(Vec3::Y);

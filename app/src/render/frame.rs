@@ -16,6 +16,8 @@ pub(super) struct FrameGroup {
     buffer: wgpu::Buffer,
     shape: wgpu::Buffer,
     hills: wgpu::TextureView,
+    /// Whether the land is not level.
+    pub(super) is_hilly: bool,
 }
 
 impl FrameGroup {
@@ -33,12 +35,12 @@ impl FrameGroup {
         let shape =
             upload::buffer(device, queue, "land", wgpu::BufferUsages::UNIFORM, bytemuck::bytes_of(&shape));
         let hills = land_texture(device, queue, land);
-        Self::bind(device, layout, shape, hills)
+        Self::bind(device, layout, shape, hills, land.hills().is_some())
     }
 
     /// Another frame on the same land.
     pub(super) fn another(&self, device: &wgpu::Device) -> Self {
-        Self::bind(device, self.layout.clone(), self.shape.clone(), self.hills.clone())
+        Self::bind(device, self.layout.clone(), self.shape.clone(), self.hills.clone(), self.is_hilly)
     }
 
     fn bind(
@@ -46,6 +48,7 @@ impl FrameGroup {
         layout: wgpu::BindGroupLayout,
         shape: wgpu::Buffer,
         hills: wgpu::TextureView,
+        is_hilly: bool,
     ) -> Self {
         let buffer = device.create_buffer(&wgpu::BufferDescriptor {
             label: Some("frame"),
@@ -62,7 +65,7 @@ impl FrameGroup {
                 wgpu::BindGroupEntry { binding: 2, resource: wgpu::BindingResource::TextureView(&hills) },
             ],
         });
-        Self { layout, group, buffer, shape, hills }
+        Self { layout, group, buffer, shape, hills, is_hilly }
     }
 
     pub(super) fn write(&self, queue: &wgpu::Queue, frame: &FrameUniform) {

@@ -58,7 +58,8 @@ impl FruitPass {
         };
         let pipeline = ScenePipeline {
             label: "fruit",
-            groups: &[Some(&frame.layout), Some(&light.layout), Some(&branches.layout)],
+            frame,
+            groups: &[&light.layout, &branches.layout],
             topology: wgpu::PrimitiveTopology::TriangleStrip,
             shader: &shader,
             buffers: &[layout],

@@ -48,7 +48,8 @@ impl GrassPass {
         };
         let pipeline = ScenePipeline {
             label: "grass",
-            groups: &[Some(&frame.layout), Some(&light.layout)],
+            frame,
+            groups: &[&light.layout],
             topology: wgpu::PrimitiveTopology::TriangleList,
             shader: &shader,
             buffers: &[cell],

@@ -38,7 +38,8 @@ impl GroundPass {
         let shader = shader(device, "ground", &text);
         let pipeline = ScenePipeline {
             label: "ground",
-            groups: &[Some(&frame.layout), Some(&light.layout)],
+            frame,
+            groups: &[&light.layout],
             topology: wgpu::PrimitiveTopology::TriangleList,
             shader: &shader,
             buffers: if mesh.is_some() { &[TerrainMesh::LAYOUT] } else { &[] },

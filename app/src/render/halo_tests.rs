@@ -33,7 +33,7 @@ fn scene() -> Scene {
 /// Light of the edge relative to that inside, by colour.
 fn edge_against_inside(atlas: &Atlas) -> [f32; 3] {
     let draw = |backdrop: f32| {
-        let sky = "    var color = sky_radiance(direction);";
+        let sky = "    let clear = sky_radiance(direction);";
         let plain = format!("    if true {{ return vec4(vec3({backdrop:?}), 1.0); }}\n{sky}");
         let mut bench = with_shader_edit(sky, &plain, || bench_of(scene(), Stand::default(), atlas));
         (bench.draw(FALLING, 0.0, 0.0), bench.draw(0, 0.0, 0.0))

@@ -44,7 +44,8 @@ impl LandingPass {
         let module = shader(device, "landings", &[COMMON, LIGHT, include_str!("shaders/landing.wgsl")]);
         let pipeline = ScenePipeline {
             label: "landings",
-            groups: &[Some(&frame.layout), Some(&light.layout), Some(&layout)],
+            frame,
+            groups: &[&light.layout, &layout],
             topology: wgpu::PrimitiveTopology::TriangleList,
             shader: &module,
             buffers: &[],

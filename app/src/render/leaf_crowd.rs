@@ -50,7 +50,7 @@ pub(super) struct Page {
 #[derive(Debug)]
 pub(super) struct PageBuffers {
     pub(super) uniform: wgpu::Buffer,
-    pub(super) counts: wgpu::Buffer,
+    pub(super) chosen: wgpu::Buffer,
 }
 
 /// Leaves that are drawn together.
@@ -175,7 +175,11 @@ impl Page {
             draws: buffer("leaf draws", LEVELS as u64 * DRAW_BYTES, storage | indirect),
             buffers: PageBuffers {
                 uniform: upload::buffer(device, queue, "leaf page", wgpu::BufferUsages::UNIFORM, bytes),
-                counts: buffer("leaf counts", u64::from(uniform.threads.max(1)) * 16, storage),
+                chosen: buffer(
+                    "chosen leaves",
+                    u64::from(uniform.threads * 4 + uniform.count).max(1) * 4,
+                    storage,
+                ),
             },
             records,
             group,

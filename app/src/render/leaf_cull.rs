@@ -2,9 +2,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Chooses on the device which leaves a view shows, and how finely.
 //!
-//! Two passes over the leaves: one counts how many each thread keeps of every level of detail, the other writes their
-//! records behind one another, in the order of their slots. In between one workgroup adds the counts up. There are no
-//! atomics: their order would show where two leaves lie equally deep.
+//! One pass over the leaves counts how many each thread keeps of every level of detail; one workgroup adds the counts up;
+//! a second pass lists those that are kept behind one another, in the order of their slots; and a third writes their
+//! records, with no thread idle for a leaf that is out of sight. There are no atomics: their order would show where two
+//! leaves lie equally deep.
+
+use glam::{Mat4, Vec4};
 
 use super::cascades::CASCADES;
 use super::leaf_crowd::{Page, SLOTS_PER_THREAD};
@@ -29,7 +32,8 @@ pub(super) enum View {
 #[repr(C)]
 #[derive(Clone, Copy, Debug, bytemuck::Pod, bytemuck::Zeroable)]
 pub(super) struct ViewUniform {
-    pub(super) clip: [[f32; 4]; 4],
+    /// Inward normals of the view's sides, of unit length, and their distances from the origin.
+    sides: [[f32; 4]; 6],
     /// Eye; pixels of a metre at one metre, or anywhere in a parallel projection.
     pub(super) eye: [f32; 4],
     pub(super) limits: [f32; 4],
@@ -39,9 +43,11 @@ pub(super) struct ViewUniform {
 
 /// Least edges in pixels of the pictures of leaves drawn as coarse, medium and fine meshes: a triangle then covers about
 /// eight pixels or more. Below the last one pictures are thinned out.
-pub(super) const LIMITS_PX: [f32; 4] = [18.0, 48.0, 150.0, 1.4];
+pub(super) const LIMITS_PX: [f32; 4] = [18.0, 48.0, 150.0, 1.8];
 /// The same for shadows, whose texels are averaged: no finer mesh than the coarse one, and thinned out sooner.
 const SHADOW_LIMITS_PX: [f32; 4] = [60.0, f32::MAX, f32::MAX, 4.0];
+/// Most workgroups that write records: enough to fill a large device.
+const MAX_WRITERS: u32 = 1024;
 /// Least share of leaves that are kept, however small: those that are kept are at most four times as wide.
 const LEAST_SHARE: f32 = 1.0 / 16.0;
 
@@ -49,14 +55,26 @@ impl ViewUniform {
     /// What a camera at x, y, z sees, with `pixels_per_m` at one metre.
     pub(super) fn perspective(clip: [[f32; 4]; 4], [x, y, z, _]: [f32; 4], pixels_per_m: f32) -> Self {
         let (eye, rule) = ([x, y, z, pixels_per_m], [LEAST_SHARE, 0.0, 0.0, 0.0]);
-        Self { clip, eye, limits: LIMITS_PX, rule }
+        Self { sides: sides(clip), eye, limits: LIMITS_PX, rule }
     }
 
     /// What the sun sees in a map of `pixels_per_m`.
     pub(super) fn parallel(clip: [[f32; 4]; 4], pixels_per_m: f32) -> Self {
         let (eye, rule) = ([0.0, 0.0, 0.0, pixels_per_m], [LEAST_SHARE, 1.0, 0.0, 0.0]);
-        Self { clip, eye, limits: SHADOW_LIMITS_PX, rule }
+        Self { sides: sides(clip), eye, limits: SHADOW_LIMITS_PX, rule }
     }
+}
+
+/// Planes of what a projection shows.
+fn sides(clip: [[f32; 4]; 4]) -> [[f32; 4]; 6] {
+    let clip = Mat4::from_cols_array_2d(&clip);
+    let [x, y, z, w] = [0, 1, 2, 3].map(|row| clip.row(row));
+    [w + x, w - x, w + y, w - y, z, w - z].map(|plane| {
+        let length = plane.truncate().length();
+        // A projection without far plane has one that is none: everything lies within it.
+        let plane = if length > 1.0e-12 { plane / length } else { Vec4::new(0.0, 0.0, 0.0, f32::MAX) };
+        plane.to_array()
+    })
 }
 
 /// The pipelines of the culling.
@@ -68,7 +86,7 @@ pub(super) struct CullPass {
     columns_layout: wgpu::BindGroupLayout,
     kinds: wgpu::BindGroup,
     views: [wgpu::Buffer; 2 + CASCADES],
-    steps: [wgpu::ComputePipeline; 3],
+    steps: [wgpu::ComputePipeline; 4],
     /// Whether leaves bring marks with them.
     pub(super) is_painted: bool,
 }
@@ -116,7 +134,7 @@ impl CullPass {
         ];
         let module = shader(device, "leaf culling", &text);
         let layout = layout(device, &[Some(&page_layout), Some(&columns_layout), Some(&kinds_layout)]);
-        let steps = ["count", "arrange", "write"].map(|entry_point| {
+        let steps = ["count", "arrange", "list", "write"].map(|entry_point| {
             device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
                 label: Some(entry_point),
                 layout: Some(&layout),
@@ -170,7 +188,7 @@ impl CullPass {
             self.buffer(view),
             &page.buffers.uniform,
             stems.buffer(),
-            &page.buffers.counts,
+            &page.buffers.chosen,
             &page.draws,
             &page.records,
         ];
@@ -203,7 +221,8 @@ impl CullPass {
         pass.set_bind_group(1, &columns, &[]);
         pass.set_bind_group(2, &self.kinds, &[]);
         let groups = page.uniform.threads.div_ceil(64);
-        for (step, groups) in self.steps.iter().zip([groups, 1, groups]) {
+        let writers = page.uniform.count.div_ceil(64).min(MAX_WRITERS);
+        for (step, groups) in self.steps.iter().zip([groups, 1, groups, writers]) {
             pass.set_pipeline(step);
             pass.dispatch_workgroups(groups, 1, 1);
         }

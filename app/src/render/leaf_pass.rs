@@ -40,12 +40,8 @@ impl LeafPass {
         let shader = shader(device, "leaf", &text);
         let pipeline = ScenePipeline {
             label: "leaves",
-            groups: &[
-                Some(&frame.layout),
-                Some(&light.layout),
-                Some(&kinds.layout),
-                Some(&cull.records_layout),
-            ],
+            frame,
+            groups: &[&light.layout, &kinds.layout, &cull.records_layout],
             topology: wgpu::PrimitiveTopology::TriangleStrip,
             shader: &shader,
             buffers: &[LeafCrowd::layout()],

@@ -20,9 +20,8 @@ pub(super) struct LensUniform {
     strength: f32,
     saturation: f32,
     vignette: f32,
-    curve: u32,
     parameter: f32,
-    unused: f32,
+    unused: [f32; 2],
     agx: [f32; 4],
     focus: [f32; 4],
 }
@@ -67,10 +66,10 @@ impl LensUniform {
             }
             Exposure::Manual { ev100 } => (0.0, 1.0, LIGHT_UNIT / (1.2 * ev100.exp2())),
         };
-        let (curve, parameter) = match lens.tone_map {
-            ToneMap::Linear { gamma } => (0, gamma),
-            ToneMap::Reinhard { white } => (1, white),
-            ToneMap::AgX => (2, 0.0),
+        let parameter = match lens.tone_map {
+            ToneMap::Linear { gamma } => gamma,
+            ToneMap::Reinhard { white } => white,
+            ToneMap::AgX => 0.0,
         };
         let focus = lens.focus.map_or([0.0; 4], |focus| {
             // Thin lens: the circle of a point at d is as wide as A f |d - D| / (d (D - f)), A = f / N.
@@ -89,9 +88,8 @@ impl LensUniform {
             strength: lens.glare.strength,
             saturation: lens.saturation,
             vignette: lens.vignette,
-            curve,
             parameter,
-            unused: 0.0,
+            unused: [0.0; 2],
             agx: agx::CURVE.constants(),
             focus,
         }

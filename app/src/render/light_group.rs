@@ -13,8 +13,9 @@ use crate::light::{Daylight, prefiltered};
 pub(super) struct LightGroup {
     pub(super) layout: wgpu::BindGroupLayout,
     pub(super) group: wgpu::BindGroup,
-    /// Bindings that stay when the sky changes.
-    views: Vec<(u32, wgpu::TextureView)>,
+    /// Shadow maps, shade map and noise.
+    views: [(u32, wgpu::TextureView); 3],
+    skies: [wgpu::TextureView; 2],
     samplers: [(u32, wgpu::Sampler); 4],
 }
 
@@ -57,15 +58,26 @@ impl LightGroup {
             (5, device.create_sampler(&repeating)),
             (8, device.create_sampler(&around)),
         ];
-        let views = vec![(0, shadow_maps.clone()), (2, shade_map.clone()), (4, noise_view(device, queue))];
-        let group = bind(device, &layout, &views, &samplers, &skies(device, queue, daylight));
-        Self { layout, group, views, samplers }
+        let views = [(0, shadow_maps.clone()), (2, shade_map.clone()), (4, noise_view(device, queue))];
+        let skies = skies(device, queue, daylight);
+        let group = bind(device, &layout, &views, &samplers, &skies);
+        Self { layout, group, views, skies, samplers }
     }
 
     /// Takes over another sky.
     pub(super) fn set_sky(&mut self, device: &wgpu::Device, queue: &wgpu::Queue, daylight: &Daylight) {
-        let skies = skies(device, queue, daylight);
-        self.group = bind(device, &self.layout, &self.views, &self.samplers, &skies);
+        self.skies = skies(device, queue, daylight);
+        self.rebind(device);
+    }
+
+    /// Takes over other shadow maps.
+    pub(super) fn set_shadow_maps(&mut self, device: &wgpu::Device, maps: &wgpu::TextureView) {
+        self.views[0].1 = maps.clone();
+        self.rebind(device);
+    }
+
+    fn rebind(&mut self, device: &wgpu::Device) {
+        self.group = bind(device, &self.layout, &self.views, &self.samplers, &self.skies);
     }
 }
 

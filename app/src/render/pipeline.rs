@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! What all drawing pipelines have in common.
 
+use super::frame::FrameGroup;
 use super::shader_edit;
 use super::targets::{DEPTH_FORMAT, HDR_FORMAT, SAMPLE_COUNT};
 
@@ -36,7 +37,10 @@ pub(super) fn layout(
 /// How a pipeline of the scene pass differs from the others.
 pub(super) struct ScenePipeline<'a> {
     pub(super) label: &'a str,
-    pub(super) groups: &'a [Option<&'a wgpu::BindGroupLayout>],
+    /// Bind group 0.
+    pub(super) frame: &'a FrameGroup,
+    /// The bind groups after it.
+    pub(super) groups: &'a [&'a wgpu::BindGroupLayout],
     pub(super) topology: wgpu::PrimitiveTopology,
     pub(super) shader: &'a wgpu::ShaderModule,
     pub(super) buffers: &'a [wgpu::VertexBufferLayout<'a>],
@@ -48,7 +52,11 @@ pub(super) struct ScenePipeline<'a> {
 impl ScenePipeline<'_> {
     /// Builds the pipeline from the entry points `vertex` and `fragment`.
     pub(super) fn build(&self, device: &wgpu::Device) -> wgpu::RenderPipeline {
-        let layout = layout(device, self.groups);
+        let groups = std::iter::once(&self.frame.layout).chain(self.groups.iter().copied()).map(Some);
+        let layout = layout(device, &groups.collect::<Vec<_>>());
+        let constants = [("IS_HILLY", f64::from(u8::from(self.frame.is_hilly)))];
+        let compilation_options =
+            wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() };
         let buffers: Vec<_> = self.buffers.iter().cloned().map(Some).collect();
         device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
             label: Some(self.label),
@@ -56,7 +64,7 @@ impl ScenePipeline<'_> {
             vertex: wgpu::VertexState {
                 module: self.shader,
                 entry_point: Some("vertex"),
-                compilation_options: wgpu::PipelineCompilationOptions::default(),
+                compilation_options: compilation_options.clone(),
                 buffers: &buffers,
             },
             primitive: wgpu::PrimitiveState { topology: self.topology, ..Default::default() },
@@ -75,7 +83,7 @@ impl ScenePipeline<'_> {
             fragment: Some(wgpu::FragmentState {
                 module: self.shader,
                 entry_point: Some("fragment"),
-                compilation_options: wgpu::PipelineCompilationOptions::default(),
+                compilation_options,
                 targets: &[Some(wgpu::ColorTargetState {
                     format: HDR_FORMAT,
                     blend: self.blend,

@@ -150,8 +150,8 @@ impl Post {
             self.passes.glare.draw(encoder, split(|passes| passes.glare), &self.group, &self.bound.glare);
         }
         let writes = timer.map(|(timer, passes)| timer.render_writes(passes.tone_map));
-        let groups = [&self.group.group, &self.bound.tonemap];
-        self.passes.tonemap.draw(encoder, writes, groups, output, (shot.origin, shot.size));
+        let curve = (&self.lens.tone_map, [&self.group.group, &self.bound.tonemap]);
+        self.passes.tonemap.draw(encoder, writes, curve, output, (shot.origin, shot.size));
     }
 }
 

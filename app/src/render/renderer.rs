@@ -12,6 +12,7 @@ use super::RenderError;
 use super::bark_mesh::StandMesh;
 use super::bark_pass::BarkPass;
 use super::branch_group::BranchGroup;
+use super::cascades::shadow_size;
 use super::environment::{Environment, Path};
 use super::frame::FrameGroup;
 use super::fruit_pass::FruitPass;
@@ -121,7 +122,7 @@ impl Renderer {
         let trees = Trees::new(device, queue, (&planted, leaves), &own);
         let branches = BranchGroup::new(device, queue, stand);
         let cull = CullPass::new(device, &kinds, false);
-        let shadow_pass = ShadowPass::new(device, &frame, &kinds, &cull, &branches);
+        let shadow_pass = ShadowPass::new(device, &frame, &kinds, &cull, &branches, shadow_size(size.1));
         let shade_pass = ShadePass::new(device, &frame, &trees);
         let environment = Environment::new(&scene.view, center, Path { lead: level, phase: path_phase })?;
         let light = LightGroup::new(device, queue, &shadow_pass.maps, &shade_pass.map, &environment.daylight);
@@ -190,6 +191,10 @@ impl Renderer {
         if size != self.targets.size {
             self.targets = self.targets_of(size)?;
             self.post.rebind(&self.device, &self.queue, &self.targets);
+            if self.shadow_pass.size_px != shadow_size(size.1) {
+                self.shadow_pass.resize(&self.device, shadow_size(size.1));
+                self.light.set_shadow_maps(&self.device, &self.shadow_pass.maps);
+            }
         }
         Ok(())
     }

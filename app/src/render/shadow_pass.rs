@@ -5,7 +5,7 @@
 use super::bark_mesh::{StandMesh, bark_layout};
 use super::bark_pass::BARK_SHAPE;
 use super::branch_group::BranchGroup;
-use super::cascades::{CASCADES, SHADOW_SIZE};
+use super::cascades::CASCADES;
 use super::frame::FrameGroup;
 use super::leaf_crowd::LeafCrowd;
 use super::leaf_cull::CullPass;
@@ -22,6 +22,8 @@ const LAYERS: u32 = CASCADES as u32;
 pub(super) struct ShadowPass {
     /// All maps, near to far.
     pub(super) maps: wgpu::TextureView,
+    /// Their edge in texels.
+    pub(super) size_px: u32,
     cascades: [CascadePass; CASCADES],
 }
 
@@ -49,17 +51,9 @@ impl ShadowPass {
         kinds: &LeafKinds,
         cull: &CullPass,
         branches: &BranchGroup,
+        size_px: u32,
     ) -> Self {
-        let texture = device.create_texture(&wgpu::TextureDescriptor {
-            label: Some("shadow maps"),
-            size: wgpu::Extent3d { width: SHADOW_SIZE, height: SHADOW_SIZE, depth_or_array_layers: LAYERS },
-            mip_level_count: 1,
-            sample_count: 1,
-            dimension: wgpu::TextureDimension::D2,
-            format: SHADOW_FORMAT,
-            usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING,
-            view_formats: &[],
-        });
+        let (maps, each) = new_maps(device, size_px);
         let [kind, record, shape] = LEAF_SHAPE;
         let text = [COMMON, kind, record, shape, include_str!("shaders/leaf_shadow.wgsl")];
         let leaf_shader = shader(device, "leaf shadow", &text);
@@ -114,15 +108,10 @@ impl ShadowPass {
             })
         };
         let mut layers = 0..LAYERS;
-        let cascades = [(); CASCADES].map(|()| {
+        let cascades = each.map(|map| {
             let cascade = layers.next().unwrap_or(0);
             CascadePass {
-                map: texture.create_view(&wgpu::TextureViewDescriptor {
-                    dimension: Some(wgpu::TextureViewDimension::D2),
-                    base_array_layer: cascade,
-                    array_layer_count: Some(1),
-                    ..Default::default()
-                }),
+                map,
                 leaves: pipeline(
                     "leaf shadows",
                     cascade,
@@ -141,7 +130,16 @@ impl ShadowPass {
                 ),
             }
         });
-        Self { maps: texture.create_view(&wgpu::TextureViewDescriptor::default()), cascades }
+        Self { maps, size_px, cascades }
+    }
+
+    /// Takes maps of another size; the old ones are read no more.
+    pub(super) fn resize(&mut self, device: &wgpu::Device, size_px: u32) {
+        let (maps, each) = new_maps(device, size_px);
+        (self.maps, self.size_px) = (maps, size_px);
+        for (cascade, map) in self.cascades.iter_mut().zip(each) {
+            cascade.map = map;
+        }
     }
 
     /// Draws all trees into all maps, and the leaves that `cull` keeps of each; `timestamps` are those of the first and of
@@ -161,6 +159,30 @@ impl ShadowPass {
             pass.draw(encoder, writes, frame, casters);
         }
     }
+}
+
+/// Maps of a size: all together, and each.
+fn new_maps(device: &wgpu::Device, size_px: u32) -> (wgpu::TextureView, [wgpu::TextureView; CASCADES]) {
+    let texture = device.create_texture(&wgpu::TextureDescriptor {
+        label: Some("shadow maps"),
+        size: wgpu::Extent3d { width: size_px, height: size_px, depth_or_array_layers: LAYERS },
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format: SHADOW_FORMAT,
+        usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING,
+        view_formats: &[],
+    });
+    let mut layers = 0..LAYERS;
+    let each = [(); CASCADES].map(|()| {
+        texture.create_view(&wgpu::TextureViewDescriptor {
+            dimension: Some(wgpu::TextureViewDimension::D2),
+            base_array_layer: layers.next().unwrap_or(0),
+            array_layer_count: Some(1),
+            ..Default::default()
+        })
+    });
+    (texture.create_view(&wgpu::TextureViewDescriptor::default()), each)
 }
 
 impl CascadePass {

@@ -17,7 +17,8 @@ impl SkyPass {
         let shader = shader(device, "sky", &[COMMON, LIGHT, include_str!("shaders/sky.wgsl")]);
         let pipeline = ScenePipeline {
             label: "sky",
-            groups: &[Some(&frame.layout), Some(&light.layout)],
+            frame,
+            groups: &[&light.layout],
             topology: wgpu::PrimitiveTopology::TriangleList,
             shader: &shader,
             buffers: &[],

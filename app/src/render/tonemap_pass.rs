@@ -2,15 +2,17 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Turns light into the picture.
 
-use super::fullscreen::{Fullscreen, smooth_sampler};
+use windfall_core::scene::ToneMap;
+
+use super::fullscreen::{Area, Fullscreen, smooth_sampler};
 use super::glare_pass::GlareChain;
 use super::lens_group::LensGroup;
 use super::pipeline::{FILTERABLE, sampler_entry, texture_entry, uniform_entry};
 
-/// The tone mapping pipeline.
+/// The tone mapping pipelines, one for each curve: a choice in the shader would cost a software adapter all three.
 #[derive(Debug)]
 pub(super) struct TonemapPass {
-    pipeline: Fullscreen,
+    curves: [Fullscreen; 3],
     layout: wgpu::BindGroupLayout,
     sampler: wgpu::Sampler,
     pixels: wgpu::Buffer,
@@ -29,15 +31,16 @@ impl TonemapPass {
             ],
         });
         let source = ("tone map", include_str!("shaders/tonemap.wgsl"), "fragment");
-        let encode = [("ENCODE", if format.is_srgb() { 0.0 } else { 1.0 })];
-        let pipeline = Fullscreen::new(device, lens, &layout, source, format, &encode);
+        let encode = ("ENCODE", if format.is_srgb() { 0.0 } else { 1.0 });
+        let curves = [0.0, 1.0, 2.0]
+            .map(|curve| Fullscreen::new(device, lens, &layout, source, format, &[encode, ("CURVE", curve)]));
         let pixels = device.create_buffer(&wgpu::BufferDescriptor {
             label: Some("tone map"),
             size: 16,
             usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
             mapped_at_creation: false,
         });
-        Self { pipeline, layout, sampler: smooth_sampler(device), pixels }
+        Self { curves, layout, sampler: smooth_sampler(device), pixels }
     }
 
     /// What to turn into the picture.
@@ -62,15 +65,21 @@ impl TonemapPass {
         })
     }
 
-    /// Fills the part of `output` with this corner and size.
+    /// Fills the part of `output` with this corner and size, by the curve of `tone_map`.
     pub(super) fn draw(
         &self,
         encoder: &mut wgpu::CommandEncoder,
         timestamps: Option<wgpu::RenderPassTimestampWrites<'_>>,
-        groups: [&wgpu::BindGroup; 2],
+        (tone_map, groups): (&ToneMap, [&wgpu::BindGroup; 2]),
         output: &wgpu::TextureView,
-        area: ((u32, u32), (u32, u32)),
+        area: Area,
     ) {
-        self.pipeline.draw(encoder, timestamps, groups, output, Some(area));
+        let [linear, reinhard, agx] = &self.curves;
+        let curve = match tone_map {
+            ToneMap::Linear { .. } => linear,
+            ToneMap::Reinhard { .. } => reinhard,
+            ToneMap::AgX => agx,
+        };
+        curve.draw(encoder, timestamps, groups, output, Some(area));
     }
 }

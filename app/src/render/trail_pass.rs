@@ -137,7 +137,8 @@ impl TrailPass {
         let module = shader(device, "trail", &[COMMON, LIGHT, include_str!("shaders/trail.wgsl")]);
         let draw_pipeline = ScenePipeline {
             label: "trails",
-            groups: &[Some(&frame.layout), Some(&light.layout), Some(&draw_layout)],
+            frame,
+            groups: &[&light.layout, &draw_layout],
             topology: wgpu::PrimitiveTopology::TriangleList,
             shader: &module,
             buffers: &[],

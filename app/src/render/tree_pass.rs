@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Draws the trees of the park, and once per sun the map of their shade.
 
+use glam::Vec3;
+
 use super::frame::FrameGroup;
 use super::light_group::LightGroup;
 use super::pipeline::{
@@ -30,7 +32,8 @@ pub(super) struct Trees {
     layout: wgpu::BindGroupLayout,
     group: wgpu::BindGroup,
     instances: wgpu::Buffer,
-    count: u32,
+    /// Those that are drawn, in the order of the last frame: the first of the instances.
+    drawn: Vec<TreeInstance>,
     /// Trees of the scene, which strew litter and hide the sky as well but are drawn otherwise.
     own_count: u32,
 }
@@ -76,9 +79,21 @@ impl Trees {
         });
         let all = [trees, own].concat();
         let bytes = bytemuck::cast_slice(&all);
-        let instances = upload::buffer(device, queue, "trees", wgpu::BufferUsages::VERTEX, bytes);
-        let number = |trees: &[TreeInstance]| u32::try_from(trees.len()).unwrap_or(0);
-        Self { layout, group, instances, count: number(trees), own_count: number(own) }
+        let usage = wgpu::BufferUsages::VERTEX | wgpu::BufferUsages::COPY_DST;
+        let instances = upload::buffer(device, queue, "trees", usage, bytes);
+        let own_count = u32::try_from(own.len()).unwrap_or(0);
+        Self { layout, group, instances, drawn: trees.to_vec(), own_count }
+    }
+
+    /// Has near trees drawn before those that they hide from `eye_m`.
+    pub(super) fn prepare(&mut self, queue: &wgpu::Queue, eye_m: Vec3) {
+        self.drawn
+            .sort_by(|a, b| a.foot_m.distance_squared(eye_m).total_cmp(&b.foot_m.distance_squared(eye_m)));
+        queue.write_buffer(&self.instances, 0, bytemuck::cast_slice(&self.drawn));
+    }
+
+    fn drawn_count(&self) -> u32 {
+        u32::try_from(self.drawn.len()).unwrap_or(0)
     }
 }
 
@@ -93,7 +108,8 @@ impl TreePass {
         let shader = shader(device, "tree", &[COMMON, LIGHT, include_str!("shaders/tree.wgsl")]);
         let pipeline = ScenePipeline {
             label: "trees",
-            groups: &[Some(&frame.layout), Some(&light.layout), Some(&trees.layout)],
+            frame,
+            groups: &[&light.layout, &trees.layout],
             topology: wgpu::PrimitiveTopology::TriangleStrip,
             shader: &shader,
             buffers: &[tree_layout()],
@@ -110,7 +126,7 @@ impl TreePass {
         pass.set_pipeline(&self.pipeline);
         pass.set_bind_group(2, &trees.group, &[]);
         pass.set_vertex_buffer(0, trees.instances.slice(..));
-        pass.draw(0..4, 0..trees.count);
+        pass.draw(0..4, 0..trees.drawn_count());
     }
 }
 
@@ -192,7 +208,7 @@ impl ShadePass {
         pass.set_bind_group(1, &trees.group, &[]);
         pass.set_vertex_buffer(0, trees.instances.slice(..));
         // All shadows first: litter must not be dimmed by them.
-        pass.draw(0..4, 0..trees.count);
-        pass.draw(4..8, 0..trees.count + trees.own_count);
+        pass.draw(0..4, 0..trees.drawn_count());
+        pass.draw(4..8, 0..trees.drawn_count() + trees.own_count);
     }
 }

@@ -39,7 +39,8 @@ impl WaterPass {
         });
         let pipeline = ScenePipeline {
             label: "water",
-            groups: &[Some(&frame.layout), Some(&light.layout), Some(&layout)],
+            frame,
+            groups: &[&light.layout, &layout],
             topology: wgpu::PrimitiveTopology::TriangleList,
             shader: &shader,
             buffers: &[],

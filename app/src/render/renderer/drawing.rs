@@ -7,7 +7,6 @@ use windfall_wgpu::{BranchColumns, LeafColumns};
 
 use super::{FrameInput, Renderer, TIMED_POSTS};
 use crate::camera::{Camera, NEAR_M};
-use crate::render::cascades::SHADOW_SIZE;
 use crate::render::environment::FrameUniform;
 use crate::render::leaf_crowd::LeafCrowd;
 use crate::render::leaf_cull::{View as LeafView, ViewUniform};
@@ -89,6 +88,7 @@ impl Renderer {
             water.prepare(&self.device, &self.queue, frame, self.targets.tile_size);
         }
         self.write_views(&frame, &input.camera);
+        self.trees.prepare(&self.queue, input.camera.eye_m());
         self.grass_pass.prepare(&self.queue, &input.camera, self.targets.size, &self.land);
         if self.shade_is_old {
             self.shade_pass.draw(encoder, &self.frame, &self.trees);
@@ -163,7 +163,7 @@ impl Renderer {
         for (cascade, clip) in uniform.shadows.into_iter().enumerate() {
             // The projection is parallel: half a map's edge is one in clip space.
             let scale = Vec3::new(clip[0][0], clip[1][0], clip[2][0]).length();
-            let seen = ViewUniform::parallel(clip, 0.5 * SHADOW_SIZE as f32 * scale);
+            let seen = ViewUniform::parallel(clip, 0.5 * self.shadow_pass.size_px as f32 * scale);
             self.cull.write(&self.queue, LeafView::Shadow(cascade), &seen);
         }
     }

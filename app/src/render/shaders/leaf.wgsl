@@ -14,6 +14,9 @@ struct Varyings {
     // Direction out of the crown, as far as the leaf is one of its surface; 1, or -1 if the picture is mirrored.
     @location(6) @interpolate(flat) outward_mirror: vec4<f32>,
     @location(7) @interpolate(flat) settled: f32,
+    // What changes little over a leaf: sunlight that the trees let through, and what the air does to its light.
+    @location(8) @interpolate(perspective, centroid) sunlit: f32,
+    @location(9) @interpolate(perspective, centroid) air: vec4<f32>,
 }
 
 // Roughness (GGX alpha is its square) of the waxy upper and the dull lower side; reflectance of wax head-on.
@@ -49,7 +52,15 @@ fn vertex(
     let outward = unpack4x8snorm(record.look.w);
     out.outward_mirror = vec4(outward.xyz, point.mirror);
     out.settled = outward.w;
+    out.sunlit = tree_shade(point.world).r;
+    out.air = air_before(point.world);
     return out;
+}
+
+// Share that wax mirrors of light that meets it at an angle of this cosine (Schlick).
+fn mirrored_share(cosine: f32) -> f32 {
+    let slant = 1.0 - cosine;
+    return WAX + (SLANTED - WAX) * (slant * slant) * (slant * slant) * slant;
 }
 
 // GGX distribution with Smith's visibility and Schlick's Fresnel term, times the cosine at the light.
@@ -62,8 +73,7 @@ fn gloss(normal: vec3<f32>, to_eye: vec3<f32>, to_light: vec3<f32>, roughness: f
     let a2 = alpha * alpha;
     let lobe = nh * nh * (a2 - 1.0) + 1.0;
     let visible = 0.5 / (nl * sqrt(nv * nv * (1.0 - a2) + a2) + nv * sqrt(nl * nl * (1.0 - a2) + a2) + 1.0e-4);
-    let fresnel = WAX + (SLANTED - WAX) * pow(1.0 - max(dot(to_eye, half_way), 0.0), 5.0);
-    return a2 / (PI * lobe * lobe) * visible * fresnel * nl;
+    return a2 / (PI * lobe * lobe) * visible * mirrored_share(max(dot(to_eye, half_way), 0.0)) * nl;
 }
 
 struct Painted {
@@ -122,18 +132,18 @@ fn fragment(in: Varyings) -> Painted {
     transmittance = min(transmittance, MOST - reflectance);
 
     let light = frame.sun_direction.xyz;
-    let shade = tree_shade(in.world);
-    let sun = frame.sun_color.rgb * shade.r * leaf_shadow(in.world + light * 0.035);
+    let sun = frame.sun_color.rgb * in.sunlit * leaf_shadow(in.world + light * 0.035);
     let facing = dot(normal, light);
     let roughness = select(ROUGHNESS.y, ROUGHNESS.x, seen > 0.0);
     var color = sun * (reflectance * max(facing, 0.0) + transmittance * max(-facing, 0.0));
     color += sun * PI * gloss(sheet, to_eye, light, roughness) * mix(1.0, 0.35, in.settled);
 
     let nearness = mix(1.0, 0.75, in.settled) * in.tint_open.w;
-    color += (reflectance * ambient_light(normal) + transmittance * ambient_light(-normal)) * nearness;
+    let ambient = ambient_light_on(normal);
+    color += (reflectance * ambient.front + transmittance * ambient.back) * nearness;
     let again = RECOLLISION * min(length(in.outward_mirror.xyz) / 0.5, 1.0);
     color /= 1.0 - again * (reflectance + transmittance);
-    let fresnel = WAX + (SLANTED - WAX) * pow(1.0 - clamp(dot(sheet, to_eye), 0.0, 1.0), 5.0);
-    color += sky_reflection(reflect(-to_eye, sheet), roughness) * fresnel * nearness;
-    return Painted(vec4(haze(color, in.world), 1.0), mask);
+    let mirrored = mirrored_share(clamp(dot(sheet, to_eye), 0.0, 1.0)) * nearness;
+    color += sky_reflection(reflect(-to_eye, sheet), roughness) * mirrored;
+    return Painted(vec4(color * in.air.a + in.air.rgb, 1.0), mask);
 }

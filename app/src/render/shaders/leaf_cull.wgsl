@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// Which leaves are drawn, and how finely: counts them, makes room, and writes a record for each, in the order of their
-// slots whatever the order of threads, so that equal frames give equal pictures. Laid out by `leaf_cull.rs`.
+// Which leaves are drawn, and how finely: counts them, makes room, lists them, and writes a record for each, in the order
+// of their slots whatever the order of threads, so that equal frames give equal pictures. Laid out by `leaf_cull.rs`.
 
 struct View {
-    // World to clip space.
-    clip: mat4x4<f32>,
+    // Inward normals of the view's sides and their distances from the origin.
+    sides: array<vec4<f32>, 6>,
     // Camera; pixels of a metre at a distance of a metre, or anywhere if the projection is parallel.
     eye: vec4<f32>,
     // Least edge in pixels of the pictures of leaves drawn as coarse, medium and fine meshes; edge below which leaves are
@@ -47,7 +47,9 @@ struct Draw {
 @group(0) @binding(0) var<uniform> view: View;
 @group(0) @binding(1) var<uniform> page: Page;
 @group(0) @binding(2) var<storage, read> stems: array<StemRecord>;
-@group(0) @binding(3) var<storage, read_write> counts: array<vec4<u32>>;
+// Four numbers of leaves for each thread; then of each slot the copies that are kept, as bits, and from LEVEL_SHIFT on their
+// level.
+@group(0) @binding(3) var<storage, read_write> chosen: array<u32>;
 @group(0) @binding(4) var<storage, read_write> draws: array<Draw, 4>;
 @group(0) @binding(5) var<storage, read_write> records: array<LeafRecord>;
 
@@ -61,6 +63,11 @@ const CROWN: f32 = 1.42;
 // Edge of a picture in diameters of the disc with the leaf's area, roughly.
 const EDGE: f32 = 1.6;
 
+const LEVEL_SHIFT: u32 = 16u;
+// A listed leaf is its slot, and from COPY_SHIFT on which copy it is.
+const COPY_SHIFT: u32 = 20u;
+const COPY_SLOT_MASK: u32 = 0xfffffu;
+
 fn signed_bytes(word: u32) -> vec4<f32> {
     return vec4<f32>((vec4<u32>(word) >> vec4(0u, 8u, 16u, 24u)) & vec4(255u)) / 127.5 - 1.0;
 }
@@ -69,7 +76,7 @@ fn signed_bytes(word: u32) -> vec4<f32> {
 // before the slot.
 fn stem_of(slot: u32) -> u32 {
     var stem = 0u;
-    for (var step = 32768u; step > 0u; step >>= 1u) {
+    for (var step = 1u << firstLeadingBit(page.stems); step > 0u; step >>= 1u) {
         let next = stem + step;
         if next < page.stems && stems[min(next, page.stems - 1u)].slots.x <= slot {
             stem = next;
@@ -91,9 +98,13 @@ struct Sight {
     key: u32,
 }
 
-fn is_outside(plane: vec4<f32>, center: vec3<f32>, radius: f32) -> bool {
-    // A projection without far plane has one that is none.
-    return dot(plane.xyz, center) + plane.w < -radius * length(plane.xyz) - 1.0e-6;
+// How far a place lies within the side of the view that it is farthest beyond, or nearest to.
+fn within(center: vec3<f32>) -> f32 {
+    var least = 3.0e38;
+    for (var side = 0u; side < 6u; side++) {
+        least = min(least, dot(view.sides[side].xyz, center) + view.sides[side].w);
+    }
+    return least;
 }
 
 fn sight_of(index: u32) -> Sight {
@@ -113,11 +124,8 @@ fn sight_of(index: u32) -> Sight {
     out.diameter = kinds.size[species].x * select(relative, CROWN * on_twig, is_attached);
     let center = bitcast<vec3<f32>>(place.xyz);
     let radius = out.diameter * (EDGE + 1.2 * sqrt(f32(copies) - 1.0));
-    let m = transpose(view.clip);
-    let is_hidden = is_outside(m[3] + m[0], center, radius) || is_outside(m[3] - m[0], center, radius)
-        || is_outside(m[3] + m[1], center, radius) || is_outside(m[3] - m[1], center, radius)
-        || is_outside(m[2], center, radius) || is_outside(m[3] - m[2], center, radius);
-    out.copies = select(copies, 0u, is_hidden || state == STATE_DORMANT);
+    let is_hidden = within(center) < -radius || state == STATE_DORMANT;
+    out.copies = select(copies, 0u, is_hidden);
     let distance_m = select(max(distance(view.eye.xyz, center), 0.01), 1.0, view.rule.y > 0.5);
     let pixels = EDGE * out.diameter * view.eye.w / distance_m;
     out.level = u32(pixels >= view.limits.x) + u32(pixels >= view.limits.y) + u32(pixels >= view.limits.z);
@@ -140,6 +148,17 @@ fn one_of(level: u32) -> vec4<u32> {
     return vec4<u32>(vec4<u32>(level) == vec4(0u, 1u, 2u, 3u));
 }
 
+fn counted(thread: u32) -> vec4<u32> {
+    let at = 4u * thread;
+    return vec4(chosen[at], chosen[at + 1u], chosen[at + 2u], chosen[at + 3u]);
+}
+
+fn set_counted(thread: u32, numbers: vec4<u32>) {
+    for (var level = 0u; level < 4u; level++) {
+        chosen[4u * thread + level] = numbers[level];
+    }
+}
+
 @compute @workgroup_size(64)
 fn count(@builtin(global_invocation_id) id: vec3<u32>) {
     if id.x >= page.threads {
@@ -149,13 +168,14 @@ fn count(@builtin(global_invocation_id) id: vec3<u32>) {
     let first = id.x * SLOTS_PER_THREAD;
     for (var index = first; index < min(first + SLOTS_PER_THREAD, arrayLength(&places)); index++) {
         let sight = sight_of(index);
+        var kept = 0u;
         for (var copy = 0u; copy < sight.copies; copy++) {
-            if is_kept(sight, copy) {
-                found += one_of(sight.level);
-            }
+            kept |= u32(is_kept(sight, copy)) << copy;
         }
+        chosen[4u * page.threads + index] = kept | (sight.level << LEVEL_SHIFT);
+        found += one_of(sight.level) * countOneBits(kept);
     }
-    counts[id.x] = found;
+    set_counted(id.x, found);
 }
 
 var<workgroup> sums: array<vec4<u32>, 64>;
@@ -168,7 +188,7 @@ fn arrange(@builtin(local_invocation_id) id: vec3<u32>) {
     let end = min(first + share, page.threads);
     var sum = vec4(0u);
     for (var thread = first; thread < end; thread++) {
-        sum += counts[thread];
+        sum += counted(thread);
     }
     sums[id.x] = sum;
     workgroupBarrier();
@@ -177,8 +197,8 @@ fn arrange(@builtin(local_invocation_id) id: vec3<u32>) {
         before += sums[other];
     }
     for (var thread = first; thread < end; thread++) {
-        let own = counts[thread];
-        counts[thread] = before;
+        let own = counted(thread);
+        set_counted(thread, before);
         before += own;
     }
     if id.x == 63u {
@@ -190,22 +210,35 @@ fn arrange(@builtin(local_invocation_id) id: vec3<u32>) {
     }
 }
 
+// Leaves word of every leaf that is kept where its record will be.
 @compute @workgroup_size(64)
-fn write(@builtin(global_invocation_id) id: vec3<u32>) {
+fn list(@builtin(global_invocation_id) id: vec3<u32>) {
     if id.x >= page.threads {
         return;
     }
-    var next = counts[id.x]
+    var next = counted(id.x)
         + vec4(draws[0].first_record, draws[1].first_record, draws[2].first_record, draws[3].first_record);
     let first = id.x * SLOTS_PER_THREAD;
     for (var index = first; index < min(first + SLOTS_PER_THREAD, arrayLength(&places)); index++) {
-        let sight = sight_of(index);
-        for (var copy = 0u; copy < sight.copies; copy++) {
-            if is_kept(sight, copy) {
-                records[next[sight.level]] = record_of(index, sight, copy);
-                next += one_of(sight.level);
-            }
+        let word = chosen[4u * page.threads + index];
+        let level = word >> LEVEL_SHIFT;
+        var kept = word & ((1u << LEVEL_SHIFT) - 1u);
+        while kept != 0u {
+            records[next[level]].look.x = index | (firstTrailingBit(kept) << COPY_SHIFT);
+            next += one_of(level);
+            kept &= kept - 1u;
         }
+    }
+}
+
+// Threads that follow each other write records that do, however few leaves of theirs were kept.
+@compute @workgroup_size(64)
+fn write(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>) {
+    let end = draws[3].first_record + draws[3].instance_count;
+    for (var at = id.x; at < end; at += 64u * groups.x) {
+        let word = records[at].look.x;
+        let index = word & COPY_SLOT_MASK;
+        records[at] = record_of(index, sight_of(index), word >> COPY_SHIFT);
     }
 }
 

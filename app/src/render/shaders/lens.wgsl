@@ -19,11 +19,11 @@ struct Lens {
     // Grading.
     saturation: f32,
     vignette: f32,
-    // Tone map: 0 linear, 1 Reinhard, 2 AgX; gamma or white of the first two.
-    curve: u32,
+    // Gamma or white of the linear tone map and Reinhard's.
     parameter: f32,
+    unused_a: f32,
+    unused_b: f32,
     // AgX: slope at middle grey, height of the sigmoid below and above it, exponent of its bend.
-    unused: f32,
     agx: vec4<f32>,
     // Depth of field: sharp distance in metres, radius in pixels of a far point's circle, largest radius, near plane in metres.
     focus: vec4<f32>,

@@ -19,7 +19,7 @@
 fn map_shadow(map: u32, clip: vec3<f32>, turn: vec2<f32>) -> f32 {
     let uv = clip.xy * vec2(0.5, -0.5) + 0.5;
     // Near maps are finer: their edges are as soft in metres only with wider taps.
-    let reach = select(select(1.0, 1.3, map == 1u), 2.0, map == 0u) / 2048.0;
+    let reach = select(select(1.0, 1.3, map == 1u), 2.0, map == 0u) / f32(textureDimensions(shadow_maps).x);
     let one = turn * reach;
     let two = vec2(-one.y, one.x) * 0.55;
     var sum = textureSampleCompareLevel(shadow_maps, shadow_sampler, uv + one, map, clip.z);
@@ -35,28 +35,23 @@ fn map_place(map: u32, position: vec3<f32>) -> vec3<f32> {
     return (frame.shadows[map] * vec4(lifted, 1.0)).xyz;
 }
 
-// Sunlight that leaves and trees in the shadow maps let through to `position`, 0 to 1: by the finest map that holds it,
-// and near its edge by the next one as well.
+// Sunlight that leaves and trees in the shadow maps let through to `position`, 0 to 1: by the finest map that holds it.
+// Towards the edge of a map more and more places are left to the next one, so that one map is read for each.
 fn leaf_shadow(position: vec3<f32>) -> f32 {
-    let spin = fract(dot(position, vec3(127.1, 311.7, 74.7))) * 6.2831853;
-    let turn = vec2(cos(spin), sin(spin));
-    for (var map = 0u; map < 3u; map++) {
-        let clip = map_place(map, position);
-        let edge = max(abs(clip.x), abs(clip.y));
-        if edge < 0.985 && clip.z > 0.0 && clip.z < 1.0 {
-            let here = map_shadow(map, clip, turn);
-            let over = smoothstep(0.86, 0.985, edge);
-            if over <= 0.0 {
-                return here;
-            }
-            var next = 1.0;
-            if map < 2u {
-                next = map_shadow(map + 1u, map_place(map + 1u, position), turn);
-            }
-            return mix(here, next, over);
+    let own = fract(dot(position, vec3(127.1, 311.7, 74.7)));
+    let spin = own * 6.2831853;
+    let limit = mix(0.86, 0.985, fract(own * 61.7));
+    var map = 3u;
+    var place = vec3(0.0);
+    for (var coarser = 3u; coarser > 0u; coarser--) {
+        let clip = map_place(coarser - 1u, position);
+        if max(abs(clip.x), abs(clip.y)) < limit && clip.z > 0.0 && clip.z < 1.0 {
+            map = coarser - 1u;
+            place = clip;
         }
     }
-    return 1.0;
+    let lit = map_shadow(min(map, 2u), place, vec2(cos(spin), sin(spin)));
+    return select(1.0, lit, map < 3u);
 }
 
 // Sunlight that the trees let through (r) and litter density (g) where the sun ray through `position` meets the ground.
@@ -77,14 +72,24 @@ fn sky_openness(position: vec3<f32>) -> f32 {
     return 1.0 - 0.75 * textureSampleLevel(shade_map, clamp_sampler, uv, 0.0).b;
 }
 
-// Light of the whole sky and the ground on a white matt surface facing `n`, of unit length.
+struct Ambient {
+    front: vec3<f32>,
+    back: vec3<f32>,
+}
+
+// Light of the whole sky and the ground on both sides of a white matt sheet facing `n`, of unit length.
+fn ambient_light_on(n: vec3<f32>) -> Ambient {
+    let odd = 0.488603 * (n.y * frame.ambient[1].rgb + n.z * frame.ambient[2].rgb + n.x * frame.ambient[3].rgb);
+    var even = 0.282095 * frame.ambient[0].rgb;
+    even += 1.092548 * (n.x * n.y * frame.ambient[4].rgb + n.y * n.z * frame.ambient[5].rgb + n.x * n.z * frame.ambient[7].rgb);
+    even += 0.315392 * (3.0 * n.z * n.z - 1.0) * frame.ambient[6].rgb;
+    even += 0.546274 * (n.x * n.x - n.y * n.y) * frame.ambient[8].rgb;
+    return Ambient(max(even + odd, vec3(0.0)), max(even - odd, vec3(0.0)));
+}
+
+// The same on the side that faces `n`.
 fn ambient_light(n: vec3<f32>) -> vec3<f32> {
-    var sum = 0.282095 * frame.ambient[0].rgb;
-    sum += 0.488603 * (n.y * frame.ambient[1].rgb + n.z * frame.ambient[2].rgb + n.x * frame.ambient[3].rgb);
-    sum += 1.092548 * (n.x * n.y * frame.ambient[4].rgb + n.y * n.z * frame.ambient[5].rgb + n.x * n.z * frame.ambient[7].rgb);
-    sum += 0.315392 * (3.0 * n.z * n.z - 1.0) * frame.ambient[6].rgb;
-    sum += 0.546274 * (n.x * n.x - n.y * n.y) * frame.ambient[8].rgb;
-    return max(sum, vec3(0.0));
+    return ambient_light_on(n).front;
 }
 
 // Place of a direction in a map by latitude and longitude.
@@ -104,9 +109,9 @@ fn sky_radiance(direction: vec3<f32>) -> vec3<f32> {
     return textureSampleLevel(sky_map, sky_sampler, sky_place(direction), 0.0).rgb;
 }
 
-// Adds the air between the eye and a surface at `position`: it is as bright as the sky above the horizon, since that
-// is what haze without end looks like.
-fn haze(color: vec3<f32>, position: vec3<f32>) -> vec3<f32> {
+// The air between the eye and a surface at `position`: light that it adds (rgb) and share that it lets through (a). It is
+// as bright as the sky above the horizon, since that is what haze without end looks like.
+fn air_before(position: vec3<f32>) -> vec4<f32> {
     let ray = position - frame.eye.xyz;
     let distance_m = length(ray);
     let direction = ray / max(distance_m, 1.0e-4);
@@ -117,5 +122,11 @@ fn haze(color: vec3<f32>, position: vec3<f32>) -> vec3<f32> {
     let mean = select((exp(-low) - exp(-high)) / span, exp(-low), abs(span) < 1.0e-3);
     let veil = 1.0 - exp(-distance_m * frame.air.x * mean);
     let level = normalize(vec3(direction.x, max(direction.y, 0.0) * 0.4 + 0.05, direction.z));
-    return mix(color, sky_reflection(level, 0.1), veil);
+    return vec4(veil * sky_reflection(level, 0.1), 1.0 - veil);
+}
+
+// Light from a surface at `position` as it reaches the eye.
+fn haze(color: vec3<f32>, position: vec3<f32>) -> vec3<f32> {
+    let air = air_before(position);
+    return color * air.a + air.rgb;
 }

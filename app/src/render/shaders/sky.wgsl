@@ -16,6 +16,9 @@ fn vertex(@builtin(vertex_index) index: u32) -> Varyings {
     return out;
 }
 
+// No skyline is higher, as a tangent.
+const HIGHEST_WOOD: f32 = 0.06 * 1.575;
+
 // Height of a wooded skyline, as a tangent.
 fn skyline(azimuth: f32, row: f32, height: f32) -> f32 {
     let at = vec2(azimuth * 0.159155 * 3.0, row);
@@ -27,7 +30,8 @@ fn skyline(azimuth: f32, row: f32, height: f32) -> f32 {
 @fragment
 fn fragment(in: Varyings) -> @location(0) vec4<f32> {
     let direction = normalize(in.ray);
-    var color = sky_radiance(direction);
+    let clear = sky_radiance(direction);
+    var color = clear;
     let toward_sun = max(dot(direction, frame.sun_direction.xyz), 0.0);
     // Clouds on a plane overhead. A full cover is closed everywhere, but not even.
     let up = max(direction.y, 0.0);
@@ -52,16 +56,17 @@ fn fragment(in: Varyings) -> @location(0) vec4<f32> {
     color += min(frame.sun_color.rgb * (3.14159265 / 6.8e-5), vec3(30000.0)) * disc;
     // A picture of a sky has its own sun, clouds and horizon.
     if frame.sky.z == 0.0 {
-        return vec4(min(sky_radiance(direction), vec3(30000.0)), 1.0);
+        return vec4(min(clear, vec3(30000.0)), 1.0);
     }
 
     // Two rows of far woods in the haze.
     let azimuth = atan2(direction.z, direction.x);
     let slope = direction.y / max(length(direction.xz), 1.0e-3);
     let pixel = frame.viewport.w * 2.0 * length(frame.up.xyz) * 1.5;
-    let level = sky_reflection(normalize(vec3(direction.x, 0.05, direction.z)), 0.1);
-    for (var row = 0u; row < 2u; row++) {
+    let rows = select(0u, 2u, slope < HIGHEST_WOOD + pixel);
+    for (var row = 0u; row < rows; row++) {
         let near = f32(row);
+        let level = sky_reflection(normalize(vec3(direction.x, 0.05, direction.z)), 0.1);
         let top = skyline(azimuth, 0.21 + near * 0.4, mix(0.060, 0.042, near));
         let wood = mix(vec3(0.10, 0.085, 0.05), vec3(0.17, 0.10, 0.035), near) * (0.3 * frame.sun_color.rgb + ambient_light(vec3(0.0, 1.0, 0.0)));
         let seen = mix(wood, level, mix(0.90, 0.80, near));

@@ -12,6 +12,10 @@
 // Off where the target encodes by itself.
 override ENCODE: bool = true;
 
+// Which of the curves this pipeline has.
+override CURVE: u32 = 2u;
+
+// Curves by the order in `tonemap_pass.rs`; any other is AgX.
 const LINEAR: u32 = 0u;
 const REINHARD: u32 = 1u;
 const MIDDLE_GREY: f32 = 0.18;
@@ -71,7 +75,7 @@ fn fragment(@builtin(position) output_at: vec4<f32>) -> @location(0) vec4<f32> {
     color *= 1.0 - 2.44 * lens.vignette * dot(middle, middle);
     color = max(mix(vec3(luminance(color)), color, lens.saturation), vec3(0.0));
     var encoded = vec3(0.0);
-    switch lens.curve {
+    switch CURVE {
         case LINEAR: {
             encoded = pow(min(color, vec3(1.0)), vec3(1.0 / lens.parameter));
         }

@@ -18,6 +18,8 @@ struct Varyings {
     @location(1) uv: vec2<f32>,
     @location(2) @interpolate(flat) sprite: u32,
     @location(3) @interpolate(flat) look: vec3<f32>,
+    // What the air does to its light, which changes little over a tree.
+    @location(4) air: vec4<f32>,
 }
 
 @vertex
@@ -31,6 +33,7 @@ fn vertex(@builtin(vertex_index) index: u32, tree: Tree) -> Varyings {
     var out: Varyings;
     out.world = foot + vec3(side.x * across, corner.y * height - 0.15, side.y * across);
     out.clip = frame.view_projection * vec4(out.world, 1.0);
+    out.air = air_before(out.world);
     out.uv = vec2(select(1.0 - corner.x, corner.x, tree.width > 0.0), 1.0 - corner.y);
     out.sprite = tree.sprite;
     out.look = vec3(tree.hue_brightness, sign(tree.width));
@@ -74,5 +77,5 @@ fn fragment(in: Varyings) -> @location(0) vec4<f32> {
     let through = saturated * (1.0 - surface.b) * against * open * open * (0.25 + 1.1 * lit);
     var color = frame.sun_color.rgb * (albedo * lit + through);
     color += albedo * ambient_light(normal) * (0.25 + 0.75 * open);
-    return vec4(haze(color, in.world), alpha);
+    return vec4(color * in.air.a + in.air.rgb, alpha);
 }
