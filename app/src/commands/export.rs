@@ -5,17 +5,17 @@
 use std::path::PathBuf;
 use std::time::Duration;
 
-use anyhow::bail;
+use anyhow::{Context, bail};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use windfall_core::{Simulator, World};
 
-use super::render::within;
+use super::render::{loop_length, within};
 use super::scene::SceneArguments;
 use super::stepping::Stepping;
 use crate::backend::{Backend, BackendArguments};
 use crate::export::{self, Estimate, Format, FrameRange, Job, Observer, check_space};
-use crate::frame::FrameSteps;
+use crate::frame::{FrameSteps, LoopFrames};
 use crate::trees::Stand;
 use crate::{interrupt, terminal};
 
@@ -31,7 +31,11 @@ pub struct Arguments {
     backend: BackendArguments,
     /// First and last frame, both written; frame 0 shows the scene as it begins.
     #[arg(long, value_name = "A..B", value_parser = FrameRange::parse, allow_hyphen_values = true)]
-    frames: FrameRange,
+    frames: Option<FrameRange>,
+    /// Write one round of a scene that repeats without a seam after this many simulated seconds, 1 to 120, and with trees at least 6:
+    /// the last frame is the first again. What `windfall render --loop` says of such scenes holds here.
+    #[arg(long = "loop", value_name = "SECONDS", conflicts_with = "frames", value_parser = loop_length)]
+    looped: Option<f64>,
     /// What to write [default: what the ending of --out tells].
     #[arg(long, value_name = "FORMAT")]
     format: Option<Format>,
@@ -51,17 +55,33 @@ pub struct Arguments {
 pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let format = Format::of(arguments.format, &arguments.out)?;
     let scene = arguments.scene.load()?;
-    let (frames, path) = (arguments.frames, arguments.out.as_path());
-    let steps = FrameSteps::new(arguments.fps, 1.0, scene.dt_s);
-    let last = steps.before(frames.last);
-    if last > MAX_STEPS {
-        bail!("--frames and --fps ask for {last} steps; allowed: at most {MAX_STEPS}");
-    }
-    let leaves = scene.leaf_count();
-    let note = check_space(Estimate::new(format, frames, leaves, path), frames, leaves, path)?;
-    let choice = arguments.backend.choose()?;
+    let path = arguments.out.as_path();
     interrupt::listen();
-    let mut world = World::build(&scene)?;
+    let fit = |frames: FrameRange| {
+        let leaves = scene.leaf_count();
+        check_space(Estimate::new(format, frames, leaves, path), frames, leaves, path)
+    };
+    let (mut world, frames, steps, note) = match arguments.looped {
+        None => {
+            let frames = arguments.frames.context("--frames A..B or --loop SECONDS is missing")?;
+            let steps = FrameSteps::new(arguments.fps, 1.0, scene.dt_s);
+            let last = steps.before(frames.last);
+            if last > MAX_STEPS {
+                bail!("--frames and --fps ask for {last} steps; allowed: at most {MAX_STEPS}");
+            }
+            let note = fit(frames)?;
+            (World::build(&scene)?, frames, Steps::Clip(steps), note)
+        }
+        Some(seconds) => {
+            let (world, cycle) = World::build_cycle(&scene, arguments.scene.name(), seconds)?;
+            let round = LoopFrames::new(&cycle, arguments.fps, scene.dt_s);
+            let frames = FrameRange { first: 0, last: round.count() };
+            let note = fit(frames)?;
+            (world, frames, Steps::Round(round), note)
+        }
+    };
+    let scene = world.environment.scene().clone();
+    let choice = arguments.backend.choose()?;
     let mut backend = choice.device.simulator(&world)?;
     let stand = Stand::of(&scene, world.environment.forest());
     let mut observer = Observer::new(&stand);
@@ -86,6 +106,21 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     }
     let written = exporter.finish()?;
     terminal::print(&format!("{}\n", written.display()))
+}
+
+/// Which steps lie before a frame.
+enum Steps {
+    Clip(FrameSteps),
+    Round(LoopFrames),
+}
+
+impl Steps {
+    fn before(&self, number: u32) -> u64 {
+        match self {
+            Self::Clip(steps) => steps.before(number),
+            Self::Round(round) => round.step(number),
+        }
+    }
 }
 
 /// A simulation that goes on from frame to frame.

@@ -184,7 +184,8 @@ fn frame_rate(text: &str) -> Result<f64, String> {
     within(text, 1.0, 1000.0)
 }
 
-fn loop_length(text: &str) -> Result<f64, String> {
+/// Reads the length of a round in seconds.
+pub(super) fn loop_length(text: &str) -> Result<f64, String> {
     within(text, 1.0, 120.0)
 }
 

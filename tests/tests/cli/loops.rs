@@ -140,6 +140,40 @@ fn a_looped_clip_has_no_seam_and_a_plain_one_has() {
     assert!(at_cut > 1.1 * elsewhere, "a cut differs by {at_cut}, other frames by up to {elsewhere}");
 }
 
+/// Rows of a frame of a table from the leaf's id on: it comes back in another slot.
+fn rows(table: &str, frame: usize) -> Vec<&str> {
+    let begin = format!("{frame},");
+    let mut rows: Vec<&str> = table
+        .lines()
+        .skip(1)
+        .filter(|row| row.starts_with(&begin))
+        .filter_map(|row| row.splitn(5, ',').nth(4))
+        .collect();
+    rows.sort_unstable();
+    rows
+}
+
+#[test]
+fn an_exported_round_ends_as_it_begins() {
+    let there = folder();
+    file(&there, "loop.ron", SCENE);
+    for backend in ["cpu", "wgpu"] {
+        let options = ["--loop", "1", "--fps", "20", "--backend", backend, "--out", "a.csv"];
+        windfall(&there, &[&["export", "loop.ron"], &options[..]].concat()).text();
+        let table = std::fs::read_to_string(there.path().join("a.csv")).expect("a table");
+        assert!(
+            table.starts_with("frame,step,time_s,leaf,id,"),
+            "{}",
+            table.lines().next().unwrap_or_default()
+        );
+        let (first, last) = (rows(&table, 0), rows(&table, 19));
+        assert!(first.len() > 100, "{backend}: {} leaves", first.len());
+        assert_eq!(first, last, "{backend}: the same leaves at the same places");
+        assert_ne!(first, rows(&table, 18), "{backend}: and not before");
+        assert!(rows(&table, 20).is_empty(), "{backend}: nothing follows");
+    }
+}
+
 #[test]
 fn what_cannot_repeat_is_refused() {
     let there = folder();
@@ -157,6 +191,9 @@ fn what_cannot_repeat_is_refused() {
         core_m: 1.0, axial_m_s: 0.0, drift_m_s: (1.0, 0.0, 0.0))]))";
     refuse(vortex, "4", &["wind.vortices[0].drift_m_s", "stay"]);
     file(&there, "no.ron", "()");
+    let exported = ["export", "no.ron", "--loop", "0.5", "--out", "x.csv"];
+    assert_refused(&there, &exported, &["--loop", "1", "120"]);
+    assert_refused(&there, &["export", "no.ron", "--out", "x.csv"], &["--frames", "--loop"]);
     let both = ["render", "no.ron", "--loop", "2", "--frames", "3", "--out", "x.gif"];
     assert_refused(&there, &both, &["--loop", "--frames"]);
 }
