@@ -3,8 +3,8 @@
 //! Holds the culling of leaves to what a plain loop over them finds.
 
 use glam::{Mat4, Vec3, Vec4};
-use windfall_core::Scene;
-use windfall_core::leaf::record::{SIZE_ONE, STATE_DORMANT, STATE_FALLING};
+use windfall_core::leaf::record::{SIZE_ONE, STATE_ATTACHED, STATE_DORMANT, STATE_FALLING};
+use windfall_core::{Scene, World, scene};
 use windfall_texgen::{Atlas, AtlasEntry, AtlasRequest, Shape};
 use windfall_wgpu::LeafColumns;
 
@@ -64,45 +64,109 @@ fn found(device: &wgpu::Device, queue: &wgpu::Queue, page: &Page) -> [Vec<[u32; 
     })
 }
 
+/// A device, what the culling needs of a scene, and buffers of leaves.
+struct Field {
+    device: wgpu::Device,
+    queue: wgpu::Queue,
+    cull: CullPass,
+    stems: Stems,
+    crowd: LeafCrowd,
+    /// Place, attitude, course and identity.
+    columns: [wgpu::Buffer; 4],
+    leaf_count: u32,
+}
+
+impl Field {
+    /// So many leaves at these places, the first of them those of the trees of `stand`.
+    fn new(scene: &Scene, stand: &Stand, leaf_count: u32, place: &dyn Fn(u32) -> [u32; 4]) -> Self {
+        let (device, queue) = tests::device();
+        let entries = vec![AtlasEntry { shape: Shape::Maple, season: (0.5, 0.9) }; scene.species.len()];
+        let atlas =
+            Atlas::generate(&AtlasRequest { entries, variants: 2, size_px: 16, seed: 1 }).expect("an atlas");
+        let kinds = LeafKinds::new(&device, &queue, scene, &atlas).expect("kinds within default limits");
+        let cull = CullPass::new(&device, &kinds, false);
+        let stems = Stems::new(&device, &queue, stand);
+        let crowd = LeafCrowd::new(&device, &queue, &cull, stand, leaf_count);
+        let column = |row: &dyn Fn(u32) -> [u32; 4]| {
+            let rows: Vec<[u32; 4]> = (0..leaf_count).map(row).collect();
+            let usage = wgpu::BufferUsages::STORAGE;
+            upload::buffer(&device, &queue, "column", usage, bytemuck::cast_slice(&rows))
+        };
+        let columns = [
+            column(place),
+            column(&|_| [0, 0, 0, 1.0f32.to_bits()]),
+            column(&|_| [0, 0, SIZE_ONE, 0]),
+            column(&|leaf| [leaf, 0, 0, leaf * 77]),
+        ];
+        Self { device, queue, cull, stems, crowd, columns, leaf_count }
+    }
+
+    /// Culls for a camera in a picture 1.6 times as wide as high.
+    fn run(&self, camera: &Camera) {
+        let [place, attitude, course, identity] = &self.columns;
+        let leaf_count = self.leaf_count;
+        let columns = LeafColumns { place, drift: place, attitude, course, identity, leaf_count };
+        let clip = camera.view_projection(1.6).to_cols_array_2d();
+        let eye = camera.eye_m().extend(0.0).to_array();
+        self.cull.write(&self.queue, View::Camera, &ViewUniform::perspective(clip, eye, PIXELS_PER_M));
+        let mut encoder = self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        let leaves = (&columns, None, &self.stems);
+        self.crowd.cull(&self.device, &mut encoder, &self.cull, leaves, View::Camera);
+        self.queue.submit([encoder.finish()]);
+    }
+}
+
+#[test]
+fn every_leaf_of_a_cluster_is_drawn() {
+    let trees = "(trees: [(kind: \"weed\", leaves: 50), (kind: \"weed\", at_m: (3.0, 0.0), leaves: 70)])";
+    let scene = Scene::from_ron(trees, "two weeds").expect("a scene");
+    let world = World::build(&scene).expect("a world");
+    let mut stand = Stand::of(&scene, world.environment.forest());
+    let clusters = [3, 16];
+    for (tree, cluster) in stand.trees.iter_mut().zip(clusters) {
+        tree.cluster = cluster;
+    }
+    // Those on twigs stand for several, and one that has let go does not; near enough that none is left out.
+    let place = |leaf: u32| {
+        let at = Vec3::from([0, 1, 2].map(|axis| unit(leaf, axis) - 0.5)) + 2.0 * Vec3::Y;
+        let is_attached = leaf < 120 && leaf != 60;
+        let state = if is_attached { STATE_ATTACHED } else { STATE_FALLING };
+        [at.x.to_bits(), at.y.to_bits(), at.z.to_bits(), state]
+    };
+    let field = Field::new(&scene, &stand, 150, &place);
+    let look =
+        scene::Camera { eye_m: Vec3::new(0.0, 2.0, 4.0), target_m: 2.0 * Vec3::Y, vertical_fov_deg: 60.0 };
+    field.run(&Camera::from(&look));
+    let page = &field.crowd.pages[0];
+    let (draws, records) =
+        (read(&field.device, &field.queue, &page.draws), read(&field.device, &field.queue, &page.records));
+    let mut drawn = vec![0; 150];
+    for level in 0..4 {
+        let [count, first] = [draws[8 * level + 1] as usize, draws[8 * level + 4] as usize];
+        for record in records.chunks(12).skip(first).take(count) {
+            drawn[(record[8] >> 12) as usize] += 1;
+        }
+    }
+    let wanted: Vec<u32> = (0..150)
+        .map(|leaf| match leaf {
+            0..50 => clusters[0],
+            60 => 1,
+            50..120 => clusters[1],
+            _ => 1,
+        })
+        .collect();
+    assert_eq!(drawn, wanted, "records of every slot");
+}
+
 #[test]
 fn culling_finds_what_a_plain_loop_finds() {
-    let (device, queue) = tests::device();
     let scene = Scene::default();
-    let entries = vec![AtlasEntry { shape: Shape::Maple, season: (0.5, 0.9) }; scene.species.len()];
-    let atlas =
-        Atlas::generate(&AtlasRequest { entries, variants: 2, size_px: 16, seed: 1 }).expect("an atlas");
-    let kinds = LeafKinds::new(&device, &queue, &scene, &atlas).expect("kinds within default limits");
-    let cull = CullPass::new(&device, &kinds, false);
-    let stand = Stand::default();
-    let stems = Stems::new(&device, &queue, &stand);
-    let crowd = LeafCrowd::new(&device, &queue, &cull, &stand, LEAVES);
-    let column = |row: &dyn Fn(u32) -> [u32; 4]| {
-        let rows: Vec<[u32; 4]> = (0..LEAVES).map(row).collect();
-        let usage = wgpu::BufferUsages::STORAGE;
-        upload::buffer(&device, &queue, "column", usage, bytemuck::cast_slice(&rows))
-    };
-    let places = column(&place);
-    let attitude = column(&|_| [0, 0, 0, 1.0f32.to_bits()]);
-    let course = column(&|_| [0, 0, SIZE_ONE, 0]);
-    let identity = column(&|leaf| [leaf, 0, 0, leaf * 77]);
-    let columns = LeafColumns {
-        place: &places,
-        drift: &places,
-        attitude: &attitude,
-        course: &course,
-        identity: &identity,
-        leaf_count: LEAVES,
-    };
+    let field = Field::new(&scene, &Stand::default(), LEAVES, &place);
     let camera = Camera { target_m: Vec3::new(3.0, 1.0, -2.0), ..Camera::from(&scene.view.camera) };
-    let clip = camera.view_projection(1.6);
-    let eye_m = camera.eye_m();
-    let seen = ViewUniform::perspective(clip.to_cols_array_2d(), eye_m.extend(0.0).to_array(), PIXELS_PER_M);
-    cull.write(&queue, View::Camera, &seen);
+    let (clip, eye_m) = (camera.view_projection(1.6), camera.eye_m());
     let run = || {
-        let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-        crowd.cull(&device, &mut encoder, &cull, (&columns, None, &stems), View::Camera);
-        queue.submit([encoder.finish()]);
-        found(&device, &queue, &crowd.pages[0])
+        field.run(&camera);
+        found(&field.device, &field.queue, &field.crowd.pages[0])
     };
     let levels = run();
     assert_eq!(levels, run(), "equal leaves in the same order");

@@ -167,7 +167,8 @@ fn build() -> PathBuf {
     };
     let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
     let output = Command::new(cargo)
-        .args(["build", "--package", "windfall", "--bin", "windfall", "--message-format", "json"])
+        // The whole workspace: a package by itself would have its dependencies built anew with other features.
+        .args(["build", "--workspace", "--bin", "windfall", "--message-format", "json"])
         .args(["--profile", profile])
         .current_dir(env!("CARGO_MANIFEST_DIR"))
         .stderr(Stdio::inherit())
