@@ -167,8 +167,9 @@ fn build() -> PathBuf {
     };
     let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
     let output = Command::new(cargo)
-        // The whole workspace: a package by itself would have its dependencies built anew with other features.
-        .args(["build", "--workspace", "--bin", "windfall", "--message-format", "json"])
+        // With the whole workspace and a test beside it, since otherwise its dependencies have other features, and are
+        // built anew.
+        .args(["build", "--workspace", "--bin", "windfall", "--test", "cli", "--message-format", "json"])
         .args(["--profile", profile])
         .current_dir(env!("CARGO_MANIFEST_DIR"))
         .stderr(Stdio::inherit())
