@@ -45,6 +45,7 @@ for slot, item in leaves.items():
         compared += 1
 assert compared > 1000, f"only {compared} places were there to compare"
 bones = sum(len(armature.bones) for armature in bpy.data.armatures)
-assert len(bpy.data.armatures) == 1 and bones > 10, f"a tree of {bones} bones"
+assert len(bpy.data.armatures) == 2 and bones > 10, f"two trees of {bones} bones"
+assert all(name in bpy.data.objects for name in ("Ground", "Water", "tree.1.fruit")), "ground, water and berries"
 assert bpy.data.cameras and bpy.data.images, "a camera and pictures"
 print(f"Blender {bpy.app.version_string}: {len(leaves)} leaves, {len(frames)} keyframes each, {compared} places equal, {bones} bones")

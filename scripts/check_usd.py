@@ -52,6 +52,8 @@ def compare(stage, rows):
             where = f"frame {frame}, leaf {at}"
             assert ids[at] == int(row["id"]), f"{where}: id {ids[at]} is not {row['id']}"
             assert 0 <= kinds[at] < len(prototypes), f"{where}: no prototype {kinds[at]}"
+            is_cluster = "_cluster_" in prototypes[kinds[at]].name
+            assert is_cluster == (row["state"] == "attached"), f"{where}: {prototypes[kinds[at]]} while {row['state']}"
             assert (ids[at] in hidden) == (row["state"] == "dormant"), f"{where}: {row['state']}"
             if row["state"] == "dormant":
                 continue
@@ -70,17 +72,38 @@ def check_tree(stage, moment):
     """Bark and joints fit each other, and at rest the skeleton is where it was bound."""
     cache = UsdSkel.Cache()
     roots = [prim for prim in stage.Traverse() if prim.IsA(UsdSkel.Root)]
-    assert len(roots) == 1, f"{len(roots)} trees"
-    skeleton = UsdSkel.Skeleton(stage.GetPrimAtPath(roots[0].GetPath().AppendChild("Segments")))
-    query = cache.GetSkelQuery(skeleton)
-    assert query and query.GetAnimQuery(), "a skeleton with an animation"
-    bind = skeleton.GetBindTransformsAttr().Get()
-    rest = UsdSkel.ConcatJointTransforms(query.GetTopology(), skeleton.GetRestTransformsAttr().Get())
-    off = max((a.ExtractTranslation() - b.ExtractTranslation()).GetLength() for a, b in zip(bind, rest))
-    assert off < 1e-4, f"joints at rest are {off} m from where they are bound"
-    moved = query.ComputeJointSkelTransforms(moment)
-    sway = max((a.ExtractTranslation() - b.ExtractTranslation()).GetLength() for a, b in zip(bind, moved))
-    assert 1e-6 < sway < 1.0, f"segments sway by {sway} m"
+    assert len(roots) == 2, f"{len(roots)} trees"
+    fruit = 0
+    for root in roots:
+        skeleton = UsdSkel.Skeleton(stage.GetPrimAtPath(root.GetPath().AppendChild("Segments")))
+        query = cache.GetSkelQuery(skeleton)
+        assert query and query.GetAnimQuery(), "a skeleton with an animation"
+        bind = skeleton.GetBindTransformsAttr().Get()
+        rest = UsdSkel.ConcatJointTransforms(query.GetTopology(), skeleton.GetRestTransformsAttr().Get())
+        off = max((a.ExtractTranslation() - b.ExtractTranslation()).GetLength() for a, b in zip(bind, rest))
+        assert off < 1e-4, f"joints at rest are {off} m from where they are bound"
+        moved = query.ComputeJointSkelTransforms(moment)
+        sway = max((a.ExtractTranslation() - b.ExtractTranslation()).GetLength() for a, b in zip(bind, moved))
+        assert 1e-6 < sway < 1.0, f"segments sway by {sway} m"
+        berries = stage.GetPrimAtPath(root.GetPath().AppendChild("Fruit"))
+        if berries:
+            joints = UsdSkel.BindingAPI(berries).GetJointIndicesPrimvar().Get()
+            assert max(joints) < len(bind) and len(set(joints)) > 5, "berries hang on several segments"
+            fruit += 1
+    assert fruit == 1, f"{fruit} trees bear fruit"
+
+
+def check_ground(stage):
+    """Level water, and ground that is not."""
+    heights = {}
+    for name in ("Ground", "Water"):
+        surface = UsdGeom.Mesh(stage.GetPrimAtPath(f"/World/{name}"))
+        points = surface.GetPointsAttr().Get()
+        heights[name] = [point[1] for point in points]
+        a, b, c = (Gf.Vec3f(points[at]) for at in surface.GetFaceVertexIndicesAttr().Get()[:3])
+        assert Gf.Cross(b - a, c - a)[1] > 0, f"{name} shows its upper side"
+    assert 0.9 < max(heights["Ground"]) - min(heights["Ground"]) <= 1.01, "hills"
+    assert len(set(heights["Water"])) == 1, "level water"
 
 
 def check(path):
@@ -94,6 +117,7 @@ def check(path):
     compared = compare(stage, rows)
     assert compared > 500, f"only {compared} leaves were there to compare"
     check_tree(stage, stage.GetEndTimeCode())
+    check_ground(stage)
     camera = UsdGeom.Camera(stage.GetPrimAtPath("/World/Camera")).GetCamera(stage.GetStartTimeCode())
     assert 30.0 < camera.GetFieldOfView(Gf.Camera.FOVVertical) < 51.0, "a camera"
     mesh = next(prim for prim in Usd.PrimRange(stage.GetPrimAtPath("/World/Leaves")) if prim.IsA(UsdGeom.Mesh))

@@ -1,20 +1,28 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What leaves look like in other programs: a mesh and a picture for every kind of leaf, and which of them a leaf has.
+//! What leaves look like in other programs: a mesh and a picture for every kind of leaf, clusters of them for twigs, and
+//! which of all these a leaf has.
 
+use std::collections::{BTreeMap, BTreeSet};
+
+use glam::{Quat, Vec3};
 use image::RgbaImage;
 use windfall_core::Scene;
+use windfall_core::leaf::LeafState;
 use windfall_core::leaf::record::{HALF_MASK, VARIANT_MASK, VARIANT_SHIFT};
 use windfall_core::scene::Species;
 use windfall_texgen::{Atlas, Layer};
 
 use super::FrameLeaf;
 use crate::render::{build, dryness, shaped, turned};
-use crate::trees::Stand;
+use crate::trees::{Stand, StandingTree, TWIG_SIZE, cluster};
 
-/// A leaf of nominal size in the leaf's frame: blade in the x-z plane, upper side +y, tip towards +z, its place at the
-/// origin.
-#[derive(Clone, Debug)]
+/// Clusters of each kind of leaf to choose from.
+const CLUSTERS: u32 = 3;
+
+/// A leaf of nominal size in the leaf's frame, or a cluster of them: blade in the x-z plane, upper side +y, tip towards +z,
+/// its place at the origin.
+#[derive(Clone, Debug, Default)]
 pub(super) struct LeafMesh {
     /// Name of letters, digits and underscores that no other has.
     pub(super) name: String,
@@ -26,20 +34,43 @@ pub(super) struct LeafMesh {
     pub(super) texcoords: Vec<[f32; 2]>,
     /// Corners of the triangles, counter-clockwise as seen from above.
     pub(super) triangles: Vec<[u32; 3]>,
+    /// Number of its picture.
+    pub(super) picture: usize,
+}
+
+/// The picture of a kind of leaf.
+#[derive(Clone, Debug)]
+pub(super) struct LeafPicture {
+    /// Name of letters, digits and underscores that no other has.
+    pub(super) name: String,
     /// Colour and coverage.
-    pub(super) picture: RgbaImage,
+    pub(super) image: RgbaImage,
 }
 
 /// All kinds of leaves of a scene.
 #[derive(Debug)]
 pub(super) struct Foliage {
-    /// The kinds, species by species.
+    /// The kinds, species by species; then clusters.
     pub(super) meshes: Vec<LeafMesh>,
+    /// A picture for each kind.
+    pub(super) pictures: Vec<LeafPicture>,
     variants: usize,
+    /// For species and number of leaves the first cluster.
+    clusters: BTreeMap<(usize, u32), usize>,
     /// For every species its variants from green to brown.
     order: Vec<Vec<usize>>,
-    /// For every tree: the slot after its last, how far its leaves have turned, and how far they differ in that.
-    trees: Vec<(u32, f32, f32)>,
+    trees: Vec<Crown>,
+}
+
+/// Leaves of a tree.
+#[derive(Clone, Copy, Debug)]
+struct Crown {
+    /// The slot after the last.
+    end: u32,
+    /// How far they have turned, and how far they differ in that.
+    turned: [f32; 2],
+    /// How many each stands for.
+    cluster: u32,
 }
 
 impl Foliage {
@@ -47,30 +78,77 @@ impl Foliage {
     pub(super) fn new(scene: &Scene, stand: &Stand, atlas: &Atlas) -> Self {
         let variants = (atlas.variants as usize).max(1);
         let kinds = scene.species.iter().enumerate().zip(atlas.layers.chunks(variants));
-        let mut foliage = Self { meshes: Vec::new(), variants, order: Vec::new(), trees: Vec::new() };
-        for ((number, species), layers) in kinds {
+        let mut foliage = Self {
+            meshes: Vec::new(),
+            pictures: Vec::new(),
+            variants,
+            clusters: BTreeMap::new(),
+            order: Vec::new(),
+            trees: Vec::new(),
+        };
+        for ((number, species), layers) in kinds.clone() {
             let mut order: Vec<usize> = (0..layers.len()).collect();
             order.sort_by(|&a, &b| turned(&layers[a]).total_cmp(&turned(&layers[b])));
             foliage.order.push(order);
-            let name = plain(&species.name);
-            let meshes = layers.iter().enumerate();
-            let meshes = meshes.map(|(at, layer)| mesh(format!("leaf_{number}_{name}_{at}"), species, layer));
-            foliage.meshes.extend(meshes);
+            for (at, layer) in layers.iter().enumerate() {
+                let name = format!("{number}_{}_{at}", plain(&species.name));
+                // Near enough for a close view, and coarse enough for a hundred thousand.
+                foliage.meshes.push(LeafMesh {
+                    name: format!("leaf_{name}"),
+                    picture: foliage.pictures.len(),
+                    ..mesh(species, layer, layer.form.levels.len() / 2)
+                });
+                let image = layer.mips.first().cloned().unwrap_or_default();
+                foliage.pictures.push(LeafPicture { name: format!("leaf_{name}"), image });
+            }
         }
         let mut next = 0;
         foliage.trees.extend(stand.trees.iter().map(|tree| {
             next += tree.leaves;
-            (next, tree.look.turned, tree.look.turned_range)
+            Crown { end: next, turned: [tree.look.turned, tree.look.turned_range], cluster: tree.cluster }
         }));
+        for ((number, species), layers) in kinds {
+            let is_own = |tree: &&StandingTree| tree.species.is_some_and(|own| own as usize == number);
+            let counts: BTreeSet<u32> = stand.trees.iter().filter(is_own).map(|tree| tree.cluster).collect();
+            for count in counts {
+                foliage.clusters.insert((number, count), foliage.meshes.len());
+                for (at, layer) in layers.iter().enumerate() {
+                    let picture = number * variants + at;
+                    let leaf = mesh(species, layer, 0);
+                    let name = &foliage.pictures[picture].name;
+                    let all = (0..CLUSTERS).map(|other| LeafMesh {
+                        name: format!("{name}_cluster_{count}_{other}"),
+                        picture,
+                        ..clustered(&leaf, middle(species), species.size_m, cluster(count, other))
+                    });
+                    foliage.meshes.extend(all);
+                }
+            }
+        }
         foliage
     }
 
-    /// Number of the kind that a leaf is. Leaves of one tree have turned about as far as each other.
+    /// Number of the mesh that shows a leaf: on its twig the cluster that it stands for.
+    pub(super) fn shown(&self, leaf: &FrameLeaf) -> usize {
+        let kind = self.kind(leaf);
+        let crown = self.crown(leaf).filter(|_| leaf.state == LeafState::Attached);
+        let first = crown.and_then(|crown| self.clusters.get(&(kind / self.variants, crown.cluster)));
+        first.map_or(kind, |first| {
+            let number = CLUSTERS as usize * (kind % self.variants);
+            first + number + (leaf.look % CLUSTERS) as usize
+        })
+    }
+
+    /// The tree in whose slot a leaf is.
+    fn crown(&self, leaf: &FrameLeaf) -> Option<&Crown> {
+        self.trees.get(self.trees.partition_point(|crown| crown.end <= leaf.slot))
+    }
+
+    /// Number of the kind that a leaf is by itself. Leaves of one tree have turned about as far as each other.
     pub(super) fn kind(&self, leaf: &FrameLeaf) -> usize {
         let species = leaf.species.min(self.order.len().saturating_sub(1));
-        let tree = self.trees.partition_point(|&(end, ..)| end <= leaf.slot);
-        let variant = match (self.trees.get(tree), self.order.get(species)) {
-            (Some(&(_, turned, range)), Some(order)) => {
+        let variant = match (self.crown(leaf), self.order.get(species)) {
+            (Some(&Crown { turned: [turned, range], .. }), Some(order)) => {
                 let tint = (leaf.look & HALF_MASK) as f32 / HALF_MASK as f32;
                 let rank = (turned + range * (tint - 0.5)).clamp(0.0, 0.9999) * order.len() as f32;
                 #[expect(
@@ -87,38 +165,53 @@ impl Foliage {
     }
 }
 
-/// The mesh of a picture for a species, curled as far as its leaf has dried.
-fn mesh(name: String, species: &Species, layer: &Layer) -> LeafMesh {
-    let levels = &layer.form.levels;
+/// Middle of a species' blade from its place, for a leaf of nominal size in metres.
+fn middle(species: &Species) -> Vec3 {
     let [size_m, right, ahead, _] = build(species);
+    Vec3::new(right * size_m, 0.0, ahead * size_m)
+}
+
+/// The mesh of a picture for a species at a level of detail, curled as far as its leaf has dried.
+fn mesh(species: &Species, layer: &Layer, level: usize) -> LeafMesh {
+    let mut mesh = LeafMesh::default();
+    let Some(level) = layer.form.levels.get(level) else { return mesh };
     // pi / 4 d^2 = area fraction * edge^2
-    let edge_m = size_m * (std::f32::consts::FRAC_PI_4 / layer.area_fraction).sqrt();
+    let edge_m = species.size_m * (std::f32::consts::FRAC_PI_4 / layer.area_fraction).sqrt();
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a stage from 0 to 5")]
     let stage = dryness(layer).max(0.0).round() as usize;
-    let mut mesh = LeafMesh {
-        name,
-        positions_m: Vec::new(),
-        normals: Vec::new(),
-        texcoords: Vec::new(),
-        triangles: Vec::new(),
-        picture: layer.mips.first().cloned().unwrap_or_default(),
-    };
-    // Near enough for a close view, and coarse enough for a hundred thousand.
-    let Some(level) = levels.get(levels.len() / 2) else { return mesh };
     let (places, normals) = shaped(layer, level, stage);
-    let middle = [right * size_m, 0.0, ahead * size_m];
-    let in_frame = |[x, y, z]: [f32; 3]| [-x, z, -y];
-    mesh.positions_m.extend(places.iter().map(|place| {
-        let at = in_frame((*place * edge_m).to_array());
-        std::array::from_fn::<f32, 3, _>(|axis| at[axis] + middle[axis])
-    }));
-    mesh.normals.extend(normals.iter().map(|normal| in_frame(normal.to_array())));
+    let in_frame = |v: Vec3| Vec3::new(-v.x, v.z, -v.y);
+    let middle = middle(species);
+    mesh.positions_m.extend(places.iter().map(|place| (in_frame(*place * edge_m) + middle).to_array()));
+    mesh.normals.extend(normals.iter().map(|normal| in_frame(*normal).to_array()));
     mesh.texcoords.extend(&level.positions);
     mesh.triangles.extend(level.triangles.iter().map(|&[a, b, c]| {
         let [p, q, r] = [a, b, c].map(|corner| glam::Vec2::from(level.positions[corner as usize]));
         // With y down, what is clockwise in numbers is counter-clockwise to the eye.
         if (q - p).perp_dot(r - p) < 0.0 { [a, b, c] } else { [a, c, b] }
     }));
+    mesh
+}
+
+/// A leaf many times over, each turned about its middle.
+fn clustered(
+    leaf: &LeafMesh,
+    middle_m: Vec3,
+    size_m: f32,
+    places: impl Iterator<Item = (Vec3, Quat)>,
+) -> LeafMesh {
+    let mut mesh = LeafMesh::default();
+    for (place, turn) in places {
+        let first = u32::try_from(mesh.positions_m.len()).unwrap_or(u32::MAX);
+        let at_m = middle_m + place * size_m;
+        mesh.positions_m.extend(leaf.positions_m.iter().map(|corner| {
+            let moved = at_m + turn * (Vec3::from(*corner) - middle_m);
+            (TWIG_SIZE * moved).to_array()
+        }));
+        mesh.normals.extend(leaf.normals.iter().map(|normal| (turn * Vec3::from(*normal)).to_array()));
+        mesh.texcoords.extend(&leaf.texcoords);
+        mesh.triangles.extend(leaf.triangles.iter().map(|corners| corners.map(|corner| first + corner)));
+    }
     mesh
 }
 
@@ -129,27 +222,53 @@ pub(super) fn plain(name: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use glam::Vec3;
     use windfall_core::World;
-    use windfall_core::scene::LeafShape;
+    use windfall_core::scene::{Foliage as Twigs, LeafShape, Tree, TreeForm, TreeKind, TreePreset};
 
     use super::*;
 
-    fn foliage(shape: LeafShape) -> (Scene, Foliage) {
+    /// A scene of one species with a tree that bears it, and its leaves.
+    fn foliage(shape: LeafShape) -> (Scene, Stand, Foliage) {
         let mut scene = Scene::default();
-        scene.species[0].shape = shape;
         scene.species.truncate(1);
+        scene.species[0].shape = shape;
+        let twigs = Twigs { species: Some(scene.species[0].name.clone()), ..Twigs::default() };
+        let form = TreeForm::Preset(TreePreset::Birch);
+        scene.tree_kinds = vec![TreeKind { name: "one".into(), form, foliage: twigs, ..TreeKind::default() }];
+        scene.trees = vec![Tree { kind: "one".into(), leaves: 500, ..Tree::default() }];
         let world = World::build(&scene).expect("a scene");
         let stand = Stand::of(&scene, world.environment.forest());
         let atlas = crate::leaves::atlas_of(&scene).expect("pictures");
         let foliage = Foliage::new(&scene, &stand, &atlas);
-        (scene, foliage)
+        (scene, stand, foliage)
+    }
+
+    fn leaf(slot: u32, state: LeafState, look: u32) -> FrameLeaf {
+        FrameLeaf {
+            slot,
+            id: 0,
+            state,
+            motion: "",
+            species: 0,
+            position_m: [0.0; 3],
+            quaternion: [0.0, 0.0, 0.0, 1.0],
+            velocity_m_s: [0.0; 3],
+            size: 1.0,
+            look,
+        }
+    }
+
+    /// Area of a mesh in m2.
+    fn area(mesh: &LeafMesh) -> f32 {
+        let corner = |index: u32| Vec3::from(mesh.positions_m[index as usize]);
+        let twice = |&[a, b, c]: &[u32; 3]| (corner(b) - corner(a)).cross(corner(c) - corner(a)).length();
+        mesh.triangles.iter().map(|triangle| 0.5 * twice(triangle)).sum()
     }
 
     #[test]
     fn meshes_lie_in_the_leaf_frame_with_the_area_of_the_species() {
-        let (scene, foliage) = foliage(LeafShape::Plate);
-        for mesh in &foliage.meshes {
+        let (scene, _, foliage) = foliage(LeafShape::Plate);
+        for mesh in &foliage.meshes[..foliage.pictures.len()] {
             let corner = |index: u32| Vec3::from(mesh.positions_m[index as usize]);
             let mut up_m2 = 0.0;
             for &[a, b, c] in &mesh.triangles {
@@ -169,24 +288,33 @@ mod tests {
 
     #[test]
     fn leaves_without_a_tree_have_the_variant_of_their_look() {
-        let (_, foliage) = foliage(LeafShape::Plate);
-        let leaf = |look| FrameLeaf {
-            slot: 0,
-            id: 0,
-            state: windfall_core::leaf::LeafState::Resting,
-            motion: "",
-            species: 0,
-            position_m: [0.0; 3],
-            quaternion: [0.0, 0.0, 0.0, 1.0],
-            velocity_m_s: [0.0; 3],
-            size: 1.0,
-            look,
-        };
-        assert_eq!(foliage.kind(&leaf(3 << VARIANT_SHIFT)), 3, "the fourth");
-        assert_eq!(
-            foliage.kind(&leaf(200 << VARIANT_SHIFT)),
-            200 % foliage.meshes.len(),
-            "of as many as there are"
-        );
+        let (_, _, foliage) = foliage(LeafShape::Plate);
+        let kind = |look| foliage.shown(&leaf(500, LeafState::Resting, look));
+        assert_eq!(kind(3 << VARIANT_SHIFT), 3, "the fourth");
+        assert_eq!(kind(200 << VARIANT_SHIFT), 200 % foliage.pictures.len(), "of as many as there are");
+    }
+
+    #[test]
+    fn a_leaf_on_its_twig_shows_all_that_it_stands_for() {
+        let (_, stand, foliage) = foliage(LeafShape::Plate);
+        let count = stand.trees[0].cluster;
+        assert!(count > 3, "{count} leaves are a cluster");
+        let mut seen = BTreeSet::new();
+        for look in 0..40 * 257 {
+            let hanging = leaf(9, LeafState::Attached, look);
+            let falling = &foliage.meshes[foliage.shown(&FrameLeaf { state: LeafState::Falling, ..hanging })];
+            let number = foliage.shown(&hanging);
+            let cluster = &foliage.meshes[number];
+            if !seen.insert(number) {
+                continue;
+            }
+            assert_eq!(cluster.picture, falling.picture, "the colour that it falls with");
+            // The coarse mesh reaches a little further than the middle one.
+            let ratio = area(cluster) / (count as f32 * TWIG_SIZE * TWIG_SIZE * area(falling));
+            assert!((0.9..1.25).contains(&ratio), "{}: {ratio} of {count} leaves", cluster.name);
+        }
+        assert!(seen.len() > 1, "there is more than one cluster");
+        let twice: BTreeSet<_> = foliage.meshes.iter().map(|mesh| &mesh.name).collect();
+        assert_eq!(twice.len(), foliage.meshes.len(), "names are unique");
     }
 }

@@ -9,10 +9,13 @@ mod csv;
 mod foliage;
 mod format;
 mod frame;
+mod fruit;
 mod gltf;
+mod plain;
 mod ply;
 mod range;
 mod space;
+mod surface;
 mod usd;
 mod wood;
 

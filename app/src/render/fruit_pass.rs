@@ -68,7 +68,7 @@ impl FruitPass {
             alpha_to_coverage: true,
         }
         .build(device);
-        let fruit: Vec<FruitInstance> = stand.trees.iter().flat_map(fruit_of).collect();
+        let fruit: Vec<FruitInstance> = stand.trees.iter().flat_map(instances_of).collect();
         let bytes = bytemuck::cast_slice(&fruit);
         let instances = upload::buffer(device, queue, "fruit", wgpu::BufferUsages::VERTEX, bytes);
         Self { pipeline, instances, count: u32::try_from(fruit.len()).unwrap_or(u32::MAX) }
@@ -83,17 +83,40 @@ impl FruitPass {
     }
 }
 
-fn fruit_of(tree: &StandingTree) -> impl Iterator<Item = FruitInstance> {
+/// A berry at rest.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Berry {
+    /// Middle in metres.
+    pub(crate) center_m: Vec3,
+    /// Radius in metres.
+    pub(crate) radius_m: f32,
+    /// Linear colour.
+    pub(crate) color: Vec3,
+    /// Segment that bears it.
+    pub(crate) segment: u32,
+}
+
+/// The berries of a tree where it stands.
+pub(crate) fn berries(tree: &StandingTree) -> impl Iterator<Item = Berry> {
     let fruit = tree.skeleton.attachments.iter().filter(|at| at.bearing == Bearing::Fruit);
     fruit.enumerate().map(|(number, at)| {
         // Golden ratio: neighbours differ.
         let own = (number as f32 * 0.618_034 + tree.look.own).fract();
         let radius_m = RADIUS_M * (1.0 + RADIUS_RANGE * (2.0 * own - 1.0));
-        FruitInstance {
-            center_m: tree.place(at.at_m + at.direction * (1.6 * radius_m)).to_array(),
+        Berry {
+            center_m: tree.place(at.at_m + at.direction * (1.6 * radius_m)),
             radius_m,
-            color: COLORS[0].lerp(COLORS[1], own * own).to_array(),
-            row: tree.rows[at.segment as usize],
+            color: COLORS[0].lerp(COLORS[1], own * own),
+            segment: at.segment,
         }
+    })
+}
+
+fn instances_of(tree: &StandingTree) -> impl Iterator<Item = FruitInstance> {
+    berries(tree).map(|berry| FruitInstance {
+        center_m: berry.center_m.to_array(),
+        radius_m: berry.radius_m,
+        color: berry.color.to_array(),
+        row: tree.rows[berry.segment as usize],
     })
 }

@@ -15,7 +15,7 @@ use super::leaf_kinds::LeafKinds;
 use super::leaf_record::record_constants;
 use super::pipeline::{NUMBERS, buffer_entry, layout, shader};
 use super::stems::Stems;
-use crate::trees::MAX_CLUSTER;
+use crate::trees::cluster_constants;
 
 /// Views of a frame, each with its own uniform block.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -122,9 +122,8 @@ impl CullPass {
         let records_layout = group("leaf records", &[buffer_entry(0, read, wgpu::ShaderStages::VERTEX)]);
         let kinds_layout = group("leaf kinds", &[uniform(0)]);
         let text = [
-            &format!(
-                "const SLOTS_PER_THREAD: u32 = {SLOTS_PER_THREAD}u;\nconst MAX_CLUSTER: u32 = {MAX_CLUSTER}u;\n"
-            ),
+            &format!("const SLOTS_PER_THREAD: u32 = {SLOTS_PER_THREAD}u;\n"),
+            &cluster_constants(),
             NUMBERS,
             &record_constants(),
             include_str!("shaders/leaf_kinds.wgsl"),

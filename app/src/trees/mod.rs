@@ -3,6 +3,7 @@
 //! The trees of a scene as they are drawn: where each stands, what it looks like, and which row of the branch columns
 //! moves which of its segments.
 
+mod cluster;
 mod crown;
 mod look;
 
@@ -12,11 +13,10 @@ use glam::Vec3;
 use windfall_core::Scene;
 use windfall_core::tree::{Forest, Skeleton};
 
+pub use cluster::MAX_CLUSTER;
+pub(crate) use cluster::{TWIG_SIZE, cluster, cluster_constants};
 pub use crown::Crown;
 pub use look::{BarkKind, Look};
-
-/// Most leaves that one simulated leaf stands for on a tree.
-pub const MAX_CLUSTER: u32 = 16;
 
 /// A tree of the scene, grown.
 #[derive(Clone, Debug)]

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Several frames: a node for every leaf and a joint for every segment of the trees, all moved by one animation.
 
-use std::collections::HashMap;
 use std::io;
 use std::path::PathBuf;
 
@@ -11,9 +10,10 @@ use serde_json::{Value, json};
 use windfall_core::leaf::LeafState;
 
 use super::file::Document;
-use super::scenery::{Barks, leaf_mesh, view};
+use super::scenery::{Barks, LeafMeshes, add_surfaces, tree_mesh, view};
 use crate::commands::output_file::{OutputFile, write_error};
 use crate::export::foliage::Foliage;
+use crate::export::fruit::fruit;
 use crate::export::wood::{Joint, at_rest, at_rest_above, bark, joints, rotations};
 use crate::export::{Exporter, Frame, FrameLeaf, Job};
 use crate::leaves::atlas_of;
@@ -44,12 +44,14 @@ type Turns = Vec<[f32; 4]>;
 /// What a leaf does.
 #[derive(Clone, Debug, Default)]
 struct Track {
-    /// Number of its kind when it is first seen.
-    kind: Option<usize>,
+    /// Mesh by itself and on its twig when it is first seen so.
+    kinds: [Option<usize>; 2],
     places: Vec<[f32; 3]>,
     turns: Vec<[f32; 4]>,
     /// Frames from which it has another size, and that size: none while it is nowhere.
     sizes: Vec<(usize, f32)>,
+    /// Frames from which it is on its twig or by itself, and whether it is.
+    hangs: Vec<(usize, bool)>,
 }
 
 impl ClipExport {
@@ -76,32 +78,17 @@ impl ClipExport {
     /// The document with everything that was gathered.
     fn assemble(&mut self) -> io::Result<()> {
         let mut movement = Movement { times: self.document.buffer.times(&self.times), ..Movement::default() };
-        let mut kinds: HashMap<usize, usize> = HashMap::new();
+        let mut meshes = LeafMeshes::default();
         for (slot, track) in self.leaves.iter().enumerate() {
-            // A leaf that is never seen has none.
-            let Some(kind) = track.kind else { continue };
-            let mesh = match kinds.get(&kind) {
-                Some(&mesh) => mesh,
-                None => {
-                    *kinds.entry(kind).or_insert(leaf_mesh(&mut self.document, &self.foliage.meshes[kind])?)
-                }
-            };
-            let mut node = json!({ "name": format!("leaf.{slot}"), "mesh": mesh });
-            if let [(_, size)] = track.sizes[..] {
-                node["scale"] = json!([size, size, size]);
-            }
-            let node = self.document.add_root(node);
-            let (places, turns) =
-                (self.document.buffer.floats(&track.places), self.document.buffer.floats(&track.turns));
-            movement.add(node, "translation", places);
-            movement.add(node, "rotation", turns);
-            if track.sizes.len() > 1 {
-                let times: Vec<[f32; 1]> = track.sizes.iter().map(|&(frame, _)| self.times[frame]).collect();
-                let sizes: Vec<[f32; 3]> = track.sizes.iter().map(|&(_, size)| [size; 3]).collect();
-                let (times, sizes) =
-                    (self.document.buffer.times(&times), self.document.buffer.floats(&sizes));
-                movement.add_steps(node, "scale", times, sizes);
-            }
+            add_leaf(
+                &mut self.document,
+                &mut movement,
+                &mut meshes,
+                &self.foliage,
+                &self.times,
+                slot,
+                track,
+            )?;
         }
         let mut barks = Barks::default();
         for (number, (joints, turns)) in self.trees.iter().enumerate() {
@@ -121,7 +108,9 @@ impl ClipExport {
 impl Exporter for ClipExport {
     fn push(&mut self, frame: &Frame<'_>) -> anyhow::Result<()> {
         if self.times.is_empty() {
-            view(&mut self.document, frame.world.environment.scene(), self.sun, frame.world.clock.seconds());
+            let scene = frame.world.environment.scene();
+            view(&mut self.document, scene, self.sun, frame.world.clock.seconds());
+            add_surfaces(&mut self.document, scene);
         }
         #[expect(clippy::cast_possible_truncation, reason = "the format has single precision")]
         let time_s = (f64::from(frame.number - self.first) / self.fps) as f32;
@@ -160,10 +149,16 @@ impl Track {
             (false, ..) => ([0.0; 3], [0.0, 0.0, 0.0, 1.0]),
             (true, _, before) => (leaf.position_m, near(leaf.quaternion, before)),
         };
-        if is_seen && self.kind.is_none() {
-            self.kind = Some(foliage.kind(leaf));
-            self.places.fill(place);
-            self.turns.fill(turn);
+        if is_seen {
+            if self.kinds == [None; 2] {
+                self.places.fill(place);
+                self.turns.fill(turn);
+            }
+            let hangs = leaf.state == LeafState::Attached;
+            self.kinds[usize::from(hangs)].get_or_insert_with(|| foliage.shown(leaf));
+            if self.hangs.last().is_none_or(|&(_, last)| last != hangs) {
+                self.hangs.push((frame, hangs));
+            }
         }
         self.places.push(place);
         self.turns.push(turn);
@@ -201,6 +196,59 @@ impl Movement {
         self.channels.push(json!({ "sampler": self.samplers.len(), "target": target }));
         self.samplers.push(sampler);
     }
+}
+
+/// Adds a leaf that is ever seen: a node, which has a child for each of two meshes if it falls on the way.
+fn add_leaf(
+    document: &mut Document,
+    movement: &mut Movement,
+    meshes: &mut LeafMeshes,
+    foliage: &Foliage,
+    times: &[[f32; 1]],
+    slot: usize,
+    track: &Track,
+) -> io::Result<()> {
+    let mut node = json!({ "name": format!("leaf.{slot}") });
+    if let [(_, size)] = track.sizes[..] {
+        node["scale"] = json!([size, size, size]);
+    }
+    let steps = |document: &mut Document, steps: &[(usize, f32)]| {
+        let when: Vec<[f32; 1]> = steps.iter().map(|&(frame, _)| times[frame]).collect();
+        let sizes: Vec<[f32; 3]> = steps.iter().map(|&(_, size)| [size; 3]).collect();
+        (document.buffer.times(&when), document.buffer.floats(&sizes))
+    };
+    match track.kinds {
+        [None, None] => return Ok(()),
+        [Some(kind), None] | [None, Some(kind)] => {
+            node["mesh"] = meshes.index(document, foliage, kind)?.into();
+        }
+        [Some(single), Some(cluster)] => {
+            let mut children = Vec::new();
+            for (kind, shows, ending) in [(single, false, "blade"), (cluster, true, "cluster")] {
+                let mesh = meshes.index(document, foliage, kind)?;
+                let child =
+                    document.add("nodes", json!({ "name": format!("{ending}.{slot}"), "mesh": mesh }));
+                // From the first frame on, so that nothing is left to the reader.
+                let whole = track.hangs.iter().enumerate().map(|(at, &(frame, hangs))| {
+                    (if at == 0 { 0 } else { frame }, f32::from(u8::from(hangs == shows)))
+                });
+                let whole: Vec<(usize, f32)> = whole.collect();
+                let (when, sizes) = steps(document, &whole);
+                movement.add_steps(child, "scale", when, sizes);
+                children.push(child);
+            }
+            node["children"] = json!(children);
+        }
+    }
+    let node = document.add_root(node);
+    let (places, turns) = (document.buffer.floats(&track.places), document.buffer.floats(&track.turns));
+    movement.add(node, "translation", places);
+    movement.add(node, "rotation", turns);
+    if track.sizes.len() > 1 {
+        let (when, sizes) = steps(document, &track.sizes);
+        movement.add_steps(node, "scale", when, sizes);
+    }
+    Ok(())
 }
 
 /// Adds a tree: bark, joints and how they turn.
@@ -252,7 +300,13 @@ fn add_tree(
         "skeleton": first - 1,
     });
     let skin = document.add("skins", skin);
-    let mesh = barks.mesh(document, tree.look.bark, &bark(tree), true)?;
+    let material = barks.bark(document, tree.look.bark)?;
+    let mesh = tree_mesh(document, "bark", material, &bark(tree), true);
     document.add_root(json!({ "name": format!("tree.{number}.bark"), "mesh": mesh, "skin": skin }));
+    if let Some(fruit) = fruit(tree) {
+        let material = barks.berry(document);
+        let mesh = tree_mesh(document, "fruit", material, &fruit, true);
+        document.add_root(json!({ "name": format!("tree.{number}.fruit"), "mesh": mesh, "skin": skin }));
+    }
     Ok(())
 }

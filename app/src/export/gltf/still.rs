@@ -9,9 +9,10 @@ use serde_json::json;
 use windfall_core::leaf::LeafState;
 
 use super::file::Document;
-use super::scenery::{Barks, leaf_mesh, view};
+use super::scenery::{Barks, LeafMeshes, add_surfaces, tree_mesh, view};
 use crate::commands::output_file::{OutputFile, write_error};
 use crate::export::foliage::Foliage;
+use crate::export::fruit::fruit;
 use crate::export::{Exporter, Frame, FrameLeaf, Job, wood};
 use crate::leaves::atlas_of;
 use crate::light::{Daylight, SunLight};
@@ -39,13 +40,16 @@ impl StillExport {
 
     fn add(&mut self, frame: &Frame<'_>) -> io::Result<()> {
         let document = &mut self.document;
-        view(document, frame.world.environment.scene(), self.sun, frame.world.clock.seconds());
+        let scene = frame.world.environment.scene();
+        view(document, scene, self.sun, frame.world.clock.seconds());
+        add_surfaces(document, scene);
         let mut kinds: Vec<Vec<&FrameLeaf>> = vec![Vec::new(); self.foliage.meshes.len()];
         for leaf in frame.leaves.iter().filter(|leaf| leaf.state != LeafState::Dormant) {
-            kinds[self.foliage.kind(leaf)].push(leaf);
+            kinds[self.foliage.shown(leaf)].push(leaf);
         }
         document.extend("EXT_mesh_gpu_instancing", true);
-        for (mesh, leaves) in self.foliage.meshes.iter().zip(kinds).filter(|(_, leaves)| !leaves.is_empty()) {
+        let mut meshes = LeafMeshes::default();
+        for (number, leaves) in kinds.iter().enumerate().filter(|(_, leaves)| !leaves.is_empty()) {
             let places: Vec<[f32; 3]> = leaves.iter().map(|leaf| leaf.position_m).collect();
             let turns: Vec<[f32; 4]> = leaves.iter().map(|leaf| leaf.quaternion).collect();
             let sizes: Vec<[f32; 3]> = leaves.iter().map(|leaf| [leaf.size; 3]).collect();
@@ -55,10 +59,10 @@ impl StillExport {
                 "ROTATION": document.buffer.floats(&turns),
                 "SCALE": document.buffer.floats(&sizes),
             });
-            let index = leaf_mesh(document, mesh)?;
+            let mesh = meshes.index(document, &self.foliage, number)?;
             document.add_root(json!({
-                "name": mesh.name,
-                "mesh": index,
+                "name": self.foliage.meshes[number].name,
+                "mesh": mesh,
                 "extensions": { "EXT_mesh_gpu_instancing": { "attributes": attributes } },
                 "extras": { "ids": ids },
             }));
@@ -68,8 +72,15 @@ impl StillExport {
             let mut mesh = wood::bark(tree);
             let branches = &frame.world.branches;
             wood::bend(&mut mesh, &self.stand, tree, &branches.base, &branches.pose);
-            let index = barks.mesh(document, tree.look.bark, &mesh, false)?;
+            let bark = barks.bark(document, tree.look.bark)?;
+            let index = tree_mesh(document, "bark", bark, &mesh, false);
             document.add_root(json!({ "name": format!("tree.{number}"), "mesh": index }));
+            if let Some(mut mesh) = fruit(tree) {
+                wood::bend(&mut mesh, &self.stand, tree, &branches.base, &branches.pose);
+                let berry = barks.berry(document);
+                let index = tree_mesh(document, "fruit", berry, &mesh, false);
+                document.add_root(json!({ "name": format!("tree.{number}.fruit"), "mesh": index }));
+            }
         }
         Ok(())
     }

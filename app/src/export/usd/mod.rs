@@ -190,7 +190,7 @@ impl LeafAttributes {
         let all = || leaves.iter();
         let is_dormant = |leaf: &&FrameLeaf| leaf.state == LeafState::Dormant;
         samples.add(self.ids, number, |out| text::numbers(out, all().map(|leaf| leaf.id)));
-        samples.add(self.kinds, number, |out| text::numbers(out, all().map(|leaf| foliage.kind(leaf))));
+        samples.add(self.kinds, number, |out| text::numbers(out, all().map(|leaf| foliage.shown(leaf))));
         samples.add(self.positions, number, |out| text::vectors(out, all().map(|leaf| leaf.position_m)));
         samples
             .add(self.orientations, number, |out| text::quaternions(out, all().map(|leaf| leaf.quaternion)));

@@ -11,26 +11,31 @@ use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
 use super::text;
 use crate::commands::output_file::write_error;
 use crate::export::foliage::{Foliage, LeafMesh};
+use crate::export::plain::Plain;
 
 /// Folder of the pictures beside the layers.
 pub(super) const PICTURES: &str = "textures";
+/// Decimal places of a leaf's corners in metres, and of places on pictures.
+const PLACES: i32 = 5;
+/// Decimal places of normals.
+pub(super) const NORMAL_PLACES: i32 = 3;
 
-/// Writes the prims that are instanced, one for each kind of leaf.
+/// Writes the prims that are instanced.
 pub(super) fn write_meshes(out: &mut impl Write, foliage: &Foliage) -> io::Result<()> {
     writeln!(out, "def Scope \"Prototypes\"\n{{")?;
     for mesh in &foliage.meshes {
-        write_mesh(out, mesh)?;
+        write_mesh(out, mesh, &foliage.pictures[mesh.picture].name)?;
     }
     writeln!(out, "}}")
 }
 
-fn write_mesh(out: &mut impl Write, mesh: &LeafMesh) -> io::Result<()> {
+fn write_mesh(out: &mut impl Write, mesh: &LeafMesh, material: &str) -> io::Result<()> {
     let mut points = String::new();
-    text::vectors(&mut points, mesh.positions_m.iter().copied());
+    text::rounded(&mut points, mesh.positions_m.iter().copied(), PLACES);
     let mut normals = String::new();
-    text::vectors(&mut normals, mesh.normals.iter().copied());
+    text::rounded(&mut normals, mesh.normals.iter().copied(), NORMAL_PLACES);
     let mut places = String::new();
-    text::vectors(&mut places, mesh.texcoords.iter().map(|[u, v]| [*u, 1.0 - v]));
+    text::rounded(&mut places, mesh.texcoords.iter().map(|[u, v]| [*u, 1.0 - v]), PLACES);
     let mut indices = String::new();
     text::numbers(&mut indices, mesh.triangles.as_flattened());
     let mut counts = String::new();
@@ -41,7 +46,7 @@ fn write_mesh(out: &mut impl Write, mesh: &LeafMesh) -> io::Result<()> {
         out,
         "def Mesh \"{name}\" (\nprepend apiSchemas = [\"MaterialBindingAPI\"]\n)\n{{\nuniform bool doubleSided = 1\n\
         float3[] extent = {extent}\nint[] faceVertexCounts = {counts}\nint[] faceVertexIndices = {indices}\n\
-        rel material:binding = </World/Materials/{name}>\nnormal3f[] normals = {normals} (\ninterpolation = \"vertex\"\n)\n\
+        rel material:binding = </World/Materials/{material}>\nnormal3f[] normals = {normals} (\ninterpolation = \"vertex\"\n)\n\
         point3f[] points = {points}\ntexCoord2f[] primvars:st = {places} (\ninterpolation = \"vertex\"\n)\n\
         uniform token subdivisionScheme = \"none\"\n}}\n",
         name = mesh.name,
@@ -95,12 +100,24 @@ pub(super) fn write_material(out: &mut impl Write, coat: &Coat<'_>) -> io::Resul
     )
 }
 
+/// Writes a material of one colour.
+pub(super) fn write_plain(out: &mut impl Write, plain: &Plain) -> io::Result<()> {
+    let Plain { name, color: [r, g, b], roughness } = plain;
+    write!(
+        out,
+        "def Material \"{name}\"\n{{\ntoken outputs:surface.connect = </World/Materials/{name}/Surface.outputs:surface>\n\
+        def Shader \"Surface\"\n{{\nuniform token info:id = \"UsdPreviewSurface\"\n\
+        color3f inputs:diffuseColor = ({r}, {g}, {b})\nfloat inputs:metallic = 0\n\
+        float inputs:roughness = {roughness}\ntoken outputs:surface\n}}\n}}\n"
+    )
+}
+
 /// Writes the pictures of all kinds of leaves; `told` is the folder that errors name.
 pub(super) fn write_pictures(folder: &Path, told: &Path, foliage: &Foliage) -> anyhow::Result<()> {
     let folder = folder.join(PICTURES);
     fs::create_dir(&folder).map_err(|error| write_error(told, &error))?;
-    foliage.meshes.par_iter().try_for_each(|mesh| {
-        let saved = mesh.picture.save(folder.join(format!("{}.png", mesh.name)));
+    foliage.pictures.par_iter().try_for_each(|picture| {
+        let saved = picture.image.save(folder.join(format!("{}.png", picture.name)));
         saved.map_err(|error| write_error(told, &io::Error::other(error)))
     })
 }

@@ -7,8 +7,12 @@ use std::io::{self, Write};
 use super::samples::SampleLayer;
 use super::{MANIFEST, STAGE, prototypes, text, trees, view};
 use crate::export::foliage::Foliage;
+use crate::export::surface::{self, Surface};
 use crate::export::{FrameRange, Job};
 use crate::light::Daylight;
+
+/// Decimal places of the corners of ground and water in metres.
+const SURFACE_PLACES: i32 = 4;
 
 /// How frames are told as times.
 #[derive(Clone, Copy, Debug)]
@@ -79,11 +83,13 @@ pub(super) fn write_stage(
     )?;
     view::write_view(out, job.scene, daylight)?;
     writeln!(out, "def Scope \"Materials\"\n{{")?;
-    for mesh in &foliage.meshes {
-        let coat = prototypes::Coat { name: &mesh.name, is_cut_out: true, roughness: 0.6 };
+    for picture in &foliage.pictures {
+        let coat = prototypes::Coat { name: &picture.name, is_cut_out: true, roughness: 0.6 };
         prototypes::write_material(out, &coat)?;
     }
     trees::write_materials(out, job.stand)?;
+    let surfaces = surface::surfaces(job.scene);
+    surfaces.iter().try_for_each(|surface| prototypes::write_plain(out, &surface.plain))?;
     writeln!(out, "}}\ndef PointInstancer \"Leaves\"\n{{")?;
     let paths = foliage.meshes.iter().map(|mesh| format!("</World/Leaves/Prototypes/{}>", mesh.name));
     writeln!(out, "rel prototypes = [{}]", paths.collect::<Vec<_>>().join(", "))?;
@@ -91,5 +97,28 @@ pub(super) fn write_stage(
     prototypes::write_meshes(out, foliage)?;
     writeln!(out, "}}")?;
     trees::write_trees(out, job.stand)?;
+    surfaces.iter().try_for_each(|surface| write_surface(out, surface))?;
     writeln!(out, "}}")
+}
+
+/// Writes ground or water.
+fn write_surface(out: &mut impl Write, surface: &Surface) -> io::Result<()> {
+    let mut extent = String::new();
+    text::vectors(&mut extent, prototypes::extent_of(&surface.positions_m));
+    let mut counts = String::new();
+    text::numbers(&mut counts, surface.triangles.iter().map(|triangle| triangle.len()));
+    let mut indices = String::new();
+    text::numbers(&mut indices, surface.triangles.as_flattened());
+    let mut normals = String::new();
+    text::rounded(&mut normals, surface.normals.iter().copied(), prototypes::NORMAL_PLACES);
+    let mut points = String::new();
+    text::rounded(&mut points, surface.positions_m.iter().copied(), SURFACE_PLACES);
+    write!(
+        out,
+        "def Mesh \"{}\" (\nprepend apiSchemas = [\"MaterialBindingAPI\"]\n)\n{{\nfloat3[] extent = {extent}\n\
+        int[] faceVertexCounts = {counts}\nint[] faceVertexIndices = {indices}\n\
+        rel material:binding = </World/Materials/{}>\nnormal3f[] normals = {normals} (\ninterpolation = \"vertex\"\n)\n\
+        point3f[] points = {points}\nuniform token subdivisionScheme = \"none\"\n}}\n",
+        surface.name, surface.plain.name,
+    )
 }

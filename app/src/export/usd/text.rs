@@ -9,6 +9,18 @@ pub(super) fn vectors<const N: usize>(out: &mut String, values: impl IntoIterato
     list(out, values, tuple);
 }
 
+/// The same to so many decimal places, for what nobody sees more of.
+pub(super) fn rounded<const N: usize>(
+    out: &mut String,
+    values: impl IntoIterator<Item = [f32; N]>,
+    places: i32,
+) {
+    let scale = 10.0_f64.powi(places);
+    #[expect(clippy::cast_possible_truncation, reason = "as precise as it was")]
+    let round = |value: f32| ((f64::from(value) * scale).round() / scale) as f32;
+    vectors(out, values.into_iter().map(|value| value.map(round)));
+}
+
 /// Adds an array of pairs in double precision.
 pub(super) fn pairs(out: &mut String, values: impl IntoIterator<Item = [f64; 2]>) {
     list(out, values, |out, [a, b]| {
@@ -111,6 +123,9 @@ mod tests {
         out.clear();
         matrix(&mut out, glam::Mat4::from_translation(glam::Vec3::new(7.0, 8.0, 9.0)));
         assert!(out.ends_with("(7, 8, 9, 1))"), "translation in the last row: {out}");
+        out.clear();
+        rounded(&mut out, [[0.123_456, -7.000_04]], 3);
+        assert_eq!(out, "[(0.123, -7)]", "to three places");
         assert_eq!(quoted("a\"b\\c\nd"), r#""a\"b\\c d""#, "escaped");
     }
 }

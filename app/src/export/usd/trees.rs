@@ -8,16 +8,21 @@ use std::io::{self, Write};
 use std::path::Path;
 
 use glam::{Mat4, Quat, Vec3};
+use windfall_core::tree::BarkMesh;
 
-use super::prototypes::{Coat, PICTURES, extent_of, write_material};
+use super::prototypes::{Coat, NORMAL_PLACES, PICTURES, extent_of, write_material, write_plain};
 use super::samples::{Handle, Samples};
 use super::text;
 use crate::commands::output_file::write_error;
 use crate::export::Frame;
+use crate::export::fruit::{SKIN, fruit};
 use crate::export::wood::{
     Joint, at_rest, at_rest_above, bark, bark_name, bark_picture, barks, joints, rotations,
 };
 use crate::trees::{Stand, StandingTree};
+
+/// Decimal places of corners in metres.
+const PLACES: i32 = 4;
 
 /// The joints of all trees.
 #[derive(Debug)]
@@ -92,20 +97,33 @@ fn write_tree(out: &mut impl Write, stand: &Stand, tree: &StandingTree, name: &s
         def SkelAnimation \"Sway\"\n{{\nuniform token[] joints = {list}\nquatf[] rotations\n\
         half3[] scales = {scales}\nfloat3[] translations = {translations}\n}}\n"
     )?;
-    write_bark(out, tree, &path)?;
+    write_skin(out, &bark(tree), "Bark", bark_name(tree.look.bark), &path)?;
+    if let Some(fruit) = fruit(tree) {
+        write_skin(out, &fruit, "Fruit", SKIN.name, &path)?;
+    }
     writeln!(out, "}}")
 }
 
-fn write_bark(out: &mut impl Write, tree: &StandingTree, path: &str) -> io::Result<()> {
-    let mesh = bark(tree);
+/// Writes what the segments of the tree at `path` move.
+fn write_skin(
+    out: &mut impl Write,
+    mesh: &BarkMesh,
+    name: &str,
+    material: &str,
+    path: &str,
+) -> io::Result<()> {
     let mut extent = String::new();
     text::vectors(&mut extent, extent_of(&mesh.positions_m));
     let mut places = String::new();
-    text::vectors(&mut places, mesh.positions_m.iter().copied());
+    text::rounded(&mut places, mesh.positions_m.iter().copied(), PLACES);
     let mut normals = String::new();
-    text::vectors(&mut normals, mesh.normals.iter().copied());
+    text::rounded(&mut normals, mesh.normals.iter().copied(), NORMAL_PLACES);
     let mut texcoords = String::new();
-    text::vectors(&mut texcoords, mesh.texcoords.iter().copied());
+    if !mesh.texcoords.is_empty() {
+        texcoords += "texCoord2f[] primvars:st = ";
+        text::rounded(&mut texcoords, mesh.texcoords.iter().copied(), PLACES);
+        texcoords += " (\ninterpolation = \"vertex\"\n)\n";
+    }
     let mut counts = String::new();
     text::numbers(&mut counts, (0..mesh.triangle_count()).map(|_| 3));
     let mut indices = String::new();
@@ -116,23 +134,24 @@ fn write_bark(out: &mut impl Write, tree: &StandingTree, path: &str) -> io::Resu
     text::numbers(&mut weights, mesh.weights.as_flattened());
     write!(
         out,
-        "def Mesh \"Bark\" (\nprepend apiSchemas = [\"MaterialBindingAPI\", \"SkelBindingAPI\"]\n)\n{{\n\
+        "def Mesh \"{name}\" (\nprepend apiSchemas = [\"MaterialBindingAPI\", \"SkelBindingAPI\"]\n)\n{{\n\
         float3[] extent = {extent}\nint[] faceVertexCounts = {counts}\nint[] faceVertexIndices = {indices}\n\
-        rel material:binding = </World/Materials/{bark}>\nnormal3f[] normals = {normals} (\ninterpolation = \"vertex\"\n)\n\
+        rel material:binding = </World/Materials/{material}>\nnormal3f[] normals = {normals} (\ninterpolation = \"vertex\"\n)\n\
         point3f[] points = {places}\nmatrix4d primvars:skel:geomBindTransform = ((1, 0, 0, 0), (0, 1, 0, 0), (0, 0, 1, 0), (0, 0, 0, 1))\n\
         int[] primvars:skel:jointIndices = {joints} (\nelementSize = 4\ninterpolation = \"vertex\"\n)\n\
         float[] primvars:skel:jointWeights = {weights} (\nelementSize = 4\ninterpolation = \"vertex\"\n)\n\
-        texCoord2f[] primvars:st = {texcoords} (\ninterpolation = \"vertex\"\n)\nrel skel:skeleton = <{path}/Segments>\n\
-        uniform token subdivisionScheme = \"none\"\n}}\n",
-        bark = bark_name(tree.look.bark),
+        {texcoords}rel skel:skeleton = <{path}/Segments>\n\
+        uniform token subdivisionScheme = \"none\"\n}}\n"
     )
 }
 
-/// Writes the materials of all barks.
+/// Writes the materials of all barks, and of berries.
 pub(super) fn write_materials(out: &mut impl Write, stand: &Stand) -> io::Result<()> {
     barks(stand).try_for_each(|kind| {
         write_material(out, &Coat { name: bark_name(kind), is_cut_out: false, roughness: 0.9 })
-    })
+    })?;
+    let has_fruit = stand.trees.iter().any(|tree| fruit(tree).is_some());
+    if has_fruit { write_plain(out, &SKIN) } else { Ok(()) }
 }
 
 /// Writes the pictures of all barks into the folder that is there; `told` is the folder that errors name.

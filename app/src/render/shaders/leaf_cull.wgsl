@@ -58,8 +58,6 @@ struct Draw {
 @group(1) @binding(2) var<storage, read> courses: array<vec4<u32>>;
 @group(1) @binding(3) var<storage, read> identities: array<vec4<u32>>;
 
-// Leaves on twigs are drawn larger than they fly, so that crowns close: set by eye.
-const CROWN: f32 = 1.42;
 // Edge of a picture in diameters of the disc with the leaf's area, roughly.
 const EDGE: f32 = 1.6;
 
@@ -121,7 +119,7 @@ fn sight_of(index: u32) -> Sight {
     let is_attached = state == STATE_ATTACHED;
     let copies = select(1u, clamp(u32(cluster), 1u, MAX_CLUSTER), is_attached);
     let species = (place.w >> SPECIES_SHIFT) & SPECIES_MASK;
-    out.diameter = kinds.size[species].x * select(relative, CROWN * on_twig, is_attached);
+    out.diameter = kinds.size[species].x * select(relative, TWIG_SIZE * on_twig, is_attached);
     let center = bitcast<vec3<f32>>(place.xyz);
     let radius = out.diameter * (EDGE + 1.2 * sqrt(f32(copies) - 1.0));
     let is_hidden = within(center) < -radius || state == STATE_DORMANT;
@@ -281,9 +279,9 @@ fn record_of(index: u32, sight: Sight, copy: u32) -> LeafRecord {
     if copy > 0u {
         let a = signed_bytes(key);
         let b = signed_bytes(hash_u32(key));
-        offset += a.xyz * vec3(1.0, 0.6, 1.0) * 0.9 * sqrt(stem.tint_cluster.w) * sight.diameter;
+        offset += a.xyz * CLUSTER_REACH * sqrt(stem.tint_cluster.w) * sight.diameter;
         center += rotate(attitude, offset);
-        attitude = quaternion_product(attitude, normalize(vec4(0.35 * b.x, 0.9 * b.y, 0.35 * b.z, 1.0)));
+        attitude = quaternion_product(attitude, normalize(vec4(b.xyz * CLUSTER_TURN, 1.0)));
     } else {
         center += rotate(attitude, offset);
     }

@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! How the leaves stand that one simulated leaf stands for on its twig. Pictures set each cluster on the device
+//! (`leaf_cull.wgsl`); other programs are given a few clusters to choose from.
+
+use std::fmt::Write as _;
+
+use glam::{Quat, Vec3};
+use windfall_core::kernel::rng::random;
+
+/// Most leaves that one simulated leaf stands for on a tree.
+pub const MAX_CLUSTER: u32 = 16;
+/// Size of leaves on twigs relative to what they have when they fall, so that crowns close: set by eye.
+pub(crate) const TWIG_SIZE: f32 = 1.42;
+/// How far leaves lie from the first at most, across and along the blade, in diameters of one times the root of their number.
+const REACH: Vec3 = Vec3::new(0.9, 0.54, 0.9);
+/// Vector part of the quaternion, beside a real part of 1, that turns leaves against the first at most.
+const TURN: Vec3 = Vec3::new(0.35, 0.9, 0.35);
+
+/// The constants for WGSL.
+pub(crate) fn cluster_constants() -> String {
+    let mut text = format!("const MAX_CLUSTER: u32 = {MAX_CLUSTER}u;\nconst TWIG_SIZE: f32 = {TWIG_SIZE};\n");
+    for (name, Vec3 { x, y, z }) in [("REACH", REACH), ("TURN", TURN)] {
+        // Writing to a String cannot fail.
+        let _ = writeln!(text, "const CLUSTER_{name}: vec3<f32> = vec3({x:?}, {y:?}, {z:?});");
+    }
+    text
+}
+
+/// Places of `count` leaves in diameters of one and how each is turned, in the frame of the first, which lies at the origin.
+pub(crate) fn cluster(count: u32, number: u32) -> impl Iterator<Item = (Vec3, Quat)> {
+    let signed = |word: u32| 2.0 * (word as f32 / u32::MAX as f32) - 1.0;
+    let vector = move |stream, copy| {
+        let [x, y, z, _] = random([number, count], copy, stream).map(signed);
+        Vec3::new(x, y, z)
+    };
+    (0..count).map(move |copy| {
+        if copy == 0 {
+            return (Vec3::ZERO, Quat::IDENTITY);
+        }
+        let turn = vector(1, copy) * TURN;
+        let place = vector(0, copy) * REACH * (count as f32).sqrt();
+        (place, Quat::from_xyzw(turn.x, turn.y, turn.z, 1.0).normalize())
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn clusters_are_as_wide_as_their_leaves_ask_for_and_differ() {
+        for count in [1, 4, MAX_CLUSTER] {
+            let leaves: Vec<_> = cluster(count, 0).collect();
+            assert_eq!(leaves.len(), count as usize, "that many leaves");
+            assert_eq!(leaves[0], (Vec3::ZERO, Quat::IDENTITY), "the first is the simulated one");
+            let far = leaves.iter().fold(Vec3::ZERO, |far, (place, _)| far.max(place.abs()));
+            let limit = REACH * (count as f32).sqrt();
+            assert!(far.cmple(limit).all(), "{far} lies within {limit}");
+            assert!(count < 4 || far.length() > 0.5 * limit.length(), "{far} of {limit}");
+        }
+        let other: Vec<_> = cluster(4, 1).collect();
+        assert!(cluster(4, 0).zip(&other).skip(1).all(|(a, b)| a != *b), "another number, other places");
+    }
+}
