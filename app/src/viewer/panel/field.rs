@@ -21,6 +21,8 @@ use super::style;
 pub(super) const CONTROL_WIDTH: f32 = 184.0;
 /// Most options that stand beside each other instead of in a menu.
 const MOST_BESIDE: usize = 3;
+/// Most letters of such options, so that all of them are in the panel.
+const MOST_LETTERS: usize = 28;
 
 /// A number of a scene.
 #[derive(Clone, Copy, Debug)]
@@ -209,7 +211,8 @@ pub(super) fn choice<T: Clone + PartialEq>(
     let mut clicked = None;
     let mut back = false;
     row(ui, name, tip, |ui| {
-        let response = if options.len() <= MOST_BESIDE {
+        let letters: usize = options.iter().map(|(label, _)| label.len()).sum();
+        let response = if options.len() <= MOST_BESIDE && letters <= MOST_LETTERS {
             let inner = ui.horizontal(|ui| {
                 for (index, (label, _)) in options.iter().enumerate() {
                     if ui.selectable_label(chosen == Some(index), *label).on_hover_text(tip).clicked() {

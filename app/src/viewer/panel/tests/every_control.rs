@@ -179,6 +179,25 @@ fn every_control_does_something() {
 }
 
 #[test]
+fn every_control_lies_within_the_panel() {
+    for (scene, loaded) in [(full(), full()), (other(), full()), (third(), other())] {
+        let mut harness = open(&loaded, &Group::ALL);
+        // What differs from what was loaded has an arrow behind it.
+        harness.state_mut().facts.scene = Arc::new(scene);
+        harness.run_steps(3);
+        for node in harness.root().children_recursive() {
+            let (_, role, name) = seen(&node);
+            if ["Slider", "SpinButton", "Button", "CheckBox", "ComboBox"].contains(&role.as_str()) {
+                let (left, right) = (node.rect().left(), node.rect().right());
+                // The time bar is beside the panel.
+                let is_within = (0.0..WIDTH).contains(&left) && right <= WIDTH || left >= WIDTH;
+                assert!(is_within, "{role} {name:?} reaches from {left} to {right}");
+            }
+        }
+    }
+}
+
+#[test]
 fn what_was_changed_can_be_reset_row_by_row() {
     let scene = full();
     let mut harness = open(&scene, &Group::ALL);
