@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Which parts of the view each shadow map covers.
+//! Which parts of the view each shadow map covers, and where the sky's is.
 //!
 //! The view is cut into slices by distance. A map covers the smallest ball around its slice: it does not change its size when
 //! the camera turns, and moves in whole texels, so that edges of shadows stand still (Valient 2008, "Stable Rendering of
@@ -10,8 +10,10 @@ use glam::{Mat4, Vec3};
 
 use crate::camera::Camera;
 
-/// Number of shadow maps; `common.wgsl` has as many.
+/// Number of shadow maps of the sun.
 pub(super) const CASCADES: usize = 3;
+/// Number of all maps: after those of the sun one from straight above, for the sky; `common.wgsl` has as many.
+pub(super) const MAPS: usize = CASCADES + 1;
 /// Edge of a shadow map in texels for a picture so many pixels high: its texels are about as fine as the pixels.
 pub(super) fn shadow_size(picture_height: u32) -> u32 {
     if picture_height > 512 { 2048 } else { 1024 }
@@ -36,6 +38,10 @@ pub(super) struct Cascade {
     pub(super) texel_m: f32,
 }
 
+/// Least and largest radius of the map from above in metres, and what it is per distance of what is looked at.
+const ABOVE_RADII_M: [f32; 2] = [16.0, 100.0];
+const ABOVE_PER_DISTANCE: f32 = 3.0;
+
 /// The shadow maps of `size_px` for what `camera` sees, by the light from `sun`.
 pub(super) fn cascades(camera: &Camera, aspect: f32, sun: Vec3, size_px: u32) -> [Cascade; CASCADES] {
     let near = (BEYOND_TARGET * camera.distance_m).clamp(FIRST_END_M, ENDS_M[0]);
@@ -50,6 +56,14 @@ pub(super) fn cascades(camera: &Camera, aspect: f32, sun: Vec3, size_px: u32) ->
         let (along, radius) = ball(start, ends[index], slope);
         cascade(camera.eye_m() + camera.forward() * along, radius, sun, size_px)
     })
+}
+
+/// The map of `size_px` from above of what `camera` sees nearby: the sky's, as if all its light came from the zenith.
+pub(super) fn above(camera: &Camera, size_px: u32) -> Cascade {
+    let [least, most] = ABOVE_RADII_M;
+    let radius = (ABOVE_PER_DISTANCE * camera.distance_m).clamp(least, most);
+    let ahead = Vec3::new(camera.forward().x, 0.0, camera.forward().z);
+    cascade(camera.eye_m() + ahead * (0.7 * radius), radius, Vec3::Y, size_px)
 }
 
 /// Distance of the middle and radius of the smallest ball around a slice of a cone whose edge rises by `slope`.
@@ -130,6 +144,18 @@ mod tests {
                 maps.windows(2).all(|pair| pair[0].texel_m < pair[1].texel_m),
                 "near maps are finer: {maps:?}"
             );
+        }
+    }
+
+    #[test]
+    fn the_map_from_above_has_the_ground_below_the_crowns() {
+        for camera in cameras() {
+            let map = above(&camera, SIZE_PX);
+            let near = camera.eye_m() + camera.forward() * 3.0;
+            let [ground, crown] = [0.0, 12.0].map(|y| map.projection.project_point3(near.with_y(y)));
+            assert!((ground - crown).truncate().length() < 1e-4, "one above the other: {ground} {crown}");
+            assert!(ground.truncate().abs().max_element() < 1.0, "what is near is in it: {ground}");
+            assert!(0.0 < crown.z && crown.z < ground.z && ground.z < 1.0, "{crown} above {ground}");
         }
     }
 

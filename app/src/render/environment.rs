@@ -7,7 +7,7 @@ use std::f32::consts::PI;
 use glam::{Mat4, Vec2, Vec3};
 use windfall_core::scene::{Haze, View};
 
-use super::cascades::{CASCADES, cascades, shadow_size};
+use super::cascades::{MAPS, above, cascades, shadow_size};
 use super::scenery::PARK_RADIUS_M;
 use super::subject::FrameInput;
 use super::tile::Tile;
@@ -21,7 +21,7 @@ const VISIBILITY_DEPTH: f32 = 3.912;
 #[derive(Clone, Copy, Debug, bytemuck::Pod, bytemuck::Zeroable)]
 pub(super) struct FrameUniform {
     pub(super) view_projection: [[f32; 4]; 4],
-    pub(super) shadows: [[[f32; 4]; 4]; CASCADES],
+    pub(super) shadows: [[[f32; 4]; 4]; MAPS],
     pub(super) eye: [f32; 4],
     right: [f32; 4],
     up: [f32; 4],
@@ -120,8 +120,9 @@ impl Environment {
         let aspect = width / height;
         let tangent = (0.5 * camera.vertical_fov_rad).tan();
         let sun = self.daylight.sun.direction;
-        let shadows = cascades(camera, aspect, sun, shadow_size(size.1));
-        let [near, middle, far] = shadows.map(|map| map.texel_m);
+        let map_px = shadow_size(size.1);
+        let [near, middle, far] = cascades(camera, aspect, sun, map_px);
+        let maps = [near, middle, far, above(camera, map_px)];
         let sky = &self.daylight.sky;
         let zenith = sky.sample(Vec3::Y);
         let horizon = 0.25
@@ -133,7 +134,7 @@ impl Environment {
         let full = |v: Vec3, w: f32| v.extend(w).to_array();
         FrameUniform {
             view_projection: (tile.crop() * camera.view_projection(aspect)).to_cols_array_2d(),
-            shadows: shadows.map(|map| map.projection.to_cols_array_2d()),
+            shadows: maps.map(|map| map.projection.to_cols_array_2d()),
             eye: full(camera.eye_m(), time_s),
             right: full(camera.right() * tangent * aspect, 0.0),
             up: full(camera.up() * tangent, 0.0),
@@ -147,7 +148,7 @@ impl Environment {
             park: full(self.park_center, 0.0),
             viewport: [width, height, 1.0 / width, 1.0 / height],
             tile: tile.clip_area(),
-            texels: [near, middle, far, 0.0],
+            texels: maps.map(|map| map.texel_m),
             ambient: self.ambient.map(|light| full(light, 0.0)),
             sky: [
                 self.daylight.cloud_cover,

@@ -18,10 +18,12 @@ pub(super) struct FrameGroup {
     hills: wgpu::TextureView,
     /// Whether the land is not level.
     pub(super) is_hilly: bool,
+    /// Whether the scene has trees of its own.
+    pub(super) has_trees: bool,
 }
 
 impl FrameGroup {
-    pub(super) fn new(device: &wgpu::Device, queue: &wgpu::Queue, land: &Land) -> Self {
+    pub(super) fn new(device: &wgpu::Device, queue: &wgpu::Queue, land: &Land, has_trees: bool) -> Self {
         let hills = wgpu::TextureSampleType::Float { filterable: false };
         let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
             label: Some("frame"),
@@ -35,12 +37,13 @@ impl FrameGroup {
         let shape =
             upload::buffer(device, queue, "land", wgpu::BufferUsages::UNIFORM, bytemuck::bytes_of(&shape));
         let hills = land_texture(device, queue, land);
-        Self::bind(device, layout, shape, hills, land.hills().is_some())
+        Self::bind(device, layout, shape, hills, [land.hills().is_some(), has_trees])
     }
 
     /// Another frame on the same land.
     pub(super) fn another(&self, device: &wgpu::Device) -> Self {
-        Self::bind(device, self.layout.clone(), self.shape.clone(), self.hills.clone(), self.is_hilly)
+        let Self { layout, shape, hills, .. } = self;
+        Self::bind(device, layout.clone(), shape.clone(), hills.clone(), [self.is_hilly, self.has_trees])
     }
 
     fn bind(
@@ -48,7 +51,7 @@ impl FrameGroup {
         layout: wgpu::BindGroupLayout,
         shape: wgpu::Buffer,
         hills: wgpu::TextureView,
-        is_hilly: bool,
+        [is_hilly, has_trees]: [bool; 2],
     ) -> Self {
         let buffer = device.create_buffer(&wgpu::BufferDescriptor {
             label: Some("frame"),
@@ -65,7 +68,7 @@ impl FrameGroup {
                 wgpu::BindGroupEntry { binding: 2, resource: wgpu::BindingResource::TextureView(&hills) },
             ],
         });
-        Self { layout, group, buffer, shape, hills, is_hilly }
+        Self { layout, group, buffer, shape, hills, is_hilly, has_trees }
     }
 
     pub(super) fn write(&self, queue: &wgpu::Queue, frame: &FrameUniform) {

@@ -9,7 +9,7 @@
 
 use glam::{Mat4, Vec4};
 
-use super::cascades::CASCADES;
+use super::cascades::{CASCADES, MAPS};
 use super::leaf_crowd::{Page, SLOTS_PER_THREAD};
 use super::leaf_kinds::LeafKinds;
 use super::leaf_record::record_constants;
@@ -24,7 +24,7 @@ pub(super) enum View {
     Camera,
     /// What the camera sees in water.
     Mirror,
-    /// What the sun sees in a shadow map.
+    /// What the sun sees in a shadow map, or who looks from above.
     Shadow(usize),
 }
 
@@ -46,6 +46,8 @@ pub(super) struct ViewUniform {
 pub(super) const LIMITS_PX: [f32; 4] = [18.0, 48.0, 150.0, 1.8];
 /// The same for shadows, whose texels are averaged: no finer mesh than the coarse one, and thinned out sooner.
 const SHADOW_LIMITS_PX: [f32; 4] = [60.0, f32::MAX, f32::MAX, 4.0];
+/// The same from above, where only shares of sky matter.
+const ABOVE_LIMITS_PX: [f32; 4] = [f32::MAX, f32::MAX, f32::MAX, 9.0];
 /// Most workgroups that write records: enough to fill a large device.
 const MAX_WRITERS: u32 = 1024;
 /// Least share of leaves that are kept, however small: those that are kept are at most four times as wide.
@@ -58,10 +60,11 @@ impl ViewUniform {
         Self { sides: sides(clip), eye, limits: LIMITS_PX, rule }
     }
 
-    /// What the sun sees in a map of `pixels_per_m`.
-    pub(super) fn parallel(clip: [[f32; 4]; 4], pixels_per_m: f32) -> Self {
+    /// What is seen in map number `map` with `pixels_per_m`.
+    pub(super) fn parallel(clip: [[f32; 4]; 4], pixels_per_m: f32, map: usize) -> Self {
         let (eye, rule) = ([0.0, 0.0, 0.0, pixels_per_m], [LEAST_SHARE, 1.0, 0.0, 0.0]);
-        Self { sides: sides(clip), eye, limits: SHADOW_LIMITS_PX, rule }
+        let limits = if map < CASCADES { SHADOW_LIMITS_PX } else { ABOVE_LIMITS_PX };
+        Self { sides: sides(clip), eye, limits, rule }
     }
 }
 
@@ -85,7 +88,7 @@ pub(super) struct CullPass {
     page_layout: wgpu::BindGroupLayout,
     columns_layout: wgpu::BindGroupLayout,
     kinds: wgpu::BindGroup,
-    views: [wgpu::Buffer; 2 + CASCADES],
+    views: [wgpu::Buffer; 2 + MAPS],
     steps: [wgpu::ComputePipeline; 4],
     /// Whether leaves bring marks with them.
     pub(super) is_painted: bool,
@@ -143,7 +146,7 @@ impl CullPass {
                 cache: None,
             })
         });
-        let views = [(); 2 + CASCADES].map(|()| {
+        let views = [(); 2 + MAPS].map(|()| {
             device.create_buffer(&wgpu::BufferDescriptor {
                 label: Some("leaf view"),
                 size: size_of::<ViewUniform>() as u64,
@@ -168,7 +171,7 @@ impl CullPass {
         match view {
             View::Camera => &self.views[0],
             View::Mirror => &self.views[1],
-            View::Shadow(cascade) => &self.views[2 + cascade.min(CASCADES - 1)],
+            View::Shadow(map) => &self.views[2 + map.min(MAPS - 1)],
         }
     }
 

@@ -54,7 +54,8 @@ impl ScenePipeline<'_> {
     pub(super) fn build(&self, device: &wgpu::Device) -> wgpu::RenderPipeline {
         let groups = std::iter::once(&self.frame.layout).chain(self.groups.iter().copied()).map(Some);
         let layout = layout(device, &groups.collect::<Vec<_>>());
-        let constants = [("IS_HILLY", f64::from(u8::from(self.frame.is_hilly)))];
+        let of = |is: bool| f64::from(u8::from(is));
+        let constants = [("IS_HILLY", of(self.frame.is_hilly)), ("HAS_TREES", of(self.frame.has_trees))];
         let compilation_options =
             wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() };
         let buffers: Vec<_> = self.buffers.iter().cloned().map(Some).collect();

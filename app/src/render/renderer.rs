@@ -116,7 +116,7 @@ impl Renderer {
         let Park { trees: planted, leaves, path_phase } = plant(scene, &land, center, level);
 
         let targets = Targets::new(device, size, options.tile_px, is_moving(&scene.view.lens))?;
-        let frame = FrameGroup::new(device, queue, &land);
+        let frame = FrameGroup::new(device, queue, &land, !stand.trees.is_empty());
         let kinds = LeafKinds::new(device, queue, scene, atlas)?;
         let own = own_trees(stand, scene.autumn > 0.0);
         let trees = Trees::new(device, queue, (&planted, leaves), &own);

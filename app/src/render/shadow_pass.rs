@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Draws the shadows of leaves and trees, finer near the camera than far from it.
+//! Draws the shadows of leaves and trees, finer near the camera than far from it, and what hides the sky from above.
 
 use super::bark_mesh::{StandMesh, bark_layout};
 use super::bark_pass::BARK_SHAPE;
 use super::branch_group::BranchGroup;
-use super::cascades::CASCADES;
+use super::cascades::{CASCADES, MAPS};
 use super::frame::FrameGroup;
 use super::leaf_crowd::LeafCrowd;
 use super::leaf_cull::CullPass;
@@ -15,21 +15,23 @@ use super::pipeline::{COMMON, layout, shader};
 
 const SHADOW_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
 #[expect(clippy::cast_possible_truncation, reason = "a small number")]
-const LAYERS: u32 = CASCADES as u32;
+const LAYERS: u32 = MAPS as u32;
 
 /// The shadow maps and the pipelines that draw into them.
 #[derive(Debug)]
 pub(super) struct ShadowPass {
-    /// All maps, near to far.
+    /// All maps: of the sun from near to far, and from above.
     pub(super) maps: wgpu::TextureView,
     /// Their edge in texels.
     pub(super) size_px: u32,
-    cascades: [CascadePass; CASCADES],
+    passes: [MapPass; MAPS],
+    /// Whether anything stands that hides the sky.
+    has_trees: bool,
 }
 
 /// One of the maps.
 #[derive(Debug)]
-struct CascadePass {
+struct MapPass {
     map: wgpu::TextureView,
     leaves: wgpu::RenderPipeline,
     bark: wgpu::RenderPipeline,
@@ -60,7 +62,7 @@ impl ShadowPass {
         let bark_shader =
             shader(device, "bark shadow", &[COMMON, BARK_SHAPE, include_str!("shaders/bark_shadow.wgsl")]);
         let pipeline = |label,
-                        cascade: u32,
+                        number: u32,
                         module,
                         groups: [Option<&wgpu::BindGroupLayout>; 2],
                         buffers: &[wgpu::VertexBufferLayout<'_>],
@@ -71,7 +73,7 @@ impl ShadowPass {
             } else {
                 wgpu::PrimitiveTopology::TriangleList
             };
-            let constants = [("CASCADE", f64::from(cascade))];
+            let constants = [("MAP", f64::from(number))];
             let compilation_options =
                 wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() };
             let buffers: Vec<_> = buffers.iter().cloned().map(Some).collect();
@@ -108,13 +110,13 @@ impl ShadowPass {
             })
         };
         let mut layers = 0..LAYERS;
-        let cascades = each.map(|map| {
-            let cascade = layers.next().unwrap_or(0);
-            CascadePass {
+        let passes = each.map(|map| {
+            let number = layers.next().unwrap_or(0);
+            MapPass {
                 map,
                 leaves: pipeline(
                     "leaf shadows",
-                    cascade,
+                    number,
                     &leaf_shader,
                     [Some(&kinds.layout), Some(&cull.records_layout)],
                     &[LeafCrowd::layout()],
@@ -122,7 +124,7 @@ impl ShadowPass {
                 ),
                 bark: pipeline(
                     "bark shadows",
-                    cascade,
+                    number,
                     &bark_shader,
                     [Some(&branches.layout), None],
                     &[bark_layout()],
@@ -130,20 +132,20 @@ impl ShadowPass {
                 ),
             }
         });
-        Self { maps, size_px, cascades }
+        Self { maps, size_px, passes, has_trees: frame.has_trees }
     }
 
     /// Takes maps of another size; the old ones are read no more.
     pub(super) fn resize(&mut self, device: &wgpu::Device, size_px: u32) {
         let (maps, each) = new_maps(device, size_px);
         (self.maps, self.size_px) = (maps, size_px);
-        for (cascade, map) in self.cascades.iter_mut().zip(each) {
-            cascade.map = map;
+        for (pass, map) in self.passes.iter_mut().zip(each) {
+            pass.map = map;
         }
     }
 
     /// Draws all trees into all maps, and the leaves that `cull` keeps of each; `timestamps` are those of the first and of
-    /// the last.
+    /// the last. Without trees nobody looks from above.
     pub(super) fn draw(
         &self,
         encoder: &mut wgpu::CommandEncoder,
@@ -153,16 +155,18 @@ impl ShadowPass {
         cull: &dyn Fn(&mut wgpu::CommandEncoder, usize),
     ) {
         let [begin, end] = timestamps.map_or([None, None], |writes| writes.map(Some));
-        let [near, middle, far] = &self.cascades;
-        for (cascade, (pass, writes)) in [(near, begin), (middle, None), (far, end)].into_iter().enumerate() {
-            cull(encoder, cascade);
+        let drawn = if self.has_trees { MAPS } else { CASCADES };
+        let (mut begin, mut end) = (begin, end);
+        for (number, pass) in self.passes[..drawn].iter().enumerate() {
+            cull(encoder, number);
+            let writes = if number + 1 == drawn { end.take() } else { begin.take() };
             pass.draw(encoder, writes, frame, casters);
         }
     }
 }
 
 /// Maps of a size: all together, and each.
-fn new_maps(device: &wgpu::Device, size_px: u32) -> (wgpu::TextureView, [wgpu::TextureView; CASCADES]) {
+fn new_maps(device: &wgpu::Device, size_px: u32) -> (wgpu::TextureView, [wgpu::TextureView; MAPS]) {
     let texture = device.create_texture(&wgpu::TextureDescriptor {
         label: Some("shadow maps"),
         size: wgpu::Extent3d { width: size_px, height: size_px, depth_or_array_layers: LAYERS },
@@ -174,7 +178,7 @@ fn new_maps(device: &wgpu::Device, size_px: u32) -> (wgpu::TextureView, [wgpu::T
         view_formats: &[],
     });
     let mut layers = 0..LAYERS;
-    let each = [(); CASCADES].map(|()| {
+    let each = [(); MAPS].map(|()| {
         texture.create_view(&wgpu::TextureViewDescriptor {
             dimension: Some(wgpu::TextureViewDimension::D2),
             base_array_layer: layers.next().unwrap_or(0),
@@ -185,7 +189,7 @@ fn new_maps(device: &wgpu::Device, size_px: u32) -> (wgpu::TextureView, [wgpu::T
     (texture.create_view(&wgpu::TextureViewDescriptor::default()), each)
 }
 
-impl CascadePass {
+impl MapPass {
     fn draw(
         &self,
         encoder: &mut wgpu::CommandEncoder,

@@ -7,13 +7,13 @@ use std::sync::Arc;
 use glam::{Quat, Vec3};
 use image::RgbaImage;
 use windfall_core::Scene;
-use windfall_core::scene::{Tree, TreeKind};
+use windfall_core::scene::{Exposure, Tree, TreeKind};
 use windfall_core::tree::forest::Seedling;
 use windfall_core::tree::{Attachment, Bearing, Forest, LeafFacts, Segment, Skeleton};
 use windfall_wgpu::BranchColumns;
 
 use super::tests::{Bench, SIZE, bench_with, differing};
-use super::upload;
+use super::{upload, with_shader_edit};
 use crate::trees::Stand;
 
 /// Length of a piece of the trunk in metres.
@@ -182,4 +182,40 @@ fn berries_are_red_and_ride_their_twigs() {
     assert!(rest.len() > 3, "{} red pixels", rest.len());
     let mean = |columns: &[u32]| f64::from(columns.iter().sum::<u32>()) / columns.len() as f64;
     assert!(mean(&bent) > mean(&rest) + 2.0, "moved to the right: {} and {}", mean(&rest), mean(&bent));
+}
+
+/// A trunk that bears a roof of limbs, 2.5 m around it.
+fn roofed() -> Skeleton {
+    let mut skeleton = skeleton();
+    skeleton.segments.truncate(usize::from(PIECES));
+    let (top, limb) = (PIECE_M * f32::from(PIECES), skeleton.segments[2].clone());
+    skeleton.segments.extend((0..24u8).map(|number| {
+        let aside = Quat::from_rotation_y(std::f32::consts::TAU / 24.0 * f32::from(number)) * Vec3::X;
+        let start_m = Vec3::Y * top;
+        Segment { parent: Some(4), start_m, end_m: start_m + 2.5 * aside, order: 1, ..limb.clone() }
+    }));
+    skeleton
+}
+
+#[test]
+fn crowns_hide_the_sky_from_what_is_below_them() {
+    // Light of the sky alone: how much of it the ground around the foot gives back, and the ground at the edge.
+    let grounds = |skeleton: Skeleton| {
+        let mut bench = bench_with(|scene| {
+            scene.view.sun.elevation_deg = -3.0;
+            scene.view.lens.exposure = Exposure::Manual { ev100: 4.0 };
+            stand_of(scene, skeleton, 1)
+        });
+        let picture = bench.draw_trees(None);
+        let mean = |left: u32| {
+            let pixels = (left..left + 12).flat_map(|x| (72..78).map(move |y| (x, y)));
+            let light = |byte: u8| (f64::from(byte) / 255.0).powf(2.2);
+            pixels.map(|(x, y)| light(picture.get_pixel(x, y).0[1])).sum::<f64>()
+        };
+        [mean(85), mean(0)]
+    };
+    let [below, beside] = grounds(roofed());
+    let [open, far] = with_shader_edit("if !HAS_TREES {", "if HAS_TREES {", || grounds(roofed()));
+    assert!(below < 0.9 * open, "below: {below} with the roof, {open} without");
+    assert!((beside / far - 1.0).abs() < 0.02, "beside it the sky is open: {beside} and {far}");
 }

@@ -101,8 +101,8 @@ impl Renderer {
         let timer = self.timer.as_ref().filter(|_| tile.left == 0);
         let writes = |pass| timer.map(|timer| timer.render_writes(pass));
         let shadow_writes = timer.map(|timer| timer.split_writes(0));
-        let cull_for = |encoder: &mut wgpu::CommandEncoder, cascade| {
-            self.cull_leaves(encoder, leaves, LeafView::Shadow(cascade));
+        let cull_for = |encoder: &mut wgpu::CommandEncoder, map| {
+            self.cull_leaves(encoder, leaves, LeafView::Shadow(map));
         };
         self.shadow_pass.draw(encoder, shadow_writes, &self.frame, &casters, &cull_for);
         if self.water_pass.is_some() {
@@ -160,11 +160,11 @@ impl Renderer {
         if let Some(water) = &self.water_pass {
             self.cull.write(&self.queue, LeafView::Mirror, &seen(&water.mirrored(*uniform)));
         }
-        for (cascade, clip) in uniform.shadows.into_iter().enumerate() {
+        for (map, clip) in uniform.shadows.into_iter().enumerate() {
             // The projection is parallel: half a map's edge is one in clip space.
             let scale = Vec3::new(clip[0][0], clip[1][0], clip[2][0]).length();
-            let seen = ViewUniform::parallel(clip, 0.5 * self.shadow_pass.size_px as f32 * scale);
-            self.cull.write(&self.queue, LeafView::Shadow(cascade), &seen);
+            let seen = ViewUniform::parallel(clip, 0.5 * self.shadow_pass.size_px as f32 * scale, map);
+            self.cull.write(&self.queue, LeafView::Shadow(map), &seen);
         }
     }
 

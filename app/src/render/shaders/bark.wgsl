@@ -94,12 +94,15 @@ fn fragment(in: Varyings) -> @location(0) vec4<f32> {
     let lit = clamp((facing + 0.08) / 1.08, 0.0, 1.0) * mix(0.6, 1.0, deep);
     // Grass hides the sky from the foot.
     let foot = mix(0.45, 1.0, smoothstep(-0.02, 0.35, height));
+    // Beside a trunk the sky is open to the sides; what grows out of it above is none of its shade.
+    let around = in.world + smooth_normal * (in.limb.x + 0.3);
+    let open = min(in.limb.z, mix(0.5, 1.0, open_above(around, SKY_TAPS))) * deep * foot;
     var color = sun * albedo * lit;
-    color += albedo * ambient_light(normal) * in.limb.z * deep * foot;
+    color += albedo * ambient_light(normal) * open;
     let half_way = normalize(light + to_eye);
     color += sun * 0.012 * pow(max(dot(normal, half_way), 0.0), 12.0) * max(facing, 0.0);
     // Bark is dull, but at a grazing view it mirrors the sky.
     let fresnel = 0.03 + 0.35 * pow(1.0 - clamp(dot(normal, to_eye), 0.0, 1.0), 5.0);
-    color += sky_reflection(reflect(-to_eye, normal), 0.8) * fresnel * in.limb.z * deep * foot;
+    color += sky_reflection(reflect(-to_eye, normal), 0.8) * fresnel * open;
     return vec4(haze(color, in.world), in.limb.y);
 }

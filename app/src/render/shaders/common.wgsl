@@ -4,8 +4,8 @@
 
 struct Frame {
     view_projection: mat4x4<f32>,
-    // World to the sun's clip space, for the slices of the view from near to far.
-    shadows: array<mat4x4<f32>, 3>,
+    // World to the sun's clip space, for the slices of the view from near to far; then to that of a look from above.
+    shadows: array<mat4x4<f32>, 4>,
     // Camera position; time in seconds.
     eye: vec4<f32>,
     // Camera axes, scaled so that forward + x * right + y * up is a ray through place (x, y) of the whole picture's clip
@@ -56,6 +56,8 @@ struct Land {
 
 // Where the land is level, shaders are built without hills: software adapters take both ways through a condition.
 override IS_HILLY: bool = true;
+// Where no tree stands, nothing hides the sky.
+override HAS_TREES: bool = true;
 
 // The hills at a place, as the simulation has them.
 fn hills_at(at: vec2<f32>) -> vec4<f32> {

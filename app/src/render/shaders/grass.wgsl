@@ -73,7 +73,8 @@ fn vertex(
     // Roots are dark, but far away they are as bright as the ground that stands for grass there.
     let depth = mix(mix(0.30, 0.95, smoothstep(7.0, 20.0, distance_m)), 1.0, rise);
     var color = frame.sun_color.rgb * sun * (albedo * reflected * 0.72 + glow) * depth;
-    color += albedo * ambient_light(vec3(0.0, 1.0, 0.0)) * mix(0.35, 1.0, rise) * sky_openness(foot);
+    color += albedo * ambient_light(vec3(0.0, 1.0, 0.0)) * mix(0.35, 1.0, rise)
+        * min(sky_openness(foot), mix(0.35, 1.0, open_above(foot, SKY_TAPS)));
     // A sheen of the sky on the bend.
     color += frame.sky_horizon.rgb * 0.02 * rise * sun;
 

@@ -48,8 +48,11 @@ fn vertex(
     out.layer = record.look.x & LAYER_MASK;
     out.attitude = point.attitude;
     let blue_open = unpack2x16float(record.look.z);
-    out.tint_open = vec4(unpack2x16float(record.look.y), blue_open);
     let outward = unpack4x8snorm(record.look.w);
+    // Of leaves on twigs their place in the crown tells it.
+    let is_free = dot(outward.xyz, outward.xyz) == 0.0;
+    let open = mix(0.35, 1.0, open_above(point.world, select(0u, SKY_TAPS, is_free)));
+    out.tint_open = vec4(unpack2x16float(record.look.y), blue_open * vec2(1.0, open));
     out.outward_mirror = vec4(outward.xyz, point.mirror);
     out.settled = outward.w;
     out.sunlit = tree_shade(point.world).r;

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// Leaves as the sun sees them.
+// Leaves as the sun sees them, or who looks from above.
 
-// Which of the shadow maps this draws into.
-override CASCADE: u32 = 0u;
+// Which of the maps this draws into.
+override MAP: u32 = 0u;
 
 struct Varyings {
     @builtin(position) clip: vec4<f32>,
@@ -20,7 +20,7 @@ fn vertex(
     let record = records[first_level.x + instance];
     let point = blade_point(record, first_level.y, vertex);
     var out: Varyings;
-    out.clip = frame.shadows[CASCADE] * vec4(point.world, 1.0);
+    out.clip = frame.shadows[MAP] * vec4(point.world, 1.0);
     out.uv = point.uv;
     out.layer = record.look.x & LAYER_MASK;
     return out;

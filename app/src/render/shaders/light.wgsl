@@ -72,6 +72,31 @@ fn sky_openness(position: vec3<f32>) -> f32 {
     return 1.0 - 0.75 * textureSampleLevel(shade_map, clamp_sampler, uv, 0.0).b;
 }
 
+// How far around a place the sky is looked for, in metres, and how often.
+const SKY_REACH_M: f32 = 2.4;
+const SKY_TAPS: u32 = 6u;
+
+// Part of the sky overhead that the scene's own trees and their leaves leave open, by looks straight up from around a place,
+// as far out as leaves of a middling crown are above it; `taps` of 0 see all of it.
+fn open_above(position: vec3<f32>, taps: u32) -> f32 {
+    if !HAS_TREES {
+        return 1.0;
+    }
+    let clip = (frame.shadows[3] * vec4(position + vec3(0.0, 0.12, 0.0), 1.0)).xyz;
+    let own = fract(dot(position, vec3(127.1, 311.7, 74.7)));
+    let scale = SKY_REACH_M / (frame.texels[3] * f32(textureDimensions(shadow_maps).x));
+    var sum = 0.0;
+    for (var tap = 0u; tap < taps; tap++) {
+        let reach = scale * sqrt((f32(tap) + 0.5) / f32(taps));
+        let angle = 2.3999632 * f32(tap) + 6.2831853 * own;
+        let uv = clip.xy * vec2(0.5, -0.5) + 0.5 + reach * vec2(cos(angle), sin(angle));
+        sum += textureSampleCompareLevel(shadow_maps, shadow_sampler, uv, 3u, clip.z);
+    }
+    let beyond = select(0.0, 1.0, taps == 0u || clip.z > 1.0);
+    let far = max(smoothstep(0.8, 0.98, max(abs(clip.x), abs(clip.y))), beyond);
+    return mix(sum / max(f32(taps), 1.0), 1.0, far);
+}
+
 struct Ambient {
     front: vec3<f32>,
     back: vec3<f32>,
