@@ -3,6 +3,7 @@
 //! Draws the trees of the park, and once per sun the map of their shade.
 
 use glam::Vec3;
+use rayon::iter::{IntoParallelIterator, ParallelIterator};
 
 use super::frame::FrameGroup;
 use super::light_group::LightGroup;
@@ -54,7 +55,8 @@ impl Trees {
                 sampler_entry(1, wgpu::SamplerBindingType::Filtering),
             ],
         });
-        let sprites: Vec<_> = (0..SPRITE_COUNT).map(|index| paint_tree(index, leaves)).collect();
+        let sprites: Vec<_> =
+            (0..SPRITE_COUNT).into_par_iter().map(|index| paint_tree(index, leaves)).collect();
         let images: Vec<Vec<&[u8]>> = sprites
             .iter()
             .flat_map(|sprite| [&sprite.surface, &sprite.relief])

@@ -188,11 +188,11 @@ fn berries_are_red_and_ride_their_twigs() {
 fn roofed() -> Skeleton {
     let mut skeleton = skeleton();
     skeleton.segments.truncate(usize::from(PIECES));
-    let (top, limb) = (PIECE_M * f32::from(PIECES), skeleton.segments[2].clone());
+    let (top, limb) = (PIECE_M * f32::from(PIECES), skeleton.segments[2]);
     skeleton.segments.extend((0..24u8).map(|number| {
         let aside = Quat::from_rotation_y(std::f32::consts::TAU / 24.0 * f32::from(number)) * Vec3::X;
         let start_m = Vec3::Y * top;
-        Segment { parent: Some(4), start_m, end_m: start_m + 2.5 * aside, order: 1, ..limb.clone() }
+        Segment { parent: Some(4), start_m, end_m: start_m + 2.5 * aside, order: 1, ..limb }
     }));
     skeleton
 }

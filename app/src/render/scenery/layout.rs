@@ -120,7 +120,7 @@ pub(crate) fn plant(scene: &Scene, land: &Land, center: Vec3, view: Vec2) -> Par
                 random.word() % (SPRITE_COUNT - bushes)
             };
             let mirror = if random.word() & 1 == 0 { 1.0 } else { -1.0 };
-            let width = random.range(0.85, 1.1) * mirror * if bush { 1.6 } else { 1.0 };
+            let width = random.range(0.85, 1.1) * mirror;
             let hue = (0.1 + 0.85 * random.unit()) * season;
             let brightness = random.range(0.8, 1.15);
             let foot_m = Vec3 { y: land.ground_m(foot.x, foot.z), ..foot };
@@ -155,8 +155,8 @@ fn crown_tree(scene: &Scene, land: &Land, source: &Source, random: &mut Random) 
     Some(TreeInstance {
         foot_m,
         height_m,
-        // Painted crowns are about 0.75 of their picture wide.
-        width: (2.0 * radius_m / 0.72 / height_m).clamp(0.6, 1.5),
+        // Painted crowns are about 0.65 of their picture wide.
+        width: (2.0 * radius_m / 0.65 / height_m).clamp(0.6, 1.5),
         sprite: random.word() % (SPRITE_COUNT - SPRITE_COUNT / 4),
         hue: (0.5 * (first + last)).clamp(0.0, 1.0) * 0.9,
         brightness: random.range(0.9, 1.1),

@@ -7,10 +7,12 @@ mod layout;
 mod litter;
 mod noise;
 mod random;
+mod tree_canvas;
 mod tree_sprite;
 
 pub(crate) use bark_texture::{BARK_SIZE, paint_bark};
 pub(super) use layout::{PARK_RADIUS_M, Park, TreeInstance, plant};
 pub(super) use litter::{Shedding, scatter};
 pub(super) use noise::{NOISE_SIZE, noise_mips};
-pub(super) use tree_sprite::{SPRITE_COUNT, SPRITE_SIZE, paint_tree};
+pub(super) use tree_canvas::SPRITE_SIZE;
+pub(super) use tree_sprite::{SPRITE_COUNT, paint_tree};
