@@ -76,7 +76,7 @@ impl Painter {
         }
         let crown = Crown::of(skeleton, Vec3::ZERO);
         // Leaves stand out beyond the wood.
-        Self { random, scale: 0.96 / size.max_element(), crown, hues, dabs: Vec::new() }
+        Self { random, scale: 0.92 / size.max_element(), crown, hues, dabs: Vec::new() }
     }
 
     /// How far out of the crown's middle a place lies, 1 at its surface; and the direction.
@@ -192,6 +192,8 @@ mod tests {
             let middle = columns.iter().sum::<usize>() as f32 / columns.len().max(1) as f32;
             assert!((0.4..0.6).contains(&(middle / EDGE)), "tree {index} stands at {middle}");
             let highest = texels.iter().map(|(_, y, _)| *y).min().unwrap_or(SPRITE_SIZE);
+            let is_cut = texels.iter().any(|(x, ..)| *x == 0 || *x == SPRITE_SIZE - 1);
+            assert!(!is_cut && highest > 0, "tree {index} lies within its picture");
             assert!(highest < SPRITE_SIZE / 5, "tree {index} begins {highest} down");
         }
     }
