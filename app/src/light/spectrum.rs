@@ -12,12 +12,12 @@ pub(super) const BANDS: usize = 8;
 pub(super) type Spectrum = [f32; BANDS];
 /// Middles of the bands in nm.
 pub(super) const WAVELENGTHS_NM: Spectrum = [400.0, 440.0, 480.0, 520.0, 560.0, 600.0, 640.0, 680.0];
-/// Irradiance of the sun outside the atmosphere in W/m²/nm, means over the bands after the ASTM G173 spectrum;
-/// approximate, not yet compared with the table.
-pub(super) const SUN: Spectrum = [1.489, 1.853, 1.971, 1.869, 1.838, 1.745, 1.598, 1.479];
-/// Absorption cross section of ozone in 1e-25 m², means over the bands after Serdyuchenko et al. (2014);
-/// approximate, not yet compared with the table.
-pub(super) const OZONE: Spectrum = [0.0196, 0.171, 0.773, 2.195, 4.045, 4.52, 2.73, 1.23];
+/// Irradiance of the sun outside the atmosphere in W/m²/nm: means over the bands of the ASTM G173-03 extraterrestrial
+/// spectrum, from its means over 10 nm.
+pub(super) const SUN: Spectrum = [1.404, 1.812, 1.984, 1.877, 1.843, 1.762, 1.614, 1.497];
+/// Absorption cross section of ozone in 1e-25 m²: means over the bands of Serdyuchenko et al. (2014) at 233 K, from means
+/// over 10 nm.
+pub(super) const OZONE: Spectrum = [0.0131, 0.132, 0.634, 1.994, 3.882, 4.606, 2.964, 1.369];
 
 /// Width of a band in nm.
 const BAND_NM: f32 = 40.0;
