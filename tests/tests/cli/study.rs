@@ -7,7 +7,7 @@ use std::path::Path;
 
 use tempfile::TempDir;
 
-use crate::common_cli::{assert_refused, contents, file, folder, windfall};
+use crate::common_cli::{assert_refused, contents, file, folder, interrupted, windfall};
 
 /// One species, dropped from 2 m.
 const SCENE: &str = "(
@@ -110,6 +110,36 @@ fn finished_points_are_kept_and_other_studies_refused() {
         &["plain", "not a folder"],
     );
     assert_refused(&there, &["study", "small.ron", "--vary", "seed=1", "--out", "plain/x"], &["plain/x"]);
+}
+
+#[test]
+fn an_interrupted_study_keeps_what_is_finished_and_goes_on() {
+    let there = folder();
+    file(&there, "small.ron", SCENE);
+    let study = |out| {
+        let options =
+            ["--backend", "cpu", "--threads", "1", "--vary", "wind.speed=0..4/12", "--drops", "400"];
+        [&["study", "small.ron", "--out", out], &options[..]].concat()
+    };
+    let first = there.path().join("out/point_0001");
+    let said = interrupted(&there, &study("out"), || first.is_dir());
+    let points = || {
+        let names = fs::read_dir(there.path().join("out")).expect("a folder");
+        let names = names.map(|entry| entry.expect("an entry").file_name().to_string_lossy().into_owned());
+        names.filter(|name| name != "study.json").collect::<Vec<_>>()
+    };
+    let kept = points();
+    assert!((1..12).contains(&kept.len()), "some of the points are finished: {kept:?}");
+    assert!(kept.iter().all(|name| name.starts_with("point_")), "and nothing else is there: {kept:?}");
+    let wanted = format!("error: interrupted; {} of 12 points are kept in out", kept.len());
+    assert_eq!(said.trim(), wanted, "it says so");
+    windfall(&there, &study("out")).text();
+    windfall(&there, &study("whole")).text();
+    let [gone_on, whole] = ["out", "whole"].map(|name| contents(&there.path().join(name)));
+    assert_eq!(gone_on.len(), whole.len(), "as many files");
+    for ((path, a), (_, b)) in gone_on.iter().zip(&whole) {
+        assert!(a == b, "{} is that of a study that went through", path.display());
+    }
 }
 
 #[test]

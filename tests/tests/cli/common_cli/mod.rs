@@ -100,14 +100,22 @@ fn assert_refusal(
 /// the folder as it was before.
 pub(crate) fn assert_interrupted(folder: &TempDir, arguments: &[&str]) {
     let before = contents(folder.path());
+    // Once something new lies there, it is at work.
+    let is_at_work = || std::fs::read_dir(folder.path()).expect("a folder").count() > before.len();
+    let said = interrupted(folder, arguments, is_at_work);
+    assert_eq!(said.trim(), "error: interrupted; nothing was written", "{arguments:?}");
+    assert_eq!(contents(folder.path()), before, "{arguments:?}: nothing is left");
+}
+
+/// What the program says when it is interrupted half a second after `is_at_work`; it ends with exit code 2.
+pub(crate) fn interrupted(folder: &TempDir, arguments: &[&str], is_at_work: impl Fn() -> bool) -> String {
     let child = command(folder, arguments)
         .stderr(Stdio::piped())
         .stdout(Stdio::piped())
         .spawn()
         .expect("the program starts");
-    // Once something new lies there, it is at work.
     let began = Instant::now();
-    while std::fs::read_dir(folder.path()).expect("a folder").count() == before.len() {
+    while !is_at_work() {
         assert!(began.elapsed() < Duration::from_secs(60), "{arguments:?}: it does not begin");
         std::thread::sleep(Duration::from_millis(10));
     }
@@ -117,8 +125,7 @@ pub(crate) fn assert_interrupted(folder: &TempDir, arguments: &[&str]) {
     let output = child.wait_with_output().expect("it ends");
     let stderr = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(2), "{arguments:?}: {stderr}");
-    assert_eq!(stderr.trim(), "error: interrupted; nothing was written", "{arguments:?}");
-    assert_eq!(contents(folder.path()), before, "{arguments:?}: nothing is left");
+    stderr.into_owned()
 }
 
 /// Paths and bytes of everything in a folder.
