@@ -5,8 +5,6 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use glam::{Quat, Vec3};
-use image::RgbaImage;
 use windfall_core::Scene;
 use windfall_core::leaf::LeafState;
 use windfall_core::leaf::record::{HALF_MASK, VARIANT_MASK, VARIANT_SHIFT};
@@ -14,38 +12,12 @@ use windfall_core::scene::Species;
 use windfall_texgen::{Atlas, Layer};
 
 use super::FrameLeaf;
-use crate::render::{build, dryness, shaped, turned};
-use crate::trees::{Stand, StandingTree, TWIG_SIZE, cluster};
+use super::leaf_mesh::{LeafMesh, LeafPicture, clustered, leaf_mesh, middle};
+use crate::render::turned;
+use crate::trees::{Stand, StandingTree, cluster};
 
 /// Clusters of each kind of leaf to choose from.
 const CLUSTERS: u32 = 3;
-
-/// A leaf of nominal size in the leaf's frame, or a cluster of them: blade in the x-z plane, upper side +y, tip towards +z,
-/// its place at the origin.
-#[derive(Clone, Debug, Default)]
-pub(super) struct LeafMesh {
-    /// Name of letters, digits and underscores that no other has.
-    pub(super) name: String,
-    /// Corners in metres.
-    pub(super) positions_m: Vec<[f32; 3]>,
-    /// Unit normals of the upper side.
-    pub(super) normals: Vec<[f32; 3]>,
-    /// Places on the picture, from its upper left corner.
-    pub(super) texcoords: Vec<[f32; 2]>,
-    /// Corners of the triangles, counter-clockwise as seen from above.
-    pub(super) triangles: Vec<[u32; 3]>,
-    /// Number of its picture.
-    pub(super) picture: usize,
-}
-
-/// The picture of a kind of leaf.
-#[derive(Clone, Debug)]
-pub(super) struct LeafPicture {
-    /// Name of letters, digits and underscores that no other has.
-    pub(super) name: String,
-    /// Colour and coverage.
-    pub(super) image: RgbaImage,
-}
 
 /// All kinds of leaves of a scene.
 #[derive(Debug)]
@@ -76,30 +48,24 @@ struct Crown {
 impl Foliage {
     /// The kinds of leaves that `atlas` has for the scene.
     pub(super) fn new(scene: &Scene, stand: &Stand, atlas: &Atlas) -> Self {
-        let variants = (atlas.variants as usize).max(1);
-        let kinds = scene.species.iter().enumerate().zip(atlas.layers.chunks(variants));
         let mut foliage = Self {
             meshes: Vec::new(),
             pictures: Vec::new(),
-            variants,
+            variants: (atlas.variants as usize).max(1),
             clusters: BTreeMap::new(),
             order: Vec::new(),
             trees: Vec::new(),
         };
-        for ((number, species), layers) in kinds.clone() {
-            let mut order: Vec<usize> = (0..layers.len()).collect();
-            order.sort_by(|&a, &b| turned(&layers[a]).total_cmp(&turned(&layers[b])));
-            foliage.order.push(order);
-            for (at, layer) in layers.iter().enumerate() {
-                let name = format!("{number}_{}_{at}", plain(&species.name));
-                // Near enough for a close view, and coarse enough for a hundred thousand.
-                foliage.meshes.push(LeafMesh {
-                    name: format!("leaf_{name}"),
-                    picture: foliage.pictures.len(),
-                    ..mesh(species, layer, layer.form.levels.len() / 2)
-                });
-                let image = layer.mips.first().cloned().unwrap_or_default();
-                foliage.pictures.push(LeafPicture { name: format!("leaf_{name}"), image });
+        let kinds: Vec<_> =
+            scene.species.iter().zip(atlas.layers.chunks(foliage.variants)).enumerate().collect();
+        for (number, (species, layers)) in &kinds {
+            foliage.add_leaves(*number, species, layers);
+        }
+        for (number, (species, layers)) in &kinds {
+            let is_own = |tree: &&StandingTree| tree.species.is_some_and(|own| own as usize == *number);
+            let counts: BTreeSet<u32> = stand.trees.iter().filter(is_own).map(|tree| tree.cluster).collect();
+            for count in counts {
+                foliage.add_clusters(*number, species, layers, count);
             }
         }
         let mut next = 0;
@@ -107,25 +73,37 @@ impl Foliage {
             next += tree.leaves;
             Crown { end: next, turned: [tree.look.turned, tree.look.turned_range], cluster: tree.cluster }
         }));
-        for ((number, species), layers) in kinds {
-            let is_own = |tree: &&StandingTree| tree.species.is_some_and(|own| own as usize == number);
-            let counts: BTreeSet<u32> = stand.trees.iter().filter(is_own).map(|tree| tree.cluster).collect();
-            for count in counts {
-                foliage.clusters.insert((number, count), foliage.meshes.len());
-                for (at, layer) in layers.iter().enumerate() {
-                    let picture = number * variants + at;
-                    let leaf = mesh(species, layer, 0);
-                    let name = &foliage.pictures[picture].name;
-                    let all = (0..CLUSTERS).map(|other| LeafMesh {
-                        name: format!("{name}_cluster_{count}_{other}"),
-                        picture,
-                        ..clustered(&leaf, middle(species), species.size_m, cluster(count, other))
-                    });
-                    foliage.meshes.extend(all);
-                }
+        foliage
+    }
+
+    /// Adds the leaves of species `number`.
+    fn add_leaves(&mut self, number: usize, species: &Species, layers: &[Layer]) {
+        let mut order: Vec<usize> = (0..layers.len()).collect();
+        order.sort_by(|&a, &b| turned(&layers[a]).total_cmp(&turned(&layers[b])));
+        self.order.push(order);
+        for (at, layer) in layers.iter().enumerate() {
+            let name = format!("leaf_{number}_{}_{at}", plain(&species.name));
+            let picture = self.pictures.len();
+            // Near enough for a close view, and coarse enough for a hundred thousand.
+            let mesh = leaf_mesh(species, layer, layer.form.levels.len() / 2);
+            self.meshes.push(LeafMesh { name: name.clone(), picture, ..mesh });
+            let image = layer.mips.first().cloned().unwrap_or_default();
+            self.pictures.push(LeafPicture { name, image });
+        }
+    }
+
+    /// Adds the clusters of `count` leaves of species `number`.
+    fn add_clusters(&mut self, number: usize, species: &Species, layers: &[Layer], count: u32) {
+        self.clusters.insert((number, count), self.meshes.len());
+        for (at, layer) in layers.iter().enumerate() {
+            let picture = number * self.variants + at;
+            let leaf = leaf_mesh(species, layer, 0);
+            for other in 0..CLUSTERS {
+                let name = format!("{}_cluster_{count}_{other}", self.pictures[picture].name);
+                let mesh = clustered(&leaf, middle(species), species.size_m, cluster(count, other));
+                self.meshes.push(LeafMesh { name, picture, ..mesh });
             }
         }
-        foliage
     }
 
     /// Number of the mesh that shows a leaf: on its twig the cluster that it stands for.
@@ -165,56 +143,6 @@ impl Foliage {
     }
 }
 
-/// Middle of a species' blade from its place, for a leaf of nominal size in metres.
-fn middle(species: &Species) -> Vec3 {
-    let [size_m, right, ahead, _] = build(species);
-    Vec3::new(right * size_m, 0.0, ahead * size_m)
-}
-
-/// The mesh of a picture for a species at a level of detail, curled as far as its leaf has dried.
-fn mesh(species: &Species, layer: &Layer, level: usize) -> LeafMesh {
-    let mut mesh = LeafMesh::default();
-    let Some(level) = layer.form.levels.get(level) else { return mesh };
-    // pi / 4 d^2 = area fraction * edge^2
-    let edge_m = species.size_m * (std::f32::consts::FRAC_PI_4 / layer.area_fraction).sqrt();
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a stage from 0 to 5")]
-    let stage = dryness(layer).max(0.0).round() as usize;
-    let (places, normals) = shaped(layer, level, stage);
-    let in_frame = |v: Vec3| Vec3::new(-v.x, v.z, -v.y);
-    let middle = middle(species);
-    mesh.positions_m.extend(places.iter().map(|place| (in_frame(*place * edge_m) + middle).to_array()));
-    mesh.normals.extend(normals.iter().map(|normal| in_frame(*normal).to_array()));
-    mesh.texcoords.extend(&level.positions);
-    mesh.triangles.extend(level.triangles.iter().map(|&[a, b, c]| {
-        let [p, q, r] = [a, b, c].map(|corner| glam::Vec2::from(level.positions[corner as usize]));
-        // With y down, what is clockwise in numbers is counter-clockwise to the eye.
-        if (q - p).perp_dot(r - p) < 0.0 { [a, b, c] } else { [a, c, b] }
-    }));
-    mesh
-}
-
-/// A leaf many times over, each turned about its middle.
-fn clustered(
-    leaf: &LeafMesh,
-    middle_m: Vec3,
-    size_m: f32,
-    places: impl Iterator<Item = (Vec3, Quat)>,
-) -> LeafMesh {
-    let mut mesh = LeafMesh::default();
-    for (place, turn) in places {
-        let first = u32::try_from(mesh.positions_m.len()).unwrap_or(u32::MAX);
-        let at_m = middle_m + place * size_m;
-        mesh.positions_m.extend(leaf.positions_m.iter().map(|corner| {
-            let moved = at_m + turn * (Vec3::from(*corner) - middle_m);
-            (TWIG_SIZE * moved).to_array()
-        }));
-        mesh.normals.extend(leaf.normals.iter().map(|normal| (turn * Vec3::from(*normal)).to_array()));
-        mesh.texcoords.extend(&leaf.texcoords);
-        mesh.triangles.extend(leaf.triangles.iter().map(|corners| corners.map(|corner| first + corner)));
-    }
-    mesh
-}
-
 /// A name as every format takes it: letters, digits and underscores.
 pub(super) fn plain(name: &str) -> String {
     name.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '_' }).collect()
@@ -222,10 +150,12 @@ pub(super) fn plain(name: &str) -> String {
 
 #[cfg(test)]
 mod tests {
+    use glam::Vec3;
     use windfall_core::World;
     use windfall_core::scene::{Foliage as Twigs, LeafShape, Tree, TreeForm, TreeKind, TreePreset};
 
     use super::*;
+    use crate::trees::TWIG_SIZE;
 
     /// A scene of one species with a tree that bears it, and its leaves.
     fn foliage(shape: LeafShape) -> (Scene, Stand, Foliage) {

@@ -11,6 +11,7 @@ mod format;
 mod frame;
 mod fruit;
 mod gltf;
+mod leaf_mesh;
 mod plain;
 mod ply;
 mod range;

@@ -6,10 +6,11 @@ use std::io;
 use std::path::PathBuf;
 
 use glam::{Mat4, Quat};
-use serde_json::{Value, json};
+use serde_json::json;
 use windfall_core::leaf::LeafState;
 
 use super::file::Document;
+use super::movement::Movement;
 use super::scenery::{Barks, LeafMeshes, add_surfaces, tree_mesh, view};
 use crate::commands::output_file::{OutputFile, write_error};
 use crate::export::foliage::Foliage;
@@ -170,32 +171,6 @@ impl Track {
 fn near(turn: [f32; 4], before: Option<&[f32; 4]>) -> [f32; 4] {
     let is_far = before.is_some_and(|before| Quat::from_array(*before).dot(Quat::from_array(turn)) < 0.0);
     if is_far { turn.map(|part| -part) } else { turn }
-}
-
-/// The channels of the animation.
-#[derive(Debug, Default)]
-struct Movement {
-    /// Accessor of the times of all frames.
-    times: usize,
-    channels: Vec<Value>,
-    samplers: Vec<Value>,
-}
-
-impl Movement {
-    fn add(&mut self, node: usize, path: &str, output: usize) {
-        let times = self.times;
-        self.channel(node, path, json!({ "input": times, "output": output }));
-    }
-
-    fn add_steps(&mut self, node: usize, path: &str, times: usize, output: usize) {
-        self.channel(node, path, json!({ "input": times, "output": output, "interpolation": "STEP" }));
-    }
-
-    fn channel(&mut self, node: usize, path: &str, sampler: Value) {
-        let target = json!({ "node": node, "path": path });
-        self.channels.push(json!({ "sampler": self.samplers.len(), "target": target }));
-        self.samplers.push(sampler);
-    }
 }
 
 /// Adds a leaf that is ever seen: a node, which has a child for each of two meshes if it falls on the way.

@@ -10,7 +10,8 @@ use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
 
 use super::text;
 use crate::commands::output_file::write_error;
-use crate::export::foliage::{Foliage, LeafMesh};
+use crate::export::foliage::Foliage;
+use crate::export::leaf_mesh::LeafMesh;
 use crate::export::plain::Plain;
 
 /// Folder of the pictures beside the layers.
