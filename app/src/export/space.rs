@@ -44,20 +44,24 @@ pub(crate) fn check_space(
     path: &Path,
 ) -> anyhow::Result<Option<String>> {
     let FrameRange { first, last } = frames;
-    let gigabytes = |bytes: u64| bytes as f64 * 1e-9;
     if let Some(free) = estimate.free.filter(|&free| estimate.bytes > free) {
         bail!(
-            "--frames is {first}..{last}, which with {leaves} leaves takes about {:.1} GB; allowed: what fits into the \
-            {:.1} GB that are free where {} will lie",
-            gigabytes(estimate.bytes),
-            gigabytes(free),
+            "--frames is {first}..{last}, which with {leaves} leaves takes about {}; allowed: what fits into the {} that \
+            are free where {} will lie",
+            told(estimate.bytes),
+            told(free),
             path.display()
         );
     }
     let frames = frames.count();
     let is_large = estimate.bytes >= LARGE;
-    Ok(is_large
-        .then(|| format!("about {:.1} GB for {frames} frames of {leaves} leaves", gigabytes(estimate.bytes))))
+    Ok(is_large.then(|| format!("about {} for {frames} frames of {leaves} leaves", told(estimate.bytes))))
+}
+
+/// Bytes as people say them.
+fn told(bytes: u64) -> String {
+    let (unit, name) = if bytes < LARGE { (1e6, "MB") } else { (1e9, "GB") };
+    format!("{:.1} {name}", bytes as f64 / unit)
 }
 
 /// Bytes free for this user on the disk where `path` will lie.
@@ -91,6 +95,9 @@ mod tests {
             "{error}"
         );
         assert!(error.contains("3.0 GB that are free") && error.contains("a.csv"), "{error}");
+        let few = Estimate { bytes: 370_000, free: Some(200_000) };
+        let error = check_space(few, frames, 2, path).expect_err("too much").to_string();
+        assert!(error.contains("0.4 MB") && error.contains("0.2 MB that are free"), "{error}");
         estimate.free = Some(estimate.bytes);
         let note = check_space(estimate, frames, 10_000, path).expect("just fits").expect("much");
         assert!(note.contains("17.0 GB for 10000 frames of 10000 leaves"), "{note}");

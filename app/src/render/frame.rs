@@ -2,7 +2,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Bind group 0: the uniform block of the frame, and the land.
 
+use glam::Vec3;
+
 use super::environment::FrameUniform;
+use super::hill_shade::{shade_texture, write_shade};
 use super::land_texture::{LandUniform, land_texture};
 use super::pipeline::{texture_entry, uniform_entry};
 use super::upload;
@@ -16,6 +19,7 @@ pub(super) struct FrameGroup {
     buffer: wgpu::Buffer,
     shape: wgpu::Buffer,
     hills: wgpu::TextureView,
+    hill_shade: wgpu::TextureView,
     /// Whether the land is not level.
     pub(super) is_hilly: bool,
     /// Whether the scene has trees of its own.
@@ -31,26 +35,28 @@ impl FrameGroup {
                 uniform_entry(0),
                 uniform_entry(1),
                 texture_entry(2, hills, wgpu::TextureViewDimension::D2),
+                texture_entry(3, hills, wgpu::TextureViewDimension::D2),
             ],
         });
         let shape = LandUniform::of(land);
         let shape =
             upload::buffer(device, queue, "land", wgpu::BufferUsages::UNIFORM, bytemuck::bytes_of(&shape));
-        let hills = land_texture(device, queue, land);
-        Self::bind(device, layout, shape, hills, [land.hills().is_some(), has_trees])
+        let textures = [land_texture(device, queue, land), shade_texture(device, land)];
+        Self::bind(device, layout, shape, textures, [land.hills().is_some(), has_trees])
     }
 
     /// Another frame on the same land.
     pub(super) fn another(&self, device: &wgpu::Device) -> Self {
-        let Self { layout, shape, hills, .. } = self;
-        Self::bind(device, layout.clone(), shape.clone(), hills.clone(), [self.is_hilly, self.has_trees])
+        let Self { layout, shape, hills, hill_shade, .. } = self;
+        let textures = [hills.clone(), hill_shade.clone()];
+        Self::bind(device, layout.clone(), shape.clone(), textures, [self.is_hilly, self.has_trees])
     }
 
     fn bind(
         device: &wgpu::Device,
         layout: wgpu::BindGroupLayout,
         shape: wgpu::Buffer,
-        hills: wgpu::TextureView,
+        [hills, hill_shade]: [wgpu::TextureView; 2],
         [is_hilly, has_trees]: [bool; 2],
     ) -> Self {
         let buffer = device.create_buffer(&wgpu::BufferDescriptor {
@@ -66,9 +72,18 @@ impl FrameGroup {
                 wgpu::BindGroupEntry { binding: 0, resource: buffer.as_entire_binding() },
                 wgpu::BindGroupEntry { binding: 1, resource: shape.as_entire_binding() },
                 wgpu::BindGroupEntry { binding: 2, resource: wgpu::BindingResource::TextureView(&hills) },
+                wgpu::BindGroupEntry {
+                    binding: 3,
+                    resource: wgpu::BindingResource::TextureView(&hill_shade),
+                },
             ],
         });
-        Self { layout, group, buffer, shape, hills, is_hilly, has_trees }
+        Self { layout, group, buffer, shape, hills, hill_shade, is_hilly, has_trees }
+    }
+
+    /// Takes over another sun, by the direction towards it.
+    pub(super) fn set_sun(&self, queue: &wgpu::Queue, land: &Land, sun: Vec3) {
+        write_shade(queue, &self.hill_shade, land, sun);
     }
 
     pub(super) fn write(&self, queue: &wgpu::Queue, frame: &FrameUniform) {

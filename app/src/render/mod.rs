@@ -23,6 +23,7 @@ mod fullscreen;
 mod glare_pass;
 mod grass_pass;
 mod ground_pass;
+mod hill_shade;
 mod land_texture;
 mod landing_count;
 mod landing_pass;

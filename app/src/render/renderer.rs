@@ -125,6 +125,7 @@ impl Renderer {
         let shadow_pass = ShadowPass::new(device, &frame, &kinds, &cull, &branches, shadow_size(size.1));
         let shade_pass = ShadePass::new(device, &frame, &trees);
         let environment = Environment::new(&scene.view, center, Path { lead: level, phase: path_phase })?;
+        frame.set_sun(queue, &land, environment.daylight.sun.direction);
         let light = LightGroup::new(device, queue, &shadow_pass.maps, &shade_pass.map, &environment.daylight);
         let eye_m = camera.eye_m();
         let shedding = shedding(&planted, stand);
@@ -206,7 +207,9 @@ impl Renderer {
     pub fn update_scene_view(&mut self, view: &View) -> Result<(), RenderError> {
         let Environment { park_center, path, .. } = self.environment;
         self.environment = Environment::new(view, park_center, path)?;
-        self.light.set_sky(&self.device, &self.queue, &self.environment.daylight);
+        let daylight = &self.environment.daylight;
+        self.frame.set_sun(&self.queue, &self.land, daylight.sun.direction);
+        self.light.set_sky(&self.device, &self.queue, daylight);
         self.set_lens(view.lens);
         self.shade_is_old = true;
         let drawn = self.trail_pass.as_ref().map_or(0.0, TrailPass::trail_s);

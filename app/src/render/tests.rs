@@ -5,7 +5,7 @@
 
 use image::RgbaImage;
 use windfall_core::Scene;
-use windfall_core::scene::Focus;
+use windfall_core::scene::{Exposure, Focus, Terrain};
 use windfall_texgen::{Atlas, AtlasEntry, AtlasRequest, Shape};
 use windfall_wgpu::{BranchColumns, LeafColumns};
 
@@ -247,4 +247,24 @@ fn focus_blurs_what_is_far_from_it() {
     let stopped_down = sharpness(Some(Focus { distance_m: 8.0, f_number: 64.0 }));
     assert!(2 * near < sharp, "the meadow is blurred: {near} and {sharp}");
     assert!(10 * stopped_down > 9 * sharp, "a small aperture keeps it sharp: {stopped_down} and {sharp}");
+}
+
+#[test]
+fn hills_stand_before_the_sun() {
+    let light = |elevation_deg: f32| {
+        let mut bench = bench(|scene| {
+            scene.ground.terrain =
+                Some(Terrain { edge_m: 64.0, relief_m: 16.0, levels: 6, ..Terrain::default() });
+            scene.view.sun.elevation_deg = elevation_deg;
+            scene.view.lens.exposure = Exposure::Manual { ev100: 13.0 };
+        });
+        let picture = bench.draw(0, 0.0, 0.0);
+        picture.pixels().map(|pixel| f64::from(pixel.0[1])).sum::<f64>()
+    };
+    let open = |elevation_deg| {
+        with_shader_edit("* hill_light(position), shade.g);", ", shade.g);", || light(elevation_deg))
+    };
+    let (low, high) = (light(8.0) / open(8.0), light(80.0) / open(80.0));
+    assert!(low < 0.97, "a low sun throws their shadows over the meadow: {low}");
+    assert!((high - 1.0).abs() < 0.003, "a high one lights all of it: {high}");
 }

@@ -27,13 +27,14 @@ const TREES: [(TreePreset, u32); SPRITE_COUNT as usize] = [
 /// Places of clusters of leaves on a tree, and leaves of each.
 const CLUSTERS: u32 = 3000;
 const LEAVES: u32 = 14;
-/// Diameter of a leaf relative to the picture's edge, and its form as it is seen from any side.
+/// Diameter of a leaf relative to the picture's edge: larger than it is, or crowns would not close.
 const LEAF: f32 = 0.0095;
 /// Length and radii of the finest twigs relative to the picture's edge, and of how many places one has one; skeletons end
 /// before them.
 const TWIG: f32 = 0.045;
 const TWIG_RADII: [f32; 2] = [0.0002, 0.0001];
 const TWIG_EVERY: u32 = 3;
+
 /// Paints tree number `index` with a share of its leaves, 0 to 1.
 pub(crate) fn paint_tree(index: u32, leaves: f32) -> TreeSprite {
     let (preset, number) = TREES[index as usize % TREES.len()];

@@ -53,25 +53,51 @@ struct Land {
 @group(0) @binding(1) var<uniform> land: Land;
 // Of every grid point: height above the origin's in metres, rise along x and z, how much of a hollow (1) or knoll (-1) it is.
 @group(0) @binding(2) var hills: texture_2d<f32>;
+// Of every grid point: height above the origin's up to which hills hide the sun, and how far away they are, in metres.
+@group(0) @binding(3) var hill_shade: texture_2d<f32>;
 
 // Where the land is level, shaders are built without hills: software adapters take both ways through a condition.
 override IS_HILLY: bool = true;
 // Where no tree stands, nothing hides the sky.
 override HAS_TREES: bool = true;
 
+// The grid points around a place, lowest (xy) and highest (zw), and where between them it lies.
+struct Cell {
+    points: vec4<i32>,
+    t: vec2<f32>,
+}
+
+fn cell_of(at: vec2<f32>) -> Cell {
+    let place = at * land.shape.x;
+    let mask = vec2(i32(land.shape.y) - 1);
+    let low = vec2<i32>(floor(place)) & mask;
+    return Cell(vec4(low, (low + 1) & mask), fract(place));
+}
+
 // The hills at a place, as the simulation has them.
 fn hills_at(at: vec2<f32>) -> vec4<f32> {
     if !IS_HILLY || land.shape.x == 0.0 {
         return vec4(0.0);
     }
-    let place = at * land.shape.x;
-    let t = fract(place);
-    let mask = vec2(i32(land.shape.y) - 1);
-    let low = vec2<i32>(floor(place)) & mask;
-    let high = (low + 1) & mask;
-    let near = mix(textureLoad(hills, low, 0), textureLoad(hills, vec2(high.x, low.y), 0), t.x);
-    let far = mix(textureLoad(hills, vec2(low.x, high.y), 0), textureLoad(hills, high, 0), t.x);
-    return mix(near, far, t.y);
+    let cell = cell_of(at);
+    let p = cell.points;
+    let near = mix(textureLoad(hills, p.xy, 0), textureLoad(hills, p.zy, 0), cell.t.x);
+    let far = mix(textureLoad(hills, p.xw, 0), textureLoad(hills, p.zw, 0), cell.t.x);
+    return mix(near, far, cell.t.y);
+}
+
+// Sunlight that the hills let through to a place; the edge of their shadow is as soft as the sun is wide.
+fn hill_light(position: vec3<f32>) -> f32 {
+    if !IS_HILLY || land.shape.x == 0.0 {
+        return 1.0;
+    }
+    let cell = cell_of(position.xz);
+    let p = cell.points;
+    let near = mix(textureLoad(hill_shade, p.xy, 0).xy, textureLoad(hill_shade, p.zy, 0).xy, cell.t.x);
+    let far = mix(textureLoad(hill_shade, p.xw, 0).xy, textureLoad(hill_shade, p.zw, 0).xy, cell.t.x);
+    let shade = mix(near, far, cell.t.y);
+    let soft = 0.02 + 0.0047 * shade.y;
+    return smoothstep(-soft, soft, position.y - land.shape.z - shade.x);
 }
 
 // Height of the ground at a place in metres.

@@ -54,7 +54,7 @@ fn leaf_shadow(position: vec3<f32>) -> f32 {
     return select(1.0, lit, map < 3u);
 }
 
-// Sunlight that the trees let through (r) and litter density (g) where the sun ray through `position` meets the ground.
+// Sunlight that far trees and hills let through (r) and litter density (g) where the sun ray through `position` meets the ground.
 fn tree_shade(position: vec3<f32>) -> vec2<f32> {
     let height = position.y - ground_height(position.xz);
     let down = frame.sun_direction.xz * (height / max(frame.sun_direction.y, 0.02));
@@ -63,7 +63,7 @@ fn tree_shade(position: vec3<f32>) -> vec2<f32> {
     let shade = textureSampleLevel(shade_map, clamp_sampler, uv, 0.0).rg;
     // Trees are as high as they are: far above them the sun is free again.
     let free = max(smoothstep(2.0, 14.0, height), smoothstep(0.9, 1.0, max(abs(offset.x), abs(offset.y))));
-    return vec2(mix(shade.r, 1.0, free), shade.g);
+    return vec2(mix(shade.r, 1.0, free) * hill_light(position), shade.g);
 }
 
 // Part of the sky that crowns leave open above a place on the ground.

@@ -75,7 +75,7 @@ fn fragment(in: Varyings) -> @location(0) vec4<f32> {
     let against = pow(max(dot(-to_eye, light), 0.0), 2.0);
     let saturated = mix(vec3(luminance(leaf)), leaf, 1.4) * vec3(1.15, 0.95, 0.6);
     let through = saturated * (1.0 - surface.b) * against * open * open * (0.25 + 1.1 * lit);
-    var color = frame.sun_color.rgb * (albedo * lit + through);
+    var color = frame.sun_color.rgb * hill_light(in.world) * (albedo * lit + through);
     color += albedo * ambient_light(normal) * (0.25 + 0.75 * open);
     return vec4(color * in.air.a + in.air.rgb, alpha);
 }
