@@ -6,11 +6,11 @@ use glam::Vec3;
 use windfall_core::tree::BarkMesh;
 
 use super::plain::Plain;
-use crate::render::berries;
+use crate::render::{BERRY_COLOR, berries};
 use crate::trees::StandingTree;
 
-/// The mean of ripe and very ripe.
-pub(super) const SKIN: Plain = Plain { name: "berry", color: [0.62, 0.036, 0.021], roughness: 0.25 };
+/// All berries alike.
+pub(super) const SKIN: Plain = Plain { name: "berry", color: BERRY_COLOR, roughness: 0.25 };
 
 /// The berries of a tree at rest where it stands, if it bears any; they have no picture.
 pub(super) fn fruit(tree: &StandingTree) -> Option<BarkMesh> {

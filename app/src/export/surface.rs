@@ -11,9 +11,9 @@ use crate::land::Land;
 
 /// Half an edge of level ground, and of water on it, in metres.
 const REACH_M: f32 = 200.0;
-/// The mean of the meadow that pictures show.
+/// About the mean of the meadow of `grass_color.wgsl`.
 const MEADOW: Plain = Plain { name: "meadow", color: [0.092, 0.124, 0.037], roughness: 0.95 };
-/// Deep pond water.
+/// Deep water of `water.wgsl`.
 const POND: Plain = Plain { name: "pond", color: [0.010, 0.017, 0.011], roughness: 0.03 };
 
 /// A mesh that does not move.

@@ -5,8 +5,8 @@
 use glam::Vec3;
 
 use super::environment::FrameUniform;
-use super::hill_shade::{shade_texture, write_shade};
-use super::land_texture::{LandUniform, land_texture};
+use super::hill_shade::hill_shade;
+use super::land_texture::{LandUniform, grid_texture, land_texture, write_grid};
 use super::pipeline::{texture_entry, uniform_entry};
 use super::upload;
 use crate::land::Land;
@@ -41,7 +41,8 @@ impl FrameGroup {
         let shape = LandUniform::of(land);
         let shape =
             upload::buffer(device, queue, "land", wgpu::BufferUsages::UNIFORM, bytemuck::bytes_of(&shape));
-        let textures = [land_texture(device, queue, land), shade_texture(device, land)];
+        let shade = grid_texture(device, "hill shade", wgpu::TextureFormat::Rg32Float, land);
+        let textures = [land_texture(device, queue, land), shade];
         Self::bind(device, layout, shape, textures, [land.hills().is_some(), has_trees])
     }
 
@@ -81,9 +82,11 @@ impl FrameGroup {
         Self { layout, group, buffer, shape, hills, hill_shade, is_hilly, has_trees }
     }
 
-    /// Takes over another sun, by the direction towards it.
+    /// Takes over another sun, by the direction towards it; level ground has no shade.
     pub(super) fn set_sun(&self, queue: &wgpu::Queue, land: &Land, sun: Vec3) {
-        write_shade(queue, &self.hill_shade, land, sun);
+        if let Some(hills) = land.hills() {
+            write_grid(queue, &self.hill_shade, &hill_shade(hills, sun));
+        }
     }
 
     pub(super) fn write(&self, queue: &wgpu::Queue, frame: &FrameUniform) {

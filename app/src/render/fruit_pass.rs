@@ -18,6 +18,16 @@ const RADIUS_M: f32 = 0.0075;
 const RADIUS_RANGE: f32 = 0.25;
 /// Ripe and very ripe.
 const COLORS: [Vec3; 2] = [Vec3::new(0.72, 0.045, 0.02), Vec3::new(0.42, 0.014, 0.022)];
+/// Their mean over berries, most of which are no more than ripe.
+pub(crate) const BERRY_COLOR: [f32; 3] = {
+    let [ripe, very] = COLORS;
+    [third(ripe.x, very.x), third(ripe.y, very.y), third(ripe.z, very.z)]
+};
+
+/// A third of the way, which the square of a share is on average.
+const fn third(from: f32, to: f32) -> f32 {
+    from + (to - from) / 3.0
+}
 
 /// `Fruit` of `fruit.wgsl`.
 #[repr(C)]

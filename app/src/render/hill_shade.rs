@@ -6,8 +6,6 @@ use glam::{Vec2, Vec3};
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
 use windfall_core::terrain::Hills;
 
-use crate::land::Land;
-
 /// Part of the way from a point that the next look towards the sun goes farther, at least a cell: far ridges need not be met
 /// to the metre.
 const STRIDE: f32 = 1.0 / 16.0;
@@ -37,32 +35,6 @@ pub(super) fn hill_shade(hills: &Hills, sun: Vec3) -> Vec<[f32; 2]> {
         shade
     };
     (0..hills.cells * hills.cells).into_par_iter().map(shade_at).collect()
-}
-
-/// A texture of it; one texel for level ground, which nobody reads.
-pub(super) fn shade_texture(device: &wgpu::Device, land: &Land) -> wgpu::TextureView {
-    let cells = land.hills().map_or(1, |hills| hills.cells);
-    let texture = device.create_texture(&wgpu::TextureDescriptor {
-        label: Some("hill shade"),
-        size: wgpu::Extent3d { width: cells, height: cells, depth_or_array_layers: 1 },
-        mip_level_count: 1,
-        sample_count: 1,
-        dimension: wgpu::TextureDimension::D2,
-        format: wgpu::TextureFormat::Rg32Float,
-        usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
-        view_formats: &[],
-    });
-    texture.create_view(&wgpu::TextureViewDescriptor::default())
-}
-
-/// Fills the texture for a sun; level ground has no shade.
-pub(super) fn write_shade(queue: &wgpu::Queue, shade: &wgpu::TextureView, land: &Land, sun: Vec3) {
-    let Some(hills) = land.hills() else { return };
-    let texels = hill_shade(hills, sun);
-    let texture = shade.texture();
-    let layout =
-        wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(8 * hills.cells), rows_per_image: None };
-    queue.write_texture(texture.as_image_copy(), bytemuck::cast_slice(&texels), layout, texture.size());
 }
 
 #[cfg(test)]

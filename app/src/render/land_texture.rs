@@ -51,22 +51,41 @@ pub(super) fn land_texels(hills: &Hills) -> Vec<[f32; 4]> {
 
 /// The texture of the land; one texel for level ground.
 pub(super) fn land_texture(device: &wgpu::Device, queue: &wgpu::Queue, land: &Land) -> wgpu::TextureView {
-    let (cells, texels) = land.hills().map_or((1, vec![[0.0; 4]]), |hills| (hills.cells, land_texels(hills)));
-    let size = wgpu::Extent3d { width: cells, height: cells, depth_or_array_layers: 1 };
+    let view = grid_texture(device, "hills", wgpu::TextureFormat::Rgba32Float, land);
+    let texels = land.hills().map_or_else(|| vec![[0.0; 4]], land_texels);
+    write_grid(queue, &view, &texels);
+    view
+}
+
+/// A texture with a texel for every grid point of the hills; one texel for level ground.
+pub(super) fn grid_texture(
+    device: &wgpu::Device,
+    label: &str,
+    format: wgpu::TextureFormat,
+    land: &Land,
+) -> wgpu::TextureView {
+    let cells = land.hills().map_or(1, |hills| hills.cells);
     let texture = device.create_texture(&wgpu::TextureDescriptor {
-        label: Some("hills"),
-        size,
+        label: Some(label),
+        size: wgpu::Extent3d { width: cells, height: cells, depth_or_array_layers: 1 },
         mip_level_count: 1,
         sample_count: 1,
         dimension: wgpu::TextureDimension::D2,
-        format: wgpu::TextureFormat::Rgba32Float,
+        format,
         usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
         view_formats: &[],
     });
-    let layout =
-        wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(16 * cells), rows_per_image: None };
-    queue.write_texture(texture.as_image_copy(), bytemuck::cast_slice(&texels), layout, size);
     texture.create_view(&wgpu::TextureViewDescriptor::default())
+}
+
+/// Fills such a texture, row by row.
+pub(super) fn write_grid<const N: usize>(queue: &wgpu::Queue, view: &wgpu::TextureView, texels: &[[f32; N]]) {
+    let texture = view.texture();
+    let bytes: &[u8] = bytemuck::cast_slice(texels.as_flattened());
+    let bytes_per_row = u32::try_from(bytes.len()).unwrap_or(u32::MAX) / texture.height();
+    let layout =
+        wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(bytes_per_row), rows_per_image: None };
+    queue.write_texture(texture.as_image_copy(), bytes, layout, texture.size());
 }
 
 #[cfg(test)]

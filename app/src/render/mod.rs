@@ -64,7 +64,7 @@ mod upload;
 mod water_pass;
 
 pub use error::RenderError;
-pub(crate) use fruit_pass::berries;
+pub(crate) use fruit_pass::{BERRY_COLOR, berries};
 pub use landing_count::LANDINGS_PER_M2;
 pub(crate) use leaf_forms::shaped;
 pub use leaf_kinds::MAX_LAYERS;

@@ -206,9 +206,12 @@ impl Renderer {
     /// A picture of a sky that cannot be used; the renderer keeps its own.
     pub fn update_scene_view(&mut self, view: &View) -> Result<(), RenderError> {
         let Environment { park_center, path, .. } = self.environment;
+        let before = self.environment.daylight.sun.direction;
         self.environment = Environment::new(view, park_center, path)?;
         let daylight = &self.environment.daylight;
-        self.frame.set_sun(&self.queue, &self.land, daylight.sun.direction);
+        if daylight.sun.direction != before {
+            self.frame.set_sun(&self.queue, &self.land, daylight.sun.direction);
+        }
         self.light.set_sky(&self.device, &self.queue, daylight);
         self.set_lens(view.lens);
         self.shade_is_old = true;

@@ -120,8 +120,8 @@ fn drawn_share(canvas: &[[f32; 7]], thicker: f32) -> f32 {
     drawn as f32 / canvas.len() as f32
 }
 
-/// How many times as much the texels of a halving must cover, at most, for as large a share to be drawn as of the whole: twigs
-/// and gaps do not close or fade with distance.
+/// How many times as much the texels of a halving must cover for as large a share to be drawn as of the whole: neither twigs
+/// nor gaps vanish with distance.
 fn thickening(canvas: &[[f32; 7]], drawn: f32) -> f32 {
     let (mut low, mut high) = (0.5, 4.0);
     for _ in 0..12 {
