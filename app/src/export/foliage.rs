@@ -149,7 +149,7 @@ pub(super) fn plain(name: &str) -> String {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use glam::Vec3;
     use windfall_core::World;
     use windfall_core::scene::{Foliage as Twigs, LeafShape, Tree, TreeForm, TreeKind, TreePreset};
@@ -158,7 +158,7 @@ mod tests {
     use crate::trees::TWIG_SIZE;
 
     /// A scene of one species with a tree that bears it, and its leaves.
-    fn foliage(shape: LeafShape) -> (Scene, Stand, Foliage) {
+    pub(in crate::export) fn foliage(shape: LeafShape) -> (Scene, Stand, Foliage) {
         let mut scene = Scene::default();
         scene.species.truncate(1);
         scene.species[0].shape = shape;
@@ -173,7 +173,8 @@ mod tests {
         (scene, stand, foliage)
     }
 
-    fn leaf(slot: u32, state: LeafState, look: u32) -> FrameLeaf {
+    /// A leaf of nominal size at the origin.
+    pub(in crate::export) fn leaf(slot: u32, state: LeafState, look: u32) -> FrameLeaf {
         FrameLeaf {
             slot,
             id: 0,

@@ -5,18 +5,18 @@
 use std::io;
 use std::path::PathBuf;
 
-use glam::{Mat4, Quat};
+use glam::Mat4;
 use serde_json::json;
-use windfall_core::leaf::LeafState;
 
 use super::file::Document;
+use super::leaf_track::{Track, add_leaf, near};
 use super::movement::Movement;
 use super::scenery::{Barks, LeafMeshes, add_surfaces, tree_mesh, view};
 use crate::commands::output_file::{OutputFile, write_error};
 use crate::export::foliage::Foliage;
 use crate::export::fruit::fruit;
 use crate::export::wood::{Joint, at_rest, at_rest_above, bark, joints, rotations};
-use crate::export::{Exporter, Frame, FrameLeaf, Job};
+use crate::export::{Exporter, Frame, Job};
 use crate::leaves::atlas_of;
 use crate::light::{Daylight, SunLight};
 use crate::trees::Stand;
@@ -41,19 +41,6 @@ pub(super) struct ClipExport {
 
 /// How a joint is turned in every frame.
 type Turns = Vec<[f32; 4]>;
-
-/// What a leaf does.
-#[derive(Clone, Debug, Default)]
-struct Track {
-    /// Mesh by itself and on its twig when it is first seen so.
-    kinds: [Option<usize>; 2],
-    places: Vec<[f32; 3]>,
-    turns: Vec<[f32; 4]>,
-    /// Frames from which it has another size, and that size: none while it is nowhere.
-    sizes: Vec<(usize, f32)>,
-    /// Frames from which it is on its twig or by itself, and whether it is.
-    hangs: Vec<(usize, bool)>,
-}
 
 impl ClipExport {
     pub(super) fn start(job: &Job<'_>) -> anyhow::Result<Self> {
@@ -133,97 +120,6 @@ impl Exporter for ClipExport {
         assembled.map_err(|error| write_error(self.file.destination(), &error))?;
         self.document.finish(&self.name, self.file)
     }
-}
-
-impl Track {
-    /// A leaf that is nowhere waits where it was last, or where it is going to be first, with no size: so it does not
-    /// sweep through the scene.
-    fn push(&mut self, leaf: &FrameLeaf, foliage: &Foliage) {
-        let frame = self.places.len();
-        let is_seen = leaf.state != LeafState::Dormant;
-        let size = if is_seen { leaf.size } else { 0.0 };
-        if self.sizes.last().is_none_or(|&(_, last)| last.to_bits() != size.to_bits()) {
-            self.sizes.push((frame, size));
-        }
-        let (place, turn) = match (is_seen, self.places.last(), self.turns.last()) {
-            (false, Some(place), Some(turn)) => (*place, *turn),
-            (false, ..) => ([0.0; 3], [0.0, 0.0, 0.0, 1.0]),
-            (true, _, before) => (leaf.position_m, near(leaf.quaternion, before)),
-        };
-        if is_seen {
-            if self.kinds == [None; 2] {
-                self.places.fill(place);
-                self.turns.fill(turn);
-            }
-            let hangs = leaf.state == LeafState::Attached;
-            self.kinds[usize::from(hangs)].get_or_insert_with(|| foliage.shown(leaf));
-            if self.hangs.last().is_none_or(|&(_, last)| last != hangs) {
-                self.hangs.push((frame, hangs));
-            }
-        }
-        self.places.push(place);
-        self.turns.push(turn);
-    }
-}
-
-/// Of the two quaternions of an orientation the one closer to that of the frame before: some programs interpolate each
-/// component by itself.
-fn near(turn: [f32; 4], before: Option<&[f32; 4]>) -> [f32; 4] {
-    let is_far = before.is_some_and(|before| Quat::from_array(*before).dot(Quat::from_array(turn)) < 0.0);
-    if is_far { turn.map(|part| -part) } else { turn }
-}
-
-/// Adds a leaf that is ever seen: a node, which has a child for each of two meshes if it falls on the way.
-fn add_leaf(
-    document: &mut Document,
-    movement: &mut Movement,
-    meshes: &mut LeafMeshes,
-    foliage: &Foliage,
-    times: &[[f32; 1]],
-    slot: usize,
-    track: &Track,
-) -> io::Result<()> {
-    let mut node = json!({ "name": format!("leaf.{slot}") });
-    if let [(_, size)] = track.sizes[..] {
-        node["scale"] = json!([size, size, size]);
-    }
-    let steps = |document: &mut Document, steps: &[(usize, f32)]| {
-        let when: Vec<[f32; 1]> = steps.iter().map(|&(frame, _)| times[frame]).collect();
-        let sizes: Vec<[f32; 3]> = steps.iter().map(|&(_, size)| [size; 3]).collect();
-        (document.buffer.times(&when), document.buffer.floats(&sizes))
-    };
-    match track.kinds {
-        [None, None] => return Ok(()),
-        [Some(kind), None] | [None, Some(kind)] => {
-            node["mesh"] = meshes.index(document, foliage, kind)?.into();
-        }
-        [Some(single), Some(cluster)] => {
-            let mut children = Vec::new();
-            for (kind, shows, ending) in [(single, false, "blade"), (cluster, true, "cluster")] {
-                let mesh = meshes.index(document, foliage, kind)?;
-                let child =
-                    document.add("nodes", json!({ "name": format!("{ending}.{slot}"), "mesh": mesh }));
-                // From the first frame on, so that nothing is left to the reader.
-                let whole = track.hangs.iter().enumerate().map(|(at, &(frame, hangs))| {
-                    (if at == 0 { 0 } else { frame }, f32::from(u8::from(hangs == shows)))
-                });
-                let whole: Vec<(usize, f32)> = whole.collect();
-                let (when, sizes) = steps(document, &whole);
-                movement.add_steps(child, "scale", when, sizes);
-                children.push(child);
-            }
-            node["children"] = json!(children);
-        }
-    }
-    let node = document.add_root(node);
-    let (places, turns) = (document.buffer.floats(&track.places), document.buffer.floats(&track.turns));
-    movement.add(node, "translation", places);
-    movement.add(node, "rotation", turns);
-    if track.sizes.len() > 1 {
-        let (when, sizes) = steps(document, &track.sizes);
-        movement.add_steps(node, "scale", when, sizes);
-    }
-    Ok(())
 }
 
 /// Adds a tree: bark, joints and how they turn.

@@ -4,6 +4,7 @@
 
 mod clip;
 mod file;
+mod leaf_track;
 mod movement;
 mod scenery;
 mod still;
