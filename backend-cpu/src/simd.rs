@@ -35,3 +35,25 @@ impl Simd {
         sets
     }
 }
+
+/// Calls a function that is generic over packs with the widest ones of a level: `function::<P>(simd, arguments…)`.
+macro_rules! in_packs {
+    ($level:expr, $function:ident($($argument:expr),*)) => {{
+        let level: fearless_simd::Level = $level;
+        #[cfg(target_arch = "x86_64")]
+        let sixteen = level.as_avx512();
+        #[cfg(not(target_arch = "x86_64"))]
+        let sixteen: Option<fearless_simd::Fallback> = None;
+        match sixteen {
+            Some(simd) => fearless_simd::Simd::vectorize(
+                simd,
+                #[inline(always)]
+                || $function::<fearless_simd::f32x16<_>>(simd, $($argument),*),
+            ),
+            None => fearless_simd::dispatch!(
+                level, simd => $function::<fearless_simd::f32x8<_>>(simd, $($argument),*)
+            ),
+        }
+    }};
+}
+pub(crate) use in_packs;

@@ -14,7 +14,7 @@ use crate::kernels::CHUNK;
 use crate::kernels::advance::advance;
 use crate::kernels::measure::measure;
 use crate::kernels::stand::{Stands, sway};
-use crate::kernels::timber_eight::{Scratch, StandEight};
+use crate::kernels::timber_block::{Scratch, StandBlocks};
 use crate::simd::Simd;
 
 /// How the CPU simulator runs.
@@ -30,7 +30,7 @@ pub struct CpuOptions {
 #[derive(Debug)]
 pub struct CpuSimulator {
     world: World,
-    eights: Vec<StandEight>,
+    blocks: Vec<StandBlocks>,
     scratches: Vec<Mutex<Scratch>>,
     pool: ThreadPool,
     simd: Simd,
@@ -48,7 +48,7 @@ impl CpuSimulator {
             .map_err(|error| SimError::Device { reason: error.to_string() })?;
         let simd = options.simd.unwrap_or_else(Simd::best);
         let mut simulator =
-            Self { world: world.clone(), eights: Vec::new(), scratches: Vec::new(), pool, simd };
+            Self { world: world.clone(), blocks: Vec::new(), scratches: Vec::new(), pool, simd };
         simulator.plant(world.environment.forest());
         Ok(simulator)
     }
@@ -66,13 +66,14 @@ impl CpuSimulator {
     /// Makes room for the trees.
     fn plant(&mut self, forest: &Forest) {
         let rows = forest.stands().iter().map(Stand::len).max().unwrap_or(0);
+        let most = forest.stands().iter().map(|stand| stand.blocks.len()).max().unwrap_or(0);
         let of_stand = |stand: &Stand| {
             let first = stand.first as usize;
-            StandEight::new(stand, &forest.timber()[first..first + stand.len()], rows)
+            StandBlocks::new(stand, &forest.timber()[first..first + stand.len()], most)
         };
-        self.eights = forest.stands().iter().map(of_stand).collect();
-        let blocks = self.eights.iter().map(|eights| eights.blocks.len()).max().unwrap_or(0);
-        let scratch = |_| Mutex::new(Scratch::new(rows, blocks));
+        self.blocks = forest.stands().iter().map(of_stand).collect();
+        let twigs = self.blocks.iter().map(|blocks| blocks.twigs.len()).max().unwrap_or(0);
+        let scratch = |_| Mutex::new(Scratch::new(rows, most, twigs));
         self.scratches = (0..self.pool.current_num_threads()).map(scratch).collect();
     }
 
@@ -121,7 +122,7 @@ impl Simulator for CpuSimulator {
 
     fn step(&mut self, count: u32) -> Result<(), SimError> {
         let World { environment, clock, leaves, branches } = &mut self.world;
-        let (simd, eights, scratches) = (self.simd, &self.eights, &self.scratches);
+        let (simd, blocks, scratches) = (self.simd, &self.blocks, &self.scratches);
         let forest = Arc::clone(environment.forest());
         let is_small = leaves.len() <= CHUNK && forest.len() <= CHUNK / 16;
         let mut steps = || {
@@ -134,7 +135,7 @@ impl Simulator for CpuSimulator {
                         &cx,
                         Stands {
                             stands: forest.stands(),
-                            eights,
+                            blocks,
                             timber: forest.timber(),
                             branches: branches.as_mut(),
                             leaves: on_trees,

@@ -131,6 +131,7 @@ impl Default for Shaders {
             "tree/sway/quigley",
             "tree/sway/row",
             "tree/sway/unfold",
+            "tree/sway/twig",
             "wind/gust",
             "wind/profile",
             "wind/row",

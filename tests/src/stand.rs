@@ -55,10 +55,10 @@ impl Grove {
             let (own_timber, other_timber) = timber.split_at(stand.len());
             let mut rows = Rows { first: stand.first, timber: own_timber, branches, work: own_work };
             let articulated = self.scene.sway == SwayScheme::Articulated;
-            for row in stand.levels().rev().flatten() {
+            for row in (0..stand.len()).rev() {
                 if articulated { row_fold(&cx, &mut rows, row) } else { row_gather(&cx, &mut rows, row) }
             }
-            for row in stand.levels().flatten() {
+            for row in 0..stand.len() {
                 if articulated { row_unfold(&cx, &mut rows, row) } else { row_follow(&cx, &mut rows, row) }
             }
             (rest, work, timber) = (others, other_work, other_timber);

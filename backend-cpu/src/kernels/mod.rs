@@ -4,17 +4,18 @@
 
 pub(crate) mod advance;
 pub(crate) mod attend;
+mod branch_block;
 pub(crate) mod carry;
 mod eight;
 mod fly;
 pub(crate) mod measure;
 pub(crate) mod stand;
-mod sway_eight;
+mod sway_block;
 pub(crate) mod sway_fold;
 pub(crate) mod sway_follow;
 pub(crate) mod sway_gather;
 pub(crate) mod sway_unfold;
-pub(crate) mod timber_eight;
+pub(crate) mod timber_block;
 
 /// Leaves per chunk: a chunk's hot columns (64 bytes a leaf) fit in a core's level-two cache.
 pub(crate) const CHUNK: usize = 4096;

@@ -17,13 +17,13 @@ use super::sway_fold::sway_fold;
 use super::sway_follow::sway_follow;
 use super::sway_gather::sway_gather;
 use super::sway_unfold::sway_unfold;
-use super::timber_eight::{AnswerEight, Scratch, StandEight};
+use super::timber_block::{BlockScratch, Scratch, StandBlocks};
 use crate::simd::Simd;
 
 /// A run of stands with all that belongs to them.
 pub(crate) struct Stands<'a> {
     pub(crate) stands: &'a [Stand],
-    pub(crate) eights: &'a [StandEight],
+    pub(crate) blocks: &'a [StandBlocks],
     pub(crate) timber: &'a [Timber],
     pub(crate) branches: BranchesMut<'a>,
     pub(crate) leaves: LeavesMut<'a>,
@@ -31,21 +31,21 @@ pub(crate) struct Stands<'a> {
 
 /// Steps all stands, halving the run until a piece is one. There is a scratch for each thread.
 pub(crate) fn sway(cx: &Context<'_>, run: Stands<'_>, scratches: &[Mutex<Scratch>], simd: Simd) {
-    let Stands { stands, eights, timber, branches, leaves } = run;
+    let Stands { stands, blocks, timber, branches, leaves } = run;
     let [first, .., last] = stands else {
-        if let ([stand], [eights]) = (stands, eights) {
+        if let ([stand], [blocks]) = (stands, blocks) {
             // A thread of another pool may have a larger number; then it waits for the scratch of another.
             let own = current_thread_index().unwrap_or(0) % scratches.len();
             let mut scratch = scratches[own].lock().unwrap_or_else(PoisonError::into_inner);
-            let Scratch { work, answers } = &mut *scratch;
+            let Scratch { work, blocks: kept } = &mut *scratch;
             let rows = Rows { first: stand.first, timber, branches, work };
-            sway_stand(cx, stand, eights, rows, answers, leaves, simd);
+            sway_stand(cx, blocks, rows, kept, leaves, stand.slots.start, simd);
         }
         return;
     };
     let half = stands.len() / 2;
     let (front, back) = stands.split_at(half);
-    let (front_eights, back_eights) = eights.split_at(half);
+    let (front_blocks, back_blocks) = blocks.split_at(half);
     let rows = (back[0].first - first.first) as usize;
     let slots = (back[0].slots.start - first.slots.start) as usize;
     debug_assert_eq!(timber.len(), (last.first - first.first) as usize + last.len(), "all rows of the run");
@@ -54,14 +54,14 @@ pub(crate) fn sway(cx: &Context<'_>, run: Stands<'_>, scratches: &[Mutex<Scratch
     let (front_leaves, back_leaves) = leaves.split_at(slots);
     let front = Stands {
         stands: front,
-        eights: front_eights,
+        blocks: front_blocks,
         timber: front_timber,
         branches: front_branches,
         leaves: front_leaves,
     };
     let back = Stands {
         stands: back,
-        eights: back_eights,
+        blocks: back_blocks,
         timber: back_timber,
         branches: back_branches,
         leaves: back_leaves,
@@ -72,19 +72,19 @@ pub(crate) fn sway(cx: &Context<'_>, run: Stands<'_>, scratches: &[Mutex<Scratch
 /// One stand: towards the foot, towards the tips, and the leaves after it.
 fn sway_stand(
     cx: &Context<'_>,
-    stand: &Stand,
-    eights: &StandEight,
+    blocks: &StandBlocks,
     mut rows: Rows<'_>,
-    answers: &mut [AnswerEight],
+    scratch: &mut BlockScratch,
     mut leaves: LeavesMut<'_>,
+    first_slot: u32,
     simd: Simd,
 ) {
     if cx.environment.crowns.0[3] == SCHEME_ARTICULATED {
-        sway_fold(cx, &mut rows, stand, eights, answers, simd);
-        sway_unfold(cx, &mut rows, stand, eights, answers, simd);
+        sway_fold(cx, &mut rows, blocks, scratch, simd);
+        sway_unfold(cx, &mut rows, blocks, scratch, simd);
     } else {
-        stand.levels().rev().for_each(|level| sway_gather(cx, &mut rows, level));
-        stand.levels().for_each(|level| sway_follow(cx, &mut rows, level));
+        sway_gather(cx, &mut rows);
+        sway_follow(cx, &mut rows);
     }
-    carry(cx, &mut rows, &mut leaves, stand.slots.start);
+    carry(cx, &mut rows, &mut leaves, first_slot);
 }

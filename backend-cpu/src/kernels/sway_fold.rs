@@ -4,45 +4,37 @@
 //!
 //! The pass towards the foot: what every joint of a stand hands down, and how it will answer.
 
-use fearless_simd::dispatch;
 use windfall_core::Context;
-use windfall_core::tree::forest::Stand;
+use windfall_core::kernel::pack::{BLOCK, Pack};
 use windfall_core::tree::sway::row::{Rows, row_fold};
 
-use super::sway_eight::fold_eight;
-use super::timber_eight::{AnswerEight, StandEight};
-use crate::simd::Simd;
+use super::sway_block::Step;
+use super::timber_block::{BlockScratch, StandBlocks};
+use crate::simd::{Simd, in_packs};
 
 /// A stand, from the tips to the trunks.
 pub(crate) fn sway_fold(
     cx: &Context<'_>,
     rows: &mut Rows<'_>,
-    stand: &Stand,
-    eights: &StandEight,
-    answers: &mut [AnswerEight],
+    blocks: &StandBlocks,
+    scratch: &mut BlockScratch,
     simd: Simd,
 ) {
-    let mut single = stand.len();
-    if let Simd::Lanes(simd) = simd {
-        dispatch!(simd, simd => fold_lanes(simd, cx, rows, eights, answers));
-        // Trunks grow from the ground, which no row holds.
-        single = eights.blocks.first().map_or(single, |block| block.row);
-    }
-    for row in (0..single).rev() {
-        row_fold(cx, rows, row);
+    match simd {
+        Simd::Scalar => (0..rows.timber.len()).rev().for_each(|row| row_fold(cx, rows, row)),
+        Simd::Lanes(level) => {
+            let step = Step { cx, rows, blocks };
+            in_packs!(level, fold_lanes(step, scratch));
+        }
     }
 }
 
-/// All blocks above the trunks.
+/// All blocks.
 #[inline(always)]
-fn fold_lanes<S: fearless_simd::Simd>(
-    simd: S,
-    cx: &Context<'_>,
-    rows: &mut Rows<'_>,
-    eights: &StandEight,
-    answers: &mut [AnswerEight],
-) {
-    for (block, kept) in eights.blocks.iter().zip(answers).rev() {
-        fold_eight(simd, cx, rows, block, eights.children(block), kept);
+fn fold_lanes<P: Pack>(simd: P::Simd, mut step: Step<'_, '_>, scratch: &mut BlockScratch) {
+    for number in (0..step.blocks.limbs.len()).rev() {
+        for part in 0..BLOCK / P::LANES {
+            step.fold::<P>(simd, number, part, scratch);
+        }
     }
 }

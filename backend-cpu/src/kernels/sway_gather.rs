@@ -2,16 +2,14 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! twin: backend-wgpu/src/shaders/kernels/sway_gather.wgsl
 //!
-//! The pass towards the foot of the schemes that move joints one by one: what every segment of a level carries.
-
-use std::ops::Range;
+//! The pass towards the foot of the schemes that move joints one by one: what every segment carries.
 
 use windfall_core::Context;
 use windfall_core::tree::sway::row::{Rows, row_gather};
 
-/// One level of a stand.
-pub(crate) fn sway_gather(cx: &Context<'_>, rows: &mut Rows<'_>, level: Range<usize>) {
-    for row in level {
+/// A stand, from the tips to the trunks.
+pub(crate) fn sway_gather(cx: &Context<'_>, rows: &mut Rows<'_>) {
+    for row in (0..rows.timber.len()).rev() {
         row_gather(cx, rows, row);
     }
 }

@@ -4,47 +4,37 @@
 //!
 //! The pass towards the tips: every joint of a stand moves on.
 
-use fearless_simd::dispatch;
 use windfall_core::Context;
-use windfall_core::tree::forest::Stand;
+use windfall_core::kernel::pack::{BLOCK, Pack};
 use windfall_core::tree::sway::row::{Rows, row_unfold};
 
-use super::sway_eight::unfold_eight;
-use super::timber_eight::{AnswerEight, StandEight};
-use crate::simd::Simd;
+use super::sway_block::Step;
+use super::timber_block::{BlockScratch, StandBlocks};
+use crate::simd::{Simd, in_packs};
 
 /// A stand, from the trunks to the tips.
 pub(crate) fn sway_unfold(
     cx: &Context<'_>,
     rows: &mut Rows<'_>,
-    stand: &Stand,
-    eights: &StandEight,
-    answers: &[AnswerEight],
+    blocks: &StandBlocks,
+    scratch: &mut BlockScratch,
     simd: Simd,
 ) {
-    let mut single = stand.len();
-    if let Simd::Lanes(_) = simd {
-        // Trunks grow from the ground, which no row holds.
-        single = eights.blocks.first().map_or(single, |block| block.row);
-    }
-    for row in 0..single {
-        row_unfold(cx, rows, row);
-    }
-    if let Simd::Lanes(simd) = simd {
-        dispatch!(simd, simd => unfold_lanes(simd, cx, rows, eights, answers));
+    match simd {
+        Simd::Scalar => (0..rows.timber.len()).for_each(|row| row_unfold(cx, rows, row)),
+        Simd::Lanes(level) => {
+            let step = Step { cx, rows, blocks };
+            in_packs!(level, unfold_lanes(step, scratch));
+        }
     }
 }
 
-/// All blocks above the trunks.
+/// All blocks.
 #[inline(always)]
-fn unfold_lanes<S: fearless_simd::Simd>(
-    simd: S,
-    cx: &Context<'_>,
-    rows: &mut Rows<'_>,
-    eights: &StandEight,
-    answers: &[AnswerEight],
-) {
-    for (block, kept) in eights.blocks.iter().zip(answers) {
-        unfold_eight(simd, cx, rows, block, kept);
+fn unfold_lanes<P: Pack>(simd: P::Simd, mut step: Step<'_, '_>, scratch: &mut BlockScratch) {
+    for number in 0..step.blocks.limbs.len() {
+        for part in 0..BLOCK / P::LANES {
+            step.unfold::<P>(simd, number, part, scratch);
+        }
     }
 }

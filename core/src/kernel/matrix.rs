@@ -58,6 +58,12 @@ pub fn sym3_axial<R: Real>(axis: Vec3<R>, along: R, across: R) -> Sym3<R> {
     }
 }
 
+/// The product of [`sym3_axial`] with a vector.
+#[inline(always)]
+pub fn axial_times<R: Real>(axis: Vec3<R>, along: R, across: R, v: Vec3<R>) -> Vec3<R> {
+    v * across + axis * ((along - across) * vec3_dot(axis, v))
+}
+
 /// The matrix's product with a vector.
 #[inline(always)]
 pub fn sym3_times<R: Real>(a: Sym3<R>, v: Vec3<R>) -> Vec3<R> {
@@ -66,6 +72,12 @@ pub fn sym3_times<R: Real>(a: Sym3<R>, v: Vec3<R>) -> Vec3<R> {
         (a.off.z * v.x + a.diagonal.y * v.y) + a.off.x * v.z,
         (a.off.y * v.x + a.off.x * v.y) + a.diagonal.z * v.z,
     )
+}
+
+/// Sum of the diagonal.
+#[inline(always)]
+pub fn sym3_trace<R: Real>(a: Sym3<R>) -> R {
+    (a.diagonal.x + a.diagonal.y) + a.diagonal.z
 }
 
 /// The symmetric matrix as a general one.
@@ -138,10 +150,7 @@ pub fn mat3_product<R: Real>(a: Mat3<R>, b: Mat3<R>) -> Mat3<R> {
 /// The upper half of a product that is symmetric.
 #[inline(always)]
 pub fn mat3_product_symmetric<R: Real>(a: Mat3<R>, b: Mat3<R>) -> Sym3<R> {
-    let x = row_times(a.x, b);
-    let y = row_times(a.y, b);
-    let z = row_times(a.z, b);
-    Sym3 { diagonal: Vec3::new(x.x, y.y, z.z), off: Vec3::new(y.z, x.z, x.y) }
+    mat3_upper(mat3_product(a, b))
 }
 
 /// The upper half of `aᵀ b`, if that is symmetric.
@@ -169,6 +178,12 @@ pub fn mat3_cross_from_left<R: Real>(r: Vec3<R>, a: Mat3<R>) -> Mat3<R> {
 #[inline(always)]
 pub fn mat3_cross_from_right<R: Real>(a: Mat3<R>, r: Vec3<R>) -> Mat3<R> {
     Mat3 { x: vec3_cross(r, a.x), y: vec3_cross(r, a.y), z: vec3_cross(r, a.z) }
+}
+
+/// The upper half of a matrix that is symmetric.
+#[inline(always)]
+pub fn mat3_upper<R: Real>(a: Mat3<R>) -> Sym3<R> {
+    Sym3 { diagonal: Vec3::new(a.x.x, a.y.y, a.z.z), off: Vec3::new(a.y.z, a.x.z, a.x.y) }
 }
 
 /// The matrix plus its transpose.
@@ -234,6 +249,7 @@ mod tests {
             let along = axis * vec3_dot(axis, v);
             let expected = along * 5.0 + (v - along) * 0.5;
             prop_assert!(near(sym3_times(sym3_axial(axis, 5.0, 0.5), v), expected, 10.0), "{expected:?}");
+            prop_assert!(near(axial_times(axis, 5.0, 0.5, v), expected, 10.0), "{expected:?} at once");
         }
     }
 }

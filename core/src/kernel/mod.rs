@@ -10,6 +10,7 @@ pub mod eight;
 pub mod lane;
 pub mod math;
 pub mod matrix;
+pub mod pack;
 pub mod quaternion;
 pub mod rng;
 mod transpose;

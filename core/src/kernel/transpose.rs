@@ -5,7 +5,9 @@
 //! Written with the shuffles of AVX2 where there are any: they are a third of a step's instructions, and put together
 //! from portable ones there would be twice as many.
 
-use fearless_simd::{Simd, SimdBase, f32x4, f32x8};
+#[cfg(target_arch = "x86_64")]
+use fearless_simd::SimdInto;
+use fearless_simd::{Simd, SimdBase, f32x4, f32x8, f32x16};
 
 /// Four rows of four to four columns.
 #[inline(always)]
@@ -19,18 +21,9 @@ fn transpose_four<S: Simd>([a, b, c, d]: [f32x4<S>; 4]) -> [f32x4<S>; 4] {
 
 /// Eight rows of four to four columns of eight.
 #[inline(always)]
-pub(crate) fn columns_of_four<S: Simd>(rows: [f32x4<S>; 8]) -> [f32x8<S>; 4] {
-    let [a, b, c, d, e, f, g, h] = rows;
-    let simd = a.simd;
-    #[cfg(target_arch = "x86_64")]
-    if let Some(avx2) = simd.level().as_avx2() {
-        let pair = |low: f32x4<S>, high: f32x4<S>| simd.combine_f32x4(low, high).into();
-        let columns = x86::transpose_in_halves(avx2, [pair(a, e), pair(b, f), pair(c, g), pair(d, h)]);
-        return columns.map(|column| fearless_simd::SimdInto::simd_into(column, simd));
-    }
-    let low = transpose_four([a, b, c, d]);
-    let high = transpose_four([e, f, g, h]);
-    core::array::from_fn(|column| simd.combine_f32x4(low[column], high[column]))
+pub(crate) fn columns_of_four<S: Simd>(simd: S, row: impl Fn(usize) -> f32x4<S>) -> [f32x8<S>; 4] {
+    let pair = |four: usize| simd.combine_f32x4(row(four), row(four + 4));
+    transpose_eight_in_fours([pair(0), pair(1), pair(2), pair(3)])
 }
 
 /// Four columns of eight to eight rows of four, two to a vector.
@@ -40,7 +33,7 @@ pub(crate) fn rows_of_four<S: Simd>(columns: [f32x8<S>; 4]) -> [f32x8<S>; 4] {
     #[cfg(target_arch = "x86_64")]
     if let Some(avx2) = simd.level().as_avx2() {
         let rows = x86::join_halves(avx2, x86::transpose_in_halves(avx2, columns.map(Into::into)));
-        return rows.map(|row| fearless_simd::SimdInto::simd_into(row, simd));
+        return rows.map(|row| SimdInto::simd_into(row, simd));
     }
     let halves = columns.map(|column| simd.split_f32x8(column));
     let [a, b, c, d] = transpose_four(halves.map(|(low, _)| low));
@@ -48,24 +41,47 @@ pub(crate) fn rows_of_four<S: Simd>(columns: [f32x8<S>; 4]) -> [f32x8<S>; 4] {
     [simd.combine_f32x4(a, b), simd.combine_f32x4(c, d), simd.combine_f32x4(e, f), simd.combine_f32x4(g, h)]
 }
 
-/// Four columns of eight to eight rows of four, each by itself.
+/// Transposes four vectors within each four lanes.
 #[inline(always)]
-pub(crate) fn rows_apart<S: Simd>(columns: [f32x8<S>; 4]) -> [f32x4<S>; 8] {
-    let simd = columns[0].simd;
+pub(crate) fn transpose_eight_in_fours<S: Simd>(rows: [f32x8<S>; 4]) -> [f32x8<S>; 4] {
+    let simd = rows[0].simd;
     #[cfg(target_arch = "x86_64")]
     if let Some(avx2) = simd.level().as_avx2() {
-        let [a, b, c, d] = columns;
-        let [p, q, r, s] = x86::transpose_in_halves(avx2, [a.into(), b.into(), c.into(), d.into()]);
-        let (a, e) = simd.split_f32x8(fearless_simd::SimdInto::simd_into(p, simd));
-        let (b, f) = simd.split_f32x8(fearless_simd::SimdInto::simd_into(q, simd));
-        let (c, g) = simd.split_f32x8(fearless_simd::SimdInto::simd_into(r, simd));
-        let (d, h) = simd.split_f32x8(fearless_simd::SimdInto::simd_into(s, simd));
-        return [a, b, c, d, e, f, g, h];
+        let [a, b, c, d] = rows;
+        let [x, y, z, w] = x86::transpose_in_halves(avx2, [a.into(), b.into(), c.into(), d.into()]);
+        return [x.simd_into(simd), y.simd_into(simd), z.simd_into(simd), w.simd_into(simd)];
     }
-    let halves = columns.map(|column| simd.split_f32x8(column));
-    let [a, b, c, d] = transpose_four(halves.map(|(low, _)| low));
-    let [e, f, g, h] = transpose_four(halves.map(|(_, high)| high));
-    [a, b, c, d, e, f, g, h]
+    let halves = rows.map(|row| simd.split_f32x8(row));
+    let low = transpose_four(halves.map(|(low, _)| low));
+    let high = transpose_four(halves.map(|(_, high)| high));
+    core::array::from_fn(|column| simd.combine_f32x4(low[column], high[column]))
+}
+
+/// Transposes four vectors within each four lanes.
+#[inline(always)]
+pub(crate) fn transpose_sixteen_in_fours<S: Simd>(rows: [f32x16<S>; 4]) -> [f32x16<S>; 4] {
+    let simd = rows[0].simd;
+    #[cfg(target_arch = "x86_64")]
+    if let Some(avx512) = simd.level().as_avx512() {
+        let [a, b, c, d] = rows;
+        let [x, y, z, w] = x86::transpose_in_quarters(avx512, [a.into(), b.into(), c.into(), d.into()]);
+        return [x.simd_into(simd), y.simd_into(simd), z.simd_into(simd), w.simd_into(simd)];
+    }
+    let halves = rows.map(|row| simd.split_f32x16(row));
+    let low = transpose_eight_in_fours(halves.map(|(low, _)| low));
+    let high = transpose_eight_in_fours(halves.map(|(_, high)| high));
+    core::array::from_fn(|column| simd.combine_f32x8(low[column], high[column]))
+}
+
+/// Sixteen rows of four to four columns of sixteen.
+#[inline(always)]
+pub(crate) fn columns_of_sixteen<S: Simd>(simd: S, row: impl Fn(usize) -> f32x4<S>) -> [f32x16<S>; 4] {
+    let four = |four: usize| {
+        let low = simd.combine_f32x4(row(four), row(four + 4));
+        let high = simd.combine_f32x4(row(four + 8), row(four + 12));
+        simd.combine_f32x8(low, high)
+    };
+    transpose_sixteen_in_fours([four(0), four(1), four(2), four(3)])
 }
 
 /// Eight rows of eight to eight columns.
@@ -75,19 +91,20 @@ pub(crate) fn columns_of_eight<S: Simd>(rows: [f32x8<S>; 8]) -> [f32x8<S>; 8] {
     #[cfg(target_arch = "x86_64")]
     if let Some(avx2) = simd.level().as_avx2() {
         let columns = x86::transpose_eight(avx2, rows.map(Into::into));
-        return columns.map(|column| fearless_simd::SimdInto::simd_into(column, simd));
+        return columns.map(|column| SimdInto::simd_into(column, simd));
     }
     let halves = rows.map(|row| simd.split_f32x8(row));
-    let [a, b, c, d] = columns_of_four(halves.map(|(low, _)| low));
-    let [e, f, g, h] = columns_of_four(halves.map(|(_, high)| high));
+    let [a, b, c, d] = columns_of_four(simd, |row| halves[row].0);
+    let [e, f, g, h] = columns_of_four(simd, |row| halves[row].1);
     [a, b, c, d, e, f, g, h]
 }
 
 #[cfg(target_arch = "x86_64")]
 mod x86 {
     use core::arch::x86_64::{
-        __m256, _mm256_castpd_ps, _mm256_castps_pd, _mm256_permute2f128_ps, _mm256_unpackhi_pd,
-        _mm256_unpackhi_ps, _mm256_unpacklo_pd, _mm256_unpacklo_ps,
+        __m256, __m512, _mm256_castpd_ps, _mm256_castps_pd, _mm256_permute2f128_ps, _mm256_unpackhi_pd,
+        _mm256_unpackhi_ps, _mm256_unpacklo_pd, _mm256_unpacklo_ps, _mm512_castpd_ps, _mm512_castps_pd,
+        _mm512_unpackhi_pd, _mm512_unpackhi_ps, _mm512_unpacklo_pd, _mm512_unpacklo_ps,
     };
 
     use fearless_simd::kernel;
@@ -106,6 +123,24 @@ mod x86 {
                 _mm256_castpd_ps(_mm256_unpackhi_pd(ab_low, cd_low)),
                 _mm256_castpd_ps(_mm256_unpacklo_pd(ab_high, cd_high)),
                 _mm256_castpd_ps(_mm256_unpackhi_pd(ab_high, cd_high)),
+            ]
+        }
+    }
+
+    kernel! {
+        /// Transposes the quarters of four vectors, each among each other.
+        #[inline(always)]
+        pub(super) fn transpose_in_quarters(avx512: Avx512, rows: [__m512; 4]) -> [__m512; 4] {
+            let [a, b, c, d] = rows;
+            let ab_low = _mm512_castps_pd(_mm512_unpacklo_ps(a, b));
+            let ab_high = _mm512_castps_pd(_mm512_unpackhi_ps(a, b));
+            let cd_low = _mm512_castps_pd(_mm512_unpacklo_ps(c, d));
+            let cd_high = _mm512_castps_pd(_mm512_unpackhi_ps(c, d));
+            [
+                _mm512_castpd_ps(_mm512_unpacklo_pd(ab_low, cd_low)),
+                _mm512_castpd_ps(_mm512_unpackhi_pd(ab_low, cd_low)),
+                _mm512_castpd_ps(_mm512_unpacklo_pd(ab_high, cd_high)),
+                _mm512_castpd_ps(_mm512_unpackhi_pd(ab_high, cd_high)),
             ]
         }
     }

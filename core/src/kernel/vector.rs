@@ -6,7 +6,7 @@
 
 use core::ops::{Add, Mul, Sub};
 
-use super::lane::Real;
+use super::lane::{Mask, Real};
 use super::math::inverse_sqrt;
 
 /// A vector of three floats; `vec3<f32>` in WGSL.
@@ -91,6 +91,12 @@ pub fn vec3_dot<R: Real>(a: Vec3<R>, b: Vec3<R>) -> R {
 #[inline(always)]
 pub fn vec3_cross<R: Real>(a: Vec3<R>, b: Vec3<R>) -> Vec3<R> {
     Vec3::new(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x)
+}
+
+/// `yes` where true, `no` elsewhere.
+#[inline(always)]
+pub fn vec3_select<R: Real>(mask: R::Mask, yes: Vec3<R>, no: Vec3<R>) -> Vec3<R> {
+    Vec3::new(mask.select_real(yes.x, no.x), mask.select_real(yes.y, no.y), mask.select_real(yes.z, no.z))
 }
 
 /// Linear blend `a + t (b - a)`.

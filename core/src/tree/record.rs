@@ -27,6 +27,9 @@ crate::shared_constants! {
     pub const BRANCH_COLUMNS: u32 = 6;
     /// No segment.
     pub const NO_SEGMENT: u32 = 0xffff_ffff;
+    /// Stands in place of the first child of a twig: a short segment that bears no other, feels the air at the end of its
+    /// parent, and is worked out by simpler equations than a limb, which is any other segment.
+    pub const TWIG: u32 = 0xffff_fffe;
 }
 
 /// Constants of a segment.
@@ -72,12 +75,19 @@ pub struct Timber {
     pub twisting_inertia: f32,
     /// Row of the parent; [`NO_SEGMENT`] for a trunk.
     pub parent: u32,
-    /// Row of the first child; children follow one another.
+    /// Row of the first child; [`NO_SEGMENT`] if there is none, [`TWIG`] for a twig.
     pub first_child: u32,
-    /// Number of children.
-    pub child_count: u32,
+    /// Row of the next child of the same parent, [`NO_SEGMENT`] for the last one. Twigs come before limbs.
+    pub next_sibling: u32,
     /// Number of the tree.
     pub tree: u32,
+}
+
+impl Timber {
+    /// Whether the segment is a twig.
+    pub fn is_twig(&self) -> bool {
+        self.first_child == TWIG
+    }
 }
 
 const _: () = assert!(size_of::<Timber>() == TIMBER_ROWS as usize * 16, "rows of four words");

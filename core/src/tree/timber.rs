@@ -132,7 +132,7 @@ pub(super) fn timber_of(
             twisting_inertia: single(twisting * implicit),
             parent: NO_SEGMENT,
             first_child: NO_SEGMENT,
-            child_count: 0,
+            next_sibling: NO_SEGMENT,
             tree: 0,
         }
     });

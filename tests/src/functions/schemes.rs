@@ -54,16 +54,18 @@ functions! {
 
     segment_composite in "tree/sway/composite" (
         QUATERNION, DIRECTION, LENGTH, SCALARS, PRELOAD, SPRINGS, PLACE, QUATERNION, VELOCITY, VELOCITY,
-        Input::Below(500)
+        Input::Below(500), VELOCITY
     ) tolerance Some(1e-5);
     wgsl "let body = in_body(24u);
-        let whole = segment_composite(in_constants(0u), body, segment_axis(body), f32(in_word(37u)));
+        let whole = segment_composite(
+            in_constants(0u), body, segment_axis(body), in_vec3(38u), f32(in_word(37u)));
         out_sym3(0u, whole.inertia); out_vec3(6u, whole.moment); out_float(9u, whole.mass); out_vec3(10u, whole.torque);
         out_vec3(13u, whole.force); out_float(16u, whole.drag); out_vec3(17u, whole.drag_moment);
         out_float(20u, whole.drag_inertia);";
-    rust |cx, w| {
+    rust |_cx, w| {
         let body = body(w, 24);
-        results(&segment_composite(cx, &constants(w, 0), &body, segment_axis(&body), w[37] as f32)).0
+        let axis = segment_axis(&body);
+        results(&segment_composite(&constants(w, 0), &body, axis, vector(w, 38), w[37] as f32)).0
     };
 
     composite_shift in "tree/sway/composite" (Input::Floats(42, -9.0, 9.0), DIRECTION) tolerance Some(4e-6);

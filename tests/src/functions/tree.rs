@@ -3,18 +3,25 @@
 //! The functions that sway trees and hold leaves on them.
 
 use windfall_core::kernel::matrix::{
-    Mat3, Sym3, mat3_add, mat3_cross, mat3_cross_from_left, mat3_cross_from_right, mat3_product,
+    Mat3, Sym3, axial_times, mat3_add, mat3_cross, mat3_cross_from_left, mat3_cross_from_right, mat3_product,
     mat3_product_symmetric, mat3_times, mat3_transposed_product_symmetric, mat3_transposed_times,
-    mat3_twice_symmetric, sym3_add, sym3_axial, sym3_inverse, sym3_minus, sym3_rows, sym3_times,
+    mat3_twice_symmetric, sym3_add, sym3_axial, sym3_inverse, sym3_minus, sym3_rows, sym3_times, sym3_trace,
 };
 use windfall_core::kernel::quaternion::{quat_axis_y, quat_of_turn, quat_rotate_back, turn_of_quat};
 use windfall_core::kernel::{Quat, Vec3};
 use windfall_core::leaf::carry::{leaf_size_on_twig, petiole_of, shed_chance};
 use windfall_core::leaf::petiole::{PETIOLE_CLASS_SHIFT, PETIOLE_KIND_SHIFT};
-use windfall_core::tree::sway::fold::{articulated_add, articulated_shift, joint_answer, joint_spring};
-use windfall_core::tree::sway::load::{segment_axis, segment_body, segment_drag};
+use windfall_core::tree::sway::fold::{
+    articulated_add, articulated_shift, joint_answer, joint_frames, joint_spring,
+};
+use windfall_core::tree::sway::load::{
+    load_trace, segment_air, segment_axis, segment_body, segment_drag, segment_load,
+};
+use windfall_core::tree::sway::twig::{twig_answer, twig_motion};
 use windfall_core::tree::sway::unfold::{Motion, joint_motion, joint_step, segment_place};
-use windfall_core::tree::sway::{Answer, Articulated, Body, Constants, Joint};
+use windfall_core::tree::sway::{
+    Answer, Articulated, Body, Constants, Frames, Joint, Load, Spring, TwigAnswer,
+};
 
 use super::{Function, Input, float, functions, integers, quaternion, vector};
 use crate::runner::{NO_WORDS, Words};
@@ -73,6 +80,27 @@ fn articulated(words: &Words, at: usize) -> Articulated {
     }
 }
 
+fn load(words: &Words, at: usize) -> Load {
+    let number = |index| float(words[at + index]);
+    Load {
+        rotation_along: number(0),
+        rotation_across: number(1),
+        coupling: number(2),
+        mass_along: number(3),
+        mass_across: number(4),
+        moment: vector(words, at + 5),
+        force: vector(words, at + 8),
+    }
+}
+
+fn frames(words: &Words, at: usize) -> Frames {
+    Frames { arm: vector(words, at), turning: vector(words, at + 3), centripetal: vector(words, at + 6) }
+}
+
+fn spring(words: &Words, at: usize) -> Spring {
+    Spring { torque: vector(words, at), along: float(words[at + 3]), across: float(words[at + 4]) }
+}
+
 /// Results, written one after another.
 pub(super) struct Results(pub(super) Words, usize);
 
@@ -118,7 +146,16 @@ impl Results {
     }
 
     fn answer(self, a: Answer) -> Self {
-        self.vec3(a.free).mat3(a.spring).mat3(a.lever).vec3(a.arm).vec3(a.turning).vec3(a.centripetal)
+        self.vec3(a.free).mat3(a.spring).mat3(a.lever).frames(a.frames)
+    }
+
+    fn frames(self, f: Frames) -> Self {
+        self.vec3(f.arm).vec3(f.turning).vec3(f.centripetal)
+    }
+
+    fn load(self, l: &Load) -> Self {
+        let axial = [l.rotation_along, l.rotation_across, l.coupling, l.mass_along, l.mass_across];
+        self.floats(&axial).vec3(l.moment).vec3(l.force)
     }
 }
 
@@ -130,6 +167,12 @@ const MATRIX: Input = Input::Floats(9, -3.0, 3.0);
 /// With [`OFF`], always a positive definite matrix.
 pub(super) const DIAGONAL: Input = Input::Floats(3, 2.0, 4.0);
 pub(super) const OFF: Input = Input::Floats(3, -0.9, 0.9);
+/// No longer than an axis.
+const AXIS: Input = Input::Floats(3, -0.57, 0.57);
+/// Stiffness of a joint along its axis and across it.
+const AXIAL: Input = Input::Floats(2, 2.0, 4.0);
+/// Inertia, coupling and mass of a segment by itself.
+const LOAD: Input = Input::Floats(5, 2.0, 4.0);
 /// Coupling of a body whose own matrices are those.
 const COUPLING: Input = Input::Floats(9, -0.5, 0.5);
 /// Vector and scalar part of a joint's rotation by up to one radian, beyond where its stop begins.
@@ -146,15 +189,20 @@ functions! {
 
     sym3_sums in "kernel/matrix" (DIAGONAL, OFF, DIAGONAL, OFF) tolerance Some(3e-7);
     wgsl "let m = in_sym3(0u); let n = in_sym3(6u);
-        out_sym3(0u, sym3_add(m, n)); out_sym3(6u, sym3_minus(m, n)); out_mat3(12u, sym3_rows(m));";
+        out_sym3(0u, sym3_add(m, n)); out_sym3(6u, sym3_minus(m, n)); out_mat3(12u, sym3_rows(m));
+        out_float(21u, sym3_trace(m));";
     rust |_cx, w| {
         let (m, n) = (sym3(w, 0), sym3(w, 6));
-        Results::new().sym3(sym3_add(m, n)).sym3(sym3_minus(m, n)).mat3(sym3_rows(m)).0
+        Results::new().sym3(sym3_add(m, n)).sym3(sym3_minus(m, n)).mat3(sym3_rows(m)).floats(&[sym3_trace(m)]).0
     };
 
-    sym3_axial in "kernel/matrix" (DIRECTION, Input::Floats(2, 0.0, 9.0)) tolerance Some(1e-6);
-    wgsl "out_sym3(0u, sym3_axial(in_vec3(0u), in_float(3u), in_float(4u)));";
-    rust |_cx, w| Results::new().sym3(sym3_axial(vector(w, 0), float(w[3]), float(w[4]))).0;
+    sym3_axial in "kernel/matrix" (DIRECTION, Input::Floats(2, 0.0, 9.0), DIRECTION) tolerance Some(1e-6);
+    wgsl "out_sym3(0u, sym3_axial(in_vec3(0u), in_float(3u), in_float(4u)));
+        out_vec3(6u, axial_times(in_vec3(0u), in_float(3u), in_float(4u), in_vec3(5u)));";
+    rust |_cx, w| {
+        let (axis, along, across) = (vector(w, 0), float(w[3]), float(w[4]));
+        Results::new().sym3(sym3_axial(axis, along, across)).vec3(axial_times(axis, along, across, vector(w, 5))).0
+    };
 
     sym3_times in "kernel/matrix" (DIAGONAL, OFF, VELOCITY) tolerance Some(4e-6);
     wgsl "let m = in_sym3(0u); out_vec3(0u, sym3_times(m, in_vec3(6u))); out_sym3(3u, sym3_inverse(m));";
@@ -214,17 +262,33 @@ functions! {
     };
 
     // The axis is a direction like any other here, so that wood feels a drag that no branch would.
-    segment_body in "tree/sway/load" (
+    segment_load in "tree/sway/load" (
         QUATERNION, DIRECTION, LENGTH, SCALARS, PRELOAD, SPRINGS, PLACE, QUATERNION, VELOCITY, VELOCITY,
-        Input::Below(500)
+        Input::Below(500), VELOCITY
     ) tolerance Some(1e-5);
-    wgsl "let body = in_body(24u); let axis = segment_axis(body); out_vec3(27u, axis);
-        out_articulated(0u, segment_body(in_constants(0u), body, axis, f32(in_word(37u))));";
+    wgsl "let body = in_body(24u); let axis = segment_axis(body); out_vec3(11u, axis);
+        let l = segment_load(in_constants(0u), body, axis, in_vec3(38u), f32(in_word(37u)));
+        out_float(0u, l.rotation_along); out_float(1u, l.rotation_across); out_float(2u, l.coupling);
+        out_float(3u, l.mass_along); out_float(4u, l.mass_across); out_vec3(5u, l.moment); out_vec3(8u, l.force);";
     rust |cx, w| {
         let body = body(w, 24);
         let axis = segment_axis(&body);
-        let whole = segment_body(cx, &constants(w, 0), &body, axis, w[37] as f32);
-        Results::new().articulated(whole).vec3(axis).0
+        let load = segment_load(cx, &constants(w, 0), &body, axis, vector(w, 38), w[37] as f32);
+        Results::new().load(&load).vec3(axis).0
+    };
+
+    segment_air in "tree/sway/load" (PLACE, QUATERNION, VELOCITY, VELOCITY, LENGTH) tolerance Some(1e-5);
+    wgsl "let body = in_body(0u); out_vec3(0u, segment_air(body, segment_axis(body), in_float(13u)));";
+    rust |cx, w| {
+        let body = body(w, 0);
+        Results::new().vec3(segment_air(cx, &body, segment_axis(&body), float(w[13]))).0
+    };
+
+    segment_body in "tree/sway/load" (LOAD, VELOCITY, VELOCITY, AXIS) tolerance Some(1e-6);
+    wgsl "out_articulated(0u, segment_body(in_load(0u), in_vec3(11u))); out_float(27u, load_trace(in_load(0u)));";
+    rust |_cx, w| {
+        let load = load(w, 0);
+        Results::new().articulated(segment_body(&load, vector(w, 11))).floats(&[load_trace(&load)]).0
     };
 
     articulated_add in "tree/sway/fold" (Input::Floats(54, -9.0, 9.0)) tolerance Some(3e-7);
@@ -233,27 +297,63 @@ functions! {
 
     joint_spring in "tree/sway/fold" (
         QUATERNION, DIRECTION, LENGTH, SCALARS, PRELOAD, SPRINGS, TURN, TURN_COSINE, VELOCITY, PLACE, QUATERNION,
-        VELOCITY, VELOCITY, DIRECTION, DIAGONAL, OFF
+        VELOCITY, VELOCITY, Input::Float(6.0, 12.0)
     ) tolerance Some(1e-5);
-    wgsl "let spring = joint_spring(in_constants(0u), in_joint(24u), in_body(31u), in_vec3(44u), in_sym3(47u));
-        out_vec3(0u, spring.torque); out_sym3(3u, spring.inertia);";
+    wgsl "let spring = joint_spring(in_constants(0u), in_joint(24u), in_body(31u), in_float(44u));
+        out_vec3(0u, spring.torque); out_float(3u, spring.along); out_float(4u, spring.across);";
     rust |cx, w| {
         let (joint, body) = (joint(w, 24), body(w, 31));
-        let (torque, inertia) =
-            joint_spring(cx, &constants(w, 0), &joint, &body, vector(w, 44), sym3(w, 47));
-        Results::new().vec3(torque).sym3(inertia).0
+        let spring = joint_spring(cx, &constants(w, 0), &joint, &body, float(w[44]));
+        Results::new().vec3(spring.torque).floats(&[spring.along, spring.across]).0
     };
 
-    joint_answer in "tree/sway/fold" (
-        VELOCITY, DIAGONAL, OFF, DIAGONAL, OFF, COUPLING, DIAGONAL, OFF, VELOCITY, VELOCITY, PLACE, QUATERNION,
-        VELOCITY, VELOCITY, PLACE, QUATERNION, VELOCITY, VELOCITY
+    joint_frames in "tree/sway/fold" (
+        PLACE, QUATERNION, VELOCITY, VELOCITY, PLACE, QUATERNION, VELOCITY, VELOCITY
     ) tolerance Some(4e-6);
-    wgsl "let l = joint_answer(in_vec3(0u), in_sym3(3u), in_articulated(9u), in_body(36u), in_body(49u));
+    wgsl "let f = joint_frames(in_body(0u), in_body(13u));
+        out_vec3(0u, f.arm); out_vec3(3u, f.turning); out_vec3(6u, f.centripetal);";
+    rust |_cx, w| Results::new().frames(joint_frames(&body(w, 0), &body(w, 13))).0;
+
+    joint_answer in "tree/sway/fold" (
+        VELOCITY, AXIAL, DIAGONAL, OFF, COUPLING, DIAGONAL, OFF, VELOCITY, VELOCITY, AXIS, DIRECTION, VELOCITY,
+        VELOCITY
+    ) tolerance Some(4e-6);
+    wgsl "let l = joint_answer(in_spring(0u), in_articulated(5u), in_vec3(32u), in_frames(35u));
         out_answer(0u, l.answer); out_articulated(30u, l.body);";
     rust |_cx, w| {
         let (answer, left) =
-            joint_answer(vector(w, 0), sym3(w, 3), &articulated(w, 9), &body(w, 36), &body(w, 49));
+            joint_answer(&spring(w, 0), &articulated(w, 5), vector(w, 32), &frames(w, 35));
         Results::new().answer(answer).articulated(left).0
+    };
+
+    twig_answer in "tree/sway/twig" (
+        VELOCITY, AXIAL, LOAD, VELOCITY, VELOCITY, AXIS, DIRECTION, VELOCITY, VELOCITY
+    ) tolerance Some(4e-6);
+    wgsl "let l = twig_answer(in_spring(0u), in_load(5u), in_vec3(16u), in_frames(19u)); let t = l.answer;
+        out_vec3(0u, t.free); out_float(3u, t.spring_along); out_float(4u, t.spring_across); out_float(5u, t.lever);
+        out_vec3(6u, t.frames.arm); out_vec3(9u, t.frames.turning); out_vec3(12u, t.frames.centripetal);
+        out_articulated(15u, l.body);";
+    rust |_cx, w| {
+        let (t, left) = twig_answer(&spring(w, 0), &load(w, 5), vector(w, 16), &frames(w, 19));
+        let answer = Results::new().vec3(t.free).floats(&[t.spring_along, t.spring_across, t.lever]);
+        answer.frames(t.frames).articulated(left).0
+    };
+
+    twig_motion in "tree/sway/twig" (
+        VELOCITY, Input::Floats(3, 0.0, 1.0), DIRECTION, VELOCITY, VELOCITY, AXIS, VELOCITY, VELOCITY
+    ) tolerance Some(4e-6);
+    wgsl "let t = TwigAnswer(in_vec3(0u), in_float(3u), in_float(4u), in_float(5u), in_frames(6u));
+        out_vec3(0u, twig_motion(t, in_vec3(15u), Motion(in_vec3(18u), in_vec3(21u))));";
+    rust |_cx, w| {
+        let answer = TwigAnswer {
+            free: vector(w, 0),
+            spring_along: float(w[3]),
+            spring_across: float(w[4]),
+            lever: float(w[5]),
+            frames: frames(w, 6),
+        };
+        let parent = Motion { angular: vector(w, 18), linear: vector(w, 21) };
+        Results::new().vec3(twig_motion(&answer, vector(w, 15), &parent)).0
     };
 
     articulated_shift in "tree/sway/fold" (DIAGONAL, OFF, COUPLING, DIAGONAL, OFF, VELOCITY, VELOCITY, DIRECTION)
@@ -264,16 +364,14 @@ functions! {
     joint_motion in "tree/sway/unfold" (
         VELOCITY, Input::Floats(9, -1.0, 1.0), MATRIX, DIRECTION, VELOCITY, VELOCITY, VELOCITY, VELOCITY
     ) tolerance Some(4e-6);
-    wgsl "let m = joint_motion(in_answer(0u), in_vec3(30u), in_vec3(33u));
-        out_vec3(0u, m.angular); out_vec3(3u, m.linear); out_vec3(6u, m.own);";
+    wgsl "let m = joint_motion(in_answer(0u), Motion(in_vec3(30u), in_vec3(33u)));
+        out_vec3(0u, m.motion.angular); out_vec3(3u, m.motion.linear); out_vec3(6u, m.own);";
     rust |_cx, w| {
         let answer = Answer {
             free: vector(w, 0),
             spring: mat3(w, 3),
             lever: mat3(w, 12),
-            arm: vector(w, 21),
-            turning: vector(w, 24),
-            centripetal: vector(w, 27),
+            frames: frames(w, 21),
         };
         let parent = Motion { angular: vector(w, 30), linear: vector(w, 33) };
         let (motion, own) = joint_motion(&answer, &parent);

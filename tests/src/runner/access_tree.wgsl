@@ -27,7 +27,22 @@ fn in_articulated(at: u32) -> Articulated {
 
 fn in_answer(at: u32) -> Answer {
     return Answer(
-        in_vec3(at), in_mat3(at + 3u), in_mat3(at + 12u), in_vec3(at + 21u), in_vec3(at + 24u), in_vec3(at + 27u),
+        in_vec3(at), in_mat3(at + 3u), in_mat3(at + 12u), in_frames(at + 21u),
+    );
+}
+
+fn in_frames(at: u32) -> Frames {
+    return Frames(in_vec3(at), in_vec3(at + 3u), in_vec3(at + 6u));
+}
+
+fn in_spring(at: u32) -> Spring {
+    return Spring(in_vec3(at), in_float(at + 3u), in_float(at + 4u));
+}
+
+fn in_load(at: u32) -> Load {
+    return Load(
+        in_float(at), in_float(at + 1u), in_float(at + 2u), in_float(at + 3u), in_float(at + 4u), in_vec3(at + 5u),
+        in_vec3(at + 8u),
     );
 }
 
@@ -55,7 +70,7 @@ fn out_answer(at: u32, value: Answer) {
     out_vec3(at, value.free);
     out_mat3(at + 3u, value.spring);
     out_mat3(at + 12u, value.lever);
-    out_vec3(at + 21u, value.arm);
-    out_vec3(at + 24u, value.turning);
-    out_vec3(at + 27u, value.centripetal);
+    out_vec3(at + 21u, value.frames.arm);
+    out_vec3(at + 24u, value.frames.turning);
+    out_vec3(at + 27u, value.frames.centripetal);
 }

@@ -37,12 +37,20 @@ fn sym3_axial(axis: vec3<f32>, along: f32, across: f32) -> Sym3 {
     );
 }
 
+fn axial_times(axis: vec3<f32>, along: f32, across: f32, v: vec3<f32>) -> vec3<f32> {
+    return v * across + axis * ((along - across) * vec3_dot(axis, v));
+}
+
 fn sym3_times(a: Sym3, v: vec3<f32>) -> vec3<f32> {
     return vec3<f32>(
         (a.diagonal.x * v.x + a.off.z * v.y) + a.off.y * v.z,
         (a.off.z * v.x + a.diagonal.y * v.y) + a.off.x * v.z,
         (a.off.y * v.x + a.off.x * v.y) + a.diagonal.z * v.z,
     );
+}
+
+fn sym3_trace(a: Sym3) -> f32 {
+    return (a.diagonal.x + a.diagonal.y) + a.diagonal.z;
 }
 
 fn sym3_rows(a: Sym3) -> Mat3 {
@@ -96,10 +104,7 @@ fn mat3_product(a: Mat3, b: Mat3) -> Mat3 {
 }
 
 fn mat3_product_symmetric(a: Mat3, b: Mat3) -> Sym3 {
-    let x = row_times(a.x, b);
-    let y = row_times(a.y, b);
-    let z = row_times(a.z, b);
-    return Sym3(vec3<f32>(x.x, y.y, z.z), vec3<f32>(y.z, x.z, x.y));
+    return mat3_upper(mat3_product(a, b));
 }
 
 fn mat3_transposed_product_symmetric(a: Mat3, b: Mat3) -> Sym3 {
@@ -121,6 +126,10 @@ fn mat3_cross_from_left(r: vec3<f32>, a: Mat3) -> Mat3 {
 
 fn mat3_cross_from_right(a: Mat3, r: vec3<f32>) -> Mat3 {
     return Mat3(vec3_cross(r, a.x), vec3_cross(r, a.y), vec3_cross(r, a.z));
+}
+
+fn mat3_upper(a: Mat3) -> Sym3 {
+    return Sym3(vec3<f32>(a.x.x, a.y.y, a.z.z), vec3<f32>(a.y.z, a.x.z, a.x.y));
 }
 
 fn mat3_twice_symmetric(a: Mat3) -> Sym3 {

@@ -98,6 +98,62 @@ pub struct Articulated<R = f32> {
     pub force: Vec3<R>,
 }
 
+/// A segment by itself about its joint, in world axes: inertia symmetric about its axis, and what holds it back.
+#[derive(Clone, Copy, Debug)]
+pub struct Load<R = f32> {
+    /// Moment of inertia about the axis in kg m².
+    pub rotation_along: R,
+    /// Moment of inertia about the joint across the axis in kg m².
+    pub rotation_across: R,
+    /// First moment along the axis in kg m.
+    pub coupling: R,
+    /// Force per acceleration along the axis in kg.
+    pub mass_along: R,
+    /// Force per acceleration across it in kg.
+    pub mass_across: R,
+    /// Torque in N m that no acceleration would take.
+    pub moment: Vec3<R>,
+    /// Force in N that no acceleration would take.
+    pub force: Vec3<R>,
+}
+
+/// A joint's spring and damper.
+#[derive(Clone, Copy, Debug)]
+pub struct Spring<R = f32> {
+    /// Torque in N m in world axes, as it will be on the way through the step if the joint does not accelerate.
+    pub torque: Vec3<R>,
+    /// What the spring adds to the inertia that the joint sees against twisting, in kg m².
+    pub along: R,
+    /// The same against bending.
+    pub across: R,
+}
+
+/// What a parent's motion brings to a joint.
+#[derive(Clone, Copy, Debug)]
+pub struct Frames<R = f32> {
+    /// The joint's place relative to the parent's in m.
+    pub arm: Vec3<R>,
+    /// Angular acceleration from turning frames in rad/s².
+    pub turning: Vec3<R>,
+    /// Acceleration from turning frames in m/s².
+    pub centripetal: Vec3<R>,
+}
+
+/// How the joint of a twig answers what its parent does: as [`Answer`], where matrices are symmetric about the axis.
+#[derive(Clone, Copy, Debug)]
+pub struct TwigAnswer<R = f32> {
+    /// Angular acceleration in rad/s² if the parent does nothing.
+    pub free: Vec3<R>,
+    /// Share of the spring in the joint's stiffness against twisting.
+    pub spring_along: R,
+    /// Share of the spring in the joint's stiffness against bending.
+    pub spring_across: R,
+    /// Angular acceleration across the axis per acceleration of the joint, opposed, in 1/m.
+    pub lever: R,
+    /// What the parent's motion brings.
+    pub frames: Frames<R>,
+}
+
 /// How a joint answers what its parent does.
 #[derive(Clone, Copy, Debug)]
 pub struct Answer<R = f32> {
@@ -107,10 +163,6 @@ pub struct Answer<R = f32> {
     pub spring: Mat3<R>,
     /// Angular acceleration per acceleration of the joint, opposed, in 1/m.
     pub lever: Mat3<R>,
-    /// The joint's place relative to the parent's in m.
-    pub arm: Vec3<R>,
-    /// Angular acceleration from turning frames in rad/s².
-    pub turning: Vec3<R>,
-    /// Acceleration from turning frames in m/s².
-    pub centripetal: Vec3<R>,
+    /// What the parent's motion brings.
+    pub frames: Frames<R>,
 }

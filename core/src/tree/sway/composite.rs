@@ -14,10 +14,8 @@
 
 use super::load::segment_drag;
 use super::{Body, Constants, GRAVITY_M_S2, THIRD};
-use crate::context::Context;
 use crate::kernel::matrix::{Sym3, sym3_add, sym3_axial};
 use crate::kernel::vector::{Vec3, vec3_cross, vec3_dot};
-use crate::wind::sample::wind_at;
 
 /// A rigid body about a joint.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -40,18 +38,17 @@ pub struct Composite {
     pub drag_inertia: f32,
 }
 
-/// A segment that bears `bearing` leaves, by itself.
+/// A segment that bears `bearing` leaves in moving air, by itself.
 #[inline(always)]
 pub fn segment_composite(
-    cx: &Context<'_>,
     constants: &Constants,
     body: &Body,
     axis: Vec3,
+    air: Vec3,
     bearing: f32,
 ) -> Composite {
     let half = constants.length * 0.5;
     let middle = axis * half;
-    let air = wind_at(cx, body.base + middle);
     let velocity = body.velocity + vec3_cross(body.spin, middle);
     let drag = segment_drag(constants, axis, air, velocity, bearing);
     let held = drag.wood + drag.leaves;

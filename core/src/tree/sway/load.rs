@@ -8,7 +8,7 @@
 //! Drag by the velocity relative to the air, and its fall as leaves turn aside: Vogel, "Drag and reconfiguration of broad
 //! leaves in high winds" (1989). Across a branch only the wind's part across it counts.
 
-use super::{Articulated, Body, Constants, GRAVITY_M_S2, THIRD};
+use super::{Articulated, Body, Constants, GRAVITY_M_S2, Load, THIRD};
 use crate::context::Context;
 use crate::kernel::lane::Real;
 use crate::kernel::math::{inverse_sqrt, reciprocal};
@@ -52,18 +52,24 @@ pub fn segment_drag<R: Real>(
     }
 }
 
-/// A segment that bears `bearing` leaves, as a body by itself.
+/// Velocity of the air at the end of a segment, which it feels itself, and with it the twigs that grow there.
 #[inline(always)]
-pub fn segment_body<R: Real>(
+pub fn segment_air<R: Real>(cx: &Context<'_>, body: &Body<R>, axis: Vec3<R>, length: R) -> Vec3<R> {
+    wind_at(cx, body.base + axis * length)
+}
+
+/// A segment that bears `bearing` leaves in moving air, by itself.
+#[inline(always)]
+pub fn segment_load<R: Real>(
     cx: &Context<'_>,
     constants: &Constants<R>,
     body: &Body<R>,
     axis: Vec3<R>,
+    air: Vec3<R>,
     bearing: R,
-) -> Articulated<R> {
+) -> Load<R> {
     let half = constants.length * 0.5;
     let middle = axis * half;
-    let air = wind_at(cx, body.base + middle);
     let velocity = body.velocity + vec3_cross(body.spin, middle);
     let drag = segment_drag(constants, axis, air, velocity, bearing);
     let held = drag.wood + drag.leaves;
@@ -80,15 +86,38 @@ pub fn segment_body<R: Real>(
     let bare = mass + added;
 
     let turning = vec3_dot(body.spin, axis);
-    let gyration = vec3_cross(body.spin, axis) * ((constants.inertia_along - across) * turning);
+    let gyration = body.spin * ((constants.inertia_along - across) * turning);
     let outward = body.spin * turning - axis * vec3_dot(body.spin, body.spin);
-    let weight = Vec3::new(0.0, -GRAVITY_M_S2, 0.0).spread(half);
+    // Torques about the joint are vector products with the axis, of all forces together.
+    let levered = gyration + push * half;
+    let moved = Vec3::new(levered.x, levered.y - moment * GRAVITY_M_S2, levered.z);
+    let force = outward * moment - push;
+    Load {
+        rotation_along: constants.inertia_along,
+        rotation_across: heavy,
+        coupling: moment + added * half,
+        mass_along: bare - drag.wood * dt,
+        mass_across: bare,
+        moment: vec3_cross(moved, axis),
+        force: Vec3::new(force.x, force.y + mass * GRAVITY_M_S2, force.z),
+    }
+}
+
+/// Trace of its moments of inertia in kg m².
+#[inline(always)]
+pub fn load_trace<R: Real>(load: &Load<R>) -> R {
+    (load.rotation_along + load.rotation_across) + load.rotation_across
+}
+
+/// The same as a body without symmetry.
+#[inline(always)]
+pub fn segment_body<R: Real>(load: &Load<R>, axis: Vec3<R>) -> Articulated<R> {
     Articulated {
-        rotation: sym3_axial(axis, constants.inertia_along, heavy),
-        coupling: mat3_cross(axis, moment + added * half),
-        mass: sym3_axial(axis, bare - drag.wood * dt, bare),
-        moment: gyration - (vec3_cross(middle, push) + vec3_cross(axis, weight) * moment),
-        force: outward * moment - (push + weight * mass),
+        rotation: sym3_axial(axis, load.rotation_along, load.rotation_across),
+        coupling: mat3_cross(axis, load.coupling),
+        mass: sym3_axial(axis, load.mass_along, load.mass_across),
+        moment: load.moment,
+        force: load.force,
     }
 }
 

@@ -21,9 +21,10 @@ pub mod load;
 pub mod oliapuram_kumar;
 pub mod quigley;
 pub mod row;
+pub mod twig;
 pub mod unfold;
 
-pub use body::{Answer, Articulated, Body, Constants, Joint};
+pub use body::{Answer, Articulated, Body, Constants, Frames, Joint, Load, Spring, TwigAnswer};
 
 crate::shared_constants! {
     /// Where in a step springs act: 1/2 is the trapezoidal rule, which keeps slow sways alive; above it, fast ones that

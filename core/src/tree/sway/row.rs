@@ -5,16 +5,18 @@
 //! A row of the forest in each of the two passes of a step.
 
 use super::composite::{Composite, composite_add, composite_shift, segment_composite};
-use super::fold::{articulated_add, articulated_shift, joint_answer, joint_spring};
-use super::load::{segment_axis, segment_body};
+use super::fold::{articulated_add, articulated_shift, joint_answer, joint_frames, joint_spring};
+use super::load::{load_trace, segment_air, segment_axis, segment_body, segment_load};
 use super::oliapuram_kumar::oliapuram_kumar_step;
 use super::quigley::quigley_step;
+use super::twig::{twig_answer, twig_motion};
 use super::unfold::{Motion, joint_held, joint_motion, joint_step, segment_place};
-use super::{Answer, Articulated, Body, Constants, Joint, SCHEME_QUIGLEY};
+use super::{Answer, Articulated, Body, Constants, Frames, Joint, SCHEME_QUIGLEY, TwigAnswer};
 use crate::context::Context;
+use crate::kernel::matrix::sym3_trace;
 use crate::kernel::{Mat3, Sym3, Vec3};
 use crate::tree::forest::first_three;
-use crate::tree::record::{NO_SEGMENT, Timber, WORK_ANSWER, Work};
+use crate::tree::record::{NO_SEGMENT, TWIG, Timber, WORK_ANSWER, Work};
 use crate::tree::store::BranchesMut;
 
 /// The rows of a stand.
@@ -58,6 +60,14 @@ impl Rows<'_> {
 }
 
 impl Rows<'_> {
+    /// The children of a row: twigs, then limbs.
+    #[inline(always)]
+    fn children(&self, row: usize) -> impl Iterator<Item = usize> + use<'_> {
+        let within = |link: u32| (link < TWIG).then(|| (link - self.first) as usize);
+        let next = move |child: &usize| within(self.timber[*child].next_sibling);
+        std::iter::successors(within(self.timber[row].first_child), next)
+    }
+
     #[inline(always)]
     fn move_to(&mut self, row: usize, joint: &Joint, body: &Body) {
         self.branches.turn[row] = joint.turn.to_array();
@@ -103,14 +113,15 @@ pub fn load_articulated(work: &Work) -> Articulated {
 #[inline(always)]
 pub fn store_answer(work: &mut Work, answer: &Answer) {
     let rows = &mut work[WORK_ANSWER as usize..];
-    rows[0] = four(answer.free, answer.turning.x);
-    rows[1] = four(answer.spring.x, answer.turning.y);
-    rows[2] = four(answer.spring.y, answer.turning.z);
-    rows[3] = four(answer.spring.z, answer.centripetal.x);
-    rows[4] = four(answer.lever.x, answer.centripetal.y);
-    rows[5] = four(answer.lever.y, answer.centripetal.z);
+    let Frames { arm, turning, centripetal } = answer.frames;
+    rows[0] = four(answer.free, turning.x);
+    rows[1] = four(answer.spring.x, turning.y);
+    rows[2] = four(answer.spring.y, turning.z);
+    rows[3] = four(answer.spring.z, centripetal.x);
+    rows[4] = four(answer.lever.x, centripetal.y);
+    rows[5] = four(answer.lever.y, centripetal.z);
     rows[6] = four(answer.lever.z, 0.0);
-    rows[7] = four(answer.arm, 0.0);
+    rows[7] = four(arm, 0.0);
 }
 
 /// The same, out of it.
@@ -121,10 +132,48 @@ pub fn load_answer(work: &Work) -> Answer {
         free: first_three(rows[0]),
         spring: Mat3 { x: first_three(rows[1]), y: first_three(rows[2]), z: first_three(rows[3]) },
         lever: Mat3 { x: first_three(rows[4]), y: first_three(rows[5]), z: first_three(rows[6]) },
-        arm: first_three(rows[7]),
-        turning: Vec3::new(rows[0][3], rows[1][3], rows[2][3]),
-        centripetal: Vec3::new(rows[3][3], rows[4][3], rows[5][3]),
+        frames: Frames {
+            arm: first_three(rows[7]),
+            turning: Vec3::new(rows[0][3], rows[1][3], rows[2][3]),
+            centripetal: Vec3::new(rows[3][3], rows[4][3], rows[5][3]),
+        },
     }
+}
+
+/// How the joint of a twig answers, into the work of its segment.
+#[inline(always)]
+pub fn store_twig_answer(work: &mut Work, answer: &TwigAnswer) {
+    let rows = &mut work[WORK_ANSWER as usize..];
+    rows[0] = four(answer.free, answer.spring_along);
+    rows[1] = four(answer.frames.arm, answer.spring_across);
+    rows[2] = four(answer.frames.turning, answer.lever);
+    rows[3] = four(answer.frames.centripetal, 0.0);
+}
+
+/// The same, out of it.
+#[inline(always)]
+pub fn load_twig_answer(work: &Work) -> TwigAnswer {
+    let rows = &work[WORK_ANSWER as usize..];
+    TwigAnswer {
+        free: first_three(rows[0]),
+        spring_along: rows[0][3],
+        spring_across: rows[1][3],
+        lever: rows[2][3],
+        frames: Frames {
+            arm: first_three(rows[1]),
+            turning: first_three(rows[2]),
+            centripetal: first_three(rows[3]),
+        },
+    }
+}
+
+/// Velocity of the air that a row feels: a twig that of its parent.
+#[inline(always)]
+fn row_air(cx: &Context<'_>, rows: &Rows<'_>, row: usize) -> Vec3 {
+    let timber = &rows.timber[row];
+    let feels = if timber.is_twig() { (timber.parent - rows.first) as usize } else { row };
+    let body = rows.body(feels);
+    segment_air(cx, &body, segment_axis(&body), rows.timber[feels].length)
 }
 
 /// The pass towards the foot, at one row whose children are done.
@@ -133,34 +182,47 @@ pub fn row_fold(cx: &Context<'_>, rows: &mut Rows<'_>, row: usize) {
     let constants = Constants::from(&rows.timber[row]);
     let body = rows.body(row);
     let joint = rows.joint(row);
-    let parent = rows.parent_body(row);
     let axis = segment_axis(&body);
+    let frames = joint_frames(&body, &rows.parent_body(row));
     let bearing = rows.branches.bearing[row] as f32;
-    let mut whole = segment_body(cx, &constants, &body, axis, bearing);
-    let first = rows.timber[row].first_child.wrapping_sub(rows.first) as usize;
-    for child in first..first + rows.timber[row].child_count as usize {
-        whole = articulated_add(&whole, &load_articulated(&rows.work[child]));
-    }
-    let (torque, spring) = joint_spring(cx, &constants, &joint, &body, axis, whole.rotation);
-    let (answer, left) = joint_answer(torque, spring, &whole, &body, &parent);
-    store_articulated(&mut rows.work[row], &articulated_shift(&left, answer.arm));
-    store_answer(&mut rows.work[row], &answer);
+    let load = segment_load(cx, &constants, &body, axis, row_air(cx, rows, row), bearing);
+    let left = if rows.timber[row].is_twig() {
+        let spring = joint_spring(cx, &constants, &joint, &body, load_trace(&load));
+        let (answer, left) = twig_answer(&spring, &load, axis, &frames);
+        store_twig_answer(&mut rows.work[row], &answer);
+        left
+    } else {
+        let mut whole = segment_body(&load, axis);
+        for child in rows.children(row) {
+            whole = articulated_add(&whole, &load_articulated(&rows.work[child]));
+        }
+        let spring = joint_spring(cx, &constants, &joint, &body, sym3_trace(whole.rotation));
+        let (answer, left) = joint_answer(&spring, &whole, axis, &frames);
+        store_answer(&mut rows.work[row], &answer);
+        left
+    };
+    store_articulated(&mut rows.work[row], &articulated_shift(&left, frames.arm));
 }
 
 /// The pass towards the tips, at one row whose parent is done.
 #[inline(always)]
 pub fn row_unfold(cx: &Context<'_>, rows: &mut Rows<'_>, row: usize) {
     let constants = Constants::from(&rows.timber[row]);
-    let answer = load_answer(&rows.work[row]);
+    let body = rows.body(row);
     let mut above = Motion { angular: Vec3::ZERO, linear: Vec3::ZERO };
     if rows.timber[row].parent != NO_SEGMENT {
         let parent = &rows.work[(rows.timber[row].parent - rows.first) as usize];
         above = Motion { angular: first_three(parent[0]), linear: first_three(parent[1]) };
     }
-    let (motion, own) = joint_motion(&answer, &above);
-    rows.work[row][0] = four(motion.angular, 0.0);
-    rows.work[row][1] = four(motion.linear, 0.0);
-    let joint = joint_step(cx, &rows.joint(row), &rows.body(row), own);
+    let own = if rows.timber[row].is_twig() {
+        twig_motion(&load_twig_answer(&rows.work[row]), segment_axis(&body), &above)
+    } else {
+        let (motion, own) = joint_motion(&load_answer(&rows.work[row]), &above);
+        rows.work[row][0] = four(motion.angular, 0.0);
+        rows.work[row][1] = four(motion.linear, 0.0);
+        own
+    };
+    let joint = joint_step(cx, &rows.joint(row), &body, own);
     let body = segment_place(&constants, &joint, &rows.parent_body(row));
     rows.move_to(row, &joint, &body);
 }
@@ -197,9 +259,9 @@ pub fn row_gather(cx: &Context<'_>, rows: &mut Rows<'_>, row: usize) {
     let constants = Constants::from(&rows.timber[row]);
     let body = rows.body(row);
     let bearing = rows.branches.bearing[row] as f32;
-    let mut whole = segment_composite(cx, &constants, &body, segment_axis(&body), bearing);
-    let first = rows.timber[row].first_child.wrapping_sub(rows.first) as usize;
-    for child in first..first + rows.timber[row].child_count as usize {
+    let air = row_air(cx, rows, row);
+    let mut whole = segment_composite(&constants, &body, segment_axis(&body), air, bearing);
+    for child in rows.children(row) {
         let arm = rows.body(child).base - body.base;
         whole = composite_add(&whole, &composite_shift(&load_composite(&rows.work[child]), arm));
     }

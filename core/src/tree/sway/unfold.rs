@@ -4,7 +4,9 @@
 //!
 //! The pass towards the tips: every joint accelerates with its parent and moves on.
 
-use super::{Answer, Body, Constants, IMPLICITNESS, JOINT_LIMIT, JOINT_LIMIT_COSINE, Joint, TURN_LIMIT};
+use super::{
+    Answer, Body, Constants, Frames, IMPLICITNESS, JOINT_LIMIT, JOINT_LIMIT_COSINE, Joint, TURN_LIMIT,
+};
 use crate::context::Context;
 use crate::kernel::lane::{Mask, Real};
 use crate::kernel::math::{inverse_sqrt, reciprocal};
@@ -12,7 +14,7 @@ use crate::kernel::matrix::{mat3_times, mat3_transposed_times};
 use crate::kernel::quaternion::{
     Quat, quat_multiply, quat_of_turn, quat_renormalize, quat_rotate, quat_rotate_back,
 };
-use crate::kernel::vector::{TINY_SQUARED, Vec3, vec3_cross, vec3_dot};
+use crate::kernel::vector::{TINY_SQUARED, Vec3, vec3_cross, vec3_dot, vec3_select};
 
 /// Accelerations of a segment: angular in rad/s², and of its joint in m/s².
 #[derive(Clone, Copy, Debug)]
@@ -23,23 +25,34 @@ pub struct Motion<R = f32> {
     pub linear: Vec3<R>,
 }
 
+/// Accelerations that a segment would have if its joint were stiff.
+#[inline(always)]
+pub fn carried_motion<R: Real>(frames: &Frames<R>, parent: &Motion<R>) -> Motion<R> {
+    Motion {
+        angular: parent.angular + frames.turning,
+        linear: (parent.linear + vec3_cross(parent.angular, frames.arm)) + frames.centripetal,
+    }
+}
+
 /// Accelerations of a segment from its parent's, and the joint's own part of the angular one.
 #[inline(always)]
 pub fn joint_motion<R: Real>(answer: &Answer<R>, parent: &Motion<R>) -> (Motion<R>, Vec3<R>) {
-    let angular = parent.angular + answer.turning;
-    let linear = (parent.linear + vec3_cross(parent.angular, answer.arm)) + answer.centripetal;
-    let own = ((answer.free - angular) + mat3_transposed_times(answer.spring, angular))
-        - mat3_times(answer.lever, linear);
-    (Motion { angular: angular + own, linear }, own)
+    let carried = carried_motion(&answer.frames, parent);
+    let own = ((answer.free - carried.angular) + mat3_transposed_times(answer.spring, carried.angular))
+        - mat3_times(answer.lever, carried.linear);
+    (Motion { angular: carried.angular + own, linear: carried.linear }, own)
 }
 
 /// A vector no longer than `limit`.
 #[inline(always)]
 fn shortened<R: Real>(v: Vec3<R>, limit: R) -> Vec3<R> {
     let squared = vec3_dot(v, v);
-    let scale = limit * inverse_sqrt(squared.max(limit.all(TINY_SQUARED)));
     let over = (limit * limit).less_than(squared);
-    v * over.select_real(scale, limit.all(1.0))
+    if !over.any() {
+        return v;
+    }
+    let scale = limit * inverse_sqrt(squared.max(limit.all(TINY_SQUARED)));
+    vec3_select(over, v * scale, v)
 }
 
 /// A joint one step on, accelerated by `own` in world axes.
@@ -60,18 +73,15 @@ fn joint_stop<R: Real>(turn: Quat<R>, rate: Vec3<R>) -> Joint<R> {
     let axis = Vec3::new(turn.x, turn.y, turn.z);
     let squared = vec3_dot(axis, axis);
     let stopped = squared.all(JOINT_LIMIT * JOINT_LIMIT).less_than(squared);
+    if !stopped.any() {
+        return Joint { turn, rate };
+    }
     let inverse = inverse_sqrt(squared.max(squared.all(TINY_SQUARED)));
-    let zero = squared.all(0.0);
-    let scale = stopped.select_real(inverse * JOINT_LIMIT, squared.all(1.0));
-    let outward = (vec3_dot(rate, axis) * (inverse * inverse)).max(zero);
+    let held = vec3_select(stopped, axis * (inverse * JOINT_LIMIT), axis);
+    let outward = (vec3_dot(rate, axis) * (inverse * inverse)).max(squared.all(0.0));
     Joint {
-        turn: Quat::new(
-            turn.x * scale,
-            turn.y * scale,
-            turn.z * scale,
-            stopped.select_real(squared.all(JOINT_LIMIT_COSINE), turn.w),
-        ),
-        rate: rate - axis * stopped.select_real(outward, zero),
+        turn: Quat::new(held.x, held.y, held.z, stopped.select_real(squared.all(JOINT_LIMIT_COSINE), turn.w)),
+        rate: vec3_select(stopped, rate - axis * outward, rate),
     }
 }
 

@@ -43,11 +43,39 @@ struct Articulated {
     force: vec3<f32>,
 }
 
+struct Load {
+    rotation_along: f32,
+    rotation_across: f32,
+    coupling: f32,
+    mass_along: f32,
+    mass_across: f32,
+    moment: vec3<f32>,
+    force: vec3<f32>,
+}
+
+struct Spring {
+    torque: vec3<f32>,
+    along: f32,
+    across: f32,
+}
+
+struct Frames {
+    arm: vec3<f32>,
+    turning: vec3<f32>,
+    centripetal: vec3<f32>,
+}
+
+struct TwigAnswer {
+    free: vec3<f32>,
+    spring_along: f32,
+    spring_across: f32,
+    lever: f32,
+    frames: Frames,
+}
+
 struct Answer {
     free: vec3<f32>,
     spring: Mat3,
     lever: Mat3,
-    arm: vec3<f32>,
-    turning: vec3<f32>,
-    centripetal: vec3<f32>,
+    frames: Frames,
 }

@@ -5,7 +5,6 @@
 #import kernel/vector
 #import tree/sway/body
 #import tree/sway/load
-#import wind/sample
 
 struct Composite {
     inertia: Sym3,
@@ -18,10 +17,15 @@ struct Composite {
     drag_inertia: f32,
 }
 
-fn segment_composite(constants: Constants, body: Body, axis: vec3<f32>, bearing: f32) -> Composite {
+fn segment_composite(
+    constants: Constants,
+    body: Body,
+    axis: vec3<f32>,
+    air: vec3<f32>,
+    bearing: f32,
+) -> Composite {
     let half = constants.length * 0.5;
     let middle = axis * half;
-    let air = wind_at(body.base + middle);
     let velocity = body.velocity + vec3_cross(body.spin, middle);
     let drag = segment_drag(constants, axis, air, velocity, bearing);
     let held = drag.wood + drag.leaves;

@@ -8,14 +8,18 @@
 #import kernel/vector
 #import tree/sway/body
 
-struct Spring {
-    torque: vec3<f32>,
-    inertia: Sym3,
-}
-
 struct Left {
     answer: Answer,
     body: Articulated,
+}
+
+fn joint_frames(body: Body, parent: Body) -> Frames {
+    let arm = body.base - parent.base;
+    return Frames(
+        arm,
+        vec3_cross(parent.spin, body.spin - parent.spin),
+        vec3_cross(parent.spin, vec3_cross(parent.spin, arm)),
+    );
 }
 
 fn articulated_add(a: Articulated, b: Articulated) -> Articulated {
@@ -28,30 +32,34 @@ fn articulated_add(a: Articulated, b: Articulated) -> Articulated {
     );
 }
 
-fn joint_spring(constants: Constants, joint: Joint, body: Body, axis: vec3<f32>, carried: Sym3) -> Spring {
+fn joint_spring(constants: Constants, joint: Joint, body: Body, carried: f32) -> Spring {
     let bending = constants.bending;
     let ahead = environment.time.x * IMPLICITNESS;
     let turn = turn_of_quat(joint.turn);
     let spring = turn + joint.rate * (constants.damping + ahead);
+    var torque = vec3<f32>(
+        constants.preload.x - bending * spring.x,
+        constants.preload.y - constants.twisting * spring.y,
+        constants.preload.z - bending * spring.z,
+    );
+    var along = constants.twisting_inertia;
+    var across = constants.bending_inertia;
     let squared = vec3_dot(turn, turn);
-    let beyond = STOP_ANGLE * STOP_ANGLE < squared;
-    let inertia = (carried.diagonal.x + carried.diagonal.y) + carried.diagonal.z;
-    let stiffness = select(0.0, inertia * STOP_STIFFNESS, beyond);
-    let share = 1.0 - inverse_sqrt(max(squared, TINY_SQUARED)) * STOP_ANGLE;
-    let stop = turn * share + joint.rate * (ahead + STOP_DAMPING);
-    let torque = vec3<f32>(
-        (constants.preload.x - bending * spring.x) - stiffness * stop.x,
-        (constants.preload.y - constants.twisting * spring.y) - stiffness * stop.y,
-        (constants.preload.z - bending * spring.z) - stiffness * stop.z,
-    );
-    let stopped = stiffness * (ahead * (ahead + STOP_DAMPING));
-    return Spring(
-        quat_rotate(body.pose, torque),
-        sym3_axial(axis, constants.twisting_inertia + stopped, constants.bending_inertia + stopped),
-    );
+    if (STOP_ANGLE * STOP_ANGLE < squared) {
+        let stiffness = carried * STOP_STIFFNESS;
+        let share = 1.0 - inverse_sqrt(max(squared, TINY_SQUARED)) * STOP_ANGLE;
+        let stop = turn * share + joint.rate * (ahead + STOP_DAMPING);
+        torque = torque - stop * stiffness;
+        let stopped = stiffness * (ahead * (ahead + STOP_DAMPING));
+        along = along + stopped;
+        across = across + stopped;
+    }
+    return Spring(quat_rotate(body.pose, torque), along, across);
 }
 
-fn joint_answer(torque: vec3<f32>, spring: Sym3, whole: Articulated, body: Body, parent: Body) -> Left {
+fn joint_answer(joint: Spring, whole: Articulated, axis: vec3<f32>, frames: Frames) -> Left {
+    let torque = joint.torque;
+    let spring = sym3_axial(axis, joint.along, joint.across);
     let inverse = sym3_inverse(sym3_add(whole.rotation, spring));
     let share = mat3_product(sym3_rows(spring), sym3_rows(inverse));
     let pull = torque - whole.moment;
@@ -61,27 +69,22 @@ fn joint_answer(torque: vec3<f32>, spring: Sym3, whole: Articulated, body: Body,
     let coupling = mat3_product(share, whole.coupling);
     let mass = sym3_minus(whole.mass, mat3_transposed_product_symmetric(whole.coupling, lever));
 
-    let arm = body.base - parent.base;
-    let turning = vec3_cross(parent.spin, body.spin - parent.spin);
-    let centripetal = vec3_cross(parent.spin, vec3_cross(parent.spin, arm));
     let moment = (torque - mat3_times(share, pull))
-        + (sym3_times(rotation, turning) + mat3_times(coupling, centripetal));
+        + (sym3_times(rotation, frames.turning) + mat3_times(coupling, frames.centripetal));
     let force = (whole.force + mat3_transposed_times(lever, pull))
-        + (mat3_transposed_times(coupling, turning) + sym3_times(mass, centripetal));
+        + (mat3_transposed_times(coupling, frames.turning) + sym3_times(mass, frames.centripetal));
     return Left(
-        Answer(sym3_times(inverse, pull), share, lever, arm, turning, centripetal),
+        Answer(sym3_times(inverse, pull), share, lever, frames),
         Articulated(rotation, coupling, mass, moment, force),
     );
 }
 
 fn articulated_shift(body: Articulated, arm: vec3<f32>) -> Articulated {
-    let mass = sym3_rows(body.mass);
-    let carried = mat3_cross_from_left(arm, mass);
-    let turned = mat3_cross_from_right(body.coupling, arm);
-    let swung = mat3_cross_from_right(carried, arm);
-    let both = Mat3(turned.x + swung.x * 0.5, turned.y + swung.y * 0.5, turned.z + swung.z * 0.5);
+    let carried = mat3_cross_from_left(arm, sym3_rows(body.mass));
+    let turned = mat3_twice_symmetric(mat3_cross_from_right(body.coupling, arm));
+    let swung = mat3_upper(mat3_cross_from_right(carried, arm));
     return Articulated(
-        sym3_add(body.rotation, mat3_twice_symmetric(both)),
+        sym3_add(body.rotation, sym3_add(turned, swung)),
         mat3_add(body.coupling, carried),
         body.mass,
         body.moment + vec3_cross(arm, body.force),

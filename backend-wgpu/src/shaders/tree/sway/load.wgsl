@@ -29,10 +29,13 @@ fn segment_drag(constants: Constants, axis: vec3<f32>, air: vec3<f32>, velocity:
     );
 }
 
-fn segment_body(constants: Constants, body: Body, axis: vec3<f32>, bearing: f32) -> Articulated {
+fn segment_air(body: Body, axis: vec3<f32>, length: f32) -> vec3<f32> {
+    return wind_at(body.base + axis * length);
+}
+
+fn segment_load(constants: Constants, body: Body, axis: vec3<f32>, air: vec3<f32>, bearing: f32) -> Load {
     let half = constants.length * 0.5;
     let middle = axis * half;
-    let air = wind_at(body.base + middle);
     let velocity = body.velocity + vec3_cross(body.spin, middle);
     let drag = segment_drag(constants, axis, air, velocity, bearing);
     let held = drag.wood + drag.leaves;
@@ -48,15 +51,33 @@ fn segment_body(constants: Constants, body: Body, axis: vec3<f32>, bearing: f32)
     let bare = mass + added;
 
     let turning = vec3_dot(body.spin, axis);
-    let gyration = vec3_cross(body.spin, axis) * ((constants.inertia_along - across) * turning);
+    let gyration = body.spin * ((constants.inertia_along - across) * turning);
     let outward = body.spin * turning - axis * vec3_dot(body.spin, body.spin);
-    let weight = vec3<f32>(0.0, -GRAVITY_M_S2, 0.0);
+    let levered = gyration + push * half;
+    let moved = vec3<f32>(levered.x, levered.y - moment * GRAVITY_M_S2, levered.z);
+    let force = outward * moment - push;
+    return Load(
+        constants.inertia_along,
+        heavy,
+        moment + added * half,
+        bare - drag.wood * dt,
+        bare,
+        vec3_cross(moved, axis),
+        vec3<f32>(force.x, force.y + mass * GRAVITY_M_S2, force.z),
+    );
+}
+
+fn load_trace(load: Load) -> f32 {
+    return (load.rotation_along + load.rotation_across) + load.rotation_across;
+}
+
+fn segment_body(load: Load, axis: vec3<f32>) -> Articulated {
     return Articulated(
-        sym3_axial(axis, constants.inertia_along, heavy),
-        mat3_cross(axis, moment + added * half),
-        sym3_axial(axis, bare - drag.wood * dt, bare),
-        gyration - (vec3_cross(middle, push) + vec3_cross(axis, weight) * moment),
-        outward * moment - (push + weight * mass),
+        sym3_axial(axis, load.rotation_along, load.rotation_across),
+        mat3_cross(axis, load.coupling),
+        sym3_axial(axis, load.mass_along, load.mass_across),
+        load.moment,
+        load.force,
     );
 }
 

@@ -7,13 +7,14 @@
 #import tree/sway/load
 #import tree/sway/oliapuram_kumar
 #import tree/sway/quigley
+#import tree/sway/twig
 #import tree/sway/unfold
 
 fn timber_floats(row: u32, index: u32) -> vec4<f32> {
     return bitcast<vec4<f32>>(timber_rows[row * TIMBER_ROWS + index]);
 }
 
-// Parent, first child, number of children, tree.
+// Parent, first child, next sibling, tree.
 fn timber_links(row: u32) -> vec4<u32> {
     return timber_rows[row * TIMBER_ROWS + (TIMBER_ROWS - 1u)];
 }
@@ -97,14 +98,15 @@ fn load_articulated(row: u32) -> Articulated {
 
 fn store_answer(row: u32, answer: Answer) {
     let at = row * WORK_ROWS + WORK_ANSWER;
-    work_rows[at] = vec4<f32>(answer.free, answer.turning.x);
-    work_rows[at + 1u] = vec4<f32>(answer.spring.x, answer.turning.y);
-    work_rows[at + 2u] = vec4<f32>(answer.spring.y, answer.turning.z);
-    work_rows[at + 3u] = vec4<f32>(answer.spring.z, answer.centripetal.x);
-    work_rows[at + 4u] = vec4<f32>(answer.lever.x, answer.centripetal.y);
-    work_rows[at + 5u] = vec4<f32>(answer.lever.y, answer.centripetal.z);
+    let frames = answer.frames;
+    work_rows[at] = vec4<f32>(answer.free, frames.turning.x);
+    work_rows[at + 1u] = vec4<f32>(answer.spring.x, frames.turning.y);
+    work_rows[at + 2u] = vec4<f32>(answer.spring.y, frames.turning.z);
+    work_rows[at + 3u] = vec4<f32>(answer.spring.z, frames.centripetal.x);
+    work_rows[at + 4u] = vec4<f32>(answer.lever.x, frames.centripetal.y);
+    work_rows[at + 5u] = vec4<f32>(answer.lever.y, frames.centripetal.z);
     work_rows[at + 6u] = vec4<f32>(answer.lever.z, 0.0);
-    work_rows[at + 7u] = vec4<f32>(answer.arm, 0.0);
+    work_rows[at + 7u] = vec4<f32>(frames.arm, 0.0);
 }
 
 fn load_answer(row: u32) -> Answer {
@@ -121,10 +123,32 @@ fn load_answer(row: u32) -> Answer {
         a.xyz,
         Mat3(b.xyz, c.xyz, d.xyz),
         Mat3(e.xyz, f.xyz, g.xyz),
-        h.xyz,
-        vec3<f32>(a.w, b.w, c.w),
-        vec3<f32>(d.w, e.w, f.w),
+        Frames(h.xyz, vec3<f32>(a.w, b.w, c.w), vec3<f32>(d.w, e.w, f.w)),
     );
+}
+
+fn store_twig_answer(row: u32, answer: TwigAnswer) {
+    let at = row * WORK_ROWS + WORK_ANSWER;
+    work_rows[at] = vec4<f32>(answer.free, answer.spring_along);
+    work_rows[at + 1u] = vec4<f32>(answer.frames.arm, answer.spring_across);
+    work_rows[at + 2u] = vec4<f32>(answer.frames.turning, answer.lever);
+    work_rows[at + 3u] = vec4<f32>(answer.frames.centripetal, 0.0);
+}
+
+fn load_twig_answer(row: u32) -> TwigAnswer {
+    let at = row * WORK_ROWS + WORK_ANSWER;
+    let a = work_rows[at];
+    let b = work_rows[at + 1u];
+    let c = work_rows[at + 2u];
+    let d = work_rows[at + 3u];
+    return TwigAnswer(a.xyz, a.w, b.w, c.w, Frames(b.xyz, c.xyz, d.xyz));
+}
+
+fn row_air(row: u32) -> vec3<f32> {
+    let links = timber_links(row);
+    let feels = select(row, links.x, links.y == TWIG);
+    let body = row_body(feels);
+    return segment_air(body, segment_axis(body), timber_floats(feels, 1u).w);
 }
 
 fn row_fold(row: u32) {
@@ -132,33 +156,47 @@ fn row_fold(row: u32) {
     let links = timber_links(row);
     let body = row_body(row);
     let joint = row_joint(row);
-    let parent = parent_body(links.x);
     let axis = segment_axis(body);
+    let frames = joint_frames(body, parent_body(links.x));
     let bearing = f32(bearings[row]);
-    var whole = segment_body(constants, body, axis, bearing);
-    for (var child = links.y; child < links.y + links.z; child++) {
+    let load = segment_load(constants, body, axis, row_air(row), bearing);
+    if (links.y == TWIG) {
+        let spring = joint_spring(constants, joint, body, load_trace(load));
+        let left = twig_answer(spring, load, axis, frames);
+        store_twig_answer(row, left.answer);
+        store_articulated(row, articulated_shift(left.body, frames.arm));
+        return;
+    }
+    var whole = segment_body(load, axis);
+    for (var child = links.y; child < TWIG; child = timber_links(child).z) {
         whole = articulated_add(whole, load_articulated(child));
     }
-    let spring = joint_spring(constants, joint, body, axis, whole.rotation);
-    let left = joint_answer(spring.torque, spring.inertia, whole, body, parent);
-    store_articulated(row, articulated_shift(left.body, left.answer.arm));
+    let spring = joint_spring(constants, joint, body, sym3_trace(whole.rotation));
+    let left = joint_answer(spring, whole, axis, frames);
     store_answer(row, left.answer);
+    store_articulated(row, articulated_shift(left.body, frames.arm));
 }
 
 fn row_unfold(row: u32) {
     let constants = timber_constants(row);
-    let parent = timber_links(row).x;
-    let answer = load_answer(row);
-    var angular = vec3<f32>(0.0, 0.0, 0.0);
-    var linear = vec3<f32>(0.0, 0.0, 0.0);
+    let links = timber_links(row);
+    let parent = links.x;
+    let before = row_body(row);
+    let zero = vec3<f32>(0.0, 0.0, 0.0);
+    var above = Motion(zero, zero);
     if (parent != NO_SEGMENT) {
-        angular = work_rows[parent * WORK_ROWS].xyz;
-        linear = work_rows[parent * WORK_ROWS + 1u].xyz;
+        above = Motion(work_rows[parent * WORK_ROWS].xyz, work_rows[parent * WORK_ROWS + 1u].xyz);
     }
-    let motion = joint_motion(answer, angular, linear);
-    work_rows[row * WORK_ROWS] = vec4<f32>(motion.angular, 0.0);
-    work_rows[row * WORK_ROWS + 1u] = vec4<f32>(motion.linear, 0.0);
-    let joint = joint_step(row_joint(row), row_body(row), motion.own);
+    var own: vec3<f32>;
+    if (links.y == TWIG) {
+        own = twig_motion(load_twig_answer(row), segment_axis(before), above);
+    } else {
+        let moved = joint_motion(load_answer(row), above);
+        work_rows[row * WORK_ROWS] = vec4<f32>(moved.motion.angular, 0.0);
+        work_rows[row * WORK_ROWS + 1u] = vec4<f32>(moved.motion.linear, 0.0);
+        own = moved.own;
+    }
+    let joint = joint_step(row_joint(row), before, own);
     let body = segment_place(constants, joint, parent_body(parent));
     move_to(row, joint, body);
 }
@@ -195,8 +233,8 @@ fn row_gather(row: u32) {
     let links = timber_links(row);
     let body = row_body(row);
     let bearing = f32(bearings[row]);
-    var whole = segment_composite(constants, body, segment_axis(body), bearing);
-    for (var child = links.y; child < links.y + links.z; child++) {
+    var whole = segment_composite(constants, body, segment_axis(body), row_air(row), bearing);
+    for (var child = links.y; child < TWIG; child = timber_links(child).z) {
         let arm = row_body(child).base - body.base;
         whole = composite_add(whole, composite_shift(load_composite(child), arm));
     }

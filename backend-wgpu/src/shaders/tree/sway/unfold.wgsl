@@ -11,23 +11,34 @@
 struct Motion {
     angular: vec3<f32>,
     linear: vec3<f32>,
+}
+
+struct JointMotion {
+    motion: Motion,
     // The joint's own part of the angular acceleration.
     own: vec3<f32>,
 }
 
-fn joint_motion(answer: Answer, parent_angular: vec3<f32>, parent_linear: vec3<f32>) -> Motion {
-    let angular = parent_angular + answer.turning;
-    let linear = (parent_linear + vec3_cross(parent_angular, answer.arm)) + answer.centripetal;
-    let own = ((answer.free - angular) + mat3_transposed_times(answer.spring, angular))
-        - mat3_times(answer.lever, linear);
-    return Motion(angular + own, linear, own);
+fn carried_motion(frames: Frames, parent: Motion) -> Motion {
+    return Motion(
+        parent.angular + frames.turning,
+        (parent.linear + vec3_cross(parent.angular, frames.arm)) + frames.centripetal,
+    );
+}
+
+fn joint_motion(answer: Answer, parent: Motion) -> JointMotion {
+    let carried = carried_motion(answer.frames, parent);
+    let own = ((answer.free - carried.angular) + mat3_transposed_times(answer.spring, carried.angular))
+        - mat3_times(answer.lever, carried.linear);
+    return JointMotion(Motion(carried.angular + own, carried.linear), own);
 }
 
 fn shortened(v: vec3<f32>, limit: f32) -> vec3<f32> {
     let squared = vec3_dot(v, v);
-    let scale = limit * inverse_sqrt(max(squared, TINY_SQUARED));
-    let over = limit * limit < squared;
-    return v * select(1.0, scale, over);
+    if (limit * limit < squared) {
+        return v * (limit * inverse_sqrt(max(squared, TINY_SQUARED)));
+    }
+    return v;
 }
 
 fn joint_step(joint: Joint, body: Body, own: vec3<f32>) -> Joint {
@@ -43,14 +54,12 @@ fn joint_step(joint: Joint, body: Body, own: vec3<f32>) -> Joint {
 fn joint_stop(turn: vec4<f32>, rate: vec3<f32>) -> Joint {
     let axis = vec3<f32>(turn.x, turn.y, turn.z);
     let squared = vec3_dot(axis, axis);
-    let stopped = JOINT_LIMIT * JOINT_LIMIT < squared;
-    let inverse = inverse_sqrt(max(squared, TINY_SQUARED));
-    let scale = select(1.0, inverse * JOINT_LIMIT, stopped);
-    let outward = max(vec3_dot(rate, axis) * (inverse * inverse), 0.0);
-    return Joint(
-        vec4<f32>(turn.x * scale, turn.y * scale, turn.z * scale, select(turn.w, JOINT_LIMIT_COSINE, stopped)),
-        rate - axis * select(0.0, outward, stopped),
-    );
+    if (JOINT_LIMIT * JOINT_LIMIT < squared) {
+        let inverse = inverse_sqrt(max(squared, TINY_SQUARED));
+        let outward = max(vec3_dot(rate, axis) * (inverse * inverse), 0.0);
+        return Joint(vec4<f32>(axis * (inverse * JOINT_LIMIT), JOINT_LIMIT_COSINE), rate - axis * outward);
+    }
+    return Joint(turn, rate);
 }
 
 fn joint_held(turn: vec3<f32>, rate: vec3<f32>) -> Joint {

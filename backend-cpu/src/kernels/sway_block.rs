@@ -1,0 +1,299 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Both passes over a block of limbs and their twigs, side by side in SIMD registers, with the same bits as one by one.
+//!
+//! A block has sixteen lanes: one pack of sixteen, or two of eight, parts 0 and 1. What a lane without a row computes
+//! nobody reads.
+
+use bytemuck::must_cast_slice;
+use windfall_core::Context;
+use windfall_core::kernel::lane::Word;
+use windfall_core::kernel::matrix::sym3_trace;
+use windfall_core::kernel::pack::{BLOCK, Pack, load_block, row_of_lane, store_block};
+use windfall_core::kernel::vector::vec3_select;
+use windfall_core::kernel::{Mat3, Quat, Sym3, Vec3};
+use windfall_core::tree::BranchesMut;
+use windfall_core::tree::sway::fold::{
+    articulated_add, articulated_shift, joint_answer, joint_frames, joint_spring,
+};
+use windfall_core::tree::sway::load::{load_trace, segment_air, segment_axis, segment_body, segment_load};
+use windfall_core::tree::sway::row::Rows;
+use windfall_core::tree::sway::twig::{twig_answer, twig_motion};
+use windfall_core::tree::sway::unfold::{Motion, joint_motion, joint_step, segment_place};
+use windfall_core::tree::sway::{Articulated, Body, Joint};
+
+use super::branch_block::{Column, State, change_state, state_of};
+use super::timber_block::{BlockScratch, HANDED, StandBlocks, TimberBlock, TwigAnswers};
+
+type Record = [f32; 4];
+
+/// A stand that is being stepped.
+pub(super) struct Step<'a, 'b> {
+    pub(super) cx: &'a Context<'a>,
+    pub(super) rows: &'a mut Rows<'b>,
+    pub(super) blocks: &'a StandBlocks,
+}
+
+/// Four columns as a vector and what stands behind it.
+#[inline(always)]
+fn four<P: Pack>([x, y, z, w]: [P; 4]) -> (Vec3<P>, P) {
+    (Vec3::new(x, y, z), w)
+}
+
+/// Leaves on segments that follow one another.
+#[inline(always)]
+fn bearing_at<P: Pack>(simd: P::Simd, counts: &[u32; BLOCK], part: usize) -> P {
+    let counts: [u32; BLOCK] = core::array::from_fn(|lane| counts[row_of_lane(lane)]);
+    P::load_words(simd, &counts[part * P::LANES..]).to_real()
+}
+
+/// In which lanes a block has rows.
+#[inline(always)]
+fn lanes_with_rows<P: Pack>(simd: P::Simd, count: usize, part: usize) -> P::Mask {
+    const ROWS: [f32; BLOCK] = {
+        let mut rows = [0.0; BLOCK];
+        let mut lane = 0;
+        while lane < BLOCK {
+            rows[lane] = row_of_lane(lane) as f32;
+            lane += 1;
+        }
+        rows
+    };
+    P::load(simd, &ROWS[part * P::LANES..]).less_than(P::fill(simd, count as f32))
+}
+
+/// Segments that follow one another.
+#[inline(always)]
+fn bodies_at<P: Pack>(simd: P::Simd, state: State<'_>, part: usize) -> Body<P> {
+    let [_, _, base, pose, velocity, spin] = state;
+    Body {
+        base: four(load_block(simd, base, part)).0,
+        pose: load_block(simd, pose, part).into(),
+        velocity: four(load_block(simd, velocity, part)).0,
+        spin: four(load_block(simd, spin, part)).0,
+    }
+}
+
+/// Joints of segments that follow one another.
+#[inline(always)]
+fn joints_at<P: Pack>(simd: P::Simd, turn: &Column, rate: &Column, part: usize) -> Joint<P> {
+    Joint { turn: load_block(simd, turn, part).into(), rate: four(load_block(simd, rate, part)).0 }
+}
+
+/// Segments wherever they are.
+#[inline(always)]
+fn bodies_of<P: Pack>(rows: &Rows<'_>, of: P::Word) -> Body<P> {
+    let branches = &rows.branches;
+    Body {
+        base: four(of.look_up(branches.base)).0,
+        pose: of.look_up(branches.pose).into(),
+        velocity: four(of.look_up(branches.velocity)).0,
+        spin: four(of.look_up(branches.spin)).0,
+    }
+}
+
+/// The ground that trunks grow from.
+#[inline(always)]
+fn ground<P: Pack>(simd: P::Simd) -> Body<P> {
+    let zero = P::fill(simd, 0.0);
+    let still = Vec3::new(zero, zero, zero);
+    Body { base: still, pose: Quat::new(zero, zero, zero, P::fill(simd, 1.0)), velocity: still, spin: still }
+}
+
+/// What limbs hand down, wherever they are.
+#[inline(always)]
+fn handed_by<P: Pack>(simd: P::Simd, from: P::Word, handed: &[[[Record; BLOCK]; HANDED]]) -> Articulated<P> {
+    let spans = P::spans::<{ BLOCK * (HANDED - 1) + 1 }>(from, must_cast_slice(handed));
+    let record = |number: usize| four(P::column(simd, &spans, BLOCK * number));
+    let (a, b, c, d) = (record(0), record(1), record(2), record(3));
+    let (e, f, g) = (record(4), record(5), record(6));
+    Articulated {
+        rotation: Sym3 { diagonal: a.0, off: b.0 },
+        coupling: Mat3 { x: c.0, y: d.0, z: e.0 },
+        mass: Sym3 { diagonal: f.0, off: g.0 },
+        moment: Vec3::new(a.1, b.1, c.1),
+        force: Vec3::new(d.1, e.1, f.1),
+    }
+}
+
+/// Hands a block's bodies down.
+#[inline(always)]
+fn hand_down<P: Pack>(handed: &mut [[Record; BLOCK]; HANDED], part: usize, body: &Articulated<P>, zero: P) {
+    let [a, b, c, d, e, f, g] = handed;
+    let store = |column: &mut _, v: Vec3<P>, w: P| store_block(column, part, [v.x, v.y, v.z, w]);
+    store(a, body.rotation.diagonal, body.moment.x);
+    store(b, body.rotation.off, body.moment.y);
+    store(c, body.coupling.x, body.moment.z);
+    store(d, body.coupling.y, body.force.x);
+    store(e, body.coupling.z, body.force.y);
+    store(f, body.mass.diagonal, body.force.z);
+    store(g, body.mass.off, zero);
+}
+
+/// `yes` where true, `no` elsewhere.
+#[inline(always)]
+fn articulated_select<P: Pack>(mask: P::Mask, yes: &Articulated<P>, no: &Articulated<P>) -> Articulated<P> {
+    let select = |yes, no| vec3_select(mask, yes, no);
+    let symmetric = |yes: Sym3<P>, no: Sym3<P>| Sym3 {
+        diagonal: select(yes.diagonal, no.diagonal),
+        off: select(yes.off, no.off),
+    };
+    Articulated {
+        rotation: symmetric(yes.rotation, no.rotation),
+        coupling: Mat3 {
+            x: select(yes.coupling.x, no.coupling.x),
+            y: select(yes.coupling.y, no.coupling.y),
+            z: select(yes.coupling.z, no.coupling.z),
+        },
+        mass: symmetric(yes.mass, no.mass),
+        moment: select(yes.moment, no.moment),
+        force: select(yes.force, no.force),
+    }
+}
+
+impl Step<'_, '_> {
+    /// The pass towards the foot at part of a block.
+    #[inline(always)]
+    pub(super) fn fold<P: Pack>(
+        &mut self,
+        simd: P::Simd,
+        number: usize,
+        part: usize,
+        scratch: &mut BlockScratch,
+    ) {
+        let block = &self.blocks.limbs[number];
+        let BlockScratch { limbs: answers, twigs: kept, handed, spare, spare_twigs, .. } = scratch;
+        let constants = block.timber.constants::<P>(simd, part);
+        let (state, bearing) = state_of(&self.rows.branches, &block.timber.rows, spare);
+        let body = bodies_at(simd, state, part);
+        let parent = match &block.parents {
+            Some(parents) => bodies_of(self.rows, P::load_words(simd, &parents.rows[part * P::LANES..])),
+            None => ground(simd),
+        };
+        let frames = joint_frames(&body, &parent);
+        let axis = segment_axis(&body);
+        let air = segment_air(self.cx, &body, axis, constants.length);
+        let bearing = bearing_at(simd, bearing, part);
+        let mut whole = segment_body(&segment_load(self.cx, &constants, &body, axis, air, bearing), axis);
+        let kept = &mut kept[block.twigs.clone()];
+        for (twigs, kept) in self.blocks.twigs[block.twigs.clone()].iter().zip(kept) {
+            let state = state_of(&self.rows.branches, &twigs.rows, spare_twigs);
+            let sum = articulated_add(&whole, &self.fold_twigs(simd, twigs, state, part, kept, air, &body));
+            whole = if twigs.rows.len() == BLOCK {
+                sum
+            } else {
+                articulated_select::<P>(lanes_with_rows::<P>(simd, twigs.rows.len(), part), &sum, &whole)
+            };
+        }
+        for children in self.blocks.children(block) {
+            let from = P::load_words(simd, &children[part * P::LANES..]);
+            whole = articulated_add(&whole, &handed_by(simd, from, handed));
+        }
+        let joint = joints_at(simd, state[0], state[1], part);
+        let spring = joint_spring(self.cx, &constants, &joint, &body, sym3_trace(whole.rotation));
+        let (answer, left) = joint_answer(&spring, &whole, axis, &frames);
+        answers[number].keep_answer(part, &answer);
+        let shifted = articulated_shift(&left, frames.arm);
+        hand_down(&mut handed[number], part, &shifted, P::fill(simd, 0.0));
+    }
+
+    /// The pass towards the foot at twigs whose parents feel this air and move like this: what they hand down.
+    #[inline(always)]
+    fn fold_twigs<P: Pack>(
+        &self,
+        simd: P::Simd,
+        twigs: &TimberBlock,
+        (state, bearing): (State<'_>, &[u32; BLOCK]),
+        part: usize,
+        kept: &mut TwigAnswers,
+        air: Vec3<P>,
+        parent: &Body<P>,
+    ) -> Articulated<P> {
+        let constants = twigs.constants(simd, part);
+        let body = bodies_at(simd, state, part);
+        let axis = segment_axis(&body);
+        let bearing = bearing_at(simd, bearing, part);
+        let load = segment_load(self.cx, &constants, &body, axis, air, bearing);
+        let joint = joints_at(simd, state[0], state[1], part);
+        let spring = joint_spring(self.cx, &constants, &joint, &body, load_trace(&load));
+        let frames = joint_frames(&body, parent);
+        let (answer, left) = twig_answer(&spring, &load, axis, &frames);
+        kept.keep_answer(part, &answer);
+        articulated_shift(&left, frames.arm)
+    }
+
+    /// The pass towards the tips at part of a block.
+    #[inline(always)]
+    pub(super) fn unfold<P: Pack>(
+        &mut self,
+        simd: P::Simd,
+        number: usize,
+        part: usize,
+        scratch: &mut BlockScratch,
+    ) {
+        let block = &self.blocks.limbs[number];
+        let (parent, above) = match &block.parents {
+            Some(parents) => {
+                let motions: &[Record] = must_cast_slice(&scratch.motions);
+                let at = P::load_words(simd, &parents.motions[part * P::LANES..]);
+                let spans = P::spans::<{ BLOCK + 1 }>(at, motions);
+                let (angular, linear) = (P::column(simd, &spans, 0), P::column(simd, &spans, BLOCK));
+                let rows = P::load_words(simd, &parents.rows[part * P::LANES..]);
+                (bodies_of(self.rows, rows), Motion { angular: four(angular).0, linear: four(linear).0 })
+            }
+            None => {
+                let still = ground(simd);
+                (still, Motion { angular: still.spin, linear: still.velocity })
+            }
+        };
+        let (motion, own) = joint_motion(&scratch.limbs[number].answer(simd, part), &above);
+        let zero = P::fill(simd, 0.0);
+        let [angular, linear] = &mut scratch.motions[number];
+        store_block(angular, part, [motion.angular.x, motion.angular.y, motion.angular.z, zero]);
+        store_block(linear, part, [motion.linear.x, motion.linear.y, motion.linear.z, zero]);
+        let own = |_| own;
+        let body =
+            move_on(self.cx, simd, &mut self.rows.branches, &block.timber, part, own, &parent, scratch);
+        for number in block.twigs.clone() {
+            let timber = &self.blocks.twigs[number];
+            let answer = scratch.twigs[number].answer(simd, part);
+            let own = |axis| twig_motion(&answer, axis, &motion);
+            move_on(self.cx, simd, &mut self.rows.branches, timber, part, own, &body, scratch);
+        }
+    }
+}
+
+/// Segments that follow one another move on, accelerated by `own`, of their axes, in world axes.
+#[expect(clippy::too_many_arguments, reason = "one of each thing that a pass has")]
+#[inline(always)]
+fn move_on<P: Pack>(
+    cx: &Context<'_>,
+    simd: P::Simd,
+    branches: &mut BranchesMut<'_>,
+    timber: &TimberBlock,
+    part: usize,
+    own: impl FnOnce(Vec3<P>) -> Vec3<P>,
+    parent: &Body<P>,
+    scratch: &mut BlockScratch,
+) -> Body<P> {
+    change_state(
+        branches,
+        &timber.rows,
+        &mut scratch.spare,
+        #[inline(always)]
+        |[turn, rate, base, pose, velocity, spin]| {
+            let before = Body { pose: load_block(simd, pose, part).into(), ..*parent };
+            let own = own(segment_axis(&before));
+            let joint = joint_step(cx, &joints_at(simd, turn, rate, part), &before, own);
+            let body = segment_place(&timber.constants(simd, part), &joint, parent);
+            let zero = P::fill(simd, 0.0);
+            store_block(turn, part, joint.turn.to_array());
+            store_block(rate, part, [joint.rate.x, joint.rate.y, joint.rate.z, zero]);
+            store_block(base, part, [body.base.x, body.base.y, body.base.z, zero]);
+            store_block(pose, part, body.pose.to_array());
+            store_block(velocity, part, [body.velocity.x, body.velocity.y, body.velocity.z, zero]);
+            store_block(spin, part, [body.spin.x, body.spin.y, body.spin.z, zero]);
+            body
+        },
+    )
+}

@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// twin: core/src/tree/sway/twig.rs
+#import kernel/math
+#import kernel/matrix
+#import kernel/vector
+#import tree/sway/body
+#import tree/sway/unfold
+
+struct TwigLeft {
+    answer: TwigAnswer,
+    body: Articulated,
+}
+
+fn twig_answer(spring: Spring, load: Load, axis: vec3<f32>, frames: Frames) -> TwigLeft {
+    let inverse_along = reciprocal(load.rotation_along + spring.along);
+    let inverse_across = reciprocal(load.rotation_across + spring.across);
+    let spring_along = spring.along * inverse_along;
+    let spring_across = spring.across * inverse_across;
+    let lever = inverse_across * load.coupling;
+
+    let rotation_along = spring_along * load.rotation_along;
+    let rotation_across = spring_across * load.rotation_across;
+    let coupling = spring_across * load.coupling;
+    let mass_across = load.mass_across - lever * load.coupling;
+
+    let pull = spring.torque - load.moment;
+    let moment = (spring.torque - axial_times(axis, spring_along, spring_across, pull))
+        + (axial_times(axis, rotation_along, rotation_across, frames.turning)
+            + vec3_cross(axis, frames.centripetal) * coupling);
+    let force = (load.force + vec3_cross(pull, axis) * lever)
+        + (vec3_cross(frames.turning, axis) * coupling
+            + axial_times(axis, load.mass_along, mass_across, frames.centripetal));
+    return TwigLeft(
+        TwigAnswer(
+            axial_times(axis, inverse_along, inverse_across, pull), spring_along, spring_across, lever, frames,
+        ),
+        Articulated(
+            sym3_axial(axis, rotation_along, rotation_across),
+            mat3_cross(axis, coupling),
+            sym3_axial(axis, load.mass_along, mass_across),
+            moment,
+            force,
+        ),
+    );
+}
+
+fn twig_motion(answer: TwigAnswer, axis: vec3<f32>, parent: Motion) -> vec3<f32> {
+    let carried = carried_motion(answer.frames, parent);
+    return ((answer.free - carried.angular)
+        + axial_times(axis, answer.spring_along, answer.spring_across, carried.angular))
+        - vec3_cross(axis, carried.linear) * answer.lever;
+}

@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! twin: backend-wgpu/src/shaders/tree/sway/twig.wgsl
+//!
+//! Twigs: segments that bear no others. Everything about one is symmetric about its axis, so what takes matrices at a
+//! limb takes two numbers each; the equations are those of [`super::fold`] and [`super::unfold`].
+
+use super::unfold::{Motion, carried_motion};
+use super::{Articulated, Frames, Load, Spring, TwigAnswer};
+use crate::kernel::lane::Real;
+use crate::kernel::math::reciprocal;
+use crate::kernel::matrix::{axial_times, mat3_cross, sym3_axial};
+use crate::kernel::vector::{Vec3, vec3_cross};
+
+/// How the joint of a twig answers, and what is left for its parent, still about the twig's own joint.
+#[inline(always)]
+pub fn twig_answer<R: Real>(
+    spring: &Spring<R>,
+    load: &Load<R>,
+    axis: Vec3<R>,
+    frames: &Frames<R>,
+) -> (TwigAnswer<R>, Articulated<R>) {
+    let inverse_along = reciprocal(load.rotation_along + spring.along);
+    let inverse_across = reciprocal(load.rotation_across + spring.across);
+    let spring_along = spring.along * inverse_along;
+    let spring_across = spring.across * inverse_across;
+    let lever = inverse_across * load.coupling;
+
+    let rotation_along = spring_along * load.rotation_along;
+    let rotation_across = spring_across * load.rotation_across;
+    let coupling = spring_across * load.coupling;
+    let mass_across = load.mass_across - lever * load.coupling;
+
+    let Frames { turning, centripetal, .. } = *frames;
+    let pull = spring.torque - load.moment;
+    let moment = (spring.torque - axial_times(axis, spring_along, spring_across, pull))
+        + (axial_times(axis, rotation_along, rotation_across, turning)
+            + vec3_cross(axis, centripetal) * coupling);
+    let force = (load.force + vec3_cross(pull, axis) * lever)
+        + (vec3_cross(turning, axis) * coupling
+            + axial_times(axis, load.mass_along, mass_across, centripetal));
+    (
+        TwigAnswer {
+            free: axial_times(axis, inverse_along, inverse_across, pull),
+            spring_along,
+            spring_across,
+            lever,
+            frames: *frames,
+        },
+        Articulated {
+            rotation: sym3_axial(axis, rotation_along, rotation_across),
+            coupling: mat3_cross(axis, coupling),
+            mass: sym3_axial(axis, load.mass_along, mass_across),
+            moment,
+            force,
+        },
+    )
+}
+
+/// The joint's own part of the angular acceleration of a twig.
+#[inline(always)]
+pub fn twig_motion<R: Real>(answer: &TwigAnswer<R>, axis: Vec3<R>, parent: &Motion<R>) -> Vec3<R> {
+    let carried = carried_motion(&answer.frames, parent);
+    ((answer.free - carried.angular)
+        + axial_times(axis, answer.spring_along, answer.spring_across, carried.angular))
+        - vec3_cross(axis, carried.linear) * answer.lever
+}
