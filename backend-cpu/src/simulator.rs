@@ -6,15 +6,16 @@ use std::sync::{Arc, Mutex};
 
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use windfall_core::leaf::Leaves;
-use windfall_core::tree::forest::Stand;
+use windfall_core::tree::stand::Stand;
 use windfall_core::tree::{Branches, Forest};
 use windfall_core::{Clock, Contract, Environment, SimError, Simulator, SimulatorInfo, Stats, World};
 
 use crate::kernels::CHUNK;
 use crate::kernels::advance::advance;
 use crate::kernels::measure::measure;
+use crate::kernels::scratch::Scratch;
 use crate::kernels::stand::{Stands, sway};
-use crate::kernels::timber_block::{Scratch, StandBlocks};
+use crate::kernels::timber_block::StandBlocks;
 use crate::simd::Simd;
 
 /// How the CPU simulator runs.

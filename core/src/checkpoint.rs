@@ -17,7 +17,7 @@ use crate::tree::Branches;
 use crate::world::World;
 
 const MAGIC: &[u8; 8] = b"WINDFALL";
-const VERSION: u32 = 2;
+const VERSION: u32 = 3;
 
 impl World {
     /// Writes a checkpoint.

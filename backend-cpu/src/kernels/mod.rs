@@ -9,6 +9,7 @@ pub(crate) mod carry;
 mod eight;
 mod fly;
 pub(crate) mod measure;
+pub(crate) mod scratch;
 pub(crate) mod stand;
 mod sway_block;
 pub(crate) mod sway_fold;

@@ -7,17 +7,18 @@ use std::sync::{Mutex, PoisonError};
 use rayon::{current_thread_index, join};
 use windfall_core::Context;
 use windfall_core::leaf::LeavesMut;
-use windfall_core::tree::forest::Stand;
+use windfall_core::tree::stand::Stand;
 use windfall_core::tree::sway::SCHEME_ARTICULATED;
 use windfall_core::tree::sway::row::Rows;
 use windfall_core::tree::{BranchesMut, Timber};
 
 use super::carry::carry;
+use super::scratch::{BlockScratch, Scratch};
 use super::sway_fold::sway_fold;
 use super::sway_follow::sway_follow;
 use super::sway_gather::sway_gather;
 use super::sway_unfold::sway_unfold;
-use super::timber_block::{BlockScratch, Scratch, StandBlocks};
+use super::timber_block::StandBlocks;
 use crate::simd::Simd;
 
 /// A run of stands with all that belongs to them.

@@ -23,7 +23,8 @@ use windfall_core::tree::sway::unfold::{Motion, joint_motion, joint_step, segmen
 use windfall_core::tree::sway::{Articulated, Body, Joint};
 
 use super::branch_block::{Column, State, change_state, state_of};
-use super::timber_block::{BlockScratch, HANDED, StandBlocks, TimberBlock, TwigAnswers};
+use super::scratch::{BlockScratch, TwigAnswers};
+use super::timber_block::{HANDED, StandBlocks, TimberBlock};
 
 type Record = [f32; 4];
 

@@ -8,8 +8,9 @@ use windfall_core::Context;
 use windfall_core::kernel::pack::{BLOCK, Pack};
 use windfall_core::tree::sway::row::{Rows, row_fold};
 
+use super::scratch::BlockScratch;
 use super::sway_block::Step;
-use super::timber_block::{BlockScratch, StandBlocks};
+use super::timber_block::StandBlocks;
 use crate::simd::{Simd, in_packs};
 
 /// A stand, from the tips to the trunks.

@@ -1,34 +1,27 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What the passes over a block of segments find side by side: constants, links, and how joints answered.
+//! What the passes over a block of segments find side by side: constants and links.
 //!
-//! Constants never change and answers are for the same segments in both passes, so neither has to be turned from rows into
-//! lanes. Lane and row of a block go together as [`row_of_lane`] says; lanes without a row hold the block's last one once
+//! Constants never change, so they need not be turned from rows into lanes. Lane and row of a block go together as [`row_of_lane`] says; lanes without a row hold the block's last one once
 //! more.
 
 use std::ops::Range;
 
 use windfall_core::kernel::pack::{BLOCK, Pack, row_of_lane};
-use windfall_core::kernel::{Mat3, Quat, Vec3};
-use windfall_core::tree::forest::Stand;
-use windfall_core::tree::record::{NO_SEGMENT, TIMBER_ROWS, TWIG, Timber, Work};
-use windfall_core::tree::sway::{Answer, Constants, Frames, TwigAnswer};
-
-use super::branch_block::{Column, Spare};
+use windfall_core::kernel::{Quat, Vec3};
+use windfall_core::tree::record::{NO_SEGMENT, TIMBER_ROWS, TWIG, Timber};
+use windfall_core::tree::stand::Stand;
+use windfall_core::tree::sway::Constants;
 
 /// Numbers of a [`Timber`] that are floats: all but its last row of links.
 const FLOATS: usize = (TIMBER_ROWS as usize - 1) * 4;
-/// Numbers of an [`Answer`].
-const ANSWERS: usize = 30;
-/// Numbers of a [`TwigAnswer`].
-const TWIG_ANSWERS: usize = 15;
 /// Records of four that a limb hands to its parent.
 pub(super) const HANDED: usize = 7;
 /// Records of four of a limb's motion.
-const MOTIONS: usize = 2;
+pub(super) const MOTIONS: usize = 2;
 
 /// One number of all segments of a block.
-type Lanes = [f32; BLOCK];
+pub(super) type Lanes = [f32; BLOCK];
 /// One index for each segment of a block.
 type Indices = [u32; BLOCK];
 
@@ -45,7 +38,7 @@ pub(crate) struct TimberBlock {
 pub(crate) struct Parents {
     /// Their rows.
     pub(crate) rows: Indices,
-    /// Their places in [`BlockScratch::motions`].
+    /// Their places in [`super::scratch::BlockScratch::motions`].
     pub(crate) motions: Indices,
 }
 
@@ -66,7 +59,7 @@ pub(crate) struct LimbBlock {
 pub(crate) struct StandBlocks {
     pub(crate) limbs: Vec<LimbBlock>,
     pub(crate) twigs: Vec<TimberBlock>,
-    /// Places in [`BlockScratch::handed`].
+    /// Places in [`super::scratch::BlockScratch::handed`].
     children: Vec<Indices>,
 }
 
@@ -191,155 +184,6 @@ impl TimberBlock {
 
 /// One part of the lanes of a block.
 #[inline(always)]
-fn lanes<P: Pack>(simd: P::Simd, lanes: &Lanes, part: usize) -> P {
+pub(super) fn lanes<P: Pack>(simd: P::Simd, lanes: &Lanes, part: usize) -> P {
     P::load(simd, &lanes[part * P::LANES..])
-}
-
-/// Numbers that are kept lane by lane from one pass to the next.
-#[derive(Clone, Debug)]
-pub(crate) struct Kept<const N: usize>([Lanes; N]);
-
-impl<const N: usize> Kept<N> {
-    #[inline(always)]
-    fn keep<P: Pack>(&mut self, at: usize, part: usize, number: P) {
-        number.store(&mut self.0[at][part * P::LANES..]);
-    }
-
-    #[inline(always)]
-    fn keep_vector<P: Pack>(&mut self, at: usize, part: usize, v: Vec3<P>) {
-        self.keep(at, part, v.x);
-        self.keep(at + 1, part, v.y);
-        self.keep(at + 2, part, v.z);
-    }
-
-    #[inline(always)]
-    fn keep_frames<P: Pack>(&mut self, at: usize, part: usize, frames: &Frames<P>) {
-        self.keep_vector(at, part, frames.arm);
-        self.keep_vector(at + 3, part, frames.turning);
-        self.keep_vector(at + 6, part, frames.centripetal);
-    }
-
-    #[inline(always)]
-    fn kept<P: Pack>(&self, simd: P::Simd, at: usize, part: usize) -> P {
-        lanes(simd, &self.0[at], part)
-    }
-
-    #[inline(always)]
-    fn kept_vector<P: Pack>(&self, simd: P::Simd, at: usize, part: usize) -> Vec3<P> {
-        Vec3::new(self.kept(simd, at, part), self.kept(simd, at + 1, part), self.kept(simd, at + 2, part))
-    }
-
-    #[inline(always)]
-    fn kept_matrix<P: Pack>(&self, simd: P::Simd, at: usize, part: usize) -> Mat3<P> {
-        Mat3 {
-            x: self.kept_vector(simd, at, part),
-            y: self.kept_vector(simd, at + 3, part),
-            z: self.kept_vector(simd, at + 6, part),
-        }
-    }
-
-    #[inline(always)]
-    fn kept_frames<P: Pack>(&self, simd: P::Simd, at: usize, part: usize) -> Frames<P> {
-        Frames {
-            arm: self.kept_vector(simd, at, part),
-            turning: self.kept_vector(simd, at + 3, part),
-            centripetal: self.kept_vector(simd, at + 6, part),
-        }
-    }
-}
-
-/// How the joints of a block's limbs answer.
-pub(crate) type LimbAnswers = Kept<ANSWERS>;
-/// How the joints of twigs answer.
-pub(crate) type TwigAnswers = Kept<TWIG_ANSWERS>;
-
-impl LimbAnswers {
-    #[inline(always)]
-    pub(crate) fn keep_answer<P: Pack>(&mut self, part: usize, answer: &Answer<P>) {
-        self.keep_vector(0, part, answer.free);
-        self.keep_vector(3, part, answer.spring.x);
-        self.keep_vector(6, part, answer.spring.y);
-        self.keep_vector(9, part, answer.spring.z);
-        self.keep_vector(12, part, answer.lever.x);
-        self.keep_vector(15, part, answer.lever.y);
-        self.keep_vector(18, part, answer.lever.z);
-        self.keep_frames(21, part, &answer.frames);
-    }
-
-    #[inline(always)]
-    pub(crate) fn answer<P: Pack>(&self, simd: P::Simd, part: usize) -> Answer<P> {
-        Answer {
-            free: self.kept_vector(simd, 0, part),
-            spring: self.kept_matrix(simd, 3, part),
-            lever: self.kept_matrix(simd, 12, part),
-            frames: self.kept_frames(simd, 21, part),
-        }
-    }
-}
-
-impl TwigAnswers {
-    #[inline(always)]
-    pub(crate) fn keep_answer<P: Pack>(&mut self, part: usize, answer: &TwigAnswer<P>) {
-        self.keep_vector(0, part, answer.free);
-        self.keep(3, part, answer.spring_along);
-        self.keep(4, part, answer.spring_across);
-        self.keep(5, part, answer.lever);
-        self.keep_frames(6, part, &answer.frames);
-    }
-
-    #[inline(always)]
-    pub(crate) fn answer<P: Pack>(&self, simd: P::Simd, part: usize) -> TwigAnswer<P> {
-        TwigAnswer {
-            free: self.kept_vector(simd, 0, part),
-            spring_along: self.kept(simd, 3, part),
-            spring_across: self.kept(simd, 4, part),
-            lever: self.kept(simd, 5, part),
-            frames: self.kept_frames(simd, 6, part),
-        }
-    }
-}
-
-/// Results of the pass towards the foot for the largest stand, used by one thread for one stand after another, so that
-/// they stay in its cache.
-#[derive(Debug)]
-pub(crate) struct Scratch {
-    /// For one segment after another.
-    pub(crate) work: Vec<Work>,
-    /// For one block after another.
-    pub(crate) blocks: BlockScratch,
-}
-
-/// The same for one block after another.
-#[derive(Debug)]
-pub(crate) struct BlockScratch {
-    /// What limbs hand down, block by block; the last block is nothing, which no limb ever writes.
-    pub(crate) handed: Vec<[Column; HANDED]>,
-    /// How limbs accelerate, block by block.
-    pub(crate) motions: Vec<[Column; MOTIONS]>,
-    /// One for each block.
-    pub(crate) limbs: Vec<LimbAnswers>,
-    /// One for each block of twigs.
-    pub(crate) twigs: Vec<TwigAnswers>,
-    /// For a block that is not full.
-    pub(crate) spare: Spare,
-    /// For one of twigs beside it.
-    pub(crate) spare_twigs: Spare,
-}
-
-impl Scratch {
-    /// Room for stands of up to so many rows, blocks, and blocks of twigs.
-    pub(crate) fn new(rows: usize, blocks: usize, twigs: usize) -> Self {
-        let mut handed = vec![[[[0.0; 4]; BLOCK]; HANDED]; blocks + 1];
-        // Minus zero leaves every sum as it is.
-        handed[blocks] = [[[-0.0; 4]; BLOCK]; HANDED];
-        let blocks = BlockScratch {
-            handed,
-            motions: vec![[[[0.0; 4]; BLOCK]; MOTIONS]; blocks],
-            limbs: vec![Kept([[0.0; BLOCK]; ANSWERS]); blocks],
-            twigs: vec![Kept([[0.0; BLOCK]; TWIG_ANSWERS]); twigs],
-            spare: Spare::new(),
-            spare_twigs: Spare::new(),
-        };
-        Self { work: vec![Work::default(); rows], blocks }
-    }
 }

@@ -15,6 +15,7 @@ pub mod pipe;
 mod presets;
 pub mod record;
 pub mod skeleton;
+pub mod stand;
 mod store;
 pub mod sway;
 #[cfg(test)]

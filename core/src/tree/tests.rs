@@ -6,6 +6,7 @@ mod file;
 mod growth;
 mod leaves;
 mod presets;
+mod stands;
 mod turtle;
 
 use super::{Skeleton, grow};

@@ -10,7 +10,7 @@
 
 use super::{Articulated, Body, Constants, GRAVITY_M_S2, Load, THIRD};
 use crate::context::Context;
-use crate::kernel::lane::Real;
+use crate::kernel::lane::{Mask, Real};
 use crate::kernel::math::{inverse_sqrt, reciprocal};
 use crate::kernel::matrix::{mat3_cross, sym3_axial};
 use crate::kernel::quaternion::quat_axis_y;
@@ -43,13 +43,13 @@ pub fn segment_drag<R: Real>(
     let tiny = along.all(TINY_SQUARED);
     let across = (squared - along * along).max(tiny);
     let speed_across = across * inverse_sqrt(across);
-    let speed = squared * inverse_sqrt(squared.max(tiny));
-    let yielding = reciprocal(speed * constants.leaf_yield + 1.0);
-    Drag {
-        wind,
-        wood: constants.wood_drag * speed_across,
-        leaves: ((constants.leaf_drag * bearing) * speed) * yielding,
+    let mut leaves = bearing.all(0.0);
+    if leaves.less_than(bearing).any() {
+        let speed = squared * inverse_sqrt(squared.max(tiny));
+        let yielding = reciprocal(speed * constants.leaf_yield + 1.0);
+        leaves = ((constants.leaf_drag * bearing) * speed) * yielding;
     }
+    Drag { wind, wood: constants.wood_drag * speed_across, leaves }
 }
 
 /// Velocity of the air at the end of a segment, which it feels itself, and with it the twigs that grow there.

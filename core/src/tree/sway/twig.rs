@@ -65,3 +65,71 @@ pub fn twig_motion<R: Real>(answer: &TwigAnswer<R>, axis: Vec3<R>, parent: &Moti
         + axial_times(axis, answer.spring_along, answer.spring_across, carried.angular))
         - vec3_cross(axis, carried.linear) * answer.lever
 }
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+    use crate::kernel::math::inverse_sqrt;
+    use crate::kernel::vector::vec3_dot;
+    use crate::tree::sway::fold::joint_answer;
+    use crate::tree::sway::load::segment_body;
+    use crate::tree::sway::unfold::joint_motion;
+
+    fn vector(most: f32) -> impl Strategy<Value = Vec3> {
+        [-most..most, -most..most, -most..most].prop_map(Vec3::from)
+    }
+
+    fn near(a: Vec3, b: Vec3, scale: f32) -> bool {
+        let d = a - b;
+        vec3_dot(d, d) <= (1e-4 * scale) * (1e-4 * scale)
+    }
+
+    proptest! {
+        /// A twig answers as a limb that bears nothing would, and leaves the same for its parent.
+        #[test]
+        fn a_twig_is_a_limb_that_bears_nothing(
+            [stiff_along, stiff_across, turns, rocks, mass] in prop::array::uniform5(0.2f32..3.0),
+            coupling in 0.0f32..0.4,
+            free in prop::array::uniform8(vector(2.0)),
+        ) {
+            let [way, torque, moment, force, arm, turning, centripetal, angular] = free;
+            let squared = vec3_dot(way, way);
+            prop_assume!(squared > 0.01);
+            let axis = way * inverse_sqrt(squared);
+            let spring = Spring { torque, along: stiff_along, across: stiff_across };
+            let load = Load {
+                rotation_along: turns,
+                rotation_across: rocks,
+                coupling,
+                mass_along: mass,
+                mass_across: 1.5 * mass,
+                moment,
+                force,
+            };
+            let frames = Frames { arm, turning, centripetal };
+            let parent = Motion { angular, linear: force };
+            let (answer, left) = twig_answer(&spring, &load, axis, &frames);
+            let (limb, rest) = joint_answer(&spring, &segment_body(&load, axis), axis, &frames);
+            prop_assert!(near(answer.free, limb.free, 30.0), "{:?} for {:?}", answer.free, limb.free);
+            let own = twig_motion(&answer, axis, &parent);
+            let (_, expected) = joint_motion(&limb, &parent);
+            prop_assert!(near(own, expected, 60.0), "{own:?} for {expected:?}");
+            let pairs = [
+                (left.rotation.diagonal, rest.rotation.diagonal),
+                (left.rotation.off, rest.rotation.off),
+                (left.coupling.x, rest.coupling.x),
+                (left.coupling.y, rest.coupling.y),
+                (left.coupling.z, rest.coupling.z),
+                (left.mass.diagonal, rest.mass.diagonal),
+                (left.mass.off, rest.mass.off),
+                (left.moment, rest.moment),
+                (left.force, rest.force),
+            ];
+            for (number, (twig, limb)) in pairs.into_iter().enumerate() {
+                prop_assert!(near(twig, limb, 60.0), "{number}: {twig:?} for {limb:?}");
+            }
+        }
+    }
+}

@@ -20,13 +20,13 @@ fn segment_drag(constants: Constants, axis: vec3<f32>, air: vec3<f32>, velocity:
     let along = vec3_dot(wind, axis);
     let across = max(squared - along * along, TINY_SQUARED);
     let speed_across = across * inverse_sqrt(across);
-    let speed = squared * inverse_sqrt(max(squared, TINY_SQUARED));
-    let yielding = reciprocal(speed * constants.leaf_yield + 1.0);
-    return Drag(
-        wind,
-        constants.wood_drag * speed_across,
-        ((constants.leaf_drag * bearing) * speed) * yielding,
-    );
+    var leaves = 0.0;
+    if (leaves < bearing) {
+        let speed = squared * inverse_sqrt(max(squared, TINY_SQUARED));
+        let yielding = reciprocal(speed * constants.leaf_yield + 1.0);
+        leaves = ((constants.leaf_drag * bearing) * speed) * yielding;
+    }
+    return Drag(wind, constants.wood_drag * speed_across, leaves);
 }
 
 fn segment_air(body: Body, axis: vec3<f32>, length: f32) -> vec3<f32> {
