@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Every device function, as it is called in Rust and in WGSL.
 
+mod bodies;
 mod flight;
 mod leaf;
 mod schemes;

@@ -4,13 +4,14 @@
 //!
 //! Answers are for the same segments in both passes, so they stay in lanes.
 
+use bytemuck::{Pod, Zeroable};
 use windfall_core::kernel::pack::{BLOCK, Pack};
 use windfall_core::kernel::{Mat3, Vec3};
 use windfall_core::tree::record::Work;
 use windfall_core::tree::sway::{Answer, Frames, TwigAnswer};
 
 use super::branch_block::{Column, Spare};
-use super::timber_block::{HANDED, Lanes, MOTIONS, lanes};
+use super::timber_block::{HANDED, Lanes, MOTIONS};
 
 /// Numbers of an [`Answer`].
 const ANSWERS: usize = 30;
@@ -24,7 +25,7 @@ pub(crate) struct Kept<const N: usize>([Lanes; N]);
 impl<const N: usize> Kept<N> {
     #[inline(always)]
     fn keep<P: Pack>(&mut self, at: usize, part: usize, number: P) {
-        number.store(&mut self.0[at][part * P::LANES..]);
+        self.0[at].store(part, number);
     }
 
     #[inline(always)]
@@ -43,7 +44,7 @@ impl<const N: usize> Kept<N> {
 
     #[inline(always)]
     fn kept<P: Pack>(&self, simd: P::Simd, at: usize, part: usize) -> P {
-        lanes(simd, &self.0[at], part)
+        self.0[at].load(simd, part)
     }
 
     #[inline(always)]
@@ -121,6 +122,16 @@ impl TwigAnswers {
     }
 }
 
+/// What the limbs of a block hand down.
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+#[repr(C, align(64))]
+pub(crate) struct Handed(pub(super) [Column; HANDED]);
+
+/// How the limbs of a block accelerate.
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+#[repr(C, align(64))]
+pub(crate) struct Motions(pub(super) [Column; MOTIONS]);
+
 /// Results of the pass towards the foot for the largest stand, used by one thread for one stand after another, so that
 /// they stay in its cache.
 #[derive(Debug)]
@@ -135,9 +146,9 @@ pub(crate) struct Scratch {
 #[derive(Debug)]
 pub(crate) struct BlockScratch {
     /// What limbs hand down, block by block; the last block is nothing, which no limb ever writes.
-    pub(crate) handed: Vec<[Column; HANDED]>,
+    pub(crate) handed: Vec<Handed>,
     /// How limbs accelerate, block by block.
-    pub(crate) motions: Vec<[Column; MOTIONS]>,
+    pub(crate) motions: Vec<Motions>,
     /// One for each block.
     pub(crate) limbs: Vec<LimbAnswers>,
     /// One for each block of twigs.
@@ -151,14 +162,14 @@ pub(crate) struct BlockScratch {
 impl Scratch {
     /// Room for stands of up to so many rows, blocks, and blocks of twigs.
     pub(crate) fn new(rows: usize, blocks: usize, twigs: usize) -> Self {
-        let mut handed = vec![[[[0.0; 4]; BLOCK]; HANDED]; blocks + 1];
+        let mut handed = vec![Handed::zeroed(); blocks + 1];
         // Minus zero leaves every sum as it is.
-        handed[blocks] = [[[-0.0; 4]; BLOCK]; HANDED];
+        handed[blocks] = Handed([[[-0.0; 4]; BLOCK]; HANDED]);
         let blocks = BlockScratch {
             handed,
-            motions: vec![[[[0.0; 4]; BLOCK]; MOTIONS]; blocks],
-            limbs: vec![Kept([[0.0; BLOCK]; ANSWERS]); blocks],
-            twigs: vec![Kept([[0.0; BLOCK]; TWIG_ANSWERS]); twigs],
+            motions: vec![Motions::zeroed(); blocks],
+            limbs: vec![Kept([Lanes::ZERO; ANSWERS]); blocks],
+            twigs: vec![Kept([Lanes::ZERO; TWIG_ANSWERS]); twigs],
             spare: Spare::new(),
             spare_twigs: Spare::new(),
         };

@@ -23,7 +23,7 @@ use windfall_core::tree::sway::unfold::{Motion, joint_motion, joint_step, segmen
 use windfall_core::tree::sway::{Articulated, Body, Joint};
 
 use super::branch_block::{Column, State, change_state, state_of};
-use super::scratch::{BlockScratch, TwigAnswers};
+use super::scratch::{BlockScratch, Handed, TwigAnswers};
 use super::timber_block::{HANDED, StandBlocks, TimberBlock};
 
 type Record = [f32; 4];
@@ -103,7 +103,7 @@ fn ground<P: Pack>(simd: P::Simd) -> Body<P> {
 
 /// What limbs hand down, wherever they are.
 #[inline(always)]
-fn handed_by<P: Pack>(simd: P::Simd, from: P::Word, handed: &[[[Record; BLOCK]; HANDED]]) -> Articulated<P> {
+fn handed_by<P: Pack>(simd: P::Simd, from: P::Word, handed: &[Handed]) -> Articulated<P> {
     let spans = P::spans::<{ BLOCK * (HANDED - 1) + 1 }>(from, must_cast_slice(handed));
     let record = |number: usize| four(P::column(simd, &spans, BLOCK * number));
     let (a, b, c, d) = (record(0), record(1), record(2), record(3));
@@ -195,7 +195,7 @@ impl Step<'_, '_> {
         let (answer, left) = joint_answer(&spring, &whole, axis, &frames);
         answers[number].keep_answer(part, &answer);
         let shifted = articulated_shift(&left, frames.arm);
-        hand_down(&mut handed[number], part, &shifted, P::fill(simd, 0.0));
+        hand_down(&mut handed[number].0, part, &shifted, P::fill(simd, 0.0));
     }
 
     /// The pass towards the foot at twigs whose parents feel this air and move like this: what they hand down.
@@ -249,7 +249,7 @@ impl Step<'_, '_> {
         };
         let (motion, own) = joint_motion(&scratch.limbs[number].answer(simd, part), &above);
         let zero = P::fill(simd, 0.0);
-        let [angular, linear] = &mut scratch.motions[number];
+        let [angular, linear] = &mut scratch.motions[number].0;
         store_block(angular, part, [motion.angular.x, motion.angular.y, motion.angular.z, zero]);
         store_block(linear, part, [motion.linear.x, motion.linear.y, motion.linear.z, zero]);
         let own = |_| own;

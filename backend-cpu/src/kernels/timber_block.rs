@@ -20,8 +20,28 @@ pub(super) const HANDED: usize = 7;
 /// Records of four of a limb's motion.
 pub(super) const MOTIONS: usize = 2;
 
-/// One number of all segments of a block.
-pub(super) type Lanes = [f32; BLOCK];
+/// One number of all segments of a block, in a cache line of its own: a register of 64 bytes that straddles two lines takes
+/// two accesses.
+#[derive(Clone, Copy, Debug)]
+#[repr(align(64))]
+pub(super) struct Lanes([f32; BLOCK]);
+
+impl Lanes {
+    pub(super) const ZERO: Self = Self([0.0; BLOCK]);
+
+    /// One part of them.
+    #[inline(always)]
+    pub(super) fn load<P: Pack>(&self, simd: P::Simd, part: usize) -> P {
+        P::load(simd, &self.0[part * P::LANES..])
+    }
+
+    /// Changes one part of them.
+    #[inline(always)]
+    pub(super) fn store<P: Pack>(&mut self, part: usize, numbers: P) {
+        numbers.store(&mut self.0[part * P::LANES..]);
+    }
+}
+
 /// One index for each segment of a block.
 type Indices = [u32; BLOCK];
 
@@ -140,11 +160,11 @@ fn word(number: usize) -> u32 {
 
 impl TimberBlock {
     fn new(rows: Range<usize>, timber: &[Timber]) -> Self {
-        let mut block = Self { rows, floats: [[0.0; BLOCK]; FLOATS] };
+        let mut block = Self { rows, floats: [Lanes::ZERO; FLOATS] };
         for (lane, row) in block.rows_of_lanes().into_iter().enumerate() {
             let floats: &[f32; FLOATS + 4] = bytemuck::must_cast_ref(&timber[row]);
             for (lanes, float) in block.floats.iter_mut().zip(floats) {
-                lanes[lane] = *float;
+                lanes.0[lane] = *float;
             }
         }
         block
@@ -158,7 +178,7 @@ impl TimberBlock {
     /// All constants, in the order of [`Timber`].
     #[inline(always)]
     pub(crate) fn constants<P: Pack>(&self, simd: P::Simd, part: usize) -> Constants<P> {
-        let float = |of: usize| lanes(simd, &self.floats[of], part);
+        let float = |of: usize| self.floats[of].load(simd, part);
         let vector = |of: usize| Vec3::new(float(of), float(of + 1), float(of + 2));
         Constants {
             rest: Quat::new(float(0), float(1), float(2), float(3)),
@@ -180,10 +200,4 @@ impl TimberBlock {
             twisting_inertia: float(23),
         }
     }
-}
-
-/// One part of the lanes of a block.
-#[inline(always)]
-pub(super) fn lanes<P: Pack>(simd: P::Simd, lanes: &Lanes, part: usize) -> P {
-    P::load(simd, &lanes[part * P::LANES..])
 }

@@ -8,7 +8,7 @@ use windfall_core::tree::sway::oliapuram_kumar::oliapuram_kumar_step;
 use windfall_core::tree::sway::quigley::quigley_step;
 use windfall_core::tree::sway::unfold::joint_held;
 
-use super::tree::{
+use super::bodies::{
     DIAGONAL, DIRECTION, LENGTH, OFF, PLACE, PRELOAD, QUATERNION, Results, SCALARS, SPRINGS, TURN,
     TURN_COSINE, VELOCITY, body, constants, joint, sym3,
 };
