@@ -12,7 +12,6 @@ use windfall_core::kernel::matrix::sym3_trace;
 use windfall_core::kernel::pack::{BLOCK, Pack, load_block, row_of_lane, store_block};
 use windfall_core::kernel::vector::vec3_select;
 use windfall_core::kernel::{Mat3, Quat, Sym3, Vec3};
-use windfall_core::tree::BranchesMut;
 use windfall_core::tree::sway::fold::{
     articulated_add, articulated_shift, joint_answer, joint_frames, joint_spring,
 };
@@ -22,7 +21,7 @@ use windfall_core::tree::sway::twig::{twig_answer, twig_motion};
 use windfall_core::tree::sway::unfold::{Motion, joint_motion, joint_step, segment_place};
 use windfall_core::tree::sway::{Articulated, Body, Joint};
 
-use super::branch_block::{Column, State, change_state, state_of};
+use super::branch_block::{Column, Spare, State, change_state, state_of};
 use super::scratch::{BlockScratch, Handed, TwigAnswers};
 use super::timber_block::{HANDED, StandBlocks, TimberBlock};
 
@@ -33,6 +32,12 @@ pub(super) struct Step<'a, 'b> {
     pub(super) cx: &'a Context<'a>,
     pub(super) rows: &'a mut Rows<'b>,
     pub(super) blocks: &'a StandBlocks,
+}
+
+/// Writes vectors and what stands behind them.
+#[inline(always)]
+fn store_vector<P: Pack>(column: &mut Column, part: usize, v: Vec3<P>, w: P) {
+    store_block(column, part, [v.x, v.y, v.z, w]);
 }
 
 /// Four columns as a vector and what stands behind it.
@@ -105,9 +110,13 @@ fn ground<P: Pack>(simd: P::Simd) -> Body<P> {
 #[inline(always)]
 fn handed_by<P: Pack>(simd: P::Simd, from: P::Word, handed: &[Handed]) -> Articulated<P> {
     let spans = P::spans::<{ BLOCK * (HANDED - 1) + 1 }>(from, must_cast_slice(handed));
-    let record = |number: usize| four(P::column(simd, &spans, BLOCK * number));
-    let (a, b, c, d) = (record(0), record(1), record(2), record(3));
-    let (e, f, g) = (record(4), record(5), record(6));
+    let a = four(P::column(simd, &spans, 0));
+    let b = four(P::column(simd, &spans, BLOCK));
+    let c = four(P::column(simd, &spans, 2 * BLOCK));
+    let d = four(P::column(simd, &spans, 3 * BLOCK));
+    let e = four(P::column(simd, &spans, 4 * BLOCK));
+    let f = four(P::column(simd, &spans, 5 * BLOCK));
+    let g = four(P::column(simd, &spans, 6 * BLOCK));
     Articulated {
         rotation: Sym3 { diagonal: a.0, off: b.0 },
         coupling: Mat3 { x: c.0, y: d.0, z: e.0 },
@@ -121,34 +130,34 @@ fn handed_by<P: Pack>(simd: P::Simd, from: P::Word, handed: &[Handed]) -> Articu
 #[inline(always)]
 fn hand_down<P: Pack>(handed: &mut [[Record; BLOCK]; HANDED], part: usize, body: &Articulated<P>, zero: P) {
     let [a, b, c, d, e, f, g] = handed;
-    let store = |column: &mut _, v: Vec3<P>, w: P| store_block(column, part, [v.x, v.y, v.z, w]);
-    store(a, body.rotation.diagonal, body.moment.x);
-    store(b, body.rotation.off, body.moment.y);
-    store(c, body.coupling.x, body.moment.z);
-    store(d, body.coupling.y, body.force.x);
-    store(e, body.coupling.z, body.force.y);
-    store(f, body.mass.diagonal, body.force.z);
-    store(g, body.mass.off, zero);
+    store_vector(a, part, body.rotation.diagonal, body.moment.x);
+    store_vector(b, part, body.rotation.off, body.moment.y);
+    store_vector(c, part, body.coupling.x, body.moment.z);
+    store_vector(d, part, body.coupling.y, body.force.x);
+    store_vector(e, part, body.coupling.z, body.force.y);
+    store_vector(f, part, body.mass.diagonal, body.force.z);
+    store_vector(g, part, body.mass.off, zero);
+}
+
+/// `yes` where true, `no` elsewhere.
+#[inline(always)]
+fn sym3_select<P: Pack>(mask: P::Mask, yes: Sym3<P>, no: Sym3<P>) -> Sym3<P> {
+    Sym3 { diagonal: vec3_select(mask, yes.diagonal, no.diagonal), off: vec3_select(mask, yes.off, no.off) }
 }
 
 /// `yes` where true, `no` elsewhere.
 #[inline(always)]
 fn articulated_select<P: Pack>(mask: P::Mask, yes: &Articulated<P>, no: &Articulated<P>) -> Articulated<P> {
-    let select = |yes, no| vec3_select(mask, yes, no);
-    let symmetric = |yes: Sym3<P>, no: Sym3<P>| Sym3 {
-        diagonal: select(yes.diagonal, no.diagonal),
-        off: select(yes.off, no.off),
-    };
     Articulated {
-        rotation: symmetric(yes.rotation, no.rotation),
+        rotation: sym3_select::<P>(mask, yes.rotation, no.rotation),
         coupling: Mat3 {
-            x: select(yes.coupling.x, no.coupling.x),
-            y: select(yes.coupling.y, no.coupling.y),
-            z: select(yes.coupling.z, no.coupling.z),
+            x: vec3_select(mask, yes.coupling.x, no.coupling.x),
+            y: vec3_select(mask, yes.coupling.y, no.coupling.y),
+            z: vec3_select(mask, yes.coupling.z, no.coupling.z),
         },
-        mass: symmetric(yes.mass, no.mass),
-        moment: select(yes.moment, no.moment),
-        force: select(yes.force, no.force),
+        mass: sym3_select::<P>(mask, yes.mass, no.mass),
+        moment: vec3_select(mask, yes.moment, no.moment),
+        force: vec3_select(mask, yes.force, no.force),
     }
 }
 
@@ -179,7 +188,7 @@ impl Step<'_, '_> {
         let kept = &mut kept[block.twigs.clone()];
         for (twigs, kept) in self.blocks.twigs[block.twigs.clone()].iter().zip(kept) {
             let state = state_of(&self.rows.branches, &twigs.rows, spare_twigs);
-            let sum = articulated_add(&whole, &self.fold_twigs(simd, twigs, state, part, kept, air, &body));
+            let sum = articulated_add(&whole, &self.fold_twigs(simd, twigs, state, part, kept, (air, &body)));
             whole = if twigs.rows.len() == BLOCK {
                 sum
             } else {
@@ -207,8 +216,7 @@ impl Step<'_, '_> {
         (state, bearing): (State<'_>, &[u32; BLOCK]),
         part: usize,
         kept: &mut TwigAnswers,
-        air: Vec3<P>,
-        parent: &Body<P>,
+        (air, parent): (Vec3<P>, &Body<P>),
     ) -> Articulated<P> {
         let constants = twigs.constants(simd, part);
         let body = bodies_at(simd, state, part);
@@ -250,51 +258,49 @@ impl Step<'_, '_> {
         let (motion, own) = joint_motion(&scratch.limbs[number].answer(simd, part), &above);
         let zero = P::fill(simd, 0.0);
         let [angular, linear] = &mut scratch.motions[number].0;
-        store_block(angular, part, [motion.angular.x, motion.angular.y, motion.angular.z, zero]);
-        store_block(linear, part, [motion.linear.x, motion.linear.y, motion.linear.z, zero]);
+        store_vector(angular, part, motion.angular, zero);
+        store_vector(linear, part, motion.linear, zero);
         let own = |_| own;
-        let body =
-            move_on(self.cx, simd, &mut self.rows.branches, &block.timber, part, own, &parent, scratch);
+        let body = self.move_on(simd, &block.timber, part, own, &parent, &mut scratch.spare);
         for number in block.twigs.clone() {
             let timber = &self.blocks.twigs[number];
             let answer = scratch.twigs[number].answer(simd, part);
             let own = |axis| twig_motion(&answer, axis, &motion);
-            move_on(self.cx, simd, &mut self.rows.branches, timber, part, own, &body, scratch);
+            self.move_on(simd, timber, part, own, &body, &mut scratch.spare);
         }
     }
-}
 
-/// Segments that follow one another move on, accelerated by `own`, of their axes, in world axes.
-#[expect(clippy::too_many_arguments, reason = "one of each thing that a pass has")]
-#[inline(always)]
-fn move_on<P: Pack>(
-    cx: &Context<'_>,
-    simd: P::Simd,
-    branches: &mut BranchesMut<'_>,
-    timber: &TimberBlock,
-    part: usize,
-    own: impl FnOnce(Vec3<P>) -> Vec3<P>,
-    parent: &Body<P>,
-    scratch: &mut BlockScratch,
-) -> Body<P> {
-    change_state(
-        branches,
-        &timber.rows,
-        &mut scratch.spare,
-        #[inline(always)]
-        |[turn, rate, base, pose, velocity, spin]| {
-            let before = Body { pose: load_block(simd, pose, part).into(), ..*parent };
-            let own = own(segment_axis(&before));
-            let joint = joint_step(cx, &joints_at(simd, turn, rate, part), &before, own);
-            let body = segment_place(&timber.constants(simd, part), &joint, parent);
-            let zero = P::fill(simd, 0.0);
-            store_block(turn, part, joint.turn.to_array());
-            store_block(rate, part, [joint.rate.x, joint.rate.y, joint.rate.z, zero]);
-            store_block(base, part, [body.base.x, body.base.y, body.base.z, zero]);
-            store_block(pose, part, body.pose.to_array());
-            store_block(velocity, part, [body.velocity.x, body.velocity.y, body.velocity.z, zero]);
-            store_block(spin, part, [body.spin.x, body.spin.y, body.spin.z, zero]);
-            body
-        },
-    )
+    /// Segments that follow one another move on, accelerated by `own`, of their axes, in world axes.
+    #[inline(always)]
+    fn move_on<P: Pack>(
+        &mut self,
+        simd: P::Simd,
+        timber: &TimberBlock,
+        part: usize,
+        own: impl FnOnce(Vec3<P>) -> Vec3<P>,
+        parent: &Body<P>,
+        spare: &mut Spare,
+    ) -> Body<P> {
+        let cx = self.cx;
+        change_state(
+            &mut self.rows.branches,
+            &timber.rows,
+            spare,
+            #[inline(always)]
+            |[turn, rate, base, pose, velocity, spin]| {
+                let before = Body { pose: load_block(simd, pose, part).into(), ..*parent };
+                let own = own(segment_axis(&before));
+                let joint = joint_step(cx, &joints_at(simd, turn, rate, part), &before, own);
+                let body = segment_place(&timber.constants(simd, part), &joint, parent);
+                let zero = P::fill(simd, 0.0);
+                store_block(turn, part, joint.turn.to_array());
+                store_vector(rate, part, joint.rate, zero);
+                store_vector(base, part, body.base, zero);
+                store_block(pose, part, body.pose.to_array());
+                store_vector(velocity, part, body.velocity, zero);
+                store_vector(spin, part, body.spin, zero);
+                body
+            },
+        )
+    }
 }

@@ -175,29 +175,44 @@ impl TimberBlock {
         std::array::from_fn(|lane| self.rows.start + row_of_lane(lane).min(self.rows.len() - 1))
     }
 
+    /// One number.
+    #[inline(always)]
+    fn float<P: Pack>(&self, simd: P::Simd, of: usize, part: usize) -> P {
+        self.floats[of].load(simd, part)
+    }
+
+    /// Three numbers.
+    #[inline(always)]
+    fn vector<P: Pack>(&self, simd: P::Simd, of: usize, part: usize) -> Vec3<P> {
+        Vec3::new(self.float(simd, of, part), self.float(simd, of + 1, part), self.float(simd, of + 2, part))
+    }
+
     /// All constants, in the order of [`Timber`].
     #[inline(always)]
     pub(crate) fn constants<P: Pack>(&self, simd: P::Simd, part: usize) -> Constants<P> {
-        let float = |of: usize| self.floats[of].load(simd, part);
-        let vector = |of: usize| Vec3::new(float(of), float(of + 1), float(of + 2));
         Constants {
-            rest: Quat::new(float(0), float(1), float(2), float(3)),
-            offset: vector(4),
-            length: float(7),
-            mass: float(8),
-            first_moment: float(9),
-            inertia_across: float(10),
-            inertia_along: float(11),
-            leaf_mass: float(12),
-            wood_drag: float(13),
-            leaf_drag: float(14),
-            leaf_yield: float(15),
-            preload: vector(16),
-            damping: float(19),
-            bending: float(20),
-            twisting: float(21),
-            bending_inertia: float(22),
-            twisting_inertia: float(23),
+            rest: Quat::new(
+                self.float(simd, 0, part),
+                self.float(simd, 1, part),
+                self.float(simd, 2, part),
+                self.float(simd, 3, part),
+            ),
+            offset: self.vector(simd, 4, part),
+            length: self.float(simd, 7, part),
+            mass: self.float(simd, 8, part),
+            first_moment: self.float(simd, 9, part),
+            inertia_across: self.float(simd, 10, part),
+            inertia_along: self.float(simd, 11, part),
+            leaf_mass: self.float(simd, 12, part),
+            wood_drag: self.float(simd, 13, part),
+            leaf_drag: self.float(simd, 14, part),
+            leaf_yield: self.float(simd, 15, part),
+            preload: self.vector(simd, 16, part),
+            damping: self.float(simd, 19, part),
+            bending: self.float(simd, 20, part),
+            twisting: self.float(simd, 21, part),
+            bending_inertia: self.float(simd, 22, part),
+            twisting_inertia: self.float(simd, 23, part),
         }
     }
 }

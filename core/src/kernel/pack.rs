@@ -14,6 +14,7 @@ pub const BLOCK: usize = 16;
 
 /// The row of a block that lane number `lane` holds. Records of four floats that follow one another come into lanes in
 /// this order, and out of them, without crossing the blocks of four floats that shuffles are cheap within.
+#[inline(always)]
 pub const fn row_of_lane(lane: usize) -> usize {
     4 * (lane % 4) + lane / 4
 }

@@ -22,8 +22,12 @@ fn transpose_four<S: Simd>([a, b, c, d]: [f32x4<S>; 4]) -> [f32x4<S>; 4] {
 /// Eight rows of four to four columns of eight.
 #[inline(always)]
 pub(crate) fn columns_of_four<S: Simd>(simd: S, row: impl Fn(usize) -> f32x4<S>) -> [f32x8<S>; 4] {
-    let pair = |four: usize| simd.combine_f32x4(row(four), row(four + 4));
-    transpose_eight_in_fours([pair(0), pair(1), pair(2), pair(3)])
+    transpose_eight_in_fours([
+        simd.combine_f32x4(row(0), row(4)),
+        simd.combine_f32x4(row(1), row(5)),
+        simd.combine_f32x4(row(2), row(6)),
+        simd.combine_f32x4(row(3), row(7)),
+    ])
 }
 
 /// Four columns of eight to eight rows of four, two to a vector.
@@ -73,15 +77,20 @@ pub(crate) fn transpose_sixteen_in_fours<S: Simd>(rows: [f32x16<S>; 4]) -> [f32x
     core::array::from_fn(|column| simd.combine_f32x8(low[column], high[column]))
 }
 
+#[inline(always)]
+fn join_fours<S: Simd>(simd: S, a: f32x4<S>, b: f32x4<S>, c: f32x4<S>, d: f32x4<S>) -> f32x16<S> {
+    simd.combine_f32x8(simd.combine_f32x4(a, b), simd.combine_f32x4(c, d))
+}
+
 /// Sixteen rows of four to four columns of sixteen.
 #[inline(always)]
 pub(crate) fn columns_of_sixteen<S: Simd>(simd: S, row: impl Fn(usize) -> f32x4<S>) -> [f32x16<S>; 4] {
-    let four = |four: usize| {
-        let low = simd.combine_f32x4(row(four), row(four + 4));
-        let high = simd.combine_f32x4(row(four + 8), row(four + 12));
-        simd.combine_f32x8(low, high)
-    };
-    transpose_sixteen_in_fours([four(0), four(1), four(2), four(3)])
+    transpose_sixteen_in_fours([
+        join_fours(simd, row(0), row(4), row(8), row(12)),
+        join_fours(simd, row(1), row(5), row(9), row(13)),
+        join_fours(simd, row(2), row(6), row(10), row(14)),
+        join_fours(simd, row(3), row(7), row(11), row(15)),
+    ])
 }
 
 /// Eight rows of eight to eight columns.

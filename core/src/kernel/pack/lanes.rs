@@ -104,13 +104,20 @@ macro_rules! pack {
             #[inline(always)]
             fn look_up(self, rows: &[[f32; 4]]) -> [$reals<S>; 4] {
                 let rows = $pick::<_, _, 1>(self, rows);
-                $columns(self.simd, |lane| f32x4::load_array_ref(self.simd, &rows.at(lane)[0]))
+                $columns(
+                    self.simd,
+                    #[inline(always)]
+                    |lane| f32x4::load_array_ref(self.simd, &rows.at(lane)[0]),
+                )
             }
             #[inline(always)]
             fn look_up_words(self, rows: &[[u32; 4]]) -> [Self; 4] {
                 let rows = $pick::<_, _, 1>(self, rows);
-                let load = |lane| u32x4::load_array_ref(self.simd, &rows.at(lane)[0]).bitcast();
-                let [x, y, z, w] = $columns(self.simd, load);
+                let [x, y, z, w] = $columns(
+                    self.simd,
+                    #[inline(always)]
+                    |lane| u32x4::load_array_ref(self.simd, &rows.at(lane)[0]).bitcast(),
+                );
                 [x.bitcast(), y.bitcast(), z.bitcast(), w.bitcast()]
             }
             #[inline(always)]
@@ -172,7 +179,11 @@ macro_rules! pack {
             }
             #[inline(always)]
             fn column<const N: usize>(simd: S, spans: &Self::Spans<'_, N>, row: usize) -> [Self; 4] {
-                $columns(simd, |lane| f32x4::load_array_ref(simd, &spans.at(lane)[row]))
+                $columns(
+                    simd,
+                    #[inline(always)]
+                    |lane| f32x4::load_array_ref(simd, &spans.at(lane)[row]),
+                )
             }
         }
 
