@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What kernels compute with: one float and one word, or eight of each at once.
+//! What kernels compute with: one float and one word, or eight or sixteen of each at once.
 //!
 //! A kernel function is written once, over [`Real`], [`Word`] and [`Mask`]. With `f32`, `u32` and `bool` it is the
-//! scalar oracle; with the SIMD vectors of `fearless_simd` (`eight.rs`) the same operations run on eight leaves at once,
+//! scalar oracle; with the SIMD vectors of `fearless_simd` (`pack.rs`) the same operations run on eight or sixteen at once,
 //! lane by lane with the same bits.
 
 use core::ops::{Add, BitAnd, BitOr, Mul, Neg, Not, Shl, Shr, Sub};

@@ -7,7 +7,7 @@
 use crate::kernel::{Mat3, Quat, Sym3, Vec3};
 use crate::tree::record::Timber;
 
-/// Constants of a segment, or of eight: see [`Timber`].
+/// Constants of a segment, or of several: see [`Timber`].
 #[derive(Clone, Copy, Debug)]
 #[expect(missing_docs, reason = "the fields of Timber")]
 pub struct Constants<R = f32> {
