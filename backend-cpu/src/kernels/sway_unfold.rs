@@ -33,7 +33,7 @@ pub(crate) fn sway_unfold(
 /// All blocks.
 #[inline(always)]
 fn unfold_lanes<P: Pack>(simd: P::Simd, mut step: Step<'_, '_>, scratch: &mut BlockScratch) {
-    for number in 0..step.blocks.limbs.len() {
+    for number in (0..step.blocks.limbs.len()).rev() {
         for part in 0..BLOCK / P::LANES {
             step.unfold::<P>(simd, number, part, scratch);
         }

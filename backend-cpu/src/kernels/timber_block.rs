@@ -74,7 +74,7 @@ pub(crate) struct LimbBlock {
     pub(crate) twigs: Range<usize>,
 }
 
-/// The blocks of a stand, from the trunks up.
+/// The blocks of a stand in the order of the pass towards the foot, which reads the most of them.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct StandBlocks {
     pub(crate) limbs: Vec<LimbBlock>,
@@ -88,7 +88,7 @@ impl StandBlocks {
     pub(crate) fn new(stand: &Stand, timber: &[Timber], most: usize) -> Self {
         let mut blocks = Self::default();
         let places = Places::of(stand);
-        for block in &stand.blocks {
+        for block in stand.blocks.iter().rev() {
             let limbs = TimberBlock::new(block.limbs(), timber);
             let first_twigs = blocks.twigs.len();
             blocks.twigs.extend(block.twigs().map(|rows| TimberBlock::new(rows, timber)));
@@ -124,7 +124,7 @@ struct Places {
 impl Places {
     fn of(stand: &Stand) -> Self {
         let mut of_row = vec![usize::MAX; stand.len()];
-        for (number, block) in stand.blocks.iter().enumerate() {
+        for (number, block) in stand.blocks.iter().rev().enumerate() {
             for (lane, row) in block.limbs().enumerate() {
                 of_row[row] = number * BLOCK + lane;
             }
