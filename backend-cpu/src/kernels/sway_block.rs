@@ -165,7 +165,7 @@ impl Step<'_, '_> {
     /// The pass towards the foot at part of a block.
     #[inline(always)]
     pub(super) fn fold<P: Pack>(
-        &mut self,
+        &self,
         simd: P::Simd,
         number: usize,
         part: usize,

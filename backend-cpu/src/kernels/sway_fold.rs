@@ -32,7 +32,7 @@ pub(crate) fn sway_fold(
 
 /// All blocks.
 #[inline(always)]
-fn fold_lanes<P: Pack>(simd: P::Simd, mut step: Step<'_, '_>, scratch: &mut BlockScratch) {
+fn fold_lanes<P: Pack>(simd: P::Simd, step: Step<'_, '_>, scratch: &mut BlockScratch) {
     for number in 0..step.blocks.limbs.len() {
         for part in 0..BLOCK / P::LANES {
             step.fold::<P>(simd, number, part, scratch);

@@ -2,14 +2,14 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! What the passes over a block of segments find side by side: constants and links.
 //!
-//! Constants never change, so they need not be turned from rows into lanes. Lane and row of a block go together as [`row_of_lane`] says; lanes without a row hold the block's last one once
-//! more.
+//! Constants never change, so they need not be turned from rows into lanes. Lane and row of a block go together as
+//! [`row_of_lane`] says; lanes without a row hold the block's last one once more.
 
 use std::ops::Range;
 
 use windfall_core::kernel::pack::{BLOCK, Pack, row_of_lane};
 use windfall_core::kernel::{Quat, Vec3};
-use windfall_core::tree::record::{NO_SEGMENT, TIMBER_ROWS, TWIG, Timber};
+use windfall_core::tree::record::{TIMBER_ROWS, Timber, children_of};
 use windfall_core::tree::stand::Stand;
 use windfall_core::tree::sway::Constants;
 
@@ -139,8 +139,7 @@ impl Places {
 
     /// What the child limbs of a row hand down.
     fn children(&self, stand: &Stand, timber: &[Timber], row: usize) -> Vec<u32> {
-        let within = |link: u32| (link < TWIG).then(|| (link - stand.first) as usize);
-        std::iter::successors(within(timber[row].first_child), |child| within(timber[*child].next_sibling))
+        children_of(timber, stand.first, row)
             .filter(|child| !timber[*child].is_twig())
             .map(|child| self.place(self.of_row[child], HANDED))
             .collect()
@@ -148,7 +147,6 @@ impl Places {
 
     fn parents(&self, stand: &Stand, timber: &[Timber], limbs: &TimberBlock) -> Parents {
         let rows = limbs.rows_of_lanes().map(|row| timber[row].parent - stand.first);
-        debug_assert!(!rows.contains(&NO_SEGMENT), "trunks are on the lowest level");
         Parents { rows, motions: rows.map(|row| self.place(self.of_row[row as usize], MOTIONS)) }
     }
 }

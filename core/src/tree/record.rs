@@ -90,6 +90,14 @@ impl Timber {
     }
 }
 
+/// The children of row `row` of a stand whose first row is number `first` of the forest: twigs, then limbs. Rows are counted
+/// from the stand's first.
+#[inline(always)]
+pub fn children_of(timber: &[Timber], first: u32, row: usize) -> impl Iterator<Item = usize> {
+    let within = move |link: u32| (link < TWIG).then(|| (link - first) as usize);
+    std::iter::successors(within(timber[row].first_child), move |child| within(timber[*child].next_sibling))
+}
+
 const _: () = assert!(size_of::<Timber>() == TIMBER_ROWS as usize * 16, "rows of four words");
 
 /// Results of a step's pass towards the foot that the pass towards the tips needs.

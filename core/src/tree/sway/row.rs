@@ -16,7 +16,7 @@ use crate::context::Context;
 use crate::kernel::matrix::sym3_trace;
 use crate::kernel::{Mat3, Sym3, Vec3};
 use crate::tree::forest::first_three;
-use crate::tree::record::{NO_SEGMENT, TWIG, Timber, WORK_ANSWER, Work};
+use crate::tree::record::{NO_SEGMENT, Timber, WORK_ANSWER, Work, children_of};
 use crate::tree::store::BranchesMut;
 
 /// The rows of a stand.
@@ -63,9 +63,7 @@ impl Rows<'_> {
     /// The children of a row: twigs, then limbs.
     #[inline(always)]
     fn children(&self, row: usize) -> impl Iterator<Item = usize> + use<'_> {
-        let within = |link: u32| (link < TWIG).then(|| (link - self.first) as usize);
-        let next = move |child: &usize| within(self.timber[*child].next_sibling);
-        std::iter::successors(within(self.timber[row].first_child), next)
+        children_of(self.timber, self.first, row)
     }
 
     #[inline(always)]
