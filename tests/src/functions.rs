@@ -3,6 +3,7 @@
 //! Every device function, as it is called in Rust and in WGSL.
 
 mod bodies;
+mod carry;
 mod flight;
 mod leaf;
 mod schemes;
@@ -99,6 +100,7 @@ pub fn all() -> impl Iterator<Item = &'static Function> {
     leaf::LEAF_FUNCTIONS
         .iter()
         .chain(tree::TREE_FUNCTIONS)
+        .chain(carry::CARRY_FUNCTIONS)
         .chain(schemes::SCHEME_FUNCTIONS)
         .chain(flight::FLIGHT_FUNCTIONS)
 }

@@ -149,6 +149,9 @@ fn a_changed_twin_is_noticed() {
         ("leaf/fly", "cuts.y * environment", "cuts.x * environment", "flight_advance"),
         ("leaf/launch", "share * inverse_sqrt", "rest * inverse_sqrt", "hold_pose"),
         ("leaf/carry", "SHED_SPEEDS - 1u", "SHED_SPEEDS - 9u", "shed_chance"),
+        ("leaf/carry", "still, vec3<f32>(0.0", "still, vec3<f32>(0.1", "leaf_hang"),
+        ("leaf/carry", "0u - (step_block", "1u - (step_block", "leaf_hangs"),
+        ("leaf/carry", "- velocity;\n    let squared", "+ velocity;\n    let squared", "leaf_look"),
     ];
     let world = world();
     for (gpu, contract) in adapter::contracts() {

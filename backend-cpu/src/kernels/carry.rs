@@ -2,24 +2,110 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! twin: backend-wgpu/src/shaders/kernels/carry.wgsl
 //!
-//! Moves the leaves of trees with their twigs, and lets petioles break.
+//! Moves the leaves on the twigs of a stand, and breaks petioles.
 
 use windfall_core::Context;
+use windfall_core::blocks::SOURCE_TREES;
+use windfall_core::kernel::pack::{BLOCK, Pack};
 use windfall_core::leaf::LeavesMut;
-use windfall_core::leaf::carry::{leaf_carry, petiole_of};
+use windfall_core::leaf::carry::{
+    CarriedLeaf, Stalk, leaf_carry, leaf_follow, leaf_hangs, leaf_return, petiole_of,
+};
+use windfall_core::leaf::petiole::SHED_INTERVAL;
 use windfall_core::tree::record::NO_SEGMENT;
+use windfall_core::tree::sway::Body;
 use windfall_core::tree::sway::row::Rows;
 
+use super::carry_block::{LeafBlock, look};
+use crate::simd::{Simd, in_packs};
+
+/// Slots of which as many look at the wind in a step as a block has lanes.
+const GROUP: usize = BLOCK * SHED_INTERVAL as usize;
+
 /// The leaves of a stand, whose first slot is `first`.
-pub(crate) fn carry(cx: &Context<'_>, rows: &mut Rows<'_>, leaves: &mut LeavesMut<'_>, first: u32) {
+pub(crate) fn carry(
+    cx: &Context<'_>,
+    rows: &mut Rows<'_>,
+    mut leaves: LeavesMut<'_>,
+    first: u32,
+    simd: Simd,
+) {
+    match simd {
+        Simd::Scalar => carry_each(cx, rows, &mut leaves, first, leaf_carry),
+        Simd::Lanes(level) => in_packs!(level, carry_lanes(cx, rows, leaves, first)),
+    }
+}
+
+/// Does to one leaf after another what may change the number of leaves on its segment.
+#[inline(always)]
+fn carry_each(
+    cx: &Context<'_>,
+    rows: &mut Rows<'_>,
+    leaves: &mut LeavesMut<'_>,
+    first: u32,
+    change: impl Fn(&Context<'_>, &mut CarriedLeaf<'_>, u32, &Stalk, &Body) -> u32,
+) {
     for (slot, leaf) in (first..).zip(leaves.iter_mut()) {
         let petiole = petiole_of(cx, slot);
-        if petiole.segment == NO_SEGMENT {
-            continue;
+        if petiole.segment != NO_SEGMENT {
+            let row = (petiole.segment - rows.first) as usize;
+            let change = change(cx, &mut leaf.into(), slot, &Stalk::from(&petiole), &rows.body(row));
+            let bearing = &mut rows.branches.bearing[row];
+            *bearing = bearing.wrapping_add(change);
         }
-        let row = (petiole.segment - rows.first) as usize;
-        let change = leaf_carry(cx, &mut leaf.into(), slot, &petiole, &rows.body(row));
-        let bearing = &mut rows.branches.bearing[row];
-        *bearing = bearing.wrapping_add(change);
+    }
+}
+
+/// Group after group of slots: those that grow back one by one, those that look at the wind together, and all that hang
+/// block by block.
+#[inline(always)]
+fn carry_lanes<P: Pack>(
+    simd: P::Simd,
+    cx: &Context<'_>,
+    rows: &mut Rows<'_>,
+    leaves: LeavesMut<'_>,
+    first: u32,
+) {
+    let grow_back = cx.environment.sources[SOURCE_TREES as usize].timing.0[3] != 0;
+    let mut slot = first;
+    let mut rest = leaves;
+    while !rest.is_empty() {
+        let (mut group, others) = {
+            let count = rest.len().min(GROUP);
+            rest.split_at(count)
+        };
+        let count = group.len();
+        if grow_back {
+            carry_each(cx, rows, &mut group, slot, |cx, leaf, _, stalk, _| {
+                leaf_return(cx, leaf, stalk.facts)
+            });
+        }
+        for part in 0..BLOCK / P::LANES {
+            look::<P>(simd, cx, rows, &mut group, slot, part);
+        }
+        let (blocks, mut few) = group.split_at(count - count % BLOCK);
+        let few_first = slot + blocks.len() as u32;
+        follow::<P>(simd, cx, rows, blocks, slot);
+        carry_each(cx, rows, &mut few, few_first, |cx, leaf, slot, stalk, segment| {
+            if leaf_hangs(cx, leaf.place.bits, leaf.course.event) {
+                leaf_follow(cx, leaf, slot, stalk, segment);
+            }
+            0
+        });
+        slot += count as u32;
+        rest = others;
+    }
+}
+
+/// Whole blocks of slots.
+#[inline(always)]
+fn follow<P: Pack>(simd: P::Simd, cx: &Context<'_>, rows: &Rows<'_>, leaves: LeavesMut<'_>, first: u32) {
+    let (place, _) = leaves.place.as_chunks_mut::<BLOCK>();
+    let (drift, _) = leaves.drift.as_chunks_mut::<BLOCK>();
+    let (attitude, _) = leaves.attitude.as_chunks_mut::<BLOCK>();
+    let (course, _) = leaves.course.as_chunks_mut::<BLOCK>();
+    let records = place.iter_mut().zip(drift).zip(attitude).zip(course);
+    for (first, (((place, drift), attitude), course)) in (first..).step_by(BLOCK).zip(records) {
+        LeafBlock { first, place, drift, attitude, course }.follow::<P>(simd, cx, rows);
     }
 }

@@ -6,6 +6,7 @@ pub(crate) mod advance;
 pub(crate) mod attend;
 mod branch_block;
 pub(crate) mod carry;
+mod carry_block;
 mod eight;
 mod fly;
 pub(crate) mod measure;

@@ -76,7 +76,7 @@ fn sway_stand(
     blocks: &StandBlocks,
     mut rows: Rows<'_>,
     scratch: &mut BlockScratch,
-    mut leaves: LeavesMut<'_>,
+    leaves: LeavesMut<'_>,
     first_slot: u32,
     simd: Simd,
 ) {
@@ -87,5 +87,5 @@ fn sway_stand(
         sway_gather(cx, &mut rows);
         sway_follow(cx, &mut rows);
     }
-    carry(cx, &mut rows, &mut leaves, first_slot);
+    carry(cx, &mut rows, leaves, first_slot, simd);
 }

@@ -36,13 +36,13 @@ pub(super) struct Step<'a, 'b> {
 
 /// Writes vectors and what stands behind them.
 #[inline(always)]
-fn store_vector<P: Pack>(column: &mut Column, part: usize, v: Vec3<P>, w: P) {
+pub(super) fn store_vector<P: Pack>(column: &mut Column, part: usize, v: Vec3<P>, w: P) {
     store_block(column, part, [v.x, v.y, v.z, w]);
 }
 
 /// Four columns as a vector and what stands behind it.
 #[inline(always)]
-fn four<P: Pack>([x, y, z, w]: [P; 4]) -> (Vec3<P>, P) {
+pub(super) fn four<P: Pack>([x, y, z, w]: [P; 4]) -> (Vec3<P>, P) {
     (Vec3::new(x, y, z), w)
 }
 
@@ -88,7 +88,7 @@ fn joints_at<P: Pack>(simd: P::Simd, turn: &Column, rate: &Column, part: usize) 
 
 /// Segments wherever they are.
 #[inline(always)]
-fn bodies_of<P: Pack>(rows: &Rows<'_>, of: P::Word) -> Body<P> {
+pub(super) fn bodies_of<P: Pack>(rows: &Rows<'_>, of: P::Word) -> Body<P> {
     let branches = &rows.branches;
     Body {
         base: four(of.look_up(branches.base)).0,

@@ -6,7 +6,7 @@
 //! scalar oracle; with the SIMD vectors of `fearless_simd` (`pack.rs`) the same operations run on eight or sixteen at once,
 //! lane by lane with the same bits.
 
-use core::ops::{Add, BitAnd, BitOr, Mul, Neg, Not, Shl, Shr, Sub};
+use core::ops::{Add, BitAnd, BitOr, BitXor, Mul, Neg, Not, Shl, Shr, Sub};
 
 /// Leaves that one SIMD step moves.
 pub const LANES: usize = 8;
@@ -53,6 +53,7 @@ pub trait Word:
     Copy
     + BitAnd<Output = Self>
     + BitOr<Output = Self>
+    + BitXor<Output = Self>
     + BitAnd<u32, Output = Self>
     + BitOr<u32, Output = Self>
     + Shl<u32, Output = Self>

@@ -7,7 +7,7 @@
 //! # Source
 //! Polynomials: Cephes single-precision library (Moshier 1989): sinf, cosf, expf, atanf.
 
-use super::lane::{Real, Word};
+use super::lane::{Mask, Real, Word};
 
 crate::shared_constants! {
     /// Radians of 2^-26 turns: the unit in which [`sin_cos_turns`] reads the offset from the nearest quarter turn.
@@ -92,31 +92,31 @@ crate::shared_constants! {
 
 /// Sine and cosine of an offset of at most pi/4.
 #[inline(always)]
-fn sin_cos_octant(r: f32) -> (f32, f32) {
+fn sin_cos_octant<R: Real>(r: R) -> (R, R) {
     let r2 = r * r;
-    let sine = r + r * (r2 * (SIN_3 + r2 * (SIN_5 + r2 * SIN_7)));
-    let cosine = (1.0 - 0.5 * r2) + r2 * (r2 * (COS_4 + r2 * (COS_6 + r2 * COS_8)));
+    let sine = r + r * (r2 * (r2 * (r2 * SIN_7 + SIN_5) + SIN_3));
+    let cosine = (r.all(1.0) - r2 * 0.5) + r2 * (r2 * (r2 * (r2 * COS_8 + COS_6) + COS_4));
     (sine, cosine)
 }
 
 /// Sine and cosine of an offset plus `quadrant` quarter turns.
 #[inline(always)]
-fn sin_cos_quadrant(r: f32, quadrant: u32) -> (f32, f32) {
+fn sin_cos_quadrant<W: Word>(r: W::Real, quadrant: W) -> (W::Real, W::Real) {
     let (sine, cosine) = sin_cos_octant(r);
-    let odd = (quadrant & 1) == 1;
-    let s = if odd { cosine } else { sine };
-    let c = if odd { sine } else { cosine };
-    let s_negative = (quadrant & 2) == 2;
-    let c_negative = (quadrant.wrapping_add(1) & 2) == 2;
-    (if s_negative { -s } else { s }, if c_negative { -c } else { c })
+    let odd = (quadrant & 1).equals(1);
+    let s = odd.select_real(cosine, sine);
+    let c = odd.select_real(sine, cosine);
+    let s_negative = (quadrant & 2).equals(2);
+    let c_negative = (quadrant.plus(quadrant.all(1)) & 2).equals(2);
+    (s_negative.select_real(-s, s), c_negative.select_real(-c, c))
 }
 
 /// Sine and cosine of an angle in units of 2^-32 turns. Within 1.5e-7.
 #[inline(always)]
-pub fn sin_cos_turns(angle: u32) -> (f32, f32) {
-    let quadrant = angle.wrapping_add(0x2000_0000) >> 30;
-    let offset = angle.wrapping_sub(quadrant << 30) as i32;
-    let r = (offset >> 6) as f32 * TURN_UNIT;
+pub fn sin_cos_turns<W: Word>(angle: W) -> (W::Real, W::Real) {
+    let quadrant = angle.plus(angle.all(0x2000_0000)) >> 30;
+    let offset = angle.minus(quadrant << 30);
+    let r = offset.shift_signed(6).to_real() * TURN_UNIT;
     sin_cos_quadrant(r, quadrant)
 }
 

@@ -38,15 +38,15 @@ pub fn mul_q16<W: Word>(a: W, b: W) -> W {
 
 /// Four random words for a 128-bit counter under a 64-bit key.
 #[inline(always)]
-pub fn philox(key: [u32; 2], counter: [u32; 4]) -> [u32; 4] {
+pub fn philox<W: Word>(key: [u32; 2], counter: [W; 4]) -> [W; 4] {
     let mut k = key;
     let mut c = counter;
     for _ in 0..PHILOX_ROUNDS {
-        let high0 = mul_high(PHILOX_M0, c[0]);
-        let high1 = mul_high(PHILOX_M1, c[2]);
-        let low0 = PHILOX_M0.wrapping_mul(c[0]);
-        let low1 = PHILOX_M1.wrapping_mul(c[2]);
-        c = [high1 ^ c[1] ^ k[0], low1, high0 ^ c[3] ^ k[1], low0];
+        let high0 = c[0].all(PHILOX_M0).times_high(c[0]);
+        let high1 = c[2].all(PHILOX_M1).times_high(c[2]);
+        let low0 = c[0].all(PHILOX_M0).times(c[0]);
+        let low1 = c[2].all(PHILOX_M1).times(c[2]);
+        c = [high1 ^ c[1] ^ c[1].all(k[0]), low1, high0 ^ c[3] ^ c[3].all(k[1]), low0];
         k = [k[0].wrapping_add(PHILOX_W0), k[1].wrapping_add(PHILOX_W1)];
     }
     c

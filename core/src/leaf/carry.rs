@@ -20,6 +20,7 @@ use super::record::{
 use super::store::LeafMut;
 use crate::blocks::{NEVER, SOURCE_TREES};
 use crate::context::Context;
+use crate::kernel::lane::{Mask, Real, Word};
 use crate::kernel::math::{inverse_sqrt, reciprocal, sin_cos_turns};
 use crate::kernel::quaternion::{
     Quat, quat_multiply, quat_of_turn, quat_renormalize, quat_rotate, quat_rotate_back,
@@ -64,41 +65,92 @@ impl<'a> From<LeafMut<'a>> for CarriedLeaf<'a> {
     }
 }
 
-/// Chance, of 2^32, that a petiole breaks in air of that speed, at one of its looks.
-#[expect(clippy::cast_possible_truncation, reason = "a whole number in range")]
-#[inline(always)]
-pub fn shed_chance(cx: &Context<'_>, facts: u32, speed: f32) -> u32 {
-    let kind = (facts >> PETIOLE_KIND_SHIFT) & PETIOLE_KIND_MASK;
-    let strength = (facts >> PETIOLE_CLASS_SHIFT) & PETIOLE_CLASS_MASK;
-    let level = (speed.floor() as i32 as u32).min(SHED_SPEEDS - 1);
-    let index = (kind * SHED_CLASSES + strength) * SHED_SPEEDS + level;
-    cx.petioles[(index >> 2) as usize].0[(index & 3) as usize]
+impl CarriedLeaf<'_> {
+    /// Hangs the leaf there.
+    pub fn hang(&mut self, hang: &Hang) {
+        self.place.position = hang.position.to_array();
+        self.attitude.quaternion = hang.attitude.to_array();
+        self.drift.velocity = hang.velocity.to_array();
+    }
 }
 
-/// Places a leaf on its segment: orientation from the air that it has got used to, position, velocity.
+/// What of a petiole a step needs, or of several petioles.
+#[derive(Clone, Copy, Debug)]
+pub struct Stalk<W: Word = u32> {
+    /// Base in the frame of its segment in m.
+    pub at: Vec3<W::Real>,
+    /// Orientation of the leaf in the frame of its segment, in still air.
+    pub rest: Quat<W::Real>,
+    /// As in [`Petiole::facts`].
+    pub facts: W,
+}
+
+impl From<&Petiole> for Stalk {
+    fn from(petiole: &Petiole) -> Self {
+        Self { at: petiole.at.into(), rest: petiole.rest.into(), facts: petiole.facts }
+    }
+}
+
+/// Chance, of 2^32, that a petiole breaks in air of that speed, at one of its looks.
 #[inline(always)]
-pub fn leaf_hang(cx: &Context<'_>, leaf: &mut CarriedLeaf<'_>, slot: u32, petiole: &Petiole, segment: &Body) {
-    let habit = f32::from_bits(leaf.drift.phase);
-    let still = quat_multiply(segment.pose, Quat::from(petiole.rest));
-    let tip = quat_rotate(still, Vec3::new(0.0, 0.0, 1.0));
-    let side = quat_rotate(still, Vec3::new(1.0, 0.0, 0.0));
-    let wind = Vec3::new(cx.environment.wind.mean.0[0], 0.0, cx.environment.wind.mean.0[1]);
+pub fn shed_chance<W: Word>(cx: &Context<'_>, facts: W, speed: W::Real) -> W {
+    let kind = (facts >> PETIOLE_KIND_SHIFT) & PETIOLE_KIND_MASK;
+    let strength = (facts >> PETIOLE_CLASS_SHIFT) & PETIOLE_CLASS_MASK;
+    let most = facts.all(SHED_SPEEDS - 1);
+    let whole = speed.floor().to_whole();
+    let level = whole.less_than(most).select(whole, most);
+    let of_kind = kind.times(facts.all(SHED_CLASSES)).plus(strength);
+    let index = of_kind.times(facts.all(SHED_SPEEDS)).plus(level);
+    let [a, b, c, d] = (index >> 2).look_up_words(bytemuck::cast_slice(cx.petioles));
+    let low = (index & 1).equals(0).select(a, b);
+    let high = (index & 1).equals(0).select(c, d);
+    (index & 2).equals(0).select(low, high)
+}
+
+/// How a leaf hangs on its twig.
+#[derive(Clone, Copy, Debug)]
+pub struct Hang<R = f32> {
+    /// Middle of its blade in m.
+    pub position: Vec3<R>,
+    /// Orientation.
+    pub attitude: Quat<R>,
+    /// Velocity of the blade in m/s.
+    pub velocity: Vec3<R>,
+}
+
+/// How a leaf that has got used to air of the speed `habit` in m/s hangs on its segment.
+#[inline(always)]
+pub fn leaf_hang<W: Word>(
+    cx: &Context<'_>,
+    habit: W::Real,
+    slot: W,
+    stalk: &Stalk<W>,
+    segment: &Body<W::Real>,
+) -> Hang<W::Real> {
+    let along = Vec3::new(0.0, 0.0, 1.0).spread(habit);
+    let still = quat_multiply(segment.pose, stalk.rest);
+    let tip = quat_rotate(still, along);
+    let side = quat_rotate(still, Vec3::new(1.0, 0.0, 0.0).spread(habit));
+    let mean = cx.environment.wind.mean.0;
+    let wind = Vec3::new(mean[0], 0.0, mean[1]).spread(habit);
     let share = habit * reciprocal(habit + LEAN_SPEED);
     let unrest = share * share;
     let rate = cx.environment.crowns.0[2];
-    let own_rate = rate + (rate >> 5) * (slot & 15);
-    let phase = own_rate.wrapping_mul(cx.step.index.0[0]).wrapping_add(slot.wrapping_mul(0x9E37_79B9));
+    let own_rate = slot.all(rate).plus(slot.all(rate >> 5).times(slot & 15));
+    let phase = own_rate.times(slot.all(cx.step.index.0[0])).plus(slot.times(slot.all(0x9E37_79B9)));
     let (roll, _) = sin_cos_turns(phase);
     let (_, pitch) = sin_cos_turns(phase << 1);
     let lean = vec3_cross(tip, wind) * (share * LEAN_MOST);
     let flutter = tip * ((unrest * FLUTTER_ROLL) * roll) + side * ((unrest * FLUTTER_PITCH) * pitch);
     let attitude = quat_renormalize(quat_multiply(quat_of_turn(lean + flutter), still));
-    let reach = ((petiole.facts >> PETIOLE_REACH_SHIFT) & PETIOLE_REACH_MASK) as f32 * PETIOLE_REACH_UNIT;
-    let arm =
-        quat_rotate(segment.pose, Vec3::from(petiole.at)) + quat_rotate(attitude, Vec3::new(0.0, 0.0, reach));
-    leaf.attitude.quaternion = attitude.to_array();
-    leaf.place.position = (segment.base + arm).to_array();
-    leaf.drift.velocity = (segment.velocity + vec3_cross(segment.spin, arm)).to_array();
+    let reach = ((stalk.facts >> PETIOLE_REACH_SHIFT) & PETIOLE_REACH_MASK).to_real() * PETIOLE_REACH_UNIT;
+    let blade = Vec3::new(habit.all(0.0), habit.all(0.0), reach);
+    let arm = quat_rotate(segment.pose, stalk.at) + quat_rotate(attitude, blade);
+    Hang {
+        position: segment.base + arm,
+        attitude,
+        velocity: segment.velocity + vec3_cross(segment.spin, arm),
+    }
 }
 
 /// Size of a leaf on its twig: its own in the high half, as it is drawn in the low one.
@@ -114,6 +166,68 @@ pub fn petiole_of(cx: &Context<'_>, slot: u32) -> Petiole {
     bytemuck::cast(*rows)
 }
 
+/// A leaf that lies on the ground grows back once its time has come: what the number of leaves on the segment changes by.
+#[inline(always)]
+pub fn leaf_return(cx: &Context<'_>, leaf: &mut CarriedLeaf<'_>, facts: u32) -> u32 {
+    let is_back = (leaf.place.bits & STATE_MASK) == STATE_RESTING
+        && cx.environment.sources[SOURCE_TREES as usize].timing.0[3] != 0
+        && cx.step.index.0[0] >= leaf.course.event;
+    if !is_back {
+        return 0;
+    }
+    leaf.place.bits = (leaf.place.bits & !(STATE_MASK | (BLEND_MASK << BLEND_SHIFT))) | STATE_ATTACHED;
+    leaf.course.event = NEVER;
+    leaf.course.size = leaf_size_on_twig(leaf.course.size & HALF_MASK, facts);
+    leaf.drift.phase = 0;
+    1
+}
+
+/// Whether a leaf hangs.
+#[inline(always)]
+pub fn leaf_hangs<W: Word>(cx: &Context<'_>, bits: W, event: W) -> W::Mask {
+    (bits & STATE_MASK).equals(STATE_ATTACHED) & bits.all(cx.step.index.0[0]).less_than(event)
+}
+
+/// How many slots on from `slot` the next petiole is that looks at the wind in this step.
+#[inline(always)]
+pub fn leaf_next_look(cx: &Context<'_>, slot: u32) -> u32 {
+    0u32.wrapping_sub(cx.step.index.0[0].wrapping_add(slot)) & (SHED_INTERVAL - 1)
+}
+
+/// A petiole looks at the wind: the speed of the air in m/s that its leaf has got used to then, and whether it breaks.
+#[inline(always)]
+pub fn leaf_look<W: Word>(
+    cx: &Context<'_>,
+    habit: W::Real,
+    slot: W,
+    stalk: &Stalk<W>,
+    segment: &Body<W::Real>,
+) -> (W::Real, W::Mask) {
+    let arm = quat_rotate(segment.pose, stalk.at);
+    let velocity = segment.velocity + vec3_cross(segment.spin, arm);
+    let relative = wind_at(cx, segment.base + arm) - velocity;
+    let squared = vec3_dot(relative, relative);
+    let speed = squared * inverse_sqrt(squared.max(squared.all(TINY_SQUARED)));
+    let seed = [cx.environment.seed.0[0], cx.environment.seed.0[1]];
+    let counter = [slot, slot.all(STREAM_SHED), slot.all(cx.step.index.0[0]), slot.all(0)];
+    let breaks = philox(seed, counter)[0].less_than(shed_chance(cx, stalk.facts, speed));
+    (habit + (speed - habit) * HABIT_SHARE, breaks)
+}
+
+/// A leaf that hangs goes where its segment went. If its petiole has broken in this step and it is to fly as a body, it
+/// takes the segment's spin along.
+#[inline(always)]
+pub fn leaf_follow(cx: &Context<'_>, leaf: &mut CarriedLeaf<'_>, slot: u32, stalk: &Stalk, segment: &Body) {
+    let hang = leaf_hang(cx, f32::from_bits(leaf.drift.phase), slot, stalk, segment);
+    leaf.hang(&hang);
+    if leaf.course.event == cx.step.index.0[0] + 1 {
+        let spin = quat_rotate_back(hang.attitude, segment.spin);
+        leaf.drift.phase = spin.x.to_bits();
+        leaf.course.rate = spin.y.to_bits();
+        leaf.course.heading = spin.z.to_bits();
+    }
+}
+
 /// One step of the leaf in a slot of a tree, after its segment has moved: what the number of leaves on the segment
 /// changes by, in two's complement.
 #[inline(always)]
@@ -121,45 +235,21 @@ pub fn leaf_carry(
     cx: &Context<'_>,
     leaf: &mut CarriedLeaf<'_>,
     slot: u32,
-    petiole: &Petiole,
+    stalk: &Stalk,
     segment: &Body,
 ) -> u32 {
-    let now = cx.step.index.0[0];
-    let mut change = 0;
-    let is_back = (leaf.place.bits & STATE_MASK) == STATE_RESTING
-        && cx.environment.sources[SOURCE_TREES as usize].timing.0[3] != 0
-        && now >= leaf.course.event;
-    if is_back {
-        leaf.place.bits = (leaf.place.bits & !(STATE_MASK | (BLEND_MASK << BLEND_SHIFT))) | STATE_ATTACHED;
-        leaf.course.event = NEVER;
-        leaf.course.size = leaf_size_on_twig(leaf.course.size & HALF_MASK, petiole.facts);
-        leaf.drift.phase = 0;
-        change = 1;
-    }
-    if (leaf.place.bits & STATE_MASK) != STATE_ATTACHED || now >= leaf.course.event {
+    let mut change = leaf_return(cx, leaf, stalk.facts);
+    if !leaf_hangs(cx, leaf.place.bits, leaf.course.event) {
         return change;
     }
-    if (now.wrapping_add(slot) & (SHED_INTERVAL - 1)) == 0 {
-        let arm = quat_rotate(segment.pose, Vec3::from(petiole.at));
-        let velocity = segment.velocity + vec3_cross(segment.spin, arm);
-        let relative = wind_at(cx, segment.base + arm) - velocity;
-        let squared = vec3_dot(relative, relative);
-        let speed = squared * inverse_sqrt(squared.max(TINY_SQUARED));
-        let habit = f32::from_bits(leaf.drift.phase);
-        leaf.drift.phase = (habit + (speed - habit) * HABIT_SHARE).to_bits();
-        let seed = [cx.environment.seed.0[0], cx.environment.seed.0[1]];
-        if philox(seed, [slot, STREAM_SHED, now, 0])[0] < shed_chance(cx, petiole.facts, speed) {
-            leaf.course.event = now + 1;
+    if leaf_next_look(cx, slot) == 0 {
+        let (habit, breaks) = leaf_look(cx, f32::from_bits(leaf.drift.phase), slot, stalk, segment);
+        leaf.drift.phase = habit.to_bits();
+        if breaks {
+            leaf.course.event = cx.step.index.0[0] + 1;
             change = change.wrapping_sub(1);
         }
     }
-    leaf_hang(cx, leaf, slot, petiole, segment);
-    if leaf.course.event == now + 1 {
-        // What flies as a body takes the twig's spin along.
-        let spin = quat_rotate_back(Quat::from(leaf.attitude.quaternion), segment.spin);
-        leaf.drift.phase = spin.x.to_bits();
-        leaf.course.rate = spin.y.to_bits();
-        leaf.course.heading = spin.z.to_bits();
-    }
+    leaf_follow(cx, leaf, slot, stalk, segment);
     change
 }

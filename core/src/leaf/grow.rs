@@ -62,7 +62,7 @@ pub(crate) fn leaf_grow(
     leaf.drift.phase = 0;
     let mut carried =
         CarriedLeaf { place: leaf.place, drift: leaf.drift, attitude: leaf.attitude, course: leaf.course };
-    leaf_hang(cx, &mut carried, slot, &petiole, &branches.body(row));
+    carried.hang(&leaf_hang(cx, 0.0, slot, &(&petiole).into(), &branches.body(row)));
 }
 
 /// Counts the leaves that hang on every segment.

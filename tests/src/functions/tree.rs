@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The functions that sway trees and hold leaves on them.
+//! The functions that sway trees.
 
 use windfall_core::kernel::matrix::{
     axial_times, mat3_add, mat3_cross, mat3_cross_from_left, mat3_cross_from_right, mat3_product,
@@ -8,8 +8,6 @@ use windfall_core::kernel::matrix::{
     mat3_twice_symmetric, sym3_add, sym3_axial, sym3_inverse, sym3_minus, sym3_rows, sym3_times, sym3_trace,
 };
 use windfall_core::kernel::quaternion::{quat_axis_y, quat_of_turn, quat_rotate_back, turn_of_quat};
-use windfall_core::leaf::carry::{leaf_size_on_twig, petiole_of, shed_chance};
-use windfall_core::leaf::petiole::{PETIOLE_CLASS_SHIFT, PETIOLE_KIND_SHIFT};
 use windfall_core::tree::sway::fold::{
     articulated_add, articulated_shift, joint_answer, joint_frames, joint_spring,
 };
@@ -25,7 +23,7 @@ use super::bodies::{
     Results, SCALARS, SPRINGS, TURN, TURN_COSINE, VELOCITY, articulated, body, constants, frames, joint,
     load, mat3, spring, sym3,
 };
-use super::{Function, Input, float, functions, integers, quaternion, vector};
+use super::{Function, Input, float, functions, quaternion, vector};
 
 functions! {
     TREE_FUNCTIONS;
@@ -235,26 +233,4 @@ functions! {
     ) tolerance Some(4e-6);
     wgsl "out_body(0u, segment_place(in_constants(0u), in_joint(24u), in_body(31u)));";
     rust |_cx, w| Results::new().body(segment_place(&constants(w, 0), &joint(w, 24), &body(w, 31))).0;
-
-    petiole_of in "leaf/carry" (Input::Below(2000)) tolerance Some(0.0);
-    wgsl "let p = petiole_of(a.x); out_vec3(0u, p.at); out_vec4(3u, p.rest);
-        answer[2] = vec4<u32>(p.segment, p.facts, 0u, 0u);";
-    rust |cx, w| {
-        let p = petiole_of(cx, w[0]);
-        let mut results = Results::new().floats(&p.at).floats(&p.rest).0;
-        (results[8], results[9]) = (p.segment, p.facts);
-        results
-    };
-
-    leaf_size_on_twig in "leaf/carry" (Input::Below(65536), Input::Word) tolerance None;
-    wgsl "r.x = leaf_size_on_twig(a.x, a.y);";
-    rust |_cx, w| integers([leaf_size_on_twig(w[0], w[1])]);
-
-    // The kinds of trees of the test scene; speeds beyond the table's end.
-    shed_chance in "leaf/carry" (Input::Below(6), Input::Below(64), Input::Float(0.0, 90.0)) tolerance None;
-    wgsl "r.x = shed_chance((a.x << PETIOLE_KIND_SHIFT) | (a.y << PETIOLE_CLASS_SHIFT), bitcast<f32>(a.z));";
-    rust |cx, w| {
-        let facts = (w[0] << PETIOLE_KIND_SHIFT) | (w[1] << PETIOLE_CLASS_SHIFT);
-        integers([shed_chance(cx, facts, float(w[2]))])
-    };
 }

@@ -16,6 +16,17 @@ struct Petiole {
     facts: u32,
 }
 
+struct Hang {
+    position: vec3<f32>,
+    attitude: vec4<f32>,
+    velocity: vec3<f32>,
+}
+
+struct Look {
+    habit: f32,
+    breaks: bool,
+}
+
 fn shed_chance(facts: u32, speed: f32) -> u32 {
     let kind = (facts >> PETIOLE_KIND_SHIFT) & PETIOLE_KIND_MASK;
     let strength = (facts >> PETIOLE_CLASS_SHIFT) & PETIOLE_CLASS_MASK;
@@ -24,7 +35,7 @@ fn shed_chance(facts: u32, speed: f32) -> u32 {
     return petiole_rows[index >> 2u][index & 3u];
 }
 
-fn leaf_hang(leaf: u32, habit: f32, slot: u32, petiole: Petiole, segment: Body) {
+fn leaf_hang(habit: f32, slot: u32, petiole: Petiole, segment: Body) -> Hang {
     let still = quat_multiply(segment.pose, petiole.rest);
     let tip = quat_rotate(still, vec3<f32>(0.0, 0.0, 1.0));
     let side = quat_rotate(still, vec3<f32>(1.0, 0.0, 0.0));
@@ -41,11 +52,7 @@ fn leaf_hang(leaf: u32, habit: f32, slot: u32, petiole: Petiole, segment: Body) 
     let attitude = quat_renormalize(quat_multiply(quat_of_turn(lean + flutter), still));
     let reach = f32((petiole.facts >> PETIOLE_REACH_SHIFT) & PETIOLE_REACH_MASK) * PETIOLE_REACH_UNIT;
     let arm = quat_rotate(segment.pose, petiole.at) + quat_rotate(attitude, vec3<f32>(0.0, 0.0, reach));
-    attitudes[leaf] = attitude;
-    let position = segment.base + arm;
-    let velocity = segment.velocity + vec3_cross(segment.spin, arm);
-    places[leaf] = vec4<u32>(bitcast<vec3<u32>>(position), places[leaf].w);
-    drifts[leaf] = vec4<u32>(bitcast<vec3<u32>>(velocity), bitcast<u32>(habit));
+    return Hang(segment.base + arm, attitude, segment.velocity + vec3_cross(segment.spin, arm));
 }
 
 fn leaf_size_on_twig(size: u32, facts: u32) -> u32 {
@@ -63,44 +70,66 @@ fn petiole_of(slot: u32) -> Petiole {
     );
 }
 
-fn leaf_carry(leaf: u32, slot: u32, petiole: Petiole, segment: Body) -> u32 {
-    let now = step_block.index.x;
-    var change = 0u;
-    var bits = places[leaf].w;
-    var habit = bitcast<f32>(drifts[leaf].w);
-    let is_back = (bits & STATE_MASK) == STATE_RESTING
+fn leaf_return(leaf: u32, facts: u32) -> u32 {
+    let is_back = (places[leaf].w & STATE_MASK) == STATE_RESTING
         && environment.sources[SOURCE_TREES].timing.w != 0u
-        && now >= courses[leaf].x;
-    if (is_back) {
-        bits = (bits & ~(STATE_MASK | (BLEND_MASK << BLEND_SHIFT))) | STATE_ATTACHED;
-        places[leaf].w = bits;
-        courses[leaf].x = NEVER;
-        courses[leaf].z = leaf_size_on_twig(courses[leaf].z & HALF_MASK, petiole.facts);
-        habit = 0.0;
-        change = 1u;
+        && step_block.index.x >= courses[leaf].x;
+    if (!is_back) {
+        return 0u;
     }
-    if ((bits & STATE_MASK) != STATE_ATTACHED || now >= courses[leaf].x) {
-        return change;
-    }
-    if (((now + slot) & (SHED_INTERVAL - 1u)) == 0u) {
-        let arm = quat_rotate(segment.pose, petiole.at);
-        let velocity = segment.velocity + vec3_cross(segment.spin, arm);
-        let relative = wind_at(segment.base + arm) - velocity;
-        let squared = vec3_dot(relative, relative);
-        let speed = squared * inverse_sqrt(max(squared, TINY_SQUARED));
-        habit = habit + (speed - habit) * HABIT_SHARE;
-        let seed = environment.seed.xy;
-        if (philox(seed, vec4<u32>(slot, STREAM_SHED, now, 0u)).x < shed_chance(petiole.facts, speed)) {
-            courses[leaf].x = now + 1u;
-            change = change - 1u;
-        }
-    }
-    leaf_hang(leaf, habit, slot, petiole, segment);
-    if (courses[leaf].x == now + 1u) {
-        let spin = bitcast<vec3<u32>>(quat_rotate_back(attitudes[leaf], segment.spin));
-        drifts[leaf].w = spin.x;
+    places[leaf].w = (places[leaf].w & ~(STATE_MASK | (BLEND_MASK << BLEND_SHIFT))) | STATE_ATTACHED;
+    courses[leaf].x = NEVER;
+    courses[leaf].z = leaf_size_on_twig(courses[leaf].z & HALF_MASK, facts);
+    drifts[leaf].w = 0u;
+    return 1u;
+}
+
+fn leaf_hangs(bits: u32, event: u32) -> bool {
+    return (bits & STATE_MASK) == STATE_ATTACHED && step_block.index.x < event;
+}
+
+fn leaf_next_look(slot: u32) -> u32 {
+    return (0u - (step_block.index.x + slot)) & (SHED_INTERVAL - 1u);
+}
+
+fn leaf_look(habit: f32, slot: u32, petiole: Petiole, segment: Body) -> Look {
+    let arm = quat_rotate(segment.pose, petiole.at);
+    let velocity = segment.velocity + vec3_cross(segment.spin, arm);
+    let relative = wind_at(segment.base + arm) - velocity;
+    let squared = vec3_dot(relative, relative);
+    let speed = squared * inverse_sqrt(max(squared, TINY_SQUARED));
+    let counter = vec4<u32>(slot, STREAM_SHED, step_block.index.x, 0u);
+    let breaks = philox(environment.seed.xy, counter).x < shed_chance(petiole.facts, speed);
+    return Look(habit + (speed - habit) * HABIT_SHARE, breaks);
+}
+
+fn leaf_follow(leaf: u32, slot: u32, petiole: Petiole, segment: Body) {
+    var habit = drifts[leaf].w;
+    let hang = leaf_hang(bitcast<f32>(habit), slot, petiole, segment);
+    attitudes[leaf] = hang.attitude;
+    places[leaf] = vec4<u32>(bitcast<vec3<u32>>(hang.position), places[leaf].w);
+    if (courses[leaf].x == step_block.index.x + 1u) {
+        let spin = bitcast<vec3<u32>>(quat_rotate_back(hang.attitude, segment.spin));
+        habit = spin.x;
         courses[leaf].y = spin.y;
         courses[leaf].w = spin.z;
     }
+    drifts[leaf] = vec4<u32>(bitcast<vec3<u32>>(hang.velocity), habit);
+}
+
+fn leaf_carry(leaf: u32, slot: u32, petiole: Petiole, segment: Body) -> u32 {
+    var change = leaf_return(leaf, petiole.facts);
+    if (!leaf_hangs(places[leaf].w, courses[leaf].x)) {
+        return change;
+    }
+    if (leaf_next_look(slot) == 0u) {
+        let look = leaf_look(bitcast<f32>(drifts[leaf].w), slot, petiole, segment);
+        drifts[leaf].w = bitcast<u32>(look.habit);
+        if (look.breaks) {
+            courses[leaf].x = step_block.index.x + 1u;
+            change = change - 1u;
+        }
+    }
+    leaf_follow(leaf, slot, petiole, segment);
     return change;
 }

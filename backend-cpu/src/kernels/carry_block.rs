@@ -1,0 +1,197 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Sixteen leaves on their twigs, side by side in SIMD registers, with the same bits as one by one.
+//!
+//! Few of them grow back or break in a step: those are done one by one.
+
+use bytemuck::{cast_slice, must_cast_mut, must_cast_ref};
+use windfall_core::Context;
+use windfall_core::kernel::Quat;
+use windfall_core::kernel::lane::{Mask, Word};
+use windfall_core::kernel::pack::{BLOCK, Pack, load_block, row_of_lane, store_block};
+use windfall_core::kernel::vector::vec3_select;
+use windfall_core::leaf::carry::{
+    CarriedLeaf, Stalk, leaf_follow, leaf_hang, leaf_hangs, leaf_look, leaf_next_look, petiole_of,
+};
+use windfall_core::leaf::petiole::{PETIOLE_ROWS, SHED_INTERVAL};
+use windfall_core::leaf::{Attitude, Course, Drift, LeavesMut, Place};
+use windfall_core::tree::sway::row::Rows;
+
+use super::branch_block::Column;
+use super::sway_block::{bodies_of, four, store_vector};
+
+/// Slots that follow one another.
+pub(super) struct LeafBlock<'a> {
+    /// The first of them.
+    pub(super) first: u32,
+    pub(super) place: &'a mut [Place; BLOCK],
+    pub(super) drift: &'a mut [Drift; BLOCK],
+    pub(super) attitude: &'a mut [Attitude; BLOCK],
+    pub(super) course: &'a mut [Course; BLOCK],
+}
+
+/// Slots of a block's lanes, counted from its first.
+const SLOTS: [u32; BLOCK] = {
+    let mut slots = [0; BLOCK];
+    let mut lane = 0;
+    while lane < BLOCK {
+        slots[lane] = row_of_lane(lane) as u32;
+        lane += 1;
+    }
+    slots
+};
+
+/// Numbers of a block's lanes.
+const LANES: [u32; BLOCK] = {
+    let mut lanes = [0; BLOCK];
+    let mut lane = 0;
+    while lane < BLOCK {
+        lanes[lane] = lane as u32;
+        lane += 1;
+    }
+    lanes
+};
+
+/// Petioles of slots, and the rows of their segments, counted from the stand's first.
+#[inline(always)]
+fn stalks_of<P: Pack>(
+    simd: P::Simd,
+    cx: &Context<'_>,
+    slots: P::Word,
+    first: u32,
+) -> (Stalk<P::Word>, P::Word) {
+    let from = slots.all(cx.environment.crowns.0[1]).plus(slots.times(slots.all(PETIOLE_ROWS)));
+    let spans = P::spans::<{ PETIOLE_ROWS as usize }>(from, cast_slice(cx.petioles));
+    let (at, segment) = four(P::column(simd, &spans, 0));
+    let rest = Quat::from(P::column(simd, &spans, 1));
+    let (_, facts) = four(P::column(simd, &spans, 2));
+    (Stalk { at, rest, facts: facts.to_bits() }, segment.to_bits().minus(slots.all(first)))
+}
+
+/// `yes` where true, `no` elsewhere.
+#[inline(always)]
+fn select_four<P: Pack>(mask: P::Mask, yes: [P; 4], no: [P; 4]) -> [P; 4] {
+    core::array::from_fn(
+        #[inline(always)]
+        |number| mask.select_real(yes[number], no[number]),
+    )
+}
+
+/// Petioles of a group look at the wind, of slots as far apart as those that look in the same step: part of as many as a
+/// block has lanes.
+#[inline(always)]
+pub(super) fn look<P: Pack>(
+    simd: P::Simd,
+    cx: &Context<'_>,
+    rows: &mut Rows<'_>,
+    leaves: &mut LeavesMut<'_>,
+    first: u32,
+    part: usize,
+) {
+    let lanes = P::load_words(simd, &LANES[part * P::LANES..]);
+    let all = lanes.times(lanes.all(SHED_INTERVAL)).plus(lanes.all(leaf_next_look(cx, first)));
+    let exists = all.less_than(all.all(leaves.len() as u32));
+    let number = exists.select(all, all.all(0));
+    let [_, _, _, bits] = number.look_up(cast_slice(leaves.place));
+    let [event, ..] = number.look_up(cast_slice(leaves.course));
+    let hangs = exists & leaf_hangs(cx, bits.to_bits(), event.to_bits());
+    if !hangs.any() {
+        return;
+    }
+    let [_, _, _, before] = number.look_up(cast_slice(leaves.drift));
+    let slots = number.plus(number.all(first));
+    let (stalk, row) = stalks_of::<P>(simd, cx, slots, rows.first);
+    let segment = bodies_of(rows, hangs.select(row, row.all(0)));
+    let (habit, breaks) = leaf_look(cx, before, slots, &stalk, &segment);
+    let zero = P::fill(simd, 0.0);
+    let habits = floats(hangs.select_real(habit, before));
+    let breaks = floats((hangs & breaks).select_real(P::fill(simd, 1.0), zero));
+    let numbers = (leaf_next_look(cx, first) as usize..leaves.len()).step_by(SHED_INTERVAL as usize);
+    for (lane, number) in numbers.skip(part * P::LANES).take(P::LANES).enumerate() {
+        leaves.drift[number].phase = habits[lane].to_bits();
+        if breaks[lane] > 0.0 {
+            leaves.course[number].event = cx.step.index.0[0] + 1;
+            let segment = petiole_of(cx, first + number as u32).segment;
+            let bearing = &mut rows.branches.bearing[(segment - rows.first) as usize];
+            *bearing = bearing.wrapping_sub(1);
+        }
+    }
+}
+
+/// The numbers of a pack's lanes.
+#[inline(always)]
+fn floats<P: Pack>(pack: P) -> [f32; BLOCK] {
+    let mut floats = [0.0; BLOCK];
+    pack.store(&mut floats);
+    floats
+}
+
+impl LeafBlock<'_> {
+    /// Moves those that hang.
+    #[inline(always)]
+    pub(super) fn follow<P: Pack>(&mut self, simd: P::Simd, cx: &Context<'_>, rows: &Rows<'_>) {
+        let mut some_break = false;
+        for part in 0..BLOCK / P::LANES {
+            some_break |= self.follow_part::<P>(simd, cx, rows, part);
+        }
+        if some_break {
+            self.break_off(cx, rows);
+        }
+    }
+
+    /// Moves part of them; whether any petiole has broken.
+    #[inline(always)]
+    fn follow_part<P: Pack>(
+        &mut self,
+        simd: P::Simd,
+        cx: &Context<'_>,
+        rows: &Rows<'_>,
+        part: usize,
+    ) -> bool {
+        let (position, bits) = four::<P>(load_block(simd, must_cast_ref(self.place), part));
+        let [event, ..]: [P; 4] = load_block(simd, must_cast_ref(self.course), part);
+        let event = event.to_bits();
+        let hangs = leaf_hangs(cx, bits.to_bits(), event);
+        if !hangs.any() {
+            return false;
+        }
+        let (velocity, habit) = four::<P>(load_block(simd, must_cast_ref(self.drift), part));
+        let slots = P::load_words(simd, &SLOTS[part * P::LANES..]);
+        let slots = slots.plus(slots.all(self.first));
+        let (stalk, row) = stalks_of::<P>(simd, cx, slots, rows.first);
+        let segment = bodies_of(rows, hangs.select(row, row.all(0)));
+        let mut hang = leaf_hang(cx, habit, slots, &stalk, &segment);
+        let attitude: &mut Column = must_cast_mut(self.attitude);
+        if (!hangs).any() {
+            hang.position = vec3_select(hangs, hang.position, position);
+            hang.velocity = vec3_select(hangs, hang.velocity, velocity);
+            let before = load_block(simd, attitude, part);
+            hang.attitude = select_four(hangs, hang.attitude.to_array(), before).into();
+        }
+        store_vector(must_cast_mut(self.place), part, hang.position, bits);
+        store_vector(must_cast_mut(self.drift), part, hang.velocity, habit);
+        store_block(attitude, part, hang.attitude.to_array());
+        (hangs & event.equals(cx.step.index.0[0] + 1)).any()
+    }
+
+    /// Leaves whose petioles have broken go once more, with all that they take along.
+    #[cold]
+    fn break_off(&mut self, cx: &Context<'_>, rows: &Rows<'_>) {
+        let now = cx.step.index.0[0];
+        for number in 0..BLOCK {
+            let is_off = self.course[number].event == now + 1;
+            if is_off && leaf_hangs(cx, self.place[number].bits, self.course[number].event) {
+                let slot = self.first + number as u32;
+                let petiole = petiole_of(cx, slot);
+                let segment = rows.body((petiole.segment - rows.first) as usize);
+                let mut leaf = CarriedLeaf {
+                    place: &mut self.place[number],
+                    drift: &mut self.drift[number],
+                    attitude: &mut self.attitude[number],
+                    course: &mut self.course[number],
+                };
+                leaf_follow(cx, &mut leaf, slot, &Stalk::from(&petiole), &segment);
+            }
+        }
+    }
+}
