@@ -94,7 +94,7 @@ pub(super) fn look<P: Pack>(
     let number = exists.select(all, all.all(0));
     let [_, _, _, bits] = number.look_up(cast_slice(leaves.place));
     let [event, ..] = number.look_up(cast_slice(leaves.course));
-    let hangs = exists & leaf_hangs(cx, bits.to_bits(), event.to_bits());
+    let hangs = leaf_hangs(cx, bits.to_bits(), event.to_bits());
     if !hangs.any() {
         return;
     }
