@@ -77,6 +77,13 @@ fn select_four<P: Pack>(mask: P::Mask, yes: [P; 4], no: [P; 4]) -> [P; 4] {
     )
 }
 
+/// What leaves that hang have got used to. What others count in its place are subnormal floats, on which processors take a
+/// hundred times as long.
+#[inline(always)]
+fn habit_of<P: Pack>(simd: P::Simd, hangs: P::Mask, habit: P) -> P {
+    hangs.select_real(habit, P::fill(simd, 0.0))
+}
+
 /// Petioles of a group look at the wind, of slots as far apart as those that look in the same step: part of as many as a
 /// block has lanes.
 #[inline(always)]
@@ -102,7 +109,7 @@ pub(super) fn look<P: Pack>(
     let slots = number.plus(number.all(first));
     let (stalk, row) = stalks_of::<P>(simd, cx, slots, rows.first);
     let segment = bodies_of(rows, hangs.select(row, row.all(0)));
-    let (habit, breaks) = leaf_look(cx, before, slots, &stalk, &segment);
+    let (habit, breaks) = leaf_look(cx, habit_of(simd, hangs, before), slots, &stalk, &segment);
     let zero = P::fill(simd, 0.0);
     let habits = floats(hangs.select_real(habit, before));
     let breaks = floats((hangs & breaks).select_real(P::fill(simd, 1.0), zero));
@@ -160,7 +167,7 @@ impl LeafBlock<'_> {
         let slots = slots.plus(slots.all(self.first));
         let (stalk, row) = stalks_of::<P>(simd, cx, slots, rows.first);
         let segment = bodies_of(rows, hangs.select(row, row.all(0)));
-        let mut hang = leaf_hang(cx, habit, slots, &stalk, &segment);
+        let mut hang = leaf_hang(cx, habit_of(simd, hangs, habit), slots, &stalk, &segment);
         let attitude: &mut Column = must_cast_mut(self.attitude);
         if (!hangs).any() {
             hang.position = vec3_select(hangs, hang.position, position);
