@@ -5,11 +5,11 @@
 //! Moves the leaves of a chunk that fly as bodies through one step.
 
 use bytemuck::{must_cast_mut, must_cast_ref};
-use fearless_simd::{Simd as Lanes, dispatch, f32x8};
+use fearless_simd::{Simd as Lanes, dispatch, f32x8, mask32x8, u32x8};
 use windfall_core::Context;
 use windfall_core::kernel::Quat;
 use windfall_core::kernel::eight::{load_records, merge, store_records};
-use windfall_core::kernel::lane::{LANES, Mask, Real};
+use windfall_core::kernel::lane::{LANES, Mask, Real, Word};
 use windfall_core::leaf::LeavesMut;
 use windfall_core::leaf::fly::{Flight, flies, flight_advance, flight_told, leaf_fly};
 use windfall_core::terrain::ground::ground_met;
@@ -48,6 +48,13 @@ fn eight_of<T>(column: &mut [T], first: usize) -> &mut [T; LANES] {
     column[first..].first_chunk_mut().expect("eight slots are left")
 }
 
+/// Words of leaves that fly. Others count in their place, and small counts read as floats are subnormal, on which processors
+/// take a hundred times as long.
+#[inline(always)]
+fn flying<S: Lanes>(on: mask32x8<S>, words: u32x8<S>) -> u32x8<S> {
+    Mask::select(on, words, Word::all(words, 0))
+}
+
 /// Steps those of eight leaves from a slot on that fly as bodies and do not land. A bit for each that does.
 #[inline(always)]
 fn fly_eight<S: Lanes>(simd: S, cx: &Context<'_>, leaves: &mut LeavesMut<'_>, first: usize) -> u8 {
@@ -64,11 +71,12 @@ fn fly_eight<S: Lanes>(simd: S, cx: &Context<'_>, leaves: &mut LeavesMut<'_>, fi
     let attitudes = load_records(simd, must_cast_ref(attitude));
     let courses = load_records(simd, must_cast_ref(course));
     let [event, rate, size, heading] = courses;
+    let spin_of = |words| flying(on, words);
     let start = Flight {
         position: vector(places),
         velocity: vector(drifts),
         pose: Quat::from(attitudes.map(<f32x8<S> as Real>::from_bits)),
-        spin: vector([drifts[3], rate, heading, heading]),
+        spin: vector([drifts[3], rate, heading, heading].map(spin_of)),
     };
     let wind = wind_at(cx, start.position);
     let flight = flight_advance(cx, start, bits, size, wind);
