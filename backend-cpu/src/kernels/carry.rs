@@ -17,6 +17,7 @@ use windfall_core::tree::sway::Body;
 use windfall_core::tree::sway::row::Rows;
 
 use super::carry_block::{LeafBlock, look};
+use super::timber_block::word;
 use crate::simd::{Simd, in_packs};
 
 /// Slots of which as many look at the wind in a step as a block has lanes.
@@ -84,7 +85,7 @@ fn carry_lanes<P: Pack>(
             look::<P>(simd, cx, rows, &mut group, slot, part);
         }
         let (blocks, mut few) = group.split_at(count - count % BLOCK);
-        let few_first = slot + blocks.len() as u32;
+        let few_first = slot + word(blocks.len());
         follow::<P>(simd, cx, rows, blocks, slot);
         carry_each(cx, rows, &mut few, few_first, |cx, leaf, slot, stalk, segment| {
             if leaf_hangs(cx, leaf.place.bits, leaf.course.event) {
@@ -92,7 +93,7 @@ fn carry_lanes<P: Pack>(
             }
             0
         });
-        slot += count as u32;
+        slot += word(count);
         rest = others;
     }
 }

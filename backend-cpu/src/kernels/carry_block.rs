@@ -19,6 +19,7 @@ use windfall_core::tree::sway::row::Rows;
 
 use super::branch_block::Column;
 use super::sway_block::{bodies_of, four, store_vector};
+use super::timber_block::word;
 
 /// Slots that follow one another.
 pub(super) struct LeafBlock<'a> {
@@ -35,7 +36,7 @@ const SLOTS: [u32; BLOCK] = {
     let mut slots = [0; BLOCK];
     let mut lane = 0;
     while lane < BLOCK {
-        slots[lane] = row_of_lane(lane) as u32;
+        slots[lane] = word(row_of_lane(lane));
         lane += 1;
     }
     slots
@@ -46,7 +47,7 @@ const LANES: [u32; BLOCK] = {
     let mut lanes = [0; BLOCK];
     let mut lane = 0;
     while lane < BLOCK {
-        lanes[lane] = lane as u32;
+        lanes[lane] = word(lane);
         lane += 1;
     }
     lanes
@@ -97,7 +98,7 @@ pub(super) fn look<P: Pack>(
 ) {
     let lanes = P::load_words(simd, &LANES[part * P::LANES..]);
     let all = lanes.times(lanes.all(SHED_INTERVAL)).plus(lanes.all(leaf_next_look(cx, first)));
-    let exists = all.less_than(all.all(leaves.len() as u32));
+    let exists = all.less_than(all.all(word(leaves.len())));
     let number = exists.select(all, all.all(0));
     let [_, _, _, bits] = number.look_up(cast_slice(leaves.place));
     let [event, ..] = number.look_up(cast_slice(leaves.course));
@@ -118,7 +119,7 @@ pub(super) fn look<P: Pack>(
         leaves.drift[number].phase = habits[lane].to_bits();
         if breaks[lane] > 0.0 {
             leaves.course[number].event = cx.step.index.0[0] + 1;
-            let segment = petiole_of(cx, first + number as u32).segment;
+            let segment = petiole_of(cx, first + word(number)).segment;
             let bearing = &mut rows.branches.bearing[(segment - rows.first) as usize];
             *bearing = bearing.wrapping_sub(1);
         }
@@ -188,7 +189,7 @@ impl LeafBlock<'_> {
         for number in 0..BLOCK {
             let is_off = self.course[number].event == now + 1;
             if is_off && leaf_hangs(cx, self.place[number].bits, self.course[number].event) {
-                let slot = self.first + number as u32;
+                let slot = self.first + word(number);
                 let petiole = petiole_of(cx, slot);
                 let segment = rows.body((petiole.segment - rows.first) as usize);
                 let mut leaf = CarriedLeaf {

@@ -151,8 +151,9 @@ impl Places {
     }
 }
 
-#[expect(clippy::cast_possible_truncation, reason = "segments are counted in words")]
-fn word(number: usize) -> u32 {
+/// A number of segments, slots or lanes.
+#[expect(clippy::cast_possible_truncation, reason = "they are counted in words")]
+pub(super) const fn word(number: usize) -> u32 {
     number as u32
 }
 
