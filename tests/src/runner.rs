@@ -14,10 +14,11 @@ pub const NO_WORDS: Words = [0; 64];
 
 /// How the statements of a function reach the words of their case.
 const ACCESS: &str = include_str!("runner/access.wgsl");
-/// The same for matrices, and for what trees are made of; each for modules that know such things.
-const RECORDS: [(&str, &str); 2] = [
+/// The same for matrices, for what trees are made of and for what holds leaves; each for modules that know such things.
+const RECORDS: [(&str, &str); 3] = [
     ("struct Sym3 ", include_str!("runner/access_matrix.wgsl")),
     ("struct Body ", include_str!("runner/access_tree.wgsl")),
+    ("struct Petiole ", include_str!("runner/access_carry.wgsl")),
 ];
 
 /// A generated kernel around a device function: [`Words`] in, as many out.

@@ -53,10 +53,7 @@ functions! {
     leaf_hang in "leaf/carry" (
         HABIT, Input::Word, DIRECTION, QUATERNION, KIND, CLASS, REACH, PLACE, QUATERNION, VELOCITY, VELOCITY
     ) tolerance Some(1e-5);
-    wgsl "let facts = (in_word(9u) << PETIOLE_KIND_SHIFT) | (in_word(10u) << PETIOLE_CLASS_SHIFT)
-            | (in_word(11u) << PETIOLE_REACH_SHIFT);
-        let p = Petiole(in_vec3(2u), 0u, in_vec4(5u), facts);
-        let h = leaf_hang(in_float(0u), in_word(1u), p, in_body(12u));
+    wgsl "let h = leaf_hang(in_float(0u), in_word(1u), in_petiole(2u), in_body(12u));
         out_vec3(0u, h.position); out_vec4(3u, h.attitude); out_vec3(7u, h.velocity);";
     rust |cx, w| {
         let Hang { position, attitude, velocity } = leaf_hang(cx, float(w[0]), w[1], &stalk(w, 2), &body(w, 12));
@@ -71,10 +68,7 @@ functions! {
     leaf_look in "leaf/carry" (
         HABIT, Input::Word, DIRECTION, QUATERNION, KIND, CLASS, REACH, PLACE, QUATERNION, VELOCITY, VELOCITY
     ) tolerance Some(1e-5);
-    wgsl "let facts = (in_word(9u) << PETIOLE_KIND_SHIFT) | (in_word(10u) << PETIOLE_CLASS_SHIFT)
-            | (in_word(11u) << PETIOLE_REACH_SHIFT);
-        let p = Petiole(in_vec3(2u), 0u, in_vec4(5u), facts);
-        let look = leaf_look(in_float(0u), in_word(1u), p, in_body(12u));
+    wgsl "let look = leaf_look(in_float(0u), in_word(1u), in_petiole(2u), in_body(12u));
         out_float(0u, look.habit); out_float(1u, f32(look.breaks));";
     rust |cx, w| {
         let (habit, breaks) = leaf_look(cx, float(w[0]), w[1], &stalk(w, 2), &body(w, 12));
