@@ -7,7 +7,8 @@
 //! is then released again as the same leaf. What is in the air at a moment is the same as a cycle later, of other slots.
 //! Trees: petioles hold, flutter fits the cycle, and damping brings segments to the motion that the wind repeats.
 
-use super::FLUTTER_HZ;
+use super::block::FLUTTER_HZ;
+use super::convert::single;
 use crate::SceneError;
 use crate::layout::Uint4;
 use crate::leaf::record::SOURCE_SHIFT;
@@ -105,9 +106,9 @@ impl Cycle {
             let cycles = ceil(life_s / length_s).max(1);
             longest = longest.max(cycles);
             source.count = each.saturating_mul(cycles);
-            source.recycle_after_s = Some(super::single(f64::from(cycles * steps) * dt));
+            source.recycle_after_s = Some(single(f64::from(cycles * steps) * dt));
             source.release = Release::Rate {
-                per_s: super::single(f64::from(each) / length_s).max(limits::PER_S.low),
+                per_s: single(f64::from(each) / length_s).max(limits::PER_S.low),
                 from_s: 0.0,
             };
             sources.push(Some((each, cycles)));
@@ -115,7 +116,7 @@ impl Cycle {
         let way_m = scene.wind.speed.metres_per_second() * length_s;
         let gusts = periods(length_s / f64::from(scene.wind.gusts.interval_s), 1, GUST_ROWS / GUST_SPACING);
         let (mut gust_rows, mut cells) = (0, 0);
-        let interval_s = super::single(length_s / f64::from(gusts));
+        let interval_s = single(length_s / f64::from(gusts));
         if way_m > 0.0 && limits::INTERVAL_S.contains(interval_s) {
             looped.wind.gusts.interval_s = interval_s;
             gust_rows = gusts * GUST_SPACING;
@@ -123,7 +124,7 @@ impl Cycle {
             looped.wind.gusts.strength = 0.0;
         }
         let passing = periods(way_m / f64::from(scene.wind.turbulence.cell_m), FEWEST_CELLS, TURBULENCE_X);
-        let cell_m = super::single(way_m / f64::from(passing));
+        let cell_m = single(way_m / f64::from(passing));
         // In air that hardly moves turbulence stands still.
         if limits::CELL_M.contains(cell_m) {
             looped.wind.turbulence.cell_m = cell_m;

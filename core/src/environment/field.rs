@@ -4,7 +4,8 @@
 
 use glam::DVec3;
 
-use super::{Environment, single};
+use super::Environment;
+use super::convert::single;
 use crate::layout::Float4;
 use crate::wind::gust::GUST_ROWS;
 use crate::wind::profile::PROFILE_ROWS;

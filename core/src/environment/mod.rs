@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Compiles a scene into the blocks and tables that kernels read.
 
+mod block;
 mod body;
 mod convert;
 mod cycle;
@@ -16,48 +17,30 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use self::body::body_block;
-use self::convert::{float4, len32, q16, single, steps, word};
+use self::block::{compile_block, displacement_gain, ground_numbers, relief_numbers, scheme};
+use self::convert::{float4, len32, q16};
 pub use self::cycle::Cycle;
 use self::cycle::firm;
 pub(crate) use self::foliage::leaf_site;
 use self::foliage::{foliage_of, petiole_rows, seedlings, shed_rows};
 pub(crate) use self::source::{lifetime_steps, release_step};
-use self::source::{source_block, trees_block};
-use self::species::{response, species_block};
-use self::tables::{TABLES_PER_SPECIES, pack_motion, tables_of};
+use self::species::response;
+use self::tables::{pack_motion, tables_of};
 use self::wind::wind_block;
-use crate::blocks::{EnvironmentBlock, SOURCE_TREES, StepBlock, VortexBlock};
+use crate::blocks::{EnvironmentBlock, StepBlock, VortexBlock};
 use crate::clock::Clock;
 use crate::context::Context;
 use crate::error::{SceneError, SimError};
-use crate::flight::coefficients::TICKS_PER_S;
 use crate::layout::{Float4, Uint4};
 use crate::motion::lookup::MotionRows;
-use crate::motion::table::TABLE_ROWS;
-use crate::motion::{GRAVITY, MotionTables};
-use crate::scene::{FlightModel, MAX_SOURCES, Scene, SwayScheme};
+use crate::scene::Scene;
 use crate::terrain::Hills;
 use crate::terrain::ground::ground_relief;
 use crate::tree::Forest;
-use crate::tree::sway::{SCHEME_ARTICULATED, SCHEME_OLIAPURAM_KUMAR, SCHEME_QUIGLEY};
 use crate::wind::gust::{GUST_ROWS, GUST_SPACING, gust_rows};
 use crate::wind::profile::{PROFILE_ROWS, profile_rows};
-use crate::wind::turbulence::{TURBULENCE_NODES, TURBULENCE_X, turbulence_rows};
+use crate::wind::turbulence::{TURBULENCE_X, turbulence_rows};
 use crate::wind::turbulence_box;
-
-/// Height of resting leaves above the ground in metres: half the thickness of a curled dry leaf.
-const REST_OFFSET_M: f32 = 0.004;
-/// Time in seconds over which orientation blends after a join.
-const BLEND_S: f32 = 0.15;
-/// Time in seconds after which a landed leaf lies flat.
-const SETTLE_S: f32 = 0.3;
-/// Time constant in seconds of lying down: flat within a tenth of a second to the eye.
-const SETTLE_TAU_S: f32 = 0.04;
-/// Rate at which the slowest leaf flutters on its twig in Hz; the fastest flutter half as fast again.
-const FLUTTER_HZ: f32 = 3.2;
-/// Where water lies that is not there, in metres.
-const NO_WATER_M: f32 = -1.0e6;
 
 /// A compiled scene: uniform block and tables, ready for any backend.
 #[derive(Clone, Debug)]
@@ -276,91 +259,6 @@ pub(crate) fn seed_words(seed: u64) -> [u32; 2] {
     #[expect(clippy::cast_possible_truncation, reason = "low and high word")]
     let words = [seed as u32, (seed >> 32) as u32];
     words
-}
-
-fn compile_block(scene: &Scene, tables: &[MotionTables], first_petiole: u32) -> EnvironmentBlock {
-    let [low, high] = seed_words(scene.seed);
-    let mut block: EnvironmentBlock = bytemuck::Zeroable::zeroed();
-    block.seed = Uint4([low, high, scene.leaf_count(), len32(scene.species.len())]);
-    block.counts = Uint4([
-        len32(scene.sources.len()),
-        steps(SETTLE_S, scene.dt_s),
-        steps(BLEND_S, scene.dt_s).min(63),
-        q16(scene.rotation_speed),
-    ]);
-    let dt = f64::from(scene.dt_s);
-    let has_bodies = u32::from(scene.species.iter().any(|species| species.flight != FlightModel::Synthesis));
-    block.motion = Uint4([
-        len32(tables.len() * TABLES_PER_SPECIES * 2) * TABLE_ROWS,
-        0,
-        has_bodies,
-        word(TICKS_PER_S * dt * 65536.0),
-    ]);
-    block.time =
-        Float4([scene.dt_s, single(1.0 / dt), single(1.0 / dt / 4_294_967_296.0), displacement_gain(scene)]);
-    block.ground = ground_numbers(scene);
-    block.terrain = terrain_words(scene);
-    block.relief = relief_numbers(scene);
-    block.settle = Float4([single(libm::exp(-dt / f64::from(SETTLE_TAU_S))), 0.0, 0.0, 0.0]);
-    block.wind = wind_block(scene);
-    for (index, (species, tables)) in scene.species.iter().zip(tables).enumerate() {
-        block.species[index] = species_block(scene, species, tables);
-        block.responses[index] = response(scene, species);
-        block.bodies[index] = body_block(species, scene.dt_s);
-    }
-    for (index, source) in scene.sources.iter().take(MAX_SOURCES).enumerate() {
-        let earlier: u32 = scene.sources[..index].iter().map(|earlier| earlier.count).sum();
-        let first = scene.tree_leaf_count() + earlier;
-        block.sources[index] = source_block(scene, source, first);
-    }
-    block.sources[SOURCE_TREES as usize] = trees_block(scene);
-    block.crowns = Uint4([
-        scene.tree_leaf_count(),
-        first_petiole,
-        word(4_294_967_296.0 * f64::from(FLUTTER_HZ) * dt),
-        scheme(scene),
-    ]);
-    block
-}
-
-fn scheme(scene: &Scene) -> u32 {
-    match scene.sway {
-        SwayScheme::Articulated => SCHEME_ARTICULATED,
-        SwayScheme::Quigley => SCHEME_QUIGLEY,
-        SwayScheme::OliapuramKumar => SCHEME_OLIAPURAM_KUMAR,
-    }
-}
-
-fn displacement_gain(scene: &Scene) -> f32 {
-    single(f64::from(scene.fall_speed) * 65536.0 / f64::from(q16(scene.rotation_speed)))
-}
-
-fn ground_numbers(scene: &Scene) -> Float4 {
-    let loss = f64::from(scene.ground.friction) * GRAVITY;
-    let height = match (scene.ground.terrain, scene.ground.water) {
-        (None, Some(water)) => scene.ground.height_m.max(water.height_m),
-        _ => scene.ground.height_m,
-    };
-    Float4([height, height + REST_OFFSET_M, single(loss), single(0.5 / loss)])
-}
-
-fn terrain_words(scene: &Scene) -> Uint4 {
-    let first = PROFILE_ROWS + GUST_ROWS + 2 * TURBULENCE_NODES;
-    scene
-        .ground
-        .terrain
-        .map_or(Uint4::default(), |terrain| Uint4([first, (1 << terrain.levels) - 1, terrain.levels, 1]))
-}
-
-fn relief_numbers(scene: &Scene) -> Float4 {
-    let ground = &scene.ground;
-    let rest = ground_numbers(scene).0[1];
-    let Some(terrain) = ground.terrain else {
-        return Float4([0.0, rest, 0.0, single(GRAVITY)]);
-    };
-    let water = ground.water.map_or(NO_WATER_M, |water| water.height_m - ground.height_m);
-    let per_metre = f64::from(1u32 << terrain.levels) / f64::from(terrain.edge_m);
-    Float4([single(per_metre), rest + terrain.relief_m.max(water) + 0.001, water, single(GRAVITY)])
 }
 
 /// Height of the ground in metres, whatever the water above it.
