@@ -2,10 +2,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Puts the passes together.
 
+mod changes;
 mod drawing;
 
 use glam::{Vec2, Vec3};
-use windfall_core::scene::{Lens, View};
+use windfall_core::scene::Lens;
 use windfall_wgpu::LeafColumns;
 
 use super::RenderError;
@@ -18,7 +19,6 @@ use super::frame::FrameGroup;
 use super::fruit_pass::FruitPass;
 use super::grass_pass::GrassPass;
 use super::ground_pass::GroundPass;
-use super::landing_count::LandingCount;
 use super::landing_pass::LandingPass;
 use super::leaf_crowd::LeafCrowd;
 use super::leaf_cull::CullPass;
@@ -27,7 +27,7 @@ use super::leaf_pass::LeafPass;
 use super::light_group::LightGroup;
 use super::litter::Litter;
 use super::motion_pass::MotionPass;
-use super::paint::{Paint, PaintPass};
+use super::paint::PaintPass;
 use super::post::{Post, TimedPosts};
 use super::scenery::{Park, plant};
 use super::shadow_pass::ShadowPass;
@@ -48,6 +48,7 @@ use crate::trees::Stand;
 const TIMED_PASSES: [&str; 7] = ["shadows", "scene", "shutter", "focus", "exposure", "glare", "tone map"];
 /// Where those after the scene are among them.
 const TIMED_POSTS: TimedPosts = TimedPosts { shutter: 2, focus: 3, exposure: 4, glare: 5, tone_map: 6 };
+
 /// Draws a scene's leaves in their park.
 ///
 /// One `draw` per submission: the uniforms of a frame are written through the queue.
@@ -182,130 +183,6 @@ impl Renderer {
     /// The land that is drawn.
     pub fn land(&self) -> &Land {
         &self.land
-    }
-
-    /// Draws pictures of another size from now on.
-    ///
-    /// # Errors
-    /// A size beyond the device's limits; the renderer keeps its size.
-    pub fn resize(&mut self, size: (u32, u32)) -> Result<(), RenderError> {
-        if size != self.targets.size {
-            self.targets = self.targets_of(size)?;
-            self.post.rebind(&self.device, &self.queue, &self.targets);
-            if self.shadow_pass.size_px != shadow_size(size.1) {
-                self.shadow_pass.resize(&self.device, shadow_size(size.1));
-                self.light.set_shadow_maps(&self.device, &self.shadow_pass.maps);
-            }
-        }
-        Ok(())
-    }
-
-    /// Takes over another sun, sky, lens and length of trails; the park stays where it is.
-    ///
-    /// # Errors
-    /// A picture of a sky that cannot be used; the renderer keeps its own.
-    pub fn update_scene_view(&mut self, view: &View) -> Result<(), RenderError> {
-        let Environment { park_center, path, .. } = self.environment;
-        let before = self.environment.daylight.sun.direction;
-        self.environment = Environment::new(view, park_center, path)?;
-        let daylight = &self.environment.daylight;
-        if daylight.sun.direction != before {
-            self.frame.set_sun(&self.queue, &self.land, daylight.sun.direction);
-        }
-        self.light.set_sky(&self.device, &self.queue, daylight);
-        self.set_lens(view.lens);
-        self.shade_is_old = true;
-        let drawn = self.trail_pass.as_ref().map_or(0.0, TrailPass::trail_s);
-        if drawn != view.trail_s {
-            self.make_trails(view.trail_s);
-        }
-        Ok(())
-    }
-
-    /// Lets grass repeat after `length_s` seconds from `begin_s` on, and clouds stand still.
-    pub fn repeat(&mut self, begin_s: f64, length_s: f64) {
-        self.round = Some((begin_s, length_s));
-    }
-
-    /// Draws at most so many pixels at once from now on.
-    #[cfg(test)]
-    pub(super) fn set_tile_px(&mut self, tile_px: u32) -> Result<(), RenderError> {
-        self.tile_px = tile_px;
-        self.targets = self.targets_of(self.targets.size)?;
-        self.post.rebind(&self.device, &self.queue, &self.targets);
-        Ok(())
-    }
-
-    fn targets_of(&self, size: (u32, u32)) -> Result<Targets, RenderError> {
-        Targets::new(&self.device, size, self.tile_px, self.motion_pass.is_some())
-    }
-
-    /// Takes over another lens.
-    pub fn set_lens(&mut self, lens: Lens) {
-        if is_moving(&lens) != self.motion_pass.is_some() {
-            self.motion_pass = is_moving(&lens).then(|| self.new_motion());
-            // They were made for this size before.
-            if let Ok(targets) = self.targets_of(self.targets.size) {
-                self.targets = targets;
-            }
-        }
-        self.post.set_lens(&self.device, &self.queue, &self.targets, lens);
-    }
-
-    /// Takes over another number of leaves, with the same trees bearing other shares of them.
-    pub fn update_leaves(&mut self, stand: &Stand, leaf_count: u32) {
-        self.leaf_count = leaf_count;
-        self.stems = Stems::new(&self.device, &self.queue, stand);
-        self.leaf_crowd = LeafCrowd::new(&self.device, &self.queue, &self.cull, stand, leaf_count);
-        self.make_trails(self.trail_pass.as_ref().map_or(0.0, TrailPass::trail_s));
-        self.motion_pass = self.motion_pass.is_some().then(|| self.new_motion());
-        if let Some(paint) = self.paint_pass.take().map(|pass| pass.paint()) {
-            self.set_paint(Some(paint));
-        }
-    }
-
-    fn new_motion(&self) -> MotionPass {
-        MotionPass::new(&self.device, &self.frame, &self.kinds, self.leaf_count)
-    }
-
-    /// Paints leaves by what they do, or leaves them their own colours. Litter that is not simulated is not drawn then.
-    pub fn set_paint(&mut self, paint: Option<Paint>) {
-        match (&mut self.paint_pass, paint) {
-            (Some(pass), Some(paint)) => pass.set(paint),
-            (None, None) => {}
-            (_, paint) => {
-                let (device, base_m) = (&self.device, self.land.base_m());
-                let pass = |paint| PaintPass::new(device, paint, self.leaf_count, self.dt_s, base_m);
-                self.paint_pass = paint.map(pass);
-                if self.cull.is_painted != paint.is_some() {
-                    self.cull = CullPass::new(device, &self.kinds, paint.is_some());
-                    self.leaf_pass = LeafPass::new(device, &self.frame, &self.light, &self.kinds, &self.cull);
-                }
-            }
-        }
-    }
-
-    /// Shows how densely leaves lie on the ground, or no longer.
-    pub fn set_landings(&mut self, are_shown: bool) {
-        if are_shown != self.landing_pass.is_some() {
-            let center = self.environment.park_center;
-            let count = || LandingCount::new(&self.device, &self.queue, center);
-            let pass = || LandingPass::new(&self.device, &self.frame, &self.light, count());
-            self.landing_pass = are_shown.then(pass);
-        }
-    }
-
-    /// Draws trails of so many seconds from now on; none for 0.
-    pub fn set_trails(&mut self, trail_s: f32) {
-        if self.trail_pass.as_ref().map_or(0.0, TrailPass::trail_s) != trail_s {
-            self.make_trails(trail_s);
-        }
-    }
-
-    fn make_trails(&mut self, trail_s: f32) {
-        let (device, leaf_count) = (&self.device, self.leaf_count);
-        self.trail_pass =
-            (trail_s > 0.0).then(|| TrailPass::new(device, &self.frame, &self.light, trail_s, leaf_count));
     }
 
     /// Whether leaves draw trails.

@@ -1,0 +1,147 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What of the picture can change between two frames.
+
+use windfall_core::scene::{Lens, View};
+
+use super::{Renderer, is_moving};
+use crate::render::RenderError;
+use crate::render::cascades::shadow_size;
+use crate::render::environment::Environment;
+use crate::render::landing_count::LandingCount;
+use crate::render::landing_pass::LandingPass;
+use crate::render::leaf_crowd::LeafCrowd;
+use crate::render::leaf_cull::CullPass;
+use crate::render::leaf_pass::LeafPass;
+use crate::render::motion_pass::MotionPass;
+use crate::render::paint::{Paint, PaintPass};
+use crate::render::stems::Stems;
+use crate::render::targets::Targets;
+use crate::render::trail_pass::TrailPass;
+use crate::trees::Stand;
+
+impl Renderer {
+    /// Draws pictures of another size from now on.
+    ///
+    /// # Errors
+    /// A size beyond the device's limits; the renderer keeps its size.
+    pub fn resize(&mut self, size: (u32, u32)) -> Result<(), RenderError> {
+        if size != self.targets.size {
+            self.targets = self.targets_of(size)?;
+            self.post.rebind(&self.device, &self.queue, &self.targets);
+            if self.shadow_pass.size_px != shadow_size(size.1) {
+                self.shadow_pass.resize(&self.device, shadow_size(size.1));
+                self.light.set_shadow_maps(&self.device, &self.shadow_pass.maps);
+            }
+        }
+        Ok(())
+    }
+
+    /// Takes over another sun, sky, lens and length of trails; the park stays where it is.
+    ///
+    /// # Errors
+    /// A picture of a sky that cannot be used; the renderer keeps its own.
+    pub fn update_scene_view(&mut self, view: &View) -> Result<(), RenderError> {
+        let Environment { park_center, path, .. } = self.environment;
+        let before = self.environment.daylight.sun.direction;
+        self.environment = Environment::new(view, park_center, path)?;
+        let daylight = &self.environment.daylight;
+        if daylight.sun.direction != before {
+            self.frame.set_sun(&self.queue, &self.land, daylight.sun.direction);
+        }
+        self.light.set_sky(&self.device, &self.queue, daylight);
+        self.set_lens(view.lens);
+        self.shade_is_old = true;
+        let drawn = self.trail_pass.as_ref().map_or(0.0, TrailPass::trail_s);
+        if drawn != view.trail_s {
+            self.make_trails(view.trail_s);
+        }
+        Ok(())
+    }
+
+    /// Lets grass repeat after `length_s` seconds from `begin_s` on, and clouds stand still.
+    pub fn repeat(&mut self, begin_s: f64, length_s: f64) {
+        self.round = Some((begin_s, length_s));
+    }
+
+    /// Draws at most so many pixels at once from now on.
+    #[cfg(test)]
+    pub(in crate::render) fn set_tile_px(&mut self, tile_px: u32) -> Result<(), RenderError> {
+        self.tile_px = tile_px;
+        self.targets = self.targets_of(self.targets.size)?;
+        self.post.rebind(&self.device, &self.queue, &self.targets);
+        Ok(())
+    }
+
+    fn targets_of(&self, size: (u32, u32)) -> Result<Targets, RenderError> {
+        Targets::new(&self.device, size, self.tile_px, self.motion_pass.is_some())
+    }
+
+    /// Takes over another lens.
+    pub fn set_lens(&mut self, lens: Lens) {
+        if is_moving(&lens) != self.motion_pass.is_some() {
+            self.motion_pass = is_moving(&lens).then(|| self.new_motion());
+            // They were made for this size before.
+            if let Ok(targets) = self.targets_of(self.targets.size) {
+                self.targets = targets;
+            }
+        }
+        self.post.set_lens(&self.device, &self.queue, &self.targets, lens);
+    }
+
+    /// Takes over another number of leaves, with the same trees bearing other shares of them.
+    pub fn update_leaves(&mut self, stand: &Stand, leaf_count: u32) {
+        self.leaf_count = leaf_count;
+        self.stems = Stems::new(&self.device, &self.queue, stand);
+        self.leaf_crowd = LeafCrowd::new(&self.device, &self.queue, &self.cull, stand, leaf_count);
+        self.make_trails(self.trail_pass.as_ref().map_or(0.0, TrailPass::trail_s));
+        self.motion_pass = self.motion_pass.is_some().then(|| self.new_motion());
+        if let Some(paint) = self.paint_pass.take().map(|pass| pass.paint()) {
+            self.set_paint(Some(paint));
+        }
+    }
+
+    pub(super) fn new_motion(&self) -> MotionPass {
+        MotionPass::new(&self.device, &self.frame, &self.kinds, self.leaf_count)
+    }
+
+    /// Paints leaves by what they do, or leaves them their own colours. Litter that is not simulated is not drawn then.
+    pub fn set_paint(&mut self, paint: Option<Paint>) {
+        match (&mut self.paint_pass, paint) {
+            (Some(pass), Some(paint)) => pass.set(paint),
+            (None, None) => {}
+            (_, paint) => {
+                let (device, base_m) = (&self.device, self.land.base_m());
+                let pass = |paint| PaintPass::new(device, paint, self.leaf_count, self.dt_s, base_m);
+                self.paint_pass = paint.map(pass);
+                if self.cull.is_painted != paint.is_some() {
+                    self.cull = CullPass::new(device, &self.kinds, paint.is_some());
+                    self.leaf_pass = LeafPass::new(device, &self.frame, &self.light, &self.kinds, &self.cull);
+                }
+            }
+        }
+    }
+
+    /// Shows how densely leaves lie on the ground, or no longer.
+    pub fn set_landings(&mut self, are_shown: bool) {
+        if are_shown != self.landing_pass.is_some() {
+            let center = self.environment.park_center;
+            let count = || LandingCount::new(&self.device, &self.queue, center);
+            let pass = || LandingPass::new(&self.device, &self.frame, &self.light, count());
+            self.landing_pass = are_shown.then(pass);
+        }
+    }
+
+    /// Draws trails of so many seconds from now on; none for 0.
+    pub fn set_trails(&mut self, trail_s: f32) {
+        if self.trail_pass.as_ref().map_or(0.0, TrailPass::trail_s) != trail_s {
+            self.make_trails(trail_s);
+        }
+    }
+
+    pub(super) fn make_trails(&mut self, trail_s: f32) {
+        let (device, leaf_count) = (&self.device, self.leaf_count);
+        self.trail_pass =
+            (trail_s > 0.0).then(|| TrailPass::new(device, &self.frame, &self.light, trail_s, leaf_count));
+    }
+}
