@@ -15,8 +15,8 @@ pub(super) const STEPS_PER_SUBMIT: u32 = 32;
 const ATTEND_SHARE: u32 = 64;
 
 impl WgpuSimulator {
-    /// Submits steps as [`Simulator::step`](windfall_core::Simulator::step) does, with timestamps at the start of the first and the end of the last
-    /// compute pass.
+    /// Submits steps as [`Simulator::step`](windfall_core::Simulator::step) does, with timestamps at the start of the
+    /// first and the end of the last compute pass.
     ///
     /// # Errors
     /// A lost device.
