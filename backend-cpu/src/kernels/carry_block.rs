@@ -78,8 +78,8 @@ fn select_four<P: Pack>(mask: P::Mask, yes: [P; 4], no: [P; 4]) -> [P; 4] {
     )
 }
 
-/// What leaves that hang have got used to. What others count in its place are subnormal floats, on which processors take a
-/// hundred times as long.
+/// What leaves that hang have got used to. What others count in its place would be subnormal floats, on which processors
+/// are slow.
 #[inline(always)]
 fn habit_of<P: Pack>(simd: P::Simd, hangs: P::Mask, habit: P) -> P {
     hangs.select_real(habit, P::fill(simd, 0.0))

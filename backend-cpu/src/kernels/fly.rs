@@ -48,8 +48,7 @@ fn eight_of<T>(column: &mut [T], first: usize) -> &mut [T; LANES] {
     column[first..].first_chunk_mut().expect("eight slots are left")
 }
 
-/// Words of leaves that fly. Others count in their place, and small counts read as floats are subnormal, on which processors
-/// take a hundred times as long.
+/// Words of leaves that fly. What others count in their place would be subnormal floats, on which processors are slow.
 #[inline(always)]
 fn flying<S: Lanes>(on: mask32x8<S>, words: u32x8<S>) -> u32x8<S> {
     Mask::select(on, words, Word::all(words, 0))
@@ -71,12 +70,11 @@ fn fly_eight<S: Lanes>(simd: S, cx: &Context<'_>, leaves: &mut LeavesMut<'_>, fi
     let attitudes = load_records(simd, must_cast_ref(attitude));
     let courses = load_records(simd, must_cast_ref(course));
     let [event, rate, size, heading] = courses;
-    let spin_of = |words| flying(on, words);
     let start = Flight {
         position: vector(places),
         velocity: vector(drifts),
         pose: Quat::from(attitudes.map(<f32x8<S> as Real>::from_bits)),
-        spin: vector([drifts[3], rate, heading, heading].map(spin_of)),
+        spin: vector([drifts[3], rate, heading, heading].map(|words| flying(on, words))),
     };
     let wind = wind_at(cx, start.position);
     let flight = flight_advance(cx, start, bits, size, wind);
