@@ -8,7 +8,7 @@ use bytemuck::{cast_slice, must_cast_mut, must_cast_ref};
 use windfall_core::Context;
 use windfall_core::kernel::Quat;
 use windfall_core::kernel::lane::{Mask, Word};
-use windfall_core::kernel::pack::{BLOCK, Pack, load_block, row_of_lane, store_block};
+use windfall_core::kernel::pack::{BLOCK, Pack, ROWS_OF_LANES, load_block, store_block};
 use windfall_core::kernel::vector::vec3_select;
 use windfall_core::leaf::carry::{
     CarriedLeaf, Stalk, leaf_follow, leaf_hang, leaf_hangs, leaf_look, leaf_next_look, petiole_of,
@@ -30,28 +30,6 @@ pub(super) struct LeafBlock<'a> {
     pub(super) attitude: &'a mut [Attitude; BLOCK],
     pub(super) course: &'a mut [Course; BLOCK],
 }
-
-/// Slots of a block's lanes, counted from its first.
-const SLOTS: [u32; BLOCK] = {
-    let mut slots = [0; BLOCK];
-    let mut lane = 0;
-    while lane < BLOCK {
-        slots[lane] = word(row_of_lane(lane));
-        lane += 1;
-    }
-    slots
-};
-
-/// Numbers of a block's lanes.
-const LANES: [u32; BLOCK] = {
-    let mut lanes = [0; BLOCK];
-    let mut lane = 0;
-    while lane < BLOCK {
-        lanes[lane] = word(lane);
-        lane += 1;
-    }
-    lanes
-};
 
 /// Petioles of slots, and the rows of their segments, counted from the stand's first.
 #[inline(always)]
@@ -96,8 +74,10 @@ pub(super) fn look<P: Pack>(
     first: u32,
     part: usize,
 ) {
-    let lanes = P::load_words(simd, &LANES[part * P::LANES..]);
-    let all = lanes.times(lanes.all(SHED_INTERVAL)).plus(lanes.all(leaf_next_look(cx, first)));
+    let order = &ROWS_OF_LANES[part * P::LANES..][..P::LANES];
+    let next = leaf_next_look(cx, first);
+    let places = P::load_words(simd, order);
+    let all = places.times(places.all(SHED_INTERVAL)).plus(places.all(next));
     let exists = all.less_than(all.all(word(leaves.len())));
     let number = exists.select(all, all.all(0));
     let [_, _, _, bits] = number.look_up(cast_slice(leaves.place));
@@ -114,8 +94,11 @@ pub(super) fn look<P: Pack>(
     let zero = P::fill(simd, 0.0);
     let habits = floats(hangs.select_real(habit, before));
     let breaks = floats((hangs & breaks).select_real(P::fill(simd, 1.0), zero));
-    let numbers = (leaf_next_look(cx, first) as usize..leaves.len()).step_by(SHED_INTERVAL as usize);
-    for (lane, number) in numbers.skip(part * P::LANES).take(P::LANES).enumerate() {
+    for (lane, place) in order.iter().enumerate() {
+        let number = (next + place * SHED_INTERVAL) as usize;
+        if number >= leaves.len() {
+            continue;
+        }
         leaves.drift[number].phase = habits[lane].to_bits();
         if breaks[lane] > 0.0 {
             leaves.course[number].event = cx.step.index.0[0] + 1;
@@ -164,7 +147,7 @@ impl LeafBlock<'_> {
             return false;
         }
         let (velocity, habit) = four::<P>(load_block(simd, must_cast_ref(self.drift), part));
-        let slots = P::load_words(simd, &SLOTS[part * P::LANES..]);
+        let slots = P::load_words(simd, &ROWS_OF_LANES[part * P::LANES..]);
         let slots = slots.plus(slots.all(self.first));
         let (stalk, row) = stalks_of::<P>(simd, cx, slots, rows.first);
         let segment = bodies_of(rows, hangs.select(row, row.all(0)));

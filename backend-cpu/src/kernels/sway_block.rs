@@ -9,7 +9,7 @@ use bytemuck::must_cast_slice;
 use windfall_core::Context;
 use windfall_core::kernel::lane::Word;
 use windfall_core::kernel::matrix::sym3_trace;
-use windfall_core::kernel::pack::{BLOCK, Pack, load_block, row_of_lane, store_block};
+use windfall_core::kernel::pack::{BLOCK, Pack, ROWS_OF_LANES, load_block, row_of_lane, store_block};
 use windfall_core::kernel::vector::vec3_select;
 use windfall_core::kernel::{Mat3, Quat, Sym3, Vec3};
 use windfall_core::tree::sway::fold::{
@@ -23,7 +23,7 @@ use windfall_core::tree::sway::{Articulated, Body, Joint};
 
 use super::branch_block::{Column, Spare, State, change_state, state_of};
 use super::scratch::{BlockScratch, Handed, TwigAnswers};
-use super::timber_block::{HANDED, StandBlocks, TimberBlock};
+use super::timber_block::{HANDED, StandBlocks, TimberBlock, word};
 
 type Record = [f32; 4];
 
@@ -56,16 +56,8 @@ fn bearing_at<P: Pack>(simd: P::Simd, counts: &[u32; BLOCK], part: usize) -> P {
 /// In which lanes a block has rows.
 #[inline(always)]
 fn lanes_with_rows<P: Pack>(simd: P::Simd, count: usize, part: usize) -> P::Mask {
-    const ROWS: [f32; BLOCK] = {
-        let mut rows = [0.0; BLOCK];
-        let mut lane = 0;
-        while lane < BLOCK {
-            rows[lane] = row_of_lane(lane) as f32;
-            lane += 1;
-        }
-        rows
-    };
-    P::load(simd, &ROWS[part * P::LANES..]).less_than(P::fill(simd, count as f32))
+    let rows = P::load_words(simd, &ROWS_OF_LANES[part * P::LANES..]);
+    rows.less_than(rows.all(word(count)))
 }
 
 /// Segments that follow one another.

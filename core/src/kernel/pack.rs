@@ -19,6 +19,18 @@ pub const fn row_of_lane(lane: usize) -> usize {
     4 * (lane % 4) + lane / 4
 }
 
+/// The rows of a block's lanes, as [`row_of_lane`] says.
+#[expect(clippy::cast_possible_truncation, reason = "sixteen rows")]
+pub const ROWS_OF_LANES: [u32; BLOCK] = {
+    let mut rows = [0; BLOCK];
+    let mut lane = 0;
+    while lane < BLOCK {
+        rows[lane] = row_of_lane(lane) as u32;
+        lane += 1;
+    }
+    rows
+};
+
 /// Several floats side by side.
 pub trait Pack: Real {
     /// The instructions.
