@@ -96,10 +96,10 @@ functions! {
         QUATERNION, DIRECTION, LENGTH, SCALARS, PRELOAD, SPRINGS, DIRECTION, VELOCITY, VELOCITY, Input::Below(500)
     ) tolerance Some(4e-6);
     wgsl "let d = segment_drag(in_constants(0u), in_vec3(24u), in_vec3(27u), in_vec3(30u), f32(in_word(33u)));
-        out_vec3(0u, d.wind); out_float(3u, d.wood); out_float(4u, d.leaves);";
+        out_vec3(0u, d.wind); out_vec3(3u, d.across); out_float(6u, d.wood); out_float(7u, d.leaves);";
     rust |_cx, w| {
         let d = segment_drag(&constants(w, 0), vector(w, 24), vector(w, 27), vector(w, 30), w[33] as f32);
-        Results::new().vec3(d.wind).floats(&[d.wood, d.leaves]).0
+        Results::new().vec3(d.wind).vec3(d.across).floats(&[d.wood, d.leaves]).0
     };
 
     // The axis is a direction like any other here, so that wood feels a drag that no branch would.

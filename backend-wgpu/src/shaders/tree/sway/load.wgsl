@@ -10,23 +10,24 @@
 
 struct Drag {
     wind: vec3<f32>,
+    across: vec3<f32>,
     wood: f32,
     leaves: f32,
 }
 
 fn segment_drag(constants: Constants, axis: vec3<f32>, air: vec3<f32>, velocity: vec3<f32>, bearing: f32) -> Drag {
     let wind = air - velocity;
-    let squared = vec3_dot(wind, wind);
-    let along = vec3_dot(wind, axis);
-    let across = max(squared - along * along, TINY_SQUARED);
-    let speed_across = across * inverse_sqrt(across);
+    let across = wind - axis * vec3_dot(wind, axis);
+    let squared_across = max(vec3_dot(across, across), TINY_SQUARED);
+    let speed_across = squared_across * inverse_sqrt(squared_across);
     var leaves = 0.0;
     if (leaves < bearing) {
+        let squared = vec3_dot(wind, wind);
         let speed = squared * inverse_sqrt(max(squared, TINY_SQUARED));
         let yielding = reciprocal(speed * constants.leaf_yield + 1.0);
         leaves = ((constants.leaf_drag * bearing) * speed) * yielding;
     }
-    return Drag(wind, constants.wood_drag * speed_across, leaves);
+    return Drag(wind, across, constants.wood_drag * speed_across, leaves);
 }
 
 fn segment_air(body: Body, axis: vec3<f32>, length: f32) -> vec3<f32> {
@@ -39,7 +40,7 @@ fn segment_load(constants: Constants, body: Body, axis: vec3<f32>, air: vec3<f32
     let velocity = body.velocity + vec3_cross(body.spin, middle);
     let drag = segment_drag(constants, axis, air, velocity, bearing);
     let held = drag.wood + drag.leaves;
-    let push = drag.wind * held - axis * (vec3_dot(drag.wind, axis) * drag.wood);
+    let push = drag.across * drag.wood + drag.wind * drag.leaves;
 
     let leaves = constants.leaf_mass * bearing;
     let mass = constants.mass + leaves;
