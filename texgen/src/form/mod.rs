@@ -14,6 +14,7 @@ mod margin;
 mod mesh;
 mod sheet;
 mod stalk;
+mod triangulation;
 
 pub use drying::{BlendShape, Drying};
 pub use mesh::{Detail, LeafMesh};

@@ -12,11 +12,12 @@ use super::curve::Curve;
 use super::draft::{Draft, Refusal};
 use super::flow::{WidthLaw, finish};
 use super::ground::Ground;
-use super::habit::{Habit, LateralTargets, Layout};
+use super::habit::{Habit, Layout};
+use super::laterals::{Flank, angle, direction_at};
 use super::margin::Margin;
-use super::route::{Routes, Walk, rotate, walk};
-use super::{STEP, fan, no_vein};
-use crate::math::{floor_i32, quadratic};
+use super::route::{Routes, Walk, walk};
+use super::{STEP, fan, no_vein, tertiary};
+use crate::math::quadratic;
 use crate::rng::Rng;
 use crate::{Blade, TexgenError, VeinGraph, VeinGrower};
 
@@ -37,7 +38,7 @@ pub struct ContourGuided {
 }
 
 /// A main vein or lateral as nodes of the draft, from its start outward.
-type Path = Vec<u32>;
+pub(super) type Path = Vec<u32>;
 
 impl VeinGrower for ContourGuided {
     fn grow(&self, blade: &Blade, seed: u64) -> Result<VeinGraph, TexgenError> {
@@ -90,7 +91,7 @@ impl ContourGuided {
         }
         if self.tertiary {
             for (index, path) in laterals.iter().chain(&mains).enumerate() {
-                self.rungs(draft, path, &mut rng.fork(10_000 + index as u64));
+                tertiary::grow(draft, path, self.habit.wander_deg, &mut rng.fork(10_000 + index as u64));
             }
         }
         Ok(())
@@ -156,17 +157,9 @@ impl ContourGuided {
         margin: &Margin,
         rng: &mut Rng,
     ) -> Vec<Path> {
+        let flank = Flank { habit: &self.habit, draft, main, side, margin };
+        let plans = flank.plans(share, rng);
         let ground = draft.ground;
-        let (fewest, most) = self.habit.lateral_pairs;
-        let pairs = rng.integer(fewest.min(most), most.max(fewest)) as f32 * share;
-        let mut plans = match self.habit.targets {
-            LateralTargets::Lobes(size) => self.lobe_plans(draft, main, side, size, margin, rng),
-            LateralTargets::Even => self.station_plans(draft, main, side, pairs, None, margin, rng),
-            LateralTargets::Teeth(size) => {
-                self.station_plans(draft, main, side, pairs, Some(size), margin, rng)
-            }
-        };
-        plans.sort_by_key(|(station, _)| *station);
         let mut out = Vec::new();
         for (station, target) in plans {
             let from = draft.at(main[station]);
@@ -185,198 +178,4 @@ impl ContourGuided {
         }
         out
     }
-
-    /// Evenly spaced stations, each with where its angle leads, or the strongest tooth near there.
-    #[expect(clippy::too_many_arguments, reason = "one step of `laterals`, split off for reading")]
-    fn station_plans(
-        &self,
-        draft: &Draft<'_>,
-        main: &Path,
-        side: f32,
-        pairs: f32,
-        tooth: Option<f32>,
-        margin: &Margin,
-        rng: &mut Rng,
-    ) -> Vec<(usize, Vec2)> {
-        let ground = draft.ground;
-        let teeth = tooth.map(|size| margin.tips(size * ground.unit, 0.12 * size * ground.unit));
-        let count = pairs.round().max(1.0);
-        let mut plans = Vec::new();
-        let mut last_target: Option<Vec2> = None;
-        let mut place = 0.35 + if side > 0.0 { self.habit.stagger } else { 0.0 };
-        while place < count {
-            let share = ((place + 0.12 * rng.bell()) / count).clamp(0.02, 0.96);
-            place += 1.0;
-            // Laterals stand closer near the tip.
-            let share = share * (1.18 - 0.18 * share) * 0.94;
-            let station = station_at(main, share);
-            let from = draft.at(main[station]);
-            let along = direction_at(draft, main, station);
-            // Wider at the base, narrower near the tip.
-            let lean = self.habit.divergence_deg + 9.0 * (0.5 - share) + 3.0 * rng.bell();
-            let out = rotate(along, side * lean.clamp(25.0, 70.0).to_radians());
-            let Some(hit) = ground.reach(from, out, 3.0 * ground.unit) else { continue };
-            let mut target = hit;
-            if let Some(teeth) = &teeth {
-                let there = margin.nearest(hit);
-                let near = margin.window(0.3 * ground.unit * 2.0 / count.max(4.0));
-                let best = teeth
-                    .iter()
-                    .filter(|(tooth, _)| margin.apart(*tooth, there) <= near)
-                    .filter_map(|(tooth, height)| {
-                        let p = margin.target(*tooth)?;
-                        let bearing = angle(p - from, along).to_degrees();
-                        let fits =
-                            (25.0..=70.0).contains(&bearing) && (p - from).perp_dot(along) * side < 0.0;
-                        let away = margin.apart(*tooth, there) as f32 / near as f32;
-                        fits.then_some((height * (1.0 - 0.7 * away), p))
-                    })
-                    .reduce(|a, b| if b.0 > a.0 { b } else { a });
-                target = best.map_or(hit, |(_, p)| p);
-            }
-            let too_short = target.distance(from) < 0.06 * ground.unit;
-            let taken = last_target.is_some_and(|last| last.distance(target) < 0.02 * ground.unit);
-            if !too_short && !taken {
-                last_target = Some(target);
-                plans.push((station, target));
-            }
-        }
-        plans
-    }
-
-    /// One lateral to each lobe of the side, from where its angle fits best, and finer ones between.
-    fn lobe_plans(
-        &self,
-        draft: &Draft<'_>,
-        main: &Path,
-        side: f32,
-        size: f32,
-        margin: &Margin,
-        rng: &mut Rng,
-    ) -> Vec<(usize, Vec2)> {
-        let ground = draft.ground;
-        let (_, most) = self.habit.lateral_pairs;
-        let end = draft.at(main[main.len() - 1]);
-        let mut lobes: Vec<(f32, usize, Vec2)> = Vec::new();
-        for (index, height) in margin.tips(size * ground.unit, 0.1 * size * ground.unit) {
-            let Some(target) = margin.target(index) else { continue };
-            if target.distance(end) < 0.09 * ground.unit {
-                continue;
-            }
-            let wanted = (self.habit.divergence_deg + 4.0 * rng.bell()).clamp(25.0, 70.0);
-            let best = (main.len() / 24..main.len() * 15 / 16)
-                .filter_map(|station| {
-                    let from = draft.at(main[station]);
-                    let along = direction_at(draft, main, station);
-                    let bearing = angle(target - from, along).to_degrees();
-                    let fits =
-                        (25.0..=70.0).contains(&bearing) && (target - from).perp_dot(along) * side < 0.0;
-                    (fits && ground.sees(from, target)).then_some(((bearing - wanted).abs(), station))
-                })
-                .reduce(|a, b| if b.0 < a.0 { b } else { a });
-            if let Some((_, station)) = best {
-                lobes.push((height, station, target));
-            }
-        }
-        lobes.sort_by(|a, b| b.0.total_cmp(&a.0));
-        lobes.truncate(most as usize);
-        let mut plans: Vec<(usize, Vec2)> =
-            lobes.into_iter().map(|(_, station, target)| (station, target)).collect();
-        plans.sort_by_key(|(station, _)| *station);
-        plans.dedup_by(|b, a| b.0.abs_diff(a.0) < main.len() / 40);
-        self.fill_gaps(draft, main, side, &mut plans, rng);
-        plans
-    }
-
-    /// Adds a lateral where two neighbours leave much of the main vein bare.
-    fn fill_gaps(
-        &self,
-        draft: &Draft<'_>,
-        main: &Path,
-        side: f32,
-        plans: &mut Vec<(usize, Vec2)>,
-        rng: &mut Rng,
-    ) {
-        let ground = draft.ground;
-        let widest = usize::try_from(floor_i32(0.2 / STEP)).unwrap_or(1);
-        let mut borders: Vec<usize> = plans.iter().map(|(station, _)| *station).collect();
-        borders.insert(0, main.len() / 20);
-        borders.push(main.len() * 15 / 16);
-        for pair in borders.windows(2) {
-            let gap = pair[1].saturating_sub(pair[0]);
-            let more = gap / widest;
-            for k in 1..=more {
-                let station = pair[0] + gap * k / (more + 1);
-                let from = draft.at(main[station]);
-                let lean = self.habit.divergence_deg + 5.0 * rng.bell();
-                let out =
-                    rotate(direction_at(draft, main, station), side * lean.clamp(25.0, 70.0).to_radians());
-                // Between lobes a lateral gives up before the margin.
-                let longest = ground.reach(from, out, 3.0 * ground.unit).map_or(0.0, |p| p.distance(from));
-                if longest > 0.1 * ground.unit {
-                    plans.push((station, from + out * longest * rng.range(0.7, 0.92)));
-                }
-            }
-        }
-    }
-
-    /// Tertiary veins from one lateral across to its neighbours (percurrent), or towards the margin.
-    fn rungs(&self, draft: &mut Draft<'_>, lateral: &Path, rng: &mut Rng) {
-        let spacing = 0.05 * draft.ground.unit / draft.step;
-        for side in [-1.0, 1.0] {
-            let mut place = spacing * rng.range(0.5, 1.2);
-            loop {
-                let station = usize::try_from(floor_i32(place)).unwrap_or(0);
-                if station + 2 >= lateral.len() {
-                    break;
-                }
-                let out = rotate(
-                    direction_at(draft, lateral, station),
-                    side * (80.0 + 10.0 * rng.bell()).to_radians(),
-                );
-                self.rung(draft, lateral[station], out, rng);
-                place += spacing * rng.range(0.75, 1.4);
-            }
-        }
-    }
-
-    /// One tertiary vein: on from a node until it meets a vein, which it joins, or the margin.
-    fn rung(&self, draft: &mut Draft<'_>, from: u32, mut heading: Vec2, rng: &mut Rng) {
-        const MOST_STEPS: usize = 80;
-        let mut last = from;
-        for _ in 0..MOST_STEPS {
-            heading = rotate(heading, (self.habit.wander_deg * rng.bell()).to_radians());
-            match draft.grow(last, draft.at(last) + heading * draft.step, 3, 0.6) {
-                Ok(node) => last = node,
-                Err(Refusal::Blocked(a, b)) => {
-                    let far = |node: u32| draft.at(last).distance(draft.at(node));
-                    let (near, other) = if far(a) <= far(b) { (a, b) } else { (b, a) };
-                    if last != from && draft.join(last, near).is_err() {
-                        // Where a third vein bars this way too, the rung ends free.
-                        let _ = draft.join(last, other);
-                    }
-                    break;
-                }
-                Err(_) => break,
-            }
-        }
-    }
-}
-
-/// Index of the node at a share (0..=1) of a path's nodes.
-fn station_at(path: &Path, share: f32) -> usize {
-    let last = path.len() - 1;
-    usize::try_from(floor_i32(share * last as f32)).unwrap_or(0).min(last)
-}
-
-/// Unit direction of a path around a node, outward.
-fn direction_at(draft: &Draft<'_>, path: &Path, station: usize) -> Vec2 {
-    let before = path[station.saturating_sub(6)];
-    let after = path[(station + 6).min(path.len() - 1)];
-    (draft.at(after) - draft.at(before)).normalize_or(Vec2::NEG_Y)
-}
-
-/// Angle between two directions in radians.
-fn angle(a: Vec2, b: Vec2) -> f32 {
-    libm::acosf((a.normalize_or_zero().dot(b.normalize_or_zero())).clamp(-1.0, 1.0))
 }

@@ -17,11 +17,13 @@ mod fan;
 mod flow;
 mod ground;
 mod habit;
+mod laterals;
 mod margin;
 mod particle_flow;
 mod route;
 mod runions;
 mod species_veins;
+mod tertiary;
 #[cfg(test)]
 mod tests;
 
