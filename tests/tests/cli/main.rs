@@ -7,6 +7,7 @@ mod common_cli;
 mod bad_input;
 mod examples;
 mod export;
+mod export_gltf;
 mod flight;
 mod leaf;
 mod loops;
