@@ -8,6 +8,7 @@ mod branch_block;
 pub(crate) mod carry;
 mod carry_block;
 mod eight;
+mod fetch;
 mod fly;
 pub(crate) mod measure;
 pub(crate) mod scratch;

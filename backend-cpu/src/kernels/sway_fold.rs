@@ -8,9 +8,10 @@ use windfall_core::Context;
 use windfall_core::kernel::pack::{BLOCK, Pack};
 use windfall_core::tree::sway::row::{Rows, row_fold};
 
+use super::fetch::AHEAD;
 use super::scratch::BlockScratch;
 use super::sway_block::Step;
-use super::timber_block::StandBlocks;
+use super::timber_block::{FOLDED, StandBlocks};
 use crate::simd::{Simd, in_packs};
 
 /// A stand, from the tips to the trunks.
@@ -34,6 +35,7 @@ pub(crate) fn sway_fold(
 #[inline(always)]
 fn fold_lanes<P: Pack>(simd: P::Simd, step: Step<'_, '_>, scratch: &mut BlockScratch) {
     for number in 0..step.blocks.limbs.len() {
+        step.fetch(number + AHEAD, FOLDED);
         for part in 0..BLOCK / P::LANES {
             step.fold::<P>(simd, number, part, scratch);
         }

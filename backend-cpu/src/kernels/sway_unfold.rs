@@ -8,9 +8,10 @@ use windfall_core::Context;
 use windfall_core::kernel::pack::{BLOCK, Pack};
 use windfall_core::tree::sway::row::{Rows, row_unfold};
 
+use super::fetch::AHEAD;
 use super::scratch::BlockScratch;
 use super::sway_block::Step;
-use super::timber_block::StandBlocks;
+use super::timber_block::{StandBlocks, UNFOLDED};
 use crate::simd::{Simd, in_packs};
 
 /// A stand, from the trunks to the tips.
@@ -34,6 +35,9 @@ pub(crate) fn sway_unfold(
 #[inline(always)]
 fn unfold_lanes<P: Pack>(simd: P::Simd, mut step: Step<'_, '_>, scratch: &mut BlockScratch) {
     for number in (0..step.blocks.limbs.len()).rev() {
+        if let Some(ahead) = number.checked_sub(AHEAD) {
+            step.fetch(ahead, UNFOLDED);
+        }
         for part in 0..BLOCK / P::LANES {
             step.unfold::<P>(simd, number, part, scratch);
         }

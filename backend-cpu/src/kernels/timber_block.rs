@@ -15,6 +15,10 @@ use windfall_core::tree::sway::Constants;
 
 /// Numbers of a [`Timber`] that are floats: all but its last row of links.
 const FLOATS: usize = (TIMBER_ROWS as usize - 1) * 4;
+/// Those that the pass towards the tips reads: rest and offset.
+pub(super) const UNFOLDED: Range<usize> = 0..7;
+/// Those that the pass towards the foot reads: all others.
+pub(super) const FOLDED: Range<usize> = UNFOLDED.end..FLOATS;
 /// Records of four that a limb hands to its parent.
 pub(super) const HANDED: usize = 7;
 /// Records of four of a limb's motion.
@@ -172,6 +176,12 @@ impl TimberBlock {
     /// The row of every lane.
     fn rows_of_lanes(&self) -> [usize; BLOCK] {
         std::array::from_fn(|lane| self.rows.start + row_of_lane(lane).min(self.rows.len() - 1))
+    }
+
+    /// Some of the numbers.
+    #[inline(always)]
+    pub(super) fn lanes(&self, numbers: Range<usize>) -> &[Lanes] {
+        &self.floats[numbers]
     }
 
     /// One number.
