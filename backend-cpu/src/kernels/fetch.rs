@@ -18,7 +18,7 @@ pub(super) const AHEAD: usize = 2;
 /// Bytes that come together.
 const LINE: usize = 64;
 
-/// Brings so many items to the second level of cache; the first has no room for them.
+/// Brings so many items to the second level of cache, which gained more than bringing them to the first.
 #[inline(always)]
 fn fetch<T>(first: *const T, count: usize) {
     #[cfg(target_arch = "x86_64")]
