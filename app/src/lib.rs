@@ -62,25 +62,20 @@
 //!
 //! Small whole programs, run by `cargo run --release --example NAME`: `headless` (a simulation), `embed` (leaves in another
 //! wgpu program), `custom_wind` (a wind of your own), `custom_backend` (a simulator of your own, and the suite that
-//! compares it with ours). Then [`render`] for the passes of a frame, [`study`] for parameter sweeps, [`output`] for
+//! compares it with ours). Then [`windfall_render`] for the passes of a frame, [`study`] for parameter sweeps, [`output`] for
 //! clips, and [`windfall_core`] for everything that moves.
 
 pub mod backend;
 pub mod baseline;
-pub mod camera;
 pub mod cli;
 pub mod commands;
 pub mod drawing;
 pub mod export;
 pub mod frame;
 pub mod interrupt;
-pub mod land;
 pub mod leaves;
-pub mod light;
 pub mod output;
-pub mod render;
 pub mod studio;
 pub mod study;
 pub mod terminal;
-pub mod trees;
 pub mod viewer;

@@ -4,14 +4,14 @@
 
 use windfall_core::scene::{CameraKey, camera_at};
 use windfall_core::{Scene, Simulator, World};
+use windfall_render::camera::Camera;
+use windfall_render::trees::Stand;
+use windfall_render::{FrameInput, PictureTarget, Renderer, RendererOptions, Subject};
 use windfall_wgpu::Gpu;
 
 use crate::backend::Backend;
-use crate::camera::Camera;
 use crate::commands::stepping::Stepping;
 use crate::drawing::Drawing;
-use crate::render::{FrameInput, PictureTarget, Renderer, RendererOptions, Subject};
-use crate::trees::Stand;
 use crate::{interrupt, leaves, terminal};
 
 /// A simulator and a renderer of the same scene.

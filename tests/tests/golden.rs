@@ -12,10 +12,10 @@ use image::{Rgba, RgbaImage, imageops};
 use ssimulacra2::{ColorPrimaries, Rgb, TransferCharacteristic, compute_frame_ssimulacra2};
 use windfall::backend::{BackendArguments, BackendKind};
 use windfall::drawing::Drawing;
-use windfall::render::with_shader_edit;
 use windfall::studio::Studio;
 use windfall_core::Scene;
 use windfall_core::scene::{Exposure, Focus, ToneMap};
+use windfall_render::with_shader_edit;
 
 /// Size of the pictures: small, but nothing of a scene is lost.
 const SIZE: (u32, u32) = (256, 144);

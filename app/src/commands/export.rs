@@ -9,6 +9,7 @@ use anyhow::{Context, bail};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use windfall_core::{Simulator, World};
+use windfall_render::trees::Stand;
 
 use super::render::{loop_length, within};
 use super::scene::SceneArguments;
@@ -16,7 +17,6 @@ use super::stepping::Stepping;
 use crate::backend::{Backend, BackendArguments};
 use crate::export::{self, Estimate, Format, FrameRange, Job, Observer, check_space};
 use crate::frame::{FrameSteps, LoopFrames};
-use crate::trees::Stand;
 use crate::{interrupt, terminal};
 
 /// Most steps of an export.

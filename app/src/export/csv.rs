@@ -97,10 +97,10 @@ fn field(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use windfall_core::{Scene, World};
+    use windfall_render::trees::Stand;
 
     use super::*;
     use crate::export::Observer;
-    use crate::trees::Stand;
 
     /// A disk with little room.
     struct Small(usize);

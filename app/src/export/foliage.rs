@@ -9,12 +9,12 @@ use windfall_core::Scene;
 use windfall_core::leaf::LeafState;
 use windfall_core::leaf::record::{HALF_MASK, VARIANT_MASK, VARIANT_SHIFT};
 use windfall_core::scene::Species;
+use windfall_render::trees::{Stand, StandingTree, cluster};
+use windfall_render::turned;
 use windfall_texgen::{Atlas, Layer};
 
 use super::FrameLeaf;
 use super::leaf_mesh::{LeafMesh, LeafPicture, clustered, leaf_mesh, middle};
-use crate::render::turned;
-use crate::trees::{Stand, StandingTree, cluster};
 
 /// Clusters of each kind of leaf to choose from.
 const CLUSTERS: u32 = 3;
@@ -153,9 +153,9 @@ pub(super) mod tests {
     use glam::Vec3;
     use windfall_core::World;
     use windfall_core::scene::{Foliage as Twigs, LeafShape, Tree, TreeForm, TreeKind, TreePreset};
+    use windfall_render::trees::TWIG_SIZE;
 
     use super::*;
-    use crate::trees::TWIG_SIZE;
 
     /// A scene of one species with a tree that bears it, and its leaves.
     pub(in crate::export) fn foliage(shape: LeafShape) -> (Scene, Stand, Foliage) {

@@ -3,6 +3,7 @@
 //! The leaves of one frame as every format tells them.
 
 use windfall_core::{Context, World};
+use windfall_render::trees::Stand;
 
 use windfall_core::leaf::LeafState;
 use windfall_core::leaf::fly::flies;
@@ -11,8 +12,6 @@ use windfall_core::leaf::record::{
     HALF_MASK, PRIMITIVE_MASK, PRIMITIVE_SHIFT, SIZE_UNIT, SPECIES_MASK, SPECIES_SHIFT,
 };
 use windfall_core::motion::Primitive;
-
-use crate::trees::Stand;
 
 /// A leaf at one moment.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -4,10 +4,10 @@
 
 use glam::Vec3;
 use windfall_core::tree::BarkMesh;
+use windfall_render::trees::StandingTree;
+use windfall_render::{BERRY_COLOR, berries};
 
 use super::plain::Plain;
-use crate::render::{BERRY_COLOR, berries};
-use crate::trees::StandingTree;
 
 /// All berries alike.
 pub(super) const SKIN: Plain = Plain { name: "berry", color: BERRY_COLOR, roughness: 0.25 };

@@ -5,10 +5,9 @@
 use glam::{Quat, Vec3};
 use image::RgbaImage;
 use windfall_core::scene::Species;
+use windfall_render::trees::TWIG_SIZE;
+use windfall_render::{build, dryness, shaped};
 use windfall_texgen::Layer;
-
-use crate::render::{build, dryness, shaped};
-use crate::trees::TWIG_SIZE;
 
 /// A leaf of nominal size in the leaf's frame, or a cluster of them: blade in the x-z plane, upper side +y, tip towards +z,
 /// its place at the origin.

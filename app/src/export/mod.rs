@@ -28,8 +28,7 @@ pub use frame::{Frame, FrameLeaf};
 pub use range::FrameRange;
 pub(crate) use space::{Estimate, check_space};
 use windfall_core::{Scene, World};
-
-use crate::trees::Stand;
+use windfall_render::trees::Stand;
 
 /// What is to be written.
 #[derive(Clone, Copy, Debug)]

@@ -5,9 +5,9 @@
 use glam::Vec3;
 use windfall_core::Scene;
 use windfall_core::scene::camera_at;
+use windfall_render::land::Land;
 
 use super::plain::Plain;
-use crate::land::Land;
 
 /// Half an edge of level ground, and of water on it, in metres.
 const REACH_M: f32 = 200.0;

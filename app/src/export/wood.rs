@@ -5,9 +5,8 @@
 use glam::{Quat, Vec3};
 use image::{Rgb, RgbImage};
 use windfall_core::tree::{BarkDetail, BarkMesh, bark_mesh};
-
-use crate::render::{BARK_SIZE, paint_bark};
-use crate::trees::{BarkKind, Stand, StandingTree};
+use windfall_render::trees::{BarkKind, Stand, StandingTree};
+use windfall_render::{BARK_SIZE, paint_bark};
 
 /// Row of the branch columns of a segment, and of the one that it grows from.
 pub(super) type Joint = (usize, Option<usize>);

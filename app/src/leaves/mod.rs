@@ -10,9 +10,8 @@ pub use body::load_scene;
 use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
 use windfall_core::Scene;
 use windfall_core::scene::{LeafShape, Species};
+use windfall_render::MAX_LAYERS;
 use windfall_texgen::{Assortment, Atlas, Layer, LeafFacts, LeafFolder, LightBody, Shape};
-
-use crate::render::MAX_LAYERS;
 
 /// Pictures of each species.
 const VARIANTS: u32 = 12;

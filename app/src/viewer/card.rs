@@ -96,7 +96,8 @@ fn doing(state: LeafState, bits: u32, is_body: bool) -> String {
         }
         LeafState::Falling => {
             let primitive = (bits >> PRIMITIVE_SHIFT) & PRIMITIVE_MASK;
-            let name = crate::render::MOTIONS.get(primitive as usize).map_or("in the air", |(name, _)| name);
+            let name =
+                windfall_render::MOTIONS.get(primitive as usize).map_or("in the air", |(name, _)| name);
             format!("falls, {name}")
         }
     }

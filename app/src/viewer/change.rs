@@ -4,8 +4,7 @@
 
 use windfall_core::Scene;
 use windfall_core::scene::{Ground, Share, SourceShape, Species, View};
-
-use crate::render::RendererOptions;
+use windfall_render::RendererOptions;
 
 /// What has to follow when one scene takes the place of another.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]

@@ -3,8 +3,7 @@
 //! What is shown beside the picture itself: instruments, all off at first.
 
 use clap::ValueEnum;
-
-use crate::render::{Measure, Paint};
+use windfall_render::{Measure, Paint};
 
 /// Height of the wind's slice at first, in metres.
 const WIND_HEIGHT_M: f32 = 2.0;

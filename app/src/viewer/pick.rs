@@ -5,8 +5,7 @@
 use egui::{Pos2, Rect, pos2};
 use glam::{Mat4, Vec3};
 use windfall_core::leaf::{LeafState, Place};
-
-use crate::camera::Camera;
+use windfall_render::camera::Camera;
 
 /// Farthest from a click that a leaf is meant, in points.
 pub(super) const REACH: f32 = 16.0;

@@ -3,10 +3,10 @@
 //! Moves the camera by mouse and keys.
 
 use egui::{PointerButton, Response};
+use windfall_render::camera::Camera;
+use windfall_render::land::Land;
 
 use super::keys;
-use crate::camera::Camera;
-use crate::land::Land;
 
 /// Radians per point of a drag.
 const ORBIT_RAD: f32 = 0.006;

@@ -6,11 +6,11 @@ use std::path::{Path, PathBuf};
 
 use anyhow::bail;
 use image::RgbaImage;
+use windfall_render::PictureTarget;
 use windfall_wgpu::Gpu;
 
 use crate::frame::FrameSteps;
 use crate::output::{Output, Writer};
-use crate::render::PictureTarget;
 
 /// Frames in each second of the clip.
 pub(super) const FPS: f64 = 60.0;

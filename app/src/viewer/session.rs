@@ -13,13 +13,13 @@ use std::time::{Duration, Instant};
 use windfall_core::scene::limits;
 use windfall_core::{Environment, Scene, SimError, Simulator, Stats, World};
 use windfall_cpu::CpuOptions;
+use windfall_render::GpuTimer;
 use windfall_wgpu::Gpu;
 
 use super::history::History;
 use super::pace::Pace;
 use crate::backend::{Backend, BackendKind, Columns, Device};
 use crate::commands::scene::check_memory;
-use crate::render::GpuTimer;
 pub(super) use compare::Difference;
 use compare::Twin;
 pub(super) use seek::Timeline;

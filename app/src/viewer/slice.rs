@@ -6,8 +6,7 @@ use glam::Vec3;
 use windfall_core::kernel::Vec3 as KernelVec3;
 use windfall_core::wind::sample::wind_at;
 use windfall_core::{Clock, Environment};
-
-use crate::camera::Camera;
+use windfall_render::camera::Camera;
 
 /// Arrows along an edge of the slice.
 const EDGE: u16 = 17;

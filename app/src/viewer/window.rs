@@ -14,6 +14,8 @@ use std::time::{Duration, Instant};
 use anyhow::Context;
 use windfall_core::scene::camera_at;
 use windfall_core::{Scene, World};
+use windfall_render::camera::Camera;
+use windfall_render::{FrameInput, PictureTarget, Renderer};
 use windfall_wgpu::Gpu;
 use winit::event::WindowEvent;
 use winit::window::Window;
@@ -30,9 +32,7 @@ use super::screen::Screen;
 use super::screenshot::Screenshot;
 use super::session::Session;
 use super::undo::Undo;
-use crate::camera::Camera;
 use crate::drawing::Drawing;
-use crate::render::{FrameInput, PictureTarget, Renderer};
 use crate::terminal;
 
 /// Time between two attempts to draw to a window that shows nothing.

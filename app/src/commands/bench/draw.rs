@@ -6,16 +6,16 @@ use std::time::Instant;
 
 use serde::Serialize;
 use windfall_core::{Scene, Simulator, World};
+use windfall_render::camera::Camera;
+use windfall_render::trees::Stand;
+use windfall_render::{FrameInput, PictureTarget, Renderer, RendererOptions, Subject};
 use windfall_wgpu::{Gpu, describe_adapter};
 
 use super::Arguments;
 use crate::backend::{Backend, BackendArguments};
-use crate::camera::Camera;
 use crate::drawing::Drawing;
 use crate::leaves::atlas_of;
-use crate::render::{FrameInput, PictureTarget, Renderer, RendererOptions, Subject};
 use crate::terminal;
-use crate::trees::Stand;
 
 /// Size of the pictures unless the user says something else.
 const SIZE: (u32, u32) = (1920, 1080);

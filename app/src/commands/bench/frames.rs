@@ -5,13 +5,13 @@
 use std::time::Instant;
 
 use windfall_core::{Scene, World};
+use windfall_render::camera::Camera;
+use windfall_render::trees::Stand;
+use windfall_render::{FrameInput, PictureTarget, Renderer, RendererOptions, Subject};
 use windfall_wgpu::{Gpu, LeafBuffers};
 
 use super::contender::Contender;
-use crate::camera::Camera;
 use crate::leaves::atlas_of;
-use crate::render::{FrameInput, PictureTarget, Renderer, RendererOptions, Subject};
-use crate::trees::Stand;
 
 /// Size of the pictures.
 const SIZE: (u32, u32) = (1280, 720);

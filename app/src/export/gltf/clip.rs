@@ -7,6 +7,8 @@ use std::path::PathBuf;
 
 use glam::Mat4;
 use serde_json::json;
+use windfall_render::light::{Daylight, SunLight};
+use windfall_render::trees::Stand;
 
 use super::file::Document;
 use super::leaf_track::{Track, add_leaf, near};
@@ -18,8 +20,6 @@ use crate::export::fruit::fruit;
 use crate::export::wood::{Joint, at_rest, at_rest_above, bark, joints, rotations};
 use crate::export::{Exporter, Frame, Job};
 use crate::leaves::atlas_of;
-use crate::light::{Daylight, SunLight};
-use crate::trees::Stand;
 
 /// A clip in the making. The format wants everything of a node together, so it is gathered in memory, of which
 /// [`start`](super::start) sees that it is not too much.

@@ -11,6 +11,8 @@ use serde_json::{Map, Value, json};
 use windfall_core::Scene;
 use windfall_core::scene::camera_at;
 use windfall_core::tree::BarkMesh;
+use windfall_render::light::{SunLight, luminance};
+use windfall_render::trees::BarkKind;
 
 use super::file::Document;
 use crate::export::foliage::Foliage;
@@ -19,8 +21,6 @@ use crate::export::plain::Plain;
 use crate::export::surface::surfaces;
 use crate::export::usd::view::pose;
 use crate::export::wood::{bark_name, bark_picture};
-use crate::light::{SunLight, luminance};
-use crate::trees::BarkKind;
 
 /// Meshes of leaves, each added once, and their materials.
 #[derive(Debug, Default)]

@@ -7,6 +7,8 @@ use std::path::PathBuf;
 
 use serde_json::json;
 use windfall_core::leaf::LeafState;
+use windfall_render::light::{Daylight, SunLight};
+use windfall_render::trees::Stand;
 
 use super::file::Document;
 use super::scenery::{Barks, LeafMeshes, add_surfaces, tree_mesh, view};
@@ -15,8 +17,6 @@ use crate::export::foliage::Foliage;
 use crate::export::fruit::fruit;
 use crate::export::{Exporter, Frame, FrameLeaf, Job, wood};
 use crate::leaves::atlas_of;
-use crate::light::{Daylight, SunLight};
-use crate::trees::Stand;
 
 /// A frame in the making.
 #[derive(Debug)]

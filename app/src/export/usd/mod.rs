@@ -20,6 +20,7 @@ use std::path::{Path, PathBuf};
 use anyhow::bail;
 use glam::Vec3;
 use windfall_core::leaf::LeafState;
+use windfall_render::light::Daylight;
 
 use self::samples::{Handle, Samples};
 use self::trees::TreeSamples;
@@ -27,7 +28,6 @@ use self::view::ViewSamples;
 use super::foliage::Foliage;
 use super::{Exporter, Frame, FrameLeaf, Job};
 use crate::commands::output_file::{OutputFile, write_error};
-use crate::light::Daylight;
 use crate::output::beside::Beside;
 use crate::{interrupt, leaves};
 

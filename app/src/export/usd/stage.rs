@@ -4,12 +4,13 @@
 
 use std::io::{self, Write};
 
+use windfall_render::light::Daylight;
+
 use super::samples::SampleLayer;
 use super::{MANIFEST, STAGE, prototypes, text, trees, view};
 use crate::export::foliage::Foliage;
 use crate::export::surface::{self, Surface};
 use crate::export::{FrameRange, Job};
-use crate::light::Daylight;
 
 /// Decimal places of the corners of ground and water in metres.
 const SURFACE_PLACES: i32 = 4;

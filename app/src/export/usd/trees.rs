@@ -9,6 +9,7 @@ use std::path::Path;
 
 use glam::{Mat4, Quat, Vec3};
 use windfall_core::tree::BarkMesh;
+use windfall_render::trees::{Stand, StandingTree};
 
 use super::prototypes::{Coat, NORMAL_PLACES, PICTURES, extent_of, write_material, write_plain};
 use super::samples::{Handle, Samples};
@@ -19,7 +20,6 @@ use crate::export::fruit::{SKIN, fruit};
 use crate::export::wood::{
     Joint, at_rest, at_rest_above, bark, bark_name, bark_picture, barks, joints, rotations,
 };
-use crate::trees::{Stand, StandingTree};
 
 /// Decimal places of corners in metres.
 const PLACES: i32 = 4;

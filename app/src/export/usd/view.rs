@@ -7,12 +7,12 @@ use std::io::{self, Write};
 use glam::{Mat4, Vec3};
 use windfall_core::Scene;
 use windfall_core::scene::{self, CameraKey, camera_at};
+use windfall_render::camera::Camera;
+use windfall_render::light::{Daylight, luminance};
 
 use super::samples::{Handle, Samples};
 use super::text;
-use crate::camera::Camera;
 use crate::export::Frame;
-use crate::light::{Daylight, luminance};
 
 /// Height of the picture in the camera, in tenths of a metre as the format has it: a 35 mm frame of 16:9.
 const APERTURE: f32 = 0.2025;

@@ -5,10 +5,10 @@
 use egui::Ui;
 use windfall_core::Scene;
 use windfall_core::scene::{Camera as SceneCamera, CameraKey, MAX_CAMERA_KEYS, limits};
+use windfall_render::camera::Camera;
 
 use super::field::{field, vector};
 use super::list::List;
-use crate::camera::Camera;
 
 /// `camera` is what the window looks through now, `time_s` what its clock shows.
 pub(super) fn show(ui: &mut Ui, scene: &mut Scene, own: &Scene, camera: &mut Camera, time_s: f64) {

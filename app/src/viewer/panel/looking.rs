@@ -4,10 +4,10 @@
 
 use egui::{CollapsingHeader, RichText, Ui};
 use windfall_core::scene::limits::Limit;
+use windfall_render::Measure;
 
 use super::field::field;
 use super::{Facts, Wish, style};
-use crate::render::Measure;
 use crate::viewer::looking::Looking;
 
 /// Ends of the colours that can be chosen.

@@ -37,12 +37,12 @@ mod words;
 
 use egui::{Area, Id, Pos2, Rect, Response, RichText, ScrollArea, Sense, Ui, vec2};
 use windfall_core::Scene;
+use windfall_render::camera::Camera;
+use windfall_render::land::Land;
 
 use super::controls::{Facts, Message, Wish};
 use super::pick::Projection;
 use super::{keys, pointer};
-use crate::camera::Camera;
-use crate::land::Land;
 use draft::Draft;
 pub use group::Group;
 use group::Groups;

@@ -7,9 +7,9 @@ use egui::{
     pos2, vec2,
 };
 use glam::Vec3;
+use windfall_render::{ATTACHED, MOTIONS, Measure, RESTING, shade_bytes};
 
 use super::{Facts, style};
-use crate::render::{ATTACHED, MOTIONS, Measure, RESTING, shade_bytes};
 use crate::viewer::looking::Looking;
 use crate::viewer::pick::Projection;
 
@@ -39,7 +39,7 @@ pub(super) fn show(ui: &Ui, facts: &Facts, projection: &Projection, picture: Rec
         corner.y = scale_legend(ui, "wind", "Wind", ["0", &format!("{most:.1} m/s")], corner).bottom() + 8.0;
     }
     if facts.looking.landings {
-        let (low, high) = crate::render::LANDINGS_PER_M2;
+        let (low, high) = windfall_render::LANDINGS_PER_M2;
         let ends = [format!("{low:.0}"), format!("{high:.0} leaves/m\u{b2}")];
         corner.y = scale_legend(ui, "landings", "Lying there", [&ends[0], &ends[1]], corner).bottom() + 8.0;
     }

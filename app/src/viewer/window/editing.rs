@@ -6,13 +6,13 @@ use std::path::Path;
 use std::sync::Arc;
 
 use windfall_core::{Environment, Scene, World};
+use windfall_render::camera::Camera;
+use windfall_render::trees::Stand;
+use windfall_render::{Renderer, RendererOptions, Subject};
 use windfall_wgpu::Gpu;
 
 use super::Viewer;
-use crate::camera::Camera;
 use crate::leaves;
-use crate::render::{Renderer, RendererOptions, Subject};
-use crate::trees::Stand;
 use crate::viewer::app::title;
 use crate::viewer::change::Change;
 use crate::viewer::controls::Wish;

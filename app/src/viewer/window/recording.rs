@@ -4,8 +4,9 @@
 
 use std::path::Path;
 
+use windfall_render::FrameInput;
+
 use super::Viewer;
-use crate::render::FrameInput;
 use crate::terminal;
 use crate::viewer::panel::grouped;
 use crate::viewer::record::{RecordFacts, Recording, free_name};

@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The steps of a frame: as many as are due, as a clip needs, or as lead to where the user wants to be.
 
+use windfall_render::MAX_TRAILS;
+
 use super::Viewer;
-use crate::render::MAX_TRAILS;
 
 impl Viewer {
     /// Takes the steps that are due.

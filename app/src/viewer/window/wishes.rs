@@ -7,11 +7,11 @@ use std::time::Instant;
 
 use windfall_core::SimError;
 use windfall_core::scene::FlightModel;
+use windfall_render::camera::Camera;
 use windfall_wgpu::describe_adapter;
 
 use super::{Next, Viewer};
 use crate::backend::BackendKind;
-use crate::camera::Camera;
 use crate::viewer::controls::{Facts, Message, Wish};
 use crate::viewer::meter::STAGES;
 

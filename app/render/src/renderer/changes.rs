@@ -5,19 +5,19 @@
 use windfall_core::scene::{Lens, View};
 
 use super::{Renderer, is_moving};
-use crate::render::RenderError;
-use crate::render::cascades::shadow_size;
-use crate::render::environment::Environment;
-use crate::render::landing_count::LandingCount;
-use crate::render::landing_pass::LandingPass;
-use crate::render::leaf_crowd::LeafCrowd;
-use crate::render::leaf_cull::CullPass;
-use crate::render::leaf_pass::LeafPass;
-use crate::render::motion_pass::MotionPass;
-use crate::render::paint::{Paint, PaintPass};
-use crate::render::stems::Stems;
-use crate::render::targets::Targets;
-use crate::render::trail_pass::TrailPass;
+use crate::RenderError;
+use crate::cascades::shadow_size;
+use crate::environment::Environment;
+use crate::landing_count::LandingCount;
+use crate::landing_pass::LandingPass;
+use crate::leaf_crowd::LeafCrowd;
+use crate::leaf_cull::CullPass;
+use crate::leaf_pass::LeafPass;
+use crate::motion_pass::MotionPass;
+use crate::paint::{Paint, PaintPass};
+use crate::stems::Stems;
+use crate::targets::Targets;
+use crate::trail_pass::TrailPass;
 use crate::trees::Stand;
 
 impl Renderer {
@@ -66,7 +66,7 @@ impl Renderer {
 
     /// Draws at most so many pixels at once from now on.
     #[cfg(test)]
-    pub(in crate::render) fn set_tile_px(&mut self, tile_px: u32) -> Result<(), RenderError> {
+    pub(crate) fn set_tile_px(&mut self, tile_px: u32) -> Result<(), RenderError> {
         self.tile_px = tile_px;
         self.targets = self.targets_of(self.targets.size)?;
         self.post.rebind(&self.device, &self.queue, &self.targets);

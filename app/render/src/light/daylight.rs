@@ -122,7 +122,7 @@ pub(crate) fn sun_direction(sun: &Sun) -> Vec3 {
 }
 
 /// Luminance of linear sRGB.
-pub(crate) fn luminance(color: Vec3) -> f32 {
+pub fn luminance(color: Vec3) -> f32 {
     color.dot(Vec3::new(0.2126, 0.7152, 0.0722))
 }
 

@@ -14,7 +14,8 @@ use windfall_core::Scene;
 use windfall_core::tree::{Forest, Skeleton};
 
 pub use cluster::MAX_CLUSTER;
-pub(crate) use cluster::{TWIG_SIZE, cluster, cluster_constants};
+pub(crate) use cluster::cluster_constants;
+pub use cluster::{TWIG_SIZE, cluster};
 pub use crown::Crown;
 pub use look::{BarkKind, Look};
 

@@ -8,15 +8,15 @@ use super::random::Random;
 use crate::trees::BarkKind;
 
 /// Edge of a tile in texels; it covers `windfall_core::tree::bark::BARK_TILE_M` metres both ways.
-pub(crate) const BARK_SIZE: usize = 256;
+pub const BARK_SIZE: usize = 256;
 const EDGE: f32 = BARK_SIZE as f32;
 
 /// One kind of bark: two images of `BARK_SIZE` squared, with their halvings. Rows run up the trunk.
-pub(crate) struct Bark {
+pub struct Bark {
     /// Square root of the colour; height from 0 in the grooves to 1.
-    pub(crate) surface: Vec<Vec<u8>>,
+    pub surface: Vec<Vec<u8>>,
     /// Tilt of the surface around and along the limb, 0.5 for none; open sky; scar where the bark has cracked for good.
-    pub(crate) relief: Vec<Vec<u8>>,
+    pub relief: Vec<Vec<u8>>,
 }
 
 /// Colour, height and scar of a place, which has coordinates from 0 to 1.
@@ -27,7 +27,7 @@ struct Texel {
 }
 
 /// Paints a kind of bark.
-pub(crate) fn paint_bark(kind: BarkKind) -> Bark {
+pub fn paint_bark(kind: BarkKind) -> Bark {
     let (paint, depth): (fn(&Field, Vec2) -> Texel, f32) = match kind {
         BarkKind::Maple => (maple, 2.2),
         BarkKind::Birch => (birch, 1.2),

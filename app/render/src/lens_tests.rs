@@ -79,7 +79,7 @@ impl Bench {
             origin: (0, 0),
             since_s,
             vertical_fov_rad: 0.8,
-            near_m: crate::camera::NEAR_M,
+            near_m: camera::NEAR_M,
         };
         self.post.begin(&self.queue, &shot);
         self.post.draw(&mut encoder, None, &self.target.view(), &shot);

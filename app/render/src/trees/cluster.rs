@@ -11,7 +11,7 @@ use windfall_core::kernel::rng::random;
 /// Most leaves that one simulated leaf stands for on a tree.
 pub const MAX_CLUSTER: u32 = 16;
 /// Size of leaves on twigs relative to what they have when they fall, so that crowns close: set by eye.
-pub(crate) const TWIG_SIZE: f32 = 1.42;
+pub const TWIG_SIZE: f32 = 1.42;
 /// How far leaves lie from the first at most, across and along the blade, in diameters of one times the root of their number.
 const REACH: Vec3 = Vec3::new(0.9, 0.54, 0.9);
 /// Vector part of the quaternion, beside a real part of 1, that turns leaves against the first at most.
@@ -28,7 +28,7 @@ pub(crate) fn cluster_constants() -> String {
 }
 
 /// Places of `count` leaves in diameters of one and how each is turned, in the frame of the first, which lies at the origin.
-pub(crate) fn cluster(count: u32, number: u32) -> impl Iterator<Item = (Vec3, Quat)> {
+pub fn cluster(count: u32, number: u32) -> impl Iterator<Item = (Vec3, Quat)> {
     let signed = |word: u32| 2.0 * (word as f32 / u32::MAX as f32) - 1.0;
     let vector = move |stream, copy| {
         let [x, y, z, _] = random([number, count], copy, stream).map(signed);

@@ -10,7 +10,7 @@ mod random;
 mod tree_canvas;
 mod tree_sprite;
 
-pub(crate) use bark_texture::{BARK_SIZE, paint_bark};
+pub use bark_texture::{BARK_SIZE, paint_bark};
 pub(super) use layout::{PARK_RADIUS_M, Park, TreeInstance, plant};
 pub(super) use litter::{Shedding, scatter};
 pub(super) use noise::{NOISE_SIZE, noise_mips};

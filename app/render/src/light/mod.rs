@@ -19,8 +19,7 @@ mod sun_search;
 mod table;
 
 pub use atmosphere::Atmosphere;
-pub(crate) use daylight::luminance;
-pub use daylight::{Daylight, SunLight};
+pub use daylight::{Daylight, SunLight, luminance};
 pub use environment_map::EnvironmentMap;
 pub use map_error::MapError;
 pub use prefilter::{ROUGHNESS, prefiltered};

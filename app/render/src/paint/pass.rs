@@ -7,9 +7,9 @@ use windfall_wgpu::LeafColumns;
 
 use super::palette::{self, MOTIONS, SHADES, linear, shade};
 use super::{Measure, Paint};
-use crate::render::leaf_crowd::PAGE_SLOTS;
-use crate::render::leaf_record::record_constants;
-use crate::render::pipeline::{buffer_entry, layout, shader};
+use crate::leaf_crowd::PAGE_SLOTS;
+use crate::leaf_record::record_constants;
+use crate::pipeline::{buffer_entry, layout, shader};
 
 /// Bytes of a mark and of a record of a column.
 const MARK_BYTES: u64 = 16;
@@ -29,14 +29,14 @@ struct PaintUniform {
 
 /// The marks, and the pipeline that makes them.
 #[derive(Debug)]
-pub(in crate::render) struct PaintPass {
+pub(crate) struct PaintPass {
     paint: Paint,
     dt_s: f32,
     base_m: f32,
     seen_s: Option<f64>,
     uniform: wgpu::Buffer,
     /// A mark for each leaf, in place of its identity.
-    pub(in crate::render) marks: wgpu::Buffer,
+    pub(crate) marks: wgpu::Buffer,
     /// Where each leaf was.
     past: wgpu::Buffer,
     group_layout: wgpu::BindGroupLayout,
@@ -45,13 +45,7 @@ pub(in crate::render) struct PaintPass {
 
 impl PaintPass {
     /// Marks for `leaf_count` leaves of a scene with steps of `dt_s`, whose ground lies at `base_m`.
-    pub(in crate::render) fn new(
-        device: &wgpu::Device,
-        paint: Paint,
-        leaf_count: u32,
-        dt_s: f32,
-        base_m: f32,
-    ) -> Self {
+    pub(crate) fn new(device: &wgpu::Device, paint: Paint, leaf_count: u32, dt_s: f32, base_m: f32) -> Self {
         let compute = wgpu::ShaderStages::COMPUTE;
         let storage = |read_only| wgpu::BufferBindingType::Storage { read_only };
         let group_layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
@@ -98,12 +92,12 @@ impl PaintPass {
     }
 
     /// Paints otherwise from now on.
-    pub(in crate::render) fn set(&mut self, paint: Paint) {
+    pub(crate) fn set(&mut self, paint: Paint) {
         self.paint = paint;
     }
 
     /// How it paints.
-    pub(in crate::render) fn paint(&self) -> Paint {
+    pub(crate) fn paint(&self) -> Paint {
         self.paint
     }
 
@@ -113,7 +107,7 @@ impl PaintPass {
         clippy::cast_sign_loss,
         reason = "whole steps, and a short time"
     )]
-    pub(in crate::render) fn mark(
+    pub(crate) fn mark(
         &mut self,
         device: &wgpu::Device,
         queue: &wgpu::Queue,

@@ -134,7 +134,7 @@ fn kinds(scene: &Scene, atlas: &Atlas, forms: &LeafForms) -> Kinds {
 
 /// Size of a species; of a body, where the middle of its area lies from its centre of mass, in diameters; and how much
 /// of a dry leaf's folds it has.
-pub(crate) fn build(species: &Species) -> [f32; 4] {
+pub fn build(species: &Species) -> [f32; 4] {
     let (ahead, right) = match species.flight {
         FlightModel::Synthesis => (0.0, 0.0),
         FlightModel::Aerodynamic(body) => body.mass_offset,
@@ -149,7 +149,7 @@ pub(crate) fn build(species: &Species) -> [f32; 4] {
 }
 
 /// Mean stage of drying of a leaf; -1 for what has no shapes of it.
-pub(crate) fn dryness(layer: &Layer) -> f32 {
+pub fn dryness(layer: &Layer) -> f32 {
     let [fresh, more] = DRY_STAGES;
     let is_drying = layer.form.levels.iter().any(|level| !level.shapes.is_empty());
     let season = layer.season.unwrap_or(0.5);
@@ -157,7 +157,7 @@ pub(crate) fn dryness(layer: &Layer) -> f32 {
 }
 
 /// How far a leaf has turned, from its colour: green is below 0, yellow about 0.1, red and brown above.
-pub(crate) fn turned(layer: &Layer) -> f32 {
+pub fn turned(layer: &Layer) -> f32 {
     let Some(mip) = layer.mips.first() else { return 0.0 };
     let leaf = mip.pixels().filter(|pixel| pixel.0[3] > 127);
     let sum = leaf.fold([0.0f32; 3], |sum, pixel| std::array::from_fn(|c| sum[c] + f32::from(pixel.0[c])));

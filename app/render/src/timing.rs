@@ -16,7 +16,7 @@ const FAILED: u8 = 4;
 
 /// Timestamp queries for a beginning and an end of each pass, and the latest answer.
 #[derive(Debug)]
-pub(crate) struct GpuTimer {
+pub struct GpuTimer {
     passes: &'static [&'static str],
     queries: wgpu::QuerySet,
     resolved: wgpu::Buffer,
@@ -32,11 +32,7 @@ pub(crate) struct GpuTimer {
 
 impl GpuTimer {
     /// A timer of these passes; `None` where the device has no timestamps.
-    pub(crate) fn new(
-        device: &wgpu::Device,
-        queue: &wgpu::Queue,
-        passes: &'static [&'static str],
-    ) -> Option<Self> {
+    pub fn new(device: &wgpu::Device, queue: &wgpu::Queue, passes: &'static [&'static str]) -> Option<Self> {
         if !device.features().contains(wgpu::Features::TIMESTAMP_QUERY) {
             return None;
         }
@@ -87,7 +83,7 @@ impl GpuTimer {
     }
 
     /// The same for a compute pass.
-    pub(crate) fn compute_writes(&self, pass: u32) -> wgpu::ComputePassTimestampWrites<'_> {
+    pub fn compute_writes(&self, pass: u32) -> wgpu::ComputePassTimestampWrites<'_> {
         self.encoded.fetch_or(1 << pass, Ordering::Relaxed);
         wgpu::ComputePassTimestampWrites {
             query_set: &self.queries,
@@ -97,7 +93,7 @@ impl GpuTimer {
     }
 
     /// Copies the frame's timestamps, unless an earlier frame's are still on their way; tells whether it did.
-    pub(crate) fn resolve(&self, encoder: &mut wgpu::CommandEncoder) -> bool {
+    pub fn resolve(&self, encoder: &mut wgpu::CommandEncoder) -> bool {
         let encoded = self.encoded.swap(0, Ordering::Relaxed);
         let is_free = self.state.compare_exchange(IDLE, COPIED, Ordering::AcqRel, Ordering::Acquire).is_ok();
         if is_free {
@@ -113,12 +109,12 @@ impl GpuTimer {
     }
 
     /// Number of answers so far: it grows when `collect` has a new one.
-    pub(crate) fn answers(&self) -> u32 {
+    pub fn answers(&self) -> u32 {
         self.answers
     }
 
     /// Latest milliseconds of each pass; call it after submitting a frame. Never waits.
-    pub(crate) fn collect(&mut self, device: &wgpu::Device) -> &[(&'static str, f32)] {
+    pub fn collect(&mut self, device: &wgpu::Device) -> &[(&'static str, f32)] {
         if self.state.compare_exchange(COPIED, MAPPING, Ordering::AcqRel, Ordering::Acquire).is_ok() {
             let state = Arc::clone(&self.state);
             self.readable.map_async(wgpu::MapMode::Read, .., move |result| {

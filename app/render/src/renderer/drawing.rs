@@ -7,13 +7,13 @@ use windfall_wgpu::{BranchColumns, LeafColumns};
 
 use super::{FrameInput, Renderer, TIMED_POSTS};
 use crate::camera::{Camera, NEAR_M};
-use crate::render::environment::FrameUniform;
-use crate::render::leaf_crowd::LeafCrowd;
-use crate::render::leaf_cull::{View as LeafView, ViewUniform};
-use crate::render::lens_group::Shot;
-use crate::render::shadow_pass::Casters;
-use crate::render::targets::Targets;
-use crate::render::tile::Tile;
+use crate::environment::FrameUniform;
+use crate::leaf_crowd::LeafCrowd;
+use crate::leaf_cull::{View as LeafView, ViewUniform};
+use crate::lens_group::Shot;
+use crate::shadow_pass::Casters;
+use crate::targets::Targets;
+use crate::tile::Tile;
 
 /// Rate at which grass sways in rad/s, as `grass.wgsl` has it.
 const GRASS_RAD_S: f64 = 2.1;

@@ -31,12 +31,12 @@ impl Land {
     }
 
     /// The hills, if there are any.
-    pub(crate) fn hills(&self) -> Option<&Hills> {
+    pub fn hills(&self) -> Option<&Hills> {
         self.hills.as_ref()
     }
 
     /// Height of the water's surface in metres, if there is any.
-    pub(crate) fn water_m(&self) -> Option<f32> {
+    pub fn water_m(&self) -> Option<f32> {
         self.water_m
     }
 

@@ -19,7 +19,7 @@ const RADIUS_RANGE: f32 = 0.25;
 /// Ripe and very ripe.
 const COLORS: [Vec3; 2] = [Vec3::new(0.72, 0.045, 0.02), Vec3::new(0.42, 0.014, 0.022)];
 /// Their mean over berries, most of which are no more than ripe.
-pub(crate) const BERRY_COLOR: [f32; 3] = {
+pub const BERRY_COLOR: [f32; 3] = {
     let [ripe, very] = COLORS;
     [third(ripe.x, very.x), third(ripe.y, very.y), third(ripe.z, very.z)]
 };
@@ -95,19 +95,19 @@ impl FruitPass {
 
 /// A berry at rest.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Berry {
+pub struct Berry {
     /// Middle in metres.
-    pub(crate) center_m: Vec3,
+    pub center_m: Vec3,
     /// Radius in metres.
-    pub(crate) radius_m: f32,
+    pub radius_m: f32,
     /// Linear colour.
-    pub(crate) color: Vec3,
+    pub color: Vec3,
     /// Segment that bears it.
-    pub(crate) segment: u32,
+    pub segment: u32,
 }
 
 /// The berries of a tree where it stands.
-pub(crate) fn berries(tree: &StandingTree) -> impl Iterator<Item = Berry> {
+pub fn berries(tree: &StandingTree) -> impl Iterator<Item = Berry> {
     let fruit = tree.skeleton.attachments.iter().filter(|at| at.bearing == Bearing::Fruit);
     fruit.enumerate().map(|(number, at)| {
         // Golden ratio: neighbours differ.

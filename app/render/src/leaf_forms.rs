@@ -107,7 +107,7 @@ impl Posed {
 
 /// A level of a picture's meshes at a stage of drying: places about the middle of the blade and unit normals, x to the
 /// right, y down, z up, in sides.
-pub(crate) fn shaped(layer: &Layer, level: &FormLevel, stage: usize) -> (Vec<Vec3>, Vec<Vec3>) {
+pub fn shaped(layer: &Layer, level: &FormLevel, stage: usize) -> (Vec<Vec3>, Vec<Vec3>) {
     let finest = layer.form.levels.last().unwrap_or(level);
     let middle = middle(finest, &at_stage(finest, stage), layer);
     let places = at_stage(level, stage);

@@ -8,7 +8,7 @@
 use glam::Vec3;
 
 /// Colours of an amount.
-pub(in crate::render) const SHADES: usize = 16;
+pub(crate) const SHADES: usize = 16;
 /// Lightness, chroma and hue in degrees of OKLCH at the ends of the amounts.
 const LOW: [f32; 3] = [0.30, 0.12, 295.0];
 const HIGH: [f32; 3] = [0.92, 0.15, 100.0];
@@ -32,7 +32,7 @@ pub const ATTACHED: [u8; 3] = [84, 98, 70];
 pub(super) const NONE: [u8; 3] = [70, 70, 70];
 
 /// The colour of a share of an amount, 0 to 1, linear sRGB.
-pub(in crate::render) fn shade(share: f32) -> Vec3 {
+pub(crate) fn shade(share: f32) -> Vec3 {
     let t = share.clamp(0.0, 1.0);
     let [lightness, chroma, hue] = std::array::from_fn(|index| LOW[index] + t * (HIGH[index] - LOW[index]));
     let waist = 4.0 * t * (1.0 - t);

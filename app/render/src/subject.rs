@@ -50,7 +50,7 @@ pub struct Subject<'a> {
     pub scene: &'a Scene,
     /// Its trees.
     pub stand: &'a Stand,
-    /// The pictures of its species' leaves (see [`crate::leaves`]).
+    /// The pictures of its species' leaves.
     pub atlas: &'a Atlas,
 }
 
