@@ -8,7 +8,7 @@ use std::process::ExitCode;
 use clap::{Parser, Subcommand};
 
 use crate::commands::{bench, export, flight, info, leaf, motions, render, simulate, study, tree, view};
-use crate::terminal;
+use crate::run::terminal;
 
 /// Exit code of everything that goes wrong.
 const FAILURE: u8 = 2;
@@ -107,28 +107,6 @@ fn usage_error(error: &clap::Error) -> String {
     message.strip_prefix("error: ").unwrap_or(&message).to_owned()
 }
 
-/// Reads a whole number from `LOW` to `HIGH`, also in the form 1e6.
-///
-/// # Errors
-/// Names the allowed range.
-pub(crate) fn whole<T: TryFrom<u64>, const LOW: u64, const HIGH: u64>(text: &str) -> Result<T, String> {
-    let number = text.parse().ok().or_else(|| scientific(text));
-    number
-        .filter(|number| (LOW..=HIGH).contains(number))
-        .and_then(|number| T::try_from(number).ok())
-        .ok_or_else(|| format!("allowed: a whole number from {LOW} to {HIGH}"))
-}
-
-/// Digits, an `e` and the number of zeros to follow.
-fn scientific(text: &str) -> Option<u64> {
-    let (digits, zeros) = text.split_once(['e', 'E'])?;
-    let plain = |part: &str| !part.is_empty() && part.bytes().all(|byte| byte.is_ascii_digit());
-    if !plain(digits) || !plain(zeros) {
-        return None;
-    }
-    digits.parse::<u64>().ok()?.checked_mul(10u64.checked_pow(zeros.parse().ok()?)?)
-}
-
 #[cfg(test)]
 mod tests {
     use clap::CommandFactory;
@@ -138,20 +116,6 @@ mod tests {
     #[test]
     fn the_description_of_the_command_line_is_consistent() {
         Cli::command().debug_assert();
-    }
-
-    #[test]
-    fn whole_numbers_are_read_in_both_forms_and_checked() {
-        assert_eq!(whole::<u32, 1, 2_000_000>("1e6"), Ok(1_000_000), "scientific");
-        assert_eq!(whole::<u32, 0, 7>("7"), Ok(7), "plain");
-        let rejected = ["", "8", "-1", "1.5", "e", "1e", "e3", "1e99", "1e+1", "99999999999999999999", "x"];
-        for text in rejected {
-            assert_eq!(
-                whole::<u32, 0, 7>(text),
-                Err("allowed: a whole number from 0 to 7".into()),
-                "{text:?} is not one"
-            );
-        }
     }
 
     #[test]

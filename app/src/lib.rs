@@ -62,20 +62,18 @@
 //!
 //! Small whole programs, run by `cargo run --release --example NAME`: `headless` (a simulation), `embed` (leaves in another
 //! wgpu program), `custom_wind` (a wind of your own), `custom_backend` (a simulator of your own, and the suite that
-//! compares it with ours). Then [`windfall_render`] for the passes of a frame, [`study`] for parameter sweeps, [`output`] for
-//! clips, and [`windfall_core`] for everything that moves.
+//! compares it with ours). Then [`windfall_render`] for the passes of a frame, and
+//! [`windfall_core`] for everything that moves.
 
-pub mod backend;
-pub mod baseline;
 pub mod cli;
-pub mod commands;
-pub mod drawing;
-pub mod export;
-pub mod frame;
-pub mod interrupt;
-pub mod leaves;
-pub mod output;
-pub mod studio;
-pub mod study;
-pub mod terminal;
-pub mod viewer;
+mod commands;
+mod export;
+mod files;
+mod leaves;
+mod output;
+mod plot;
+mod run;
+mod study;
+mod view;
+
+pub use run::{backend, drawing, studio};

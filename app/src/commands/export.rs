@@ -11,13 +11,15 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use windfall_core::{Simulator, World};
 use windfall_render::trees::Stand;
 
-use super::render::{loop_length, within};
-use super::scene::SceneArguments;
-use super::stepping::Stepping;
-use crate::backend::{Backend, BackendArguments};
 use crate::export::{self, Estimate, Format, FrameRange, Job, Observer, check_space};
-use crate::frame::{FrameSteps, LoopFrames};
-use crate::{interrupt, terminal};
+use crate::run::backend::{Backend, BackendArguments};
+use crate::run::frame_steps::{FrameSteps, LoopFrames};
+use crate::run::interrupt;
+use crate::run::parse::frame_rate;
+use crate::run::parse::loop_length;
+use crate::run::scene_arguments::SceneArguments;
+use crate::run::stepping::Stepping;
+use crate::run::terminal;
 
 /// Most steps of an export.
 const MAX_STEPS: u64 = 1_000_000_000;
@@ -52,7 +54,7 @@ pub struct Arguments {
 /// # Errors
 /// Bad input, an output that cannot be written or does not fit, a device that is missing or lost, an interrupt. Then no
 /// file has changed.
-pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
+pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let format = Format::of(arguments.format, &arguments.out)?;
     let scene = arguments.scene.load()?;
     let path = arguments.out.as_path();
@@ -85,7 +87,7 @@ pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let mut backend = choice.device.simulator(&world)?;
     let stand = Stand::of(&scene, world.environment.forest());
     let mut observer = Observer::new(&stand);
-    let job = Job { scene: &scene, world: &world, stand: &stand, path, frames, fps: arguments.fps };
+    let job = Job { scene: &scene, stand: &stand, path, frames, fps: arguments.fps };
     let mut exporter = export::start(format, &job)?;
     for line in [choice.reason, note].into_iter().flatten() {
         terminal::note(&line);
@@ -142,10 +144,6 @@ impl Clip<'_> {
         }
         Ok(())
     }
-}
-
-fn frame_rate(text: &str) -> Result<f64, String> {
-    within(text, 1.0, 1000.0)
 }
 
 /// A bar on the standard error, if that is a terminal.

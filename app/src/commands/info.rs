@@ -8,8 +8,8 @@ use windfall_core::leaf::LEAF_BYTES;
 use windfall_core::scene::MAX_LEAVES;
 use windfall_wgpu::{Gpu, instance_descriptor, list_adapters};
 
-use crate::backend::Choice;
-use crate::terminal;
+use crate::run::backend::Choice;
+use crate::run::terminal;
 
 /// Bytes of one record of a leaf: every column holds one for each leaf.
 const RECORD_BYTES: u64 = 16;
@@ -18,7 +18,7 @@ const RECORD_BYTES: u64 = 16;
 ///
 /// # Errors
 /// A standard output that cannot be written.
-pub fn run() -> anyhow::Result<()> {
+pub(crate) fn run() -> anyhow::Result<()> {
     let instance = wgpu::Instance::new(instance_descriptor());
     let adapters = list_adapters(&instance);
     let mut text = String::new();

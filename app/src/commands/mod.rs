@@ -1,24 +1,15 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! One file per command, each with its options and what it does; and what several of them share.
+//! One file or folder per command, each with its options and what it does. Nothing but the command line imports them.
 
-pub mod bench;
-pub mod export;
-pub(crate) mod figure;
-pub mod flight;
-pub mod info;
-pub mod leaf;
-pub mod motions;
-pub mod output_file;
-pub(crate) mod output_folder;
-pub mod render;
-pub mod report;
-pub mod scene;
-pub mod simulate;
-pub mod sky;
-pub mod stepping;
-pub mod study;
-pub mod swaying;
-pub mod tracks;
-pub mod tree;
-pub mod view;
+pub(crate) mod bench;
+pub(crate) mod export;
+pub(crate) mod flight;
+pub(crate) mod info;
+pub(crate) mod leaf;
+pub(crate) mod motions;
+pub(crate) mod render;
+pub(crate) mod simulate;
+pub(crate) mod study;
+pub(crate) mod tree;
+pub(crate) mod view;

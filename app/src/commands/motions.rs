@@ -12,9 +12,9 @@ use windfall_core::motion::MotionTables;
 use windfall_core::scene::Species;
 use windfall_core::{Scene, SceneError};
 
-use super::output_file::{OutputFile, write_error};
-use super::scene::DEFAULT_SCENE;
-use crate::terminal;
+use crate::files::{OutputFile, write_error};
+use crate::run::scene_arguments::DEFAULT_SCENE;
+use crate::run::terminal;
 
 /// Options of `windfall motions`.
 #[derive(Clone, Debug, Args)]
@@ -31,7 +31,7 @@ pub struct Arguments {
 ///
 /// # Errors
 /// A scene that cannot be used, or a folder that cannot be written to; then no file has changed.
-pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
+pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let name = arguments.scene.as_deref().unwrap_or(DEFAULT_SCENE);
     let scene = Scene::load(name)?;
     check_names(&scene, name)?;

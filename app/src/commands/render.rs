@@ -10,20 +10,18 @@ use clap::Args;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use windfall_core::{Scene, World};
 
-use super::scene::SceneArguments;
-use super::sky::SkyArguments;
-use crate::backend::BackendArguments;
-use crate::cli::whole;
-use crate::drawing::Drawing;
-use crate::frame::{FrameSteps, LoopFrames};
 use crate::output::{Output, Writer};
-use crate::studio::Studio;
-use crate::{interrupt, terminal};
+use crate::run::backend::BackendArguments;
+use crate::run::drawing::Drawing;
+use crate::run::frame_steps::{FrameSteps, LoopFrames};
+use crate::run::interrupt;
+use crate::run::parse::whole;
+use crate::run::parse::{frame_rate, loop_length, picture_size, within};
+use crate::run::scene_arguments::SceneArguments;
+use crate::run::sky_arguments::SkyArguments;
+use crate::run::studio::Studio;
+use crate::run::terminal;
 
-/// Largest edge of a picture in pixels.
-const MAX_EDGE: u32 = 16_384;
-/// Most pixels of a picture: 8K UHD.
-const MAX_PIXELS: u32 = 7680 * 4320;
 /// Most steps of a clip.
 const MAX_STEPS: u64 = 1_000_000_000;
 /// Frames that are drawn before a loop and not kept, and the seconds that the lens takes each to last.
@@ -67,7 +65,7 @@ pub struct Arguments {
 ///
 /// # Errors
 /// Bad input, an output that cannot be written, no adapter, a lost device, an interrupt. Then no file has changed.
-pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
+pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let mut scene = arguments.scene.load()?;
     arguments.sky.apply(&mut scene, arguments.scene.name())?;
     let output = Output::from_path(&arguments.out)?;
@@ -171,32 +169,8 @@ fn film(
     Ok(())
 }
 
-/// Reads a size such as 1280x720.
-pub(super) fn picture_size(text: &str) -> Result<(u32, u32), String> {
-    let edge = |text: &str| text.parse().ok().filter(|edge| (1..=MAX_EDGE).contains(edge));
-    let size = text.split_once(['x', 'X']).and_then(|(width, height)| Some((edge(width)?, edge(height)?)));
-    size.filter(|(width, height)| width * height <= MAX_PIXELS).ok_or_else(|| {
-        format!("allowed: width x height such as 1280x720, each 1 to {MAX_EDGE}, at most {MAX_PIXELS} pixels")
-    })
-}
-
-fn frame_rate(text: &str) -> Result<f64, String> {
-    within(text, 1.0, 1000.0)
-}
-
-/// Reads the length of a round in seconds.
-pub(super) fn loop_length(text: &str) -> Result<f64, String> {
-    within(text, 1.0, 120.0)
-}
-
 fn playback_speed(text: &str) -> Result<f64, String> {
     within(text, 0.001, 1000.0)
-}
-
-/// Reads a number from `low` to `high`.
-pub(super) fn within(text: &str, low: f64, high: f64) -> Result<f64, String> {
-    let number = text.parse().ok().filter(|number| (low..=high).contains(number));
-    number.ok_or_else(|| format!("allowed: a number from {low} to {high}"))
 }
 
 /// A bar on the standard error, if that is a terminal.
@@ -207,29 +181,4 @@ fn progress_bar(frames: u32) -> ProgressBar {
     }
     bar.enable_steady_tick(Duration::from_millis(200));
     bar
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn sizes_are_read_and_checked() {
-        assert_eq!(picture_size("1280x720"), Ok((1280, 720)), "the usual");
-        assert_eq!(picture_size("1X16384"), Ok((1, 16_384)), "a column");
-        let rejected =
-            ["", "x", "1280", "0x720", "1280x0", "-1x5", "1280x", "16385x1", "16384x16384", "9e9x9"];
-        for text in rejected {
-            let error = picture_size(text).expect_err("no size");
-            assert!(error.contains("1280x720") && error.contains("16384"), "{text}: {error}");
-        }
-    }
-
-    #[test]
-    fn rates_are_read_and_checked() {
-        assert_eq!(frame_rate("29.97"), Ok(29.97), "a rate");
-        for text in ["0", "-1", "nan", "inf", "1001", "x", ""] {
-            assert!(frame_rate(text).is_err(), "{text} is no rate");
-        }
-    }
 }

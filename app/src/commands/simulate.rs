@@ -13,15 +13,15 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use windfall_core::leaf::LEAF_BYTES;
 use windfall_core::{Simulator, World};
 
-use super::output_file::{OutputFile, write_error};
-use super::report::Report;
-use super::scene::{SceneArguments, check_memory};
-use super::stepping::Stepping;
-use super::swaying::{Swaying, TreeReport};
-use super::tracks::{TrackArguments, Tracks};
-use crate::backend::{Backend, BackendArguments};
-use crate::cli::whole;
-use crate::terminal;
+use crate::files::{OutputFile, write_error};
+use crate::run::backend::{Backend, BackendArguments};
+use crate::run::parse::whole;
+use crate::run::report::Report;
+use crate::run::scene_arguments::{SceneArguments, check_memory};
+use crate::run::stepping::Stepping;
+use crate::run::swaying::{Swaying, TreeReport};
+use crate::run::terminal;
+use crate::run::tracks::{TrackArguments, Tracks};
 
 /// Options of `windfall simulate`.
 #[derive(Clone, Debug, Args)]
@@ -52,7 +52,7 @@ pub struct Arguments {
 ///
 /// # Errors
 /// Bad input, files that cannot be written, a device that is missing or lost. Then no file has changed.
-pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
+pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let scene = match &arguments.resume {
         None => Some(arguments.scene.load()?),
         Some(_) => None,

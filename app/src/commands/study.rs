@@ -13,14 +13,16 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use windfall_core::Contract;
 use windfall_cpu::CpuOptions;
 
-use super::render::within;
-use super::scene::{DEFAULT_SCENE, check_memory};
-use crate::backend::{BackendArguments, Device};
-use crate::cli::whole;
 use crate::leaves::load_scene;
+use crate::plot::study::draw;
+use crate::run::backend::{BackendArguments, Device};
+use crate::run::interrupt;
+use crate::run::parse::whole;
+use crate::run::parse::within;
+use crate::run::scene_arguments::{DEFAULT_SCENE, check_memory};
+use crate::run::terminal;
 use crate::study::drops::DropOptions;
-use crate::study::{Point, StudyFolder, Summary, Variation, draw, points_of};
-use crate::{interrupt, terminal};
+use crate::study::{Point, StudyFolder, Summary, Variation, points_of};
 
 /// Options of `windfall study`.
 ///
@@ -69,7 +71,7 @@ pub struct Arguments {
 /// # Errors
 /// Bad input, a folder that cannot be written or is another study's, a device that is missing or lost, an interrupt.
 /// Finished points are kept.
-pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
+pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let name = arguments.scene.as_deref().unwrap_or(DEFAULT_SCENE);
     let mut scene = load_scene(name)?;
     scene.seed = arguments.seed.unwrap_or(scene.seed);

@@ -6,11 +6,12 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::render::{picture_size, within};
-use super::scene::SceneArguments;
-use super::sky::SkyArguments;
-use crate::backend::BackendArguments;
-use crate::viewer;
+use crate::run::backend::BackendArguments;
+use crate::run::parse::picture_size;
+use crate::run::parse::within;
+use crate::run::scene_arguments::SceneArguments;
+use crate::run::sky_arguments::SkyArguments;
+use crate::view;
 
 /// Options of `windfall view`.
 #[derive(Clone, Debug, Args)]
@@ -26,10 +27,10 @@ pub struct Arguments {
     size: Option<(u32, u32)>,
     /// What to show beside the scene from the beginning.
     #[arg(long, value_name = "WHAT", value_delimiter = ',')]
-    show: Vec<viewer::Show>,
+    show: Vec<view::Show>,
     /// Group of the panel to begin with, in place of the usual ones; may be given more than once.
     #[arg(long, value_name = "GROUP", value_enum)]
-    open: Vec<viewer::Group>,
+    open: Vec<view::Group>,
     /// Save a picture of the window as PNG, panel and all, and quit.
     #[arg(long, value_name = "FILE.png")]
     screenshot: Option<PathBuf>,
@@ -42,10 +43,10 @@ pub struct Arguments {
 ///
 /// # Errors
 /// Bad input, no display, no adapter, a lost device, a picture that cannot be saved.
-pub fn run(arguments: Arguments) -> anyhow::Result<()> {
+pub(crate) fn run(arguments: Arguments) -> anyhow::Result<()> {
     let mut scene = arguments.scene.load()?;
     arguments.sky.apply(&mut scene, arguments.scene.name())?;
-    viewer::run(viewer::Options {
+    view::run(view::Options {
         scene,
         name: arguments.scene.name().to_owned(),
         open: arguments.open,

@@ -10,7 +10,7 @@ use windfall_core::leaf::LeafState;
 
 use super::frame::state_name;
 use super::{Exporter, Frame, FrameLeaf};
-use crate::commands::output_file::{OutputFile, write_error};
+use crate::files::{OutputFile, write_error};
 
 const HEADER: &str =
     "frame,step,time_s,leaf,id,state,primitive,species,x_m,y_m,z_m,vx_m_s,vy_m_s,vz_m_s,qx,qy,qz,qw,size_m\n";

@@ -10,7 +10,7 @@ use clap::ValueEnum;
 
 /// What an export is written as.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum Format {
+pub(crate) enum Format {
     /// A USD stage: a point instancer, skinned trees, camera and lights.
     Usd,
     /// A binary glTF file: one frame as instances, several as animated nodes of up to 4096 leaves.
@@ -26,7 +26,7 @@ impl Format {
     ///
     /// # Errors
     /// A path whose ending tells none, or another than the one asked for.
-    pub fn of(asked: Option<Self>, path: &Path) -> anyhow::Result<Self> {
+    pub(crate) fn of(asked: Option<Self>, path: &Path) -> anyhow::Result<Self> {
         let ending = path.extension().and_then(OsStr::to_str).map(str::to_ascii_lowercase);
         let told = match ending.as_deref() {
             Some("usda") => Some(Self::Usd),

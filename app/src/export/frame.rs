@@ -15,7 +15,7 @@ use windfall_core::motion::Primitive;
 
 /// A leaf at one moment.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FrameLeaf {
+pub(crate) struct FrameLeaf {
     /// Its slot, from 0: the same in all frames.
     pub slot: u32,
     /// Its number: a slot whose leaf has lain long enough gets a new one with the next leaf.
@@ -40,7 +40,7 @@ pub struct FrameLeaf {
 
 /// One frame.
 #[derive(Clone, Copy, Debug)]
-pub struct Frame<'a> {
+pub(crate) struct Frame<'a> {
     /// Number of the frame.
     pub number: u32,
     /// The state shown.

@@ -22,21 +22,19 @@ mod wood;
 
 use std::path::{Path, PathBuf};
 
-pub use format::Format;
+pub(crate) use format::Format;
 pub(crate) use frame::Observer;
-pub use frame::{Frame, FrameLeaf};
-pub use range::FrameRange;
+pub(crate) use frame::{Frame, FrameLeaf};
+pub(crate) use range::FrameRange;
 pub(crate) use space::{Estimate, check_space};
-use windfall_core::{Scene, World};
+use windfall_core::Scene;
 use windfall_render::trees::Stand;
 
 /// What is to be written.
 #[derive(Clone, Copy, Debug)]
-pub struct Job<'a> {
+pub(crate) struct Job<'a> {
     /// The scene, scaled and seeded.
     pub scene: &'a Scene,
-    /// The scene at time zero.
-    pub world: &'a World,
     /// Its trees.
     pub stand: &'a Stand,
     /// Where the result will lie.
@@ -48,7 +46,7 @@ pub struct Job<'a> {
 }
 
 /// Takes the frames of one export in their order. Dropped without [`Exporter::finish`], it removes what it wrote.
-pub trait Exporter {
+pub(crate) trait Exporter {
     /// Takes the next frame.
     ///
     /// # Errors
@@ -66,7 +64,7 @@ pub trait Exporter {
 ///
 /// # Errors
 /// A path that cannot be written, more leaves or frames than the format holds, leaf folders that cannot be used.
-pub fn start(format: Format, job: &Job<'_>) -> anyhow::Result<Box<dyn Exporter>> {
+pub(crate) fn start(format: Format, job: &Job<'_>) -> anyhow::Result<Box<dyn Exporter>> {
     Ok(match format {
         Format::Csv => Box::new(csv::CsvExport::start(job.path)?),
         Format::Usd => Box::new(usd::UsdExport::start(job)?),

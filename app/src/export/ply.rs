@@ -11,7 +11,7 @@ use glam::{Quat, Vec3};
 use windfall_core::leaf::LeafState;
 
 use super::{Exporter, Frame, FrameLeaf};
-use crate::commands::output_file::write_error;
+use crate::files::write_error;
 use crate::output::beside::Beside;
 
 /// Floats of a vertex, in their order.

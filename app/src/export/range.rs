@@ -7,7 +7,7 @@ const LAST: u32 = 999_999;
 
 /// Frames from the first to the last, both included.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct FrameRange {
+pub(crate) struct FrameRange {
     /// Number of the first frame; frame 0 shows the scene as it begins.
     pub first: u32,
     /// Number of the last frame, at least that of the first.
@@ -19,7 +19,7 @@ impl FrameRange {
     ///
     /// # Errors
     /// What is allowed.
-    pub fn parse(text: &str) -> Result<Self, String> {
+    pub(crate) fn parse(text: &str) -> Result<Self, String> {
         let number = |text: &str| text.parse().ok().filter(|number| *number <= LAST);
         let range = text.split_once("..").and_then(|(first, last)| Some((number(first)?, number(last)?)));
         range.filter(|(first, last)| first <= last).map(|(first, last)| Self { first, last }).ok_or_else(|| {
@@ -28,7 +28,7 @@ impl FrameRange {
     }
 
     /// How many frames there are, at least one.
-    pub fn count(self) -> u32 {
+    pub(crate) fn count(self) -> u32 {
         self.last - self.first + 1
     }
 }

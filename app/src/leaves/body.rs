@@ -12,7 +12,7 @@ use super::in_season;
 ///
 /// # Errors
 /// A scene or a folder that cannot be used, or leaves of sizes and masses that no scene may have.
-pub fn load_scene(name: &str) -> anyhow::Result<Scene> {
+pub(crate) fn load_scene(name: &str) -> anyhow::Result<Scene> {
     let mut scene = Scene::load(name)?;
     if fit_bodies(&mut scene)? {
         scene.validate(name)?;

@@ -6,7 +6,7 @@ mod body;
 mod cache;
 
 pub(crate) use body::fit_bodies;
-pub use body::load_scene;
+pub(crate) use body::load_scene;
 use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
 use windfall_core::Scene;
 use windfall_core::scene::{LeafShape, Species};
@@ -28,7 +28,7 @@ const SEED: u64 = 0x1eaf;
 ///
 /// # Errors
 /// A folder that a species names and that cannot be used. Leaves that are made cannot fail for want of a cache.
-pub fn atlas_of(scene: &Scene) -> anyhow::Result<Atlas> {
+pub(crate) fn atlas_of(scene: &Scene) -> anyhow::Result<Atlas> {
     let most = MAX_LAYERS / scene.species.len().max(1);
     let is_large = scene.species.len() * VARIANTS as usize <= LARGE_PICTURES;
     let size_px = if is_large { PICTURE_SIZE } else { SMALL_SIZE };

@@ -9,7 +9,7 @@ use thiserror::Error;
 /// An output that cannot be written. Every message names the path.
 #[derive(Debug, Error)]
 #[non_exhaustive]
-pub enum OutputError {
+pub(crate) enum OutputError {
     /// An extension no writer knows.
     #[error("{}: unknown kind of output; allowed: a .png, .gif or .mp4 file, or a directory", path.display())]
     UnknownFormat {

@@ -18,7 +18,7 @@ use std::path::{Path, PathBuf};
 
 use image::RgbaImage;
 
-pub use error::OutputError;
+pub(crate) use error::OutputError;
 use gif_clip::GifClip;
 use png_sequence::PngSequence;
 use still::Still;
@@ -26,7 +26,7 @@ use video::Video;
 
 /// What to write, as its path says.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Output {
+pub(crate) enum Output {
     /// The last frame as a PNG file.
     Png(PathBuf),
     /// A directory with `frame_0001.png`, `frame_0002.png`, …
@@ -42,7 +42,7 @@ impl Output {
     ///
     /// # Errors
     /// [`OutputError::UnknownFormat`] for any other extension.
-    pub fn from_path(path: &Path) -> Result<Self, OutputError> {
+    pub(crate) fn from_path(path: &Path) -> Result<Self, OutputError> {
         let owned = path.to_owned();
         let extension = path.extension().and_then(OsStr::to_str).map(str::to_ascii_lowercase);
         match extension.as_deref() {
@@ -60,7 +60,7 @@ impl Output {
     ///
     /// # Errors
     /// A path that cannot be written, a size or rate the format cannot hold, or ffmpeg not being installed.
-    pub fn start(&self, size: (u32, u32), fps: f64) -> Result<Writer, OutputError> {
+    pub(crate) fn start(&self, size: (u32, u32), fps: f64) -> Result<Writer, OutputError> {
         let kind = match self {
             Self::Png(path) => Kind::Png(Still::start(path)?),
             Self::Sequence(path) => Kind::Sequence(PngSequence::start(path)?),
@@ -71,7 +71,7 @@ impl Output {
     }
 
     /// Where the result will lie.
-    pub fn path(&self) -> &Path {
+    pub(crate) fn path(&self) -> &Path {
         match self {
             Self::Png(path) | Self::Sequence(path) | Self::Gif(path) | Self::Mp4(path) => path,
         }
@@ -80,7 +80,7 @@ impl Output {
 
 /// Takes the frames of one clip. Dropped without [`Writer::finish`], it removes what it wrote.
 #[derive(Debug)]
-pub struct Writer {
+pub(crate) struct Writer {
     path: PathBuf,
     kind: Kind,
     size: (u32, u32),
@@ -100,7 +100,7 @@ impl Writer {
     ///
     /// # Errors
     /// A full disk, a frame of another size, or a failed ffmpeg.
-    pub fn push(&mut self, frame: &RgbaImage) -> Result<(), OutputError> {
+    pub(crate) fn push(&mut self, frame: &RgbaImage) -> Result<(), OutputError> {
         if frame.dimensions() != self.size {
             let (path, expected, found) = (self.path.clone(), self.size, frame.dimensions());
             return Err(OutputError::FrameSize { path, expected, found });
@@ -115,7 +115,7 @@ impl Writer {
     }
 
     /// Whether frame `number`, counted from 0, of `count` frames will be seen: the others may be skipped.
-    pub fn wants(&self, number: u32, count: u32) -> bool {
+    pub(crate) fn wants(&self, number: u32, count: u32) -> bool {
         match &self.kind {
             Kind::Png(_) => number + 1 == count,
             Kind::Gif(clip) => clip.wants_next(),
@@ -124,7 +124,7 @@ impl Writer {
     }
 
     /// Passes over a frame that is not wanted.
-    pub fn skip(&mut self) {
+    pub(crate) fn skip(&mut self) {
         if let Kind::Gif(clip) = &mut self.kind {
             clip.skip();
         }
@@ -134,7 +134,7 @@ impl Writer {
     ///
     /// # Errors
     /// [`OutputError::NoFrames`] without any frame, or what the system says.
-    pub fn finish(self) -> Result<PathBuf, OutputError> {
+    pub(crate) fn finish(self) -> Result<PathBuf, OutputError> {
         if self.frames == 0 {
             return Err(OutputError::NoFrames { path: self.path });
         }

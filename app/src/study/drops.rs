@@ -12,17 +12,17 @@ use windfall_core::scene::{Release, View};
 use windfall_core::{Scene, Simulator, World};
 
 use super::landing::{Landing, MOTION_COUNT};
-use crate::backend::Device;
-use crate::commands::scene::scaled;
-use crate::commands::tracks::Tracks;
-use crate::interrupt;
+use crate::run::backend::Device;
+use crate::run::interrupt;
+use crate::run::scene_arguments::scaled;
+use crate::run::tracks::Tracks;
 
 /// Motions that synthesised leaves have; those of bodies follow.
 const PRIMITIVES: usize = 6;
 
 /// How leaves are dropped.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct DropOptions {
+pub(crate) struct DropOptions {
     /// Number of drops, which the sources share as they share the scene's leaves; as many as these for `None`.
     pub drops: Option<u32>,
     /// Seconds over which each source lets its leaves go, evenly, 0 to 600: they meet many gusts.
@@ -38,7 +38,7 @@ pub struct DropOptions {
 ///
 /// # Errors
 /// A scene without sources, fewer drops than sources, numbers that are not allowed; `file` names the scene.
-pub fn drop_scene(scene: &Scene, file: &str, options: &DropOptions) -> anyhow::Result<Scene> {
+pub(crate) fn drop_scene(scene: &Scene, file: &str, options: &DropOptions) -> anyhow::Result<Scene> {
     let plain = Scene::default();
     let mut bare = Scene {
         name: "study".into(),
@@ -76,7 +76,7 @@ pub fn drop_scene(scene: &Scene, file: &str, options: &DropOptions) -> anyhow::R
 ///
 /// # Errors
 /// A scene that cannot be built, a device that is lost, an interrupt, tracks that cannot be written.
-pub fn drop_all(
+pub(crate) fn drop_all(
     scene: &Scene,
     device: &Device,
     options: &DropOptions,

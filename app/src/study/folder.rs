@@ -15,10 +15,10 @@ use super::landing::{read_drifts, write_landings};
 use super::point::Point;
 use super::summary::{COLUMNS, Summary};
 use super::variation::Variation;
-use crate::backend::Device;
-use crate::commands::output_file::{OutputFile, write_error};
-use crate::commands::output_folder::OutputFolder;
-use crate::commands::tracks::{Tracks, field};
+use crate::files::OutputFolder;
+use crate::files::{OutputFile, write_error};
+use crate::run::backend::Device;
+use crate::run::tracks::{Tracks, field};
 
 /// Tells which study a folder belongs to.
 const STUDY: &str = "study.json";
@@ -31,7 +31,7 @@ const TRACKED_PER_S: f64 = 10.0;
 
 /// The folder of a study.
 #[derive(Debug)]
-pub struct StudyFolder {
+pub(crate) struct StudyFolder {
     path: PathBuf,
 }
 
@@ -41,7 +41,7 @@ impl StudyFolder {
     ///
     /// # Errors
     /// A folder of another study or of something else; one that cannot be written.
-    pub fn open(
+    pub(crate) fn open(
         path: &Path,
         scene: &Scene,
         variations: &[Variation],
@@ -77,12 +77,12 @@ impl StudyFolder {
     }
 
     /// Where it lies.
-    pub fn path(&self) -> &Path {
+    pub(crate) fn path(&self) -> &Path {
         &self.path
     }
 
     /// The folder of a point, numbered from 0.
-    pub fn of_point(&self, number: usize) -> PathBuf {
+    pub(crate) fn of_point(&self, number: usize) -> PathBuf {
         self.path.join(format!("point_{:04}", number + 1))
     }
 
@@ -90,7 +90,7 @@ impl StudyFolder {
     ///
     /// # Errors
     /// A file that is no such row.
-    pub fn read(&self, number: usize) -> anyhow::Result<Option<Summary>> {
+    pub(crate) fn read(&self, number: usize) -> anyhow::Result<Option<Summary>> {
         let path = self.of_point(number).join(SUMMARY);
         let Ok(text) = fs::read_to_string(&path) else { return Ok(None) };
         let row = text.lines().nth(1).and_then(Summary::from_row);
@@ -101,7 +101,7 @@ impl StudyFolder {
     ///
     /// # Errors
     /// A table that cannot be read.
-    pub fn read_drifts(&self, number: usize) -> anyhow::Result<Vec<(f64, f64)>> {
+    pub(crate) fn read_drifts(&self, number: usize) -> anyhow::Result<Vec<(f64, f64)>> {
         read_drifts(&self.of_point(number).join(LANDINGS))
     }
 
@@ -109,7 +109,7 @@ impl StudyFolder {
     ///
     /// # Errors
     /// What [`drop_all`] says; files that cannot be written.
-    pub fn run(
+    pub(crate) fn run(
         &self,
         number: usize,
         point: &Point,
@@ -140,7 +140,7 @@ impl StudyFolder {
     ///
     /// # Errors
     /// What the system says, named with the path.
-    pub fn write_summary(
+    pub(crate) fn write_summary(
         &self,
         variations: &[Variation],
         points: &[Point],

@@ -9,18 +9,18 @@ use std::path::Path;
 use anyhow::{Context as _, anyhow};
 use windfall_core::Scene;
 
-use crate::commands::output_file::{OutputFile, write_error};
-use crate::commands::tracks::field;
+use crate::files::{OutputFile, write_error};
+use crate::run::tracks::field;
 
 /// Six motions of synthesised leaves, then six regimes of bodies.
-pub(super) const MOTION_COUNT: usize = 12;
+pub(crate) const MOTION_COUNT: usize = 12;
 /// The table's head; readers take along and across by their place.
 const HEADER: &str =
     "drop,release_s,aloft_s,along_m,across_m,from_x_m,from_y_m,from_z_m,x_m,y_m,z_m,species\n";
 
 /// What became of one drop. Lengths in metres, times in seconds.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Landing {
+pub(crate) struct Landing {
     /// When it was let go.
     pub release_s: f64,
     /// Where, after the step in which it was; `None` before.
@@ -37,7 +37,7 @@ pub struct Landing {
 
 impl Landing {
     /// Whether it lies on the ground.
-    pub fn is_landed(&self) -> bool {
+    pub(crate) fn is_landed(&self) -> bool {
         self.end.is_some()
     }
 
@@ -55,12 +55,12 @@ impl Landing {
     }
 
     /// Horizontal distance from its release to where it landed.
-    pub fn distance_m(&self) -> f64 {
+    pub(crate) fn distance_m(&self) -> f64 {
         self.drift.0.hypot(self.drift.1)
     }
 
     /// Mean speed downwards in m/s; `None` before it has landed.
-    pub fn descent_m_s(&self) -> Option<f64> {
+    pub(crate) fn descent_m_s(&self) -> Option<f64> {
         let (from, (to, aloft_s)) = (self.begin?, self.end?);
         (aloft_s > 0.0).then(|| (from[1] - to[1]) / aloft_s)
     }

@@ -6,19 +6,15 @@
 //! [`Point`]. [`drops`] makes of a point's scene one in which every leaf falls once, and follows it to the ground;
 //! [`Summary`] is what is told of it. [`StudyFolder`] keeps finished points, so that an interrupted study goes on.
 
-pub mod drops;
-mod figure;
-mod folder;
-mod landing;
-mod place;
-mod point;
-mod summary;
-mod variation;
+pub(crate) mod drops;
+pub(crate) mod folder;
+pub(crate) mod landing;
+pub(crate) mod place;
+pub(crate) mod point;
+pub(crate) mod summary;
+pub(crate) mod variation;
 
-pub use figure::draw;
-pub use folder::StudyFolder;
-pub use landing::Landing;
-pub use place::SceneTree;
-pub use point::{Point, points_of};
-pub use summary::{COLUMNS, Summary};
-pub use variation::{MAX_POINTS, Setting, Variation, VariationError};
+pub(crate) use folder::StudyFolder;
+pub(crate) use point::{Point, points_of};
+pub(crate) use summary::Summary;
+pub(crate) use variation::Variation;

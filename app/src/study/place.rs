@@ -10,7 +10,7 @@ use super::variation::Setting;
 
 /// A scene as a tree: structures are objects, lists arrays, a variant `Name(…)` an object with that one key.
 #[derive(Clone, Debug)]
-pub struct SceneTree {
+pub(crate) struct SceneTree {
     root: Value,
 }
 
@@ -19,7 +19,7 @@ impl SceneTree {
     ///
     /// # Errors
     /// None for scenes that are valid; numbers that are not finite have no place in a tree.
-    pub fn new(scene: &Scene) -> anyhow::Result<Self> {
+    pub(crate) fn new(scene: &Scene) -> anyhow::Result<Self> {
         Ok(Self { root: serde_json::to_value(scene)? })
     }
 
@@ -28,7 +28,7 @@ impl SceneTree {
     ///
     /// # Errors
     /// A path that leads nowhere, with what there is; a value that does not fit there.
-    pub fn put(&mut self, path: &str, setting: &Setting) -> anyhow::Result<()> {
+    pub(crate) fn put(&mut self, path: &str, setting: &Setting) -> anyhow::Result<()> {
         let segments: Vec<&str> = path.split('.').collect();
         let before = self.root.clone();
         let place = find(&mut self.root, &segments).map_err(|found| {
@@ -49,7 +49,7 @@ impl SceneTree {
     }
 
     /// What an axis along which `path` varies is called: the path, and which variant's number it is.
-    pub fn label(&self, path: &str) -> String {
+    pub(crate) fn label(&self, path: &str) -> String {
         let segments: Vec<&str> = path.split('.').collect();
         let mut root = self.root.clone();
         let place = find(&mut root, &segments).ok();
@@ -63,7 +63,7 @@ impl SceneTree {
     ///
     /// # Errors
     /// A tree that says none.
-    pub fn scene(&self) -> Result<Scene, serde_json::Error> {
+    pub(crate) fn scene(&self) -> Result<Scene, serde_json::Error> {
         serde_json::from_value(self.root.clone())
     }
 }

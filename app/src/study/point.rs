@@ -13,7 +13,7 @@ use super::variation::{MAX_POINTS, Setting, Variation};
 
 /// One combination of values.
 #[derive(Clone, Debug)]
-pub struct Point {
+pub(crate) struct Point {
     /// The value of each variation, in their order.
     pub settings: Vec<Setting>,
     /// The scene in which every leaf falls once.
@@ -22,7 +22,7 @@ pub struct Point {
 
 impl Point {
     /// What is set at the point, for people.
-    pub fn title(&self, variations: &[Variation]) -> String {
+    pub(crate) fn title(&self, variations: &[Variation]) -> String {
         let named = variations.iter().zip(&self.settings);
         let texts: Vec<_> = named.map(|(to, setting)| format!("{} = {}", to.path, setting.text)).collect();
         texts.join(", ")
@@ -34,7 +34,7 @@ impl Point {
 /// # Errors
 /// Too many points; a path that leads nowhere; a value that the scene may not have; a variation that drops do not
 /// depend on.
-pub fn points_of(
+pub(crate) fn points_of(
     scene: &Scene,
     file: &str,
     variations: &[Variation],

@@ -10,7 +10,7 @@ use super::landing::{Landing, MOTION_COUNT};
 
 /// Names of the columns behind the point's number and settings. A mean and a standard deviation of drops that landed for
 /// each quantity; then shares of all time in the air: the six motions of synthesised leaves, and the regimes of bodies.
-pub const COLUMNS: [&str; 2 + NUMBERS] = [
+pub(crate) const COLUMNS: [&str; 2 + NUMBERS] = [
     "drops",
     "landed",
     "aloft_mean_s",
@@ -43,7 +43,7 @@ const NUMBERS: usize = 2 * QUANTITIES + MOTION_COUNT;
 
 /// What is told of a point. A number that there is none of (nothing landed, one drop has no spread) is NaN.
 #[derive(Clone, Copy, Debug)]
-pub struct Summary {
+pub(crate) struct Summary {
     /// Drops.
     pub drops: u32,
     /// Those that landed in time.
@@ -57,7 +57,7 @@ pub struct Summary {
 
 impl Summary {
     /// Of all drops of a point.
-    pub fn of(landings: &[Landing]) -> Self {
+    pub(crate) fn of(landings: &[Landing]) -> Self {
         let landed: Vec<&Landing> = landings.iter().filter(|landing| landing.is_landed()).collect();
         let spread = |value: &dyn Fn(&Landing) -> Option<f64>| {
             let values: Vec<f64> = landed.iter().filter_map(|landing| value(landing)).collect();
@@ -86,7 +86,7 @@ impl Summary {
     }
 
     /// Its fields in the order of [`COLUMNS`]; what is NaN is empty.
-    pub fn to_row(&self) -> String {
+    pub(crate) fn to_row(&self) -> String {
         let mut row = format!("{},{}", self.drops, self.landed);
         let pairs = self.quantities.iter().flat_map(|&(mean, deviation)| [mean, deviation]);
         for number in pairs.chain(self.motions) {
@@ -97,7 +97,7 @@ impl Summary {
     }
 
     /// Reads what [`Summary::to_row`] wrote, bit for bit; `None` for anything else.
-    pub fn from_row(row: &str) -> Option<Self> {
+    pub(crate) fn from_row(row: &str) -> Option<Self> {
         let fields: Vec<&str> = row.trim_end().split(',').collect();
         let [drops, landed, numbers @ ..] = fields.as_slice() else { return None };
         let number = |text: &&str| if text.is_empty() { Some(f64::NAN) } else { text.parse().ok() };

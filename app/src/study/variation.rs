@@ -8,13 +8,13 @@ use serde_json::{Number, Value};
 use thiserror::Error;
 
 /// Most values of one variation, and most points of a study.
-pub const MAX_POINTS: usize = 10_000;
+pub(crate) const MAX_POINTS: usize = 10_000;
 /// Up to here every whole number is one in double precision.
 const WHOLE: f64 = 9.0e15;
 
 /// A value that a study puts into a scene.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Setting {
+pub(crate) struct Setting {
     /// As it is written.
     pub text: String,
     /// As it goes into the scene.
@@ -23,7 +23,7 @@ pub struct Setting {
 
 /// A place in the scene and the values that it takes one after another.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Variation {
+pub(crate) struct Variation {
     /// Fields and numbers of list entries with dots between them.
     pub path: String,
     /// At least one, no two the same.
@@ -33,13 +33,13 @@ pub struct Variation {
 /// Text that says no variation.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 #[error("{reason}; allowed: PATH=FROM..TO/NUMBER such as wind.gusts.strength=0..1/5, or PATH=A,B,C")]
-pub struct VariationError {
+pub(crate) struct VariationError {
     reason: String,
 }
 
 impl Variation {
     /// The values as numbers, if all of them are.
-    pub fn numbers(&self) -> Option<Vec<f64>> {
+    pub(crate) fn numbers(&self) -> Option<Vec<f64>> {
         self.settings.iter().map(|setting| setting.value.as_f64()).collect()
     }
 }

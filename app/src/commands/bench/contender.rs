@@ -6,8 +6,8 @@ use windfall_core::leaf::{LEAF_BYTES, Leaves};
 use windfall_core::{Contract, SimError, Simulator, World};
 use windfall_wgpu::{Gpu, LeafBuffers};
 
-use crate::backend::{Backend, Columns, Device};
-use crate::baseline::{ArrayOfStructs, Trajectories};
+use crate::commands::bench::baseline::{ArrayOfStructs, Trajectories};
+use crate::run::backend::{Backend, Columns, Device};
 
 /// A way to move leaves, by name.
 #[derive(Clone, Debug)]

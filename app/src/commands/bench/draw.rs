@@ -12,10 +12,10 @@ use windfall_render::{FrameInput, PictureTarget, Renderer, RendererOptions, Subj
 use windfall_wgpu::{Gpu, describe_adapter};
 
 use super::Arguments;
-use crate::backend::{Backend, BackendArguments};
-use crate::drawing::Drawing;
 use crate::leaves::atlas_of;
-use crate::terminal;
+use crate::run::backend::{Backend, BackendArguments};
+use crate::run::drawing::Drawing;
+use crate::run::terminal;
 
 /// Size of the pictures unless the user says something else.
 const SIZE: (u32, u32) = (1920, 1080);

@@ -4,6 +4,7 @@
 //! would allow.
 
 mod bandwidth;
+mod baseline;
 mod contender;
 mod draw;
 mod frames;
@@ -24,12 +25,12 @@ use self::bandwidth::update_bandwidth;
 use self::contender::{Approach, Contender};
 use self::frames::Stage;
 use self::row::{Floor, HEADER, Row};
-use super::render::picture_size;
-use super::scene::{check_memory, free_memory, scaled};
-use crate::backend::{BackendArguments, BackendKind, Device};
-use crate::cli::whole;
 use crate::leaves::load_scene;
-use crate::terminal;
+use crate::run::backend::{BackendArguments, BackendKind, Device};
+use crate::run::parse::picture_size;
+use crate::run::parse::whole;
+use crate::run::scene_arguments::{check_memory, free_memory, scaled};
+use crate::run::terminal;
 
 /// Steps before anything is timed. Shaders are compiled and memory is touched; the state after them is compared.
 const WARM_UP_STEPS: u32 = 2;
@@ -74,7 +75,7 @@ pub struct Arguments {
 ///
 /// # Errors
 /// Bad input, a missing or lost device, or backends that disagree.
-pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
+pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let scene = load_scene(&arguments.scene)?;
     let mut scenes = Vec::with_capacity(arguments.leaves.len());
     for &leaves in &arguments.leaves {

@@ -14,11 +14,12 @@ use super::piece::{Piece, Release};
 use super::sample::Regime;
 use super::statistics::{Summary, Watch};
 use super::tunnel::Drops;
-use crate::backend::BackendArguments;
-use crate::cli::whole;
-use crate::commands::figure;
-use crate::commands::output_file::OutputFile;
-use crate::{interrupt, terminal};
+use crate::files::OutputFile;
+use crate::plot::picture;
+use crate::run::backend::BackendArguments;
+use crate::run::interrupt;
+use crate::run::parse::whole;
+use crate::run::terminal;
 
 /// Kinematic viscosity of air at 20 °C in m²/s.
 const VISCOSITY_M2_S: f64 = 1.5e-5;
@@ -43,7 +44,7 @@ const SETTLED: f64 = 0.5;
 #[derive(Clone, Debug, Args)]
 pub(super) struct Arguments {
     /// File to write: .png.
-    #[arg(long, value_name = "FILE", value_parser = figure::png_file)]
+    #[arg(long, value_name = "FILE", value_parser = picture::png_file)]
     out: PathBuf,
     /// Drops of each disc.
     #[arg(long, value_name = "N", default_value = "40", value_parser = whole::<u32, 1, 10_000>)]
@@ -90,7 +91,7 @@ pub(super) fn run(arguments: &Arguments) -> anyhow::Result<()> {
     }
     let spots: Vec<Spot> =
         spots.into_iter().collect::<anyhow::Result<Vec<_>>>()?.into_iter().flatten().collect();
-    figure::write(file, &arguments.out, plot::SIZE, |area| plot::draw(area, arguments.drops, &spots))?;
+    picture::write(file, &arguments.out, plot::SIZE, |area| plot::draw(area, arguments.drops, &spots))?;
     let counts =
         Regime::ALL.map(|regime| (regime, spots.iter().filter(|spot| spot.prevailing() == regime).count()));
     let counts = counts.map(|(regime, count)| format!("{} {count}", regime.name())).join(", ");

@@ -14,9 +14,10 @@ use super::sample::{PerRegime, Regime};
 use super::statistics::{DropNumbers, SETTLE_M, Summary, Watch};
 use super::track_file::TrackFile;
 use super::tunnel::Drops;
-use crate::backend::BackendArguments;
-use crate::cli::whole;
-use crate::{interrupt, terminal};
+use crate::run::backend::BackendArguments;
+use crate::run::interrupt;
+use crate::run::parse::whole;
+use crate::run::terminal;
 
 /// Lowest and highest release in m.
 const HEIGHTS_M: std::ops::RangeInclusive<f32> = 0.8..=50.0;

@@ -44,7 +44,7 @@ enum Figure {
 ///
 /// # Errors
 /// What the command says.
-pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
+pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
     match &arguments.figure {
         None => measure::run(&arguments.measure),
         Some(Figure::Diagram(figure)) => diagram::run(figure),

@@ -6,7 +6,7 @@ use std::io::{BufWriter, Write};
 use std::path::Path;
 
 use super::sample::Sample;
-use crate::commands::output_file::{OutputFile, write_error};
+use crate::files::{OutputFile, write_error};
 
 const HEADER: &str = "drop,time_s,x,y,z,qx,qy,qz,qw,vx,vy,vz,regime";
 

@@ -11,11 +11,12 @@ use clap::Args;
 use super::piece::{Piece, Release};
 use super::sample::{Regime, Sample};
 use super::tunnel::Drops;
-use crate::backend::BackendArguments;
-use crate::cli::whole;
-use crate::commands::figure;
-use crate::commands::output_file::OutputFile;
-use crate::{interrupt, terminal};
+use crate::files::OutputFile;
+use crate::plot::picture;
+use crate::run::backend::BackendArguments;
+use crate::run::interrupt;
+use crate::run::parse::whole;
+use crate::run::terminal;
 
 /// Height of the releases in m.
 const HEIGHT_M: f32 = 1.8;
@@ -37,7 +38,7 @@ const LEAVES: [&str; 8] =
 #[derive(Clone, Debug, Args)]
 pub(super) struct Arguments {
     /// File to write: .png.
-    #[arg(long, value_name = "FILE", value_parser = figure::png_file)]
+    #[arg(long, value_name = "FILE", value_parser = picture::png_file)]
     out: PathBuf,
     /// Seed of everything random.
     #[arg(long, value_name = "N", default_value = "1", value_parser = whole::<u64, 0, { u64::MAX }>)]
@@ -73,7 +74,7 @@ pub(super) fn run(arguments: &Arguments) -> anyhow::Result<()> {
         let name = format!("{}, {:.1} cm", name.replace('-', " "), 100.0 * piece.size_m);
         tracks.push(track(&piece, name, arguments.seed)?);
     }
-    figure::write(file, &arguments.out, draw::SIZE, |area| draw::draw(area, &tracks))?;
+    picture::write(file, &arguments.out, draw::SIZE, |area| draw::draw(area, &tracks))?;
     let last = |track: &Track| track.samples.last().map_or("none", |sample| sample.regime.name());
     let ends: Vec<_> = tracks.iter().map(|track| format!("{} {}", track.name, last(track))).collect();
     terminal::print(&format!("{}: {} drops; {}\n", arguments.out.display(), tracks.len(), ends.join("; ")))

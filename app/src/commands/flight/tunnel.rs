@@ -8,8 +8,8 @@ use windfall_core::scene::{Release as Schedule, Species};
 use windfall_core::{Scene, Simulator, World};
 
 use super::sample::Sample;
-use crate::backend::Device;
-use crate::interrupt;
+use crate::run::backend::Device;
+use crate::run::interrupt;
 
 /// Length of a step in s; the kernel cuts it finer where a body asks for that.
 const STEP_S: f32 = 1.0 / 240.0;

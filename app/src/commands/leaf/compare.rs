@@ -12,7 +12,7 @@ use windfall_texgen::{
 };
 
 use super::picture_file;
-use crate::terminal;
+use crate::run::terminal;
 
 /// Options of `windfall leaf compare`.
 #[derive(Clone, Debug, Args)]
@@ -36,7 +36,7 @@ pub struct Arguments {
 ///
 /// # Errors
 /// Folders or pictures that cannot be used, or a sheet that cannot be written.
-pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
+pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let photos = read(&arguments.photos)?;
     let generated = read(&arguments.generated)?;
     let species = arguments.photos.canonicalize().unwrap_or_else(|_| arguments.photos.clone());

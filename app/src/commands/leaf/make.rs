@@ -17,13 +17,14 @@ use windfall_texgen::{
 };
 
 use super::photo_arguments::PhotoArguments;
-use crate::cli::whole;
-use crate::commands::output_folder::OutputFolder;
-use crate::{interrupt, terminal};
+use crate::files::OutputFolder;
+use crate::run::interrupt;
+use crate::run::parse::whole;
+use crate::run::terminal;
 
 /// A kind of leaf that can be drawn without photos.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum Species {
+pub(crate) enum Species {
     /// Norway maple.
     Maple,
     /// Japanese maple.
@@ -89,7 +90,7 @@ struct Report<'a> {
 ///
 /// # Errors
 /// Bad input, photos that show no leaf, a folder that cannot be written to, an interrupt. Then no file has changed.
-pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
+pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
     interrupt::listen();
     if arguments.stages.as_ref().is_some_and(|stages| *stages == arguments.out) {
         bail!("--stages {}: allowed: another folder than --out", arguments.out.display());

@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! `windfall leaf`: leaves without any scene.
 
-pub mod compare;
-pub mod make;
+pub(crate) mod compare;
+pub(crate) mod make;
 mod photo_arguments;
 mod picture_file;
-pub mod season_strip;
-pub mod veins;
+pub(crate) mod season_strip;
+pub(crate) mod veins;
 
 use clap::Subcommand;
 

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use image::{ImageFormat, RgbImage};
 
-use crate::commands::output_file::{OutputFile, write_error};
+use crate::files::{OutputFile, write_error};
 
 /// Writes a picture, complete or not at all.
 ///

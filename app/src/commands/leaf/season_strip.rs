@@ -9,7 +9,7 @@ use windfall_texgen::season;
 
 use super::make::Species;
 use super::picture_file;
-use crate::cli::whole;
+use crate::run::parse::whole;
 
 /// Options of `windfall leaf season-strip`.
 #[derive(Clone, Debug, Args)]
@@ -35,7 +35,7 @@ pub struct Arguments {
 ///
 /// # Errors
 /// Numbers that do not go together, or whatever keeps the file from being written.
-pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
+pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let sheet = season::strip(arguments.species.shape(), arguments.steps, arguments.size, arguments.seed)?;
     picture_file::write(&arguments.out, &sheet)
 }

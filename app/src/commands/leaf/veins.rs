@@ -9,7 +9,7 @@ use glam::Vec2;
 use windfall_texgen::{Overlay, Photo};
 
 use super::picture_file;
-use crate::terminal;
+use crate::run::terminal;
 
 /// Options of `windfall leaf veins`.
 #[derive(Clone, Debug, Args)]
@@ -33,7 +33,7 @@ pub struct Arguments {
 ///
 /// # Errors
 /// A photo or mask that cannot be used, or a file that cannot be written.
-pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
+pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let beside = arguments.photo.with_extension("mask.png");
     let mask = arguments.mask.clone().or_else(|| beside.is_file().then_some(beside));
     let photo = Photo { path: &arguments.photo, mask: mask.as_deref(), root: arguments.root };

@@ -12,8 +12,9 @@ use windfall_core::tree::gltf::{GltfLook, to_glb, to_gltf};
 use windfall_core::tree::{BarkDetail, bark_mesh};
 
 use super::source::TreeArguments;
-use crate::commands::output_file::{OutputFile, write_error};
-use crate::{interrupt, terminal};
+use crate::files::{OutputFile, write_error};
+use crate::run::interrupt;
+use crate::run::terminal;
 
 /// How closely the bark follows the wood.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -61,7 +62,7 @@ struct Report {
 ///
 /// # Errors
 /// A tree that cannot be had, or a file that cannot be written; then nothing has changed.
-pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
+pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
     interrupt::listen();
     let mut file = OutputFile::create(&arguments.out)?;
     let tree = arguments.tree.load()?;

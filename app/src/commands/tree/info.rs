@@ -9,7 +9,7 @@ use serde::Serialize;
 use windfall_core::tree::{BarkDetail, Bearing, Skeleton, bark_mesh};
 
 use super::source::{GivenTree, TreeArguments};
-use crate::terminal;
+use crate::run::terminal;
 
 /// Height at which foresters measure trunks, in metres.
 const BREAST_HEIGHT_M: f32 = 1.3;
@@ -59,7 +59,7 @@ struct Size {
 ///
 /// # Errors
 /// A tree that cannot be had.
-pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
+pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let report = Report::of(&arguments.tree.load()?);
     if arguments.json {
         return terminal::print(&(serde_json::to_string(&report)? + "\n"));

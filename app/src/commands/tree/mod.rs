@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! `windfall tree`: trees without any scene, or one tree of a scene.
 
-pub mod export;
-pub mod info;
-pub mod shedding;
+pub(crate) mod export;
+pub(crate) mod info;
+pub(crate) mod shedding;
 mod source;
 
 use clap::Subcommand;

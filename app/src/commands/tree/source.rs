@@ -11,7 +11,7 @@ use windfall_core::scene::limits::{self, Limit};
 use windfall_core::scene::{Tree, TreeForm, TreeKind, TreePreset};
 use windfall_core::tree::{Skeleton, full_leaf_count, gltf, grow};
 
-use crate::cli::whole;
+use crate::run::parse::whole;
 
 /// The tree to work on.
 #[derive(Clone, Debug, Args)]

@@ -14,11 +14,11 @@ use super::file::Document;
 use super::leaf_track::{Track, add_leaf, near};
 use super::movement::Movement;
 use super::scenery::{Barks, LeafMeshes, add_surfaces, tree_mesh, view};
-use crate::commands::output_file::{OutputFile, write_error};
 use crate::export::foliage::Foliage;
 use crate::export::fruit::fruit;
 use crate::export::wood::{Joint, at_rest, at_rest_above, bark, joints, rotations};
 use crate::export::{Exporter, Frame, Job};
+use crate::files::{OutputFile, write_error};
 use crate::leaves::atlas_of;
 
 /// A clip in the making. The format wants everything of a node together, so it is gathered in memory, of which

@@ -9,7 +9,7 @@ use image::{DynamicImage, ImageFormat};
 use serde_json::{Map, Value, json};
 use windfall_core::tree::gltf::{GltfBuffer, write_glb};
 
-use crate::commands::output_file::{OutputFile, write_error};
+use crate::files::{OutputFile, write_error};
 
 /// Everything that a document lists, and its buffer. Functions that add something give its index.
 #[derive(Debug, Default)]

@@ -12,10 +12,10 @@ use windfall_render::trees::Stand;
 
 use super::file::Document;
 use super::scenery::{Barks, LeafMeshes, add_surfaces, tree_mesh, view};
-use crate::commands::output_file::{OutputFile, write_error};
 use crate::export::foliage::Foliage;
 use crate::export::fruit::fruit;
 use crate::export::{Exporter, Frame, FrameLeaf, Job, wood};
+use crate::files::{OutputFile, write_error};
 use crate::leaves::atlas_of;
 
 /// A frame in the making.

@@ -27,9 +27,10 @@ use self::trees::TreeSamples;
 use self::view::ViewSamples;
 use super::foliage::Foliage;
 use super::{Exporter, Frame, FrameLeaf, Job};
-use crate::commands::output_file::{OutputFile, write_error};
+use crate::files::{OutputFile, write_error};
+use crate::leaves;
 use crate::output::beside::Beside;
-use crate::{interrupt, leaves};
+use crate::run::interrupt;
 
 /// Bytes of a leaf in a frame, about.
 pub(super) const LEAF_BYTES: u64 = 200;

@@ -9,10 +9,10 @@ use std::path::Path;
 use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
 
 use super::text;
-use crate::commands::output_file::write_error;
 use crate::export::foliage::Foliage;
 use crate::export::leaf_mesh::LeafMesh;
 use crate::export::plain::Plain;
+use crate::files::write_error;
 
 /// Folder of the pictures beside the layers.
 pub(super) const PICTURES: &str = "textures";

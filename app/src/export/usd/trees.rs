@@ -14,12 +14,12 @@ use windfall_render::trees::{Stand, StandingTree};
 use super::prototypes::{Coat, NORMAL_PLACES, PICTURES, extent_of, write_material, write_plain};
 use super::samples::{Handle, Samples};
 use super::text;
-use crate::commands::output_file::write_error;
 use crate::export::Frame;
 use crate::export::fruit::{SKIN, fruit};
 use crate::export::wood::{
     Joint, at_rest, at_rest_above, bark, bark_name, bark_picture, barks, joints, rotations,
 };
+use crate::files::write_error;
 
 /// Decimal places of corners in metres.
 const PLACES: i32 = 4;

@@ -8,9 +8,9 @@ use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use super::{Regime, Spot};
-use crate::commands::figure::{Area, Drawn, INK, PAPER, UNIT, font, pixel};
 use crate::commands::flight::boundaries::boundaries;
 use crate::commands::flight::sample::color;
+use crate::plot::picture::{Area, Drawn, INK, PAPER, UNIT, font, pixel};
 
 /// Size of the picture in pixels.
 pub(super) const SIZE: (u32, u32) = (1600, 1120);

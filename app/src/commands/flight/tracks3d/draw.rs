@@ -9,8 +9,8 @@ use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use super::{Regime, Track};
-use crate::commands::figure::{Area, Drawn, INK, PAPER, UNIT, font, pixel};
 use crate::commands::flight::sample::color;
+use crate::plot::picture::{Area, Drawn, INK, PAPER, UNIT, font, pixel};
 
 /// Drops beside each other and above each other.
 const PANELS: (usize, usize) = (6, 2);

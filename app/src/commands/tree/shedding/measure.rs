@@ -9,7 +9,7 @@ use windfall_core::scene::{Gusts, MeanSpeed, Profile, Tree, TreePreset, Turbulen
 use windfall_core::{Scene, Simulator, World};
 use windfall_cpu::{CpuOptions, CpuSimulator};
 
-use crate::interrupt;
+use crate::run::interrupt;
 
 /// Length of a step in s: chances are per second, and trees in a steady wind hardly move.
 const STEP_S: f32 = 0.05;

@@ -16,9 +16,10 @@ use windfall_core::Scene;
 use windfall_core::scene::TreePreset;
 
 use self::measure::{Crown, Season};
-use crate::cli::whole;
-use crate::commands::output_file::OutputFile;
-use crate::{interrupt, terminal};
+use crate::files::OutputFile;
+use crate::run::interrupt;
+use crate::run::parse::whole;
+use crate::run::terminal;
 
 /// Times of the year that are drawn.
 const SEASONS: [f32; 5] = [0.0, 0.3, 0.45, 0.6, 0.75];
@@ -59,7 +60,7 @@ fn png_file(text: &str) -> Result<PathBuf, String> {
 ///
 /// # Errors
 /// An unknown kind, or a file that cannot be written; then nothing has changed.
-pub fn run(arguments: &Arguments) -> anyhow::Result<()> {
+pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
     interrupt::listen();
     let Some(preset) = TreePreset::named(&arguments.kind) else {
         let kinds = TreePreset::ALL.map(TreePreset::name).join(", ");

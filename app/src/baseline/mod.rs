@@ -1,9 +1,0 @@
-// SPDX-FileCopyrightText: The Windfall authors
-// SPDX-License-Identifier: MIT OR Apache-2.0
-//! How others have done it: what the engine is measured against. Used by benches only.
-
-mod structs;
-mod trajectories;
-
-pub use structs::ArrayOfStructs;
-pub use trajectories::Trajectories;

@@ -1,0 +1,69 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! An array of structs, stepped leaf after leaf on one thread.
+
+use windfall_core::leaf::advance::leaf_advance;
+use windfall_core::leaf::{Attitude, Course, Drift, Identity, LeafMut, Leaves, Place};
+use windfall_core::{Clock, Environment, World};
+
+/// Everything about one leaf.
+#[derive(Clone, Copy, Debug)]
+struct Leaf {
+    place: Place,
+    drift: Drift,
+    attitude: Attitude,
+    course: Course,
+    identity: Identity,
+}
+
+/// Leaves as objects, the way most particle systems begin.
+#[derive(Clone, Debug)]
+pub(crate) struct ArrayOfStructs {
+    environment: Environment,
+    clock: Clock,
+    leaves: Vec<Leaf>,
+}
+
+impl ArrayOfStructs {
+    /// Bytes of one leaf.
+    pub(crate) const LEAF_BYTES: usize = size_of::<Leaf>();
+
+    /// The leaves of a world.
+    pub(crate) fn new(world: &World) -> Self {
+        let columns = &world.leaves;
+        let leaves = (0..columns.len())
+            .map(|slot| Leaf {
+                place: columns.place[slot],
+                drift: columns.drift[slot],
+                attitude: columns.attitude[slot],
+                course: columns.course[slot],
+                identity: columns.identity[slot],
+            })
+            .collect();
+        Self { environment: world.environment.clone(), clock: world.clock, leaves }
+    }
+
+    /// Moves every leaf through `count` steps.
+    pub(crate) fn step(&mut self, count: u32) {
+        for _ in 0..count {
+            let block = self.environment.step_block(&self.clock);
+            let cx = self.environment.context(&block);
+            for leaf in &mut self.leaves {
+                let Leaf { place, drift, attitude, course, identity } = leaf;
+                leaf_advance(&cx, &mut LeafMut { place, drift, attitude, course, identity });
+            }
+            self.clock.advance(&self.environment);
+        }
+    }
+
+    /// Writes the leaves into columns of as many.
+    pub(crate) fn read(&self, leaves: &mut Leaves) {
+        for (slot, leaf) in self.leaves.iter().enumerate() {
+            leaves.place[slot] = leaf.place;
+            leaves.drift[slot] = leaf.drift;
+            leaves.attitude[slot] = leaf.attitude;
+            leaves.course[slot] = leaf.course;
+            leaves.identity[slot] = leaf.identity;
+        }
+    }
+}

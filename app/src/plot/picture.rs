@@ -1,0 +1,89 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What plots share: paper, ink, text, and how they become files.
+
+use std::io::BufWriter;
+use std::path::{Path, PathBuf};
+
+use anyhow::anyhow;
+use image::codecs::png::PngEncoder;
+use image::imageops::{FilterType, resize};
+use image::{ExtendedColorType, ImageEncoder, RgbImage};
+use plotters::coord::Shift;
+use plotters::prelude::*;
+use plotters::style::{FontStyle, register_font};
+
+use crate::files::OutputFile;
+
+/// Pictures are drawn so many times larger and then reduced, for smooth edges.
+pub(crate) const UNIT: u32 = 3;
+/// Lines and text.
+pub(crate) const INK: RGBColor = RGBColor(46, 42, 38);
+/// Background.
+pub(crate) const PAPER: RGBColor = RGBColor(252, 250, 246);
+const FONT: &str = "Ubuntu";
+
+/// What is drawn on.
+pub(crate) type Area<'a> = DrawingArea<BitMapBackend<'a>, Shift>;
+/// What drawing may fail with.
+pub(crate) type Drawn = Result<(), Box<dyn std::error::Error>>;
+
+/// Text of a size in pixels of the finished picture.
+pub(crate) fn font(size: u32) -> TextStyle<'static> {
+    (FONT, size * UNIT).into_font().color(&INK)
+}
+
+/// The pixel nearest to a coordinate.
+pub(crate) fn pixel(coordinate: f64) -> i32 {
+    #[expect(clippy::cast_possible_truncation, reason = "pictures have a few thousand pixels")]
+    let pixel = coordinate.round() as i32;
+    pixel
+}
+
+/// Reads the name of a picture.
+///
+/// # Errors
+/// Says what is allowed.
+pub(crate) fn png_file(text: &str) -> Result<PathBuf, String> {
+    let path = PathBuf::from(text);
+    match path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("png")) {
+        true => Ok(path),
+        false => Err("allowed: a file name that ends in .png".into()),
+    }
+}
+
+/// Draws a picture of a size in pixels and writes it to a file that has been begun.
+///
+/// # Errors
+/// What the plotting library or the system says, named with the path.
+pub(crate) fn write(
+    mut file: OutputFile,
+    path: &Path,
+    size: (u32, u32),
+    draw: impl FnOnce(&Area<'_>) -> Drawn,
+) -> anyhow::Result<()> {
+    let name = path.display();
+    let large = enlarged(size, draw).map_err(|error| anyhow!("{name}: cannot draw: {error}"))?;
+    let picture = resize(&large, size.0, size.1, FilterType::Triangle);
+    PngEncoder::new(BufWriter::new(&mut file))
+        .write_image(picture.as_raw(), picture.width(), picture.height(), ExtendedColorType::Rgb8)
+        .map_err(|error| anyhow!("{name}: cannot write: {error}"))?;
+    file.finish()
+}
+
+fn enlarged(
+    size: (u32, u32),
+    draw: impl FnOnce(&Area<'_>) -> Drawn,
+) -> Result<RgbImage, Box<dyn std::error::Error>> {
+    register_font(FONT, FontStyle::Normal, epaint_default_fonts::UBUNTU_LIGHT)
+        .map_err(|_| "the font is not usable")?;
+    let (width, height) = (size.0 * UNIT, size.1 * UNIT);
+    let mut large = RgbImage::new(width, height);
+    {
+        let area = BitMapBackend::with_buffer(&mut large, (width, height)).into_drawing_area();
+        area.fill(&PAPER)?;
+        draw(&area)?;
+        area.present()?;
+    }
+    Ok(large)
+}

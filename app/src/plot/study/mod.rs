@@ -1,0 +1,86 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The pictures of a study: where drops land at each point, all of that side by side, and how numbers change.
+
+mod heat_map;
+mod overview;
+
+use std::path::Path;
+
+use windfall_core::Scene;
+
+use self::heat_map::{Frame, draw_grid, draw_one};
+use crate::files::OutputFile;
+use crate::plot::picture::write;
+use crate::run::interrupt;
+use crate::study::folder::StudyFolder;
+use crate::study::place::SceneTree;
+use crate::study::point::Point;
+use crate::study::summary::Summary;
+use crate::study::variation::Variation;
+
+/// Most panels of the picture with all points; of more points an even choice is shown.
+const MAX_PANELS: usize = 48;
+
+/// Draws `landings.png` for every point, on the same scales; `landings.png` for all of them, and `overview.png`.
+///
+/// # Errors
+/// Tables that cannot be read, pictures that cannot be written, an interrupt.
+pub(crate) fn draw(
+    folder: &StudyFolder,
+    name: &str,
+    scene: &Scene,
+    variations: &[Variation],
+    points: &[Point],
+    summaries: &[Summary],
+) -> anyhow::Result<()> {
+    let drifts: Vec<_> =
+        (0..points.len()).map(|number| folder.read_drifts(number)).collect::<anyhow::Result<_>>()?;
+    let frame = Frame::around(&drifts);
+    let titles: Vec<_> = points.iter().map(|point| point.title(variations)).collect();
+    for (number, (title, drifts)) in titles.iter().zip(&drifts).enumerate() {
+        let path = folder.of_point(number).join("landings.png");
+        // The same points give the same scales.
+        if !path.exists() {
+            interrupt::check()?;
+            picture(&path, heat_map::SIZE, |area| draw_one(area, &frame, title, drifts))?;
+        }
+    }
+    let shown: Vec<usize> = match points.len() {
+        few @ 0..=MAX_PANELS => (0..few).collect(),
+        many => (0..MAX_PANELS).map(|index| index * many / MAX_PANELS).collect(),
+    };
+    let columns = columns(variations, shown.len());
+    let panels: Vec<_> =
+        shown.iter().map(|&number| (titles[number].as_str(), drifts[number].as_slice())).collect();
+    let heading = match shown.len() < points.len() {
+        true => format!("{name}: where drops land, {} of {} points", shown.len(), points.len()),
+        false => format!("{name}: where drops land"),
+    };
+    let size = heat_map::grid_size(columns, panels.len());
+    let path = folder.path().join("landings.png");
+    picture(&path, size, |area| draw_grid(area, &frame, &heading, columns, &panels))?;
+    let tree = SceneTree::new(scene)?;
+    let label = variations.first().map_or(String::new(), |first| tree.label(&first.path));
+    let path = folder.path().join("overview.png");
+    picture(&path, overview::SIZE, |area| overview::draw(area, name, &label, variations, points, summaries))
+}
+
+/// A picture beside its name until it is whole.
+fn picture(
+    path: &Path,
+    size: (u32, u32),
+    draw: impl FnOnce(&crate::plot::picture::Area<'_>) -> crate::plot::picture::Drawn,
+) -> anyhow::Result<()> {
+    write(OutputFile::create(path)?, path, size, draw)
+}
+
+/// Panels side by side: the values of the last of several variations, else a shape a little wider than high.
+fn columns(variations: &[Variation], panels: usize) -> usize {
+    match variations {
+        [.., _, last] if last.settings.len() <= 8 && panels.is_multiple_of(last.settings.len()) => {
+            last.settings.len()
+        }
+        _ => (1..=8).find(|columns| columns * columns * 3 / 4 >= panels).unwrap_or(8).min(panels.max(1)),
+    }
+}

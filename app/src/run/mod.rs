@@ -1,0 +1,17 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Parts that several commands are made of: the scene and devices of the options, stepping, pictures, tracks and reports.
+
+pub mod backend;
+pub mod drawing;
+pub(crate) mod frame_steps;
+pub(crate) mod interrupt;
+pub(crate) mod parse;
+pub(crate) mod report;
+pub(crate) mod scene_arguments;
+pub(crate) mod sky_arguments;
+pub(crate) mod stepping;
+pub mod studio;
+pub(crate) mod swaying;
+pub(crate) mod terminal;
+pub(crate) mod tracks;

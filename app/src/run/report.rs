@@ -1,0 +1,150 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What a simulation comes to, in words and as JSON.
+
+use std::fmt::Write as _;
+
+use serde::Serialize;
+use windfall_core::flight::regime::REGIME_NAMES;
+use windfall_core::leaf::{LEAF_BYTES, LeafState};
+use windfall_core::motion::Primitive;
+use windfall_core::{Simulator, Stats, World};
+
+use crate::run::stepping::Stepping;
+use crate::run::swaying::TreeReport;
+
+/// Numbers of leaves by what they do.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub(crate) struct LeafCounts {
+    /// All that have been let go or ride a branch.
+    pub total: u32,
+    /// On branches.
+    pub attached: u32,
+    /// In the air.
+    pub falling: u32,
+    /// On the ground.
+    pub resting: u32,
+    /// Not let go yet, and not part of the total.
+    pub dormant: u32,
+}
+
+/// The outcome of `windfall simulate`. The names of these fields are the keys of its JSON; they stay.
+#[derive(Clone, Debug, Serialize)]
+pub(crate) struct Report {
+    /// The scene as it was asked for, or the name that a checkpoint gives it.
+    pub scene: String,
+    /// Backend.
+    pub backend: &'static str,
+    /// Adapter and driver, or threads.
+    pub adapter: String,
+    /// Agreement with the oracle.
+    pub contract: String,
+    /// Seed of everything random.
+    pub seed: u64,
+    /// Steps of this run.
+    pub steps: u32,
+    /// Simulated seconds from the beginning of the scene, earlier runs included.
+    pub time_s: f64,
+    /// Numbers of leaves.
+    pub leaves: LeafCounts,
+    /// The trees.
+    pub trees: TreeReport,
+    /// Mean position over the total.
+    pub mean_position_m: [f64; 3],
+    /// Mean velocity over the total.
+    pub mean_velocity_m_s: [f64; 3],
+    /// Fingerprint of the whole state, sixteen hexadecimal digits.
+    pub state_hash: String,
+    /// Speed.
+    pub leaf_steps_per_s: f64,
+    /// Processor time spent stepping, over all threads.
+    pub cpu_s: f64,
+    /// Memory of one leaf.
+    pub bytes_per_leaf: usize,
+}
+
+impl Report {
+    /// The outcome of `steps` steps that led to `world`.
+    pub(crate) fn new(
+        scene: String,
+        simulator: &dyn Simulator,
+        world: &World,
+        steps: u32,
+        stepping: &Stepping,
+        trees: TreeReport,
+    ) -> Self {
+        let info = simulator.info();
+        let Stats { attached, falling, resting, dormant, .. } = world.stats();
+        let total = attached + falling + resting;
+        let (mean_position_m, mean_velocity_m_s) = means(world, total);
+        Self {
+            scene,
+            backend: info.backend,
+            adapter: info.adapter,
+            contract: info.contract.to_string(),
+            seed: world.environment.scene().seed,
+            steps,
+            time_s: world.clock.seconds(),
+            leaves: LeafCounts { total, attached, falling, resting, dormant },
+            trees,
+            mean_position_m,
+            mean_velocity_m_s,
+            state_hash: format!("{:016x}", world.state_hash()),
+            leaf_steps_per_s: stepping.rate(info.capacity, steps),
+            cpu_s: stepping.cpu.as_secs_f64(),
+            bytes_per_leaf: LEAF_BYTES,
+        }
+    }
+
+    /// The report for people, with the primitive motions of the falling leaves.
+    pub(crate) fn to_text(&self, stats: &Stats) -> String {
+        let LeafCounts { total, attached, falling, resting, dormant } = self.leaves;
+        let [x, y, z] = self.mean_position_m;
+        let [u, v, w] = self.mean_velocity_m_s;
+        let motions = Primitive::ALL.iter().zip(stats.primitives);
+        let motions: Vec<_> = motions.map(|(motion, count)| format!("{} {count}", motion.code())).collect();
+        let mut text = String::new();
+        let mut row = |name: &str, value: String| {
+            // Writing to a String cannot fail.
+            let _ = writeln!(text, "{name:<15}{value}");
+        };
+        row("scene", format!("{} (seed {})", self.scene, self.seed));
+        row("backend", format!("{}: {} ({} contract)", self.backend, self.adapter, self.contract));
+        row("steps", format!("{}, to {:.3} s", self.steps, self.time_s));
+        row("leaves", format!("{total}: {attached} attached, {falling} falling, {resting} resting"));
+        row("not let go yet", dormant.to_string());
+        let TreeReport { count, segments, max_joint_angle_rad, tip_speed_max_m_s, leaves_shed } = self.trees;
+        let sway = format!("joints to {max_joint_angle_rad:.3} rad, tips to {tip_speed_max_m_s:.2} m/s");
+        row("trees", format!("{count} of {segments} segments, {sway}, {leaves_shed} leaves shed"));
+        row("motions", motions.join(", "));
+        let regimes = REGIME_NAMES.iter().zip(stats.regimes);
+        let regimes: Vec<_> = regimes.map(|(regime, count)| format!("{regime} {count}")).collect();
+        row("bodies", regimes.join(", "));
+        row("mean position", format!("{x:.4} {y:.4} {z:.4} m"));
+        row("mean velocity", format!("{u:.4} {v:.4} {w:.4} m/s"));
+        row("state hash", self.state_hash.clone());
+        row(
+            "speed",
+            format!("{:.3e} leaf-steps/s, {:.3} s of processor time", self.leaf_steps_per_s, self.cpu_s),
+        );
+        row("memory", format!("{} bytes per leaf", self.bytes_per_leaf));
+        text
+    }
+}
+
+/// Mean position and velocity of all leaves that are not dormant, summed in the order of their slots.
+fn means(world: &World, total: u32) -> ([f64; 3], [f64; 3]) {
+    let mut sums = [[0.0; 3]; 2];
+    for (slot, place) in world.leaves.place.iter().enumerate() {
+        if place.state() == LeafState::Dormant {
+            continue;
+        }
+        let velocity = world.velocity(slot);
+        let values = [place.position, [velocity.x, velocity.y, velocity.z]];
+        for (sum, value) in sums.as_flattened_mut().iter_mut().zip(values.as_flattened()) {
+            *sum += f64::from(*value);
+        }
+    }
+    let [position, velocity] = sums.map(|sum| sum.map(|sum: f64| sum / f64::from(total.max(1))));
+    (position, velocity)
+}

@@ -1,0 +1,166 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Pictures of a scene as it goes on, without a window.
+
+use windfall_core::scene::{CameraKey, camera_at};
+use windfall_core::{Scene, Simulator, World};
+use windfall_render::camera::Camera;
+use windfall_render::trees::Stand;
+use windfall_render::{FrameInput, PictureTarget, Renderer, RendererOptions, Subject};
+use windfall_wgpu::Gpu;
+
+use crate::leaves;
+use crate::run::backend::Backend;
+use crate::run::drawing::Drawing;
+use crate::run::interrupt;
+use crate::run::stepping::Stepping;
+use crate::run::terminal;
+
+/// A simulator and a renderer of the same scene.
+pub struct Studio {
+    gpu: Gpu,
+    backend: Backend,
+    renderer: Renderer,
+    target: PictureTarget,
+    camera: Camera,
+    /// Keys the camera follows, if any.
+    path: Vec<CameraKey>,
+    trail_s: f64,
+    is_moving: bool,
+    stepping: Stepping,
+    /// Steps done.
+    step: u64,
+}
+
+impl Studio {
+    /// A studio for pictures of `size` pixels.
+    ///
+    /// # Errors
+    /// A scene, a device or a size that cannot be used.
+    pub fn new(scene: &Scene, drawing: Drawing, size: (u32, u32)) -> anyhow::Result<Self> {
+        Self::of_world(scene, &World::build(scene)?, drawing, size)
+    }
+
+    /// A studio for pictures of a world of this scene, one that repeats for example.
+    ///
+    /// # Errors
+    /// A device or a size that cannot be used.
+    pub fn of_world(
+        scene: &Scene,
+        world: &World,
+        drawing: Drawing,
+        size: (u32, u32),
+    ) -> anyhow::Result<Self> {
+        let Drawing { device, gpu, reason, .. } = drawing;
+        let target = PictureTarget::new(gpu.device(), size)?;
+        let backend = device.simulator(world)?;
+        interrupt::check()?;
+        let atlas = leaves::atlas_of(scene)?;
+        let options = RendererOptions::for_scene(scene);
+        let format = PictureTarget::FORMAT;
+        let stand = Stand::of(scene, world.environment.forest());
+        let subject = Subject { scene, stand: &stand, atlas: &atlas };
+        let renderer = Renderer::new(gpu.device(), gpu.queue(), subject, format, size, options)?;
+        gpu.check()?;
+        if let Some(reason) = reason {
+            terminal::note(&reason);
+        }
+        Ok(Self {
+            gpu,
+            backend,
+            renderer,
+            target,
+            camera: Camera::from(&scene.view.camera),
+            path: scene.view.path.clone(),
+            trail_s: scene.view.trail_s.into(),
+            is_moving: scene.view.lens.shutter_s > 0.0,
+            stepping: Stepping::default(),
+            step: 0,
+        })
+    }
+
+    /// Length of a step in seconds.
+    pub fn dt_s(&self) -> f64 {
+        f64::from(self.backend.clock().dt_s())
+    }
+
+    /// Steps done.
+    pub fn step(&self) -> u64 {
+        self.step
+    }
+
+    /// How many frames at `rate` before a picture show in it.
+    pub fn remembered_frames(&self, rate: f64) -> u32 {
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "a few seconds of frames"
+        )]
+        let trail = (self.trail_s * rate).ceil() as u32;
+        trail.max(u32::from(self.is_moving))
+    }
+
+    /// Whether a picture this many seconds after a moment, at the next frame or later, shows something of that moment.
+    pub fn remembers(&self, seconds: f64, is_next: bool) -> bool {
+        self.trail_s > 0.0 && seconds <= self.trail_s || self.is_moving && is_next
+    }
+
+    /// Lets grass repeat after `length_s` seconds from `begin_s` on, and clouds stand still: for clips without a seam.
+    pub fn repeat(&mut self, begin_s: f64, length_s: f64) {
+        self.renderer.repeat(begin_s, length_s);
+    }
+
+    /// Simulates until `step` steps are done.
+    ///
+    /// # Errors
+    /// A lost device, an interrupt.
+    pub fn advance(&mut self, step: u64) -> anyhow::Result<()> {
+        while self.step < step {
+            interrupt::check()?;
+            let left = u32::try_from(step - self.step).unwrap_or(u32::MAX);
+            let batch = self.stepping.batch().min(left);
+            self.stepping.run(&mut self.backend, batch)?;
+            self.step += u64::from(batch);
+        }
+        Ok(())
+    }
+
+    /// The picture as it is `since_s` seconds of the clip after the one before; infinite for the first.
+    ///
+    /// # Errors
+    /// A lost device.
+    pub fn draw(&mut self, since_s: f64) -> anyhow::Result<image::RgbaImage> {
+        let time_s = self.backend.clock().seconds();
+        let camera = camera_at(&self.path, time_s).as_ref().map_or(self.camera, Camera::from);
+        #[expect(clippy::cast_possible_truncation, reason = "a duration")]
+        let input = FrameInput { camera, time_s, since_s: since_s as f32, origin: (0, 0) };
+        let columns = self.backend.columns(&self.gpu)?;
+        let mut encoder =
+            self.gpu.device().create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        self.renderer.draw(
+            &mut encoder,
+            &self.target.view(),
+            &columns.leaves,
+            columns.branches.as_ref(),
+            &input,
+        );
+        let picture = self.target.submit_and_read(self.gpu.device(), self.gpu.queue(), encoder);
+        // What the driver says about a failure is better than that the picture did not come.
+        self.gpu.check()?;
+        Ok(picture?)
+    }
+
+    /// Notes where the leaves are for pictures to come, without drawing.
+    ///
+    /// # Errors
+    /// A lost device.
+    pub fn observe(&mut self) -> anyhow::Result<()> {
+        let time_s = self.backend.clock().seconds();
+        let columns = self.backend.columns(&self.gpu)?;
+        let mut encoder =
+            self.gpu.device().create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        self.renderer.observe(&mut encoder, &columns.leaves, time_s);
+        self.gpu.queue().submit([encoder.finish()]);
+        Ok(self.gpu.check()?)
+    }
+}

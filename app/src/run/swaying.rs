@@ -1,0 +1,80 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What happens to the trees of a scene while it is simulated.
+
+use serde::Serialize;
+use windfall_core::World;
+use windfall_core::tree::SwayExtent;
+
+/// Looks at the trees in a run, at evenly spaced steps; the last look is at its end.
+const LOOKS: u32 = 16;
+
+/// The trees of a scene in a run. The names of these fields are keys of the report's JSON; they stay.
+#[derive(Clone, Copy, Debug, Default, Serialize)]
+pub(crate) struct TreeReport {
+    /// Trees.
+    pub count: usize,
+    /// Segments of all trees.
+    pub segments: usize,
+    /// Largest angle of a joint away from rest, at the start of the run and at sixteen evenly spaced steps of it.
+    pub max_joint_angle_rad: f64,
+    /// Largest speed of an upper end of a segment at the same steps.
+    pub tip_speed_max_m_s: f64,
+    /// Leaves that have come off in the run; one that grew back and came off again counts again.
+    pub leaves_shed: u64,
+}
+
+/// Follows the trees through a run.
+#[derive(Debug)]
+pub(crate) struct Swaying {
+    falls: u64,
+    extent: SwayExtent,
+    steps: u32,
+    looks: u32,
+}
+
+impl Swaying {
+    /// A run of so many steps begins with this state.
+    pub(crate) fn new(world: &World, steps: u32) -> Self {
+        let looks = if world.environment.forest().is_empty() { LOOKS } else { 0 };
+        Self { falls: falls(world), extent: extent(world), steps, looks }
+    }
+
+    /// Steps to the next look, with so many left; `None` if the end is looked at anyway.
+    pub(crate) fn wait(&self, left: u32) -> Option<u32> {
+        let done = self.steps - left;
+        let next = (u64::from(self.steps) * u64::from(self.looks + 1) / u64::from(LOOKS)).try_into();
+        next.ok().filter(|_| self.looks + 1 < LOOKS).map(|next: u32| next.saturating_sub(done))
+    }
+
+    /// Looks at the trees.
+    pub(crate) fn look(&mut self, world: &World) {
+        self.looks += 1;
+        self.extent = self.extent.or(extent(world));
+    }
+
+    /// What it came to, with the state at the end.
+    pub(crate) fn finish(self, world: &World) -> TreeReport {
+        let extent = self.extent.or(extent(world));
+        TreeReport {
+            count: world.environment.forest().trees().len(),
+            segments: world.environment.forest().len(),
+            max_joint_angle_rad: extent.joint_angle_rad,
+            tip_speed_max_m_s: extent.tip_speed_m_s,
+            leaves_shed: falls(world).saturating_sub(self.falls),
+        }
+    }
+}
+
+fn extent(world: &World) -> SwayExtent {
+    SwayExtent::of(world.environment.forest(), &world.branches)
+}
+
+/// How often the leaves of trees have come off since the beginning: each time, a leaf's number rises by the number of
+/// all slots.
+fn falls(world: &World) -> u64 {
+    let scene = world.environment.scene();
+    let (slots, of_trees) = (scene.leaf_count(), scene.tree_leaf_count() as usize);
+    let numbers = world.leaves.identity.iter().take(of_trees);
+    numbers.map(|identity| u64::from(identity.id / slots)).sum()
+}

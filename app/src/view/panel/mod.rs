@@ -1,0 +1,260 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The panel beside the scene, group by group.
+
+mod beaufort;
+mod body;
+mod camera;
+mod compare;
+pub(crate) mod controls;
+mod draft;
+mod field;
+mod graph;
+mod ground;
+mod group;
+mod help;
+pub(crate) mod keys;
+mod kinds;
+mod leaves;
+mod lens;
+mod list;
+mod motion;
+mod numbers;
+mod over_picture;
+mod overlays;
+pub(crate) mod pointer;
+mod presets;
+mod record;
+mod rows;
+mod scene_file;
+mod simulation;
+mod sky;
+mod sources;
+mod species;
+pub(super) mod style;
+mod time;
+mod timeline;
+mod trees;
+mod vortices;
+mod wind;
+mod words;
+
+use egui::{Area, Id, Pos2, Rect, Response, RichText, ScrollArea, Sense, Ui, vec2};
+use windfall_core::Scene;
+use windfall_render::camera::Camera;
+use windfall_render::land::Land;
+
+use crate::view::panel::controls::{Facts, Message, Wish};
+use crate::view::tools::pick::Projection;
+use draft::Draft;
+pub(crate) use group::Group;
+use group::Groups;
+pub(super) use list::free_name;
+pub(super) use rows::grouped;
+use scene_file::SceneFile;
+
+/// Width of the panel in points.
+const WIDTH: f32 = 336.0;
+
+/// The panel and the picture beside it.
+#[derive(Debug)]
+pub(super) struct Panel {
+    /// Whether it is shown.
+    pub(super) is_open: bool,
+    /// The picture on the screen in points.
+    picture: Rect,
+    /// Whether what the keys do is shown.
+    is_helping: bool,
+    /// Where the scene is to be saved.
+    pub(super) file: SceneFile,
+    draft: Draft,
+    /// The groups to open in the first frame.
+    open: Vec<Group>,
+    /// What the keyboard acts on.
+    focused: Option<Id>,
+    /// Left edge of the picture in pixels.
+    picture_left: u32,
+}
+
+impl Panel {
+    /// A panel for the scene that `name` stands for, with these groups open, or the usual ones.
+    pub(super) fn new(name: &str, open: Vec<Group>) -> Self {
+        let mut file = SceneFile::default();
+        file.opened(name);
+        let draft = Draft::default();
+        Self {
+            is_open: true,
+            picture: Rect::ZERO,
+            is_helping: false,
+            file,
+            draft,
+            open,
+            focused: None,
+            picture_left: 0,
+        }
+    }
+
+    /// The picture on the screen, in points, as it was last laid out.
+    pub(super) fn picture(&self) -> Rect {
+        self.picture
+    }
+
+    /// Corner and size in pixels of what the panel leaves of a window of `size`.
+    pub(super) fn picture_area(&self, (width, height): (u32, u32)) -> ((u32, u32), (u32, u32)) {
+        let left = self.picture_left.min(width.saturating_sub(1));
+        ((left, 0), (width - left, height))
+    }
+
+    /// Shows the panel, lets the pointer steer the camera, and returns what the user asks for.
+    pub(super) fn show(&mut self, ui: &mut Ui, facts: &Facts, camera: &mut Camera, land: &Land) -> Vec<Wish> {
+        let mut wishes = keys::wishes(ui.ctx(), facts.is_paused);
+        self.draft.begin(&facts.scene, facts.is_building);
+        self.grant_own(&mut wishes);
+        let dropped = ui.input(|input| input.raw.dropped_files.clone());
+        wishes.extend(dropped.iter().map(|file| Wish::Drop(file.path().to_owned())));
+        if self.is_open {
+            egui::Panel::left("panel").resizable(false).exact_size(WIDTH).frame(style::panel_frame()).show(
+                ui,
+                |ui| {
+                    ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+                        self.groups(ui, facts, camera, &mut wishes);
+                        self.follow_focus(ui);
+                    });
+                },
+            );
+        }
+        wishes.extend(self.draft.end(ui));
+        let picture = ui.available_rect_before_wrap();
+        self.picture_left = pixels(picture.left() * ui.ctx().pixels_per_point());
+        let response = ui.interact(picture, Id::unique("picture"), Sense::click_and_drag());
+        pointer::steer(camera, &response, land);
+        if let Some(pointer) = response.interact_pointer_pos().filter(|_| response.clicked()) {
+            wishes.push(Wish::Pick(pointer));
+        }
+        self.picture = picture;
+        over_picture::show(ui, facts, &Projection::new(camera, picture), picture);
+        if self.is_open {
+            timeline::show(ui, facts, picture, &mut wishes);
+        }
+        self.notice(ui, facts, picture.left_top());
+        if self.is_helping {
+            help::show(ui, picture);
+        } else if ui.input(|input| !input.raw.hovered_files.is_empty()) {
+            help::show_drop_hint(ui, picture);
+        }
+        wishes
+    }
+
+    /// Grants the wishes that are the panel's own, and turns others into what they mean here.
+    fn grant_own(&mut self, wishes: &mut Vec<Wish>) {
+        let own = std::mem::take(wishes);
+        for wish in own {
+            match wish {
+                Wish::ToggleHelp => self.is_helping = !self.is_helping,
+                Wish::Quit if self.is_helping => self.is_helping = false,
+                Wish::Save => {
+                    wishes.extend(self.file.save());
+                    // The question stands in the panel.
+                    self.is_open |= self.file.is_asking();
+                }
+                wish => wishes.push(wish),
+            }
+        }
+    }
+
+    /// Keeps what the Tab key chooses in sight.
+    fn follow_focus(&mut self, ui: &Ui) {
+        let focused = ui.ctx().memory(|memory| memory.focused());
+        if std::mem::replace(&mut self.focused, focused) == focused {
+            return;
+        }
+        let response = focused.and_then(|id| ui.ctx().read_response(id));
+        let is_here = |response: &Response| response.layer_id == ui.layer_id();
+        if let Some(response) = response.filter(is_here).filter(|it| it.rect.left() < ui.max_rect().right()) {
+            ui.scroll_to_rect(response.rect, None);
+        }
+    }
+
+    fn groups(&mut self, ui: &mut Ui, facts: &Facts, camera: &mut Camera, wishes: &mut Vec<Wish>) {
+        ui.label(RichText::new(&facts.scene.name).size(17.0).strong().color(style::TITLE));
+        time::show(ui, facts, wishes);
+        overlays::show(ui, facts, wishes);
+        record::show(ui, facts, wishes);
+        let open = std::mem::take(&mut self.open);
+        let asking = self.file.is_asking().then_some(Group::Scene);
+        let groups = Groups { open: (!open.is_empty()).then_some(&open), also: asking };
+        self.scene_groups(ui, &groups, facts, wishes);
+        self.view_groups(ui, &groups, facts, camera);
+        let (scene, own) = (&mut self.draft.scene, &*facts.loaded);
+        let differs = (scene.seed, scene.dt_s) != (own.seed, own.dt_s);
+        groups.show(ui, Group::Simulation, differs, |ui| simulation::show(ui, scene, own, facts, wishes));
+        groups.show(ui, Group::Counts, false, |ui| numbers::counts(ui, facts));
+        groups.show(ui, Group::Timings, false, |ui| numbers::timings(ui, facts));
+        ui.add_space(5.0);
+        ui.label(RichText::new("F1 or ? tells what the keys do.").small().color(style::QUIET));
+    }
+
+    /// What falls, from where, through which wind, onto what.
+    fn scene_groups(&mut self, ui: &mut Ui, groups: &Groups<'_>, facts: &Facts, wishes: &mut Vec<Wish>) {
+        let Self { draft, file, .. } = self;
+        let (scene, own) = (&mut draft.scene, &*facts.loaded);
+        let differs = scene.name != own.name;
+        groups.show(ui, Group::Scene, differs, |ui| file.show(ui, scene, own, facts, wishes));
+        groups.show(ui, Group::Presets, false, |ui| presets::show(ui, wishes));
+        let speeds = |scene: &Scene| (scene.fall_speed, scene.rotation_speed, scene.view.trail_s);
+        let differs = scene.leaf_count() != own.leaf_count() || speeds(scene) != speeds(own);
+        groups.show(ui, Group::Leaves, differs, |ui| {
+            let shared = leaves::show(ui, scene, &facts.scene, own, &facts.leaf_range);
+            wishes.extend(shared.err().map(|error| Wish::Complain(error.to_string())));
+        });
+        let differs = scene.species != own.species;
+        groups.show(ui, Group::Species, differs, |ui| species::show(ui, scene, own));
+        let differs = scene.sources != own.sources;
+        groups.show(ui, Group::Sources, differs, |ui| sources::show(ui, scene, own));
+        let differs = scene.wind != own.wind;
+        groups
+            .show(ui, Group::Wind, differs, |ui| wind::show(ui, &mut scene.wind, &own.wind, facts.look_deg));
+        let season = |scene: &Scene| (scene.autumn, scene.sway, scene.regrow_after_s);
+        let differs = scene.trees != own.trees || season(scene) != season(own);
+        groups.show(ui, Group::Trees, differs, |ui| trees::show(ui, scene, own));
+        let differs = scene.tree_kinds != own.tree_kinds;
+        groups.show(ui, Group::TreeKinds, differs, |ui| kinds::show(ui, scene, own));
+        let differs = scene.ground != own.ground;
+        groups.show(ui, Group::Ground, differs, |ui| ground::show(ui, &mut scene.ground, &own.ground));
+    }
+
+    /// How it is looked at.
+    fn view_groups(&mut self, ui: &mut Ui, groups: &Groups<'_>, facts: &Facts, camera: &mut Camera) {
+        let (scene, own) = (&mut self.draft.scene, &*facts.loaded);
+        let (view, was) = (&mut scene.view, &own.view);
+        let differs = (view.sun, view.haze) != (was.sun, was.haze) || view.sky != was.sky;
+        groups.show(ui, Group::Sky, differs, |ui| sky::show(ui, view, was));
+        let differs = view.camera != was.camera || view.path != was.path;
+        let time_s = facts.clock.seconds();
+        groups.show(ui, Group::Camera, differs, |ui| camera::show(ui, scene, own, camera, time_s));
+        let (lens, was) = (&mut scene.view.lens, &own.view.lens);
+        groups.show(ui, Group::Lens, lens != was, |ui| lens::show(ui, lens, was, camera.distance_m));
+    }
+
+    /// A line over the picture, if there is something to say.
+    fn notice(&self, ui: &Ui, facts: &Facts, corner: Pos2) {
+        let text = match (&facts.message, facts.is_paused && !self.is_open) {
+            (Some(Message { text, is_error: true }), _) => RichText::new(text).color(style::WARNING),
+            (Some(Message { text, .. }), _) => RichText::new(text).color(style::GOOD),
+            (None, true) => RichText::new("Paused. Space goes on, H shows the panel."),
+            (None, false) => return,
+        };
+        let area = Area::new(Id::unique("notice")).fixed_pos(corner + vec2(12.0, 12.0)).interactable(false);
+        area.show(ui.ctx(), |ui| {
+            style::notice_frame().show(ui, |ui| ui.label(text));
+        });
+    }
+}
+
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "within a window")]
+fn pixels(points: f32) -> u32 {
+    points.max(0.0).round() as u32
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,174 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What is drawn over the picture: the legend of colours, the leaf that is followed, arrows of the wind.
+
+use egui::{
+    Align2, Area, Color32, CornerRadius, FontId, Grid, Id, Label, Painter, Rect, RichText, Shape, Stroke, Ui,
+    pos2, vec2,
+};
+use glam::Vec3;
+use windfall_render::{ATTACHED, MOTIONS, Measure, RESTING, shade_bytes};
+
+use super::{Facts, style};
+use crate::view::tools::overlays::Looking;
+use crate::view::tools::pick::Projection;
+
+/// Width of the scale of the legend in points.
+const SCALE_WIDTH: f32 = 220.0;
+/// Colours in it.
+const STEPS: usize = 64;
+/// Seconds of wind that an arrow shows.
+const ARROW_S: f32 = 0.35;
+
+/// Longest arrow in points: what is nearer to the camera would hide the picture.
+const LONGEST: f32 = 90.0;
+
+/// Draws everything that is asked for over `picture`.
+pub(super) fn show(ui: &Ui, facts: &Facts, projection: &Projection, picture: Rect) {
+    let painter = ui.painter_at(picture);
+    for (from, wind) in &facts.arrows {
+        arrow(&painter, projection, *from, *wind, facts.arrow_most_m_s);
+    }
+    followed(&painter, facts, projection);
+    let mut corner = picture.right_top() + vec2(-12.0, 12.0);
+    if let Some(measure) = facts.looking.measure {
+        corner.y = measure_legend(ui, measure, &facts.looking, corner).bottom() + 8.0;
+    }
+    if facts.looking.wind {
+        let most = facts.arrow_most_m_s;
+        corner.y = scale_legend(ui, "wind", "Wind", ["0", &format!("{most:.1} m/s")], corner).bottom() + 8.0;
+    }
+    if facts.looking.landings {
+        let (low, high) = windfall_render::LANDINGS_PER_M2;
+        let ends = [format!("{low:.0}"), format!("{high:.0} leaves/m\u{b2}")];
+        corner.y = scale_legend(ui, "landings", "Lying there", [&ends[0], &ends[1]], corner).bottom() + 8.0;
+    }
+    card(ui, facts, corner);
+}
+
+/// An arrow of the wind as long as the air goes in a while, in the colour of its speed.
+fn arrow(painter: &Painter, projection: &Projection, from: Vec3, wind: Vec3, most_m_s: f32) {
+    let (Some(tail), Some(tip)) = (projection.place(from), projection.place(from + ARROW_S * wind)) else {
+        return;
+    };
+    let color = rgb(shade_bytes(wind.length() / most_m_s.max(0.01)));
+    let along = tip - tail;
+    if along.length() < 2.0 {
+        // Hardly any wind.
+        painter.circle_filled(tail, 1.2, color);
+    }
+    if !(2.0..LONGEST).contains(&along.length()) {
+        return;
+    }
+    let dark = Stroke::new(3.2, Color32::from_black_alpha(110));
+    painter.line_segment([tail, tip], dark);
+    painter.line_segment([tail, tip], Stroke::new(1.5, color));
+    let head = along.normalized() * along.length().min(7.0);
+    let wing = head.rot90() * 0.45;
+    painter.add(Shape::convex_polygon(vec![tip, tip - head + wing, tip - head - wing], color, Stroke::NONE));
+}
+
+/// The track of the leaf that is followed, and a ring around it.
+fn followed(painter: &Painter, facts: &Facts, projection: &Projection) {
+    let Some(track) = &facts.track else { return };
+    let mut line = Vec::new();
+    let stroke = |line: &mut Vec<_>| {
+        let points = std::mem::take(line);
+        if points.len() > 1 {
+            painter.add(Shape::line(points.clone(), Stroke::new(3.5, Color32::from_black_alpha(130))));
+            painter.add(Shape::line(points, Stroke::new(1.6, style::TITLE)));
+        }
+    };
+    for place in track {
+        match projection.place(*place) {
+            Some(point) => line.push(point),
+            // Behind the camera a line has no place.
+            None => stroke(&mut line),
+        }
+    }
+    stroke(&mut line);
+    if let Some(here) = track.last().and_then(|place| projection.place(*place)) {
+        painter.circle_stroke(here, 11.0, Stroke::new(3.5, Color32::from_black_alpha(130)));
+        painter.circle_stroke(here, 11.0, Stroke::new(1.6, style::TITLE));
+    }
+}
+
+fn measure_legend(ui: &Ui, measure: Measure, looking: &Looking, corner: egui::Pos2) -> Rect {
+    let amount = Looking::scale_of(measure).map_or(0.0, |index| looking.most[index]);
+    let (title, unit) = match measure {
+        Measure::Motion => return motion_legend(ui, corner),
+        Measure::Speed => ("Speed", "m/s"),
+        Measure::Age => ("Since release", "s"),
+        Measure::Height => ("Height", "m"),
+    };
+    let end = if amount < 10.0 { format!("{amount:.1} {unit}") } else { format!("{amount:.0} {unit}") };
+    scale_legend(ui, "legend", title, ["0", &end], corner)
+}
+
+/// A strip of colours with its ends; its upper right corner is given.
+fn scale_legend(ui: &Ui, id: &str, title: &str, ends: [&str; 2], corner: egui::Pos2) -> Rect {
+    let area = Area::new(Id::unique(id)).pivot(Align2::RIGHT_TOP).fixed_pos(corner).interactable(false);
+    area.show(ui.ctx(), |ui| {
+        style::notice_frame().show(ui, |ui| {
+            ui.set_width(SCALE_WIDTH);
+            ui.add(Label::new(RichText::new(title).small().color(style::TITLE)));
+            let (strip, _) = ui.allocate_exact_size(vec2(SCALE_WIDTH, 9.0), egui::Sense::hover());
+            let step = strip.width() / STEPS as f32;
+            for index in 0..STEPS {
+                let left = strip.left() + step * index as f32;
+                let share = index as f32 / (STEPS - 1) as f32;
+                let cell = Rect::from_min_size(pos2(left, strip.top()), vec2(step + 0.5, strip.height()));
+                ui.painter().rect_filled(cell, CornerRadius::ZERO, rgb(shade_bytes(share)));
+            }
+            let (line, _) = ui.allocate_exact_size(vec2(SCALE_WIDTH, 12.0), egui::Sense::hover());
+            let font = FontId::proportional(11.0);
+            let painter = ui.painter();
+            painter.text(line.left_center(), Align2::LEFT_CENTER, ends[0], font.clone(), style::TEXT);
+            painter.text(line.right_center(), Align2::RIGHT_CENTER, ends[1], font, style::TEXT);
+        });
+    })
+    .response
+    .rect
+}
+
+/// Names of motions beside their colours.
+fn motion_legend(ui: &Ui, corner: egui::Pos2) -> Rect {
+    let area = Area::new(Id::unique("legend")).pivot(Align2::RIGHT_TOP).fixed_pos(corner).interactable(false);
+    area.show(ui.ctx(), |ui| {
+        style::notice_frame().show(ui, |ui| {
+            let others = [("at rest", RESTING), ("on its twig", ATTACHED)];
+            for (name, color) in MOTIONS.iter().chain(&others) {
+                ui.horizontal(|ui| {
+                    let (swatch, _) = ui.allocate_exact_size(vec2(12.0, 12.0), egui::Sense::hover());
+                    ui.painter().rect_filled(swatch, CornerRadius::same(2), rgb(*color));
+                    ui.label(RichText::new(*name).small());
+                });
+            }
+        });
+    })
+    .response
+    .rect
+}
+
+/// What is known of the leaf that is followed.
+fn card(ui: &Ui, facts: &Facts, corner: egui::Pos2) {
+    let Some(card) = &facts.card else { return };
+    let area = Area::new(Id::unique("card")).pivot(Align2::RIGHT_TOP).fixed_pos(corner).interactable(false);
+    area.show(ui.ctx(), |ui| {
+        style::notice_frame().show(ui, |ui| {
+            ui.set_max_width(SCALE_WIDTH + 40.0);
+            ui.label(RichText::new(&card.title).strong().color(style::TITLE));
+            Grid::new("card").num_columns(2).spacing([10.0, 1.0]).show(ui, |ui| {
+                for (name, text) in &card.rows {
+                    ui.label(RichText::new(*name).small().color(style::QUIET));
+                    ui.add(Label::new(RichText::new(text).small()).wrap());
+                    ui.end_row();
+                }
+            });
+        });
+    });
+}
+
+fn rgb([r, g, b]: [u8; 3]) -> Color32 {
+    Color32::from_rgb(r, g, b)
+}

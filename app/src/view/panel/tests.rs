@@ -1,0 +1,175 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+
+use std::sync::Arc;
+
+use egui::{
+    Event, Modifiers, MouseWheelSource, MouseWheelUnit, PointerButton, RawInput, Rect, TouchPhase, pos2,
+};
+use windfall_core::scene::{self, PRESETS};
+use windfall_core::{Contract, Scene, SimulatorInfo, World};
+
+use super::*;
+use crate::run::backend::BackendKind;
+use crate::view::session::Timeline;
+use crate::view::tools::clip::RecordFacts;
+use crate::view::tools::frame_times::Frames;
+use crate::view::tools::overlays::Looking;
+
+mod every_control;
+mod scenes;
+
+fn facts(scene: &Scene) -> Facts {
+    let world = World::build(scene).expect("valid");
+    Facts {
+        scene: Arc::new(scene.clone()),
+        loaded: Arc::new(scene.clone()),
+        history: (0, 0),
+        is_building: false,
+        info: SimulatorInfo {
+            backend: "cpu",
+            adapter: "2 threads".into(),
+            contract: Contract::Exact,
+            capacity: scene.leaf_count(),
+        },
+        backend: BackendKind::Cpu,
+        adapter: "adapter".into(),
+        driver: "adapter (driver)".into(),
+        clock: world.clock,
+        timeline: Timeline { range: (0, 600), target: None, kept: vec![0, 300, 600] },
+        stats: world.stats(),
+        has_motions: true,
+        has_regimes: scene.name == "Flight lab",
+        looking: Looking::default(),
+        recording: RecordFacts::default(),
+        card: None,
+        track: None,
+        arrows: Vec::new(),
+        arrow_most_m_s: 1.0,
+        time_scale: 1.0,
+        is_paused: false,
+        behind: None,
+        leaf_range: 6..=10_000_000,
+        fps: 60.0,
+        frames: Frames::default(),
+        compares: false,
+        difference: None,
+        cpu_ms: vec![("simulate", 1.0)],
+        gpu_ms: Vec::new(),
+        look_deg: -90.0,
+        message: None,
+    }
+}
+
+/// A panel without a window.
+struct Bench {
+    context: egui::Context,
+    panel: Panel,
+    camera: Camera,
+    facts: Facts,
+}
+
+impl Bench {
+    fn new(scene: &Scene) -> Self {
+        let context = egui::Context::default();
+        style::apply(&context);
+        let camera = Camera::from(&scene::Camera::default());
+        let mut bench = Self {
+            context,
+            panel: Panel::new("autumn-park", Group::ALL.into()),
+            camera,
+            facts: facts(scene),
+        };
+        bench.pass(Vec::new());
+        bench
+    }
+
+    fn pass(&mut self, events: Vec<Event>) -> Vec<Wish> {
+        let screen_rect = Some(Rect::from_min_size(pos2(0.0, 0.0), vec2(1280.0, 720.0)));
+        let input = RawInput { screen_rect, events, focused: true, ..RawInput::default() };
+        let land = Land::of(&scene::Ground::default());
+        let mut wishes = Vec::new();
+        let mut output = self.context.run_ui(input, |ui| {
+            wishes = self.panel.show(ui, &self.facts, &mut self.camera, &land);
+        });
+        output.textures_delta.clear();
+        wishes
+    }
+
+    /// Presses at `from`, moves to `to` and lets go.
+    fn drag(&mut self, from: (f32, f32), to: (f32, f32), button: PointerButton) -> Vec<Wish> {
+        let at = |(x, y)| pos2(x, y);
+        let press = |place, pressed| Event::PointerButton {
+            pos: at(place),
+            button,
+            pressed,
+            modifiers: Modifiers::NONE,
+        };
+        let mut wishes = self.pass(vec![Event::PointerMoved(at(from))]);
+        wishes.extend(self.pass(vec![press(from, true)]));
+        wishes.extend(self.pass(vec![Event::PointerMoved(at(to))]));
+        wishes.extend(self.pass(vec![press(to, false)]));
+        wishes
+    }
+}
+
+#[test]
+fn a_panel_that_nobody_touches_wishes_nothing() {
+    for (name, _) in PRESETS.iter().filter(|(name, _)| *name != "million") {
+        let mut bench = Bench::new(&Scene::preset(name).expect("a preset"));
+        for _ in 0..3 {
+            assert_eq!(bench.pass(Vec::new()), [], "{name}");
+        }
+    }
+}
+
+#[test]
+fn the_picture_begins_where_the_panel_ends() {
+    let mut bench = Bench::new(&Scene::default());
+    let ((left, top), (width, height)) = bench.panel.picture_area((1280, 720));
+    assert!((300..340).contains(&left) && top == 0, "panel of {left} pixels");
+    assert_eq!((left + width, height), (1280, 720), "the rest of the window");
+    bench.panel.is_open = false;
+    bench.pass(Vec::new());
+    assert_eq!(bench.panel.picture_area((1280, 720)), ((0, 0), (1280, 720)), "all of it");
+}
+
+#[test]
+fn dragging_the_picture_moves_the_camera_and_dragging_the_panel_does_not() {
+    let mut bench = Bench::new(&Scene::default());
+    let start = bench.camera;
+    bench.drag((20.0, 10.0), (200.0, 300.0), PointerButton::Primary);
+    assert_eq!(bench.camera, start, "the panel is no handle");
+    bench.drag((700.0, 300.0), (800.0, 330.0), PointerButton::Primary);
+    assert!(bench.camera.yaw_rad != start.yaw_rad, "orbits");
+    assert_eq!(bench.camera.target_m, start.target_m, "about the same point");
+    bench.drag((700.0, 300.0), (800.0, 330.0), PointerButton::Secondary);
+    assert!(bench.camera.target_m != start.target_m, "pans");
+    let distance_m = bench.camera.distance_m;
+    let wheel = Event::MouseWheel {
+        unit: MouseWheelUnit::Line,
+        delta: vec2(0.0, 3.0),
+        phase: TouchPhase::Move,
+        source: MouseWheelSource::Wheel,
+        modifiers: Modifiers::NONE,
+    };
+    bench.pass(vec![Event::PointerMoved(pos2(800.0, 330.0)), wheel]);
+    for _ in 0..20 {
+        bench.pass(Vec::new());
+    }
+    assert!(bench.camera.distance_m < 0.9 * distance_m, "zooms: {} m", bench.camera.distance_m);
+}
+
+#[test]
+fn the_bar_of_time_goes_where_it_is_dragged() {
+    let mut bench = Bench::new(&Scene::default());
+    let camera = bench.camera;
+    let wishes = bench.drag((500.0, 703.0), (796.0, 703.0), PointerButton::Primary);
+    let steps: Vec<u32> = wishes
+        .iter()
+        .filter_map(|wish| if let Wish::Seek(step) = wish { Some(*step) } else { None })
+        .collect();
+    assert!(steps.is_sorted() && steps.len() >= 2, "follows the pointer: {wishes:?}");
+    assert!((280..=320).contains(&steps[steps.len() - 1]), "about the middle of 600 steps: {steps:?}");
+    assert_eq!(bench.camera, camera, "the picture is not dragged");
+}

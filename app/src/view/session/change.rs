@@ -1,0 +1,141 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What another scene asks of what is running: nothing, other numbers, or that something is made anew.
+
+use windfall_core::Scene;
+use windfall_core::scene::{Ground, Share, SourceShape, Species, View};
+use windfall_render::RendererOptions;
+
+/// What has to follow when one scene takes the place of another.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Change {
+    /// The simulator goes on with other numbers.
+    pub(crate) retune: bool,
+    /// The renderer takes over another sun, sky, haze or length of trails.
+    pub(crate) view: bool,
+    /// The renderer takes over another lens.
+    pub(crate) lens: bool,
+    /// The scene's camera stands elsewhere.
+    pub(crate) camera: bool,
+    /// The world begins again at time zero.
+    pub(crate) world: bool,
+    /// The renderer is made anew.
+    pub(crate) picture: bool,
+    /// Names of the parts for whose sake something is made anew.
+    pub(crate) parts: Vec<&'static str>,
+}
+
+impl Change {
+    /// What it takes to get from one scene to another.
+    pub(crate) fn between(old: &Scene, new: &Scene) -> Self {
+        let mut change = Self::default();
+        // Every field is named, so that a new one has to be sorted in.
+        let Scene {
+            name: _,
+            seed,
+            dt_s,
+            fall_speed,
+            rotation_speed,
+            species,
+            sources,
+            tree_kinds,
+            trees,
+            sway,
+            autumn,
+            regrow_after_s,
+            wind,
+            ground,
+            view,
+        } = new;
+        change.retune = *fall_speed != old.fall_speed
+            || *rotation_speed != old.rotation_speed
+            || *wind != old.wind
+            || *sway != old.sway;
+        change.rebuild("seed", *seed != old.seed, true, true);
+        change.rebuild("step length", *dt_s != old.dt_s, true, false);
+        change.rebuild("species", *species != old.species, true, looks(species) != looks(&old.species));
+        change.rebuild("sources", *sources != old.sources, true, crowns(new) != crowns(old));
+        change.rebuild("trees", *trees != old.trees || *tree_kinds != old.tree_kinds, true, true);
+        change.rebuild("regrowth", *regrow_after_s != old.regrow_after_s, true, false);
+        change.rebuild("season", *autumn != old.autumn, false, true);
+        change.retune |= *autumn != old.autumn;
+        change.ground(&old.ground, ground);
+        change.view(&old.view, view);
+        let litter = |scene| RendererOptions::for_scene(scene).litter_count;
+        if litter(old) != litter(new) {
+            change.picture = true;
+            if change.parts.is_empty() {
+                change.parts.push("litter");
+            }
+        }
+        // A new world or renderer takes in everything else on its way.
+        change.retune &= !change.world;
+        change.view &= !change.picture;
+        change.lens &= !change.picture && !change.view;
+        change
+    }
+
+    /// Whether it is so quick that it can follow a slider that is being dragged.
+    pub(crate) fn is_live(&self) -> bool {
+        !self.world && !self.picture
+    }
+
+    /// What the user is told afterwards, if there is something to tell.
+    pub(crate) fn message(&self) -> Option<String> {
+        let parts = self.parts.join(", ");
+        match (self.world, self.picture) {
+            (true, _) => Some(format!("Rebuilt: {parts}. Time begins again at zero; the camera stays.")),
+            (false, true) => Some(format!("Drawn anew: {parts}.")),
+            (false, false) => None,
+        }
+    }
+
+    fn rebuild(&mut self, part: &'static str, differs: bool, world: bool, picture: bool) {
+        if differs {
+            self.world |= world;
+            self.picture |= picture;
+            self.parts.push(part);
+        }
+    }
+
+    fn ground(&mut self, old: &Ground, new: &Ground) {
+        let Ground { height_m, friction, terrain, water } = *new;
+        self.retune |= friction != old.friction;
+        self.rebuild("ground", height_m != old.height_m, true, true);
+        self.rebuild("hills", terrain != old.terrain, true, true);
+        self.rebuild("water", water != old.water, false, true);
+        self.retune |= water != old.water;
+    }
+
+    fn view(&mut self, old: &View, new: &View) {
+        let View { camera, path: _, lens, sun, sky, haze, trail_s } = new;
+        self.lens = *lens != old.lens;
+        self.view = *sun != old.sun || *sky != old.sky || *haze != old.haze || *trail_s != old.trail_s;
+        self.camera = *camera != old.camera;
+        // The park is laid out around what it sees.
+        self.rebuild("park", self.camera, false, true);
+    }
+}
+
+/// What of species the renderer knows.
+fn looks(species: &[Species]) -> Vec<Species> {
+    let look = |species: &Species| Species {
+        name: species.name.clone(),
+        shape: species.shape,
+        season: species.season,
+        size_m: species.size_m,
+        flight: species.flight,
+        leaves: species.leaves.clone(),
+        ..Species::default()
+    };
+    species.iter().map(look).collect()
+}
+
+/// The sources that the renderer shows a tree for: balls of leaves, where the scene has no trees.
+fn crowns(scene: &Scene) -> Vec<(SourceShape, &[Share])> {
+    let balls = scene.sources.iter().filter(|source| matches!(source.shape, SourceShape::Sphere { .. }));
+    balls.filter(|_| scene.trees.is_empty()).map(|ball| (ball.shape, &*ball.species)).collect()
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,117 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What is shown beside the picture itself: instruments, all off at first.
+
+use clap::ValueEnum;
+use windfall_render::{Measure, Paint};
+
+/// Height of the wind's slice at first, in metres.
+const WIND_HEIGHT_M: f32 = 2.0;
+
+/// Something to look at.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Show {
+    /// Leaves coloured by motion or regime.
+    Motion,
+    /// Leaves coloured by speed.
+    Speed,
+    /// Leaves coloured by the time since their release.
+    Age,
+    /// Leaves coloured by height.
+    Height,
+    /// How many leaves lie where.
+    Landings,
+    /// Arrows of the wind in a level slice.
+    Wind,
+    /// Lines of where leaves have been.
+    Trails,
+    /// The card of the leaf nearest to the middle of the picture.
+    Leaf,
+    /// Both backends beside each other.
+    Compare,
+}
+
+/// What is looked at, and on what scale.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Looking {
+    /// What leaves are coloured by.
+    pub(crate) measure: Option<Measure>,
+    /// Speed in m/s, age in s and height in m at the end of the colours.
+    pub(crate) most: [f32; 3],
+    pub(crate) landings: bool,
+    pub(crate) wind: bool,
+    /// Height of the slice above the ground in metres.
+    pub(crate) wind_height_m: f32,
+    pub(crate) trails: bool,
+}
+
+impl Default for Looking {
+    fn default() -> Self {
+        Self {
+            measure: None,
+            most: [4.0, 20.0, 10.0],
+            landings: false,
+            wind: false,
+            wind_height_m: WIND_HEIGHT_M,
+            trails: false,
+        }
+    }
+}
+
+impl Looking {
+    /// The same with something more to look at.
+    pub(crate) fn with(mut self, show: Show) -> Self {
+        match show {
+            Show::Motion => self.measure = Some(Measure::Motion),
+            Show::Speed => self.measure = Some(Measure::Speed),
+            Show::Age => self.measure = Some(Measure::Age),
+            Show::Height => self.measure = Some(Measure::Height),
+            Show::Landings => self.landings = true,
+            Show::Wind => self.wind = true,
+            Show::Trails => self.trails = true,
+            Show::Leaf | Show::Compare => {}
+        }
+        self
+    }
+
+    /// Place of a measure's scale among the three; none for motions.
+    pub(crate) fn scale_of(measure: Measure) -> Option<usize> {
+        match measure {
+            Measure::Motion => None,
+            Measure::Speed => Some(0),
+            Measure::Age => Some(1),
+            Measure::Height => Some(2),
+        }
+    }
+
+    /// How leaves are to be painted.
+    pub(crate) fn paint(&self) -> Option<Paint> {
+        let paint =
+            |measure| Paint { measure, most: Self::scale_of(measure).map_or(1.0, |index| self.most[index]) };
+        self.measure.map(paint)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn nothing_is_shown_that_nobody_asked_for() {
+        let looking = Looking::default();
+        assert_eq!(looking.paint(), None, "leaves keep their colours");
+        assert!(!looking.landings && !looking.wind && !looking.trails, "{looking:?}");
+    }
+
+    #[test]
+    fn a_measure_brings_its_scale() {
+        let looking = Looking { most: [3.0, 11.0, 7.0], ..Looking::default() };
+        let most = |show| looking.with(show).paint().map(|paint| paint.most);
+        assert_eq!(
+            [Show::Speed, Show::Age, Show::Height].map(most),
+            [Some(3.0), Some(11.0), Some(7.0)],
+            "each"
+        );
+        assert_eq!(looking.with(Show::Wind).paint(), None, "the wind is no paint");
+    }
+}

@@ -1,0 +1,109 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! From the world to the picture, and from a click to a leaf.
+
+use egui::{Pos2, Rect, pos2};
+use glam::{Mat4, Vec3};
+use windfall_core::leaf::{LeafState, Place};
+use windfall_render::camera::Camera;
+
+/// Farthest from a click that a leaf is meant, in points.
+pub(crate) const REACH: f32 = 16.0;
+/// What a leaf one metre farther away than another has to be nearer to the click to be preferred, relative to its distance.
+const DEPTH_WEIGHT: f32 = 12.0;
+
+/// How the camera lays the world on the screen.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Projection {
+    matrix: Mat4,
+    picture: Rect,
+}
+
+impl Projection {
+    /// The camera's picture in this rectangle of the screen.
+    pub(crate) fn new(camera: &Camera, picture: Rect) -> Self {
+        let aspect = picture.width() / picture.height().max(1.0);
+        Self { matrix: camera.fitted(aspect).view_projection(aspect), picture }
+    }
+
+    /// Where a place in metres lies on the screen; `None` behind the camera.
+    pub(crate) fn place(&self, world: Vec3) -> Option<Pos2> {
+        let clip = self.matrix * world.extend(1.0);
+        // The near plane is at w of a few centimetres.
+        (clip.w > 0.02).then(|| {
+            let share = pos2(0.5 + 0.5 * clip.x / clip.w, 0.5 - 0.5 * clip.y / clip.w);
+            self.picture.min + self.picture.size() * share.to_vec2()
+        })
+    }
+
+    /// Distance along the view in metres.
+    fn depth(&self, world: Vec3) -> f32 {
+        (self.matrix * world.extend(1.0)).w
+    }
+
+    /// The slot of the leaf that a click at `pointer` means, within `reach` points of it, and rather one in front than one
+    /// far behind.
+    pub(crate) fn nearest(&self, places: &[Place], pointer: Pos2, reach: f32) -> Option<usize> {
+        let candidates = places.iter().enumerate().filter_map(|(slot, place)| {
+            let world = Vec3::from(place.position);
+            let seen = self.place(world).filter(|_| place.state() != LeafState::Dormant)?;
+            let off = seen.distance(pointer);
+            (off <= reach).then(|| (slot, off, self.depth(world)))
+        });
+        let candidates: Vec<_> = candidates.collect();
+        let front = candidates.iter().map(|(_, _, depth)| *depth).fold(f32::MAX, f32::min);
+        let cost = |(_, off, depth): &(usize, f32, f32)| off + DEPTH_WEIGHT * (depth - front) / front;
+        candidates.iter().min_by(|a, b| cost(a).total_cmp(&cost(b))).map(|(slot, _, _)| *slot)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use egui::vec2;
+    use windfall_core::leaf::record::{STATE_DORMANT, STATE_FALLING};
+    use windfall_core::scene;
+
+    use super::*;
+
+    fn projection() -> Projection {
+        let camera = scene::Camera {
+            eye_m: Vec3::new(0.0, 2.0, 10.0),
+            target_m: Vec3::new(0.0, 2.0, 0.0),
+            vertical_fov_deg: 45.0,
+        };
+        Projection::new(&Camera::from(&camera), Rect::from_min_size(pos2(300.0, 0.0), vec2(980.0, 720.0)))
+    }
+
+    fn leaf(position: [f32; 3]) -> Place {
+        Place { position, bits: STATE_FALLING }
+    }
+
+    #[test]
+    fn what_the_camera_looks_at_is_in_the_middle() {
+        let seen = projection().place(Vec3::new(0.0, 2.0, 0.0)).expect("in front");
+        assert!(seen.distance(pos2(790.0, 360.0)) < 0.01, "at {seen}");
+        let right_up = projection().place(Vec3::new(1.0, 3.0, 0.0)).expect("in front");
+        assert!(right_up.x > seen.x && right_up.y < seen.y, "right is right and up is up: {right_up}");
+        assert_eq!(projection().place(Vec3::new(0.0, 2.0, 12.0)), None, "behind the camera");
+    }
+
+    #[test]
+    fn a_click_means_the_leaf_under_it() {
+        let places = [leaf([-1.0, 2.0, 0.0]), leaf([0.0, 2.0, 0.0]), leaf([0.05, 2.0, -30.0])];
+        let projection = projection();
+        let at = |slot: usize| projection.place(Vec3::from(places[slot].position)).expect("in front");
+        assert_eq!(projection.nearest(&places, at(0) + vec2(3.0, -2.0), REACH), Some(0), "a few points off");
+        assert_eq!(
+            projection.nearest(&places, at(2), REACH),
+            Some(1),
+            "the one in front of what lies right behind"
+        );
+        assert_eq!(projection.nearest(&places, at(0) - vec2(80.0, 0.0), REACH), None, "nothing there");
+    }
+
+    #[test]
+    fn leaves_that_are_not_there_cannot_be_picked() {
+        let places = [Place { position: [0.0, 2.0, 0.0], bits: STATE_DORMANT }];
+        assert_eq!(projection().nearest(&places, pos2(790.0, 360.0), REACH), None, "not let go yet");
+    }
+}

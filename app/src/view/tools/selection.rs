@@ -1,0 +1,117 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The leaf that is followed, and the way it has come.
+
+use glam::Vec3;
+
+use crate::view::tools::probe::LeafRecords;
+
+/// Most places of a track; of a longer one every other is dropped.
+const MOST_PLACES: usize = 2048;
+
+/// Where a leaf has been, step by step.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Track {
+    places: Vec<(u32, Vec3)>,
+    /// Steps between two places at least.
+    apart: u32,
+}
+
+impl Track {
+    /// Notes a place. Going back in time forgets what has not happened yet.
+    fn note(&mut self, step: u32, place: Vec3) {
+        while self.places.last().is_some_and(|(last, _)| *last >= step) {
+            self.places.pop();
+        }
+        if self.places.last().is_some_and(|(last, _)| step - last < self.apart) {
+            return;
+        }
+        self.places.push((step, place));
+        if self.places.len() > MOST_PLACES {
+            let mut index = 0;
+            self.places.retain(|_| {
+                index += 1;
+                index % 2 == 1
+            });
+            self.apart = (2 * self.apart).max(2);
+        }
+    }
+
+    /// The places, oldest first.
+    pub(crate) fn places(&self) -> impl Iterator<Item = Vec3> {
+        self.places.iter().map(|(_, place)| *place)
+    }
+}
+
+/// A leaf that is followed.
+#[derive(Clone, Debug)]
+pub(crate) struct Selection {
+    pub(crate) slot: u32,
+    pub(crate) latest: LeafRecords,
+    pub(crate) track: Track,
+}
+
+impl Selection {
+    /// Follows the leaf in `slot` from now on.
+    pub(crate) fn new(slot: u32, latest: LeafRecords) -> Self {
+        let mut track = Track::default();
+        track.note(latest.step, Vec3::from(latest.place.position));
+        Self { slot, latest, track }
+    }
+
+    /// Takes note of what has become of it. A slot that holds another leaf now begins another track.
+    pub(crate) fn note(&mut self, records: LeafRecords) {
+        if records.identity.id != self.latest.identity.id {
+            self.track = Track::default();
+        }
+        self.track.note(records.step, Vec3::from(records.place.position));
+        self.latest = records;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use windfall_core::leaf::Identity;
+
+    use super::*;
+
+    fn at(step: u32, id: u32) -> LeafRecords {
+        LeafRecords { step, identity: Identity { id, ..Identity::default() }, ..LeafRecords::default() }
+    }
+
+    fn steps(selection: &Selection) -> Vec<u32> {
+        selection.track.places.iter().map(|(step, _)| *step).collect()
+    }
+
+    #[test]
+    fn a_track_goes_back_with_time() {
+        let mut selection = Selection::new(3, at(10, 7));
+        for step in [11, 12, 12, 13] {
+            selection.note(at(step, 7));
+        }
+        assert_eq!(steps(&selection), [10, 11, 12, 13], "each step once");
+        selection.note(at(12, 7));
+        assert_eq!(steps(&selection), [10, 11, 12], "13 has not happened yet");
+        selection.note(at(4, 7));
+        assert_eq!(steps(&selection), [4], "before the click nothing is known");
+    }
+
+    #[test]
+    fn another_leaf_in_the_slot_has_a_track_of_its_own() {
+        let mut selection = Selection::new(3, at(10, 7));
+        selection.note(at(11, 507));
+        assert_eq!(steps(&selection), [11], "the old leaf is gone");
+    }
+
+    #[test]
+    fn long_tracks_keep_their_ends() {
+        let mut selection = Selection::new(0, at(0, 7));
+        for step in 1..20_000 {
+            selection.note(at(step, 7));
+        }
+        let steps = steps(&selection);
+        assert!(steps.len() <= MOST_PLACES && steps.len() > MOST_PLACES / 4, "{} places", steps.len());
+        assert_eq!(steps[0], 0, "from the beginning");
+        assert!(20_000 - steps[steps.len() - 1] < 40, "up to now: {:?}", steps.last());
+    }
+}

@@ -1,0 +1,182 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The instruments of the window: what is shown beside the picture, and the leaf that is followed.
+
+use egui::Pos2;
+use glam::Vec3;
+use windfall_core::World;
+use windfall_core::leaf::{LeafState, Leaves, Place};
+use windfall_wgpu::LeafColumns;
+
+use super::Viewer;
+use crate::view::tools::card::{Card, card};
+use crate::view::tools::overlays::{Looking, Show};
+use crate::view::tools::pick::{Projection, REACH};
+use crate::view::tools::probe::{LeafRecords, Probe};
+use crate::view::tools::selection::Selection;
+use crate::view::tools::wind_slice::wind_slice;
+
+/// Length of trails in a scene that has none of its own, in seconds.
+const TRAIL_S: f32 = 3.0;
+/// Speed at the light end of the arrows' colours relative to the mean wind, and in still air, in m/s.
+const ARROW_MOST: (f32, f32) = (2.0, 1.0);
+/// Frames before a leaf is picked that was asked for on the command line.
+const FRAMES_BEFORE_PICK: u32 = 2;
+
+/// What is looked at, and through what.
+#[derive(Debug)]
+pub(super) struct Instruments {
+    pub(super) looking: Looking,
+    probe: Probe,
+    selection: Option<Selection>,
+    /// What was asked for when the window opened, until it is shown.
+    asked: Vec<Show>,
+    frames: u32,
+}
+
+impl Instruments {
+    pub(super) fn new(device: &wgpu::Device, show: &[Show]) -> Self {
+        Self {
+            looking: Looking::default(),
+            probe: Probe::new(device),
+            selection: None,
+            asked: show.to_vec(),
+            frames: 0,
+        }
+    }
+
+    /// Follows no leaf: there are others now.
+    pub(super) fn forget_leaf(&mut self) {
+        self.selection = None;
+    }
+
+    /// Asks what has become of the leaf that is followed, if it lies on the other side of a device.
+    pub(super) fn ask(
+        &mut self,
+        encoder: &mut wgpu::CommandEncoder,
+        leaves: &LeafColumns<'_>,
+        step: u32,
+        is_far: bool,
+    ) {
+        if let Some(selection) = self.selection.as_ref().filter(|_| is_far) {
+            self.probe.ask(encoder, leaves, selection.slot, step);
+        }
+    }
+}
+
+impl Viewer {
+    /// Before a frame: takes what the device has told about the leaf that is followed, and shows what was asked for.
+    ///
+    /// # Errors
+    /// A lost device.
+    pub(super) fn observe(&mut self) -> anyhow::Result<()> {
+        let told = self.instruments.probe.collect(self.gpu.device());
+        let step = self.session.simulator().clock().step();
+        let slot = self.instruments.selection.as_ref().map(|selection| selection.slot);
+        // What is here needs no way back.
+        let here = self.session.host_leaves().zip(slot);
+        let here = here.map(|(leaves, slot)| (slot, records(leaves, step, slot as usize)));
+        let told = here.or(told);
+        if let Some((slot, records)) = told
+            && let Some(selection) = self.instruments.selection.as_mut().filter(|leaf| leaf.slot == slot)
+        {
+            selection.note(records);
+        }
+        if self.instruments.frames == 0 {
+            let mut looking = self.instruments.looking;
+            looking.trails = self.renderer.has_trails();
+            let looking = self.instruments.asked.iter().fold(looking, |looking, show| looking.with(*show));
+            self.look(looking);
+            self.session.set_comparing(self.instruments.asked.contains(&Show::Compare))?;
+        }
+        self.instruments.frames = self.instruments.frames.saturating_add(1);
+        if self.instruments.frames == FRAMES_BEFORE_PICK && self.instruments.asked.contains(&Show::Leaf) {
+            self.pick_any()?;
+        }
+        Ok(())
+    }
+
+    /// Shows other things.
+    pub(super) fn look(&mut self, looking: Looking) {
+        self.instruments.looking = looking;
+        self.renderer.set_paint(looking.paint());
+        self.renderer.set_landings(looking.landings);
+        let own_s = self.session.scene().view.trail_s;
+        let trail_s = if own_s > 0.0 { own_s } else { TRAIL_S };
+        self.renderer.set_trails(if looking.trails { trail_s } else { 0.0 });
+    }
+
+    /// Follows the leaf at a place of the screen, or none if there is none.
+    ///
+    /// # Errors
+    /// A lost device.
+    pub(super) fn pick(&mut self, pointer: Pos2) -> anyhow::Result<()> {
+        let world = self.session.world()?;
+        self.follow(&world, &world.leaves.place, pointer, REACH);
+        Ok(())
+    }
+
+    /// Follows the leaf in the air that is nearest to the middle of the picture.
+    fn pick_any(&mut self) -> anyhow::Result<()> {
+        let world = self.session.world()?;
+        let mut places = world.leaves.place.clone();
+        for place in &mut places {
+            // As if no other leaf were there.
+            place.bits = if place.state() == LeafState::Falling { place.bits } else { 0 };
+        }
+        self.follow(&world, &places, self.panel.picture().center(), f32::INFINITY);
+        Ok(())
+    }
+
+    fn follow(&mut self, world: &World, places: &[Place], pointer: Pos2, reach: f32) {
+        let projection = Projection::new(&self.camera, self.panel.picture());
+        let slot = projection.nearest(places, pointer, reach);
+        self.instruments.selection = slot.and_then(|slot| {
+            let number = u32::try_from(slot).ok()?;
+            Some(Selection::new(number, records(&world.leaves, world.clock.step(), slot)))
+        });
+    }
+
+    /// What is told about the leaf that is followed.
+    pub(super) fn card(&self) -> Option<Card> {
+        let selection = self.instruments.selection.as_ref()?;
+        // The records may be a frame old: they are told as of their own step.
+        let clock = self.session.simulator().clock();
+        let clock = windfall_core::Clock::at(selection.latest.step, clock.dt_s(), clock.wind_travel_m());
+        Some(card(self.session.environment(), &clock, selection.slot, &selection.latest))
+    }
+
+    /// Where the leaf that is followed has been.
+    pub(super) fn track(&self) -> Option<Vec<Vec3>> {
+        self.instruments.selection.as_ref().map(|selection| selection.track.places().collect())
+    }
+
+    /// Arrows of the wind, if they are looked at.
+    pub(super) fn arrows(&self) -> Vec<(Vec3, Vec3)> {
+        let looking = &self.instruments.looking;
+        if !looking.wind {
+            return Vec::new();
+        }
+        let clock = self.session.simulator().clock();
+        wind_slice(self.session.environment(), &clock, &self.camera, looking.wind_height_m)
+    }
+
+    /// Speed in m/s at the light end of the arrows' colours.
+    pub(super) fn arrow_most_m_s(&self) -> f32 {
+        #[expect(clippy::cast_possible_truncation, reason = "a speed")]
+        let mean_m_s = self.session.scene().wind.speed.metres_per_second() as f32;
+        ARROW_MOST.0 * mean_m_s + ARROW_MOST.1
+    }
+}
+
+/// All columns of a slot.
+fn records(leaves: &Leaves, step: u32, slot: usize) -> LeafRecords {
+    LeafRecords {
+        step,
+        place: leaves.place[slot],
+        drift: leaves.drift[slot],
+        attitude: leaves.attitude[slot],
+        course: leaves.course[slot],
+        identity: leaves.identity[slot],
+    }
+}

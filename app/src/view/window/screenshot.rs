@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! A picture of the window, panel and all, after some time.
+
+use std::io::BufWriter;
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+use anyhow::anyhow;
+use image::codecs::png::PngEncoder;
+use image::{ExtendedColorType, ImageEncoder, RgbaImage};
+
+use crate::files::OutputFile;
+
+/// Frames that are drawn first, so that nothing is caught while it is being laid out.
+const MIN_FRAMES: u32 = 4;
+
+/// A picture to be taken.
+#[derive(Debug)]
+pub(crate) struct Screenshot {
+    path: PathBuf,
+    file: OutputFile,
+    after: Duration,
+    began: Instant,
+    frames: u32,
+}
+
+impl Screenshot {
+    /// Makes sure that the file can be written.
+    ///
+    /// # Errors
+    /// Whatever would keep it from being written.
+    pub(crate) fn prepare(path: &Path, after_s: f64) -> anyhow::Result<Self> {
+        Ok(Self {
+            path: path.to_owned(),
+            file: OutputFile::create(path)?,
+            after: Duration::from_secs_f64(after_s),
+            began: Instant::now(),
+            frames: 0,
+        })
+    }
+
+    /// The window is there: time begins now.
+    pub(crate) fn begin(&mut self) {
+        self.began = Instant::now();
+    }
+
+    /// Counts a frame; true when the picture is due.
+    pub(crate) fn is_due(&mut self) -> bool {
+        self.frames += 1;
+        self.frames > MIN_FRAMES && self.began.elapsed() >= self.after
+    }
+
+    /// Writes the picture.
+    ///
+    /// # Errors
+    /// What the system says, for example that the disk is full.
+    pub(crate) fn save(self, picture: &RgbaImage) -> anyhow::Result<()> {
+        let Self { path, mut file, .. } = self;
+        let (width, height) = picture.dimensions();
+        PngEncoder::new(BufWriter::new(&mut file))
+            .write_image(picture.as_raw(), width, height, ExtendedColorType::Rgba8)
+            .map_err(|error| anyhow!("{}: cannot write: {error}", path.display()))?;
+        file.finish()
+    }
+}
