@@ -5,9 +5,7 @@
 
 use std::error::Error;
 
-use windfall_core::leaf::advance::leaf_advance;
-use windfall_core::leaf::fly::leaf_fly;
-use windfall_core::{Clock, Contract, Environment, SimError, Simulator, SimulatorInfo, Stats, World};
+use windfall_core::{Clock, Contract, Environment, SimError, Simulator, SimulatorInfo, Stats, World, oracle};
 use windfall_tests::suite;
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -36,11 +34,6 @@ impl Plain {
         }
         Ok(Self { world: world.clone() })
     }
-
-    /// The same leaves, and no trees.
-    fn same_size(&self, environment: &Environment) -> Result<(), SimError> {
-        environment.fits(self.info().capacity, 0)
-    }
 }
 
 impl Simulator for Plain {
@@ -50,7 +43,7 @@ impl Simulator for Plain {
             adapter: "one thread".into(),
             // It calls the oracle's own functions, in their order; another one would write twins of them.
             contract: Contract::Exact,
-            capacity: self.world.environment.scene().leaf_count(),
+            sizes: self.world.sizes(),
         }
     }
 
@@ -59,35 +52,23 @@ impl Simulator for Plain {
     }
 
     fn step(&mut self, count: u32) -> Result<(), SimError> {
-        let World { environment, clock, leaves, .. } = &mut self.world;
-        for _ in 0..count {
-            // What depends on time alone, once a step.
-            let block = environment.step_block(clock);
-            let cx = environment.context(&block);
-            for slot in 0..leaves.len() {
-                leaf_advance(&cx, &mut leaves.as_mut().leaf_mut(slot));
-                leaf_fly(&cx, &mut leaves.as_mut().leaf_mut(slot));
-            }
-            clock.advance(environment);
-        }
+        oracle::step(&mut self.world, count);
         Ok(())
     }
 
     fn write_state(&mut self, world: &World) -> Result<(), SimError> {
-        self.same_size(&world.environment)?;
+        world.fits(&self.world.sizes())?;
         self.world = world.clone();
         Ok(())
     }
 
     fn read_state(&mut self, world: &mut World) -> Result<(), SimError> {
-        self.same_size(&world.environment)?;
-        world.clock = self.world.clock;
-        world.leaves.clone_from(&self.world.leaves);
-        Ok(())
+        world.fits(&self.world.sizes())?;
+        world.copy_state(&self.world)
     }
 
     fn set_environment(&mut self, environment: &Environment) -> Result<(), SimError> {
-        self.same_size(environment)?;
+        environment.fits(&self.world.sizes())?;
         self.world.environment = environment.clone();
         Ok(())
     }

@@ -133,7 +133,7 @@ fn draw(
         }),
         ..Default::default()
     });
-    let columns = simulator.columns();
+    let columns = simulator.columns().leaves;
     pass.set_pipeline(pipeline);
     pass.set_vertex_buffer(0, columns.place.slice(..));
     pass.set_vertex_buffer(1, columns.attitude.slice(..));

@@ -5,9 +5,8 @@
 use std::sync::{Arc, Mutex};
 
 use rayon::{ThreadPool, ThreadPoolBuilder};
-use windfall_core::leaf::Leaves;
+use windfall_core::tree::Forest;
 use windfall_core::tree::stand::Stand;
-use windfall_core::tree::{Branches, Forest};
 use windfall_core::{Clock, Contract, Environment, SimError, Simulator, SimulatorInfo, Stats, World};
 
 use crate::kernels::CHUNK;
@@ -54,14 +53,9 @@ impl CpuSimulator {
         Ok(simulator)
     }
 
-    /// The segments of trees as they are now.
-    pub fn branches(&self) -> &Branches {
-        &self.world.branches
-    }
-
-    /// The leaf columns as they are now.
-    pub fn leaves(&self) -> &Leaves {
-        &self.world.leaves
+    /// The world as it is now.
+    pub fn world(&self) -> &World {
+        &self.world
     }
 
     /// Makes room for the trees.
@@ -77,10 +71,6 @@ impl CpuSimulator {
         let scratch = |_| Mutex::new(Scratch::new(rows, most, twigs));
         self.scratches = (0..self.pool.current_num_threads()).map(scratch).collect();
     }
-
-    fn same_size(&self, environment: &Environment) -> Result<(), SimError> {
-        environment.fits(self.world.environment.scene().leaf_count(), self.world.branches.len())
-    }
 }
 
 impl Simulator for CpuSimulator {
@@ -90,7 +80,7 @@ impl Simulator for CpuSimulator {
             backend: "cpu",
             adapter: format!("{threads} thread{}", if threads == 1 { "" } else { "s" }),
             contract: Contract::Exact,
-            capacity: self.world.environment.scene().leaf_count(),
+            sizes: self.world.sizes(),
         }
     }
 
@@ -99,21 +89,18 @@ impl Simulator for CpuSimulator {
     }
 
     fn write_state(&mut self, world: &World) -> Result<(), SimError> {
+        world.fits(&self.world.sizes())?;
         self.set_environment(&world.environment)?;
-        self.world = world.clone();
-        Ok(())
+        self.world.copy_state(world)
     }
 
     fn read_state(&mut self, world: &mut World) -> Result<(), SimError> {
-        self.same_size(&world.environment)?;
-        world.clock = self.world.clock;
-        world.leaves.clone_from(&self.world.leaves);
-        world.branches.clone_from(&self.world.branches);
-        Ok(())
+        world.fits(&self.world.sizes())?;
+        world.copy_state(&self.world)
     }
 
     fn set_environment(&mut self, environment: &Environment) -> Result<(), SimError> {
-        self.same_size(environment)?;
+        environment.fits(&self.world.sizes())?;
         if !Arc::ptr_eq(self.world.environment.forest(), environment.forest()) {
             self.plant(environment.forest());
         }

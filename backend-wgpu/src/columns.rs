@@ -1,14 +1,26 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The leaf columns as GPU buffers.
+//! The stores of a world as GPU buffers.
 
-use windfall_core::SimError;
 use windfall_core::leaf::Leaves;
+use windfall_core::store::{Store, StoreSize, check_sizes};
+use windfall_core::tree::record::{BRANCH_BASE, BRANCH_POSE};
+use windfall_core::{SimError, World};
 
 use crate::gpu::Gpu;
+use crate::readback::read_buffer;
 
-/// Bytes of one record.
-pub(crate) const RECORD_BYTES: u64 = 16;
+/// Columns that share a buffer begin at a multiple of this many rows, so that each can be bound on any device.
+const COLUMN_STEP: u64 = 16;
+
+/// Borrowed columns of a world, to be drawn on the device they were made on.
+#[derive(Clone, Debug)]
+pub struct WorldColumns<'a> {
+    /// The leaves.
+    pub leaves: LeafColumns<'a>,
+    /// The segments of trees; `None` in a world without trees.
+    pub branches: Option<BranchColumns<'a>>,
+}
 
 /// Borrowed leaf columns: one 16-byte record per leaf in each buffer (see `windfall_core::leaf`), usable as vertex
 /// and storage buffers on the device they were made on.
@@ -40,65 +52,194 @@ pub struct BranchColumns<'a> {
     pub count: u32,
 }
 
-/// Buffers for all leaf columns.
+/// Buffers for all columns of a store. Neighbouring columns of one record type share a buffer, one after another.
 #[derive(Debug)]
-pub struct LeafBuffers {
-    buffers: [wgpu::Buffer; 5],
-    leaf_count: u32,
+pub struct StoreBuffers {
+    size: StoreSize,
+    columns: Vec<ColumnBuffer>,
 }
 
-impl LeafBuffers {
-    /// Buffers for `leaf_count` leaves.
+/// Place of a column.
+#[derive(Debug)]
+struct ColumnBuffer {
+    buffer: wgpu::Buffer,
+    offset: u64,
+    /// Rows from the start of this column to that of its neighbour.
+    stride: u64,
+    record_bytes: u64,
+}
+
+impl StoreBuffers {
+    /// Buffers for the columns of a store, of zeros.
     ///
     /// # Errors
-    /// [`SimError::Capacity`] if a column is larger than the device's largest buffer.
-    pub fn new(gpu: &Gpu, leaf_count: u32) -> Result<Self, SimError> {
-        let size = u64::from(leaf_count) * RECORD_BYTES;
-        let allowed = gpu.device().limits().max_buffer_size;
-        if size > allowed {
-            let device = gpu.info().name.clone();
-            return Err(SimError::Capacity { leaves: leaf_count, needed: size, allowed, device });
-        }
-        let buffers = ["place", "drift", "attitude", "course", "identity"].map(|label| {
-            gpu.device().create_buffer(&wgpu::BufferDescriptor {
-                label: Some(label),
-                size,
+    /// [`SimError::Capacity`] if one is larger than the device's largest buffer.
+    pub fn new(gpu: &Gpu, store: &dyn Store) -> Result<Self, SimError> {
+        let size = store.size();
+        let rows = size.rows as u64;
+        let mut columns = Vec::new();
+        for group in store.description().chunk_by(|a, b| a.record == b.record) {
+            let stride =
+                if group.len() == 1 { rows.max(1) } else { rows.max(1).next_multiple_of(COLUMN_STEP) };
+            let record_bytes = group[0].record_bytes as u64;
+            let column_bytes = stride * record_bytes;
+            let needed = column_bytes * group.len() as u64;
+            let allowed = gpu.device().limits().max_buffer_size;
+            if needed > allowed {
+                let device = gpu.info().name.clone();
+                return Err(SimError::Capacity {
+                    store: size.store,
+                    rows: size.rows,
+                    needed,
+                    allowed,
+                    device,
+                });
+            }
+            let names: Vec<_> = group.iter().map(|column| column.name).collect();
+            let buffer = gpu.device().create_buffer(&wgpu::BufferDescriptor {
+                label: Some(&format!("{} {}", size.store, names.join(" "))),
+                size: needed,
                 usage: wgpu::BufferUsages::STORAGE
                     | wgpu::BufferUsages::VERTEX
                     | wgpu::BufferUsages::COPY_SRC
                     | wgpu::BufferUsages::COPY_DST,
                 mapped_at_creation: false,
-            })
-        });
+            });
+            columns.extend((0..).step_by(column_bytes as usize).zip(group).map(|(offset, _)| ColumnBuffer {
+                buffer: buffer.clone(),
+                offset,
+                stride,
+                record_bytes,
+            }));
+        }
         gpu.check()?;
-        Ok(Self { buffers, leaf_count })
+        Ok(Self { size, columns })
     }
 
-    /// Replaces all columns; `leaves` has as many leaves as the buffers.
+    /// Replaces all columns.
     ///
     /// # Errors
-    /// [`SimError::Size`] if it has not.
-    pub fn write(&self, gpu: &Gpu, leaves: &Leaves) -> Result<(), SimError> {
-        if leaves.len() != self.leaf_count as usize {
-            return Err(SimError::Size { world: leaves.len(), simulator: self.leaf_count as usize });
-        }
-        for (buffer, column) in self.buffers.iter().zip(leaves.columns()) {
-            gpu.queue().write_buffer(buffer, 0, column);
+    /// [`SimError::Size`] if the store is of another size; a lost device.
+    pub fn write(&self, gpu: &Gpu, store: &dyn Store) -> Result<(), SimError> {
+        check_sizes(&[store.size()], &[self.size])?;
+        for (column, bytes) in self.columns.iter().zip(store.columns()) {
+            gpu.queue().write_buffer(&column.buffer, column.offset, bytes);
         }
         gpu.check()
     }
 
-    /// The buffers, to draw from.
-    pub fn columns(&self) -> LeafColumns<'_> {
-        let [place, drift, attitude, course, identity] = &self.buffers;
-        LeafColumns { place, drift, attitude, course, identity, leaf_count: self.leaf_count }
+    /// Copies all columns out, after everything submitted before.
+    ///
+    /// # Errors
+    /// [`SimError::Size`] if the store is of another size; a lost device.
+    pub fn read(&self, gpu: &Gpu, store: &mut dyn Store) -> Result<(), SimError> {
+        check_sizes(&[store.size()], &[self.size])?;
+        for (column, bytes) in self.columns.iter().zip(store.columns_mut()) {
+            read_buffer(gpu, &column.buffer, column.offset, bytes)?;
+        }
+        Ok(())
     }
 
-    pub(crate) fn buffers(&self) -> &[wgpu::Buffer; 5] {
-        &self.buffers
+    /// Name and number of rows.
+    pub fn size(&self) -> StoreSize {
+        self.size
     }
 
-    pub(crate) fn leaf_count(&self) -> u32 {
-        self.leaf_count
+    /// Number of rows.
+    pub(crate) fn rows(&self) -> u32 {
+        u32::try_from(self.size.rows).expect("rows are counted in words")
+    }
+
+    /// The buffer of a column, which it shares with its neighbours of the same record type.
+    pub(crate) fn buffer(&self, column: usize) -> &wgpu::Buffer {
+        &self.columns[column].buffer
+    }
+
+    /// Rows from the start of a column to that of its neighbour in the same buffer.
+    pub(crate) fn stride(&self, column: usize) -> u32 {
+        u32::try_from(self.columns[column].stride).expect("rows are counted in words")
+    }
+
+    /// A run of rows of a column, the window that a page of a large store is bound in.
+    pub fn window(&self, column: usize, first: u32, rows: u32) -> wgpu::BufferBinding<'_> {
+        let ColumnBuffer { buffer, offset, record_bytes, .. } = &self.columns[column];
+        wgpu::BufferBinding {
+            buffer,
+            offset: offset + u64::from(first) * record_bytes,
+            size: wgpu::BufferSize::new(u64::from(rows) * record_bytes),
+        }
+    }
+
+    /// All windows of a run of rows, in the order of the columns.
+    pub(crate) fn windows(&self, first: u32, rows: u32) -> impl Iterator<Item = wgpu::BindingResource<'_>> {
+        (0..self.columns.len())
+            .map(move |column| wgpu::BindingResource::Buffer(self.window(column, first, rows)))
+    }
+}
+
+impl<'a> LeafColumns<'a> {
+    /// The columns of a store of leaves.
+    pub fn of(leaves: &'a StoreBuffers) -> Self {
+        debug_assert_eq!(leaves.size.store, Leaves::NAME, "buffers of leaves");
+        let [place, drift, attitude, course, identity] = [0, 1, 2, 3, 4].map(|column| leaves.buffer(column));
+        Self { place, drift, attitude, course, identity, leaf_count: leaves.rows() }
+    }
+}
+
+/// Buffers for all stores of a world.
+#[derive(Debug)]
+pub struct WorldBuffers {
+    stores: Vec<StoreBuffers>,
+}
+
+impl WorldBuffers {
+    /// Buffers for worlds of this size, of zeros.
+    ///
+    /// # Errors
+    /// [`SimError::Capacity`] if a buffer is larger than the device's largest.
+    pub fn new(gpu: &Gpu, world: &World) -> Result<Self, SimError> {
+        let stores = world.stores().into_iter().map(|store| StoreBuffers::new(gpu, store));
+        Ok(Self { stores: stores.collect::<Result<_, _>>()? })
+    }
+
+    /// Replaces the state.
+    ///
+    /// # Errors
+    /// [`SimError::Size`] if the world is of another size; a lost device.
+    pub fn write(&self, gpu: &Gpu, world: &World) -> Result<(), SimError> {
+        check_sizes(&world.sizes(), &self.sizes())?;
+        self.stores.iter().zip(world.stores()).try_for_each(|(buffers, store)| buffers.write(gpu, store))
+    }
+
+    /// Copies the state out, after everything submitted before.
+    ///
+    /// # Errors
+    /// [`SimError::Size`] if the world is of another size; a lost device.
+    pub fn read(&self, gpu: &Gpu, world: &mut World) -> Result<(), SimError> {
+        check_sizes(&world.sizes(), &self.sizes())?;
+        self.stores.iter().zip(world.stores_mut()).try_for_each(|(buffers, store)| buffers.read(gpu, store))
+    }
+
+    /// Number of rows of each store.
+    pub fn sizes(&self) -> Vec<StoreSize> {
+        self.stores.iter().map(StoreBuffers::size).collect()
+    }
+
+    /// The columns, to draw from.
+    pub fn columns(&self) -> WorldColumns<'_> {
+        let count = self.branches().rows();
+        let column = |column: u32| self.branches().window(column as usize, 0, count);
+        let branches = || BranchColumns { base: column(BRANCH_BASE), pose: column(BRANCH_POSE), count };
+        WorldColumns { leaves: LeafColumns::of(self.leaves()), branches: (count > 0).then(branches) }
+    }
+
+    /// The leaves, the first store of a world.
+    pub(crate) fn leaves(&self) -> &StoreBuffers {
+        &self.stores[0]
+    }
+
+    /// The segments of trees, the second store of a world.
+    pub(crate) fn branches(&self) -> &StoreBuffers {
+        &self.stores[1]
     }
 }

@@ -170,7 +170,7 @@ impl Gpu {
     /// # Errors
     /// A lost device.
     pub fn read(&self, buffer: &wgpu::Buffer, out: &mut [u8]) -> Result<(), SimError> {
-        read_buffer(self, buffer, out)
+        read_buffer(self, buffer, 0, out)
     }
 
     /// Fails once the device is lost or has reported an error that nobody caught.

@@ -25,9 +25,8 @@ mod readback;
 mod shaders;
 mod simulator;
 
-pub use columns::{BranchColumns, LeafBuffers, LeafColumns};
+pub use columns::{BranchColumns, LeafColumns, StoreBuffers, WorldBuffers, WorldColumns};
 pub use exact::decorate_no_contraction;
-pub use forest::BranchBuffer;
 pub use gpu::{Gpu, describe_adapter, instance_descriptor, list_adapters, select_adapter};
 pub use prelude::WORKGROUP_SIZE;
 pub use shaders::{KernelId, ShaderError, Shaders};

@@ -9,10 +9,15 @@ use crate::gpu::Gpu;
 /// Largest staging buffer: larger reads go in pieces.
 const PIECE_BYTES: usize = 64 << 20;
 
-/// Copies the start of a buffer into `out`, waiting for everything submitted before.
-pub(crate) fn read_buffer(gpu: &Gpu, buffer: &wgpu::Buffer, out: &mut [u8]) -> Result<(), SimError> {
+/// Copies a buffer from `offset` on into `out`, waiting for everything submitted before.
+pub(crate) fn read_buffer(
+    gpu: &Gpu,
+    buffer: &wgpu::Buffer,
+    offset: u64,
+    out: &mut [u8],
+) -> Result<(), SimError> {
     let device_error = |error: &dyn std::fmt::Display| SimError::Device { reason: error.to_string() };
-    let mut done = 0;
+    let mut at = offset;
     for piece in out.chunks_mut(PIECE_BYTES) {
         let size = piece.len() as u64;
         let staging = gpu.device().create_buffer(&wgpu::BufferDescriptor {
@@ -22,7 +27,7 @@ pub(crate) fn read_buffer(gpu: &Gpu, buffer: &wgpu::Buffer, out: &mut [u8]) -> R
             mapped_at_creation: false,
         });
         let mut encoder = gpu.device().create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-        encoder.copy_buffer_to_buffer(buffer, done, &staging, 0, size);
+        encoder.copy_buffer_to_buffer(buffer, at, &staging, 0, size);
         gpu.queue().submit([encoder.finish()]);
         let (sender, receiver) = std::sync::mpsc::channel();
         staging.map_async(wgpu::MapMode::Read, .., move |result| {
@@ -33,7 +38,7 @@ pub(crate) fn read_buffer(gpu: &Gpu, buffer: &wgpu::Buffer, out: &mut [u8]) -> R
         receiver.recv().map_err(|error| device_error(&error))?.map_err(|error| device_error(&error))?;
         let mapped = staging.get_mapped_range(..).map_err(|error| device_error(&error))?;
         piece.copy_from_slice(&mapped);
-        done += size;
+        at += size;
     }
     Ok(())
 }

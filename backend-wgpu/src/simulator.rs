@@ -15,7 +15,7 @@ use windfall_core::{Clock, Contract, Environment, SimError, Simulator, Simulator
 use self::pages::Page;
 use self::steps::STEPS_PER_SUBMIT;
 use crate::buffers::{buffer, group, table};
-use crate::columns::{BranchColumns, LeafBuffers, LeafColumns, RECORD_BYTES};
+use crate::columns::{WorldBuffers, WorldColumns};
 use crate::forest::ForestBuffers;
 use crate::gpu::{Gpu, describe_adapter};
 use crate::pipelines::Pipelines;
@@ -23,6 +23,8 @@ use crate::prelude::WORKGROUP_SIZE;
 use crate::readback::read_buffer;
 use crate::shaders::Shaders;
 
+/// Bytes of the largest record of a leaf column.
+const LARGEST_RECORD: u64 = 16;
 /// Leaves per page are a multiple of this, which keeps windows aligned on any device.
 const PAGE_STEP: u32 = 4096;
 /// Most workgroups of one dispatch; further leaves are strided over.
@@ -47,7 +49,7 @@ pub struct WgpuSimulator {
     pipelines: Pipelines,
     environment: Environment,
     clock: Clock,
-    leaves: LeafBuffers,
+    buffers: WorldBuffers,
     page_leaves: u32,
     environment_buffer: wgpu::Buffer,
     step_buffer: wgpu::Buffer,
@@ -72,9 +74,9 @@ impl WgpuSimulator {
         let shaders = options.shaders.clone().unwrap_or_default();
         let pipelines = Pipelines::new(gpu, &shaders, contract)?;
         let environment = world.environment.clone();
-        let leaves = LeafBuffers::new(gpu, environment.scene().leaf_count())?;
+        let buffers = WorldBuffers::new(gpu, world)?;
         let limits = gpu.device().limits();
-        let binding = limits.max_storage_buffer_binding_size / RECORD_BYTES;
+        let binding = limits.max_storage_buffer_binding_size / LARGEST_RECORD;
         let largest = u32::try_from(binding).unwrap_or(u32::MAX).min(options.page_leaves.unwrap_or(u32::MAX));
         let step_stride = u32::try_from(size_of::<StepBlock>())
             .expect("a step block is small")
@@ -96,7 +98,7 @@ impl WgpuSimulator {
             pipelines,
             environment,
             clock: world.clock,
-            leaves,
+            buffers,
             page_leaves: (largest / PAGE_STEP).max(1) * PAGE_STEP,
             environment_buffer: uniform("environment", size_of::<EnvironmentBlock>() as u64),
             step_buffer: uniform("step", u64::from(STEPS_PER_SUBMIT * step_stride)),
@@ -115,15 +117,10 @@ impl WgpuSimulator {
         Ok(simulator)
     }
 
-    /// The leaf columns as buffers, to be drawn on the same device without a copy. They hold the state after all
-    /// submitted steps.
-    pub fn columns(&self) -> LeafColumns<'_> {
-        self.leaves.columns()
-    }
-
-    /// The columns of the trees' segments, to be drawn on the same device without a copy; none in a world without trees.
-    pub fn branches(&self) -> Option<BranchColumns<'_>> {
-        self.forest.as_ref().map(ForestBuffers::columns)
+    /// The columns as buffers, to be drawn on the same device without a copy. They hold the state after all submitted
+    /// steps.
+    pub fn columns(&self) -> WorldColumns<'_> {
+        self.buffers.columns()
     }
 
     /// Number of windows the columns are bound in.
@@ -135,10 +132,8 @@ impl WgpuSimulator {
     fn plant(&mut self) -> Result<(), SimError> {
         let forest = self.environment.forest();
         if !forest.is_empty() {
-            let standing = self.forest.as_ref();
-            let blocks = self.sway_blocks();
-            let planted = ForestBuffers::new(&self.gpu, &self.pipelines, forest, blocks, standing)?;
-            self.forest = Some(planted);
+            let (blocks, branches) = (self.sway_blocks(), self.buffers.branches());
+            self.forest = Some(ForestBuffers::new(&self.gpu, &self.pipelines, forest, blocks, branches)?);
         }
         Ok(())
     }
@@ -156,10 +151,6 @@ impl WgpuSimulator {
             size: wgpu::BufferSize::new(size_of::<StepBlock>() as u64),
         })
     }
-
-    fn same_size(&self, world: &World) -> Result<(), SimError> {
-        world.environment.fits(self.leaves.leaf_count(), self.environment.forest().len())
-    }
 }
 
 impl Simulator for WgpuSimulator {
@@ -168,7 +159,7 @@ impl Simulator for WgpuSimulator {
             backend: "wgpu",
             adapter: describe_adapter(self.gpu.info()),
             contract: self.contract,
-            capacity: self.leaves.leaf_count(),
+            sizes: self.buffers.sizes(),
         }
     }
 
@@ -177,32 +168,23 @@ impl Simulator for WgpuSimulator {
     }
 
     fn write_state(&mut self, world: &World) -> Result<(), SimError> {
-        self.same_size(world)?;
-        self.leaves.write(&self.gpu, &world.leaves)?;
+        world.fits(&self.buffers.sizes())?;
+        self.buffers.write(&self.gpu, world)?;
         self.clock = world.clock;
         self.set_environment(&world.environment)?;
         self.clear_due();
-        match &self.forest {
-            Some(forest) => forest.write(&self.gpu, &world.branches),
-            None => Ok(()),
-        }
+        Ok(())
     }
 
     fn read_state(&mut self, world: &mut World) -> Result<(), SimError> {
-        self.same_size(world)?;
+        world.fits(&self.buffers.sizes())?;
         world.clock = self.clock;
-        for (buffer, column) in self.leaves.buffers().iter().zip(world.leaves.columns_mut()) {
-            read_buffer(&self.gpu, buffer, column)?;
-        }
-        match &self.forest {
-            Some(forest) => forest.read(&self.gpu, &mut world.branches),
-            None => Ok(()),
-        }
+        self.buffers.read(&self.gpu, world)
     }
 
     fn set_environment(&mut self, environment: &Environment) -> Result<(), SimError> {
         self.gpu.check()?;
-        environment.fits(self.environment.scene().leaf_count(), self.environment.forest().len())?;
+        environment.fits(&self.buffers.sizes())?;
         if environment.block().has_bodies() {
             self.pipelines.add_fly(&self.gpu)?;
         }
@@ -258,7 +240,7 @@ impl Simulator for WgpuSimulator {
         }
         self.gpu.queue().submit([encoder.finish()]);
         let mut counters = [0u32; COUNTER_COUNT as usize];
-        read_buffer(&self.gpu, &self.counters, bytemuck::cast_slice_mut(&mut counters))?;
+        read_buffer(&self.gpu, &self.counters, 0, bytemuck::cast_slice_mut(&mut counters))?;
         Ok(Stats::from_counters(&counters, self.clock.step()))
     }
 }

@@ -129,7 +129,7 @@ fn functions(criterion: &mut Criterion) {
     let ids: Vec<u32> = (0..).take(CALLS).collect();
     let sources = environment.block().counts.0[0];
     calls(&mut group, "leaf_release", &ids, |&id| {
-        leaf_release(&cx, &mut released.as_mut().leaf_mut(id as usize), id, id % sources, 0);
+        leaf_release(&cx, &mut released.as_mut().row_mut(id as usize), id, id % sources, 0);
     });
     black_box(&released);
     let seed = environment.block().seed.0;

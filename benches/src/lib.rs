@@ -172,7 +172,8 @@ pub fn contenders(world: &World) -> Vec<Box<dyn Simulator>> {
         let state = warmed_up(contender.as_mut(), world);
         let info = contender.info();
         let stats = contender.stats().expect("the device is not lost");
-        assert_eq!(stats.total() + stats.dormant, info.capacity, "{} lost leaves", info.backend);
+        let count = world.environment.scene().leaf_count();
+        assert_eq!(stats.total() + stats.dormant, count, "{} lost leaves", info.backend);
         assert_eq!(stats, expected.stats(), "{} counts otherwise", info.backend);
         if info.contract == Contract::Exact {
             assert_eq!(state.state_hash(), expected.state_hash(), "{} comes to another state", info.backend);

@@ -2,18 +2,17 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Saves a world and brings it back to the bit.
 //!
-//! A checkpoint is the eight bytes `WINDFALL`, a version, then the scene as RON text, the clock, the five leaf
-//! columns, the trees' six columns and the leaves that hang on each of their segments, all little-endian, and at the end the CRC-32 of everything before. It stands alone: the scene travels
-//! inside (motion table files that a species names do not).
+//! A checkpoint is the eight bytes `WINDFALL`, a version, then the scene as RON text, the clock, and of every store the
+//! number of rows and the columns, all little-endian, and at the end the CRC-32 of everything before. It stands alone: the
+//! scene travels inside (motion table files that a species names do not).
 
 use std::io::{self, Write};
 
 use crate::clock::Clock;
 use crate::environment::Environment;
 use crate::error::SceneError;
-use crate::leaf::Leaves;
 use crate::scene::Scene;
-use crate::tree::Branches;
+use crate::store::{Store, StoreSize};
 use crate::world::World;
 
 const MAGIC: &[u8; 8] = b"WINDFALL";
@@ -33,15 +32,7 @@ impl World {
         out.write_all(scene.as_bytes())?;
         out.write_all(&self.clock.step().to_le_bytes())?;
         out.write_all(&self.clock.wind_travel_m().to_le_bytes())?;
-        out.write_all(&(self.leaves.len() as u64).to_le_bytes())?;
-        for column in self.leaves.columns() {
-            out.write_all(column)?;
-        }
-        out.write_all(&(self.branches.len() as u64).to_le_bytes())?;
-        for column in self.branches.columns() {
-            out.write_all(bytemuck::cast_slice(column))?;
-        }
-        out.write_all(bytemuck::cast_slice(&self.branches.bearing))?;
+        write_stores(&mut out, &self.stores())?;
         let crc = out.crc.finalize();
         out.out.write_all(&crc.to_le_bytes())
     }
@@ -75,33 +66,51 @@ impl World {
         let environment = Environment::compile(&scene)?;
         let step = u32::from_le_bytes(rest.array()?);
         let travel = f64::from_le_bytes(rest.array()?);
-        let count = u64::from_le_bytes(rest.array()?);
-        if count != u64::from(scene.leaf_count()) {
-            return Err(reject(format!("{count} leaves for a scene of {}", scene.leaf_count())));
-        }
-        let mut leaves = Leaves::zeroed(scene.leaf_count() as usize);
-        for column in leaves.columns_mut() {
-            column.copy_from_slice(rest.take(column.len() as u64)?);
-        }
-        let segments = u64::from_le_bytes(rest.array()?);
-        let mut branches = Branches::zeroed(environment.forest().len());
-        if segments != branches.len() as u64 {
-            return Err(reject(format!("{segments} segments for trees of {}", branches.len())));
-        }
-        for column in branches.columns_mut() {
-            let column: &mut [u8] = bytemuck::cast_slice_mut(column);
-            column.copy_from_slice(rest.take(column.len() as u64)?);
-        }
-        let bearing: &mut [u8] = bytemuck::cast_slice_mut(&mut branches.bearing);
-        bearing.copy_from_slice(rest.take(bearing.len() as u64)?);
+        let mut world = Self::zeroed(environment, Clock::at(step, scene.dt_s, travel));
+        rest.bytes = read_stores(rest.bytes, file, &mut world.stores_mut())?;
         if !rest.bytes.is_empty() {
-            return Err(reject(format!(
-                "it is longer than its {count} leaves by {} bytes",
-                rest.bytes.len()
-            )));
+            return Err(reject(format!("it is longer than its stores by {} bytes", rest.bytes.len())));
         }
-        Ok(Self { environment, clock: Clock::at(step, scene.dt_s, travel), leaves, branches })
+        Ok(world)
     }
+}
+
+/// Writes the number of rows and the columns of every store.
+///
+/// # Errors
+/// What the writer reports.
+pub fn write_stores(out: &mut impl Write, stores: &[&dyn Store]) -> io::Result<()> {
+    for store in stores {
+        out.write_all(&(store.rows() as u64).to_le_bytes())?;
+        for column in store.columns() {
+            out.write_all(column)?;
+        }
+    }
+    Ok(())
+}
+
+/// Fills stores from what [`write_stores`] has written, and returns the bytes behind it; `file` names them in errors.
+///
+/// # Errors
+/// [`SceneError::Checkpoint`] for bytes that are cut short or stores of other sizes.
+pub fn read_stores<'a>(
+    bytes: &'a [u8],
+    file: &'a str,
+    stores: &mut [&mut dyn Store],
+) -> Result<&'a [u8], SceneError> {
+    let mut rest = Reader { bytes, file };
+    for store in stores {
+        let rows = u64::from_le_bytes(rest.array()?);
+        let StoreSize { store: name, rows: own } = store.size();
+        if rows != own as u64 {
+            let reason = format!("{rows} {name} for a scene of {own}");
+            return Err(SceneError::Checkpoint { file: file.into(), reason });
+        }
+        for column in store.columns_mut() {
+            column.copy_from_slice(rest.take(column.len() as u64)?);
+        }
+    }
+    Ok(rest.bytes)
 }
 
 /// Passes bytes on and keeps their checksum.
@@ -110,10 +119,15 @@ struct Checked<'a, W> {
     crc: crc32fast::Hasher,
 }
 
-impl<W: Write> Checked<'_, W> {
-    fn write_all(&mut self, bytes: &[u8]) -> io::Result<()> {
-        self.crc.update(bytes);
-        self.out.write_all(bytes)
+impl<W: Write> Write for Checked<'_, W> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        let count = self.out.write(bytes)?;
+        self.crc.update(&bytes[..count]);
+        Ok(count)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.out.flush()
     }
 }
 

@@ -66,12 +66,14 @@ pub enum SceneError {
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum SimError {
-    /// More leaves than the device can hold.
-    #[error("{leaves} leaves need {needed} bytes in one buffer; {device} allows {allowed}")]
+    /// A larger store than the device can hold.
+    #[error("{rows} {store} need {needed} bytes in one buffer; {device} allows {allowed}")]
     Capacity {
-        /// Leaves asked for.
-        leaves: u32,
-        /// Bytes that one column would take.
+        /// Name of what the store's rows are.
+        store: &'static str,
+        /// Rows asked for.
+        rows: usize,
+        /// Bytes that the largest buffer would take.
         needed: u64,
         /// Bytes that the device allows.
         allowed: u64,
@@ -79,21 +81,15 @@ pub enum SimError {
         device: String,
     },
     /// A world of another size than the simulator was made for.
-    #[error("world has {world} leaves, simulator {simulator}; make a new simulator for another leaf count")]
-    Size {
-        /// Leaves of the world.
-        world: usize,
-        /// Leaves of the simulator.
-        simulator: usize,
-    },
-    /// A world of other trees than the simulator was made for.
     #[error(
-        "trees have {world} segments, those of the simulator {simulator}; make a new simulator for other trees"
+        "world has {world} {store}, simulator {simulator}; make a new simulator for a world of another size"
     )]
-    Segments {
-        /// Segments of the world's trees.
+    Size {
+        /// Name of what the store's rows are.
+        store: &'static str,
+        /// Rows of the world.
         world: usize,
-        /// Segments of the simulator's.
+        /// Rows of the simulator.
         simulator: usize,
     },
     /// The device went away; the state since the last read is lost.

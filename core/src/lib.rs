@@ -49,7 +49,7 @@
 #![warn(clippy::print_stdout, clippy::print_stderr)]
 
 pub mod blocks;
-mod checkpoint;
+pub mod checkpoint;
 mod clock;
 mod context;
 mod environment;
@@ -59,9 +59,11 @@ pub mod kernel;
 pub mod layout;
 pub mod leaf;
 pub mod motion;
+pub mod oracle;
 pub mod scene;
 mod simulator;
 pub mod stats;
+pub mod store;
 pub mod terrain;
 pub mod tree;
 pub mod wind;

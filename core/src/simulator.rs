@@ -6,6 +6,7 @@ use crate::clock::Clock;
 use crate::environment::Environment;
 use crate::error::SimError;
 use crate::stats::Stats;
+use crate::store::StoreSize;
 use crate::world::World;
 
 /// How closely a backend's state agrees with the CPU oracle's.
@@ -26,7 +27,7 @@ impl std::fmt::Display for Contract {
     }
 }
 
-/// Who is simulating.
+/// Name and size of a simulator.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SimulatorInfo {
     /// Name of the backend.
@@ -35,15 +36,15 @@ pub struct SimulatorInfo {
     pub adapter: String,
     /// Agreement with the oracle.
     pub contract: Contract,
-    /// Number of leaf slots.
-    pub capacity: u32,
+    /// Number of rows of each store.
+    pub sizes: Vec<StoreSize>,
 }
 
-/// A backend: owns leaf columns, a clock and a compiled environment, and moves them on.
+/// A backend: owns the stores of a world, a clock and a compiled environment, and moves them on.
 ///
 /// Constructors stay outside, because every backend needs something else to run on.
 pub trait Simulator {
-    /// Who is simulating.
+    /// Name and size.
     fn info(&self) -> SimulatorInfo;
 
     /// The present.
@@ -52,20 +53,19 @@ pub trait Simulator {
     /// Replaces the whole state: leaves, trees, clock and environment.
     ///
     /// # Errors
-    /// [`SimError::Size`] or [`SimError::Segments`] if the world has another number of leaves or segments of trees.
+    /// [`SimError::Size`] if a store of the world is of another size.
     fn write_state(&mut self, world: &World) -> Result<(), SimError>;
 
     /// Copies leaves, trees and clock into the caller's world. Waits for all steps; slow on a GPU.
     ///
     /// # Errors
-    /// [`SimError::Size`] or [`SimError::Segments`] if the world has another number of leaves or segments of trees; a
-    /// lost device.
+    /// [`SimError::Size`] if a store of the world is of another size; a lost device.
     fn read_state(&mut self, world: &mut World) -> Result<(), SimError>;
 
     /// Replaces wind, season, ground and speeds from the next step on. Leaves and trees stay as they are.
     ///
     /// # Errors
-    /// [`SimError::Size`] or [`SimError::Segments`] if it is one of other leaves or trees; a lost device.
+    /// [`SimError::Size`] if it is that of a world of another size; a lost device.
     fn set_environment(&mut self, environment: &Environment) -> Result<(), SimError>;
 
     /// Submits `count` steps and does not wait for them.

@@ -5,8 +5,9 @@
 use crate::clock::Clock;
 use crate::context::Context;
 use crate::environment::{Cycle, Environment, lifetime_steps, release_step};
-use crate::error::SceneError;
+use crate::error::{SceneError, SimError};
 use crate::flight::book::{FlightBook, flight_books};
+use crate::kernel::hash::mix;
 use crate::kernel::vector::Vec3;
 use crate::leaf::fly::flies;
 use crate::leaf::grow::{count_leaves, leaf_grow};
@@ -17,6 +18,7 @@ use crate::leaf::seek::leaf_seek_any;
 use crate::leaf::{LeafState, Leaves, LeavesMut};
 use crate::scene::Scene;
 use crate::stats::Stats;
+use crate::store::{Store, StoreSize, check_sizes, copy_stores, hash_stores, state_bytes};
 use crate::tree::Branches;
 
 /// Leaves below which another thread costs more than it saves.
@@ -59,18 +61,25 @@ impl World {
         Ok((world, cycle))
     }
 
-    /// Fills the store of a compiled scene.
+    /// A world of a compiled scene with every word of its stores zero.
+    pub(crate) fn zeroed(environment: Environment, clock: Clock) -> Self {
+        let leaves = Leaves::zeroed(environment.scene().leaf_count() as usize);
+        let branches = Branches::zeroed(environment.forest().len());
+        Self { environment, clock, leaves, branches }
+    }
+
+    /// Fills the stores of a compiled scene.
     fn fill(environment: Environment) -> Result<Self, SceneError> {
-        let scene = environment.scene();
-        let clock = Clock::new(scene.dt_s);
-        let mut leaves = Leaves::zeroed(scene.leaf_count() as usize);
-        let step = environment.step_block(&clock);
+        let clock = Clock::new(environment.scene().dt_s);
+        let mut world = Self::zeroed(environment, clock);
+        world.branches = world.environment.forest().at_rest();
+        let Self { environment, clock, leaves, branches } = &mut world;
+        let step = environment.step_block(clock);
         let cx = environment.context(&step);
         let threads = std::thread::available_parallelism().map_or(1, usize::from);
         let share = leaves.len().div_ceil(threads).max(SMALLEST_SHARE);
-        let mut branches = environment.forest().at_rest();
         let books = flight_books(&cx);
-        let (compiled, still, books) = (&environment, &branches, books.as_slice());
+        let (compiled, still, books) = (&*environment, &*branches, books.as_slice());
         std::thread::scope(|scope| {
             let mut rest = leaves.as_mut();
             let mut first = 0;
@@ -82,8 +91,8 @@ impl World {
             }
             place_leaves(compiled, &cx, still, books, rest, first);
         });
-        count_leaves(&mut branches, &cx, &leaves);
-        Ok(Self { environment, clock, leaves, branches })
+        count_leaves(branches, &cx, leaves);
+        Ok(world)
     }
 
     /// Counts over all leaves.
@@ -91,23 +100,53 @@ impl World {
         Stats::of(&self.leaves, self.clock.step())
     }
 
-    /// A 64-bit fingerprint of clock, leaves and branches: equal exactly when every bit of them is equal, but for one chance in
-    /// 2^64. A sum over slots, so that it can be taken in any order.
+    /// All stores, in the order of checkpoints.
+    pub fn stores(&self) -> Vec<&dyn Store> {
+        let Self { environment: _, clock: _, leaves, branches } = self;
+        vec![leaves, branches]
+    }
+
+    /// All stores, to be filled.
+    pub fn stores_mut(&mut self) -> Vec<&mut dyn Store> {
+        let Self { environment: _, clock: _, leaves, branches } = self;
+        vec![leaves, branches]
+    }
+
+    /// Number of rows of each store.
+    pub fn sizes(&self) -> Vec<StoreSize> {
+        self.stores().into_iter().map(Store::size).collect()
+    }
+
+    /// Bytes of the state, over all stores.
+    pub fn state_bytes(&self) -> usize {
+        state_bytes(&self.stores())
+    }
+
+    /// Takes over the state and the time of a world of the same size; the environment stays.
+    ///
+    /// # Errors
+    /// [`SimError::Size`] if it is of another size.
+    pub fn copy_state(&mut self, from: &Self) -> Result<(), SimError> {
+        check_sizes(&self.sizes(), &from.sizes())?;
+        self.clock = from.clock;
+        copy_stores(&from.stores(), &mut self.stores_mut());
+        Ok(())
+    }
+
+    /// Checks that this world and its environment are of the sizes of a simulator.
+    ///
+    /// # Errors
+    /// [`SimError::Size`] for the first store that is not.
+    pub fn fits(&self, simulator: &[StoreSize]) -> Result<(), SimError> {
+        self.environment.fits(simulator)?;
+        check_sizes(&self.sizes(), simulator)
+    }
+
+    /// A 64-bit fingerprint of clock and stores: equal exactly when every bit of them is equal, but for one chance in
+    /// 2^64. A sum over rows, so that it can be taken in any order.
     pub fn state_hash(&self) -> u64 {
-        let leaves = &self.leaves;
         let seed = mix(u64::from(self.clock.step()), self.clock.wind_travel_m().to_bits());
-        (0..leaves.len())
-            .fold(seed, |sum, slot| {
-                let words: [[u64; 2]; 5] = [
-                    bytemuck::cast(leaves.place[slot]),
-                    bytemuck::cast(leaves.drift[slot]),
-                    bytemuck::cast(leaves.attitude[slot]),
-                    bytemuck::cast(leaves.course[slot]),
-                    bytemuck::cast(leaves.identity[slot]),
-                ];
-                sum.wrapping_add(words.as_flattened().iter().fold(slot as u64, |hash, &word| mix(hash, word)))
-            })
-            .wrapping_add(self.branches.hash())
+        seed.wrapping_add(hash_stores(&self.stores()))
     }
 
     /// Velocity of the leaf in `slot` in m/s; zero if it is not in the air or sliding.
@@ -147,7 +186,7 @@ fn place_leaves(
     let mut source_first = scene.tree_leaf_count() as usize;
     for slot in first..source_first.min(first + leaves.len()) {
         #[expect(clippy::cast_possible_truncation, reason = "slots are counted in words")]
-        leaf_grow(environment, cx, branches, books, &mut leaves.leaf_mut(slot - first), slot as u32);
+        leaf_grow(environment, cx, branches, books, &mut leaves.row_mut(slot - first), slot as u32);
     }
     for (index, source) in (0..).zip(&scene.sources) {
         let lifetime = i64::from(lifetime_steps(scene, source));
@@ -156,7 +195,7 @@ fn place_leaves(
         for slot in start..source_first.min(first + leaves.len()) {
             #[expect(clippy::cast_possible_truncation, reason = "slots are counted in words")]
             let place = (slot + source.count as usize - source_first) as u32;
-            let mut leaf = leaves.leaf_mut(slot - first);
+            let mut leaf = leaves.row_mut(slot - first);
             let released = release_step(scene, source, place);
             let lives = if lifetime > 0 { (-released).max(0) / lifetime } else { 0 };
             let release = released + lives * lifetime;
@@ -179,12 +218,4 @@ fn place_leaves(
             }
         }
     }
-}
-
-/// One round of mixing a word into a hash (multiply, fold; constants of SplitMix64).
-pub(crate) fn mix(hash: u64, word: u64) -> u64 {
-    let mut z = (hash ^ word).wrapping_add(0x9E37_79B9_7F4A_7C15);
-    z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-    z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-    z ^ (z >> 31)
 }

@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! How far apart two states may be.
 
+use std::fmt;
+
 use windfall_core::World;
-use windfall_core::leaf::LeafState;
-use windfall_core::leaf::record::{AERODYNAMIC, PRIMITIVE_MASK, PRIMITIVE_SHIFT};
+use windfall_core::leaf::Leaves;
+use windfall_core::store::{FieldKind, Store};
 use windfall_core::tree::Branches;
 
 /// Largest difference of positions after a thousand smooth steps under the tolerant contract, in metres.
@@ -17,79 +19,141 @@ pub const STEP_ULPS: f32 = 4.0;
 /// tolerant contract. On hills the height above the ground that the wind grows with has its own rounding: 1.05e-5 was seen.
 pub const STEP_SEGMENT: f32 = 2e-5;
 
-/// What two worlds differ in.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Difference {
-    /// Leaves with any integer that differs.
-    pub integer_leaves: usize,
-    /// Leaves with any bit that differs.
-    pub bit_leaves: usize,
-    /// Largest difference of a position component in metres.
-    pub position_m: f32,
-    /// Largest difference of a drift component in m/s.
-    pub drift_m_s: f32,
-    /// Largest difference of a quaternion component.
-    pub quaternion: f32,
-    /// Segments with any bit that differs, or another number of leaves.
-    pub bit_segments: usize,
-    /// Largest difference of a component of a segment's place in metres.
-    pub base_m: f32,
-    /// Largest difference of a component of a segment's orientation.
-    pub pose: f32,
+/// What the stores of two worlds differ in.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Difference(Vec<StoreDifference>);
+
+/// What two stores differ in.
+#[derive(Clone, PartialEq)]
+pub struct StoreDifference {
+    /// Name of what the rows are.
+    pub store: &'static str,
+    /// Rows with any integer that differs.
+    pub integer_rows: usize,
+    /// Rows with any bit that differs.
+    pub bit_rows: usize,
+    /// Column and field, and the largest difference of its floats: infinite where one is not a number and the other another.
+    fields: Vec<(String, f32)>,
 }
 
-/// Compares all leaves of two worlds, slot by slot.
+impl Difference {
+    /// Returns true if every bit is the same.
+    pub fn is_none(&self) -> bool {
+        self.0.iter().all(|store| store.bit_rows == 0)
+    }
+
+    /// Returns true if no float is infinitely far from its twin.
+    pub fn is_finite(&self) -> bool {
+        self.0.iter().flat_map(|store| &store.fields).all(|(_, largest)| largest.is_finite())
+    }
+
+    /// What the stores of this name differ in.
+    ///
+    /// # Panics
+    /// If the worlds have none.
+    pub fn of(&self, store: &str) -> &StoreDifference {
+        let found = self.0.iter().find(|found| found.store == store);
+        found.unwrap_or_else(|| panic!("no {store} in a world"))
+    }
+
+    /// The leaves'.
+    pub fn leaves(&self) -> &StoreDifference {
+        self.of(Leaves::NAME)
+    }
+
+    /// The segments'.
+    pub fn segments(&self) -> &StoreDifference {
+        self.of(Branches::NAME)
+    }
+}
+
+impl StoreDifference {
+    /// Largest difference of the floats of a field, named as `column.field`, or as `column` if the records have but one.
+    ///
+    /// # Panics
+    /// If there is no such field.
+    pub fn largest(&self, name: &str) -> f32 {
+        let found = self.fields.iter().find(|(field, _)| field == name);
+        found.unwrap_or_else(|| panic!("{} have no {name}", self.store)).1
+    }
+}
+
+impl fmt::Debug for StoreDifference {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { store, integer_rows, bit_rows, fields } = self;
+        write!(f, "{bit_rows} {store} differ, {integer_rows} in integers")?;
+        let apart = fields.iter().filter(|(_, largest)| *largest > 0.0);
+        apart.clone().try_for_each(|(name, largest)| write!(f, ", {name} by {largest:e}"))
+    }
+}
+
+/// Compares all stores of two worlds, row by row.
 pub fn difference(a: &World, b: &World) -> Difference {
-    let mut found = Difference::default();
-    compare_branches(&mut found, &a.branches, &b.branches);
-    let (a, b) = (&a.leaves, &b.leaves);
-    for slot in 0..a.len().max(b.len()) {
-        let integers = |leaves: &windfall_core::leaf::Leaves| {
-            let bits = leaves.place[slot].bits;
-            let (mut phase, mut course) = (leaves.drift[slot].phase, leaves.course[slot]);
-            // A leaf on its twig and a body keep floats there.
-            let is_body = (bits >> PRIMITIVE_SHIFT) & PRIMITIVE_MASK == AERODYNAMIC;
-            if is_body || leaves.place[slot].state() == LeafState::Attached {
-                (course.rate, course.heading) = (0, 0);
-                if leaves.place[slot].state() != LeafState::Resting {
-                    phase = 0;
+    difference_of(&a.stores(), &b.stores())
+}
+
+/// Compares stores with others of the same kinds and sizes, row by row.
+///
+/// # Panics
+/// If they are of other sizes.
+pub fn difference_of(a: &[&dyn Store], b: &[&dyn Store]) -> Difference {
+    assert_eq!(a.len(), b.len(), "the same stores");
+    Difference(a.iter().zip(b).map(|(a, b)| compare(*a, *b)).collect())
+}
+
+fn compare(a: &dyn Store, b: &dyn Store) -> StoreDifference {
+    assert_eq!(a.size(), b.size(), "the same store");
+    let description = a.description();
+    let names = description.iter().flat_map(|column| {
+        column.fields.iter().map(|field| match field.name {
+            "" => column.name.to_owned(),
+            name => format!("{}.{name}", column.name),
+        })
+    });
+    let mut fields: Vec<_> = names.map(|name| (name, 0f32)).collect();
+    let (columns_a, columns_b) = (a.columns(), b.columns());
+    let (mut integer_rows, mut bit_rows) = (0, 0);
+    for row in 0..a.rows() {
+        let (mut same_bits, mut same_integers) = (true, true);
+        let mut place = 0;
+        for (index, column) in description.iter().enumerate() {
+            let record = row * column.record_bytes..(row + 1) * column.record_bytes;
+            let (record_a, record_b) = (&columns_a[index][record.clone()], &columns_b[index][record]);
+            let places = place..place + column.fields.len();
+            place = places.end;
+            if record_a == record_b {
+                continue;
+            }
+            same_bits = false;
+            let mut start = 0;
+            for (field, (_, largest)) in column.fields.iter().zip(&mut fields[places]) {
+                let bytes = start..start + 4 * field.words;
+                start = bytes.end;
+                let (field_a, field_b) = (&record_a[bytes.clone()], &record_b[bytes]);
+                let is_float = [a, b].iter().any(|store| store.kind(row, column, field) == FieldKind::Float);
+                if is_float {
+                    *largest = distance(field_a, field_b).max(*largest);
+                } else {
+                    same_integers &= field_a == field_b;
                 }
             }
-            (bits, phase, course, leaves.identity[slot])
-        };
-        let same_integers = integers(a) == integers(b);
-        let floats = |leaves: &windfall_core::leaf::Leaves| {
-            let mut all = [0f32; 10];
-            all[..3].copy_from_slice(&leaves.place[slot].position);
-            all[3..6].copy_from_slice(&leaves.drift[slot].velocity);
-            all[6..].copy_from_slice(&leaves.attitude[slot].quaternion);
-            all
-        };
-        let (fa, fb) = (floats(a), floats(b));
-        let same_phase = a.drift[slot].phase == b.drift[slot].phase && a.course[slot] == b.course[slot];
-        let same_bits = fa.map(f32::to_bits) == fb.map(f32::to_bits) && same_phase;
-        found.integer_leaves += usize::from(!same_integers);
-        found.bit_leaves += usize::from(!(same_integers && same_bits));
-        let worst = |range: std::ops::Range<usize>| {
-            range.map(|index| (fa[index] - fb[index]).abs()).fold(0.0, f32::max)
-        };
-        found.position_m = found.position_m.max(worst(0..3));
-        found.drift_m_s = found.drift_m_s.max(worst(3..6));
-        found.quaternion = found.quaternion.max(worst(6..10));
+        }
+        integer_rows += usize::from(!same_integers);
+        bit_rows += usize::from(!same_bits);
     }
-    found
+    StoreDifference { store: a.name(), integer_rows, bit_rows, fields }
 }
 
-fn compare_branches(found: &mut Difference, a: &Branches, b: &Branches) {
-    assert_eq!(a.len(), b.len(), "the same forest");
-    for row in 0..a.len() {
-        let bits = |branches: &Branches| branches.columns().map(|column| column[row].map(f32::to_bits));
-        found.bit_segments += usize::from(bits(a) != bits(b) || a.bearing[row] != b.bearing[row]);
-        let worst =
-            |x: [f32; 4], y: [f32; 4]| x.iter().zip(y).map(|(x, y)| (x - y).abs()).fold(0.0, f32::max);
-        found.base_m = found.base_m.max(worst(a.base[row], b.base[row]));
-        found.pose = found.pose.max(worst(a.pose[row], b.pose[row]));
-    }
+/// Largest difference of floats that differ in any bit; infinite if it is not a number.
+fn distance(a: &[u8], b: &[u8]) -> f32 {
+    let floats = |bytes: &[u8]| -> Vec<f32> {
+        bytes.as_chunks::<4>().0.iter().map(|word| f32::from_ne_bytes(*word)).collect()
+    };
+    let apart = |(a, b): (f32, f32)| {
+        let distance = if a.to_bits() == b.to_bits() { 0.0 } else { (a - b).abs() };
+        if distance.is_nan() { f32::INFINITY } else { distance }
+    };
+    floats(a).into_iter().zip(floats(b)).map(apart).fold(0.0, f32::max)
 }
 
 /// Size of a unit in the last place of `x`.

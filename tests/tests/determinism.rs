@@ -8,6 +8,7 @@ use common::{build, many_species, step};
 use glam::Vec3;
 use windfall_core::leaf::LeafState;
 use windfall_core::scene::{MeanSpeed, Profile, Release, Scene, Source, SourceShape, Vortex};
+use windfall_core::store::Store;
 use windfall_core::{Simulator, World};
 use windfall_cpu::{CpuOptions, CpuSimulator, Simd};
 use windfall_tests::strategies::wooded_scene;

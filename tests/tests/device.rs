@@ -101,7 +101,7 @@ fn trees_stand_through_a_new_environment() {
             simulator.set_environment(&anew).expect("it is set");
             simulator.step(40).expect("it steps");
             let refused = simulator.set_environment(&other);
-            assert!(matches!(refused, Err(SimError::Segments { .. })), "{refused:?}");
+            assert!(matches!(refused, Err(SimError::Size { store: "segments", .. })), "{refused:?}");
             let mut after = world.clone();
             simulator.read_state(&mut after).expect("same size");
             hashes.push(after.state_hash());

@@ -49,7 +49,13 @@ fn is_lively(before: &World, after: &World) {
     assert!(stats.attached > 300, "leaves hang: {stats:?}");
     assert_eq!(stats.broken, 0, "no broken leaf");
     let moved = difference(before, after);
-    assert!(moved.base_m > 0.02 && moved.base_m < 20.0, "trees sway: {moved:?}");
+    let base_m = moved.segments().largest("base");
+    assert!(base_m > 0.02 && base_m < 20.0, "trees sway: {moved:?}");
+}
+
+/// Returns true if no segment is farther off in m, or in a component of its orientation.
+fn segments_within(found: &Difference, most: f32) -> bool {
+    found.is_finite() && ["base", "pose"].iter().all(|column| found.segments().largest(column) <= most)
 }
 
 #[test]
@@ -65,7 +71,7 @@ fn a_thousand_steps_of_trees_are_equal_to_the_bit_under_the_exact_contract() {
             let options = WgpuOptions { contract: Some(contract), page_leaves, ..WgpuOptions::default() };
             let candidate = on_gpu(&gpu, &world, STEPS, &options);
             let found = difference(&oracle, &candidate);
-            assert_eq!(found, Difference::default(), "{}", gpu.info().name);
+            assert!(found.is_none(), "{}: {found:?}", gpu.info().name);
             assert_eq!(oracle.state_hash(), candidate.state_hash(), "{}", gpu.info().name);
         }
     }
@@ -81,7 +87,7 @@ fn every_scheme_is_equal_to_the_bit_under_the_exact_contract() {
             if contract == Contract::Exact {
                 let options = WgpuOptions { contract: Some(contract), ..WgpuOptions::default() };
                 let found = difference(&oracle, &on_gpu(&gpu, &world, 300, &options));
-                assert_eq!(found, Difference::default(), "{scheme:?} on {}", gpu.info().name);
+                assert!(found.is_none(), "{scheme:?} on {}: {found:?}", gpu.info().name);
             }
         }
     }
@@ -96,10 +102,10 @@ fn trees_stay_together_under_the_tolerant_contract() {
     for gpu in adapter::all() {
         let options = WgpuOptions { contract: Some(Contract::Tolerant), ..WgpuOptions::default() };
         let found = difference(&oracle, &on_gpu(&gpu, &warm, 1, &options));
-        assert_eq!(found.integer_leaves, 0, "{}: {found:?}", gpu.info().name);
-        assert!(found.base_m <= STEP_SEGMENT && found.pose <= STEP_SEGMENT, "{}: {found:?}", gpu.info().name);
+        assert_eq!(found.leaves().integer_rows, 0, "{}: {found:?}", gpu.info().name);
+        assert!(segments_within(&found, STEP_SEGMENT), "{}: {found:?}", gpu.info().name);
         let found = difference(&later, &on_gpu(&gpu, &warm, 60, &options));
-        assert!(found.base_m <= 1e-3 && found.pose <= 1e-3, "{}: {found:?}", gpu.info().name);
+        assert!(segments_within(&found, 1e-3), "{}: {found:?}", gpu.info().name);
     }
 }
 
@@ -109,7 +115,7 @@ fn the_number_of_threads_changes_nothing() {
     let one = on_cpu(&world, 300, CpuOptions { threads: Some(1), ..CpuOptions::default() });
     for threads in [2, 3, 7] {
         let several = on_cpu(&world, 300, CpuOptions { threads: Some(threads), ..CpuOptions::default() });
-        assert_eq!(difference(&one, &several), Difference::default(), "{threads} threads");
+        assert!(difference(&one, &several).is_none(), "{threads} threads");
         assert_eq!(one.state_hash(), several.state_hash(), "{threads} threads");
     }
 }
@@ -120,7 +126,7 @@ fn every_instruction_set_gives_the_same_bits() {
     let scalar = on_cpu(&world, 200, CpuOptions { simd: Some(Simd::Scalar), ..CpuOptions::default() });
     for simd in Simd::available() {
         let lanes = on_cpu(&world, 200, CpuOptions { simd: Some(simd), ..CpuOptions::default() });
-        assert_eq!(difference(&scalar, &lanes), Difference::default(), "{simd:?}");
+        assert!(difference(&scalar, &lanes).is_none(), "{simd:?}");
         assert_eq!(scalar.state_hash(), lanes.state_hash(), "{simd:?}");
     }
 }

@@ -7,7 +7,7 @@ use windfall_core::leaf::record::{
     AERODYNAMIC, PRIMITIVE_SHIFT, REGIME_SHIFT, STATE_ATTACHED, STATE_DORMANT, STATE_FALLING, STATE_RESTING,
 };
 use windfall_core::leaf::{Leaves, Place};
-use windfall_wgpu::{Gpu, LeafBuffers};
+use windfall_wgpu::{Gpu, LeafColumns, StoreBuffers};
 
 use super::landing_count::{CELL_M, CELLS, LandingCount};
 use super::paint::{ATTACHED, MOTIONS, PaintPass, RESTING, shade_bytes};
@@ -58,13 +58,13 @@ fn leaves_are_counted_where_they_lie() {
     // Across the border of workgroups.
     places.extend([([center.x + 2.0 * CELL_M + half, 3.0, center.z + half], STATE_RESTING); 150]);
     let leaves = leaves(&places);
-    let buffers = LeafBuffers::new(&gpu, u32::try_from(leaves.len()).expect("few")).expect("they fit");
+    let buffers = StoreBuffers::new(&gpu, &leaves).expect("they fit");
     buffers.write(&gpu, &leaves).expect("as many");
     let count = LandingCount::new(gpu.device(), gpu.queue(), center);
     // Twice: nothing is left of the first time.
     for _ in 0..2 {
         let mut encoder = gpu.device().create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-        count.run(gpu.device(), &mut encoder, &buffers.columns());
+        count.run(gpu.device(), &mut encoder, &LeafColumns::of(&buffers));
         let cells = words(&gpu, encoder, &count.cells);
         let at = |x: u32, z: u32| cells[(z * CELLS + x) as usize];
         let middle = CELLS / 2;
@@ -101,13 +101,13 @@ fn marks_tell_what_leaves_do() {
         ([0.0, 9.0, 0.0], STATE_ATTACHED),
         ([0.0, 0.0, 0.0], STATE_DORMANT),
     ]);
-    let buffers = LeafBuffers::new(&gpu, 5).expect("they fit");
+    let buffers = StoreBuffers::new(&gpu, &Leaves::zeroed(5)).expect("they fit");
     let mut paint = PaintPass::new(gpu.device(), Paint { measure: Measure::Motion, most: 1.0 }, 5, 0.01, 0.0);
     let mut marks = |leaves: &Leaves, chosen: Paint, time_s: f64| -> Vec<u32> {
         buffers.write(&gpu, leaves).expect("as many");
         paint.set(chosen);
         let mut encoder = gpu.device().create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-        paint.mark(gpu.device(), gpu.queue(), &mut encoder, &buffers.columns(), time_s);
+        paint.mark(gpu.device(), gpu.queue(), &mut encoder, &LeafColumns::of(&buffers), time_s);
         words(&gpu, encoder, &paint.marks).chunks(4).map(|mark| mark[1]).collect()
     };
     let found = marks(&leaves, Paint { measure: Measure::Motion, most: 1.0 }, 1.0);

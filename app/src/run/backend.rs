@@ -13,8 +13,8 @@ use windfall_core::leaf::Leaves;
 use windfall_core::{Clock, Environment, SimError, Simulator, SimulatorInfo, Stats, World};
 use windfall_cpu::{CpuOptions, CpuSimulator};
 use windfall_wgpu::{
-    BranchBuffer, BranchColumns, Gpu, LeafBuffers, LeafColumns, WgpuOptions, WgpuSimulator, describe_adapter,
-    instance_descriptor, list_adapters,
+    Gpu, WgpuOptions, WgpuSimulator, WorldBuffers, WorldColumns, describe_adapter, instance_descriptor,
+    list_adapters,
 };
 
 use crate::run::parse::whole;
@@ -159,7 +159,6 @@ impl Device {
             Self::Cpu(options) => Ok(Backend::Cpu(Box::new(Mirrored {
                 simulator: CpuSimulator::new(world, *options)?,
                 buffers: None,
-                branches: None,
                 is_current: false,
             }))),
             Self::Wgpu(gpu) => {
@@ -187,22 +186,12 @@ pub enum Backend {
     Wgpu(Box<WgpuSimulator>),
 }
 
-/// A simulator on the processor, and a copy of its leaves to draw from.
+/// A simulator on the processor, and a copy of its state to draw from.
 #[derive(Debug)]
 pub struct Mirrored {
     simulator: CpuSimulator,
-    buffers: Option<LeafBuffers>,
-    branches: Option<BranchBuffer>,
+    buffers: Option<WorldBuffers>,
     is_current: bool,
-}
-
-/// What is drawn of a simulator's state.
-#[derive(Clone, Debug)]
-pub struct Columns<'a> {
-    /// The leaves.
-    pub leaves: LeafColumns<'a>,
-    /// The segments of the trees; `None` in a world without trees.
-    pub branches: Option<BranchColumns<'a>>,
 }
 
 impl Backend {
@@ -211,30 +200,20 @@ impl Backend {
     ///
     /// # Errors
     /// [`SimError::Capacity`] for more leaves than the device holds; a lost device.
-    pub fn columns(&mut self, gpu: &Gpu) -> Result<Columns<'_>, SimError> {
+    pub fn columns(&mut self, gpu: &Gpu) -> Result<WorldColumns<'_>, SimError> {
         match self {
-            Self::Wgpu(simulator) => {
-                Ok(Columns { leaves: simulator.columns(), branches: simulator.branches() })
-            }
+            Self::Wgpu(simulator) => Ok(simulator.columns()),
             Self::Cpu(cpu) => {
-                let leaves = cpu.simulator.leaves();
+                let world = cpu.simulator.world();
                 let buffers = match &mut cpu.buffers {
                     Some(buffers) => buffers,
-                    empty => empty.insert(LeafBuffers::new(gpu, cpu.simulator.info().capacity)?),
+                    empty => empty.insert(WorldBuffers::new(gpu, world)?),
                 };
-                let rows = cpu.simulator.branches();
-                if cpu.branches.is_none() && !rows.is_empty() {
-                    cpu.branches = Some(BranchBuffer::new(gpu, rows.len())?);
-                }
                 if !cpu.is_current {
-                    buffers.write(gpu, leaves)?;
-                    if let Some(branches) = &cpu.branches {
-                        branches.write(gpu, rows)?;
-                    }
+                    buffers.write(gpu, world)?;
                     cpu.is_current = true;
                 }
-                let branches = cpu.branches.as_ref().map(BranchBuffer::columns);
-                Ok(Columns { leaves: buffers.columns(), branches })
+                Ok(buffers.columns())
             }
         }
     }
@@ -242,7 +221,7 @@ impl Backend {
     /// The leaves where they are on this side of the device; `None` if they are on the other.
     pub fn host_leaves(&self) -> Option<&Leaves> {
         match self {
-            Self::Cpu(cpu) => Some(cpu.simulator.leaves()),
+            Self::Cpu(cpu) => Some(&cpu.simulator.world().leaves),
             Self::Wgpu(_) => None,
         }
     }

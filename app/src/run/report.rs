@@ -90,7 +90,7 @@ impl Report {
             mean_position_m,
             mean_velocity_m_s,
             state_hash: format!("{:016x}", world.state_hash()),
-            leaf_steps_per_s: stepping.rate(info.capacity, steps),
+            leaf_steps_per_s: stepping.rate(world.environment.scene().leaf_count(), steps),
             cpu_s: stepping.cpu.as_secs_f64(),
             bytes_per_leaf: LEAF_BYTES,
         }

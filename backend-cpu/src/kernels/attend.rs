@@ -28,7 +28,7 @@ pub(crate) fn attend(cx: &Context<'_>, leaves: &mut LeavesMut<'_>, due: &Attend)
         let mut left = lanes;
         while left != 0 {
             let slot = group * LANES + left.trailing_zeros() as usize;
-            leaf_advance(cx, &mut leaves.leaf_mut(slot));
+            leaf_advance(cx, &mut leaves.row_mut(slot));
             left &= left - 1;
         }
     }

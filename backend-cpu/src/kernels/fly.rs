@@ -33,12 +33,12 @@ fn fly_lanes<S: Lanes>(simd: S, cx: &Context<'_>, leaves: &mut LeavesMut<'_>) {
     for first in (0..count - count % LANES).step_by(LANES) {
         let mut landing = fly_eight(simd, cx, leaves, first);
         while landing != 0 {
-            leaf_fly(cx, &mut leaves.leaf_mut(first + landing.trailing_zeros() as usize));
+            leaf_fly(cx, &mut leaves.row_mut(first + landing.trailing_zeros() as usize));
             landing &= landing - 1;
         }
     }
     for slot in count - count % LANES..count {
-        leaf_fly(cx, &mut leaves.leaf_mut(slot));
+        leaf_fly(cx, &mut leaves.row_mut(slot));
     }
 }
 

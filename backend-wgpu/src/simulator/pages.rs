@@ -2,9 +2,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The leaf columns in windows that fit in one binding each.
 
+use windfall_core::tree::record::{BRANCH_COLUMNS, BRANCH_TURN};
+
 use super::WgpuSimulator;
 use crate::buffers::{buffer, group};
-use crate::columns::RECORD_BYTES;
 
 /// What stands before the list of due leaves while it is empty.
 const DUE_HEADER: [u8; 16] = [0; 16];
@@ -31,7 +32,7 @@ pub(super) struct OnTrees {
 impl WgpuSimulator {
     /// One window of every column for each page.
     pub(super) fn bind_pages(&mut self) {
-        let count = self.leaves.leaf_count();
+        let count = self.buffers.leaves().rows();
         let pages: Vec<Page> =
             (0..count).step_by(self.page_leaves as usize).map(|first| self.page(first)).collect();
         self.pages = pages;
@@ -45,16 +46,9 @@ impl WgpuSimulator {
     }
 
     fn page(&self, first: u32) -> Page {
-        let leaves = self.page_leaves.min(self.leaves.leaf_count() - first);
-        let window = |buffer| {
-            wgpu::BindingResource::Buffer(wgpu::BufferBinding {
-                buffer,
-                offset: u64::from(first) * RECORD_BYTES,
-                size: wgpu::BufferSize::new(u64::from(leaves) * RECORD_BYTES),
-            })
-        };
+        let leaves = self.page_leaves.min(self.buffers.leaves().rows() - first);
         let up_to_wind = || self.sway_blocks().into_iter();
-        let columns = || self.leaves.buffers().iter().map(window);
+        let columns = || self.buffers.leaves().windows(first, leaves);
         let resources = up_to_wind().chain(columns()).chain([self.motion.1.as_entire_binding()]);
         let page = group(&self.gpu, &self.pipelines.leaves_layout, resources);
         // Header of four counts, then a place for every leaf; new buffers are zero.
@@ -62,14 +56,18 @@ impl WgpuSimulator {
         let due_counts = buffer(&self.gpu, "due", DUE_HEADER.len() as u64 + u64::from(leaves) * 4, usage);
         let due = group(&self.gpu, &self.pipelines.extra_layout, [due_counts.as_entire_binding()]);
         let tree_leaves = self.environment.scene().tree_leaf_count().saturating_sub(first).min(leaves);
-        let forest = self.forest.as_ref().filter(|_| tree_leaves > 0);
-        let on_trees = forest.map(|forest| {
+        let on_trees = (self.forest.is_some() && tree_leaves > 0).then(|| {
+            let branches = self.buffers.branches();
+            let stride = branches.stride(BRANCH_TURN as usize);
             let carried = up_to_wind().chain(columns().take(4));
             let block = buffer(&self.gpu, "carry", 16, wgpu::BufferUsages::UNIFORM);
-            self.gpu.queue().write_buffer(&block, 0, bytemuck::bytes_of(&[first, forest.stride(), 0, 0]));
-            let [branches, bearing] = forest.carriers();
-            let petioles = self.petioles.1.as_entire_binding();
-            let carriers = [block.as_entire_binding(), petioles, branches, bearing];
+            self.gpu.queue().write_buffer(&block, 0, bytemuck::bytes_of(&[first, stride, 0, 0]));
+            let carriers = [
+                block.as_entire_binding(),
+                self.petioles.1.as_entire_binding(),
+                branches.buffer(BRANCH_TURN as usize).as_entire_binding(),
+                branches.buffer(BRANCH_COLUMNS as usize).as_entire_binding(),
+            ];
             OnTrees {
                 leaves: tree_leaves,
                 carried: group(&self.gpu, &self.pipelines.carried_layout, carried),

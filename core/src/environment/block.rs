@@ -4,13 +4,13 @@
 
 use super::body::body_block;
 use super::convert::{len32, q16, single, steps, word};
-use super::seed_words;
 use super::source::{source_block, trees_block};
 use super::species::{response, species_block};
 use super::tables::TABLES_PER_SPECIES;
 use super::wind::wind_block;
 use crate::blocks::{EnvironmentBlock, SOURCE_TREES};
 use crate::flight::coefficients::TICKS_PER_S;
+use crate::kernel::rng::seed_words;
 use crate::layout::{Float4, Uint4};
 use crate::motion::table::TABLE_ROWS;
 use crate::motion::{GRAVITY, MotionTables};

@@ -13,7 +13,7 @@ use std::sync::Arc;
 use glam::{DMat3, DQuat, DVec3};
 
 use crate::error::SceneError;
-use crate::kernel::rng::{random, unit_float};
+use crate::kernel::rng::{random, seed_words, unit_float};
 use crate::layout::Uint4;
 use crate::leaf::petiole::{
     PETIOLE_CLASS_SHIFT, PETIOLE_CLUSTER_SHIFT, PETIOLE_KIND_SHIFT, PETIOLE_REACH_MASK, PETIOLE_REACH_SHIFT,
@@ -107,7 +107,7 @@ fn turning_time(share: f64) -> f64 {
 
 /// Class of a leaf site, and whether its leaf has fallen by the scene's season.
 pub(crate) fn leaf_site(scene: &Scene, slot: u32) -> (u32, bool) {
-    let words = random(super::seed_words(scene.seed), slot, STREAM_SITE);
+    let words = random(seed_words(scene.seed), slot, STREAM_SITE);
     let share = f64::from(unit_float(words[0]));
     let class = (words[0] >> 28) * STRENGTH_CLASSES + (words[1] >> 30);
     let time = turning_time(share.clamp(0.01, 0.99));

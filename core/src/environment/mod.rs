@@ -31,12 +31,15 @@ use crate::blocks::{EnvironmentBlock, StepBlock, VortexBlock};
 use crate::clock::Clock;
 use crate::context::Context;
 use crate::error::{SceneError, SimError};
+use crate::kernel::rng::seed_words;
 use crate::layout::{Float4, Uint4};
+use crate::leaf::Leaves;
 use crate::motion::lookup::MotionRows;
 use crate::scene::Scene;
+use crate::store::{StoreSize, check_sizes};
 use crate::terrain::Hills;
 use crate::terrain::ground::ground_relief;
-use crate::tree::Forest;
+use crate::tree::{Branches, Forest};
 use crate::wind::gust::{GUST_ROWS, GUST_SPACING, gust_rows};
 use crate::wind::profile::{PROFILE_ROWS, profile_rows};
 use crate::wind::turbulence::{TURBULENCE_X, turbulence_rows};
@@ -147,19 +150,20 @@ impl Environment {
         }
     }
 
-    /// Checks that a simulator with so many leaf slots and segments of trees can go on in this environment.
+    /// Number of rows of each store of a world of this scene, in the order of [`World::stores`](crate::World::stores).
+    pub fn sizes(&self) -> Vec<StoreSize> {
+        vec![
+            StoreSize { store: Leaves::NAME, rows: self.scene.leaf_count() as usize },
+            StoreSize { store: Branches::NAME, rows: self.forest.len() },
+        ]
+    }
+
+    /// Checks that a simulator with stores of these sizes can go on in this environment.
     ///
     /// # Errors
-    /// [`SimError::Size`] or [`SimError::Segments`] if it is one of another number of leaves or segments.
-    pub fn fits(&self, leaves: u32, segments: usize) -> Result<(), SimError> {
-        let own = (self.scene.leaf_count() as usize, self.forest.len());
-        if own.0 != leaves as usize {
-            return Err(SimError::Size { world: own.0, simulator: leaves as usize });
-        }
-        if own.1 != segments {
-            return Err(SimError::Segments { world: own.1, simulator: segments });
-        }
-        Ok(())
+    /// [`SimError::Size`] for the first store that would have another number of rows.
+    pub fn fits(&self, simulator: &[StoreSize]) -> Result<(), SimError> {
+        check_sizes(&self.sizes(), simulator)
     }
 
     /// The scene this was compiled from.
@@ -252,13 +256,6 @@ impl Environment {
     pub fn wind_travel_per_step_m(&self) -> f64 {
         f64::from(self.block.wind.mean.0[2]) * f64::from(self.scene.dt_s)
     }
-}
-
-/// The seed as the two words of the generator's key.
-pub(crate) fn seed_words(seed: u64) -> [u32; 2] {
-    #[expect(clippy::cast_possible_truncation, reason = "low and high word")]
-    let words = [seed as u32, (seed >> 32) as u32];
-    words
 }
 
 /// Height of the ground in metres, whatever the water above it.

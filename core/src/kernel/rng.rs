@@ -24,6 +24,13 @@ crate::shared_constants! {
     pub const UNIT_FLOAT: f32 = 1.0 / 16_777_216.0;
 }
 
+/// The seed as the two words of the generator's key.
+pub(crate) fn seed_words(seed: u64) -> [u32; 2] {
+    #[expect(clippy::cast_possible_truncation, reason = "low and high word")]
+    let words = [seed as u32, (seed >> 32) as u32];
+    words
+}
+
 /// High word of the 64-bit product. WGSL has none, so the twin works in halves of 16 bits.
 #[inline(always)]
 pub fn mul_high(a: u32, b: u32) -> u32 {

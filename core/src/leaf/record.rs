@@ -4,6 +4,8 @@
 
 use bytemuck::{Pod, Zeroable};
 
+use crate::store::{Field, Record};
+
 crate::shared_constants! {
     /// Mask of a leaf's state in [`Place::bits`].
     pub const STATE_MASK: u32 = 3;
@@ -131,4 +133,45 @@ pub struct Identity {
     pub fall_time: u32,
     /// Tint (low half), image variant, source and stage.
     pub look: u32,
+}
+
+impl Record for Place {
+    const NAME: &'static str = "Place";
+    const FIELDS: &'static [Field] = &[Field::floats("position", 3), Field::integer("bits")];
+}
+
+impl Record for Drift {
+    const NAME: &'static str = "Drift";
+    const FIELDS: &'static [Field] = &[Field::floats("velocity", 3), Field::integer("phase")];
+}
+
+impl Record for Attitude {
+    const NAME: &'static str = "Attitude";
+    const FIELDS: &'static [Field] = &[Field::floats("quaternion", 4)];
+}
+
+impl Record for Course {
+    const NAME: &'static str = "Course";
+    const FIELDS: &'static [Field] =
+        &[Field::integer("event"), Field::integer("rate"), Field::integer("size"), Field::integer("heading")];
+}
+
+impl Record for Identity {
+    const NAME: &'static str = "Identity";
+    const FIELDS: &'static [Field] = &[
+        Field::integer("id"),
+        Field::integer("release"),
+        Field::integer("fall_time"),
+        Field::integer("look"),
+    ];
+}
+
+/// Returns true if [`Course::rate`] and [`Course::heading`] hold floats: of a leaf on its twig and of a body.
+pub(super) fn spin_is_float(bits: u32) -> bool {
+    bits & STATE_MASK == STATE_ATTACHED || (bits >> PRIMITIVE_SHIFT) & PRIMITIVE_MASK == AERODYNAMIC
+}
+
+/// Returns true if [`Drift::phase`] holds a float: of the same leaves, unless they lie on the ground.
+pub(super) fn phase_is_float(bits: u32) -> bool {
+    spin_is_float(bits) && bits & STATE_MASK != STATE_RESTING
 }

@@ -4,7 +4,9 @@
 
 use super::record::{
     Attitude, Course, Drift, Identity, Place, STATE_ATTACHED, STATE_DORMANT, STATE_FALLING, STATE_MASK,
+    phase_is_float, spin_is_float,
 };
+use crate::store::{Column, Field, FieldKind};
 
 /// What a leaf is doing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -31,171 +33,42 @@ impl Place {
     }
 }
 
-/// All leaves of a world, one column per record. Index = slot.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Leaves {
-    /// Where and what.
-    pub place: Vec<Place>,
-    /// Carried how.
-    pub drift: Vec<Drift>,
-    /// Turned how.
-    pub attitude: Vec<Attitude>,
-    /// Up to what.
-    pub course: Vec<Course>,
-    /// Who.
-    pub identity: Vec<Identity>,
+crate::columns! {
+    /// All leaves of a world. Index = slot.
+    pub struct Leaves("leaves") {
+        /// Position and flags.
+        pub place: Place,
+        /// Residual velocity and phase.
+        pub drift: Drift,
+        /// Orientation.
+        pub attitude: Attitude,
+        /// Next event and motion parameters.
+        pub course: Course,
+        /// Identity.
+        pub identity: Identity,
+    }
+    /// The records of one leaf.
+    row LeafMut;
+    /// A run of leaves whose columns can be split.
+    run LeavesMut;
+    kinds leaf_kind;
 }
 
 /// Bytes of one leaf, over all columns.
-pub const LEAF_BYTES: usize = size_of::<Place>()
-    + size_of::<Drift>()
-    + size_of::<Attitude>()
-    + size_of::<Course>()
-    + size_of::<Identity>();
+pub const LEAF_BYTES: usize = Leaves::ROW_BYTES;
 
 /// Bytes that one step of one leaf moves between two events: place and drift are read and written, attitude is
 /// written, course is read. Identity, and an attitude that blends, are touched in few steps and do not count.
 pub const HOT_BYTES_PER_STEP: usize =
     2 * (size_of::<Place>() + size_of::<Drift>()) + size_of::<Attitude>() + size_of::<Course>();
 
-impl Leaves {
-    /// `count` dormant leaves, all zero.
-    pub fn zeroed(count: usize) -> Self {
-        Self {
-            place: vec![Place::default(); count],
-            drift: vec![Drift::default(); count],
-            attitude: vec![Attitude::default(); count],
-            course: vec![Course::default(); count],
-            identity: vec![Identity::default(); count],
-        }
-    }
-
-    /// Number of slots.
-    pub fn len(&self) -> usize {
-        self.place.len()
-    }
-
-    /// Whether there are no slots.
-    pub fn is_empty(&self) -> bool {
-        self.place.is_empty()
-    }
-
-    /// All columns, to be split among threads.
-    pub fn as_mut(&mut self) -> LeavesMut<'_> {
-        LeavesMut {
-            place: &mut self.place,
-            drift: &mut self.drift,
-            attitude: &mut self.attitude,
-            course: &mut self.course,
-            identity: &mut self.identity,
-        }
-    }
-
-    /// The columns as bytes, in the order of the struct.
-    pub fn columns(&self) -> [&[u8]; 5] {
-        [
-            bytemuck::cast_slice(&self.place),
-            bytemuck::cast_slice(&self.drift),
-            bytemuck::cast_slice(&self.attitude),
-            bytemuck::cast_slice(&self.course),
-            bytemuck::cast_slice(&self.identity),
-        ]
-    }
-
-    /// The columns as bytes to be filled, in the order of the struct.
-    pub fn columns_mut(&mut self) -> [&mut [u8]; 5] {
-        [
-            bytemuck::cast_slice_mut(&mut self.place),
-            bytemuck::cast_slice_mut(&mut self.drift),
-            bytemuck::cast_slice_mut(&mut self.attitude),
-            bytemuck::cast_slice_mut(&mut self.course),
-            bytemuck::cast_slice_mut(&mut self.identity),
-        ]
-    }
-}
-
-/// The records of one leaf.
-#[derive(Debug)]
-pub struct LeafMut<'a> {
-    /// Where and what.
-    pub place: &'a mut Place,
-    /// Carried how.
-    pub drift: &'a mut Drift,
-    /// Turned how.
-    pub attitude: &'a mut Attitude,
-    /// Up to what.
-    pub course: &'a mut Course,
-    /// Who.
-    pub identity: &'a mut Identity,
-}
-
-/// A run of leaves whose columns can be split.
-#[derive(Debug)]
-pub struct LeavesMut<'a> {
-    /// Where and what.
-    pub place: &'a mut [Place],
-    /// Carried how.
-    pub drift: &'a mut [Drift],
-    /// Turned how.
-    pub attitude: &'a mut [Attitude],
-    /// Up to what.
-    pub course: &'a mut [Course],
-    /// Who.
-    pub identity: &'a mut [Identity],
-}
-
-impl<'a> LeavesMut<'a> {
-    /// Number of leaves.
-    pub fn len(&self) -> usize {
-        self.place.len()
-    }
-
-    /// Whether there are none.
-    pub fn is_empty(&self) -> bool {
-        self.place.is_empty()
-    }
-
-    /// The first `count` leaves and the others.
-    pub fn split_at(self, count: usize) -> (Self, Self) {
-        let (place, place_rest) = self.place.split_at_mut(count);
-        let (drift, drift_rest) = self.drift.split_at_mut(count);
-        let (attitude, attitude_rest) = self.attitude.split_at_mut(count);
-        let (course, course_rest) = self.course.split_at_mut(count);
-        let (identity, identity_rest) = self.identity.split_at_mut(count);
-        (
-            Self { place, drift, attitude, course, identity },
-            Self {
-                place: place_rest,
-                drift: drift_rest,
-                attitude: attitude_rest,
-                course: course_rest,
-                identity: identity_rest,
-            },
-        )
-    }
-
-    /// One leaf's records.
-    pub fn leaf_mut(&mut self, slot: usize) -> LeafMut<'_> {
-        LeafMut {
-            place: &mut self.place[slot],
-            drift: &mut self.drift[slot],
-            attitude: &mut self.attitude[slot],
-            course: &mut self.course[slot],
-            identity: &mut self.identity[slot],
-        }
-    }
-
-    /// Leaf after leaf.
-    pub fn iter_mut(&mut self) -> impl Iterator<Item = LeafMut<'_>> {
-        let records = self.place.iter_mut().zip(self.drift.iter_mut()).zip(self.attitude.iter_mut());
-        records.zip(self.course.iter_mut()).zip(self.identity.iter_mut()).map(
-            |((((place, drift), attitude), course), identity)| LeafMut {
-                place,
-                drift,
-                attitude,
-                course,
-                identity,
-            },
-        )
-    }
+/// Meaning of the words of a field of a leaf: those reused by leaves on twigs and by bodies hold floats there.
+fn leaf_kind(leaves: &Leaves, slot: usize, _column: &Column, field: &Field) -> FieldKind {
+    let place = &leaves.place[slot];
+    let is_float = match field.name {
+        "phase" => phase_is_float(place.bits),
+        "rate" | "heading" => spin_is_float(place.bits),
+        _ => field.kind == FieldKind::Float,
+    };
+    if is_float { FieldKind::Float } else { FieldKind::Integer }
 }

@@ -6,7 +6,7 @@
 //! binomial filter is the subdivision of uniform cubic B-splines (Lane and Riesenfeld, 1980): one pass after every
 //! halving leaves no crease of a coarse level in the finished surface, as a filter applied only to the finest would.
 
-use crate::kernel::rng::{philox, triangular};
+use crate::kernel::rng::{philox, seed_words, triangular};
 use crate::scene::Terrain;
 
 /// Offset of the corners. Every halving takes two bits of the means, every smoothing four.
@@ -102,7 +102,7 @@ fn whole(value: f64) -> i64 {
 /// The random words of a point of a level.
 #[expect(clippy::cast_possible_truncation, reason = "grids have at most 512 points along an edge")]
 fn random_of(terrain: &Terrain, x: usize, z: usize, level: u32) -> [u32; 4] {
-    philox(crate::environment::seed_words(terrain.seed), [x as u32, z as u32, level, STREAM_POINT])
+    philox(seed_words(terrain.seed), [x as u32, z as u32, level, STREAM_POINT])
 }
 
 #[cfg(test)]

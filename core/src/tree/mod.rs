@@ -32,5 +32,5 @@ pub(crate) use grow::segments_of;
 pub use grow::{TreeError, full_leaf_count, grow};
 pub use record::Timber;
 pub use skeleton::{Attachment, Bearing, Segment, Skeleton, SkeletonError};
-pub use store::{Branches, BranchesMut};
+pub use store::{BranchMut, Branches, BranchesMut};
 pub use timber::{LeafFacts, TreeFacts};

@@ -5,8 +5,6 @@
 
 use glam::{DQuat, DVec3, Vec3};
 use windfall_core::World;
-use windfall_core::leaf::advance::leaf_advance;
-use windfall_core::leaf::fly::leaf_fly;
 use windfall_core::motion::{Primitive, TransitionTable};
 use windfall_core::scene::{
     Gusts, MeanSpeed, Profile, Release, Scene, Source, SourceShape, Species, Turbulence, WindParameters,
@@ -76,19 +74,7 @@ pub(crate) fn build(scene: &Scene) -> World {
     World::build(scene).expect("the scene of this test is valid")
 }
 
-/// Steps a world leaf by leaf in a plain loop: the reference for every simulator.
-pub(crate) fn step(world: &mut World, count: u32) {
-    for _ in 0..count {
-        let World { environment, clock, leaves, branches: _ } = &mut *world;
-        let block = environment.step_block(clock);
-        let cx = environment.context(&block);
-        for slot in 0..leaves.len() {
-            leaf_advance(&cx, &mut leaves.as_mut().leaf_mut(slot));
-            leaf_fly(&cx, &mut leaves.as_mut().leaf_mut(slot));
-        }
-        clock.advance(environment);
-    }
-}
+pub(crate) use windfall_core::oracle::step;
 
 /// Position of a leaf.
 pub(crate) fn position(world: &World, slot: usize) -> DVec3 {

@@ -66,7 +66,7 @@ fn drops(size_m: f32, areal_density_kg_m2: f32, hold: Hold, planform: Planform) 
             drop.steps += 1;
             drop.tumbling += u32::from((place.bits >> REGIME_SHIFT) & REGIME_MASK == REGIME_TUMBLE);
             // Turning about axes in the disc.
-            let spin = flight_of(&world.leaves.as_mut().leaf_mut(slot)).spin;
+            let spin = flight_of(&world.leaves.as_mut().row_mut(slot)).spin;
             drop.turned += f64::from(spin.x).hypot(f64::from(spin.z));
             let velocity = velocity(&world, slot);
             drop.horizontal += velocity.x.hypot(velocity.z);
@@ -281,7 +281,7 @@ fn a_maple_seed_autorotates() {
     simulator.read_state(&mut world).expect("same size");
     let mut spinning = 0;
     for slot in 0..60 {
-        let flight = flight_of(&world.leaves.as_mut().leaf_mut(slot));
+        let flight = flight_of(&world.leaves.as_mut().row_mut(slot));
         let spin = crate::common::attitude(&world, slot) * crate::common::vector(flight.spin.to_array());
         let turns = spin.y.abs() / TAU;
         let descent = -velocity(&world, slot).y;

@@ -65,7 +65,7 @@ fn a_leaf_takes_its_twigs_motion_along() {
     let cx = world.environment.context(&step);
     let mut leaves = world.leaves.clone();
     let mut all = leaves.as_mut();
-    let mut leaf = all.leaf_mut(0);
+    let mut leaf = all.row_mut(0);
     leaf.place.bits = STATE_ATTACHED | (0 << SPECIES_SHIFT);
     leaf.drift.velocity = [0.3, -0.4, 1.7];
     leaf.drift.phase = 2.5f32.to_bits();

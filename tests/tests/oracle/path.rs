@@ -108,7 +108,7 @@ fn stepping_equals_seeking() {
             for slot in 0..LEAVES {
                 let id = world.leaves.identity[slot].id;
                 let mut columns = sought.as_mut();
-                let mut leaf = columns.leaf_mut(slot);
+                let mut leaf = columns.row_mut(slot);
                 leaf_release(&cx, &mut leaf, id, 0, 0);
                 leaf_seek(&cx, &mut leaf, elapsed);
                 let (here, there) = (world.leaves.place[slot], sought.place[slot]);

@@ -4,10 +4,10 @@
 
 use windfall_core::leaf::{LEAF_BYTES, Leaves};
 use windfall_core::{Contract, SimError, Simulator, World};
-use windfall_wgpu::{Gpu, LeafBuffers};
+use windfall_wgpu::{Gpu, LeafColumns, StoreBuffers, WorldColumns};
 
 use crate::commands::bench::baseline::{ArrayOfStructs, Trajectories};
-use crate::run::backend::{Backend, Columns, Device};
+use crate::run::backend::{Backend, Device};
 
 /// A way to move leaves, by name.
 #[derive(Clone, Debug)]
@@ -113,16 +113,16 @@ impl Contender {
     pub(super) fn columns<'a>(
         &'a mut self,
         gpu: &Gpu,
-        buffers: &'a LeafBuffers,
-    ) -> Result<Columns<'a>, SimError> {
+        buffers: &'a StoreBuffers,
+    ) -> Result<WorldColumns<'a>, SimError> {
         match self {
             Self::Trajectories(trajectories) => buffers.write(gpu, trajectories.leaves())?,
             Self::Structs { leaves, columns } => {
                 leaves.read(columns);
-                buffers.write(gpu, columns)?;
+                buffers.write(gpu, columns.as_ref())?;
             }
             Self::Backend(backend) => return backend.columns(gpu),
         }
-        Ok(Columns { leaves: buffers.columns(), branches: None })
+        Ok(WorldColumns { leaves: LeafColumns::of(buffers), branches: None })
     }
 }

@@ -4,11 +4,12 @@
 
 use std::time::Instant;
 
+use windfall_core::leaf::Leaves;
 use windfall_core::{Scene, World};
 use windfall_render::camera::Camera;
 use windfall_render::trees::Stand;
 use windfall_render::{FrameInput, PictureTarget, Renderer, RendererOptions, Subject};
-use windfall_wgpu::{Gpu, LeafBuffers};
+use windfall_wgpu::{Gpu, StoreBuffers};
 
 use super::contender::Contender;
 use crate::leaves::atlas_of;
@@ -23,7 +24,7 @@ pub(super) struct Stage {
     gpu: Gpu,
     renderer: Renderer,
     target: PictureTarget,
-    buffers: LeafBuffers,
+    buffers: StoreBuffers,
     camera: Camera,
 }
 
@@ -37,7 +38,7 @@ impl Stage {
         let stand = Stand::of(scene, world.environment.forest());
         let subject = Subject { scene, stand: &stand, atlas: &atlas };
         let renderer = Renderer::new(gpu.device(), gpu.queue(), subject, format, SIZE, options)?;
-        let buffers = LeafBuffers::new(gpu, scene.leaf_count())?;
+        let buffers = StoreBuffers::new(gpu, &Leaves::zeroed(scene.leaf_count() as usize))?;
         gpu.check()?;
         let camera = Camera::from(&scene.view.camera);
         Ok(Self { gpu: gpu.clone(), renderer, target, buffers, camera })

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 
 use windfall_core::Scene;
+use windfall_core::store::Store;
 
 use super::*;
 

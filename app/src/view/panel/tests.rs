@@ -30,7 +30,7 @@ fn facts(scene: &Scene) -> Facts {
             backend: "cpu",
             adapter: "2 threads".into(),
             contract: Contract::Exact,
-            capacity: scene.leaf_count(),
+            sizes: world.sizes(),
         },
         backend: BackendKind::Cpu,
         adapter: "adapter".into(),

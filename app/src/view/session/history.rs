@@ -8,15 +8,12 @@
 
 use std::collections::BTreeMap;
 
-use windfall_core::leaf::LEAF_BYTES;
 use windfall_core::{Environment, World};
 
 /// Memory that kept moments may take, in bytes.
 const BUDGET_BYTES: usize = 256 << 20;
 /// Most moments, however small.
 const MOST: usize = 512;
-/// Bytes of a segment's state: six columns of 16 bytes and a count.
-const SEGMENT_BYTES: usize = 100;
 /// Least time between two kept moments in simulated seconds.
 const APART_S: f64 = 0.5;
 
@@ -35,8 +32,7 @@ pub(crate) struct History {
 impl History {
     /// A past that begins with `world`.
     pub(crate) fn new(world: &World) -> Self {
-        let bytes = world.leaves.len() * LEAF_BYTES + world.branches.len() * SEGMENT_BYTES;
-        let most = (BUDGET_BYTES / bytes.max(1)).min(MOST);
+        let most = (BUDGET_BYTES / world.state_bytes().max(1)).min(MOST);
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most a few hundred")]
         let apart = (APART_S / f64::from(world.clock.dt_s())).ceil().max(1.0) as u32;
         let step = world.clock.step();

@@ -18,9 +18,9 @@ use windfall_core::scene::limits;
 use windfall_core::{Environment, Scene, SimError, Simulator, Stats, World};
 use windfall_cpu::CpuOptions;
 use windfall_render::GpuTimer;
-use windfall_wgpu::Gpu;
+use windfall_wgpu::{Gpu, WorldColumns};
 
-use crate::run::backend::{Backend, BackendKind, Columns, Device};
+use crate::run::backend::{Backend, BackendKind, Device};
 use crate::run::scene_arguments::check_memory;
 use crate::view::session::history::History;
 use crate::view::session::pace::Pace;
@@ -285,7 +285,7 @@ impl Session {
     ///
     /// # Errors
     /// A lost device, or one that cannot hold them.
-    pub(crate) fn columns(&mut self) -> Result<Columns<'_>, SimError> {
+    pub(crate) fn columns(&mut self) -> Result<WorldColumns<'_>, SimError> {
         self.backend.columns(&self.gpu)
     }
 }

@@ -4,7 +4,7 @@
 
 use windfall_core::leaf::advance::leaf_advance;
 use windfall_core::leaf::{Attitude, Course, Drift, Identity, LeafMut, Leaves, Place};
-use windfall_core::{Clock, Environment, World};
+use windfall_core::{Clock, Environment, World, oracle};
 
 /// Everything about one leaf.
 #[derive(Clone, Copy, Debug)]
@@ -45,15 +45,12 @@ impl ArrayOfStructs {
 
     /// Moves every leaf through `count` steps.
     pub(crate) fn step(&mut self, count: u32) {
-        for _ in 0..count {
-            let block = self.environment.step_block(&self.clock);
-            let cx = self.environment.context(&block);
-            for leaf in &mut self.leaves {
-                let Leaf { place, drift, attitude, course, identity } = leaf;
-                leaf_advance(&cx, &mut LeafMut { place, drift, attitude, course, identity });
+        let Self { environment, clock, leaves } = self;
+        oracle::each_step(environment, clock, count, |cx| {
+            for Leaf { place, drift, attitude, course, identity } in &mut *leaves {
+                leaf_advance(cx, &mut LeafMut { place, drift, attitude, course, identity });
             }
-            self.clock.advance(&self.environment);
-        }
+        });
     }
 
     /// Writes the leaves into columns of as many.

@@ -45,7 +45,7 @@ impl Trajectories {
         let mut frames = vec![(Place::default(), Attitude::default()); world.leaves.len() * length];
         for frame in 0..length {
             simulator.step(1)?;
-            let leaves = simulator.leaves();
+            let leaves = &simulator.world().leaves;
             for (slot, trajectory) in frames.chunks_exact_mut(length).enumerate() {
                 trajectory[frame] = (leaves.place[slot], leaves.attitude[slot]);
             }

@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Steps worlds in plain loops: what every simulator is compared with.
+
+use crate::clock::Clock;
+use crate::context::Context;
+use crate::environment::Environment;
+use crate::leaf::advance::leaf_advance;
+use crate::leaf::fly::leaf_fly;
+use crate::world::World;
+
+/// Steps the leaves of a world one after another. Trees, and the leaves that hang on them, stay as they are.
+pub fn step(world: &mut World, count: u32) {
+    let World { environment, clock, leaves, branches: _ } = world;
+    each_step(environment, clock, count, |cx| {
+        for mut leaf in leaves.as_mut().iter_mut() {
+            leaf_advance(cx, &mut leaf);
+            leaf_fly(cx, &mut leaf);
+        }
+    });
+}
+
+/// Calls `advance` with what kernels see in each of `count` steps, and moves the clock on.
+pub fn each_step(
+    environment: &Environment,
+    clock: &mut Clock,
+    count: u32,
+    mut advance: impl FnMut(&Context<'_>),
+) {
+    for _ in 0..count {
+        let block = environment.step_block(clock);
+        advance(&environment.context(&block));
+        clock.advance(environment);
+    }
+}
