@@ -118,7 +118,7 @@ impl Simulator for CpuSimulator {
                 let block = environment.step_block(clock);
                 let cx = environment.context(&block);
                 if !forest.is_empty() {
-                    let (on_trees, _) = leaves.as_mut().split_at(cx.environment.crowns.0[0] as usize);
+                    let (on_trees, _) = leaves.as_mut().split_at(cx.environment.tree_leaf_count as usize);
                     sway(
                         &cx,
                         Stands {

@@ -14,6 +14,7 @@ pub(crate) fn structs() -> String {
         blocks::SpeciesBlock::declaration(),
         blocks::SourceBlock::declaration(),
         blocks::WindBlock::declaration(),
+        blocks::ResponseBlock::declaration(),
         flight::block::BodyBlock::declaration(),
         blocks::EnvironmentBlock::declaration(),
         blocks::VortexBlock::declaration(),

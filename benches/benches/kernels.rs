@@ -127,13 +127,13 @@ fn functions(criterion: &mut Criterion) {
     });
     let mut released = Leaves::zeroed(CALLS);
     let ids: Vec<u32> = (0..).take(CALLS).collect();
-    let sources = environment.block().counts.0[0];
+    let sources = u32::try_from(environment.scene().sources.len()).expect("a few sources");
     calls(&mut group, "leaf_release", &ids, |&id| {
         leaf_release(&cx, &mut released.as_mut().row_mut(id as usize), id, id % sources, 0);
     });
     black_box(&released);
-    let seed = environment.block().seed.0;
-    calls(&mut group, "philox", &ids, |&id| philox([seed[0], seed[1]], [id, 16, 0, 0]));
+    let seed = environment.block().seed;
+    calls(&mut group, "philox", &ids, |&id| philox(seed, [id, 16, 0, 0]));
     group.finish();
 }
 

@@ -1,23 +1,29 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The uniform blocks that every kernel reads: what a scene compiles to, and what changes from step to step.
+//! Uniform blocks that every kernel reads: the compiled scene, and the state of one step.
 //!
 //! Both backends get these same bytes, so nothing that depends on time or scene alone is computed twice.
 
 use crate::flight::block::BodyBlock;
-use crate::layout::{Float4, Uint4};
+use crate::layout::Uint4;
 use crate::scene::{MAX_SOURCES, MAX_SPECIES, MAX_VORTICES};
 
 crate::shared_struct! {
     /// One species, compiled.
     pub struct SpeciesBlock {
-        /// Steps (2^-16) that a fall of one metre takes; half widths of the spread of size and of speed (2^-14); unused.
-        pub scales: Uint4,
-        /// First primitive motion, or that it flies as a body; three unused words.
-        pub start: Uint4,
-        /// Phase per step of each primitive motion for a leaf of nominal size and speed; two unused words.
+        /// Time that a fall of one metre takes, in 2^-16 steps.
+        pub fall_steps_q16_per_m: u32,
+        /// Half width of the spread of sizes in 2^-14 of the nominal size.
+        pub size_spread_q14: u32,
+        /// Half width of the spread of speeds in 2^-14 of the nominal speed.
+        pub speed_spread_q14: u32,
+        /// First primitive motion, or [`AERODYNAMIC`](crate::leaf::record::AERODYNAMIC).
+        pub first_motion: u32,
+        /// Phase per step of each primitive motion for a leaf of nominal size and speed, four to a vector (see
+        /// [`species_rate`](crate::leaf::release::species_rate)).
         pub rates: [Uint4; 2],
-        /// Transition counts, row by row.
+        /// Transition counts, row by row, four to a vector (see
+        /// [`transition_count`](crate::motion::feature::transition_count)).
         pub transitions: [Uint4; 9],
     }
 }
@@ -25,110 +31,179 @@ crate::shared_struct! {
 crate::shared_struct! {
     /// One source, compiled. Lengths are integers in units of 2^-10 m, so that both contracts place leaves alike.
     pub struct SourceBlock {
-        /// Centre x, y, z (two's complement) and kind (`SOURCE_BOX`, `SOURCE_DISC`, `SOURCE_SPHERE`).
-        pub center: Uint4,
-        /// Half extent or radius along x, y, z; unused word.
-        pub extent: Uint4,
-        /// First slot, slot count, step of the first release (two's complement), steps until a slot is released
-        /// again (0: never).
-        pub timing: Uint4,
-        /// For each species the upper end of its share of random words.
+        /// Centre x, y, z.
+        pub center_units: [i32; 3],
+        /// Kind: [`SOURCE_BOX`], [`SOURCE_DISC`] or [`SOURCE_SPHERE`].
+        pub kind: u32,
+        /// Half extent or radius along x, y, z.
+        pub extent_units: [u32; 3],
+        /// Steps until a slot is released again; 0 for never.
+        pub lifetime_steps: u32,
+        /// Upper end of each species' share of random words, four to a vector (see
+        /// [`source_share`](crate::leaf::release::source_share)).
         pub shares: [Uint4; SHARE_VECTORS as usize],
     }
 }
 
 crate::shared_struct! {
     /// The wind, compiled.
-    pub struct WindBlock {
-        /// Unit vector x, z the mean wind blows towards; mean speed at the reference height in m/s; rows of the
-        /// profile table per metre.
-        pub mean: Float4,
-        /// Gust excess relative to the mean; rows of the gust table per metre; height of the ground in m; unused.
-        pub gust: Float4,
-        /// Standard deviation of the turbulence along, up and across the wind in m/s; unused.
-        pub deviation: Float4,
-        /// Turbulence cells per metre along, up and across the wind; unused.
-        pub cells: Float4,
-        /// First row of the profile, the gust and the turbulence table; number of vortices.
-        pub tables: Uint4,
+    pub struct WindBlock, padding 8 {
+        /// Unit vector that the mean wind blows towards, along x.
+        pub direction_x: f32,
+        /// The same along z.
+        pub direction_z: f32,
+        /// Mean speed at the reference height in m/s.
+        pub mean_speed_m_s: f32,
+        /// Excess of a typical gust relative to the mean speed.
+        pub gust_strength: f32,
+        /// Standard deviation of the turbulence along, up and across the wind in m/s.
+        pub deviation_m_s: [f32; 3],
+        /// Rows of the gust table per metre.
+        pub gust_rows_per_m: f32,
+        /// Turbulence cells per metre along, up and across the wind.
+        pub cells_per_m: [f32; 3],
+        /// First row of the profile table.
+        pub first_profile_row: u32,
+        /// First row of the gust table.
+        pub first_gust_row: u32,
+        /// First row of the turbulence table.
+        pub first_turbulence_row: u32,
+    }
+}
+
+crate::shared_struct! {
+    /// Response of a species' drift and spin to a step.
+    pub struct ResponseBlock {
+        /// Drift kept over a step, `e^(-dt/tau)`.
+        pub drift_kept: f32,
+        /// Fastest spin per step in 2^-18 turns, a whole number.
+        pub fastest_spin: f32,
+        /// Time constant tau in s: the distance per drift speed until none is left.
+        pub time_constant_s: f32,
+        /// `1/tau` in 1/s.
+        pub inv_time_constant: f32,
     }
 }
 
 crate::shared_struct! {
     /// Everything that stays the same until the environment is set anew.
     pub struct EnvironmentBlock {
-        /// Seed, low and high word; number of leaf slots; number of species.
-        pub seed: Uint4,
-        /// Number of sources; steps until a landed leaf lies flat; steps of an orientation blend; rotation speed
-        /// (2^-16).
-        pub counts: Uint4,
-        /// First velocity row of the motion tables; zero; whether leaves of some species fly as bodies; ticks
-        /// per step in 2^-16.
-        pub motion: Uint4,
-        /// Step length in s; its inverse in 1/s; turns per second of 2^-32 turns per step; displacement per table
-        /// displacement (fall speed over rotation speed).
-        pub time: Float4,
-        /// Height of the ground in m; height of resting leaves in m; speed lost to friction per second in m/s²;
-        /// stopping distance per squared speed in s²/m.
-        pub ground: Float4,
-        /// Tilt kept per step while settling; three unused.
-        pub settle: Float4,
-        /// First row of the hills' table in that of the wind; cells along its edge less one; their binary logarithm;
-        /// whether there are hills.
-        pub terrain: Uint4,
-        /// Cells per metre; height in m above which no leaf meets the ground; height of water above the ground at the
-        /// origin in m; gravity in m/s².
-        pub relief: Float4,
+        /// Seed, low and high word.
+        pub seed: [u32; 2],
+        /// Difference between the numbers of a slot's leaf and of its next one: the number of slots, or 0 in a world that
+        /// repeats.
+        pub ids_per_life: u32,
+        /// Number of species.
+        pub species_count: u32,
+        /// Steps until a landed leaf lies flat.
+        pub settle_steps: u32,
+        /// Steps of an orientation blend.
+        pub blend_steps: u32,
+        /// Rotation speed in 2^-16.
+        pub rotation_speed_q16: u32,
+        /// Ticks of the regime's clock per step in 2^-16.
+        pub ticks_per_step_q16: u32,
+        /// First velocity row of the motion tables.
+        pub first_velocity_row: u32,
+        /// A zero that shader compilers cannot know of.
+        pub zero: u32,
+        /// 1 if leaves of some species fly as bodies, else 0.
+        pub has_bodies: u32,
+        /// 1 if the ground has hills, else 0.
+        pub has_terrain: u32,
+        /// Step length in s.
+        pub dt_s: f32,
+        /// Inverse step length in 1/s.
+        pub inv_dt_s: f32,
+        /// Displacement per table displacement: fall speed over rotation speed.
+        pub displacement_gain: f32,
+        /// Tilt kept per step while a landed leaf lies down.
+        pub tilt_kept: f32,
+        /// Gravity in m/s².
+        pub gravity_m_s2: f32,
+        /// Height of the ground at the origin in m, which the wind's heights count from.
+        pub ground_height_m: f32,
+        /// Height in m of what leaves lie on where it is level: the ground, or the water on it. Hills come on top.
+        pub surface_height_m: f32,
+        /// Height in m of a leaf that rests on it.
+        pub rest_height_m: f32,
+        /// Speed lost to friction per second on level ground in m/s².
+        pub friction_m_s2: f32,
+        /// Stopping distance on level ground per squared speed in s²/m.
+        pub stop_s2_m: f32,
+        /// Height of the water on hilly ground above the ground's in m.
+        pub water_relief_m: f32,
+        /// Height in m above which no leaf meets the ground.
+        pub highest_rest_m: f32,
+        /// Cells of the hills' table per metre.
+        pub hill_cells_per_m: f32,
+        /// First row of the hills' table, which lies behind those of the wind.
+        pub first_hill_row: u32,
+        /// Cells along its edge less one.
+        pub hill_mask: u32,
+        /// Binary logarithm of the cells along its edge.
+        pub hill_shift: u32,
+        /// Leaf slots of trees, the first of all.
+        pub tree_leaf_count: u32,
+        /// First row of the petioles in their table.
+        pub first_petiole_row: u32,
+        /// Phase per step of the slowest leaf that flutters on its twig, in 2^-32 turns.
+        pub flutter_per_step: u32,
+        /// Scheme that moves the joints of trees.
+        pub sway_scheme: u32,
         /// The wind.
         pub wind: WindBlock,
-        /// Of each species: drift kept over a step `e^(-dt/tau)`; fastest spin per step in 2^-18 turns, a whole number;
-        /// time constant tau in s, which is the distance per drift speed until none is left; 1/tau in 1/s.
-        pub responses: [Float4; MAX_SPECIES],
+        /// Responses of the species.
+        pub responses: [ResponseBlock; MAX_SPECIES],
         /// The species.
         pub species: [SpeciesBlock; MAX_SPECIES],
         /// The species as bodies.
         pub bodies: [BodyBlock; MAX_SPECIES],
         /// The sources, and behind them the trees as one.
         pub sources: [SourceBlock; MAX_SOURCES + 1],
-        /// Leaf slots of trees, the first of all; first petiole in its table; phase per step of fluttering in 2^-32
-        /// turns; scheme that moves joints.
-        pub crowns: Uint4,
     }
 }
 
 impl EnvironmentBlock {
-    /// Whether the ground has hills.
+    /// Returns true if the ground has hills.
     #[inline(always)]
     pub fn has_terrain(&self) -> bool {
-        self.terrain.0[3] != 0
+        self.has_terrain != 0
     }
 
-    /// Whether leaves of some species fly as bodies.
+    /// Returns true if leaves of some species fly as bodies.
     pub fn has_bodies(&self) -> bool {
-        self.motion.0[2] != 0
+        self.has_bodies != 0
     }
 }
 
 crate::shared_struct! {
     /// One vortex at one step.
-    pub struct VortexBlock {
-        /// A point of the axis x, y, z in m; squared core radius in m².
-        pub center: Float4,
-        /// Unit axis x, y, z; circulation over 2 pi in m²/s.
-        pub axis: Float4,
-        /// Axial speed at the centre times squared core radius in m³/s; three unused.
-        pub axial: Float4,
+    pub struct VortexBlock, padding 12 {
+        /// A point of the axis in m.
+        pub center_m: [f32; 3],
+        /// Squared core radius in m².
+        pub core_m2: f32,
+        /// Unit vector along the axis.
+        pub axis: [f32; 3],
+        /// Circulation over 2 pi in m²/s.
+        pub swirl_m2_s: f32,
+        /// Axial speed at the centre times squared core radius in m³/s.
+        pub axial_m3_s: f32,
     }
 }
 
 crate::shared_struct! {
-    /// What changes from step to step.
+    /// Everything that changes from step to step.
     pub struct StepBlock {
-        /// Index of the step; three unused words.
-        pub index: Uint4,
-        /// How far the mean wind has carried the gusts, in rows, and the turbulence, in cells, both within one
-        /// period; two unused.
-        pub offsets: Float4,
+        /// Index of the step.
+        pub index: u32,
+        /// Rows of the gust table that the mean wind has carried past, within one period.
+        pub gust_offset: f32,
+        /// Cells of turbulence that the mean wind has carried past, within one period.
+        pub turbulence_offset: f32,
+        /// Number of vortices.
+        pub vortex_count: u32,
         /// The vortices where they are at this step.
         pub vortices: [VortexBlock; MAX_VORTICES],
     }

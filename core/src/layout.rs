@@ -27,41 +27,44 @@ pub trait WgslStruct: Wgsl {
     }
 }
 
-/// `vec4<f32>`.
+/// `vec4<f32>`, a row of a table.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
 #[repr(C, align(16))]
 pub struct Float4(pub [f32; 4]);
 
-/// `vec4<u32>`.
+/// `vec4<u32>`, a row of a table or four words of a list in a uniform block.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Pod, Zeroable)]
 #[repr(C, align(16))]
 pub struct Uint4(pub [u32; 4]);
 
-impl Wgsl for u32 {
-    fn name() -> String {
-        "u32".into()
-    }
+/// A type of which uniform blocks hold arrays: its size is a multiple of 16 bytes.
+pub trait WgslElement: Wgsl {}
+
+macro_rules! wgsl_names {
+    ($($ty:ty: $name:literal,)*) => {
+        $(impl Wgsl for $ty {
+            fn name() -> String {
+                $name.into()
+            }
+        })*
+    };
 }
 
-impl Wgsl for f32 {
-    fn name() -> String {
-        "f32".into()
-    }
+wgsl_names! {
+    u32: "u32",
+    f32: "f32",
+    Float4: "vec4<f32>",
+    Uint4: "vec4<u32>",
+    [u32; 2]: "vec2<u32>",
+    [u32; 3]: "vec3<u32>",
+    [i32; 3]: "vec3<i32>",
+    [f32; 3]: "vec3<f32>",
+    [f32; 4]: "vec4<f32>",
 }
 
-impl Wgsl for Float4 {
-    fn name() -> String {
-        "vec4<f32>".into()
-    }
-}
+impl WgslElement for Uint4 {}
 
-impl Wgsl for Uint4 {
-    fn name() -> String {
-        "vec4<u32>".into()
-    }
-}
-
-impl<T: Wgsl, const N: usize> Wgsl for [T; N] {
+impl<T: WgslElement, const N: usize> Wgsl for [T; N] {
     fn name() -> String {
         format!("array<{}, {N}>", T::name())
     }
@@ -86,15 +89,25 @@ impl WgslConstant for f32 {
 }
 
 /// Declares a `repr(C)` struct of [`Wgsl`](crate::layout::Wgsl) fields that is plain old data and knows its WGSL
-/// declaration.
+/// declaration. An array of three numbers is a vector in WGSL, which starts at a multiple of 16 bytes: a scalar follows
+/// it. `padding` fills the struct up to a multiple of 16 bytes, as WGSL does by itself.
 #[macro_export]
 macro_rules! shared_struct {
-    ($(#[$meta:meta])* pub struct $name:ident { $($(#[$field_meta:meta])* pub $field:ident: $ty:ty,)* }) => {
+    (
+        $(#[$meta:meta])*
+        pub struct $name:ident $(, padding $padding:literal)? {
+            $($(#[$field_meta:meta])* pub $field:ident: $ty:ty,)*
+        }
+    ) => {
         $(#[$meta])*
         #[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
         #[repr(C, align(16))]
         pub struct $name {
             $($(#[$field_meta])* pub $field: $ty,)*
+            $(
+                /// Zeros up to a multiple of 16 bytes.
+                pub padding: [u8; $padding],
+            )?
         }
 
         impl $crate::layout::Wgsl for $name {
@@ -102,6 +115,8 @@ macro_rules! shared_struct {
                 stringify!($name).into()
             }
         }
+
+        impl $crate::layout::WgslElement for $name {}
 
         impl $crate::layout::WgslStruct for $name {
             fn fields() -> Vec<(&'static str, String, usize)> {

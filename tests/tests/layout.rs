@@ -6,7 +6,9 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use naga::{AddressSpace, TypeInner};
-use windfall_core::blocks::{EnvironmentBlock, SourceBlock, SpeciesBlock, StepBlock, VortexBlock, WindBlock};
+use windfall_core::blocks::{
+    EnvironmentBlock, ResponseBlock, SourceBlock, SpeciesBlock, StepBlock, VortexBlock, WindBlock,
+};
 use windfall_core::flight::block::BodyBlock;
 use windfall_core::layout::WgslStruct;
 use windfall_wgpu::{KernelId, Shaders};
@@ -51,6 +53,7 @@ fn every_module_is_valid_and_every_struct_has_one_layout() {
     same_layout::<SpeciesBlock>(&module);
     same_layout::<SourceBlock>(&module);
     same_layout::<WindBlock>(&module);
+    same_layout::<ResponseBlock>(&module);
     same_layout::<BodyBlock>(&module);
     same_layout::<EnvironmentBlock>(&module);
     same_layout::<VortexBlock>(&module);

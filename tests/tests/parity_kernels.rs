@@ -61,7 +61,7 @@ fn agree(contract: Contract, oracle: &World, candidate: &World) -> TestCaseResul
             // Leaves on twigs are as far off as the twigs; at most so fast have twigs come there within a step.
             let is_wooded = !oracle.branches.is_empty();
             let carried = if is_wooded { STEP_SEGMENT } else { 0.0 };
-            let swung = carried * oracle.environment.block().time.0[1];
+            let swung = carried * oracle.environment.block().inv_dt_s;
             // A body's step is up to 64 steps of some hundred roundings each, of forces that grow with its speed.
             let is_flown = oracle.leaves.place.iter().any(|place| flies(place.bits));
             let flown = if is_flown { 1e-3 + 3e-4 * drift } else { 0.0 };
@@ -125,13 +125,13 @@ fn a_changed_kernel_is_noticed() {
         ("prelude", "const TABLE_ROWS: u32 = 513u", "const TABLE_ROWS: u32 = 512u"),
     ];
     let flown = [
-        ("flight/rates", "- resistance,", "+ resistance,"),
+        ("flight/rates", "- normal_force,", "+ normal_force,"),
         ("leaf/fly", "motion = step.end", "motion.velocity = step.end.velocity"),
         ("kernels/fly", "arrayLength(&places)", "arrayLength(&places) / 2u"),
     ];
     let hilly = [
         ("terrain/ground", "cell.z * (far - near)", "cell.x * (far - near)"),
-        ("terrain/ground", "max(ground_relief(x, z), environment.relief.z)", "ground_relief(x, z)"),
+        ("terrain/ground", "max(ground_relief(x, z), environment.water_relief_m)", "ground_relief(x, z)"),
         ("leaf/settle", "came.x - slope.x * pull", "came.x + slope.x * pull"),
         ("leaf/settle", "flatten(quat_multiply(back, q), kept)", "flatten(q, kept)"),
         ("wind/sample", "above = height - ground_relief", "above = height + ground_relief"),

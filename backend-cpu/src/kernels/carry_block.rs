@@ -39,7 +39,7 @@ fn stalks_of<P: Pack>(
     slots: P::Word,
     first: u32,
 ) -> (Stalk<P::Word>, P::Word) {
-    let from = slots.all(cx.environment.crowns.0[1]).plus(slots.times(slots.all(PETIOLE_ROWS)));
+    let from = slots.all(cx.environment.first_petiole_row).plus(slots.times(slots.all(PETIOLE_ROWS)));
     let spans = P::spans::<{ PETIOLE_ROWS as usize }>(from, cast_slice(cx.petioles));
     let (at, segment) = four(P::column(simd, &spans, 0));
     let rest = Quat::from(P::column(simd, &spans, 1));
@@ -101,7 +101,7 @@ pub(super) fn look<P: Pack>(
         }
         leaves.drift[number].phase = habits[lane].to_bits();
         if breaks[lane] > 0.0 {
-            leaves.course[number].event = cx.step.index.0[0] + 1;
+            leaves.course[number].event = cx.step.index + 1;
             let segment = petiole_of(cx, first + word(number)).segment;
             let bearing = &mut rows.branches.bearing[(segment - rows.first) as usize];
             *bearing = bearing.wrapping_sub(1);
@@ -162,13 +162,13 @@ impl LeafBlock<'_> {
         store_vector(must_cast_mut(self.place), part, hang.position, bits);
         store_vector(must_cast_mut(self.drift), part, hang.velocity, habit);
         store_block(attitude, part, hang.attitude.to_array());
-        (hangs & event.equals(cx.step.index.0[0] + 1)).any()
+        (hangs & event.equals(cx.step.index + 1)).any()
     }
 
     /// Leaves whose petioles have broken go once more, with all that they take along.
     #[cold]
     fn break_off(&mut self, cx: &Context<'_>, rows: &Rows<'_>) {
-        let now = cx.step.index.0[0];
+        let now = cx.step.index;
         for number in 0..BLOCK {
             let is_off = self.course[number].event == now + 1;
             if is_off && leaf_hangs(cx, self.place[number].bits, self.course[number].event) {

@@ -50,10 +50,10 @@ pub(super) fn advance_eight<S: Simd>(
     let [event, rate, size, heading] = load_records(simd, must_cast_ref(course));
     let bits = places[3];
     let state = bits & STATE_MASK;
-    let waits = u32x8::splat(simd, cx.step.index.0[0]).less_than(event);
+    let waits = u32x8::splat(simd, cx.step.index).less_than(event);
     let falls = state.equals(STATE_FALLING) & waits & !flies(bits);
     let slides = !((drifts[0] | drifts[2]) << 1).equals(0);
-    let stirs = slides | drifts[3].less_than(bits.all(cx.environment.counts.0[1]));
+    let stirs = slides | drifts[3].less_than(bits.all(cx.environment.settle_steps));
     let due = !waits | (state.equals(STATE_RESTING) & stirs);
     if !falls.any() {
         return bits_of(due);
@@ -61,7 +61,7 @@ pub(super) fn advance_eight<S: Simd>(
     let start = Glide { position: vector(places), drift: vector(drifts), phase: drifts[3] };
     let response = response_of(cx, bits);
     let glide = glide_step(cx, start, bits, Manner { rate, size, heading }, response);
-    let spun = spin_advance(bits, heading, response[1]);
+    let spun = spin_advance(bits, heading, response.fastest_spin);
     let before =
         || Quat::from(load_records(simd, must_cast_ref(attitude)).map(<f32x8<S> as Real>::from_bits));
     let (bits, turned) = attitude_after(cx, spun, glide.phase, heading, before);

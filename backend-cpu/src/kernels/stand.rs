@@ -80,7 +80,7 @@ fn sway_stand(
     first_slot: u32,
     simd: Simd,
 ) {
-    if cx.environment.crowns.0[3] == SCHEME_ARTICULATED {
+    if cx.environment.sway_scheme == SCHEME_ARTICULATED {
         sway_fold(cx, &mut rows, blocks, scratch, simd);
         sway_unfold(cx, &mut rows, blocks, scratch, simd);
     } else {

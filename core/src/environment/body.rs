@@ -6,21 +6,20 @@ use std::f64::consts::PI;
 
 use glam::DVec3;
 
-use super::convert::{float4, single, word};
+use super::convert::{single, word};
 use crate::flight::block::{BodyBlock, HOLD_RANDOM, HOLD_TILTED};
 use crate::flight::coefficients::{
-    DRAG_BEND, DRAG_BORNE, DRAG_RISE, LIFT_EDGE, QUIRK_CURL, SPIN_BORNE_RAD, SWING_BORNE_RAD, TICKS_PER_S,
-    TWIST_TORQUE,
+    ASYMMETRY_CURL, DRAG_BEND, DRAG_BORNE, DRAG_RISE, LIFT_EDGE, SPIN_BORNE_RAD, SWING_BORNE_RAD,
+    TICKS_PER_S, TWIST_TORQUE,
 };
-use crate::layout::{Float4, Uint4};
 use crate::motion::AIR_DENSITY;
 use crate::scene::{Aerodynamics, FlightModel, Hold, Species};
 
 /// Descent of a body of such a mass per area, measured on paper (Howison, Hughes and Iida 2020); others as the root of it.
 const USUAL_DESCENT_M_S: f64 = 0.757;
 const USUAL_AREAL_KG_M2: f64 = 0.07;
-/// Diameters that a body falls, and something happens to it if anything does.
-const PATIENCE: f64 = 10.0;
+/// Diameters that a body falls without an event before it counts as idle.
+const IDLE_DIAMETERS: f64 = 10.0;
 
 /// The body of a species; of a synthesised one the numbers of a plain disc, which nothing uses.
 pub(super) fn body_block(species: &Species, dt_s: f32) -> BodyBlock {
@@ -44,7 +43,7 @@ pub(super) fn body_block(species: &Species, dt_s: f32) -> BodyBlock {
     let added = 4.0 / 3.0 * air * long * short * short / (elliptic * radius * radius);
     let offset =
         DVec3::new(f64::from(body.mass_offset.1), -f64::from(body.curl), f64::from(body.mass_offset.0));
-    let quirk = f64::from(body.irregularity) * radius;
+    let spread = f64::from(body.irregularity) * radius;
     let [about_x, about_z] =
         [body.gyration.0, body.gyration.1].map(|share| f64::from(share) * f64::from(share));
     let inertia = DVec3::new(about_x * along2, about_x * along2 + about_z * across2, about_z * across2);
@@ -52,26 +51,43 @@ pub(super) fn body_block(species: &Species, dt_s: f32) -> BodyBlock {
         .map(|(sweeping, other)| added_inertia(sweeping, other) * air / (PI * radius * radius));
     // Angular rate, per speed, at which the flow swings the body about the axis that resists least.
     let broadside = 0.5 * f64::from(body.edge_drag + DRAG_RISE - DRAG_BEND);
-    let lever = (broadside + f64::from(LIFT_EDGE)) * air * (offset.length() * radius + quirk);
+    let lever = (broadside + f64::from(LIFT_EDGE)) * air * (offset.length() * radius + spread);
     let swing = libm::sqrt((added + lever) / (inertia.x + air_x).min(inertia.z + air_z)) / SWING_BORNE_RAD;
     let dt = f64::from(dt_s);
     let usual_m_s = USUAL_DESCENT_M_S * libm::sqrt(areal / USUAL_AREAL_KG_M2);
+    let (hold_kind, hold_tilt) = match body.hold {
+        Hold::Random => (HOLD_RANDOM, 0),
+        Hold::Broadside => (HOLD_TILTED, 0),
+        Hold::EdgeOn => (HOLD_TILTED, tilt_q16(90.0)),
+    };
     BodyBlock {
-        air: Float4([air, added, air * along, air * across].map(single)),
-        reach: Float4(
-            [along, across, reach, TWIST_TORQUE * f64::from(body.twist) * air * radius].map(single),
+        air_per_m: single(air),
+        added_mass: single(added),
+        air_along: single(air * along),
+        air_across: single(air * across),
+        half_along_m: single(along),
+        half_across_m: single(across),
+        half_mean_m: single(reach),
+        twist_m: single(TWIST_TORQUE * f64::from(body.twist) * air * radius),
+        lift_slope_across: single(lift_slope(along, across)),
+        lift_slope_along: single(lift_slope(across, along)),
+        air_inertia_x_m2: single(air_x),
+        air_inertia_z_m2: single(air_z),
+        inertia_m2: inertia.to_array().map(single),
+        pitch_damping: body.pitch_damping,
+        centroid_m: (offset * -radius).to_array().map(single),
+        edge_drag: body.edge_drag,
+        centroid_spread_m: [spread, ASYMMETRY_CURL * spread, spread].map(single),
+        twist_spread_m: single(TWIST_TORQUE * air * spread),
+        load_per_speed: single(dt * (broadside * air / DRAG_BORNE).max(swing)),
+        load_per_spin: single(dt * (swing * long + 1.0 / SPIN_BORNE_RAD)),
+        idle_timeout_ticks: single(
+            libm::round(IDLE_DIAMETERS * 2.0 * reach / usual_m_s * TICKS_PER_S).clamp(2.0, 63.0),
         ),
-        slope: Float4([lift_slope(along, across), lift_slope(across, along), air_x, air_z].map(single)),
-        inertia: float4(inertia, body.pitch_damping.into()),
-        arm: float4(offset * -radius, body.edge_drag.into()),
-        quirks: float4(DVec3::new(quirk, QUIRK_CURL * quirk, quirk), TWIST_TORQUE * air * quirk),
-        load: Float4([
-            single(dt * (broadside * air / DRAG_BORNE).max(swing)),
-            single(dt * (swing * long + 1.0 / SPIN_BORNE_RAD)),
-            single(libm::round(PATIENCE * 2.0 * reach / usual_m_s * TICKS_PER_S).clamp(2.0, 63.0)),
-            0.0,
-        ]),
-        hold: hold_words(&body),
+        hold_kind,
+        hold_tilt,
+        hold_spread: tilt_q16(f64::from(body.tilt_deg)),
+        padding: Default::default(),
     }
 }
 
@@ -95,13 +111,7 @@ fn lift_slope(span: f64, chord: f64) -> f64 {
     slope(4.0 * span / (PI * chord)) / slope(4.0 / PI)
 }
 
-/// Kind, tilt and half width of its spread.
-fn hold_words(body: &Aerodynamics) -> Uint4 {
-    let tilt = |degrees: f64| word(degrees / 360.0 * 65536.0);
-    let spread = tilt(f64::from(body.tilt_deg));
-    match body.hold {
-        Hold::Random => Uint4([HOLD_RANDOM, 0, 0, 0]),
-        Hold::Broadside => Uint4([HOLD_TILTED, 0, spread, 0]),
-        Hold::EdgeOn => Uint4([HOLD_TILTED, tilt(90.0), spread, 0]),
-    }
+/// An angle in 2^-16 turns.
+fn tilt_q16(degrees: f64) -> u32 {
+    word(degrees / 360.0 * 65536.0)
 }

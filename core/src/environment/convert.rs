@@ -2,10 +2,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Numbers of a scene as the words and floats of a block.
 
-use glam::DVec3;
-
-use crate::layout::Float4;
-
 #[expect(clippy::cast_possible_truncation, reason = "kernels work in single precision")]
 pub(super) fn single(value: f64) -> f32 {
     value as f32
@@ -38,8 +34,4 @@ pub(super) fn steps(seconds: f32, dt_s: f32) -> u32 {
 
 pub(super) fn q16(value: f32) -> u32 {
     word(f64::from(value) * 65536.0)
-}
-
-pub(super) fn float4(v: DVec3, w: f64) -> Float4 {
-    Float4([single(v.x), single(v.y), single(v.z), single(w)])
 }

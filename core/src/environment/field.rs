@@ -6,7 +6,6 @@ use glam::DVec3;
 
 use super::Environment;
 use super::convert::single;
-use crate::layout::Float4;
 use crate::wind::gust::GUST_ROWS;
 use crate::wind::profile::PROFILE_ROWS;
 use crate::wind::turbulence::{
@@ -49,13 +48,12 @@ impl Environment {
         let mut wind = self.wind.to_vec();
         wind.splice(first..first + 2 * count, turbulence_rows(&nodes));
         self.wind = wind.into();
-        self.block.wind.deviation = Float4([unit[0], unit[1], unit[2], 0.0]);
+        self.block.wind.deviation_m_s = unit;
     }
 
     /// Size of a cell of the box that [`Environment::set_wind_field`] samples, in metres: along the wind
     /// `wind.turbulence.cell_m`, upwards 0.5 and across 0.8 of it.
     pub fn wind_cell_m(&self) -> DVec3 {
-        let per_metre = self.block.wind.cells.0;
-        DVec3::new(per_metre[0].into(), per_metre[1].into(), per_metre[2].into()).recip()
+        glam::Vec3::from(self.block.wind.cells_per_m).as_dvec3().recip()
     }
 }

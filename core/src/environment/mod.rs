@@ -15,18 +15,14 @@ mod wind;
 
 use std::sync::Arc;
 
-use glam::DVec3;
-
-use self::block::{compile_block, displacement_gain, ground_numbers, relief_numbers, scheme};
-use self::convert::{float4, len32, q16};
+use self::block::{compile_block, retune_block};
+use self::convert::{len32, single};
 pub use self::cycle::Cycle;
 use self::cycle::firm;
 pub(crate) use self::foliage::leaf_site;
 use self::foliage::{foliage_of, petiole_rows, seedlings, shed_rows};
 pub(crate) use self::source::{lifetime_steps, release_step};
-use self::species::response;
 use self::tables::{pack_motion, tables_of};
-use self::wind::wind_block;
 use crate::blocks::{EnvironmentBlock, StepBlock, VortexBlock};
 use crate::clock::Clock;
 use crate::context::Context;
@@ -91,8 +87,8 @@ impl Environment {
         if let Some(cycle) = &cycle {
             firm(&mut petioles);
             // A slot's next leaf is its last one again.
-            block.seed.0[2] = 0;
-            block.crowns.0[2] = cycle.flutter(scene.dt_s);
+            block.ids_per_life = 0;
+            block.flutter_per_step = cycle.flutter(scene.dt_s);
         }
         let forest = Forest::plant(seedlings(scene, |x, z| foot_height(&block, &wind, x, z))?, scene.dt_s);
         petioles.extend(petiole_rows(scene, &forest, &kinds));
@@ -130,24 +126,7 @@ impl Environment {
             petioles.extend_from_slice(&self.petioles[petioles.len()..]);
             self.petioles = petioles.into();
         }
-        let old = self.block;
-        self.block = EnvironmentBlock {
-            counts: Uint4([
-                old.counts.0[0],
-                old.counts.0[1],
-                old.counts.0[2],
-                q16(self.scene.rotation_speed),
-            ]),
-            time: Float4([old.time.0[0], old.time.0[1], old.time.0[2], displacement_gain(&self.scene)]),
-            ground: ground_numbers(&self.scene),
-            relief: relief_numbers(&self.scene),
-            wind: wind_block(&self.scene),
-            crowns: Uint4([old.crowns.0[0], old.crowns.0[1], old.crowns.0[2], scheme(&self.scene)]),
-            ..old
-        };
-        for (species, block) in self.scene.species.iter().zip(&mut self.block.responses) {
-            *block = response(&self.scene, species);
-        }
+        retune_block(&self.scene, &mut self.block);
     }
 
     /// Number of rows of each store of a world of this scene, in the order of [`World::stores`](crate::World::stores).
@@ -219,19 +198,19 @@ impl Environment {
             let axis = vortex.axis.as_dvec3().normalize();
             let core_squared = f64::from(vortex.core_m) * f64::from(vortex.core_m);
             *block = VortexBlock {
-                center: float4(center, core_squared),
-                axis: float4(axis, f64::from(vortex.circulation_m2_s) / std::f64::consts::TAU),
-                axial: float4(DVec3::X * (f64::from(vortex.axial_m_s) * core_squared), 0.0),
+                center_m: center.to_array().map(single),
+                core_m2: single(core_squared),
+                axis: axis.to_array().map(single),
+                swirl_m2_s: single(f64::from(vortex.circulation_m2_s) / std::f64::consts::TAU),
+                axial_m3_s: single(f64::from(vortex.axial_m_s) * core_squared),
+                padding: Default::default(),
             };
         }
         StepBlock {
-            index: Uint4([clock.step(), 0, 0, 0]),
-            offsets: Float4([
-                carried(wind.gust.0[1], GUST_ROWS, |cycle| cycle.gust_rows),
-                carried(wind.cells.0[0], TURBULENCE_X, |cycle| cycle.cells),
-                0.0,
-                0.0,
-            ]),
+            index: clock.step(),
+            gust_offset: carried(wind.gust_rows_per_m, GUST_ROWS, |cycle| cycle.gust_rows),
+            turbulence_offset: carried(wind.cells_per_m[0], TURBULENCE_X, |cycle| cycle.cells),
+            vortex_count: len32(self.scene.wind.vortices.len()),
             vortices,
         }
     }
@@ -254,7 +233,7 @@ impl Environment {
 
     /// Distance in metres that the mean wind travels in one step.
     pub fn wind_travel_per_step_m(&self) -> f64 {
-        f64::from(self.block.wind.mean.0[2]) * f64::from(self.scene.dt_s)
+        f64::from(self.block.wind.mean_speed_m_s) * f64::from(self.scene.dt_s)
     }
 }
 
@@ -263,5 +242,5 @@ fn foot_height(block: &EnvironmentBlock, wind: &[Uint4], x_m: f32, z_m: f32) -> 
     let step = bytemuck::Zeroable::zeroed();
     let cx = Context { environment: block, step: &step, motion: MotionRows::new(&[]), wind, petioles: &[] };
     let relief = if block.has_terrain() { ground_relief(&cx, x_m, z_m) } else { 0.0 };
-    block.wind.gust.0[2] + relief
+    block.ground_height_m + relief
 }

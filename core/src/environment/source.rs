@@ -1,13 +1,12 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Compiles a source, and says when its slots are released.
+//! Compiles a source, and the steps at which its slots are released.
 
 use super::convert::{low_word, steps};
 use crate::blocks::{NEVER, SOURCE_BOX, SOURCE_DISC, SOURCE_SPHERE, SourceBlock};
-use crate::layout::Uint4;
 use crate::scene::{MAX_SPECIES, Release, Scene, Source, SourceShape, Species};
 
-pub(super) fn source_block(scene: &Scene, source: &Source, first: u32) -> SourceBlock {
+pub(super) fn source_block(scene: &Scene, source: &Source) -> SourceBlock {
     let (center, extent, kind) = match source.shape {
         SourceShape::Box { center_m, half_extent_m } => (center_m, half_extent_m, SOURCE_BOX),
         SourceShape::Disc { center_m, radius_m } => {
@@ -15,26 +14,19 @@ pub(super) fn source_block(scene: &Scene, source: &Source, first: u32) -> Source
         }
         SourceShape::Sphere { center_m, radius_m } => (center_m, glam::Vec3::splat(radius_m), SOURCE_SPHERE),
     };
-    let center = center.to_array().map(length_units).map(|units| units as u32);
-    let extent = extent.to_array().map(length_units).map(|units| units as u32);
-    let start = release_step(scene, source, 0);
     SourceBlock {
-        center: Uint4([center[0], center[1], center[2], kind]),
-        extent: Uint4([extent[0], extent[1], extent[2], 0]),
-        timing: Uint4([first, source.count, low_word(start), lifetime_steps(scene, source)]),
+        center_units: center.to_array().map(length_units),
+        kind,
+        extent_units: extent.to_array().map(|metres| length_units(metres) as u32),
+        lifetime_steps: lifetime_steps(scene, source),
         shares: bytemuck::cast(share_ends(scene, source)),
     }
 }
 
-/// The trees as a source: what happens to their leaves once they are off.
+/// The trees as a source: their leaves grow back after its lifetime.
 pub(super) fn trees_block(scene: &Scene) -> SourceBlock {
     SourceBlock {
-        timing: Uint4([
-            0,
-            scene.tree_leaf_count(),
-            0,
-            scene.regrow_after_s.map_or(0, |s| steps(s, scene.dt_s)),
-        ]),
+        lifetime_steps: scene.regrow_after_s.map_or(0, |s| steps(s, scene.dt_s)),
         ..bytemuck::Zeroable::zeroed()
     }
 }

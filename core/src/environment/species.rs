@@ -4,8 +4,7 @@
 
 use super::convert::{single, word};
 use super::wind::deviation_m_s;
-use crate::blocks::SpeciesBlock;
-use crate::layout::{Float4, Uint4};
+use crate::blocks::{ResponseBlock, SpeciesBlock};
 use crate::leaf::record::{AERODYNAMIC, SIZE_ONE};
 use crate::motion::{MotionConstants, MotionTables};
 use crate::scene::{FlightModel, Scene, Species};
@@ -24,35 +23,34 @@ pub(super) fn species_block(scene: &Scene, species: &Species, tables: &MotionTab
     for (count, entry) in transitions.iter_mut().zip(species.transitions.0.iter().flatten()) {
         *count = *entry;
     }
-    let start = match species.flight {
+    let first_motion = match species.flight {
         FlightModel::Synthesis => species.start as u32,
         FlightModel::Aerodynamic(_) => AERODYNAMIC,
     };
     SpeciesBlock {
-        scales: Uint4([
-            word(65536.0 / (constants.descent_m_s * dt)),
-            spread(species.size_variation),
-            spread(species.speed_variation),
-            0,
-        ]),
-        start: Uint4([start, 0, 0, 0]),
+        fall_steps_q16_per_m: word(65536.0 / (constants.descent_m_s * dt)),
+        size_spread_q14: spread(species.size_variation),
+        speed_spread_q14: spread(species.speed_variation),
+        first_motion,
         rates: bytemuck::cast(rates),
         transitions: bytemuck::cast(transitions),
     }
 }
 
-/// How a species answers the wind (see [`EnvironmentBlock::responses`]).
-///
-/// [`EnvironmentBlock::responses`]: crate::blocks::EnvironmentBlock::responses
-pub(super) fn response(scene: &Scene, species: &Species) -> Float4 {
+pub(super) fn response_block(scene: &Scene, species: &Species) -> ResponseBlock {
     let tau = MotionConstants::of(species).response_s();
     let decay = libm::exp(-f64::from(scene.dt_s) / tau);
-    Float4([single(decay), spin_unit(scene, species), single(tau), single(1.0 / tau)])
+    ResponseBlock {
+        drift_kept: single(decay),
+        fastest_spin: fastest_spin(scene, species),
+        time_constant_s: single(tau),
+        inv_time_constant: single(1.0 / tau),
+    }
 }
 
 /// Fastest spin per step in 2^-18 turns, a whole number. Wind makes leaves spin faster by what they lag behind its turbulence, in
 /// units of their own descent: an average over the scene, so that the angle stays an integer everywhere.
-fn spin_unit(scene: &Scene, species: &Species) -> f32 {
+fn fastest_spin(scene: &Scene, species: &Species) -> f32 {
     let constants = MotionConstants::of(species);
     let mean = scene.wind.speed.metres_per_second();
     let deviation = f64::from(deviation_m_s(&scene.wind));

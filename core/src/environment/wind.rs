@@ -2,12 +2,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Compiles the wind.
 
-use super::convert::{len32, single};
+use super::convert::single;
 use crate::blocks::WindBlock;
-use crate::layout::{Float4, Uint4};
 use crate::scene::{Scene, WindParameters};
 use crate::wind::gust::{GUST_ROWS, GUST_SPACING};
-use crate::wind::profile::{PROFILE_PER_METRE, PROFILE_ROWS};
+use crate::wind::profile::PROFILE_ROWS;
 
 /// Turbulence up and across the wind relative to along it (IEC 61400-1).
 const DEVIATION_RATIOS: [f32; 3] = [1.0, 0.5, 0.8];
@@ -18,23 +17,18 @@ pub(super) fn wind_block(scene: &Scene) -> WindBlock {
     let (sin, cos) = libm::sincos(f64::from(wind.direction_deg).to_radians());
     let gust_length = speed * f64::from(wind.gusts.interval_s) / f64::from(GUST_SPACING);
     let deviation = deviation_m_s(wind);
-    let cells = DEVIATION_RATIOS.map(|ratio| 1.0 / (ratio * wind.turbulence.cell_m));
     WindBlock {
-        mean: Float4([single(cos), single(sin), single(speed), PROFILE_PER_METRE]),
-        gust: Float4([
-            wind.gusts.strength,
-            if gust_length > 0.0 { single(1.0 / gust_length) } else { 0.0 },
-            scene.ground.height_m,
-            0.0,
-        ]),
-        deviation: Float4([
-            deviation * DEVIATION_RATIOS[0],
-            deviation * DEVIATION_RATIOS[1],
-            deviation * DEVIATION_RATIOS[2],
-            0.0,
-        ]),
-        cells: Float4([cells[0], cells[1], cells[2], 0.0]),
-        tables: Uint4([0, PROFILE_ROWS, PROFILE_ROWS + GUST_ROWS, len32(wind.vortices.len())]),
+        direction_x: single(cos),
+        direction_z: single(sin),
+        mean_speed_m_s: single(speed),
+        gust_strength: wind.gusts.strength,
+        deviation_m_s: DEVIATION_RATIOS.map(|ratio| deviation * ratio),
+        gust_rows_per_m: if gust_length > 0.0 { single(1.0 / gust_length) } else { 0.0 },
+        cells_per_m: DEVIATION_RATIOS.map(|ratio| 1.0 / (ratio * wind.turbulence.cell_m)),
+        first_profile_row: 0,
+        first_gust_row: PROFILE_ROWS,
+        first_turbulence_row: PROFILE_ROWS + GUST_ROWS,
+        padding: Default::default(),
     }
 }
 

@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A species as a body, as kernels read it.
 
-use crate::layout::{Float4, Uint4};
-
 crate::shared_constants! {
     /// Rows of four numbers in a body's block.
     pub const BODY_ROWS: u32 = 8;
+    /// Row of the loads on a step.
+    pub const BODY_LOAD_ROW: u32 = 6;
     /// Held any way round.
     pub const HOLD_RANDOM: u32 = 0;
     /// Held at the angle that the block says.
@@ -15,25 +15,60 @@ crate::shared_constants! {
 
 crate::shared_struct! {
     /// A species as a body, for a leaf of nominal size, per unit of mass. x is across the leaf, y its normal, z along it.
-    pub struct BodyBlock {
-        /// Density of the air over mass per area in 1/m; added mass over mass; the first times the half axes along and
-        /// across.
-        pub air: Float4,
-        /// Half axis along, half axis across, their geometric mean in m; torque of twist in m.
-        pub reach: Float4,
-        /// Slope of the lift of slip across and along relative to a disc's; inertia of the air over mass about x and z in
-        /// m², for it grows with the cube of the size.
-        pub slope: Float4,
-        /// Inertia over mass about x, y, z in m²; damping of pitching.
-        pub inertia: Float4,
-        /// Middle of the area from the centre of mass in m; drag edge-on.
-        pub arm: Float4,
-        /// Half widths of the spread of that place and of the torque of twist.
-        pub quirks: Float4,
-        /// Load on a step per speed in s/m and per spin in s; ticks in which something happens to it if anything does;
-        /// unused.
-        pub load: Float4,
-        /// How it is held before a release: kind, tilt and half width of its spread in 2^-16 turns; unused.
-        pub hold: Uint4,
+    pub struct BodyBlock, padding 8 {
+        /// Density of the air over mass per area in 1/m.
+        pub air_per_m: f32,
+        /// Added mass over mass.
+        pub added_mass: f32,
+        /// Density of the air over mass per area times the half axis along.
+        pub air_along: f32,
+        /// Density of the air over mass per area times the half axis across.
+        pub air_across: f32,
+        /// Half axis along in m.
+        pub half_along_m: f32,
+        /// Half axis across in m.
+        pub half_across_m: f32,
+        /// Geometric mean of the half axes in m.
+        pub half_mean_m: f32,
+        /// Torque of twist in m.
+        pub twist_m: f32,
+        /// Slope of the lift of slip across relative to a disc's.
+        pub lift_slope_across: f32,
+        /// Slope of the lift of slip along relative to a disc's.
+        pub lift_slope_along: f32,
+        /// Inertia of the air over mass about x in m², which grows with the size.
+        pub air_inertia_x_m2: f32,
+        /// Inertia of the air over mass about z in m², which grows with the size.
+        pub air_inertia_z_m2: f32,
+        /// Inertia over mass about x, y, z in m².
+        pub inertia_m2: [f32; 3],
+        /// Damping of pitching.
+        pub pitch_damping: f32,
+        /// Centroid relative to the centre of mass in m.
+        pub centroid_m: [f32; 3],
+        /// Drag edge-on.
+        pub edge_drag: f32,
+        /// Half widths of the spread of the centroid in m.
+        pub centroid_spread_m: [f32; 3],
+        /// Half width of the spread of the torque of twist in m.
+        pub twist_spread_m: f32,
+        /// Load on a step per speed in s/m.
+        pub load_per_speed: f32,
+        /// Load on a step per spin in s.
+        pub load_per_spin: f32,
+        /// Ticks after which a fall without an event counts as idle.
+        pub idle_timeout_ticks: f32,
+        /// Pose before a release: [`HOLD_RANDOM`] or [`HOLD_TILTED`].
+        pub hold_kind: u32,
+        /// Tilt of that pose in 2^-16 turns.
+        pub hold_tilt: u32,
+        /// Half width of the spread of the tilt in 2^-16 turns.
+        pub hold_spread: u32,
     }
 }
+
+const _: () = assert!(
+    core::mem::offset_of!(BodyBlock, load_per_speed) == BODY_LOAD_ROW as usize * 16,
+    "the loads begin a row"
+);
+const _: () = assert!(size_of::<BodyBlock>() == BODY_ROWS as usize * 16, "rows of four numbers");

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! twin: backend-wgpu/src/shaders/flight/body.wgsl
 //!
-//! What a leaf's shape and mass make of the air's forces: a species' block, scaled to a leaf and bent by its quirks.
+//! A leaf as a body under the air's forces: its species' block, scaled to its size and made asymmetric.
 //!
-//! Everything is per unit of mass, and turning is told as a speed: spin times the leaf's size ratio. So most numbers are
-//! the same for leaves of all sizes.
+//! Everything is per unit of mass, and turning is expressed as spin times the leaf's size ratio. So most numbers are the
+//! same for leaves of all sizes.
 
 use super::block::BODY_ROWS;
 use crate::context::Context;
@@ -16,75 +16,107 @@ use crate::leaf::record::{
     HALF_MASK, QUIRK_MASK, QUIRK_MIDDLE, QUIRK_SHIFT, QUIRK_UNIT, SIZE_UNIT, SPECIES_MASK, SPECIES_SHIFT,
 };
 
-/// A leaf as a body, or eight of them. Turning speeds are spins times `size`.
+/// A leaf as a body, or eight of them. Turning speeds are spins times `size_ratio`.
 #[derive(Clone, Copy, Debug)]
-pub struct Body<R: Real = f32> {
-    /// Size relative to the species', and its inverse.
-    pub size: [R; 2],
-    /// Density of the air over mass per area in 1/m; added mass over mass per size; the first times the half axes along
-    /// and across.
-    pub air: [R; 4],
-    /// Half axes along and across and their geometric mean in m; torque of twist in m.
-    pub reach: [R; 4],
-    /// Slope of the lift of slip across and along relative to a disc's.
-    pub slope: [R; 2],
-    /// Damping of pitching; drag edge-on.
-    pub own: [R; 2],
+pub struct LeafBody<R: Real = f32> {
+    /// Size relative to the species'.
+    pub size_ratio: R,
+    /// Its inverse.
+    pub inv_size_ratio: R,
+    /// Density of the air over mass per area in 1/m.
+    pub air_per_m: R,
+    /// Added mass over mass, per size ratio.
+    pub added_mass: R,
+    /// Density of the air over mass per area times the half axis along.
+    pub air_along: R,
+    /// Density of the air over mass per area times the half axis across.
+    pub air_across: R,
+    /// Half axis along in m.
+    pub half_along_m: R,
+    /// Half axis across in m.
+    pub half_across_m: R,
+    /// Geometric mean of the half axes in m.
+    pub half_mean_m: R,
+    /// Torque of twist in m.
+    pub twist_m: R,
+    /// Slope of the lift of slip across relative to a disc's.
+    pub lift_slope_across: R,
+    /// Slope of the lift of slip along relative to a disc's.
+    pub lift_slope_along: R,
+    /// Damping of pitching.
+    pub pitch_damping: R,
+    /// Drag edge-on.
+    pub edge_drag: R,
     /// Force over mass, per acceleration that it had without it, with which the air resists being pushed along the normal.
     pub resistance: R,
     /// Inverse inertia over mass about x, y, z in 1/m².
-    pub ease: Vec3<R>,
-    /// What turning about two axes makes of turning about the third, times the inverse size.
+    pub inv_inertia: Vec3<R>,
+    /// Gyroscopic coupling: rate of turning about each axis per product of the turning about the two others, times the
+    /// inverse size ratio.
     pub gyration: Vec3<R>,
-    /// Middle of the area from the centre of mass, for a leaf of nominal size, in m.
-    pub arm: Vec3<R>,
+    /// Centroid relative to the centre of mass, for a leaf of nominal size, in m.
+    pub centroid: Vec3<R>,
 }
 
-/// One of four irregularities, -1 to 1.
+/// Row of four numbers of the body of a species.
 #[inline(always)]
-pub fn body_quirk<W: Word>(size: W, number: u32) -> W::Real {
+pub fn body_row<W: Word>(cx: &Context<'_>, bits: W, row: u32) -> [W::Real; 4] {
+    let first = ((bits >> SPECIES_SHIFT) & SPECIES_MASK).times(bits.all(BODY_ROWS));
+    first.plus(first.all(row)).look_up(bytemuck::cast_slice(&cx.environment.bodies))
+}
+
+/// One of a leaf's four asymmetries, -1 to 1.
+#[inline(always)]
+pub fn body_asymmetry<W: Word>(size: W, number: u32) -> W::Real {
     (((size >> (QUIRK_SHIFT + 4 * number)) & QUIRK_MASK).to_real() - QUIRK_MIDDLE) * QUIRK_UNIT
 }
 
 /// The body of a leaf with these bits and this size word.
 #[inline(always)]
-pub fn body_of<W: Word>(cx: &Context<'_>, bits: W, size: W) -> Body<W::Real> {
-    let first = ((bits >> SPECIES_SHIFT) & SPECIES_MASK).times(bits.all(BODY_ROWS));
-    let rows: &[[f32; 4]] = bytemuck::cast_slice(&cx.environment.bodies);
-    let air = first.look_up(rows);
-    let reach = first.plus(first.all(1)).look_up(rows);
-    let slope = first.plus(first.all(2)).look_up(rows);
-    let inertia = first.plus(first.all(3)).look_up(rows);
-    let middle = first.plus(first.all(4)).look_up(rows);
-    let quirks = first.plus(first.all(5)).look_up(rows);
+pub fn body_of<W: Word>(cx: &Context<'_>, bits: W, size: W) -> LeafBody<W::Real> {
+    let [air_per_m, added_mass, air_along, air_across] = body_row(cx, bits, 0);
+    let [half_along_m, half_across_m, half_mean_m, twist_m] = body_row(cx, bits, 1);
+    let [lift_slope_across, lift_slope_along, air_inertia_x, air_inertia_z] = body_row(cx, bits, 2);
+    let [inertia_x, inertia_y, inertia_z, pitch_damping] = body_row(cx, bits, 3);
+    let [centroid_x, centroid_y, centroid_z, edge_drag] = body_row(cx, bits, 4);
+    let [spread_x, spread_y, spread_z, twist_spread] = body_row(cx, bits, 5);
 
-    let ratio = (size & HALF_MASK).to_real() * SIZE_UNIT;
-    let smallness = reciprocal(ratio);
-    let x = inertia[0] + slope[2] * ratio;
-    let y = inertia[1];
-    let z = inertia[2] + slope[3] * ratio;
-    let ease = Vec3::new(reciprocal(x), reciprocal(y), reciprocal(z));
+    let size_ratio = (size & HALF_MASK).to_real() * SIZE_UNIT;
+    let inv_size_ratio = reciprocal(size_ratio);
+    let x = inertia_x + air_inertia_x * size_ratio;
+    let y = inertia_y;
+    let z = inertia_z + air_inertia_z * size_ratio;
+    let inv_inertia = Vec3::new(reciprocal(x), reciprocal(y), reciprocal(z));
     let gyration = Vec3::new(
-        ((y - z) * ease.x) * smallness,
-        ((z - x) * ease.y) * smallness,
-        ((x - y) * ease.z) * smallness,
+        ((y - z) * inv_inertia.x) * inv_size_ratio,
+        ((z - x) * inv_inertia.y) * inv_size_ratio,
+        ((x - y) * inv_inertia.z) * inv_size_ratio,
     );
-    let arm = Vec3::new(
-        middle[0] + body_quirk(size, 0) * quirks[0],
-        middle[1] + body_quirk(size, 1) * quirks[1],
-        middle[2] + body_quirk(size, 2) * quirks[2],
+    let centroid = Vec3::new(
+        centroid_x + body_asymmetry(size, 0) * spread_x,
+        centroid_y + body_asymmetry(size, 1) * spread_y,
+        centroid_z + body_asymmetry(size, 2) * spread_z,
     );
-    let added = air[1] * ratio;
-    let swing = (arm.x * arm.x) * ease.z + (arm.z * arm.z) * ease.x;
-    Body {
-        size: [ratio, smallness],
-        air,
-        reach: [reach[0], reach[1], reach[2], reach[3] + body_quirk(size, 3) * quirks[3]],
-        slope: [slope[0], slope[1]],
-        own: [inertia[3], middle[3]],
+    let added = added_mass * size_ratio;
+    let swing = (centroid.x * centroid.x) * inv_inertia.z + (centroid.z * centroid.z) * inv_inertia.x;
+    LeafBody {
+        size_ratio,
+        inv_size_ratio,
+        air_per_m,
+        added_mass,
+        air_along,
+        air_across,
+        half_along_m,
+        half_across_m,
+        half_mean_m,
+        twist_m: twist_m + body_asymmetry(size, 3) * twist_spread,
+        lift_slope_across,
+        lift_slope_along,
+        pitch_damping,
+        edge_drag,
         resistance: added * reciprocal((added + added * swing) + 1.0),
-        ease,
+        inv_inertia,
         gyration,
-        arm,
+        centroid,
     }
 }

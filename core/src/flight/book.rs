@@ -61,8 +61,7 @@ pub(crate) struct FlightBook {
 impl FlightBook {
     /// Follows the drops of a species.
     pub(crate) fn new(cx: &Context<'_>, species: u32) -> Self {
-        let steps =
-            (1..).take_while(|&step| f64::from(step) * f64::from(cx.environment.time.0[0]) < FOLLOWED_S);
+        let steps = (1..).take_while(|&step| f64::from(step) * f64::from(cx.environment.dt_s) < FOLLOWED_S);
         let steps = steps.count();
         let bits = STATE_FALLING | (AERODYNAMIC << PRIMITIVE_SHIFT) | (species << SPECIES_SHIFT);
         let follow = |id: u32| {
@@ -82,7 +81,7 @@ impl FlightBook {
     /// The flight of body `id`, let go `elapsed` steps ago from the origin, `height` metres above the ground; and whether
     /// it is down by then.
     pub(crate) fn look_up(&self, cx: &Context<'_>, id: u32, elapsed: u32, height: f32) -> (Flight, bool) {
-        let words = random([cx.environment.seed.0[0], cx.environment.seed.0[1]], id, STREAM_BOOK);
+        let words = random(cx.environment.seed, id, STREAM_BOOK);
         let drop = &self.drops[(words[0] % DROPS) as usize];
         let turn = turn_about_y(words[1]);
         let step = elapsed as usize;
@@ -97,8 +96,8 @@ impl FlightBook {
 
 /// The books of all species that fly as bodies, by number.
 pub(crate) fn flight_books(cx: &Context<'_>) -> Vec<Option<FlightBook>> {
-    let flies = |species: u32| cx.environment.species[species as usize].start.0[0] == AERODYNAMIC;
-    (0..cx.environment.seed.0[3])
+    let flies = |species: u32| cx.environment.species[species as usize].first_motion == AERODYNAMIC;
+    (0..cx.environment.species_count)
         .map(|species| flies(species).then(|| FlightBook::new(cx, species)))
         .collect()
 }

@@ -37,7 +37,7 @@ crate::shared_constants! {
 /// Torque of a fully twisted blade about its normal.
 pub const TWIST_TORQUE: f64 = 0.2;
 /// Spread of the place of the forces along the normal, per spread within the blade.
-pub const QUIRK_CURL: f64 = 1.5;
+pub const ASYMMETRY_CURL: f64 = 1.5;
 /// Share of its speed that drag may take from a body in a step: three quarters above it the steps blow up.
 pub const DRAG_BORNE: f64 = 1.6;
 /// Angle in rad by which the flow may swing a body within its oscillation in a step: at 2.8 the steps blow up.

@@ -4,8 +4,8 @@
 //!
 //! The classical fourth-order Runge-Kutta step of a body, and how finely a step has to be cut.
 
-use super::body::Body;
-use super::rates::{Motion, Rates, flight_rates};
+use super::body::LeafBody;
+use super::rates::{FlightMotion, flight_rates};
 use crate::kernel::lane::{Mask, Real};
 use crate::kernel::quaternion::{Quat, quat_normalize};
 use crate::kernel::vector::Vec3;
@@ -21,8 +21,8 @@ crate::shared_constants! {
 
 /// The motion that these rates lead to after a time in s.
 #[inline(always)]
-pub fn flight_stage<R: Real>(motion: &Motion<R>, rates: &Rates<R>, time: R) -> Motion<R> {
-    Motion {
+pub fn flight_stage<R: Real>(motion: &FlightMotion<R>, rates: &FlightMotion<R>, time: R) -> FlightMotion<R> {
+    FlightMotion {
         velocity: motion.velocity + rates.velocity * time,
         pose: Quat::new(
             motion.pose.x + rates.pose.x * time,
@@ -36,8 +36,8 @@ pub fn flight_stage<R: Real>(motion: &Motion<R>, rates: &Rates<R>, time: R) -> M
 
 /// The sum of two rates.
 #[inline(always)]
-pub fn flight_sum<R: Real>(a: &Rates<R>, b: &Rates<R>) -> Rates<R> {
-    Motion {
+pub fn flight_sum<R: Real>(a: &FlightMotion<R>, b: &FlightMotion<R>) -> FlightMotion<R> {
+    FlightMotion {
         velocity: a.velocity + b.velocity,
         pose: Quat::new(a.pose.x + b.pose.x, a.pose.y + b.pose.y, a.pose.z + b.pose.z, a.pose.w + b.pose.w),
         turning: a.turning + b.turning,
@@ -47,11 +47,11 @@ pub fn flight_sum<R: Real>(a: &Rates<R>, b: &Rates<R>) -> Rates<R> {
 /// One step of `time` seconds: way in m and the motion at its end.
 #[inline(always)]
 pub fn flight_step<R: Real>(
-    body: &Body<R>,
-    motion: &Motion<R>,
+    body: &LeafBody<R>,
+    motion: &FlightMotion<R>,
     wind: Vec3<R>,
     time: R,
-) -> (Vec3<R>, Motion<R>) {
+) -> (Vec3<R>, FlightMotion<R>) {
     let half = time * 0.5;
     let k1 = flight_rates(body, motion, wind);
     let k2 = flight_rates(body, &flight_stage(motion, &k1, half), wind);

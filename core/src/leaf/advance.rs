@@ -20,14 +20,14 @@ use crate::context::Context;
 /// Whether something happens to a leaf in this step.
 #[inline(always)]
 pub fn leaf_is_due(cx: &Context<'_>, leaf: &LeafMut<'_>) -> bool {
-    cx.step.index.0[0] >= leaf.course.event
+    cx.step.index >= leaf.course.event
 }
 
 /// Whether a leaf on the ground still slides or lies down.
 #[inline(always)]
 pub fn leaf_stirs(cx: &Context<'_>, leaf: &LeafMut<'_>) -> bool {
     let [x, _, z] = leaf.drift.velocity;
-    leaf.drift.phase < cx.environment.counts.0[1] || ((x.to_bits() | z.to_bits()) << 1) != 0
+    leaf.drift.phase < cx.environment.settle_steps || ((x.to_bits() | z.to_bits()) << 1) != 0
 }
 
 /// One step of a leaf to which nothing happens in it: it goes on falling, or lies still. Other leaves are left alone, and
@@ -47,16 +47,16 @@ pub fn leaf_advance_plain(cx: &Context<'_>, leaf: &mut LeafMut<'_>) -> bool {
 /// One step of a leaf that is due: it is released, its petiole has broken, or it comes to the end of a stage.
 #[inline(always)]
 pub fn leaf_advance_due(cx: &Context<'_>, leaf: &mut LeafMut<'_>) {
-    let now = cx.step.index.0[0];
+    let now = cx.step.index;
     let source = (leaf.identity.look >> SOURCE_SHIFT) & SOURCE_MASK;
-    let lifetime = cx.environment.sources[source as usize].timing.0[3];
+    let lifetime = cx.environment.sources[source as usize].lifetime_steps;
     let state = leaf.place.bits & STATE_MASK;
     if state == STATE_ATTACHED {
         leaf_detach(cx, leaf, now);
     } else if state == STATE_DORMANT {
         leaf_release(cx, leaf, leaf.identity.id, source, now);
     } else if source != SOURCE_TREES && lifetime != 0 && now.wrapping_sub(leaf.identity.release) >= lifetime {
-        leaf_release(cx, leaf, leaf.identity.id.wrapping_add(cx.environment.seed.0[2]), source, now);
+        leaf_release(cx, leaf, leaf.identity.id.wrapping_add(cx.environment.ids_per_life), source, now);
     }
     if (leaf.place.bits & STATE_MASK) == STATE_FALLING && !flies(leaf.place.bits) {
         leaf_fall_joining(cx, leaf);

@@ -131,13 +131,13 @@ pub fn leaf_hang<W: Word>(
     let still = quat_multiply(segment.pose, stalk.rest);
     let tip = quat_rotate(still, along);
     let side = quat_rotate(still, Vec3::new(1.0, 0.0, 0.0).spread(habit));
-    let mean = cx.environment.wind.mean.0;
-    let wind = Vec3::new(mean[0], 0.0, mean[1]).spread(habit);
+    let mean = &cx.environment.wind;
+    let wind = Vec3::new(mean.direction_x, 0.0, mean.direction_z).spread(habit);
     let share = habit * reciprocal(habit + LEAN_SPEED);
     let unrest = share * share;
-    let rate = cx.environment.crowns.0[2];
+    let rate = cx.environment.flutter_per_step;
     let own_rate = slot.all(rate).plus(slot.all(rate >> 5).times(slot & 15));
-    let phase = own_rate.times(slot.all(cx.step.index.0[0])).plus(slot.times(slot.all(0x9E37_79B9)));
+    let phase = own_rate.times(slot.all(cx.step.index)).plus(slot.times(slot.all(0x9E37_79B9)));
     let (roll, _) = sin_cos_turns(phase);
     let (_, pitch) = sin_cos_turns(phase << 1);
     let lean = vec3_cross(tip, wind) * (share * LEAN_MOST);
@@ -161,7 +161,7 @@ pub fn leaf_size_on_twig(size: u32, facts: u32) -> u32 {
 
 /// The petiole of a tree's slot.
 pub fn petiole_of(cx: &Context<'_>, slot: u32) -> Petiole {
-    let first = (cx.environment.crowns.0[1] + slot * PETIOLE_ROWS) as usize;
+    let first = (cx.environment.first_petiole_row + slot * PETIOLE_ROWS) as usize;
     let rows: &[Uint4; PETIOLE_ROWS as usize] = cx.petioles[first..].first_chunk().expect("a slot of a tree");
     bytemuck::cast(*rows)
 }
@@ -170,8 +170,8 @@ pub fn petiole_of(cx: &Context<'_>, slot: u32) -> Petiole {
 #[inline(always)]
 pub fn leaf_return(cx: &Context<'_>, leaf: &mut CarriedLeaf<'_>, facts: u32) -> u32 {
     let is_back = (leaf.place.bits & STATE_MASK) == STATE_RESTING
-        && cx.environment.sources[SOURCE_TREES as usize].timing.0[3] != 0
-        && cx.step.index.0[0] >= leaf.course.event;
+        && cx.environment.sources[SOURCE_TREES as usize].lifetime_steps != 0
+        && cx.step.index >= leaf.course.event;
     if !is_back {
         return 0;
     }
@@ -185,13 +185,13 @@ pub fn leaf_return(cx: &Context<'_>, leaf: &mut CarriedLeaf<'_>, facts: u32) -> 
 /// Whether a leaf hangs.
 #[inline(always)]
 pub fn leaf_hangs<W: Word>(cx: &Context<'_>, bits: W, event: W) -> W::Mask {
-    (bits & STATE_MASK).equals(STATE_ATTACHED) & bits.all(cx.step.index.0[0]).less_than(event)
+    (bits & STATE_MASK).equals(STATE_ATTACHED) & bits.all(cx.step.index).less_than(event)
 }
 
 /// How many slots on from `slot` the next petiole is that looks at the wind in this step.
 #[inline(always)]
 pub fn leaf_next_look(cx: &Context<'_>, slot: u32) -> u32 {
-    0u32.wrapping_sub(cx.step.index.0[0].wrapping_add(slot)) & (SHED_INTERVAL - 1)
+    0u32.wrapping_sub(cx.step.index.wrapping_add(slot)) & (SHED_INTERVAL - 1)
 }
 
 /// A petiole looks at the wind: the speed of the air in m/s that its leaf has got used to then, and whether it breaks.
@@ -208,8 +208,8 @@ pub fn leaf_look<W: Word>(
     let relative = wind_at(cx, segment.base + arm) - velocity;
     let squared = vec3_dot(relative, relative);
     let speed = squared * inverse_sqrt(squared.max(squared.all(TINY_SQUARED)));
-    let seed = [cx.environment.seed.0[0], cx.environment.seed.0[1]];
-    let counter = [slot, slot.all(STREAM_SHED), slot.all(cx.step.index.0[0]), slot.all(0)];
+    let seed = cx.environment.seed;
+    let counter = [slot, slot.all(STREAM_SHED), slot.all(cx.step.index), slot.all(0)];
     let breaks = philox(seed, counter)[0].less_than(shed_chance(cx, stalk.facts, speed));
     (habit + (speed - habit) * HABIT_SHARE, breaks)
 }
@@ -220,7 +220,7 @@ pub fn leaf_look<W: Word>(
 pub fn leaf_follow(cx: &Context<'_>, leaf: &mut CarriedLeaf<'_>, slot: u32, stalk: &Stalk, segment: &Body) {
     let hang = leaf_hang(cx, f32::from_bits(leaf.drift.phase), slot, stalk, segment);
     leaf.hang(&hang);
-    if leaf.course.event == cx.step.index.0[0] + 1 {
+    if leaf.course.event == cx.step.index + 1 {
         let spin = quat_rotate_back(hang.attitude, segment.spin);
         leaf.drift.phase = spin.x.to_bits();
         leaf.course.rate = spin.y.to_bits();
@@ -246,7 +246,7 @@ pub fn leaf_carry(
         let (habit, breaks) = leaf_look(cx, f32::from_bits(leaf.drift.phase), slot, stalk, segment);
         leaf.drift.phase = habit.to_bits();
         if breaks {
-            leaf.course.event = cx.step.index.0[0] + 1;
+            leaf.course.event = cx.step.index + 1;
             change = change.wrapping_sub(1);
         }
     }

@@ -11,6 +11,7 @@ use super::own::{Manner, on_grid, own_advance, own_orientation, own_rate};
 use super::record::{BLEND_MASK, BLEND_SHIFT, SPECIES_MASK, SPECIES_SHIFT, SPIN_SHIFT};
 use super::settle::leaf_land;
 use super::store::LeafMut;
+use crate::blocks::ResponseBlock;
 use crate::context::Context;
 use crate::kernel::lane::{Mask, Real, Word};
 use crate::kernel::math::reciprocal;
@@ -49,11 +50,27 @@ pub struct Part<R: Real = f32> {
     pub tau: R,
 }
 
-/// What a leaf's species says of its response: drift kept over a step, fastest spin, time constant and its inverse.
+/// Response of a leaf's species, or of eight leaves' (see [`ResponseBlock`]).
+#[derive(Clone, Copy)]
+pub struct Response<R: Real = f32> {
+    /// Drift kept over a step.
+    pub drift_kept: R,
+    /// Fastest spin per step in 2^-18 turns, a whole number.
+    pub fastest_spin: R,
+    /// Time constant in s.
+    pub time_constant_s: R,
+    /// Its inverse in 1/s.
+    pub inv_time_constant: R,
+}
+
+/// Response of the species of a leaf with these bits.
 #[inline(always)]
-pub fn response_of<W: Word>(cx: &Context<'_>, bits: W) -> [W::Real; 4] {
+pub fn response_of<W: Word>(cx: &Context<'_>, bits: W) -> Response<W::Real> {
     let species = (bits >> SPECIES_SHIFT) & SPECIES_MASK;
-    species.look_up(bytemuck::cast_slice(&cx.environment.responses))
+    let responses: &[ResponseBlock] = &cx.environment.responses;
+    let [drift_kept, fastest_spin, time_constant_s, inv_time_constant] =
+        species.look_up(bytemuck::must_cast_slice(responses));
+    Response { drift_kept, fastest_spin, time_constant_s, inv_time_constant }
 }
 
 /// Moves a leaf through a part of a step within one stage.
@@ -72,7 +89,7 @@ pub fn glide_part<R: Real>(
     let before = glide.drift - wind;
     let after = before * part.decay;
     let spent = on_grid(before * part.tau) - on_grid(after * part.tau);
-    let carried = wind * wind.x.all((part.length as f32 * STEP_UNIT) * cx.environment.time.0[0]);
+    let carried = wind * wind.x.all((part.length as f32 * STEP_UNIT) * cx.environment.dt_s);
     Glide { position: glide.position + ((own + spent) + carried), drift: wind + after, phase: end }
 }
 
@@ -115,7 +132,7 @@ pub fn attitude_after<R: Real>(
 pub fn glide_end(cx: &Context<'_>, leaf: &mut LeafMut<'_>, start: Vec3, glide: Glide) {
     let heading = leaf.course.heading;
     let response = response_of(cx, leaf.place.bits);
-    let spun = spin_advance(leaf.place.bits, heading, response[1]);
+    let spun = spin_advance(leaf.place.bits, heading, response.fastest_spin);
     let before = || Quat::from(leaf.attitude.quaternion);
     let (bits, attitude) = attitude_after(cx, spun, glide.phase, heading, before);
     glide_write(leaf, glide, bits, attitude);
@@ -141,10 +158,10 @@ pub fn glide_step<R: Real>(
     glide: Glide<R>,
     bits: R::Word,
     manner: Manner<R::Word>,
-    response: [R; 4],
+    response: Response<R>,
 ) -> Glide<R> {
     let wind = wind_at(cx, glide.position);
-    let part = Part { length: WHOLE_STEP, decay: response[0], tau: response[2] };
+    let part = Part { length: WHOLE_STEP, decay: response.drift_kept, tau: response.time_constant_s };
     glide_part(cx, glide, bits, manner, wind, part)
 }
 
@@ -173,7 +190,7 @@ pub fn leaf_glide(cx: &Context<'_>, leaf: &mut LeafMut<'_>) -> bool {
     if ground_met(cx, moved.position) {
         return false;
     }
-    let spun = spin_advance(bits, heading, response[1]);
+    let spun = spin_advance(bits, heading, response.fastest_spin);
     let before = || Quat::from(leaf.attitude.quaternion);
     let (bits, attitude) = attitude_after(cx, spun, moved.phase, heading, before);
     glide_write(leaf, moved, bits, attitude);

@@ -5,15 +5,14 @@
 //! A leaf that flies as a body in the air: one step, cut as finely as its speed and spin ask for.
 
 use super::record::{
-    AERODYNAMIC, PRIMITIVE_MASK, PRIMITIVE_SHIFT, REGIME_MASK, REGIME_SHIFT, SPECIES_MASK, SPECIES_SHIFT,
-    STATE_FALLING, STATE_MASK,
+    AERODYNAMIC, PRIMITIVE_MASK, PRIMITIVE_SHIFT, REGIME_MASK, REGIME_SHIFT, STATE_FALLING, STATE_MASK,
 };
 use super::settle::leaf_land;
 use super::store::LeafMut;
 use crate::context::Context;
-use crate::flight::block::BODY_ROWS;
-use crate::flight::body::body_of;
-use crate::flight::rates::Motion;
+use crate::flight::block::BODY_LOAD_ROW;
+use crate::flight::body::{body_of, body_row};
+use crate::flight::rates::FlightMotion;
 use crate::flight::regime::{regime_memory, regime_of};
 use crate::flight::runge_kutta::{FLIGHT_CUTS, flight_cuts, flight_step};
 use crate::kernel::lane::{Mask, Real, Word};
@@ -44,21 +43,14 @@ pub fn flies<W: Word>(bits: W) -> W::Mask {
     (bits & (STATE_MASK | (PRIMITIVE_MASK << PRIMITIVE_SHIFT))).equals(flying)
 }
 
-/// Loads of a species' body: per speed, per spin; ticks of its patience; unused.
-#[inline(always)]
-fn loads_of<W: Word>(cx: &Context<'_>, bits: W) -> [W::Real; 4] {
-    let first = ((bits >> SPECIES_SHIFT) & SPECIES_MASK).times(bits.all(BODY_ROWS));
-    first.plus(first.all(6)).look_up(bytemuck::cast_slice(&cx.environment.bodies))
-}
-
 /// Load on a step: what it has to be cut for.
 #[inline(always)]
 pub fn flight_load<R: Real>(cx: &Context<'_>, bits: R::Word, relative: Vec3<R>, spin: Vec3<R>) -> R {
-    let load = loads_of(cx, bits);
-    let tiny = load[0].all(TINY_SQUARED);
+    let [per_speed, per_spin, ..] = body_row(cx, bits, BODY_LOAD_ROW);
+    let tiny = per_speed.all(TINY_SQUARED);
     let squared = vec3_dot(relative, relative).max(tiny);
     let turned = vec3_dot(spin, spin).max(tiny);
-    load[0] * (squared * inverse_sqrt(squared)) + load[1] * (turned * inverse_sqrt(turned))
+    per_speed * (squared * inverse_sqrt(squared)) + per_spin * (turned * inverse_sqrt(turned))
 }
 
 /// The step of bodies, in wind that holds still during it: where they come to.
@@ -78,10 +70,10 @@ pub fn flight_advance<R: Real>(
     let bearable = load.all(FLIGHT_CUTS);
     let calm = bearable.less_than(load).select_real(bearable * reciprocal(load), load.all(1.0));
     let wind = flight.velocity - relative * calm;
-    let turning = flight.spin * (body.size[0] * calm);
-    let time = share * cx.environment.time.0[0];
+    let turning = flight.spin * (body.size_ratio * calm);
+    let time = share * cx.environment.dt_s;
     let mut position = flight.position;
-    let mut motion = Motion { velocity: flight.velocity, pose: flight.pose, turning };
+    let mut motion = FlightMotion { velocity: flight.velocity, pose: flight.pose, turning };
     let mut done = cuts.all(0.0);
     loop {
         let on = done.less_than(cuts);
@@ -90,7 +82,7 @@ pub fn flight_advance<R: Real>(
         }
         let (way, next) = flight_step(&body, &motion, wind, time);
         position = chosen(on, position + way, position);
-        motion = Motion {
+        motion = FlightMotion {
             velocity: chosen(on, next.velocity, motion.velocity),
             pose: Quat::new(
                 on.select_real(next.pose.x, motion.pose.x),
@@ -102,7 +94,12 @@ pub fn flight_advance<R: Real>(
         };
         done = done + 1.0;
     }
-    Flight { position, velocity: motion.velocity, pose: motion.pose, spin: motion.turning * body.size[1] }
+    Flight {
+        position,
+        velocity: motion.velocity,
+        pose: motion.pose,
+        spin: motion.turning * body.inv_size_ratio,
+    }
 }
 
 /// What a body remembers after a step, and its bits with the regime that this tells of.
@@ -116,11 +113,11 @@ pub fn flight_told<R: Real>(
 ) -> [R::Word; 2] {
     let path = flight.velocity - wind;
     let flow = quat_rotate_back(flight.pose, path);
-    let now = cx.step.index.0[0];
-    let rate = cx.environment.motion.0[3];
+    let now = cx.step.index;
+    let rate = cx.environment.ticks_per_step_q16;
     let ticks = mul_q16(now.wrapping_add(1), rate).wrapping_sub(mul_q16(now, rate));
-    let patience = loads_of(cx, bits)[2].to_whole();
-    let told = regime_memory(memory, flow, flight.spin, path, ticks, patience);
+    let [_, _, idle_timeout, _] = body_row(cx, bits, BODY_LOAD_ROW);
+    let told = regime_memory(memory, flow, flight.spin, path, ticks, idle_timeout.to_whole());
     [told, (bits & !(REGIME_MASK << REGIME_SHIFT)) | (regime_of(told) << REGIME_SHIFT)]
 }
 

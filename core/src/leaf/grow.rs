@@ -39,7 +39,7 @@ pub(crate) fn leaf_grow(
     if petiole.segment == NO_SEGMENT {
         return;
     }
-    let seed = [cx.environment.seed.0[0], cx.environment.seed.0[1]];
+    let seed = cx.environment.seed;
     let look = random(seed, slot, STREAM_LOOK);
     let species_index = petiole.facts & PETIOLE_SPECIES_MASK;
     if leaf_site(environment.scene(), slot).1 {
@@ -51,7 +51,7 @@ pub(crate) fn leaf_grow(
     let species = &cx.environment.species[species_index as usize];
     let [size, speed] = release_size_speed(species, look);
     let [x, z] = [petiole.place[0], petiole.place[2]].map(|units| units as f32 * LENGTH_UNIT);
-    let ground = ((ground_surface(cx, x, z) + cx.environment.ground.0[0]) * 1024.0).floor();
+    let ground = ((ground_surface(cx, x, z) + cx.environment.surface_height_m) * 1024.0).floor();
     #[expect(clippy::cast_possible_truncation, reason = "a whole number in range")]
     let height = petiole.place[1] - ground as i32;
     leaf.identity.fall_time = release_fall_time(species, height, speed);
@@ -67,7 +67,7 @@ pub(crate) fn leaf_grow(
 
 /// Counts the leaves that hang on every segment.
 pub(crate) fn count_leaves(branches: &mut Branches, cx: &Context<'_>, leaves: &Leaves) {
-    for slot in 0..cx.environment.crowns.0[0] {
+    for slot in 0..cx.environment.tree_leaf_count {
         if leaves.place[slot as usize].bits & STATE_MASK == STATE_ATTACHED {
             branches.bearing[petiole_of(cx, slot).segment as usize] += 1;
         }

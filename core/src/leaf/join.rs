@@ -7,7 +7,7 @@
 //! At a join the drift takes up the difference between the old motion's velocity and the new one's, so that position
 //! and velocity go on without a jump, at the exact moment within the step; orientation blends over a few steps.
 
-use super::fall::{Glide, Part, STEP_UNIT, WHOLE_STEP, glide_end, glide_part, response_of};
+use super::fall::{Glide, Part, Response, STEP_UNIT, WHOLE_STEP, glide_end, glide_part, response_of};
 use super::own::own_velocity;
 use super::record::{
     BLEND_MASK, BLEND_SHIFT, HALF_MASK, PRIMITIVE_MASK, PRIMITIVE_SHIFT, SOURCE_MASK, SOURCE_SHIFT,
@@ -25,7 +25,7 @@ use crate::wind::sample::wind_at;
 /// Ends the current stage: draws the next motion and hands the difference of velocities to the drift.
 #[inline(always)]
 pub fn leaf_join(cx: &Context<'_>, leaf: &mut LeafMut<'_>, glide: Glide) -> Glide {
-    let seed = [cx.environment.seed.0[0], cx.environment.seed.0[1]];
+    let seed = cx.environment.seed;
     let id = leaf.identity.id;
     let bits = leaf.place.bits;
     let before = own_velocity(cx, bits, glide.phase, (*leaf.course).into());
@@ -48,17 +48,17 @@ pub fn leaf_join(cx: &Context<'_>, leaf: &mut LeafMut<'_>, glide: Glide) -> Glid
     );
     leaf.place.bits = (bits & !((PRIMITIVE_MASK << PRIMITIVE_SHIFT) | (BLEND_MASK << BLEND_SHIFT)))
         | (primitive << PRIMITIVE_SHIFT)
-        | (cx.environment.counts.0[2] << BLEND_SHIFT);
+        | (cx.environment.blend_steps << BLEND_SHIFT);
     let after = own_velocity(cx, leaf.place.bits, words[1], (*leaf.course).into());
     Glide { position: glide.position, drift: glide.drift + (before - after), phase: words[1] }
 }
 
-/// A part of a step of any length, for a species of response time `response[2]` and its inverse `response[3]`.
+/// Part of a step of any length, for a species of that response.
 #[inline(always)]
-pub fn part_of_step(cx: &Context<'_>, response: [f32; 4], length: u32) -> Part {
-    let elapsed = (length as f32 * STEP_UNIT) * cx.environment.time.0[0];
-    let decay = exponential((0.0 - elapsed) * response[3]);
-    Part { length, decay, tau: response[2] }
+pub fn part_of_step(cx: &Context<'_>, response: Response, length: u32) -> Part {
+    let elapsed = (length as f32 * STEP_UNIT) * cx.environment.dt_s;
+    let decay = exponential((0.0 - elapsed) * response.inv_time_constant);
+    Part { length, decay, tau: response.time_constant_s }
 }
 
 /// One step of a falling leaf with the joins that come within it.
@@ -67,12 +67,12 @@ pub fn leaf_fall_joining(cx: &Context<'_>, leaf: &mut LeafMut<'_>) {
     let start = Vec3::from(leaf.place.position);
     let response = response_of(cx, leaf.place.bits);
     let wind = wind_at(cx, start);
-    let seed = [cx.environment.seed.0[0], cx.environment.seed.0[1]];
+    let seed = cx.environment.seed;
     let mut glide =
         Glide { position: start, drift: Vec3::from(leaf.drift.velocity), phase: leaf.drift.phase };
     let mut done = 0;
     for _ in 1..STAGE_COUNT {
-        if cx.step.index.0[0] >= leaf.course.event {
+        if cx.step.index >= leaf.course.event {
             let stage = (leaf.identity.look >> STAGE_SHIFT) & STAGE_MASK;
             let end = done.max(stage_end(seed, leaf.identity.id, leaf.identity.fall_time, stage) & HALF_MASK);
             let part = part_of_step(cx, response, end - done);

@@ -45,14 +45,14 @@ pub fn random_pose(words: [u32; 4]) -> Quat {
 /// How body `id` of a species is held before it is let go.
 #[inline(always)]
 pub fn hold_pose(cx: &Context<'_>, species: u32, id: u32) -> Quat {
-    let seed = [cx.environment.seed.0[0], cx.environment.seed.0[1]];
+    let seed = cx.environment.seed;
     let words = random(seed, id, STREAM_HOLD);
-    let hold = cx.environment.bodies[species as usize].hold.0;
-    if hold[0] == HOLD_RANDOM {
+    let body = &cx.environment.bodies[species as usize];
+    if body.hold_kind == HOLD_RANDOM {
         return random_pose(words);
     }
-    let spread = (hold[2] as i32 * (triangular(words[0]) >> 4)) >> 12;
-    let tilt = (hold[1] as i32 + spread) as u32;
+    let spread = (body.hold_spread as i32 * (triangular(words[0]) >> 4)) >> 12;
+    let tilt = (body.hold_tilt as i32 + spread) as u32;
     let (sine, cosine) = sin_cos_turns((tilt << 16) >> 1);
     let tilted = quat_multiply(Quat::new(sine, 0.0, 0.0, cosine), turn_about_y(words[1]));
     quat_multiply(turn_about_y(words[2]), tilted)
@@ -71,7 +71,7 @@ pub fn leaf_hold(cx: &Context<'_>, leaf: &mut LeafMut<'_>, id: u32) {
 /// The quirks of body `id`: four of four bits.
 #[inline(always)]
 pub fn quirks_of(cx: &Context<'_>, id: u32) -> u32 {
-    random([cx.environment.seed.0[0], cx.environment.seed.0[1]], id, STREAM_QUIRKS)[0] & HALF_MASK
+    random(cx.environment.seed, id, STREAM_QUIRKS)[0] & HALF_MASK
 }
 
 /// Gives a leaf that takes wing its quirks, and nothing yet to remember.

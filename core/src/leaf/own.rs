@@ -12,7 +12,7 @@ use crate::kernel::math::sin_cos_half;
 use crate::kernel::quaternion::{Quat, quat_turn_after, quat_turn_before};
 use crate::kernel::rng::mul_q16;
 use crate::kernel::vector::Vec3;
-use crate::motion::lookup::{motion_displacement, motion_period, motion_state, motion_velocity};
+use crate::motion::lookup::{PHASE_UNIT, motion_displacement, motion_period, motion_state, motion_velocity};
 
 /// How a leaf goes through its stage: the last three words of its course, or of eight courses.
 #[derive(Clone, Copy, Debug)]
@@ -45,13 +45,13 @@ pub fn turn_to_heading<W: Word>(v: Vec3<W::Real>, heading: W) -> Vec3<W::Real> {
 /// Metres that a leaf moves per metre of its table.
 #[inline(always)]
 pub fn own_scale<W: Word>(cx: &Context<'_>, manner: Manner<W>) -> W::Real {
-    ((manner.size & HALF_MASK).to_real() * SIZE_UNIT) * cx.environment.time.0[3]
+    ((manner.size & HALF_MASK).to_real() * SIZE_UNIT) * cx.environment.displacement_gain
 }
 
 /// Phase per step with the scene's rotation speed.
 #[inline(always)]
 pub fn own_rate<W: Word>(cx: &Context<'_>, rate: W) -> W {
-    let speed = cx.environment.counts.0[3];
+    let speed = cx.environment.rotation_speed_q16;
     if speed == WHOLE_STEP { rate } else { mul_q16(rate, rate.all(speed)) }
 }
 
@@ -101,8 +101,8 @@ pub fn own_velocity(cx: &Context<'_>, bits: u32, phase: u32, manner: Manner) -> 
     let rate = own_rate(cx, manner.rate);
     // In halves, which floats hold exactly.
     let rounded = (rate >> 16) as f32 * 65536.0 + (rate & HALF_MASK) as f32;
-    let per_second = rounded * cx.environment.time.0[2];
-    turn_to_heading(local, manner.heading >> 16) * (own_scale(cx, manner) * per_second)
+    let periods_per_s = (rounded * PHASE_UNIT) * cx.environment.inv_dt_s;
+    turn_to_heading(local, manner.heading >> 16) * (own_scale(cx, manner) * periods_per_s)
 }
 
 /// Orientation of a leaf's own motion at a phase: spin, table and heading.

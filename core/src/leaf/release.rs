@@ -48,11 +48,10 @@ fn unit_coordinate(word: u32) -> i32 {
 /// Place of leaf `id` in its source, x, y and z in units of 2^-10 m.
 #[inline(always)]
 pub fn release_place(source: &SourceBlock, seed: [u32; 2], id: u32) -> [i32; 3] {
-    let center = [source.center.0[0] as i32, source.center.0[1] as i32, source.center.0[2] as i32];
-    let extent = source.extent.0;
-    let kind = source.center.0[3];
+    let center = source.center_units;
+    let extent = source.extent_units;
     let mut words = random(seed, id, STREAM_PLACE);
-    if kind == SOURCE_BOX {
+    if source.kind == SOURCE_BOX {
         return [
             center[0] + offset_in_box(words[0], extent[0]),
             center[1] + offset_in_box(words[1], extent[1]),
@@ -65,7 +64,7 @@ pub fn release_place(source: &SourceBlock, seed: [u32; 2], id: u32) -> [i32; 3] 
         if !inside {
             words = random(seed, id, STREAM_PLACE + attempt);
             unit = [unit_coordinate(words[0]), unit_coordinate(words[1]), unit_coordinate(words[2])];
-            if kind == SOURCE_DISC {
+            if source.kind == SOURCE_DISC {
                 unit[1] = 0;
             }
             let squared =
@@ -83,14 +82,18 @@ pub fn release_place(source: &SourceBlock, seed: [u32; 2], id: u32) -> [i32; 3] 
     ]
 }
 
+/// Upper end of a species' share of random words in a source.
+#[inline(always)]
+pub fn source_share(source: &SourceBlock, species: u32) -> u32 {
+    source.shares[(species >> 2) as usize].0[(species & 3) as usize]
+}
+
 /// Species of a leaf, from the shares of its source and a random word.
 #[inline(always)]
 pub fn release_species(source: &SourceBlock, word: u32) -> u32 {
     let mut species = 0;
-    for vector in 0..SHARE_VECTORS {
-        for lane in 0..4 {
-            species += if word >= source.shares[vector as usize].0[lane] { 1 } else { 0 };
-        }
+    for candidate in 0..4 * SHARE_VECTORS {
+        species += if word >= source_share(source, candidate) { 1 } else { 0 };
     }
     species
 }
@@ -98,8 +101,8 @@ pub fn release_species(source: &SourceBlock, word: u32) -> u32 {
 /// Size and speed of a leaf relative to its species, in 2^-14.
 #[inline(always)]
 pub fn release_size_speed(species: &SpeciesBlock, words: [u32; 4]) -> [u32; 2] {
-    let size = SIZE_ONE as i32 + ((species.scales.0[1] as i32 * triangular(words[1])) >> 16);
-    let speed = SIZE_ONE as i32 + ((species.scales.0[2] as i32 * triangular(words[2])) >> 16);
+    let size = SIZE_ONE as i32 + ((species.size_spread_q14 as i32 * triangular(words[1])) >> 16);
+    let speed = SIZE_ONE as i32 + ((species.speed_spread_q14 as i32 * triangular(words[2])) >> 16);
     [size as u32, speed as u32]
 }
 
@@ -109,17 +112,23 @@ pub fn release_ratio(size_speed: [u32; 2]) -> u32 {
     (size_speed[1] << 16) / size_speed[0]
 }
 
+/// Phase per step of a species' primitive motion for a leaf of nominal size and speed.
+#[inline(always)]
+pub fn species_rate(species: &SpeciesBlock, primitive: u32) -> u32 {
+    species.rates[(primitive >> 2) as usize].0[(primitive & 3) as usize]
+}
+
 /// Phase per step of a primitive motion for a leaf of that ratio.
 #[inline(always)]
 pub fn release_rate(species: &SpeciesBlock, primitive: u32, ratio_q16: u32) -> u32 {
-    mul_q16(species.rates[(primitive >> 2) as usize].0[(primitive & 3) as usize], ratio_q16)
+    mul_q16(species_rate(species, primitive), ratio_q16)
 }
 
 /// Time in 2^-16 steps of a fall through still air from `height` (2^-10 m) at that speed.
 #[inline(always)]
 pub fn release_fall_time(species: &SpeciesBlock, height: i32, speed: u32) -> u32 {
     let positive = height.max(0) as u32;
-    let per_metre = species.scales.0[0];
+    let per_metre = species.fall_steps_q16_per_m;
     let nominal = (mul_high(positive, per_metre) << 22) | (positive.wrapping_mul(per_metre) >> 10);
     mul_q16(nominal, (1 << 30) / speed)
 }
@@ -127,21 +136,21 @@ pub fn release_fall_time(species: &SpeciesBlock, height: i32, speed: u32) -> u32
 /// The step of the next event of a leaf in `stage`: the stage's end or the slot's next release.
 #[inline(always)]
 pub fn next_event(cx: &Context<'_>, id: u32, release: u32, fall_time: u32, stage: u32, source: u32) -> u32 {
-    let lifetime = cx.environment.sources[source as usize].timing.0[3];
+    let lifetime = cx.environment.sources[source as usize].lifetime_steps;
     // A tree takes its leaves back only from the ground.
     let is_final = lifetime == 0 || source == SOURCE_TREES;
     let recycle = if is_final { NEVER } else { release.wrapping_add(lifetime) };
     if stage + 1 >= STAGE_COUNT {
         return recycle;
     }
-    let seed = [cx.environment.seed.0[0], cx.environment.seed.0[1]];
+    let seed = cx.environment.seed;
     recycle.min(release.wrapping_add(stage_end(seed, id, fall_time, stage) >> 16))
 }
 
 /// Lets leaf `id` go from `source` at step `release`: at rest, in the first primitive motion of its species.
 #[inline(always)]
 pub fn leaf_release(cx: &Context<'_>, leaf: &mut LeafMut<'_>, id: u32, source: u32, release: u32) {
-    let seed = [cx.environment.seed.0[0], cx.environment.seed.0[1]];
+    let seed = cx.environment.seed;
     let from = &cx.environment.sources[source as usize];
     let place = release_place(from, seed, id);
     let look = random(seed, id, STREAM_LOOK);
@@ -169,7 +178,7 @@ pub fn leaf_drop(
     let size_speed = release_size_speed(species, look);
     let position =
         [place[0] as f32 * LENGTH_UNIT, place[1] as f32 * LENGTH_UNIT, place[2] as f32 * LENGTH_UNIT];
-    let ground = (ground_surface(cx, position[0], position[2]) + cx.environment.ground.0[0]) * 1024.0;
+    let ground = (ground_surface(cx, position[0], position[2]) + cx.environment.surface_height_m) * 1024.0;
     leaf.identity.fall_time = release_fall_time(species, place[1] - ground.floor() as i32, size_speed[1]);
     leaf.identity.look = (look[3] & HALF_MASK)
         | ((look[0] & VARIANT_MASK) << VARIANT_SHIFT)
@@ -180,7 +189,7 @@ pub fn leaf_drop(
     leaf.place.position = position;
     leaf.place.bits = (0 << BLEND_SHIFT) | (species_index << SPECIES_SHIFT);
     leaf.drift.velocity = [0.0, 0.0, 0.0];
-    if species.start.0[0] == AERODYNAMIC {
+    if species.first_motion == AERODYNAMIC {
         leaf_hold(cx, leaf, id);
     }
     leaf_set_off(cx, leaf, id, release, size_speed);
@@ -189,12 +198,12 @@ pub fn leaf_drop(
 /// Begins the first stage of a leaf's fall, or its flight. It sets off with the velocity that `drift` says.
 #[inline(always)]
 pub fn leaf_set_off(cx: &Context<'_>, leaf: &mut LeafMut<'_>, id: u32, release: u32, size_speed: [u32; 2]) {
-    let seed = [cx.environment.seed.0[0], cx.environment.seed.0[1]];
+    let seed = cx.environment.seed;
     let source = (leaf.identity.look >> SOURCE_SHIFT) & SOURCE_MASK;
     let species_index = (leaf.place.bits >> SPECIES_SHIFT) & SPECIES_MASK;
     let species = &cx.environment.species[species_index as usize];
     let stage = stage_words(seed, id, 0);
-    let primitive = species.start.0[0];
+    let primitive = species.first_motion;
     leaf.identity.id = id;
     leaf.identity.release = release;
     leaf.identity.look &= !(STAGE_MASK << STAGE_SHIFT);
@@ -221,16 +230,16 @@ pub fn leaf_set_off(cx: &Context<'_>, leaf: &mut LeafMut<'_>, id: u32, release: 
 /// Lets a leaf go whose petiole has broken, where it is and as fast as it is.
 #[inline(always)]
 pub fn leaf_detach(cx: &Context<'_>, leaf: &mut LeafMut<'_>, release: u32) {
-    let seed = [cx.environment.seed.0[0], cx.environment.seed.0[1]];
-    let id = leaf.identity.id.wrapping_add(cx.environment.seed.0[2]);
+    let seed = cx.environment.seed;
+    let id = leaf.identity.id.wrapping_add(cx.environment.ids_per_life);
     let look = random(seed, id, STREAM_LOOK);
     let species = &cx.environment.species[((leaf.place.bits >> SPECIES_SHIFT) & SPECIES_MASK) as usize];
     let size = leaf.course.size >> 16;
     leaf.course.size = size | (size << 16);
-    if species.start.0[0] != AERODYNAMIC {
+    if species.first_motion != AERODYNAMIC {
         leaf.course.heading = look[3] >> 16;
     }
     leaf.place.bits =
-        (leaf.place.bits & !(BLEND_MASK << BLEND_SHIFT)) | (cx.environment.counts.0[2] << BLEND_SHIFT);
+        (leaf.place.bits & !(BLEND_MASK << BLEND_SHIFT)) | (cx.environment.blend_steps << BLEND_SHIFT);
     leaf_set_off(cx, leaf, id, release, [size, release_size_speed(species, look)[1]]);
 }

@@ -91,7 +91,7 @@ fn above_rest(cx: &Context<'_>, place: Vec3) -> f32 {
 
 /// Time from release to the end of a leaf's stage in 2^-16 steps.
 fn stage_end_after(cx: &Context<'_>, leaf: &LeafMut<'_>) -> u64 {
-    let seed = [cx.environment.seed.0[0], cx.environment.seed.0[1]];
+    let seed = cx.environment.seed;
     let stage = (leaf.identity.look >> STAGE_SHIFT) & STAGE_MASK;
     if stage + 1 < STAGE_COUNT {
         u64::from(stage_end(seed, leaf.identity.id, leaf.identity.fall_time, stage))
@@ -134,7 +134,7 @@ fn arrive(cx: &Context<'_>, leaf: &mut LeafMut<'_>, glide: Glide, elapsed: u64) 
     #[expect(clippy::cast_possible_truncation, reason = "whole steps of a fall fit a word")]
     let steps = (elapsed >> 16) as u32;
     let bits = leaf.place.bits & !(BLEND_MASK << BLEND_SHIFT);
-    let spin = spin_advance(bits, leaf.course.heading, response_of(cx, bits)[1]).wrapping_sub(bits);
+    let spin = spin_advance(bits, leaf.course.heading, response_of(cx, bits).fastest_spin).wrapping_sub(bits);
     leaf.place.bits = bits.wrapping_add(spin.wrapping_mul(steps));
     leaf.place.position = glide.position.to_array();
     leaf.drift.velocity = glide.drift.to_array();
@@ -155,21 +155,21 @@ fn glide_long(cx: &Context<'_>, leaf: &LeafMut<'_>, glide: Glide, part_q16: u64)
     let end = glide.phase.wrapping_add(low);
     let own = own_advance(cx, bits, manner, glide.phase, end) + own_period(cx, bits, manner) * periods;
     #[expect(clippy::cast_possible_truncation, reason = "seconds in single precision")]
-    let elapsed = (part_q16 as f64 / 65536.0 * f64::from(environment.time.0[0])) as f32;
-    let drift = glide.drift * exponential(-elapsed * response[3]);
-    let spent = on_grid(glide.drift * response[2]) - on_grid(drift * response[2]);
+    let elapsed = (part_q16 as f64 / 65536.0 * f64::from(environment.dt_s)) as f32;
+    let drift = glide.drift * exponential(-elapsed * response.inv_time_constant);
+    let spent = on_grid(glide.drift * response.time_constant_s) - on_grid(drift * response.time_constant_s);
     Glide { position: glide.position + (own + spent), drift, phase: end }
 }
 
 /// Lays a leaf down where it is.
 fn rest(cx: &Context<'_>, leaf: &mut LeafMut<'_>) {
     let source = (leaf.identity.look >> SOURCE_SHIFT) & SOURCE_MASK;
-    let lifetime = cx.environment.sources[source as usize].timing.0[3];
+    let lifetime = cx.environment.sources[source as usize].lifetime_steps;
     let [x, _, z] = leaf.place.position;
     leaf.place.position[1] = ground_rest(cx, x, z);
     leaf.place.bits = (leaf.place.bits & !STATE_MASK) | STATE_RESTING;
     leaf.drift.velocity = Vec3::ZERO.to_array();
-    leaf.drift.phase = cx.environment.counts.0[1];
+    leaf.drift.phase = cx.environment.settle_steps;
     let before = Quat::from(leaf.attitude.quaternion);
     let is_hilly = cx.environment.has_terrain();
     let flat = if is_hilly { flatten_on(ground_slope(cx, x, z), before, 0.0) } else { flatten(before, 0.0) };

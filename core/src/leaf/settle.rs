@@ -22,7 +22,7 @@ use crate::terrain::ground::{Slope, ground_lean, ground_rest, ground_slope};
 /// round lies still.
 #[inline(always)]
 pub fn slide(cx: &Context<'_>, came: Vec3, seconds: f32, slope: Slope) -> (Vec3, Vec3) {
-    let pull = (cx.environment.relief.0[3] * seconds) * slope.ease;
+    let pull = (cx.environment.gravity_m_s2 * seconds) * slope.ease;
     let velocity = Vec3::new(came.x - slope.x * pull, came.y, came.z - slope.z * pull);
     if velocity.x * came.x + velocity.z * came.z < 0.0 {
         return (Vec3::ZERO, Vec3::ZERO);
@@ -33,8 +33,8 @@ pub fn slide(cx: &Context<'_>, came: Vec3, seconds: f32, slope: Slope) -> (Vec3,
     }
     let inverse = inverse_sqrt(squared);
     let speed = squared * inverse;
-    let left = (speed - (cx.environment.ground.0[2] * slope.ease) * seconds).max(0.0);
-    let stop = squared * (cx.environment.ground.0[3] * slope.gain);
+    let left = (speed - (cx.environment.friction_m_s2 * slope.ease) * seconds).max(0.0);
+    let stop = squared * (cx.environment.stop_s2_m * slope.gain);
     let way = if left > 0.0 { (0.5 * seconds) * (speed + left) } else { stop };
     (velocity * (way * inverse), velocity * (left * inverse))
 }
@@ -67,11 +67,11 @@ pub fn leaf_land(cx: &Context<'_>, leaf: &mut LeafMut<'_>, start: Vec3) {
     let share = ((start.y - above) * reciprocal(drop)).max(0.0).min(1.0);
     let way = end - start;
     let hit = start + way * share;
-    let dt = cx.environment.time.0[0];
+    let dt = cx.environment.dt_s;
     let (slid, velocity) =
-        slide(cx, way * cx.environment.time.0[1], (1.0 - share) * dt, ground_slope(cx, hit.x, hit.z));
+        slide(cx, way * cx.environment.inv_dt_s, (1.0 - share) * dt, ground_slope(cx, hit.x, hit.z));
     let lifetime =
-        cx.environment.sources[((leaf.identity.look >> SOURCE_SHIFT) & SOURCE_MASK) as usize].timing.0[3];
+        cx.environment.sources[((leaf.identity.look >> SOURCE_SHIFT) & SOURCE_MASK) as usize].lifetime_steps;
     let (x, z) = (hit.x + slid.x, hit.z + slid.z);
     leaf.place.position = [x, ground_rest(cx, x, z), z];
     leaf.place.bits = (leaf.place.bits & !(STATE_MASK | (BLEND_MASK << BLEND_SHIFT))) | STATE_RESTING;
@@ -89,15 +89,15 @@ pub fn leaf_settle(cx: &Context<'_>, leaf: &mut LeafMut<'_>) {
     let slides = velocity.x != 0.0 || velocity.z != 0.0;
     let is_hilly = cx.environment.has_terrain();
     let slope = ground_slope(cx, position[0], position[2]);
-    if counter < cx.environment.counts.0[1] || (slides && is_hilly) {
-        let (before, kept) = (Quat::from(leaf.attitude.quaternion), cx.environment.settle.0[0]);
+    if counter < cx.environment.settle_steps || (slides && is_hilly) {
+        let (before, kept) = (Quat::from(leaf.attitude.quaternion), cx.environment.tilt_kept);
         let flat = if is_hilly { flatten_on(slope, before, kept) } else { flatten(before, kept) };
         leaf.attitude.quaternion = flat.to_array();
         // On hills what slides comes to other slopes.
         leaf.drift.phase = if slides && is_hilly { 0 } else { counter + 1 };
     }
     if slides {
-        let (slid, left) = slide(cx, velocity, cx.environment.time.0[0], slope);
+        let (slid, left) = slide(cx, velocity, cx.environment.dt_s, slope);
         let (x, z) = (position[0] + slid.x, position[2] + slid.z);
         leaf.place.position = [x, if is_hilly { ground_rest(cx, x, z) } else { position[1] }, z];
         leaf.drift.velocity = left.to_array();

@@ -53,9 +53,9 @@ pub fn stage_end(seed: [u32; 2], id: u32, fall_q16: u32, stage: u32) -> u32 {
 
 /// Count of changes from one primitive motion to another.
 #[inline(always)]
-fn transition_count(species: &SpeciesBlock, origin: u32, next: u32) -> u32 {
+pub fn transition_count(species: &SpeciesBlock, origin: u32, next: u32) -> u32 {
     let index = (origin * 6 + next) as usize;
-    species.transitions[index / 4].0[index % 4]
+    species.transitions[index >> 2].0[index & 3]
 }
 
 /// The primitive motion that follows `origin`, chosen by a random word.
@@ -97,7 +97,7 @@ pub struct Stage {
 pub fn feature(species: &SpeciesBlock, seed: [u32; 2], id: u32) -> [Stage; STAGE_COUNT as usize] {
     let times = random(seed, id, STREAM_TIMES);
     let total: u32 = (0..STAGE_COUNT).map(|stage| stage_weight(times, stage)).sum();
-    let mut primitive = species.start.0[0];
+    let mut primitive = species.first_motion;
     core::array::from_fn(|index| {
         let stage = index as u32;
         let words = stage_words(seed, id, stage);

@@ -11,6 +11,8 @@ use crate::kernel::vector::{Vec3, vec3_lerp};
 use crate::layout::Float4;
 
 crate::shared_constants! {
+    /// Periods per unit of a phase.
+    pub const PHASE_UNIT: f32 = 1.0 / 4_294_967_296.0;
     /// Right shift that leaves the row of a phase.
     pub const PHASE_ROW_SHIFT: u32 = 32 - TABLE_BITS;
     /// Mask of a phase's place between two rows.

@@ -36,13 +36,13 @@ pub struct Slope {
 /// The cell at a place.
 #[inline(always)]
 fn ground_cell<R: Real>(cx: &Context<'_>, x: R, z: R) -> Cell<R> {
-    let [first, mask, shift, _] = cx.environment.terrain.0;
-    let u = x * cx.environment.relief.0[0];
-    let v = z * cx.environment.relief.0[0];
+    let (mask, shift) = (cx.environment.hill_mask, cx.environment.hill_shift);
+    let u = x * cx.environment.hill_cells_per_m;
+    let v = z * cx.environment.hill_cells_per_m;
     let ku = u.floor();
     let kv = v.floor();
     let index = ((kv.to_whole() & mask) << shift) | (ku.to_whole() & mask);
-    let corners = index.look_up(bytemuck::cast_slice(&cx.wind[first as usize..]));
+    let corners = index.look_up(bytemuck::cast_slice(&cx.wind[cx.environment.first_hill_row as usize..]));
     Cell { corners, x: u - ku, z: v - kv }
 }
 
@@ -63,19 +63,19 @@ pub fn ground_surface<R: Real>(cx: &Context<'_>, x: R, z: R) -> R {
     if !cx.environment.has_terrain() {
         return x.all(0.0);
     }
-    ground_relief(cx, x, z).max(x.all(cx.environment.relief.0[2]))
+    ground_relief(cx, x, z).max(x.all(cx.environment.water_relief_m))
 }
 
 /// Height of a leaf that rests at a place in metres.
 #[inline(always)]
 pub fn ground_rest<R: Real>(cx: &Context<'_>, x: R, z: R) -> R {
-    ground_surface(cx, x, z) + cx.environment.ground.0[1]
+    ground_surface(cx, x, z) + cx.environment.rest_height_m
 }
 
 /// Whether a leaf at a place has come to the ground. Most are above all hills: nothing is read for those.
 #[inline(always)]
 pub fn ground_met<R: Real>(cx: &Context<'_>, place: Vec3<R>) -> R::Mask {
-    let low = place.y.less_than(place.y.all(cx.environment.relief.0[1]));
+    let low = place.y.less_than(place.y.all(cx.environment.highest_rest_m));
     if !cx.environment.has_terrain() || !low.any() {
         return low;
     }
@@ -85,15 +85,15 @@ pub fn ground_met<R: Real>(cx: &Context<'_>, place: Vec3<R>) -> R::Mask {
 /// Slope of the ground at a place; none on water.
 #[inline(always)]
 pub fn ground_slope(cx: &Context<'_>, x: f32, z: f32) -> Slope {
-    if !cx.environment.has_terrain() || ground_relief(cx, x, z) < cx.environment.relief.0[2] {
+    if !cx.environment.has_terrain() || ground_relief(cx, x, z) < cx.environment.water_relief_m {
         return Slope { x: 0.0, z: 0.0, gain: 1.0, ease: 1.0 };
     }
     let cell = ground_cell(cx, x, z);
     let [a, b, c, d] = cell.corners;
     let near = b - a;
     let west = c - a;
-    let rise_x = (near + cell.z * ((d - c) - near)) * cx.environment.relief.0[0];
-    let rise_z = (west + cell.x * ((d - b) - west)) * cx.environment.relief.0[0];
+    let rise_x = (near + cell.z * ((d - c) - near)) * cx.environment.hill_cells_per_m;
+    let rise_z = (west + cell.x * ((d - b) - west)) * cx.environment.hill_cells_per_m;
     let gain = 1.0 + (rise_x * rise_x + rise_z * rise_z);
     Slope { x: rise_x, z: rise_z, gain, ease: reciprocal(gain) }
 }

@@ -18,23 +18,25 @@ use crate::terrain::ground::ground_relief;
 #[inline(always)]
 pub fn wind_at<R: Real>(cx: &Context<'_>, place: Vec3<R>) -> Vec3<R> {
     let wind = &cx.environment.wind;
-    let direction_x = wind.mean.0[0];
-    let direction_z = wind.mean.0[1];
+    let direction_x = wind.direction_x;
+    let direction_z = wind.direction_z;
     let along = place.x * direction_x + place.z * direction_z;
     let across = place.z * direction_x - place.x * direction_z;
-    let height = place.y - wind.gust.0[2];
+    let height = place.y - cx.environment.ground_height_m;
     let above =
         if cx.environment.has_terrain() { height - ground_relief(cx, place.x, place.z) } else { height };
-    let mean = (wind_profile(cx, above) * wind.mean.0[2]) * (wind_gust(cx, along) * wind.gust.0[0] + 1.0);
+    let mean =
+        (wind_profile(cx, above) * wind.mean_speed_m_s) * (wind_gust(cx, along) * wind.gust_strength + 1.0);
+    let deviation = Vec3::from(wind.deviation_m_s);
     let mut turbulence = Vec3::<f32>::ZERO.spread(height);
-    if wind.deviation.0[0] != 0.0 {
+    if deviation.x != 0.0 {
         turbulence = wind_turbulence(cx, Vec3::new(along, height, across));
     }
-    let u = mean + turbulence.x * wind.deviation.0[0];
-    let v = turbulence.y * wind.deviation.0[1];
-    let w = turbulence.z * wind.deviation.0[2];
+    let u = mean + turbulence.x * deviation.x;
+    let v = turbulence.y * deviation.y;
+    let w = turbulence.z * deviation.z;
     let mut air = Vec3::new(u * direction_x - w * direction_z, v, u * direction_z + w * direction_x);
-    for index in 0..wind.tables.0[3] {
+    for index in 0..cx.step.vortex_count {
         air = air + wind_vortex(&cx.step.vortices[index as usize], place);
     }
     air

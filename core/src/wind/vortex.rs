@@ -13,10 +13,9 @@ use crate::kernel::vector::{Vec3, vec3_cross, vec3_dot};
 /// Velocity that one vortex adds at `place`, in m/s.
 #[inline(always)]
 pub fn wind_vortex<R: Real>(vortex: &VortexBlock, place: Vec3<R>) -> Vec3<R> {
-    let center = vortex.center.0;
-    let axis = Vec3::new(vortex.axis.0[0], vortex.axis.0[1], vortex.axis.0[2]).spread(place.x);
-    let from_center = place - Vec3::new(center[0], center[1], center[2]).spread(place.x);
+    let axis = Vec3::from(vortex.axis).spread(place.x);
+    let from_center = place - Vec3::from(vortex.center_m).spread(place.x);
     let radial = from_center - axis * vec3_dot(from_center, axis);
-    let inverse = reciprocal(vec3_dot(radial, radial) + center[3]);
-    vec3_cross(axis, radial) * (inverse * vortex.axis.0[3]) + axis * (inverse * vortex.axial.0[0])
+    let inverse = reciprocal(vec3_dot(radial, radial) + vortex.core_m2);
+    vec3_cross(axis, radial) * (inverse * vortex.swirl_m2_s) + axis * (inverse * vortex.axial_m3_s)
 }

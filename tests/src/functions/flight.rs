@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The functions that fly bodies.
 
-use windfall_core::flight::body::{Body, body_of};
-use windfall_core::flight::rates::{Motion, flight_rates};
+use windfall_core::flight::body::{LeafBody, body_of};
+use windfall_core::flight::rates::{FlightMotion, flight_rates};
 use windfall_core::flight::regime::{regime_memory, regime_of};
 use windfall_core::flight::runge_kutta::{flight_cuts, flight_step};
 use windfall_core::kernel::Vec3;
@@ -23,15 +23,19 @@ const POSE: Input = Input::Floats(4, -0.55, 0.55);
 const SPECIES: Input = Input::Below(2);
 const SIZE: Input = Input::Below(8192);
 
-fn body(cx: &windfall_core::Context<'_>, species: u32, size: u32, quirks: u32) -> Body {
+fn body(cx: &windfall_core::Context<'_>, species: u32, size: u32, quirks: u32) -> LeafBody {
     body_of(cx, (1 + species) << SPECIES_SHIFT, (SIZE_ONE - 4096 + size) | (quirks << 16))
 }
 
-fn motion(words: &Words, at: usize) -> Motion {
-    Motion { velocity: vector(words, at), pose: quaternion(words, at + 3), turning: vector(words, at + 7) }
+fn motion(words: &Words, at: usize) -> FlightMotion {
+    FlightMotion {
+        velocity: vector(words, at),
+        pose: quaternion(words, at + 3),
+        turning: vector(words, at + 7),
+    }
 }
 
-fn told(motion: &Motion) -> [f32; 10] {
+fn told(motion: &FlightMotion) -> [f32; 10] {
     let mut all = [0.0; 10];
     all[..3].copy_from_slice(&motion.velocity.to_array());
     all[3..7].copy_from_slice(&motion.pose.to_array());
@@ -44,20 +48,25 @@ functions! {
 
     body_of in "flight/body" (SPECIES, SIZE, ANY) tolerance Some(1e-5);
     wgsl "let body = body_of((1u + a.x) << SPECIES_SHIFT, (SIZE_ONE - 4096u + a.y) | (a.z << 16u));
-        out_vec4(0u, body.air); out_vec4(4u, body.reach); out_vec3(8u, body.ease); out_vec3(11u, body.gyration);
-        out_vec3(14u, body.arm); out_float(17u, body.resistance); out_float(18u, body.size.x);
-        out_float(19u, body.size.y); out_float(20u, body.slope.x); out_float(21u, body.slope.y);
-        out_float(22u, body.own.x); out_float(23u, body.own.y);";
+        out_float(0u, body.air_per_m); out_float(1u, body.added_mass); out_float(2u, body.air_along);
+        out_float(3u, body.air_across); out_float(4u, body.half_along_m); out_float(5u, body.half_across_m);
+        out_float(6u, body.half_mean_m); out_float(7u, body.twist_m); out_vec3(8u, body.inv_inertia);
+        out_vec3(11u, body.gyration); out_vec3(14u, body.centroid); out_float(17u, body.resistance);
+        out_float(18u, body.size_ratio); out_float(19u, body.inv_size_ratio); out_float(20u, body.lift_slope_across);
+        out_float(21u, body.lift_slope_along); out_float(22u, body.pitch_damping); out_float(23u, body.edge_drag);";
     rust |cx, w| {
         let body = body(cx, w[0], w[1], w[2]);
         let mut all = [0.0; 24];
-        all[..4].copy_from_slice(&body.air);
-        all[4..8].copy_from_slice(&body.reach);
-        all[8..11].copy_from_slice(&body.ease.to_array());
+        all[..8].copy_from_slice(&[
+            body.air_per_m, body.added_mass, body.air_along, body.air_across,
+            body.half_along_m, body.half_across_m, body.half_mean_m, body.twist_m,
+        ]);
+        all[8..11].copy_from_slice(&body.inv_inertia.to_array());
         all[11..14].copy_from_slice(&body.gyration.to_array());
-        all[14..17].copy_from_slice(&body.arm.to_array());
+        all[14..17].copy_from_slice(&body.centroid.to_array());
         all[17..].copy_from_slice(&[
-            body.resistance, body.size[0], body.size[1], body.slope[0], body.slope[1], body.own[0], body.own[1],
+            body.resistance, body.size_ratio, body.inv_size_ratio, body.lift_slope_across, body.lift_slope_along,
+            body.pitch_damping, body.edge_drag,
         ]);
         floats(all)
     };

@@ -13,7 +13,7 @@ use windfall_core::flight::coefficients::{
     DAMPING_NORMAL, DAMPING_ROLL, DAMPING_TURN, DRAG_BEND, DRAG_RISE, LIFT_BEND, LIFT_EDGE, LIFT_RISE,
     MUNK_EDGE, MUNK_RISE, WHIRL_EDGE, WHIRL_RISE,
 };
-use windfall_core::flight::rates::{Motion, flight_rates};
+use windfall_core::flight::rates::{FlightMotion, flight_rates};
 use windfall_core::flight::reference::{DiscCoefficients, DiscState, LeafDisc};
 use windfall_core::kernel::{Quat, Vec3};
 use windfall_core::leaf::record::SIZE_ONE;
@@ -88,8 +88,8 @@ proptest! {
             let size = (ratio * SIZE_ONE as f32) as u32;
             let ratio = f64::from(size) / f64::from(SIZE_ONE);
             let body = body_of(&environment.context(&step), 0u32, size);
-            let turning = spin * body.size[0];
-            let found = flight_rates(&body, &Motion { velocity, pose: Quat::from(pose), turning }, wind);
+            let turning = spin * body.size_ratio;
+            let found = flight_rates(&body, &FlightMotion { velocity, pose: Quat::from(pose), turning }, wind);
 
             let radius_m = 0.5 * f64::from(size_m) * ratio;
             let [along, across] = [offset.0, offset.1].map(f64::from);

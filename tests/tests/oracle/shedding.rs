@@ -233,7 +233,7 @@ fn nothing_jumps_where_a_leaf_comes_off() {
             let at = windfall_core::kernel::Vec3::from(place.position);
             let air = wind_at(&cx, at);
             let air = Vec3::new(air.x, air.y, air.z);
-            let [.., response_s, _] = response_of(&cx, place.bits);
+            let response_s = response_of(&cx, place.bits).time_constant_s;
             // The wind takes hold at once with its drag, and the leaf begins to swing as fast as it falls.
             let pull = ((air - carried).length() + 2.0) / response_s * dt + 9.81 * dt;
             let change = (moved - carried).length();

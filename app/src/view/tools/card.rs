@@ -3,7 +3,7 @@
 //! What is told about a single leaf.
 
 use windfall_core::flight::body::body_of;
-use windfall_core::flight::rates::{FLIGHT_GRAVITY, Motion, flight_rates};
+use windfall_core::flight::rates::{FLIGHT_GRAVITY, FlightMotion, flight_rates};
 use windfall_core::flight::regime::REGIME_NAMES;
 use windfall_core::kernel::{Quat, Vec3};
 use windfall_core::leaf::LeafState;
@@ -67,10 +67,10 @@ pub(crate) fn card(environment: &Environment, clock: &Clock, slot: u32, leaf: &L
         let body = body_of(&cx, bits, leaf.course.size);
         let spin = [leaf.drift.phase, leaf.course.rate, leaf.course.heading].map(f32::from_bits);
         let spin = Vec3::new(spin[0], spin[1], spin[2]);
-        let motion = Motion {
+        let motion = FlightMotion {
             velocity: drift,
             pose: Quat::from(leaf.attitude.quaternion),
-            turning: spin * body.size[0],
+            turning: spin * body.size_ratio,
         };
         let push = flight_rates(&body, &motion, wind).velocity;
         // What the air does is all that is not its weight.
@@ -107,7 +107,7 @@ fn doing(state: LeafState, bits: u32, is_body: bool) -> String {
 fn feature_text(environment: &Environment, species: usize, id: u32, present: usize) -> String {
     let block = environment.block();
     let Some(species) = block.species.get(species) else { return String::new() };
-    let stages = feature(species, [block.seed.0[0], block.seed.0[1]], id);
+    let stages = feature(species, block.seed, id);
     let texts = stages.iter().enumerate().map(|(index, stage)| {
         let code = Primitive::ALL.get(stage.primitive as usize).map_or("?", |primitive| primitive.code());
         let text = format!("{code} {:.0}%", 100.0 * stage.share);

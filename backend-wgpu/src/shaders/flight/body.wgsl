@@ -1,61 +1,74 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // twin: core/src/flight/body.rs
+// A leaf as a body under the air's forces: its species' block, scaled to its size and made asymmetric.
 #import bindings
 #import kernel/math
 
 struct LeafBody {
-    size: vec2<f32>,
-    air: vec4<f32>,
-    reach: vec4<f32>,
-    slope: vec2<f32>,
-    own: vec2<f32>,
+    size_ratio: f32,
+    inv_size_ratio: f32,
+    air_per_m: f32,
+    added_mass: f32,
+    air_along: f32,
+    air_across: f32,
+    half_along_m: f32,
+    half_across_m: f32,
+    half_mean_m: f32,
+    twist_m: f32,
+    lift_slope_across: f32,
+    lift_slope_along: f32,
+    pitch_damping: f32,
+    edge_drag: f32,
     resistance: f32,
-    ease: vec3<f32>,
+    inv_inertia: vec3<f32>,
     gyration: vec3<f32>,
-    arm: vec3<f32>,
+    centroid: vec3<f32>,
 }
 
-fn body_quirk(size: u32, number: u32) -> f32 {
+fn body_asymmetry(size: u32, number: u32) -> f32 {
     return (f32((size >> (QUIRK_SHIFT + 4u * number)) & QUIRK_MASK) - QUIRK_MIDDLE) * QUIRK_UNIT;
 }
 
 fn body_of(bits: u32, size: u32) -> LeafBody {
-    let species = (bits >> SPECIES_SHIFT) & SPECIES_MASK;
-    let air = environment.bodies[species].air;
-    let reach = environment.bodies[species].reach;
-    let slope = environment.bodies[species].slope;
-    let inertia = environment.bodies[species].inertia;
-    let middle = environment.bodies[species].arm;
-    let quirks = environment.bodies[species].quirks;
+    let block = environment.bodies[(bits >> SPECIES_SHIFT) & SPECIES_MASK];
 
-    let ratio = f32(size & HALF_MASK) * SIZE_UNIT;
-    let smallness = reciprocal(ratio);
-    let x = inertia.x + slope.z * ratio;
-    let y = inertia.y;
-    let z = inertia.z + slope.w * ratio;
-    let ease = vec3<f32>(reciprocal(x), reciprocal(y), reciprocal(z));
+    let size_ratio = f32(size & HALF_MASK) * SIZE_UNIT;
+    let inv_size_ratio = reciprocal(size_ratio);
+    let x = block.inertia_m2.x + block.air_inertia_x_m2 * size_ratio;
+    let y = block.inertia_m2.y;
+    let z = block.inertia_m2.z + block.air_inertia_z_m2 * size_ratio;
+    let inv_inertia = vec3<f32>(reciprocal(x), reciprocal(y), reciprocal(z));
     let gyration = vec3<f32>(
-        ((y - z) * ease.x) * smallness,
-        ((z - x) * ease.y) * smallness,
-        ((x - y) * ease.z) * smallness,
+        ((y - z) * inv_inertia.x) * inv_size_ratio,
+        ((z - x) * inv_inertia.y) * inv_size_ratio,
+        ((x - y) * inv_inertia.z) * inv_size_ratio,
     );
-    let arm = vec3<f32>(
-        middle.x + body_quirk(size, 0u) * quirks.x,
-        middle.y + body_quirk(size, 1u) * quirks.y,
-        middle.z + body_quirk(size, 2u) * quirks.z,
+    let centroid = vec3<f32>(
+        block.centroid_m.x + body_asymmetry(size, 0u) * block.centroid_spread_m.x,
+        block.centroid_m.y + body_asymmetry(size, 1u) * block.centroid_spread_m.y,
+        block.centroid_m.z + body_asymmetry(size, 2u) * block.centroid_spread_m.z,
     );
-    let added = air.y * ratio;
-    let swing = (arm.x * arm.x) * ease.z + (arm.z * arm.z) * ease.x;
+    let added = block.added_mass * size_ratio;
+    let swing = (centroid.x * centroid.x) * inv_inertia.z + (centroid.z * centroid.z) * inv_inertia.x;
     return LeafBody(
-        vec2<f32>(ratio, smallness),
-        air,
-        vec4<f32>(reach.xyz, reach.w + body_quirk(size, 3u) * quirks.w),
-        slope.xy,
-        vec2<f32>(inertia.w, middle.w),
+        size_ratio,
+        inv_size_ratio,
+        block.air_per_m,
+        block.added_mass,
+        block.air_along,
+        block.air_across,
+        block.half_along_m,
+        block.half_across_m,
+        block.half_mean_m,
+        block.twist_m + body_asymmetry(size, 3u) * block.twist_spread_m,
+        block.lift_slope_across,
+        block.lift_slope_along,
+        block.pitch_damping,
+        block.edge_drag,
         added * reciprocal((added + added * swing) + 1.0),
-        ease,
+        inv_inertia,
         gyration,
-        arm,
+        centroid,
     );
 }

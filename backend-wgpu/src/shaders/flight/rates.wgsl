@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // twin: core/src/flight/rates.rs
+// Rates of change of a body's motion in moving air: drag, lift, the lift of turning, added mass, damping.
 #import flight/body
 #import kernel/math
 #import kernel/vector
@@ -35,69 +36,70 @@ fn flight_rates(body: LeafBody, motion: FlightMotion, wind: vec3<f32>) -> Flight
     let relative = motion.velocity - wind;
     let u = vec3<f32>(vec3_dot(across, relative), vec3_dot(normal, relative), vec3_dot(along, relative));
     let turn = motion.turning;
-    let flow = u + vec3_cross(turn, body.arm);
+    let flow = u + vec3_cross(turn, body.centroid);
     let squared = max(vec3_dot(flow, flow), TINY_SQUARED);
-    let slowness = inverse_sqrt(squared);
-    let speed = squared * slowness;
+    let inv_speed = inverse_sqrt(squared);
+    let speed = squared * inv_speed;
     let across2 = flow.x * flow.x;
     let along2 = flow.z * flow.z;
     let tangent = across2 + along2;
-    let incidence = flow.y * slowness;
+    let incidence = flow.y * inv_speed;
     let q = incidence * incidence;
 
-    let air = body.air;
-    let resist = (air.x * 0.5) * ((q * (DRAG_RISE - q * DRAG_BEND) + body.own.y) * speed);
-    let slope = q + (body.slope.x * across2 + body.slope.y * along2) * (slowness * slowness);
-    let raise = (air.x * slope) * ((q * (q * LIFT_BEND + LIFT_RISE) + LIFT_EDGE) * incidence);
+    let drag = (body.air_per_m * 0.5) * ((q * (DRAG_RISE - q * DRAG_BEND) + body.edge_drag) * speed);
+    let slope =
+        q + (body.lift_slope_across * across2 + body.lift_slope_along * along2) * (inv_speed * inv_speed);
+    let lift = (body.air_per_m * slope) * ((q * (q * LIFT_BEND + LIFT_RISE) + LIFT_EDGE) * incidence);
     let circulation = q * WHIRL_RISE + WHIRL_EDGE;
     let whirl = vec3_cross(
-        vec3<f32>((air.z * circulation) * turn.x, 0.0, (air.w * circulation) * turn.z),
+        vec3<f32>((body.air_along * circulation) * turn.x, 0.0, (body.air_across * circulation) * turn.z),
         flow,
     );
     let force = vec3<f32>(
-        whirl.x + (raise * flow.y - resist) * flow.x,
-        whirl.y - (raise * tangent + resist * flow.y),
-        whirl.z + (raise * flow.y - resist) * flow.z,
+        whirl.x + (lift * flow.y - drag) * flow.x,
+        whirl.y - (lift * tangent + drag * flow.y),
+        whirl.z + (lift * flow.y - drag) * flow.z,
     );
 
-    let drawn = air.y * flow.y;
-    let push = vec3<f32>(force.x + drawn * turn.z, force.y, force.z - drawn * turn.x);
-    let munk = drawn * (q * MUNK_RISE + MUNK_EDGE);
-    let edge_x = body.reach.x * turn.x;
-    let edge_z = body.reach.y * turn.z;
+    let added_momentum = body.added_mass * flow.y;
+    let push = vec3<f32>(force.x + added_momentum * turn.z, force.y, force.z - added_momentum * turn.x);
+    let munk = added_momentum * (q * MUNK_RISE + MUNK_EDGE);
+    let edge_x = body.half_along_m * turn.x;
+    let edge_z = body.half_across_m * turn.z;
     let edge = max(edge_x * edge_x + edge_z * edge_z, TINY_SQUARED);
     let damping = (edge * inverse_sqrt(edge)) * DAMPING_TURN;
-    let roll = (slowness * DAMPING_ROLL) * (edge_x * flow.x + edge_z * flow.z);
-    let pitch = (slowness * (q * body.own.x)) * (edge_x * flow.z - edge_z * flow.x);
-    let wheel = turn.y * body.reach.z;
+    let roll = (inv_speed * DAMPING_ROLL) * (edge_x * flow.x + edge_z * flow.z);
+    let pitch = (inv_speed * (q * body.pitch_damping)) * (edge_x * flow.z - edge_z * flow.x);
+    let wheel = turn.y * body.half_mean_m;
     let wheeling = (speed + max(wheel, 0.0 - wheel)) * DAMPING_NORMAL;
-    let lever = vec3_cross(body.arm, push);
+    let lever = vec3_cross(body.centroid, push);
     let torque = vec3<f32>(
-        (lever.x + munk * flow.z) - air.z * (damping * edge_x + (roll * flow.x + pitch * flow.z)),
-        (lever.y + body.reach.w * (speed * flow.y)) - (air.z * body.reach.y) * (wheeling * turn.y),
-        (lever.z - munk * flow.x) - air.w * (damping * edge_z + (roll * flow.z - pitch * flow.x)),
+        (lever.x + munk * flow.z) - body.air_along * (damping * edge_x + (roll * flow.x + pitch * flow.z)),
+        (lever.y + body.twist_m * (speed * flow.y))
+            - (body.air_along * body.half_across_m) * (wheeling * turn.y),
+        (lever.z - munk * flow.x) - body.air_across * (damping * edge_z + (roll * flow.z - pitch * flow.x)),
     );
-    let freely = vec3<f32>(
-        torque.x * body.ease.x + body.gyration.x * (turn.y * turn.z),
-        torque.y * body.ease.y + body.gyration.y * (turn.z * turn.x),
-        torque.z * body.ease.z + body.gyration.z * (turn.x * turn.y),
+    let angular_accel = vec3<f32>(
+        torque.x * body.inv_inertia.x + body.gyration.x * (turn.y * turn.z),
+        torque.y * body.inv_inertia.y + body.gyration.y * (turn.z * turn.x),
+        torque.z * body.inv_inertia.z + body.gyration.z * (turn.x * turn.y),
     );
 
-    let size = body.size.y;
-    let carried = (turn.z * u.x - turn.x * u.z) * size;
-    let swung = body.arm.x * freely.z - body.arm.z * freely.x;
-    let gathered = ((push.y - FLIGHT_GRAVITY * normal.y) - carried) + swung;
-    let resistance = body.resistance * gathered;
+    let size = body.inv_size_ratio;
+    let frame_accel = (turn.z * u.x - turn.x * u.z) * size;
+    let centroid_accel = body.centroid.x * angular_accel.z - body.centroid.z * angular_accel.x;
+    let normal_accel = ((push.y - FLIGHT_GRAVITY * normal.y) - frame_accel) + centroid_accel;
+    let normal_force = body.resistance * normal_accel;
     let inner = vec3<f32>(
         push.x - FLIGHT_GRAVITY * across.y,
-        (push.y - FLIGHT_GRAVITY * normal.y) - resistance,
+        (push.y - FLIGHT_GRAVITY * normal.y) - normal_force,
         push.z - FLIGHT_GRAVITY * along.y,
     );
     let acceleration = across * inner.x + normal * inner.y + along * inner.z;
     let turning = vec3<f32>(
-        freely.x + (resistance * body.arm.z) * body.ease.x,
-        freely.y,
-        freely.z - (resistance * body.arm.x) * body.ease.z,
+        angular_accel.x + (normal_force * body.centroid.z) * body.inv_inertia.x,
+        angular_accel.y,
+        angular_accel.z - (normal_force * body.centroid.x) * body.inv_inertia.z,
     );
 
     let half = turn * (size * 0.5);

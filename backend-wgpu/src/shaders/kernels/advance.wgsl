@@ -7,7 +7,7 @@
 
 @compute @workgroup_size(WORKGROUP_SIZE)
 fn advance(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>) {
-    let parity = step_block.index.x & 1u;
+    let parity = step_block.index & 1u;
     if (id.x == 0u) {
         atomicStore(&due.counts[1u - parity], 0u);
     }

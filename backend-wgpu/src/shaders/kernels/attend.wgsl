@@ -7,7 +7,7 @@
 
 @compute @workgroup_size(WORKGROUP_SIZE)
 fn attend(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>) {
-    let count = atomicLoad(&due.counts[step_block.index.x & 1u]);
+    let count = atomicLoad(&due.counts[step_block.index & 1u]);
     for (var index = id.x; index < count; index += groups.x * WORKGROUP_SIZE) {
         leaf_advance(due.leaves[index]);
     }

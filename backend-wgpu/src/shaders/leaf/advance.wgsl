@@ -9,17 +9,17 @@
 #import leaf/settle
 
 fn leaf_is_due(leaf: u32) -> bool {
-    return step_block.index.x >= courses[leaf].x;
+    return step_block.index >= courses[leaf].x;
 }
 
 fn leaf_stirs(leaf: u32) -> bool {
     let drift = drifts[leaf];
-    return drift.w < environment.counts.y || ((drift.x | drift.z) << 1u) != 0u;
+    return drift.w < environment.settle_steps || ((drift.x | drift.z) << 1u) != 0u;
 }
 
 fn leaf_advance_plain(leaf: u32) -> bool {
     let course = courses[leaf];
-    if (step_block.index.x >= course.x) {
+    if (step_block.index >= course.x) {
         return false;
     }
     let place = places[leaf];
@@ -34,17 +34,17 @@ fn leaf_advance_plain(leaf: u32) -> bool {
 }
 
 fn leaf_advance_due(leaf: u32) {
-    let now = step_block.index.x;
+    let now = step_block.index;
     let identity = identities[leaf];
     let source = (identity.w >> SOURCE_SHIFT) & SOURCE_MASK;
-    let lifetime = environment.sources[source].timing.w;
+    let lifetime = environment.sources[source].lifetime_steps;
     let state = places[leaf].w & STATE_MASK;
     if (state == STATE_ATTACHED) {
         leaf_detach(leaf, now);
     } else if (state == STATE_DORMANT) {
         leaf_release(leaf, identity.x, source, now);
     } else if (source != SOURCE_TREES && lifetime != 0u && now - identity.y >= lifetime) {
-        leaf_release(leaf, identity.x + environment.seed.z, source, now);
+        leaf_release(leaf, identity.x + environment.ids_per_life, source, now);
     }
     let bits = places[leaf].w;
     if ((bits & STATE_MASK) == STATE_FALLING && !flies(bits)) {

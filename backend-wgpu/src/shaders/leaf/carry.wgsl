@@ -39,12 +39,12 @@ fn leaf_hang(habit: f32, slot: u32, petiole: Petiole, segment: Body) -> Hang {
     let still = quat_multiply(segment.pose, petiole.rest);
     let tip = quat_rotate(still, vec3<f32>(0.0, 0.0, 1.0));
     let side = quat_rotate(still, vec3<f32>(1.0, 0.0, 0.0));
-    let wind = vec3<f32>(environment.wind.mean.x, 0.0, environment.wind.mean.y);
+    let wind = vec3<f32>(environment.wind.direction_x, 0.0, environment.wind.direction_z);
     let share = habit * reciprocal(habit + LEAN_SPEED);
     let unrest = share * share;
-    let rate = environment.crowns.z;
+    let rate = environment.flutter_per_step;
     let own_rate = rate + (rate >> 5u) * (slot & 15u);
-    let phase = own_rate * step_block.index.x + slot * 0x9e3779b9u;
+    let phase = own_rate * step_block.index + slot * 0x9e3779b9u;
     let roll = sin_cos_turns(phase).x;
     let pitch = sin_cos_turns(phase << 1u).y;
     let lean = vec3_cross(tip, wind) * (share * LEAN_MOST);
@@ -60,7 +60,7 @@ fn leaf_size_on_twig(size: u32, facts: u32) -> u32 {
 }
 
 fn petiole_of(slot: u32) -> Petiole {
-    let first = environment.crowns.y + slot * PETIOLE_ROWS;
+    let first = environment.first_petiole_row + slot * PETIOLE_ROWS;
     let at = petiole_rows[first];
     return Petiole(
         bitcast<vec3<f32>>(at.xyz),
@@ -72,8 +72,8 @@ fn petiole_of(slot: u32) -> Petiole {
 
 fn leaf_return(leaf: u32, facts: u32) -> u32 {
     let is_back = (places[leaf].w & STATE_MASK) == STATE_RESTING
-        && environment.sources[SOURCE_TREES].timing.w != 0u
-        && step_block.index.x >= courses[leaf].x;
+        && environment.sources[SOURCE_TREES].lifetime_steps != 0u
+        && step_block.index >= courses[leaf].x;
     if (!is_back) {
         return 0u;
     }
@@ -85,11 +85,11 @@ fn leaf_return(leaf: u32, facts: u32) -> u32 {
 }
 
 fn leaf_hangs(bits: u32, event: u32) -> bool {
-    return (bits & STATE_MASK) == STATE_ATTACHED && step_block.index.x < event;
+    return (bits & STATE_MASK) == STATE_ATTACHED && step_block.index < event;
 }
 
 fn leaf_next_look(slot: u32) -> u32 {
-    return (0u - (step_block.index.x + slot)) & (SHED_INTERVAL - 1u);
+    return (0u - (step_block.index + slot)) & (SHED_INTERVAL - 1u);
 }
 
 fn leaf_look(habit: f32, slot: u32, petiole: Petiole, segment: Body) -> Look {
@@ -98,8 +98,8 @@ fn leaf_look(habit: f32, slot: u32, petiole: Petiole, segment: Body) -> Look {
     let relative = wind_at(segment.base + arm) - velocity;
     let squared = vec3_dot(relative, relative);
     let speed = squared * inverse_sqrt(max(squared, TINY_SQUARED));
-    let counter = vec4<u32>(slot, STREAM_SHED, step_block.index.x, 0u);
-    let breaks = philox(environment.seed.xy, counter).x < shed_chance(petiole.facts, speed);
+    let counter = vec4<u32>(slot, STREAM_SHED, step_block.index, 0u);
+    let breaks = philox(environment.seed, counter).x < shed_chance(petiole.facts, speed);
     return Look(habit + (speed - habit) * HABIT_SHARE, breaks);
 }
 
@@ -108,7 +108,7 @@ fn leaf_follow(leaf: u32, slot: u32, petiole: Petiole, segment: Body) {
     let hang = leaf_hang(bitcast<f32>(habit), slot, petiole, segment);
     attitudes[leaf] = hang.attitude;
     places[leaf] = vec4<u32>(bitcast<vec3<u32>>(hang.position), places[leaf].w);
-    if (courses[leaf].x == step_block.index.x + 1u) {
+    if (courses[leaf].x == step_block.index + 1u) {
         let spin = bitcast<vec3<u32>>(quat_rotate_back(hang.attitude, segment.spin));
         habit = spin.x;
         courses[leaf].y = spin.y;
@@ -126,7 +126,7 @@ fn leaf_carry(leaf: u32, slot: u32, petiole: Petiole, segment: Body) -> u32 {
         let look = leaf_look(bitcast<f32>(drifts[leaf].w), slot, petiole, segment);
         drifts[leaf].w = bitcast<u32>(look.habit);
         if (look.breaks) {
-            courses[leaf].x = step_block.index.x + 1u;
+            courses[leaf].x = step_block.index + 1u;
             change = change - 1u;
         }
     }

@@ -28,7 +28,7 @@ struct Turned {
     attitude: vec4<f32>,
 }
 
-fn response_of(bits: u32) -> vec4<f32> {
+fn response_of(bits: u32) -> ResponseBlock {
     return environment.responses[(bits >> SPECIES_SHIFT) & SPECIES_MASK];
 }
 
@@ -39,7 +39,7 @@ fn glide_part(glide: Glide, bits: u32, course: vec4<u32>, wind: vec3<f32>, part:
     let before = glide.drift - wind;
     let after = before * part.decay;
     let spent = on_grid(before * part.tau) - on_grid(after * part.tau);
-    let carried = wind * ((f32(part.length) * STEP_UNIT) * environment.time.x);
+    let carried = wind * ((f32(part.length) * STEP_UNIT) * environment.dt_s);
     return Glide(glide.position + ((own + spent) + carried), wind + after, end);
 }
 
@@ -62,7 +62,7 @@ fn attitude_after(leaf: u32, bits: u32, phase: u32, heading: u32) -> Turned {
 fn glide_end(leaf: u32, start: vec3<f32>, glide: Glide) {
     let heading = courses[leaf].w;
     let old_bits = places[leaf].w;
-    let spun = spin_advance(old_bits, heading, response_of(old_bits).y);
+    let spun = spin_advance(old_bits, heading, response_of(old_bits).fastest_spin);
     let turned = attitude_after(leaf, spun, glide.phase, heading);
     glide_write(leaf, glide, turned);
     if (ground_met(glide.position)) {
@@ -76,9 +76,9 @@ fn glide_write(leaf: u32, glide: Glide, turned: Turned) {
     drifts[leaf] = vec4<u32>(bitcast<vec3<u32>>(glide.drift), glide.phase);
 }
 
-fn glide_step(glide: Glide, bits: u32, course: vec4<u32>, response: vec4<f32>) -> Glide {
+fn glide_step(glide: Glide, bits: u32, course: vec4<u32>, response: ResponseBlock) -> Glide {
     let wind = wind_at(glide.position);
-    return glide_part(glide, bits, course, wind, Part(WHOLE_STEP, response.x, response.z));
+    return glide_part(glide, bits, course, wind, Part(WHOLE_STEP, response.drift_kept, response.time_constant_s));
 }
 
 fn leaf_fall(leaf: u32) {
@@ -97,7 +97,7 @@ fn leaf_glide(leaf: u32, place: vec4<u32>, course: vec4<u32>) -> bool {
     if (ground_met(moved.position)) {
         return false;
     }
-    let spun = spin_advance(place.w, course.w, response.y);
+    let spun = spin_advance(place.w, course.w, response.fastest_spin);
     glide_write(leaf, moved, attitude_after(leaf, spun, moved.phase, course.w));
     return true;
 }

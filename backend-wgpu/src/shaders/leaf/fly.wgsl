@@ -22,15 +22,11 @@ fn flies(bits: u32) -> bool {
     return (bits & (STATE_MASK | (PRIMITIVE_MASK << PRIMITIVE_SHIFT))) == flying;
 }
 
-fn loads_of(bits: u32) -> vec4<f32> {
-    return environment.bodies[(bits >> SPECIES_SHIFT) & SPECIES_MASK].load;
-}
-
 fn flight_load(bits: u32, relative: vec3<f32>, spin: vec3<f32>) -> f32 {
-    let load = loads_of(bits);
+    let block = environment.bodies[(bits >> SPECIES_SHIFT) & SPECIES_MASK];
     let squared = max(vec3_dot(relative, relative), TINY_SQUARED);
     let turned = max(vec3_dot(spin, spin), TINY_SQUARED);
-    return load.x * (squared * inverse_sqrt(squared)) + load.y * (turned * inverse_sqrt(turned));
+    return block.load_per_speed * (squared * inverse_sqrt(squared)) + block.load_per_spin * (turned * inverse_sqrt(turned));
 }
 
 fn flight_advance(flight: Flight, bits: u32, size: u32, wind: vec3<f32>) -> Flight {
@@ -40,25 +36,25 @@ fn flight_advance(flight: Flight, bits: u32, size: u32, wind: vec3<f32>) -> Flig
     let cuts = flight_cuts(load);
     let calm = select(1.0, FLIGHT_CUTS * reciprocal(load), FLIGHT_CUTS < load);
     let air = flight.velocity - relative * calm;
-    let time = cuts.y * environment.time.x;
+    let time = cuts.y * environment.dt_s;
     var position = flight.position;
-    var motion = FlightMotion(flight.velocity, flight.pose, flight.spin * (body.size.x * calm));
+    var motion = FlightMotion(flight.velocity, flight.pose, flight.spin * (body.size_ratio * calm));
     for (var done = 0.0; done < cuts.x; done += 1.0) {
         let step = flight_step(body, motion, air, time);
         position = position + step.way;
         motion = step.end;
     }
-    return Flight(position, motion.velocity, motion.pose, motion.turning * body.size.y);
+    return Flight(position, motion.velocity, motion.pose, motion.turning * body.inv_size_ratio);
 }
 
 fn flight_told(flight: Flight, wind: vec3<f32>, memory: u32, bits: u32) -> vec2<u32> {
     let path = flight.velocity - wind;
     let flow = quat_rotate_back(flight.pose, path);
-    let now = step_block.index.x;
-    let rate = environment.motion.w;
+    let now = step_block.index;
+    let rate = environment.ticks_per_step_q16;
     let ticks = mul_q16(now + 1u, rate) - mul_q16(now, rate);
-    let patience = u32(loads_of(bits).z);
-    let told = regime_memory(memory, flow, flight.spin, path, ticks, patience);
+    let idle_timeout = u32(environment.bodies[(bits >> SPECIES_SHIFT) & SPECIES_MASK].idle_timeout_ticks);
+    let told = regime_memory(memory, flow, flight.spin, path, ticks, idle_timeout);
     return vec2<u32>(told, (bits & ~(REGIME_MASK << REGIME_SHIFT)) | (regime_of(told) << REGIME_SHIFT));
 }
 

@@ -11,7 +11,7 @@
 #import wind/sample
 
 fn leaf_join(leaf: u32, glide: Glide) -> Glide {
-    let seed = environment.seed.xy;
+    let seed = environment.seed;
     let identity = identities[leaf];
     let id = identity.x;
     let old_bits = places[leaf].w;
@@ -33,16 +33,16 @@ fn leaf_join(leaf: u32, glide: Glide) -> Glide {
     courses[leaf] = course;
     let bits = (old_bits & ~((PRIMITIVE_MASK << PRIMITIVE_SHIFT) | (BLEND_MASK << BLEND_SHIFT)))
         | (primitive << PRIMITIVE_SHIFT)
-        | (environment.counts.z << BLEND_SHIFT);
+        | (environment.blend_steps << BLEND_SHIFT);
     places[leaf].w = bits;
     let after = own_velocity(bits, words.y, course);
     return Glide(glide.position, glide.drift + (before - after), words.y);
 }
 
-fn part_of_step(response: vec4<f32>, length: u32) -> Part {
-    let elapsed = (f32(length) * STEP_UNIT) * environment.time.x;
-    let decay = exponential((0.0 - elapsed) * response.w);
-    return Part(length, decay, response.z);
+fn part_of_step(response: ResponseBlock, length: u32) -> Part {
+    let elapsed = (f32(length) * STEP_UNIT) * environment.dt_s;
+    let decay = exponential((0.0 - elapsed) * response.inv_time_constant);
+    return Part(length, decay, response.time_constant_s);
 }
 
 fn leaf_fall_joining(leaf: u32) {
@@ -50,12 +50,12 @@ fn leaf_fall_joining(leaf: u32) {
     let start = bitcast<vec3<f32>>(place.xyz);
     let response = response_of(place.w);
     let wind = wind_at(start);
-    let seed = environment.seed.xy;
+    let seed = environment.seed;
     let drift = drifts[leaf];
     var glide = Glide(start, bitcast<vec3<f32>>(drift.xyz), drift.w);
     var done = 0u;
     for (var join = 1u; join < STAGE_COUNT; join++) {
-        if (step_block.index.x >= courses[leaf].x) {
+        if (step_block.index >= courses[leaf].x) {
             let identity = identities[leaf];
             let stage = (identity.w >> STAGE_SHIFT) & STAGE_MASK;
             let end = max(done, stage_end(seed, identity.x, identity.z, stage) & HALF_MASK);

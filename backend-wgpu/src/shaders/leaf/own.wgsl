@@ -16,11 +16,11 @@ fn turn_to_heading(v: vec3<f32>, heading: u32) -> vec3<f32> {
 }
 
 fn own_scale(course: vec4<u32>) -> f32 {
-    return (f32(course.z & HALF_MASK) * SIZE_UNIT) * environment.time.w;
+    return (f32(course.z & HALF_MASK) * SIZE_UNIT) * environment.displacement_gain;
 }
 
 fn own_rate(rate: u32) -> u32 {
-    let speed = environment.counts.w;
+    let speed = environment.rotation_speed_q16;
     if (speed == WHOLE_STEP) {
         return rate;
     }
@@ -28,7 +28,7 @@ fn own_rate(rate: u32) -> u32 {
 }
 
 fn on_grid(v: vec3<f32>) -> vec3<f32> {
-    let zero = environment.motion.y;
+    let zero = environment.zero;
     return vec3<f32>(
         bitcast<f32>(bitcast<u32>(v.x + GRID_ANCHOR) | zero) - GRID_ANCHOR,
         bitcast<f32>(bitcast<u32>(v.y + GRID_ANCHOR) | zero) - GRID_ANCHOR,
@@ -58,8 +58,8 @@ fn own_velocity(bits: u32, phase: u32, course: vec4<u32>) -> vec3<f32> {
     let local = motion_velocity((bits >> TABLE_SHIFT) & TABLE_MASK, phase);
     let rate = own_rate(course.y);
     let rounded = f32(rate >> 16u) * 65536.0 + f32(rate & HALF_MASK);
-    let per_second = rounded * environment.time.z;
-    return turn_to_heading(local, course.w >> 16u) * (own_scale(course) * per_second);
+    let periods_per_s = (rounded * PHASE_UNIT) * environment.inv_dt_s;
+    return turn_to_heading(local, course.w >> 16u) * (own_scale(course) * periods_per_s);
 }
 
 fn own_orientation(bits: u32, phase: u32, heading: u32) -> vec4<f32> {

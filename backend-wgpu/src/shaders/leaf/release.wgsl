@@ -22,9 +22,9 @@ fn unit_coordinate(word: u32) -> i32 {
 }
 
 fn release_place(source: u32, seed: vec2<u32>, id: u32) -> vec3<i32> {
-    let center = bitcast<vec3<i32>>(environment.sources[source].center.xyz);
-    let extent = environment.sources[source].extent;
-    let kind = environment.sources[source].center.w;
+    let center = environment.sources[source].center_units;
+    let extent = environment.sources[source].extent_units;
+    let kind = environment.sources[source].kind;
     var words = random(seed, id, STREAM_PLACE);
     if (kind == SOURCE_BOX) {
         return vec3<i32>(
@@ -57,20 +57,23 @@ fn release_place(source: u32, seed: vec2<u32>, id: u32) -> vec3<i32> {
     );
 }
 
+fn source_share(source: u32, species: u32) -> u32 {
+    return environment.sources[source].shares[species >> 2u][species & 3u];
+}
+
 fn release_species(source: u32, word: u32) -> u32 {
     var species = 0u;
-    for (var vector = 0u; vector < SHARE_VECTORS; vector++) {
-        for (var lane = 0u; lane < 4u; lane++) {
-            species += select(0u, 1u, word >= environment.sources[source].shares[vector][lane]);
-        }
+    for (var candidate = 0u; candidate < 4u * SHARE_VECTORS; candidate++) {
+        species += select(0u, 1u, word >= source_share(source, candidate));
     }
     return species;
 }
 
 fn release_size_speed(species: u32, words: vec4<u32>) -> vec2<u32> {
-    let scales = environment.species[species].scales;
-    let size = bitcast<i32>(SIZE_ONE) + ((bitcast<i32>(scales.y) * triangular(words.y)) >> 16u);
-    let speed = bitcast<i32>(SIZE_ONE) + ((bitcast<i32>(scales.z) * triangular(words.z)) >> 16u);
+    let size_spread = bitcast<i32>(environment.species[species].size_spread_q14);
+    let speed_spread = bitcast<i32>(environment.species[species].speed_spread_q14);
+    let size = bitcast<i32>(SIZE_ONE) + ((size_spread * triangular(words.y)) >> 16u);
+    let speed = bitcast<i32>(SIZE_ONE) + ((speed_spread * triangular(words.z)) >> 16u);
     return vec2<u32>(bitcast<u32>(size), bitcast<u32>(speed));
 }
 
@@ -78,31 +81,35 @@ fn release_ratio(size_speed: vec2<u32>) -> u32 {
     return (size_speed.y << 16u) / size_speed.x;
 }
 
+fn species_rate(species: u32, primitive: u32) -> u32 {
+    return environment.species[species].rates[primitive >> 2u][primitive & 3u];
+}
+
 fn release_rate(species: u32, primitive: u32, ratio_q16: u32) -> u32 {
-    return mul_q16(environment.species[species].rates[primitive >> 2u][primitive & 3u], ratio_q16);
+    return mul_q16(species_rate(species, primitive), ratio_q16);
 }
 
 fn release_fall_time(species: u32, height: i32, speed: u32) -> u32 {
     let positive = bitcast<u32>(max(height, 0));
-    let per_metre = environment.species[species].scales.x;
+    let per_metre = environment.species[species].fall_steps_q16_per_m;
     let nominal = (mul_high(positive, per_metre) << 22u) | ((positive * per_metre) >> 10u);
     return mul_q16(nominal, (1u << 30u) / speed);
 }
 
 fn next_event(id: u32, release: u32, fall_time: u32, stage: u32, source: u32) -> u32 {
-    let lifetime = environment.sources[source].timing.w;
+    let lifetime = environment.sources[source].lifetime_steps;
     // A tree takes its leaves back only from the ground.
     let is_final = lifetime == 0u || source == SOURCE_TREES;
     let recycle = select(release + lifetime, NEVER, is_final);
     if (stage + 1u >= STAGE_COUNT) {
         return recycle;
     }
-    let seed = environment.seed.xy;
+    let seed = environment.seed;
     return min(recycle, release + (stage_end(seed, id, fall_time, stage) >> 16u));
 }
 
 fn leaf_release(leaf: u32, id: u32, source: u32, release: u32) {
-    let seed = environment.seed.xy;
+    let seed = environment.seed;
     let place = release_place(source, seed, id);
     let look = random(seed, id, STREAM_LOOK);
     leaf_drop(leaf, id, look, source, release_species(source, look.x), place, release);
@@ -120,7 +127,7 @@ fn leaf_drop(
     let size_speed = release_size_speed(species, look);
     let position =
         vec3<f32>(f32(place.x) * LENGTH_UNIT, f32(place.y) * LENGTH_UNIT, f32(place.z) * LENGTH_UNIT);
-    let ground = (ground_surface(position.x, position.z) + environment.ground.x) * 1024.0;
+    let ground = (ground_surface(position.x, position.z) + environment.surface_height_m) * 1024.0;
     identities[leaf].z = release_fall_time(species, place.y - i32(floor(ground)), size_speed.y);
     identities[leaf].w = (look.w & HALF_MASK)
         | ((look.x & VARIANT_MASK) << VARIANT_SHIFT)
@@ -130,21 +137,21 @@ fn leaf_drop(
     courses[leaf].w = look.w >> 16u;
     places[leaf] = vec4<u32>(bitcast<vec3<u32>>(position), (0u << BLEND_SHIFT) | (species << SPECIES_SHIFT));
     drifts[leaf] = vec4<u32>(0u, 0u, 0u, 0u);
-    if (environment.species[species].start.x == AERODYNAMIC) {
+    if (environment.species[species].first_motion == AERODYNAMIC) {
         leaf_hold(leaf, id);
     }
     leaf_set_off(leaf, id, release, size_speed);
 }
 
 fn leaf_set_off(leaf: u32, id: u32, release: u32, size_speed: vec2<u32>) {
-    let seed = environment.seed.xy;
+    let seed = environment.seed;
     var identity = identities[leaf];
     var course = courses[leaf];
     let before = places[leaf].w;
     let source = (identity.w >> SOURCE_SHIFT) & SOURCE_MASK;
     let species = (before >> SPECIES_SHIFT) & SPECIES_MASK;
     let stage = stage_words(seed, id, 0u);
-    let primitive = environment.species[species].start.x;
+    let primitive = environment.species[species].first_motion;
     identity.x = id;
     identity.y = release;
     identity.w = identity.w & ~(STAGE_MASK << STAGE_SHIFT);
@@ -174,15 +181,15 @@ fn leaf_set_off(leaf: u32, id: u32, release: u32, size_speed: vec2<u32>) {
 }
 
 fn leaf_detach(leaf: u32, release: u32) {
-    let seed = environment.seed.xy;
-    let id = identities[leaf].x + environment.seed.z;
+    let seed = environment.seed;
+    let id = identities[leaf].x + environment.ids_per_life;
     let look = random(seed, id, STREAM_LOOK);
     let species = (places[leaf].w >> SPECIES_SHIFT) & SPECIES_MASK;
     let size = courses[leaf].z >> 16u;
     courses[leaf].z = size | (size << 16u);
-    if (environment.species[species].start.x != AERODYNAMIC) {
+    if (environment.species[species].first_motion != AERODYNAMIC) {
         courses[leaf].w = look.w >> 16u;
     }
-    places[leaf].w = (places[leaf].w & ~(BLEND_MASK << BLEND_SHIFT)) | (environment.counts.z << BLEND_SHIFT);
+    places[leaf].w = (places[leaf].w & ~(BLEND_MASK << BLEND_SHIFT)) | (environment.blend_steps << BLEND_SHIFT);
     leaf_set_off(leaf, id, release, vec2<u32>(size, release_size_speed(species, look).y));
 }

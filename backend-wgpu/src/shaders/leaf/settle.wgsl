@@ -12,7 +12,7 @@ struct Slide {
 }
 
 fn slide(came: vec3<f32>, seconds: f32, slope: Slope) -> Slide {
-    let pull = (environment.relief.w * seconds) * slope.ease;
+    let pull = (environment.gravity_m_s2 * seconds) * slope.ease;
     let velocity = vec3<f32>(came.x - slope.x * pull, came.y, came.z - slope.z * pull);
     if (velocity.x * came.x + velocity.z * came.z < 0.0) {
         return Slide(vec3<f32>(0.0, 0.0, 0.0), vec3<f32>(0.0, 0.0, 0.0));
@@ -23,8 +23,8 @@ fn slide(came: vec3<f32>, seconds: f32, slope: Slope) -> Slide {
     }
     let inverse = inverse_sqrt(squared);
     let speed = squared * inverse;
-    let left = max(speed - (environment.ground.z * slope.ease) * seconds, 0.0);
-    let stop = squared * (environment.ground.w * slope.gain);
+    let left = max(speed - (environment.friction_m_s2 * slope.ease) * seconds, 0.0);
+    let stop = squared * (environment.stop_s2_m * slope.gain);
     let way = select(stop, (0.5 * seconds) * (speed + left), left > 0.0);
     return Slide(velocity * (way * inverse), velocity * (left * inverse));
 }
@@ -51,10 +51,10 @@ fn leaf_land(leaf: u32, start: vec3<f32>) {
     let share = min(max((start.y - above) * reciprocal(drop), 0.0), 1.0);
     let way = end - start;
     let hit = start + way * share;
-    let dt = environment.time.x;
-    let slid = slide(way * environment.time.y, (1.0 - share) * dt, ground_slope(hit.x, hit.z));
+    let dt = environment.dt_s;
+    let slid = slide(way * environment.inv_dt_s, (1.0 - share) * dt, ground_slope(hit.x, hit.z));
     let identity = identities[leaf];
-    let lifetime = environment.sources[(identity.w >> SOURCE_SHIFT) & SOURCE_MASK].timing.w;
+    let lifetime = environment.sources[(identity.w >> SOURCE_SHIFT) & SOURCE_MASK].lifetime_steps;
     let x = hit.x + slid.way.x;
     let z = hit.z + slid.way.z;
     let position = vec3<f32>(x, ground_rest(x, z), z);
@@ -70,18 +70,18 @@ fn leaf_settle(leaf: u32) {
     let place = places[leaf];
     let position = bitcast<vec3<f32>>(place.xyz);
     let slides = velocity.x != 0.0 || velocity.z != 0.0;
-    let is_hilly = environment.terrain.w != 0u;
+    let is_hilly = environment.has_terrain != 0u;
     let slope = ground_slope(position.x, position.z);
-    if (drift.w < environment.counts.y || (slides && is_hilly)) {
+    if (drift.w < environment.settle_steps || (slides && is_hilly)) {
         if (is_hilly) {
-            attitudes[leaf] = flatten_on(slope, attitudes[leaf], environment.settle.x);
+            attitudes[leaf] = flatten_on(slope, attitudes[leaf], environment.tilt_kept);
         } else {
-            attitudes[leaf] = flatten(attitudes[leaf], environment.settle.x);
+            attitudes[leaf] = flatten(attitudes[leaf], environment.tilt_kept);
         }
         drifts[leaf].w = select(drift.w + 1u, 0u, slides && is_hilly);
     }
     if (slides) {
-        let slid = slide(velocity, environment.time.x, slope);
+        let slid = slide(velocity, environment.dt_s, slope);
         let x = position.x + slid.way.x;
         let z = position.z + slid.way.z;
         var y = position.y;

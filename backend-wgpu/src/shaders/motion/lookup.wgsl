@@ -43,7 +43,7 @@ fn motion_state(table: u32, phase: u32) -> MotionState {
 }
 
 fn motion_velocity(table: u32, phase: u32) -> vec3<f32> {
-    let row = environment.motion.x + row_of(table, phase);
+    let row = environment.first_velocity_row + row_of(table, phase);
     let a = motion_rows[row];
     let b = motion_rows[row + 1u];
     return vec3_lerp(vec3<f32>(a.x, a.y, a.z), vec3<f32>(b.x, b.y, b.z), fraction_of(phase));

@@ -8,25 +8,26 @@
 #import wind/vortex
 
 fn wind_at(place: vec3<f32>) -> vec3<f32> {
-    let direction_x = environment.wind.mean.x;
-    let direction_z = environment.wind.mean.y;
+    let direction_x = environment.wind.direction_x;
+    let direction_z = environment.wind.direction_z;
     let along = place.x * direction_x + place.z * direction_z;
     let across = place.z * direction_x - place.x * direction_z;
-    let height = place.y - environment.wind.gust.z;
+    let height = place.y - environment.ground_height_m;
     var above = height;
-    if (environment.terrain.w != 0u) {
+    if (environment.has_terrain != 0u) {
         above = height - ground_relief(place.x, place.z);
     }
-    let mean = (wind_profile(above) * environment.wind.mean.z) * (wind_gust(along) * environment.wind.gust.x + 1.0);
+    let mean = (wind_profile(above) * environment.wind.mean_speed_m_s) * (wind_gust(along) * environment.wind.gust_strength + 1.0);
+    let deviation = environment.wind.deviation_m_s;
     var turbulence = vec3<f32>(0.0, 0.0, 0.0);
-    if (environment.wind.deviation.x != 0.0) {
+    if (deviation.x != 0.0) {
         turbulence = wind_turbulence(vec3<f32>(along, height, across));
     }
-    let u = mean + turbulence.x * environment.wind.deviation.x;
-    let v = turbulence.y * environment.wind.deviation.y;
-    let w = turbulence.z * environment.wind.deviation.z;
+    let u = mean + turbulence.x * deviation.x;
+    let v = turbulence.y * deviation.y;
+    let w = turbulence.z * deviation.z;
     var air = vec3<f32>(u * direction_x - w * direction_z, v, u * direction_z + w * direction_x);
-    for (var index = 0u; index < environment.wind.tables.w; index++) {
+    for (var index = 0u; index < step_block.vortex_count; index++) {
         air = air + wind_vortex(index, place);
     }
     return air;

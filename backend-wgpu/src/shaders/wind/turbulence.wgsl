@@ -12,7 +12,7 @@ fn turbulence_index(column: u32, layer: u32) -> u32 {
 }
 
 fn turbulence_face(index: u32, along: f32, up: f32) -> vec2<f32> {
-    let row = wind_rows[environment.wind.tables.z + index];
+    let row = wind_rows[environment.wind.first_turbulence_row + index];
     let a = turbulence_unpack(row.x);
     let b = turbulence_unpack(row.y);
     let c = turbulence_unpack(row.z);
@@ -28,7 +28,7 @@ fn turbulence_edge(edge: u32, along: f32) -> f32 {
 }
 
 fn turbulence_across(index: u32, t: vec3<f32>) -> f32 {
-    let edges = wind_rows[environment.wind.tables.z + TURBULENCE_NODES + index];
+    let edges = wind_rows[environment.wind.first_turbulence_row + TURBULENCE_NODES + index];
     let a = turbulence_edge(edges.x, t.x);
     let b = turbulence_edge(edges.y, t.x);
     let c = turbulence_edge(edges.z, t.x);
@@ -39,8 +39,8 @@ fn turbulence_across(index: u32, t: vec3<f32>) -> f32 {
 }
 
 fn wind_turbulence(place: vec3<f32>) -> vec3<f32> {
-    let cells = environment.wind.cells;
-    let x = place.x * cells.x - step_block.offsets.y;
+    let cells = environment.wind.cells_per_m;
+    let x = place.x * cells.x - step_block.turbulence_offset;
     let y = place.y * cells.y;
     let z = place.z * cells.z;
     let kx = floor(x);

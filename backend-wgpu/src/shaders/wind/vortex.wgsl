@@ -6,12 +6,10 @@
 #import kernel/vector
 
 fn wind_vortex(vortex: u32, place: vec3<f32>) -> vec3<f32> {
-    let center = step_block.vortices[vortex].center;
-    let axis_and_swirl = step_block.vortices[vortex].axis;
-    let axis = vec3<f32>(axis_and_swirl.x, axis_and_swirl.y, axis_and_swirl.z);
-    let from_center = place - vec3<f32>(center.x, center.y, center.z);
+    let axis = step_block.vortices[vortex].axis;
+    let from_center = place - step_block.vortices[vortex].center_m;
     let radial = from_center - axis * vec3_dot(from_center, axis);
-    let inverse = reciprocal(vec3_dot(radial, radial) + center.w);
-    return vec3_cross(axis, radial) * (inverse * axis_and_swirl.w)
-        + axis * (inverse * step_block.vortices[vortex].axial.x);
+    let inverse = reciprocal(vec3_dot(radial, radial) + step_block.vortices[vortex].core_m2);
+    return vec3_cross(axis, radial) * (inverse * step_block.vortices[vortex].swirl_m2_s)
+        + axis * (inverse * step_block.vortices[vortex].axial_m3_s);
 }

@@ -83,7 +83,7 @@ pub fn segment_load<R: Real>(
     let moment = constants.first_moment + leaves * half;
     let across = constants.inertia_across + leaves * ((constants.length * constants.length) * THIRD);
     // Drag at the end of the step: it weighs on the segment like a mass at its middle.
-    let dt = cx.environment.time.0[0];
+    let dt = cx.environment.dt_s;
     let added = held * dt;
     let heavy = across + added * (half * half);
     let bare = mass + added;

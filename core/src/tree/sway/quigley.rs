@@ -196,7 +196,7 @@ pub fn quigley_step(
     axis: Vec3,
     whole: &Composite,
 ) -> (Vec3, Vec3) {
-    let dt = cx.environment.time.0[0];
+    let dt = cx.environment.dt_s;
     let springs = sym3_axial(axis, constants.twisting, constants.bending);
     let modes = joint_modes(whole.inertia, springs);
     let turn = quat_rotate(body.pose, turn_of_quat(joint.turn));

@@ -58,8 +58,8 @@ fn shortened<R: Real>(v: Vec3<R>, limit: R) -> Vec3<R> {
 /// A joint one step on, accelerated by `own` in world axes.
 #[inline(always)]
 pub fn joint_step<R: Real>(cx: &Context<'_>, joint: &Joint<R>, body: &Body<R>, own: Vec3<R>) -> Joint<R> {
-    let dt = cx.environment.time.0[0];
-    let limit = own.x.all(TURN_LIMIT * cx.environment.time.0[1]);
+    let dt = cx.environment.dt_s;
+    let limit = own.x.all(TURN_LIMIT * cx.environment.inv_dt_s);
     let gain = quat_rotate_back(body.pose, own) * own.x.all(dt);
     let rate = shortened(joint.rate + gain, limit);
     let on_the_way = shortened(joint.rate + gain * own.x.all(IMPLICITNESS), limit);
@@ -94,7 +94,7 @@ pub fn joint_held(cx: &Context<'_>, turn: Vec3, rate: Vec3) -> Joint {
     let kept = rate - turn * if stopped { outward } else { 0.0 };
     Joint {
         turn: quat_renormalize(quat_of_turn(shortened(turn, TURN_LIMIT))),
-        rate: shortened(kept, TURN_LIMIT * cx.environment.time.0[1]),
+        rate: shortened(kept, TURN_LIMIT * cx.environment.inv_dt_s),
     }
 }
 

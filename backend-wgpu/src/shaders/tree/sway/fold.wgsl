@@ -34,7 +34,7 @@ fn articulated_add(a: Articulated, b: Articulated) -> Articulated {
 
 fn joint_spring(constants: Constants, joint: Joint, body: Body, carried: f32) -> Spring {
     let bending = constants.bending;
-    let ahead = environment.time.x * IMPLICITNESS;
+    let ahead = environment.dt_s * IMPLICITNESS;
     let turn = turn_of_quat(joint.turn);
     let spring = turn + joint.rate * (constants.damping + ahead);
     var torque = vec3<f32>(

@@ -46,7 +46,7 @@ fn segment_load(constants: Constants, body: Body, axis: vec3<f32>, air: vec3<f32
     let mass = constants.mass + leaves;
     let moment = constants.first_moment + leaves * half;
     let across = constants.inertia_across + leaves * ((constants.length * constants.length) * THIRD);
-    let dt = environment.time.x;
+    let dt = environment.dt_s;
     let added = held * dt;
     let heavy = across + added * (half * half);
     let bare = mass + added;

@@ -247,7 +247,7 @@ fn row_follow(row: u32) {
     let joint = row_joint(row);
     let whole = load_composite(row);
     var moved: Moved;
-    if (environment.crowns.w == SCHEME_QUIGLEY) {
+    if (environment.sway_scheme == SCHEME_QUIGLEY) {
         moved = quigley_step(constants, joint, body, segment_axis(body), whole);
     } else {
         moved = oliapuram_kumar_step(constants, joint, body, whole);
