@@ -6,15 +6,15 @@ use std::sync::{Arc, Mutex};
 
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use windfall_core::tree::Forest;
-use windfall_core::tree::stand::Stand;
+use windfall_core::tree::batch::TreeBatch;
 use windfall_core::{Clock, Contract, Environment, SimError, Simulator, SimulatorInfo, Stats, World};
 
 use crate::kernels::CHUNK;
 use crate::kernels::advance::advance;
 use crate::kernels::measure::measure;
 use crate::kernels::scratch::Scratch;
-use crate::kernels::stand::{Stands, sway};
-use crate::kernels::timber_block::StandBlocks;
+use crate::kernels::segment_block::BatchBlocks;
+use crate::kernels::step_trees::{BatchRun, sway};
 use crate::simd::Simd;
 
 /// How the CPU simulator runs.
@@ -30,7 +30,7 @@ pub struct CpuOptions {
 #[derive(Debug)]
 pub struct CpuSimulator {
     world: World,
-    blocks: Vec<StandBlocks>,
+    blocks: Vec<BatchBlocks>,
     scratches: Vec<Mutex<Scratch>>,
     pool: ThreadPool,
     simd: Simd,
@@ -60,13 +60,13 @@ impl CpuSimulator {
 
     /// Makes room for the trees.
     fn plant(&mut self, forest: &Forest) {
-        let rows = forest.stands().iter().map(Stand::len).max().unwrap_or(0);
-        let most = forest.stands().iter().map(|stand| stand.blocks.len()).max().unwrap_or(0);
-        let of_stand = |stand: &Stand| {
-            let first = stand.first as usize;
-            StandBlocks::new(stand, &forest.timber()[first..first + stand.len()], most)
+        let rows = forest.batches().iter().map(TreeBatch::len).max().unwrap_or(0);
+        let most = forest.batches().iter().map(|batch| batch.blocks.len()).max().unwrap_or(0);
+        let of_batch = |batch: &TreeBatch| {
+            let first = batch.first as usize;
+            BatchBlocks::new(batch, &forest.segments()[first..first + batch.len()], most)
         };
-        self.blocks = forest.stands().iter().map(of_stand).collect();
+        self.blocks = forest.batches().iter().map(of_batch).collect();
         let twigs = self.blocks.iter().map(|blocks| blocks.twigs.len()).max().unwrap_or(0);
         let scratch = |_| Mutex::new(Scratch::new(rows, most, twigs));
         self.scratches = (0..self.pool.current_num_threads()).map(scratch).collect();
@@ -121,10 +121,10 @@ impl Simulator for CpuSimulator {
                     let (on_trees, _) = leaves.as_mut().split_at(cx.environment.tree_leaf_count as usize);
                     sway(
                         &cx,
-                        Stands {
-                            stands: forest.stands(),
+                        BatchRun {
+                            batches: forest.batches(),
                             blocks,
-                            timber: forest.timber(),
+                            segments: forest.segments(),
                             branches: branches.as_mut(),
                             leaves: on_trees,
                         },

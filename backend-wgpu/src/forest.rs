@@ -37,7 +37,7 @@ impl ForestBuffers {
         branches: &StoreBuffers,
     ) -> Result<Self, SimError> {
         let stride = branches.stride(BRANCH_TURN as usize);
-        let timber = filled(gpu, "timber", bytemuck::cast_slice(forest.timber()));
+        let segments = filled(gpu, "segments", bytemuck::cast_slice(forest.segments()));
         let order = filled(gpu, "forest order", bytemuck::cast_slice(forest.order()));
         let work_size = u64::from(stride * WORK_ROWS) * ROW_BYTES;
         let work = buffer(gpu, "sway", work_size, wgpu::BufferUsages::STORAGE);
@@ -67,7 +67,7 @@ impl ForestBuffers {
         });
         let resources = [
             level,
-            timber.as_entire_binding(),
+            segments.as_entire_binding(),
             order.as_entire_binding(),
             branches.buffer(BRANCH_TURN as usize).as_entire_binding(),
             work.as_entire_binding(),

@@ -85,9 +85,10 @@ impl Pipelines {
         let carrier_layout = layout(gpu, "carriers", &[Block, Read, Read, Write]);
         let pipeline = |kernel: KernelId| {
             let layouts = match kernel {
-                KernelId::SwayFold | KernelId::SwayUnfold | KernelId::SwayGather | KernelId::SwayFollow => {
-                    [&sway_layout, &level_layout]
-                }
+                KernelId::SwayInward
+                | KernelId::SwayOutward
+                | KernelId::SwayGather
+                | KernelId::SwayFollow => [&sway_layout, &level_layout],
                 KernelId::Carry => [&carried_layout, &carrier_layout],
                 _ => [&leaves_layout, &extra_layout],
             };
@@ -97,7 +98,7 @@ impl Pipelines {
         let attend = pipeline(KernelId::Attend)?;
         let measure = pipeline(KernelId::Measure)?;
         let sway = [
-            [pipeline(KernelId::SwayFold)?, pipeline(KernelId::SwayUnfold)?],
+            [pipeline(KernelId::SwayInward)?, pipeline(KernelId::SwayOutward)?],
             [pipeline(KernelId::SwayGather)?, pipeline(KernelId::SwayFollow)?],
         ];
         let carry = pipeline(KernelId::Carry)?;

@@ -5,7 +5,7 @@
 pub mod adapter;
 pub mod compare;
 pub mod functions;
+pub mod grove;
 pub mod runner;
-pub mod stand;
 pub mod strategies;
 pub mod suite;

@@ -149,9 +149,9 @@ fn a_changed_kernel_is_noticed() {
         ("kernel/matrix", "l32 * l21 - l31", "l32 * l21 + l31"),
         ("kernel/quaternion", "z + z);", "z + x);"),
         ("tree/sway/load", "drag.wood * dt", "drag.leaves * dt"),
-        ("tree/sway/fold", "1.0 - inverse_sqrt", "1.001 - inverse_sqrt"),
-        ("tree/sway/fold", "sym3_add(turned, swung)", "sym3_add(turned, turned)"),
-        ("tree/sway/unfold", "gain * IMPLICITNESS", "gain"),
+        ("tree/sway/inward", "1.0 - inverse_sqrt", "1.001 - inverse_sqrt"),
+        ("tree/sway/inward", "sym3_add(turned, swung)", "sym3_add(turned, turned)"),
+        ("tree/sway/outward", "gain * IMPLICITNESS", "gain"),
         ("tree/sway/twig", "inverse_across * load.coupling", "inverse_along * load.coupling"),
         ("tree/sway/row", "select(row, links.x, links.y == TWIG)", "row"),
         (

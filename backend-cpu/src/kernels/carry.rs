@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! twin: backend-wgpu/src/shaders/kernels/carry.wgsl
 //!
-//! Moves the leaves on the twigs of a stand, and breaks petioles.
+//! Moves the leaves on the twigs of a batch, and breaks petioles.
 
 use windfall_core::Context;
 use windfall_core::blocks::SOURCE_TREES;
@@ -17,13 +17,13 @@ use windfall_core::tree::sway::Body;
 use windfall_core::tree::sway::row::Rows;
 
 use super::carry_block::{LeafBlock, look};
-use super::timber_block::word;
+use super::segment_block::word;
 use crate::simd::{Simd, in_packs};
 
 /// Slots of which as many look at the wind in a step as a block has lanes.
 const GROUP: usize = BLOCK * SHED_INTERVAL as usize;
 
-/// The leaves of a stand, whose first slot is `first`.
+/// The leaves of a batch, whose first slot is `first`.
 pub(crate) fn carry(
     cx: &Context<'_>,
     rows: &mut Rows<'_>,

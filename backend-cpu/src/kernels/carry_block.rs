@@ -18,8 +18,8 @@ use windfall_core::leaf::{Attitude, Course, Drift, LeavesMut, Place};
 use windfall_core::tree::sway::row::Rows;
 
 use super::branch_block::Column;
+use super::segment_block::word;
 use super::sway_block::{bodies_of, four, store_vector};
-use super::timber_block::word;
 
 /// Slots that follow one another.
 pub(super) struct LeafBlock<'a> {
@@ -31,7 +31,7 @@ pub(super) struct LeafBlock<'a> {
     pub(super) course: &'a mut [Course; BLOCK],
 }
 
-/// Petioles of slots, and the rows of their segments, counted from the stand's first.
+/// Petioles of slots, and the rows of their segments, counted from the batch's first.
 #[inline(always)]
 fn stalks_of<P: Pack>(
     simd: P::Simd,

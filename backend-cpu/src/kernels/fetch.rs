@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Has memory bring blocks of a stand closer before they are needed.
+//! Has memory bring blocks of a batch closer before they are needed.
 //!
 //! A block of limbs with its twigs is some ninety cache lines in seven columns and two tables, a few lines from each page:
 //! processors do not foresee them, and a step of a large forest waited for them as long as it worked.
@@ -9,8 +9,8 @@ use std::ops::Range;
 
 use windfall_core::kernel::pack::BLOCK;
 
+use super::segment_block::SegmentBlock;
 use super::sway_block::Step;
-use super::timber_block::TimberBlock;
 
 /// How many blocks ahead: one is too late where memory is slow, four and more gain nothing.
 pub(super) const AHEAD: usize = 2;
@@ -40,18 +40,18 @@ impl Step<'_, '_> {
     #[inline(always)]
     pub(super) fn fetch(&self, number: usize, constants: Range<usize>) {
         let Some(block) = self.blocks.limbs.get(number) else { return };
-        self.fetch_rows(&block.timber, constants.clone());
+        self.fetch_rows(&block.segments, constants.clone());
         for twigs in &self.blocks.twigs[block.twigs.clone()] {
             self.fetch_rows(twigs, constants.clone());
         }
     }
 
     #[inline(always)]
-    fn fetch_rows(&self, timber: &TimberBlock, constants: Range<usize>) {
-        let lanes = timber.lanes(constants);
+    fn fetch_rows(&self, segments: &SegmentBlock, constants: Range<usize>) {
+        let lanes = segments.lanes(constants);
         fetch(lanes.as_ptr(), lanes.len());
         let branches = &self.rows.branches;
-        let first = timber.rows.start;
+        let first = segments.rows.start;
         fetch(branches.turn.as_ptr().wrapping_add(first), BLOCK);
         fetch(branches.rate.as_ptr().wrapping_add(first), BLOCK);
         fetch(branches.base.as_ptr().wrapping_add(first), BLOCK);

@@ -12,13 +12,13 @@ mod fetch;
 mod fly;
 pub(crate) mod measure;
 pub(crate) mod scratch;
-pub(crate) mod stand;
+pub(crate) mod segment_block;
+pub(crate) mod step_trees;
 mod sway_block;
-pub(crate) mod sway_fold;
 pub(crate) mod sway_follow;
 pub(crate) mod sway_gather;
-pub(crate) mod sway_unfold;
-pub(crate) mod timber_block;
+pub(crate) mod sway_inward;
+pub(crate) mod sway_outward;
 
 /// Leaves per chunk: a chunk's hot columns (64 bytes a leaf) fit in a core's level-two cache.
 pub(crate) const CHUNK: usize = 4096;

@@ -8,15 +8,15 @@ use bytemuck::{Pod, Zeroable};
 use windfall_core::kernel::pack::{BLOCK, Pack};
 use windfall_core::kernel::{Mat3, Vec3};
 use windfall_core::tree::record::Work;
-use windfall_core::tree::sway::{Answer, Frames, TwigAnswer};
+use windfall_core::tree::sway::{JointResponse, TwigResponse, VelocityProducts};
 
 use super::branch_block::{Column, Spare};
-use super::timber_block::{HANDED, Lanes, MOTIONS};
+use super::segment_block::{HANDED, Lanes, MOTIONS};
 
-/// Numbers of an [`Answer`].
-const ANSWERS: usize = 30;
-/// Numbers of a [`TwigAnswer`].
-const TWIG_ANSWERS: usize = 15;
+/// Numbers of an [`JointResponse`].
+const RESPONSES: usize = 30;
+/// Numbers of a [`TwigResponse`].
+const TWIG_RESPONSES: usize = 15;
 
 /// Numbers that are kept lane by lane from one pass to the next.
 #[derive(Clone, Debug)]
@@ -36,10 +36,10 @@ impl<const N: usize> Kept<N> {
     }
 
     #[inline(always)]
-    fn keep_frames<P: Pack>(&mut self, at: usize, part: usize, frames: &Frames<P>) {
-        self.keep_vector(at, part, frames.arm);
-        self.keep_vector(at + 3, part, frames.turning);
-        self.keep_vector(at + 6, part, frames.centripetal);
+    fn keep_products<P: Pack>(&mut self, at: usize, part: usize, products: &VelocityProducts<P>) {
+        self.keep_vector(at, part, products.arm);
+        self.keep_vector(at + 3, part, products.angular);
+        self.keep_vector(at + 6, part, products.centripetal);
     }
 
     #[inline(always)]
@@ -62,62 +62,62 @@ impl<const N: usize> Kept<N> {
     }
 
     #[inline(always)]
-    fn kept_frames<P: Pack>(&self, simd: P::Simd, at: usize, part: usize) -> Frames<P> {
-        Frames {
+    fn kept_products<P: Pack>(&self, simd: P::Simd, at: usize, part: usize) -> VelocityProducts<P> {
+        VelocityProducts {
             arm: self.kept_vector(simd, at, part),
-            turning: self.kept_vector(simd, at + 3, part),
+            angular: self.kept_vector(simd, at + 3, part),
             centripetal: self.kept_vector(simd, at + 6, part),
         }
     }
 }
 
 /// How the joints of a block's limbs answer.
-pub(crate) type LimbAnswers = Kept<ANSWERS>;
+pub(crate) type LimbResponses = Kept<RESPONSES>;
 /// How the joints of twigs answer.
-pub(crate) type TwigAnswers = Kept<TWIG_ANSWERS>;
+pub(crate) type TwigResponses = Kept<TWIG_RESPONSES>;
 
-impl LimbAnswers {
+impl LimbResponses {
     #[inline(always)]
-    pub(crate) fn keep_answer<P: Pack>(&mut self, part: usize, answer: &Answer<P>) {
-        self.keep_vector(0, part, answer.free);
-        self.keep_vector(3, part, answer.spring.x);
-        self.keep_vector(6, part, answer.spring.y);
-        self.keep_vector(9, part, answer.spring.z);
-        self.keep_vector(12, part, answer.lever.x);
-        self.keep_vector(15, part, answer.lever.y);
-        self.keep_vector(18, part, answer.lever.z);
-        self.keep_frames(21, part, &answer.frames);
+    pub(crate) fn keep_response<P: Pack>(&mut self, part: usize, response: &JointResponse<P>) {
+        self.keep_vector(0, part, response.free);
+        self.keep_vector(3, part, response.spring.x);
+        self.keep_vector(6, part, response.spring.y);
+        self.keep_vector(9, part, response.spring.z);
+        self.keep_vector(12, part, response.lever.x);
+        self.keep_vector(15, part, response.lever.y);
+        self.keep_vector(18, part, response.lever.z);
+        self.keep_products(21, part, &response.products);
     }
 
     #[inline(always)]
-    pub(crate) fn answer<P: Pack>(&self, simd: P::Simd, part: usize) -> Answer<P> {
-        Answer {
+    pub(crate) fn response<P: Pack>(&self, simd: P::Simd, part: usize) -> JointResponse<P> {
+        JointResponse {
             free: self.kept_vector(simd, 0, part),
             spring: self.kept_matrix(simd, 3, part),
             lever: self.kept_matrix(simd, 12, part),
-            frames: self.kept_frames(simd, 21, part),
+            products: self.kept_products(simd, 21, part),
         }
     }
 }
 
-impl TwigAnswers {
+impl TwigResponses {
     #[inline(always)]
-    pub(crate) fn keep_answer<P: Pack>(&mut self, part: usize, answer: &TwigAnswer<P>) {
-        self.keep_vector(0, part, answer.free);
-        self.keep(3, part, answer.spring_along);
-        self.keep(4, part, answer.spring_across);
-        self.keep(5, part, answer.lever);
-        self.keep_frames(6, part, &answer.frames);
+    pub(crate) fn keep_response<P: Pack>(&mut self, part: usize, response: &TwigResponse<P>) {
+        self.keep_vector(0, part, response.free);
+        self.keep(3, part, response.spring_along);
+        self.keep(4, part, response.spring_across);
+        self.keep(5, part, response.lever);
+        self.keep_products(6, part, &response.products);
     }
 
     #[inline(always)]
-    pub(crate) fn answer<P: Pack>(&self, simd: P::Simd, part: usize) -> TwigAnswer<P> {
-        TwigAnswer {
+    pub(crate) fn response<P: Pack>(&self, simd: P::Simd, part: usize) -> TwigResponse<P> {
+        TwigResponse {
             free: self.kept_vector(simd, 0, part),
             spring_along: self.kept(simd, 3, part),
             spring_across: self.kept(simd, 4, part),
             lever: self.kept(simd, 5, part),
-            frames: self.kept_frames(simd, 6, part),
+            products: self.kept_products(simd, 6, part),
         }
     }
 }
@@ -132,7 +132,7 @@ pub(crate) struct Handed(pub(super) [Column; HANDED]);
 #[repr(C, align(64))]
 pub(crate) struct Motions(pub(super) [Column; MOTIONS]);
 
-/// Results of the pass towards the foot for the largest stand, used by one thread for one stand after another, so that
+/// Results of the pass towards the foot for the largest batch, used by one thread for one batch after another, so that
 /// they stay in its cache.
 #[derive(Debug)]
 pub(crate) struct Scratch {
@@ -150,9 +150,9 @@ pub(crate) struct BlockScratch {
     /// How limbs accelerate, block by block.
     pub(crate) motions: Vec<Motions>,
     /// One for each block.
-    pub(crate) limbs: Vec<LimbAnswers>,
+    pub(crate) limbs: Vec<LimbResponses>,
     /// One for each block of twigs.
-    pub(crate) twigs: Vec<TwigAnswers>,
+    pub(crate) twigs: Vec<TwigResponses>,
     /// For a block that is not full.
     pub(crate) spare: Spare,
     /// For one of twigs beside it.
@@ -160,7 +160,7 @@ pub(crate) struct BlockScratch {
 }
 
 impl Scratch {
-    /// Room for stands of up to so many rows, blocks, and blocks of twigs.
+    /// Room for batches of up to so many rows, blocks, and blocks of twigs.
     pub(crate) fn new(rows: usize, blocks: usize, twigs: usize) -> Self {
         let mut handed = vec![Handed::zeroed(); blocks + 1];
         // Minus zero leaves every sum as it is.
@@ -168,8 +168,8 @@ impl Scratch {
         let blocks = BlockScratch {
             handed,
             motions: vec![Motions::zeroed(); blocks],
-            limbs: vec![Kept([Lanes::ZERO; ANSWERS]); blocks],
-            twigs: vec![Kept([Lanes::ZERO; TWIG_ANSWERS]); twigs],
+            limbs: vec![Kept([Lanes::ZERO; RESPONSES]); blocks],
+            twigs: vec![Kept([Lanes::ZERO; TWIG_RESPONSES]); twigs],
             spare: Spare::new(),
             spare_twigs: Spare::new(),
         };

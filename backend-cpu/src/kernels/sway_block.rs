@@ -12,26 +12,26 @@ use windfall_core::kernel::matrix::sym3_trace;
 use windfall_core::kernel::pack::{BLOCK, Pack, ROWS_OF_LANES, load_block, row_of_lane, store_block};
 use windfall_core::kernel::vector::vec3_select;
 use windfall_core::kernel::{Mat3, Quat, Sym3, Vec3};
-use windfall_core::tree::sway::fold::{
-    articulated_add, articulated_shift, joint_answer, joint_frames, joint_spring,
+use windfall_core::tree::sway::inward::{
+    articulated_add, articulated_shift, joint_response, joint_spring, velocity_products,
 };
 use windfall_core::tree::sway::load::{load_trace, segment_air, segment_axis, segment_body, segment_load};
+use windfall_core::tree::sway::outward::{Acceleration, joint_acceleration, joint_step, segment_place};
 use windfall_core::tree::sway::row::Rows;
-use windfall_core::tree::sway::twig::{twig_answer, twig_motion};
-use windfall_core::tree::sway::unfold::{Motion, joint_motion, joint_step, segment_place};
-use windfall_core::tree::sway::{Articulated, Body, Joint};
+use windfall_core::tree::sway::twig::{twig_acceleration, twig_response};
+use windfall_core::tree::sway::{ArticulatedInertia, Body, Joint};
 
 use super::branch_block::{Column, Spare, State, change_state, state_of};
-use super::scratch::{BlockScratch, Handed, TwigAnswers};
-use super::timber_block::{HANDED, StandBlocks, TimberBlock, word};
+use super::scratch::{BlockScratch, Handed, TwigResponses};
+use super::segment_block::{BatchBlocks, HANDED, SegmentBlock, word};
 
 type Record = [f32; 4];
 
-/// A stand that is being stepped.
+/// A batch that is being stepped.
 pub(super) struct Step<'a, 'b> {
     pub(super) cx: &'a Context<'a>,
     pub(super) rows: &'a mut Rows<'b>,
-    pub(super) blocks: &'a StandBlocks,
+    pub(super) blocks: &'a BatchBlocks,
 }
 
 /// Writes vectors and what stands behind them.
@@ -100,7 +100,7 @@ fn ground<P: Pack>(simd: P::Simd) -> Body<P> {
 
 /// What limbs hand down, wherever they are.
 #[inline(always)]
-fn handed_by<P: Pack>(simd: P::Simd, from: P::Word, handed: &[Handed]) -> Articulated<P> {
+fn handed_by<P: Pack>(simd: P::Simd, from: P::Word, handed: &[Handed]) -> ArticulatedInertia<P> {
     let spans = P::spans::<{ BLOCK * (HANDED - 1) + 1 }>(from, must_cast_slice(handed));
     let a = four(P::column(simd, &spans, 0));
     let b = four(P::column(simd, &spans, BLOCK));
@@ -109,7 +109,7 @@ fn handed_by<P: Pack>(simd: P::Simd, from: P::Word, handed: &[Handed]) -> Articu
     let e = four(P::column(simd, &spans, 4 * BLOCK));
     let f = four(P::column(simd, &spans, 5 * BLOCK));
     let g = four(P::column(simd, &spans, 6 * BLOCK));
-    Articulated {
+    ArticulatedInertia {
         rotation: Sym3 { diagonal: a.0, off: b.0 },
         coupling: Mat3 { x: c.0, y: d.0, z: e.0 },
         mass: Sym3 { diagonal: f.0, off: g.0 },
@@ -120,7 +120,12 @@ fn handed_by<P: Pack>(simd: P::Simd, from: P::Word, handed: &[Handed]) -> Articu
 
 /// Hands a block's bodies down.
 #[inline(always)]
-fn hand_down<P: Pack>(handed: &mut [[Record; BLOCK]; HANDED], part: usize, body: &Articulated<P>, zero: P) {
+fn hand_down<P: Pack>(
+    handed: &mut [[Record; BLOCK]; HANDED],
+    part: usize,
+    body: &ArticulatedInertia<P>,
+    zero: P,
+) {
     let [a, b, c, d, e, f, g] = handed;
     store_vector(a, part, body.rotation.diagonal, body.moment.x);
     store_vector(b, part, body.rotation.off, body.moment.y);
@@ -139,8 +144,12 @@ fn sym3_select<P: Pack>(mask: P::Mask, yes: Sym3<P>, no: Sym3<P>) -> Sym3<P> {
 
 /// `yes` where true, `no` elsewhere.
 #[inline(always)]
-fn articulated_select<P: Pack>(mask: P::Mask, yes: &Articulated<P>, no: &Articulated<P>) -> Articulated<P> {
-    Articulated {
+fn articulated_select<P: Pack>(
+    mask: P::Mask,
+    yes: &ArticulatedInertia<P>,
+    no: &ArticulatedInertia<P>,
+) -> ArticulatedInertia<P> {
+    ArticulatedInertia {
         rotation: sym3_select::<P>(mask, yes.rotation, no.rotation),
         coupling: Mat3 {
             x: vec3_select(mask, yes.coupling.x, no.coupling.x),
@@ -156,7 +165,7 @@ fn articulated_select<P: Pack>(mask: P::Mask, yes: &Articulated<P>, no: &Articul
 impl Step<'_, '_> {
     /// The pass towards the foot at part of a block.
     #[inline(always)]
-    pub(super) fn fold<P: Pack>(
+    pub(super) fn inward<P: Pack>(
         &self,
         simd: P::Simd,
         number: usize,
@@ -164,15 +173,15 @@ impl Step<'_, '_> {
         scratch: &mut BlockScratch,
     ) {
         let block = &self.blocks.limbs[number];
-        let BlockScratch { limbs: answers, twigs: kept, handed, spare, spare_twigs, .. } = scratch;
-        let constants = block.timber.constants::<P>(simd, part);
-        let (state, bearing) = state_of(&self.rows.branches, &block.timber.rows, spare);
+        let BlockScratch { limbs: responses, twigs: kept, handed, spare, spare_twigs, .. } = scratch;
+        let constants = block.segments.constants::<P>(simd, part);
+        let (state, bearing) = state_of(&self.rows.branches, &block.segments.rows, spare);
         let body = bodies_at(simd, state, part);
         let parent = match &block.parents {
             Some(parents) => bodies_of(self.rows, P::load_words(simd, &parents.rows[part * P::LANES..])),
             None => ground(simd),
         };
-        let frames = joint_frames(&body, &parent);
+        let products = velocity_products(&body, &parent);
         let axis = segment_axis(&body);
         let air = segment_air(self.cx, &body, axis, constants.length);
         let bearing = bearing_at(simd, bearing, part);
@@ -180,7 +189,8 @@ impl Step<'_, '_> {
         let kept = &mut kept[block.twigs.clone()];
         for (twigs, kept) in self.blocks.twigs[block.twigs.clone()].iter().zip(kept) {
             let state = state_of(&self.rows.branches, &twigs.rows, spare_twigs);
-            let sum = articulated_add(&whole, &self.fold_twigs(simd, twigs, state, part, kept, (air, &body)));
+            let sum =
+                articulated_add(&whole, &self.inward_twigs(simd, twigs, state, part, kept, (air, &body)));
             whole = if twigs.rows.len() == BLOCK {
                 sum
             } else {
@@ -193,23 +203,23 @@ impl Step<'_, '_> {
         }
         let joint = joints_at(simd, state[0], state[1], part);
         let spring = joint_spring(self.cx, &constants, &joint, &body, sym3_trace(whole.rotation));
-        let (answer, left) = joint_answer(&spring, &whole, axis, &frames);
-        answers[number].keep_answer(part, &answer);
-        let shifted = articulated_shift(&left, frames.arm);
+        let (response, apparent) = joint_response(&spring, &whole, axis, &products);
+        responses[number].keep_response(part, &response);
+        let shifted = articulated_shift(&apparent, products.arm);
         hand_down(&mut handed[number].0, part, &shifted, P::fill(simd, 0.0));
     }
 
     /// The pass towards the foot at twigs whose parents feel this air and move like this: what they hand down.
     #[inline(always)]
-    fn fold_twigs<P: Pack>(
+    fn inward_twigs<P: Pack>(
         &self,
         simd: P::Simd,
-        twigs: &TimberBlock,
+        twigs: &SegmentBlock,
         (state, bearing): (State<'_>, &[u32; BLOCK]),
         part: usize,
-        kept: &mut TwigAnswers,
+        kept: &mut TwigResponses,
         (air, parent): (Vec3<P>, &Body<P>),
-    ) -> Articulated<P> {
+    ) -> ArticulatedInertia<P> {
         let constants = twigs.constants(simd, part);
         let body = bodies_at(simd, state, part);
         let axis = segment_axis(&body);
@@ -217,15 +227,15 @@ impl Step<'_, '_> {
         let load = segment_load(self.cx, &constants, &body, axis, air, bearing);
         let joint = joints_at(simd, state[0], state[1], part);
         let spring = joint_spring(self.cx, &constants, &joint, &body, load_trace(&load));
-        let frames = joint_frames(&body, parent);
-        let (answer, left) = twig_answer(&spring, &load, axis, &frames);
-        kept.keep_answer(part, &answer);
-        articulated_shift(&left, frames.arm)
+        let products = velocity_products(&body, parent);
+        let (response, apparent) = twig_response(&spring, &load, axis, &products);
+        kept.keep_response(part, &response);
+        articulated_shift(&apparent, products.arm)
     }
 
     /// The pass towards the tips at part of a block.
     #[inline(always)]
-    pub(super) fn unfold<P: Pack>(
+    pub(super) fn outward<P: Pack>(
         &mut self,
         simd: P::Simd,
         number: usize,
@@ -240,25 +250,28 @@ impl Step<'_, '_> {
                 let spans = P::spans::<{ BLOCK + 1 }>(at, motions);
                 let (angular, linear) = (P::column(simd, &spans, 0), P::column(simd, &spans, BLOCK));
                 let rows = P::load_words(simd, &parents.rows[part * P::LANES..]);
-                (bodies_of(self.rows, rows), Motion { angular: four(angular).0, linear: four(linear).0 })
+                (
+                    bodies_of(self.rows, rows),
+                    Acceleration { angular: four(angular).0, linear: four(linear).0 },
+                )
             }
             None => {
                 let still = ground(simd);
-                (still, Motion { angular: still.spin, linear: still.velocity })
+                (still, Acceleration { angular: still.spin, linear: still.velocity })
             }
         };
-        let (motion, own) = joint_motion(&scratch.limbs[number].answer(simd, part), &above);
+        let (acceleration, own) = joint_acceleration(&scratch.limbs[number].response(simd, part), &above);
         let zero = P::fill(simd, 0.0);
         let [angular, linear] = &mut scratch.motions[number].0;
-        store_vector(angular, part, motion.angular, zero);
-        store_vector(linear, part, motion.linear, zero);
+        store_vector(angular, part, acceleration.angular, zero);
+        store_vector(linear, part, acceleration.linear, zero);
         let own = |_| own;
-        let body = self.move_on(simd, &block.timber, part, own, &parent, &mut scratch.spare);
+        let body = self.move_on(simd, &block.segments, part, own, &parent, &mut scratch.spare);
         for number in block.twigs.clone() {
-            let timber = &self.blocks.twigs[number];
-            let answer = scratch.twigs[number].answer(simd, part);
-            let own = |axis| twig_motion(&answer, axis, &motion);
-            self.move_on(simd, timber, part, own, &body, &mut scratch.spare);
+            let segments = &self.blocks.twigs[number];
+            let response = scratch.twigs[number].response(simd, part);
+            let own = |axis| twig_acceleration(&response, axis, &acceleration);
+            self.move_on(simd, segments, part, own, &body, &mut scratch.spare);
         }
     }
 
@@ -267,7 +280,7 @@ impl Step<'_, '_> {
     fn move_on<P: Pack>(
         &mut self,
         simd: P::Simd,
-        timber: &TimberBlock,
+        segments: &SegmentBlock,
         part: usize,
         own: impl FnOnce(Vec3<P>) -> Vec3<P>,
         parent: &Body<P>,
@@ -276,14 +289,14 @@ impl Step<'_, '_> {
         let cx = self.cx;
         change_state(
             &mut self.rows.branches,
-            &timber.rows,
+            &segments.rows,
             spare,
             #[inline(always)]
             |[turn, rate, base, pose, velocity, spin]| {
                 let before = Body { pose: load_block(simd, pose, part).into(), ..*parent };
                 let own = own(segment_axis(&before));
                 let joint = joint_step(cx, &joints_at(simd, turn, rate, part), &before, own);
-                let body = segment_place(&timber.constants(simd, part), &joint, parent);
+                let body = segment_place(&segments.constants(simd, part), &joint, parent);
                 let zero = P::fill(simd, 0.0);
                 store_block(turn, part, joint.turn.to_array());
                 store_vector(rate, part, joint.rate, zero);

@@ -7,9 +7,9 @@
 use windfall_core::Context;
 use windfall_core::tree::sway::row::{Rows, row_follow};
 
-/// A stand, from the trunks to the tips.
+/// A batch, from the trunks to the tips.
 pub(crate) fn sway_follow(cx: &Context<'_>, rows: &mut Rows<'_>) {
-    for row in 0..rows.timber.len() {
+    for row in 0..rows.segments.len() {
         row_follow(cx, rows, row);
     }
 }

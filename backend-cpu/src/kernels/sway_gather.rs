@@ -7,9 +7,9 @@
 use windfall_core::Context;
 use windfall_core::tree::sway::row::{Rows, row_gather};
 
-/// A stand, from the tips to the trunks.
+/// A batch, from the tips to the trunks.
 pub(crate) fn sway_gather(cx: &Context<'_>, rows: &mut Rows<'_>) {
-    for row in (0..rows.timber.len()).rev() {
+    for row in (0..rows.segments.len()).rev() {
         row_gather(cx, rows, row);
     }
 }

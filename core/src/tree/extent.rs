@@ -19,12 +19,12 @@ pub struct SwayExtent {
 impl SwayExtent {
     /// The extremes over the segments of a forest in that state; zero if there are none.
     pub fn of(forest: &Forest, branches: &Branches) -> Self {
-        let rows = forest.timber().iter().enumerate();
-        rows.fold(Self::default(), |extent, (row, timber)| {
+        let rows = forest.segments().iter().enumerate();
+        rows.fold(Self::default(), |extent, (row, segment)| {
             let [x, y, z, w] = branches.turn[row].map(f64::from);
             let sine = libm::sqrt(x * x + y * y + z * z);
             let pose: DQuat = Quat::from_array(branches.pose[row]).as_dquat();
-            let arm = pose * (DVec3::Y * f64::from(timber.length));
+            let arm = pose * (DVec3::Y * f64::from(segment.length));
             let spin = Vec3::from_slice(&branches.spin[row]).as_dvec3();
             let tip = Vec3::from_slice(&branches.velocity[row]).as_dvec3() + spin.cross(arm);
             extent.or(Self {

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! All trees of a world, laid out for stepping.
 //!
-//! Trees that follow one another form a stand, of some thousand segments ([`Stand`]). A CPU takes a stand block by block
-//! while it stays in the cache; a GPU takes the same level of all stands at once, by the list of rows in
+//! Trees that follow one another form a batch, of some thousand segments ([`TreeBatch`]). A CPU takes a batch block by block
+//! while it stays in the cache; a GPU takes the same level of all batches at once, by the list of rows in
 //! [`Forest::order`].
 
 use std::ops::Range;
@@ -11,18 +11,18 @@ use std::sync::Arc;
 
 use glam::Vec3;
 
-use super::record::{NO_SEGMENT, Timber};
+use super::batch::{TreeBatch, lay_out, order_of};
+use super::constants::{LeafFacts, TreeFacts, segment_constants};
+use super::record::{NO_SEGMENT, SegmentConstants};
 use super::skeleton::Skeleton;
-use super::stand::{Stand, lay_out, order_of};
 use super::store::Branches;
-use super::sway::unfold::segment_place;
+use super::sway::outward::segment_place;
 use super::sway::{Body, Joint};
-use super::timber::{LeafFacts, TreeFacts, timber_of};
 use crate::kernel::{Quat, Vec3 as KernelVec3};
 use crate::scene::TreeKind;
 
-/// Segments from which on a stand takes no more trees: more leave fewer blocks unfilled, fewer stay in a cache of 2 MB.
-const STAND_SEGMENTS: usize = 4096;
+/// Segments from which on a batch takes no more trees: more leave fewer blocks unfilled, fewer stay in a cache of 2 MB.
+const BATCH_SEGMENTS: usize = 4096;
 
 /// A tree to be planted.
 #[derive(Clone, Debug)]
@@ -57,18 +57,18 @@ pub struct Planted {
 /// All trees of a world.
 #[derive(Clone, Debug, Default)]
 pub struct Forest {
-    timber: Arc<[Timber]>,
+    segments: Arc<[SegmentConstants]>,
     order: Arc<[u32]>,
     level_ends: Vec<u32>,
-    stands: Vec<Stand>,
+    batches: Vec<TreeBatch>,
     trees: Vec<Planted>,
 }
 
 impl Forest {
     /// Plants trees for steps of `dt_s` seconds; skeletons are valid.
     pub fn plant(seedlings: Vec<Seedling>, dt_s: f32) -> Self {
-        let mut timber = Vec::new();
-        let mut stands = Vec::new();
+        let mut segments = Vec::new();
+        let mut batches = Vec::new();
         let mut trees: Vec<Planted> = Vec::new();
         let mut drafts = Vec::new();
         let mut waiting = 0;
@@ -78,35 +78,35 @@ impl Forest {
             let Seedling { skeleton, kind, leaf, foot_m, leaf_slots } = seedling;
             let slots = next_slot..next_slot + leaf_slots;
             next_slot = slots.end;
-            let (mut constants, facts) = timber_of(&skeleton, &kind.wood, &kind.foliage, leaf, dt_s);
+            let (mut constants, facts) = segment_constants(&skeleton, &kind.wood, &kind.foliage, leaf, dt_s);
             let offset = (Vec3::from(constants[0].offset) + foot_m).to_array();
             constants[0].offset = offset;
             waiting += constants.len();
             drafts.push(constants);
             trees.push(Planted { skeleton, foot_m, rows: Vec::new(), slots, facts });
-            if waiting >= STAND_SEGMENTS || number + 1 == count {
+            if waiting >= BATCH_SEGMENTS || number + 1 == count {
                 let first = trees.len() - drafts.len();
-                stands.push(lay_out(&mut timber, &mut trees, first, std::mem::take(&mut drafts)));
+                batches.push(lay_out(&mut segments, &mut trees, first, std::mem::take(&mut drafts)));
                 waiting = 0;
             }
         }
-        let (order, level_ends) = order_of(&stands);
-        Self { timber: timber.into(), order: order.into(), level_ends, stands, trees }
+        let (order, level_ends) = order_of(&batches);
+        Self { segments: segments.into(), order: order.into(), level_ends, batches, trees }
     }
 
     /// Number of segments.
     pub fn len(&self) -> usize {
-        self.timber.len()
+        self.segments.len()
     }
 
     /// Whether there are no trees.
     pub fn is_empty(&self) -> bool {
-        self.timber.is_empty()
+        self.segments.is_empty()
     }
 
     /// Constants of the segments, row by row.
-    pub fn timber(&self) -> &Arc<[Timber]> {
-        &self.timber
+    pub fn segments(&self) -> &Arc<[SegmentConstants]> {
+        &self.segments
     }
 
     /// All rows, level by level over the whole forest.
@@ -119,9 +119,9 @@ impl Forest {
         &self.level_ends
     }
 
-    /// The stands, in the order of their rows.
-    pub fn stands(&self) -> &[Stand] {
-        &self.stands
+    /// The batches, in the order of their rows.
+    pub fn batches(&self) -> &[TreeBatch] {
+        &self.batches
     }
 
     /// The trees, in the order of the scene.
@@ -134,8 +134,8 @@ impl Forest {
         let mut branches = Branches::zeroed(self.len());
         for &row in self.order.iter() {
             let row = row as usize;
-            let timber = &self.timber[row];
-            let parent = match timber.parent {
+            let segment = &self.segments[row];
+            let parent = match segment.parent {
                 NO_SEGMENT => Body::GROUND,
                 parent => Body {
                     base: first_three(branches.base[parent as usize]),
@@ -144,7 +144,7 @@ impl Forest {
                 },
             };
             let joint = Joint { turn: Quat::IDENTITY, rate: KernelVec3::ZERO };
-            let body = segment_place(&timber.into(), &joint, &parent);
+            let body = segment_place(&segment.into(), &joint, &parent);
             branches.turn[row] = Quat::IDENTITY.to_array();
             branches.base[row] = [body.base.x, body.base.y, body.base.z, 0.0];
             branches.pose[row] = body.pose.to_array();

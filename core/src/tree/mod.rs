@@ -3,6 +3,8 @@
 //! Trees: how they grow, what they weigh, how they sway, and the twigs that carry leaves.
 
 pub mod bark;
+pub mod batch;
+mod constants;
 mod crown;
 mod extent;
 pub mod forest;
@@ -15,22 +17,20 @@ pub mod pipe;
 mod presets;
 pub mod record;
 pub mod skeleton;
-pub mod stand;
 mod store;
 pub mod sway;
 #[cfg(test)]
 mod testing;
 #[cfg(test)]
 mod tests;
-mod timber;
 pub mod turtle;
 
 pub use bark::{BarkDetail, BarkMesh, bark_mesh};
+pub use constants::{LeafFacts, TreeFacts};
 pub use extent::SwayExtent;
 pub use forest::Forest;
 pub(crate) use grow::segments_of;
 pub use grow::{TreeError, full_leaf_count, grow};
-pub use record::Timber;
+pub use record::SegmentConstants;
 pub use skeleton::{Attachment, Bearing, Segment, Skeleton, SkeletonError};
 pub use store::{BranchMut, Branches, BranchesMut};
-pub use timber::{LeafFacts, TreeFacts};

@@ -5,12 +5,12 @@
 use bytemuck::{Pod, Zeroable};
 
 crate::shared_constants! {
-    /// Words of four that a segment's [`Timber`] takes.
-    pub const TIMBER_ROWS: u32 = 7;
+    /// Words of four that a segment's [`SegmentConstants`] takes.
+    pub const SEGMENT_ROWS: u32 = 7;
     /// Words of four that a segment's work takes.
     pub const WORK_ROWS: u32 = 15;
     /// First row of a segment's work that holds how its joint answers; the rows before hold what it hands to its parent.
-    pub const WORK_ANSWER: u32 = 7;
+    pub const WORK_RESPONSE: u32 = 7;
     /// Column of joint rotations relative to rest.
     pub const BRANCH_TURN: u32 = 0;
     /// Column of joint rates.
@@ -38,7 +38,7 @@ crate::shared_constants! {
 /// frame of the segment above it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
 #[repr(C, align(16))]
-pub struct Timber {
+pub struct SegmentConstants {
     /// Rotation x, y, z, w at rest from the segment's frame to its parent's; to the world's for a trunk.
     pub rest: [f32; 4],
     /// Place of the joint in the parent's frame in m; in the world's for a trunk.
@@ -83,26 +83,29 @@ pub struct Timber {
     pub tree: u32,
 }
 
-impl Timber {
+impl SegmentConstants {
     /// Whether the segment is a twig.
     pub fn is_twig(&self) -> bool {
         self.first_child == TWIG
     }
 }
 
-/// The children of row `row` of a stand whose first row is number `first` of the forest: twigs, then limbs. Rows are counted
-/// from the stand's first.
+/// The children of row `row` of a batch whose first row is number `first` of the forest: twigs, then limbs. Rows are counted
+/// from the batch's first.
 #[inline(always)]
-pub fn children_of(timber: &[Timber], first: u32, row: usize) -> impl Iterator<Item = usize> {
+pub fn children_of(segments: &[SegmentConstants], first: u32, row: usize) -> impl Iterator<Item = usize> {
     let within = move |link: u32| (link < TWIG).then(|| (link - first) as usize);
-    std::iter::successors(within(timber[row].first_child), move |child| within(timber[*child].next_sibling))
+    std::iter::successors(within(segments[row].first_child), move |child| {
+        within(segments[*child].next_sibling)
+    })
 }
 
-const _: () = assert!(size_of::<Timber>() == TIMBER_ROWS as usize * 16, "rows of four words");
+const _: () = assert!(size_of::<SegmentConstants>() == SEGMENT_ROWS as usize * 16, "rows of four words");
 
 /// Results of a step's pass towards the foot that the pass towards the tips needs.
 pub type Work = [[f32; 4]; WORK_ROWS as usize];
 
 /// Bytes that a step must bring from memory and back for a segment: constants once, state there and back, and the number
 /// of leaves. A thread's work, and what its second pass reads once more, can stay in its cache.
-pub const SEGMENT_BYTES_PER_STEP: usize = size_of::<Timber>() + 2 * BRANCH_COLUMNS as usize * 16 + 4;
+pub const SEGMENT_BYTES_PER_STEP: usize =
+    size_of::<SegmentConstants>() + 2 * BRANCH_COLUMNS as usize * 16 + 4;

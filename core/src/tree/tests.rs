@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Trees as a whole: every preset at every age, growth in time, the pipe model, leaves.
 
+mod batches;
 mod file;
 mod growth;
 mod leaves;
 mod presets;
-mod stands;
 mod turtle;
 
 use super::{Skeleton, grow};

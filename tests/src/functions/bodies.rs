@@ -3,7 +3,9 @@
 //! What trees are made of among the words of a case, field by field in their order, and the ranges they are drawn from.
 
 use windfall_core::kernel::{Mat3, Quat, Sym3, Vec3};
-use windfall_core::tree::sway::{Answer, Articulated, Body, Constants, Frames, Joint, Load, Spring};
+use windfall_core::tree::sway::{
+    ArticulatedInertia, Body, Constants, Joint, JointResponse, Load, Spring, VelocityProducts,
+};
 
 use super::{Input, float, quaternion, vector};
 use crate::runner::{NO_WORDS, Words};
@@ -52,8 +54,8 @@ pub(super) fn body(words: &Words, at: usize) -> Body {
     }
 }
 
-pub(super) fn articulated(words: &Words, at: usize) -> Articulated {
-    Articulated {
+pub(super) fn articulated(words: &Words, at: usize) -> ArticulatedInertia {
+    ArticulatedInertia {
         rotation: sym3(words, at),
         coupling: mat3(words, at + 6),
         mass: sym3(words, at + 15),
@@ -75,8 +77,12 @@ pub(super) fn load(words: &Words, at: usize) -> Load {
     }
 }
 
-pub(super) fn frames(words: &Words, at: usize) -> Frames {
-    Frames { arm: vector(words, at), turning: vector(words, at + 3), centripetal: vector(words, at + 6) }
+pub(super) fn products(words: &Words, at: usize) -> VelocityProducts {
+    VelocityProducts {
+        arm: vector(words, at),
+        angular: vector(words, at + 3),
+        centripetal: vector(words, at + 6),
+    }
 }
 
 pub(super) fn spring(words: &Words, at: usize) -> Spring {
@@ -123,16 +129,16 @@ impl Results {
         self.vec3(body.base).quat(body.pose).vec3(body.velocity).vec3(body.spin)
     }
 
-    pub(super) fn articulated(self, a: Articulated) -> Self {
+    pub(super) fn articulated(self, a: ArticulatedInertia) -> Self {
         self.sym3(a.rotation).mat3(a.coupling).sym3(a.mass).vec3(a.moment).vec3(a.force)
     }
 
-    pub(super) fn answer(self, a: Answer) -> Self {
-        self.vec3(a.free).mat3(a.spring).mat3(a.lever).frames(a.frames)
+    pub(super) fn response(self, a: JointResponse) -> Self {
+        self.vec3(a.free).mat3(a.spring).mat3(a.lever).products(a.products)
     }
 
-    pub(super) fn frames(self, f: Frames) -> Self {
-        self.vec3(f.arm).vec3(f.turning).vec3(f.centripetal)
+    pub(super) fn products(self, f: VelocityProducts) -> Self {
+        self.vec3(f.arm).vec3(f.angular).vec3(f.centripetal)
     }
 
     pub(super) fn load(self, l: &Load) -> Self {

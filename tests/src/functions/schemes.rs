@@ -5,8 +5,8 @@
 use windfall_core::tree::sway::composite::{Composite, composite_add, composite_shift, segment_composite};
 use windfall_core::tree::sway::load::segment_axis;
 use windfall_core::tree::sway::oliapuram_kumar::oliapuram_kumar_step;
+use windfall_core::tree::sway::outward::joint_held;
 use windfall_core::tree::sway::quigley::quigley_step;
-use windfall_core::tree::sway::unfold::joint_held;
 
 use super::bodies::{
     DIAGONAL, DIRECTION, LENGTH, OFF, PLACE, PRELOAD, QUATERNION, Results, SCALARS, SPRINGS, TURN,
@@ -112,7 +112,7 @@ functions! {
     };
 
     // Rotations on both sides of where they are cut off.
-    joint_held in "tree/sway/unfold" (Input::Floats(3, -0.9, 0.9), Input::Floats(3, -90.0, 90.0))
+    joint_held in "tree/sway/outward" (Input::Floats(3, -0.9, 0.9), Input::Floats(3, -90.0, 90.0))
     tolerance Some(1e-5);
     wgsl "out_joint(0u, joint_held(in_vec3(0u), in_vec3(3u)));";
     rust |cx, w| Results::new().joint(joint_held(cx, vector(w, 0), vector(w, 3))).0;

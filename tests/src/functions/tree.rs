@@ -8,20 +8,20 @@ use windfall_core::kernel::matrix::{
     mat3_twice_symmetric, sym3_add, sym3_axial, sym3_inverse, sym3_minus, sym3_rows, sym3_times, sym3_trace,
 };
 use windfall_core::kernel::quaternion::{quat_axis_y, quat_of_turn, quat_rotate_back, turn_of_quat};
-use windfall_core::tree::sway::fold::{
-    articulated_add, articulated_shift, joint_answer, joint_frames, joint_spring,
+use windfall_core::tree::sway::inward::{
+    articulated_add, articulated_shift, joint_response, joint_spring, velocity_products,
 };
 use windfall_core::tree::sway::load::{
     load_trace, segment_air, segment_axis, segment_body, segment_drag, segment_load,
 };
-use windfall_core::tree::sway::twig::{twig_answer, twig_motion};
-use windfall_core::tree::sway::unfold::{Motion, joint_motion, joint_step, segment_place};
-use windfall_core::tree::sway::{Answer, TwigAnswer};
+use windfall_core::tree::sway::outward::{Acceleration, joint_acceleration, joint_step, segment_place};
+use windfall_core::tree::sway::twig::{twig_acceleration, twig_response};
+use windfall_core::tree::sway::{JointResponse, TwigResponse};
 
 use super::bodies::{
     AXIAL, AXIS, COUPLING, DIAGONAL, DIRECTION, LENGTH, LOAD, MATRIX, OFF, PLACE, PRELOAD, QUATERNION,
-    Results, SCALARS, SPRINGS, TURN, TURN_COSINE, VELOCITY, articulated, body, constants, frames, joint,
-    load, mat3, spring, sym3,
+    Results, SCALARS, SPRINGS, TURN, TURN_COSINE, VELOCITY, articulated, body, constants, joint, load, mat3,
+    products, spring, sym3,
 };
 use super::{Function, Input, float, functions, quaternion, vector};
 
@@ -132,11 +132,11 @@ functions! {
         Results::new().articulated(segment_body(&load, vector(w, 11))).floats(&[load_trace(&load)]).0
     };
 
-    articulated_add in "tree/sway/fold" (Input::Floats(54, -9.0, 9.0)) tolerance Some(3e-7);
+    articulated_add in "tree/sway/inward" (Input::Floats(54, -9.0, 9.0)) tolerance Some(3e-7);
     wgsl "out_articulated(0u, articulated_add(in_articulated(0u), in_articulated(27u)));";
     rust |_cx, w| Results::new().articulated(articulated_add(&articulated(w, 0), &articulated(w, 27))).0;
 
-    joint_spring in "tree/sway/fold" (
+    joint_spring in "tree/sway/inward" (
         QUATERNION, DIRECTION, LENGTH, SCALARS, PRELOAD, SPRINGS, TURN, TURN_COSINE, VELOCITY, PLACE, QUATERNION,
         VELOCITY, VELOCITY, Input::Float(6.0, 12.0)
     ) tolerance Some(1e-5);
@@ -148,86 +148,86 @@ functions! {
         Results::new().vec3(spring.torque).floats(&[spring.along, spring.across]).0
     };
 
-    joint_frames in "tree/sway/fold" (
+    velocity_products in "tree/sway/inward" (
         PLACE, QUATERNION, VELOCITY, VELOCITY, PLACE, QUATERNION, VELOCITY, VELOCITY
     ) tolerance Some(4e-6);
-    wgsl "let f = joint_frames(in_body(0u), in_body(13u));
-        out_vec3(0u, f.arm); out_vec3(3u, f.turning); out_vec3(6u, f.centripetal);";
-    rust |_cx, w| Results::new().frames(joint_frames(&body(w, 0), &body(w, 13))).0;
+    wgsl "let f = velocity_products(in_body(0u), in_body(13u));
+        out_vec3(0u, f.arm); out_vec3(3u, f.angular); out_vec3(6u, f.centripetal);";
+    rust |_cx, w| Results::new().products(velocity_products(&body(w, 0), &body(w, 13))).0;
 
-    joint_answer in "tree/sway/fold" (
+    joint_response in "tree/sway/inward" (
         VELOCITY, AXIAL, DIAGONAL, OFF, COUPLING, DIAGONAL, OFF, VELOCITY, VELOCITY, AXIS, DIRECTION, VELOCITY,
         VELOCITY
     ) tolerance Some(4e-6);
-    wgsl "let l = joint_answer(in_spring(0u), in_articulated(5u), in_vec3(32u), in_frames(35u));
-        out_answer(0u, l.answer); out_articulated(30u, l.body);";
+    wgsl "let l = joint_response(in_spring(0u), in_articulated(5u), in_vec3(32u), in_products(35u));
+        out_response(0u, l.response); out_articulated(30u, l.apparent);";
     rust |_cx, w| {
-        let (answer, left) =
-            joint_answer(&spring(w, 0), &articulated(w, 5), vector(w, 32), &frames(w, 35));
-        Results::new().answer(answer).articulated(left).0
+        let (response, apparent) =
+            joint_response(&spring(w, 0), &articulated(w, 5), vector(w, 32), &products(w, 35));
+        Results::new().response(response).articulated(apparent).0
     };
 
-    twig_answer in "tree/sway/twig" (
+    twig_response in "tree/sway/twig" (
         VELOCITY, AXIAL, LOAD, VELOCITY, VELOCITY, AXIS, DIRECTION, VELOCITY, VELOCITY
     ) tolerance Some(4e-6);
-    wgsl "let l = twig_answer(in_spring(0u), in_load(5u), in_vec3(16u), in_frames(19u)); let t = l.answer;
+    wgsl "let l = twig_response(in_spring(0u), in_load(5u), in_vec3(16u), in_products(19u)); let t = l.response;
         out_vec3(0u, t.free); out_float(3u, t.spring_along); out_float(4u, t.spring_across); out_float(5u, t.lever);
-        out_vec3(6u, t.frames.arm); out_vec3(9u, t.frames.turning); out_vec3(12u, t.frames.centripetal);
-        out_articulated(15u, l.body);";
+        out_vec3(6u, t.products.arm); out_vec3(9u, t.products.angular); out_vec3(12u, t.products.centripetal);
+        out_articulated(15u, l.apparent);";
     rust |_cx, w| {
-        let (t, left) = twig_answer(&spring(w, 0), &load(w, 5), vector(w, 16), &frames(w, 19));
-        let answer = Results::new().vec3(t.free).floats(&[t.spring_along, t.spring_across, t.lever]);
-        answer.frames(t.frames).articulated(left).0
+        let (t, apparent) = twig_response(&spring(w, 0), &load(w, 5), vector(w, 16), &products(w, 19));
+        let response = Results::new().vec3(t.free).floats(&[t.spring_along, t.spring_across, t.lever]);
+        response.products(t.products).articulated(apparent).0
     };
 
-    twig_motion in "tree/sway/twig" (
+    twig_acceleration in "tree/sway/twig" (
         VELOCITY, Input::Floats(3, 0.0, 1.0), DIRECTION, VELOCITY, VELOCITY, AXIS, VELOCITY, VELOCITY
     ) tolerance Some(4e-6);
-    wgsl "let t = TwigAnswer(in_vec3(0u), in_float(3u), in_float(4u), in_float(5u), in_frames(6u));
-        out_vec3(0u, twig_motion(t, in_vec3(15u), Motion(in_vec3(18u), in_vec3(21u))));";
+    wgsl "let t = TwigResponse(in_vec3(0u), in_float(3u), in_float(4u), in_float(5u), in_products(6u));
+        out_vec3(0u, twig_acceleration(t, in_vec3(15u), Acceleration(in_vec3(18u), in_vec3(21u))));";
     rust |_cx, w| {
-        let answer = TwigAnswer {
+        let response = TwigResponse {
             free: vector(w, 0),
             spring_along: float(w[3]),
             spring_across: float(w[4]),
             lever: float(w[5]),
-            frames: frames(w, 6),
+            products: products(w, 6),
         };
-        let parent = Motion { angular: vector(w, 18), linear: vector(w, 21) };
-        Results::new().vec3(twig_motion(&answer, vector(w, 15), &parent)).0
+        let parent = Acceleration { angular: vector(w, 18), linear: vector(w, 21) };
+        Results::new().vec3(twig_acceleration(&response, vector(w, 15), &parent)).0
     };
 
-    articulated_shift in "tree/sway/fold" (DIAGONAL, OFF, COUPLING, DIAGONAL, OFF, VELOCITY, VELOCITY, DIRECTION)
+    articulated_shift in "tree/sway/inward" (DIAGONAL, OFF, COUPLING, DIAGONAL, OFF, VELOCITY, VELOCITY, DIRECTION)
     tolerance Some(4e-6);
     wgsl "out_articulated(0u, articulated_shift(in_articulated(0u), in_vec3(27u)));";
     rust |_cx, w| Results::new().articulated(articulated_shift(&articulated(w, 0), vector(w, 27))).0;
 
-    joint_motion in "tree/sway/unfold" (
+    joint_acceleration in "tree/sway/outward" (
         VELOCITY, Input::Floats(9, -1.0, 1.0), MATRIX, DIRECTION, VELOCITY, VELOCITY, VELOCITY, VELOCITY
     ) tolerance Some(4e-6);
-    wgsl "let m = joint_motion(in_answer(0u), Motion(in_vec3(30u), in_vec3(33u)));
-        out_vec3(0u, m.motion.angular); out_vec3(3u, m.motion.linear); out_vec3(6u, m.own);";
+    wgsl "let m = joint_acceleration(in_response(0u), Acceleration(in_vec3(30u), in_vec3(33u)));
+        out_vec3(0u, m.acceleration.angular); out_vec3(3u, m.acceleration.linear); out_vec3(6u, m.own);";
     rust |_cx, w| {
-        let answer = Answer {
+        let response = JointResponse {
             free: vector(w, 0),
             spring: mat3(w, 3),
             lever: mat3(w, 12),
-            frames: frames(w, 21),
+            products: products(w, 21),
         };
-        let parent = Motion { angular: vector(w, 30), linear: vector(w, 33) };
-        let (motion, own) = joint_motion(&answer, &parent);
-        Results::new().vec3(motion.angular).vec3(motion.linear).vec3(own).0
+        let parent = Acceleration { angular: vector(w, 30), linear: vector(w, 33) };
+        let (acceleration, own) = joint_acceleration(&response, &parent);
+        Results::new().vec3(acceleration.angular).vec3(acceleration.linear).vec3(own).0
     };
 
     // Rates and accelerations up to where a step's turn is cut short, and joints on both sides of their stop.
-    joint_step in "tree/sway/unfold" (
+    joint_step in "tree/sway/outward" (
         TURN, TURN_COSINE, Input::Floats(3, -50.0, 50.0), PLACE, QUATERNION, VELOCITY, VELOCITY,
         Input::Floats(3, -4000.0, 4000.0)
     ) tolerance Some(4e-6);
     wgsl "out_joint(0u, joint_step(in_joint(0u), in_body(7u), in_vec3(20u)));";
     rust |cx, w| Results::new().joint(joint_step(cx, &joint(w, 0), &body(w, 7), vector(w, 20))).0;
 
-    segment_place in "tree/sway/unfold" (
+    segment_place in "tree/sway/outward" (
         QUATERNION, DIRECTION, LENGTH, SCALARS, PRELOAD, SPRINGS, TURN, TURN_COSINE, VELOCITY, PLACE, QUATERNION,
         VELOCITY, VELOCITY
     ) tolerance Some(4e-6);

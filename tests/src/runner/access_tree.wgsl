@@ -19,20 +19,20 @@ fn in_body(at: u32) -> Body {
     return Body(in_vec3(at), in_vec4(at + 3u), in_vec3(at + 7u), in_vec3(at + 10u));
 }
 
-fn in_articulated(at: u32) -> Articulated {
-    return Articulated(
+fn in_articulated(at: u32) -> ArticulatedInertia {
+    return ArticulatedInertia(
         in_sym3(at), in_mat3(at + 6u), in_sym3(at + 15u), in_vec3(at + 21u), in_vec3(at + 24u),
     );
 }
 
-fn in_answer(at: u32) -> Answer {
-    return Answer(
-        in_vec3(at), in_mat3(at + 3u), in_mat3(at + 12u), in_frames(at + 21u),
+fn in_response(at: u32) -> JointResponse {
+    return JointResponse(
+        in_vec3(at), in_mat3(at + 3u), in_mat3(at + 12u), in_products(at + 21u),
     );
 }
 
-fn in_frames(at: u32) -> Frames {
-    return Frames(in_vec3(at), in_vec3(at + 3u), in_vec3(at + 6u));
+fn in_products(at: u32) -> VelocityProducts {
+    return VelocityProducts(in_vec3(at), in_vec3(at + 3u), in_vec3(at + 6u));
 }
 
 fn in_spring(at: u32) -> Spring {
@@ -58,7 +58,7 @@ fn out_body(at: u32, value: Body) {
     out_vec3(at + 10u, value.spin);
 }
 
-fn out_articulated(at: u32, value: Articulated) {
+fn out_articulated(at: u32, value: ArticulatedInertia) {
     out_sym3(at, value.rotation);
     out_mat3(at + 6u, value.coupling);
     out_sym3(at + 15u, value.mass);
@@ -66,11 +66,11 @@ fn out_articulated(at: u32, value: Articulated) {
     out_vec3(at + 24u, value.force);
 }
 
-fn out_answer(at: u32, value: Answer) {
+fn out_response(at: u32, value: JointResponse) {
     out_vec3(at, value.free);
     out_mat3(at + 3u, value.spring);
     out_mat3(at + 12u, value.lever);
-    out_vec3(at + 21u, value.frames.arm);
-    out_vec3(at + 24u, value.frames.turning);
-    out_vec3(at + 27u, value.frames.centripetal);
+    out_vec3(at + 21u, value.products.arm);
+    out_vec3(at + 24u, value.products.angular);
+    out_vec3(at + 27u, value.products.centripetal);
 }

@@ -7,7 +7,7 @@ use proptest::prelude::*;
 use windfall_core::kernel::{Sym3, Vec3};
 use windfall_core::scene::{SwayScheme, Wood};
 use windfall_core::tree::sway::quigley::{Swing, joint_modes, swing_step};
-use windfall_tests::stand::{Grove, bare, chain};
+use windfall_tests::grove::{Grove, bare, chain};
 
 /// A joint: inertia, stiffness, stiffness-proportional damping, torque, and its state.
 #[derive(Clone, Debug)]

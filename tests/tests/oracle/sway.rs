@@ -7,7 +7,7 @@
 use glam::Vec3;
 use proptest::prelude::*;
 use windfall_core::scene::{MeanSpeed, Profile, SwayScheme, Wood};
-use windfall_tests::stand::{Grove, bare, chain, forked};
+use windfall_tests::grove::{Grove, bare, chain, forked};
 
 /// Joint rotation of a segment as it stands, by half its sine along x, y and z.
 fn bend(grove: &mut Grove, row: usize, half: Vec3) {
@@ -107,7 +107,7 @@ proptest! {
         if leaves {
             grove.put_on_leaves();
         }
-        let mass: f64 = grove.forest.timber().iter().map(|timber| f64::from(timber.mass)).sum();
+        let mass: f64 = grove.forest.segments().iter().map(|segment| f64::from(segment.mass)).sum();
         // As fast as the wind, and as fast as its own height makes it fall.
         let fastest = f64::from(speed) + (2.0f64 * 9.81 * 15.0).sqrt();
         let bound = 0.5 * mass * (2.0 * fastest).powi(2);

@@ -6,7 +6,7 @@ use windfall_core::Scene;
 use windfall_core::scene::{MeanSpeed, Profile, Tree};
 use windfall_core::tree::forest::Seedling;
 use windfall_core::tree::{Branches, Forest, LeafFacts, grow};
-use windfall_tests::stand::Grove;
+use windfall_tests::grove::Grove;
 
 const DT_S: f32 = 1.0 / 60.0;
 
@@ -54,9 +54,9 @@ fn pull_and_release(mut grove: Grove, speed_m_s: f32) -> (f64, f64) {
 
 /// How far to the side the wood is on average, by mass, in m.
 fn middle(forest: &Forest, branches: &Branches) -> f64 {
-    let rows = forest.timber().iter().zip(&branches.base);
-    let (sum, mass) = rows.fold((0.0, 0.0), |(sum, mass), (timber, base)| {
-        let own = f64::from(timber.mass);
+    let rows = forest.segments().iter().zip(&branches.base);
+    let (sum, mass) = rows.fold((0.0, 0.0), |(sum, mass), (segment, base)| {
+        let own = f64::from(segment.mass);
         (sum + own * f64::from(base[0]), mass + own)
     });
     sum / mass

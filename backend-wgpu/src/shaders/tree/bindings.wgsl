@@ -10,8 +10,8 @@ struct Level {
 }
 
 @group(1) @binding(0) var<uniform> level: Level;
-// Constants of every segment, TIMBER_ROWS rows each, floats as bits.
-@group(1) @binding(1) var<storage, read> timber_rows: array<vec4<u32>>;
+// Constants of every segment, SEGMENT_ROWS rows each, floats as bits.
+@group(1) @binding(1) var<storage, read> segment_rows: array<vec4<u32>>;
 // Every row of the forest, level by level.
 @group(1) @binding(2) var<storage, read> forest_order: array<u32>;
 // The columns BRANCH_TURN, BRANCH_RATE and so on, one after another.

@@ -5,11 +5,11 @@
 //! What a segment is as a body: constants, state, inertia, and how its joint answers.
 
 use crate::kernel::{Mat3, Quat, Sym3, Vec3};
-use crate::tree::record::Timber;
+use crate::tree::record::SegmentConstants;
 
-/// Constants of a segment, or of several: see [`Timber`].
+/// Constants of a segment, or of several: see [`SegmentConstants`].
 #[derive(Clone, Copy, Debug)]
-#[expect(missing_docs, reason = "the fields of Timber")]
+#[expect(missing_docs, reason = "the fields of SegmentConstants")]
 pub struct Constants<R = f32> {
     pub rest: Quat<R>,
     pub offset: Vec3<R>,
@@ -30,27 +30,27 @@ pub struct Constants<R = f32> {
     pub twisting_inertia: R,
 }
 
-impl From<&Timber> for Constants {
+impl From<&SegmentConstants> for Constants {
     #[inline(always)]
-    fn from(timber: &Timber) -> Self {
+    fn from(segment: &SegmentConstants) -> Self {
         Self {
-            rest: timber.rest.into(),
-            offset: timber.offset.into(),
-            length: timber.length,
-            mass: timber.mass,
-            first_moment: timber.first_moment,
-            inertia_across: timber.inertia_across,
-            inertia_along: timber.inertia_along,
-            leaf_mass: timber.leaf_mass,
-            wood_drag: timber.wood_drag,
-            leaf_drag: timber.leaf_drag,
-            leaf_yield: timber.leaf_yield,
-            preload: timber.preload.into(),
-            damping: timber.damping,
-            bending: timber.bending,
-            twisting: timber.twisting,
-            bending_inertia: timber.bending_inertia,
-            twisting_inertia: timber.twisting_inertia,
+            rest: segment.rest.into(),
+            offset: segment.offset.into(),
+            length: segment.length,
+            mass: segment.mass,
+            first_moment: segment.first_moment,
+            inertia_across: segment.inertia_across,
+            inertia_along: segment.inertia_along,
+            leaf_mass: segment.leaf_mass,
+            wood_drag: segment.wood_drag,
+            leaf_drag: segment.leaf_drag,
+            leaf_yield: segment.leaf_yield,
+            preload: segment.preload.into(),
+            damping: segment.damping,
+            bending: segment.bending,
+            twisting: segment.twisting,
+            bending_inertia: segment.bending_inertia,
+            twisting_inertia: segment.twisting_inertia,
         }
     }
 }
@@ -85,7 +85,7 @@ impl Body {
 
 /// Inertia of a body and of what it carries, and the force and torque that hold it back, about its joint, in world axes.
 #[derive(Clone, Copy, Debug)]
-pub struct Articulated<R = f32> {
+pub struct ArticulatedInertia<R = f32> {
     /// Torque per angular acceleration in kg m².
     pub rotation: Sym3<R>,
     /// Torque per acceleration in kg m; transposed, force per angular acceleration.
@@ -130,18 +130,18 @@ pub struct Spring<R = f32> {
 
 /// What a parent's motion brings to a joint.
 #[derive(Clone, Copy, Debug)]
-pub struct Frames<R = f32> {
+pub struct VelocityProducts<R = f32> {
     /// The joint's place relative to the parent's in m.
     pub arm: Vec3<R>,
     /// Angular acceleration from turning frames in rad/s².
-    pub turning: Vec3<R>,
+    pub angular: Vec3<R>,
     /// Acceleration from turning frames in m/s².
     pub centripetal: Vec3<R>,
 }
 
-/// How the joint of a twig answers what its parent does: as [`Answer`], where matrices are symmetric about the axis.
+/// How the joint of a twig answers what its parent does: as [`JointResponse`], where matrices are symmetric about the axis.
 #[derive(Clone, Copy, Debug)]
-pub struct TwigAnswer<R = f32> {
+pub struct TwigResponse<R = f32> {
     /// Angular acceleration in rad/s² if the parent does nothing.
     pub free: Vec3<R>,
     /// Share of the spring in the joint's stiffness against twisting.
@@ -151,12 +151,12 @@ pub struct TwigAnswer<R = f32> {
     /// Angular acceleration across the axis per acceleration of the joint, opposed, in 1/m.
     pub lever: R,
     /// What the parent's motion brings.
-    pub frames: Frames<R>,
+    pub products: VelocityProducts<R>,
 }
 
 /// How a joint answers what its parent does.
 #[derive(Clone, Copy, Debug)]
-pub struct Answer<R = f32> {
+pub struct JointResponse<R = f32> {
     /// Angular acceleration in rad/s² if the parent does nothing.
     pub free: Vec3<R>,
     /// Share of the spring in the joint's stiffness.
@@ -164,5 +164,5 @@ pub struct Answer<R = f32> {
     /// Angular acceleration per acceleration of the joint, opposed, in 1/m.
     pub lever: Mat3<R>,
     /// What the parent's motion brings.
-    pub frames: Frames<R>,
+    pub products: VelocityProducts<R>,
 }

@@ -8,7 +8,7 @@
 //! Drag by the velocity relative to the air, and its fall as leaves turn aside: Vogel, "Drag and reconfiguration of broad
 //! leaves in high winds" (1989). Across a branch only the wind's part across it counts.
 
-use super::{Articulated, Body, Constants, GRAVITY_M_S2, Load, THIRD};
+use super::{ArticulatedInertia, Body, Constants, GRAVITY_M_S2, Load, THIRD};
 use crate::context::Context;
 use crate::kernel::lane::{Mask, Real};
 use crate::kernel::math::{inverse_sqrt, reciprocal};
@@ -114,8 +114,8 @@ pub fn load_trace<R: Real>(load: &Load<R>) -> R {
 
 /// The same as a body without symmetry.
 #[inline(always)]
-pub fn segment_body<R: Real>(load: &Load<R>, axis: Vec3<R>) -> Articulated<R> {
-    Articulated {
+pub fn segment_body<R: Real>(load: &Load<R>, axis: Vec3<R>) -> ArticulatedInertia<R> {
+    ArticulatedInertia {
         rotation: sym3_axial(axis, load.rotation_along, load.rotation_across),
         coupling: mat3_cross(axis, load.coupling),
         mass: sym3_axial(axis, load.mass_along, load.mass_across),
@@ -136,7 +136,7 @@ mod tests {
 
     use super::*;
     use crate::kernel::vector::vec3_cross;
-    use crate::tree::record::Timber;
+    use crate::tree::record::SegmentConstants;
 
     proptest! {
         /// Wind that blows nearly along a branch drags at it with the little that comes across.
@@ -150,7 +150,7 @@ mod tests {
             let axis = way * inverse_sqrt(vec3_dot(way, way));
             let aside = vec3_cross(axis, Vec3::new(0.0, 1.0, 0.0));
             let air = (axis + aside * slant) * speed;
-            let constants = Constants::from(&Timber { wood_drag: 1.0, ..bytemuck::Zeroable::zeroed() });
+            let constants = Constants::from(&SegmentConstants { wood_drag: 1.0, ..bytemuck::Zeroable::zeroed() });
             let drag = segment_drag(&constants, axis, air, Vec3::ZERO, 0.0);
             let [a, w] = [axis, air].map(|v| v.to_array().map(f64::from));
             let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];

@@ -3,8 +3,8 @@
 //! How trees sway: articulated bodies with springs in their joints, driven by the one wind.
 //!
 //! A segment is a rigid body on a ball joint at the end of its parent. A step goes through a tree twice. Towards the foot
-//! ([`fold`]): every segment adds up its own inertia and loads ([`load`]) and what its children hand down, works out how
-//! its joint will answer, and hands the rest to its parent. Towards the tips ([`unfold`]): every joint, knowing what its
+//! ([`inward`]): every segment adds up its own inertia and loads ([`load`]) and what its children hand down, works out how
+//! its joint will answer, and hands the rest to its parent. Towards the tips ([`outward`]): every joint, knowing what its
 //! parent does, accelerates and moves on. Springs, their damping and the air's drag are taken at the end of the step, so
 //! no wind, stiffness or step length makes them pump energy.
 //!
@@ -16,15 +16,17 @@
 
 mod body;
 pub mod composite;
-pub mod fold;
+pub mod inward;
 pub mod load;
 pub mod oliapuram_kumar;
+pub mod outward;
 pub mod quigley;
 pub mod row;
 pub mod twig;
-pub mod unfold;
 
-pub use body::{Answer, Articulated, Body, Constants, Frames, Joint, Load, Spring, TwigAnswer};
+pub use body::{
+    ArticulatedInertia, Body, Constants, Joint, JointResponse, Load, Spring, TwigResponse, VelocityProducts,
+};
 
 crate::shared_constants! {
     /// Where in a step springs act: 1/2 is the trapezoidal rule, which keeps slow sways alive; above it, fast ones that

@@ -5,27 +5,29 @@
 //! A row of the forest in each of the two passes of a step.
 
 use super::composite::{Composite, composite_add, composite_shift, segment_composite};
-use super::fold::{articulated_add, articulated_shift, joint_answer, joint_frames, joint_spring};
+use super::inward::{articulated_add, articulated_shift, joint_response, joint_spring, velocity_products};
 use super::load::{load_trace, segment_air, segment_axis, segment_body, segment_load};
 use super::oliapuram_kumar::oliapuram_kumar_step;
+use super::outward::{Acceleration, joint_acceleration, joint_held, joint_step, segment_place};
 use super::quigley::quigley_step;
-use super::twig::{twig_answer, twig_motion};
-use super::unfold::{Motion, joint_held, joint_motion, joint_step, segment_place};
-use super::{Answer, Articulated, Body, Constants, Frames, Joint, SCHEME_QUIGLEY, TwigAnswer};
+use super::twig::{twig_acceleration, twig_response};
+use super::{
+    ArticulatedInertia, Body, Constants, Joint, JointResponse, SCHEME_QUIGLEY, TwigResponse, VelocityProducts,
+};
 use crate::context::Context;
 use crate::kernel::matrix::sym3_trace;
 use crate::kernel::{Mat3, Sym3, Vec3};
 use crate::tree::forest::first_three;
-use crate::tree::record::{NO_SEGMENT, Timber, WORK_ANSWER, Work, children_of};
+use crate::tree::record::{NO_SEGMENT, SegmentConstants, WORK_RESPONSE, Work, children_of};
 use crate::tree::store::BranchesMut;
 
-/// The rows of a stand.
+/// The rows of a batch.
 #[derive(Debug)]
 pub struct Rows<'a> {
     /// Number of the first row.
     pub first: u32,
     /// Constants.
-    pub timber: &'a [Timber],
+    pub segments: &'a [SegmentConstants],
     /// State.
     pub branches: BranchesMut<'a>,
     /// Intermediate results.
@@ -52,7 +54,7 @@ impl Rows<'_> {
     /// The segment that `row` grows from, or the ground.
     #[inline(always)]
     fn parent_body(&self, row: usize) -> Body {
-        match self.timber[row].parent {
+        match self.segments[row].parent {
             NO_SEGMENT => Body::GROUND,
             parent => self.body((parent - self.first) as usize),
         }
@@ -63,7 +65,7 @@ impl Rows<'_> {
     /// The children of a row: twigs, then limbs.
     #[inline(always)]
     fn children(&self, row: usize) -> impl Iterator<Item = usize> + use<'_> {
-        children_of(self.timber, self.first, row)
+        children_of(self.segments, self.first, row)
     }
 
     #[inline(always)]
@@ -85,7 +87,7 @@ fn four(v: Vec3, w: f32) -> [f32; 4] {
 
 /// What a segment hands to its parent, into its work.
 #[inline(always)]
-pub fn store_articulated(work: &mut Work, body: &Articulated) {
+pub fn store_articulated(work: &mut Work, body: &ArticulatedInertia) {
     work[0] = four(body.rotation.diagonal, body.moment.x);
     work[1] = four(body.rotation.off, body.moment.y);
     work[2] = four(body.coupling.x, body.moment.z);
@@ -97,8 +99,8 @@ pub fn store_articulated(work: &mut Work, body: &Articulated) {
 
 /// The same, out of it.
 #[inline(always)]
-pub fn load_articulated(work: &Work) -> Articulated {
-    Articulated {
+pub fn load_articulated(work: &Work) -> ArticulatedInertia {
+    ArticulatedInertia {
         rotation: Sym3 { diagonal: first_three(work[0]), off: first_three(work[1]) },
         coupling: Mat3 { x: first_three(work[2]), y: first_three(work[3]), z: first_three(work[4]) },
         mass: Sym3 { diagonal: first_three(work[5]), off: first_three(work[6]) },
@@ -109,30 +111,30 @@ pub fn load_articulated(work: &Work) -> Articulated {
 
 /// How a joint answers, into the work of its segment.
 #[inline(always)]
-pub fn store_answer(work: &mut Work, answer: &Answer) {
-    let rows = &mut work[WORK_ANSWER as usize..];
-    let Frames { arm, turning, centripetal } = answer.frames;
-    rows[0] = four(answer.free, turning.x);
-    rows[1] = four(answer.spring.x, turning.y);
-    rows[2] = four(answer.spring.y, turning.z);
-    rows[3] = four(answer.spring.z, centripetal.x);
-    rows[4] = four(answer.lever.x, centripetal.y);
-    rows[5] = four(answer.lever.y, centripetal.z);
-    rows[6] = four(answer.lever.z, 0.0);
+pub fn store_response(work: &mut Work, response: &JointResponse) {
+    let rows = &mut work[WORK_RESPONSE as usize..];
+    let VelocityProducts { arm, angular, centripetal } = response.products;
+    rows[0] = four(response.free, angular.x);
+    rows[1] = four(response.spring.x, angular.y);
+    rows[2] = four(response.spring.y, angular.z);
+    rows[3] = four(response.spring.z, centripetal.x);
+    rows[4] = four(response.lever.x, centripetal.y);
+    rows[5] = four(response.lever.y, centripetal.z);
+    rows[6] = four(response.lever.z, 0.0);
     rows[7] = four(arm, 0.0);
 }
 
 /// The same, out of it.
 #[inline(always)]
-pub fn load_answer(work: &Work) -> Answer {
-    let rows = &work[WORK_ANSWER as usize..];
-    Answer {
+pub fn load_response(work: &Work) -> JointResponse {
+    let rows = &work[WORK_RESPONSE as usize..];
+    JointResponse {
         free: first_three(rows[0]),
         spring: Mat3 { x: first_three(rows[1]), y: first_three(rows[2]), z: first_three(rows[3]) },
         lever: Mat3 { x: first_three(rows[4]), y: first_three(rows[5]), z: first_three(rows[6]) },
-        frames: Frames {
+        products: VelocityProducts {
             arm: first_three(rows[7]),
-            turning: Vec3::new(rows[0][3], rows[1][3], rows[2][3]),
+            angular: Vec3::new(rows[0][3], rows[1][3], rows[2][3]),
             centripetal: Vec3::new(rows[3][3], rows[4][3], rows[5][3]),
         },
     }
@@ -140,26 +142,26 @@ pub fn load_answer(work: &Work) -> Answer {
 
 /// How the joint of a twig answers, into the work of its segment.
 #[inline(always)]
-pub fn store_twig_answer(work: &mut Work, answer: &TwigAnswer) {
-    let rows = &mut work[WORK_ANSWER as usize..];
-    rows[0] = four(answer.free, answer.spring_along);
-    rows[1] = four(answer.frames.arm, answer.spring_across);
-    rows[2] = four(answer.frames.turning, answer.lever);
-    rows[3] = four(answer.frames.centripetal, 0.0);
+pub fn store_twig_response(work: &mut Work, response: &TwigResponse) {
+    let rows = &mut work[WORK_RESPONSE as usize..];
+    rows[0] = four(response.free, response.spring_along);
+    rows[1] = four(response.products.arm, response.spring_across);
+    rows[2] = four(response.products.angular, response.lever);
+    rows[3] = four(response.products.centripetal, 0.0);
 }
 
 /// The same, out of it.
 #[inline(always)]
-pub fn load_twig_answer(work: &Work) -> TwigAnswer {
-    let rows = &work[WORK_ANSWER as usize..];
-    TwigAnswer {
+pub fn load_twig_response(work: &Work) -> TwigResponse {
+    let rows = &work[WORK_RESPONSE as usize..];
+    TwigResponse {
         free: first_three(rows[0]),
         spring_along: rows[0][3],
         spring_across: rows[1][3],
         lever: rows[2][3],
-        frames: Frames {
+        products: VelocityProducts {
             arm: first_three(rows[1]),
-            turning: first_three(rows[2]),
+            angular: first_three(rows[2]),
             centripetal: first_three(rows[3]),
         },
     }
@@ -168,56 +170,56 @@ pub fn load_twig_answer(work: &Work) -> TwigAnswer {
 /// Velocity of the air that a row feels: a twig that of its parent.
 #[inline(always)]
 fn row_air(cx: &Context<'_>, rows: &Rows<'_>, row: usize) -> Vec3 {
-    let timber = &rows.timber[row];
-    let feels = if timber.is_twig() { (timber.parent - rows.first) as usize } else { row };
+    let segment = &rows.segments[row];
+    let feels = if segment.is_twig() { (segment.parent - rows.first) as usize } else { row };
     let body = rows.body(feels);
-    segment_air(cx, &body, segment_axis(&body), rows.timber[feels].length)
+    segment_air(cx, &body, segment_axis(&body), rows.segments[feels].length)
 }
 
 /// The pass towards the foot, at one row whose children are done.
 #[inline(always)]
-pub fn row_fold(cx: &Context<'_>, rows: &mut Rows<'_>, row: usize) {
-    let constants = Constants::from(&rows.timber[row]);
+pub fn row_inward(cx: &Context<'_>, rows: &mut Rows<'_>, row: usize) {
+    let constants = Constants::from(&rows.segments[row]);
     let body = rows.body(row);
     let joint = rows.joint(row);
     let axis = segment_axis(&body);
-    let frames = joint_frames(&body, &rows.parent_body(row));
+    let products = velocity_products(&body, &rows.parent_body(row));
     let bearing = rows.branches.bearing[row] as f32;
     let load = segment_load(cx, &constants, &body, axis, row_air(cx, rows, row), bearing);
-    let left = if rows.timber[row].is_twig() {
+    let apparent = if rows.segments[row].is_twig() {
         let spring = joint_spring(cx, &constants, &joint, &body, load_trace(&load));
-        let (answer, left) = twig_answer(&spring, &load, axis, &frames);
-        store_twig_answer(&mut rows.work[row], &answer);
-        left
+        let (response, apparent) = twig_response(&spring, &load, axis, &products);
+        store_twig_response(&mut rows.work[row], &response);
+        apparent
     } else {
         let mut whole = segment_body(&load, axis);
         for child in rows.children(row) {
             whole = articulated_add(&whole, &load_articulated(&rows.work[child]));
         }
         let spring = joint_spring(cx, &constants, &joint, &body, sym3_trace(whole.rotation));
-        let (answer, left) = joint_answer(&spring, &whole, axis, &frames);
-        store_answer(&mut rows.work[row], &answer);
-        left
+        let (response, apparent) = joint_response(&spring, &whole, axis, &products);
+        store_response(&mut rows.work[row], &response);
+        apparent
     };
-    store_articulated(&mut rows.work[row], &articulated_shift(&left, frames.arm));
+    store_articulated(&mut rows.work[row], &articulated_shift(&apparent, products.arm));
 }
 
 /// The pass towards the tips, at one row whose parent is done.
 #[inline(always)]
-pub fn row_unfold(cx: &Context<'_>, rows: &mut Rows<'_>, row: usize) {
-    let constants = Constants::from(&rows.timber[row]);
+pub fn row_outward(cx: &Context<'_>, rows: &mut Rows<'_>, row: usize) {
+    let constants = Constants::from(&rows.segments[row]);
     let body = rows.body(row);
-    let mut above = Motion { angular: Vec3::ZERO, linear: Vec3::ZERO };
-    if rows.timber[row].parent != NO_SEGMENT {
-        let parent = &rows.work[(rows.timber[row].parent - rows.first) as usize];
-        above = Motion { angular: first_three(parent[0]), linear: first_three(parent[1]) };
+    let mut above = Acceleration { angular: Vec3::ZERO, linear: Vec3::ZERO };
+    if rows.segments[row].parent != NO_SEGMENT {
+        let parent = &rows.work[(rows.segments[row].parent - rows.first) as usize];
+        above = Acceleration { angular: first_three(parent[0]), linear: first_three(parent[1]) };
     }
-    let own = if rows.timber[row].is_twig() {
-        twig_motion(&load_twig_answer(&rows.work[row]), segment_axis(&body), &above)
+    let own = if rows.segments[row].is_twig() {
+        twig_acceleration(&load_twig_response(&rows.work[row]), segment_axis(&body), &above)
     } else {
-        let (motion, own) = joint_motion(&load_answer(&rows.work[row]), &above);
-        rows.work[row][0] = four(motion.angular, 0.0);
-        rows.work[row][1] = four(motion.linear, 0.0);
+        let (acceleration, own) = joint_acceleration(&load_response(&rows.work[row]), &above);
+        rows.work[row][0] = four(acceleration.angular, 0.0);
+        rows.work[row][1] = four(acceleration.linear, 0.0);
         own
     };
     let joint = joint_step(cx, &rows.joint(row), &body, own);
@@ -254,7 +256,7 @@ pub fn load_composite(work: &Work) -> Composite {
 /// The pass towards the foot of the schemes that move joints one by one, at one row whose children are done.
 #[inline(always)]
 pub fn row_gather(cx: &Context<'_>, rows: &mut Rows<'_>, row: usize) {
-    let constants = Constants::from(&rows.timber[row]);
+    let constants = Constants::from(&rows.segments[row]);
     let body = rows.body(row);
     let bearing = rows.branches.bearing[row] as f32;
     let air = row_air(cx, rows, row);
@@ -269,7 +271,7 @@ pub fn row_gather(cx: &Context<'_>, rows: &mut Rows<'_>, row: usize) {
 /// The pass towards the tips of the schemes that move joints one by one, at one row whose parent is done.
 #[inline(always)]
 pub fn row_follow(cx: &Context<'_>, rows: &mut Rows<'_>, row: usize) {
-    let constants = Constants::from(&rows.timber[row]);
+    let constants = Constants::from(&rows.segments[row]);
     let body = rows.body(row);
     let joint = rows.joint(row);
     let whole = load_composite(&rows.work[row]);

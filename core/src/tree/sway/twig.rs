@@ -3,10 +3,10 @@
 //! twin: backend-wgpu/src/shaders/tree/sway/twig.wgsl
 //!
 //! Twigs: segments that bear no others. Everything about one is symmetric about its axis, so what takes matrices at a
-//! limb takes two numbers each; the equations are those of [`super::fold`] and [`super::unfold`].
+//! limb takes two numbers each; the equations are those of [`super::inward`] and [`super::outward`].
 
-use super::unfold::{Motion, carried_motion};
-use super::{Articulated, Frames, Load, Spring, TwigAnswer};
+use super::outward::{Acceleration, carried_acceleration};
+use super::{ArticulatedInertia, Load, Spring, TwigResponse, VelocityProducts};
 use crate::kernel::lane::Real;
 use crate::kernel::math::reciprocal;
 use crate::kernel::matrix::{axial_times, mat3_cross, sym3_axial};
@@ -14,12 +14,12 @@ use crate::kernel::vector::{Vec3, vec3_cross};
 
 /// How the joint of a twig answers, and what is left for its parent, still about the twig's own joint.
 #[inline(always)]
-pub fn twig_answer<R: Real>(
+pub fn twig_response<R: Real>(
     spring: &Spring<R>,
     load: &Load<R>,
     axis: Vec3<R>,
-    frames: &Frames<R>,
-) -> (TwigAnswer<R>, Articulated<R>) {
+    products: &VelocityProducts<R>,
+) -> (TwigResponse<R>, ArticulatedInertia<R>) {
     let inverse_along = reciprocal(load.rotation_along + spring.along);
     let inverse_across = reciprocal(load.rotation_across + spring.across);
     let spring_along = spring.along * inverse_along;
@@ -31,23 +31,23 @@ pub fn twig_answer<R: Real>(
     let coupling = spring_across * load.coupling;
     let mass_across = load.mass_across - lever * load.coupling;
 
-    let Frames { turning, centripetal, .. } = *frames;
+    let VelocityProducts { angular, centripetal, .. } = *products;
     let pull = spring.torque - load.moment;
     let moment = (spring.torque - axial_times(axis, spring_along, spring_across, pull))
-        + (axial_times(axis, rotation_along, rotation_across, turning)
+        + (axial_times(axis, rotation_along, rotation_across, angular)
             + vec3_cross(axis, centripetal) * coupling);
     let force = (load.force + vec3_cross(pull, axis) * lever)
-        + (vec3_cross(turning, axis) * coupling
+        + (vec3_cross(angular, axis) * coupling
             + axial_times(axis, load.mass_along, mass_across, centripetal));
     (
-        TwigAnswer {
+        TwigResponse {
             free: axial_times(axis, inverse_along, inverse_across, pull),
             spring_along,
             spring_across,
             lever,
-            frames: *frames,
+            products: *products,
         },
-        Articulated {
+        ArticulatedInertia {
             rotation: sym3_axial(axis, rotation_along, rotation_across),
             coupling: mat3_cross(axis, coupling),
             mass: sym3_axial(axis, load.mass_along, mass_across),
@@ -59,11 +59,15 @@ pub fn twig_answer<R: Real>(
 
 /// The joint's own part of the angular acceleration of a twig.
 #[inline(always)]
-pub fn twig_motion<R: Real>(answer: &TwigAnswer<R>, axis: Vec3<R>, parent: &Motion<R>) -> Vec3<R> {
-    let carried = carried_motion(&answer.frames, parent);
-    ((answer.free - carried.angular)
-        + axial_times(axis, answer.spring_along, answer.spring_across, carried.angular))
-        - vec3_cross(axis, carried.linear) * answer.lever
+pub fn twig_acceleration<R: Real>(
+    response: &TwigResponse<R>,
+    axis: Vec3<R>,
+    parent: &Acceleration<R>,
+) -> Vec3<R> {
+    let carried = carried_acceleration(&response.products, parent);
+    ((response.free - carried.angular)
+        + axial_times(axis, response.spring_along, response.spring_across, carried.angular))
+        - vec3_cross(axis, carried.linear) * response.lever
 }
 
 #[cfg(test)]
@@ -73,9 +77,9 @@ mod tests {
     use super::*;
     use crate::kernel::math::inverse_sqrt;
     use crate::kernel::vector::vec3_dot;
-    use crate::tree::sway::fold::joint_answer;
+    use crate::tree::sway::inward::joint_response;
     use crate::tree::sway::load::segment_body;
-    use crate::tree::sway::unfold::joint_motion;
+    use crate::tree::sway::outward::joint_acceleration;
 
     fn vector(most: f32) -> impl Strategy<Value = Vec3> {
         [-most..most, -most..most, -most..most].prop_map(Vec3::from)
@@ -94,7 +98,7 @@ mod tests {
             coupling in 0.0f32..0.4,
             free in prop::array::uniform8(vector(2.0)),
         ) {
-            let [way, torque, moment, force, arm, turning, centripetal, angular] = free;
+            let [way, torque, moment, force, arm, velocity_product, centripetal, angular] = free;
             let squared = vec3_dot(way, way);
             prop_assume!(squared > 0.01);
             let axis = way * inverse_sqrt(squared);
@@ -108,24 +112,24 @@ mod tests {
                 moment,
                 force,
             };
-            let frames = Frames { arm, turning, centripetal };
-            let parent = Motion { angular, linear: force };
-            let (answer, left) = twig_answer(&spring, &load, axis, &frames);
-            let (limb, rest) = joint_answer(&spring, &segment_body(&load, axis), axis, &frames);
-            prop_assert!(near(answer.free, limb.free, 30.0), "{:?} for {:?}", answer.free, limb.free);
-            let own = twig_motion(&answer, axis, &parent);
-            let (_, expected) = joint_motion(&limb, &parent);
+            let products = VelocityProducts { arm, angular: velocity_product, centripetal };
+            let parent = Acceleration { angular, linear: force };
+            let (response, apparent) = twig_response(&spring, &load, axis, &products);
+            let (limb, rest) = joint_response(&spring, &segment_body(&load, axis), axis, &products);
+            prop_assert!(near(response.free, limb.free, 30.0), "{:?} for {:?}", response.free, limb.free);
+            let own = twig_acceleration(&response, axis, &parent);
+            let (_, expected) = joint_acceleration(&limb, &parent);
             prop_assert!(near(own, expected, 60.0), "{own:?} for {expected:?}");
             let pairs = [
-                (left.rotation.diagonal, rest.rotation.diagonal),
-                (left.rotation.off, rest.rotation.off),
-                (left.coupling.x, rest.coupling.x),
-                (left.coupling.y, rest.coupling.y),
-                (left.coupling.z, rest.coupling.z),
-                (left.mass.diagonal, rest.mass.diagonal),
-                (left.mass.off, rest.mass.off),
-                (left.moment, rest.moment),
-                (left.force, rest.force),
+                (apparent.rotation.diagonal, rest.rotation.diagonal),
+                (apparent.rotation.off, rest.rotation.off),
+                (apparent.coupling.x, rest.coupling.x),
+                (apparent.coupling.y, rest.coupling.y),
+                (apparent.coupling.z, rest.coupling.z),
+                (apparent.mass.diagonal, rest.mass.diagonal),
+                (apparent.mass.off, rest.mass.off),
+                (apparent.moment, rest.moment),
+                (apparent.force, rest.force),
             ];
             for (number, (twig, limb)) in pairs.into_iter().enumerate() {
                 prop_assert!(near(twig, limb, 60.0), "{number}: {twig:?} for {limb:?}");

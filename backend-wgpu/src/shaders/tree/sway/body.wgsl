@@ -35,7 +35,7 @@ struct Body {
     spin: vec3<f32>,
 }
 
-struct Articulated {
+struct ArticulatedInertia {
     rotation: Sym3,
     coupling: Mat3,
     mass: Sym3,
@@ -59,23 +59,23 @@ struct Spring {
     across: f32,
 }
 
-struct Frames {
+struct VelocityProducts {
     arm: vec3<f32>,
-    turning: vec3<f32>,
+    angular: vec3<f32>,
     centripetal: vec3<f32>,
 }
 
-struct TwigAnswer {
+struct TwigResponse {
     free: vec3<f32>,
     spring_along: f32,
     spring_across: f32,
     lever: f32,
-    frames: Frames,
+    products: VelocityProducts,
 }
 
-struct Answer {
+struct JointResponse {
     free: vec3<f32>,
     spring: Mat3,
     lever: Mat3,
-    frames: Frames,
+    products: VelocityProducts,
 }

@@ -72,8 +72,8 @@ fn load_trace(load: Load) -> f32 {
     return (load.rotation_along + load.rotation_across) + load.rotation_across;
 }
 
-fn segment_body(load: Load, axis: vec3<f32>) -> Articulated {
-    return Articulated(
+fn segment_body(load: Load, axis: vec3<f32>) -> ArticulatedInertia {
+    return ArticulatedInertia(
         sym3_axial(axis, load.rotation_along, load.rotation_across),
         mat3_cross(axis, load.coupling),
         sym3_axial(axis, load.mass_along, load.mass_across),

@@ -3,20 +3,20 @@
 // twin: core/src/tree/sway/row.rs
 #import tree/bindings
 #import tree/sway/composite
-#import tree/sway/fold
+#import tree/sway/inward
 #import tree/sway/load
 #import tree/sway/oliapuram_kumar
 #import tree/sway/quigley
 #import tree/sway/twig
-#import tree/sway/unfold
+#import tree/sway/outward
 
 fn timber_floats(row: u32, index: u32) -> vec4<f32> {
-    return bitcast<vec4<f32>>(timber_rows[row * TIMBER_ROWS + index]);
+    return bitcast<vec4<f32>>(segment_rows[row * SEGMENT_ROWS + index]);
 }
 
 // Parent, first child, next sibling, tree.
 fn timber_links(row: u32) -> vec4<u32> {
-    return timber_rows[row * TIMBER_ROWS + (TIMBER_ROWS - 1u)];
+    return segment_rows[row * SEGMENT_ROWS + (SEGMENT_ROWS - 1u)];
 }
 
 fn timber_constants(row: u32) -> Constants {
@@ -67,7 +67,7 @@ fn move_to(row: u32, joint: Joint, body: Body) {
     branch_rows[BRANCH_SPIN * columns + row] = vec4<f32>(body.spin, 0.0);
 }
 
-fn store_articulated(row: u32, body: Articulated) {
+fn store_articulated(row: u32, body: ArticulatedInertia) {
     let at = row * WORK_ROWS;
     work_rows[at] = vec4<f32>(body.rotation.diagonal, body.moment.x);
     work_rows[at + 1u] = vec4<f32>(body.rotation.off, body.moment.y);
@@ -78,7 +78,7 @@ fn store_articulated(row: u32, body: Articulated) {
     work_rows[at + 6u] = vec4<f32>(body.mass.off, 0.0);
 }
 
-fn load_articulated(row: u32) -> Articulated {
+fn load_articulated(row: u32) -> ArticulatedInertia {
     let at = row * WORK_ROWS;
     let a = work_rows[at];
     let b = work_rows[at + 1u];
@@ -87,7 +87,7 @@ fn load_articulated(row: u32) -> Articulated {
     let e = work_rows[at + 4u];
     let f = work_rows[at + 5u];
     let g = work_rows[at + 6u];
-    return Articulated(
+    return ArticulatedInertia(
         Sym3(a.xyz, b.xyz),
         Mat3(c.xyz, d.xyz, e.xyz),
         Sym3(f.xyz, g.xyz),
@@ -96,21 +96,21 @@ fn load_articulated(row: u32) -> Articulated {
     );
 }
 
-fn store_answer(row: u32, answer: Answer) {
-    let at = row * WORK_ROWS + WORK_ANSWER;
-    let frames = answer.frames;
-    work_rows[at] = vec4<f32>(answer.free, frames.turning.x);
-    work_rows[at + 1u] = vec4<f32>(answer.spring.x, frames.turning.y);
-    work_rows[at + 2u] = vec4<f32>(answer.spring.y, frames.turning.z);
-    work_rows[at + 3u] = vec4<f32>(answer.spring.z, frames.centripetal.x);
-    work_rows[at + 4u] = vec4<f32>(answer.lever.x, frames.centripetal.y);
-    work_rows[at + 5u] = vec4<f32>(answer.lever.y, frames.centripetal.z);
-    work_rows[at + 6u] = vec4<f32>(answer.lever.z, 0.0);
-    work_rows[at + 7u] = vec4<f32>(frames.arm, 0.0);
+fn store_response(row: u32, response: JointResponse) {
+    let at = row * WORK_ROWS + WORK_RESPONSE;
+    let products = response.products;
+    work_rows[at] = vec4<f32>(response.free, products.angular.x);
+    work_rows[at + 1u] = vec4<f32>(response.spring.x, products.angular.y);
+    work_rows[at + 2u] = vec4<f32>(response.spring.y, products.angular.z);
+    work_rows[at + 3u] = vec4<f32>(response.spring.z, products.centripetal.x);
+    work_rows[at + 4u] = vec4<f32>(response.lever.x, products.centripetal.y);
+    work_rows[at + 5u] = vec4<f32>(response.lever.y, products.centripetal.z);
+    work_rows[at + 6u] = vec4<f32>(response.lever.z, 0.0);
+    work_rows[at + 7u] = vec4<f32>(products.arm, 0.0);
 }
 
-fn load_answer(row: u32) -> Answer {
-    let at = row * WORK_ROWS + WORK_ANSWER;
+fn load_response(row: u32) -> JointResponse {
+    let at = row * WORK_ROWS + WORK_RESPONSE;
     let a = work_rows[at];
     let b = work_rows[at + 1u];
     let c = work_rows[at + 2u];
@@ -119,29 +119,29 @@ fn load_answer(row: u32) -> Answer {
     let f = work_rows[at + 5u];
     let g = work_rows[at + 6u];
     let h = work_rows[at + 7u];
-    return Answer(
+    return JointResponse(
         a.xyz,
         Mat3(b.xyz, c.xyz, d.xyz),
         Mat3(e.xyz, f.xyz, g.xyz),
-        Frames(h.xyz, vec3<f32>(a.w, b.w, c.w), vec3<f32>(d.w, e.w, f.w)),
+        VelocityProducts(h.xyz, vec3<f32>(a.w, b.w, c.w), vec3<f32>(d.w, e.w, f.w)),
     );
 }
 
-fn store_twig_answer(row: u32, answer: TwigAnswer) {
-    let at = row * WORK_ROWS + WORK_ANSWER;
-    work_rows[at] = vec4<f32>(answer.free, answer.spring_along);
-    work_rows[at + 1u] = vec4<f32>(answer.frames.arm, answer.spring_across);
-    work_rows[at + 2u] = vec4<f32>(answer.frames.turning, answer.lever);
-    work_rows[at + 3u] = vec4<f32>(answer.frames.centripetal, 0.0);
+fn store_twig_response(row: u32, response: TwigResponse) {
+    let at = row * WORK_ROWS + WORK_RESPONSE;
+    work_rows[at] = vec4<f32>(response.free, response.spring_along);
+    work_rows[at + 1u] = vec4<f32>(response.products.arm, response.spring_across);
+    work_rows[at + 2u] = vec4<f32>(response.products.angular, response.lever);
+    work_rows[at + 3u] = vec4<f32>(response.products.centripetal, 0.0);
 }
 
-fn load_twig_answer(row: u32) -> TwigAnswer {
-    let at = row * WORK_ROWS + WORK_ANSWER;
+fn load_twig_response(row: u32) -> TwigResponse {
+    let at = row * WORK_ROWS + WORK_RESPONSE;
     let a = work_rows[at];
     let b = work_rows[at + 1u];
     let c = work_rows[at + 2u];
     let d = work_rows[at + 3u];
-    return TwigAnswer(a.xyz, a.w, b.w, c.w, Frames(b.xyz, c.xyz, d.xyz));
+    return TwigResponse(a.xyz, a.w, b.w, c.w, VelocityProducts(b.xyz, c.xyz, d.xyz));
 }
 
 fn row_air(row: u32) -> vec3<f32> {
@@ -151,20 +151,20 @@ fn row_air(row: u32) -> vec3<f32> {
     return segment_air(body, segment_axis(body), timber_floats(feels, 1u).w);
 }
 
-fn row_fold(row: u32) {
+fn row_inward(row: u32) {
     let constants = timber_constants(row);
     let links = timber_links(row);
     let body = row_body(row);
     let joint = row_joint(row);
     let axis = segment_axis(body);
-    let frames = joint_frames(body, parent_body(links.x));
+    let products = velocity_products(body, parent_body(links.x));
     let bearing = f32(bearings[row]);
     let load = segment_load(constants, body, axis, row_air(row), bearing);
     if (links.y == TWIG) {
         let spring = joint_spring(constants, joint, body, load_trace(load));
-        let left = twig_answer(spring, load, axis, frames);
-        store_twig_answer(row, left.answer);
-        store_articulated(row, articulated_shift(left.body, frames.arm));
+        let reduction = twig_response(spring, load, axis, products);
+        store_twig_response(row, reduction.response);
+        store_articulated(row, articulated_shift(reduction.apparent, products.arm));
         return;
     }
     var whole = segment_body(load, axis);
@@ -172,28 +172,28 @@ fn row_fold(row: u32) {
         whole = articulated_add(whole, load_articulated(child));
     }
     let spring = joint_spring(constants, joint, body, sym3_trace(whole.rotation));
-    let left = joint_answer(spring, whole, axis, frames);
-    store_answer(row, left.answer);
-    store_articulated(row, articulated_shift(left.body, frames.arm));
+    let reduction = joint_response(spring, whole, axis, products);
+    store_response(row, reduction.response);
+    store_articulated(row, articulated_shift(reduction.apparent, products.arm));
 }
 
-fn row_unfold(row: u32) {
+fn row_outward(row: u32) {
     let constants = timber_constants(row);
     let links = timber_links(row);
     let parent = links.x;
     let before = row_body(row);
     let zero = vec3<f32>(0.0, 0.0, 0.0);
-    var above = Motion(zero, zero);
+    var above = Acceleration(zero, zero);
     if (parent != NO_SEGMENT) {
-        above = Motion(work_rows[parent * WORK_ROWS].xyz, work_rows[parent * WORK_ROWS + 1u].xyz);
+        above = Acceleration(work_rows[parent * WORK_ROWS].xyz, work_rows[parent * WORK_ROWS + 1u].xyz);
     }
     var own: vec3<f32>;
     if (links.y == TWIG) {
-        own = twig_motion(load_twig_answer(row), segment_axis(before), above);
+        own = twig_acceleration(load_twig_response(row), segment_axis(before), above);
     } else {
-        let moved = joint_motion(load_answer(row), above);
-        work_rows[row * WORK_ROWS] = vec4<f32>(moved.motion.angular, 0.0);
-        work_rows[row * WORK_ROWS + 1u] = vec4<f32>(moved.motion.linear, 0.0);
+        let moved = joint_acceleration(load_response(row), above);
+        work_rows[row * WORK_ROWS] = vec4<f32>(moved.acceleration.angular, 0.0);
+        work_rows[row * WORK_ROWS + 1u] = vec4<f32>(moved.acceleration.linear, 0.0);
         own = moved.own;
     }
     let joint = joint_step(row_joint(row), before, own);

@@ -5,14 +5,14 @@
 #import kernel/matrix
 #import kernel/vector
 #import tree/sway/body
-#import tree/sway/unfold
+#import tree/sway/outward
 
-struct TwigLeft {
-    answer: TwigAnswer,
-    body: Articulated,
+struct TwigReduction {
+    response: TwigResponse,
+    apparent: ArticulatedInertia,
 }
 
-fn twig_answer(spring: Spring, load: Load, axis: vec3<f32>, frames: Frames) -> TwigLeft {
+fn twig_response(spring: Spring, load: Load, axis: vec3<f32>, products: VelocityProducts) -> TwigReduction {
     let inverse_along = reciprocal(load.rotation_along + spring.along);
     let inverse_across = reciprocal(load.rotation_across + spring.across);
     let spring_along = spring.along * inverse_along;
@@ -26,16 +26,16 @@ fn twig_answer(spring: Spring, load: Load, axis: vec3<f32>, frames: Frames) -> T
 
     let pull = spring.torque - load.moment;
     let moment = (spring.torque - axial_times(axis, spring_along, spring_across, pull))
-        + (axial_times(axis, rotation_along, rotation_across, frames.turning)
-            + vec3_cross(axis, frames.centripetal) * coupling);
+        + (axial_times(axis, rotation_along, rotation_across, products.angular)
+            + vec3_cross(axis, products.centripetal) * coupling);
     let force = (load.force + vec3_cross(pull, axis) * lever)
-        + (vec3_cross(frames.turning, axis) * coupling
-            + axial_times(axis, load.mass_along, mass_across, frames.centripetal));
-    return TwigLeft(
-        TwigAnswer(
-            axial_times(axis, inverse_along, inverse_across, pull), spring_along, spring_across, lever, frames,
+        + (vec3_cross(products.angular, axis) * coupling
+            + axial_times(axis, load.mass_along, mass_across, products.centripetal));
+    return TwigReduction(
+        TwigResponse(
+            axial_times(axis, inverse_along, inverse_across, pull), spring_along, spring_across, lever, products,
         ),
-        Articulated(
+        ArticulatedInertia(
             sym3_axial(axis, rotation_along, rotation_across),
             mat3_cross(axis, coupling),
             sym3_axial(axis, load.mass_along, mass_across),
@@ -45,9 +45,9 @@ fn twig_answer(spring: Spring, load: Load, axis: vec3<f32>, frames: Frames) -> T
     );
 }
 
-fn twig_motion(answer: TwigAnswer, axis: vec3<f32>, parent: Motion) -> vec3<f32> {
-    let carried = carried_motion(answer.frames, parent);
-    return ((answer.free - carried.angular)
-        + axial_times(axis, answer.spring_along, answer.spring_across, carried.angular))
-        - vec3_cross(axis, carried.linear) * answer.lever;
+fn twig_acceleration(response: TwigResponse, axis: vec3<f32>, parent: Acceleration) -> vec3<f32> {
+    let carried = carried_acceleration(response.products, parent);
+    return ((response.free - carried.angular)
+        + axial_times(axis, response.spring_along, response.spring_across, carried.angular))
+        - vec3_cross(axis, carried.linear) * response.lever;
 }

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// twin: backend-cpu/src/kernels/sway_fold.rs
+// twin: backend-cpu/src/kernels/sway_inward.rs
 #import tree/sway/row
 
 @compute @workgroup_size(WORKGROUP_SIZE)
-fn sway_fold(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>) {
+fn sway_inward(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>) {
     for (var index = id.x; index < level.rows.y; index += groups.x * WORKGROUP_SIZE) {
-        row_fold(forest_order[level.rows.x + index]);
+        row_inward(forest_order[level.rows.x + index]);
     }
 }

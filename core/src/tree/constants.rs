@@ -11,7 +11,7 @@ use std::f64::consts::{PI, TAU};
 use glam::{DQuat, DVec3, swizzles::Vec3Swizzles};
 
 use super::crown::ground_m2;
-use super::record::{NO_SEGMENT, Timber};
+use super::record::{NO_SEGMENT, SegmentConstants};
 use super::skeleton::{Bearing, Segment, Skeleton};
 use super::sway::{GRAVITY_M_S2, IMPLICITNESS};
 use crate::motion::AIR_DENSITY;
@@ -68,13 +68,13 @@ struct Outboard {
 }
 
 /// Constants of all segments of a tree in the skeleton's order, links left open, and what the tree comes to.
-pub(super) fn timber_of(
+pub(super) fn segment_constants(
     skeleton: &Skeleton,
     wood: &Wood,
     foliage: &Foliage,
     leaf: LeafFacts,
     dt_s: f32,
-) -> (Vec<Timber>, TreeFacts) {
+) -> (Vec<SegmentConstants>, TreeFacts) {
     let young = f64::from(wood.youngs_modulus_gpa) * 1e9;
     let mut drafts: Vec<Draft> = Vec::with_capacity(skeleton.segments.len());
     for segment in &skeleton.segments {
@@ -104,38 +104,41 @@ pub(super) fn timber_of(
     let half_air = 0.5 * AIR_DENSITY;
     let (dt, ahead) = (f64::from(dt_s), f64::from(IMPLICITNESS));
     let implicit = ahead * dt * damping + ahead * ahead * dt * dt;
-    let timber = skeleton.segments.iter().zip(&drafts).zip(&outboard).map(|((segment, draft), outboard)| {
-        let (parent_pose, parent_start) = segment.parent.map_or((DQuat::IDENTITY, DVec3::ZERO), |parent| {
-            (drafts[parent as usize].pose, drafts[parent as usize].start)
+    let segments =
+        skeleton.segments.iter().zip(&drafts).zip(&outboard).map(|((segment, draft), outboard)| {
+            let (parent_pose, parent_start) =
+                segment.parent.map_or((DQuat::IDENTITY, DVec3::ZERO), |parent| {
+                    (drafts[parent as usize].pose, drafts[parent as usize].start)
+                });
+            let weight = DVec3::new(0.0, -f64::from(GRAVITY_M_S2), 0.0);
+            let preload =
+                draft.pose.inverse() * -(outboard.moment - draft.start * outboard.mass).cross(weight);
+            let diameter = f64::from(segment.start_radius_m + segment.end_radius_m);
+            let twisting = draft.bending * 2.0 * SHEAR_SHARE;
+            SegmentConstants {
+                rest: (parent_pose.inverse() * draft.pose).normalize().as_quat().to_array(),
+                offset: (parent_pose.inverse() * (draft.start - parent_start)).as_vec3().to_array(),
+                length: single(draft.length),
+                mass: single(draft.mass),
+                first_moment: single(draft.first_moment),
+                inertia_across: single(draft.inertia_across),
+                inertia_along: single(draft.inertia_along),
+                leaf_mass: single(leaf_mass),
+                wood_drag: single(half_air * f64::from(wood.drag) * diameter * draft.length),
+                leaf_drag: single(half_air * f64::from(foliage.drag) * leaves_each * leaf.area_m2),
+                leaf_yield: single(1.0 / f64::from(foliage.yield_m_s)),
+                preload: preload.as_vec3().to_array(),
+                damping: single(damping),
+                bending: single(draft.bending),
+                twisting: single(twisting),
+                bending_inertia: single(draft.bending * implicit),
+                twisting_inertia: single(twisting * implicit),
+                parent: NO_SEGMENT,
+                first_child: NO_SEGMENT,
+                next_sibling: NO_SEGMENT,
+                tree: 0,
+            }
         });
-        let weight = DVec3::new(0.0, -f64::from(GRAVITY_M_S2), 0.0);
-        let preload = draft.pose.inverse() * -(outboard.moment - draft.start * outboard.mass).cross(weight);
-        let diameter = f64::from(segment.start_radius_m + segment.end_radius_m);
-        let twisting = draft.bending * 2.0 * SHEAR_SHARE;
-        Timber {
-            rest: (parent_pose.inverse() * draft.pose).normalize().as_quat().to_array(),
-            offset: (parent_pose.inverse() * (draft.start - parent_start)).as_vec3().to_array(),
-            length: single(draft.length),
-            mass: single(draft.mass),
-            first_moment: single(draft.first_moment),
-            inertia_across: single(draft.inertia_across),
-            inertia_along: single(draft.inertia_along),
-            leaf_mass: single(leaf_mass),
-            wood_drag: single(half_air * f64::from(wood.drag) * diameter * draft.length),
-            leaf_drag: single(half_air * f64::from(foliage.drag) * leaves_each * leaf.area_m2),
-            leaf_yield: single(1.0 / f64::from(foliage.yield_m_s)),
-            preload: preload.as_vec3().to_array(),
-            damping: single(damping),
-            bending: single(draft.bending),
-            twisting: single(twisting),
-            bending_inertia: single(draft.bending * implicit),
-            twisting_inertia: single(twisting * implicit),
-            parent: NO_SEGMENT,
-            first_child: NO_SEGMENT,
-            next_sibling: NO_SEGMENT,
-            tree: 0,
-        }
-    });
     let facts = TreeFacts {
         crown_m2,
         leaves_each,
@@ -143,7 +146,7 @@ pub(super) fn timber_of(
         leaves_kg: leaf_mass * count,
         sway_hz,
     };
-    (timber.collect(), facts)
+    (segments.collect(), facts)
 }
 
 #[expect(clippy::cast_possible_truncation, reason = "kernels work in single precision")]

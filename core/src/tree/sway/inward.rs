@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! twin: backend-wgpu/src/shaders/tree/sway/fold.wgsl
+//! twin: backend-wgpu/src/shaders/tree/sway/inward.wgsl
 //!
 //! The pass towards the foot: what a segment hands to its parent, and how its joint will answer.
 
 use super::{
-    Answer, Articulated, Body, Constants, Frames, IMPLICITNESS, Joint, STOP_ANGLE, STOP_DAMPING,
-    STOP_STIFFNESS, Spring,
+    ArticulatedInertia, Body, Constants, IMPLICITNESS, Joint, JointResponse, STOP_ANGLE, STOP_DAMPING,
+    STOP_STIFFNESS, Spring, VelocityProducts,
 };
 use crate::context::Context;
 use crate::kernel::lane::{Mask, Real};
@@ -21,19 +21,22 @@ use crate::kernel::vector::{TINY_SQUARED, Vec3, vec3_cross, vec3_dot, vec3_selec
 
 /// What the motion of `parent` brings to the joint of `body`.
 #[inline(always)]
-pub fn joint_frames<R: Real>(body: &Body<R>, parent: &Body<R>) -> Frames<R> {
+pub fn velocity_products<R: Real>(body: &Body<R>, parent: &Body<R>) -> VelocityProducts<R> {
     let arm = body.base - parent.base;
-    Frames {
+    VelocityProducts {
         arm,
-        turning: vec3_cross(parent.spin, body.spin - parent.spin),
+        angular: vec3_cross(parent.spin, body.spin - parent.spin),
         centripetal: vec3_cross(parent.spin, vec3_cross(parent.spin, arm)),
     }
 }
 
 /// Sum of two bodies about the same joint.
 #[inline(always)]
-pub fn articulated_add<R: Real>(a: &Articulated<R>, b: &Articulated<R>) -> Articulated<R> {
-    Articulated {
+pub fn articulated_add<R: Real>(
+    a: &ArticulatedInertia<R>,
+    b: &ArticulatedInertia<R>,
+) -> ArticulatedInertia<R> {
+    ArticulatedInertia {
         rotation: sym3_add(a.rotation, b.rotation),
         coupling: mat3_add(a.coupling, b.coupling),
         mass: sym3_add(a.mass, b.mass),
@@ -80,12 +83,12 @@ pub fn joint_spring<R: Real>(
 /// How the joint of `whole`, a segment with everything that it carries, answers, and what is left for the parent, still
 /// about the segment's own joint.
 #[inline(always)]
-pub fn joint_answer<R: Real>(
+pub fn joint_response<R: Real>(
     spring: &Spring<R>,
-    whole: &Articulated<R>,
+    whole: &ArticulatedInertia<R>,
     axis: Vec3<R>,
-    frames: &Frames<R>,
-) -> (Answer<R>, Articulated<R>) {
+    products: &VelocityProducts<R>,
+) -> (JointResponse<R>, ArticulatedInertia<R>) {
     let torque = spring.torque;
     let spring = sym3_axial(axis, spring.along, spring.across);
     let inverse = sym3_inverse(sym3_add(whole.rotation, spring));
@@ -97,24 +100,24 @@ pub fn joint_answer<R: Real>(
     let coupling = mat3_product(share, whole.coupling);
     let mass = sym3_minus(whole.mass, mat3_transposed_product_symmetric(whole.coupling, lever));
 
-    let Frames { turning, centripetal, .. } = *frames;
+    let VelocityProducts { angular, centripetal, .. } = *products;
     let moment = (torque - mat3_times(share, pull))
-        + (sym3_times(rotation, turning) + mat3_times(coupling, centripetal));
+        + (sym3_times(rotation, angular) + mat3_times(coupling, centripetal));
     let force = (whole.force + mat3_transposed_times(lever, pull))
-        + (mat3_transposed_times(coupling, turning) + sym3_times(mass, centripetal));
+        + (mat3_transposed_times(coupling, angular) + sym3_times(mass, centripetal));
     (
-        Answer { free: sym3_times(inverse, pull), spring: share, lever, frames: *frames },
-        Articulated { rotation, coupling, mass, moment, force },
+        JointResponse { free: sym3_times(inverse, pull), spring: share, lever, products: *products },
+        ArticulatedInertia { rotation, coupling, mass, moment, force },
     )
 }
 
 /// The same body about a point that lies `arm` before its own.
 #[inline(always)]
-pub fn articulated_shift<R: Real>(body: &Articulated<R>, arm: Vec3<R>) -> Articulated<R> {
+pub fn articulated_shift<R: Real>(body: &ArticulatedInertia<R>, arm: Vec3<R>) -> ArticulatedInertia<R> {
     let carried = mat3_cross_from_left(arm, sym3_rows(body.mass));
     let turned = mat3_twice_symmetric(mat3_cross_from_right(body.coupling, arm));
     let swung = mat3_upper(mat3_cross_from_right(carried, arm));
-    Articulated {
+    ArticulatedInertia {
         rotation: sym3_add(body.rotation, sym3_add(turned, swung)),
         coupling: mat3_add(body.coupling, carried),
         mass: body.mass,

@@ -5,7 +5,7 @@
 use glam::Vec3;
 use windfall_core::scene::{Foliage, MeanSpeed, SwayScheme, TreeKind, Turbulence, Wood};
 use windfall_core::tree::forest::Seedling;
-use windfall_core::tree::sway::row::{Rows, row_fold, row_follow, row_gather, row_unfold};
+use windfall_core::tree::sway::row::{Rows, row_follow, row_gather, row_inward, row_outward};
 use windfall_core::tree::{Attachment, Bearing, Branches, Forest, LeafFacts, Segment, Skeleton};
 use windfall_core::{Clock, Environment, Scene};
 
@@ -48,20 +48,20 @@ impl Grove {
         let cx = self.environment.context(&block);
         let mut rest = self.branches.as_mut();
         let mut work = &mut self.work[..];
-        let mut timber = &self.forest.timber()[..];
-        for stand in self.forest.stands() {
-            let (branches, others) = rest.split_at(stand.len());
-            let (own_work, other_work) = work.split_at_mut(stand.len());
-            let (own_timber, other_timber) = timber.split_at(stand.len());
-            let mut rows = Rows { first: stand.first, timber: own_timber, branches, work: own_work };
+        let mut segments = &self.forest.segments()[..];
+        for batch in self.forest.batches() {
+            let (branches, others) = rest.split_at(batch.len());
+            let (own_work, other_work) = work.split_at_mut(batch.len());
+            let (own_segments, other_segments) = segments.split_at(batch.len());
+            let mut rows = Rows { first: batch.first, segments: own_segments, branches, work: own_work };
             let articulated = self.scene.sway == SwayScheme::Articulated;
-            for row in (0..stand.len()).rev() {
-                if articulated { row_fold(&cx, &mut rows, row) } else { row_gather(&cx, &mut rows, row) }
+            for row in (0..batch.len()).rev() {
+                if articulated { row_inward(&cx, &mut rows, row) } else { row_gather(&cx, &mut rows, row) }
             }
-            for row in 0..stand.len() {
-                if articulated { row_unfold(&cx, &mut rows, row) } else { row_follow(&cx, &mut rows, row) }
+            for row in 0..batch.len() {
+                if articulated { row_outward(&cx, &mut rows, row) } else { row_follow(&cx, &mut rows, row) }
             }
-            (rest, work, timber) = (others, other_work, other_timber);
+            (rest, work, segments) = (others, other_work, other_segments);
         }
         self.clock.advance(&self.environment);
     }
@@ -72,37 +72,37 @@ impl Grove {
         let [x, y, z, w] = self.branches.pose[row];
         let [bx, by, bz, _] = self.branches.base[row];
         let axis = glam::Quat::from_xyzw(x, y, z, w) * Vec3::Y;
-        Vec3::new(bx, by, bz) + axis * self.forest.timber()[row].length
+        Vec3::new(bx, by, bz) + axis * self.forest.segments()[row].length
     }
 }
 
 impl Grove {
     /// Kinetic energy of the wood in J.
     pub fn kinetic_energy_j(&self) -> f64 {
-        let rows = self.forest.timber().iter().enumerate();
-        rows.map(|(row, timber)| {
+        let rows = self.forest.segments().iter().enumerate();
+        rows.map(|(row, segment)| {
             let pose = glam::Quat::from_array(self.branches.pose[row]);
             let velocity = Vec3::from_slice(&self.branches.velocity[row]).as_dvec3();
             let spin = Vec3::from_slice(&self.branches.spin[row]).as_dvec3();
             let axis = (pose * Vec3::Y).as_dvec3();
             let turning = spin.dot(axis);
-            let (across, along) = (f64::from(timber.inertia_across), f64::from(timber.inertia_along));
+            let (across, along) = (f64::from(segment.inertia_across), f64::from(segment.inertia_along));
             let rotation = across * (spin.length_squared() - turning * turning) + along * turning * turning;
-            let carried = 2.0 * f64::from(timber.first_moment) * velocity.dot(spin.cross(axis));
-            0.5 * (f64::from(timber.mass) * velocity.length_squared() + carried + rotation)
+            let carried = 2.0 * f64::from(segment.first_moment) * velocity.dot(spin.cross(axis));
+            0.5 * (f64::from(segment.mass) * velocity.length_squared() + carried + rotation)
         })
         .sum()
     }
 
     /// Energy in the springs in J.
     pub fn elastic_energy_j(&self) -> f64 {
-        let rows = self.forest.timber().iter().zip(&self.branches.turn);
-        rows.map(|(timber, turn)| {
+        let rows = self.forest.segments().iter().zip(&self.branches.turn);
+        rows.map(|(segment, turn)| {
             let [x, y, z, w] = turn.map(f64::from);
             let sine = (x * x + y * y + z * z).sqrt();
             let scale = if sine > 1e-12 { 2.0 * sine.atan2(w) / sine } else { 2.0 };
             let bent = (x * x + z * z) * scale * scale;
-            0.5 * (f64::from(timber.bending) * bent + f64::from(timber.twisting) * y * y * scale * scale)
+            0.5 * (f64::from(segment.bending) * bent + f64::from(segment.twisting) * y * y * scale * scale)
         })
         .sum()
     }
@@ -165,7 +165,7 @@ fn grow_fork(
     left: u32,
 ) {
     let order = parent.map_or(0, |parent| segments[parent as usize].order + 1);
-    let index = u32::try_from(segments.len()).expect("a small tree");
+    let index = u32::try_from(segment.len()).expect("a small tree");
     let end = start + direction * length;
     let (start_radius_m, end_radius_m) = (radius, 0.8 * radius);
     segments.push(Segment { parent, start_m: start, end_m: end, start_radius_m, end_radius_m, order });

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// twin: core/src/tree/sway/fold.rs
+// twin: core/src/tree/sway/inward.rs
 #import bindings
 #import kernel/math
 #import kernel/matrix
@@ -8,22 +8,22 @@
 #import kernel/vector
 #import tree/sway/body
 
-struct Left {
-    answer: Answer,
-    body: Articulated,
+struct JointReduction {
+    response: JointResponse,
+    apparent: ArticulatedInertia,
 }
 
-fn joint_frames(body: Body, parent: Body) -> Frames {
+fn velocity_products(body: Body, parent: Body) -> VelocityProducts {
     let arm = body.base - parent.base;
-    return Frames(
+    return VelocityProducts(
         arm,
         vec3_cross(parent.spin, body.spin - parent.spin),
         vec3_cross(parent.spin, vec3_cross(parent.spin, arm)),
     );
 }
 
-fn articulated_add(a: Articulated, b: Articulated) -> Articulated {
-    return Articulated(
+fn articulated_add(a: ArticulatedInertia, b: ArticulatedInertia) -> ArticulatedInertia {
+    return ArticulatedInertia(
         sym3_add(a.rotation, b.rotation),
         mat3_add(a.coupling, b.coupling),
         sym3_add(a.mass, b.mass),
@@ -57,7 +57,7 @@ fn joint_spring(constants: Constants, joint: Joint, body: Body, carried: f32) ->
     return Spring(quat_rotate(body.pose, torque), along, across);
 }
 
-fn joint_answer(joint: Spring, whole: Articulated, axis: vec3<f32>, frames: Frames) -> Left {
+fn joint_response(joint: Spring, whole: ArticulatedInertia, axis: vec3<f32>, products: VelocityProducts) -> JointReduction {
     let torque = joint.torque;
     let spring = sym3_axial(axis, joint.along, joint.across);
     let inverse = sym3_inverse(sym3_add(whole.rotation, spring));
@@ -70,20 +70,20 @@ fn joint_answer(joint: Spring, whole: Articulated, axis: vec3<f32>, frames: Fram
     let mass = sym3_minus(whole.mass, mat3_transposed_product_symmetric(whole.coupling, lever));
 
     let moment = (torque - mat3_times(share, pull))
-        + (sym3_times(rotation, frames.turning) + mat3_times(coupling, frames.centripetal));
+        + (sym3_times(rotation, products.angular) + mat3_times(coupling, products.centripetal));
     let force = (whole.force + mat3_transposed_times(lever, pull))
-        + (mat3_transposed_times(coupling, frames.turning) + sym3_times(mass, frames.centripetal));
-    return Left(
-        Answer(sym3_times(inverse, pull), share, lever, frames),
-        Articulated(rotation, coupling, mass, moment, force),
+        + (mat3_transposed_times(coupling, products.angular) + sym3_times(mass, products.centripetal));
+    return JointReduction(
+        JointResponse(sym3_times(inverse, pull), share, lever, products),
+        ArticulatedInertia(rotation, coupling, mass, moment, force),
     );
 }
 
-fn articulated_shift(body: Articulated, arm: vec3<f32>) -> Articulated {
+fn articulated_shift(body: ArticulatedInertia, arm: vec3<f32>) -> ArticulatedInertia {
     let carried = mat3_cross_from_left(arm, sym3_rows(body.mass));
     let turned = mat3_twice_symmetric(mat3_cross_from_right(body.coupling, arm));
     let swung = mat3_upper(mat3_cross_from_right(carried, arm));
-    return Articulated(
+    return ArticulatedInertia(
         sym3_add(body.rotation, sym3_add(turned, swung)),
         mat3_add(body.coupling, carried),
         body.mass,

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// twin: core/src/tree/sway/unfold.rs
+// twin: core/src/tree/sway/outward.rs
 #import bindings
 #import kernel/math
 #import kernel/matrix
@@ -8,29 +8,29 @@
 #import kernel/vector
 #import tree/sway/body
 
-struct Motion {
+struct Acceleration {
     angular: vec3<f32>,
     linear: vec3<f32>,
 }
 
-struct JointMotion {
-    motion: Motion,
+struct JointAcceleration {
+    acceleration: Acceleration,
     // The joint's own part of the angular acceleration.
     own: vec3<f32>,
 }
 
-fn carried_motion(frames: Frames, parent: Motion) -> Motion {
-    return Motion(
-        parent.angular + frames.turning,
-        (parent.linear + vec3_cross(parent.angular, frames.arm)) + frames.centripetal,
+fn carried_acceleration(products: VelocityProducts, parent: Acceleration) -> Acceleration {
+    return Acceleration(
+        parent.angular + products.angular,
+        (parent.linear + vec3_cross(parent.angular, products.arm)) + products.centripetal,
     );
 }
 
-fn joint_motion(answer: Answer, parent: Motion) -> JointMotion {
-    let carried = carried_motion(answer.frames, parent);
-    let own = ((answer.free - carried.angular) + mat3_transposed_times(answer.spring, carried.angular))
-        - mat3_times(answer.lever, carried.linear);
-    return JointMotion(Motion(carried.angular + own, carried.linear), own);
+fn joint_acceleration(response: JointResponse, parent: Acceleration) -> JointAcceleration {
+    let carried = carried_acceleration(response.products, parent);
+    let own = ((response.free - carried.angular) + mat3_transposed_times(response.spring, carried.angular))
+        - mat3_times(response.lever, carried.linear);
+    return JointAcceleration(Acceleration(carried.angular + own, carried.linear), own);
 }
 
 fn shortened(v: vec3<f32>, limit: f32) -> vec3<f32> {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Trees that are stepped together, and how their segments lie.
 //!
-//! The rows of a stand are contiguous and lie in blocks: up to sixteen limbs of one level, those with the most twigs first,
+//! The rows of a batch are contiguous and lie in blocks: up to sixteen limbs of one level, those with the most twigs first,
 //! and behind them their twigs, the first ones of all limbs, then the second ones, and so on. So what grows from a row has
 //! a later one, and the twigs of a block lie as its limbs do.
 
@@ -12,7 +12,7 @@ use std::ops::Range;
 use glam::Vec3;
 
 use super::forest::Planted;
-use super::record::{NO_SEGMENT, TWIG, Timber};
+use super::record::{NO_SEGMENT, SegmentConstants, TWIG};
 use super::skeleton::Skeleton;
 use crate::kernel::pack::BLOCK;
 
@@ -21,7 +21,7 @@ const TWIG_REACH_M: f32 = 0.5;
 
 /// A few trees that are stepped together.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Stand {
+pub struct TreeBatch {
     /// First row.
     pub first: u32,
     /// The blocks, from the trunks up.
@@ -30,7 +30,7 @@ pub struct Stand {
     pub slots: Range<u32>,
 }
 
-impl Stand {
+impl TreeBatch {
     /// Number of rows.
     pub fn len(&self) -> usize {
         self.blocks.last().map_or(0, |block| block.twigs().last().unwrap_or(block.limbs()).end)
@@ -42,7 +42,7 @@ impl Stand {
     }
 }
 
-/// Limbs of one level and their twigs. Rows are counted from the stand's first.
+/// Limbs of one level and their twigs. Rows are counted from the batch's first.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Block {
     /// Limbs between the block and the ground.
@@ -72,9 +72,9 @@ impl Block {
 }
 
 /// All rows level by level, in each the limbs before the twigs, and behind the last one of each level.
-pub(super) fn order_of(stands: &[Stand]) -> (Vec<u32>, Vec<u32>) {
+pub(super) fn order_of(batches: &[TreeBatch]) -> (Vec<u32>, Vec<u32>) {
     let blocks =
-        || stands.iter().flat_map(|stand| stand.blocks.iter().map(move |block| (stand.first, block)));
+        || batches.iter().flat_map(|batch| batch.blocks.iter().map(move |block| (batch.first, block)));
     let depth =
         blocks().map(|(_, block)| block.level + 1 + usize::from(!block.twigs.is_empty())).max().unwrap_or(0);
     let mut limbs = vec![Vec::new(); depth];
@@ -92,7 +92,7 @@ pub(super) fn order_of(stands: &[Stand]) -> (Vec<u32>, Vec<u32>) {
     (order, level_ends)
 }
 
-/// A segment of one of the trees that become a stand.
+/// A segment of one of the trees that become a batch.
 type Grown = (usize, u32);
 
 /// Children of every segment of a tree: twigs, then limbs.
@@ -102,7 +102,7 @@ struct Children {
 }
 
 impl Children {
-    fn of(skeleton: &Skeleton, timber: &[Timber]) -> Self {
+    fn of(skeleton: &Skeleton, segments: &[SegmentConstants]) -> Self {
         let count = skeleton.segments.len();
         let mut bears = vec![false; count];
         for parent in skeleton.segments.iter().filter_map(|segment| segment.parent) {
@@ -111,7 +111,7 @@ impl Children {
         let mut children = Self { twigs: vec![Vec::new(); count], limbs: vec![Vec::new(); count] };
         for (index, segment) in skeleton.segments.iter().enumerate() {
             if let Some(parent) = segment.parent {
-                let is_twig = !bears[index] && is_near(&timber[index], &timber[parent as usize]);
+                let is_twig = !bears[index] && is_near(&segments[index], &segments[parent as usize]);
                 let kind = if is_twig { &mut children.twigs } else { &mut children.limbs };
                 kind[parent as usize].push(word(index));
             }
@@ -121,24 +121,24 @@ impl Children {
 }
 
 /// Whether the middle of a segment is near enough to the end of its parent to feel the same air.
-fn is_near(timber: &Timber, parent: &Timber) -> bool {
-    let axis = glam::Quat::from_array(timber.rest) * Vec3::Y;
-    let middle = Vec3::from(timber.offset) + axis * (0.5 * timber.length);
+fn is_near(segment: &SegmentConstants, parent: &SegmentConstants) -> bool {
+    let axis = glam::Quat::from_array(segment.rest) * Vec3::Y;
+    let middle = Vec3::from(segment.offset) + axis * (0.5 * segment.length);
     middle.distance(Vec3::Y * parent.length) <= TWIG_REACH_M
 }
 
-/// A stand that is being laid out.
+/// A batch that is being laid out.
 struct Layout<'a> {
-    timber: &'a mut Vec<Timber>,
+    segments: &'a mut Vec<SegmentConstants>,
     trees: &'a mut [Planted],
     first_tree: usize,
-    drafts: Vec<Vec<Timber>>,
+    drafts: Vec<Vec<SegmentConstants>>,
 }
 
 impl Layout<'_> {
     /// The next row, for this segment, as the last child of its parent.
     fn push(&mut self, (tree, segment): Grown, first_child: u32) {
-        let row = word(self.timber.len());
+        let row = word(self.segments.len());
         let planted = &mut self.trees[tree];
         planted.rows[segment as usize] = row;
         let mut constants = self.drafts[tree][segment as usize];
@@ -146,7 +146,7 @@ impl Layout<'_> {
         constants.parent = parent.map_or(NO_SEGMENT, |parent| planted.rows[parent as usize]);
         constants.first_child = first_child;
         constants.tree = word(self.first_tree + tree);
-        self.timber.push(constants);
+        self.segments.push(constants);
         self.link(row, constants.parent);
     }
 
@@ -155,27 +155,27 @@ impl Layout<'_> {
         if parent == NO_SEGMENT {
             return;
         }
-        let parent = &mut self.timber[parent as usize];
+        let parent = &mut self.segments[parent as usize];
         if parent.first_child == NO_SEGMENT {
             parent.first_child = row;
             return;
         }
         let mut last = parent.first_child as usize;
-        while self.timber[last].next_sibling != NO_SEGMENT {
-            last = self.timber[last].next_sibling as usize;
+        while self.segments[last].next_sibling != NO_SEGMENT {
+            last = self.segments[last].next_sibling as usize;
         }
-        self.timber[last].next_sibling = row;
+        self.segments[last].next_sibling = row;
     }
 }
 
-/// Appends the trees from `first` on as a stand: rows block by block, links filled in.
+/// Appends the trees from `first` on as a batch: rows block by block, links filled in.
 pub(super) fn lay_out(
-    timber: &mut Vec<Timber>,
+    segments: &mut Vec<SegmentConstants>,
     trees: &mut [Planted],
     first: usize,
-    drafts: Vec<Vec<Timber>>,
-) -> Stand {
-    let start = word(timber.len());
+    drafts: Vec<Vec<SegmentConstants>>,
+) -> TreeBatch {
+    let start = word(segments.len());
     let trees = &mut trees[first..];
     let slots = trees[0].slots.start..trees[trees.len() - 1].slots.end;
     let mut children = Vec::with_capacity(drafts.len());
@@ -183,7 +183,7 @@ pub(super) fn lay_out(
         children.push(Children::of(&tree.skeleton, draft));
         tree.rows = vec![NO_SEGMENT; draft.len()];
     }
-    let mut layout = Layout { timber, trees, first_tree: first, drafts };
+    let mut layout = Layout { segments, trees, first_tree: first, drafts };
     let twigs_of = |&(tree, limb): &Grown| &children[tree].twigs[limb as usize];
     let mut blocks = Vec::new();
     let mut limbs: Vec<Grown> = (0..children.len()).map(|tree| (tree, 0)).collect();
@@ -193,7 +193,7 @@ pub(super) fn lay_out(
         }
         limbs.sort_by_key(|limb| Reverse(twigs_of(limb).len()));
         for limbs in limbs.chunks(BLOCK) {
-            let row = layout.timber.len() - start as usize;
+            let row = layout.segments.len() - start as usize;
             for limb in limbs {
                 layout.push(*limb, NO_SEGMENT);
             }
@@ -209,7 +209,7 @@ pub(super) fn lay_out(
         };
         limbs = limbs.iter().flat_map(grow).collect();
     }
-    Stand { first: start, blocks, slots }
+    TreeBatch { first: start, blocks, slots }
 }
 
 #[expect(clippy::cast_possible_truncation, reason = "segments are counted in words")]

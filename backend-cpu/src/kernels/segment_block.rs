@@ -9,16 +9,16 @@ use std::ops::Range;
 
 use windfall_core::kernel::pack::{BLOCK, Pack, row_of_lane};
 use windfall_core::kernel::{Quat, Vec3};
-use windfall_core::tree::record::{TIMBER_ROWS, Timber, children_of};
-use windfall_core::tree::stand::Stand;
+use windfall_core::tree::batch::TreeBatch;
+use windfall_core::tree::record::{SEGMENT_ROWS, SegmentConstants, children_of};
 use windfall_core::tree::sway::Constants;
 
-/// Numbers of a [`Timber`] that are floats: all but its last row of links.
-const FLOATS: usize = (TIMBER_ROWS as usize - 1) * 4;
+/// Numbers of a [`SegmentConstants`] that are floats: all but its last row of links.
+const FLOATS: usize = (SEGMENT_ROWS as usize - 1) * 4;
 /// Those that the pass towards the tips reads: rest and offset.
-pub(super) const UNFOLDED: Range<usize> = 0..7;
+pub(super) const OUTWARD: Range<usize> = 0..7;
 /// Those that the pass towards the foot reads: all others.
-pub(super) const FOLDED: Range<usize> = UNFOLDED.end..FLOATS;
+pub(super) const INWARD: Range<usize> = OUTWARD.end..FLOATS;
 /// Records of four that a limb hands to its parent.
 pub(super) const HANDED: usize = 7;
 /// Records of four of a limb's motion.
@@ -51,8 +51,8 @@ type Indices = [u32; BLOCK];
 
 /// Constants of rows that follow one another.
 #[derive(Clone, Debug)]
-pub(crate) struct TimberBlock {
-    /// The rows, counted from the stand's first.
+pub(crate) struct SegmentBlock {
+    /// The rows, counted from the batch's first.
     pub(crate) rows: Range<usize>,
     floats: [Lanes; FLOATS],
 }
@@ -69,43 +69,43 @@ pub(crate) struct Parents {
 /// Limbs of a block.
 #[derive(Clone, Debug)]
 pub(crate) struct LimbBlock {
-    pub(crate) timber: TimberBlock,
+    pub(crate) segments: SegmentBlock,
     /// None for trunks, which grow from the ground.
     pub(crate) parents: Option<Parents>,
-    /// Part of the stand's children: the first child limbs of all lanes, then the second, and so on.
+    /// Part of the batch's children: the first child limbs of all lanes, then the second, and so on.
     children: Range<usize>,
-    /// Part of the stand's twigs: the first twigs of all lanes, then the second, and so on.
+    /// Part of the batch's twigs: the first twigs of all lanes, then the second, and so on.
     pub(crate) twigs: Range<usize>,
 }
 
-/// The blocks of a stand in the order of the pass towards the foot, which reads the most of them.
+/// The blocks of a batch in the order of the pass towards the foot, which reads the most of them.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct StandBlocks {
+pub(crate) struct BatchBlocks {
     pub(crate) limbs: Vec<LimbBlock>,
-    pub(crate) twigs: Vec<TimberBlock>,
+    pub(crate) twigs: Vec<SegmentBlock>,
     /// Places in [`super::scratch::BlockScratch::handed`].
     children: Vec<Indices>,
 }
 
-impl StandBlocks {
-    /// The blocks of a stand with these constants. What has no child hears of the place behind the last of `most` blocks.
-    pub(crate) fn new(stand: &Stand, timber: &[Timber], most: usize) -> Self {
+impl BatchBlocks {
+    /// The blocks of a batch with these constants. What has no child hears of the place behind the last of `most` blocks.
+    pub(crate) fn new(batch: &TreeBatch, segments: &[SegmentConstants], most: usize) -> Self {
         let mut blocks = Self::default();
-        let places = Places::of(stand);
-        for block in stand.blocks.iter().rev() {
-            let limbs = TimberBlock::new(block.limbs(), timber);
+        let places = Places::of(batch);
+        for block in batch.blocks.iter().rev() {
+            let limbs = SegmentBlock::new(block.limbs(), segments);
             let first_twigs = blocks.twigs.len();
-            blocks.twigs.extend(block.twigs().map(|rows| TimberBlock::new(rows, timber)));
+            blocks.twigs.extend(block.twigs().map(|rows| SegmentBlock::new(rows, segments)));
             let first_child = blocks.children.len();
-            let children = limbs.rows_of_lanes().map(|row| places.children(stand, timber, row));
+            let children = limbs.rows_of_lanes().map(|row| places.children(batch, segments, row));
             let longest = children.iter().map(Vec::len).max().unwrap_or(0);
             blocks.children.extend((0..longest).map(|number| {
                 let nothing = places.place(most * BLOCK, HANDED);
                 std::array::from_fn(|lane| children[lane].get(number).copied().unwrap_or(nothing))
             }));
             blocks.limbs.push(LimbBlock {
-                parents: (block.level > 0).then(|| places.parents(stand, timber, &limbs)),
-                timber: limbs,
+                parents: (block.level > 0).then(|| places.parents(batch, segments, &limbs)),
+                segments: limbs,
                 children: first_child..blocks.children.len(),
                 twigs: first_twigs..blocks.twigs.len(),
             });
@@ -120,15 +120,15 @@ impl StandBlocks {
     }
 }
 
-/// Where the limbs of a stand are: sixteen to a block, whether it is full or not.
+/// Where the limbs of a batch are: sixteen to a block, whether it is full or not.
 struct Places {
     of_row: Vec<usize>,
 }
 
 impl Places {
-    fn of(stand: &Stand) -> Self {
-        let mut of_row = vec![usize::MAX; stand.len()];
-        for (number, block) in stand.blocks.iter().rev().enumerate() {
+    fn of(batch: &TreeBatch) -> Self {
+        let mut of_row = vec![usize::MAX; batch.len()];
+        for (number, block) in batch.blocks.iter().rev().enumerate() {
             for (lane, row) in block.limbs().enumerate() {
                 of_row[row] = number * BLOCK + lane;
             }
@@ -142,15 +142,15 @@ impl Places {
     }
 
     /// What the child limbs of a row hand down.
-    fn children(&self, stand: &Stand, timber: &[Timber], row: usize) -> Vec<u32> {
-        children_of(timber, stand.first, row)
-            .filter(|child| !timber[*child].is_twig())
+    fn children(&self, batch: &TreeBatch, segments: &[SegmentConstants], row: usize) -> Vec<u32> {
+        children_of(segments, batch.first, row)
+            .filter(|child| !segments[*child].is_twig())
             .map(|child| self.place(self.of_row[child], HANDED))
             .collect()
     }
 
-    fn parents(&self, stand: &Stand, timber: &[Timber], limbs: &TimberBlock) -> Parents {
-        let rows = limbs.rows_of_lanes().map(|row| timber[row].parent - stand.first);
+    fn parents(&self, batch: &TreeBatch, segments: &[SegmentConstants], limbs: &SegmentBlock) -> Parents {
+        let rows = limbs.rows_of_lanes().map(|row| segments[row].parent - batch.first);
         Parents { rows, motions: rows.map(|row| self.place(self.of_row[row as usize], MOTIONS)) }
     }
 }
@@ -161,11 +161,11 @@ pub(super) const fn word(number: usize) -> u32 {
     number as u32
 }
 
-impl TimberBlock {
-    fn new(rows: Range<usize>, timber: &[Timber]) -> Self {
+impl SegmentBlock {
+    fn new(rows: Range<usize>, segments: &[SegmentConstants]) -> Self {
         let mut block = Self { rows, floats: [Lanes::ZERO; FLOATS] };
         for (lane, row) in block.rows_of_lanes().into_iter().enumerate() {
-            let floats: &[f32; FLOATS + 4] = bytemuck::must_cast_ref(&timber[row]);
+            let floats: &[f32; FLOATS + 4] = bytemuck::must_cast_ref(&segments[row]);
             for (lanes, float) in block.floats.iter_mut().zip(floats) {
                 lanes.0[lane] = *float;
             }
@@ -196,7 +196,7 @@ impl TimberBlock {
         Vec3::new(self.float(simd, of, part), self.float(simd, of + 1, part), self.float(simd, of + 2, part))
     }
 
-    /// All constants, in the order of [`Timber`].
+    /// All constants, in the order of [`SegmentConstants`].
     #[inline(always)]
     pub(crate) fn constants<P: Pack>(&self, simd: P::Simd, part: usize) -> Constants<P> {
         Constants {

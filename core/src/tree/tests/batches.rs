@@ -25,7 +25,7 @@ fn planted(skeletons: impl Iterator<Item = Skeleton>) -> Forest {
     Forest::plant(skeletons.map(seedling).collect(), 1.0 / 60.0)
 }
 
-/// Forty trees of three sizes, in several stands.
+/// Forty trees of three sizes, in several batches.
 fn forest() -> Forest {
     planted((0..40).map(|seed| tree(seed, 1 + seed % 3)).chain((40..70).map(|seed| tree(seed, 3))))
 }
@@ -33,27 +33,27 @@ fn forest() -> Forest {
 #[test]
 fn every_segment_has_a_row_that_links_lead_to() {
     let forest = forest();
-    assert!(forest.stands().len() > 1, "several stands");
+    assert!(forest.batches().len() > 1, "several batches");
     let mut seen = vec![0; forest.len()];
     for (number, planted) in forest.trees().iter().enumerate() {
         for (index, segment) in planted.skeleton.segments.iter().enumerate() {
             let row = planted.rows[index] as usize;
             seen[row] += 1;
-            let timber = &forest.timber()[row];
-            assert_eq!(timber.tree as usize, number, "row {row}");
+            let constants = &forest.segments()[row];
+            assert_eq!(constants.tree as usize, number, "row {row}");
             let parent = segment.parent.map_or(NO_SEGMENT, |parent| planted.rows[parent as usize]);
-            assert_eq!(timber.parent, parent, "row {row}");
+            assert_eq!(constants.parent, parent, "row {row}");
             let mut children = Vec::new();
-            let mut next = if timber.is_twig() { NO_SEGMENT } else { timber.first_child };
+            let mut next = if constants.is_twig() { NO_SEGMENT } else { constants.first_child };
             while next != NO_SEGMENT {
                 children.push(next);
-                next = forest.timber()[next as usize].next_sibling;
+                next = forest.segments()[next as usize].next_sibling;
             }
             let twigs =
-                children.iter().take_while(|child| forest.timber()[**child as usize].is_twig()).count();
+                children.iter().take_while(|child| forest.segments()[**child as usize].is_twig()).count();
             let limbs = &children[twigs..];
             assert!(
-                limbs.iter().all(|child| !forest.timber()[*child as usize].is_twig()),
+                limbs.iter().all(|child| !forest.segments()[*child as usize].is_twig()),
                 "twigs come first"
             );
             assert!(
@@ -75,27 +75,27 @@ fn every_segment_has_a_row_that_links_lead_to() {
 #[test]
 fn twigs_of_a_block_lie_as_its_limbs_do() {
     let forest = forest();
-    for stand in forest.stands() {
-        let timber = &forest.timber()[stand.first as usize..stand.first as usize + stand.len()];
+    for batch in forest.batches() {
+        let segments = &forest.segments()[batch.first as usize..batch.first as usize + batch.len()];
         let mut next = 0;
-        for block in &stand.blocks {
+        for block in &batch.blocks {
             assert_eq!(block.row, next, "blocks follow one another");
             assert!((1..=BLOCK).contains(&block.limbs), "{} limbs", block.limbs);
             for row in block.limbs() {
-                assert!(!timber[row].is_twig(), "row {row} is a limb");
+                assert!(!segments[row].is_twig(), "row {row} is a limb");
             }
             next = block.limbs().end;
             for twigs in block.twigs() {
                 assert_eq!(twigs.start, next, "twigs follow");
                 for (number, row) in twigs.clone().enumerate() {
-                    assert!(timber[row].is_twig(), "row {row} is a twig");
-                    let parent = (timber[row].parent - stand.first) as usize;
+                    assert!(segments[row].is_twig(), "row {row} is a twig");
+                    let parent = (segments[row].parent - batch.first) as usize;
                     assert_eq!(parent, block.row + number, "the parent of row {row}");
                 }
                 next = twigs.end;
             }
         }
-        assert_eq!(next, stand.len(), "all rows");
+        assert_eq!(next, batch.len(), "all rows");
     }
 }
 
@@ -111,8 +111,8 @@ fn a_level_waits_for_those_above_it_only() {
         start = end as usize;
     }
     assert_eq!(start, forest.len(), "all rows are in a level");
-    for (row, timber) in forest.timber().iter().enumerate() {
-        let expected = if timber.parent == NO_SEGMENT { 0 } else { level_of[timber.parent as usize] + 1 };
+    for (row, segment) in forest.segments().iter().enumerate() {
+        let expected = if segment.parent == NO_SEGMENT { 0 } else { level_of[segment.parent as usize] + 1 };
         assert_eq!(level_of[row], expected, "row {row}");
     }
 }
@@ -131,8 +131,8 @@ fn only_what_is_short_and_bears_nothing_is_a_twig() {
     let segments =
         vec![up(None, 0.0, 3.0), up(Some(0), 3.0, 3.9), up(Some(0), 3.0, 4.1), up(Some(0), 1.5, 1.9)];
     let forest = planted([Skeleton { segments, ..Skeleton::default() }].into_iter());
-    let is_twig = |index: usize| forest.timber()[forest.trees()[0].rows[index] as usize].is_twig();
+    let is_twig = |index: usize| forest.segments()[forest.trees()[0].rows[index] as usize].is_twig();
     assert_eq!([0, 1, 2, 3].map(is_twig), [false, true, false, false], "only the short one at the end");
     let lone = planted([Skeleton { segments: vec![up(None, 0.0, 0.2)], ..Skeleton::default() }].into_iter());
-    assert!(!lone.timber()[0].is_twig(), "a trunk never is");
+    assert!(!lone.segments()[0].is_twig(), "a trunk never is");
 }

@@ -1,11 +1,12 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! twin: backend-wgpu/src/shaders/tree/sway/unfold.wgsl
+//! twin: backend-wgpu/src/shaders/tree/sway/outward.wgsl
 //!
 //! The pass towards the tips: every joint accelerates with its parent and moves on.
 
 use super::{
-    Answer, Body, Constants, Frames, IMPLICITNESS, JOINT_LIMIT, JOINT_LIMIT_COSINE, Joint, TURN_LIMIT,
+    Body, Constants, IMPLICITNESS, JOINT_LIMIT, JOINT_LIMIT_COSINE, Joint, JointResponse, TURN_LIMIT,
+    VelocityProducts,
 };
 use crate::context::Context;
 use crate::kernel::lane::{Mask, Real};
@@ -18,7 +19,7 @@ use crate::kernel::vector::{TINY_SQUARED, Vec3, vec3_cross, vec3_dot, vec3_selec
 
 /// Accelerations of a segment: angular in rad/s², and of its joint in m/s².
 #[derive(Clone, Copy, Debug)]
-pub struct Motion<R = f32> {
+pub struct Acceleration<R = f32> {
     /// Angular acceleration.
     pub angular: Vec3<R>,
     /// Acceleration of the joint.
@@ -27,20 +28,26 @@ pub struct Motion<R = f32> {
 
 /// Accelerations that a segment would have if its joint were stiff.
 #[inline(always)]
-pub fn carried_motion<R: Real>(frames: &Frames<R>, parent: &Motion<R>) -> Motion<R> {
-    Motion {
-        angular: parent.angular + frames.turning,
-        linear: (parent.linear + vec3_cross(parent.angular, frames.arm)) + frames.centripetal,
+pub fn carried_acceleration<R: Real>(
+    products: &VelocityProducts<R>,
+    parent: &Acceleration<R>,
+) -> Acceleration<R> {
+    Acceleration {
+        angular: parent.angular + products.angular,
+        linear: (parent.linear + vec3_cross(parent.angular, products.arm)) + products.centripetal,
     }
 }
 
 /// Accelerations of a segment from its parent's, and the joint's own part of the angular one.
 #[inline(always)]
-pub fn joint_motion<R: Real>(answer: &Answer<R>, parent: &Motion<R>) -> (Motion<R>, Vec3<R>) {
-    let carried = carried_motion(&answer.frames, parent);
-    let own = ((answer.free - carried.angular) + mat3_transposed_times(answer.spring, carried.angular))
-        - mat3_times(answer.lever, carried.linear);
-    (Motion { angular: carried.angular + own, linear: carried.linear }, own)
+pub fn joint_acceleration<R: Real>(
+    response: &JointResponse<R>,
+    parent: &Acceleration<R>,
+) -> (Acceleration<R>, Vec3<R>) {
+    let carried = carried_acceleration(&response.products, parent);
+    let own = ((response.free - carried.angular) + mat3_transposed_times(response.spring, carried.angular))
+        - mat3_times(response.lever, carried.linear);
+    (Acceleration { angular: carried.angular + own, linear: carried.linear }, own)
 }
 
 /// A vector no longer than `limit`.
