@@ -165,7 +165,7 @@ fn grow_fork(
     left: u32,
 ) {
     let order = parent.map_or(0, |parent| segments[parent as usize].order + 1);
-    let index = u32::try_from(segment.len()).expect("a small tree");
+    let index = u32::try_from(segments.len()).expect("a small tree");
     let end = start + direction * length;
     let (start_radius_m, end_radius_m) = (radius, 0.8 * radius);
     segments.push(Segment { parent, start_m: start, end_m: end, start_radius_m, end_radius_m, order });

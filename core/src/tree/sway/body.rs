@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! twin: backend-wgpu/src/shaders/tree/sway/body.wgsl
 //!
-//! What a segment is as a body: constants, state, inertia, and how its joint answers.
+//! Types of the articulated-body algorithm: a segment's constants, state and inertia, and the response of its joint.
 
 use crate::kernel::{Mat3, Quat, Sym3, Vec3};
 use crate::tree::record::SegmentConstants;
 
-/// Constants of a segment, or of several: see [`SegmentConstants`].
+/// Constants of a segment, or of several in the lanes of `R`: the floats of [`SegmentConstants`].
 #[derive(Clone, Copy, Debug)]
 #[expect(missing_docs, reason = "the fields of SegmentConstants")]
 pub struct Constants<R = f32> {
@@ -64,10 +64,10 @@ pub struct Joint<R = f32> {
     pub rate: Vec3<R>,
 }
 
-/// Where a segment is and how it moves.
+/// Pose and velocity of a segment.
 #[derive(Clone, Copy, Debug)]
 pub struct Body<R = f32> {
-    /// Place of its joint in m.
+    /// Position of its joint in m.
     pub base: Vec3<R>,
     /// Orientation.
     pub pose: Quat<R>,
@@ -83,7 +83,8 @@ impl Body {
         Self { base: Vec3::ZERO, pose: Quat::IDENTITY, velocity: Vec3::ZERO, spin: Vec3::ZERO };
 }
 
-/// Inertia of a body and of what it carries, and the force and torque that hold it back, about its joint, in world axes.
+/// Articulated-body inertia and bias force of a segment with everything that grows from it, about its joint, in world
+/// axes: Featherstone's `Iᴬ` and `pᴬ` in blocks of three.
 #[derive(Clone, Copy, Debug)]
 pub struct ArticulatedInertia<R = f32> {
     /// Torque per angular acceleration in kg m².
@@ -92,13 +93,14 @@ pub struct ArticulatedInertia<R = f32> {
     pub coupling: Mat3<R>,
     /// Force per acceleration in kg.
     pub mass: Sym3<R>,
-    /// Torque in N m that no acceleration would take.
+    /// Bias torque in N m: what it takes to keep the body from accelerating.
     pub moment: Vec3<R>,
-    /// Force in N that no acceleration would take.
+    /// Bias force in N.
     pub force: Vec3<R>,
 }
 
-/// A segment by itself about its joint, in world axes: inertia symmetric about its axis, and what holds it back.
+/// Rigid-body inertia and bias force of a segment by itself about its joint, in world axes; the inertia is symmetric about
+/// the segment's axis.
 #[derive(Clone, Copy, Debug)]
 pub struct Load<R = f32> {
     /// Moment of inertia about the axis in kg m².
@@ -111,38 +113,39 @@ pub struct Load<R = f32> {
     pub mass_along: R,
     /// Force per acceleration across it in kg.
     pub mass_across: R,
-    /// Torque in N m that no acceleration would take.
+    /// Bias torque in N m: what it takes to keep the body from accelerating.
     pub moment: Vec3<R>,
-    /// Force in N that no acceleration would take.
+    /// Bias force in N.
     pub force: Vec3<R>,
 }
 
-/// A joint's spring and damper.
+/// Spring and damper of a joint, implicit in time: the torque at the end of the step is linear in the acceleration.
 #[derive(Clone, Copy, Debug)]
 pub struct Spring<R = f32> {
-    /// Torque in N m in world axes, as it will be on the way through the step if the joint does not accelerate.
+    /// Torque in N m in world axes at [`IMPLICITNESS`](super::IMPLICITNESS) of the step if the joint does not accelerate.
     pub torque: Vec3<R>,
-    /// What the spring adds to the inertia that the joint sees against twisting, in kg m².
+    /// Inertia in kg m² that the implicit spring adds against twisting.
     pub along: R,
-    /// The same against bending.
+    /// Inertia in kg m² that it adds against bending.
     pub across: R,
 }
 
-/// What a parent's motion brings to a joint.
+/// Velocity-product accelerations of a joint: those that the velocities of the two segments alone bring about (`c` in
+/// Featherstone), and the arm that carries the parent's angular acceleration to the joint.
 #[derive(Clone, Copy, Debug)]
 pub struct VelocityProducts<R = f32> {
-    /// The joint's place relative to the parent's in m.
+    /// Position of the joint relative to the parent's in m.
     pub arm: Vec3<R>,
-    /// Angular acceleration from turning frames in rad/s².
+    /// Angular part in rad/s².
     pub angular: Vec3<R>,
-    /// Acceleration from turning frames in m/s².
+    /// Centripetal acceleration of the joint in m/s².
     pub centripetal: Vec3<R>,
 }
 
-/// How the joint of a twig answers what its parent does: as [`JointResponse`], where matrices are symmetric about the axis.
+/// Response of a twig's joint: a [`JointResponse`] whose matrices are symmetric about the axis.
 #[derive(Clone, Copy, Debug)]
 pub struct TwigResponse<R = f32> {
-    /// Angular acceleration in rad/s² if the parent does nothing.
+    /// Angular acceleration in rad/s² if the parent does not accelerate.
     pub free: Vec3<R>,
     /// Share of the spring in the joint's stiffness against twisting.
     pub spring_along: R,
@@ -150,19 +153,20 @@ pub struct TwigResponse<R = f32> {
     pub spring_across: R,
     /// Angular acceleration across the axis per acceleration of the joint, opposed, in 1/m.
     pub lever: R,
-    /// What the parent's motion brings.
+    /// Velocity-product accelerations.
     pub products: VelocityProducts<R>,
 }
 
-/// How a joint answers what its parent does.
+/// Angular acceleration of a joint as a linear function of its parent's acceleration, from the inward pass for the
+/// outward one.
 #[derive(Clone, Copy, Debug)]
 pub struct JointResponse<R = f32> {
-    /// Angular acceleration in rad/s² if the parent does nothing.
+    /// Angular acceleration in rad/s² if the parent does not accelerate.
     pub free: Vec3<R>,
     /// Share of the spring in the joint's stiffness.
     pub spring: Mat3<R>,
     /// Angular acceleration per acceleration of the joint, opposed, in 1/m.
     pub lever: Mat3<R>,
-    /// What the parent's motion brings.
+    /// Velocity-product accelerations.
     pub products: VelocityProducts<R>,
 }

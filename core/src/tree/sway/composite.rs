@@ -2,22 +2,22 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! twin: backend-wgpu/src/shaders/tree/sway/composite.wgsl
 //!
-//! A segment and everything that it carries as one rigid body, for the schemes that move joints one by one.
+//! Composite rigid body of a segment and everything that grows from it, for the schemes that step joints one by one.
 //!
 //! # Source
 //! Pass 1 of Quigley et al., "Real-time interactive tree animation" (2018): composite mass, centre, inertia, force and
 //! torque. About each joint's own point and in world axes no centre is needed.
 //!
 //! Drag acts on a joint as if only that joint moved: the wind pushes with its own speed, and the joint's rate is damped
-//! by the drag of all that swings with it. If every joint answered the whole velocity of its twigs, a chain of them
-//! would answer it several times over and go wild.
+//! by the drag of all that swings with it. If every joint responded to the whole velocity of its twigs, a chain of them
+//! would count it several times and become unstable.
 
 use super::load::segment_drag;
 use super::{Body, Constants, GRAVITY_M_S2, THIRD};
 use crate::kernel::matrix::{Sym3, sym3_add, sym3_axial};
 use crate::kernel::vector::{Vec3, vec3_cross, vec3_dot};
 
-/// A rigid body about a joint.
+/// Composite rigid body about a joint.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Composite {
     /// Moment of inertia in kg m².
@@ -32,13 +32,13 @@ pub struct Composite {
     pub force: Vec3,
     /// Drag force per speed, summed, in N s/m.
     pub drag: f32,
-    /// The same times its distance from the joint, in N s.
+    /// Drag coefficient times distance from the joint, in N s.
     pub drag_moment: Vec3,
-    /// The same times its squared distance, in N s m.
+    /// Drag coefficient times squared distance, in N s m.
     pub drag_inertia: f32,
 }
 
-/// A segment that bears `bearing` leaves in moving air, by itself.
+/// Rigid body of a segment by itself that carries `leaf_count` leaves in moving air.
 #[inline(always)]
 pub fn segment_composite(
     constants: &Constants,
@@ -71,7 +71,7 @@ pub fn segment_composite(
     }
 }
 
-/// Two bodies about the same joint as one.
+/// Sum of two bodies about the same joint.
 #[inline(always)]
 pub fn composite_add(a: &Composite, b: &Composite) -> Composite {
     Composite {
@@ -86,7 +86,7 @@ pub fn composite_add(a: &Composite, b: &Composite) -> Composite {
     }
 }
 
-/// The same body about a point that lies `arm` before its own.
+/// Composite about a point that lies `arm` before its own.
 #[inline(always)]
 pub fn composite_shift(body: &Composite, arm: Vec3) -> Composite {
     let swung = arm * body.mass + body.moment * 2.0;

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! twin: backend-wgpu/src/shaders/tree/sway/inward.wgsl
 //!
-//! The pass towards the foot: what a segment hands to its parent, and how its joint will answer.
+//! Inward pass of the articulated-body algorithm: the response of a joint, and the inertia that its parent feels through it.
 
 use super::{
     ArticulatedInertia, Body, Constants, IMPLICITNESS, Joint, JointResponse, STOP_ANGLE, STOP_DAMPING,
@@ -19,7 +19,7 @@ use crate::kernel::matrix::{
 use crate::kernel::quaternion::{quat_rotate, turn_of_quat};
 use crate::kernel::vector::{TINY_SQUARED, Vec3, vec3_cross, vec3_dot, vec3_select};
 
-/// What the motion of `parent` brings to the joint of `body`.
+/// Velocity-product accelerations of the joint between `parent` and `body`.
 #[inline(always)]
 pub fn velocity_products<R: Real>(body: &Body<R>, parent: &Body<R>) -> VelocityProducts<R> {
     let arm = body.base - parent.base;
@@ -30,7 +30,7 @@ pub fn velocity_products<R: Real>(body: &Body<R>, parent: &Body<R>) -> VelocityP
     }
 }
 
-/// Sum of two bodies about the same joint.
+/// Sum of two articulated inertias about the same joint.
 #[inline(always)]
 pub fn articulated_add<R: Real>(
     a: &ArticulatedInertia<R>,
@@ -45,7 +45,7 @@ pub fn articulated_add<R: Real>(
     }
 }
 
-/// Spring and damper of a joint that carries an inertia of this trace in kg m².
+/// Spring and damper of a joint; `carried` is the trace in kg m² of the moments of inertia beyond it.
 #[inline(always)]
 pub fn joint_spring<R: Real>(
     cx: &Context<'_>,
@@ -65,7 +65,7 @@ pub fn joint_spring<R: Real>(
     );
     let mut along = constants.twisting_inertia;
     let mut across = constants.bending_inertia;
-    // The stop, sprung as well, so that what is beyond the joint feels it.
+    // The stop is implicit too, so that segments beyond the joint feel it.
     let squared = vec3_dot(turn, turn);
     let beyond = bending.all(STOP_ANGLE * STOP_ANGLE).less_than(squared);
     if beyond.any() {
@@ -80,8 +80,8 @@ pub fn joint_spring<R: Real>(
     Spring { torque: quat_rotate(body.pose, torque), along, across }
 }
 
-/// How the joint of `whole`, a segment with everything that it carries, answers, and what is left for the parent, still
-/// about the segment's own joint.
+/// Response of the joint of `whole`, a segment with everything that grows from it, and the articulated inertia and bias
+/// force apparent to the parent through the joint, still about the segment's own joint.
 #[inline(always)]
 pub fn joint_response<R: Real>(
     spring: &Spring<R>,
@@ -111,7 +111,7 @@ pub fn joint_response<R: Real>(
     )
 }
 
-/// The same body about a point that lies `arm` before its own.
+/// Articulated inertia about a point that lies `arm` before its own.
 #[inline(always)]
 pub fn articulated_shift<R: Real>(body: &ArticulatedInertia<R>, arm: Vec3<R>) -> ArticulatedInertia<R> {
     let carried = mat3_cross_from_left(arm, sym3_rows(body.mass));

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! twin: backend-wgpu/src/shaders/tree/sway/load.wgsl
 //!
-//! A segment by itself: its inertia, its weight and what the wind does to it and its leaves.
+//! Load on a segment by itself: inertia, weight, gyroscopic force, and the drag of wood and leaves.
 //!
 //! # Source
 //! Drag by the velocity relative to the air, and its fall as leaves turn aside: Vogel, "Drag and reconfiguration of broad
@@ -17,12 +17,12 @@ use crate::kernel::quaternion::quat_axis_y;
 use crate::kernel::vector::{TINY_SQUARED, Vec3, vec3_cross, vec3_dot};
 use crate::wind::sample::wind_at;
 
-/// The wind's hold on a segment at its middle.
+/// Drag on a segment at its centre.
 #[derive(Clone, Copy, Debug)]
 pub struct Drag<R = f32> {
-    /// Velocity of the air relative to the middle in m/s.
+    /// Velocity of the air relative to the centre in m/s.
     pub wind: Vec3<R>,
-    /// Its part across the wood.
+    /// Component of it across the wood in m/s.
     pub across: Vec3<R>,
     /// Force per relative velocity across the wood in N s/m.
     pub wood: R,
@@ -30,7 +30,7 @@ pub struct Drag<R = f32> {
     pub leaves: R,
 }
 
-/// The wind's hold on a segment whose middle moves at `velocity`, from the velocity of the air there.
+/// Drag on a segment with `leaf_count` leaves whose centre moves at `velocity` in air of velocity `air`.
 #[inline(always)]
 pub fn segment_drag<R: Real>(
     constants: &Constants<R>,
@@ -55,13 +55,13 @@ pub fn segment_drag<R: Real>(
     Drag { wind, across, wood: constants.wood_drag * speed_across, leaves }
 }
 
-/// Velocity of the air at the end of a segment, which it feels itself, and with it the twigs that grow there.
+/// Velocity of the air at the end of a segment, for the segment and for the twigs that grow there.
 #[inline(always)]
 pub fn segment_air<R: Real>(cx: &Context<'_>, body: &Body<R>, axis: Vec3<R>, length: R) -> Vec3<R> {
     wind_at(cx, body.base + axis * length)
 }
 
-/// A segment that bears `bearing` leaves in moving air, by itself.
+/// Load on a segment with `leaf_count` leaves in air of velocity `air`.
 #[inline(always)]
 pub fn segment_load<R: Real>(
     cx: &Context<'_>,
@@ -82,7 +82,7 @@ pub fn segment_load<R: Real>(
     let mass = constants.mass + leaves;
     let moment = constants.first_moment + leaves * half;
     let across = constants.inertia_across + leaves * ((constants.length * constants.length) * THIRD);
-    // Drag at the end of the step: it weighs on the segment like a mass at its middle.
+    // Implicit drag acts like a mass added at the centre.
     let dt = cx.environment.dt_s;
     let added = held * dt;
     let heavy = across + added * (half * half);
@@ -106,13 +106,13 @@ pub fn segment_load<R: Real>(
     }
 }
 
-/// Trace of its moments of inertia in kg m².
+/// Trace of a load's moments of inertia in kg m².
 #[inline(always)]
 pub fn load_trace<R: Real>(load: &Load<R>) -> R {
     (load.rotation_along + load.rotation_across) + load.rotation_across
 }
 
-/// The same as a body without symmetry.
+/// Load as an articulated inertia.
 #[inline(always)]
 pub fn segment_body<R: Real>(load: &Load<R>, axis: Vec3<R>) -> ArticulatedInertia<R> {
     ArticulatedInertia {
@@ -124,7 +124,7 @@ pub fn segment_body<R: Real>(load: &Load<R>, axis: Vec3<R>) -> ArticulatedInerti
     }
 }
 
-/// The direction of a segment.
+/// Direction of a segment.
 #[inline(always)]
 pub fn segment_axis<R: Real>(body: &Body<R>) -> Vec3<R> {
     quat_axis_y(body.pose)

@@ -1,14 +1,16 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! How trees sway: articulated bodies with springs in their joints, driven by the one wind.
+//! Sway dynamics of trees: Featherstone's articulated-body algorithm with implicit springs in the joints, driven by the
+//! wind that leaves feel too.
 //!
-//! A segment is a rigid body on a ball joint at the end of its parent. A step goes through a tree twice. Towards the foot
-//! ([`inward`]): every segment adds up its own inertia and loads ([`load`]) and what its children hand down, works out how
-//! its joint will answer, and hands the rest to its parent. Towards the tips ([`outward`]): every joint, knowing what its
-//! parent does, accelerates and moves on. Springs, their damping and the air's drag are taken at the end of the step, so
-//! no wind, stiffness or step length makes them pump energy.
+//! A segment is a rigid body on a ball joint at the end of its parent. A step makes two passes over a tree. The inward
+//! pass ([`inward`]), from the twigs to the trunk, adds a segment's own inertia and load ([`load`]) to what its children
+//! pass on, computes the response of its joint, and passes the inertia and bias force that remain through the joint on to
+//! its parent. The outward pass ([`outward`]), from the trunk to the twigs, computes every joint's acceleration from its
+//! parent's and integrates it. Springs, their damping and drag act implicitly, so no wind, stiffness or step length makes
+//! them pump energy.
 //!
-//! Two simpler schemes are kept for comparison: [`quigley`] and [`oliapuram_kumar`].
+//! Two simpler schemes that step joints one by one are kept for comparison: [`quigley`] and [`oliapuram_kumar`].
 //!
 //! # Source
 //! Articulated-body algorithm: Featherstone, "Rigid Body Dynamics Algorithms" (2008), chapter 7; here about each joint's
@@ -29,8 +31,8 @@ pub use body::{
 };
 
 crate::shared_constants! {
-    /// Where in a step springs act: 1/2 is the trapezoidal rule, which keeps slow sways alive; above it, fast ones that
-    /// the step cannot follow die away.
+    /// Share of the step at which springs act: 1/2 is the trapezoidal rule, which does not damp slow sway; a larger one
+    /// damps oscillations that are too fast for the step.
     pub const IMPLICITNESS: f32 = 0.6;
     /// Acceleration of gravity in m/s².
     pub const GRAVITY_M_S2: f32 = 9.81;
@@ -53,6 +55,6 @@ crate::shared_constants! {
     pub const SCHEME_QUIGLEY: u32 = 1;
     /// Oliapuram and Kumar's scheme.
     pub const SCHEME_OLIAPURAM_KUMAR: u32 = 2;
-    /// A third.
+    /// One third: a rod's moment of inertia about its end is a third of `m l²`.
     pub const THIRD: f32 = 1.0 / 3.0;
 }

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! twin: backend-wgpu/src/shaders/tree/sway/oliapuram_kumar.wgsl
 //!
-//! One joint at a time as a rod on a torsion spring, the simplest of the schemes.
+//! Sway of one joint at a time as a rod on a torsion spring, the simplest of the schemes.
 //!
 //! The thesis that used it entered spring and damper as forces at the rod's middle and crossed them with the rod, which
 //! turns them a quarter turn aside: every swing grows, at any stiffness and any step. Here they are torques, stiffness

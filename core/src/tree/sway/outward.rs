@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! twin: backend-wgpu/src/shaders/tree/sway/outward.wgsl
 //!
-//! The pass towards the tips: every joint accelerates with its parent and moves on.
+//! Outward pass of the articulated-body algorithm: the acceleration of a joint from its parent's, and its integration.
 
 use super::{
     Body, Constants, IMPLICITNESS, JOINT_LIMIT, JOINT_LIMIT_COSINE, Joint, JointResponse, TURN_LIMIT,
@@ -26,7 +26,7 @@ pub struct Acceleration<R = f32> {
     pub linear: Vec3<R>,
 }
 
-/// Accelerations that a segment would have if its joint were stiff.
+/// Accelerations that a segment would have if its joint were rigid.
 #[inline(always)]
 pub fn carried_acceleration<R: Real>(
     products: &VelocityProducts<R>,
@@ -50,7 +50,7 @@ pub fn joint_acceleration<R: Real>(
     (Acceleration { angular: carried.angular + own, linear: carried.linear }, own)
 }
 
-/// A vector no longer than `limit`.
+/// Vector clamped to a length of `limit`.
 #[inline(always)]
 fn shortened<R: Real>(v: Vec3<R>, limit: R) -> Vec3<R> {
     let squared = vec3_dot(v, v);
@@ -62,7 +62,7 @@ fn shortened<R: Real>(v: Vec3<R>, limit: R) -> Vec3<R> {
     vec3_select(over, v * scale, v)
 }
 
-/// A joint one step on, accelerated by `own` in world axes.
+/// Joint after a step with the angular acceleration `own` in world axes.
 #[inline(always)]
 pub fn joint_step<R: Real>(cx: &Context<'_>, joint: &Joint<R>, body: &Body<R>, own: Vec3<R>) -> Joint<R> {
     let dt = cx.environment.dt_s;
@@ -74,7 +74,7 @@ pub fn joint_step<R: Real>(cx: &Context<'_>, joint: &Joint<R>, body: &Body<R>, o
     joint_stop(quat_renormalize(moved), rate)
 }
 
-/// A joint at its stop goes no further.
+/// Joint held at the largest angle that it may have.
 #[inline(always)]
 fn joint_stop<R: Real>(turn: Quat<R>, rate: Vec3<R>) -> Joint<R> {
     let axis = Vec3::new(turn.x, turn.y, turn.z);
@@ -92,7 +92,7 @@ fn joint_stop<R: Real>(turn: Quat<R>, rate: Vec3<R>) -> Joint<R> {
     }
 }
 
-/// A joint of that rotation and rate, stopped where the series for its quaternion ends.
+/// Joint of a rotation vector and rate, held within the range of the series for its quaternion.
 #[inline(always)]
 pub fn joint_held(cx: &Context<'_>, turn: Vec3, rate: Vec3) -> Joint {
     let squared = vec3_dot(turn, turn);
@@ -105,7 +105,7 @@ pub fn joint_held(cx: &Context<'_>, turn: Vec3, rate: Vec3) -> Joint {
     }
 }
 
-/// Where a segment is and how it moves, from its joint and its parent.
+/// Pose and velocity of a segment from its joint and its parent (forward kinematics).
 #[inline(always)]
 pub fn segment_place<R: Real>(constants: &Constants<R>, joint: &Joint<R>, parent: &Body<R>) -> Body<R> {
     let pose = quat_multiply(quat_multiply(parent.pose, constants.rest), joint.turn);

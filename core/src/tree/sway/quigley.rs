@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! twin: backend-wgpu/src/shaders/tree/sway/quigley.wgsl
 //!
-//! One joint at a time in closed form: `J θ'' + (C + β K) θ' + K θ = T`, exact for a torque that holds still, whatever the
-//! step and the stiffness.
+//! Sway of one joint at a time in closed form: `J θ'' + (C + β K) θ' + K θ = T`, exact for a constant torque, whatever the step
+//! and the stiffness.
 //!
 //! The joint's modes are found first: with `J = L Lᵀ` the eigenvalues λ and eigenvectors of `L⁻¹ K L⁻ᵀ` take the equation
-//! apart into three of a single oscillator each. Statics are exact; dynamics leave out that joints move each other, so
+//! apart into three single oscillators. Statics are exact; dynamics leave out that joints move each other, so
 //! that a trunk of many segments sways too fast (`oracle::schemes` in the tests measures by how much).
 //!
 //! # Source
@@ -23,17 +23,17 @@ use crate::kernel::vector::{TINY_SQUARED, Vec3, vec3_dot};
 crate::shared_constants! {
     /// Sweeps of Jacobi rotations: more than a float needs for any matrix of three rows.
     pub const JACOBI_SWEEPS: u32 = 5;
-    /// Discriminants nearer to nothing than this share of the squared damping or stiffness count as nothing.
+    /// Largest discriminant, relative to the squared damping or stiffness, that counts as critical damping.
     pub const CRITICAL_SHARE: f32 = 1e-5;
     /// Softest spring, as the squared frequency in 1/s² of a sway of 200 s: softer ones would lose all digits.
     pub const SOFTEST: f32 = 1e-3;
-    /// Longest damped time in one step: what is left of any motion then is nothing to a float.
+    /// Largest damping exponent of one step: `e` to the minus this is nothing to a float.
     pub const DAMPED_MOST: f32 = 40.0;
-    /// Most of a period in one step, in rad: beyond it the sway is as good as damped out.
+    /// Largest phase of one step in rad: faster sway has long been damped out.
     pub const PHASE_MOST: f32 = 800.0;
 }
 
-/// Modes of a joint: its three shapes as columns, and their squared angular frequencies.
+/// Modes of a joint: three mode shapes as columns, and their squared angular frequencies.
 #[derive(Clone, Copy, Debug)]
 pub struct Modes {
     /// Shapes, scaled so that their inertia is one.
@@ -42,7 +42,7 @@ pub struct Modes {
     pub stiffness: Vec3,
 }
 
-/// An oscillator's displacement and rate.
+/// Displacement and rate of an oscillator.
 #[derive(Clone, Copy, Debug)]
 pub struct Swing {
     /// Displacement from rest.

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! twin: backend-wgpu/src/shaders/tree/sway/twig.wgsl
 //!
-//! Twigs: segments that bear no others. Everything about one is symmetric about its axis, so what takes matrices at a
-//! limb takes two numbers each; the equations are those of [`super::inward`] and [`super::outward`].
+//! Twigs: segments without children. All inertias of one are symmetric about its axis, so two numbers take the place of
+//! each matrix of a limb; the equations are those of [`super::inward`] and [`super::outward`].
 
 use super::outward::{Acceleration, carried_acceleration};
 use super::{ArticulatedInertia, Load, Spring, TwigResponse, VelocityProducts};
@@ -12,7 +12,8 @@ use crate::kernel::math::reciprocal;
 use crate::kernel::matrix::{axial_times, mat3_cross, sym3_axial};
 use crate::kernel::vector::{Vec3, vec3_cross};
 
-/// How the joint of a twig answers, and what is left for its parent, still about the twig's own joint.
+/// Response of a twig's joint, and the articulated inertia and bias force apparent to its parent through the joint, still
+/// about the twig's own joint.
 #[inline(always)]
 pub fn twig_response<R: Real>(
     spring: &Spring<R>,
@@ -57,7 +58,7 @@ pub fn twig_response<R: Real>(
     )
 }
 
-/// The joint's own part of the angular acceleration of a twig.
+/// Joint's own part of a twig's angular acceleration.
 #[inline(always)]
 pub fn twig_acceleration<R: Real>(
     response: &TwigResponse<R>,
@@ -91,9 +92,9 @@ mod tests {
     }
 
     proptest! {
-        /// A twig answers as a limb that bears nothing would, and leaves the same for its parent.
+        /// A twig responds as a limb without children would, and passes the same on to its parent.
         #[test]
-        fn a_twig_is_a_limb_that_bears_nothing(
+        fn a_twig_is_a_limb_without_children(
             [stiff_along, stiff_across, turns, rocks, mass] in prop::array::uniform5(0.2f32..3.0),
             coupling in 0.0f32..0.4,
             free in prop::array::uniform8(vector(2.0)),
