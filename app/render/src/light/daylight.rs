@@ -8,12 +8,14 @@ use glam::Vec3;
 use rayon::prelude::*;
 use windfall_core::scene::{PhysicalSky, Sky, SkyMap, Sun, View};
 
+use super::Atmosphere;
+use super::EnvironmentMap;
+use super::MapError;
 use super::clouds::{OVERCAST_ILLUMINANCE, cloud_share, overcast};
 use super::picture_file::Picture;
 use super::scattering::ClearAir;
 use super::spectrum::ToRgb;
 use super::sun_search::take_sun;
-use super::{Atmosphere, EnvironmentMap, MapError};
 
 /// Width and height of a computed sky in pixels.
 const SIZE: (usize, usize) = (256, 128);

@@ -11,9 +11,13 @@ use image::codecs::hdr::HdrEncoder;
 use image::{ImageBuffer, ImageFormat, Rgb};
 use windfall_core::scene::SkyMap;
 
+use super::Daylight;
+use super::EnvironmentMap;
+use super::MapError;
+use super::luminance;
 use super::picture_file::Picture;
+use super::prefiltered;
 use super::sun_search::take_sun;
-use super::{Daylight, EnvironmentMap, MapError, luminance, prefiltered};
 
 /// A sky that differs in every direction: brighter upwards, red towards +x, blue towards +z.
 fn gradient(direction: Vec3) -> Vec3 {

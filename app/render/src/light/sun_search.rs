@@ -4,7 +4,9 @@
 
 use glam::Vec3;
 
-use super::{EnvironmentMap, SunLight, luminance};
+use super::EnvironmentMap;
+use super::SunLight;
+use super::luminance;
 
 /// Cosines of the angles around the brightest pixel within which everything is the sun's (4 degrees), and between which the
 /// sky behind it is measured (6 and 10 degrees).

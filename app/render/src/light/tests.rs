@@ -7,7 +7,10 @@ use std::f32::consts::PI;
 use glam::Vec3;
 use windfall_core::scene::{PhysicalSky, Sun};
 
-use super::{Daylight, EnvironmentMap, SphericalHarmonics, luminance};
+use super::Daylight;
+use super::EnvironmentMap;
+use super::SphericalHarmonics;
+use super::luminance;
 
 fn day(elevation_deg: f32, cloud_cover: f32) -> Daylight {
     let sky = PhysicalSky { cloud_cover, ..PhysicalSky::default() };

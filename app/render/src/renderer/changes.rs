@@ -4,21 +4,23 @@
 
 use windfall_core::scene::{Lens, View};
 
-use super::{Renderer, is_moving};
-use crate::RenderError;
-use crate::cascades::shadow_size;
-use crate::environment::Environment;
-use crate::landing_count::LandingCount;
-use crate::landing_pass::LandingPass;
-use crate::leaf_crowd::LeafCrowd;
-use crate::leaf_cull::CullPass;
-use crate::leaf_pass::LeafPass;
-use crate::motion_pass::MotionPass;
-use crate::paint::{Paint, PaintPass};
-use crate::stems::Stems;
-use crate::targets::Targets;
-use crate::trail_pass::TrailPass;
+use super::Renderer;
+use super::is_moving;
+use crate::error::RenderError;
+use crate::frame::cascades::shadow_size;
+use crate::frame::surroundings::Environment;
+use crate::gpu::targets::Targets;
+use crate::leaves::cull::CullPass;
+use crate::leaves::leaf_pass::LeafPass;
+use crate::leaves::motion_pass::MotionPass;
+use crate::leaves::visible::LeafCrowd;
+use crate::marks::Paint;
+use crate::marks::landing_count::LandingCount;
+use crate::marks::landing_pass::LandingPass;
+use crate::marks::paint_pass::PaintPass;
+use crate::marks::trail_pass::TrailPass;
 use crate::trees::Stand;
+use crate::trees::records::Stems;
 
 impl Renderer {
     /// Draws pictures of another size from now on.

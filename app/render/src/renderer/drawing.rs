@@ -5,15 +5,17 @@
 use glam::Vec3;
 use windfall_wgpu::{BranchColumns, LeafColumns};
 
-use super::{FrameInput, Renderer, TIMED_POSTS};
+use super::Renderer;
+use super::TIMED_POSTS;
 use crate::camera::{Camera, NEAR_M};
-use crate::environment::FrameUniform;
-use crate::leaf_crowd::LeafCrowd;
-use crate::leaf_cull::{View as LeafView, ViewUniform};
-use crate::lens_group::Shot;
-use crate::shadow_pass::Casters;
-use crate::targets::Targets;
-use crate::tile::Tile;
+use crate::frame::input::FrameInput;
+use crate::frame::surroundings::FrameUniform;
+use crate::gpu::targets::Targets;
+use crate::gpu::tile::Tile;
+use crate::leaves::cull::{View as LeafView, ViewUniform};
+use crate::leaves::visible::LeafCrowd;
+use crate::lens::group::Shot;
+use crate::shadows::Casters;
 
 /// Rate at which grass sways in rad/s, as `grass.wgsl` has it.
 const GRASS_RAD_S: f64 = 2.1;

@@ -3,9 +3,15 @@
 //! The trees of a scene as they are drawn: where each stands, what it looks like, and which row of the branch columns
 //! moves which of its segments.
 
+pub(crate) mod bark_mesh;
+pub(crate) mod bark_pass;
+pub(crate) mod bark_texture;
+pub(crate) mod branch_group;
 mod cluster;
 mod crown;
+pub(crate) mod fruit_pass;
 mod look;
+pub(crate) mod records;
 
 use std::sync::Arc;
 

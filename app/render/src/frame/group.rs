@@ -1,0 +1,95 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Bind group 0: the uniform block of the frame, and the land.
+
+use glam::Vec3;
+
+use super::surroundings::FrameUniform;
+use crate::gpu::pipeline::{texture_entry, uniform_entry};
+use crate::gpu::upload;
+use crate::land::Land;
+use crate::land::hill_shade::hill_shade;
+use crate::land::texture::{LandUniform, grid_texture, land_texture, write_grid};
+
+/// The frame's uniform buffer and bind group.
+#[derive(Debug)]
+pub(crate) struct FrameGroup {
+    pub(crate) layout: wgpu::BindGroupLayout,
+    pub(crate) group: wgpu::BindGroup,
+    buffer: wgpu::Buffer,
+    shape: wgpu::Buffer,
+    hills: wgpu::TextureView,
+    hill_shade: wgpu::TextureView,
+    /// Whether the land is not level.
+    pub(crate) is_hilly: bool,
+    /// Whether the scene has trees of its own.
+    pub(crate) has_trees: bool,
+}
+
+impl FrameGroup {
+    pub(crate) fn new(device: &wgpu::Device, queue: &wgpu::Queue, land: &Land, has_trees: bool) -> Self {
+        let hills = wgpu::TextureSampleType::Float { filterable: false };
+        let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+            label: Some("frame"),
+            entries: &[
+                uniform_entry(0),
+                uniform_entry(1),
+                texture_entry(2, hills, wgpu::TextureViewDimension::D2),
+                texture_entry(3, hills, wgpu::TextureViewDimension::D2),
+            ],
+        });
+        let shape = LandUniform::of(land);
+        let shape =
+            upload::buffer(device, queue, "land", wgpu::BufferUsages::UNIFORM, bytemuck::bytes_of(&shape));
+        let shade = grid_texture(device, "hill shade", wgpu::TextureFormat::Rg32Float, land);
+        let textures = [land_texture(device, queue, land), shade];
+        Self::bind(device, layout, shape, textures, [land.hills().is_some(), has_trees])
+    }
+
+    /// Another frame on the same land.
+    pub(crate) fn another(&self, device: &wgpu::Device) -> Self {
+        let Self { layout, shape, hills, hill_shade, .. } = self;
+        let textures = [hills.clone(), hill_shade.clone()];
+        Self::bind(device, layout.clone(), shape.clone(), textures, [self.is_hilly, self.has_trees])
+    }
+
+    fn bind(
+        device: &wgpu::Device,
+        layout: wgpu::BindGroupLayout,
+        shape: wgpu::Buffer,
+        [hills, hill_shade]: [wgpu::TextureView; 2],
+        [is_hilly, has_trees]: [bool; 2],
+    ) -> Self {
+        let buffer = device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some("frame"),
+            size: size_of::<FrameUniform>() as u64,
+            usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
+            mapped_at_creation: false,
+        });
+        let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("frame"),
+            layout: &layout,
+            entries: &[
+                wgpu::BindGroupEntry { binding: 0, resource: buffer.as_entire_binding() },
+                wgpu::BindGroupEntry { binding: 1, resource: shape.as_entire_binding() },
+                wgpu::BindGroupEntry { binding: 2, resource: wgpu::BindingResource::TextureView(&hills) },
+                wgpu::BindGroupEntry {
+                    binding: 3,
+                    resource: wgpu::BindingResource::TextureView(&hill_shade),
+                },
+            ],
+        });
+        Self { layout, group, buffer, shape, hills, hill_shade, is_hilly, has_trees }
+    }
+
+    /// Takes over another sun, by the direction towards it; level ground has no shade.
+    pub(crate) fn set_sun(&self, queue: &wgpu::Queue, land: &Land, sun: Vec3) {
+        if let Some(hills) = land.hills() {
+            write_grid(queue, &self.hill_shade, &hill_shade(hills, sun));
+        }
+    }
+
+    pub(crate) fn write(&self, queue: &wgpu::Queue, frame: &FrameUniform) {
+        queue.write_buffer(&self.buffer, 0, bytemuck::bytes_of(frame));
+    }
+}

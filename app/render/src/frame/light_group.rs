@@ -1,0 +1,115 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Bind group 1: shadows, shade, noise and the sky.
+
+use super::noise::{NOISE_SIZE, noise_mips};
+use super::sky_texture::radiance_texture;
+use crate::gpu::pipeline::{FILTERABLE, sampler_entry, texture_entry};
+use crate::gpu::upload;
+use crate::light::{Daylight, prefiltered};
+
+/// What `light.wgsl` binds.
+#[derive(Debug)]
+pub(crate) struct LightGroup {
+    pub(crate) layout: wgpu::BindGroupLayout,
+    pub(crate) group: wgpu::BindGroup,
+    /// Shadow maps, shade map and noise.
+    views: [(u32, wgpu::TextureView); 3],
+    skies: [wgpu::TextureView; 2],
+    samplers: [(u32, wgpu::Sampler); 4],
+}
+
+impl LightGroup {
+    pub(crate) fn new(
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        shadow_maps: &wgpu::TextureView,
+        shade_map: &wgpu::TextureView,
+        daylight: &Daylight,
+    ) -> Self {
+        let flat = wgpu::TextureViewDimension::D2;
+        let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+            label: Some("light"),
+            entries: &[
+                texture_entry(0, wgpu::TextureSampleType::Depth, wgpu::TextureViewDimension::D2Array),
+                sampler_entry(1, wgpu::SamplerBindingType::Comparison),
+                texture_entry(2, FILTERABLE, flat),
+                sampler_entry(3, wgpu::SamplerBindingType::Filtering),
+                texture_entry(4, FILTERABLE, flat),
+                sampler_entry(5, wgpu::SamplerBindingType::Filtering),
+                texture_entry(7, FILTERABLE, flat),
+                sampler_entry(8, wgpu::SamplerBindingType::Filtering),
+                texture_entry(9, FILTERABLE, flat),
+            ],
+        });
+        let linear = wgpu::SamplerDescriptor {
+            mag_filter: wgpu::FilterMode::Linear,
+            min_filter: wgpu::FilterMode::Linear,
+            mipmap_filter: wgpu::MipmapFilterMode::Linear,
+            ..Default::default()
+        };
+        let compare = Some(wgpu::CompareFunction::LessEqual);
+        let repeat = wgpu::AddressMode::Repeat;
+        let around = wgpu::SamplerDescriptor { address_mode_u: repeat, ..linear.clone() };
+        let repeating = wgpu::SamplerDescriptor { address_mode_v: repeat, ..around.clone() };
+        let samplers = [
+            (1, device.create_sampler(&wgpu::SamplerDescriptor { compare, ..linear.clone() })),
+            (3, device.create_sampler(&linear)),
+            (5, device.create_sampler(&repeating)),
+            (8, device.create_sampler(&around)),
+        ];
+        let views = [(0, shadow_maps.clone()), (2, shade_map.clone()), (4, noise_view(device, queue))];
+        let skies = skies(device, queue, daylight);
+        let group = bind(device, &layout, &views, &samplers, &skies);
+        Self { layout, group, views, skies, samplers }
+    }
+
+    /// Takes over another sky.
+    pub(crate) fn set_sky(&mut self, device: &wgpu::Device, queue: &wgpu::Queue, daylight: &Daylight) {
+        self.skies = skies(device, queue, daylight);
+        self.rebind(device);
+    }
+
+    /// Takes over other shadow maps.
+    pub(crate) fn set_shadow_maps(&mut self, device: &wgpu::Device, maps: &wgpu::TextureView) {
+        self.views[0].1 = maps.clone();
+        self.rebind(device);
+    }
+
+    fn rebind(&mut self, device: &wgpu::Device) {
+        self.group = bind(device, &self.layout, &self.views, &self.samplers, &self.skies);
+    }
+}
+
+/// The sky as it is seen, and as surfaces of rising roughness mirror it, without the sun.
+fn skies(device: &wgpu::Device, queue: &wgpu::Queue, daylight: &Daylight) -> [wgpu::TextureView; 2] {
+    let mirrored = prefiltered(&daylight.sky);
+    let mirrored: Vec<_> = mirrored.iter().collect();
+    [("sky", vec![&daylight.seen]), ("mirrored sky", mirrored)]
+        .map(|(label, levels)| radiance_texture(device, queue, label, &levels))
+}
+
+fn bind(
+    device: &wgpu::Device,
+    layout: &wgpu::BindGroupLayout,
+    views: &[(u32, wgpu::TextureView)],
+    samplers: &[(u32, wgpu::Sampler)],
+    [seen, mirrored]: &[wgpu::TextureView; 2],
+) -> wgpu::BindGroup {
+    let view =
+        |binding, view| wgpu::BindGroupEntry { binding, resource: wgpu::BindingResource::TextureView(view) };
+    let samplers = samplers.iter().map(|(binding, sampler)| wgpu::BindGroupEntry {
+        binding: *binding,
+        resource: wgpu::BindingResource::Sampler(sampler),
+    });
+    let fixed = views.iter().map(|(binding, texture)| view(*binding, texture));
+    let entries: Vec<_> = fixed.chain([view(7, seen), view(9, mirrored)]).chain(samplers).collect();
+    device.create_bind_group(&wgpu::BindGroupDescriptor { label: Some("light"), layout, entries: &entries })
+}
+
+fn noise_view(device: &wgpu::Device, queue: &wgpu::Queue) -> wgpu::TextureView {
+    let mips = noise_mips();
+    let layer: Vec<&[u8]> = mips.iter().map(Vec::as_slice).collect();
+    let size_px = u32::try_from(NOISE_SIZE).unwrap_or(1);
+    upload::texture(device, queue, "noise", wgpu::TextureFormat::Rgba8Unorm, size_px, &layer)
+}

@@ -1,0 +1,78 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What all pipelines of the scene pass have in common.
+
+use super::group::FrameGroup;
+use crate::gpu::pipeline::layout;
+use crate::gpu::targets::{DEPTH_FORMAT, HDR_FORMAT, SAMPLE_COUNT};
+
+/// WGSL every drawing shader begins with: the frame's uniform block and small helpers.
+pub(crate) const COMMON: &str =
+    concat!(include_str!("../frame/numbers.wgsl"), include_str!("../frame/common.wgsl"));
+/// The part of it that binds nothing.
+pub(crate) const NUMBERS: &str = include_str!("../frame/numbers.wgsl");
+/// WGSL of shadows, ambient light and haze; uses bind group 1.
+pub(crate) const LIGHT: &str = include_str!("../frame/light.wgsl");
+
+/// How a pipeline of the scene pass differs from the others.
+pub(crate) struct ScenePipeline<'a> {
+    pub(crate) label: &'a str,
+    /// Bind group 0.
+    pub(crate) frame: &'a FrameGroup,
+    /// The bind groups after it.
+    pub(crate) groups: &'a [&'a wgpu::BindGroupLayout],
+    pub(crate) topology: wgpu::PrimitiveTopology,
+    pub(crate) shader: &'a wgpu::ShaderModule,
+    pub(crate) buffers: &'a [wgpu::VertexBufferLayout<'a>],
+    pub(crate) blend: Option<wgpu::BlendState>,
+    pub(crate) depth_write: bool,
+    pub(crate) alpha_to_coverage: bool,
+}
+
+impl ScenePipeline<'_> {
+    /// Builds the pipeline from the entry points `vertex` and `fragment`.
+    pub(crate) fn build(&self, device: &wgpu::Device) -> wgpu::RenderPipeline {
+        let groups = std::iter::once(&self.frame.layout).chain(self.groups.iter().copied()).map(Some);
+        let layout = layout(device, &groups.collect::<Vec<_>>());
+        let of = |is: bool| f64::from(u8::from(is));
+        let constants = [("IS_HILLY", of(self.frame.is_hilly)), ("HAS_TREES", of(self.frame.has_trees))];
+        let compilation_options =
+            wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() };
+        let buffers: Vec<_> = self.buffers.iter().cloned().map(Some).collect();
+        device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+            label: Some(self.label),
+            layout: Some(&layout),
+            vertex: wgpu::VertexState {
+                module: self.shader,
+                entry_point: Some("vertex"),
+                compilation_options: compilation_options.clone(),
+                buffers: &buffers,
+            },
+            primitive: wgpu::PrimitiveState { topology: self.topology, ..Default::default() },
+            depth_stencil: Some(wgpu::DepthStencilState {
+                format: DEPTH_FORMAT,
+                depth_write_enabled: Some(self.depth_write),
+                depth_compare: Some(wgpu::CompareFunction::GreaterEqual),
+                stencil: wgpu::StencilState::default(),
+                bias: wgpu::DepthBiasState::default(),
+            }),
+            multisample: wgpu::MultisampleState {
+                count: SAMPLE_COUNT,
+                mask: !0,
+                alpha_to_coverage_enabled: self.alpha_to_coverage,
+            },
+            fragment: Some(wgpu::FragmentState {
+                module: self.shader,
+                entry_point: Some("fragment"),
+                compilation_options,
+                targets: &[Some(wgpu::ColorTargetState {
+                    format: HDR_FORMAT,
+                    blend: self.blend,
+                    write_mask: wgpu::ColorWrites::ALL,
+                })],
+            }),
+            multiview_mask: None,
+            cache: None,
+        })
+    }
+}

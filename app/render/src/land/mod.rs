@@ -1,0 +1,110 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The lie of the land, for whatever stands on it.
+
+pub(crate) mod hill_shade;
+pub(crate) mod texture;
+
+use glam::Vec3;
+use windfall_core::scene::Ground;
+use windfall_core::terrain::Hills;
+
+/// Heights of a scene's ground and of the water on it.
+#[derive(Clone, Debug)]
+pub struct Land {
+    /// Height of level ground, or of hilly ground at the origin, in metres.
+    base_m: f32,
+    hills: Option<Hills>,
+    water_m: Option<f32>,
+}
+
+impl Land {
+    /// The land of a scene.
+    pub fn of(ground: &Ground) -> Self {
+        Self {
+            base_m: ground.height_m,
+            hills: ground.terrain.as_ref().map(Hills::grow),
+            water_m: ground.water.map(|water| water.height_m),
+        }
+    }
+
+    /// Height of level ground, or of hilly ground at the origin, in metres.
+    pub(crate) fn base_m(&self) -> f32 {
+        self.base_m
+    }
+
+    /// The hills, if there are any.
+    pub fn hills(&self) -> Option<&Hills> {
+        self.hills.as_ref()
+    }
+
+    /// Height of the water's surface in metres, if there is any.
+    pub fn water_m(&self) -> Option<f32> {
+        self.water_m
+    }
+
+    /// Height of the ground at a place in metres, also under water.
+    pub fn ground_m(&self, x_m: f32, z_m: f32) -> f32 {
+        self.base_m + self.hills.as_ref().map_or(0.0, |hills| hills.height_m(x_m, z_m))
+    }
+
+    /// Height of ground or water at a place in metres, whichever is higher.
+    pub fn surface_m(&self, x_m: f32, z_m: f32) -> f32 {
+        self.ground_m(x_m, z_m).max(self.water_m.unwrap_or(f32::MIN))
+    }
+
+    /// Whether a place is under water.
+    pub(crate) fn is_wet(&self, x_m: f32, z_m: f32) -> bool {
+        self.water_m.is_some_and(|water_m| self.ground_m(x_m, z_m) < water_m)
+    }
+
+    /// Unit normal of the surface at a place, over about a leaf's size.
+    pub(crate) fn normal(&self, x_m: f32, z_m: f32) -> Vec3 {
+        const APART_M: f32 = 0.05;
+        let east = self.surface_m(x_m + APART_M, z_m) - self.surface_m(x_m - APART_M, z_m);
+        let south = self.surface_m(x_m, z_m + APART_M) - self.surface_m(x_m, z_m - APART_M);
+        Vec3::new(-east, 2.0 * APART_M, -south).normalize()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use windfall_core::Scene;
+    use windfall_core::World;
+    use windfall_core::scene::{Terrain, Water};
+
+    use super::*;
+
+    #[test]
+    fn pictures_and_leaves_agree_on_the_land() {
+        let mut scene = Scene::default();
+        scene.ground = Ground {
+            height_m: -3.0,
+            terrain: Some(Terrain { levels: 5, ..Terrain::default() }),
+            water: Some(Water { height_m: 1.0 }),
+            ..scene.ground
+        };
+        scene.sources[0].count = 1;
+        let world = World::build(&scene).expect("the default scene is valid on hills");
+        let land = Land::of(&scene.ground);
+        let (mut wet, mut steep) = (0, 0);
+        for step in 0u16..400 {
+            let (x, z) = (f32::from(step) * 7.3 - 900.0, f32::from(step) * -3.1 + 400.0);
+            let own = land.ground_m(x, z);
+            let apart = own - world.environment.ground_height(x, z);
+            assert!(apart.abs() < 1.0e-3, "{apart} m apart at {x}, {z}");
+            assert_eq!(land.is_wet(x, z), own < 1.0, "under water below its surface");
+            assert_eq!(land.surface_m(x, z), own.max(1.0), "the higher of the two");
+            wet += u32::from(land.is_wet(x, z));
+            steep += u32::from(land.normal(x, z).y < 0.999);
+        }
+        assert!(wet > 20 && steep > 100, "{wet} places under water, {steep} on slopes");
+    }
+
+    #[test]
+    fn level_ground_is_level() {
+        let land = Land::of(&Ground { height_m: 2.0, ..Ground::default() });
+        assert_eq!(land.surface_m(13.0, -7.0), 2.0, "everywhere as high");
+        assert_eq!(land.normal(5.0, 5.0), Vec3::Y, "and level");
+    }
+}

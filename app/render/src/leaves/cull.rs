@@ -1,0 +1,229 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Chooses on the device which leaves a view shows, and how finely.
+//!
+//! One pass over the leaves counts how many each thread keeps of every level of detail; one workgroup adds the counts up;
+//! a second pass lists those that are kept behind one another, in the order of their slots; and a third writes their
+//! records, with no thread idle for a leaf that is out of sight. There are no atomics: their order would show where two
+//! leaves lie equally deep.
+
+use glam::{Mat4, Vec4};
+
+use super::record::record_constants;
+use super::species_table::LeafKinds;
+use super::visible::{Page, SLOTS_PER_THREAD};
+use crate::frame::cascades::{CASCADES, MAPS};
+use crate::frame::scene_pipeline::NUMBERS;
+use crate::gpu::pipeline::{buffer_entry, layout, shader};
+use crate::trees::cluster_constants;
+use crate::trees::records::Stems;
+
+/// Views of a frame, each with its own uniform block.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum View {
+    /// What the camera sees.
+    Camera,
+    /// What the camera sees in water.
+    Mirror,
+    /// What the sun sees in a shadow map, or who looks from above.
+    Shadow(usize),
+}
+
+/// `View` of `leaf_cull.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, bytemuck::Pod, bytemuck::Zeroable)]
+pub(crate) struct ViewUniform {
+    /// Inward normals of the view's sides, of unit length, and their distances from the origin.
+    sides: [[f32; 4]; 6],
+    /// Eye; pixels of a metre at one metre, or anywhere in a parallel projection.
+    pub(crate) eye: [f32; 4],
+    pub(crate) limits: [f32; 4],
+    /// Least share; whether it is parallel; unused.
+    pub(crate) rule: [f32; 4],
+}
+
+/// Least edges in pixels of the pictures of leaves drawn as coarse, medium and fine meshes: a triangle then covers about
+/// eight pixels or more. Below the last one pictures are thinned out.
+pub(crate) const LIMITS_PX: [f32; 4] = [18.0, 48.0, 150.0, 1.8];
+/// The same for shadows, whose texels are averaged: no finer mesh than the coarse one, and thinned out sooner.
+const SHADOW_LIMITS_PX: [f32; 4] = [60.0, f32::MAX, f32::MAX, 4.0];
+/// The same from above, where only shares of sky matter.
+const ABOVE_LIMITS_PX: [f32; 4] = [f32::MAX, f32::MAX, f32::MAX, 9.0];
+/// Most workgroups that write records: enough to fill a large device.
+const MAX_WRITERS: u32 = 1024;
+/// Least share of leaves that are kept, however small: those that are kept are at most four times as wide.
+const LEAST_SHARE: f32 = 1.0 / 16.0;
+
+impl ViewUniform {
+    /// What a camera at x, y, z sees, with `pixels_per_m` at one metre.
+    pub(crate) fn perspective(clip: [[f32; 4]; 4], [x, y, z, _]: [f32; 4], pixels_per_m: f32) -> Self {
+        let (eye, rule) = ([x, y, z, pixels_per_m], [LEAST_SHARE, 0.0, 0.0, 0.0]);
+        Self { sides: sides(clip), eye, limits: LIMITS_PX, rule }
+    }
+
+    /// What is seen in map number `map` with `pixels_per_m`.
+    pub(crate) fn parallel(clip: [[f32; 4]; 4], pixels_per_m: f32, map: usize) -> Self {
+        let (eye, rule) = ([0.0, 0.0, 0.0, pixels_per_m], [LEAST_SHARE, 1.0, 0.0, 0.0]);
+        let limits = if map < CASCADES { SHADOW_LIMITS_PX } else { ABOVE_LIMITS_PX };
+        Self { sides: sides(clip), eye, limits, rule }
+    }
+}
+
+/// Planes of what a projection shows.
+fn sides(clip: [[f32; 4]; 4]) -> [[f32; 4]; 6] {
+    let clip = Mat4::from_cols_array_2d(&clip);
+    let [x, y, z, w] = [0, 1, 2, 3].map(|row| clip.row(row));
+    [w + x, w - x, w + y, w - y, z, w - z].map(|plane| {
+        let length = plane.truncate().length();
+        // A projection without far plane has one that is none: everything lies within it.
+        let plane = if length > 1.0e-12 { plane / length } else { Vec4::new(0.0, 0.0, 0.0, f32::MAX) };
+        plane.to_array()
+    })
+}
+
+/// The pipelines of the culling.
+#[derive(Debug)]
+pub(crate) struct CullPass {
+    /// Layout of what drawing reads of a page.
+    pub(crate) records_layout: wgpu::BindGroupLayout,
+    page_layout: wgpu::BindGroupLayout,
+    columns_layout: wgpu::BindGroupLayout,
+    kinds: wgpu::BindGroup,
+    views: [wgpu::Buffer; 2 + MAPS],
+    steps: [wgpu::ComputePipeline; 4],
+    /// Whether leaves bring marks with them.
+    pub(crate) is_painted: bool,
+}
+
+impl CullPass {
+    /// The pipelines; `is_painted` for leaves in the colours of their marks.
+    pub(crate) fn new(device: &wgpu::Device, kinds: &LeafKinds, is_painted: bool) -> Self {
+        let compute = wgpu::ShaderStages::COMPUTE;
+        let read = wgpu::BufferBindingType::Storage { read_only: true };
+        let write = wgpu::BufferBindingType::Storage { read_only: false };
+        let uniform = |binding| buffer_entry(binding, wgpu::BufferBindingType::Uniform, compute);
+        let group = |label, entries: &[wgpu::BindGroupLayoutEntry]| {
+            device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: Some(label), entries })
+        };
+        let page_layout = group(
+            "leaf page",
+            &[
+                uniform(0),
+                uniform(1),
+                buffer_entry(2, read, compute),
+                buffer_entry(3, write, compute),
+                buffer_entry(4, write, compute),
+                buffer_entry(5, write, compute),
+            ],
+        );
+        let columns_layout =
+            group("leaf columns", &[0, 1, 2, 3].map(|binding| buffer_entry(binding, read, compute)));
+        let marks = if is_painted { include_str!("marks.wgsl") } else { include_str!("marks_none.wgsl") };
+        let records_layout = group("leaf records", &[buffer_entry(0, read, wgpu::ShaderStages::VERTEX)]);
+        let kinds_layout = group("leaf kinds", &[uniform(0)]);
+        let text = [
+            &format!("const SLOTS_PER_THREAD: u32 = {SLOTS_PER_THREAD}u;\n"),
+            &cluster_constants(),
+            NUMBERS,
+            &record_constants(),
+            include_str!("species_table.wgsl"),
+            include_str!("record.wgsl"),
+            marks,
+            include_str!("cull.wgsl"),
+        ];
+        let module = shader(device, "leaf culling", &text);
+        let layout = layout(device, &[Some(&page_layout), Some(&columns_layout), Some(&kinds_layout)]);
+        let steps = ["count", "arrange", "list", "write"].map(|entry_point| {
+            device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+                label: Some(entry_point),
+                layout: Some(&layout),
+                module: &module,
+                entry_point: Some(entry_point),
+                compilation_options: wgpu::PipelineCompilationOptions::default(),
+                cache: None,
+            })
+        });
+        let views = [(); 2 + MAPS].map(|()| {
+            device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some("leaf view"),
+                size: size_of::<ViewUniform>() as u64,
+                usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
+                mapped_at_creation: false,
+            })
+        });
+        let kinds = device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("leaf kinds"),
+            layout: &kinds_layout,
+            entries: &[wgpu::BindGroupEntry { binding: 0, resource: kinds.uniform.as_entire_binding() }],
+        });
+        Self { records_layout, page_layout, columns_layout, kinds, views, steps, is_painted }
+    }
+
+    /// Sets what a view sees in the frames to come.
+    pub(crate) fn write(&self, queue: &wgpu::Queue, view: View, uniform: &ViewUniform) {
+        queue.write_buffer(self.buffer(view), 0, bytemuck::bytes_of(uniform));
+    }
+
+    fn buffer(&self, view: View) -> &wgpu::Buffer {
+        match view {
+            View::Camera => &self.views[0],
+            View::Mirror => &self.views[1],
+            View::Shadow(map) => &self.views[2 + map.min(MAPS - 1)],
+        }
+    }
+
+    /// Fills the records and draws of a page from a window of place, attitude, course and identity, or marks in place of
+    /// identities if leaves are painted.
+    pub(crate) fn run(
+        &self,
+        device: &wgpu::Device,
+        encoder: &mut wgpu::CommandEncoder,
+        page: &Page,
+        columns: [wgpu::BufferBinding<'_>; 4],
+        stems: &Stems,
+        view: View,
+    ) {
+        let entries = [
+            self.buffer(view),
+            &page.buffers.uniform,
+            stems.buffer(),
+            &page.buffers.chosen,
+            &page.draws,
+            &page.records,
+        ];
+        let entries: Vec<_> = (0u32..)
+            .zip(entries)
+            .map(|(binding, buffer)| wgpu::BindGroupEntry { binding, resource: buffer.as_entire_binding() })
+            .collect();
+        let own = device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("leaf page"),
+            layout: &self.page_layout,
+            entries: &entries,
+        });
+        let entries: Vec<_> = (0u32..)
+            .zip(columns)
+            .map(|(binding, window)| wgpu::BindGroupEntry {
+                binding,
+                resource: wgpu::BindingResource::Buffer(window),
+            })
+            .collect();
+        let columns = device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("leaf columns"),
+            layout: &self.columns_layout,
+            entries: &entries,
+        });
+        let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
+            label: Some("leaf culling"),
+            timestamp_writes: None,
+        });
+        pass.set_bind_group(0, &own, &[]);
+        pass.set_bind_group(1, &columns, &[]);
+        pass.set_bind_group(2, &self.kinds, &[]);
+        let groups = page.uniform.threads.div_ceil(64);
+        let writers = page.uniform.count.div_ceil(64).min(MAX_WRITERS);
+        for (step, groups) in self.steps.iter().zip([groups, 1, groups, writers]) {
+            pass.set_pipeline(step);
+            pass.dispatch_workgroups(groups, 1, 1);
+        }
+    }
+}

@@ -1,0 +1,149 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Bind group 0 of everything that happens after the scene is drawn: the lens, and how far it is open.
+
+use windfall_core::scene::{Exposure, Lens, ToneMap};
+
+use super::agx;
+use crate::gpu::pipeline::{buffer_entry, uniform_entry};
+
+/// `Lens` of `lens.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, bytemuck::Pod, bytemuck::Zeroable)]
+pub(crate) struct LensUniform {
+    size: [f32; 4],
+    origin: [f32; 2],
+    key: f32,
+    adaptation: f32,
+    manual: f32,
+    threshold: f32,
+    strength: f32,
+    saturation: f32,
+    vignette: f32,
+    parameter: f32,
+    unused: [f32; 2],
+    agx: [f32; 4],
+    focus: [f32; 4],
+}
+
+/// Luminance that automatic exposure makes of the log-average, and every tone map of itself but for Reinhard's.
+pub(crate) const MIDDLE_GREY: f32 = 0.18;
+/// Unit of light in cd/m².
+const LIGHT_UNIT: f32 = 1000.0;
+/// Height of the sensor in metres: that of 35 mm film.
+const SENSOR_M: f32 = 0.024;
+/// Largest radius of a circle of confusion, as a part of the picture's height.
+pub(crate) const MAX_BLUR: f32 = 0.04;
+
+/// Edge in pixels of blocks as wide as the farthest that light is spread in a picture of this height.
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small positive number")]
+pub(crate) fn blur_block(height: u32) -> u32 {
+    (MAX_BLUR * height as f32).ceil().max(1.0) as u32
+}
+
+/// What of a frame matters to its lens.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Shot {
+    /// Size of the picture in pixels.
+    pub(crate) size: (u32, u32),
+    /// Its corner in the output.
+    pub(crate) origin: (u32, u32),
+    /// Seconds since the frame before; infinite if there was none.
+    pub(crate) since_s: f32,
+    /// Vertical field of view in radians.
+    pub(crate) vertical_fov_rad: f32,
+    /// Distance of the near plane in metres.
+    pub(crate) near_m: f32,
+}
+
+impl LensUniform {
+    pub(crate) fn new(lens: &Lens, shot: &Shot) -> Self {
+        let (width, height) = (shot.size.0 as f32, shot.size.1 as f32);
+        let (key, adaptation, manual) = match lens.exposure {
+            Exposure::Auto { compensation_ev, adaptation_s } => {
+                let share = -(-shot.since_s / adaptation_s.max(1.0e-6)).exp_m1();
+                (MIDDLE_GREY * compensation_ev.exp2(), share, 0.0)
+            }
+            Exposure::Manual { ev100 } => (0.0, 1.0, LIGHT_UNIT / (1.2 * ev100.exp2())),
+        };
+        let parameter = match lens.tone_map {
+            ToneMap::Linear { gamma } => gamma,
+            ToneMap::Reinhard { white } => white,
+            ToneMap::AgX => 0.0,
+        };
+        let focus = lens.focus.map_or([0.0; 4], |focus| {
+            // Thin lens: the circle of a point at d is as wide as A f |d - D| / (d (D - f)), A = f / N.
+            let length_m = 0.5 * SENSOR_M / (0.5 * shot.vertical_fov_rad).tan();
+            let aperture_m = length_m / focus.f_number;
+            let spread = 0.5 * aperture_m * length_m / (focus.distance_m - length_m).max(1.0e-3);
+            [focus.distance_m, spread / SENSOR_M * height, MAX_BLUR * height, shot.near_m]
+        });
+        Self {
+            size: [width, height, 1.0 / width, 1.0 / height],
+            origin: [shot.origin.0 as f32, shot.origin.1 as f32],
+            key,
+            adaptation,
+            manual,
+            threshold: lens.glare.threshold,
+            strength: lens.glare.strength,
+            saturation: lens.saturation,
+            vignette: lens.vignette,
+            parameter,
+            unused: [0.0; 2],
+            agx: agx::CURVE.constants(),
+            focus,
+        }
+    }
+}
+
+/// The lens and the exposure as buffers, bound together.
+#[derive(Debug)]
+pub(crate) struct LensGroup {
+    pub(crate) layout: wgpu::BindGroupLayout,
+    pub(crate) group: wgpu::BindGroup,
+    /// The lens alone, for the pass that sets the exposure.
+    pub(crate) uniform_layout: wgpu::BindGroupLayout,
+    pub(crate) uniform_group: wgpu::BindGroup,
+    /// `Exposure` of `exposure.wgsl`.
+    pub(crate) exposure: wgpu::Buffer,
+    uniform: wgpu::Buffer,
+}
+
+impl LensGroup {
+    pub(crate) fn new(device: &wgpu::Device) -> Self {
+        let everywhere = wgpu::ShaderStages::VERTEX_FRAGMENT | wgpu::ShaderStages::COMPUTE;
+        let lens_entry = buffer_entry(0, wgpu::BufferBindingType::Uniform, everywhere);
+        let layout_of = |entries: &[wgpu::BindGroupLayoutEntry]| {
+            device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: Some("lens"), entries })
+        };
+        let layout = layout_of(&[lens_entry, uniform_entry(1)]);
+        let uniform_layout = layout_of(&[lens_entry]);
+        let buffer = |label, size, usage| {
+            device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some(label),
+                size,
+                usage,
+                mapped_at_creation: false,
+            })
+        };
+        let uniform_usage = wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST;
+        let uniform = buffer("lens", size_of::<LensUniform>() as u64, uniform_usage);
+        let usage = wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC;
+        let exposure = buffer("exposure", 16, usage);
+        let entries = [
+            wgpu::BindGroupEntry { binding: 0, resource: uniform.as_entire_binding() },
+            wgpu::BindGroupEntry { binding: 1, resource: exposure.as_entire_binding() },
+        ];
+        let group_of = |layout, entries| {
+            let label = Some("lens");
+            device.create_bind_group(&wgpu::BindGroupDescriptor { label, layout, entries })
+        };
+        let group = group_of(&layout, &entries);
+        let uniform_group = group_of(&uniform_layout, &entries[..1]);
+        Self { layout, group, uniform_layout, uniform_group, exposure, uniform }
+    }
+
+    pub(crate) fn write(&self, queue: &wgpu::Queue, lens: &LensUniform) {
+        queue.write_buffer(&self.uniform, 0, bytemuck::bytes_of(lens));
+    }
+}

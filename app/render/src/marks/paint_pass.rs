@@ -1,0 +1,180 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Marks leaves with colours on the device, before they are culled.
+
+use glam::Vec3;
+use windfall_wgpu::LeafColumns;
+
+use super::Measure;
+use super::Paint;
+use super::palette::{self, MOTIONS, SHADES, linear, shade};
+use crate::gpu::pipeline::{buffer_entry, layout, shader};
+use crate::leaves::record::record_constants;
+use crate::leaves::visible::PAGE_SLOTS;
+
+/// Bytes of a mark and of a record of a column.
+const MARK_BYTES: u64 = 16;
+/// Leaves that a workgroup marks.
+const GROUP_SIZE: u32 = 64;
+/// Colours in the uniform block: the shades, and three for leaves that have none.
+const COLORS: usize = SHADES + 3;
+
+/// `Paint` of `paint.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
+struct PaintUniform {
+    what: [u32; 4],
+    scale: [f32; 4],
+    palette: [[f32; 4]; COLORS],
+}
+
+/// The marks, and the pipeline that makes them.
+#[derive(Debug)]
+pub(crate) struct PaintPass {
+    paint: Paint,
+    dt_s: f32,
+    base_m: f32,
+    seen_s: Option<f64>,
+    uniform: wgpu::Buffer,
+    /// A mark for each leaf, in place of its identity.
+    pub(crate) marks: wgpu::Buffer,
+    /// Where each leaf was.
+    past: wgpu::Buffer,
+    group_layout: wgpu::BindGroupLayout,
+    pipeline: wgpu::ComputePipeline,
+}
+
+impl PaintPass {
+    /// Marks for `leaf_count` leaves of a scene with steps of `dt_s`, whose ground lies at `base_m`.
+    pub(crate) fn new(device: &wgpu::Device, paint: Paint, leaf_count: u32, dt_s: f32, base_m: f32) -> Self {
+        let compute = wgpu::ShaderStages::COMPUTE;
+        let storage = |read_only| wgpu::BufferBindingType::Storage { read_only };
+        let group_layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+            label: Some("paint"),
+            entries: &[
+                buffer_entry(0, wgpu::BufferBindingType::Uniform, compute),
+                buffer_entry(1, storage(true), compute),
+                buffer_entry(2, storage(true), compute),
+                buffer_entry(3, storage(false), compute),
+                buffer_entry(4, storage(false), compute),
+            ],
+        });
+        let module = shader(device, "paint", &[&record_constants(), include_str!("paint_pass.wgsl")]);
+        let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+            label: Some("paint"),
+            layout: Some(&layout(device, &[Some(&group_layout)])),
+            module: &module,
+            entry_point: Some("mark"),
+            compilation_options: wgpu::PipelineCompilationOptions::default(),
+            cache: None,
+        });
+        let buffer = |label, size, usage| {
+            device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some(label),
+                size,
+                usage,
+                mapped_at_creation: false,
+            })
+        };
+        let uniform_usage = wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST;
+        let marks_usage = wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC;
+        let bytes = u64::from(leaf_count.max(1)) * MARK_BYTES;
+        Self {
+            paint,
+            dt_s,
+            base_m,
+            seen_s: None,
+            uniform: buffer("paint", size_of::<PaintUniform>() as u64, uniform_usage),
+            marks: buffer("leaf marks", bytes, marks_usage),
+            past: buffer("leaf marks before", bytes, wgpu::BufferUsages::STORAGE),
+            group_layout,
+            pipeline,
+        }
+    }
+
+    /// Paints otherwise from now on.
+    pub(crate) fn set(&mut self, paint: Paint) {
+        self.paint = paint;
+    }
+
+    /// How it paints.
+    pub(crate) fn paint(&self) -> Paint {
+        self.paint
+    }
+
+    /// Marks `leaves` as they are at `time_s`.
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "whole steps, and a short time"
+    )]
+    pub(crate) fn mark(
+        &mut self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        encoder: &mut wgpu::CommandEncoder,
+        leaves: &LeafColumns<'_>,
+        time_s: f64,
+    ) {
+        // Back in time things move as well.
+        let passed_s = self.seen_s.map_or(0.0, |seen| (time_s - seen).abs());
+        self.seen_s = Some(time_s);
+        let step = (time_s / f64::from(self.dt_s)).round() as u32;
+        let measure = match self.paint.measure {
+            Measure::Motion => 0,
+            Measure::Speed => 1,
+            Measure::Age => 2,
+            Measure::Height => 3,
+        };
+        let low = if self.paint.measure == Measure::Height { self.base_m } else { 0.0 };
+        let uniform = PaintUniform {
+            what: [measure, step, 0, 0],
+            scale: [self.dt_s, passed_s as f32, low + self.paint.most.max(1.0e-6), low],
+            palette: colors(self.paint.measure).map(|color| color.extend(1.0).to_array()),
+        };
+        queue.write_buffer(&self.uniform, 0, bytemuck::bytes_of(&uniform));
+        let count = u64::from(leaves.leaf_count).min(self.marks.size() / MARK_BYTES);
+        let mut first = 0;
+        while first < count {
+            let part = (count - first).min(u64::from(PAGE_SLOTS));
+            let window = |buffer| {
+                let size = wgpu::BufferSize::new(part * MARK_BYTES);
+                wgpu::BindingResource::Buffer(wgpu::BufferBinding {
+                    buffer,
+                    offset: first * MARK_BYTES,
+                    size,
+                })
+            };
+            let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
+                label: Some("paint"),
+                layout: &self.group_layout,
+                entries: &[
+                    wgpu::BindGroupEntry { binding: 0, resource: self.uniform.as_entire_binding() },
+                    wgpu::BindGroupEntry { binding: 1, resource: window(leaves.place) },
+                    wgpu::BindGroupEntry { binding: 2, resource: window(leaves.identity) },
+                    wgpu::BindGroupEntry { binding: 3, resource: window(&self.marks) },
+                    wgpu::BindGroupEntry { binding: 4, resource: window(&self.past) },
+                ],
+            });
+            let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
+                label: Some("paint"),
+                timestamp_writes: None,
+            });
+            pass.set_pipeline(&self.pipeline);
+            pass.set_bind_group(0, &group, &[]);
+            pass.dispatch_workgroups((part as u32).div_ceil(GROUP_SIZE), 1, 1);
+            first += part;
+        }
+    }
+}
+
+/// The palette of a measure, and the colours of leaves at rest, on twigs, and without a value.
+fn colors(measure: Measure) -> [Vec3; COLORS] {
+    std::array::from_fn(|index| match index {
+        SHADES => linear(palette::RESTING),
+        index if index == SHADES + 1 => linear(palette::ATTACHED),
+        index if index > SHADES => linear(palette::NONE),
+        _ if measure == Measure::Motion => linear(MOTIONS[index.min(MOTIONS.len() - 1)].1),
+        _ => shade(index as f32 / (SHADES - 1) as f32),
+    })
+}

@@ -1,0 +1,198 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Where the trees of the park stand.
+
+use glam::{Vec2, Vec3};
+use windfall_core::Scene;
+use windfall_core::scene::{Source, SourceShape};
+
+use super::tree_sprite::SPRITE_COUNT;
+use crate::land::Land;
+use crate::random::Random;
+
+/// One tree, as the shaders read it.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, bytemuck::Pod, bytemuck::Zeroable)]
+pub(crate) struct TreeInstance {
+    /// Foot in metres.
+    pub(crate) foot_m: Vec3,
+    /// Height in metres.
+    pub(crate) height_m: f32,
+    /// Width relative to height; negative mirrors the sprite.
+    pub(crate) width: f32,
+    /// Number of the sprite.
+    pub(crate) sprite: u32,
+    /// Place in the palette from green (0) to russet (1).
+    pub(crate) hue: f32,
+    /// Brightness of the foliage.
+    pub(crate) brightness: f32,
+}
+
+/// Closest a tree stands to the viewer, in metres: any nearer its trunk would hide the scene.
+const NEAREST_M: f32 = 7.0;
+
+/// No tree but a source's own stands this near before the camera, in metres.
+const OPEN_M: f32 = 22.0;
+/// A scene with trees of its own has no others nearer to the centre than this, in metres.
+const OWN_M: f32 = 50.0;
+/// Half angle before the camera, in radians, in which no tree stands nearer than `FAR_M` metres in a scene with trails.
+const STAGE_RAD: f32 = 0.8;
+const FAR_M: f32 = 60.0;
+/// The last part of the autumn, in which far woods lose their leaves.
+const LATE: f32 = 0.4;
+/// Phases the path's bends may have, in radians; the first that keeps clear of the sources' trees is taken.
+const PATH_PHASES: [f32; 6] = [-0.9, 2.2, 0.3, -2.0, 1.2, 3.4];
+
+/// A planted park.
+pub(crate) struct Park {
+    pub(crate) trees: Vec<TreeInstance>,
+    /// Share of their leaves that they still have, 0 to 1.
+    pub(crate) leaves: f32,
+    /// Phase of the path's bends in radians.
+    pub(crate) path_phase: f32,
+}
+
+/// Plants the park around `center`, leaving open what `view` (a unit vector in the ground plane) looks along. Every
+/// source of leaves in the shape of a crown gets its tree.
+pub(crate) fn plant(scene: &Scene, land: &Land, center: Vec3, view: Vec2) -> Park {
+    let mut random = Random::new(41);
+    // Where trees stand in the scene itself, sources of leaves need no picture of one.
+    let has_trees = !scene.trees.is_empty();
+    let sources = scene.sources.iter().filter(|_| !has_trees);
+    let crowns = sources.filter_map(|source| crown_tree(scene, land, source, &mut random));
+    let mut trees: Vec<TreeInstance> = crowns.collect();
+    let own = scene.trees.iter().map(|tree| Vec3::new(tree.at_m[0], center.y, tree.at_m[1]));
+    let standing: Vec<Vec3> = own.chain(trees.iter().map(|tree| tree.foot_m)).collect();
+    // Far woods turn with the scene's own trees.
+    let season = if has_trees { (2.0 * scene.autumn).min(1.0) } else { 1.0 };
+    let mut random = Random::new(43);
+    let eye = scene.view.camera.eye_m;
+    let on_ground = |point: Vec3| Vec2::new(point.x - center.x, point.z - center.z);
+    let is_clear =
+        |phase: f32| standing.iter().all(|&foot_m| beyond_path(on_ground(foot_m), view, phase) > 2.5);
+    let path_phase = PATH_PHASES.into_iter().find(|&phase| is_clear(phase)).unwrap_or(PATH_PHASES[0]);
+    // Trails are to be read like a diagram: before a bare meadow and a far edge of woods.
+    let stage_rad: f32 = if scene.view.trail_s > 0.0 { STAGE_RAD } else { 0.0 };
+    // Rings of inner and outer radius, number of trees, and the angle kept open along the view.
+    let rings = [
+        (17.0f32, 30.0f32, 9, 0.38f32, 1.0f32),
+        (32.0, 52.0, 24, 0.14, 1.0),
+        (54.0, 95.0, 70, 0.0, 1.0),
+        (95.0, 150.0, 110, 0.0, 1.0),
+        (70.0, 150.0, 110, 0.0, 0.25),
+    ];
+    for (inner, outer, count, open_rad, scale) in rings {
+        if has_trees && inner < OWN_M {
+            continue;
+        }
+        let bush = scale < 0.9;
+        let open_rad = if inner < FAR_M { stage_rad.max(open_rad) } else { open_rad };
+        let mut left = count;
+        for _ in 0..count * 12 {
+            if left == 0 {
+                break;
+            }
+            let angle = random.range(0.0, std::f32::consts::TAU);
+            let radius = random.range(inner * inner, outer * outer).sqrt();
+            let toward = Vec2::from_angle(angle);
+            let apart = toward.dot(view).clamp(-1.0, 1.0).acos();
+            let foot = center + Vec3::new(toward.x, 0.0, toward.y) * radius;
+            let clear = beyond_path(toward * radius, view, path_phase) > if bush { 2.5 } else { 1.2 };
+            let spacing = if bush { 2.0 } else { 3.5 + 0.07 * radius };
+            if !clear
+                || land.is_wet(foot.x, foot.z)
+                || hides(eye, view, foot)
+                || apart < open_rad
+                || standing.iter().any(|&foot_m| foot_m.distance(foot) < spacing)
+                || trees.iter().any(|tree| tree.foot_m.distance(foot) < spacing)
+            {
+                continue;
+            }
+            left -= 1;
+            let height_m = random.range(11.0, 19.0) * scale;
+            let bushes = SPRITE_COUNT / 4;
+            let sprite = if bush {
+                SPRITE_COUNT - bushes + random.word() % bushes
+            } else {
+                random.word() % (SPRITE_COUNT - bushes)
+            };
+            let mirror = if random.word() & 1 == 0 { 1.0 } else { -1.0 };
+            let width = random.range(0.85, 1.1) * mirror;
+            let hue = (0.1 + 0.85 * random.unit()) * season;
+            let brightness = random.range(0.8, 1.15);
+            let foot_m = Vec3 { y: land.ground_m(foot.x, foot.z), ..foot };
+            trees.push(TreeInstance { foot_m, height_m, width, sprite, hue, brightness });
+        }
+    }
+    // Late in the year the far woods, too, are bare.
+    let leaves = if has_trees { ((1.0 - scene.autumn) / LATE).min(1.0) } else { 1.0 };
+    Park { trees, leaves, path_phase }
+}
+
+/// Whether a tree at `foot` would stand right before the viewer.
+fn hides(eye: Vec3, view: Vec2, foot: Vec3) -> bool {
+    let offset = Vec2::new(foot.x - eye.x, foot.z - eye.z);
+    let distance = offset.length();
+    distance < NEAREST_M || (distance < OPEN_M && offset.dot(view) > 0.8 * distance)
+}
+
+/// The tree whose crown is a source's ball of leaves.
+fn crown_tree(scene: &Scene, land: &Land, source: &Source, random: &mut Random) -> Option<TreeInstance> {
+    let SourceShape::Sphere { center_m, radius_m } = source.shape else { return None };
+    let foot_m = Vec3::new(center_m.x, land.ground_m(center_m.x, center_m.z), center_m.z);
+    let under = center_m.y - radius_m - foot_m.y;
+    let hidden = foot_m.distance(scene.view.camera.eye_m) < NEAREST_M;
+    if radius_m < 1.5 || !(1.0..30.0).contains(&under) || hidden {
+        return None;
+    }
+    let named = source.species.iter().max_by_key(|share| share.weight);
+    let species = named.and_then(|share| scene.species.iter().find(|kind| kind.name == share.species));
+    let (first, last) = species.map_or((0.4, 0.9), |kind| kind.season);
+    let height_m = 1.12 * (center_m.y + radius_m - foot_m.y);
+    Some(TreeInstance {
+        foot_m,
+        height_m,
+        // Painted crowns are about 0.65 of their picture wide.
+        width: (2.0 * radius_m / 0.65 / height_m).clamp(0.6, 1.5),
+        sprite: random.word() % (SPRITE_COUNT - SPRITE_COUNT / 4),
+        hue: (0.5 * (first + last)).clamp(0.0, 1.0) * 0.9,
+        brightness: random.range(0.9, 1.1),
+    })
+}
+
+/// How far a place lies from the middle of the path that leads along `view`; the shape of `grass_color.wgsl`.
+fn beyond_path(local: Vec2, view: Vec2, phase: f32) -> f32 {
+    let (along, aside) = (local.dot(view), local.dot(view.perp()));
+    (aside - 3.4 * (along * 0.10 + phase).sin()).abs()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_crown_of_leaves_gets_its_tree_and_the_path_goes_round_it() {
+        let shape = SourceShape::Sphere { center_m: Vec3::new(-2.4, 9.0, -3.0), radius_m: 4.0 };
+        let scene = Scene { sources: vec![Source { shape, ..Source::default() }], ..Scene::default() };
+        let park = plant(&scene, &Land::of(&scene.ground), Vec3::ZERO, Vec2::NEG_Y);
+        let foot = park.trees[0].foot_m;
+        assert_eq!(foot, Vec3::new(-2.4, 0.0, -3.0), "the first tree is the source's");
+        let clear = beyond_path(Vec2::new(foot.x, foot.z), Vec2::NEG_Y, park.path_phase);
+        assert!(clear > 2.5, "{clear} m from the middle of the path");
+    }
+
+    #[test]
+    fn trees_leave_room_for_leaves_and_path() {
+        let center = Vec3::new(100.0, 2.0, -50.0);
+        let ground = windfall_core::scene::Ground { height_m: 2.0, ..Default::default() };
+        let land = Land::of(&ground);
+        let Park { trees, path_phase, .. } = plant(&Scene::default(), &land, center, Vec2::NEG_Y);
+        assert!(trees.len() > 150, "{} trees", trees.len());
+        for tree in &trees {
+            let local = tree.foot_m - center;
+            assert!(local.length() > 15.0, "a tree among the leaves: {tree:?}");
+            let on_ground = Vec2::new(local.x, local.z);
+            assert!(beyond_path(on_ground, Vec2::NEG_Y, path_phase) > 1.0, "a tree on the path: {tree:?}");
+        }
+    }
+}

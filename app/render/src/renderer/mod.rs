@@ -1,0 +1,222 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Puts the passes together.
+
+mod changes;
+mod drawing;
+pub(crate) mod scene;
+
+use glam::{Vec2, Vec3};
+use windfall_core::scene::Lens;
+use windfall_wgpu::LeafColumns;
+
+use self::scene::{RendererOptions, Subject};
+use crate::camera::Camera;
+use crate::error::RenderError;
+use crate::frame::cascades::shadow_size;
+use crate::frame::group::FrameGroup;
+use crate::frame::light_group::LightGroup;
+use crate::frame::surroundings::{Environment, Path};
+use crate::gpu::targets::Targets;
+use crate::gpu::timing::GpuTimer;
+use crate::land::Land;
+use crate::leaves::cull::CullPass;
+use crate::leaves::leaf_pass::LeafPass;
+use crate::leaves::motion_pass::MotionPass;
+use crate::leaves::species_table::LeafKinds;
+use crate::leaves::visible::LeafCrowd;
+use crate::lens::post::{Post, TimedPosts};
+use crate::marks::landing_pass::LandingPass;
+use crate::marks::paint_pass::PaintPass;
+use crate::marks::trail_pass::TrailPass;
+use crate::park::far_trees::{ShadePass, TreePass, Trees};
+use crate::park::layout::{Park, plant};
+use crate::park::litter::Litter;
+use crate::park::park_trees::{own_trees, shedding};
+use crate::scenery::grass_pass::GrassPass;
+use crate::scenery::ground_pass::GroundPass;
+use crate::scenery::sky_pass::SkyPass;
+use crate::scenery::water_pass::WaterPass;
+use crate::shadows::ShadowPass;
+use crate::trees::Stand;
+use crate::trees::bark_mesh::StandMesh;
+use crate::trees::bark_pass::BarkPass;
+use crate::trees::branch_group::BranchGroup;
+use crate::trees::fruit_pass::FruitPass;
+use crate::trees::records::Stems;
+
+/// Passes that are timed, in order of drawing.
+const TIMED_PASSES: [&str; 7] = ["shadows", "scene", "shutter", "focus", "exposure", "glare", "tone map"];
+/// Where those after the scene are among them.
+const TIMED_POSTS: TimedPosts = TimedPosts { shutter: 2, focus: 3, exposure: 4, glare: 5, tone_map: 6 };
+
+/// Draws a scene's leaves in their park.
+///
+/// One `draw` per submission: the uniforms of a frame are written through the queue.
+#[derive(Debug)]
+pub struct Renderer {
+    device: wgpu::Device,
+    queue: wgpu::Queue,
+    environment: Environment,
+    land: Land,
+    leaf_count: u32,
+    dt_s: f32,
+    targets: Targets,
+    tile_px: u32,
+    frame: FrameGroup,
+    light: LightGroup,
+    kinds: LeafKinds,
+    trees: Trees,
+    litter: Option<Litter>,
+    litter_crowd: LeafCrowd,
+    leaf_crowd: LeafCrowd,
+    stems: Stems,
+    cull: CullPass,
+    bark: StandMesh,
+    branches: BranchGroup,
+    shadow_pass: ShadowPass,
+    shade_pass: ShadePass,
+    shade_is_old: bool,
+    bark_pass: BarkPass,
+    leaf_pass: LeafPass,
+    motion_pass: Option<MotionPass>,
+    fruit_pass: FruitPass,
+    grass_pass: GrassPass,
+    ground_pass: GroundPass,
+    water_pass: Option<WaterPass>,
+    tree_pass: TreePass,
+    sky_pass: SkyPass,
+    trail_pass: Option<TrailPass>,
+    paint_pass: Option<PaintPass>,
+    landing_pass: Option<LandingPass>,
+    post: Post,
+    timer: Option<GpuTimer>,
+    /// Beginning and length in seconds of a round that scenery repeats.
+    round: Option<(f64, f64)>,
+}
+
+impl Renderer {
+    /// A renderer of `subject` into textures of `output_format` and `size` pixels. The picture is gamma encoded by the renderer unless the format does so.
+    ///
+    /// # Errors
+    /// A size or a number of images beyond the device's limits, or images that do not fit the scene.
+    pub fn new(
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        subject: Subject<'_>,
+        output_format: wgpu::TextureFormat,
+        size: (u32, u32),
+        options: RendererOptions,
+    ) -> Result<Self, RenderError> {
+        let Subject { scene, stand, atlas } = subject;
+        let camera = Camera::from(&scene.view.camera);
+        let forward = camera.forward();
+        let level = Vec2::new(forward.x, forward.z).normalize_or(Vec2::NEG_Y);
+        let land = Land::of(&scene.ground);
+        let Vec3 { x, z, .. } = camera.target_m;
+        let center = Vec3::new(x, land.ground_m(x, z), z);
+        let Park { trees: planted, leaves, path_phase } = plant(scene, &land, center, level);
+
+        let targets = Targets::new(device, size, options.tile_px, is_moving(&scene.view.lens))?;
+        let frame = FrameGroup::new(device, queue, &land, !stand.trees.is_empty());
+        let kinds = LeafKinds::new(device, queue, scene, atlas)?;
+        let own = own_trees(stand, scene.autumn > 0.0);
+        let trees = Trees::new(device, queue, (&planted, leaves), &own);
+        let branches = BranchGroup::new(device, queue, stand);
+        let cull = CullPass::new(device, &kinds, false);
+        let shadow_pass = ShadowPass::new(device, &frame, &kinds, &cull, &branches, shadow_size(size.1));
+        let shade_pass = ShadePass::new(device, &frame, &trees);
+        let environment = Environment::new(&scene.view, center, Path { lead: level, phase: path_phase })?;
+        frame.set_sun(queue, &land, environment.daylight.sun.direction);
+        let light = LightGroup::new(device, queue, &shadow_pass.maps, &shade_pass.map, &environment.daylight);
+        let eye_m = camera.eye_m();
+        let shedding = shedding(&planted, stand);
+        let species_count = u32::try_from(scene.species.len()).unwrap_or(1);
+        let mut renderer = Self {
+            device: device.clone(),
+            queue: queue.clone(),
+            environment,
+            leaf_count: scene.leaf_count(),
+            dt_s: scene.dt_s,
+            litter: Litter::new(device, queue, options.litter_count, species_count, &land, center, &shedding),
+            litter_crowd: LeafCrowd::new(device, queue, &cull, &Stand::default(), options.litter_count),
+            leaf_crowd: LeafCrowd::new(device, queue, &cull, stand, scene.leaf_count()),
+            stems: Stems::new(device, queue, stand),
+            bark: StandMesh::new(device, queue, stand, eye_m),
+            bark_pass: BarkPass::new(device, &frame, &light, &branches),
+            leaf_pass: LeafPass::new(device, &frame, &light, &kinds, &cull),
+            fruit_pass: FruitPass::new(device, queue, &frame, &light, &branches, stand),
+            grass_pass: GrassPass::new(device, &frame, &light),
+            ground_pass: GroundPass::new(device, queue, &frame, &light, &land),
+            water_pass: WaterPass::new(device, &frame, &light, &land),
+            tree_pass: TreePass::new(device, &frame, &light, &trees),
+            sky_pass: SkyPass::new(device, &frame, &light),
+            post: Post::new(device, queue, &targets, output_format, scene.view.lens),
+            timer: GpuTimer::new(device, queue, &TIMED_PASSES),
+            round: None,
+            trail_pass: None,
+            motion_pass: None,
+            paint_pass: None,
+            landing_pass: None,
+            shade_is_old: true,
+            targets,
+            land,
+            tile_px: options.tile_px,
+            frame,
+            light,
+            kinds,
+            cull,
+            trees,
+            branches,
+            shadow_pass,
+            shade_pass,
+        };
+        renderer.make_trails(scene.view.trail_s);
+        renderer.motion_pass = is_moving(&scene.view.lens).then(|| renderer.new_motion());
+        Ok(renderer)
+    }
+
+    /// Size of the pictures in pixels.
+    pub fn size(&self) -> (u32, u32) {
+        self.targets.size
+    }
+
+    /// The land that is drawn.
+    pub fn land(&self) -> &Land {
+        &self.land
+    }
+
+    /// Whether leaves draw trails.
+    pub fn has_trails(&self) -> bool {
+        self.trail_pass.is_some()
+    }
+
+    /// Notes where `leaves` are at `time_s` for their trails and for the motion until the next frame, without drawing; nothing
+    /// to do in a scene without either.
+    pub fn observe(&mut self, encoder: &mut wgpu::CommandEncoder, leaves: &LeafColumns<'_>, time_s: f64) {
+        self.sample_trails(encoder, leaves, time_s);
+        self.note_motion(encoder, leaves, time_s);
+    }
+
+    fn note_motion(&mut self, encoder: &mut wgpu::CommandEncoder, leaves: &LeafColumns<'_>, time_s: f64) {
+        if let Some(motion) = &mut self.motion_pass {
+            motion.past.note(encoder, leaves, time_s);
+        }
+    }
+
+    fn sample_trails(&mut self, encoder: &mut wgpu::CommandEncoder, leaves: &LeafColumns<'_>, time_s: f64) {
+        if let Some(trails) = &mut self.trail_pass {
+            trails.sample(&self.device, &self.queue, encoder, leaves, time_s);
+        }
+    }
+
+    /// Milliseconds the device last spent on each pass, where it can tell; call it after submitting a frame.
+    pub fn timings(&mut self) -> Vec<(&'static str, f32)> {
+        self.timer.as_mut().map_or_else(Vec::new, |timer| timer.collect(&self.device).to_vec())
+    }
+}
+
+/// Whether leaves are drawn longer than they are.
+fn is_moving(lens: &Lens) -> bool {
+    lens.shutter_s > 0.0
+}

@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What a renderer is asked to draw.
+
+use windfall_core::Scene;
+use windfall_core::scene::Release;
+use windfall_texgen::Atlas;
+
+use crate::trees::Stand;
+
+/// Leaves of litter on a meadow in autumn.
+const LITTER: u32 = 14_000;
+
+/// Most pixels drawn at once by default: 4K UHD, whose multisampled targets take 400 MB.
+const TILE_PX: u32 = 3840 * 2160;
+
+/// Choices of a renderer that are no part of a scene.
+#[derive(Clone, Copy, Debug)]
+pub struct RendererOptions {
+    /// Leaves strewn over the meadow before the scene begins, not simulated: 0 to 100000.
+    pub litter_count: u32,
+    /// Most pixels of a picture that are drawn at once, at least 1: larger pictures are drawn by tiles.
+    pub tile_px: u32,
+}
+
+impl RendererOptions {
+    /// A scene that has been going on since before time zero has leaves on its ground; one that only begins then has a
+    /// clean one, on which its own leaves and their trails show.
+    pub fn for_scene(scene: &Scene) -> Self {
+        let began = |release| matches!(release, Release::Rate { from_s, .. } if from_s < 0.0);
+        let has_past = scene.sources.iter().any(|source| began(source.release));
+        // In summer there is none under the trees of a scene.
+        let season = if scene.trees.is_empty() { 1.0 } else { (2.0 * scene.autumn).min(1.0) };
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "a share of a small number"
+        )]
+        let litter_count = (season * LITTER as f32) as u32;
+        let litter_count = if has_past && scene.view.trail_s == 0.0 { litter_count } else { 0 };
+        Self { litter_count, tile_px: TILE_PX }
+    }
+}
+
+/// What a renderer draws.
+#[derive(Clone, Copy, Debug)]
+pub struct Subject<'a> {
+    /// The scene.
+    pub scene: &'a Scene,
+    /// Its trees.
+    pub stand: &'a Stand,
+    /// The pictures of its species' leaves.
+    pub atlas: &'a Atlas,
+}

@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Draws the ground out to the horizon.
+
+use super::terrain_mesh::{RING_CELLS, TerrainMesh};
+use crate::frame::group::FrameGroup;
+use crate::frame::light_group::LightGroup;
+use crate::frame::scene_pipeline::{COMMON, LIGHT, ScenePipeline};
+use crate::gpu::pipeline::shader;
+use crate::land::Land;
+
+/// WGSL of the meadow's colours.
+pub(crate) const GRASS_COLOR: &str = include_str!("meadow.wgsl");
+
+/// The ground pipeline.
+#[derive(Debug)]
+pub(crate) struct GroundPass {
+    pipeline: wgpu::RenderPipeline,
+    /// The grid that hills are drawn with; level ground needs none.
+    mesh: Option<TerrainMesh>,
+}
+
+impl GroundPass {
+    pub(crate) fn new(
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        frame: &FrameGroup,
+        light: &LightGroup,
+        land: &Land,
+    ) -> Self {
+        let mesh = land.hills().map(|_| TerrainMesh::new(device, queue));
+        let rings = format!("const RING_CELLS: u32 = {RING_CELLS}u;\n");
+        let place = if mesh.is_some() {
+            [rings.as_str(), include_str!("terrain.wgsl")]
+        } else {
+            ["", include_str!("plain.wgsl")]
+        };
+        let text = [COMMON, LIGHT, GRASS_COLOR, include_str!("ground_pass.wgsl"), place[0], place[1]];
+        let shader = shader(device, "ground", &text);
+        let pipeline = ScenePipeline {
+            label: "ground",
+            frame,
+            groups: &[&light.layout],
+            topology: wgpu::PrimitiveTopology::TriangleList,
+            shader: &shader,
+            buffers: if mesh.is_some() { &[TerrainMesh::LAYOUT] } else { &[] },
+            blend: None,
+            depth_write: true,
+            alpha_to_coverage: false,
+        }
+        .build(device);
+        Self { pipeline, mesh }
+    }
+
+    /// Draws the ground; bind groups 0 and 1 are set.
+    pub(crate) fn draw(&self, pass: &mut wgpu::RenderPass<'_>) {
+        pass.set_pipeline(&self.pipeline);
+        match &self.mesh {
+            Some(mesh) => mesh.draw(pass),
+            None => pass.draw(0..24, 0..1),
+        }
+    }
+}

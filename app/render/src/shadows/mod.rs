@@ -1,0 +1,230 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Draws the shadows of leaves and trees, finer near the camera than far from it, and what hides the sky from above.
+
+use crate::frame::cascades::{CASCADES, MAPS};
+use crate::frame::group::FrameGroup;
+use crate::frame::scene_pipeline::COMMON;
+use crate::gpu::pipeline::{layout, shader};
+use crate::leaves::cull::CullPass;
+use crate::leaves::leaf_pass::LEAF_SHAPE;
+use crate::leaves::species_table::LeafKinds;
+use crate::leaves::visible::LeafCrowd;
+use crate::trees::bark_mesh::{StandMesh, bark_layout};
+use crate::trees::bark_pass::BARK_SHAPE;
+use crate::trees::branch_group::BranchGroup;
+
+const SHADOW_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
+#[expect(clippy::cast_possible_truncation, reason = "a small number")]
+const LAYERS: u32 = MAPS as u32;
+
+/// The shadow maps and the pipelines that draw into them.
+#[derive(Debug)]
+pub(crate) struct ShadowPass {
+    /// All maps: of the sun from near to far, and from above.
+    pub(crate) maps: wgpu::TextureView,
+    /// Their edge in texels.
+    pub(crate) size_px: u32,
+    passes: [MapPass; MAPS],
+    /// Whether anything stands that hides the sky.
+    has_trees: bool,
+}
+
+/// One of the maps.
+#[derive(Debug)]
+struct MapPass {
+    map: wgpu::TextureView,
+    leaves: wgpu::RenderPipeline,
+    bark: wgpu::RenderPipeline,
+}
+
+/// What casts shadows.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Casters<'a> {
+    pub(crate) kinds: &'a LeafKinds,
+    pub(crate) crowds: &'a [&'a LeafCrowd],
+    pub(crate) bark: &'a StandMesh,
+    pub(crate) branches: &'a wgpu::BindGroup,
+}
+
+impl ShadowPass {
+    pub(crate) fn new(
+        device: &wgpu::Device,
+        frame: &FrameGroup,
+        kinds: &LeafKinds,
+        cull: &CullPass,
+        branches: &BranchGroup,
+        size_px: u32,
+    ) -> Self {
+        let (maps, each) = new_maps(device, size_px);
+        let [kind, record, shape] = LEAF_SHAPE;
+        let text = [COMMON, kind, record, shape, include_str!("leaf_shadow.wgsl")];
+        let leaf_shader = shader(device, "leaf shadow", &text);
+        let bark_shader =
+            shader(device, "bark shadow", &[COMMON, BARK_SHAPE, include_str!("bark_shadow.wgsl")]);
+        let pipeline = |label,
+                        number: u32,
+                        module,
+                        groups: [Option<&wgpu::BindGroupLayout>; 2],
+                        buffers: &[wgpu::VertexBufferLayout<'_>],
+                        cut_out| {
+            // Leaves are strips, bark is not.
+            let topology = if cut_out {
+                wgpu::PrimitiveTopology::TriangleStrip
+            } else {
+                wgpu::PrimitiveTopology::TriangleList
+            };
+            let constants = [("MAP", f64::from(number))];
+            let compilation_options =
+                wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() };
+            let buffers: Vec<_> = buffers.iter().cloned().map(Some).collect();
+            device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+                label: Some(label),
+                layout: Some(&layout(device, &[Some(&frame.layout), None, groups[0], groups[1]])),
+                vertex: wgpu::VertexState {
+                    module,
+                    entry_point: Some("vertex"),
+                    compilation_options: compilation_options.clone(),
+                    buffers: &buffers,
+                },
+                primitive: wgpu::PrimitiveState { topology, ..Default::default() },
+                depth_stencil: Some(wgpu::DepthStencilState {
+                    format: SHADOW_FORMAT,
+                    depth_write_enabled: Some(true),
+                    depth_compare: Some(wgpu::CompareFunction::LessEqual),
+                    stencil: wgpu::StencilState::default(),
+                    bias: wgpu::DepthBiasState::default(),
+                }),
+                multisample: wgpu::MultisampleState::default(),
+                fragment: if cut_out {
+                    Some(wgpu::FragmentState {
+                        module,
+                        entry_point: Some("fragment"),
+                        compilation_options,
+                        targets: &[],
+                    })
+                } else {
+                    None
+                },
+                multiview_mask: None,
+                cache: None,
+            })
+        };
+        let mut layers = 0..LAYERS;
+        let passes = each.map(|map| {
+            let number = layers.next().unwrap_or(0);
+            MapPass {
+                map,
+                leaves: pipeline(
+                    "leaf shadows",
+                    number,
+                    &leaf_shader,
+                    [Some(&kinds.layout), Some(&cull.records_layout)],
+                    &[LeafCrowd::layout()],
+                    true,
+                ),
+                bark: pipeline(
+                    "bark shadows",
+                    number,
+                    &bark_shader,
+                    [Some(&branches.layout), None],
+                    &[bark_layout()],
+                    false,
+                ),
+            }
+        });
+        Self { maps, size_px, passes, has_trees: frame.has_trees }
+    }
+
+    /// Takes maps of another size; the old ones are read no more.
+    pub(crate) fn resize(&mut self, device: &wgpu::Device, size_px: u32) {
+        let (maps, each) = new_maps(device, size_px);
+        (self.maps, self.size_px) = (maps, size_px);
+        for (pass, map) in self.passes.iter_mut().zip(each) {
+            pass.map = map;
+        }
+    }
+
+    /// Draws all trees into all maps, and the leaves that `cull` keeps of each; `timestamps` are those of the first and of
+    /// the last. Without trees nobody looks from above.
+    pub(crate) fn draw(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        timestamps: Option<[wgpu::RenderPassTimestampWrites<'_>; 2]>,
+        frame: &FrameGroup,
+        casters: &Casters<'_>,
+        cull: &dyn Fn(&mut wgpu::CommandEncoder, usize),
+    ) {
+        let [begin, end] = timestamps.map_or([None, None], |writes| writes.map(Some));
+        let drawn = if self.has_trees { MAPS } else { CASCADES };
+        let (mut begin, mut end) = (begin, end);
+        for (number, pass) in self.passes[..drawn].iter().enumerate() {
+            cull(encoder, number);
+            let writes = if number + 1 == drawn { end.take() } else { begin.take() };
+            pass.draw(encoder, writes, frame, casters);
+        }
+    }
+}
+
+/// Maps of a size: all together, and each.
+fn new_maps(device: &wgpu::Device, size_px: u32) -> (wgpu::TextureView, [wgpu::TextureView; MAPS]) {
+    let texture = device.create_texture(&wgpu::TextureDescriptor {
+        label: Some("shadow maps"),
+        size: wgpu::Extent3d { width: size_px, height: size_px, depth_or_array_layers: LAYERS },
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format: SHADOW_FORMAT,
+        usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING,
+        view_formats: &[],
+    });
+    let mut layers = 0..LAYERS;
+    let each = [(); MAPS].map(|()| {
+        texture.create_view(&wgpu::TextureViewDescriptor {
+            dimension: Some(wgpu::TextureViewDimension::D2),
+            base_array_layer: layers.next().unwrap_or(0),
+            array_layer_count: Some(1),
+            ..Default::default()
+        })
+    });
+    (texture.create_view(&wgpu::TextureViewDescriptor::default()), each)
+}
+
+impl MapPass {
+    fn draw(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        timestamps: Option<wgpu::RenderPassTimestampWrites<'_>>,
+        frame: &FrameGroup,
+        casters: &Casters<'_>,
+    ) {
+        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some("shadows"),
+            color_attachments: &[],
+            depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
+                view: &self.map,
+                depth_ops: Some(wgpu::Operations {
+                    load: wgpu::LoadOp::Clear(1.0),
+                    store: wgpu::StoreOp::Store,
+                }),
+                stencil_ops: None,
+            }),
+            timestamp_writes: timestamps,
+            occlusion_query_set: None,
+            multiview_mask: None,
+        });
+        pass.set_bind_group(0, &frame.group, &[]);
+        if let Some(all) = casters.bark.all() {
+            pass.set_pipeline(&self.bark);
+            pass.set_bind_group(2, casters.branches, &[]);
+            pass.set_vertex_buffer(0, casters.bark.vertices.slice(..));
+            pass.set_index_buffer(casters.bark.indices.slice(..), wgpu::IndexFormat::Uint32);
+            pass.draw_indexed(all, 0, 0..1);
+        }
+        pass.set_pipeline(&self.leaves);
+        pass.set_bind_group(2, &casters.kinds.group, &[]);
+        for crowd in casters.crowds {
+            crowd.draw(&mut pass);
+        }
+    }
+}

@@ -1,0 +1,208 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Holds the culling of leaves to what a plain loop over them finds.
+
+use glam::{Mat4, Vec3, Vec4};
+use windfall_core::leaf::record::{SIZE_ONE, STATE_ATTACHED, STATE_DORMANT, STATE_FALLING};
+use windfall_core::{Scene, World, scene};
+use windfall_texgen::{Atlas, AtlasEntry, AtlasRequest, Shape};
+use windfall_wgpu::LeafColumns;
+
+use crate::camera::Camera;
+use crate::gpu::upload;
+use crate::leaves::cull::{CullPass, LIMITS_PX, View, ViewUniform};
+use crate::leaves::species_table::LeafKinds;
+use crate::leaves::visible::{LeafCrowd, Page, RECORD_BYTES};
+use crate::trees::Stand;
+use crate::trees::records::Stems;
+
+/// Leaves that are strewn around the camera.
+const LEAVES: u32 = 12000;
+/// Pixels of a metre at one metre.
+const PIXELS_PER_M: f32 = 900.0;
+
+/// A pseudo-random number from 0 to 1 for each leaf and axis.
+fn unit(leaf: u32, axis: u32) -> f32 {
+    let bits = (leaf * 4 + axis).wrapping_mul(2_654_435_769);
+    let bits = (bits ^ bits >> 15).wrapping_mul(2_246_822_519);
+    (bits >> 8) as f32 / 16_777_216.0
+}
+
+/// Where a leaf is, in the air; every ninth is dormant.
+fn place(leaf: u32) -> [u32; 4] {
+    let at = Vec3::from([0, 1, 2].map(|axis| unit(leaf, axis) - 0.5)) * Vec3::new(40.0, 10.0, 40.0)
+        + 7.0 * Vec3::Y;
+    let state = if leaf.is_multiple_of(9) { STATE_DORMANT } else { STATE_FALLING };
+    [at.x.to_bits(), at.y.to_bits(), at.z.to_bits(), state]
+}
+
+/// What a buffer of the device holds.
+fn read(device: &wgpu::Device, queue: &wgpu::Queue, buffer: &wgpu::Buffer) -> Vec<u32> {
+    let copy = device.create_buffer(&wgpu::BufferDescriptor {
+        label: None,
+        size: buffer.size(),
+        usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
+        mapped_at_creation: false,
+    });
+    let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+    encoder.copy_buffer_to_buffer(buffer, 0, &copy, 0, buffer.size());
+    queue.submit([encoder.finish()]);
+    copy.map_async(wgpu::MapMode::Read, .., |result| result.expect("a mapped buffer"));
+    device.poll(wgpu::PollType::wait_indefinitely()).expect("a device that answers");
+    let words = bytemuck::pod_collect_to_vec(&copy.get_mapped_range(..).expect("mapped"));
+    copy.unmap();
+    words
+}
+
+/// Middles of the records of every level, as the bits of their coordinates.
+fn found(device: &wgpu::Device, queue: &wgpu::Queue, page: &Page) -> [Vec<[u32; 3]>; 4] {
+    let (draws, records) = (read(device, queue, &page.draws), read(device, queue, &page.records));
+    let words = usize::try_from(RECORD_BYTES / 4).expect("small");
+    std::array::from_fn(|level| {
+        let [count, first] = [draws[8 * level + 1] as usize, draws[8 * level + 4] as usize];
+        records[first * words..(first + count) * words].chunks(words).map(|r| [r[0], r[1], r[2]]).collect()
+    })
+}
+
+/// A device, what the culling needs of a scene, and buffers of leaves.
+struct Field {
+    device: wgpu::Device,
+    queue: wgpu::Queue,
+    cull: CullPass,
+    stems: Stems,
+    crowd: LeafCrowd,
+    /// Place, attitude, course and identity.
+    columns: [wgpu::Buffer; 4],
+    leaf_count: u32,
+}
+
+impl Field {
+    /// So many leaves at these places, the first of them those of the trees of `stand`.
+    fn new(scene: &Scene, stand: &Stand, leaf_count: u32, place: &dyn Fn(u32) -> [u32; 4]) -> Self {
+        let (device, queue) = super::device();
+        let entries = vec![AtlasEntry { shape: Shape::Maple, season: (0.5, 0.9) }; scene.species.len()];
+        let atlas =
+            Atlas::generate(&AtlasRequest { entries, variants: 2, size_px: 16, seed: 1 }).expect("an atlas");
+        let kinds = LeafKinds::new(&device, &queue, scene, &atlas).expect("kinds within default limits");
+        let cull = CullPass::new(&device, &kinds, false);
+        let stems = Stems::new(&device, &queue, stand);
+        let crowd = LeafCrowd::new(&device, &queue, &cull, stand, leaf_count);
+        let column = |row: &dyn Fn(u32) -> [u32; 4]| {
+            let rows: Vec<[u32; 4]> = (0..leaf_count).map(row).collect();
+            let usage = wgpu::BufferUsages::STORAGE;
+            upload::buffer(&device, &queue, "column", usage, bytemuck::cast_slice(&rows))
+        };
+        let columns = [
+            column(place),
+            column(&|_| [0, 0, 0, 1.0f32.to_bits()]),
+            column(&|_| [0, 0, SIZE_ONE, 0]),
+            column(&|leaf| [leaf, 0, 0, leaf * 77]),
+        ];
+        Self { device, queue, cull, stems, crowd, columns, leaf_count }
+    }
+
+    /// Culls for a camera in a picture 1.6 times as wide as high.
+    fn run(&self, camera: &Camera) {
+        let [place, attitude, course, identity] = &self.columns;
+        let leaf_count = self.leaf_count;
+        let columns = LeafColumns { place, drift: place, attitude, course, identity, leaf_count };
+        let clip = camera.view_projection(1.6).to_cols_array_2d();
+        let eye = camera.eye_m().extend(0.0).to_array();
+        self.cull.write(&self.queue, View::Camera, &ViewUniform::perspective(clip, eye, PIXELS_PER_M));
+        let mut encoder = self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        let leaves = (&columns, None, &self.stems);
+        self.crowd.cull(&self.device, &mut encoder, &self.cull, leaves, View::Camera);
+        self.queue.submit([encoder.finish()]);
+    }
+}
+
+#[test]
+fn every_leaf_of_a_cluster_is_drawn() {
+    let trees = "(trees: [(kind: \"weed\", leaves: 50), (kind: \"weed\", at_m: (3.0, 0.0), leaves: 70)])";
+    let scene = Scene::from_ron(trees, "two weeds").expect("a scene");
+    let world = World::build(&scene).expect("a world");
+    let mut stand = Stand::of(&scene, world.environment.forest());
+    let clusters = [3, 16];
+    for (tree, cluster) in stand.trees.iter_mut().zip(clusters) {
+        tree.cluster = cluster;
+    }
+    // Those on twigs stand for several, and one that has let go does not; near enough that none is left out.
+    let place = |leaf: u32| {
+        let at = Vec3::from([0, 1, 2].map(|axis| unit(leaf, axis) - 0.5)) + 2.0 * Vec3::Y;
+        let is_attached = leaf < 120 && leaf != 60;
+        let state = if is_attached { STATE_ATTACHED } else { STATE_FALLING };
+        [at.x.to_bits(), at.y.to_bits(), at.z.to_bits(), state]
+    };
+    let field = Field::new(&scene, &stand, 150, &place);
+    let look =
+        scene::Camera { eye_m: Vec3::new(0.0, 2.0, 4.0), target_m: 2.0 * Vec3::Y, vertical_fov_deg: 60.0 };
+    field.run(&Camera::from(&look));
+    let page = &field.crowd.pages[0];
+    let (draws, records) =
+        (read(&field.device, &field.queue, &page.draws), read(&field.device, &field.queue, &page.records));
+    let mut drawn = vec![0; 150];
+    for level in 0..4 {
+        let [count, first] = [draws[8 * level + 1] as usize, draws[8 * level + 4] as usize];
+        for record in records.chunks(12).skip(first).take(count) {
+            drawn[(record[8] >> 12) as usize] += 1;
+        }
+    }
+    let wanted: Vec<u32> = (0..150)
+        .map(|leaf| match leaf {
+            0..50 => clusters[0],
+            60 => 1,
+            50..120 => clusters[1],
+            _ => 1,
+        })
+        .collect();
+    assert_eq!(drawn, wanted, "records of every slot");
+}
+
+#[test]
+fn culling_finds_what_a_plain_loop_finds() {
+    let scene = Scene::default();
+    let field = Field::new(&scene, &Stand::default(), LEAVES, &place);
+    let camera = Camera { target_m: Vec3::new(3.0, 1.0, -2.0), ..Camera::from(&scene.view.camera) };
+    let (clip, eye_m) = (camera.view_projection(1.6), camera.eye_m());
+    let run = || {
+        field.run(&camera);
+        found(&field.device, &field.queue, &field.crowd.pages[0])
+    };
+    let levels = run();
+    assert_eq!(levels, run(), "equal leaves in the same order");
+
+    let edge_m = 1.6 * scene.species[0].size_m;
+    let (mut inside, mut kept) = (0, 0);
+    for leaf in 0..LEAVES {
+        let [x, y, z, state] = place(leaf);
+        let at = Vec3::from([x, y, z].map(f32::from_bits));
+        let in_level: Vec<usize> = (0..4).filter(|&level| levels[level].contains(&[x, y, z])).collect();
+        if state == STATE_DORMANT || is_beyond(clip, at, 1.05 * edge_m) {
+            assert_eq!(in_level, [0; 0], "leaf {leaf} is dormant or out of sight");
+            continue;
+        }
+        let pixels = edge_m * PIXELS_PER_M / at.distance(eye_m);
+        let wanted = LIMITS_PX[..3].iter().filter(|&&limit| pixels >= limit).count();
+        let is_close = LIMITS_PX.iter().any(|limit| (pixels / limit - 1.0).abs() < 1e-3);
+        if !is_beyond(clip, at, 0.0) && pixels > LIMITS_PX[3] && !is_close {
+            inside += 1;
+            assert_eq!(in_level, [wanted], "leaf {leaf} of {pixels} pixels");
+        }
+        kept += in_level.len();
+    }
+    assert!(inside > 200, "too few leaves in sight to tell: {inside}");
+    assert_eq!(levels.iter().map(Vec::len).sum::<usize>(), kept, "nothing besides");
+    let finer = levels[1..3].iter().map(Vec::len).sum::<usize>();
+    assert!(finer > 5 && levels[0].len() > 100, "leaves of several levels: {finer}");
+    for level in &levels {
+        let slot = |at: &[u32; 3]| (0..LEAVES).find(|&leaf| place(leaf)[..3] == at[..]);
+        assert!(level.iter().map(slot).is_sorted(), "in the order of their slots");
+    }
+}
+
+/// Whether a ball lies wholly beyond a side of the view, or behind the camera.
+fn is_beyond(clip: Mat4, at: Vec3, radius_m: f32) -> bool {
+    let row = |index: usize| clip.row(index);
+    let sides = [row(3) + row(0), row(3) - row(0), row(3) + row(1), row(3) - row(1), row(3) - row(2)];
+    sides.iter().any(|side: &Vec4| side.dot(at.extend(1.0)) < -radius_m * side.truncate().length())
+}

@@ -1,0 +1,253 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What the lens makes of light that is known, on whatever Vulkan adapter there is.
+
+use image::RgbaImage;
+use windfall_core::scene::{Exposure, Glare, Lens, ToneMap};
+
+use super::*;
+use crate::gpu::targets::Targets;
+use crate::lens::group::Shot;
+use crate::lens::post::Post;
+
+/// A float of 16 bits; what is too small becomes zero.
+fn to_half(value: f32) -> u16 {
+    if value.is_nan() {
+        return 0x7e00;
+    }
+    let bits = value.to_bits();
+    let exponent = (bits >> 23 & 0xff) as i32 - 112;
+    // Half of the last place: to nearest.
+    let rounded = (bits & 0x7f_ffff) + 0x1000;
+    let carried = ((exponent as u32) << 10) + (rounded >> 13);
+    if exponent <= 0 { 0 } else { u16::try_from(carried).expect("within range") }
+}
+
+fn from_half(half: u16) -> f32 {
+    let (exponent, fraction) = (i32::from(half >> 10 & 0x1f), f32::from(half & 0x3ff));
+    if exponent == 0 {
+        fraction * (-24.0f32).exp2()
+    } else {
+        (1024.0 + fraction) * ((exponent - 25) as f32).exp2()
+    }
+}
+
+/// A lens that does nothing to grey light but expose it one to one and tone map it.
+fn plain(tone_map: ToneMap) -> Lens {
+    // 1000 / (1.2 · 2^EV) is 1.
+    let exposure = Exposure::Manual { ev100: (1000.0f32 / 1.2).log2() };
+    let glare = Glare { strength: 0.0, ..Glare::default() };
+    Lens { exposure, tone_map, glare, focus: None, shutter_s: 0.0, saturation: 1.0, vignette: 0.0 }
+}
+
+struct Bench {
+    device: wgpu::Device,
+    queue: wgpu::Queue,
+    targets: Targets,
+    post: Post,
+    target: PictureTarget,
+}
+
+impl Bench {
+    fn new(size: (u32, u32), lens: Lens) -> Self {
+        let (device, queue) = device();
+        let targets = Targets::new(&device, size, u32::MAX, false).expect("targets");
+        let post = Post::new(&device, &queue, &targets, PictureTarget::FORMAT, lens);
+        let target = PictureTarget::new(&device, size).expect("a target");
+        Self { device, queue, targets, post, target }
+    }
+
+    /// The picture of grey light.
+    fn draw(&mut self, since_s: f32, light: impl Fn(u32, u32) -> f32) -> RgbaImage {
+        self.draw_colored(since_s, |x, y| [light(x, y); 3])
+    }
+
+    fn draw_colored(&mut self, since_s: f32, light: impl Fn(u32, u32) -> [f32; 3]) -> RgbaImage {
+        let (width, height) = self.targets.size;
+        let places = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
+        let halves: Vec<u16> =
+            places.flat_map(|(x, y)| light(x, y).into_iter().chain([1.0])).map(to_half).collect();
+        self.queue.write_texture(
+            self.targets.resolved.texture().as_image_copy(),
+            bytemuck::cast_slice(&halves),
+            wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(8 * width), rows_per_image: None },
+            wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
+        );
+        let mut encoder = self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        let shot = Shot {
+            size: self.targets.size,
+            origin: (0, 0),
+            since_s,
+            vertical_fov_rad: 0.8,
+            near_m: camera::NEAR_M,
+        };
+        self.post.begin(&self.queue, &shot);
+        self.post.draw(&mut encoder, None, &self.target.view(), &shot);
+        self.target.submit_and_read(&self.device, &self.queue, encoder).expect("a picture")
+    }
+
+    /// Sum of the glare over the pixels of the picture.
+    fn glare_energy(&self) -> f32 {
+        let (view, pixels) = self.post.glare();
+        let size = view.texture().size();
+        let row = (size.width * 8).next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
+        let buffer = self.device.create_buffer(&wgpu::BufferDescriptor {
+            label: None,
+            size: u64::from(row * size.height),
+            usage: wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST,
+            mapped_at_creation: false,
+        });
+        let mut encoder = self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        encoder.copy_texture_to_buffer(
+            view.texture().as_image_copy(),
+            wgpu::TexelCopyBufferInfo {
+                buffer: &buffer,
+                layout: wgpu::TexelCopyBufferLayout {
+                    offset: 0,
+                    bytes_per_row: Some(row),
+                    rows_per_image: None,
+                },
+            },
+            size,
+        );
+        self.queue.submit([encoder.finish()]);
+        buffer.map_async(wgpu::MapMode::Read, .., |result| result.expect("mapped"));
+        self.device.poll(wgpu::PollType::wait_indefinitely()).expect("the device works");
+        let bytes = buffer.get_mapped_range(..).expect("mapped");
+        let rows = bytes.chunks_exact(row as usize);
+        let sum: f32 = rows
+            .flat_map(|row| row[..size.width as usize * 8].chunks_exact(8))
+            .map(|texel| from_half(u16::from_le_bytes([texel[2], texel[3]])))
+            .sum();
+        sum * (pixels * pixels) as f32
+    }
+}
+
+fn srgb(linear: f32) -> f32 {
+    255.0 * if linear <= 0.003_130_8 { 12.92 * linear } else { 1.055 * linear.powf(1.0 / 2.4) - 0.055 }
+}
+
+/// Asserts that the pixel has this displayed light, within dither and rounding.
+fn assert_displays(picture: &RgbaImage, (x, y): (u32, u32), linear: f32) {
+    let pixel = picture.get_pixel(x, y).0;
+    for channel in &pixel[..3] {
+        let apart = (f32::from(*channel) - srgb(linear)).abs();
+        assert!(apart <= 1.2, "at {x}, {y}: {pixel:?} for {}", srgb(linear));
+    }
+}
+
+#[test]
+fn reinhard_follows_the_published_curve() {
+    let mut bench = Bench::new((8, 4), plain(ToneMap::Reinhard { white: 2.0 }));
+    // L (1 + L / 4) / (1 + L) by hand.
+    let rows =
+        [(0.0, 0.0), (0.1, 0.093_18), (0.5, 0.375), (1.0, 0.625), (1.5, 0.825), (2.0, 1.0), (4.0, 1.0)];
+    let picture = bench.draw(0.0, |x, _| rows.get(x as usize).map_or(0.0, |row| row.0));
+    for (x, (light, displayed)) in (0..).zip(rows) {
+        assert_displays(&picture, (x, 2), displayed);
+        assert!(light >= 0.0, "light {light}");
+    }
+    // Equation 2 with the key 0.18: the log-average of 0.2 and 0.8 is 0.4, which makes 0.09 and 0.36 of them.
+    let lens = Lens { exposure: Exposure::default(), ..plain(ToneMap::Reinhard { white: 1000.0 }) };
+    bench.post.set_lens(&bench.device, &bench.queue, &bench.targets, lens);
+    let picture = bench.draw(f32::INFINITY, |x, _| if x % 2 == 0 { 0.2 } else { 0.8 });
+    assert_displays(&picture, (2, 1), 0.09 / 1.09);
+    assert_displays(&picture, (3, 1), 0.36 / 1.36);
+}
+
+#[test]
+fn linear_tone_map_is_a_power_and_a_cut() {
+    let mut bench = Bench::new((4, 1), plain(ToneMap::Linear { gamma: 2.0 }));
+    let picture = bench.draw(0.0, |x, _| [0.0, 0.25, 0.64, 3.0][x as usize]);
+    for (x, wanted) in [(0, 0.0), (1, 127.5), (2, 204.0), (3, 255.0)] {
+        let found = f32::from(picture.get_pixel(x, 0).0[0]);
+        assert!((found - wanted).abs() <= 1.0, "pixel {x}: {found} for {wanted}");
+    }
+}
+
+#[test]
+fn the_filmic_curve_rises_from_black_through_middle_grey_to_white() {
+    let mut bench = Bench::new((100, 1), plain(ToneMap::AgX));
+    // A fifth of a stop from pixel to pixel.
+    let light = |x: u32| 0.18 * ((x as f32 - 60.0) * 0.2).exp2();
+    let picture = bench.draw(0.0, |x, _| light(x));
+    assert_displays(&picture, (60, 0), 0.18);
+    assert_displays(&picture, (0, 0), 0.0);
+    assert_eq!(picture.get_pixel(99, 0).0, [255; 4], "7.8 stops above middle grey is white");
+    for x in 0..99 {
+        let (dark, bright) = (picture.get_pixel(x, 0).0[1], picture.get_pixel(x + 1, 0).0[1]);
+        // Dither is up to one step.
+        assert!(
+            bright.saturating_add(1) >= dark,
+            "at {} times middle grey: {dark} then {bright}",
+            light(x) / 0.18
+        );
+    }
+    let slope = (srgb(0.18) - f32::from(picture.get_pixel(55, 0).0[1])) / (srgb(0.18) - srgb(0.09));
+    assert!((1.05..1.4).contains(&slope), "more contrast than the scene has: {slope}");
+    let picture = bench.draw_colored(0.0, |x, _| [[0.3, 0.1, 0.01], [30.0, 10.0, 1.0]][x as usize % 2]);
+    let spread = |x| picture.get_pixel(x, 0).0[0] - picture.get_pixel(x, 0).0[2];
+    assert!(spread(0) > 60 && spread(1) < 60, "bright orange pales: {} then {}", spread(0), spread(1));
+}
+
+#[test]
+fn automatic_exposure_makes_any_grey_wall_middle_grey() {
+    let lens = Lens { exposure: Exposure::default(), ..plain(ToneMap::AgX) };
+    for light in [0.002, 0.18, 7.0, 900.0] {
+        let mut bench = Bench::new((50, 30), lens);
+        assert_displays(&bench.draw(0.0, |_, _| light), (20, 20), 0.18);
+    }
+    let brighter = Exposure::Auto { compensation_ev: 1.0, adaptation_s: 0.8 };
+    let mut bench =
+        Bench::new((50, 30), Lens { exposure: brighter, ..plain(ToneMap::Linear { gamma: 1.0 }) });
+    let pixel = bench.draw(0.0, |_, _| 3.0).get_pixel(20, 20).0[0];
+    assert!((f32::from(pixel) - 0.36 * 255.0).abs() <= 1.0, "one stop brighter: {pixel}");
+    let picture = bench.draw(f32::INFINITY, |x, _| if x == 7 { f32::NAN } else { 3.0 });
+    assert!(picture.get_pixel(20, 20).0[0] > 80, "a pixel that is no number does not blind the lens");
+}
+
+#[test]
+fn the_lens_adapts_with_its_time_constant() {
+    let exposure = Exposure::Auto { compensation_ev: 0.0, adaptation_s: 2.0 };
+    let mut bench = Bench::new((16, 16), Lens { exposure, ..plain(ToneMap::Linear { gamma: 1.0 }) });
+    bench.draw(0.1, |_, _| 1.0);
+    // A stop brighter; after 2 s the lens has gone 1 - 1/e of the way.
+    let pixel = bench.draw(2.0, |_, _| 2.0).get_pixel(8, 8).0[0];
+    let wanted = 255.0 * 0.18 * (-1.0f32).exp().exp2();
+    assert!((f32::from(pixel) - wanted).abs() <= 1.0, "{pixel} for {wanted}");
+}
+
+#[test]
+fn glare_keeps_the_energy_of_what_is_beyond_the_threshold() {
+    for size in [(192, 144), (321, 203)] {
+        for (light, threshold) in [(50.0, 0.8), (2.0, 0.5), (0.79, 0.8), (1000.0, 0.0)] {
+            let glare = Glare { threshold, strength: 0.5 };
+            let mut bench = Bench::new(size, Lens { glare, ..plain(ToneMap::AgX) });
+            // In the middle: nothing leaves the picture.
+            let middle = (size.0 / 2, size.1 / 2);
+            bench.draw(0.0, |x, y| if (x, y) == middle { light } else { 0.0 });
+            let wanted = ((light - threshold) / (1.0 - threshold)).max(0.0);
+            let found = bench.glare_energy();
+            assert!((found - wanted).abs() <= 0.01 * wanted, "{size:?}, {light}: {found} for {wanted}");
+        }
+    }
+}
+
+#[test]
+fn glare_shines_around_the_sun_and_nowhere_without_it() {
+    let glare = Glare { threshold: 0.8, strength: 0.1 };
+    let lens = plain(ToneMap::Linear { gamma: 1.0 });
+    let light = |x: u32, y: u32| if (x / 3, y / 3) == (10, 10) { 300.0 } else { 0.1 };
+    let without = Bench::new((90, 60), lens).draw(0.0, light);
+    let with = Bench::new((90, 60), Lens { glare, ..lens }).draw(0.0, light);
+    let at = |picture: &RgbaImage, x: u32| picture.get_pixel(x, 31).0[0];
+    assert!(at(&with, 36) > at(&without, 36) + 20, "near: {} and {}", at(&with, 36), at(&without, 36));
+    assert!(at(&with, 36) > at(&with, 50) && at(&with, 50) > at(&without, 50), "farther: {}", at(&with, 50));
+    let dull = |_, _| 0.7;
+    let without = Bench::new((90, 60), lens).draw(0.0, dull);
+    assert_eq!(
+        without,
+        Bench::new((90, 60), Lens { glare, ..lens }).draw(0.0, dull),
+        "nothing is too bright"
+    );
+}

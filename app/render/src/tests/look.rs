@@ -1,0 +1,140 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What is counted and painted, read back from the device.
+
+use glam::Vec3;
+use windfall_core::leaf::record::{
+    AERODYNAMIC, PRIMITIVE_SHIFT, REGIME_SHIFT, STATE_ATTACHED, STATE_DORMANT, STATE_FALLING, STATE_RESTING,
+};
+use windfall_core::leaf::{Leaves, Place};
+use windfall_wgpu::{Gpu, LeafColumns, StoreBuffers};
+
+use crate::Measure;
+use crate::Paint;
+use crate::marks::landing_count::{CELL_M, CELLS, LandingCount};
+use crate::marks::paint_pass::PaintPass;
+use crate::marks::{ATTACHED, MOTIONS, RESTING, shade_bytes};
+
+fn gpu() -> Gpu {
+    Gpu::request(None).expect("an adapter; apt install mesa-vulkan-drivers")
+}
+
+/// Words of a buffer after `encoder` has run.
+fn words(gpu: &Gpu, mut encoder: wgpu::CommandEncoder, buffer: &wgpu::Buffer) -> Vec<u32> {
+    let staging = gpu.device().create_buffer(&wgpu::BufferDescriptor {
+        label: None,
+        size: buffer.size(),
+        usage: wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST,
+        mapped_at_creation: false,
+    });
+    encoder.copy_buffer_to_buffer(buffer, 0, &staging, 0, buffer.size());
+    gpu.queue().submit([encoder.finish()]);
+    staging.map_async(wgpu::MapMode::Read, .., |result| result.expect("mapped"));
+    gpu.wait().expect("the device is there");
+    bytemuck::pod_collect_to_vec(&staging.get_mapped_range(..).expect("mapped"))
+}
+
+fn leaves(places: &[([f32; 3], u32)]) -> Leaves {
+    let mut leaves = Leaves::zeroed(places.len());
+    for (place, (position, bits)) in leaves.place.iter_mut().zip(places) {
+        *place = Place { position: *position, bits: *bits };
+    }
+    leaves
+}
+
+#[test]
+fn leaves_are_counted_where_they_lie() {
+    let gpu = gpu();
+    let center = Vec3::new(10.0, 3.0, -4.0);
+    let (half, far) = (0.5 * CELL_M, 0.5 * CELL_M * CELLS as f32);
+    let mut places = vec![
+        ([center.x + half, 3.0, center.z + half], STATE_RESTING),
+        ([center.x + 0.1, 3.0, center.z + 0.1], STATE_RESTING),
+        ([center.x - half, 3.0, center.z + half], STATE_RESTING),
+        // In the air above, on a twig, and beyond the square on either side.
+        ([center.x + half, 5.0, center.z + half], STATE_FALLING),
+        ([center.x + half, 5.0, center.z + half], STATE_ATTACHED),
+        ([center.x + far + 0.1, 3.0, center.z], STATE_RESTING),
+        ([center.x, 3.0, center.z - far - 0.1], STATE_RESTING),
+    ];
+    // Across the border of workgroups.
+    places.extend([([center.x + 2.0 * CELL_M + half, 3.0, center.z + half], STATE_RESTING); 150]);
+    let leaves = leaves(&places);
+    let buffers = StoreBuffers::new(&gpu, &leaves).expect("they fit");
+    buffers.write(&gpu, &leaves).expect("as many");
+    let count = LandingCount::new(gpu.device(), gpu.queue(), center);
+    // Twice: nothing is left of the first time.
+    for _ in 0..2 {
+        let mut encoder = gpu.device().create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        count.run(gpu.device(), &mut encoder, &LeafColumns::of(&buffers));
+        let cells = words(&gpu, encoder, &count.cells);
+        let at = |x: u32, z: u32| cells[(z * CELLS + x) as usize];
+        let middle = CELLS / 2;
+        assert_eq!(
+            [at(middle, middle), at(middle - 1, middle), at(middle + 2, middle)],
+            [2, 1, 150],
+            "each cell"
+        );
+        assert_eq!(cells.iter().sum::<u32>(), 153, "and nothing else");
+    }
+}
+
+/// Whether a mark's colour is this one of sRGB, but for rounding.
+fn is_color(mark: u32, wanted: [u8; 3]) -> bool {
+    let bytes = mark.to_le_bytes();
+    let linear = |byte: u8| {
+        let share = f32::from(byte) / 255.0;
+        if share <= 0.040_45 { share / 12.92 } else { ((share + 0.055) / 1.055).powf(2.4) }
+    };
+    wanted.into_iter().zip(bytes).all(|(wanted, root)| {
+        let root = f32::from(root) / 255.0;
+        (linear(wanted).sqrt() - root).abs() < 0.02
+    })
+}
+
+#[test]
+fn marks_tell_what_leaves_do() {
+    let gpu = gpu();
+    let flutter = STATE_FALLING | AERODYNAMIC << PRIMITIVE_SHIFT | 1 << REGIME_SHIFT;
+    let leaves = leaves(&[
+        ([0.0, 4.0, 0.0], STATE_FALLING | 1 << PRIMITIVE_SHIFT),
+        ([0.0, 2.0, 0.0], flutter),
+        ([0.0, 0.0, 0.0], STATE_RESTING),
+        ([0.0, 9.0, 0.0], STATE_ATTACHED),
+        ([0.0, 0.0, 0.0], STATE_DORMANT),
+    ]);
+    let buffers = StoreBuffers::new(&gpu, &Leaves::zeroed(5)).expect("they fit");
+    let mut paint = PaintPass::new(gpu.device(), Paint { measure: Measure::Motion, most: 1.0 }, 5, 0.01, 0.0);
+    let mut marks = |leaves: &Leaves, chosen: Paint, time_s: f64| -> Vec<u32> {
+        buffers.write(&gpu, leaves).expect("as many");
+        paint.set(chosen);
+        let mut encoder = gpu.device().create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        paint.mark(gpu.device(), gpu.queue(), &mut encoder, &LeafColumns::of(&buffers), time_s);
+        words(&gpu, encoder, &paint.marks).chunks(4).map(|mark| mark[1]).collect()
+    };
+    let found = marks(&leaves, Paint { measure: Measure::Motion, most: 1.0 }, 1.0);
+    for (mark, wanted) in found.iter().zip([MOTIONS[1].1, MOTIONS[3].1, RESTING, ATTACHED]) {
+        assert!(is_color(*mark, wanted), "{mark:08x} is not {wanted:?}: {found:08x?}");
+    }
+    let found = marks(&leaves, Paint { measure: Measure::Height, most: 8.0 }, 1.0);
+    for (mark, share) in found.iter().zip([0.5, 0.25, 0.0, 1.0]) {
+        assert!(is_color(*mark, shade_bytes(share)), "{share} of the height: {found:08x?}");
+    }
+    // A tenth of a second later the first has come down by 0.2 m, and the second is where it was.
+    let speed = Paint { measure: Measure::Speed, most: 4.0 };
+    let mut later = leaves.clone();
+    later.place[0].position[1] = 3.8;
+    let found = marks(&later, speed, 1.1);
+    for (mark, share) in found.iter().zip([0.5, 0.0]) {
+        assert!(is_color(*mark, shade_bytes(share)), "{share} of the speed: {found:08x?}");
+    }
+    assert_eq!(marks(&later, speed, 1.1), found, "while time stands still everything keeps its speed");
+    // Released half a second and two seconds before step 110.
+    later.identity[0].release = 60;
+    later.identity[1].release = 110_u32.wrapping_sub(200);
+    later.identity[2].release = 110_u32.wrapping_sub(400);
+    let found = marks(&later, Paint { measure: Measure::Age, most: 4.0 }, 1.1);
+    for (mark, share) in found.iter().zip([0.125, 0.5, 1.0]) {
+        assert!(is_color(*mark, shade_bytes(share)), "{share} of the age: {found:08x?}");
+    }
+}

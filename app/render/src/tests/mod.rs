@@ -1,0 +1,278 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Draws small pictures on whatever Vulkan adapter there is. A machine without one fails these tests: Mesa's
+//! software driver is enough.
+
+mod cull;
+mod halo;
+mod lens;
+mod look;
+mod motion;
+mod rooms;
+mod trees;
+
+use image::RgbaImage;
+use windfall_core::Scene;
+use windfall_core::scene::{Exposure, Focus, Terrain};
+use windfall_texgen::{Atlas, AtlasEntry, AtlasRequest, Shape};
+use windfall_wgpu::{BranchColumns, LeafColumns};
+
+use super::*;
+use crate::camera::Camera;
+use crate::trees::Stand;
+
+/// A width whose rows need padding on their way back.
+pub(crate) const SIZE: (u32, u32) = (150, 90);
+
+pub(crate) struct Bench {
+    pub(crate) device: wgpu::Device,
+    pub(crate) queue: wgpu::Queue,
+    pub(crate) scene: Scene,
+    pub(crate) stand: Stand,
+    pub(crate) renderer: Renderer,
+}
+
+pub(crate) fn bench(change: impl FnOnce(&mut Scene)) -> Bench {
+    bench_with(|scene| {
+        change(scene);
+        Stand::default()
+    })
+}
+
+/// A device of the best Vulkan adapter.
+pub(crate) fn device() -> (wgpu::Device, wgpu::Queue) {
+    let mut descriptor = wgpu::InstanceDescriptor::new_without_display_handle_from_env();
+    descriptor.backends = wgpu::Backends::VULKAN;
+    let instance = wgpu::Instance::new(descriptor);
+    let adapter = pollster::block_on(instance.request_adapter(&wgpu::RequestAdapterOptions::default()))
+        .expect("a Vulkan adapter; apt install mesa-vulkan-drivers");
+    let features = adapter.features() & wgpu::Features::TIMESTAMP_QUERY;
+    let descriptor = wgpu::DeviceDescriptor { required_features: features, ..Default::default() };
+    pollster::block_on(adapter.request_device(&descriptor)).expect("a device")
+}
+
+/// A bench for a changed scene and its trees.
+pub(crate) fn bench_with(change: impl FnOnce(&mut Scene) -> Stand) -> Bench {
+    let mut scene = Scene::default();
+    let stand = change(&mut scene);
+    let entry = AtlasEntry { shape: Shape::Maple, season: (0.5, 0.9) };
+    let entries = vec![entry; scene.species.len()];
+    let request = AtlasRequest { entries, variants: 2, size_px: 32, seed: 1 };
+    let atlas = Atlas::generate(&request).expect("an atlas");
+    bench_of(scene, stand, &atlas)
+}
+
+/// A bench for a scene with pictures of its own.
+pub(crate) fn bench_of(scene: Scene, stand: Stand, atlas: &Atlas) -> Bench {
+    let (device, queue) = device();
+    let options = RendererOptions { litter_count: 0, tile_px: u32::MAX };
+    let subject = Subject { scene: &scene, stand: &stand, atlas };
+    let renderer = Renderer::new(&device, &queue, subject, PictureTarget::FORMAT, SIZE, options)
+        .expect("a renderer within default limits");
+    Bench { device, queue, scene, stand, renderer }
+}
+
+impl Bench {
+    /// Draws the trees alone.
+    pub(crate) fn draw_trees(&mut self, branches: Option<&BranchColumns<'_>>) -> RgbaImage {
+        self.draw_all(branches, 0, 60_000, 0.0, 0.0)
+    }
+
+    /// Draws the trees, and their first leaf big before the middle of the picture as one that stands for others.
+    pub(crate) fn draw_cluster(&mut self) -> RgbaImage {
+        self.draw_all(None, 1, 3 << 14 | 1 << 30, 0.0, 0.0)
+    }
+
+    /// Draws one big leaf that faces the camera, in the given state, at an offset from the middle of the picture.
+    pub(crate) fn draw(&mut self, state: u32, offset_m: f32, time_s: f64) -> RgbaImage {
+        self.draw_all(None, state, 60_000, offset_m, time_s)
+    }
+
+    fn draw_all(
+        &mut self,
+        branches: Option<&BranchColumns<'_>>,
+        state: u32,
+        size: u32,
+        offset_m: f32,
+        time_s: f64,
+    ) -> RgbaImage {
+        let at = self.scene.view.camera.target_m;
+        let usage = wgpu::BufferUsages::VERTEX | wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC;
+        let column = |words: [u32; 4]| {
+            gpu::upload::buffer(&self.device, &self.queue, "column", usage, bytemuck::bytes_of(&words))
+        };
+        let half = std::f32::consts::FRAC_1_SQRT_2;
+        let place = column([(at.x + offset_m).to_bits(), at.y.to_bits(), (at.z + 6.0).to_bits(), state]);
+        let attitude = column([half.to_bits(), 0, 0, half.to_bits()]);
+        let (course, identity) = (column([0, 0, size, 0]), column([0, 0, 0, 0x1_2345]));
+        let leaves = LeafColumns {
+            place: &place,
+            drift: &place,
+            attitude: &attitude,
+            course: &course,
+            identity: &identity,
+            leaf_count: 1,
+        };
+        let target = PictureTarget::new(&self.device, SIZE).expect("a target");
+        let mut encoder = self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        let camera = Camera::from(&self.scene.view.camera);
+        self.renderer.draw(
+            &mut encoder,
+            &target.view(),
+            &leaves,
+            branches,
+            &FrameInput { camera, time_s, since_s: f32::INFINITY, origin: (0, 0) },
+        );
+        target.submit_and_read(&self.device, &self.queue, encoder).expect("a picture")
+    }
+}
+
+pub(crate) fn differing(a: &RgbaImage, b: &RgbaImage) -> usize {
+    a.pixels().zip(b.pixels()).filter(|(a, b)| a.0.iter().zip(b.0).any(|(a, b)| a.abs_diff(b) > 12)).count()
+}
+
+#[test]
+fn a_leaf_is_seen_unless_dormant() {
+    let mut bench = bench(|_| {});
+    let empty = bench.draw(0, 0.0, 0.0);
+    assert_eq!(empty, bench.draw(0, 1.0, 0.0), "a dormant leaf is nowhere");
+    for state in 1..=3 {
+        let seen = differing(&empty, &bench.draw(state, 0.0, 0.0));
+        assert!((30..6000).contains(&seen), "state {state}: {seen} pixels changed");
+    }
+}
+
+#[test]
+fn painted_leaves_look_otherwise_and_leave_nothing_behind() {
+    let mut bench = bench(|_| {});
+    let own = bench.draw(2, 0.0, 0.0);
+    bench.renderer.set_paint(Some(Paint { measure: Measure::Height, most: 50.0 }));
+    let low = bench.draw(2, 0.0, 0.0);
+    bench.renderer.set_paint(Some(Paint { measure: Measure::Height, most: 0.1 }));
+    let high = bench.draw(2, 0.0, 0.0);
+    for (name, other) in [("in its own colours", &own), ("at the other end of the scale", &low)] {
+        let seen = differing(&high, other);
+        assert!((30..6000).contains(&seen), "{name}: {seen} pixels differ");
+    }
+    bench.renderer.set_paint(None);
+    assert_eq!(bench.draw(2, 0.0, 0.0), own, "as if nothing had been painted");
+    bench.renderer.set_landings(true);
+    assert_eq!(bench.draw(2, 0.0, 0.0), own, "nothing lies there");
+    bench.renderer.set_landings(false);
+}
+
+#[test]
+fn same_frame_gives_same_picture() {
+    let mut bench = bench(|_| {});
+    assert_eq!(bench.draw(2, 0.3, 1.5), bench.draw(2, 0.3, 1.5), "nothing random in a frame");
+}
+
+#[test]
+fn picture_is_opaque_day_over_a_meadow() {
+    let mut bench = bench(|_| {});
+    let picture = bench.draw(0, 0.0, 0.0);
+    assert!(picture.pixels().all(|pixel| pixel.0[3] == 255), "opaque");
+    let mean = |rows: std::ops::Range<u32>| {
+        let count = f64::from(SIZE.0) * f64::from(rows.end - rows.start);
+        let rows = picture.enumerate_pixels().filter(|(_, y, _)| rows.contains(y));
+        let sum = rows.fold([0.0; 3], |sum: [f64; 3], (_, _, pixel)| {
+            std::array::from_fn(|channel| sum[channel] + f64::from(pixel.0[channel]))
+        });
+        sum.map(|channel| channel / count)
+    };
+    let (sky, meadow) = (mean(0..20), mean(75..90));
+    assert!(sky.iter().all(|&channel| channel > 110.0), "a bright sky: {sky:?}");
+    assert!(meadow[1] > meadow[2] * 1.3, "a green meadow: {meadow:?}");
+}
+
+#[test]
+fn trail_follows_a_leaf_and_breaks_where_it_is_put_elsewhere() {
+    let mut bench = bench(|scene| scene.view.trail_s = 2.0);
+    let mut last = bench.draw(2, -1.0, 0.0);
+    let start = last.clone();
+    for frame in 1..=30 {
+        let along = frame as f32 / 30.0;
+        last = bench.draw(2, -1.0 + along, f64::from(frame) / 60.0);
+    }
+    let middle = |picture: &RgbaImage| {
+        let column = image::imageops::crop_imm(picture, SIZE.0 / 2 - 16, 0, 2, SIZE.1);
+        column.to_image()
+    };
+    assert!(differing(&middle(&start), &middle(&last)) > 0, "a ribbon where the leaf has been");
+    let before = bench.draw(0, 0.0, 31.0 / 60.0);
+    let jumped = bench.draw(2, -1.2, 32.0 / 60.0);
+    let ribbon_kept = differing(&middle(&before), &middle(&jumped));
+    assert!(ribbon_kept < 20, "no new ribbon across the jump: {ribbon_kept} pixels");
+}
+
+#[test]
+fn sizes_beyond_the_device_are_refused() {
+    let mut bench = bench(|_| {});
+    for size in [(0, 10), (10, 0), (100_000, 10)] {
+        let error = bench.renderer.resize(size).expect_err("an impossible size");
+        assert!(matches!(error, RenderError::Size { .. }), "{size:?}: {error}");
+        assert!(PictureTarget::new(&bench.device, size).is_err(), "{size:?} as a target");
+    }
+    assert_eq!(bench.renderer.size(), SIZE, "the renderer keeps its size");
+}
+
+#[test]
+fn tiles_join_without_a_seam() {
+    let draw = |tile_px: u32, focus: Option<Focus>| {
+        let mut bench = bench(|scene| scene.view.lens.focus = focus);
+        bench.renderer.set_tile_px(tile_px).expect("the same size");
+        bench.draw(2, 0.3, 1.5)
+    };
+    let focus = Focus { distance_m: 0.5, f_number: 1.0 };
+    for focus in [None, Some(focus)] {
+        let whole = draw(u32::MAX, focus);
+        // Tiles of 40 by 24, of which the last ones reach beyond the edge.
+        let tiled = draw(1500, focus);
+        let largest = whole.as_raw().iter().zip(tiled.as_raw()).map(|(a, b)| a.abs_diff(*b)).max();
+        let sum: u64 =
+            whole.as_raw().iter().zip(tiled.as_raw()).map(|(a, b)| u64::from(a.abs_diff(*b))).sum();
+        let mean = sum as f64 / whole.as_raw().len() as f64;
+        println!("{focus:?}: {largest:?} at most, {mean} on average");
+        assert!(mean < 0.05, "{focus:?}: {mean} of 255 apart on average");
+        let seen = differing(&whole, &tiled);
+        assert!(seen < 20, "{focus:?}: {seen} pixels differ by more than 12 of 255");
+    }
+}
+
+#[test]
+fn focus_blurs_what_is_far_from_it() {
+    let sharpness = |focus: Option<Focus>| {
+        let mut bench = bench(|scene| scene.view.lens.focus = focus);
+        let picture = bench.draw(0, 0.0, 0.0);
+        let row = |y: u32| (1..SIZE.0).map(move |x| (x, y));
+        let steps = (50..SIZE.1)
+            .flat_map(row)
+            .map(|(x, y)| u64::from(picture.get_pixel(x, y).0[1].abs_diff(picture.get_pixel(x - 1, y).0[1])));
+        steps.sum::<u64>()
+    };
+    let sharp = sharpness(None);
+    let near = sharpness(Some(Focus { distance_m: 0.2, f_number: 1.0 }));
+    let stopped_down = sharpness(Some(Focus { distance_m: 8.0, f_number: 64.0 }));
+    assert!(2 * near < sharp, "the meadow is blurred: {near} and {sharp}");
+    assert!(10 * stopped_down > 9 * sharp, "a small aperture keeps it sharp: {stopped_down} and {sharp}");
+}
+
+#[test]
+fn hills_stand_before_the_sun() {
+    let light = |elevation_deg: f32| {
+        let mut bench = bench(|scene| {
+            scene.ground.terrain =
+                Some(Terrain { edge_m: 64.0, relief_m: 16.0, levels: 6, ..Terrain::default() });
+            scene.view.sun.elevation_deg = elevation_deg;
+            scene.view.lens.exposure = Exposure::Manual { ev100: 13.0 };
+        });
+        let picture = bench.draw(0, 0.0, 0.0);
+        picture.pixels().map(|pixel| f64::from(pixel.0[1])).sum::<f64>()
+    };
+    let open = |elevation_deg| {
+        with_shader_edit("* hill_light(position), shade.g);", ", shade.g);", || light(elevation_deg))
+    };
+    let (low, high) = (light(8.0) / open(8.0), light(80.0) / open(80.0));
+    assert!(low < 0.97, "a low sun throws their shadows over the meadow: {low}");
+    assert!((high - 1.0).abs() < 0.003, "a high one lights all of it: {high}");
+}

@@ -1,0 +1,133 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Draws berries, moved with the twigs that bear them.
+
+use glam::Vec3;
+use windfall_core::tree::Bearing;
+
+use super::bark_pass::BARK_SHAPE;
+use super::branch_group::BranchGroup;
+use super::{Stand, StandingTree};
+use crate::frame::group::FrameGroup;
+use crate::frame::light_group::LightGroup;
+use crate::frame::scene_pipeline::{COMMON, LIGHT, ScenePipeline};
+use crate::gpu::pipeline::shader;
+use crate::gpu::upload;
+
+/// Radius of a berry in metres, and how far sizes range on either side.
+const RADIUS_M: f32 = 0.0075;
+const RADIUS_RANGE: f32 = 0.25;
+/// Ripe and very ripe.
+const COLORS: [Vec3; 2] = [Vec3::new(0.72, 0.045, 0.02), Vec3::new(0.42, 0.014, 0.022)];
+/// Their mean over berries, most of which are no more than ripe.
+pub const BERRY_COLOR: [f32; 3] = {
+    let [ripe, very] = COLORS;
+    [third(ripe.x, very.x), third(ripe.y, very.y), third(ripe.z, very.z)]
+};
+
+/// A third of the way, which the square of a share is on average.
+const fn third(from: f32, to: f32) -> f32 {
+    from + (to - from) / 3.0
+}
+
+/// `Fruit` of `fruit.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, bytemuck::Pod, bytemuck::Zeroable)]
+struct FruitInstance {
+    center_m: [f32; 3],
+    radius_m: f32,
+    color: [f32; 3],
+    row: u32,
+}
+
+const ATTRIBUTES: [wgpu::VertexAttribute; 3] =
+    wgpu::vertex_attr_array![0 => Float32x4, 1 => Float32x3, 2 => Uint32];
+
+/// The berries of a stand and their pipeline.
+#[derive(Debug)]
+pub(crate) struct FruitPass {
+    pipeline: wgpu::RenderPipeline,
+    instances: wgpu::Buffer,
+    count: u32,
+}
+
+impl FruitPass {
+    pub(crate) fn new(
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        frame: &FrameGroup,
+        light: &LightGroup,
+        branches: &BranchGroup,
+        stand: &Stand,
+    ) -> Self {
+        let text = [COMMON, LIGHT, BARK_SHAPE, include_str!("fruit_pass.wgsl")];
+        let shader = shader(device, "fruit", &text);
+        let layout = wgpu::VertexBufferLayout {
+            array_stride: size_of::<FruitInstance>() as u64,
+            step_mode: wgpu::VertexStepMode::Instance,
+            attributes: &ATTRIBUTES,
+        };
+        let pipeline = ScenePipeline {
+            label: "fruit",
+            frame,
+            groups: &[&light.layout, &branches.layout],
+            topology: wgpu::PrimitiveTopology::TriangleStrip,
+            shader: &shader,
+            buffers: &[layout],
+            blend: None,
+            depth_write: true,
+            alpha_to_coverage: true,
+        }
+        .build(device);
+        let fruit: Vec<FruitInstance> = stand.trees.iter().flat_map(instances_of).collect();
+        let bytes = bytemuck::cast_slice(&fruit);
+        let instances = upload::buffer(device, queue, "fruit", wgpu::BufferUsages::VERTEX, bytes);
+        Self { pipeline, instances, count: u32::try_from(fruit.len()).unwrap_or(u32::MAX) }
+    }
+
+    /// Draws all berries; bind groups 0 and 1 are set.
+    pub(crate) fn draw(&self, pass: &mut wgpu::RenderPass<'_>, group: &wgpu::BindGroup) {
+        pass.set_pipeline(&self.pipeline);
+        pass.set_bind_group(2, group, &[]);
+        pass.set_vertex_buffer(0, self.instances.slice(..));
+        pass.draw(0..4, 0..self.count);
+    }
+}
+
+/// A berry at rest.
+#[derive(Clone, Copy, Debug)]
+pub struct Berry {
+    /// Middle in metres.
+    pub center_m: Vec3,
+    /// Radius in metres.
+    pub radius_m: f32,
+    /// Linear colour.
+    pub color: Vec3,
+    /// Segment that bears it.
+    pub segment: u32,
+}
+
+/// The berries of a tree where it stands.
+pub fn berries(tree: &StandingTree) -> impl Iterator<Item = Berry> {
+    let fruit = tree.skeleton.attachments.iter().filter(|at| at.bearing == Bearing::Fruit);
+    fruit.enumerate().map(|(number, at)| {
+        // Golden ratio: neighbours differ.
+        let own = (number as f32 * 0.618_034 + tree.look.own).fract();
+        let radius_m = RADIUS_M * (1.0 + RADIUS_RANGE * (2.0 * own - 1.0));
+        Berry {
+            center_m: tree.place(at.at_m + at.direction * (1.6 * radius_m)),
+            radius_m,
+            color: COLORS[0].lerp(COLORS[1], own * own),
+            segment: at.segment,
+        }
+    })
+}
+
+fn instances_of(tree: &StandingTree) -> impl Iterator<Item = FruitInstance> {
+    berries(tree).map(|berry| FruitInstance {
+        center_m: berry.center_m.to_array(),
+        radius_m: berry.radius_m,
+        color: berry.color.to_array(),
+        row: tree.rows[berry.segment as usize],
+    })
+}
