@@ -2,14 +2,19 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Leaf shapes, veins, colours and texture atlases.
 //!
-//! [`Atlas::generate`] draws leaves from a few numbers, without any photo. For each leaf it makes an outline
-//! (`contour`), grows veins inside it (`veins`), ages its pigments texel by texel ([`season`]), wears it
-//! down (`damage`), paints it (`paint`), carries its colour past the edge (`bleed`) and filters it down to one
-//! texel (`mipmap`).
+//! A [`LeafMaker`] makes leaves of one kind, after photos or after nothing but the kind's name. [`Photo::extract`] turns
+//! a photo into an example: blade, veins and colour (`extract`); without photos, examples are painted from pigments
+//! (`paint`, [`season`]). Each new leaf has an outline of its own (`contour`, [`OutlineModel`]), veins grown inside it
+//! ([`growth`]) and a texture synthesised from the examples along its veins (`synthesis`, [`Painter`]). It leaves as
+//! [`LeafMaps`] (colour, relief, translucency), as meshes that curl as leaves dry ([`form`]) and as numbers
+//! ([`LeafFacts`]), and is kept in a [`LeafFolder`]. [`Comparison`] measures made leaves against photographed ones. A
+//! [`Layer`] is one leaf as a renderer wants it, an [`Atlas`] the leaves of all kinds; [`LightBody`] paints feathers,
+//! paper, plates and samaras.
 //!
 //! # Units
-//! Leaf coordinates: the blade meets its petiole at (0, -1), its tip lies near (0, 1), y up. Colours are linear
-//! sRGB until the last step. Seasons run from 0 (green) to 1 (brown).
+//! Blades and veins are in pixels of their picture, y down. Drawn outlines are in leaf coordinates first: the blade meets
+//! its petiole at (0, -1), its tip lies near (0, 1), y up. Colours are linear sRGB until the last step. Seasons run
+//! from 0 (green) to 1 (brown).
 
 #![warn(clippy::print_stdout, clippy::print_stderr)]
 
@@ -18,7 +23,6 @@ mod blade;
 mod bleed;
 mod compare;
 mod contour;
-mod damage;
 mod distance;
 mod error;
 mod extract;
@@ -46,10 +50,8 @@ mod specimen;
 mod spline;
 mod synthesis;
 mod vein_graph;
-mod veins;
-mod warp;
 
-pub use atlas::{Atlas, AtlasEntry, AtlasRequest};
+pub use atlas::Atlas;
 pub use blade::{Blade, Mask};
 pub use compare::{
     ComparedLeaf, Comparison, Distances, Levels, Measured, Metric, Variety, leaf_pictures,

@@ -5,9 +5,9 @@
 use glam::Vec2;
 
 use super::Outline;
+use super::bend::Bend;
 use crate::raster::{Frame, coverage};
 use crate::rng::Rng;
-use crate::warp::Warp;
 use crate::{Blade, Mask, Shape, TexgenError};
 
 /// A leaf drawn without any photo: blade and petiole, upright, petiole down.
@@ -33,17 +33,17 @@ impl Shape {
         }
         let rng = Rng::new(seed);
         let mut outline = Outline::draw(self, &rng.fork(10));
-        let warp = Warp::draw(&mut rng.fork(12));
-        let tip = warp.apply(outline.ribs.first().map_or(Vec2::Y, |rib| rib.tip));
+        let bend = Bend::draw(&mut rng.fork(12));
+        outline.tip = bend.apply(outline.tip);
         for p in outline.blade.iter_mut().chain(outline.petiole.iter_mut().map(|(p, _)| p)) {
-            *p = warp.apply(*p);
+            *p = bend.apply(*p);
         }
-        Ok(rasterise(&outline, tip, size_px))
+        Ok(rasterise(&outline, size_px))
     }
 }
 
 /// Puts an outline on a grid.
-fn rasterise(outline: &Outline, tip: Vec2, size_px: u32) -> DrawnLeaf {
+fn rasterise(outline: &Outline, size_px: u32) -> DrawnLeaf {
     let size = size_px as usize;
     let stem = crate::raster::stroke(&outline.petiole);
     let around = outline.blade.iter().chain(&stem).copied();
@@ -53,7 +53,7 @@ fn rasterise(outline: &Outline, tip: Vec2, size_px: u32) -> DrawnLeaf {
         mask: Mask { width: size_px, height: size_px, inside },
         outline: outline.blade.iter().map(|p| frame.to_texel(*p)).collect(),
         root: frame.to_texel(Vec2::NEG_Y),
-        tip: frame.to_texel(tip),
+        tip: frame.to_texel(outline.tip),
         confidence: 1.0,
     };
     let petiole =

@@ -4,7 +4,6 @@
 
 use glam::Vec2;
 
-use super::Half;
 use crate::math::{lerp, polar, smoothstep};
 use crate::noise;
 use crate::rng::Rng;
@@ -22,8 +21,8 @@ struct Habit {
     opening_deg: f32,
 }
 
-/// Both halves of a leaf.
-pub(super) fn halves(shared: &mut Rng, right: &mut Rng, left: &mut Rng) -> (Half, Half) {
+/// Right and left half margin of a leaf.
+pub(super) fn halves(shared: &mut Rng, right: &mut Rng, left: &mut Rng) -> (Vec<Vec2>, Vec<Vec2>) {
     let notch = if shared.chance(0.75) { shared.range(0.2, 0.52) } else { shared.range(0.07, 0.16) };
     let habit = Habit {
         corner_deg: 63.0 + 9.0 * shared.bell(),
@@ -34,8 +33,8 @@ pub(super) fn halves(shared: &mut Rng, right: &mut Rng, left: &mut Rng) -> (Half
     (half(&habit, right), half(&habit, left))
 }
 
-/// One half.
-fn half(habit: &Habit, rng: &mut Rng) -> Half {
+/// Half margin from the petiole's end to the notch.
+fn half(habit: &Habit, rng: &mut Rng) -> Vec<Vec2> {
     let base = Vec2::new(0.0, -1.0);
     let corner_deg = habit.corner_deg + 4.0 * rng.bell();
     let corner_radius = habit.radius * (0.86 + 0.06 * rng.bell());
@@ -67,5 +66,5 @@ fn half(habit: &Habit, rng: &mut Rng) -> Half {
         edge.push(base + polar(habit.opening_deg * opening, habit.radius - depth * part));
     }
     edge.push(base + Vec2::new(0.0, habit.radius - depth));
-    Half { margin: cut_corners(&cut_corners(&edge)), laterals: Vec::new(), side_ribs: Vec::new() }
+    cut_corners(&cut_corners(&edge))
 }

@@ -4,7 +4,6 @@
 
 use glam::Vec2;
 
-use super::{Half, Rib};
 use crate::math::{lerp, point_along, polar, smoothstep};
 use crate::rng::Rng;
 use crate::spline::{Knot, resample, through};
@@ -37,8 +36,8 @@ struct Lobe {
     length: f32,
 }
 
-/// Both halves of a leaf.
-pub(super) fn halves(shared: &mut Rng, right: &mut Rng, left: &mut Rng) -> (Half, Half) {
+/// Right and left half margin of a leaf.
+pub(super) fn halves(shared: &mut Rng, right: &mut Rng, left: &mut Rng) -> (Vec<Vec2>, Vec<Vec2>) {
     let which = [0, 1, 1, 1, 2][shared.integer(0, 4) as usize];
     let crowd = [1.22, 1.0, 0.84][which];
     let habit = Habit {
@@ -50,8 +49,8 @@ pub(super) fn halves(shared: &mut Rng, right: &mut Rng, left: &mut Rng) -> (Half
     (half(&habit, right), half(&habit, left))
 }
 
-/// One half.
-fn half(habit: &Habit, rng: &mut Rng) -> Half {
+/// Half margin from the petiole's end to the tip.
+fn half(habit: &Habit, rng: &mut Rng) -> Vec<Vec2> {
     let lobes: Vec<Lobe> = habit
         .lobes
         .iter()
@@ -66,39 +65,19 @@ fn half(habit: &Habit, rng: &mut Rng) -> Half {
         BASE + polar(lerp(a.bearing_deg, b.bearing_deg, 0.5 + turn), radius)
     };
     let mut margin = vec![BASE];
-    let mut side_ribs = Vec::new();
-    let mut laterals = Vec::new();
     let mut from = BASE;
     for index in (0..lobes.len()).rev() {
         let lobe = lobes[index];
-        let tip = BASE + polar(lobe.bearing_deg, lobe.length);
-        let lower = flank(habit, from, lobe, 1.0, rng);
-        let mut targets = (stations(&lower), Vec::new());
-        margin.extend(lower.into_iter().skip(1));
+        margin.extend(flank(habit, from, lobe, 1.0, rng).into_iter().skip(1));
         if index > 0 {
             let sinus = sinus_between(&lobes[index - 1], &lobe, 0.05 * rng.bell());
             let mut upper = flank(habit, sinus, lobe, -1.0, rng);
-            targets.1 = stations(&upper);
             upper.reverse();
             margin.extend(upper.into_iter().skip(1));
             from = sinus;
-            side_ribs.push(Rib {
-                tip,
-                start: polar(lobe.bearing_deg, 1.0),
-                right: targets.0,
-                left: targets.1,
-            });
-        } else {
-            laterals = targets.0;
         }
     }
-    side_ribs.reverse();
-    Half { margin, laterals, side_ribs }
-}
-
-/// Ends for the laterals on one flank.
-fn stations(flank: &[Vec2]) -> Vec<Vec2> {
-    [0.3, 0.5, 0.68, 0.82].into_iter().map(|share| point_along(flank, share).0).collect()
+    margin
 }
 
 /// Flank of a lobe from its foot to its tip; `side` is +1 where bearings grow away from the lobe's axis.

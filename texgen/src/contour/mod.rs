@@ -2,9 +2,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Outlines of leaves, one variation per seed.
 //!
-//! Every shape lists the knots of one half margin from the petiole to the tip and where veins shall end; the
-//! other half is a second draw of the same recipe, mirrored, so that no leaf is symmetric.
+//! Every shape lists the knots of one half margin from the petiole to the tip; the other half is a second draw of the
+//! same recipe, mirrored, so that no leaf is symmetric.
 
+mod bend;
 mod drawn;
 mod fan;
 mod japanese_maple;
@@ -21,19 +22,6 @@ use glam::Vec2;
 use crate::Shape;
 use crate::rng::Rng;
 
-/// A main vein: it runs from the petiole to a tip and feeds laterals on both sides.
-#[derive(Clone, Debug)]
-pub(crate) struct Rib {
-    /// Where the rib ends.
-    pub(crate) tip: Vec2,
-    /// Unit direction in which it leaves the petiole.
-    pub(crate) start: Vec2,
-    /// Ends of the laterals on the right of the rib, from its base outward.
-    pub(crate) right: Vec<Vec2>,
-    /// Ends of the laterals on the left of the rib, from its base outward.
-    pub(crate) left: Vec<Vec2>,
-}
-
 /// Outline of a leaf in leaf coordinates.
 #[derive(Clone, Debug)]
 pub(crate) struct Outline {
@@ -41,30 +29,8 @@ pub(crate) struct Outline {
     pub(crate) blade: Vec<Vec2>,
     /// Points of the petiole from its free end to the blade, with the radius at each.
     pub(crate) petiole: Vec<(Vec2, f32)>,
-    /// Main veins; empty for a fan.
-    pub(crate) ribs: Vec<Rib>,
-}
-
-/// One half of a margin, drawn on the right side.
-struct Half {
-    /// Margin from the petiole's end to the tip, both included.
-    margin: Vec<Vec2>,
-    /// Ends of the laterals of the midrib, from the base outward.
-    laterals: Vec<Vec2>,
-    /// Ribs beside the midrib.
-    side_ribs: Vec<Rib>,
-}
-
-impl Rib {
-    /// The rib on the other side of the midrib.
-    fn mirrored(&self) -> Self {
-        Self {
-            tip: mirror(self.tip),
-            start: mirror(self.start),
-            right: self.left.iter().copied().map(mirror).collect(),
-            left: self.right.iter().copied().map(mirror).collect(),
-        }
-    }
+    /// Upper end of the midrib.
+    pub(crate) tip: Vec2,
 }
 
 impl Outline {
@@ -83,28 +49,19 @@ impl Outline {
             Shape::Ginkgo => fan::halves(&mut shared, &mut right, &mut left),
         };
         let petiole = petiole::draw(shape, &mut rng.fork(4));
-        let mut outline = Self::join(halves, petiole);
-        if shape == Shape::Ginkgo {
-            outline.ribs.clear();
-        }
-        outline
+        let outline = Self::join(halves, petiole);
+        // The notch of a ginkgo's fan ends far below where a tip would be.
+        if shape == Shape::Ginkgo { Self { tip: Vec2::Y, ..outline } } else { outline }
     }
 
-    /// Puts two halves together.
-    fn join((right, left): (Half, Half), petiole: Vec<(Vec2, f32)>) -> Self {
-        let tip = right.margin[right.margin.len() - 1];
-        let mut ribs = vec![Rib {
-            tip,
-            start: Vec2::Y,
-            right: right.laterals,
-            left: left.laterals.iter().copied().map(mirror).collect(),
-        }];
-        ribs.extend(right.side_ribs);
-        ribs.extend(left.side_ribs.iter().map(Rib::mirrored));
-        let mut blade = right.margin;
-        let inner = 1..left.margin.len() - 1;
-        blade.extend(left.margin[inner].iter().rev().copied().map(mirror));
-        Self { blade: untangle::untangle(blade), petiole, ribs }
+    /// Outline of a right half margin and a left one that is drawn on the right side as well, each from the petiole's
+    /// end to the tip, both included.
+    fn join((right, left): (Vec<Vec2>, Vec<Vec2>), petiole: Vec<(Vec2, f32)>) -> Self {
+        let tip = right[right.len() - 1];
+        let mut blade = right;
+        let inner = 1..left.len() - 1;
+        blade.extend(left[inner].iter().rev().copied().map(mirror));
+        Self { blade: untangle::untangle(blade), petiole, tip }
     }
 }
 

@@ -4,7 +4,6 @@
 
 use glam::Vec2;
 
-use super::Half;
 use crate::math::{lerp, polar, smoothstep};
 use crate::rng::Rng;
 use crate::spline::{Knot, through};
@@ -31,8 +30,8 @@ struct Lobe {
     breadth: f32,
 }
 
-/// Both halves of a leaf.
-pub(super) fn halves(shared: &mut Rng, right: &mut Rng, left: &mut Rng) -> (Half, Half) {
+/// Right and left half margin of a leaf.
+pub(super) fn halves(shared: &mut Rng, right: &mut Rng, left: &mut Rng) -> (Vec<Vec2>, Vec<Vec2>) {
     let habit = Habit {
         width: 0.56 + 0.1 * shared.bell(),
         depth: 0.27 + 0.12 * shared.bell(),
@@ -83,8 +82,8 @@ fn over(lobe: &Lobe, rng: &mut Rng) -> [Knot; 3] {
     ]
 }
 
-/// One half.
-fn half(habit: &Habit, stagger: f32, rng: &mut Rng) -> Half {
+/// Half margin from the petiole's end to the tip.
+fn half(habit: &Habit, stagger: f32, rng: &mut Rng) -> Vec<Vec2> {
     // The ear at the base curls back to the petiole.
     let ear = 0.075 + 0.025 * rng.bell();
     let mut knots = vec![
@@ -94,14 +93,12 @@ fn half(habit: &Habit, stagger: f32, rng: &mut Rng) -> Half {
     ];
     let lobes = lobes(habit, stagger, rng);
     let tip = habit.width * rng.range(0.5, 0.66);
-    let mut laterals = Vec::new();
     let mut below = Vec2::new(ear, -0.88);
     for (index, lobe) in lobes.iter().enumerate() {
         if index > 0 {
             knots.push(sinus(habit, below, lobe, rng));
         }
         knots.extend(over(lobe, rng));
-        laterals.push(lobe.apex - polar(lobe.axis_deg, 0.04));
         below = knots[knots.len() - 1].at;
     }
     // The last lobe is the tip: its own half ends at the apex.
@@ -114,7 +111,7 @@ fn half(habit: &Habit, stagger: f32, rng: &mut Rng) -> Half {
     knots.push(Knot::smooth(dent, polar(-40.0 + 10.0 * rng.bell(), 0.9)));
     knots.push(Knot::smooth(Vec2::new(tip * 0.32, 0.985), polar(-66.0, 1.0)));
     knots.push(Knot::smooth(Vec2::new(0.0, 1.0), polar(-90.0, 0.9)));
-    Half { margin: through(&knots, 8), laterals, side_ribs: Vec::new() }
+    through(&knots, 8)
 }
 
 /// Rounded bottom between a lobe's upper end and the next lobe; deepest half way up, where the blade is broad.

@@ -4,7 +4,6 @@
 
 use glam::Vec2;
 
-use super::{Half, Rib};
 use crate::math::polar;
 use crate::rng::Rng;
 use crate::spline::{Knot, through};
@@ -60,8 +59,8 @@ struct Habit {
     teeth: f32,
 }
 
-/// Both halves of a leaf.
-pub(super) fn halves(shared: &mut Rng, right: &mut Rng, left: &mut Rng) -> (Half, Half) {
+/// Right and left half margin of a leaf.
+pub(super) fn halves(shared: &mut Rng, right: &mut Rng, left: &mut Rng) -> (Vec<Vec2>, Vec<Vec2>) {
     let habit = Habit {
         sinus: 1.0 + 0.1 * shared.bell(),
         spread: 1.0 + 0.05 * shared.bell(),
@@ -70,14 +69,13 @@ pub(super) fn halves(shared: &mut Rng, right: &mut Rng, left: &mut Rng) -> (Half
     (half(&habit, right), half(&habit, left))
 }
 
-/// One half.
-fn half(habit: &Habit, rng: &mut Rng) -> Half {
+/// Half margin from the petiole's end to the tip.
+fn half(habit: &Habit, rng: &mut Rng) -> Vec<Vec2> {
     let origin = Vec2::new(0.0, -1.0);
     let place = |bearing_deg: f32, radius: f32| origin + polar(bearing_deg, 2.0 * radius);
     let lobe_turn = [0.0, 3.5 * rng.bell(), 5.0 * rng.bell()];
     let lobe_length = [1.0, 1.0 + 0.07 * rng.bell(), 1.0 + 0.12 * rng.bell()];
     let mut knots = vec![Knot { at: origin, arrive: Vec2::Y, leave: polar(138.0 + 14.0 * rng.bell(), 0.8) }];
-    let mut tips: [Vec<(f32, Vec2)>; 3] = [Vec::new(), Vec::new(), Vec::new()];
     for mark in &MARKS {
         let bearing = mark.bearing_deg * habit.spread + lobe_turn[mark.rib] + 1.1 * rng.bell();
         let stretch = lobe_length[mark.rib];
@@ -88,7 +86,6 @@ fn half(habit: &Habit, rng: &mut Rng) -> Half {
             let at = place(bearing, radius);
             let axis = polar(axis_deg + lobe_turn[mark.rib] + 6.0 * rng.bell(), 0.85);
             knots.push(Knot::pointed(at, axis));
-            tips[mark.rib].push((bearing, at));
         } else {
             let radius = mark.radius * habit.sinus * stretch * (1.0 + 0.04 * rng.bell());
             let along = polar(bearing - 90.0 + 8.0 * rng.bell(), 0.75);
@@ -96,24 +93,5 @@ fn half(habit: &Habit, rng: &mut Rng) -> Half {
         }
     }
     knots.push(Knot::pointed(Vec2::new(0.0, 1.0), Vec2::Y * 0.85));
-    let margin = through(&knots, 10);
-    let side_ribs = [1, 2].map(|lobe| side_rib(&tips[lobe])).into();
-    let laterals = tips[0].iter().map(|(_, at)| *at).collect();
-    Half { margin, laterals, side_ribs }
-}
-
-/// Rib to the farthest tip of a lobe with laterals to its other tips.
-fn side_rib(tips: &[(f32, Vec2)]) -> Rib {
-    let reach = |at: Vec2| at.distance_squared(Vec2::new(0.0, -1.0));
-    let farthest = tips.iter().copied().reduce(|a, b| if reach(b.1) > reach(a.1) { b } else { a });
-    let (bearing, tip) = farthest.unwrap_or((45.0, Vec2::X));
-    let mut sides = (Vec::new(), Vec::new());
-    for &(other, at) in tips {
-        if other > bearing {
-            sides.0.push(at);
-        } else if other < bearing {
-            sides.1.push(at);
-        }
-    }
-    Rib { tip, start: polar(bearing, 1.0), right: sides.0, left: sides.1 }
+    through(&knots, 10)
 }

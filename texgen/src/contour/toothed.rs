@@ -4,16 +4,15 @@
 
 use glam::Vec2;
 
-use super::{Half, Rib};
 use crate::math::{lerp, polar, smoothstep};
 use crate::rng::Rng;
 use crate::spline::{Knot, resample, through};
 
 /// How a margin is toothed.
 struct Teeth {
-    /// Laterals on a side, each ending in a main tooth.
+    /// Main teeth on a side.
     main: u32,
-    /// Teeth to each lateral, the main one included.
+    /// Teeth to each main one, itself included.
     per_main: u32,
     /// Height of a main tooth.
     main_height: f32,
@@ -28,7 +27,7 @@ struct Teeth {
 }
 
 /// Silver birch.
-pub(super) fn birch(shared: &mut Rng, right: &mut Rng, left: &mut Rng) -> (Half, Half) {
+pub(super) fn birch(shared: &mut Rng, right: &mut Rng, left: &mut Rng) -> (Vec<Vec2>, Vec<Vec2>) {
     let width = 0.74 * (1.0 + 0.13 * shared.bell());
     let shoulder = -0.42 + 0.12 * shared.bell();
     let main = shared.integer(6, 8);
@@ -55,7 +54,7 @@ pub(super) fn birch(shared: &mut Rng, right: &mut Rng, left: &mut Rng) -> (Half,
 }
 
 /// Common beech.
-pub(super) fn beech(shared: &mut Rng, right: &mut Rng, left: &mut Rng) -> (Half, Half) {
+pub(super) fn beech(shared: &mut Rng, right: &mut Rng, left: &mut Rng) -> (Vec<Vec2>, Vec<Vec2>) {
     let width = 0.63 * (1.0 + 0.1 * shared.bell());
     let middle = -0.08 + 0.1 * shared.bell();
     let main = shared.integer(6, 8);
@@ -82,7 +81,7 @@ pub(super) fn beech(shared: &mut Rng, right: &mut Rng, left: &mut Rng) -> (Half,
 }
 
 /// Common hornbeam.
-pub(super) fn hornbeam(shared: &mut Rng, right: &mut Rng, left: &mut Rng) -> (Half, Half) {
+pub(super) fn hornbeam(shared: &mut Rng, right: &mut Rng, left: &mut Rng) -> (Vec<Vec2>, Vec<Vec2>) {
     let width = 0.53 * (1.0 + 0.09 * shared.bell());
     let middle = -0.2 + 0.1 * shared.bell();
     let main = shared.integer(11, 14);
@@ -109,7 +108,7 @@ pub(super) fn hornbeam(shared: &mut Rng, right: &mut Rng, left: &mut Rng) -> (Ha
 }
 
 /// Linden.
-pub(super) fn linden(shared: &mut Rng, right: &mut Rng, left: &mut Rng) -> (Half, Half) {
+pub(super) fn linden(shared: &mut Rng, right: &mut Rng, left: &mut Rng) -> (Vec<Vec2>, Vec<Vec2>) {
     let width = 0.94 * (1.0 + 0.08 * shared.bell());
     // Linden bases are lopsided: one ear hangs lower than the other.
     let slant = 0.09 * shared.bell();
@@ -133,23 +132,13 @@ pub(super) fn linden(shared: &mut Rng, right: &mut Rng, left: &mut Rng) -> (Half
             span: (0.14, 0.94),
             wavy: false,
         };
-        let mut half = toothed(&knots, &teeth, rng);
-        split_basal_rib(&mut half);
-        half
+        toothed(&knots, &teeth, rng)
     };
     (draw(right, slant), draw(left, -slant))
 }
 
-/// Turns the third lateral into a rib from the petiole which feeds the two below it.
-fn split_basal_rib(half: &mut Half) {
-    let outer: Vec<Vec2> = half.laterals.drain(..2).collect();
-    let tip = half.laterals.remove(0);
-    let start = (tip - Vec2::new(0.0, -1.0)).normalize_or(Vec2::X);
-    half.side_ribs.push(Rib { tip, start, right: outer, left: Vec::new() });
-}
-
-/// Half with a toothed margin.
-fn toothed(knots: &[Knot], teeth: &Teeth, rng: &mut Rng) -> Half {
+/// Half margin with teeth.
+fn toothed(knots: &[Knot], teeth: &Teeth, rng: &mut Rng) -> Vec<Vec2> {
     let smooth = resample(&through(knots, 24), 400);
     let at = |s: f32| crate::math::point_along(&smooth, s);
     let mut margin: Vec<Vec2> = smooth.iter().copied().take_while(|p| p.distance(smooth[0]) < 1e-6).collect();
@@ -166,7 +155,6 @@ fn toothed(knots: &[Knot], teeth: &Teeth, rng: &mut Rng) -> Half {
     let mut from = border(0, 0.0);
     let base_points = 24_u16;
     margin.extend((1..base_points).map(|i| at(from * f32::from(i) / f32::from(base_points)).0));
-    let mut laterals = Vec::new();
     for tooth in 0..count {
         let to = border(tooth + 1, if tooth + 1 == count { 0.0 } else { 0.2 * rng.bell() });
         let is_main = (tooth + 1) % teeth.per_main == 0;
@@ -176,15 +164,11 @@ fn toothed(knots: &[Knot], teeth: &Teeth, rng: &mut Rng) -> Half {
         for &(fraction, rise) in pieces {
             let (p, along) = at(lerp(from, to, fraction));
             let outward = Vec2::new(along.y, -along.x);
-            let tooth_point = p + (outward + along * teeth.lean) * (height * rise);
-            margin.push(tooth_point);
-            if is_main && rise >= 1.0 {
-                laterals.push(p + (outward + along * teeth.lean) * (height * 0.4));
-            }
+            margin.push(p + (outward + along * teeth.lean) * (height * rise));
         }
         from = to;
     }
     let tip_points = 24_u16;
     margin.extend((0..=tip_points).map(|i| at(lerp(from, 1.0, f32::from(i) / f32::from(tip_points))).0));
-    Half { margin, laterals, side_ribs: Vec::new() }
+    margin
 }

@@ -115,14 +115,6 @@ impl LeafMesh {
         self.triangles.iter().flat_map(|t| [0, 1, 2].map(|k| angle(t, k))).fold(180.0, f32::min)
     }
 
-    /// Mean width across the axis from root to tip: area by length, in pixels.
-    pub fn mean_chord(&self, blade: &Blade) -> f32 {
-        let axis = (blade.tip - blade.root).normalize_or(Vec2::NEG_Y);
-        let along = self.positions.iter().map(|p| p.dot(axis));
-        let (low, high) = along.fold((f32::MAX, f32::MIN), |(low, high), x| (low.min(x), high.max(x)));
-        single(self.area()) / (high - low).max(f32::MIN_POSITIVE)
-    }
-
     /// Twice the area of a triangle, positive when it winds like the outline.
     fn doubled(&self, t: &[u32; 3]) -> f64 {
         let [a, b, c] = t.map(|i| self.positions[i as usize].as_dvec2());

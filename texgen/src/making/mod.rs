@@ -9,7 +9,7 @@ mod manner;
 mod turning;
 
 use crate::maps::{Dressed, PetioleColour};
-use crate::paint::specimen;
+use crate::paint;
 use crate::rng::{Rng, hash64};
 use crate::synthesis::{Painter, Stage};
 use crate::{
@@ -96,7 +96,7 @@ impl LeafMaker {
         let (mut examples, mut stems) = (Vec::new(), Vec::new());
         for number in 0..PAINTED_EXAMPLES {
             let seed = hash64(options.seed ^ hash64(number + 0x5eed));
-            let painted = specimen::specimen(shape, season, side, seed)?;
+            let painted = paint::specimen(shape, season, side, seed)?;
             examples.push(painted.specimen);
             stems.push(painted.stem);
         }

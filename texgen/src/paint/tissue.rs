@@ -4,7 +4,6 @@
 
 use glam::Vec2;
 
-use super::Leaf;
 use super::canvas::Spot;
 use crate::math::{lerp, smoothstep};
 use crate::rng::Rng;
@@ -19,7 +18,9 @@ const BASE: Vec2 = Vec2::new(0.0, -1.0);
 
 /// Character of one leaf's colouring.
 pub(super) struct Tissue {
-    leaf: Leaf,
+    shape: Shape,
+    /// Season from 0 (green) to 1 (brown).
+    season: f32,
     seed: u64,
     /// Factor on red.
     blush: f32,
@@ -41,9 +42,9 @@ pub(super) struct Tissue {
 
 impl Tissue {
     /// Draws the character of a leaf.
-    pub(super) fn draw(leaf: &Leaf, rng: &mut Rng) -> Self {
-        let late = smoothstep(0.35, 0.95, leaf.season);
-        let (lingering, scorch) = match leaf.shape {
+    pub(super) fn draw(shape: Shape, season: f32, rng: &mut Rng) -> Self {
+        let late = smoothstep(0.35, 0.95, season);
+        let (lingering, scorch) = match shape {
             Shape::Maple => (0.2, 0.05),
             Shape::JapaneseMaple => (0.1, 0.03),
             Shape::Oak => (0.22, 0.05),
@@ -53,14 +54,15 @@ impl Tissue {
             Shape::Linden => (0.2, 0.06),
             Shape::Ginkgo => (0.05, 0.02),
         };
-        let blush = if leaf.shape == Shape::Maple {
+        let blush = if shape == Shape::Maple {
             // Some maples stay yellow, others turn all red.
             lerp(0.05, 1.9, rng.unit())
         } else {
             1.0 + 0.4 * rng.bell()
         };
         Self {
-            leaf: *leaf,
+            shape,
+            season,
             seed: rng.bits(),
             blush,
             patchiness: rng.range(0.6, 1.3),
@@ -95,7 +97,7 @@ impl Tissue {
 
     /// Season at a spot.
     fn age(&self, spot: &Spot) -> f32 {
-        let season = self.leaf.season;
+        let season = self.season;
         // Leaves are most uneven in mid autumn.
         let unevenness = lerp(0.3, 1.0, 1.0 - (2.0 * season - 1.0).abs().powi(2));
         let at = self.along_veins(spot.at);
@@ -110,7 +112,7 @@ impl Tissue {
 
     /// Plane in which patches are round: a fan's run along its veins.
     fn along_veins(&self, at: Vec2) -> Vec2 {
-        if self.leaf.shape != Shape::Ginkgo {
+        if self.shape != Shape::Ginkgo {
             return at;
         }
         let offset = at - BASE;
@@ -119,7 +121,7 @@ impl Tissue {
 
     /// Pigments of living tissue.
     fn living(&self, spot: &Spot, age: f32) -> Pigments {
-        let mut pigments = season::pigments(self.leaf.shape, age);
+        let mut pigments = season::pigments(self.shape, age);
         let flush = noise::fractal(self.seed ^ 0x20, spot.at * 2.2, 3);
         pigments.anthocyanin *=
             self.blush * (1.0 + 0.55 * flush + 0.25 * (-spot.margin / 0.1).exp()).max(0.1);
@@ -131,16 +133,15 @@ impl Tissue {
         pigments * (self.depth * (1.0 + mottle))
     }
 
-    /// Adds dead border, spots and rims of holes.
+    /// Adds a dead border and dead spots.
     fn kill(&self, spot: &Spot, pigments: &mut Pigments) {
         let ragged = noise::fractal(self.seed ^ 0x40, spot.at * 4.0, 3);
         let border = self.scorch * (0.55 + 1.1 * ragged);
         let scorched = smoothstep(border + 0.02, border - 0.03, spot.margin) * smoothstep(0.0, 0.02, border);
-        let rim = smoothstep(0.035, 0.0, spot.hole) * 0.8;
         let gate = 0.35 + 0.65 * smoothstep(-0.2, 0.6, noise::value(self.seed ^ 0x52, spot.at * 2.0));
         let large = self.dots(0x50, spot.at * 4.0, 0.2, 0.2 * gate);
         let small = self.dots(0x51, spot.at * 10.0, 0.26, 0.32 * gate) * 0.7;
-        let dead = scorched.max(rim).max(large).max(small);
+        let dead = scorched.max(large).max(small);
         *pigments = *pigments * (1.0 - 0.75 * dead)
             + Pigments { brown: 1.5 * dead, carotenoid: 3.0 * dead, ..Pigments::default() };
     }
@@ -161,7 +162,7 @@ impl Tissue {
     fn veined(&self, spot: &Spot, age: f32, tissue: Pigments) -> Pigments {
         let [primary, secondary, tertiary] = spot.strokes;
         let mut strength = primary.max(0.85 * secondary).max(0.42 * tertiary);
-        if self.leaf.shape != Shape::Ginkgo {
+        if self.shape != Shape::Ginkgo {
             let cell = noise::cells(self.seed ^ 0x60, spot.at * 21.0);
             strength = strength.max(0.2 * smoothstep(0.14, 0.0, cell.second - cell.first));
         }
@@ -176,13 +177,13 @@ impl Tissue {
 
     /// Colour of the petiole.
     fn stem(&self, spot: &Spot) -> Linear {
-        let season = self.leaf.season;
-        let red = match self.leaf.shape {
+        let season = self.season;
+        let red = match self.shape {
             Shape::Maple | Shape::JapaneseMaple => 0.55,
             Shape::Birch | Shape::Beech => 0.2,
             Shape::Oak | Shape::Hornbeam | Shape::Linden | Shape::Ginkgo => 0.04,
         };
-        let own = season::pigments(self.leaf.shape, season * 0.85);
+        let own = season::pigments(self.shape, season * 0.85);
         let pigments = Pigments {
             chlorophyll: 0.5 * own.chlorophyll,
             carotenoid: 0.6 * own.carotenoid,

@@ -2,13 +2,14 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! One leaf from green to brown, side by side.
 
-use image::{Rgb, RgbImage};
+use image::imageops::{self, FilterType};
+use image::{Rgb, RgbImage, RgbaImage};
+use rayon::iter::{IntoParallelIterator, ParallelIterator};
 
-use crate::paint::{Leaf, paint};
-use crate::rng::Rng;
-use crate::{Shape, TexgenError};
+use crate::math::to_byte;
+use crate::{LeafMaker, MakeOptions, Shape, TexgenError};
 
-/// Paints one leaf at evenly spaced seasons from 0 to 1, left to right, each `size_px` square on white paper.
+/// Makes one leaf at evenly spaced seasons from 0 to 1, left to right, each `size_px` square on white paper.
 /// Equal arguments give equal bytes.
 ///
 /// # Errors
@@ -23,17 +24,28 @@ pub fn strip(shape: Shape, steps: u32, size_px: u32, seed: u64) -> Result<RgbIma
     if steps * size_px > 32_768 {
         return Err(TexgenError::out_of_range("steps times size", steps * size_px, "at most 32768"));
     }
-    let mut sheet = RgbImage::from_pixel(steps * size_px, size_px, Rgb([255; 3]));
-    for step in 0..steps {
+    // TODO
+    let leaf = |step: u32| {
         let season = step as f32 / (steps - 1) as f32;
-        let picture = paint(&Leaf { shape, season, size_px }, &Rng::new(seed));
-        for (x, y, texel) in picture.enumerate_pixels() {
-            let [r, g, b, alpha] = texel.0.map(f32::from);
-            let over = |c: f32| crate::math::to_byte((255.0 + (c - 255.0) * alpha / 255.0) / 255.0);
-            sheet.put_pixel(step * size_px + x, y, Rgb([over(r), over(g), over(b)]));
-        }
+        let options =
+            MakeOptions { size_px: size_px.next_power_of_two().max(64), season: Some(season), seed };
+        let leaf = LeafMaker::of_shape(shape, options)?.make(0, false)?;
+        Ok(imageops::resize(&on_paper(&leaf.maps.albedo), size_px, size_px, FilterType::Triangle))
+    };
+    let leaves = (0..steps).into_par_iter().map(leaf).collect::<Result<Vec<RgbImage>, TexgenError>>()?;
+    let mut sheet = RgbImage::new(steps * size_px, size_px);
+    for (leaf, step) in leaves.iter().zip(0..) {
+        imageops::replace(&mut sheet, leaf, step * i64::from(size_px), 0);
     }
     Ok(sheet)
+}
+
+/// A picture on white paper.
+fn on_paper(picture: &RgbaImage) -> RgbImage {
+    RgbImage::from_fn(picture.width(), picture.height(), |x, y| {
+        let [r, g, b, alpha] = picture.get_pixel(x, y).0.map(f32::from);
+        Rgb([r, g, b].map(|c| to_byte((255.0 + (c - 255.0) * alpha / 255.0) / 255.0)))
+    })
 }
 
 #[cfg(test)]
@@ -42,12 +54,12 @@ mod tests {
 
     #[test]
     fn a_strip_turns_from_green_to_brown() {
-        let sheet = strip(Shape::Birch, 4, 64, 3).expect("the numbers are allowed");
-        assert_eq!(sheet.dimensions(), (256, 64), "four leaves of 64 pixels");
+        let sheet = strip(Shape::Birch, 4, 60, 3).expect("the numbers are allowed");
+        assert_eq!(sheet.dimensions(), (240, 60), "four leaves of 60 pixels");
         let mean = |step: u32| {
             let mut sum = [0_u32; 3];
             for (x, _, pixel) in sheet.enumerate_pixels() {
-                if x / 64 == step && pixel.0 != [255; 3] {
+                if x / 60 == step && pixel.0 != [255; 3] {
                     for (sum, c) in sum.iter_mut().zip(pixel.0) {
                         *sum += u32::from(c);
                     }

@@ -9,7 +9,7 @@ use crate::rng::Rng;
 
 /// A smooth displacement of the plane that keeps the petiole's end in place.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Warp {
+pub(super) struct Bend {
     /// Sideways shift of the tip.
     bend: f32,
     /// Sideways swing half way up.
@@ -20,14 +20,14 @@ pub(crate) struct Warp {
     seed: u64,
 }
 
-impl Warp {
-    /// Draws a warp.
-    pub(crate) fn draw(rng: &mut Rng) -> Self {
+impl Bend {
+    /// Draws a bend.
+    pub(super) fn draw(rng: &mut Rng) -> Self {
         Self { bend: 0.16 * rng.bell(), swing: 0.06 * rng.bell(), wander: 0.05, seed: rng.bits() }
     }
 
     /// Moves a point.
-    pub(crate) fn apply(&self, p: Vec2) -> Vec2 {
+    pub(super) fn apply(&self, p: Vec2) -> Vec2 {
         let up = ((p.y + 1.0) / 2.0).max(0.0);
         let shift = |seed: u64, at: Vec2| noise::value(self.seed ^ seed, at * 1.3 + Vec2::splat(40.0));
         let base = Vec2::new(0.0, -1.0);
