@@ -1,115 +1,114 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Exact Euclidean distance transform (Felzenszwalb and Huttenlocher 2012).
+//! Exact Euclidean distance transform: for each pixel the nearest of given seed pixels, in two passes (after
+//! Felzenszwalb and Huttenlocher 2012, with the seed kept).
 
-/// Larger than any squared distance on a grid, small enough that sums stay exact.
-const FAR: f32 = 1e12;
+use crate::plane::Plane;
 
-/// Distance in texels from each texel to the nearest seed, on a square grid.
-pub(crate) fn to_seeds(size: usize, is_seed: impl Fn(usize) -> bool) -> Vec<f32> {
-    nearest_seeds(size, size, is_seed).distance
-}
+/// Index of no seed.
+pub(crate) const NO_SEED: u32 = u32::MAX;
 
-/// The nearest seed of each texel and how far off it is.
-pub(crate) struct Nearest {
-    /// Distance in texels; about a million where there is no seed at all.
-    pub(crate) distance: Vec<f32>,
-    /// Index of that seed; some texel where there is no seed at all.
-    pub(crate) seed: Vec<usize>,
-}
-
-/// Finds the nearest seed of each texel of a grid.
-pub(crate) fn nearest_seeds(width: usize, height: usize, is_seed: impl Fn(usize) -> bool) -> Nearest {
-    let mut distance: Vec<f32> = (0..width * height).map(|i| if is_seed(i) { 0.0 } else { FAR }).collect();
-    let mut seed: Vec<usize> = (0..width * height).collect();
-    let longest = width.max(height);
-    let mut scratch = Scratch { centres: vec![0; longest], borders: vec![0.0; longest + 1] };
-    let mut line = vec![0.0; height];
+/// Distance in pixels to the nearest seed and its index; infinite and [`NO_SEED`] without any seed.
+pub(crate) fn nearest_seed(
+    width: usize,
+    height: usize,
+    is_seed: impl Fn(usize) -> bool,
+) -> (Plane<f32>, Plane<u32>) {
+    let mut rows: Plane<u32> = Plane::filled(width, height, NO_SEED);
+    let row_number = |y: usize| u32::try_from(y).unwrap_or(NO_SEED);
     for x in 0..width {
+        let mut last = None;
         for y in 0..height {
-            line[y] = distance[y * width + x];
-        }
-        scratch.sweep(&line, |y, from, value| {
-            distance[y * width + x] = value;
-            seed[y * width + x] = from * width + x;
-        });
-    }
-    for y in 0..height {
-        let row = y * width..(y + 1) * width;
-        let (line, seeds) = (distance[row.clone()].to_vec(), seed[row.clone()].to_vec());
-        let (distance, seed) = (&mut distance[row.clone()], &mut seed[row]);
-        scratch.sweep(&line, |x, from, value| {
-            distance[x] = value;
-            seed[x] = seeds[from];
-        });
-    }
-    distance.iter_mut().for_each(|value| *value = value.sqrt());
-    Nearest { distance, seed }
-}
-
-/// Lower envelope of parabolas along one line.
-struct Scratch {
-    /// Positions of the parabolas of the envelope.
-    centres: Vec<usize>,
-    /// Where each parabola starts to be the lowest.
-    borders: Vec<f32>,
-}
-
-impl Scratch {
-    /// One-dimensional transform of `line`: for each place the place of the nearest seed and the squared distance.
-    fn sweep(&mut self, line: &[f32], mut put: impl FnMut(usize, usize, f32)) {
-        if line.is_empty() {
-            return;
-        }
-        let meet = |a: usize, b: usize| {
-            let (fa, fb) = (a as f32, b as f32);
-            ((line[b] + fb * fb) - (line[a] + fa * fa)) / (2.0 * (fb - fa))
-        };
-        let mut top = 0;
-        self.centres[0] = 0;
-        self.borders[0] = f32::NEG_INFINITY;
-        self.borders[1] = f32::INFINITY;
-        for q in 1..line.len() {
-            let mut border = meet(self.centres[top], q);
-            while border <= self.borders[top] && top > 0 {
-                top -= 1;
-                border = meet(self.centres[top], q);
+            if is_seed(y * width + x) {
+                last = Some(y);
             }
-            top += 1;
-            self.centres[top] = q;
-            self.borders[top] = border;
-            self.borders[top + 1] = f32::INFINITY;
+            if let Some(seed) = last {
+                rows.data[y * width + x] = row_number(seed);
+            }
+        }
+        let mut below: Option<usize> = None;
+        for y in (0..height).rev() {
+            let at = y * width + x;
+            if rows.data[at] == row_number(y) {
+                below = Some(y);
+            }
+            if let Some(seed) = below
+                && (rows.data[at] == NO_SEED || seed - y < y - rows.data[at] as usize)
+            {
+                rows.data[at] = row_number(seed);
+            }
+        }
+    }
+    let mut distance = Plane::filled(width, height, f32::INFINITY);
+    let mut seeds = Plane::filled(width, height, NO_SEED);
+    let mut envelope: Vec<(usize, f32)> = Vec::with_capacity(width);
+    for y in 0..height {
+        let row = &rows.data[y * width..(y + 1) * width];
+        let depth = |x: usize| {
+            let offset = row[x] as f32 - y as f32;
+            offset * offset
+        };
+        envelope.clear();
+        for x in (0..width).filter(|&x| row[x] != NO_SEED) {
+            loop {
+                let Some(&(centre, begin)) = envelope.last() else {
+                    envelope.push((x, f32::NEG_INFINITY));
+                    break;
+                };
+                let (a, b) = (centre as f32, x as f32);
+                let meet = ((depth(x) + b * b) - (depth(centre) + a * a)) / (2.0 * (b - a));
+                if meet > begin {
+                    envelope.push((x, meet));
+                    break;
+                }
+                envelope.pop();
+            }
         }
         let mut k = 0;
-        for q in 0..line.len() {
-            while self.borders[k + 1] < q as f32 {
+        for x in 0..width {
+            while envelope.get(k + 1).is_some_and(|&(_, begin)| begin < x as f32) {
                 k += 1;
             }
-            let offset = q as f32 - self.centres[k] as f32;
-            put(q, self.centres[k], offset * offset + line[self.centres[k]]);
+            if let Some(&(centre, _)) = envelope.get(k) {
+                let offset = x as f32 - centre as f32;
+                distance.data[y * width + x] = (offset * offset + depth(centre)).sqrt();
+                let seed = row[centre] as usize * width + centre;
+                seeds.data[y * width + x] = u32::try_from(seed).unwrap_or(NO_SEED);
+            }
         }
     }
+    (distance, seeds)
+}
+
+/// Distance in pixels from each pixel of a square grid to the nearest seed; infinite without any seed.
+pub(crate) fn to_seeds(size: usize, is_seed: impl Fn(usize) -> bool) -> Vec<f32> {
+    nearest_seed(size, size, is_seed).0.data
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use proptest::prelude::{any, prop_assert, proptest};
 
-    #[test]
-    fn agrees_with_the_definition() {
-        const SIZE: usize = 24;
-        let seeds = [5 + 3 * SIZE, 20 + 17 * SIZE, 1 + 22 * SIZE];
-        let grid = to_seeds(SIZE, |i| seeds.contains(&i));
-        for (i, found) in grid.iter().enumerate() {
-            let distance = |seed: &usize| {
-                let dx = (i % SIZE) as f32 - (seed % SIZE) as f32;
-                let dy = (i / SIZE) as f32 - (seed / SIZE) as f32;
-                dx.hypot(dy)
-            };
-            let expected = seeds.iter().map(distance).fold(f32::MAX, f32::min);
-            assert!((found - expected).abs() < 1e-3, "texel {i}: {found}, expected {expected}");
+    proptest! {
+        #[test]
+        fn agrees_with_trying_every_seed(
+            width in 1_usize..24,
+            height in 1_usize..24,
+            bits in proptest::collection::vec(any::<u8>(), 576),
+        ) {
+            let seed = |i: usize| bits[i] < 8;
+            let (distance, index) = nearest_seed(width, height, seed);
+            for i in 0..width * height {
+                let place = |i: usize| distance.centre(i);
+                let best = (0..width * height).filter(|&j| seed(j))
+                    .map(|j| place(i).distance(place(j))).fold(f32::INFINITY, f32::min);
+                prop_assert!(distance.data[i] == best || (distance.data[i] - best).abs() < 1e-4);
+                if best.is_finite() {
+                    let found = index.data[i] as usize;
+                    prop_assert!(seed(found) && (place(i).distance(place(found)) - best).abs() < 1e-4);
+                }
+            }
         }
-        let nearest = nearest_seeds(SIZE, SIZE, |i| seeds.contains(&i));
-        assert!(nearest.seed.iter().all(|seed| seeds.contains(seed)), "only seeds are nearest");
     }
 }

@@ -6,7 +6,7 @@ use glam::Vec2;
 use image::imageops::{self, FilterType};
 use image::{GrayImage, RgbImage, Rgba, RgbaImage};
 
-use crate::math::{linear_from_srgb, luminance, to_byte};
+use crate::math::{linear_from_srgb, luminance, single, to_byte};
 use crate::{FolderLeaf, LeafForm, mipmap};
 
 /// How far the meshes reach beyond the margin they follow, in sides of the picture, coarse first: as far as they miss it.
@@ -87,15 +87,13 @@ impl Layer {
             moment[1] += alpha * (f64::from(y) + 0.5);
         }
         let side = f64::from(size_px);
-        #[expect(clippy::cast_possible_truncation, reason = "shares of the square lose nothing that matters")]
-        let share = |x: f64| x as f32;
-        let centre = moment.map(|m| share(m / covered.max(1.0) / side));
+        let centre = moment.map(|m| single(m / covered.max(1.0) / side));
         Self {
             mips: mipmap::chain(image),
             surface: mipmap::plain_chain(surface),
             form,
             season,
-            area_fraction: share(covered / (side * side)),
+            area_fraction: single(covered / (side * side)),
             centre: centre.into(),
         }
     }

@@ -41,6 +41,7 @@ mod mipmap;
 mod noise;
 mod outline_model;
 mod paint;
+mod plane;
 mod planform;
 mod raster;
 mod rng;

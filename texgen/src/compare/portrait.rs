@@ -5,7 +5,7 @@
 use glam::Vec2;
 use image::{RgbImage, imageops};
 
-use crate::distance::nearest_seeds;
+use crate::distance::{NO_SEED, nearest_seed};
 use crate::extract::petiole::depth;
 use crate::lab::{self, Lab};
 use crate::math::floor_i32;
@@ -87,11 +87,12 @@ fn bled(specimen: &Specimen) -> RgbImage {
     let depth = depth(mask);
     let deepest = depth.iter().copied().fold(0.0, f32::max);
     let rim = RIM.min(deepest * 0.5);
-    let source = nearest_seeds(mask.width as usize, mask.height as usize, |i| depth[i] > rim).seed;
+    let (_, source) = nearest_seed(mask.width as usize, mask.height as usize, |i| depth[i] > rim);
     let columns = mask.width as usize;
     RgbImage::from_fn(mask.width, mask.height, |x, y| {
-        let seed = source[y as usize * columns + x as usize];
-        let at = |i: usize| u32::try_from(i).unwrap_or(0);
-        *specimen.picture.get_pixel(at(seed % columns), at(seed / columns))
+        let seed = source.data[y as usize * columns + x as usize];
+        // Without any pixel that deep, each keeps its own colour.
+        let (x, y) = if seed == NO_SEED { (x, y) } else { (seed % mask.width, seed / mask.width) };
+        *specimen.picture.get_pixel(x, y)
     })
 }

@@ -9,7 +9,7 @@ use glam::Vec2;
 
 use super::labels::{Pieces, side_neighbours};
 use crate::Mask;
-use crate::distance::nearest_seeds;
+use crate::distance::nearest_seed;
 use crate::field::quantile;
 
 /// Radius of the opening, in √A.
@@ -50,8 +50,8 @@ pub(crate) fn candidates(mask: &Mask) -> Vec<Petiole> {
     let (width, height) = (mask.width as usize, mask.height as usize);
     let side = (mask.area() as f32).sqrt();
     let depth = depth(mask);
-    let core = nearest_seeds(width, height, |i| depth[i] > OPENING * side);
-    let opened = |i: usize| core.distance[i] <= OPENING * side;
+    let (to_core, _) = nearest_seed(width, height, |i| depth[i] > OPENING * side);
+    let opened = |i: usize| to_core.data[i] <= OPENING * side;
     let pieces = Pieces::find(width, height, |i| mask.inside[i] && !opened(i));
     let mut members = vec![Vec::new(); pieces.size.len()];
     for (i, label) in pieces.label.iter().enumerate().filter(|(_, label)| **label > 0) {
@@ -67,11 +67,11 @@ pub(crate) fn candidates(mask: &Mask) -> Vec<Petiole> {
 /// Distance of each pixel's centre to the outside, the picture's surroundings included.
 pub(crate) fn depth(mask: &Mask) -> Vec<f32> {
     let (width, height) = (mask.width as usize, mask.height as usize);
-    let padded = nearest_seeds(width + 2, height + 2, |i| {
+    let (padded, _) = nearest_seed(width + 2, height + 2, |i| {
         let (x, y) = (i % (width + 2), i / (width + 2));
         x == 0 || y == 0 || x > width || y > height || !mask.inside[(y - 1) * width + x - 1]
     });
-    (0..width * height).map(|i| padded.distance[(i / width + 1) * (width + 2) + i % width + 1]).collect()
+    (0..width * height).map(|i| padded.data[(i / width + 1) * (width + 2) + i % width + 1]).collect()
 }
 
 /// Shape of a residue of the opening, if it could be a petiole.

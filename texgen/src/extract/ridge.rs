@@ -8,7 +8,7 @@
 
 use glam::Vec2;
 
-use crate::distance::nearest_seeds;
+use crate::distance::nearest_seed;
 use crate::field::{Field, quantile};
 
 /// Widths of the lines looked for, in √A.
@@ -85,8 +85,10 @@ impl Ridges {
 pub(crate) fn continued(field: &Field, depth: &[f32], rim: f32) -> Field {
     let deepest = depth.iter().copied().fold(0.0, f32::max);
     let rim = rim.min(deepest * 0.5);
-    let source = nearest_seeds(field.width, field.height, |i| depth[i] > rim);
-    let values = source.seed.iter().map(|seed| field.values[*seed]).collect();
+    let (_, source) = nearest_seed(field.width, field.height, |i| depth[i] > rim);
+    // Without any pixel that deep, each keeps its own value.
+    let value = |(&own, &seed): (&f32, &u32)| field.values.get(seed as usize).copied().unwrap_or(own);
+    let values = field.values.iter().zip(&source.data).map(value).collect();
     Field { values, ..*field }
 }
 

@@ -7,9 +7,9 @@ use glam::{Vec2, Vec3};
 
 use super::Dressed;
 use super::petiole::StemSpot;
+use crate::distance::nearest_seed;
 use crate::lab;
 use crate::math::{floor_i32, segment_distance};
-use crate::synthesis::nearest::nearest_seed;
 use crate::synthesis::vein_field::VeinField;
 
 /// Height of the bulge between veins as a share of √A.

@@ -10,10 +10,10 @@ use glam::Vec2;
 
 use super::choose::Match;
 use super::exemplar::Exemplar;
-use super::plane::Plane;
 use super::structure::Structure;
 use crate::lab::{self, Lab};
 use crate::math::floor_i32;
+use crate::plane::Plane;
 use crate::rng::Rng;
 use patch::{Frame, Patch};
 

@@ -3,13 +3,13 @@
 //! An example leaf taken apart: colours of its superpixels, its fine detail, its veins.
 
 use super::detail::{PATCH, SourceBins};
-use super::nearest::nearest_seed;
-use super::plane::Plane;
 use super::smooth::{local_mean, smooth};
 use super::snap::snap;
 use super::structure::{Place, Scaled, Structure};
 use super::vein_profile::VeinProfile;
+use crate::distance::nearest_seed;
 use crate::lab::{self, Lab};
+use crate::plane::Plane;
 use crate::{Mask, Specimen, TexgenError};
 
 /// Largest √A in pixels at which an example is studied.

@@ -10,8 +10,6 @@
 mod choose;
 mod detail;
 mod exemplar;
-pub(crate) mod nearest;
-pub(crate) mod plane;
 mod regions;
 mod smooth;
 mod snap;
@@ -27,14 +25,14 @@ mod vein_profile;
 use glam::Vec2;
 use image::RgbImage;
 
+use crate::distance::nearest_seed;
 use crate::lab::{self, Lab};
+use crate::plane::Plane;
 use crate::rng::Rng;
 use crate::{Blade, Specimen, TexgenError, VeinGraph};
 use choose::{choose_levels, draw_shares, match_regions};
 use detail::{Layer, match_spread, quilt};
 use exemplar::{Exemplar, paint_level};
-use nearest::nearest_seed;
-use plane::Plane;
 use smooth::smooth;
 pub use stages::Stage;
 use structure::{STRUCTURAL_ORDERS, Scaled, Structure};

@@ -4,7 +4,7 @@
 
 use std::collections::{BTreeMap, VecDeque};
 
-use super::plane::Plane;
+use crate::plane::Plane;
 
 /// Label of pixels outside the blade.
 pub(crate) const OUTSIDE: u32 = u32::MAX;
@@ -151,7 +151,7 @@ pub(crate) fn renumber(label: &mut Plane<u32>) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::synthesis::nearest::nearest_seed;
+    use crate::distance::nearest_seed;
     use proptest::prelude::{any, prop_assert, prop_assert_eq, proptest};
 
     #[test]

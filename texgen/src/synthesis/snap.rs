@@ -5,8 +5,8 @@
 
 use glam::Vec2;
 
-use super::plane::Plane;
 use crate::lab::Lab;
+use crate::plane::Plane;
 use crate::{VeinGraph, VeinNode};
 
 /// Farthest move as a share of √A.

@@ -4,10 +4,10 @@
 
 use image::{Rgb, RgbImage};
 
-use super::plane::Plane;
 use super::regions::OUTSIDE;
 use super::structure::Structure;
 use crate::lab::{self, Lab};
+use crate::plane::Plane;
 use crate::rng::hash64;
 use crate::{Blade, VeinGraph};
 

@@ -3,7 +3,7 @@
 //! How far each pixel lies from the root when veins are fast roads (after Qian et al. 2019): Dijkstra's shortest ways
 //! with a step into or within tissue dearer than one within a vein.
 
-use super::plane::Plane;
+use crate::plane::Plane;
 
 /// Length of a straight and of a diagonal step; 17/12 is √2 within 0.2 %.
 const STEP: [u32; 2] = [12, 17];

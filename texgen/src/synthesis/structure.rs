@@ -4,13 +4,13 @@
 
 use glam::Vec2;
 
-use super::nearest::nearest_seed;
-use super::plane::Plane;
 use super::regions::{OUTSIDE, regions};
 use super::structural::structural_distance;
 use super::superpixels::{Feature, Superpixels, superpixels};
 use super::vein_field::{VeinField, VeinSpot, with_midrib};
+use crate::distance::nearest_seed;
 use crate::math::floor_i32;
+use crate::plane::Plane;
 use crate::{Blade, Mask, TexgenError, VeinGraph};
 
 /// Highest rank of the veins that bound regions and carry structural distance.

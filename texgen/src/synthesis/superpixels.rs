@@ -6,9 +6,9 @@ use std::collections::BTreeMap;
 
 use glam::Vec2;
 
-use super::plane::Plane;
 use super::regions::{OUTSIDE, renumber};
 use crate::math::floor_i32;
+use crate::plane::Plane;
 
 /// Weight of nearness in the picture against likeness of features.
 const COMPACTNESS: f32 = 10.0;

@@ -4,9 +4,9 @@
 
 use glam::Vec2;
 
-use super::nearest::{NO_SEED, nearest_seed};
-use super::plane::Plane;
+use crate::distance::{NO_SEED, nearest_seed};
 use crate::math::{floor_i32, segment_distance};
+use crate::plane::Plane;
 use crate::{Blade, VeinGraph, VeinNode};
 
 /// Length, as a share of √A, over which the direction of a vein is measured.

@@ -188,21 +188,14 @@ fn check(scene: &Scene, atlas: &Atlas, layer_limit: u32) -> Result<(), RenderErr
 #[cfg(test)]
 mod tests {
     use windfall_core::scene::Aerodynamics;
-    use windfall_texgen::{AtlasEntry, AtlasRequest, Shape};
 
     use super::*;
-
-    fn small_atlas(scene: &Scene) -> Atlas {
-        let entry = AtlasEntry { shape: Shape::Maple, season: (0.5, 0.5) };
-        let request =
-            AtlasRequest { entries: vec![entry; scene.species.len()], variants: 2, size_px: 16, seed: 1 };
-        Atlas::generate(&request).expect("a small atlas")
-    }
+    use crate::tests::disc_atlas;
 
     #[test]
     fn blade_has_the_area_the_species_says() {
         let scene = Scene::default();
-        let atlas = small_atlas(&scene);
+        let atlas = disc_atlas(&scene, 16);
         let kinds = kinds(&scene, &atlas, &LeafForms::new(&atlas));
         let edge_m = kinds.size[0][0] * kinds.layer[1][0];
         let area = atlas.layers[1].area_fraction * edge_m * edge_m;
@@ -231,7 +224,7 @@ mod tests {
     #[test]
     fn atlas_must_fit_scene_and_device() {
         let mut scene = Scene::default();
-        let atlas = small_atlas(&scene);
+        let atlas = disc_atlas(&scene, 16);
         assert!(check(&scene, &atlas, 256).is_ok(), "its own atlas fits");
         assert!(
             matches!(check(&scene, &atlas, 1), Err(RenderError::Layers { limit: 1, .. })),

@@ -5,7 +5,6 @@
 use glam::{Mat4, Vec3, Vec4};
 use windfall_core::leaf::record::{SIZE_ONE, STATE_ATTACHED, STATE_DORMANT, STATE_FALLING};
 use windfall_core::{Scene, World, scene};
-use windfall_texgen::{Atlas, AtlasEntry, AtlasRequest, Shape};
 use windfall_wgpu::LeafColumns;
 
 use crate::camera::Camera;
@@ -80,9 +79,7 @@ impl Field {
     /// So many leaves at these places, the first of them those of the trees of `stand`.
     fn new(scene: &Scene, stand: &Stand, leaf_count: u32, place: &dyn Fn(u32) -> [u32; 4]) -> Self {
         let (device, queue) = super::device();
-        let entries = vec![AtlasEntry { shape: Shape::Maple, season: (0.5, 0.9) }; scene.species.len()];
-        let atlas =
-            Atlas::generate(&AtlasRequest { entries, variants: 2, size_px: 16, seed: 1 }).expect("an atlas");
+        let atlas = super::disc_atlas(scene, 16);
         let kinds = LeafKinds::new(&device, &queue, scene, &atlas).expect("kinds within default limits");
         let cull = CullPass::new(&device, &kinds, false);
         let stems = Stems::new(&device, &queue, stand);

@@ -14,7 +14,7 @@ mod trees;
 use image::RgbaImage;
 use windfall_core::Scene;
 use windfall_core::scene::{Exposure, Focus, Terrain};
-use windfall_texgen::{Atlas, AtlasEntry, AtlasRequest, Shape};
+use windfall_texgen::{Atlas, Layer};
 use windfall_wgpu::{BranchColumns, LeafColumns};
 
 use super::*;
@@ -55,11 +55,25 @@ pub(crate) fn device() -> (wgpu::Device, wgpu::Queue) {
 pub(crate) fn bench_with(change: impl FnOnce(&mut Scene) -> Stand) -> Bench {
     let mut scene = Scene::default();
     let stand = change(&mut scene);
-    let entry = AtlasEntry { shape: Shape::Maple, season: (0.5, 0.9) };
-    let entries = vec![entry; scene.species.len()];
-    let request = AtlasRequest { entries, variants: 2, size_px: 32, seed: 1 };
-    let atlas = Atlas::generate(&request).expect("an atlas");
+    let atlas = disc_atlas(&scene, 32);
     bench_of(scene, stand, &atlas)
+}
+
+/// Two round leaves, chequered in autumn colours, for each species of a scene.
+pub(super) fn disc_atlas(scene: &Scene, size_px: u32) -> Atlas {
+    let disc = |variant: u32| {
+        let middle = size_px as f32 / 2.0;
+        let picture = RgbaImage::from_fn(size_px, size_px, |x, y| {
+            let [right, down] = [x, y].map(|at| at as f32 + 0.5 - middle);
+            #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to 255")]
+            let alpha = (255.0 * (0.8 * middle - right.hypot(down) + 0.5).clamp(0.0, 1.0)) as u8;
+            let [r, g, b] = [[190, 60, 25], [200, 130, 30]][((x / 4 + y / 4 + variant) % 2) as usize];
+            image::Rgba([r, g, b, alpha])
+        });
+        Layer::from_picture(picture)
+    };
+    let layers = scene.species.iter().flat_map(|_| [disc(0), disc(1)]).collect();
+    Atlas { size_px, variants: 2, layers }
 }
 
 /// A bench for a scene with pictures of its own.

@@ -6,7 +6,7 @@ use glam::Vec2;
 
 use super::seam::{columns_cut, rows_cut};
 use crate::lab::{self, Lab};
-use crate::synthesis::plane::Plane;
+use crate::plane::Plane;
 
 /// Pixels over which one patch fades into the next.
 const FEATHER: f32 = 2.0;
