@@ -6,8 +6,8 @@
 
 use std::error::Error;
 
-use windfall_core::{Scene, Simulator, World};
-use windfall_wgpu::{Gpu, WgpuOptions, WgpuSimulator, instance_descriptor};
+use windfall_core::{Scene, World};
+use windfall_wgpu::{Gpu, WgpuOptions, WgpuSimulator, instance_descriptor, wgpu};
 
 /// Width and height in pixels; rows of 256 bytes need no padding.
 const SIZE: (u32, u32) = (640, 360);
@@ -90,9 +90,9 @@ pub(crate) fn run(frames: u32) -> Result<image::RgbaImage, Box<dyn Error>> {
     });
 
     for _ in 0..frames {
-        // One step for each frame of the program's loop.
-        simulator.step(1)?;
         let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        // One step for each frame of the program's loop, in the program's own submission.
+        simulator.encode_steps(&mut encoder, 1)?;
         draw(&mut encoder, &pipeline, &simulator, &picture_view, &depth_view);
         let layout =
             wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(SIZE.0 * 4), rows_per_image: None };

@@ -8,7 +8,7 @@ use windfall_core::tree::record::{BRANCH_BASE, BRANCH_POSE};
 use windfall_core::{SimError, World};
 
 use crate::gpu::Gpu;
-use crate::readback::read_buffer;
+use crate::readback::{Readback, Run, read_buffer};
 
 /// Columns that share a buffer begin at a multiple of this many rows, so that each can be bound on any device.
 const COLUMN_STEP: u64 = 16;
@@ -76,14 +76,12 @@ impl StoreBuffers {
     /// [`SimError::Capacity`] if one is larger than the device's largest buffer.
     pub fn new(gpu: &Gpu, store: &dyn Store) -> Result<Self, SimError> {
         let size = store.size();
-        let rows = size.rows as u64;
+        let rows = size.rows.max(1) as u64;
         let mut columns = Vec::new();
         for group in store.description().chunk_by(|a, b| a.record == b.record) {
-            let stride =
-                if group.len() == 1 { rows.max(1) } else { rows.max(1).next_multiple_of(COLUMN_STEP) };
+            let stride = if group.len() == 1 { rows } else { rows.next_multiple_of(COLUMN_STEP) };
             let record_bytes = group[0].record_bytes as u64;
-            let column_bytes = stride * record_bytes;
-            let needed = column_bytes * group.len() as u64;
+            let needed = stride * record_bytes * group.len() as u64;
             let allowed = gpu.device().limits().max_buffer_size;
             if needed > allowed {
                 let device = gpu.info().name.clone();
@@ -96,7 +94,7 @@ impl StoreBuffers {
                 });
             }
             let names: Vec<_> = group.iter().map(|column| column.name).collect();
-            let buffer = gpu.device().create_buffer(&wgpu::BufferDescriptor {
+            let descriptor = wgpu::BufferDescriptor {
                 label: Some(&format!("{} {}", size.store, names.join(" "))),
                 size: needed,
                 usage: wgpu::BufferUsages::STORAGE
@@ -104,15 +102,16 @@ impl StoreBuffers {
                     | wgpu::BufferUsages::COPY_SRC
                     | wgpu::BufferUsages::COPY_DST,
                 mapped_at_creation: false,
-            });
-            columns.extend((0..).step_by(column_bytes as usize).zip(group).map(|(offset, _)| ColumnBuffer {
+            };
+            let buffer = gpu.scoped(|| gpu.device().create_buffer(&descriptor))?;
+            let places = (0..group.len() as u64).map(|index| index * stride * record_bytes);
+            columns.extend(places.map(|offset| ColumnBuffer {
                 buffer: buffer.clone(),
                 offset,
                 stride,
                 record_bytes,
             }));
         }
-        gpu.check()?;
         Ok(Self { size, columns })
     }
 
@@ -122,10 +121,11 @@ impl StoreBuffers {
     /// [`SimError::Size`] if the store is of another size; a lost device.
     pub fn write(&self, gpu: &Gpu, store: &dyn Store) -> Result<(), SimError> {
         check_sizes(&[store.size()], &[self.size])?;
-        for (column, bytes) in self.columns.iter().zip(store.columns()) {
-            gpu.queue().write_buffer(&column.buffer, column.offset, bytes);
-        }
-        gpu.check()
+        gpu.scoped(|| {
+            for (column, bytes) in self.columns.iter().zip(store.columns()) {
+                gpu.queue().write_buffer(&column.buffer, column.offset, bytes);
+            }
+        })
     }
 
     /// Copies all columns out, after everything submitted before.
@@ -138,6 +138,15 @@ impl StoreBuffers {
             read_buffer(gpu, &column.buffer, column.offset, bytes)?;
         }
         Ok(())
+    }
+
+    /// The bytes of every column that hold rows.
+    fn runs(&self) -> impl Iterator<Item = Run<'_>> {
+        self.columns.iter().map(|ColumnBuffer { buffer, offset, record_bytes, .. }| Run {
+            buffer,
+            offset: *offset,
+            size: self.size.rows as u64 * record_bytes,
+        })
     }
 
     /// Name and number of rows.
@@ -218,6 +227,11 @@ impl WorldBuffers {
     pub fn read(&self, gpu: &Gpu, world: &mut World) -> Result<(), SimError> {
         check_sizes(&world.sizes(), &self.sizes())?;
         self.stores.iter().zip(world.stores_mut()).try_for_each(|(buffers, store)| buffers.read(gpu, store))
+    }
+
+    /// Starts to copy the state out, after everything submitted before.
+    pub(crate) fn request(&self, gpu: &Gpu) -> Result<Readback, SimError> {
+        Readback::new(gpu, self.stores.iter().flat_map(StoreBuffers::runs))
     }
 
     /// Number of rows of each store.

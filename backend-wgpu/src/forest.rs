@@ -2,14 +2,13 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The trees of a world on the device: constants, and the passes that move them.
 
-use windfall_core::SimError;
 use windfall_core::tree::Forest;
 use windfall_core::tree::record::{BRANCH_COLUMNS, BRANCH_TURN, WORK_ROWS};
 
 use crate::buffers::{buffer, filled, group};
 use crate::columns::StoreBuffers;
 use crate::gpu::Gpu;
-use crate::pipelines::Pipelines;
+use crate::pipelines::{GroupLayout, Pipelines};
 use crate::prelude::WORKGROUP_SIZE;
 use crate::simulator::MAX_GROUPS;
 
@@ -35,7 +34,7 @@ impl ForestBuffers {
         forest: &Forest,
         blocks: [wgpu::BindingResource<'_>; 3],
         branches: &StoreBuffers,
-    ) -> Result<Self, SimError> {
+    ) -> Self {
         let stride = branches.stride(BRANCH_TURN as usize);
         let segments = filled(gpu, "segments", bytemuck::cast_slice(forest.segments()));
         let order = filled(gpu, "forest order", bytemuck::cast_slice(forest.order()));
@@ -73,10 +72,9 @@ impl ForestBuffers {
             work.as_entire_binding(),
             branches.buffer(BRANCH_COLUMNS as usize).as_entire_binding(),
         ];
-        let level_group = group(gpu, &pipelines.level_layout, resources);
+        let level_group = group(gpu, pipelines.layout(GroupLayout::Level), resources);
         let sway = sway_group(gpu, pipelines, blocks);
-        gpu.check()?;
-        Ok(Self { levels, sway, level_group, level_stride })
+        Self { levels, sway, level_group, level_stride }
     }
 
     /// Takes over other blocks or wind tables; the trees stay as they are.
@@ -94,7 +92,7 @@ impl ForestBuffers {
     pub(crate) fn encode(
         &self,
         pass: &mut wgpu::ComputePass<'_>,
-        [inwards, outwards]: &[wgpu::ComputePipeline; 2],
+        [inwards, outwards]: [&wgpu::ComputePipeline; 2],
         step_offset: u32,
     ) {
         pass.set_bind_group(0, &self.sway, &[step_offset]);
@@ -113,5 +111,5 @@ impl ForestBuffers {
 }
 
 fn sway_group(gpu: &Gpu, pipelines: &Pipelines, blocks: [wgpu::BindingResource<'_>; 3]) -> wgpu::BindGroup {
-    group(gpu, &pipelines.sway_layout, blocks)
+    group(gpu, pipelines.layout(GroupLayout::Sway), blocks)
 }

@@ -9,7 +9,7 @@ use windfall_core::{Contract, SimError};
 use crate::pipelines::shader_module;
 use crate::readback::read_buffer;
 
-/// What wgpu reported about the device outside any call: its loss, or an error nobody caught.
+/// The first report of trouble with the device: its loss, or an error.
 type Health = Arc<Mutex<Option<SimError>>>;
 
 /// A device with its queue, shared by simulator and renderer.
@@ -19,6 +19,8 @@ pub struct Gpu {
     device: wgpu::Device,
     queue: wgpu::Queue,
     health: Health,
+    /// True if the device is of our making, and its callbacks are ours.
+    is_own: bool,
 }
 
 /// How instances are made here: the platform's first-class APIs (Vulkan, Metal, DX12), or what `WGPU_BACKEND` names.
@@ -111,22 +113,24 @@ impl Gpu {
         };
         let (device, queue) = pollster::block_on(adapter.request_device(&descriptor))
             .map_err(|error| SimError::NoAdapter { reason: format!("{}: {error}", info.name) })?;
-        Ok(Self::from_parts(info, device, queue))
+        let gpu = Self { is_own: true, ..Self::from_parts(info, device, queue) };
+        let lost = Arc::clone(&gpu.health);
+        gpu.device.set_device_lost_callback(move |reason, message| {
+            report(&lost, SimError::DeviceLost { reason: format!("{reason:?}: {message}") });
+        });
+        let uncaught = Arc::clone(&gpu.health);
+        gpu.device.on_uncaptured_error(Arc::new(move |error: wgpu::Error| {
+            report(&uncaught, SimError::Device { reason: error.to_string() });
+        }));
+        Ok(gpu)
     }
 
     /// A device that the host program made. For the exact contract it needs `PASSTHROUGH_SHADERS` on Vulkan.
-    /// Replaces the device's callbacks for loss and for errors that nobody caught.
+    ///
+    /// Its callbacks for loss and for uncaptured errors stay the host's: errors of our calls are caught in error scopes, and
+    /// its loss shows in the next of our calls that fails or waits.
     pub fn from_parts(info: wgpu::AdapterInfo, device: wgpu::Device, queue: wgpu::Queue) -> Self {
-        let health = Health::default();
-        let lost = Arc::clone(&health);
-        device.set_device_lost_callback(move |reason, message| {
-            report(&lost, SimError::DeviceLost { reason: format!("{reason:?}: {message}") });
-        });
-        let uncaught = Arc::clone(&health);
-        device.on_uncaptured_error(Arc::new(move |error: wgpu::Error| {
-            report(&uncaught, SimError::Device { reason: error.to_string() });
-        }));
-        Self { info, device, queue, health }
+        Self { info, device, queue, health: Health::default(), is_own: false }
     }
 
     /// The adapter.
@@ -173,7 +177,60 @@ impl Gpu {
         read_buffer(self, buffer, 0, out)
     }
 
-    /// Fails once the device is lost or has reported an error that nobody caught.
+    /// Makes calls to the device and catches its errors.
+    ///
+    /// # Errors
+    /// The first error of these or earlier calls; it stays. A lost device.
+    pub fn scoped<T>(&self, calls: impl FnOnce() -> T) -> Result<T, SimError> {
+        self.check()?;
+        let (result, error) = self.caught(calls);
+        if let Some(error) = error {
+            let reason = error.to_string();
+            let is_lost = self.is_lost();
+            let error = if is_lost { SimError::DeviceLost { reason } } else { SimError::Device { reason } };
+            report(&self.health, error);
+        }
+        self.check().map(|()| result)
+    }
+
+    /// Makes calls inside error scopes of our own.
+    fn caught<T>(&self, calls: impl FnOnce() -> T) -> (T, Option<wgpu::Error>) {
+        let filters =
+            [wgpu::ErrorFilter::Validation, wgpu::ErrorFilter::OutOfMemory, wgpu::ErrorFilter::Internal];
+        let scopes = filters.map(|filter| self.device.push_error_scope(filter));
+        let result = calls();
+        // Scopes end in the order opposite to their beginning. Away from browsers each has its answer at once.
+        let errors = scopes.into_iter().rev().map(|scope| pollster::block_on(scope.pop()));
+        let first = errors.fold(None, Option::or);
+        (result, first)
+    }
+
+    /// Returns true if the device is lost: then it maps no buffer.
+    fn is_lost(&self) -> bool {
+        let (sender, receiver) = std::sync::mpsc::channel();
+        let _ = self.caught(|| {
+            let buffer = self.device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some("probe"),
+                size: 4,
+                usage: wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST,
+                mapped_at_creation: false,
+            });
+            buffer.map_async(wgpu::MapMode::Read, .., move |result| {
+                // Nobody waits for an answer that comes late: a device that still works on it is not lost.
+                let _ = sender.send(result);
+            });
+            let _ = self.device.poll(wgpu::PollType::Poll);
+        });
+        matches!(receiver.try_recv(), Ok(Err(_)))
+    }
+
+    /// Keeps a report that the device is lost, and returns it.
+    pub(crate) fn lost(&self, reason: String) -> SimError {
+        report(&self.health, SimError::DeviceLost { reason: reason.clone() });
+        self.check().err().unwrap_or(SimError::DeviceLost { reason })
+    }
+
+    /// Fails once the device is known to be lost or has reported an error.
     ///
     /// # Errors
     /// The first such report; it stays.
@@ -181,6 +238,7 @@ impl Gpu {
         match &*self.health.lock().unwrap_or_else(PoisonError::into_inner) {
             None => Ok(()),
             Some(SimError::DeviceLost { reason }) => Err(SimError::DeviceLost { reason: reason.clone() }),
+            Some(SimError::Device { reason }) => Err(SimError::Device { reason: reason.clone() }),
             Some(other) => Err(SimError::Device { reason: other.to_string() }),
         }
     }
@@ -194,6 +252,9 @@ impl Gpu {
         self.device
             .poll(wgpu::PollType::wait_indefinitely())
             .map_err(|error| SimError::Device { reason: error.to_string() })?;
+        if !self.is_own && self.is_lost() {
+            return Err(self.lost("it no longer maps buffers".into()));
+        }
         self.check()
     }
 }

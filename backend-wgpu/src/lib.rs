@@ -30,4 +30,5 @@ pub use exact::decorate_no_contraction;
 pub use gpu::{Gpu, describe_adapter, instance_descriptor, list_adapters, select_adapter};
 pub use prelude::WORKGROUP_SIZE;
 pub use shaders::{KernelId, ShaderError, Shaders};
-pub use simulator::{WgpuOptions, WgpuSimulator};
+pub use simulator::{StateRequest, StatsRequest, WgpuOptions, WgpuSimulator};
+pub use wgpu;

@@ -4,36 +4,95 @@
 
 use std::borrow::Cow;
 
-use windfall_core::{Contract, SimError};
+use windfall_core::scene::SwayScheme;
+use windfall_core::{Contract, Environment, SimError};
 
 use crate::gpu::Gpu;
 use crate::prelude::WORKGROUP_SIZE;
 use crate::shaders::{KernelId, Shaders, compile_exact};
 
-/// Binding layouts and pipelines of all kernels.
+/// A group of bindings that kernels share.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum GroupLayout {
+    /// Blocks, tables and leaf columns.
+    Leaves,
+    /// One storage buffer: the due leaves of a page, or the counters.
+    Extra,
+    /// Blocks and wind tables, for trees.
+    Sway,
+    /// A level of the forest.
+    Level,
+    /// Blocks, wind tables and hot leaf columns, for leaves on twigs.
+    Carried,
+    /// What carries them.
+    Carriers,
+}
+
+impl GroupLayout {
+    const ALL: [Self; 6] =
+        [Self::Leaves, Self::Extra, Self::Sway, Self::Level, Self::Carried, Self::Carriers];
+
+    /// What is bound, binding by binding.
+    fn slots(self) -> &'static [Slot] {
+        use Slot::{Block, BlockOfMany, Read, Write};
+        // The bindings of shaders/bindings.wgsl: all of them, those up to the wind, those up to the courses.
+        const ALL: &[Slot] = &[Block, BlockOfMany, Read, Write, Write, Write, Write, Write, Read];
+        match self {
+            Self::Leaves => ALL,
+            Self::Sway => &ALL[..3],
+            Self::Carried => &ALL[..7],
+            Self::Extra => &[Write],
+            // The bindings of shaders/tree/bindings.wgsl.
+            Self::Level => &[BlockOfMany, Read, Read, Write, Write, Read],
+            // The bindings of shaders/leaf/petioles.wgsl.
+            Self::Carriers => &[Block, Read, Read, Write],
+        }
+    }
+}
+
+impl KernelId {
+    /// The groups that the kernel binds.
+    fn layouts(self) -> [GroupLayout; 2] {
+        match self {
+            Self::SwayInward | Self::SwayOutward | Self::SwayGather | Self::SwayFollow => {
+                [GroupLayout::Sway, GroupLayout::Level]
+            }
+            Self::Carry => [GroupLayout::Carried, GroupLayout::Carriers],
+            Self::Advance | Self::Fly | Self::Attend | Self::Measure => {
+                [GroupLayout::Leaves, GroupLayout::Extra]
+            }
+        }
+    }
+
+    /// The kernels that step and count a world of this environment.
+    pub(crate) fn needed(environment: &Environment) -> Vec<Self> {
+        let mut kernels = vec![Self::Advance, Self::Attend, Self::Measure];
+        if environment.block().has_bodies() {
+            kernels.push(Self::Fly);
+        }
+        if !environment.forest().is_empty() {
+            kernels.push(Self::Carry);
+            kernels.extend(Self::of_scheme(environment.scene().sway));
+        }
+        kernels
+    }
+
+    /// The kernels that move trees by a scheme, inward and outward.
+    pub(crate) fn of_scheme(scheme: SwayScheme) -> [Self; 2] {
+        match scheme {
+            SwayScheme::Articulated => [Self::SwayInward, Self::SwayOutward],
+            SwayScheme::Quigley | SwayScheme::OliapuramKumar => [Self::SwayGather, Self::SwayFollow],
+        }
+    }
+}
+
+/// Binding layouts, and the pipelines of the kernels that have been needed so far.
 #[derive(Debug)]
 pub(crate) struct Pipelines {
-    pub(crate) leaves_layout: wgpu::BindGroupLayout,
-    /// One storage buffer: the due leaves of a page, or the counters.
-    pub(crate) extra_layout: wgpu::BindGroupLayout,
-    /// Blocks and wind tables, for trees.
-    pub(crate) sway_layout: wgpu::BindGroupLayout,
-    /// A level of the forest.
-    pub(crate) level_layout: wgpu::BindGroupLayout,
-    /// Blocks, wind tables and hot leaf columns, for leaves on twigs.
-    pub(crate) carried_layout: wgpu::BindGroupLayout,
-    /// What carries them.
-    pub(crate) carrier_layout: wgpu::BindGroupLayout,
-    pub(crate) advance: wgpu::ComputePipeline,
-    /// For worlds in which leaves fly as bodies: it takes longest to compile.
-    pub(crate) fly: Option<wgpu::ComputePipeline>,
+    layouts: [wgpu::BindGroupLayout; GroupLayout::ALL.len()],
+    kernels: [Option<wgpu::ComputePipeline>; KernelId::ALL.len()],
     shaders: Shaders,
     contract: Contract,
-    pub(crate) attend: wgpu::ComputePipeline,
-    pub(crate) measure: wgpu::ComputePipeline,
-    /// Towards the foot and towards the tips: of articulated bodies, and of the schemes that move joints one by one.
-    pub(crate) sway: [[wgpu::ComputePipeline; 2]; 2],
-    pub(crate) carry: wgpu::ComputePipeline,
 }
 
 /// What is bound in one place of a layout.
@@ -71,62 +130,38 @@ fn layout(gpu: &Gpu, label: &str, slots: &[Slot]) -> wgpu::BindGroupLayout {
 }
 
 impl Pipelines {
-    pub(crate) fn new(gpu: &Gpu, shaders: &Shaders, contract: Contract) -> Result<Self, SimError> {
-        use Slot::{Block, BlockOfMany, Read, Write};
-        // The bindings of shaders/bindings.wgsl: all of them, those up to the wind, those up to the courses.
-        let all = [Block, BlockOfMany, Read, Write, Write, Write, Write, Write, Read];
-        let leaves_layout = layout(gpu, "leaves", &all);
-        let sway_layout = layout(gpu, "sway", &all[..3]);
-        let carried_layout = layout(gpu, "carried", &all[..7]);
-        let extra_layout = layout(gpu, "extra", &[Write]);
-        // The bindings of shaders/tree/bindings.wgsl.
-        let level_layout = layout(gpu, "level", &[BlockOfMany, Read, Read, Write, Write, Read]);
-        // The bindings of shaders/leaf/petioles.wgsl.
-        let carrier_layout = layout(gpu, "carriers", &[Block, Read, Read, Write]);
-        let pipeline = |kernel: KernelId| {
-            let layouts = match kernel {
-                KernelId::SwayInward
-                | KernelId::SwayOutward
-                | KernelId::SwayGather
-                | KernelId::SwayFollow => [&sway_layout, &level_layout],
-                KernelId::Carry => [&carried_layout, &carrier_layout],
-                _ => [&leaves_layout, &extra_layout],
-            };
-            pipeline(gpu, shaders, contract, kernel, layouts)
-        };
-        let advance = pipeline(KernelId::Advance)?;
-        let attend = pipeline(KernelId::Attend)?;
-        let measure = pipeline(KernelId::Measure)?;
-        let sway = [
-            [pipeline(KernelId::SwayInward)?, pipeline(KernelId::SwayOutward)?],
-            [pipeline(KernelId::SwayGather)?, pipeline(KernelId::SwayFollow)?],
-        ];
-        let carry = pipeline(KernelId::Carry)?;
-        Ok(Self {
-            leaves_layout,
-            extra_layout,
-            sway_layout,
-            level_layout,
-            carried_layout,
-            carrier_layout,
-            advance,
-            fly: None,
-            shaders: shaders.clone(),
-            contract,
-            attend,
-            measure,
-            sway,
-            carry,
-        })
+    /// No pipelines yet.
+    pub(crate) fn new(gpu: &Gpu, shaders: Shaders, contract: Contract) -> Result<Self, SimError> {
+        let layouts = GroupLayout::ALL.map(|group| layout(gpu, &format!("{group:?}"), group.slots()));
+        Ok(Self { layouts, kernels: [const { None }; KernelId::ALL.len()], shaders, contract })
     }
 
-    /// Makes ready to fly bodies.
-    pub(crate) fn add_fly(&mut self, gpu: &Gpu) -> Result<(), SimError> {
-        if self.fly.is_none() {
-            let layouts = [&self.leaves_layout, &self.extra_layout];
-            self.fly = Some(pipeline(gpu, &self.shaders, self.contract, KernelId::Fly, layouts)?);
+    /// Compiles those of these kernels that are not there yet.
+    pub(crate) fn prepare(
+        &mut self,
+        gpu: &Gpu,
+        kernels: impl IntoIterator<Item = KernelId>,
+    ) -> Result<(), SimError> {
+        for kernel in kernels {
+            if self.kernels[kernel as usize].is_none() {
+                let layouts = kernel.layouts().map(|group| self.layout(group));
+                let pipeline = pipeline(gpu, &self.shaders, self.contract, kernel, layouts)?;
+                self.kernels[kernel as usize] = Some(pipeline);
+            }
         }
         Ok(())
+    }
+
+    /// The pipeline of a kernel that has been prepared.
+    pub(crate) fn kernel(&self, kernel: KernelId) -> &wgpu::ComputePipeline {
+        self.kernels[kernel as usize]
+            .as_ref()
+            .expect("the kernels that an environment needs are prepared with it")
+    }
+
+    /// The layout of a group.
+    pub(crate) fn layout(&self, group: GroupLayout) -> &wgpu::BindGroupLayout {
+        &self.layouts[group as usize]
     }
 }
 
@@ -140,20 +175,21 @@ fn pipeline(
 ) -> Result<wgpu::ComputePipeline, SimError> {
     let source = shaders.kernel(kernel).map_err(|error| SimError::Device { reason: error.to_string() })?;
     let module = shader_module(gpu, &source, kernel.name(), contract)?;
-    let layout = gpu.device().create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-        label: Some(kernel.name()),
-        bind_group_layouts: &layouts.map(Some),
-        immediate_size: 0,
-    });
-    let pipeline = gpu.device().create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-        label: Some(kernel.name()),
-        layout: Some(&layout),
-        module: &module,
-        entry_point: Some(kernel.name()),
-        compilation_options: wgpu::PipelineCompilationOptions::default(),
-        cache: None,
-    });
-    gpu.check().map(|()| pipeline)
+    gpu.scoped(|| {
+        let layout = gpu.device().create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+            label: Some(kernel.name()),
+            bind_group_layouts: &layouts.map(Some),
+            immediate_size: 0,
+        });
+        gpu.device().create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+            label: Some(kernel.name()),
+            layout: Some(&layout),
+            module: &module,
+            entry_point: Some(kernel.name()),
+            compilation_options: wgpu::PipelineCompilationOptions::default(),
+            cache: None,
+        })
+    })
 }
 
 /// A shader module: plain WGSL, or SPIR-V whose every float operation keeps its own rounding.
@@ -164,10 +200,11 @@ pub(crate) fn shader_module(
     contract: Contract,
 ) -> Result<wgpu::ShaderModule, SimError> {
     if contract == Contract::Tolerant {
-        return Ok(gpu.device().create_shader_module(wgpu::ShaderModuleDescriptor {
+        let descriptor = wgpu::ShaderModuleDescriptor {
             label: Some(entry_point),
             source: wgpu::ShaderSource::Wgsl(Cow::Borrowed(source)),
-        }));
+        };
+        return gpu.scoped(|| gpu.device().create_shader_module(descriptor));
     }
     if gpu.contract() != Contract::Exact {
         let reason = format!("{} cannot keep the exact contract: it needs Vulkan", gpu.info().name);
@@ -186,6 +223,6 @@ pub(crate) fn shader_module(
     // SAFETY: the words are a module that naga has validated and written, with decorations added that only restrict
     // how results are rounded; every index in the kernels is bounded by the length of the column or table it reads.
     #[expect(unsafe_code, reason = "WGSL has no way to forbid contraction; SPIR-V has")]
-    let module = unsafe { gpu.device().create_shader_module_passthrough(descriptor) };
-    gpu.check().map(|()| module)
+    let module = gpu.scoped(|| unsafe { gpu.device().create_shader_module_passthrough(descriptor) });
+    module
 }

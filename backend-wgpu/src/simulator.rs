@@ -3,6 +3,7 @@
 //! The wgpu simulator.
 
 mod pages;
+mod requests;
 mod steps;
 
 use std::sync::Arc;
@@ -13,15 +14,14 @@ use windfall_core::stats::COUNTER_COUNT;
 use windfall_core::{Clock, Contract, Environment, SimError, Simulator, SimulatorInfo, Stats, World};
 
 use self::pages::Page;
-use self::steps::STEPS_PER_SUBMIT;
+pub use self::requests::{StateRequest, StatsRequest};
+use self::steps::STEPS_PER_PASS;
 use crate::buffers::{buffer, group, table};
 use crate::columns::{WorldBuffers, WorldColumns};
 use crate::forest::ForestBuffers;
 use crate::gpu::{Gpu, describe_adapter};
-use crate::pipelines::Pipelines;
-use crate::prelude::WORKGROUP_SIZE;
-use crate::readback::read_buffer;
-use crate::shaders::Shaders;
+use crate::pipelines::{GroupLayout, Pipelines};
+use crate::shaders::{KernelId, Shaders};
 
 /// Bytes of the largest record of a leaf column.
 const LARGEST_RECORD: u64 = 16;
@@ -69,11 +69,16 @@ impl WgpuSimulator {
     /// # Errors
     /// [`SimError::Capacity`] if the device cannot hold the leaves; a device that refuses or is lost.
     pub fn new(gpu: &Gpu, world: &World, options: &WgpuOptions) -> Result<Self, SimError> {
-        gpu.check()?;
+        gpu.scoped(|| Self::on_device(gpu, world, options))?
+    }
+
+    /// Makes a simulator inside error scopes.
+    fn on_device(gpu: &Gpu, world: &World, options: &WgpuOptions) -> Result<Self, SimError> {
         let contract = options.contract.unwrap_or(gpu.contract());
         let shaders = options.shaders.clone().unwrap_or_default();
-        let pipelines = Pipelines::new(gpu, &shaders, contract)?;
         let environment = world.environment.clone();
+        let mut pipelines = Pipelines::new(gpu, shaders, contract)?;
+        pipelines.prepare(gpu, KernelId::needed(&environment))?;
         let buffers = WorldBuffers::new(gpu, world)?;
         let limits = gpu.device().limits();
         let binding = limits.max_storage_buffer_binding_size / LARGEST_RECORD;
@@ -91,7 +96,7 @@ impl WgpuSimulator {
             u64::from(COUNTER_COUNT) * 4,
             wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC,
         );
-        let counters_group = group(gpu, &pipelines.extra_layout, [counters.as_entire_binding()]);
+        let counters_group = group(gpu, pipelines.layout(GroupLayout::Extra), [counters.as_entire_binding()]);
         let mut simulator = Self {
             gpu: gpu.clone(),
             contract,
@@ -101,7 +106,7 @@ impl WgpuSimulator {
             buffers,
             page_leaves: (largest / PAGE_STEP).max(1) * PAGE_STEP,
             environment_buffer: uniform("environment", size_of::<EnvironmentBlock>() as u64),
-            step_buffer: uniform("step", u64::from(STEPS_PER_SUBMIT * step_stride)),
+            step_buffer: uniform("step", u64::from(STEPS_PER_PASS * step_stride)),
             step_stride,
             motion,
             wind,
@@ -111,7 +116,7 @@ impl WgpuSimulator {
             counters_group,
             pages: Vec::new(),
         };
-        simulator.plant()?;
+        simulator.plant();
         simulator.bind_pages();
         simulator.write_state(world)?;
         Ok(simulator)
@@ -129,13 +134,12 @@ impl WgpuSimulator {
     }
 
     /// Makes room for the trees of the environment; trees that are there already go on as they stand.
-    fn plant(&mut self) -> Result<(), SimError> {
+    fn plant(&mut self) {
         let forest = self.environment.forest();
         if !forest.is_empty() {
             let (blocks, branches) = (self.sway_blocks(), self.buffers.branches());
-            self.forest = Some(ForestBuffers::new(&self.gpu, &self.pipelines, forest, blocks, branches)?);
+            self.forest = Some(ForestBuffers::new(&self.gpu, &self.pipelines, forest, blocks, branches));
         }
-        Ok(())
     }
 
     /// What every kernel sees first: blocks and wind tables.
@@ -150,6 +154,37 @@ impl WgpuSimulator {
             offset: 0,
             size: wgpu::BufferSize::new(size_of::<StepBlock>() as u64),
         })
+    }
+
+    /// Replaces the environment by one of the same sizes.
+    fn take_over(&mut self, environment: &Environment) -> Result<(), SimError> {
+        self.pipelines.prepare(&self.gpu, KernelId::needed(environment))?;
+        self.gpu.queue().write_buffer(&self.environment_buffer, 0, bytemuck::bytes_of(environment.block()));
+        let mut moved = false;
+        let replanted = !Arc::ptr_eq(self.environment.forest(), environment.forest());
+        self.environment = environment.clone();
+        if !Arc::ptr_eq(&self.motion.0, environment.motion()) {
+            self.motion = table(&self.gpu, "motion", environment.motion());
+            moved = true;
+        }
+        if !Arc::ptr_eq(&self.wind.0, environment.wind()) {
+            self.wind = table(&self.gpu, "wind", environment.wind());
+            moved = true;
+        }
+        if !Arc::ptr_eq(&self.petioles.0, environment.petioles()) {
+            self.petioles = table(&self.gpu, "petioles", environment.petioles());
+            moved = true;
+        }
+        if replanted {
+            self.plant();
+        } else if let Some(mut forest) = self.forest.take() {
+            forest.rebind(&self.gpu, &self.pipelines, self.sway_blocks());
+            self.forest = Some(forest);
+        }
+        if moved || replanted {
+            self.bind_pages();
+        }
+        Ok(())
     }
 }
 
@@ -172,8 +207,7 @@ impl Simulator for WgpuSimulator {
         self.buffers.write(&self.gpu, world)?;
         self.clock = world.clock;
         self.set_environment(&world.environment)?;
-        self.clear_due();
-        Ok(())
+        self.gpu.scoped(|| self.clear_due())
     }
 
     fn read_state(&mut self, world: &mut World) -> Result<(), SimError> {
@@ -183,37 +217,9 @@ impl Simulator for WgpuSimulator {
     }
 
     fn set_environment(&mut self, environment: &Environment) -> Result<(), SimError> {
-        self.gpu.check()?;
         environment.fits(&self.buffers.sizes())?;
-        if environment.block().has_bodies() {
-            self.pipelines.add_fly(&self.gpu)?;
-        }
-        self.gpu.queue().write_buffer(&self.environment_buffer, 0, bytemuck::bytes_of(environment.block()));
-        let mut moved = false;
-        let replanted = !Arc::ptr_eq(self.environment.forest(), environment.forest());
-        self.environment = environment.clone();
-        if !Arc::ptr_eq(&self.motion.0, environment.motion()) {
-            self.motion = table(&self.gpu, "motion", environment.motion());
-            moved = true;
-        }
-        if !Arc::ptr_eq(&self.wind.0, environment.wind()) {
-            self.wind = table(&self.gpu, "wind", environment.wind());
-            moved = true;
-        }
-        if !Arc::ptr_eq(&self.petioles.0, environment.petioles()) {
-            self.petioles = table(&self.gpu, "petioles", environment.petioles());
-            moved = true;
-        }
-        if replanted {
-            self.plant()?;
-        } else if let Some(mut forest) = self.forest.take() {
-            forest.rebind(&self.gpu, &self.pipelines, self.sway_blocks());
-            self.forest = Some(forest);
-        }
-        if moved || replanted {
-            self.bind_pages();
-        }
-        self.gpu.check()
+        let gpu = self.gpu.clone();
+        gpu.scoped(|| self.take_over(environment))?
     }
 
     fn step(&mut self, count: u32) -> Result<(), SimError> {
@@ -225,22 +231,7 @@ impl Simulator for WgpuSimulator {
     }
 
     fn stats(&mut self) -> Result<Stats, SimError> {
-        self.gpu.check()?;
-        self.gpu.queue().write_buffer(&self.counters, 0, &[0; COUNTER_COUNT as usize * 4]);
-        let mut encoder =
-            self.gpu.device().create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-        {
-            let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
-            pass.set_pipeline(&self.pipelines.measure);
-            pass.set_bind_group(1, &self.counters_group, &[]);
-            for page in &self.pages {
-                pass.set_bind_group(0, &page.columns, &[0]);
-                pass.dispatch_workgroups(page.leaves.div_ceil(WORKGROUP_SIZE).min(MAX_GROUPS), 1, 1);
-            }
-        }
-        self.gpu.queue().submit([encoder.finish()]);
-        let mut counters = [0u32; COUNTER_COUNT as usize];
-        read_buffer(&self.gpu, &self.counters, 0, bytemuck::cast_slice_mut(&mut counters))?;
-        Ok(Stats::from_counters(&counters, self.clock.step()))
+        let request = self.request_stats()?;
+        request.wait()
     }
 }

@@ -2,10 +2,13 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Trouble with devices: errors, never panics.
 
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
 use windfall_core::{Environment, SimError, Simulator, World};
 use windfall_tests::adapter;
 use windfall_tests::strategies::{varied_scene, wooded_scene};
-use windfall_wgpu::{Gpu, WgpuOptions, WgpuSimulator};
+use windfall_wgpu::{Gpu, Shaders, WgpuOptions, WgpuSimulator, instance_descriptor, list_adapters, wgpu};
 
 #[test]
 fn a_lost_device_is_an_error() {
@@ -109,4 +112,55 @@ fn trees_stand_through_a_new_environment() {
         assert_eq!(hashes[0], hashes[1], "{}", gpu.info().name);
         world = World::build(&scene).expect("valid");
     }
+}
+
+/// A device of another program, with callbacks of its own: errors that it caught, and losses.
+fn foreign() -> (Gpu, Arc<AtomicUsize>, Arc<AtomicUsize>) {
+    let instance = wgpu::Instance::new(instance_descriptor());
+    let adapter = list_adapters(&instance).remove(0);
+    let descriptor = wgpu::DeviceDescriptor { required_limits: adapter.limits(), ..Default::default() };
+    let (device, queue) =
+        pollster::block_on(adapter.request_device(&descriptor)).expect("the adapter gives a device");
+    let (errors, losses) = (Arc::new(AtomicUsize::new(0)), Arc::new(AtomicUsize::new(0)));
+    let (caught, lost) = (Arc::clone(&errors), Arc::clone(&losses));
+    device.on_uncaptured_error(Arc::new(move |_: wgpu::Error| {
+        caught.fetch_add(1, Ordering::Relaxed);
+    }));
+    device.set_device_lost_callback(move |_, _| {
+        lost.fetch_add(1, Ordering::Relaxed);
+    });
+    (Gpu::from_parts(adapter.get_info(), device, queue), errors, losses)
+}
+
+#[test]
+fn the_callbacks_of_another_program_stay_its_own() {
+    let world = World::build(&wooded_scene(1, 100, 2.0, 1.0 / 60.0)).expect("valid");
+    let (gpu, errors, losses) = foreign();
+    let mut simulator =
+        WgpuSimulator::new(&gpu, &world, &WgpuOptions::default()).expect("the device takes it");
+    simulator.step(3).expect("it steps");
+    // A mistake of the program is the program's to hear of.
+    let _ = gpu.device().create_buffer(&wgpu::BufferDescriptor {
+        label: None,
+        size: u64::MAX,
+        usage: wgpu::BufferUsages::STORAGE,
+        mapped_at_creation: false,
+    });
+    assert_eq!(errors.load(Ordering::Relaxed), 1, "the program's handler");
+    simulator.step(1).expect("the simulator goes on");
+    simulator.sync().expect("and waits");
+    // A mistake of ours is not.
+    let shaders = Shaders::default().edited("kernels/measure", "fn measure(", "fn measure() {} fn other(");
+    let options = WgpuOptions { shaders: Some(shaders.expect("it is there")), ..WgpuOptions::default() };
+    let broken = foreign().0;
+    let refused = WgpuSimulator::new(&broken, &world, &options);
+    assert!(matches!(refused, Err(SimError::Device { .. })), "{refused:?}");
+    assert_eq!(errors.load(Ordering::Relaxed), 1, "nothing more");
+    // The loss of the device both hear of.
+    gpu.device().destroy();
+    let mut result = world.clone();
+    let outcome = simulator.step(1).and_then(|()| simulator.read_state(&mut result));
+    assert!(matches!(outcome, Err(SimError::DeviceLost { .. })), "{outcome:?}");
+    let _ = gpu.device().poll(wgpu::PollType::Poll);
+    assert_eq!(losses.load(Ordering::Relaxed), 1, "the program's callback");
 }

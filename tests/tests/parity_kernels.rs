@@ -112,6 +112,26 @@ fn one_step_agrees_on_every_adapter() {
     }
 }
 
+/// Mutation: floats that are not numbers show under either contract.
+#[test]
+fn what_is_not_a_number_is_noticed() {
+    let world = warmed(&varied_scene(3, 500, 5.0, 1.0 / 60.0), 200);
+    let spoilt: [fn(&mut World); 3] = [
+        |world| world.leaves.attitude[250].quaternion[3] = f32::NAN,
+        |world| world.leaves.drift[250].velocity[0] = f32::NAN,
+        |world| world.leaves.place[250].position[1] = f32::NAN,
+    ];
+    for (index, spoil) in spoilt.into_iter().enumerate() {
+        let mut other = world.clone();
+        spoil(&mut other);
+        for contract in [Contract::Exact, Contract::Tolerant] {
+            assert!(agree(contract, &world, &world).is_ok(), "the same world");
+            assert!(agree(contract, &world, &other).is_err(), "{index}: not noticed, {contract}");
+            assert!(agree(contract, &other, &world).is_err(), "{index}: not noticed, {contract}");
+        }
+    }
+}
+
 /// Canary: each line of the life of a leaf that is changed in WGSL shows within one step of a busy world.
 #[test]
 fn a_changed_kernel_is_noticed() {

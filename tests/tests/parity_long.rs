@@ -4,7 +4,7 @@
 //! the last bit, in any wind. Under the tolerant one, in a wind without chaos, the integers are the same and positions
 //! stay together; in turbulence a rounding error grows e-fold every second or so, and the counts still agree.
 
-use windfall_core::{Contract, Simulator, World};
+use windfall_core::{Clock, Contract, Environment, SimError, Simulator, SimulatorInfo, Stats, World};
 use windfall_cpu::{CpuOptions, CpuSimulator};
 use windfall_tests::compare::{LONG_POSITION_M, LONG_QUATERNION, difference};
 use windfall_tests::strategies::{flying_scene, hilly_scene, smooth_scene, varied_scene};
@@ -149,16 +149,77 @@ fn one_bit_of_one_constant_is_noticed() {
 fn the_suite_for_other_backends_passes_ours_and_notices_a_wrong_bit() {
     let old = "const LENGTH_UNIT: f32 = 0.0009765625f";
     let shaders = Shaders::default().edited("prelude", old, "const LENGTH_UNIT: f32 = 0.00097656262f");
-    let wrong =
-        WgpuOptions { shaders: Some(shaders.expect("the constant is there")), ..WgpuOptions::default() };
-    for gpu in adapter::all() {
+    let shaders = shaders.expect("the constant is there");
+    for (gpu, contract) in adapter::contracts() {
+        let options = WgpuOptions { contract: Some(contract), ..WgpuOptions::default() };
         for case in suite::worlds(300) {
-            let passed =
-                suite::check(&case, |world| WgpuSimulator::new(&gpu, world, &WgpuOptions::default()));
-            assert_eq!(passed, Ok(()), "{}", gpu.info().name);
+            let passed = suite::check(&case, |world| WgpuSimulator::new(&gpu, world, &options));
+            assert_eq!(passed, Ok(()), "{} {contract}", gpu.info().name);
         }
-        let case = &suite::worlds(300)[1];
-        let error = suite::check(case, |world| WgpuSimulator::new(&gpu, world, &wrong)).expect_err("wrong");
-        assert!(gpu.contract() == Contract::Tolerant || error.contains("too far"), "{error}");
+        if contract == Contract::Exact {
+            let wrong = WgpuOptions { shaders: Some(shaders.clone()), ..options };
+            let case = &suite::worlds(300)[1];
+            let error =
+                suite::check(case, |world| WgpuSimulator::new(&gpu, world, &wrong)).expect_err("wrong");
+            assert!(error.contains("too far"), "{error}");
+        }
+    }
+}
+
+/// A backend under the tolerant contract that spoils a state before it hands it over.
+struct Spoilt(CpuSimulator, fn(&mut World));
+
+impl Simulator for Spoilt {
+    fn info(&self) -> SimulatorInfo {
+        SimulatorInfo { contract: Contract::Tolerant, ..self.0.info() }
+    }
+
+    fn clock(&self) -> Clock {
+        self.0.clock()
+    }
+
+    fn write_state(&mut self, world: &World) -> Result<(), SimError> {
+        self.0.write_state(world)
+    }
+
+    fn read_state(&mut self, world: &mut World) -> Result<(), SimError> {
+        self.0.read_state(world)?;
+        self.1(world);
+        Ok(())
+    }
+
+    fn set_environment(&mut self, environment: &Environment) -> Result<(), SimError> {
+        self.0.set_environment(environment)
+    }
+
+    fn step(&mut self, count: u32) -> Result<(), SimError> {
+        self.0.step(count)
+    }
+
+    fn sync(&mut self) -> Result<(), SimError> {
+        self.0.sync()
+    }
+
+    fn stats(&mut self) -> Result<Stats, SimError> {
+        self.0.stats()
+    }
+}
+
+/// Mutation: floats that are not numbers, and leaves that fall elsewhere, show under the tolerant contract.
+#[test]
+fn the_suite_notices_what_is_not_a_number_under_the_tolerant_contract() {
+    let spoil: [fn(&mut World); 4] = [
+        |_| (),
+        |world| world.leaves.attitude[7].quaternion[0] = f32::NAN,
+        |world| world.leaves.drift[7].velocity[2] = f32::NAN,
+        |world| world.leaves.place.iter_mut().for_each(|place| place.position[1] += 0.02),
+    ];
+    for case in suite::worlds(300) {
+        for (index, spoil) in spoil.into_iter().enumerate() {
+            let outcome = suite::check(&case, |world| {
+                Ok(Spoilt(CpuSimulator::new(world, CpuOptions::default())?, spoil))
+            });
+            assert_eq!(outcome.is_err(), index > 0, "{}: mutation {index}: {outcome:?}", case.name);
+        }
     }
 }

@@ -6,6 +6,7 @@ use windfall_core::tree::record::{BRANCH_COLUMNS, BRANCH_TURN};
 
 use super::WgpuSimulator;
 use crate::buffers::{buffer, group};
+use crate::pipelines::GroupLayout;
 
 /// What stands before the list of due leaves while it is empty.
 const DUE_HEADER: [u8; 16] = [0; 16];
@@ -50,11 +51,12 @@ impl WgpuSimulator {
         let up_to_wind = || self.sway_blocks().into_iter();
         let columns = || self.buffers.leaves().windows(first, leaves);
         let resources = up_to_wind().chain(columns()).chain([self.motion.1.as_entire_binding()]);
-        let page = group(&self.gpu, &self.pipelines.leaves_layout, resources);
+        let page = group(&self.gpu, self.pipelines.layout(GroupLayout::Leaves), resources);
         // Header of four counts, then a place for every leaf; new buffers are zero.
         let usage = wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST;
         let due_counts = buffer(&self.gpu, "due", DUE_HEADER.len() as u64 + u64::from(leaves) * 4, usage);
-        let due = group(&self.gpu, &self.pipelines.extra_layout, [due_counts.as_entire_binding()]);
+        let due =
+            group(&self.gpu, self.pipelines.layout(GroupLayout::Extra), [due_counts.as_entire_binding()]);
         let tree_leaves = self.environment.scene().tree_leaf_count().saturating_sub(first).min(leaves);
         let on_trees = (self.forest.is_some() && tree_leaves > 0).then(|| {
             let branches = self.buffers.branches();
@@ -70,8 +72,8 @@ impl WgpuSimulator {
             ];
             OnTrees {
                 leaves: tree_leaves,
-                carried: group(&self.gpu, &self.pipelines.carried_layout, carried),
-                carriers: group(&self.gpu, &self.pipelines.carrier_layout, carriers),
+                carried: group(&self.gpu, self.pipelines.layout(GroupLayout::Carried), carried),
+                carriers: group(&self.gpu, self.pipelines.layout(GroupLayout::Carriers), carriers),
             }
         });
         Page { leaves, columns: page, due, due_counts, on_trees }

@@ -4,17 +4,41 @@
 
 use windfall_core::SimError;
 use windfall_core::blocks::StepBlock;
-use windfall_core::scene::SwayScheme;
 
 use super::{MAX_GROUPS, WgpuSimulator};
+use crate::buffers::buffer;
 use crate::prelude::WORKGROUP_SIZE;
+use crate::shaders::KernelId;
 
-/// Steps per submission: their blocks travel in one write.
-pub(super) const STEPS_PER_SUBMIT: u32 = 32;
+/// Steps per compute pass: their blocks are copied at once.
+pub(super) const STEPS_PER_PASS: u32 = 32;
 /// One in this many workgroups attends to due leaves, about one leaf in a hundred; a longer list is strided over.
 const ATTEND_SHARE: u32 = 64;
 
 impl WgpuSimulator {
+    /// Encodes `count` steps, for a program that submits several things at once: the clock moves on, and the commands are
+    /// the caller's to submit on the simulator's queue.
+    ///
+    /// Encoders are submitted in the order in which steps were encoded, and before any other method that changes or reads
+    /// the state: those submit at once, or take effect at the next submission. Everything that a step needs travels in the
+    /// encoder, so that several calls may share one encoder and one submission. An encoder that is dropped instead of
+    /// submitted leaves the clock ahead of the state until the next
+    /// [`write_state`](windfall_core::Simulator::write_state).
+    ///
+    /// # Errors
+    /// A lost device. Errors in commands show when the encoder is finished.
+    pub fn encode_steps(&mut self, encoder: &mut wgpu::CommandEncoder, count: u32) -> Result<(), SimError> {
+        let gpu = self.gpu.clone();
+        let mut left = count;
+        gpu.scoped(|| {
+            while left > 0 {
+                let batch = left.min(STEPS_PER_PASS);
+                left -= batch;
+                self.encode_pass(encoder, batch, None);
+            }
+        })
+    }
+
     /// Submits steps as [`Simulator::step`](windfall_core::Simulator::step) does, with timestamps at the start of the
     /// first and the end of the last compute pass.
     ///
@@ -27,8 +51,7 @@ impl WgpuSimulator {
     ) -> Result<(), SimError> {
         let mut left = count;
         while left > 0 {
-            self.gpu.check()?;
-            let batch = left.min(STEPS_PER_SUBMIT);
+            let batch = left.min(STEPS_PER_PASS);
             let first = left == count;
             left -= batch;
             let writes = timestamps.clone().map(|stamps| wgpu::ComputePassTimestampWrites {
@@ -40,52 +63,64 @@ impl WgpuSimulator {
             let writes = writes.filter(|stamps| {
                 stamps.beginning_of_pass_write_index.is_some() || stamps.end_of_pass_write_index.is_some()
             });
-            self.submit_steps(batch, writes);
+            let gpu = self.gpu.clone();
+            gpu.scoped(|| {
+                let mut encoder =
+                    gpu.device().create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+                self.encode_pass(&mut encoder, batch, writes);
+                gpu.queue().submit([encoder.finish()]);
+            })?;
         }
-        self.gpu.check()
+        Ok(())
     }
 
-    fn submit_steps(&mut self, count: u32, timestamp_writes: Option<wgpu::ComputePassTimestampWrites<'_>>) {
+    /// Encodes a compute pass of at most [`STEPS_PER_PASS`] steps.
+    fn encode_pass(
+        &mut self,
+        encoder: &mut wgpu::CommandEncoder,
+        count: u32,
+        timestamp_writes: Option<wgpu::ComputePassTimestampWrites<'_>>,
+    ) {
         let mut blocks = vec![0; (count * self.step_stride) as usize];
         for slot in blocks.chunks_exact_mut(self.step_stride as usize) {
             let block = self.environment.step_block(&self.clock);
             slot[..size_of::<StepBlock>()].copy_from_slice(bytemuck::bytes_of(&block));
             self.clock.advance(&self.environment);
         }
-        self.gpu.queue().write_buffer(&self.step_buffer, 0, &blocks);
-        let mut encoder =
-            self.gpu.device().create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-        {
-            let descriptor = wgpu::ComputePassDescriptor { label: Some("advance"), timestamp_writes };
-            let mut pass = encoder.begin_compute_pass(&descriptor);
-            let has_bodies = self.environment.block().has_bodies();
-            let scheme = usize::from(self.environment.scene().sway != SwayScheme::Articulated);
-            for step in 0..count {
-                let offset = step * self.step_stride;
-                if let Some(forest) = &self.forest {
-                    forest.encode(&mut pass, &self.pipelines.sway[scheme], offset);
-                    pass.set_pipeline(&self.pipelines.carry);
-                }
-                for on_trees in self.pages.iter().filter_map(|page| page.on_trees.as_ref()) {
-                    pass.set_bind_group(0, &on_trees.carried, &[offset]);
-                    pass.set_bind_group(1, &on_trees.carriers, &[]);
-                    pass.dispatch_workgroups(on_trees.leaves.div_ceil(WORKGROUP_SIZE).min(MAX_GROUPS), 1, 1);
-                }
-                for page in &self.pages {
-                    pass.set_bind_group(0, &page.columns, &[offset]);
-                    pass.set_bind_group(1, &page.due, &[]);
-                    let groups = page.leaves.div_ceil(WORKGROUP_SIZE);
-                    pass.set_pipeline(&self.pipelines.advance);
+        // A write to a buffer takes effect before the whole submission, a copy between its passes: the blocks go into a
+        // buffer of their own and are copied from there.
+        let staged = buffer(&self.gpu, "steps", blocks.len() as u64, wgpu::BufferUsages::COPY_SRC);
+        self.gpu.queue().write_buffer(&staged, 0, &blocks);
+        encoder.copy_buffer_to_buffer(&staged, 0, &self.step_buffer, 0, blocks.len() as u64);
+        let descriptor = wgpu::ComputePassDescriptor { label: Some("advance"), timestamp_writes };
+        let mut pass = encoder.begin_compute_pass(&descriptor);
+        let kernel = |kernel| self.pipelines.kernel(kernel);
+        let has_bodies = self.environment.block().has_bodies();
+        for step in 0..count {
+            let offset = step * self.step_stride;
+            if let Some(forest) = &self.forest {
+                let sway = KernelId::of_scheme(self.environment.scene().sway);
+                forest.encode(&mut pass, sway.map(kernel), offset);
+                pass.set_pipeline(kernel(KernelId::Carry));
+            }
+            for on_trees in self.pages.iter().filter_map(|page| page.on_trees.as_ref()) {
+                pass.set_bind_group(0, &on_trees.carried, &[offset]);
+                pass.set_bind_group(1, &on_trees.carriers, &[]);
+                pass.dispatch_workgroups(on_trees.leaves.div_ceil(WORKGROUP_SIZE).min(MAX_GROUPS), 1, 1);
+            }
+            for page in &self.pages {
+                pass.set_bind_group(0, &page.columns, &[offset]);
+                pass.set_bind_group(1, &page.due, &[]);
+                let groups = page.leaves.div_ceil(WORKGROUP_SIZE);
+                pass.set_pipeline(kernel(KernelId::Advance));
+                pass.dispatch_workgroups(groups.min(MAX_GROUPS), 1, 1);
+                pass.set_pipeline(kernel(KernelId::Attend));
+                pass.dispatch_workgroups(groups.div_ceil(ATTEND_SHARE), 1, 1);
+                if has_bodies {
+                    pass.set_pipeline(kernel(KernelId::Fly));
                     pass.dispatch_workgroups(groups.min(MAX_GROUPS), 1, 1);
-                    pass.set_pipeline(&self.pipelines.attend);
-                    pass.dispatch_workgroups(groups.div_ceil(ATTEND_SHARE), 1, 1);
-                    if let Some(fly) = self.pipelines.fly.as_ref().filter(|_| has_bodies) {
-                        pass.set_pipeline(fly);
-                        pass.dispatch_workgroups(groups.min(MAX_GROUPS), 1, 1);
-                    }
                 }
             }
         }
-        self.gpu.queue().submit([encoder.finish()]);
     }
 }
