@@ -38,7 +38,7 @@ fn flight(criterion: &mut Criterion) {
                     });
                 });
                 let stats = simulator.stats().expect("the device is not lost");
-                assert_eq!(stats.falling, leaves, "all leaves have been falling all the time");
+                assert_eq!(stats.leaves.falling, leaves, "all leaves have been falling all the time");
             }
         }
     }

@@ -62,14 +62,14 @@ fn advance(criterion: &mut Criterion) {
                 bencher.iter_custom(|count| time_falling(simulator.as_mut(), &high, count));
             });
             let stats = simulator.stats().expect("the device is not lost");
-            assert_eq!(stats.falling, LEAVES, "all leaves have been falling all the time");
+            assert_eq!(stats.leaves.falling, LEAVES, "all leaves have been falling all the time");
         }
     }
     let worlds =
         [("resting", resting(LEAVES)), ("storm", scaled("storm", LEAVES)), ("restless", restless(LEAVES))];
     for (name, scene) in worlds {
         let world = world(&scene);
-        assert!(name != "resting" || world.stats().resting == LEAVES, "all leaves lie on the ground");
+        assert!(name != "resting" || world.stats().leaves.resting == LEAVES, "all leaves lie on the ground");
         for mut simulator in contenders(&world) {
             group.bench_function(BenchmarkId::new(name, simulator.info().backend), |bencher| {
                 bencher.iter_custom(|count| time_steps(simulator.as_mut(), count));

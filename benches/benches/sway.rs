@@ -45,7 +45,7 @@ fn is_sound(before: &World, simulator: &mut dyn Simulator) {
     simulator.read_state(&mut after).expect("a world of the same size");
     assert_ne!(after.branches.pose, before.branches.pose, "trees sway");
     assert!(after.branches.base.iter().flatten().all(|x| x.is_finite()), "segments are somewhere");
-    assert_eq!(after.stats().attached, before.stats().attached, "leaves hang as before");
+    assert_eq!(after.stats().leaves.attached, before.stats().leaves.attached, "leaves hang as before");
 }
 
 fn sway(criterion: &mut Criterion) {
@@ -71,7 +71,7 @@ fn carry(criterion: &mut Criterion) {
     group.throughput(Throughput::Elements(LEAVES.into()));
     for (kind, leaves) in [("bare", 0), ("in-leaf", LEAVES / u32::from(BEARERS))] {
         let world = world(&woods(BEARERS, 1.0, leaves));
-        let attached = world.stats().attached;
+        let attached = world.stats().leaves.attached;
         assert!(attached >= leaves * u32::from(BEARERS) / 10 * 9, "{attached} leaves hang on the trees");
         for (name, mut simulator) in simulators(&world) {
             group.bench_function(BenchmarkId::new(kind, name), |bencher| {

@@ -173,7 +173,7 @@ pub fn contenders(world: &World) -> Vec<Box<dyn Simulator>> {
         let info = contender.info();
         let stats = contender.stats().expect("the device is not lost");
         let count = world.environment.scene().leaf_count();
-        assert_eq!(stats.total() + stats.dormant, count, "{} lost leaves", info.backend);
+        assert_eq!(stats.leaves.total() + stats.leaves.dormant, count, "{} lost leaves", info.backend);
         assert_eq!(stats, expected.stats(), "{} counts otherwise", info.backend);
         if info.contract == Contract::Exact {
             assert_eq!(state.state_hash(), expected.state_hash(), "{} comes to another state", info.backend);

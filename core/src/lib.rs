@@ -22,7 +22,7 @@
 //! // Five columns of 16-byte records, one of each for every leaf.
 //! let falling = world.leaves.place.iter().filter(|place| place.state() == LeafState::Falling);
 //! let highest = falling.map(|place| place.position[1]).fold(0.0, f32::max);
-//! assert!(highest > 1.0 && world.stats().falling > 0);
+//! assert!(highest > 1.0 && world.stats().leaves.falling > 0);
 //! # Ok::<(), windfall_core::SceneError>(())
 //! ```
 //!
@@ -75,5 +75,5 @@ pub use environment::{Cycle, Environment};
 pub use error::{SceneError, SimError};
 pub use scene::Scene;
 pub use simulator::{Contract, Simulator, SimulatorInfo};
-pub use stats::Stats;
+pub use stats::{LeafStats, Stats};
 pub use world::World;

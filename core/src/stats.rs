@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! twin: backend-wgpu/src/shaders/kernels/measure.wgsl
 //!
-//! Counts over all leaves: integers only, so their sum does not depend on order.
+//! Counts over a world: integers only, so their sum does not depend on order.
 
 use crate::flight::regime::REGIME_COUNT;
 use crate::leaf::fly::flies;
@@ -24,11 +24,18 @@ crate::shared_constants! {
     pub const INFINITY_BITS: u32 = 0x7f80_0000;
 }
 
-/// Counts over all leaves at one step.
+/// Counts over a world at one step.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Stats {
     /// Step index the counts belong to.
     pub step: u32,
+    /// Counts over all leaves.
+    pub leaves: LeafStats,
+}
+
+/// Counts over all leaves.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct LeafStats {
     /// Leaves not let go yet.
     pub dormant: u32,
     /// Leaves on branches.
@@ -64,7 +71,7 @@ pub fn leaf_counters(place: &Place) -> [u32; 3] {
 }
 
 impl Stats {
-    /// Counts of a store.
+    /// Counts over leaves.
     pub fn of(leaves: &Leaves, step: u32) -> Self {
         let mut counters = [0; COUNTER_COUNT as usize];
         for place in &leaves.place {
@@ -79,8 +86,7 @@ impl Stats {
 
     /// Counts from the raw counters of a kernel.
     pub fn from_counters(counters: &[u32; COUNTER_COUNT as usize], step: u32) -> Self {
-        Self {
-            step,
+        let leaves = LeafStats {
             dormant: counters[0],
             attached: counters[1],
             falling: counters[2],
@@ -88,9 +94,12 @@ impl Stats {
             primitives: core::array::from_fn(|index| counters[COUNTER_PRIMITIVE as usize + index]),
             regimes: core::array::from_fn(|index| counters[COUNTER_REGIME as usize + index]),
             broken: counters[COUNTER_BROKEN as usize],
-        }
+        };
+        Self { step, leaves }
     }
+}
 
+impl LeafStats {
     /// Leaves that have been let go or ride a branch: all but the dormant ones.
     pub fn total(&self) -> u32 {
         self.attached + self.falling + self.resting

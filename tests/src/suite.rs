@@ -141,7 +141,7 @@ const MEAN_POSITION_M: f64 = 0.01;
 fn statistics_agree(expected: &World, found: &World) -> bool {
     let counts = |world: &World| {
         let stats = world.stats();
-        [stats.dormant, stats.attached, stats.falling, stats.resting]
+        [stats.leaves.dormant, stats.leaves.attached, stats.leaves.falling, stats.leaves.resting]
     };
     let count = expected.leaves.len() as f64;
     let mean = |world: &World| {

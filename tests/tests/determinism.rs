@@ -89,9 +89,12 @@ fn any_number_of_threads_and_a_plain_loop_give_the_same_bits() {
     step(&mut plain, 300);
     let stats = plain.stats();
     println!("{stats:?}");
-    assert_eq!(stats.broken, 0, "no leaf is anywhere but somewhere");
-    assert!(stats.falling > 2000 && stats.resting > 2000, "the run sees falls and landings: {stats:?}");
-    assert!(stats.primitives.iter().all(|&count| count > 5), "and every motion: {stats:?}");
+    assert_eq!(stats.leaves.broken, 0, "no leaf is anywhere but somewhere");
+    assert!(
+        stats.leaves.falling > 2000 && stats.leaves.resting > 2000,
+        "the run sees falls and landings: {stats:?}"
+    );
+    assert!(stats.leaves.primitives.iter().all(|&count| count > 5), "and every motion: {stats:?}");
     for threads in [1, 2, 3, 7] {
         let world = run(&start, threads, 300);
         assert_eq!(world.state_hash(), plain.state_hash(), "{threads} threads against a plain loop");
@@ -169,7 +172,10 @@ fn a_hash_sees_every_bit() {
 fn the_small_scene_still_gives_the_golden_bits() {
     let world = run(&build(&small_scene()), 2, GOLDEN_STEPS);
     let stats = world.stats();
-    assert!(stats.falling > 20 && stats.resting > 20, "the small scene sees falls and landings: {stats:?}");
+    assert!(
+        stats.leaves.falling > 20 && stats.leaves.resting > 20,
+        "the small scene sees falls and landings: {stats:?}"
+    );
     let hash = world.state_hash();
     assert_eq!(hash, GOLDEN, "the state hash is 0x{hash:016x}, see GOLDEN for what that means");
 }
@@ -180,7 +186,7 @@ fn trees_still_give_the_golden_bits() {
     let world = run(&start, 2, GOLDEN_STEPS);
     let stats = world.stats();
     assert!(
-        stats.attached > 300 && stats.attached + 20 < start.stats().attached,
+        stats.leaves.attached > 300 && stats.leaves.attached + 20 < start.stats().leaves.attached,
         "leaves come off: {stats:?}"
     );
     assert!(world.branches != start.branches, "trees sway");

@@ -45,7 +45,7 @@ fn a_thousand_steps_are_equal_to_the_bit_under_the_exact_contract() {
     let oracle = oracle(&world, CpuOptions::default(), STEPS);
     let stats = oracle.stats();
     assert!(bodies(&world) > 300 && bodies(&oracle) > 300, "bodies fly: {stats:?}");
-    assert!(stats.resting > 500 && stats.broken == 0, "and land: {stats:?}");
+    assert!(stats.leaves.resting > 500 && stats.leaves.broken == 0, "and land: {stats:?}");
     for (gpu, contract) in adapter::contracts() {
         if contract != Contract::Exact {
             continue;
@@ -84,9 +84,9 @@ fn under_the_tolerant_contract_the_statistics_agree() {
         let options = WgpuOptions { contract: Some(Contract::Tolerant), ..WgpuOptions::default() };
         let found = candidate(&gpu, &world, &options, STEPS);
         let (a, b) = (found.stats(), expected.stats());
-        let off = a.resting.abs_diff(b.resting);
-        assert!(off < 60, "{}: {} rest, expected {}", gpu.info().name, a.resting, b.resting);
-        for (regime, (a, b)) in a.regimes.iter().zip(b.regimes).enumerate() {
+        let off = a.leaves.resting.abs_diff(b.leaves.resting);
+        assert!(off < 60, "{}: {} rest, expected {}", gpu.info().name, a.leaves.resting, b.leaves.resting);
+        for (regime, (a, b)) in a.leaves.regimes.iter().zip(b.leaves.regimes).enumerate() {
             // Five standard deviations of the difference of two such counts.
             let usual = 5.0 * f64::from(2 * b.max(10)).sqrt();
             assert!(f64::from(a.abs_diff(b)) < usual, "{}: regime {regime}: {a} and {b}", gpu.info().name);

@@ -37,9 +37,9 @@ fn candidate(gpu: &Gpu, world: &World, options: &WgpuOptions) -> World {
 
 fn is_lively(world: &World) {
     let stats = world.stats();
-    assert!(stats.falling > 500 && stats.resting > 500, "leaves fly and lie: {stats:?}");
-    assert!(stats.primitives.iter().all(|&count| count > 0), "all motions are flown: {stats:?}");
-    assert_eq!(stats.broken, 0, "no broken leaf");
+    assert!(stats.leaves.falling > 500 && stats.leaves.resting > 500, "leaves fly and lie: {stats:?}");
+    assert!(stats.leaves.primitives.iter().all(|&count| count > 0), "all motions are flown: {stats:?}");
+    assert_eq!(stats.leaves.broken, 0, "no broken leaf");
 }
 
 #[test]
@@ -108,7 +108,7 @@ fn in_chaos_the_counts_agree_under_the_tolerant_contract() {
     for gpu in adapter::all() {
         let options = WgpuOptions { contract: Some(Contract::Tolerant), ..WgpuOptions::default() };
         let found = candidate(&gpu, &world, &options).stats();
-        let off = found.falling.abs_diff(expected.falling);
+        let off = found.leaves.falling.abs_diff(expected.leaves.falling);
         assert!(off <= LEAVES / 1000, "{}: {found:?}, expected {expected:?}", gpu.info().name);
     }
 }

@@ -46,8 +46,8 @@ fn is_lively(before: &World, after: &World) {
         state(before) == windfall_core::leaf::LeafState::Attached && state(after) != state(before)
     });
     assert!(off.count() > 20, "leaves have come off: {stats:?}");
-    assert!(stats.attached > 300, "leaves hang: {stats:?}");
-    assert_eq!(stats.broken, 0, "no broken leaf");
+    assert!(stats.leaves.attached > 300, "leaves hang: {stats:?}");
+    assert_eq!(stats.leaves.broken, 0, "no broken leaf");
     let moved = difference(before, after);
     let base_m = moved.segments().largest("base");
     assert!(base_m > 0.02 && base_m < 20.0, "trees sway: {moved:?}");

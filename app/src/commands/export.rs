@@ -102,7 +102,7 @@ pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
         bar.inc(1);
     }
     bar.finish_and_clear();
-    let broken = world.stats().broken;
+    let broken = world.stats().leaves.broken;
     if broken > 0 {
         bail!("{broken} leaves have positions that are not numbers; nothing was written");
     }

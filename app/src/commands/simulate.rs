@@ -78,8 +78,8 @@ pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
     bar.finish_and_clear();
 
     let stats = world.stats();
-    if stats.broken > 0 {
-        bail!("{} leaves have positions that are not numbers; nothing was written", stats.broken);
+    if stats.leaves.broken > 0 {
+        bail!("{} leaves have positions that are not numbers; nothing was written", stats.leaves.broken);
     }
     let name = match &scene {
         Some(_) => arguments.scene.name().to_owned(),

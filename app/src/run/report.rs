@@ -8,7 +8,7 @@ use serde::Serialize;
 use windfall_core::flight::regime::REGIME_NAMES;
 use windfall_core::leaf::{LEAF_BYTES, LeafState};
 use windfall_core::motion::Primitive;
-use windfall_core::{Simulator, Stats, World};
+use windfall_core::{LeafStats, Simulator, Stats, World};
 
 use crate::run::stepping::Stepping;
 use crate::run::swaying::TreeReport;
@@ -74,8 +74,9 @@ impl Report {
         trees: TreeReport,
     ) -> Self {
         let info = simulator.info();
-        let Stats { attached, falling, resting, dormant, .. } = world.stats();
-        let total = attached + falling + resting;
+        let counts = world.stats().leaves;
+        let LeafStats { attached, falling, resting, dormant, .. } = counts;
+        let total = counts.total();
         let (mean_position_m, mean_velocity_m_s) = means(world, total);
         Self {
             scene,
@@ -101,7 +102,7 @@ impl Report {
         let LeafCounts { total, attached, falling, resting, dormant } = self.leaves;
         let [x, y, z] = self.mean_position_m;
         let [u, v, w] = self.mean_velocity_m_s;
-        let motions = Primitive::ALL.iter().zip(stats.primitives);
+        let motions = Primitive::ALL.iter().zip(stats.leaves.primitives);
         let motions: Vec<_> = motions.map(|(motion, count)| format!("{} {count}", motion.code())).collect();
         let mut text = String::new();
         let mut row = |name: &str, value: String| {
@@ -117,7 +118,7 @@ impl Report {
         let sway = format!("joints to {max_joint_angle_rad:.3} rad, tips to {tip_speed_max_m_s:.2} m/s");
         row("trees", format!("{count} of {segments} segments, {sway}, {leaves_shed} leaves shed"));
         row("motions", motions.join(", "));
-        let regimes = REGIME_NAMES.iter().zip(stats.regimes);
+        let regimes = REGIME_NAMES.iter().zip(stats.leaves.regimes);
         let regimes: Vec<_> = regimes.map(|(regime, count)| format!("{regime} {count}")).collect();
         row("bodies", regimes.join(", "));
         row("mean position", format!("{x:.4} {y:.4} {z:.4} m"));

@@ -107,7 +107,7 @@ pub(crate) fn drop_all(
         simulator.step(1)?;
         simulator.read_state(&mut world)?;
     }
-    let broken = world.stats().broken;
+    let broken = world.stats().leaves.broken;
     if broken > 0 {
         bail!("{broken} leaves have positions that are not numbers");
     }

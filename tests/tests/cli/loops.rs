@@ -104,7 +104,7 @@ fn trees_repeat_within_a_tenth_of_a_millimetre() {
     assert!(apart(&rounds) < 1e-4, "leaves on twigs are {} m off after a round", apart(&rounds));
     let half = two_rounds(&mut cpu, &world, &cycle, cycle.steps / 2);
     assert!(apart(&half) > 1e-2, "they move: {} m in half a round", apart(&half));
-    assert_eq!(rounds[0].stats().attached, rounds[1].stats().attached, "none comes off");
+    assert_eq!(rounds[0].stats().leaves.attached, rounds[1].stats().leaves.attached, "none comes off");
 }
 
 /// Mean differences of each frame of a clip to the next, the last to the first.

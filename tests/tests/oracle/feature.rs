@@ -228,10 +228,10 @@ fn a_running_simulation_shows_the_same_occupancies() {
         let now = world.clock.step();
         step(&mut world, target.max(now) - now);
         let stats = Stats::of(&world.leaves, world.clock.step());
-        let landed = count - stats.falling;
+        let landed = count - stats.leaves.falling;
         assert!(landed <= count / 1000, "{landed} leaves are not in the air at moment {moment}");
-        for (sum, leaves) in counted.iter_mut().zip(stats.primitives) {
-            *sum += f64::from(leaves) / f64::from(stats.falling);
+        for (sum, leaves) in counted.iter_mut().zip(stats.leaves.primitives) {
+            *sum += f64::from(leaves) / f64::from(stats.leaves.falling);
         }
         moments += 1.0;
     }

@@ -132,7 +132,7 @@ fn resting_leaves_stay_to_the_bit_in_any_wind() {
     let storm = Scene { wind: Scene::preset("storm").expect("a preset").wind, ..landing_scene() };
     world.environment = Environment::compile(&storm).expect("the scene of this test is valid");
     let before = world.leaves.clone();
-    assert_eq!(world.stats().resting, 1000, "all leaves have landed");
+    assert_eq!(world.stats().leaves.resting, 1000, "all leaves have landed");
     step(&mut world, 600);
     assert!(world.leaves == before, "resting leaves moved, turned or vanished");
 }
@@ -148,7 +148,7 @@ fn slots_are_recycled_on_schedule() {
     let mut world = build(&scene);
     let mut landed_before = 0;
     for now in 0..1500i32 {
-        let resting = world.stats().resting;
+        let resting = world.stats().leaves.resting;
         step(&mut world, 1);
         // A leaf that is let go at the start of step `now` has been in the air for one step.
         for slot in 0..count as usize {
@@ -168,5 +168,5 @@ fn slots_are_recycled_on_schedule() {
         landed_before = landed_before.max(resting);
     }
     assert!(landed_before > 30, "up to {landed_before} leaves rested meanwhile");
-    assert_eq!(world.stats().total(), count, "no leaf vanished");
+    assert_eq!(world.stats().leaves.total(), count, "no leaf vanished");
 }

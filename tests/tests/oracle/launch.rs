@@ -93,7 +93,7 @@ fn bodies_let_go_before_time_zero_are_on_their_way() {
     let mut flown = early.clone();
     flown.sources[0].release = Release::Rate { per_s: 400.0, from_s: 0.0 };
     let expected = stepped(&flown, 300);
-    let resting = |world: &World| world.stats().resting;
+    let resting = |world: &World| world.stats().leaves.resting;
     let off = f64::from(resting(&found)) - f64::from(resting(&expected));
     assert!(off.abs() < 0.03 * f64::from(COUNT), "{} down, {} if flown", resting(&found), resting(&expected));
     let height = |world: &World| {
@@ -103,8 +103,8 @@ fn bodies_let_go_before_time_zero_are_on_their_way() {
         heights.iter().sum::<f64>() / heights.len() as f64
     };
     assert!((height(&found) - height(&expected)).abs() < 0.1, "{} {}", height(&found), height(&expected));
-    assert!(found.stats().resting > 100 && found.stats().falling > 100, "{:?}", found.stats());
-    assert_eq!(found.stats().broken, 0, "all of them somewhere");
+    assert!(found.stats().leaves.resting > 100 && found.stats().leaves.falling > 100, "{:?}", found.stats());
+    assert_eq!(found.stats().leaves.broken, 0, "all of them somewhere");
 }
 
 /// Regimes told of made-up motions whose regime is known.

@@ -106,7 +106,7 @@ impl Contender {
             Self::Backend(backend) => backend.stats()?,
         };
         let count = world.environment.scene().leaf_count();
-        Ok(stats.broken == 0 && stats.total() + stats.dormant == count)
+        Ok(stats.leaves.broken == 0 && stats.leaves.total() + stats.leaves.dormant == count)
     }
 
     /// The columns to draw from, on the device that draws.

@@ -62,15 +62,15 @@ pub(super) fn backend(ui: &mut Ui, facts: &Facts, wishes: &mut Vec<Wish>) {
 pub(super) fn counts(ui: &mut Ui, facts: &Facts) {
     let stats = &facts.stats;
     let states = [
-        ("attached", stats.attached, "On branches"),
-        ("falling", stats.falling, "In the air"),
-        ("resting", stats.resting, "On the ground"),
-        ("waiting", stats.dormant, "Not let go yet"),
+        ("attached", stats.leaves.attached, "On branches"),
+        ("falling", stats.leaves.falling, "In the air"),
+        ("resting", stats.leaves.resting, "On the ground"),
+        ("waiting", stats.leaves.dormant, "Not let go yet"),
     ];
     table(ui, "states", 64.0, states.map(|(name, count, tip)| (name, rows::grouped(count), tip)));
     if facts.has_regimes {
         let regimes = std::array::from_fn::<_, 6, _>(|index| {
-            (REGIME_NAMES[index], compact(stats.regimes[index]), REGIMES[index])
+            (REGIME_NAMES[index], compact(stats.leaves.regimes[index]), REGIMES[index])
         });
         table(ui, "regimes", 40.6, regimes);
     }
@@ -78,7 +78,7 @@ pub(super) fn counts(ui: &mut Ui, facts: &Facts) {
         return;
     }
     let motions = std::array::from_fn::<_, 6, _>(|index| {
-        (Primitive::ALL[index].code(), compact(stats.primitives[index]), MOTIONS[index])
+        (Primitive::ALL[index].code(), compact(stats.leaves.primitives[index]), MOTIONS[index])
     });
     table(ui, "motions", 40.6, motions);
 }

@@ -82,7 +82,7 @@ fn another_world_begins_again_with_what_was_tuned() {
     session.begin(Arc::clone(&scene), &world, simulator).expect("it begins");
     assert_eq!((session.leaf_count(), session.simulator().clock().step()), (900, 0), "anew");
     assert_eq!(session.scene().wind.speed, MeanSpeed::MetresPerSecond(6.0), "with the same wind");
-    assert_eq!(session.stats().expect("counts").dormant, 0, "counted anew");
+    assert_eq!(session.stats().expect("counts").leaves.dormant, 0, "counted anew");
     session.step(5).expect("it steps");
     session.reset().expect("begins again");
     assert_eq!(session.simulator().clock().step(), 0, "at time zero");

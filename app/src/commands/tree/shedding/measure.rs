@@ -99,7 +99,7 @@ impl Crown {
 }
 
 fn attached(world: &World) -> u32 {
-    world.stats().attached
+    world.stats().leaves.attached
 }
 
 impl Season {
@@ -135,7 +135,7 @@ impl Season {
                     simulator.step(batch)?;
                     left -= batch;
                 }
-                let shed = f64::from(attached(&before) - simulator.stats()?.attached);
+                let shed = f64::from(attached(&before) - simulator.stats()?.leaves.attached);
                 if shed > 0.0 {
                     marks.push(Mark {
                         speed_m_s: f64::from(speed),
@@ -146,7 +146,7 @@ impl Season {
                 }
             }
         }
-        let fallen = still.stats().resting;
+        let fallen = still.stats().leaves.resting;
         let hanging = f64::from(attached(&still)) / f64::from(attached(&still) + fallen).max(1.0);
         Ok(Self { autumn: crown.scene.autumn, hanging, curve, marks })
     }
