@@ -3,7 +3,7 @@
 //! The trees of a world on the device: constants, and the passes that move them.
 
 use windfall_core::tree::Forest;
-use windfall_core::tree::record::{BRANCH_COLUMNS, BRANCH_TURN, WORK_ROWS};
+use windfall_core::tree::record::{BRANCH_COLUMNS, BRANCH_TURN, LevelBlock, WORK_ROWS};
 
 use crate::buffers::{buffer, filled, group};
 use crate::columns::StoreBuffers;
@@ -14,6 +14,9 @@ use crate::simulator::MAX_GROUPS;
 
 /// Bytes of a row.
 const ROW_BYTES: u64 = 16;
+/// Bytes of the block of a level.
+#[expect(clippy::cast_possible_truncation, reason = "a few words")]
+const LEVEL_BYTES: u32 = size_of::<LevelBlock>() as u32;
 
 /// All trees on the device.
 #[derive(Debug)]
@@ -26,8 +29,8 @@ pub(crate) struct ForestBuffers {
 }
 
 impl ForestBuffers {
-    /// What moves the trees of a forest, whose state lies in `branches`. `blocks` are the environment, the step and the wind
-    /// tables.
+    /// Buffers and bindings for the trees of a forest, whose state lies in `branches`. `blocks` are the environment, the step
+    /// and the wind tables.
     pub(crate) fn new(
         gpu: &Gpu,
         pipelines: &Pipelines,
@@ -41,20 +44,21 @@ impl ForestBuffers {
         let work_size = u64::from(stride * WORK_ROWS) * ROW_BYTES;
         let work = buffer(gpu, "sway", work_size, wgpu::BufferUsages::STORAGE);
 
-        let level_stride = 16u32.next_multiple_of(gpu.device().limits().min_uniform_buffer_offset_alignment);
+        let level_stride =
+            LEVEL_BYTES.next_multiple_of(gpu.device().limits().min_uniform_buffer_offset_alignment);
         let mut bytes = Vec::new();
         let mut levels = Vec::new();
         let mut start = 0;
         for &end in forest.level_ends() {
-            let block = [start, end - start, stride, 0];
-            bytes.extend_from_slice(bytemuck::cast_slice(&block));
+            let block = LevelBlock { first: start, count: end - start, column_stride: stride, unused: 0 };
+            bytes.extend_from_slice(bytemuck::bytes_of(&block));
             bytes.resize(bytes.len().next_multiple_of(level_stride as usize), 0);
             levels.push(end - start);
             start = end;
         }
         let level_blocks = gpu.device().create_buffer(&wgpu::BufferDescriptor {
             label: Some("levels"),
-            size: bytes.len().max(16) as u64,
+            size: bytes.len().max(LEVEL_BYTES as usize) as u64,
             usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
             mapped_at_creation: false,
         });
@@ -62,7 +66,7 @@ impl ForestBuffers {
         let level = wgpu::BindingResource::Buffer(wgpu::BufferBinding {
             buffer: &level_blocks,
             offset: 0,
-            size: wgpu::BufferSize::new(16),
+            size: wgpu::BufferSize::new(LEVEL_BYTES.into()),
         });
         let resources = [
             level,
@@ -87,19 +91,19 @@ impl ForestBuffers {
         self.sway = sway_group(gpu, pipelines, blocks);
     }
 
-    /// Encodes a step of all trees, whose step block lies at `step_offset`, by the pipelines of a scheme: towards the foot
-    /// and towards the tips.
+    /// Encodes a step of all trees, whose step block lies at `step_offset`, by the pipelines of a scheme: its inward and its
+    /// outward pass.
     pub(crate) fn encode(
         &self,
         pass: &mut wgpu::ComputePass<'_>,
-        [inwards, outwards]: [&wgpu::ComputePipeline; 2],
+        [inward, outward]: [&wgpu::ComputePipeline; 2],
         step_offset: u32,
     ) {
         pass.set_bind_group(0, &self.sway, &[step_offset]);
         let numbers = 0..u32::try_from(self.levels.len()).expect("levels are counted in words");
-        pass.set_pipeline(inwards);
+        pass.set_pipeline(inward);
         numbers.clone().rev().for_each(|number| self.encode_level(pass, number));
-        pass.set_pipeline(outwards);
+        pass.set_pipeline(outward);
         numbers.for_each(|number| self.encode_level(pass, number));
     }
 

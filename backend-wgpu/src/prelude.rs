@@ -19,6 +19,8 @@ pub(crate) fn structs() -> String {
         blocks::EnvironmentBlock::declaration(),
         blocks::VortexBlock::declaration(),
         blocks::StepBlock::declaration(),
+        tree::record::SegmentConstants::declaration(),
+        tree::record::LevelBlock::declaration(),
     ]
     .concat()
 }

@@ -20,15 +20,15 @@ pub enum KernelId {
     Attend,
     /// Counts leaves by state and motion.
     Measure,
-    /// Works out, level by level towards the foot, how the joints of trees will answer.
+    /// Inward pass of the articulated-body algorithm over trees, level by level: responses of joints.
     SwayInward,
-    /// Moves trees on, level by level towards the tips.
+    /// Outward pass, level by level: accelerations of segments, and the integration of their joints.
     SwayOutward,
-    /// Adds up, level by level towards the foot, what the joints of trees carry, for the schemes that move them one by one.
+    /// Inward pass of the schemes that step joints one by one: composite bodies.
     SwayGather,
-    /// Moves trees on by these schemes, level by level towards the tips.
+    /// Outward pass of these schemes: the integration of joints.
     SwayFollow,
-    /// Moves leaves with their twigs, and breaks petioles.
+    /// Carries leaves along with their twigs, and breaks petioles.
     Carry,
 }
 
@@ -132,6 +132,7 @@ impl Default for Shaders {
             "tree/sway/row",
             "tree/sway/outward",
             "tree/sway/twig",
+            "tree/sway/work",
             "wind/gust",
             "wind/profile",
             "wind/row",

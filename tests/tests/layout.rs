@@ -11,6 +11,7 @@ use windfall_core::blocks::{
 };
 use windfall_core::flight::block::BodyBlock;
 use windfall_core::layout::WgslStruct;
+use windfall_core::tree::record::{LevelBlock, SegmentConstants};
 use windfall_wgpu::{KernelId, Shaders};
 
 fn root() -> PathBuf {
@@ -58,6 +59,8 @@ fn every_module_is_valid_and_every_struct_has_one_layout() {
     same_layout::<EnvironmentBlock>(&module);
     same_layout::<VortexBlock>(&module);
     same_layout::<StepBlock>(&module);
+    same_layout::<SegmentConstants>(&module);
+    same_layout::<LevelBlock>(&module);
 }
 
 #[test]
@@ -97,9 +100,6 @@ fn wgsl_files(folder: &Path) -> Vec<PathBuf> {
 /// Files without a twin: on the CPU what they declare are arguments.
 const BINDINGS_ONLY: [&str; 4] = ["bindings.wgsl", "due.wgsl", "leaf/petioles.wgsl", "tree/bindings.wgsl"];
 
-/// Functions that gather a record from its rows: in Rust, fields of a struct.
-const GATHERING: [&str; 4] = ["timber_floats", "timber_links", "timber_constants", "branch_row"];
-
 /// Every WGSL file names its Rust twin, the twin names it back, and their functions have the same names in the same
 /// order (Rust may have more, for the host).
 #[test]
@@ -126,7 +126,7 @@ fn twins_name_each_other_and_keep_their_order() {
         if !relative.starts_with("kernels/") {
             let rust_functions = functions(&rust);
             let mut rest = rust_functions.iter();
-            for name in functions(&wgsl).iter().filter(|name| !GATHERING.contains(&name.as_str())) {
+            for name in &functions(&wgsl) {
                 let found = rest.any(|other| name == other || name.ends_with(other.as_str()));
                 assert!(
                     found,

@@ -178,7 +178,7 @@ const RECORDS: [&str; 11] = [
     "attitudes",
     "courses",
     "identities",
-    "segment_rows",
+    "segments",
     "branch_rows",
     "work_rows",
     "bearings",

@@ -153,7 +153,7 @@ fn a_changed_kernel_is_noticed() {
         ("tree/sway/inward", "sym3_add(turned, swung)", "sym3_add(turned, turned)"),
         ("tree/sway/outward", "gain * IMPLICITNESS", "gain"),
         ("tree/sway/twig", "inverse_across * load.coupling", "inverse_along * load.coupling"),
-        ("tree/sway/row", "select(row, links.x, links.y == TWIG)", "row"),
+        ("tree/sway/row", "select(row, segments[row].parent, segments[row].first_child == TWIG)", "row"),
         (
             "tree/sway/row",
             "whole = articulated_add(whole, load",

@@ -10,11 +10,11 @@ use std::ops::Range;
 use windfall_core::kernel::pack::{BLOCK, Pack, row_of_lane};
 use windfall_core::kernel::{Quat, Vec3};
 use windfall_core::tree::batch::TreeBatch;
-use windfall_core::tree::record::{SEGMENT_ROWS, SegmentConstants, children_of};
+use windfall_core::tree::record::{SegmentConstants, children_of};
 use windfall_core::tree::sway::Constants;
 
 /// Numbers of a [`SegmentConstants`] that are floats: all but its last row of links.
-const FLOATS: usize = (SEGMENT_ROWS as usize - 1) * 4;
+const FLOATS: usize = size_of::<SegmentConstants>() / 4 - 4;
 /// Those that the pass towards the tips reads: rest and offset.
 pub(super) const OUTWARD: Range<usize> = 0..7;
 /// Those that the pass towards the foot reads: all others.

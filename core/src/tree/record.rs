@@ -1,15 +1,11 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What a segment of a swaying tree is made of: constants, state, and a step's intermediate results.
-
-use bytemuck::{Pod, Zeroable};
+//! Records of the segments of swaying trees: constants, columns of the state, and rows for the results of a pass.
 
 crate::shared_constants! {
-    /// Words of four that a segment's [`SegmentConstants`] takes.
-    pub const SEGMENT_ROWS: u32 = 7;
-    /// Words of four that a segment's work takes.
+    /// Rows of four floats that the results of a pass take for a segment (see [`Work`]).
     pub const WORK_ROWS: u32 = 15;
-    /// First row of a segment's work that holds how its joint answers; the rows before hold what it hands to its parent.
+    /// First row of the response of a segment's joint; the rows before hold what the segment passes on.
     pub const WORK_RESPONSE: u32 = 7;
     /// Column of joint rotations relative to rest.
     pub const BRANCH_TURN: u32 = 0;
@@ -27,70 +23,84 @@ crate::shared_constants! {
     pub const BRANCH_COLUMNS: u32 = 6;
     /// No segment.
     pub const NO_SEGMENT: u32 = 0xffff_ffff;
-    /// Stands in place of the first child of a twig: a short segment that bears no other, feels the air at the end of its
-    /// parent, and is worked out by simpler equations than a limb, which is any other segment.
+    /// Mark of a twig in place of its first child. A twig is a short segment without children that takes the wind at the end
+    /// of its parent and has simpler equations than a limb, which is any other segment.
     pub const TWIG: u32 = 0xffff_fffe;
 }
 
-/// Constants of a segment.
-///
-/// A segment's own frame has its origin at its lower joint and y along it. A joint's springs and rates are given in the
-/// frame of the segment above it.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
-#[repr(C, align(16))]
-pub struct SegmentConstants {
-    /// Rotation x, y, z, w at rest from the segment's frame to its parent's; to the world's for a trunk.
-    pub rest: [f32; 4],
-    /// Place of the joint in the parent's frame in m; in the world's for a trunk.
-    pub offset: [f32; 3],
-    /// Length in m.
-    pub length: f32,
-    /// Mass of the wood in kg.
-    pub mass: f32,
-    /// First moment of the wood about the joint in kg m.
-    pub first_moment: f32,
-    /// Moment of inertia of the wood about an axis across the segment through the joint in kg m².
-    pub inertia_across: f32,
-    /// Moment of inertia of the wood about the segment in kg m².
-    pub inertia_along: f32,
-    /// Mass of one leaf in kg, of those that an attachment stands for together.
-    pub leaf_mass: f32,
-    /// Drag force of the wood per squared wind speed across it, in N s²/m².
-    pub wood_drag: f32,
-    /// Drag force of one leaf per squared wind speed in light wind, in N s²/m².
-    pub leaf_drag: f32,
-    /// Inverse in s/m of the wind speed at which the leaves' drag is halved.
-    pub leaf_yield: f32,
-    /// Torque of the joint at rest in N m, which bears what grows above it.
-    pub preload: [f32; 3],
-    /// Damping torque per spring torque and rate, in s.
-    pub damping: f32,
-    /// Stiffness against bending in N m/rad.
-    pub bending: f32,
-    /// Stiffness against twisting in N m/rad.
-    pub twisting: f32,
-    /// What bending adds to the inertia that an implicit step sees, in kg m².
-    pub bending_inertia: f32,
-    /// What twisting adds to it.
-    pub twisting_inertia: f32,
-    /// Row of the parent; [`NO_SEGMENT`] for a trunk.
-    pub parent: u32,
-    /// Row of the first child; [`NO_SEGMENT`] if there is none, [`TWIG`] for a twig.
-    pub first_child: u32,
-    /// Row of the next child of the same parent, [`NO_SEGMENT`] for the last one. Twigs come before limbs.
-    pub next_sibling: u32,
-    /// Number of the tree.
-    pub tree: u32,
+crate::shared_struct! {
+    /// Constants of a segment.
+    ///
+    /// A segment's own frame has its origin at its lower joint and y along it. A joint's springs and rates are given in the
+    /// frame of the segment above it.
+    pub struct SegmentConstants {
+        /// Rotation x, y, z, w at rest from the segment's frame to its parent's; to the world's for a trunk.
+        pub rest: [f32; 4],
+        /// Position of the joint in the parent's frame in m; in the world's for a trunk.
+        pub offset: [f32; 3],
+        /// Length in m.
+        pub length: f32,
+        /// Mass of the wood in kg.
+        pub mass: f32,
+        /// First moment of the wood about the joint in kg m.
+        pub first_moment: f32,
+        /// Moment of inertia of the wood about an axis across the segment through the joint in kg m².
+        pub inertia_across: f32,
+        /// Moment of inertia of the wood about the segment in kg m².
+        pub inertia_along: f32,
+        /// Mass in kg of one leaf of the state with all that it stands for.
+        pub leaf_mass: f32,
+        /// Drag force of the wood per squared wind speed across it, in N s²/m².
+        pub wood_drag: f32,
+        /// Drag force of one leaf per squared wind speed in light wind, in N s²/m².
+        pub leaf_drag: f32,
+        /// Inverse in s/m of the wind speed at which the leaves' drag is halved.
+        pub leaf_yield: f32,
+        /// Torque of the joint at rest in N m, which balances the weight of what grows above it.
+        pub preload: [f32; 3],
+        /// Damping torque per spring torque and rate, in s.
+        pub damping: f32,
+        /// Stiffness against bending in N m/rad.
+        pub bending: f32,
+        /// Stiffness against twisting in N m/rad.
+        pub twisting: f32,
+        /// Inertia in kg m² that implicit bending adds.
+        pub bending_inertia: f32,
+        /// Inertia in kg m² that implicit twisting adds.
+        pub twisting_inertia: f32,
+        /// Row of the parent; [`NO_SEGMENT`] for a trunk.
+        pub parent: u32,
+        /// Row of the first child; [`NO_SEGMENT`] if there is none, [`TWIG`] for a twig.
+        pub first_child: u32,
+        /// Row of the next child of the same parent, [`NO_SEGMENT`] for the last one. Twigs come before limbs.
+        pub next_sibling: u32,
+        /// Number of the tree.
+        pub tree: u32,
+    }
+}
+
+crate::shared_struct! {
+    /// Level of a forest, which one dispatch steps.
+    pub struct LevelBlock {
+        /// Index of its first row in [`Forest::order`](super::Forest::order).
+        pub first: u32,
+        /// Number of rows.
+        pub count: u32,
+        /// Rows from one branch column to the next in their buffer.
+        pub column_stride: u32,
+        /// Zero; fills the block up to 16 bytes.
+        pub unused: u32,
+    }
 }
 
 impl SegmentConstants {
-    /// Whether the segment is a twig.
+    /// Returns true for a twig.
     pub fn is_twig(&self) -> bool {
         self.first_child == TWIG
     }
 }
 
-/// The children of row `row` of a batch whose first row is number `first` of the forest: twigs, then limbs. Rows are counted
+/// Children of row `row` of a batch whose first row is number `first` of the forest: twigs, then limbs. Rows are counted
 /// from the batch's first.
 #[inline(always)]
 pub fn children_of(segments: &[SegmentConstants], first: u32, row: usize) -> impl Iterator<Item = usize> {
@@ -100,12 +110,13 @@ pub fn children_of(segments: &[SegmentConstants], first: u32, row: usize) -> imp
     })
 }
 
-const _: () = assert!(size_of::<SegmentConstants>() == SEGMENT_ROWS as usize * 16, "rows of four words");
-
-/// Results of a step's pass towards the foot that the pass towards the tips needs.
+/// Results of the inward pass for one segment that the outward pass needs; [`super::sway::work`] packs them.
+///
+/// Limbs, twigs and the schemes that step joints one by one use the same rows for different records: at one typed record for
+/// each, fewer segments would fit a binding of 128 MiB.
 pub type Work = [[f32; 4]; WORK_ROWS as usize];
 
-/// Bytes that a step must bring from memory and back for a segment: constants once, state there and back, and the number
-/// of leaves. A thread's work, and what its second pass reads once more, can stay in its cache.
+/// Bytes of memory traffic that a step needs for a segment: constants once, state in both directions, and the number of
+/// leaves. The results of a thread's inward pass, and what its outward pass reads again, can stay in its cache.
 pub const SEGMENT_BYTES_PER_STEP: usize =
     size_of::<SegmentConstants>() + 2 * BRANCH_COLUMNS as usize * 16 + 4;

@@ -94,7 +94,7 @@ functions! {
         let body = body(w, 31);
         let axis = segment_axis(&body);
         let moved = quigley_step(cx, &constants(w, 0), &joint(w, 24), &body, axis, &carried(w, 44));
-        Results::new().vec3(moved.0).vec3(moved.1).0
+        Results::new().vec3(moved.turn).vec3(moved.rate).0
     };
 
     oliapuram_kumar_step in "tree/sway/oliapuram_kumar" (
@@ -108,7 +108,7 @@ functions! {
     rust |cx, w| {
         let body = body(w, 31);
         let moved = oliapuram_kumar_step(cx, &constants(w, 0), &joint(w, 24), &body, &carried(w, 44));
-        Results::new().vec3(moved.0).vec3(moved.1).0
+        Results::new().vec3(moved.turn).vec3(moved.rate).0
     };
 
     // Rotations on both sides of where they are cut off.

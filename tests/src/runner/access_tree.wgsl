@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // What trees are made of among the words of a case, field by field in their order.
-fn in_constants(at: u32) -> Constants {
+fn in_constants(at: u32) -> SegmentConstants {
     let wood = in_vec4(at + 8u);
     let air = in_vec4(at + 12u);
     let spring = in_vec4(at + 20u);
-    return Constants(
+    return SegmentConstants(
         in_vec4(at), in_vec3(at + 4u), in_float(at + 7u), wood.x, wood.y, wood.z, wood.w, air.x, air.y, air.z, air.w,
-        in_vec3(at + 16u), in_float(at + 19u), spring.x, spring.y, spring.z, spring.w,
+        in_vec3(at + 16u), in_float(at + 19u), spring.x, spring.y, spring.z, spring.w, NO_SEGMENT, NO_SEGMENT, NO_SEGMENT, 0u,
     );
 }
 

@@ -25,6 +25,7 @@ pub mod outward;
 pub mod quigley;
 pub mod row;
 pub mod twig;
+pub mod work;
 
 pub use body::{
     ArticulatedInertia, Body, Constants, Joint, JointResponse, Load, Spring, TwigResponse, VelocityProducts,

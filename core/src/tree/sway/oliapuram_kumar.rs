@@ -13,29 +13,22 @@
 //! all it carries here.
 
 use super::composite::Composite;
+use super::quigley::{Moved, Swing};
 use super::{Body, Constants, Joint};
 use crate::context::Context;
 use crate::kernel::math::reciprocal;
 use crate::kernel::quaternion::{quat_rotate_back, turn_of_quat};
 use crate::kernel::vector::Vec3;
 
-/// Turn and rate about one axis after a step.
+/// Rotation and rate about one axis after a step.
 #[inline(always)]
-fn rod_step(
-    turn: f32,
-    rate: f32,
-    torque: f32,
-    stiffness: f32,
-    inertia: f32,
-    damping: f32,
-    dt: f32,
-) -> (f32, f32) {
+fn rod_step(turn: f32, rate: f32, torque: f32, stiffness: f32, inertia: f32, damping: f32, dt: f32) -> Swing {
     let held = inertia + dt * (damping + dt * stiffness);
     let next = (inertia * rate + dt * (torque - stiffness * turn)) * reciprocal(held);
-    (turn + dt * next, next)
+    Swing { place: turn + dt * next, rate: next }
 }
 
-/// Rotation and rate of a joint one step on, in its segment's frame, that carries `whole`.
+/// Steps a joint that carries `whole`.
 #[inline(always)]
 pub fn oliapuram_kumar_step(
     cx: &Context<'_>,
@@ -43,7 +36,7 @@ pub fn oliapuram_kumar_step(
     joint: &Joint,
     body: &Body,
     whole: &Composite,
-) -> (Vec3, Vec3) {
+) -> Moved {
     let dt = cx.environment.dt_s;
     // A rod has the same moment of inertia about both axes across it, and next to none along it.
     let inertia = 0.5 * ((whole.inertia.diagonal.x + whole.inertia.diagonal.y) + whole.inertia.diagonal.z);
@@ -54,5 +47,5 @@ pub fn oliapuram_kumar_step(
     let x = rod_step(turn.x, joint.rate.x, torque.x, constants.bending, inertia, bend, dt);
     let y = rod_step(turn.y, joint.rate.y, torque.y, constants.twisting, inertia, twist, dt);
     let z = rod_step(turn.z, joint.rate.z, torque.z, constants.bending, inertia, bend, dt);
-    (Vec3::new(x.0, y.0, z.0), Vec3::new(x.1, y.1, z.1))
+    Moved { turn: Vec3::new(x.place, y.place, z.place), rate: Vec3::new(x.rate, y.rate, z.rate) }
 }

@@ -51,6 +51,15 @@ pub struct Swing {
     pub rate: f32,
 }
 
+/// Rotation vector and rate of a joint after a step, in its segment's frame.
+#[derive(Clone, Copy, Debug)]
+pub struct Moved {
+    /// Rotation in rad.
+    pub turn: Vec3,
+    /// Rate in rad/s.
+    pub rate: Vec3,
+}
+
 /// Lower triangle of the Cholesky factor, inverted: `[1/l11, 1/l22, 1/l33]` on the diagonal, m21, m31, m32 below.
 #[inline(always)]
 fn inverse_factor(a: Sym3) -> (Vec3, Vec3) {
@@ -186,7 +195,7 @@ pub fn swing_step(swing: Swing, stiffness: f32, a: f32, force: f32, dt: f32) -> 
     }
 }
 
-/// Rotation and rate of a joint one step on, in its segment's frame, that carries `whole`.
+/// Steps a joint that carries `whole`.
 #[inline(always)]
 pub fn quigley_step(
     cx: &Context<'_>,
@@ -195,7 +204,7 @@ pub fn quigley_step(
     body: &Body,
     axis: Vec3,
     whole: &Composite,
-) -> (Vec3, Vec3) {
+) -> Moved {
     let dt = cx.environment.dt_s;
     let springs = sym3_axial(axis, constants.twisting, constants.bending);
     let modes = joint_modes(whole.inertia, springs);
@@ -218,5 +227,5 @@ pub fn quigley_step(
     let sz = swing_step(Swing { place: place.z, rate: swing.z }, modes.stiffness.z, az, force.z, dt);
     let moved = mat3_times(modes.shapes, Vec3::new(sx.place, sy.place, sz.place));
     let moving = mat3_times(modes.shapes, Vec3::new(sx.rate, sy.rate, sz.rate));
-    (quat_rotate_back(body.pose, moved), quat_rotate_back(body.pose, moving))
+    Moved { turn: quat_rotate_back(body.pose, moved), rate: quat_rotate_back(body.pose, moving) }
 }

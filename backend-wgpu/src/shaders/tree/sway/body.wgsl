@@ -1,27 +1,8 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // twin: core/src/tree/sway/body.rs
+// Types of the articulated-body algorithm; the constants of a segment are SegmentConstants of the prelude.
 #import kernel/matrix
-
-struct Constants {
-    rest: vec4<f32>,
-    offset: vec3<f32>,
-    length: f32,
-    mass: f32,
-    first_moment: f32,
-    inertia_across: f32,
-    inertia_along: f32,
-    leaf_mass: f32,
-    wood_drag: f32,
-    leaf_drag: f32,
-    leaf_yield: f32,
-    preload: vec3<f32>,
-    damping: f32,
-    bending: f32,
-    twisting: f32,
-    bending_inertia: f32,
-    twisting_inertia: f32,
-}
 
 struct Joint {
     turn: vec4<f32>,

@@ -18,7 +18,7 @@ struct Composite {
 }
 
 fn segment_composite(
-    constants: Constants,
+    constants: SegmentConstants,
     body: Body,
     axis: vec3<f32>,
     air: vec3<f32>,

@@ -32,7 +32,7 @@ fn articulated_add(a: ArticulatedInertia, b: ArticulatedInertia) -> ArticulatedI
     );
 }
 
-fn joint_spring(constants: Constants, joint: Joint, body: Body, carried: f32) -> Spring {
+fn joint_spring(constants: SegmentConstants, joint: Joint, body: Body, carried: f32) -> Spring {
     let bending = constants.bending;
     let ahead = environment.dt_s * IMPLICITNESS;
     let turn = turn_of_quat(joint.turn);

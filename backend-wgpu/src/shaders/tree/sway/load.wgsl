@@ -15,7 +15,7 @@ struct Drag {
     leaves: f32,
 }
 
-fn segment_drag(constants: Constants, axis: vec3<f32>, air: vec3<f32>, velocity: vec3<f32>, bearing: f32) -> Drag {
+fn segment_drag(constants: SegmentConstants, axis: vec3<f32>, air: vec3<f32>, velocity: vec3<f32>, bearing: f32) -> Drag {
     let wind = air - velocity;
     let across = wind - axis * vec3_dot(wind, axis);
     let squared_across = max(vec3_dot(across, across), TINY_SQUARED);
@@ -34,7 +34,7 @@ fn segment_air(body: Body, axis: vec3<f32>, length: f32) -> vec3<f32> {
     return wind_at(body.base + axis * length);
 }
 
-fn segment_load(constants: Constants, body: Body, axis: vec3<f32>, air: vec3<f32>, bearing: f32) -> Load {
+fn segment_load(constants: SegmentConstants, body: Body, axis: vec3<f32>, air: vec3<f32>, bearing: f32) -> Load {
     let half = constants.length * 0.5;
     let middle = axis * half;
     let velocity = body.velocity + vec3_cross(body.spin, middle);

@@ -6,14 +6,13 @@
 #import tree/sway/composite
 #import tree/sway/quigley
 
-// Turn and rate.
-fn rod_step(turn: f32, rate: f32, torque: f32, stiffness: f32, inertia: f32, damping: f32, dt: f32) -> vec2<f32> {
+fn rod_step(turn: f32, rate: f32, torque: f32, stiffness: f32, inertia: f32, damping: f32, dt: f32) -> Swing {
     let held = inertia + dt * (damping + dt * stiffness);
     let next = (inertia * rate + dt * (torque - stiffness * turn)) * reciprocal(held);
-    return vec2<f32>(turn + dt * next, next);
+    return Swing(turn + dt * next, next);
 }
 
-fn oliapuram_kumar_step(constants: Constants, joint: Joint, body: Body, whole: Composite) -> Moved {
+fn oliapuram_kumar_step(constants: SegmentConstants, joint: Joint, body: Body, whole: Composite) -> Moved {
     let dt = environment.dt_s;
     let inertia = 0.5 * ((whole.inertia.diagonal.x + whole.inertia.diagonal.y) + whole.inertia.diagonal.z);
     let torque = quat_rotate_back(body.pose, whole.torque) + constants.preload;
@@ -23,5 +22,5 @@ fn oliapuram_kumar_step(constants: Constants, joint: Joint, body: Body, whole: C
     let x = rod_step(turn.x, joint.rate.x, torque.x, constants.bending, inertia, bend, dt);
     let y = rod_step(turn.y, joint.rate.y, torque.y, constants.twisting, inertia, twist, dt);
     let z = rod_step(turn.z, joint.rate.z, torque.z, constants.bending, inertia, bend, dt);
-    return Moved(vec3<f32>(x.x, y.x, z.x), vec3<f32>(x.y, y.y, z.y));
+    return Moved(vec3<f32>(x.place, y.place, z.place), vec3<f32>(x.rate, y.rate, z.rate));
 }

@@ -73,7 +73,7 @@ fn joint_held(turn: vec3<f32>, rate: vec3<f32>) -> Joint {
     );
 }
 
-fn segment_place(constants: Constants, joint: Joint, parent: Body) -> Body {
+fn segment_place(constants: SegmentConstants, joint: Joint, parent: Body) -> Body {
     let pose = quat_multiply(quat_multiply(parent.pose, constants.rest), joint.turn);
     let arm = quat_rotate(parent.pose, constants.offset);
     return Body(

@@ -155,7 +155,7 @@ fn swing_step(swing: Swing, stiffness: f32, a: f32, force: f32, dt: f32) -> Swin
     );
 }
 
-fn quigley_step(constants: Constants, joint: Joint, body: Body, axis: vec3<f32>, whole: Composite) -> Moved {
+fn quigley_step(constants: SegmentConstants, joint: Joint, body: Body, axis: vec3<f32>, whole: Composite) -> Moved {
     let dt = environment.dt_s;
     let springs = sym3_axial(axis, constants.twisting, constants.bending);
     let modes = joint_modes(whole.inertia, springs);
