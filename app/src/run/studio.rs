@@ -137,13 +137,7 @@ impl Studio {
         let columns = self.backend.columns(&self.gpu)?;
         let mut encoder =
             self.gpu.device().create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-        self.renderer.draw(
-            &mut encoder,
-            &self.target.view(),
-            &columns.leaves,
-            columns.branches.as_ref(),
-            &input,
-        );
+        self.renderer.draw(&mut encoder, &self.target.view(), &columns, &input);
         let picture = self.target.submit_and_read(self.gpu.device(), self.gpu.queue(), encoder);
         // What the driver says about a failure is better than that the picture did not come.
         self.gpu.check()?;
@@ -159,7 +153,7 @@ impl Studio {
         let columns = self.backend.columns(&self.gpu)?;
         let mut encoder =
             self.gpu.device().create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-        self.renderer.observe(&mut encoder, &columns.leaves, time_s);
+        self.renderer.observe(&mut encoder, &columns, time_s);
         self.gpu.queue().submit([encoder.finish()]);
         Ok(self.gpu.check()?)
     }

@@ -3,7 +3,7 @@
 //! One frame: which pass follows which.
 
 use glam::Vec3;
-use windfall_wgpu::{BranchColumns, LeafColumns};
+use windfall_wgpu::{LeafColumns, WorldColumns};
 
 use super::Renderer;
 use super::TIMED_POSTS;
@@ -21,16 +21,16 @@ use crate::shadows::Casters;
 const GRASS_RAD_S: f64 = 2.1;
 
 impl Renderer {
-    /// Encodes one frame of `leaves` and `branches` into `output`, a view of a texture of this renderer's format. What
-    /// lies outside of the picture becomes black. Without branches the trees stand at rest.
+    /// Encodes one frame of `world` into `output`, a view of a texture of this renderer's format. What lies outside of the
+    /// picture becomes black. Without branches the trees stand at rest.
     pub fn draw(
         &mut self,
         encoder: &mut wgpu::CommandEncoder,
         output: &wgpu::TextureView,
-        leaves: &LeafColumns<'_>,
-        branches: Option<&BranchColumns<'_>>,
+        world: &WorldColumns<'_>,
         input: &FrameInput,
     ) {
+        let leaves = &world.leaves;
         let (width, height) = self.targets.size;
         let camera = input.camera.fitted(width as f32 / height as f32);
         let input = &FrameInput { camera, ..*input };
@@ -56,7 +56,7 @@ impl Renderer {
                     paint.mark(&self.device, &self.queue, encoder, leaves, input.time_s);
                 }
             }
-            self.draw_tile(encoder, leaves, branches, input, (&tile, &shot));
+            self.draw_tile(encoder, world, input, (&tile, &shot));
             if let Some(own) = own {
                 self.queue.submit([own.finish()]);
             }
@@ -74,8 +74,7 @@ impl Renderer {
     fn draw_tile(
         &mut self,
         encoder: &mut wgpu::CommandEncoder,
-        leaves: &LeafColumns<'_>,
-        branches: Option<&BranchColumns<'_>>,
+        world: &WorldColumns<'_>,
         input: &FrameInput,
         (tile, shot): (&Tile, &Shot),
     ) {
@@ -96,8 +95,9 @@ impl Renderer {
             self.shade_pass.draw(encoder, &self.frame, &self.trees);
             self.shade_is_old = false;
         }
+        let leaves = &world.leaves;
         let crowds = self.crowds();
-        let group = self.branches.bind(&self.device, branches);
+        let group = self.branches.bind(&self.device, world.branches.as_ref());
         let casters = Casters { kinds: &self.kinds, crowds: &crowds, bark: &self.bark, branches: &group };
         // The last tile is timed: its commands are those that are resolved.
         let timer = self.timer.as_ref().filter(|_| tile.left == 0);

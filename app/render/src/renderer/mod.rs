@@ -8,7 +8,7 @@ pub(crate) mod scene;
 
 use glam::{Vec2, Vec3};
 use windfall_core::scene::Lens;
-use windfall_wgpu::LeafColumns;
+use windfall_wgpu::{LeafColumns, WorldColumns};
 
 use self::scene::{RendererOptions, Subject};
 use crate::camera::Camera;
@@ -191,11 +191,11 @@ impl Renderer {
         self.trail_pass.is_some()
     }
 
-    /// Notes where `leaves` are at `time_s` for their trails and for the motion until the next frame, without drawing; nothing
-    /// to do in a scene without either.
-    pub fn observe(&mut self, encoder: &mut wgpu::CommandEncoder, leaves: &LeafColumns<'_>, time_s: f64) {
-        self.sample_trails(encoder, leaves, time_s);
-        self.note_motion(encoder, leaves, time_s);
+    /// Notes where the leaves of `world` are at `time_s` for their trails and for the motion until the next frame, without
+    /// drawing; nothing to do in a scene without either.
+    pub fn observe(&mut self, encoder: &mut wgpu::CommandEncoder, world: &WorldColumns<'_>, time_s: f64) {
+        self.sample_trails(encoder, &world.leaves, time_s);
+        self.note_motion(encoder, &world.leaves, time_s);
     }
 
     fn note_motion(&mut self, encoder: &mut wgpu::CommandEncoder, leaves: &LeafColumns<'_>, time_s: f64) {

@@ -15,7 +15,7 @@ use image::RgbaImage;
 use windfall_core::Scene;
 use windfall_core::scene::{Exposure, Focus, Terrain};
 use windfall_texgen::{Atlas, Layer};
-use windfall_wgpu::{BranchColumns, LeafColumns};
+use windfall_wgpu::{BranchColumns, LeafColumns, WorldColumns};
 
 use super::*;
 use crate::camera::Camera;
@@ -133,8 +133,7 @@ impl Bench {
         self.renderer.draw(
             &mut encoder,
             &target.view(),
-            &leaves,
-            branches,
+            &WorldColumns { leaves, branches: branches.cloned() },
             &FrameInput { camera, time_s, since_s: f32::INFINITY, origin: (0, 0) },
         );
         target.submit_and_read(&self.device, &self.queue, encoder).expect("a picture")

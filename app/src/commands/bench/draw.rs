@@ -154,7 +154,7 @@ fn frame(
     let input = FrameInput { camera, time_s, since_s: f32::INFINITY, origin: (0, 0) };
     let columns = backend.columns(gpu)?;
     let mut encoder = gpu.device().create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-    renderer.draw(&mut encoder, &target.view(), &columns.leaves, columns.branches.as_ref(), &input);
+    renderer.draw(&mut encoder, &target.view(), &columns, &input);
     gpu.queue().submit([encoder.finish()]);
     gpu.wait()?;
     Ok(step_ms)

@@ -69,13 +69,7 @@ impl Stage {
         let columns = contender.columns(&self.gpu, &self.buffers)?;
         let mut encoder =
             self.gpu.device().create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-        self.renderer.draw(
-            &mut encoder,
-            &self.target.view(),
-            &columns.leaves,
-            columns.branches.as_ref(),
-            &input,
-        );
+        self.renderer.draw(&mut encoder, &self.target.view(), &columns, &input);
         self.target.submit_and_read(self.gpu.device(), self.gpu.queue(), encoder)?;
         Ok(self.gpu.check()?)
     }

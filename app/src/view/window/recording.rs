@@ -82,7 +82,7 @@ impl Viewer {
         let since_s = (1.0 / crate::view::tools::clip::FPS) as f32;
         let input = FrameInput { camera: self.camera, time_s, since_s, origin: (0, 0) };
         let view = recording.target.view();
-        self.renderer.draw(&mut encoder, &view, &columns.leaves, columns.branches.as_ref(), &input);
+        self.renderer.draw(&mut encoder, &view, &columns, &input);
         let picture = recording.target.submit_and_read(device, self.gpu.queue(), encoder);
         self.gpu.check()?;
         match recording.push(&picture?) {

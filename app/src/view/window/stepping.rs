@@ -27,7 +27,7 @@ impl Viewer {
             let columns = self.session.columns()?;
             let mut encoder =
                 self.gpu.device().create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-            self.renderer.observe(&mut encoder, &columns.leaves, time_s);
+            self.renderer.observe(&mut encoder, &columns, time_s);
             self.gpu.queue().submit([encoder.finish()]);
         }
         Ok(self.session.step(steps.min(1))?)
