@@ -57,11 +57,11 @@ def compare(stage, rows):
             assert (ids[at] in hidden) == (row["state"] == "dormant"), f"{where}: {row['state']}"
             if row["state"] == "dormant":
                 continue
-            told = lambda *names: tuple(single(row[name]) for name in names)
-            assert tuple(positions[at]) == told("x_m", "y_m", "z_m"), f"{where}: {positions[at]}"
-            assert tuple(speeds[at]) == told("vx_m_s", "vy_m_s", "vz_m_s"), f"{where}: {speeds[at]}"
+            expected = lambda *names: tuple(single(row[name]) for name in names)
+            assert tuple(positions[at]) == expected("x_m", "y_m", "z_m"), f"{where}: {positions[at]}"
+            assert tuple(speeds[at]) == expected("vx_m_s", "vy_m_s", "vz_m_s"), f"{where}: {speeds[at]}"
             turn = (*turns[at].GetImaginary(), turns[at].GetReal())
-            assert turn == told("qx", "qy", "qz", "qw"), f"{where}: {turn}"
+            assert turn == expected("qx", "qy", "qz", "qw"), f"{where}: {turn}"
             half = (*halves[at].GetImaginary(), halves[at].GetReal())
             assert max(abs(a - b) for a, b in zip(half, turn)) <= HALF, f"{where}: {half} is not {turn}"
             compared += 1
@@ -139,13 +139,13 @@ def check_broken(path, rows):
     except AssertionError:
         pass
     else:
-        sys.exit("leaves below the ground are not found out")
+        sys.exit("leaves below the ground are not reported")
     shader = next(prim for prim in stage.Traverse() if prim.IsA(UsdShade.Shader))
     UsdShade.Shader(shader).SetShaderId("NoSuchShader")
     UsdGeom.SetStageUpAxis(stage, UsdGeom.Tokens.z)
     stage.GetRootLayer().defaultPrim = ""
     if not issues(stage):
-        sys.exit("a broken stage is not found out")
+        sys.exit("a broken stage is not reported")
 
 
 short, long = sys.argv[1:]

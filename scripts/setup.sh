@@ -2,8 +2,8 @@
 # SPDX-FileCopyrightText: The Windfall authors
 # SPDX-License-Identifier: MIT OR Apache-2.0
 #
-# Sourced by scripts/demo and scripts/test: finds what they need, and on Debian and Ubuntu installs what is missing
-# (unless --no-install is given). Needs Rust; everything else is checked here.
+# Sourced by the other scripts: finds what they need, on Debian and Ubuntu installs what is missing (unless --no-install
+# is given), and builds the program. Needs Rust; everything else is checked here.
 
 set -euo pipefail
 
@@ -22,7 +22,7 @@ say() { printf '%s\n' "$*" >&2; }
 
 has_library() { ldconfig -p 2>/dev/null | grep -q "$1" || ls /usr/lib*/"$1"* /usr/lib/*/"$1"* >/dev/null 2>&1; }
 
-# Whether a Vulkan driver is there: a loader, and a driver manifest for it to find.
+# Succeeds if there is a Vulkan driver: a loader, and a driver manifest for it to find.
 has_vulkan() {
   has_library libvulkan.so.1 || return 1
   [ -n "${VK_DRIVER_FILES:-}${VK_ICD_FILENAMES:-}" ] && return 0
@@ -58,6 +58,17 @@ install_missing() {
   say "installing: ${missing[*]}"
   $sudo apt-get update -qq
   DEBIAN_FRONTEND=noninteractive $sudo apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null
+}
+
+# build_windfall CARGO_OPTIONS...: builds the program and sets `windfall` to where cargo put it, which CARGO_TARGET_DIR and
+# cargo's configuration decide.
+build_windfall() {
+  windfall=$(cargo build --release --workspace --bin windfall "$@" --message-format=json-render-diagnostics |
+    sed -n 's|.*"executable":"\([^"]*/windfall\)".*|\1|p' | tail -n 1)
+  if [ ! -x "$windfall" ]; then
+    say "cargo did not say where it put the program"
+    exit 1
+  fi
 }
 
 if ! command -v cargo >/dev/null; then
