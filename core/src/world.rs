@@ -61,8 +61,8 @@ impl World {
         Ok((world, cycle))
     }
 
-    /// A world of a compiled scene with every word of its stores zero.
-    pub(crate) fn zeroed(environment: Environment, clock: Clock) -> Self {
+    /// A world of a compiled scene with every word of its stores zero, to be filled.
+    pub fn zeroed(environment: Environment, clock: Clock) -> Self {
         let leaves = Leaves::zeroed(environment.scene().leaf_count() as usize);
         let branches = Branches::zeroed(environment.forest().len());
         Self { environment, clock, leaves, branches }

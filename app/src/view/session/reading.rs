@@ -31,12 +31,7 @@ impl Session {
     /// # Errors
     /// A lost device.
     pub(crate) fn world(&mut self) -> Result<World, SimError> {
-        let mut world = World {
-            environment: self.environment.clone(),
-            clock: self.backend.clock(),
-            leaves: Leaves::zeroed(self.leaf_count() as usize),
-            branches: self.environment.forest().at_rest(),
-        };
+        let mut world = World::zeroed(self.environment.clone(), self.backend.clock());
         self.backend.read_state(&mut world)?;
         Ok(world)
     }
