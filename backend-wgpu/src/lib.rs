@@ -6,8 +6,11 @@
 //! the result loaded as it is, which makes the state equal to the CPU oracle's bit for bit ([`Contract::Exact`]).
 //! Elsewhere the same WGSL runs under [`Contract::Tolerant`].
 //!
-//! The backend borrows the device it runs on ([`Gpu::from_parts`]) and lends its leaf buffers
-//! ([`WgpuSimulator::columns`]), so that a renderer on the same device draws them without a copy.
+//! The backend borrows the device it runs on ([`Gpu::from_parts`]) and lends its buffers
+//! ([`WgpuSimulator::columns`]), so that a renderer on the same device draws them without a copy. A program with a loop of
+//! its own encodes steps into its own submissions ([`WgpuSimulator::encode_steps`]) and reads state and counts back without
+//! waiting ([`WgpuSimulator::request_state`], [`WgpuSimulator::request_stats`]). The [`wgpu`] that all this speaks of is
+//! exported.
 //!
 //! [`Contract::Exact`]: windfall_core::Contract::Exact
 //! [`Contract::Tolerant`]: windfall_core::Contract::Tolerant

@@ -37,6 +37,7 @@
 //! - [`scene`]: what a scene file says, field by field, with ranges.
 //! - [`World::build_cycle`]: worlds that repeat, for clips without a seam; [`Environment::set_wind_field`]: a wind of
 //!   your own.
+//! - [`store`]: the columns that a state consists of.
 //! - [`leaf`]: the leaf store and the life of a leaf, step by step.
 //! - [`motion`]: six primitive motions, their tables and the chain that joins them.
 //! - [`flight`]: leaves as rigid bodies under air forces.
