@@ -18,8 +18,9 @@
 //! simulator.step(60)?;
 //! simulator.read_state(&mut world)?;
 //! assert_eq!(world.clock.step(), 60);
-//! let place = world.leaves.place[0];
-//! println!("{:?} at {:?}, moving at {:?}", place.state(), place.position, world.velocity(0));
+//! let step = world.step_block();
+//! let leaf = world.leaves.view(&world.context(&step), 0);
+//! println!("{:?} at {:?}, moving at {:?}", leaf.state, leaf.position, leaf.velocity);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Which instructions move the leaves. All of them give the same bits.
+//! Instructions that move the leaves. All of them give the same bits.
 
 use fearless_simd::Level;
 

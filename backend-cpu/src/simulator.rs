@@ -10,14 +10,14 @@ use windfall_core::tree::batch::TreeBatch;
 use windfall_core::{Clock, Contract, Environment, SimError, Simulator, SimulatorInfo, Stats, World};
 
 use crate::kernels::CHUNK;
-use crate::kernels::advance::advance;
 use crate::kernels::measure::measure;
 use crate::kernels::scratch::Scratch;
 use crate::kernels::segment_block::BatchBlocks;
+use crate::kernels::step_leaves::step_leaves;
 use crate::kernels::step_trees::{BatchRun, sway};
 use crate::simd::Simd;
 
-/// How the CPU simulator runs.
+/// Options of the CPU simulator.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct CpuOptions {
     /// Number of threads; one for each core when `None`.
@@ -132,7 +132,7 @@ impl Simulator for CpuSimulator {
                         simd,
                     );
                 }
-                advance(&cx, leaves.as_mut(), simd);
+                step_leaves(&cx, leaves.as_mut(), simd);
                 clock.advance(environment);
             }
         };

@@ -33,7 +33,7 @@ pub struct LeafColumns<'a> {
     /// `Attitude`: unit quaternion x, y, z, w as `f32`.
     pub attitude: &'a wgpu::Buffer,
     /// `Course`: four `u32`; the third's low half is the size relative to the species' in 2^-14.
-    pub course: &'a wgpu::Buffer,
+    pub schedule: &'a wgpu::Buffer,
     /// `Identity`: four `u32`; the fourth holds tint (bits 0-15) and image variant (bits 16-23).
     pub identity: &'a wgpu::Buffer,
     /// Number of leaves.
@@ -190,8 +190,9 @@ impl<'a> LeafColumns<'a> {
     /// The columns of a store of leaves.
     pub fn of(leaves: &'a StoreBuffers) -> Self {
         debug_assert_eq!(leaves.size.store, Leaves::NAME, "buffers of leaves");
-        let [place, drift, attitude, course, identity] = [0, 1, 2, 3, 4].map(|column| leaves.buffer(column));
-        Self { place, drift, attitude, course, identity, leaf_count: leaves.rows() }
+        let [place, drift, attitude, schedule, identity] =
+            [0, 1, 2, 3, 4].map(|column| leaves.buffer(column));
+        Self { place, drift, attitude, schedule, identity, leaf_count: leaves.rows() }
     }
 }
 

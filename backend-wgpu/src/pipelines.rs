@@ -16,7 +16,7 @@ use crate::shaders::{KernelId, Shaders, compile_exact};
 pub(crate) enum GroupLayout {
     /// Blocks, tables and leaf columns.
     Leaves,
-    /// One storage buffer: the due leaves of a page, or the counters.
+    /// One storage buffer: the event list of a page, or the counters.
     Extra,
     /// Blocks and wind tables, for trees.
     Sway,
@@ -35,7 +35,7 @@ impl GroupLayout {
     /// What is bound, binding by binding.
     fn slots(self) -> &'static [Slot] {
         use Slot::{Block, BlockOfMany, Read, Write};
-        // The bindings of shaders/bindings.wgsl: all of them, those up to the wind, those up to the courses.
+        // The bindings of shaders/bindings.wgsl: all of them, those up to the wind, those up to the schedules.
         const ALL: &[Slot] = &[Block, BlockOfMany, Read, Write, Write, Write, Write, Write, Read];
         match self {
             Self::Leaves => ALL,
@@ -58,7 +58,7 @@ impl KernelId {
                 [GroupLayout::Sway, GroupLayout::Level]
             }
             Self::Carry => [GroupLayout::Carried, GroupLayout::Carriers],
-            Self::Advance | Self::Fly | Self::Attend | Self::Measure => {
+            Self::Advance | Self::Fly | Self::ResolveEvents | Self::Measure => {
                 [GroupLayout::Leaves, GroupLayout::Extra]
             }
         }
@@ -66,7 +66,7 @@ impl KernelId {
 
     /// The kernels that step and count a world of this environment.
     pub(crate) fn needed(environment: &Environment) -> Vec<Self> {
-        let mut kernels = vec![Self::Advance, Self::Attend, Self::Measure];
+        let mut kernels = vec![Self::Advance, Self::ResolveEvents, Self::Measure];
         if environment.block().has_bodies() {
             kernels.push(Self::Fly);
         }

@@ -21,6 +21,11 @@ pub(crate) fn structs() -> String {
         blocks::StepBlock::declaration(),
         tree::record::SegmentConstants::declaration(),
         tree::record::LevelBlock::declaration(),
+        leaf::Place::declaration(),
+        leaf::Drift::declaration(),
+        leaf::Attitude::declaration(),
+        leaf::Schedule::declaration(),
+        leaf::Identity::declaration(),
     ]
     .concat()
 }

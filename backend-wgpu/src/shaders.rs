@@ -12,12 +12,12 @@ use crate::prelude;
 /// The compute kernels; one name for file, entry point and twin.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum KernelId {
-    /// Moves the leaves through one step to which nothing happens in it.
+    /// Moves the leaves without an event through one step.
     Advance,
     /// Moves the bodies among them.
     Fly,
     /// Moves the others.
-    Attend,
+    ResolveEvents,
     /// Counts leaves by state and motion.
     Measure,
     /// Inward pass of the articulated-body algorithm over trees, level by level: responses of joints.
@@ -37,7 +37,7 @@ impl KernelId {
     pub const ALL: [Self; 9] = [
         Self::Advance,
         Self::Fly,
-        Self::Attend,
+        Self::ResolveEvents,
         Self::Measure,
         Self::SwayInward,
         Self::SwayOutward,
@@ -51,7 +51,7 @@ impl KernelId {
         match self {
             Self::Advance => "advance",
             Self::Fly => "fly",
-            Self::Attend => "attend",
+            Self::ResolveEvents => "resolve_events",
             Self::Measure => "measure",
             Self::SwayInward => "sway_inward",
             Self::SwayOutward => "sway_outward",
@@ -99,9 +99,9 @@ impl Default for Shaders {
             "kernel/quaternion",
             "kernel/rng",
             "kernel/vector",
-            "due",
+            "event_list",
             "kernels/advance",
-            "kernels/attend",
+            "kernels/resolve_events",
             "kernels/carry",
             "kernels/fly",
             "kernels/measure",
@@ -117,6 +117,7 @@ impl Default for Shaders {
             "leaf/launch",
             "leaf/own",
             "leaf/petioles",
+            "leaf/record",
             "leaf/release",
             "leaf/settle",
             "motion/feature",

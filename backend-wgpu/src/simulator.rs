@@ -207,7 +207,7 @@ impl Simulator for WgpuSimulator {
         self.buffers.write(&self.gpu, world)?;
         self.clock = world.clock;
         self.set_environment(&world.environment)?;
-        self.gpu.scoped(|| self.clear_due())
+        self.gpu.scoped(|| self.clear_events())
     }
 
     fn read_state(&mut self, world: &mut World) -> Result<(), SimError> {

@@ -3,7 +3,7 @@
 //! The kernels on every backend, each on worlds that show one side of it, and the costly device functions on one
 //! thread of the CPU. Elements are leaves, or calls.
 //!
-//! `advance` includes `attend`, which takes the leaves to which something happens: nearly none in `falling` and
+//! `advance` includes `resolve_events`, which takes the leaves with an event: nearly none in `falling` and
 //! `steady` (without turbulence), none in `resting`, in `storm` the joins and releases of a usual scene, in a wind with
 //! two vortices, and a sixth of all leaves in `restless`.
 
@@ -16,7 +16,7 @@ use windfall_benches::{
     FALLING_STEPS, contenders, falling, resting, restless, scaled, steady, time_steps, world,
 };
 use windfall_core::kernel::rng::philox;
-use windfall_core::leaf::own::{own_advance, own_orientation};
+use windfall_core::leaf::own::{motion_params, own_advance, own_orientation};
 use windfall_core::leaf::release::leaf_release;
 use windfall_core::leaf::{LeafState, Leaves};
 use windfall_core::wind::sample::wind_at;
@@ -119,11 +119,11 @@ fn functions(criterion: &mut Criterion) {
 
     calls(&mut group, "wind_at", &slots, |&slot| wind_at(&cx, leaves.place[slot].position.into()));
     calls(&mut group, "own_orientation", &slots, |&slot| {
-        own_orientation(&cx, leaves.place[slot].bits, leaves.drift[slot].phase, leaves.course[slot].heading)
+        own_orientation(&cx, leaves.place[slot].bits, leaves.drift[slot].phase, leaves.schedule[slot].heading)
     });
     calls(&mut group, "own_advance", &slots, |&slot| {
-        let (phase, course) = (leaves.drift[slot].phase, leaves.course[slot]);
-        own_advance(&cx, leaves.place[slot].bits, course.into(), phase, phase.wrapping_add(course.rate))
+        let (phase, params) = (leaves.drift[slot].phase, motion_params(leaves.schedule[slot]));
+        own_advance(&cx, leaves.place[slot].bits, params, phase, phase.wrapping_add(params.rate))
     });
     let mut released = Leaves::zeroed(CALLS);
     let ids: Vec<u32> = (0..).take(CALLS).collect();

@@ -77,7 +77,7 @@ pub fn steady(leaves: u32) -> Scene {
     scene
 }
 
-/// `million` with every leaf released anew every sixth step: work for `attend`.
+/// `million` with every leaf released anew every sixth step: work for `resolve_events`.
 pub fn restless(leaves: u32) -> Scene {
     let mut scene = scaled("million", leaves);
     for source in &mut scene.sources {

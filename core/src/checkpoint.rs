@@ -22,7 +22,7 @@ impl World {
     /// Writes a checkpoint.
     ///
     /// # Errors
-    /// What the writer reports.
+    /// Errors of the writer.
     pub fn write_checkpoint(&self, out: &mut impl Write) -> io::Result<()> {
         let mut out = Checked { out, crc: crc32fast::Hasher::new() };
         let scene = self.environment.scene().to_ron();
@@ -78,7 +78,7 @@ impl World {
 /// Writes the number of rows and the columns of every store.
 ///
 /// # Errors
-/// What the writer reports.
+/// Errors of the writer.
 pub fn write_stores(out: &mut impl Write, stores: &[&dyn Store]) -> io::Result<()> {
     for store in stores {
         out.write_all(&(store.rows() as u64).to_le_bytes())?;

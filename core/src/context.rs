@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What a kernel sees besides the leaf it works on.
+//! The view of a kernel besides the leaf it works on.
 
 use crate::blocks::{EnvironmentBlock, StepBlock};
 use crate::layout::Uint4;
@@ -9,9 +9,9 @@ use crate::motion::lookup::MotionRows;
 /// The uniform blocks and tables of one step; globals in WGSL.
 #[derive(Clone, Copy, Debug)]
 pub struct Context<'a> {
-    /// What stays.
+    /// Numbers that stay.
     pub environment: &'a EnvironmentBlock,
-    /// What changes with the step.
+    /// Numbers that change with the step.
     pub step: &'a StepBlock,
     /// Motion tables.
     pub motion: MotionRows<'a>,

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What can go wrong, in one clear line each.
+//! Errors, in one clear line each.
 
 use std::path::PathBuf;
 
@@ -19,7 +19,7 @@ pub enum SceneError {
         field: String,
         /// The value found.
         value: String,
-        /// What is allowed.
+        /// Allowed values.
         allowed: String,
     },
     /// Text that is not the expected format.
@@ -31,13 +31,13 @@ pub enum SceneError {
         line: usize,
         /// Column, from 1.
         column: usize,
-        /// What is wrong.
+        /// Fault.
         message: String,
     },
     /// Neither a preset nor a readable file.
     #[error("scene '{name}' is neither a file nor a preset{}; presets: {presets}", did_you_mean(*.nearest))]
     UnknownScene {
-        /// What was asked for.
+        /// Request.
         name: String,
         /// The preset that was probably meant.
         nearest: Option<&'static str>,
@@ -57,7 +57,7 @@ pub enum SceneError {
     Checkpoint {
         /// File or stream the bytes came from.
         file: String,
-        /// What is wrong with it and what was expected.
+        /// Fault, and the expectation.
         reason: String,
     },
 }
@@ -107,7 +107,7 @@ pub enum SimError {
     /// No adapter fits.
     #[error("no usable adapter: {reason}")]
     NoAdapter {
-        /// What was looked for, what was found and what would help.
+        /// Request, finding and remedy.
         reason: String,
     },
 }

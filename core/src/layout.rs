@@ -130,6 +130,28 @@ macro_rules! shared_struct {
     };
 }
 
+/// Declares a struct as [`shared_struct!`](crate::shared_struct) does that is also the [`Record`](crate::store::Record) of a
+/// column.
+#[macro_export]
+macro_rules! shared_record {
+    (
+        $(#[$meta:meta])*
+        pub struct $name:ident { $($(#[$field_meta:meta])* pub $field:ident: $ty:ty,)* }
+    ) => {
+        $crate::shared_struct! {
+            $(#[$meta])*
+            #[derive(Default)]
+            pub struct $name { $($(#[$field_meta])* pub $field: $ty,)* }
+        }
+
+        impl $crate::store::Record for $name {
+            const NAME: &'static str = stringify!($name);
+            const FIELDS: &'static [$crate::store::Field] =
+                &[$($crate::store::Field::of::<$ty>(stringify!($field)),)*];
+        }
+    };
+}
+
 /// Declares constants and a function `wgsl_constants` that lists them as WGSL declarations.
 #[macro_export]
 macro_rules! shared_constants {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What every backend can do.
+//! The interface of every backend.
 
 use crate::clock::Clock;
 use crate::environment::Environment;
@@ -9,7 +9,7 @@ use crate::stats::Stats;
 use crate::store::StoreSize;
 use crate::world::World;
 
-/// How closely a backend's state agrees with the CPU oracle's.
+/// Closeness to which a backend's state agrees with the CPU oracle's.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Contract {
     /// Every bit of the state is the same.

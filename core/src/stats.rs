@@ -5,10 +5,7 @@
 //! Counts over a world: integers only, so their sum does not depend on order.
 
 use crate::flight::regime::REGIME_COUNT;
-use crate::leaf::fly::flies;
-use crate::leaf::record::{
-    PRIMITIVE_MASK, PRIMITIVE_SHIFT, REGIME_MASK, REGIME_SHIFT, STATE_FALLING, STATE_MASK,
-};
+use crate::leaf::record::{STATE_FALLING, flies, leaf_primitive, leaf_regime, leaf_state};
 use crate::leaf::{Leaves, Place};
 
 crate::shared_constants! {
@@ -55,11 +52,11 @@ pub struct LeafStats {
 /// Counters that one leaf adds to: its state, its motion or regime if it falls (else none), and whether it is broken.
 #[inline(always)]
 pub fn leaf_counters(place: &Place) -> [u32; 3] {
-    let state = place.bits & STATE_MASK;
+    let state = leaf_state(place.bits);
     let motion = if flies(place.bits) {
-        COUNTER_REGIME + ((place.bits >> REGIME_SHIFT) & REGIME_MASK)
+        COUNTER_REGIME + leaf_regime(place.bits)
     } else {
-        COUNTER_PRIMITIVE + ((place.bits >> PRIMITIVE_SHIFT) & PRIMITIVE_MASK)
+        COUNTER_PRIMITIVE + leaf_primitive(place.bits)
     };
     let bits = place.position.map(|x| x.to_bits() & 0x7fff_ffff);
     let broken = bits[0] >= INFINITY_BITS || bits[1] >= INFINITY_BITS || bits[2] >= INFINITY_BITS;

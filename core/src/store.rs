@@ -34,15 +34,31 @@ pub struct Field {
 }
 
 impl Field {
-    /// A field of one integer word.
-    pub const fn integer(name: &'static str) -> Self {
-        Self { name, words: 1, kind: FieldKind::Integer }
+    /// A field of that type.
+    pub const fn of<T: FieldType>(name: &'static str) -> Self {
+        Self { name, words: size_of::<T>() / 4, kind: T::KIND }
     }
+}
 
-    /// A field of floats.
-    pub const fn floats(name: &'static str, words: usize) -> Self {
-        Self { name, words, kind: FieldKind::Float }
-    }
+/// A type of the fields of records, of words of four bytes.
+pub trait FieldType: Pod {
+    /// Meaning of the words.
+    const KIND: FieldKind;
+}
+
+impl FieldType for u32 {
+    const KIND: FieldKind = FieldKind::Integer;
+}
+
+impl FieldType for f32 {
+    const KIND: FieldKind = FieldKind::Float;
+}
+
+impl<T: FieldType, const N: usize> FieldType for [T; N]
+where
+    [T; N]: Pod,
+{
+    const KIND: FieldKind = T::KIND;
 }
 
 /// A plain record of words of four bytes, as a column holds them.
@@ -55,17 +71,17 @@ pub trait Record: Pod + Default + Debug + PartialEq + Send + Sync {
 
 impl Record for u32 {
     const NAME: &'static str = "u32";
-    const FIELDS: &'static [Field] = &[Field::integer("")];
+    const FIELDS: &'static [Field] = &[Field::of::<Self>("")];
 }
 
 impl Record for f32 {
     const NAME: &'static str = "f32";
-    const FIELDS: &'static [Field] = &[Field::floats("", 1)];
+    const FIELDS: &'static [Field] = &[Field::of::<Self>("")];
 }
 
 impl Record for [f32; 4] {
     const NAME: &'static str = "vec4<f32>";
-    const FIELDS: &'static [Field] = &[Field::floats("", 4)];
+    const FIELDS: &'static [Field] = &[Field::of::<Self>("")];
 }
 
 /// Description of a column.

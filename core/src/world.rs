@@ -2,20 +2,18 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A scene brought to life: compiled environment, clock and leaves.
 
+use crate::blocks::StepBlock;
 use crate::clock::Clock;
 use crate::context::Context;
 use crate::environment::{Cycle, Environment, lifetime_steps, release_step};
 use crate::error::{SceneError, SimError};
-use crate::flight::book::{FlightBook, flight_books};
+use crate::flight::drop_table::{DropTable, drop_tables};
 use crate::kernel::hash::mix;
-use crate::kernel::vector::Vec3;
-use crate::leaf::fly::flies;
 use crate::leaf::grow::{count_leaves, leaf_grow};
-use crate::leaf::own::own_velocity;
-use crate::leaf::record::SOURCE_SHIFT;
+use crate::leaf::record::leaf_appearance;
 use crate::leaf::release::leaf_release;
 use crate::leaf::seek::leaf_seek_any;
-use crate::leaf::{LeafState, Leaves, LeavesMut};
+use crate::leaf::{Leaves, LeavesMut};
 use crate::scene::Scene;
 use crate::stats::Stats;
 use crate::store::{Store, StoreSize, check_sizes, copy_stores, hash_stores, state_bytes};
@@ -42,7 +40,7 @@ impl World {
     /// where a fall through still air has brought them.
     ///
     /// # Errors
-    /// What [`Scene::validate`] or [`Environment::compile`] reject.
+    /// Scenes that [`Scene::validate`] or [`Environment::compile`] reject.
     pub fn build(scene: &Scene) -> Result<Self, SceneError> {
         scene.validate(&scene.name)?;
         Self::fill(Environment::compile(scene)?)
@@ -53,7 +51,7 @@ impl World {
     /// scene in errors. A checkpoint of it does not go on repeating.
     ///
     /// # Errors
-    /// What [`Cycle::of`] finds cannot repeat, and what [`World::build`] rejects.
+    /// Scenes that [`Cycle::of`] finds cannot repeat, and that [`World::build`] rejects.
     pub fn build_cycle(scene: &Scene, file: &str, seconds: f64) -> Result<(Self, Cycle), SceneError> {
         let (scene, cycle) = Cycle::of(scene, file, seconds)?;
         let mut world = Self::fill(Environment::compile_with(&scene, Some(cycle.clone()))?)?;
@@ -78,18 +76,18 @@ impl World {
         let cx = environment.context(&step);
         let threads = std::thread::available_parallelism().map_or(1, usize::from);
         let share = leaves.len().div_ceil(threads).max(SMALLEST_SHARE);
-        let books = flight_books(&cx);
-        let (compiled, still, books) = (&*environment, &*branches, books.as_slice());
+        let tables = drop_tables(&cx);
+        let (compiled, still, tables) = (&*environment, &*branches, tables.as_slice());
         std::thread::scope(|scope| {
             let mut rest = leaves.as_mut();
             let mut first = 0;
             while rest.len() > share {
                 let (front, back) = rest.split_at(share);
-                scope.spawn(move || place_leaves(compiled, &cx, still, books, front, first));
+                scope.spawn(move || place_leaves(compiled, &cx, still, tables, front, first));
                 first += share;
                 rest = back;
             }
-            place_leaves(compiled, &cx, still, books, rest, first);
+            place_leaves(compiled, &cx, still, tables, rest, first);
         });
         count_leaves(branches, &cx, leaves);
         Ok(world)
@@ -149,26 +147,14 @@ impl World {
         seed.wrapping_add(hash_stores(&self.stores()))
     }
 
-    /// Velocity of the leaf in `slot` in m/s; zero if it is not in the air or sliding.
-    pub fn velocity(&self, slot: usize) -> Vec3 {
-        let place = &self.leaves.place[slot];
-        let drift = Vec3::from(self.leaves.drift[slot].velocity);
-        match place.state() {
-            LeafState::Dormant | LeafState::Attached => Vec3::ZERO,
-            LeafState::Resting => drift,
-            LeafState::Falling if flies(place.bits) => drift,
-            LeafState::Falling => {
-                let step = self.environment.step_block(&self.clock);
-                let cx = self.environment.context(&step);
-                drift
-                    + own_velocity(
-                        &cx,
-                        place.bits,
-                        self.leaves.drift[slot].phase,
-                        self.leaves.course[slot].into(),
-                    )
-            }
-        }
+    /// The block of the present step, for [`World::context`].
+    pub fn step_block(&self) -> StepBlock {
+        self.environment.step_block(&self.clock)
+    }
+
+    /// The view of a kernel at the step of this block, which is made once for all leaves ([`World::step_block`]).
+    pub fn context<'a>(&'a self, step: &'a StepBlock) -> Context<'a> {
+        self.environment.context(step)
     }
 }
 
@@ -177,7 +163,7 @@ fn place_leaves(
     environment: &Environment,
     cx: &Context<'_>,
     branches: &Branches,
-    books: &[Option<FlightBook>],
+    tables: &[Option<DropTable>],
     mut leaves: LeavesMut<'_>,
     first: usize,
 ) {
@@ -186,7 +172,7 @@ fn place_leaves(
     let mut source_first = scene.tree_leaf_count() as usize;
     for slot in first..source_first.min(first + leaves.len()) {
         #[expect(clippy::cast_possible_truncation, reason = "slots are counted in words")]
-        leaf_grow(environment, cx, branches, books, &mut leaves.row_mut(slot - first), slot as u32);
+        leaf_grow(environment, cx, branches, tables, &mut leaves.row_mut(slot - first), slot as u32);
     }
     for (index, source) in (0..).zip(&scene.sources) {
         let lifetime = i64::from(lifetime_steps(scene, source));
@@ -209,12 +195,12 @@ fn place_leaves(
             let id = slot as u32;
             if release > 0 {
                 leaf.identity.id = id;
-                leaf.identity.look = index << SOURCE_SHIFT;
-                leaf.course.event = word(release);
+                leaf.identity.appearance = leaf_appearance(0, 0, index);
+                leaf.schedule.event = word(release);
             } else {
                 let id = id.wrapping_add(word(lives).wrapping_mul(total));
                 leaf_release(cx, &mut leaf, id, index, word(release));
-                leaf_seek_any(cx, books, &mut leaf, word(-release));
+                leaf_seek_any(cx, tables, &mut leaf, word(-release));
             }
         }
     }

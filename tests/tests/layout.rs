@@ -11,6 +11,7 @@ use windfall_core::blocks::{
 };
 use windfall_core::flight::block::BodyBlock;
 use windfall_core::layout::WgslStruct;
+use windfall_core::leaf::{Attitude, Drift, Identity, Place, Schedule};
 use windfall_core::tree::record::{LevelBlock, SegmentConstants};
 use windfall_wgpu::{KernelId, Shaders};
 
@@ -61,6 +62,193 @@ fn every_module_is_valid_and_every_struct_has_one_layout() {
     same_layout::<StepBlock>(&module);
     same_layout::<SegmentConstants>(&module);
     same_layout::<LevelBlock>(&module);
+    same_layout::<Place>(&module);
+    same_layout::<Drift>(&module);
+    same_layout::<Attitude>(&module);
+    same_layout::<Schedule>(&module);
+    same_layout::<Identity>(&module);
+}
+
+/// Functions that read a list of words which stands in a uniform block four to a vector.
+const LIST_READERS: [&str; 3] = ["source_share", "species_rate", "transition_count"];
+
+/// Members that are vectors of four with axes.
+const QUATERNIONS: [&str; 1] = ["quaternion"];
+
+/// Returns true if an expression reads a lane of a vector without axes: of a vector of two or four that is a member of a
+/// struct in a buffer, but for quaternions. Vectors of three have axes, and rows of a table have no members.
+fn reads_a_lane(
+    module: &naga::Module,
+    function: &naga::Function,
+    at: naga::Handle<naga::Expression>,
+) -> bool {
+    use naga::Expression::{Access, AccessIndex, GlobalVariable, Load, Swizzle};
+    let (Access { base: vector, .. } | AccessIndex { base: vector, .. } | Swizzle { vector, .. }) =
+        function.expressions[at]
+    else {
+        return false;
+    };
+    // From the global variable down to the vector: an index of a member or an element for each level.
+    let mut path = Vec::new();
+    let mut from = vector;
+    let global = loop {
+        match function.expressions[from] {
+            Load { pointer } => from = pointer,
+            AccessIndex { base, index } => {
+                path.push(index as usize);
+                from = base;
+            }
+            Access { base, .. } => {
+                path.push(0);
+                from = base;
+            }
+            GlobalVariable(global) => break &module.global_variables[global],
+            _ => return false,
+        }
+    };
+    let is_buffer = matches!(global.space, AddressSpace::Uniform | AddressSpace::Storage { .. });
+    let (mut ty, mut member) = (global.ty, None);
+    for index in path.into_iter().rev() {
+        ty = match &module.types[ty].inner {
+            TypeInner::Struct { members, .. } => {
+                member = members[index].name.as_deref();
+                members[index].ty
+            }
+            TypeInner::Array { base, .. } => *base,
+            _ => return false,
+        };
+    }
+    let is_flat = matches!(
+        module.types[ty].inner,
+        TypeInner::Vector { size: naga::VectorSize::Bi | naga::VectorSize::Quad, .. }
+    );
+    is_buffer && is_flat && member.is_some_and(|member| !QUATERNIONS.contains(&member))
+}
+
+/// Names of the functions of a module that read such a lane.
+fn lane_readers(module: &naga::Module) -> Vec<String> {
+    let functions = module.functions.iter().map(|(_, function)| function);
+    let all = functions.chain(module.entry_points.iter().map(|entry| &entry.function));
+    all.filter(|function| function.expressions.iter().any(|(at, _)| reads_a_lane(module, function, at)))
+        .map(|function| function.name.clone().unwrap_or_default())
+        .filter(|name| !LIST_READERS.contains(&name.as_str()))
+        .collect()
+}
+
+/// Numbers in uniform blocks and records have names.
+#[test]
+fn shaders_read_no_lanes_of_blocks_and_records() {
+    for name in Shaders::default().names() {
+        let (module, _) = parse(name);
+        assert_eq!(lane_readers(&module), [""; 0], "{name}");
+    }
+    // A lane read that is put in is found, also behind a name of its own.
+    let planted = [
+        ("leaf/release", "environment.species[species].rates[0]", "rates.x"),
+        ("leaf/release", "environment.seed", "rates.y"),
+        ("leaf/advance", "attitudes[leaf].quaternion", "u32(rates.x)"),
+    ];
+    for (module, read, lane) in planted {
+        let text = Shaders::default().compose(module).expect("it composes");
+        let text = format!(
+            "{text}\nfn planted(species: u32, leaf: u32) -> u32 {{\n    let rates = {read};\n    return {lane};\n}}\n"
+        );
+        let module =
+            naga::front::wgsl::parse_str(&text).unwrap_or_else(|e| panic!("{}", e.emit_to_string(&text)));
+        let expected: &[&str] = if read.ends_with("quaternion") { &[] } else { &["planted"] };
+        assert_eq!(lane_readers(&module), expected, "{read}");
+    }
+}
+
+fn rust_files(folder: &Path) -> Vec<PathBuf> {
+    let entries =
+        fs::read_dir(folder).expect("the folder exists").map(|entry| entry.expect("readable").path());
+    let files = entries.flat_map(|path| if path.is_dir() { rust_files(&path) } else { vec![path] });
+    files.filter(|path| path.extension().is_some_and(|extension| extension == "rs")).collect()
+}
+
+/// Fields that are tables by number, in newtypes or as vectors of four of a list in a uniform block.
+const NUMBERED: [&str; 6] = ["self", "lanes", "rates", "shares", "transitions", "tables"];
+
+/// Returns true if a line of Rust indexes the inner array of a value that is none of [`NUMBERED`].
+fn indexes_a_vector(line: &str) -> bool {
+    line.match_indices(".0[").any(|(at, _)| {
+        let mut receiver = &line[..at];
+        while let Some((before, _)) = receiver.strip_suffix(']').and_then(|inside| inside.rsplit_once('[')) {
+            receiver = before;
+        }
+        let name = receiver.rsplit(|character: char| !character.is_alphanumeric() && character != '_').next();
+        !NUMBERED.contains(&name.unwrap_or_default())
+    })
+}
+
+/// Constants of places within the words of records.
+fn packing_constants() -> Vec<&'static str> {
+    let constants = windfall_core::leaf::record::wgsl_constants().into_iter().map(|(name, _)| name);
+    constants
+        .filter(|name| name.ends_with("_SHIFT") || name.ends_with("_MASK") && *name != "HALF_MASK")
+        .collect()
+}
+
+/// Words of records that hold integers of one state and floats of another.
+const REUSED: [&str; 3] = [".phase", ".rate", ".heading"];
+
+/// Fault of a line that packs or unpacks a word of a leaf's records by hand, if it does.
+fn unpacks_by_hand(line: &str) -> Option<String> {
+    let is_word = |found: &str| {
+        line.match_indices(found).any(|(at, _)| {
+            let is_part = |character: char| character.is_alphanumeric() || character == '_';
+            !line[..at].ends_with(is_part) && !line[at + found.len()..].starts_with(is_part)
+        })
+    };
+    let constant = packing_constants().into_iter().find(|constant| is_word(constant));
+    let casts = line.contains("bitcast<") || line.contains("to_bits") || line.contains("from_bits");
+    let word = REUSED.into_iter().find(|word| casts && line.contains(word));
+    constant.or(word).map(|found| format!("{found} in '{}'", line.trim()))
+}
+
+/// Words of blocks and records are read by name, in both languages: no lanes of vectors, and no shifts, masks and casts
+/// outside the accessors.
+#[test]
+fn words_are_read_by_name() {
+    let folders = ["core/src", "backend-cpu/src", "backend-wgpu/src"].map(|folder| root().join(folder));
+    let shaders = wgsl_files(&root().join("backend-wgpu/src/shaders"));
+    let rust: Vec<PathBuf> = folders.iter().flat_map(|folder| rust_files(folder)).collect();
+    let mut faults = Vec::new();
+    let is_test = |path: &Path| {
+        let inside = path.strip_prefix(root()).expect("a file of the workspace");
+        inside.iter().any(|part| part == "tests" || part == "tests.rs")
+    };
+    for path in rust.iter().chain(&shaders).filter(|path| !is_test(path)) {
+        let text = fs::read_to_string(path).expect("readable");
+        let is_accessor = path.file_stem().is_some_and(|stem| stem == "record");
+        for line in text.lines().filter(|line| !line.trim_start().starts_with("//")) {
+            if indexes_a_vector(line) {
+                faults.push(format!("{}: '{}'", path.display(), line.trim()));
+            }
+            faults.extend(unpacks_by_hand(line).filter(|_| !is_accessor));
+        }
+    }
+    assert!(faults.is_empty(), "{faults:#?}");
+    let count = |files: &[PathBuf]| files.iter().filter(|path| !is_test(path)).count();
+    assert!(count(&rust) > 100 && count(&shaders) > 40, "both languages were read");
+    // Lines that must be found, and lines that may stand.
+    for line in ["cx.environment.seed.0[2]", "x = block.sources[0].timing.0[3];", "(a.0)[0] + b.0[1]"] {
+        assert!(indexes_a_vector(line), "{line}");
+    }
+    for line in ["species.rates[(p >> 2) as usize].0[1]", "self.0[from as usize]", "place.position[1]"] {
+        assert!(!indexes_a_vector(line), "{line}");
+    }
+    let by_hand = [
+        "let state = place.bits & STATE_MASK;",
+        "leaf.drift.phase = spin.x.to_bits();",
+        "let spin = bitcast<f32>(drifts[leaf].phase);",
+        "(bits >> SPECIES_SHIFT) & 31u",
+    ];
+    assert!(by_hand.iter().all(|line| unpacks_by_hand(line).is_some()), "found in every line");
+    for line in ["let up = place.position.y;", "PETIOLE_SPECIES_MASK", "x.to_bits()", "drift.phase + 1"] {
+        assert_eq!(unpacks_by_hand(line), None, "{line}");
+    }
 }
 
 #[test]
@@ -98,7 +286,8 @@ fn wgsl_files(folder: &Path) -> Vec<PathBuf> {
 }
 
 /// Files without a twin: on the CPU what they declare are arguments.
-const BINDINGS_ONLY: [&str; 4] = ["bindings.wgsl", "due.wgsl", "leaf/petioles.wgsl", "tree/bindings.wgsl"];
+const BINDINGS_ONLY: [&str; 4] =
+    ["bindings.wgsl", "event_list.wgsl", "leaf/petioles.wgsl", "tree/bindings.wgsl"];
 
 /// Every WGSL file names its Rust twin, the twin names it back, and their functions have the same names in the same
 /// order (Rust may have more, for the host).

@@ -150,13 +150,13 @@ fn a_changed_twin_is_noticed() {
             "flight_rates",
         ),
         ("flight/runge_kutta", "flight_sum(middle, middle)", "middle", "flight_step"),
-        ("flight/regime", "2u < octants_apart", "3u < octants_apart", "regime_memory"),
-        ("leaf/fly", "cuts.y * environment", "cuts.x * environment", "flight_advance"),
+        ("flight/regime", "2u < octants_apart", "3u < octants_apart", "regime_after"),
+        ("leaf/fly", "substeps.share * environment", "substeps.count * environment", "flight_advance"),
         ("leaf/launch", "share * inverse_sqrt", "rest * inverse_sqrt", "hold_pose"),
         ("leaf/carry", "SHED_SPEEDS - 1u", "SHED_SPEEDS - 9u", "shed_chance"),
         ("leaf/carry", "still, vec3<f32>(0.0", "still, vec3<f32>(0.1", "leaf_hang"),
         ("leaf/carry", "0u - (step_block", "1u - (step_block", "leaf_hangs"),
-        ("leaf/carry", "- velocity;\n    let squared", "+ velocity;\n    let squared", "leaf_look"),
+        ("leaf/carry", "- velocity;\n    let squared", "+ velocity;\n    let squared", "leaf_sample_air"),
     ];
     let world = world();
     for (gpu, contract) in adapter::contracts() {
@@ -176,7 +176,7 @@ const RECORDS: [&str; 11] = [
     "places",
     "drifts",
     "attitudes",
-    "courses",
+    "schedules",
     "identities",
     "segments",
     "branch_rows",

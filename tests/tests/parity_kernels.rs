@@ -4,8 +4,8 @@
 
 use proptest::prelude::*;
 use proptest::test_runner::{Config, TestCaseResult, TestRunner};
-use windfall_core::leaf::fly::flies;
 use windfall_core::leaf::record::GRID_UNIT;
+use windfall_core::leaf::record::flies;
 use windfall_core::{Contract, Scene, Simulator, World};
 use windfall_cpu::{CpuOptions, CpuSimulator};
 use windfall_tests::adapter;
@@ -137,8 +137,8 @@ fn what_is_not_a_number_is_noticed() {
 fn a_changed_kernel_is_noticed() {
     let synthesised = [
         ("leaf/fall", "before * part.decay", "before * (part.decay * 1.001)"),
-        ("leaf/own", "sin_cos_half(heading >> 16u)", "sin_cos_half(heading >> 15u)"),
-        ("leaf/settle", "(1.0 - share) * dt", "share * dt"),
+        ("leaf/own", "sin_cos_half(heading_angle(heading))", "sin_cos_half(heading >> 15u)"),
+        ("leaf/settle", "(1.0 - share) * environment.dt_s", "share * environment.dt_s"),
         ("leaf/join", "before - after", "after - before"),
         ("leaf/advance", "state == STATE_RESTING", "state == STATE_ATTACHED"),
         ("wind/sample", "turbulence.y *", "turbulence.x *"),

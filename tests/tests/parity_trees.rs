@@ -161,8 +161,8 @@ fn a_changed_kernel_is_noticed() {
         ),
         ("leaf/carry", "share * LEAN_MOST", "share * LEAN_SPEED"),
         ("leaf/carry", "change - 1u", "change"),
-        ("leaf/release", "courses[leaf].z >> 16u", "courses[leaf].z & HALF_MASK"),
-        ("prelude", "const HABIT_SHARE: f32 = 0.25", "const HABIT_SHARE: f32 = 0.26"),
+        ("leaf/release", "own_size(schedules", "drawn_size(schedules"),
+        ("prelude", "const AIR_SPEED_SMOOTHING: f32 = 0.25", "const AIR_SPEED_SMOOTHING: f32 = 0.26"),
     ];
     // Soft wood in a storm leans on its stops, so that they count as well.
     let mut scene = wooded_scene(7, 600, 14.0, 1.0 / 60.0);

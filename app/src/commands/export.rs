@@ -86,7 +86,7 @@ pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let choice = arguments.backend.choose()?;
     let mut backend = choice.device.simulator(&world)?;
     let stand = Stand::of(&scene, world.environment.forest());
-    let mut observer = Observer::new(&stand);
+    let mut observer = Observer::default();
     let job = Job { scene: &scene, stand: &stand, path, frames, fps: arguments.fps };
     let mut exporter = export::start(format, &job)?;
     for line in [choice.reason, note].into_iter().flatten() {

@@ -97,7 +97,6 @@ fn field(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use windfall_core::{Scene, World};
-    use windfall_render::trees::Stand;
 
     use super::*;
     use crate::export::Observer;
@@ -120,8 +119,7 @@ mod tests {
     #[test]
     fn a_full_disk_is_told_by_every_writer() {
         let world = World::build(&Scene::default()).expect("a scene");
-        let stand = Stand::of(world.environment.scene(), world.environment.forest());
-        let mut observer = Observer::new(&stand);
+        let mut observer = Observer::default();
         let frame = observer.look(&world, 0);
         let full =
             |result: io::Result<()>| result.map_err(|error| error.kind()) == Err(io::ErrorKind::StorageFull);
@@ -147,7 +145,7 @@ mod tests {
             quaternion: [0.0, 0.0, 0.0, 1.0],
             velocity_m_s: [0.0; 3],
             size: 2.0,
-            look: 0,
+            appearance: 0,
         };
         for state in [LeafState::Dormant, LeafState::Falling] {
             let mut row = "0,0,0".to_owned();

@@ -7,7 +7,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use windfall_core::Scene;
 use windfall_core::leaf::LeafState;
-use windfall_core::leaf::record::{HALF_MASK, VARIANT_MASK, VARIANT_SHIFT};
+use windfall_core::leaf::record::{HALF_MASK, leaf_tint, leaf_variant};
 use windfall_core::scene::Species;
 use windfall_render::trees::{Stand, StandingTree, cluster};
 use windfall_render::turned;
@@ -113,7 +113,7 @@ impl Foliage {
         let first = crown.and_then(|crown| self.clusters.get(&(kind / self.variants, crown.cluster)));
         first.map_or(kind, |first| {
             let number = CLUSTERS as usize * (kind % self.variants);
-            first + number + (leaf.look % CLUSTERS) as usize
+            first + number + (leaf.appearance % CLUSTERS) as usize
         })
     }
 
@@ -127,7 +127,7 @@ impl Foliage {
         let species = leaf.species.min(self.order.len().saturating_sub(1));
         let variant = match (self.crown(leaf), self.order.get(species)) {
             (Some(&Crown { turned: [turned, range], .. }), Some(order)) => {
-                let tint = (leaf.look & HALF_MASK) as f32 / HALF_MASK as f32;
+                let tint = leaf_tint(leaf.appearance) as f32 / HALF_MASK as f32;
                 let rank = (turned + range * (tint - 0.5)).clamp(0.0, 0.9999) * order.len() as f32;
                 #[expect(
                     clippy::cast_possible_truncation,
@@ -137,7 +137,7 @@ impl Foliage {
                 let rank = rank as usize;
                 order[rank]
             }
-            _ => ((leaf.look >> VARIANT_SHIFT) & VARIANT_MASK) as usize % self.variants,
+            _ => leaf_variant(leaf.appearance) as usize % self.variants,
         };
         species * self.variants + variant
     }
@@ -152,6 +152,7 @@ pub(super) fn plain(name: &str) -> String {
 pub(super) mod tests {
     use glam::Vec3;
     use windfall_core::World;
+    use windfall_core::leaf::record::leaf_appearance;
     use windfall_core::scene::{Foliage as Twigs, LeafShape, Tree, TreeForm, TreeKind, TreePreset};
     use windfall_render::trees::TWIG_SIZE;
 
@@ -174,7 +175,7 @@ pub(super) mod tests {
     }
 
     /// A leaf of nominal size at the origin.
-    pub(in crate::export) fn leaf(slot: u32, state: LeafState, look: u32) -> FrameLeaf {
+    pub(in crate::export) fn leaf(slot: u32, state: LeafState, appearance: u32) -> FrameLeaf {
         FrameLeaf {
             slot,
             id: 0,
@@ -185,7 +186,7 @@ pub(super) mod tests {
             quaternion: [0.0, 0.0, 0.0, 1.0],
             velocity_m_s: [0.0; 3],
             size: 1.0,
-            look,
+            appearance,
         }
     }
 
@@ -221,8 +222,8 @@ pub(super) mod tests {
     fn leaves_without_a_tree_have_the_variant_of_their_look() {
         let (_, _, foliage) = foliage(LeafShape::Plate);
         let kind = |look| foliage.shown(&leaf(500, LeafState::Resting, look));
-        assert_eq!(kind(3 << VARIANT_SHIFT), 3, "the fourth");
-        assert_eq!(kind(200 << VARIANT_SHIFT), 200 % foliage.pictures.len(), "of as many as there are");
+        assert_eq!(kind(leaf_appearance(0, 3, 0)), 3, "the fourth");
+        assert_eq!(kind(leaf_appearance(0, 200, 0)), 200 % foliage.pictures.len(), "of as many as there are");
     }
 
     #[test]

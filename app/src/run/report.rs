@@ -135,13 +135,15 @@ impl Report {
 
 /// Mean position and velocity of all leaves that are not dormant, summed in the order of their slots.
 fn means(world: &World, total: u32) -> ([f64; 3], [f64; 3]) {
+    let step = world.step_block();
+    let cx = world.context(&step);
     let mut sums = [[0.0; 3]; 2];
-    for (slot, place) in world.leaves.place.iter().enumerate() {
-        if place.state() == LeafState::Dormant {
+    for slot in 0..world.leaves.len() {
+        let leaf = world.leaves.view(&cx, slot);
+        if leaf.state == LeafState::Dormant {
             continue;
         }
-        let velocity = world.velocity(slot);
-        let values = [place.position, [velocity.x, velocity.y, velocity.z]];
+        let values = [leaf.position.to_array(), leaf.velocity.to_array()];
         for (sum, value) in sums.as_flattened_mut().iter_mut().zip(values.as_flattened()) {
             *sum += f64::from(*value);
         }

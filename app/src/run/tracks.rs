@@ -7,10 +7,8 @@ use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use windfall_core::World;
-use windfall_core::leaf::LeafState;
-use windfall_core::leaf::record::{PRIMITIVE_MASK, PRIMITIVE_SHIFT, SPECIES_MASK, SPECIES_SHIFT};
-use windfall_core::motion::Primitive;
+use windfall_core::leaf::{LeafMotion, LeafState, LeafView};
+use windfall_core::{Context, World};
 
 use crate::files::{OutputFile, write_error};
 use crate::run::parse::whole;
@@ -83,16 +81,18 @@ impl Tracks {
     /// # Errors
     /// What the system says, named with the path.
     pub(crate) fn sample(&mut self, world: &World) -> anyhow::Result<()> {
-        (0..world.leaves.len().min(self.leaves)).try_for_each(|slot| self.add(world, slot))
+        let step = world.step_block();
+        let cx = world.context(&step);
+        (0..world.leaves.len().min(self.leaves)).try_for_each(|slot| self.add(world, &cx, slot))
     }
 
-    /// Adds the row of one leaf.
+    /// Adds the row of one leaf, at the step of a context.
     ///
     /// # Errors
     /// What the system says, named with the path.
-    pub(crate) fn add(&mut self, world: &World, slot: usize) -> anyhow::Result<()> {
+    pub(crate) fn add(&mut self, world: &World, cx: &Context<'_>, slot: usize) -> anyhow::Result<()> {
         self.row.clear();
-        write_row(&mut self.row, world, slot);
+        write_row(&mut self.row, world, slot, &world.leaves.view(cx, slot));
         self.out.write_all(self.row.as_bytes()).map_err(|error| self.failed(&error))
     }
 
@@ -111,35 +111,29 @@ impl Tracks {
     }
 }
 
-/// One row. A dormant leaf is nowhere yet: nothing but its state is told; only a falling one has a primitive motion.
-fn write_row(row: &mut String, world: &World, slot: usize) {
-    let leaves = &world.leaves;
-    let place = &leaves.place[slot];
-    let state = place.state();
-    let name = match state {
+/// One row. Of a dormant leaf it holds but the state; only a falling one has a primitive motion.
+fn write_row(row: &mut String, world: &World, slot: usize, leaf: &LeafView) {
+    let name = match leaf.state {
         LeafState::Dormant => "dormant",
         LeafState::Attached => "attached",
         LeafState::Falling => "falling",
         LeafState::Resting => "resting",
     };
-    let (step, time_s, id) = (world.clock.step(), world.clock.seconds(), leaves.identity[slot].id);
+    let (step, time_s, id) = (world.clock.step(), world.clock.seconds(), leaf.id);
     // Writing to a String cannot fail.
     let _ = write!(row, "{step},{time_s:.6},{slot},{id},{name},");
-    if state == LeafState::Dormant {
+    if leaf.state == LeafState::Dormant {
         row.push_str(",,,,,,,,,,,\n");
         return;
     }
-    if state == LeafState::Falling {
-        let primitive = (place.bits >> PRIMITIVE_SHIFT) & PRIMITIVE_MASK;
-        row.push_str(Primitive::ALL.get(primitive as usize).map_or("", |primitive| primitive.code()));
+    if let Some(LeafMotion::Primitive(primitive)) = leaf.motion {
+        row.push_str(primitive.code());
     }
     row.push(',');
-    let species = (place.bits >> SPECIES_SHIFT) & SPECIES_MASK;
-    let species = world.environment.scene().species.get(species as usize);
+    let species = world.environment.scene().species.get(leaf.species);
     row.push_str(&field(species.map_or("", |species| &species.name)));
-    let velocity = world.velocity(slot);
-    let numbers = place.position.into_iter().chain([velocity.x, velocity.y, velocity.z]);
-    for number in numbers.chain(leaves.attitude[slot].quaternion) {
+    let numbers = leaf.position.to_array().into_iter().chain(leaf.velocity.to_array());
+    for number in numbers.chain(leaf.attitude.to_array()) {
         let _ = write!(row, ",{number}");
     }
     row.push('\n');
@@ -162,16 +156,17 @@ mod tests {
     fn every_row_has_as_many_fields_as_the_header() {
         let scene = windfall_core::Scene::preset("autumn-park").expect("a preset");
         let world = World::build(&scene).expect("valid");
+        let step = world.step_block();
+        let cx = world.context(&step);
         let mut row = String::new();
         for slot in (0..world.leaves.len()).step_by(97) {
             row.clear();
-            write_row(&mut row, &world, slot);
+            write_row(&mut row, &world, slot, &world.leaves.view(&cx, slot));
             assert_eq!(row.matches(',').count(), HEADER.matches(',').count(), "{row}");
         }
-        let mut dormant = world.clone();
-        dormant.leaves.place[0].bits = 0;
+        let dormant = LeafView { state: LeafState::Dormant, ..world.leaves.view(&cx, 0) };
         row.clear();
-        write_row(&mut row, &dormant, 0);
+        write_row(&mut row, &world, 0, &dormant);
         assert_eq!(row.matches(',').count(), HEADER.matches(',').count(), "{row}");
     }
 

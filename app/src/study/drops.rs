@@ -3,11 +3,7 @@
 //! Drops: every leaf of a scene's sources let go once, one after another, and followed to the ground.
 
 use anyhow::bail;
-use windfall_core::leaf::LeafState;
-use windfall_core::leaf::fly::flies;
-use windfall_core::leaf::record::{
-    PRIMITIVE_MASK, PRIMITIVE_SHIFT, REGIME_MASK, REGIME_SHIFT, SPECIES_MASK, SPECIES_SHIFT,
-};
+use windfall_core::leaf::{LeafMotion, LeafState, LeafView};
 use windfall_core::scene::{Release, View};
 use windfall_core::{Scene, Simulator, World};
 
@@ -90,13 +86,15 @@ pub(crate) fn drop_all(
     let (sin, cos) = f64::from(scene.wind.direction_deg).to_radians().sin_cos();
     loop {
         let mut left = 0;
+        let step = world.step_block();
+        let cx = world.context(&step);
         for (slot, landing) in landings.iter_mut().enumerate().filter(|(_, landing)| !landing.is_landed()) {
-            left += usize::from(!look(&world, slot, landing));
+            left += usize::from(!note(&world, &world.leaves.view(&cx, slot), landing));
         }
         if let Some(tracks) = tracks.as_mut().filter(|tracks| tracks.wait(world.clock.step()) == 0) {
             for &slot in &tracked {
                 if world.leaves.place[slot].state() == LeafState::Falling {
-                    tracks.add(&world, slot)?;
+                    tracks.add(&world, &cx, slot)?;
                 }
             }
         }
@@ -117,23 +115,21 @@ pub(crate) fn drop_all(
     Ok(landings)
 }
 
-/// Notes what a leaf does; whether it has landed.
-fn look(world: &World, slot: usize, landing: &mut Landing) -> bool {
-    let place = &world.leaves.place[slot];
-    let state = place.state();
-    let here = place.position.map(f64::from);
-    let is_new = landing.begin.is_none() && state != LeafState::Dormant;
+/// Notes the state of a leaf. Returns true if it has landed.
+fn note(world: &World, leaf: &LeafView, landing: &mut Landing) -> bool {
+    let here = leaf.position.to_array().map(f64::from);
+    let is_new = landing.begin.is_none() && leaf.state != LeafState::Dormant;
     if is_new {
-        let release = world.leaves.identity[slot].release;
         landing.begin = Some(here);
-        landing.release_s = f64::from(release) * f64::from(world.clock.dt_s());
-        landing.species = ((place.bits >> SPECIES_SHIFT) & SPECIES_MASK) as usize;
+        landing.release_s = f64::from(leaf.release) * f64::from(world.clock.dt_s());
+        landing.species = leaf.species;
     }
-    match state {
+    match leaf.state {
         LeafState::Falling => {
-            let motion = match flies(place.bits) {
-                true => PRIMITIVES + ((place.bits >> REGIME_SHIFT) & REGIME_MASK) as usize,
-                false => ((place.bits >> PRIMITIVE_SHIFT) & PRIMITIVE_MASK) as usize,
+            let motion = match leaf.motion {
+                Some(LeafMotion::Primitive(primitive)) => primitive as usize,
+                Some(LeafMotion::Regime(regime)) => PRIMITIVES + regime,
+                None => MOTION_COUNT,
             };
             landing.steps[motion.min(MOTION_COUNT - 1)] += 1;
             false

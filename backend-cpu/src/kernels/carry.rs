@@ -16,11 +16,11 @@ use windfall_core::tree::record::NO_SEGMENT;
 use windfall_core::tree::sway::Body;
 use windfall_core::tree::sway::row::Rows;
 
-use super::carry_block::{LeafBlock, look};
+use super::carry_block::{LeafBlock, sample_air};
 use super::segment_block::word;
 use crate::simd::{Simd, in_packs};
 
-/// Slots of which as many look at the wind in a step as a block has lanes.
+/// Slots of which as many sample the wind in a step as a block has lanes.
 const GROUP: usize = BLOCK * SHED_INTERVAL as usize;
 
 /// The leaves of a batch, whose first slot is `first`.
@@ -57,7 +57,7 @@ fn carry_each(
     }
 }
 
-/// Group after group of slots: those that grow back one by one, those that look at the wind together, and all that hang
+/// Group after group of slots: those that grow back one by one, those that sample the wind together, and all that hang
 /// block by block.
 #[inline(always)]
 fn carry_lanes<P: Pack>(
@@ -82,13 +82,13 @@ fn carry_lanes<P: Pack>(
             });
         }
         for part in 0..BLOCK / P::LANES {
-            look::<P>(simd, cx, rows, &mut group, slot, part);
+            sample_air::<P>(simd, cx, rows, &mut group, slot, part);
         }
         let (blocks, mut few) = group.split_at(count - count % BLOCK);
         let few_first = slot + word(blocks.len());
         follow::<P>(simd, cx, rows, blocks, slot);
         carry_each(cx, rows, &mut few, few_first, |cx, leaf, slot, stalk, segment| {
-            if leaf_hangs(cx, leaf.place.bits, leaf.course.event) {
+            if leaf_hangs(cx, leaf.place.bits, leaf.schedule.event) {
                 leaf_follow(cx, leaf, slot, stalk, segment);
             }
             0
@@ -104,9 +104,9 @@ fn follow<P: Pack>(simd: P::Simd, cx: &Context<'_>, rows: &Rows<'_>, leaves: Lea
     let (place, _) = leaves.place.as_chunks_mut::<BLOCK>();
     let (drift, _) = leaves.drift.as_chunks_mut::<BLOCK>();
     let (attitude, _) = leaves.attitude.as_chunks_mut::<BLOCK>();
-    let (course, _) = leaves.course.as_chunks_mut::<BLOCK>();
-    let records = place.iter_mut().zip(drift).zip(attitude).zip(course);
-    for (first, (((place, drift), attitude), course)) in (first..).step_by(BLOCK).zip(records) {
-        LeafBlock { first, place, drift, attitude, course }.follow::<P>(simd, cx, rows);
+    let (schedule, _) = leaves.schedule.as_chunks_mut::<BLOCK>();
+    let records = place.iter_mut().zip(drift).zip(attitude).zip(schedule);
+    for (first, (((place, drift), attitude), schedule)) in (first..).step_by(BLOCK).zip(records) {
+        LeafBlock { first, place, drift, attitude, schedule }.follow::<P>(simd, cx, rows);
     }
 }

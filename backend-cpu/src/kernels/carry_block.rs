@@ -11,10 +11,11 @@ use windfall_core::kernel::lane::{Mask, Word};
 use windfall_core::kernel::pack::{BLOCK, Pack, ROWS_OF_LANES, load_block, store_block};
 use windfall_core::kernel::vector::vec3_select;
 use windfall_core::leaf::carry::{
-    CarriedLeaf, Stalk, leaf_follow, leaf_hang, leaf_hangs, leaf_look, leaf_next_look, petiole_of,
+    CarriedLeaf, Stalk, leaf_follow, leaf_hang, leaf_hangs, leaf_next_sample, leaf_sample_air, petiole_of,
 };
 use windfall_core::leaf::petiole::{PETIOLE_ROWS, SHED_INTERVAL};
-use windfall_core::leaf::{Attitude, Course, Drift, LeavesMut, Place};
+use windfall_core::leaf::record::{smoothed_air_speed, smoothed_air_speed_word};
+use windfall_core::leaf::{Attitude, Drift, LeavesMut, Place, Schedule};
 use windfall_core::tree::sway::row::Rows;
 
 use super::branch_block::Column;
@@ -28,7 +29,7 @@ pub(super) struct LeafBlock<'a> {
     pub(super) place: &'a mut [Place; BLOCK],
     pub(super) drift: &'a mut [Drift; BLOCK],
     pub(super) attitude: &'a mut [Attitude; BLOCK],
-    pub(super) course: &'a mut [Course; BLOCK],
+    pub(super) schedule: &'a mut [Schedule; BLOCK],
 }
 
 /// Petioles of slots, and the rows of their segments, counted from the batch's first.
@@ -56,17 +57,17 @@ fn select_four<P: Pack>(mask: P::Mask, yes: [P; 4], no: [P; 4]) -> [P; 4] {
     )
 }
 
-/// What leaves that hang have got used to. What others count in its place would be subnormal floats, on which processors
-/// are slow.
+/// Smoothed air speeds of leaves that hang. The counts of others in that word would be subnormal floats, on which
+/// processors are slow.
 #[inline(always)]
-fn habit_of<P: Pack>(simd: P::Simd, hangs: P::Mask, habit: P) -> P {
-    hangs.select_real(habit, P::fill(simd, 0.0))
+fn air_speed_of<P: Pack>(simd: P::Simd, hangs: P::Mask, phase: P::Word) -> P {
+    hangs.select_real(smoothed_air_speed(phase), P::fill(simd, 0.0))
 }
 
-/// Petioles of a group look at the wind, of slots as far apart as those that look in the same step: part of as many as a
-/// block has lanes.
+/// Samples the wind at petioles of a group, of slots as far apart as those that do so in the same step: part of as many as
+/// a block has lanes.
 #[inline(always)]
-pub(super) fn look<P: Pack>(
+pub(super) fn sample_air<P: Pack>(
     simd: P::Simd,
     cx: &Context<'_>,
     rows: &mut Rows<'_>,
@@ -75,13 +76,13 @@ pub(super) fn look<P: Pack>(
     part: usize,
 ) {
     let order = &ROWS_OF_LANES[part * P::LANES..][..P::LANES];
-    let next = leaf_next_look(cx, first);
+    let next = leaf_next_sample(cx, first);
     let places = P::load_words(simd, order);
     let all = places.times(places.all(SHED_INTERVAL)).plus(places.all(next));
     let exists = all.less_than(all.all(word(leaves.len())));
     let number = exists.select(all, all.all(0));
     let [_, _, _, bits] = number.look_up(cast_slice(leaves.place));
-    let [event, ..] = number.look_up(cast_slice(leaves.course));
+    let [event, ..] = number.look_up(cast_slice(leaves.schedule));
     let hangs = leaf_hangs(cx, bits.to_bits(), event.to_bits());
     if !hangs.any() {
         return;
@@ -90,18 +91,19 @@ pub(super) fn look<P: Pack>(
     let slots = number.plus(number.all(first));
     let (stalk, row) = stalks_of::<P>(simd, cx, slots, rows.first);
     let segment = bodies_of(rows, hangs.select(row, row.all(0)));
-    let (habit, breaks) = leaf_look(cx, habit_of(simd, hangs, before), slots, &stalk, &segment);
+    let (air_speed, breaks) =
+        leaf_sample_air(cx, air_speed_of(simd, hangs, before.to_bits()), slots, &stalk, &segment);
     let zero = P::fill(simd, 0.0);
-    let habits = floats(hangs.select_real(habit, before));
+    let air_speeds = floats(hangs.select_real(air_speed, before));
     let breaks = floats((hangs & breaks).select_real(P::fill(simd, 1.0), zero));
     for (lane, place) in order.iter().enumerate() {
         let number = (next + place * SHED_INTERVAL) as usize;
         if number >= leaves.len() {
             continue;
         }
-        leaves.drift[number].phase = habits[lane].to_bits();
+        leaves.drift[number].phase = smoothed_air_speed_word(air_speeds[lane]);
         if breaks[lane] > 0.0 {
-            leaves.course[number].event = cx.step.index + 1;
+            leaves.schedule[number].event = cx.step.index + 1;
             let segment = petiole_of(cx, first + word(number)).segment;
             let bearing = &mut rows.branches.bearing[(segment - rows.first) as usize];
             *bearing = bearing.wrapping_sub(1);
@@ -140,18 +142,18 @@ impl LeafBlock<'_> {
         part: usize,
     ) -> bool {
         let (position, bits) = four::<P>(load_block(simd, must_cast_ref(self.place), part));
-        let [event, ..]: [P; 4] = load_block(simd, must_cast_ref(self.course), part);
+        let [event, ..]: [P; 4] = load_block(simd, must_cast_ref(self.schedule), part);
         let event = event.to_bits();
         let hangs = leaf_hangs(cx, bits.to_bits(), event);
         if !hangs.any() {
             return false;
         }
-        let (velocity, habit) = four::<P>(load_block(simd, must_cast_ref(self.drift), part));
+        let (velocity, phase) = four::<P>(load_block(simd, must_cast_ref(self.drift), part));
         let slots = P::load_words(simd, &ROWS_OF_LANES[part * P::LANES..]);
         let slots = slots.plus(slots.all(self.first));
         let (stalk, row) = stalks_of::<P>(simd, cx, slots, rows.first);
         let segment = bodies_of(rows, hangs.select(row, row.all(0)));
-        let mut hang = leaf_hang(cx, habit_of(simd, hangs, habit), slots, &stalk, &segment);
+        let mut hang = leaf_hang(cx, air_speed_of(simd, hangs, phase.to_bits()), slots, &stalk, &segment);
         let attitude: &mut Column = must_cast_mut(self.attitude);
         if (!hangs).any() {
             hang.position = vec3_select(hangs, hang.position, position);
@@ -160,7 +162,7 @@ impl LeafBlock<'_> {
             hang.attitude = select_four(hangs, hang.attitude.to_array(), before).into();
         }
         store_vector(must_cast_mut(self.place), part, hang.position, bits);
-        store_vector(must_cast_mut(self.drift), part, hang.velocity, habit);
+        store_vector(must_cast_mut(self.drift), part, hang.velocity, phase);
         store_block(attitude, part, hang.attitude.to_array());
         (hangs & event.equals(cx.step.index + 1)).any()
     }
@@ -170,8 +172,8 @@ impl LeafBlock<'_> {
     fn break_off(&mut self, cx: &Context<'_>, rows: &Rows<'_>) {
         let now = cx.step.index;
         for number in 0..BLOCK {
-            let is_off = self.course[number].event == now + 1;
-            if is_off && leaf_hangs(cx, self.place[number].bits, self.course[number].event) {
+            let is_off = self.schedule[number].event == now + 1;
+            if is_off && leaf_hangs(cx, self.place[number].bits, self.schedule[number].event) {
                 let slot = self.first + word(number);
                 let petiole = petiole_of(cx, slot);
                 let segment = rows.body((petiole.segment - rows.first) as usize);
@@ -179,7 +181,7 @@ impl LeafBlock<'_> {
                     place: &mut self.place[number],
                     drift: &mut self.drift[number],
                     attitude: &mut self.attitude[number],
-                    course: &mut self.course[number],
+                    schedule: &mut self.schedule[number],
                 };
                 leaf_follow(cx, &mut leaf, slot, &Stalk::from(&petiole), &segment);
             }

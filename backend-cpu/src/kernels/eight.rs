@@ -9,19 +9,18 @@ use windfall_core::kernel::eight::{load_records, merge, store_records};
 use windfall_core::kernel::lane::{LANES, Mask, Real, Word};
 use windfall_core::kernel::{Quat, Vec3};
 use windfall_core::leaf::fall::{Glide, attitude_after, glide_step, response_of, spin_advance};
-use windfall_core::leaf::fly::flies;
-use windfall_core::leaf::own::Manner;
-use windfall_core::leaf::record::{STATE_FALLING, STATE_MASK, STATE_RESTING};
-use windfall_core::leaf::{Attitude, Course, Drift, Place};
+use windfall_core::leaf::own::MotionParams;
+use windfall_core::leaf::record::{STATE_FALLING, STATE_RESTING, flies, ground_steps, leaf_state};
+use windfall_core::leaf::{Attitude, Drift, Place, Schedule};
 use windfall_core::terrain::ground::ground_met;
 
-/// Three columns of float bits as a vector.
+/// Columns of records of three floats and a word: the vector and the word.
 #[inline(always)]
-pub(super) fn vector<S: Simd>(words: [u32x8<S>; 4]) -> Vec3<f32x8<S>> {
-    Vec3::new(Real::from_bits(words[0]), Real::from_bits(words[1]), Real::from_bits(words[2]))
+pub(super) fn vector_and_word<S: Simd>([x, y, z, word]: [u32x8<S>; 4]) -> (Vec3<f32x8<S>>, u32x8<S>) {
+    (Vec3::new(Real::from_bits(x), Real::from_bits(y), Real::from_bits(z)), word)
 }
 
-/// A vector and a word as four columns.
+/// The reverse of [`vector_and_word`].
 #[inline(always)]
 pub(super) fn with_word<S: Simd>(v: Vec3<f32x8<S>>, word: u32x8<S>) -> [u32x8<S>; 4] {
     [Real::to_bits(v.x), Real::to_bits(v.y), Real::to_bits(v.z), word]
@@ -34,8 +33,8 @@ pub(super) fn bits_of<S: Simd>(mask: mask32x8<S>) -> u8 {
     mask.to_bitmask() as u8
 }
 
-/// Steps those of eight leaves that fall without an event and do not land. A bit for each of the others that have to
-/// be attended to.
+/// Steps those of eight leaves that fall without an event and do not land. Returns a bit for each of the others that needs
+/// a step of its own.
 #[inline(always)]
 pub(super) fn advance_eight<S: Simd>(
     simd: S,
@@ -43,24 +42,25 @@ pub(super) fn advance_eight<S: Simd>(
     place: &mut [Place; LANES],
     drift: &mut [Drift; LANES],
     attitude: &mut [Attitude; LANES],
-    course: &[Course; LANES],
+    schedule: &[Schedule; LANES],
 ) -> u8 {
     let places = load_records(simd, must_cast_ref(place));
     let drifts = load_records(simd, must_cast_ref(drift));
-    let [event, rate, size, heading] = load_records(simd, must_cast_ref(course));
-    let bits = places[3];
-    let state = bits & STATE_MASK;
+    let (position, bits) = vector_and_word(places);
+    let (velocity, phase) = vector_and_word(drifts);
+    let [event, rate, size, heading] = load_records(simd, must_cast_ref(schedule));
+    let state = leaf_state(bits);
     let waits = u32x8::splat(simd, cx.step.index).less_than(event);
     let falls = state.equals(STATE_FALLING) & waits & !flies(bits);
-    let slides = !((drifts[0] | drifts[2]) << 1).equals(0);
-    let stirs = slides | drifts[3].less_than(bits.all(cx.environment.settle_steps));
-    let due = !waits | (state.equals(STATE_RESTING) & stirs);
+    let slides = !((Real::to_bits(velocity.x) | Real::to_bits(velocity.z)) << 1).equals(0);
+    let is_settling = slides | ground_steps(phase).less_than(bits.all(cx.environment.settle_steps));
+    let is_left = !waits | (state.equals(STATE_RESTING) & is_settling);
     if !falls.any() {
-        return bits_of(due);
+        return bits_of(is_left);
     }
-    let start = Glide { position: vector(places), drift: vector(drifts), phase: drifts[3] };
+    let start = Glide { position, drift: velocity, phase };
     let response = response_of(cx, bits);
-    let glide = glide_step(cx, start, bits, Manner { rate, size, heading }, response);
+    let glide = glide_step(cx, start, bits, MotionParams { rate, size, heading }, response);
     let spun = spin_advance(bits, heading, response.fastest_spin);
     let before =
         || Quat::from(load_records(simd, must_cast_ref(attitude)).map(<f32x8<S> as Real>::from_bits));
@@ -79,5 +79,5 @@ pub(super) fn advance_eight<S: Simd>(
     store_records(must_cast_mut(place), new_places);
     store_records(must_cast_mut(drift), new_drifts);
     store_records(must_cast_mut(attitude), new_attitudes);
-    bits_of(due | (falls & lands))
+    bits_of(is_left | (falls & lands))
 }

@@ -11,11 +11,12 @@ use windfall_core::kernel::Quat;
 use windfall_core::kernel::eight::{load_records, merge, store_records};
 use windfall_core::kernel::lane::{LANES, Mask, Real, Word};
 use windfall_core::leaf::LeavesMut;
-use windfall_core::leaf::fly::{Flight, flies, flight_advance, flight_told, leaf_fly};
+use windfall_core::leaf::fly::{Flight, flight_advance, leaf_fly, update_regime};
+use windfall_core::leaf::record::{body_spin, body_spin_words, flies, regime_state};
 use windfall_core::terrain::ground::ground_met;
 use windfall_core::wind::sample::wind_at;
 
-use super::eight::{bits_of, vector, with_word};
+use super::eight::{bits_of, vector_and_word, with_word};
 use crate::simd::Simd;
 
 /// Steps the bodies of one chunk.
@@ -59,41 +60,42 @@ fn flying<S: Lanes>(on: mask32x8<S>, words: u32x8<S>) -> u32x8<S> {
 fn fly_eight<S: Lanes>(simd: S, cx: &Context<'_>, leaves: &mut LeavesMut<'_>, first: usize) -> u8 {
     let place = eight_of(leaves.place, first);
     let places = load_records(simd, must_cast_ref(place));
-    let bits = places[3];
+    let (position, bits) = vector_and_word(places);
     let on = flies(bits);
     if !on.any() {
         return 0;
     }
     let (drift, attitude) = (eight_of(leaves.drift, first), eight_of(leaves.attitude, first));
-    let course = eight_of(leaves.course, first);
+    let schedule = eight_of(leaves.schedule, first);
     let drifts = load_records(simd, must_cast_ref(drift));
     let attitudes = load_records(simd, must_cast_ref(attitude));
-    let courses = load_records(simd, must_cast_ref(course));
-    let [event, rate, size, heading] = courses;
+    let schedules = load_records(simd, must_cast_ref(schedule));
+    let (velocity, phase) = vector_and_word(drifts);
+    let [event, rate, size, heading] = schedules;
     let start = Flight {
-        position: vector(places),
-        velocity: vector(drifts),
+        position,
+        velocity,
         pose: Quat::from(attitudes.map(<f32x8<S> as Real>::from_bits)),
-        spin: vector([drifts[3], rate, heading, heading].map(|words| flying(on, words))),
+        spin: body_spin(flying(on, phase), flying(on, rate), flying(on, heading)),
     };
     let wind = wind_at(cx, start.position);
     let flight = flight_advance(cx, start, bits, size, wind);
     let identity = eight_of(leaves.identity, first);
     let identities = load_records(simd, must_cast_ref(identity));
-    let [id, release, memory, look] = identities;
-    let [memory, new_bits] = flight_told(cx, &flight, wind, memory, bits);
+    let [id, release, fall_time, appearance] = identities;
+    let regime = update_regime(cx, &flight, wind, regime_state(fall_time), bits);
     let lands = ground_met(cx, flight.position);
     let moved = on & !lands;
-    let [x, y, z] = [flight.spin.x, flight.spin.y, flight.spin.z].map(Real::to_bits);
-    let new_places = merge(moved, with_word(flight.position, new_bits), places);
+    let [x, y, z] = body_spin_words(flight.spin);
+    let new_places = merge(moved, with_word(flight.position, regime.bits), places);
     let new_drifts = merge(moved, with_word(flight.velocity, x), drifts);
     let new_attitudes = merge(moved, flight.pose.to_array().map(Real::to_bits), attitudes);
-    let new_courses = merge(moved, [event, y, size, z], courses);
-    let new_identities = merge(moved, [id, release, memory, look], identities);
+    let new_schedules = merge(moved, [event, y, size, z], schedules);
+    let new_identities = merge(moved, [id, release, regime.state, appearance], identities);
     store_records(must_cast_mut(place), new_places);
     store_records(must_cast_mut(drift), new_drifts);
     store_records(must_cast_mut(attitude), new_attitudes);
-    store_records(must_cast_mut(course), new_courses);
+    store_records(must_cast_mut(schedule), new_schedules);
     store_records(must_cast_mut(identity), new_identities);
     bits_of(on & lands)
 }

@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Loops over leaves and over segments of trees; one file per kernel, each with a twin in `backend-wgpu/src/shaders/kernels/`.
 
-pub(crate) mod advance;
-pub(crate) mod attend;
+mod advance;
 mod branch_block;
 pub(crate) mod carry;
 mod carry_block;
@@ -11,8 +10,10 @@ mod eight;
 mod fetch;
 mod fly;
 pub(crate) mod measure;
+mod resolve_events;
 pub(crate) mod scratch;
 pub(crate) mod segment_block;
+pub(crate) mod step_leaves;
 pub(crate) mod step_trees;
 mod sway_block;
 pub(crate) mod sway_follow;

@@ -6,14 +6,9 @@
 @group(0) @binding(0) var<uniform> environment: EnvironmentBlock;
 @group(0) @binding(1) var<uniform> step_block: StepBlock;
 @group(0) @binding(2) var<storage, read> wind_rows: array<vec4<u32>>;
-// x, y, z as float bits; state, blend, table and spin.
-@group(0) @binding(3) var<storage, read_write> places: array<vec4<u32>>;
-// Drift velocity x, y, z as float bits; phase.
-@group(0) @binding(4) var<storage, read_write> drifts: array<vec4<u32>>;
-// Quaternion x, y, z, w.
-@group(0) @binding(5) var<storage, read_write> attitudes: array<vec4<f32>>;
-// Event, rate, size, heading and spin rate.
-@group(0) @binding(6) var<storage, read_write> courses: array<vec4<u32>>;
-// Id, release, fall time, look.
-@group(0) @binding(7) var<storage, read_write> identities: array<vec4<u32>>;
+@group(0) @binding(3) var<storage, read_write> places: array<Place>;
+@group(0) @binding(4) var<storage, read_write> drifts: array<Drift>;
+@group(0) @binding(5) var<storage, read_write> attitudes: array<Attitude>;
+@group(0) @binding(6) var<storage, read_write> schedules: array<Schedule>;
+@group(0) @binding(7) var<storage, read_write> identities: array<Identity>;
 @group(0) @binding(8) var<storage, read> motion_rows: array<vec4<f32>>;

@@ -8,17 +8,17 @@ use super::WgpuSimulator;
 use crate::buffers::{buffer, group};
 use crate::pipelines::GroupLayout;
 
-/// What stands before the list of due leaves while it is empty.
-const DUE_HEADER: [u8; 16] = [0; 16];
+/// Header of an empty event list.
+const EVENT_LIST_HEADER: [u8; 16] = [0; 16];
 
 /// A window of the leaf columns that fits in one binding.
 #[derive(Debug)]
 pub(super) struct Page {
     pub(super) leaves: u32,
     pub(super) columns: wgpu::BindGroup,
-    pub(super) due: wgpu::BindGroup,
-    /// Header of `due`: lengths of the lists of even and odd steps.
-    due_counts: wgpu::Buffer,
+    pub(super) events: wgpu::BindGroup,
+    /// Header of `events`: lengths of the lists of even and odd steps.
+    event_counts: wgpu::Buffer,
     pub(super) on_trees: Option<OnTrees>,
 }
 
@@ -39,10 +39,10 @@ impl WgpuSimulator {
         self.pages = pages;
     }
 
-    /// Forgets which leaves were due. A step clears the list of the next one; after a jump in time that is another.
-    pub(super) fn clear_due(&self) {
+    /// Clears the event lists. A step clears the list of the next one; after a jump in time that is another.
+    pub(super) fn clear_events(&self) {
         for page in &self.pages {
-            self.gpu.queue().write_buffer(&page.due_counts, 0, &DUE_HEADER);
+            self.gpu.queue().write_buffer(&page.event_counts, 0, &EVENT_LIST_HEADER);
         }
     }
 
@@ -54,9 +54,10 @@ impl WgpuSimulator {
         let page = group(&self.gpu, self.pipelines.layout(GroupLayout::Leaves), resources);
         // Header of four counts, then a place for every leaf; new buffers are zero.
         let usage = wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST;
-        let due_counts = buffer(&self.gpu, "due", DUE_HEADER.len() as u64 + u64::from(leaves) * 4, usage);
-        let due =
-            group(&self.gpu, self.pipelines.layout(GroupLayout::Extra), [due_counts.as_entire_binding()]);
+        let event_counts =
+            buffer(&self.gpu, "event_list", EVENT_LIST_HEADER.len() as u64 + u64::from(leaves) * 4, usage);
+        let events =
+            group(&self.gpu, self.pipelines.layout(GroupLayout::Extra), [event_counts.as_entire_binding()]);
         let tree_leaves = self.environment.scene().tree_leaf_count().saturating_sub(first).min(leaves);
         let on_trees = (self.forest.is_some() && tree_leaves > 0).then(|| {
             let branches = self.buffers.branches();
@@ -76,6 +77,6 @@ impl WgpuSimulator {
                 carriers: group(&self.gpu, self.pipelines.layout(GroupLayout::Carriers), carriers),
             }
         });
-        Page { leaves, columns: page, due, due_counts, on_trees }
+        Page { leaves, columns: page, events, event_counts, on_trees }
     }
 }

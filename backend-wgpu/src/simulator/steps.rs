@@ -12,8 +12,8 @@ use crate::shaders::KernelId;
 
 /// Steps per compute pass: their blocks are copied at once.
 pub(super) const STEPS_PER_PASS: u32 = 32;
-/// One in this many workgroups attends to due leaves, about one leaf in a hundred; a longer list is strided over.
-const ATTEND_SHARE: u32 = 64;
+/// One in this many workgroups resolves events, which about one leaf in a hundred has; a longer list is strided over.
+const EVENT_SHARE: u32 = 64;
 
 impl WgpuSimulator {
     /// Encodes `count` steps, for a program that submits several things at once: the clock moves on, and the commands are
@@ -110,12 +110,12 @@ impl WgpuSimulator {
             }
             for page in &self.pages {
                 pass.set_bind_group(0, &page.columns, &[offset]);
-                pass.set_bind_group(1, &page.due, &[]);
+                pass.set_bind_group(1, &page.events, &[]);
                 let groups = page.leaves.div_ceil(WORKGROUP_SIZE);
                 pass.set_pipeline(kernel(KernelId::Advance));
                 pass.dispatch_workgroups(groups.min(MAX_GROUPS), 1, 1);
-                pass.set_pipeline(kernel(KernelId::Attend));
-                pass.dispatch_workgroups(groups.div_ceil(ATTEND_SHARE), 1, 1);
+                pass.set_pipeline(kernel(KernelId::ResolveEvents));
+                pass.dispatch_workgroups(groups.div_ceil(EVENT_SHARE), 1, 1);
                 if has_bodies {
                     pass.set_pipeline(kernel(KernelId::Fly));
                     pass.dispatch_workgroups(groups.min(MAX_GROUPS), 1, 1);

@@ -11,15 +11,15 @@ use super::block::FLUTTER_HZ;
 use super::convert::single;
 use crate::SceneError;
 use crate::layout::Uint4;
-use crate::leaf::record::SOURCE_SHIFT;
-use crate::leaf::{Course, Identity, Leaves, Place};
+use crate::leaf::record::leaf_appearance;
+use crate::leaf::{Identity, Leaves, Place, Schedule};
 use crate::scene::{Release, Scene, limits};
 use crate::wind::gust::{GUST_ROWS, GUST_SPACING};
 use crate::wind::turbulence::TURBULENCE_X;
 
 /// Seconds in which trees come to repeat what the wind does: ten times what the slowest sway takes to fade e-fold.
 const TREES_SETTLE_S: f64 = 120.0;
-/// Petioles look at the wind every so many steps.
+/// Petioles sample the wind every so many steps.
 const STEP_GRID: u32 = 8;
 /// Shortest cycle in seconds, and the shortest with trees, whose leaves would flutter too fast.
 const SHORTEST_S: [f64; 2] = [1.0, 6.0];
@@ -172,9 +172,12 @@ impl Cycle {
                     leaves.place[slot] = Place::default();
                     leaves.drift[slot] = Default::default();
                     leaves.attitude[slot] = Default::default();
-                    leaves.course[slot] = Course { event, ..Course::default() };
-                    leaves.identity[slot] =
-                        Identity { id: first + leaf, look: index << SOURCE_SHIFT, ..Identity::default() };
+                    leaves.schedule[slot] = Schedule { event, ..Schedule::default() };
+                    leaves.identity[slot] = Identity {
+                        id: first + leaf,
+                        appearance: leaf_appearance(0, 0, index),
+                        ..Identity::default()
+                    };
                 }
             }
             first += source.count;

@@ -160,7 +160,7 @@ impl Environment {
         &self.motion
     }
 
-    /// The wind tables: profile, gusts, turbulence.
+    /// The wind tables: profile, gusts, turbulence; and behind them the hills.
     pub fn wind(&self) -> &Arc<[Uint4]> {
         &self.wind
     }
@@ -215,7 +215,7 @@ impl Environment {
         }
     }
 
-    /// What a kernel sees in one step.
+    /// The view of a kernel in one step.
     pub fn context<'a>(&'a self, step: &'a StepBlock) -> Context<'a> {
         Context {
             environment: &self.block,

@@ -12,9 +12,7 @@ use crate::context::Context;
 use crate::kernel::lane::{Real, Word};
 use crate::kernel::math::reciprocal;
 use crate::kernel::vector::Vec3;
-use crate::leaf::record::{
-    HALF_MASK, QUIRK_MASK, QUIRK_MIDDLE, QUIRK_SHIFT, QUIRK_UNIT, SIZE_UNIT, SPECIES_MASK, SPECIES_SHIFT,
-};
+use crate::leaf::record::{asymmetry, leaf_species, size_ratio};
 
 /// A leaf as a body, or eight of them. Turning speeds are spins times `size_ratio`.
 #[derive(Clone, Copy, Debug)]
@@ -61,14 +59,8 @@ pub struct LeafBody<R: Real = f32> {
 /// Row of four numbers of the body of a species.
 #[inline(always)]
 pub fn body_row<W: Word>(cx: &Context<'_>, bits: W, row: u32) -> [W::Real; 4] {
-    let first = ((bits >> SPECIES_SHIFT) & SPECIES_MASK).times(bits.all(BODY_ROWS));
+    let first = leaf_species(bits).times(bits.all(BODY_ROWS));
     first.plus(first.all(row)).look_up(bytemuck::cast_slice(&cx.environment.bodies))
-}
-
-/// One of a leaf's four asymmetries, -1 to 1.
-#[inline(always)]
-pub fn body_asymmetry<W: Word>(size: W, number: u32) -> W::Real {
-    (((size >> (QUIRK_SHIFT + 4 * number)) & QUIRK_MASK).to_real() - QUIRK_MIDDLE) * QUIRK_UNIT
 }
 
 /// The body of a leaf with these bits and this size word.
@@ -81,11 +73,11 @@ pub fn body_of<W: Word>(cx: &Context<'_>, bits: W, size: W) -> LeafBody<W::Real>
     let [centroid_x, centroid_y, centroid_z, edge_drag] = body_row(cx, bits, 4);
     let [spread_x, spread_y, spread_z, twist_spread] = body_row(cx, bits, 5);
 
-    let size_ratio = (size & HALF_MASK).to_real() * SIZE_UNIT;
-    let inv_size_ratio = reciprocal(size_ratio);
-    let x = inertia_x + air_inertia_x * size_ratio;
+    let ratio = size_ratio(size);
+    let inv_size_ratio = reciprocal(ratio);
+    let x = inertia_x + air_inertia_x * ratio;
     let y = inertia_y;
-    let z = inertia_z + air_inertia_z * size_ratio;
+    let z = inertia_z + air_inertia_z * ratio;
     let inv_inertia = Vec3::new(reciprocal(x), reciprocal(y), reciprocal(z));
     let gyration = Vec3::new(
         ((y - z) * inv_inertia.x) * inv_size_ratio,
@@ -93,14 +85,14 @@ pub fn body_of<W: Word>(cx: &Context<'_>, bits: W, size: W) -> LeafBody<W::Real>
         ((x - y) * inv_inertia.z) * inv_size_ratio,
     );
     let centroid = Vec3::new(
-        centroid_x + body_asymmetry(size, 0) * spread_x,
-        centroid_y + body_asymmetry(size, 1) * spread_y,
-        centroid_z + body_asymmetry(size, 2) * spread_z,
+        centroid_x + asymmetry(size, 0) * spread_x,
+        centroid_y + asymmetry(size, 1) * spread_y,
+        centroid_z + asymmetry(size, 2) * spread_z,
     );
-    let added = added_mass * size_ratio;
+    let added = added_mass * ratio;
     let swing = (centroid.x * centroid.x) * inv_inertia.z + (centroid.z * centroid.z) * inv_inertia.x;
     LeafBody {
-        size_ratio,
+        size_ratio: ratio,
         inv_size_ratio,
         air_per_m,
         added_mass,
@@ -109,7 +101,7 @@ pub fn body_of<W: Word>(cx: &Context<'_>, bits: W, size: W) -> LeafBody<W::Real>
         half_along_m,
         half_across_m,
         half_mean_m,
-        twist_m: twist_m + body_asymmetry(size, 3) * twist_spread,
+        twist_m: twist_m + asymmetry(size, 3) * twist_spread,
         lift_slope_across,
         lift_slope_along,
         pitch_damping,

@@ -8,23 +8,23 @@
 //! Fitted to drops of paper discs from 3.5 to 9.4 cm, let go broadside and edge-on (Howison, Hughes and Iida 2020).
 
 crate::shared_constants! {
-    /// What the drag gains with q.
+    /// Gain of the drag with q.
     pub const DRAG_RISE: f32 = 5.52;
-    /// What it loses with the square of q: separated flow resists most at middling incidence.
+    /// Loss of the drag with the square of q: separated flow resists most at middling incidence.
     pub const DRAG_BEND: f32 = 3.0;
     /// Lift per product of sine and cosine of the incidence, edge-on.
     pub const LIFT_EDGE: f32 = 1.30;
-    /// What it gains with q.
+    /// Its gain with q.
     pub const LIFT_RISE: f32 = -0.37;
-    /// What it gains with the square of q: it stalls.
+    /// Its gain with the square of q: it stalls.
     pub const LIFT_BEND: f32 = -0.69;
     /// Lift of turning, edge-on.
     pub const WHIRL_EDGE: f32 = 0.56;
-    /// What it gains with q.
+    /// Its gain with q.
     pub const WHIRL_RISE: f32 = 0.68;
     /// Share of the torque of potential flow that turns a body broadside, edge-on.
     pub const MUNK_EDGE: f32 = 0.50;
-    /// What it gains with q: the middle of the pressure moves to the middle of the area.
+    /// Its gain with q: the centre of pressure moves to the centroid.
     pub const MUNK_RISE: f32 = -0.45;
     /// Damping of turning.
     pub const DAMPING_TURN: f32 = 0.34;
@@ -44,5 +44,5 @@ pub const DRAG_BORNE: f64 = 1.6;
 pub const SWING_BORNE_RAD: f64 = 2.0;
 /// Angle in rad that a body may turn by in a step, besides what its spin adds to the flow that swings it.
 pub const SPIN_BORNE_RAD: f64 = 5.0;
-/// Ticks of the clock by which a body tells that nothing happens to it.
+/// Ticks per second of the clock by which a body counts as idle.
 pub const TICKS_PER_S: f64 = 16.0;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Measures outlines: area, middle, and the ellipse with the same second moments.
+//! Measures outlines: area, centroid, and the ellipse with the same second moments.
 
 use glam::DVec2;
 
@@ -11,11 +11,11 @@ use crate::scene::Planform;
 pub struct Measured {
     /// Area in the square of the outline's unit.
     pub area: f64,
-    /// Middle of the area.
-    pub middle: DVec2,
+    /// Centroid.
+    pub centroid: DVec2,
     /// Direction that counts as along: the principal axis nearer to y, upwards.
     pub along: DVec2,
-    /// How the area lies.
+    /// Aspect and extent of the area.
     pub planform: Planform,
 }
 
@@ -33,10 +33,10 @@ impl Planform {
         if area.is_nan() || area.abs() <= 1e-12 * size {
             return None;
         }
-        let middle = edges().map(|(a, b)| (*a + *b) * a.perp_dot(*b)).sum::<DVec2>() / (6.0 * area);
+        let centroid = edges().map(|(a, b)| (*a + *b) * a.perp_dot(*b)).sum::<DVec2>() / (6.0 * area);
         let (mut xx, mut yy, mut xy) = (0.0, 0.0, 0.0);
         for (a, b) in edges() {
-            let (a, b) = (*a - middle, *b - middle);
+            let (a, b) = (*a - centroid, *b - centroid);
             let cross = a.perp_dot(b);
             xx += cross * (a.x * a.x + a.x * b.x + b.x * b.x) / 12.0;
             yy += cross * (a.y * a.y + a.y * b.y + b.y * b.y) / 12.0;
@@ -59,7 +59,7 @@ impl Planform {
             aspect: (length / width) as f32,
             extent: (libm::sqrt(length * width) / radius) as f32,
         };
-        Some(Measured { area: area.abs(), middle, along, planform })
+        Some(Measured { area: area.abs(), centroid, along, planform })
     }
 }
 
@@ -93,7 +93,10 @@ mod tests {
             assert!(found.along.distance(along) < 1e-6, "{angle}: {found:?}");
             corners.reverse();
             let back = Planform::of_outline(&corners).expect("it has an area");
-            assert!((back.area - 3.0).abs() < 1e-12 && back.middle.distance(found.middle) < 1e-9, "{back:?}");
+            assert!(
+                (back.area - 3.0).abs() < 1e-12 && back.centroid.distance(found.centroid) < 1e-9,
+                "{back:?}"
+            );
         }
         let lying = Planform::of_outline(&turned(&bar, 1.5)).expect("it has an area");
         assert!((lying.planform.aspect - 1.0 / 3.0).abs() < 1e-5, "along is nearer to y: {lying:?}");

@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! twin: backend-wgpu/src/shaders/flight/regime.wgsl
 //!
-//! How a body falls, told from its own motion: what happened to it the last four times that something did.
+//! The regime of a fall, classified by a body's last four events.
 //!
-//! Three things happen to a falling body. It turns over, so that the other face meets the flow: the same way round as the
-//! last time or another. It swings, so that the slip along its blade turns back. Or for a while nothing happens. Beside
-//! this the heading of its path turns this way or that. A body that always turns over the same way tumbles; one that only
-//! swings flutters, or falls along a helix if its heading goes round; one to which nothing happens falls steadily, or
-//! spirals; all else is chaotic.
+//! Three events occur to a falling body. It turns over, so that the other face meets the flow: the same way round as the
+//! last time or another. It swings, so that the slip along its blade turns back. Or for a while it is idle. Beside this
+//! the heading of its path turns this way or that. A body that always turns over the same way tumbles; one that only
+//! swings flutters, or falls along a helix if its heading goes round; an idle one falls steadily, or spirals; all else is
+//! chaotic.
 
 use crate::kernel::lane::{Mask, Real, Word};
 use crate::kernel::vector::Vec3;
@@ -28,7 +28,7 @@ crate::shared_constants! {
     pub const REGIME_SPIRAL: u32 = 5;
     /// Number of regimes.
     pub const REGIME_COUNT: u32 = 6;
-    /// Place in the memory of the face that meets the flow.
+    /// Place in the state of the face that meets the flow.
     pub const SIDE_SHIFT: u32 = 0;
     /// Of the octant of the spin when it last turned over.
     pub const SPIN_OCTANT_SHIFT: u32 = 1;
@@ -52,7 +52,7 @@ crate::shared_constants! {
     pub const EVENTS_MASK: u32 = 255;
     /// Mask of the ticks.
     pub const TICKS_MASK: u32 = 127;
-    /// Nothing has happened for a while.
+    /// Nothing for a while.
     pub const EVENT_NOTHING: u32 = 0;
     /// Turned over as before.
     pub const EVENT_OVER: u32 = 1;
@@ -62,8 +62,8 @@ crate::shared_constants! {
     pub const EVENT_SWING: u32 = 3;
     /// Tangent of 22.5 degrees, where octants meet.
     pub const OCTANT_EDGE: f32 = 0.414_213_56;
-    /// Speed squared below which nothing is told, in m²/s².
-    pub const TOLD_SPEED2: f32 = 0.01;
+    /// Speed squared below which nothing is classified, in m²/s².
+    pub const REGIME_MIN_SPEED2: f32 = 0.01;
     /// Share of the squared speed across the blade beyond which it shows a face.
     pub const FACE_SHARE: f32 = 0.0144;
     /// Share beyond which it falls nearly broadside.
@@ -111,7 +111,7 @@ fn event_added<W: Word>(happens: W::Mask, events: W, event: W) -> W {
     happens.select(((events << 2) | event) & EVENTS_MASK, events)
 }
 
-/// How far a heading has gone round when it turns on by so many octants (modulo 8).
+/// Octants that a heading has gone round, after it turns on by so many (modulo 8).
 #[inline(always)]
 fn gone_round<R: Real>(round: R, by: R::Word) -> R {
     let zero = round.all(0.0);
@@ -128,22 +128,22 @@ fn gone_round<R: Real>(round: R, by: R::Word) -> R {
     by.equals(0).select_real(round, turned)
 }
 
-/// What a body remembers after a step, from what it remembered before: of the flow past it in its own frame, of its spin
-/// about x and z, and of its path in the air. `ticks` have gone by; after `patience` of them nothing has happened.
+/// State of a body's classification after a step, from the state before, the flow past the body in its own frame, its spin
+/// about x and z, and its path in the air. `ticks` have gone by; after `idle_timeout` of them the body counts as idle.
 #[inline(always)]
-pub fn regime_memory<R: Real>(
-    memory: R::Word,
+pub fn regime_after<R: Real>(
+    state: R::Word,
     flow: Vec3<R>,
     spin: Vec3<R>,
     path: Vec3<R>,
     ticks: u32,
-    patience: R::Word,
+    idle_timeout: R::Word,
 ) -> R::Word {
-    let word = |value: u32| memory.all(value);
+    let word = |value: u32| state.all(value);
     let across2 = flow.y * flow.y;
     let along2 = flow.x * flow.x + flow.z * flow.z;
     let speed2 = along2 + across2;
-    let side = (memory >> SIDE_SHIFT) & 1;
+    let side = (state >> SIDE_SHIFT) & 1;
     let shows = (speed2 * FACE_SHARE).less_than(across2);
     let face = flow.y.all(0.0).less_than(flow.y).select(word(1), word(0));
     let new_side = shows.select(face, side);
@@ -152,38 +152,38 @@ pub fn regime_memory<R: Real>(
     let slips = !over & !is_broadside & (speed2 * SLIP_SHARE).less_than(along2);
 
     let spin_octant = octant(spin.x, spin.z);
-    let old_spin = (memory >> SPIN_OCTANT_SHIFT) & OCTANT_MASK;
+    let old_spin = (state >> SPIN_OCTANT_SHIFT) & OCTANT_MASK;
     let slip_octant = octant(flow.x, flow.z);
-    let old_slip = (memory >> SLIP_OCTANT_SHIFT) & OCTANT_MASK;
-    let was_broadside = !((memory >> BROADSIDE_SHIFT) & 1).equals(0);
-    let was_swung = !((memory >> SWUNG_SHIFT) & 1).equals(0);
+    let old_slip = (state >> SLIP_OCTANT_SHIFT) & OCTANT_MASK;
+    let was_broadside = !((state >> BROADSIDE_SHIFT) & 1).equals(0);
+    let was_swung = !((state >> SWUNG_SHIFT) & 1).equals(0);
     let turns_back = slips & was_broadside & word(2).less_than(octants_apart(slip_octant, old_slip));
     let swings = turns_back & was_swung;
 
     let same_way = octants_apart(spin_octant, old_spin).less_than(word(3));
     let turned = same_way.select(word(EVENT_OVER), word(EVENT_OTHERWISE));
     let happens = over | swings;
-    let old_events = (memory >> EVENTS_SHIFT) & EVENTS_MASK;
+    let old_events = (state >> EVENTS_SHIFT) & EVENTS_MASK;
     let some_events = event_added(happens, old_events, over.select(turned, word(EVENT_SWING)));
-    let old_ticks = (memory >> TICKS_SHIFT) & TICKS_MASK;
+    let old_ticks = (state >> TICKS_SHIFT) & TICKS_MASK;
     let waited = happens.select(word(0), old_ticks).plus(word(ticks));
-    let idle = !waited.less_than(patience);
+    let idle = !waited.less_than(idle_timeout);
     let events = event_added(idle, some_events, word(EVENT_NOTHING));
     let new_ticks = idle.select(word(0), waited);
 
     let new_spin = over.select(spin_octant, old_spin);
     let new_slip = (over | slips).select(slip_octant, old_slip);
-    let low = is_broadside.select(word(1), (over | slips).select(word(0), (memory >> BROADSIDE_SHIFT) & 1));
+    let low = is_broadside.select(word(1), (over | slips).select(word(0), (state >> BROADSIDE_SHIFT) & 1));
     let half_swung = (turns_back | was_swung) & !over & !idle;
     let swung = half_swung.select(word(1), word(0));
 
     let heads = (speed2 * HEADING_SHARE).less_than(path.x * path.x + path.z * path.z);
-    let old_heading = (memory >> HEADING_OCTANT_SHIFT) & OCTANT_MASK;
+    let old_heading = (state >> HEADING_OCTANT_SHIFT) & OCTANT_MASK;
     let heading = heads.select(octant(path.x, path.z), old_heading);
-    let round = memory.shift_signed(ROUND_SHIFT).to_real();
+    let round = state.shift_signed(ROUND_SHIFT).to_real();
     let gone = gone_round(round, heading.minus(old_heading) & OCTANT_MASK).to_whole();
 
-    let told = (new_side << SIDE_SHIFT)
+    let next = (new_side << SIDE_SHIFT)
         | (new_spin << SPIN_OCTANT_SHIFT)
         | (new_slip << SLIP_OCTANT_SHIFT)
         | (heading << HEADING_OCTANT_SHIFT)
@@ -192,28 +192,28 @@ pub fn regime_memory<R: Real>(
         | (events << EVENTS_SHIFT)
         | (new_ticks << TICKS_SHIFT)
         | (gone << ROUND_SHIFT);
-    flow.y.all(TOLD_SPEED2).less_than(speed2).select(told, memory)
+    flow.y.all(REGIME_MIN_SPEED2).less_than(speed2).select(next, state)
 }
 
-/// The regime that a memory tells of.
+/// Regime of that state.
 #[inline(always)]
-pub fn regime_of<W: Word>(memory: W) -> W {
-    let events = (memory >> EVENTS_SHIFT) & EVENTS_MASK;
-    let mut counts = [memory.all(0); 4];
+pub fn regime_of<W: Word>(state: W) -> W {
+    let events = (state >> EVENTS_SHIFT) & EVENTS_MASK;
+    let mut counts = [state.all(0); 4];
     for place in 0..4 {
         let event = (events >> (2 * place)) & 3;
         for (kind, count) in (0..).zip(&mut counts) {
-            *count = event.equals(kind).select(count.plus(memory.all(1)), *count);
+            *count = event.equals(kind).select(count.plus(state.all(1)), *count);
         }
     }
     let [nothing, over, otherwise, swings] = counts;
-    let round = memory.shift_signed(ROUND_SHIFT).to_real();
+    let round = state.shift_signed(ROUND_SHIFT).to_real();
     let goes_round = !round.max(round.all(0.0) - round).less_than(round.all(ROUND_OCTANTS));
-    let is_quiet = memory.all(1).less_than(nothing);
-    let tumbles = memory.all(2).less_than(over) & otherwise.plus(swings).equals(0);
+    let is_quiet = state.all(1).less_than(nothing);
+    let tumbles = state.all(2).less_than(over) & otherwise.plus(swings).equals(0);
     let only_swings = over.plus(otherwise).equals(0);
-    let quiet = goes_round.select(memory.all(REGIME_SPIRAL), memory.all(REGIME_STEADY));
-    let swinging = goes_round.select(memory.all(REGIME_HELICAL), memory.all(REGIME_FLUTTER));
-    let lively = only_swings.select(swinging, memory.all(REGIME_CHAOTIC));
-    is_quiet.select(quiet, tumbles.select(memory.all(REGIME_TUMBLE), lively))
+    let quiet = goes_round.select(state.all(REGIME_SPIRAL), state.all(REGIME_STEADY));
+    let swinging = goes_round.select(state.all(REGIME_HELICAL), state.all(REGIME_FLUTTER));
+    let lively = only_swings.select(swinging, state.all(REGIME_CHAOTIC));
+    is_quiet.select(quiet, tumbles.select(state.all(REGIME_TUMBLE), lively))
 }

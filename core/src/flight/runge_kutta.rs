@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! twin: backend-wgpu/src/shaders/flight/runge_kutta.wgsl
 //!
-//! The classical fourth-order Runge-Kutta step of a body, and how finely a step has to be cut.
+//! The classical fourth-order Runge-Kutta step of a body, and the number of substeps of a step.
 
 use super::body::LeafBody;
 use super::rates::{FlightMotion, flight_rates};
@@ -11,15 +11,15 @@ use crate::kernel::quaternion::{Quat, quat_normalize};
 use crate::kernel::vector::Vec3;
 
 crate::shared_constants! {
-    /// Most halvings of a step.
-    pub const FLIGHT_HALVINGS: u32 = 6;
-    /// Steps that this makes of one.
-    pub const FLIGHT_CUTS: f32 = 64.0;
+    /// Largest number of halvings of a step.
+    pub const MAX_HALVINGS: u32 = 6;
+    /// Largest number of substeps.
+    pub const MAX_SUBSTEPS: f32 = 64.0;
     /// A sixth.
     pub const SIXTH: f32 = 1.0 / 6.0;
 }
 
-/// The motion that these rates lead to after a time in s.
+/// Motion after a time in s at these rates.
 #[inline(always)]
 pub fn flight_stage<R: Real>(motion: &FlightMotion<R>, rates: &FlightMotion<R>, time: R) -> FlightMotion<R> {
     FlightMotion {
@@ -66,16 +66,24 @@ pub fn flight_step<R: Real>(
     (way, end)
 }
 
-/// Into how many steps a step is cut that bears such a load, the power of two that is not below it, and the share of
-/// each.
+/// Substeps of a step.
+#[derive(Clone, Copy, Debug)]
+pub struct Substeps<R = f32> {
+    /// Number of substeps, a power of two.
+    pub count: R,
+    /// Share of the step that each takes.
+    pub share: R,
+}
+
+/// Substeps of a step under such a load: the smallest power of two that is not below it.
 #[inline(always)]
-pub fn flight_cuts<R: Real>(load: R) -> [R; 2] {
-    let mut cuts = load.all(1.0);
+pub fn substep_count<R: Real>(load: R) -> Substeps<R> {
+    let mut count = load.all(1.0);
     let mut share = load.all(1.0);
-    for _ in 0..FLIGHT_HALVINGS {
-        let more = cuts.less_than(load);
-        cuts = more.select_real(cuts + cuts, cuts);
+    for _ in 0..MAX_HALVINGS {
+        let more = count.less_than(load);
+        count = more.select_real(count + count, count);
         share = more.select_real(share * 0.5, share);
     }
-    [cuts, share]
+    Substeps { count, share }
 }

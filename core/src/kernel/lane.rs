@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What kernels compute with: one float and one word, or eight or sixteen of each at once.
+//! Numbers that kernels compute with: one float and one word, or eight or sixteen of each at once.
 //!
 //! A kernel function is written once, over [`Real`], [`Word`] and [`Mask`]. With `f32`, `u32` and `bool` it is the
 //! scalar oracle; with the SIMD vectors of `fearless_simd` (`pack.rs`) the same operations run on eight or sixteen at once,
@@ -44,7 +44,7 @@ pub trait Real:
     fn from_bits(bits: Self::Word) -> Self;
     /// A whole number of magnitude below 2^22 as a two's complement integer.
     fn to_whole(self) -> Self::Word;
-    /// Whether less.
+    /// True where less.
     fn less_than(self, other: Self) -> Self::Mask;
 }
 
@@ -78,9 +78,9 @@ pub trait Word:
     fn shift_signed(self, bits: u32) -> Self;
     /// Value as a float, read as two's complement.
     fn to_real(self) -> Self::Real;
-    /// Whether less.
+    /// True where less.
     fn less_than(self, other: Self) -> Self::Mask;
-    /// Whether equal to a constant.
+    /// True where equal to a constant.
     fn equals(self, other: u32) -> Self::Mask;
     /// The rows of four floats that the words stand for, component by component.
     fn look_up(self, rows: &[[f32; 4]]) -> [Self::Real; 4];
@@ -100,7 +100,7 @@ pub trait Mask: Copy + BitAnd<Output = Self> + BitOr<Output = Self> + Not<Output
     /// The integer of the same width.
     type Word;
 
-    /// Whether true in any lane.
+    /// Returns true if true in any lane.
     fn any(self) -> bool;
     /// `yes` where true, `no` elsewhere.
     fn select(self, yes: Self::Word, no: Self::Word) -> Self::Word;

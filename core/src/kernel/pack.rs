@@ -37,7 +37,7 @@ pub trait Pack: Real {
     type Simd: Simd;
     /// As many rows for each lane.
     type Spans<'a, const N: usize>;
-    /// How many floats.
+    /// Number of floats.
     const LANES: usize;
 
     /// One float for all lanes.

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! twin: backend-wgpu/src/shaders/leaf/carry.wgsl
 //!
-//! A leaf on its twig: it goes where the branch goes, turns aside in the wind and flutters, and its petiole breaks.
+//! A leaf on its twig: it goes where the branch goes, leans and flutters in the wind, and its petiole breaks.
 //!
-//! Whether it breaks is drawn afresh every few steps: a random word against the chance that its strength, the season and
-//! the speed of the air leave it (see `environment/foliage.rs`). The load of its own inertia is left out: at the few m/s²
+//! Its break is drawn afresh every few steps: a random word against the chance that its strength, the season and the
+//! speed of the air leave it (see `environment/foliage.rs`). The load of its own inertia is left out: at the few m/s²
 //! of a swaying twig a leaf of half a gram pulls with some thousandths of a newton, a tenth of what the wind does.
 
 use super::petiole::{
@@ -14,8 +14,8 @@ use super::petiole::{
     SHED_INTERVAL, SHED_SPEEDS,
 };
 use super::record::{
-    Attitude, BLEND_MASK, BLEND_SHIFT, Course, Drift, HALF_MASK, Place, STATE_ATTACHED, STATE_MASK,
-    STATE_RESTING,
+    Attitude, Drift, HALF_MASK, Place, STATE_ATTACHED, STATE_RESTING, Schedule, body_spin_words, drawn_size,
+    leaf_state, smoothed_air_speed, smoothed_air_speed_word, twig_sizes, with_blend, with_state,
 };
 use super::store::LeafMut;
 use crate::blocks::{NEVER, SOURCE_TREES};
@@ -42,26 +42,26 @@ crate::shared_constants! {
     pub const FLUTTER_ROLL: f32 = 0.25;
     /// Most that it flutters about its blade's own cross axis, in rad.
     pub const FLUTTER_PITCH: f32 = 0.12;
-    /// Share of a new look at the wind in what a leaf has got used to.
-    pub const HABIT_SHARE: f32 = 0.25;
+    /// Smoothing factor of the air speed: share of a new sample.
+    pub const AIR_SPEED_SMOOTHING: f32 = 0.25;
 }
 
 /// The hot records of a leaf on a twig.
 #[derive(Debug)]
 pub struct CarriedLeaf<'a> {
-    /// Where and what.
+    /// Position and flags.
     pub place: &'a mut Place,
-    /// Carried how.
+    /// Residual velocity and phase.
     pub drift: &'a mut Drift,
-    /// Turned how.
+    /// Orientation.
     pub attitude: &'a mut Attitude,
-    /// Up to what.
-    pub course: &'a mut Course,
+    /// Next event.
+    pub schedule: &'a mut Schedule,
 }
 
 impl<'a> From<LeafMut<'a>> for CarriedLeaf<'a> {
     fn from(leaf: LeafMut<'a>) -> Self {
-        Self { place: leaf.place, drift: leaf.drift, attitude: leaf.attitude, course: leaf.course }
+        Self { place: leaf.place, drift: leaf.drift, attitude: leaf.attitude, schedule: leaf.schedule }
     }
 }
 
@@ -74,7 +74,7 @@ impl CarriedLeaf<'_> {
     }
 }
 
-/// What of a petiole a step needs, or of several petioles.
+/// The numbers of a petiole that a step needs, or of several petioles.
 #[derive(Clone, Copy, Debug)]
 pub struct Stalk<W: Word = u32> {
     /// Base in the frame of its segment in m.
@@ -91,7 +91,7 @@ impl From<&Petiole> for Stalk {
     }
 }
 
-/// Chance, of 2^32, that a petiole breaks in air of that speed, at one of its looks.
+/// Chance, of 2^32, that a petiole breaks in air of that speed at one of its samples.
 #[inline(always)]
 pub fn shed_chance<W: Word>(cx: &Context<'_>, facts: W, speed: W::Real) -> W {
     let kind = (facts >> PETIOLE_KIND_SHIFT) & PETIOLE_KIND_MASK;
@@ -107,10 +107,10 @@ pub fn shed_chance<W: Word>(cx: &Context<'_>, facts: W, speed: W::Real) -> W {
     (index & 2).equals(0).select(low, high)
 }
 
-/// How a leaf hangs on its twig.
+/// Pose of a leaf on its twig.
 #[derive(Clone, Copy, Debug)]
 pub struct Hang<R = f32> {
-    /// Middle of its blade in m.
+    /// Centre of its blade in m.
     pub position: Vec3<R>,
     /// Orientation.
     pub attitude: Quat<R>,
@@ -118,22 +118,22 @@ pub struct Hang<R = f32> {
     pub velocity: Vec3<R>,
 }
 
-/// How a leaf that has got used to air of the speed `habit` in m/s hangs on its segment.
+/// Pose of a leaf on its segment in air of the smoothed speed `air_speed` in m/s.
 #[inline(always)]
 pub fn leaf_hang<W: Word>(
     cx: &Context<'_>,
-    habit: W::Real,
+    air_speed: W::Real,
     slot: W,
     stalk: &Stalk<W>,
     segment: &Body<W::Real>,
 ) -> Hang<W::Real> {
-    let along = Vec3::new(0.0, 0.0, 1.0).spread(habit);
+    let along = Vec3::new(0.0, 0.0, 1.0).spread(air_speed);
     let still = quat_multiply(segment.pose, stalk.rest);
     let tip = quat_rotate(still, along);
-    let side = quat_rotate(still, Vec3::new(1.0, 0.0, 0.0).spread(habit));
+    let side = quat_rotate(still, Vec3::new(1.0, 0.0, 0.0).spread(air_speed));
     let mean = &cx.environment.wind;
-    let wind = Vec3::new(mean.direction_x, 0.0, mean.direction_z).spread(habit);
-    let share = habit * reciprocal(habit + LEAN_SPEED);
+    let wind = Vec3::new(mean.direction_x, 0.0, mean.direction_z).spread(air_speed);
+    let share = air_speed * reciprocal(air_speed + LEAN_SPEED);
     let unrest = share * share;
     let rate = cx.environment.flutter_per_step;
     let own_rate = slot.all(rate).plus(slot.all(rate >> 5).times(slot & 15));
@@ -144,7 +144,7 @@ pub fn leaf_hang<W: Word>(
     let flutter = tip * ((unrest * FLUTTER_ROLL) * roll) + side * ((unrest * FLUTTER_PITCH) * pitch);
     let attitude = quat_renormalize(quat_multiply(quat_of_turn(lean + flutter), still));
     let reach = ((stalk.facts >> PETIOLE_REACH_SHIFT) & PETIOLE_REACH_MASK).to_real() * PETIOLE_REACH_UNIT;
-    let blade = Vec3::new(habit.all(0.0), habit.all(0.0), reach);
+    let blade = Vec3::new(air_speed.all(0.0), air_speed.all(0.0), reach);
     let arm = quat_rotate(segment.pose, stalk.at) + quat_rotate(attitude, blade);
     Hang {
         position: segment.base + arm,
@@ -156,7 +156,7 @@ pub fn leaf_hang<W: Word>(
 /// Size of a leaf on its twig: its own in the high half, as it is drawn in the low one.
 #[inline(always)]
 pub fn leaf_size_on_twig(size: u32, facts: u32) -> u32 {
-    (size << 16) | ((size * (facts >> PETIOLE_CLUSTER_SHIFT)) >> 4).min(HALF_MASK)
+    twig_sizes(size, ((size * (facts >> PETIOLE_CLUSTER_SHIFT)) >> 4).min(HALF_MASK))
 }
 
 /// The petiole of a tree's slot.
@@ -166,39 +166,40 @@ pub fn petiole_of(cx: &Context<'_>, slot: u32) -> Petiole {
     bytemuck::cast(*rows)
 }
 
-/// A leaf that lies on the ground grows back once its time has come: what the number of leaves on the segment changes by.
+/// Lets a leaf that lies on the ground grow back once its time has come. Returns the change of the number of leaves on the
+/// segment.
 #[inline(always)]
 pub fn leaf_return(cx: &Context<'_>, leaf: &mut CarriedLeaf<'_>, facts: u32) -> u32 {
-    let is_back = (leaf.place.bits & STATE_MASK) == STATE_RESTING
+    let is_back = leaf_state(leaf.place.bits) == STATE_RESTING
         && cx.environment.sources[SOURCE_TREES as usize].lifetime_steps != 0
-        && cx.step.index >= leaf.course.event;
+        && cx.step.index >= leaf.schedule.event;
     if !is_back {
         return 0;
     }
-    leaf.place.bits = (leaf.place.bits & !(STATE_MASK | (BLEND_MASK << BLEND_SHIFT))) | STATE_ATTACHED;
-    leaf.course.event = NEVER;
-    leaf.course.size = leaf_size_on_twig(leaf.course.size & HALF_MASK, facts);
+    leaf.place.bits = with_state(with_blend(leaf.place.bits, 0), STATE_ATTACHED);
+    leaf.schedule.event = NEVER;
+    leaf.schedule.size = leaf_size_on_twig(drawn_size(leaf.schedule.size), facts);
     leaf.drift.phase = 0;
     1
 }
 
-/// Whether a leaf hangs.
+/// Returns true if a leaf hangs.
 #[inline(always)]
 pub fn leaf_hangs<W: Word>(cx: &Context<'_>, bits: W, event: W) -> W::Mask {
-    (bits & STATE_MASK).equals(STATE_ATTACHED) & bits.all(cx.step.index).less_than(event)
+    leaf_state(bits).equals(STATE_ATTACHED) & bits.all(cx.step.index).less_than(event)
 }
 
-/// How many slots on from `slot` the next petiole is that looks at the wind in this step.
+/// Number of slots from `slot` to the next petiole that samples the wind in this step.
 #[inline(always)]
-pub fn leaf_next_look(cx: &Context<'_>, slot: u32) -> u32 {
+pub fn leaf_next_sample(cx: &Context<'_>, slot: u32) -> u32 {
     0u32.wrapping_sub(cx.step.index.wrapping_add(slot)) & (SHED_INTERVAL - 1)
 }
 
-/// A petiole looks at the wind: the speed of the air in m/s that its leaf has got used to then, and whether it breaks.
+/// Samples the wind at a petiole. Returns the smoothed speed of the air in m/s and true if the petiole breaks.
 #[inline(always)]
-pub fn leaf_look<W: Word>(
+pub fn leaf_sample_air<W: Word>(
     cx: &Context<'_>,
-    habit: W::Real,
+    air_speed: W::Real,
     slot: W,
     stalk: &Stalk<W>,
     segment: &Body<W::Real>,
@@ -211,25 +212,23 @@ pub fn leaf_look<W: Word>(
     let seed = cx.environment.seed;
     let counter = [slot, slot.all(STREAM_SHED), slot.all(cx.step.index), slot.all(0)];
     let breaks = philox(seed, counter)[0].less_than(shed_chance(cx, stalk.facts, speed));
-    (habit + (speed - habit) * HABIT_SHARE, breaks)
+    (air_speed + (speed - air_speed) * AIR_SPEED_SMOOTHING, breaks)
 }
 
 /// A leaf that hangs goes where its segment went. If its petiole has broken in this step and it is to fly as a body, it
 /// takes the segment's spin along.
 #[inline(always)]
 pub fn leaf_follow(cx: &Context<'_>, leaf: &mut CarriedLeaf<'_>, slot: u32, stalk: &Stalk, segment: &Body) {
-    let hang = leaf_hang(cx, f32::from_bits(leaf.drift.phase), slot, stalk, segment);
+    let hang = leaf_hang(cx, smoothed_air_speed(leaf.drift.phase), slot, stalk, segment);
     leaf.hang(&hang);
-    if leaf.course.event == cx.step.index + 1 {
+    if leaf.schedule.event == cx.step.index + 1 {
         let spin = quat_rotate_back(hang.attitude, segment.spin);
-        leaf.drift.phase = spin.x.to_bits();
-        leaf.course.rate = spin.y.to_bits();
-        leaf.course.heading = spin.z.to_bits();
+        [leaf.drift.phase, leaf.schedule.rate, leaf.schedule.heading] = body_spin_words(spin);
     }
 }
 
-/// One step of the leaf in a slot of a tree, after its segment has moved: what the number of leaves on the segment
-/// changes by, in two's complement.
+/// One step of the leaf in a slot of a tree, after its segment has moved. Returns the change of the number of leaves on the
+/// segment, in two's complement.
 #[inline(always)]
 pub fn leaf_carry(
     cx: &Context<'_>,
@@ -239,14 +238,15 @@ pub fn leaf_carry(
     segment: &Body,
 ) -> u32 {
     let mut change = leaf_return(cx, leaf, stalk.facts);
-    if !leaf_hangs(cx, leaf.place.bits, leaf.course.event) {
+    if !leaf_hangs(cx, leaf.place.bits, leaf.schedule.event) {
         return change;
     }
-    if leaf_next_look(cx, slot) == 0 {
-        let (habit, breaks) = leaf_look(cx, f32::from_bits(leaf.drift.phase), slot, stalk, segment);
-        leaf.drift.phase = habit.to_bits();
+    if leaf_next_sample(cx, slot) == 0 {
+        let (air_speed, breaks) =
+            leaf_sample_air(cx, smoothed_air_speed(leaf.drift.phase), slot, stalk, segment);
+        leaf.drift.phase = smoothed_air_speed_word(air_speed);
         if breaks {
-            leaf.course.event = cx.step.index + 1;
+            leaf.schedule.event = cx.step.index + 1;
             change = change.wrapping_sub(1);
         }
     }

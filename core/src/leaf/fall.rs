@@ -7,8 +7,8 @@
 //! The leaf's velocity is its own motion's plus a drift that relaxes towards the wind within the response time
 //! tau = U/g, exactly for a wind that holds still during the step. In still air the path does not depend on dt.
 
-use super::own::{Manner, on_grid, own_advance, own_orientation, own_rate};
-use super::record::{BLEND_MASK, BLEND_SHIFT, SPECIES_MASK, SPECIES_SHIFT, SPIN_SHIFT};
+use super::own::{MotionParams, motion_params, on_grid, own_advance, own_orientation, own_rate};
+use super::record::{Drift, Place, blend_steps_left, count_down_blend, leaf_species, spin_rate, turn_spin};
 use super::settle::leaf_land;
 use super::store::LeafMut;
 use crate::blocks::ResponseBlock;
@@ -39,7 +39,7 @@ pub struct Glide<R: Real = f32> {
     pub phase: R::Word,
 }
 
-/// A part of a step, and what the drift does in it.
+/// A part of a step, and the response of the drift in it.
 #[derive(Clone, Copy)]
 pub struct Part<R: Real = f32> {
     /// Length in 2^-16 steps.
@@ -66,11 +66,16 @@ pub struct Response<R: Real = f32> {
 /// Response of the species of a leaf with these bits.
 #[inline(always)]
 pub fn response_of<W: Word>(cx: &Context<'_>, bits: W) -> Response<W::Real> {
-    let species = (bits >> SPECIES_SHIFT) & SPECIES_MASK;
     let responses: &[ResponseBlock] = &cx.environment.responses;
     let [drift_kept, fastest_spin, time_constant_s, inv_time_constant] =
-        species.look_up(bytemuck::must_cast_slice(responses));
+        leaf_species(bits).look_up(bytemuck::must_cast_slice(responses));
     Response { drift_kept, fastest_spin, time_constant_s, inv_time_constant }
+}
+
+/// A leaf on its way from where its records place it.
+#[inline(always)]
+pub fn glide_of(place: &Place, drift: &Drift) -> Glide {
+    Glide { position: place.position.into(), drift: drift.velocity.into(), phase: drift.phase }
 }
 
 /// Moves a leaf through a part of a step within one stage.
@@ -79,13 +84,13 @@ pub fn glide_part<R: Real>(
     cx: &Context<'_>,
     glide: Glide<R>,
     bits: R::Word,
-    manner: Manner<R::Word>,
+    params: MotionParams<R::Word>,
     wind: Vec3<R>,
     part: Part<R>,
 ) -> Glide<R> {
-    let rate = own_rate(cx, manner.rate);
+    let rate = own_rate(cx, params.rate);
     let end = glide.phase.plus(mul_q16(rate, rate.all(part.length)));
-    let own = own_advance(cx, bits, manner, glide.phase, end);
+    let own = own_advance(cx, bits, params, glide.phase, end);
     let before = glide.drift - wind;
     let after = before * part.decay;
     let spent = on_grid(before * part.tau) - on_grid(after * part.tau);
@@ -96,13 +101,12 @@ pub fn glide_part<R: Real>(
 /// Spin angle one step on, in place in the bits.
 #[inline(always)]
 pub fn spin_advance<W: Word>(bits: W, heading: W, fastest: W::Real) -> W {
-    let rate = (heading << 16).shift_signed(16);
-    let turn = rate.times(fastest.to_whole()).shift_signed(17);
-    bits.plus(turn << SPIN_SHIFT)
+    let turn = spin_rate(heading).times(fastest.to_whole()).shift_signed(17);
+    turn_spin(bits, turn)
 }
 
-/// Orientation after a step whose spin is done, and the bits with one step less to blend. `before` is only looked at
-/// where a blend goes on.
+/// Orientation after a step whose spin is done, and the bits with one step less to blend. `before` is only read where a
+/// blend goes on.
 #[inline(always)]
 pub fn attitude_after<R: Real>(
     cx: &Context<'_>,
@@ -111,88 +115,69 @@ pub fn attitude_after<R: Real>(
     heading: R::Word,
     before: impl Fn() -> Quat<R>,
 ) -> (R::Word, Quat<R>) {
-    let target = own_orientation(cx, bits, phase, heading);
-    let blend = (bits >> BLEND_SHIFT) & BLEND_MASK;
-    let blending = blend.all(0).less_than(blend);
-    if !blending.any() {
-        return (bits, target);
+    let goal = own_orientation(cx, bits, phase, heading);
+    let steps_left = blend_steps_left(bits);
+    let is_blending = steps_left.all(0).less_than(steps_left);
+    if !is_blending.any() {
+        return (bits, goal);
     }
-    let mixed = quat_blend(before(), target, reciprocal(blend.to_real()));
+    let mixed = quat_blend(before(), goal, reciprocal(steps_left.to_real()));
     let attitude = Quat::new(
-        blending.select_real(mixed.x, target.x),
-        blending.select_real(mixed.y, target.y),
-        blending.select_real(mixed.z, target.z),
-        blending.select_real(mixed.w, target.w),
+        is_blending.select_real(mixed.x, goal.x),
+        is_blending.select_real(mixed.y, goal.y),
+        is_blending.select_real(mixed.z, goal.z),
+        is_blending.select_real(mixed.w, goal.w),
     );
-    (bits.minus(blending.select(bits.all(1 << BLEND_SHIFT), bits.all(0))), attitude)
+    (count_down_blend(bits, is_blending), attitude)
 }
 
-/// Writes back a leaf that has come from `start` to the end of its step: spin, orientation, and the ground.
+/// Writes back a leaf that has come from `start` to the end of its step: spin, orientation, and the ground if it `lands`.
 #[inline(always)]
-pub fn glide_end(cx: &Context<'_>, leaf: &mut LeafMut<'_>, start: Vec3, glide: Glide) {
-    let heading = leaf.course.heading;
-    let response = response_of(cx, leaf.place.bits);
-    let spun = spin_advance(leaf.place.bits, heading, response.fastest_spin);
+pub fn glide_end(
+    cx: &Context<'_>,
+    leaf: &mut LeafMut<'_>,
+    start: Vec3,
+    glide: Glide,
+    bits: u32,
+    heading: u32,
+    lands: bool,
+) {
+    let spun = spin_advance(bits, heading, response_of(cx, bits).fastest_spin);
     let before = || Quat::from(leaf.attitude.quaternion);
     let (bits, attitude) = attitude_after(cx, spun, glide.phase, heading, before);
-    glide_write(leaf, glide, bits, attitude);
-    if ground_met(cx, glide.position) {
+    leaf.attitude.quaternion = attitude.to_array();
+    *leaf.place = Place { position: glide.position.to_array(), bits };
+    *leaf.drift = Drift { velocity: glide.drift.to_array(), phase: glide.phase };
+    if lands {
         leaf_land(cx, leaf, start);
     }
 }
 
-/// Writes where a leaf has come to.
-#[inline(always)]
-fn glide_write(leaf: &mut LeafMut<'_>, glide: Glide, bits: u32, attitude: Quat) {
-    leaf.attitude.quaternion = attitude.to_array();
-    leaf.place.bits = bits;
-    leaf.place.position = glide.position.to_array();
-    leaf.drift.velocity = glide.drift.to_array();
-    leaf.drift.phase = glide.phase;
-}
-
-/// The whole step of falling leaves that have no event in it: where they come to.
+/// The whole step of falling leaves that have no event in it, up to the ground.
 #[inline(always)]
 pub fn glide_step<R: Real>(
     cx: &Context<'_>,
     glide: Glide<R>,
     bits: R::Word,
-    manner: Manner<R::Word>,
+    params: MotionParams<R::Word>,
     response: Response<R>,
 ) -> Glide<R> {
     let wind = wind_at(cx, glide.position);
     let part = Part { length: WHOLE_STEP, decay: response.drift_kept, tau: response.time_constant_s };
-    glide_part(cx, glide, bits, manner, wind, part)
+    glide_part(cx, glide, bits, params, wind, part)
 }
 
-/// One step of a falling leaf that has no event in it.
+/// One step of a falling leaf that has no event in it. One that comes to the ground and may not land is left alone.
+/// Returns true if it has been moved.
 #[inline(always)]
-pub fn leaf_fall(cx: &Context<'_>, leaf: &mut LeafMut<'_>) {
-    let start = Vec3::from(leaf.place.position);
-    let bits = leaf.place.bits;
-    let glide = Glide { position: start, drift: Vec3::from(leaf.drift.velocity), phase: leaf.drift.phase };
-    let moved = glide_step(cx, glide, bits, (*leaf.course).into(), response_of(cx, bits));
-    glide_end(cx, leaf, start, moved);
-}
-
-/// One step of a falling leaf that has no event in it, unless it lands: then it is left alone. Whether it has been
-/// moved.
-#[inline(always)]
-pub fn leaf_glide(cx: &Context<'_>, leaf: &mut LeafMut<'_>) -> bool {
-    let (bits, heading) = (leaf.place.bits, leaf.course.heading);
-    let glide = Glide {
-        position: Vec3::from(leaf.place.position),
-        drift: Vec3::from(leaf.drift.velocity),
-        phase: leaf.drift.phase,
-    };
-    let response = response_of(cx, bits);
-    let moved = glide_step(cx, glide, bits, (*leaf.course).into(), response);
-    if ground_met(cx, moved.position) {
+pub fn leaf_fall(cx: &Context<'_>, leaf: &mut LeafMut<'_>, may_land: bool) -> bool {
+    let (start, bits, heading) = (Vec3::from(leaf.place.position), leaf.place.bits, leaf.schedule.heading);
+    let glide = glide_of(leaf.place, leaf.drift);
+    let moved = glide_step(cx, glide, bits, motion_params(*leaf.schedule), response_of(cx, bits));
+    let lands = ground_met(cx, moved.position);
+    if lands && !may_land {
         return false;
     }
-    let spun = spin_advance(bits, heading, response.fastest_spin);
-    let before = || Quat::from(leaf.attitude.quaternion);
-    let (bits, attitude) = attitude_after(cx, spun, moved.phase, heading, before);
-    glide_write(leaf, moved, bits, attitude);
+    glide_end(cx, leaf, start, moved, bits, heading, lands);
     true
 }

@@ -2,20 +2,18 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! twin: backend-wgpu/src/shaders/leaf/fly.wgsl
 //!
-//! A leaf that flies as a body in the air: one step, cut as finely as its speed and spin ask for.
+//! A leaf that flies as a body in the air: one step, in as many substeps as its speed and spin ask for.
 
-use super::record::{
-    AERODYNAMIC, PRIMITIVE_MASK, PRIMITIVE_SHIFT, REGIME_MASK, REGIME_SHIFT, STATE_FALLING, STATE_MASK,
-};
+use super::record::{Drift, body_spin, body_spin_words, flies, regime_state, with_regime};
 use super::settle::leaf_land;
 use super::store::LeafMut;
 use crate::context::Context;
 use crate::flight::block::BODY_LOAD_ROW;
 use crate::flight::body::{body_of, body_row};
 use crate::flight::rates::FlightMotion;
-use crate::flight::regime::{regime_memory, regime_of};
-use crate::flight::runge_kutta::{FLIGHT_CUTS, flight_cuts, flight_step};
-use crate::kernel::lane::{Mask, Real, Word};
+use crate::flight::regime::{regime_after, regime_of};
+use crate::flight::runge_kutta::{MAX_SUBSTEPS, flight_step, substep_count};
+use crate::kernel::lane::{Mask, Real};
 use crate::kernel::math::{inverse_sqrt, reciprocal};
 use crate::kernel::quaternion::{Quat, quat_rotate_back};
 use crate::kernel::rng::mul_q16;
@@ -36,14 +34,7 @@ pub struct Flight<R: Real = f32> {
     pub spin: Vec3<R>,
 }
 
-/// Whether leaves with these bits fly as bodies.
-#[inline(always)]
-pub fn flies<W: Word>(bits: W) -> W::Mask {
-    let flying = STATE_FALLING | (AERODYNAMIC << PRIMITIVE_SHIFT);
-    (bits & (STATE_MASK | (PRIMITIVE_MASK << PRIMITIVE_SHIFT))).equals(flying)
-}
-
-/// Load on a step: what it has to be cut for.
+/// Load on a step: the number of substeps that it needs at least.
 #[inline(always)]
 pub fn flight_load<R: Real>(cx: &Context<'_>, bits: R::Word, relative: Vec3<R>, spin: Vec3<R>) -> R {
     let [per_speed, per_spin, ..] = body_row(cx, bits, BODY_LOAD_ROW);
@@ -53,7 +44,7 @@ pub fn flight_load<R: Real>(cx: &Context<'_>, bits: R::Word, relative: Vec3<R>, 
     per_speed * (squared * inverse_sqrt(squared)) + per_spin * (turned * inverse_sqrt(turned))
 }
 
-/// The step of bodies, in wind that holds still during it: where they come to.
+/// The step of bodies, in wind that holds still during it.
 #[inline(always)]
 pub fn flight_advance<R: Real>(
     cx: &Context<'_>,
@@ -65,18 +56,18 @@ pub fn flight_advance<R: Real>(
     let body = body_of(cx, bits, size);
     let relative = flight.velocity - wind;
     let load = flight_load(cx, bits, relative, flight.spin);
-    let [cuts, share] = flight_cuts(load);
-    // What even the finest cut does not bear (a mote in a tornado) is met by slower air.
-    let bearable = load.all(FLIGHT_CUTS);
-    let calm = bearable.less_than(load).select_real(bearable * reciprocal(load), load.all(1.0));
-    let wind = flight.velocity - relative * calm;
-    let turning = flight.spin * (body.size_ratio * calm);
-    let time = share * cx.environment.dt_s;
+    let substeps = substep_count(load);
+    // If the largest number of substeps is too few (a mote in a tornado), relative wind and spin are clamped.
+    let most = load.all(MAX_SUBSTEPS);
+    let clamped = most.less_than(load).select_real(most * reciprocal(load), load.all(1.0));
+    let wind = flight.velocity - relative * clamped;
+    let turning = flight.spin * (body.size_ratio * clamped);
+    let time = substeps.share * cx.environment.dt_s;
     let mut position = flight.position;
     let mut motion = FlightMotion { velocity: flight.velocity, pose: flight.pose, turning };
-    let mut done = cuts.all(0.0);
+    let mut done = time.all(0.0);
     loop {
-        let on = done.less_than(cuts);
+        let on = done.less_than(substeps.count);
         if !on.any() {
             break;
         }
@@ -102,23 +93,32 @@ pub fn flight_advance<R: Real>(
     }
 }
 
-/// What a body remembers after a step, and its bits with the regime that this tells of.
+/// State of a body's regime after a step, and its bits with that regime.
+#[derive(Clone, Copy, Debug)]
+pub struct Regime<W = u32> {
+    /// State of the classification.
+    pub state: W,
+    /// Bits of the leaf.
+    pub bits: W,
+}
+
+/// Classifies a body's motion after a step.
 #[inline(always)]
-pub fn flight_told<R: Real>(
+pub fn update_regime<R: Real>(
     cx: &Context<'_>,
     flight: &Flight<R>,
     wind: Vec3<R>,
-    memory: R::Word,
+    state: R::Word,
     bits: R::Word,
-) -> [R::Word; 2] {
+) -> Regime<R::Word> {
     let path = flight.velocity - wind;
     let flow = quat_rotate_back(flight.pose, path);
     let now = cx.step.index;
     let rate = cx.environment.ticks_per_step_q16;
     let ticks = mul_q16(now.wrapping_add(1), rate).wrapping_sub(mul_q16(now, rate));
     let [_, _, idle_timeout, _] = body_row(cx, bits, BODY_LOAD_ROW);
-    let told = regime_memory(memory, flow, flight.spin, path, ticks, idle_timeout.to_whole());
-    [told, (bits & !(REGIME_MASK << REGIME_SHIFT)) | (regime_of(told) << REGIME_SHIFT)]
+    let next = regime_after(state, flow, flight.spin, path, ticks, idle_timeout.to_whole());
+    Regime { state: next, bits: with_regime(bits, regime_of(next)) }
 }
 
 /// `yes` where the mask is true, `no` elsewhere.
@@ -127,30 +127,26 @@ fn chosen<R: Real>(mask: R::Mask, yes: Vec3<R>, no: Vec3<R>) -> Vec3<R> {
     Vec3::new(mask.select_real(yes.x, no.x), mask.select_real(yes.y, no.y), mask.select_real(yes.z, no.z))
 }
 
-/// A leaf's flight as its records hold it.
+/// A leaf's flight, out of its records.
 #[inline(always)]
 pub fn flight_of(leaf: &LeafMut<'_>) -> Flight {
     Flight {
         position: Vec3::from(leaf.place.position),
         velocity: Vec3::from(leaf.drift.velocity),
         pose: Quat::from(leaf.attitude.quaternion),
-        spin: Vec3::new(
-            f32::from_bits(leaf.drift.phase),
-            f32::from_bits(leaf.course.rate),
-            f32::from_bits(leaf.course.heading),
-        ),
+        spin: body_spin(leaf.drift.phase, leaf.schedule.rate, leaf.schedule.heading),
     }
 }
 
 /// Writes a flight into a leaf's records.
 #[inline(always)]
 pub fn flight_write(leaf: &mut LeafMut<'_>, flight: Flight) {
+    let [x, y, z] = body_spin_words(flight.spin);
     leaf.place.position = flight.position.to_array();
-    leaf.drift.velocity = flight.velocity.to_array();
-    leaf.drift.phase = flight.spin.x.to_bits();
+    *leaf.drift = Drift { velocity: flight.velocity.to_array(), phase: x };
     leaf.attitude.quaternion = flight.pose.to_array();
-    leaf.course.rate = flight.spin.y.to_bits();
-    leaf.course.heading = flight.spin.z.to_bits();
+    leaf.schedule.rate = y;
+    leaf.schedule.heading = z;
 }
 
 /// One step of a leaf, if it flies as a body: others are left alone.
@@ -161,11 +157,12 @@ pub fn leaf_fly(cx: &Context<'_>, leaf: &mut LeafMut<'_>) {
     }
     let start = flight_of(leaf);
     let wind = wind_at(cx, start.position);
-    let flight = flight_advance(cx, start, leaf.place.bits, leaf.course.size, wind);
+    let flight = flight_advance(cx, start, leaf.place.bits, leaf.schedule.size, wind);
     flight_write(leaf, flight);
-    let [memory, bits] = flight_told(cx, &flight, wind, leaf.identity.fall_time, leaf.place.bits);
-    leaf.identity.fall_time = memory;
-    leaf.place.bits = bits;
+    let before = regime_state(leaf.identity.fall_time);
+    let regime = update_regime(cx, &flight, wind, before, leaf.place.bits);
+    leaf.identity.fall_time = regime.state;
+    leaf.place.bits = regime.bits;
     if ground_met(cx, flight.position) {
         leaf_land(cx, leaf, start.position);
     }

@@ -1,21 +1,19 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Puts the leaves of trees where they are at time zero: on their twigs, or beneath them if the season has taken them.
+//! Places the leaves of trees at time zero: on their twigs, or beneath them if the season has taken them.
 
 use super::carry::{CarriedLeaf, leaf_hang, leaf_size_on_twig, petiole_of};
 use super::petiole::PETIOLE_SPECIES_MASK;
-use super::record::{
-    HALF_MASK, SOURCE_SHIFT, SPECIES_SHIFT, STATE_ATTACHED, STATE_MASK, VARIANT_MASK, VARIANT_SHIFT,
-};
-use super::release::{leaf_drop, release_fall_time, release_size_speed};
+use super::record::{STATE_ATTACHED, leaf_appearance, leaf_state, place_bits};
+use super::release::{SizeSpeed, leaf_drop, release_fall_time, release_size_speed};
 use super::seek::leaf_seek_any;
 use super::store::{LeafMut, Leaves};
 use crate::blocks::{LENGTH_UNIT, NEVER, SOURCE_TREES};
 use crate::context::Context;
 use crate::environment::{Environment, leaf_site};
-use crate::flight::book::FlightBook;
+use crate::flight::drop_table::DropTable;
 use crate::kernel::rng::random;
-use crate::motion::feature::STREAM_LOOK;
+use crate::motion::feature::STREAM_TRAITS;
 use crate::terrain::ground::ground_surface;
 use crate::tree::Branches;
 use crate::tree::record::NO_SEGMENT;
@@ -28,47 +26,51 @@ pub(crate) fn leaf_grow(
     environment: &Environment,
     cx: &Context<'_>,
     branches: &Branches,
-    books: &[Option<FlightBook>],
+    tables: &[Option<DropTable>],
     leaf: &mut LeafMut<'_>,
     slot: u32,
 ) {
     let petiole = petiole_of(cx, slot);
     leaf.identity.id = slot;
-    leaf.identity.look = SOURCE_TREES << SOURCE_SHIFT;
-    leaf.course.event = NEVER;
+    leaf.identity.appearance = leaf_appearance(0, 0, SOURCE_TREES);
+    leaf.schedule.event = NEVER;
     if petiole.segment == NO_SEGMENT {
         return;
     }
     let seed = cx.environment.seed;
-    let look = random(seed, slot, STREAM_LOOK);
+    let traits = random(seed, slot, STREAM_TRAITS);
     let species_index = petiole.facts & PETIOLE_SPECIES_MASK;
     if leaf_site(environment.scene(), slot).1 {
         let release = 0u32.wrapping_sub(LONG_AGO);
-        leaf_drop(cx, leaf, slot, look, SOURCE_TREES, species_index, petiole.place, release);
-        leaf_seek_any(cx, books, leaf, LONG_AGO);
+        leaf_drop(cx, leaf, slot, traits, SOURCE_TREES, species_index, petiole.place, release);
+        leaf_seek_any(cx, tables, leaf, LONG_AGO);
         return;
     }
     let species = &cx.environment.species[species_index as usize];
-    let [size, speed] = release_size_speed(species, look);
+    let SizeSpeed { size, speed } = release_size_speed(species, traits);
     let [x, z] = [petiole.place[0], petiole.place[2]].map(|units| units as f32 * LENGTH_UNIT);
     let ground = ((ground_surface(cx, x, z) + cx.environment.surface_height_m) * 1024.0).floor();
     #[expect(clippy::cast_possible_truncation, reason = "a whole number in range")]
     let height = petiole.place[1] - ground as i32;
     leaf.identity.fall_time = release_fall_time(species, height, speed);
-    leaf.identity.look |= (look[3] & HALF_MASK) | ((look[0] & VARIANT_MASK) << VARIANT_SHIFT);
+    leaf.identity.appearance = leaf_appearance(traits[3], traits[0], SOURCE_TREES);
     let row = petiole.segment as usize;
-    leaf.course.size = leaf_size_on_twig(size, petiole.facts);
-    leaf.place.bits = STATE_ATTACHED | (species_index << SPECIES_SHIFT);
+    leaf.schedule.size = leaf_size_on_twig(size, petiole.facts);
+    leaf.place.bits = place_bits(STATE_ATTACHED, 0, 0, species_index, 0);
     leaf.drift.phase = 0;
-    let mut carried =
-        CarriedLeaf { place: leaf.place, drift: leaf.drift, attitude: leaf.attitude, course: leaf.course };
+    let mut carried = CarriedLeaf {
+        place: leaf.place,
+        drift: leaf.drift,
+        attitude: leaf.attitude,
+        schedule: leaf.schedule,
+    };
     carried.hang(&leaf_hang(cx, 0.0, slot, &(&petiole).into(), &branches.body(row)));
 }
 
 /// Counts the leaves that hang on every segment.
 pub(crate) fn count_leaves(branches: &mut Branches, cx: &Context<'_>, leaves: &Leaves) {
     for slot in 0..cx.environment.tree_leaf_count {
-        if leaves.place[slot as usize].bits & STATE_MASK == STATE_ATTACHED {
+        if leaf_state(leaves.place[slot as usize].bits) == STATE_ATTACHED {
             branches.bearing[petiole_of(cx, slot).segment as usize] += 1;
         }
     }

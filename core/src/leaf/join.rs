@@ -7,11 +7,13 @@
 //! At a join the drift takes up the difference between the old motion's velocity and the new one's, so that position
 //! and velocity go on without a jump, at the exact moment within the step; orientation blends over a few steps.
 
-use super::fall::{Glide, Part, Response, STEP_UNIT, WHOLE_STEP, glide_end, glide_part, response_of};
-use super::own::own_velocity;
+use super::fall::{
+    Glide, Part, Response, STEP_UNIT, WHOLE_STEP, glide_end, glide_of, glide_part, response_of,
+};
+use super::own::{motion_params, own_velocity};
 use super::record::{
-    BLEND_MASK, BLEND_SHIFT, HALF_MASK, PRIMITIVE_MASK, PRIMITIVE_SHIFT, SOURCE_MASK, SOURCE_SHIFT,
-    SPECIES_MASK, SPECIES_SHIFT, STAGE_MASK, STAGE_SHIFT,
+    HALF_MASK, Schedule, heading_word, leaf_primitive, leaf_source, leaf_species, leaf_stage, with_blend,
+    with_primitive, with_stage,
 };
 use super::release::{next_event, release_rate, release_ratio, release_size_speed};
 use super::store::LeafMut;
@@ -19,37 +21,37 @@ use crate::context::Context;
 use crate::kernel::math::exponential;
 use crate::kernel::rng::random;
 use crate::kernel::vector::Vec3;
-use crate::motion::feature::{STAGE_COUNT, STREAM_LOOK, stage_end, stage_words, transition_next};
+use crate::motion::feature::{STAGE_COUNT, STREAM_TRAITS, stage_end, stage_words, transition_next};
+use crate::terrain::ground::ground_met;
 use crate::wind::sample::wind_at;
 
 /// Ends the current stage: draws the next motion and hands the difference of velocities to the drift.
 #[inline(always)]
 pub fn leaf_join(cx: &Context<'_>, leaf: &mut LeafMut<'_>, glide: Glide) -> Glide {
     let seed = cx.environment.seed;
-    let id = leaf.identity.id;
-    let bits = leaf.place.bits;
-    let before = own_velocity(cx, bits, glide.phase, (*leaf.course).into());
-    let stage = ((leaf.identity.look >> STAGE_SHIFT) & STAGE_MASK) + 1;
-    let species = &cx.environment.species[((bits >> SPECIES_SHIFT) & SPECIES_MASK) as usize];
+    let identity = *leaf.identity;
+    let id = identity.id;
+    let old_bits = leaf.place.bits;
+    let old = *leaf.schedule;
+    let before = own_velocity(cx, old_bits, glide.phase, motion_params(old));
+    let stage = leaf_stage(identity.appearance) + 1;
+    let species = &cx.environment.species[leaf_species(old_bits) as usize];
     let words = stage_words(seed, id, stage);
-    let primitive = transition_next(species, (bits >> PRIMITIVE_SHIFT) & PRIMITIVE_MASK, words[0]);
-    let ratio = release_ratio(release_size_speed(species, random(seed, id, STREAM_LOOK)));
+    let primitive = transition_next(species, leaf_primitive(old_bits), words[0]);
+    let ratio = release_ratio(release_size_speed(species, random(seed, id, STREAM_TRAITS)));
 
-    leaf.identity.look = (leaf.identity.look & !(STAGE_MASK << STAGE_SHIFT)) | (stage << STAGE_SHIFT);
-    leaf.course.rate = release_rate(species, primitive, ratio);
-    leaf.course.heading = (words[2] & (HALF_MASK << 16)) | (leaf.course.heading & HALF_MASK);
-    leaf.course.event = next_event(
-        cx,
-        id,
-        leaf.identity.release,
-        leaf.identity.fall_time,
-        stage,
-        (leaf.identity.look >> SOURCE_SHIFT) & SOURCE_MASK,
-    );
-    leaf.place.bits = (bits & !((PRIMITIVE_MASK << PRIMITIVE_SHIFT) | (BLEND_MASK << BLEND_SHIFT)))
-        | (primitive << PRIMITIVE_SHIFT)
-        | (cx.environment.blend_steps << BLEND_SHIFT);
-    let after = own_velocity(cx, leaf.place.bits, words[1], (*leaf.course).into());
+    leaf.identity.appearance = with_stage(identity.appearance, stage);
+    let source = leaf_source(identity.appearance);
+    let schedule = Schedule {
+        event: next_event(cx, id, identity.release, identity.fall_time, stage, source),
+        rate: release_rate(species, primitive, ratio),
+        size: old.size,
+        heading: heading_word(words[2] >> 16, old.heading),
+    };
+    *leaf.schedule = schedule;
+    let bits = with_blend(with_primitive(old_bits, primitive), cx.environment.blend_steps);
+    leaf.place.bits = bits;
+    let after = own_velocity(cx, bits, words[1], motion_params(schedule));
     Glide { position: glide.position, drift: glide.drift + (before - after), phase: words[1] }
 }
 
@@ -68,20 +70,20 @@ pub fn leaf_fall_joining(cx: &Context<'_>, leaf: &mut LeafMut<'_>) {
     let response = response_of(cx, leaf.place.bits);
     let wind = wind_at(cx, start);
     let seed = cx.environment.seed;
-    let mut glide =
-        Glide { position: start, drift: Vec3::from(leaf.drift.velocity), phase: leaf.drift.phase };
+    let mut glide = glide_of(leaf.place, leaf.drift);
     let mut done = 0;
     for _ in 1..STAGE_COUNT {
-        if cx.step.index >= leaf.course.event {
-            let stage = (leaf.identity.look >> STAGE_SHIFT) & STAGE_MASK;
+        if cx.step.index >= leaf.schedule.event {
+            let stage = leaf_stage(leaf.identity.appearance);
             let end = done.max(stage_end(seed, leaf.identity.id, leaf.identity.fall_time, stage) & HALF_MASK);
             let part = part_of_step(cx, response, end - done);
-            glide = glide_part(cx, glide, leaf.place.bits, (*leaf.course).into(), wind, part);
+            glide = glide_part(cx, glide, leaf.place.bits, motion_params(*leaf.schedule), wind, part);
             glide = leaf_join(cx, leaf, glide);
             done = end;
         }
     }
     let part = part_of_step(cx, response, WHOLE_STEP - done);
-    let moved = glide_part(cx, glide, leaf.place.bits, (*leaf.course).into(), wind, part);
-    glide_end(cx, leaf, start, moved);
+    let (bits, schedule) = (leaf.place.bits, *leaf.schedule);
+    let moved = glide_part(cx, glide, bits, motion_params(schedule), wind, part);
+    glide_end(cx, leaf, start, moved, bits, schedule.heading, ground_met(cx, moved.position));
 }

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! twin: backend-wgpu/src/shaders/leaf/launch.wgsl
 //!
-//! A leaf that flies as a body is let go: held how, with which quirks.
+//! The release of a leaf that flies as a body: its pose before, its asymmetries.
 
-use super::record::{HALF_MASK, QUIRK_SHIFT, SPECIES_MASK, SPECIES_SHIFT};
+use super::record::{HALF_MASK, leaf_species, with_asymmetry};
 use super::store::LeafMut;
 use crate::context::Context;
 use crate::flight::block::HOLD_RANDOM;
@@ -14,10 +14,10 @@ use crate::kernel::rng::{random, triangular, unit_float};
 use crate::kernel::vector::TINY_SQUARED;
 
 crate::shared_constants! {
-    /// Random words of how a body is held.
+    /// Random words of the pose of a body before its release.
     pub const STREAM_HOLD: u32 = 34;
-    /// Random words of a body's quirks.
-    pub const STREAM_QUIRKS: u32 = 35;
+    /// Random words of a body's asymmetries.
+    pub const STREAM_ASYMMETRY: u32 = 35;
 }
 
 /// A turn about y by an angle in 2^-32 turns.
@@ -42,7 +42,7 @@ pub fn random_pose(words: [u32; 4]) -> Quat {
     Quat::new(low * sine, low * cosine, high * other_sine, high * other_cosine)
 }
 
-/// How body `id` of a species is held before it is let go.
+/// Pose of body `id` of a species before its release.
 #[inline(always)]
 pub fn hold_pose(cx: &Context<'_>, species: u32, id: u32) -> Quat {
     let seed = cx.environment.seed;
@@ -61,22 +61,21 @@ pub fn hold_pose(cx: &Context<'_>, species: u32, id: u32) -> Quat {
 /// Holds a leaf still.
 #[inline(always)]
 pub fn leaf_hold(cx: &Context<'_>, leaf: &mut LeafMut<'_>, id: u32) {
-    let species = (leaf.place.bits >> SPECIES_SHIFT) & SPECIES_MASK;
-    leaf.attitude.quaternion = hold_pose(cx, species, id).to_array();
+    leaf.attitude.quaternion = hold_pose(cx, leaf_species(leaf.place.bits), id).to_array();
     leaf.drift.phase = 0;
-    leaf.course.rate = 0;
-    leaf.course.heading = 0;
+    leaf.schedule.rate = 0;
+    leaf.schedule.heading = 0;
 }
 
-/// The quirks of body `id`: four of four bits.
+/// Asymmetries of body `id`: four of four bits.
 #[inline(always)]
-pub fn quirks_of(cx: &Context<'_>, id: u32) -> u32 {
-    random(cx.environment.seed, id, STREAM_QUIRKS)[0] & HALF_MASK
+pub fn random_asymmetry(cx: &Context<'_>, id: u32) -> u32 {
+    random(cx.environment.seed, id, STREAM_ASYMMETRY)[0] & HALF_MASK
 }
 
-/// Gives a leaf that takes wing its quirks, and nothing yet to remember.
+/// Gives a leaf that takes wing its asymmetries, and a regime without events.
 #[inline(always)]
 pub fn leaf_launch(cx: &Context<'_>, leaf: &mut LeafMut<'_>, id: u32) {
-    leaf.course.size = (leaf.course.size & HALF_MASK) | (quirks_of(cx, id) << QUIRK_SHIFT);
+    leaf.schedule.size = with_asymmetry(leaf.schedule.size, random_asymmetry(cx, id));
     leaf.identity.fall_time = 0;
 }

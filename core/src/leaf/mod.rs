@@ -16,7 +16,9 @@ pub mod release;
 pub mod seek;
 pub mod settle;
 mod store;
+mod view;
 
 pub use petiole::Petiole;
-pub use record::{Attitude, Course, Drift, Identity, Place};
+pub use record::{Attitude, Drift, Identity, Place, Schedule};
 pub use store::{HOT_BYTES_PER_STEP, LEAF_BYTES, LeafMut, LeafState, Leaves, LeavesMut};
+pub use view::{LeafMotion, LeafRecords, LeafView};

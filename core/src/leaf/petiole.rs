@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Where a leaf hangs: constants of the leaf slots that belong to trees.
+//! Petioles: constants of the leaf slots that belong to trees.
 
 use bytemuck::{Pod, Zeroable};
 
@@ -17,7 +17,7 @@ crate::shared_constants! {
     pub const PETIOLE_KIND_SHIFT: u32 = 11;
     /// Mask of the tree kind.
     pub const PETIOLE_KIND_MASK: u32 = 31;
-    /// Place of the distance from the petiole's base to the blade's middle.
+    /// Place of the distance from the petiole's base to the blade's centre.
     pub const PETIOLE_REACH_SHIFT: u32 = 16;
     /// Mask of it.
     pub const PETIOLE_REACH_MASK: u32 = 255;
@@ -31,7 +31,7 @@ crate::shared_constants! {
     pub const SHED_CLASSES: u32 = 64;
     /// Words of four that a tree kind's chances take.
     pub const SHED_ROWS: u32 = 64 * 64 / 4;
-    /// A petiole looks at the wind every so many steps, a power of two.
+    /// Steps between two samples of the wind at a petiole, a power of two.
     pub const SHED_INTERVAL: u32 = 8;
 }
 
@@ -45,7 +45,7 @@ pub struct Petiole {
     pub segment: u32,
     /// Orientation x, y, z, w of the leaf in the frame of its segment, in still air.
     pub rest: [f32; 4],
-    /// Middle of the blade in still air in 2^-10 m, two's complement.
+    /// Centre of the blade in still air in 2^-10 m, two's complement.
     pub place: [i32; 3],
     /// Species, strength class, tree kind, reach and cluster.
     pub facts: u32,

@@ -2,14 +2,14 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! twin: backend-wgpu/src/shaders/leaf/release.wgsl
 //!
-//! A leaf is let go: where, how big, how fast, in which motion. Integers throughout, but for the last conversion.
+//! The release of a leaf: place, size, speed and first motion, in integers but for the last conversion.
 
 use super::launch::{leaf_hold, leaf_launch};
-use super::own::own_velocity;
+use super::own::{motion_params, own_velocity};
 use super::record::{
-    AERODYNAMIC, BLEND_MASK, BLEND_SHIFT, HALF_MASK, PRIMITIVE_SHIFT, SIZE_ONE, SOURCE_MASK, SOURCE_SHIFT,
-    SPECIES_MASK, SPECIES_SHIFT, SPIN_SHIFT, STAGE_MASK, STAGE_SHIFT, STATE_FALLING, VARIANT_MASK,
-    VARIANT_SHIFT,
+    AERODYNAMIC, Drift, Place, SIZE_ONE, STATE_DORMANT, STATE_FALLING, Schedule, blend_steps_left,
+    heading_word, leaf_appearance, leaf_source, leaf_species, own_size, place_bits, twig_sizes, with_blend,
+    with_stage,
 };
 use super::store::LeafMut;
 use crate::blocks::{
@@ -18,7 +18,7 @@ use crate::blocks::{
 use crate::context::Context;
 use crate::kernel::rng::{mul_high, mul_q16, random, triangular};
 use crate::kernel::vector::Vec3;
-use crate::motion::feature::{STAGE_COUNT, STREAM_LOOK, STREAM_PLACE, stage_end, stage_words};
+use crate::motion::feature::{STAGE_COUNT, STREAM_PLACE, STREAM_TRAITS, stage_end, stage_words};
 use crate::terrain::ground::ground_surface;
 
 crate::shared_constants! {
@@ -99,17 +99,26 @@ pub fn release_species(source: &SourceBlock, word: u32) -> u32 {
 }
 
 /// Size and speed of a leaf relative to its species, in 2^-14.
+#[derive(Clone, Copy, Debug)]
+pub struct SizeSpeed {
+    /// Size.
+    pub size: u32,
+    /// Speed.
+    pub speed: u32,
+}
+
+/// Size and speed of a leaf, from the random words of its traits.
 #[inline(always)]
-pub fn release_size_speed(species: &SpeciesBlock, words: [u32; 4]) -> [u32; 2] {
+pub fn release_size_speed(species: &SpeciesBlock, words: [u32; 4]) -> SizeSpeed {
     let size = SIZE_ONE as i32 + ((species.size_spread_q14 as i32 * triangular(words[1])) >> 16);
     let speed = SIZE_ONE as i32 + ((species.speed_spread_q14 as i32 * triangular(words[2])) >> 16);
-    [size as u32, speed as u32]
+    SizeSpeed { size: size as u32, speed: speed as u32 }
 }
 
 /// Rate of a primitive motion relative to its species' in 2^-16: small and fast leaves swing faster.
 #[inline(always)]
-pub fn release_ratio(size_speed: [u32; 2]) -> u32 {
-    (size_speed[1] << 16) / size_speed[0]
+pub fn release_ratio(size_speed: SizeSpeed) -> u32 {
+    (size_speed.speed << 16) / size_speed.size
 }
 
 /// Phase per step of a species' primitive motion for a leaf of nominal size and speed.
@@ -153,11 +162,11 @@ pub fn leaf_release(cx: &Context<'_>, leaf: &mut LeafMut<'_>, id: u32, source: u
     let seed = cx.environment.seed;
     let from = &cx.environment.sources[source as usize];
     let place = release_place(from, seed, id);
-    let look = random(seed, id, STREAM_LOOK);
-    leaf_drop(cx, leaf, id, look, source, release_species(from, look[0]), place, release);
+    let traits = random(seed, id, STREAM_TRAITS);
+    leaf_drop(cx, leaf, id, traits, source, release_species(from, traits[0]), place, release);
 }
 
-/// Lets leaf `id` of a species go from `place`, in units of 2^-10 m, with random words `look`.
+/// Lets leaf `id` of a species go from `place`, in units of 2^-10 m, with the random words of its traits.
 #[expect(
     clippy::cast_possible_truncation,
     clippy::too_many_arguments,
@@ -168,26 +177,22 @@ pub fn leaf_drop(
     cx: &Context<'_>,
     leaf: &mut LeafMut<'_>,
     id: u32,
-    look: [u32; 4],
+    traits: [u32; 4],
     source: u32,
     species_index: u32,
     place: [i32; 3],
     release: u32,
 ) {
     let species = &cx.environment.species[species_index as usize];
-    let size_speed = release_size_speed(species, look);
+    let size_speed = release_size_speed(species, traits);
     let position =
         [place[0] as f32 * LENGTH_UNIT, place[1] as f32 * LENGTH_UNIT, place[2] as f32 * LENGTH_UNIT];
     let ground = (ground_surface(cx, position[0], position[2]) + cx.environment.surface_height_m) * 1024.0;
-    leaf.identity.fall_time = release_fall_time(species, place[1] - ground.floor() as i32, size_speed[1]);
-    leaf.identity.look = (look[3] & HALF_MASK)
-        | ((look[0] & VARIANT_MASK) << VARIANT_SHIFT)
-        | (source << SOURCE_SHIFT)
-        | (0 << STAGE_SHIFT);
-    leaf.course.size = size_speed[0];
-    leaf.course.heading = look[3] >> 16;
-    leaf.place.position = position;
-    leaf.place.bits = (0 << BLEND_SHIFT) | (species_index << SPECIES_SHIFT);
+    leaf.identity.fall_time = release_fall_time(species, place[1] - ground.floor() as i32, size_speed.speed);
+    leaf.identity.appearance = leaf_appearance(traits[3], traits[0], source);
+    leaf.schedule.size = size_speed.size;
+    leaf.schedule.heading = heading_word(0, traits[3] >> 16);
+    *leaf.place = Place { position, bits: place_bits(STATE_DORMANT, 0, 0, species_index, 0) };
     leaf.drift.velocity = [0.0, 0.0, 0.0];
     if species.first_motion == AERODYNAMIC {
         leaf_hold(cx, leaf, id);
@@ -195,36 +200,36 @@ pub fn leaf_drop(
     leaf_set_off(cx, leaf, id, release, size_speed);
 }
 
-/// Begins the first stage of a leaf's fall, or its flight. It sets off with the velocity that `drift` says.
+/// Begins the first stage of a leaf's fall, or its flight. It sets off with the velocity in its drift.
 #[inline(always)]
-pub fn leaf_set_off(cx: &Context<'_>, leaf: &mut LeafMut<'_>, id: u32, release: u32, size_speed: [u32; 2]) {
+pub fn leaf_set_off(cx: &Context<'_>, leaf: &mut LeafMut<'_>, id: u32, release: u32, size_speed: SizeSpeed) {
     let seed = cx.environment.seed;
-    let source = (leaf.identity.look >> SOURCE_SHIFT) & SOURCE_MASK;
-    let species_index = (leaf.place.bits >> SPECIES_SHIFT) & SPECIES_MASK;
+    let before = leaf.place.bits;
+    let source = leaf_source(leaf.identity.appearance);
+    let species_index = leaf_species(before);
     let species = &cx.environment.species[species_index as usize];
     let stage = stage_words(seed, id, 0);
     let primitive = species.first_motion;
     leaf.identity.id = id;
     leaf.identity.release = release;
-    leaf.identity.look &= !(STAGE_MASK << STAGE_SHIFT);
+    leaf.identity.appearance = with_stage(leaf.identity.appearance, 0);
     if primitive == AERODYNAMIC {
-        leaf.course.event = next_event(cx, id, release, 0, STAGE_COUNT, source);
-        leaf.place.bits = STATE_FALLING
-            | (leaf.place.bits & (SPECIES_MASK << SPECIES_SHIFT))
-            | (primitive << PRIMITIVE_SHIFT);
+        leaf.schedule.event = next_event(cx, id, release, 0, STAGE_COUNT, source);
+        leaf.place.bits = place_bits(STATE_FALLING, 0, primitive, species_index, 0);
         leaf_launch(cx, leaf, id);
         return;
     }
-    leaf.course.event = next_event(cx, id, release, leaf.identity.fall_time, 0, source);
-    leaf.course.rate = release_rate(species, primitive, release_ratio(size_speed));
-    leaf.course.heading = (stage[2] & (HALF_MASK << 16)) | (leaf.course.heading & HALF_MASK);
-    leaf.place.bits = STATE_FALLING
-        | (leaf.place.bits & ((BLEND_MASK << BLEND_SHIFT) | (SPECIES_MASK << SPECIES_SHIFT)))
-        | (primitive << PRIMITIVE_SHIFT)
-        | ((stage[3] & HALF_MASK) << SPIN_SHIFT);
-    leaf.drift.phase = stage[1];
-    let own = own_velocity(cx, leaf.place.bits, leaf.drift.phase, (*leaf.course).into());
-    leaf.drift.velocity = (Vec3::from(leaf.drift.velocity) - own).to_array();
+    let schedule = Schedule {
+        event: next_event(cx, id, release, leaf.identity.fall_time, 0, source),
+        rate: release_rate(species, primitive, release_ratio(size_speed)),
+        size: leaf.schedule.size,
+        heading: heading_word(stage[2] >> 16, leaf.schedule.heading),
+    };
+    *leaf.schedule = schedule;
+    let bits = place_bits(STATE_FALLING, blend_steps_left(before), primitive, species_index, stage[3]);
+    leaf.place.bits = bits;
+    let own = own_velocity(cx, bits, stage[1], motion_params(schedule));
+    *leaf.drift = Drift { velocity: (Vec3::from(leaf.drift.velocity) - own).to_array(), phase: stage[1] };
 }
 
 /// Lets a leaf go whose petiole has broken, where it is and as fast as it is.
@@ -232,14 +237,14 @@ pub fn leaf_set_off(cx: &Context<'_>, leaf: &mut LeafMut<'_>, id: u32, release: 
 pub fn leaf_detach(cx: &Context<'_>, leaf: &mut LeafMut<'_>, release: u32) {
     let seed = cx.environment.seed;
     let id = leaf.identity.id.wrapping_add(cx.environment.ids_per_life);
-    let look = random(seed, id, STREAM_LOOK);
-    let species = &cx.environment.species[((leaf.place.bits >> SPECIES_SHIFT) & SPECIES_MASK) as usize];
-    let size = leaf.course.size >> 16;
-    leaf.course.size = size | (size << 16);
+    let traits = random(seed, id, STREAM_TRAITS);
+    let species = &cx.environment.species[leaf_species(leaf.place.bits) as usize];
+    let size = own_size(leaf.schedule.size);
+    leaf.schedule.size = twig_sizes(size, size);
     if species.first_motion != AERODYNAMIC {
-        leaf.course.heading = look[3] >> 16;
+        leaf.schedule.heading = heading_word(0, traits[3] >> 16);
     }
-    leaf.place.bits =
-        (leaf.place.bits & !(BLEND_MASK << BLEND_SHIFT)) | (cx.environment.blend_steps << BLEND_SHIFT);
-    leaf_set_off(cx, leaf, id, release, [size, release_size_speed(species, look)[1]]);
+    leaf.place.bits = with_blend(leaf.place.bits, cx.environment.blend_steps);
+    let size_speed = SizeSpeed { size, speed: release_size_speed(species, traits).speed };
+    leaf_set_off(cx, leaf, id, release, size_speed);
 }

@@ -2,19 +2,16 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Finds a leaf's state at any moment of a fall through still air, without stepping there.
 
-use super::fall::{Glide, response_of, spin_advance};
+use super::fall::{Glide, glide_of, response_of, spin_advance};
 use super::fly::flight_write;
 use super::join::leaf_join;
-use super::own::{Manner, on_grid, own_advance, own_orientation, own_period, own_rate};
-use super::record::{
-    BLEND_MASK, BLEND_SHIFT, SOURCE_MASK, SOURCE_SHIFT, SPECIES_MASK, SPECIES_SHIFT, STAGE_MASK, STAGE_SHIFT,
-    STATE_MASK, STATE_RESTING,
-};
+use super::own::{motion_params, on_grid, own_advance, own_orientation, own_period, own_rate};
+use super::record::{Drift, STATE_RESTING, leaf_source, leaf_species, leaf_stage, with_blend, with_state};
 use super::settle::{flatten, flatten_on};
 use super::store::LeafMut;
 use crate::blocks::NEVER;
 use crate::context::Context;
-use crate::flight::book::FlightBook;
+use crate::flight::drop_table::DropTable;
 use crate::kernel::math::exponential;
 use crate::kernel::quaternion::Quat;
 use crate::kernel::vector::Vec3;
@@ -28,16 +25,12 @@ const LANDING_ROUNDS: u32 = 6;
 /// on the ground, flat and still, if that fall is over. Orientation is that of the stage, without the short blend after
 /// a join.
 pub fn leaf_seek(cx: &Context<'_>, leaf: &mut LeafMut<'_>, elapsed: u32) {
-    let target = u64::from(elapsed) << 16;
-    let mut glide = Glide {
-        position: leaf.place.position.into(),
-        drift: leaf.drift.velocity.into(),
-        phase: leaf.drift.phase,
-    };
+    let goal = u64::from(elapsed) << 16;
+    let mut glide = glide_of(leaf.place, leaf.drift);
     let mut now = 0;
     loop {
         let end = stage_end_after(cx, leaf);
-        let part = end.min(target) - now;
+        let part = end.min(goal) - now;
         let next = glide_long(cx, leaf, glide, part);
         if part > 0 && above_rest(cx, next.position) < 0.0 {
             let landing = landing_within(cx, leaf, glide, part);
@@ -46,23 +39,23 @@ pub fn leaf_seek(cx: &Context<'_>, leaf: &mut LeafMut<'_>, elapsed: u32) {
             return;
         }
         glide = next;
-        if end >= target {
+        if end >= goal {
             break;
         }
         now = end;
         glide = leaf_join(cx, leaf, glide);
     }
-    arrive(cx, leaf, glide, target);
+    arrive(cx, leaf, glide, goal);
 }
 
-/// The same for a leaf that flies as a body: as one of its kind has flown.
-fn leaf_seek_flight(cx: &Context<'_>, book: &FlightBook, leaf: &mut LeafMut<'_>, elapsed: u32) {
+/// Moves a leaf that flies as a body on like one of the precomputed drops of its kind.
+fn leaf_seek_flight(cx: &Context<'_>, table: &DropTable, leaf: &mut LeafMut<'_>, elapsed: u32) {
     if elapsed == 0 {
         return;
     }
     let start = Vec3::from(leaf.place.position);
     let height = above_rest(cx, start).max(0.0);
-    let (mut flight, is_down) = book.look_up(cx, leaf.identity.id, elapsed, height);
+    let (mut flight, is_down) = table.look_up(cx, leaf.identity.id, elapsed, height);
     flight.position = start + flight.position;
     flight_write(leaf, flight);
     if is_down || above_rest(cx, flight.position) < 0.0 {
@@ -73,18 +66,17 @@ fn leaf_seek_flight(cx: &Context<'_>, book: &FlightBook, leaf: &mut LeafMut<'_>,
 /// Moves a leaf of any species on from its release.
 pub(crate) fn leaf_seek_any(
     cx: &Context<'_>,
-    books: &[Option<FlightBook>],
+    tables: &[Option<DropTable>],
     leaf: &mut LeafMut<'_>,
     elapsed: u32,
 ) {
-    let species = (leaf.place.bits >> SPECIES_SHIFT) & SPECIES_MASK;
-    match &books[species as usize] {
-        Some(book) => leaf_seek_flight(cx, book, leaf, elapsed),
+    match &tables[leaf_species(leaf.place.bits) as usize] {
+        Some(table) => leaf_seek_flight(cx, table, leaf, elapsed),
         None => leaf_seek(cx, leaf, elapsed),
     }
 }
 
-/// Height in metres above where a leaf would rest.
+/// Height in metres above a leaf that rests there.
 fn above_rest(cx: &Context<'_>, place: Vec3) -> f32 {
     place.y - ground_rest(cx, place.x, place.z)
 }
@@ -92,7 +84,7 @@ fn above_rest(cx: &Context<'_>, place: Vec3) -> f32 {
 /// Time from release to the end of a leaf's stage in 2^-16 steps.
 fn stage_end_after(cx: &Context<'_>, leaf: &LeafMut<'_>) -> u64 {
     let seed = cx.environment.seed;
-    let stage = (leaf.identity.look >> STAGE_SHIFT) & STAGE_MASK;
+    let stage = leaf_stage(leaf.identity.appearance);
     if stage + 1 < STAGE_COUNT {
         u64::from(stage_end(seed, leaf.identity.id, leaf.identity.fall_time, stage))
     } else {
@@ -100,7 +92,7 @@ fn stage_end_after(cx: &Context<'_>, leaf: &LeafMut<'_>) -> u64 {
     }
 }
 
-/// When, within `part` of the stage that begins with `glide`, the leaf comes to the ground. The fall is nearly uniform:
+/// Time within `part` of the stage that begins with `glide` at which the leaf comes to the ground. The fall is nearly uniform:
 /// its end is bracketed and refined by the secant through the bracket's ends.
 fn landing_within(cx: &Context<'_>, leaf: &LeafMut<'_>, glide: Glide, part: u64) -> u64 {
     let height = |part| {
@@ -129,31 +121,31 @@ fn landing_within(cx: &Context<'_>, leaf: &LeafMut<'_>, glide: Glide, part: u64)
     late
 }
 
-/// Writes where a leaf is `elapsed` (2^-16 steps) after its release.
+/// Writes the state of a leaf `elapsed` (2^-16 steps) after its release.
 fn arrive(cx: &Context<'_>, leaf: &mut LeafMut<'_>, glide: Glide, elapsed: u64) {
     #[expect(clippy::cast_possible_truncation, reason = "whole steps of a fall fit a word")]
     let steps = (elapsed >> 16) as u32;
-    let bits = leaf.place.bits & !(BLEND_MASK << BLEND_SHIFT);
-    let spin = spin_advance(bits, leaf.course.heading, response_of(cx, bits).fastest_spin).wrapping_sub(bits);
+    let bits = with_blend(leaf.place.bits, 0);
+    let spin =
+        spin_advance(bits, leaf.schedule.heading, response_of(cx, bits).fastest_spin).wrapping_sub(bits);
     leaf.place.bits = bits.wrapping_add(spin.wrapping_mul(steps));
     leaf.place.position = glide.position.to_array();
-    leaf.drift.velocity = glide.drift.to_array();
-    leaf.drift.phase = glide.phase;
-    let attitude = own_orientation(cx, leaf.place.bits, glide.phase, leaf.course.heading);
+    *leaf.drift = Drift { velocity: glide.drift.to_array(), phase: glide.phase };
+    let attitude = own_orientation(cx, leaf.place.bits, glide.phase, leaf.schedule.heading);
     leaf.attitude.quaternion = attitude.to_array();
 }
 
 /// Any length of time within one stage, in still air.
 fn glide_long(cx: &Context<'_>, leaf: &LeafMut<'_>, glide: Glide, part_q16: u64) -> Glide {
     let environment = cx.environment;
-    let (bits, manner) = (leaf.place.bits, Manner::from(*leaf.course));
+    let (bits, params) = (leaf.place.bits, motion_params(*leaf.schedule));
     let response = response_of(cx, bits);
-    let rate = u128::from(own_rate(cx, manner.rate));
+    let rate = u128::from(own_rate(cx, params.rate));
     let turned = (rate * u128::from(part_q16)) >> 16;
     #[expect(clippy::cast_possible_truncation, reason = "the low word is the phase, the rest whole periods")]
     let (periods, low) = ((turned >> 32) as f32, turned as u32);
     let end = glide.phase.wrapping_add(low);
-    let own = own_advance(cx, bits, manner, glide.phase, end) + own_period(cx, bits, manner) * periods;
+    let own = own_advance(cx, bits, params, glide.phase, end) + own_period(cx, bits, params) * periods;
     #[expect(clippy::cast_possible_truncation, reason = "seconds in single precision")]
     let elapsed = (part_q16 as f64 / 65536.0 * f64::from(environment.dt_s)) as f32;
     let drift = glide.drift * exponential(-elapsed * response.inv_time_constant);
@@ -163,16 +155,14 @@ fn glide_long(cx: &Context<'_>, leaf: &LeafMut<'_>, glide: Glide, part_q16: u64)
 
 /// Lays a leaf down where it is.
 fn rest(cx: &Context<'_>, leaf: &mut LeafMut<'_>) {
-    let source = (leaf.identity.look >> SOURCE_SHIFT) & SOURCE_MASK;
-    let lifetime = cx.environment.sources[source as usize].lifetime_steps;
+    let lifetime = cx.environment.sources[leaf_source(leaf.identity.appearance) as usize].lifetime_steps;
     let [x, _, z] = leaf.place.position;
     leaf.place.position[1] = ground_rest(cx, x, z);
-    leaf.place.bits = (leaf.place.bits & !STATE_MASK) | STATE_RESTING;
-    leaf.drift.velocity = Vec3::ZERO.to_array();
-    leaf.drift.phase = cx.environment.settle_steps;
+    leaf.place.bits = with_state(leaf.place.bits, STATE_RESTING);
+    *leaf.drift = Drift { velocity: [0.0; 3], phase: cx.environment.settle_steps };
     let before = Quat::from(leaf.attitude.quaternion);
     let is_hilly = cx.environment.has_terrain();
     let flat = if is_hilly { flatten_on(ground_slope(cx, x, z), before, 0.0) } else { flatten(before, 0.0) };
     leaf.attitude.quaternion = flat.to_array();
-    leaf.course.event = if lifetime == 0 { NEVER } else { leaf.identity.release.wrapping_add(lifetime) };
+    leaf.schedule.event = if lifetime == 0 { NEVER } else { leaf.identity.release.wrapping_add(lifetime) };
 }

@@ -9,7 +9,7 @@
 //! Landing is decided by a float comparison, the one place where the backends' integers could part for a step under
 //! the tolerant contract; the step is continuous across that decision, and what it writes is the same a moment later.
 
-use super::record::{BLEND_MASK, BLEND_SHIFT, SOURCE_MASK, SOURCE_SHIFT, STATE_MASK, STATE_RESTING};
+use super::record::{Drift, Place, STATE_RESTING, ground_steps, leaf_source, with_blend, with_state};
 use super::store::LeafMut;
 use crate::blocks::NEVER;
 use crate::context::Context;
@@ -22,7 +22,7 @@ use crate::terrain::ground::{Slope, ground_lean, ground_rest, ground_slope};
 /// round lies still.
 #[inline(always)]
 pub fn slide(cx: &Context<'_>, came: Vec3, seconds: f32, slope: Slope) -> (Vec3, Vec3) {
-    let pull = (cx.environment.gravity_m_s2 * seconds) * slope.ease;
+    let pull = (cx.environment.gravity_m_s2 * seconds) * slope.inv_gain;
     let velocity = Vec3::new(came.x - slope.x * pull, came.y, came.z - slope.z * pull);
     if velocity.x * came.x + velocity.z * came.z < 0.0 {
         return (Vec3::ZERO, Vec3::ZERO);
@@ -33,7 +33,7 @@ pub fn slide(cx: &Context<'_>, came: Vec3, seconds: f32, slope: Slope) -> (Vec3,
     }
     let inverse = inverse_sqrt(squared);
     let speed = squared * inverse;
-    let left = (speed - (cx.environment.friction_m_s2 * slope.ease) * seconds).max(0.0);
+    let left = (speed - (cx.environment.friction_m_s2 * slope.inv_gain) * seconds).max(0.0);
     let stop = squared * (cx.environment.stop_s2_m * slope.gain);
     let way = if left > 0.0 { (0.5 * seconds) * (speed + left) } else { stop };
     (velocity * (way * inverse), velocity * (left * inverse))
@@ -48,7 +48,7 @@ pub fn flatten(q: Quat, kept: f32) -> Quat {
     quat_normalize(Quat::new(q.x * tilted, q.y * upright, q.z * tilted, q.w * upright))
 }
 
-/// The same on a slope: flat along the ground.
+/// One step towards lying flat along a slope.
 #[inline(always)]
 pub fn flatten_on(slope: Slope, q: Quat, kept: f32) -> Quat {
     let lean = ground_lean(slope);
@@ -67,34 +67,35 @@ pub fn leaf_land(cx: &Context<'_>, leaf: &mut LeafMut<'_>, start: Vec3) {
     let share = ((start.y - above) * reciprocal(drop)).max(0.0).min(1.0);
     let way = end - start;
     let hit = start + way * share;
-    let dt = cx.environment.dt_s;
-    let (slid, velocity) =
-        slide(cx, way * cx.environment.inv_dt_s, (1.0 - share) * dt, ground_slope(cx, hit.x, hit.z));
-    let lifetime =
-        cx.environment.sources[((leaf.identity.look >> SOURCE_SHIFT) & SOURCE_MASK) as usize].lifetime_steps;
+    let (slid, velocity) = slide(
+        cx,
+        way * cx.environment.inv_dt_s,
+        (1.0 - share) * cx.environment.dt_s,
+        ground_slope(cx, hit.x, hit.z),
+    );
+    let lifetime = cx.environment.sources[leaf_source(leaf.identity.appearance) as usize].lifetime_steps;
     let (x, z) = (hit.x + slid.x, hit.z + slid.z);
-    leaf.place.position = [x, ground_rest(cx, x, z), z];
-    leaf.place.bits = (leaf.place.bits & !(STATE_MASK | (BLEND_MASK << BLEND_SHIFT))) | STATE_RESTING;
-    leaf.drift.velocity = [velocity.x, 0.0, velocity.z];
-    leaf.drift.phase = 0;
-    leaf.course.event = if lifetime == 0 { NEVER } else { leaf.identity.release.wrapping_add(lifetime) };
+    let bits = with_state(with_blend(leaf.place.bits, 0), STATE_RESTING);
+    *leaf.place = Place { position: [x, ground_rest(cx, x, z), z], bits };
+    *leaf.drift = Drift { velocity: [velocity.x, 0.0, velocity.z], phase: 0 };
+    leaf.schedule.event = if lifetime == 0 { NEVER } else { leaf.identity.release.wrapping_add(lifetime) };
 }
 
 /// One step of a leaf on the ground.
 #[inline(always)]
 pub fn leaf_settle(cx: &Context<'_>, leaf: &mut LeafMut<'_>) {
-    let counter = leaf.drift.phase;
+    let steps = ground_steps(leaf.drift.phase);
     let velocity = Vec3::from(leaf.drift.velocity);
     let position = leaf.place.position;
     let slides = velocity.x != 0.0 || velocity.z != 0.0;
     let is_hilly = cx.environment.has_terrain();
     let slope = ground_slope(cx, position[0], position[2]);
-    if counter < cx.environment.settle_steps || (slides && is_hilly) {
+    if steps < cx.environment.settle_steps || (slides && is_hilly) {
         let (before, kept) = (Quat::from(leaf.attitude.quaternion), cx.environment.tilt_kept);
         let flat = if is_hilly { flatten_on(slope, before, kept) } else { flatten(before, kept) };
         leaf.attitude.quaternion = flat.to_array();
         // On hills what slides comes to other slopes.
-        leaf.drift.phase = if slides && is_hilly { 0 } else { counter + 1 };
+        leaf.drift.phase = if slides && is_hilly { 0 } else { steps + 1 };
     }
     if slides {
         let (slid, left) = slide(cx, velocity, cx.environment.dt_s, slope);

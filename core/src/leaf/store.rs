@@ -3,12 +3,12 @@
 //! The leaf store: a struct of arrays of 16-byte records, the same bytes on every backend.
 
 use super::record::{
-    Attitude, Course, Drift, Identity, Place, STATE_ATTACHED, STATE_DORMANT, STATE_FALLING, STATE_MASK,
+    Attitude, Drift, Identity, Place, STATE_ATTACHED, STATE_DORMANT, STATE_FALLING, Schedule, leaf_state,
     phase_is_float, spin_is_float,
 };
 use crate::store::{Column, Field, FieldKind};
 
-/// What a leaf is doing.
+/// State of a leaf.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LeafState {
     /// Not let go yet.
@@ -22,9 +22,9 @@ pub enum LeafState {
 }
 
 impl Place {
-    /// What the leaf is doing.
+    /// State of the leaf.
     pub fn state(&self) -> LeafState {
-        match self.bits & STATE_MASK {
+        match leaf_state(self.bits) {
             STATE_DORMANT => LeafState::Dormant,
             STATE_ATTACHED => LeafState::Attached,
             STATE_FALLING => LeafState::Falling,
@@ -43,7 +43,7 @@ crate::columns! {
         /// Orientation.
         pub attitude: Attitude,
         /// Next event and motion parameters.
-        pub course: Course,
+        pub schedule: Schedule,
         /// Identity.
         pub identity: Identity,
     }
@@ -58,9 +58,9 @@ crate::columns! {
 pub const LEAF_BYTES: usize = Leaves::ROW_BYTES;
 
 /// Bytes that one step of one leaf moves between two events: place and drift are read and written, attitude is
-/// written, course is read. Identity, and an attitude that blends, are touched in few steps and do not count.
+/// written, schedule is read. Identity, and an attitude that blends, are touched in few steps and do not count.
 pub const HOT_BYTES_PER_STEP: usize =
-    2 * (size_of::<Place>() + size_of::<Drift>()) + size_of::<Attitude>() + size_of::<Course>();
+    2 * (size_of::<Place>() + size_of::<Drift>()) + size_of::<Attitude>() + size_of::<Schedule>();
 
 /// Meaning of the words of a field of a leaf: those reused by leaves on twigs and by bodies hold floats there.
 fn leaf_kind(leaves: &Leaves, slot: usize, _column: &Column, field: &Field) -> FieldKind {

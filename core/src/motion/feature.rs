@@ -16,8 +16,8 @@ crate::shared_constants! {
     pub const STAGE_COUNT: u32 = 5;
     /// Streams of random words of one leaf: tries for its place (16 of them from here).
     pub const STREAM_PLACE: u32 = 0;
-    /// Species, size, speed, spin and looks.
-    pub const STREAM_LOOK: u32 = 16;
+    /// Traits of a leaf: species, size, speed, spin and appearance.
+    pub const STREAM_TRAITS: u32 = 16;
     /// Shares of the stages.
     pub const STREAM_TIMES: u32 = 17;
     /// Motion, phase and heading of the stages (5 of them from here).

@@ -38,7 +38,7 @@ impl<'a> MotionRows<'a> {
     }
 }
 
-/// Where a phase lies between two rows.
+/// Place of a phase between two rows, 0 to 1.
 #[inline(always)]
 fn fraction_of<W: Word>(phase: W) -> W::Real {
     (phase & PHASE_FRACTION_MASK).to_real() * PHASE_FRACTION_UNIT

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! How leaves move through still air: six primitive motions, joined by a Markov chain.
+//! Motions of leaves through still air: six primitive motions, joined by a Markov chain.
 //!
 //! The equations ([`Path`]) are evaluated in double precision when a scene is built and stored as cumulative tables
 //! ([`MotionTables`]); the kernels only read those.

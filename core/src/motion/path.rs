@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What every primitive motion answers: where a leaf is at a time, how fast, and what pushes it.
+//! The path of a primitive motion: position, velocity and forces at a time.
 
 use glam::DVec3;
 

@@ -86,7 +86,7 @@ pub struct Species {
     pub size_m: f32,
     /// Relative half width of the spread of sizes, 0 to 0.5.
     pub size_variation: f32,
-    /// Relative half width of the spread of falling speeds at equal size, 0 to 0.5; of bodies, size and quirks make it.
+    /// Relative half width of the spread of falling speeds at equal size, 0 to 0.5; of bodies, size and asymmetries make it.
     pub speed_variation: f32,
     /// Mass per area in kg/m², 0.005 to 2.
     pub areal_density_kg_m2: f32,

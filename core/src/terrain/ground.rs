@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! twin: backend-wgpu/src/shaders/terrain/ground.wgsl
 //!
-//! The ground as kernels see it: level, or the hills' table interpolated linearly in each direction; and water on it.
+//! The ground as kernels sample it: level, or the hills' table interpolated linearly in each direction; and water on it.
 
 use crate::context::Context;
 use crate::kernel::lane::{Mask, Real, Word};
@@ -30,7 +30,7 @@ pub struct Slope {
     /// Squared area of the ground over each of its projection.
     pub gain: f32,
     /// The inverse of that.
-    pub ease: f32,
+    pub inv_gain: f32,
 }
 
 /// The cell at a place.
@@ -72,7 +72,7 @@ pub fn ground_rest<R: Real>(cx: &Context<'_>, x: R, z: R) -> R {
     ground_surface(cx, x, z) + cx.environment.rest_height_m
 }
 
-/// Whether a leaf at a place has come to the ground. Most are above all hills: nothing is read for those.
+/// Returns true if a leaf at a place has come to the ground. Most are above all hills: nothing is read for those.
 #[inline(always)]
 pub fn ground_met<R: Real>(cx: &Context<'_>, place: Vec3<R>) -> R::Mask {
     let low = place.y.less_than(place.y.all(cx.environment.highest_rest_m));
@@ -86,7 +86,7 @@ pub fn ground_met<R: Real>(cx: &Context<'_>, place: Vec3<R>) -> R::Mask {
 #[inline(always)]
 pub fn ground_slope(cx: &Context<'_>, x: f32, z: f32) -> Slope {
     if !cx.environment.has_terrain() || ground_relief(cx, x, z) < cx.environment.water_relief_m {
-        return Slope { x: 0.0, z: 0.0, gain: 1.0, ease: 1.0 };
+        return Slope { x: 0.0, z: 0.0, gain: 1.0, inv_gain: 1.0 };
     }
     let cell = ground_cell(cx, x, z);
     let [a, b, c, d] = cell.corners;
@@ -95,7 +95,7 @@ pub fn ground_slope(cx: &Context<'_>, x: f32, z: f32) -> Slope {
     let rise_x = (near + cell.z * ((d - c) - near)) * cx.environment.hill_cells_per_m;
     let rise_z = (west + cell.x * ((d - b) - west)) * cx.environment.hill_cells_per_m;
     let gain = 1.0 + (rise_x * rise_x + rise_z * rise_z);
-    Slope { x: rise_x, z: rise_z, gain, ease: reciprocal(gain) }
+    Slope { x: rise_x, z: rise_z, gain, inv_gain: reciprocal(gain) }
 }
 
 /// The shortest turn from upright to the ground's normal.

@@ -3,7 +3,8 @@
 //! The functions that hold leaves on trees.
 
 use windfall_core::leaf::carry::{
-    Hang, Stalk, leaf_hang, leaf_hangs, leaf_look, leaf_next_look, leaf_size_on_twig, petiole_of, shed_chance,
+    Hang, Stalk, leaf_hang, leaf_hangs, leaf_next_sample, leaf_sample_air, leaf_size_on_twig, petiole_of,
+    shed_chance,
 };
 use windfall_core::leaf::petiole::{PETIOLE_CLASS_SHIFT, PETIOLE_KIND_SHIFT, PETIOLE_REACH_SHIFT};
 
@@ -22,8 +23,8 @@ fn stalk(words: &Words, at: usize) -> Stalk {
 const KIND: Input = Input::Below(6);
 const CLASS: Input = Input::Below(64);
 const REACH: Input = Input::Below(256);
-/// Speed in m/s of the air that a leaf has got used to.
-const HABIT: Input = Input::Float(0.0, 40.0);
+/// Smoothed speed of the air in m/s.
+const AIR_SPEED: Input = Input::Float(0.0, 40.0);
 
 functions! {
     CARRY_FUNCTIONS;
@@ -51,7 +52,7 @@ functions! {
     };
 
     leaf_hang in "leaf/carry" (
-        HABIT, Input::Word, DIRECTION, QUATERNION, KIND, CLASS, REACH, PLACE, QUATERNION, VELOCITY, VELOCITY
+        AIR_SPEED, Input::Word, DIRECTION, QUATERNION, KIND, CLASS, REACH, PLACE, QUATERNION, VELOCITY, VELOCITY
     ) tolerance Some(1e-5);
     wgsl "let h = leaf_hang(in_float(0u), in_word(1u), in_petiole(2u), in_body(12u));
         out_vec3(0u, h.position); out_vec4(3u, h.attitude); out_vec3(7u, h.velocity);";
@@ -62,16 +63,16 @@ functions! {
 
     // Around the step at which the test world stands.
     leaf_hangs in "leaf/carry" (Input::Word, Input::Below(200), Input::Word) tolerance None;
-    wgsl "r.x = u32(leaf_hangs(a.x, a.y)); r.y = leaf_next_look(a.z);";
-    rust |cx, w| integers([u32::from(leaf_hangs(cx, w[0], w[1])), leaf_next_look(cx, w[2])]);
+    wgsl "r.x = u32(leaf_hangs(a.x, a.y)); r.y = leaf_next_sample(a.z);";
+    rust |cx, w| integers([u32::from(leaf_hangs(cx, w[0], w[1])), leaf_next_sample(cx, w[2])]);
 
-    leaf_look in "leaf/carry" (
-        HABIT, Input::Word, DIRECTION, QUATERNION, KIND, CLASS, REACH, PLACE, QUATERNION, VELOCITY, VELOCITY
+    leaf_sample_air in "leaf/carry" (
+        AIR_SPEED, Input::Word, DIRECTION, QUATERNION, KIND, CLASS, REACH, PLACE, QUATERNION, VELOCITY, VELOCITY
     ) tolerance Some(1e-5);
-    wgsl "let look = leaf_look(in_float(0u), in_word(1u), in_petiole(2u), in_body(12u));
-        out_float(0u, look.habit); out_float(1u, f32(look.breaks));";
+    wgsl "let sample = leaf_sample_air(in_float(0u), in_word(1u), in_petiole(2u), in_body(12u));
+        out_float(0u, sample.air_speed); out_float(1u, f32(sample.breaks));";
     rust |cx, w| {
-        let (habit, breaks) = leaf_look(cx, float(w[0]), w[1], &stalk(w, 2), &body(w, 12));
-        Results::new().floats(&[habit, f32::from(u8::from(breaks))]).0
+        let (air_speed, breaks) = leaf_sample_air(cx, float(w[0]), w[1], &stalk(w, 2), &body(w, 12));
+        Results::new().floats(&[air_speed, f32::from(u8::from(breaks))]).0
     };
 }

@@ -4,12 +4,12 @@
 
 use windfall_core::flight::body::{LeafBody, body_of};
 use windfall_core::flight::rates::{FlightMotion, flight_rates};
-use windfall_core::flight::regime::{regime_memory, regime_of};
-use windfall_core::flight::runge_kutta::{flight_cuts, flight_step};
+use windfall_core::flight::regime::{regime_after, regime_of};
+use windfall_core::flight::runge_kutta::{flight_step, substep_count};
 use windfall_core::kernel::Vec3;
-use windfall_core::leaf::fly::{Flight, flies, flight_advance, flight_load, flight_told};
-use windfall_core::leaf::launch::{hold_pose, quirks_of, random_pose};
-use windfall_core::leaf::record::{SIZE_ONE, SPECIES_SHIFT};
+use windfall_core::leaf::fly::{Flight, flight_advance, flight_load, update_regime};
+use windfall_core::leaf::launch::{hold_pose, random_asymmetry, random_pose};
+use windfall_core::leaf::record::{SIZE_ONE, SPECIES_SHIFT, flies};
 
 use super::{Function, Input, float, floats, functions, integers, quaternion, vector};
 use crate::runner::Words;
@@ -23,8 +23,8 @@ const POSE: Input = Input::Floats(4, -0.55, 0.55);
 const SPECIES: Input = Input::Below(2);
 const SIZE: Input = Input::Below(8192);
 
-fn body(cx: &windfall_core::Context<'_>, species: u32, size: u32, quirks: u32) -> LeafBody {
-    body_of(cx, (1 + species) << SPECIES_SHIFT, (SIZE_ONE - 4096 + size) | (quirks << 16))
+fn body(cx: &windfall_core::Context<'_>, species: u32, size: u32, asymmetry: u32) -> LeafBody {
+    body_of(cx, (1 + species) << SPECIES_SHIFT, (SIZE_ONE - 4096 + size) | (asymmetry << 16))
 }
 
 fn motion(words: &Words, at: usize) -> FlightMotion {
@@ -35,7 +35,7 @@ fn motion(words: &Words, at: usize) -> FlightMotion {
     }
 }
 
-fn told(motion: &FlightMotion) -> [f32; 10] {
+fn components(motion: &FlightMotion) -> [f32; 10] {
     let mut all = [0.0; 10];
     all[..3].copy_from_slice(&motion.velocity.to_array());
     all[3..7].copy_from_slice(&motion.pose.to_array());
@@ -77,7 +77,7 @@ functions! {
         out_vec3(0u, rates.velocity); out_vec4(3u, rates.pose); out_vec3(7u, rates.turning);";
     rust |cx, w| {
         let rates = flight_rates(&body(cx, w[0], w[1], w[2]), &motion(w, 3), vector(w, 13));
-        floats(told(&rates))
+        floats(components(&rates))
     };
 
     flight_step in "flight/runge_kutta" (
@@ -91,14 +91,17 @@ functions! {
     rust |cx, w| {
         let (way, end) = flight_step(&body(cx, w[0], w[1], w[2]), &motion(w, 3), vector(w, 13), float(w[16]));
         let mut all = [0.0; 13];
-        all[..10].copy_from_slice(&told(&end));
+        all[..10].copy_from_slice(&components(&end));
         all[10..].copy_from_slice(&way.to_array());
         floats(all)
     };
 
-    flight_cuts in "flight/runge_kutta" (Input::Scale(-2.0, 3.0)) tolerance Some(0.0);
-    wgsl "r = vec4<u32>(bitcast<vec2<u32>>(flight_cuts(bitcast<f32>(a.x))), 0u, 0u);";
-    rust |_cx, w| floats(flight_cuts(float(w[0])));
+    substep_count in "flight/runge_kutta" (Input::Scale(-2.0, 3.0)) tolerance Some(0.0);
+    wgsl "let n = substep_count(bitcast<f32>(a.x)); r.x = bitcast<u32>(n.count); r.y = bitcast<u32>(n.share);";
+    rust |_cx, w| {
+        let substeps = substep_count(float(w[0]));
+        floats([substeps.count, substeps.share])
+    };
 
     flight_load in "leaf/fly" (SPECIES, FLOW, SPIN) tolerance Some(1e-6);
     wgsl "r.x = bitcast<u32>(flight_load((1u + a.x) << SPECIES_SHIFT, in_vec3(1u), in_vec3(4u)));
@@ -127,17 +130,18 @@ functions! {
         floats(all)
     };
 
-    regime_memory in "flight/regime" (ANY, FLOW, SPIN, FLOW, Input::Below(9), Input::Below(64)) tolerance None;
-    wgsl "r.x = regime_memory(a.x, in_vec3(1u), in_vec3(4u), in_vec3(7u), in_word(10u), in_word(11u));
+    regime_after in "flight/regime" (ANY, FLOW, SPIN, FLOW, Input::Below(9), Input::Below(64)) tolerance None;
+    wgsl "r.x = regime_after(a.x, in_vec3(1u), in_vec3(4u), in_vec3(7u), in_word(10u), in_word(11u));
         r.y = regime_of(a.x);";
     rust |_cx, w| integers([
-        regime_memory(w[0], vector(w, 1), vector(w, 4), vector(w, 7), w[10], w[11]),
+        regime_after(w[0], vector(w, 1), vector(w, 4), vector(w, 7), w[10], w[11]),
         regime_of(w[0]),
     ]);
 
-    flight_told in "leaf/fly" (SPECIES, ANY, FLOW, POSE, SPIN, FLOW) tolerance None;
-    wgsl "r = vec4<u32>(flight_told(Flight(vec3<f32>(), in_vec3(2u), in_vec4(5u), in_vec3(9u)), in_vec3(12u), a.y,
-        (1u + a.x) << SPECIES_SHIFT), 0u, 0u);";
+    update_regime in "leaf/fly" (SPECIES, ANY, FLOW, POSE, SPIN, FLOW) tolerance None;
+    wgsl "let flight = Flight(vec3<f32>(), in_vec3(2u), in_vec4(5u), in_vec3(9u));
+        let regime = update_regime(flight, in_vec3(12u), a.y, (1u + a.x) << SPECIES_SHIFT);
+        r.x = regime.state; r.y = regime.bits;";
     rust |cx, w| {
         let flight = Flight {
             position: Vec3::ZERO,
@@ -145,7 +149,8 @@ functions! {
             pose: quaternion(w, 5),
             spin: vector(w, 9),
         };
-        integers(flight_told(cx, &flight, vector(w, 12), w[1], (1 + w[0]) << SPECIES_SHIFT))
+        let regime = update_regime(cx, &flight, vector(w, 12), w[1], (1 + w[0]) << SPECIES_SHIFT);
+        integers([regime.state, regime.bits])
     };
 
     hold_pose in "leaf/launch" (SPECIES, ANY) tolerance Some(1e-6);
@@ -155,7 +160,7 @@ functions! {
         floats([held.x, held.y, held.z, held.w, any.x, any.y, any.z, any.w])
     };
 
-    quirks_of in "leaf/launch" (ANY) tolerance None;
-    wgsl "r.x = quirks_of(a.x);";
-    rust |cx, w| integers([quirks_of(cx, w[0])]);
+    random_asymmetry in "leaf/launch" (ANY) tolerance None;
+    wgsl "r.x = random_asymmetry(a.x);";
+    rust |cx, w| integers([random_asymmetry(cx, w[0])]);
 }

@@ -12,16 +12,24 @@ use windfall_core::kernel::quaternion::{
 };
 use windfall_core::kernel::rng::{below, mul_high, mul_q16, philox, triangular, unit_float};
 use windfall_core::kernel::vector::{vec3_cross, vec3_dot, vec3_length, vec3_lerp};
-use windfall_core::leaf::Course;
-use windfall_core::leaf::fall::{response_of, spin_advance};
+use windfall_core::leaf::fall::{glide_of, response_of, spin_advance};
 use windfall_core::leaf::join::part_of_step;
-use windfall_core::leaf::own::{own_advance, own_orientation, own_velocity, turn_to_heading};
-use windfall_core::leaf::record::SPECIES_SHIFT;
+use windfall_core::leaf::own::{
+    MotionParams, motion_params, own_advance, own_orientation, own_velocity, turn_to_heading,
+};
+use windfall_core::leaf::record::{
+    SPECIES_SHIFT, asymmetry, blend_steps_left, body_spin, body_spin_words, count_down_blend, drawn_size,
+    flies, ground_steps, heading_angle, heading_word, leaf_appearance, leaf_primitive, leaf_regime,
+    leaf_source, leaf_species, leaf_stage, leaf_state, leaf_tint, leaf_variant, motion_table, own_size,
+    place_bits, regime_state, size_ratio, smoothed_air_speed, spin_angle, spin_rate, turn_spin, twig_sizes,
+    with_asymmetry, with_blend, with_primitive, with_regime, with_stage, with_state,
+};
 use windfall_core::leaf::release::{
     next_event, release_fall_time, release_place, release_rate, release_ratio, release_size_speed,
     release_species,
 };
 use windfall_core::leaf::settle::{flatten, flatten_on, slide};
+use windfall_core::leaf::{Drift, Place, Schedule};
 use windfall_core::motion::feature::{stage_end, stage_words, transition_next};
 use windfall_core::motion::lookup::{motion_displacement, motion_period, motion_state, motion_velocity};
 use windfall_core::terrain::ground::{ground_met, ground_relief, ground_rest, ground_slope};
@@ -49,6 +57,58 @@ const SOURCE: Input = Input::Below(3);
 
 functions! {
     LEAF_FUNCTIONS;
+
+    place_bits in "leaf/record" (
+        Input::Below(4), Input::Below(64), Input::Below(8), Input::Below(32), ANY
+    ) tolerance None;
+    wgsl "let bits = place_bits(a.x, a.y, a.z, a.w, b.x);
+        let other = with_primitive(with_state(with_blend(bits, b.x & 63u), b.x & 3u), b.x & 7u);
+        r = vec4<u32>(bits, other, leaf_state(bits), blend_steps_left(bits));
+        s = vec4<u32>(leaf_primitive(bits), motion_table(bits), leaf_species(bits), spin_angle(bits));
+        answer[2] = vec4<u32>(leaf_regime(bits), with_regime(bits, b.x & 7u), turn_spin(bits, b.x), u32(flies(bits)));
+        answer[3].x = count_down_blend(bits, a.y != 0u);";
+    rust |_cx, w| {
+        let bits = place_bits(w[0], w[1], w[2], w[3], w[4]);
+        let other = with_primitive(with_state(with_blend(bits, w[4] & 63), w[4] & 3), w[4] & 7);
+        integers([
+            bits, other, leaf_state(bits), blend_steps_left(bits),
+            leaf_primitive(bits), motion_table(bits), leaf_species(bits), spin_angle(bits),
+            leaf_regime(bits), with_regime(bits, w[4] & 7), turn_spin(bits, w[4]), u32::from(flies(bits)),
+            count_down_blend(bits, w[1] != 0),
+        ])
+    };
+
+    leaf_appearance in "leaf/record" (ANY, ANY, Input::Below(32), Input::Below(8)) tolerance None;
+    wgsl "let look = with_stage(leaf_appearance(a.x, a.y, a.z), a.w);
+        r = vec4<u32>(look, leaf_tint(look), leaf_variant(look), leaf_source(look)); s.x = leaf_stage(look);";
+    rust |_cx, w| {
+        let look = with_stage(leaf_appearance(w[0], w[1], w[2]), w[3]);
+        integers([look, leaf_tint(look), leaf_variant(look), leaf_source(look), leaf_stage(look)])
+    };
+
+    twig_sizes in "leaf/record" (Input::Below(65536), Input::Below(65536), ANY, ANY) tolerance None;
+    wgsl "let size = twig_sizes(a.x, a.y); let heading = heading_word(a.z, a.w);
+        r = vec4<u32>(size, own_size(size), drawn_size(size), with_asymmetry(size, a.x));
+        s = vec4<u32>(heading, heading_angle(heading), spin_rate(heading), ground_steps(a.z) ^ regime_state(a.w));";
+    rust |_cx, w| {
+        let (size, heading) = (twig_sizes(w[0], w[1]), heading_word(w[2], w[3]));
+        integers([
+            size, own_size(size), drawn_size(size), with_asymmetry(size, w[0]),
+            heading, heading_angle(heading), spin_rate(heading), ground_steps(w[2]) ^ regime_state(w[3]),
+        ])
+    };
+
+    body_spin in "leaf/record" (SPEED, SPEED, SPEED, SPEED, ANY) tolerance Some(1e-6);
+    wgsl "r = vec4<u32>(body_spin_words(body_spin(a.x, a.y, a.z)), smoothed_air_speed_word(smoothed_air_speed(a.w)));
+        s = bitcast<vec4<u32>>(vec4<f32>(asymmetry(b.x, 0u), asymmetry(b.x, 1u), asymmetry(b.x, 3u), size_ratio(b.x)));";
+    rust |_cx, w| {
+        let [x, y, z] = body_spin_words(body_spin(w[0], w[1], w[2])).map(f32::from_bits);
+        let size = w[4];
+        floats([
+            x, y, z, smoothed_air_speed(w[3]),
+            asymmetry(size, 0), asymmetry(size, 1), asymmetry(size, 3), size_ratio(size),
+        ])
+    };
 
     mul_high in "kernel/rng" (ANY, ANY) tolerance None;
     wgsl "r.x = mul_high(a.x, a.y);";
@@ -184,12 +244,14 @@ functions! {
 
     release_size_speed in "leaf/release" (SPECIES, ANY, ANY, Input::Below(6), Input::Below(8_000_000)) tolerance None;
     wgsl "let z = release_size_speed(a.x, a); let q = release_ratio(z);
-        r = vec4<u32>(z, q, release_rate(a.x, a.w, q)); s.x = release_fall_time(a.x, i32(b.x), z.y);";
+        r = vec4<u32>(z.size, z.speed, q, release_rate(a.x, a.w, q));
+        s.x = release_fall_time(a.x, i32(b.x), z.speed);";
     rust |cx, w| {
         let species = &cx.environment.species[w[0] as usize];
         let z = release_size_speed(species, [w[0], w[1], w[2], w[3]]);
         let q = release_ratio(z);
-        integers([z[0], z[1], q, release_rate(species, w[3], q), release_fall_time(species, w[4] as i32, z[1])])
+        let fall_time = release_fall_time(species, w[4] as i32, z.speed);
+        integers([z.size, z.speed, q, release_rate(species, w[3], q), fall_time])
     };
 
     next_event in "leaf/release" (ANY, Input::Below(1_000_000), Input::Below(60_000_000), Input::Below(5), SOURCE) tolerance None;
@@ -198,19 +260,19 @@ functions! {
 
     own_velocity in "leaf/own" (TABLE, ANY, Input::Below(100_000_000), Input::Below(30_000), ANY) tolerance Some(2e-6);
     wgsl "r = vec4<u32>(bitcast<vec3<u32>>(
-        own_velocity(a.x << TABLE_SHIFT, a.y, vec4<u32>(0u, a.z, a.w, b.x))), 0u);";
+        own_velocity(a.x << TABLE_SHIFT, a.y, motion_params(Schedule(0u, a.z, a.w, b.x)))), 0u);";
     rust |cx, w| {
-        let course = Course { event: 0, rate: w[2], size: w[3], heading: w[4] };
-        floats(own_velocity(cx, w[0] << 8, w[1], course.into()).to_array())
+        let schedule = Schedule { event: 0, rate: w[2], size: w[3], heading: w[4] };
+        floats(own_velocity(cx, w[0] << 8, w[1], motion_params(schedule)).to_array())
     };
 
     // A rounding that falls the other way is a grid unit of 4e-6 m; the one keeps it small against the whole case.
     own_advance in "leaf/own" (TABLE, ANY, ANY, Input::Below(30_000), ANY) tolerance Some(1.6e-5);
     wgsl "r = vec4<u32>(bitcast<vec3<u32>>(
-        own_advance(a.x << TABLE_SHIFT, vec4<u32>(0u, 0u, a.w, b.x), a.y, a.z)), bitcast<u32>(1f));";
+        own_advance(a.x << TABLE_SHIFT, MotionParams(0u, a.w, b.x), a.y, a.z)), bitcast<u32>(1f));";
     rust |cx, w| {
-        let course = Course { event: 0, rate: 0, size: w[3], heading: w[4] };
-        let d = own_advance(cx, w[0] << 8, course.into(), w[1], w[2]);
+        let params = MotionParams { rate: 0, size: w[3], heading: w[4] };
+        let d = own_advance(cx, w[0] << 8, params, w[1], w[2]);
         floats([d.x, d.y, d.z, 1.0])
     };
 
@@ -221,6 +283,16 @@ functions! {
         let q = own_orientation(cx, (w[0] << 8) | (w[3] << 16), w[1], w[2]);
         let v = turn_to_heading(Vec3::new(1.0, 2.0, 3.0), w[3] >> 16);
         floats([q.x, q.y, q.z, q.w, v.x, v.y, v.z])
+    };
+
+    glide_of in "leaf/fall" (SPEED, SPEED, SPEED, SPEED, SPEED, SPEED, Input::Below(1 << 30)) tolerance Some(0.0);
+    wgsl "let glide = glide_of(Place(in_vec3(0u), 0u), Drift(in_vec3(3u), in_word(6u)));
+        out_vec3(0u, glide.position); out_vec3(3u, glide.drift); out_float(6u, f32(glide.phase));";
+    rust |_cx, w| {
+        let place = Place { position: vector(w, 0).to_array(), bits: 0 };
+        let glide = glide_of(&place, &Drift { velocity: vector(w, 3).to_array(), phase: w[6] });
+        let (p, d) = (glide.position, glide.drift);
+        floats([p.x, p.y, p.z, d.x, d.y, d.z, glide.phase as f32])
     };
 
     spin_advance in "leaf/fall" (ANY, ANY, Input::Below(65536)) tolerance None;
@@ -271,10 +343,10 @@ functions! {
 
     ground_slope in "terrain/ground" (METRES, METRES) tolerance Some(1e-5);
     wgsl "let g = ground_slope(bitcast<f32>(a.x), bitcast<f32>(a.y));
-        r = bitcast<vec4<u32>>(vec4<f32>(g.x, g.z, g.gain, g.ease));";
+        r = bitcast<vec4<u32>>(vec4<f32>(g.x, g.z, g.gain, g.inv_gain));";
     rust |cx, w| {
         let slope = ground_slope(cx, float(w[0]), float(w[1]));
-        floats([slope.x, slope.z, slope.gain, slope.ease])
+        floats([slope.x, slope.z, slope.gain, slope.inv_gain])
     };
 
     wind_profile in "wind/profile" (Input::Float(-5.0, 90.0)) tolerance Some(1e-6);

@@ -50,13 +50,13 @@ fn off_after(cycle: &Cycle, [before, after]: &[World; 2]) -> (usize, usize) {
             let (one, other) = (first + place, first + (place + each) % count);
             let bits = |world: &World, slot: usize| {
                 let leaves = &world.leaves;
-                let course = leaves.course[slot];
+                let schedule = leaves.schedule[slot];
                 (
                     leaves.place[slot],
                     leaves.drift[slot],
                     leaves.attitude[slot],
-                    (course.rate, course.size, course.heading),
-                    (leaves.identity[slot].id, leaves.identity[slot].look),
+                    (schedule.rate, schedule.size, schedule.heading),
+                    (leaves.identity[slot].id, leaves.identity[slot].appearance),
                 )
             };
             falling +=

@@ -83,7 +83,9 @@ pub(crate) fn position(world: &World, slot: usize) -> DVec3 {
 
 /// Velocity of a leaf.
 pub(crate) fn velocity(world: &World, slot: usize) -> DVec3 {
-    Vec3::from_array(world.velocity(slot).to_array()).as_dvec3()
+    let step = world.step_block();
+    let leaf = world.leaves.view(&world.context(&step), slot);
+    Vec3::from_array(leaf.velocity.to_array()).as_dvec3()
 }
 
 /// Orientation of a leaf.

@@ -12,8 +12,8 @@ use crate::common::{csv, field, number, still_scene, velocity};
 use glam::DVec3;
 use windfall_core::flight::regime::REGIME_TUMBLE;
 use windfall_core::kernel::{Quat, Vec3};
-use windfall_core::leaf::fly::{Flight, flies, flight_advance, flight_of};
-use windfall_core::leaf::record::{REGIME_MASK, REGIME_SHIFT, SIZE_ONE};
+use windfall_core::leaf::fly::{Flight, flight_advance, flight_of};
+use windfall_core::leaf::record::{SIZE_ONE, flies, leaf_regime, with_asymmetry};
 use windfall_core::motion::AIR_DENSITY;
 use windfall_core::scene::{Aerodynamics, FlightModel, Hold, Planform, Species};
 use windfall_core::{Simulator, World};
@@ -64,7 +64,7 @@ fn drops(size_m: f32, areal_density_kg_m2: f32, hold: Hold, planform: Planform) 
             drop.from.get_or_insert((step, at));
             drop.last = (step, at);
             drop.steps += 1;
-            drop.tumbling += u32::from((place.bits >> REGIME_SHIFT) & REGIME_MASK == REGIME_TUMBLE);
+            drop.tumbling += u32::from(leaf_regime(place.bits) == REGIME_TUMBLE);
             // Turning about axes in the disc.
             let spin = flight_of(&world.leaves.as_mut().row_mut(slot)).spin;
             drop.turned += f64::from(spin.x).hypot(f64::from(spin.z));
@@ -209,7 +209,7 @@ fn tumbling_begins_at_the_measured_moment_of_inertia() {
     assert!((0.038..=0.042).contains(&boundary), "tumbling begins at {boundary}");
 }
 
-/// Spin about x after every step of 40 s of a disc let go at this tilt about x, without any quirk.
+/// Spin about x after every step of 40 s of a disc let go at this tilt about x, without any asymmetry.
 fn planar(size_m: f32, tilt: f32) -> Vec<f32> {
     let body =
         Aerodynamics { planform: Some(Planform::default()), irregularity: 0.0, ..Aerodynamics::default() };
@@ -255,7 +255,7 @@ fn no_gust_blows_a_body_up() {
                         let phase = index as f32 * dt_s;
                         let on = |period: f32| if (phase / period) as u32 % 2 == 1 { gust } else { 0.0 };
                         let wind = Vec3::new(on(0.31), 0.5 * on(0.47) - 0.25 * gust, -on(0.83));
-                        flight = flight_advance(&cx, flight, 0u32, SIZE_ONE | (0x39c6 << 16), wind);
+                        flight = flight_advance(&cx, flight, 0u32, with_asymmetry(SIZE_ONE, 0x39c6), wind);
                         fastest = fastest.max(windfall_core::kernel::vector::vec3_length(flight.velocity));
                         let spin = windfall_core::kernel::vector::vec3_length(flight.spin);
                         assert!(spin < 60.0 + 4.0 * gust / size, "{body:?} {size} {gust}: {spin} rad/s");

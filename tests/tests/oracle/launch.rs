@@ -5,12 +5,14 @@
 use crate::common::{attitude, position, still_scene};
 use glam::DVec3;
 use windfall_core::flight::regime::{
-    REGIME_CHAOTIC, REGIME_FLUTTER, REGIME_STEADY, REGIME_TUMBLE, regime_memory, regime_of,
+    REGIME_CHAOTIC, REGIME_FLUTTER, REGIME_STEADY, REGIME_TUMBLE, regime_after, regime_of,
 };
 use windfall_core::kernel::Vec3;
 use windfall_core::leaf::LeafState;
-use windfall_core::leaf::fly::{flies, flight_of};
-use windfall_core::leaf::record::{HALF_MASK, SIZE_ONE, SPECIES_SHIFT, STATE_ATTACHED};
+use windfall_core::leaf::fly::flight_of;
+use windfall_core::leaf::record::{
+    SIZE_ONE, STATE_ATTACHED, body_spin_words, drawn_size, flies, place_bits, twig_sizes,
+};
 use windfall_core::leaf::release::leaf_detach;
 use windfall_core::scene::{Aerodynamics, FlightModel, Hold, Release, Species};
 use windfall_core::{Scene, Simulator, World};
@@ -66,12 +68,11 @@ fn a_leaf_takes_its_twigs_motion_along() {
     let mut leaves = world.leaves.clone();
     let mut all = leaves.as_mut();
     let mut leaf = all.row_mut(0);
-    leaf.place.bits = STATE_ATTACHED | (0 << SPECIES_SHIFT);
+    leaf.place.bits = place_bits(STATE_ATTACHED, 0, 0, 0, 0);
     leaf.drift.velocity = [0.3, -0.4, 1.7];
-    leaf.drift.phase = 2.5f32.to_bits();
-    leaf.course.rate = (-1.25f32).to_bits();
-    leaf.course.heading = 0.75f32.to_bits();
-    leaf.course.size = (SIZE_ONE << 16) | 40_000;
+    let spin = Vec3::new(2.5, -1.25, 0.75);
+    [leaf.drift.phase, leaf.schedule.rate, leaf.schedule.heading] = body_spin_words(spin);
+    leaf.schedule.size = twig_sizes(SIZE_ONE, 40_000);
     let before = flight_of(&leaf);
     leaf_detach(&cx, &mut leaf, 77);
     let after = flight_of(&leaf);
@@ -79,8 +80,8 @@ fn a_leaf_takes_its_twigs_motion_along() {
     assert_eq!(after.position, before.position, "place");
     assert_eq!(after.velocity, before.velocity, "velocity");
     assert_eq!(after.pose, before.pose, "attitude");
-    assert_eq!(after.spin, Vec3::new(2.5, -1.25, 0.75), "spin");
-    assert_eq!(leaf.course.size & HALF_MASK, SIZE_ONE, "its own size, not that of its cluster");
+    assert_eq!(after.spin, spin, "spin");
+    assert_eq!(drawn_size(leaf.schedule.size), SIZE_ONE, "its own size, not that of its cluster");
 }
 
 /// Bodies let go before time zero are then where flying there would have brought them: as many down, and those in the air
@@ -117,7 +118,7 @@ fn regimes_are_told_from_motion() {
             let [flow, spin, path] =
                 motion(f64::from(step) / 60.0).map(|v| Vec3::from(v.as_vec3().to_array()));
             let now = step * 16 / 60;
-            memory = regime_memory(memory, flow, spin, path, now - ticks, 15);
+            memory = regime_after(memory, flow, spin, path, now - ticks, 15);
             ticks = now;
         }
         regime_of(memory)

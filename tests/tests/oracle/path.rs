@@ -5,7 +5,7 @@
 use crate::common::{attitude, build, many_species, position, step, still_air, uniform, vector, velocity};
 use glam::Vec3;
 use windfall_core::World;
-use windfall_core::leaf::record::{SPECIES_MASK, SPECIES_SHIFT, STAGE_MASK, STAGE_SHIFT};
+use windfall_core::leaf::record::{leaf_species, leaf_stage};
 use windfall_core::leaf::release::leaf_release;
 use windfall_core::leaf::seek::leaf_seek;
 use windfall_core::leaf::{LeafState, Leaves};
@@ -36,7 +36,7 @@ fn varied_scene(seed: u64, dt_s: f32) -> Scene {
 }
 
 fn stage(world: &World, slot: usize) -> u32 {
-    (world.leaves.identity[slot].look >> STAGE_SHIFT) & STAGE_MASK
+    leaf_stage(world.leaves.identity[slot].appearance)
 }
 
 fn falling(world: &World, slot: usize) -> bool {
@@ -61,7 +61,7 @@ fn the_path_does_not_depend_on_the_step() {
                 if !falling(&coarse, slot) || !falling(&fine, slot) {
                     continue;
                 }
-                let number = (coarse.leaves.place[slot].bits >> SPECIES_SHIFT) & SPECIES_MASK;
+                let number = leaf_species(coarse.leaves.place[slot].bits);
                 species[number as usize] = true;
                 let error = (position(&coarse, slot) - position(&fine, slot)).length();
                 worst = worst.max(error);
@@ -122,10 +122,10 @@ fn stepping_equals_seeking() {
                     "leaf {slot} after {elapsed} steps of {dt_s} s: seek is {error:.2e} m off"
                 );
                 // A join that falls on this very moment may be done by the one and not by the other.
-                if world.leaves.course[slot].event != elapsed {
+                if world.leaves.schedule[slot].event != elapsed {
                     assert_eq!(
-                        (world.leaves.course[slot], world.leaves.identity[slot]),
-                        (sought.course[slot], sought.identity[slot]),
+                        (world.leaves.schedule[slot], world.leaves.identity[slot]),
+                        (sought.schedule[slot], sought.identity[slot]),
                         "leaf {slot} after {elapsed} steps is up to something else"
                     );
                     let drift = (vector(world.leaves.drift[slot].velocity)
@@ -203,7 +203,7 @@ fn joins_jump_neither_in_position_nor_in_velocity() {
             if !flew || !falling(&world, slot) {
                 continue;
             }
-            let number = (world.leaves.place[slot].bits >> SPECIES_SHIFT) & SPECIES_MASK;
+            let number = leaf_species(world.leaves.place[slot].bits);
             let (top_speed, top_acceleration) = bounds[number as usize];
             let way = (position(&world, slot) - place).length();
             let change = (velocity(&world, slot) - speed).length();

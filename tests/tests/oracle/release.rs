@@ -6,7 +6,7 @@ use crate::common::{build, many_species, position, single_motion, step, still_sc
 use glam::{DVec3, Vec3};
 use windfall_core::World;
 use windfall_core::leaf::LeafState;
-use windfall_core::leaf::record::{HALF_MASK, SPECIES_MASK, SPECIES_SHIFT};
+use windfall_core::leaf::record::{leaf_species, size_ratio};
 use windfall_core::motion::Primitive;
 use windfall_core::scene::{Release, Scene, Share, SourceShape, Species};
 
@@ -135,7 +135,7 @@ fn bursts_and_rates_keep_their_times() {
 }
 
 fn species_of(world: &World, slot: usize) -> usize {
-    ((world.leaves.place[slot].bits >> SPECIES_SHIFT) & SPECIES_MASK) as usize
+    leaf_species(world.leaves.place[slot].bits) as usize
 }
 
 #[test]
@@ -177,16 +177,16 @@ fn sizes_and_speeds_spread_as_the_species_says() {
     };
     let world = build(&still_scene(species, COUNT, 5.0));
     let nominal = f64::from(
-        build(&still_scene(single_motion(Primitive::PeriodicSpiraling), 1, 5.0)).leaves.course[0].rate,
+        build(&still_scene(single_motion(Primitive::PeriodicSpiraling), 1, 5.0)).leaves.schedule[0].rate,
     );
     let sizes: Vec<_> =
-        world.leaves.course.iter().map(|course| f64::from(course.size & HALF_MASK) / 16384.0).collect();
+        world.leaves.schedule.iter().map(|schedule| f64::from(size_ratio(schedule.size))).collect();
     let speeds: Vec<_> = world
         .leaves
-        .course
+        .schedule
         .iter()
         .zip(&sizes)
-        .map(|(course, size)| f64::from(course.rate) / nominal * size)
+        .map(|(schedule, size)| f64::from(schedule.rate) / nominal * size)
         .collect();
     for (name, values, half_width) in [("size", sizes, 0.3), ("speed", speeds, 0.2)] {
         let n = f64::from(COUNT);

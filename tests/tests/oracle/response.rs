@@ -8,7 +8,7 @@ use crate::common::{
     build, position, single_motion, steady_wind, step, still_scene, uniform_species, vector, velocity,
 };
 use glam::DVec3;
-use windfall_core::leaf::record::STAGE_SHIFT;
+use windfall_core::leaf::record::leaf_stage;
 use windfall_core::motion::{GRAVITY, MotionConstants, Primitive};
 use windfall_core::scene::{MeanSpeed, Scene};
 use windfall_core::{Environment, World};
@@ -21,7 +21,7 @@ fn a_released_leaf_starts_at_rest_and_falls_like_a_stone_at_first() {
     species.motion.wander_m_s = Some(0.0);
     let constants = MotionConstants::of(species);
     let mut world = build(&scene);
-    let first_stage = |world: &World, slot: usize| world.leaves.identity[slot].look >> STAGE_SHIFT == 0;
+    let first_stage = |world: &World, slot: usize| leaf_stage(world.leaves.identity[slot].appearance) == 0;
     for slot in 0..200 {
         assert_eq!(velocity(&world, slot), DVec3::ZERO, "leaf {slot} is let go at rest");
         assert_eq!(position(&world, slot), DVec3::new(0.0, 10.0, 0.0), "leaf {slot} is let go at its place");
@@ -135,7 +135,7 @@ fn fall_speed_and_rotation_speed_scale_what_they_say() {
             step(&mut world, steps);
             let time = 0.01 * f64::from(steps);
             let expected = (time * turn / period).rem_euclid(1.0);
-            let unbroken = |slot: &usize| world.leaves.identity[*slot].look >> STAGE_SHIFT == 0;
+            let unbroken = |slot: &usize| leaf_stage(world.leaves.identity[*slot].appearance) == 0;
             let slots: Vec<_> = (0..40).filter(unbroken).collect();
             assert!(slots.len() > 20, "{} of 40 leaves are in their first stage", slots.len());
             for slot in slots {

@@ -12,7 +12,7 @@ use windfall_core::World;
 use windfall_core::leaf::carry::{petiole_of, shed_chance};
 use windfall_core::leaf::fall::response_of;
 use windfall_core::leaf::petiole::{PETIOLE_CLASS_MASK, PETIOLE_CLASS_SHIFT, SHED_INTERVAL};
-use windfall_core::leaf::record::SIZE_ONE;
+use windfall_core::leaf::record::size_ratio;
 use windfall_core::leaf::{LEAF_BYTES, LeafState, Petiole};
 use windfall_core::scene::{Gusts, MeanSpeed, Profile, Scene, Tree, Turbulence};
 use windfall_core::tree::record::NO_SEGMENT;
@@ -309,9 +309,9 @@ fn drawn_leaves_cover_what_the_leaf_area_index_says() {
         let area = std::f32::consts::PI / 4.0 * scene.species[0].size_m * scene.species[0].size_m;
         let drawn: f64 = world
             .leaves
-            .course
+            .schedule
             .iter()
-            .map(|course| f64::from(course.size & 0xffff) / f64::from(SIZE_ONE))
+            .map(|schedule| f64::from(size_ratio(schedule.size)))
             .map(|size| size * size * f64::from(area))
             .sum();
         let full = f64::from(foliage.leaf_area_index) * tree.facts.crown_m2;

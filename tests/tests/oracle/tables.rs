@@ -8,7 +8,7 @@ use crate::common::{
     attitude, build, quaternion, single_motion, step, still_scene, uniform, uniform_species, vector,
 };
 use glam::{DQuat, DVec3};
-use windfall_core::leaf::record::{STAGE_MASK, STAGE_SHIFT};
+use windfall_core::leaf::record::leaf_stage;
 use windfall_core::motion::lookup::{motion_displacement, motion_state};
 use windfall_core::motion::{
     GRAVITY, MotionConstants, MotionTables, Path, PeriodicFluttering, PeriodicSpiraling, PeriodicTumbling,
@@ -224,7 +224,7 @@ fn a_tumbling_leaf_turns_at_its_rate() {
             }
         }
         let expected = rate * f64::from(rotation_speed) * f64::from(steps) * f64::from(scene.dt_s);
-        let unbroken = |slot: &usize| (world.leaves.identity[*slot].look >> STAGE_SHIFT) & STAGE_MASK == 0;
+        let unbroken = |slot: &usize| leaf_stage(world.leaves.identity[*slot].appearance) == 0;
         let slots: Vec<_> = (0..20).filter(unbroken).collect();
         assert!(slots.len() >= 12, "{} of 20 leaves are still in their first stage", slots.len());
         for slot in slots {

@@ -106,7 +106,7 @@ fn slides_obey_the_inclined_plane() {
     let friction = f64::from(world.environment.scene().ground.friction);
     for rise in [-0.4f32, -0.2, 0.0, 0.3, 1.0, 3.0] {
         let gain = 1.0 + rise * rise;
-        let slope = Slope { x: rise, z: 0.0, gain, ease: 1.0 / gain };
+        let slope = Slope { x: rise, z: 0.0, gain, inv_gain: 1.0 / gain };
         let mut velocity = Vec3::new(2.0, 0.0, 0.0);
         let (mut way, mut seconds) = (0.0, 0.0);
         while velocity.x > 0.0 && seconds < 60.0 {
@@ -119,7 +119,7 @@ fn slides_obey_the_inclined_plane() {
         let expected = 4.0 * (1.0 + rise * rise) / (2.0 * GRAVITY * (friction + rise));
         assert!((way / expected - 1.0).abs() < 0.01, "rise {rise}: {way} m, not {expected} m");
     }
-    let steep = Slope { x: -1.0, z: 0.0, gain: 2.0, ease: 0.5 };
+    let steep = Slope { x: -1.0, z: 0.0, gain: 2.0, inv_gain: 0.5 };
     let mut velocity = Vec3::new(0.1, 0.0, 0.0);
     for _ in 0..1000 {
         velocity = slide(&cx, velocity, 0.001, steep).1;

@@ -55,7 +55,7 @@ struct Draw {
 
 @group(1) @binding(0) var<storage, read> places: array<vec4<u32>>;
 @group(1) @binding(1) var<storage, read> attitudes: array<vec4<f32>>;
-@group(1) @binding(2) var<storage, read> courses: array<vec4<u32>>;
+@group(1) @binding(2) var<storage, read> schedules: array<vec4<u32>>;
 @group(1) @binding(3) var<storage, read> identities: array<vec4<u32>>;
 
 // Edge of a picture in diameters of the disc with the leaf's area, roughly.
@@ -111,7 +111,7 @@ fn sight_of(index: u32) -> Sight {
     let state = place.w & STATE_MASK;
     out.stem = stem_of(page.first + index);
     let cluster = stems[out.stem].tint_cluster.w;
-    let word = courses[index].z;
+    let word = schedules[index].z;
     let relative = f32(word & HALF_MASK) * SIZE_UNIT;
     // On its twig a leaf may stand for several: the high half is then its own size. Of those, one falls.
     let stated = f32(word >> 16u) * SIZE_UNIT;

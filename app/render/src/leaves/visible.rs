@@ -90,7 +90,7 @@ impl LeafCrowd {
         let leaf_count = columns.leaf_count;
         for page in &self.pages {
             let identity = marks.unwrap_or(columns.identity);
-            let columns = [columns.place, columns.attitude, columns.course, identity];
+            let columns = [columns.place, columns.attitude, columns.schedule, identity];
             match page.windows(columns, leaf_count) {
                 None => encoder.clear_buffer(&page.draws, 0, None),
                 Some(windows) => cull.run(device, encoder, page, windows, stems, view),

@@ -18,7 +18,7 @@ const MAX_LITTER: u32 = 100_000;
 pub(crate) struct Litter {
     place: wgpu::Buffer,
     attitude: wgpu::Buffer,
-    course: wgpu::Buffer,
+    schedule: wgpu::Buffer,
     identity: wgpu::Buffer,
     count: u32,
 }
@@ -41,7 +41,7 @@ impl Litter {
         (count > 0).then(|| Self {
             place: column(bytemuck::cast_slice(&columns.place)),
             attitude: column(bytemuck::cast_slice(&columns.attitude)),
-            course: column(bytemuck::cast_slice(&columns.course)),
+            schedule: column(bytemuck::cast_slice(&columns.schedule)),
             identity: column(bytemuck::cast_slice(&columns.identity)),
             count,
         })
@@ -54,7 +54,7 @@ impl Litter {
             // Drawing reads no drift, so any column will do.
             drift: &self.place,
             attitude: &self.attitude,
-            course: &self.course,
+            schedule: &self.schedule,
             identity: &self.identity,
             leaf_count: self.count,
         }
@@ -65,7 +65,7 @@ impl Litter {
 pub(crate) struct LitterColumns {
     pub(crate) place: Vec<[u32; 4]>,
     pub(crate) attitude: Vec<[f32; 4]>,
-    pub(crate) course: Vec<[u32; 4]>,
+    pub(crate) schedule: Vec<[u32; 4]>,
     pub(crate) identity: Vec<[u32; 4]>,
 }
 
@@ -90,7 +90,7 @@ pub(crate) fn scatter(
 ) -> LitterColumns {
     let mut random = Random::new(7);
     let mut columns =
-        LitterColumns { place: Vec::new(), attitude: Vec::new(), course: Vec::new(), identity: Vec::new() };
+        LitterColumns { place: Vec::new(), attitude: Vec::new(), schedule: Vec::new(), identity: Vec::new() };
     let near: Vec<_> = trees.iter().filter(|tree| tree.foot_m.distance(center) < 55.0).collect();
     for index in 0..count {
         let under_tree = index % 5 < 2 && !near.is_empty();
@@ -113,7 +113,7 @@ pub(crate) fn scatter(
         let lean = Quat::from_rotation_arc(Vec3::Y, land.normal(at.x, at.z));
         columns.attitude.push((lean * turn * face).to_array());
         let size = 13_000 + random.word() % 6_000;
-        columns.course.push([0, 0, size, 0]);
+        columns.schedule.push([0, 0, size, 0]);
         columns.identity.push([0, 0, 0, random.word() & 0x00ff_ffff]);
     }
     columns

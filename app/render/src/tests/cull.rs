@@ -100,9 +100,9 @@ impl Field {
 
     /// Culls for a camera in a picture 1.6 times as wide as high.
     fn run(&self, camera: &Camera) {
-        let [place, attitude, course, identity] = &self.columns;
+        let [place, attitude, schedule, identity] = &self.columns;
         let leaf_count = self.leaf_count;
-        let columns = LeafColumns { place, drift: place, attitude, course, identity, leaf_count };
+        let columns = LeafColumns { place, drift: place, attitude, schedule, identity, leaf_count };
         let clip = camera.view_projection(1.6).to_cols_array_2d();
         let eye = camera.eye_m().extend(0.0).to_array();
         self.cull.write(&self.queue, View::Camera, &ViewUniform::perspective(clip, eye, PIXELS_PER_M));

@@ -118,12 +118,12 @@ impl Bench {
         let half = std::f32::consts::FRAC_1_SQRT_2;
         let place = column([(at.x + offset_m).to_bits(), at.y.to_bits(), (at.z + 6.0).to_bits(), state]);
         let attitude = column([half.to_bits(), 0, 0, half.to_bits()]);
-        let (course, identity) = (column([0, 0, size, 0]), column([0, 0, 0, 0x1_2345]));
+        let (schedule, identity) = (column([0, 0, size, 0]), column([0, 0, 0, 0x1_2345]));
         let leaves = LeafColumns {
             place: &place,
             drift: &place,
             attitude: &attitude,
-            course: &course,
+            schedule: &schedule,
             identity: &identity,
             leaf_count: 1,
         };

@@ -6,7 +6,7 @@ use glam::{DQuat, DVec3};
 use plotters::style::RGBColor;
 use serde::Serialize;
 use windfall_core::World;
-use windfall_core::leaf::record::{REGIME_MASK, REGIME_SHIFT};
+use windfall_core::leaf::record::leaf_regime;
 
 /// How a piece falls, as the simulation labels it from its latest turns.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -97,7 +97,7 @@ impl Sample {
     /// Of a slot whose leaf falls.
     pub(super) fn of(world: &World, slot: usize) -> Self {
         let place = &world.leaves.place[slot];
-        let number = ((place.bits >> REGIME_SHIFT) & REGIME_MASK) as usize;
+        let number = leaf_regime(place.bits) as usize;
         Self {
             time_s: world.clock.seconds(),
             position_m: DVec3::from(place.position.map(f64::from)),

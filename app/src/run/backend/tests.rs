@@ -52,7 +52,8 @@ fn both_backends_lend_the_same_columns() {
             backend.read_state(&mut now).expect("it tells");
             let columns = backend.columns(&gpu).expect("six leaves fit").leaves;
             assert_eq!(columns.leaf_count, 6, "all leaves");
-            let buffers = [columns.place, columns.drift, columns.attitude, columns.course, columns.identity];
+            let buffers =
+                [columns.place, columns.drift, columns.attitude, columns.schedule, columns.identity];
             for (buffer, column) in buffers.into_iter().zip(now.leaves.columns()) {
                 assert_eq!(read(&gpu, buffer), column, "{device}: what is drawn is what is simulated");
             }

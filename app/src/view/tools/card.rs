@@ -1,25 +1,18 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What is told about a single leaf.
+//! The card of a single leaf.
 
 use windfall_core::flight::body::body_of;
 use windfall_core::flight::rates::{FLIGHT_GRAVITY, FlightMotion, flight_rates};
 use windfall_core::flight::regime::REGIME_NAMES;
-use windfall_core::kernel::{Quat, Vec3};
-use windfall_core::leaf::LeafState;
-use windfall_core::leaf::fly::flies;
-use windfall_core::leaf::own::own_velocity;
-use windfall_core::leaf::record::{
-    HALF_MASK, PRIMITIVE_MASK, PRIMITIVE_SHIFT, REGIME_MASK, REGIME_SHIFT, SIZE_UNIT, SPECIES_MASK,
-    SPECIES_SHIFT, STAGE_MASK, STAGE_SHIFT,
-};
+use windfall_core::kernel::Vec3;
+use windfall_core::leaf::{LeafMotion, LeafRecords, LeafState, LeafView};
 use windfall_core::motion::Primitive;
 use windfall_core::motion::feature::feature;
 use windfall_core::wind::sample::wind_at;
 use windfall_core::{Clock, Environment};
 
 use crate::view::panel::grouped;
-use crate::view::tools::probe::LeafRecords;
 
 /// A title with rows of names and what they are.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -29,76 +22,58 @@ pub(crate) struct Card {
 }
 
 /// The card of a leaf in `slot`, as it is at `clock`.
-pub(crate) fn card(environment: &Environment, clock: &Clock, slot: u32, leaf: &LeafRecords) -> Card {
-    let bits = leaf.place.bits;
-    let species = (bits >> SPECIES_SHIFT) & SPECIES_MASK;
-    let described = environment.scene().species.get(species as usize);
-    let name = described.map_or("leaf", |species| species.name.as_str());
+pub(crate) fn card(environment: &Environment, clock: &Clock, slot: u32, records: &LeafRecords) -> Card {
     let block = environment.step_block(clock);
     let cx = environment.context(&block);
-    let position = Vec3::from(leaf.place.position);
-    let drift = Vec3::from(leaf.drift.velocity);
-    let state = leaf.place.state();
-    let is_body = flies(bits);
+    let leaf = LeafView::new(&cx, records);
+    let described = environment.scene().species.get(leaf.species);
+    let name = described.map_or("leaf", |species| species.name.as_str());
 
-    let mut rows = vec![("leaf", format!("{}, slot {}", grouped(leaf.identity.id), grouped(slot)))];
-    rows.push(("state", doing(state, bits, is_body)));
-    let velocity = match state {
-        LeafState::Dormant => Vec3::ZERO,
-        LeafState::Falling if !is_body => {
-            drift + own_velocity(&cx, bits, leaf.drift.phase, leaf.course.into())
-        }
-        _ => drift,
-    };
-    let level = velocity.x.hypot(velocity.z);
-    rows.push(("speed", format!("{:.2} m/s, {level:.2} level", length(velocity))));
-    let ground = environment.ground_height(position.x, position.z);
-    rows.push(("height", format!("{:.2} m above the ground", position.y - ground)));
-    if matches!(state, LeafState::Falling | LeafState::Resting) {
-        let steps = clock.step().wrapping_sub(leaf.identity.release).cast_signed();
+    let mut rows = vec![("leaf", format!("{}, slot {}", grouped(leaf.id), grouped(slot)))];
+    rows.push(("state", doing(&leaf)));
+    let level = leaf.velocity.x.hypot(leaf.velocity.z);
+    rows.push(("speed", format!("{:.2} m/s, {level:.2} level", length(leaf.velocity))));
+    let ground = environment.ground_height(leaf.position.x, leaf.position.z);
+    rows.push(("height", format!("{:.2} m above the ground", leaf.position.y - ground)));
+    let is_released = matches!(leaf.state, LeafState::Falling | LeafState::Resting);
+    if is_released {
+        let steps = clock.step().wrapping_sub(leaf.release).cast_signed();
         rows.push(("age", format!("{:.2} s since its release", f64::from(steps) * f64::from(clock.dt_s()))));
     }
-    let ratio = (leaf.course.size & HALF_MASK) as f32 * SIZE_UNIT;
-    let size_cm = 100.0 * ratio * described.map_or(0.0, |species| species.size_m);
-    rows.push(("size", format!("{size_cm:.1} cm, {ratio:.2} of its kind")));
-    let wind = wind_at(&cx, position);
+    let size_cm = 100.0 * leaf.drawn_size * described.map_or(0.0, |species| species.size_m);
+    rows.push(("size", format!("{size_cm:.1} cm, {:.2} of its kind", leaf.drawn_size)));
+    let wind = wind_at(&cx, leaf.position);
     rows.push(("wind", format!("{:.2} m/s around it", length(wind))));
-    if is_body {
-        let body = body_of(&cx, bits, leaf.course.size);
-        let spin = [leaf.drift.phase, leaf.course.rate, leaf.course.heading].map(f32::from_bits);
-        let spin = Vec3::new(spin[0], spin[1], spin[2]);
-        let motion = FlightMotion {
-            velocity: drift,
-            pose: Quat::from(leaf.attitude.quaternion),
-            turning: spin * body.size_ratio,
-        };
+    if let Some(spin) = leaf.spin {
+        let body = body_of(&cx, records.place.bits, records.schedule.size);
+        let motion =
+            FlightMotion { velocity: leaf.velocity, pose: leaf.attitude, turning: spin * body.size_ratio };
         let push = flight_rates(&body, &motion, wind).velocity;
-        // What the air does is all that is not its weight.
+        // The air's share is all but the weight.
         let air = Vec3::new(push.x, push.y + FLIGHT_GRAVITY, push.z) * (1.0 / FLIGHT_GRAVITY);
         rows.push(("air", format!("{:.2} weights, {:.2} of them upwards", length(air), air.y)));
         rows.push(("spin", format!("{:.1} rad/s", length(spin))));
-    } else if matches!(state, LeafState::Falling | LeafState::Resting) {
-        let stage = (leaf.identity.look >> STAGE_SHIFT) & STAGE_MASK;
-        rows.push(("feature", feature_text(environment, species as usize, leaf.identity.id, stage as usize)));
+    } else if is_released {
+        rows.push(("feature", feature_text(environment, leaf.species, leaf.id, leaf.stage as usize)));
     }
     Card { title: name.to_owned(), rows }
 }
 
-/// What a leaf does, in words.
-fn doing(state: LeafState, bits: u32, is_body: bool) -> String {
-    match state {
+/// The state of a leaf in words.
+fn doing(leaf: &LeafView) -> String {
+    match leaf.state {
         LeafState::Dormant => "waits".to_owned(),
         LeafState::Attached => "on its twig".to_owned(),
         LeafState::Resting => "on the ground".to_owned(),
-        LeafState::Falling if is_body => {
-            let regime = (bits >> REGIME_SHIFT) & REGIME_MASK;
-            format!("falls, {}", REGIME_NAMES.get(regime as usize).unwrap_or(&"in the air"))
-        }
         LeafState::Falling => {
-            let primitive = (bits >> PRIMITIVE_SHIFT) & PRIMITIVE_MASK;
-            let name =
-                windfall_render::MOTIONS.get(primitive as usize).map_or("in the air", |(name, _)| name);
-            format!("falls, {name}")
+            let name = match leaf.motion {
+                Some(LeafMotion::Regime(regime)) => REGIME_NAMES.get(regime).copied(),
+                Some(LeafMotion::Primitive(primitive)) => {
+                    windfall_render::MOTIONS.get(primitive as usize).map(|(name, _)| *name)
+                }
+                None => None,
+            };
+            format!("falls, {}", name.unwrap_or("in the air"))
         }
     }
 }
@@ -134,16 +109,11 @@ mod tests {
         let mut simulator = CpuSimulator::new(&world, CpuOptions::default()).expect("few leaves");
         simulator.step(60).expect("it steps");
         simulator.read_state(&mut world).expect("same size");
-        let of = |slot: usize| LeafRecords {
-            step: world.clock.step(),
-            place: world.leaves.place[slot],
-            drift: world.leaves.drift[slot],
-            attitude: world.leaves.attitude[slot],
-            course: world.leaves.course[slot],
-            identity: world.leaves.identity[slot],
-        };
         (0..world.leaves.len())
-            .map(|slot| card(&world.environment, &world.clock, u32::try_from(slot).expect("few"), &of(slot)))
+            .map(|slot| {
+                let records = world.leaves.records(slot);
+                card(&world.environment, &world.clock, u32::try_from(slot).expect("few"), &records)
+            })
             .collect()
     }
 

@@ -5,7 +5,7 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU8, Ordering};
 
-use windfall_core::leaf::{Attitude, Course, Drift, Identity, Place};
+use windfall_core::leaf::LeafRecords;
 use windfall_wgpu::LeafColumns;
 
 /// Bytes of a record.
@@ -17,15 +17,11 @@ const MAPPING: u8 = 2;
 const MAPPED: u8 = 3;
 const FAILED: u8 = 4;
 
-/// All that is known of a leaf at a step.
+/// A leaf at a step.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(crate) struct LeafRecords {
+pub(crate) struct LeafAt {
     pub(crate) step: u32,
-    pub(crate) place: Place,
-    pub(crate) drift: Drift,
-    pub(crate) attitude: Attitude,
-    pub(crate) course: Course,
-    pub(crate) identity: Identity,
+    pub(crate) leaf: LeafRecords,
 }
 
 /// The way back.
@@ -61,7 +57,7 @@ impl Probe {
             return;
         }
         self.asked = (slot, step);
-        let columns = [leaves.place, leaves.drift, leaves.attitude, leaves.course, leaves.identity];
+        let columns = [leaves.place, leaves.drift, leaves.attitude, leaves.schedule, leaves.identity];
         for (index, column) in (0..).zip(columns) {
             let from = u64::from(slot) * RECORD_BYTES;
             encoder.copy_buffer_to_buffer(column, from, &self.buffer, index * RECORD_BYTES, RECORD_BYTES);
@@ -69,7 +65,7 @@ impl Probe {
     }
 
     /// Slot and records that have come back; call it after submitting.
-    pub(crate) fn collect(&mut self, device: &wgpu::Device) -> Option<(u32, LeafRecords)> {
+    pub(crate) fn collect(&mut self, device: &wgpu::Device) -> Option<(u32, LeafAt)> {
         if self.state.compare_exchange(COPIED, MAPPING, Ordering::AcqRel, Ordering::Acquire).is_ok() {
             let state = Arc::clone(&self.state);
             self.buffer.map_async(wgpu::MapMode::Read, .., move |result| {
@@ -93,19 +89,18 @@ impl Probe {
         }
     }
 
-    fn read(&self) -> Option<(u32, LeafRecords)> {
+    fn read(&self) -> Option<(u32, LeafAt)> {
         let view = self.buffer.get_mapped_range(..).ok()?;
         let bytes = view.to_vec();
         let part = |index: usize| &bytes[index * 16..(index + 1) * 16];
         let (slot, step) = self.asked;
-        let records = LeafRecords {
-            step,
+        let leaf = LeafRecords {
             place: bytemuck::pod_read_unaligned(part(0)),
             drift: bytemuck::pod_read_unaligned(part(1)),
             attitude: bytemuck::pod_read_unaligned(part(2)),
-            course: bytemuck::pod_read_unaligned(part(3)),
+            schedule: bytemuck::pod_read_unaligned(part(3)),
             identity: bytemuck::pod_read_unaligned(part(4)),
         };
-        Some((slot, records))
+        Some((slot, LeafAt { step, leaf }))
     }
 }

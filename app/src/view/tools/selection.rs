@@ -4,7 +4,7 @@
 
 use glam::Vec3;
 
-use crate::view::tools::probe::LeafRecords;
+use crate::view::tools::probe::LeafAt;
 
 /// Most places of a track; of a longer one every other is dropped.
 const MOST_PLACES: usize = 2048;
@@ -47,36 +47,37 @@ impl Track {
 #[derive(Clone, Debug)]
 pub(crate) struct Selection {
     pub(crate) slot: u32,
-    pub(crate) latest: LeafRecords,
+    pub(crate) latest: LeafAt,
     pub(crate) track: Track,
 }
 
 impl Selection {
     /// Follows the leaf in `slot` from now on.
-    pub(crate) fn new(slot: u32, latest: LeafRecords) -> Self {
+    pub(crate) fn new(slot: u32, latest: LeafAt) -> Self {
         let mut track = Track::default();
-        track.note(latest.step, Vec3::from(latest.place.position));
+        track.note(latest.step, Vec3::from(latest.leaf.place.position));
         Self { slot, latest, track }
     }
 
     /// Takes note of what has become of it. A slot that holds another leaf now begins another track.
-    pub(crate) fn note(&mut self, records: LeafRecords) {
-        if records.identity.id != self.latest.identity.id {
+    pub(crate) fn note(&mut self, records: LeafAt) {
+        if records.leaf.identity.id != self.latest.leaf.identity.id {
             self.track = Track::default();
         }
-        self.track.note(records.step, Vec3::from(records.place.position));
+        self.track.note(records.step, Vec3::from(records.leaf.place.position));
         self.latest = records;
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use windfall_core::leaf::Identity;
+    use windfall_core::leaf::{Identity, LeafRecords};
 
     use super::*;
 
-    fn at(step: u32, id: u32) -> LeafRecords {
-        LeafRecords { step, identity: Identity { id, ..Identity::default() }, ..LeafRecords::default() }
+    fn at(step: u32, id: u32) -> LeafAt {
+        let identity = Identity { id, ..Identity::default() };
+        LeafAt { step, leaf: LeafRecords { identity, ..LeafRecords::default() } }
     }
 
     fn steps(selection: &Selection) -> Vec<u32> {

@@ -12,7 +12,7 @@ use super::Viewer;
 use crate::view::tools::card::{Card, card};
 use crate::view::tools::overlays::{Looking, Show};
 use crate::view::tools::pick::{Projection, REACH};
-use crate::view::tools::probe::{LeafRecords, Probe};
+use crate::view::tools::probe::{LeafAt, Probe};
 use crate::view::tools::selection::Selection;
 use crate::view::tools::wind_slice::wind_slice;
 
@@ -140,10 +140,10 @@ impl Viewer {
     /// What is told about the leaf that is followed.
     pub(super) fn card(&self) -> Option<Card> {
         let selection = self.instruments.selection.as_ref()?;
-        // The records may be a frame old: they are told as of their own step.
+        // The records may be a frame old: the card is of their own step.
         let clock = self.session.simulator().clock();
         let clock = windfall_core::Clock::at(selection.latest.step, clock.dt_s(), clock.wind_travel_m());
-        Some(card(self.session.environment(), &clock, selection.slot, &selection.latest))
+        Some(card(self.session.environment(), &clock, selection.slot, &selection.latest.leaf))
     }
 
     /// Where the leaf that is followed has been.
@@ -169,14 +169,7 @@ impl Viewer {
     }
 }
 
-/// All columns of a slot.
-fn records(leaves: &Leaves, step: u32, slot: usize) -> LeafRecords {
-    LeafRecords {
-        step,
-        place: leaves.place[slot],
-        drift: leaves.drift[slot],
-        attitude: leaves.attitude[slot],
-        course: leaves.course[slot],
-        identity: leaves.identity[slot],
-    }
+/// The leaf in a slot.
+fn records(leaves: &Leaves, step: u32, slot: usize) -> LeafAt {
+    LeafAt { step, leaf: leaves.records(slot) }
 }

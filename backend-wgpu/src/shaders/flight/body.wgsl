@@ -4,6 +4,7 @@
 // A leaf as a body under the air's forces: its species' block, scaled to its size and made asymmetric.
 #import bindings
 #import kernel/math
+#import leaf/record
 
 struct LeafBody {
     size_ratio: f32,
@@ -26,18 +27,14 @@ struct LeafBody {
     centroid: vec3<f32>,
 }
 
-fn body_asymmetry(size: u32, number: u32) -> f32 {
-    return (f32((size >> (QUIRK_SHIFT + 4u * number)) & QUIRK_MASK) - QUIRK_MIDDLE) * QUIRK_UNIT;
-}
-
 fn body_of(bits: u32, size: u32) -> LeafBody {
-    let block = environment.bodies[(bits >> SPECIES_SHIFT) & SPECIES_MASK];
+    let block = environment.bodies[leaf_species(bits)];
 
-    let size_ratio = f32(size & HALF_MASK) * SIZE_UNIT;
-    let inv_size_ratio = reciprocal(size_ratio);
-    let x = block.inertia_m2.x + block.air_inertia_x_m2 * size_ratio;
+    let ratio = size_ratio(size);
+    let inv_size_ratio = reciprocal(ratio);
+    let x = block.inertia_m2.x + block.air_inertia_x_m2 * ratio;
     let y = block.inertia_m2.y;
-    let z = block.inertia_m2.z + block.air_inertia_z_m2 * size_ratio;
+    let z = block.inertia_m2.z + block.air_inertia_z_m2 * ratio;
     let inv_inertia = vec3<f32>(reciprocal(x), reciprocal(y), reciprocal(z));
     let gyration = vec3<f32>(
         ((y - z) * inv_inertia.x) * inv_size_ratio,
@@ -45,14 +42,14 @@ fn body_of(bits: u32, size: u32) -> LeafBody {
         ((x - y) * inv_inertia.z) * inv_size_ratio,
     );
     let centroid = vec3<f32>(
-        block.centroid_m.x + body_asymmetry(size, 0u) * block.centroid_spread_m.x,
-        block.centroid_m.y + body_asymmetry(size, 1u) * block.centroid_spread_m.y,
-        block.centroid_m.z + body_asymmetry(size, 2u) * block.centroid_spread_m.z,
+        block.centroid_m.x + asymmetry(size, 0u) * block.centroid_spread_m.x,
+        block.centroid_m.y + asymmetry(size, 1u) * block.centroid_spread_m.y,
+        block.centroid_m.z + asymmetry(size, 2u) * block.centroid_spread_m.z,
     );
-    let added = block.added_mass * size_ratio;
+    let added = block.added_mass * ratio;
     let swing = (centroid.x * centroid.x) * inv_inertia.z + (centroid.z * centroid.z) * inv_inertia.x;
     return LeafBody(
-        size_ratio,
+        ratio,
         inv_size_ratio,
         block.air_per_m,
         block.added_mass,
@@ -61,7 +58,7 @@ fn body_of(bits: u32, size: u32) -> LeafBody {
         block.half_along_m,
         block.half_across_m,
         block.half_mean_m,
-        block.twist_m + body_asymmetry(size, 3u) * block.twist_spread_m,
+        block.twist_m + asymmetry(size, 3u) * block.twist_spread_m,
         block.lift_slope_across,
         block.lift_slope_along,
         block.pitch_damping,

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // twin: core/src/flight/regime.rs
+// The regime of a fall, classified by a body's last four events.
 #import prelude
 
 fn octant(x: f32, z: f32) -> u32 {
@@ -34,18 +35,18 @@ fn gone_round(round: f32, by: u32) -> f32 {
     return select(turned, round, by == 0u);
 }
 
-fn regime_memory(
-    memory: u32,
+fn regime_after(
+    state: u32,
     flow: vec3<f32>,
     spin: vec3<f32>,
     path: vec3<f32>,
     ticks: u32,
-    patience: u32,
+    idle_timeout: u32,
 ) -> u32 {
     let across2 = flow.y * flow.y;
     let along2 = flow.x * flow.x + flow.z * flow.z;
     let speed2 = along2 + across2;
-    let side = (memory >> SIDE_SHIFT) & 1u;
+    let side = (state >> SIDE_SHIFT) & 1u;
     let shows = speed2 * FACE_SHARE < across2;
     let new_side = select(side, select(0u, 1u, 0.0 < flow.y), shows);
     let over = new_side != side;
@@ -53,38 +54,38 @@ fn regime_memory(
     let slips = !over && !is_broadside && speed2 * SLIP_SHARE < along2;
 
     let spin_octant = octant(spin.x, spin.z);
-    let old_spin = (memory >> SPIN_OCTANT_SHIFT) & OCTANT_MASK;
+    let old_spin = (state >> SPIN_OCTANT_SHIFT) & OCTANT_MASK;
     let slip_octant = octant(flow.x, flow.z);
-    let old_slip = (memory >> SLIP_OCTANT_SHIFT) & OCTANT_MASK;
-    let was_broadside = ((memory >> BROADSIDE_SHIFT) & 1u) != 0u;
-    let was_swung = ((memory >> SWUNG_SHIFT) & 1u) != 0u;
+    let old_slip = (state >> SLIP_OCTANT_SHIFT) & OCTANT_MASK;
+    let was_broadside = ((state >> BROADSIDE_SHIFT) & 1u) != 0u;
+    let was_swung = ((state >> SWUNG_SHIFT) & 1u) != 0u;
     let turns_back = slips && was_broadside && 2u < octants_apart(slip_octant, old_slip);
     let swings = turns_back && was_swung;
 
     let same_way = octants_apart(spin_octant, old_spin) < 3u;
     let turned = select(EVENT_OTHERWISE, EVENT_OVER, same_way);
     let happens = over || swings;
-    let old_events = (memory >> EVENTS_SHIFT) & EVENTS_MASK;
+    let old_events = (state >> EVENTS_SHIFT) & EVENTS_MASK;
     let some_events = event_added(happens, old_events, select(EVENT_SWING, turned, over));
-    let old_ticks = (memory >> TICKS_SHIFT) & TICKS_MASK;
+    let old_ticks = (state >> TICKS_SHIFT) & TICKS_MASK;
     let waited = select(old_ticks, 0u, happens) + ticks;
-    let idle = waited >= patience;
+    let idle = waited >= idle_timeout;
     let events = event_added(idle, some_events, EVENT_NOTHING);
     let new_ticks = select(waited, 0u, idle);
 
     let new_spin = select(old_spin, spin_octant, over);
     let new_slip = select(old_slip, slip_octant, over || slips);
-    let low = select(select((memory >> BROADSIDE_SHIFT) & 1u, 0u, over || slips), 1u, is_broadside);
+    let low = select(select((state >> BROADSIDE_SHIFT) & 1u, 0u, over || slips), 1u, is_broadside);
     let half_swung = (turns_back || was_swung) && !over && !idle;
     let swung = select(0u, 1u, half_swung);
 
     let heads = speed2 * HEADING_SHARE < path.x * path.x + path.z * path.z;
-    let old_heading = (memory >> HEADING_OCTANT_SHIFT) & OCTANT_MASK;
+    let old_heading = (state >> HEADING_OCTANT_SHIFT) & OCTANT_MASK;
     let heading = select(old_heading, octant(path.x, path.z), heads);
-    let round = f32(bitcast<i32>(memory) >> ROUND_SHIFT);
+    let round = f32(bitcast<i32>(state) >> ROUND_SHIFT);
     let gone = bitcast<u32>(i32(gone_round(round, (heading - old_heading) & OCTANT_MASK)));
 
-    let told = (new_side << SIDE_SHIFT)
+    let next = (new_side << SIDE_SHIFT)
         | (new_spin << SPIN_OCTANT_SHIFT)
         | (new_slip << SLIP_OCTANT_SHIFT)
         | (heading << HEADING_OCTANT_SHIFT)
@@ -93,17 +94,17 @@ fn regime_memory(
         | (events << EVENTS_SHIFT)
         | (new_ticks << TICKS_SHIFT)
         | (gone << ROUND_SHIFT);
-    return select(memory, told, TOLD_SPEED2 < speed2);
+    return select(state, next, REGIME_MIN_SPEED2 < speed2);
 }
 
-fn regime_of(memory: u32) -> u32 {
-    let events = (memory >> EVENTS_SHIFT) & EVENTS_MASK;
+fn regime_of(state: u32) -> u32 {
+    let events = (state >> EVENTS_SHIFT) & EVENTS_MASK;
     var counts = vec4<u32>();
     for (var place = 0u; place < 4u; place++) {
         let event = (events >> (2u * place)) & 3u;
         counts += select(vec4<u32>(), vec4<u32>(1u), vec4<u32>(event) == vec4<u32>(0u, 1u, 2u, 3u));
     }
-    let round = f32(bitcast<i32>(memory) >> ROUND_SHIFT);
+    let round = f32(bitcast<i32>(state) >> ROUND_SHIFT);
     let goes_round = max(round, 0.0 - round) >= ROUND_OCTANTS;
     let is_quiet = counts.x > 1u;
     let tumbles = counts.y > 2u && counts.z + counts.w == 0u;

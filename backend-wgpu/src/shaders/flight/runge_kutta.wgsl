@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // twin: core/src/flight/runge_kutta.rs
+// The classical fourth-order Runge-Kutta step of a body, and the number of substeps of a step.
 #import flight/body
 #import flight/rates
 #import kernel/quaternion
@@ -8,6 +9,11 @@
 struct FlightStep {
     way: vec3<f32>,
     end: FlightMotion,
+}
+
+struct Substeps {
+    count: f32,
+    share: f32,
 }
 
 fn flight_stage(motion: FlightMotion, rates: FlightMotion, time: f32) -> FlightMotion {
@@ -37,13 +43,13 @@ fn flight_step(body: LeafBody, motion: FlightMotion, wind: vec3<f32>, time: f32)
     return FlightStep(way, end);
 }
 
-fn flight_cuts(load: f32) -> vec2<f32> {
-    var cuts = 1.0;
+fn substep_count(load: f32) -> Substeps {
+    var count = 1.0;
     var share = 1.0;
-    for (var halving = 0u; halving < FLIGHT_HALVINGS; halving++) {
-        let more = cuts < load;
-        cuts = select(cuts, cuts + cuts, more);
+    for (var halving = 0u; halving < MAX_HALVINGS; halving++) {
+        let more = count < load;
+        count = select(count, count + count, more);
         share = select(share, share * 0.5, more);
     }
-    return vec2<f32>(cuts, share);
+    return Substeps(count, share);
 }

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // twin: core/src/kernel/math.rs
+// Reciprocals, roots, exponential and trigonometric functions with the same bits everywhere.
 #import prelude
 
 fn sin_cos_octant(r: f32) -> vec2<f32> {

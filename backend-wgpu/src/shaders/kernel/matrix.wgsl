@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // twin: core/src/kernel/matrix.rs
+// Matrices of three by three, symmetric and not.
 #import kernel/math
 #import kernel/vector
 

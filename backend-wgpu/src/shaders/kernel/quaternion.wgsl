@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // twin: core/src/kernel/quaternion.rs
+// Quaternions as vectors x, y, z, w.
 #import kernel/math
 #import kernel/vector
 

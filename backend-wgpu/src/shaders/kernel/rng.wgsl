@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // twin: core/src/kernel/rng.rs
+// Counter-based random numbers (Philox 4x32-10) and fixed-point products.
 #import prelude
 
 fn mul_high(a: u32, b: u32) -> u32 {

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // twin: core/src/kernel/vector.rs
+// Products, blends and lengths of vectors.
 #import kernel/math
 
 fn vec3_dot(a: vec3<f32>, b: vec3<f32>) -> f32 {

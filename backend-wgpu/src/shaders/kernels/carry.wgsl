@@ -1,15 +1,16 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // twin: backend-cpu/src/kernels/carry.rs
+// Moves leaves with their twigs, and breaks petioles.
 #import leaf/carry
 
 fn carrier_row(column: u32, row: u32) -> vec4<f32> {
-    return carrier_rows[column * carry_block.page.y + row];
+    return carrier_rows[column * carry_block.column_rows + row];
 }
 
 @compute @workgroup_size(WORKGROUP_SIZE)
 fn carry(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>) {
-    let first = carry_block.page.x;
+    let first = carry_block.first_slot;
     let count = min(arrayLength(&places), environment.tree_leaf_count - first);
     for (var leaf = id.x; leaf < count; leaf += groups.x * WORKGROUP_SIZE) {
         let slot = first + leaf;

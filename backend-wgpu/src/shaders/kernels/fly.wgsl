@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // twin: backend-cpu/src/kernels/fly.rs
+// Moves the leaves that fly as bodies through one step.
 #import bindings
 #import leaf/fly
 

@@ -1,22 +1,24 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // twin: backend-cpu/src/kernels/measure.rs
+// Counts leaves by state and motion.
 #import bindings
+#import leaf/record
 
 @group(1) @binding(0) var<storage, read_write> counters: array<atomic<u32>>;
 
 var<workgroup> local_counters: array<atomic<u32>, COUNTER_COUNT>;
 
-fn count_leaf(place: vec4<u32>) {
-    let state = place.w & STATE_MASK;
+fn count_leaf(place: Place) {
+    let state = leaf_state(place.bits);
     atomicAdd(&local_counters[state], 1u);
     if (state == STATE_FALLING) {
-        let motion = (place.w >> PRIMITIVE_SHIFT) & PRIMITIVE_MASK;
-        let regime = (place.w >> REGIME_SHIFT) & REGIME_MASK;
-        let counter = select(COUNTER_PRIMITIVE + motion, COUNTER_REGIME + regime, motion == AERODYNAMIC);
+        let motion = leaf_primitive(place.bits);
+        let counter =
+            select(COUNTER_PRIMITIVE + motion, COUNTER_REGIME + leaf_regime(place.bits), motion == AERODYNAMIC);
         atomicAdd(&local_counters[counter], 1u);
     }
-    let bits = place.xyz & vec3<u32>(0x7fffffffu);
+    let bits = bitcast<vec3<u32>>(place.position) & vec3<u32>(0x7fffffffu);
     if (bits.x >= INFINITY_BITS || bits.y >= INFINITY_BITS || bits.z >= INFINITY_BITS) {
         atomicAdd(&local_counters[COUNTER_BROKEN], 1u);
     }

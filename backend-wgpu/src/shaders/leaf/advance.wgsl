@@ -1,66 +1,69 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // twin: core/src/leaf/advance.rs
+// One step of one leaf: plain steps apart from those with an event.
 #import bindings
 #import leaf/fall
 #import leaf/fly
 #import leaf/join
+#import leaf/record
 #import leaf/release
 #import leaf/settle
 
-fn leaf_is_due(leaf: u32) -> bool {
-    return step_block.index >= courses[leaf].x;
+fn leaf_has_event(leaf: u32) -> bool {
+    return step_block.index >= schedules[leaf].event;
 }
 
-fn leaf_stirs(leaf: u32) -> bool {
+fn leaf_is_settling(leaf: u32) -> bool {
     let drift = drifts[leaf];
-    return drift.w < environment.settle_steps || ((drift.x | drift.z) << 1u) != 0u;
+    let slides = ((bitcast<u32>(drift.velocity.x) | bitcast<u32>(drift.velocity.z)) << 1u) != 0u;
+    return ground_steps(drift.phase) < environment.settle_steps || slides;
 }
 
 fn leaf_advance_plain(leaf: u32) -> bool {
-    let course = courses[leaf];
-    if (step_block.index >= course.x) {
+    let schedule = schedules[leaf];
+    if (step_block.index >= schedule.event) {
         return false;
     }
     let place = places[leaf];
-    let state = place.w & STATE_MASK;
+    let state = leaf_state(place.bits);
     if (state == STATE_FALLING) {
-        if (flies(place.w)) {
+        if (flies(place.bits)) {
             return true;
         }
-        return leaf_glide(leaf, place, course);
+        return leaf_fall(leaf, place, schedule, false);
     }
-    return state != STATE_RESTING || !leaf_stirs(leaf);
+    return state != STATE_RESTING || !leaf_is_settling(leaf);
 }
 
-fn leaf_advance_due(leaf: u32) {
+fn leaf_advance_event(leaf: u32) {
     let now = step_block.index;
     let identity = identities[leaf];
-    let source = (identity.w >> SOURCE_SHIFT) & SOURCE_MASK;
+    let source = leaf_source(identity.appearance);
     let lifetime = environment.sources[source].lifetime_steps;
-    let state = places[leaf].w & STATE_MASK;
+    let state = leaf_state(places[leaf].bits);
     if (state == STATE_ATTACHED) {
         leaf_detach(leaf, now);
     } else if (state == STATE_DORMANT) {
-        leaf_release(leaf, identity.x, source, now);
-    } else if (source != SOURCE_TREES && lifetime != 0u && now - identity.y >= lifetime) {
-        leaf_release(leaf, identity.x + environment.ids_per_life, source, now);
+        leaf_release(leaf, identity.id, source, now);
+    } else if (source != SOURCE_TREES && lifetime != 0u && now - identity.release >= lifetime) {
+        leaf_release(leaf, identity.id + environment.ids_per_life, source, now);
     }
-    let bits = places[leaf].w;
-    if ((bits & STATE_MASK) == STATE_FALLING && !flies(bits)) {
+    let bits = places[leaf].bits;
+    if (leaf_state(bits) == STATE_FALLING && !flies(bits)) {
         leaf_fall_joining(leaf);
     }
 }
 
 fn leaf_advance(leaf: u32) {
-    if (leaf_is_due(leaf)) {
-        leaf_advance_due(leaf);
+    if (leaf_has_event(leaf)) {
+        leaf_advance_event(leaf);
         return;
     }
-    let bits = places[leaf].w;
-    let state = bits & STATE_MASK;
-    if (state == STATE_FALLING && !flies(bits)) {
-        leaf_fall(leaf);
+    let place = places[leaf];
+    let state = leaf_state(place.bits);
+    if (state == STATE_FALLING && !flies(place.bits)) {
+        _ = leaf_fall(leaf, place, schedules[leaf], true);
     } else if (state == STATE_RESTING) {
         leaf_settle(leaf);
     }

@@ -1,11 +1,13 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // twin: core/src/leaf/carry.rs
+// A leaf on its twig: it goes where the branch goes, leans and flutters in the wind, and its petiole breaks.
 #import kernel/math
 #import kernel/quaternion
 #import kernel/rng
 #import kernel/vector
 #import leaf/petioles
+#import leaf/record
 #import tree/sway/body
 #import wind/sample
 
@@ -22,8 +24,8 @@ struct Hang {
     velocity: vec3<f32>,
 }
 
-struct Look {
-    habit: f32,
+struct AirSample {
+    air_speed: f32,
     breaks: bool,
 }
 
@@ -35,12 +37,12 @@ fn shed_chance(facts: u32, speed: f32) -> u32 {
     return petiole_rows[index >> 2u][index & 3u];
 }
 
-fn leaf_hang(habit: f32, slot: u32, petiole: Petiole, segment: Body) -> Hang {
+fn leaf_hang(air_speed: f32, slot: u32, petiole: Petiole, segment: Body) -> Hang {
     let still = quat_multiply(segment.pose, petiole.rest);
     let tip = quat_rotate(still, vec3<f32>(0.0, 0.0, 1.0));
     let side = quat_rotate(still, vec3<f32>(1.0, 0.0, 0.0));
     let wind = vec3<f32>(environment.wind.direction_x, 0.0, environment.wind.direction_z);
-    let share = habit * reciprocal(habit + LEAN_SPEED);
+    let share = air_speed * reciprocal(air_speed + LEAN_SPEED);
     let unrest = share * share;
     let rate = environment.flutter_per_step;
     let own_rate = rate + (rate >> 5u) * (slot & 15u);
@@ -56,7 +58,7 @@ fn leaf_hang(habit: f32, slot: u32, petiole: Petiole, segment: Body) -> Hang {
 }
 
 fn leaf_size_on_twig(size: u32, facts: u32) -> u32 {
-    return (size << 16u) | min((size * (facts >> PETIOLE_CLUSTER_SHIFT)) >> 4u, HALF_MASK);
+    return twig_sizes(size, min((size * (facts >> PETIOLE_CLUSTER_SHIFT)) >> 4u, HALF_MASK));
 }
 
 fn petiole_of(slot: u32) -> Petiole {
@@ -71,28 +73,28 @@ fn petiole_of(slot: u32) -> Petiole {
 }
 
 fn leaf_return(leaf: u32, facts: u32) -> u32 {
-    let is_back = (places[leaf].w & STATE_MASK) == STATE_RESTING
+    let is_back = leaf_state(places[leaf].bits) == STATE_RESTING
         && environment.sources[SOURCE_TREES].lifetime_steps != 0u
-        && step_block.index >= courses[leaf].x;
+        && step_block.index >= schedules[leaf].event;
     if (!is_back) {
         return 0u;
     }
-    places[leaf].w = (places[leaf].w & ~(STATE_MASK | (BLEND_MASK << BLEND_SHIFT))) | STATE_ATTACHED;
-    courses[leaf].x = NEVER;
-    courses[leaf].z = leaf_size_on_twig(courses[leaf].z & HALF_MASK, facts);
-    drifts[leaf].w = 0u;
+    places[leaf].bits = with_state(with_blend(places[leaf].bits, 0u), STATE_ATTACHED);
+    schedules[leaf].event = NEVER;
+    schedules[leaf].size = leaf_size_on_twig(drawn_size(schedules[leaf].size), facts);
+    drifts[leaf].phase = 0u;
     return 1u;
 }
 
 fn leaf_hangs(bits: u32, event: u32) -> bool {
-    return (bits & STATE_MASK) == STATE_ATTACHED && step_block.index < event;
+    return leaf_state(bits) == STATE_ATTACHED && step_block.index < event;
 }
 
-fn leaf_next_look(slot: u32) -> u32 {
+fn leaf_next_sample(slot: u32) -> u32 {
     return (0u - (step_block.index + slot)) & (SHED_INTERVAL - 1u);
 }
 
-fn leaf_look(habit: f32, slot: u32, petiole: Petiole, segment: Body) -> Look {
+fn leaf_sample_air(air_speed: f32, slot: u32, petiole: Petiole, segment: Body) -> AirSample {
     let arm = quat_rotate(segment.pose, petiole.at);
     let velocity = segment.velocity + vec3_cross(segment.spin, arm);
     let relative = wind_at(segment.base + arm) - velocity;
@@ -100,33 +102,33 @@ fn leaf_look(habit: f32, slot: u32, petiole: Petiole, segment: Body) -> Look {
     let speed = squared * inverse_sqrt(max(squared, TINY_SQUARED));
     let counter = vec4<u32>(slot, STREAM_SHED, step_block.index, 0u);
     let breaks = philox(environment.seed, counter).x < shed_chance(petiole.facts, speed);
-    return Look(habit + (speed - habit) * HABIT_SHARE, breaks);
+    return AirSample(air_speed + (speed - air_speed) * AIR_SPEED_SMOOTHING, breaks);
 }
 
 fn leaf_follow(leaf: u32, slot: u32, petiole: Petiole, segment: Body) {
-    var habit = drifts[leaf].w;
-    let hang = leaf_hang(bitcast<f32>(habit), slot, petiole, segment);
-    attitudes[leaf] = hang.attitude;
-    places[leaf] = vec4<u32>(bitcast<vec3<u32>>(hang.position), places[leaf].w);
-    if (courses[leaf].x == step_block.index + 1u) {
-        let spin = bitcast<vec3<u32>>(quat_rotate_back(hang.attitude, segment.spin));
-        habit = spin.x;
-        courses[leaf].y = spin.y;
-        courses[leaf].w = spin.z;
+    let phase = drifts[leaf].phase;
+    let hang = leaf_hang(smoothed_air_speed(phase), slot, petiole, segment);
+    places[leaf].position = hang.position;
+    drifts[leaf].velocity = hang.velocity;
+    attitudes[leaf].quaternion = hang.attitude;
+    if (schedules[leaf].event == step_block.index + 1u) {
+        let spin = body_spin_words(quat_rotate_back(hang.attitude, segment.spin));
+        drifts[leaf].phase = spin.x;
+        schedules[leaf].rate = spin.y;
+        schedules[leaf].heading = spin.z;
     }
-    drifts[leaf] = vec4<u32>(bitcast<vec3<u32>>(hang.velocity), habit);
 }
 
 fn leaf_carry(leaf: u32, slot: u32, petiole: Petiole, segment: Body) -> u32 {
     var change = leaf_return(leaf, petiole.facts);
-    if (!leaf_hangs(places[leaf].w, courses[leaf].x)) {
+    if (!leaf_hangs(places[leaf].bits, schedules[leaf].event)) {
         return change;
     }
-    if (leaf_next_look(slot) == 0u) {
-        let look = leaf_look(bitcast<f32>(drifts[leaf].w), slot, petiole, segment);
-        drifts[leaf].w = bitcast<u32>(look.habit);
-        if (look.breaks) {
-            courses[leaf].x = step_block.index + 1u;
+    if (leaf_next_sample(slot) == 0u) {
+        let sample = leaf_sample_air(smoothed_air_speed(drifts[leaf].phase), slot, petiole, segment);
+        drifts[leaf].phase = smoothed_air_speed_word(sample.air_speed);
+        if (sample.breaks) {
+            schedules[leaf].event = step_block.index + 1u;
             change = change - 1u;
         }
     }

@@ -1,11 +1,13 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // twin: core/src/leaf/fall.rs
+// A leaf in the air: its own motion from the tables, and a drift that relaxes towards the wind.
 #import bindings
 #import kernel/math
 #import kernel/quaternion
 #import kernel/rng
 #import leaf/own
+#import leaf/record
 #import leaf/settle
 #import motion/lookup
 #import terrain/ground
@@ -29,13 +31,17 @@ struct Turned {
 }
 
 fn response_of(bits: u32) -> ResponseBlock {
-    return environment.responses[(bits >> SPECIES_SHIFT) & SPECIES_MASK];
+    return environment.responses[leaf_species(bits)];
 }
 
-fn glide_part(glide: Glide, bits: u32, course: vec4<u32>, wind: vec3<f32>, part: Part) -> Glide {
-    let rate = own_rate(course.y);
+fn glide_of(place: Place, drift: Drift) -> Glide {
+    return Glide(place.position, drift.velocity, drift.phase);
+}
+
+fn glide_part(glide: Glide, bits: u32, params: MotionParams, wind: vec3<f32>, part: Part) -> Glide {
+    let rate = own_rate(params.rate);
     let end = glide.phase + mul_q16(rate, part.length);
-    let own = own_advance(bits, course, glide.phase, end);
+    let own = own_advance(bits, params, glide.phase, end);
     let before = glide.drift - wind;
     let after = before * part.decay;
     let spent = on_grid(before * part.tau) - on_grid(after * part.tau);
@@ -44,60 +50,44 @@ fn glide_part(glide: Glide, bits: u32, course: vec4<u32>, wind: vec3<f32>, part:
 }
 
 fn spin_advance(bits: u32, heading: u32, fastest: f32) -> u32 {
-    let rate = bitcast<i32>(heading << 16u) >> 16u;
-    let turn = (rate * i32(fastest)) >> 17u;
-    return bits + (bitcast<u32>(turn) << SPIN_SHIFT);
+    let turn = (bitcast<i32>(spin_rate(heading)) * i32(fastest)) >> 17u;
+    return turn_spin(bits, bitcast<u32>(turn));
 }
 
 fn attitude_after(leaf: u32, bits: u32, phase: u32, heading: u32) -> Turned {
     let goal = own_orientation(bits, phase, heading);
-    let blend = (bits >> BLEND_SHIFT) & BLEND_MASK;
-    if (blend == 0u) {
+    let steps_left = blend_steps_left(bits);
+    if (steps_left == 0u) {
         return Turned(bits, goal);
     }
-    let mixed = quat_blend(attitudes[leaf], goal, reciprocal(f32(blend)));
-    return Turned(bits - (1u << BLEND_SHIFT), mixed);
+    let mixed = quat_blend(attitudes[leaf].quaternion, goal, reciprocal(f32(steps_left)));
+    return Turned(count_down_blend(bits, true), mixed);
 }
 
-fn glide_end(leaf: u32, start: vec3<f32>, glide: Glide) {
-    let heading = courses[leaf].w;
-    let old_bits = places[leaf].w;
-    let spun = spin_advance(old_bits, heading, response_of(old_bits).fastest_spin);
+fn glide_end(leaf: u32, start: vec3<f32>, glide: Glide, bits: u32, heading: u32, lands: bool) {
+    let spun = spin_advance(bits, heading, response_of(bits).fastest_spin);
     let turned = attitude_after(leaf, spun, glide.phase, heading);
-    glide_write(leaf, glide, turned);
-    if (ground_met(glide.position)) {
+    attitudes[leaf].quaternion = turned.attitude;
+    places[leaf] = Place(glide.position, turned.bits);
+    drifts[leaf] = Drift(glide.drift, glide.phase);
+    if (lands) {
         leaf_land(leaf, start);
     }
 }
 
-fn glide_write(leaf: u32, glide: Glide, turned: Turned) {
-    attitudes[leaf] = turned.attitude;
-    places[leaf] = vec4<u32>(bitcast<vec3<u32>>(glide.position), turned.bits);
-    drifts[leaf] = vec4<u32>(bitcast<vec3<u32>>(glide.drift), glide.phase);
-}
-
-fn glide_step(glide: Glide, bits: u32, course: vec4<u32>, response: ResponseBlock) -> Glide {
+fn glide_step(glide: Glide, bits: u32, params: MotionParams, response: ResponseBlock) -> Glide {
     let wind = wind_at(glide.position);
-    return glide_part(glide, bits, course, wind, Part(WHOLE_STEP, response.drift_kept, response.time_constant_s));
+    let part = Part(WHOLE_STEP, response.drift_kept, response.time_constant_s);
+    return glide_part(glide, bits, params, wind, part);
 }
 
-fn leaf_fall(leaf: u32) {
-    let place = places[leaf];
-    let start = bitcast<vec3<f32>>(place.xyz);
-    let drift = drifts[leaf];
-    let glide = Glide(start, bitcast<vec3<f32>>(drift.xyz), drift.w);
-    glide_end(leaf, start, glide_step(glide, place.w, courses[leaf], response_of(place.w)));
-}
-
-fn leaf_glide(leaf: u32, place: vec4<u32>, course: vec4<u32>) -> bool {
-    let drift = drifts[leaf];
-    let glide = Glide(bitcast<vec3<f32>>(place.xyz), bitcast<vec3<f32>>(drift.xyz), drift.w);
-    let response = response_of(place.w);
-    let moved = glide_step(glide, place.w, course, response);
-    if (ground_met(moved.position)) {
+fn leaf_fall(leaf: u32, place: Place, schedule: Schedule, may_land: bool) -> bool {
+    let glide = glide_of(place, drifts[leaf]);
+    let moved = glide_step(glide, place.bits, motion_params(schedule), response_of(place.bits));
+    let lands = ground_met(moved.position);
+    if (lands && !may_land) {
         return false;
     }
-    let spun = spin_advance(place.w, course.w, response.fastest_spin);
-    glide_write(leaf, moved, attitude_after(leaf, spun, moved.phase, course.w));
+    glide_end(leaf, place.position, moved, place.bits, schedule.heading, lands);
     return true;
 }

@@ -1,10 +1,12 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // twin: core/src/leaf/launch.rs
+// The release of a leaf that flies as a body: its pose before, its asymmetries.
 #import bindings
 #import kernel/math
 #import kernel/quaternion
 #import kernel/rng
+#import leaf/record
 
 fn turn_about_y(angle: u32) -> vec4<f32> {
     let half = sin_cos_turns(angle >> 1u);
@@ -34,18 +36,17 @@ fn hold_pose(species: u32, id: u32) -> vec4<f32> {
 }
 
 fn leaf_hold(leaf: u32, id: u32) {
-    let species = (places[leaf].w >> SPECIES_SHIFT) & SPECIES_MASK;
-    attitudes[leaf] = hold_pose(species, id);
-    drifts[leaf].w = 0u;
-    courses[leaf].y = 0u;
-    courses[leaf].w = 0u;
+    attitudes[leaf].quaternion = hold_pose(leaf_species(places[leaf].bits), id);
+    drifts[leaf].phase = 0u;
+    schedules[leaf].rate = 0u;
+    schedules[leaf].heading = 0u;
 }
 
-fn quirks_of(id: u32) -> u32 {
-    return random(environment.seed, id, STREAM_QUIRKS).x & HALF_MASK;
+fn random_asymmetry(id: u32) -> u32 {
+    return random(environment.seed, id, STREAM_ASYMMETRY).x & HALF_MASK;
 }
 
 fn leaf_launch(leaf: u32, id: u32) {
-    courses[leaf].z = (courses[leaf].z & HALF_MASK) | (quirks_of(id) << QUIRK_SHIFT);
-    identities[leaf].z = 0u;
+    schedules[leaf].size = with_asymmetry(schedules[leaf].size, random_asymmetry(id));
+    identities[leaf].fall_time = 0u;
 }

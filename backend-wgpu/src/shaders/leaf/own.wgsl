@@ -1,22 +1,34 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // twin: core/src/leaf/own.rs
+// A leaf's own motion: the tables scaled to its size and speed, turned to its heading, with its spin.
 #import bindings
 #import kernel/math
 #import kernel/quaternion
 #import kernel/rng
+#import leaf/record
 #import motion/lookup
 
-fn turn_to_heading(v: vec3<f32>, heading: u32) -> vec3<f32> {
-    let half = sin_cos_half(heading);
+struct MotionParams {
+    rate: u32,
+    size: u32,
+    heading: u32,
+}
+
+fn motion_params(schedule: Schedule) -> MotionParams {
+    return MotionParams(schedule.rate, schedule.size, schedule.heading);
+}
+
+fn turn_to_heading(v: vec3<f32>, angle: u32) -> vec3<f32> {
+    let half = sin_cos_half(angle);
     let twice = half.x + half.x;
     let sine = twice * half.y;
     let cosine = 1.0 - twice * half.x;
     return vec3<f32>(cosine * v.x + sine * v.z, v.y, cosine * v.z - sine * v.x);
 }
 
-fn own_scale(course: vec4<u32>) -> f32 {
-    return (f32(course.z & HALF_MASK) * SIZE_UNIT) * environment.displacement_gain;
+fn own_scale(params: MotionParams) -> f32 {
+    return size_ratio(params.size) * environment.displacement_gain;
 }
 
 fn own_rate(rate: u32) -> u32 {
@@ -27,6 +39,8 @@ fn own_rate(rate: u32) -> u32 {
     return mul_q16(rate, speed);
 }
 
+// The sum with the anchor is held in an integer, changed by a zero that shader compilers cannot know of: they might take
+// the anchor away from where it was just added and leave nothing of the rounding.
 fn on_grid(v: vec3<f32>) -> vec3<f32> {
     let zero = environment.zero;
     return vec3<f32>(
@@ -36,35 +50,35 @@ fn on_grid(v: vec3<f32>) -> vec3<f32> {
     );
 }
 
-fn own_period(bits: u32, course: vec4<u32>) -> vec3<f32> {
-    let local = motion_period((bits >> TABLE_SHIFT) & TABLE_MASK);
-    return on_grid(turn_to_heading(local, course.w >> 16u) * own_scale(course));
+fn own_period(bits: u32, params: MotionParams) -> vec3<f32> {
+    let local = motion_period(motion_table(bits));
+    return on_grid(turn_to_heading(local, heading_angle(params.heading)) * own_scale(params));
 }
 
-fn own_advance(bits: u32, course: vec4<u32>, start: u32, end: u32) -> vec3<f32> {
-    let table = (bits >> TABLE_SHIFT) & TABLE_MASK;
-    let heading = course.w >> 16u;
-    let scale = own_scale(course);
-    let before = on_grid(turn_to_heading(motion_displacement(table, start), heading) * scale);
-    let after = on_grid(turn_to_heading(motion_state(table, end).displacement, heading) * scale);
+fn own_advance(bits: u32, params: MotionParams, start: u32, end: u32) -> vec3<f32> {
+    let table = motion_table(bits);
+    let angle = heading_angle(params.heading);
+    let scale = own_scale(params);
+    let before = on_grid(turn_to_heading(motion_displacement(table, start), angle) * scale);
+    let after = on_grid(turn_to_heading(motion_state(table, end).displacement, angle) * scale);
     var way = after - before;
     if (end < start) {
-        way = way + own_period(bits, course);
+        way = way + own_period(bits, params);
     }
     return way;
 }
 
-fn own_velocity(bits: u32, phase: u32, course: vec4<u32>) -> vec3<f32> {
-    let local = motion_velocity((bits >> TABLE_SHIFT) & TABLE_MASK, phase);
-    let rate = own_rate(course.y);
+fn own_velocity(bits: u32, phase: u32, params: MotionParams) -> vec3<f32> {
+    let local = motion_velocity(motion_table(bits), phase);
+    let rate = own_rate(params.rate);
     let rounded = f32(rate >> 16u) * 65536.0 + f32(rate & HALF_MASK);
     let periods_per_s = (rounded * PHASE_UNIT) * environment.inv_dt_s;
-    return turn_to_heading(local, course.w >> 16u) * (own_scale(course) * periods_per_s);
+    return turn_to_heading(local, heading_angle(params.heading)) * (own_scale(params) * periods_per_s);
 }
 
 fn own_orientation(bits: u32, phase: u32, heading: u32) -> vec4<f32> {
-    let local = motion_state((bits >> TABLE_SHIFT) & TABLE_MASK, phase).orientation;
-    let turn = sin_cos_half(heading >> 16u);
-    let spin = sin_cos_half(bits >> SPIN_SHIFT);
+    let local = motion_state(motion_table(bits), phase).orientation;
+    let turn = sin_cos_half(heading_angle(heading));
+    let spin = sin_cos_half(spin_angle(bits));
     return quat_turn_before(quat_turn_after(local, turn.x, turn.y), spin.x, spin.y);
 }

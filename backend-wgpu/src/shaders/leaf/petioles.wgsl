@@ -5,8 +5,10 @@
 #import bindings
 
 struct Carry {
-    // First slot of the page; segments of the forest, rounded up to whole columns; two unused.
-    page: vec4<u32>,
+    // First slot of the page.
+    first_slot: u32,
+    // Segments of the forest, rounded up to whole columns.
+    column_rows: u32,
 }
 
 @group(1) @binding(0) var<uniform> carry_block: Carry;

@@ -1,12 +1,19 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // twin: core/src/leaf/release.rs
+// The release of a leaf: place, size, speed and first motion, in integers but for the last conversion.
 #import bindings
 #import kernel/rng
 #import motion/feature
 #import leaf/launch
 #import leaf/own
+#import leaf/record
 #import terrain/ground
+
+struct SizeSpeed {
+    size: u32,
+    speed: u32,
+}
 
 fn offset_in_box(word: u32, extent: u32) -> i32 {
     return bitcast<i32>(mul_high(word, 2u * extent + 1u)) - bitcast<i32>(extent);
@@ -69,16 +76,16 @@ fn release_species(source: u32, word: u32) -> u32 {
     return species;
 }
 
-fn release_size_speed(species: u32, words: vec4<u32>) -> vec2<u32> {
+fn release_size_speed(species: u32, words: vec4<u32>) -> SizeSpeed {
     let size_spread = bitcast<i32>(environment.species[species].size_spread_q14);
     let speed_spread = bitcast<i32>(environment.species[species].speed_spread_q14);
     let size = bitcast<i32>(SIZE_ONE) + ((size_spread * triangular(words.y)) >> 16u);
     let speed = bitcast<i32>(SIZE_ONE) + ((speed_spread * triangular(words.z)) >> 16u);
-    return vec2<u32>(bitcast<u32>(size), bitcast<u32>(speed));
+    return SizeSpeed(bitcast<u32>(size), bitcast<u32>(speed));
 }
 
-fn release_ratio(size_speed: vec2<u32>) -> u32 {
-    return (size_speed.y << 16u) / size_speed.x;
+fn release_ratio(size_speed: SizeSpeed) -> u32 {
+    return (size_speed.speed << 16u) / size_speed.size;
 }
 
 fn species_rate(species: u32, primitive: u32) -> u32 {
@@ -111,85 +118,74 @@ fn next_event(id: u32, release: u32, fall_time: u32, stage: u32, source: u32) ->
 fn leaf_release(leaf: u32, id: u32, source: u32, release: u32) {
     let seed = environment.seed;
     let place = release_place(source, seed, id);
-    let look = random(seed, id, STREAM_LOOK);
-    leaf_drop(leaf, id, look, source, release_species(source, look.x), place, release);
+    let traits = random(seed, id, STREAM_TRAITS);
+    leaf_drop(leaf, id, traits, source, release_species(source, traits.x), place, release);
 }
 
 fn leaf_drop(
     leaf: u32,
     id: u32,
-    look: vec4<u32>,
+    traits: vec4<u32>,
     source: u32,
     species: u32,
     place: vec3<i32>,
     release: u32,
 ) {
-    let size_speed = release_size_speed(species, look);
+    let size_speed = release_size_speed(species, traits);
     let position =
         vec3<f32>(f32(place.x) * LENGTH_UNIT, f32(place.y) * LENGTH_UNIT, f32(place.z) * LENGTH_UNIT);
     let ground = (ground_surface(position.x, position.z) + environment.surface_height_m) * 1024.0;
-    identities[leaf].z = release_fall_time(species, place.y - i32(floor(ground)), size_speed.y);
-    identities[leaf].w = (look.w & HALF_MASK)
-        | ((look.x & VARIANT_MASK) << VARIANT_SHIFT)
-        | (source << SOURCE_SHIFT)
-        | (0u << STAGE_SHIFT);
-    courses[leaf].z = size_speed.x;
-    courses[leaf].w = look.w >> 16u;
-    places[leaf] = vec4<u32>(bitcast<vec3<u32>>(position), (0u << BLEND_SHIFT) | (species << SPECIES_SHIFT));
-    drifts[leaf] = vec4<u32>(0u, 0u, 0u, 0u);
+    identities[leaf].fall_time = release_fall_time(species, place.y - i32(floor(ground)), size_speed.speed);
+    identities[leaf].appearance = leaf_appearance(traits.w, traits.x, source);
+    schedules[leaf].size = size_speed.size;
+    schedules[leaf].heading = heading_word(0u, traits.w >> 16u);
+    places[leaf] = Place(position, place_bits(STATE_DORMANT, 0u, 0u, species, 0u));
+    drifts[leaf].velocity = vec3<f32>(0.0, 0.0, 0.0);
     if (environment.species[species].first_motion == AERODYNAMIC) {
         leaf_hold(leaf, id);
     }
     leaf_set_off(leaf, id, release, size_speed);
 }
 
-fn leaf_set_off(leaf: u32, id: u32, release: u32, size_speed: vec2<u32>) {
+fn leaf_set_off(leaf: u32, id: u32, release: u32, size_speed: SizeSpeed) {
     let seed = environment.seed;
-    var identity = identities[leaf];
-    var course = courses[leaf];
-    let before = places[leaf].w;
-    let source = (identity.w >> SOURCE_SHIFT) & SOURCE_MASK;
-    let species = (before >> SPECIES_SHIFT) & SPECIES_MASK;
+    let before = places[leaf].bits;
+    let source = leaf_source(identities[leaf].appearance);
+    let species = leaf_species(before);
     let stage = stage_words(seed, id, 0u);
     let primitive = environment.species[species].first_motion;
-    identity.x = id;
-    identity.y = release;
-    identity.w = identity.w & ~(STAGE_MASK << STAGE_SHIFT);
+    identities[leaf].id = id;
+    identities[leaf].release = release;
+    identities[leaf].appearance = with_stage(identities[leaf].appearance, 0u);
     if (primitive == AERODYNAMIC) {
-        course.x = next_event(id, release, 0u, STAGE_COUNT, source);
-        identities[leaf] = identity;
-        courses[leaf] = course;
-        places[leaf].w = STATE_FALLING
-            | (before & (SPECIES_MASK << SPECIES_SHIFT))
-            | (primitive << PRIMITIVE_SHIFT);
+        schedules[leaf].event = next_event(id, release, 0u, STAGE_COUNT, source);
+        places[leaf].bits = place_bits(STATE_FALLING, 0u, primitive, species, 0u);
         leaf_launch(leaf, id);
         return;
     }
-    course.x = next_event(id, release, identity.z, 0u, source);
-    course.y = release_rate(species, primitive, release_ratio(size_speed));
-    course.w = (stage.z & (HALF_MASK << 16u)) | (course.w & HALF_MASK);
-    identities[leaf] = identity;
-    courses[leaf] = course;
-    let bits = STATE_FALLING
-        | (before & ((BLEND_MASK << BLEND_SHIFT) | (SPECIES_MASK << SPECIES_SHIFT)))
-        | (primitive << PRIMITIVE_SHIFT)
-        | ((stage.w & HALF_MASK) << SPIN_SHIFT);
-    places[leaf].w = bits;
-    let own = own_velocity(bits, stage.y, course);
-    let start = bitcast<vec3<f32>>(drifts[leaf].xyz) - own;
-    drifts[leaf] = vec4<u32>(bitcast<vec3<u32>>(start), stage.y);
+    let schedule = Schedule(
+        next_event(id, release, identities[leaf].fall_time, 0u, source),
+        release_rate(species, primitive, release_ratio(size_speed)),
+        schedules[leaf].size,
+        heading_word(stage.z >> 16u, schedules[leaf].heading),
+    );
+    schedules[leaf] = schedule;
+    let bits = place_bits(STATE_FALLING, blend_steps_left(before), primitive, species, stage.w);
+    places[leaf].bits = bits;
+    let own = own_velocity(bits, stage.y, motion_params(schedule));
+    drifts[leaf] = Drift(drifts[leaf].velocity - own, stage.y);
 }
 
 fn leaf_detach(leaf: u32, release: u32) {
     let seed = environment.seed;
-    let id = identities[leaf].x + environment.ids_per_life;
-    let look = random(seed, id, STREAM_LOOK);
-    let species = (places[leaf].w >> SPECIES_SHIFT) & SPECIES_MASK;
-    let size = courses[leaf].z >> 16u;
-    courses[leaf].z = size | (size << 16u);
+    let id = identities[leaf].id + environment.ids_per_life;
+    let traits = random(seed, id, STREAM_TRAITS);
+    let species = leaf_species(places[leaf].bits);
+    let size = own_size(schedules[leaf].size);
+    schedules[leaf].size = twig_sizes(size, size);
     if (environment.species[species].first_motion != AERODYNAMIC) {
-        courses[leaf].w = look.w >> 16u;
+        schedules[leaf].heading = heading_word(0u, traits.w >> 16u);
     }
-    places[leaf].w = (places[leaf].w & ~(BLEND_MASK << BLEND_SHIFT)) | (environment.blend_steps << BLEND_SHIFT);
-    leaf_set_off(leaf, id, release, vec2<u32>(size, release_size_speed(species, look).y));
+    places[leaf].bits = with_blend(places[leaf].bits, environment.blend_steps);
+    leaf_set_off(leaf, id, release, SizeSpeed(size, release_size_speed(species, traits).speed));
 }

@@ -1,9 +1,11 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // twin: core/src/leaf/settle.rs
+// A leaf on the ground: it slides, loses speed to friction and lies down flat on the slope.
 #import bindings
 #import kernel/math
 #import kernel/quaternion
+#import leaf/record
 #import terrain/ground
 
 struct Slide {
@@ -12,7 +14,7 @@ struct Slide {
 }
 
 fn slide(came: vec3<f32>, seconds: f32, slope: Slope) -> Slide {
-    let pull = (environment.gravity_m_s2 * seconds) * slope.ease;
+    let pull = (environment.gravity_m_s2 * seconds) * slope.inv_gain;
     let velocity = vec3<f32>(came.x - slope.x * pull, came.y, came.z - slope.z * pull);
     if (velocity.x * came.x + velocity.z * came.z < 0.0) {
         return Slide(vec3<f32>(0.0, 0.0, 0.0), vec3<f32>(0.0, 0.0, 0.0));
@@ -23,7 +25,7 @@ fn slide(came: vec3<f32>, seconds: f32, slope: Slope) -> Slide {
     }
     let inverse = inverse_sqrt(squared);
     let speed = squared * inverse;
-    let left = max(speed - (environment.friction_m_s2 * slope.ease) * seconds, 0.0);
+    let left = max(speed - (environment.friction_m_s2 * slope.inv_gain) * seconds, 0.0);
     let stop = squared * (environment.stop_s2_m * slope.gain);
     let way = select(stop, (0.5 * seconds) * (speed + left), left > 0.0);
     return Slide(velocity * (way * inverse), velocity * (left * inverse));
@@ -42,53 +44,55 @@ fn flatten_on(slope: Slope, q: vec4<f32>, kept: f32) -> vec4<f32> {
     return quat_multiply(lean, flatten(quat_multiply(back, q), kept));
 }
 
+// Landing is decided by a float comparison, the one place where the backends' integers could part for a step under the
+// tolerant contract; the step is continuous across that decision.
 fn leaf_land(leaf: u32, start: vec3<f32>) {
     let place = places[leaf];
-    let end = bitcast<vec3<f32>>(place.xyz);
+    let end = place.position;
     let above = ground_rest(start.x, start.z);
     let rise = ground_rest(end.x, end.z) - above;
     let drop = max((start.y - end.y) + rise, 1e-6);
     let share = min(max((start.y - above) * reciprocal(drop), 0.0), 1.0);
     let way = end - start;
     let hit = start + way * share;
-    let dt = environment.dt_s;
-    let slid = slide(way * environment.inv_dt_s, (1.0 - share) * dt, ground_slope(hit.x, hit.z));
+    let slid =
+        slide(way * environment.inv_dt_s, (1.0 - share) * environment.dt_s, ground_slope(hit.x, hit.z));
     let identity = identities[leaf];
-    let lifetime = environment.sources[(identity.w >> SOURCE_SHIFT) & SOURCE_MASK].lifetime_steps;
+    let lifetime = environment.sources[leaf_source(identity.appearance)].lifetime_steps;
     let x = hit.x + slid.way.x;
     let z = hit.z + slid.way.z;
     let position = vec3<f32>(x, ground_rest(x, z), z);
-    let bits = (place.w & ~(STATE_MASK | (BLEND_MASK << BLEND_SHIFT))) | STATE_RESTING;
-    places[leaf] = vec4<u32>(bitcast<vec3<u32>>(position), bits);
-    drifts[leaf] = vec4<u32>(bitcast<vec3<u32>>(vec3<f32>(slid.velocity.x, 0.0, slid.velocity.z)), 0u);
-    courses[leaf].x = select(identity.y + lifetime, NEVER, lifetime == 0u);
+    places[leaf] = Place(position, with_state(with_blend(place.bits, 0u), STATE_RESTING));
+    drifts[leaf] = Drift(vec3<f32>(slid.velocity.x, 0.0, slid.velocity.z), 0u);
+    schedules[leaf].event = select(identity.release + lifetime, NEVER, lifetime == 0u);
 }
 
 fn leaf_settle(leaf: u32) {
     let drift = drifts[leaf];
-    let velocity = bitcast<vec3<f32>>(drift.xyz);
-    let place = places[leaf];
-    let position = bitcast<vec3<f32>>(place.xyz);
-    let slides = velocity.x != 0.0 || velocity.z != 0.0;
+    let steps = ground_steps(drift.phase);
+    let position = places[leaf].position;
+    let slides = drift.velocity.x != 0.0 || drift.velocity.z != 0.0;
     let is_hilly = environment.has_terrain != 0u;
     let slope = ground_slope(position.x, position.z);
-    if (drift.w < environment.settle_steps || (slides && is_hilly)) {
+    if (steps < environment.settle_steps || (slides && is_hilly)) {
+        let before = attitudes[leaf].quaternion;
+        let kept = environment.tilt_kept;
         if (is_hilly) {
-            attitudes[leaf] = flatten_on(slope, attitudes[leaf], environment.tilt_kept);
+            attitudes[leaf].quaternion = flatten_on(slope, before, kept);
         } else {
-            attitudes[leaf] = flatten(attitudes[leaf], environment.tilt_kept);
+            attitudes[leaf].quaternion = flatten(before, kept);
         }
-        drifts[leaf].w = select(drift.w + 1u, 0u, slides && is_hilly);
+        drifts[leaf].phase = select(steps + 1u, 0u, slides && is_hilly);
     }
     if (slides) {
-        let slid = slide(velocity, environment.dt_s, slope);
+        let slid = slide(drift.velocity, environment.dt_s, slope);
         let x = position.x + slid.way.x;
         let z = position.z + slid.way.z;
         var y = position.y;
         if (is_hilly) {
             y = ground_rest(x, z);
         }
-        places[leaf] = vec4<u32>(bitcast<vec3<u32>>(vec3<f32>(x, y, z)), place.w);
-        drifts[leaf] = vec4<u32>(bitcast<vec3<u32>>(slid.velocity), drifts[leaf].w);
+        places[leaf].position = vec3<f32>(x, y, z);
+        drifts[leaf].velocity = slid.velocity;
     }
 }

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // twin: core/src/motion/feature.rs
+// The trajectory feature of a leaf: stages, their shares of the fall and their motions.
 #import bindings
 #import kernel/rng
 

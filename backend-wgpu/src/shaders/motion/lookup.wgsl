@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // twin: core/src/motion/lookup.rs
+// Displacement, orientation and velocity of the motion tables at a phase.
 #import bindings
 #import kernel/quaternion
 

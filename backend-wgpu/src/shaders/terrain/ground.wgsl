@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // twin: core/src/terrain/ground.rs
+// The ground: level, or the hills' table interpolated linearly; water on it.
 #import bindings
 #import kernel/math
 #import kernel/quaternion
@@ -15,7 +16,7 @@ struct Slope {
     x: f32,
     z: f32,
     gain: f32,
-    ease: f32,
+    inv_gain: f32,
 }
 
 fn ground_cell(x: f32, z: f32) -> Cell {

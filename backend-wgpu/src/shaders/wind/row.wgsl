@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // twin: core/src/wind/row.rs
+// Two neighbouring values of a wind table.
 #import bindings
 
 fn wind_row(index: u32, first: u32) -> vec2<f32> {

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // twin: core/src/wind/vortex.rs
+// A straight vortex with a smooth core (Kaufmann).
 #import bindings
 #import kernel/math
 #import kernel/vector

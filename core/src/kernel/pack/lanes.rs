@@ -206,7 +206,7 @@ macro_rules! pack {
 #[derive(Clone, Copy, Debug)]
 pub struct Picked<'a, T, const LANES: usize, const N: usize> {
     elements: &'a [T],
-    /// Where those of each lane start: all of them are in the slice.
+    /// Start of the elements of each lane: all of them are in the slice.
     index: [u32; LANES],
 }
 

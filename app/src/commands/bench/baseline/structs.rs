@@ -3,7 +3,7 @@
 //! An array of structs, stepped leaf after leaf on one thread.
 
 use windfall_core::leaf::advance::leaf_advance;
-use windfall_core::leaf::{Attitude, Course, Drift, Identity, LeafMut, Leaves, Place};
+use windfall_core::leaf::{Attitude, Drift, Identity, LeafMut, Leaves, Place, Schedule};
 use windfall_core::{Clock, Environment, World, oracle};
 
 /// Everything about one leaf.
@@ -12,7 +12,7 @@ struct Leaf {
     place: Place,
     drift: Drift,
     attitude: Attitude,
-    course: Course,
+    schedule: Schedule,
     identity: Identity,
 }
 
@@ -36,7 +36,7 @@ impl ArrayOfStructs {
                 place: columns.place[slot],
                 drift: columns.drift[slot],
                 attitude: columns.attitude[slot],
-                course: columns.course[slot],
+                schedule: columns.schedule[slot],
                 identity: columns.identity[slot],
             })
             .collect();
@@ -47,8 +47,8 @@ impl ArrayOfStructs {
     pub(crate) fn step(&mut self, count: u32) {
         let Self { environment, clock, leaves } = self;
         oracle::each_step(environment, clock, count, |cx| {
-            for Leaf { place, drift, attitude, course, identity } in &mut *leaves {
-                leaf_advance(cx, &mut LeafMut { place, drift, attitude, course, identity });
+            for Leaf { place, drift, attitude, schedule, identity } in &mut *leaves {
+                leaf_advance(cx, &mut LeafMut { place, drift, attitude, schedule, identity });
             }
         });
     }
@@ -59,7 +59,7 @@ impl ArrayOfStructs {
             leaves.place[slot] = leaf.place;
             leaves.drift[slot] = leaf.drift;
             leaves.attitude[slot] = leaf.attitude;
-            leaves.course[slot] = leaf.course;
+            leaves.schedule[slot] = leaf.schedule;
             leaves.identity[slot] = leaf.identity;
         }
     }

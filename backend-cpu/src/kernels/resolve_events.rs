@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! twin: backend-wgpu/src/shaders/kernels/attend.wgsl
+//! twin: backend-wgpu/src/shaders/kernels/resolve_events.wgsl
 //!
-//! Moves the leaves through one step to which something happens in it.
+//! Moves the listed leaves through one step with an event in it.
 
 use windfall_core::Context;
 use windfall_core::kernel::lane::LANES;
@@ -12,19 +12,19 @@ use windfall_core::leaf::advance::leaf_advance;
 use super::CHUNK;
 
 /// The leaves of a chunk that `advance` has left alone: a bit for each, a byte for eight.
-pub(crate) struct Attend {
+pub(crate) struct EventList {
     pub(crate) lanes: [u8; CHUNK / LANES],
 }
 
-impl Default for Attend {
+impl Default for EventList {
     fn default() -> Self {
         Self { lanes: [0; CHUNK / LANES] }
     }
 }
 
-/// Steps the leaves of a chunk that are due, that land, or that have just landed.
-pub(crate) fn attend(cx: &Context<'_>, leaves: &mut LeavesMut<'_>, due: &Attend) {
-    for (group, &lanes) in due.lanes.iter().enumerate() {
+/// Steps the leaves of a chunk that have an event, that land, or that have just landed.
+pub(crate) fn resolve_events(cx: &Context<'_>, leaves: &mut LeavesMut<'_>, events: &EventList) {
+    for (group, &lanes) in events.lanes.iter().enumerate() {
         let mut left = lanes;
         while left != 0 {
             let slot = group * LANES + left.trailing_zeros() as usize;
