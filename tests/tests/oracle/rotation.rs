@@ -5,10 +5,12 @@
 use std::f64::consts::{PI, TAU};
 
 use crate::common::{build, quaternion, step, still_scene, uniform_species};
+use ode_solvers::{Dopri5, System, Vector2};
 use rustfft::num_complex::Complex64;
 use windfall_core::Scene;
 use windfall_core::motion::{
-    AIR_DENSITY, MotionConstants, MotionTables, Path, Primitive, PrimitiveTable, SteadyDescent,
+    AIR_DENSITY, MotionConstants, MotionTables, Path, PeriodicFluttering, Primitive, PrimitiveTable,
+    SteadyDescent,
 };
 use windfall_core::scene::{MotionParameters, RotationModel, Species};
 
@@ -142,6 +144,70 @@ fn the_coefficient_is_the_published_one() {
     // 2300 1/m² for a leaf of 7 cm and 70 g/m².
     let coefficient = 3.0 * PI * AIR_DENSITY / (0.07 * 0.07);
     assert!((coefficient / 2300.0 - 1.0).abs() < 0.02, "coefficient {coefficient} 1/m²");
+}
+
+/// The equation along a path, for an adaptive integrator.
+struct Pitch<'a, P> {
+    path: &'a P,
+    friction_per_s: f64,
+    stiffness_per_m2: f64,
+}
+
+impl<P: Path> System<f64, Vector2<f64>> for Pitch<'_, P> {
+    fn system(&self, time: f64, state: &Vector2<f64>, slope: &mut Vector2<f64>) {
+        let velocity = self.path.at(time).velocity;
+        let broadside = state[0] + velocity.x.atan2(velocity.y);
+        let speed2 = velocity.x.powi(2) + velocity.y.powi(2);
+        slope[0] = state[1];
+        slope[1] = -self.friction_per_s * state[1]
+            - self.stiffness_per_m2 * speed2 * broadside.sin() * broadside.cos();
+    }
+}
+
+/// Largest difference in radians between the table of a primitive and an adaptive integration of its path over four
+/// periods and the one that is kept.
+fn worst_pitch(species: &Species, primitive: Primitive, path: &impl Path) -> f64 {
+    let RotationModel::TanabeKaneko { friction_per_s } = species.rotation else {
+        panic!("the species must turn after Tanabe and Kaneko");
+    };
+    let (sigma, length) = (f64::from(species.areal_density_kg_m2), f64::from(species.size_m));
+    let stiffness_per_m2 = 3.0 * PI * AIR_DENSITY / (sigma * length);
+    let equation = Pitch { path, friction_per_s: friction_per_s.into(), stiffness_per_m2 };
+    let row_s = path.period_s() / ROWS as f64;
+    let mut solver =
+        Dopri5::new(equation, 0.0, 5.0 * path.period_s(), row_s, Vector2::new(0.0, 0.0), 1e-9, 1e-9);
+    solver.integrate().expect("the integrator must not give up");
+    let expected = &solver.y_out()[4 * ROWS..=5 * ROWS];
+    let residue = expected[ROWS][0] - expected[0][0];
+    let closing = TAU * (residue / TAU).round() - residue;
+    let found = pitches(&MotionTables::generate(species, SEED).0[primitive as usize]);
+    (0..=ROWS)
+        .map(|row| {
+            let off = found[row] - expected[row][0] - closing * row as f64 / ROWS as f64;
+            (off - TAU * (off / TAU).round()).abs()
+        })
+        .fold(0.0, f64::max)
+}
+
+#[test]
+fn pitches_agree_with_an_adaptive_integration() {
+    for (size_m, areal_density_kg_m2, friction_per_s) in
+        [(0.4, 1.0, 1.0), (0.07, 0.07, 20.0), (0.03, 0.04, 60.0)]
+    {
+        let rotation = RotationModel::TanabeKaneko { friction_per_s };
+        let species = Species { size_m, areal_density_kg_m2, rotation, ..uniform_species() };
+        let constants = MotionConstants::of(&species);
+        let worst = [
+            worst_pitch(&species, Primitive::SteadyDescent, &SteadyDescent::new(&constants, SEED)),
+            worst_pitch(&species, Primitive::PeriodicFluttering, &PeriodicFluttering::new(&constants)),
+        ];
+        println!("{size_m} m: {worst:?} rad off");
+        // Tables are in single precision.
+        assert!(
+            worst.iter().all(|worst| *worst < 2e-6),
+            "{size_m} m, {friction_per_s} 1/s: {worst:?} rad off"
+        );
+    }
 }
 
 #[test]
