@@ -72,7 +72,7 @@ mod world;
 
 pub use clock::Clock;
 pub use context::Context;
-pub use environment::{Cycle, Environment};
+pub use environment::{Cycle, Environment, REST_OFFSET_M};
 pub use error::{SceneError, SimError};
 pub use scene::Scene;
 pub use simulator::{Contract, Simulator, SimulatorInfo};

@@ -20,7 +20,7 @@ use crate::wind::profile::PROFILE_ROWS;
 use crate::wind::turbulence::TURBULENCE_NODES;
 
 /// Height of resting leaves above the ground in metres: half the thickness of a curled dry leaf.
-const REST_OFFSET_M: f32 = 0.004;
+pub const REST_OFFSET_M: f32 = 0.004;
 /// Time in seconds over which orientation blends after a join.
 const BLEND_S: f32 = 0.15;
 /// Time in seconds after which a landed leaf lies flat.

@@ -15,6 +15,7 @@ mod wind;
 
 use std::sync::Arc;
 
+pub use self::block::REST_OFFSET_M;
 use self::block::{compile_block, retune_block};
 use self::convert::{len32, single};
 pub use self::cycle::Cycle;

@@ -17,6 +17,5 @@ pub mod coefficients;
 pub(crate) mod drop_table;
 pub mod planform;
 pub mod rates;
-pub mod reference;
 pub mod regime;
 pub mod runge_kutta;

@@ -14,11 +14,11 @@ use windfall_core::flight::coefficients::{
     MUNK_EDGE, MUNK_RISE, WHIRL_EDGE, WHIRL_RISE,
 };
 use windfall_core::flight::rates::{FlightMotion, flight_rates};
-use windfall_core::flight::reference::{DiscCoefficients, DiscState, LeafDisc};
 use windfall_core::kernel::{Quat, Vec3};
 use windfall_core::leaf::record::SIZE_ONE;
 use windfall_core::scene::{Aerodynamics, FlightModel, Planform, Species};
 use windfall_core::{Clock, Environment, Scene};
+use windfall_tests::reference::{DiscCoefficients, DiscState, LeafDisc};
 
 /// The coefficients of the kernel.
 fn ours(body: &Aerodynamics) -> DiscCoefficients {

@@ -7,7 +7,7 @@ use std::f64::consts::PI;
 use crate::common::{csv, field, number};
 use ode_solvers::dop_shared::IntegrationError;
 use ode_solvers::{Dop853, SVector, System};
-use windfall_core::flight::reference::FallingPlate;
+use windfall_tests::reference::FallingPlate;
 
 type State = SVector<f64, 6>;
 

@@ -6,7 +6,7 @@
 use std::f64::consts::TAU;
 
 use ode_solvers::{Dopri5, SVector, System};
-use windfall_core::flight::reference::SectionalPlate;
+use windfall_tests::reference::SectionalPlate;
 
 type State = SVector<f64, 6>;
 

@@ -10,11 +10,9 @@ use windfall_core::leaf::settle::slide;
 use windfall_core::motion::GRAVITY;
 use windfall_core::terrain::Hills;
 use windfall_core::terrain::ground::Slope;
-use windfall_core::{Scene, World};
+use windfall_core::{REST_OFFSET_M, Scene, World};
 use windfall_tests::strategies::{flying_scene, hilly_scene, varied_scene};
 
-/// Height of resting leaves above the ground in metres.
-const REST_M: f64 = 0.004;
 /// Height of the pond's surface in [`hilly_scene`] in metres.
 const WATER_M: f64 = 1.5;
 
@@ -62,7 +60,7 @@ fn leaves_lie_on_hills_and_water_along_the_slope() {
             let state = world.leaves.place[slot].state();
             let place = position(&world, slot);
             let [height, along_x, along_z] = ground(&hills, place.x, place.z).to_array();
-            let rest = height.max(WATER_M) + REST_M;
+            let rest = height.max(WATER_M) + f64::from(REST_OFFSET_M);
             if state == LeafState::Falling {
                 assert!(place.y > rest - 1e-4, "leaf {slot} is {} m under the ground", rest - place.y);
             }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The disc in three dimensions, written down anew in double precision: what the kernels are compared with, and how the
-//! form that the coefficients came from is reproduced.
+//! The disc in three dimensions, written anew in double precision: reference for the kernels, and for the form that the
+//! coefficients came from.
 
 use std::f64::consts::PI;
 
@@ -83,7 +83,7 @@ impl DiscState {
 }
 
 impl LeafDisc {
-    /// How fast a state changes in air of this velocity.
+    /// Rate of change of a state in air of this velocity.
     #[must_use]
     pub fn rates(&self, state: &DiscState, wind: DVec3) -> DiscState {
         let turn = DMat3::from_quat(state.pose.normalize());
@@ -122,7 +122,7 @@ impl LeafDisc {
         let torque = self.arm_m.cross(push) + munk - AIR_KG_M3 * area * radius * radius * damping;
 
         // The air resists the acceleration of the middle along the normal. Motion is linear in that resistance, so two
-        // trials tell it.
+        // trials give it.
         let weight = turn.transpose() * DVec3::new(0.0, -GRAVITY_M_S2 * mass, 0.0);
         let moved = |resistance: f64| {
             let reaction = -resistance * normal;

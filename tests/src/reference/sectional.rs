@@ -20,7 +20,7 @@
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use super::{PlateState, world_velocity};
-use crate::motion::{AIR_DENSITY, GRAVITY};
+use windfall_core::motion::{AIR_DENSITY, GRAVITY};
 
 /// Incidence at which half of the flow has separated, rad.
 const STALL: f64 = 14.0 * PI / 180.0;
@@ -40,7 +40,7 @@ pub struct SectionalPlate {
     pub areal_density_kg_m2: f64,
 }
 
-/// What the flow does at an incidence: lift, drag, and the centre of pressure in chords ahead of the middle.
+/// Coefficients at an incidence: lift, drag, and the centre of pressure in chords ahead of the middle.
 struct Section {
     lift: f64,
     drag: f64,
@@ -60,7 +60,7 @@ fn section(incidence: f64) -> Section {
 }
 
 impl SectionalPlate {
-    /// How fast the state changes, in m/s², rad/s², rad/s and m/s.
+    /// Rate of change of the state, in m/s², rad/s², rad/s and m/s.
     #[must_use]
     pub fn rates(&self, state: &PlateState) -> PlateState {
         let &[along, normal, turning, pitch, _, _] = state;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What tests compare flight with, in double precision: two published planar models of falling plates, and the disc in
+//! Reference models of flight in double precision: two published planar models of falling plates, and the disc in
 //! three dimensions. The planar ones are not for leaves: neither knows a third dimension or a finite span.
 
 mod leaf_disc;

@@ -49,7 +49,7 @@ impl FallingPlate {
         }
     }
 
-    /// How fast the state changes.
+    /// Rate of change of the state.
     #[must_use]
     pub fn rates(&self, state: &PlateState) -> PlateState {
         let &[u, v, turning, pitch, _, _] = state;
