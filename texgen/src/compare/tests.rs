@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Photos pass where fakes fail.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use glam::Vec2;
 use image::{Rgb, RgbImage, imageops};
@@ -83,9 +83,9 @@ fn levels_are_complete() {
 /// A flat colour, a blur and noise on a flat colour fail for every species; photos are within the levels of
 /// colour and texture.
 #[test]
-#[ignore = "reads the development photos"]
+#[ignore = "reads the photos in WINDFALL_LEAF_PHOTOS"]
 fn photos_pass_where_fakes_fail() {
-    let photos = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/leaves/photos");
+    let photos = crate::extract::tests::photos();
     for species in Levels::species() {
         let paths = leaf_pictures(&photos.join(species)).expect("photos of a species");
         let photos: Vec<ComparedLeaf> =

@@ -19,7 +19,7 @@ pub(crate) mod petiole;
 mod photo;
 pub(crate) mod ridge;
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;
 mod vein_tree;
 pub(crate) mod veins;
 

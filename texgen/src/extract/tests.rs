@@ -253,12 +253,18 @@ proptest! {
 }
 
 /// All photos have their petiole down.
+/// Folder of photos with a folder for each species, in which every photo has its mask beside it.
+pub(crate) fn photos() -> PathBuf {
+    std::env::var_os("WINDFALL_LEAF_PHOTOS")
+        .expect("WINDFALL_LEAF_PHOTOS names the folder of the photos")
+        .into()
+}
+
 #[test]
-#[ignore = "reads the development photos"]
+#[ignore = "reads the photos in WINDFALL_LEAF_PHOTOS"]
 fn photos_are_read_the_right_way_round() {
-    let photos = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/leaves/photos");
     let mut count = 0;
-    for species in std::fs::read_dir(photos).expect("the development photos").flatten() {
+    for species in std::fs::read_dir(photos()).expect("the folder of the photos").flatten() {
         for path in crate::leaf_pictures(&species.path()).expect("photos of a species") {
             let mask = path.with_extension("mask.png");
             let extraction = extract(&path, Some(&mask)).expect("a photo of a leaf");
@@ -273,10 +279,9 @@ fn photos_are_read_the_right_way_round() {
 }
 
 #[test]
-#[ignore = "reads the development photos"]
-fn backgrounds_tell_what_masks_tell() {
-    let photos = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/leaves/photos");
-    for species in std::fs::read_dir(photos).expect("the development photos").flatten() {
+#[ignore = "reads the photos in WINDFALL_LEAF_PHOTOS"]
+fn backgrounds_and_masks_agree() {
+    for species in std::fs::read_dir(photos()).expect("the folder of the photos").flatten() {
         for path in crate::leaf_pictures(&species.path()).expect("photos of a species") {
             let whole = |mask: Option<&Path>| {
                 let found = extract(&path, mask).expect("a photo of a leaf");

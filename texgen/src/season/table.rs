@@ -148,12 +148,9 @@ mod tests {
         assert!(worst < 0.012, "the table is off by {worst}");
     }
 
-    /// Reads the worked cases kept outside the repository.
     #[test]
-    #[ignore = "reads reference cases kept beside the project"]
     fn bands_reproduce_the_reference_model() {
-        let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../shared/leaves/prospect_d_vectors.csv");
-        let text = std::fs::read_to_string(path).expect("the reference cases are there");
+        let text = include_str!("prospect_d_reference.csv");
         let eye = Eye::new();
         let (mut worst, mut sum, mut cases) = (0.0_f64, 0.0, 0.0);
         for line in text.lines().filter(|line| !line.starts_with('#') && !line.starts_with("case")) {
