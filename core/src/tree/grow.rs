@@ -5,6 +5,7 @@
 use glam::{DVec3, Vec3};
 use thiserror::Error;
 
+#[cfg(feature = "gltf")]
 use super::gltf::GltfError;
 use super::grammar::{Draws, Grammar, GrammarError};
 use super::growth::{self, Grown};
@@ -38,7 +39,16 @@ pub enum TreeError {
         /// What is wrong.
         source: SkeletonError,
     },
+    /// A kind that is a file, though glTF files cannot be read in this build.
+    #[error("tree kind '{kind}': reading '{file}' needs the feature \"gltf\" of windfall-core")]
+    NoGltf {
+        /// Name of the kind.
+        kind: String,
+        /// The file.
+        file: String,
+    },
     /// A kind that is a file which cannot be used.
+    #[cfg(feature = "gltf")]
     #[error("tree kind '{kind}': {source}")]
     File {
         /// Name of the kind.

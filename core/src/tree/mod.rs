@@ -8,7 +8,12 @@ mod constants;
 mod crown;
 mod extent;
 pub mod forest;
+#[cfg(feature = "gltf")]
 mod from_file;
+#[cfg(not(feature = "gltf"))]
+#[path = "from_no_file.rs"]
+mod from_file;
+#[cfg(feature = "gltf")]
 pub mod gltf;
 pub mod grammar;
 mod grow;

@@ -6,11 +6,13 @@ use std::io;
 use std::path::PathBuf;
 
 use glam::Mat4;
-use serde_json::json;
+use gltf::json::animation::Property;
+use gltf::json::scene::UnitQuaternion;
+use gltf::json::{Accessor, Index, Node, Skin};
 use windfall_render::light::{Daylight, SunLight};
 use windfall_render::trees::Stand;
 
-use super::file::Document;
+use super::file::{Document, node_index};
 use super::leaf_track::{Track, add_leaf, near};
 use super::movement::Movement;
 use super::scenery::{Barks, LeafMeshes, add_surfaces, tree_mesh, view};
@@ -35,11 +37,11 @@ pub(super) struct ClipExport {
     fps: f64,
     times: Vec<[f32; 1]>,
     leaves: Vec<Track>,
-    /// For every tree its joints, and how each is turned in every frame.
+    /// For every tree its joints, and their orientations in every frame.
     trees: Vec<(Vec<Joint>, Vec<Turns>)>,
 }
 
-/// How a joint is turned in every frame.
+/// Orientation of a joint in every frame.
 type Turns = Vec<[f32; 4]>;
 
 impl ClipExport {
@@ -65,7 +67,8 @@ impl ClipExport {
 
     /// The document with everything that was gathered.
     fn assemble(&mut self) -> io::Result<()> {
-        let mut movement = Movement { times: self.document.buffer.times(&self.times), ..Movement::default() };
+        let mut movement = Movement::default();
+        let times = self.document.buffer.times(&self.times);
         let mut meshes = LeafMeshes::default();
         for (slot, track) in self.leaves.iter().enumerate() {
             add_leaf(
@@ -73,7 +76,7 @@ impl ClipExport {
                 &mut movement,
                 &mut meshes,
                 &self.foliage,
-                &self.times,
+                (times, &self.times),
                 slot,
                 track,
             )?;
@@ -81,14 +84,11 @@ impl ClipExport {
         let mut barks = Barks::default();
         for (number, (joints, turns)) in self.trees.iter().enumerate() {
             self.stand.trees[number].rows.first().map_or(Ok(()), |_| {
-                add_tree(&mut self.document, &mut movement, &mut barks, &self.stand, number, (joints, turns))
+                let moved = (times, &joints[..], &turns[..]);
+                add_tree(&mut self.document, &mut movement, &mut barks, &self.stand, number, moved)
             })?;
         }
-        if !movement.channels.is_empty() {
-            let Movement { channels, samplers, .. } = movement;
-            self.document
-                .add("animations", json!({ "name": "fall", "channels": channels, "samplers": samplers }));
-        }
+        self.document.root.animations.extend(movement.animation("fall"));
         Ok(())
     }
 }
@@ -129,33 +129,31 @@ fn add_tree(
     barks: &mut Barks,
     stand: &Stand,
     number: usize,
-    (joints, turns): (&[Joint], &[Turns]),
+    (times, joints, turns): (Index<Accessor>, &[Joint], &[Turns]),
 ) -> io::Result<()> {
     let tree = &stand.trees[number];
     // One node above all joints, then these.
-    let first = document.node_count() + 1;
-    let mut children: Vec<Vec<usize>> = vec![Vec::new(); joints.len()];
+    let first = document.root.nodes.len() + 1;
+    let mut children: Vec<Vec<Index<Node>>> = vec![Vec::new(); joints.len()];
     let mut lowest = Vec::new();
     for (index, segment) in tree.skeleton.segments.iter().enumerate() {
         match segment.parent {
-            Some(parent) => children[parent as usize].push(first + index),
-            None => lowest.push(first + index),
+            Some(parent) => children[parent as usize].push(node_index(first + index)),
+            None => lowest.push(node_index(first + index)),
         }
     }
-    document.add_root(json!({ "name": format!("tree.{number}"), "children": lowest }));
+    let foot = Node { name: Some(format!("tree.{number}")), children: Some(lowest), ..Node::default() };
+    let foot = document.add_root(foot);
     for (index, (&joint, children)) in joints.iter().zip(children).enumerate() {
         let (place, turn) = at_rest_above(stand, joint);
-        let mut node = json!({
-            "name": format!("tree.{number}.segment.{index}"),
-            "translation": place.to_array(),
-            "rotation": turn.normalize().to_array(),
+        let node = document.root.push(Node {
+            name: Some(format!("tree.{number}.segment.{index}")),
+            translation: Some(place.to_array()),
+            rotation: Some(UnitQuaternion(turn.normalize().to_array())),
+            children: Some(children).filter(|children| !children.is_empty()),
+            ..Node::default()
         });
-        if !children.is_empty() {
-            node["children"] = json!(children);
-        }
-        let node = document.add("nodes", node);
-        let output = document.buffer.floats(&turns[index]);
-        movement.add(node, "rotation", output);
+        movement.add(node, Property::Rotation, [times, document.buffer.floats(&turns[index])]);
     }
     let binds: Vec<[f32; 16]> = joints
         .iter()
@@ -165,19 +163,27 @@ fn add_tree(
             Mat4::from_rotation_translation(back, back * -place).to_cols_array()
         })
         .collect();
-    let skin = json!({
-        "inverseBindMatrices": document.buffer.matrices(&binds),
-        "joints": (first..first + joints.len()).collect::<Vec<_>>(),
-        "skeleton": first - 1,
+    let skin = document.root.push(Skin {
+        extensions: None,
+        extras: None,
+        inverse_bind_matrices: Some(document.buffer.matrices(&binds)),
+        joints: (first..first + joints.len()).map(node_index).collect(),
+        name: None,
+        skeleton: Some(foot),
     });
-    let skin = document.add("skins", skin);
+    let skinned = |part: &str, mesh| Node {
+        name: Some(format!("tree.{number}.{part}")),
+        mesh: Some(mesh),
+        skin: Some(skin),
+        ..Node::default()
+    };
     let material = barks.bark(document, tree.look.bark)?;
     let mesh = tree_mesh(document, "bark", material, &bark(tree), true);
-    document.add_root(json!({ "name": format!("tree.{number}.bark"), "mesh": mesh, "skin": skin }));
+    document.add_root(skinned("bark", mesh));
     if let Some(fruit) = fruit(tree) {
         let material = barks.berry(document);
         let mesh = tree_mesh(document, "fruit", material, &fruit, true);
-        document.add_root(json!({ "name": format!("tree.{number}.fruit"), "mesh": mesh, "skin": skin }));
+        document.add_root(skinned("fruit", mesh));
     }
     Ok(())
 }

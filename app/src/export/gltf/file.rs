@@ -5,67 +5,66 @@
 use std::io::{self, BufWriter, Cursor, Write};
 use std::path::PathBuf;
 
+use gltf::json::extensions::scene::khr_lights_punctual::Light;
+use gltf::json::image::MimeType;
+use gltf::json::{Image, Index, Node, Root, Scene, Texture};
 use image::{DynamicImage, ImageFormat};
-use serde_json::{Map, Value, json};
-use windfall_core::tree::gltf::{GltfBuffer, write_glb};
+use windfall_core::tree::gltf::{GltfBuffer, new_document, write_glb};
 
 use crate::files::{OutputFile, write_error};
 
-/// Everything that a document lists, and its buffer. Functions that add something give its index.
-#[derive(Debug, Default)]
+/// A document and its buffer. Functions that add something give its index.
+#[derive(Debug)]
 pub(super) struct Document {
     /// All numbers and all pictures.
     pub(super) buffer: GltfBuffer,
-    lists: Map<String, Value>,
+    /// Everything else.
+    pub(super) root: Root,
     /// Nodes that stand in the scene.
-    roots: Vec<usize>,
-    extensions: Vec<&'static str>,
-    required: Vec<&'static str>,
-    light: Option<Value>,
+    roots: Vec<Index<Node>>,
+}
+
+impl Default for Document {
+    fn default() -> Self {
+        Self { buffer: GltfBuffer::default(), root: new_document(), roots: Vec::new() }
+    }
 }
 
 impl Document {
-    /// Adds an element to one of the document's lists.
-    pub(super) fn add(&mut self, list: &str, element: Value) -> usize {
-        let list = self.lists.entry(list).or_insert_with(|| Value::Array(Vec::new()));
-        let Value::Array(elements) = list else { return 0 };
-        elements.push(element);
-        elements.len() - 1
-    }
-
     /// Adds a node that stands in the scene.
-    pub(super) fn add_root(&mut self, node: Value) -> usize {
-        let index = self.add("nodes", node);
+    pub(super) fn add_root(&mut self, node: Node) -> Index<Node> {
+        let index = self.root.push(node);
         self.roots.push(index);
         index
     }
 
-    /// The number of nodes.
-    pub(super) fn node_count(&self) -> usize {
-        self.lists.get("nodes").and_then(Value::as_array).map_or(0, Vec::len)
-    }
-
-    /// Says that an extension is used; without a required one the file cannot be read.
-    pub(super) fn extend(&mut self, name: &'static str, is_required: bool) {
-        self.extensions.push(name);
+    /// Lists an extension as used; without a required one the file cannot be read.
+    pub(super) fn extend(&mut self, name: &str, is_required: bool) {
+        self.root.extensions_used.push(name.into());
         if is_required {
-            self.required.push(name);
+            self.root.extensions_required.push(name.into());
         }
     }
 
     /// Adds the one light.
-    pub(super) fn set_light(&mut self, light: Value) {
+    pub(super) fn add_light(&mut self, light: Light) -> Index<Light> {
         self.extend("KHR_lights_punctual", false);
-        self.light = Some(light);
+        self.root.push(light)
     }
 
     /// Adds a picture as a texture that repeats.
-    pub(super) fn texture(&mut self, picture: &DynamicImage) -> io::Result<usize> {
+    pub(super) fn texture(&mut self, picture: &DynamicImage) -> io::Result<Index<Texture>> {
         let mut png = Cursor::new(Vec::new());
         picture.write_to(&mut png, ImageFormat::Png).map_err(io::Error::other)?;
-        let view = self.buffer.view(png.into_inner());
-        let source = self.add("images", json!({ "bufferView": view, "mimeType": "image/png" }));
-        Ok(self.add("textures", json!({ "source": source })))
+        let source = self.root.push(Image {
+            buffer_view: Some(self.buffer.view(png.into_inner())),
+            mime_type: Some(MimeType("image/png".into())),
+            name: None,
+            uri: None,
+            extensions: None,
+            extras: None,
+        });
+        Ok(self.root.push(Texture { name: None, sampler: None, source, extensions: None, extras: None }))
     }
 
     /// Writes the document as a `.glb` file and gives it its name.
@@ -80,27 +79,14 @@ impl Document {
     }
 
     fn write(mut self, name: &str, out: &mut impl Write) -> io::Result<()> {
-        let mut document = std::mem::take(&mut self.lists);
-        document.insert("asset".into(), json!({ "version": "2.0", "generator": "Windfall" }));
-        document.insert("scene".into(), 0.into());
-        document.insert("scenes".into(), json!([{ "name": name, "nodes": self.roots }]));
-        let GltfBuffer { bytes, views, accessors } = self.buffer;
-        if !bytes.is_empty() {
-            document.insert("buffers".into(), json!([{ "byteLength": bytes.len() }]));
-        }
-        for (key, list) in [("bufferViews", views), ("accessors", accessors)] {
-            if !list.is_empty() {
-                document.insert(key.into(), list.into());
-            }
-        }
-        for (key, names) in [("extensionsUsed", &self.extensions), ("extensionsRequired", &self.required)] {
-            if !names.is_empty() {
-                document.insert(key.into(), json!(names));
-            }
-        }
-        if let Some(light) = self.light.take() {
-            document.insert("extensions".into(), json!({ "KHR_lights_punctual": { "lights": [light] } }));
-        }
-        write_glb(&document.into(), &bytes, out)
+        let scene = Scene { extensions: None, extras: None, name: Some(name.into()), nodes: self.roots };
+        self.root.scene = Some(self.root.push(scene));
+        let bytes = self.buffer.finish(&mut self.root);
+        write_glb(&self.root, &bytes, out)
     }
+}
+
+/// Index of a node by its number; a document has far fewer than 2^32.
+pub(super) fn node_index(number: usize) -> Index<Node> {
+    Index::new(u32::try_from(number).unwrap_or(u32::MAX))
 }

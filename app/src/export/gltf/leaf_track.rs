@@ -1,11 +1,12 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What one leaf does in a clip, and the node that shows it.
+//! Track of one leaf through a clip, and the node that shows it.
 
 use std::io;
 
 use glam::Quat;
-use serde_json::json;
+use gltf::json::animation::Property;
+use gltf::json::{Accessor, Index, Node};
 use windfall_core::leaf::LeafState;
 
 use super::file::Document;
@@ -14,7 +15,7 @@ use super::scenery::LeafMeshes;
 use crate::export::FrameLeaf;
 use crate::export::foliage::Foliage;
 
-/// What a leaf does.
+/// States of a leaf, frame by frame.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Track {
     /// Mesh by itself and on its twig when it is first seen so.
@@ -71,67 +72,67 @@ pub(super) fn add_leaf(
     movement: &mut Movement,
     meshes: &mut LeafMeshes,
     foliage: &Foliage,
-    times: &[[f32; 1]],
+    (times, seconds): (Index<Accessor>, &[[f32; 1]]),
     slot: usize,
     track: &Track,
 ) -> io::Result<()> {
-    let mut node = json!({ "name": format!("leaf.{slot}") });
+    let mut node = Node { name: Some(format!("leaf.{slot}")), ..Node::default() };
     if let [(_, size)] = track.sizes[..] {
-        node["scale"] = json!([size, size, size]);
+        node.scale = Some([size; 3]);
     }
     let steps = |document: &mut Document, steps: &[(usize, f32)]| {
-        let when: Vec<[f32; 1]> = steps.iter().map(|&(frame, _)| times[frame]).collect();
+        let when: Vec<[f32; 1]> = steps.iter().map(|&(frame, _)| seconds[frame]).collect();
         let sizes: Vec<[f32; 3]> = steps.iter().map(|&(_, size)| [size; 3]).collect();
-        (document.buffer.times(&when), document.buffer.floats(&sizes))
+        [document.buffer.times(&when), document.buffer.floats(&sizes)]
     };
     match track.kinds {
         [None, None] => return Ok(()),
         [Some(kind), None] | [None, Some(kind)] => {
-            node["mesh"] = meshes.index(document, foliage, kind)?.into();
+            node.mesh = Some(meshes.index(document, foliage, kind)?);
         }
         [Some(single), Some(cluster)] => {
             let mut children = Vec::new();
             for (kind, shows, ending) in [(single, false, "blade"), (cluster, true, "cluster")] {
-                let mesh = meshes.index(document, foliage, kind)?;
-                let child =
-                    document.add("nodes", json!({ "name": format!("{ending}.{slot}"), "mesh": mesh }));
+                let mesh = Some(meshes.index(document, foliage, kind)?);
+                let name = Some(format!("{ending}.{slot}"));
+                let child = document.root.push(Node { name, mesh, ..Node::default() });
                 // From the first frame on, so that nothing is left to the reader.
                 let whole = track.hangs.iter().enumerate().map(|(at, &(frame, hangs))| {
                     (if at == 0 { 0 } else { frame }, f32::from(u8::from(hangs == shows)))
                 });
                 let whole: Vec<(usize, f32)> = whole.collect();
-                let (when, sizes) = steps(document, &whole);
-                movement.add_steps(child, "scale", when, sizes);
+                movement.add_steps(child, Property::Scale, steps(document, &whole));
                 children.push(child);
             }
-            node["children"] = json!(children);
+            node.children = Some(children);
         }
     }
     let node = document.add_root(node);
     let (places, turns) = (document.buffer.floats(&track.places), document.buffer.floats(&track.turns));
-    movement.add(node, "translation", places);
-    movement.add(node, "rotation", turns);
+    movement.add(node, Property::Translation, [times, places]);
+    movement.add(node, Property::Rotation, [times, turns]);
     if track.sizes.len() > 1 {
-        let (when, sizes) = steps(document, &track.sizes);
-        movement.add_steps(node, "scale", when, sizes);
+        movement.add_steps(node, Property::Scale, steps(document, &track.sizes));
     }
     Ok(())
 }
 
 #[cfg(test)]
 mod tests {
-    use serde_json::Value;
+    use gltf::json::animation::Interpolation;
+    use gltf::json::validation::Checked::Valid;
 
     use super::*;
     use crate::export::foliage::tests::{foliage, leaf};
 
     /// The floats of an accessor.
-    fn floats(document: &Document, accessor: &Value) -> Vec<f32> {
-        let index = |value: &Value| value.as_u64().and_then(|at| usize::try_from(at).ok()).expect("an index");
+    fn floats(document: &Document, accessor: Index<Accessor>) -> Vec<f32> {
         let buffer = &document.buffer;
-        let view = &buffer.views[index(&buffer.accessors[index(accessor)]["bufferView"])];
-        let start = index(&view["byteOffset"]);
-        let words = buffer.bytes[start..start + index(&view["byteLength"])].chunks(4);
+        let view = buffer.accessors[accessor.value()].buffer_view.expect("a view");
+        let view = &buffer.views[view.value()];
+        let bytes = |count: u64| usize::try_from(count).expect("a small file");
+        let start = bytes(view.byte_offset.expect("an offset").0);
+        let words = buffer.bytes[start..start + bytes(view.byte_length.0)].chunks(4);
         words.map(|word| f32::from_le_bytes([word[0], word[1], word[2], word[3]])).collect()
     }
 
@@ -143,15 +144,16 @@ mod tests {
         for state in states {
             track.push(&leaf(9, state, 0), &foliage);
         }
-        let times = [0.0, 0.1, 0.2, 0.3].map(|time| [time]);
+        let seconds = [0.0, 0.1, 0.2, 0.3].map(|time| [time]);
         let (mut document, mut movement) = (Document::default(), Movement::default());
         let mut meshes = LeafMeshes::default();
-        add_leaf(&mut document, &mut movement, &mut meshes, &foliage, &times, 9, &track).expect("in memory");
+        let times = (document.buffer.times(&seconds), &seconds[..]);
+        add_leaf(&mut document, &mut movement, &mut meshes, &foliage, times, 9, &track).expect("in memory");
         let steps: Vec<[Vec<f32>; 2]> = movement
             .samplers
             .iter()
-            .filter(|sampler| sampler["interpolation"] == "STEP")
-            .map(|sampler| ["input", "output"].map(|end| floats(&document, &sampler[end])))
+            .filter(|sampler| sampler.interpolation == Valid(Interpolation::Step))
+            .map(|sampler| [sampler.input, sampler.output].map(|end| floats(&document, end)))
             .collect();
         let [blade, cluster, whole] = &steps[..] else { panic!("three nodes change their size: {steps:?}") };
         assert_eq!(*blade, [vec![0.0, 0.3], vec![0.0, 0.0, 0.0, 1.0, 1.0, 1.0]], "the blade once it falls");

@@ -1,16 +1,23 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What single frames and clips have in common: meshes of leaves, what covers trees, ground, camera and sun.
+//! Parts that single frames and clips share: meshes of leaves, bark and fruit of trees, ground, camera and sun.
 
 use std::collections::HashMap;
 use std::io;
 
 use glam::{Quat, Vec3};
+use gltf::json::camera::{self, Perspective};
+use gltf::json::extensions::scene::khr_lights_punctual::{KhrLightsPunctual, Light, Type};
+use gltf::json::material::{AlphaMode, PbrBaseColorFactor, PbrMetallicRoughness, StrengthFactor};
+use gltf::json::mesh::Semantic;
+use gltf::json::scene::UnitQuaternion;
+use gltf::json::validation::Checked::Valid;
+use gltf::json::{Camera, Index, Material, Mesh, Node, Texture, extensions, texture};
 use image::DynamicImage;
-use serde_json::{Map, Value, json};
 use windfall_core::Scene;
 use windfall_core::scene::camera_at;
 use windfall_core::tree::BarkMesh;
+use windfall_core::tree::gltf::new_mesh;
 use windfall_render::light::{SunLight, luminance};
 use windfall_render::trees::BarkKind;
 
@@ -25,8 +32,8 @@ use crate::export::wood::{bark_name, bark_picture};
 /// Meshes of leaves, each added once, and their materials.
 #[derive(Debug, Default)]
 pub(super) struct LeafMeshes {
-    meshes: HashMap<usize, usize>,
-    materials: HashMap<usize, usize>,
+    meshes: HashMap<usize, Index<Mesh>>,
+    materials: HashMap<usize, Index<Material>>,
 }
 
 impl LeafMeshes {
@@ -36,7 +43,7 @@ impl LeafMeshes {
         document: &mut Document,
         foliage: &Foliage,
         number: usize,
-    ) -> io::Result<usize> {
+    ) -> io::Result<Index<Mesh>> {
         if let Some(&index) = self.meshes.get(&number) {
             return Ok(index);
         }
@@ -46,137 +53,172 @@ impl LeafMeshes {
             None => {
                 let picture = &foliage.pictures[mesh.picture];
                 let texture = document.texture(&DynamicImage::ImageRgba8(picture.image.clone()))?;
-                let material = json!({
-                    "name": picture.name,
-                    "alphaMode": "MASK",
-                    "doubleSided": true,
-                    "pbrMetallicRoughness": {
-                        "baseColorTexture": { "index": texture },
-                        "metallicFactor": 0.0,
-                        "roughnessFactor": 0.6,
-                    },
-                });
-                *self.materials.entry(mesh.picture).or_insert(document.add("materials", material))
+                let material = Material {
+                    alpha_mode: Valid(AlphaMode::Mask),
+                    double_sided: true,
+                    ..textured(&picture.name, texture, 0.6)
+                };
+                *self.materials.entry(mesh.picture).or_insert(document.root.push(material))
             }
         };
-        let attributes = json!({
-            "POSITION": document.buffer.positions(&mesh.positions_m),
-            "NORMAL": document.buffer.vertices(&mesh.normals),
-            "TEXCOORD_0": document.buffer.vertices(&mesh.texcoords),
-        });
+        let attributes = [
+            (Semantic::Positions, document.buffer.positions(&mesh.positions_m)),
+            (Semantic::Normals, document.buffer.vertices(&mesh.normals)),
+            (Semantic::TexCoords(0), document.buffer.vertices(&mesh.texcoords)),
+        ];
         let indices = document.buffer.indices(mesh.triangles.as_flattened());
-        let primitive = json!({ "attributes": attributes, "indices": indices, "material": material });
-        let index = document.add("meshes", json!({ "name": mesh.name, "primitives": [primitive] }));
+        let index = document.root.push(new_mesh(&mesh.name, attributes, Some(indices), Some(material)));
         self.meshes.insert(number, index);
         Ok(index)
     }
 }
 
-/// The materials of what trees are covered with, each added once.
+/// The materials of bark and berries, each added once.
 #[derive(Debug, Default)]
 pub(super) struct Barks {
-    barks: HashMap<BarkKind, usize>,
-    berry: Option<usize>,
+    barks: HashMap<BarkKind, Index<Material>>,
+    berry: Option<Index<Material>>,
 }
 
 impl Barks {
     /// The material of a bark.
-    pub(super) fn bark(&mut self, document: &mut Document, kind: BarkKind) -> io::Result<usize> {
+    pub(super) fn bark(&mut self, document: &mut Document, kind: BarkKind) -> io::Result<Index<Material>> {
         if let Some(&material) = self.barks.get(&kind) {
             return Ok(material);
         }
         // Its rows run up the trunk, the picture's down, and so do the file's coordinates.
         let texture = document.texture(&DynamicImage::ImageRgb8(bark_picture(kind)).flipv())?;
-        let material = json!({
-            "name": bark_name(kind),
-            "pbrMetallicRoughness": {
-                "baseColorTexture": { "index": texture },
-                "metallicFactor": 0.0,
-                "roughnessFactor": 0.9,
-            },
-        });
-        Ok(*self.barks.entry(kind).or_insert(document.add("materials", material)))
+        let material = textured(bark_name(kind), texture, 0.9);
+        Ok(*self.barks.entry(kind).or_insert(document.root.push(material)))
     }
 
     /// The material of berries.
-    pub(super) fn berry(&mut self, document: &mut Document) -> usize {
+    pub(super) fn berry(&mut self, document: &mut Document) -> Index<Material> {
         *self.berry.get_or_insert_with(|| plain(document, &SKIN))
     }
 }
 
-/// Adds the mesh of what covers a tree; one that bends knows its joints.
+/// A material with a picture for its colour.
+fn textured(name: &str, picture: Index<Texture>, roughness: f32) -> Material {
+    let texture = texture::Info { index: picture, tex_coord: 0, extensions: None, extras: None };
+    Material {
+        name: Some(name.into()),
+        pbr_metallic_roughness: PbrMetallicRoughness {
+            base_color_texture: Some(texture),
+            metallic_factor: StrengthFactor(0.0),
+            roughness_factor: StrengthFactor(roughness),
+            ..PbrMetallicRoughness::default()
+        },
+        ..Material::default()
+    }
+}
+
+/// A node that shows a mesh where it stands.
+pub(super) fn shown(name: String, mesh: Index<Mesh>) -> Node {
+    Node { name: Some(name), mesh: Some(mesh), ..Node::default() }
+}
+
+/// Adds the mesh of bark or fruit; one that bends has its joints.
 pub(super) fn tree_mesh(
     document: &mut Document,
     name: &str,
-    material: usize,
+    material: Index<Material>,
     mesh: &BarkMesh,
     bends: bool,
-) -> usize {
-    let mut attributes = Map::new();
-    let mut set = |name: &str, accessor: usize| attributes.insert(name.into(), accessor.into());
-    set("POSITION", document.buffer.positions(&mesh.positions_m));
-    set("NORMAL", document.buffer.vertices(&mesh.normals));
+) -> Index<Mesh> {
+    let buffer = &mut document.buffer;
+    let mut attributes = vec![
+        (Semantic::Positions, buffer.positions(&mesh.positions_m)),
+        (Semantic::Normals, buffer.vertices(&mesh.normals)),
+    ];
     if !mesh.texcoords.is_empty() {
-        set("TEXCOORD_0", document.buffer.vertices(&mesh.texcoords));
+        attributes.push((Semantic::TexCoords(0), buffer.vertices(&mesh.texcoords)));
     }
     if bends {
-        set("JOINTS_0", document.buffer.joints(&mesh.joints));
-        set("WEIGHTS_0", document.buffer.vertices(&mesh.weights));
+        attributes.push((Semantic::Joints(0), buffer.joints(&mesh.joints)));
+        attributes.push((Semantic::Weights(0), buffer.vertices(&mesh.weights)));
     }
-    let indices = document.buffer.indices(&mesh.indices);
-    let primitive = json!({ "attributes": attributes, "indices": indices, "material": material });
-    document.add("meshes", json!({ "name": name, "primitives": [primitive] }))
+    let indices = buffer.indices(&mesh.indices);
+    document.root.push(new_mesh(name, attributes, Some(indices), Some(material)))
 }
 
 /// Adds a material of one colour.
-fn plain(document: &mut Document, plain: &Plain) -> usize {
+fn plain(document: &mut Document, plain: &Plain) -> Index<Material> {
     let [r, g, b] = plain.color;
-    let material = json!({
-        "name": plain.name,
-        "pbrMetallicRoughness": {
-            "baseColorFactor": [r, g, b, 1.0],
-            "metallicFactor": 0.0,
-            "roughnessFactor": plain.roughness,
+    document.root.push(Material {
+        name: Some(plain.name.into()),
+        pbr_metallic_roughness: PbrMetallicRoughness {
+            base_color_factor: PbrBaseColorFactor([r, g, b, 1.0]),
+            metallic_factor: StrengthFactor(0.0),
+            roughness_factor: StrengthFactor(plain.roughness),
+            ..PbrMetallicRoughness::default()
         },
-    });
-    document.add("materials", material)
+        ..Material::default()
+    })
 }
 
 /// Adds ground and water.
 pub(super) fn add_surfaces(document: &mut Document, scene: &Scene) {
     for surface in surfaces(scene) {
         let material = plain(document, &surface.plain);
-        let attributes = json!({
-            "POSITION": document.buffer.positions(&surface.positions_m),
-            "NORMAL": document.buffer.vertices(&surface.normals),
-        });
+        let attributes = [
+            (Semantic::Positions, document.buffer.positions(&surface.positions_m)),
+            (Semantic::Normals, document.buffer.vertices(&surface.normals)),
+        ];
         let indices = document.buffer.indices(surface.triangles.as_flattened());
-        let primitive = json!({ "attributes": attributes, "indices": indices, "material": material });
-        let mesh = document.add("meshes", json!({ "name": surface.name, "primitives": [primitive] }));
-        document.add_root(json!({ "name": surface.name, "mesh": mesh }));
+        let mesh = document.root.push(new_mesh(surface.name, attributes, Some(indices), Some(material)));
+        document.add_root(shown(surface.name.into(), mesh));
     }
 }
 
 /// Adds camera and sun as they are at a time.
 pub(super) fn view(document: &mut Document, scene: &Scene, sun: SunLight, time_s: f64) {
     let camera = camera_at(&scene.view.path, time_s).unwrap_or(scene.view.camera);
-    let perspective = json!({ "yfov": camera.vertical_fov_deg.to_radians(), "znear": 0.05 });
-    let index = document.add("cameras", json!({ "type": "perspective", "perspective": perspective }));
+    let perspective = Perspective {
+        aspect_ratio: None,
+        yfov: camera.vertical_fov_deg.to_radians(),
+        zfar: None,
+        znear: 0.05,
+        extensions: None,
+        extras: None,
+    };
+    let index = document.root.push(Camera {
+        name: None,
+        orthographic: None,
+        perspective: Some(perspective),
+        type_: Valid(camera::Type::Perspective),
+        extensions: None,
+        extras: None,
+    });
     let (_, turn, place) = pose(&camera).to_scale_rotation_translation();
-    document.add_root(placed("Camera", place, turn, json!({ "camera": index })));
+    document.add_root(Node { camera: Some(index), ..placed("Camera", place, turn) });
     let strength = luminance(sun.illuminance);
     if sun.direction.y > 0.0 && strength > 0.0 {
         let color = (sun.illuminance / strength).clamp(Vec3::ZERO, Vec3::ONE).to_array();
-        document.set_light(json!({ "type": "directional", "color": color, "intensity": 1000.0 * strength }));
+        let light = document.add_light(Light {
+            color,
+            extensions: None,
+            extras: None,
+            intensity: 1000.0 * strength,
+            name: None,
+            range: None,
+            spot: None,
+            type_: Valid(Type::Directional),
+        });
         let turn = Quat::from_rotation_arc(Vec3::Z, sun.direction);
-        let light = json!({ "extensions": { "KHR_lights_punctual": { "light": 0 } } });
-        document.add_root(placed("Sun", Vec3::ZERO, turn, light));
+        let extensions = extensions::scene::Node {
+            khr_lights_punctual: Some(KhrLightsPunctual { light }),
+            ..Default::default()
+        };
+        document.add_root(Node { extensions: Some(extensions), ..placed("Sun", Vec3::ZERO, turn) });
     }
 }
 
-fn placed(name: &str, place: Vec3, turn: Quat, mut node: Value) -> Value {
-    node["name"] = name.into();
-    node["translation"] = json!(place.to_array());
-    node["rotation"] = json!(turn.normalize().to_array());
-    node
+fn placed(name: &str, place: Vec3, turn: Quat) -> Node {
+    Node {
+        name: Some(name.into()),
+        translation: Some(place.to_array()),
+        rotation: Some(UnitQuaternion(turn.normalize().to_array())),
+        ..Node::default()
+    }
 }

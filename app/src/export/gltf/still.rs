@@ -5,13 +5,15 @@
 use std::io;
 use std::path::PathBuf;
 
+use gltf::json::{Node, extensions};
 use serde_json::json;
+use serde_json::value::to_raw_value;
 use windfall_core::leaf::LeafState;
 use windfall_render::light::{Daylight, SunLight};
 use windfall_render::trees::Stand;
 
 use super::file::Document;
-use super::scenery::{Barks, LeafMeshes, add_surfaces, tree_mesh, view};
+use super::scenery::{Barks, LeafMeshes, add_surfaces, shown, tree_mesh, view};
 use crate::export::foliage::Foliage;
 use crate::export::fruit::fruit;
 use crate::export::{Exporter, Frame, FrameLeaf, Job, wood};
@@ -59,13 +61,17 @@ impl StillExport {
                 "ROTATION": document.buffer.floats(&turns),
                 "SCALE": document.buffer.floats(&sizes),
             });
-            let mesh = meshes.index(document, &self.foliage, number)?;
-            document.add_root(json!({
-                "name": self.foliage.meshes[number].name,
-                "mesh": mesh,
-                "extensions": { "EXT_mesh_gpu_instancing": { "attributes": attributes } },
-                "extras": { "ids": ids },
-            }));
+            let mut extensions = extensions::scene::Node::default();
+            let instancing = json!({ "attributes": attributes });
+            extensions.others.insert("EXT_mesh_gpu_instancing".into(), instancing);
+            let node = Node {
+                name: Some(self.foliage.meshes[number].name.clone()),
+                mesh: Some(meshes.index(document, &self.foliage, number)?),
+                extensions: Some(extensions),
+                extras: Some(to_raw_value(&json!({ "ids": ids }))?),
+                ..Node::default()
+            };
+            document.add_root(node);
         }
         let mut barks = Barks::default();
         for (number, tree) in self.stand.trees.iter().enumerate() {
@@ -74,12 +80,12 @@ impl StillExport {
             wood::bend(&mut mesh, &self.stand, tree, &branches.base, &branches.pose);
             let bark = barks.bark(document, tree.look.bark)?;
             let index = tree_mesh(document, "bark", bark, &mesh, false);
-            document.add_root(json!({ "name": format!("tree.{number}"), "mesh": index }));
+            document.add_root(shown(format!("tree.{number}"), index));
             if let Some(mut mesh) = fruit(tree) {
                 wood::bend(&mut mesh, &self.stand, tree, &branches.base, &branches.pose);
                 let berry = barks.berry(document);
                 let index = tree_mesh(document, "fruit", berry, &mesh, false);
-                document.add_root(json!({ "name": format!("tree.{number}.fruit"), "mesh": index }));
+                document.add_root(shown(format!("tree.{number}.fruit"), index));
             }
         }
         Ok(())

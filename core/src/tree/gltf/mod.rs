@@ -3,8 +3,8 @@
 //! Trees as glTF 2.0 files, in the form that other programs rig and animate them in: a mesh that joints move.
 //!
 //! Each segment is a joint, which lies at its lower end with y along it; each attachment is a point of a second mesh on
-//! the same skin. What a joint alone does not tell stands in its `extras`: [`read`] takes these numbers where there are
-//! any, and measures the mesh where there are none.
+//! the same skin. The `extras` of a joint give what the joint alone does not: [`read`] takes these numbers where there
+//! are any, and measures the mesh where there are none.
 //!
 //! # Source
 //! glTF 2.0 Specification, version 2.0.1, The Khronos Group (2021).
@@ -21,4 +21,4 @@ pub use buffer::{GltfBuffer, write_glb};
 pub use convention::{BEARING, DIRECTION, WIND_WEIGHT};
 pub use error::GltfError;
 pub use read::{MAX_FILE_BYTES, MAX_VERTICES, RiggedTree, read, read_bytes};
-pub use write::{GltfLook, to_glb, to_gltf};
+pub use write::{GltfLook, new_document, new_mesh, to_glb, to_gltf};

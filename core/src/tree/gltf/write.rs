@@ -7,13 +7,20 @@ mod wind;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use glam::{DMat4, DQuat, DVec3};
-use serde_json::{Map, Value, json};
+use gltf::json::accessor::Accessor;
+use gltf::json::asset::Asset;
+use gltf::json::material::{Material, PbrBaseColorFactor, PbrMetallicRoughness, StrengthFactor};
+use gltf::json::mesh::{Mesh, Mode, Primitive, Semantic};
+use gltf::json::scene::UnitQuaternion;
+use gltf::json::validation::Checked::Valid;
+use gltf::json::{Index, Node, Root, Scene, Skin};
+use serde_json::value::to_raw_value;
 
 use super::buffer::{GltfBuffer, write_glb};
 use super::convention::{BEARING, DIRECTION, JointExtras, WIND_WEIGHT};
 use crate::tree::{BarkMesh, Bearing, Skeleton};
 
-/// How a tree looks in a file.
+/// Look of a tree in a file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GltfLook {
     /// Name of the tree.
@@ -22,7 +29,7 @@ pub struct GltfLook {
     pub bark_color: [f32; 3],
     /// Roughness of the bark from 0 to 1.
     pub bark_roughness: f32,
-    /// Whether wind weights stand in `COLOR_0` too. Programs that know nothing of them tint the bark with it.
+    /// True if wind weights stand in `COLOR_0` too. Programs that know nothing of them tint the bark with it.
     pub has_wind_colors: bool,
 }
 
@@ -54,95 +61,140 @@ pub fn to_glb(skeleton: &Skeleton, mesh: &BarkMesh, look: &GltfLook) -> Vec<u8> 
 /// The same as the text of a `.gltf` file that holds its buffer as a data URI.
 pub fn to_gltf(skeleton: &Skeleton, mesh: &BarkMesh, look: &GltfLook) -> String {
     let (mut document, data) = document(skeleton, mesh, look);
-    let uri = format!("data:application/octet-stream;base64,{}", STANDARD.encode(data));
-    document["buffers"][0]["uri"] = uri.into();
-    format!("{document:#}\n")
+    for buffer in &mut document.buffers {
+        buffer.uri = Some(format!("data:application/octet-stream;base64,{}", STANDARD.encode(&data)));
+    }
+    let text = document.to_string_pretty();
+    text.expect("a document is made of numbers, names and lists") + "\n"
 }
 
 /// The document and its buffer, which is a multiple of four bytes long.
-fn document(skeleton: &Skeleton, mesh: &BarkMesh, look: &GltfLook) -> (Value, Vec<u8>) {
-    let mut data = GltfBuffer::default();
-    let mut nodes = vec![json!({ "name": "bark", "mesh": 0, "skin": 0 })];
-    let mut meshes = vec![bark(&mut data, skeleton, mesh, look)];
-    if !skeleton.attachments.is_empty() {
-        nodes.push(json!({ "name": "attachments", "mesh": 1, "skin": 0 }));
-        meshes.push(attachments(&mut data, skeleton));
-    }
-    let first = nodes.len();
-    let places = places(skeleton);
-    nodes.extend(joints(skeleton, &places, first));
-    // Bark, attachments and the first joint, below which all others are.
-    let roots: Vec<usize> = (0..=first).collect();
-    let skin = json!({
-        "name": look.name,
-        "skeleton": first,
-        "joints": (first..nodes.len()).collect::<Vec<_>>(),
-        "inverseBindMatrices": data.matrices(&inverse_binds(&places)),
-    });
+fn document(skeleton: &Skeleton, mesh: &BarkMesh, look: &GltfLook) -> (Root, Vec<u8>) {
+    let (mut root, mut data) = (new_document(), GltfBuffer::default());
     let [r, g, b] = look.bark_color;
-    let document = json!({
-        "asset": { "version": "2.0", "generator": "Windfall" },
-        "scene": 0,
-        "scenes": [{ "name": look.name, "nodes": roots }],
-        "nodes": nodes,
-        "meshes": meshes,
-        "skins": [skin],
-        "materials": [{
-            "name": "bark",
-            "pbrMetallicRoughness": {
-                "baseColorFactor": [r, g, b, 1.0],
-                "metallicFactor": 0.0,
-                "roughnessFactor": look.bark_roughness,
-            },
-        }],
-        "accessors": data.accessors,
-        "bufferViews": data.views,
-        "buffers": [{ "byteLength": data.bytes.len() }],
+    let material = root.push(Material {
+        name: Some("bark".into()),
+        pbr_metallic_roughness: PbrMetallicRoughness {
+            base_color_factor: PbrBaseColorFactor([r, g, b, 1.0]),
+            metallic_factor: StrengthFactor(0.0),
+            roughness_factor: StrengthFactor(look.bark_roughness),
+            ..PbrMetallicRoughness::default()
+        },
+        ..Material::default()
     });
-    (document, data.bytes)
+    let skin = Some(Index::new(0));
+    let skinned = |name: &str, mesh| Node { name: Some(name.into()), mesh, skin, ..Node::default() };
+    let bark = bark(&mut data, skeleton, mesh, look, material);
+    let bark = Some(root.push(bark));
+    let mut roots = vec![root.push(skinned("bark", bark))];
+    if !skeleton.attachments.is_empty() {
+        let points = Some(root.push(attachments(&mut data, skeleton)));
+        roots.push(root.push(skinned("attachments", points)));
+    }
+    let places = places(skeleton);
+    let first = root.nodes.len();
+    root.nodes.extend(joints(skeleton, &places, first));
+    // The first joint, below which all others are.
+    roots.push(node_index(first));
+    root.push(Skin {
+        extensions: None,
+        extras: None,
+        inverse_bind_matrices: Some(data.matrices(&inverse_binds(&places))),
+        joints: (first..root.nodes.len()).map(node_index).collect(),
+        name: Some(look.name.clone()),
+        skeleton: Some(node_index(first)),
+    });
+    root.scene = Some(root.push(Scene {
+        extensions: None,
+        extras: None,
+        name: Some(look.name.clone()),
+        nodes: roots,
+    }));
+    let bytes = data.finish(&mut root);
+    (root, bytes)
+}
+
+/// A document of ours without anything in it.
+pub fn new_document() -> Root {
+    Root { asset: Asset { generator: Some("Windfall".into()), ..Asset::default() }, ..Root::default() }
+}
+
+/// A mesh of one piece: triangles, or points if there are no indices.
+pub fn new_mesh(
+    name: &str,
+    attributes: impl IntoIterator<Item = (Semantic, Index<Accessor>)>,
+    indices: Option<Index<Accessor>>,
+    material: Option<Index<Material>>,
+) -> Mesh {
+    let primitive = Primitive {
+        attributes: attributes.into_iter().map(|(semantic, accessor)| (Valid(semantic), accessor)).collect(),
+        extensions: None,
+        extras: None,
+        indices,
+        material,
+        mode: Valid(if indices.is_some() { Mode::Triangles } else { Mode::Points }),
+        targets: None,
+    };
+    let primitives = vec![primitive];
+    Mesh { extensions: None, extras: None, name: Some(name.into()), primitives, weights: None }
+}
+
+/// Index of a node by its number; a document has far fewer than 2^32.
+fn node_index(number: usize) -> Index<Node> {
+    Index::new(u32::try_from(number).unwrap_or(u32::MAX))
+}
+
+/// Vertex attribute of an application, whose name begins with an underscore.
+fn own(name: &str) -> Semantic {
+    Semantic::Extras(name.trim_start_matches('_').into())
 }
 
 /// The mesh of the bark.
-fn bark(data: &mut GltfBuffer, skeleton: &Skeleton, mesh: &BarkMesh, look: &GltfLook) -> Value {
-    let wind = wind::weights(skeleton, mesh);
-    let mut attributes = Map::new();
-    attributes.insert("POSITION".into(), data.positions(&mesh.positions_m).into());
-    attributes.insert("NORMAL".into(), data.vertices(&mesh.normals).into());
-    attributes.insert("TEXCOORD_0".into(), data.vertices(&mesh.texcoords).into());
-    attributes.insert("JOINTS_0".into(), data.joints(&mesh.joints).into());
-    attributes.insert("WEIGHTS_0".into(), data.vertices(&mesh.weights).into());
-    let wind = data.vertices(&wind);
+fn bark(
+    data: &mut GltfBuffer,
+    skeleton: &Skeleton,
+    mesh: &BarkMesh,
+    look: &GltfLook,
+    material: Index<Material>,
+) -> Mesh {
+    let mut attributes = vec![
+        (Semantic::Positions, data.positions(&mesh.positions_m)),
+        (Semantic::Normals, data.vertices(&mesh.normals)),
+        (Semantic::TexCoords(0), data.vertices(&mesh.texcoords)),
+        (Semantic::Joints(0), data.joints(&mesh.joints)),
+        (Semantic::Weights(0), data.vertices(&mesh.weights)),
+    ];
+    let wind = data.vertices(&wind::weights(skeleton, mesh));
     if look.has_wind_colors {
-        attributes.insert("COLOR_0".into(), wind.into());
+        attributes.push((Semantic::Colors(0), wind));
     }
-    attributes.insert(WIND_WEIGHT.into(), wind.into());
-    let indices = data.indices(&mesh.indices);
-    let primitive = json!({ "attributes": attributes, "indices": indices, "material": 0, "mode": 4 });
-    json!({ "name": "bark", "primitives": [primitive] })
+    attributes.push((own(WIND_WEIGHT), wind));
+    new_mesh("bark", attributes, Some(data.indices(&mesh.indices)), Some(material))
 }
 
 /// The points of the attachments.
-fn attachments(data: &mut GltfBuffer, skeleton: &Skeleton) -> Value {
+fn attachments(data: &mut GltfBuffer, skeleton: &Skeleton) -> Mesh {
     let all = || skeleton.attachments.iter();
-    let mut attributes = Map::new();
     let places: Vec<[f32; 3]> = all().map(|attachment| attachment.at_m.to_array()).collect();
-    attributes.insert("POSITION".into(), data.positions(&places).into());
     let normals: Vec<[f32; 3]> = all().map(|attachment| attachment.normal.to_array()).collect();
-    attributes.insert("NORMAL".into(), data.vertices(&normals).into());
     let directions: Vec<[f32; 3]> = all().map(|attachment| attachment.direction.to_array()).collect();
-    attributes.insert(DIRECTION.into(), data.vertices(&directions).into());
     let bearings: Vec<[f32; 1]> =
         all().map(|a| [if a.bearing == Bearing::Leaf { 0.0 } else { 1.0 }]).collect();
-    attributes.insert(BEARING.into(), data.vertices(&bearings).into());
     // A skeleton has no more than 65536 segments.
     let joints: Vec<[u16; 4]> =
         all().map(|a| [u16::try_from(a.segment).unwrap_or(u16::MAX), 0, 0, 0]).collect();
-    attributes.insert("JOINTS_0".into(), data.joints(&joints).into());
-    attributes.insert("WEIGHTS_0".into(), data.vertices(&vec![[1.0, 0.0, 0.0, 0.0]; joints.len()]).into());
-    json!({ "name": "attachments", "primitives": [{ "attributes": attributes, "mode": 0 }] })
+    let attributes = [
+        (Semantic::Positions, data.positions(&places)),
+        (Semantic::Normals, data.vertices(&normals)),
+        (own(DIRECTION), data.vertices(&directions)),
+        (own(BEARING), data.vertices(&bearings)),
+        (Semantic::Joints(0), data.joints(&joints)),
+        (Semantic::Weights(0), data.vertices(&vec![[1.0, 0.0, 0.0, 0.0]; joints.len()])),
+    ];
+    new_mesh("attachments", attributes, None, None)
 }
 
-/// Where every joint is and how it is turned: at the lower end of its segment, y along it, without a twist against its
+/// Place and orientation of every joint: at the lower end of its segment, y along it, without a twist against its
 /// parent.
 fn places(skeleton: &Skeleton) -> Vec<(DVec3, DQuat)> {
     let mut places: Vec<(DVec3, DQuat)> = Vec::with_capacity(skeleton.segments.len());
@@ -156,14 +208,14 @@ fn places(skeleton: &Skeleton) -> Vec<(DVec3, DQuat)> {
 }
 
 /// The nodes of the joints; `first` is the index of the first.
-fn joints(skeleton: &Skeleton, places: &[(DVec3, DQuat)], first: usize) -> Vec<Value> {
-    let mut children: Vec<Vec<usize>> = vec![Vec::new(); places.len()];
+fn joints(skeleton: &Skeleton, places: &[(DVec3, DQuat)], first: usize) -> Vec<Node> {
+    let mut children: Vec<Vec<Index<Node>>> = vec![Vec::new(); places.len()];
     for (index, segment) in skeleton.segments.iter().enumerate() {
         if let Some(parent) = segment.parent {
-            children[parent as usize].push(first + index);
+            children[parent as usize].push(node_index(first + index));
         }
     }
-    let joint = |(index, segment): (usize, &crate::tree::Segment)| {
+    let joint = |((index, segment), children): ((usize, &crate::tree::Segment), Vec<Index<Node>>)| {
         let (place, turn) = places[index];
         let (above, above_turn) =
             segment.parent.map_or((DVec3::ZERO, DQuat::IDENTITY), |parent| places[parent as usize]);
@@ -173,21 +225,19 @@ fn joints(skeleton: &Skeleton, places: &[(DVec3, DQuat)], first: usize) -> Vec<V
             radius_m: Some([segment.start_radius_m, segment.end_radius_m]),
             order: Some(segment.order),
         };
-        let mut node = json!({
-            "name": format!("segment.{index}"),
-            "translation": (back * (place - above)).to_array(),
-            "rotation": (back * turn).normalize().to_array(),
-            "extras": extras,
-        });
-        if !children[index].is_empty() {
-            node["children"] = children[index].clone().into();
+        Node {
+            name: Some(format!("segment.{index}")),
+            translation: Some((back * (place - above)).as_vec3().to_array()),
+            rotation: Some(UnitQuaternion((back * turn).normalize().as_quat().to_array())),
+            extras: Some(to_raw_value(&extras).expect("extras are numbers")),
+            children: Some(children).filter(|children| !children.is_empty()),
+            ..Node::default()
         }
-        node
     };
-    skeleton.segments.iter().enumerate().map(joint).collect()
+    skeleton.segments.iter().enumerate().zip(children).map(joint).collect()
 }
 
-/// From the world to every joint's own frame.
+/// Transforms from the world to every joint's own frame.
 fn inverse_binds(places: &[(DVec3, DQuat)]) -> Vec<[f32; 16]> {
     let inverse = |&(place, turn): &(DVec3, DQuat)| {
         let back = turn.conjugate();
