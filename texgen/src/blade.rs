@@ -7,7 +7,7 @@
 
 use glam::Vec2;
 
-/// Which pixels belong to a leaf.
+/// Pixels that belong to a leaf.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Mask {
     /// Pixels in a row.
@@ -25,11 +25,11 @@ pub struct Blade {
     pub mask: Mask,
     /// Margin: a closed polygon, counter-clockwise with y up, first point not repeated.
     pub outline: Vec<Vec2>,
-    /// Where the petiole meets the blade.
+    /// Junction of petiole and blade.
     pub root: Vec2,
     /// The far end of the midrib.
     pub tip: Vec2,
-    /// How sure root and tip are: 0 (guessed) to 1 (known, as for a blade that was drawn).
+    /// Confidence of root and tip: 0 (guessed) to 1 (known, as for a blade that was drawn).
     pub confidence: f32,
 }
 
@@ -39,7 +39,7 @@ impl Mask {
         Self { width, height, inside: vec![false; width as usize * height as usize] }
     }
 
-    /// Whether a pixel is inside; pixels off the grid are not.
+    /// Returns true if a pixel is inside; pixels off the grid are not.
     pub fn contains(&self, x: i32, y: i32) -> bool {
         match (u32::try_from(x), u32::try_from(y)) {
             (Ok(x), Ok(y)) if x < self.width && y < self.height => {

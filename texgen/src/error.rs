@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What can be wrong with a request.
+//! Faults of a request.
 
 /// A request that cannot be drawn.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -21,13 +21,13 @@ pub enum TexgenError {
     Photo {
         /// The file.
         path: String,
-        /// What is wrong with it, and what would be right.
+        /// Fault, and what would be right.
         problem: String,
     },
     /// A blade on which no vein can grow.
     #[error("no vein can grow: {reason}")]
     NoRoom {
-        /// What the blade lacks, with the value found and the least that is needed.
+        /// Lack of the blade, with the value found and the least that is needed.
         reason: String,
     },
 }

@@ -9,7 +9,7 @@ pub(crate) type Lab = [f32; 3];
 
 /// White of D65 for the 2 degree observer.
 const WHITE: [f32; 3] = [0.950_47, 1.0, 1.088_83];
-/// Where the cube root gives way to a line: (6/29)^3.
+/// Value below which a line replaces the cube root: (6/29)^3.
 const LINEAR_BELOW: f32 = 216.0 / 24389.0;
 
 /// Lab of an sRGB colour.

@@ -9,7 +9,7 @@ use image::{GrayImage, RgbImage, Rgba, RgbaImage};
 use crate::math::{linear_from_srgb, luminance, single, to_byte};
 use crate::{FolderLeaf, LeafForm, mipmap};
 
-/// How far the meshes reach beyond the margin they follow, in sides of the picture, coarse first: as far as they miss it.
+/// Margin of the meshes beyond the outline they follow, in sides of the picture, coarse first: as far as they miss it.
 const WIDER: [f32; 3] = [0.035, 0.018, 0.008];
 /// Pieces of the petiole, coarse first.
 const STALK_PIECES: [usize; 3] = [1, 3, 8];

@@ -38,7 +38,7 @@ pub(crate) fn fractal(seed: u64, mut p: Vec2, octaves: u32) -> f32 {
     sum / total * 1.4
 }
 
-/// What scattered points, one a unit square, lie around a place.
+/// Scattered points, one a unit square, around a place.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Cells {
     /// Distance to the nearest point.

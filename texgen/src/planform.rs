@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! How the area of a mask lies: the ellipse with the same second moments.
+//! Planform of a mask: the ellipse with the same second moments.
 
 use glam::{DMat2, DVec2};
 

@@ -9,11 +9,11 @@ use crate::{Blade, VeinGraph};
 /// A pictured leaf with all that is known about it: cut out of a photo or painted.
 #[derive(Clone, Debug)]
 pub struct Specimen {
-    /// Where it comes from, such as a file's name.
+    /// Origin, such as a file's name.
     pub name: String,
     /// The picture, upright or not, as large as the blade's mask.
     pub picture: RgbImage,
-    /// Where the leaf lies in the picture.
+    /// Place of the leaf in the picture.
     pub blade: Blade,
     /// Its main and lateral veins.
     pub veins: VeinGraph,

@@ -115,7 +115,7 @@ fn decode<'a>(bytes: &'a [u8], file: &str) -> Result<&'a str, SceneError> {
     })
 }
 
-/// Where the text goes wrong, and what might have been meant.
+/// Place at which the text goes wrong, and what might have been meant.
 fn syntax_error(text: &str, file: &str, error: &SpannedError) -> SceneError {
     let ended = offset(text, error.span.end) == text.len();
     let mut message = match &error.code {
@@ -152,7 +152,7 @@ fn offset(text: &str, position: Position) -> usize {
     before + line.map(char::len_utf8).sum::<usize>()
 }
 
-/// Where a faulty part begins. Spans may begin with the space and the comments in front of it.
+/// Beginning of a faulty part. Spans may begin with the space and the comments in front of it.
 fn start(text: &str, &Span { start, end }: &Span) -> Position {
     let from = offset(text, start);
     let span = &text[from..offset(text, end).max(from)];

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! How a kind of leaf falls: which model moves it, and what that model knows of its body.
+//! Fall of a kind of leaf: the model that moves it, and that model's numbers of its body.
 
 use serde::{Deserialize, Serialize};
 
@@ -14,7 +14,7 @@ pub enum FlightModel {
     Aerodynamic(Aerodynamics),
 }
 
-/// How a body is held before it is let go at rest from a source. What breaks off a twig keeps its attitude.
+/// Attitude of a body before its release at rest from a source. Leaves that break off a twig keep theirs.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Hold {
     /// Any way round.
@@ -26,14 +26,14 @@ pub enum Hold {
     EdgeOn,
 }
 
-/// How a body's area lies about its middle, x across it and z along it from petiole to tip.
+/// Distribution of a body's area about its centroid, x across it and z along it from petiole to tip.
 /// [`Planform::of_outline`] measures an outline.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Planform {
     /// Length over width, 0.1 to 10, of the ellipse with the same second moments of area.
     pub aspect: f32,
-    /// How far the area reaches out, 1 to 3: the geometric mean of that ellipse's half axes relative to the radius of the
+    /// Reach of the area, 1 to 3: the geometric mean of that ellipse's half axes relative to the radius of the
     /// disc with the body's area. 1 for every ellipse, 1.02 for a square; lobes make it larger.
     pub extent: f32,
 }
@@ -49,7 +49,7 @@ impl Default for Planform {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Aerodynamics {
-    /// How its area lies; as the species' shape has it when absent, or its folder of leaves.
+    /// Distribution of its area; as the species' shape has it when absent, or its folder of leaves.
     pub planform: Option<Planform>,
     /// Water that the leaf holds, as a share of its dry mass, 0 to 4: a fallen leaf has next to none, a green one up
     /// to 2. The species' areal density is that of the dry leaf.
@@ -71,7 +71,7 @@ pub struct Aerodynamics {
     /// Half width of the spread of offsets and twist among the leaves, 0 to 0.5; curl spreads half as much again. 0.035 is
     /// paper, well cut.
     pub irregularity: f32,
-    /// How it is held before it is let go.
+    /// Attitude before release.
     pub hold: Hold,
     /// Half width of the spread of its tilt then, in degrees, 0 to 90.
     pub tilt_deg: f32,

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What leaves land on.
+//! Ground on which leaves land.
 
 use serde::{Deserialize, Serialize};
 

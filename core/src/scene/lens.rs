@@ -4,7 +4,7 @@
 
 use serde::{Deserialize, Serialize};
 
-/// How much light the picture takes.
+/// Exposure of the picture.
 ///
 /// An exposure value EV100 multiplies a luminance in cd/m² by 1 / (1.2 · 2^EV100): the brightest that ISO 100 film of
 /// ISO 12232 holds becomes 1. Sunlight is about EV 15, an overcast day 12, dusk 5.
@@ -38,7 +38,7 @@ impl Default for Exposure {
     }
 }
 
-/// How exposed light becomes displayed light.
+/// Tone curve from exposed light to displayed light.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub enum ToneMap {
@@ -93,20 +93,20 @@ pub struct Focus {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Lens {
-    /// How much light.
+    /// Exposure.
     pub exposure: Exposure,
-    /// How it is displayed.
+    /// Tone curve.
     pub tone_map: ToneMap,
     /// Glow around bright places.
     pub glare: Glare,
     /// Blur of what is nearer or farther than the focus; all is sharp without.
     pub focus: Option<Focus>,
-    /// How long the shutter is open, in simulated seconds, 0 to 0.1: leaves are drawn as long as they move meanwhile, with the
+    /// Time for which the shutter is open, in simulated seconds, 0 to 0.1: leaves are drawn as long as they move meanwhile, with the
     /// frame's time in the middle. 0.02 is usual for film. A picture that none came before is sharp.
     pub shutter_s: f32,
     /// Colourfulness of the picture, 0 to 2: grey at 0.
     pub saturation: f32,
-    /// How much darker the corners are than the middle, 0 to 1.
+    /// Darkening of the corners against the middle, 0 to 1.
     pub vignette: f32,
 }
 

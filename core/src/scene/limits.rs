@@ -17,7 +17,7 @@ pub struct Limit<T> {
 }
 
 impl<T: PartialOrd> Limit<T> {
-    /// Whether `value` is allowed; NaN never is.
+    /// Returns true if `value` is allowed; NaN never is.
     pub fn contains(&self, value: T) -> bool {
         self.low <= value && value <= self.high
     }
@@ -197,7 +197,7 @@ mod tests {
         include_str!("wind.rs"),
     ];
 
-    /// Whether a declared type is a number, a vector, or an option, array or tuple of them. Any `u64` is allowed.
+    /// Returns true if a declared type is a number, a vector, or an option, array or tuple of them. Any `u64` is allowed.
     fn is_number(kind: &str) -> bool {
         let kind = kind.trim_start_matches([' ', '(', '[']);
         let kind = kind.strip_prefix("Option<").unwrap_or(kind);

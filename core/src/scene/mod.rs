@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What a scene file says: species, sources, wind, ground, view.
+//! Contents of a scene file: species, sources, wind, ground, view.
 //!
 //! A [`Scene`] is plain data in SI units (y up, right-handed), read from RON; every field has a default, so
 //! `()` is a whole scene. [`Scene::validate`] checks every number before anything is built from it.
@@ -74,23 +74,23 @@ pub struct Scene {
     pub rotation_speed: f32,
     /// The kinds of leaves.
     pub species: Vec<Species>,
-    /// Where leaves come from, besides the trees. At least one if there are no trees.
+    /// Sources of leaves besides the trees. At least one if there are no trees.
     pub sources: Vec<Source>,
     /// The kinds of trees. May be empty: trees name the presets `maple`, `birch`, `oak`, `bush`, `weed` and
     /// `berry-bush` without a kind of the scene's own; see [`Scene::tree_kind`].
     pub tree_kinds: Vec<TreeKind>,
     /// The trees. Each is a source of leaves as well.
     pub trees: Vec<Tree>,
-    /// How the joints of trees are moved.
+    /// Integration scheme of the joints of trees.
     pub sway: SwayScheme,
-    /// How far the year has come for the leaves on the trees, 0 to 1: 0 in summer, 1 in winter, when none are left.
+    /// Season of the leaves on the trees, 0 to 1: 0 in summer, 1 in winter, when none are left.
     pub autumn: f32,
     /// Seconds from a leaf's break from its tree until it is back on its twig, if it lies on the ground by then, 1 to
     /// 86400; `None` leaves every leaf where it lands for ever.
     pub regrow_after_s: Option<f32>,
     /// The one wind.
     pub wind: WindParameters,
-    /// What leaves land on.
+    /// Ground on which leaves land.
     pub ground: Ground,
     /// Camera, sun, sky, haze and trails; no effect on the simulation.
     pub view: View,

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use super::Camera;
 
-/// Where the camera is at a time.
+/// Camera position at a time.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct CameraKey {

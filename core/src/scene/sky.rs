@@ -4,7 +4,7 @@
 
 use serde::{Deserialize, Serialize};
 
-/// Where the light of the sky comes from.
+/// Source of the sky's light.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Sky {
     /// Computed from air, aerosol, clouds and the place of the sun.

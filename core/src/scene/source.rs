@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Where and when leaves are let go.
+//! Places and times of release of leaves.
 
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
@@ -31,7 +31,7 @@ pub enum SourceShape {
     },
 }
 
-/// When a source lets its leaves go.
+/// Times at which a source releases its leaves.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Release {
     /// All at once.
@@ -67,7 +67,7 @@ pub struct Source {
     pub shape: SourceShape,
     /// Number of leaf slots, 1 to 268435456; the same holds for the sum over all sources.
     pub count: u32,
-    /// When leaves are let go.
+    /// Times of release.
     pub release: Release,
     /// Seconds from a leaf's release until its slot is released again, 0.1 to 86400; `None` leaves every leaf where
     /// it lands for ever.

@@ -37,7 +37,7 @@ pub enum LeafShape {
 }
 
 impl LeafShape {
-    /// How the area of such a leaf lies: means over outlines as leaves are made with, which a test compares.
+    /// Planform of such a leaf: means over outlines as leaves are made with, which a test compares.
     pub fn planform(self) -> Planform {
         let (aspect, extent) = match self {
             Self::Maple => (0.86, 1.1),
@@ -57,7 +57,7 @@ impl LeafShape {
     }
 }
 
-/// How the orientation along a primitive motion is found.
+/// Model of the orientation along a primitive motion.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub enum RotationModel {
     /// The leaf's normal follows the force that its path implies (a coordinated turn); tumbling turns explicitly.
@@ -100,14 +100,14 @@ pub struct Species {
     pub transitions: TransitionTable,
     /// Numbers of the primitive motions that differ from what size and mass give.
     pub motion: MotionParameters,
-    /// How orientation is found.
+    /// Model of the orientation.
     pub rotation: RotationModel,
     /// File with ready motion tables (see `motion::table_file`), in a scene file relative to that file, otherwise to
     /// the working directory; the tables are made from the equations when absent.
     pub tables: Option<String>,
     /// Folder of leaf pictures such as `windfall leaf make` writes, named like `tables`; shape and season choose
     /// pictures when absent. A species that flies as a body and states no planform is built as the leaves of the folder
-    /// are, as far as their manifest tells: size, mass per area, planform and curl.
+    /// are, as far as their manifest states them: size, mass per area, planform and curl.
     pub leaves: Option<String>,
 }
 

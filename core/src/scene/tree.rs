@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 pub struct Tree {
     /// Name of one of the scene's tree kinds, or of a preset: maple, birch, oak, bush, weed, berry-bush.
     pub kind: String,
-    /// Where the foot stands, x and z in metres, each -2048 to 2048; y is the ground's.
+    /// Place of the foot, x and z in metres, each -2048 to 2048; y is the ground's.
     pub at_m: [f32; 2],
     /// Height when full-grown in metres, 0.2 to 60; the kind's own when `None`.
     pub height_m: Option<f32>,
@@ -44,11 +44,11 @@ impl Default for Tree {
 pub struct TreeKind {
     /// Name that trees refer to it by.
     pub name: String,
-    /// How it grows.
+    /// Source of its form.
     pub form: TreeForm,
-    /// What it is made of.
+    /// Wood.
     pub wood: Wood,
-    /// What grows on its twigs.
+    /// Foliage of its twigs.
     pub foliage: Foliage,
 }
 
@@ -63,7 +63,7 @@ impl Default for TreeKind {
     }
 }
 
-/// How a kind of trees grows.
+/// Source of the form of a kind of trees.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum TreeForm {
     /// As one of the kinds that travel in the program.
@@ -97,7 +97,7 @@ pub enum TreePreset {
     BerryBush,
 }
 
-/// What a tree is made of: green wood.
+/// Wood of a tree: green wood.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Wood {
@@ -121,7 +121,7 @@ impl Default for Wood {
     }
 }
 
-/// What grows on a kind's twigs.
+/// Foliage of a kind's twigs.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Foliage {
@@ -153,7 +153,7 @@ impl Default for Foliage {
     }
 }
 
-/// How the joints of trees are moved.
+/// Integration scheme of the joints of trees.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum SwayScheme {
     /// As articulated bodies: joints move each other, and a tree sways as a whole.

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! How a scene is looked at. Nothing here changes the simulation.
+//! View of a scene. Nothing here changes the simulation.
 
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
@@ -41,7 +41,7 @@ impl Default for Sun {
     }
 }
 
-/// How a scene is looked at.
+/// View of a scene.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct View {
@@ -53,7 +53,7 @@ pub struct View {
     pub lens: Lens,
     /// The sun.
     pub sun: Sun,
-    /// What lights the scene besides; a picture of the sky brings its own sun.
+    /// Sun beside the sky; a picture of the sky brings its own.
     pub sky: Sky,
     /// Haze between the eye and what it sees.
     pub haze: Haze,

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What a scene says about its wind.
+//! Wind of a scene.
 
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
@@ -14,7 +14,7 @@ pub enum MeanSpeed {
     Beaufort(u8),
 }
 
-/// How the mean wind grows with height above the ground.
+/// Profile of the mean wind over height above the ground.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Profile {
     /// The same at every height.

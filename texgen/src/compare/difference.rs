@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! How different two colours look.
+//! Perceived difference of two colours.
 
 use crate::lab::Lab;
 

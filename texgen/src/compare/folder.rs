@@ -25,7 +25,7 @@ pub struct ComparedLeaf {
 }
 
 impl ComparedLeaf {
-    /// Reads a picture; NAME.mask.png beside NAME.png is its mask, otherwise its alpha channel or background tells.
+    /// Reads a picture; NAME.mask.png beside NAME.png is its mask, otherwise its alpha channel or background serves.
     ///
     /// # Errors
     /// [`TexgenError::Photo`] if the picture or its mask cannot be used.

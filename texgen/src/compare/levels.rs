@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! How far photographed leaves of one species are from each other.
+//! Distances between photographed leaves of one species.
 //!
 //! A generated leaf need not be nearer to photos than photos are to each other. The published levels are our own
 //! measurements over all pairs of 5 to 9 photos a species (CC0 scans of ambientCG and CC BY photos of the UCI set
@@ -13,7 +13,7 @@ use crate::math::floor_i32;
 /// Mean and 90th percentile of each metric; `None` where there is no level.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Levels {
-    /// Where the levels come from.
+    /// Source of the levels.
     pub source: String,
     /// Mean distance between two photos.
     pub mean: [Option<f32>; 12],

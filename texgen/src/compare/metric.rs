@@ -96,7 +96,7 @@ impl Metric {
         }
     }
 
-    /// Whether it looks at the outline only.
+    /// Returns true if it looks at the outline only.
     pub const fn is_shape(self) -> bool {
         matches!(self, Self::Fourier | Self::Overlap | Self::Hausdorff | Self::Aspect | Self::Circularity)
     }
@@ -105,7 +105,7 @@ impl Metric {
 /// A number for each of [`Metric::ALL`].
 pub type Distances = [f32; 12];
 
-/// What is measured of one leaf.
+/// Measurements of one leaf.
 #[derive(Clone, Debug)]
 pub struct Measured {
     colours: Colours,

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! How far leaves are from photographed ones, in twelve numbers.
+//! Distances of leaves from photographed ones, in twelve numbers.
 //!
 //! [`Measured`] scales a blade to a normal size (`portrait`) and measures its `colour`, `texture`, `vein_pattern`
 //! and `silhouette`; [`Metric`] names the distances between two leaves. [`Levels`] say how far photos are from each

@@ -32,7 +32,7 @@ fn ring(on: &[bool], i: usize, width: usize) -> [bool; 8] {
         .map(|n| on[n])
 }
 
-/// Whether a pixel may go in one of the two passes.
+/// Returns true if a pixel may go in one of the two passes.
 fn is_removable(ring: [bool; 8], pass: u8) -> bool {
     let count = ring.iter().filter(|on| **on).count();
     let starts = (0..8).filter(|k| !ring[*k] && ring[(k + 1) % 8]).count();

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! How many fine lines a blade shows and which way they run.
+//! Number and directions of a blade's fine lines.
 
 use glam::Vec2;
 

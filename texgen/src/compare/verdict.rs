@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Whether generated leaves could be photographed ones, as far as twelve numbers can say.
+//! Verdict on generated leaves: could they be photographed ones, by twelve numbers?
 
 use std::fmt::{self, Display, Formatter};
 
@@ -23,13 +23,13 @@ const ENOUGH: usize = 8;
 /// Generated leaves against photos.
 #[derive(Clone, Debug)]
 pub struct Comparison {
-    /// What the medians are held against.
+    /// Levels that the medians are held against.
     pub levels: Levels,
     /// Name of each generated leaf and its mean distances to the photos.
     pub leaves: Vec<(String, Distances)>,
     /// Median of the mean distances over the leaves.
     pub median: Distances,
-    /// Whether the outlines were generated; otherwise the shape columns do not count.
+    /// True if the outlines were generated; otherwise the shape columns do not count.
     pub has_own_outlines: bool,
     /// Mean distance between generated leaves, with the least that is allowed.
     pub variety: Vec<Variety>,
@@ -37,7 +37,7 @@ pub struct Comparison {
     pub copies: Vec<(String, String)>,
 }
 
-/// How much generated leaves differ from each other.
+/// Differences of generated leaves from each other.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Variety {
     /// In what.
@@ -107,20 +107,20 @@ impl Comparison {
         })
     }
 
-    /// Whether the median of a metric is within the 90th percentile; `None` where it does not count.
+    /// Returns true if the median of a metric is within the 90th percentile; `None` where it does not count.
     pub fn passes_in(&self, metric: Metric) -> Option<bool> {
         let k = Metric::ALL.iter().position(|m| *m == metric)?;
         let counts = self.has_own_outlines || !metric.is_shape();
         self.levels.p90[k].filter(|_| counts).map(|p90| self.median[k] <= p90)
     }
 
-    /// Whether generated leaves differ enough from each other.
+    /// Returns true if generated leaves differ enough from each other.
     pub fn is_varied(&self) -> bool {
         let counts = |variety: &&Variety| self.has_own_outlines || !variety.metric.is_shape();
         self.variety.iter().filter(counts).all(|v| v.least.is_none_or(|least| v.mean >= least))
     }
 
-    /// Whether all columns that count, the variety and the rule against copies pass.
+    /// Returns true if all columns that count, the variety and the rule against copies pass.
     pub fn passes(&self) -> bool {
         Metric::ALL.iter().all(|metric| self.passes_in(*metric) != Some(false))
             && self.is_varied()

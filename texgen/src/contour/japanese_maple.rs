@@ -8,7 +8,7 @@ use crate::math::{lerp, point_along, polar, smoothstep};
 use crate::rng::Rng;
 use crate::spline::{Knot, resample, through};
 
-/// Where the petiole ends.
+/// End of the petiole.
 const BASE: Vec2 = Vec2::new(0.0, -1.0);
 
 /// Bearing in degrees and length of each lobe from the midrib outward, by the number of lobes beside the midrib.

@@ -8,7 +8,7 @@ use crate::math::{lerp, polar, smoothstep};
 use crate::rng::Rng;
 use crate::spline::{Knot, resample, through};
 
-/// How a margin is toothed.
+/// Teeth of a margin.
 struct Teeth {
     /// Main teeth on a side.
     main: u32,
@@ -18,7 +18,7 @@ struct Teeth {
     main_height: f32,
     /// Height of the teeth between.
     minor_height: f32,
-    /// How far teeth lean towards the tip, in heights.
+    /// Lean of the teeth towards the tip, in heights.
     lean: f32,
     /// Part of the margin (0 base, 1 tip) that is toothed.
     span: (f32, f32),

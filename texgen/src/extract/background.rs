@@ -15,7 +15,7 @@ use crate::math::floor_i32;
 
 /// The shorter side by this is the width of the picture's edge.
 const EDGE: usize = 50;
-/// Smallest difference in Lab units that tells leaf from background.
+/// Smallest difference in Lab units between leaf and background.
 const LEAST: f32 = 6.0;
 /// Threshold as a share of the best split: pale parts of a leaf differ less from paper than its bulk does.
 const CLOSENESS: f32 = 0.6;
@@ -82,7 +82,7 @@ fn fit(edge: &[usize], colours: &[Lab], place: impl Fn(usize) -> [f64; 3]) -> Op
     planes(&sorted).or(Some(first))
 }
 
-/// Coefficients that fit `value = Σ coefficient · term` best; `None` if the terms do not tell them apart.
+/// Coefficients that fit `value = Σ coefficient · term` best; `None` if the terms do not determine them.
 fn least_squares(samples: impl Iterator<Item = ([f64; 3], f64)>) -> Option<[f64; 3]> {
     let mut rows = [[0.0; 4]; 3];
     for (terms, value) in samples {

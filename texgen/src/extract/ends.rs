@@ -18,13 +18,13 @@ const LEAN: i32 = 35;
 
 /// Weight of a line along an axis against the overlap of the blade with its mirror image.
 const MIDRIB: f32 = 0.4;
-/// Weight of the direction of lateral veins in telling base from tip.
+/// Weight of the direction of lateral veins in the choice between base and tip.
 const SLANT: f32 = 0.6;
 
 /// The two ends of a midrib.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Ends {
-    /// Where the petiole meets the blade.
+    /// Junction of petiole and blade.
     pub(crate) root: Vec2,
     /// The far end of the midrib.
     pub(crate) tip: Vec2,
@@ -32,14 +32,14 @@ pub(crate) struct Ends {
     pub(crate) confidence: f32,
 }
 
-/// What root and tip are judged by.
+/// Evidence for root and tip.
 pub(crate) struct Evidence<'a> {
     pub(crate) blade: &'a Mask,
     /// √A in pixels.
     pub(crate) side: f32,
     /// Closed polygon around the blade.
     pub(crate) outline: &'a [Vec2],
-    /// Where a petiole seems to meet the blade and how sure that is.
+    /// Apparent junction of a petiole and the blade, and its confidence.
     pub(crate) petiole: Option<(Vec2, f32)>,
     /// Lines on the blade, on the same grid, if there is a photo.
     pub(crate) ridges: Option<&'a Ridges>,
@@ -126,7 +126,8 @@ impl Evidence<'_> {
         sides.map(foot).min_by(|a, b| a.distance_squared(p).total_cmp(&b.distance_squared(p))).unwrap_or(p)
     }
 
-    /// Where a ray from inside leaves the blade for good, drawn to what sticks out there, such as a petiole's stub.
+    /// Point at which a ray from inside leaves the blade for good, drawn to anything that sticks out
+    /// there, such as a petiole's stub.
     fn near_end(&self, from: Vec2, direction: Vec2) -> Vec2 {
         let mut last = from;
         let reach = (self.blade.width + self.blade.height) as f32;
@@ -150,7 +151,7 @@ impl Evidence<'_> {
         self.outline.iter().max_by(|a, b| score(a).total_cmp(&score(b))).copied().unwrap_or(root)
     }
 
-    /// How much an end looks like a base, about -1 to 1; `axis` points from it into the blade.
+    /// Likeness of an end to a base, about -1 to 1; `axis` points from it into the blade.
     fn vote(&self, end: Vec2, axis: Vec2, centre: Vec2) -> f32 {
         let shape = 0.4 * self.notch(end, axis) + 0.35 * self.stub(end, axis);
         let Some(ridges) = self.ridges else { return shape };
@@ -176,7 +177,7 @@ impl Evidence<'_> {
         (out(1.0).min(out(-1.0)) * 8.0).min(1.0)
     }
 
-    /// How much an end looks like a petiole's stub, 0 to 1: thin, and as thin further in.
+    /// Likeness of an end to a petiole's stub, 0 to 1: thin, and as thin further in.
     fn stub(&self, end: Vec2, axis: Vec2) -> f32 {
         let side = self.side;
         let across = Vec2::new(-axis.y, axis.x);
@@ -193,7 +194,7 @@ impl Evidence<'_> {
         thin * even
     }
 
-    /// Whether lines lead outward away from an end, as lateral veins do from the root; -1 to 1.
+    /// Share of lines that lead outward away from an end, as lateral veins do from the root; -1 to 1.
     fn slant(&self, ridges: &Ridges, end: Vec2, axis: Vec2) -> f32 {
         let width = ridges.strength.width;
         let (mut lead, mut all) = (0.0, 0.0);

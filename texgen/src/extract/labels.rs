@@ -83,7 +83,7 @@ pub(crate) fn keep_largest(mask: &mut Mask, hole: usize) -> f32 {
     sizes.get(1).map_or(0.0, |second| *second as f32 / kept_size as f32)
 }
 
-/// Whether a pixel lies on the edge of the picture.
+/// Returns true if a pixel lies on the edge of the picture.
 fn is_border(i: usize, width: usize, height: usize) -> bool {
     let (x, y) = (i % width, i / width);
     x == 0 || y == 0 || x + 1 == width || y + 1 == height

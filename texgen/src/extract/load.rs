@@ -54,7 +54,7 @@ pub(crate) fn mask(path: &Path) -> Result<GrayImage, TexgenError> {
     Ok(grey)
 }
 
-/// Whether a mask's level means leaf.
+/// Returns true if a mask's level means leaf.
 pub(crate) fn is_inside(level: u8) -> bool {
     level >= INSIDE
 }
@@ -82,7 +82,7 @@ fn decode(path: &Path) -> Result<DynamicImage, TexgenError> {
     reader.decode().map_err(problem)
 }
 
-/// What is wrong with a file, on one line.
+/// Fault of a file, on one line.
 fn describe(error: &ImageError) -> String {
     let text = match error {
         ImageError::Limits(limit) if matches!(limit.kind(), LimitErrorKind::InsufficientMemory) => {

@@ -110,7 +110,7 @@ pub(crate) fn counter_clockwise(mut polygon: Vec<Vec2>) -> Vec<Vec2> {
     polygon
 }
 
-/// Whether two sides of a closed polygon that are not neighbours meet.
+/// Returns true if two sides of a closed polygon that are not neighbours meet.
 pub(crate) fn crosses_itself(polygon: &[Vec2]) -> bool {
     let count = polygon.len();
     let side = |i: usize| (polygon[i], polygon[(i + 1) % count]);
@@ -125,7 +125,7 @@ pub(crate) fn crosses_itself(polygon: &[Vec2]) -> bool {
     })
 }
 
-/// Whether two closed segments share a point.
+/// Returns true if two closed segments share a point.
 pub(crate) fn segments_meet(first: (Vec2, Vec2), second: (Vec2, Vec2)) -> bool {
     let side = |(a, b): (Vec2, Vec2), p: Vec2| {
         let value = (b - a).as_dvec2().perp_dot((p - a).as_dvec2());

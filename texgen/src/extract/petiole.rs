@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Tells the petiole from the blade.
+//! Separates the petiole from the blade.
 //!
 //! Opening the leaf with a disc removes all that is thinner than the disc. Of what was removed, the longest thin
 //! piece is the petiole, unless it tapers to a point: then it is a drip tip.
@@ -26,7 +26,7 @@ const TAPER: f32 = 0.6;
 /// A leaf's stalk.
 #[derive(Clone, Debug)]
 pub(crate) struct Petiole {
-    /// Where it meets the blade.
+    /// Junction with the blade.
     pub(crate) junction: Vec2,
     /// Its far end.
     pub(crate) end: Vec2,
@@ -34,12 +34,12 @@ pub(crate) struct Petiole {
     pub(crate) length: f32,
     /// Its pixels.
     pub(crate) pixels: Vec<usize>,
-    /// How sure it is to be one, 0 to 1.
+    /// Confidence that it is one, 0 to 1.
     pub(crate) confidence: f32,
 }
 
 impl Petiole {
-    /// Whether it is long enough to be told from other residues without more evidence; `side` is √A.
+    /// Returns true if it is long enough to be no other residue without more evidence; `side` is √A.
     pub(crate) fn is_long(&self, side: f32) -> bool {
         self.length > LENGTH * side
     }

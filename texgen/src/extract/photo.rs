@@ -35,20 +35,20 @@ const SECOND_LEAF: f32 = 0.1;
 pub struct Photo<'a> {
     /// Picture file: PNG, JPEG or GIF of up to 64 megapixels.
     pub path: &'a Path,
-    /// Mask file, light where the leaf is. Without one, the picture's alpha channel or its plain background tell.
+    /// Mask file, light where the leaf is. Without one, the picture's alpha channel or its plain background serve.
     pub mask: Option<&'a Path>,
-    /// Where the petiole meets the blade, in the photo's pixels, if somebody pointed at it.
+    /// Junction of petiole and blade in the photo's pixels, if somebody pointed at it.
     pub root: Option<Vec2>,
 }
 
-/// What was read from a photo.
+/// A leaf read from a photo.
 #[derive(Clone, Debug)]
 pub struct Extraction {
     /// The leaf.
     pub specimen: Specimen,
     /// The petiole's pixels, as large as the blade's mask; empty if none was found.
     pub petiole: Mask,
-    /// What was assumed where the photo left a choice, a sentence each.
+    /// Assumptions where the photo left a choice, a sentence each.
     pub notes: Vec<String>,
 }
 
@@ -94,7 +94,7 @@ impl Photo<'_> {
     }
 }
 
-/// Where what is opaque beside a mask meets it: the root of a leaf whose mask leaves out the petiole.
+/// Contact of the opaque pixels beside a mask with it: the root of a leaf whose mask leaves out the petiole.
 fn junction(mask: &Mask, opaque: &[bool]) -> Option<Vec2> {
     let (width, height) = (mask.width as usize, mask.height as usize);
     let rest = Pieces::find(width, height, |i| opaque[i] && !mask.inside[i]);
@@ -162,7 +162,7 @@ fn scaled_down(colours: RgbImage, mask: Mask, notes: &mut Vec<String>) -> (RgbIm
 /// Reads the leaf from colours and a mask of the same size.
 ///
 /// # Errors
-/// What is wrong with the mask.
+/// Fault of the mask.
 pub(crate) fn cut_out(
     name: &str,
     colours: RgbImage,

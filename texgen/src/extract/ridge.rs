@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Where a picture has fine lines: a multi-scale ridge filter.
+//! Fine lines of a picture: a multi-scale ridge filter.
 //!
 //! # Source
 //! Sato et al. 1998, "Three-dimensional multi-scale line filter"; here in the plane: a ridge is where the
@@ -16,7 +16,7 @@ pub(crate) const SCALES: [f32; 4] = [0.005, 0.007, 0.009, 0.012];
 /// Rim of the blade whose lines do not say whether lines are light or dark, in √A.
 const RIM: f32 = 0.016;
 
-/// How strongly each pixel lies on a line, and which way the line runs.
+/// Ridge strength of each pixel, and direction of its line.
 #[derive(Clone, Debug)]
 pub(crate) struct Ridges {
     /// Response, 0 for none; in units of the input per σ² of bending.
@@ -66,7 +66,7 @@ pub(crate) fn ridges(lightness: &Field, depth: &[f32], side: f32, rim: f32, scal
 }
 
 impl Ridges {
-    /// What the strongest fiftieth of the pixels on lines exceeds.
+    /// Strength that a fiftieth of the pixels on lines exceeds.
     pub(crate) fn strong(&self) -> f32 {
         let on_lines = self.strength.values.iter().filter(|value| **value > 0.0).copied();
         quantile(&mut on_lines.collect::<Vec<f32>>(), 0.98).max(1e-6)

@@ -36,7 +36,7 @@ impl Drop for Folder {
     }
 }
 
-/// Whether a pixel belongs to a leaf with a petiole, in a picture of 120 by 160.
+/// Returns true if a pixel belongs to a leaf with a petiole, in a picture of 120 by 160.
 fn leaf(x: u32, y: u32) -> bool {
     let (x, y) = (x as f32 - 59.5, y as f32 - 60.0);
     let width = 34.0 * (1.0 - (y / 50.0) * (y / 50.0)).max(0.0).sqrt();

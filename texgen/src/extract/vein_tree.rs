@@ -24,7 +24,7 @@ const SMOOTHING: usize = 5;
 pub(super) struct VeinTree {
     width: usize,
     root: usize,
-    /// Whether a pixel belongs to a vein.
+    /// True if a pixel belongs to a vein.
     on: Vec<bool>,
     /// Ways from where they join the tree to their end, and their order.
     ways: Vec<(Vec<usize>, u8)>,
@@ -38,12 +38,12 @@ impl VeinTree {
         Self { width, root, on, ways: Vec::new() }
     }
 
-    /// Whether a pixel belongs to the tree.
+    /// Returns true if a pixel belongs to the tree.
     pub(super) fn has(&self, i: usize) -> bool {
         self.on[i]
     }
 
-    /// Whether there is no vein yet.
+    /// Returns true if there is no vein yet.
     pub(super) fn is_bare(&self) -> bool {
         self.ways.is_empty()
     }

@@ -180,7 +180,7 @@ fn margin_points(outline: &[Vec2], step: f32) -> Vec<Vec2> {
     points
 }
 
-/// Whether no two veins cross except where they meet.
+/// Returns true if no two veins cross except where they meet.
 pub(crate) fn is_planar(graph: &VeinGraph) -> bool {
     let edges: Vec<(u32, u32)> = (0u32..)
         .zip(&graph.nodes)

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! How hollow a leaf has dried.
+//! Camber of a dried leaf.
 
 use glam::{DMat4, DVec3, DVec4};
 

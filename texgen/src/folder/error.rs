@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What can be wrong with a folder of leaves.
+//! Faults of a folder of leaves.
 
 use std::path::{Path, PathBuf};
 
@@ -19,7 +19,7 @@ pub enum FolderError {
     Read {
         /// The file.
         path: PathBuf,
-        /// What the system says.
+        /// The system's reason.
         source: std::io::Error,
     },
     /// A file cannot be written.
@@ -27,7 +27,7 @@ pub enum FolderError {
     Write {
         /// The file.
         path: PathBuf,
-        /// What the system says.
+        /// The system's reason.
         source: std::io::Error,
     },
     /// The manifest was written for another version of the program.
@@ -49,7 +49,7 @@ pub enum FolderError {
         line: usize,
         /// Column, from 1.
         column: usize,
-        /// What is wrong there.
+        /// The fault there.
         problem: String,
     },
     /// A value of the manifest is not allowed.
@@ -61,7 +61,7 @@ pub enum FolderError {
         field: String,
         /// Its value.
         value: String,
-        /// What it may be.
+        /// Allowed values.
         allowed: &'static str,
     },
     /// A picture cannot be decoded.
@@ -69,7 +69,7 @@ pub enum FolderError {
     Picture {
         /// The file.
         path: PathBuf,
-        /// What the decoder says.
+        /// The decoder's reason.
         problem: String,
     },
     /// A picture has another size than the manifest says.

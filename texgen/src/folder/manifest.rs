@@ -15,7 +15,7 @@ pub const MANIFEST_NAME: &str = "leaves.ron";
 /// Most leaves of a folder.
 const MOST_LEAVES: usize = 4096;
 
-/// What a folder holds.
+/// Contents of a folder.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Manifest {
@@ -43,10 +43,10 @@ pub struct LeafFacts {
     pub mean_chord_m: f32,
     /// Side of the picture in metres.
     pub side_m: f32,
-    /// How its area lies and how hollow it is; none in folders of before.
+    /// Planform and camber; none in older folders.
     #[serde(default)]
     pub body: Option<BodyFacts>,
-    /// Whether meshes lie beside the pictures.
+    /// True if meshes lie beside the pictures.
     #[serde(default)]
     pub has_mesh: bool,
 }
@@ -57,7 +57,7 @@ impl AsRef<Self> for LeafFacts {
     }
 }
 
-/// What the form of a leaf means to the air, relative to the disc with the blade's area.
+/// Aerodynamic form of a leaf, relative to the disc with the blade's area.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct BodyFacts {

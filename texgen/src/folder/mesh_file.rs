@@ -38,7 +38,7 @@ pub struct FormLevel {
 pub struct FormShape {
     /// Water left, as a share of the fresh leaf's.
     pub water: f32,
-    /// Where each corner moves.
+    /// Displacement of each corner.
     pub offsets: Vec<[f32; 3]>,
 }
 

@@ -95,7 +95,7 @@ fn every_fault_is_told() {
         ("curl: 0.1", "curl: 1.5", "leaves[0].body.curl"),
     ] {
         let error = after(|at| rewrite(&at.join(MANIFEST_NAME), from, to));
-        let told = matches!(&error, FolderError::Field { field: found, .. } if found == field);
-        assert!(told, "{to}: {error}");
+        let is_named = matches!(&error, FolderError::Field { field: found, .. } if found == field);
+        assert!(is_named, "{to}: {error}");
     }
 }

@@ -15,7 +15,7 @@ use crate::{Blade, Shape};
 /// Solver passes of a stage that starts from a coarser level.
 const FINE_PASSES: u32 = 80;
 
-/// How a leaf dries.
+/// Drying of a leaf.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Drying {
     /// Share by which dry tissue is shorter, 0 to 0.4.
@@ -35,7 +35,7 @@ pub struct Drying {
 pub struct BlendShape {
     /// Water left in the blade as a share of the fresh leaf's, 0 to 1.
     pub water: f32,
-    /// Where each corner moves from the flat mesh: x and y as in the picture (y down), z towards the upper side's viewer,
+    /// Displacement of each corner from the flat mesh: x and y as in the picture (y down), z towards the upper side's viewer,
     /// all in pixels. The first corner, at the petiole, stays.
     pub offsets: Vec<Vec3>,
 }
@@ -47,7 +47,7 @@ impl Default for Drying {
 }
 
 impl Drying {
-    /// How leaves of a kind dry.
+    /// Drying of the leaves of a kind.
     pub fn of(shape: Shape) -> Self {
         let (shrinkage, curl, roll) = match shape {
             Shape::Maple => (0.22, 1.8, 0.4),

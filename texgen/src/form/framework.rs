@@ -10,7 +10,7 @@ use crate::VeinGraph;
 use crate::extract::outline::segments_meet;
 use crate::math::segment_distance;
 
-/// How much of the veins to keep; lengths in pixels.
+/// Thresholds for the veins to keep; lengths in pixels.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Thinning {
     /// Lowest rank that is kept.
@@ -129,7 +129,7 @@ impl Framework {
         }
     }
 
-    /// Whether an edge from a point of the frame would meet the margin or another edge: thinning may bring that about.
+    /// Returns true if an edge from a point of the frame would meet the margin or another edge: thinning may bring that about.
     fn bars(&self, margin: &[Vec2], from: usize, to: Vec2) -> bool {
         let start = self.points[from];
         let next = margin.iter().cycle().skip(1);
@@ -190,7 +190,7 @@ fn bends(path: &[Vec2], from: usize, to: usize, tolerance: f32) -> Vec<usize> {
     }
 }
 
-/// Whether a point lies inside a polygon (even-odd).
+/// Returns true if a point lies inside a polygon (even-odd).
 fn inside(polygon: &[Vec2], p: Vec2) -> bool {
     let next = polygon.iter().cycle().skip(1);
     polygon.iter().zip(next).fold(false, |odd, (a, b)| {

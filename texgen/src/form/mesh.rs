@@ -43,7 +43,7 @@ impl Detail {
         }
     }
 
-    /// How far veins are thinned, in shares of √A.
+    /// Thinning of the veins, in shares of √A.
     fn thinning(self, unit: f32) -> Thinning {
         let (lowest_order, tolerance, clearance, spacing) = match self {
             Self::Coarse => (1, 0.03, 0.08, 0.1),

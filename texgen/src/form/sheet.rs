@@ -33,7 +33,7 @@ const OPEN: f32 = 1e-3;
 /// Most that a vein shortens by itself; with what a sheet shrinks as a whole it stays within 6 %.
 const VEIN_SHRINKAGE: f32 = 0.04;
 
-/// Where a corner lies in a coarser mesh: a triangle's corners and their shares.
+/// Place of a corner in a coarser mesh: a triangle's corners and their shares.
 pub(super) type Footing = ([usize; 3], [f32; 3]);
 
 /// A mesh in space with its water.
@@ -233,7 +233,7 @@ impl Sheet {
         }
     }
 
-    /// Whether veins are as long as [`VEIN_LENGTH`] says, all of them together.
+    /// Returns true if veins are as long as [`VEIN_LENGTH`] says, all of them together.
     fn veins_keep_their_length(&self) -> bool {
         let veins = || self.edges.iter().filter(|edge| edge.vein);
         let far = |edge: &Edge| {
@@ -266,7 +266,7 @@ impl Sheet {
         }
     }
 
-    /// Whether a triangle faces against those around it.
+    /// Returns true if a triangle faces against those around it.
     fn any_inverted(&self) -> bool {
         let normals = normals(&self.positions, &self.triangles);
         self.triangles.iter().zip(&self.doubled).any(|(t, flat)| {

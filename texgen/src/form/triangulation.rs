@@ -101,7 +101,7 @@ fn with_veins(
     Ok((cdt, ring))
 }
 
-/// Which faces lie within the margin: all that cannot be reached from outside without crossing it.
+/// Faces within the margin: all that cannot be reached from outside without crossing it.
 fn within(cdt: &Cdt, ring: &Ring) -> Vec<bool> {
     let is_margin = |a: usize, b: usize| ring.contains(&[a.min(b), a.max(b)]);
     let mut within = vec![true; cdt.num_all_faces()];

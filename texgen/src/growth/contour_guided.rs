@@ -29,11 +29,11 @@ const MAINS_APART_DEG: f32 = 25.0;
 /// Grows veins along the margin's directions.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct ContourGuided {
-    /// How veins run.
+    /// Courses of the veins.
     pub habit: Habit,
     /// Kind of curve.
     pub curve: Curve,
-    /// Whether to add tertiary veins.
+    /// True to add tertiary veins.
     pub tertiary: bool,
 }
 

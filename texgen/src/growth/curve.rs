@@ -106,7 +106,7 @@ mod tests {
     const ZIGZAG: [Vec2; 5] =
         [Vec2::ZERO, Vec2::new(10.0, 8.0), Vec2::new(20.0, -8.0), Vec2::new(30.0, 8.0), Vec2::new(40.0, 0.0)];
 
-    /// How far a curve stands out of the straight line between its ends.
+    /// Greatest distance of a curve from the straight line between its ends.
     fn swing(curve: Curve) -> f32 {
         curve.draw(&ZIGZAG, 1.0).iter().map(|p| p.y.abs()).fold(0.0, f32::max)
     }

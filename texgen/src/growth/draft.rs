@@ -15,7 +15,7 @@ pub(crate) struct Sprout {
     pub(crate) order: u8,
 }
 
-/// Why a segment was not added.
+/// Reason for which a segment was not added.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Refusal {
     /// It would leave the blade.
@@ -119,7 +119,7 @@ impl<'a> Draft<'a> {
         self.node_cells.around(p, radius).filter(move |&id| self.at(id).distance(p) <= radius)
     }
 
-    /// Whether nodes are linked by a segment.
+    /// Returns true if nodes are linked by a segment.
     pub(crate) fn linked(&self, a: u32, b: u32) -> bool {
         self.incident[a as usize].iter().any(|&s| {
             let (from, to) = self.segments[s as usize];
@@ -127,7 +127,7 @@ impl<'a> Draft<'a> {
         })
     }
 
-    /// Whether nothing has grown on from a node yet.
+    /// Returns true if nothing has grown on from a node yet.
     pub(crate) fn is_end(&self, node: u32) -> bool {
         self.incident[node as usize].len() < 2
     }
@@ -151,7 +151,7 @@ impl<'a> Draft<'a> {
         Ok(())
     }
 
-    /// Whether a segment may be added.
+    /// Returns true if a segment may be added.
     fn check(&self, from: u32, to_node: Option<u32>, to: Vec2, clearance: f32) -> Result<(), Refusal> {
         let start = self.at(from);
         let length = start.distance(to);
@@ -188,7 +188,7 @@ impl<'a> Draft<'a> {
     }
 }
 
-/// Whether two segments from one corner lie on top of each other.
+/// Returns true if two segments from one corner lie on top of each other.
 fn folds(corner: Vec2, a: Vec2, b: Vec2, gap: f32) -> bool {
     segment_distance(a, corner, b).0 <= gap || segment_distance(b, corner, a).0 <= gap
 }

@@ -17,7 +17,7 @@ const FORK: f32 = 0.062;
 /// Rings of the table of flanks.
 const RINGS: usize = 128;
 
-/// How far a fan opens to either side, ring by ring around the root.
+/// Opening of a fan to either side, ring by ring around the root.
 struct Flanks {
     axis: Vec2,
     spacing: f32,
@@ -71,9 +71,9 @@ impl Flanks {
 /// A vein that still grows.
 struct Bud {
     node: u32,
-    /// Where it lies between the flanks, -1 to 1.
+    /// Position between the flanks, -1 to 1.
     share: f32,
-    /// Where it is heading for, and how wide a band it feeds.
+    /// Place that it heads for, and width of the band that it feeds.
     goal: f32,
     band: f32,
     radius: f32,

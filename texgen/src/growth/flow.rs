@@ -5,7 +5,7 @@
 use super::draft::Draft;
 use crate::{VeinGraph, VeinNode};
 
-/// How widths add up where veins meet.
+/// Sum of widths at the junctions of veins.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum WidthLaw {
     /// r³ = Σ r³, the law of least work (Murray 1926).
@@ -44,7 +44,7 @@ pub(crate) fn finish(draft: Draft<'_>, root_radius: f32, law: WidthLaw) -> VeinG
     VeinGraph { nodes, joins: draft.joins }
 }
 
-/// What passes through each node: the length of its own segment and of all that it feeds.
+/// Flow through each node: the length of its own segment and of all that it feeds.
 fn flows(draft: &Draft<'_>) -> Vec<f32> {
     let mut flow = vec![0.0_f32; draft.nodes.len()];
     for index in (0..draft.nodes.len()).rev() {

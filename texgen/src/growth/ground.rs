@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What growers ask of a blade: where it is, how far its margin, what lies in sight.
+//! A blade as growers use it: membership, distance to the margin, lines of sight.
 
 use glam::{IVec2, Vec2};
 
@@ -102,12 +102,12 @@ impl Ground {
         }
     }
 
-    /// Whether a point lies inside.
+    /// Returns true if a point lies inside.
     pub(crate) fn contains(&self, p: Vec2) -> bool {
         self.room(p) > 0.0
     }
 
-    /// Whether the straight line between two points stays inside; the same either way round.
+    /// Returns true if the straight line between two points stays inside; the same either way round.
     pub(crate) fn sees(&self, one: Vec2, other: Vec2) -> bool {
         let ordered = (one.x, one.y) <= (other.x, other.y);
         let (from, to) = if ordered { (one, other) } else { (other, one) };

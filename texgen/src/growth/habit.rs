@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What sets the veins of one kind of leaf apart from another's.
+//! Differences between the veins of one kind of leaf and another's.
 
 use crate::Shape;
 
@@ -15,7 +15,7 @@ pub enum Layout {
     Fan,
 }
 
-/// Where laterals end.
+/// Ends of the laterals.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum LateralTargets {
     /// Evenly along the margin, wherever the lateral's angle leads.
@@ -26,7 +26,7 @@ pub enum LateralTargets {
     Lobes(f32),
 }
 
-/// How veins run. Lengths are shares of √A, angles degrees.
+/// Courses of veins. Lengths are shares of √A, angles degrees.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Habit {
     /// Arrangement of the main veins.
@@ -35,9 +35,9 @@ pub struct Habit {
     pub lateral_pairs: (u32, u32),
     /// Angle between a lateral and its main vein, 25 to 70.
     pub divergence_deg: f32,
-    /// How far laterals bow towards the tip: 0 straight, 1 strongly.
+    /// Bow of the laterals towards the tip: 0 straight, 1 strongly.
     pub bow: f32,
-    /// Where laterals end.
+    /// Ends of the laterals.
     pub targets: LateralTargets,
     /// Offset of the laterals of one side against the other's, in spacings: 0 opposite, 0.5 alternate.
     pub stagger: f32,

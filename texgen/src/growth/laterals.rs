@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Where laterals leave a main vein, and where they lead.
+//! Places at which laterals leave a main vein, and their ends.
 
 use glam::Vec2;
 
@@ -22,7 +22,7 @@ pub(super) struct Flank<'a> {
     pub(super) habit: &'a Habit,
     pub(super) draft: &'a Draft<'a>,
     pub(super) main: &'a Path,
-    /// Which one: the sign of the angles at which laterals leave it.
+    /// The side: sign of the angles at which laterals leave it.
     pub(super) side: f32,
     pub(super) margin: &'a Margin,
 }

@@ -61,7 +61,7 @@ impl Margin {
         crate::math::floor_i32(wanted).try_into().unwrap_or(2).min(self.len() / 4)
     }
 
-    /// How far each point stands out of the chord between those a window before and after it, negative in a sinus.
+    /// Distance of each point from the chord between those a window before and after it, negative in a sinus.
     fn prominence(&self, window: usize) -> Vec<f32> {
         let count = self.len();
         (0..count)

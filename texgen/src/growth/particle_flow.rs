@@ -164,7 +164,7 @@ impl Traces<'_> {
             .copied()
     }
 
-    /// Where a trace ends at present.
+    /// Present end of a trace.
     fn end_of(&self, mut node: usize) -> usize {
         while let Some(next) = self.nodes[node].next {
             node = next;

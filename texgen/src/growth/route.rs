@@ -133,14 +133,14 @@ impl Routes {
     }
 }
 
-/// How a vein grows along a way.
+/// Growth of a vein along a way.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Walk {
     /// Longest step in pixels.
     pub(crate) step: f32,
     /// Greatest turn away from the way in degrees.
     pub(crate) wander_deg: f32,
-    /// How far ahead on the way the vein aims, in pixels.
+    /// Distance ahead on the way at which the vein aims, in pixels.
     pub(crate) ahead: f32,
 }
 

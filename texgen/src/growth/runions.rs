@@ -9,7 +9,7 @@
 //! source than these are to each other, and dies when all have come; their tips then join into loops.
 //!
 //! The blade keeps its final size. Its uniform growth is equal to spacings that shrink from step to step, which is
-//! how they are told here: the first sources stand far apart, the last ones close.
+//! how they are ranked here: the first sources stand far apart, the last ones close.
 
 use glam::Vec2;
 
@@ -28,7 +28,7 @@ const PATIENCE: u32 = 24;
 /// Grows veins towards auxin. Lengths are shares of √A.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Runions {
-    /// Whether veins join into loops.
+    /// True if veins join into loops.
     pub closed: bool,
     /// Spacing of the first sources, 0.05 to 0.5.
     pub first_spacing: f32,
@@ -231,7 +231,7 @@ fn meet(draft: &mut Draft<'_>, source: &Source, reached: &[u32]) {
     }
 }
 
-/// Whether two nodes hang closely together already.
+/// Returns true if two nodes hang closely together already.
 fn related(draft: &Draft<'_>, a: u32, b: u32) -> bool {
     let climbs_to = |from: u32, to: u32| {
         let mut at = from;

@@ -16,11 +16,11 @@ use crate::{Blade, Shape, TexgenError, VeinGraph, VeinGrower};
 /// Contour-guided main and lateral veins, then closed venation in every region between them; a fan stays open.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SpeciesVeins {
-    /// How main and lateral veins run.
+    /// Courses of main and lateral veins.
     pub habit: Habit,
     /// Kind of curve of the main and lateral veins.
     pub curve: Curve,
-    /// How the fine veins grow.
+    /// Growth of the fine veins.
     pub fine: Runions,
 }
 

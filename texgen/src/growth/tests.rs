@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What holds for every grower on every blade.
+//! Rules that every grower keeps on every blade.
 
 use glam::Vec2;
 use proptest::prelude::{ProptestConfig, any, prop_assert, prop_assert_eq, proptest};

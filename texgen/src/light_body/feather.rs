@@ -16,7 +16,7 @@ use crate::rng::Rng;
 const STEPS: u16 = 160;
 /// Foot of the vane; its tip is at 1, the quill's end at -1.
 const FOOT: f32 = -0.66;
-/// How far barbs rise on their way out, per width.
+/// Rise of the barbs on their way out, per width.
 const RISE: f32 = 0.75;
 
 /// A gap between barbs.
@@ -58,7 +58,7 @@ pub(super) fn draw(rng: &Rng) -> Drawn {
     Drawn { outline, extras: vec![stroke(&shaft)], colour: Box::new(colour) }
 }
 
-/// Where the shaft is at a height.
+/// Place of the shaft at a height.
 fn shaft_x(bend: f32, y: f32) -> f32 {
     bend * (y * y - 0.5)
 }

@@ -32,7 +32,7 @@ pub enum LightBody {
 struct Drawn {
     /// The body without stalks: a closed polygon, counter-clockwise.
     outline: Vec<Vec2>,
-    /// What it has besides: polygons of the same turning.
+    /// Other parts: polygons of the same turning.
     extras: Vec<Vec<Vec2>>,
     /// Linear colour of a place.
     colour: Box<dyn Fn(Vec2) -> [f32; 3]>,

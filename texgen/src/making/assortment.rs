@@ -11,7 +11,7 @@ use crate::{FolderLeaf, LeafFolder, Shape, TexgenError};
 /// Most seasons that examples are painted for.
 const MOST_SEASONS: u32 = 4;
 
-/// What to assort.
+/// Leaves to assort.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Assortment {
     /// Kind of leaf.

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! How the veins of examples run, learned from their graphs and outlines.
+//! Habit of the veins of examples, learned from their graphs and outlines.
 
 use glam::Vec2;
 
@@ -17,7 +17,7 @@ const DIVERGENCE: (f32, f32) = (35.0, 60.0);
 /// A blade that fills less of its convex hull than this has lobes. Toothed and wavy blades fill 0.92 and more.
 const LOBED: f32 = 0.9;
 
-/// How the veins of examples run, as far as their graphs and outlines tell.
+/// Habit of the veins of examples, as far as their graphs and outlines show it.
 pub(super) fn habit_of(examples: &[Specimen]) -> Habit {
     let base = Habit::default();
     let count = examples.len().max(1) as f32;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Where outlines and veins come from: a kind of leaf, or the examples themselves.
+//! Sources of outlines and veins: a kind of leaf, or the examples themselves.
 
 use glam::Vec2;
 
@@ -11,7 +11,7 @@ use crate::lab;
 use crate::maps::PetioleColour;
 use crate::{Blade, DrawnLeaf, Extraction, OutlineModel, Shape, Specimen, TexgenError};
 
-/// How a maker draws its outlines and veins.
+/// Source of a maker's outlines and veins.
 pub(super) enum Manner {
     /// As a kind of leaf.
     Shape(Shape),
@@ -39,7 +39,7 @@ impl Manner {
         }
     }
 
-    /// What grows the veins.
+    /// Grower of the veins.
     pub(super) fn veins(&self) -> SpeciesVeins {
         match self {
             Self::Shape(shape) => SpeciesVeins::of(*shape),
@@ -47,7 +47,7 @@ impl Manner {
         }
     }
 
-    /// How the leaves dry.
+    /// Drying of the leaves.
     pub(super) fn drying(&self) -> Drying {
         match self {
             Self::Shape(shape) => Drying::of(*shape),

@@ -31,7 +31,7 @@ const PAINTED_EXAMPLES: u64 = 4;
 /// Side in pixels of those examples: that of the leaves, but within these.
 const EXAMPLE_SIZE: (u32, u32) = (192, 512);
 
-/// What leaves to make.
+/// Leaves to make.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MakeOptions {
     /// Side of every picture in pixels, a power of two from 64 to 4096.

@@ -11,9 +11,9 @@ use crate::{Blade, Shape, VeinGraph, noise, season};
 
 /// Seasons whose change of colour is tabulated.
 const STEPS: usize = 64;
-/// How far tissue along main and lateral veins lags behind, and how far from them, in √A.
+/// Delay of the season along main and lateral veins, and its reach from them in √A.
 const LINGERING: (f32, f32) = (0.2, 0.035);
-/// How far patches are ahead or behind, and how many there are along √A.
+/// Lead or delay of patches, and their number along √A.
 const PATCHES: (f32, f32) = (0.15, 3.0);
 /// A change of season as large as this is uneven in full.
 const FULLY_UNEVEN: f32 = 0.35;
@@ -22,7 +22,7 @@ const FULLY_UNEVEN: f32 = 0.35;
 pub(super) struct Turning {
     /// Season to arrive at.
     to: f32,
-    /// How unevenly, 0 to 1.
+    /// Unevenness, 0 to 1.
     unevenness: f32,
     /// Factor on linear light that leads to each of evenly spaced seasons.
     factors: Vec<[f32; 3]>,

@@ -4,7 +4,7 @@
 
 use crate::lab;
 
-/// Where a pixel lies on the petiole.
+/// Place of a pixel on the petiole.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct StemSpot {
     /// From the petiole's middle line (0) to its side (1); above 1 beside it.

@@ -13,7 +13,7 @@ use crate::{Shape, noise, season};
 /// Linear sRGB colour.
 type Linear = [f32; 3];
 
-/// Where the blade meets the petiole.
+/// Junction of blade and petiole.
 const BASE: Vec2 = Vec2::new(0.0, -1.0);
 
 /// Character of one leaf's colouring.
@@ -24,9 +24,9 @@ pub(super) struct Tissue {
     seed: u64,
     /// Factor on red.
     blush: f32,
-    /// How unevenly the season advances.
+    /// Unevenness of the season.
     patchiness: f32,
-    /// How long green lingers along the veins.
+    /// Delay of the season along the veins.
     lingering: f32,
     /// Width of the dead border in leaf units.
     scorch: f32,

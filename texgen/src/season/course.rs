@@ -9,7 +9,7 @@ use super::pigments::Pigments;
 use crate::Shape;
 use crate::math::floor_i32;
 
-/// How a species takes leave of its leaves. Rates are per day.
+/// Senescence of a species. Rates are per day.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Senescence {
     /// Pigments of the summer leaf.

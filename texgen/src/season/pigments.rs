@@ -20,7 +20,7 @@ pub struct Pigments {
 }
 
 impl Pigments {
-    /// What the pigments look like.
+    /// Appearance of the pigments.
     pub fn appearance(&self) -> Appearance {
         Appearance::of([self.chlorophyll, self.carotenoid, self.anthocyanin, self.brown])
     }

@@ -4,7 +4,7 @@
 
 use super::absorption::{self, Absorption};
 
-/// What a leaf is made of.
+/// Constituents of a leaf.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Leaf {
     /// Number of plates: 1 for a compact leaf, 2.5 for a dry one full of air.

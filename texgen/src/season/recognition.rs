@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! How far the autumn of a photographed leaf has come.
+//! Season of a photographed leaf.
 
 use super::pigments;
 use crate::Shape;

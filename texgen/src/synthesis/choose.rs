@@ -7,21 +7,21 @@ use super::structure::{Place, Structure};
 use crate::lab::{self, Lab};
 use crate::rng::Rng;
 
-/// How strongly a difference of area counts: 5 % of the blade halve the likeness.
+/// Weight of a difference of area: 5 % of the blade halve the likeness.
 const AREA_WEIGHT: f32 = 400.0;
 /// Share of all example regions that may be drawn.
 const CANDIDATE_SHARE: f32 = 0.2;
 /// Superpixels of the matched region that come into question, nearest by structure first.
 const NEAREST: usize = 12;
-/// How many of them are drawn, to keep the one nearest in colour to the parent.
+/// Number of them that are drawn, to keep the one nearest in colour to the parent.
 const DRAWN: usize = 4;
 
-/// How far a leaf's mean colour is to lie from every example's, as a share of their mean distance.
+/// Least distance of a leaf's mean colour from every example's, as a share of their mean distance.
 const AWAY: f32 = 0.32;
 /// Draws to get there.
 const MEAN_TRIES: u32 = 16;
 
-/// Which part of which example a region of the target takes after.
+/// Part of an example that a region of the target takes after.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Match {
     /// Index of the example.
@@ -30,7 +30,7 @@ pub(crate) struct Match {
     region: u32,
 }
 
-/// What one leaf takes from each example.
+/// Shares that one leaf takes from each example.
 #[derive(Clone, Debug)]
 pub(crate) struct Shares {
     /// Weight of each example for regions, detail and veins; they sum to 1. One example leads.

@@ -77,7 +77,7 @@ impl SourceBins {
     }
 }
 
-/// Which layer of the examples to copy.
+/// Layer of the examples to copy.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Layer {
     /// Everything that superpixels lack, at the scale of the leaf.

@@ -23,7 +23,7 @@ const PALE_RIM: f32 = 0.08;
 const PALE_CHROMA: f32 = 0.8;
 const PALE_LIGHT: f32 = 4.0;
 
-/// What texture is made from.
+/// Source of texture.
 pub(crate) struct Exemplar {
     /// Structure on the example's working grid.
     pub(crate) structure: Structure,
@@ -31,7 +31,7 @@ pub(crate) struct Exemplar {
     pub(crate) levels: Vec<Vec<(Place, Lab)>>,
     /// Regions: range of structural distance from the 5th to the 95th percentile, share of the area.
     pub(crate) regions: Vec<Region>,
-    /// What the smoothed superpixels lack of the example, veins apart; zero outside.
+    /// Difference of the example from the smoothed superpixels, veins apart; zero outside.
     pub(crate) residual: Plane<Lab>,
     /// The finest part of the residual, about two pixels wide.
     pub(crate) grain: Plane<Lab>,
@@ -51,7 +51,7 @@ pub(crate) struct Exemplar {
     pub(crate) deviation: Lab,
 }
 
-/// What regions are compared by.
+/// Features by which regions are compared.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Region {
     /// 5th and 95th percentile of structural distance.

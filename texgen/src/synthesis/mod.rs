@@ -42,7 +42,7 @@ use vein_field::VeinField;
 const LEAST_WORKING_UNIT: f32 = 192.0;
 /// Strength of grain that the examples are too small to show, against the grain they show: least and most.
 const GRAIN: (f32, f32) = (0.0, 0.6);
-/// How far apart, in pixels of the target, a pixel of the working grid must be for grain to be added.
+/// Least distance, in pixels of the target, between pixels of the working grid for grain to be added.
 const GRAIN_FROM: f32 = 1.35;
 
 /// Share of the differences between regions that is kept.

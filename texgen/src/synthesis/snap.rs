@@ -105,7 +105,7 @@ fn neighbours(veins: &VeinGraph, members: &[usize], place: &[usize]) -> Vec<Vec<
     near
 }
 
-/// How much lighter the line through a node is than what lies on either side, for every move.
+/// Lightness of the line through a node above that of both sides, for every move.
 fn respond(node: &VeinNode, normal: Vec2, colour: &Plane<Lab>, inside: &[bool], unit: f32) -> Responses {
     const SAMPLES: i32 = 4;
     let along = normal.perp();

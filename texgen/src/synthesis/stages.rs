@@ -72,7 +72,7 @@ fn map(leaf: &Structure, name: &str, colour: impl Fn(usize) -> Rgb<u8>) -> Stage
     Stage { name: name.to_owned(), picture }
 }
 
-/// Whether a pixel's right or lower neighbour has another label.
+/// Returns true if a pixel's right or lower neighbour has another label.
 fn is_border(leaf: &Structure, label: &[u32], at: usize) -> bool {
     let width = leaf.inside.width;
     let right = (at % width + 1 < width).then_some(at + 1);

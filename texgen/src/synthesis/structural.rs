@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! How far each pixel lies from the root when veins are fast roads (after Qian et al. 2019): Dijkstra's shortest ways
+//! Distance of each pixel from the root when veins are fast roads (after Qian et al. 2019): Dijkstra's shortest ways
 //! with a step into or within tissue dearer than one within a vein.
 
 use crate::plane::Plane;

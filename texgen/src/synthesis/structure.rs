@@ -187,7 +187,7 @@ impl Structure {
     }
 }
 
-/// Where a superpixel lies within a leaf.
+/// Place of a superpixel within a leaf.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Place {
     /// Mean structural distance.

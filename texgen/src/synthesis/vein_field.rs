@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What every pixel knows of the veins around it.
+//! Nearest veins of every pixel.
 
 use glam::Vec2;
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! How veins differ from the tissue beside them: measured on an example, painted on a target.
+//! Difference of veins from the tissue beside them: measured on an example, painted on a target.
 
 use super::smooth::local_mean;
 use super::structure::Structure;
@@ -16,7 +16,7 @@ const STEPS: usize = 12;
 const ACROSS: usize = 2 * STEPS + 1;
 /// Steps from the root outward.
 const ALONG: usize = 4;
-/// Ranks that are told apart: main and lateral.
+/// Ranks that are distinguished: main and lateral.
 const RANKS: usize = 2;
 /// Pixels that a step of the profile needs to count fully against the mean of its rank.
 const ENOUGH: f32 = 30.0;

@@ -137,7 +137,7 @@ impl Scene {
 }
 
 impl Source {
-    /// Whether leaves of this species come from here.
+    /// Returns true if leaves of this species come from here.
     fn lets_go(&self, species: &Species) -> bool {
         self.species.is_empty() || self.species.iter().any(|share| share.species == species.name)
     }

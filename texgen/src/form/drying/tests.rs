@@ -30,7 +30,7 @@ fn area(positions: &[Vec3], triangles: &[[u32; 3]]) -> f32 {
     triangles.iter().map(doubled).sum::<f32>() / 2.0
 }
 
-/// How far the sides stand above the middle, as a share of √A.
+/// Height of the sides above the middle, as a share of √A.
 fn curl(mesh: &LeafMesh, shape: &BlendShape) -> f32 {
     let positions = placed(mesh, shape);
     let normals = normals(&positions, &mesh.triangles);

@@ -11,7 +11,7 @@ use crate::scene::{
     Share, Sky, SkyMap, SourceShape, Species,
 };
 
-/// What a case does to a valid scene, and the field that must be named then; `None` where it stays valid.
+/// Change of a valid scene, and the field that must be named then; `None` where it stays valid.
 type Case = (fn(&mut Scene), Option<&'static str>);
 
 fn disc_at(height_m: f32) -> SourceShape {

@@ -7,7 +7,7 @@ use crate::scene::{
     LeafShape, MAX_TREE_KINDS, MAX_TREES, Scene, Species, Tree, TreeForm, TreeKind, TreePreset,
 };
 
-/// What a case does to a valid scene, and the field that must be named then; `None` where it stays valid.
+/// Change of a valid scene, and the field that must be named then; `None` where it stays valid.
 type Case = (fn(&mut Scene), Option<&'static str>);
 
 fn grammar(scene: &mut Scene, text: &str) {
