@@ -3,7 +3,7 @@
 //! The generated head of every shader: structs and constants, from their one statement in `windfall-core`.
 
 use windfall_core::layout::WgslStruct;
-use windfall_core::{blocks, flight, kernel, leaf, motion, stats, tree, wind};
+use windfall_core::{arith, blocks, device, flight, leaf, motion, stats, tree};
 
 /// Invocations per workgroup.
 pub const WORKGROUP_SIZE: u32 = 256;
@@ -36,30 +36,30 @@ pub(crate) fn constants() -> String {
         blocks::wgsl_constants(),
         flight::block::wgsl_constants(),
         flight::coefficients::wgsl_constants(),
-        flight::rates::wgsl_constants(),
-        flight::regime::wgsl_constants(),
-        flight::runge_kutta::wgsl_constants(),
-        kernel::math::wgsl_constants(),
-        kernel::matrix::wgsl_constants(),
-        kernel::quaternion::wgsl_constants(),
-        kernel::rng::wgsl_constants(),
-        kernel::vector::wgsl_constants(),
-        leaf::carry::wgsl_constants(),
-        leaf::fall::wgsl_constants(),
-        leaf::launch::wgsl_constants(),
+        device::flight::rates::wgsl_constants(),
+        device::flight::regime::wgsl_constants(),
+        device::flight::runge_kutta::wgsl_constants(),
+        arith::math::wgsl_constants(),
+        arith::matrix::wgsl_constants(),
+        arith::quaternion::wgsl_constants(),
+        arith::rng::wgsl_constants(),
+        arith::vector::wgsl_constants(),
+        device::leaf::carry::wgsl_constants(),
+        device::leaf::fall::wgsl_constants(),
+        device::leaf::launch::wgsl_constants(),
         leaf::petiole::wgsl_constants(),
-        leaf::record::wgsl_constants(),
-        leaf::release::wgsl_constants(),
-        motion::feature::wgsl_constants(),
-        motion::lookup::wgsl_constants(),
+        device::leaf::record::wgsl_constants(),
+        device::leaf::release::wgsl_constants(),
+        device::motion::feature::wgsl_constants(),
+        device::motion::lookup::wgsl_constants(),
         motion::table::wgsl_constants(),
         stats::wgsl_constants(),
         tree::record::wgsl_constants(),
-        tree::sway::quigley::wgsl_constants(),
-        tree::sway::wgsl_constants(),
-        wind::gust::wgsl_constants(),
-        wind::profile::wgsl_constants(),
-        wind::turbulence::wgsl_constants(),
+        device::tree::sway::quigley::wgsl_constants(),
+        device::tree::sway::wgsl_constants(),
+        device::wind::gust::wgsl_constants(),
+        device::wind::profile::wgsl_constants(),
+        device::wind::turbulence::wgsl_constants(),
     ];
     let declarations: String = lists.into_iter().flatten().map(|(_, declaration)| declaration).collect();
     format!("const WORKGROUP_SIZE: u32 = {WORKGROUP_SIZE}u;\n{declarations}")

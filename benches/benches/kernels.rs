@@ -15,11 +15,11 @@ use criterion::{BenchmarkGroup, BenchmarkId, Criterion, SamplingMode, Throughput
 use windfall_benches::{
     FALLING_STEPS, contenders, falling, resting, restless, scaled, steady, time_steps, world,
 };
-use windfall_core::kernel::rng::philox;
-use windfall_core::leaf::own::{motion_params, own_advance, own_orientation};
-use windfall_core::leaf::release::leaf_release;
+use windfall_core::arith::rng::philox;
+use windfall_core::device::leaf::own::{motion_params, own_advance, own_orientation};
+use windfall_core::device::leaf::release::leaf_release;
+use windfall_core::device::wind::sample::wind_at;
 use windfall_core::leaf::{LeafState, Leaves};
-use windfall_core::wind::sample::wind_at;
 use windfall_core::{Simulator, World};
 
 /// Leaves of a kernel's world.

@@ -17,13 +17,13 @@ crate::shared_struct! {
         pub size_spread_q14: u32,
         /// Half width of the spread of speeds in 2^-14 of the nominal speed.
         pub speed_spread_q14: u32,
-        /// First primitive motion, or [`AERODYNAMIC`](crate::leaf::record::AERODYNAMIC).
+        /// First primitive motion, or [`AERODYNAMIC`](crate::device::leaf::record::AERODYNAMIC).
         pub first_motion: u32,
         /// Phase per step of each primitive motion for a leaf of nominal size and speed, four to a vector (see
-        /// [`species_rate`](crate::leaf::release::species_rate)).
+        /// [`species_rate`](crate::device::leaf::release::species_rate)).
         pub rates: [Uint4; 2],
         /// Transition counts, row by row, four to a vector (see
-        /// [`transition_count`](crate::motion::feature::transition_count)).
+        /// [`transition_count`](crate::device::motion::feature::transition_count)).
         pub transitions: [Uint4; 9],
     }
 }
@@ -40,7 +40,7 @@ crate::shared_struct! {
         /// Steps until a slot is released again; 0 for never.
         pub lifetime_steps: u32,
         /// Upper end of each species' share of random words, four to a vector (see
-        /// [`source_share`](crate::leaf::release::source_share)).
+        /// [`source_share`](crate::device::leaf::release::source_share)).
         pub shares: [Uint4; SHARE_VECTORS as usize],
     }
 }

@@ -3,8 +3,8 @@
 //! The view of a kernel besides the leaf it works on.
 
 use crate::blocks::{EnvironmentBlock, StepBlock};
+use crate::device::motion::lookup::MotionRows;
 use crate::layout::Uint4;
-use crate::motion::lookup::MotionRows;
 
 /// The uniform blocks and tables of one step; globals in WGSL.
 #[derive(Clone, Copy, Debug)]

@@ -38,13 +38,14 @@
 //! - [`World::build_cycle`]: worlds that repeat, for clips without a seam; [`Environment::set_wind_field`]: a wind of
 //!   your own.
 //! - [`store`]: the columns that a state consists of.
-//! - [`leaf`]: the leaf store and the life of a leaf, step by step.
+//! - [`leaf`]: the leaf store, and leaves decoded.
+//! - [`device`]: the functions of kernels, each with a twin in WGSL: the life of a leaf step by step, the sway of trees.
 //! - [`motion`]: six primitive motions, their tables and the chain that joins them.
 //! - [`flight`]: leaves as rigid bodies under air forces.
 //! - [`wind`]: mean flow, gusts, turbulence, vortices.
-//! - [`terrain`]: hills, and how leaves see them.
-//! - [`tree`]: how trees grow, what they weigh, how they sway.
-//! - [`kernel`]: arithmetic with the same bits in Rust and WGSL.
+//! - [`terrain`]: hills.
+//! - [`tree`]: growth, weight and state of trees.
+//! - [`arith`]: arithmetic with the same bits in Rust and WGSL.
 //! - [`blocks`], [`layout`]: what Rust and WGSL share.
 
 #![warn(clippy::print_stdout, clippy::print_stderr)]
@@ -53,10 +54,10 @@ pub mod blocks;
 pub mod checkpoint;
 mod clock;
 mod context;
+pub mod device;
 mod environment;
 pub mod error;
 pub mod flight;
-pub mod kernel;
 pub mod layout;
 pub mod leaf;
 pub mod motion;
@@ -72,6 +73,7 @@ mod world;
 
 pub use clock::Clock;
 pub use context::Context;
+pub use device::arith;
 pub use environment::{Cycle, Environment, REST_OFFSET_M};
 pub use error::{SceneError, SimError};
 pub use scene::Scene;

@@ -4,9 +4,9 @@
 
 use crate::clock::Clock;
 use crate::context::Context;
+use crate::device::leaf::advance::leaf_advance;
+use crate::device::leaf::fly::leaf_fly;
 use crate::environment::Environment;
-use crate::leaf::advance::leaf_advance;
-use crate::leaf::fly::leaf_fly;
 use crate::world::World;
 
 /// Steps the leaves of a world one after another. Trees, and the leaves that hang on them, stay as they are.

@@ -4,8 +4,8 @@
 //!
 //! Counts over a world: integers only, so their sum does not depend on order.
 
-use crate::flight::regime::REGIME_COUNT;
-use crate::leaf::record::{STATE_FALLING, flies, leaf_primitive, leaf_regime, leaf_state};
+use crate::device::flight::regime::REGIME_COUNT;
+use crate::device::leaf::record::{STATE_FALLING, flies, leaf_primitive, leaf_regime, leaf_state};
 use crate::leaf::{Leaves, Place};
 
 crate::shared_constants! {

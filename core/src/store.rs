@@ -10,8 +10,8 @@ use std::fmt::Debug;
 
 use bytemuck::Pod;
 
+use crate::arith::hash::mix;
 use crate::error::SimError;
-use crate::kernel::hash::mix;
 
 /// Meaning of the words of a field.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -2,16 +2,16 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A scene brought to life: compiled environment, clock and leaves.
 
+use crate::arith::hash::mix;
 use crate::blocks::StepBlock;
 use crate::clock::Clock;
 use crate::context::Context;
+use crate::device::leaf::record::leaf_appearance;
+use crate::device::leaf::release::leaf_release;
 use crate::environment::{Cycle, Environment, lifetime_steps, release_step};
 use crate::error::{SceneError, SimError};
 use crate::flight::drop_table::{DropTable, drop_tables};
-use crate::kernel::hash::mix;
 use crate::leaf::grow::{count_leaves, leaf_grow};
-use crate::leaf::record::leaf_appearance;
-use crate::leaf::release::leaf_release;
 use crate::leaf::seek::leaf_seek_any;
 use crate::leaf::{Leaves, LeavesMut};
 use crate::scene::Scene;

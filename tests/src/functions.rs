@@ -10,7 +10,7 @@ mod schemes;
 mod tree;
 
 use windfall_core::Context;
-use windfall_core::kernel::{Quat, Vec3};
+use windfall_core::arith::{Quat, Vec3};
 
 use crate::runner::{NO_WORDS, Words};
 

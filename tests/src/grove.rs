@@ -3,9 +3,9 @@
 //! Trees by themselves, stepped on the oracle, without leaves in the air.
 
 use glam::Vec3;
+use windfall_core::device::tree::sway::row::{Rows, row_follow, row_gather, row_inward, row_outward};
 use windfall_core::scene::{Foliage, MeanSpeed, SwayScheme, TreeKind, Turbulence, Wood};
 use windfall_core::tree::forest::Seedling;
-use windfall_core::tree::sway::row::{Rows, row_follow, row_gather, row_inward, row_outward};
 use windfall_core::tree::{Attachment, Bearing, Branches, Forest, LeafFacts, Segment, Skeleton};
 use windfall_core::{Clock, Environment, Scene};
 

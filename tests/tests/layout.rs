@@ -184,7 +184,7 @@ fn indexes_a_vector(line: &str) -> bool {
 
 /// Constants of places within the words of records.
 fn packing_constants() -> Vec<&'static str> {
-    let constants = windfall_core::leaf::record::wgsl_constants().into_iter().map(|(name, _)| name);
+    let constants = windfall_core::device::leaf::record::wgsl_constants().into_iter().map(|(name, _)| name);
     constants
         .filter(|name| name.ends_with("_SHIFT") || name.ends_with("_MASK") && *name != "HALF_MASK")
         .collect()
@@ -308,7 +308,12 @@ fn twins_name_each_other_and_keep_their_order() {
         let wgsl = fs::read_to_string(&path).expect("readable");
         let line = wgsl.lines().find_map(|line| line.strip_prefix("// twin: "));
         let twin = line.unwrap_or_else(|| panic!("{relative} names no twin"));
-        assert_eq!(Path::new(twin).file_stem(), path.file_stem(), "{relative} and its twin share their stem");
+        let beside = relative.replace(".wgsl", ".rs");
+        let expected = match relative.starts_with("kernels/") {
+            true => format!("backend-cpu/src/{beside}"),
+            false => format!("core/src/device/{beside}"),
+        };
+        assert_eq!(twin, expected, "both trees are laid out alike");
         let rust = fs::read_to_string(root().join(twin)).unwrap_or_else(|error| panic!("{twin}: {error}"));
         let back = format!("//! twin: backend-wgpu/src/shaders/{relative}");
         assert!(rust.lines().any(|line| line == back), "{twin} does not say '{back}'");

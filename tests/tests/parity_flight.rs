@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Leaves that fly as bodies, beside synthesised ones, from trees and from boxes: CPU and GPU, step by step and for long.
 
-use windfall_core::leaf::record::flies;
+use windfall_core::device::leaf::record::flies;
 
 use windfall_core::{Contract, Simulator, World};
 use windfall_cpu::{CpuOptions, CpuSimulator, Simd};

@@ -115,8 +115,8 @@ fn functions_agree_on_every_adapter() {
 #[test]
 fn a_changed_twin_is_noticed() {
     let edits = [
-        ("kernel/math", "0.5 * r2", "0.4999 * r2", "sin_cos_turns"),
-        ("kernel/rng", "high1 ^ c.y", "high1 ^ c.z", "philox"),
+        ("arith/math", "0.5 * r2", "0.4999 * r2", "sin_cos_turns"),
+        ("arith/rng", "high1 ^ c.y", "high1 ^ c.z", "philox"),
         ("motion/lookup", "row + 1u), fraction_of", "row + 2u), fraction_of", "motion_displacement"),
         ("wind/gust", "row.y - row.x", "row.x - row.y", "wind_gust"),
         ("leaf/settle", "0.5 * seconds", "0.51 * seconds", "slide"),
@@ -125,11 +125,11 @@ fn a_changed_twin_is_noticed() {
         ("terrain/ground", "1.0 + up)", "2.0 - up)", "flatten_on"),
         ("terrain/ground", "let west = corners.z", "let west = corners.w", "ground_slope"),
         ("leaf/release", "<< 17u, extent", "<< 16u, extent", "release_place"),
-        ("kernel/matrix", "a.off - b.off", "a.off + b.off", "sym3_sums"),
-        ("kernel/matrix", "a.diagonal.z * PIVOT_SHARE", "a.diagonal.y * PIVOT_SHARE", "sym3_inverse"),
-        ("kernel/matrix", "a.x.z + a.z.x", "a.x.z + a.x.z", "mat3_times"),
-        ("kernel/quaternion", "y + y", "y + x", "quat_rotate_back"),
-        ("kernel/quaternion", "TURN_ASIN_11 + TURN_ASIN_9", "TURN_ASIN_11 + TURN_ASIN_11", "quat_of_turn"),
+        ("arith/matrix", "a.off - b.off", "a.off + b.off", "sym3_sums"),
+        ("arith/matrix", "a.diagonal.z * PIVOT_SHARE", "a.diagonal.y * PIVOT_SHARE", "sym3_inverse"),
+        ("arith/matrix", "a.x.z + a.z.x", "a.x.z + a.x.z", "mat3_times"),
+        ("arith/quaternion", "y + y", "y + x", "quat_rotate_back"),
+        ("arith/quaternion", "TURN_ASIN_11 + TURN_ASIN_9", "TURN_ASIN_11 + TURN_ASIN_11", "quat_of_turn"),
         ("tree/sway/load", "wind, axis)", "wind, wind)", "segment_drag"),
         ("tree/sway/load", "inertia_along - across", "inertia_along + across", "segment_load"),
         ("tree/sway/inward", "ahead + STOP_DAMPING", "ahead - STOP_DAMPING", "joint_spring"),

@@ -4,8 +4,8 @@
 
 use proptest::prelude::*;
 use proptest::test_runner::{Config, TestCaseResult, TestRunner};
-use windfall_core::leaf::record::GRID_UNIT;
-use windfall_core::leaf::record::flies;
+use windfall_core::device::leaf::record::GRID_UNIT;
+use windfall_core::device::leaf::record::flies;
 use windfall_core::{Contract, Scene, Simulator, World};
 use windfall_cpu::{CpuOptions, CpuSimulator};
 use windfall_tests::adapter;

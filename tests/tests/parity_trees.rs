@@ -146,8 +146,8 @@ fn a_checkpoint_brings_trees_back_to_the_bit() {
 #[test]
 fn a_changed_kernel_is_noticed() {
     let edits = [
-        ("kernel/matrix", "l32 * l21 - l31", "l32 * l21 + l31"),
-        ("kernel/quaternion", "z + z);", "z + x);"),
+        ("arith/matrix", "l32 * l21 - l31", "l32 * l21 + l31"),
+        ("arith/quaternion", "z + z);", "z + x);"),
         ("tree/sway/load", "drag.wood * dt", "drag.leaves * dt"),
         ("tree/sway/inward", "1.0 - inverse_sqrt", "1.001 - inverse_sqrt"),
         ("tree/sway/inward", "sym3_add(turned, swung)", "sym3_add(turned, turned)"),

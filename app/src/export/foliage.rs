@@ -6,8 +6,8 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use windfall_core::Scene;
+use windfall_core::device::leaf::record::{HALF_MASK, leaf_tint, leaf_variant};
 use windfall_core::leaf::LeafState;
-use windfall_core::leaf::record::{HALF_MASK, leaf_tint, leaf_variant};
 use windfall_core::scene::Species;
 use windfall_render::trees::{Stand, StandingTree, cluster};
 use windfall_render::turned;
@@ -152,7 +152,7 @@ pub(super) fn plain(name: &str) -> String {
 pub(super) mod tests {
     use glam::Vec3;
     use windfall_core::World;
-    use windfall_core::leaf::record::leaf_appearance;
+    use windfall_core::device::leaf::record::leaf_appearance;
     use windfall_core::scene::{Foliage as Twigs, LeafShape, Tree, TreeForm, TreeKind, TreePreset};
     use windfall_render::trees::TWIG_SIZE;
 

@@ -26,7 +26,7 @@ pub(crate) struct FrameLeaf {
     pub velocity_m_s: [f32; 3],
     /// Size relative to its species'.
     pub size: f32,
-    /// Tint and image variant, packed as [`leaf_tint`](windfall_core::leaf::record::leaf_tint) and its like read them.
+    /// Tint and image variant, packed as [`leaf_tint`](windfall_core::device::leaf::record::leaf_tint) and its like read them.
     pub appearance: u32,
 }
 

@@ -5,7 +5,7 @@
 use std::fmt::Write as _;
 
 use serde::Serialize;
-use windfall_core::flight::regime::REGIME_NAMES;
+use windfall_core::device::flight::regime::REGIME_NAMES;
 use windfall_core::leaf::{LEAF_BYTES, LeafState};
 use windfall_core::motion::Primitive;
 use windfall_core::{LeafStats, Simulator, Stats, World};

@@ -6,9 +6,9 @@
 
 use fearless_simd::dispatch;
 use windfall_core::Context;
-use windfall_core::kernel::lane::LANES;
+use windfall_core::arith::lane::LANES;
+use windfall_core::device::leaf::advance::leaf_advance_plain;
 use windfall_core::leaf::LeavesMut;
-use windfall_core::leaf::advance::leaf_advance_plain;
 
 use super::eight::advance_eight;
 use super::resolve_events::EventList;

@@ -4,7 +4,7 @@
 
 use std::ops::Range;
 
-use windfall_core::kernel::pack::BLOCK;
+use windfall_core::arith::pack::BLOCK;
 use windfall_core::tree::BranchesMut;
 
 /// One record of all rows of a block.

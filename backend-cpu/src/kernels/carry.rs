@@ -5,16 +5,16 @@
 //! Moves the leaves on the twigs of a batch, and breaks petioles.
 
 use windfall_core::Context;
+use windfall_core::arith::pack::{BLOCK, Pack};
 use windfall_core::blocks::SOURCE_TREES;
-use windfall_core::kernel::pack::{BLOCK, Pack};
-use windfall_core::leaf::LeavesMut;
-use windfall_core::leaf::carry::{
+use windfall_core::device::leaf::carry::{
     CarriedLeaf, Stalk, leaf_carry, leaf_follow, leaf_hangs, leaf_return, petiole_of,
 };
+use windfall_core::device::tree::sway::Body;
+use windfall_core::device::tree::sway::row::Rows;
+use windfall_core::leaf::LeavesMut;
 use windfall_core::leaf::petiole::SHED_INTERVAL;
 use windfall_core::tree::record::NO_SEGMENT;
-use windfall_core::tree::sway::Body;
-use windfall_core::tree::sway::row::Rows;
 
 use super::carry_block::{LeafBlock, sample_air};
 use super::segment_block::word;

@@ -6,17 +6,17 @@
 
 use bytemuck::{cast_slice, must_cast_mut, must_cast_ref};
 use windfall_core::Context;
-use windfall_core::kernel::Quat;
-use windfall_core::kernel::lane::{Mask, Word};
-use windfall_core::kernel::pack::{BLOCK, Pack, ROWS_OF_LANES, load_block, store_block};
-use windfall_core::kernel::vector::vec3_select;
-use windfall_core::leaf::carry::{
+use windfall_core::arith::Quat;
+use windfall_core::arith::lane::{Mask, Word};
+use windfall_core::arith::pack::{BLOCK, Pack, ROWS_OF_LANES, load_block, store_block};
+use windfall_core::arith::vector::vec3_select;
+use windfall_core::device::leaf::carry::{
     CarriedLeaf, Stalk, leaf_follow, leaf_hang, leaf_hangs, leaf_next_sample, leaf_sample_air, petiole_of,
 };
+use windfall_core::device::leaf::record::{smoothed_air_speed, smoothed_air_speed_word};
+use windfall_core::device::tree::sway::row::Rows;
 use windfall_core::leaf::petiole::{PETIOLE_ROWS, SHED_INTERVAL};
-use windfall_core::leaf::record::{smoothed_air_speed, smoothed_air_speed_word};
 use windfall_core::leaf::{Attitude, Drift, LeavesMut, Place, Schedule};
-use windfall_core::tree::sway::row::Rows;
 
 use super::branch_block::Column;
 use super::segment_block::word;

@@ -5,14 +5,14 @@
 use bytemuck::{must_cast_mut, must_cast_ref};
 use fearless_simd::{Simd, SimdBase, SimdMask, f32x8, mask32x8, u32x8};
 use windfall_core::Context;
-use windfall_core::kernel::eight::{load_records, merge, store_records};
-use windfall_core::kernel::lane::{LANES, Mask, Real, Word};
-use windfall_core::kernel::{Quat, Vec3};
-use windfall_core::leaf::fall::{Glide, attitude_after, glide_step, response_of, spin_advance};
-use windfall_core::leaf::own::MotionParams;
-use windfall_core::leaf::record::{STATE_FALLING, STATE_RESTING, flies, ground_steps, leaf_state};
+use windfall_core::arith::eight::{load_records, merge, store_records};
+use windfall_core::arith::lane::{LANES, Mask, Real, Word};
+use windfall_core::arith::{Quat, Vec3};
+use windfall_core::device::leaf::fall::{Glide, attitude_after, glide_step, response_of, spin_advance};
+use windfall_core::device::leaf::own::MotionParams;
+use windfall_core::device::leaf::record::{STATE_FALLING, STATE_RESTING, flies, ground_steps, leaf_state};
+use windfall_core::device::terrain::ground::ground_met;
 use windfall_core::leaf::{Attitude, Drift, Place, Schedule};
-use windfall_core::terrain::ground::ground_met;
 
 /// Columns of records of three floats and a word: the vector and the word.
 #[inline(always)]

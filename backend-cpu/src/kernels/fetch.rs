@@ -7,7 +7,7 @@
 
 use std::ops::Range;
 
-use windfall_core::kernel::pack::BLOCK;
+use windfall_core::arith::pack::BLOCK;
 
 use super::segment_block::SegmentBlock;
 use super::sway_block::Step;

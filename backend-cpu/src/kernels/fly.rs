@@ -7,14 +7,14 @@
 use bytemuck::{must_cast_mut, must_cast_ref};
 use fearless_simd::{Simd as Lanes, dispatch, f32x8, mask32x8, u32x8};
 use windfall_core::Context;
-use windfall_core::kernel::Quat;
-use windfall_core::kernel::eight::{load_records, merge, store_records};
-use windfall_core::kernel::lane::{LANES, Mask, Real, Word};
+use windfall_core::arith::Quat;
+use windfall_core::arith::eight::{load_records, merge, store_records};
+use windfall_core::arith::lane::{LANES, Mask, Real, Word};
+use windfall_core::device::leaf::fly::{Flight, flight_advance, leaf_fly, update_regime};
+use windfall_core::device::leaf::record::{body_spin, body_spin_words, flies, regime_state};
+use windfall_core::device::terrain::ground::ground_met;
+use windfall_core::device::wind::sample::wind_at;
 use windfall_core::leaf::LeavesMut;
-use windfall_core::leaf::fly::{Flight, flight_advance, leaf_fly, update_regime};
-use windfall_core::leaf::record::{body_spin, body_spin_words, flies, regime_state};
-use windfall_core::terrain::ground::ground_met;
-use windfall_core::wind::sample::wind_at;
 
 use super::eight::{bits_of, vector_and_word, with_word};
 use crate::simd::Simd;

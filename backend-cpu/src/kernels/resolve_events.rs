@@ -5,9 +5,9 @@
 //! Moves the listed leaves through one step with an event in it.
 
 use windfall_core::Context;
-use windfall_core::kernel::lane::LANES;
+use windfall_core::arith::lane::LANES;
+use windfall_core::device::leaf::advance::leaf_advance;
 use windfall_core::leaf::LeavesMut;
-use windfall_core::leaf::advance::leaf_advance;
 
 use super::CHUNK;
 

@@ -5,10 +5,10 @@
 //! Answers are for the same segments in both passes, so they stay in lanes.
 
 use bytemuck::{Pod, Zeroable};
-use windfall_core::kernel::pack::{BLOCK, Pack};
-use windfall_core::kernel::{Mat3, Vec3};
+use windfall_core::arith::pack::{BLOCK, Pack};
+use windfall_core::arith::{Mat3, Vec3};
+use windfall_core::device::tree::sway::{JointResponse, TwigResponse, VelocityProducts};
 use windfall_core::tree::record::Work;
-use windfall_core::tree::sway::{JointResponse, TwigResponse, VelocityProducts};
 
 use super::branch_block::{Column, Spare};
 use super::segment_block::{HANDED, Lanes, MOTIONS};

@@ -7,11 +7,11 @@
 
 use std::ops::Range;
 
-use windfall_core::kernel::pack::{BLOCK, Pack, row_of_lane};
-use windfall_core::kernel::{Quat, Vec3};
+use windfall_core::arith::pack::{BLOCK, Pack, row_of_lane};
+use windfall_core::arith::{Quat, Vec3};
+use windfall_core::device::tree::sway::Constants;
 use windfall_core::tree::batch::TreeBatch;
 use windfall_core::tree::record::{SegmentConstants, children_of};
-use windfall_core::tree::sway::Constants;
 
 /// Numbers of a [`SegmentConstants`] that are floats: all but its last row of links.
 const FLOATS: usize = size_of::<SegmentConstants>() / 4 - 4;

@@ -6,10 +6,10 @@ use std::sync::{Mutex, PoisonError};
 
 use rayon::{current_thread_index, join};
 use windfall_core::Context;
+use windfall_core::device::tree::sway::SCHEME_ARTICULATED;
+use windfall_core::device::tree::sway::row::Rows;
 use windfall_core::leaf::LeavesMut;
 use windfall_core::tree::batch::TreeBatch;
-use windfall_core::tree::sway::SCHEME_ARTICULATED;
-use windfall_core::tree::sway::row::Rows;
 use windfall_core::tree::{BranchesMut, SegmentConstants};
 
 use super::carry::carry;

@@ -7,19 +7,23 @@
 
 use bytemuck::must_cast_slice;
 use windfall_core::Context;
-use windfall_core::kernel::lane::Word;
-use windfall_core::kernel::matrix::sym3_trace;
-use windfall_core::kernel::pack::{BLOCK, Pack, ROWS_OF_LANES, load_block, row_of_lane, store_block};
-use windfall_core::kernel::vector::vec3_select;
-use windfall_core::kernel::{Mat3, Quat, Sym3, Vec3};
-use windfall_core::tree::sway::inward::{
+use windfall_core::arith::lane::Word;
+use windfall_core::arith::matrix::sym3_trace;
+use windfall_core::arith::pack::{BLOCK, Pack, ROWS_OF_LANES, load_block, row_of_lane, store_block};
+use windfall_core::arith::vector::vec3_select;
+use windfall_core::arith::{Mat3, Quat, Sym3, Vec3};
+use windfall_core::device::tree::sway::inward::{
     articulated_add, articulated_shift, joint_response, joint_spring, velocity_products,
 };
-use windfall_core::tree::sway::load::{load_trace, segment_air, segment_axis, segment_body, segment_load};
-use windfall_core::tree::sway::outward::{Acceleration, joint_acceleration, joint_step, segment_place};
-use windfall_core::tree::sway::row::Rows;
-use windfall_core::tree::sway::twig::{twig_acceleration, twig_response};
-use windfall_core::tree::sway::{ArticulatedInertia, Body, Joint};
+use windfall_core::device::tree::sway::load::{
+    load_trace, segment_air, segment_axis, segment_body, segment_load,
+};
+use windfall_core::device::tree::sway::outward::{
+    Acceleration, joint_acceleration, joint_step, segment_place,
+};
+use windfall_core::device::tree::sway::row::Rows;
+use windfall_core::device::tree::sway::twig::{twig_acceleration, twig_response};
+use windfall_core::device::tree::sway::{ArticulatedInertia, Body, Joint};
 
 use super::branch_block::{Column, Spare, State, change_state, state_of};
 use super::scratch::{BlockScratch, Handed, TwigResponses};

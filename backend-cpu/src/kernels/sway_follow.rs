@@ -5,7 +5,7 @@
 //! The pass towards the tips of the same schemes: every joint moves on.
 
 use windfall_core::Context;
-use windfall_core::tree::sway::row::{Rows, row_follow};
+use windfall_core::device::tree::sway::row::{Rows, row_follow};
 
 /// A batch, from the trunks to the tips.
 pub(crate) fn sway_follow(cx: &Context<'_>, rows: &mut Rows<'_>) {

@@ -5,7 +5,7 @@
 //! The pass towards the foot of the schemes that move joints one by one: what every segment carries.
 
 use windfall_core::Context;
-use windfall_core::tree::sway::row::{Rows, row_gather};
+use windfall_core::device::tree::sway::row::{Rows, row_gather};
 
 /// A batch, from the tips to the trunks.
 pub(crate) fn sway_gather(cx: &Context<'_>, rows: &mut Rows<'_>) {

@@ -5,8 +5,8 @@
 //! The pass towards the foot: what every joint of a batch hands down, and how it will answer.
 
 use windfall_core::Context;
-use windfall_core::kernel::pack::{BLOCK, Pack};
-use windfall_core::tree::sway::row::{Rows, row_inward};
+use windfall_core::arith::pack::{BLOCK, Pack};
+use windfall_core::device::tree::sway::row::{Rows, row_inward};
 
 use super::fetch::AHEAD;
 use super::scratch::BlockScratch;

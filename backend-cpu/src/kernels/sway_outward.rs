@@ -5,8 +5,8 @@
 //! The pass towards the tips: every joint of a batch moves on.
 
 use windfall_core::Context;
-use windfall_core::kernel::pack::{BLOCK, Pack};
-use windfall_core::tree::sway::row::{Rows, row_outward};
+use windfall_core::arith::pack::{BLOCK, Pack};
+use windfall_core::device::tree::sway::row::{Rows, row_outward};
 
 use super::fetch::AHEAD;
 use super::scratch::BlockScratch;

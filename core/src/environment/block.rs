@@ -8,16 +8,16 @@ use super::source::{source_block, trees_block};
 use super::species::{response_block, species_block};
 use super::tables::TABLES_PER_SPECIES;
 use super::wind::wind_block;
+use crate::arith::rng::seed_words;
 use crate::blocks::{EnvironmentBlock, SOURCE_TREES};
+use crate::device::tree::sway::{SCHEME_ARTICULATED, SCHEME_OLIAPURAM_KUMAR, SCHEME_QUIGLEY};
+use crate::device::wind::gust::GUST_ROWS;
+use crate::device::wind::profile::PROFILE_ROWS;
+use crate::device::wind::turbulence::TURBULENCE_NODES;
 use crate::flight::coefficients::TICKS_PER_S;
-use crate::kernel::rng::seed_words;
 use crate::motion::table::TABLE_ROWS;
 use crate::motion::{GRAVITY, MotionTables};
 use crate::scene::{FlightModel, MAX_SOURCES, Scene, SwayScheme};
-use crate::tree::sway::{SCHEME_ARTICULATED, SCHEME_OLIAPURAM_KUMAR, SCHEME_QUIGLEY};
-use crate::wind::gust::GUST_ROWS;
-use crate::wind::profile::PROFILE_ROWS;
-use crate::wind::turbulence::TURBULENCE_NODES;
 
 /// Height of resting leaves above the ground in metres: half the thickness of a curled dry leaf.
 pub const REST_OFFSET_M: f32 = 0.004;

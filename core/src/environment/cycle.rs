@@ -10,12 +10,12 @@
 use super::block::FLUTTER_HZ;
 use super::convert::single;
 use crate::SceneError;
+use crate::device::leaf::record::leaf_appearance;
+use crate::device::wind::gust::{GUST_ROWS, GUST_SPACING};
+use crate::device::wind::turbulence::TURBULENCE_X;
 use crate::layout::Uint4;
-use crate::leaf::record::leaf_appearance;
 use crate::leaf::{Identity, Leaves, Place, Schedule};
 use crate::scene::{Release, Scene, limits};
-use crate::wind::gust::{GUST_ROWS, GUST_SPACING};
-use crate::wind::turbulence::TURBULENCE_X;
 
 /// Seconds in which trees come to repeat what the wind does: ten times what the slowest sway takes to fade e-fold.
 const TREES_SETTLE_S: f64 = 120.0;

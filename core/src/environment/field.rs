@@ -6,9 +6,9 @@ use glam::DVec3;
 
 use super::Environment;
 use super::convert::single;
-use crate::wind::gust::GUST_ROWS;
-use crate::wind::profile::PROFILE_ROWS;
-use crate::wind::turbulence::{
+use crate::device::wind::gust::GUST_ROWS;
+use crate::device::wind::profile::PROFILE_ROWS;
+use crate::device::wind::turbulence::{
     TURBULENCE_NODES, TURBULENCE_UNIT, TURBULENCE_X, TURBULENCE_Y, TURBULENCE_Z, turbulence_rows,
 };
 

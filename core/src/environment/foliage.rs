@@ -12,8 +12,8 @@ use std::sync::Arc;
 
 use glam::{DMat3, DQuat, DVec3};
 
+use crate::arith::rng::{random, seed_words, unit_float};
 use crate::error::SceneError;
-use crate::kernel::rng::{random, seed_words, unit_float};
 use crate::layout::Uint4;
 use crate::leaf::petiole::{
     PETIOLE_CLASS_SHIFT, PETIOLE_CLUSTER_SHIFT, PETIOLE_KIND_SHIFT, PETIOLE_REACH_MASK, PETIOLE_REACH_SHIFT,

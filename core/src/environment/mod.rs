@@ -24,22 +24,22 @@ pub(crate) use self::foliage::leaf_site;
 use self::foliage::{foliage_of, petiole_rows, seedlings, shed_rows};
 pub(crate) use self::source::{lifetime_steps, release_step};
 use self::tables::{pack_motion, tables_of};
+use crate::arith::rng::seed_words;
 use crate::blocks::{EnvironmentBlock, StepBlock, VortexBlock};
 use crate::clock::Clock;
 use crate::context::Context;
+use crate::device::motion::lookup::MotionRows;
+use crate::device::terrain::ground::ground_relief;
+use crate::device::wind::gust::{GUST_ROWS, GUST_SPACING, gust_rows};
+use crate::device::wind::profile::{PROFILE_ROWS, profile_rows};
+use crate::device::wind::turbulence::{TURBULENCE_X, turbulence_rows};
 use crate::error::{SceneError, SimError};
-use crate::kernel::rng::seed_words;
 use crate::layout::{Float4, Uint4};
 use crate::leaf::Leaves;
-use crate::motion::lookup::MotionRows;
 use crate::scene::Scene;
 use crate::store::{StoreSize, check_sizes};
 use crate::terrain::Hills;
-use crate::terrain::ground::ground_relief;
 use crate::tree::{Branches, Forest};
-use crate::wind::gust::{GUST_ROWS, GUST_SPACING, gust_rows};
-use crate::wind::profile::{PROFILE_ROWS, profile_rows};
-use crate::wind::turbulence::{TURBULENCE_X, turbulence_rows};
 use crate::wind::turbulence_box;
 
 /// A compiled scene: uniform block and tables, ready for any backend.

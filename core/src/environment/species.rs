@@ -5,7 +5,7 @@
 use super::convert::{single, word};
 use super::wind::deviation_m_s;
 use crate::blocks::{ResponseBlock, SpeciesBlock};
-use crate::leaf::record::{AERODYNAMIC, SIZE_ONE};
+use crate::device::leaf::record::{AERODYNAMIC, SIZE_ONE};
 use crate::motion::{MotionConstants, MotionTables};
 use crate::scene::{FlightModel, Scene, Species};
 

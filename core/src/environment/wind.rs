@@ -4,9 +4,9 @@
 
 use super::convert::single;
 use crate::blocks::WindBlock;
+use crate::device::wind::gust::{GUST_ROWS, GUST_SPACING};
+use crate::device::wind::profile::PROFILE_ROWS;
 use crate::scene::{Scene, WindParameters};
-use crate::wind::gust::{GUST_ROWS, GUST_SPACING};
-use crate::wind::profile::PROFILE_ROWS;
 
 /// Turbulence up and across the wind relative to along it (IEC 61400-1).
 const DEVIATION_RATIOS: [f32; 3] = [1.0, 0.5, 0.8];

@@ -3,13 +3,13 @@
 //! Precomputed drop trajectories: drops of every kind of body through still air, step by step. Leaves that are let go
 //! before time zero take their place from them, which is faster than flying a million bodies there.
 
+use crate::arith::quaternion::{quat_multiply, quat_rotate};
+use crate::arith::rng::random;
+use crate::arith::vector::Vec3;
 use crate::context::Context;
-use crate::kernel::quaternion::{quat_multiply, quat_rotate};
-use crate::kernel::rng::random;
-use crate::kernel::vector::Vec3;
-use crate::leaf::fly::{Flight, flight_advance};
-use crate::leaf::launch::{hold_pose, random_asymmetry, turn_about_y};
-use crate::leaf::record::{AERODYNAMIC, SIZE_ONE, STATE_FALLING, place_bits, with_asymmetry};
+use crate::device::leaf::fly::{Flight, flight_advance};
+use crate::device::leaf::launch::{hold_pose, random_asymmetry, turn_about_y};
+use crate::device::leaf::record::{AERODYNAMIC, SIZE_ONE, STATE_FALLING, place_bits, with_asymmetry};
 
 /// Drops of each kind.
 const DROPS: u32 = 64;

@@ -12,10 +12,6 @@
 //! aspect ratio's lift slope. Coefficients: fitted to drops of paper discs (Howison, Hughes and Iida 2020).
 
 pub mod block;
-pub mod body;
 pub mod coefficients;
 pub(crate) mod drop_table;
 pub mod planform;
-pub mod rates;
-pub mod regime;
-pub mod runge_kutta;

@@ -2,19 +2,19 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Places the leaves of trees at time zero: on their twigs, or beneath them if the season has taken them.
 
-use super::carry::{CarriedLeaf, leaf_hang, leaf_size_on_twig, petiole_of};
 use super::petiole::PETIOLE_SPECIES_MASK;
-use super::record::{STATE_ATTACHED, leaf_appearance, leaf_state, place_bits};
-use super::release::{SizeSpeed, leaf_drop, release_fall_time, release_size_speed};
 use super::seek::leaf_seek_any;
 use super::store::{LeafMut, Leaves};
+use crate::arith::rng::random;
 use crate::blocks::{LENGTH_UNIT, NEVER, SOURCE_TREES};
 use crate::context::Context;
+use crate::device::leaf::carry::{CarriedLeaf, leaf_hang, leaf_size_on_twig, petiole_of};
+use crate::device::leaf::record::{STATE_ATTACHED, leaf_appearance, leaf_state, place_bits};
+use crate::device::leaf::release::{SizeSpeed, leaf_drop, release_fall_time, release_size_speed};
+use crate::device::motion::feature::STREAM_TRAITS;
+use crate::device::terrain::ground::ground_surface;
 use crate::environment::{Environment, leaf_site};
 use crate::flight::drop_table::DropTable;
-use crate::kernel::rng::random;
-use crate::motion::feature::STREAM_TRAITS;
-use crate::terrain::ground::ground_surface;
 use crate::tree::Branches;
 use crate::tree::record::NO_SEGMENT;
 

@@ -2,21 +2,23 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Finds a leaf's state at any moment of a fall through still air, without stepping there.
 
-use super::fall::{Glide, glide_of, response_of, spin_advance};
-use super::fly::flight_write;
-use super::join::leaf_join;
-use super::own::{motion_params, on_grid, own_advance, own_orientation, own_period, own_rate};
-use super::record::{Drift, STATE_RESTING, leaf_source, leaf_species, leaf_stage, with_blend, with_state};
-use super::settle::{flatten, flatten_on};
 use super::store::LeafMut;
+use crate::arith::math::exponential;
+use crate::arith::quaternion::Quat;
+use crate::arith::vector::Vec3;
 use crate::blocks::NEVER;
 use crate::context::Context;
+use crate::device::leaf::fall::{Glide, glide_of, response_of, spin_advance};
+use crate::device::leaf::fly::flight_write;
+use crate::device::leaf::join::leaf_join;
+use crate::device::leaf::own::{motion_params, on_grid, own_advance, own_orientation, own_period, own_rate};
+use crate::device::leaf::record::{
+    Drift, STATE_RESTING, leaf_source, leaf_species, leaf_stage, with_blend, with_state,
+};
+use crate::device::leaf::settle::{flatten, flatten_on};
+use crate::device::motion::feature::{STAGE_COUNT, stage_end};
+use crate::device::terrain::ground::{ground_rest, ground_slope};
 use crate::flight::drop_table::DropTable;
-use crate::kernel::math::exponential;
-use crate::kernel::quaternion::Quat;
-use crate::kernel::vector::Vec3;
-use crate::motion::feature::{STAGE_COUNT, stage_end};
-use crate::terrain::ground::{ground_rest, ground_slope};
 
 /// Refinements of the moment of landing.
 const LANDING_ROUNDS: u32 = 6;

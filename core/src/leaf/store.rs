@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The leaf store: a struct of arrays of 16-byte records, the same bytes on every backend.
 
-use super::record::{
+use crate::device::leaf::record::{
     Attitude, Drift, Identity, Place, STATE_ATTACHED, STATE_DORMANT, STATE_FALLING, Schedule, leaf_state,
     phase_is_float, spin_is_float,
 };

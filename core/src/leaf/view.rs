@@ -2,14 +2,14 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Leaves decoded for the host: for exports, reports and views. Kernels read the records.
 
-use super::own::{motion_params, own_velocity};
-use super::record::{
+use super::store::{LeafState, Leaves};
+use crate::arith::{Quat, Vec3};
+use crate::context::Context;
+use crate::device::leaf::own::{motion_params, own_velocity};
+use crate::device::leaf::record::{
     Attitude, Drift, Identity, Place, SIZE_UNIT, Schedule, body_spin, flies, leaf_primitive, leaf_regime,
     leaf_source, leaf_species, leaf_stage, leaf_tint, leaf_variant, own_size, size_ratio,
 };
-use super::store::{LeafState, Leaves};
-use crate::context::Context;
-use crate::kernel::{Quat, Vec3};
 use crate::motion::Primitive;
 
 /// The records of one leaf.
@@ -32,7 +32,7 @@ pub struct LeafRecords {
 pub enum LeafMotion {
     /// A primitive motion of synthesis.
     Primitive(Primitive),
-    /// The regime in which a body falls, an index of [`REGIME_NAMES`](crate::flight::regime::REGIME_NAMES).
+    /// The regime in which a body falls, an index of [`REGIME_NAMES`](crate::device::flight::regime::REGIME_NAMES).
     Regime(usize),
 }
 

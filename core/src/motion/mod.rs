@@ -6,8 +6,6 @@
 //! ([`MotionTables`]); the kernels only read those.
 
 mod constants;
-pub mod feature;
-pub mod lookup;
 mod orientation;
 mod path;
 mod periodic_fluttering;

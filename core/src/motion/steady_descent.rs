@@ -8,7 +8,7 @@ use glam::DVec3;
 
 use super::constants::MotionConstants;
 use super::path::{Moment, Path};
-use crate::kernel::rng::random;
+use crate::arith::rng::random;
 
 /// Seconds until the wandering repeats.
 const PERIOD_S: f64 = 8.0;

@@ -9,7 +9,7 @@ use glam::DVec3;
 use super::constants::MotionConstants;
 use super::path::{Moment, Path};
 use super::swing_segment::SwingSegment;
-use crate::kernel::rng::random;
+use crate::arith::rng::random;
 
 /// Swings until the irregular sequence repeats. Even, so that the turns of a period, each half a turn one way or the
 /// other, add up to whole ones.

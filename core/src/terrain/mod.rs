@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Hills: how they are made, and how kernels see them.
 
-pub mod ground;
 mod hills;
 pub mod subdivision;
 

@@ -6,7 +6,7 @@
 //! binomial filter is the subdivision of uniform cubic B-splines (Lane and Riesenfeld, 1980): one pass after every
 //! halving leaves no crease of a coarse level in the finished surface, as a filter applied only to the finest would.
 
-use crate::kernel::rng::{philox, seed_words, triangular};
+use crate::arith::rng::{philox, seed_words, triangular};
 use crate::scene::Terrain;
 
 /// Offset of the corners. Every halving takes two bits of the means, every smoothing four.

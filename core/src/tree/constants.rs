@@ -13,7 +13,7 @@ use glam::{DQuat, DVec3, swizzles::Vec3Swizzles};
 use super::crown::ground_m2;
 use super::record::{NO_SEGMENT, SegmentConstants};
 use super::skeleton::{Bearing, Segment, Skeleton};
-use super::sway::{GRAVITY_M_S2, IMPLICITNESS};
+use crate::device::tree::sway::{GRAVITY_M_S2, IMPLICITNESS};
 use crate::motion::AIR_DENSITY;
 use crate::scene::{Foliage, Wood};
 

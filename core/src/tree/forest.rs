@@ -16,9 +16,9 @@ use super::constants::{LeafFacts, TreeFacts, segment_constants};
 use super::record::{NO_SEGMENT, SegmentConstants};
 use super::skeleton::Skeleton;
 use super::store::Branches;
-use super::sway::outward::segment_place;
-use super::sway::{Body, Joint};
-use crate::kernel::{Quat, Vec3 as KernelVec3};
+use crate::arith::{Quat, Vec3 as KernelVec3};
+use crate::device::tree::sway::outward::segment_place;
+use crate::device::tree::sway::{Body, Joint};
 use crate::scene::TreeKind;
 
 /// Segments from which on a batch takes no more trees: more leave fewer blocks unfilled, fewer stay in a cache of 2 MB.

@@ -23,7 +23,6 @@ mod presets;
 pub mod record;
 pub mod skeleton;
 mod store;
-pub mod sway;
 #[cfg(test)]
 mod testing;
 #[cfg(test)]

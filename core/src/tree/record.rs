@@ -110,7 +110,7 @@ pub fn children_of(segments: &[SegmentConstants], first: u32, row: usize) -> imp
     })
 }
 
-/// Results of the inward pass for one segment that the outward pass needs; [`super::sway::work`] packs them.
+/// Results of the inward pass for one segment that the outward pass needs; [`crate::device::tree::sway::work`] packs them.
 ///
 /// Limbs, twigs and the schemes that step joints one by one use the same rows for different records: at one typed record for
 /// each, fewer segments would fit a binding of 128 MiB.

@@ -4,7 +4,7 @@
 
 use super::forest::first_three;
 use super::record::BRANCH_COLUMNS;
-use super::sway::Body;
+use crate::device::tree::sway::Body;
 
 crate::columns! {
     /// All segments of a world. Index = row, see [`Forest`](super::Forest).

@@ -7,7 +7,7 @@ use std::f32::consts::TAU;
 use glam::{Quat, Vec3};
 
 use super::{Attachment, Bearing, Segment, Skeleton};
-use crate::kernel::rng::{random, unit_float};
+use crate::arith::rng::{random, unit_float};
 
 /// A tree of `depth` orders with leaves and fruit on its twigs, another for every seed: bent limbs, forks, side branches
 /// in the middle of segments, on the axis and on the bark.

@@ -6,13 +6,7 @@
 //! and turbulence are frozen patterns that the mean wind carries along (Taylor's hypothesis).
 
 mod beaufort;
-pub mod gust;
-pub mod profile;
-pub mod row;
-pub mod sample;
 mod synthesis;
-pub mod turbulence;
-pub mod vortex;
 
 pub use beaufort::{BEAUFORT_MAX, beaufort_speed};
 pub use synthesis::turbulence_box;

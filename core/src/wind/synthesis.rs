@@ -13,8 +13,8 @@ use std::f64::consts::{PI, TAU};
 use rustfft::num_complex::Complex64;
 use rustfft::{FftDirection, FftPlannerScalar};
 
-use super::turbulence::{TURBULENCE_X, TURBULENCE_Y, TURBULENCE_Z};
-use crate::kernel::rng::random;
+use crate::arith::rng::random;
+use crate::device::wind::turbulence::{TURBULENCE_X, TURBULENCE_Y, TURBULENCE_Z};
 
 const SIZE: [usize; 3] = [TURBULENCE_X as usize, TURBULENCE_Y as usize, TURBULENCE_Z as usize];
 const NODES: usize = SIZE[0] * SIZE[1] * SIZE[2];

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! What trees are made of among the words of a case, field by field in their order, and the ranges they are drawn from.
 
-use windfall_core::kernel::{Mat3, Quat, Sym3, Vec3};
-use windfall_core::tree::sway::{
+use windfall_core::arith::{Mat3, Quat, Sym3, Vec3};
+use windfall_core::device::tree::sway::{
     ArticulatedInertia, Body, Constants, Joint, JointResponse, Load, Spring, VelocityProducts,
 };
 

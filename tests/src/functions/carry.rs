@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The functions that hold leaves on trees.
 
-use windfall_core::leaf::carry::{
+use windfall_core::device::leaf::carry::{
     Hang, Stalk, leaf_hang, leaf_hangs, leaf_next_sample, leaf_sample_air, leaf_size_on_twig, petiole_of,
     shed_chance,
 };

@@ -2,14 +2,14 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The functions that fly bodies.
 
-use windfall_core::flight::body::{LeafBody, body_of};
-use windfall_core::flight::rates::{FlightMotion, flight_rates};
-use windfall_core::flight::regime::{regime_after, regime_of};
-use windfall_core::flight::runge_kutta::{flight_step, substep_count};
-use windfall_core::kernel::Vec3;
-use windfall_core::leaf::fly::{Flight, flight_advance, flight_load, update_regime};
-use windfall_core::leaf::launch::{hold_pose, random_asymmetry, random_pose};
-use windfall_core::leaf::record::{SIZE_ONE, SPECIES_SHIFT, flies};
+use windfall_core::arith::Vec3;
+use windfall_core::device::flight::body::{LeafBody, body_of};
+use windfall_core::device::flight::rates::{FlightMotion, flight_rates};
+use windfall_core::device::flight::regime::{regime_after, regime_of};
+use windfall_core::device::flight::runge_kutta::{flight_step, substep_count};
+use windfall_core::device::leaf::fly::{Flight, flight_advance, flight_load, update_regime};
+use windfall_core::device::leaf::launch::{hold_pose, random_asymmetry, random_pose};
+use windfall_core::device::leaf::record::{SIZE_ONE, SPECIES_SHIFT, flies};
 
 use super::{Function, Input, float, floats, functions, integers, quaternion, vector};
 use crate::runner::Words;

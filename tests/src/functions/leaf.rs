@@ -2,42 +2,44 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The functions that move leaves and make wind.
 
-use windfall_core::kernel::Vec3;
-use windfall_core::kernel::math::{
+use windfall_core::arith::Vec3;
+use windfall_core::arith::math::{
     arctangent2, exponential, inverse_sqrt, reciprocal, sin_cos, sin_cos_half, sin_cos_turns,
 };
-use windfall_core::kernel::quaternion::{
+use windfall_core::arith::quaternion::{
     quat_blend, quat_multiply, quat_normalize, quat_renormalize, quat_rotate, quat_turn_after,
     quat_turn_before,
 };
-use windfall_core::kernel::rng::{below, mul_high, mul_q16, philox, triangular, unit_float};
-use windfall_core::kernel::vector::{vec3_cross, vec3_dot, vec3_length, vec3_lerp};
-use windfall_core::leaf::fall::{glide_of, response_of, spin_advance};
-use windfall_core::leaf::join::part_of_step;
-use windfall_core::leaf::own::{
+use windfall_core::arith::rng::{below, mul_high, mul_q16, philox, triangular, unit_float};
+use windfall_core::arith::vector::{vec3_cross, vec3_dot, vec3_length, vec3_lerp};
+use windfall_core::device::leaf::fall::{glide_of, response_of, spin_advance};
+use windfall_core::device::leaf::join::part_of_step;
+use windfall_core::device::leaf::own::{
     MotionParams, motion_params, own_advance, own_orientation, own_velocity, turn_to_heading,
 };
-use windfall_core::leaf::record::{
+use windfall_core::device::leaf::record::{
     SPECIES_SHIFT, asymmetry, blend_steps_left, body_spin, body_spin_words, count_down_blend, drawn_size,
     flies, ground_steps, heading_angle, heading_word, leaf_appearance, leaf_primitive, leaf_regime,
     leaf_source, leaf_species, leaf_stage, leaf_state, leaf_tint, leaf_variant, motion_table, own_size,
     place_bits, regime_state, size_ratio, smoothed_air_speed, spin_angle, spin_rate, turn_spin, twig_sizes,
     with_asymmetry, with_blend, with_primitive, with_regime, with_stage, with_state,
 };
-use windfall_core::leaf::release::{
+use windfall_core::device::leaf::release::{
     next_event, release_fall_time, release_place, release_rate, release_ratio, release_size_speed,
     release_species,
 };
-use windfall_core::leaf::settle::{flatten, flatten_on, slide};
+use windfall_core::device::leaf::settle::{flatten, flatten_on, slide};
+use windfall_core::device::motion::feature::{stage_end, stage_words, transition_next};
+use windfall_core::device::motion::lookup::{
+    motion_displacement, motion_period, motion_state, motion_velocity,
+};
+use windfall_core::device::terrain::ground::{ground_met, ground_relief, ground_rest, ground_slope};
+use windfall_core::device::wind::gust::wind_gust;
+use windfall_core::device::wind::profile::wind_profile;
+use windfall_core::device::wind::sample::wind_at;
+use windfall_core::device::wind::turbulence::wind_turbulence;
+use windfall_core::device::wind::vortex::wind_vortex;
 use windfall_core::leaf::{Drift, Place, Schedule};
-use windfall_core::motion::feature::{stage_end, stage_words, transition_next};
-use windfall_core::motion::lookup::{motion_displacement, motion_period, motion_state, motion_velocity};
-use windfall_core::terrain::ground::{ground_met, ground_relief, ground_rest, ground_slope};
-use windfall_core::wind::gust::wind_gust;
-use windfall_core::wind::profile::wind_profile;
-use windfall_core::wind::sample::wind_at;
-use windfall_core::wind::turbulence::wind_turbulence;
-use windfall_core::wind::vortex::wind_vortex;
 
 use super::{Function, Input, float, floats, functions, integers, quaternion, vector};
 use crate::runner::Words;
@@ -110,55 +112,55 @@ functions! {
         ])
     };
 
-    mul_high in "kernel/rng" (ANY, ANY) tolerance None;
+    mul_high in "arith/rng" (ANY, ANY) tolerance None;
     wgsl "r.x = mul_high(a.x, a.y);";
     rust |_cx, w| integers([mul_high(w[0], w[1])]);
 
-    mul_q16 in "kernel/rng" (ANY, Input::Below(65537)) tolerance None;
+    mul_q16 in "arith/rng" (ANY, Input::Below(65537)) tolerance None;
     wgsl "r.x = mul_q16(a.x, a.y);";
     rust |_cx, w| integers([mul_q16(w[0], w[1])]);
 
-    philox in "kernel/rng" (ANY, ANY, ANY, ANY, ANY, ANY) tolerance None;
+    philox in "arith/rng" (ANY, ANY, ANY, ANY, ANY, ANY) tolerance None;
     wgsl "r = philox(a.xy, vec4<u32>(a.zw, b.xy));";
     rust |_cx, w| integers(philox(seed(w), [w[2], w[3], w[4], w[5]]));
 
-    below in "kernel/rng" (ANY, ANY) tolerance None;
+    below in "arith/rng" (ANY, ANY) tolerance None;
     wgsl "r.x = below(a.x, a.y); r.y = bitcast<u32>(triangular(a.x));";
     rust |_cx, w| integers([below(w[0], w[1]), triangular(w[0]) as u32]);
 
-    unit_float in "kernel/rng" (ANY) tolerance Some(0.0);
+    unit_float in "arith/rng" (ANY) tolerance Some(0.0);
     wgsl "r.x = bitcast<u32>(unit_float(a.x));";
     rust |_cx, w| floats([unit_float(w[0])]);
 
-    sin_cos_turns in "kernel/math" (ANY) tolerance Some(2e-7);
+    sin_cos_turns in "arith/math" (ANY) tolerance Some(2e-7);
     wgsl "let t = sin_cos_turns(a.x); r = vec4<u32>(bitcast<vec2<u32>>(t), 0u, 0u);";
     rust |_cx, w| { let (s, c) = sin_cos_turns(w[0]); floats([s, c]) };
 
-    sin_cos_half in "kernel/math" (ANY) tolerance Some(4e-7);
+    sin_cos_half in "arith/math" (ANY) tolerance Some(4e-7);
     wgsl "let t = sin_cos_half(a.x); r = vec4<u32>(bitcast<vec2<u32>>(t), 0u, 0u);";
     rust |_cx, w| { let (s, c) = sin_cos_half(w[0]); floats([s, c]) };
 
-    sin_cos in "kernel/math" (Input::Float(-1000.0, 1000.0)) tolerance Some(3e-7);
+    sin_cos in "arith/math" (Input::Float(-1000.0, 1000.0)) tolerance Some(3e-7);
     wgsl "let t = sin_cos(bitcast<f32>(a.x)); r = vec4<u32>(bitcast<vec2<u32>>(t), 0u, 0u);";
     rust |_cx, w| { let (s, c) = sin_cos(float(w[0])); floats([s, c]) };
 
-    exponential in "kernel/math" (Input::Float(-80.0, 1.0)) tolerance Some(3e-7);
+    exponential in "arith/math" (Input::Float(-80.0, 1.0)) tolerance Some(3e-7);
     wgsl "r.x = bitcast<u32>(exponential(bitcast<f32>(a.x)));";
     rust |_cx, w| floats([exponential(float(w[0]))]);
 
-    reciprocal in "kernel/math" (Input::Scale(-10.0, 10.0), Input::Below(2)) tolerance Some(3e-7);
+    reciprocal in "arith/math" (Input::Scale(-10.0, 10.0), Input::Below(2)) tolerance Some(3e-7);
     wgsl "r.x = bitcast<u32>(reciprocal(bitcast<f32>(a.x | (a.y << 31u))));";
     rust |_cx, w| floats([reciprocal(float(w[0] | (w[1] << 31)))]);
 
-    inverse_sqrt in "kernel/math" (Input::Scale(-12.0, 12.0)) tolerance Some(5e-7);
+    inverse_sqrt in "arith/math" (Input::Scale(-12.0, 12.0)) tolerance Some(5e-7);
     wgsl "r.x = bitcast<u32>(inverse_sqrt(bitcast<f32>(a.x)));";
     rust |_cx, w| floats([inverse_sqrt(float(w[0]))]);
 
-    arctangent2 in "kernel/math" (SPEED, SPEED) tolerance Some(5e-7);
+    arctangent2 in "arith/math" (SPEED, SPEED) tolerance Some(5e-7);
     wgsl "r.x = bitcast<u32>(arctangent2(bitcast<f32>(a.x), bitcast<f32>(a.y)));";
     rust |_cx, w| floats([arctangent2(float(w[0]), float(w[1]))]);
 
-    vec3_products in "kernel/vector" (SPEED, SPEED, SPEED, Input::Below(1), SPEED, SPEED, SPEED) tolerance Some(1e-4);
+    vec3_products in "arith/vector" (SPEED, SPEED, SPEED, Input::Below(1), SPEED, SPEED, SPEED) tolerance Some(1e-4);
     wgsl "let u = bitcast<vec3<f32>>(a.xyz); let v = bitcast<vec3<f32>>(b.xyz);
         r = vec4<u32>(bitcast<vec3<u32>>(vec3_cross(u, v)), bitcast<u32>(vec3_dot(u, v)));
         s.x = bitcast<u32>(vec3_length(u));";
@@ -168,12 +170,12 @@ functions! {
         floats([c.x, c.y, c.z, vec3_dot(u, v), vec3_length(u)])
     };
 
-    vec3_lerp in "kernel/vector" (SPEED, SPEED, SPEED, Input::Float(0.0, 1.0), SPEED, SPEED, SPEED) tolerance Some(3e-7);
+    vec3_lerp in "arith/vector" (SPEED, SPEED, SPEED, Input::Float(0.0, 1.0), SPEED, SPEED, SPEED) tolerance Some(3e-7);
     wgsl "r = vec4<u32>(bitcast<vec3<u32>>(
         vec3_lerp(bitcast<vec3<f32>>(a.xyz), bitcast<vec3<f32>>(b.xyz), bitcast<f32>(a.w))), 0u);";
     rust |_cx, w| floats(vec3_lerp(vector(w, 0), vector(w, 4), float(w[3])).to_array());
 
-    quat_multiply in "kernel/quaternion" (UNIT, UNIT, UNIT, UNIT, UNIT, UNIT, UNIT, UNIT) tolerance Some(1e-6);
+    quat_multiply in "arith/quaternion" (UNIT, UNIT, UNIT, UNIT, UNIT, UNIT, UNIT, UNIT) tolerance Some(1e-6);
     wgsl "let p = bitcast<vec4<f32>>(a); let q = bitcast<vec4<f32>>(b);
         r = bitcast<vec4<u32>>(quat_multiply(p, q)); s = bitcast<vec4<u32>>(quat_normalize(p));";
     rust |_cx, w| {
@@ -182,7 +184,7 @@ functions! {
         floats([r[0], r[1], r[2], r[3], s[0], s[1], s[2], s[3]])
     };
 
-    quat_turns in "kernel/quaternion" (UNIT, UNIT, UNIT, UNIT, UNIT, UNIT) tolerance Some(4e-7);
+    quat_turns in "arith/quaternion" (UNIT, UNIT, UNIT, UNIT, UNIT, UNIT) tolerance Some(4e-7);
     wgsl "let q = bitcast<vec4<f32>>(a); let t = bitcast<vec2<f32>>(b.xy);
         r = bitcast<vec4<u32>>(quat_turn_after(q, t.x, t.y)); s = bitcast<vec4<u32>>(quat_turn_before(q, t.x, t.y));";
     rust |_cx, w| {
@@ -191,7 +193,7 @@ functions! {
         floats([r.x, r.y, r.z, r.w, s.x, s.y, s.z, s.w])
     };
 
-    quat_rotate in "kernel/quaternion" (UNIT, UNIT, UNIT, UNIT, SPEED, SPEED, SPEED) tolerance Some(4e-6);
+    quat_rotate in "arith/quaternion" (UNIT, UNIT, UNIT, UNIT, SPEED, SPEED, SPEED) tolerance Some(4e-6);
     wgsl "let q = bitcast<vec4<f32>>(a);
         r = vec4<u32>(bitcast<vec3<u32>>(quat_rotate(q, bitcast<vec3<f32>>(b.xyz))), 0u);
         s = bitcast<vec4<u32>>(quat_renormalize(q));";
@@ -201,7 +203,7 @@ functions! {
         floats([v.x, v.y, v.z, 0.0, n.x, n.y, n.z, n.w])
     };
 
-    quat_blend in "kernel/quaternion" (UNIT, UNIT, UNIT, UNIT, UNIT, UNIT, UNIT, UNIT) tolerance Some(1e-4);
+    quat_blend in "arith/quaternion" (UNIT, UNIT, UNIT, UNIT, UNIT, UNIT, UNIT, UNIT) tolerance Some(1e-4);
     wgsl "r = bitcast<vec4<u32>>(quat_blend(bitcast<vec4<f32>>(a), bitcast<vec4<f32>>(b), 0.25));";
     rust |_cx, w| floats(quat_blend(quaternion(w, 0), quaternion(w, 4), 0.25).to_array());
 

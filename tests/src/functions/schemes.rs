@@ -2,11 +2,13 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The functions of the schemes that move joints one by one.
 
-use windfall_core::tree::sway::composite::{Composite, composite_add, composite_shift, segment_composite};
-use windfall_core::tree::sway::load::segment_axis;
-use windfall_core::tree::sway::oliapuram_kumar::oliapuram_kumar_step;
-use windfall_core::tree::sway::outward::joint_held;
-use windfall_core::tree::sway::quigley::quigley_step;
+use windfall_core::device::tree::sway::composite::{
+    Composite, composite_add, composite_shift, segment_composite,
+};
+use windfall_core::device::tree::sway::load::segment_axis;
+use windfall_core::device::tree::sway::oliapuram_kumar::oliapuram_kumar_step;
+use windfall_core::device::tree::sway::outward::joint_held;
+use windfall_core::device::tree::sway::quigley::quigley_step;
 
 use super::bodies::{
     DIAGONAL, DIRECTION, LENGTH, OFF, PLACE, PRELOAD, QUATERNION, Results, SCALARS, SPRINGS, TURN,

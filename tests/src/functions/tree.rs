@@ -2,21 +2,23 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The functions that sway trees.
 
-use windfall_core::kernel::matrix::{
+use windfall_core::arith::matrix::{
     axial_times, mat3_add, mat3_cross, mat3_cross_from_left, mat3_cross_from_right, mat3_product,
     mat3_product_symmetric, mat3_times, mat3_transposed_product_symmetric, mat3_transposed_times,
     mat3_twice_symmetric, sym3_add, sym3_axial, sym3_inverse, sym3_minus, sym3_rows, sym3_times, sym3_trace,
 };
-use windfall_core::kernel::quaternion::{quat_axis_y, quat_of_turn, quat_rotate_back, turn_of_quat};
-use windfall_core::tree::sway::inward::{
+use windfall_core::arith::quaternion::{quat_axis_y, quat_of_turn, quat_rotate_back, turn_of_quat};
+use windfall_core::device::tree::sway::inward::{
     articulated_add, articulated_shift, joint_response, joint_spring, velocity_products,
 };
-use windfall_core::tree::sway::load::{
+use windfall_core::device::tree::sway::load::{
     load_trace, segment_air, segment_axis, segment_body, segment_drag, segment_load,
 };
-use windfall_core::tree::sway::outward::{Acceleration, joint_acceleration, joint_step, segment_place};
-use windfall_core::tree::sway::twig::{twig_acceleration, twig_response};
-use windfall_core::tree::sway::{JointResponse, TwigResponse};
+use windfall_core::device::tree::sway::outward::{
+    Acceleration, joint_acceleration, joint_step, segment_place,
+};
+use windfall_core::device::tree::sway::twig::{twig_acceleration, twig_response};
+use windfall_core::device::tree::sway::{JointResponse, TwigResponse};
 
 use super::bodies::{
     AXIAL, AXIS, COUPLING, DIAGONAL, DIRECTION, LENGTH, LOAD, MATRIX, OFF, PLACE, PRELOAD, QUATERNION,
@@ -28,7 +30,7 @@ use super::{Function, Input, float, functions, quaternion, vector};
 functions! {
     TREE_FUNCTIONS;
 
-    sym3_sums in "kernel/matrix" (DIAGONAL, OFF, DIAGONAL, OFF) tolerance Some(3e-7);
+    sym3_sums in "arith/matrix" (DIAGONAL, OFF, DIAGONAL, OFF) tolerance Some(3e-7);
     wgsl "let m = in_sym3(0u); let n = in_sym3(6u);
         out_sym3(0u, sym3_add(m, n)); out_sym3(6u, sym3_minus(m, n)); out_mat3(12u, sym3_rows(m));
         out_float(21u, sym3_trace(m));";
@@ -37,7 +39,7 @@ functions! {
         Results::new().sym3(sym3_add(m, n)).sym3(sym3_minus(m, n)).mat3(sym3_rows(m)).floats(&[sym3_trace(m)]).0
     };
 
-    sym3_axial in "kernel/matrix" (DIRECTION, Input::Floats(2, 0.0, 9.0), DIRECTION) tolerance Some(1e-6);
+    sym3_axial in "arith/matrix" (DIRECTION, Input::Floats(2, 0.0, 9.0), DIRECTION) tolerance Some(1e-6);
     wgsl "out_sym3(0u, sym3_axial(in_vec3(0u), in_float(3u), in_float(4u)));
         out_vec3(6u, axial_times(in_vec3(0u), in_float(3u), in_float(4u), in_vec3(5u)));";
     rust |_cx, w| {
@@ -45,7 +47,7 @@ functions! {
         Results::new().sym3(sym3_axial(axis, along, across)).vec3(axial_times(axis, along, across, vector(w, 5))).0
     };
 
-    sym3_times in "kernel/matrix" (DIAGONAL, OFF, VELOCITY) tolerance Some(4e-6);
+    sym3_times in "arith/matrix" (DIAGONAL, OFF, VELOCITY) tolerance Some(4e-6);
     wgsl "let m = in_sym3(0u); out_vec3(0u, sym3_times(m, in_vec3(6u))); out_sym3(3u, sym3_inverse(m));";
     rust |_cx, w| {
         let m = sym3(w, 0);
@@ -53,11 +55,11 @@ functions! {
     };
 
     // Not positive definite: the pivots that the inverse raises.
-    sym3_inverse in "kernel/matrix" (Input::Floats(3, 0.5, 1.0), Input::Floats(3, -3.0, 3.0)) tolerance Some(2e-2);
+    sym3_inverse in "arith/matrix" (Input::Floats(3, 0.5, 1.0), Input::Floats(3, -3.0, 3.0)) tolerance Some(2e-2);
     wgsl "out_sym3(0u, sym3_inverse(in_sym3(0u)));";
     rust |_cx, w| Results::new().sym3(sym3_inverse(sym3(w, 0))).0;
 
-    mat3_products in "kernel/matrix" (MATRIX, MATRIX) tolerance Some(4e-6);
+    mat3_products in "arith/matrix" (MATRIX, MATRIX) tolerance Some(4e-6);
     wgsl "let m = in_mat3(0u); let n = in_mat3(9u);
         out_mat3(0u, mat3_add(m, n)); out_mat3(9u, mat3_product(m, n));
         out_sym3(18u, mat3_product_symmetric(m, n)); out_sym3(24u, mat3_transposed_product_symmetric(m, n));";
@@ -67,7 +69,7 @@ functions! {
         sums.sym3(mat3_product_symmetric(m, n)).sym3(mat3_transposed_product_symmetric(m, n)).0
     };
 
-    mat3_times in "kernel/matrix" (MATRIX, VELOCITY, Input::Float(-3.0, 3.0)) tolerance Some(4e-6);
+    mat3_times in "arith/matrix" (MATRIX, VELOCITY, Input::Float(-3.0, 3.0)) tolerance Some(4e-6);
     wgsl "let m = in_mat3(0u); let v = in_vec3(9u);
         out_mat3(0u, mat3_cross(v, in_float(12u))); out_vec3(9u, mat3_times(m, v));
         out_vec3(12u, mat3_transposed_times(m, v)); out_mat3(15u, mat3_cross_from_left(v, m));
@@ -79,14 +81,14 @@ functions! {
         crossed.mat3(mat3_cross_from_right(m, v)).sym3(mat3_twice_symmetric(m)).0
     };
 
-    quat_rotate_back in "kernel/quaternion" (QUATERNION, VELOCITY) tolerance Some(4e-6);
+    quat_rotate_back in "arith/quaternion" (QUATERNION, VELOCITY) tolerance Some(4e-6);
     wgsl "let q = in_vec4(0u); out_vec3(0u, quat_rotate_back(q, in_vec3(4u))); out_vec3(3u, quat_axis_y(q));";
     rust |_cx, w| {
         let q = quaternion(w, 0);
         Results::new().vec3(quat_rotate_back(q, vector(w, 4))).vec3(quat_axis_y(q)).0
     };
 
-    quat_of_turn in "kernel/quaternion" (TURN, TURN_COSINE) tolerance Some(4e-7);
+    quat_of_turn in "arith/quaternion" (TURN, TURN_COSINE) tolerance Some(4e-7);
     wgsl "out_vec4(0u, quat_of_turn(in_vec3(0u) * 2.0)); out_vec3(4u, turn_of_quat(in_vec4(0u)));";
     rust |_cx, w| {
         Results::new().quat(quat_of_turn(vector(w, 0) * 2.0)).vec3(turn_of_quat(quaternion(w, 0))).0

@@ -10,10 +10,10 @@ use std::f64::consts::{PI, TAU};
 
 use crate::common::{csv, field, number, still_scene, velocity};
 use glam::DVec3;
-use windfall_core::flight::regime::REGIME_TUMBLE;
-use windfall_core::kernel::{Quat, Vec3};
-use windfall_core::leaf::fly::{Flight, flight_advance, flight_of};
-use windfall_core::leaf::record::{SIZE_ONE, flies, leaf_regime, with_asymmetry};
+use windfall_core::arith::{Quat, Vec3};
+use windfall_core::device::flight::regime::REGIME_TUMBLE;
+use windfall_core::device::leaf::fly::{Flight, flight_advance, flight_of};
+use windfall_core::device::leaf::record::{SIZE_ONE, flies, leaf_regime, with_asymmetry};
 use windfall_core::motion::AIR_DENSITY;
 use windfall_core::scene::{Aerodynamics, FlightModel, Hold, Planform, Species};
 use windfall_core::{Simulator, World};
@@ -256,8 +256,8 @@ fn no_gust_blows_a_body_up() {
                         let on = |period: f32| if (phase / period) as u32 % 2 == 1 { gust } else { 0.0 };
                         let wind = Vec3::new(on(0.31), 0.5 * on(0.47) - 0.25 * gust, -on(0.83));
                         flight = flight_advance(&cx, flight, 0u32, with_asymmetry(SIZE_ONE, 0x39c6), wind);
-                        fastest = fastest.max(windfall_core::kernel::vector::vec3_length(flight.velocity));
-                        let spin = windfall_core::kernel::vector::vec3_length(flight.spin);
+                        fastest = fastest.max(windfall_core::arith::vector::vec3_length(flight.velocity));
+                        let spin = windfall_core::arith::vector::vec3_length(flight.spin);
                         assert!(spin < 60.0 + 4.0 * gust / size, "{body:?} {size} {gust}: {spin} rad/s");
                     }
                     // Both gusts together blow with 1.5 times the speed of one, and lift makes more of their changes.

@@ -3,7 +3,7 @@
 //! The trajectory feature D = {L, T, P} x 5: transition counts, stage occupancies, shares, phases, independence.
 
 use crate::common::{build, csv, field, number, step, still_scene, uniform_species};
-use windfall_core::motion::feature::{Stage, feature, stage_end};
+use windfall_core::device::motion::feature::{Stage, feature, stage_end};
 use windfall_core::motion::{PRIMITIVE_COUNT, Primitive, TransitionTable};
 use windfall_core::scene::Species;
 use windfall_core::{Environment, Stats};

@@ -8,14 +8,14 @@ use std::f64::consts::TAU;
 use crate::common::{csv, field, number, still_air};
 use glam::{DQuat, DVec3};
 use proptest::prelude::*;
-use windfall_core::flight::body::body_of;
+use windfall_core::arith::{Quat, Vec3};
+use windfall_core::device::flight::body::body_of;
+use windfall_core::device::flight::rates::{FlightMotion, flight_rates};
+use windfall_core::device::leaf::record::SIZE_ONE;
 use windfall_core::flight::coefficients::{
     DAMPING_NORMAL, DAMPING_ROLL, DAMPING_TURN, DRAG_BEND, DRAG_RISE, LIFT_BEND, LIFT_EDGE, LIFT_RISE,
     MUNK_EDGE, MUNK_RISE, WHIRL_EDGE, WHIRL_RISE,
 };
-use windfall_core::flight::rates::{FlightMotion, flight_rates};
-use windfall_core::kernel::{Quat, Vec3};
-use windfall_core::leaf::record::SIZE_ONE;
 use windfall_core::scene::{Aerodynamics, FlightModel, Planform, Species};
 use windfall_core::{Clock, Environment, Scene};
 use windfall_tests::reference::{DiscCoefficients, DiscState, LeafDisc};

@@ -4,16 +4,16 @@
 
 use crate::common::{attitude, position, still_scene};
 use glam::DVec3;
-use windfall_core::flight::regime::{
+use windfall_core::arith::Vec3;
+use windfall_core::device::flight::regime::{
     REGIME_CHAOTIC, REGIME_FLUTTER, REGIME_STEADY, REGIME_TUMBLE, regime_after, regime_of,
 };
-use windfall_core::kernel::Vec3;
-use windfall_core::leaf::LeafState;
-use windfall_core::leaf::fly::flight_of;
-use windfall_core::leaf::record::{
+use windfall_core::device::leaf::fly::flight_of;
+use windfall_core::device::leaf::record::{
     SIZE_ONE, STATE_ATTACHED, body_spin_words, drawn_size, flies, place_bits, twig_sizes,
 };
-use windfall_core::leaf::release::leaf_detach;
+use windfall_core::device::leaf::release::leaf_detach;
+use windfall_core::leaf::LeafState;
 use windfall_core::scene::{Aerodynamics, FlightModel, Hold, Release, Species};
 use windfall_core::{Scene, Simulator, World};
 use windfall_cpu::{CpuOptions, CpuSimulator};

@@ -5,8 +5,8 @@
 use crate::common::{attitude, build, many_species, position, step, still_air, uniform, vector, velocity};
 use glam::Vec3;
 use windfall_core::World;
-use windfall_core::leaf::record::{leaf_species, leaf_stage};
-use windfall_core::leaf::release::leaf_release;
+use windfall_core::device::leaf::record::{leaf_species, leaf_stage};
+use windfall_core::device::leaf::release::leaf_release;
 use windfall_core::leaf::seek::leaf_seek;
 use windfall_core::leaf::{LeafState, Leaves};
 use windfall_core::motion::MotionConstants;

@@ -5,8 +5,8 @@
 use crate::common::{build, many_species, position, single_motion, step, still_scene, uniform_species};
 use glam::{DVec3, Vec3};
 use windfall_core::World;
+use windfall_core::device::leaf::record::{leaf_species, size_ratio};
 use windfall_core::leaf::LeafState;
-use windfall_core::leaf::record::{leaf_species, size_ratio};
 use windfall_core::motion::Primitive;
 use windfall_core::scene::{Release, Scene, Share, SourceShape, Species};
 

@@ -8,7 +8,7 @@ use crate::common::{
     build, position, single_motion, steady_wind, step, still_scene, uniform_species, vector, velocity,
 };
 use glam::DVec3;
-use windfall_core::leaf::record::leaf_stage;
+use windfall_core::device::leaf::record::leaf_stage;
 use windfall_core::motion::{GRAVITY, MotionConstants, Primitive};
 use windfall_core::scene::{MeanSpeed, Scene};
 use windfall_core::{Environment, World};

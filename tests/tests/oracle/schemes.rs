@@ -4,9 +4,9 @@
 
 use nalgebra::{Matrix3, Matrix6, SymmetricEigen, Vector3, Vector6};
 use proptest::prelude::*;
-use windfall_core::kernel::{Sym3, Vec3};
+use windfall_core::arith::{Sym3, Vec3};
+use windfall_core::device::tree::sway::quigley::{Swing, joint_modes, swing_step};
 use windfall_core::scene::{SwayScheme, Wood};
-use windfall_core::tree::sway::quigley::{Swing, joint_modes, swing_step};
 use windfall_tests::grove::{Grove, bare, chain};
 
 /// A joint: inertia, stiffness, stiffness-proportional damping, torque, and its state.

@@ -9,14 +9,14 @@ use std::time::Instant;
 use glam::{Quat, Vec3};
 use windfall_core::Simulator;
 use windfall_core::World;
-use windfall_core::leaf::carry::{petiole_of, shed_chance};
-use windfall_core::leaf::fall::response_of;
+use windfall_core::device::leaf::carry::{petiole_of, shed_chance};
+use windfall_core::device::leaf::fall::response_of;
+use windfall_core::device::leaf::record::size_ratio;
+use windfall_core::device::wind::sample::wind_at;
 use windfall_core::leaf::petiole::{PETIOLE_CLASS_MASK, PETIOLE_CLASS_SHIFT, SHED_INTERVAL};
-use windfall_core::leaf::record::size_ratio;
 use windfall_core::leaf::{LEAF_BYTES, LeafState, Petiole};
 use windfall_core::scene::{Gusts, MeanSpeed, Profile, Scene, Tree, Turbulence};
 use windfall_core::tree::record::NO_SEGMENT;
-use windfall_core::wind::sample::wind_at;
 use windfall_cpu::{CpuOptions, CpuSimulator};
 
 /// Twigs in a steady wind hardly move, and rates are per second, so that long steps shed as short ones do.
@@ -187,7 +187,7 @@ fn gusts_take_what_lulls_leave() {
     for _ in 0..900 {
         let block = now.environment.step_block(&now.clock);
         let cx = now.environment.context(&block);
-        let air = wind_at(&cx, windfall_core::kernel::Vec3::new(middle.x, middle.y, middle.z));
+        let air = wind_at(&cx, windfall_core::arith::Vec3::new(middle.x, middle.y, middle.z));
         simulator.step(2).expect("the CPU steps");
         simulator.read_state(&mut now).expect("same size");
         let left = attached(&now);
@@ -230,7 +230,7 @@ fn nothing_jumps_where_a_leaf_comes_off() {
             breaks += 1;
             let carried = Vec3::from(before.leaves.drift[slot].velocity);
             let moved = (Vec3::from(next.position) - Vec3::from(place.position)) / dt;
-            let at = windfall_core::kernel::Vec3::from(place.position);
+            let at = windfall_core::arith::Vec3::from(place.position);
             let air = wind_at(&cx, at);
             let air = Vec3::new(air.x, air.y, air.z);
             let response_s = response_of(&cx, place.bits).time_constant_s;

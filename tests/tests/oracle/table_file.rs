@@ -6,7 +6,7 @@ use std::sync::OnceLock;
 
 use crate::common::{build, quaternion, step, still_scene, uniform_species};
 use proptest::prelude::*;
-use windfall_core::motion::lookup::motion_state;
+use windfall_core::device::motion::lookup::motion_state;
 use windfall_core::motion::{MotionTables, PrimitiveTable};
 use windfall_core::scene::{MotionParameters, RotationModel, Species};
 use windfall_core::{SceneError, World};

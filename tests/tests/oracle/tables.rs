@@ -8,8 +8,8 @@ use crate::common::{
     attitude, build, quaternion, single_motion, step, still_scene, uniform, uniform_species, vector,
 };
 use glam::{DQuat, DVec3};
-use windfall_core::leaf::record::leaf_stage;
-use windfall_core::motion::lookup::{motion_displacement, motion_state};
+use windfall_core::device::leaf::record::leaf_stage;
+use windfall_core::device::motion::lookup::{motion_displacement, motion_state};
 use windfall_core::motion::{
     GRAVITY, MotionConstants, MotionTables, Path, PeriodicFluttering, PeriodicSpiraling, PeriodicTumbling,
     Primitive, PrimitiveTable, SteadyDescent, TransitionalChaotic, TransitionalHelical,

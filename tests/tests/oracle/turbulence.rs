@@ -8,10 +8,10 @@ use crate::common::{slope, steady_wind, still_scene, uniform, uniform_species};
 use glam::DVec3;
 use rustfft::FftPlanner;
 use rustfft::num_complex::Complex64;
-use windfall_core::kernel::Vec3;
+use windfall_core::arith::Vec3;
+use windfall_core::device::wind::sample::wind_at;
+use windfall_core::device::wind::turbulence::{TURBULENCE_X, TURBULENCE_Y, TURBULENCE_Z};
 use windfall_core::scene::Turbulence;
-use windfall_core::wind::sample::wind_at;
-use windfall_core::wind::turbulence::{TURBULENCE_X, TURBULENCE_Y, TURBULENCE_Z};
 use windfall_core::wind::turbulence_box;
 use windfall_core::{Clock, Environment};
 

@@ -6,10 +6,10 @@ use std::f64::consts::TAU;
 
 use crate::common::{csv, number, steady_wind, still_scene, uniform, uniform_species, vector};
 use glam::{DVec3, Vec3};
-use windfall_core::kernel::Vec3 as Kernel;
+use windfall_core::arith::Vec3 as Kernel;
+use windfall_core::device::wind::profile::{profile_factor, wind_profile};
+use windfall_core::device::wind::sample::wind_at;
 use windfall_core::scene::{Gusts, MeanSpeed, Profile, Scene, Turbulence, Vortex, WindParameters};
-use windfall_core::wind::profile::{profile_factor, wind_profile};
-use windfall_core::wind::sample::wind_at;
 use windfall_core::wind::{BEAUFORT_MAX, beaufort_speed};
 use windfall_core::{Clock, Environment};
 

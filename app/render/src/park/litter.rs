@@ -3,7 +3,7 @@
 //! Leaves that fell before the scene began: scenery, drawn through the same pass as the simulated leaves.
 
 use glam::{Quat, Vec2, Vec3};
-use windfall_core::leaf::record::{SPECIES_SHIFT, STATE_RESTING};
+use windfall_core::device::leaf::record::{SPECIES_SHIFT, STATE_RESTING};
 use windfall_wgpu::LeafColumns;
 
 use crate::gpu::upload;

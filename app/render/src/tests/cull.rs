@@ -3,7 +3,7 @@
 //! Holds the culling of leaves to what a plain loop over them finds.
 
 use glam::{Mat4, Vec3, Vec4};
-use windfall_core::leaf::record::{SIZE_ONE, STATE_ATTACHED, STATE_DORMANT, STATE_FALLING};
+use windfall_core::device::leaf::record::{SIZE_ONE, STATE_ATTACHED, STATE_DORMANT, STATE_FALLING};
 use windfall_core::{Scene, World, scene};
 use windfall_wgpu::LeafColumns;
 

@@ -3,7 +3,7 @@
 //! What is counted and painted, read back from the device.
 
 use glam::Vec3;
-use windfall_core::leaf::record::{
+use windfall_core::device::leaf::record::{
     AERODYNAMIC, PRIMITIVE_SHIFT, REGIME_SHIFT, STATE_ATTACHED, STATE_DORMANT, STATE_FALLING, STATE_RESTING,
 };
 use windfall_core::leaf::{Leaves, Place};

@@ -6,7 +6,7 @@
 use std::fmt::Write as _;
 
 use glam::{Quat, Vec3};
-use windfall_core::kernel::rng::random;
+use windfall_core::arith::rng::random;
 
 /// Most leaves that one simulated leaf stands for on a tree.
 pub const MAX_CLUSTER: u32 = 16;

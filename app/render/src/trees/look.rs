@@ -4,7 +4,7 @@
 
 use glam::Vec3;
 use windfall_core::Scene;
-use windfall_core::kernel::rng::{random, unit_float};
+use windfall_core::arith::rng::{random, unit_float};
 use windfall_core::scene::{LeafShape, Tree, TreeForm, TreeKind, TreePreset};
 
 /// Stream of the random numbers of looks.

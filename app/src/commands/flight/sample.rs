@@ -6,7 +6,7 @@ use glam::{DQuat, DVec3};
 use plotters::style::RGBColor;
 use serde::Serialize;
 use windfall_core::World;
-use windfall_core::leaf::record::leaf_regime;
+use windfall_core::device::leaf::record::leaf_regime;
 
 /// How a piece falls, as the simulation labels it from its latest turns.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

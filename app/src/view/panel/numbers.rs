@@ -4,7 +4,7 @@
 
 use egui::{Grid, Label, RichText, Ui};
 use windfall_core::Contract;
-use windfall_core::flight::regime::REGIME_NAMES;
+use windfall_core::device::flight::regime::REGIME_NAMES;
 use windfall_core::motion::Primitive;
 
 use super::{Facts, Wish, compare, graph, rows, style};

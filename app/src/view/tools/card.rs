@@ -2,14 +2,14 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The card of a single leaf.
 
-use windfall_core::flight::body::body_of;
-use windfall_core::flight::rates::{FLIGHT_GRAVITY, FlightMotion, flight_rates};
-use windfall_core::flight::regime::REGIME_NAMES;
-use windfall_core::kernel::Vec3;
+use windfall_core::arith::Vec3;
+use windfall_core::device::flight::body::body_of;
+use windfall_core::device::flight::rates::{FLIGHT_GRAVITY, FlightMotion, flight_rates};
+use windfall_core::device::flight::regime::REGIME_NAMES;
+use windfall_core::device::motion::feature::feature;
+use windfall_core::device::wind::sample::wind_at;
 use windfall_core::leaf::{LeafMotion, LeafRecords, LeafState, LeafView};
 use windfall_core::motion::Primitive;
-use windfall_core::motion::feature::feature;
-use windfall_core::wind::sample::wind_at;
 use windfall_core::{Clock, Environment};
 
 use crate::view::panel::grouped;

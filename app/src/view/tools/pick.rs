@@ -60,7 +60,7 @@ impl Projection {
 #[cfg(test)]
 mod tests {
     use egui::vec2;
-    use windfall_core::leaf::record::{STATE_DORMANT, STATE_FALLING};
+    use windfall_core::device::leaf::record::{STATE_DORMANT, STATE_FALLING};
     use windfall_core::scene;
 
     use super::*;

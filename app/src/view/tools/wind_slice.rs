@@ -3,8 +3,8 @@
 //! The wind in a level slice, where the camera looks.
 
 use glam::Vec3;
-use windfall_core::kernel::Vec3 as KernelVec3;
-use windfall_core::wind::sample::wind_at;
+use windfall_core::arith::Vec3 as KernelVec3;
+use windfall_core::device::wind::sample::wind_at;
 use windfall_core::{Clock, Environment};
 use windfall_render::camera::Camera;
 

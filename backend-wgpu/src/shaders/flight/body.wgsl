@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// twin: core/src/flight/body.rs
+// twin: core/src/device/flight/body.rs
 // A leaf as a body under the air's forces: its species' block, scaled to its size and made asymmetric.
 #import bindings
-#import kernel/math
+#import arith/math
 #import leaf/record
 
 struct LeafBody {

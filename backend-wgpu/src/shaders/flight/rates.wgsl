@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// twin: core/src/flight/rates.rs
+// twin: core/src/device/flight/rates.rs
 // Rates of change of a body's motion in moving air: drag, lift, the lift of turning, added mass, damping.
 #import flight/body
-#import kernel/math
-#import kernel/vector
+#import arith/math
+#import arith/vector
 
 struct FlightMotion {
     velocity: vec3<f32>,

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// twin: core/src/flight/regime.rs
+// twin: core/src/device/flight/regime.rs
 // The regime of a fall, classified by a body's last four events.
 #import prelude
 

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// twin: core/src/flight/runge_kutta.rs
+// twin: core/src/device/flight/runge_kutta.rs
 // The classical fourth-order Runge-Kutta step of a body, and the number of substeps of a step.
 #import flight/body
 #import flight/rates
-#import kernel/quaternion
+#import arith/quaternion
 
 struct FlightStep {
     way: vec3<f32>,

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// twin: core/src/leaf/advance.rs
+// twin: core/src/device/leaf/advance.rs
 // One step of one leaf: plain steps apart from those with an event.
 #import bindings
 #import leaf/fall

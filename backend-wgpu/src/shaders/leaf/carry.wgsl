@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// twin: core/src/leaf/carry.rs
+// twin: core/src/device/leaf/carry.rs
 // A leaf on its twig: it goes where the branch goes, leans and flutters in the wind, and its petiole breaks.
-#import kernel/math
-#import kernel/quaternion
-#import kernel/rng
-#import kernel/vector
+#import arith/math
+#import arith/quaternion
+#import arith/rng
+#import arith/vector
 #import leaf/petioles
 #import leaf/record
 #import tree/sway/body

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// twin: core/src/leaf/fall.rs
+// twin: core/src/device/leaf/fall.rs
 // A leaf in the air: its own motion from the tables, and a drift that relaxes towards the wind.
 #import bindings
-#import kernel/math
-#import kernel/quaternion
-#import kernel/rng
+#import arith/math
+#import arith/quaternion
+#import arith/rng
 #import leaf/own
 #import leaf/record
 #import leaf/settle

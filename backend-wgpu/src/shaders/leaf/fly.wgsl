@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// twin: core/src/leaf/fly.rs
+// twin: core/src/device/leaf/fly.rs
 // A leaf that flies as a body in the air: one step, in as many substeps as its speed and spin ask for.
 #import bindings
 #import flight/body
 #import flight/regime
 #import flight/runge_kutta
-#import kernel/rng
+#import arith/rng
 #import leaf/record
 #import leaf/settle
 #import terrain/ground

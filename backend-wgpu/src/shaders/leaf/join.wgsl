@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// twin: core/src/leaf/join.rs
+// twin: core/src/device/leaf/join.rs
 // Joins between the stages of a fall: the drift takes up the difference of the motions' velocities.
 #import bindings
-#import kernel/math
-#import kernel/rng
+#import arith/math
+#import arith/rng
 #import leaf/fall
 #import leaf/own
 #import leaf/record

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// twin: core/src/leaf/launch.rs
+// twin: core/src/device/leaf/launch.rs
 // The release of a leaf that flies as a body: its pose before, its asymmetries.
 #import bindings
-#import kernel/math
-#import kernel/quaternion
-#import kernel/rng
+#import arith/math
+#import arith/quaternion
+#import arith/rng
 #import leaf/record
 
 fn turn_about_y(angle: u32) -> vec4<f32> {

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// twin: core/src/leaf/own.rs
+// twin: core/src/device/leaf/own.rs
 // A leaf's own motion: the tables scaled to its size and speed, turned to its heading, with its spin.
 #import bindings
-#import kernel/math
-#import kernel/quaternion
-#import kernel/rng
+#import arith/math
+#import arith/quaternion
+#import arith/rng
 #import leaf/record
 #import motion/lookup
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// twin: core/src/leaf/record.rs
+// twin: core/src/device/leaf/record.rs
 // Accessors of every word of a leaf's records that packs several values or changes its meaning with the leaf's state.
 #import prelude
 

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// twin: core/src/leaf/release.rs
+// twin: core/src/device/leaf/release.rs
 // The release of a leaf: place, size, speed and first motion, in integers but for the last conversion.
 #import bindings
-#import kernel/rng
+#import arith/rng
 #import motion/feature
 #import leaf/launch
 #import leaf/own

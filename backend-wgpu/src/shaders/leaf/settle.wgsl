@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// twin: core/src/leaf/settle.rs
+// twin: core/src/device/leaf/settle.rs
 // A leaf on the ground: it slides, loses speed to friction and lies down flat on the slope.
 #import bindings
-#import kernel/math
-#import kernel/quaternion
+#import arith/math
+#import arith/quaternion
 #import leaf/record
 #import terrain/ground
 

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// twin: core/src/motion/feature.rs
+// twin: core/src/device/motion/feature.rs
 // The trajectory feature of a leaf: stages, their shares of the fall and their motions.
 #import bindings
-#import kernel/rng
+#import arith/rng
 
 fn stage_weight(words: vec4<u32>, stage: u32) -> u32 {
     let word = select(select(words.z, words.y, stage < 4u), words.x, stage < 2u);

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// twin: core/src/motion/lookup.rs
+// twin: core/src/device/motion/lookup.rs
 // Displacement, orientation and velocity of the motion tables at a phase.
 #import bindings
-#import kernel/quaternion
+#import arith/quaternion
 
 struct MotionState {
     displacement: vec3<f32>,

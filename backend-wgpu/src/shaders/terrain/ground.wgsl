@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// twin: core/src/terrain/ground.rs
+// twin: core/src/device/terrain/ground.rs
 // The ground: level, or the hills' table interpolated linearly; water on it.
 #import bindings
-#import kernel/math
-#import kernel/quaternion
+#import arith/math
+#import arith/quaternion
 
 struct Cell {
     corners: vec4<f32>,

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// twin: core/src/wind/gust.rs
+// twin: core/src/device/wind/gust.rs
 // Gusts carried along by the mean wind, from a table.
 #import bindings
 #import wind/row

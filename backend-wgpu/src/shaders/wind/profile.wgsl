@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// twin: core/src/wind/profile.rs
+// twin: core/src/device/wind/profile.rs
 // Growth of the mean wind with height, from a table.
 #import bindings
 #import wind/row

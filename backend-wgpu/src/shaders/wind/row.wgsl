@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// twin: core/src/wind/row.rs
+// twin: core/src/device/wind/row.rs
 // Two neighbouring values of a wind table.
 #import bindings
 

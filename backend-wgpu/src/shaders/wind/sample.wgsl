@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// twin: core/src/wind/sample.rs
+// twin: core/src/device/wind/sample.rs
 // Velocity of the air at a place: mean flow, gusts, turbulence, vortices.
 #import terrain/ground
 #import wind/gust

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// twin: core/src/wind/turbulence.rs
+// twin: core/src/device/wind/turbulence.rs
 // Turbulence: a periodic box of velocities, interpolated linearly in each direction.
 #import bindings
 

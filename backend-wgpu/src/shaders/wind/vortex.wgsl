@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// twin: core/src/wind/vortex.rs
+// twin: core/src/device/wind/vortex.rs
 // A straight vortex with a smooth core (Kaufmann).
 #import bindings
-#import kernel/math
-#import kernel/vector
+#import arith/math
+#import arith/vector
 
 fn wind_vortex(vortex: u32, place: vec3<f32>) -> vec3<f32> {
     let axis = step_block.vortices[vortex].axis;

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Random numbers of a growing tree: pure functions of seed, tree number, step, place and number of the draw.
 
-use crate::kernel::rng::{philox, seed_words};
+use crate::arith::rng::{philox, seed_words};
 
 /// Last counter word of a tree's draws, which no other draw has: it counts up from here.
 const TREE_STREAM: u32 = 0x8000_0000;

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use glam::Vec3;
 
 use super::kind;
-use crate::kernel::pack::BLOCK;
+use crate::arith::pack::BLOCK;
 use crate::tree::forest::{Forest, Seedling};
 use crate::tree::record::NO_SEGMENT;
 use crate::tree::testing::tree;

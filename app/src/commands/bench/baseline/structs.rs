@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! An array of structs, stepped leaf after leaf on one thread.
 
-use windfall_core::leaf::advance::leaf_advance;
+use windfall_core::device::leaf::advance::leaf_advance;
 use windfall_core::leaf::{Attitude, Drift, Identity, LeafMut, Leaves, Place, Schedule};
 use windfall_core::{Clock, Environment, World, oracle};
 

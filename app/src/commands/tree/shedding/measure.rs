@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! How many leaves a crown loses: by the model of its petioles, and by simulating it.
 
+use windfall_core::device::leaf::carry::{petiole_of, shed_chance};
 use windfall_core::leaf::LeafState;
-use windfall_core::leaf::carry::{petiole_of, shed_chance};
 use windfall_core::leaf::petiole::SHED_INTERVAL;
 use windfall_core::scene::{Gusts, MeanSpeed, Profile, Tree, TreePreset, Turbulence};
 use windfall_core::{Scene, Simulator, World};

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// twin: core/src/tree/sway/body.rs
+// twin: core/src/device/tree/sway/body.rs
 // Types of the articulated-body algorithm; the constants of a segment are SegmentConstants of the prelude.
-#import kernel/matrix
+#import arith/matrix
 
 struct Joint {
     turn: vec4<f32>,

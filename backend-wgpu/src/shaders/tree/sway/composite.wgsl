@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// twin: core/src/tree/sway/composite.rs
-#import kernel/matrix
-#import kernel/vector
+// twin: core/src/device/tree/sway/composite.rs
+#import arith/matrix
+#import arith/vector
 #import tree/sway/body
 #import tree/sway/load
 

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// twin: core/src/tree/sway/inward.rs
+// twin: core/src/device/tree/sway/inward.rs
 #import bindings
-#import kernel/math
-#import kernel/matrix
-#import kernel/quaternion
-#import kernel/vector
+#import arith/math
+#import arith/matrix
+#import arith/quaternion
+#import arith/vector
 #import tree/sway/body
 
 struct JointReduction {

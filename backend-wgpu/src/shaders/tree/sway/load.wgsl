@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// twin: core/src/tree/sway/load.rs
-#import kernel/math
-#import kernel/matrix
-#import kernel/quaternion
-#import kernel/vector
+// twin: core/src/device/tree/sway/load.rs
+#import arith/math
+#import arith/matrix
+#import arith/quaternion
+#import arith/vector
 #import tree/sway/body
 #import wind/sample
 

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// twin: core/src/tree/sway/oliapuram_kumar.rs
-#import kernel/math
-#import kernel/quaternion
+// twin: core/src/device/tree/sway/oliapuram_kumar.rs
+#import arith/math
+#import arith/quaternion
 #import tree/sway/composite
 #import tree/sway/quigley
 

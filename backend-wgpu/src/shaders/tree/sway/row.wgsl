@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// twin: core/src/tree/sway/row.rs
+// twin: core/src/device/tree/sway/row.rs
 // One segment in each pass of a step.
 #import tree/bindings
 #import tree/sway/composite

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// twin: core/src/tree/sway/twig.rs
-#import kernel/math
-#import kernel/matrix
-#import kernel/vector
+// twin: core/src/device/tree/sway/twig.rs
+#import arith/math
+#import arith/matrix
+#import arith/vector
 #import tree/sway/body
 #import tree/sway/outward
 

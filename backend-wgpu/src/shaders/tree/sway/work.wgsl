@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// twin: core/src/tree/sway/work.rs
+// twin: core/src/device/tree/sway/work.rs
 // Packing of the results of a pass into the rows of a segment.
 #import tree/bindings
 #import tree/sway/body

@@ -4,7 +4,7 @@
 
 use glam::Vec3;
 
-use crate::kernel::rng::{random, unit_float};
+use crate::arith::rng::{random, unit_float};
 use crate::tree::{BarkMesh, Skeleton};
 
 /// Shares of the trunk's radius from which on wood flutters, and where it does so fully.

@@ -1,0 +1,183 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! twin: backend-wgpu/src/shaders/leaf/fall.wgsl
+//!
+//! A leaf in the air: its own motion from the tables, and the wind's drift.
+//!
+//! The leaf's velocity is its own motion's plus a drift that relaxes towards the wind within the response time
+//! tau = U/g, exactly for a wind that holds still during the step. In still air the path does not depend on dt.
+
+use super::own::{MotionParams, motion_params, on_grid, own_advance, own_orientation, own_rate};
+use super::record::{Drift, Place, blend_steps_left, count_down_blend, leaf_species, spin_rate, turn_spin};
+use super::settle::leaf_land;
+use crate::arith::lane::{Mask, Real, Word};
+use crate::arith::math::reciprocal;
+use crate::arith::quaternion::{Quat, quat_blend};
+use crate::arith::rng::mul_q16;
+use crate::arith::vector::Vec3;
+use crate::blocks::ResponseBlock;
+use crate::context::Context;
+use crate::device::terrain::ground::ground_met;
+use crate::device::wind::sample::wind_at;
+use crate::leaf::LeafMut;
+
+crate::shared_constants! {
+    /// A whole step in 2^-16 steps.
+    pub const WHOLE_STEP: u32 = 65536;
+    /// Inverse of it.
+    pub const STEP_UNIT: f32 = 1.0 / 65536.0;
+}
+
+/// A leaf on its way through one step, or eight of them.
+#[derive(Clone, Copy)]
+pub struct Glide<R: Real = f32> {
+    /// Position in metres.
+    pub position: Vec3<R>,
+    /// Drift velocity in m/s.
+    pub drift: Vec3<R>,
+    /// Phase.
+    pub phase: R::Word,
+}
+
+/// A part of a step, and the response of the drift in it.
+#[derive(Clone, Copy)]
+pub struct Part<R: Real = f32> {
+    /// Length in 2^-16 steps.
+    pub length: u32,
+    /// Drift kept.
+    pub decay: R,
+    /// Time constant of the response in s: distance per drift speed until none is left.
+    pub tau: R,
+}
+
+/// Response of a leaf's species, or of eight leaves' (see [`ResponseBlock`]).
+#[derive(Clone, Copy)]
+pub struct Response<R: Real = f32> {
+    /// Drift kept over a step.
+    pub drift_kept: R,
+    /// Fastest spin per step in 2^-18 turns, a whole number.
+    pub fastest_spin: R,
+    /// Time constant in s.
+    pub time_constant_s: R,
+    /// Its inverse in 1/s.
+    pub inv_time_constant: R,
+}
+
+/// Response of the species of a leaf with these bits.
+#[inline(always)]
+pub fn response_of<W: Word>(cx: &Context<'_>, bits: W) -> Response<W::Real> {
+    let responses: &[ResponseBlock] = &cx.environment.responses;
+    let [drift_kept, fastest_spin, time_constant_s, inv_time_constant] =
+        leaf_species(bits).look_up(bytemuck::must_cast_slice(responses));
+    Response { drift_kept, fastest_spin, time_constant_s, inv_time_constant }
+}
+
+/// A leaf on its way from where its records place it.
+#[inline(always)]
+pub fn glide_of(place: &Place, drift: &Drift) -> Glide {
+    Glide { position: place.position.into(), drift: drift.velocity.into(), phase: drift.phase }
+}
+
+/// Moves a leaf through a part of a step within one stage.
+#[inline(always)]
+pub fn glide_part<R: Real>(
+    cx: &Context<'_>,
+    glide: Glide<R>,
+    bits: R::Word,
+    params: MotionParams<R::Word>,
+    wind: Vec3<R>,
+    part: Part<R>,
+) -> Glide<R> {
+    let rate = own_rate(cx, params.rate);
+    let end = glide.phase.plus(mul_q16(rate, rate.all(part.length)));
+    let own = own_advance(cx, bits, params, glide.phase, end);
+    let before = glide.drift - wind;
+    let after = before * part.decay;
+    let spent = on_grid(before * part.tau) - on_grid(after * part.tau);
+    let carried = wind * wind.x.all((part.length as f32 * STEP_UNIT) * cx.environment.dt_s);
+    Glide { position: glide.position + ((own + spent) + carried), drift: wind + after, phase: end }
+}
+
+/// Spin angle one step on, in place in the bits.
+#[inline(always)]
+pub fn spin_advance<W: Word>(bits: W, heading: W, fastest: W::Real) -> W {
+    let turn = spin_rate(heading).times(fastest.to_whole()).shift_signed(17);
+    turn_spin(bits, turn)
+}
+
+/// Orientation after a step whose spin is done, and the bits with one step less to blend. `before` is only read where a
+/// blend goes on.
+#[inline(always)]
+pub fn attitude_after<R: Real>(
+    cx: &Context<'_>,
+    bits: R::Word,
+    phase: R::Word,
+    heading: R::Word,
+    before: impl Fn() -> Quat<R>,
+) -> (R::Word, Quat<R>) {
+    let goal = own_orientation(cx, bits, phase, heading);
+    let steps_left = blend_steps_left(bits);
+    let is_blending = steps_left.all(0).less_than(steps_left);
+    if !is_blending.any() {
+        return (bits, goal);
+    }
+    let mixed = quat_blend(before(), goal, reciprocal(steps_left.to_real()));
+    let attitude = Quat::new(
+        is_blending.select_real(mixed.x, goal.x),
+        is_blending.select_real(mixed.y, goal.y),
+        is_blending.select_real(mixed.z, goal.z),
+        is_blending.select_real(mixed.w, goal.w),
+    );
+    (count_down_blend(bits, is_blending), attitude)
+}
+
+/// Writes back a leaf that has come from `start` to the end of its step: spin, orientation, and the ground if it `lands`.
+#[inline(always)]
+pub fn glide_end(
+    cx: &Context<'_>,
+    leaf: &mut LeafMut<'_>,
+    start: Vec3,
+    glide: Glide,
+    bits: u32,
+    heading: u32,
+    lands: bool,
+) {
+    let spun = spin_advance(bits, heading, response_of(cx, bits).fastest_spin);
+    let before = || Quat::from(leaf.attitude.quaternion);
+    let (bits, attitude) = attitude_after(cx, spun, glide.phase, heading, before);
+    leaf.attitude.quaternion = attitude.to_array();
+    *leaf.place = Place { position: glide.position.to_array(), bits };
+    *leaf.drift = Drift { velocity: glide.drift.to_array(), phase: glide.phase };
+    if lands {
+        leaf_land(cx, leaf, start);
+    }
+}
+
+/// The whole step of falling leaves that have no event in it, up to the ground.
+#[inline(always)]
+pub fn glide_step<R: Real>(
+    cx: &Context<'_>,
+    glide: Glide<R>,
+    bits: R::Word,
+    params: MotionParams<R::Word>,
+    response: Response<R>,
+) -> Glide<R> {
+    let wind = wind_at(cx, glide.position);
+    let part = Part { length: WHOLE_STEP, decay: response.drift_kept, tau: response.time_constant_s };
+    glide_part(cx, glide, bits, params, wind, part)
+}
+
+/// One step of a falling leaf that has no event in it. One that comes to the ground and may not land is left alone.
+/// Returns true if it has been moved.
+#[inline(always)]
+pub fn leaf_fall(cx: &Context<'_>, leaf: &mut LeafMut<'_>, may_land: bool) -> bool {
+    let (start, bits, heading) = (Vec3::from(leaf.place.position), leaf.place.bits, leaf.schedule.heading);
+    let glide = glide_of(leaf.place, leaf.drift);
+    let moved = glide_step(cx, glide, bits, motion_params(*leaf.schedule), response_of(cx, bits));
+    let lands = ground_met(cx, moved.position);
+    if lands && !may_land {
+        return false;
+    }
+    glide_end(cx, leaf, start, moved, bits, heading, lands);
+    true
+}

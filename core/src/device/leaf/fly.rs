@@ -1,0 +1,169 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! twin: backend-wgpu/src/shaders/leaf/fly.wgsl
+//!
+//! A leaf that flies as a body in the air: one step, in as many substeps as its speed and spin ask for.
+
+use super::record::{Drift, body_spin, body_spin_words, flies, regime_state, with_regime};
+use super::settle::leaf_land;
+use crate::arith::lane::{Mask, Real};
+use crate::arith::math::{inverse_sqrt, reciprocal};
+use crate::arith::quaternion::{Quat, quat_rotate_back};
+use crate::arith::rng::mul_q16;
+use crate::arith::vector::{TINY_SQUARED, Vec3, vec3_dot};
+use crate::context::Context;
+use crate::device::flight::body::{body_of, body_row};
+use crate::device::flight::rates::FlightMotion;
+use crate::device::flight::regime::{regime_after, regime_of};
+use crate::device::flight::runge_kutta::{MAX_SUBSTEPS, flight_step, substep_count};
+use crate::device::terrain::ground::ground_met;
+use crate::device::wind::sample::wind_at;
+use crate::flight::block::BODY_LOAD_ROW;
+use crate::leaf::LeafMut;
+
+/// A body on its way, or eight of them.
+#[derive(Clone, Copy, Debug)]
+pub struct Flight<R: Real = f32> {
+    /// Position in metres.
+    pub position: Vec3<R>,
+    /// Velocity in m/s.
+    pub velocity: Vec3<R>,
+    /// Orientation.
+    pub pose: Quat<R>,
+    /// Spin about the leaf's own axes in rad/s.
+    pub spin: Vec3<R>,
+}
+
+/// Load on a step: the number of substeps that it needs at least.
+#[inline(always)]
+pub fn flight_load<R: Real>(cx: &Context<'_>, bits: R::Word, relative: Vec3<R>, spin: Vec3<R>) -> R {
+    let [per_speed, per_spin, ..] = body_row(cx, bits, BODY_LOAD_ROW);
+    let tiny = per_speed.all(TINY_SQUARED);
+    let squared = vec3_dot(relative, relative).max(tiny);
+    let turned = vec3_dot(spin, spin).max(tiny);
+    per_speed * (squared * inverse_sqrt(squared)) + per_spin * (turned * inverse_sqrt(turned))
+}
+
+/// The step of bodies, in wind that holds still during it.
+#[inline(always)]
+pub fn flight_advance<R: Real>(
+    cx: &Context<'_>,
+    flight: Flight<R>,
+    bits: R::Word,
+    size: R::Word,
+    wind: Vec3<R>,
+) -> Flight<R> {
+    let body = body_of(cx, bits, size);
+    let relative = flight.velocity - wind;
+    let load = flight_load(cx, bits, relative, flight.spin);
+    let substeps = substep_count(load);
+    // If the largest number of substeps is too few (a mote in a tornado), relative wind and spin are clamped.
+    let most = load.all(MAX_SUBSTEPS);
+    let clamped = most.less_than(load).select_real(most * reciprocal(load), load.all(1.0));
+    let wind = flight.velocity - relative * clamped;
+    let turning = flight.spin * (body.size_ratio * clamped);
+    let time = substeps.share * cx.environment.dt_s;
+    let mut position = flight.position;
+    let mut motion = FlightMotion { velocity: flight.velocity, pose: flight.pose, turning };
+    let mut done = time.all(0.0);
+    loop {
+        let on = done.less_than(substeps.count);
+        if !on.any() {
+            break;
+        }
+        let (way, next) = flight_step(&body, &motion, wind, time);
+        position = chosen(on, position + way, position);
+        motion = FlightMotion {
+            velocity: chosen(on, next.velocity, motion.velocity),
+            pose: Quat::new(
+                on.select_real(next.pose.x, motion.pose.x),
+                on.select_real(next.pose.y, motion.pose.y),
+                on.select_real(next.pose.z, motion.pose.z),
+                on.select_real(next.pose.w, motion.pose.w),
+            ),
+            turning: chosen(on, next.turning, motion.turning),
+        };
+        done = done + 1.0;
+    }
+    Flight {
+        position,
+        velocity: motion.velocity,
+        pose: motion.pose,
+        spin: motion.turning * body.inv_size_ratio,
+    }
+}
+
+/// State of a body's regime after a step, and its bits with that regime.
+#[derive(Clone, Copy, Debug)]
+pub struct Regime<W = u32> {
+    /// State of the classification.
+    pub state: W,
+    /// Bits of the leaf.
+    pub bits: W,
+}
+
+/// Classifies a body's motion after a step.
+#[inline(always)]
+pub fn update_regime<R: Real>(
+    cx: &Context<'_>,
+    flight: &Flight<R>,
+    wind: Vec3<R>,
+    state: R::Word,
+    bits: R::Word,
+) -> Regime<R::Word> {
+    let path = flight.velocity - wind;
+    let flow = quat_rotate_back(flight.pose, path);
+    let now = cx.step.index;
+    let rate = cx.environment.ticks_per_step_q16;
+    let ticks = mul_q16(now.wrapping_add(1), rate).wrapping_sub(mul_q16(now, rate));
+    let [_, _, idle_timeout, _] = body_row(cx, bits, BODY_LOAD_ROW);
+    let next = regime_after(state, flow, flight.spin, path, ticks, idle_timeout.to_whole());
+    Regime { state: next, bits: with_regime(bits, regime_of(next)) }
+}
+
+/// `yes` where the mask is true, `no` elsewhere.
+#[inline(always)]
+fn chosen<R: Real>(mask: R::Mask, yes: Vec3<R>, no: Vec3<R>) -> Vec3<R> {
+    Vec3::new(mask.select_real(yes.x, no.x), mask.select_real(yes.y, no.y), mask.select_real(yes.z, no.z))
+}
+
+/// A leaf's flight, out of its records.
+#[inline(always)]
+pub fn flight_of(leaf: &LeafMut<'_>) -> Flight {
+    Flight {
+        position: Vec3::from(leaf.place.position),
+        velocity: Vec3::from(leaf.drift.velocity),
+        pose: Quat::from(leaf.attitude.quaternion),
+        spin: body_spin(leaf.drift.phase, leaf.schedule.rate, leaf.schedule.heading),
+    }
+}
+
+/// Writes a flight into a leaf's records.
+#[inline(always)]
+pub fn flight_write(leaf: &mut LeafMut<'_>, flight: Flight) {
+    let [x, y, z] = body_spin_words(flight.spin);
+    leaf.place.position = flight.position.to_array();
+    *leaf.drift = Drift { velocity: flight.velocity.to_array(), phase: x };
+    leaf.attitude.quaternion = flight.pose.to_array();
+    leaf.schedule.rate = y;
+    leaf.schedule.heading = z;
+}
+
+/// One step of a leaf, if it flies as a body: others are left alone.
+#[inline(always)]
+pub fn leaf_fly(cx: &Context<'_>, leaf: &mut LeafMut<'_>) {
+    if !flies(leaf.place.bits) {
+        return;
+    }
+    let start = flight_of(leaf);
+    let wind = wind_at(cx, start.position);
+    let flight = flight_advance(cx, start, leaf.place.bits, leaf.schedule.size, wind);
+    flight_write(leaf, flight);
+    let before = regime_state(leaf.identity.fall_time);
+    let regime = update_regime(cx, &flight, wind, before, leaf.place.bits);
+    leaf.identity.fall_time = regime.state;
+    leaf.place.bits = regime.bits;
+    if ground_met(cx, flight.position) {
+        leaf_land(cx, leaf, start.position);
+    }
+}

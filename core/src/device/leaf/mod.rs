@@ -1,0 +1,14 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! One step of one leaf, from twig or release to rest.
+
+pub mod advance;
+pub mod carry;
+pub mod fall;
+pub mod fly;
+pub mod join;
+pub mod launch;
+pub mod own;
+pub mod record;
+pub mod release;
+pub mod settle;

@@ -1,0 +1,5 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The ground, as leaves meet it.
+
+pub mod ground;

@@ -1,0 +1,5 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Trees, as their segments move.
+
+pub mod sway;

@@ -1,0 +1,10 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The wind at a place.
+
+pub mod gust;
+pub mod profile;
+pub mod row;
+pub mod sample;
+pub mod turbulence;
+pub mod vortex;

@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! twin: backend-wgpu/src/shaders/wind/sample.wgsl
+//!
+//! The wind at a place and step. The mean wind grows with height above the ground beneath; turbulence is carried on
+//! the level.
+
+use super::gust::wind_gust;
+use super::profile::wind_profile;
+use super::turbulence::wind_turbulence;
+use super::vortex::wind_vortex;
+use crate::arith::lane::Real;
+use crate::arith::vector::Vec3;
+use crate::context::Context;
+use crate::device::terrain::ground::ground_relief;
+
+/// Velocity of the air at `place` in m/s.
+#[inline(always)]
+pub fn wind_at<R: Real>(cx: &Context<'_>, place: Vec3<R>) -> Vec3<R> {
+    let wind = &cx.environment.wind;
+    let direction_x = wind.direction_x;
+    let direction_z = wind.direction_z;
+    let along = place.x * direction_x + place.z * direction_z;
+    let across = place.z * direction_x - place.x * direction_z;
+    let height = place.y - cx.environment.ground_height_m;
+    let above =
+        if cx.environment.has_terrain() { height - ground_relief(cx, place.x, place.z) } else { height };
+    let mean =
+        (wind_profile(cx, above) * wind.mean_speed_m_s) * (wind_gust(cx, along) * wind.gust_strength + 1.0);
+    let deviation = Vec3::from(wind.deviation_m_s);
+    let mut turbulence = Vec3::<f32>::ZERO.spread(height);
+    if deviation.x != 0.0 {
+        turbulence = wind_turbulence(cx, Vec3::new(along, height, across));
+    }
+    let u = mean + turbulence.x * deviation.x;
+    let v = turbulence.y * deviation.y;
+    let w = turbulence.z * deviation.z;
+    let mut air = Vec3::new(u * direction_x - w * direction_z, v, u * direction_z + w * direction_x);
+    for index in 0..cx.step.vortex_count {
+        air = air + wind_vortex(&cx.step.vortices[index as usize], place);
+    }
+    air
+}
