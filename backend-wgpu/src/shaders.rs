@@ -148,6 +148,19 @@ impl Default for Shaders {
     }
 }
 
+impl FromIterator<(&'static str, String)> for Shaders {
+    /// Modules by name and text, which import each other and none of the simulator's.
+    fn from_iter<I: IntoIterator<Item = (&'static str, String)>>(modules: I) -> Self {
+        Self { modules: modules.into_iter().collect() }
+    }
+}
+
+impl Extend<(&'static str, String)> for Shaders {
+    fn extend<I: IntoIterator<Item = (&'static str, String)>>(&mut self, modules: I) {
+        self.modules.extend(modules);
+    }
+}
+
 impl Shaders {
     /// Names of all modules.
     pub fn names(&self) -> impl Iterator<Item = &'static str> {

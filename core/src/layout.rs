@@ -52,17 +52,24 @@ macro_rules! wgsl_names {
 
 wgsl_names! {
     u32: "u32",
+    i32: "i32",
     f32: "f32",
     Float4: "vec4<f32>",
     Uint4: "vec4<u32>",
     [u32; 2]: "vec2<u32>",
     [u32; 3]: "vec3<u32>",
+    [u32; 4]: "vec4<u32>",
     [i32; 3]: "vec3<i32>",
     [f32; 3]: "vec3<f32>",
     [f32; 4]: "vec4<f32>",
+    [f32; 2]: "vec2<f32>",
+    [i32; 2]: "vec2<i32>",
+    [[f32; 4]; 4]: "mat4x4<f32>",
 }
 
+impl WgslElement for Float4 {}
 impl WgslElement for Uint4 {}
+impl WgslElement for [[f32; 4]; 4] {}
 
 impl<T: WgslElement, const N: usize> Wgsl for [T; N] {
     fn name() -> String {
@@ -88,6 +95,12 @@ impl WgslConstant for f32 {
     }
 }
 
+impl WgslConstant for [f32; 3] {
+    fn literal(self) -> String {
+        format!("vec3({})", self.map(f32::literal).join(", "))
+    }
+}
+
 /// Declares a `repr(C)` struct of [`Wgsl`](crate::layout::Wgsl) fields that is plain old data and knows its WGSL
 /// declaration. An array of three numbers is a vector in WGSL, which starts at a multiple of 16 bytes: a scalar follows
 /// it. `padding` fills the struct up to a multiple of 16 bytes, as WGSL does by itself.
@@ -95,18 +108,18 @@ impl WgslConstant for f32 {
 macro_rules! shared_struct {
     (
         $(#[$meta:meta])*
-        pub struct $name:ident $(, padding $padding:literal)? {
-            $($(#[$field_meta:meta])* pub $field:ident: $ty:ty,)*
+        $vis:vis struct $name:ident $(, padding $padding:literal)? {
+            $($(#[$field_meta:meta])* $field_vis:vis $field:ident: $ty:ty,)*
         }
     ) => {
         $(#[$meta])*
         #[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
         #[repr(C, align(16))]
-        pub struct $name {
-            $($(#[$field_meta])* pub $field: $ty,)*
+        $vis struct $name {
+            $($(#[$field_meta])* $field_vis $field: $ty,)*
             $(
                 /// Zeros up to a multiple of 16 bytes.
-                pub padding: [u8; $padding],
+                $vis padding: [u8; $padding],
             )?
         }
 
@@ -155,8 +168,8 @@ macro_rules! shared_record {
 /// Declares constants and a function `wgsl_constants` that lists them as WGSL declarations.
 #[macro_export]
 macro_rules! shared_constants {
-    ($($(#[$meta:meta])* pub const $name:ident: $ty:ty = $value:expr;)*) => {
-        $($(#[$meta])* pub const $name: $ty = $value;)*
+    ($($(#[$meta:meta])* $vis:vis const $name:ident: $ty:ty = $value:expr;)*) => {
+        $($(#[$meta])* $vis const $name: $ty = $value;)*
 
         /// Name and WGSL declaration of every shared constant of this module.
         pub fn wgsl_constants() -> Vec<(&'static str, String)> {

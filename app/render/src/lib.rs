@@ -29,7 +29,7 @@ pub use gpu::readback::PictureTarget;
 pub use gpu::shader_edit::with_shader_edit;
 pub use gpu::timing::GpuTimer;
 pub use leaves::meshes::shaped;
-pub use leaves::species_table::{MAX_LAYERS, build, dryness, turned};
+pub use leaves::species_table::{MAX_LAYERS, SpeciesRow, dryness, turned};
 pub use marks::{ATTACHED, LANDINGS_PER_M2, MAX_TRAILS, MOTIONS, Measure, Paint, RESTING, shade_bytes};
 pub use renderer::Renderer;
 pub use renderer::scene::{RendererOptions, Subject};

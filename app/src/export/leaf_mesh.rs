@@ -6,7 +6,7 @@ use glam::{Quat, Vec3};
 use image::RgbaImage;
 use windfall_core::scene::Species;
 use windfall_render::trees::TWIG_SIZE;
-use windfall_render::{build, dryness, shaped};
+use windfall_render::{SpeciesRow, dryness, shaped};
 use windfall_texgen::Layer;
 
 /// A leaf of nominal size in the leaf's frame, or a cluster of them: blade in the x-z plane, upper side +y, tip towards +z,
@@ -38,7 +38,7 @@ pub(super) struct LeafPicture {
 
 /// Middle of a species' blade from its place, for a leaf of nominal size in metres.
 pub(super) fn middle(species: &Species) -> Vec3 {
-    let [size_m, right, ahead, _] = build(species);
+    let SpeciesRow { diameter_m: size_m, offset_x: right, offset_z: ahead, .. } = SpeciesRow::of(species);
     Vec3::new(right * size_m, 0.0, ahead * size_m)
 }
 

@@ -7,20 +7,24 @@
 //! Cascaded Shadow Maps", ShaderX6).
 
 use glam::{Mat4, Vec3};
+use windfall_core::shared_constants;
 
 use crate::camera::Camera;
 
-/// Number of shadow maps of the sun.
-pub(crate) const CASCADES: usize = 3;
-/// Number of all maps: after those of the sun one from straight above, for the sky; `common.wgsl` has as many.
-pub(crate) const MAPS: usize = CASCADES + 1;
+shared_constants! {
+    /// Number of shadow maps of the sun. The map after them is seen from straight above, for the sky.
+    pub(crate) const CASCADES: u32 = 3;
+}
+
+/// Number of all maps.
+pub(crate) const MAPS: usize = CASCADES as usize + 1;
 /// Edge of a shadow map in texels for a picture so many pixels high: its texels are about as fine as the pixels.
 pub(crate) fn shadow_size(picture_height: u32) -> u32 {
     if picture_height > 512 { 2048 } else { 1024 }
 }
 
 /// Where the slices end, in metres from the camera. Trees farther away only have the shade of their pictures.
-const ENDS_M: [f32; CASCADES] = [8.0, 26.0, 80.0];
+const ENDS_M: [f32; CASCADES as usize] = [8.0, 26.0, 80.0];
 /// A camera that looks at something near has its first slice end so much farther than that.
 const BEYOND_TARGET: f32 = 1.6;
 /// Least end of the first slice and largest end of the last, in metres.
@@ -43,7 +47,12 @@ const ABOVE_RADII_M: [f32; 2] = [16.0, 100.0];
 const ABOVE_PER_DISTANCE: f32 = 3.0;
 
 /// The shadow maps of `size_px` for what `camera` sees, by the light from `sun`.
-pub(crate) fn cascades(camera: &Camera, aspect: f32, sun: Vec3, size_px: u32) -> [Cascade; CASCADES] {
+pub(crate) fn cascades(
+    camera: &Camera,
+    aspect: f32,
+    sun: Vec3,
+    size_px: u32,
+) -> [Cascade; CASCADES as usize] {
     let near = (BEYOND_TARGET * camera.distance_m).clamp(FIRST_END_M, ENDS_M[0]);
     let ends = ENDS_M.map(|end| end * near / ENDS_M[0]);
     // The last one reaches beyond what is looked at.

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // Sun, sky and haze.
 
+#import frame/common
+
 @group(1) @binding(0) var shadow_maps: texture_depth_2d_array;
 @group(1) @binding(1) var shadow_sampler: sampler_comparison;
 // Top view of the park: sunlight let through by the trees (r), litter under them (g), sky hidden by their crowns (b).
@@ -31,7 +33,7 @@ fn map_shadow(map: u32, clip: vec3<f32>, turn: vec2<f32>) -> f32 {
 
 // Place in a shadow map. A texel is wide: what lies in it must not shade itself.
 fn map_place(map: u32, position: vec3<f32>) -> vec3<f32> {
-    let lifted = position + frame.sun_direction.xyz * (1.5 * frame.texels[map]);
+    let lifted = position + frame.sun_direction * (1.5 * frame.texels_m[map]);
     return (frame.shadows[map] * vec4(lifted, 1.0)).xyz;
 }
 
@@ -41,24 +43,24 @@ fn leaf_shadow(position: vec3<f32>) -> f32 {
     let own = fract(dot(position, vec3(127.1, 311.7, 74.7)));
     let spin = own * 6.2831853;
     let limit = mix(0.86, 0.985, fract(own * 61.7));
-    var map = 3u;
+    var map = CASCADES;
     var place = vec3(0.0);
-    for (var coarser = 3u; coarser > 0u; coarser--) {
+    for (var coarser = CASCADES; coarser > 0u; coarser--) {
         let clip = map_place(coarser - 1u, position);
         if max(abs(clip.x), abs(clip.y)) < limit && clip.z > 0.0 && clip.z < 1.0 {
             map = coarser - 1u;
             place = clip;
         }
     }
-    let lit = map_shadow(min(map, 2u), place, vec2(cos(spin), sin(spin)));
-    return select(1.0, lit, map < 3u);
+    let lit = map_shadow(min(map, CASCADES - 1u), place, vec2(cos(spin), sin(spin)));
+    return select(1.0, lit, map < CASCADES);
 }
 
 // Sunlight that far trees and hills let through (r) and litter density (g) where the sun ray through `position` meets the ground.
 fn tree_shade(position: vec3<f32>) -> vec2<f32> {
     let height = position.y - ground_height(position.xz);
     let down = frame.sun_direction.xz * (height / max(frame.sun_direction.y, 0.02));
-    let offset = (position.xz - down - frame.park.xz) / frame.air.z;
+    let offset = (position.xz - down - frame.park_center_m.xz) / PARK_RADIUS_M;
     let uv = offset * 0.5 + 0.5;
     let shade = textureSampleLevel(shade_map, clamp_sampler, uv, 0.0).rg;
     // Trees are as high as they are: far above them the sun is free again.
@@ -68,7 +70,7 @@ fn tree_shade(position: vec3<f32>) -> vec2<f32> {
 
 // Part of the sky that crowns leave open above a place on the ground.
 fn sky_openness(position: vec3<f32>) -> f32 {
-    let uv = (position.xz - frame.park.xz) / frame.air.z * 0.5 + 0.5;
+    let uv = (position.xz - frame.park_center_m.xz) / PARK_RADIUS_M * 0.5 + 0.5;
     return 1.0 - 0.75 * textureSampleLevel(shade_map, clamp_sampler, uv, 0.0).b;
 }
 
@@ -82,15 +84,15 @@ fn open_above(position: vec3<f32>, taps: u32) -> f32 {
     if !HAS_TREES {
         return 1.0;
     }
-    let clip = (frame.shadows[3] * vec4(position + vec3(0.0, 0.12, 0.0), 1.0)).xyz;
+    let clip = (frame.shadows[CASCADES] * vec4(position + vec3(0.0, 0.12, 0.0), 1.0)).xyz;
     let own = fract(dot(position, vec3(127.1, 311.7, 74.7)));
-    let scale = SKY_REACH_M / (frame.texels[3] * f32(textureDimensions(shadow_maps).x));
+    let scale = SKY_REACH_M / (frame.texels_m[CASCADES] * f32(textureDimensions(shadow_maps).x));
     var sum = 0.0;
     for (var tap = 0u; tap < taps; tap++) {
         let reach = scale * sqrt((f32(tap) + 0.5) / f32(taps));
         let angle = 2.3999632 * f32(tap) + 6.2831853 * own;
         let uv = clip.xy * vec2(0.5, -0.5) + 0.5 + reach * vec2(cos(angle), sin(angle));
-        sum += textureSampleCompareLevel(shadow_maps, shadow_sampler, uv, 3u, clip.z);
+        sum += textureSampleCompareLevel(shadow_maps, shadow_sampler, uv, CASCADES, clip.z);
     }
     let beyond = select(0.0, 1.0, taps == 0u || clip.z > 1.0);
     let far = max(smoothstep(0.8, 0.98, max(abs(clip.x), abs(clip.y))), beyond);
@@ -125,7 +127,7 @@ fn sky_place(direction: vec3<f32>) -> vec2<f32> {
 
 // What a surface of a roughness from 0.1 to 1 mirrors of the sky along a direction.
 fn sky_reflection(direction: vec3<f32>, roughness: f32) -> vec3<f32> {
-    let level = (roughness - 0.1) / 0.225;
+    let level = (roughness - LEAST_ROUGHNESS) / ROUGHNESS_STEP;
     return textureSampleLevel(mirrored_sky, sky_sampler, sky_place(direction), level).rgb;
 }
 
@@ -137,17 +139,17 @@ fn sky_radiance(direction: vec3<f32>) -> vec3<f32> {
 // The air between the eye and a surface at `position`: light that it adds (rgb) and share that it lets through (a). It is
 // as bright as the sky above the horizon, since that is what haze without end looks like.
 fn air_before(position: vec3<f32>) -> vec4<f32> {
-    let ray = position - frame.eye.xyz;
+    let ray = position - frame.eye_m;
     let distance_m = length(ray);
     let direction = ray / max(distance_m, 1.0e-4);
     // Haze thins with height: its mean density along the ray.
-    let low = max(frame.eye.y - frame.park.y, 0.0) * frame.sky.y;
-    let high = max(position.y - frame.park.y, 0.0) * frame.sky.y;
+    let low = max(frame.eye_m.y - frame.park_center_m.y, 0.0) * frame.inv_haze_depth_m;
+    let high = max(position.y - frame.park_center_m.y, 0.0) * frame.inv_haze_depth_m;
     let span = high - low;
     let mean = select((exp(-low) - exp(-high)) / span, exp(-low), abs(span) < 1.0e-3);
-    let veil = 1.0 - exp(-distance_m * frame.air.x * mean);
+    let veil = 1.0 - exp(-distance_m * frame.haze_per_m * mean);
     let level = normalize(vec3(direction.x, max(direction.y, 0.0) * 0.4 + 0.05, direction.z));
-    return vec4(veil * sky_reflection(level, 0.1), 1.0 - veil);
+    return vec4(veil * sky_reflection(level, LEAST_ROUGHNESS), 1.0 - veil);
 }
 
 // Light from a surface at `position` as it reaches the eye.

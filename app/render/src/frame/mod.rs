@@ -10,3 +10,19 @@ pub(crate) mod noise;
 pub(crate) mod scene_pipeline;
 pub(crate) mod sky_texture;
 pub(crate) mod surroundings;
+
+use windfall_core::layout::WgslStruct;
+
+use crate::gpu::shaders::{Shaders, declarations, wgsl_files};
+use crate::land::texture::LandUniform;
+use crate::light;
+
+/// Shader modules of this room and of those below.
+pub(crate) fn shaders() -> Shaders {
+    let mut shaders = crate::gpu::shaders::shaders();
+    let lists = [cascades::wgsl_constants(), surroundings::wgsl_constants(), light::wgsl_constants()];
+    let structs = surroundings::FrameUniform::declaration() + &LandUniform::declaration();
+    shaders.extend([("frame/structs", declarations(lists) + &structs)]);
+    shaders.extend(wgsl_files!("frame": "common", "light"));
+    shaders
+}

@@ -6,14 +6,6 @@ use super::group::FrameGroup;
 use crate::gpu::pipeline::layout;
 use crate::gpu::targets::{DEPTH_FORMAT, HDR_FORMAT, SAMPLE_COUNT};
 
-/// WGSL every drawing shader begins with: the frame's uniform block and small helpers.
-pub(crate) const COMMON: &str =
-    concat!(include_str!("../frame/numbers.wgsl"), include_str!("../frame/common.wgsl"));
-/// The part of it that binds nothing.
-pub(crate) const NUMBERS: &str = include_str!("../frame/numbers.wgsl");
-/// WGSL of shadows, ambient light and haze; uses bind group 1.
-pub(crate) const LIGHT: &str = include_str!("../frame/light.wgsl");
-
 /// How a pipeline of the scene pass differs from the others.
 pub(crate) struct ScenePipeline<'a> {
     pub(crate) label: &'a str,
@@ -22,7 +14,12 @@ pub(crate) struct ScenePipeline<'a> {
     /// The bind groups after it.
     pub(crate) groups: &'a [&'a wgpu::BindGroupLayout],
     pub(crate) topology: wgpu::PrimitiveTopology,
+    /// Module with an entry point `fragment`.
     pub(crate) shader: &'a wgpu::ShaderModule,
+    /// Entry point of its vertices.
+    pub(crate) vertex: &'a str,
+    /// Values of the overrides that only this module has.
+    pub(crate) constants: &'a [(&'a str, f64)],
     pub(crate) buffers: &'a [wgpu::VertexBufferLayout<'a>],
     pub(crate) blend: Option<wgpu::BlendState>,
     pub(crate) depth_write: bool,
@@ -30,12 +27,13 @@ pub(crate) struct ScenePipeline<'a> {
 }
 
 impl ScenePipeline<'_> {
-    /// Builds the pipeline from the entry points `vertex` and `fragment`.
+    /// Builds the pipeline.
     pub(crate) fn build(&self, device: &wgpu::Device) -> wgpu::RenderPipeline {
         let groups = std::iter::once(&self.frame.layout).chain(self.groups.iter().copied()).map(Some);
         let layout = layout(device, &groups.collect::<Vec<_>>());
         let of = |is: bool| f64::from(u8::from(is));
-        let constants = [("IS_HILLY", of(self.frame.is_hilly)), ("HAS_TREES", of(self.frame.has_trees))];
+        let common = [("IS_HILLY", of(self.frame.is_hilly)), ("HAS_TREES", of(self.frame.has_trees))];
+        let constants = [&common, self.constants].concat();
         let compilation_options =
             wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() };
         let buffers: Vec<_> = self.buffers.iter().cloned().map(Some).collect();
@@ -44,7 +42,7 @@ impl ScenePipeline<'_> {
             layout: Some(&layout),
             vertex: wgpu::VertexState {
                 module: self.shader,
-                entry_point: Some("vertex"),
+                entry_point: Some(self.vertex),
                 compilation_options: compilation_options.clone(),
                 buffers: &buffers,
             },

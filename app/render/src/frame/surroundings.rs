@@ -5,42 +5,86 @@
 use std::f32::consts::PI;
 
 use glam::{Mat4, Vec2, Vec3};
+use windfall_core::layout::Float4;
 use windfall_core::scene::{Haze, View};
+use windfall_core::{shared_constants, shared_struct};
 
 use super::cascades::{MAPS, above, cascades, shadow_size};
 use super::input::FrameInput;
 use crate::gpu::tile::Tile;
 use crate::light::{Daylight, MapError, SphericalHarmonics};
 
-/// Half edge of the square in which trees cast shade, in metres.
-pub(crate) const PARK_RADIUS_M: f32 = 64.0;
+shared_constants! {
+    /// Half edge of the square in which trees cast shade, in metres.
+    pub(crate) const PARK_RADIUS_M: f32 = 64.0;
+    /// How far the path's bends reach to either side, in metres.
+    pub(crate) const PATH_BEND_M: f32 = 3.4;
+    /// Phase of the bends along the path in radians per metre.
+    pub(crate) const PATH_BEND_RAD_M: f32 = 0.10;
+}
+
 /// Optical depth of haze at which contrast has fallen to 2 % (Koschmieder 1924).
 const VISIBILITY_DEPTH: f32 = 3.912;
 
-/// `Frame` of `common.wgsl`.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, bytemuck::Pod, bytemuck::Zeroable)]
-pub(crate) struct FrameUniform {
-    pub(crate) view_projection: [[f32; 4]; 4],
-    pub(crate) shadows: [[[f32; 4]; 4]; MAPS],
-    pub(crate) eye: [f32; 4],
-    right: [f32; 4],
-    up: [f32; 4],
-    forward: [f32; 4],
-    sun_direction: [f32; 4],
-    sun_color: [f32; 4],
-    sky_zenith: [f32; 4],
-    sky_horizon: [f32; 4],
-    ground_bounce: [f32; 4],
-    air: [f32; 4],
-    park: [f32; 4],
-    viewport: [f32; 4],
-    tile: [f32; 4],
-    texels: [f32; 4],
-    ambient: [[f32; 4]; 9],
-    pub(crate) sky: [f32; 4],
-    cloud_light: [f32; 4],
-    cloud_shade: [f32; 4],
+shared_struct! {
+    /// Camera, sun and air of a frame. Light is in kcd/m².
+    pub(crate) struct FrameUniform, padding 8 {
+        /// World to clip space.
+        pub(crate) view_projection: [[f32; 4]; 4],
+        /// World to the sun's clip space, for the slices of the view from near to far; then to that of the map from above.
+        pub(crate) shadows: [[[f32; 4]; 4]; MAPS],
+        /// Camera position.
+        pub(crate) eye_m: [f32; 3],
+        /// Time of what sways and drifts.
+        pub(crate) time_s: f32,
+        /// Camera axis, scaled so that forward + x * right + y * up is a ray through place (x, y) of the whole picture's clip
+        /// space.
+        right: [f32; 3],
+        /// Optical depth of haze near the ground, per metre.
+        haze_per_m: f32,
+        /// Camera axis, scaled likewise.
+        up: [f32; 3],
+        /// Reciprocal of the depth of the haze.
+        inv_haze_depth_m: f32,
+        /// Camera axis.
+        forward: [f32; 3],
+        /// Share of the sky that clouds cover.
+        cloud_cover: f32,
+        /// Direction towards the sun.
+        sun_direction: [f32; 3],
+        /// Tangent of the sun's distance from the zenith.
+        sun_zenith_tan: f32,
+        /// Radiance of a white matt surface that faces the sun.
+        sun_color: [f32; 3],
+        /// Time of the clouds.
+        pub(crate) cloud_time_s: f32,
+        /// Radiance of the sky above the horizon.
+        sky_horizon: [f32; 3],
+        /// 1 where a picture is the sky, else 0.
+        sky_is_picture: u32,
+        /// Radiance of clouds at their brightest.
+        cloud_light: [f32; 3],
+        /// Phase of the path's bends at the park's centre.
+        path_phase_rad: f32,
+        /// Centre of the park, on the ground.
+        park_center_m: [f32; 3],
+        /// Unused.
+        unused: f32,
+        /// Width and height of the whole picture in pixels.
+        viewport_px: [f32; 2],
+        /// Their reciprocals.
+        inv_viewport_px: [f32; 2],
+        /// Middle, in clip coordinates of the whole picture, of the part of it that is drawn.
+        tile_center: [f32; 2],
+        /// Size of that part relative to the whole.
+        tile_scale: [f32; 2],
+        /// Edges of the texels of the shadow maps.
+        texels_m: [f32; 4],
+        /// Light of the sky on white matt surfaces: coefficients of spherical harmonics, w unused.
+        ambient: [Float4; 9],
+        /// Direction that the park's path leads, x and z.
+        path_lead: [f32; 2],
+    }
 }
 
 /// Share of the distance that heights above the water count as nearness in the mirror: they must stay below the distance.
@@ -62,7 +106,7 @@ impl FrameUniform {
             column[2] = column[3] - MIRROR_SLANT * part;
         }
         self.view_projection = matrix;
-        self.eye[1] = 2.0 * water_m - self.eye[1];
+        self.eye_m[1] = 2.0 * water_m - self.eye_m[1];
         for axis in [&mut self.right, &mut self.up, &mut self.forward] {
             axis[1] = -axis[1];
         }
@@ -72,7 +116,8 @@ impl FrameUniform {
     /// The same for a picture of another size.
     pub(crate) fn sized(mut self, (width, height): (u32, u32)) -> Self {
         let (width, height) = (width as f32, height as f32);
-        self.viewport = [width, height, 1.0 / width, 1.0 / height];
+        self.viewport_px = [width, height];
+        self.inv_viewport_px = [1.0 / width, 1.0 / height];
         self
     }
 }
@@ -125,40 +170,41 @@ impl Environment {
         let [near, middle, far] = cascades(camera, aspect, sun, map_px);
         let maps = [near, middle, far, above(camera, map_px)];
         let sky = &self.daylight.sky;
-        let zenith = sky.sample(Vec3::Y);
         let horizon = 0.25
             * [Vec3::X, Vec3::Z, -Vec3::X, -Vec3::Z]
                 .map(|to| sky.sample(to + 0.1 * Vec3::Y))
                 .iter()
                 .sum::<Vec3>();
-        let bounce = sky.sample(Vec3::NEG_Y);
-        let full = |v: Vec3, w: f32| v.extend(w).to_array();
+        let (tile_center, tile_scale) = tile.clip_area();
         FrameUniform {
             view_projection: (tile.crop() * camera.view_projection(aspect)).to_cols_array_2d(),
             shadows: maps.map(|map| map.projection.to_cols_array_2d()),
-            eye: full(camera.eye_m(), time_s),
-            right: full(camera.right() * tangent * aspect, 0.0),
-            up: full(camera.up() * tangent, 0.0),
-            forward: full(camera.forward(), 0.0),
-            sun_direction: full(sun, Vec2::new(sun.x, sun.z).length() / sun.y.max(0.02)),
-            sun_color: full(self.daylight.sun.illuminance / PI, 0.0),
-            sky_zenith: full(zenith, self.path.lead.x),
-            sky_horizon: full(horizon, self.path.lead.y),
-            ground_bounce: full(bounce, self.path.phase),
-            air: [VISIBILITY_DEPTH / self.haze.visibility_m, 0.0, PARK_RADIUS_M, 0.0],
-            park: full(self.park_center, 0.0),
-            viewport: [width, height, 1.0 / width, 1.0 / height],
-            tile: tile.clip_area(),
-            texels: maps.map(|map| map.texel_m),
-            ambient: self.ambient.map(|light| full(light, 0.0)),
-            sky: [
-                self.daylight.cloud_cover,
-                1.0 / self.haze.depth_m,
-                f32::from(u8::from(!self.daylight.is_picture)),
-                time_s,
-            ],
-            cloud_light: full(self.daylight.clouds[0], 0.0),
-            cloud_shade: full(self.daylight.clouds[1], 0.0),
+            eye_m: camera.eye_m().to_array(),
+            time_s,
+            right: (camera.right() * tangent * aspect).to_array(),
+            haze_per_m: VISIBILITY_DEPTH / self.haze.visibility_m,
+            up: (camera.up() * tangent).to_array(),
+            inv_haze_depth_m: 1.0 / self.haze.depth_m,
+            forward: camera.forward().to_array(),
+            cloud_cover: self.daylight.cloud_cover,
+            sun_direction: sun.to_array(),
+            sun_zenith_tan: Vec2::new(sun.x, sun.z).length() / sun.y.max(0.02),
+            sun_color: (self.daylight.sun.illuminance / PI).to_array(),
+            cloud_time_s: time_s,
+            sky_horizon: horizon.to_array(),
+            sky_is_picture: self.daylight.is_picture.into(),
+            cloud_light: self.daylight.clouds[0].to_array(),
+            path_phase_rad: self.path.phase,
+            park_center_m: self.park_center.to_array(),
+            unused: 0.0,
+            viewport_px: [width, height],
+            inv_viewport_px: [1.0 / width, 1.0 / height],
+            tile_center,
+            tile_scale,
+            texels_m: maps.map(|map| map.texel_m),
+            ambient: self.ambient.map(|light| Float4(light.extend(0.0).to_array())),
+            path_lead: self.path.lead.to_array(),
+            padding: [0; 8],
         }
     }
 }

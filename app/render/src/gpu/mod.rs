@@ -5,7 +5,9 @@
 pub(crate) mod pipeline;
 pub(crate) mod readback;
 pub(crate) mod shader_edit;
+pub(crate) mod shaders;
 pub(crate) mod targets;
 pub(crate) mod tile;
 pub(crate) mod timing;
 pub(crate) mod upload;
+pub(crate) mod vertex;

@@ -1,16 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Shader modules, pipeline layouts and their entries.
-
-use super::shader_edit;
-
-/// Compiles the parts of a shader, in order.
-pub(crate) fn shader(device: &wgpu::Device, label: &str, parts: &[&str]) -> wgpu::ShaderModule {
-    device.create_shader_module(wgpu::ShaderModuleDescriptor {
-        label: Some(label),
-        source: wgpu::ShaderSource::Wgsl(shader_edit::edited(parts.concat()).into()),
-    })
-}
+//! Layouts of pipelines and bind groups.
 
 /// Pipeline layout from bind group layouts; `None` leaves a place empty.
 pub(crate) fn layout(

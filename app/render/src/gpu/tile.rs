@@ -35,9 +35,9 @@ impl Tile {
         )
     }
 
-    /// Middle and size in clip coordinates of the whole picture: `tile` of `common.wgsl`.
-    pub(crate) fn clip_area(&self) -> [f32; 4] {
-        [self.center.x, self.center.y, self.scale.x, self.scale.y]
+    /// Middle in clip coordinates of the whole picture, and size relative to it.
+    pub(crate) fn clip_area(&self) -> ([f32; 2], [f32; 2]) {
+        (self.center.to_array(), self.scale.to_array())
     }
 }
 

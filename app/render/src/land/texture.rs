@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The land as shaders read it: a texel for every grid point of the hills.
 
+use windfall_core::shared_struct;
 use windfall_core::terrain::Hills;
 
 use super::Land;
@@ -13,20 +14,24 @@ const HOLLOW_M: f32 = 0.6;
 /// Where water lies that is not there, in metres.
 const NO_WATER_M: f32 = -1.0e6;
 
-/// `Land` of `common.wgsl`.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, bytemuck::Pod, bytemuck::Zeroable)]
-pub(crate) struct LandUniform {
-    /// Cells per metre, 0 on level ground; cells along an edge; height of the ground at the origin and of water in
-    /// metres.
-    pub(crate) shape: [f32; 4],
+shared_struct! {
+    /// Size of the hills, and how high the ground and the water lie.
+    pub(crate) struct LandUniform {
+        /// Cells per metre, 0 on level ground.
+        cells_per_m: f32,
+        /// Cells along an edge.
+        cells: u32,
+        /// Height of the ground at the origin.
+        base_m: f32,
+        /// Height of the water.
+        water_m: f32,
+    }
 }
 
 impl LandUniform {
     pub(crate) fn of(land: &Land) -> Self {
-        let (per_metre, cells) =
-            land.hills().map_or((0.0, 1.0), |hills| (1.0 / hills.cell_m, hills.cells as f32));
-        Self { shape: [per_metre, cells, land.base_m(), land.water_m().unwrap_or(NO_WATER_M)] }
+        let (cells_per_m, cells) = land.hills().map_or((0.0, 1), |hills| (1.0 / hills.cell_m, hills.cells));
+        Self { cells_per_m, cells, base_m: land.base_m(), water_m: land.water_m().unwrap_or(NO_WATER_M) }
     }
 }
 

@@ -8,14 +8,14 @@
 //! leaves lie equally deep.
 
 use glam::{Mat4, Vec4};
+use windfall_core::layout::Float4;
 
-use super::record::record_constants;
+use super::record::{CULL_GROUP_SIZE, ViewUniform};
 use super::species_table::LeafKinds;
-use super::visible::{Page, SLOTS_PER_THREAD};
+use super::visible::Page;
 use crate::frame::cascades::{CASCADES, MAPS};
-use crate::frame::scene_pipeline::NUMBERS;
-use crate::gpu::pipeline::{buffer_entry, layout, shader};
-use crate::trees::cluster_constants;
+use crate::gpu::pipeline::{buffer_entry, layout};
+use crate::gpu::shaders::compile;
 use crate::trees::records::Stems;
 
 /// Views of a frame, each with its own uniform block.
@@ -27,19 +27,6 @@ pub(crate) enum View {
     Mirror,
     /// What the sun sees in a shadow map, or who looks from above.
     Shadow(usize),
-}
-
-/// `View` of `leaf_cull.wgsl`.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, bytemuck::Pod, bytemuck::Zeroable)]
-pub(crate) struct ViewUniform {
-    /// Inward normals of the view's sides, of unit length, and their distances from the origin.
-    sides: [[f32; 4]; 6],
-    /// Eye; pixels of a metre at one metre, or anywhere in a parallel projection.
-    pub(crate) eye: [f32; 4],
-    pub(crate) limits: [f32; 4],
-    /// Least share; whether it is parallel; unused.
-    pub(crate) rule: [f32; 4],
 }
 
 /// Least edges in pixels of the pictures of leaves drawn as coarse, medium and fine meshes: a triangle then covers about
@@ -55,17 +42,29 @@ const MAX_WRITERS: u32 = 1024;
 const LEAST_SHARE: f32 = 1.0 / 16.0;
 
 impl ViewUniform {
-    /// What a camera at x, y, z sees, with `pixels_per_m` at one metre.
-    pub(crate) fn perspective(clip: [[f32; 4]; 4], [x, y, z, _]: [f32; 4], pixels_per_m: f32) -> Self {
-        let (eye, rule) = ([x, y, z, pixels_per_m], [LEAST_SHARE, 0.0, 0.0, 0.0]);
-        Self { sides: sides(clip), eye, limits: LIMITS_PX, rule }
+    /// The view of a camera at `eye_m`, with `pixels_per_m` at one metre.
+    pub(crate) fn perspective(clip: [[f32; 4]; 4], eye_m: [f32; 3], pixels_per_m: f32) -> Self {
+        Self { eye_m, is_parallel: 0, ..Self::with(clip, pixels_per_m, LIMITS_PX) }
     }
 
-    /// What is seen in map number `map` with `pixels_per_m`.
+    /// The view of map number `map` with `pixels_per_m`.
     pub(crate) fn parallel(clip: [[f32; 4]; 4], pixels_per_m: f32, map: usize) -> Self {
-        let (eye, rule) = ([0.0, 0.0, 0.0, pixels_per_m], [LEAST_SHARE, 1.0, 0.0, 0.0]);
-        let limits = if map < CASCADES { SHADOW_LIMITS_PX } else { ABOVE_LIMITS_PX };
-        Self { sides: sides(clip), eye, limits, rule }
+        let limits = if map < CASCADES as usize { SHADOW_LIMITS_PX } else { ABOVE_LIMITS_PX };
+        Self::with(clip, pixels_per_m, limits)
+    }
+
+    fn with(clip: [[f32; 4]; 4], pixels_per_m: f32, limits_px: [f32; 4]) -> Self {
+        let [coarse, medium, fine, thin_px] = limits_px;
+        Self {
+            sides: sides(clip).map(Float4),
+            eye_m: [0.0; 3],
+            pixels_per_m,
+            mesh_px: [coarse, medium, fine],
+            thin_px,
+            least_share: LEAST_SHARE,
+            is_parallel: 1,
+            padding: [0; 8],
+        }
     }
 }
 
@@ -118,20 +117,10 @@ impl CullPass {
         );
         let columns_layout =
             group("leaf columns", &[0, 1, 2, 3].map(|binding| buffer_entry(binding, read, compute)));
-        let marks = if is_painted { include_str!("marks.wgsl") } else { include_str!("marks_none.wgsl") };
         let records_layout = group("leaf records", &[buffer_entry(0, read, wgpu::ShaderStages::VERTEX)]);
         let kinds_layout = group("leaf kinds", &[uniform(0)]);
-        let text = [
-            &format!("const SLOTS_PER_THREAD: u32 = {SLOTS_PER_THREAD}u;\n"),
-            &cluster_constants(),
-            NUMBERS,
-            &record_constants(),
-            include_str!("species_table.wgsl"),
-            include_str!("record.wgsl"),
-            marks,
-            include_str!("cull.wgsl"),
-        ];
-        let module = shader(device, "leaf culling", &text);
+        let module = compile(device, &super::shaders(), "leaves/cull");
+        let constants = [("IS_PAINTED", f64::from(u8::from(is_painted)))];
         let layout = layout(device, &[Some(&page_layout), Some(&columns_layout), Some(&kinds_layout)]);
         let steps = ["count", "arrange", "list", "write"].map(|entry_point| {
             device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
@@ -139,7 +128,10 @@ impl CullPass {
                 layout: Some(&layout),
                 module: &module,
                 entry_point: Some(entry_point),
-                compilation_options: wgpu::PipelineCompilationOptions::default(),
+                compilation_options: wgpu::PipelineCompilationOptions {
+                    constants: &constants,
+                    ..Default::default()
+                },
                 cache: None,
             })
         });
@@ -172,7 +164,7 @@ impl CullPass {
         }
     }
 
-    /// Fills the records and draws of a page from a window of place, attitude, course and identity, or marks in place of
+    /// Fills the records and draws of a page from a window of place, attitude, schedule and identity, or marks in place of
     /// identities if leaves are painted.
     pub(crate) fn run(
         &self,
@@ -219,8 +211,8 @@ impl CullPass {
         pass.set_bind_group(0, &own, &[]);
         pass.set_bind_group(1, &columns, &[]);
         pass.set_bind_group(2, &self.kinds, &[]);
-        let groups = page.uniform.threads.div_ceil(64);
-        let writers = page.uniform.count.div_ceil(64).min(MAX_WRITERS);
+        let groups = page.uniform.threads.div_ceil(CULL_GROUP_SIZE);
+        let writers = page.uniform.count.div_ceil(CULL_GROUP_SIZE).min(MAX_WRITERS);
         for (step, groups) in self.steps.iter().zip([groups, 1, groups, writers]) {
             pass.set_pipeline(step);
             pass.dispatch_workgroups(groups, 1, 1);

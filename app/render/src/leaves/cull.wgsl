@@ -1,56 +1,19 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // Which leaves are drawn, and how finely: counts them, makes room, lists them, and writes a record for each, in the order
-// of their slots whatever the order of threads, so that equal frames give equal pictures. Laid out by `leaf_cull.rs`.
+// of their slots whatever the order of threads, so that equal frames give equal pictures.
 
-struct View {
-    // Inward normals of the view's sides and their distances from the origin.
-    sides: array<vec4<f32>, 6>,
-    // Camera; pixels of a metre at a distance of a metre, or anywhere if the projection is parallel.
-    eye: vec4<f32>,
-    // Least edge in pixels of the pictures of leaves drawn as coarse, medium and fine meshes; edge below which leaves are
-    // thinned out.
-    limits: vec4<f32>,
-    // Least share of leaves that are kept; 1 if the projection is parallel; unused.
-    rule: vec4<f32>,
-}
+#import gpu/numbers
+#import leaf_records
+#import leaves/species_table
 
-struct Page {
-    // First slot, number of slots at most, threads, trees and one.
-    first: u32,
-    count: u32,
-    threads: u32,
-    stems: u32,
-}
-
-struct StemRecord {
-    center_turned: vec4<f32>,
-    radii_range: vec4<f32>,
-    tint_cluster: vec4<f32>,
-    bark: vec4<f32>,
-    // First slot of its leaves and the one after the last.
-    slots: vec4<u32>,
-}
-
-// Arguments of an indirect draw, and what the vertices ask for.
-struct Draw {
-    vertex_count: u32,
-    instance_count: u32,
-    first_vertex: u32,
-    first_instance: u32,
-    first_record: u32,
-    level: u32,
-    unused_a: u32,
-    unused_b: u32,
-}
-
-@group(0) @binding(0) var<uniform> view: View;
-@group(0) @binding(1) var<uniform> page: Page;
-@group(0) @binding(2) var<storage, read> stems: array<StemRecord>;
+@group(0) @binding(0) var<uniform> view: ViewUniform;
+@group(0) @binding(1) var<uniform> page: PageUniform;
+@group(0) @binding(2) var<storage, read> trees: array<TreeRecord>;
 // Four numbers of leaves for each thread; then of each slot the copies that are kept, as bits, and from LEVEL_SHIFT on their
 // level.
 @group(0) @binding(3) var<storage, read_write> chosen: array<u32>;
-@group(0) @binding(4) var<storage, read_write> draws: array<Draw, 4>;
+@group(0) @binding(4) var<storage, read_write> draws: array<LeafDraw, 4>;
 @group(0) @binding(5) var<storage, read_write> records: array<LeafRecord>;
 
 @group(1) @binding(0) var<storage, read> places: array<vec4<u32>>;
@@ -58,13 +21,11 @@ struct Draw {
 @group(1) @binding(2) var<storage, read> schedules: array<vec4<u32>>;
 @group(1) @binding(3) var<storage, read> identities: array<vec4<u32>>;
 
-// Edge of a picture in diameters of the disc with the leaf's area, roughly.
-const EDGE: f32 = 1.6;
+const COPY_SLOT_MASK: u32 = (1u << COPY_SHIFT) - 1u;
 
-const LEVEL_SHIFT: u32 = 16u;
-// A listed leaf is its slot, and from COPY_SHIFT on which copy it is.
-const COPY_SHIFT: u32 = 20u;
-const COPY_SLOT_MASK: u32 = 0xfffffu;
+// Leaves have marks, written by `marks/paint_pass.wgsl`, which stand in for their identities: the second word holds the roots
+// of the colour in bytes.
+override IS_PAINTED: bool = false;
 
 fn signed_bytes(word: u32) -> vec4<f32> {
     return vec4<f32>((vec4<u32>(word) >> vec4(0u, 8u, 16u, 24u)) & vec4(255u)) / 127.5 - 1.0;
@@ -72,15 +33,15 @@ fn signed_bytes(word: u32) -> vec4<f32> {
 
 // The tree of a slot; 0 for leaves of none. Trees follow each other in the order of their slots: the last that begins at or
 // before the slot.
-fn stem_of(slot: u32) -> u32 {
-    var stem = 0u;
-    for (var step = 1u << firstLeadingBit(page.stems); step > 0u; step >>= 1u) {
-        let next = stem + step;
-        if next < page.stems && stems[min(next, page.stems - 1u)].slots.x <= slot {
-            stem = next;
+fn tree_of(slot: u32) -> u32 {
+    var tree = 0u;
+    for (var step = 1u << firstLeadingBit(page.trees); step > 0u; step >>= 1u) {
+        let next = tree + step;
+        if next < page.trees && trees[min(next, page.trees - 1u)].first_slot <= slot {
+            tree = next;
         }
     }
-    return select(0u, stem, slot < stems[stem].slots.y);
+    return select(0u, tree, slot < trees[tree].end_slot);
 }
 
 // How a leaf is drawn in this view.
@@ -92,7 +53,7 @@ struct Sight {
     share: f32,
     // Diameter of the disc with the area of one.
     diameter: f32,
-    stem: u32,
+    tree: u32,
     key: u32,
 }
 
@@ -109,8 +70,8 @@ fn sight_of(index: u32) -> Sight {
     var out: Sight;
     let place = places[index];
     let state = place.w & STATE_MASK;
-    out.stem = stem_of(page.first + index);
-    let cluster = stems[out.stem].tint_cluster.w;
+    out.tree = tree_of(page.first + index);
+    let cluster = trees[out.tree].cluster;
     let word = schedules[index].z;
     let relative = f32(word & HALF_MASK) * SIZE_UNIT;
     // On its twig a leaf may stand for several: the high half is then its own size. Of those, one falls.
@@ -119,16 +80,16 @@ fn sight_of(index: u32) -> Sight {
     let is_attached = state == STATE_ATTACHED;
     let copies = select(1u, clamp(u32(cluster), 1u, MAX_CLUSTER), is_attached);
     let species = (place.w >> SPECIES_SHIFT) & SPECIES_MASK;
-    out.diameter = kinds.size[species].x * select(relative, TWIG_SIZE * on_twig, is_attached);
+    out.diameter = table.species[species].diameter_m * select(relative, TWIG_SIZE * on_twig, is_attached);
     let center = bitcast<vec3<f32>>(place.xyz);
-    let radius = out.diameter * (EDGE + 1.2 * sqrt(f32(copies) - 1.0));
+    let radius = out.diameter * (PICTURE_EDGE + 1.2 * sqrt(f32(copies) - 1.0));
     let is_hidden = within(center) < -radius || state == STATE_DORMANT;
     out.copies = select(copies, 0u, is_hidden);
-    let distance_m = select(max(distance(view.eye.xyz, center), 0.01), 1.0, view.rule.y > 0.5);
-    let pixels = EDGE * out.diameter * view.eye.w / distance_m;
-    out.level = u32(pixels >= view.limits.x) + u32(pixels >= view.limits.y) + u32(pixels >= view.limits.z);
-    let small = pixels / view.limits.w;
-    out.share = clamp(small * small, view.rule.x, 1.0);
+    let distance_m = select(max(distance(view.eye_m, center), 0.01), 1.0, view.is_parallel == 1u);
+    let pixels = PICTURE_EDGE * out.diameter * view.pixels_per_m / distance_m;
+    out.level = u32(pixels >= view.mesh_px.x) + u32(pixels >= view.mesh_px.y) + u32(pixels >= view.mesh_px.z);
+    let small = pixels / view.thin_px;
+    out.share = clamp(small * small, view.least_share, 1.0);
     let identity = identities[index];
     out.key = hash_u32(identity.w + hash_u32(identity.x));
     return out;
@@ -157,7 +118,7 @@ fn set_counted(thread: u32, numbers: vec4<u32>) {
     }
 }
 
-@compute @workgroup_size(64)
+@compute @workgroup_size(CULL_GROUP_SIZE)
 fn count(@builtin(global_invocation_id) id: vec3<u32>) {
     if id.x >= page.threads {
         return;
@@ -176,12 +137,12 @@ fn count(@builtin(global_invocation_id) id: vec3<u32>) {
     set_counted(id.x, found);
 }
 
-var<workgroup> sums: array<vec4<u32>, 64>;
+var<workgroup> sums: array<vec4<u32>, CULL_GROUP_SIZE>;
 
 // Turns counts into the numbers of leaves before each thread, and writes the draws.
-@compute @workgroup_size(64)
+@compute @workgroup_size(CULL_GROUP_SIZE)
 fn arrange(@builtin(local_invocation_id) id: vec3<u32>) {
-    let share = (page.threads + 63u) / 64u;
+    let share = (page.threads + CULL_GROUP_SIZE - 1u) / CULL_GROUP_SIZE;
     let first = id.x * share;
     let end = min(first + share, page.threads);
     var sum = vec4(0u);
@@ -199,17 +160,17 @@ fn arrange(@builtin(local_invocation_id) id: vec3<u32>) {
         set_counted(thread, before);
         before += own;
     }
-    if id.x == 63u {
+    if id.x == CULL_GROUP_SIZE - 1u {
         var base = 0u;
         for (var level = 0u; level < 4u; level++) {
-            draws[level] = Draw(kinds.strips[level], before[level], 0u, 0u, base, level, 0u, 0u);
+            draws[level] = LeafDraw(table.strips[level], before[level], 0u, 0u, base, level, vec2(0u));
             base += before[level];
         }
     }
 }
 
 // Leaves word of every leaf that is kept where its record will be.
-@compute @workgroup_size(64)
+@compute @workgroup_size(CULL_GROUP_SIZE)
 fn list(@builtin(global_invocation_id) id: vec3<u32>) {
     if id.x >= page.threads {
         return;
@@ -222,7 +183,7 @@ fn list(@builtin(global_invocation_id) id: vec3<u32>) {
         let level = word >> LEVEL_SHIFT;
         var kept = word & ((1u << LEVEL_SHIFT) - 1u);
         while kept != 0u {
-            records[next[level]].look.x = index | (firstTrailingBit(kept) << COPY_SHIFT);
+            records[next[level]].layer_slot = index | (firstTrailingBit(kept) << COPY_SHIFT);
             next += one_of(level);
             kept &= kept - 1u;
         }
@@ -230,11 +191,11 @@ fn list(@builtin(global_invocation_id) id: vec3<u32>) {
 }
 
 // Threads that follow each other write records that do, however few leaves of theirs were kept.
-@compute @workgroup_size(64)
+@compute @workgroup_size(CULL_GROUP_SIZE)
 fn write(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>) {
     let end = draws[3].first_record + draws[3].instance_count;
-    for (var at = id.x; at < end; at += 64u * groups.x) {
-        let word = records[at].look.x;
+    for (var at = id.x; at < end; at += CULL_GROUP_SIZE * groups.x) {
+        let word = records[at].layer_slot;
         let index = word & COPY_SLOT_MASK;
         records[at] = record_of(index, sight_of(index), word >> COPY_SHIFT);
     }
@@ -242,9 +203,9 @@ fn write(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) 
 
 // Height of a picture's corners at a stage, lowest and highest, in sides.
 fn height_range(layer: u32, stage: f32) -> vec2<f32> {
-    let before = min(u32(stage), 4u);
-    let words = kinds.heights[2u * layer + before / 4u];
-    let beyond = kinds.heights[2u * layer + (before + 1u) / 4u];
+    let before = min(u32(stage), LAST_BUT_ONE_STAGE);
+    let words = table.heights[2u * layer + before / 4u];
+    let beyond = table.heights[2u * layer + (before + 1u) / 4u];
     let low = unpack2x16snorm(words[before % 4u]);
     return 2.0 * mix(low, unpack2x16snorm(beyond[(before + 1u) % 4u]), stage - f32(before));
 }
@@ -252,34 +213,34 @@ fn height_range(layer: u32, stage: f32) -> vec2<f32> {
 fn record_of(index: u32, sight: Sight, copy: u32) -> LeafRecord {
     let place = places[index];
     let identity = identities[index];
-    let stem = stems[sight.stem];
+    let tree = trees[sight.tree];
     let species = (place.w >> SPECIES_SHIFT) & SPECIES_MASK;
     let state = place.w & STATE_MASK;
     let key = copy_key(sight.key, copy);
     let tint = select(key & HALF_MASK, identity.w & HALF_MASK, copy == 0u);
-    let variants = kinds.counts.x;
+    let variants = table.variants;
     var variant = ((identity.w >> VARIANT_SHIFT) & VARIANT_MASK) % variants;
-    if sight.stem > 0u && stem.center_turned.w >= 0.0 {
+    if sight.tree > 0u && tree.turned >= 0.0 {
         // Leaves of one tree have turned about as far as each other.
-        let spread = stem.radii_range.w * (unit_from(hash_u32(tint ^ hash_u32(identity.x))) - 0.5);
-        let rank = u32(clamp(stem.center_turned.w + spread, 0.0, 0.9999) * f32(variants));
-        variant = u32(kinds.layer[min(species * variants + rank, kinds.counts.y - 1u)].w);
+        let spread = tree.turned_range * (unit_from(hash_u32(tint ^ hash_u32(identity.x))) - 0.5);
+        let rank = u32(clamp(tree.turned + spread, 0.0, 0.9999) * f32(variants));
+        variant = table.layers[min(species * variants + rank, table.layer_count - 1u)].variant;
     }
-    let layer = min(species * variants + variant, kinds.counts.y - 1u);
-    let build = kinds.size[species];
+    let layer = min(species * variants + variant, table.layer_count - 1u);
+    let build = table.species[species];
     // Those that are kept grow by the area of those that are not.
     let diameter = sight.diameter * inverseSqrt(sight.share);
-    let edge = diameter * kinds.layer[layer].x;
+    let edge = diameter * table.layers[layer].edge;
 
     var center = bitcast<vec3<f32>>(place.xyz);
     // A leaf that nothing has turned yet has no attitude.
     var attitude = attitudes[index];
     attitude = select(vec4(0.0, 0.0, 0.0, 1.0), attitude, dot(attitude, attitude) > 0.25);
-    var offset = vec3(build.y, 0.0, build.z) * diameter;
+    var offset = vec3(build.offset_x, 0.0, build.offset_z) * diameter;
     if copy > 0u {
         let a = signed_bytes(key);
         let b = signed_bytes(hash_u32(key));
-        offset += a.xyz * CLUSTER_REACH * sqrt(stem.tint_cluster.w) * sight.diameter;
+        offset += a.xyz * CLUSTER_REACH * sqrt(tree.cluster) * sight.diameter;
         center += rotate(attitude, offset);
         attitude = quaternion_product(attitude, normalize(vec4(b.xyz * CLUSTER_TURN, 1.0)));
     } else {
@@ -289,10 +250,10 @@ fn record_of(index: u32, sight: Sight, copy: u32) -> LeafRecord {
     // Every leaf has dried as far as its colour says and a little more or less, and bends in its own way.
     let random = signed_bytes(hash_u32(tint));
     let other = signed_bytes(hash_u32(tint ^ 0x3c6eu));
-    let dry = kinds.layer[layer].y;
+    let dry = table.layers[layer].dryness;
     let is_attached = state == STATE_ATTACHED;
     let stage = clamp((max(dry, 0.0) + 1.1 * other.x) * select(1.0, 0.3, is_attached), 0.0, 5.0);
-    let own = select(build.w, 0.35 * build.w, dry >= 0.0);
+    let own = select(build.folds, 0.35 * build.folds, dry >= 0.0);
     let fold = own * (0.28 + 0.22 * random.x);
     let bend = own * (0.05 + 0.22 * random.y);
     let twist = own * 0.24 * random.z;
@@ -308,31 +269,30 @@ fn record_of(index: u32, sight: Sight, copy: u32) -> LeafRecord {
 
     let looks = hash_u32(tint ^ 0x51u);
     var color = mix(vec3(0.94, 1.05, 0.95), vec3(1.08, 0.93, 0.92), unit_from(hash_u32(looks)));
-    color *= mix(0.80, 1.16, unit_from(looks)) * stem.tint_cluster.rgb;
-    color = marked(index, color);
+    color *= mix(0.80, 1.16, unit_from(looks)) * tree.tint;
+    if IS_PAINTED {
+        let root = unpack4x8unorm(identities[index].y).rgb;
+        color = root * root;
+    }
     var open = 1.0;
     var outward = vec3(0.0);
-    if is_attached && sight.stem > 0u {
-        let out = (center - stem.center_turned.xyz) / stem.radii_range.xyz;
+    if is_attached && sight.tree > 0u {
+        let out = (center - tree.center_m) / tree.radii_m;
         let reach = length(out);
         // Leaves hide the sky above more than the light from the sides.
         open = mix(0.22, 1.0, smoothstep(0.35, 1.1, reach + 0.3 * out.y));
         outward = 0.55 * out / max(reach, 0.1);
     }
     let is_mirrored = (tint & 1u) == 1u;
-    var record: LeafRecord;
-    record.place = vec4(center, select(edge, -edge, is_mirrored));
-    record.form = vec4(
-        pack2x16snorm(attitude.xy),
-        pack2x16snorm(attitude.zw),
+    return LeafRecord(
+        center,
+        select(edge, -edge, is_mirrored),
+        vec2(pack2x16snorm(attitude.xy), pack2x16snorm(attitude.zw)),
         pack2x16float(vec2(stage, fold)),
         pack2x16float(vec2(bend, twist)),
-    );
-    record.look = vec4(
         layer | (index << SLOT_SHIFT),
         pack2x16float(color.rg),
         pack2x16float(vec2(color.b, open)),
         pack4x8snorm(vec4(outward, settled)),
     );
-    return record;
 }

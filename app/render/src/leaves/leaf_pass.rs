@@ -7,15 +7,8 @@ use super::species_table::LeafKinds;
 use super::visible::LeafCrowd;
 use crate::frame::group::FrameGroup;
 use crate::frame::light_group::LightGroup;
-use crate::frame::scene_pipeline::{COMMON, LIGHT, ScenePipeline};
-use crate::gpu::pipeline::shader;
-
-/// WGSL of the colour of a blade: its own, or that of its mark.
-const COLORS: [&str; 2] = [include_str!("colors_own.wgsl"), include_str!("colors_painted.wgsl")];
-
-/// WGSL from the records of leaves to points on blades; uses bind groups 2 and 3.
-pub(crate) const LEAF_SHAPE: [&str; 3] =
-    [include_str!("species_table.wgsl"), include_str!("record.wgsl"), include_str!("shape.wgsl")];
+use crate::frame::scene_pipeline::ScenePipeline;
+use crate::gpu::shaders::compile;
 
 /// The leaf pipeline.
 #[derive(Debug)]
@@ -31,16 +24,15 @@ impl LeafPass {
         kinds: &LeafKinds,
         cull: &CullPass,
     ) -> Self {
-        let [kind, record, shape] = LEAF_SHAPE;
-        let colors = COLORS[usize::from(cull.is_painted)];
-        let text = [COMMON, LIGHT, kind, record, shape, colors, include_str!("leaf_pass.wgsl")];
-        let shader = shader(device, "leaf", &text);
+        let shader = compile(device, &super::shaders(), "leaves/leaf_pass");
         let pipeline = ScenePipeline {
             label: "leaves",
             frame,
             groups: &[&light.layout, &kinds.layout, &cull.records_layout],
             topology: wgpu::PrimitiveTopology::TriangleStrip,
             shader: &shader,
+            vertex: "vertex",
+            constants: &[("IS_PAINTED", f64::from(u8::from(cull.is_painted)))],
             buffers: &[LeafCrowd::layout()],
             blend: None,
             depth_write: true,

@@ -2,6 +2,13 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // Leaves, lit by the sun in front of them and through them.
 
+#import frame/light
+#import leaves/shape
+
+// Leaves are painted by what they do: the colour is the mark's, the picture only shows in its veins and spots, and both sides
+// are alike, with and against the light.
+override IS_PAINTED: bool = false;
+
 struct Varyings {
     @builtin(position) @invariant clip: vec4<f32>,
     @location(0) @interpolate(perspective, centroid) world: vec3<f32>,
@@ -33,26 +40,22 @@ const CLEARNESS: f32 = 1.6;
 const MOST: f32 = 0.94;
 
 @vertex
-fn vertex(
-    @builtin(vertex_index) vertex: u32,
-    @builtin(instance_index) instance: u32,
-    @location(0) first_level: vec2<u32>,
-) -> Varyings {
-    let record = records[first_level.x + instance];
-    let point = blade_point(record, first_level.y, vertex);
+fn vertex(in: LeafVertex) -> Varyings {
+    let record = record_of(in);
+    let point = blade_point(record, in.level, in.vertex);
     var out: Varyings;
     out.world = point.world;
     out.clip = frame.view_projection * vec4(point.world, 1.0);
     out.normal = point.normal;
     out.uv = point.uv;
-    out.layer = record.look.x & LAYER_MASK;
+    out.layer = record.layer_slot & LAYER_MASK;
     out.attitude = point.attitude;
-    let blue_open = unpack2x16float(record.look.z);
-    let outward = unpack4x8snorm(record.look.w);
-    // Of leaves on twigs their place in the crown tells it.
+    let blue_open = unpack2x16float(record.blue_open);
+    let outward = unpack4x8snorm(record.outward_settled);
+    // Of leaves on twigs it follows from their place in the crown.
     let is_free = dot(outward.xyz, outward.xyz) == 0.0;
     let open = mix(0.35, 1.0, open_above(point.world, select(0u, SKY_TAPS, is_free)));
-    out.tint_open = vec4(unpack2x16float(record.look.y), blue_open * vec2(1.0, open));
+    out.tint_open = vec4(unpack2x16float(record.red_green), blue_open * vec2(1.0, open));
     out.outward_mirror = vec4(outward.xyz, point.mirror);
     out.settled = outward.w;
     out.sunlit = tree_shade(point.world).r;
@@ -77,6 +80,13 @@ fn gloss(normal: vec3<f32>, to_eye: vec3<f32>, to_light: vec3<f32>, roughness: f
     let lobe = nh * nh * (a2 - 1.0) + 1.0;
     let visible = 0.5 / (nl * sqrt(nv * nv * (1.0 - a2) + a2) + nv * sqrt(nl * nl * (1.0 - a2) + a2) + 1.0e-4);
     return a2 / (PI * lobe * lobe) * visible * mirrored_share(max(dot(to_eye, half_way), 0.0)) * nl;
+}
+
+fn blade_color(image: vec3<f32>, tint: vec3<f32>) -> vec3<f32> {
+    if IS_PAINTED {
+        return tint * mix(0.75, 1.0, clamp(3.0 * luminance(image), 0.0, 1.0));
+    }
+    return image * tint;
 }
 
 struct Painted {
@@ -109,7 +119,7 @@ fn fragment(in: Varyings) -> Painted {
     if mask == 0u {
         discard;
     }
-    let to_eye = normalize(frame.eye.xyz - in.world);
+    let to_eye = normalize(frame.eye_m - in.world);
     let blade = normalize(in.normal);
     let seen = select(-1.0, 1.0, dot(blade, to_eye) > 0.0);
     // Right and up of the picture, in the plane of the blade; ribs stand out more below.
@@ -125,17 +135,19 @@ fn fragment(in: Varyings) -> Painted {
     // Light that crosses a blade meets its pigments on a longer way: deeper colour for the same lightness.
     let deep = reflectance * sqrt(reflectance);
     var transmittance = deep * (CLEARNESS * surface.z / max(luminance(deep), 0.004)) * mix(1.0, 0.6, in.settled);
-    transmittance = mix(0.4 * reflectance, transmittance, IS_LEAF);
+    if IS_PAINTED {
+        transmittance = 0.4 * reflectance;
+    }
     // The underside, seen through its air spaces, is paler.
-    if seen < 0.0 {
+    if seen < 0.0 && !IS_PAINTED {
         let pale = mix(reflectance, vec3(luminance(reflectance)) * vec3(1.08, 1.05, 0.92), 0.25) * 1.12 + 0.008;
-        reflectance = mix(reflectance, pale, IS_LEAF);
+        reflectance = pale;
     }
     reflectance = min(reflectance, vec3(0.8));
     transmittance = min(transmittance, MOST - reflectance);
 
-    let light = frame.sun_direction.xyz;
-    let sun = frame.sun_color.rgb * in.sunlit * leaf_shadow(in.world + light * 0.035);
+    let light = frame.sun_direction;
+    let sun = frame.sun_color * in.sunlit * leaf_shadow(in.world + light * 0.035);
     let facing = dot(normal, light);
     let roughness = select(ROUGHNESS.y, ROUGHNESS.x, seen > 0.0);
     var color = sun * (reflectance * max(facing, 0.0) + transmittance * max(-facing, 0.0));

@@ -7,6 +7,7 @@
 //! shorter than the longest its last corner is repeated. A corner takes 52 bytes, a piece of strip 2.
 
 use glam::{Vec2, Vec3};
+use windfall_core::shared_constants;
 use windfall_texgen::{Atlas, FormLevel, Layer};
 
 use super::strip::strip;
@@ -15,15 +16,20 @@ use super::strip::strip;
 pub(crate) const LEVELS: usize = 4;
 /// Stages of drying that a corner knows, besides the flat one.
 pub(crate) const STAGES: usize = 5;
-/// Words of a corner: place on the picture, then two for each stage.
-const CORNER_WORDS: usize = 1 + 2 * (STAGES + 1);
-/// Farthest that a corner lies from the middle, in sides of the picture.
-const REACH: f32 = 2.0;
+
+shared_constants! {
+    /// Words of a corner: place on the picture, then two for each stage.
+    const CORNER_WORDS: u32 = 13;
+    /// Farthest that a corner lies from the middle, in sides of the picture.
+    const REACH: f32 = 2.0;
+    /// The last stage but one of drying: where a leaf lies between two stages, the first of them is this at most.
+    const LAST_BUT_ONE_STAGE: u32 = 4;
+}
 
 /// All meshes of an atlas.
 #[derive(Debug, Default)]
 pub(crate) struct LeafForms {
-    /// Corners; see `leaf_corner.wgsl`.
+    /// Corners, of [`CORNER_WORDS`] each.
     pub(crate) corners: Vec<u32>,
     /// Corner numbers, counted from a mesh's first, two to a word.
     pub(crate) strips: Vec<u32>,
@@ -60,7 +66,7 @@ impl LeafForms {
                 let strip = strip(&level.triangles);
                 let count = u32::try_from(strip.len()).unwrap_or(0);
                 let first = u32::try_from(pieces.len()).unwrap_or(0);
-                let corner = u32::try_from(forms.corners.len() / CORNER_WORDS).unwrap_or(0);
+                let corner = u32::try_from(forms.corners.len() / CORNER_WORDS as usize).unwrap_or(0);
                 forms.meshes.push([first, count, corner, 0]);
                 forms.longest[number] = forms.longest[number].max(count);
                 pieces.extend(strip);
@@ -240,7 +246,7 @@ mod tests {
 
     /// What the shader reads of a corner at a stage.
     fn read(forms: &LeafForms, corner: usize, stage: usize) -> Vec3 {
-        let words = &forms.corners[corner * CORNER_WORDS + 1 + 2 * stage..];
+        let words = &forms.corners[corner * CORNER_WORDS as usize + 1 + 2 * stage..];
         let half = |word: u32| {
             #[expect(clippy::cast_possible_truncation, reason = "the low half")]
             let low = word as u16;

@@ -11,3 +11,26 @@ pub(crate) mod record;
 pub(crate) mod species_table;
 mod strip;
 pub(crate) mod visible;
+
+use windfall_core::layout::WgslStruct;
+
+use crate::gpu::shaders::{Shaders, declarations, wgsl_files};
+
+/// Shader modules of this room and of those below.
+pub(crate) fn shaders() -> Shaders {
+    let mut shaders = crate::trees::shaders();
+    let structs = [
+        species_table::SpeciesRow::declaration(),
+        species_table::LayerRow::declaration(),
+        species_table::SpeciesUniform::declaration(),
+        record::LeafRecord::declaration(),
+        record::LeafDraw::declaration(),
+        record::PageUniform::declaration(),
+        record::ViewUniform::declaration(),
+        motion_pass::MotionUniform::declaration(),
+    ];
+    let lists = [meshes::wgsl_constants(), record::wgsl_constants()];
+    shaders.extend([("leaves/structs", declarations(lists) + &structs.concat())]);
+    shaders.extend(wgsl_files!("leaves": "species_table", "shape", "cull", "leaf_pass", "motion_pass"));
+    shaders
+}

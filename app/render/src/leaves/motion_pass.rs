@@ -2,27 +2,30 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Draws how far leaves move over the picture while the shutter is open, from where they were a frame before.
 
+use windfall_core::shared_struct;
 use windfall_wgpu::LeafColumns;
 
-use super::leaf_pass::LEAF_SHAPE;
 use super::previous::LeafPast;
-use super::record::record_constants;
 use super::species_table::LeafKinds;
 use super::visible::LeafCrowd;
 use crate::frame::group::FrameGroup;
-use crate::frame::scene_pipeline::COMMON;
-use crate::gpu::pipeline::{buffer_entry, layout, shader};
+use crate::gpu::pipeline::{buffer_entry, layout};
+use crate::gpu::shaders::compile;
 use crate::gpu::targets::{DEPTH_FORMAT, SAMPLE_COUNT, Targets, WAY_FORMAT};
 
 /// A leaf faster than this was put elsewhere, in m/s.
 const FASTEST_M_S: f32 = 80.0;
 
-/// `Motion` of `motion.wgsl`.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, bytemuck::Pod, bytemuck::Zeroable)]
-struct MotionUniform {
-    rule: [f32; 2],
-    size: [f32; 2],
+shared_struct! {
+    /// How far leaves may go, and how long the shutter is open.
+    pub(crate) struct MotionUniform {
+        /// Part of the way since the frame before that the shutter is open for.
+        open_share: f32,
+        /// Farthest way in metres: a leaf that went farther was put elsewhere.
+        farthest_m: f32,
+        /// Size of the tile in pixels.
+        size_px: [f32; 2],
+    }
 }
 
 /// The pipeline, where the leaves were, and what is drawn into.
@@ -58,9 +61,7 @@ impl MotionPass {
             layout: &uniform_layout,
             entries: &[wgpu::BindGroupEntry { binding: 0, resource: uniform.as_entire_binding() }],
         });
-        let [kind, record, shape] = LEAF_SHAPE;
-        let text = [COMMON, &record_constants(), kind, record, shape, include_str!("motion_pass.wgsl")];
-        let module = shader(device, "leaf motion", &text);
+        let module = compile(device, &super::shaders(), "leaves/motion_pass");
         let groups = [Some(&frame.layout), Some(&uniform_layout), Some(&kinds.layout), Some(&columns_layout)];
         let pipeline = device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
             label: Some("leaf motion"),
@@ -112,8 +113,9 @@ impl MotionPass {
         #[expect(clippy::cast_possible_truncation, reason = "a moment")]
         let moment_s = since_s.unwrap_or(1.0) as f32;
         let uniform = MotionUniform {
-            rule: [shutter_s / moment_s, FASTEST_M_S * moment_s],
-            size: [width as f32, height as f32],
+            open_share: shutter_s / moment_s,
+            farthest_m: FASTEST_M_S * moment_s,
+            size_px: [width as f32, height as f32],
         };
         queue.write_buffer(&self.uniform, 0, bytemuck::bytes_of(&uniform));
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {

@@ -3,15 +3,11 @@
 // How far leaves move over the picture while the shutter is open. Drawn where leaves were drawn before: the same points, at
 // the same depth.
 
-struct Motion {
-    // Part of the way since the frame before that the shutter is open for; farthest way in metres: a leaf that went farther
-    // was put elsewhere.
-    rule: vec2<f32>,
-    // Size of the tile in pixels.
-    size: vec2<f32>,
-}
+#import frame/common
+#import leaf_records
+#import leaves/shape
 
-@group(1) @binding(0) var<uniform> motion: Motion;
+@group(1) @binding(0) var<uniform> motion: MotionUniform;
 
 @group(3) @binding(1) var<storage, read> places: array<vec4<u32>>;
 @group(3) @binding(2) var<storage, read> attitudes: array<vec4<f32>>;
@@ -33,7 +29,7 @@ fn past_of(point: vec3<f32>, slot: u32) -> vec3<f32> {
     let now = bitcast<vec3<f32>>(places[slot].xyz);
     let before = past_places[slot];
     let there = bitcast<vec3<f32>>(before.xyz);
-    if distance(now, there) > motion.rule.y || (before.w & STATE_MASK) == STATE_DORMANT {
+    if distance(now, there) > motion.farthest_m || (before.w & STATE_MASK) == STATE_DORMANT {
         return point;
     }
     let back = turned(attitudes[slot]) * vec4(-1.0, -1.0, -1.0, 1.0);
@@ -42,20 +38,16 @@ fn past_of(point: vec3<f32>, slot: u32) -> vec3<f32> {
 }
 
 @vertex
-fn vertex(
-    @builtin(vertex_index) vertex: u32,
-    @builtin(instance_index) instance: u32,
-    @location(0) first_level: vec2<u32>,
-) -> Varyings {
-    let record = records[first_level.x + instance];
-    let point = blade_point(record, first_level.y, vertex);
-    let past = frame.view_projection * vec4(past_of(point.world, record.look.x >> SLOT_SHIFT), 1.0);
+fn vertex(in: LeafVertex) -> Varyings {
+    let record = record_of(in);
+    let point = blade_point(record, in.level, in.vertex);
+    let past = frame.view_projection * vec4(past_of(point.world, record.layer_slot >> SLOT_SHIFT), 1.0);
     var out: Varyings;
     out.clip = frame.view_projection * vec4(point.world, 1.0);
     // Before and after the middle of the exposure by as much; half of clip space is the tile.
     let way = out.clip.xy / out.clip.w - past.xy / past.w;
     let is_seen = out.clip.w > 0.0 && past.w > 0.0;
-    out.way = select(vec2(0.0), 0.25 * motion.rule.x * motion.size * vec2(way.x, -way.y), is_seen);
+    out.way = select(vec2(0.0), 0.25 * motion.open_share * motion.size_px * vec2(way.x, -way.y), is_seen);
     return out;
 }
 

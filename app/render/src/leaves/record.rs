@@ -1,10 +1,98 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What is packed into the records of a leaf, for the shaders: generated from where it is stated.
+//! A leaf that is drawn, and the draws of a page: written by the culling, read by vertex shaders.
 
-use windfall_core::device::leaf::record;
+use windfall_core::layout::Float4;
+use windfall_core::{shared_constants, shared_struct};
 
-/// WGSL constants of the leaf records (`STATE_MASK`, `SPECIES_SHIFT`, …).
-pub(crate) fn record_constants() -> String {
-    record::wgsl_constants().into_iter().map(|(_, declaration)| declaration).collect()
+shared_constants! {
+    /// Place of the slot within its page in [`LeafRecord::layer_slot`].
+    pub(crate) const SLOT_SHIFT: u32 = 12;
+    /// Mask of the layer there.
+    const LAYER_MASK: u32 = 0xfff;
+    /// How high over the ground the lowest point of a leaf at rest lies, on what has fallen before it, in metres.
+    const LITTER_M: f32 = 0.005;
+    /// Edge of a picture in diameters of the disc with the leaf's area, roughly.
+    pub(crate) const PICTURE_EDGE: f32 = 1.6;
+    /// Place of the level of detail above the bits of the copies that are kept.
+    const LEVEL_SHIFT: u32 = 16;
+    /// A listed leaf is its slot, and from here on which copy it is.
+    const COPY_SHIFT: u32 = 20;
+    /// Slots that one thread of the culling goes through, in order.
+    pub(crate) const SLOTS_PER_THREAD: u32 = 32;
+    /// Invocations per workgroup of the culling.
+    pub(crate) const CULL_GROUP_SIZE: u32 = 64;
+}
+
+shared_struct! {
+    /// A leaf of a view, ready for its corners.
+    pub(crate) struct LeafRecord {
+        /// Middle of the blade.
+        center_m: [f32; 3],
+        /// Edge of its picture, negative if the picture is mirrored.
+        edge_m: f32,
+        /// Attitude as four signed halves.
+        attitude: [u32; 2],
+        /// Stage of drying, and fold.
+        stage_fold: u32,
+        /// Bend, and twist.
+        bend_twist: u32,
+        /// Layer, and slot within the page.
+        layer_slot: u32,
+        /// Factors on red and green.
+        red_green: u32,
+        /// Factor on blue, and share of open sky.
+        blue_open: u32,
+        /// Direction out of the crown, as far as the leaf is one of its surface, and how far it has come to rest.
+        outward_settled: u32,
+    }
+}
+
+shared_struct! {
+    /// Arguments of an indirect draw, and what its vertices ask for.
+    pub(crate) struct LeafDraw {
+        vertex_count: u32,
+        instance_count: u32,
+        first_vertex: u32,
+        first_instance: u32,
+        /// Where the records of the level begin.
+        pub(crate) first_record: u32,
+        /// Level of detail.
+        pub(crate) level: u32,
+        unused: [u32; 2],
+    }
+}
+
+shared_struct! {
+    /// Slots that are culled together.
+    pub(crate) struct PageUniform {
+        /// First slot.
+        pub(crate) first: u32,
+        /// Most slots.
+        pub(crate) count: u32,
+        /// Threads that go through them.
+        pub(crate) threads: u32,
+        /// Records of trees, with that of no tree.
+        pub(crate) trees: u32,
+    }
+}
+
+shared_struct! {
+    /// What a view shows.
+    pub(crate) struct ViewUniform, padding 8 {
+        /// Inward unit normals of the view's sides, and their distances from the origin.
+        pub(crate) sides: [Float4; 6],
+        /// Camera; anything in a parallel projection.
+        pub(crate) eye_m: [f32; 3],
+        /// Pixels of a metre at a distance of a metre, or anywhere in a parallel projection.
+        pub(crate) pixels_per_m: f32,
+        /// Least edges in pixels of pictures of leaves that are drawn as coarse, medium and fine meshes.
+        pub(crate) mesh_px: [f32; 3],
+        /// Edge in pixels below which leaves are thinned out.
+        pub(crate) thin_px: f32,
+        /// Least share of leaves that are kept.
+        pub(crate) least_share: f32,
+        /// 1 if the projection is parallel, else 0.
+        pub(crate) is_parallel: u32,
+    }
 }

@@ -1,7 +1,9 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// From a leaf's record to the corners of its blade: shared by the leaves and their shadows. `leaf_forms.rs` lays out the
-// meshes.
+// From a leaf's record to the corners of its blade: shared by the leaves, their shadows and their motion.
+
+#import gpu/numbers
+#import leaves/species_table
 
 @group(2) @binding(1) var images: texture_2d_array<f32>;
 @group(2) @binding(2) var image_sampler: sampler;
@@ -10,10 +12,6 @@
 @group(2) @binding(5) var<storage, read> strips: array<u32>;
 @group(2) @binding(6) var<storage, read> meshes: array<vec4<u32>>;
 @group(3) @binding(0) var<storage, read> records: array<LeafRecord>;
-
-// Words of a corner, and farthest place of one in sides.
-const CORNER_WORDS: u32 = 13u;
-const REACH: f32 = 2.0;
 
 struct BladePoint {
     world: vec3<f32>,
@@ -30,16 +28,28 @@ fn octahedral_normal(flat: vec2<f32>) -> vec3<f32> {
     return vec3(flat - select(vec2(over), vec2(-over), flat < vec2(0.0)), z);
 }
 
+// A corner of a leaf, as a draw of a level gives it to the vertex shader.
+struct LeafVertex {
+    @builtin(vertex_index) vertex: u32,
+    @builtin(instance_index) instance: u32,
+    @location(0) first_record: u32,
+    @location(1) level: u32,
+}
+
+fn record_of(in: LeafVertex) -> LeafRecord {
+    return records[in.first_record + in.instance];
+}
+
 // Corner `vertex` of the strip of a leaf's mesh at a level of detail.
 fn blade_point(record: LeafRecord, level: u32, vertex: u32) -> BladePoint {
-    let mesh = meshes[4u * (record.look.x & LAYER_MASK) + level];
+    let mesh = meshes[4u * (record.layer_slot & LAYER_MASK) + level];
     let piece = mesh.x + min(vertex, mesh.y - 1u);
     let number = (strips[piece / 2u] >> (16u * (piece & 1u))) & 0xffffu;
     let first = (mesh.z + number) * CORNER_WORDS;
 
-    let stage_fold = unpack2x16float(record.form.z);
-    let bend_twist = unpack2x16float(record.form.w);
-    let before = min(u32(stage_fold.x), 4u);
+    let stage_fold = unpack2x16float(record.stage_fold);
+    let bend_twist = unpack2x16float(record.bend_twist);
+    let before = min(u32(stage_fold.x), LAST_BUT_ONE_STAGE);
     let share = stage_fold.x - f32(before);
     let at = first + 1u + 2u * before;
     let flat_a = unpack2x16snorm(corners[at]);
@@ -65,12 +75,12 @@ fn blade_point(record: LeafRecord, level: u32, vertex: u32) -> BladePoint {
     normal -= vec3(slope * normal.z, 0.0);
 
     var out: BladePoint;
-    let edge = abs(record.place.w);
-    out.mirror = sign(record.place.w);
+    let edge = abs(record.edge_m);
+    out.mirror = sign(record.edge_m);
     let local = edge * vec3(out.mirror * place.x, REACH * height + 0.5 * extra, place.y);
-    out.attitude = vec4(unpack2x16snorm(record.form.x), unpack2x16snorm(record.form.y));
+    out.attitude = vec4(unpack2x16snorm(record.attitude.x), unpack2x16snorm(record.attitude.y));
     out.attitude = normalize(out.attitude);
-    out.world = rotate(out.attitude, local) + record.place.xyz;
+    out.world = rotate(out.attitude, local) + record.center_m;
     out.normal = rotate(out.attitude, vec3(out.mirror * normal.x, normal.z, normal.y));
     let uv = corners[first];
     out.uv = unpack2x16unorm(uv);

@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! What the shaders know of the species: sizes, the texture arrays of leaf pictures and surfaces, and meshes.
 
+use bytemuck::Zeroable;
 use image::RgbaImage;
-use windfall_core::Scene;
+use windfall_core::layout::Uint4;
 use windfall_core::scene::{FlightModel, LeafShape, MAX_SPECIES, Species};
+use windfall_core::{Scene, shared_struct};
 use windfall_texgen::{Atlas, Layer};
 
 use super::meshes::{LEVELS, LeafForms, STAGES, two_shares};
@@ -17,15 +19,48 @@ pub const MAX_LAYERS: usize = 512;
 /// Stages that the greenest leaf has dried, and the brownest has besides.
 const DRY_STAGES: [f32; 2] = [0.5, 2.7];
 
-/// `Kinds` of `leaf_kinds.wgsl`.
-#[repr(C)]
-#[derive(Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
-struct Kinds {
-    size: [[f32; 4]; MAX_SPECIES],
-    layer: [[f32; 4]; MAX_LAYERS],
-    heights: [[u32; 8]; MAX_LAYERS],
-    counts: [u32; 4],
-    strips: [u32; LEVELS],
+shared_struct! {
+    /// A species, as it is drawn.
+    pub struct SpeciesRow {
+        /// Diameter of the disc with the blade's area, in metres.
+        pub diameter_m: f32,
+        /// Middle of the area from the centre of mass along x, in diameters.
+        pub offset_x: f32,
+        /// The same along z.
+        pub offset_z: f32,
+        /// How much of a dry leaf's folds it has.
+        pub folds: f32,
+    }
+}
+
+shared_struct! {
+    /// A leaf picture.
+    pub(crate) struct LayerRow {
+        /// Edge of its square relative to the disc's diameter.
+        edge: f32,
+        /// Stage of drying, 0 fresh to 5; negative for what does not dry.
+        dryness: f32,
+        /// Unused.
+        unused: f32,
+        /// The variant that has this layer's place in the order from green to brown.
+        variant: u32,
+    }
+}
+
+shared_struct! {
+    /// What shaders know of the species and of their leaf pictures.
+    pub(crate) struct SpeciesUniform, padding 8 {
+        species: [SpeciesRow; MAX_SPECIES],
+        layers: [LayerRow; MAX_LAYERS],
+        /// Of each layer, lowest and highest corner at each of six stages, as signed halves of two sides; two words are unused.
+        heights: [Uint4; 2 * MAX_LAYERS],
+        /// Longest strips of the levels of detail.
+        strips: [u32; LEVELS],
+        /// Variants of a species.
+        variants: u32,
+        /// Number of layers.
+        layer_count: u32,
+    }
 }
 
 /// Bind group of the species, shared by the leaf and the shadow passes; the culling takes only the uniform block.
@@ -81,7 +116,7 @@ impl LeafKinds {
             queue,
             "leaf kinds",
             wgpu::BufferUsages::UNIFORM,
-            bytemuck::bytes_of(&kinds(scene, atlas, &forms)),
+            bytemuck::bytes_of(&table(scene, atlas, &forms)),
         );
         let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some("leaf kinds"),
@@ -100,53 +135,54 @@ impl LeafKinds {
     }
 }
 
-fn kinds(scene: &Scene, atlas: &Atlas, forms: &LeafForms) -> Kinds {
-    let mut kinds = Kinds {
-        size: [[0.0; 4]; MAX_SPECIES],
-        layer: [[0.0; 4]; MAX_LAYERS],
-        heights: [[0; 8]; MAX_LAYERS],
+fn table(scene: &Scene, atlas: &Atlas, forms: &LeafForms) -> SpeciesUniform {
+    let mut table = SpeciesUniform {
         strips: forms.longest,
-        counts: [atlas.variants, u32::try_from(atlas.layers.len()).unwrap_or(u32::MAX), 0, 0],
+        variants: atlas.variants,
+        layer_count: u32::try_from(atlas.layers.len()).unwrap_or(u32::MAX),
+        ..SpeciesUniform::zeroed()
     };
-    for (slot, species) in kinds.size.iter_mut().zip(&scene.species) {
-        *slot = build(species);
+    for (row, species) in table.species.iter_mut().zip(&scene.species) {
+        *row = SpeciesRow::of(species);
     }
-    for (slot, layer) in kinds.layer.iter_mut().zip(&atlas.layers) {
+    for (row, layer) in table.layers.iter_mut().zip(&atlas.layers) {
         // pi / 4 d^2 = area fraction * edge^2
-        let edge = (std::f32::consts::FRAC_PI_4 / layer.area_fraction).sqrt();
-        *slot = [edge, dryness(layer), 0.0, 0.0];
+        row.edge = (std::f32::consts::FRAC_PI_4 / layer.area_fraction).sqrt();
+        row.dryness = dryness(layer);
     }
-    for (slot, heights) in kinds.heights.iter_mut().zip(&forms.heights) {
-        for (word, [low, high]) in slot.iter_mut().zip(heights) {
+    for (rows, heights) in table.heights.chunks_mut(2).zip(&forms.heights) {
+        let words = rows.iter_mut().flat_map(|row| &mut row.0);
+        for (word, [low, high]) in words.zip(heights) {
             *word = two_shares(*low, *high);
         }
     }
     let variants = (atlas.variants as usize).max(1);
-    for (slots, layers) in kinds.layer.chunks_mut(variants).zip(atlas.layers.chunks(variants)) {
-        let mut order: Vec<(f32, f32)> =
-            layers.iter().zip(0u8..).map(|(layer, variant)| (turned(layer), f32::from(variant))).collect();
+    for (rows, layers) in table.layers.chunks_mut(variants).zip(atlas.layers.chunks(variants)) {
+        let mut order: Vec<(f32, u32)> =
+            layers.iter().zip(0..).map(|(layer, variant)| (turned(layer), variant)).collect();
         order.sort_by(|a, b| a.0.total_cmp(&b.0));
-        for (slot, (_, variant)) in slots.iter_mut().zip(order) {
-            slot[3] = variant;
+        for (row, (_, variant)) in rows.iter_mut().zip(order) {
+            row.variant = variant;
         }
     }
-    kinds
+    table
 }
 
-/// Size of a species; of a body, where the middle of its area lies from its centre of mass, in diameters; and how much
-/// of a dry leaf's folds it has.
-pub fn build(species: &Species) -> [f32; 4] {
-    let (ahead, right) = match species.flight {
-        FlightModel::Synthesis => (0.0, 0.0),
-        FlightModel::Aerodynamic(body) => body.mass_offset,
-    };
-    let folds = match species.shape {
-        LeafShape::Plate => 0.0,
-        LeafShape::Samara => 0.2,
-        LeafShape::Paper => 0.5,
-        _ => 1.0,
-    };
-    [species.size_m, -0.5 * right, -0.5 * ahead, folds]
+impl SpeciesRow {
+    /// Size of a species, where the middle of its area lies, and its folds.
+    pub fn of(species: &Species) -> Self {
+        let (ahead, right) = match species.flight {
+            FlightModel::Synthesis => (0.0, 0.0),
+            FlightModel::Aerodynamic(body) => body.mass_offset,
+        };
+        let folds = match species.shape {
+            LeafShape::Plate => 0.0,
+            LeafShape::Samara => 0.2,
+            LeafShape::Paper => 0.5,
+            _ => 1.0,
+        };
+        Self { diameter_m: species.size_m, offset_x: -0.5 * right, offset_z: -0.5 * ahead, folds }
+    }
 }
 
 /// Mean stage of drying of a leaf; -1 for what has no shapes of it.
@@ -196,8 +232,8 @@ mod tests {
     fn blade_has_the_area_the_species_says() {
         let scene = Scene::default();
         let atlas = disc_atlas(&scene, 16);
-        let kinds = kinds(&scene, &atlas, &LeafForms::new(&atlas));
-        let edge_m = kinds.size[0][0] * kinds.layer[1][0];
+        let table = table(&scene, &atlas, &LeafForms::new(&atlas));
+        let edge_m = table.species[0].diameter_m * table.layers[1].edge;
         let area = atlas.layers[1].area_fraction * edge_m * edge_m;
         let disc = std::f32::consts::FRAC_PI_4 * scene.species[0].size_m.powi(2);
         assert!((area / disc - 1.0).abs() < 1.0e-5, "blade {area} m2, disc {disc} m2");
@@ -205,20 +241,26 @@ mod tests {
 
     #[test]
     fn a_body_is_drawn_about_its_centre_of_mass() {
+        let row = |[diameter_m, offset_x, offset_z, folds]: [f32; 4]| SpeciesRow {
+            diameter_m,
+            offset_x,
+            offset_z,
+            folds,
+        };
         let body = Aerodynamics { mass_offset: (0.6, -0.2), ..Aerodynamics::default() };
         let species = Species { flight: FlightModel::Aerodynamic(body), ..Species::default() };
         assert_eq!(
-            build(&species),
-            [species.size_m, 0.1, -0.3, 1.0],
+            SpeciesRow::of(&species),
+            row([species.size_m, 0.1, -0.3, 1.0]),
             "its middle lies behind, half of it a diameter"
         );
         assert_eq!(
-            build(&Species::default()),
-            [0.08, 0.0, 0.0, 1.0],
+            SpeciesRow::of(&Species::default()),
+            row([0.08, 0.0, 0.0, 1.0]),
             "other leaves are drawn about their middle"
         );
         let plate = Species { shape: LeafShape::Plate, ..Species::default() };
-        assert_eq!(build(&plate)[3].to_bits(), 0, "a plate is flat");
+        assert_eq!(SpeciesRow::of(&plate).folds.to_bits(), 0, "a plate is flat");
     }
 
     #[test]

@@ -3,11 +3,13 @@
 //! A set of leaves as it is drawn: pages of slots, each with room for the records of what a view shows.
 
 use std::iter;
+use std::mem::offset_of;
 
 use windfall_wgpu::LeafColumns;
 
 use super::cull::{CullPass, View};
 use super::meshes::LEVELS;
+use super::record::{LeafDraw, LeafRecord, PageUniform, SLOTS_PER_THREAD};
 use crate::gpu::upload;
 use crate::trees::Stand;
 use crate::trees::records::Stems;
@@ -15,23 +17,11 @@ use crate::trees::records::Stems;
 /// Most slots of a page, and most leaves drawn from it: what the smallest binding that WebGPU allows can hold.
 pub(crate) const PAGE_SLOTS: u32 = 1 << 20;
 const PAGE_RECORDS: u32 = 1 << 21;
-/// Slots that one thread goes through, in order.
-pub(crate) const SLOTS_PER_THREAD: u32 = 32;
-/// Bytes of a record and of a draw in `leaf_cull.wgsl`.
-pub(crate) const RECORD_BYTES: u64 = 48;
-pub(crate) const DRAW_BYTES: u64 = 32;
+/// Bytes of a record and of a draw.
+pub(crate) const RECORD_BYTES: u64 = size_of::<LeafRecord>() as u64;
+pub(crate) const DRAW_BYTES: u64 = size_of::<LeafDraw>() as u64;
 /// Bytes of a record of a column.
 const COLUMN_BYTES: u64 = 16;
-
-/// `Page` of `leaf_cull.wgsl`.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq, Eq, bytemuck::Pod, bytemuck::Zeroable)]
-pub(crate) struct PageUniform {
-    pub(crate) first: u32,
-    pub(crate) count: u32,
-    pub(crate) threads: u32,
-    pub(crate) stems: u32,
-}
 
 /// Slots that are culled together, and what comes of it.
 #[derive(Debug)]
@@ -69,9 +59,14 @@ impl LeafCrowd {
         leaf_count: u32,
     ) -> Self {
         let trees: Vec<(u32, u32)> = stand.trees.iter().map(|tree| (tree.leaves, tree.cluster)).collect();
-        let stems = u32::try_from(trees.len() + 1).unwrap_or(u32::MAX);
+        let records_of_trees = u32::try_from(trees.len() + 1).unwrap_or(u32::MAX);
         let page = |(first, count, records): (u32, u32, u32)| {
-            let uniform = PageUniform { first, count, threads: count.div_ceil(SLOTS_PER_THREAD), stems };
+            let uniform = PageUniform {
+                first,
+                count,
+                threads: count.div_ceil(SLOTS_PER_THREAD),
+                trees: records_of_trees,
+            };
             Page::new(device, queue, cull, uniform, records)
         };
         Self { pages: split(&trees, leaf_count).into_iter().map(page).collect() }
@@ -135,12 +130,19 @@ impl LeafCrowd {
         }
     }
 
-    /// Layout of the draw that a vertex belongs to: first record and level, a stride of nought.
+    /// Layout of the draw that a vertex belongs to, a stride of nought: first record and level.
     pub(crate) fn layout() -> wgpu::VertexBufferLayout<'static> {
-        const FIRST_LEVEL: [wgpu::VertexAttribute; 1] =
-            [wgpu::VertexAttribute { format: wgpu::VertexFormat::Uint32x2, offset: 16, shader_location: 0 }];
+        const fn word(offset: usize, shader_location: u32) -> wgpu::VertexAttribute {
+            wgpu::VertexAttribute {
+                format: wgpu::VertexFormat::Uint32,
+                offset: offset as u64,
+                shader_location,
+            }
+        }
+        const ATTRIBUTES: [wgpu::VertexAttribute; 2] =
+            [word(offset_of!(LeafDraw, first_record), 0), word(offset_of!(LeafDraw, level), 1)];
         let step_mode = wgpu::VertexStepMode::Instance;
-        wgpu::VertexBufferLayout { array_stride: 0, step_mode, attributes: &FIRST_LEVEL }
+        wgpu::VertexBufferLayout { array_stride: 0, step_mode, attributes: &ATTRIBUTES }
     }
 }
 

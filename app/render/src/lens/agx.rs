@@ -5,12 +5,19 @@
 //! Light on a logarithmic scale, 10 stops below to 6.5 above middle grey, becomes encoded light by a sigmoid with a straight
 //! middle: t / (1 + |t|^p)^(1/p), scaled on either side of middle grey so that it ends exactly in black and in white.
 
+use windfall_core::shared_constants;
+
 use super::group::MIDDLE_GREY;
 
-/// Stops below and above middle grey.
-const STOPS: (f32, f32) = (10.0, 6.5);
-/// Exponent of the display.
-const DISPLAY: f32 = 2.2;
+shared_constants! {
+    /// Stops below middle grey.
+    const STOPS_BELOW: f32 = 10.0;
+    /// All stops.
+    const STOPS: f32 = 16.5;
+    /// Exponent of the display.
+    const DISPLAY: f32 = 2.2;
+}
+
 /// Contrast of middle greys: 1 is that of the scene. Film, and what people like in pictures, has more.
 const CONTRAST: f32 = 1.25;
 /// How late and how suddenly the curve bends: that of AgX as Blender has it.
@@ -28,16 +35,16 @@ pub(crate) const CURVE: Curve = Curve { contrast: CONTRAST };
 impl Curve {
     /// Where middle grey lies on the logarithmic scale and on that of encoded light.
     fn pivot() -> (f32, f32) {
-        (STOPS.0 / (STOPS.0 + STOPS.1), MIDDLE_GREY.powf(1.0 / DISPLAY))
+        (STOPS_BELOW / STOPS, MIDDLE_GREY.powf(1.0 / DISPLAY))
     }
 
     /// Encoded light for each unit of the logarithmic scale, at middle grey.
     fn slope(self) -> f32 {
         // d(2^(stops / display)) / d(stops) there, over all stops.
-        self.contrast * Self::pivot().1 * std::f32::consts::LN_2 / DISPLAY * (STOPS.0 + STOPS.1)
+        self.contrast * Self::pivot().1 * std::f32::consts::LN_2 / DISPLAY * STOPS
     }
 
-    /// `agx` of `lens.wgsl`: slope at middle grey, height of the sigmoid below and above it, exponent of its bend.
+    /// Slope at middle grey, height of the sigmoid below and above it, exponent of its bend.
     pub(crate) fn constants(self) -> [f32; 4] {
         let (x, y) = Self::pivot();
         let slope = self.slope();

@@ -2,11 +2,16 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Meters the picture on the device and sets the exposure.
 
-use super::group::LensGroup;
-use crate::gpu::pipeline::{buffer_entry, layout, shader};
+use windfall_core::shared_constants;
 
-/// `GROUP` of `exposure.wgsl`.
-const GROUP: u32 = 256;
+use super::group::LensGroup;
+use crate::gpu::pipeline::{buffer_entry, layout};
+use crate::gpu::shaders::compile;
+
+shared_constants! {
+    /// Invocations per workgroup, and workgroups that measure.
+    const EXPOSURE_GROUP_SIZE: u32 = 256;
+}
 
 /// The two steps of metering: sums of groups of pixels, then their sum and what follows from it.
 #[derive(Debug)]
@@ -37,8 +42,7 @@ impl ExposurePass {
                 buffer_entry(2, storage, wgpu::ShaderStages::COMPUTE),
             ],
         });
-        let sources = [include_str!("lens.wgsl"), include_str!("exposure_pass.wgsl")];
-        let module = shader(device, "exposure", &sources);
+        let module = compile(device, &super::shaders(), "lens/exposure_pass");
         let pipeline_layout = layout(device, &[Some(&lens.uniform_layout), Some(&bind_layout)]);
         let pipeline = |entry| {
             device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
@@ -52,7 +56,7 @@ impl ExposurePass {
         };
         let sums = device.create_buffer(&wgpu::BufferDescriptor {
             label: Some("exposure"),
-            size: u64::from(GROUP) * 4,
+            size: u64::from(EXPOSURE_GROUP_SIZE) * 4,
             usage: wgpu::BufferUsages::STORAGE,
             mapped_at_creation: false,
         });
@@ -91,7 +95,7 @@ impl ExposurePass {
         pass.set_bind_group(0, &lens.uniform_group, &[]);
         pass.set_bind_group(1, group, &[]);
         pass.set_pipeline(&self.measure);
-        pass.dispatch_workgroups(GROUP, 1, 1);
+        pass.dispatch_workgroups(EXPOSURE_GROUP_SIZE, 1, 1);
         pass.set_pipeline(&self.adapt);
         pass.dispatch_workgroups(1, 1, 1);
     }

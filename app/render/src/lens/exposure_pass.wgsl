@@ -2,19 +2,20 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // Log-average luminance of the picture, and the exposure that follows. All sums are taken in one order: same picture, same bits.
 
-const GROUP: u32 = 256u;
+#import lens/lens
+
 // Luminances beyond these count as these, and whatever is no number as none.
 const DARKEST: f32 = 1.0e-6;
 const BRIGHTEST: f32 = 65504.0;
 
 @group(1) @binding(0) var light: texture_2d<f32>;
-@group(1) @binding(1) var<storage, read_write> sums: array<f32, GROUP>;
+@group(1) @binding(1) var<storage, read_write> sums: array<f32, EXPOSURE_GROUP_SIZE>;
 @group(1) @binding(2) var<storage, read_write> exposure: Exposure;
 
-var<workgroup> terms: array<f32, GROUP>;
+var<workgroup> terms: array<f32, EXPOSURE_GROUP_SIZE>;
 
 fn add_up(index: u32) {
-    for (var half = GROUP / 2u; half > 0u; half /= 2u) {
+    for (var half = EXPOSURE_GROUP_SIZE / 2u; half > 0u; half /= 2u) {
         workgroupBarrier();
         if index < half {
             terms[index] += terms[index + half];
@@ -22,14 +23,14 @@ fn add_up(index: u32) {
     }
 }
 
-@compute @workgroup_size(256)
+@compute @workgroup_size(EXPOSURE_GROUP_SIZE)
 fn measure(
     @builtin(workgroup_id) group: vec3<u32>,
     @builtin(local_invocation_index) index: u32,
 ) {
     let size = textureDimensions(light);
     var sum = 0.0;
-    for (var at = group.x * GROUP + index; at < size.x * size.y; at += GROUP * GROUP) {
+    for (var at = group.x * EXPOSURE_GROUP_SIZE + index; at < size.x * size.y; at += EXPOSURE_GROUP_SIZE * EXPOSURE_GROUP_SIZE) {
         let color = textureLoad(light, vec2(at % size.x, at / size.x), 0).rgb;
         sum += log2(clamp(luminance(color), DARKEST, BRIGHTEST));
     }
@@ -40,14 +41,14 @@ fn measure(
     }
 }
 
-@compute @workgroup_size(256)
+@compute @workgroup_size(EXPOSURE_GROUP_SIZE)
 fn adapt(@builtin(local_invocation_index) index: u32) {
     terms[index] = sums[index];
     add_up(index);
     if index != 0u {
         return;
     }
-    let measured = terms[0] * lens.size.z * lens.size.w;
+    let measured = terms[0] * lens.inv_size_px.x * lens.inv_size_px.y;
     let share = select(1.0, lens.adaptation, exposure.has_begun > 0.0);
     exposure.measured = measured;
     exposure.adapted += share * (measured - exposure.adapted);

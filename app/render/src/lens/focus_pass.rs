@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Depth of field, from depth and resolved light.
 
+use windfall_core::shared_struct;
+
 use super::blur_group::BlurGroup;
 use super::fullscreen::{Fullscreen, light_texture, number_texture};
 use super::group::{LensGroup, blur_block};
@@ -11,13 +13,14 @@ use crate::gpu::tile::Tile;
 /// Format of radii of circles of confusion, in pixels.
 const CIRCLE_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::R16Float;
 
-/// `Focus` of `focus.wgsl`.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, bytemuck::Pod, bytemuck::Zeroable)]
-struct FocusUniform {
-    corner: [i32; 2],
-    block: i32,
-    unused: i32,
+shared_struct! {
+    /// The tile that is focused.
+    pub(crate) struct FocusUniform, padding 4 {
+        /// Corner of the tile in the picture.
+        corner_px: [i32; 2],
+        /// Edge of a block.
+        block_px: i32,
+    }
 }
 
 /// The three steps: radii from depth, their largest in blocks, and the gathering.
@@ -47,7 +50,7 @@ impl FocusPass {
     pub(crate) fn new(device: &wgpu::Device, lens: &LensGroup) -> Self {
         let group = BlurGroup::new(device, "focus", size_of::<FocusUniform>(), 3);
         let pipeline = |entry, format| {
-            let source = ("focus", include_str!("focus_pass.wgsl"), entry);
+            let source = ("lens/focus_pass", entry);
             Fullscreen::new(device, lens, &group.layout, source, format, &[])
         };
         Self {
@@ -94,7 +97,7 @@ impl FocusPass {
     ) {
         let whole = |number: u32| i32::try_from(number).unwrap_or(i32::MAX);
         let corner = [whole(tile.corner.0), whole(tile.corner.1)];
-        let uniform = FocusUniform { corner, block: whole(chain.block), unused: 0 };
+        let uniform = FocusUniform { corner_px: corner, block_px: whole(chain.block), padding: [0; 4] };
         queue.write_buffer(&self.group.uniform, 0, bytemuck::bytes_of(&uniform));
         let (groups, area) = ([&lens.group, &chain.circle], (tile.corner, tile.inside));
         self.circle.draw_part(encoder, groups, &chain.circles, area);

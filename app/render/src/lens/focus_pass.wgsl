@@ -3,14 +3,10 @@
 // Depth of field: every point of the scene becomes a disc as wide as its circle of confusion. Gathered: a pixel takes the light of
 // all around it whose discs reach it, each with the part that falls on one pixel.
 
-struct Focus {
-    // Corner of the tile in the picture, in pixels; edge of a block in pixels.
-    corner: vec2<i32>,
-    block: i32,
-}
+#import lens/fullscreen
 
 @group(0) @binding(1) var<uniform> exposure: Exposure;
-@group(1) @binding(0) var<uniform> focus: Focus;
+@group(1) @binding(0) var<uniform> focus: FocusUniform;
 @group(1) @binding(1) var depth: texture_depth_multisampled_2d;
 @group(1) @binding(2) var circles: texture_2d<f32>;
 @group(1) @binding(3) var widest: texture_2d<f32>;
@@ -23,16 +19,16 @@ const MOST: f32 = 256.0;
 @fragment
 fn circle(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
     // Depth is reversed: near plane over distance.
-    let nearness = textureLoad(depth, vec2<i32>(position.xy) - focus.corner, 0) / lens.focus.w;
-    let radius = lens.focus.y * (1.0 - lens.focus.x * nearness);
-    return vec4(clamp(radius, -lens.focus.z, lens.focus.z), 0.0, 0.0, 1.0);
+    let nearness = textureLoad(depth, vec2<i32>(position.xy) - focus.corner_px, 0) / lens.near_m;
+    let radius = lens.far_circle_px * (1.0 - lens.focus_m * nearness);
+    return vec4(clamp(radius, -lens.max_circle_px, lens.max_circle_px), 0.0, 0.0, 1.0);
 }
 
 // The largest radius in a block.
 @fragment
 fn largest(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
-    let corner = vec2<i32>(position.xy) * focus.block;
-    let end = min(corner + focus.block, vec2<i32>(textureDimensions(circles)));
+    let corner = vec2<i32>(position.xy) * focus.block_px;
+    let end = min(corner + focus.block_px, vec2<i32>(textureDimensions(circles)));
     var radius = 0.0;
     for (var y = corner.y; y < end.y; y++) {
         for (var x = corner.x; x < end.x; x++) {
@@ -50,19 +46,19 @@ fn gather(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
     let last_block = vec2<i32>(textureDimensions(widest)) - 1;
     var reach = 0.0;
     for (var part = 0; part < 9; part++) {
-        let block = clamp(at / focus.block + vec2(part % 3, part / 3) - 1, vec2(0), last_block);
+        let block = clamp(at / focus.block_px + vec2(part % 3, part / 3) - 1, vec2(0), last_block);
         reach = max(reach, textureLoad(widest, block, 0).r);
     }
     var sum = textureLoad(light, at, 0).rgb;
     if reach < 0.5 {
         return vec4(sum, 1.0);
     }
-    let count = clamp(3.14159265 * reach * reach, 16.0, MOST);
+    let count = clamp(PI * reach * reach, 16.0, MOST);
     // Pixels that a sample stands for.
-    let area = 3.14159265 * reach * reach / count;
+    let area = PI * reach * reach / count;
     let last = vec2<i32>(textureDimensions(light)) - 1;
     let own_width = max(abs(own), 0.5);
-    var weights = 1.0 / (3.14159265 * own_width * own_width);
+    var weights = 1.0 / (PI * own_width * own_width);
     sum *= weights;
     for (var index = 0.5; index < count; index += 1.0) {
         let distance = reach * sqrt(index / count);
@@ -71,7 +67,7 @@ fn gather(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
         let other = textureLoad(circles, there, 0).r;
         // What lies behind is hidden by what is sharp in front of it.
         let width = max(select(abs(other), min(other, abs(own)), other > own), 0.5);
-        let weight = area * clamp(width - distance + 0.5, 0.0, 1.0) / (3.14159265 * width * width);
+        let weight = area * clamp(width - distance + 0.5, 0.0, 1.0) / (PI * width * width);
         sum += weight * textureLoad(light, there, 0).rgb;
         weights += weight;
     }

@@ -3,10 +3,8 @@
 //! Passes that compute every pixel of a target from other pictures.
 
 use super::group::LensGroup;
-use crate::gpu::pipeline::{layout, shader};
-
-/// What such a shader begins with.
-const HEAD: [&str; 2] = [include_str!("lens.wgsl"), include_str!("fullscreen.wgsl")];
+use crate::gpu::pipeline::layout;
+use crate::gpu::shaders::compile;
 
 /// Corner and size of a part of a target, in pixels.
 pub(crate) type Area = ((u32, u32), (u32, u32));
@@ -19,18 +17,18 @@ pub(crate) struct Fullscreen {
 }
 
 impl Fullscreen {
-    /// Entry point `entry` of `source`, into targets of `format`. Bind group 0 is the lens, 1 what `group` lays out.
+    /// Entry point `entry` of module `name`, into targets of `format`. Bind group 0 is the lens, 1 what `group` lays out.
     pub(crate) fn new(
         device: &wgpu::Device,
         lens: &LensGroup,
         group: &wgpu::BindGroupLayout,
-        (label, source, entry): (&'static str, &str, &str),
+        (name, entry): (&'static str, &str),
         format: wgpu::TextureFormat,
         constants: &[(&str, f64)],
     ) -> Self {
-        let module = shader(device, label, &[HEAD[0], HEAD[1], source]);
+        let module = compile(device, &super::shaders(), name);
         let pipeline = device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-            label: Some(label),
+            label: Some(name),
             layout: Some(&layout(device, &[Some(&lens.layout), Some(group)])),
             vertex: wgpu::VertexState {
                 module: &module,
@@ -50,7 +48,7 @@ impl Fullscreen {
             multiview_mask: None,
             cache: None,
         });
-        Self { label, pipeline }
+        Self { label: name, pipeline }
     }
 
     /// Fills `area` of `target`, or all of it; elsewhere it becomes black.

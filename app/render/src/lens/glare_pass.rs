@@ -6,6 +6,9 @@
 //! kernel, which is twice as wide in each as in the one before, and added up from the smallest on. What is wide in the
 //! picture is so at any resolution.
 
+use windfall_core::layout::Float4;
+use windfall_core::{shared_constants, shared_struct};
+
 use super::fullscreen::{Fullscreen, light_texture, smooth_sampler};
 use super::group::LensGroup;
 use crate::gpu::pipeline::{FILTERABLE, sampler_entry, texture_entry, uniform_entry};
@@ -17,16 +20,21 @@ const WIDEST: f32 = 0.16;
 const SHARES: [f32; 5] = [0.10, 0.15, 0.20, 0.25, 0.30];
 /// Lowest the smallest size may be, in pixels: the widest Gaussian is narrow enough for the kernel.
 const LEAST_HEIGHT: f32 = 9.0;
-/// Weights of one half of the kernel, its middle included; `RADIUS` of `glare.wgsl` is one less.
-const WEIGHTS: usize = 10;
+shared_constants! {
+    /// Weights of one half of the kernel, without its middle.
+    const GLARE_RADIUS: u32 = 9;
+}
+/// The same with its middle.
+const WEIGHTS: usize = GLARE_RADIUS as usize + 1;
 
-/// `Scale` of `glare.wgsl`.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, bytemuck::Pod, bytemuck::Zeroable)]
-struct Scale {
-    kernel: [f32; 12],
-    share: f32,
-    unused: [f32; 3],
+shared_struct! {
+    /// A scale of the glare.
+    pub(crate) struct GlareScale, padding 12 {
+        /// Weights of the Gaussian from its middle outwards, four by four; with those of its other half they add up to one.
+        kernel: [Float4; 3],
+        /// Share of this scale in the glare.
+        share: f32,
+    }
 }
 
 /// Half of a Gaussian kernel: with its mirror image it adds up to one, so that a blur keeps energy.
@@ -92,13 +100,13 @@ impl GlarePass {
             ],
         });
         let pipeline = |entry| {
-            let source = ("glare", include_str!("glare_pass.wgsl"), entry);
+            let source = ("lens/glare_pass", entry);
             Fullscreen::new(device, lens, &layout, source, HDR_FORMAT, &[])
         };
         let scales = SHARES.iter().map(|_| {
             device.create_buffer(&wgpu::BufferDescriptor {
                 label: Some("glare"),
-                size: size_of::<Scale>() as u64,
+                size: size_of::<GlareScale>() as u64,
                 usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
                 mapped_at_creation: false,
             })
@@ -130,8 +138,12 @@ impl GlarePass {
         // A small picture has fewer sizes.
         let all: f32 = SHARES.iter().take(halvings as usize).sum();
         for (buffer, share) in self.scales.iter().zip(SHARES) {
-            let mut scale = Scale { kernel: [0.0; 12], share: share / all, unused: [0.0; 3] };
-            scale.kernel[..WEIGHTS].copy_from_slice(&kernel);
+            let weight = |index: usize| kernel.get(index).copied().unwrap_or(0.0);
+            let scale = GlareScale {
+                kernel: [0, 4, 8].map(|first| Float4([0, 1, 2, 3].map(|next| weight(first + next)))),
+                share: share / all,
+                padding: [0; 12],
+            };
             queue.write_buffer(buffer, 0, bytemuck::bytes_of(&scale));
         }
         let halved = |edge: u32, count: u32| edge.div_ceil(1 << count).max(1);

@@ -3,26 +3,20 @@
 // Light beyond the threshold, halved in size again and again, blurred at each scale, and put together again. The blur is two
 // passes of one dimension, as in James and O'Rorke, "Real-Time Glow", GPU Gems, 2004.
 
-struct Scale {
-    // Weights of the Gaussian from its middle outwards, four by four; they add up to one.
-    kernel: array<vec4<f32>, 3>,
-    // Share of this scale in the glare.
-    share: f32,
-}
+#import lens/fullscreen
 
 @group(0) @binding(1) var<uniform> exposure: Exposure;
 @group(1) @binding(0) var source: texture_2d<f32>;
 @group(1) @binding(1) var wider: texture_2d<f32>;
 @group(1) @binding(2) var smooth_sampler: sampler;
-@group(1) @binding(3) var<uniform> scale: Scale;
+@group(1) @binding(3) var<uniform> scale: GlareScale;
 
 // So that sums stay within half floats.
 const BRIGHTEST: f32 = 16384.0;
-const RADIUS: i32 = 9;
 
 fn beyond_threshold(at: vec2<u32>) -> vec3<f32> {
     let exposed = textureLoad(source, at, 0).rgb * exposure.multiplier;
-    let beyond = max((exposed - lens.threshold) / (1.0 - lens.threshold), vec3(0.0));
+    let beyond = max((exposed - lens.glare_threshold) / (1.0 - lens.glare_threshold), vec3(0.0));
     return min(beyond, vec3(BRIGHTEST));
 }
 
@@ -57,7 +51,7 @@ fn halve(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
 fn blurred(at: vec2<i32>, along: vec2<i32>) -> vec3<f32> {
     let last = vec2<i32>(textureDimensions(source)) - 1;
     var sum = scale.kernel[0].x * textureLoad(source, at, 0).rgb;
-    for (var offset = 1; offset <= RADIUS; offset++) {
+    for (var offset = 1; offset <= i32(GLARE_RADIUS); offset++) {
         let weight = scale.kernel[offset / 4][offset % 4];
         let ahead = textureLoad(source, min(at + offset * along, last), 0).rgb;
         let behind = textureLoad(source, max(at - offset * along, vec2(0)), 0).rgb;

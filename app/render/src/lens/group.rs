@@ -2,32 +2,77 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Bind group 0 of everything that happens after the scene is drawn: the lens, and how far it is open.
 
-use windfall_core::scene::{Exposure, Lens, ToneMap};
+use windfall_core::scene::{self, Lens, ToneMap};
+use windfall_core::{shared_constants, shared_struct};
 
 use super::agx;
 use crate::gpu::pipeline::{buffer_entry, uniform_entry};
 
-/// `Lens` of `lens.wgsl`.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, bytemuck::Pod, bytemuck::Zeroable)]
-pub(crate) struct LensUniform {
-    size: [f32; 4],
-    origin: [f32; 2],
-    key: f32,
-    adaptation: f32,
-    manual: f32,
-    threshold: f32,
-    strength: f32,
-    saturation: f32,
-    vignette: f32,
-    parameter: f32,
-    unused: [f32; 2],
-    agx: [f32; 4],
-    focus: [f32; 4],
+shared_struct! {
+    /// The lens of a frame.
+    pub(crate) struct LensUniform {
+        /// Width and height of the picture in pixels.
+        size_px: [f32; 2],
+        /// Their reciprocals.
+        inv_size_px: [f32; 2],
+        /// Where the picture's corner lies in the output.
+        origin_px: [f32; 2],
+        /// What the log-average becomes; 0 with manual exposure.
+        key: f32,
+        /// How much of the way to a new exposure is gone in this frame.
+        adaptation: f32,
+        /// Multiplier of manual exposure.
+        manual: f32,
+        /// Exposed light from which on there is glare.
+        glare_threshold: f32,
+        /// Share of the glare in the picture.
+        glare_strength: f32,
+        /// Saturation, 1 as it is.
+        saturation: f32,
+        /// Darkening of the corners.
+        vignette: f32,
+        /// Gamma of the linear tone map, or white of Reinhard's.
+        curve_parameter: f32,
+        /// AgX: slope at middle grey.
+        agx_slope: f32,
+        /// AgX: height of the sigmoid below middle grey.
+        agx_below: f32,
+        /// AgX: height of the sigmoid above it.
+        agx_above: f32,
+        /// AgX: exponent of the bend.
+        agx_bend: f32,
+        /// Distance of what is sharp.
+        focus_m: f32,
+        /// Radius of the circle of confusion of a far point.
+        far_circle_px: f32,
+        /// Largest radius.
+        max_circle_px: f32,
+        /// Distance of the near plane.
+        near_m: f32,
+        /// Unused.
+        unused: [f32; 2],
+    }
 }
 
-/// Luminance that automatic exposure makes of the log-average, and every tone map of itself but for Reinhard's.
-pub(crate) const MIDDLE_GREY: f32 = 0.18;
+shared_struct! {
+    /// The exposure, which the device sets by itself.
+    pub(crate) struct Exposure {
+        /// Exposed light is light times this.
+        multiplier: f32,
+        /// Binary logarithm of the luminance that the lens has adapted to.
+        adapted: f32,
+        /// Binary logarithm of the picture's log-average.
+        measured: f32,
+        /// 0 before the first frame.
+        has_begun: f32,
+    }
+}
+
+shared_constants! {
+    /// Luminance that automatic exposure makes of the log-average, and every tone map of itself but for Reinhard's.
+    pub(crate) const MIDDLE_GREY: f32 = 0.18;
+}
+
 /// Unit of light in cd/m².
 const LIGHT_UNIT: f32 = 1000.0;
 /// Height of the sensor in metres: that of 35 mm film.
@@ -60,38 +105,46 @@ impl LensUniform {
     pub(crate) fn new(lens: &Lens, shot: &Shot) -> Self {
         let (width, height) = (shot.size.0 as f32, shot.size.1 as f32);
         let (key, adaptation, manual) = match lens.exposure {
-            Exposure::Auto { compensation_ev, adaptation_s } => {
+            scene::Exposure::Auto { compensation_ev, adaptation_s } => {
                 let share = -(-shot.since_s / adaptation_s.max(1.0e-6)).exp_m1();
                 (MIDDLE_GREY * compensation_ev.exp2(), share, 0.0)
             }
-            Exposure::Manual { ev100 } => (0.0, 1.0, LIGHT_UNIT / (1.2 * ev100.exp2())),
+            scene::Exposure::Manual { ev100 } => (0.0, 1.0, LIGHT_UNIT / (1.2 * ev100.exp2())),
         };
-        let parameter = match lens.tone_map {
+        let [agx_slope, agx_below, agx_above, agx_bend] = agx::CURVE.constants();
+        let curve_parameter = match lens.tone_map {
             ToneMap::Linear { gamma } => gamma,
             ToneMap::Reinhard { white } => white,
             ToneMap::AgX => 0.0,
         };
-        let focus = lens.focus.map_or([0.0; 4], |focus| {
+        let [focus_m, far_circle_px, max_circle_px] = lens.focus.map_or([0.0; 3], |focus| {
             // Thin lens: the circle of a point at d is as wide as A f |d - D| / (d (D - f)), A = f / N.
             let length_m = 0.5 * SENSOR_M / (0.5 * shot.vertical_fov_rad).tan();
             let aperture_m = length_m / focus.f_number;
             let spread = 0.5 * aperture_m * length_m / (focus.distance_m - length_m).max(1.0e-3);
-            [focus.distance_m, spread / SENSOR_M * height, MAX_BLUR * height, shot.near_m]
+            [focus.distance_m, spread / SENSOR_M * height, MAX_BLUR * height]
         });
         Self {
-            size: [width, height, 1.0 / width, 1.0 / height],
-            origin: [shot.origin.0 as f32, shot.origin.1 as f32],
+            size_px: [width, height],
+            inv_size_px: [1.0 / width, 1.0 / height],
+            origin_px: [shot.origin.0 as f32, shot.origin.1 as f32],
             key,
             adaptation,
             manual,
-            threshold: lens.glare.threshold,
-            strength: lens.glare.strength,
+            glare_threshold: lens.glare.threshold,
+            glare_strength: lens.glare.strength,
             saturation: lens.saturation,
             vignette: lens.vignette,
-            parameter,
+            curve_parameter,
+            agx_slope,
+            agx_below,
+            agx_above,
+            agx_bend,
+            focus_m,
+            far_circle_px,
+            max_circle_px,
+            near_m: shot.near_m,
             unused: [0.0; 2],
-            agx: agx::CURVE.constants(),
-            focus,
         }
     }
 }
@@ -104,7 +157,7 @@ pub(crate) struct LensGroup {
     /// The lens alone, for the pass that sets the exposure.
     pub(crate) uniform_layout: wgpu::BindGroupLayout,
     pub(crate) uniform_group: wgpu::BindGroup,
-    /// `Exposure` of `exposure.wgsl`.
+    /// An [`Exposure`].
     pub(crate) exposure: wgpu::Buffer,
     uniform: wgpu::Buffer,
 }
@@ -129,7 +182,7 @@ impl LensGroup {
         let uniform_usage = wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST;
         let uniform = buffer("lens", size_of::<LensUniform>() as u64, uniform_usage);
         let usage = wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC;
-        let exposure = buffer("exposure", 16, usage);
+        let exposure = buffer("exposure", size_of::<Exposure>() as u64, usage);
         let entries = [
             wgpu::BindGroupEntry { binding: 0, resource: uniform.as_entire_binding() },
             wgpu::BindGroupEntry { binding: 1, resource: exposure.as_entire_binding() },

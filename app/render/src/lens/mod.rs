@@ -12,3 +12,38 @@ pub(crate) mod group;
 pub(crate) mod post;
 pub(crate) mod shutter_pass;
 pub(crate) mod tonemap_pass;
+
+use windfall_core::layout::WgslStruct;
+
+use crate::gpu::shaders::{Shaders, declarations, wgsl_files};
+
+/// Shader modules of this room and of those below.
+pub(crate) fn shaders() -> Shaders {
+    let mut shaders = crate::gpu::shaders::shaders();
+    let lists = [
+        agx::wgsl_constants(),
+        exposure_pass::wgsl_constants(),
+        glare_pass::wgsl_constants(),
+        group::wgsl_constants(),
+        tonemap_pass::wgsl_constants(),
+    ];
+    let structs = [
+        group::LensUniform::declaration(),
+        group::Exposure::declaration(),
+        focus_pass::FocusUniform::declaration(),
+        shutter_pass::ShutterUniform::declaration(),
+        glare_pass::GlareScale::declaration(),
+    ];
+    shaders.extend([("lens/structs", declarations(lists) + &structs.concat())]);
+    shaders.extend(wgsl_files!(
+        "lens":
+        "lens",
+        "fullscreen",
+        "exposure_pass",
+        "focus_pass",
+        "glare_pass",
+        "shutter_pass",
+        "tonemap_pass"
+    ));
+    shaders
+}

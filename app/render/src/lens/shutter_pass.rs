@@ -2,23 +2,24 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Motion blur: draws leaves out along their ways, from those, depth and resolved light.
 
+use windfall_core::shared_struct;
+
 use super::blur_group::BlurGroup;
 use super::fullscreen::{Fullscreen, light_texture, number_texture};
 use super::group::{LensGroup, MAX_BLUR, Shot, blur_block};
-use crate::gpu::targets::WAY_FORMAT;
-use crate::gpu::targets::{HDR_FORMAT, Targets};
+use crate::gpu::targets::{HDR_FORMAT, Targets, WAY_FORMAT};
 use crate::gpu::tile::Tile;
 
-/// `Shutter` of `shutter.wgsl`.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, bytemuck::Pod, bytemuck::Zeroable)]
-struct ShutterUniform {
-    corner: [i32; 2],
-    block: i32,
-    unused: i32,
-    most: f32,
-    near_m: f32,
-    unused_too: [f32; 2],
+shared_struct! {
+    /// The tile whose ways are taken.
+    pub(crate) struct ShutterUniform {
+        /// Corner of the tile in the picture.
+        corner_px: [i32; 2],
+        /// Edge of a block.
+        block_px: i32,
+        /// Most pixels a way is long to either side.
+        max_px: f32,
+    }
 }
 
 /// The three steps: ways and distances, the longest way in blocks, and the gathering.
@@ -48,7 +49,7 @@ impl ShutterPass {
     pub(crate) fn new(device: &wgpu::Device, lens: &LensGroup) -> Self {
         let group = BlurGroup::new(device, "shutter", size_of::<ShutterUniform>(), 4);
         let pipeline = |entry, format| {
-            let source = ("shutter", include_str!("shutter_pass.wgsl"), entry);
+            let source = ("lens/shutter_pass", entry);
             Fullscreen::new(device, lens, &group.layout, source, format, &[])
         };
         Self {
@@ -92,12 +93,9 @@ impl ShutterPass {
     ) {
         let whole = |number: u32| i32::try_from(number).unwrap_or(i32::MAX);
         let uniform = ShutterUniform {
-            corner: [whole(tile.corner.0), whole(tile.corner.1)],
-            block: whole(chain.block),
-            unused: 0,
-            most: MAX_BLUR * shot.size.1 as f32,
-            near_m: shot.near_m,
-            unused_too: [0.0; 2],
+            corner_px: [whole(tile.corner.0), whole(tile.corner.1)],
+            block_px: whole(chain.block),
+            max_px: MAX_BLUR * shot.size.1 as f32,
         };
         queue.write_buffer(&self.group.uniform, 0, bytemuck::bytes_of(&uniform));
         let area = (tile.corner, tile.inside);

@@ -6,17 +6,9 @@
 // Source: the blocks and taps of McGuire, Hennessy, Bukowski, Osman, "A reconstruction filter for plausible motion blur"
 // (I3D 2012). The weights are shares of time, so that what moves keeps its light.
 
-struct Shutter {
-    // Corner of the tile in the picture, in pixels; edge of a block in pixels.
-    corner: vec2<i32>,
-    block: i32,
-    unused: i32,
-    // Most pixels a way is long to either side; distance of the near plane in metres.
-    most: f32,
-    near_m: f32,
-}
+#import lens/fullscreen
 
-@group(1) @binding(0) var<uniform> shutter: Shutter;
+@group(1) @binding(0) var<uniform> shutter: ShutterUniform;
 @group(1) @binding(1) var depth: texture_depth_multisampled_2d;
 @group(1) @binding(2) var drawn: texture_2d<f32>;
 // Half the way in pixels, and distance in metres.
@@ -34,13 +26,13 @@ const MOVING: f32 = 0.25;
 // Puts the ways of a tile, and how far away what moves is, into the picture.
 @fragment
 fn take(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
-    let at = vec2<i32>(position.xy) - shutter.corner;
+    let at = vec2<i32>(position.xy) - shutter.corner_px;
     // A pixel that something covers in part moves as that does.
     let mean = textureLoad(drawn, at, 0);
     let way = mean.xy / max(mean.a, 1.0e-3);
     let span = length(way);
-    let distance_m = shutter.near_m / max(textureLoad(depth, at, 0), shutter.near_m / FARTHEST_M);
-    return vec4(way * min(1.0, shutter.most / max(span, 1.0e-6)), distance_m, 1.0);
+    let distance_m = lens.near_m / max(textureLoad(depth, at, 0), lens.near_m / FARTHEST_M);
+    return vec4(way * min(1.0, shutter.max_px / max(span, 1.0e-6)), distance_m, 1.0);
 }
 
 fn longer(a: vec2<f32>, b: vec2<f32>) -> vec2<f32> {
@@ -50,8 +42,8 @@ fn longer(a: vec2<f32>, b: vec2<f32>) -> vec2<f32> {
 // The longest way in a block.
 @fragment
 fn block_longest(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
-    let corner = vec2<i32>(position.xy) * shutter.block;
-    let end = min(corner + shutter.block, vec2<i32>(textureDimensions(ways)));
+    let corner = vec2<i32>(position.xy) * shutter.block_px;
+    let end = min(corner + shutter.block_px, vec2<i32>(textureDimensions(ways)));
     var way = vec2(0.0);
     for (var y = corner.y; y < end.y; y++) {
         for (var x = corner.x; x < end.x; x++) {
@@ -73,7 +65,7 @@ fn gather(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
     let last_block = vec2<i32>(textureDimensions(longest)) - 1;
     var way = vec2(0.0);
     for (var part = 0; part < 9; part++) {
-        let block = clamp(at / shutter.block + vec2(part % 3, part / 3) - 1, vec2(0), last_block);
+        let block = clamp(at / shutter.block_px + vec2(part % 3, part / 3) - 1, vec2(0), last_block);
         way = longer(way, textureLoad(longest, block, 0).xy);
     }
     let own_light = textureLoad(light, at, 0).rgb;

@@ -3,11 +3,21 @@
 //! Turns light into the picture.
 
 use windfall_core::scene::ToneMap;
+use windfall_core::shared_constants;
 
 use super::fullscreen::{Area, Fullscreen, smooth_sampler};
 use super::glare_pass::GlareChain;
 use super::group::LensGroup;
 use crate::gpu::pipeline::{FILTERABLE, sampler_entry, texture_entry, uniform_entry};
+
+shared_constants! {
+    /// Number of the linear curve.
+    const CURVE_LINEAR: u32 = 0;
+    /// Number of Reinhard's curve.
+    const CURVE_REINHARD: u32 = 1;
+    /// Number of the AgX curve.
+    const CURVE_AGX: u32 = 2;
+}
 
 /// The tone mapping pipelines, one for each curve: a choice in the shader would cost a software adapter all three.
 #[derive(Debug)]
@@ -30,13 +40,14 @@ impl TonemapPass {
                 uniform_entry(3),
             ],
         });
-        let source = ("tone map", include_str!("tonemap_pass.wgsl"), "fragment");
+        let source = ("lens/tonemap_pass", "fragment");
         let encode = ("ENCODE", if format.is_srgb() { 0.0 } else { 1.0 });
-        let curves = [0.0, 1.0, 2.0]
-            .map(|curve| Fullscreen::new(device, lens, &layout, source, format, &[encode, ("CURVE", curve)]));
+        let curves = [CURVE_LINEAR, CURVE_REINHARD, CURVE_AGX].map(|curve| {
+            Fullscreen::new(device, lens, &layout, source, format, &[encode, ("CURVE", f64::from(curve))])
+        });
         let pixels = device.create_buffer(&wgpu::BufferDescriptor {
             label: Some("tone map"),
-            size: 16,
+            size: size_of::<f32>() as u64,
             usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
             mapped_at_creation: false,
         });
@@ -51,7 +62,7 @@ impl TonemapPass {
         light: &wgpu::TextureView,
         glare: &GlareChain,
     ) -> wgpu::BindGroup {
-        queue.write_buffer(&self.pixels, 0, bytemuck::bytes_of(&[glare.pixels as f32; 4]));
+        queue.write_buffer(&self.pixels, 0, bytemuck::bytes_of(&(glare.pixels as f32)));
         let entry = |binding, resource| wgpu::BindGroupEntry { binding, resource };
         device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some("tone map"),

@@ -2,26 +2,20 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // Light to picture: exposure, glare, grading, tone map, encoding, and a grain of dither against bands in the sky.
 
+#import lens/fullscreen
+
 @group(0) @binding(1) var<uniform> exposure: Exposure;
 @group(1) @binding(0) var light: texture_2d<f32>;
 @group(1) @binding(1) var glare: texture_2d<f32>;
 @group(1) @binding(2) var smooth_sampler: sampler;
 // Pixels of the picture along one of the glare.
-@group(1) @binding(3) var<uniform> glare_pixels: vec4<f32>;
+@group(1) @binding(3) var<uniform> glare_pixels: f32;
 
 // Off where the target encodes by itself.
 override ENCODE: bool = true;
 
 // Which of the curves this pipeline has.
-override CURVE: u32 = 2u;
-
-// Curves by the order in `tonemap_pass.rs`; any other is AgX.
-const LINEAR: u32 = 0u;
-const REINHARD: u32 = 1u;
-const MIDDLE_GREY: f32 = 0.18;
-const STOPS_BELOW: f32 = 10.0;
-const STOPS: f32 = 16.5;
-const DISPLAY: f32 = 2.2;
+override CURVE: u32 = CURVE_AGX;
 
 // Equation 4 of Reinhard et al. 2002, on luminance: hues stay.
 fn reinhard(color: vec3<f32>, white: f32) -> vec3<f32> {
@@ -31,9 +25,9 @@ fn reinhard(color: vec3<f32>, white: f32) -> vec3<f32> {
 
 fn sigmoid(stops: vec3<f32>) -> vec3<f32> {
     let pivot = vec2(STOPS_BELOW / STOPS, pow(MIDDLE_GREY, 1.0 / DISPLAY));
-    let height = select(vec3(lens.agx.z), vec3(-lens.agx.y), stops < vec3(pivot.x));
-    let t = lens.agx.x * (stops - pivot.x) / height;
-    return height * t / pow(1.0 + pow(t, vec3(lens.agx.w)), vec3(1.0 / lens.agx.w)) + pivot.y;
+    let height = select(vec3(lens.agx_above), vec3(-lens.agx_below), stops < vec3(pivot.x));
+    let t = lens.agx_slope * (stops - pivot.x) / height;
+    return height * t / pow(1.0 + pow(t, vec3(lens.agx_bend)), vec3(1.0 / lens.agx_bend)) + pivot.y;
 }
 
 // Primaries are drawn in before the curve and drawn out after it, so that what is too bright for its hue pales.
@@ -65,22 +59,22 @@ fn srgb_decode(encoded: vec3<f32>) -> vec3<f32> {
 
 @fragment
 fn fragment(@builtin(position) output_at: vec4<f32>) -> @location(0) vec4<f32> {
-    let at = output_at.xy - lens.origin;
+    let at = output_at.xy - lens.origin_px;
     var color = textureLoad(light, vec2<i32>(at), 0).rgb * exposure.multiplier;
-    if lens.strength > 0.0 {
-        let place = at / (glare_pixels.x * vec2<f32>(textureDimensions(glare)));
-        color += lens.strength * textureSampleLevel(glare, smooth_sampler, place, 0.0).rgb;
+    if lens.glare_strength > 0.0 {
+        let place = at / (glare_pixels * vec2<f32>(textureDimensions(glare)));
+        color += lens.glare_strength * textureSampleLevel(glare, smooth_sampler, place, 0.0).rgb;
     }
-    let middle = (at * lens.size.zw - 0.5) * vec2(1.0, 0.8);
+    let middle = (at * lens.inv_size_px - 0.5) * vec2(1.0, 0.8);
     color *= 1.0 - 2.44 * lens.vignette * dot(middle, middle);
     color = max(mix(vec3(luminance(color)), color, lens.saturation), vec3(0.0));
     var encoded = vec3(0.0);
     switch CURVE {
-        case LINEAR: {
-            encoded = pow(min(color, vec3(1.0)), vec3(1.0 / lens.parameter));
+        case CURVE_LINEAR: {
+            encoded = pow(min(color, vec3(1.0)), vec3(1.0 / lens.curve_parameter));
         }
-        case REINHARD: {
-            encoded = srgb_encode(min(reinhard(color, lens.parameter), vec3(1.0)));
+        case CURVE_REINHARD: {
+            encoded = srgb_encode(min(reinhard(color, lens.curve_parameter), vec3(1.0)));
         }
         default: {
             encoded = srgb_encode(min(agx(color), vec3(1.0)));

@@ -22,6 +22,7 @@ pub use atmosphere::Atmosphere;
 pub use daylight::{Daylight, SunLight, luminance};
 pub use environment_map::EnvironmentMap;
 pub use map_error::MapError;
+pub(crate) use prefilter::wgsl_constants;
 pub use prefilter::{ROUGHNESS, prefiltered};
 pub use spherical_harmonics::SphericalHarmonics;
 

@@ -4,13 +4,20 @@
 
 use glam::Vec3;
 use rayon::prelude::*;
+use windfall_core::shared_constants;
 
 use super::EnvironmentMap;
 
 /// Rows of the first level; the others have half as many as the one before.
 const ROWS: usize = 64;
-/// Roughness of each level, as artists count it: the square root of the width of the microfacets' distribution. `light.wgsl`
-/// chooses the level.
+shared_constants! {
+    /// Roughness of the first level.
+    pub(crate) const LEAST_ROUGHNESS: f32 = 0.1;
+    /// How much rougher each level is than the one before.
+    pub(crate) const ROUGHNESS_STEP: f32 = 0.225;
+}
+
+/// Roughness of each level, as artists count it: the square root of the width of the microfacets' distribution.
 pub const ROUGHNESS: [f32; 5] = [0.1, 0.325, 0.55, 0.775, 1.0];
 /// Directions drawn for each pixel.
 const DRAWS: u32 = 48;

@@ -3,12 +3,15 @@
 //! Counts on the device how many leaves lie in the cells of a square.
 
 use glam::Vec3;
+use windfall_core::layout::Float4;
+use windfall_core::shared_struct;
 use windfall_wgpu::LeafColumns;
 
+use super::MARKS_GROUP_SIZE;
 use super::palette::{SHADES, shade};
-use crate::gpu::pipeline::{buffer_entry, layout, shader};
+use crate::gpu::pipeline::{buffer_entry, layout};
+use crate::gpu::shaders::compile;
 use crate::gpu::upload;
-use crate::leaves::record::record_constants;
 use crate::leaves::visible::PAGE_SLOTS;
 
 /// Leaves per square metre at the ends of the colours, which go by ratios.
@@ -16,18 +19,25 @@ pub const LANDINGS_PER_M2: (f32, f32) = (1.0, 100.0);
 /// Cells along an edge of the square, and the edge of one in metres.
 pub(crate) const CELLS: u32 = 160;
 pub(crate) const CELL_M: f32 = 0.5;
-/// Leaves that a workgroup counts.
-const GROUP_SIZE: u32 = 64;
 /// Bytes of a record of a column.
 const COLUMN_BYTES: u64 = 16;
 
-/// `Landing` of the landing shaders.
-#[repr(C)]
-#[derive(Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
-struct LandingUniform {
-    square: [f32; 4],
-    scale: [f32; 4],
-    palette: [[f32; 4]; SHADES],
+shared_struct! {
+    /// The square that is counted, and its colours.
+    pub(crate) struct LandingUniform, padding 8 {
+        /// Colours from few leaves to many, w unused.
+        palette: [Float4; SHADES as usize],
+        /// Lowest x and z of the square.
+        corner_m: [f32; 2],
+        /// Edge of a cell.
+        cell_m: f32,
+        /// Cells along an edge.
+        cells: u32,
+        /// Leaves per square metre at the first colour.
+        low_per_m2: f32,
+        /// Leaves per square metre at the last.
+        high_per_m2: f32,
+    }
 }
 
 /// The counts, and the pipeline that makes them.
@@ -45,11 +55,15 @@ impl LandingCount {
     pub(crate) fn new(device: &wgpu::Device, queue: &wgpu::Queue, center: Vec3) -> Self {
         let half = 0.5 * CELL_M * CELLS as f32;
         let uniform = LandingUniform {
-            square: [center.x - half, center.z - half, CELL_M, CELLS as f32],
-            scale: [LANDINGS_PER_M2.0, LANDINGS_PER_M2.1, 0.0, 0.0],
             palette: std::array::from_fn(|index| {
-                shade(index as f32 / (SHADES - 1) as f32).extend(1.0).to_array()
+                Float4(shade(index as f32 / (SHADES - 1) as f32).extend(1.0).to_array())
             }),
+            corner_m: [center.x - half, center.z - half],
+            cell_m: CELL_M,
+            cells: CELLS,
+            low_per_m2: LANDINGS_PER_M2.0,
+            high_per_m2: LANDINGS_PER_M2.1,
+            padding: [0; 8],
         };
         let usage = wgpu::BufferUsages::UNIFORM;
         let uniform = upload::buffer(device, queue, "landings", usage, bytemuck::bytes_of(&uniform));
@@ -69,8 +83,7 @@ impl LandingCount {
                 buffer_entry(2, storage(false), compute),
             ],
         });
-        let text = [&record_constants(), include_str!("landing_count.wgsl")];
-        let module = shader(device, "landing counts", &text);
+        let module = compile(device, &super::shaders(), "marks/landing_count");
         let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
             label: Some("landing counts"),
             layout: Some(&layout(device, &[Some(&group_layout)])),
@@ -112,7 +125,7 @@ impl LandingCount {
             });
             pass.set_pipeline(&self.pipeline);
             pass.set_bind_group(0, &group, &[]);
-            pass.dispatch_workgroups(count.div_ceil(GROUP_SIZE), 1, 1);
+            pass.dispatch_workgroups(count.div_ceil(MARKS_GROUP_SIZE), 1, 1);
         }
     }
 }

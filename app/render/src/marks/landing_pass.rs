@@ -5,8 +5,9 @@
 use super::landing_count::{CELLS, LandingCount};
 use crate::frame::group::FrameGroup;
 use crate::frame::light_group::LightGroup;
-use crate::frame::scene_pipeline::{COMMON, LIGHT, ScenePipeline};
-use crate::gpu::pipeline::{buffer_entry, shader};
+use crate::frame::scene_pipeline::ScenePipeline;
+use crate::gpu::pipeline::buffer_entry;
+use crate::gpu::shaders::compile;
 
 /// The pipeline that shows the counts.
 #[derive(Debug)]
@@ -42,13 +43,15 @@ impl LandingPass {
                 wgpu::BindGroupEntry { binding: 1, resource: count.cells.as_entire_binding() },
             ],
         });
-        let module = shader(device, "landings", &[COMMON, LIGHT, include_str!("landing_pass.wgsl")]);
+        let module = compile(device, &super::shaders(), "marks/landing_pass");
         let pipeline = ScenePipeline {
             label: "landings",
             frame,
             groups: &[&light.layout, &layout],
             topology: wgpu::PrimitiveTopology::TriangleList,
             shader: &module,
+            vertex: "vertex",
+            constants: &[],
             buffers: &[],
             blend: Some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING),
             depth_write: false,

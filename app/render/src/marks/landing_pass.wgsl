@@ -1,16 +1,11 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// How densely leaves lie, as a cloth of colours on the ground. Laid out by `landing_count.rs`.
+// How densely leaves lie, as a cloth of colours on the ground.
 
-struct Landing {
-    // Lower corner of the square in x and z, edge of a cell in metres, cells along an edge.
-    square: vec4<f32>,
-    // Leaves per square metre at the ends of the colours.
-    scale: vec4<f32>,
-    palette: array<vec4<f32>, 16>,
-}
+#import frame/light
+#import marks/structs
 
-@group(2) @binding(0) var<uniform> landing: Landing;
+@group(2) @binding(0) var<uniform> landing: LandingUniform;
 @group(2) @binding(1) var<storage, read> cells: array<u32>;
 
 // How high over the ground the cloth lies, in metres: over grass and litter.
@@ -22,7 +17,7 @@ struct Varyings {
 }
 
 fn cell(x: i32, z: i32) -> f32 {
-    let edge = i32(landing.square.w);
+    let edge = i32(landing.cells);
     if x < 0 || z < 0 || x >= edge || z >= edge {
         return 0.0;
     }
@@ -32,17 +27,17 @@ fn cell(x: i32, z: i32) -> f32 {
 // Leaves per square metre around a corner of the grid.
 fn density_at(x: i32, z: i32) -> f32 {
     let sum = cell(x - 1, z - 1) + cell(x, z - 1) + cell(x - 1, z) + cell(x, z);
-    return 0.25 * sum / (landing.square.z * landing.square.z);
+    return 0.25 * sum / (landing.cell_m * landing.cell_m);
 }
 
 @vertex
 fn vertex(@builtin(vertex_index) index: u32, @builtin(instance_index) instance: u32) -> Varyings {
-    let edge = u32(landing.square.w);
+    let edge = landing.cells;
     let corner = vec2(
         i32(instance % edge) + i32(index == 1u || index == 2u || index == 4u),
         i32(instance / edge) + i32(index == 2u || index == 4u || index == 5u),
     );
-    let at = landing.square.xy + vec2<f32>(corner) * landing.square.z;
+    let at = landing.corner_m + vec2<f32>(corner) * landing.cell_m;
     var out: Varyings;
     out.density = density_at(corner.x, corner.y);
     out.clip = frame.view_projection * vec4(at.x, surface_height(at) + LIFT_M, at.y, 1.0);
@@ -51,13 +46,13 @@ fn vertex(@builtin(vertex_index) index: u32, @builtin(instance_index) instance: 
 
 @fragment
 fn fragment(in: Varyings) -> @location(0) vec4<f32> {
-    let low = landing.scale.x;
-    let amount = log(max(in.density, 1.0e-3) / low) / log(landing.scale.y / low);
-    let at = clamp(amount, 0.0, 1.0) * 15.0;
-    let first = min(u32(at), 14u);
+    let low = landing.low_per_m2;
+    let amount = log(max(in.density, 1.0e-3) / low) / log(landing.high_per_m2 / low);
+    let at = clamp(amount, 0.0, 1.0) * f32(SHADES - 1u);
+    let first = min(u32(at), SHADES - 2u);
     let color = mix(landing.palette[first].rgb, landing.palette[first + 1u].rgb, at - f32(first));
     // Fades out where there is less than the scale begins with.
     let alpha = 0.82 * smoothstep(0.15 * low, low, in.density);
-    let light = 0.42 * luminance(ambient_light(vec3(0.0, 1.0, 0.0)) + frame.sun_color.rgb);
+    let light = 0.42 * luminance(ambient_light(vec3(0.0, 1.0, 0.0)) + frame.sun_color);
     return vec4(color * light * alpha, alpha);
 }

@@ -10,6 +10,11 @@ pub(crate) mod paint_pass;
 mod palette;
 pub(crate) mod trail_pass;
 
+use windfall_core::layout::WgslStruct;
+use windfall_core::shared_constants;
+
+use crate::gpu::shaders::{Shaders, declarations, wgsl_files};
+
 pub use landing_count::LANDINGS_PER_M2;
 pub use palette::{ATTACHED, MOTIONS, RESTING, shade_bytes};
 pub use trail_pass::MAX_TRAILS;
@@ -34,4 +39,25 @@ pub struct Paint {
     pub measure: Measure,
     /// The amount at the light end of the colours, above zero; for motions nothing.
     pub most: f32,
+}
+
+shared_constants! {
+    /// Leaves that a workgroup handles.
+    pub(crate) const MARKS_GROUP_SIZE: u32 = 64;
+}
+
+/// Shader modules of this room and of those below.
+pub(crate) fn shaders() -> Shaders {
+    let mut shaders = crate::frame::shaders();
+    let lists = [wgsl_constants(), palette::wgsl_constants(), paint_pass::wgsl_constants()];
+    let structs = [
+        landing_count::LandingUniform::declaration(),
+        paint_pass::PaintUniform::declaration(),
+        trail_pass::TrailUniform::declaration(),
+    ];
+    shaders.extend([("marks/structs", declarations(lists) + &structs.concat())]);
+    shaders.extend(wgsl_files!(
+        "marks": "landing_count", "landing_pass", "paint_pass", "trail_pass", "trail_sample"
+    ));
+    shaders
 }

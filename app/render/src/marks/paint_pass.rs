@@ -3,29 +3,50 @@
 //! Marks leaves with colours on the device, before they are culled.
 
 use glam::Vec3;
+use windfall_core::layout::Float4;
+use windfall_core::{shared_constants, shared_struct};
 use windfall_wgpu::LeafColumns;
 
-use super::Measure;
-use super::Paint;
-use super::palette::{self, MOTIONS, SHADES, linear, shade};
-use crate::gpu::pipeline::{buffer_entry, layout, shader};
-use crate::leaves::record::record_constants;
+use super::palette::{self, ATTACHED_COLOR, MOTIONS, NO_COLOR, RESTING_COLOR, SHADES, linear, shade};
+use super::{MARKS_GROUP_SIZE, Measure, Paint};
+use crate::gpu::pipeline::{buffer_entry, layout};
+use crate::gpu::shaders::compile;
 use crate::leaves::visible::PAGE_SLOTS;
 
 /// Bytes of a mark and of a record of a column.
 const MARK_BYTES: u64 = 16;
-/// Leaves that a workgroup marks.
-const GROUP_SIZE: u32 = 64;
 /// Colours in the uniform block: the shades, and three for leaves that have none.
-const COLORS: usize = SHADES + 3;
+const COLORS: usize = NO_COLOR as usize + 1;
 
-/// `Paint` of `paint.wgsl`.
-#[repr(C)]
-#[derive(Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
-struct PaintUniform {
-    what: [u32; 4],
-    scale: [f32; 4],
-    palette: [[f32; 4]; COLORS],
+shared_constants! {
+    /// Number of [`Measure::Motion`].
+    const MEASURE_MOTION: u32 = 0;
+    /// Number of [`Measure::Speed`].
+    const MEASURE_SPEED: u32 = 1;
+    /// Number of [`Measure::Age`].
+    const MEASURE_AGE: u32 = 2;
+    /// Number of [`Measure::Height`].
+    const MEASURE_HEIGHT: u32 = 3;
+}
+
+shared_struct! {
+    /// What is shown of the leaves, and its colours.
+    pub(crate) struct PaintUniform, padding 8 {
+        /// Colours from low to high, or of each kind of motion; then of leaves without a value. w unused.
+        palette: [Float4; COLORS],
+        /// Number of the measure.
+        measure: u32,
+        /// The present step.
+        step: u32,
+        /// Seconds of a step.
+        dt_s: f32,
+        /// Seconds since the marks before.
+        since_s: f32,
+        /// Value at the palette's beginning.
+        low: f32,
+        /// Value at its end.
+        high: f32,
+    }
 }
 
 /// The marks, and the pipeline that makes them.
@@ -59,7 +80,7 @@ impl PaintPass {
                 buffer_entry(4, storage(false), compute),
             ],
         });
-        let module = shader(device, "paint", &[&record_constants(), include_str!("paint_pass.wgsl")]);
+        let module = compile(device, &super::shaders(), "marks/paint_pass");
         let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
             label: Some("paint"),
             layout: Some(&layout(device, &[Some(&group_layout)])),
@@ -121,16 +142,21 @@ impl PaintPass {
         self.seen_s = Some(time_s);
         let step = (time_s / f64::from(self.dt_s)).round() as u32;
         let measure = match self.paint.measure {
-            Measure::Motion => 0,
-            Measure::Speed => 1,
-            Measure::Age => 2,
-            Measure::Height => 3,
+            Measure::Motion => MEASURE_MOTION,
+            Measure::Speed => MEASURE_SPEED,
+            Measure::Age => MEASURE_AGE,
+            Measure::Height => MEASURE_HEIGHT,
         };
         let low = if self.paint.measure == Measure::Height { self.base_m } else { 0.0 };
         let uniform = PaintUniform {
-            what: [measure, step, 0, 0],
-            scale: [self.dt_s, passed_s as f32, low + self.paint.most.max(1.0e-6), low],
-            palette: colors(self.paint.measure).map(|color| color.extend(1.0).to_array()),
+            palette: colors(self.paint.measure).map(|color| Float4(color.extend(1.0).to_array())),
+            measure,
+            step,
+            dt_s: self.dt_s,
+            since_s: passed_s as f32,
+            low,
+            high: low + self.paint.most.max(1.0e-6),
+            padding: [0; 8],
         };
         queue.write_buffer(&self.uniform, 0, bytemuck::bytes_of(&uniform));
         let count = u64::from(leaves.leaf_count).min(self.marks.size() / MARK_BYTES);
@@ -162,7 +188,7 @@ impl PaintPass {
             });
             pass.set_pipeline(&self.pipeline);
             pass.set_bind_group(0, &group, &[]);
-            pass.dispatch_workgroups((part as u32).div_ceil(GROUP_SIZE), 1, 1);
+            pass.dispatch_workgroups((part as u32).div_ceil(MARKS_GROUP_SIZE), 1, 1);
             first += part;
         }
     }
@@ -170,11 +196,12 @@ impl PaintPass {
 
 /// The palette of a measure, and the colours of leaves at rest, on twigs, and without a value.
 fn colors(measure: Measure) -> [Vec3; COLORS] {
-    std::array::from_fn(|index| match index {
-        SHADES => linear(palette::RESTING),
-        index if index == SHADES + 1 => linear(palette::ATTACHED),
-        index if index > SHADES => linear(palette::NONE),
-        _ if measure == Measure::Motion => linear(MOTIONS[index.min(MOTIONS.len() - 1)].1),
+    let mut colors = std::array::from_fn(|index| match measure {
+        Measure::Motion => linear(MOTIONS[index.min(MOTIONS.len() - 1)].1),
         _ => shade(index as f32 / (SHADES - 1) as f32),
-    })
+    });
+    colors[RESTING_COLOR as usize] = linear(palette::RESTING);
+    colors[ATTACHED_COLOR as usize] = linear(palette::ATTACHED);
+    colors[NO_COLOR as usize] = linear(palette::NONE);
+    colors
 }

@@ -1,17 +1,11 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// Marks every leaf with the colour of what it does. Laid out by `paint/pass.rs`.
+// Marks every leaf with the colour of what it does.
 
-struct Paint {
-    // What is shown, as numbered there; the present step.
-    what: vec4<u32>,
-    // Seconds of a step, seconds since the marks before; value of the palette's end and of its beginning.
-    scale: vec4<f32>,
-    // Colours from low to high, or of each kind of motion; then of leaves at rest, of those on twigs, and of no value yet.
-    palette: array<vec4<f32>, 19>,
-}
+#import leaf_records
+#import marks/structs
 
-@group(0) @binding(0) var<uniform> paint: Paint;
+@group(0) @binding(0) var<uniform> paint: PaintUniform;
 @group(0) @binding(1) var<storage, read> places: array<vec4<u32>>;
 @group(0) @binding(2) var<storage, read> identities: array<vec4<u32>>;
 // The identities, with a colour in place of the release.
@@ -19,23 +13,19 @@ struct Paint {
 // Where each leaf was, and its colour then; 0 before the first time.
 @group(0) @binding(4) var<storage, read_write> past: array<vec4<u32>>;
 
-const SHADES: u32 = 16u;
-const RESTING: u32 = 16u;
-const ATTACHED: u32 = 17u;
-const NONE: u32 = 18u;
 // Regimes of bodies in the order of the motions that look like them.
 const LIKE = array<u32, 6>(0u, 3u, 1u, 2u, 4u, 5u);
 // Farthest that a leaf goes in a second; beyond it was put elsewhere.
 const JUMP_M_S: f32 = 60.0;
 
 fn shade(value: f32) -> vec3<f32> {
-    let share = clamp((value - paint.scale.w) / (paint.scale.z - paint.scale.w), 0.0, 1.0);
+    let share = clamp((value - paint.low) / (paint.high - paint.low), 0.0, 1.0);
     let at = share * f32(SHADES - 1u);
     let low = min(u32(at), SHADES - 2u);
     return mix(paint.palette[low].rgb, paint.palette[low + 1u].rgb, at - f32(low));
 }
 
-@compute @workgroup_size(64)
+@compute @workgroup_size(MARKS_GROUP_SIZE)
 fn mark(@builtin(global_invocation_id) id: vec3<u32>) {
     let index = id.x;
     if index >= arrayLength(&places) {
@@ -45,10 +35,10 @@ fn mark(@builtin(global_invocation_id) id: vec3<u32>) {
     let state = place.w & STATE_MASK;
     let before = past[index];
     let here = bitcast<vec3<f32>>(place.xyz);
-    var color = select(paint.palette[RESTING].rgb, paint.palette[ATTACHED].rgb, state == STATE_ATTACHED);
+    var color = select(paint.palette[RESTING_COLOR].rgb, paint.palette[ATTACHED_COLOR].rgb, state == STATE_ATTACHED);
     var keeps = false;
-    switch paint.what.x {
-        case 0u: {
+    switch paint.measure {
+        case MEASURE_MOTION: {
             if state == STATE_FALLING {
                 let primitive = (place.w >> PRIMITIVE_SHIFT) & PRIMITIVE_MASK;
                 let regime = (place.w >> REGIME_SHIFT) & REGIME_MASK;
@@ -56,18 +46,18 @@ fn mark(@builtin(global_invocation_id) id: vec3<u32>) {
                 color = paint.palette[kind].rgb;
             }
         }
-        case 1u: {
+        case MEASURE_SPEED: {
             let gone_m = distance(here, bitcast<vec3<f32>>(before.xyz));
-            let speed = gone_m / max(paint.scale.y, 1.0e-6);
+            let speed = gone_m / max(paint.since_s, 1.0e-6);
             let is_known = before.w != 0u && speed < JUMP_M_S;
-            color = select(paint.palette[NONE].rgb, shade(speed), is_known);
+            color = select(paint.palette[NO_COLOR].rgb, shade(speed), is_known);
             // While time stands still everything keeps the speed that it had.
-            keeps = paint.scale.y <= 0.0;
+            keeps = paint.since_s <= 0.0;
         }
-        case 2u: {
+        case MEASURE_AGE: {
             if state != STATE_ATTACHED {
-                let age = bitcast<i32>(paint.what.y) - bitcast<i32>(identities[index].y);
-                color = shade(f32(age) * paint.scale.x);
+                let age = bitcast<i32>(paint.step) - bitcast<i32>(identities[index].y);
+                color = shade(f32(age) * paint.dt_s);
             }
         }
         default: {

@@ -6,9 +6,19 @@
 //! that see fewer colours. Kinds of motion have the colours of `windfall flight`.
 
 use glam::Vec3;
+use windfall_core::shared_constants;
 
-/// Colours of an amount.
-pub(crate) const SHADES: usize = 16;
+shared_constants! {
+    /// Colours of an amount.
+    pub(crate) const SHADES: u32 = 16;
+    /// Index of the colour of leaves at rest, behind those of amounts.
+    pub(crate) const RESTING_COLOR: u32 = SHADES;
+    /// Index of the colour of leaves on twigs.
+    pub(crate) const ATTACHED_COLOR: u32 = SHADES + 1;
+    /// Index of the colour of leaves without a value.
+    pub(crate) const NO_COLOR: u32 = SHADES + 2;
+}
+
 /// Lightness, chroma and hue in degrees of OKLCH at the ends of the amounts.
 const LOW: [f32; 3] = [0.30, 0.12, 295.0];
 const HIGH: [f32; 3] = [0.92, 0.15, 100.0];

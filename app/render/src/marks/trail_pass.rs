@@ -2,32 +2,46 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Draws where leaves have been: a ring of past positions per leaf, sampled and drawn on the device.
 
+use windfall_core::shared_struct;
 use windfall_wgpu::LeafColumns;
+
+use super::MARKS_GROUP_SIZE;
 
 use crate::frame::group::FrameGroup;
 use crate::frame::light_group::LightGroup;
-use crate::frame::scene_pipeline::{COMMON, LIGHT, ScenePipeline};
-use crate::gpu::pipeline::{buffer_entry, layout, shader};
-use crate::leaves::record::record_constants;
+use crate::frame::scene_pipeline::ScenePipeline;
+use crate::gpu::pipeline::{buffer_entry, layout};
+use crate::gpu::shaders::compile;
 
 /// Leaves that draw a trail.
 pub const MAX_TRAILS: u32 = 4096;
 /// Samples per leaf.
 const SAMPLES: u32 = 128;
-/// Leaves a workgroup of `trail_sample.wgsl` handles.
-const GROUP_SIZE: u32 = 64;
 /// Half width of a ribbon in metres.
 const HALF_WIDTH_M: f32 = 0.008;
 /// A leaf that goes farther than this between two frames was put elsewhere: one metre, or 60 m/s.
 const BREAK_M: f32 = 1.0;
 const BREAK_M_S: f32 = 60.0;
 
-/// `Trail` of the trail shaders.
-#[repr(C)]
-#[derive(Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
-struct TrailUniform {
-    counts: [u32; 4],
-    shape: [f32; 4],
+shared_struct! {
+    /// Trails of a frame; the lengths of time are relative to the trail's.
+    pub(crate) struct TrailUniform {
+        leaf_count: u32,
+        /// Samples per leaf.
+        sample_count: u32,
+        /// Newest sample.
+        newest: u32,
+        /// 1 when the newest sample only just began, else 0.
+        has_begun: u32,
+        /// Farthest that a leaf goes between two frames.
+        break_m: f32,
+        /// Age of the sample before the newest.
+        newest_age: f32,
+        /// From each sample to the next.
+        interval: f32,
+        /// Half width of a ribbon.
+        half_width_m: f32,
+    }
 }
 
 /// Which sample of the ring is being written.
@@ -108,8 +122,8 @@ impl TrailPass {
                 buffer_entry(2, write, compute),
             ],
         });
-        let module =
-            shader(device, "trail sample", &[&record_constants(), include_str!("trail_sample.wgsl")]);
+        let shaders = super::shaders();
+        let module = compile(device, &shaders, "marks/trail_sample");
         let sample_pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
             label: Some("trail samples"),
             layout: Some(&layout(device, &[Some(&sample_layout)])),
@@ -135,13 +149,15 @@ impl TrailPass {
                 wgpu::BindGroupEntry { binding: 1, resource: ring.as_entire_binding() },
             ],
         });
-        let module = shader(device, "trail", &[COMMON, LIGHT, include_str!("trail_pass.wgsl")]);
+        let module = compile(device, &shaders, "marks/trail_pass");
         let draw_pipeline = ScenePipeline {
             label: "trails",
             frame,
             groups: &[&light.layout, &draw_layout],
             topology: wgpu::PrimitiveTopology::TriangleList,
             shader: &module,
+            vertex: "vertex",
+            constants: &[],
             buffers: &[],
             blend: Some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING),
             depth_write: false,
@@ -185,13 +201,14 @@ impl TrailPass {
         }
         let interval = (trail_s / f64::from(SAMPLES - 2)).max(tick.frame_s);
         let uniform = TrailUniform {
-            counts: [count, SAMPLES, self.clock.newest, u32::from(tick.began)],
-            shape: [
-                BREAK_M.max(BREAK_M_S * tick.frame_s as f32),
-                ((time_s - self.clock.began_s) / trail_s) as f32,
-                (interval / trail_s) as f32,
-                HALF_WIDTH_M,
-            ],
+            leaf_count: count,
+            sample_count: SAMPLES,
+            newest: self.clock.newest,
+            has_begun: tick.began.into(),
+            break_m: BREAK_M.max(BREAK_M_S * tick.frame_s as f32),
+            newest_age: ((time_s - self.clock.began_s) / trail_s) as f32,
+            interval: (interval / trail_s) as f32,
+            half_width_m: HALF_WIDTH_M,
         };
         queue.write_buffer(&self.uniform, 0, bytemuck::bytes_of(&uniform));
         let Some(bytes) = wgpu::BufferSize::new(u64::from(count) * 16) else { return };
@@ -211,7 +228,7 @@ impl TrailPass {
         });
         pass.set_pipeline(&self.sample_pipeline);
         pass.set_bind_group(0, &group, &[]);
-        pass.dispatch_workgroups(count.div_ceil(GROUP_SIZE), 1, 1);
+        pass.dispatch_workgroups(count.div_ceil(MARKS_GROUP_SIZE), 1, 1);
     }
 
     /// Draws the ribbons; bind groups 0 and 1 are set.

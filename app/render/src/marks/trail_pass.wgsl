@@ -2,12 +2,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // Trails as ribbons that face the camera and fade with age.
 
-struct Trail {
-    counts: vec4<u32>,
-    shape: vec4<f32>,
-}
+#import frame/light
+#import marks/structs
 
-@group(2) @binding(0) var<uniform> trail: Trail;
+@group(2) @binding(0) var<uniform> trail: TrailUniform;
 @group(2) @binding(1) var<storage, read> ring: array<vec4<f32>>;
 
 struct Varyings {
@@ -17,8 +15,8 @@ struct Varyings {
 }
 
 fn sample_at(leaf: u32, age: u32) -> vec4<f32> {
-    let count = trail.counts.y;
-    return ring[leaf * count + (trail.counts.z + count - min(age, count - 1u)) % count];
+    let count = trail.sample_count;
+    return ring[leaf * count + (trail.newest + count - min(age, count - 1u)) % count];
 }
 
 // Colours of the regimes of bodies, as `windfall flight` draws them: steady, flutter, tumble, chaotic, helical, spiral.
@@ -50,7 +48,7 @@ fn vertex(@builtin(vertex_index) index: u32, @builtin(instance_index) leaf: u32)
     var out: Varyings;
     let young = sample_at(leaf, segment);
     let old = sample_at(leaf, segment + 1u);
-    if joint(young) < 0.5 || joint(young) > 1.5 || joint(old) < 0.5 || segment + 2u > trail.counts.y {
+    if joint(young) < 0.5 || joint(young) > 1.5 || joint(old) < 0.5 || segment + 2u > trail.sample_count {
         out.clip = vec4(0.0, 0.0, -1.0, 1.0);
         return out;
     }
@@ -67,30 +65,30 @@ fn vertex(@builtin(vertex_index) index: u32, @builtin(instance_index) leaf: u32)
     }
     if older == 1u && joint(old) < 1.5 {
         let next = sample_at(leaf, segment + 2u);
-        if joint(next) > 0.5 && segment + 3u <= trail.counts.y {
+        if joint(next) > 0.5 && segment + 3u <= trail.sample_count {
             behind = next.xyz;
         }
     }
-    let to_eye = frame.eye.xyz - here;
+    let to_eye = frame.eye_m - here;
     var aside = cross(ahead - behind, to_eye);
     aside = aside / max(length(aside), 1.0e-9);
-    let pixel = length(to_eye) * length(frame.up.xyz) * 2.0 * frame.viewport.w;
-    let relative = select(trail.shape.y + f32(age - 1u) * trail.shape.z, 0.0, age == 0u);
+    let pixel = length(to_eye) * length(frame.up) * 2.0 * frame.inv_viewport_px.y;
+    let relative = select(trail.newest_age + f32(age - 1u) * trail.interval, 0.0, age == 0u);
     let life = clamp(1.0 - relative, 0.0, 1.0);
     // A few trails are a diagram and drawn boldly, each in a colour far from the others; many are a pattern.
-    let is_diagram = trail.counts.x <= 12u;
+    let is_diagram = trail.leaf_count <= 12u;
     let finest = pixel * select(0.9, mix(1.0, 1.8, life), is_diagram);
-    let half_width = max(trail.shape.w * (0.35 + 0.65 * life), finest);
+    let half_width = max(trail.half_width_m * (0.35 + 0.65 * life), finest);
     let world = here + aside * side * half_width;
     out.clip = frame.view_projection * vec4(world, 1.0);
     if is_diagram {
-        let color = hue(f32(leaf) / f32(trail.counts.x) + 0.02);
+        let color = hue(f32(leaf) / f32(trail.leaf_count) + 0.02);
         // Equally bright to the eye, or yellow would outshine blue.
         let even = color * mix(1.0, 0.45 / max(luminance(color), 0.1), 0.4);
         out.color = vec4(even * 1.25, 0.95 * smoothstep(0.0, 0.4, life));
     } else {
         let color = mix(vec3(1.0), hue(f32(leaf) * 0.61803399 + 0.06), 0.72);
-        let thin = min(trail.shape.w / half_width, 1.0);
+        let thin = min(trail.half_width_m / half_width, 1.0);
         out.color = vec4(color * 0.9, 0.85 * life * life * mix(0.5, 1.0, thin));
     }
     let regime = u32(sample_at(leaf, age).w / 4.0);
@@ -106,6 +104,6 @@ fn fragment(in: Varyings) -> @location(0) vec4<f32> {
     let soft = 1.0 - in.across * in.across;
     let alpha = in.color.a * smoothstep(0.0, 0.6, soft);
     // As bright as paint would be in this light, and a little more; a darker rim sets the ribbon off from a bright sky.
-    let glow = 1.6 * luminance(ambient_light(vec3(0.0, 1.0, 0.0)) + frame.sun_color.rgb);
+    let glow = 1.6 * luminance(ambient_light(vec3(0.0, 1.0, 0.0)) + frame.sun_color);
     return vec4(in.color.rgb * glow * alpha * mix(0.35, 1.0, smoothstep(0.2, 0.75, soft)), alpha);
 }

@@ -10,23 +10,14 @@ use super::tree_canvas::SPRITE_SIZE;
 use super::tree_sprite::{SPRITE_COUNT, paint_tree};
 use crate::frame::group::FrameGroup;
 use crate::frame::light_group::LightGroup;
-use crate::frame::scene_pipeline::{COMMON, LIGHT, ScenePipeline};
-use crate::gpu::pipeline::{FILTERABLE, layout, sampler_entry, shader, texture_entry};
+use crate::frame::scene_pipeline::ScenePipeline;
+use crate::gpu::pipeline::{FILTERABLE, layout, sampler_entry, texture_entry};
+use crate::gpu::shaders::compile;
 use crate::gpu::upload;
 
 /// Edge of the shade map in texels.
 const SHADE_SIZE: u32 = 1024;
 const SHADE_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
-const TREE_ATTRIBUTES: [wgpu::VertexAttribute; 4] =
-    wgpu::vertex_attr_array![0 => Float32x4, 1 => Float32, 2 => Uint32, 3 => Float32x2];
-
-fn tree_layout() -> wgpu::VertexBufferLayout<'static> {
-    wgpu::VertexBufferLayout {
-        array_stride: size_of::<TreeInstance>() as u64,
-        step_mode: wgpu::VertexStepMode::Instance,
-        attributes: &TREE_ATTRIBUTES,
-    }
-}
 
 /// The planted trees and their pictures.
 #[derive(Debug)]
@@ -108,14 +99,16 @@ pub(crate) struct TreePass {
 
 impl TreePass {
     pub(crate) fn new(device: &wgpu::Device, frame: &FrameGroup, light: &LightGroup, trees: &Trees) -> Self {
-        let shader = shader(device, "tree", &[COMMON, LIGHT, include_str!("far_trees.wgsl")]);
+        let shader = compile(device, &super::shaders(), "park/far_trees");
         let pipeline = ScenePipeline {
             label: "trees",
             frame,
             groups: &[&light.layout, &trees.layout],
             topology: wgpu::PrimitiveTopology::TriangleStrip,
             shader: &shader,
-            buffers: &[tree_layout()],
+            vertex: "vertex",
+            constants: &[],
+            buffers: &[TreeInstance::layout(wgpu::VertexStepMode::Instance)],
             blend: None,
             depth_write: true,
             alpha_to_coverage: true,
@@ -152,7 +145,7 @@ impl ShadePass {
             usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING,
             view_formats: &[],
         });
-        let module = shader(device, "shade", &[COMMON, include_str!("tree_shade.wgsl")]);
+        let module = compile(device, &super::shaders(), "park/far_trees");
         // Coverage takes away from what is there, colour adds to it.
         let component = wgpu::BlendComponent {
             src_factor: wgpu::BlendFactor::One,
@@ -161,12 +154,12 @@ impl ShadePass {
         };
         let pipeline = device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
             label: Some("shade"),
-            layout: Some(&layout(device, &[Some(&frame.layout), Some(&trees.layout)])),
+            layout: Some(&layout(device, &[Some(&frame.layout), None, Some(&trees.layout)])),
             vertex: wgpu::VertexState {
                 module: &module,
-                entry_point: Some("vertex"),
+                entry_point: Some("vertex_shade"),
                 compilation_options: wgpu::PipelineCompilationOptions::default(),
-                buffers: &[Some(tree_layout())],
+                buffers: &[Some(TreeInstance::layout(wgpu::VertexStepMode::Instance))],
             },
             primitive: wgpu::PrimitiveState {
                 topology: wgpu::PrimitiveTopology::TriangleStrip,
@@ -176,7 +169,7 @@ impl ShadePass {
             multisample: wgpu::MultisampleState::default(),
             fragment: Some(wgpu::FragmentState {
                 module: &module,
-                entry_point: Some("fragment"),
+                entry_point: Some("fragment_shade"),
                 compilation_options: wgpu::PipelineCompilationOptions::default(),
                 targets: &[Some(wgpu::ColorTargetState {
                     format: SHADE_FORMAT,
@@ -208,7 +201,7 @@ impl ShadePass {
         });
         pass.set_pipeline(&self.pipeline);
         pass.set_bind_group(0, &frame.group, &[]);
-        pass.set_bind_group(1, &trees.group, &[]);
+        pass.set_bind_group(2, &trees.group, &[]);
         pass.set_vertex_buffer(0, trees.instances.slice(..));
         // All shadows first: litter must not be dimmed by them.
         pass.draw(0..4, 0..trees.drawn_count());

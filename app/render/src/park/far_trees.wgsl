@@ -2,15 +2,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // Trees as upright pictures that turn to the camera, lit anew by the sun of the scene.
 
+#import frame/light
+#import park/structs
+
 @group(2) @binding(0) var sprites: texture_2d_array<f32>;
 @group(2) @binding(1) var sprite_sampler: sampler;
-
-struct Tree {
-    @location(0) foot_height: vec4<f32>,
-    @location(1) width: f32,
-    @location(2) sprite: u32,
-    @location(3) hue_brightness: vec2<f32>,
-}
 
 struct Varyings {
     @builtin(position) clip: vec4<f32>,
@@ -23,11 +19,11 @@ struct Varyings {
 }
 
 @vertex
-fn vertex(@builtin(vertex_index) index: u32, tree: Tree) -> Varyings {
+fn vertex(@builtin(vertex_index) index: u32, tree: TreeInstance) -> Varyings {
     let corner = vec2(f32(index & 1u), f32(index >> 1u));
-    let foot = tree.foot_height.xyz;
-    let height = tree.foot_height.w;
-    let toward = frame.eye.xz - foot.xz;
+    let foot = tree.foot_m;
+    let height = tree.height_m;
+    let toward = frame.eye_m.xz - foot.xz;
     let side = normalize(vec2(toward.y, -toward.x) + vec2(1.0e-5, 0.0));
     let across = (corner.x - 0.5) * height * abs(tree.width);
     var out: Varyings;
@@ -36,7 +32,7 @@ fn vertex(@builtin(vertex_index) index: u32, tree: Tree) -> Varyings {
     out.air = air_before(out.world);
     out.uv = vec2(select(1.0 - corner.x, corner.x, tree.width > 0.0), 1.0 - corner.y);
     out.sprite = tree.sprite;
-    out.look = vec3(tree.hue_brightness, sign(tree.width));
+    out.look = vec3(tree.hue, tree.brightness, sign(tree.width));
     return out;
 }
 
@@ -57,7 +53,7 @@ fn fragment(in: Varyings) -> @location(0) vec4<f32> {
     if alpha <= 0.0 {
         discard;
     }
-    let to_eye = normalize(frame.eye.xyz - in.world);
+    let to_eye = normalize(frame.eye_m - in.world);
     let side = normalize(vec3(to_eye.z, 0.0, -to_eye.x));
     let tilt = vec2((relief.r * 2.0 - 1.0) * in.look.z, relief.g * 2.0 - 1.0);
     let front = sqrt(max(1.0 - dot(tilt, tilt), 0.05));
@@ -67,7 +63,7 @@ fn fragment(in: Varyings) -> @location(0) vec4<f32> {
     let leaf = autumn(in.look.x + (surface.g - 0.5) * 0.5) * in.look.y * (0.35 + 0.9 * surface.r);
     let bark = vec3(0.105, 0.074, 0.052) * (0.5 + surface.r);
     let albedo = mix(leaf, bark, surface.b);
-    let light = frame.sun_direction.xyz;
+    let light = frame.sun_direction;
     let facing = dot(normal, light);
     let open = relief.b;
     let lit = pow(max(facing * 0.55 + 0.45, 0.0), 1.5) * (0.3 + 0.7 * open);
@@ -75,7 +71,59 @@ fn fragment(in: Varyings) -> @location(0) vec4<f32> {
     let against = pow(max(dot(-to_eye, light), 0.0), 2.0);
     let saturated = mix(vec3(luminance(leaf)), leaf, 1.4) * vec3(1.15, 0.95, 0.6);
     let through = saturated * (1.0 - surface.b) * against * open * open * (0.25 + 1.1 * lit);
-    var color = frame.sun_color.rgb * hill_light(in.world) * (albedo * lit + through);
+    var color = frame.sun_color * hill_light(in.world) * (albedo * lit + through);
     color += albedo * ambient_light(normal) * (0.25 + 0.75 * open);
     return vec4(color * in.air.a + in.air.rgb, alpha);
+}
+
+// Shadows of the trees, and under them the litter and the sky that crowns hide, seen from above; drawn once per sun.
+
+struct ShadeVaryings {
+    @builtin(position) clip: vec4<f32>,
+    @location(0) uv: vec2<f32>,
+    @location(1) @interpolate(flat) sprite: u32,
+    // 0 for a tree that strews no litter.
+    @location(2) @interpolate(flat) strewn: f32,
+}
+
+// Vertices 0-3: the shadow, a picture of the tree laid down away from the sun. 4-7: what is around the foot.
+@vertex
+fn vertex_shade(@builtin(vertex_index) index: u32, tree: TreeInstance) -> ShadeVaryings {
+    let corner = vec2(f32(index & 1u), f32((index >> 1u) & 1u));
+    let height = tree.height_m;
+    let away = -normalize(frame.sun_direction.xz + vec2(1.0e-5, 0.0));
+    let side = vec2(-away.y, away.x);
+    var at = tree.foot_m.xz;
+    var out: ShadeVaryings;
+    if index < 4u {
+        // A low sun would lay shadows over the whole park.
+        let reach = min(frame.sun_zenith_tan, 4.0);
+        at += side * ((corner.x - 0.5) * height * abs(tree.width)) + away * (corner.y * height * reach);
+        out.sprite = tree.sprite;
+    } else {
+        at += (corner - 0.5) * height * 1.15;
+        out.sprite = 1000u + tree.sprite;
+    }
+    out.uv = vec2(corner.x, 1.0 - corner.y);
+    out.strewn = min(tree.brightness, 1.0);
+    let offset = (at - frame.park_center_m.xz) / PARK_RADIUS_M;
+    out.clip = vec4(offset.x, -offset.y, 0.0, 1.0);
+    return out;
+}
+
+// Blending multiplies red (light let through), and adds green (litter) and blue (hidden sky).
+@fragment
+fn fragment_shade(in: ShadeVaryings) -> @location(0) vec4<f32> {
+    if in.sprite < 1000u {
+        // Half shadow widens with the height of what casts it.
+        let blur = 2.2 + 1.6 * (1.0 - in.uv.y);
+        let cover = textureSampleLevel(sprites, sprite_sampler, in.uv, in.sprite * 2u, blur).a;
+        let dark = min(cover * 1.05, 1.0) * 0.86;
+        return vec4(0.0, 0.0, 0.0, dark);
+    }
+    let radius = length(in.uv - 0.5) * 2.0;
+    // A crown hides as much sky as its picture is dense.
+    let crown = textureSampleLevel(sprites, sprite_sampler, vec2(0.5, 0.35), (in.sprite - 1000u) * 2u, 5.0).a;
+    let hidden = 0.55 * crown * (1.0 - smoothstep(0.1, 1.0, radius));
+    return vec4(0.0, 0.75 * (1.0 - smoothstep(0.2, 1.0, radius)) * in.strewn, hidden, 0.0);
 }

@@ -7,25 +7,27 @@ use windfall_core::Scene;
 use windfall_core::scene::{Source, SourceShape};
 
 use super::tree_sprite::SPRITE_COUNT;
+use crate::frame::surroundings::{PATH_BEND_M, PATH_BEND_RAD_M};
+use crate::gpu::vertex::vertex_struct;
 use crate::land::Land;
 use crate::random::Random;
 
-/// One tree, as the shaders read it.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, bytemuck::Pod, bytemuck::Zeroable)]
-pub(crate) struct TreeInstance {
-    /// Foot in metres.
-    pub(crate) foot_m: Vec3,
-    /// Height in metres.
-    pub(crate) height_m: f32,
-    /// Width relative to height; negative mirrors the sprite.
-    pub(crate) width: f32,
-    /// Number of the sprite.
-    pub(crate) sprite: u32,
-    /// Place in the palette from green (0) to russet (1).
-    pub(crate) hue: f32,
-    /// Brightness of the foliage.
-    pub(crate) brightness: f32,
+vertex_struct! {
+    /// A tree, as the shaders read it.
+    pub(crate) struct TreeInstance from 0 {
+        /// Foot in metres.
+        pub(crate) foot_m: Vec3 = Float32x3,
+        /// Height in metres.
+        pub(crate) height_m: f32 = Float32,
+        /// Width relative to height; negative mirrors the sprite.
+        pub(crate) width: f32 = Float32,
+        /// Number of the sprite.
+        pub(crate) sprite: u32 = Uint32,
+        /// Place in the palette from green (0) to russet (1).
+        pub(crate) hue: f32 = Float32,
+        /// Brightness of the foliage; 0 for a tree that strews no litter.
+        pub(crate) brightness: f32 = Float32,
+    }
 }
 
 /// Closest a tree stands to the viewer, in metres: any nearer its trunk would hide the scene.
@@ -160,10 +162,10 @@ fn crown_tree(scene: &Scene, land: &Land, source: &Source, random: &mut Random) 
     })
 }
 
-/// How far a place lies from the middle of the path that leads along `view`; the shape of `grass_color.wgsl`.
+/// Distance of a place from the middle of the path that leads along `view`, as `beyond_path` of `scenery/meadow.wgsl` has it.
 fn beyond_path(local: Vec2, view: Vec2, phase: f32) -> f32 {
     let (along, aside) = (local.dot(view), local.dot(view.perp()));
-    (aside - 3.4 * (along * 0.10 + phase).sin()).abs()
+    (aside - PATH_BEND_M * (along * PATH_BEND_RAD_M + phase).sin()).abs()
 }
 
 #[cfg(test)]

@@ -12,13 +12,12 @@ use crate::frame::input::FrameInput;
 use crate::frame::surroundings::FrameUniform;
 use crate::gpu::targets::Targets;
 use crate::gpu::tile::Tile;
-use crate::leaves::cull::{View as LeafView, ViewUniform};
+use crate::leaves::cull::View as LeafView;
+use crate::leaves::record::ViewUniform;
 use crate::leaves::visible::LeafCrowd;
 use crate::lens::group::Shot;
+use crate::scenery::grass_pass::GRASS_RAD_S;
 use crate::shadows::Casters;
-
-/// Rate at which grass sways in rad/s, as `grass.wgsl` has it.
-const GRASS_RAD_S: f64 = 2.1;
 
 impl Renderer {
     /// Encodes one frame of `world` into `output`, a view of a texture of this renderer's format. What lies outside of the
@@ -82,7 +81,7 @@ impl Renderer {
         let time_s = input.time_s.rem_euclid(3600.0) as f32;
         let mut frame = self.environment.frame(input, time_s, self.targets.size, tile);
         if let Some((begin_s, length_s)) = self.round {
-            (frame.eye[3], frame.sky[3]) = (grass_time(input.time_s - begin_s, length_s), 0.0);
+            (frame.time_s, frame.cloud_time_s) = (grass_time(input.time_s - begin_s, length_s), 0.0);
         }
         self.frame.write(&self.queue, &frame);
         if let Some(water) = &mut self.water_pass {
@@ -97,7 +96,7 @@ impl Renderer {
         }
         let leaves = &world.leaves;
         let crowds = self.crowds();
-        let group = self.branches.bind(&self.device, world.branches.as_ref());
+        let group = self.branches.bind(&self.device, world.branches.as_ref(), &self.stems);
         let casters = Casters { kinds: &self.kinds, crowds: &crowds, bark: &self.bark, branches: &group };
         // The last tile is timed: its commands are those that are resolved.
         let timer = self.timer.as_ref().filter(|_| tile.left == 0);
@@ -141,7 +140,7 @@ impl Renderer {
 
     /// Draws the scene's own trees and all leaves; bind groups 0 and 1 are set.
     fn draw_stand(&self, pass: &mut wgpu::RenderPass<'_>, branches: &wgpu::BindGroup) {
-        self.bark_pass.draw(pass, branches, &self.bark, &self.stems);
+        self.bark_pass.draw(pass, branches, &self.bark);
         self.leaf_pass.draw(pass, &self.kinds, self.crowds().into_iter());
         self.fruit_pass.draw(pass, branches);
     }
@@ -157,7 +156,7 @@ impl Renderer {
         let height_px = self.targets.size.1 as f32;
         let pixels_per_m = 0.5 * height_px / (0.5 * camera.vertical_fov_rad).tan();
         let seen =
-            |frame: &FrameUniform| ViewUniform::perspective(frame.view_projection, frame.eye, pixels_per_m);
+            |frame: &FrameUniform| ViewUniform::perspective(frame.view_projection, frame.eye_m, pixels_per_m);
         self.cull.write(&self.queue, LeafView::Camera, &seen(uniform));
         if let Some(water) = &self.water_pass {
             self.cull.write(&self.queue, LeafView::Mirror, &seen(&water.mirrored(*uniform)));
@@ -238,7 +237,7 @@ fn begin_scene<'a>(
 
 /// Time for grass that is back where it was after a round: it sways as often as is nearest to its own rate.
 fn grass_time(since_s: f64, round_s: f64) -> f32 {
-    let own_s = std::f64::consts::TAU / GRASS_RAD_S;
+    let own_s = std::f64::consts::TAU / f64::from(GRASS_RAD_S);
     let swings = (round_s / own_s).round().max(1.0);
     #[expect(clippy::cast_possible_truncation, reason = "some seconds")]
     let time_s = ((since_s / round_s).rem_euclid(1.0) * swings * own_s) as f32;

@@ -3,27 +3,46 @@
 //! Draws blades of grass on the squares of ground that the camera sees near by.
 
 use glam::{Vec2, Vec3};
+use windfall_core::shared_constants;
 
-use super::ground_pass::GRASS_COLOR;
 use crate::camera::Camera;
 use crate::frame::group::FrameGroup;
 use crate::frame::light_group::LightGroup;
-use crate::frame::scene_pipeline::{COMMON, LIGHT, ScenePipeline};
-use crate::gpu::pipeline::shader;
+use crate::frame::scene_pipeline::ScenePipeline;
+use crate::gpu::shaders::compile;
+use crate::gpu::vertex::vertex_struct;
 use crate::land::Land;
 
-/// Edge of a square in metres, as in `grass.wgsl`.
-const CELL_M: f32 = 1.0;
-/// Blades on a square close by; beyond a distance its share falls with the square (`standing` in `grass.wgsl`).
+shared_constants! {
+    /// Edge of a square in metres.
+    const GRASS_CELL_M: f32 = 1.0;
+    /// Distance in metres from which grass grows sparser.
+    const GRASS_SPARSE_M: f32 = 22.0;
+    /// Distance in metres at which it ends.
+    const GRASS_REACH_M: f32 = 34.0;
+    /// Rate at which it sways in rad/s.
+    pub(crate) const GRASS_RAD_S: f32 = 2.1;
+}
+
+vertex_struct! {
+    /// A square of grass.
+    pub(crate) struct GrassCell from 0 {
+        /// Lowest x and z.
+        corner_m: [f32; 2] = Float32x2,
+        /// Blades of a full square.
+        blades: f32 = Float32,
+        /// How far from the eye all of them stand.
+        dense_m: f32 = Float32,
+    }
+}
+
+/// Blades on a square close by; beyond a distance its share falls with the square ([`standing`]).
 const BLADES: u32 = 3000;
 /// Full density reaches this far, in metres, where a pixel is as fine as `FINE_RAD`; less far where it is coarser, since blades
 /// are a pixel wide at least and cover as much.
 const DENSE_M: f32 = 6.5;
 /// Angle of a pixel of a picture 720 pixels high with the usual camera, in radians.
 const FINE_RAD: f32 = 0.0013;
-/// Grass grows sparser from here on and ends there, in metres.
-const SPARSE_M: f32 = 22.0;
-const REACH_M: f32 = 34.0;
 /// Classes of squares by the share of their blades that is drawn: shaders run for every blade of a class, standing or not.
 const SHARES: [f32; 12] = [1.0, 0.75, 0.56, 0.42, 0.32, 0.24, 0.18, 0.13, 0.09, 0.06, 0.03, 0.01];
 /// Most squares drawn in a frame.
@@ -40,20 +59,16 @@ pub(crate) struct GrassPass {
 
 impl GrassPass {
     pub(crate) fn new(device: &wgpu::Device, frame: &FrameGroup, light: &LightGroup) -> Self {
-        let text = [COMMON, LIGHT, GRASS_COLOR, include_str!("grass_pass.wgsl")];
-        let shader = shader(device, "grass", &text);
-        let cell = wgpu::VertexBufferLayout {
-            array_stride: 16,
-            step_mode: wgpu::VertexStepMode::Instance,
-            attributes: &wgpu::vertex_attr_array![0 => Float32x4],
-        };
+        let shader = compile(device, &super::shaders(), "scenery/grass_pass");
         let pipeline = ScenePipeline {
             label: "grass",
             frame,
             groups: &[&light.layout],
             topology: wgpu::PrimitiveTopology::TriangleList,
             shader: &shader,
-            buffers: &[cell],
+            vertex: "vertex",
+            constants: &[],
+            buffers: &[GrassCell::layout(wgpu::VertexStepMode::Instance)],
             blend: None,
             depth_write: true,
             alpha_to_coverage: false,
@@ -61,7 +76,7 @@ impl GrassPass {
         .build(device);
         let cells = device.create_buffer(&wgpu::BufferDescriptor {
             label: Some("grass cells"),
-            size: (MAX_CELLS * 16) as u64,
+            size: (MAX_CELLS * size_of::<GrassCell>()) as u64,
             usage: wgpu::BufferUsages::VERTEX | wgpu::BufferUsages::COPY_DST,
             mapped_at_creation: false,
         });
@@ -92,19 +107,19 @@ fn blades(share: f32) -> u32 {
     (BLADES as f32 * share) as u32
 }
 
-/// Part of the blades that still stand at a distance, if all do up to another: as in `grass.wgsl`.
+/// Part of the blades that still stand at a distance, if all do up to another; twin: `standing` of `grass_pass.wgsl`.
 fn standing(distance_m: f32, dense_m: f32) -> f32 {
     let near = dense_m / distance_m.max(dense_m);
-    let sparse = ((distance_m - SPARSE_M) / (REACH_M - SPARSE_M)).clamp(0.0, 1.0);
+    let sparse = ((distance_m - GRASS_SPARSE_M) / (GRASS_REACH_M - GRASS_SPARSE_M)).clamp(0.0, 1.0);
     near * near * (1.0 - sparse * sparse * (3.0 - 2.0 * sparse))
 }
 
-/// Squares in sight by class: corner x, z, blades of a full square, how far full density reaches.
-fn visible_cells(camera: &Camera, size: (u32, u32), land: &Land) -> [Vec<[f32; 4]>; SHARES.len()] {
-    let mut classes: [Vec<[f32; 4]>; SHARES.len()] = std::array::from_fn(|_| Vec::new());
+/// Squares in sight by class.
+fn visible_cells(camera: &Camera, size: (u32, u32), land: &Land) -> [Vec<GrassCell>; SHARES.len()] {
+    let mut classes: [Vec<GrassCell>; SHARES.len()] = std::array::from_fn(|_| Vec::new());
     let eye = camera.eye_m();
     let height = (eye.y - land.ground_m(eye.x, eye.z)).abs();
-    if height >= REACH_M {
+    if height >= GRASS_REACH_M {
         return classes;
     }
     let tangent = (0.5 * camera.vertical_fov_rad).tan();
@@ -119,24 +134,28 @@ fn visible_cells(camera: &Camera, size: (u32, u32), land: &Land) -> [Vec<[f32; 4
         forward * tangent - up,
     ]
     .map(Vec3::normalize);
-    let reach = (REACH_M * REACH_M - height * height).sqrt();
-    let low = ((Vec2::new(eye.x, eye.z) - reach) / CELL_M).floor();
+    let reach = (GRASS_REACH_M * GRASS_REACH_M - height * height).sqrt();
+    let low = ((Vec2::new(eye.x, eye.z) - reach) / GRASS_CELL_M).floor();
     let mut count = 0;
     let mut z = low.y;
-    while z * CELL_M < eye.z + reach {
+    while z * GRASS_CELL_M < eye.z + reach {
         let mut x = low.x;
-        while x * CELL_M < eye.x + reach {
-            let corner = Vec2::new(x, z) * CELL_M;
-            let middle = corner + 0.5 * CELL_M;
+        while x * GRASS_CELL_M < eye.x + reach {
+            let corner = Vec2::new(x, z) * GRASS_CELL_M;
+            let middle = corner + 0.5 * GRASS_CELL_M;
             let center = Vec3::new(middle.x, land.ground_m(middle.x, middle.y), middle.y);
             let offset = center - eye;
-            let seen = sides.iter().all(|side| side.dot(offset) > -0.8 * CELL_M);
-            let near = (offset.length() - 0.75 * CELL_M).max(0.0);
-            if seen && near < REACH_M && count < MAX_CELLS {
+            let seen = sides.iter().all(|side| side.dot(offset) > -0.8 * GRASS_CELL_M);
+            let near = (offset.length() - 0.75 * GRASS_CELL_M).max(0.0);
+            if seen && near < GRASS_REACH_M && count < MAX_CELLS {
                 count += 1;
                 let share = standing(near, dense_m);
                 let class = SHARES.iter().rposition(|&limit| limit >= share).unwrap_or(0);
-                classes[class].push([corner.x, corner.y, BLADES as f32, dense_m]);
+                classes[class].push(GrassCell {
+                    corner_m: corner.to_array(),
+                    blades: BLADES as f32,
+                    dense_m,
+                });
             }
             x += 1.0;
         }
@@ -162,11 +181,11 @@ mod tests {
         let drawn: usize =
             SHARES.into_iter().zip(&classes).map(|(share, cells)| blades(share) as usize * cells.len()).sum();
         assert!(
-            classes.iter().flatten().all(|cell| cell[1] < camera.eye_m().z),
+            classes.iter().flatten().all(|cell| cell.corner_m[1] < camera.eye_m().z),
             "a square behind the camera"
         );
         assert!((20_000..600_000).contains(&drawn), "{drawn} blades");
-        let count = |classes: &[Vec<[f32; 4]>]| -> usize {
+        let count = |classes: &[Vec<GrassCell>]| -> usize {
             SHARES.into_iter().zip(classes).map(|(share, cells)| blades(share) as usize * cells.len()).sum()
         };
         let coarse = count(&visible_cells(&camera, (640, 360), &level()));

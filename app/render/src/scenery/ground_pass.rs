@@ -2,15 +2,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Draws the ground out to the horizon.
 
-use super::terrain_mesh::{RING_CELLS, TerrainMesh};
+use super::terrain_mesh::TerrainMesh;
 use crate::frame::group::FrameGroup;
 use crate::frame::light_group::LightGroup;
-use crate::frame::scene_pipeline::{COMMON, LIGHT, ScenePipeline};
-use crate::gpu::pipeline::shader;
+use crate::frame::scene_pipeline::ScenePipeline;
+use crate::gpu::shaders::compile;
 use crate::land::Land;
-
-/// WGSL of the meadow's colours.
-pub(crate) const GRASS_COLOR: &str = include_str!("meadow.wgsl");
 
 /// The ground pipeline.
 #[derive(Debug)]
@@ -29,20 +26,15 @@ impl GroundPass {
         land: &Land,
     ) -> Self {
         let mesh = land.hills().map(|_| TerrainMesh::new(device, queue));
-        let rings = format!("const RING_CELLS: u32 = {RING_CELLS}u;\n");
-        let place = if mesh.is_some() {
-            [rings.as_str(), include_str!("terrain.wgsl")]
-        } else {
-            ["", include_str!("plain.wgsl")]
-        };
-        let text = [COMMON, LIGHT, GRASS_COLOR, include_str!("ground_pass.wgsl"), place[0], place[1]];
-        let shader = shader(device, "ground", &text);
+        let shader = compile(device, &super::shaders(), "scenery/ground_pass");
         let pipeline = ScenePipeline {
             label: "ground",
             frame,
             groups: &[&light.layout],
             topology: wgpu::PrimitiveTopology::TriangleList,
             shader: &shader,
+            vertex: if mesh.is_some() { "vertex_hilly" } else { "vertex_level" },
+            constants: &[],
             buffers: if mesh.is_some() { &[TerrainMesh::LAYOUT] } else { &[] },
             blend: None,
             depth_write: true,

@@ -1,16 +1,47 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// The ground under the grass; `plain.wgsl` and `terrain.wgsl` say where it lies.
+// The ground under the grass: level out to the horizon, or rings of grid laid on the hills.
+
+#import scenery/meadow
+#import scenery/horizon
+#import scenery/structs
 
 struct Varyings {
     @builtin(position) clip: vec4<f32>,
     @location(0) world: vec3<f32>,
 }
 
+// Level ground out to the horizon.
+@vertex
+fn vertex_level(@builtin(vertex_index) index: u32) -> Varyings {
+    let at = horizon_fan(index);
+    var out: Varyings;
+    out.world = vec3(at.x, land.base_m - SWARD_M, at.y);
+    out.clip = frame.view_projection * vec4(out.world, 1.0);
+    return out;
+}
+
+// Hills: rings of grid around the eye. `terrain_mesh.rs` says why there is no crack.
+@vertex
+fn vertex_hilly(@location(0) grid: vec2<i32>, @builtin(instance_index) ring: u32) -> Varyings {
+    let cell = FINEST_M * f32(1u << ring);
+    let half = 0.5 * f32(RING_CELLS) * cell;
+    let middle = floor(frame.eye_m.xz / (2.0 * cell)) * (2.0 * cell);
+    var at = middle + vec2<f32>(grid) * cell;
+    // Odd vertices glide onto the next ring's grid before they come to it.
+    let apart = max(abs(at.x - frame.eye_m.x), abs(at.y - frame.eye_m.z)) / half;
+    let glide = clamp((apart - 0.6) / (1.0 - 8.0 / f32(RING_CELLS) - 0.6), 0.0, 1.0);
+    at -= vec2<f32>(grid & vec2(1)) * (cell * glide);
+    var out: Varyings;
+    out.world = vec3(at.x, ground_height(at) - SWARD_M, at.y);
+    out.clip = frame.view_projection * vec4(out.world, 1.0);
+    return out;
+}
+
 @fragment
 fn fragment(in: Varyings) -> @location(0) vec4<f32> {
     let at = in.world.xz;
-    let distance_m = distance(in.world, frame.eye.xyz);
+    let distance_m = distance(in.world, frame.eye_m);
     let fine = textureSample(noise, repeat_sampler, at * 0.9).b;
     let coarse = textureSample(noise, repeat_sampler, at * 0.17 + 0.2).a;
     let specks = textureSample(noise, repeat_sampler, at * 1.7 + 0.6).b;
@@ -24,7 +55,7 @@ fn fragment(in: Varyings) -> @location(0) vec4<f32> {
     albedo *= 1.0 + 1.1 * (fine - 0.5) + 0.8 * (coarse - 0.5);
     let rise = length(hill.yz);
     let bare = bare_soil(at, in.world.y, rise);
-    let moist = 1.0 - smoothstep(-0.1, 0.5, in.world.y - land.shape.w);
+    let moist = 1.0 - smoothstep(-0.1, 0.5, in.world.y - land.water_m);
     let soil = mix(vec3(0.105, 0.074, 0.046), vec3(0.048, 0.036, 0.025), moist)
         * (0.75 + 0.9 * (fine - 0.5) + 0.8 * (coarse - 0.5) + 0.5 * (specks - 0.5));
     albedo = mix(albedo, soil, bare);
@@ -43,11 +74,11 @@ fn fragment(in: Varyings) -> @location(0) vec4<f32> {
     // The path lies as high as the leaves on it do: their shadows touch them.
     let sun = shade.r * leaf_shadow(in.world + vec3(0.0, 0.8 * SWARD_M * path, 0.0));
     // Grass is rough: against the sun it glows, with the sun behind one it shows its lit side.
-    let view = normalize(frame.eye.xyz - in.world);
-    let against = pow(max(dot(-view, frame.sun_direction.xyz), 0.0), 3.0);
+    let view = normalize(frame.eye_m - in.world);
+    let against = pow(max(dot(-view, frame.sun_direction), 0.0), 3.0);
     let rough = far * (1.0 - path);
-    let facing = mix(0.75, 1.0, max(far, path)) * max(dot(normal, frame.sun_direction.xyz), 0.0) + 0.12;
-    var color = albedo * (frame.sun_color.rgb * sun * (facing + 0.55 * rough * against));
+    let facing = mix(0.75, 1.0, max(far, path)) * max(dot(normal, frame.sun_direction), 0.0) + 0.12;
+    var color = albedo * (frame.sun_color * sun * (facing + 0.55 * rough * against));
     color += albedo * ambient_light(normal) * mix(0.55, 0.95, max(far, path))
         * min(sky_openness(in.world), mix(0.35, 1.0, open_above(in.world, SKY_TAPS)));
     return vec4(haze(color, in.world), 1.0);

@@ -2,17 +2,19 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // Colour of the meadow at a place: the ground plane and the blades on it agree.
 
+#import frame/light
+
 // Half width of the path in metres.
 const PATH_HALF_WIDTH_M: f32 = 1.05;
 
-// How far a place lies outside the winding path, in metres; negative on it. `layout.rs` keeps trees off it.
+// How far a place lies outside the winding path, in metres; negative on it. `park/layout.rs` keeps trees off it.
 fn beyond_path(at: vec2<f32>) -> f32 {
-    let lead = vec2(frame.sky_zenith.w, frame.sky_horizon.w);
-    let local = at - frame.park.xz;
+    let lead = frame.path_lead;
+    let local = at - frame.park_center_m.xz;
     let along = dot(local, lead);
     let aside = dot(local, vec2(-lead.y, lead.x));
     let ragged = textureSampleLevel(noise, repeat_sampler, at * 0.23, 0.0).g - 0.5;
-    return abs(aside - 3.4 * sin(along * 0.10 + frame.ground_bounce.w)) - PATH_HALF_WIDTH_M + 0.35 * ragged;
+    return abs(aside - PATH_BEND_M * sin(along * PATH_BEND_RAD_M + frame.path_phase_rad)) - PATH_HALF_WIDTH_M + 0.35 * ragged;
 }
 
 // Grass albedo (rgb) and dryness (a) at a place on the ground.
@@ -36,6 +38,6 @@ fn bare_soil(at: vec2<f32>, height: f32, rise: f32) -> f32 {
     let coarse = textureSampleLevel(noise, repeat_sampler, at * 0.09 + 0.13, 0.0).g - 0.5;
     let steep = smoothstep(0.50, 0.85, rise + 0.5 * coarse);
     let worn = 0.6 * smoothstep(0.36, 0.50, coarse);
-    let shore = 1.0 - smoothstep(0.0, 0.20, height - land.shape.w - 0.22 * coarse);
+    let shore = 1.0 - smoothstep(0.0, 0.20, height - land.water_m - 0.22 * coarse);
     return max(max(steep, worn), shore);
 }

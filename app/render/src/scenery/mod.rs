@@ -7,3 +7,16 @@ pub(crate) mod ground_pass;
 pub(crate) mod sky_pass;
 mod terrain_mesh;
 pub(crate) mod water_pass;
+
+use crate::gpu::shaders::{Shaders, declarations, wgsl_files};
+
+/// Shader modules of this room and of those below.
+pub(crate) fn shaders() -> Shaders {
+    let mut shaders = crate::frame::shaders();
+    let lists = [grass_pass::wgsl_constants(), terrain_mesh::wgsl_constants()];
+    shaders.extend([("scenery/structs", declarations(lists) + &grass_pass::GrassCell::declaration())]);
+    shaders.extend(wgsl_files!(
+        "scenery": "meadow", "horizon", "grass_pass", "ground_pass", "sky_pass", "water_pass"
+    ));
+    shaders
+}

@@ -4,8 +4,8 @@
 
 use crate::frame::group::FrameGroup;
 use crate::frame::light_group::LightGroup;
-use crate::frame::scene_pipeline::{COMMON, LIGHT, ScenePipeline};
-use crate::gpu::pipeline::shader;
+use crate::frame::scene_pipeline::ScenePipeline;
+use crate::gpu::shaders::compile;
 
 /// The sky pipeline.
 #[derive(Debug)]
@@ -15,13 +15,15 @@ pub(crate) struct SkyPass {
 
 impl SkyPass {
     pub(crate) fn new(device: &wgpu::Device, frame: &FrameGroup, light: &LightGroup) -> Self {
-        let shader = shader(device, "sky", &[COMMON, LIGHT, include_str!("sky_pass.wgsl")]);
+        let shader = compile(device, &super::shaders(), "scenery/sky_pass");
         let pipeline = ScenePipeline {
             label: "sky",
             frame,
             groups: &[&light.layout],
             topology: wgpu::PrimitiveTopology::TriangleList,
             shader: &shader,
+            vertex: "vertex",
+            constants: &[],
             buffers: &[],
             blend: None,
             depth_write: false,

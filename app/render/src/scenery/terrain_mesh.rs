@@ -6,10 +6,17 @@
 //! Rings as in geometry clipmaps (Losasso and Hoppe, 2004); vertices glide onto the next ring's grid before they meet it
 //! (Strugar, "Continuous distance-dependent level of detail", 2009), so there is no crack and nothing pops.
 
+use windfall_core::shared_constants;
+
 use crate::gpu::upload;
 
-/// Cells along an edge of a ring: a multiple of four.
-pub(crate) const RING_CELLS: u32 = 64;
+shared_constants! {
+    /// Cells along an edge of a ring: a multiple of four.
+    const RING_CELLS: u32 = 64;
+    /// Edge of the innermost ring's cells in metres.
+    const FINEST_M: f32 = 0.5;
+}
+
 /// Rings: the outermost reaches this far times the innermost, twice as far each.
 pub(crate) const RINGS: u32 = 9;
 
@@ -91,7 +98,7 @@ mod tests {
 
     use super::*;
 
-    /// Where a vertex of a ring comes to lie, in cells of the innermost ring: the rule of `terrain.wgsl`.
+    /// Where a vertex of a ring comes to lie, in cells of the innermost ring: the rule of `vertex_hilly` in `ground_pass.wgsl`.
     fn laid(grid: [i16; 2], ring: u32, eye: [f32; 2]) -> [f32; 2] {
         let cell = f32::from(1u16 << ring);
         let half = 0.5 * RING_CELLS as f32 * cell;

@@ -4,9 +4,10 @@
 
 use crate::frame::group::FrameGroup;
 use crate::frame::light_group::LightGroup;
-use crate::frame::scene_pipeline::{COMMON, LIGHT, ScenePipeline};
+use crate::frame::scene_pipeline::ScenePipeline;
 use crate::frame::surroundings::FrameUniform;
-use crate::gpu::pipeline::{FILTERABLE, shader, texture_entry};
+use crate::gpu::pipeline::{FILTERABLE, texture_entry};
+use crate::gpu::shaders::compile;
 use crate::gpu::targets::Targets;
 use crate::land::Land;
 
@@ -33,7 +34,7 @@ impl WaterPass {
         land: &Land,
     ) -> Option<Self> {
         let water_m = land.water_m()?;
-        let shader = shader(device, "water", &[COMMON, LIGHT, include_str!("water_pass.wgsl")]);
+        let shader = compile(device, &super::shaders(), "scenery/water_pass");
         let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
             label: Some("mirror"),
             entries: &[texture_entry(0, FILTERABLE, wgpu::TextureViewDimension::D2)],
@@ -44,6 +45,8 @@ impl WaterPass {
             groups: &[&light.layout, &layout],
             topology: wgpu::PrimitiveTopology::TriangleList,
             shader: &shader,
+            vertex: "vertex",
+            constants: &[],
             buffers: &[],
             blend: None,
             depth_write: true,

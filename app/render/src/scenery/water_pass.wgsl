@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // Still water: it mirrors what stands around it, more so at a glance, and shows its dark bottom where it is shallow.
 
+#import frame/light
+#import scenery/horizon
+
 // What the water mirrors, as the same pixels of the picture show it.
 @group(2) @binding(0) var mirror: texture_2d<f32>;
 
@@ -18,15 +21,11 @@ struct Varyings {
     @location(0) world: vec3<f32>,
 }
 
-// A fan of eight triangles around the eye, far beyond the haze.
 @vertex
 fn vertex(@builtin(vertex_index) index: u32) -> Varyings {
-    let corner = index % 3u;
-    let angle = f32(index / 3u + select(0u, 1u, corner == 2u)) * 0.78539816;
-    let radius = select(4000.0, 0.0, corner == 0u);
-    let at = frame.eye.xz + radius * vec2(cos(angle), -sin(angle));
+    let at = horizon_fan(index);
     var out: Varyings;
-    out.world = vec3(at.x, land.shape.w, at.y);
+    out.world = vec3(at.x, land.water_m, at.y);
     out.clip = frame.view_projection * vec4(out.world, 1.0);
     return out;
 }
@@ -34,7 +33,7 @@ fn vertex(@builtin(vertex_index) index: u32) -> Varyings {
 // Slope of the ripples that a breath of air makes: two trains that cross, by differences of soft noise, and patches where
 // the air is quite still.
 fn ripples(at: vec2<f32>, lod: f32) -> vec2<f32> {
-    let time_s = frame.eye.w;
+    let time_s = frame.time_s;
     let apart = 1.0 / 256.0;
     var slope = vec2(0.0);
     for (var train = 0u; train < 2u; train++) {
@@ -52,7 +51,7 @@ fn ripples(at: vec2<f32>, lod: f32) -> vec2<f32> {
 
 @fragment
 fn fragment(in: Varyings) -> @location(0) vec4<f32> {
-    let to_eye = frame.eye.xyz - in.world;
+    let to_eye = frame.eye_m - in.world;
     let distance_m = length(to_eye);
     let view = to_eye / distance_m;
     let slope = ripples(in.world.xz, clamp(log2(distance_m * 0.12), 0.0, 6.0));
@@ -61,19 +60,19 @@ fn fragment(in: Varyings) -> @location(0) vec4<f32> {
     let mirrored = WATER_F0 + (1.0 - WATER_F0) * pow(1.0 - facing, 5.0);
 
     // What lies under it, by the way that light goes down and back up.
-    let depth = max(land.shape.w - ground_height(in.world.xz), 0.0);
+    let depth = max(land.water_m - ground_height(in.world.xz), 0.0);
     let kept = exp(-WATER_EXTINCTION * depth * (1.0 / max(view.y, 0.25) + 1.0));
     let grain = textureSample(noise, repeat_sampler, in.world.xz * 0.35).a;
     let albedo = mix(WATER_DEEP, WATER_BOTTOM * (0.6 + 0.8 * grain), kept);
     let up = vec3(0.0, 1.0, 0.0);
     let sun = tree_shade(in.world).r * leaf_shadow(in.world);
-    let below = albedo * (frame.sun_color.rgb * (sun * max(frame.sun_direction.y, 0.0)) + ambient_light(up));
+    let below = albedo * (frame.sun_color * (sun * max(frame.sun_direction.y, 0.0)) + ambient_light(up));
 
     // A slope turns the mirrored ray by twice as much, which is as far in the picture, as that reaches twice its axes.
     let across = normalize(frame.right.xz);
     let along = vec2(across.y, -across.x);
-    let shift = vec2(dot(slope, across) / length(frame.right.xyz), dot(slope, along) / length(frame.up.xyz));
-    let place = (in.clip.xy * frame.viewport.zw + shift) / frame.tile.zw;
+    let shift = vec2(dot(slope, across) / length(frame.right), dot(slope, along) / length(frame.up));
+    let place = (in.clip.xy * frame.inv_viewport_px + shift) / frame.tile_scale;
     let image = textureSampleLevel(mirror, clamp_sampler, place, 0.0).rgb;
     // The mirrored picture has its haze already.
     return vec4(mix(haze(below, in.world), image, mirrored), 1.0);

@@ -1,8 +1,11 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// Bark as the sun sees it, or who looks from above.
+// Bark in a shadow map, of the sun or from above.
 
-// Which of the maps this draws into.
+#import frame/common
+#import trees/bark_shape
+
+// Number of the map.
 override MAP: u32 = 0u;
 
 @vertex

@@ -1,8 +1,11 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// Leaves as the sun sees them, or who looks from above.
+// Leaves in a shadow map, of the sun or from above.
 
-// Which of the maps this draws into.
+#import frame/common
+#import leaves/shape
+
+// Number of the map.
 override MAP: u32 = 0u;
 
 struct Varyings {
@@ -12,17 +15,13 @@ struct Varyings {
 }
 
 @vertex
-fn vertex(
-    @builtin(vertex_index) vertex: u32,
-    @builtin(instance_index) instance: u32,
-    @location(0) first_level: vec2<u32>,
-) -> Varyings {
-    let record = records[first_level.x + instance];
-    let point = blade_point(record, first_level.y, vertex);
+fn vertex(in: LeafVertex) -> Varyings {
+    let record = record_of(in);
+    let point = blade_point(record, in.level, in.vertex);
     var out: Varyings;
     out.clip = frame.shadows[MAP] * vec4(point.world, 1.0);
     out.uv = point.uv;
-    out.layer = record.look.x & LAYER_MASK;
+    out.layer = record.layer_slot & LAYER_MASK;
     return out;
 }
 

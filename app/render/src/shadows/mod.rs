@@ -4,15 +4,20 @@
 
 use crate::frame::cascades::{CASCADES, MAPS};
 use crate::frame::group::FrameGroup;
-use crate::frame::scene_pipeline::COMMON;
-use crate::gpu::pipeline::{layout, shader};
+use crate::gpu::pipeline::layout;
+use crate::gpu::shaders::{Shaders, compile, wgsl_files};
 use crate::leaves::cull::CullPass;
-use crate::leaves::leaf_pass::LEAF_SHAPE;
 use crate::leaves::species_table::LeafKinds;
 use crate::leaves::visible::LeafCrowd;
-use crate::trees::bark_mesh::{StandMesh, bark_layout};
-use crate::trees::bark_pass::BARK_SHAPE;
+use crate::trees::bark_mesh::{BarkVertex, StandMesh};
 use crate::trees::branch_group::BranchGroup;
+
+/// Shader modules of this room and of those below.
+pub(crate) fn shaders() -> Shaders {
+    let mut shaders = crate::leaves::shaders();
+    shaders.extend(wgsl_files!("shadows": "leaf_shadow", "bark_shadow"));
+    shaders
+}
 
 const SHADOW_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
 #[expect(clippy::cast_possible_truncation, reason = "a small number")]
@@ -57,11 +62,9 @@ impl ShadowPass {
         size_px: u32,
     ) -> Self {
         let (maps, each) = new_maps(device, size_px);
-        let [kind, record, shape] = LEAF_SHAPE;
-        let text = [COMMON, kind, record, shape, include_str!("leaf_shadow.wgsl")];
-        let leaf_shader = shader(device, "leaf shadow", &text);
-        let bark_shader =
-            shader(device, "bark shadow", &[COMMON, BARK_SHAPE, include_str!("bark_shadow.wgsl")]);
+        let shaders = shaders();
+        let leaf_shader = compile(device, &shaders, "shadows/leaf_shadow");
+        let bark_shader = compile(device, &shaders, "shadows/bark_shadow");
         let pipeline = |label,
                         number: u32,
                         module,
@@ -128,7 +131,7 @@ impl ShadowPass {
                     number,
                     &bark_shader,
                     [Some(&branches.layout), None],
-                    &[bark_layout()],
+                    &[BarkVertex::layout(wgpu::VertexStepMode::Vertex)],
                     false,
                 ),
             }
@@ -156,7 +159,7 @@ impl ShadowPass {
         cull: &dyn Fn(&mut wgpu::CommandEncoder, usize),
     ) {
         let [begin, end] = timestamps.map_or([None, None], |writes| writes.map(Some));
-        let drawn = if self.has_trees { MAPS } else { CASCADES };
+        let drawn = if self.has_trees { MAPS } else { CASCADES as usize };
         let (mut begin, mut end) = (begin, end);
         for (number, pass) in self.passes[..drawn].iter().enumerate() {
             cull(encoder, number);

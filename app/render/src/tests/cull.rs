@@ -9,7 +9,8 @@ use windfall_wgpu::LeafColumns;
 
 use crate::camera::Camera;
 use crate::gpu::upload;
-use crate::leaves::cull::{CullPass, LIMITS_PX, View, ViewUniform};
+use crate::leaves::cull::{CullPass, LIMITS_PX, View};
+use crate::leaves::record::{PICTURE_EDGE, SLOT_SHIFT, ViewUniform};
 use crate::leaves::species_table::LeafKinds;
 use crate::leaves::visible::{LeafCrowd, Page, RECORD_BYTES};
 use crate::trees::Stand;
@@ -70,7 +71,7 @@ struct Field {
     cull: CullPass,
     stems: Stems,
     crowd: LeafCrowd,
-    /// Place, attitude, course and identity.
+    /// Place, attitude, schedule and identity.
     columns: [wgpu::Buffer; 4],
     leaf_count: u32,
 }
@@ -104,8 +105,8 @@ impl Field {
         let leaf_count = self.leaf_count;
         let columns = LeafColumns { place, drift: place, attitude, schedule, identity, leaf_count };
         let clip = camera.view_projection(1.6).to_cols_array_2d();
-        let eye = camera.eye_m().extend(0.0).to_array();
-        self.cull.write(&self.queue, View::Camera, &ViewUniform::perspective(clip, eye, PIXELS_PER_M));
+        let eye_m = camera.eye_m().to_array();
+        self.cull.write(&self.queue, View::Camera, &ViewUniform::perspective(clip, eye_m, PIXELS_PER_M));
         let mut encoder = self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         let leaves = (&columns, None, &self.stems);
         self.crowd.cull(&self.device, &mut encoder, &self.cull, leaves, View::Camera);
@@ -141,7 +142,7 @@ fn every_leaf_of_a_cluster_is_drawn() {
     for level in 0..4 {
         let [count, first] = [draws[8 * level + 1] as usize, draws[8 * level + 4] as usize];
         for record in records.chunks(12).skip(first).take(count) {
-            drawn[(record[8] >> 12) as usize] += 1;
+            drawn[(record[8] >> SLOT_SHIFT) as usize] += 1;
         }
     }
     let wanted: Vec<u32> = (0..150)
@@ -168,7 +169,7 @@ fn culling_finds_what_a_plain_loop_finds() {
     let levels = run();
     assert_eq!(levels, run(), "equal leaves in the same order");
 
-    let edge_m = 1.6 * scene.species[0].size_m;
+    let edge_m = PICTURE_EDGE * scene.species[0].size_m;
     let (mut inside, mut kept) = (0, 0);
     for leaf in 0..LEAVES {
         let [x, y, z, state] = place(leaf);

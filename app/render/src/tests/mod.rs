@@ -5,6 +5,7 @@
 
 mod cull;
 mod halo;
+mod layout;
 mod lens;
 mod look;
 mod motion;

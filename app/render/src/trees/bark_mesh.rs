@@ -9,40 +9,28 @@ use windfall_core::tree::{BarkDetail, bark_mesh};
 
 use super::{Stand, StandingTree};
 use crate::gpu::upload;
+use crate::gpu::vertex::vertex_struct;
 
 /// Distances from the camera, in heights of the tree and at least in metres, from which the middle and the far bark
 /// will do.
 const MIDDLE: (f32, f32) = (2.2, 22.0);
 const FAR: (f32, f32) = (7.0, 70.0);
 
-/// `BarkVertex` of `bark_shape.wgsl`.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
-pub(crate) struct BarkVertex {
-    /// Place at rest in the world.
-    pub(crate) position_m: [f32; 3],
-    /// Radius of the limb there.
-    pub(crate) radius_m: f32,
-    /// Unit vector outwards, in 1 / 32767.
-    normal: [i16; 4],
-    /// Repeats of the texture around and along.
-    uv: [f32; 2],
-    /// Rows of the branch columns.
-    rows: [u32; 4],
-    /// Shares of the rows, in 1 / 255.
-    shares: [u8; 4],
-}
-
-const ATTRIBUTES: [wgpu::VertexAttribute; 5] = wgpu::vertex_attr_array![
-    0 => Float32x4, 1 => Snorm16x4, 2 => Float32x2, 3 => Uint32x4, 4 => Unorm8x4
-];
-
-/// Layout of a buffer of bark vertices.
-pub(crate) fn bark_layout() -> wgpu::VertexBufferLayout<'static> {
-    wgpu::VertexBufferLayout {
-        array_stride: size_of::<BarkVertex>() as u64,
-        step_mode: wgpu::VertexStepMode::Vertex,
-        attributes: &ATTRIBUTES,
+vertex_struct! {
+    /// A corner of the bark.
+    pub(crate) struct BarkVertex from 0 {
+        /// Place at rest in the world.
+        pub(crate) position_m: [f32; 3] = Float32x3,
+        /// Radius of the limb there.
+        pub(crate) radius_m: f32 = Float32,
+        /// Unit vector outwards, in 1 / 32767; w unused.
+        normal: [i16; 4] = Snorm16x4,
+        /// Repeats of the texture around and along.
+        uv: [f32; 2] = Float32x2,
+        /// Rows of the branch columns that move it.
+        rows: [u32; 4] = Uint32x4,
+        /// Shares of the rows, in 1 / 255.
+        shares: [u8; 4] = Unorm8x4,
     }
 }
 

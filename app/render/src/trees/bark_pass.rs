@@ -2,18 +2,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Draws trunks, limbs and twigs, moved with the branches on the device.
 
-use super::bark_mesh::{StandMesh, bark_layout};
+use super::bark_mesh::{BarkVertex, StandMesh};
 use super::branch_group::BranchGroup;
-use super::records::Stems;
 use crate::frame::group::FrameGroup;
 use crate::frame::light_group::LightGroup;
-use crate::frame::scene_pipeline::{COMMON, LIGHT, ScenePipeline};
-use crate::gpu::pipeline::shader;
-
-/// WGSL from branch columns to places on the bark.
-pub(crate) const BARK_SHAPE: &str = include_str!("bark_shape.wgsl");
-/// WGSL of what the parts of a tree share.
-pub(crate) const STEM: &str = include_str!("records.wgsl");
+use crate::frame::scene_pipeline::ScenePipeline;
+use crate::gpu::shaders::compile;
 
 /// The bark pipeline.
 #[derive(Debug)]
@@ -28,15 +22,16 @@ impl BarkPass {
         light: &LightGroup,
         branches: &BranchGroup,
     ) -> Self {
-        let text = [COMMON, LIGHT, STEM, BARK_SHAPE, include_str!("bark_pass.wgsl")];
-        let shader = shader(device, "bark", &text);
+        let shader = compile(device, &super::shaders(), "trees/bark_pass");
         let pipeline = ScenePipeline {
             label: "bark",
             frame,
             groups: &[&light.layout, &branches.layout],
             topology: wgpu::PrimitiveTopology::TriangleList,
             shader: &shader,
-            buffers: &[bark_layout(), Stems::layout()],
+            vertex: "vertex",
+            constants: &[],
+            buffers: &[BarkVertex::layout(wgpu::VertexStepMode::Vertex)],
             blend: None,
             depth_write: true,
             alpha_to_coverage: true,
@@ -46,20 +41,14 @@ impl BarkPass {
     }
 
     /// Draws all trees; bind groups 0 and 1 are set.
-    pub(crate) fn draw(
-        &self,
-        pass: &mut wgpu::RenderPass<'_>,
-        group: &wgpu::BindGroup,
-        mesh: &StandMesh,
-        stems: &Stems,
-    ) {
+    pub(crate) fn draw(&self, pass: &mut wgpu::RenderPass<'_>, group: &wgpu::BindGroup, mesh: &StandMesh) {
         pass.set_pipeline(&self.pipeline);
         pass.set_bind_group(2, group, &[]);
         pass.set_vertex_buffer(0, mesh.vertices.slice(..));
         pass.set_index_buffer(mesh.indices.slice(..), wgpu::IndexFormat::Uint32);
-        for (tree, range) in mesh.trees.iter().enumerate() {
-            pass.set_vertex_buffer(1, stems.of(Some(tree)));
-            pass.draw_indexed(range.clone(), 0, 0..1);
+        // The instance is the number of the tree's record; the first is that of no tree.
+        for (range, record) in mesh.trees.iter().zip(1..) {
+            pass.draw_indexed(range.clone(), 0, record..record + 1);
         }
     }
 }

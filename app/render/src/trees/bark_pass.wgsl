@@ -2,8 +2,13 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // Trunks, limbs and twigs.
 
+#import frame/light
+#import trees/records
+#import trees/bark_shape
+
 @group(2) @binding(4) var barks: texture_2d_array<f32>;
 @group(2) @binding(5) var bark_sampler: sampler;
+@group(2) @binding(6) var<storage, read> tree_records: array<TreeRecord>;
 
 struct Varyings {
     @builtin(position) clip: vec4<f32>,
@@ -12,24 +17,28 @@ struct Varyings {
     @location(2) @interpolate(perspective, centroid) uv: vec2<f32>,
     // Radius of the limb in metres, share of a pixel that it covers, open sky, height at rest.
     @location(3) @interpolate(perspective, centroid) limb: vec4<f32>,
-    @location(4) @interpolate(flat) kind: vec2<f32>,
+    @location(4) @interpolate(flat) kind: u32,
+    // Random number of the tree.
+    @location(5) @interpolate(flat) own: f32,
 }
 
 @vertex
-fn vertex(bark: BarkVertex, stem: Stem) -> Varyings {
+fn vertex(bark: BarkVertex, @builtin(instance_index) record: u32) -> Varyings {
+    let tree = tree_records[record];
     let point = bark_point(bark);
-    let radius = bark.position_radius.w;
+    let radius = bark.radius_m;
     // A twig thinner than a pixel is drawn a pixel wide, and as faint as it is thin.
-    let pixel = distance(frame.eye.xyz, point.world) * length(frame.up.xyz) * 2.0 * frame.viewport.w;
-    let least = stem.bark.w * pixel;
+    let pixel = distance(frame.eye_m, point.world) * length(frame.up) * 2.0 * frame.inv_viewport_px.y;
+    let least = tree.twig_px * pixel;
     var out: Varyings;
     out.world = point.world + point.normal * max(least - radius, 0.0);
     out.clip = frame.view_projection * vec4(out.world, 1.0);
     out.normal = point.normal;
     out.uv = bark.uv;
-    let height = bark.position_radius.y - frame.park.y;
-    out.limb = vec4(radius, min(radius / least, 1.0), crown_openness(stem, point.world).w, height);
-    out.kind = stem.bark.xy;
+    let height = bark.position_m.y - frame.park_center_m.y;
+    out.limb = vec4(radius, min(radius / least, 1.0), crown_openness(tree, point.world).w, height);
+    out.kind = tree.bark_kind;
+    out.own = tree.own;
     return out;
 }
 
@@ -46,9 +55,9 @@ fn twig_color(kind: u32) -> vec3<f32> {
 
 @fragment
 fn fragment(in: Varyings) -> @location(0) vec4<f32> {
-    let kind = u32(in.kind.x);
+    let kind = in.kind;
     // Every tree begins elsewhere on its bark.
-    let uv = in.uv + in.kind.y * vec2(3.7, 11.3);
+    let uv = in.uv + in.own * vec2(3.7, 11.3);
     // Two looks at the tile, the second taller and elsewhere, take turns along the limb: no repeat shows.
     let other_uv = vec2(uv.x + 0.37, uv.y * 0.61 + 0.19);
     let choice = textureSample(noise, repeat_sampler, vec2(uv.x * 0.5, uv.y * 0.29)).r;
@@ -84,12 +93,12 @@ fn fragment(in: Varyings) -> @location(0) vec4<f32> {
     let tilt = (relief.xy * 2.0 - 1.0) * old;
     let normal = normalize(smooth_normal + scale * (du * tilt.x + dv * tilt.y));
 
-    let to_eye = normalize(frame.eye.xyz - in.world);
-    let light = frame.sun_direction.xyz;
+    let to_eye = normalize(frame.eye_m - in.world);
+    let light = frame.sun_direction;
     let facing = dot(normal, light);
     let deep = mix(1.0, relief.z, old);
     let shade = tree_shade(in.world);
-    let sun = frame.sun_color.rgb * shade.r * leaf_shadow(in.world + smooth_normal * 0.02 + light * 0.03);
+    let sun = frame.sun_color * shade.r * leaf_shadow(in.world + smooth_normal * 0.02 + light * 0.03);
     // Rough wood looks lit a little beyond the edge of the light.
     let lit = clamp((facing + 0.08) / 1.08, 0.0, 1.0) * mix(0.6, 1.0, deep);
     // Grass hides the sky from the foot.

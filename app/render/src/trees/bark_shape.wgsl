@@ -3,6 +3,9 @@
 // Moves what grows on branches with them. Rows of the branch columns, now and at rest; a segment turns about its lower
 // joint.
 
+#import trees/structs
+#import gpu/numbers
+
 @group(2) @binding(0) var<storage, read> branch_base: array<vec4<f32>>;
 @group(2) @binding(1) var<storage, read> branch_pose: array<vec4<f32>>;
 @group(2) @binding(2) var<storage, read> rest_base: array<vec4<f32>>;
@@ -12,21 +15,12 @@
 fn branch_turn(row: u32) -> vec4<f32> {
     let a = branch_pose[row];
     let b = vec4(-rest_pose[row].xyz, rest_pose[row].w);
-    return vec4(a.w * b.xyz + b.w * a.xyz + cross(a.xyz, b.xyz), a.w * b.w - dot(a.xyz, b.xyz));
+    return quaternion_product(a, b);
 }
 
 // Where the segment has taken a point that was at `position` at rest.
 fn moved(row: u32, position: vec3<f32>) -> vec3<f32> {
     return branch_base[row].xyz + rotate(branch_turn(row), position - rest_base[row].xyz);
-}
-
-struct BarkVertex {
-    // Place at rest; radius of the limb there.
-    @location(0) position_radius: vec4<f32>,
-    @location(1) normal: vec4<f32>,
-    @location(2) uv: vec2<f32>,
-    @location(3) rows: vec4<u32>,
-    @location(4) shares: vec4<f32>,
 }
 
 struct BarkPoint {
@@ -41,7 +35,7 @@ fn bark_point(vertex: BarkVertex) -> BarkPoint {
         if share > 0.0 {
             let row = vertex.rows[slot];
             let turn = branch_turn(row);
-            let arm = vertex.position_radius.xyz - rest_base[row].xyz;
+            let arm = vertex.position_m - rest_base[row].xyz;
             out.world += share * (branch_base[row].xyz + rotate(turn, arm));
             out.normal += share * rotate(turn, vertex.normal.xyz);
         }

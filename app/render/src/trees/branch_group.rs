@@ -5,6 +5,7 @@
 use windfall_wgpu::BranchColumns;
 
 use super::bark_texture::{BARK_SIZE, paint_bark};
+use super::records::Stems;
 use super::{BarkKind, Stand};
 use crate::gpu::pipeline::{FILTERABLE, buffer_entry, sampler_entry, texture_entry};
 use crate::gpu::upload;
@@ -35,6 +36,7 @@ impl BranchGroup {
                 column(3),
                 texture_entry(4, FILTERABLE, wgpu::TextureViewDimension::D2Array),
                 sampler_entry(5, wgpu::SamplerBindingType::Filtering),
+                column(6),
             ],
         });
         let painted: Vec<_> = BarkKind::ALL.into_iter().map(paint_bark).collect();
@@ -73,6 +75,7 @@ impl BranchGroup {
         &self,
         device: &wgpu::Device,
         branches: Option<&BranchColumns<'_>>,
+        records: &Stems,
     ) -> wgpu::BindGroup {
         let present = branches.filter(|branches| branches.count == self.count);
         let rest = [&self.rest_base, &self.rest_pose].map(wgpu::Buffer::as_entire_buffer_binding);
@@ -88,6 +91,7 @@ impl BranchGroup {
         let textures = [
             wgpu::BindGroupEntry { binding: 4, resource: barks },
             wgpu::BindGroupEntry { binding: 5, resource: wgpu::BindingResource::Sampler(&self.sampler) },
+            wgpu::BindGroupEntry { binding: 6, resource: records.buffer().as_entire_binding() },
         ];
         let entries: Vec<_> = columns.chain(textures).collect();
         device.create_bind_group(&wgpu::BindGroupDescriptor {

@@ -1,30 +1,22 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! How the leaves stand that one simulated leaf stands for on its twig. Pictures set each cluster on the device
-//! (`leaf_cull.wgsl`); other programs are given a few clusters to choose from.
-
-use std::fmt::Write as _;
+//! (`leaves/cull.wgsl`); other programs are given a few clusters to choose from.
 
 use glam::{Quat, Vec3};
 use windfall_core::arith::rng::random;
+use windfall_core::shared_constants;
 
-/// Most leaves that one simulated leaf stands for on a tree.
-pub const MAX_CLUSTER: u32 = 16;
-/// Size of leaves on twigs relative to what they have when they fall, so that crowns close: set by eye.
-pub const TWIG_SIZE: f32 = 1.42;
-/// How far leaves lie from the first at most, across and along the blade, in diameters of one times the root of their number.
-const REACH: Vec3 = Vec3::new(0.9, 0.54, 0.9);
-/// Vector part of the quaternion, beside a real part of 1, that turns leaves against the first at most.
-const TURN: Vec3 = Vec3::new(0.35, 0.9, 0.35);
-
-/// The constants for WGSL.
-pub(crate) fn cluster_constants() -> String {
-    let mut text = format!("const MAX_CLUSTER: u32 = {MAX_CLUSTER}u;\nconst TWIG_SIZE: f32 = {TWIG_SIZE};\n");
-    for (name, Vec3 { x, y, z }) in [("REACH", REACH), ("TURN", TURN)] {
-        // Writing to a String cannot fail.
-        let _ = writeln!(text, "const CLUSTER_{name}: vec3<f32> = vec3({x:?}, {y:?}, {z:?});");
-    }
-    text
+shared_constants! {
+    /// Most leaves that one simulated leaf stands for on a tree.
+    pub const MAX_CLUSTER: u32 = 16;
+    /// Size of leaves on twigs relative to what they have when they fall, so that crowns close: set by eye.
+    pub const TWIG_SIZE: f32 = 1.42;
+    /// How far leaves lie from the first at most, across and along the blade, in diameters of one times the root of their
+    /// number.
+    const CLUSTER_REACH: [f32; 3] = [0.9, 0.54, 0.9];
+    /// Vector part of the quaternion, beside a real part of 1, that turns leaves against the first at most.
+    const CLUSTER_TURN: [f32; 3] = [0.35, 0.9, 0.35];
 }
 
 /// Places of `count` leaves in diameters of one and how each is turned, in the frame of the first, which lies at the origin.
@@ -38,8 +30,8 @@ pub fn cluster(count: u32, number: u32) -> impl Iterator<Item = (Vec3, Quat)> {
         if copy == 0 {
             return (Vec3::ZERO, Quat::IDENTITY);
         }
-        let turn = vector(1, copy) * TURN;
-        let place = vector(0, copy) * REACH * (count as f32).sqrt();
+        let turn = vector(1, copy) * Vec3::from(CLUSTER_TURN);
+        let place = vector(0, copy) * Vec3::from(CLUSTER_REACH) * (count as f32).sqrt();
         (place, Quat::from_xyzw(turn.x, turn.y, turn.z, 1.0).normalize())
     })
 }
@@ -55,7 +47,7 @@ mod tests {
             assert_eq!(leaves.len(), count as usize, "that many leaves");
             assert_eq!(leaves[0], (Vec3::ZERO, Quat::IDENTITY), "the first is the simulated one");
             let far = leaves.iter().fold(Vec3::ZERO, |far, (place, _)| far.max(place.abs()));
-            let limit = REACH * (count as f32).sqrt();
+            let limit = Vec3::from(CLUSTER_REACH) * (count as f32).sqrt();
             assert!(far.cmple(limit).all(), "{far} lies within {limit}");
             assert!(count < 4 || far.length() > 0.5 * limit.length(), "{far} of {limit}");
         }

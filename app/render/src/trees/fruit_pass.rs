@@ -5,14 +5,14 @@
 use glam::Vec3;
 use windfall_core::tree::Bearing;
 
-use super::bark_pass::BARK_SHAPE;
 use super::branch_group::BranchGroup;
 use super::{Stand, StandingTree};
 use crate::frame::group::FrameGroup;
 use crate::frame::light_group::LightGroup;
-use crate::frame::scene_pipeline::{COMMON, LIGHT, ScenePipeline};
-use crate::gpu::pipeline::shader;
+use crate::frame::scene_pipeline::ScenePipeline;
+use crate::gpu::shaders::compile;
 use crate::gpu::upload;
+use crate::gpu::vertex::vertex_struct;
 
 /// Radius of a berry in metres, and how far sizes range on either side.
 const RADIUS_M: f32 = 0.0075;
@@ -30,18 +30,16 @@ const fn third(from: f32, to: f32) -> f32 {
     from + (to - from) / 3.0
 }
 
-/// `Fruit` of `fruit.wgsl`.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, bytemuck::Pod, bytemuck::Zeroable)]
-struct FruitInstance {
-    center_m: [f32; 3],
-    radius_m: f32,
-    color: [f32; 3],
-    row: u32,
+vertex_struct! {
+    /// A berry at rest, in the world.
+    pub(crate) struct FruitInstance from 0 {
+        center_m: [f32; 3] = Float32x3,
+        radius_m: f32 = Float32,
+        color: [f32; 3] = Float32x3,
+        /// Row of the branch columns that moves it.
+        row: u32 = Uint32,
+    }
 }
-
-const ATTRIBUTES: [wgpu::VertexAttribute; 3] =
-    wgpu::vertex_attr_array![0 => Float32x4, 1 => Float32x3, 2 => Uint32];
 
 /// The berries of a stand and their pipeline.
 #[derive(Debug)]
@@ -60,20 +58,16 @@ impl FruitPass {
         branches: &BranchGroup,
         stand: &Stand,
     ) -> Self {
-        let text = [COMMON, LIGHT, BARK_SHAPE, include_str!("fruit_pass.wgsl")];
-        let shader = shader(device, "fruit", &text);
-        let layout = wgpu::VertexBufferLayout {
-            array_stride: size_of::<FruitInstance>() as u64,
-            step_mode: wgpu::VertexStepMode::Instance,
-            attributes: &ATTRIBUTES,
-        };
+        let shader = compile(device, &super::shaders(), "trees/fruit_pass");
         let pipeline = ScenePipeline {
             label: "fruit",
             frame,
             groups: &[&light.layout, &branches.layout],
             topology: wgpu::PrimitiveTopology::TriangleStrip,
             shader: &shader,
-            buffers: &[layout],
+            vertex: "vertex",
+            constants: &[],
+            buffers: &[FruitInstance::layout(wgpu::VertexStepMode::Instance)],
             blend: None,
             depth_write: true,
             alpha_to_coverage: true,

@@ -2,13 +2,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // Berries: balls drawn as discs that face the eye.
 
-struct Fruit {
-    // Centre at rest; radius.
-    @location(0) center_radius: vec4<f32>,
-    // Colour; row of the segment that bears it.
-    @location(1) color: vec3<f32>,
-    @location(2) row: u32,
-}
+#import frame/light
+#import trees/bark_shape
 
 struct Varyings {
     @builtin(position) clip: vec4<f32>,
@@ -18,12 +13,12 @@ struct Varyings {
 }
 
 @vertex
-fn vertex(@builtin(vertex_index) index: u32, fruit: Fruit) -> Varyings {
+fn vertex(@builtin(vertex_index) index: u32, fruit: FruitInstance) -> Varyings {
     let corner = vec2(f32(index & 1u), f32(index >> 1u)) * 2.0 - 1.0;
-    let center = moved(fruit.row, fruit.center_radius.xyz);
-    let to_eye = normalize(frame.eye.xyz - center);
+    let center = moved(fruit.row, fruit.center_m);
+    let to_eye = normalize(frame.eye_m - center);
     let side = normalize(cross(vec3(0.0, 1.0, 0.0), to_eye));
-    let radius = fruit.center_radius.w;
+    let radius = fruit.radius_m;
     var out: Varyings;
     // The disc stands on the side of the ball that is seen.
     let world = center + radius * (side * corner.x + cross(to_eye, side) * corner.y + 0.5 * to_eye);
@@ -42,12 +37,12 @@ fn fragment(in: Varyings) -> @location(0) vec4<f32> {
     if alpha <= 0.0 {
         discard;
     }
-    let to_eye = normalize(frame.eye.xyz - in.center);
+    let to_eye = normalize(frame.eye_m - in.center);
     let side = normalize(cross(vec3(0.0, 1.0, 0.0), to_eye));
     let front = sqrt(max(1.0 - square, 0.0));
     let normal = normalize(side * in.at.x + cross(to_eye, side) * in.at.y + to_eye * front);
-    let light = frame.sun_direction.xyz;
-    let sun = frame.sun_color.rgb * tree_shade(in.center).r * leaf_shadow(in.center + light * 0.03);
+    let light = frame.sun_direction;
+    let sun = frame.sun_color * tree_shade(in.center).r * leaf_shadow(in.center + light * 0.03);
     let lit = clamp((dot(normal, light) + 0.15) / 1.15, 0.0, 1.0);
     let gloss = 0.5 * pow(max(dot(normal, normalize(light + to_eye)), 0.0), 60.0);
     // The calyx leaves a dark dot below.

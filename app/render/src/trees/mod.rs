@@ -17,13 +17,26 @@ use std::sync::Arc;
 
 use glam::Vec3;
 use windfall_core::Scene;
+use windfall_core::layout::WgslStruct;
 use windfall_core::tree::{Forest, Skeleton};
 
 pub use cluster::MAX_CLUSTER;
-pub(crate) use cluster::cluster_constants;
 pub use cluster::{TWIG_SIZE, cluster};
 pub use crown::Crown;
 pub use look::{BarkKind, Look};
+
+use crate::gpu::shaders::{Shaders, declarations, wgsl_files};
+
+/// Shader modules of this room and of those below.
+pub(crate) fn shaders() -> Shaders {
+    let mut shaders = crate::frame::shaders();
+    let structs = records::TreeRecord::declaration()
+        + &bark_mesh::BarkVertex::declaration()
+        + &fruit_pass::FruitInstance::declaration();
+    shaders.extend([("trees/structs", declarations([cluster::wgsl_constants()]) + &structs)]);
+    shaders.extend(wgsl_files!("trees": "records", "bark_shape", "bark_pass", "fruit_pass"));
+    shaders
+}
 
 /// A tree of the scene, grown.
 #[derive(Clone, Debug)]

@@ -2,37 +2,60 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! What all parts of one tree share, for the shaders: one record for every tree, and one for leaves of no tree.
 
+use windfall_core::shared_struct;
+
 use super::{BarkKind, Stand, StandingTree};
 use crate::gpu::upload;
 
 /// Least radius of a drawn twig in pixels: thinner ones would fall between the samples.
 const TWIG_PX: f32 = 0.55;
 
-/// `Stem` of `stem.wgsl`.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, bytemuck::Pod, bytemuck::Zeroable)]
-struct StemRecord {
-    center_turned: [f32; 4],
-    radii_range: [f32; 4],
-    tint_cluster: [f32; 4],
-    bark: [f32; 4],
-    /// First slot of its leaves and the one after the last.
-    slots: [u32; 4],
+shared_struct! {
+    /// A tree, as its bark and its leaves ask for it.
+    pub(crate) struct TreeRecord, padding 8 {
+        /// Centre of the crown.
+        center_m: [f32; 3],
+        /// Place of its leaves in the order of the year, negative for leaves of no tree.
+        turned: f32,
+        /// Half axes of the crown.
+        radii_m: [f32; 3],
+        /// Range of that order.
+        turned_range: f32,
+        /// Factor on the colour of its leaves.
+        tint: [f32; 3],
+        /// Leaves that one stands for.
+        cluster: f32,
+        /// Number of its kind of bark.
+        bark_kind: u32,
+        /// Random number of the tree, 0 to 1.
+        own: f32,
+        /// Least radius of a drawn twig in pixels.
+        twig_px: f32,
+        /// Unused.
+        unused: f32,
+        /// First slot of its leaves.
+        first_slot: u32,
+        /// The slot after the last.
+        end_slot: u32,
+    }
 }
 
 /// Leaves that belong to no tree.
-const NO_STEM: StemRecord = StemRecord {
-    center_turned: [0.0, 0.0, 0.0, -1.0],
-    radii_range: [1.0, 1.0, 1.0, 0.0],
-    tint_cluster: [1.0; 4],
-    bark: [0.0; 4],
-    slots: [0; 4],
+const NO_TREE: TreeRecord = TreeRecord {
+    center_m: [0.0; 3],
+    turned: -1.0,
+    radii_m: [1.0; 3],
+    turned_range: 0.0,
+    tint: [1.0; 3],
+    cluster: 1.0,
+    bark_kind: 0,
+    own: 0.0,
+    twig_px: 0.0,
+    unused: 0.0,
+    first_slot: 0,
+    end_slot: 0,
+    padding: [0; 8],
 };
-
-/// Bytes of a record.
-const STRIDE: u64 = size_of::<StemRecord>() as u64;
-const ATTRIBUTES: [wgpu::VertexAttribute; 4] =
-    wgpu::vertex_attr_array![5 => Float32x4, 6 => Float32x4, 7 => Float32x4, 8 => Float32x4];
 
 /// The records of all trees.
 #[derive(Debug)]
@@ -43,42 +66,37 @@ pub(crate) struct Stems {
 impl Stems {
     pub(crate) fn new(device: &wgpu::Device, queue: &wgpu::Queue, stand: &Stand) -> Self {
         let mut next = 0;
-        let records: Vec<StemRecord> =
-            std::iter::once(NO_STEM).chain(stand.trees.iter().map(|tree| record(tree, &mut next))).collect();
-        let usage = wgpu::BufferUsages::VERTEX | wgpu::BufferUsages::STORAGE;
+        let records: Vec<TreeRecord> =
+            std::iter::once(NO_TREE).chain(stand.trees.iter().map(|tree| record(tree, &mut next))).collect();
+        let usage = wgpu::BufferUsages::STORAGE;
         let bytes = bytemuck::cast_slice(&records);
-        Self { buffer: upload::buffer(device, queue, "stems", usage, bytes) }
+        Self { buffer: upload::buffer(device, queue, "tree records", usage, bytes) }
     }
 
-    /// The records of no tree and of all trees.
+    /// The records: first that of no tree, then those of all trees.
     pub(crate) fn buffer(&self) -> &wgpu::Buffer {
         &self.buffer
-    }
-
-    /// The record of a tree, or of no tree, as the only one of a vertex buffer.
-    pub(crate) fn of(&self, tree: Option<usize>) -> wgpu::BufferSlice<'_> {
-        let index = tree.map_or(0, |tree| tree as u64 + 1);
-        self.buffer.slice(index * STRIDE..(index + 1) * STRIDE)
-    }
-
-    /// Layout of a buffer that holds one record for everything drawn: a stride of nought.
-    pub(crate) fn layout() -> wgpu::VertexBufferLayout<'static> {
-        let step_mode = wgpu::VertexStepMode::Instance;
-        wgpu::VertexBufferLayout { array_stride: 0, step_mode, attributes: &ATTRIBUTES }
     }
 }
 
 /// The record of a tree whose leaves have the slots from `next` on, which moves behind them.
-fn record(tree: &StandingTree, next: &mut u32) -> StemRecord {
-    let first = *next;
+fn record(tree: &StandingTree, next: &mut u32) -> TreeRecord {
+    let first_slot = *next;
     *next += tree.leaves;
     let (crown, look) = (&tree.crown, &tree.look);
     let kind = BarkKind::ALL.iter().position(|&kind| kind == look.bark).unwrap_or(0);
-    StemRecord {
-        center_turned: crown.center_m.extend(look.turned).to_array(),
-        radii_range: crown.radii_m.extend(look.turned_range).to_array(),
-        tint_cluster: look.tint.extend(tree.cluster as f32).to_array(),
-        bark: [kind as f32, look.own, f32::from(u8::from(look.is_low)), TWIG_PX],
-        slots: [first, *next, 0, 0],
+    TreeRecord {
+        center_m: crown.center_m.to_array(),
+        turned: look.turned,
+        radii_m: crown.radii_m.to_array(),
+        turned_range: look.turned_range,
+        tint: look.tint.to_array(),
+        cluster: tree.cluster as f32,
+        bark_kind: u32::try_from(kind).unwrap_or(0),
+        own: look.own,
+        twig_px: TWIG_PX,
+        first_slot,
+        end_slot: *next,
+        ..NO_TREE
     }
 }
