@@ -9,7 +9,7 @@ use anyhow::{Context, bail};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use windfall_core::{Simulator, World};
-use windfall_render::trees::Stand;
+use windfall_render::trees::SceneTrees;
 
 use crate::export::{self, Estimate, Format, FrameRange, Job, Observer, check_space};
 use crate::run::backend::{Backend, BackendArguments};
@@ -85,7 +85,7 @@ pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let scene = world.environment.scene().clone();
     let choice = arguments.backend.choose()?;
     let mut backend = choice.device.simulator(&world)?;
-    let stand = Stand::of(&scene, world.environment.forest());
+    let stand = SceneTrees::of(&scene, world.environment.forest());
     let mut observer = Observer::default();
     let job = Job { scene: &scene, stand: &stand, path, frames, fps: arguments.fps };
     let mut exporter = export::start(format, &job)?;

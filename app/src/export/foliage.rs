@@ -9,7 +9,7 @@ use windfall_core::Scene;
 use windfall_core::device::leaf::record::{HALF_MASK, leaf_tint, leaf_variant};
 use windfall_core::leaf::LeafState;
 use windfall_core::scene::Species;
-use windfall_render::trees::{Stand, StandingTree, cluster};
+use windfall_render::trees::{SceneTrees, StandingTree, cluster};
 use windfall_render::turned;
 use windfall_texgen::{Atlas, Layer};
 
@@ -47,7 +47,7 @@ struct Crown {
 
 impl Foliage {
     /// The kinds of leaves that `atlas` has for the scene.
-    pub(super) fn new(scene: &Scene, stand: &Stand, atlas: &Atlas) -> Self {
+    pub(super) fn new(scene: &Scene, stand: &SceneTrees, atlas: &Atlas) -> Self {
         let mut foliage = Self {
             meshes: Vec::new(),
             pictures: Vec::new(),
@@ -159,7 +159,7 @@ pub(super) mod tests {
     use super::*;
 
     /// A scene of one species with a tree that bears it, and its leaves.
-    pub(in crate::export) fn foliage(shape: LeafShape) -> (Scene, Stand, Foliage) {
+    pub(in crate::export) fn foliage(shape: LeafShape) -> (Scene, SceneTrees, Foliage) {
         let mut scene = Scene::default();
         scene.species.truncate(1);
         scene.species[0].shape = shape;
@@ -168,7 +168,7 @@ pub(super) mod tests {
         scene.tree_kinds = vec![TreeKind { name: "one".into(), form, foliage: twigs, ..TreeKind::default() }];
         scene.trees = vec![Tree { kind: "one".into(), leaves: 500, ..Tree::default() }];
         let world = World::build(&scene).expect("a scene");
-        let stand = Stand::of(&scene, world.environment.forest());
+        let stand = SceneTrees::of(&scene, world.environment.forest());
         let atlas = crate::leaves::atlas_of(&scene).expect("pictures");
         let foliage = Foliage::new(&scene, &stand, &atlas);
         (scene, stand, foliage)

@@ -28,7 +28,7 @@ pub(crate) use frame::{Frame, FrameLeaf};
 pub(crate) use range::FrameRange;
 pub(crate) use space::{Estimate, check_space};
 use windfall_core::Scene;
-use windfall_render::trees::Stand;
+use windfall_render::trees::SceneTrees;
 
 /// What is to be written.
 #[derive(Clone, Copy, Debug)]
@@ -36,7 +36,7 @@ pub(crate) struct Job<'a> {
     /// The scene, scaled and seeded.
     pub scene: &'a Scene,
     /// Its trees.
-    pub stand: &'a Stand,
+    pub stand: &'a SceneTrees,
     /// Where the result will lie.
     pub path: &'a Path,
     /// Which frames come.

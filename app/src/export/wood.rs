@@ -5,7 +5,7 @@
 use glam::{Quat, Vec3};
 use image::{Rgb, RgbImage};
 use windfall_core::tree::{BarkDetail, BarkMesh, bark_mesh};
-use windfall_render::trees::{BarkKind, Stand, StandingTree};
+use windfall_render::trees::{BarkKind, SceneTrees, StandingTree};
 use windfall_render::{BARK_SIZE, paint_bark};
 
 /// Row of the branch columns of a segment, and of the one that it grows from.
@@ -28,13 +28,13 @@ pub(super) fn rotations(joints: &[Joint], pose: &[[f32; 4]]) -> impl Iterator<It
 }
 
 /// Where a row's joint is at rest, and how its segment is turned.
-pub(super) fn at_rest(stand: &Stand, row: usize) -> (Vec3, Quat) {
+pub(super) fn at_rest(stand: &SceneTrees, row: usize) -> (Vec3, Quat) {
     let [x, y, z, _] = stand.rest_base[row];
     (Vec3::new(x, y, z), Quat::from_array(stand.rest_pose[row]).normalize())
 }
 
 /// The same seen from the joint that it grows from.
-pub(super) fn at_rest_above(stand: &Stand, (row, parent): Joint) -> (Vec3, Quat) {
+pub(super) fn at_rest_above(stand: &SceneTrees, (row, parent): Joint) -> (Vec3, Quat) {
     let (at, turn) = at_rest(stand, row);
     let (above, above_turn) = parent.map_or((Vec3::ZERO, Quat::IDENTITY), |parent| at_rest(stand, parent));
     let back = above_turn.conjugate();
@@ -51,7 +51,7 @@ pub(super) fn bark(tree: &StandingTree) -> BarkMesh {
 /// Bends the bark of a tree as its segments are turned.
 pub(super) fn bend(
     mesh: &mut BarkMesh,
-    stand: &Stand,
+    stand: &SceneTrees,
     tree: &StandingTree,
     base: &[[f32; 4]],
     pose: &[[f32; 4]],
@@ -84,7 +84,7 @@ pub(super) fn bark_name(kind: BarkKind) -> &'static str {
 }
 
 /// The barks of a stand, each once.
-pub(super) fn barks(stand: &Stand) -> impl Iterator<Item = BarkKind> {
+pub(super) fn barks(stand: &SceneTrees) -> impl Iterator<Item = BarkKind> {
     BarkKind::ALL.into_iter().filter(|kind| stand.trees.iter().any(|tree| tree.look.bark == *kind))
 }
 

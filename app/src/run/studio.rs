@@ -5,8 +5,8 @@
 use windfall_core::scene::{CameraKey, camera_at};
 use windfall_core::{Scene, Simulator, World};
 use windfall_render::camera::Camera;
-use windfall_render::trees::Stand;
-use windfall_render::{FrameInput, PictureTarget, Renderer, RendererOptions, Subject};
+use windfall_render::trees::SceneTrees;
+use windfall_render::{FrameInput, PictureTarget, RenderScene, Renderer, RendererOptions};
 use windfall_wgpu::Gpu;
 
 use crate::leaves;
@@ -58,8 +58,8 @@ impl Studio {
         let atlas = leaves::atlas_of(scene)?;
         let options = RendererOptions::for_scene(scene);
         let format = PictureTarget::FORMAT;
-        let stand = Stand::of(scene, world.environment.forest());
-        let subject = Subject { scene, stand: &stand, atlas: &atlas };
+        let stand = SceneTrees::of(scene, world.environment.forest());
+        let subject = RenderScene { scene, trees: &stand, atlas: &atlas };
         let renderer = Renderer::new(gpu.device(), gpu.queue(), subject, format, size, options)?;
         gpu.check()?;
         if let Some(reason) = reason {

@@ -133,7 +133,7 @@ pub(crate) struct Path {
 
 /// What a frame's light and place are computed from.
 #[derive(Clone, Debug)]
-pub(crate) struct Environment {
+pub(crate) struct Surroundings {
     /// Sun and sky.
     pub(crate) daylight: Daylight,
     /// What the sky does to matt surfaces.
@@ -146,7 +146,7 @@ pub(crate) struct Environment {
     pub(crate) path: Path,
 }
 
-impl Environment {
+impl Surroundings {
     pub(crate) fn new(view: &View, park_center: Vec3, path: Path) -> Result<Self, MapError> {
         let daylight = Daylight::new(view)?;
         let ambient = SphericalHarmonics::of(&daylight.sky).white_surface();
@@ -222,11 +222,12 @@ mod tests {
 
     #[test]
     fn a_mirror_shows_what_a_reflected_ray_meets() {
-        let environment = Environment::new(&View::default(), Vec3::ZERO, PATH).expect("no picture of a sky");
+        let surroundings =
+            Surroundings::new(&View::default(), Vec3::ZERO, PATH).expect("no picture of a sky");
         let camera = Camera::from(&scene::Camera::default());
         let input = FrameInput { camera, time_s: 0.0, since_s: f32::INFINITY, origin: (0, 0) };
         let tile = tiles((640, 360), (640, 360)).next().expect("a tile");
-        let frame = environment.frame(&input, 0.0, (640, 360), &tile);
+        let frame = surroundings.frame(&input, 0.0, (640, 360), &tile);
         let water_m = 0.3;
         let mirrored = frame.mirrored(water_m);
         let plain = Mat4::from_cols_array_2d(&frame.view_projection);
@@ -254,12 +255,12 @@ mod tests {
     fn light_stays_finite_for_every_sun() {
         for elevation_deg in [-6.0, 0.0, 1.0, 5.0, 45.0, 90.0] {
             let sun = Sun { azimuth_deg: 30.0, elevation_deg };
-            let environment = Environment::new(&View { sun, ..View::default() }, Vec3::ZERO, PATH)
+            let surroundings = Surroundings::new(&View { sun, ..View::default() }, Vec3::ZERO, PATH)
                 .expect("no file is needed");
             let camera = Camera::from(&scene::Camera::default());
             let input = FrameInput { camera, time_s: 1.0, since_s: f32::INFINITY, origin: (0, 0) };
             let tile = tiles((640, 480), (640, 480)).next().expect("a tile");
-            let frame = environment.frame(&input, 1.0, (640, 480), &tile);
+            let frame = surroundings.frame(&input, 1.0, (640, 480), &tile);
             let all: &[f32] = bytemuck::cast_slice(std::slice::from_ref(&frame));
             assert!(all.iter().all(|value| value.is_finite()), "elevation {elevation_deg}: {frame:?}");
         }

@@ -11,12 +11,12 @@ use glam::{Mat4, Vec4};
 use windfall_core::layout::Float4;
 
 use super::record::{CULL_GROUP_SIZE, ViewUniform};
-use super::species_table::LeafKinds;
+use super::species_table::SpeciesTable;
 use super::visible::Page;
 use crate::frame::cascades::{CASCADES, MAPS};
 use crate::gpu::pipeline::{buffer_entry, layout};
 use crate::gpu::shaders::compile;
-use crate::trees::records::Stems;
+use crate::trees::records::TreeRecords;
 
 /// Views of a frame, each with its own uniform block.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -87,7 +87,7 @@ pub(crate) struct CullPass {
     pub(crate) records_layout: wgpu::BindGroupLayout,
     page_layout: wgpu::BindGroupLayout,
     columns_layout: wgpu::BindGroupLayout,
-    kinds: wgpu::BindGroup,
+    species_table: wgpu::BindGroup,
     views: [wgpu::Buffer; 2 + MAPS],
     steps: [wgpu::ComputePipeline; 4],
     /// Whether leaves bring marks with them.
@@ -96,7 +96,7 @@ pub(crate) struct CullPass {
 
 impl CullPass {
     /// The pipelines; `is_painted` for leaves in the colours of their marks.
-    pub(crate) fn new(device: &wgpu::Device, kinds: &LeafKinds, is_painted: bool) -> Self {
+    pub(crate) fn new(device: &wgpu::Device, species_table: &SpeciesTable, is_painted: bool) -> Self {
         let compute = wgpu::ShaderStages::COMPUTE;
         let read = wgpu::BufferBindingType::Storage { read_only: true };
         let write = wgpu::BufferBindingType::Storage { read_only: false };
@@ -118,7 +118,7 @@ impl CullPass {
         let columns_layout =
             group("leaf columns", &[0, 1, 2, 3].map(|binding| buffer_entry(binding, read, compute)));
         let records_layout = group("leaf records", &[buffer_entry(0, read, wgpu::ShaderStages::VERTEX)]);
-        let kinds_layout = group("leaf kinds", &[uniform(0)]);
+        let kinds_layout = group("leaf species_table", &[uniform(0)]);
         let module = compile(device, &super::shaders(), "leaves/cull");
         let constants = [("IS_PAINTED", f64::from(u8::from(is_painted)))];
         let layout = layout(device, &[Some(&page_layout), Some(&columns_layout), Some(&kinds_layout)]);
@@ -143,12 +143,15 @@ impl CullPass {
                 mapped_at_creation: false,
             })
         });
-        let kinds = device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: Some("leaf kinds"),
+        let species_table = device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("leaf species_table"),
             layout: &kinds_layout,
-            entries: &[wgpu::BindGroupEntry { binding: 0, resource: kinds.uniform.as_entire_binding() }],
+            entries: &[wgpu::BindGroupEntry {
+                binding: 0,
+                resource: species_table.uniform.as_entire_binding(),
+            }],
         });
-        Self { records_layout, page_layout, columns_layout, kinds, views, steps, is_painted }
+        Self { records_layout, page_layout, columns_layout, species_table, views, steps, is_painted }
     }
 
     /// Sets what a view sees in the frames to come.
@@ -172,13 +175,13 @@ impl CullPass {
         encoder: &mut wgpu::CommandEncoder,
         page: &Page,
         columns: [wgpu::BufferBinding<'_>; 4],
-        stems: &Stems,
+        tree_records: &TreeRecords,
         view: View,
     ) {
         let entries = [
             self.buffer(view),
             &page.buffers.uniform,
-            stems.buffer(),
+            tree_records.buffer(),
             &page.buffers.chosen,
             &page.draws,
             &page.records,
@@ -210,7 +213,7 @@ impl CullPass {
         });
         pass.set_bind_group(0, &own, &[]);
         pass.set_bind_group(1, &columns, &[]);
-        pass.set_bind_group(2, &self.kinds, &[]);
+        pass.set_bind_group(2, &self.species_table, &[]);
         let groups = page.uniform.threads.div_ceil(CULL_GROUP_SIZE);
         let writers = page.uniform.count.div_ceil(CULL_GROUP_SIZE).min(MAX_WRITERS);
         for (step, groups) in self.steps.iter().zip([groups, 1, groups, writers]) {

@@ -3,8 +3,8 @@
 //! Draws leaves: instanced, cut out by coverage, in any order.
 
 use super::cull::CullPass;
-use super::species_table::LeafKinds;
-use super::visible::LeafCrowd;
+use super::species_table::SpeciesTable;
+use super::visible::VisibleLeaves;
 use crate::frame::group::FrameGroup;
 use crate::frame::light_group::LightGroup;
 use crate::frame::scene_pipeline::ScenePipeline;
@@ -21,19 +21,19 @@ impl LeafPass {
         device: &wgpu::Device,
         frame: &FrameGroup,
         light: &LightGroup,
-        kinds: &LeafKinds,
+        species_table: &SpeciesTable,
         cull: &CullPass,
     ) -> Self {
         let shader = compile(device, &super::shaders(), "leaves/leaf_pass");
         let pipeline = ScenePipeline {
             label: "leaves",
             frame,
-            groups: &[&light.layout, &kinds.layout, &cull.records_layout],
+            groups: &[&light.layout, &species_table.layout, &cull.records_layout],
             topology: wgpu::PrimitiveTopology::TriangleStrip,
             shader: &shader,
             vertex: "vertex",
             constants: &[("IS_PAINTED", f64::from(u8::from(cull.is_painted)))],
-            buffers: &[LeafCrowd::layout()],
+            buffers: &[VisibleLeaves::layout()],
             blend: None,
             depth_write: true,
             alpha_to_coverage: false,
@@ -42,17 +42,17 @@ impl LeafPass {
         Self { pipeline }
     }
 
-    /// Draws crowds of leaves as the camera's culling left them; bind groups 0 and 1 are set.
+    /// Draws leaves as the camera's culling left them; bind groups 0 and 1 are set.
     pub(crate) fn draw<'a>(
         &self,
         pass: &mut wgpu::RenderPass<'_>,
-        kinds: &LeafKinds,
-        crowds: impl Iterator<Item = &'a LeafCrowd>,
+        species_table: &SpeciesTable,
+        visible: impl Iterator<Item = &'a VisibleLeaves>,
     ) {
         pass.set_pipeline(&self.pipeline);
-        pass.set_bind_group(2, &kinds.group, &[]);
-        for crowd in crowds {
-            crowd.draw(pass);
+        pass.set_bind_group(2, &species_table.group, &[]);
+        for leaves in visible {
+            leaves.draw(pass);
         }
     }
 }

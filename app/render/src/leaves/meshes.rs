@@ -28,7 +28,7 @@ shared_constants! {
 
 /// All meshes of an atlas.
 #[derive(Debug, Default)]
-pub(crate) struct LeafForms {
+pub(crate) struct LeafMeshes {
     /// Corners, of [`CORNER_WORDS`] each.
     pub(crate) corners: Vec<u32>,
     /// Corner numbers, counted from a mesh's first, two to a word.
@@ -47,7 +47,7 @@ struct Posed {
     normals: Vec<Vec<Vec3>>,
 }
 
-impl LeafForms {
+impl LeafMeshes {
     pub(crate) fn new(atlas: &Atlas) -> Self {
         let mut forms = Self::default();
         let mut pieces: Vec<u16> = Vec::new();
@@ -245,7 +245,7 @@ mod tests {
     }
 
     /// What the shader reads of a corner at a stage.
-    fn read(forms: &LeafForms, corner: usize, stage: usize) -> Vec3 {
+    fn read(forms: &LeafMeshes, corner: usize, stage: usize) -> Vec3 {
         let words = &forms.corners[corner * CORNER_WORDS as usize + 1 + 2 * stage..];
         let half = |word: u32| {
             #[expect(clippy::cast_possible_truncation, reason = "the low half")]
@@ -258,7 +258,7 @@ mod tests {
     #[test]
     fn stages_reach_the_shader_as_the_leaf_has_them() {
         let atlas = atlas();
-        let forms = LeafForms::new(&atlas);
+        let forms = LeafMeshes::new(&atlas);
         let form = &atlas.layers[0].form;
         for (number, level) in form.levels.iter().enumerate() {
             let first = forms.meshes[number + 1][2] as usize;

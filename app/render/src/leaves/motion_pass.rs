@@ -5,9 +5,9 @@
 use windfall_core::shared_struct;
 use windfall_wgpu::LeafColumns;
 
-use super::previous::LeafPast;
-use super::species_table::LeafKinds;
-use super::visible::LeafCrowd;
+use super::previous::PreviousLeaves;
+use super::species_table::SpeciesTable;
+use super::visible::VisibleLeaves;
 use crate::frame::group::FrameGroup;
 use crate::gpu::pipeline::{buffer_entry, layout};
 use crate::gpu::shaders::compile;
@@ -35,11 +35,16 @@ pub(crate) struct MotionPass {
     columns_layout: wgpu::BindGroupLayout,
     uniform: wgpu::Buffer,
     group: wgpu::BindGroup,
-    pub(crate) past: LeafPast,
+    pub(crate) past: PreviousLeaves,
 }
 
 impl MotionPass {
-    pub(crate) fn new(device: &wgpu::Device, frame: &FrameGroup, kinds: &LeafKinds, leaf_count: u32) -> Self {
+    pub(crate) fn new(
+        device: &wgpu::Device,
+        frame: &FrameGroup,
+        species_table: &SpeciesTable,
+        leaf_count: u32,
+    ) -> Self {
         let vertex = wgpu::ShaderStages::VERTEX;
         let read = wgpu::BufferBindingType::Storage { read_only: true };
         let columns_layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
@@ -62,7 +67,8 @@ impl MotionPass {
             entries: &[wgpu::BindGroupEntry { binding: 0, resource: uniform.as_entire_binding() }],
         });
         let module = compile(device, &super::shaders(), "leaves/motion_pass");
-        let groups = [Some(&frame.layout), Some(&uniform_layout), Some(&kinds.layout), Some(&columns_layout)];
+        let groups =
+            [Some(&frame.layout), Some(&uniform_layout), Some(&species_table.layout), Some(&columns_layout)];
         let pipeline = device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
             label: Some("leaf motion"),
             layout: Some(&layout(device, &groups)),
@@ -70,7 +76,7 @@ impl MotionPass {
                 module: &module,
                 entry_point: Some("vertex"),
                 compilation_options: wgpu::PipelineCompilationOptions::default(),
-                buffers: &[Some(LeafCrowd::layout())],
+                buffers: &[Some(VisibleLeaves::layout())],
             },
             primitive: wgpu::PrimitiveState {
                 topology: wgpu::PrimitiveTopology::TriangleStrip,
@@ -94,16 +100,16 @@ impl MotionPass {
             multiview_mask: None,
             cache: None,
         });
-        Self { pipeline, columns_layout, uniform, group, past: LeafPast::new(device, leaf_count) }
+        Self { pipeline, columns_layout, uniform, group, past: PreviousLeaves::new(device, leaf_count) }
     }
 
-    /// Draws the ways of `crowd`'s leaves at `time_s` with the shutter open for `shutter_s`; its culling has been done.
+    /// Draws the ways of `visible` leaves at `time_s` with the shutter open for `shutter_s`; its culling has been done.
     pub(crate) fn draw(
         &self,
         (device, queue): (&wgpu::Device, &wgpu::Queue),
         encoder: &mut wgpu::CommandEncoder,
         targets: &Targets,
-        (frame, kinds, crowd): (&FrameGroup, &LeafKinds, &LeafCrowd),
+        (frame, species_table, visible): (&FrameGroup, &SpeciesTable, &VisibleLeaves),
         leaves: &LeafColumns<'_>,
         (time_s, shutter_s): (f64, f32),
     ) {
@@ -144,8 +150,8 @@ impl MotionPass {
         pass.set_pipeline(&self.pipeline);
         pass.set_bind_group(0, &frame.group, &[]);
         pass.set_bind_group(1, &self.group, &[]);
-        pass.set_bind_group(2, &kinds.group, &[]);
+        pass.set_bind_group(2, &species_table.group, &[]);
         let columns = [leaves.place, leaves.attitude, &self.past.place, &self.past.attitude];
-        crowd.draw_with(device, &mut pass, &self.columns_layout, columns, leaves.leaf_count);
+        visible.draw_with(device, &mut pass, &self.columns_layout, columns, leaves.leaf_count);
     }
 }

@@ -11,7 +11,7 @@ const LONGEST_S: f64 = 0.25;
 
 /// Places and attitudes as they were last noted.
 #[derive(Debug)]
-pub(crate) struct LeafPast {
+pub(crate) struct PreviousLeaves {
     pub(crate) place: wgpu::Buffer,
     pub(crate) attitude: wgpu::Buffer,
     /// Number of leaves there is room for.
@@ -25,7 +25,7 @@ struct Noted {
     leaf_count: u32,
 }
 
-impl LeafPast {
+impl PreviousLeaves {
     pub(crate) fn new(device: &wgpu::Device, leaf_count: u32) -> Self {
         let column = |label| {
             device.create_buffer(&wgpu::BufferDescriptor {

@@ -9,7 +9,7 @@ use windfall_core::scene::{FlightModel, LeafShape, MAX_SPECIES, Species};
 use windfall_core::{Scene, shared_struct};
 use windfall_texgen::{Atlas, Layer};
 
-use super::meshes::{LEVELS, LeafForms, STAGES, two_shares};
+use super::meshes::{LEVELS, LeafMeshes, STAGES, two_shares};
 use crate::error::RenderError;
 use crate::gpu::pipeline::{FILTERABLE, buffer_entry, sampler_entry, texture_entry, uniform_entry};
 use crate::gpu::upload;
@@ -65,13 +65,13 @@ shared_struct! {
 
 /// Bind group of the species, shared by the leaf and the shadow passes; the culling takes only the uniform block.
 #[derive(Debug)]
-pub(crate) struct LeafKinds {
+pub(crate) struct SpeciesTable {
     pub(crate) layout: wgpu::BindGroupLayout,
     pub(crate) group: wgpu::BindGroup,
     pub(crate) uniform: wgpu::Buffer,
 }
 
-impl LeafKinds {
+impl SpeciesTable {
     pub(crate) fn new(
         device: &wgpu::Device,
         queue: &wgpu::Queue,
@@ -81,7 +81,7 @@ impl LeafKinds {
         check(scene, atlas, device.limits().max_texture_array_layers)?;
         let read = wgpu::BufferBindingType::Storage { read_only: true };
         let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-            label: Some("leaf kinds"),
+            label: Some("leaf species_table"),
             entries: &[
                 uniform_entry(0),
                 texture_entry(1, FILTERABLE, wgpu::TextureViewDimension::D2Array),
@@ -99,7 +99,7 @@ impl LeafKinds {
         };
         let view = array("leaf images", wgpu::TextureFormat::Rgba8UnormSrgb, |layer| &layer.mips);
         let surfaces = array("leaf surfaces", wgpu::TextureFormat::Rgba8Unorm, |layer| &layer.surface);
-        let forms = LeafForms::new(atlas);
+        let forms = LeafMeshes::new(atlas);
         let storage =
             |label, bytes: &[u8]| upload::buffer(device, queue, label, wgpu::BufferUsages::STORAGE, bytes);
         let corners = storage("leaf corners", bytemuck::cast_slice(&forms.corners));
@@ -114,12 +114,12 @@ impl LeafKinds {
         let uniform = upload::buffer(
             device,
             queue,
-            "leaf kinds",
+            "leaf species_table",
             wgpu::BufferUsages::UNIFORM,
             bytemuck::bytes_of(&table(scene, atlas, &forms)),
         );
         let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: Some("leaf kinds"),
+            label: Some("leaf species_table"),
             layout: &layout,
             entries: &[
                 wgpu::BindGroupEntry { binding: 0, resource: uniform.as_entire_binding() },
@@ -135,7 +135,7 @@ impl LeafKinds {
     }
 }
 
-fn table(scene: &Scene, atlas: &Atlas, forms: &LeafForms) -> SpeciesUniform {
+fn table(scene: &Scene, atlas: &Atlas, forms: &LeafMeshes) -> SpeciesUniform {
     let mut table = SpeciesUniform {
         strips: forms.longest,
         variants: atlas.variants,
@@ -232,7 +232,7 @@ mod tests {
     fn blade_has_the_area_the_species_says() {
         let scene = Scene::default();
         let atlas = disc_atlas(&scene, 16);
-        let table = table(&scene, &atlas, &LeafForms::new(&atlas));
+        let table = table(&scene, &atlas, &LeafMeshes::new(&atlas));
         let edge_m = table.species[0].diameter_m * table.layers[1].edge;
         let area = atlas.layers[1].area_fraction * edge_m * edge_m;
         let disc = std::f32::consts::FRAC_PI_4 * scene.species[0].size_m.powi(2);

@@ -11,8 +11,8 @@ use super::cull::{CullPass, View};
 use super::meshes::LEVELS;
 use super::record::{LeafDraw, LeafRecord, PageUniform, SLOTS_PER_THREAD};
 use crate::gpu::upload;
-use crate::trees::Stand;
-use crate::trees::records::Stems;
+use crate::trees::SceneTrees;
+use crate::trees::records::TreeRecords;
 
 /// Most slots of a page, and most leaves drawn from it: what the smallest binding that WebGPU allows can hold.
 pub(crate) const PAGE_SLOTS: u32 = 1 << 20;
@@ -45,20 +45,21 @@ pub(crate) struct PageBuffers {
 
 /// Leaves that are drawn together.
 #[derive(Debug)]
-pub(crate) struct LeafCrowd {
+pub(crate) struct VisibleLeaves {
     pub(crate) pages: Vec<Page>,
 }
 
-impl LeafCrowd {
-    /// Room for `leaf_count` leaves, the first of them those of the trees of `stand`.
+impl VisibleLeaves {
+    /// Room for `leaf_count` leaves, the first of them those of the trees of `scene_trees`.
     pub(crate) fn new(
         device: &wgpu::Device,
         queue: &wgpu::Queue,
         cull: &CullPass,
-        stand: &Stand,
+        scene_trees: &SceneTrees,
         leaf_count: u32,
     ) -> Self {
-        let trees: Vec<(u32, u32)> = stand.trees.iter().map(|tree| (tree.leaves, tree.cluster)).collect();
+        let trees: Vec<(u32, u32)> =
+            scene_trees.trees.iter().map(|tree| (tree.leaves, tree.cluster)).collect();
         let records_of_trees = u32::try_from(trees.len() + 1).unwrap_or(u32::MAX);
         let page = |(first, count, records): (u32, u32, u32)| {
             let uniform = PageUniform {
@@ -79,7 +80,7 @@ impl LeafCrowd {
         device: &wgpu::Device,
         encoder: &mut wgpu::CommandEncoder,
         cull: &CullPass,
-        (columns, marks, stems): (&LeafColumns<'_>, Option<&wgpu::Buffer>, &Stems),
+        (columns, marks, tree_records): (&LeafColumns<'_>, Option<&wgpu::Buffer>, &TreeRecords),
         view: View,
     ) {
         let leaf_count = columns.leaf_count;
@@ -88,7 +89,7 @@ impl LeafCrowd {
             let columns = [columns.place, columns.attitude, columns.schedule, identity];
             match page.windows(columns, leaf_count) {
                 None => encoder.clear_buffer(&page.draws, 0, None),
-                Some(windows) => cull.run(device, encoder, page, windows, stems, view),
+                Some(windows) => cull.run(device, encoder, page, windows, tree_records, view),
             }
         }
     }

@@ -4,10 +4,10 @@
 
 use super::layout::TreeInstance;
 use super::litter::Shedding;
-use crate::trees::{Stand, StandingTree};
+use crate::trees::{SceneTrees, StandingTree};
 
-/// The trees of a stand as those that hide the sky from the meadow and may strew litter on it.
-pub(crate) fn own_trees(stand: &Stand, strew: bool) -> Vec<TreeInstance> {
+/// The trees of a scene as those that hide the sky from the meadow and may strew litter on it.
+pub(crate) fn own_trees(scene_trees: &SceneTrees, strew: bool) -> Vec<TreeInstance> {
     let tree = |tree: &StandingTree| TreeInstance {
         foot_m: tree.foot_m,
         height_m: tree.skeleton.height_m(),
@@ -16,14 +16,14 @@ pub(crate) fn own_trees(stand: &Stand, strew: bool) -> Vec<TreeInstance> {
         hue: 0.0,
         brightness: f32::from(u8::from(strew)),
     };
-    stand.trees.iter().filter(|tree| !tree.look.is_low).map(tree).collect()
+    scene_trees.trees.iter().filter(|tree| !tree.look.is_low).map(tree).collect()
 }
 
 /// All trees that have shed leaves before the scene begins.
-pub(crate) fn shedding(planted: &[TreeInstance], stand: &Stand) -> Vec<Shedding> {
+pub(crate) fn shedding(planted: &[TreeInstance], scene_trees: &SceneTrees) -> Vec<Shedding> {
     let far = planted.iter();
     let far = far.map(|tree| Shedding { foot_m: tree.foot_m, height_m: tree.height_m, species: None });
-    let own = stand.trees.iter().filter(|tree| !tree.look.is_low).map(|tree| Shedding {
+    let own = scene_trees.trees.iter().filter(|tree| !tree.look.is_low).map(|tree| Shedding {
         foot_m: tree.foot_m,
         height_m: tree.skeleton.height_m(),
         species: tree.species,

@@ -8,19 +8,19 @@ use super::Renderer;
 use super::is_moving;
 use crate::error::RenderError;
 use crate::frame::cascades::shadow_size;
-use crate::frame::surroundings::Environment;
+use crate::frame::surroundings::Surroundings;
 use crate::gpu::targets::Targets;
 use crate::leaves::cull::CullPass;
 use crate::leaves::leaf_pass::LeafPass;
 use crate::leaves::motion_pass::MotionPass;
-use crate::leaves::visible::LeafCrowd;
+use crate::leaves::visible::VisibleLeaves;
 use crate::marks::Paint;
 use crate::marks::landing_count::LandingCount;
 use crate::marks::landing_pass::LandingPass;
 use crate::marks::paint_pass::PaintPass;
 use crate::marks::trail_pass::TrailPass;
-use crate::trees::Stand;
-use crate::trees::records::Stems;
+use crate::trees::SceneTrees;
+use crate::trees::records::TreeRecords;
 
 impl Renderer {
     /// Draws pictures of another size from now on.
@@ -44,10 +44,10 @@ impl Renderer {
     /// # Errors
     /// A picture of a sky that cannot be used; the renderer keeps its own.
     pub fn update_scene_view(&mut self, view: &View) -> Result<(), RenderError> {
-        let Environment { park_center, path, .. } = self.environment;
-        let before = self.environment.daylight.sun.direction;
-        self.environment = Environment::new(view, park_center, path)?;
-        let daylight = &self.environment.daylight;
+        let Surroundings { park_center, path, .. } = self.surroundings;
+        let before = self.surroundings.daylight.sun.direction;
+        self.surroundings = Surroundings::new(view, park_center, path)?;
+        let daylight = &self.surroundings.daylight;
         if daylight.sun.direction != before {
             self.frame.set_sun(&self.queue, &self.land, daylight.sun.direction);
         }
@@ -92,10 +92,11 @@ impl Renderer {
     }
 
     /// Takes over another number of leaves, with the same trees bearing other shares of them.
-    pub fn update_leaves(&mut self, stand: &Stand, leaf_count: u32) {
+    pub fn update_leaves(&mut self, scene_trees: &SceneTrees, leaf_count: u32) {
         self.leaf_count = leaf_count;
-        self.stems = Stems::new(&self.device, &self.queue, stand);
-        self.leaf_crowd = LeafCrowd::new(&self.device, &self.queue, &self.cull, stand, leaf_count);
+        self.tree_records = TreeRecords::new(&self.device, &self.queue, scene_trees);
+        self.visible_leaves =
+            VisibleLeaves::new(&self.device, &self.queue, &self.cull, scene_trees, leaf_count);
         self.make_trails(self.trail_pass.as_ref().map_or(0.0, TrailPass::trail_s));
         self.motion_pass = self.motion_pass.is_some().then(|| self.new_motion());
         if let Some(paint) = self.paint_pass.take().map(|pass| pass.paint()) {
@@ -104,7 +105,7 @@ impl Renderer {
     }
 
     pub(super) fn new_motion(&self) -> MotionPass {
-        MotionPass::new(&self.device, &self.frame, &self.kinds, self.leaf_count)
+        MotionPass::new(&self.device, &self.frame, &self.species_table, self.leaf_count)
     }
 
     /// Paints leaves by what they do, or leaves them their own colours. Litter that is not simulated is not drawn then.
@@ -117,8 +118,9 @@ impl Renderer {
                 let pass = |paint| PaintPass::new(device, paint, self.leaf_count, self.dt_s, base_m);
                 self.paint_pass = paint.map(pass);
                 if self.cull.is_painted != paint.is_some() {
-                    self.cull = CullPass::new(device, &self.kinds, paint.is_some());
-                    self.leaf_pass = LeafPass::new(device, &self.frame, &self.light, &self.kinds, &self.cull);
+                    self.cull = CullPass::new(device, &self.species_table, paint.is_some());
+                    self.leaf_pass =
+                        LeafPass::new(device, &self.frame, &self.light, &self.species_table, &self.cull);
                 }
             }
         }
@@ -127,7 +129,7 @@ impl Renderer {
     /// Shows how densely leaves lie on the ground, or no longer.
     pub fn set_landings(&mut self, are_shown: bool) {
         if are_shown != self.landing_pass.is_some() {
-            let center = self.environment.park_center;
+            let center = self.surroundings.park_center;
             let count = || LandingCount::new(&self.device, &self.queue, center);
             let pass = || LandingPass::new(&self.device, &self.frame, &self.light, count());
             self.landing_pass = are_shown.then(pass);

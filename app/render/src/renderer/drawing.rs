@@ -14,7 +14,7 @@ use crate::gpu::targets::Targets;
 use crate::gpu::tile::Tile;
 use crate::leaves::cull::View as LeafView;
 use crate::leaves::record::ViewUniform;
-use crate::leaves::visible::LeafCrowd;
+use crate::leaves::visible::VisibleLeaves;
 use crate::lens::group::Shot;
 use crate::scenery::grass_pass::GRASS_RAD_S;
 use crate::shadows::Casters;
@@ -79,7 +79,7 @@ impl Renderer {
     ) {
         #[expect(clippy::cast_possible_truncation, reason = "wraps long before f32 seconds grow coarse")]
         let time_s = input.time_s.rem_euclid(3600.0) as f32;
-        let mut frame = self.environment.frame(input, time_s, self.targets.size, tile);
+        let mut frame = self.surroundings.frame(input, time_s, self.targets.size, tile);
         if let Some((begin_s, length_s)) = self.round {
             (frame.time_s, frame.cloud_time_s) = (grass_time(input.time_s - begin_s, length_s), 0.0);
         }
@@ -95,9 +95,14 @@ impl Renderer {
             self.shade_is_old = false;
         }
         let leaves = &world.leaves;
-        let crowds = self.crowds();
-        let group = self.branches.bind(&self.device, world.branches.as_ref(), &self.stems);
-        let casters = Casters { kinds: &self.kinds, crowds: &crowds, bark: &self.bark, branches: &group };
+        let visible = self.visible();
+        let group = self.branches.bind(&self.device, world.branches.as_ref(), &self.tree_records);
+        let casters = Casters {
+            species_table: &self.species_table,
+            visible: &visible,
+            bark: &self.bark,
+            branches: &group,
+        };
         // The last tile is timed: its commands are those that are resolved.
         let timer = self.timer.as_ref().filter(|_| tile.left == 0);
         let writes = |pass| timer.map(|timer| timer.render_writes(pass));
@@ -121,7 +126,7 @@ impl Renderer {
     fn draw_motion(&self, encoder: &mut wgpu::CommandEncoder, leaves: &LeafColumns<'_>, time_s: f64) {
         let Some(motion) = &self.motion_pass else { return };
         let device = (&self.device, &self.queue);
-        let scene = (&self.frame, &self.kinds, &self.leaf_crowd);
+        let scene = (&self.frame, &self.species_table, &self.visible_leaves);
         motion.draw(device, encoder, &self.targets, scene, leaves, (time_s, self.post.shutter_s()));
     }
 
@@ -132,23 +137,23 @@ impl Renderer {
         let mut pass = begin_scene(encoder, targets, None);
         pass.set_bind_group(0, &water.frame.group, &[]);
         pass.set_bind_group(1, &self.light.group, &[]);
-        self.draw_stand(&mut pass, branches);
+        self.draw_trees_and_leaves(&mut pass, branches);
         self.ground_pass.draw(&mut pass);
         self.tree_pass.draw(&mut pass, &self.trees);
         self.sky_pass.draw(&mut pass);
     }
 
     /// Draws the scene's own trees and all leaves; bind groups 0 and 1 are set.
-    fn draw_stand(&self, pass: &mut wgpu::RenderPass<'_>, branches: &wgpu::BindGroup) {
+    fn draw_trees_and_leaves(&self, pass: &mut wgpu::RenderPass<'_>, branches: &wgpu::BindGroup) {
         self.bark_pass.draw(pass, branches, &self.bark);
-        self.leaf_pass.draw(pass, &self.kinds, self.crowds().into_iter());
+        self.leaf_pass.draw(pass, &self.species_table, self.visible().into_iter());
         self.fruit_pass.draw(pass, branches);
     }
 
     /// What is drawn as leaves: nothing has a mark that is not simulated.
-    fn crowds(&self) -> Vec<&LeafCrowd> {
-        let litter = (!self.cull.is_painted).then_some(&self.litter_crowd);
-        std::iter::once(&self.leaf_crowd).chain(litter).collect()
+    fn visible(&self) -> Vec<&VisibleLeaves> {
+        let litter = (!self.cull.is_painted).then_some(&self.visible_litter);
+        std::iter::once(&self.visible_leaves).chain(litter).collect()
     }
 
     /// Tells the culling what each view of a frame sees.
@@ -173,9 +178,15 @@ impl Renderer {
     fn cull_leaves(&self, encoder: &mut wgpu::CommandEncoder, leaves: &LeafColumns<'_>, view: LeafView) {
         let (device, cull) = (&self.device, &self.cull);
         let marks = self.paint_pass.as_ref().map(|pass| &pass.marks);
-        self.leaf_crowd.cull(device, encoder, cull, (leaves, marks, &self.stems), view);
+        self.visible_leaves.cull(device, encoder, cull, (leaves, marks, &self.tree_records), view);
         if let Some(litter) = self.litter.as_ref().filter(|_| !cull.is_painted) {
-            self.litter_crowd.cull(device, encoder, cull, (&litter.columns(), None, &self.stems), view);
+            self.visible_litter.cull(
+                device,
+                encoder,
+                cull,
+                (&litter.columns(), None, &self.tree_records),
+                view,
+            );
         }
     }
 
@@ -190,7 +201,7 @@ impl Renderer {
         let mut pass = begin_scene(encoder, &self.targets, timestamps);
         pass.set_bind_group(0, &self.frame.group, &[]);
         pass.set_bind_group(1, &self.light.group, &[]);
-        self.draw_stand(&mut pass, branches);
+        self.draw_trees_and_leaves(&mut pass, branches);
         self.grass_pass.draw(&mut pass);
         self.ground_pass.draw(&mut pass);
         if let Some(water) = &self.water_pass {

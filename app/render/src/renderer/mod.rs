@@ -10,21 +10,21 @@ use glam::{Vec2, Vec3};
 use windfall_core::scene::Lens;
 use windfall_wgpu::{LeafColumns, WorldColumns};
 
-use self::scene::{RendererOptions, Subject};
+use self::scene::{RenderScene, RendererOptions};
 use crate::camera::Camera;
 use crate::error::RenderError;
 use crate::frame::cascades::shadow_size;
 use crate::frame::group::FrameGroup;
 use crate::frame::light_group::LightGroup;
-use crate::frame::surroundings::{Environment, Path};
+use crate::frame::surroundings::{Path, Surroundings};
 use crate::gpu::targets::Targets;
 use crate::gpu::timing::GpuTimer;
 use crate::land::Land;
 use crate::leaves::cull::CullPass;
 use crate::leaves::leaf_pass::LeafPass;
 use crate::leaves::motion_pass::MotionPass;
-use crate::leaves::species_table::LeafKinds;
-use crate::leaves::visible::LeafCrowd;
+use crate::leaves::species_table::SpeciesTable;
+use crate::leaves::visible::VisibleLeaves;
 use crate::lens::post::{Post, TimedPosts};
 use crate::marks::landing_pass::LandingPass;
 use crate::marks::paint_pass::PaintPass;
@@ -38,12 +38,12 @@ use crate::scenery::ground_pass::GroundPass;
 use crate::scenery::sky_pass::SkyPass;
 use crate::scenery::water_pass::WaterPass;
 use crate::shadows::ShadowPass;
-use crate::trees::Stand;
-use crate::trees::bark_mesh::StandMesh;
+use crate::trees::SceneTrees;
+use crate::trees::bark_mesh::BarkBuffers;
 use crate::trees::bark_pass::BarkPass;
 use crate::trees::branch_group::BranchGroup;
 use crate::trees::fruit_pass::FruitPass;
-use crate::trees::records::Stems;
+use crate::trees::records::TreeRecords;
 
 /// Passes that are timed, in order of drawing.
 const TIMED_PASSES: [&str; 7] = ["shadows", "scene", "shutter", "focus", "exposure", "glare", "tone map"];
@@ -57,7 +57,7 @@ const TIMED_POSTS: TimedPosts = TimedPosts { shutter: 2, focus: 3, exposure: 4, 
 pub struct Renderer {
     device: wgpu::Device,
     queue: wgpu::Queue,
-    environment: Environment,
+    surroundings: Surroundings,
     land: Land,
     leaf_count: u32,
     dt_s: f32,
@@ -65,14 +65,14 @@ pub struct Renderer {
     tile_px: u32,
     frame: FrameGroup,
     light: LightGroup,
-    kinds: LeafKinds,
+    species_table: SpeciesTable,
     trees: Trees,
     litter: Option<Litter>,
-    litter_crowd: LeafCrowd,
-    leaf_crowd: LeafCrowd,
-    stems: Stems,
+    visible_litter: VisibleLeaves,
+    visible_leaves: VisibleLeaves,
+    tree_records: TreeRecords,
     cull: CullPass,
-    bark: StandMesh,
+    bark: BarkBuffers,
     branches: BranchGroup,
     shadow_pass: ShadowPass,
     shade_pass: ShadePass,
@@ -103,12 +103,12 @@ impl Renderer {
     pub fn new(
         device: &wgpu::Device,
         queue: &wgpu::Queue,
-        subject: Subject<'_>,
+        subject: RenderScene<'_>,
         output_format: wgpu::TextureFormat,
         size: (u32, u32),
         options: RendererOptions,
     ) -> Result<Self, RenderError> {
-        let Subject { scene, stand, atlas } = subject;
+        let RenderScene { scene, trees: scene_trees, atlas } = subject;
         let camera = Camera::from(&scene.view.camera);
         let forward = camera.forward();
         let level = Vec2::new(forward.x, forward.z).normalize_or(Vec2::NEG_Y);
@@ -118,34 +118,42 @@ impl Renderer {
         let Park { trees: planted, leaves, path_phase } = plant(scene, &land, center, level);
 
         let targets = Targets::new(device, size, options.tile_px, is_moving(&scene.view.lens))?;
-        let frame = FrameGroup::new(device, queue, &land, !stand.trees.is_empty());
-        let kinds = LeafKinds::new(device, queue, scene, atlas)?;
-        let own = own_trees(stand, scene.autumn > 0.0);
+        let frame = FrameGroup::new(device, queue, &land, !scene_trees.trees.is_empty());
+        let species_table = SpeciesTable::new(device, queue, scene, atlas)?;
+        let own = own_trees(scene_trees, scene.autumn > 0.0);
         let trees = Trees::new(device, queue, (&planted, leaves), &own);
-        let branches = BranchGroup::new(device, queue, stand);
-        let cull = CullPass::new(device, &kinds, false);
-        let shadow_pass = ShadowPass::new(device, &frame, &kinds, &cull, &branches, shadow_size(size.1));
+        let branches = BranchGroup::new(device, queue, scene_trees);
+        let cull = CullPass::new(device, &species_table, false);
+        let shadow_pass =
+            ShadowPass::new(device, &frame, &species_table, &cull, &branches, shadow_size(size.1));
         let shade_pass = ShadePass::new(device, &frame, &trees);
-        let environment = Environment::new(&scene.view, center, Path { lead: level, phase: path_phase })?;
-        frame.set_sun(queue, &land, environment.daylight.sun.direction);
-        let light = LightGroup::new(device, queue, &shadow_pass.maps, &shade_pass.map, &environment.daylight);
+        let surroundings = Surroundings::new(&scene.view, center, Path { lead: level, phase: path_phase })?;
+        frame.set_sun(queue, &land, surroundings.daylight.sun.direction);
+        let light =
+            LightGroup::new(device, queue, &shadow_pass.maps, &shade_pass.map, &surroundings.daylight);
         let eye_m = camera.eye_m();
-        let shedding = shedding(&planted, stand);
+        let shedding = shedding(&planted, scene_trees);
         let species_count = u32::try_from(scene.species.len()).unwrap_or(1);
         let mut renderer = Self {
             device: device.clone(),
             queue: queue.clone(),
-            environment,
+            surroundings,
             leaf_count: scene.leaf_count(),
             dt_s: scene.dt_s,
             litter: Litter::new(device, queue, options.litter_count, species_count, &land, center, &shedding),
-            litter_crowd: LeafCrowd::new(device, queue, &cull, &Stand::default(), options.litter_count),
-            leaf_crowd: LeafCrowd::new(device, queue, &cull, stand, scene.leaf_count()),
-            stems: Stems::new(device, queue, stand),
-            bark: StandMesh::new(device, queue, stand, eye_m),
+            visible_litter: VisibleLeaves::new(
+                device,
+                queue,
+                &cull,
+                &SceneTrees::default(),
+                options.litter_count,
+            ),
+            visible_leaves: VisibleLeaves::new(device, queue, &cull, scene_trees, scene.leaf_count()),
+            tree_records: TreeRecords::new(device, queue, scene_trees),
+            bark: BarkBuffers::new(device, queue, scene_trees, eye_m),
             bark_pass: BarkPass::new(device, &frame, &light, &branches),
-            leaf_pass: LeafPass::new(device, &frame, &light, &kinds, &cull),
-            fruit_pass: FruitPass::new(device, queue, &frame, &light, &branches, stand),
+            leaf_pass: LeafPass::new(device, &frame, &light, &species_table, &cull),
+            fruit_pass: FruitPass::new(device, queue, &frame, &light, &branches, scene_trees),
             grass_pass: GrassPass::new(device, &frame, &light),
             ground_pass: GroundPass::new(device, queue, &frame, &light, &land),
             water_pass: WaterPass::new(device, &frame, &light, &land),
@@ -164,7 +172,7 @@ impl Renderer {
             tile_px: options.tile_px,
             frame,
             light,
-            kinds,
+            species_table,
             cull,
             trees,
             branches,

@@ -6,7 +6,7 @@ use windfall_core::Scene;
 use windfall_core::scene::Release;
 use windfall_texgen::Atlas;
 
-use crate::trees::Stand;
+use crate::trees::SceneTrees;
 
 /// Leaves of litter on a meadow in autumn.
 const LITTER: u32 = 14_000;
@@ -44,11 +44,11 @@ impl RendererOptions {
 
 /// What a renderer draws.
 #[derive(Clone, Copy, Debug)]
-pub struct Subject<'a> {
+pub struct RenderScene<'a> {
     /// The scene.
     pub scene: &'a Scene,
     /// Its trees.
-    pub stand: &'a Stand,
+    pub trees: &'a SceneTrees,
     /// The pictures of its species' leaves.
     pub atlas: &'a Atlas,
 }

@@ -7,9 +7,9 @@ use crate::frame::group::FrameGroup;
 use crate::gpu::pipeline::layout;
 use crate::gpu::shaders::{Shaders, compile, wgsl_files};
 use crate::leaves::cull::CullPass;
-use crate::leaves::species_table::LeafKinds;
-use crate::leaves::visible::LeafCrowd;
-use crate::trees::bark_mesh::{BarkVertex, StandMesh};
+use crate::leaves::species_table::SpeciesTable;
+use crate::leaves::visible::VisibleLeaves;
+use crate::trees::bark_mesh::{BarkBuffers, BarkVertex};
 use crate::trees::branch_group::BranchGroup;
 
 /// Shader modules of this room and of those below.
@@ -46,9 +46,9 @@ struct MapPass {
 /// What casts shadows.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Casters<'a> {
-    pub(crate) kinds: &'a LeafKinds,
-    pub(crate) crowds: &'a [&'a LeafCrowd],
-    pub(crate) bark: &'a StandMesh,
+    pub(crate) species_table: &'a SpeciesTable,
+    pub(crate) visible: &'a [&'a VisibleLeaves],
+    pub(crate) bark: &'a BarkBuffers,
     pub(crate) branches: &'a wgpu::BindGroup,
 }
 
@@ -56,7 +56,7 @@ impl ShadowPass {
     pub(crate) fn new(
         device: &wgpu::Device,
         frame: &FrameGroup,
-        kinds: &LeafKinds,
+        species_table: &SpeciesTable,
         cull: &CullPass,
         branches: &BranchGroup,
         size_px: u32,
@@ -122,8 +122,8 @@ impl ShadowPass {
                     "leaf shadows",
                     number,
                     &leaf_shader,
-                    [Some(&kinds.layout), Some(&cull.records_layout)],
-                    &[LeafCrowd::layout()],
+                    [Some(&species_table.layout), Some(&cull.records_layout)],
+                    &[VisibleLeaves::layout()],
                     true,
                 ),
                 bark: pipeline(
@@ -225,9 +225,9 @@ impl MapPass {
             pass.draw_indexed(all, 0, 0..1);
         }
         pass.set_pipeline(&self.leaves);
-        pass.set_bind_group(2, &casters.kinds.group, &[]);
-        for crowd in casters.crowds {
-            crowd.draw(&mut pass);
+        pass.set_bind_group(2, &casters.species_table.group, &[]);
+        for leaves in casters.visible {
+            leaves.draw(&mut pass);
         }
     }
 }

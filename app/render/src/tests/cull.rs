@@ -11,10 +11,10 @@ use crate::camera::Camera;
 use crate::gpu::upload;
 use crate::leaves::cull::{CullPass, LIMITS_PX, View};
 use crate::leaves::record::{PICTURE_EDGE, SLOT_SHIFT, ViewUniform};
-use crate::leaves::species_table::LeafKinds;
-use crate::leaves::visible::{LeafCrowd, Page, RECORD_BYTES};
-use crate::trees::Stand;
-use crate::trees::records::Stems;
+use crate::leaves::species_table::SpeciesTable;
+use crate::leaves::visible::{Page, RECORD_BYTES, VisibleLeaves};
+use crate::trees::SceneTrees;
+use crate::trees::records::TreeRecords;
 
 /// Leaves that are strewn around the camera.
 const LEAVES: u32 = 12000;
@@ -69,22 +69,28 @@ struct Field {
     device: wgpu::Device,
     queue: wgpu::Queue,
     cull: CullPass,
-    stems: Stems,
-    crowd: LeafCrowd,
+    tree_records: TreeRecords,
+    visible: VisibleLeaves,
     /// Place, attitude, schedule and identity.
     columns: [wgpu::Buffer; 4],
     leaf_count: u32,
 }
 
 impl Field {
-    /// So many leaves at these places, the first of them those of the trees of `stand`.
-    fn new(scene: &Scene, stand: &Stand, leaf_count: u32, place: &dyn Fn(u32) -> [u32; 4]) -> Self {
+    /// So many leaves at these places, the first of them those of the trees of `scene_trees`.
+    fn new(
+        scene: &Scene,
+        scene_trees: &SceneTrees,
+        leaf_count: u32,
+        place: &dyn Fn(u32) -> [u32; 4],
+    ) -> Self {
         let (device, queue) = super::device();
         let atlas = super::disc_atlas(scene, 16);
-        let kinds = LeafKinds::new(&device, &queue, scene, &atlas).expect("kinds within default limits");
-        let cull = CullPass::new(&device, &kinds, false);
-        let stems = Stems::new(&device, &queue, stand);
-        let crowd = LeafCrowd::new(&device, &queue, &cull, stand, leaf_count);
+        let species_table =
+            SpeciesTable::new(&device, &queue, scene, &atlas).expect("species_table within default limits");
+        let cull = CullPass::new(&device, &species_table, false);
+        let tree_records = TreeRecords::new(&device, &queue, scene_trees);
+        let visible = VisibleLeaves::new(&device, &queue, &cull, scene_trees, leaf_count);
         let column = |row: &dyn Fn(u32) -> [u32; 4]| {
             let rows: Vec<[u32; 4]> = (0..leaf_count).map(row).collect();
             let usage = wgpu::BufferUsages::STORAGE;
@@ -96,7 +102,7 @@ impl Field {
             column(&|_| [0, 0, SIZE_ONE, 0]),
             column(&|leaf| [leaf, 0, 0, leaf * 77]),
         ];
-        Self { device, queue, cull, stems, crowd, columns, leaf_count }
+        Self { device, queue, cull, tree_records, visible, columns, leaf_count }
     }
 
     /// Culls for a camera in a picture 1.6 times as wide as high.
@@ -108,8 +114,8 @@ impl Field {
         let eye_m = camera.eye_m().to_array();
         self.cull.write(&self.queue, View::Camera, &ViewUniform::perspective(clip, eye_m, PIXELS_PER_M));
         let mut encoder = self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-        let leaves = (&columns, None, &self.stems);
-        self.crowd.cull(&self.device, &mut encoder, &self.cull, leaves, View::Camera);
+        let leaves = (&columns, None, &self.tree_records);
+        self.visible.cull(&self.device, &mut encoder, &self.cull, leaves, View::Camera);
         self.queue.submit([encoder.finish()]);
     }
 }
@@ -119,9 +125,9 @@ fn every_leaf_of_a_cluster_is_drawn() {
     let trees = "(trees: [(kind: \"weed\", leaves: 50), (kind: \"weed\", at_m: (3.0, 0.0), leaves: 70)])";
     let scene = Scene::from_ron(trees, "two weeds").expect("a scene");
     let world = World::build(&scene).expect("a world");
-    let mut stand = Stand::of(&scene, world.environment.forest());
+    let mut scene_trees = SceneTrees::of(&scene, world.environment.forest());
     let clusters = [3, 16];
-    for (tree, cluster) in stand.trees.iter_mut().zip(clusters) {
+    for (tree, cluster) in scene_trees.trees.iter_mut().zip(clusters) {
         tree.cluster = cluster;
     }
     // Those on twigs stand for several, and one that has let go does not; near enough that none is left out.
@@ -131,11 +137,11 @@ fn every_leaf_of_a_cluster_is_drawn() {
         let state = if is_attached { STATE_ATTACHED } else { STATE_FALLING };
         [at.x.to_bits(), at.y.to_bits(), at.z.to_bits(), state]
     };
-    let field = Field::new(&scene, &stand, 150, &place);
+    let field = Field::new(&scene, &scene_trees, 150, &place);
     let look =
         scene::Camera { eye_m: Vec3::new(0.0, 2.0, 4.0), target_m: 2.0 * Vec3::Y, vertical_fov_deg: 60.0 };
     field.run(&Camera::from(&look));
-    let page = &field.crowd.pages[0];
+    let page = &field.visible.pages[0];
     let (draws, records) =
         (read(&field.device, &field.queue, &page.draws), read(&field.device, &field.queue, &page.records));
     let mut drawn = vec![0; 150];
@@ -159,12 +165,12 @@ fn every_leaf_of_a_cluster_is_drawn() {
 #[test]
 fn culling_finds_what_a_plain_loop_finds() {
     let scene = Scene::default();
-    let field = Field::new(&scene, &Stand::default(), LEAVES, &place);
+    let field = Field::new(&scene, &SceneTrees::default(), LEAVES, &place);
     let camera = Camera { target_m: Vec3::new(3.0, 1.0, -2.0), ..Camera::from(&scene.view.camera) };
     let (clip, eye_m) = (camera.view_projection(1.6), camera.eye_m());
     let run = || {
         field.run(&camera);
-        found(&field.device, &field.queue, &field.crowd.pages[0])
+        found(&field.device, &field.queue, &field.visible.pages[0])
     };
     let levels = run();
     assert_eq!(levels, run(), "equal leaves in the same order");

@@ -7,7 +7,7 @@ use windfall_core::scene::{Exposure, Haze, ToneMap};
 use windfall_texgen::{Assortment, Atlas, Layer, Shape};
 
 use super::bench_of;
-use crate::trees::Stand;
+use crate::trees::SceneTrees;
 use crate::with_shader_edit;
 
 /// State of a falling leaf.
@@ -35,7 +35,7 @@ fn edge_against_inside(atlas: &Atlas) -> [f32; 3] {
     let draw = |backdrop: f32| {
         let sky = "    let clear = sky_radiance(direction);";
         let plain = format!("    if true {{ return vec4(vec3({backdrop:?}), 1.0); }}\n{sky}");
-        let mut bench = with_shader_edit(sky, &plain, || bench_of(scene(), Stand::default(), atlas));
+        let mut bench = with_shader_edit(sky, &plain, || bench_of(scene(), SceneTrees::default(), atlas));
         (bench.draw(FALLING, 0.0, 0.0), bench.draw(0, 0.0, 0.0))
     };
     let ((black, _), (white, without)) = (draw(0.0), draw(WHITE));

@@ -20,7 +20,7 @@ use windfall_wgpu::{BranchColumns, LeafColumns, WorldColumns};
 
 use super::*;
 use crate::camera::Camera;
-use crate::trees::Stand;
+use crate::trees::SceneTrees;
 
 /// A width whose rows need padding on their way back.
 pub(crate) const SIZE: (u32, u32) = (150, 90);
@@ -29,14 +29,14 @@ pub(crate) struct Bench {
     pub(crate) device: wgpu::Device,
     pub(crate) queue: wgpu::Queue,
     pub(crate) scene: Scene,
-    pub(crate) stand: Stand,
+    pub(crate) scene_trees: SceneTrees,
     pub(crate) renderer: Renderer,
 }
 
 pub(crate) fn bench(change: impl FnOnce(&mut Scene)) -> Bench {
     bench_with(|scene| {
         change(scene);
-        Stand::default()
+        SceneTrees::default()
     })
 }
 
@@ -53,11 +53,11 @@ pub(crate) fn device() -> (wgpu::Device, wgpu::Queue) {
 }
 
 /// A bench for a changed scene and its trees.
-pub(crate) fn bench_with(change: impl FnOnce(&mut Scene) -> Stand) -> Bench {
+pub(crate) fn bench_with(change: impl FnOnce(&mut Scene) -> SceneTrees) -> Bench {
     let mut scene = Scene::default();
-    let stand = change(&mut scene);
+    let scene_trees = change(&mut scene);
     let atlas = disc_atlas(&scene, 32);
-    bench_of(scene, stand, &atlas)
+    bench_of(scene, scene_trees, &atlas)
 }
 
 /// Two round leaves, chequered in autumn colours, for each species of a scene.
@@ -78,13 +78,13 @@ pub(super) fn disc_atlas(scene: &Scene, size_px: u32) -> Atlas {
 }
 
 /// A bench for a scene with pictures of its own.
-pub(crate) fn bench_of(scene: Scene, stand: Stand, atlas: &Atlas) -> Bench {
+pub(crate) fn bench_of(scene: Scene, scene_trees: SceneTrees, atlas: &Atlas) -> Bench {
     let (device, queue) = device();
     let options = RendererOptions { litter_count: 0, tile_px: u32::MAX };
-    let subject = Subject { scene: &scene, stand: &stand, atlas };
+    let subject = RenderScene { scene: &scene, trees: &scene_trees, atlas };
     let renderer = Renderer::new(&device, &queue, subject, PictureTarget::FORMAT, SIZE, options)
         .expect("a renderer within default limits");
-    Bench { device, queue, scene, stand, renderer }
+    Bench { device, queue, scene, scene_trees, renderer }
 }
 
 impl Bench {

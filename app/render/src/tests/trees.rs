@@ -14,7 +14,7 @@ use windfall_wgpu::BranchColumns;
 
 use super::{Bench, SIZE, bench_with, differing};
 use crate::gpu::upload;
-use crate::trees::Stand;
+use crate::trees::SceneTrees;
 use crate::with_shader_edit;
 
 /// Length of a piece of the trunk in metres.
@@ -41,15 +41,15 @@ fn skeleton() -> Skeleton {
     Skeleton { segments: trunk.chain([limb]).collect(), attachments: Vec::new() }
 }
 
-/// A stand of one tree at the origin, with one leaf that stands for `cluster`.
-fn stand_of(scene: &mut Scene, skeleton: Skeleton, cluster: u32) -> Stand {
+/// A scene of one tree at the origin, with one leaf that stands for `cluster`.
+fn stand_of(scene: &mut Scene, skeleton: Skeleton, cluster: u32) -> SceneTrees {
     scene.trees = vec![Tree { leaves: 1, ..Tree::default() }];
     let kind = TreeKind::default();
     let (leaf, foot_m) = (LeafFacts::default(), Vec3::ZERO);
     let seedling = Seedling { skeleton: Arc::new(skeleton), kind, leaf, foot_m, leaf_slots: 1 };
-    let mut stand = Stand::of(scene, &Forest::plant(vec![seedling], scene.dt_s));
-    stand.trees[0].cluster = cluster;
-    stand
+    let mut scene_trees = SceneTrees::of(scene, &Forest::plant(vec![seedling], scene.dt_s));
+    scene_trees.trees[0].cluster = cluster;
+    scene_trees
 }
 
 fn bench_of(skeleton: Skeleton, cluster: u32) -> Bench {
@@ -59,15 +59,15 @@ fn bench_of(skeleton: Skeleton, cluster: u32) -> Bench {
 fn empty_picture() -> RgbaImage {
     let no_trees = |scene: &mut Scene| {
         scene.trees = vec![Tree::default()];
-        Stand::default()
+        SceneTrees::default()
     };
     bench_with(no_trees).draw_trees(None)
 }
 
 /// Base and pose of a tree whose pieces each lean `lean_rad` more than the one below; the limb goes with its own.
-fn bent(stand: &Stand, lean_rad: f32) -> [Vec<[f32; 4]>; 2] {
-    let tree = &stand.trees[0];
-    let (mut base, mut pose) = (stand.rest_base.clone(), stand.rest_pose.clone());
+fn bent(scene_trees: &SceneTrees, lean_rad: f32) -> [Vec<[f32; 4]>; 2] {
+    let tree = &scene_trees.trees[0];
+    let (mut base, mut pose) = (scene_trees.rest_base.clone(), scene_trees.rest_pose.clone());
     let mut at = Vec3::ZERO;
     for (index, row) in tree.rows.iter().map(|&row| row as usize).enumerate() {
         let is_limb = index == usize::from(PIECES);
@@ -81,11 +81,11 @@ fn bent(stand: &Stand, lean_rad: f32) -> [Vec<[f32; 4]>; 2] {
 }
 
 fn draw_bent(bench: &mut Bench, lean_rad: f32) -> RgbaImage {
-    let columns = bent(&bench.stand, lean_rad).map(|rows| {
+    let columns = bent(&bench.scene_trees, lean_rad).map(|rows| {
         let bytes = bytemuck::cast_slice(&rows);
         upload::buffer(&bench.device, &bench.queue, "branches", wgpu::BufferUsages::STORAGE, bytes)
     });
-    let count = u32::try_from(bench.stand.rest_base.len()).expect("few");
+    let count = u32::try_from(bench.scene_trees.rest_base.len()).expect("few");
     let [base, pose] = columns.each_ref().map(wgpu::Buffer::as_entire_buffer_binding);
     bench.draw_trees(Some(&BranchColumns { base, pose, count }))
 }

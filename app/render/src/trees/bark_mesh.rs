@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The bark of all trees of a stand in one vertex and one index buffer.
+//! The bark of all trees of a scene in one vertex and one index buffer.
 
 use std::ops::Range;
 
 use glam::Vec3;
 use windfall_core::tree::{BarkDetail, bark_mesh};
 
-use super::{Stand, StandingTree};
+use super::{SceneTrees, StandingTree};
 use crate::gpu::upload;
 use crate::gpu::vertex::vertex_struct;
 
@@ -36,20 +36,25 @@ vertex_struct! {
 
 /// The buffers, and the indices of each tree.
 #[derive(Debug)]
-pub(crate) struct StandMesh {
+pub(crate) struct BarkBuffers {
     pub(crate) vertices: wgpu::Buffer,
     pub(crate) indices: wgpu::Buffer,
-    /// Indices of every tree, in the stand's order.
+    /// Indices of every tree, in the order of the scene.
     pub(crate) trees: Vec<Range<u32>>,
 }
 
-impl StandMesh {
-    /// The bark of `stand`, as detailed as it shows from `eye_m`.
-    pub(crate) fn new(device: &wgpu::Device, queue: &wgpu::Queue, stand: &Stand, eye_m: Vec3) -> Self {
+impl BarkBuffers {
+    /// The bark of `scene_trees`, as detailed as it shows from `eye_m`.
+    pub(crate) fn new(
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        scene_trees: &SceneTrees,
+        eye_m: Vec3,
+    ) -> Self {
         let (mut vertices, mut indices) = (Vec::new(), Vec::<u32>::new());
         let count = |length: usize| u32::try_from(length).unwrap_or(u32::MAX);
-        let mut trees = Vec::with_capacity(stand.trees.len());
-        for tree in &stand.trees {
+        let mut trees = Vec::with_capacity(scene_trees.trees.len());
+        for tree in &scene_trees.trees {
             let mesh = bark_mesh(&tree.skeleton, detail(tree, eye_m));
             let (first, base) = (count(indices.len()), count(vertices.len()));
             indices.extend(mesh.indices.iter().map(|index| base + index));
@@ -129,8 +134,8 @@ mod tests {
             leaf_slots: 0,
         };
         let seedlings = [(0.0, 0.1), (30.0, 0.2)].map(seedling);
-        let stand = Stand::of(&scene, &Forest::plant(seedlings.into(), scene.dt_s));
-        let tree = &stand.trees[1];
+        let scene_trees = SceneTrees::of(&scene, &Forest::plant(seedlings.into(), scene.dt_s));
+        let tree = &scene_trees.trees[1];
         let mesh = bark_mesh(&tree.skeleton, BarkDetail::Full);
         for at in 0..mesh.positions_m.len() {
             let vertex = vertex(tree, &mesh, at);

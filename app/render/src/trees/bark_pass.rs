@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Draws trunks, limbs and twigs, moved with the branches on the device.
 
-use super::bark_mesh::{BarkVertex, StandMesh};
+use super::bark_mesh::{BarkBuffers, BarkVertex};
 use super::branch_group::BranchGroup;
 use crate::frame::group::FrameGroup;
 use crate::frame::light_group::LightGroup;
@@ -41,7 +41,7 @@ impl BarkPass {
     }
 
     /// Draws all trees; bind groups 0 and 1 are set.
-    pub(crate) fn draw(&self, pass: &mut wgpu::RenderPass<'_>, group: &wgpu::BindGroup, mesh: &StandMesh) {
+    pub(crate) fn draw(&self, pass: &mut wgpu::RenderPass<'_>, group: &wgpu::BindGroup, mesh: &BarkBuffers) {
         pass.set_pipeline(&self.pipeline);
         pass.set_bind_group(2, group, &[]);
         pass.set_vertex_buffer(0, mesh.vertices.slice(..));

@@ -5,12 +5,12 @@
 use windfall_wgpu::BranchColumns;
 
 use super::bark_texture::{BARK_SIZE, paint_bark};
-use super::records::Stems;
-use super::{BarkKind, Stand};
+use super::records::TreeRecords;
+use super::{BarkKind, SceneTrees};
 use crate::gpu::pipeline::{FILTERABLE, buffer_entry, sampler_entry, texture_entry};
 use crate::gpu::upload;
 
-/// Rest columns and bark textures of a stand, and the layout they are bound by.
+/// Rest columns and bark textures of a scene, and the layout they are bound by.
 #[derive(Debug)]
 pub(crate) struct BranchGroup {
     pub(crate) layout: wgpu::BindGroupLayout,
@@ -22,7 +22,7 @@ pub(crate) struct BranchGroup {
 }
 
 impl BranchGroup {
-    pub(crate) fn new(device: &wgpu::Device, queue: &wgpu::Queue, stand: &Stand) -> Self {
+    pub(crate) fn new(device: &wgpu::Device, queue: &wgpu::Queue, scene_trees: &SceneTrees) -> Self {
         let column = |binding| {
             let ty = wgpu::BufferBindingType::Storage { read_only: true };
             buffer_entry(binding, ty, wgpu::ShaderStages::VERTEX)
@@ -62,20 +62,20 @@ impl BranchGroup {
         };
         Self {
             layout,
-            rest_base: rest("rest base", &stand.rest_base),
-            rest_pose: rest("rest pose", &stand.rest_pose),
+            rest_base: rest("rest base", &scene_trees.rest_base),
+            rest_pose: rest("rest pose", &scene_trees.rest_pose),
             barks,
             sampler,
-            count: u32::try_from(stand.rest_base.len()).unwrap_or(u32::MAX),
+            count: u32::try_from(scene_trees.rest_base.len()).unwrap_or(u32::MAX),
         }
     }
 
-    /// The group with the present `branches`; without any, or with those of another stand, the trees are at rest.
+    /// The group with the present `branches`; without any, or with those of another scene, the trees are at rest.
     pub(crate) fn bind(
         &self,
         device: &wgpu::Device,
         branches: Option<&BranchColumns<'_>>,
-        records: &Stems,
+        records: &TreeRecords,
     ) -> wgpu::BindGroup {
         let present = branches.filter(|branches| branches.count == self.count);
         let rest = [&self.rest_base, &self.rest_pose].map(wgpu::Buffer::as_entire_buffer_binding);

@@ -6,7 +6,7 @@ use glam::Vec3;
 use windfall_core::tree::Bearing;
 
 use super::branch_group::BranchGroup;
-use super::{Stand, StandingTree};
+use super::{SceneTrees, StandingTree};
 use crate::frame::group::FrameGroup;
 use crate::frame::light_group::LightGroup;
 use crate::frame::scene_pipeline::ScenePipeline;
@@ -41,7 +41,7 @@ vertex_struct! {
     }
 }
 
-/// The berries of a stand and their pipeline.
+/// The berries of a scene and their pipeline.
 #[derive(Debug)]
 pub(crate) struct FruitPass {
     pipeline: wgpu::RenderPipeline,
@@ -56,7 +56,7 @@ impl FruitPass {
         frame: &FrameGroup,
         light: &LightGroup,
         branches: &BranchGroup,
-        stand: &Stand,
+        scene_trees: &SceneTrees,
     ) -> Self {
         let shader = compile(device, &super::shaders(), "trees/fruit_pass");
         let pipeline = ScenePipeline {
@@ -73,7 +73,7 @@ impl FruitPass {
             alpha_to_coverage: true,
         }
         .build(device);
-        let fruit: Vec<FruitInstance> = stand.trees.iter().flat_map(instances_of).collect();
+        let fruit: Vec<FruitInstance> = scene_trees.trees.iter().flat_map(instances_of).collect();
         let bytes = bytemuck::cast_slice(&fruit);
         let instances = upload::buffer(device, queue, "fruit", wgpu::BufferUsages::VERTEX, bytes);
         Self { pipeline, instances, count: u32::try_from(fruit.len()).unwrap_or(u32::MAX) }

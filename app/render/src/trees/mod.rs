@@ -51,7 +51,7 @@ pub struct StandingTree {
     pub species: Option<u32>,
     /// Leaves that each of its simulated leaves stands for: 1 to [`MAX_CLUSTER`].
     pub cluster: u32,
-    /// Slots of its leaves among those of the world, in the order of the stand's trees.
+    /// Slots of its leaves among those of the world, in the order of the scene's trees.
     pub leaves: u32,
     /// Where its leaves grow.
     pub crown: Crown,
@@ -68,7 +68,7 @@ impl StandingTree {
 
 /// All trees of a scene, with the rest pose of the branch columns.
 #[derive(Clone, Debug, Default)]
-pub struct Stand {
+pub struct SceneTrees {
     /// The trees in the scene's order.
     pub trees: Vec<StandingTree>,
     /// World position of every segment's lower joint at rest, in the order of the rows; w unused.
@@ -77,7 +77,7 @@ pub struct Stand {
     pub rest_pose: Vec<[f32; 4]>,
 }
 
-impl Stand {
+impl SceneTrees {
     /// The trees of a scene as they stand in its world.
     pub fn of(scene: &Scene, forest: &Forest) -> Self {
         let branches = forest.at_rest();

@@ -4,7 +4,7 @@
 
 use windfall_core::shared_struct;
 
-use super::{BarkKind, Stand, StandingTree};
+use super::{BarkKind, SceneTrees, StandingTree};
 use crate::gpu::upload;
 
 /// Least radius of a drawn twig in pixels: thinner ones would fall between the samples.
@@ -59,15 +59,16 @@ const NO_TREE: TreeRecord = TreeRecord {
 
 /// The records of all trees.
 #[derive(Debug)]
-pub(crate) struct Stems {
+pub(crate) struct TreeRecords {
     buffer: wgpu::Buffer,
 }
 
-impl Stems {
-    pub(crate) fn new(device: &wgpu::Device, queue: &wgpu::Queue, stand: &Stand) -> Self {
+impl TreeRecords {
+    pub(crate) fn new(device: &wgpu::Device, queue: &wgpu::Queue, scene_trees: &SceneTrees) -> Self {
         let mut next = 0;
-        let records: Vec<TreeRecord> =
-            std::iter::once(NO_TREE).chain(stand.trees.iter().map(|tree| record(tree, &mut next))).collect();
+        let records: Vec<TreeRecord> = std::iter::once(NO_TREE)
+            .chain(scene_trees.trees.iter().map(|tree| record(tree, &mut next)))
+            .collect();
         let usage = wgpu::BufferUsages::STORAGE;
         let bytes = bytemuck::cast_slice(&records);
         Self { buffer: upload::buffer(device, queue, "tree records", usage, bytes) }

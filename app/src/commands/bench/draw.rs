@@ -7,8 +7,8 @@ use std::time::Instant;
 use serde::Serialize;
 use windfall_core::{Scene, Simulator, World};
 use windfall_render::camera::Camera;
-use windfall_render::trees::Stand;
-use windfall_render::{FrameInput, PictureTarget, Renderer, RendererOptions, Subject};
+use windfall_render::trees::SceneTrees;
+use windfall_render::{FrameInput, PictureTarget, RenderScene, Renderer, RendererOptions};
 use windfall_wgpu::{Gpu, describe_adapter};
 
 use super::Arguments;
@@ -97,9 +97,9 @@ fn measure(
     let Drawing { device, gpu, .. } = Drawing::without_window(backend)?;
     let world = World::build(scene)?;
     let mut backend = device.simulator(&world)?;
-    let stand = Stand::of(scene, world.environment.forest());
+    let stand = SceneTrees::of(scene, world.environment.forest());
     let atlas = atlas_of(scene)?;
-    let subject = Subject { scene, stand: &stand, atlas: &atlas };
+    let subject = RenderScene { scene, trees: &stand, atlas: &atlas };
     let (options, format) = (RendererOptions::for_scene(scene), PictureTarget::FORMAT);
     let mut renderer = Renderer::new(gpu.device(), gpu.queue(), subject, format, size, options)?;
     let target = PictureTarget::new(gpu.device(), size)?;

@@ -7,8 +7,8 @@ use std::time::Instant;
 use windfall_core::leaf::Leaves;
 use windfall_core::{Scene, World};
 use windfall_render::camera::Camera;
-use windfall_render::trees::Stand;
-use windfall_render::{FrameInput, PictureTarget, Renderer, RendererOptions, Subject};
+use windfall_render::trees::SceneTrees;
+use windfall_render::{FrameInput, PictureTarget, RenderScene, Renderer, RendererOptions};
 use windfall_wgpu::{Gpu, StoreBuffers};
 
 use super::contender::Contender;
@@ -35,8 +35,8 @@ impl Stage {
         let atlas = atlas_of(scene)?;
         let options = RendererOptions::for_scene(scene);
         let format = PictureTarget::FORMAT;
-        let stand = Stand::of(scene, world.environment.forest());
-        let subject = Subject { scene, stand: &stand, atlas: &atlas };
+        let stand = SceneTrees::of(scene, world.environment.forest());
+        let subject = RenderScene { scene, trees: &stand, atlas: &atlas };
         let renderer = Renderer::new(gpu.device(), gpu.queue(), subject, format, SIZE, options)?;
         let buffers = StoreBuffers::new(gpu, &Leaves::zeroed(scene.leaf_count() as usize))?;
         gpu.check()?;

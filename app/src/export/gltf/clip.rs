@@ -10,7 +10,7 @@ use gltf::json::animation::Property;
 use gltf::json::scene::UnitQuaternion;
 use gltf::json::{Accessor, Index, Node, Skin};
 use windfall_render::light::{Daylight, SunLight};
-use windfall_render::trees::Stand;
+use windfall_render::trees::SceneTrees;
 
 use super::file::{Document, node_index};
 use super::leaf_track::{Track, add_leaf, near};
@@ -30,7 +30,7 @@ pub(super) struct ClipExport {
     file: OutputFile,
     document: Document,
     foliage: Foliage,
-    stand: Stand,
+    stand: SceneTrees,
     sun: SunLight,
     name: String,
     first: u32,
@@ -127,7 +127,7 @@ fn add_tree(
     document: &mut Document,
     movement: &mut Movement,
     barks: &mut Barks,
-    stand: &Stand,
+    stand: &SceneTrees,
     number: usize,
     (times, joints, turns): (Index<Accessor>, &[Joint], &[Turns]),
 ) -> io::Result<()> {

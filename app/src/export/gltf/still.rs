@@ -10,7 +10,7 @@ use serde_json::json;
 use serde_json::value::to_raw_value;
 use windfall_core::leaf::LeafState;
 use windfall_render::light::{Daylight, SunLight};
-use windfall_render::trees::Stand;
+use windfall_render::trees::SceneTrees;
 
 use super::file::Document;
 use super::scenery::{Barks, LeafMeshes, add_surfaces, shown, tree_mesh, view};
@@ -26,7 +26,7 @@ pub(super) struct StillExport {
     file: OutputFile,
     document: Document,
     foliage: Foliage,
-    stand: Stand,
+    stand: SceneTrees,
     sun: SunLight,
     name: String,
 }

@@ -9,7 +9,7 @@ use std::path::Path;
 
 use glam::{Mat4, Quat, Vec3};
 use windfall_core::tree::BarkMesh;
-use windfall_render::trees::{Stand, StandingTree};
+use windfall_render::trees::{SceneTrees, StandingTree};
 
 use super::prototypes::{Coat, NORMAL_PLACES, PICTURES, extent_of, write_material, write_plain};
 use super::samples::{Handle, Samples};
@@ -31,7 +31,7 @@ pub(super) struct TreeSamples {
 }
 
 impl TreeSamples {
-    pub(super) fn declare(samples: &mut Samples, stand: &Stand) -> Self {
+    pub(super) fn declare(samples: &mut Samples, stand: &SceneTrees) -> Self {
         let trees = stand.trees.iter().enumerate().map(|(number, tree)| {
             let prim = format!("World/Trees/Tree_{number}/Sway");
             (samples.declare(&prim, "quatf[] rotations"), joints(tree))
@@ -48,7 +48,7 @@ impl TreeSamples {
 }
 
 /// Writes the trees.
-pub(super) fn write_trees(out: &mut impl Write, stand: &Stand) -> io::Result<()> {
+pub(super) fn write_trees(out: &mut impl Write, stand: &SceneTrees) -> io::Result<()> {
     if stand.trees.is_empty() {
         return Ok(());
     }
@@ -59,7 +59,7 @@ pub(super) fn write_trees(out: &mut impl Write, stand: &Stand) -> io::Result<()>
     writeln!(out, "}}")
 }
 
-fn write_tree(out: &mut impl Write, stand: &Stand, tree: &StandingTree, name: &str) -> io::Result<()> {
+fn write_tree(out: &mut impl Write, stand: &SceneTrees, tree: &StandingTree, name: &str) -> io::Result<()> {
     let path = format!("/World/Trees/{name}");
     let joints = joints(tree);
     let mut names: Vec<String> = Vec::with_capacity(joints.len());
@@ -146,7 +146,7 @@ fn write_skin(
 }
 
 /// Writes the materials of all barks, and of berries.
-pub(super) fn write_materials(out: &mut impl Write, stand: &Stand) -> io::Result<()> {
+pub(super) fn write_materials(out: &mut impl Write, stand: &SceneTrees) -> io::Result<()> {
     barks(stand).try_for_each(|kind| {
         write_material(out, &Coat { name: bark_name(kind), is_cut_out: false, roughness: 0.9 })
     })?;
@@ -155,7 +155,7 @@ pub(super) fn write_materials(out: &mut impl Write, stand: &Stand) -> io::Result
 }
 
 /// Writes the pictures of all barks into the folder that is there; `told` is the folder that errors name.
-pub(super) fn write_pictures(folder: &Path, told: &Path, stand: &Stand) -> anyhow::Result<()> {
+pub(super) fn write_pictures(folder: &Path, told: &Path, stand: &SceneTrees) -> anyhow::Result<()> {
     let folder = folder.join(PICTURES);
     fs::create_dir_all(&folder).map_err(|error| write_error(told, &error))?;
     for kind in barks(stand) {

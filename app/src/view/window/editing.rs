@@ -7,8 +7,8 @@ use std::sync::Arc;
 
 use windfall_core::{Environment, Scene, World};
 use windfall_render::camera::Camera;
-use windfall_render::trees::Stand;
-use windfall_render::{Renderer, RendererOptions, Subject};
+use windfall_render::trees::SceneTrees;
+use windfall_render::{RenderScene, Renderer, RendererOptions};
 use windfall_wgpu::Gpu;
 
 use super::Viewer;
@@ -171,7 +171,7 @@ impl Viewer {
             self.renderer.set_lens(scene.view.lens);
         }
         if scene.leaf_count() != before.leaf_count() && !change.picture {
-            let stand = Stand::of(&scene, environment.forest());
+            let stand = SceneTrees::of(&scene, environment.forest());
             self.renderer.update_leaves(&stand, scene.leaf_count());
         }
         match (world, simulator) {
@@ -206,8 +206,8 @@ pub(super) fn renderer_of(
     size: (u32, u32),
 ) -> anyhow::Result<Renderer> {
     let atlas = leaves::atlas_of(scene)?;
-    let stand = Stand::of(scene, environment.forest());
-    let subject = Subject { scene, stand: &stand, atlas: &atlas };
+    let stand = SceneTrees::of(scene, environment.forest());
+    let subject = RenderScene { scene, trees: &stand, atlas: &atlas };
     let options = RendererOptions::for_scene(scene);
     Ok(Renderer::new(gpu.device(), gpu.queue(), subject, format, size, options)?)
 }
