@@ -39,11 +39,11 @@
 //!   your own.
 //! - [`store`]: the columns that a state consists of.
 //! - [`leaf`]: the leaf store, and leaves decoded.
-//! - [`device`]: the functions of kernels, each with a twin in WGSL: the life of a leaf step by step, the sway of trees.
+//! - [`device`]: device functions, which have twins in WGSL: the life of a leaf step by step, the sway of trees.
 //! - [`motion`]: six primitive motions, their tables and the chain that joins them.
 //! - [`flight`]: leaves as rigid bodies under air forces.
 //! - [`wind`]: mean flow, gusts, turbulence, vortices.
-//! - [`terrain`]: hills.
+//! - [`terrain`]: hills grown by subdivision.
 //! - [`tree`]: growth, weight and state of trees.
 //! - [`arith`]: arithmetic with the same bits in Rust and WGSL.
 //! - [`blocks`], [`layout`]: what Rust and WGSL share.
