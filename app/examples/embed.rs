@@ -7,15 +7,20 @@
 use std::error::Error;
 
 use windfall_core::{Scene, World};
-use windfall_wgpu::{Gpu, WgpuOptions, WgpuSimulator, instance_descriptor, wgpu};
+use windfall_wgpu::{Gpu, WgpuOptions, WgpuSimulator, instance_descriptor, leaf_wgsl, wgpu};
 
 /// Width and height in pixels; rows of 256 bytes need no padding.
 const SIZE: (u32, u32) = (640, 360);
 const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8UnormSrgb;
 const FRAMES: u32 = 120;
 
-/// The program's own shader. Every leaf is an instance: its place and state, its orientation, its identity.
+/// The program's own shader, behind the text of `leaf_wgsl`. Every leaf is an instance: its place and state, its orientation,
+/// its identity.
 const SHADER: &str = "
+@group(0) @binding(0) var<storage, read> places: array<Place>;
+@group(0) @binding(1) var<storage, read> attitudes: array<Attitude>;
+@group(0) @binding(2) var<storage, read> identities: array<Identity>;
+
 struct Seen { @builtin(position) at: vec4<f32>, @location(0) color: vec3<f32> }
 
 fn turned(q: vec4<f32>, v: vec3<f32>) -> vec3<f32> {
@@ -23,26 +28,22 @@ fn turned(q: vec4<f32>, v: vec3<f32>) -> vec3<f32> {
 }
 
 @vertex
-fn vertex(
-    @builtin(vertex_index) corner: u32,
-    @location(0) place: vec3<f32>,
-    @location(1) bits: u32,
-    @location(2) attitude: vec4<f32>,
-    @location(3) identity: vec4<u32>,
-) -> Seen {
+fn vertex(@builtin(vertex_index) corner: u32, @builtin(instance_index) leaf: u32) -> Seen {
+    let place = places[leaf];
+    let attitude = attitudes[leaf].quaternion;
     // A blade lies in its x-z plane, its tip towards +z; drawn six times as large as it is.
     let kite = array(vec2(0.0, -0.25), vec2(-0.16, 0.0), vec2(0.16, 0.0), vec2(0.0, 0.3));
     let local = kite[corner];
-    let world = place + turned(attitude, vec3(local.x, 0.0, local.y));
+    let world = place.position + turned(attitude, vec3(local.x, 0.0, local.y));
     // A camera 26 m away, 5 m up, that looks along -z.
     let view = world - vec3(0.0, 5.0, 26.0);
     let depth = -view.z;
     let focal = 2.2;
     var seen: Seen;
     seen.at = vec4(focal * view.x * 9.0 / 16.0, focal * view.y, depth * 0.5, depth);
-    // The two lowest bits are the state; 0 has not been let go yet and is not drawn.
-    if (bits & 3u) == 0u { seen.at = vec4(0.0, 0.0, 2.0, 1.0); }
-    let tint = f32(identity.w & 0xffffu) / 65535.0;
+    // What has not been let go yet is not drawn.
+    if leaf_state(place.bits) == STATE_DORMANT { seen.at = vec4(0.0, 0.0, 2.0, 1.0); }
+    let tint = f32(leaf_tint(identities[leaf].appearance)) / 65535.0;
     let light = 0.35 + 0.65 * abs(turned(attitude, vec3(0.0, 1.0, 0.0)).y);
     seen.color = mix(vec3(0.55, 0.10, 0.02), vec3(0.90, 0.55, 0.06), tint) * light;
     return seen;
@@ -78,6 +79,7 @@ pub(crate) fn run(frames: u32) -> Result<image::RgbaImage, Box<dyn Error>> {
     let mut simulator = WgpuSimulator::new(&gpu, &world, &WgpuOptions::default())?;
 
     let pipeline = pipeline(&device);
+    let columns = columns(&device, &pipeline, &simulator);
     let picture = texture(&device, FORMAT, wgpu::TextureUsages::COPY_SRC);
     let depth = texture(&device, wgpu::TextureFormat::Depth32Float, wgpu::TextureUsages::empty());
     let view = |texture: &wgpu::Texture| texture.create_view(&wgpu::TextureViewDescriptor::default());
@@ -93,7 +95,7 @@ pub(crate) fn run(frames: u32) -> Result<image::RgbaImage, Box<dyn Error>> {
         let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         // One step for each frame of the program's loop, in the program's own submission.
         simulator.encode_steps(&mut encoder, 1)?;
-        draw(&mut encoder, &pipeline, &simulator, &picture_view, &depth_view);
+        draw(&mut encoder, &pipeline, &columns, scene.leaf_count(), &picture_view, &depth_view);
         let layout =
             wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(SIZE.0 * 4), rows_per_image: None };
         let to = wgpu::TexelCopyBufferInfo { buffer: &rows, layout };
@@ -109,7 +111,8 @@ pub(crate) fn run(frames: u32) -> Result<image::RgbaImage, Box<dyn Error>> {
 fn draw(
     encoder: &mut wgpu::CommandEncoder,
     pipeline: &wgpu::RenderPipeline,
-    simulator: &WgpuSimulator,
+    columns: &wgpu::BindGroup,
+    leaf_count: u32,
     picture: &wgpu::TextureView,
     depth: &wgpu::TextureView,
 ) {
@@ -133,30 +136,33 @@ fn draw(
         }),
         ..Default::default()
     });
-    let columns = simulator.columns().leaves;
     pass.set_pipeline(pipeline);
-    pass.set_vertex_buffer(0, columns.place.slice(..));
-    pass.set_vertex_buffer(1, columns.attitude.slice(..));
-    pass.set_vertex_buffer(2, columns.identity.slice(..));
-    pass.draw(0..4, 0..columns.leaf_count);
+    pass.set_bind_group(0, columns, &[]);
+    pass.draw(0..4, 0..leaf_count);
 }
 
-/// A pipeline that reads three of the five columns, a record for each leaf.
+/// Three of the simulator's five columns, as the shader binds them.
+fn columns(
+    device: &wgpu::Device,
+    pipeline: &wgpu::RenderPipeline,
+    simulator: &WgpuSimulator,
+) -> wgpu::BindGroup {
+    let leaves = simulator.columns().leaves;
+    let bound = [leaves.place, leaves.attitude, leaves.identity];
+    let entries: Vec<_> = (0..)
+        .zip(bound)
+        .map(|(binding, column)| wgpu::BindGroupEntry { binding, resource: column.as_entire_binding() })
+        .collect();
+    let layout = pipeline.get_bind_group_layout(0);
+    device.create_bind_group(&wgpu::BindGroupDescriptor { label: None, layout: &layout, entries: &entries })
+}
+
+/// A pipeline that reads a record of each column for each leaf.
 fn pipeline(device: &wgpu::Device) -> wgpu::RenderPipeline {
     let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
         label: None,
-        source: wgpu::ShaderSource::Wgsl(SHADER.into()),
+        source: wgpu::ShaderSource::Wgsl((leaf_wgsl() + SHADER).into()),
     });
-    let place = wgpu::vertex_attr_array![0 => Float32x3, 1 => Uint32];
-    let attitude = wgpu::vertex_attr_array![2 => Float32x4];
-    let identity = wgpu::vertex_attr_array![3 => Uint32x4];
-    let column = |attributes| {
-        Some(wgpu::VertexBufferLayout {
-            array_stride: 16,
-            step_mode: wgpu::VertexStepMode::Instance,
-            attributes,
-        })
-    };
     device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
         label: None,
         layout: None,
@@ -164,7 +170,7 @@ fn pipeline(device: &wgpu::Device) -> wgpu::RenderPipeline {
             module: &module,
             entry_point: Some("vertex"),
             compilation_options: Default::default(),
-            buffers: &[column(&place), column(&attitude), column(&identity)],
+            buffers: &[],
         },
         primitive: wgpu::PrimitiveState {
             topology: wgpu::PrimitiveTopology::TriangleStrip,

@@ -4,7 +4,8 @@
 
 use std::sync::Arc;
 
-use windfall_core::layout::Wgsl;
+use windfall_core::SimError;
+use windfall_core::layout::Uint4;
 
 use crate::gpu::Gpu;
 
@@ -26,8 +27,18 @@ pub(crate) fn filled(gpu: &Gpu, label: &str, bytes: &[u8]) -> wgpu::Buffer {
 }
 
 /// A storage buffer that holds these rows, and the rows, to know them again.
-pub(crate) fn table<T: Wgsl>(gpu: &Gpu, label: &str, rows: &Arc<[T]>) -> (Arc<[T]>, wgpu::Buffer) {
-    (Arc::clone(rows), filled(gpu, label, bytemuck::cast_slice(rows)))
+///
+/// # Errors
+/// [`SimError::Capacity`] if they do not fit in one binding.
+pub(crate) fn table(gpu: &Gpu, rows: &Arc<[Uint4]>) -> Result<(Arc<[Uint4]>, wgpu::Buffer), SimError> {
+    let needed = size_of_val(&**rows) as u64;
+    let limits = gpu.device().limits();
+    let allowed = limits.max_storage_buffer_binding_size.min(limits.max_buffer_size);
+    if needed > allowed {
+        let (store, device) = ("rows of tables", gpu.info().name.clone());
+        return Err(SimError::Capacity { store, rows: rows.len(), needed, allowed, device });
+    }
+    Ok((Arc::clone(rows), filled(gpu, "tables", bytemuck::cast_slice(rows))))
 }
 
 /// Resources bound one after another.

@@ -36,7 +36,7 @@ impl GroupLayout {
     fn slots(self) -> &'static [Slot] {
         use Slot::{Block, BlockOfMany, Read, Write};
         // The bindings of shaders/bindings.wgsl: all of them, those up to the wind, those up to the schedules.
-        const ALL: &[Slot] = &[Block, BlockOfMany, Read, Write, Write, Write, Write, Write, Read];
+        const ALL: &[Slot] = &[Block, BlockOfMany, Read, Write, Write, Write, Write, Write];
         match self {
             Self::Leaves => ALL,
             Self::Sway => &ALL[..3],
@@ -45,7 +45,7 @@ impl GroupLayout {
             // The bindings of shaders/tree/bindings.wgsl.
             Self::Level => &[BlockOfMany, Read, Read, Write, Write, Read],
             // The bindings of shaders/leaf/petioles.wgsl.
-            Self::Carriers => &[Block, Read, Read, Write],
+            Self::Carriers => &[Block, Read, Write],
         }
     }
 }

@@ -8,6 +8,30 @@ use windfall_core::{arith, blocks, device, flight, leaf, motion, stats, tree};
 /// Invocations per workgroup.
 pub const WORKGROUP_SIZE: u32 = 256;
 
+/// WGSL for shaders of other programs that read the leaf columns: the records [`LeafColumns`](crate::LeafColumns) hold
+/// (`array<Place>` and so on), the constants of their packed words, and a function for every value packed there, such as
+/// `leaf_state(place.bits)` and `leaf_tint(identity.appearance)`. It declares no bindings.
+pub fn leaf_wgsl() -> String {
+    let constants: String =
+        device::leaf::record::wgsl_constants().into_iter().map(|(_, declaration)| declaration).collect();
+    let accessors = include_str!("shaders/leaf/record.wgsl").lines();
+    let accessors: String =
+        accessors.filter(|line| !line.starts_with("#import ")).flat_map(|line| [line, "\n"]).collect();
+    records() + &constants + &accessors
+}
+
+/// The records of the leaf columns.
+fn records() -> String {
+    [
+        leaf::Place::declaration(),
+        leaf::Drift::declaration(),
+        leaf::Attitude::declaration(),
+        leaf::Schedule::declaration(),
+        leaf::Identity::declaration(),
+    ]
+    .concat()
+}
+
 /// Structs, in an order in which each is declared before it is used.
 pub(crate) fn structs() -> String {
     [
@@ -21,11 +45,7 @@ pub(crate) fn structs() -> String {
         blocks::StepBlock::declaration(),
         tree::record::SegmentConstants::declaration(),
         tree::record::LevelBlock::declaration(),
-        leaf::Place::declaration(),
-        leaf::Drift::declaration(),
-        leaf::Attitude::declaration(),
-        leaf::Schedule::declaration(),
-        leaf::Identity::declaration(),
+        records(),
     ]
     .concat()
 }

@@ -9,7 +9,7 @@ mod steps;
 use std::sync::Arc;
 
 use windfall_core::blocks::{EnvironmentBlock, StepBlock};
-use windfall_core::layout::{Float4, Uint4};
+use windfall_core::layout::Uint4;
 use windfall_core::stats::COUNTER_COUNT;
 use windfall_core::{Clock, Contract, Environment, SimError, Simulator, SimulatorInfo, Stats, World};
 
@@ -54,9 +54,7 @@ pub struct WgpuSimulator {
     environment_buffer: wgpu::Buffer,
     step_buffer: wgpu::Buffer,
     step_stride: u32,
-    motion: (Arc<[Float4]>, wgpu::Buffer),
-    wind: (Arc<[Uint4]>, wgpu::Buffer),
-    petioles: (Arc<[Uint4]>, wgpu::Buffer),
+    tables: (Arc<[Uint4]>, wgpu::Buffer),
     forest: Option<ForestBuffers>,
     counters: wgpu::Buffer,
     counters_group: wgpu::BindGroup,
@@ -87,9 +85,7 @@ impl WgpuSimulator {
             .expect("a step block is small")
             .next_multiple_of(limits.min_uniform_buffer_offset_alignment);
         let uniform = |label, size| buffer(gpu, label, size, wgpu::BufferUsages::UNIFORM);
-        let motion = table(gpu, "motion", environment.motion());
-        let wind = table(gpu, "wind", environment.wind());
-        let petioles = table(gpu, "petioles", environment.petioles());
+        let tables = table(gpu, environment.tables())?;
         let counters = buffer(
             gpu,
             "counters",
@@ -108,9 +104,7 @@ impl WgpuSimulator {
             environment_buffer: uniform("environment", size_of::<EnvironmentBlock>() as u64),
             step_buffer: uniform("step", u64::from(STEPS_PER_PASS * step_stride)),
             step_stride,
-            motion,
-            wind,
-            petioles,
+            tables,
             forest: None,
             counters,
             counters_group,
@@ -142,9 +136,9 @@ impl WgpuSimulator {
         }
     }
 
-    /// What every kernel sees first: blocks and wind tables.
+    /// What every kernel sees first: blocks and tables.
     fn sway_blocks(&self) -> [wgpu::BindingResource<'_>; 3] {
-        [self.environment_buffer.as_entire_binding(), self.step_binding(), self.wind.1.as_entire_binding()]
+        [self.environment_buffer.as_entire_binding(), self.step_binding(), self.tables.1.as_entire_binding()]
     }
 
     /// The block of one step; its place among the steps of a submission is a dynamic offset.
@@ -161,27 +155,24 @@ impl WgpuSimulator {
         self.pipelines.prepare(&self.gpu, KernelId::needed(environment))?;
         self.gpu.queue().write_buffer(&self.environment_buffer, 0, bytemuck::bytes_of(environment.block()));
         let mut moved = false;
-        let replanted = !Arc::ptr_eq(self.environment.forest(), environment.forest());
+        let is_replanted = !Arc::ptr_eq(self.environment.forest(), environment.forest());
         self.environment = environment.clone();
-        if !Arc::ptr_eq(&self.motion.0, environment.motion()) {
-            self.motion = table(&self.gpu, "motion", environment.motion());
-            moved = true;
+        if !Arc::ptr_eq(&self.tables.0, environment.tables()) {
+            moved = self.tables.0.len() != environment.tables().len();
+            if moved {
+                self.tables = table(&self.gpu, environment.tables())?;
+            } else {
+                self.tables.0 = Arc::clone(environment.tables());
+                self.gpu.queue().write_buffer(&self.tables.1, 0, bytemuck::cast_slice(&self.tables.0));
+            }
         }
-        if !Arc::ptr_eq(&self.wind.0, environment.wind()) {
-            self.wind = table(&self.gpu, "wind", environment.wind());
-            moved = true;
-        }
-        if !Arc::ptr_eq(&self.petioles.0, environment.petioles()) {
-            self.petioles = table(&self.gpu, "petioles", environment.petioles());
-            moved = true;
-        }
-        if replanted {
+        if is_replanted {
             self.plant();
         } else if let Some(mut forest) = self.forest.take() {
             forest.rebind(&self.gpu, &self.pipelines, self.sway_blocks());
             self.forest = Some(forest);
         }
-        if moved || replanted {
+        if moved || is_replanted {
             self.bind_pages();
         }
         Ok(())

@@ -103,8 +103,8 @@ crate::shared_struct! {
         pub rotation_speed_q16: u32,
         /// Ticks of the regime's clock per step in 2^-16.
         pub ticks_per_step_q16: u32,
-        /// First velocity row of the motion tables.
-        pub first_velocity_row: u32,
+        /// First row of the motion tables: all states, then all velocities.
+        pub first_motion_row: u32,
         /// A zero that shader compilers cannot know of.
         pub zero: u32,
         /// 1 if leaves of some species fly as bodies, else 0.
@@ -137,15 +137,15 @@ crate::shared_struct! {
         pub highest_rest_m: f32,
         /// Cells of the hills' table per metre.
         pub hill_cells_per_m: f32,
-        /// First row of the hills' table, which lies behind those of the wind.
+        /// First row of the hills' table.
         pub first_hill_row: u32,
-        /// Cells along its edge less one.
-        pub hill_mask: u32,
         /// Binary logarithm of the cells along its edge.
         pub hill_shift: u32,
         /// Leaf slots of trees, the first of all.
         pub tree_leaf_count: u32,
-        /// First row of the petioles in their table.
+        /// First row of the chances of petioles to break.
+        pub first_shed_row: u32,
+        /// First row of the petioles.
         pub first_petiole_row: u32,
         /// Phase per step of the slowest leaf that flutters on its twig, in 2^-32 turns.
         pub flutter_per_step: u32,

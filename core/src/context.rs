@@ -15,8 +15,6 @@ pub struct Context<'a> {
     pub step: &'a StepBlock,
     /// Motion tables.
     pub motion: MotionRows<'a>,
-    /// Wind tables.
-    pub wind: &'a [Uint4],
-    /// Chances of petioles to break, and petioles.
-    pub petioles: &'a [Uint4],
+    /// All tables (see [`Environment::tables`](crate::Environment::tables)).
+    pub tables: &'a [Uint4],
 }

@@ -26,7 +26,6 @@ pub struct FunctionRunner<'a> {
     gpu: &'a Gpu,
     pipeline: wgpu::ComputePipeline,
     context_group: wgpu::BindGroup,
-    petioles_group: wgpu::BindGroup,
     cases_layout: wgpu::BindGroupLayout,
 }
 
@@ -36,23 +35,9 @@ fn kernel_source(shaders: &Shaders, function: &Function) -> String {
     let bindings = shaders.compose("bindings").expect("the bindings module exists");
     // A module that needs no bindings still gets the same pipeline layout.
     let head = if module.contains("@group(0)") { module } else { module + &bindings_only(&bindings) };
-    // Exact modules count bindings without gaps, so those that are used come first.
-    let head = swapped(&swapped(&head, 0, MOTION, 3), 1, PETIOLES, 0);
     let records: String =
         RECORDS.iter().filter(|(known, _)| head.contains(known)).map(|(_, text)| *text).collect();
     format!("{head}\n{ACCESS}\n{records}\nfn statements() {{\n{}\n}}\n", statements(function.wgsl))
-}
-
-/// Binding of `motion_rows`.
-const MOTION: u32 = 8;
-/// Binding of `petiole_rows`.
-const PETIOLES: u32 = 1;
-
-/// The text with two bindings of a group in each other's place.
-fn swapped(text: &str, group: u32, one: u32, other: u32) -> String {
-    let name = |binding: u32| format!("@group({group}) @binding({binding})");
-    let away = name(u32::MAX);
-    text.replace(&name(one), &away).replace(&name(other), &name(one)).replace(&away, &name(other))
 }
 
 /// A function's statements between the words that all of them see.
@@ -94,30 +79,24 @@ impl<'a> FunctionRunner<'a> {
         let device = gpu.device();
         let uniform = wgpu::BufferBindingType::Uniform;
         let storage = |read_only| wgpu::BufferBindingType::Storage { read_only };
-        // Of the bindings of a kernel those that do not depend on a leaf, and of `leaf/petioles` the table.
-        let entries =
-            [entry(0, uniform), entry(1, uniform), entry(2, storage(true)), entry(3, storage(true))];
+        // Of the bindings of a kernel those that do not depend on a leaf.
+        let entries = [entry(0, uniform), entry(1, uniform), entry(2, storage(true))];
         let layout = |entries: &[wgpu::BindGroupLayoutEntry]| {
             device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: None, entries })
         };
         let context_layout = layout(&entries);
-        let petioles_layout = layout(&[entry(0, storage(true))]);
         let cases_layout = layout(&[entry(0, storage(true)), entry(1, storage(false))]);
         let step = world.environment.step_block(&world.clock);
-        let table = |bytes: &[u8]| upload(gpu, bytes, wgpu::BufferUsages::STORAGE);
         let buffers = [
             upload(gpu, bytemuck::bytes_of(world.environment.block()), wgpu::BufferUsages::UNIFORM),
             upload(gpu, bytemuck::bytes_of(&step), wgpu::BufferUsages::UNIFORM),
-            table(bytemuck::cast_slice(world.environment.wind())),
-            table(bytemuck::cast_slice(world.environment.motion())),
+            upload(gpu, bytemuck::cast_slice(world.environment.tables()), wgpu::BufferUsages::STORAGE),
         ];
-        let petioles = table(bytemuck::cast_slice(world.environment.petioles()));
-        let petioles_group = bind(gpu, &petioles_layout, &[petioles]);
         let context_group = bind(gpu, &context_layout, &buffers);
         let module = gpu.compute_module(&kernel_source(shaders, function), "evaluate", contract)?;
         let pipeline_layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
             label: None,
-            bind_group_layouts: &[Some(&context_layout), Some(&petioles_layout), Some(&cases_layout)],
+            bind_group_layouts: &[Some(&context_layout), None, Some(&cases_layout)],
             immediate_size: 0,
         });
         let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
@@ -129,7 +108,7 @@ impl<'a> FunctionRunner<'a> {
             cache: None,
         });
         gpu.check()?;
-        Ok(Self { gpu, pipeline, context_group, petioles_group, cases_layout })
+        Ok(Self { gpu, pipeline, context_group, cases_layout })
     }
 
     /// The function's results for these cases.
@@ -148,7 +127,6 @@ impl<'a> FunctionRunner<'a> {
             let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
             pass.set_pipeline(&self.pipeline);
             pass.set_bind_group(0, &self.context_group, &[]);
-            pass.set_bind_group(1, &self.petioles_group, &[]);
             pass.set_bind_group(2, &group, &[]);
             let count = u32::try_from(cases.len()).expect("a few thousand cases");
             pass.dispatch_workgroups(count.div_ceil(WORKGROUP_SIZE), 1, 1);

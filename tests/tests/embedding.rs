@@ -6,7 +6,7 @@ use windfall_core::{Simulator, World};
 use windfall_tests::adapter;
 use windfall_tests::compare::difference;
 use windfall_tests::strategies::{flying_scene, wooded_scene};
-use windfall_wgpu::{Gpu, WgpuOptions, WgpuSimulator, wgpu};
+use windfall_wgpu::{Gpu, Shaders, WgpuOptions, WgpuSimulator, leaf_wgsl, wgpu};
 
 /// Trees, leaves on them, and bodies.
 fn world() -> World {
@@ -87,4 +87,32 @@ fn readings_that_do_not_wait_equal_those_that_do() {
             assert_eq!(request.poll().expect("not lost"), Some(last), "the wait has brought all of them");
         }
     }
+}
+
+/// The text for shaders of others stands by itself, and its records have the bytes of the columns.
+#[test]
+fn the_text_for_other_shaders_is_whole() {
+    let text = leaf_wgsl();
+    let module =
+        naga::front::wgsl::parse_str(&text).unwrap_or_else(|error| panic!("{}", error.emit_to_string(&text)));
+    let flags = naga::valid::ValidationFlags::all();
+    let valid = naga::valid::Validator::new(flags, naga::valid::Capabilities::all()).validate(&module);
+    assert!(valid.is_ok(), "{valid:?}");
+    for column in windfall_core::leaf::Leaves::COLUMNS {
+        let found = module.types.iter().find(|(_, ty)| ty.name.as_deref() == Some(column.record));
+        let Some((_, naga::Type { inner: naga::TypeInner::Struct { members, span }, .. })) = found else {
+            panic!("no struct {}", column.record);
+        };
+        assert_eq!(*span as usize, column.record_bytes, "bytes of {}", column.record);
+        let names: Vec<_> = members.iter().filter_map(|member| member.name.as_deref()).collect();
+        assert_eq!(
+            names,
+            column.fields.iter().map(|field| field.name).collect::<Vec<_>>(),
+            "{}",
+            column.record
+        );
+    }
+    let accessors = Shaders::default().text("leaf/record").map(|text| text.matches("\nfn ").count());
+    assert_eq!(Some(module.functions.len()), accessors, "every accessor");
+    assert!(module.global_variables.is_empty(), "no bindings");
 }

@@ -251,8 +251,9 @@ fn words_are_read_by_name() {
     }
 }
 
+/// Common devices, and browsers, allow eight storage buffers; one stays free for the stores to come.
 #[test]
-fn kernels_stay_within_eight_storage_buffers() {
+fn kernels_leave_room_among_eight_storage_buffers() {
     for kernel in KernelId::ALL {
         let kernel = &format!("kernels/{}", kernel.name());
         let (module, info) = parse(kernel);
@@ -263,7 +264,7 @@ fn kernels_stay_within_eight_storage_buffers() {
             .iter()
             .filter(|(handle, variable)| storage(&variable.space) && !entry[*handle].is_empty())
             .count();
-        assert!((1..=8).contains(&count), "{kernel} uses {count} storage buffers; common devices allow 8");
+        assert!((1..=7).contains(&count), "{kernel} uses {count} storage buffers; 7 of 8 are its share");
     }
 }
 

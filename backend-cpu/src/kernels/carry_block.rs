@@ -41,7 +41,7 @@ fn stalks_of<P: Pack>(
     first: u32,
 ) -> (Stalk<P::Word>, P::Word) {
     let from = slots.all(cx.environment.first_petiole_row).plus(slots.times(slots.all(PETIOLE_ROWS)));
-    let spans = P::spans::<{ PETIOLE_ROWS as usize }>(from, cast_slice(cx.petioles));
+    let spans = P::spans::<{ PETIOLE_ROWS as usize }>(from, cast_slice(cx.tables));
     let (at, segment) = four(P::column(simd, &spans, 0));
     let rest = Quat::from(P::column(simd, &spans, 1));
     let (_, facts) = four(P::column(simd, &spans, 2));

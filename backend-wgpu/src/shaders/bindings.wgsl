@@ -5,10 +5,10 @@
 
 @group(0) @binding(0) var<uniform> environment: EnvironmentBlock;
 @group(0) @binding(1) var<uniform> step_block: StepBlock;
-@group(0) @binding(2) var<storage, read> wind_rows: array<vec4<u32>>;
+// Rows of all tables; the block holds the first of each.
+@group(0) @binding(2) var<storage, read> tables: array<vec4<u32>>;
 @group(0) @binding(3) var<storage, read_write> places: array<Place>;
 @group(0) @binding(4) var<storage, read_write> drifts: array<Drift>;
 @group(0) @binding(5) var<storage, read_write> attitudes: array<Attitude>;
 @group(0) @binding(6) var<storage, read_write> schedules: array<Schedule>;
 @group(0) @binding(7) var<storage, read_write> identities: array<Identity>;
-@group(0) @binding(8) var<storage, read> motion_rows: array<vec4<f32>>;

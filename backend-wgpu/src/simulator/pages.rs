@@ -48,9 +48,9 @@ impl WgpuSimulator {
 
     fn page(&self, first: u32) -> Page {
         let leaves = self.page_leaves.min(self.buffers.leaves().rows() - first);
-        let up_to_wind = || self.sway_blocks().into_iter();
+        let blocks = || self.sway_blocks().into_iter();
         let columns = || self.buffers.leaves().windows(first, leaves);
-        let resources = up_to_wind().chain(columns()).chain([self.motion.1.as_entire_binding()]);
+        let resources = blocks().chain(columns());
         let page = group(&self.gpu, self.pipelines.layout(GroupLayout::Leaves), resources);
         // Header of four counts, then a place for every leaf; new buffers are zero.
         let usage = wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST;
@@ -62,12 +62,11 @@ impl WgpuSimulator {
         let on_trees = (self.forest.is_some() && tree_leaves > 0).then(|| {
             let branches = self.buffers.branches();
             let stride = branches.stride(BRANCH_TURN as usize);
-            let carried = up_to_wind().chain(columns().take(4));
+            let carried = blocks().chain(columns().take(4));
             let block = buffer(&self.gpu, "carry", 16, wgpu::BufferUsages::UNIFORM);
             self.gpu.queue().write_buffer(&block, 0, bytemuck::bytes_of(&[first, stride, 0, 0]));
             let carriers = [
                 block.as_entire_binding(),
-                self.petioles.1.as_entire_binding(),
                 branches.buffer(BRANCH_TURN as usize).as_entire_binding(),
                 branches.buffer(BRANCH_COLUMNS as usize).as_entire_binding(),
             ];

@@ -6,16 +6,11 @@ use super::body::body_block;
 use super::convert::{len32, q16, single, steps, word};
 use super::source::{source_block, trees_block};
 use super::species::{response_block, species_block};
-use super::tables::TABLES_PER_SPECIES;
 use super::wind::wind_block;
 use crate::arith::rng::seed_words;
 use crate::blocks::{EnvironmentBlock, SOURCE_TREES};
 use crate::device::tree::sway::{SCHEME_ARTICULATED, SCHEME_OLIAPURAM_KUMAR, SCHEME_QUIGLEY};
-use crate::device::wind::gust::GUST_ROWS;
-use crate::device::wind::profile::PROFILE_ROWS;
-use crate::device::wind::turbulence::TURBULENCE_NODES;
 use crate::flight::coefficients::TICKS_PER_S;
-use crate::motion::table::TABLE_ROWS;
 use crate::motion::{GRAVITY, MotionTables};
 use crate::scene::{FlightModel, MAX_SOURCES, Scene, SwayScheme};
 
@@ -32,12 +27,8 @@ pub(super) const FLUTTER_HZ: f32 = 3.2;
 /// Height of water that is not there, in metres.
 const NO_WATER_M: f32 = -1.0e6;
 
-/// Uniform block of a scene whose petioles begin at that row of their table.
-pub(super) fn compile_block(
-    scene: &Scene,
-    tables: &[MotionTables],
-    first_petiole_row: u32,
-) -> EnvironmentBlock {
+/// Uniform block of a scene, but for the places of its tables behind those of the wind.
+pub(super) fn compile_block(scene: &Scene, tables: &[MotionTables]) -> EnvironmentBlock {
     let [low, high] = seed_words(scene.seed);
     let mut block: EnvironmentBlock = bytemuck::Zeroable::zeroed();
     block.seed = [low, high];
@@ -47,7 +38,6 @@ pub(super) fn compile_block(
     block.blend_steps = steps(BLEND_S, scene.dt_s).min(63);
     let dt = f64::from(scene.dt_s);
     block.ticks_per_step_q16 = word(TICKS_PER_S * dt * 65536.0);
-    block.first_velocity_row = len32(tables.len() * TABLES_PER_SPECIES * 2) * TABLE_ROWS;
     block.has_bodies =
         u32::from(scene.species.iter().any(|species| species.flight != FlightModel::Synthesis));
     block.dt_s = scene.dt_s;
@@ -55,12 +45,9 @@ pub(super) fn compile_block(
     block.tilt_kept = single(libm::exp(-dt / f64::from(SETTLE_TAU_S)));
     if let Some(terrain) = scene.ground.terrain {
         block.has_terrain = 1;
-        block.first_hill_row = PROFILE_ROWS + GUST_ROWS + 2 * TURBULENCE_NODES;
-        block.hill_mask = (1 << terrain.levels) - 1;
         block.hill_shift = terrain.levels;
     }
     block.tree_leaf_count = scene.tree_leaf_count();
-    block.first_petiole_row = first_petiole_row;
     block.flutter_per_step = word(4_294_967_296.0 * f64::from(FLUTTER_HZ) * dt);
     retune_block(scene, &mut block);
     for (index, (species, tables)) in scene.species.iter().zip(tables).enumerate() {

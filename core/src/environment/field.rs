@@ -6,8 +6,6 @@ use glam::DVec3;
 
 use super::Environment;
 use super::convert::single;
-use crate::device::wind::gust::GUST_ROWS;
-use crate::device::wind::profile::PROFILE_ROWS;
 use crate::device::wind::turbulence::{
     TURBULENCE_NODES, TURBULENCE_UNIT, TURBULENCE_X, TURBULENCE_Y, TURBULENCE_Z, turbulence_rows,
 };
@@ -44,10 +42,7 @@ impl Environment {
                 std::array::from_fn(|axis| single(parts[axis] / f64::from(unit[axis])))
             })
             .collect();
-        let first = (PROFILE_ROWS + GUST_ROWS) as usize;
-        let mut wind = self.wind.to_vec();
-        wind.splice(first..first + 2 * count, turbulence_rows(&nodes));
-        self.wind = wind.into();
+        self.replace_rows(self.block.wind.first_turbulence_row, &turbulence_rows(&nodes));
         self.block.wind.deviation_m_s = unit;
     }
 

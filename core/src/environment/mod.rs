@@ -31,10 +31,10 @@ use crate::context::Context;
 use crate::device::motion::lookup::MotionRows;
 use crate::device::terrain::ground::ground_relief;
 use crate::device::wind::gust::{GUST_ROWS, GUST_SPACING, gust_rows};
-use crate::device::wind::profile::{PROFILE_ROWS, profile_rows};
+use crate::device::wind::profile::profile_rows;
 use crate::device::wind::turbulence::{TURBULENCE_X, turbulence_rows};
 use crate::error::{SceneError, SimError};
-use crate::layout::{Float4, Uint4};
+use crate::layout::Uint4;
 use crate::leaf::Leaves;
 use crate::scene::Scene;
 use crate::store::{StoreSize, check_sizes};
@@ -47,9 +47,7 @@ use crate::wind::turbulence_box;
 pub struct Environment {
     scene: Scene,
     block: EnvironmentBlock,
-    motion: Arc<[Float4]>,
-    wind: Arc<[Uint4]>,
-    petioles: Arc<[Uint4]>,
+    tables: Arc<[Uint4]>,
     forest: Arc<Forest>,
     cycle: Option<Cycle>,
 }
@@ -69,39 +67,35 @@ impl Environment {
     /// As there.
     pub fn compile_with(scene: &Scene, cycle: Option<Cycle>) -> Result<Self, SceneError> {
         let seed = seed_words(scene.seed);
-        let tables = scene
+        let motions = scene
             .species
             .iter()
             .map(|species| tables_of(scene, species, seed))
             .collect::<Result<Vec<_>, _>>()?;
-        let motion = pack_motion(&tables);
-        let mut wind = Vec::with_capacity((PROFILE_ROWS + GUST_ROWS) as usize + 65536);
-        wind.extend(profile_rows(scene.wind.profile, scene.wind.reference_height_m));
+        let mut tables = profile_rows(scene.wind.profile, scene.wind.reference_height_m);
         let gusts = cycle.as_ref().map_or(GUST_ROWS / GUST_SPACING, Cycle::gusts);
         let cells = cycle.as_ref().map_or(TURBULENCE_X, Cycle::cell_period);
-        wind.extend(gust_rows(seed, gusts));
-        wind.extend(turbulence_rows(&turbulence_box(seed, cells)));
-        wind.extend(scene.ground.terrain.iter().flat_map(|terrain| Hills::grow(terrain).rows()));
+        tables.extend(gust_rows(seed, gusts));
+        tables.extend(turbulence_rows(&turbulence_box(seed, cells)));
+        let mut block = compile_block(scene, &motions);
+        block.first_hill_row = len32(tables.len());
+        tables.extend(scene.ground.terrain.iter().flat_map(|terrain| Hills::grow(terrain).rows()));
         let kinds = foliage_of(scene);
-        let mut petioles = shed_rows(scene, &kinds);
-        let mut block = compile_block(scene, &tables, len32(petioles.len()));
+        let mut chances = shed_rows(scene, &kinds);
         if let Some(cycle) = &cycle {
-            firm(&mut petioles);
+            firm(&mut chances);
             // A slot's next leaf is its last one again.
             block.ids_per_life = 0;
             block.flutter_per_step = cycle.flutter(scene.dt_s);
         }
-        let forest = Forest::plant(seedlings(scene, |x, z| foot_height(&block, &wind, x, z))?, scene.dt_s);
-        petioles.extend(petiole_rows(scene, &forest, &kinds));
-        Ok(Self {
-            scene: scene.clone(),
-            block,
-            motion: motion.into(),
-            wind: wind.into(),
-            petioles: petioles.into(),
-            forest: forest.into(),
-            cycle,
-        })
+        let forest = Forest::plant(seedlings(scene, |x, z| foot_height(&block, &tables, x, z))?, scene.dt_s);
+        block.first_shed_row = len32(tables.len());
+        tables.extend(chances);
+        block.first_petiole_row = len32(tables.len());
+        tables.extend(petiole_rows(scene, &forest, &kinds));
+        block.first_motion_row = len32(tables.len());
+        tables.extend_from_slice(bytemuck::cast_slice(&pack_motion(&motions)));
+        Ok(Self { scene: scene.clone(), block, tables: tables.into(), forest: forest.into(), cycle })
     }
 
     /// The same environment with another wind, season, ground, fall and rotation speed; species, sources, trees, hills,
@@ -112,9 +106,8 @@ impl Environment {
         if self.scene.wind.profile != scene.wind.profile
             || self.scene.wind.reference_height_m != scene.wind.reference_height_m
         {
-            let mut wind = profile_rows(scene.wind.profile, scene.wind.reference_height_m);
-            wind.extend_from_slice(&self.wind[PROFILE_ROWS as usize..]);
-            self.wind = wind.into();
+            let rows = profile_rows(scene.wind.profile, scene.wind.reference_height_m);
+            self.replace_rows(self.block.wind.first_profile_row, &rows);
         }
         let autumn = self.scene.autumn;
         let terrain = self.scene.ground.terrain;
@@ -123,11 +116,17 @@ impl Environment {
         (self.scene.trees, self.scene.tree_kinds) = keep_trees;
         self.scene.ground.terrain = terrain;
         if self.scene.autumn != autumn {
-            let mut petioles = shed_rows(&self.scene, &foliage_of(&self.scene));
-            petioles.extend_from_slice(&self.petioles[petioles.len()..]);
-            self.petioles = petioles.into();
+            let rows = shed_rows(&self.scene, &foliage_of(&self.scene));
+            self.replace_rows(self.block.first_shed_row, &rows);
         }
         retune_block(&self.scene, &mut self.block);
+    }
+
+    /// Puts other rows in the place of those from `first` on.
+    fn replace_rows(&mut self, first: u32, rows: &[Uint4]) {
+        let mut tables = self.tables.to_vec();
+        tables[first as usize..][..rows.len()].copy_from_slice(rows);
+        self.tables = tables.into();
     }
 
     /// Number of rows of each store of a world of this scene, in the order of [`World::stores`](crate::World::stores).
@@ -156,20 +155,11 @@ impl Environment {
         &self.block
     }
 
-    /// The packed motion tables (see [`MotionRows`]).
-    pub fn motion(&self) -> &Arc<[Float4]> {
-        &self.motion
-    }
-
-    /// The wind tables: profile, gusts, turbulence; and behind them the hills.
-    pub fn wind(&self) -> &Arc<[Uint4]> {
-        &self.wind
-    }
-
-    /// Chances of petioles to break ([`SHED_ROWS`](crate::leaf::petiole::SHED_ROWS) for each kind of trees), and
-    /// behind them the petioles.
-    pub fn petioles(&self) -> &Arc<[Uint4]> {
-        &self.petioles
+    /// All tables as rows of four words, one after another: the wind's profile, gusts and turbulence; hills; chances of
+    /// petioles to break ([`SHED_ROWS`](crate::leaf::petiole::SHED_ROWS) for each kind of trees); petioles; motion (see
+    /// [`MotionRows`]). The block holds the first row of each.
+    pub fn tables(&self) -> &Arc<[Uint4]> {
+        &self.tables
     }
 
     /// The trees.
@@ -221,15 +211,16 @@ impl Environment {
         Context {
             environment: &self.block,
             step,
-            motion: MotionRows::new(&self.motion),
-            wind: &self.wind,
-            petioles: &self.petioles,
+            motion: MotionRows::new(bytemuck::cast_slice(
+                &self.tables[self.block.first_motion_row as usize..],
+            )),
+            tables: &self.tables,
         }
     }
 
     /// Height of the ground at a place in metres, whatever the water above it.
     pub fn ground_height(&self, x_m: f32, z_m: f32) -> f32 {
-        foot_height(&self.block, &self.wind, x_m, z_m)
+        foot_height(&self.block, &self.tables, x_m, z_m)
     }
 
     /// Distance in metres that the mean wind travels in one step.
@@ -239,9 +230,9 @@ impl Environment {
 }
 
 /// Height of the ground in metres, whatever the water above it.
-fn foot_height(block: &EnvironmentBlock, wind: &[Uint4], x_m: f32, z_m: f32) -> f32 {
+fn foot_height(block: &EnvironmentBlock, tables: &[Uint4], x_m: f32, z_m: f32) -> f32 {
     let step = bytemuck::Zeroable::zeroed();
-    let cx = Context { environment: block, step: &step, motion: MotionRows::new(&[]), wind, petioles: &[] };
+    let cx = Context { environment: block, step: &step, motion: MotionRows::new(&[]), tables };
     let relief = if block.has_terrain() { ground_relief(&cx, x_m, z_m) } else { 0.0 };
     block.ground_height_m + relief
 }

@@ -4,13 +4,10 @@
 
 use crate::error::SceneError;
 use crate::layout::Float4;
-use crate::motion::table::TABLE_ROWS;
+use crate::motion::table::{TABLE_ROWS, TABLES_PER_SPECIES};
 use crate::motion::{MotionTables, Primitive};
 use crate::scene::limits::MAX_PERIODS_PER_STEP;
 use crate::scene::{Scene, Species};
-
-/// Slots of motion tables per species: a power of two above the six primitive motions.
-pub(super) const TABLES_PER_SPECIES: usize = 8;
 
 /// Tables from a file or from the equations. The rates that the equations give have been validated with the scene;
 /// those of a file are known only now.
@@ -45,11 +42,12 @@ pub(super) fn tables_of(
 /// of a rotation each row takes the one nearer to the row before: a file may hold either, and rows are interpolated.
 pub(super) fn pack_motion(tables: &[MotionTables]) -> Vec<Float4> {
     let rows = TABLE_ROWS as usize;
-    let count = tables.len() * TABLES_PER_SPECIES;
+    let per_species = TABLES_PER_SPECIES as usize;
+    let count = tables.len() * per_species;
     let mut packed = vec![Float4::default(); count * rows * 3];
     for (species, tables) in tables.iter().enumerate() {
         for (primitive, table) in tables.0.iter().enumerate() {
-            let first = (species * TABLES_PER_SPECIES + primitive) * rows;
+            let first = (species * per_species + primitive) * rows;
             let mut orientation = table.orientation[0];
             for row in 0..rows {
                 let [x, y, z] = table.displacement_m[row];

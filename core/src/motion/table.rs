@@ -23,6 +23,8 @@ crate::shared_constants! {
     pub const TABLE_BITS: u32 = 9;
     /// Rows stored per table: both ends of the period.
     pub const TABLE_ROWS: u32 = 513;
+    /// Slots of tables per species: a power of two above the six primitive motions.
+    pub const TABLES_PER_SPECIES: u32 = 8;
 }
 
 /// Intervals of a table.

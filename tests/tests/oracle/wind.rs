@@ -244,8 +244,7 @@ fn retuning_equals_compiling_anew() {
             bytemuck::bytes_of(retuned.block()) == bytemuck::bytes_of(fresh.block()),
             "changing {name}: the block differs from a fresh one"
         );
-        assert!(retuned.wind() == fresh.wind(), "changing {name}: wind tables differ from fresh ones");
-        assert!(retuned.motion() == fresh.motion(), "changing {name}: motion tables differ from fresh ones");
+        assert!(retuned.tables() == fresh.tables(), "changing {name}: tables differ from fresh ones");
         assert!(retuned.scene() == scene, "changing {name}: the scene is not the one asked for");
     };
     let mut scene = base.clone();

@@ -34,7 +34,7 @@ fn shed_chance(facts: u32, speed: f32) -> u32 {
     let strength = (facts >> PETIOLE_CLASS_SHIFT) & PETIOLE_CLASS_MASK;
     let level = min(bitcast<u32>(i32(floor(speed))), SHED_SPEEDS - 1u);
     let index = (kind * SHED_CLASSES + strength) * SHED_SPEEDS + level;
-    return petiole_rows[index >> 2u][index & 3u];
+    return tables[environment.first_shed_row + (index >> 2u)][index & 3u];
 }
 
 fn leaf_hang(air_speed: f32, slot: u32, petiole: Petiole, segment: Body) -> Hang {
@@ -63,12 +63,12 @@ fn leaf_size_on_twig(size: u32, facts: u32) -> u32 {
 
 fn petiole_of(slot: u32) -> Petiole {
     let first = environment.first_petiole_row + slot * PETIOLE_ROWS;
-    let at = petiole_rows[first];
+    let at = tables[first];
     return Petiole(
         bitcast<vec3<f32>>(at.xyz),
         at.w,
-        bitcast<vec4<f32>>(petiole_rows[first + 1u]),
-        petiole_rows[first + 2u].w,
+        bitcast<vec4<f32>>(tables[first + 1u]),
+        tables[first + 2u].w,
     );
 }
 

@@ -12,9 +12,7 @@ struct Carry {
 }
 
 @group(1) @binding(0) var<uniform> carry_block: Carry;
-// Chances of petioles to break, then petioles of PETIOLE_ROWS rows each.
-@group(1) @binding(1) var<storage, read> petiole_rows: array<vec4<u32>>;
 // The columns BRANCH_TURN, BRANCH_RATE and so on, one after another.
-@group(1) @binding(2) var<storage, read> carrier_rows: array<vec4<f32>>;
+@group(1) @binding(1) var<storage, read> carrier_rows: array<vec4<f32>>;
 // Leaves that hang on every segment.
-@group(1) @binding(3) var<storage, read_write> carried: array<atomic<u32>>;
+@group(1) @binding(2) var<storage, read_write> carried: array<atomic<u32>>;

@@ -20,14 +20,14 @@ struct Slope {
 }
 
 fn ground_cell(x: f32, z: f32) -> Cell {
-    let mask = environment.hill_mask;
     let shift = environment.hill_shift;
+    let mask = (1u << shift) - 1u;
     let u = x * environment.hill_cells_per_m;
     let v = z * environment.hill_cells_per_m;
     let ku = floor(u);
     let kv = floor(v);
     let index = ((bitcast<u32>(i32(kv)) & mask) << shift) | (bitcast<u32>(i32(ku)) & mask);
-    return Cell(bitcast<vec4<f32>>(wind_rows[environment.first_hill_row + index]), u - ku, v - kv);
+    return Cell(bitcast<vec4<f32>>(tables[environment.first_hill_row + index]), u - ku, v - kv);
 }
 
 fn ground_relief(x: f32, z: f32) -> f32 {

@@ -5,6 +5,6 @@
 #import bindings
 
 fn wind_row(index: u32, first: u32) -> vec2<f32> {
-    let row = wind_rows[first + index];
+    let row = tables[first + index];
     return vec2<f32>(bitcast<f32>(row.x), bitcast<f32>(row.y));
 }

@@ -101,7 +101,8 @@ pub fn shed_chance<W: Word>(cx: &Context<'_>, facts: W, speed: W::Real) -> W {
     let level = whole.less_than(most).select(whole, most);
     let of_kind = kind.times(facts.all(SHED_CLASSES)).plus(strength);
     let index = of_kind.times(facts.all(SHED_SPEEDS)).plus(level);
-    let [a, b, c, d] = (index >> 2).look_up_words(bytemuck::cast_slice(cx.petioles));
+    let rows = &cx.tables[cx.environment.first_shed_row as usize..];
+    let [a, b, c, d] = (index >> 2).look_up_words(bytemuck::cast_slice(rows));
     let low = (index & 1).equals(0).select(a, b);
     let high = (index & 1).equals(0).select(c, d);
     (index & 2).equals(0).select(low, high)
@@ -162,7 +163,7 @@ pub fn leaf_size_on_twig(size: u32, facts: u32) -> u32 {
 /// The petiole of a tree's slot.
 pub fn petiole_of(cx: &Context<'_>, slot: u32) -> Petiole {
     let first = (cx.environment.first_petiole_row + slot * PETIOLE_ROWS) as usize;
-    let rows: &[Uint4; PETIOLE_ROWS as usize] = cx.petioles[first..].first_chunk().expect("a slot of a tree");
+    let rows: &[Uint4; PETIOLE_ROWS as usize] = cx.tables[first..].first_chunk().expect("a slot of a tree");
     bytemuck::cast(*rows)
 }
 

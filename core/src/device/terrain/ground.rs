@@ -36,13 +36,14 @@ pub struct Slope {
 /// The cell at a place.
 #[inline(always)]
 fn ground_cell<R: Real>(cx: &Context<'_>, x: R, z: R) -> Cell<R> {
-    let (mask, shift) = (cx.environment.hill_mask, cx.environment.hill_shift);
+    let shift = cx.environment.hill_shift;
+    let mask = (1 << shift) - 1;
     let u = x * cx.environment.hill_cells_per_m;
     let v = z * cx.environment.hill_cells_per_m;
     let ku = u.floor();
     let kv = v.floor();
     let index = ((kv.to_whole() & mask) << shift) | (ku.to_whole() & mask);
-    let corners = index.look_up(bytemuck::cast_slice(&cx.wind[cx.environment.first_hill_row as usize..]));
+    let corners = index.look_up(bytemuck::cast_slice(&cx.tables[cx.environment.first_hill_row as usize..]));
     Cell { corners, x: u - ku, z: v - kv }
 }
 

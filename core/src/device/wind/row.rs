@@ -11,7 +11,7 @@ use crate::layout::Uint4;
 /// The two floats of row `first + index`: a value and the next one.
 #[inline(always)]
 pub fn wind_row<W: Word>(cx: &Context<'_>, index: W, first: u32) -> [W::Real; 2] {
-    index.look_up_pairs(bytemuck::cast_slice(&cx.wind[first as usize..]))
+    index.look_up_pairs(bytemuck::cast_slice(&cx.tables[first as usize..]))
 }
 
 /// A row of a value and the next one.
