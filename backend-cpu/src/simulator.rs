@@ -11,11 +11,11 @@ use windfall_core::{Clock, Contract, Environment, SimError, Simulator, Simulator
 
 use crate::kernels::CHUNK;
 use crate::kernels::measure::measure;
-use crate::kernels::scratch::Scratch;
-use crate::kernels::segment_block::BatchBlocks;
 use crate::kernels::step_leaves::step_leaves;
-use crate::kernels::step_trees::{BatchRun, sway};
+use crate::kernels::step_trees::{BatchRun, step_trees};
 use crate::simd::Simd;
+use crate::simd::batch_blocks::BatchBlocks;
+use crate::simd::sway_scratch::Scratch;
 
 /// Options of the CPU simulator.
 #[derive(Clone, Copy, Debug, Default)]
@@ -119,7 +119,7 @@ impl Simulator for CpuSimulator {
                 let cx = environment.context(&block);
                 if !forest.is_empty() {
                     let (on_trees, _) = leaves.as_mut().split_at(cx.environment.tree_leaf_count as usize);
-                    sway(
+                    step_trees(
                         &cx,
                         BatchRun {
                             batches: forest.batches(),

@@ -18,9 +18,7 @@ use windfall_core::device::tree::sway::row::Rows;
 use windfall_core::leaf::petiole::{PETIOLE_ROWS, SHED_INTERVAL};
 use windfall_core::leaf::{Attitude, Drift, LeavesMut, Place, Schedule};
 
-use super::branch_block::Column;
-use super::segment_block::word;
-use super::sway_block::{bodies_of, four, store_vector};
+use crate::simd::branch_block::{Column, bodies_of, store_vector, vector_and_fourth, word};
 
 /// Slots that follow one another.
 pub(super) struct LeafBlock<'a> {
@@ -42,9 +40,9 @@ fn stalks_of<P: Pack>(
 ) -> (Stalk<P::Word>, P::Word) {
     let from = slots.all(cx.environment.first_petiole_row).plus(slots.times(slots.all(PETIOLE_ROWS)));
     let spans = P::spans::<{ PETIOLE_ROWS as usize }>(from, cast_slice(cx.tables));
-    let (at, segment) = four(P::column(simd, &spans, 0));
+    let (at, segment) = vector_and_fourth(P::column(simd, &spans, 0));
     let rest = Quat::from(P::column(simd, &spans, 1));
-    let (_, facts) = four(P::column(simd, &spans, 2));
+    let (_, facts) = vector_and_fourth(P::column(simd, &spans, 2));
     (Stalk { at, rest, facts: facts.to_bits() }, segment.to_bits().minus(slots.all(first)))
 }
 
@@ -141,14 +139,14 @@ impl LeafBlock<'_> {
         rows: &Rows<'_>,
         part: usize,
     ) -> bool {
-        let (position, bits) = four::<P>(load_block(simd, must_cast_ref(self.place), part));
+        let (position, bits) = vector_and_fourth::<P>(load_block(simd, must_cast_ref(self.place), part));
         let [event, ..]: [P; 4] = load_block(simd, must_cast_ref(self.schedule), part);
         let event = event.to_bits();
         let hangs = leaf_hangs(cx, bits.to_bits(), event);
         if !hangs.any() {
             return false;
         }
-        let (velocity, phase) = four::<P>(load_block(simd, must_cast_ref(self.drift), part));
+        let (velocity, phase) = vector_and_fourth::<P>(load_block(simd, must_cast_ref(self.drift), part));
         let slots = P::load_words(simd, &ROWS_OF_LANES[part * P::LANES..]);
         let slots = slots.plus(slots.all(self.first));
         let (stalk, row) = stalks_of::<P>(simd, cx, slots, rows.first);

@@ -3,19 +3,14 @@
 //! Loops over leaves and over segments of trees; one file per kernel, each with a twin in `backend-wgpu/src/shaders/kernels/`.
 
 mod advance;
-mod branch_block;
 pub(crate) mod carry;
 mod carry_block;
 mod eight;
-mod fetch;
 mod fly;
 pub(crate) mod measure;
 mod resolve_events;
-pub(crate) mod scratch;
-pub(crate) mod segment_block;
 pub(crate) mod step_leaves;
 pub(crate) mod step_trees;
-mod sway_block;
 pub(crate) mod sway_follow;
 pub(crate) mod sway_gather;
 pub(crate) mod sway_inward;

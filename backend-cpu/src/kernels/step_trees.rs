@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Steps batches of trees with the leaves on them, several at a time.
+//! Steps all trees with the leaves on them, batch by batch: the passes of a scheme and [`carry`] while a batch is in the cache.
 
 use std::sync::{Mutex, PoisonError};
 
@@ -13,15 +13,15 @@ use windfall_core::tree::batch::TreeBatch;
 use windfall_core::tree::{BranchesMut, SegmentConstants};
 
 use super::carry::carry;
-use super::scratch::{BlockScratch, Scratch};
-use super::segment_block::BatchBlocks;
 use super::sway_follow::sway_follow;
 use super::sway_gather::sway_gather;
 use super::sway_inward::sway_inward;
 use super::sway_outward::sway_outward;
 use crate::simd::Simd;
+use crate::simd::batch_blocks::BatchBlocks;
+use crate::simd::sway_scratch::{BlockScratch, Scratch};
 
-/// A run of batches with all that belongs to them.
+/// Consecutive batches with all that belongs to them.
 pub(crate) struct BatchRun<'a> {
     pub(crate) batches: &'a [TreeBatch],
     pub(crate) blocks: &'a [BatchBlocks],
@@ -30,17 +30,17 @@ pub(crate) struct BatchRun<'a> {
     pub(crate) leaves: LeavesMut<'a>,
 }
 
-/// Steps all batches, halving the run until a piece is one. There is a scratch for each thread.
-pub(crate) fn sway(cx: &Context<'_>, run: BatchRun<'_>, scratches: &[Mutex<Scratch>], simd: Simd) {
+/// Steps consecutive batches, halving them until a piece is one. There is a scratch for each thread.
+pub(crate) fn step_trees(cx: &Context<'_>, run: BatchRun<'_>, scratches: &[Mutex<Scratch>], simd: Simd) {
     let BatchRun { batches, blocks, segments, branches, leaves } = run;
     let [first, .., last] = batches else {
         if let ([batch], [blocks]) = (batches, blocks) {
             // A thread of another pool may have a larger number; then it waits for the scratch of another.
             let own = current_thread_index().unwrap_or(0) % scratches.len();
             let mut scratch = scratches[own].lock().unwrap_or_else(PoisonError::into_inner);
-            let Scratch { work, blocks: kept } = &mut *scratch;
+            let Scratch { work, blocks: block_scratch } = &mut *scratch;
             let rows = Rows { first: batch.first, segments, branches, work };
-            sway_batch(cx, blocks, rows, kept, leaves, batch.slots.start, simd);
+            step_batch(cx, blocks, rows, block_scratch, leaves, batch.slots.start, simd);
         }
         return;
     };
@@ -67,11 +67,11 @@ pub(crate) fn sway(cx: &Context<'_>, run: BatchRun<'_>, scratches: &[Mutex<Scrat
         branches: back_branches,
         leaves: back_leaves,
     };
-    join(|| sway(cx, front, scratches, simd), || sway(cx, back, scratches, simd));
+    join(|| step_trees(cx, front, scratches, simd), || step_trees(cx, back, scratches, simd));
 }
 
-/// One batch: towards the foot, towards the tips, and the leaves after it.
-fn sway_batch(
+/// Steps one batch: inward pass, outward pass, and the leaves on its twigs.
+fn step_batch(
     cx: &Context<'_>,
     blocks: &BatchBlocks,
     mut rows: Rows<'_>,

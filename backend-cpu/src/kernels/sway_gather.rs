@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! twin: backend-wgpu/src/shaders/kernels/sway_gather.wgsl
 //!
-//! The pass towards the foot of the schemes that move joints one by one: what every segment carries.
+//! Inward pass of the schemes that step joints one by one: composite bodies of segments and what grows from them.
 
 use windfall_core::Context;
 use windfall_core::device::tree::sway::row::{Rows, row_gather};
 
-/// A batch, from the tips to the trunks.
+/// Steps a batch from the twigs to the trunks.
 pub(crate) fn sway_gather(cx: &Context<'_>, rows: &mut Rows<'_>) {
     for row in (0..rows.segments.len()).rev() {
         row_gather(cx, rows, row);

@@ -2,19 +2,28 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! twin: backend-wgpu/src/shaders/kernels/sway_inward.wgsl
 //!
-//! The pass towards the foot: what every joint of a batch hands down, and how it will answer.
+//! Inward pass over a batch of trees: responses of joints, and the inertias that segments pass on to their parents.
 
 use windfall_core::Context;
+use windfall_core::arith::matrix::sym3_trace;
 use windfall_core::arith::pack::{BLOCK, Pack};
+use windfall_core::arith::vector::vec3_select;
+use windfall_core::arith::{Mat3, Sym3, Vec3};
+use windfall_core::device::tree::sway::inward::{
+    articulated_add, articulated_shift, joint_response, joint_spring, velocity_products,
+};
+use windfall_core::device::tree::sway::load::{load_trace, segment_air, segment_axis, segment_body, segment_load};
 use windfall_core::device::tree::sway::row::{Rows, row_inward};
+use windfall_core::device::tree::sway::twig::twig_response;
+use windfall_core::device::tree::sway::{ArticulatedInertia, Body, TwigResponse};
 
-use super::fetch::AHEAD;
-use super::scratch::BlockScratch;
-use super::segment_block::{BatchBlocks, INWARD};
-use super::sway_block::Step;
+use crate::simd::batch_blocks::{AHEAD, BatchBlocks, BatchStep, ConstantsOf, SegmentBlock};
+use crate::simd::branch_block::{BlockState, bodies_of, ground, lanes_with_rows, state_of};
+use crate::simd::lanes::Lanes;
+use crate::simd::sway_scratch::{BlockScratch, InertiaBlock};
 use crate::simd::{Simd, in_packs};
 
-/// A batch, from the tips to the trunks.
+/// Steps a batch from the twigs to the trunks.
 pub(crate) fn sway_inward(
     cx: &Context<'_>,
     rows: &mut Rows<'_>,
@@ -25,19 +34,120 @@ pub(crate) fn sway_inward(
     match simd {
         Simd::Scalar => (0..rows.segments.len()).rev().for_each(|row| row_inward(cx, rows, row)),
         Simd::Lanes(level) => {
-            let step = Step { cx, rows, blocks };
+            let step = BatchStep { cx, rows, blocks };
             in_packs!(level, inward_lanes(step, scratch));
         }
     }
 }
 
-/// All blocks.
+/// Steps block after block in lanes, with the same bits as row by row.
 #[inline(always)]
-fn inward_lanes<P: Pack>(simd: P::Simd, step: Step<'_, '_>, scratch: &mut BlockScratch) {
+fn inward_lanes<P: Pack>(simd: P::Simd, step: BatchStep<'_, '_>, scratch: &mut BlockScratch) {
     for number in 0..step.blocks.limbs.len() {
-        step.fetch(number + AHEAD, INWARD);
+        step.prefetch(number + AHEAD, &ConstantsOf::INWARD);
         for part in 0..BLOCK / P::LANES {
             step.inward::<P>(simd, number, part, scratch);
         }
+    }
+}
+
+impl BatchStep<'_, '_> {
+    /// Steps part of a block of limbs and its twigs.
+    #[inline(always)]
+    fn inward<P: Pack>(&self, simd: P::Simd, number: usize, part: usize, scratch: &mut BlockScratch) {
+        let block = &self.blocks.limbs[number];
+        let BlockScratch { limbs: responses, twigs: twig_responses, inertias, spare, spare_twigs, .. } =
+            scratch;
+        let constants = block.segments.constants::<P>(simd, part);
+        let state = state_of(&self.rows.branches, &block.segments.rows, spare);
+        let body = state.bodies(simd, part);
+        let parent = match &block.parents {
+            Some(parents) => bodies_of(self.rows, P::load_words(simd, &parents.rows[part * P::LANES..])),
+            None => ground(simd),
+        };
+        let products = velocity_products(&body, &parent);
+        let axis = segment_axis(&body);
+        let air = segment_air(self.cx, &body, axis, constants.length);
+        let leaf_count = state.leaf_counts(simd, part);
+        let mut whole = segment_body(&segment_load(self.cx, &constants, &body, axis, air, leaf_count), axis);
+        let twig_responses = &mut twig_responses[block.twigs.clone()];
+        for (twigs, responses) in self.blocks.twigs[block.twigs.clone()].iter().zip(twig_responses) {
+            let state = state_of(&self.rows.branches, &twigs.rows, spare_twigs);
+            let sum = articulated_add(
+                &whole,
+                &self.inward_twigs(simd, twigs, &state, part, responses, (air, &body)),
+            );
+            whole = if twigs.rows.len() == BLOCK {
+                sum
+            } else {
+                articulated_select::<P>(lanes_with_rows::<P>(simd, twigs.rows.len(), part), &sum, &whole)
+            };
+        }
+        for children in self.blocks.children(block) {
+            let from = P::load_words(simd, &children[part * P::LANES..]);
+            whole = articulated_add(&whole, &InertiaBlock::load_at(simd, from, inertias));
+        }
+        let joint = state.joints(simd, part);
+        let spring = joint_spring(self.cx, &constants, &joint, &body, sym3_trace(whole.rotation));
+        let (response, apparent) = joint_response(&spring, &whole, axis, &products);
+        responses[number].zip_mut(
+            &response,
+            #[inline(always)]
+            |lanes, numbers| lanes.store(part, *numbers),
+        );
+        inertias[number].store(simd, part, &articulated_shift(&apparent, products.arm));
+    }
+
+    /// Steps twigs whose parents move like `parent` in air of velocity `air`, and returns what they pass on.
+    #[inline(always)]
+    fn inward_twigs<P: Pack>(
+        &self,
+        simd: P::Simd,
+        twigs: &SegmentBlock,
+        state: &BlockState<'_>,
+        part: usize,
+        responses: &mut TwigResponse<Lanes>,
+        (air, parent): (Vec3<P>, &Body<P>),
+    ) -> ArticulatedInertia<P> {
+        let constants = twigs.constants(simd, part);
+        let body = state.bodies(simd, part);
+        let axis = segment_axis(&body);
+        let load = segment_load(self.cx, &constants, &body, axis, air, state.leaf_counts(simd, part));
+        let joint = state.joints(simd, part);
+        let spring = joint_spring(self.cx, &constants, &joint, &body, load_trace(&load));
+        let products = velocity_products(&body, parent);
+        let (response, apparent) = twig_response(&spring, &load, axis, &products);
+        responses.zip_mut(
+            &response,
+            #[inline(always)]
+            |lanes, numbers| lanes.store(part, *numbers),
+        );
+        articulated_shift(&apparent, products.arm)
+    }
+}
+
+/// `yes` where true, `no` elsewhere.
+#[inline(always)]
+fn sym3_select<P: Pack>(mask: P::Mask, yes: Sym3<P>, no: Sym3<P>) -> Sym3<P> {
+    Sym3 { diagonal: vec3_select(mask, yes.diagonal, no.diagonal), off: vec3_select(mask, yes.off, no.off) }
+}
+
+/// `yes` where true, `no` elsewhere.
+#[inline(always)]
+fn articulated_select<P: Pack>(
+    mask: P::Mask,
+    yes: &ArticulatedInertia<P>,
+    no: &ArticulatedInertia<P>,
+) -> ArticulatedInertia<P> {
+    ArticulatedInertia {
+        rotation: sym3_select::<P>(mask, yes.rotation, no.rotation),
+        coupling: Mat3 {
+            x: vec3_select(mask, yes.coupling.x, no.coupling.x),
+            y: vec3_select(mask, yes.coupling.y, no.coupling.y),
+            z: vec3_select(mask, yes.coupling.z, no.coupling.z),
+        },
+        mass: sym3_select::<P>(mask, yes.mass, no.mass),
+        moment: vec3_select(mask, yes.moment, no.moment),
+        force: vec3_select(mask, yes.force, no.force),
     }
 }

@@ -224,6 +224,27 @@ impl Mask for bool {
     }
 }
 
+/// Implements `map` and `zip_mut` for a struct of numbers and, behind the semicolon, of such structs.
+macro_rules! each_number {
+    ($name:ident { $($number:ident),* $(; $($part:ident),+)? }) => {
+        impl<R> $name<R> {
+            /// The struct with the results of `f` in place of its numbers.
+            #[inline(always)]
+            pub fn map<S>(&self, f: impl Fn(&R) -> S + Copy) -> $name<S> {
+                $name { $($number: f(&self.$number),)* $($($part: self.$part.map(f),)+)? }
+            }
+
+            /// Calls `f` with every number, to be changed, and its counterpart in `other`.
+            #[inline(always)]
+            pub fn zip_mut<S>(&mut self, other: &$name<S>, f: impl Fn(&mut R, &S) + Copy) {
+                $(f(&mut self.$number, &other.$number);)*
+                $($(self.$part.zip_mut(&other.$part, f);)+)?
+            }
+        }
+    };
+}
+pub(crate) use each_number;
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -4,7 +4,7 @@
 //!
 //! Matrices of three rows, symmetric and general, for the inertia of bodies.
 
-use super::lane::Real;
+use super::lane::{Real, each_number};
 use super::math::reciprocal;
 use super::vector::{Vec3, vec3_cross, vec3_dot};
 
@@ -23,7 +23,7 @@ pub struct Sym3<R = f32> {
 }
 
 /// A general matrix.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Mat3<R = f32> {
     /// First row.
     pub x: Vec3<R>,
@@ -32,6 +32,8 @@ pub struct Mat3<R = f32> {
     /// Third row.
     pub z: Vec3<R>,
 }
+
+each_number!(Mat3 { ; x, y, z });
 
 /// Sum.
 #[inline(always)]

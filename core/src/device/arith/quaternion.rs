@@ -4,7 +4,7 @@
 //!
 //! Unit quaternions as rotations; `vec4<f32>` in WGSL, vector part first.
 
-use super::lane::{Mask, Real};
+use super::lane::{Mask, Real, each_number};
 use super::math::inverse_sqrt;
 use super::vector::{TINY_SQUARED, Vec3, vec3_cross, vec3_dot};
 
@@ -45,6 +45,8 @@ pub struct Quat<R = f32> {
     /// Real part.
     pub w: R,
 }
+
+each_number!(Quat { x, y, z, w });
 
 impl Quat {
     /// No rotation.

@@ -6,7 +6,7 @@
 
 use core::ops::{Add, Mul, Sub};
 
-use super::lane::{Mask, Real};
+use super::lane::{Mask, Real, each_number};
 use super::math::inverse_sqrt;
 
 /// A vector of three floats; `vec3<f32>` in WGSL.
@@ -41,6 +41,8 @@ impl Vec3 {
         Vec3::new(like.all(self.x), like.all(self.y), like.all(self.z))
     }
 }
+
+each_number!(Vec3 { x, y, z });
 
 impl<R> Vec3<R> {
     /// A vector from its components.

@@ -4,12 +4,16 @@
 //!
 //! Types of the articulated-body algorithm: a segment's constants, state and inertia, and the response of its joint.
 
+use crate::arith::lane::each_number;
 use crate::arith::{Mat3, Quat, Sym3, Vec3};
 use crate::tree::record::SegmentConstants;
 
 /// Constants of a segment, or of several in the lanes of `R`: the floats of [`SegmentConstants`].
+///
+/// Rest and offset, all that the outward pass reads, come first in memory.
 #[derive(Clone, Copy, Debug)]
 #[expect(missing_docs, reason = "the fields of SegmentConstants")]
+#[repr(C)]
 pub struct Constants<R = f32> {
     pub rest: Quat<R>,
     pub offset: Vec3<R>,
@@ -29,6 +33,12 @@ pub struct Constants<R = f32> {
     pub bending_inertia: R,
     pub twisting_inertia: R,
 }
+
+each_number!(Constants {
+    length, mass, first_moment, inertia_across, inertia_along, leaf_mass, wood_drag, leaf_drag, leaf_yield, damping,
+    bending, twisting, bending_inertia, twisting_inertia;
+    rest, offset, preload
+});
 
 impl From<&SegmentConstants> for Constants {
     #[inline(always)]
@@ -132,7 +142,7 @@ pub struct Spring<R = f32> {
 
 /// Velocity-product accelerations of a joint: those that the velocities of the two segments alone bring about (`c` in
 /// Featherstone), and the arm that carries the parent's angular acceleration to the joint.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub struct VelocityProducts<R = f32> {
     /// Position of the joint relative to the parent's in m.
     pub arm: Vec3<R>,
@@ -142,8 +152,10 @@ pub struct VelocityProducts<R = f32> {
     pub centripetal: Vec3<R>,
 }
 
+each_number!(VelocityProducts { ; arm, angular, centripetal });
+
 /// Response of a twig's joint: a [`JointResponse`] whose matrices are symmetric about the axis.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub struct TwigResponse<R = f32> {
     /// Angular acceleration in rad/s² if the parent does not accelerate.
     pub free: Vec3<R>,
@@ -157,9 +169,11 @@ pub struct TwigResponse<R = f32> {
     pub products: VelocityProducts<R>,
 }
 
+each_number!(TwigResponse { spring_along, spring_across, lever; free, products });
+
 /// Angular acceleration of a joint as a linear function of its parent's acceleration, from the inward pass for the
 /// outward one.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub struct JointResponse<R = f32> {
     /// Angular acceleration in rad/s² if the parent does not accelerate.
     pub free: Vec3<R>,
@@ -170,3 +184,5 @@ pub struct JointResponse<R = f32> {
     /// Velocity-product accelerations.
     pub products: VelocityProducts<R>,
 }
+
+each_number!(JointResponse { ; free, spring, lever, products });

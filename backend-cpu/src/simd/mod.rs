@@ -1,6 +1,11 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Instructions that move the leaves. All of them give the same bits.
+//! Sets of instructions, and the layouts of records in SIMD registers behind the kernels. All sets give the same bits.
+
+pub(crate) mod batch_blocks;
+pub(crate) mod branch_block;
+pub(crate) mod lanes;
+pub(crate) mod sway_scratch;
 
 use fearless_simd::Level;
 
