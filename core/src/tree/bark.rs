@@ -20,7 +20,7 @@ use super::Skeleton;
 /// Width and height of one repeat of the bark's texture in metres, where a limb is thick enough for a whole one.
 pub const BARK_TILE_M: f32 = 0.4;
 
-/// How closely the bark follows the wood.
+/// Level of detail of a bark mesh.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum BarkDetail {
     /// Every twig, up to 16 sides.

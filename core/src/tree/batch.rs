@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Trees that are stepped together, and how their segments lie.
+//! Batches of trees that are stepped together, and the order of their segments.
 //!
 //! The rows of a batch are contiguous and lie in blocks: up to sixteen limbs of one level, those with the most twigs first,
 //! and behind them their twigs, the first ones of all limbs, then the second ones, and so on. So what grows from a row has
@@ -36,7 +36,7 @@ impl TreeBatch {
         self.blocks.last().map_or(0, |block| block.twigs().last().unwrap_or(block.limbs()).end)
     }
 
-    /// Whether there are none.
+    /// Returns true if there are none.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
@@ -51,7 +51,7 @@ pub struct Block {
     pub row: usize,
     /// Number of limbs, up to [`BLOCK`].
     pub limbs: usize,
-    /// How many limbs, from the first, have a first twig, a second one, and so on.
+    /// Numbers of limbs, from the first, that have a first twig, a second one, and so on.
     pub twigs: Vec<usize>,
 }
 
@@ -104,14 +104,14 @@ struct Children {
 impl Children {
     fn of(skeleton: &Skeleton, segments: &[SegmentConstants]) -> Self {
         let count = skeleton.segments.len();
-        let mut bears = vec![false; count];
+        let mut has_children = vec![false; count];
         for parent in skeleton.segments.iter().filter_map(|segment| segment.parent) {
-            bears[parent as usize] = true;
+            has_children[parent as usize] = true;
         }
         let mut children = Self { twigs: vec![Vec::new(); count], limbs: vec![Vec::new(); count] };
         for (index, segment) in skeleton.segments.iter().enumerate() {
             if let Some(parent) = segment.parent {
-                let is_twig = !bears[index] && is_near(&segments[index], &segments[parent as usize]);
+                let is_twig = !has_children[index] && is_near(&segments[index], &segments[parent as usize]);
                 let kind = if is_twig { &mut children.twigs } else { &mut children.limbs };
                 kind[parent as usize].push(word(index));
             }
@@ -120,7 +120,7 @@ impl Children {
     }
 }
 
-/// Whether the middle of a segment is near enough to the end of its parent to feel the same air.
+/// Returns true if the centre of a segment is near enough to the end of its parent to take the wind there.
 fn is_near(segment: &SegmentConstants, parent: &SegmentConstants) -> bool {
     let axis = glam::Quat::from_array(segment.rest) * Vec3::Y;
     let middle = Vec3::from(segment.offset) + axis * (0.5 * segment.length);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! From a skeleton and what it is made of to the constants of its segments: masses, inertias, springs, drag.
+//! Constants of a skeleton's segments from its wood and foliage: masses, inertias, springs, drag.
 //!
 //! # Source
 //! A joint between two half segments in series bends like the beam they cut: E I over half the length each. The sway
@@ -22,7 +22,7 @@ const SHEAR_SHARE: f64 = 1.0 / 14.0;
 /// Least moment of inertia about a segment per that across it: side twigs and petioles keep it from being a bare rod.
 const LEAST_AXIAL: f64 = 0.01;
 
-/// What one leaf of a tree weighs and how large it is.
+/// Area and mass of one leaf of a tree.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct LeafFacts {
     /// Area of the blade in m².
@@ -31,12 +31,12 @@ pub struct LeafFacts {
     pub mass_kg: f64,
 }
 
-/// What a whole tree comes to.
+/// Totals of a whole tree.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct TreeFacts {
     /// Ground area beneath the crown in m².
     pub crown_m2: f64,
-    /// Leaves of the full crown that one attachment stands for.
+    /// Leaves of the full crown per attachment.
     pub leaves_each: f64,
     /// Mass of the wood in kg.
     pub wood_kg: f64,
@@ -60,14 +60,14 @@ struct Draft {
     bending: f64,
 }
 
-/// Everything above and including a segment.
+/// Mass and first moment of a segment with everything that grows from it.
 #[derive(Clone, Copy, Default)]
 struct Outboard {
     mass: f64,
     moment: DVec3,
 }
 
-/// Constants of all segments of a tree in the skeleton's order, links left open, and what the tree comes to.
+/// Constants of all segments of a tree in the skeleton's order, links left open, and the totals of the tree.
 pub(super) fn segment_constants(
     skeleton: &Skeleton,
     wood: &Wood,
@@ -192,7 +192,7 @@ fn area_moment(radius: f64) -> f64 {
     0.25 * PI * radius * radius * radius * radius
 }
 
-/// Ground area beneath the leaves, or beneath the twigs of a tree that bears none.
+/// Ground area beneath the leaves, or beneath the twigs of a tree without leaves.
 fn crown_area(skeleton: &Skeleton, leaf: LeafFacts) -> f64 {
     let mut places: Vec<_> = skeleton.attachments.iter().map(|at| at.at_m).collect();
     if places.is_empty() {

@@ -3,7 +3,7 @@
 //! Leaves and fruit on the twigs.
 //!
 //! A full crown has as many leaves as its leaf area index, the ground beneath it and the area of a leaf make it. If
-//! fewer are asked for, every twig bears its share of them, so the crown keeps its shape. Which segments bear leaves is
+//! fewer are asked for, every twig has its share of them, so the crown keeps its shape. Which segments bear leaves is
 //! what the grammar says; wood that still grows in length bears leaves as well, the fewer the further it has come, so
 //! that a young tree is green before its twigs are born.
 
@@ -20,13 +20,13 @@ const LEAF_DRAWS: u32 = 1 << 16;
 const FRUIT_DRAWS: u32 = LEAF_DRAWS + 1;
 /// Golden angle in degrees.
 const GOLDEN_DEG: f64 = 137.507_764;
-/// Part of a twig at its base that bears no leaves.
+/// Part of a twig at its base without leaves.
 const BARE_BASE: f64 = 0.1;
 /// Largest deviation of the angle between twig and leaf, in degrees.
 const SPREAD_DEG: f64 = 15.0;
-/// How far a leaf's weight pulls its tip down, compared with the direction in which it grows.
+/// Weight of the vertical in a leaf's direction, relative to the direction in which it grows.
 const DROOP: f64 = 0.3;
-/// How far a leaf's upper side turns from the twig's end towards the sky.
+/// Weight of the sky in the direction of a leaf's upper side, relative to the twig's end.
 const SKYWARD: f64 = 1.5;
 /// Fewest leaves of a seedling.
 const FEWEST: f64 = 2.0;
@@ -54,7 +54,7 @@ pub(crate) fn full_count(
     (leaf_area_index * ground_m2(points, reach_m) / settings.leaf_area_m2).round().max(FEWEST)
 }
 
-/// Whether there will ever be leaves.
+/// Returns true if there will ever be leaves.
 fn bears_leaves(shoots: &[Shoot]) -> bool {
     shoots.iter().any(|shoot| shoot.leaves > 0.0)
 }
@@ -66,7 +66,7 @@ fn leafiness(segment: &Grown, shoots: &[Shoot]) -> f64 {
     shoots[segment.shoot].leaves.max(cube * cube) * segment.length_m
 }
 
-/// What the tree bears: at most `most` leaves, and at most so many fruit.
+/// Attachments of a tree: at most `most` leaves, and at most so many fruit.
 pub(crate) fn attachments(
     grown: &[Grown],
     shoots: &[Shoot],
@@ -141,7 +141,7 @@ fn shares(weights: &[f64], total: f64) -> Vec<u32> {
         .collect()
 }
 
-/// Where a leaf or fruit grows on a segment, and how it stands.
+/// Place and orientation of a leaf or fruit on a segment.
 struct Place {
     /// 0 at the lower end, 1 at the upper one.
     along: f64,

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! How far and how fast trees sway, at one moment.
+//! Extent of sway of all trees at one moment: largest displacement and speed.
 
 use glam::{DQuat, DVec3, Quat, Vec3};
 

@@ -29,7 +29,7 @@ const BATCH_SEGMENTS: usize = 4096;
 pub struct Seedling {
     /// Its shape.
     pub skeleton: Arc<Skeleton>,
-    /// What it is made of and bears.
+    /// Its wood and foliage.
     pub kind: TreeKind,
     /// One of its leaves.
     pub leaf: LeafFacts,
@@ -39,7 +39,7 @@ pub struct Seedling {
     pub leaf_slots: u32,
 }
 
-/// A tree where it stands.
+/// A tree at its place.
 #[derive(Clone, Debug)]
 pub struct Planted {
     /// Its shape, in its own frame.
@@ -50,7 +50,7 @@ pub struct Planted {
     pub rows: Vec<u32>,
     /// Its leaf slots.
     pub slots: Range<u32>,
-    /// What it comes to.
+    /// Its totals.
     pub facts: TreeFacts,
 }
 
@@ -99,7 +99,7 @@ impl Forest {
         self.segments.len()
     }
 
-    /// Whether there are no trees.
+    /// Returns true if there are no trees.
     pub fn is_empty(&self) -> bool {
         self.segments.is_empty()
     }

@@ -73,7 +73,7 @@ fn thinned(attachments: &[Attachment], most: u32) -> Vec<Attachment> {
     (0..most).map(|index| attachments[index * count / most]).collect()
 }
 
-/// The skeleton as if it had grown, with leaves on the segments that bear no others.
+/// The skeleton as if it had grown, with leaves on the segments without children.
 fn tips(skeleton: &Skeleton) -> (Vec<Grown>, Vec<Shoot>) {
     let mut is_tip = vec![true; skeleton.segments.len()];
     for parent in skeleton.segments.iter().filter_map(|segment| segment.parent) {

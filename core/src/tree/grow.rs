@@ -26,7 +26,7 @@ pub enum TreeError {
     Grammar {
         /// Name of the kind.
         kind: String,
-        /// What is wrong.
+        /// Fault.
         source: GrammarError,
     },
     /// The grammar leads to a tree that no other part of the engine could use.
@@ -36,7 +36,7 @@ pub enum TreeError {
         kind: String,
         /// Number of the tree.
         number: u32,
-        /// What is wrong.
+        /// Fault.
         source: SkeletonError,
     },
     /// A kind that is a file, though glTF files cannot be read in this build.
@@ -53,7 +53,7 @@ pub enum TreeError {
     File {
         /// Name of the kind.
         kind: String,
-        /// What is wrong.
+        /// Fault.
         source: Box<GltfError>,
     },
     /// A kind that is a file of a tree without height, of which a height was asked.
@@ -110,7 +110,7 @@ fn turn(skeleton: &mut Skeleton, heading_deg: f32) {
 /// Number of segments of a tree by this grammar, without growing all of it.
 ///
 /// # Errors
-/// What is wrong with the grammar, or past a limit.
+/// Fault of the grammar, or limit exceeded.
 pub(crate) fn segments_of(grammar: &Grammar, tree: &Tree, seed: u64) -> Result<usize, GrammarError> {
     let (shoots, scale) = shoots(grammar, tree, seed)?;
     Ok(growth::present(&shoots, scale, tree.age.into()).into_iter().filter(|&present| present).count())

@@ -55,7 +55,7 @@ pub(crate) fn full_height(shoots: &[Shoot]) -> f64 {
     tops.into_iter().fold(0.0, f64::max)
 }
 
-/// Whether each shoot is there at an age; `scale` is in metres per unit.
+/// For each shoot, whether it is there at an age; `scale` is in metres per unit.
 pub(crate) fn present(shoots: &[Shoot], scale: f64, age: f64) -> Vec<bool> {
     let mut present: Vec<bool> = Vec::with_capacity(shoots.len());
     for shoot in shoots {

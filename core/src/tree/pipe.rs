@@ -3,7 +3,7 @@
 //! Radii by the pipe model: pipes lead from the foot to every leaf, so what leaves a joint upwards is what comes from
 //! below, `r_p^n = Σ r_c^n`.
 //!
-//! Pipes also begin along a segment, for the leaves that it bears or bore itself: it tapers by them. A tip ends with
+//! Pipes also begin along a segment, for the leaves that it has or had itself: it tapers by them. A tip ends with
 //! `TIP_TAPER` of the radius at its base. The factor from the number of pipes to metres is chosen so that the
 //! full-grown trunk has the grammar's girth.
 //!

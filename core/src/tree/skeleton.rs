@@ -10,7 +10,7 @@ use thiserror::Error;
 
 /// Most segments that one tree may have.
 pub const MAX_SEGMENTS: usize = 65_536;
-/// Most leaves and fruit that one tree may bear.
+/// Most leaves and fruit that one tree may have.
 pub const MAX_ATTACHMENTS: usize = 1 << 20;
 /// Shortest segment in metres.
 pub const MIN_LENGTH_M: f32 = 1e-4;
@@ -44,7 +44,7 @@ impl Segment {
     }
 }
 
-/// What grows at an attachment.
+/// Organ at an attachment.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Bearing {
     /// A leaf.
@@ -56,9 +56,9 @@ pub enum Bearing {
 /// A place where a leaf or a fruit grows.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Attachment {
-    /// The segment that bears it.
+    /// Segment that it grows on.
     pub segment: u32,
-    /// What it bears.
+    /// Organ that grows there.
     pub bearing: Bearing,
     /// Base of the petiole in metres, on the bark.
     pub at_m: Vec3,
@@ -101,7 +101,7 @@ pub enum SkeletonError {
     Parent {
         /// Index of the segment.
         segment: usize,
-        /// What it names as its parent.
+        /// Parent that it names.
         parent: String,
     },
     /// A segment whose ends are too close together, or not numbers.
@@ -125,7 +125,7 @@ pub enum SkeletonError {
     Attachment {
         /// Index of the attachment.
         attachment: usize,
-        /// What is wrong with it.
+        /// Fault.
         reason: String,
     },
 }

@@ -17,11 +17,11 @@ const COLLAR_REACH: f32 = 0.9;
 const FLARE: f32 = 0.55;
 /// Radii of a trunk without and with the whole flare, in metres.
 const FLARE_RADII_M: [f32; 2] = [0.01, 0.1];
-/// How deep the foot goes into the ground, in radii.
+/// Depth of the foot below the ground, in radii.
 const SUNK: f32 = 0.3;
 /// Cosine of the weakest bend that is rounded.
 const ROUNDED_BEND: f32 = 0.99;
-/// How far before and after a joint its bend is rounded, in radii. The middle of the limb leaves the joint by less than
+/// Distance before and after a joint over which its bend is rounded, in radii. The middle of the limb leaves the joint by less than
 /// a radius then, so leaves still touch the bark.
 const ROUNDING: f32 = 4.0;
 
@@ -31,7 +31,7 @@ pub(super) struct Piece {
     segment: u32,
     from_m: Vec3,
     pub(super) direction: Vec3,
-    /// Where it begins, along the course.
+    /// Distance along the limb at which it begins.
     pub(super) begin_m: f32,
     length_m: f32,
 }
@@ -47,7 +47,7 @@ pub(super) struct Path {
     pub(super) root: Root,
 }
 
-/// What a limb grows from.
+/// Base that a limb grows from.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Root {
     /// The ground: height of the ground along the course, share of the flare.
@@ -259,7 +259,7 @@ impl Path {
         (joints, weights)
     }
 
-    /// How far a length is across the joint at the begin of a piece, from 0 to 1.
+    /// Progress from 0 to 1 of a length across the joint at the beginning of a piece.
     fn crossed(&self, joint: usize, at_m: f32) -> f32 {
         let half_m = 0.5 * self.pieces[joint - 1].length_m.min(self.pieces[joint].length_m);
         smooth(0.5 + 0.5 * (at_m - self.pieces[joint].begin_m) / half_m.max(f32::MIN_POSITIVE))

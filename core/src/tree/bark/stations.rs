@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Where along a limb its skin has rings.
+//! Positions along a limb of the rings of its skin.
 
 use super::BarkDetail;
 use super::path::{Path, Root};
@@ -9,7 +9,7 @@ use super::path::{Path, Root};
 const SHARP_BEND: f32 = 0.93;
 
 impl Path {
-    /// Where rings go: the base, the tip, the joints, and what shows flare, collar and bends.
+    /// Positions of rings: at the base, the tip and the joints, and where flare, collar and bends need them.
     pub(super) fn stations(&self, detail: BarkDetail) -> Vec<f32> {
         let end_m = self.length_m();
         let mut wanted = Vec::new();

@@ -35,9 +35,9 @@ macro_rules! commands {
 commands! {
     /// A segment: length, pipes of its own.
     Forward = "F", 0, 2;
-    /// The last segment bears leaves: how many of them for its length.
+    /// Leaves of the last segment: number per length.
     Leaves = "L", 0, 1;
-    /// The last segment bears fruit at its end: number.
+    /// Fruit at the end of the last segment: number.
     Fruit = "K", 0, 1;
     /// Segments bend: strength, and a direction other than up.
     Tropism = "T", 1, 4;
@@ -64,7 +64,7 @@ commands! {
 }
 
 impl Command {
-    /// Whether it is written as a word, and so may be rewritten by a rule.
+    /// Returns true if it is written as a word, and so may be rewritten by a rule.
     pub(super) fn is_word(self) -> bool {
         matches!(self, Self::Forward | Self::Leaves | Self::Fruit | Self::Tropism)
     }

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Reads the text of a grammar from left to right and knows line and column.
+//! Reading of a grammar's text from left to right, with line and column.
 
 use super::error::{GrammarError, Position};
 
@@ -16,19 +16,19 @@ impl<'a> Cursor<'a> {
         Self { rest: text, position: Position { line: 1, column: 1 } }
     }
 
-    /// Where the next thing stands, past space and comments.
+    /// Position of the next token, past space and comments.
     pub(super) fn position(&mut self) -> Position {
         self.skip_space();
         self.position
     }
 
-    /// Whether nothing is left.
+    /// Returns true at the end of the text.
     pub(super) fn is_at_end(&mut self) -> bool {
         self.skip_space();
         self.rest.is_empty()
     }
 
-    /// Whether `text` comes next.
+    /// Returns true if `text` comes next.
     pub(super) fn sees(&mut self, text: &str) -> bool {
         self.skip_space();
         self.rest.starts_with(text)
@@ -101,7 +101,7 @@ impl<'a> Cursor<'a> {
         GrammarError::text(at, self.describe(), allowed)
     }
 
-    /// What comes next, for an error.
+    /// Next token, for an error.
     fn describe(&self) -> String {
         let rest = self.rest;
         match rest.chars().next() {

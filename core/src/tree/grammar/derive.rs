@@ -14,7 +14,7 @@ pub const MAX_REWRITTEN: usize = 1 << 22;
 /// A symbol with arguments.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Module {
-    /// Where the text puts it.
+    /// Position in the text.
     pub(crate) at: Position,
     /// Index of the symbol; those of the turtle come first.
     pub(crate) symbol: usize,
@@ -109,7 +109,7 @@ impl Grammar {
     }
 }
 
-/// What takes a module's place, if any rule holds.
+/// Successor of a module, if any rule holds.
 fn choose<'a>(
     rules: &'a [Rule],
     parameters: &[f64],

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What can be wrong with a grammar.
+//! Errors of grammars.
 
 use thiserror::Error;
 
@@ -23,11 +23,11 @@ pub enum GrammarError {
     /// Something in the text is wrong, or turns out to be wrong when a tree grows.
     #[error("line {}, column {}: {found}; allowed: {allowed}", at.line, at.column)]
     Text {
-        /// Where it stands.
+        /// Position in the text.
         at: Position,
-        /// What was found.
+        /// Text found.
         found: String,
-        /// What is allowed.
+        /// Values allowed.
         allowed: String,
     },
     /// The tree grows past a limit.
@@ -37,7 +37,7 @@ pub enum GrammarError {
         step: u32,
         /// Number of steps asked for.
         steps: u32,
-        /// What is counted.
+        /// Name of what is counted.
         what: &'static str,
         /// Count reached.
         reached: usize,
@@ -57,7 +57,7 @@ impl GrammarError {
         Self::Text { at, found: shortened(found.into()), allowed: shortened(allowed.into()) }
     }
 
-    /// What was found, and what is allowed.
+    /// Value found, and values allowed.
     pub fn parts(&self) -> (String, String) {
         let line = self.to_string();
         let (found, allowed) = line.rsplit_once("; allowed: ").expect("every variant says what is allowed");

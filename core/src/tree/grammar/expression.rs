@@ -121,7 +121,7 @@ impl Expression {
         }
     }
 
-    /// The same with its value in place, if that is always the same.
+    /// Expression folded to its value if that is constant.
     ///
     /// # Errors
     /// As [`Self::value`].

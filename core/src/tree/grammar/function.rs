@@ -50,7 +50,7 @@ functions! {
 }
 
 impl Function {
-    /// Whether its value differs from call to call.
+    /// Returns true if its value differs from call to call.
     pub(super) fn is_random(self) -> bool {
         matches!(self, Self::Chance | Self::Rand)
     }

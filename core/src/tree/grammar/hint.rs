@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What a misspelt word of a grammar should have been.
+//! Suggestions for misspelt words of a grammar.
 
 use crate::scene::nearest::nearest;
 

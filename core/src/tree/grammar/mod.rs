@@ -7,7 +7,7 @@
 //! tree's life: what a late step makes is born late (see [`growth`](super::growth)).
 //!
 //! ```text
-//! # A small tree: a stem that bears pairs of twigs, each pair turned by a right angle.
+//! # A small tree: a stem with pairs of twigs, each pair turned by a right angle.
 //! iterations = 8;
 //! height_m = 4;
 //! phyllotaxis = opposite;
@@ -23,7 +23,7 @@
 //!
 //! # Text
 //! Statements end in `;`. Space and line breaks separate words and mean nothing else; `#` begins a comment that ends
-//! with its line. Names are made of letters, digits and `_`, and tell capital from small letters.
+//! with its line. Names are made of letters, digits and `_`, and are case-sensitive.
 //!
 //! - `let NAME = expression;` names a constant for the statements below it. Constants are the same for all trees of a
 //!   kind, so nothing in them is random.
@@ -167,7 +167,7 @@ impl Grammar {
         parse::Parser::new(text).grammar()
     }
 
-    /// What it says about the whole tree.
+    /// Settings of the whole tree.
     pub fn settings(&self) -> &Settings {
         &self.settings
     }

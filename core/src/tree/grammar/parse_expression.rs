@@ -19,7 +19,7 @@ pub(super) struct Names<'a> {
     pub(super) constants: &'a BTreeMap<String, f64>,
     /// Parameters of the rule.
     pub(super) parameters: &'a [String],
-    /// Whether the value may be random; constants are fixed for all trees of a kind.
+    /// True if the value may be random; constants are fixed for all trees of a kind.
     pub(super) may_draw: bool,
 }
 

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What a grammar says about the whole tree.
+//! Settings of a grammar for the whole tree.
 
-/// How leaves follow one another along a twig.
+/// Arrangement of leaves along a twig (phyllotaxis).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Phyllotaxis {
     /// One by one, each turned on by the golden angle of 137.5°.
@@ -22,7 +22,7 @@ impl Phyllotaxis {
 /// Most steps that a grammar may ask for.
 pub const MAX_ITERATIONS: u32 = 64;
 
-/// What a grammar says about the whole tree.
+/// Settings of a grammar for the whole tree.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
     /// Number of rewriting steps.
@@ -39,7 +39,7 @@ pub struct Settings {
     pub leaf_area_m2: f64,
     /// Angle in degrees between twig and leaf.
     pub leaf_angle_deg: f64,
-    /// How leaves follow one another.
+    /// Arrangement of leaves along a twig.
     pub phyllotaxis: Phyllotaxis,
 }
 

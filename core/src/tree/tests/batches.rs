@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! How segments lie in a forest.
+//! Layout of segments in a forest.
 
 use std::sync::Arc;
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What the turtle's symbols mean.
+//! Meaning of the turtle's symbols.
 
 use glam::Vec3;
 

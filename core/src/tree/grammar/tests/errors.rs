@@ -110,7 +110,7 @@ fn errors_in_the_text_name_place_find_and_choice() {
     }
 }
 
-/// What is in order as a text but fails when a tree grows.
+/// Texts without an error that fail when a tree grows.
 #[test]
 fn errors_in_growth_name_place_find_and_choice() {
     for (text, expected) in [
