@@ -10,9 +10,9 @@ use windfall_core::arith::lane::LANES;
 use windfall_core::device::leaf::advance::leaf_advance_plain;
 use windfall_core::leaf::LeavesMut;
 
-use super::eight::advance_eight;
 use super::resolve_events::EventList;
 use crate::simd::Simd;
+use crate::simd::leaf_eight::advance_eight;
 
 /// Steps the leaves of one chunk.
 pub(crate) fn advance(cx: &Context<'_>, leaves: &mut LeavesMut<'_>, simd: Simd) -> EventList {

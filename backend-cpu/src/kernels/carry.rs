@@ -16,8 +16,8 @@ use windfall_core::leaf::LeavesMut;
 use windfall_core::leaf::petiole::SHED_INTERVAL;
 use windfall_core::tree::record::NO_SEGMENT;
 
-use super::carry_block::{LeafBlock, sample_air};
 use crate::simd::branch_block::word;
+use crate::simd::leaf_block::{LeafBlock, sample_air};
 use crate::simd::{Simd, in_packs};
 
 /// Slots of which as many sample the wind in a step as a block has lanes.

@@ -16,8 +16,8 @@ use windfall_core::device::terrain::ground::ground_met;
 use windfall_core::device::wind::sample::wind_at;
 use windfall_core::leaf::LeavesMut;
 
-use super::eight::{bits_of, vector_and_word, with_word};
 use crate::simd::Simd;
+use crate::simd::leaf_eight::{bits_of, vector_and_word, with_word};
 
 /// Steps the bodies of one chunk.
 pub(crate) fn fly(cx: &Context<'_>, leaves: &mut LeavesMut<'_>, simd: Simd) {

@@ -4,8 +4,6 @@
 
 mod advance;
 pub(crate) mod carry;
-mod carry_block;
-mod eight;
 mod fly;
 pub(crate) mod measure;
 mod resolve_events;

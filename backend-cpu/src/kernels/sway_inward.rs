@@ -12,7 +12,9 @@ use windfall_core::arith::{Mat3, Sym3, Vec3};
 use windfall_core::device::tree::sway::inward::{
     articulated_add, articulated_shift, joint_response, joint_spring, velocity_products,
 };
-use windfall_core::device::tree::sway::load::{load_trace, segment_air, segment_axis, segment_body, segment_load};
+use windfall_core::device::tree::sway::load::{
+    load_trace, segment_air, segment_axis, segment_body, segment_load,
+};
 use windfall_core::device::tree::sway::row::{Rows, row_inward};
 use windfall_core::device::tree::sway::twig::twig_response;
 use windfall_core::device::tree::sway::{ArticulatedInertia, Body, TwigResponse};

@@ -9,7 +9,9 @@ use windfall_core::arith::Vec3;
 use windfall_core::arith::pack::{BLOCK, Pack};
 use windfall_core::device::tree::sway::Body;
 use windfall_core::device::tree::sway::load::segment_axis;
-use windfall_core::device::tree::sway::outward::{Acceleration, joint_acceleration, joint_step, segment_place};
+use windfall_core::device::tree::sway::outward::{
+    Acceleration, joint_acceleration, joint_step, segment_place,
+};
 use windfall_core::device::tree::sway::row::{Rows, row_outward};
 use windfall_core::device::tree::sway::twig::twig_acceleration;
 

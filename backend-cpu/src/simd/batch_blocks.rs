@@ -11,10 +11,10 @@ use std::ops::Range;
 
 use windfall_core::Context;
 use windfall_core::arith::pack::{BLOCK, Pack, row_of_lane};
-use windfall_core::tree::batch::TreeBatch;
-use windfall_core::tree::record::{SegmentConstants, children_of};
 use windfall_core::device::tree::sway::Constants;
 use windfall_core::device::tree::sway::row::Rows;
+use windfall_core::tree::batch::TreeBatch;
+use windfall_core::tree::record::{SegmentConstants, children_of};
 
 use super::branch_block::word;
 use super::lanes::Lanes;

@@ -7,9 +7,9 @@ use std::ops::Range;
 use windfall_core::arith::lane::Word;
 use windfall_core::arith::pack::{BLOCK, Pack, ROWS_OF_LANES, load_block, row_of_lane, store_block};
 use windfall_core::arith::{Quat, Vec3};
-use windfall_core::tree::BranchesMut;
 use windfall_core::device::tree::sway::row::Rows;
 use windfall_core::device::tree::sway::{Body, Joint};
+use windfall_core::tree::BranchesMut;
 
 /// One record of all rows of a block.
 pub(crate) type Column = [[f32; 4]; BLOCK];

@@ -5,6 +5,8 @@
 pub(crate) mod batch_blocks;
 pub(crate) mod branch_block;
 pub(crate) mod lanes;
+pub(crate) mod leaf_block;
+pub(crate) mod leaf_eight;
 pub(crate) mod sway_scratch;
 
 use fearless_simd::Level;

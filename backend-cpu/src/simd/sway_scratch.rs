@@ -6,9 +6,9 @@
 use bytemuck::{Pod, Zeroable, must_cast_slice};
 use windfall_core::arith::pack::{BLOCK, Pack};
 use windfall_core::arith::{Mat3, Sym3, Vec3};
-use windfall_core::tree::record::Work;
 use windfall_core::device::tree::sway::outward::Acceleration;
 use windfall_core::device::tree::sway::{ArticulatedInertia, JointResponse, TwigResponse};
+use windfall_core::tree::record::Work;
 
 use super::branch_block::{Column, Spare, store_vector, vector_and_fourth};
 use super::lanes::Lanes;

@@ -16,27 +16,27 @@ use windfall_core::leaf::{Attitude, Drift, Place, Schedule};
 
 /// Columns of records of three floats and a word: the vector and the word.
 #[inline(always)]
-pub(super) fn vector_and_word<S: Simd>([x, y, z, word]: [u32x8<S>; 4]) -> (Vec3<f32x8<S>>, u32x8<S>) {
+pub(crate) fn vector_and_word<S: Simd>([x, y, z, word]: [u32x8<S>; 4]) -> (Vec3<f32x8<S>>, u32x8<S>) {
     (Vec3::new(Real::from_bits(x), Real::from_bits(y), Real::from_bits(z)), word)
 }
 
 /// The reverse of [`vector_and_word`].
 #[inline(always)]
-pub(super) fn with_word<S: Simd>(v: Vec3<f32x8<S>>, word: u32x8<S>) -> [u32x8<S>; 4] {
+pub(crate) fn with_word<S: Simd>(v: Vec3<f32x8<S>>, word: u32x8<S>) -> [u32x8<S>; 4] {
     [Real::to_bits(v.x), Real::to_bits(v.y), Real::to_bits(v.z), word]
 }
 
 /// A bit for each lane.
 #[expect(clippy::cast_possible_truncation, reason = "eight lanes")]
 #[inline(always)]
-pub(super) fn bits_of<S: Simd>(mask: mask32x8<S>) -> u8 {
+pub(crate) fn bits_of<S: Simd>(mask: mask32x8<S>) -> u8 {
     mask.to_bitmask() as u8
 }
 
 /// Steps those of eight leaves that fall without an event and do not land. Returns a bit for each of the others that needs
 /// a step of its own.
 #[inline(always)]
-pub(super) fn advance_eight<S: Simd>(
+pub(crate) fn advance_eight<S: Simd>(
     simd: S,
     cx: &Context<'_>,
     place: &mut [Place; LANES],

@@ -18,16 +18,16 @@ use windfall_core::device::tree::sway::row::Rows;
 use windfall_core::leaf::petiole::{PETIOLE_ROWS, SHED_INTERVAL};
 use windfall_core::leaf::{Attitude, Drift, LeavesMut, Place, Schedule};
 
-use crate::simd::branch_block::{Column, bodies_of, store_vector, vector_and_fourth, word};
+use super::branch_block::{Column, bodies_of, store_vector, vector_and_fourth, word};
 
 /// Slots that follow one another.
-pub(super) struct LeafBlock<'a> {
+pub(crate) struct LeafBlock<'a> {
     /// The first of them.
-    pub(super) first: u32,
-    pub(super) place: &'a mut [Place; BLOCK],
-    pub(super) drift: &'a mut [Drift; BLOCK],
-    pub(super) attitude: &'a mut [Attitude; BLOCK],
-    pub(super) schedule: &'a mut [Schedule; BLOCK],
+    pub(crate) first: u32,
+    pub(crate) place: &'a mut [Place; BLOCK],
+    pub(crate) drift: &'a mut [Drift; BLOCK],
+    pub(crate) attitude: &'a mut [Attitude; BLOCK],
+    pub(crate) schedule: &'a mut [Schedule; BLOCK],
 }
 
 /// Petioles of slots, and the rows of their segments, counted from the batch's first.
@@ -65,7 +65,7 @@ fn air_speed_of<P: Pack>(simd: P::Simd, hangs: P::Mask, phase: P::Word) -> P {
 /// Samples the wind at petioles of a group, of slots as far apart as those that do so in the same step: part of as many as
 /// a block has lanes.
 #[inline(always)]
-pub(super) fn sample_air<P: Pack>(
+pub(crate) fn sample_air<P: Pack>(
     simd: P::Simd,
     cx: &Context<'_>,
     rows: &mut Rows<'_>,
@@ -120,7 +120,7 @@ fn floats<P: Pack>(pack: P) -> [f32; BLOCK] {
 impl LeafBlock<'_> {
     /// Moves those that hang.
     #[inline(always)]
-    pub(super) fn follow<P: Pack>(&mut self, simd: P::Simd, cx: &Context<'_>, rows: &Rows<'_>) {
+    pub(crate) fn follow<P: Pack>(&mut self, simd: P::Simd, cx: &Context<'_>, rows: &Rows<'_>) {
         let mut some_break = false;
         for part in 0..BLOCK / P::LANES {
             some_break |= self.follow_part::<P>(simd, cx, rows, part);
