@@ -44,13 +44,14 @@
 //!
 //! ```no_run
 //! use windfall::backend::BackendArguments;
+//! use windfall::cancel::Cancel;
 //! use windfall::drawing::Drawing;
 //! use windfall::studio::Studio;
 //! use windfall_core::Scene;
 //!
 //! let scene = Scene::load("storm")?;
 //! let drawing = Drawing::without_window(&BackendArguments::default())?;
-//! let mut studio = Studio::new(&scene, drawing, (1280, 720))?;
+//! let mut studio = Studio::new(&scene, drawing, (1280, 720), &Cancel::default())?;
 //! studio.advance(120)?;
 //! studio.draw(f64::INFINITY)?.save("storm.png")?;
 //! # Ok::<(), Box<dyn std::error::Error>>(())
@@ -77,4 +78,4 @@ mod run;
 mod study;
 mod view;
 
-pub use run::{backend, drawing, studio};
+pub use run::{backend, cancel, drawing, studio};

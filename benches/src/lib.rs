@@ -24,27 +24,8 @@ pub const FALLING_STEPS: u32 = 2000;
 /// # Panics
 /// If there is no such preset, or it has more sources than leaves are asked for.
 pub fn scaled(preset: &str, leaves: u32) -> Scene {
-    let mut scene = Scene::preset(preset).expect("benches use presets only");
-    let share = f64::from(leaves) / f64::from(scene.leaf_count());
-    let mut left = leaves;
-    let last = scene.sources.len() - 1;
-    for (index, source) in scene.sources.iter_mut().enumerate() {
-        #[expect(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "at most the leaves asked for"
-        )]
-        let count = if index == last { left } else { (f64::from(source.count) * share) as u32 };
-        if let Release::Rate { per_s, .. } = &mut source.release {
-            #[expect(clippy::cast_possible_truncation, reason = "scenes hold single precision")]
-            let rate = (f64::from(*per_s) * f64::from(count) / f64::from(source.count)) as f32;
-            *per_s = rate;
-        }
-        source.count = count;
-        left -= count;
-    }
-    assert_eq!(scene.leaf_count(), leaves, "no leaf lost");
-    scene
+    let scene = Scene::preset(preset).expect("benches use presets only");
+    scene.with_leaf_count(preset, leaves).expect("at least one leaf for each source")
 }
 
 /// `million` with all leaves let go at once from high above, never to be released again: all of them fall.

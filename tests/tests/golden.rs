@@ -11,6 +11,7 @@ use std::path::{Path, PathBuf};
 use image::{Rgba, RgbaImage, imageops};
 use ssimulacra2::{ColorPrimaries, Rgb, TransferCharacteristic, compute_frame_ssimulacra2};
 use windfall::backend::{BackendArguments, BackendKind};
+use windfall::cancel::Cancel;
 use windfall::drawing::Drawing;
 use windfall::studio::Studio;
 use windfall_core::Scene;
@@ -69,7 +70,8 @@ impl Case {
         let arguments = BackendArguments { backend, adapter, ..BackendArguments::default() };
         let drawing = Drawing::without_window(&arguments)
             .expect("Mesa's software Vulkan: install mesa-vulkan-drivers; scripts/test does");
-        let mut studio = Studio::new(&scene, drawing, SIZE).expect("a preset can be drawn");
+        let mut studio =
+            Studio::new(&scene, drawing, SIZE, &Cancel::default()).expect("a preset can be drawn");
         studio.advance(self.steps).expect("the cpu simulates");
         studio.draw(f64::INFINITY).expect("a picture")
     }

@@ -3,20 +3,20 @@
 //! `windfall export`: a scene's motion for other programs.
 
 use std::path::PathBuf;
-use std::time::Duration;
 
 use anyhow::{Context, bail};
 use clap::Args;
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use windfall_core::{Simulator, World};
 use windfall_render::trees::SceneTrees;
 
 use crate::export::{self, Estimate, Format, FrameRange, Job, Observer, check_space};
 use crate::run::backend::{Backend, BackendArguments};
+use crate::run::cancel::Cancel;
 use crate::run::frame_steps::{FrameSteps, LoopFrames};
-use crate::run::interrupt;
+use crate::run::looped::build_cycle;
 use crate::run::parse::frame_rate;
 use crate::run::parse::loop_length;
+use crate::run::progress;
 use crate::run::scene_arguments::SceneArguments;
 use crate::run::stepping::Stepping;
 use crate::run::terminal;
@@ -58,7 +58,7 @@ pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let format = Format::of(arguments.format, &arguments.out)?;
     let scene = arguments.scene.load()?;
     let path = arguments.out.as_path();
-    interrupt::listen();
+    let cancel = Cancel::on_interrupt();
     let fit = |frames: FrameRange| {
         let leaves = scene.leaf_count();
         check_space(Estimate::new(format, frames, leaves, path), frames, leaves, path)
@@ -75,7 +75,7 @@ pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
             (World::build(&scene)?, frames, Steps::Clip(steps), note)
         }
         Some(seconds) => {
-            let (world, cycle) = World::build_cycle(&scene, arguments.scene.name(), seconds)?;
+            let (world, cycle) = build_cycle(&scene, arguments.scene.name(), seconds)?;
             let round = LoopFrames::new(&cycle, arguments.fps, scene.dt_s);
             let frames = FrameRange { first: 0, last: round.count() };
             let note = fit(frames)?;
@@ -87,18 +87,18 @@ pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let mut backend = choice.device.simulator(&world)?;
     let stand = SceneTrees::of(&scene, world.environment.forest());
     let mut observer = Observer::default();
-    let job = Job { scene: &scene, stand: &stand, path, frames, fps: arguments.fps };
+    let job = Job { scene: &scene, stand: &stand, path, frames, fps: arguments.fps, cancel: &cancel };
     let mut exporter = export::start(format, &job)?;
     for line in [choice.reason, note].into_iter().flatten() {
         terminal::note(&line);
     }
-    let bar = progress_bar(frames.count());
-    let mut clip = Clip { backend: &mut backend, stepping: Stepping::default(), step: 0 };
+    let bar = progress::bar(frames.count().into(), "frame");
+    let mut clip = Clip { cancel: &cancel, backend: &mut backend, stepping: Stepping::default(), step: 0 };
     for number in frames.first..=frames.last {
         clip.advance(steps.before(number))?;
         clip.backend.read_state(&mut world)?;
         exporter.push(&observer.look(&world, number))?;
-        interrupt::check()?;
+        cancel.check()?;
         bar.inc(1);
     }
     bar.finish_and_clear();
@@ -127,6 +127,7 @@ impl Steps {
 
 /// A simulation that goes on from frame to frame.
 struct Clip<'a> {
+    cancel: &'a Cancel,
     backend: &'a mut Backend,
     stepping: Stepping,
     step: u64,
@@ -136,7 +137,7 @@ impl Clip<'_> {
     /// Simulates until `step` steps are done, or the user asks to end.
     fn advance(&mut self, step: u64) -> anyhow::Result<()> {
         while self.step < step {
-            interrupt::check()?;
+            self.cancel.check()?;
             let left = u32::try_from(step - self.step).unwrap_or(u32::MAX);
             let batch = self.stepping.batch().min(left);
             self.stepping.run(self.backend, batch)?;
@@ -144,14 +145,4 @@ impl Clip<'_> {
         }
         Ok(())
     }
-}
-
-/// A bar on the standard error, if that is a terminal.
-fn progress_bar(frames: u32) -> ProgressBar {
-    let bar = ProgressBar::with_draw_target(Some(frames.into()), ProgressDrawTarget::stderr());
-    if let Ok(style) = ProgressStyle::with_template("{bar:40} frame {pos} of {len}, {eta} left") {
-        bar.set_style(style);
-    }
-    bar.enable_steady_tick(Duration::from_millis(200));
-    bar
 }

@@ -3,8 +3,7 @@
 //! `windfall motions`: the motion tables of a scene, to be looked at, changed and named in a scene again.
 
 use std::fs;
-use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use anyhow::anyhow;
 use clap::Args;
@@ -12,7 +11,7 @@ use windfall_core::motion::MotionTables;
 use windfall_core::scene::Species;
 use windfall_core::{Scene, SceneError};
 
-use crate::files::{OutputFile, write_error};
+use crate::files::{OutputFolder, WriteError};
 use crate::run::scene_arguments::DEFAULT_SCENE;
 use crate::run::terminal;
 
@@ -41,31 +40,16 @@ pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
         .map(|species| tables(species, scene.seed).map(|tables| tables.to_text()))
         .collect::<Result<_, _>>()?;
 
-    let is_new = !arguments.out.exists();
-    let written = write_all(&scene, &texts, &arguments.out);
-    if is_new && written.is_err() {
-        // Removes the folder only if it is empty; that it was never made is no other error.
-        let _ = fs::remove_dir(&arguments.out);
-    }
-    terminal::print(&written?)
-}
-
-/// Writes all files and returns their paths, a line each.
-fn write_all(scene: &Scene, texts: &[String], folder: &Path) -> anyhow::Result<String> {
-    fs::create_dir_all(folder).map_err(|error| write_error(folder, &error))?;
-    let mut files = Vec::with_capacity(texts.len());
-    for (species, text) in scene.species.iter().zip(texts) {
-        let path = folder.join(format!("{}.motions", species.name));
-        let mut file = OutputFile::create(&path)?;
-        file.write_all(text.as_bytes()).map_err(|error| write_error(&path, &error))?;
-        files.push((path, file));
-    }
+    let folder = OutputFolder::create(&arguments.out)?;
     let mut lines = String::new();
-    for (path, file) in files {
-        file.finish()?;
-        lines += &format!("{}\n", path.display());
+    for (species, text) in scene.species.iter().zip(texts) {
+        let name = format!("{}.motions", species.name);
+        let path = folder.partial().join(&name);
+        fs::write(path, text).map_err(WriteError::at(folder.destination()))?;
+        lines += &format!("{}\n", folder.destination().join(name).display());
     }
-    Ok(lines)
+    folder.finish("")?;
+    terminal::print(&lines)
 }
 
 /// Species become names of files, on systems that do not tell large letters from small ones too.

@@ -3,20 +3,20 @@
 //! `windfall render`: pictures and clips without a window.
 
 use std::path::PathBuf;
-use std::time::Duration;
 
 use anyhow::bail;
 use clap::Args;
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use windfall_core::{Scene, World};
 
 use crate::output::{Output, Writer};
 use crate::run::backend::BackendArguments;
+use crate::run::cancel::Cancel;
 use crate::run::drawing::Drawing;
 use crate::run::frame_steps::{FrameSteps, LoopFrames};
-use crate::run::interrupt;
+use crate::run::looped::build_cycle;
 use crate::run::parse::whole;
 use crate::run::parse::{frame_rate, loop_length, picture_size, within};
+use crate::run::progress::{self, making_leaves};
 use crate::run::scene_arguments::SceneArguments;
 use crate::run::sky_arguments::SkyArguments;
 use crate::run::studio::Studio;
@@ -83,13 +83,23 @@ pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
     if last > MAX_STEPS {
         bail!("--frames, --fps and --speed ask for {last} steps; allowed: at most {MAX_STEPS}");
     }
-    interrupt::listen();
+    let cancel = Cancel::on_interrupt();
     let mut writer = output.start(size, arguments.fps)?;
-    let drawing = Drawing::without_window(&arguments.backend)?;
-    let mut studio = Studio::new(&scene, drawing, size)?;
-    film(&mut studio, &mut writer, steps, frames, arguments.fps)?;
+    let mut studio = studio(arguments, &World::build(&scene)?, size, &cancel)?;
+    film(&mut studio, &mut writer, steps, frames, arguments.fps, &cancel)?;
     let path = writer.finish()?;
     terminal::print(&format!("{}\n", path.display()))
+}
+
+/// A studio for a world, on the devices of the options.
+fn studio(arguments: &Arguments, world: &World, size: (u32, u32), cancel: &Cancel) -> anyhow::Result<Studio> {
+    let mut drawing = Drawing::without_window(&arguments.backend)?;
+    let reason = drawing.reason.take();
+    let studio = Studio::of_world(world, drawing, size, cancel, &making_leaves())?;
+    if let Some(reason) = reason {
+        terminal::note(&reason);
+    }
+    Ok(studio)
 }
 
 /// Draws one round of a scene that repeats.
@@ -101,15 +111,14 @@ fn render_loop(
     seconds: f64,
 ) -> anyhow::Result<()> {
     let rate = arguments.fps / arguments.speed;
-    interrupt::listen();
-    let (world, cycle) = World::build_cycle(scene, arguments.scene.name(), seconds)?;
+    let cancel = Cancel::on_interrupt();
+    let (world, cycle) = build_cycle(scene, arguments.scene.name(), seconds)?;
     let round = LoopFrames::new(&cycle, rate, scene.dt_s);
     let mut writer = output.start(size, arguments.fps)?;
-    let drawing = Drawing::without_window(&arguments.backend)?;
-    let mut studio = Studio::of_world(world.environment.scene(), &world, drawing, size)?;
+    let mut studio = studio(arguments, &world, size, &cancel)?;
     let dt_s = studio.dt_s();
     studio.repeat(f64::from(cycle.run_in) * dt_s, f64::from(cycle.steps) * dt_s);
-    let bar = progress_bar(round.count());
+    let bar = progress::bar(round.count().into(), "frame");
     // A metered exposure has long settled when a round begins.
     for number in (1..=studio.remembered_frames(rate).max(SETTLING_FRAMES)).rev() {
         studio.advance(round.step_before(number))?;
@@ -124,7 +133,7 @@ fn render_loop(
         if writer.wants(number, round.count()) {
             let since = 1.0 / arguments.fps;
             let picture = studio.draw(since);
-            interrupt::check()?;
+            cancel.check()?;
             writer.push(&picture?)?;
         } else {
             writer.skip();
@@ -143,9 +152,10 @@ fn film(
     steps: FrameSteps,
     frames: u32,
     fps: f64,
+    cancel: &Cancel,
 ) -> anyhow::Result<()> {
     let mut drawn = None;
-    let bar = progress_bar(frames);
+    let bar = progress::bar(frames.into(), "frame");
     let dt_s = studio.dt_s();
     let end = steps.before(frames - 1);
     for number in 0..frames {
@@ -154,7 +164,7 @@ fn film(
             let since = drawn.map_or(f64::INFINITY, |drawn| f64::from(number - drawn) / fps);
             drawn = Some(number);
             let picture = studio.draw(since);
-            interrupt::check()?;
+            cancel.check()?;
             writer.push(&picture?)?;
         } else {
             writer.skip();
@@ -171,14 +181,4 @@ fn film(
 
 fn playback_speed(text: &str) -> Result<f64, String> {
     within(text, 0.001, 1000.0)
-}
-
-/// A bar on the standard error, if that is a terminal.
-fn progress_bar(frames: u32) -> ProgressBar {
-    let bar = ProgressBar::with_draw_target(Some(frames.into()), ProgressDrawTarget::stderr());
-    if let Ok(style) = ProgressStyle::with_template("{bar:40} frame {pos} of {len}, {eta} left") {
-        bar.set_style(style);
-    }
-    bar.enable_steady_tick(Duration::from_millis(200));
-    bar
 }

@@ -5,19 +5,20 @@
 use std::fs;
 use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
-use std::time::Duration;
 
 use anyhow::{anyhow, bail};
 use clap::Args;
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use indicatif::ProgressBar;
 use windfall_core::leaf::LEAF_BYTES;
 use windfall_core::{Simulator, World};
 
-use crate::files::{OutputFile, write_error};
+use crate::files::{OutputFile, WriteError};
 use crate::run::backend::{Backend, BackendArguments};
+use crate::run::memory::check_memory;
 use crate::run::parse::whole;
+use crate::run::progress;
 use crate::run::report::Report;
-use crate::run::scene_arguments::{SceneArguments, check_memory};
+use crate::run::scene_arguments::SceneArguments;
 use crate::run::stepping::Stepping;
 use crate::run::swaying::{Swaying, TreeReport};
 use crate::run::terminal;
@@ -73,7 +74,10 @@ pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
     if let Some(reason) = choice.reason {
         terminal::note(&reason);
     }
-    let bar = progress_bar(arguments.steps, arguments.json);
+    let bar = match arguments.json {
+        true => ProgressBar::hidden(),
+        false => progress::bar(arguments.steps.into(), "step"),
+    };
     let (stepping, trees) = simulate(&mut backend, &mut world, arguments.steps, tracks.as_mut(), &bar)?;
     bar.finish_and_clear();
 
@@ -154,20 +158,6 @@ fn read_checkpoint(path: &Path) -> anyhow::Result<World> {
 fn write_checkpoint(world: &World, file: OutputFile) -> anyhow::Result<()> {
     let path = file.destination().to_owned();
     let mut out = BufWriter::new(file);
-    world
-        .write_checkpoint(&mut out)
-        .and_then(|()| out.flush())
-        .map_err(|error| write_error(&path, &error))?;
-    out.into_inner().map_err(|error| write_error(&path, error.error()))?.finish()
-}
-
-/// A bar on the standard error, if that is a terminal.
-fn progress_bar(steps: u32, hidden: bool) -> ProgressBar {
-    let target = if hidden { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() };
-    let bar = ProgressBar::with_draw_target(Some(steps.into()), target);
-    if let Ok(style) = ProgressStyle::with_template("{bar:40} step {pos} of {len}, {eta} left") {
-        bar.set_style(style);
-    }
-    bar.enable_steady_tick(Duration::from_millis(200));
-    bar
+    world.write_checkpoint(&mut out).and_then(|()| out.flush()).map_err(WriteError::at(&path))?;
+    Ok(out.into_inner().map_err(|error| WriteError::at(&path)(error.into_error()))?.finish()?)
 }

@@ -9,17 +9,18 @@ use std::thread;
 
 use anyhow::{anyhow, bail};
 use clap::Args;
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use windfall_core::Contract;
 use windfall_cpu::CpuOptions;
 
 use crate::leaves::load_scene;
 use crate::plot::study::draw;
 use crate::run::backend::{BackendArguments, Device};
-use crate::run::interrupt;
+use crate::run::cancel::Cancel;
+use crate::run::memory::check_memory;
 use crate::run::parse::whole;
 use crate::run::parse::within;
-use crate::run::scene_arguments::{DEFAULT_SCENE, check_memory};
+use crate::run::progress;
+use crate::run::scene_arguments::DEFAULT_SCENE;
 use crate::run::terminal;
 use crate::study::drops::DropOptions;
 use crate::study::{Point, StudyFolder, Summary, Variation, points_of};
@@ -90,11 +91,11 @@ pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
         Device::Cpu(_) => Contract::Exact,
         Device::Wgpu(gpu) => gpu.contract(),
     };
-    interrupt::listen();
+    let cancel = Cancel::on_interrupt();
     let folder = StudyFolder::open(&arguments.out, &scene, &arguments.vary, &options, contract)?;
-    let summaries = work(&folder, &points, &device, &options)?;
+    let summaries = work(&folder, &points, &device, &options, &cancel)?;
     folder.write_summary(&arguments.vary, &points, &summaries)?;
-    draw(&folder, name, &scene, &arguments.vary, &points, &summaries)?;
+    draw(&folder, name, &scene, &arguments.vary, &points, &summaries, &cancel)?;
     let aloft: u64 = summaries.iter().map(|summary| u64::from(summary.drops - summary.landed)).sum();
     if aloft > 0 {
         let drops: u64 = summaries.iter().map(|summary| u64::from(summary.drops)).sum();
@@ -109,6 +110,7 @@ fn work(
     points: &[Point],
     device: &Device,
     options: &DropOptions,
+    cancel: &Cancel,
 ) -> anyhow::Result<Vec<Summary>> {
     let (workers, device) = match device {
         Device::Cpu(cpu) => {
@@ -118,13 +120,13 @@ fn work(
         }
         Device::Wgpu(gpu) => (1, Device::Wgpu(gpu.clone())),
     };
-    let bar = progress_bar(points.len());
+    let bar = progress::bar(points.len() as u64, "point");
     let (next, failed) = (AtomicUsize::new(0), AtomicBool::new(false));
     let summaries: Mutex<Vec<Option<Summary>>> = Mutex::new(vec![None; points.len()]);
     let point = |number: usize| -> anyhow::Result<()> {
         let summary = match folder.read(number)? {
             Some(summary) => summary,
-            None => folder.run(number, &points[number], &device, options)?,
+            None => folder.run(number, &points[number], &device, options, cancel)?,
         };
         if let Ok(mut summaries) = summaries.lock() {
             summaries[number] = Some(summary);
@@ -151,19 +153,10 @@ fn work(
     });
     bar.finish_and_clear();
     let summaries = summaries.into_inner().map_err(|_| anyhow!("a thread of the study ended early"))?;
-    if interrupt::check().is_err() {
+    if cancel.check().is_err() {
         let kept = summaries.iter().flatten().count();
         bail!("interrupted; {kept} of {} points are kept in {}", points.len(), folder.path().display());
     }
     outcome?;
     Ok(summaries.into_iter().flatten().collect())
-}
-
-/// A bar on the standard error, if that is a terminal.
-fn progress_bar(points: usize) -> ProgressBar {
-    let bar = ProgressBar::with_draw_target(Some(points as u64), ProgressDrawTarget::stderr());
-    if let Ok(style) = ProgressStyle::with_template("{bar:40} point {pos} of {len}, {eta} left") {
-        bar.set_style(style);
-    }
-    bar
 }

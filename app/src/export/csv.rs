@@ -2,18 +2,36 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A table of comma-separated values: a row for every leaf of every frame.
 
-use std::fmt::Write as _;
-use std::io::{self, BufWriter, Write};
+use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use windfall_core::leaf::LeafState;
 
 use super::frame::state_name;
 use super::{Exporter, Frame, FrameLeaf};
-use crate::files::{OutputFile, write_error};
+use crate::files::{CsvFile, WriteError};
 
-const HEADER: &str =
-    "frame,step,time_s,leaf,id,state,primitive,species,x_m,y_m,z_m,vx_m_s,vy_m_s,vz_m_s,qx,qy,qz,qw,size_m\n";
+const HEADER: [&str; 19] = [
+    "frame",
+    "step",
+    "time_s",
+    "leaf",
+    "id",
+    "state",
+    "primitive",
+    "species",
+    "x_m",
+    "y_m",
+    "z_m",
+    "vx_m_s",
+    "vy_m_s",
+    "vz_m_s",
+    "qx",
+    "qy",
+    "qz",
+    "qw",
+    "size_m",
+];
 
 /// Bytes of a row, about.
 pub(super) const ROW_BYTES: u64 = 170;
@@ -21,81 +39,63 @@ pub(super) const ROW_BYTES: u64 = 170;
 /// A table in the making.
 #[derive(Debug)]
 pub(super) struct CsvExport {
-    out: BufWriter<OutputFile>,
-    row: String,
+    table: CsvFile,
 }
 
 impl CsvExport {
     /// Begins the table.
     pub(super) fn start(path: &Path) -> anyhow::Result<Self> {
-        let mut out = BufWriter::new(OutputFile::create(path)?);
-        out.write_all(HEADER.as_bytes()).map_err(|error| write_error(path, &error))?;
-        Ok(Self { out, row: String::new() })
-    }
-
-    fn failed(&self, error: &io::Error) -> anyhow::Error {
-        write_error(self.out.get_ref().destination(), error)
+        Ok(Self { table: CsvFile::create(path, &HEADER)? })
     }
 }
 
 impl Exporter for CsvExport {
     fn push(&mut self, frame: &Frame<'_>) -> anyhow::Result<()> {
-        write_frame(&mut self.out, &mut self.row, frame).map_err(|error| self.failed(&error))
+        Ok(write_frame(&mut self.table, frame)?)
     }
 
-    fn finish(mut self: Box<Self>) -> anyhow::Result<PathBuf> {
-        self.out.flush().map_err(|error| self.failed(&error))?;
-        let path = self.out.get_ref().destination().to_owned();
-        self.out.into_inner().map_err(|error| write_error(&path, error.error()))?.finish()?;
+    fn finish(self: Box<Self>) -> anyhow::Result<PathBuf> {
+        let path = self.table.destination().to_owned();
+        self.table.finish()?;
         Ok(path)
     }
 }
 
 /// Writes the rows of a frame.
-fn write_frame(out: &mut impl Write, row: &mut String, frame: &Frame<'_>) -> io::Result<()> {
-    let species: Vec<String> =
-        frame.world.environment.scene().species.iter().map(|species| field(&species.name)).collect();
-    let sizes: Vec<f32> =
-        frame.world.environment.scene().species.iter().map(|species| species.size_m).collect();
-    let moment = format!("{},{},{:.6}", frame.number, frame.world.clock.step(), frame.world.clock.seconds());
+fn write_frame<W: Write>(table: &mut CsvFile<W>, frame: &Frame<'_>) -> Result<(), WriteError> {
+    let species = &frame.world.environment.scene().species;
+    let time_s = format!("{:.6}", frame.world.clock.seconds());
     for leaf in frame.leaves {
-        row.clear();
-        row.push_str(&moment);
-        let name = species.get(leaf.species).map_or("", String::as_str);
-        write_row(row, leaf, name, sizes.get(leaf.species).copied().unwrap_or(0.0));
-        out.write_all(row.as_bytes())?;
+        table.field(frame.number).field(frame.world.clock.step()).field(&time_s);
+        let (name, size_m) =
+            species.get(leaf.species).map_or(("", 0.0), |species| (&*species.name, species.size_m));
+        write_leaf(table, leaf, name, size_m)?;
     }
     Ok(())
 }
 
-/// The rest of a row. A dormant leaf is nowhere yet: nothing but its state is told.
-fn write_row(row: &mut String, leaf: &FrameLeaf, species: &str, species_m: f32) {
-    // Writing to a String cannot fail.
-    let _ = write!(row, ",{},{},{},", leaf.slot, leaf.id, state_name(leaf.state));
+/// Writes the rest of a row. A dormant leaf has no place yet: all fields behind its state are empty.
+fn write_leaf<W: Write>(
+    table: &mut CsvFile<W>,
+    leaf: &FrameLeaf,
+    species: &str,
+    species_m: f32,
+) -> Result<(), WriteError> {
+    table.field(leaf.slot).field(leaf.id).field(state_name(leaf.state));
     if leaf.state == LeafState::Dormant {
-        row.push_str(",,,,,,,,,,,,\n");
-        return;
+        return table.empty(HEADER.len() - 6).end_row();
     }
-    row.push_str(leaf.motion);
-    row.push(',');
-    row.push_str(species);
+    table.field(leaf.motion).field(species);
     for number in leaf.position_m.iter().chain(&leaf.velocity_m_s).chain(&leaf.quaternion) {
-        let _ = write!(row, ",{number}");
+        table.field(number);
     }
-    let _ = writeln!(row, ",{}", leaf.size * species_m);
-}
-
-/// Text as a field of the table: in quotes if it would not stay one otherwise (RFC 4180).
-fn field(text: &str) -> String {
-    if text.contains([',', '"', '\n', '\r']) {
-        format!("\"{}\"", text.replace('"', "\"\""))
-    } else {
-        text.to_owned()
-    }
+    table.field(leaf.size * species_m).end_row()
 }
 
 #[cfg(test)]
 mod tests {
+    use std::io;
+
     use windfall_core::{Scene, World};
 
     use super::*;
@@ -117,20 +117,26 @@ mod tests {
     }
 
     #[test]
-    fn a_full_disk_is_told_by_every_writer() {
+    fn a_full_disk_is_an_error_of_every_writer() {
         let world = World::build(&Scene::default()).expect("a scene");
         let mut observer = Observer::default();
         let frame = observer.look(&world, 0);
-        let full =
-            |result: io::Result<()>| result.map_err(|error| error.kind()) == Err(io::ErrorKind::StorageFull);
+        let table = |room| {
+            let mut table = CsvFile::new(Small(room), Path::new("a.csv"), &HEADER)?;
+            write_frame(&mut table, &frame)?;
+            table.flush()
+        };
         for room in [0, 100, 4000] {
+            let error = table(room).expect_err("too little room").to_string();
             assert!(
-                full(write_frame(&mut Small(room), &mut String::new(), &frame)),
-                "{room} bytes of a table"
+                error.contains(&io::ErrorKind::StorageFull.to_string()),
+                "{room} bytes of a table: {error}"
             );
-            assert!(full(super::super::ply::write_frame(&mut Small(room), &frame)), "{room} bytes of points");
+            let points = super::super::ply::write_frame(&mut Small(room), &frame);
+            let kind = points.expect_err("too little room").kind();
+            assert_eq!(kind, io::ErrorKind::StorageFull, "{room} bytes of points");
         }
-        assert!(write_frame(&mut Small(usize::MAX), &mut String::new(), &frame).is_ok(), "with room");
+        assert!(table(usize::MAX).is_ok(), "with room");
     }
 
     #[test]
@@ -147,12 +153,10 @@ mod tests {
             size: 2.0,
             appearance: 0,
         };
+        let mut table = CsvFile::new(Vec::new(), Path::new("a.csv"), &HEADER).expect("room");
         for state in [LeafState::Dormant, LeafState::Falling] {
-            let mut row = "0,0,0".to_owned();
-            write_row(&mut row, &leaf(state), &field("maple"), 0.5);
-            assert_eq!(row.matches(',').count(), HEADER.matches(',').count(), "{row}");
-            assert_eq!(row.ends_with(",1\n"), state == LeafState::Falling, "size in metres: {row}");
+            table.field(0).field(0).field(0);
+            write_leaf(&mut table, &leaf(state), "maple", 0.5).expect("as long as the header");
         }
-        assert_eq!(field("a \"b\", c"), "\"a \"\"b\"\", c\"", "quoted");
     }
 }

@@ -169,7 +169,7 @@ pub(super) mod tests {
         scene.trees = vec![Tree { kind: "one".into(), leaves: 500, ..Tree::default() }];
         let world = World::build(&scene).expect("a scene");
         let stand = SceneTrees::of(&scene, world.environment.forest());
-        let atlas = crate::leaves::atlas_of(&scene).expect("pictures");
+        let atlas = crate::leaves::atlas_of(&scene, &|_, _| ()).expect("pictures");
         let foliage = Foliage::new(&scene, &stand, &atlas);
         (scene, stand, foliage)
     }

@@ -30,6 +30,8 @@ pub(crate) use space::{Estimate, check_space};
 use windfall_core::Scene;
 use windfall_render::trees::SceneTrees;
 
+use crate::run::cancel::Cancel;
+
 /// What is to be written.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Job<'a> {
@@ -43,6 +45,8 @@ pub(crate) struct Job<'a> {
     pub frames: FrameRange,
     /// Frames per second.
     pub fps: f64,
+    /// Request to end.
+    pub cancel: &'a Cancel,
 }
 
 /// Takes the frames of one export in their order. Dropped without [`Exporter::finish`], it removes what it wrote.

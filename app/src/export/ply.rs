@@ -3,7 +3,7 @@
 //! A folder of point clouds: a binary little-endian PLY file for every frame, a vertex for every leaf that is somewhere.
 
 use std::fmt::Write as _;
-use std::fs::{self, File};
+use std::fs::File;
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
@@ -11,8 +11,7 @@ use glam::{Quat, Vec3};
 use windfall_core::leaf::LeafState;
 
 use super::{Exporter, Frame, FrameLeaf};
-use crate::files::write_error;
-use crate::output::beside::Beside;
+use crate::files::{OutputFolder, WriteError};
 
 /// Floats of a vertex, in their order.
 const FLOATS: [&str; 14] =
@@ -24,44 +23,32 @@ pub(super) const VERTEX_BYTES: u64 = 4 * FLOATS.len() as u64 + 4 + 1 + 1;
 /// Point clouds in the making.
 #[derive(Debug)]
 pub(super) struct PlyExport {
-    beside: Beside,
-    names: Vec<u32>,
+    folder: OutputFolder,
 }
 
 impl PlyExport {
     /// Begins the folder.
     pub(super) fn start(path: &Path) -> anyhow::Result<Self> {
-        if path.exists() && !path.is_dir() {
-            return Err(write_error(path, &io::ErrorKind::NotADirectory.into()));
-        }
-        Ok(Self { beside: Beside::directory(path)?, names: Vec::new() })
+        Ok(Self { folder: OutputFolder::create(path)? })
     }
 }
 
 impl Exporter for PlyExport {
     fn push(&mut self, frame: &Frame<'_>) -> anyhow::Result<()> {
-        let path = self.beside.partial().join(name(frame.number));
-        self.names.push(frame.number);
+        let path = self.folder.partial().join(name(frame.number));
         let written = File::create(path).and_then(|file| {
             let mut out = BufWriter::new(file);
             write_frame(&mut out, frame)?;
             out.flush()
         });
-        written.map_err(|error| write_error(self.beside.destination(), &error))
+        Ok(written.map_err(WriteError::at(self.folder.destination()))?)
     }
 
     /// Moves the folder into place; into one that is already there, frame by frame. Whatever else lies there stays.
     fn finish(self: Box<Self>) -> anyhow::Result<PathBuf> {
-        let there = self.beside.destination();
-        if there.exists() {
-            for name in self.names.iter().copied().map(name) {
-                fs::rename(self.beside.partial().join(&name), there.join(&name))
-                    .map_err(|error| write_error(there, &error))?;
-            }
-        } else {
-            self.beside.put_in_place()?;
-        }
-        Ok(there.to_owned())
+        let path = self.folder.destination().to_owned();
+        self.folder.finish("")?;
+        Ok(path)
     }
 }
 

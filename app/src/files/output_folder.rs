@@ -4,87 +4,87 @@
 
 use std::ffi::OsString;
 use std::fs;
+use std::io;
 use std::path::{Path, PathBuf};
 
-use anyhow::anyhow;
+use tempfile::TempDir;
 
-use crate::files::write_error;
+use super::WriteError;
+use super::parents::{MadeFolders, parent};
 
 /// A folder in the making. Dropped without [`OutputFolder::finish`], it leaves no trace.
 #[derive(Debug)]
 pub(crate) struct OutputFolder {
     destination: PathBuf,
-    partial: PathBuf,
-    /// Folders above it that had to be made, the outermost first.
-    made: Vec<PathBuf>,
+    partial: TempDir,
+    /// Go after the folder in them.
+    _made: MadeFolders,
 }
 
 impl OutputFolder {
-    /// Begins a folder that will lie at `path`, or whose files will be added to the folder that lies there.
+    /// Begins a folder that will lie at `path`, or whose files will be added to the folder that lies there. Folders above it
+    /// are made.
     ///
     /// # Errors
-    /// Whatever would keep it from lying there, named with the path.
-    pub(crate) fn create(path: &Path) -> anyhow::Result<Self> {
+    /// Whatever would keep it from lying there.
+    pub(crate) fn create(path: &Path) -> Result<Self, WriteError> {
+        let fail = |reason: &str| WriteError::at(path)(io::Error::other(reason));
         if path.exists() && !path.is_dir() {
-            return Err(anyhow!(
-                "{}: cannot write: something that is not a folder lies there",
-                path.display()
-            ));
+            return Err(fail("something that is not a folder lies there"));
         }
-        let name = path
-            .file_name()
-            .ok_or_else(|| anyhow!("{}: cannot write: it does not name a folder", path.display()))?;
-        let parent = path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
-        let mut made: Vec<PathBuf> =
-            parent.ancestors().take_while(|path| !path.exists()).map(Path::to_owned).collect();
-        made.retain(|path| !path.as_os_str().is_empty());
-        made.reverse();
-        let mut hidden = OsString::from(".");
-        hidden.push(name);
-        hidden.push(format!(".{}.partial", std::process::id()));
-        let folder = Self { destination: path.to_owned(), partial: parent.join(hidden), made };
-        fs::create_dir_all(&folder.partial).map_err(|error| write_error(path, &error))?;
-        Ok(folder)
+        let name = path.file_name().ok_or_else(|| fail("it does not name a folder"))?;
+        let made = MadeFolders::make(parent(path)).map_err(WriteError::at(path))?;
+        let mut prefix = OsString::from(".");
+        prefix.push(name);
+        prefix.push(".");
+        let mut builder = tempfile::Builder::new();
+        builder.prefix(&prefix).suffix(".partial");
+        // Permissions of any other folder: the user's mask takes its bits away.
+        #[cfg(unix)]
+        builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o777));
+        let partial = builder.tempdir_in(parent(path)).map_err(WriteError::at(path))?;
+        Ok(Self { destination: path.to_owned(), partial, _made: made })
     }
 
-    /// Where to write for now.
+    /// Path to write to for now.
     pub(crate) fn partial(&self) -> &Path {
-        &self.partial
+        self.partial.path()
     }
 
-    /// Moves everything to its place: the whole folder, or each file into the folder that lies there, those named in
-    /// `last` after all others.
+    /// Path that it will lie at.
+    pub(crate) fn destination(&self) -> &Path {
+        &self.destination
+    }
+
+    /// Moves everything to its place: the whole folder, or each file into the folder that lies there, the one named `last`
+    /// after all others.
     ///
     /// # Errors
-    /// What the system says, named with the path.
-    pub(crate) fn finish(self, last: &str) -> anyhow::Result<()> {
+    /// What the system says.
+    pub(crate) fn finish(self, last: &str) -> Result<(), WriteError> {
         if !self.destination.exists() {
-            return fs::rename(&self.partial, &self.destination)
-                .map_err(|error| write_error(&self.destination, &error));
+            return self.move_whole();
         }
         let mut names = Vec::new();
-        for entry in fs::read_dir(&self.partial).map_err(|error| write_error(&self.destination, &error))? {
-            names.push(entry.map_err(|error| write_error(&self.destination, &error))?.file_name());
+        for entry in fs::read_dir(self.partial()).map_err(WriteError::at(&self.destination))? {
+            names.push(entry.map_err(WriteError::at(&self.destination))?.file_name());
         }
         names.sort_by_key(|name| (name == last, name.clone()));
         for name in names {
             let path = self.destination.join(&name);
             if path.is_dir() {
-                fs::remove_dir_all(&path).map_err(|error| write_error(&path, &error))?;
+                fs::remove_dir_all(&path).map_err(WriteError::at(&path))?;
             }
-            fs::rename(self.partial.join(&name), &path).map_err(|error| write_error(&path, &error))?;
+            fs::rename(self.partial().join(&name), &path).map_err(WriteError::at(&path))?;
         }
         Ok(())
     }
-}
 
-impl Drop for OutputFolder {
-    fn drop(&mut self) {
-        // After a renaming nothing lies there any more, and there is nobody to tell about a failure.
-        let _ = fs::remove_dir_all(&self.partial);
-        for folder in self.made.iter().rev() {
-            // Keeps those with something in them.
-            let _ = fs::remove_dir(folder);
-        }
+    /// Gives the whole folder its name.
+    fn move_whole(mut self) -> Result<(), WriteError> {
+        fs::rename(self.partial(), &self.destination).map_err(WriteError::at(&self.destination))?;
+        // Nothing lies there any more.
+        self.partial.disable_cleanup(true);
+        Ok(())
     }
 }

@@ -5,22 +5,28 @@
 
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::time::Duration;
+use std::sync::atomic::{AtomicU32, Ordering};
 
 use directories::ProjectDirs;
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use windfall_texgen::{Assortment, FOLDER_VERSION, LeafFolder, RECIPE};
+
+use super::LeafProgress;
+use crate::files::OutputFolder;
 
 /// The leaves of an assortment from the cache, or made now and put there.
 ///
 /// # Errors
 /// Numbers of the assortment that are not allowed.
-pub(super) fn load_or_make(assortment: &Assortment) -> anyhow::Result<LeafFolder> {
-    load_or_make_in(directory().as_deref(), assortment)
+pub(super) fn load_or_make(assortment: &Assortment, progress: &LeafProgress) -> anyhow::Result<LeafFolder> {
+    load_or_make_in(directory().as_deref(), assortment, progress)
 }
 
 /// The same with a given cache directory, or none.
-pub(super) fn load_or_make_in(cache: Option<&Path>, assortment: &Assortment) -> anyhow::Result<LeafFolder> {
+pub(super) fn load_or_make_in(
+    cache: Option<&Path>,
+    assortment: &Assortment,
+    progress: &LeafProgress,
+) -> anyhow::Result<LeafFolder> {
     let place = cache.map(|cache| cache.join(key(assortment)));
     let fits = |folder: &LeafFolder| {
         folder.size_px == assortment.size_px && folder.leaves.len() == assortment.count as usize
@@ -29,13 +35,9 @@ pub(super) fn load_or_make_in(cache: Option<&Path>, assortment: &Assortment) -> 
     if let Some(folder) = kept {
         return Ok(folder);
     }
-    let bar = ProgressBar::with_draw_target(Some(assortment.count.into()), ProgressDrawTarget::stderr());
-    if let Ok(style) = ProgressStyle::with_template("making leaves {bar:40} {pos} of {len}") {
-        bar.set_style(style);
-    }
-    bar.enable_steady_tick(Duration::from_millis(200));
-    let folder = assortment.make(|| bar.inc(1))?;
-    bar.finish_and_clear();
+    let made = AtomicU32::new(0);
+    progress(0, assortment.count);
+    let folder = assortment.make(|| progress(1 + made.fetch_add(1, Ordering::Relaxed), assortment.count))?;
     if let Some(place) = place {
         // Without it the next run takes a little longer.
         let _ = keep(&folder, &place);
@@ -59,19 +61,11 @@ fn key(assortment: &Assortment) -> String {
     format!("{:?}-{hash:016x}", assortment.shape).to_lowercase()
 }
 
-/// Writes a folder beside its place and moves it there, so that no other run sees half of it.
+/// Writes a folder out of sight and moves it to its place, so that no other run sees half of it.
 fn keep(folder: &LeafFolder, place: &Path) -> anyhow::Result<()> {
-    let partial = place.with_extension(format!("{}.partial", std::process::id()));
-    let written = fs::create_dir_all(&partial)
-        .map_err(anyhow::Error::from)
-        .and_then(|()| Ok(folder.save(&partial)?))
-        .and_then(|()| {
-            // What lies there could not be used.
-            let _ = fs::remove_dir_all(place);
-            Ok(fs::rename(&partial, place)?)
-        });
-    if written.is_err() {
-        let _ = fs::remove_dir_all(&partial);
-    }
-    written
+    let out = OutputFolder::create(place)?;
+    folder.save(out.partial())?;
+    // What lies there could not be used.
+    let _ = fs::remove_dir_all(place);
+    Ok(out.finish("")?)
 }

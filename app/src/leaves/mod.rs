@@ -24,11 +24,14 @@ const LARGE_PICTURES: usize = 192;
 /// Seed of the leaves that are made: the same for every scene, so that all find them ready.
 const SEED: u64 = 0x1eaf;
 
-/// The pictures and meshes for all species of a scene.
+/// Called with how many leaves are made, of how many; several times for several species.
+pub(crate) type LeafProgress = dyn Fn(u32, u32) + Sync;
+
+/// Returns the pictures and meshes for all species of a scene.
 ///
 /// # Errors
 /// A folder that a species names and that cannot be used. Leaves that are made cannot fail for want of a cache.
-pub(crate) fn atlas_of(scene: &Scene) -> anyhow::Result<Atlas> {
+pub(crate) fn atlas_of(scene: &Scene, progress: &LeafProgress) -> anyhow::Result<Atlas> {
     let most = MAX_LAYERS / scene.species.len().max(1);
     let is_large = scene.species.len() * VARIANTS as usize <= LARGE_PICTURES;
     let size_px = if is_large { PICTURE_SIZE } else { SMALL_SIZE };
@@ -41,7 +44,7 @@ pub(crate) fn atlas_of(scene: &Scene) -> anyhow::Result<Atlas> {
         kinds.push(match (&species.leaves, kind_of(species.shape)) {
             (Some(path), _) => of_folder(&LeafFolder::load(path.as_ref())?),
             (None, Kind::Leaf(shape)) => {
-                of_folder(&cache::load_or_make(&assortment(species, shape, size_px))?)
+                of_folder(&cache::load_or_make(&assortment(species, shape, size_px), progress)?)
             }
             (None, Kind::Other(body)) => painted(body, size_px)?,
         });

@@ -21,7 +21,7 @@ fn few() -> Assortment {
 fn leaves_are_kept_and_a_broken_cache_is_made_anew() {
     let cache = tempfile::tempdir().expect("a temporary folder");
     let place = Some(cache.path());
-    let made = cache::load_or_make_in(place, &few()).expect("allowed numbers");
+    let made = cache::load_or_make_in(place, &few(), &|_, _| ()).expect("allowed numbers");
     let folders: Vec<_> =
         fs::read_dir(&cache).expect("a folder").map(|entry| entry.expect("an entry").path()).collect();
     assert_eq!(folders.len(), 1, "one assortment and no partial one: {folders:?}");
@@ -30,12 +30,12 @@ fn leaves_are_kept_and_a_broken_cache_is_made_anew() {
         .map(|entry| entry.expect("an entry").path())
         .find(|path| path.extension().is_some_and(|extension| extension == "png"))
         .expect("pictures");
-    assert_eq!(cache::load_or_make_in(place, &few()).expect("kept"), made, "read back");
+    assert_eq!(cache::load_or_make_in(place, &few(), &|_, _| ()).expect("kept"), made, "read back");
     fs::write(&picture, b"no picture").expect("writable");
-    assert_eq!(cache::load_or_make_in(place, &few()).expect("made"), made, "a broken picture");
+    assert_eq!(cache::load_or_make_in(place, &few(), &|_, _| ()).expect("made"), made, "a broken picture");
     assert_ne!(fs::read(&picture).expect("a picture"), b"no picture", "it was replaced");
     fs::remove_file(folders[0].join(MANIFEST_NAME)).expect("a manifest");
-    assert_eq!(cache::load_or_make_in(place, &few()).expect("made"), made, "no manifest");
+    assert_eq!(cache::load_or_make_in(place, &few(), &|_, _| ()).expect("made"), made, "no manifest");
 }
 
 #[test]
@@ -43,8 +43,12 @@ fn no_cache_is_no_error() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let file = folder.path().join("file");
     fs::write(&file, b"").expect("writable");
-    let made = cache::load_or_make_in(None, &few()).expect("no cache directory");
-    assert_eq!(cache::load_or_make_in(Some(&file), &few()).expect("not a directory"), made, "made anyway");
+    let made = cache::load_or_make_in(None, &few(), &|_, _| ()).expect("no cache directory");
+    assert_eq!(
+        cache::load_or_make_in(Some(&file), &few(), &|_, _| ()).expect("not a directory"),
+        made,
+        "made anyway"
+    );
 }
 
 #[test]
@@ -55,11 +59,11 @@ fn a_species_can_name_a_folder() {
     let path = folder.path().to_str().expect("plain").to_owned();
     let mut scene =
         Scene { species: vec![Species { leaves: Some(path), ..Species::default() }], ..Scene::default() };
-    let atlas = atlas_of(&scene).expect("a folder of leaves");
+    let atlas = atlas_of(&scene, &|_, _| ()).expect("a folder of leaves");
     assert_eq!((atlas.variants, atlas.layers.len(), atlas.size_px), (2, 2, PICTURE_SIZE), "both leaves");
     assert!(atlas.layers.iter().all(|layer| layer.area_fraction > 0.05), "they show something");
     scene.species[0].leaves = Some("/nowhere".into());
-    let error = atlas_of(&scene).expect_err("no such folder").to_string();
+    let error = atlas_of(&scene, &|_, _| ()).expect_err("no such folder").to_string();
     assert!(error.contains("/nowhere") && error.contains(MANIFEST_NAME), "{error}");
 }
 
@@ -144,7 +148,7 @@ fn only_bodies_without_a_planform_are_fitted() {
 fn other_light_bodies_have_pictures_too() {
     let plate = Species { shape: LeafShape::Plate, ..Species::default() };
     let scene = Scene { species: vec![plate], ..Scene::default() };
-    let atlas = atlas_of(&scene).expect("painted");
+    let atlas = atlas_of(&scene, &|_, _| ()).expect("painted");
     let disc = std::f32::consts::FRAC_PI_4 * 0.96 * 0.96;
     assert!((atlas.layers[0].area_fraction / disc - 1.0).abs() < 0.01, "a disc fills most of its square");
 }

@@ -6,6 +6,8 @@ use std::path::PathBuf;
 
 use thiserror::Error;
 
+use crate::files::WriteError;
+
 /// An output that cannot be written. Every message names the path.
 #[derive(Debug, Error)]
 #[non_exhaustive]
@@ -17,13 +19,8 @@ pub(crate) enum OutputError {
         path: PathBuf,
     },
     /// A path that cannot be written.
-    #[error("{}: cannot write: {source}", path.display())]
-    Write {
-        /// The path asked for.
-        path: PathBuf,
-        /// The system's reason.
-        source: std::io::Error,
-    },
+    #[error(transparent)]
+    Write(#[from] WriteError),
     /// A picture the encoder refused.
     #[error("{}: cannot encode: {reason}", path.display())]
     Encode {
@@ -86,12 +83,4 @@ pub(crate) enum OutputError {
         /// What it said last.
         reason: String,
     },
-}
-
-impl OutputError {
-    /// For `map_err`: an i/o error while writing `path`.
-    pub(super) fn write(path: &std::path::Path) -> impl FnOnce(std::io::Error) -> Self {
-        let path = path.to_owned();
-        move |source| Self::Write { path, source }
-    }
 }

@@ -2,18 +2,18 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! GIF: one palette for the whole clip, dithered; of each frame only what changed.
 //!
-//! The palette needs all frames, so they wait in a file beside the destination until the clip ends.
+//! The palette needs all frames, so they wait in a nameless file on the same disk until the clip ends.
 
 use std::fs::File;
-use std::io::{BufReader, BufWriter, Read, Write};
+use std::io::{BufReader, BufWriter, Read, Seek, Write};
 use std::path::Path;
 
 use gif::{Encoder, EncodingError, Frame, Repeat};
 use image::RgbaImage;
 
 use super::OutputError;
-use super::beside::Beside;
 use super::palette::{Histogram, Palette};
+use crate::files::{OutputFile, WriteError};
 
 /// More frames per second than this are thinned out: viewers slow faster clips down, and size grows with frames.
 const MAX_FPS: f64 = 34.0;
@@ -27,9 +27,7 @@ const TICKS_PER_S: f64 = 100.0;
 /// Frames waiting for their palette.
 #[derive(Debug)]
 pub(super) struct GifClip {
-    /// Goes first, so that a directory made for both is empty when the other goes.
-    spool: Beside,
-    beside: Beside,
+    file: OutputFile,
     waiting: BufWriter<File>,
     size: (u32, u32),
     /// Every how many frames one is kept.
@@ -50,14 +48,12 @@ impl GifClip {
             let allowed = "gif allows 1x1 to 65535x65535";
             return Err(OutputError::Size { path: path.to_owned(), width, height, allowed });
         }
-        let beside = Beside::file(path, "gif")?;
-        let spool = Beside::file(path, "frames")?;
-        let file = File::create(spool.partial()).map_err(OutputError::write(path))?;
+        let file = OutputFile::create_with_folders(path)?;
+        let waiting = BufWriter::new(file.scratch()?);
         let step = frame_step(fps);
         Ok(Self {
-            beside,
-            spool,
-            waiting: BufWriter::new(file),
+            file,
+            waiting,
             size,
             step,
             ticks: TICKS_PER_S * f64::from(step) / fps,
@@ -90,37 +86,37 @@ impl GifClip {
             self.histogram.add([red, green, blue]);
             bytes.extend([red, green, blue]);
         }
-        self.waiting.write_all(&bytes).map_err(OutputError::write(self.beside.destination()))
+        Ok(self.waiting.write_all(&bytes).map_err(WriteError::at(self.file.destination()))?)
     }
 
     pub(super) fn finish(mut self) -> Result<(), OutputError> {
-        let destination = self.beside.destination().to_owned();
-        self.waiting.flush().map_err(OutputError::write(&destination))?;
+        let destination = self.file.destination().to_owned();
+        let frames =
+            self.waiting.into_inner().map_err(|error| WriteError::at(&destination)(error.into_error()))?;
+        let mut frames = BufReader::new(frames);
+        frames.rewind().map_err(WriteError::at(&destination))?;
         let encode = |error: EncodingError| match error {
-            EncodingError::Io(source) => OutputError::Write { path: destination.clone(), source },
+            EncodingError::Io(reason) => WriteError::at(&destination)(reason).into(),
             other => OutputError::Encode { path: destination.clone(), reason: other.to_string() },
         };
-        let output = File::create(self.beside.partial()).map_err(OutputError::write(&destination))?;
-        let frames = File::open(self.spool.partial()).map_err(OutputError::write(&destination))?;
-        let mut frames = BufReader::new(frames);
         let mut palette = self.histogram.palette();
         let [width, height] = [self.size.0, self.size.1].map(|edge| u16::try_from(edge).unwrap_or(u16::MAX));
         let mut encoder =
-            Encoder::new(BufWriter::new(output), width, height, palette.bytes()).map_err(encode)?;
+            Encoder::new(BufWriter::new(&mut self.file), width, height, palette.bytes()).map_err(encode)?;
         encoder.set_repeat(Repeat::Infinite).map_err(encode)?;
         let pixels = usize::from(width) * usize::from(height);
         let mut frame = vec![0u8; 3 * pixels];
         let mut shown: Vec<Option<Shown>> = vec![None; pixels];
         for number in 0..self.kept {
-            frames.read_exact(&mut frame).map_err(OutputError::write(&destination))?;
+            frames.read_exact(&mut frame).map_err(WriteError::at(&destination))?;
             let changed = changes(&frame, &mut shown, &mut palette, self.size.0);
             let delay = delay_ticks(self.ticks, number);
             encoder.write_frame(&cut_out(&changed, width, delay)).map_err(encode)?;
         }
         let mut output = encoder.into_inner().map_err(encode)?;
-        output.flush().map_err(OutputError::write(&destination))?;
+        output.flush().map_err(WriteError::at(&destination))?;
         drop(output);
-        self.beside.put_in_place()
+        Ok(self.file.finish()?)
     }
 }
 

@@ -5,7 +5,6 @@
 //! Every writer works beside its destination and renames at the end, so an interrupted or failed run leaves no
 //! half-written file behind.
 
-pub(crate) mod beside;
 mod error;
 mod gif_clip;
 mod palette;

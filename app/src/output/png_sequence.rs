@@ -8,44 +8,34 @@ use std::path::Path;
 use image::RgbaImage;
 
 use super::OutputError;
-use super::beside::Beside;
 use super::still::save_png;
+use crate::files::{OutputFolder, WriteError};
 
 /// Writes every frame as it comes.
 #[derive(Debug)]
 pub(super) struct PngSequence {
-    beside: Beside,
+    folder: OutputFolder,
     count: u32,
 }
 
 impl PngSequence {
     pub(super) fn start(path: &Path) -> Result<Self, OutputError> {
-        if path.exists() && !path.is_dir() {
-            let source = std::io::Error::from(std::io::ErrorKind::NotADirectory);
-            return Err(OutputError::Write { path: path.to_owned(), source });
-        }
-        Ok(Self { beside: Beside::directory(path)?, count: 0 })
+        Ok(Self { folder: OutputFolder::create(path)?, count: 0 })
     }
 
     pub(super) fn push(&mut self, frame: &RgbaImage) -> Result<(), OutputError> {
         self.count += 1;
-        save_png(frame, &self.beside.partial().join(name(self.count)), self.beside.destination())
+        save_png(frame, &self.folder.partial().join(name(self.count)), self.folder.destination())
     }
 
     /// Moves the directory into place; into one that is already there, frame by frame. Frames of an earlier, longer
     /// clip in it are removed, other files stay.
     pub(super) fn finish(self) -> Result<(), OutputError> {
-        let destination = self.beside.destination();
-        if !destination.exists() {
-            return self.beside.put_in_place();
-        }
-        for number in 1..=self.count {
-            let from = self.beside.partial().join(name(number));
-            fs::rename(from, destination.join(name(number))).map_err(OutputError::write(destination))?;
-        }
+        let destination = self.folder.destination().to_owned();
+        self.folder.finish("")?;
         let stale = (self.count + 1..).map(|number| destination.join(name(number)));
         for path in stale.take_while(|path| path.exists()) {
-            fs::remove_file(path).map_err(OutputError::write(destination))?;
+            fs::remove_file(path).map_err(WriteError::at(&destination))?;
         }
         Ok(())
     }

@@ -7,18 +7,18 @@ use std::path::Path;
 use image::{ImageFormat, RgbaImage};
 
 use super::OutputError;
-use super::beside::Beside;
+use crate::files::{OutputFile, WriteError};
 
 /// Keeps the last frame and writes it at the end.
 #[derive(Debug)]
 pub(super) struct Still {
-    beside: Beside,
+    file: OutputFile,
     last: Option<RgbaImage>,
 }
 
 impl Still {
     pub(super) fn start(path: &Path) -> Result<Self, OutputError> {
-        Ok(Self { beside: Beside::file(path, "png")?, last: None })
+        Ok(Self { file: OutputFile::create_with_folders(path)?, last: None })
     }
 
     pub(super) fn push(&mut self, frame: &RgbaImage) -> Result<(), OutputError> {
@@ -31,16 +31,16 @@ impl Still {
 
     pub(super) fn finish(self) -> Result<(), OutputError> {
         if let Some(frame) = &self.last {
-            save_png(frame, self.beside.partial(), self.beside.destination())?;
+            save_png(frame, self.file.partial(), self.file.destination())?;
         }
-        self.beside.put_in_place()
+        Ok(self.file.finish()?)
     }
 }
 
 /// Writes `frame` to `file`; errors speak of `destination`.
 pub(super) fn save_png(frame: &RgbaImage, file: &Path, destination: &Path) -> Result<(), OutputError> {
     frame.save_with_format(file, ImageFormat::Png).map_err(|error| match error {
-        image::ImageError::IoError(source) => OutputError::Write { path: destination.to_owned(), source },
+        image::ImageError::IoError(reason) => WriteError::at(destination)(reason).into(),
         other => OutputError::Encode { path: destination.to_owned(), reason: other.to_string() },
     })
 }

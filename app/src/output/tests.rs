@@ -147,11 +147,11 @@ fn unwritable_path_is_found_before_the_first_frame() {
     for name in ["still.png", "clip.gif", "clip.mp4", "frames"] {
         let path = file.join(name);
         let error = Output::from_path(&path).expect("a kind").start(SIZE, 60.0).expect_err("under a file");
-        assert!(matches!(error, OutputError::Write { .. }), "{error}");
+        assert!(matches!(error, OutputError::Write(_)), "{error}");
         assert!(error.to_string().contains(name), "the path must be named: {error}");
     }
     let error = Output::Sequence(file).start(SIZE, 60.0).expect_err("a file is no directory");
-    assert!(matches!(error, OutputError::Write { .. }), "{error}");
+    assert!(matches!(error, OutputError::Write(_)), "{error}");
 }
 
 #[test]

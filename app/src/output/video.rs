@@ -11,13 +11,20 @@ use std::thread::JoinHandle;
 use image::RgbaImage;
 
 use super::OutputError;
-use super::beside::Beside;
 use super::gif_clip::check_rate;
+use crate::files::OutputFile;
+
+/// A clip that ffmpeg writes.
+#[derive(Debug)]
+pub(super) struct Video {
+    /// Ends before the file is removed.
+    ffmpeg: Ffmpeg,
+    file: OutputFile,
+}
 
 /// A running ffmpeg.
 #[derive(Debug)]
-pub(super) struct Video {
-    beside: Beside,
+struct Ffmpeg {
     child: Child,
     /// Collects what ffmpeg says, so that it never blocks on a full pipe.
     messages: Option<JoinHandle<String>>,
@@ -40,7 +47,7 @@ impl Video {
             let allowed = "mp4 allows even numbers only";
             return Err(OutputError::Size { path: path.to_owned(), width, height, allowed });
         }
-        let beside = Beside::file(path, "mp4")?;
+        let file = OutputFile::create_with_folders(path)?;
         let mut command = Command::new(program);
         // An interrupt from the terminal is for this program, which ends ffmpeg itself.
         #[cfg(unix)]
@@ -52,7 +59,7 @@ impl Video {
             .args(["-vf", "scale=out_color_matrix=bt709:out_range=tv", "-colorspace", "bt709"])
             .args(["-color_primaries", "bt709", "-color_trc", "iec61966-2-1", "-pix_fmt", "yuv420p"])
             .args(["-c:v", "libx264", "-preset", "medium", "-crf", "18", "-movflags", "+faststart"])
-            .arg(beside.partial())
+            .arg(file.partial())
             .stdin(Stdio::piped())
             .stdout(Stdio::null())
             .stderr(Stdio::piped())
@@ -69,11 +76,11 @@ impl Video {
                 String::from_utf8_lossy(&text).trim().replace('\n', "; ")
             })
         });
-        Ok(Self { beside, child, messages })
+        Ok(Self { ffmpeg: Ffmpeg { child, messages }, file })
     }
 
     pub(super) fn push(&mut self, frame: &RgbaImage) -> Result<(), OutputError> {
-        let written = self.child.stdin.as_mut().map(|stdin| stdin.write_all(frame.as_raw()));
+        let written = self.ffmpeg.child.stdin.as_mut().map(|stdin| stdin.write_all(frame.as_raw()));
         match written {
             Some(Ok(())) => Ok(()),
             _ => Err(self.failure()),
@@ -81,25 +88,29 @@ impl Video {
     }
 
     pub(super) fn finish(mut self) -> Result<(), OutputError> {
-        drop(self.child.stdin.take());
-        match self.child.wait() {
-            Ok(status) if status.success() => {}
-            _ => return Err(self.failure()),
+        drop(self.ffmpeg.child.stdin.take());
+        match self.ffmpeg.child.wait() {
+            Ok(status) if status.success() => Ok(self.file.finish()?),
+            _ => Err(self.failure()),
         }
-        self.beside.put_in_place()
     }
 
-    /// Ends ffmpeg and tells what it said.
     fn failure(&mut self) -> OutputError {
-        drop(self.child.stdin.take());
-        let status = self.child.wait().map_or_else(|error| error.to_string(), |status| status.to_string());
-        let said = self.messages.take().and_then(|thread| thread.join().ok()).unwrap_or_default();
-        let reason = if said.is_empty() { status } else { said };
-        OutputError::Ffmpeg { path: self.beside.destination().to_owned(), reason }
+        OutputError::Ffmpeg { path: self.file.destination().to_owned(), reason: self.ffmpeg.end() }
     }
 }
 
-impl Drop for Video {
+impl Ffmpeg {
+    /// Ends ffmpeg and returns its last messages.
+    fn end(&mut self) -> String {
+        drop(self.child.stdin.take());
+        let status = self.child.wait().map_or_else(|error| error.to_string(), |status| status.to_string());
+        let said = self.messages.take().and_then(|thread| thread.join().ok()).unwrap_or_default();
+        if said.is_empty() { status } else { said }
+    }
+}
+
+impl Drop for Ffmpeg {
     fn drop(&mut self) {
         // An abandoned clip: the partial file is removed right after, so ffmpeg must not write to it any more.
         let _ = self.child.kill();

@@ -2,13 +2,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! What plots share: paper, ink, text, and how they become files.
 
-use std::io::BufWriter;
-use std::path::{Path, PathBuf};
-
 use anyhow::anyhow;
-use image::codecs::png::PngEncoder;
+use image::RgbImage;
 use image::imageops::{FilterType, resize};
-use image::{ExtendedColorType, ImageEncoder, RgbImage};
 use plotters::coord::Shift;
 use plotters::prelude::*;
 use plotters::style::{FontStyle, register_font};
@@ -40,35 +36,19 @@ pub(crate) fn pixel(coordinate: f64) -> i32 {
     pixel
 }
 
-/// Reads the name of a picture.
-///
-/// # Errors
-/// Says what is allowed.
-pub(crate) fn png_file(text: &str) -> Result<PathBuf, String> {
-    let path = PathBuf::from(text);
-    match path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("png")) {
-        true => Ok(path),
-        false => Err("allowed: a file name that ends in .png".into()),
-    }
-}
-
 /// Draws a picture of a size in pixels and writes it to a file that has been begun.
 ///
 /// # Errors
 /// What the plotting library or the system says, named with the path.
 pub(crate) fn write(
-    mut file: OutputFile,
-    path: &Path,
+    file: OutputFile,
     size: (u32, u32),
     draw: impl FnOnce(&Area<'_>) -> Drawn,
 ) -> anyhow::Result<()> {
-    let name = path.display();
+    let name = file.destination().display();
     let large = enlarged(size, draw).map_err(|error| anyhow!("{name}: cannot draw: {error}"))?;
     let picture = resize(&large, size.0, size.1, FilterType::Triangle);
-    PngEncoder::new(BufWriter::new(&mut file))
-        .write_image(picture.as_raw(), picture.width(), picture.height(), ExtendedColorType::Rgb8)
-        .map_err(|error| anyhow!("{name}: cannot write: {error}"))?;
-    file.finish()
+    Ok(file.finish_png(&picture)?)
 }
 
 fn enlarged(

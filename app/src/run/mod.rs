@@ -3,10 +3,13 @@
 //! Parts that several commands are made of: the scene and devices of the options, stepping, pictures, tracks and reports.
 
 pub mod backend;
+pub mod cancel;
 pub mod drawing;
 pub(crate) mod frame_steps;
-pub(crate) mod interrupt;
+pub(crate) mod looped;
+pub(crate) mod memory;
 pub(crate) mod parse;
+pub(crate) mod progress;
 pub(crate) mod report;
 pub(crate) mod scene_arguments;
 pub(crate) mod sky_arguments;

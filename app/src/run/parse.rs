@@ -2,6 +2,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Parsers of the values of options; their errors name the allowed range.
 
+use std::path::PathBuf;
+
+use windfall_core::SceneError;
+
 /// Largest edge of a picture in pixels.
 const MAX_EDGE: u32 = 16_384;
 /// Most pixels of a picture: 8K UHD.
@@ -52,6 +56,25 @@ pub(crate) fn frame_rate(text: &str) -> Result<f64, String> {
 /// Reads the length of a round in seconds.
 pub(crate) fn loop_length(text: &str) -> Result<f64, String> {
     within(text, 1.0, 120.0)
+}
+
+/// Reads the name of a picture.
+pub(crate) fn png_file(text: &str) -> Result<PathBuf, String> {
+    let path = PathBuf::from(text);
+    match path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("png")) {
+        true => Ok(path),
+        false => Err("allowed: a file name that ends in .png".into()),
+    }
+}
+
+/// Names the option in an error of the field that the option sets.
+pub(crate) fn option_error(error: SceneError, set: &str, option: &str) -> SceneError {
+    match error {
+        SceneError::Field { file, field, value, allowed } if field == set => {
+            SceneError::Field { file, field: option.into(), value, allowed }
+        }
+        other => other,
+    }
 }
 
 #[cfg(test)]

@@ -3,11 +3,12 @@
 //! Which scene a command works on, and how many leaves of it.
 
 use clap::Args;
-use windfall_core::leaf::LEAF_BYTES;
-use windfall_core::scene::{MAX_LEAVES, Release, Tree, limits};
-use windfall_core::{Scene, SceneError};
+use windfall_core::Scene;
+use windfall_core::scene::MAX_LEAVES;
 
 use crate::leaves::load_scene;
+use crate::run::memory::check_memory;
+use crate::run::parse::option_error;
 use crate::run::parse::whole;
 
 /// Scene of every command that is given none.
@@ -43,159 +44,10 @@ impl SceneArguments {
             scene.seed = seed;
         }
         if let Some(leaves) = self.leaves {
-            scene = scaled(&scene, self.name(), leaves)?;
+            let scaled = scene.with_leaf_count(self.name(), leaves);
+            scene = scaled.map_err(|error| option_error(error, Scene::LEAF_COUNT, "--leaves"))?;
         }
         check_memory(self.name(), scene.leaf_count())?;
         Ok(scene)
-    }
-}
-
-/// The scene with `leaves` leaves in total: every tree gets its share of them, as far as it may have so many, and every
-/// source the like and at least one, which it lets go at a rate that keeps the time it takes to let go of all.
-///
-/// # Errors
-/// [`SceneError::Field`] for fewer leaves than sources, or for rates that are not allowed; `file` names the scene.
-pub(crate) fn scaled(scene: &Scene, file: &str, leaves: u32) -> Result<Scene, SceneError> {
-    let counts: Vec<u32> = scene.sources.iter().map(|source| source.count).collect();
-    if (leaves as usize) < counts.len() {
-        return Err(SceneError::Field {
-            file: file.into(),
-            field: "--leaves".into(),
-            value: leaves.to_string(),
-            allowed: format!("{} to {MAX_LEAVES}, at least one for each source", counts.len()),
-        });
-    }
-    let mut scaled = scene.clone();
-    let on_trees = tree_leaves(scene, leaves);
-    share_out(&mut scaled.trees, on_trees);
-    for (source, count) in scaled.sources.iter_mut().zip(shares(&counts, leaves - on_trees)) {
-        if let Release::Rate { per_s, .. } = &mut source.release {
-            #[expect(clippy::cast_possible_truncation, reason = "scene files hold single precision")]
-            let rate = (f64::from(*per_s) * f64::from(count) / f64::from(source.count)) as f32;
-            *per_s = rate;
-        }
-        source.count = count;
-    }
-    scaled.validate(file)?;
-    Ok(scaled)
-}
-
-/// How many of `leaves` leaves grow on trees; `leaves` is at least the number of sources.
-fn tree_leaves(scene: &Scene, leaves: u32) -> u32 {
-    let (all, on_trees) = (u64::from(scene.leaf_count()), u64::from(scene.tree_leaf_count()));
-    let Some(largest) = scene.trees.iter().map(|tree| u64::from(tree.leaves)).max().filter(|&most| most > 0)
-    else {
-        return 0;
-    };
-    let allowed = on_trees * u64::from(limits::TREE_LEAVES.high) / largest;
-    let sources = scene.sources.len() as u64;
-    let share = (u64::from(leaves) * on_trees / all).min(allowed).min(u64::from(leaves) - sources);
-    u32::try_from(share).unwrap_or(u32::MAX)
-}
-
-/// Splits `total` leaves among trees in proportion to those that they have; nobody gets more than its share rounded up.
-fn share_out(trees: &mut [Tree], total: u32) {
-    let all: u64 = trees.iter().map(|tree| u64::from(tree.leaves)).sum();
-    let mut before = 0;
-    let mut given = 0;
-    for tree in trees.iter_mut().filter(|tree| tree.leaves > 0) {
-        before += u64::from(tree.leaves);
-        let so_far = before * u64::from(total) / all;
-        tree.leaves = u32::try_from(so_far - given).unwrap_or(u32::MAX);
-        given = so_far;
-    }
-}
-
-/// Splits `total` in proportion to `counts`, rounding by largest remainders; nobody goes empty-handed. `total` is at
-/// least the number of counts, which are not zero.
-fn shares(counts: &[u32], total: u32) -> Vec<u32> {
-    let sum: u64 = counts.iter().copied().map(u64::from).sum();
-    let exact = |index: usize| u64::from(counts[index]) * u64::from(total);
-    // A share is at most the total, which is a u32.
-    let floor = |index: usize| u32::try_from(exact(index) / sum).unwrap_or(u32::MAX);
-    let mut shares: Vec<u32> = (0..counts.len()).map(floor).collect();
-    let mut order: Vec<usize> = (0..counts.len()).collect();
-    order.sort_by_key(|&index| std::cmp::Reverse(exact(index) % sum));
-    let left = total as usize - shares.iter().map(|&share| share as usize).sum::<usize>();
-    for &index in order.iter().take(left) {
-        shares[index] += 1;
-    }
-    while let Some(empty) = shares.iter().position(|&share| share == 0) {
-        let Some(largest) = (0..shares.len()).max_by_key(|&index| shares[index]) else { break };
-        shares[largest] -= 1;
-        shares[empty] = 1;
-    }
-    shares
-}
-
-/// Refuses more leaves than fit into the memory that is free: once in the world, once in the simulator.
-///
-/// # Errors
-/// Names the scene, and what it would need.
-pub(crate) fn check_memory(file: &str, leaves: u32) -> Result<(), SceneError> {
-    let needed = u64::from(leaves) * 2 * LEAF_BYTES as u64;
-    let Some(free) = free_memory().filter(|&free| needed > free) else { return Ok(()) };
-    Err(SceneError::Field {
-        file: file.into(),
-        field: "the number of leaves".into(),
-        value: format!("{leaves}, which takes {} MiB", needed >> 20),
-        allowed: format!("what fits into the {} MiB of memory that are free", free >> 20),
-    })
-}
-
-/// Bytes of memory that can be had without swapping, where the system tells.
-pub(crate) fn free_memory() -> Option<u64> {
-    let text = std::fs::read_to_string("/proc/meminfo").ok()?;
-    let line = text.lines().find_map(|line| line.strip_prefix("MemAvailable:"))?;
-    line.trim().strip_suffix("kB")?.trim().parse::<u64>().ok()?.checked_mul(1024)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn shares_are_proportional_complete_and_never_empty() {
-        let counts = [2090, 1900, 1900, 1710, 1520, 1330, 760];
-        assert_eq!(shares(&counts, 11_210), counts, "the scene's own number changes nothing");
-        assert_eq!(shares(&counts, 22_420)[0], 4180, "twice as many");
-        assert_eq!(shares(&counts, 7), [1; 7], "one each");
-        assert_eq!(shares(&[1_000_000, 1], 10), [9, 1], "a small source keeps one");
-        for total in [8, 100, 101, 268_435_456] {
-            let shares = shares(&counts, total);
-            assert_eq!(shares.iter().sum::<u32>(), total, "all of them");
-            assert!(shares.iter().all(|&share| share > 0), "none empty: {shares:?}");
-        }
-    }
-
-    #[test]
-    fn a_scaled_scene_keeps_its_rhythm() {
-        let scene = Scene::preset("autumn-park").expect("a preset");
-        let scaled = scaled(&scene, "autumn-park", 1000).expect("allowed");
-        assert_eq!(scaled.leaf_count(), 1000, "as many as asked for");
-        for source in &scaled.sources {
-            let Release::Rate { per_s, .. } = source.release else { panic!("a park lets go at a rate") };
-            let all_s = f64::from(source.count) / f64::from(per_s);
-            assert!((all_s - 95.0).abs() < 1e-4, "{all_s} s to let go of all");
-        }
-        let share = |scene: &Scene| f64::from(scene.tree_leaf_count()) / f64::from(scene.leaf_count());
-        assert!((share(&scaled) / share(&scene) - 1.0).abs() < 0.01, "trees have their share");
-    }
-
-    #[test]
-    fn trees_take_no_more_leaves_than_they_may_have() {
-        let scene = Scene::preset("autumn-park").expect("a preset");
-        for leaves in [u32::try_from(scene.sources.len()).expect("few"), 37, 50_000_000] {
-            let scaled = scaled(&scene, "autumn-park", leaves).expect("allowed");
-            assert_eq!(scaled.leaf_count(), leaves, "as many as asked for");
-        }
-    }
-
-    #[test]
-    fn impossible_numbers_of_leaves_are_refused() {
-        let scene = Scene::preset("autumn-park").expect("a preset");
-        let error = scaled(&scene, "autumn-park", 1).expect_err("more sources").to_string();
-        assert!(error.contains("autumn-park") && error.contains("--leaves is 1"), "{error}");
-        assert!(error.contains(&format!("{} to 268435456", scene.sources.len())), "{error}");
     }
 }

@@ -9,15 +9,15 @@ use windfall_render::trees::SceneTrees;
 use windfall_render::{FrameInput, PictureTarget, RenderScene, Renderer, RendererOptions};
 use windfall_wgpu::Gpu;
 
-use crate::leaves;
+use crate::leaves::{self, LeafProgress};
 use crate::run::backend::Backend;
+use crate::run::cancel::Cancel;
 use crate::run::drawing::Drawing;
-use crate::run::interrupt;
 use crate::run::stepping::Stepping;
-use crate::run::terminal;
 
 /// A simulator and a renderer of the same scene.
 pub struct Studio {
+    cancel: Cancel,
     gpu: Gpu,
     backend: Backend,
     renderer: Renderer,
@@ -33,39 +33,39 @@ pub struct Studio {
 }
 
 impl Studio {
-    /// A studio for pictures of `size` pixels.
+    /// A studio for pictures of `size` pixels, whose work ends when `cancel` asks for it.
     ///
     /// # Errors
-    /// A scene, a device or a size that cannot be used.
-    pub fn new(scene: &Scene, drawing: Drawing, size: (u32, u32)) -> anyhow::Result<Self> {
-        Self::of_world(scene, &World::build(scene)?, drawing, size)
+    /// A scene, a device or a size that cannot be used; a request to end.
+    pub fn new(scene: &Scene, drawing: Drawing, size: (u32, u32), cancel: &Cancel) -> anyhow::Result<Self> {
+        Self::of_world(&World::build(scene)?, drawing, size, cancel, &|_, _| ())
     }
 
-    /// A studio for pictures of a world of this scene, one that repeats for example.
+    /// A studio for pictures of a world, one that repeats for example; `progress` is called while leaves are made.
     ///
     /// # Errors
-    /// A device or a size that cannot be used.
+    /// A device or a size that cannot be used; a request to end.
     pub fn of_world(
-        scene: &Scene,
         world: &World,
         drawing: Drawing,
         size: (u32, u32),
+        cancel: &Cancel,
+        progress: &LeafProgress,
     ) -> anyhow::Result<Self> {
-        let Drawing { device, gpu, reason, .. } = drawing;
+        let scene = world.environment.scene();
+        let Drawing { device, gpu, .. } = drawing;
         let target = PictureTarget::new(gpu.device(), size)?;
         let backend = device.simulator(world)?;
-        interrupt::check()?;
-        let atlas = leaves::atlas_of(scene)?;
+        cancel.check()?;
+        let atlas = leaves::atlas_of(scene, progress)?;
         let options = RendererOptions::for_scene(scene);
         let format = PictureTarget::FORMAT;
         let stand = SceneTrees::of(scene, world.environment.forest());
         let subject = RenderScene { scene, trees: &stand, atlas: &atlas };
         let renderer = Renderer::new(gpu.device(), gpu.queue(), subject, format, size, options)?;
         gpu.check()?;
-        if let Some(reason) = reason {
-            terminal::note(&reason);
-        }
         Ok(Self {
+            cancel: cancel.clone(),
             gpu,
             backend,
             renderer,
@@ -113,10 +113,10 @@ impl Studio {
     /// Simulates until `step` steps are done.
     ///
     /// # Errors
-    /// A lost device, an interrupt.
+    /// A lost device, a request to end.
     pub fn advance(&mut self, step: u64) -> anyhow::Result<()> {
         while self.step < step {
-            interrupt::check()?;
+            self.cancel.check()?;
             let left = u32::try_from(step - self.step).unwrap_or(u32::MAX);
             let batch = self.stepping.batch().min(left);
             self.stepping.run(&mut self.backend, batch)?;

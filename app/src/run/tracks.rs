@@ -2,19 +2,35 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Tracks of single leaves as a table of comma-separated values.
 
-use std::fmt::Write as _;
-use std::io::{self, BufWriter, Write};
+use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
 use windfall_core::leaf::{LeafMotion, LeafState, LeafView};
 use windfall_core::{Context, World};
 
-use crate::files::{OutputFile, write_error};
+use crate::files::{CsvFile, WriteError};
 use crate::run::parse::whole;
 
-const HEADER: &str =
-    "step,time_s,leaf,id,state,primitive,species,x_m,y_m,z_m,vx_m_s,vy_m_s,vz_m_s,qx,qy,qz,qw\n";
+const HEADER: [&str; 17] = [
+    "step",
+    "time_s",
+    "leaf",
+    "id",
+    "state",
+    "primitive",
+    "species",
+    "x_m",
+    "y_m",
+    "z_m",
+    "vx_m_s",
+    "vy_m_s",
+    "vz_m_s",
+    "qx",
+    "qy",
+    "qz",
+    "qw",
+];
 
 /// Which tracks to write.
 #[derive(Clone, Debug, Args)]
@@ -46,10 +62,9 @@ impl TrackArguments {
 /// A table in the making: one row for each leaf and sampled step.
 #[derive(Debug)]
 pub(crate) struct Tracks {
-    out: BufWriter<OutputFile>,
+    table: CsvFile,
     every: u32,
     leaves: usize,
-    row: String,
 }
 
 impl Tracks {
@@ -58,14 +73,12 @@ impl Tracks {
     /// # Errors
     /// Whatever would keep the file from being written.
     pub(crate) fn create(path: &Path, every: u32, leaves: usize) -> anyhow::Result<Self> {
-        let mut out = BufWriter::new(OutputFile::create(path)?);
-        out.write_all(HEADER.as_bytes()).map_err(|error| write_error(path, &error))?;
-        Ok(Self { out, every, leaves, row: String::new() })
+        Ok(Self { table: CsvFile::create(path, &HEADER)?, every, leaves })
     }
 
-    /// Where the table will lie.
+    /// Path that the table will lie at.
     pub(crate) fn destination(&self) -> &Path {
-        self.out.get_ref().destination()
+        self.table.destination()
     }
 
     /// Number of steps from `step` to the next that is sampled; 0 if it is that step itself.
@@ -91,61 +104,47 @@ impl Tracks {
     /// # Errors
     /// What the system says, named with the path.
     pub(crate) fn add(&mut self, world: &World, cx: &Context<'_>, slot: usize) -> anyhow::Result<()> {
-        self.row.clear();
-        write_row(&mut self.row, world, slot, &world.leaves.view(cx, slot));
-        self.out.write_all(self.row.as_bytes()).map_err(|error| self.failed(&error))
+        Ok(write_row(&mut self.table, world, slot, &world.leaves.view(cx, slot))?)
     }
 
     /// Completes the table under its own name.
     ///
     /// # Errors
     /// What the system says, named with the path.
-    pub(crate) fn finish(mut self) -> anyhow::Result<()> {
-        self.out.flush().map_err(|error| self.failed(&error))?;
-        let path = self.destination().to_owned();
-        self.out.into_inner().map_err(|error| write_error(&path, error.error()))?.finish()
-    }
-
-    fn failed(&self, error: &io::Error) -> anyhow::Error {
-        write_error(self.destination(), error)
+    pub(crate) fn finish(self) -> anyhow::Result<()> {
+        Ok(self.table.finish()?)
     }
 }
 
-/// One row. Of a dormant leaf it holds but the state; only a falling one has a primitive motion.
-fn write_row(row: &mut String, world: &World, slot: usize, leaf: &LeafView) {
+/// Writes one row. Of a dormant leaf it holds but the state; only a falling one has a primitive motion.
+fn write_row<W: Write>(
+    table: &mut CsvFile<W>,
+    world: &World,
+    slot: usize,
+    leaf: &LeafView,
+) -> Result<(), WriteError> {
     let name = match leaf.state {
         LeafState::Dormant => "dormant",
         LeafState::Attached => "attached",
         LeafState::Falling => "falling",
         LeafState::Resting => "resting",
     };
-    let (step, time_s, id) = (world.clock.step(), world.clock.seconds(), leaf.id);
-    // Writing to a String cannot fail.
-    let _ = write!(row, "{step},{time_s:.6},{slot},{id},{name},");
+    table.field(world.clock.step()).field(format_args!("{:.6}", world.clock.seconds()));
+    table.field(slot).field(leaf.id).field(name);
     if leaf.state == LeafState::Dormant {
-        row.push_str(",,,,,,,,,,,\n");
-        return;
+        return table.empty(HEADER.len() - 5).end_row();
     }
-    if let Some(LeafMotion::Primitive(primitive)) = leaf.motion {
-        row.push_str(primitive.code());
-    }
-    row.push(',');
+    table.field(match leaf.motion {
+        Some(LeafMotion::Primitive(primitive)) => primitive.code(),
+        _ => "",
+    });
     let species = world.environment.scene().species.get(leaf.species);
-    row.push_str(&field(species.map_or("", |species| &species.name)));
+    table.field(species.map_or("", |species| &species.name));
     let numbers = leaf.position.to_array().into_iter().chain(leaf.velocity.to_array());
     for number in numbers.chain(leaf.attitude.to_array()) {
-        let _ = write!(row, ",{number}");
+        table.field(number);
     }
-    row.push('\n');
-}
-
-/// Text as a field of the table: in quotes if it would not stay one otherwise (RFC 4180).
-pub(crate) fn field(text: &str) -> String {
-    if text.contains([',', '"', '\n', '\r']) {
-        format!("\"{}\"", text.replace('"', "\"\""))
-    } else {
-        text.to_owned()
-    }
+    table.end_row()
 }
 
 #[cfg(test)]
@@ -158,21 +157,11 @@ mod tests {
         let world = World::build(&scene).expect("valid");
         let step = world.step_block();
         let cx = world.context(&step);
-        let mut row = String::new();
+        let mut table = CsvFile::new(Vec::new(), Path::new("tracks.csv"), &HEADER).expect("room");
         for slot in (0..world.leaves.len()).step_by(97) {
-            row.clear();
-            write_row(&mut row, &world, slot, &world.leaves.view(&cx, slot));
-            assert_eq!(row.matches(',').count(), HEADER.matches(',').count(), "{row}");
+            write_row(&mut table, &world, slot, &world.leaves.view(&cx, slot)).expect("as long as the header");
         }
         let dormant = LeafView { state: LeafState::Dormant, ..world.leaves.view(&cx, 0) };
-        row.clear();
-        write_row(&mut row, &world, 0, &dormant);
-        assert_eq!(row.matches(',').count(), HEADER.matches(',').count(), "{row}");
-    }
-
-    #[test]
-    fn odd_names_stay_one_field() {
-        assert_eq!(field("maple"), "maple", "plain");
-        assert_eq!(field("a \"b\", c"), "\"a \"\"b\"\", c\"", "quoted");
+        write_row(&mut table, &world, 0, &dormant).expect("as long as the header");
     }
 }

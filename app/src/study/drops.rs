@@ -9,8 +9,7 @@ use windfall_core::{Scene, Simulator, World};
 
 use super::landing::{Landing, MOTION_COUNT};
 use crate::run::backend::Device;
-use crate::run::interrupt;
-use crate::run::scene_arguments::scaled;
+use crate::run::cancel::Cancel;
 use crate::run::tracks::Tracks;
 
 /// Motions that synthesised leaves have; those of bodies follow.
@@ -54,7 +53,7 @@ pub(crate) fn drop_scene(scene: &Scene, file: &str, options: &DropOptions) -> an
         if (drops as usize) < sources {
             bail!("--drops is {drops}; allowed: at least one for each of the {sources} sources of {file}");
         }
-        bare = scaled(&bare, file, drops)?;
+        bare = bare.with_leaf_count(file, drops)?;
     }
     for source in &mut bare.sources {
         source.recycle_after_s = None;
@@ -77,6 +76,7 @@ pub(crate) fn drop_all(
     device: &Device,
     options: &DropOptions,
     tracks: &mut Option<Tracks>,
+    cancel: &Cancel,
 ) -> anyhow::Result<Vec<Landing>> {
     let mut world = World::build(scene)?;
     let mut simulator = device.simulator(&world)?;
@@ -101,7 +101,7 @@ pub(crate) fn drop_all(
         if left == 0 || world.clock.seconds() >= limit_s {
             break;
         }
-        interrupt::check()?;
+        cancel.check()?;
         simulator.step(1)?;
         simulator.read_state(&mut world)?;
     }

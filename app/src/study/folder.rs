@@ -3,7 +3,6 @@
 //! The folder of a study: what study it is, and every finished point as a folder of its own.
 
 use std::fs;
-use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use anyhow::{anyhow, bail};
@@ -15,10 +14,10 @@ use super::landing::{read_drifts, write_landings};
 use super::point::Point;
 use super::summary::{COLUMNS, Summary};
 use super::variation::Variation;
-use crate::files::OutputFolder;
-use crate::files::{OutputFile, write_error};
+use crate::files::{CsvFile, OutputFile, OutputFolder, WriteError};
 use crate::run::backend::Device;
-use crate::run::tracks::{Tracks, field};
+use crate::run::cancel::Cancel;
+use crate::run::tracks::Tracks;
 
 /// Tells which study a folder belongs to.
 const STUDY: &str = "study.json";
@@ -59,7 +58,7 @@ impl StudyFolder {
                 difference(&found, &text)
             ),
             Err(_) if path.is_dir() => {
-                let mut entries = fs::read_dir(path).map_err(|error| write_error(path, &error))?;
+                let mut entries = fs::read_dir(path).map_err(WriteError::at(path))?;
                 if entries.next().is_some() {
                     bail!(
                         "{}: holds something that is no study; allowed: a new or empty folder, or this study's own",
@@ -68,11 +67,9 @@ impl StudyFolder {
                 }
             }
             Err(_) if path.exists() => bail!("{}: not a folder", path.display()),
-            Err(_) => fs::create_dir_all(path).map_err(|error| write_error(path, &error))?,
+            Err(_) => fs::create_dir_all(path).map_err(WriteError::at(path))?,
         }
-        let mut file = OutputFile::create(&known)?;
-        file.write_all(text.as_bytes()).map_err(|error| write_error(&known, &error))?;
-        file.finish()?;
+        OutputFile::write_whole(&known, text.as_bytes())?;
         Ok(folder)
     }
 
@@ -92,9 +89,12 @@ impl StudyFolder {
     /// A file that is no such row.
     pub(crate) fn read(&self, number: usize) -> anyhow::Result<Option<Summary>> {
         let path = self.of_point(number).join(SUMMARY);
-        let Ok(text) = fs::read_to_string(&path) else { return Ok(None) };
-        let row = text.lines().nth(1).and_then(Summary::from_row);
-        row.map(Some).ok_or_else(|| anyhow!("{}: not the row of a point; remove its folder", path.display()))
+        let Ok(mut table) = csv::Reader::from_path(&path) else { return Ok(None) };
+        let row = table.records().next().and_then(Result::ok);
+        let summary = row.as_ref().and_then(Summary::from_fields);
+        summary
+            .map(Some)
+            .ok_or_else(|| anyhow!("{}: not the row of a point; remove its folder", path.display()))
     }
 
     /// Where the drops of a finished point landed, seen from where they were let go: along and across the wind, in m.
@@ -115,6 +115,7 @@ impl StudyFolder {
         point: &Point,
         device: &Device,
         options: &DropOptions,
+        cancel: &Cancel,
     ) -> anyhow::Result<Summary> {
         let folder = OutputFolder::create(&self.of_point(number))?;
         let within = |name: &str| folder.partial().join(name);
@@ -124,14 +125,16 @@ impl StudyFolder {
             0 => None,
             _ => Some(Tracks::create(&within("tracks.csv"), every.max(1), 0)?),
         };
-        let landings = drop_all(&point.scene, device, options, &mut tracks)?;
+        let landings = drop_all(&point.scene, device, options, &mut tracks, cancel)?;
         if let Some(tracks) = tracks {
             tracks.finish()?;
         }
         write_landings(&within(LANDINGS), &point.scene, &landings)?;
         let summary = Summary::of(&landings);
-        let path = within(SUMMARY);
-        write_text(&path, &format!("{}\n{}\n", COLUMNS.join(","), summary.to_row()))?;
+        let mut table = CsvFile::create(&within(SUMMARY), &COLUMNS)?;
+        summary.fields().for_each(|field| _ = table.field(field));
+        table.end_row()?;
+        table.finish()?;
         folder.finish(SUMMARY)?;
         Ok(summary)
     }
@@ -146,21 +149,17 @@ impl StudyFolder {
         points: &[Point],
         summaries: &[Summary],
     ) -> anyhow::Result<()> {
-        let paths = variations.iter().map(|to| field(&to.path) + ",").collect::<String>();
-        let mut text = format!("point,{paths}{}\n", COLUMNS.join(","));
+        let paths = variations.iter().map(|to| to.path.as_str());
+        let header: Vec<&str> = ["point"].into_iter().chain(paths).chain(COLUMNS).collect();
+        let mut table = CsvFile::create(&self.path.join(SUMMARY), &header)?;
         for (number, (point, summary)) in (1..).zip(points.iter().zip(summaries)) {
-            let values = point.settings.iter().map(|setting| field(&setting.text) + ",").collect::<String>();
-            text += &format!("{number},{values}{}\n", summary.to_row());
+            table.field(number);
+            point.settings.iter().for_each(|setting| _ = table.field(&setting.text));
+            summary.fields().for_each(|field| _ = table.field(field));
+            table.end_row()?;
         }
-        write_text(&self.path.join(SUMMARY), &text)
+        Ok(table.finish()?)
     }
-}
-
-/// A whole file at once.
-fn write_text(path: &Path, text: &str) -> anyhow::Result<()> {
-    let mut file = OutputFile::create(path)?;
-    file.write_all(text.as_bytes()).map_err(|error| write_error(path, &error))?;
-    file.finish()
 }
 
 /// Everything that the numbers of a study depend on.

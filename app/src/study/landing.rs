@@ -2,21 +2,32 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! What became of one drop, and the table of all of them.
 
-use std::fmt::Write as _;
-use std::io::{BufWriter, Write};
 use std::path::Path;
 
-use anyhow::{Context as _, anyhow};
+use anyhow::{anyhow, bail};
 use windfall_core::Scene;
 
-use crate::files::{OutputFile, write_error};
-use crate::run::tracks::field;
+use crate::files::CsvFile;
 
 /// Six motions of synthesised leaves, then six regimes of bodies.
 pub(crate) const MOTION_COUNT: usize = 12;
-/// The table's head; readers take along and across by their place.
-const HEADER: &str =
-    "drop,release_s,aloft_s,along_m,across_m,from_x_m,from_y_m,from_z_m,x_m,y_m,z_m,species\n";
+/// Header of the table.
+const HEADER: [&str; 12] = [
+    "drop",
+    "release_s",
+    "aloft_s",
+    "along_m",
+    "across_m",
+    "from_x_m",
+    "from_y_m",
+    "from_z_m",
+    "x_m",
+    "y_m",
+    "z_m",
+    "species",
+];
+/// Columns of the drift along and across the wind.
+const DRIFT_COLUMNS: [usize; 2] = [3, 4];
 
 /// What became of one drop. Lengths in metres, times in seconds.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -71,32 +82,27 @@ impl Landing {
 /// # Errors
 /// What the system says, named with the path.
 pub(super) fn write_landings(path: &Path, scene: &Scene, landings: &[Landing]) -> anyhow::Result<()> {
-    let mut out = BufWriter::new(OutputFile::create(path)?);
-    let fail = |error: std::io::Error| write_error(path, &error);
-    out.write_all(HEADER.as_bytes()).map_err(fail)?;
+    let mut table = CsvFile::create(path, &HEADER)?;
     for (drop, landing) in landings.iter().enumerate() {
-        let mut row = format!("{drop},");
         let Landing { release_s, begin, end, drift, species, .. } = landing;
-        let point = |row: &mut String, point: Option<[f64; 3]>| {
-            // Writing to a String cannot fail.
-            let _ = match point {
-                Some([x, y, z]) => write!(row, "{x},{y},{z},"),
-                None => write!(row, ",,,"),
+        table.field(drop);
+        match (begin, end) {
+            (None, _) => table.empty(4),
+            (Some(_), None) => table.field(release_s).empty(3),
+            (Some(_), Some((_, aloft_s))) => {
+                table.field(release_s).field(aloft_s).field(drift.0).field(drift.1)
+            }
+        };
+        for point in [*begin, end.map(|(place, _)| place)] {
+            match point {
+                Some([x, y, z]) => table.field(x).field(y).field(z),
+                None => table.empty(3),
             };
-        };
-        let _ = match (begin, end) {
-            (None, _) => write!(row, ",,,,"),
-            (Some(_), None) => write!(row, "{release_s},,,,"),
-            (Some(_), Some((_, aloft_s))) => write!(row, "{release_s},{aloft_s},{},{},", drift.0, drift.1),
-        };
-        point(&mut row, *begin);
-        point(&mut row, end.map(|(place, _)| place));
+        }
         let name = scene.species.get(*species).filter(|_| begin.is_some());
-        row += &field(name.map_or("", |species| &species.name));
-        row.push('\n');
-        out.write_all(row.as_bytes()).map_err(fail)?;
+        table.field(name.map_or("", |species| &species.name)).end_row()?;
     }
-    out.into_inner().map_err(|error| write_error(path, error.error()))?.finish()
+    Ok(table.finish()?)
 }
 
 /// Reads from such a table where drops landed, seen from where they were let go: along and across the wind, in metres.
@@ -105,17 +111,18 @@ pub(super) fn write_landings(path: &Path, scene: &Scene, landings: &[Landing]) -
 /// A file that cannot be read or is no such table, named with the path.
 pub(super) fn read_drifts(path: &Path) -> anyhow::Result<Vec<(f64, f64)>> {
     let name = path.display();
-    let text = std::fs::read_to_string(path).map_err(|error| anyhow!("{name}: {error}"))?;
-    let rows = text.strip_prefix(HEADER).with_context(|| format!("{name}:1: not a table of landings"))?;
+    let mut table = csv::Reader::from_path(path).map_err(|error| anyhow!("{name}: {error}"))?;
+    if table.headers().map_err(|error| anyhow!("{name}: {error}"))? != HEADER.as_slice() {
+        bail!("{name}:1: not a table of landings");
+    }
     let mut drifts = Vec::new();
-    for (number, row) in (2..).zip(rows.lines()) {
-        let mut fields = row.split(',').skip(3);
-        let (Some(along), Some(across)) = (fields.next(), fields.next()) else {
-            return Err(anyhow!("{name}:{number}: a row without along and across"));
-        };
+    for row in table.records() {
+        let row = row.map_err(|error| anyhow!("{name}: {error}"))?;
+        let [along, across] = DRIFT_COLUMNS.map(|column| &row[column]);
         if !along.is_empty() {
+            let line = row.position().map_or(0, csv::Position::line);
             let number = |text: &str| {
-                text.parse::<f64>().map_err(|_| anyhow!("{name}:{number}: '{text}' is not a number"))
+                text.parse::<f64>().map_err(|_| anyhow!("{name}:{line}: '{text}' is not a number"))
             };
             drifts.push((number(along)?, number(across)?));
         }

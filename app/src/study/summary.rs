@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A point of a study in one row.
 
-use std::fmt::Write as _;
-
 use windfall_core::motion::Primitive;
 
 use super::landing::{Landing, MOTION_COUNT};
@@ -85,20 +83,17 @@ impl Summary {
         }
     }
 
-    /// Its fields in the order of [`COLUMNS`]; what is NaN is empty.
-    pub(crate) fn to_row(&self) -> String {
-        let mut row = format!("{},{}", self.drops, self.landed);
+    /// Fields in the order of [`COLUMNS`]; what is NaN is empty.
+    pub(super) fn fields(&self) -> impl Iterator<Item = String> {
         let pairs = self.quantities.iter().flat_map(|&(mean, deviation)| [mean, deviation]);
-        for number in pairs.chain(self.motions) {
-            // Writing to a String cannot fail.
-            let _ = if number.is_nan() { write!(row, ",") } else { write!(row, ",{number}") };
-        }
-        row
+        let numbers = pairs.chain(self.motions);
+        let number = |number: f64| if number.is_nan() { String::new() } else { number.to_string() };
+        [self.drops, self.landed].into_iter().map(|count| count.to_string()).chain(numbers.map(number))
     }
 
-    /// Reads what [`Summary::to_row`] wrote, bit for bit; `None` for anything else.
-    pub(crate) fn from_row(row: &str) -> Option<Self> {
-        let fields: Vec<&str> = row.trim_end().split(',').collect();
+    /// Reads what [`Summary::fields`] gives, bit for bit; `None` for anything else.
+    pub(super) fn from_fields<'a>(fields: impl IntoIterator<Item = &'a str>) -> Option<Self> {
+        let fields: Vec<&str> = fields.into_iter().collect();
         let [drops, landed, numbers @ ..] = fields.as_slice() else { return None };
         let number = |text: &&str| if text.is_empty() { Some(f64::NAN) } else { text.parse().ok() };
         let numbers: Vec<f64> = numbers.iter().map(number).collect::<Option<_>>()?;
@@ -161,12 +156,13 @@ mod tests {
         for landings in
             [&[landing(0.1, 0.3), landing(0.7, 1.1), landing(1e-9, 3.3)][..], &[landing(1.0, 1.0)], &[]]
         {
-            let row = Summary::of(landings).to_row();
-            assert_eq!(row.matches(',').count() + 1, COLUMNS.len(), "as many fields as columns: {row}");
-            let read = Summary::from_row(&row).expect("a row");
-            assert_eq!(read.to_row(), row, "the same again");
+            let fields: Vec<String> = Summary::of(landings).fields().collect();
+            assert_eq!(fields.len(), COLUMNS.len(), "as many fields as columns: {fields:?}");
+            let read = Summary::from_fields(fields.iter().map(String::as_str)).expect("a row");
+            assert_eq!(read.fields().collect::<Vec<_>>(), fields, "the same again");
         }
-        assert!(Summary::from_row("1,2,3").is_none(), "too few");
-        assert!(Summary::from_row(&format!("{},0", Summary::of(&[]).to_row())).is_none(), "too many");
+        assert!(Summary::from_fields(["1", "2", "3"]).is_none(), "too few");
+        let many: Vec<String> = Summary::of(&[]).fields().chain(["0".to_owned()]).collect();
+        assert!(Summary::from_fields(many.iter().map(String::as_str)).is_none(), "too many");
     }
 }

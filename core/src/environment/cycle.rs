@@ -45,11 +45,15 @@ pub struct Cycle {
 }
 
 impl Cycle {
+    /// Field that errors of a length name.
+    pub const LENGTH: &str = "cycle length";
+
     /// The cycle of about `seconds` of a scene, and the scene as it must be for that: sources let go as many leaves a
     /// second as they do on average, evenly, gusts and cells of turbulence are a little longer or shorter.
     ///
     /// # Errors
-    /// [`SceneError::Field`] for what cannot repeat: leaves let go once, vortices and cameras that travel, water.
+    /// [`SceneError::Field`] for what cannot repeat: leaves let go once, vortices that travel. Pictures of a scene may have more
+    /// that does not, such as a camera that travels.
     pub fn of(scene: &Scene, file: &str, seconds: f64) -> Result<(Scene, Self), SceneError> {
         let refuse = |field: String, value: String, allowed: &str| {
             Err(SceneError::Field {
@@ -62,19 +66,13 @@ impl Cycle {
         let shortest = SHORTEST_S[usize::from(scene.tree_leaf_count() > 0)];
         if !(shortest..=LONGEST_S).contains(&seconds) {
             let allowed = format!("{shortest} to {LONGEST_S} s for this scene");
-            return refuse("--loop".into(), seconds.to_string(), &allowed);
+            return refuse(Self::LENGTH.into(), seconds.to_string(), &allowed);
         }
         for (index, vortex) in scene.wind.vortices.iter().enumerate() {
             if vortex.drift_m_s != glam::Vec3::ZERO {
                 let field = format!("wind.vortices[{index}].drift_m_s");
                 return refuse(field, vortex.drift_m_s.to_string(), "vortices that stay where they are");
             }
-        }
-        if scene.ground.water.is_some() {
-            return refuse("ground.water".into(), "there".into(), "no water, whose ripples never repeat,");
-        }
-        if !scene.view.path.is_empty() {
-            return refuse("view.path".into(), "there".into(), "a camera that stays");
         }
         let mut looped = scene.clone();
         looped.regrow_after_s = None;

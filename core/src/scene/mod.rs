@@ -13,6 +13,7 @@ pub mod limits;
 pub(crate) mod nearest;
 mod path;
 mod presets;
+mod scaling;
 mod sky;
 mod source;
 mod species;

@@ -15,6 +15,7 @@ use super::Arguments;
 use crate::leaves::atlas_of;
 use crate::run::backend::{Backend, BackendArguments};
 use crate::run::drawing::Drawing;
+use crate::run::progress::making_leaves;
 use crate::run::terminal;
 
 /// Size of the pictures unless the user says something else.
@@ -98,7 +99,7 @@ fn measure(
     let world = World::build(scene)?;
     let mut backend = device.simulator(&world)?;
     let stand = SceneTrees::of(scene, world.environment.forest());
-    let atlas = atlas_of(scene)?;
+    let atlas = atlas_of(scene, &making_leaves())?;
     let subject = RenderScene { scene, trees: &stand, atlas: &atlas };
     let (options, format) = (RendererOptions::for_scene(scene), PictureTarget::FORMAT);
     let mut renderer = Renderer::new(gpu.device(), gpu.queue(), subject, format, size, options)?;

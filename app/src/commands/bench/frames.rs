@@ -13,6 +13,7 @@ use windfall_wgpu::{Gpu, StoreBuffers};
 
 use super::contender::Contender;
 use crate::leaves::atlas_of;
+use crate::run::progress::making_leaves;
 
 /// Size of the pictures.
 const SIZE: (u32, u32) = (1280, 720);
@@ -32,7 +33,7 @@ impl Stage {
     /// A stage for the leaves of `world`.
     pub(super) fn new(gpu: &Gpu, scene: &Scene, world: &World) -> anyhow::Result<Self> {
         let target = PictureTarget::new(gpu.device(), SIZE)?;
-        let atlas = atlas_of(scene)?;
+        let atlas = atlas_of(scene, &making_leaves())?;
         let options = RendererOptions::for_scene(scene);
         let format = PictureTarget::FORMAT;
         let stand = SceneTrees::of(scene, world.environment.forest());

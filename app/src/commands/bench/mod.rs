@@ -18,7 +18,7 @@ use clap::Args;
 use cpu_time::ProcessTime;
 use windfall_core::leaf::HOT_BYTES_PER_STEP;
 use windfall_core::scene::MAX_LEAVES;
-use windfall_core::{SimError, World};
+use windfall_core::{Scene, SimError, World};
 use windfall_wgpu::Gpu;
 
 use self::bandwidth::update_bandwidth;
@@ -27,9 +27,9 @@ use self::frames::Stage;
 use self::row::{Floor, HEADER, Row};
 use crate::leaves::load_scene;
 use crate::run::backend::{BackendArguments, BackendKind, Device};
-use crate::run::parse::picture_size;
+use crate::run::memory::{check_memory, free_memory};
 use crate::run::parse::whole;
-use crate::run::scene_arguments::{check_memory, free_memory, scaled};
+use crate::run::parse::{option_error, picture_size};
 use crate::run::terminal;
 
 /// Steps before anything is timed. Shaders are compiled and memory is touched; the state after them is compared.
@@ -79,7 +79,8 @@ pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let scene = load_scene(&arguments.scene)?;
     let mut scenes = Vec::with_capacity(arguments.leaves.len());
     for &leaves in &arguments.leaves {
-        scenes.push(scaled(&scene, &arguments.scene, leaves)?);
+        let scaled = scene.with_leaf_count(&arguments.scene, leaves);
+        scenes.push(scaled.map_err(|error| option_error(error, Scene::LEAF_COUNT, "--leaves"))?);
         check_memory(&arguments.scene, leaves)?;
     }
     if arguments.draw {

@@ -17,8 +17,8 @@ use super::tunnel::Drops;
 use crate::files::OutputFile;
 use crate::plot::picture;
 use crate::run::backend::BackendArguments;
-use crate::run::interrupt;
-use crate::run::parse::whole;
+use crate::run::cancel::Cancel;
+use crate::run::parse::{png_file, whole};
 use crate::run::terminal;
 
 /// Kinematic viscosity of air at 20 °C in m²/s.
@@ -44,7 +44,7 @@ const SETTLED: f64 = 0.5;
 #[derive(Clone, Debug, Args)]
 pub(super) struct Arguments {
     /// File to write: .png.
-    #[arg(long, value_name = "FILE", value_parser = picture::png_file)]
+    #[arg(long, value_name = "FILE", value_parser = png_file)]
     out: PathBuf,
     /// Drops of each disc.
     #[arg(long, value_name = "N", default_value = "40", value_parser = whole::<u32, 1, 10_000>)]
@@ -76,22 +76,22 @@ impl Spot {
 /// # Errors
 /// A file that cannot be written, or an interruption; then nothing has changed.
 pub(super) fn run(arguments: &Arguments) -> anyhow::Result<()> {
-    interrupt::listen();
+    let cancel = Cancel::on_interrupt();
     let file = OutputFile::create(&arguments.out)?;
     let mut spots = Vec::new();
     for row in 0..GRID.1 {
         for column in 0..GRID.0 {
             let inertia = between(INERTIA, row, GRID.1);
             let reynolds = between(REYNOLDS, column, GRID.0);
-            spots.extend(
-                disc(inertia, reynolds)
-                    .map(|(size_m, density)| spot(size_m, density, arguments.drops, arguments.seed)),
-            );
+            spots
+                .extend(disc(inertia, reynolds).map(|(size_m, density)| {
+                    spot(size_m, density, arguments.drops, arguments.seed, &cancel)
+                }));
         }
     }
     let spots: Vec<Spot> =
         spots.into_iter().collect::<anyhow::Result<Vec<_>>>()?.into_iter().flatten().collect();
-    picture::write(file, &arguments.out, plot::SIZE, |area| plot::draw(area, arguments.drops, &spots))?;
+    picture::write(file, plot::SIZE, |area| plot::draw(area, arguments.drops, &spots))?;
     let counts =
         Regime::ALL.map(|regime| (regime, spots.iter().filter(|spot| spot.prevailing() == regime).count()));
     let counts = counts.map(|(regime, count)| format!("{} {count}", regime.name())).join(", ");
@@ -114,14 +114,14 @@ fn disc(inertia: f64, reynolds: f64) -> Option<(f32, f32)> {
 }
 
 /// Drops a disc.
-fn spot(size_m: f32, density: f32, count: u32, seed: u64) -> anyhow::Result<Option<Spot>> {
+fn spot(size_m: f32, density: f32, count: u32, seed: u64, cancel: &Cancel) -> anyhow::Result<Option<Spot>> {
     let piece = Piece::flat("disc", size_m, density)?.held(Release::Random);
     let size = f64::from(size_m);
     let height = HEIGHT_M.0 + HEIGHT_M.1 * size;
     #[expect(clippy::cast_possible_truncation, reason = "scenes hold single precision")]
     let drops = Drops { species: &piece.species, count, height_m: height as f32, seed };
     let mut watches = vec![Watch::new(SETTLED * height); count as usize];
-    drops.run(&BackendArguments::default().cpu(), &mut |drop, sample| {
+    drops.run(&BackendArguments::default().cpu(), cancel, &mut |drop, sample| {
         watches[drop].add(sample);
         Ok(())
     })?;

@@ -15,7 +15,7 @@ use super::statistics::{DropNumbers, SETTLE_M, Summary, Watch};
 use super::track_file::TrackFile;
 use super::tunnel::Drops;
 use crate::run::backend::BackendArguments;
-use crate::run::interrupt;
+use crate::run::cancel::Cancel;
 use crate::run::parse::whole;
 use crate::run::terminal;
 
@@ -81,16 +81,16 @@ struct Report {
 /// # Errors
 /// Bad input, a file that cannot be written, a device that is missing or lost. Then no file has changed.
 pub(super) fn run(arguments: &Arguments) -> anyhow::Result<()> {
-    interrupt::listen();
+    let cancel = Cancel::on_interrupt();
     let piece = arguments.piece.load()?.held(arguments.release);
     let mut tracks = arguments.tracks.as_deref().map(TrackFile::create).transpose()?;
     let device = arguments.backend.or_cpu()?;
     let (count, height_m, seed) = (arguments.drops, arguments.height, arguments.seed);
     let drops = Drops { species: &piece.species, count, height_m, seed };
     let mut watches = vec![Watch::new(SETTLE_M); count as usize];
-    let aloft = drops.run(&device, &mut |drop, sample| {
+    let aloft = drops.run(&device, &cancel, &mut |drop, sample| {
         watches[drop].add(sample);
-        tracks.as_mut().map_or(Ok(()), |tracks| tracks.add(drop, sample))
+        tracks.as_mut().map_or(Ok(()), |tracks| Ok(tracks.add(drop, sample)?))
     })?;
     if aloft > 0 {
         terminal::note(&format!("{aloft} of {count} drops had not landed when they were given up"));

@@ -14,8 +14,8 @@ use super::tunnel::Drops;
 use crate::files::OutputFile;
 use crate::plot::picture;
 use crate::run::backend::BackendArguments;
-use crate::run::interrupt;
-use crate::run::parse::whole;
+use crate::run::cancel::Cancel;
+use crate::run::parse::{png_file, whole};
 use crate::run::terminal;
 
 /// Height of the releases in m.
@@ -38,7 +38,7 @@ const LEAVES: [&str; 8] =
 #[derive(Clone, Debug, Args)]
 pub(super) struct Arguments {
     /// File to write: .png.
-    #[arg(long, value_name = "FILE", value_parser = picture::png_file)]
+    #[arg(long, value_name = "FILE", value_parser = png_file)]
     out: PathBuf,
     /// Seed of everything random.
     #[arg(long, value_name = "N", default_value = "1", value_parser = whole::<u64, 0, { u64::MAX }>)]
@@ -61,30 +61,30 @@ struct Track {
 /// # Errors
 /// A file that cannot be written, or an interruption; then nothing has changed.
 pub(super) fn run(arguments: &Arguments) -> anyhow::Result<()> {
-    interrupt::listen();
+    let cancel = Cancel::on_interrupt();
     let file = OutputFile::create(&arguments.out)?;
     let mut tracks = Vec::new();
     for (size_m, release) in DISCS {
         let piece = Piece::flat("disc", size_m, 0.07)?.held(release);
         let name = format!("disc, {:.1} cm", 100.0 * size_m);
-        tracks.push(track(&piece, name, arguments.seed)?);
+        tracks.push(track(&piece, name, arguments.seed, &cancel)?);
     }
     for name in LEAVES {
         let piece = Piece::leaf(name, None, None)?.held(Release::Random);
         let name = format!("{}, {:.1} cm", name.replace('-', " "), 100.0 * piece.size_m);
-        tracks.push(track(&piece, name, arguments.seed)?);
+        tracks.push(track(&piece, name, arguments.seed, &cancel)?);
     }
-    picture::write(file, &arguments.out, draw::SIZE, |area| draw::draw(area, &tracks))?;
+    picture::write(file, draw::SIZE, |area| draw::draw(area, &tracks))?;
     let last = |track: &Track| track.samples.last().map_or("none", |sample| sample.regime.name());
     let ends: Vec<_> = tracks.iter().map(|track| format!("{} {}", track.name, last(track))).collect();
     terminal::print(&format!("{}: {} drops; {}\n", arguments.out.display(), tracks.len(), ends.join("; ")))
 }
 
 /// Drops a piece once.
-fn track(piece: &Piece, name: String, seed: u64) -> anyhow::Result<Track> {
+fn track(piece: &Piece, name: String, seed: u64, cancel: &Cancel) -> anyhow::Result<Track> {
     let mut samples = Vec::new();
     let drops = Drops { species: &piece.species, count: 1, height_m: HEIGHT_M, seed };
-    drops.run(&BackendArguments::default().cpu(), &mut |_, sample| {
+    drops.run(&BackendArguments::default().cpu(), cancel, &mut |_, sample| {
         samples.push(*sample);
         Ok(())
     })?;

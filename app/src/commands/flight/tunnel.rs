@@ -9,7 +9,7 @@ use windfall_core::{Scene, Simulator, World};
 
 use super::sample::Sample;
 use crate::run::backend::Device;
-use crate::run::interrupt;
+use crate::run::cancel::Cancel;
 
 /// Length of a step in s; the kernel cuts it finer where a body asks for that.
 const STEP_S: f32 = 1.0 / 240.0;
@@ -69,6 +69,7 @@ impl Drops<'_> {
     pub(super) fn run(
         &self,
         device: &Device,
+        cancel: &Cancel,
         look: &mut dyn FnMut(usize, &Sample) -> anyhow::Result<()>,
     ) -> anyhow::Result<u32> {
         let mut world = World::build(&self.scene())?;
@@ -85,7 +86,7 @@ impl Drops<'_> {
             if aloft == 0 || world.clock.seconds() >= longest_s {
                 return Ok(aloft);
             }
-            interrupt::check()?;
+            cancel.check()?;
             simulator.step(1)?;
             simulator.read_state(&mut world)?;
         }

@@ -11,7 +11,8 @@ use windfall_texgen::{
     ComparedLeaf, Comparison, Distances, Levels, Metric, TexgenError, comparison_sheet, leaf_pictures,
 };
 
-use super::picture_file;
+use crate::files::OutputFile;
+use crate::run::parse::png_file;
 use crate::run::terminal;
 
 /// Options of `windfall leaf compare`.
@@ -28,7 +29,7 @@ pub struct Arguments {
     #[arg(long)]
     json: bool,
     /// Picture to write: photos above, generated leaves below, of equal area.
-    #[arg(long, value_name = "FILE", value_parser = picture_file::png)]
+    #[arg(long, value_name = "FILE", value_parser = png_file)]
     sheet: Option<PathBuf>,
 }
 
@@ -51,7 +52,7 @@ pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
         let (photos, generated) = (specimens(&photos), specimens(&generated));
         let sheet =
             comparison_sheet(&photos.iter().collect::<Vec<_>>(), &generated.iter().collect::<Vec<_>>());
-        picture_file::write(path, &sheet)?;
+        OutputFile::create(path)?.finish_png(&sheet)?;
     }
     let report = if arguments.json { as_json(&comparison).to_string() } else { comparison.to_string() };
     terminal::print(&(report + "\n"))

@@ -4,11 +4,9 @@
 
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::time::Duration;
 
 use anyhow::{anyhow, bail};
 use clap::{Args, ValueEnum};
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, ParallelIterator};
 use serde::Serialize;
 use windfall_texgen::{
@@ -18,8 +16,9 @@ use windfall_texgen::{
 
 use super::photo_arguments::PhotoArguments;
 use crate::files::OutputFolder;
-use crate::run::interrupt;
+use crate::run::cancel::Cancel;
 use crate::run::parse::whole;
+use crate::run::progress;
 use crate::run::terminal;
 
 /// A kind of leaf that can be drawn without photos.
@@ -91,17 +90,18 @@ struct Report<'a> {
 /// # Errors
 /// Bad input, photos that show no leaf, a folder that cannot be written to, an interrupt. Then no file has changed.
 pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
-    interrupt::listen();
+    let cancel = Cancel::on_interrupt();
     if arguments.stages.as_ref().is_some_and(|stages| *stages == arguments.out) {
         bail!("--stages {}: allowed: another folder than --out", arguments.out.display());
     }
     let out = OutputFolder::create(&arguments.out)?;
     let stages = arguments.stages.as_deref().map(OutputFolder::create).transpose()?;
     let makers = makers(arguments)?;
-    let facts = make_all(arguments, &makers, out.partial(), stages.as_ref().map(OutputFolder::partial))?;
+    let facts =
+        make_all(arguments, &makers, out.partial(), stages.as_ref().map(OutputFolder::partial), &cancel)?;
     let manifest = Manifest { version: FOLDER_VERSION, size_px: arguments.size, leaves: facts };
     manifest.save(out.partial())?;
-    interrupt::check()?;
+    cancel.check()?;
     out.finish(MANIFEST_NAME)?;
     if let Some(stages) = stages {
         stages.finish(MANIFEST_NAME)?;
@@ -149,17 +149,14 @@ fn make_all(
     makers: &[LeafMaker],
     out: &Path,
     stages: Option<&Path>,
+    cancel: &Cancel,
 ) -> anyhow::Result<Vec<LeafFacts>> {
     let total = u64::from(arguments.count) * makers.len() as u64;
-    let bar = ProgressBar::with_draw_target(Some(total), ProgressDrawTarget::stderr());
-    if let Ok(style) = ProgressStyle::with_template("{bar:40} leaf {pos} of {len}, {eta} left") {
-        bar.set_style(style);
-    }
-    bar.enable_steady_tick(Duration::from_millis(200));
+    let bar = progress::bar(total, "leaf");
     let jobs: Vec<(usize, u32)> =
         (0..makers.len()).flat_map(|maker| (0..arguments.count).map(move |number| (maker, number))).collect();
     let make = |(job, &(maker, number)): (usize, &(usize, u32))| -> anyhow::Result<LeafFacts> {
-        interrupt::check()?;
+        cancel.check()?;
         let mut made = makers[maker].make(number, stages.is_some())?;
         made.facts.name = numbered(&made.facts.name, job);
         made.facts.has_mesh = arguments.mesh;

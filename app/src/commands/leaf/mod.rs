@@ -5,7 +5,6 @@
 pub(crate) mod compare;
 pub(crate) mod make;
 mod photo_arguments;
-mod picture_file;
 pub(crate) mod season_strip;
 pub(crate) mod veins;
 

@@ -8,7 +8,8 @@ use clap::Args;
 use windfall_texgen::season;
 
 use super::make::Species;
-use super::picture_file;
+use crate::files::OutputFile;
+use crate::run::parse::png_file;
 use crate::run::parse::whole;
 
 /// Options of `windfall leaf season-strip`.
@@ -27,7 +28,7 @@ pub struct Arguments {
     #[arg(long, value_name = "PX", default_value = "256", value_parser = whole::<u32, 16, 2048>)]
     size: u32,
     /// PNG to write.
-    #[arg(long, value_name = "FILE", value_parser = picture_file::png)]
+    #[arg(long, value_name = "FILE", value_parser = png_file)]
     out: PathBuf,
 }
 
@@ -37,5 +38,5 @@ pub struct Arguments {
 /// Numbers that do not go together, or whatever keeps the file from being written.
 pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let sheet = season::strip(arguments.species.shape(), arguments.steps, arguments.size, arguments.seed)?;
-    picture_file::write(&arguments.out, &sheet)
+    Ok(OutputFile::create(&arguments.out)?.finish_png(&sheet)?)
 }

@@ -8,7 +8,8 @@ use clap::Args;
 use glam::Vec2;
 use windfall_texgen::{Overlay, Photo};
 
-use super::picture_file;
+use crate::files::OutputFile;
+use crate::run::parse::png_file;
 use crate::run::terminal;
 
 /// Options of `windfall leaf veins`.
@@ -25,7 +26,7 @@ pub struct Arguments {
     root: Option<Vec2>,
     /// Picture to write: outline, root (red), tip (blue), main veins (yellow), lateral veins (orange), petiole
     /// (violet); a bar at the top is as long as root and tip are sure.
-    #[arg(long, value_name = "FILE", value_parser = picture_file::png)]
+    #[arg(long, value_name = "FILE", value_parser = png_file)]
     out: PathBuf,
 }
 
@@ -38,7 +39,7 @@ pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let mask = arguments.mask.clone().or_else(|| beside.is_file().then_some(beside));
     let photo = Photo { path: &arguments.photo, mask: mask.as_deref(), root: arguments.root };
     let extraction = photo.extract()?;
-    picture_file::write(&arguments.out, Overlay::of(&extraction).image())?;
+    OutputFile::create(&arguments.out)?.finish_png(Overlay::of(&extraction).image())?;
     for note in &extraction.notes {
         terminal::note(&format!("note: {note}"));
     }

@@ -12,8 +12,8 @@ use windfall_core::tree::gltf::{GltfLook, to_glb, to_gltf};
 use windfall_core::tree::{BarkDetail, bark_mesh};
 
 use super::source::TreeArguments;
-use crate::files::{OutputFile, write_error};
-use crate::run::interrupt;
+use crate::files::{OutputFile, WriteError};
+use crate::run::cancel::Cancel;
 use crate::run::terminal;
 
 /// How closely the bark follows the wood.
@@ -63,7 +63,7 @@ struct Report {
 /// # Errors
 /// A tree that cannot be had, or a file that cannot be written; then nothing has changed.
 pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
-    interrupt::listen();
+    let cancel = Cancel::on_interrupt();
     let mut file = OutputFile::create(&arguments.out)?;
     let tree = arguments.tree.load()?;
     let mesh = bark_mesh(&tree.skeleton, arguments.detail.into());
@@ -77,8 +77,8 @@ pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
         true => to_glb(&tree.skeleton, &mesh, &look),
         false => to_gltf(&tree.skeleton, &mesh, &look).into_bytes(),
     };
-    interrupt::check()?;
-    file.write_all(&bytes).map_err(|error| write_error(&arguments.out, &error))?;
+    cancel.check()?;
+    file.write_all(&bytes).map_err(WriteError::at(&arguments.out))?;
     file.finish()?;
     let report = Report {
         file: arguments.out.display().to_string(),

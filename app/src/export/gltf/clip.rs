@@ -20,8 +20,9 @@ use crate::export::foliage::Foliage;
 use crate::export::fruit::fruit;
 use crate::export::wood::{Joint, at_rest, at_rest_above, bark, joints, rotations};
 use crate::export::{Exporter, Frame, Job};
-use crate::files::{OutputFile, write_error};
+use crate::files::{OutputFile, WriteError};
 use crate::leaves::atlas_of;
+use crate::run::progress::making_leaves;
 
 /// A clip in the making. The format wants everything of a node together, so it is gathered in memory, of which
 /// [`start`](super::start) sees that it is not too much.
@@ -48,7 +49,7 @@ impl ClipExport {
     pub(super) fn start(job: &Job<'_>) -> anyhow::Result<Self> {
         let file = OutputFile::create(job.path)?;
         let sun = Daylight::new(&job.scene.view)?.sun;
-        let foliage = Foliage::new(job.scene, job.stand, &atlas_of(job.scene)?);
+        let foliage = Foliage::new(job.scene, job.stand, &atlas_of(job.scene, &making_leaves())?);
         let trees = job.stand.trees.iter().map(|tree| (joints(tree), vec![Vec::new(); tree.rows.len()]));
         Ok(Self {
             file,
@@ -117,7 +118,7 @@ impl Exporter for ClipExport {
 
     fn finish(mut self: Box<Self>) -> anyhow::Result<PathBuf> {
         let assembled = self.assemble();
-        assembled.map_err(|error| write_error(self.file.destination(), &error))?;
+        assembled.map_err(WriteError::at(self.file.destination()))?;
         self.document.finish(&self.name, self.file)
     }
 }

@@ -11,7 +11,7 @@ use gltf::json::{Image, Index, Node, Root, Scene, Texture};
 use image::{DynamicImage, ImageFormat};
 use windfall_core::tree::gltf::{GltfBuffer, new_document, write_glb};
 
-use crate::files::{OutputFile, write_error};
+use crate::files::{OutputFile, WriteError};
 
 /// A document and its buffer. Functions that add something give its index.
 #[derive(Debug)]
@@ -73,7 +73,7 @@ impl Document {
         let mut out = BufWriter::new(&mut file);
         let written = self.write(name, &mut out).and_then(|()| out.flush());
         drop(out);
-        written.map_err(|error| write_error(&path, &error))?;
+        written.map_err(WriteError::at(&path))?;
         file.finish()?;
         Ok(path)
     }

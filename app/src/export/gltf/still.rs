@@ -17,8 +17,9 @@ use super::scenery::{Barks, LeafMeshes, add_surfaces, shown, tree_mesh, view};
 use crate::export::foliage::Foliage;
 use crate::export::fruit::fruit;
 use crate::export::{Exporter, Frame, FrameLeaf, Job, wood};
-use crate::files::{OutputFile, write_error};
+use crate::files::{OutputFile, WriteError};
 use crate::leaves::atlas_of;
+use crate::run::progress::making_leaves;
 
 /// A frame in the making.
 #[derive(Debug)]
@@ -35,7 +36,7 @@ impl StillExport {
     pub(super) fn start(job: &Job<'_>) -> anyhow::Result<Self> {
         let file = OutputFile::create(job.path)?;
         let sun = Daylight::new(&job.scene.view)?.sun;
-        let foliage = Foliage::new(job.scene, job.stand, &atlas_of(job.scene)?);
+        let foliage = Foliage::new(job.scene, job.stand, &atlas_of(job.scene, &making_leaves())?);
         let name = job.scene.name.clone();
         Ok(Self { file, document: Document::default(), foliage, stand: job.stand.clone(), sun, name })
     }
@@ -95,7 +96,7 @@ impl StillExport {
 impl Exporter for StillExport {
     fn push(&mut self, frame: &Frame<'_>) -> anyhow::Result<()> {
         let added = self.add(frame);
-        added.map_err(|error| write_error(self.file.destination(), &error))
+        Ok(added.map_err(WriteError::at(self.file.destination()))?)
     }
 
     fn finish(self: Box<Self>) -> anyhow::Result<PathBuf> {

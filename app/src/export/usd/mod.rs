@@ -27,10 +27,9 @@ use self::trees::TreeSamples;
 use self::view::ViewSamples;
 use super::foliage::Foliage;
 use super::{Exporter, Frame, FrameLeaf, Job};
-use crate::files::{OutputFile, write_error};
+use crate::files::{OutputFile, OutputFolder, WriteError};
 use crate::leaves;
-use crate::output::beside::Beside;
-use crate::run::interrupt;
+use crate::run::progress::making_leaves;
 
 /// Bytes of a leaf in a frame, about.
 pub(super) const LEAF_BYTES: u64 = 200;
@@ -43,7 +42,7 @@ const STAGE: &str = "stage.usda";
 #[derive(Debug)]
 pub(super) struct UsdExport {
     root: OutputFile,
-    folder: Beside,
+    folder: OutputFolder,
     foliage: Foliage,
     samples: Samples,
     attributes: LeafAttributes,
@@ -60,10 +59,10 @@ impl UsdExport {
         let root = OutputFile::create(job.path)?;
         let folder = layer_folder(root.destination());
         check_folder(&folder)?;
-        let folder = Beside::directory(&folder)?;
+        let folder = OutputFolder::create(&folder)?;
         let daylight = Daylight::new(&job.scene.view)?;
-        let atlas = leaves::atlas_of(job.scene)?;
-        interrupt::check()?;
+        let atlas = leaves::atlas_of(job.scene, &making_leaves())?;
+        job.cancel.check()?;
         let foliage = Foliage::new(job.scene, job.stand, &atlas);
         drop(atlas);
         let clock = stage::Clock::new(job.frames, job.fps);
@@ -79,7 +78,7 @@ impl UsdExport {
             samples.manifest(&mut manifest, &clock.head())?;
             manifest.flush()
         });
-        written.map_err(|error| write_error(folder.destination(), &error))?;
+        written.map_err(WriteError::at(folder.destination()))?;
         prototypes::write_pictures(folder.partial(), folder.destination(), &foliage)?;
         trees::write_pictures(folder.partial(), folder.destination(), job.stand)?;
         let reach_m = foliage
@@ -103,7 +102,7 @@ impl Exporter for UsdExport {
         self.add(frame);
         if self.samples.is_full() {
             let written = self.samples.flush(self.folder.partial(), &self.clock.head());
-            written.map_err(|error| write_error(self.folder.destination(), &error))?;
+            written.map_err(WriteError::at(self.folder.destination()))?;
             self.add(frame);
         }
         Ok(())
@@ -115,16 +114,16 @@ impl Exporter for UsdExport {
         let path = self.root.destination().to_owned();
         let head = self.clock.head();
         let layers = self.samples.finish(self.folder.partial(), &head);
-        let layers = layers.map_err(|error| write_error(&folder, &error))?;
+        let layers = layers.map_err(WriteError::at(&folder))?;
         let name = folder.file_name().unwrap_or_default().to_string_lossy();
         let text = stage::root(self.clock, &name, layers);
-        self.root.write_all(text.as_bytes()).map_err(|error| write_error(&path, &error))?;
+        self.root.write_all(text.as_bytes()).map_err(WriteError::at(&path))?;
         let old = folder.with_file_name(format!(".{name}.{}.old", std::process::id()));
         let was_there = folder.exists();
         if was_there {
-            fs::rename(&folder, &old).map_err(|error| write_error(&folder, &error))?;
+            fs::rename(&folder, &old).map_err(WriteError::at(&folder))?;
         }
-        self.folder.put_in_place()?;
+        self.folder.finish("")?;
         self.root.finish()?;
         if was_there {
             // The new stage is complete; nobody asks for the old one.

@@ -12,7 +12,7 @@ use super::text;
 use crate::export::foliage::Foliage;
 use crate::export::leaf_mesh::LeafMesh;
 use crate::export::plain::Plain;
-use crate::files::write_error;
+use crate::files::WriteError;
 
 /// Folder of the pictures beside the layers.
 pub(super) const PICTURES: &str = "textures";
@@ -113,12 +113,12 @@ pub(super) fn write_plain(out: &mut impl Write, plain: &Plain) -> io::Result<()>
     )
 }
 
-/// Writes the pictures of all kinds of leaves; `told` is the folder that errors name.
-pub(super) fn write_pictures(folder: &Path, told: &Path, foliage: &Foliage) -> anyhow::Result<()> {
+/// Writes the pictures of all kinds of leaves; `destination` is the folder that errors name.
+pub(super) fn write_pictures(folder: &Path, destination: &Path, foliage: &Foliage) -> anyhow::Result<()> {
     let folder = folder.join(PICTURES);
-    fs::create_dir(&folder).map_err(|error| write_error(told, &error))?;
+    fs::create_dir(&folder).map_err(WriteError::at(destination))?;
     foliage.pictures.par_iter().try_for_each(|picture| {
         let saved = picture.image.save(folder.join(format!("{}.png", picture.name)));
-        saved.map_err(|error| write_error(told, &io::Error::other(error)))
+        Ok(saved.map_err(|error| WriteError::at(destination)(io::Error::other(error)))?)
     })
 }

@@ -19,7 +19,7 @@ use crate::export::fruit::{SKIN, fruit};
 use crate::export::wood::{
     Joint, at_rest, at_rest_above, bark, bark_name, bark_picture, barks, joints, rotations,
 };
-use crate::files::write_error;
+use crate::files::WriteError;
 
 /// Decimal places of corners in metres.
 const PLACES: i32 = 4;
@@ -154,13 +154,13 @@ pub(super) fn write_materials(out: &mut impl Write, stand: &SceneTrees) -> io::R
     if has_fruit { write_plain(out, &SKIN) } else { Ok(()) }
 }
 
-/// Writes the pictures of all barks into the folder that is there; `told` is the folder that errors name.
-pub(super) fn write_pictures(folder: &Path, told: &Path, stand: &SceneTrees) -> anyhow::Result<()> {
+/// Writes the pictures of all barks into the folder that is there; `destination` is the folder that errors name.
+pub(super) fn write_pictures(folder: &Path, destination: &Path, stand: &SceneTrees) -> anyhow::Result<()> {
     let folder = folder.join(PICTURES);
-    fs::create_dir_all(&folder).map_err(|error| write_error(told, &error))?;
+    fs::create_dir_all(&folder).map_err(WriteError::at(destination))?;
     for kind in barks(stand) {
         let saved = bark_picture(kind).save(folder.join(format!("{}.png", bark_name(kind))));
-        saved.map_err(|error| write_error(told, &io::Error::other(error)))?;
+        saved.map_err(|error| WriteError::at(destination)(io::Error::other(error)))?;
     }
     Ok(())
 }

@@ -12,7 +12,7 @@ use windfall_core::Scene;
 use self::heat_map::{Frame, draw_grid, draw_one};
 use crate::files::OutputFile;
 use crate::plot::picture::write;
-use crate::run::interrupt;
+use crate::run::cancel::Cancel;
 use crate::study::folder::StudyFolder;
 use crate::study::place::SceneTree;
 use crate::study::point::Point;
@@ -33,6 +33,7 @@ pub(crate) fn draw(
     variations: &[Variation],
     points: &[Point],
     summaries: &[Summary],
+    cancel: &Cancel,
 ) -> anyhow::Result<()> {
     let drifts: Vec<_> =
         (0..points.len()).map(|number| folder.read_drifts(number)).collect::<anyhow::Result<_>>()?;
@@ -42,7 +43,7 @@ pub(crate) fn draw(
         let path = folder.of_point(number).join("landings.png");
         // The same points give the same scales.
         if !path.exists() {
-            interrupt::check()?;
+            cancel.check()?;
             picture(&path, heat_map::SIZE, |area| draw_one(area, &frame, title, drifts))?;
         }
     }
@@ -72,7 +73,7 @@ fn picture(
     size: (u32, u32),
     draw: impl FnOnce(&crate::plot::picture::Area<'_>) -> crate::plot::picture::Drawn,
 ) -> anyhow::Result<()> {
-    write(OutputFile::create(path)?, path, size, draw)
+    write(OutputFile::create(path)?, size, draw)
 }
 
 /// Panels side by side: the values of the last of several variations, else a shape a little wider than high.

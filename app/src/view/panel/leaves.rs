@@ -10,7 +10,6 @@ use windfall_core::scene::limits::Limit;
 use windfall_core::{Scene, SceneError};
 
 use super::field::field;
-use crate::run::scene_arguments::scaled;
 
 /// `base` is the scene before the edit that is going on; `range` is what scene and device allow.
 ///
@@ -36,7 +35,7 @@ pub(super) fn show(
         "Length of the trail behind every leaf, in the picture alone; the first 4096 leaves have trails";
     field("Trails", tip, limits::TRAIL_S).fine(0.1).show(ui, &mut scene.view.trail_s, own.view.trail_s);
     if count != before {
-        *scene = scaled(base, &base.name, count)?;
+        *scene = base.with_leaf_count(&base.name, count)?;
     }
     Ok(())
 }

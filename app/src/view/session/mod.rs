@@ -21,7 +21,7 @@ use windfall_render::GpuTimer;
 use windfall_wgpu::{Gpu, WorldColumns};
 
 use crate::run::backend::{Backend, BackendKind, Device};
-use crate::run::scene_arguments::check_memory;
+use crate::run::memory::check_memory;
 use crate::view::session::history::History;
 use crate::view::session::pace::Pace;
 pub(crate) use compare::Difference;

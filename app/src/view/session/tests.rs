@@ -4,11 +4,9 @@
 use super::*;
 use windfall_core::scene::{MeanSpeed, Profile};
 
-use crate::run::scene_arguments::scaled;
-
 fn session(kind: BackendKind) -> Session {
     let mut scene = Scene::preset("autumn-park").expect("a preset");
-    scene = scaled(&scene, "autumn-park", 500).expect("allowed");
+    scene = scene.with_leaf_count("autumn-park", 500).expect("allowed");
     let gpu = Gpu::request(None).expect("an adapter; apt install mesa-vulkan-drivers");
     let device = match kind {
         BackendKind::Cpu => Device::Cpu(CpuOptions::default()),
@@ -76,7 +74,7 @@ fn another_world_begins_again_with_what_was_tuned() {
     let mut session = session(BackendKind::Wgpu);
     session.take_over(windier(&session), true).expect("allowed");
     session.step(5).expect("it steps");
-    let scene = Arc::new(scaled(session.scene(), "autumn-park", 900).expect("allowed"));
+    let scene = Arc::new(session.scene().with_leaf_count("autumn-park", 900).expect("allowed"));
     let world = World::build(&scene).expect("valid");
     let simulator = session.simulator_of(&world).expect("the device takes it");
     session.begin(Arc::clone(&scene), &world, simulator).expect("it begins");

@@ -13,6 +13,7 @@ use windfall_wgpu::Gpu;
 
 use super::Viewer;
 use crate::leaves;
+use crate::run::progress::making_leaves;
 use crate::view::panel::controls::Wish;
 use crate::view::session::change::Change;
 use crate::view::window::dropped::{Dropped, dropped};
@@ -205,7 +206,7 @@ pub(super) fn renderer_of(
     format: wgpu::TextureFormat,
     size: (u32, u32),
 ) -> anyhow::Result<Renderer> {
-    let atlas = leaves::atlas_of(scene)?;
+    let atlas = leaves::atlas_of(scene, &making_leaves())?;
     let stand = SceneTrees::of(scene, environment.forest());
     let subject = RenderScene { scene, trees: &stand, atlas: &atlas };
     let options = RendererOptions::for_scene(scene);

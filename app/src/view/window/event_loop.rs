@@ -16,7 +16,7 @@ use winit::window::{Window, WindowId};
 use windfall_core::{Scene, World};
 
 use crate::run::backend::BackendArguments;
-use crate::run::interrupt;
+use crate::run::cancel::Cancel;
 use crate::view::panel::Group;
 use crate::view::tools::overlays::Show;
 use crate::view::window::screenshot::Screenshot;
@@ -53,15 +53,15 @@ pub(crate) struct Options {
 pub(crate) fn run(options: Options) -> anyhow::Result<()> {
     let screenshot =
         options.screenshot.as_ref().map(|(path, after_s)| Screenshot::prepare(path, *after_s)).transpose()?;
-    if screenshot.is_some() {
-        interrupt::listen();
-    }
+    // Without anything to complete an interrupt ends the program at once.
+    let cancel = if screenshot.is_some() { Cancel::on_interrupt() } else { Cancel::default() };
     let event_loop = EventLoop::new().map_err(|error| no_display(&error))?;
     let world = World::build(&options.scene)?;
     let display = Box::new(event_loop.owned_display_handle());
     let descriptor = windfall_wgpu::instance_descriptor().with_display_handle(display);
     let instance = wgpu::Instance::new(descriptor);
-    let mut app = App { options, world: Some(world), screenshot, instance, viewer: None, outcome: Ok(()) };
+    let mut app =
+        App { options, world: Some(world), screenshot, cancel, instance, viewer: None, outcome: Ok(()) };
     event_loop.run_app(&mut app).map_err(|error| no_display(&error))?;
     app.outcome
 }
@@ -89,6 +89,7 @@ struct App {
     /// Until the window is there.
     world: Option<World>,
     screenshot: Option<Screenshot>,
+    cancel: Cancel,
     instance: wgpu::Instance,
     viewer: Option<Viewer>,
     outcome: anyhow::Result<()>,
@@ -149,8 +150,8 @@ impl ApplicationHandler for App {
         if self.outcome.is_err() || event_loop.exiting() {
             return;
         }
-        let interrupted = interrupt::check();
         let Some(viewer) = &mut self.viewer else { return };
+        let interrupted = self.cancel.check().and(viewer.cancel().check());
         if interrupted.is_err() && viewer.finish_recording() {
             event_loop.exit();
             return;
@@ -165,6 +166,6 @@ impl ApplicationHandler for App {
             Next::Event => event_loop.set_control_flow(ControlFlow::Wait),
             Next::Quit => event_loop.exit(),
         }
-        self.attempt(event_loop, interrupted);
+        self.attempt(event_loop, interrupted.map_err(Into::into));
     }
 }

@@ -28,6 +28,7 @@ use winit::window::Window;
 
 use self::editing::{Document, renderer_of};
 use self::instruments::Instruments;
+use crate::run::cancel::Cancel;
 use crate::run::drawing::Drawing;
 use crate::run::terminal;
 use crate::view::panel::Panel;
@@ -82,6 +83,8 @@ pub(crate) struct Viewer {
     message: Option<(Message, Instant)>,
     screenshot: Option<Screenshot>,
     recording: Option<Recording>,
+    /// Request to end, once there is a clip to complete before.
+    cancel: Cancel,
     /// Where the next clip goes to, once that is known.
     record_to: Option<String>,
     next: Next,
@@ -135,6 +138,7 @@ impl Viewer {
             message: None,
             screenshot,
             recording: None,
+            cancel: Cancel::default(),
             record_to: None,
             next: Next::Frame,
             has_news: false,
@@ -149,6 +153,11 @@ impl Viewer {
         if repaint || matches!(event, WindowEvent::Resized(_) | WindowEvent::Occluded(false)) {
             self.next = Next::Frame;
         }
+    }
+
+    /// Request to end the program.
+    pub(crate) fn cancel(&self) -> &Cancel {
+        &self.cancel
     }
 
     /// When to draw next.

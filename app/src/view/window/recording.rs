@@ -7,6 +7,7 @@ use std::path::Path;
 use windfall_render::FrameInput;
 
 use super::Viewer;
+use crate::run::cancel::Cancel;
 use crate::run::terminal;
 use crate::view::panel::grouped;
 use crate::view::tools::clip::{RecordFacts, Recording, free_name};
@@ -24,7 +25,7 @@ impl Viewer {
         match Recording::start(&path, &self.gpu, self.screen.format(), size, pace) {
             Ok(recording) => {
                 // Ending the program completes the clip from now on.
-                crate::run::interrupt::listen();
+                self.cancel = Cancel::on_interrupt();
                 self.recording = Some(recording);
             }
             Err(error) => self.say(error.to_string(), true),

@@ -2,25 +2,22 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Writes scenes to files; what they name is found again from there.
 
-use std::io::Write;
 use std::path::{Path, PathBuf, absolute};
 
 use windfall_core::Scene;
 use windfall_core::scene::{Sky, TreeForm};
 
-use crate::files::{OutputFile, write_error};
+use crate::files::{OutputFile, WriteError};
 
 /// Saves a scene as RON; the path where it lies.
 ///
 /// # Errors
 /// Whatever keeps the file from lying there, named with the path; nothing has changed then.
 pub(crate) fn save(scene: &Scene, path: &Path) -> anyhow::Result<PathBuf> {
-    let mut file = OutputFile::create(path)?;
-    let destination = absolute(path).map_err(|error| write_error(path, &error))?;
+    let destination = absolute(path).map_err(WriteError::at(path))?;
     let folder = destination.parent().unwrap_or(&destination);
     let text = seen_from(scene, folder).to_ron();
-    file.write_all(text.as_bytes()).map_err(|error| write_error(path, &error))?;
-    file.finish()?;
+    OutputFile::write_whole(path, text.as_bytes())?;
     Ok(destination)
 }
 

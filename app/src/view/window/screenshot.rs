@@ -2,13 +2,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A picture of the window, panel and all, after some time.
 
-use std::io::BufWriter;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::time::{Duration, Instant};
 
-use anyhow::anyhow;
-use image::codecs::png::PngEncoder;
-use image::{ExtendedColorType, ImageEncoder, RgbaImage};
+use image::RgbaImage;
 
 use crate::files::OutputFile;
 
@@ -18,7 +15,6 @@ const MIN_FRAMES: u32 = 4;
 /// A picture to be taken.
 #[derive(Debug)]
 pub(crate) struct Screenshot {
-    path: PathBuf,
     file: OutputFile,
     after: Duration,
     began: Instant,
@@ -32,7 +28,6 @@ impl Screenshot {
     /// Whatever would keep it from being written.
     pub(crate) fn prepare(path: &Path, after_s: f64) -> anyhow::Result<Self> {
         Ok(Self {
-            path: path.to_owned(),
             file: OutputFile::create(path)?,
             after: Duration::from_secs_f64(after_s),
             began: Instant::now(),
@@ -56,11 +51,6 @@ impl Screenshot {
     /// # Errors
     /// What the system says, for example that the disk is full.
     pub(crate) fn save(self, picture: &RgbaImage) -> anyhow::Result<()> {
-        let Self { path, mut file, .. } = self;
-        let (width, height) = picture.dimensions();
-        PngEncoder::new(BufWriter::new(&mut file))
-            .write_image(picture.as_raw(), width, height, ExtendedColorType::Rgba8)
-            .map_err(|error| anyhow!("{}: cannot write: {error}", path.display()))?;
-        file.finish()
+        Ok(self.file.finish_png(picture)?)
     }
 }

@@ -9,7 +9,7 @@ use windfall_core::scene::{Gusts, MeanSpeed, Profile, Tree, TreePreset, Turbulen
 use windfall_core::{Scene, Simulator, World};
 use windfall_cpu::{CpuOptions, CpuSimulator};
 
-use crate::run::interrupt;
+use crate::run::cancel::Cancel;
 
 /// Length of a step in s: chances are per second, and trees in a steady wind hardly move.
 const STEP_S: f32 = 0.05;
@@ -107,7 +107,7 @@ impl Season {
     ///
     /// # Errors
     /// An interruption, or threads that do not start.
-    pub(super) fn of(crown: &Crown, minutes: u32) -> anyhow::Result<Self> {
+    pub(super) fn of(crown: &Crown, minutes: u32, cancel: &Cancel) -> anyhow::Result<Self> {
         let seconds = 60.0 * f64::from(minutes);
         let still = crown.world(0.0, false)?;
         let facts = still.environment.forest().trees()[0].facts;
@@ -130,7 +130,7 @@ impl Season {
                 )]
                 let mut left = (seconds / f64::from(STEP_S)).round() as u32;
                 while left > 0 {
-                    interrupt::check()?;
+                    cancel.check()?;
                     let batch = left.min(BATCH);
                     simulator.step(batch)?;
                     left -= batch;

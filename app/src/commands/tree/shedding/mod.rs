@@ -5,20 +5,17 @@
 mod measure;
 mod plot;
 
-use std::io::BufWriter;
 use std::path::PathBuf;
 
 use anyhow::{anyhow, bail};
 use clap::Args;
-use image::codecs::png::PngEncoder;
-use image::{ExtendedColorType, ImageEncoder};
 use windfall_core::Scene;
 use windfall_core::scene::TreePreset;
 
 use self::measure::{Crown, Season};
 use crate::files::OutputFile;
-use crate::run::interrupt;
-use crate::run::parse::whole;
+use crate::run::cancel::Cancel;
+use crate::run::parse::{png_file, whole};
 use crate::run::terminal;
 
 /// Times of the year that are drawn.
@@ -47,40 +44,28 @@ pub struct Arguments {
     seed: u64,
 }
 
-/// Reads the name of a picture.
-fn png_file(text: &str) -> Result<PathBuf, String> {
-    let path = PathBuf::from(text);
-    match path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("png")) {
-        true => Ok(path),
-        false => Err("allowed: a file name that ends in .png".into()),
-    }
-}
-
 /// Runs the command.
 ///
 /// # Errors
 /// An unknown kind, or a file that cannot be written; then nothing has changed.
 pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
-    interrupt::listen();
+    let cancel = Cancel::on_interrupt();
     let Some(preset) = TreePreset::named(&arguments.kind) else {
         let kinds = TreePreset::ALL.map(TreePreset::name).join(", ");
         bail!("tree '{}': allowed: a kind ({kinds})", arguments.kind.escape_debug());
     };
-    let mut file = OutputFile::create(&arguments.out)?;
+    let file = OutputFile::create(&arguments.out)?;
     let mut seasons = Vec::with_capacity(SEASONS.len());
     // A wood has leaves of every kind.
     let wood = Scene::preset("forest").expect("a scene that travels in the program");
     for autumn in SEASONS {
         let crown = Crown::new(&wood, preset, arguments.leaves, arguments.seed, autumn)?;
-        seasons.push(Season::of(&crown, arguments.minutes)?);
+        seasons.push(Season::of(&crown, arguments.minutes, &cancel)?);
     }
     let picture = plot::plot(preset.name(), arguments.minutes, &seasons)
         .map_err(|error| anyhow!("{}: cannot draw: {error}", arguments.out.display()))?;
-    interrupt::check()?;
-    PngEncoder::new(BufWriter::new(&mut file))
-        .write_image(picture.as_raw(), picture.width(), picture.height(), ExtendedColorType::Rgb8)
-        .map_err(|error| anyhow!("{}: cannot write: {error}", arguments.out.display()))?;
-    file.finish()?;
+    cancel.check()?;
+    file.finish_png(&picture)?;
     let marks: usize = seasons.iter().map(|season| season.marks.len()).sum();
     let out = arguments.out.display();
     terminal::print(&format!("{out}: {} seasons, {marks} simulations that shed leaves\n", seasons.len()))
