@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! How leaves from a folder fly: as the bodies that its manifest says they are.
 
+use std::path::Path;
+
 use windfall_core::Scene;
-use windfall_core::scene::{FlightModel, Planform, Species, limits};
+use windfall_core::scene::{Aerodynamics, FlightModel, Planform, Species, limits};
 use windfall_texgen::{BodyFacts, LeafFacts, Manifest};
 
 use super::in_season;
@@ -39,6 +41,21 @@ pub(crate) fn fit_bodies(scene: &mut Scene) -> anyhow::Result<bool> {
         }
     }
     Ok(is_any)
+}
+
+/// Body of the leaves in a folder. Numbers that the folder does not have are those of the kind that its leaves are named after.
+///
+/// # Errors
+/// A folder whose manifest cannot be used.
+pub(crate) fn species_of_folder(path: &Path) -> anyhow::Result<Species> {
+    let manifest = Manifest::load(path)?;
+    let leaves: Vec<&LeafFacts> = manifest.leaves.iter().collect();
+    let kind = leaves.first().and_then(|leaf| leaf.name.rsplit_once('-')).map(|(kind, _)| kind);
+    let dry = Aerodynamics { moisture: 0.0, ..Aerodynamics::default() };
+    let plain = || Species { flight: FlightModel::Aerodynamic(dry), ..Species::default() };
+    let mut species = kind.and_then(Species::preset).unwrap_or_else(plain);
+    fit(&mut species, &leaves);
+    Ok(species)
 }
 
 /// Fits one species to leaves, at least one.

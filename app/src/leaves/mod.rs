@@ -5,8 +5,8 @@
 mod body;
 mod cache;
 
-pub(crate) use body::fit_bodies;
 pub(crate) use body::load_scene;
+pub(crate) use body::{fit_bodies, species_of_folder};
 use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
 use windfall_core::Scene;
 use windfall_core::scene::{LeafShape, Species};

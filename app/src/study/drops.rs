@@ -5,8 +5,9 @@
 use anyhow::bail;
 use windfall_core::leaf::{LeafMotion, LeafState, LeafView};
 use windfall_core::scene::{Release, View};
-use windfall_core::{Scene, Simulator, World};
+use windfall_core::{Scene, World};
 
+use super::experiment::follow;
 use super::landing::{Landing, MOTION_COUNT};
 use crate::run::backend::Device;
 use crate::run::cancel::Cancel;
@@ -66,7 +67,7 @@ pub(crate) fn drop_scene(scene: &Scene, file: &str, options: &DropOptions) -> an
     Ok(bare)
 }
 
-/// Drops all leaves of a scene that [`drop_scene`] made, and tells of each in the order of their slots. Tracks have ten
+/// Drops all leaves of a scene that [`drop_scene`] made, and returns what became of each, in the order of their slots. Tracks have ten
 /// places a second.
 ///
 /// # Errors
@@ -78,45 +79,34 @@ pub(crate) fn drop_all(
     tracks: &mut Option<Tracks>,
     cancel: &Cancel,
 ) -> anyhow::Result<Vec<Landing>> {
-    let mut world = World::build(scene)?;
-    let mut simulator = device.simulator(&world)?;
-    let mut landings: Vec<Landing> = (0..world.leaves.len()).map(|_| Landing::default()).collect();
-    let tracked = tracked(world.leaves.len(), options.tracks as usize);
+    let count = scene.leaf_count() as usize;
+    let mut landings: Vec<Landing> = (0..count).map(|_| Landing::default()).collect();
+    let tracked = tracked(count, options.tracks as usize);
     let limit_s = f64::from(options.over_s) + f64::from(options.seconds);
     let (sin, cos) = f64::from(scene.wind.direction_deg).to_radians().sin_cos();
-    loop {
-        let mut left = 0;
+    follow(scene, device, limit_s, cancel, &mut |world| {
         let step = world.step_block();
         let cx = world.context(&step);
         for (slot, landing) in landings.iter_mut().enumerate().filter(|(_, landing)| !landing.is_landed()) {
-            left += usize::from(!note(&world, &world.leaves.view(&cx, slot), landing));
+            note(world, &world.leaves.view(&cx, slot), landing);
         }
         if let Some(tracks) = tracks.as_mut().filter(|tracks| tracks.wait(world.clock.step()) == 0) {
             for &slot in &tracked {
                 if world.leaves.place[slot].state() == LeafState::Falling {
-                    tracks.add(&world, &cx, slot)?;
+                    tracks.add(world, &cx, slot)?;
                 }
             }
         }
-        if left == 0 || world.clock.seconds() >= limit_s {
-            break;
-        }
-        cancel.check()?;
-        simulator.step(1)?;
-        simulator.read_state(&mut world)?;
-    }
-    let broken = world.stats().leaves.broken;
-    if broken > 0 {
-        bail!("{broken} leaves have positions that are not numbers");
-    }
+        Ok(())
+    })?;
     for landing in &mut landings {
         landing.turn(cos, sin);
     }
     Ok(landings)
 }
 
-/// Notes the state of a leaf. Returns true if it has landed.
-fn note(world: &World, leaf: &LeafView, landing: &mut Landing) -> bool {
+/// Takes note of the state of a leaf that has not landed.
+fn note(world: &World, leaf: &LeafView, landing: &mut Landing) {
     let here = leaf.position.to_array().map(f64::from);
     let is_new = landing.begin.is_none() && leaf.state != LeafState::Dormant;
     if is_new {
@@ -132,13 +122,9 @@ fn note(world: &World, leaf: &LeafView, landing: &mut Landing) -> bool {
                 None => MOTION_COUNT,
             };
             landing.steps[motion.min(MOTION_COUNT - 1)] += 1;
-            false
         }
-        LeafState::Resting => {
-            landing.land(here, world.clock.seconds());
-            true
-        }
-        LeafState::Dormant | LeafState::Attached => false,
+        LeafState::Resting => landing.land(here, world.clock.seconds()),
+        LeafState::Dormant | LeafState::Attached => {}
     }
 }
 

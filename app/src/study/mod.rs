@@ -1,16 +1,24 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Studies: a scene's leaves let go under many settings, how they fall and where they land.
+//! Drop experiments: leaves and pieces of paper are let go, followed to the ground and summarised.
 //!
-//! [`Variation`]s say which fields take which values, [`SceneTree`] puts them there, and every combination is a
-//! [`Point`]. [`drops`] makes of a point's scene one in which every leaf falls once, and follows it to the ground;
-//! [`Summary`] is what is told of it. [`StudyFolder`] keeps finished points, so that an interrupted study goes on.
+//! [`experiment`] follows the leaves of a scene. `windfall flight` drops one piece many times in [`still_air`]; [`descent`] has
+//! the statistics of how it falls. `windfall study` drops the leaves of a scene's sources under many settings:
+//! [`Variation`]s say which fields take which values, [`place::SceneTree`] puts them there, and every combination is a
+//! [`Point`]; [`drops`] makes of a point's scene one in which every leaf falls once, [`Summary`] are its numbers, and
+//! [`StudyFolder`] keeps finished points, so that an interrupted study goes on. [`shedding`] counts leaves that a crown loses.
 
+pub(crate) mod descent;
 pub(crate) mod drops;
+mod experiment;
 pub(crate) mod folder;
 pub(crate) mod landing;
 pub(crate) mod place;
 pub(crate) mod point;
+pub(crate) mod regime;
+pub(crate) mod sample;
+pub(crate) mod shedding;
+pub(crate) mod still_air;
 pub(crate) mod summary;
 pub(crate) mod variation;
 

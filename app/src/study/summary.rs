@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A point of a study in one row.
 
+use windfall_core::flight::regime::REGIME_NAMES;
 use windfall_core::motion::Primitive;
 
 use super::landing::{Landing, MOTION_COUNT};
@@ -27,19 +28,19 @@ pub(crate) const COLUMNS: [&str; 2 + NUMBERS] = [
     Primitive::PeriodicFluttering.code(),
     Primitive::TransitionalHelical.code(),
     Primitive::PeriodicSpiraling.code(),
-    "steady",
-    "flutter",
-    "tumble",
-    "chaotic",
-    "helical",
-    "spiral",
+    REGIME_NAMES[0],
+    REGIME_NAMES[1],
+    REGIME_NAMES[2],
+    REGIME_NAMES[3],
+    REGIME_NAMES[4],
+    REGIME_NAMES[5],
 ];
 /// Quantities with mean and standard deviation.
 pub(super) const QUANTITIES: usize = 5;
 /// Numbers behind the counts.
 const NUMBERS: usize = 2 * QUANTITIES + MOTION_COUNT;
 
-/// What is told of a point. A number that there is none of (nothing landed, one drop has no spread) is NaN.
+/// Numbers of a point. A number that there is none of (nothing landed, one drop has no spread) is NaN.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Summary {
     /// Drops.

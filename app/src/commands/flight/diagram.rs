@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! `windfall flight diagram`: how discs of many sizes and masses fall, beside what was measured.
 
-mod plot;
-
 use std::path::PathBuf;
 
 use clap::Args;
@@ -11,15 +9,16 @@ use windfall_core::motion::AIR_DENSITY;
 use windfall_core::scene::limits::{AREAL_DENSITY_KG_M2, SIZE_M};
 
 use super::piece::{Piece, Release};
-use super::sample::Regime;
-use super::statistics::{Summary, Watch};
-use super::tunnel::Drops;
 use crate::files::OutputFile;
 use crate::plot::picture;
+use crate::plot::regime_diagram::{self, Spot};
 use crate::run::backend::BackendArguments;
 use crate::run::cancel::Cancel;
 use crate::run::parse::{png_file, whole};
 use crate::run::terminal;
+use crate::study::descent::{DescentSummary, Watch};
+use crate::study::regime::Regime;
+use crate::study::still_air::Drops;
 
 /// Kinematic viscosity of air at 20 °C in m²/s.
 const VISCOSITY_M2_S: f64 = 1.5e-5;
@@ -54,23 +53,6 @@ pub(super) struct Arguments {
     seed: u64,
 }
 
-/// A disc that has been dropped.
-#[derive(Clone, Copy, Debug)]
-struct Spot {
-    reynolds: f64,
-    inertia: f64,
-    /// Shares of drops in the order of [`Regime::ALL`].
-    shares: [f64; 6],
-}
-
-impl Spot {
-    /// The regime of most drops.
-    fn prevailing(&self) -> Regime {
-        let pairs = Regime::ALL.into_iter().zip(self.shares);
-        pairs.max_by(|a, b| a.1.total_cmp(&b.1)).map_or(Regime::Steady, |(regime, _)| regime)
-    }
-}
-
 /// Runs the command.
 ///
 /// # Errors
@@ -91,7 +73,7 @@ pub(super) fn run(arguments: &Arguments) -> anyhow::Result<()> {
     }
     let spots: Vec<Spot> =
         spots.into_iter().collect::<anyhow::Result<Vec<_>>>()?.into_iter().flatten().collect();
-    picture::write(file, plot::SIZE, |area| plot::draw(area, arguments.drops, &spots))?;
+    picture::write(file, regime_diagram::SIZE, |area| regime_diagram::draw(area, arguments.drops, &spots))?;
     let counts =
         Regime::ALL.map(|regime| (regime, spots.iter().filter(|spot| spot.prevailing() == regime).count()));
     let counts = counts.map(|(regime, count)| format!("{} {count}", regime.name())).join(", ");
@@ -126,7 +108,7 @@ fn spot(size_m: f32, density: f32, count: u32, seed: u64, cancel: &Cancel) -> an
         Ok(())
     })?;
     let numbers: Vec<_> = watches.iter().filter_map(Watch::finish).collect();
-    Ok(Summary::of(&numbers).map(|summary| Spot {
+    Ok(DescentSummary::of(&numbers).map(|summary| Spot {
         reynolds: summary.mean_descent_m_s * size / VISCOSITY_M2_S,
         inertia: std::f64::consts::PI * f64::from(density) / (64.0 * AIR_DENSITY * size),
         shares: summary.regimes.to_array(),

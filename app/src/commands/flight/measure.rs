@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! `windfall flight` by itself: drops a piece many times, and tells how it falls.
+//! `windfall flight` by itself: drops a piece many times, and reports how it falls.
 
 use std::fmt::Write as _;
 use std::path::PathBuf;
@@ -10,14 +10,14 @@ use clap::Args;
 use serde::Serialize;
 
 use super::piece::{PieceArguments, Release};
-use super::sample::{PerRegime, Regime};
-use super::statistics::{DropNumbers, SETTLE_M, Summary, Watch};
 use super::track_file::TrackFile;
-use super::tunnel::Drops;
 use crate::run::backend::BackendArguments;
 use crate::run::cancel::Cancel;
 use crate::run::parse::whole;
 use crate::run::terminal;
+use crate::study::descent::{DescentSummary, DropNumbers, SETTLE_M, Watch};
+use crate::study::regime::{PerRegime, Regime};
+use crate::study::still_air::Drops;
 
 /// Lowest and highest release in m.
 const HEIGHTS_M: std::ops::RangeInclusive<f32> = 0.8..=50.0;
@@ -96,7 +96,7 @@ pub(super) fn run(arguments: &Arguments) -> anyhow::Result<()> {
         terminal::note(&format!("{aloft} of {count} drops had not landed when they were given up"));
     }
     let numbers: Vec<DropNumbers> = watches.iter().filter_map(Watch::finish).collect();
-    let Some(summary) = Summary::of(&numbers) else {
+    let Some(summary) = DescentSummary::of(&numbers) else {
         bail!("no drop fell {SETTLE_M} m and on from there");
     };
     if let Some(tracks) = tracks {

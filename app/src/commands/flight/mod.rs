@@ -2,16 +2,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! `windfall flight`: a wind tunnel for leaves, and what it shows as pictures.
 
-mod boundaries;
 mod diagram;
 mod measure;
 mod outline;
 mod piece;
-mod sample;
-mod statistics;
 mod track_file;
 mod tracks3d;
-mod tunnel;
 
 use clap::{Args, Subcommand};
 

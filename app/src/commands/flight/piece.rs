@@ -13,6 +13,7 @@ use windfall_core::scene::limits::{AREAL_DENSITY_KG_M2, ASPECT, EXTENT, SIZE_M};
 use windfall_core::scene::{Aerodynamics, FlightModel, Hold, Planform, Species};
 
 use super::outline;
+use crate::leaves::species_of_folder;
 
 /// How a piece is held before it is let go.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -48,7 +49,7 @@ impl Release {
 #[derive(Clone, Debug, Args)]
 pub(super) struct PieceArguments {
     /// Kind of leaf: maple, oak, birch, beech, linden, ginkgo, japanese-maple, hornbeam; or
-    /// feather, paper-scrap, plate, samara.
+    /// feather, paper-scrap, plate, samara; or a folder of leaves, such as `windfall leaf make` writes.
     #[arg(long, value_name = "SPECIES", conflicts_with = "shape")]
     species: Option<String>,
     /// Flat piece: disc, square, hexagon, or a CSV file of corners, a line `x,y` for each in any unit.
@@ -107,13 +108,20 @@ impl PieceArguments {
 }
 
 impl Piece {
-    /// A kind of leaf.
+    /// A kind of leaf, or the mean of the leaves in a folder.
     ///
     /// # Errors
-    /// Unknown names, and sizes that are not allowed.
+    /// Unknown names, folders that cannot be used, and sizes that are not allowed.
     pub(super) fn leaf(name: &str, size_m: Option<f32>, density: Option<f32>) -> anyhow::Result<Self> {
-        let Some(mut species) = Species::preset(name) else {
-            bail!("--species is '{}'; allowed: {}", name.escape_debug(), Species::PRESETS.join(", "));
+        let path = Path::new(name);
+        let (mut species, name) = match Species::preset(name) {
+            Some(species) => (species, name.to_ascii_lowercase()),
+            None if path.is_dir() => (species_of_folder(path)?, name.to_owned()),
+            None => bail!(
+                "--species is '{}'; allowed: {}, or a folder of leaves",
+                name.escape_debug(),
+                Species::PRESETS.join(", ")
+            ),
         };
         species.size_variation = 0.0;
         species.speed_variation = 0.0;
@@ -129,7 +137,7 @@ impl Piece {
             body.moisture = 0.0;
         }
         species.areal_density_kg_m2 = wet;
-        Ok(Self { name: species.name.clone(), size_m: species.size_m, areal_density_kg_m2: wet, species })
+        Ok(Self { name, size_m: species.size_m, areal_density_kg_m2: wet, species })
     }
 
     /// A flat piece of a shape, or of the outline in a file.
@@ -218,6 +226,8 @@ fn measured(corners: &[DVec2], size: f64) -> (Planform, f64) {
 
 #[cfg(test)]
 mod tests {
+    use windfall_texgen::{BodyFacts, FOLDER_VERSION, LeafFacts, Manifest};
+
     use super::*;
 
     fn diameter(name: &str) -> f32 {
@@ -277,5 +287,30 @@ mod tests {
             let FlightModel::Aerodynamic(body) = other.species.flight else { panic!("a body") };
             assert_eq!((body.moisture, body.hold), (0.0, Hold::EdgeOn), "{name}");
         }
+    }
+
+    #[test]
+    fn folders_of_leaves_have_the_numbers_of_their_leaves() {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let body = Some(BodyFacts { aspect: 1.5, extent: 1.2, curl: 0.1 });
+        let leaf = |name: &str, area_m2: f32| LeafFacts {
+            name: name.into(),
+            season: 1.0,
+            area_m2,
+            mass_kg: 0.05 * area_m2,
+            mean_chord_m: 0.03,
+            side_m: 0.1,
+            body,
+            has_mesh: true,
+        };
+        let leaves = vec![leaf("maple-001", 0.004), leaf("maple-002", 0.006)];
+        let manifest = Manifest { version: FOLDER_VERSION, size_px: 64, leaves };
+        manifest.save(folder.path()).expect("writable");
+        let piece = Piece::leaf(folder.path().to_str().expect("plain"), None, None).expect("usable");
+        assert!((piece.size_m - (0.005 / std::f32::consts::FRAC_PI_4).sqrt()).abs() < 1e-6, "{piece:?}");
+        assert!((piece.areal_density_kg_m2 / 0.05 - 1.0).abs() < 0.2, "dry or nearly: {piece:?}");
+        let FlightModel::Aerodynamic(found) = piece.species.flight else { panic!("a body") };
+        assert_eq!((found.curl, found.twist), (0.1, 0.03), "its own curl, the twist of maples");
+        assert_eq!(found.planform, Some(Planform { aspect: 1.5, extent: 1.2 }), "measured");
     }
 }

@@ -4,8 +4,8 @@
 
 use std::path::Path;
 
-use super::sample::Sample;
 use crate::files::{CsvFile, WriteError};
+use crate::study::sample::Sample;
 
 const HEADER: [&str; 13] =
     ["drop", "time_s", "x", "y", "z", "qx", "qy", "qz", "qw", "vx", "vy", "vz", "regime"];

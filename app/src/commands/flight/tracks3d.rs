@@ -2,21 +2,19 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! `windfall flight tracks3d`: single drops as one sees them.
 
-mod draw;
-
 use std::path::PathBuf;
 
 use clap::Args;
 
 use super::piece::{Piece, Release};
-use super::sample::{Regime, Sample};
-use super::tunnel::Drops;
 use crate::files::OutputFile;
+use crate::plot::drop_paths::{self, Track};
 use crate::plot::picture;
 use crate::run::backend::BackendArguments;
 use crate::run::cancel::Cancel;
 use crate::run::parse::{png_file, whole};
 use crate::run::terminal;
+use crate::study::still_air::Drops;
 
 /// Height of the releases in m.
 const HEIGHT_M: f32 = 1.8;
@@ -45,17 +43,6 @@ pub(super) struct Arguments {
     seed: u64,
 }
 
-/// A drop, from its release to the ground.
-#[derive(Clone, Debug)]
-struct Track {
-    /// What fell.
-    name: String,
-    /// Half axes of its area along and across, in m.
-    half_axes_m: [f64; 2],
-    /// Its way.
-    samples: Vec<Sample>,
-}
-
 /// Runs the command.
 ///
 /// # Errors
@@ -74,7 +61,7 @@ pub(super) fn run(arguments: &Arguments) -> anyhow::Result<()> {
         let name = format!("{}, {:.1} cm", name.replace('-', " "), 100.0 * piece.size_m);
         tracks.push(track(&piece, name, arguments.seed, &cancel)?);
     }
-    picture::write(file, draw::SIZE, |area| draw::draw(area, &tracks))?;
+    picture::write(file, drop_paths::SIZE, |area| drop_paths::draw(area, &tracks))?;
     let last = |track: &Track| track.samples.last().map_or("none", |sample| sample.regime.name());
     let ends: Vec<_> = tracks.iter().map(|track| format!("{} {}", track.name, last(track))).collect();
     terminal::print(&format!("{}: {} drops; {}\n", arguments.out.display(), tracks.len(), ends.join("; ")))

@@ -5,6 +5,7 @@
 use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
+use windfall_core::flight::regime::REGIME_NAMES;
 use windfall_core::motion::Primitive;
 
 use super::heat_map::short;
@@ -42,8 +43,6 @@ const MOTION_COLORS: [RGBColor; MOTION_COUNT] = [
     RGBColor(62, 138, 84),
     RGBColor(126, 84, 162),
 ];
-/// Names of the regimes of bodies.
-const REGIMES: [&str; 6] = ["steady", "flutter", "tumble", "chaotic", "helical", "spiral"];
 
 /// The places of the first variation's values on the axis, and what they are called.
 struct Axis<'a> {
@@ -255,8 +254,9 @@ fn motions(area: &Area<'_>, axis: &Axis<'_>, curves: usize, summaries: &[Summary
             ))?;
         }
         below = above;
-        let name =
-            motion.checked_sub(6).map_or_else(|| Primitive::ALL[motion].code(), |regime| REGIMES[regime]);
+        let name = motion
+            .checked_sub(6)
+            .map_or_else(|| Primitive::ALL[motion].code(), |regime| REGIME_NAMES[regime]);
         key.draw(&Rectangle::new([(0, row - 8 * unit), (16 * unit, row + 8 * unit)], color.filled()))?;
         let style = font(18).pos(Pos::new(HPos::Left, VPos::Center));
         key.draw(&Text::new(name, (24 * unit, row), style))?;

@@ -1,16 +1,17 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What the drops of a piece come to, in double precision.
+//! Statistics of how pieces descend, in double precision.
 //!
-//! Every number of a drop is taken from where it has fallen for a while to the ground, so that it does not tell of the
+//! Every number of a drop is taken from where it has fallen for a while to the ground, so that it does not depend on the
 //! release. Samples are evenly spaced in time.
 
 use glam::DVec3;
 
-use super::sample::{PerRegime, Regime, Sample};
+use super::regime::{PerRegime, Regime};
+use super::sample::Sample;
 
 /// Way down in metres before a drop of a small piece counts.
-pub(super) const SETTLE_M: f64 = 0.6;
+pub(crate) const SETTLE_M: f64 = 0.6;
 /// How far the projected area, relative to the area, falls after a peak and rises before it.
 const PEAK_RELIEF: f64 = 0.12;
 /// Share of its regimes that a drop is said to tumble for; one that tumbles for less is chaotic.
@@ -54,12 +55,12 @@ struct Way {
     peaks: Peaks,
     /// Steps by regime, from the first on that is not steady, if there is one.
     regimes: [u32; 6],
-    is_told: bool,
+    is_classified: bool,
 }
 
 /// Watches one drop.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Watch {
+pub(crate) struct Watch {
     settle_m: f64,
     released_y_m: Option<f64>,
     way: Option<Way>,
@@ -67,30 +68,30 @@ pub(super) struct Watch {
 
 /// What one drop comes to.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct DropNumbers {
+pub(crate) struct DropNumbers {
     /// Mean speed of descent in m/s.
-    pub(super) descent_m_s: f64,
+    pub(crate) descent_m_s: f64,
     /// Root mean square of what the vertical speed varies by about that, in m/s.
-    pub(super) rms_vz_m_s: f64,
+    pub(crate) rms_vz_m_s: f64,
     /// Mean of the horizontal speed in m/s.
-    pub(super) horizontal_speed_m_s: f64,
+    pub(crate) horizontal_speed_m_s: f64,
     /// Horizontal distance of the ends of the way over their vertical distance.
-    pub(super) drift: f64,
+    pub(crate) drift: f64,
     /// Half the peaks of the area seen from above, per second: turns of what tumbles, swings of what flutters.
-    pub(super) turns_per_s: f64,
+    pub(crate) turns_per_s: f64,
     /// The regime that it was in for longest since it was first seen not to fall steadily; chaotic, if that is tumbling,
     /// but not for three quarters of that time.
-    pub(super) regime: Regime,
+    pub(crate) regime: Regime,
 }
 
 impl Watch {
     /// A drop counts after so many metres.
-    pub(super) fn new(settle_m: f64) -> Self {
+    pub(crate) fn new(settle_m: f64) -> Self {
         Self { settle_m, released_y_m: None, way: None }
     }
 
     /// Takes note of a moment.
-    pub(super) fn add(&mut self, sample: &Sample) {
+    pub(crate) fn add(&mut self, sample: &Sample) {
         let position = sample.position_m;
         let released = *self.released_y_m.get_or_insert(position.y);
         if self.way.is_none() && released - position.y < self.settle_m {
@@ -107,7 +108,7 @@ impl Watch {
             horizontal: 0.0,
             peaks: Peaks::new(seen_from_above),
             regimes: [0; 6],
-            is_told: false,
+            is_classified: false,
         });
         let velocity = sample.velocity_m_s;
         way.end = at;
@@ -117,15 +118,15 @@ impl Watch {
         way.horizontal += velocity.x.hypot(velocity.z);
         way.peaks.add(seen_from_above);
         // A fall is called steady until it has been seen to turn or swing a few times.
-        if !way.is_told && sample.regime != Regime::Steady {
-            way.is_told = true;
+        if !way.is_classified && sample.regime != Regime::Steady {
+            way.is_classified = true;
             way.regimes = [0; 6];
         }
         way.regimes[sample.regime as usize] += 1;
     }
 
     /// What it came to; nothing if the way was too short.
-    pub(super) fn finish(&self) -> Option<DropNumbers> {
+    pub(crate) fn finish(&self) -> Option<DropNumbers> {
         let way = self.way.filter(|way| way.samples >= 2)?;
         let (seconds, gone) = (way.end.0 - way.start.0, way.end.1 - way.start.1);
         let count = f64::from(way.samples);
@@ -145,10 +146,12 @@ impl Watch {
 /// What a drop's steps agree on; of equals the first.
 fn prevailing(way: &Way) -> Regime {
     let longest = way.regimes.iter().max().copied().unwrap_or(0);
-    let told: u32 = way.regimes.iter().sum();
+    let classified: u32 = way.regimes.iter().sum();
     let first = Regime::ALL.into_iter().zip(way.regimes).find(|(_, steps)| *steps == longest);
     match first {
-        Some((Regime::Tumble, steps)) if f64::from(steps) < TUMBLING * f64::from(told) => Regime::Chaotic,
+        Some((Regime::Tumble, steps)) if f64::from(steps) < TUMBLING * f64::from(classified) => {
+            Regime::Chaotic
+        }
         Some((regime, _)) => regime,
         None => Regime::Steady,
     }
@@ -156,27 +159,27 @@ fn prevailing(way: &Way) -> Regime {
 
 /// What all drops come to.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Summary {
+pub(crate) struct DescentSummary {
     /// Mean of the drops' mean speeds of descent, in m/s.
-    pub(super) mean_descent_m_s: f64,
+    pub(crate) mean_descent_m_s: f64,
     /// Standard deviation of those between drops.
-    pub(super) sd_between_drops: f64,
+    pub(crate) sd_between_drops: f64,
     /// The speed of descent that one drop in ten stays below.
-    pub(super) p10_m_s: f64,
+    pub(crate) p10_m_s: f64,
     /// That which nine in ten stay below.
-    pub(super) p90_m_s: f64,
+    pub(crate) p90_m_s: f64,
     /// Means over the drops of what [`DropNumbers`] says.
-    pub(super) turns_per_s: f64,
-    pub(super) rms_vz_m_s: f64,
-    pub(super) horizontal_speed_m_s: f64,
-    pub(super) drift: f64,
+    pub(crate) turns_per_s: f64,
+    pub(crate) rms_vz_m_s: f64,
+    pub(crate) horizontal_speed_m_s: f64,
+    pub(crate) drift: f64,
     /// Shares of drops by regime.
-    pub(super) regimes: PerRegime,
+    pub(crate) regimes: PerRegime,
 }
 
-impl Summary {
+impl DescentSummary {
     /// Of all drops; nothing if there are none.
-    pub(super) fn of(drops: &[DropNumbers]) -> Option<Self> {
+    pub(crate) fn of(drops: &[DropNumbers]) -> Option<Self> {
         let mean =
             |number: fn(&DropNumbers) -> f64| drops.iter().map(number).sum::<f64>() / drops.len() as f64;
         let mut descents: Vec<f64> = drops.iter().map(|drop| drop.descent_m_s).collect();

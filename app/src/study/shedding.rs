@@ -14,42 +14,42 @@ use crate::run::cancel::Cancel;
 /// Length of a step in s: chances are per second, and trees in a steady wind hardly move.
 const STEP_S: f32 = 0.05;
 /// Fastest wind in m/s.
-pub(super) const FASTEST_M_S: u32 = 30;
+pub(crate) const FASTEST_M_S: u32 = 30;
 /// Wind speeds that are simulated, in m/s: in the middle of the steps of the model's table.
 const SIMULATED_M_S: [f32; 6] = [4.5, 8.5, 12.5, 16.5, 20.5, 24.5];
-/// Steps between looks at an interruption.
+/// Steps between checks for a request to end.
 const BATCH: u32 = 600;
 
 /// A tree by itself at a time of the year.
 #[derive(Debug)]
-pub(super) struct Crown {
+pub(crate) struct Crown {
     scene: Scene,
 }
 
 /// A simulated crown.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Mark {
+pub(crate) struct Mark {
     /// Mean wind in m/s.
-    pub(super) speed_m_s: f64,
+    pub(crate) speed_m_s: f64,
     /// Leaves per hour.
-    pub(super) leaves_per_h: f64,
+    pub(crate) leaves_per_h: f64,
     /// Standard error of counting, in leaves per hour.
-    pub(super) error_per_h: f64,
+    pub(crate) error_per_h: f64,
     /// Whether it blew in gusts.
-    pub(super) is_gusty: bool,
+    pub(crate) is_gusty: bool,
 }
 
 /// What a crown loses at a time of the year.
 #[derive(Debug)]
-pub(super) struct Season {
+pub(crate) struct Season {
     /// The time of the year.
-    pub(super) autumn: f32,
+    pub(crate) autumn: f32,
     /// Share of its leaves that the crown still has.
-    pub(super) hanging: f64,
+    pub(crate) hanging: f64,
     /// Leaves per hour by wind speed, from none in steps of 1 m/s.
-    pub(super) curve: Vec<f64>,
+    pub(crate) curve: Vec<f64>,
     /// Simulations in which leaves came off.
-    pub(super) marks: Vec<Mark>,
+    pub(crate) marks: Vec<Mark>,
 }
 
 impl Crown {
@@ -57,7 +57,7 @@ impl Crown {
     ///
     /// # Errors
     /// Never for presets.
-    pub(super) fn new(
+    pub(crate) fn new(
         wood: &Scene,
         preset: TreePreset,
         leaves: u32,
@@ -106,8 +106,8 @@ impl Season {
     /// Of a crown, averaged over the first `minutes`.
     ///
     /// # Errors
-    /// An interruption, or threads that do not start.
-    pub(super) fn of(crown: &Crown, minutes: u32, cancel: &Cancel) -> anyhow::Result<Self> {
+    /// A request to end, or threads that do not start.
+    pub(crate) fn of(crown: &Crown, minutes: u32, cancel: &Cancel) -> anyhow::Result<Self> {
         let seconds = 60.0 * f64::from(minutes);
         let still = crown.world(0.0, false)?;
         let facts = still.environment.forest().trees()[0].facts;

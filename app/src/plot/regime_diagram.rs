@@ -7,13 +7,13 @@ use std::f64::consts::TAU;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
-use super::{Regime, Spot};
-use crate::commands::flight::boundaries::boundaries;
-use crate::commands::flight::sample::color;
+use super::boundaries::boundaries;
+use super::colors::color;
 use crate::plot::picture::{Area, Drawn, INK, PAPER, UNIT, font, pixel};
+use crate::study::regime::Regime;
 
 /// Size of the picture in pixels.
-pub(super) const SIZE: (u32, u32) = (1600, 1120);
+pub(crate) const SIZE: (u32, u32) = (1600, 1120);
 /// Reynolds numbers that are shown.
 const REYNOLDS: std::ops::Range<f64> = 60.0..40_000.0;
 /// Dimensionless moments of inertia that are shown.
@@ -21,8 +21,25 @@ const INERTIA: std::ops::Range<f64> = 0.0014..0.3;
 /// Radius of a pie in pixels.
 const PIE: u32 = 16;
 
+/// A disc that has been dropped.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Spot {
+    pub(crate) reynolds: f64,
+    pub(crate) inertia: f64,
+    /// Shares of drops in the order of [`Regime::ALL`].
+    pub(crate) shares: [f64; 6],
+}
+
+impl Spot {
+    /// The regime of most drops.
+    pub(crate) fn prevailing(&self) -> Regime {
+        let pairs = Regime::ALL.into_iter().zip(self.shares);
+        pairs.max_by(|a, b| a.1.total_cmp(&b.1)).map_or(Regime::Steady, |(regime, _)| regime)
+    }
+}
+
 /// Draws discs over the measured boundaries.
-pub(super) fn draw(area: &Area<'_>, drops: u32, spots: &[Spot]) -> Drawn {
+pub(crate) fn draw(area: &Area<'_>, drops: u32, spots: &[Spot]) -> Drawn {
     let (upper, lower) = area.split_vertically((SIZE.1 - 66) * UNIT);
     let mut chart = ChartBuilder::on(&upper)
         .margin(28 * UNIT)

@@ -1,17 +1,18 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Drops pieces in still air, and shows every falling one at every step.
+//! Drops of a piece in still air.
 
+use windfall_core::Scene;
 use windfall_core::leaf::LeafState;
 use windfall_core::scene::{Gusts, MeanSpeed, Source, SourceShape, Turbulence, WindParameters};
 use windfall_core::scene::{Release as Schedule, Species};
-use windfall_core::{Scene, Simulator, World};
 
+use super::experiment::follow;
 use super::sample::Sample;
 use crate::run::backend::Device;
 use crate::run::cancel::Cancel;
 
-/// Length of a step in s; the kernel cuts it finer where a body asks for that.
+/// Length of a step in s; the kernel takes substeps where a body needs them.
 const STEP_S: f32 = 1.0 / 240.0;
 /// Slowest descent in m/s that is waited for.
 const SLOWEST_M_S: f64 = 0.05;
@@ -20,15 +21,15 @@ const LEAST_S: f64 = 10.0;
 
 /// A number of drops of one piece.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Drops<'a> {
+pub(crate) struct Drops<'a> {
     /// What is dropped.
-    pub(super) species: &'a Species,
+    pub(crate) species: &'a Species,
     /// How many, each with irregularities of its own.
-    pub(super) count: u32,
+    pub(crate) count: u32,
     /// From how high, in m.
-    pub(super) height_m: f32,
+    pub(crate) height_m: f32,
     /// Seed of everything random.
-    pub(super) seed: u64,
+    pub(crate) seed: u64,
 }
 
 impl Drops<'_> {
@@ -61,34 +62,22 @@ impl Drops<'_> {
         }
     }
 
-    /// Drops them all, and shows every step of every falling one, until all lie on the ground. Returns how many were still
-    /// in the air when it was no use to wait any longer.
+    /// Drops them all and passes every step of every falling one to `observe`, until all lie on the ground. Returns the number
+    /// of those that were still in the air when the time was over.
     ///
     /// # Errors
-    /// Numbers that are not allowed in a scene, a lost device, an interruption, or what `look` says.
-    pub(super) fn run(
+    /// Numbers that are not allowed in a scene, a lost device, a request to end, or what `observe` returns.
+    pub(crate) fn run(
         &self,
         device: &Device,
         cancel: &Cancel,
-        look: &mut dyn FnMut(usize, &Sample) -> anyhow::Result<()>,
+        observe: &mut dyn FnMut(usize, &Sample) -> anyhow::Result<()>,
     ) -> anyhow::Result<u32> {
-        let mut world = World::build(&self.scene())?;
-        let mut simulator = device.simulator(&world)?;
-        let longest_s = (f64::from(self.height_m) / SLOWEST_M_S).max(LEAST_S);
-        loop {
-            let mut aloft = 0;
-            for slot in 0..world.leaves.len() {
-                if world.leaves.place[slot].state() == LeafState::Falling {
-                    look(slot, &Sample::of(&world, slot))?;
-                    aloft += 1;
-                }
-            }
-            if aloft == 0 || world.clock.seconds() >= longest_s {
-                return Ok(aloft);
-            }
-            cancel.check()?;
-            simulator.step(1)?;
-            simulator.read_state(&mut world)?;
-        }
+        let limit_s = (f64::from(self.height_m) / SLOWEST_M_S).max(LEAST_S);
+        follow(&self.scene(), device, limit_s, cancel, &mut |world| {
+            let places = world.leaves.place.iter().enumerate();
+            let mut falling = places.filter(|(_, place)| place.state() == LeafState::Falling);
+            falling.try_for_each(|(slot, _)| observe(slot, &Sample::of(world, slot)))
+        })
     }
 }

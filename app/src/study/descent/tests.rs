@@ -136,7 +136,7 @@ fn drops_are_averaged() {
     let kinds = [Regime::Tumble, Regime::Tumble, Regime::Chaotic, Regime::Tumble, Regime::Helical];
     let speeds = [0.5, 0.4, 0.1, 0.2, 0.3];
     let drops: Vec<_> = speeds.into_iter().zip(kinds).map(|(speed, kind)| drop(speed, kind)).collect();
-    let summary = Summary::of(&drops).expect("five drops");
+    let summary = DescentSummary::of(&drops).expect("five drops");
     near(summary.mean_descent_m_s, 0.3, 1e-12, "mean");
     near(summary.sd_between_drops, 0.025f64.sqrt(), 1e-12, "standard deviation of a sample");
     near(summary.p10_m_s, 0.14, 1e-12, "between the first and the second");
@@ -144,7 +144,7 @@ fn drops_are_averaged() {
     near(summary.rms_vz_m_s, 0.6, 1e-12, "mean");
     near(summary.drift, 0.03, 1e-12, "mean");
     assert_eq!(summary.regimes.to_array(), [0.0, 0.0, 0.6, 0.2, 0.2, 0.0], "shares of drops");
-    let one = Summary::of(&drops[..1]).expect("one drop");
+    let one = DescentSummary::of(&drops[..1]).expect("one drop");
     assert_eq!((one.sd_between_drops, one.p10_m_s, one.p90_m_s), (0.0, 0.5, 0.5), "one drop varies not");
-    assert_eq!(Summary::of(&[]), None, "no drops");
+    assert_eq!(DescentSummary::of(&[]), None, "no drops");
 }

@@ -8,14 +8,15 @@ use glam::{DQuat, DVec2, DVec3};
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
-use super::{Regime, Track};
-use crate::commands::flight::sample::color;
+use super::colors::color;
 use crate::plot::picture::{Area, Drawn, INK, PAPER, UNIT, font, pixel};
+use crate::study::regime::Regime;
+use crate::study::sample::Sample;
 
 /// Drops beside each other and above each other.
 const PANELS: (usize, usize) = (6, 2);
 /// Size of the picture in pixels.
-pub(super) const SIZE: (u32, u32) = (1800, 1090);
+pub(crate) const SIZE: (u32, u32) = (1800, 1090);
 /// Height of a panel in pixels.
 const PANEL_PX: f64 = 510.0;
 /// Pixels for a metre.
@@ -30,6 +31,17 @@ const LINES_M: f64 = 0.1;
 const FLASH_S: f64 = 0.05;
 /// Direction of the light.
 const LIGHT: DVec3 = DVec3::new(-0.4, 0.85, -0.35);
+
+/// A drop, from its release to the ground.
+#[derive(Clone, Debug)]
+pub(crate) struct Track {
+    /// What fell.
+    pub(crate) name: String,
+    /// Half axes of its area along and across, in m.
+    pub(crate) half_axes_m: [f64; 2],
+    /// Its way.
+    pub(crate) samples: Vec<Sample>,
+}
 
 /// A panel: turns places into points of the picture.
 #[derive(Clone, Copy, Debug)]
@@ -74,7 +86,7 @@ impl Panel {
 }
 
 /// Draws all drops.
-pub(super) fn draw(area: &Area<'_>, tracks: &[Track]) -> Drawn {
+pub(crate) fn draw(area: &Area<'_>, tracks: &[Track]) -> Drawn {
     let unit = UNIT as i32;
     let center = |size: u32| font(size).pos(Pos::new(HPos::Center, VPos::Center));
     let title = "Twelve drops from 1.8 m through still air, a picture every twentieth of a second";
@@ -183,7 +195,7 @@ fn legend(area: &Area<'_>) -> Drawn {
     let mut x = 300 * unit;
     for regime in Regime::ALL {
         let name = match regime {
-            Regime::Steady => "steady, or not told yet",
+            Regime::Steady => "steady, or not classified yet",
             _ => regime.name(),
         };
         area.draw(&Circle::new((x, row), 9 * UNIT, color(regime).filled()))?;

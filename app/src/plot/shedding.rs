@@ -1,18 +1,14 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The plot of what a crown loses.
+//! Plot of the leaves that a crown loses.
 
-use image::RgbImage;
-use image::imageops::{FilterType, resize};
 use plotters::prelude::*;
-use plotters::style::{FontStyle, register_font};
 
-use super::measure::{FASTEST_M_S, Season};
+use super::picture::{Area, Drawn, INK, PAPER, UNIT, font};
+use crate::study::shedding::{FASTEST_M_S, Season};
 
 /// Size of the picture in pixels.
-const SIZE: (u32, u32) = (1600, 1000);
-/// It is drawn so many times larger and then reduced, for smooth edges.
-const OVERSAMPLING: u32 = 2;
+pub(crate) const SIZE: (u32, u32) = (1600, 1000);
 /// From summer to late autumn.
 const COLORS: [RGBColor; 5] = [
     RGBColor(62, 124, 58),
@@ -21,43 +17,13 @@ const COLORS: [RGBColor; 5] = [
     RGBColor(208, 92, 32),
     RGBColor(124, 46, 34),
 ];
-const INK: RGBColor = RGBColor(46, 42, 38);
-const PAPER: RGBColor = RGBColor(252, 250, 246);
-const FONT: &str = "Ubuntu";
 
 /// Draws the seasons of a kind of tree.
 ///
 /// # Errors
 /// What the plotting library says.
-pub(super) fn plot(
-    kind: &str,
-    minutes: u32,
-    seasons: &[Season],
-) -> Result<RgbImage, Box<dyn std::error::Error>> {
-    register_font(FONT, FontStyle::Normal, epaint_default_fonts::UBUNTU_LIGHT)
-        .map_err(|_| "the font is not usable")?;
-    let unit = OVERSAMPLING;
-    let (width, height) = (SIZE.0 * unit, SIZE.1 * unit);
-    let mut large = RgbImage::new(width, height);
-    {
-        let area = BitMapBackend::with_buffer(&mut large, (width, height)).into_drawing_area();
-        draw(&area, kind, minutes, seasons)?;
-        area.present()?;
-    }
-    Ok(resize(&large, SIZE.0, SIZE.1, FilterType::Triangle))
-}
-
-type Area<'a> = DrawingArea<BitMapBackend<'a>, plotters::coord::Shift>;
-
-fn draw(
-    area: &Area<'_>,
-    kind: &str,
-    minutes: u32,
-    seasons: &[Season],
-) -> Result<(), Box<dyn std::error::Error>> {
-    let unit = OVERSAMPLING;
-    let font = |size: u32| (FONT, size * unit).into_font().color(&INK);
-    area.fill(&PAPER)?;
+pub(crate) fn draw(area: &Area<'_>, kind: &str, minutes: u32, seasons: &[Season]) -> Drawn {
+    let unit = UNIT;
     let most = seasons.iter().flat_map(|season| &season.curve).fold(10.0, |a: f64, b| a.max(*b));
     let most = 10f64.powf(most.log10().ceil());
     let title = format!("Leaves that a full-grown {kind} sheds");
@@ -89,8 +55,8 @@ fn draw(
         let label = format!("{}, {hanging:.0} % of the leaves left{none}", name(season.autumn));
         chart.draw_series(LineSeries::new(points, color.stroke_width(4 * unit)))?.label(label).legend(
             move |(x, y)| {
-                let length = (44 * OVERSAMPLING) as i32;
-                PathElement::new([(x, y), (x + length, y)], color.stroke_width(4 * OVERSAMPLING))
+                let length = (44 * UNIT) as i32;
+                PathElement::new([(x, y), (x + length, y)], color.stroke_width(4 * UNIT))
             },
         );
         for mark in season.marks.iter().filter(|mark| mark.leaves_per_h >= 1.0) {
@@ -115,7 +81,7 @@ fn draw(
         chart
             .draw_series([Circle::new(at, 0, style)])?
             .label(text)
-            .legend(move |(x, y)| Circle::new((x + (22 * OVERSAMPLING) as i32, y), 6 * OVERSAMPLING, style));
+            .legend(move |(x, y)| Circle::new((x + (22 * UNIT) as i32, y), 6 * UNIT, style));
     }
     chart
         .configure_series_labels()

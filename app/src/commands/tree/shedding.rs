@@ -2,21 +2,19 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! `windfall tree shedding`: how many leaves a crown loses in which wind and season, as a plot.
 
-mod measure;
-mod plot;
-
 use std::path::PathBuf;
 
-use anyhow::{anyhow, bail};
+use anyhow::bail;
 use clap::Args;
 use windfall_core::Scene;
 use windfall_core::scene::TreePreset;
 
-use self::measure::{Crown, Season};
 use crate::files::OutputFile;
+use crate::plot::{picture, shedding};
 use crate::run::cancel::Cancel;
 use crate::run::parse::{png_file, whole};
 use crate::run::terminal;
+use crate::study::shedding::{Crown, Season};
 
 /// Times of the year that are drawn.
 const SEASONS: [f32; 5] = [0.0, 0.3, 0.45, 0.6, 0.75];
@@ -62,10 +60,10 @@ pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
         let crown = Crown::new(&wood, preset, arguments.leaves, arguments.seed, autumn)?;
         seasons.push(Season::of(&crown, arguments.minutes, &cancel)?);
     }
-    let picture = plot::plot(preset.name(), arguments.minutes, &seasons)
-        .map_err(|error| anyhow!("{}: cannot draw: {error}", arguments.out.display()))?;
     cancel.check()?;
-    file.finish_png(&picture)?;
+    picture::write(file, shedding::SIZE, |area| {
+        shedding::draw(area, preset.name(), arguments.minutes, &seasons)
+    })?;
     let marks: usize = seasons.iter().map(|season| season.marks.len()).sum();
     let out = arguments.out.display();
     terminal::print(&format!("{out}: {} seasons, {marks} simulations that shed leaves\n", seasons.len()))

@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Regimes of falling bodies.
+
+use serde::Serialize;
+use windfall_core::flight::regime::REGIME_NAMES;
+
+/// Regime of a falling body, as the simulation classifies it from its latest turns.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Regime {
+    /// Hardly turns nor swings.
+    Steady,
+    /// Swings to and fro, the same side up.
+    Flutter,
+    /// Turns over and over, the same way.
+    Tumble,
+    /// Now turns over, now swings, now turns the other way.
+    Chaotic,
+    /// Swings while its heading goes round.
+    Helical,
+    /// Hardly swings while its heading goes round.
+    Spiral,
+}
+
+impl Regime {
+    /// All of them, in the order of their numbers.
+    pub(crate) const ALL: [Self; 6] =
+        [Self::Steady, Self::Flutter, Self::Tumble, Self::Chaotic, Self::Helical, Self::Spiral];
+
+    /// Name in reports.
+    pub(crate) fn name(self) -> &'static str {
+        REGIME_NAMES[self as usize]
+    }
+}
+
+/// One number for every regime.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub(crate) struct PerRegime {
+    pub(crate) steady: f64,
+    pub(crate) flutter: f64,
+    pub(crate) tumble: f64,
+    pub(crate) chaotic: f64,
+    pub(crate) helical: f64,
+    pub(crate) spiral: f64,
+}
+
+impl PerRegime {
+    /// From numbers in the order of [`Regime::ALL`].
+    pub(crate) fn from_array([steady, flutter, tumble, chaotic, helical, spiral]: [f64; 6]) -> Self {
+        Self { steady, flutter, tumble, chaotic, helical, spiral }
+    }
+
+    /// The numbers in the order of [`Regime::ALL`].
+    pub(crate) fn to_array(self) -> [f64; 6] {
+        [self.steady, self.flutter, self.tumble, self.chaotic, self.helical, self.spiral]
+    }
+}
