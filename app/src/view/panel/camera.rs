@@ -21,7 +21,7 @@ pub(super) fn show(ui: &mut Ui, scene: &mut Scene, own: &Scene, camera: &mut Cam
     }
     let tip = "Lets the scene begin with what the window looks at now; the park is laid out around it";
     if ui.button("Begin with this view").on_hover_text(tip).clicked() {
-        scene.view.camera = looking(camera);
+        scene.view.camera = scene_camera(camera);
     }
     let (at, from) = (&mut scene.view.camera, &own.view.camera);
     let tip = "Where the scene's camera stands; the park is laid out around what it sees";
@@ -43,7 +43,7 @@ fn path(ui: &mut Ui, scene: &mut Scene, own: &Scene, camera: &Camera, time_s: f6
         let last_s = keys.last().map_or(0.0, |key| key.time_s + 1.0);
         #[expect(clippy::cast_possible_truncation, reason = "scenes are in single precision")]
         let now_s = time_s as f32;
-        let SceneCamera { eye_m, target_m, vertical_fov_deg } = looking(camera);
+        let SceneCamera { eye_m, target_m, vertical_fov_deg } = scene_camera(camera);
         CameraKey { time_s: now_s.max(last_s), eye_m, target_m, vertical_fov_deg }
     };
     let Some(index) = list.show(ui, keys, name, fresh) else { return };
@@ -59,7 +59,7 @@ fn path(ui: &mut Ui, scene: &mut Scene, own: &Scene, camera: &Camera, time_s: f6
 }
 
 /// A camera as scenes have it.
-fn looking(camera: &Camera) -> SceneCamera {
+fn scene_camera(camera: &Camera) -> SceneCamera {
     SceneCamera {
         eye_m: camera.eye_m(),
         target_m: camera.target_m,

@@ -4,20 +4,20 @@
 
 use egui::{RichText, Ui};
 
-use super::{Facts, Wish, rows, style};
+use super::{Action, PanelInput, rows, style};
 use crate::run::backend::BackendKind;
 
-pub(super) fn show(ui: &mut Ui, facts: &Facts, wishes: &mut Vec<Wish>) {
-    let other = match facts.backend {
+pub(super) fn show(ui: &mut Ui, input: &PanelInput, actions: &mut Vec<Action>) {
+    let other = match input.backend {
         BackendKind::Cpu => "wgpu",
         BackendKind::Wgpu => "cpu",
     };
-    let mut compares = facts.compares;
+    let mut compares = input.compares;
     let tip = "Run the other backend beside this one, step by step, and tell how far their leaves are apart";
     if ui.checkbox(&mut compares, format!("Compare with {other}")).on_hover_text(tip).changed() {
-        wishes.push(Wish::Compare(compares));
+        actions.push(Action::Compare(compares));
     }
-    let Some(found) = facts.difference else { return };
+    let Some(found) = input.difference else { return };
     let step = rows::grouped(found.step);
     if found.is_equal {
         let text = format!("Every bit is the same at step {step}.");

@@ -8,7 +8,7 @@ use std::time::Duration;
 use egui::Ui;
 use windfall_core::Scene;
 
-use super::Wish;
+use super::Action;
 use crate::view::session::change::Change;
 
 /// Seconds without a change after which an edit by keys is taken to be finished.
@@ -44,7 +44,7 @@ impl Draft {
 
     /// Ends a frame: what the edit asks for by now. A drag that can be followed is; what takes building anew waits until
     /// it is over.
-    pub(super) fn end(&mut self, ui: &Ui) -> Option<Wish> {
+    pub(super) fn end(&mut self, ui: &Ui) -> Option<Action> {
         let (now_s, is_held) = ui.input(|input| (input.time, input.pointer.any_down()));
         if self.scene != self.seen {
             self.seen.clone_from(&self.scene);
@@ -53,12 +53,12 @@ impl Draft {
         let is_focused = ui.ctx().memory(|memory| memory.focused().is_some());
         let goes_on = is_held || is_focused && now_s - self.changed_s < REST_S;
         let base = self.base.as_ref()?;
-        let wish = if self.scene == **base {
+        let action = if self.scene == **base {
             None
         } else if !goes_on || Change::between(base, &self.scene).is_live() {
-            // Whether it is granted or refused, the next frame begins with what runs then.
+            // Whether it is handled or refused, the next frame begins with what runs then.
             self.base = None;
-            Some(Wish::Edit { scene: Box::new(self.scene.clone()), gesture: self.gesture })
+            Some(Action::Edit { scene: Box::new(self.scene.clone()), gesture: self.gesture })
         } else {
             ui.ctx().request_repaint_after(Duration::from_millis(100));
             None
@@ -66,6 +66,6 @@ impl Draft {
         if !goes_on {
             self.gesture += 1;
         }
-        wish
+        action
     }
 }

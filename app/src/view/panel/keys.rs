@@ -4,7 +4,7 @@
 
 use egui::{Event, Key, Modifiers};
 
-use crate::view::panel::controls::Wish;
+use crate::view::panel::action::Action;
 
 /// What keys and mouse do, group by group, for the user.
 pub(crate) const HELP: [(&str, &[(&str, &str)]); 4] = [
@@ -64,41 +64,41 @@ pub(crate) fn flight(context: &egui::Context) -> [f32; 3] {
 const FAST: f32 = 5.0;
 
 /// What the keys pressed since the last frame ask for.
-pub(crate) fn wishes(context: &egui::Context, is_paused: bool) -> Vec<Wish> {
+pub(crate) fn actions(context: &egui::Context, is_paused: bool) -> Vec<Action> {
     // A text has an undo of its own.
     let (is_busy, is_typing) = (context.egui_wants_keyboard_input(), context.text_edit_focused());
     let events = context.input(|input| input.events.clone());
-    let wishes = events.iter().filter_map(|event| match wish(event, is_paused)? {
-        wish @ Wish::Save => Some(wish),
-        wish @ (Wish::Undo | Wish::Redo) => (!is_typing).then_some(wish),
-        wish => (!is_busy).then_some(wish),
+    let actions = events.iter().filter_map(|event| match action(event, is_paused)? {
+        action @ Action::Save => Some(action),
+        action @ (Action::Undo | Action::Redo) => (!is_typing).then_some(action),
+        action => (!is_busy).then_some(action),
     });
-    wishes.collect()
+    actions.collect()
 }
 
-fn wish(event: &Event, is_paused: bool) -> Option<Wish> {
+fn action(event: &Event, is_paused: bool) -> Option<Action> {
     if matches!(event, Event::Text(text) if text == "?") {
-        return Some(Wish::ToggleHelp);
+        return Some(Action::ToggleHelp);
     }
     let Event::Key { key, pressed: true, repeat, modifiers, .. } = *event else { return None };
     let Modifiers { shift, command, .. } = modifiers;
     match key {
-        Key::Z if command && shift => Some(Wish::Redo),
-        Key::Z if command => Some(Wish::Undo),
-        Key::Y if command => Some(Wish::Redo),
-        Key::S if command && !repeat => Some(Wish::Save),
+        Key::Z if command && shift => Some(Action::Redo),
+        Key::Z if command => Some(Action::Undo),
+        Key::Y if command => Some(Action::Redo),
+        Key::S if command && !repeat => Some(Action::Save),
         _ if command => None,
         // Held down it steps on and on.
-        Key::Period => Some(Wish::SingleStep),
-        Key::Comma => Some(Wish::StepBack),
+        Key::Period => Some(Action::SingleStep),
+        Key::Comma => Some(Action::StepBack),
         _ if repeat => None,
-        Key::Space => Some(Wish::Pause(!is_paused)),
-        Key::R => Some(Wish::Reset),
-        Key::C => Some(Wish::ResetCamera),
-        Key::F9 => Some(Wish::ToggleRecord),
-        Key::F1 => Some(Wish::ToggleHelp),
-        Key::H => Some(Wish::TogglePanel),
-        Key::Escape => Some(Wish::Quit),
+        Key::Space => Some(Action::Pause(!is_paused)),
+        Key::R => Some(Action::Reset),
+        Key::C => Some(Action::ResetCamera),
+        Key::F9 => Some(Action::ToggleRecord),
+        Key::F1 => Some(Action::ToggleHelp),
+        Key::H => Some(Action::TogglePanel),
+        Key::Escape => Some(Action::Quit),
         _ => None,
     }
 }
@@ -107,21 +107,25 @@ fn wish(event: &Event, is_paused: bool) -> Option<Wish> {
 mod tests {
     use super::*;
 
-    fn press(key: Key, modifiers: Modifiers, repeat: bool) -> Option<Wish> {
-        wish(&Event::Key { key, physical_key: None, pressed: true, repeat, modifiers }, false)
+    fn press(key: Key, modifiers: Modifiers, repeat: bool) -> Option<Action> {
+        action(&Event::Key { key, physical_key: None, pressed: true, repeat, modifiers }, false)
     }
 
     #[test]
     fn keys_mean_what_the_help_says() {
         let plain = |key| press(key, Modifiers::NONE, false);
-        assert_eq!(plain(Key::Space), Some(Wish::Pause(true)), "space pauses");
+        assert_eq!(plain(Key::Space), Some(Action::Pause(true)), "space pauses");
         assert_eq!(press(Key::Space, Modifiers::NONE, true), None, "once");
-        assert_eq!(press(Key::Period, Modifiers::NONE, true), Some(Wish::SingleStep), "a held step goes on");
-        assert_eq!(plain(Key::Escape), Some(Wish::Quit), "Esc quits");
+        assert_eq!(
+            press(Key::Period, Modifiers::NONE, true),
+            Some(Action::SingleStep),
+            "a held step goes on"
+        );
+        assert_eq!(plain(Key::Escape), Some(Action::Quit), "Esc quits");
         assert_eq!(plain(Key::Z), None, "Z alone is no command");
         let redo = Modifiers::COMMAND | Modifiers::SHIFT;
-        assert_eq!(press(Key::Z, Modifiers::COMMAND, true), Some(Wish::Undo), "held down it goes on");
-        assert_eq!(press(Key::Z, redo, false), Some(Wish::Redo), "the other way");
+        assert_eq!(press(Key::Z, Modifiers::COMMAND, true), Some(Action::Undo), "held down it goes on");
+        assert_eq!(press(Key::Z, redo, false), Some(Action::Redo), "the other way");
         assert_eq!(press(Key::R, Modifiers::COMMAND, false), None, "R is another key then");
     }
 

@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The panel beside the scene, group by group.
 
+pub(crate) mod action;
 mod beaufort;
 mod body;
 mod camera;
 mod compare;
-pub(crate) mod controls;
 mod draft;
 mod field;
 mod graph;
@@ -22,6 +22,7 @@ mod motion;
 mod numbers;
 mod over_picture;
 mod overlays;
+pub(crate) mod panel_input;
 pub(crate) mod pointer;
 mod presets;
 mod record;
@@ -44,7 +45,8 @@ use windfall_core::Scene;
 use windfall_render::camera::Camera;
 use windfall_render::land::Land;
 
-use crate::view::panel::controls::{Facts, Message, Wish};
+use crate::view::panel::action::Action;
+use crate::view::panel::panel_input::{Message, PanelInput};
 use crate::view::tools::pick::Projection;
 use draft::Draft;
 pub(crate) use group::Group;
@@ -106,58 +108,64 @@ impl Panel {
     }
 
     /// Shows the panel, lets the pointer steer the camera, and returns what the user asks for.
-    pub(super) fn show(&mut self, ui: &mut Ui, facts: &Facts, camera: &mut Camera, land: &Land) -> Vec<Wish> {
-        let mut wishes = keys::wishes(ui.ctx(), facts.is_paused);
-        self.draft.begin(&facts.scene, facts.is_building);
-        self.grant_own(&mut wishes);
+    pub(super) fn show(
+        &mut self,
+        ui: &mut Ui,
+        input: &PanelInput,
+        camera: &mut Camera,
+        land: &Land,
+    ) -> Vec<Action> {
+        let mut actions = keys::actions(ui.ctx(), input.is_paused);
+        self.draft.begin(&input.scene, input.is_building);
+        self.handle_own(&mut actions);
         let dropped = ui.input(|input| input.raw.dropped_files.clone());
-        wishes.extend(dropped.iter().map(|file| Wish::Drop(file.path().to_owned())));
+        actions.extend(dropped.iter().map(|file| Action::Drop(file.path().to_owned())));
         if self.is_open {
             egui::Panel::left("panel").resizable(false).exact_size(WIDTH).frame(style::panel_frame()).show(
                 ui,
                 |ui| {
                     ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
-                        self.groups(ui, facts, camera, &mut wishes);
+                        self.groups(ui, input, camera, &mut actions);
                         self.follow_focus(ui);
                     });
                 },
             );
         }
-        wishes.extend(self.draft.end(ui));
+        actions.extend(self.draft.end(ui));
         let picture = ui.available_rect_before_wrap();
         self.picture_left = pixels(picture.left() * ui.ctx().pixels_per_point());
         let response = ui.interact(picture, Id::unique("picture"), Sense::click_and_drag());
         pointer::steer(camera, &response, land);
         if let Some(pointer) = response.interact_pointer_pos().filter(|_| response.clicked()) {
-            wishes.push(Wish::Pick(pointer));
+            actions.push(Action::Pick(pointer));
         }
         self.picture = picture;
-        over_picture::show(ui, facts, &Projection::new(camera, picture), picture);
+        over_picture::show(ui, input, &Projection::new(camera, picture), picture);
         if self.is_open {
-            timeline::show(ui, facts, picture, &mut wishes);
+            timeline::show(ui, input, picture, &mut actions);
         }
-        self.notice(ui, facts, picture.left_top());
+        self.notice(ui, input, picture.left_top());
         if self.is_helping {
             help::show(ui, picture);
         } else if ui.input(|input| !input.raw.hovered_files.is_empty()) {
             help::show_drop_hint(ui, picture);
         }
-        wishes
+        actions
     }
 
-    /// Grants the wishes that are the panel's own, and turns others into what they mean here.
-    fn grant_own(&mut self, wishes: &mut Vec<Wish>) {
-        let own = std::mem::take(wishes);
-        for wish in own {
-            match wish {
-                Wish::ToggleHelp => self.is_helping = !self.is_helping,
-                Wish::Quit if self.is_helping => self.is_helping = false,
-                Wish::Save => {
-                    wishes.extend(self.file.save());
+    /// Handles the actions that are the panel's own, and turns others into what they mean here.
+    fn handle_own(&mut self, actions: &mut Vec<Action>) {
+        let own = std::mem::take(actions);
+        for action in own {
+            match action {
+                Action::ToggleHelp => self.is_helping = !self.is_helping,
+                Action::Quit if self.is_helping => self.is_helping = false,
+                Action::Save => {
+                    actions.extend(self.file.save());
                     // The question stands in the panel.
                     self.is_open |= self.file.is_asking();
                 }
-                wish => wishes.push(wish),
+                action => actions.push(action),
             }
         }
     }
@@ -175,37 +183,43 @@ impl Panel {
         }
     }
 
-    fn groups(&mut self, ui: &mut Ui, facts: &Facts, camera: &mut Camera, wishes: &mut Vec<Wish>) {
-        ui.label(RichText::new(&facts.scene.name).size(17.0).strong().color(style::TITLE));
-        time::show(ui, facts, wishes);
-        overlays::show(ui, facts, wishes);
-        record::show(ui, facts, wishes);
+    fn groups(&mut self, ui: &mut Ui, input: &PanelInput, camera: &mut Camera, actions: &mut Vec<Action>) {
+        ui.label(RichText::new(&input.scene.name).size(17.0).strong().color(style::TITLE));
+        time::show(ui, input, actions);
+        overlays::show(ui, input, actions);
+        record::show(ui, input, actions);
         let open = std::mem::take(&mut self.open);
         let asking = self.file.is_asking().then_some(Group::Scene);
         let groups = Groups { open: (!open.is_empty()).then_some(&open), also: asking };
-        self.scene_groups(ui, &groups, facts, wishes);
-        self.view_groups(ui, &groups, facts, camera);
-        let (scene, own) = (&mut self.draft.scene, &*facts.loaded);
+        self.scene_groups(ui, &groups, input, actions);
+        self.view_groups(ui, &groups, input, camera);
+        let (scene, own) = (&mut self.draft.scene, &*input.loaded);
         let differs = (scene.seed, scene.dt_s) != (own.seed, own.dt_s);
-        groups.show(ui, Group::Simulation, differs, |ui| simulation::show(ui, scene, own, facts, wishes));
-        groups.show(ui, Group::Counts, false, |ui| numbers::counts(ui, facts));
-        groups.show(ui, Group::Timings, false, |ui| numbers::timings(ui, facts));
+        groups.show(ui, Group::Simulation, differs, |ui| simulation::show(ui, scene, own, input, actions));
+        groups.show(ui, Group::Counts, false, |ui| numbers::counts(ui, input));
+        groups.show(ui, Group::Timings, false, |ui| numbers::timings(ui, input));
         ui.add_space(5.0);
         ui.label(RichText::new("F1 or ? tells what the keys do.").small().color(style::QUIET));
     }
 
     /// What falls, from where, through which wind, onto what.
-    fn scene_groups(&mut self, ui: &mut Ui, groups: &Groups<'_>, facts: &Facts, wishes: &mut Vec<Wish>) {
+    fn scene_groups(
+        &mut self,
+        ui: &mut Ui,
+        groups: &Groups<'_>,
+        input: &PanelInput,
+        actions: &mut Vec<Action>,
+    ) {
         let Self { draft, file, .. } = self;
-        let (scene, own) = (&mut draft.scene, &*facts.loaded);
+        let (scene, own) = (&mut draft.scene, &*input.loaded);
         let differs = scene.name != own.name;
-        groups.show(ui, Group::Scene, differs, |ui| file.show(ui, scene, own, facts, wishes));
-        groups.show(ui, Group::Presets, false, |ui| presets::show(ui, wishes));
+        groups.show(ui, Group::Scene, differs, |ui| file.show(ui, scene, own, input, actions));
+        groups.show(ui, Group::Presets, false, |ui| presets::show(ui, actions));
         let speeds = |scene: &Scene| (scene.fall_speed, scene.rotation_speed, scene.view.trail_s);
         let differs = scene.leaf_count() != own.leaf_count() || speeds(scene) != speeds(own);
         groups.show(ui, Group::Leaves, differs, |ui| {
-            let shared = leaves::show(ui, scene, &facts.scene, own, &facts.leaf_range);
-            wishes.extend(shared.err().map(|error| Wish::Complain(error.to_string())));
+            let shared = leaves::show(ui, scene, &input.scene, own, &input.leaf_range);
+            actions.extend(shared.err().map(|error| Action::ShowError(error.to_string())));
         });
         let differs = scene.species != own.species;
         groups.show(ui, Group::Species, differs, |ui| species::show(ui, scene, own));
@@ -213,7 +227,7 @@ impl Panel {
         groups.show(ui, Group::Sources, differs, |ui| sources::show(ui, scene, own));
         let differs = scene.wind != own.wind;
         groups
-            .show(ui, Group::Wind, differs, |ui| wind::show(ui, &mut scene.wind, &own.wind, facts.look_deg));
+            .show(ui, Group::Wind, differs, |ui| wind::show(ui, &mut scene.wind, &own.wind, input.look_deg));
         let season = |scene: &Scene| (scene.autumn, scene.sway, scene.regrow_after_s);
         let differs = scene.trees != own.trees || season(scene) != season(own);
         groups.show(ui, Group::Trees, differs, |ui| trees::show(ui, scene, own));
@@ -224,21 +238,21 @@ impl Panel {
     }
 
     /// How it is looked at.
-    fn view_groups(&mut self, ui: &mut Ui, groups: &Groups<'_>, facts: &Facts, camera: &mut Camera) {
-        let (scene, own) = (&mut self.draft.scene, &*facts.loaded);
+    fn view_groups(&mut self, ui: &mut Ui, groups: &Groups<'_>, input: &PanelInput, camera: &mut Camera) {
+        let (scene, own) = (&mut self.draft.scene, &*input.loaded);
         let (view, was) = (&mut scene.view, &own.view);
         let differs = (view.sun, view.haze) != (was.sun, was.haze) || view.sky != was.sky;
         groups.show(ui, Group::Sky, differs, |ui| sky::show(ui, view, was));
         let differs = view.camera != was.camera || view.path != was.path;
-        let time_s = facts.clock.seconds();
+        let time_s = input.clock.seconds();
         groups.show(ui, Group::Camera, differs, |ui| camera::show(ui, scene, own, camera, time_s));
         let (lens, was) = (&mut scene.view.lens, &own.view.lens);
         groups.show(ui, Group::Lens, lens != was, |ui| lens::show(ui, lens, was, camera.distance_m));
     }
 
     /// A line over the picture, if there is something to say.
-    fn notice(&self, ui: &Ui, facts: &Facts, corner: Pos2) {
-        let text = match (&facts.message, facts.is_paused && !self.is_open) {
+    fn notice(&self, ui: &Ui, input: &PanelInput, corner: Pos2) {
+        let text = match (&input.message, input.is_paused && !self.is_open) {
             (Some(Message { text, is_error: true }), _) => RichText::new(text).color(style::WARNING),
             (Some(Message { text, .. }), _) => RichText::new(text).color(style::GOOD),
             (None, true) => RichText::new("Paused. Space goes on, H shows the panel."),

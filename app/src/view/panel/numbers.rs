@@ -7,7 +7,7 @@ use windfall_core::Contract;
 use windfall_core::device::flight::regime::REGIME_NAMES;
 use windfall_core::motion::Primitive;
 
-use super::{Facts, Wish, compare, graph, rows, style};
+use super::{Action, PanelInput, compare, graph, rows, style};
 use crate::run::backend::BackendKind;
 
 /// Names of the primitive motions, in their order.
@@ -31,36 +31,36 @@ const REGIMES: [&str; 6] = [
 ];
 
 /// Where it simulates, and on what.
-pub(super) fn backend(ui: &mut Ui, facts: &Facts, wishes: &mut Vec<Wish>) {
+pub(super) fn backend(ui: &mut Ui, input: &PanelInput, actions: &mut Vec<Action>) {
     ui.horizontal(|ui| {
         for (kind, text, tip) in [
             (BackendKind::Cpu, "cpu", "Simulate on the processor; the leaves go on where they are"),
             (BackendKind::Wgpu, "wgpu", "Simulate on the graphics adapter; the leaves go on where they are"),
         ] {
-            if ui.selectable_label(facts.backend == kind, text).on_hover_text(tip).clicked() {
-                wishes.push(Wish::Backend(kind));
+            if ui.selectable_label(input.backend == kind, text).on_hover_text(tip).clicked() {
+                actions.push(Action::Backend(kind));
             }
         }
-        let (text, tip) = match facts.info.contract {
+        let (text, tip) = match input.info.contract {
             Contract::Exact => ("exact", "Every bit of the state is that of the cpu backend"),
             Contract::Tolerant => {
                 ("tolerant", "Integers are those of the cpu backend; positions differ by rounding only")
             }
         };
-        let on = match facts.backend {
-            BackendKind::Cpu => format!("{text} contract, {}", facts.info.adapter),
+        let on = match input.backend {
+            BackendKind::Cpu => format!("{text} contract, {}", input.info.adapter),
             BackendKind::Wgpu => format!("{text} contract"),
         };
         ui.label(RichText::new(on).color(style::QUIET)).on_hover_text(tip);
     });
-    let drawn = RichText::new(format!("Draws: {}", facts.adapter)).small().color(style::QUIET);
-    ui.add(Label::new(drawn).truncate()).on_hover_text(&facts.driver);
-    compare::show(ui, facts, wishes);
+    let drawn = RichText::new(format!("Draws: {}", input.adapter)).small().color(style::QUIET);
+    ui.add(Label::new(drawn).truncate()).on_hover_text(&input.driver);
+    compare::show(ui, input, actions);
 }
 
 /// Leaves by state, bodies by regime, others by motion.
-pub(super) fn counts(ui: &mut Ui, facts: &Facts) {
-    let stats = &facts.stats;
+pub(super) fn counts(ui: &mut Ui, input: &PanelInput) {
+    let stats = &input.stats;
     let states = [
         ("attached", stats.leaves.attached, "On branches"),
         ("falling", stats.leaves.falling, "In the air"),
@@ -68,13 +68,13 @@ pub(super) fn counts(ui: &mut Ui, facts: &Facts) {
         ("waiting", stats.leaves.dormant, "Not let go yet"),
     ];
     table(ui, "states", 64.0, states.map(|(name, count, tip)| (name, rows::grouped(count), tip)));
-    if facts.has_regimes {
+    if input.has_regimes {
         let regimes = std::array::from_fn::<_, 6, _>(|index| {
             (REGIME_NAMES[index], compact(stats.leaves.regimes[index]), REGIMES[index])
         });
         table(ui, "regimes", 40.6, regimes);
     }
-    if !facts.has_motions {
+    if !input.has_motions {
         return;
     }
     let motions = std::array::from_fn::<_, 6, _>(|index| {
@@ -102,21 +102,21 @@ fn table<const N: usize>(ui: &mut Ui, id: &str, width: f32, cells: [(&str, Strin
 }
 
 /// Frames per second, and the milliseconds that the parts of a frame take.
-pub(super) fn timings(ui: &mut Ui, facts: &Facts) {
-    let frame_ms = if facts.fps > 0.0 { 1.0e3 / facts.fps } else { 0.0 };
-    ui.label(format!("{:.1} frames/s, {} a frame", facts.fps, milliseconds(frame_ms)));
-    graph::show(ui, &facts.frames);
+pub(super) fn timings(ui: &mut Ui, input: &PanelInput) {
+    let frame_ms = if input.fps > 0.0 { 1.0e3 / input.fps } else { 0.0 };
+    ui.label(format!("{:.1} frames/s, {} a frame", input.fps, milliseconds(frame_ms)));
+    graph::show(ui, &input.frames);
     ui.columns(2, |columns| {
         let [left, right] = columns else { return };
-        stages(left, "processor", &facts.cpu_ms, "What the program's own thread does in a frame");
-        if facts.gpu_ms.is_empty() {
+        stages(left, "processor", &input.cpu_ms, "What the program's own thread does in a frame");
+        if input.gpu_ms.is_empty() {
             let text = RichText::new("device: no timestamps").small().color(style::QUIET);
             right.add(Label::new(text)).on_hover_text("This adapter does not tell how long its work takes");
         } else {
             stages(
                 right,
                 "device",
-                &facts.gpu_ms,
+                &input.gpu_ms,
                 "What the graphics adapter does in a frame, by its own clock",
             );
         }

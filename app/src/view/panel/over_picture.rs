@@ -9,8 +9,8 @@ use egui::{
 use glam::Vec3;
 use windfall_render::{ATTACHED, MOTIONS, Measure, RESTING, shade_bytes};
 
-use super::{Facts, style};
-use crate::view::tools::overlays::Looking;
+use super::{PanelInput, style};
+use crate::view::tools::overlays::Overlays;
 use crate::view::tools::pick::Projection;
 
 /// Width of the scale of the legend in points.
@@ -24,26 +24,26 @@ const ARROW_S: f32 = 0.35;
 const LONGEST: f32 = 90.0;
 
 /// Draws everything that is asked for over `picture`.
-pub(super) fn show(ui: &Ui, facts: &Facts, projection: &Projection, picture: Rect) {
+pub(super) fn show(ui: &Ui, input: &PanelInput, projection: &Projection, picture: Rect) {
     let painter = ui.painter_at(picture);
-    for (from, wind) in &facts.arrows {
-        arrow(&painter, projection, *from, *wind, facts.arrow_most_m_s);
+    for (from, wind) in &input.arrows {
+        arrow(&painter, projection, *from, *wind, input.arrow_most_m_s);
     }
-    followed(&painter, facts, projection);
+    followed(&painter, input, projection);
     let mut corner = picture.right_top() + vec2(-12.0, 12.0);
-    if let Some(measure) = facts.looking.measure {
-        corner.y = measure_legend(ui, measure, &facts.looking, corner).bottom() + 8.0;
+    if let Some(measure) = input.overlays.measure {
+        corner.y = measure_legend(ui, measure, &input.overlays, corner).bottom() + 8.0;
     }
-    if facts.looking.wind {
-        let most = facts.arrow_most_m_s;
+    if input.overlays.wind {
+        let most = input.arrow_most_m_s;
         corner.y = scale_legend(ui, "wind", "Wind", ["0", &format!("{most:.1} m/s")], corner).bottom() + 8.0;
     }
-    if facts.looking.landings {
+    if input.overlays.landings {
         let (low, high) = windfall_render::LANDINGS_PER_M2;
         let ends = [format!("{low:.0}"), format!("{high:.0} leaves/m\u{b2}")];
         corner.y = scale_legend(ui, "landings", "Lying there", [&ends[0], &ends[1]], corner).bottom() + 8.0;
     }
-    card(ui, facts, corner);
+    card(ui, input, corner);
 }
 
 /// An arrow of the wind as long as the air goes in a while, in the colour of its speed.
@@ -69,8 +69,8 @@ fn arrow(painter: &Painter, projection: &Projection, from: Vec3, wind: Vec3, mos
 }
 
 /// The track of the leaf that is followed, and a ring around it.
-fn followed(painter: &Painter, facts: &Facts, projection: &Projection) {
-    let Some(track) = &facts.track else { return };
+fn followed(painter: &Painter, input: &PanelInput, projection: &Projection) {
+    let Some(track) = &input.track else { return };
     let mut line = Vec::new();
     let stroke = |line: &mut Vec<_>| {
         let points = std::mem::take(line);
@@ -93,8 +93,8 @@ fn followed(painter: &Painter, facts: &Facts, projection: &Projection) {
     }
 }
 
-fn measure_legend(ui: &Ui, measure: Measure, looking: &Looking, corner: egui::Pos2) -> Rect {
-    let amount = Looking::scale_of(measure).map_or(0.0, |index| looking.most[index]);
+fn measure_legend(ui: &Ui, measure: Measure, overlays: &Overlays, corner: egui::Pos2) -> Rect {
+    let amount = Overlays::scale_of(measure).map_or(0.0, |index| overlays.most[index]);
     let (title, unit) = match measure {
         Measure::Motion => return motion_legend(ui, corner),
         Measure::Speed => ("Speed", "m/s"),
@@ -151,8 +151,8 @@ fn motion_legend(ui: &Ui, corner: egui::Pos2) -> Rect {
 }
 
 /// What is known of the leaf that is followed.
-fn card(ui: &Ui, facts: &Facts, corner: egui::Pos2) {
-    let Some(card) = &facts.card else { return };
+fn card(ui: &Ui, input: &PanelInput, corner: egui::Pos2) {
+    let Some(card) = &input.card else { return };
     let area = Area::new(Id::unique("card")).pivot(Align2::RIGHT_TOP).fixed_pos(corner).interactable(false);
     area.show(ui.ctx(), |ui| {
         style::notice_frame().show(ui, |ui| {

@@ -7,8 +7,8 @@ use windfall_core::scene::limits::Limit;
 use windfall_render::Measure;
 
 use super::field::field;
-use super::{Facts, Wish, style};
-use crate::view::tools::overlays::Looking;
+use super::{Action, PanelInput, style};
+use crate::view::tools::overlays::Overlays;
 
 /// Ends of the colours that can be chosen.
 const MOST: [(&str, Limit<f32>); 3] = [
@@ -19,36 +19,36 @@ const MOST: [(&str, Limit<f32>); 3] = [
 /// Heights of the wind's slice.
 const WIND_HEIGHT_M: Limit<f32> = Limit { low: 0.1, high: 100.0, unit: "m" };
 
-pub(super) fn show(ui: &mut Ui, facts: &Facts, wishes: &mut Vec<Wish>) {
+pub(super) fn show(ui: &mut Ui, input: &PanelInput, actions: &mut Vec<Action>) {
     let title = RichText::new("Look").strong().color(style::TITLE);
     CollapsingHeader::new(title).id_salt("look").default_open(true).show_unindented(ui, |ui| {
-        let mut looking = facts.looking;
-        colors(ui, &mut looking);
+        let mut overlays = input.overlays;
+        colors(ui, &mut overlays);
         ui.horizontal(|ui| {
             let tip = "Lines of where leaves have been (the first 4,096)";
-            ui.checkbox(&mut looking.trails, "Trails").on_hover_text(tip);
+            ui.checkbox(&mut overlays.trails, "Trails").on_hover_text(tip);
             let tip = "How many leaves lie where on the ground";
-            ui.checkbox(&mut looking.landings, "Landings").on_hover_text(tip);
+            ui.checkbox(&mut overlays.landings, "Landings").on_hover_text(tip);
             let tip = "Arrows of the wind in a slice at a height above the ground";
-            ui.checkbox(&mut looking.wind, "Wind").on_hover_text(tip);
+            ui.checkbox(&mut overlays.wind, "Wind").on_hover_text(tip);
         });
-        if looking.wind {
+        if overlays.wind {
             let tip = "Height above the ground of the slice of arrows";
-            field("Slice at", tip, WIND_HEIGHT_M).fine(0.1).show(ui, &mut looking.wind_height_m, None);
+            field("Slice at", tip, WIND_HEIGHT_M).fine(0.1).show(ui, &mut overlays.wind_height_m, None);
         }
-        let hint = match &facts.card {
+        let hint = match &input.card {
             Some(_) => "Click beside any leaf to let go of this one.",
             None => "Click on a leaf to follow it.",
         };
         ui.label(RichText::new(hint).small().color(style::QUIET));
-        if looking != facts.looking {
-            wishes.push(Wish::Look(looking));
+        if overlays != input.overlays {
+            actions.push(Action::SetOverlays(overlays));
         }
     });
 }
 
 /// What leaves are coloured by, and up to where.
-fn colors(ui: &mut Ui, looking: &mut Looking) {
+fn colors(ui: &mut Ui, overlays: &mut Overlays) {
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 3.0;
         for (measure, label, tip) in [
@@ -58,14 +58,14 @@ fn colors(ui: &mut Ui, looking: &mut Looking) {
             (Some(Measure::Age), "Age", "Coloured by the time since release"),
             (Some(Measure::Height), "Height", "Coloured by height above the ground at the origin"),
         ] {
-            if ui.selectable_label(looking.measure == measure, label).on_hover_text(tip).clicked() {
-                looking.measure = measure;
+            if ui.selectable_label(overlays.measure == measure, label).on_hover_text(tip).clicked() {
+                overlays.measure = measure;
             }
         }
     });
-    if let Some(index) = looking.measure.and_then(Looking::scale_of) {
+    if let Some(index) = overlays.measure.and_then(Overlays::scale_of) {
         let (name, limit) = MOST[index];
         let tip = "What the light end of the colours stands for";
-        field(name, tip, limit).fine(0.1).show(ui, &mut looking.most[index], None);
+        field(name, tip, limit).fine(0.1).show(ui, &mut overlays.most[index], None);
     }
 }

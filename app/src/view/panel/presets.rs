@@ -6,9 +6,9 @@ use egui::text::LayoutJob;
 use egui::{Button, FontId, TextFormat, Ui};
 use windfall_core::scene::PRESETS;
 
-use super::{Wish, style};
+use super::{Action, style};
 
-pub(super) fn show(ui: &mut Ui, wishes: &mut Vec<Wish>) {
+pub(super) fn show(ui: &mut Ui, actions: &mut Vec<Action>) {
     let width = ui.available_width();
     for (name, text) in PRESETS {
         let format =
@@ -22,7 +22,7 @@ pub(super) fn show(ui: &mut Ui, wishes: &mut Vec<Wish>) {
             Button::new(job).wrap().frame_when_inactive(false).min_size(egui::vec2(width - 6.0, 0.0));
         let response = ui.add(button).accessible_name(format!("Preset {name}"));
         if response.on_hover_text("Opens this scene; Ctrl+Z goes back").clicked() {
-            wishes.push(Wish::Open((*name).to_owned()));
+            actions.push(Action::Open((*name).to_owned()));
         }
     }
 }

@@ -4,12 +4,12 @@
 
 use egui::{Button, RichText, TextEdit, Ui, vec2};
 
-use super::{Facts, Wish, rows, style};
+use super::{Action, PanelInput, rows, style};
 use crate::view::tools::clip::FPS;
 
-pub(super) fn show(ui: &mut Ui, facts: &Facts, wishes: &mut Vec<Wish>) {
+pub(super) fn show(ui: &mut Ui, input: &PanelInput, actions: &mut Vec<Action>) {
     rows::title(ui, "Record");
-    let recording = &facts.recording;
+    let recording = &input.recording;
     let tip = "FILE.mp4 (by ffmpeg), FILE.gif, or the name of a folder for numbered PNG files";
     ui.horizontal(|ui| {
         let mut path = recording.path.clone();
@@ -18,13 +18,13 @@ pub(super) fn show(ui: &mut Ui, facts: &Facts, wishes: &mut Vec<Wish>) {
         let field =
             ui.add_enabled(recording.frames.is_none(), field).labelled_by(label.id).on_hover_text(tip);
         if field.changed() {
-            wishes.push(Wish::RecordTo(path));
+            actions.push(Action::RecordTo(path));
         }
         let text = if recording.frames.is_some() { "Stop" } else { "Record" };
         let tip =
             "A clip of the picture without the panel, at a fixed rate however slow this machine is (F9)";
         if ui.add(Button::new(text).min_size(vec2(60.0, 22.0))).on_hover_text(tip).clicked() {
-            wishes.push(Wish::ToggleRecord);
+            actions.push(Action::ToggleRecord);
         }
     });
     if let Some(frames) = recording.frames {

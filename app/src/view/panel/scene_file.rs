@@ -8,7 +8,7 @@ use egui::{Button, RichText, TextEdit, Ui};
 use windfall_core::Scene;
 
 use super::words::text;
-use super::{Facts, Wish, style};
+use super::{Action, PanelInput, style};
 
 /// Where the scene is to be saved.
 #[derive(Debug, Default)]
@@ -41,15 +41,15 @@ impl SceneFile {
         self.known.extend(path.canonicalize());
     }
 
-    /// Asks to save: a wish, unless the user has to be asked first.
-    pub(super) fn save(&mut self) -> Option<Wish> {
+    /// Returns the action of saving, unless the user has to be asked first.
+    pub(super) fn save(&mut self) -> Option<Action> {
         let path = PathBuf::from(self.path.trim());
         let is_known = |there: PathBuf| self.known.contains(&there);
         if path.exists() && !path.canonicalize().is_ok_and(is_known) {
             self.asked = Some(path);
             return None;
         }
-        Some(Wish::SaveTo(path))
+        Some(Action::SaveTo(path))
     }
 
     /// What stands in the field.
@@ -68,8 +68,8 @@ impl SceneFile {
         ui: &mut Ui,
         scene: &mut Scene,
         own: &Scene,
-        facts: &Facts,
-        wishes: &mut Vec<Wish>,
+        input: &PanelInput,
+        actions: &mut Vec<Action>,
     ) {
         text(
             ui,
@@ -89,7 +89,7 @@ impl SceneFile {
                 let button = ui.button("Save").on_hover_text("Saves the scene as it is now (Ctrl+S)");
                 if button.clicked() || response.lost_focus() && ui.input(|i| i.key_pressed(egui::Key::Enter))
                 {
-                    wishes.extend(self.save());
+                    actions.extend(self.save());
                 }
                 if response.changed() {
                     self.asked = None;
@@ -103,7 +103,7 @@ impl SceneFile {
                 ui.label(RichText::new(question).color(style::WARNING));
                 if ui.button("Overwrite").clicked() {
                     self.asked = None;
-                    wishes.push(Wish::SaveTo(path));
+                    actions.push(Action::SaveTo(path));
                 }
                 if ui.button("Keep it").clicked() {
                     self.asked = None;
@@ -111,15 +111,15 @@ impl SceneFile {
             });
         }
         ui.horizontal(|ui| {
-            let (undo, redo) = facts.history;
-            let mut button = |ui: &mut Ui, text: &str, tip: &str, is_on: bool, wish: Wish| {
+            let (undo, redo) = input.history;
+            let mut button = |ui: &mut Ui, text: &str, tip: &str, is_on: bool, action: Action| {
                 let button = Button::new(text).min_size(egui::vec2(66.0, 20.0));
                 if ui.add_enabled(is_on, button).on_hover_text(tip).clicked() {
-                    wishes.push(wish);
+                    actions.push(action);
                 }
             };
-            button(ui, "Undo", "The edit before (Ctrl+Z)", undo > 0, Wish::Undo);
-            button(ui, "Redo", "The edit that was undone (Ctrl+Shift+Z, Ctrl+Y)", redo > 0, Wish::Redo);
+            button(ui, "Undo", "The edit before (Ctrl+Z)", undo > 0, Action::Undo);
+            button(ui, "Redo", "The edit that was undone (Ctrl+Shift+Z, Ctrl+Y)", redo > 0, Action::Redo);
             let as_loaded = Button::new("As loaded").min_size(egui::vec2(80.0, 20.0));
             let response = ui.add_enabled(scene != own, as_loaded);
             if response.on_hover_text("Takes all edits back at once").clicked() {
@@ -142,13 +142,13 @@ mod tests {
         }
         let mut file = SceneFile::default();
         file.opened(&path("own.ron").to_string_lossy());
-        assert_eq!(file.save(), Some(Wish::SaveTo(path("own.ron"))), "it was loaded from there");
+        assert_eq!(file.save(), Some(Action::SaveTo(path("own.ron"))), "it was loaded from there");
         file.path = path("other.ron").to_string_lossy().into_owned();
         assert_eq!(file.save(), None, "somebody else's");
         assert!(file.is_asking(), "the user is asked");
         file.saved(&path("other.ron"));
-        assert_eq!(file.save(), Some(Wish::SaveTo(path("other.ron"))), "it was saved there");
+        assert_eq!(file.save(), Some(Action::SaveTo(path("other.ron"))), "it was saved there");
         file.opened("storm");
-        assert_eq!(file.save(), Some(Wish::SaveTo("storm.ron".into())), "a preset gets a file of its name");
+        assert_eq!(file.save(), Some(Action::SaveTo("storm.ron".into())), "a preset gets a file of its name");
     }
 }

@@ -8,13 +8,19 @@ use windfall_core::scene::limits;
 use windfall_core::scene::limits::Limit;
 
 use super::field::field;
-use super::{Facts, Wish, numbers};
+use super::{Action, PanelInput, numbers};
 
-pub(super) fn show(ui: &mut Ui, scene: &mut Scene, own: &Scene, facts: &Facts, wishes: &mut Vec<Wish>) {
+pub(super) fn show(
+    ui: &mut Ui,
+    scene: &mut Scene,
+    own: &Scene,
+    input: &PanelInput,
+    actions: &mut Vec<Action>,
+) {
     let tip = "Seed of everything random: the same scene and seed, the same bits";
     let seeds = Limit { low: 0, high: u64::MAX, unit: "" };
     field("Seed", tip, seeds).wide().show(ui, &mut scene.seed, own.seed);
     let tip = "Length of one step";
     field("Step length", tip, limits::DT_S).fine(0.001).show(ui, &mut scene.dt_s, own.dt_s);
-    numbers::backend(ui, facts, wishes);
+    numbers::backend(ui, input, actions);
 }

@@ -12,16 +12,16 @@ use windfall_core::{Contract, Scene, SimulatorInfo, World};
 use super::*;
 use crate::run::backend::BackendKind;
 use crate::view::session::Timeline;
-use crate::view::tools::clip::RecordFacts;
+use crate::view::tools::clip::ClipStatus;
 use crate::view::tools::frame_times::Frames;
-use crate::view::tools::overlays::Looking;
+use crate::view::tools::overlays::Overlays;
 
 mod every_control;
 mod scenes;
 
-fn facts(scene: &Scene) -> Facts {
+fn input(scene: &Scene) -> PanelInput {
     let world = World::build(scene).expect("valid");
-    Facts {
+    PanelInput {
         scene: Arc::new(scene.clone()),
         loaded: Arc::new(scene.clone()),
         history: (0, 0),
@@ -40,8 +40,8 @@ fn facts(scene: &Scene) -> Facts {
         stats: world.stats(),
         has_motions: true,
         has_regimes: scene.name == "Flight lab",
-        looking: Looking::default(),
-        recording: RecordFacts::default(),
+        overlays: Overlays::default(),
+        recording: ClipStatus::default(),
         card: None,
         track: None,
         arrows: Vec::new(),
@@ -66,7 +66,7 @@ struct Bench {
     context: egui::Context,
     panel: Panel,
     camera: Camera,
-    facts: Facts,
+    input: PanelInput,
 }
 
 impl Bench {
@@ -78,26 +78,26 @@ impl Bench {
             context,
             panel: Panel::new("autumn-park", Group::ALL.into()),
             camera,
-            facts: facts(scene),
+            input: input(scene),
         };
         bench.pass(Vec::new());
         bench
     }
 
-    fn pass(&mut self, events: Vec<Event>) -> Vec<Wish> {
+    fn pass(&mut self, events: Vec<Event>) -> Vec<Action> {
         let screen_rect = Some(Rect::from_min_size(pos2(0.0, 0.0), vec2(1280.0, 720.0)));
         let input = RawInput { screen_rect, events, focused: true, ..RawInput::default() };
         let land = Land::of(&scene::Ground::default());
-        let mut wishes = Vec::new();
+        let mut actions = Vec::new();
         let mut output = self.context.run_ui(input, |ui| {
-            wishes = self.panel.show(ui, &self.facts, &mut self.camera, &land);
+            actions = self.panel.show(ui, &self.input, &mut self.camera, &land);
         });
         output.textures_delta.clear();
-        wishes
+        actions
     }
 
     /// Presses at `from`, moves to `to` and lets go.
-    fn drag(&mut self, from: (f32, f32), to: (f32, f32), button: PointerButton) -> Vec<Wish> {
+    fn drag(&mut self, from: (f32, f32), to: (f32, f32), button: PointerButton) -> Vec<Action> {
         let at = |(x, y)| pos2(x, y);
         let press = |place, pressed| Event::PointerButton {
             pos: at(place),
@@ -105,16 +105,16 @@ impl Bench {
             pressed,
             modifiers: Modifiers::NONE,
         };
-        let mut wishes = self.pass(vec![Event::PointerMoved(at(from))]);
-        wishes.extend(self.pass(vec![press(from, true)]));
-        wishes.extend(self.pass(vec![Event::PointerMoved(at(to))]));
-        wishes.extend(self.pass(vec![press(to, false)]));
-        wishes
+        let mut actions = self.pass(vec![Event::PointerMoved(at(from))]);
+        actions.extend(self.pass(vec![press(from, true)]));
+        actions.extend(self.pass(vec![Event::PointerMoved(at(to))]));
+        actions.extend(self.pass(vec![press(to, false)]));
+        actions
     }
 }
 
 #[test]
-fn a_panel_that_nobody_touches_wishes_nothing() {
+fn a_panel_that_nobody_touches_asks_for_nothing() {
     for (name, _) in PRESETS.iter().filter(|(name, _)| *name != "million") {
         let mut bench = Bench::new(&Scene::preset(name).expect("a preset"));
         for _ in 0..3 {
@@ -164,12 +164,12 @@ fn dragging_the_picture_moves_the_camera_and_dragging_the_panel_does_not() {
 fn the_bar_of_time_goes_where_it_is_dragged() {
     let mut bench = Bench::new(&Scene::default());
     let camera = bench.camera;
-    let wishes = bench.drag((500.0, 703.0), (796.0, 703.0), PointerButton::Primary);
-    let steps: Vec<u32> = wishes
+    let actions = bench.drag((500.0, 703.0), (796.0, 703.0), PointerButton::Primary);
+    let steps: Vec<u32> = actions
         .iter()
-        .filter_map(|wish| if let Wish::Seek(step) = wish { Some(*step) } else { None })
+        .filter_map(|action| if let Action::Seek(step) = action { Some(*step) } else { None })
         .collect();
-    assert!(steps.is_sorted() && steps.len() >= 2, "follows the pointer: {wishes:?}");
+    assert!(steps.is_sorted() && steps.len() >= 2, "follows the pointer: {actions:?}");
     assert!((280..=320).contains(&steps[steps.len() - 1]), "about the middle of 600 steps: {steps:?}");
     assert_eq!(bench.camera, camera, "the picture is not dragged");
 }

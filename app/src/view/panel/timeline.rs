@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The bar of time over the lower edge of the picture: drag it to go back and forth.
 
-use egui::accesskit::Action;
+use egui::accesskit;
 use egui::{
     Align2, Color32, CornerRadius, FontId, Id, Key, Rect, Response, Sense, Stroke, Ui, WidgetInfo, pos2, vec2,
 };
 
-use super::{Facts, Wish, rows, style};
+use super::{Action, PanelInput, rows, style};
 
 /// Height of the strip, and of what there is to grip within, in points.
 const HEIGHT: f32 = 34.0;
@@ -16,11 +16,11 @@ const BAR: f32 = 6.0;
 const ENDS: f32 = 74.0;
 
 /// Shows the bar at the lower edge of `picture`.
-pub(super) fn show(ui: &mut Ui, facts: &Facts, picture: Rect, wishes: &mut Vec<Wish>) {
-    let (first, last) = facts.timeline.range;
+pub(super) fn show(ui: &mut Ui, input: &PanelInput, picture: Rect, actions: &mut Vec<Action>) {
+    let (first, last) = input.timeline.range;
     let strip = Rect::from_min_max(pos2(picture.left(), picture.bottom() - HEIGHT), picture.right_bottom());
     let bar = Rect::from_center_size(strip.center(), vec2((strip.width() - 2.0 * ENDS).max(40.0), BAR));
-    let now = facts.timeline.target.unwrap_or(facts.clock.step());
+    let now = input.timeline.target.unwrap_or(input.clock.step());
     let response = ui.interact(strip, Id::unique("timeline"), Sense::click_and_drag());
     response.widget_info(|| WidgetInfo::slider(ui.is_enabled(), f64::from(now), "Time"));
     let span = f64::from(last.saturating_sub(first).max(1));
@@ -33,12 +33,12 @@ pub(super) fn show(ui: &mut Ui, facts: &Facts, picture: Rect, wishes: &mut Vec<W
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "within the range")]
         let step = first + (along * span).round() as u32;
         if step != now {
-            wishes.push(Wish::Seek(step.min(last)));
+            actions.push(Action::Seek(step.min(last)));
         }
     }
     let (back, on) = steps_asked(ui, &response);
     if back + on > 0 {
-        wishes.push(Wish::Seek(now.saturating_sub(back).saturating_add(on)));
+        actions.push(Action::Seek(now.saturating_sub(back).saturating_add(on)));
     }
 
     let painter = ui.painter_at(strip);
@@ -47,28 +47,28 @@ pub(super) fn show(ui: &mut Ui, facts: &Facts, picture: Rect, wishes: &mut Vec<W
     painter.rect_filled(bar, round, style::GROOVE);
     let passed = Rect::from_min_max(bar.min, pos2(x_of(now), bar.bottom()));
     painter.rect_filled(passed, round, style::ACCENT);
-    for step in &facts.timeline.kept {
+    for step in &input.timeline.kept {
         let x = x_of(*step);
         painter.vline(x, bar.bottom() + 2.0..=bar.bottom() + 5.0, Stroke::new(1.0, style::QUIET));
     }
     let radius = if response.hovered() || response.has_focus() { 7.0 } else { 5.5 };
     painter.circle(pos2(x_of(now), bar.center().y), radius, style::TITLE, Stroke::new(1.5, Color32::BLACK));
-    if let Some(target) = facts.timeline.target {
+    if let Some(target) = input.timeline.target {
         // Where the way there has come to.
-        let x = x_of(facts.clock.step());
+        let x = x_of(input.clock.step());
         painter.vline(x, bar.top() - 4.0..=bar.bottom() + 4.0, Stroke::new(1.5, Color32::WHITE));
         let text = format!("going to step {}", rows::grouped(target));
         let at = pos2(bar.center().x, strip.top() + 2.0);
         painter.text(at, Align2::CENTER_TOP, text, FontId::proportional(10.0), style::TITLE);
     }
-    let seconds = |step: u32| format!("{:.2} s", f64::from(step) * f64::from(facts.clock.dt_s()));
+    let seconds = |step: u32| format!("{:.2} s", f64::from(step) * f64::from(input.clock.dt_s()));
     let font = FontId::proportional(12.0);
     let left = pos2(bar.left() - 12.0, strip.center().y);
     painter.text(left, Align2::RIGHT_CENTER, seconds(now), font.clone(), style::TEXT);
     let right = pos2(bar.right() + 12.0, strip.center().y);
     painter.text(right, Align2::LEFT_CENTER, seconds(last), font, style::QUIET);
-    let dt_s = f64::from(facts.clock.dt_s());
-    let tip = if facts.timeline.kept.is_empty() {
+    let dt_s = f64::from(input.clock.dt_s());
+    let tip = if input.timeline.kept.is_empty() {
         "So many leaves that nothing of their past is kept in memory".to_owned()
     } else {
         let from = f64::from(first) * dt_s;
@@ -89,5 +89,8 @@ fn steps_asked(ui: &Ui, response: &Response) -> (u32, u32) {
             u32::try_from(presses + input.num_accesskit_action_requests(response.id, action)).unwrap_or(0)
         })
     };
-    (asked(Key::ArrowLeft, Action::Decrement), asked(Key::ArrowRight, Action::Increment))
+    (
+        asked(Key::ArrowLeft, accesskit::Action::Decrement),
+        asked(Key::ArrowRight, accesskit::Action::Increment),
+    )
 }

@@ -17,7 +17,7 @@ pub(crate) const FPS: f64 = 60.0;
 
 /// What the panel knows of recording.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub(crate) struct RecordFacts {
+pub(crate) struct ClipStatus {
     /// Where the clip will lie.
     pub(crate) path: String,
     /// Frames so far, while one is being made.

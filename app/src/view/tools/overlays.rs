@@ -33,7 +33,7 @@ pub(crate) enum Show {
 
 /// What is looked at, and on what scale.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Looking {
+pub(crate) struct Overlays {
     /// What leaves are coloured by.
     pub(crate) measure: Option<Measure>,
     /// Speed in m/s, age in s and height in m at the end of the colours.
@@ -45,7 +45,7 @@ pub(crate) struct Looking {
     pub(crate) trails: bool,
 }
 
-impl Default for Looking {
+impl Default for Overlays {
     fn default() -> Self {
         Self {
             measure: None,
@@ -58,7 +58,7 @@ impl Default for Looking {
     }
 }
 
-impl Looking {
+impl Overlays {
     /// The same with something more to look at.
     pub(crate) fn with(mut self, show: Show) -> Self {
         match show {
@@ -98,20 +98,20 @@ mod tests {
 
     #[test]
     fn nothing_is_shown_that_nobody_asked_for() {
-        let looking = Looking::default();
-        assert_eq!(looking.paint(), None, "leaves keep their colours");
-        assert!(!looking.landings && !looking.wind && !looking.trails, "{looking:?}");
+        let overlays = Overlays::default();
+        assert_eq!(overlays.paint(), None, "leaves keep their colours");
+        assert!(!overlays.landings && !overlays.wind && !overlays.trails, "{overlays:?}");
     }
 
     #[test]
     fn a_measure_brings_its_scale() {
-        let looking = Looking { most: [3.0, 11.0, 7.0], ..Looking::default() };
-        let most = |show| looking.with(show).paint().map(|paint| paint.most);
+        let overlays = Overlays { most: [3.0, 11.0, 7.0], ..Overlays::default() };
+        let most = |show| overlays.with(show).paint().map(|paint| paint.most);
         assert_eq!(
             [Show::Speed, Show::Age, Show::Height].map(most),
             [Some(3.0), Some(11.0), Some(7.0)],
             "each"
         );
-        assert_eq!(looking.with(Show::Wind).paint(), None, "the wind is no paint");
+        assert_eq!(overlays.with(Show::Wind).paint(), None, "the wind is no paint");
     }
 }

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What the panel is told, and what becomes of the wishes it brings back.
+//! Input of the panel, and handling of the actions that it returns.
 
 use std::sync::Arc;
 use std::time::Instant;
@@ -12,7 +12,8 @@ use windfall_wgpu::describe_adapter;
 
 use super::{Next, Viewer};
 use crate::run::backend::BackendKind;
-use crate::view::panel::controls::{Facts, Message, Wish};
+use crate::view::panel::action::Action;
+use crate::view::panel::panel_input::{Message, PanelInput};
 use crate::view::tools::meter::STAGES;
 
 impl Viewer {
@@ -20,46 +21,48 @@ impl Viewer {
     ///
     /// # Errors
     /// A lost device.
-    pub(super) fn grant(&mut self, wish: Wish) -> anyhow::Result<()> {
-        match wish {
-            Wish::TimeScale(scale) => self.session.pace.time_scale = scale,
-            Wish::Pause(pause) => self.session.pace.is_paused = pause,
-            Wish::SingleStep => {
+    pub(super) fn handle(&mut self, action: Action) -> anyhow::Result<()> {
+        match action {
+            Action::TimeScale(scale) => self.session.pace.time_scale = scale,
+            Action::Pause(pause) => self.session.pace.is_paused = pause,
+            Action::SingleStep => {
                 self.session.pace.is_paused = true;
                 self.session.arrive();
                 self.session.step(1)?;
             }
-            Wish::StepBack => {
+            Action::StepBack => {
                 self.session.pace.is_paused = true;
                 self.session.seek(self.session.heading().saturating_sub(1));
             }
-            Wish::Seek(step) => self.session.seek(step),
-            Wish::TogglePanel => self.panel.is_open = !self.panel.is_open,
-            Wish::ResetCamera => {
+            Action::Seek(step) => self.session.seek(step),
+            Action::TogglePanel => self.panel.is_open = !self.panel.is_open,
+            Action::ResetCamera => {
                 self.camera = Camera::from(&self.session.scene().view.camera);
                 self.follows_path = true;
             }
-            Wish::Look(looking) => self.look(looking),
-            Wish::Compare(compares) => self.try_it(|viewer| Ok(viewer.session.set_comparing(compares)?))?,
-            Wish::Pick(pointer) => self.pick(pointer)?,
-            Wish::RecordTo(path) => self.record_to = Some(path),
-            Wish::ToggleRecord => self.toggle_recording(),
-            Wish::Quit => self.next = Next::Quit,
+            Action::SetOverlays(overlays) => self.set_overlays(overlays),
+            Action::Compare(compares) => {
+                self.try_it(|viewer| Ok(viewer.session.set_comparing(compares)?))?
+            }
+            Action::Pick(pointer) => self.pick(pointer)?,
+            Action::RecordTo(path) => self.record_to = Some(path),
+            Action::ToggleRecord => self.toggle_recording(),
+            Action::Quit => self.next = Next::Quit,
             // The panel sees to these itself.
-            Wish::Save | Wish::ToggleHelp => {}
-            Wish::Complain(text) => self.say(text, true),
-            Wish::Edit { scene, gesture } => self.try_it(|viewer| viewer.edit(*scene, gesture))?,
-            Wish::Undo => self.try_it(|viewer| viewer.step_back(true))?,
-            Wish::Redo => self.try_it(|viewer| viewer.step_back(false))?,
-            Wish::Open(name) => self.try_it(|viewer| viewer.open(&name))?,
-            Wish::Drop(path) => self.try_it(|viewer| viewer.take_in(&path))?,
-            Wish::SaveTo(path) => self.try_it(|viewer| viewer.save(&path))?,
-            Wish::Reset => self.try_it(|viewer| {
+            Action::Save | Action::ToggleHelp => {}
+            Action::ShowError(text) => self.say(text, true),
+            Action::Edit { scene, gesture } => self.try_it(|viewer| viewer.edit(*scene, gesture))?,
+            Action::Undo => self.try_it(|viewer| viewer.step_back(true))?,
+            Action::Redo => self.try_it(|viewer| viewer.step_back(false))?,
+            Action::Open(name) => self.try_it(|viewer| viewer.open(&name))?,
+            Action::Drop(path) => self.try_it(|viewer| viewer.take_in(&path))?,
+            Action::SaveTo(path) => self.try_it(|viewer| viewer.save(&path))?,
+            Action::Reset => self.try_it(|viewer| {
                 viewer.session.reset()?;
                 viewer.say("Begun again at time zero.".into(), false);
                 Ok(())
             })?,
-            Wish::Backend(kind) => {
+            Action::Backend(kind) => {
                 let name = if kind == BackendKind::Cpu { "cpu" } else { "wgpu" };
                 self.try_it(|viewer| {
                     viewer.session.switch(kind)?;
@@ -94,18 +97,18 @@ impl Viewer {
     ///
     /// # Errors
     /// A lost device.
-    pub(super) fn facts(&mut self) -> anyhow::Result<Facts> {
+    pub(super) fn panel_input(&mut self) -> anyhow::Result<PanelInput> {
         let mut gpu_ms = self.session.device_ms();
         gpu_ms.extend(self.renderer.timings());
         let stats = self.session.stats()?;
         let difference = self.session.difference()?;
         let arrows = self.arrows();
-        let recording = self.record_facts();
+        let recording = self.clip_status();
         let arrow_most_m_s = self.arrow_most_m_s();
         let session = &self.session;
         let (scene, simulator) = (session.scene(), session.simulator());
         let forward = self.camera.forward();
-        Ok(Facts {
+        Ok(PanelInput {
             scene: Arc::clone(scene),
             loaded: Arc::clone(&self.loaded),
             history: self.history.depths(),
@@ -120,7 +123,7 @@ impl Viewer {
             has_motions: scene.species.iter().any(|species| species.flight == FlightModel::Synthesis),
             has_regimes: scene.species.iter().any(|species| species.flight != FlightModel::Synthesis),
             recording,
-            looking: self.instruments.looking,
+            overlays: self.instruments.overlays,
             card: self.card(),
             track: self.track(),
             arrows,

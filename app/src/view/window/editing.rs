@@ -14,7 +14,7 @@ use windfall_wgpu::Gpu;
 use super::Viewer;
 use crate::leaves;
 use crate::run::progress::making_leaves;
-use crate::view::panel::controls::Wish;
+use crate::view::panel::action::Action;
 use crate::view::session::change::Change;
 use crate::view::window::dropped::{Dropped, dropped};
 use crate::view::window::event_loop::title;
@@ -28,21 +28,21 @@ pub(crate) struct Document {
 }
 
 impl Viewer {
-    /// Grants a wish, or tells the user before if that takes a while.
+    /// Handles an action, or announces it first if it takes a while.
     ///
     /// # Errors
     /// A lost device.
-    pub(super) fn announce_or_grant(&mut self, wish: Wish) -> anyhow::Result<()> {
-        let takes_a_while = match &wish {
-            Wish::Edit { scene, .. } => !Change::between(self.session.scene(), scene).is_live(),
-            Wish::Open(_) | Wish::Drop(_) => true,
+    pub(super) fn announce_or_handle(&mut self, action: Action) -> anyhow::Result<()> {
+        let takes_a_while = match &action {
+            Action::Edit { scene, .. } => !Change::between(self.session.scene(), scene).is_live(),
+            Action::Open(_) | Action::Drop(_) => true,
             _ => false,
         };
         if !takes_a_while {
-            return self.grant(wish);
+            return self.handle(action);
         }
         // The next frame shows the message, and the one after it waits for the building.
-        self.building = Some((wish, 2));
+        self.building = Some((action, 2));
         self.say("Building\u{2026}".into(), false);
         Ok(())
     }
@@ -52,14 +52,14 @@ impl Viewer {
     /// # Errors
     /// A lost device.
     pub(super) fn build_what_was_announced(&mut self) -> anyhow::Result<()> {
-        let Some((wish, frames)) = self.building.take() else { return Ok(()) };
+        let Some((action, frames)) = self.building.take() else { return Ok(()) };
         self.has_news = true;
         if frames > 1 {
-            self.building = Some((wish, frames - 1));
+            self.building = Some((action, frames - 1));
             return Ok(());
         }
         self.message = None;
-        self.grant(wish)
+        self.handle(action)
     }
 
     /// Takes over an edited scene; edits of one `gesture` are undone together.
@@ -183,7 +183,7 @@ impl Viewer {
             self.instruments.forget_leaf();
         }
         if change.picture || change.view {
-            self.look(self.instruments.looking);
+            self.set_overlays(self.instruments.overlays);
         }
         if change.camera {
             self.look_anew();

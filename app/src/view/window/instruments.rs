@@ -10,7 +10,7 @@ use windfall_wgpu::LeafColumns;
 
 use super::Viewer;
 use crate::view::tools::card::{Card, card};
-use crate::view::tools::overlays::{Looking, Show};
+use crate::view::tools::overlays::{Overlays, Show};
 use crate::view::tools::pick::{Projection, REACH};
 use crate::view::tools::probe::{LeafAt, Probe};
 use crate::view::tools::selection::Selection;
@@ -26,7 +26,7 @@ const FRAMES_BEFORE_PICK: u32 = 2;
 /// What is looked at, and through what.
 #[derive(Debug)]
 pub(super) struct Instruments {
-    pub(super) looking: Looking,
+    pub(super) overlays: Overlays,
     probe: Probe,
     selection: Option<Selection>,
     /// What was asked for when the window opened, until it is shown.
@@ -37,7 +37,7 @@ pub(super) struct Instruments {
 impl Instruments {
     pub(super) fn new(device: &wgpu::Device, show: &[Show]) -> Self {
         Self {
-            looking: Looking::default(),
+            overlays: Overlays::default(),
             probe: Probe::new(device),
             selection: None,
             asked: show.to_vec(),
@@ -83,10 +83,11 @@ impl Viewer {
             selection.note(records);
         }
         if self.instruments.frames == 0 {
-            let mut looking = self.instruments.looking;
-            looking.trails = self.renderer.has_trails();
-            let looking = self.instruments.asked.iter().fold(looking, |looking, show| looking.with(*show));
-            self.look(looking);
+            let mut overlays = self.instruments.overlays;
+            overlays.trails = self.renderer.has_trails();
+            let overlays =
+                self.instruments.asked.iter().fold(overlays, |overlays, show| overlays.with(*show));
+            self.set_overlays(overlays);
             self.session.set_comparing(self.instruments.asked.contains(&Show::Compare))?;
         }
         self.instruments.frames = self.instruments.frames.saturating_add(1);
@@ -97,13 +98,13 @@ impl Viewer {
     }
 
     /// Shows other things.
-    pub(super) fn look(&mut self, looking: Looking) {
-        self.instruments.looking = looking;
-        self.renderer.set_paint(looking.paint());
-        self.renderer.set_landings(looking.landings);
+    pub(super) fn set_overlays(&mut self, overlays: Overlays) {
+        self.instruments.overlays = overlays;
+        self.renderer.set_paint(overlays.paint());
+        self.renderer.set_landings(overlays.landings);
         let own_s = self.session.scene().view.trail_s;
         let trail_s = if own_s > 0.0 { own_s } else { TRAIL_S };
-        self.renderer.set_trails(if looking.trails { trail_s } else { 0.0 });
+        self.renderer.set_trails(if overlays.trails { trail_s } else { 0.0 });
     }
 
     /// Follows the leaf at a place of the screen, or none if there is none.
@@ -153,12 +154,12 @@ impl Viewer {
 
     /// Arrows of the wind, if they are looked at.
     pub(super) fn arrows(&self) -> Vec<(Vec3, Vec3)> {
-        let looking = &self.instruments.looking;
-        if !looking.wind {
+        let overlays = &self.instruments.overlays;
+        if !overlays.wind {
             return Vec::new();
         }
         let clock = self.session.simulator().clock();
-        wind_slice(self.session.environment(), &clock, &self.camera, looking.wind_height_m)
+        wind_slice(self.session.environment(), &clock, &self.camera, overlays.wind_height_m)
     }
 
     /// Speed in m/s at the light end of the arrows' colours.

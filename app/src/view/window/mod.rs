@@ -32,7 +32,8 @@ use crate::run::cancel::Cancel;
 use crate::run::drawing::Drawing;
 use crate::run::terminal;
 use crate::view::panel::Panel;
-use crate::view::panel::controls::{Message, Wish};
+use crate::view::panel::action::Action;
+use crate::view::panel::panel_input::Message;
 use crate::view::session::Session;
 use crate::view::session::undo::Undo;
 use crate::view::tools::clip::Recording;
@@ -73,7 +74,7 @@ pub(crate) struct Viewer {
     loaded: Arc<Scene>,
     history: Undo<Document>,
     /// What takes building anew, and in how many frames: the user is told before.
-    building: Option<(Wish, u8)>,
+    building: Option<(Action, u8)>,
     renderer: Renderer,
     camera: Camera,
     /// Whether the camera goes where the scene's keys say, if it has any: until the user moves it.
@@ -249,11 +250,11 @@ impl Viewer {
         }
     }
 
-    /// Shows the panel, steers the camera and grants the wishes.
+    /// Shows the panel, steers the camera and handles the actions.
     fn panel(&mut self) -> anyhow::Result<Painting> {
         self.message.take_if(|(_, since)| since.elapsed() >= MESSAGE_TIME);
         self.observe()?;
-        let facts = self.facts()?;
+        let input = self.panel_input()?;
         let since = Instant::now();
         let time_s = self.session.simulator().clock().seconds();
         if self.follows_path
@@ -263,13 +264,13 @@ impl Viewer {
         }
         let before = self.camera;
         let Self { gui, panel, camera, window, gpu, renderer, .. } = self;
-        let mut wishes = Vec::new();
-        let painting = gui.run(window, gpu, |ui| wishes = panel.show(ui, &facts, camera, renderer.land()));
+        let mut actions = Vec::new();
+        let painting = gui.run(window, gpu, |ui| actions = panel.show(ui, &input, camera, renderer.land()));
         self.follows_path &= self.camera == before;
         self.meter.add(Stage::Panel, since);
-        for wish in wishes {
+        for action in actions {
             self.has_news = true;
-            self.announce_or_grant(wish)?;
+            self.announce_or_handle(action)?;
         }
         Ok(painting)
     }

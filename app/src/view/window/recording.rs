@@ -10,7 +10,7 @@ use super::Viewer;
 use crate::run::cancel::Cancel;
 use crate::run::terminal;
 use crate::view::panel::grouped;
-use crate::view::tools::clip::{RecordFacts, Recording, free_name};
+use crate::view::tools::clip::{ClipStatus, Recording, free_name};
 
 impl Viewer {
     /// Begins a clip, or completes the one that is being made.
@@ -40,8 +40,8 @@ impl Viewer {
     }
 
     /// What the panel knows of recording.
-    pub(super) fn record_facts(&mut self) -> RecordFacts {
-        RecordFacts { path: self.record_path(), frames: self.recording.as_ref().map(Recording::frames) }
+    pub(super) fn clip_status(&mut self) -> ClipStatus {
+        ClipStatus { path: self.record_path(), frames: self.recording.as_ref().map(Recording::frames) }
     }
 
     /// Completes the clip, if there is one; true if there was.

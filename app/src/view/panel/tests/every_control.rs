@@ -14,9 +14,9 @@ use super::*;
 struct Window {
     panel: Panel,
     camera: Camera,
-    facts: Facts,
+    input: PanelInput,
     land: Land,
-    wishes: Vec<Wish>,
+    actions: Vec<Action>,
 }
 
 /// A camera that has been moved since the scene was loaded.
@@ -29,17 +29,17 @@ fn looking_aside(scene: &Scene) -> Camera {
 fn open(scene: &Scene, groups: &[Group]) -> Harness<'static, Window> {
     scene.validate("test").expect("a scene that is allowed");
     let (now, loaded) = (Arc::new(scene.clone()), Arc::new(scene.clone()));
-    let facts = Facts { scene: now, loaded, history: (1, 1), ..facts(&Scene::default()) };
+    let input = PanelInput { scene: now, loaded, history: (1, 1), ..input(&Scene::default()) };
     let window = Window {
         panel: Panel::new("nowhere", groups.into()),
         camera: looking_aside(scene),
-        facts,
+        input,
         land: Land::of(&scene.ground),
-        wishes: Vec::new(),
+        actions: Vec::new(),
     };
     let show = |ui: &mut Ui, window: &mut Window| {
-        let Window { panel, camera, facts, land, wishes } = window;
-        wishes.extend(panel.show(ui, facts, camera, land));
+        let Window { panel, camera, input, land, actions } = window;
+        actions.extend(panel.show(ui, input, camera, land));
     };
     let builder = Harness::builder().with_size((900.0, 6000.0)).with_step_dt(0.3);
     let mut harness = builder.with_context_setup(style::apply).build_ui_state(show, window);
@@ -101,7 +101,7 @@ fn moves(harness: &mut Harness<'_, Window>, control: &Control) -> bool {
             // Some stand at the end of their range.
             node.increment_accesskit();
             harness.run_steps(3);
-            if harness.state().wishes.is_empty() && before.0 == harness.state().camera {
+            if harness.state().actions.is_empty() && before.0 == harness.state().camera {
                 find(harness, control).decrement_accesskit();
             }
         }
@@ -129,7 +129,7 @@ fn moves(harness: &mut Harness<'_, Window>, control: &Control) -> bool {
     }
     harness.run_steps(3);
     let state = harness.state();
-    !state.wishes.is_empty() || before != (state.camera, state.panel.file.path().to_owned())
+    !state.actions.is_empty() || before != (state.camera, state.panel.file.path().to_owned())
 }
 
 /// Makes everything as it was.
@@ -137,30 +137,30 @@ fn restore(harness: &mut Harness<'_, Window>, scene: &Scene) {
     harness.key_press(egui::Key::Escape);
     harness.run_steps(1);
     let state = harness.state_mut();
-    state.facts.scene = Arc::new(scene.clone());
+    state.input.scene = Arc::new(scene.clone());
     state.camera = looking_aside(scene);
     state.panel.is_helping = false;
-    state.wishes.clear();
+    state.actions.clear();
     harness.run_steps(2);
-    harness.state_mut().wishes.clear();
+    harness.state_mut().actions.clear();
 }
 
 fn move_everything((scene, groups): &(Scene, &[Group])) -> Vec<Control> {
     let mut harness = open(scene, groups);
-    assert_eq!(harness.state().wishes, [], "nobody has touched anything");
+    assert_eq!(harness.state().actions, [], "nobody has touched anything");
     let all = controls(&harness);
     let mut idle = Vec::new();
     for control in &all {
         if !moves(&mut harness, control) {
             idle.push(control.clone());
         }
-        for wish in &harness.state().wishes {
-            if let Wish::Edit { scene: edited, .. } = wish {
+        for action in &harness.state().actions {
+            if let Action::Edit { scene: edited, .. } = action {
                 assert_ne!(**edited, *scene, "{control:?} edits something");
             }
         }
         restore(&mut harness, scene);
-        assert_eq!(harness.state().wishes, [], "nothing is left of {control:?}");
+        assert_eq!(harness.state().actions, [], "nothing is left of {control:?}");
     }
     assert_eq!(idle, [], "nothing comes of these");
     all
@@ -183,7 +183,7 @@ fn every_control_lies_within_the_panel() {
     for (scene, loaded) in [(full(), full()), (other(), full()), (third(), other())] {
         let mut harness = open(&loaded, &Group::ALL);
         // What differs from what was loaded has an arrow behind it.
-        harness.state_mut().facts.scene = Arc::new(scene);
+        harness.state_mut().input.scene = Arc::new(scene);
         harness.run_steps(3);
         for node in harness.root().children_recursive() {
             let (_, role, name) = seen(&node);
@@ -205,7 +205,7 @@ fn what_was_changed_can_be_reset_row_by_row() {
     edited.wind.direction_deg += 5.0;
     edited.ground.water = None;
     edited.species[0].name = "other".into();
-    harness.state_mut().facts.scene = Arc::new(edited.clone());
+    harness.state_mut().input.scene = Arc::new(edited.clone());
     harness.run_steps(2);
     let resets: Vec<Control> =
         controls(&harness).into_iter().filter(|control| control.name.starts_with("Reset ")).collect();
@@ -213,13 +213,13 @@ fn what_was_changed_can_be_reset_row_by_row() {
     assert_eq!(names, ["Reset Name", "Reset Direction", "Reset Water"], "one for each");
     for control in &resets {
         assert!(moves(&mut harness, control), "{control:?}");
-        let wish = harness.state_mut().wishes.pop();
-        let Some(Wish::Edit { scene, .. }) = wish else { panic!("{control:?} edits: {wish:?}") };
-        harness.state_mut().facts.scene = Arc::new(*scene);
-        harness.state_mut().wishes.clear();
+        let action = harness.state_mut().actions.pop();
+        let Some(Action::Edit { scene, .. }) = action else { panic!("{control:?} edits: {action:?}") };
+        harness.state_mut().input.scene = Arc::new(*scene);
+        harness.state_mut().actions.clear();
         harness.run_steps(2);
     }
-    assert_eq!(*harness.state().facts.scene, scene, "all as loaded");
+    assert_eq!(*harness.state().input.scene, scene, "all as loaded");
 }
 
 #[test]
@@ -236,14 +236,17 @@ fn what_takes_building_anew_waits_for_the_end_of_a_drag() {
             harness.hover_at(at(share));
             harness.run_steps(1);
         }
-        let during = harness.state().wishes.len();
+        let during = harness.state().actions.len();
         harness.drop_at(at(0.4));
         harness.run_steps(3);
-        let wishes = std::mem::take(&mut harness.state_mut().wishes);
+        let actions = std::mem::take(&mut harness.state_mut().actions);
         assert_eq!(during > 0, is_live, "{name}: {during} edits in the drag");
-        assert!(!wishes.is_empty(), "{name}: an edit in the end");
-        let gestures = |wish: &Wish| if let Wish::Edit { gesture, .. } = wish { *gesture } else { 0 };
-        assert!(wishes.iter().all(|wish| gestures(wish) == gestures(&wishes[0])), "{name}: one gesture");
+        assert!(!actions.is_empty(), "{name}: an edit in the end");
+        let gestures = |action: &Action| if let Action::Edit { gesture, .. } = action { *gesture } else { 0 };
+        assert!(
+            actions.iter().all(|action| gestures(action) == gestures(&actions[0])),
+            "{name}: one gesture"
+        );
         restore(&mut harness, &scene);
     }
 }
@@ -267,7 +270,7 @@ fn every_control_can_be_reached_and_seen_with_the_tab_key() {
     }
     let reached = reached.len();
     assert!(reached >= wanted, "{reached} of {wanted} controls are reached");
-    assert_eq!(harness.state().wishes, [], "going there changes nothing");
+    assert_eq!(harness.state().actions, [], "going there changes nothing");
 }
 
 /// A file that is dropped, whose contents nobody reads here.
@@ -285,16 +288,16 @@ impl egui::DroppedFile for File {
 }
 
 #[test]
-fn files_that_are_dropped_and_keys_make_wishes() {
+fn files_that_are_dropped_and_keys_make_actions() {
     let scene = third();
     let mut harness = open(&scene, &Group::ALL);
     harness.input_mut().dropped_files = vec![Arc::new(File("a.ron".into()))];
     harness.run_steps(1);
-    assert_eq!(harness.state().wishes, [Wish::Drop("a.ron".into())], "a file");
+    assert_eq!(harness.state().actions, [Action::Drop("a.ron".into())], "a file");
     restore(&mut harness, &scene);
     harness.key_press_modifiers(Modifiers::COMMAND, egui::Key::S);
     harness.run_steps(1);
-    assert_eq!(harness.state().wishes, [Wish::SaveTo("nowhere.ron".into())], "the file in the field");
+    assert_eq!(harness.state().actions, [Action::SaveTo("nowhere.ron".into())], "the file in the field");
     restore(&mut harness, &scene);
     harness.key_press(egui::Key::F1);
     harness.run_steps(2);
@@ -306,5 +309,5 @@ fn files_that_are_dropped_and_keys_make_wishes() {
     harness.key_press(egui::Key::Escape);
     harness.run_steps(2);
     assert!(!reads(&harness, "Ctrl+Shift+Z, Ctrl+Y"), "and gone");
-    assert_eq!(harness.state().wishes, [], "the window stays open");
+    assert_eq!(harness.state().actions, [], "the window stays open");
 }
