@@ -5,6 +5,7 @@
 use plotters::prelude::*;
 
 use super::picture::{Area, Drawn, INK, PAPER, UNIT, font};
+use crate::run::digits::grouped_by;
 use crate::study::shedding::{FASTEST_M_S, Season};
 
 /// Size of the picture in pixels.
@@ -46,7 +47,7 @@ pub(crate) fn draw(area: &Area<'_>, kind: &str, minutes: u32, seasons: &[Season]
         .x_labels(7)
         .y_labels(10)
         .x_label_formatter(&|speed| format!("{speed:.0}"))
-        .y_label_formatter(&|count| power(*count))
+        .y_label_formatter(&|count| grouped_by(&format!("{count:.0}"), ' '))
         .draw()?;
     for (season, color) in seasons.iter().zip(COLORS) {
         let points = above_one(&season.curve);
@@ -125,17 +126,4 @@ fn name(autumn: f32) -> String {
         0.0 => "summer".into(),
         _ => format!("autumn {autumn}"),
     }
-}
-
-/// A power of ten with its thousands apart.
-fn power(count: f64) -> String {
-    let digits = format!("{count:.0}");
-    let mut text = String::new();
-    for (index, digit) in digits.chars().enumerate() {
-        if index > 0 && (digits.len() - index).is_multiple_of(3) {
-            text.push(' ');
-        }
-        text.push(digit);
-    }
-    text
 }

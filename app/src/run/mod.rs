@@ -4,6 +4,7 @@
 
 pub mod backend;
 pub mod cancel;
+pub(crate) mod digits;
 pub mod drawing;
 pub(crate) mod frame_steps;
 pub(crate) mod looped;

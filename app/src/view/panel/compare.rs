@@ -4,8 +4,9 @@
 
 use egui::{RichText, Ui};
 
-use super::{Action, PanelInput, rows, style};
+use super::{Action, PanelInput, style};
 use crate::run::backend::BackendKind;
+use crate::run::digits::grouped;
 
 pub(super) fn show(ui: &mut Ui, input: &PanelInput, actions: &mut Vec<Action>) {
     let other = match input.backend {
@@ -18,13 +19,13 @@ pub(super) fn show(ui: &mut Ui, input: &PanelInput, actions: &mut Vec<Action>) {
         actions.push(Action::Compare(compares));
     }
     let Some(found) = input.difference else { return };
-    let step = rows::grouped(found.step);
+    let step = grouped(found.step);
     if found.is_equal {
         let text = format!("Every bit is the same at step {step}.");
         ui.label(RichText::new(text).small().color(style::GOOD));
         return;
     }
-    let slot = rows::grouped(u32::try_from(found.slot).unwrap_or(u32::MAX));
+    let slot = grouped(u32::try_from(found.slot).unwrap_or(u32::MAX));
     let farthest = match found.farthest_m {
         0.0 => "all leaves in the same places".to_owned(),
         far if far < 0.01 => format!("at most {:.3} mm apart (slot {slot})", 1000.0 * far),

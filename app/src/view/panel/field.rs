@@ -16,6 +16,7 @@ use windfall_core::scene::limits::Limit;
 
 use super::rows::{Scale, decimals, row};
 use super::style;
+use crate::run::digits::grouped;
 
 /// Width of a control and its number in points.
 pub(super) const CONTROL_WIDTH: f32 = 184.0;
@@ -161,7 +162,7 @@ pub(super) fn suffix(unit: &str) -> String {
 fn whole(number: f64) -> String {
     let text = format!("{number:.0}");
     let (sign, digits) = text.strip_prefix('-').map_or(("", &*text), |digits| ("-", digits));
-    digits.parse().map_or_else(|_| text.clone(), |number| format!("{sign}{}", super::grouped(number)))
+    digits.parse().map_or_else(|_| text.clone(), |number| format!("{sign}{}", grouped(number)))
 }
 
 /// The three components of a vector.

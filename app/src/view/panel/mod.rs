@@ -52,7 +52,6 @@ use draft::Draft;
 pub(crate) use group::Group;
 use group::Groups;
 pub(super) use list::free_name;
-pub(super) use rows::grouped;
 use scene_file::SceneFile;
 
 /// Width of the panel in points.

@@ -7,8 +7,9 @@ use windfall_core::Contract;
 use windfall_core::device::flight::regime::REGIME_NAMES;
 use windfall_core::motion::Primitive;
 
-use super::{Action, PanelInput, compare, graph, rows, style};
+use super::{Action, PanelInput, compare, graph, style};
 use crate::run::backend::BackendKind;
+use crate::run::digits::grouped;
 
 /// Names of the primitive motions, in their order.
 const MOTIONS: [&str; 6] = [
@@ -67,7 +68,7 @@ pub(super) fn counts(ui: &mut Ui, input: &PanelInput) {
         ("resting", stats.leaves.resting, "On the ground"),
         ("waiting", stats.leaves.dormant, "Not let go yet"),
     ];
-    table(ui, "states", 64.0, states.map(|(name, count, tip)| (name, rows::grouped(count), tip)));
+    table(ui, "states", 64.0, states.map(|(name, count, tip)| (name, grouped(count), tip)));
     if input.has_regimes {
         let regimes = std::array::from_fn::<_, 6, _>(|index| {
             (REGIME_NAMES[index], compact(stats.leaves.regimes[index]), REGIMES[index])

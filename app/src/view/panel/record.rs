@@ -5,6 +5,7 @@
 use egui::{Button, RichText, TextEdit, Ui, vec2};
 
 use super::{Action, PanelInput, rows, style};
+use crate::run::digits::grouped;
 use crate::view::tools::clip::FPS;
 
 pub(super) fn show(ui: &mut Ui, input: &PanelInput, actions: &mut Vec<Action>) {
@@ -29,8 +30,7 @@ pub(super) fn show(ui: &mut Ui, input: &PanelInput, actions: &mut Vec<Action>) {
     });
     if let Some(frames) = recording.frames {
         let seconds = f64::from(frames) / FPS;
-        let text =
-            format!("Recording: {} frames, {seconds:.1} s of {FPS:.0} frames/s", rows::grouped(frames));
+        let text = format!("Recording: {} frames, {seconds:.1} s of {FPS:.0} frames/s", grouped(frames));
         ui.label(RichText::new(text).color(style::WARNING));
     }
 }

@@ -10,6 +10,7 @@ use windfall_core::scene::{MAX_SOURCES, Release, Share, Source, SourceShape, lim
 use super::field::{choice, field, vector};
 use super::list::List;
 use super::words::name_of;
+use crate::run::digits::grouped;
 
 pub(super) fn show(ui: &mut Ui, scene: &mut Scene, own: &Scene) {
     let fewest = usize::from(scene.trees.is_empty());
@@ -20,7 +21,7 @@ pub(super) fn show(ui: &mut Ui, scene: &mut Scene, own: &Scene) {
             SourceShape::Disc { .. } => "disc",
             SourceShape::Sphere { .. } => "ball",
         };
-        format!("{}: {shape} of {}", index + 1, super::grouped(source.count))
+        format!("{}: {shape} of {}", index + 1, grouped(source.count))
     };
     let chosen = list.show(ui, &mut scene.sources, name, |like, _| like.cloned().unwrap_or_default());
     let Some(index) = chosen else { return };

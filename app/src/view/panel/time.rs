@@ -6,6 +6,7 @@ use egui::{Button, RichText, Ui, vec2};
 
 use super::rows::{Scale, slider_in};
 use super::{Action, PanelInput, rows, style};
+use crate::run::digits::grouped;
 
 /// Largest time scale.
 const MOST: f32 = 4.0;
@@ -33,7 +34,7 @@ pub(super) fn show(ui: &mut Ui, input: &PanelInput, actions: &mut Vec<Action>) {
     }
     ui.horizontal(|ui| {
         ui.label(format!("{:.2} s", input.clock.seconds()));
-        ui.label(RichText::new(format!("step {}", rows::grouped(input.clock.step()))).color(style::QUIET));
+        ui.label(RichText::new(format!("step {}", grouped(input.clock.step()))).color(style::QUIET));
         if let Some(behind) = input.behind {
             let tip = "A frame takes only so many steps. This machine would need more to keep up, so simulated \
                        time goes slower; the steps stay the same.";

@@ -7,7 +7,8 @@ use egui::{
     Align2, Color32, CornerRadius, FontId, Id, Key, Rect, Response, Sense, Stroke, Ui, WidgetInfo, pos2, vec2,
 };
 
-use super::{Action, PanelInput, rows, style};
+use super::{Action, PanelInput, style};
+use crate::run::digits::grouped;
 
 /// Height of the strip, and of what there is to grip within, in points.
 const HEIGHT: f32 = 34.0;
@@ -57,7 +58,7 @@ pub(super) fn show(ui: &mut Ui, input: &PanelInput, picture: Rect, actions: &mut
         // Where the way there has come to.
         let x = x_of(input.clock.step());
         painter.vline(x, bar.top() - 4.0..=bar.bottom() + 4.0, Stroke::new(1.5, Color32::WHITE));
-        let text = format!("going to step {}", rows::grouped(target));
+        let text = format!("going to step {}", grouped(target));
         let at = pos2(bar.center().x, strip.top() + 2.0);
         painter.text(at, Align2::CENTER_TOP, text, FontId::proportional(10.0), style::TITLE);
     }

@@ -12,7 +12,7 @@ use windfall_core::leaf::{LeafMotion, LeafRecords, LeafState, LeafView};
 use windfall_core::motion::Primitive;
 use windfall_core::{Clock, Environment};
 
-use crate::view::panel::grouped;
+use crate::run::digits::grouped;
 
 /// A title with rows of names and what they are.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]

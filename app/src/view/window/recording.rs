@@ -8,8 +8,8 @@ use windfall_render::FrameInput;
 
 use super::Viewer;
 use crate::run::cancel::Cancel;
+use crate::run::digits::grouped;
 use crate::run::terminal;
-use crate::view::panel::grouped;
 use crate::view::tools::clip::{ClipStatus, Recording, free_name};
 
 impl Viewer {
