@@ -14,6 +14,7 @@ use crate::common_cli::{
 use image::codecs::gif::GifDecoder;
 use image::{AnimationDecoder, RgbaImage};
 use windfall_core::Contract;
+use windfall_core::scene::PRESETS;
 use windfall_tests::adapter;
 
 const BACKENDS: [&str; 2] = ["cpu", "wgpu"];
@@ -43,7 +44,7 @@ fn both_backends_draw_the_same_picture() {
             let out = format!("{backend}.png");
             let options = ["--backend", backend, "--frames", "40", "--size", "320x180", "--out", &out];
             let text = windfall(&there, &[&["render", scene], &options[..]].concat()).text();
-            assert_eq!(text, format!("{out}\n"), "it tells what it wrote");
+            assert_eq!(text, format!("{out}\n"), "the path of what was written");
             picture(&there.path().join(out))
         });
         assert_eq!(cpu.dimensions(), (320, 180), "as asked for");
@@ -54,6 +55,19 @@ fn both_backends_draw_the_same_picture() {
             assert!(cpu == wgpu, "{scene}: the same leaves give the same pixels; {apart} apart");
         }
         assert_eq!(contents(there.path()).len(), 2, "{scene}: two files and nothing else");
+    }
+}
+
+#[test]
+fn every_preset_can_be_drawn() {
+    adapter::all();
+    let there = folder();
+    for &(scene, _) in PRESETS {
+        let out = format!("{scene}.png");
+        let tiny = ["--leaves", "1000", "--frames", "1", "--size", "160x90", "--out", &out];
+        windfall(&there, &[&["render", scene], &tiny[..]].concat()).text();
+        let picture = picture(&there.path().join(out));
+        assert!(colours(&picture) > 500, "{scene}: {} colours", colours(&picture));
     }
 }
 
