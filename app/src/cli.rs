@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Commands and options, and how their errors are told: one line on the standard error, exit code 2.
+//! Commands and options, and reports of their errors: one line on the standard error, exit code 2.
 
 use std::ffi::OsString;
 use std::process::ExitCode;
@@ -17,12 +17,12 @@ const FAILURE: u8 = 2;
 #[derive(Debug, Parser)]
 #[command(name = "windfall", version, about, disable_help_subcommand = true, arg_required_else_help = false)]
 pub struct Cli {
-    /// What to do.
+    /// The command.
     #[command(subcommand)]
     pub command: Command,
 }
 
-/// What the program can do.
+/// Commands of the program.
 #[derive(Debug, Subcommand)]
 pub enum Command {
     /// Watch a scene in a window and change it while it goes on.
@@ -46,7 +46,7 @@ pub enum Command {
     /// Make leaves for scenes, and study them.
     #[command(subcommand)]
     Leaf(leaf::Command),
-    /// Write trees as glTF files, and tell how large they are.
+    /// Write trees as glTF files, and report how large they are.
     #[command(subcommand)]
     Tree(tree::Command),
 }

@@ -38,10 +38,10 @@ pub struct Arguments {
     /// the last frame is the first again. What `windfall render --loop` says of such scenes holds here.
     #[arg(long = "loop", value_name = "SECONDS", conflicts_with = "frames", value_parser = loop_length)]
     looped: Option<f64>,
-    /// What to write [default: what the ending of --out tells].
+    /// Format to write [default: by the ending of --out].
     #[arg(long, value_name = "FORMAT")]
     format: Option<Format>,
-    /// Where to write: FILE.usda (with a folder FILE_layers beside it), FILE.glb, FILE.csv, or a folder of PLY files.
+    /// Output: FILE.usda (with a folder FILE_layers beside it), FILE.glb, FILE.csv, or a folder of PLY files.
     #[arg(long, value_name = "FILE|DIR")]
     out: PathBuf,
     /// Frames per second.
@@ -110,7 +110,7 @@ pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
     terminal::print(&format!("{}\n", written.display()))
 }
 
-/// Which steps lie before a frame.
+/// Numbers of steps before each frame.
 enum Steps {
     Clip(FrameSteps),
     Round(LoopFrames),

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! `windfall motions`: the motion tables of a scene, to be looked at, changed and named in a scene again.
+//! `windfall motions`: the motion tables of a scene as text files, to be changed and named in a scene again.
 
 use std::fs;
 use std::path::PathBuf;
@@ -52,7 +52,7 @@ pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
     terminal::print(&lines)
 }
 
-/// Species become names of files, on systems that do not tell large letters from small ones too.
+/// Species become names of files, also on systems that ignore the case of letters.
 fn check_names(scene: &Scene, file: &str) -> Result<(), SceneError> {
     let plain = |c: char| c.is_alphanumeric() || matches!(c, '-' | '_' | ' ');
     for (index, Species { name, .. }) in scene.species.iter().enumerate() {

@@ -39,7 +39,7 @@ pub struct Arguments {
     sky: SkyArguments,
     #[command(flatten)]
     backend: BackendArguments,
-    /// What to write: FILE.png (the last frame), FILE.gif, FILE.mp4 (by ffmpeg), or a folder of numbered PNG files.
+    /// Output: FILE.png (the last frame), FILE.gif, FILE.mp4 (by ffmpeg), or a folder of numbered PNG files.
     #[arg(long, value_name = "FILE|DIR")]
     out: PathBuf,
     /// Number of frames; the first shows the scene as it begins [default: 60 for a PNG file, 240 for a clip].

@@ -104,7 +104,7 @@ pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
     }
 }
 
-/// Steps, sampling tracks and looking at trees on the way; leaves the last state in `world`.
+/// Steps, sampling tracks and trees on the way; leaves the last state in `world`.
 fn simulate(
     backend: &mut Backend,
     world: &mut World,

@@ -40,9 +40,9 @@ pub struct Arguments {
     /// Preset or path of a RON file [default: autumn-park].
     #[arg(value_name = "SCENE")]
     scene: Option<String>,
-    /// What to vary: a path of fields in the scene, and values from the lowest to the highest with their number, or a
+    /// Variation: a path of fields in the scene, and values from the lowest to the highest with their number, or a
     /// list: wind.speed=0..20/5, sources.0.shape.radius_m=1,2,4, wind.profile=Uniform. Several make all combinations.
-    /// Where the scene has a variant, its number is meant; another is named: wind.speed.Beaufort=0..6/7.
+    /// At a variant the number of the scene's own is meant; another is named: wind.speed.Beaufort=0..6/7.
     #[arg(long, value_name = "PATH=VALUES", required = true)]
     vary: Vec<Variation>,
     /// Drops at each point, shared by the sources as they share the scene's leaves [default: all leaves of the sources].

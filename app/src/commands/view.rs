@@ -25,7 +25,7 @@ pub struct Arguments {
     /// Width and height of the window in pixels.
     #[arg(long, value_name = "WxH", value_parser = picture_size)]
     size: Option<(u32, u32)>,
-    /// What to show beside the scene from the beginning.
+    /// Instruments that are shown from the beginning.
     #[arg(long, value_name = "WHAT", value_delimiter = ',')]
     show: Vec<view::Show>,
     /// Group of the panel to begin with, in place of the usual ones; may be given more than once.

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What leaves look like in other programs: a mesh and a picture for every kind of leaf, clusters of them for twigs, and
+//! Appearance of leaves in other programs: a mesh and a picture for every kind of leaf, clusters of them for twigs, and
 //! which of all these a leaf has.
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -39,9 +39,9 @@ pub(super) struct Foliage {
 struct Crown {
     /// The slot after the last.
     end: u32,
-    /// How far they have turned, and how far they differ in that.
+    /// Turn of their colour, and its spread.
     turned: [f32; 2],
-    /// How many each stands for.
+    /// Number that each stands for.
     cluster: u32,
 }
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The formats, and how the ending of a path tells which is meant.
+//! Formats, chosen by name or by the ending of a path.
 
 use std::ffi::OsStr;
 use std::path::Path;
@@ -8,7 +8,7 @@ use std::path::Path;
 use anyhow::bail;
 use clap::ValueEnum;
 
-/// What an export is written as.
+/// Format of an export.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Format {
     /// A USD stage: a point instancer, skinned trees, camera and lights.
@@ -22,13 +22,13 @@ pub(crate) enum Format {
 }
 
 impl Format {
-    /// The format asked for, or the one that the ending of `path` tells.
+    /// The format asked for, or the one that the ending of `path` stands for.
     ///
     /// # Errors
-    /// A path whose ending tells none, or another than the one asked for.
+    /// A path whose ending stands for none, or another than the one asked for.
     pub(crate) fn of(asked: Option<Self>, path: &Path) -> anyhow::Result<Self> {
         let ending = path.extension().and_then(OsStr::to_str).map(str::to_ascii_lowercase);
-        let told = match ending.as_deref() {
+        let meant = match ending.as_deref() {
             Some("usda") => Some(Self::Usd),
             Some("glb") => Some(Self::Gltf),
             Some("csv") => Some(Self::Csv),
@@ -41,9 +41,9 @@ impl Format {
             Self::Csv => "FILE.csv",
             Self::Ply => "a folder, a path without an ending",
         };
-        match (asked, told) {
-            (Some(asked), Some(told)) if asked == told => Ok(told),
-            (None, Some(told)) => Ok(told),
+        match (asked, meant) {
+            (Some(asked), Some(meant)) if asked == meant => Ok(meant),
+            (None, Some(meant)) => Ok(meant),
             (Some(asked), _) => {
                 let name =
                     asked.to_possible_value().map_or_else(String::new, |name| name.get_name().to_owned());
@@ -62,7 +62,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn endings_tell_the_format() {
+    fn endings_stand_for_formats() {
         let of = |asked, path: &str| Format::of(asked, Path::new(path)).map_err(|error| error.to_string());
         assert_eq!(of(None, "a/B.CSV"), Ok(Format::Csv), "in any case");
         assert_eq!(of(None, "frames"), Ok(Format::Ply), "a folder");

@@ -3,7 +3,7 @@
 //! A scene's motion for other programs: USD, glTF, a table and point clouds, fed frame by frame.
 //!
 //! Every writer works beside its destination and renames at the end, so an interrupted or failed run leaves nothing
-//! half-written behind. `docs/exchange.md` tells users what is written.
+//! half-written behind. `docs/exchange.md` describes for users what is written.
 
 mod csv;
 mod foliage;
@@ -32,16 +32,16 @@ use windfall_render::trees::SceneTrees;
 
 use crate::run::cancel::Cancel;
 
-/// What is to be written.
+/// An export to be written.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Job<'a> {
     /// The scene, scaled and seeded.
     pub scene: &'a Scene,
     /// Its trees.
     pub stand: &'a SceneTrees,
-    /// Where the result will lie.
+    /// Path that the result will lie at.
     pub path: &'a Path,
-    /// Which frames come.
+    /// Frames that come.
     pub frames: FrameRange,
     /// Frames per second.
     pub fps: f64,
@@ -54,13 +54,13 @@ pub(crate) trait Exporter {
     /// Takes the next frame.
     ///
     /// # Errors
-    /// What the system says, named with the path.
+    /// Errors of the system, named with the path.
     fn push(&mut self, frame: &Frame<'_>) -> anyhow::Result<()>;
 
     /// Completes the output under its own name and returns that.
     ///
     /// # Errors
-    /// What the system says, named with the path.
+    /// Errors of the system, named with the path.
     fn finish(self: Box<Self>) -> anyhow::Result<PathBuf>;
 }
 

@@ -18,7 +18,7 @@ impl FrameRange {
     /// Reads a range such as 0..240.
     ///
     /// # Errors
-    /// What is allowed.
+    /// Names the allowed ranges.
     pub(crate) fn parse(text: &str) -> Result<Self, String> {
         let number = |text: &str| text.parse().ok().filter(|number| *number <= LAST);
         let range = text.split_once("..").and_then(|(first, last)| Some((number(first)?, number(last)?)));
@@ -27,7 +27,7 @@ impl FrameRange {
         })
     }
 
-    /// How many frames there are, at least one.
+    /// Number of frames, at least one.
     pub(crate) fn count(self) -> u32 {
         self.last - self.first + 1
     }

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Whether the disk holds what is going to be written.
+//! Room on the disk for an export.
 
 use std::path::Path;
 
@@ -8,15 +8,15 @@ use anyhow::bail;
 
 use super::{Format, FrameRange, csv, gltf, ply, usd};
 
-/// Bytes from which the user is told how much it will be.
+/// Bytes from which a note says how much it will be.
 const LARGE: u64 = 1_000_000_000;
 
-/// What an export is expected to come to.
+/// Expected size of an export.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Estimate {
     /// Bytes, about.
     pub(crate) bytes: u64,
-    /// Bytes that are free there, if the system tells.
+    /// Bytes that are free there, if the system reports them.
     pub(crate) free: Option<u64>,
 }
 
@@ -48,18 +48,18 @@ pub(crate) fn check_space(
         bail!(
             "--frames is {first}..{last}, which with {leaves} leaves takes about {}; allowed: what fits into the {} that \
             are free where {} will lie",
-            told(estimate.bytes),
-            told(free),
+            in_words(estimate.bytes),
+            in_words(free),
             path.display()
         );
     }
     let frames = frames.count();
     let is_large = estimate.bytes >= LARGE;
-    Ok(is_large.then(|| format!("about {} for {frames} frames of {leaves} leaves", told(estimate.bytes))))
+    Ok(is_large.then(|| format!("about {} for {frames} frames of {leaves} leaves", in_words(estimate.bytes))))
 }
 
 /// Bytes as people say them.
-fn told(bytes: u64) -> String {
+fn in_words(bytes: u64) -> String {
     let (unit, name) = if bytes < LARGE { (1e6, "MB") } else { (1e9, "GB") };
     format!("{:.1} {name}", bytes as f64 / unit)
 }
@@ -105,9 +105,9 @@ mod tests {
 
     #[cfg(unix)]
     #[test]
-    fn the_system_tells_what_is_free() {
+    fn the_system_reports_what_is_free() {
         let folder = tempfile::tempdir().expect("a temporary folder");
-        let free = free(&folder.path().join("new").join("a.csv")).expect("it tells");
+        let free = free(&folder.path().join("new").join("a.csv")).expect("reported");
         assert!(free > 0, "there is room");
     }
 }

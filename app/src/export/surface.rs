@@ -21,7 +21,7 @@ const POND: Plain = Plain { name: "pond", color: [0.010, 0.017, 0.011], roughnes
 pub(super) struct Surface {
     /// Name of letters that no other has.
     pub(super) name: &'static str,
-    /// What it is made of.
+    /// Material.
     pub(super) plain: Plain,
     /// Corners in metres.
     pub(super) positions_m: Vec<[f32; 3]>,

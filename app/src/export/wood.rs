@@ -18,7 +18,7 @@ pub(super) fn joints(tree: &StandingTree) -> Vec<Joint> {
     tree.rows.iter().map(|&row| row as usize).zip(parents).collect()
 }
 
-/// How each segment is turned against the one that it grows from.
+/// Turns of all segments against those that they grow from.
 pub(super) fn rotations(joints: &[Joint], pose: &[[f32; 4]]) -> impl Iterator<Item = [f32; 4]> {
     let turn = |row: usize| Quat::from_array(pose[row]);
     joints.iter().map(move |&(row, parent)| {
@@ -27,7 +27,7 @@ pub(super) fn rotations(joints: &[Joint], pose: &[[f32; 4]]) -> impl Iterator<It
     })
 }
 
-/// Where a row's joint is at rest, and how its segment is turned.
+/// Place of a row's joint at rest, and the turn of its segment.
 pub(super) fn at_rest(stand: &SceneTrees, row: usize) -> (Vec3, Quat) {
     let [x, y, z, _] = stand.rest_base[row];
     (Vec3::new(x, y, z), Quat::from_array(stand.rest_pose[row]).normalize())

@@ -37,7 +37,7 @@ impl CsvFile {
     /// Completes the table under its own name.
     ///
     /// # Errors
-    /// What the system says.
+    /// Errors of the system.
     pub(crate) fn finish(self) -> Result<(), WriteError> {
         let Self { path, out, .. } = self;
         let file = out.into_inner().map_err(|error| WriteError::at(&path)(error.into_error()))?;
@@ -49,7 +49,7 @@ impl<W: Write> CsvFile<W> {
     /// Begins a table on `out`; errors name `path`.
     ///
     /// # Errors
-    /// What the system says.
+    /// Errors of the system.
     pub(crate) fn new(out: W, path: &Path, header: &[&str]) -> Result<Self, WriteError> {
         let out = csv::WriterBuilder::new().buffer_capacity(BUFFER_BYTES).from_writer(out);
         let mut table =
@@ -64,7 +64,7 @@ impl<W: Write> CsvFile<W> {
     /// Writes all rows that are still waiting.
     ///
     /// # Errors
-    /// What the system says.
+    /// Errors of the system.
     #[cfg(test)]
     pub(crate) fn flush(&mut self) -> Result<(), WriteError> {
         self.out.flush().map_err(WriteError::at(&self.path))
@@ -90,7 +90,7 @@ impl<W: Write> CsvFile<W> {
     /// Writes the row and begins the next.
     ///
     /// # Errors
-    /// What the system says.
+    /// Errors of the system.
     pub(crate) fn end_row(&mut self) -> Result<(), WriteError> {
         let written = self.out.write_record(&self.row);
         self.row.clear();

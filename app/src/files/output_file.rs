@@ -82,7 +82,7 @@ impl OutputFile {
     /// A nameless file on the same disk, gone when it is closed.
     ///
     /// # Errors
-    /// What the system says.
+    /// Errors of the system.
     pub(crate) fn scratch(&self) -> Result<File, WriteError> {
         tempfile::tempfile_in(parent(&self.destination)).map_err(WriteError::at(&self.destination))
     }
@@ -100,7 +100,7 @@ impl OutputFile {
     /// Writes a picture as PNG and completes the file.
     ///
     /// # Errors
-    /// What the encoder or the system says.
+    /// Errors of the encoder or the system.
     pub(crate) fn finish_png<P>(mut self, picture: &ImageBuffer<P, Vec<u8>>) -> Result<(), WriteError>
     where
         P: PixelWithColorType<Subpixel = u8>,
@@ -113,7 +113,7 @@ impl OutputFile {
     /// Brings the file to the disk and gives it its name.
     ///
     /// # Errors
-    /// What the system says.
+    /// Errors of the system.
     pub(crate) fn finish(self) -> Result<(), WriteError> {
         let Self { destination, partial, .. } = self;
         let done = partial.as_file().sync_all();

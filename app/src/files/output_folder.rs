@@ -60,7 +60,7 @@ impl OutputFolder {
     /// after all others.
     ///
     /// # Errors
-    /// What the system says.
+    /// Errors of the system.
     pub(crate) fn finish(self, last: &str) -> Result<(), WriteError> {
         if !self.destination.exists() {
             return self.move_whole();

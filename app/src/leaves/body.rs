@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! How leaves from a folder fly: as the bodies that its manifest says they are.
+//! Bodies of leaves from a folder, by its manifest.
 
 use std::path::Path;
 

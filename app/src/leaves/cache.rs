@@ -45,7 +45,7 @@ pub(super) fn load_or_make_in(
     Ok(folder)
 }
 
-/// Where this program keeps what can be made again.
+/// Cache directory of this program's leaves.
 fn directory() -> Option<PathBuf> {
     Some(ProjectDirs::from("", "", "windfall")?.cache_dir().join("leaves"))
 }

@@ -57,7 +57,7 @@ pub(crate) fn atlas_of(scene: &Scene, progress: &LeafProgress) -> anyhow::Result
     Ok(Atlas { size_px, variants: u32::try_from(variants)?, layers })
 }
 
-/// What draws a shape.
+/// Maker of a shape's pictures.
 #[derive(Clone, Copy, Debug)]
 enum Kind {
     /// The leaf maker.
@@ -83,7 +83,7 @@ fn kind_of(shape: LeafShape) -> Kind {
     }
 }
 
-/// What to make for a species without a folder.
+/// Leaves to be made for a species without a folder.
 fn assortment(species: &Species, shape: Shape, size_px: u32) -> Assortment {
     Assortment { shape, season: species.season, count: VARIANTS, size_px, seed: SEED }
 }

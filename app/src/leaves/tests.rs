@@ -98,7 +98,7 @@ fn descent_m_s(scene: &Scene) -> f32 {
     let mut simulator = CpuSimulator::new(&world, options).expect("it fits");
     let mut height = |steps| {
         simulator.step(steps).expect("it steps");
-        simulator.read_state(&mut world).expect("it tells");
+        simulator.read_state(&mut world).expect("readable");
         let places = world.leaves.place.iter();
         places.map(|place| place.position[1]).sum::<f32>() / world.leaves.place.len() as f32
     };

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Why an output cannot be written.
+//! Errors of outputs.
 
 use std::path::PathBuf;
 
@@ -38,7 +38,7 @@ pub(crate) enum OutputError {
         width: u32,
         /// Height asked for.
         height: u32,
-        /// What the format allows.
+        /// Sizes that the format allows.
         allowed: &'static str,
     },
     /// A frame rate that is none.
@@ -80,7 +80,7 @@ pub(crate) enum OutputError {
     Ffmpeg {
         /// The path asked for.
         path: PathBuf,
-        /// What it said last.
+        /// Its last messages.
         reason: String,
     },
 }

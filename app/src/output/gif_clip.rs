@@ -63,7 +63,7 @@ impl GifClip {
         })
     }
 
-    /// Whether the next frame is one of those that are kept.
+    /// Returns true if the next frame is one of those that are kept.
     pub(super) fn wants_next(&self) -> bool {
         self.pushed.is_multiple_of(self.step)
     }
@@ -120,7 +120,7 @@ impl GifClip {
     }
 }
 
-/// What a pixel shows: its number in the palette and the colour it stands for.
+/// Contents of a pixel: its number in the palette and the colour it stands for.
 #[derive(Clone, Copy, Debug)]
 struct Shown {
     number: u8,

@@ -23,7 +23,7 @@ use png_sequence::PngSequence;
 use still::Still;
 use video::Video;
 
-/// What to write, as its path says.
+/// Kind and path of an output.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Output {
     /// The last frame as a PNG file.
@@ -69,7 +69,7 @@ impl Output {
         Ok(Writer { path: self.path().to_owned(), kind, size, frames: 0 })
     }
 
-    /// Where the result will lie.
+    /// Path that the result will lie at.
     pub(crate) fn path(&self) -> &Path {
         match self {
             Self::Png(path) | Self::Sequence(path) | Self::Gif(path) | Self::Mp4(path) => path,
@@ -113,7 +113,7 @@ impl Writer {
         }
     }
 
-    /// Whether frame `number`, counted from 0, of `count` frames will be seen: the others may be skipped.
+    /// Returns true if frame `number`, counted from 0, of `count` frames will be seen: the others may be skipped.
     pub(crate) fn wants(&self, number: u32, count: u32) -> bool {
         match &self.kind {
             Kind::Png(_) => number + 1 == count,

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Where discs change from one way of falling to another, as measured.
+//! Measured boundaries between the regimes of falling discs.
 //!
 //! # Source
 //! Field, Klaus, Moore and Nori, "Chaotic dynamics of falling disks", Nature 388 (1997), figure 2: discs of several
@@ -12,7 +12,7 @@ const TABLE: &str = include_str!("field1997_phase_boundaries.csv");
 /// A measured boundary.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Boundary {
-    /// What lies on either side, for example `chaotic|tumbling`.
+    /// Regimes on either side, for example `chaotic|tumbling`.
     pub(super) name: &'static str,
     /// Reynolds number and dimensionless moment of inertia of points along it.
     pub(super) points: Vec<(f64, f64)>,

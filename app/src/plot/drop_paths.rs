@@ -21,7 +21,7 @@ pub(crate) const SIZE: (u32, u32) = (1800, 1090);
 const PANEL_PX: f64 = 510.0;
 /// Pixels for a metre.
 const SCALE_PX: f64 = 196.0;
-/// Where depth of one metre leads in the picture, in metres.
+/// Offset in the picture of a depth of one metre, in metres.
 const DEPTH: DVec2 = DVec2::new(0.36, 0.27);
 /// Half width and half depth of the ground of a panel in m.
 const GROUND_M: (f64, f64) = (0.6, 0.3);
@@ -35,7 +35,7 @@ const LIGHT: DVec3 = DVec3::new(-0.4, 0.85, -0.35);
 /// A drop, from its release to the ground.
 #[derive(Clone, Debug)]
 pub(crate) struct Track {
-    /// What fell.
+    /// Name of the piece.
     pub(crate) name: String,
     /// Half axes of its area along and across, in m.
     pub(crate) half_axes_m: [f64; 2],
@@ -168,7 +168,7 @@ fn flashes(area: &Area<'_>, panel: &Panel, track: &Track) -> Drawn {
     Ok(())
 }
 
-/// How long half a metre is, upwards.
+/// Scale bar of half a metre, upwards.
 fn scale(area: &Area<'_>, panel: &Panel) -> Drawn {
     let unit = UNIT as i32;
     let at = |height: f64| {
@@ -187,7 +187,7 @@ fn scale(area: &Area<'_>, panel: &Panel) -> Drawn {
     Ok(())
 }
 
-/// What the colours mean, at the foot.
+/// Legend of the colours, at the foot.
 fn legend(area: &Area<'_>) -> Drawn {
     let unit = UNIT as i32;
     let row = (SIZE.1 as i32 - 30) * unit;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What plots share: paper, ink, text, and how they become files.
+//! Layout that plots share: paper, ink, text, and writing to files.
 
 use anyhow::anyhow;
 use image::RgbImage;
@@ -19,9 +19,9 @@ pub(crate) const INK: RGBColor = RGBColor(46, 42, 38);
 pub(crate) const PAPER: RGBColor = RGBColor(252, 250, 246);
 const FONT: &str = "Ubuntu";
 
-/// What is drawn on.
+/// Drawing area.
 pub(crate) type Area<'a> = DrawingArea<BitMapBackend<'a>, Shift>;
-/// What drawing may fail with.
+/// Outcome of drawing.
 pub(crate) type Drawn = Result<(), Box<dyn std::error::Error>>;
 
 /// Text of a size in pixels of the finished picture.
@@ -39,7 +39,7 @@ pub(crate) fn pixel(coordinate: f64) -> i32 {
 /// Draws a picture of a size in pixels and writes it to a file that has been begun.
 ///
 /// # Errors
-/// What the plotting library or the system says, named with the path.
+/// Errors of the plotting library or the system, named with the path.
 pub(crate) fn write(
     file: OutputFile,
     size: (u32, u32),

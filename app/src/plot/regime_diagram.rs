@@ -154,7 +154,7 @@ fn slice((x, y): (i32, i32), radius: f64, from: f64, to: f64) -> Vec<(i32, i32)>
     [(x, y)].into_iter().chain(rim).collect()
 }
 
-/// What the colours mean, below the plot.
+/// Legend of the colours, below the plot.
 fn legend(area: &Area<'_>, drops: u32) -> Drawn {
     let unit = UNIT as i32;
     let row = 22 * unit;

@@ -22,7 +22,7 @@ const COLORS: [RGBColor; 5] = [
 /// Draws the seasons of a kind of tree.
 ///
 /// # Errors
-/// What the plotting library says.
+/// Errors of the plotting library.
 pub(crate) fn draw(area: &Area<'_>, kind: &str, minutes: u32, seasons: &[Season]) -> Drawn {
     let unit = UNIT;
     let most = seasons.iter().flat_map(|season| &season.curve).fold(10.0, |a: f64, b| a.max(*b));
@@ -120,7 +120,7 @@ fn span(minutes: u32) -> String {
     if minutes == 1 { "minute".into() } else { format!("{minutes} minutes") }
 }
 
-/// What a time of the year is called.
+/// Name of a time of the year.
 fn name(autumn: f32) -> String {
     match autumn {
         0.0 => "summer".into(),

@@ -28,10 +28,10 @@ pub enum BackendKind {
     Wgpu,
 }
 
-/// Where to simulate.
+/// Backend that simulates.
 #[derive(Clone, Debug, Default, Args)]
 pub struct BackendArguments {
-    /// Where to simulate [default: wgpu if there is a hardware graphics adapter, else cpu].
+    /// Backend that simulates [default: wgpu if there is a hardware graphics adapter, else cpu].
     #[arg(long, value_name = "BACKEND")]
     pub backend: Option<BackendKind>,
     /// Graphics adapter whose name or driver contains this, in any case; implies --backend wgpu.
@@ -107,9 +107,9 @@ impl BackendArguments {
 /// A device, and why it was chosen if nobody asked for it.
 #[derive(Debug)]
 pub struct Choice {
-    /// Where to simulate.
+    /// Backend that simulates.
     pub device: Device,
-    /// Which backend was chosen by default, and why: a line for the user.
+    /// Backend that was chosen by default and the reason: a line for the user.
     pub reason: Option<String>,
 }
 

@@ -11,7 +11,7 @@ use windfall_wgpu::{Gpu, instance_descriptor, select_adapter};
 
 use crate::run::backend::{BackendArguments, BackendKind, Device};
 
-/// Where to simulate and where to draw.
+/// Devices that simulate and draw.
 #[derive(Debug)]
 pub struct Drawing {
     /// Simulates.
@@ -20,7 +20,7 @@ pub struct Drawing {
     pub gpu: Gpu,
     /// The adapter of `gpu`.
     pub adapter: wgpu::Adapter,
-    /// Which backend was chosen by default, and why: a line for the user.
+    /// Backend that was chosen by default and the reason: a line for the user.
     pub reason: Option<String>,
 }
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Which steps lie before which frame of a clip.
+//! Numbers of steps before each frame of a clip.
 
 use windfall_core::Cycle;
 

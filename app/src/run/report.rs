@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What a simulation comes to, in words and as JSON.
+//! Report of a simulation, in words and as JSON.
 
 use std::fmt::Write as _;
 

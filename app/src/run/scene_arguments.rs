@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Which scene a command works on, and how many leaves of it.
+//! Scene that a command works on, and the number of its leaves.
 
 use clap::Args;
 use windfall_core::Scene;

@@ -89,7 +89,7 @@ impl Studio {
         self.step
     }
 
-    /// How many frames at `rate` before a picture show in it.
+    /// Number of frames at `rate` before a picture that show in it.
     pub fn remembered_frames(&self, rate: f64) -> u32 {
         #[expect(
             clippy::cast_possible_truncation,
@@ -100,7 +100,7 @@ impl Studio {
         trail.max(u32::from(self.is_moving))
     }
 
-    /// Whether a picture this many seconds after a moment, at the next frame or later, shows something of that moment.
+    /// Returns true if a picture this many seconds after a moment, at the next frame or later, shows something of that moment.
     pub fn remembers(&self, seconds: f64, is_next: bool) -> bool {
         self.trail_s > 0.0 && seconds <= self.trail_s || self.is_moving && is_next
     }

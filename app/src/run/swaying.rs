@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What happens to the trees of a scene while it is simulated.
+//! Report of the trees of a scene during a run.
 
 use serde::Serialize;
 use windfall_core::World;
 use windfall_core::tree::SwayExtent;
 
-/// Looks at the trees in a run, at evenly spaced steps; the last look is at its end.
+/// Samples of the trees in a run, at evenly spaced steps; the last is at its end.
 const LOOKS: u32 = 16;
 
 /// The trees of a scene in a run. The names of these fields are keys of the report's JSON; they stay.
@@ -40,20 +40,20 @@ impl Swaying {
         Self { falls: falls(world), extent: extent(world), steps, looks }
     }
 
-    /// Steps to the next look, with so many left; `None` if the end is looked at anyway.
+    /// Steps to the next sample, with so many left; `None` if the end is sampled anyway.
     pub(crate) fn wait(&self, left: u32) -> Option<u32> {
         let done = self.steps - left;
         let next = (u64::from(self.steps) * u64::from(self.looks + 1) / u64::from(LOOKS)).try_into();
         next.ok().filter(|_| self.looks + 1 < LOOKS).map(|next: u32| next.saturating_sub(done))
     }
 
-    /// Looks at the trees.
+    /// Samples the trees.
     pub(crate) fn look(&mut self, world: &World) {
         self.looks += 1;
         self.extent = self.extent.or(extent(world));
     }
 
-    /// What it came to, with the state at the end.
+    /// The report, with the state at the end.
     pub(crate) fn finish(self, world: &World) -> TreeReport {
         let extent = self.extent.or(extent(world));
         TreeReport {
@@ -70,7 +70,7 @@ fn extent(world: &World) -> SwayExtent {
     SwayExtent::of(world.environment.forest(), &world.branches)
 }
 
-/// How often the leaves of trees have come off since the beginning: each time, a leaf's number rises by the number of
+/// Number of times that leaves of trees have come off since the beginning: each time, a leaf's number rises by the number of
 /// all slots.
 fn falls(world: &World) -> u64 {
     let scene = world.environment.scene();

@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What goes to the standard streams. A reader that has gone away is no error: it has seen what it wanted.
+//! Output to the standard streams. A reader that has gone away is no error: it has seen what it wanted.
 
 use std::io::{self, ErrorKind, Write};
 
 /// Writes text to the standard output.
 ///
 /// # Errors
-/// What the system says, for example that the disk is full.
+/// Errors of the system, for example a full disk.
 pub(crate) fn print(text: &str) -> anyhow::Result<()> {
     let mut out = io::stdout().lock();
     match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
@@ -18,9 +18,9 @@ pub(crate) fn print(text: &str) -> anyhow::Result<()> {
     }
 }
 
-/// Tells the user something on one line of the standard error.
+/// Writes a note for the user on one line of the standard error.
 pub(crate) fn note(message: &str) {
-    // If nobody can be told, there is nobody to be told about that either.
+    // Nothing is left to report a failure to.
     let _ = writeln!(io::stderr(), "{}", one_line(message));
 }
 

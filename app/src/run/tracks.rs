@@ -32,7 +32,7 @@ const HEADER: [&str; 17] = [
     "qw",
 ];
 
-/// Which tracks to write.
+/// Options of tracks.
 #[derive(Clone, Debug, Args)]
 pub(crate) struct TrackArguments {
     /// Write the tracks of single leaves to this CSV file.
@@ -92,7 +92,7 @@ impl Tracks {
     /// Adds the rows of one step.
     ///
     /// # Errors
-    /// What the system says, named with the path.
+    /// Errors of the system, named with the path.
     pub(crate) fn sample(&mut self, world: &World) -> anyhow::Result<()> {
         let step = world.step_block();
         let cx = world.context(&step);
@@ -102,7 +102,7 @@ impl Tracks {
     /// Adds the row of one leaf, at the step of a context.
     ///
     /// # Errors
-    /// What the system says, named with the path.
+    /// Errors of the system, named with the path.
     pub(crate) fn add(&mut self, world: &World, cx: &Context<'_>, slot: usize) -> anyhow::Result<()> {
         Ok(write_row(&mut self.table, world, slot, &world.leaves.view(cx, slot))?)
     }
@@ -110,7 +110,7 @@ impl Tracks {
     /// Completes the table under its own name.
     ///
     /// # Errors
-    /// What the system says, named with the path.
+    /// Errors of the system, named with the path.
     pub(crate) fn finish(self) -> anyhow::Result<()> {
         Ok(self.table.finish()?)
     }

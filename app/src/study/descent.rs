@@ -12,7 +12,7 @@ use super::sample::Sample;
 
 /// Way down in metres before a drop of a small piece counts.
 pub(crate) const SETTLE_M: f64 = 0.6;
-/// How far the projected area, relative to the area, falls after a peak and rises before it.
+/// Fall of the projected area, relative to the area, after a peak, and its rise before.
 const PEAK_RELIEF: f64 = 0.12;
 /// Share of its regimes that a drop is said to tumble for; one that tumbles for less is chaotic.
 const TUMBLING: f64 = 0.75;
@@ -43,7 +43,7 @@ impl Peaks {
     }
 }
 
-/// What is kept of a drop while it falls.
+/// Sums over a drop while it falls.
 #[derive(Clone, Copy, Debug)]
 struct Way {
     start: (f64, DVec3),
@@ -66,7 +66,7 @@ pub(crate) struct Watch {
     way: Option<Way>,
 }
 
-/// What one drop comes to.
+/// Numbers of one drop.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct DropNumbers {
     /// Mean speed of descent in m/s.
@@ -125,7 +125,7 @@ impl Watch {
         way.regimes[sample.regime as usize] += 1;
     }
 
-    /// What it came to; nothing if the way was too short.
+    /// Numbers of the drop; nothing if the way was too short.
     pub(crate) fn finish(&self) -> Option<DropNumbers> {
         let way = self.way.filter(|way| way.samples >= 2)?;
         let (seconds, gone) = (way.end.0 - way.start.0, way.end.1 - way.start.1);
@@ -143,7 +143,7 @@ impl Watch {
     }
 }
 
-/// What a drop's steps agree on; of equals the first.
+/// Regime of most of a drop's steps; of equals the first.
 fn prevailing(way: &Way) -> Regime {
     let longest = way.regimes.iter().max().copied().unwrap_or(0);
     let classified: u32 = way.regimes.iter().sum();
@@ -157,7 +157,7 @@ fn prevailing(way: &Way) -> Regime {
     }
 }
 
-/// What all drops come to.
+/// Numbers of all drops.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct DescentSummary {
     /// Mean of the drops' mean speeds of descent, in m/s.

@@ -16,7 +16,7 @@ use crate::run::tracks::Tracks;
 /// Motions that synthesised leaves have; those of bodies follow.
 const PRIMITIVES: usize = 6;
 
-/// How leaves are dropped.
+/// Options of drops.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct DropOptions {
     /// Number of drops, which the sources share as they share the scene's leaves; as many as these for `None`.

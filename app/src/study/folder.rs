@@ -19,7 +19,7 @@ use crate::run::backend::Device;
 use crate::run::cancel::Cancel;
 use crate::run::tracks::Tracks;
 
-/// Tells which study a folder belongs to.
+/// Identity of the study that a folder belongs to.
 const STUDY: &str = "study.json";
 /// A point's row.
 const SUMMARY: &str = "summary.csv";
@@ -73,7 +73,7 @@ impl StudyFolder {
         Ok(folder)
     }
 
-    /// Where it lies.
+    /// Path of the folder.
     pub(crate) fn path(&self) -> &Path {
         &self.path
     }
@@ -97,7 +97,7 @@ impl StudyFolder {
             .ok_or_else(|| anyhow!("{}: not the row of a point; remove its folder", path.display()))
     }
 
-    /// Where the drops of a finished point landed, seen from where they were let go: along and across the wind, in m.
+    /// Drifts of the drops of a finished point from release to landing: along and across the wind, in m.
     ///
     /// # Errors
     /// A table that cannot be read.
@@ -108,7 +108,7 @@ impl StudyFolder {
     /// Drops the leaves of a point and keeps what became of them: a folder that appears when it is whole.
     ///
     /// # Errors
-    /// What [`drop_all`] says; files that cannot be written.
+    /// Errors of [`drop_all`]; files that cannot be written.
     pub(crate) fn run(
         &self,
         number: usize,
@@ -142,7 +142,7 @@ impl StudyFolder {
     /// Writes the table of all points.
     ///
     /// # Errors
-    /// What the system says, named with the path.
+    /// Errors of the system, named with the path.
     pub(crate) fn write_summary(
         &self,
         variations: &[Variation],
@@ -195,7 +195,7 @@ fn identity(
     Ok(serde_json::to_string_pretty(&identity)? + "\n")
 }
 
-/// What two studies differ in, by name.
+/// Names of the fields that two studies differ in.
 fn difference(found: &str, expected: &str) -> String {
     let read = |text| serde_json::from_str::<serde_json::Value>(text).unwrap_or_default();
     let (found, expected) = (read(found), read(expected));

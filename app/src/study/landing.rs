@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What became of one drop, and the table of all of them.
+//! Landing of one drop, and the table of all of them.
 
 use std::path::Path;
 
@@ -29,14 +29,14 @@ const HEADER: [&str; 12] = [
 /// Columns of the drift along and across the wind.
 const DRIFT_COLUMNS: [usize; 2] = [3, 4];
 
-/// What became of one drop. Lengths in metres, times in seconds.
+/// Release and landing of one drop. Lengths in metres, times in seconds.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Landing {
-    /// When it was let go.
+    /// Time of its release.
     pub release_s: f64,
-    /// Where, after the step in which it was; `None` before.
+    /// Place after the step of its release; `None` before.
     pub begin: Option<[f64; 3]>,
-    /// Where it touched the ground, and how long after its release; `None` for one still in the air.
+    /// Place where it touched the ground, and the time since its release; `None` for one still in the air.
     pub end: Option<([f64; 3], f64)>,
     /// From its release to where it landed: down the mean wind, and across, to the right of it.
     pub drift: (f64, f64),
@@ -47,7 +47,7 @@ pub(crate) struct Landing {
 }
 
 impl Landing {
-    /// Whether it lies on the ground.
+    /// Returns true if it lies on the ground.
     pub(crate) fn is_landed(&self) -> bool {
         self.end.is_some()
     }
@@ -80,7 +80,7 @@ impl Landing {
 /// Writes the table of all drops of a scene.
 ///
 /// # Errors
-/// What the system says, named with the path.
+/// Errors of the system, named with the path.
 pub(super) fn write_landings(path: &Path, scene: &Scene, landings: &[Landing]) -> anyhow::Result<()> {
     let mut table = CsvFile::create(path, &HEADER)?;
     for (drop, landing) in landings.iter().enumerate() {

@@ -48,7 +48,7 @@ impl SceneTree {
         Ok(())
     }
 
-    /// What an axis along which `path` varies is called: the path, and which variant's number it is.
+    /// Label of an axis along which `path` varies: the path, and the variant that the number belongs to.
     pub(crate) fn label(&self, path: &str) -> String {
         let segments: Vec<&str> = path.split('.').collect();
         let mut root = self.root.clone();
@@ -68,7 +68,7 @@ impl SceneTree {
     }
 }
 
-/// Where a path ends that leads nowhere.
+/// Error at the end of a path that leads nowhere.
 struct Found {
     parent: String,
     segment: String,
@@ -106,7 +106,7 @@ fn tag(place: &Value) -> Option<&str> {
     name.starts_with(|c: char| c.is_ascii_uppercase()).then_some(name)
 }
 
-/// What a variant holds; the place itself if there is none.
+/// Value of a variant; the place itself if there is none.
 fn inside(place: &mut Value) -> &mut Value {
     match tag(place).map(str::to_owned) {
         Some(name) => &mut place[name],
@@ -114,7 +114,7 @@ fn inside(place: &mut Value) -> &mut Value {
     }
 }
 
-/// What can stand next in a path.
+/// Names that can stand next in a path.
 fn names(place: &Value) -> String {
     match place {
         Value::Object(fields) => {

@@ -21,7 +21,7 @@ pub(crate) struct Point {
 }
 
 impl Point {
-    /// What is set at the point, for people.
+    /// Settings of the point, for people.
     pub(crate) fn title(&self, variations: &[Variation]) -> String {
         let named = variations.iter().zip(&self.settings);
         let texts: Vec<_> = named.map(|(to, setting)| format!("{} = {}", to.path, setting.text)).collect();

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! How many leaves a crown loses: by the model of its petioles, and by simulating it.
+//! Leaves that a crown loses: by the model of its petioles, and by simulating it.
 
 use windfall_core::device::leaf::carry::{petiole_of, shed_chance};
 use windfall_core::leaf::LeafState;
@@ -35,11 +35,11 @@ pub(crate) struct Mark {
     pub(crate) leaves_per_h: f64,
     /// Standard error of counting, in leaves per hour.
     pub(crate) error_per_h: f64,
-    /// Whether it blew in gusts.
+    /// True if it blew in gusts.
     pub(crate) is_gusty: bool,
 }
 
-/// What a crown loses at a time of the year.
+/// Leaves that a crown loses at a time of the year.
 #[derive(Debug)]
 pub(crate) struct Season {
     /// The time of the year.

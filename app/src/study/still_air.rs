@@ -22,9 +22,9 @@ const LEAST_S: f64 = 10.0;
 /// A number of drops of one piece.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Drops<'a> {
-    /// What is dropped.
+    /// Species that is dropped.
     pub(crate) species: &'a Species,
-    /// How many, each with irregularities of its own.
+    /// Number of drops, each with irregularities of its own.
     pub(crate) count: u32,
     /// From how high, in m.
     pub(crate) height_m: f32,

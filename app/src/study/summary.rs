@@ -136,7 +136,7 @@ mod tests {
     }
 
     #[test]
-    fn a_summary_tells_means_spreads_and_shares() {
+    fn a_summary_has_means_spreads_and_shares() {
         let aloft = Landing { begin: Some([0.0; 3]), ..Landing::default() };
         let summary = Summary::of(&[landing(3.0, 2.0), landing(5.0, 4.0), aloft]);
         assert_eq!((summary.drops, summary.landed), (3, 2), "one is still in the air");

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What a study varies: a place in the scene, and the values put there, as in `wind.gusts.strength=0..1/5`.
+//! Variations of a study: a place in the scene, and the values put there, as in `wind.gusts.strength=0..1/5`.
 
 use std::str::FromStr;
 
@@ -99,7 +99,7 @@ fn range(from: &str, rest: &str) -> Result<Vec<String>, VariationError> {
     Ok((0..count).map(|index| plain(between(index))).collect())
 }
 
-/// A number as short as scenes, which hold single precision, can tell it from others.
+/// A number as short as it differs from all others in single precision, which scenes hold.
 fn plain(number: f64) -> String {
     if number.fract() == 0.0 && number.abs() < WHOLE {
         return format!("{number:.0}");

@@ -18,7 +18,7 @@ mod headless;
 use windfall_core::World;
 
 #[test]
-fn a_simulation_without_a_window_tells_where_leaves_are() {
+fn a_simulation_without_a_window_prints_where_leaves_are() {
     let height_m = headless::run(30).expect("it runs");
     assert!((1.0..10.0).contains(&height_m), "leaves fall from crowns: {height_m} m");
 }

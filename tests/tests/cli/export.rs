@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! `windfall export`: every format tells what `simulate` does, and what is refused leaves nothing behind.
+//! `windfall export`: every format holds what `simulate` computes, and what is refused leaves nothing behind.
 
 use std::collections::HashMap;
 use std::fs;
@@ -29,8 +29,8 @@ pub(super) fn scene() -> TempDir {
 
 pub(super) fn export(there: &TempDir, frames: &str, out: &str, more: &[&str]) {
     let options = ["export", "scene.ron", "--backend", "cpu", "--frames", frames, "--out", out];
-    let told = windfall(there, &[&options, more].concat()).text();
-    assert!(told.trim().ends_with(out), "it tells what it wrote: {told}");
+    let printed = windfall(there, &[&options, more].concat()).text();
+    assert!(printed.trim().ends_with(out), "the path of what was written: {printed}");
 }
 
 /// Rows of a table as columns by name; no field of these tables but the species' holds a comma.
@@ -63,7 +63,7 @@ pub(super) fn frame(there: &TempDir, number: u32) -> Vec<HashMap<String, String>
 }
 
 #[test]
-fn tables_tell_what_simulate_does() {
+fn tables_hold_what_simulate_computes() {
     let there = scene();
     let tracks = ["--steps", "60", "--track-every", "2", "--tracks", "t.csv"];
     windfall(&there, &[&["simulate", "scene.ron", "--backend", "cpu"], &tracks[..]].concat()).text();
@@ -78,7 +78,7 @@ fn tables_tell_what_simulate_does() {
         assert_eq!(step, 2 * row["frame"].parse::<u32>().expect("a number"), "two steps a frame");
         let is_attached = wanted["state"] == "attached";
         for (name, value) in wanted {
-            // Of a leaf on its twig the blade's velocity is told, of one not turned yet that it is not.
+            // A leaf on its twig has the velocity of its blade, one not turned yet the identity as its turn.
             let is_zero = TURN.contains(&name.as_str()) && TURN.iter().all(|part| wanted[*part] == "0");
             if !(is_zero || is_attached && SPEED.contains(&name.as_str())) {
                 assert_eq!(&row[name], value, "{name} of {row:?}");

@@ -155,8 +155,8 @@ fn tracks_are_whole_falls() {
         for pair in rows.windows(2) {
             let seconds = pair[1][0] - pair[0][0];
             assert!((seconds - 1.0 / 240.0).abs() < 2e-6, "every step: {seconds}");
-            let told = 0.5 * (pair[0][9] + pair[1][9]) * seconds;
-            assert!((pair[1][2] - pair[0][2] - told).abs() < 5e-4, "as fast as told: {pair:?}");
+            let integrated = 0.5 * (pair[0][9] + pair[1][9]) * seconds;
+            assert!((pair[1][2] - pair[0][2] - integrated).abs() < 5e-4, "as fast as written: {pair:?}");
         }
     }
     assert_eq!(contents(there.path()).len(), 1, "nothing but the tracks is left");
@@ -234,8 +234,8 @@ fn pictures_are_drawn() {
         [(&["diagram", "--drops", "1"][..], (1600, 1120)), (&["tracks3d", "--seed", "3"], (1800, 1090))]
     {
         let arguments = [&["flight"], figure, &["--out", "a.png"]].concat();
-        let told = windfall(&there, &arguments).text();
-        assert!(told.starts_with("a.png: "), "{told}");
+        let printed = windfall(&there, &arguments).text();
+        assert!(printed.starts_with("a.png: "), "{printed}");
         let picture = image::open(there.path().join("a.png")).expect("a picture").to_rgb8();
         assert_eq!(picture.dimensions(), size, "{figure:?}");
         let colors: std::collections::HashSet<_> = picture.pixels().collect();

@@ -89,7 +89,7 @@ fn backends_and_threads_agree_to_the_bit() {
 }
 
 #[test]
-fn trees_are_told_alike_by_both_backends() {
+fn both_backends_report_the_same_trees() {
     let there = folder();
     let mut scene = wooded_scene(7, 300, 14.0, 1.0 / 60.0);
     scene.trees.truncate(3);
@@ -128,11 +128,11 @@ fn trees_are_told_alike_by_both_backends() {
         assert_eq!(part(&first) + part(&rest), shed, "two parts of one run");
     }
     let text = windfall(&there, &["simulate", "wood.ron", "--steps", "60"]).text();
-    assert!(text.contains("trees") && text.contains("leaves shed"), "people are told as well: {text}");
+    assert!(text.contains("trees") && text.contains("leaves shed"), "the text has them as well: {text}");
 }
 
 #[test]
-fn a_scene_without_trees_has_none_to_tell_of() {
+fn a_scene_without_trees_reports_none() {
     for backend in BACKENDS {
         let report = simulate(&["six-motions", "--steps", "90", "--backend", backend]);
         let none = serde_json::json!({
@@ -221,7 +221,7 @@ fn tracks_are_a_row_for_each_leaf_and_sampled_step() {
 }
 
 #[test]
-fn tracks_tell_how_fast_leaves_move() {
+fn tracks_hold_the_velocities_of_leaves() {
     let there = folder();
     let arguments = ["simulate", "six-motions", "--steps", "60", "--tracks", "t.csv", "--threads", "1"];
     windfall(&there, &arguments).text();
@@ -237,8 +237,8 @@ fn tracks_tell_how_fast_leaves_move() {
     for axis in 0..3 {
         let moved = rows[60][axis] - rows[0][axis];
         let pairs = rows.windows(2).map(|pair| (pair[0][3 + axis] + pair[1][3 + axis]) / 120.0);
-        let told: f64 = pairs.sum();
-        assert!((moved - told).abs() < 0.02, "axis {axis}: moved {moved} m, told {told} m");
+        let integrated: f64 = pairs.sum();
+        assert!((moved - integrated).abs() < 0.02, "axis {axis}: moved {moved} m, integrated {integrated} m");
     }
 }
 

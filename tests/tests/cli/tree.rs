@@ -84,9 +84,9 @@ fn trees_of_scenes_are_exported_as_text_too() {
     assert_eq!(document["scenes"][0]["name"], "grove.ron#1", "the tree's name");
     let height = info(&folder, &["grove.ron#1"])["height_m"].as_f64().expect("a number");
     assert!((height - 9.0).abs() < 1e-3, "{height} m high");
-    let told = windfall(&folder, &["tree", "info", "grove.ron#0"]).text();
+    let printed = windfall(&folder, &["tree", "info", "grove.ron#0"]).text();
     for name in ["height", "trunk", "segments", "leaves", "bark full"] {
-        assert!(told.lines().any(|line| line.starts_with(name)), "{name} is missing in\n{told}");
+        assert!(printed.lines().any(|line| line.starts_with(name)), "{name} is missing in\n{printed}");
     }
 }
 
@@ -146,8 +146,8 @@ fn bad_input_is_refused_in_one_line_and_leaves_nothing() {
 fn shedding_is_plotted() {
     let folder = folder();
     let arguments = ["tree", "shedding", "weed", "--minutes", "1", "--leaves", "200", "--out", "weed.png"];
-    let told = windfall(&folder, &arguments).text();
-    assert!(told.starts_with("weed.png: 5 seasons, "), "{told}");
+    let printed = windfall(&folder, &arguments).text();
+    assert!(printed.starts_with("weed.png: 5 seasons, "), "{printed}");
     let picture = image::open(folder.path().join("weed.png")).expect("a picture").to_rgb8();
     assert_eq!(picture.dimensions(), (1600, 1000), "size");
     // Curves, ink and the paper between them.

@@ -35,7 +35,7 @@ impl Display {
             .expect("Xvfb is missing: apt install xvfb, or run scripts/test, which does");
         let stdout = server.stdout.take().expect("piped");
         let mut number = String::new();
-        BufReader::new(stdout).read_line(&mut number).expect("Xvfb tells its number");
+        BufReader::new(stdout).read_line(&mut number).expect("Xvfb prints its number");
         assert!(!number.trim().is_empty(), "Xvfb starts");
         Self { server, name: format!(":{}", number.trim()) }
     }
@@ -160,7 +160,7 @@ fn every_preset_can_be_watched() {
 }
 
 #[test]
-fn without_a_display_the_other_way_is_told() {
+fn without_a_display_the_error_names_the_other_way() {
     let there = folder();
     let mut command = command(&there, &["view", "--screenshot", "a.png"]);
     command.env_remove("DISPLAY").env_remove("WAYLAND_DISPLAY").env_remove("WAYLAND_SOCKET");

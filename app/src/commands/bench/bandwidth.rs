@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! How fast this machine changes memory in place: what bounds a leaf step from below.
+//! Memory bandwidth of this machine in place: it bounds a leaf step from below.
 
 use std::time::Instant;
 

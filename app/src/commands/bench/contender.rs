@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What is measured: the backends, and the older ways of doing it.
+//! Contenders: the backends, and the older ways of doing it.
 
 use windfall_core::leaf::{LEAF_BYTES, Leaves};
 use windfall_core::{Contract, SimError, Simulator, World};
@@ -91,7 +91,7 @@ impl Contender {
         Ok(Some(state.state_hash()))
     }
 
-    /// Whether the leaves are where they can be after some steps: none lost, none broken.
+    /// Returns true if the leaves are where they can be after some steps: none lost, none broken.
     pub(super) fn is_sound(&mut self, world: &World) -> Result<bool, SimError> {
         let stats = match self {
             Self::Trajectories(trajectories) => {

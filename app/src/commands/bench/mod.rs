@@ -34,11 +34,11 @@ use crate::run::terminal;
 
 /// Steps before anything is timed. Shaders are compiled and memory is touched; the state after them is compared.
 const WARM_UP_STEPS: u32 = 2;
-/// Timed batches: the median tells the speed, the extremes how far to trust it.
+/// Timed batches: the median is the speed, the extremes show how far to trust it.
 const BATCHES: usize = 5;
 /// Aimed length of a batch in seconds.
 const BATCH_S: f64 = 0.3;
-/// Length in seconds of a trial that tells how many steps such a batch takes.
+/// Length in seconds of a trial from which the number of steps of such a batch follows.
 const TRIAL_S: f64 = 0.04;
 const MAX_STEPS: u32 = 100_000;
 
@@ -123,7 +123,7 @@ pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// What to measure, and what to draw on: the backend asked for; otherwise the older ways, the processor and the best
+/// Contenders to measure, and the device to draw on: the backend asked for; otherwise the older ways, the processor and the best
 /// adapter, if there is one.
 fn approaches(arguments: &BackendArguments) -> anyhow::Result<(Vec<Approach>, Option<Gpu>)> {
     let gpu_of = |device: &Device| match device {
@@ -207,7 +207,7 @@ fn measure(
     })
 }
 
-/// How many steps fill a batch, by trial.
+/// Number of steps that fill a batch, by trial.
 fn steps_of_a_batch(contender: &mut Contender) -> Result<u32, SimError> {
     let mut count = 1;
     loop {

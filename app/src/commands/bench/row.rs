@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What `windfall bench` reports.
+//! Report of `windfall bench`.
 
 use serde::Serialize;
 
-/// What the machine's memory allows. The names of these fields are the keys of the JSON; they stay.
+/// Bound by the machine's memory. The names of these fields are the keys of the JSON; they stay.
 #[derive(Clone, Debug, Serialize)]
 pub(super) struct Floor {
     /// Bytes per second read and written while all threads change one large array in place.

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! How fast the trees of a scene sway by themselves: no leaves on them, none in the air.
+//! Speed of the trees of a scene by themselves: no leaves on them, none in the air.
 
 use std::time::Instant;
 

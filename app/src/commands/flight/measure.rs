@@ -28,7 +28,7 @@ const HEIGHTS_M: std::ops::RangeInclusive<f32> = 0.8..=50.0;
 pub(super) struct Arguments {
     #[command(flatten)]
     piece: PieceArguments,
-    /// How the piece is held before it is let go.
+    /// Hold of the piece before it is let go.
     #[arg(long, value_name = "HOLD", default_value = "broadside")]
     release: Release,
     /// Height of the release in metres, 0.8 to 50. The first 0.6 m of a drop are not counted.
@@ -57,7 +57,7 @@ fn height(text: &str) -> Result<f32, String> {
     number.ok_or_else(|| format!("allowed: {} to {} m", HEIGHTS_M.start(), HEIGHTS_M.end()))
 }
 
-/// How a piece falls. The names of these fields are the keys of its JSON; they stay.
+/// Report on a falling piece. The names of these fields are the keys of its JSON; they stay.
 #[derive(Clone, Debug, Serialize)]
 struct Report {
     shape: String,

@@ -39,7 +39,7 @@ enum Figure {
 /// Runs the command.
 ///
 /// # Errors
-/// What the command says.
+/// Errors of the command.
 pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
     match &arguments.figure {
         None => measure::run(&arguments.measure),

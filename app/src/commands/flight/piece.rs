@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What is dropped: a kind of leaf, or a flat piece of some outline, size and mass.
+//! Piece that is dropped: a kind of leaf, or a flat piece of some outline, size and mass.
 
 use std::f64::consts::{PI, TAU};
 use std::path::Path;
@@ -15,7 +15,7 @@ use windfall_core::scene::{Aerodynamics, FlightModel, Hold, Planform, Species};
 use super::outline;
 use crate::leaves::species_of_folder;
 
-/// How a piece is held before it is let go.
+/// Hold of a piece before it is let go.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(super) enum Release {
     /// Lying flat.
@@ -45,7 +45,7 @@ impl Release {
     }
 }
 
-/// What to drop.
+/// Options of the piece.
 #[derive(Clone, Debug, Args)]
 pub(super) struct PieceArguments {
     /// Kind of leaf: maple, oak, birch, beech, linden, ginkgo, japanese-maple, hornbeam; or
@@ -65,7 +65,7 @@ pub(super) struct PieceArguments {
     areal_density: Option<f32>,
 }
 
-/// What is dropped.
+/// Species that is dropped.
 #[derive(Clone, Debug)]
 pub(super) struct Piece {
     /// As the command line calls it.
@@ -91,7 +91,7 @@ fn areal_density(text: &str) -> Result<f32, String> {
 }
 
 impl PieceArguments {
-    /// What the options ask for.
+    /// Loads the piece that the options ask for.
     ///
     /// # Errors
     /// Options that are missing, unknown names, outlines that cannot be used, sizes that are not allowed.
@@ -178,7 +178,7 @@ impl Piece {
         self
     }
 
-    /// How its area lies.
+    /// Planform.
     pub(super) fn planform(&self) -> Planform {
         let own = match self.species.flight {
             FlightModel::Aerodynamic(body) => body.planform,

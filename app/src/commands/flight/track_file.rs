@@ -28,7 +28,7 @@ impl TrackFile {
     /// Adds a row.
     ///
     /// # Errors
-    /// What the system says, named with the path.
+    /// Errors of the system, named with the path.
     pub(super) fn add(&mut self, drop: usize, sample: &Sample) -> Result<(), WriteError> {
         self.table.field(drop).field(format_args!("{:.6}", sample.time_s));
         let (position, velocity) = (sample.position_m.to_array(), sample.velocity_m_s.to_array());
@@ -41,7 +41,7 @@ impl TrackFile {
     /// Completes the table under its own name.
     ///
     /// # Errors
-    /// What the system says, named with the path.
+    /// Errors of the system, named with the path.
     pub(super) fn finish(self) -> Result<(), WriteError> {
         self.table.finish()
     }

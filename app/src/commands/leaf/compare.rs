@@ -25,7 +25,7 @@ pub struct Arguments {
     /// lilac, oak_green, oak_autumn, maple_norway, maple_japanese), its levels hold; otherwise those of the photos.
     #[arg(long, value_name = "DIR")]
     photos: PathBuf,
-    /// Tell the outcome as one line of JSON.
+    /// Print the outcome as one line of JSON.
     #[arg(long)]
     json: bool,
     /// Picture to write: photos above, generated leaves below, of equal area.

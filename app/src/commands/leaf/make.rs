@@ -71,7 +71,7 @@ pub struct Arguments {
     /// Write NAME.mesh.ron too: triangles at three levels of detail, and how they curl as the leaf dries.
     #[arg(long)]
     mesh: bool,
-    /// Tell the outcome as one line of JSON.
+    /// Print the outcome as one line of JSON.
     #[arg(long)]
     json: bool,
 }

@@ -10,12 +10,12 @@ pub(crate) mod veins;
 
 use clap::Subcommand;
 
-/// What can be done with leaves.
+/// Commands on leaves.
 #[derive(Clone, Debug, Subcommand)]
 pub enum Command {
     /// Make leaves, from photos or from nothing but the name of a kind, and write them as pictures.
     Make(make::Arguments),
-    /// Tell how far leaves are from photographed ones, in twelve numbers and a verdict.
+    /// Report how far leaves are from photographed ones, in twelve numbers and a verdict.
     Compare(compare::Arguments),
     /// Draw over a photo what is read from it: outline, root, tip and veins.
     Veins(veins::Arguments),
@@ -27,7 +27,7 @@ impl Command {
     /// Runs the command.
     ///
     /// # Errors
-    /// What the command says.
+    /// Errors of the command.
     pub fn run(self) -> anyhow::Result<()> {
         match self {
             Self::Make(arguments) => make::run(&arguments),

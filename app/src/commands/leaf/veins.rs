@@ -21,7 +21,7 @@ pub struct Arguments {
     /// Mask, light where the leaf is [default: PHOTO's NAME.mask.png, its alpha channel or its plain background].
     #[arg(long, value_name = "FILE")]
     mask: Option<PathBuf>,
-    /// Where the petiole meets the blade, in the photo's pixels, if it is not found.
+    /// Point where the petiole meets the blade, in the photo's pixels, if it is not found.
     #[arg(long, value_name = "X,Y", value_parser = point)]
     root: Option<Vec2>,
     /// Picture to write: outline, root (red), tip (blue), main veins (yellow), lateral veins (orange), petiole

@@ -16,7 +16,7 @@ use crate::files::{OutputFile, WriteError};
 use crate::run::cancel::Cancel;
 use crate::run::terminal;
 
-/// How closely the bark follows the wood.
+/// Detail of the bark.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum Detail {
     /// Every twig, for close views.
@@ -42,7 +42,7 @@ pub struct Arguments {
     /// with them.
     #[arg(long)]
     wind_colors: bool,
-    /// Tell the outcome as one line of JSON.
+    /// Print the outcome as one line of JSON.
     #[arg(long)]
     json: bool,
 }

@@ -19,7 +19,7 @@ const BREAST_HEIGHT_M: f32 = 1.3;
 pub struct Arguments {
     #[command(flatten)]
     tree: TreeArguments,
-    /// Tell everything as one line of JSON.
+    /// Print everything as one line of JSON.
     #[arg(long)]
     json: bool,
 }

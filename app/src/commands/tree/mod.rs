@@ -9,12 +9,12 @@ mod source;
 
 use clap::Subcommand;
 
-/// What can be done with trees.
+/// Commands on trees.
 #[derive(Clone, Debug, Subcommand)]
 pub enum Command {
     /// Write a tree as a glTF file: bark that joints move, places of leaves and fruit, wind weights.
     Export(export::Arguments),
-    /// Tell how large a tree is, in numbers.
+    /// Report how large a tree is, in numbers.
     Info(info::Arguments),
     /// Plot how many leaves a tree sheds against the wind, for several times of the year.
     Shedding(shedding::Arguments),
@@ -24,7 +24,7 @@ impl Command {
     /// Runs the command.
     ///
     /// # Errors
-    /// What the command says.
+    /// Errors of the command.
     pub fn run(self) -> anyhow::Result<()> {
         match self {
             Self::Export(arguments) => export::run(&arguments),

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Which tree a command works on.
+//! Tree that a command works on.
 
 use std::path::Path;
 
@@ -41,7 +41,7 @@ pub(super) struct TreeArguments {
 /// A tree that a command works on.
 #[derive(Debug)]
 pub(super) struct GivenTree {
-    /// What the user called it.
+    /// Name that the user gave.
     pub(super) name: String,
     /// The preset that it grew by, if it did.
     pub(super) preset: Option<TreePreset>,

@@ -33,7 +33,7 @@ use crate::run::progress::making_leaves;
 
 /// Bytes of a leaf in a frame, about.
 pub(super) const LEAF_BYTES: u64 = 200;
-/// Name of the layer that tells which attributes have samples.
+/// Name of the layer that lists the attributes with samples.
 const MANIFEST: &str = "manifest.usda";
 /// Name of the layer of what does not move.
 const STAGE: &str = "stage.usda";

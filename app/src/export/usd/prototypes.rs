@@ -68,7 +68,7 @@ pub(super) fn extent_of(points: &[[f32; 3]]) -> [[f32; 3]; 2] {
 pub(super) struct Coat<'a> {
     /// Name of the material; its picture is `NAME.png`.
     pub(super) name: &'a str,
-    /// Whether the picture says what is covered.
+    /// True if the picture's alpha is its coverage.
     pub(super) is_cut_out: bool,
     /// From 0 to 1.
     pub(super) roughness: f32,

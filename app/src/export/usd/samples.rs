@@ -98,7 +98,7 @@ impl Samples {
         attribute.sample(frame);
     }
 
-    /// Whether the layer is full. The frame that filled it has to begin the next one too, so that what is read between
+    /// Returns true if the layer is full. The frame that filled it has to begin the next one too, so that what is read between
     /// two frames never needs two layers.
     pub(super) fn is_full(&self) -> bool {
         self.frames > 1
@@ -179,7 +179,7 @@ mod tests {
 
     use super::*;
 
-    /// What the layers say of ten frames with one value that changes and one that stays for a while.
+    /// Text of the layers of ten frames with one value that changes and one that stays for a while.
     fn layers(limit: usize) -> (tempfile::TempDir, Vec<SampleLayer>) {
         let folder = tempfile::tempdir().expect("a temporary folder");
         let mut samples = Samples::new();

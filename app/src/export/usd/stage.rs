@@ -15,7 +15,7 @@ use crate::export::{FrameRange, Job};
 /// Decimal places of the corners of ground and water in metres.
 const SURFACE_PLACES: i32 = 4;
 
-/// How frames are told as times.
+/// Times of frames.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Clock {
     frames: FrameRange,

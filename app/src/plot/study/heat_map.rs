@@ -21,7 +21,7 @@ const CELLS: (usize, usize) = (48, 32);
 /// Share of drops that may lie beyond the map's edges at each of its four sides.
 const BEYOND: f64 = 0.01;
 
-/// What all maps of a study have in common.
+/// Ranges and scale that all maps of a study share.
 #[derive(Clone, Debug)]
 pub(super) struct Frame {
     along: Range<f64>,
@@ -181,7 +181,7 @@ pub(super) fn short(number: f64) -> String {
     if text == "-0" { "0".into() } else { text.into() }
 }
 
-/// What the colours mean.
+/// Colour bar.
 fn color_bar(area: &Area<'_>, frame: &Frame, height: u32) -> Drawn {
     let unit = UNIT as i32;
     let height = i32::try_from(height)? * unit;

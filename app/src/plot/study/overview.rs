@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! How the numbers of a study change with its first variation: one curve for every combination of the others.
+//! Curves of a study's numbers over its first variation: one for every combination of the others.
 
 use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
@@ -17,7 +17,7 @@ use crate::study::variation::Variation;
 
 /// Size of the picture in pixels.
 pub(super) const SIZE: (u32, u32) = (1800, 1180);
-/// What the panels show of [`Summary::quantities`].
+/// Names and units of the panels, which show [`Summary::quantities`].
 const PANELS: [(&str, &str); 5] = [
     ("time aloft", "s"),
     ("mean descent", "m/s"),
@@ -71,7 +71,7 @@ impl<'a> Axis<'a> {
         low - room..high + room
     }
 
-    /// What stands below a place.
+    /// Label below a place.
     fn name(&self, place: f64) -> String {
         let Some(names) = &self.names else {
             let text = format!("{place:.3}");
@@ -265,7 +265,7 @@ fn motions(area: &Area<'_>, axis: &Axis<'_>, curves: usize, summaries: &[Summary
     Ok(())
 }
 
-/// What the curves are, below the panels.
+/// Legend of the curves, below the panels.
 fn legend(area: &Area<'_>, names: &[String]) -> Drawn {
     let unit = UNIT as i32;
     let style = font(20).pos(Pos::new(HPos::Left, VPos::Center));

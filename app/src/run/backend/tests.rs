@@ -49,7 +49,7 @@ fn both_backends_lend_the_same_columns() {
         let mut backend = device.simulator(&world).expect("six leaves fit");
         for _ in 0..2 {
             backend.step(30).expect("it steps");
-            backend.read_state(&mut now).expect("it tells");
+            backend.read_state(&mut now).expect("readable");
             let columns = backend.columns(&gpu).expect("six leaves fit").leaves;
             assert_eq!(columns.leaf_count, 6, "all leaves");
             let buffers =

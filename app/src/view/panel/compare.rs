@@ -14,7 +14,7 @@ pub(super) fn show(ui: &mut Ui, input: &PanelInput, actions: &mut Vec<Action>) {
         BackendKind::Wgpu => "cpu",
     };
     let mut compares = input.compares;
-    let tip = "Run the other backend beside this one, step by step, and tell how far their leaves are apart";
+    let tip = "Run the other backend beside this one, step by step, and show how far their leaves are apart";
     if ui.checkbox(&mut compares, format!("Compare with {other}")).on_hover_text(tip).changed() {
         actions.push(Action::Compare(compares));
     }

@@ -129,7 +129,7 @@ impl<T: Numeric> Field<'_, T> {
         ui.add(slider.custom_formatter(format).custom_parser(parse))
     }
 
-    /// What the number means, what it may be, and what the loaded scene has if that is something else.
+    /// Meaning of the number, its range, and the loaded scene's value if that is another.
     fn tip(&self, own: Option<T>) -> String {
         let text = |number: T| {
             let number = number.to_f64();

@@ -12,7 +12,7 @@ use crate::view::tools::meter::STAGES;
 
 /// Height in points.
 const HEIGHT: f32 = 64.0;
-/// Colours of the stages, in their order: told apart by lightness as well.
+/// Colours of the stages, in their order: they differ in lightness as well.
 const COLORS: [Color32; STAGES.len()] = [
     Color32::from_rgb(222, 142, 28),
     Color32::from_rgb(126, 84, 162),
@@ -28,8 +28,9 @@ const MARKS_MS: [f32; 2] = [1000.0 / 60.0, 1000.0 / 30.0];
 pub(super) fn show(ui: &mut Ui, frames: &Frames) {
     let (Some(half), Some(nearly_all)) = (frames.quantile_ms(0.5), frames.quantile_ms(0.99)) else { return };
     let (area, response) = ui.allocate_exact_size(vec2(ui.available_width() - 4.0, HEIGHT), Sense::hover());
-    let told = format!("half of the frames take at most {half:.1} ms, 99 of 100 at most {nearly_all:.1} ms");
-    response.widget_info(|| WidgetInfo::labeled(egui::Role::Image, true, format!("Frame times: {told}")));
+    let summary =
+        format!("half of the frames take at most {half:.1} ms, 99 of 100 at most {nearly_all:.1} ms");
+    response.widget_info(|| WidgetInfo::labeled(egui::Role::Image, true, format!("Frame times: {summary}")));
     let painter = ui.painter_at(area);
     painter.rect_filled(area, CornerRadius::same(3), ui.visuals().extreme_bg_color);
     let end = ENDS_MS.into_iter().find(|end| *end >= 1.1 * nearly_all).unwrap_or(ENDS_MS[ENDS_MS.len() - 1]);
@@ -56,8 +57,9 @@ pub(super) fn show(ui: &mut Ui, frames: &Frames) {
     let font = FontId::proportional(10.0);
     let corner = area.left_top() + vec2(4.0, 2.0);
     painter.text(corner, Align2::LEFT_TOP, format!("{end:.0} ms"), font, style::QUIET);
-    response
-        .on_hover_text(format!("The last {MEMORY} frames: {told}. Lines lie at 60 and 30 frames a second."));
+    response.on_hover_text(format!(
+        "The last {MEMORY} frames: {summary}. Lines lie at 60 and 30 frames a second."
+    ));
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 4.0;
         for (name, color) in STAGES.into_iter().zip(COLORS) {

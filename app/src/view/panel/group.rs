@@ -17,11 +17,11 @@ pub(crate) enum Group {
     Scene,
     /// Scenes that travel in the program.
     Presets,
-    /// How many leaves, how fast.
+    /// Number of leaves, and their speeds.
     Leaves,
     /// Kinds of leaves.
     Species,
-    /// Where leaves are let go.
+    /// Sources that let leaves go.
     Sources,
     /// The wind.
     Wind,
@@ -41,7 +41,7 @@ pub(crate) enum Group {
     Simulation,
     /// Leaves by what they do.
     Counts,
-    /// How long a frame takes.
+    /// Times of a frame.
     Timings,
 }
 
@@ -86,7 +86,7 @@ impl Group {
         }
     }
 
-    /// Whether it is open when nobody says otherwise: what fits a small window.
+    /// Returns true if it is open by default: those that fit a small window.
     fn is_open_at_first(self) -> bool {
         matches!(self, Self::Leaves | Self::Wind | Self::Counts | Self::Timings)
     }

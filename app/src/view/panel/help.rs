@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What the keys do, over the picture.
+//! Help on the keys, over the picture.
 
 use egui::{Area, Frame, Grid, Id, Margin, Order, Rect, RichText, Ui};
 

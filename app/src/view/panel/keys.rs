@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What the keys do, in the window and in words.
+//! Keys: their actions, and help on them.
 
 use egui::{Event, Key, Modifiers};
 
 use crate::view::panel::action::Action;
 
-/// What keys and mouse do, group by group, for the user.
+/// Help on keys and mouse, group by group.
 pub(crate) const HELP: [(&str, &[(&str, &str)]); 4] = [
     (
         "Look",
@@ -45,7 +45,7 @@ pub(crate) const HELP: [(&str, &[(&str, &str)]); 4] = [
     ),
 ];
 
-/// Where the keys held down fly to: right, up, ahead, each -1 to 1 times the speed.
+/// Flight of the camera by the keys held down: right, up, ahead, each -1 to 1 times the speed.
 pub(crate) fn flight(context: &egui::Context) -> [f32; 3] {
     if context.egui_wants_keyboard_input() {
         return [0.0; 3];
@@ -60,10 +60,10 @@ pub(crate) fn flight(context: &egui::Context) -> [f32; 3] {
     })
 }
 
-/// How much faster Shift flies.
+/// Factor by which Shift flies faster.
 const FAST: f32 = 5.0;
 
-/// What the keys pressed since the last frame ask for.
+/// Actions of the keys pressed since the last frame.
 pub(crate) fn actions(context: &egui::Context, is_paused: bool) -> Vec<Action> {
     // A text has an undo of its own.
     let (is_busy, is_typing) = (context.egui_wants_keyboard_input(), context.text_edit_focused());

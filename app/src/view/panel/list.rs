@@ -14,7 +14,7 @@ const MENU_WIDTH: f32 = 134.0;
 /// A list as it is called, and how long it may be.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct List<'a> {
-    /// What the row is called.
+    /// Label of the row.
     pub(super) name: &'a str,
     /// One entry in words: "species", "tree".
     pub(super) entry: &'a str,
@@ -69,7 +69,7 @@ impl List<'_> {
     }
 }
 
-/// Where the number of the chosen entry is kept: the same list of two entries of another list has two places.
+/// Key of the number of the chosen entry: the same list of two entries of another list has two.
 fn place(ui: &Ui, name: impl Hash + std::fmt::Debug) -> Id {
     ui.scope_id().with(("list", format!("{name:?}")))
 }

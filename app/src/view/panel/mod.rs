@@ -60,18 +60,18 @@ const WIDTH: f32 = 336.0;
 /// The panel and the picture beside it.
 #[derive(Debug)]
 pub(super) struct Panel {
-    /// Whether it is shown.
+    /// True if it is shown.
     pub(super) is_open: bool,
     /// The picture on the screen in points.
     picture: Rect,
-    /// Whether what the keys do is shown.
+    /// True if the help on the keys is shown.
     is_helping: bool,
-    /// Where the scene is to be saved.
+    /// Path that the scene is saved to.
     pub(super) file: SceneFile,
     draft: Draft,
     /// The groups to open in the first frame.
     open: Vec<Group>,
-    /// What the keyboard acts on.
+    /// Control that the keyboard acts on.
     focused: Option<Id>,
     /// Left edge of the picture in pixels.
     picture_left: u32,
@@ -198,10 +198,10 @@ impl Panel {
         groups.show(ui, Group::Counts, false, |ui| numbers::counts(ui, input));
         groups.show(ui, Group::Timings, false, |ui| numbers::timings(ui, input));
         ui.add_space(5.0);
-        ui.label(RichText::new("F1 or ? tells what the keys do.").small().color(style::QUIET));
+        ui.label(RichText::new("F1 or ? shows what the keys do.").small().color(style::QUIET));
     }
 
-    /// What falls, from where, through which wind, onto what.
+    /// Groups of what falls: leaves, sources, wind, trees, ground.
     fn scene_groups(
         &mut self,
         ui: &mut Ui,
@@ -236,7 +236,7 @@ impl Panel {
         groups.show(ui, Group::Ground, differs, |ui| ground::show(ui, &mut scene.ground, &own.ground));
     }
 
-    /// How it is looked at.
+    /// Groups of the picture: sky, camera, lens.
     fn view_groups(&mut self, ui: &mut Ui, groups: &Groups<'_>, input: &PanelInput, camera: &mut Camera) {
         let (scene, own) = (&mut self.draft.scene, &*input.loaded);
         let (view, was) = (&mut scene.view, &own.view);

@@ -45,7 +45,7 @@ fn transitions(ui: &mut Ui, table: &mut TransitionTable) {
     });
 }
 
-/// What follows from size and mass unless it is stated.
+/// Numbers that follow from size and mass unless they are stated.
 #[expect(clippy::cast_possible_truncation, reason = "scenes are in single precision")]
 fn numbers(ui: &mut Ui, species: &mut Species, own: Option<&Species>) {
     let used = MotionConstants::of(species);

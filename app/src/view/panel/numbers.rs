@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What can only be read: backend, counts, times.
+//! Numbers that can only be read: backend, counts, times.
 
 use egui::{Grid, Label, RichText, Ui};
 use windfall_core::Contract;
@@ -21,7 +21,7 @@ const MOTIONS: [&str; 6] = [
     "periodic spiraling: a helix",
 ];
 
-/// What bodies in the air do, in the order of the regimes.
+/// Names of what bodies in the air do, in the order of the regimes.
 const REGIMES: [&str; 6] = [
     "bodies that come down steadily",
     "bodies that swing from side to side",
@@ -31,7 +31,7 @@ const REGIMES: [&str; 6] = [
     "bodies that wind down",
 ];
 
-/// Where it simulates, and on what.
+/// Backend and adapter.
 pub(super) fn backend(ui: &mut Ui, input: &PanelInput, actions: &mut Vec<Action>) {
     ui.horizontal(|ui| {
         for (kind, text, tip) in [
@@ -112,7 +112,7 @@ pub(super) fn timings(ui: &mut Ui, input: &PanelInput) {
         stages(left, "processor", &input.cpu_ms, "What the program's own thread does in a frame");
         if input.gpu_ms.is_empty() {
             let text = RichText::new("device: no timestamps").small().color(style::QUIET);
-            right.add(Label::new(text)).on_hover_text("This adapter does not tell how long its work takes");
+            right.add(Label::new(text)).on_hover_text("This adapter does not report how long its work takes");
         } else {
             stages(
                 right,

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What is drawn over the picture: the legend of colours, the leaf that is followed, arrows of the wind.
+//! Drawing over the picture: the legend of colours, the leaf that is followed, arrows of the wind.
 
 use egui::{
     Align2, Area, Color32, CornerRadius, FontId, Grid, Id, Label, Painter, Rect, RichText, Shape, Stroke, Ui,
@@ -150,7 +150,7 @@ fn motion_legend(ui: &Ui, corner: egui::Pos2) -> Rect {
     .rect
 }
 
-/// What is known of the leaf that is followed.
+/// Card of the leaf that is followed.
 fn card(ui: &Ui, input: &PanelInput, corner: egui::Pos2) {
     let Some(card) = &input.card else { return };
     let area = Area::new(Id::unique("card")).pivot(Align2::RIGHT_TOP).fixed_pos(corner).interactable(false);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What to look at besides the picture: colours, trails, landings, wind.
+//! Switches of the overlays: colours, trails, landings, wind.
 
 use egui::{CollapsingHeader, RichText, Ui};
 use windfall_core::scene::limits::Limit;
@@ -47,7 +47,7 @@ pub(super) fn show(ui: &mut Ui, input: &PanelInput, actions: &mut Vec<Action>) {
     });
 }
 
-/// What leaves are coloured by, and up to where.
+/// Measure that leaves are coloured by, and the end of its scale.
 fn colors(ui: &mut Ui, overlays: &mut Overlays) {
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 3.0;

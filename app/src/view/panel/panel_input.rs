@@ -21,7 +21,7 @@ pub(crate) struct PanelInput {
     /// The scene that runs, and what it was when it was loaded.
     pub(crate) scene: Arc<Scene>,
     pub(crate) loaded: Arc<Scene>,
-    /// Whether something is about to be built anew.
+    /// True if something is about to be built anew.
     pub(crate) is_building: bool,
     /// Numbers of edits that can be undone and redone.
     pub(crate) history: (usize, usize),
@@ -34,7 +34,7 @@ pub(crate) struct PanelInput {
     pub(crate) clock: Clock,
     pub(crate) timeline: Timeline,
     pub(crate) stats: Stats,
-    /// Whether any leaves are synthesised, and whether any fly as bodies.
+    /// True if any leaves are synthesised, and if any fly as bodies.
     pub(crate) has_motions: bool,
     pub(crate) has_regimes: bool,
     pub(crate) overlays: Overlays,
@@ -52,12 +52,12 @@ pub(crate) struct PanelInput {
     pub(crate) leaf_range: RangeInclusive<u32>,
     pub(crate) fps: f32,
     pub(crate) frames: Frames,
-    /// Whether the other backend runs as well, and how far it is apart.
+    /// True if the other backend runs as well, and their difference.
     pub(crate) compares: bool,
     pub(crate) difference: Option<Difference>,
     /// Milliseconds on the processor.
     pub(crate) cpu_ms: Vec<(&'static str, f32)>,
-    /// Milliseconds on the device; empty where it cannot tell.
+    /// Milliseconds on the device; empty where it has no timestamps.
     pub(crate) gpu_ms: Vec<(&'static str, f32)>,
     /// Direction the camera looks in, in degrees from +x turning to +z.
     pub(crate) look_deg: f32,

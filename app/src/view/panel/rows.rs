@@ -41,7 +41,7 @@ pub(super) fn row(ui: &mut Ui, name: &str, tip: &str, control: impl FnOnce(&mut 
     .inner
 }
 
-/// How a slider divides its range.
+/// Scale of a slider.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Scale {
     Linear,

@@ -10,10 +10,10 @@ use windfall_core::Scene;
 use super::words::text;
 use super::{Action, PanelInput, style};
 
-/// Where the scene is to be saved.
+/// Path that the scene is saved to.
 #[derive(Debug, Default)]
 pub(crate) struct SceneFile {
-    /// What stands in the field.
+    /// Text in the field.
     path: String,
     /// Files that were loaded or saved here, which may be written over without asking.
     known: Vec<PathBuf>,
@@ -52,13 +52,13 @@ impl SceneFile {
         Some(Action::SaveTo(path))
     }
 
-    /// What stands in the field.
+    /// Text in the field.
     #[cfg(test)]
     pub(super) fn path(&self) -> &str {
         &self.path
     }
 
-    /// Whether there is a question that has to be answered.
+    /// Returns true if there is a question that has to be answered.
     pub(super) fn is_asking(&self) -> bool {
         self.asked.is_some()
     }

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! How it is simulated: seed, step length, where.
+//! Simulation: seed, step length, backend.
 
 use egui::Ui;
 use windfall_core::Scene;

@@ -103,7 +103,7 @@ fn release(ui: &mut Ui, source: &mut Source, own: Option<&Source>) {
     }
 }
 
-/// Which species its leaves are of; all alike when there are no shares.
+/// Shares of species among its leaves; all alike when there are none.
 fn shares(ui: &mut Ui, source: &mut Source, own: Option<&Source>, names: &[String]) {
     let list = List { name: "Shares", entry: "share of a species", fewest: 0, most: names.len() };
     let fresh = |_: Option<&Share>, all: &[Share]| {

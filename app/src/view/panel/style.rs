@@ -14,9 +14,9 @@ pub(super) const TEXT: Color32 = Color32::from_rgb(226, 219, 208);
 pub(super) const WARNING: Color32 = Color32::from_rgb(255, 140, 90);
 /// Something was done.
 pub(super) const GOOD: Color32 = Color32::from_rgb(165, 205, 120);
-/// What is chosen or filled.
+/// Colour of what is chosen or filled.
 pub(super) const ACCENT: Color32 = Color32::from_rgb(196, 98, 32);
-/// What is not filled yet.
+/// Colour of what is not filled yet.
 pub(super) const GROOVE: Color32 = Color32::from_rgb(58, 52, 46);
 const BARK: Color32 = Color32::from_rgb(27, 24, 21);
 

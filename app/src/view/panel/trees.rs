@@ -66,7 +66,7 @@ fn tree(ui: &mut Ui, scene: &mut Scene, own: &Scene) {
     leaves.show(ui, &mut tree.leaves, own.map(|own| own.leaves));
 }
 
-/// What trees may be called: the scene's own kinds, and those in the program.
+/// Names of kinds of trees: the scene's own, and those in the program.
 fn kinds(scene: &Scene) -> Vec<String> {
     let mut names: Vec<String> = scene.tree_kinds.iter().map(|kind| kind.name.clone()).collect();
     for preset in TreePreset::ALL {

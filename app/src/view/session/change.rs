@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What another scene asks of what is running: nothing, other numbers, or that something is made anew.
+//! Changes from one scene to another: nothing, other numbers, or something that is built anew.
 
 use windfall_core::Scene;
 use windfall_core::scene::{Ground, Share, SourceShape, Species, View};
 use windfall_render::RendererOptions;
 
-/// What has to follow when one scene takes the place of another.
+/// Changes that follow when one scene takes the place of another.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Change {
     /// The simulator goes on with other numbers.
@@ -26,7 +26,7 @@ pub(crate) struct Change {
 }
 
 impl Change {
-    /// What it takes to get from one scene to another.
+    /// Changes that lead from one scene to another.
     pub(crate) fn between(old: &Scene, new: &Scene) -> Self {
         let mut change = Self::default();
         // Every field is named, so that a new one has to be sorted in.
@@ -75,12 +75,12 @@ impl Change {
         change
     }
 
-    /// Whether it is so quick that it can follow a slider that is being dragged.
+    /// Returns true if it is quick enough to follow a slider that is being dragged.
     pub(crate) fn is_live(&self) -> bool {
         !self.world && !self.picture
     }
 
-    /// What the user is told afterwards, if there is something to tell.
+    /// Message to the user afterwards, if there is any.
     pub(crate) fn message(&self) -> Option<String> {
         let parts = self.parts.join(", ");
         match (self.world, self.picture) {
@@ -117,7 +117,7 @@ impl Change {
     }
 }
 
-/// What of species the renderer knows.
+/// Fields of species that the renderer uses.
 fn looks(species: &[Species]) -> Vec<Species> {
     let look = |species: &Species| Species {
         name: species.name.clone(),

@@ -10,14 +10,14 @@ use windfall_core::{SimError, Simulator, World};
 use super::Session;
 use crate::run::backend::{Backend, BackendKind};
 
-/// Time between two looks at the difference: it waits for both backends.
+/// Time between two readings of the difference: it waits for both backends.
 const LOOK_EVERY: Duration = Duration::from_millis(400);
 
-/// How far two backends are apart at a step.
+/// Difference of two backends at a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Difference {
     pub(crate) step: u32,
-    /// Whether every bit of the state is the same.
+    /// True if every bit of the state is the same.
     pub(crate) is_equal: bool,
     /// Largest distance in metres between two leaves of the same slot.
     pub(crate) farthest_m: f32,
@@ -55,7 +55,7 @@ impl Session {
         Ok(())
     }
 
-    /// Whether both backends run.
+    /// Returns true if both backends run.
     pub(crate) fn is_comparing(&self) -> bool {
         self.twin.is_some()
     }
@@ -97,7 +97,7 @@ impl Session {
     }
 }
 
-/// How far two worlds of as many leaves are apart.
+/// Compares two worlds of as many leaves.
 fn difference(mine: &World, other: &World) -> Difference {
     let pairs = || mine.leaves.place.iter().zip(&other.leaves.place);
     // Leaves that wait are nowhere.

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What is kept of the past, so that any step of it can be reached again to the bit.
+//! Kept moments of the past, so that any step of it can be reached again to the bit.
 //!
 //! Some moments are kept whole, and every change of wind and speeds with its step. A step in between is reached from the
 //! moment before it, by taking the same steps under the same changes. What is kept thins out with its distance from the
@@ -98,12 +98,12 @@ impl History {
         self.moments.range(..=step).next_back().map(|(at, _)| *at)
     }
 
-    /// What holds at `step`.
+    /// Environment at `step`.
     pub(crate) fn environment(&self, step: u32) -> Option<&Environment> {
         self.changes.range(..=step).next_back().map(|(_, environment)| environment)
     }
 
-    /// Whether something changes at this very step.
+    /// Returns true if something changes at this very step.
     pub(crate) fn changes_at(&self, step: u32) -> bool {
         self.changes.contains_key(&step)
     }
@@ -114,7 +114,7 @@ impl History {
     }
 }
 
-/// Which of `steps`, in ascending order, to give up so that `most` remain. The first and the one nearest to `now` stay; of the
+/// Chooses those of `steps`, in ascending order, to give up so that `most` remain. The first and the one nearest to `now` stay; of the
 /// others those go whose absence leaves the smallest gap for their distance from `now`.
 fn superfluous(steps: &[u32], most: usize, now: u32) -> Vec<u32> {
     let mut left = steps.to_vec();

@@ -28,7 +28,7 @@ pub(crate) use compare::Difference;
 use compare::Twin;
 pub(crate) use seek::Timeline;
 
-/// What a step is taken to cost before it is known, in seconds: a few steps in the first frames.
+/// Assumed cost of a step before it is known, in seconds: a few steps in the first frames.
 const UNKNOWN_STEP_S: f64 = 0.015;
 /// Bytes of one record in one column.
 const RECORD_BYTES: u64 = 16;
@@ -39,7 +39,7 @@ pub(crate) struct Session {
     pub(crate) pace: Pace,
     /// The scene with what the user has changed.
     scene: Arc<Scene>,
-    /// What `scene` compiles to.
+    /// The compiled `scene`.
     environment: Environment,
     gpu: Gpu,
     threads: Option<usize>,
@@ -49,7 +49,7 @@ pub(crate) struct Session {
     history: History,
     /// Step that is to be reached before time goes on.
     target: Option<u32>,
-    /// When a moment was last kept, and how long that took.
+    /// Time at which a moment was last kept, and the time that keeping took.
     kept: Option<(Instant, Duration)>,
     stats: Stats,
     counted: Option<Instant>,
@@ -138,7 +138,7 @@ impl Session {
         Ok(())
     }
 
-    /// Milliseconds that the device last spent on the steps of a frame; empty where it cannot tell or does not simulate.
+    /// Milliseconds that the device last spent on the steps of a frame; empty where it has no timestamps or does not simulate.
     pub(crate) fn device_ms(&mut self) -> Vec<(&'static str, f32)> {
         match (&self.backend, &mut self.timer) {
             (Backend::Wgpu(_), Some(timer)) => {
@@ -250,7 +250,7 @@ impl Session {
         }
     }
 
-    /// Where it simulates.
+    /// Backend that simulates.
     pub(crate) fn kind(&self) -> BackendKind {
         match self.backend {
             Backend::Cpu(_) => BackendKind::Cpu,

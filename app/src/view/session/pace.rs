@@ -8,19 +8,19 @@ const MAX_STEPS: u32 = 32;
 const BUDGET_S: f64 = 0.06;
 /// Longest time between two frames that counts, in seconds: after a pause of the whole program time does not jump.
 const MAX_FRAME_S: f64 = 0.5;
-/// Longest such time that counts for telling how well it keeps up.
+/// Longest such time that counts for the pace that is kept.
 const MAX_ABSENCE_S: f64 = 2.0;
 /// Time in seconds over which the pace is averaged.
 const MEMORY_S: f64 = 1.5;
-/// Below this part of the pace asked for, the user is told.
+/// Below this part of the pace asked for, the panel says so.
 const BEHIND: f64 = 0.93;
 
-/// How fast simulated time goes.
+/// Pace of simulated time.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Pace {
     /// Simulated seconds in each second.
     pub(crate) time_scale: f32,
-    /// Whether time stands still.
+    /// True if time stands still.
     pub(crate) is_paused: bool,
     owed_s: f64,
     asked_s: f64,

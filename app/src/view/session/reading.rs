@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What can be read of a scene that goes on.
+//! Reading the state of a running scene.
 
 use std::time::{Duration, Instant};
 
@@ -36,7 +36,7 @@ impl Session {
         Ok(world)
     }
 
-    /// What the scene compiles to, as it is now.
+    /// The compiled scene, as it is now.
     pub(crate) fn environment(&self) -> &Environment {
         &self.environment
     }

@@ -14,7 +14,7 @@ const BUDGET_S: f64 = 0.04;
 /// Keeping a moment may take one part in so many of the time between two.
 const KEEPING_SHARE: u32 = 20;
 
-/// How far time goes back, and where it is going.
+/// Range of steps that can be reached, and the step that is sought.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Timeline {
     /// First and latest step that can be reached.
@@ -42,7 +42,7 @@ impl Session {
         self.target = None;
     }
 
-    /// Whether time is on its way to some step.
+    /// Returns true while a step is being sought.
     pub(crate) fn is_seeking(&self) -> bool {
         self.target.is_some()
     }
@@ -122,7 +122,7 @@ impl Session {
         self.environment = environment;
     }
 
-    /// What a bar of time shows.
+    /// State of the time bar.
     pub(crate) fn timeline(&self) -> Timeline {
         let kept = self.history.kept().collect();
         Timeline { range: self.history.range(), target: self.target, kept }

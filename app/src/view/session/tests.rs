@@ -17,7 +17,7 @@ fn session(kind: BackendKind) -> Session {
 }
 
 fn hash(session: &mut Session) -> u64 {
-    session.world().expect("the device tells").state_hash()
+    session.world().expect("readable").state_hash()
 }
 
 /// The session's scene in a stronger wind, with leaves that fall faster.
@@ -159,13 +159,13 @@ fn both_backends_stay_together_through_everything() {
     go_to(&mut session, 12);
     session.switch(BackendKind::Wgpu).expect("the device takes it");
     session.step(20).expect("it steps");
-    let found = session.difference().expect("both tell").expect("they are compared");
+    let found = session.difference().expect("both are readable").expect("they are compared");
     assert_eq!((found.step, found.is_equal), (32, true), "the same bits: {found:?}");
-    // What one backend alone is told, the other does not know.
+    // What one backend alone is changed by, the other does not know.
     session.twin = None;
     session.set_comparing(true).expect("the processor takes it");
     session.backend.step(1).expect("it steps");
-    let found = session.difference().expect("both tell").expect("they are compared");
+    let found = session.difference().expect("both are readable").expect("they are compared");
     assert!(!found.is_equal && found.farthest_m > 0.0, "a step apart: {found:?}");
     session.set_comparing(false).expect("nothing to do");
     assert_eq!(session.difference().expect("nothing to ask"), None, "no longer compared");

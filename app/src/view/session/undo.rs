@@ -7,7 +7,7 @@ use std::collections::VecDeque;
 /// Most steps that can be undone.
 const MOST: usize = 200;
 
-/// What can be gone back to, and forward again.
+/// Documents to undo and redo to.
 #[derive(Clone, Debug)]
 pub(crate) struct Undo<T> {
     past: VecDeque<T>,
@@ -133,7 +133,7 @@ mod tests {
     fn a_step_that_is_refused_stays() {
         let mut history = Undo::default();
         history.record(7, 1);
-        assert_eq!(history.undo(8, |_| Err("refused")), Err("refused"), "told");
+        assert_eq!(history.undo(8, |_| Err("refused")), Err("refused"), "the error comes back");
         assert_eq!(history.depths(), (1, 0), "as before");
         for gesture in 0..500 {
             history.record(7, 10 + gesture);

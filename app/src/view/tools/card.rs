@@ -122,7 +122,7 @@ mod tests {
     }
 
     #[test]
-    fn synthesised_leaves_tell_their_feature() {
+    fn synthesised_leaves_have_their_feature() {
         let falling: Vec<Card> = cards("autumn-park")
             .into_iter()
             .filter(|card| row(card, "state").is_some_and(|text| text.starts_with("falls")))
@@ -136,7 +136,7 @@ mod tests {
     }
 
     #[test]
-    fn bodies_tell_what_the_air_does() {
+    fn bodies_show_what_the_air_does() {
         let falling: Vec<Card> = cards("flight-lab")
             .into_iter()
             .filter(|card| row(card, "state").is_some_and(|text| text.starts_with("falls")))

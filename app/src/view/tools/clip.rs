@@ -15,10 +15,10 @@ use crate::run::frame_steps::FrameSteps;
 /// Frames in each second of the clip.
 pub(crate) const FPS: f64 = 60.0;
 
-/// What the panel knows of recording.
+/// State of recording.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) struct ClipStatus {
-    /// Where the clip will lie.
+    /// Path that the clip will lie at.
     pub(crate) path: String,
     /// Frames so far, while one is being made.
     pub(crate) frames: Option<u32>,
@@ -28,7 +28,7 @@ pub(crate) struct ClipStatus {
 #[derive(Debug)]
 pub(crate) struct Recording {
     writer: Writer,
-    /// What its pictures are drawn into.
+    /// Target of its pictures.
     pub(crate) target: PictureTarget,
     /// Width and height in pixels.
     pub(crate) size: (u32, u32),
@@ -74,7 +74,7 @@ impl Recording {
         self.frames
     }
 
-    /// Whether its pictures fit into one of `size` pixels.
+    /// Returns true if its pictures fit into one of `size` pixels.
     pub(crate) fn fits(&self, (width, height): (u32, u32)) -> bool {
         self.size.0 <= width && self.size.1 <= height
     }
@@ -89,10 +89,10 @@ impl Recording {
         Ok(())
     }
 
-    /// Completes the clip and tells where it lies.
+    /// Completes the clip and returns its path.
     ///
     /// # Errors
-    /// What the system says; no frame yet.
+    /// Errors of the system; no frame yet.
     pub(crate) fn finish(self) -> anyhow::Result<PathBuf> {
         Ok(self.writer.finish()?)
     }

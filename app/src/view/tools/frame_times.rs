@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! How long the latest frames took, each with its parts.
+//! Times of the latest frames, each with its parts.
 
 use std::collections::VecDeque;
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! How long the parts of a frame take, averaged so that the numbers can be read.
+//! Times of the parts of a frame, averaged so that the numbers can be read.
 
 use std::time::{Duration, Instant};
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What is shown beside the picture itself: instruments, all off at first.
+//! Overlays over the picture, all off at first.
 
 use clap::ValueEnum;
 use windfall_render::{Measure, Paint};
@@ -8,7 +8,7 @@ use windfall_render::{Measure, Paint};
 /// Height of the wind's slice at first, in metres.
 const WIND_HEIGHT_M: f32 = 2.0;
 
-/// Something to look at.
+/// An overlay or instrument.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Show {
     /// Leaves coloured by motion or regime.
@@ -19,7 +19,7 @@ pub(crate) enum Show {
     Age,
     /// Leaves coloured by height.
     Height,
-    /// How many leaves lie where.
+    /// Numbers of leaves on the ground by place.
     Landings,
     /// Arrows of the wind in a level slice.
     Wind,
@@ -31,10 +31,10 @@ pub(crate) enum Show {
     Compare,
 }
 
-/// What is looked at, and on what scale.
+/// Overlays that are shown, and their scales.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Overlays {
-    /// What leaves are coloured by.
+    /// Measure that leaves are coloured by.
     pub(crate) measure: Option<Measure>,
     /// Speed in m/s, age in s and height in m at the end of the colours.
     pub(crate) most: [f32; 3],
@@ -59,7 +59,7 @@ impl Default for Overlays {
 }
 
 impl Overlays {
-    /// The same with something more to look at.
+    /// The same with one more overlay.
     pub(crate) fn with(mut self, show: Show) -> Self {
         match show {
             Show::Motion => self.measure = Some(Measure::Motion),
@@ -84,7 +84,7 @@ impl Overlays {
         }
     }
 
-    /// How leaves are to be painted.
+    /// Paint of the leaves.
     pub(crate) fn paint(&self) -> Option<Paint> {
         let paint =
             |measure| Paint { measure, most: Self::scale_of(measure).map_or(1.0, |index| self.most[index]) };

@@ -9,10 +9,10 @@ use windfall_render::camera::Camera;
 
 /// Farthest from a click that a leaf is meant, in points.
 pub(crate) const REACH: f32 = 16.0;
-/// What a leaf one metre farther away than another has to be nearer to the click to be preferred, relative to its distance.
+/// Distance from the click that a leaf one metre farther away must be nearer by to be preferred, relative to its distance.
 const DEPTH_WEIGHT: f32 = 12.0;
 
-/// How the camera lays the world on the screen.
+/// Projection of the world onto the screen.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Projection {
     matrix: Mat4,
@@ -26,7 +26,7 @@ impl Projection {
         Self { matrix: camera.fitted(aspect).view_projection(aspect), picture }
     }
 
-    /// Where a place in metres lies on the screen; `None` behind the camera.
+    /// Projects a place in metres onto the screen; `None` behind the camera.
     pub(crate) fn place(&self, world: Vec3) -> Option<Pos2> {
         let clip = self.matrix * world.extend(1.0);
         // The near plane is at w of a few centimetres.

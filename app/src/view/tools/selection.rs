@@ -9,7 +9,7 @@ use crate::view::tools::probe::LeafAt;
 /// Most places of a track; of a longer one every other is dropped.
 const MOST_PLACES: usize = 2048;
 
-/// Where a leaf has been, step by step.
+/// Track of a leaf, step by step.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Track {
     places: Vec<(u32, Vec3)>,

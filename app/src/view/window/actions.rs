@@ -75,7 +75,7 @@ impl Viewer {
         Ok(())
     }
 
-    /// Does something that may be refused, which the user is told; only a lost device ends the program.
+    /// Does something that may be refused, with a message to the user; only a lost device ends the program.
     fn try_it(&mut self, work: impl FnOnce(&mut Self) -> anyhow::Result<()>) -> anyhow::Result<()> {
         match work(self) {
             Ok(()) => Ok(()),
@@ -93,7 +93,7 @@ impl Viewer {
         self.message = Some((Message { text, is_error }, Instant::now()));
     }
 
-    /// What the panel shows.
+    /// Collects the input of the panel.
     ///
     /// # Errors
     /// A lost device.

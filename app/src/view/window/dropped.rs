@@ -11,7 +11,7 @@ use windfall_core::scene::{Foliage, Sky, SkyMap, Tree, TreeForm, TreeKind, limit
 
 use crate::view::panel::free_name;
 
-/// What becomes of a file.
+/// Outcome of dropping a file.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Dropped {
     /// It is a scene of its own.
@@ -20,7 +20,7 @@ pub(crate) enum Dropped {
     Edit(Box<Scene>),
 }
 
-/// What to do with a file that is dropped on `scene`; a tree is planted at `place_m`.
+/// Opens a file that is dropped on `scene`, or adds it to the scene; a tree is planted at `place_m`.
 ///
 /// # Errors
 /// A file that is nothing of what the window knows.

@@ -139,12 +139,12 @@ impl Viewer {
         Ok(())
     }
 
-    /// What there is to come back to.
+    /// The document as it is, to come back to.
     fn document(&self) -> Document {
         Document { scene: Arc::clone(self.session.scene()), loaded: Arc::clone(&self.loaded) }
     }
 
-    /// Looks at another scene as it wants to be looked at.
+    /// Moves the camera to where the scene has it.
     fn look_anew(&mut self) {
         self.camera = Camera::from(&self.session.scene().view.camera);
         self.follows_path = true;

@@ -27,7 +27,7 @@ const DEFAULT_SIZE: (u32, u32) = (1280, 720);
 /// Smallest size in points that leaves room for the panel and a picture.
 const SMALLEST_SIZE: (u32, u32) = (480, 360);
 
-/// What to look at, and how.
+/// Scene and options of the window.
 #[derive(Clone, Debug)]
 pub(crate) struct Options {
     /// The scene.
@@ -36,11 +36,11 @@ pub(crate) struct Options {
     pub name: String,
     /// The groups of the panel to begin with, all others closed; the usual ones if there are none.
     pub open: Vec<Group>,
-    /// Where to simulate.
+    /// Backend that simulates.
     pub backend: BackendArguments,
     /// Size of the window in pixels.
     pub size: Option<(u32, u32)>,
-    /// What to show beside the scene from the beginning.
+    /// Instruments that are shown from the beginning.
     pub show: Vec<Show>,
     /// A picture of the window to be saved after so many seconds; then the program ends.
     pub screenshot: Option<(PathBuf, f64)>,
@@ -68,7 +68,7 @@ pub(crate) fn run(options: Options) -> anyhow::Result<()> {
 
 fn no_display(error: &dyn std::fmt::Display) -> anyhow::Error {
     let error = error.to_string();
-    // The window library tells first where in its own source the trouble was.
+    // The window library names first the place in its own source where the trouble was.
     let reason = match error.split_once(".rs:") {
         Some((_, place_and_reason)) => {
             place_and_reason.trim_start_matches(|c: char| c.is_ascii_digit() || c == ':')
@@ -79,7 +79,7 @@ fn no_display(error: &dyn std::fmt::Display) -> anyhow::Error {
     anyhow!("no window can be opened: {reason}; `windfall render` draws pictures and clips without one")
 }
 
-/// What the window is called while it shows a scene of this name.
+/// Title of the window while it shows a scene of this name.
 pub(crate) fn title(scene: &str) -> String {
     format!("Windfall \u{2013} {scene}")
 }

@@ -18,12 +18,12 @@ pub(crate) struct Gui {
     renderer: egui_wgpu::Renderer,
 }
 
-/// What a pass of the panel's code came to.
+/// Outcome of a pass of the panel's code.
 pub(crate) struct Painting {
     primitives: Vec<egui::ClippedPrimitive>,
     pixels_per_point: f32,
     freed: Vec<egui::TextureId>,
-    /// When the panel wants to be drawn again.
+    /// Time until the panel wants to be drawn again.
     pub(crate) again_after: Duration,
 }
 

@@ -23,13 +23,13 @@ const ARROW_MOST: (f32, f32) = (2.0, 1.0);
 /// Frames before a leaf is picked that was asked for on the command line.
 const FRAMES_BEFORE_PICK: u32 = 2;
 
-/// What is looked at, and through what.
+/// Overlays, and the leaf that is followed.
 #[derive(Debug)]
 pub(super) struct Instruments {
     pub(super) overlays: Overlays,
     probe: Probe,
     selection: Option<Selection>,
-    /// What was asked for when the window opened, until it is shown.
+    /// Instruments of the command line, until they are shown.
     asked: Vec<Show>,
     frames: u32,
 }
@@ -65,19 +65,19 @@ impl Instruments {
 }
 
 impl Viewer {
-    /// Before a frame: takes what the device has told about the leaf that is followed, and shows what was asked for.
+    /// Before a frame: takes what the device has returned about the leaf that is followed, and shows what was asked for.
     ///
     /// # Errors
     /// A lost device.
     pub(super) fn observe(&mut self) -> anyhow::Result<()> {
-        let told = self.instruments.probe.collect(self.gpu.device());
+        let read = self.instruments.probe.collect(self.gpu.device());
         let step = self.session.simulator().clock().step();
         let slot = self.instruments.selection.as_ref().map(|selection| selection.slot);
         // What is here needs no way back.
         let here = self.session.host_leaves().zip(slot);
         let here = here.map(|(leaves, slot)| (slot, records(leaves, step, slot as usize)));
-        let told = here.or(told);
-        if let Some((slot, records)) = told
+        let latest = here.or(read);
+        if let Some((slot, records)) = latest
             && let Some(selection) = self.instruments.selection.as_mut().filter(|leaf| leaf.slot == slot)
         {
             selection.note(records);
@@ -138,7 +138,7 @@ impl Viewer {
         });
     }
 
-    /// What is told about the leaf that is followed.
+    /// Card of the leaf that is followed.
     pub(super) fn card(&self) -> Option<Card> {
         let selection = self.instruments.selection.as_ref()?;
         // The records may be a frame old: the card is of their own step.
@@ -147,12 +147,12 @@ impl Viewer {
         Some(card(self.session.environment(), &clock, selection.slot, &selection.latest.leaf))
     }
 
-    /// Where the leaf that is followed has been.
+    /// Track of the leaf that is followed.
     pub(super) fn track(&self) -> Option<Vec<Vec3>> {
         self.instruments.selection.as_ref().map(|selection| selection.track.places().collect())
     }
 
-    /// Arrows of the wind, if they are looked at.
+    /// Arrows of the wind, if they are shown.
     pub(super) fn arrows(&self) -> Vec<(Vec3, Vec3)> {
         let overlays = &self.instruments.overlays;
         if !overlays.wind {

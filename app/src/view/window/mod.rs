@@ -45,10 +45,10 @@ use crate::view::window::screenshot::Screenshot;
 
 /// Time between two attempts to draw to a window that shows nothing.
 const HIDDEN_PAUSE: Duration = Duration::from_millis(100);
-/// How long a message stays.
+/// Time that a message stays.
 const MESSAGE_TIME: Duration = Duration::from_secs(8);
 
-/// When something is to happen next.
+/// Time of the next frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Next {
     /// A frame, at once.
@@ -70,14 +70,14 @@ pub(crate) struct Viewer {
     gui: Gui,
     panel: Panel,
     session: Session,
-    /// What the scene said when it was loaded.
+    /// The scene as it was loaded.
     loaded: Arc<Scene>,
     history: Undo<Document>,
-    /// What takes building anew, and in how many frames: the user is told before.
+    /// Action that takes building anew, and the number of frames until then: a message announces it.
     building: Option<(Action, u8)>,
     renderer: Renderer,
     camera: Camera,
-    /// Whether the camera goes where the scene's keys say, if it has any: until the user moves it.
+    /// True if the camera follows the scene's keys, if it has any: until the user moves it.
     follows_path: bool,
     instruments: Instruments,
     meter: Meter,
@@ -86,7 +86,7 @@ pub(crate) struct Viewer {
     recording: Option<Recording>,
     /// Request to end, once there is a clip to complete before.
     cancel: Cancel,
-    /// Where the next clip goes to, once that is known.
+    /// Path of the next clip, once it is known.
     record_to: Option<String>,
     next: Next,
     /// Something was changed after the panel was laid out: it does not show it yet.
@@ -161,7 +161,7 @@ impl Viewer {
         &self.cancel
     }
 
-    /// When to draw next.
+    /// Time of the next frame.
     pub(crate) fn next(&self) -> Next {
         self.next
     }

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Recording what the window shows. Whatever goes wrong with a clip is told and ends the clip, not the program.
+//! Recording what the window shows. Whatever goes wrong with a clip is shown to the user and ends the clip, not the program.
 
 use std::path::Path;
 
@@ -32,14 +32,14 @@ impl Viewer {
         }
     }
 
-    /// Where the next clip goes to.
+    /// Path of the next clip.
     fn record_path(&mut self) -> String {
         let is_taken = |name: &str| Path::new(name).exists();
         let name = || free_name(&self.session.scene().name, is_taken);
         self.record_to.get_or_insert_with(name).clone()
     }
 
-    /// What the panel knows of recording.
+    /// State of recording.
     pub(super) fn clip_status(&mut self) -> ClipStatus {
         ClipStatus { path: self.record_path(), frames: self.recording.as_ref().map(Recording::frames) }
     }

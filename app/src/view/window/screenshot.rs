@@ -49,7 +49,7 @@ impl Screenshot {
     /// Writes the picture.
     ///
     /// # Errors
-    /// What the system says, for example that the disk is full.
+    /// Errors of the system, for example a full disk.
     pub(crate) fn save(self, picture: &RgbaImage) -> anyhow::Result<()> {
         Ok(self.file.finish_png(picture)?)
     }

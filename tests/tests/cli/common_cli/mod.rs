@@ -192,5 +192,5 @@ fn build() -> PathBuf {
         .filter_map(|line| serde_json::from_str::<Value>(line).ok())
         .filter(|message| message["target"]["name"] == "windfall")
         .find_map(|message| message["executable"].as_str().map(PathBuf::from))
-        .expect("cargo tells where the program is")
+        .expect("cargo prints where the program is")
 }

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! How others have done it: what the engine is measured against. Used by benches only.
+//! Older ways of doing it, which the engine is measured against.
 
 mod structs;
 mod trajectories;

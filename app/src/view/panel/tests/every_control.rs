@@ -69,7 +69,7 @@ fn controls(harness: &Harness<'_, Window>) -> Vec<Control> {
     all
 }
 
-/// Whether a node is a control that can be moved; its role and name.
+/// Role and name of a node if it is a control that can be moved.
 fn seen(node: &Node<'_>) -> (bool, String, String) {
     let inner = node.accesskit_node();
     let role = inner.role();

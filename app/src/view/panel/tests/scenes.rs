@@ -52,7 +52,7 @@ pub(super) fn other() -> Scene {
     scene
 }
 
-/// What neither of the other two has.
+/// A scene with what neither of the other two has.
 pub(super) fn third() -> Scene {
     let mut scene = Scene::default();
     scene.species[0].rotation = RotationModel::TanabeKaneko { friction_per_s: 5.0 };

@@ -7,7 +7,7 @@ use super::*;
 
 type Edit = fn(&mut Scene);
 
-/// What an edit of the park asks for.
+/// Changes that an edit of the park asks for.
 fn change(edit: impl FnOnce(&mut Scene)) -> Change {
     let old = Scene::preset("autumn-park").expect("a preset");
     let mut new = old.clone();
@@ -77,7 +77,7 @@ fn what_the_world_is_made_of_begins_it_again() {
         assert!(change.world && !change.is_live(), "{part}: {change:?}");
         assert_eq!(change.picture, picture, "{part}");
         assert_eq!(change.parts, [part], "named");
-        let message = change.message().expect("told");
+        let message = change.message().expect("a message");
         assert!(message.contains(part) && message.contains("zero"), "{message}");
     }
 }
