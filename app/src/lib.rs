@@ -12,6 +12,7 @@
 //! use windfall_cpu::{CpuOptions, CpuSimulator};
 //!
 //! let mut scene = Scene::load("autumn-park")?;
+//! // Growing the trees of a park takes seconds; falling leaves alone need none of them.
 //! scene.trees.clear();
 //! let mut world = World::build(&scene)?;
 //! let mut simulator = CpuSimulator::new(&world, CpuOptions::default())?;
