@@ -70,6 +70,15 @@ impl OutputFolder {
             names.push(entry.map_err(WriteError::at(&self.destination))?.file_name());
         }
         names.sort_by_key(|name| (name == last, name.clone()));
+        // Found before anything has moved: a file does not replace a folder, which may hold anything.
+        for name in &names {
+            let path = self.destination.join(name);
+            if path.is_dir() && !self.partial().join(name).is_dir() {
+                return Err(WriteError::at(&path)(io::Error::other(
+                    "something that is not a file lies there",
+                )));
+            }
+        }
         for name in names {
             let path = self.destination.join(&name);
             if path.is_dir() {
@@ -86,5 +95,34 @@ impl OutputFolder {
         // Nothing lies there any more.
         self.partial.disable_cleanup(true);
         Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn files_are_added_but_replace_no_folder() {
+        let there = tempfile::tempdir().expect("a temporary folder");
+        let path = there.path().join("new/out");
+        let begin = || {
+            let folder = OutputFolder::create(&path).expect("writable");
+            fs::write(folder.partial().join("a"), "a").expect("writable");
+            fs::write(folder.partial().join("b"), "b").expect("writable");
+            folder
+        };
+        drop(begin());
+        assert_eq!(fs::read_dir(&there).expect("a folder").count(), 0, "nothing is left");
+        begin().finish("").expect("renamed");
+        fs::write(path.join("other"), "kept").expect("writable");
+        begin().finish("").expect("added");
+        assert_eq!(fs::read_dir(&path).expect("a folder").count(), 3, "beside what was there");
+        fs::remove_file(path.join("a")).expect("there");
+        fs::remove_file(path.join("b")).expect("there");
+        fs::create_dir(path.join("b")).expect("writable");
+        let error = begin().finish("").expect_err("a folder lies there").to_string();
+        assert!(error.contains("not a file"), "{error}");
+        assert!(!path.join("a").exists() && path.join("b").is_dir(), "nothing has moved");
     }
 }

@@ -159,7 +159,8 @@ mod tests {
         let cx = world.context(&step);
         let mut table = CsvFile::new(Vec::new(), Path::new("tracks.csv"), &HEADER).expect("room");
         for slot in (0..world.leaves.len()).step_by(97) {
-            write_row(&mut table, &world, slot, &world.leaves.view(&cx, slot)).expect("as long as the header");
+            write_row(&mut table, &world, slot, &world.leaves.view(&cx, slot))
+                .expect("as long as the header");
         }
         let dormant = LeafView { state: LeafState::Dormant, ..world.leaves.view(&cx, 0) };
         write_row(&mut table, &world, 0, &dormant).expect("as long as the header");
