@@ -56,7 +56,6 @@ pub(crate) fn constants() -> String {
         blocks::wgsl_constants(),
         flight::block::wgsl_constants(),
         flight::coefficients::wgsl_constants(),
-        device::flight::rates::wgsl_constants(),
         device::flight::regime::wgsl_constants(),
         device::flight::runge_kutta::wgsl_constants(),
         arith::math::wgsl_constants(),

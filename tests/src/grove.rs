@@ -4,7 +4,9 @@
 
 use glam::Vec3;
 use windfall_core::device::tree::sway::row::{Rows, row_follow, row_gather, row_inward, row_outward};
-use windfall_core::scene::{Foliage, MeanSpeed, SwayScheme, TreeKind, Turbulence, Wood};
+use windfall_core::scene::{
+    Foliage, MeanSpeed, STANDARD_GRAVITY_M_S2, SwayScheme, TreeKind, Turbulence, Wood,
+};
 use windfall_core::tree::forest::Seedling;
 use windfall_core::tree::{Attachment, Bearing, Branches, Forest, LeafFacts, Segment, Skeleton};
 use windfall_core::{Clock, Environment, Scene};
@@ -26,10 +28,15 @@ pub struct Grove {
 impl Grove {
     /// Trees at rest, bare, in still air, to be stepped by `dt_s`.
     pub fn new(seedlings: Vec<Seedling>, dt_s: f32) -> Self {
-        let mut scene = Scene { dt_s, ..Scene::default() };
+        Self::under(STANDARD_GRAVITY_M_S2, seedlings, dt_s)
+    }
+
+    /// Such trees under another gravity.
+    pub fn under(gravity_m_s2: f32, seedlings: Vec<Seedling>, dt_s: f32) -> Self {
+        let mut scene = Scene { dt_s, gravity_m_s2, ..Scene::default() };
         scene.wind.speed = MeanSpeed::MetresPerSecond(0.0);
         scene.wind.turbulence = Turbulence { intensity: 0.0, calm_m_s: 0.0, ..scene.wind.turbulence };
-        let forest = Forest::plant(seedlings, dt_s);
+        let forest = Forest::plant(seedlings, dt_s, gravity_m_s2);
         let branches = forest.at_rest();
         let environment = Environment::compile(&scene).expect("a valid scene");
         let work = vec![Default::default(); forest.len()];

@@ -37,7 +37,7 @@ pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let texts: Vec<String> = scene
         .species
         .iter()
-        .map(|species| tables(species, scene.seed).map(|tables| tables.to_text()))
+        .map(|species| tables(&scene, species).map(|tables| tables.to_text()))
         .collect::<Result<_, _>>()?;
 
     let folder = OutputFolder::create(&arguments.out)?;
@@ -71,10 +71,12 @@ fn check_names(scene: &Scene, file: &str) -> Result<(), SceneError> {
 }
 
 /// The tables that a simulation of the species would use.
-fn tables(species: &Species, seed: u64) -> anyhow::Result<MotionTables> {
+fn tables(scene: &Scene, species: &Species) -> anyhow::Result<MotionTables> {
     #[expect(clippy::cast_possible_truncation, reason = "low and high word")]
-    let words = [seed as u32, (seed >> 32) as u32];
-    let Some(path) = &species.tables else { return Ok(MotionTables::generate(species, words)) };
+    let words = [scene.seed as u32, (scene.seed >> 32) as u32];
+    let Some(path) = &species.tables else {
+        return Ok(MotionTables::generate(species, words, scene.gravity_m_s2));
+    };
     let text = fs::read_to_string(path).map_err(|error| anyhow!("{path}: {error}"))?;
     Ok(MotionTables::from_text(&text, path)?)
 }

@@ -11,7 +11,7 @@ use crate::arith::rng::seed_words;
 use crate::blocks::{EnvironmentBlock, SOURCE_TREES};
 use crate::device::tree::sway::{SCHEME_ARTICULATED, SCHEME_OLIAPURAM_KUMAR, SCHEME_QUIGLEY};
 use crate::flight::coefficients::TICKS_PER_S;
-use crate::motion::{GRAVITY, MotionTables};
+use crate::motion::MotionTables;
 use crate::scene::{FlightModel, MAX_SOURCES, Scene, SwayScheme};
 
 /// Height of resting leaves above the ground in metres: half the thickness of a curled dry leaf.
@@ -52,7 +52,7 @@ pub(super) fn compile_block(scene: &Scene, tables: &[MotionTables]) -> Environme
     retune_block(scene, &mut block);
     for (index, (species, tables)) in scene.species.iter().zip(tables).enumerate() {
         block.species[index] = species_block(scene, species, tables);
-        block.bodies[index] = body_block(species, scene.dt_s);
+        block.bodies[index] = body_block(species, scene);
     }
     for (index, source) in scene.sources.iter().take(MAX_SOURCES).enumerate() {
         block.sources[index] = source_block(scene, source);
@@ -86,8 +86,8 @@ fn scheme(scene: &Scene) -> u32 {
 /// Sets the numbers of the ground, of the water on it and of leaves that slide there.
 fn set_ground(scene: &Scene, block: &mut EnvironmentBlock) {
     let ground = &scene.ground;
-    let loss = f64::from(ground.friction) * GRAVITY;
-    block.gravity_m_s2 = single(GRAVITY);
+    let loss = f64::from(ground.friction) * f64::from(scene.gravity_m_s2);
+    block.gravity_m_s2 = scene.gravity_m_s2;
     block.friction_m_s2 = single(loss);
     block.stop_s2_m = single(0.5 / loss);
     block.ground_height_m = ground.height_m;

@@ -13,16 +13,17 @@ use crate::flight::coefficients::{
     TICKS_PER_S, TWIST_TORQUE,
 };
 use crate::motion::AIR_DENSITY;
-use crate::scene::{Aerodynamics, FlightModel, Hold, Species};
+use crate::scene::{Aerodynamics, FlightModel, Hold, STANDARD_GRAVITY_M_S2, Scene, Species};
 
-/// Descent of a body of such a mass per area, measured on paper (Howison, Hughes and Iida 2020); others as the root of it.
+/// Descent of a body of such a mass per area, measured on paper (Howison, Hughes and Iida 2020); others as the root of
+/// their weight per area.
 const USUAL_DESCENT_M_S: f64 = 0.757;
 const USUAL_AREAL_KG_M2: f64 = 0.07;
 /// Diameters that a body falls without an event before it counts as idle.
 const IDLE_DIAMETERS: f64 = 10.0;
 
 /// The body of a species; of a synthesised one the numbers of a plain disc, which nothing uses.
-pub(super) fn body_block(species: &Species, dt_s: f32) -> BodyBlock {
+pub(super) fn body_block(species: &Species, scene: &Scene) -> BodyBlock {
     let body = match species.flight {
         FlightModel::Synthesis => Aerodynamics::default(),
         FlightModel::Aerodynamic(body) => body,
@@ -53,8 +54,9 @@ pub(super) fn body_block(species: &Species, dt_s: f32) -> BodyBlock {
     let broadside = 0.5 * f64::from(body.edge_drag + DRAG_RISE - DRAG_BEND);
     let lever = (broadside + f64::from(LIFT_EDGE)) * air * (offset.length() * radius + spread);
     let swing = libm::sqrt((added + lever) / (inertia.x + air_x).min(inertia.z + air_z)) / SWING_BORNE_RAD;
-    let dt = f64::from(dt_s);
-    let usual_m_s = USUAL_DESCENT_M_S * libm::sqrt(areal / USUAL_AREAL_KG_M2);
+    let dt = f64::from(scene.dt_s);
+    let weight = areal / USUAL_AREAL_KG_M2 * f64::from(scene.gravity_m_s2 / STANDARD_GRAVITY_M_S2);
+    let usual_m_s = USUAL_DESCENT_M_S * libm::sqrt(weight);
     let (hold_kind, hold_tilt) = match body.hold {
         Hold::Random => (HOLD_RANDOM, 0),
         Hold::Broadside => (HOLD_TILTED, 0),

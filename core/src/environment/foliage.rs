@@ -19,7 +19,7 @@ use crate::leaf::petiole::{
     PETIOLE_CLASS_SHIFT, PETIOLE_CLUSTER_SHIFT, PETIOLE_KIND_SHIFT, PETIOLE_REACH_MASK, PETIOLE_REACH_SHIFT,
     PETIOLE_REACH_UNIT, Petiole, SHED_CLASSES, SHED_INTERVAL, SHED_SPEEDS,
 };
-use crate::motion::{AIR_DENSITY, GRAVITY};
+use crate::motion::AIR_DENSITY;
 use crate::scene::{Foliage, Scene, Species, TreeKind};
 use crate::tree::forest::Seedling;
 use crate::tree::record::NO_SEGMENT;
@@ -127,8 +127,10 @@ pub(super) fn shed_rows(scene: &Scene, kinds: &[TreeKind]) -> Vec<Uint4> {
             let weakened = WEAKENING / (1.0 + libm::exp((turned - f64::from(scene.autumn)) / TURNING));
             let spread = 0.5 * NORMAL_SHARES[(class % STRENGTH_CLASSES) as usize];
             let strength = f64::from(kind.foliage.strength_n) * libm::exp(spread - weakened);
+            let weight = leaf.mass_kg * f64::from(scene.gravity_m_s2);
             for speed in 0..SHED_SPEEDS {
-                let rate = shed_rate_per_s(&kind.foliage, leaf, strength, weakened, f64::from(speed));
+                let load = weight + leaf_drag_n(&kind.foliage, leaf, f64::from(speed));
+                let rate = shed_rate_per_s(load, strength, weakened);
                 let chance = 1.0 - libm::exp(-rate * interval_s);
                 chances.push(super::convert::word((chance * 4_294_967_296.0).min(4_294_967_295.0)));
             }
@@ -137,19 +139,16 @@ pub(super) fn shed_rows(scene: &Scene, kinds: &[TreeKind]) -> Vec<Uint4> {
     chances.chunks_exact(4).map(|four| Uint4([four[0], four[1], four[2], four[3]])).collect()
 }
 
-/// Rate at which a petiole of that strength, weakened by so much, breaks in air of a speed in m/s.
-fn shed_rate_per_s(
-    foliage: &Foliage,
-    leaf: LeafFacts,
-    strength_n: f64,
-    weakened: f64,
-    speed_m_s: f64,
-) -> f64 {
+/// Drag on a leaf on its twig in air of a speed in m/s, in N.
+fn leaf_drag_n(foliage: &Foliage, leaf: LeafFacts, speed_m_s: f64) -> f64 {
     let yielding = 1.0 + speed_m_s / f64::from(foliage.yield_m_s);
-    let drag = 0.5 * AIR_DENSITY * f64::from(foliage.drag) * leaf.area_m2 * speed_m_s * speed_m_s / yielding;
-    let load = leaf.mass_kg * GRAVITY + drag;
+    0.5 * AIR_DENSITY * f64::from(foliage.drag) * leaf.area_m2 * speed_m_s * speed_m_s / yielding
+}
+
+/// Rate at which a petiole of that strength, weakened by so much, breaks under a load.
+fn shed_rate_per_s(load_n: f64, strength_n: f64, weakened: f64) -> f64 {
     let daily = libm::exp(weakened - 4.0);
-    (daily / 86_400.0 * libm::exp(((load / strength_n - 1.0) / 0.15).min(60.0))).min(20.0)
+    (daily / 86_400.0 * libm::exp(((load_n / strength_n - 1.0) / 0.15).min(60.0))).min(20.0)
 }
 
 /// The petioles of all slots of trees, as rows of four words.

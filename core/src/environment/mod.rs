@@ -88,7 +88,8 @@ impl Environment {
             block.ids_per_life = 0;
             block.flutter_per_step = cycle.flutter(scene.dt_s);
         }
-        let forest = Forest::plant(seedlings(scene, |x, z| foot_height(&block, &tables, x, z))?, scene.dt_s);
+        let seedlings = seedlings(scene, |x, z| foot_height(&block, &tables, x, z))?;
+        let forest = Forest::plant(seedlings, scene.dt_s, scene.gravity_m_s2);
         block.first_shed_row = len32(tables.len());
         tables.extend(chances);
         block.first_petiole_row = len32(tables.len());
@@ -99,7 +100,7 @@ impl Environment {
     }
 
     /// The same environment with another wind, season, ground, fall and rotation speed; species, sources, trees, hills,
-    /// seed and step length stay. Much cheaper than compiling anew.
+    /// seed, step length and gravity stay. Much cheaper than compiling anew.
     pub fn retune(&mut self, scene: &Scene) {
         let keep_trees = (self.scene.trees.clone(), self.scene.tree_kinds.clone());
         let keep = (self.scene.species.clone(), self.scene.sources.clone(), self.scene.seed, self.scene.dt_s);
@@ -110,11 +111,11 @@ impl Environment {
             self.replace_rows(self.block.wind.first_profile_row, &rows);
         }
         let autumn = self.scene.autumn;
-        let terrain = self.scene.ground.terrain;
+        let (terrain, gravity_m_s2) = (self.scene.ground.terrain, self.scene.gravity_m_s2);
         self.scene = scene.clone();
         (self.scene.species, self.scene.sources, self.scene.seed, self.scene.dt_s) = keep;
         (self.scene.trees, self.scene.tree_kinds) = keep_trees;
-        self.scene.ground.terrain = terrain;
+        (self.scene.ground.terrain, self.scene.gravity_m_s2) = (terrain, gravity_m_s2);
         if self.scene.autumn != autumn {
             let rows = shed_rows(&self.scene, &foliage_of(&self.scene));
             self.replace_rows(self.block.first_shed_row, &rows);

@@ -13,7 +13,7 @@ use crate::scene::{FlightModel, Scene, Species};
 const EDDY_CELLS: f32 = 8.0;
 
 pub(super) fn species_block(scene: &Scene, species: &Species, tables: &MotionTables) -> SpeciesBlock {
-    let constants = MotionConstants::of(species);
+    let constants = MotionConstants::of(species, scene.gravity_m_s2);
     let dt = f64::from(scene.dt_s);
     let mut rates = [0; 8];
     for (rate, table) in rates.iter_mut().zip(&tables.0) {
@@ -38,7 +38,7 @@ pub(super) fn species_block(scene: &Scene, species: &Species, tables: &MotionTab
 }
 
 pub(super) fn response_block(scene: &Scene, species: &Species) -> ResponseBlock {
-    let tau = MotionConstants::of(species).response_s();
+    let tau = MotionConstants::of(species, scene.gravity_m_s2).response_s();
     let decay = libm::exp(-f64::from(scene.dt_s) / tau);
     ResponseBlock {
         drift_kept: single(decay),
@@ -51,7 +51,7 @@ pub(super) fn response_block(scene: &Scene, species: &Species) -> ResponseBlock 
 /// Fastest spin per step in 2^-18 turns, a whole number. Wind makes leaves spin faster by what they lag behind its turbulence, in
 /// units of their own descent: an average over the scene, so that the angle stays an integer everywhere.
 fn fastest_spin(scene: &Scene, species: &Species) -> f32 {
-    let constants = MotionConstants::of(species);
+    let constants = MotionConstants::of(species, scene.gravity_m_s2);
     let mean = scene.wind.speed.metres_per_second();
     let deviation = f64::from(deviation_m_s(&scene.wind));
     let eddy_s = f64::from(EDDY_CELLS * scene.wind.turbulence.cell_m) / mean.max(0.1);

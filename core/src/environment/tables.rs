@@ -17,7 +17,7 @@ pub(super) fn tables_of(
     seed: [u32; 2],
 ) -> Result<MotionTables, SceneError> {
     let Some(path) = &species.tables else {
-        return Ok(MotionTables::generate(species, seed));
+        return Ok(MotionTables::generate(species, seed, scene.gravity_m_s2));
     };
     let text =
         std::fs::read_to_string(path).map_err(|source| SceneError::Read { path: path.into(), source })?;

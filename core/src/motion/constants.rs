@@ -4,10 +4,7 @@
 
 use std::f64::consts::TAU;
 
-use crate::scene::Species;
-
-/// Standard gravity in m/s².
-pub const GRAVITY: f64 = 9.806_65;
+use crate::scene::{STANDARD_GRAVITY_M_S2, Species};
 
 /// Density of air in kg/m³ at 20 °C.
 pub const AIR_DENSITY: f64 = 1.2;
@@ -15,7 +12,7 @@ pub const AIR_DENSITY: f64 = 1.2;
 /// Areal density of the paper that the scalings were measured with, kg/m².
 const REFERENCE_AREAL_DENSITY: f64 = 0.070;
 
-/// Mean descent speed of that paper in m/s, independent of size.
+/// Mean descent speed of that paper in m/s at standard gravity, independent of size.
 const REFERENCE_DESCENT: f64 = 0.757;
 
 /// Turns per second times diameter over descent speed, tumbling.
@@ -28,10 +25,12 @@ const FLUTTER_NUMBER: f64 = 0.10;
 ///
 /// # Source
 /// Scalings fitted to 380 drops of paper pieces by Howison, Hughes and Iida (2020): `U = 0.757 sqrt(sigma/0.070)`,
-/// tumbling `0.20 U/d` turns/s, swinging `0.10 U/d`, amplitudes `Ax = 1.05 U`, `Ay = 0.7 U` (0.3 U under 5 cm).
+/// with the root of gravity by the balance of weight and drag; tumbling `0.20 U/d` turns/s, swinging `0.10 U/d`, amplitudes `Ax = 1.05 U`, `Ay = 0.7 U` (0.3 U under 5 cm).
 /// Spiral, wandering and chaos numbers are modelling choices.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MotionConstants {
+    /// Acceleration of gravity g in m/s².
+    pub gravity_m_s2: f64,
     /// Diameter d in metres.
     pub size_m: f64,
     /// Areal density sigma in kg/m².
@@ -69,13 +68,16 @@ pub struct MotionConstants {
 }
 
 impl MotionConstants {
-    /// Numbers of a species: what it states itself, else what size and mass give.
-    pub fn of(species: &Species) -> Self {
+    /// Numbers of a species: what it states itself, else what size, mass and gravity give.
+    pub fn of(species: &Species, gravity_m_s2: f32) -> Self {
         let given = &species.motion;
         let or = |value: Option<f32>, default: f64| value.map_or(default, f64::from);
         let size_m = f64::from(species.size_m);
         let areal_density_kg_m2 = f64::from(species.areal_density_kg_m2);
-        let scaled = REFERENCE_DESCENT * libm::sqrt(areal_density_kg_m2 / REFERENCE_AREAL_DENSITY);
+        let gravity_m_s2 = f64::from(gravity_m_s2);
+        let weight =
+            areal_density_kg_m2 / REFERENCE_AREAL_DENSITY * gravity_m_s2 / f64::from(STANDARD_GRAVITY_M_S2);
+        let scaled = REFERENCE_DESCENT * libm::sqrt(weight);
         let descent_m_s = or(given.descent_m_s, scaled);
         let horizontal_m_s = or(given.horizontal_m_s, 1.05 * descent_m_s);
         // Small pieces heave little: 0.3 U below 5 cm, 0.7 U from 7 cm on.
@@ -83,6 +85,7 @@ impl MotionConstants {
         let flutter_rad_s = or(given.flutter_rad_s, TAU * FLUTTER_NUMBER * descent_m_s / size_m);
         let spiral_rad_s = or(given.spiral_rad_s, (0.65 * flutter_rad_s).clamp(3.0, 8.0));
         Self {
+            gravity_m_s2,
             size_m,
             areal_density_kg_m2,
             descent_m_s,
@@ -108,6 +111,6 @@ impl MotionConstants {
 
     /// Time constant in seconds in which a leaf takes on the wind's velocity: `U/g` of quadratic drag.
     pub fn response_s(&self) -> f64 {
-        self.descent_m_s / GRAVITY
+        self.descent_m_s / self.gravity_m_s2
     }
 }

@@ -21,7 +21,7 @@ mod transition;
 mod transitional_chaotic;
 mod transitional_helical;
 
-pub use constants::{AIR_DENSITY, GRAVITY, MotionConstants};
+pub use constants::{AIR_DENSITY, MotionConstants};
 pub use path::{Moment, Path};
 pub use periodic_fluttering::PeriodicFluttering;
 pub use periodic_spiraling::PeriodicSpiraling;

@@ -11,7 +11,6 @@ use std::f64::consts::{PI, TAU};
 
 use glam::{DQuat, DVec3};
 
-use super::constants::GRAVITY;
 use super::path::{Moment, Path};
 
 /// Steps of the transport between two rows of a table.
@@ -21,17 +20,17 @@ const WEAK_FORCE: f64 = 0.15;
 
 /// Orientations at `rows + 1` equally spaced times over one period. The last one equals the first as a rotation, so
 /// that periods join; as quaternions they may differ in sign.
-pub(super) fn orientations(path: &impl Path, rows: usize) -> Vec<DQuat> {
+pub(super) fn orientations(path: &impl Path, rows: usize, gravity_m_s2: f64) -> Vec<DQuat> {
     let time = |step: usize| path.period_s() * step as f64 / (rows * TRANSPORT_STEPS) as f64;
     if path.at(0.0).turn.is_some() {
         return (0..=rows).map(|row| explicit(&path.at(time(row * TRANSPORT_STEPS)))).collect();
     }
     let mut normal = DVec3::Y;
-    normal = follow(normal, &path.at(0.0));
+    normal = follow(normal, &path.at(0.0), gravity_m_s2);
     let mut frame = DQuat::from_rotation_arc(DVec3::Y, normal);
     let mut carried = vec![frame];
     for step in 1..=rows * TRANSPORT_STEPS {
-        let next = follow(normal, &path.at(time(step)));
+        let next = follow(normal, &path.at(time(step)), gravity_m_s2);
         frame = (DQuat::from_rotation_arc(normal, next) * frame).normalize();
         normal = next;
         if step % TRANSPORT_STEPS == 0 {
@@ -51,9 +50,9 @@ pub(super) fn orientations(path: &impl Path, rows: usize) -> Vec<DQuat> {
 }
 
 /// The normal that the specific force of this moment asks for, on the side of the previous one.
-fn follow(previous: DVec3, moment: &Moment) -> DVec3 {
-    let force = moment.acceleration + DVec3::Y * GRAVITY;
-    if force.length() < WEAK_FORCE * GRAVITY {
+fn follow(previous: DVec3, moment: &Moment, gravity_m_s2: f64) -> DVec3 {
+    let force = moment.acceleration + DVec3::Y * gravity_m_s2;
+    if force.length() < WEAK_FORCE * gravity_m_s2 {
         return previous;
     }
     let normal = force.normalize();

@@ -49,8 +49,8 @@ pub struct MotionTables(pub [PrimitiveTable; PRIMITIVE_COUNT]);
 
 impl MotionTables {
     /// Tables from the equations; `seed` chooses the random parts (wandering, chaotic sequence).
-    pub fn generate(species: &Species, seed: [u32; 2]) -> Self {
-        let constants = MotionConstants::of(species);
+    pub fn generate(species: &Species, seed: [u32; 2], gravity_m_s2: f32) -> Self {
+        let constants = MotionConstants::of(species, gravity_m_s2);
         let rotation = species.rotation;
         Self(Primitive::ALL.map(|primitive| match primitive {
             Primitive::SteadyDescent => sample(&SteadyDescent::new(&constants, seed), &constants, rotation),
@@ -74,7 +74,7 @@ fn sample(path: &impl Path, constants: &MotionConstants, rotation: RotationModel
     let moments: Vec<_> =
         (0..=INTERVALS).map(|row| path.at(period_s * row as f64 / INTERVALS as f64)).collect();
     let orientation = match rotation {
-        RotationModel::SpecificForce => orientation::orientations(path, INTERVALS),
+        RotationModel::SpecificForce => orientation::orientations(path, INTERVALS, constants.gravity_m_s2),
         RotationModel::TanabeKaneko { friction_per_s } => {
             rotation_ode::orientations(path, INTERVALS, constants, f64::from(friction_per_s))
         }

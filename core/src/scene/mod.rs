@@ -39,6 +39,9 @@ pub use tree::{Foliage, SwayScheme, Tree, TreeForm, TreeKind, TreePreset, Wood};
 pub use view::{Camera, Sun, View};
 pub use wind::{Gusts, MeanSpeed, Profile, Turbulence, Vortex, WindParameters};
 
+/// Standard acceleration of gravity in m/s²: that of a scene which states no other.
+pub const STANDARD_GRAVITY_M_S2: f32 = 9.806_65;
+
 /// Most species a scene may have: a leaf keeps its species in five bits.
 pub const MAX_SPECIES: usize = 32;
 /// Most sources a scene may have: a leaf keeps its source in five bits, and one number is for all trees.
@@ -73,6 +76,8 @@ pub struct Scene {
     pub fall_speed: f32,
     /// Multiplier of every synthesised leaf's turning and swinging rate, 0.1 to 3; the path keeps its speed.
     pub rotation_speed: f32,
+    /// Acceleration of gravity in m/s², 0.5 to 30: of everything that falls, slides, hangs or sways.
+    pub gravity_m_s2: f32,
     /// The kinds of leaves.
     pub species: Vec<Species>,
     /// Sources of leaves besides the trees. At least one if there are no trees.
@@ -105,6 +110,7 @@ impl Default for Scene {
             dt_s: 1.0 / 60.0,
             fall_speed: 1.0,
             rotation_speed: 1.0,
+            gravity_m_s2: STANDARD_GRAVITY_M_S2,
             species: vec![Species::default()],
             sources: vec![Source::default()],
             tree_kinds: Vec::new(),

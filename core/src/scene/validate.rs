@@ -29,6 +29,7 @@ impl Scene {
             ("dt_s", self.dt_s.into(), limits::DT_S),
             ("fall_speed", self.fall_speed.into(), limits::FALL_SPEED),
             ("rotation_speed", self.rotation_speed.into(), limits::ROTATION_SPEED),
+            ("gravity_m_s2", self.gravity_m_s2.into(), limits::GRAVITY_M_S2),
         ])?;
         check.length("species", self.species.len(), 1, MAX_SPECIES)?;
         let fewest = usize::from(self.trees.is_empty());

@@ -13,7 +13,7 @@ use glam::{DQuat, DVec3, swizzles::Vec3Swizzles};
 use super::crown::ground_m2;
 use super::record::{NO_SEGMENT, SegmentConstants};
 use super::skeleton::{Bearing, Segment, Skeleton};
-use crate::device::tree::sway::{GRAVITY_M_S2, IMPLICITNESS};
+use crate::device::tree::sway::IMPLICITNESS;
 use crate::motion::AIR_DENSITY;
 use crate::scene::{Foliage, Wood};
 
@@ -73,7 +73,7 @@ pub(super) fn segment_constants(
     wood: &Wood,
     foliage: &Foliage,
     leaf: LeafFacts,
-    dt_s: f32,
+    (dt_s, gravity_m_s2): (f32, f32),
 ) -> (Vec<SegmentConstants>, TreeFacts) {
     let young = f64::from(wood.youngs_modulus_gpa) * 1e9;
     let mut drafts: Vec<Draft> = Vec::with_capacity(skeleton.segments.len());
@@ -110,7 +110,7 @@ pub(super) fn segment_constants(
                 segment.parent.map_or((DQuat::IDENTITY, DVec3::ZERO), |parent| {
                     (drafts[parent as usize].pose, drafts[parent as usize].start)
                 });
-            let weight = DVec3::new(0.0, -f64::from(GRAVITY_M_S2), 0.0);
+            let weight = DVec3::new(0.0, -f64::from(gravity_m_s2), 0.0);
             let preload =
                 draft.pose.inverse() * -(outboard.moment - draft.start * outboard.mass).cross(weight);
             let diameter = f64::from(segment.start_radius_m + segment.end_radius_m);
@@ -222,7 +222,8 @@ fn outboard_of(skeleton: &Skeleton, drafts: &[Draft], leaf_mass: f64) -> Vec<Out
 
 /// Rayleigh's estimate of the main sway's frequency in Hz.
 fn sway_frequency(skeleton: &Skeleton, drafts: &[Draft], outboard: &[Outboard], leaf_mass: f64) -> f64 {
-    let sideways = DVec3::X * f64::from(GRAVITY_M_S2);
+    // The estimate does not depend on how strong gravity is.
+    let sideways = DVec3::X;
     // Rotation and displacement of every segment under its weight turned sideways.
     let mut turns = vec![DVec3::ZERO; drafts.len()];
     let mut shifts = vec![DVec3::ZERO; drafts.len()];

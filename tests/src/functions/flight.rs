@@ -76,7 +76,7 @@ functions! {
         let rates = flight_rates(body, FlightMotion(in_vec3(3u), in_vec4(6u), in_vec3(10u)), in_vec3(13u));
         out_vec3(0u, rates.velocity); out_vec4(3u, rates.pose); out_vec3(7u, rates.turning);";
     rust |cx, w| {
-        let rates = flight_rates(&body(cx, w[0], w[1], w[2]), &motion(w, 3), vector(w, 13));
+        let rates = flight_rates(cx, &body(cx, w[0], w[1], w[2]), &motion(w, 3), vector(w, 13));
         floats(components(&rates))
     };
 
@@ -89,7 +89,7 @@ functions! {
         out_vec3(0u, step.end.velocity); out_vec4(3u, step.end.pose); out_vec3(7u, step.end.turning);
         out_vec3(10u, step.way);";
     rust |cx, w| {
-        let (way, end) = flight_step(&body(cx, w[0], w[1], w[2]), &motion(w, 3), vector(w, 13), float(w[16]));
+        let (way, end) = flight_step(cx, &body(cx, w[0], w[1], w[2]), &motion(w, 3), vector(w, 13), float(w[16]));
         let mut all = [0.0; 13];
         all[..10].copy_from_slice(&components(&end));
         all[10..].copy_from_slice(&way.to_array());

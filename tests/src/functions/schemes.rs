@@ -64,10 +64,10 @@ functions! {
         out_sym3(0u, whole.inertia); out_vec3(6u, whole.moment); out_float(9u, whole.mass); out_vec3(10u, whole.torque);
         out_vec3(13u, whole.force); out_float(16u, whole.drag); out_vec3(17u, whole.drag_moment);
         out_float(20u, whole.drag_inertia);";
-    rust |_cx, w| {
+    rust |cx, w| {
         let body = body(w, 24);
         let axis = segment_axis(&body);
-        results(&segment_composite(&constants(w, 0), &body, axis, vector(w, 38), w[37] as f32)).0
+        results(&segment_composite(cx, &constants(w, 0), &body, axis, vector(w, 38), w[37] as f32)).0
     };
 
     composite_shift in "tree/sway/composite" (Input::Floats(42, -9.0, 9.0), DIRECTION) tolerance Some(4e-6);

@@ -6,9 +6,9 @@
 use std::f64::consts::PI;
 
 use glam::{DMat3, DQuat, DVec3};
+use windfall_core::scene::STANDARD_GRAVITY_M_S2;
 
 const AIR_KG_M3: f64 = 1.2;
-const GRAVITY_M_S2: f64 = 9.81;
 
 /// Coefficients of a disc's forces, as functions of q, the squared sine of the incidence.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -123,7 +123,7 @@ impl LeafDisc {
 
         // The air resists the acceleration of the middle along the normal. Motion is linear in that resistance, so two
         // trials give it.
-        let weight = turn.transpose() * DVec3::new(0.0, -GRAVITY_M_S2 * mass, 0.0);
+        let weight = turn.transpose() * DVec3::new(0.0, -f64::from(STANDARD_GRAVITY_M_S2) * mass, 0.0);
         let moved = |resistance: f64| {
             let reaction = -resistance * normal;
             let acceleration = (push + weight + reaction) / mass;

@@ -20,7 +20,8 @@
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use super::{PlateState, world_velocity};
-use windfall_core::motion::{AIR_DENSITY, GRAVITY};
+use windfall_core::motion::AIR_DENSITY;
+use windfall_core::scene::STANDARD_GRAVITY_M_S2;
 
 /// Incidence at which half of the flow has separated, rad.
 const STALL: f64 = 14.0 * PI / 180.0;
@@ -78,7 +79,7 @@ impl SectionalPlate {
         let circulation = translation + pressure * ROTATIONAL_LIFT * chord * turning;
         let resistance = pressure * drag * speed;
 
-        let weight = mass * GRAVITY;
+        let weight = mass * f64::from(STANDARD_GRAVITY_M_S2);
         let (sin, cos) = libm::sincos(pitch);
         let force_along = -circulation * normal - resistance * along - weight * sin;
         let force_normal = circulation * along - resistance * normal - weight * cos;

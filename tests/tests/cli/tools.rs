@@ -8,6 +8,7 @@ use crate::common_cli::{contents, folder, windfall, windfall_without_adapter};
 use serde_json::Value;
 use windfall_core::Scene;
 use windfall_core::motion::MotionTables;
+use windfall_core::scene::STANDARD_GRAVITY_M_S2;
 
 #[test]
 fn info_lists_adapters_and_the_default() {
@@ -128,7 +129,7 @@ fn motions_are_the_tables_of_the_scene() {
         let path = there.path().join("deep/down").join(format!("{}.motions", species.name));
         let text = fs::read_to_string(&path).expect("a file for each species");
         let tables = MotionTables::from_text(&text, "written").expect("a readable one");
-        assert_eq!(tables, MotionTables::generate(species, seed), "{}", species.name);
+        assert_eq!(tables, MotionTables::generate(species, seed, STANDARD_GRAVITY_M_S2), "{}", species.name);
     }
     assert_eq!(contents(there.path()).len(), scene.species.len() + 2, "nothing else is left");
 }

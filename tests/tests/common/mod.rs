@@ -7,8 +7,12 @@ use glam::{DQuat, DVec3, Vec3};
 use windfall_core::World;
 use windfall_core::motion::{Primitive, TransitionTable};
 use windfall_core::scene::{
-    Gusts, MeanSpeed, Profile, Release, Scene, Source, SourceShape, Species, Turbulence, WindParameters,
+    Gusts, MeanSpeed, Profile, Release, STANDARD_GRAVITY_M_S2, Scene, Source, SourceShape, Species,
+    Turbulence, WindParameters,
 };
+
+/// Gravity of scenes that state no other, in m/s².
+pub(crate) const GRAVITY: f64 = STANDARD_GRAVITY_M_S2 as f64;
 
 /// Air that does not move.
 pub(crate) fn still_air() -> WindParameters {

@@ -87,9 +87,10 @@ proptest! {
             #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small positive number")]
             let size = (ratio * SIZE_ONE as f32) as u32;
             let ratio = f64::from(size) / f64::from(SIZE_ONE);
-            let body = body_of(&environment.context(&step), 0u32, size);
+            let cx = environment.context(&step);
+            let body = body_of(&cx, 0u32, size);
             let turning = spin * body.size_ratio;
-            let found = flight_rates(&body, &FlightMotion { velocity, pose: Quat::from(pose), turning }, wind);
+            let found = flight_rates(&cx, &body, &FlightMotion { velocity, pose: Quat::from(pose), turning }, wind);
 
             let radius_m = 0.5 * f64::from(size_m) * ratio;
             let [along, across] = [offset.0, offset.1].map(f64::from);

@@ -3,11 +3,11 @@
 //! The end of a fall: flat within a fifth of a second, slid as far as friction lets it, at rest until it is recycled.
 
 use crate::common::{
-    attitude, build, many_species, position, single_motion, steady_wind, step, still_scene, velocity,
+    GRAVITY, attitude, build, many_species, position, single_motion, steady_wind, step, still_scene, velocity,
 };
 use glam::{DVec3, Vec3};
 use windfall_core::leaf::LeafState;
-use windfall_core::motion::{AIR_DENSITY, GRAVITY, Primitive};
+use windfall_core::motion::{AIR_DENSITY, Primitive};
 use windfall_core::scene::{Ground, Release, Scene, Source, SourceShape};
 use windfall_core::{Environment, REST_OFFSET_M, World};
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! How bodies begin to fly: held before they are let go, broken off a twig, or found in the air when time begins.
 
-use crate::common::{attitude, position, still_scene};
+use crate::common::{GRAVITY, attitude, position, still_scene};
 use glam::DVec3;
 use windfall_core::arith::Vec3;
 use windfall_core::device::flight::regime::{
@@ -136,7 +136,7 @@ fn regimes_are_told_from_motion() {
     let flutter = |t: f64| {
         let (sine, cosine) = (6.8 * t).sin_cos();
         let path = DVec3::new(-0.8 * sine, -0.76, 0.0);
-        let normal = DVec3::new(-0.8 * 6.8 * cosine, 9.81, 0.0).normalize();
+        let normal = DVec3::new(-0.8 * 6.8 * cosine, GRAVITY, 0.0).normalize();
         let across = DVec3::new(normal.y, -normal.x, 0.0);
         [DVec3::new(path.dot(across), path.dot(normal), 0.0), DVec3::new(0.1, 0.0, 0.1), path]
     };

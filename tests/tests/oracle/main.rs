@@ -9,6 +9,7 @@ mod common;
 mod drops;
 mod feature;
 mod flight;
+mod gravity;
 mod landing;
 mod launch;
 mod motion;

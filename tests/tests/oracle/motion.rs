@@ -4,13 +4,13 @@
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-use crate::common::{csv, field, number, uniform, uniform_species};
+use crate::common::{GRAVITY, csv, field, number, uniform, uniform_species};
 use glam::DVec3;
 use windfall_core::motion::{
     MotionConstants, Path, PeriodicFluttering, PeriodicSpiraling, PeriodicTumbling, Primitive, SteadyDescent,
     TransitionalChaotic, TransitionalHelical,
 };
-use windfall_core::scene::{MotionParameters, Species};
+use windfall_core::scene::{MotionParameters, STANDARD_GRAVITY_M_S2, Species};
 
 /// A leaf of 7 cm and 70 g/m², the one that the reference numbers are stated for.
 fn paper_leaf() -> Species {
@@ -27,7 +27,7 @@ fn species() -> [Species; 3] {
 }
 
 fn paths(species: &Species) -> [(Primitive, Box<dyn Path>); 6] {
-    let constants = MotionConstants::of(species);
+    let constants = MotionConstants::of(species, STANDARD_GRAVITY_M_S2);
     Primitive::ALL.map(|primitive| {
         let path: Box<dyn Path> = match primitive {
             Primitive::SteadyDescent => Box::new(SteadyDescent::new(&constants, [3, 4])),
@@ -44,7 +44,7 @@ fn paths(species: &Species) -> [(Primitive, Box<dyn Path>); 6] {
 #[test]
 fn every_motion_descends_at_u_on_average() {
     for species in species() {
-        let u = MotionConstants::of(&species).descent_m_s;
+        let u = MotionConstants::of(&species, STANDARD_GRAVITY_M_S2).descent_m_s;
         for (primitive, path) in paths(&species) {
             let period = path.period_s();
             for start in [0.0, 0.3, 1.7] {
@@ -59,7 +59,7 @@ fn every_motion_descends_at_u_on_average() {
 #[test]
 fn tumbling_drifts_at_two_ax_over_pi() {
     for species in species() {
-        let constants = MotionConstants::of(&species);
+        let constants = MotionConstants::of(&species, STANDARD_GRAVITY_M_S2);
         let path = PeriodicTumbling::new(&constants);
         let drift = path.at(5.0 * path.period_s()).position.x / (5.0 * path.period_s());
         let expected = 2.0 * constants.horizontal_m_s / PI;
@@ -75,7 +75,7 @@ fn tumbling_drifts_at_two_ax_over_pi() {
 #[test]
 fn velocity_at_turning_points_is_straight_down() {
     for species in species() {
-        let constants = MotionConstants::of(&species);
+        let constants = MotionConstants::of(&species, STANDARD_GRAVITY_M_S2);
         let down = DVec3::NEG_Y * constants.descent_m_s;
         for (primitive, path) in paths(&species) {
             let expected = match primitive {
@@ -164,7 +164,10 @@ fn rose(ellipticity: f32, swings: u32) -> (Vec<f64>, Vec<f64>) {
         rose_radius_m: Some(0.12),
         ..MotionParameters::default()
     };
-    let path = TransitionalHelical::new(&MotionConstants::of(&Species { motion, ..paper_leaf() }));
+    let path = TransitionalHelical::new(&MotionConstants::of(
+        &Species { motion, ..paper_leaf() },
+        STANDARD_GRAVITY_M_S2,
+    ));
     let count = 7200;
     let points: Vec<_> = (0..count)
         .map(|index| {
@@ -221,7 +224,7 @@ fn circles_are_round() {
     for radius in rose(1.0, 4).0 {
         assert!((radius - 0.12).abs() < 1e-6, "helical motion with Ee = 1: radius {radius}, not 0.12 m");
     }
-    let constants = MotionConstants::of(&paper_leaf());
+    let constants = MotionConstants::of(&paper_leaf(), STANDARD_GRAVITY_M_S2);
     let path = PeriodicSpiraling::new(&constants);
     for index in 0..1000 {
         let place = path.at(0.01 * f64::from(index)).position;
@@ -232,7 +235,7 @@ fn circles_are_round() {
 
 #[test]
 fn reference_leaf_has_the_reference_numbers() {
-    let constants = MotionConstants::of(&paper_leaf());
+    let constants = MotionConstants::of(&paper_leaf(), STANDARD_GRAVITY_M_S2);
     for (name, value, expected, tolerance) in [
         ("descent", constants.descent_m_s, 0.757, 1e-3),
         ("Ax", constants.horizontal_m_s, 0.80, 0.01),
@@ -244,7 +247,7 @@ fn reference_leaf_has_the_reference_numbers() {
         assert!((value - expected).abs() < tolerance, "{name} is {value}, expected {expected}");
     }
     let turning = PeriodicFluttering::new(&constants).at(FRAC_PI_2 / constants.flutter_rad_s);
-    let force = turning.acceleration + DVec3::Y * 9.806_65;
+    let force = turning.acceleration + DVec3::Y * GRAVITY;
     let tilt = force.x.atan2(force.y).to_degrees();
     assert!((tilt - 64.0).abs() < 1.5, "specific force tilts by {tilt} degrees at the turning point");
 }
@@ -264,7 +267,7 @@ fn rates_agree_with_published_drops() {
             areal_density_kg_m2: number(&row, "areal_density_kg_m2") as f32,
             ..uniform_species()
         };
-        let constants = MotionConstants::of(&leaf);
+        let constants = MotionConstants::of(&leaf, STANDARD_GRAVITY_M_S2);
         let u = constants.descent_m_s;
         assert!(slow < u && u < fast, "{size} m: descent {u}, measured {slow} to {fast} m/s");
         let per_s = 0.5 * number(&row, "projected_area_peaks_per_s");

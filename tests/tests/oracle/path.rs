@@ -10,7 +10,7 @@ use windfall_core::device::leaf::release::leaf_release;
 use windfall_core::leaf::seek::leaf_seek;
 use windfall_core::leaf::{LeafState, Leaves};
 use windfall_core::motion::MotionConstants;
-use windfall_core::scene::{Release, Scene, Source, SourceShape};
+use windfall_core::scene::{Release, STANDARD_GRAVITY_M_S2, Scene, Source, SourceShape};
 
 const LEAVES: usize = 1500;
 
@@ -185,7 +185,7 @@ fn joins_jump_neither_in_position_nor_in_velocity() {
         .species
         .iter()
         .map(|species| {
-            let c = MotionConstants::of(species);
+            let c = MotionConstants::of(species, STANDARD_GRAVITY_M_S2);
             let rate = c.tumble_rad_s.max(c.flutter_rad_s * 1.25) * 1.35 * (1.0 + c.chaos_jitter);
             let speed = 1.15 * (1.0 + c.chaos_jitter) * (c.horizontal_m_s + c.vertical_m_s + c.descent_m_s);
             (3.0 * speed, rate * speed * 2.0 + 4.0 * speed / c.response_s())

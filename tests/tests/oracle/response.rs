@@ -5,12 +5,13 @@
 use std::f64::consts::TAU;
 
 use crate::common::{
-    build, position, single_motion, steady_wind, step, still_scene, uniform_species, vector, velocity,
+    GRAVITY, build, position, single_motion, steady_wind, step, still_scene, uniform_species, vector,
+    velocity,
 };
 use glam::DVec3;
 use windfall_core::device::leaf::record::leaf_stage;
-use windfall_core::motion::{GRAVITY, MotionConstants, Primitive};
-use windfall_core::scene::{MeanSpeed, Scene};
+use windfall_core::motion::{MotionConstants, Primitive};
+use windfall_core::scene::{MeanSpeed, STANDARD_GRAVITY_M_S2, Scene};
 use windfall_core::{Environment, World};
 
 #[test]
@@ -19,7 +20,7 @@ fn a_released_leaf_starts_at_rest_and_falls_like_a_stone_at_first() {
     scene.dt_s = 0.001;
     let species = &mut scene.species[0];
     species.motion.wander_m_s = Some(0.0);
-    let constants = MotionConstants::of(species);
+    let constants = MotionConstants::of(species, STANDARD_GRAVITY_M_S2);
     let mut world = build(&scene);
     let first_stage = |world: &World, slot: usize| leaf_stage(world.leaves.identity[slot].appearance) == 0;
     for slot in 0..200 {
@@ -50,7 +51,7 @@ fn a_released_leaf_starts_at_rest_and_falls_like_a_stone_at_first() {
 fn leaves_follow_a_steady_wind_within_their_response_time() {
     for primitive in Primitive::ALL {
         let scene = still_scene(single_motion(primitive), 50, 15.0);
-        let tau = MotionConstants::of(&scene.species[0]).response_s();
+        let tau = MotionConstants::of(&scene.species[0], STANDARD_GRAVITY_M_S2).response_s();
         let mut still = build(&scene);
         let mut windy = build(&Scene { wind: steady_wind(4.0), ..scene.clone() });
         for steps in 1..=600u32 {
@@ -85,7 +86,7 @@ fn the_response_to_a_step_of_the_wind_is_exponential() {
     let mut scene = still_scene(single_motion(Primitive::SteadyDescent), 1, 15.0);
     scene.dt_s = 0.002;
     scene.wind = steady_wind(2.0);
-    let tau = MotionConstants::of(&scene.species[0]).response_s();
+    let tau = MotionConstants::of(&scene.species[0], STANDARD_GRAVITY_M_S2).response_s();
     // A join would hand on a difference of wandering.
     scene.species[0].motion.wander_m_s = Some(0.0);
     let mut world = build(&scene);
@@ -111,16 +112,17 @@ fn fall_speed_and_rotation_speed_scale_what_they_say() {
     for primitive in Primitive::ALL {
         // So high that the first stage of a fall lasts for minutes.
         let base = still_scene(single_motion(primitive), 40, 400.0);
-        let period = windfall_core::motion::MotionTables::generate(&base.species[0], [1, 0]).0
-            [primitive as usize]
-            .period_s;
+        let period =
+            windfall_core::motion::MotionTables::generate(&base.species[0], [1, 0], STANDARD_GRAVITY_M_S2).0
+                [primitive as usize]
+                .period_s;
         for (fall_speed, rotation_speed) in
             [(1.0f32, 1.0f32), (0.5, 1.0), (2.0, 1.0), (1.0, 0.5), (1.0, 2.0), (1.5, 0.7)]
         {
             let scene = Scene { fall_speed, rotation_speed, dt_s: 0.01, ..base.clone() };
             let (fall, turn) = (f64::from(fall_speed), f64::from(rotation_speed));
             let mut world = build(&scene);
-            let u = MotionConstants::of(&scene.species[0]).descent_m_s;
+            let u = MotionConstants::of(&scene.species[0], STANDARD_GRAVITY_M_S2).descent_m_s;
             step(&mut world, 200);
             let phase =
                 |world: &World, slot: usize| f64::from(world.leaves.drift[slot].phase) / 4_294_967_296.0;
@@ -152,7 +154,7 @@ fn fall_speed_and_rotation_speed_scale_what_they_say() {
     // A spiral of half the rate at the same speed is twice as wide.
     let width = |rotation_speed: f32| {
         let base = still_scene(single_motion(Primitive::PeriodicSpiraling), 1, 400.0);
-        let rate = MotionConstants::of(&base.species[0]).spiral_rad_s;
+        let rate = MotionConstants::of(&base.species[0], STANDARD_GRAVITY_M_S2).spiral_rad_s;
         let mut world = build(&Scene { rotation_speed, ..base });
         step(&mut world, 120);
         let mut low = DVec3::MAX;

@@ -12,7 +12,7 @@ use windfall_core::motion::{
     AIR_DENSITY, MotionConstants, MotionTables, Path, PeriodicFluttering, Primitive, PrimitiveTable,
     SteadyDescent,
 };
-use windfall_core::scene::{MotionParameters, RotationModel, Species};
+use windfall_core::scene::{MotionParameters, RotationModel, STANDARD_GRAVITY_M_S2, Species};
 
 const SEED: [u32; 2] = [5, 6];
 const ROWS: usize = 512;
@@ -51,7 +51,7 @@ fn pitches(table: &PrimitiveTable) -> Vec<f64> {
 
 #[test]
 fn broadside_is_the_stable_state_of_a_steady_fall() {
-    let tables = MotionTables::generate(&plate(1.0, 0.0), SEED);
+    let tables = MotionTables::generate(&plate(1.0, 0.0), SEED, STANDARD_GRAVITY_M_S2);
     for pitch in pitches(&tables.0[Primitive::SteadyDescent as usize]) {
         let off = pitch - PI * (pitch / PI).round();
         assert!(off.abs() < 1e-6, "a steady vertical fall is pitched by {off} rad");
@@ -69,8 +69,8 @@ fn broadside_is_the_stable_state_of_a_steady_fall() {
         },
         ..uniform_species()
     };
-    let path = SteadyDescent::new(&MotionConstants::of(&light), SEED);
-    let tables = MotionTables::generate(&light, SEED);
+    let path = SteadyDescent::new(&MotionConstants::of(&light, STANDARD_GRAVITY_M_S2), SEED);
+    let tables = MotionTables::generate(&light, SEED, STANDARD_GRAVITY_M_S2);
     let pitch = pitches(&tables.0[Primitive::SteadyDescent as usize]);
     let (mut sum, mut lag) = (0.0, 0.0);
     for (row, pitch) in pitch.iter().enumerate() {
@@ -89,8 +89,10 @@ fn broadside_is_the_stable_state_of_a_steady_fall() {
 /// a driven oscillator, `theta = -alpha s / (s - w^2 + i k w)` with stiffness `s = 3 pi rho V^2 / (sigma l)`.
 fn stiffnesses(speed: f32) -> (Vec<f64>, usize) {
     let species = plate(speed, 0.01 * speed);
-    let path = SteadyDescent::new(&MotionConstants::of(&species), SEED);
-    let pitch = pitches(&MotionTables::generate(&species, SEED).0[Primitive::SteadyDescent as usize]);
+    let path = SteadyDescent::new(&MotionConstants::of(&species, STANDARD_GRAVITY_M_S2), SEED);
+    let pitch = pitches(
+        &MotionTables::generate(&species, SEED, STANDARD_GRAVITY_M_S2).0[Primitive::SteadyDescent as usize],
+    );
     let harmonic = |n: usize, value: &dyn Fn(usize) -> f64| -> Complex64 {
         (0..ROWS).map(|row| Complex64::from_polar(value(row), -TAU * (n * row) as f64 / ROWS as f64)).sum()
     };
@@ -180,7 +182,7 @@ fn worst_pitch(species: &Species, primitive: Primitive, path: &impl Path) -> f64
     let expected = &solver.y_out()[4 * ROWS..=5 * ROWS];
     let residue = expected[ROWS][0] - expected[0][0];
     let closing = TAU * (residue / TAU).round() - residue;
-    let found = pitches(&MotionTables::generate(species, SEED).0[primitive as usize]);
+    let found = pitches(&MotionTables::generate(species, SEED, STANDARD_GRAVITY_M_S2).0[primitive as usize]);
     (0..=ROWS)
         .map(|row| {
             let off = found[row] - expected[row][0] - closing * row as f64 / ROWS as f64;
@@ -196,7 +198,7 @@ fn pitches_agree_with_an_adaptive_integration() {
     {
         let rotation = RotationModel::TanabeKaneko { friction_per_s };
         let species = Species { size_m, areal_density_kg_m2, rotation, ..uniform_species() };
-        let constants = MotionConstants::of(&species);
+        let constants = MotionConstants::of(&species, STANDARD_GRAVITY_M_S2);
         let worst = [
             worst_pitch(&species, Primitive::SteadyDescent, &SteadyDescent::new(&constants, SEED)),
             worst_pitch(&species, Primitive::PeriodicFluttering, &PeriodicFluttering::new(&constants)),
@@ -218,7 +220,9 @@ fn tables_close_and_turn_about_one_axis() {
             rotation: RotationModel::TanabeKaneko { friction_per_s: 10.0 },
             ..uniform_species()
         };
-        for (primitive, table) in Primitive::ALL.iter().zip(&MotionTables::generate(&species, SEED).0) {
+        for (primitive, table) in
+            Primitive::ALL.iter().zip(&MotionTables::generate(&species, SEED, STANDARD_GRAVITY_M_S2).0)
+        {
             let (first, last) = (quaternion(table.orientation[0]), quaternion(table.orientation[ROWS]));
             let gap = first.dot(last).abs();
             assert!(

@@ -4,6 +4,7 @@
 
 #![expect(clippy::cast_possible_truncation, reason = "numbers of a test, small")]
 
+use crate::common::GRAVITY;
 use std::time::Instant;
 
 use glam::{Quat, Vec3};
@@ -15,7 +16,7 @@ use windfall_core::device::leaf::record::size_ratio;
 use windfall_core::device::wind::sample::wind_at;
 use windfall_core::leaf::petiole::{PETIOLE_CLASS_MASK, PETIOLE_CLASS_SHIFT, SHED_INTERVAL};
 use windfall_core::leaf::{LEAF_BYTES, LeafState, Petiole};
-use windfall_core::scene::{Gusts, MeanSpeed, Profile, Scene, Tree, Turbulence};
+use windfall_core::scene::{Gusts, MeanSpeed, Profile, STANDARD_GRAVITY_M_S2, Scene, Tree, Turbulence};
 use windfall_core::tree::record::NO_SEGMENT;
 use windfall_cpu::{CpuOptions, CpuSimulator};
 
@@ -81,7 +82,7 @@ fn model_rate_per_s(scene: &Scene, class: u32, speed_m_s: f64) -> f64 {
     let strength = f64::from(foliage.strength_n) * (spread - weakened).exp();
     let radius = 0.5 * f64::from(species.size_m);
     let area = std::f64::consts::PI * radius * radius;
-    let weight = area * f64::from(species.areal_density_kg_m2) * 9.81;
+    let weight = area * f64::from(species.areal_density_kg_m2) * GRAVITY;
     let drag = 0.5 * 1.2 * f64::from(foliage.drag) * area * speed_m_s * speed_m_s
         / (1.0 + speed_m_s / f64::from(foliage.yield_m_s));
     let load = weight + drag;
@@ -235,7 +236,7 @@ fn nothing_jumps_where_a_leaf_comes_off() {
             let air = Vec3::new(air.x, air.y, air.z);
             let response_s = response_of(&cx, place.bits).time_constant_s;
             // The wind takes hold at once with its drag, and the leaf begins to swing as fast as it falls.
-            let pull = ((air - carried).length() + 2.0) / response_s * dt + 9.81 * dt;
+            let pull = ((air - carried).length() + 2.0) / response_s * dt + STANDARD_GRAVITY_M_S2 * dt;
             let change = (moved - carried).length();
             worst = worst.max(change / pull);
             assert!(change <= pull, "slot {slot}: {carried} m/s before, {moved} m/s after");

@@ -4,9 +4,10 @@
 
 #![expect(clippy::cast_possible_truncation, reason = "numbers of a test, small")]
 
+use crate::common::GRAVITY;
 use glam::Vec3;
 use proptest::prelude::*;
-use windfall_core::scene::{MeanSpeed, Profile, SwayScheme, Wood};
+use windfall_core::scene::{MeanSpeed, Profile, STANDARD_GRAVITY_M_S2, SwayScheme, Wood};
 use windfall_tests::grove::{Grove, bare, chain, forked};
 
 /// Joint rotation of a segment as it stands, by half its sine along x, y and z.
@@ -109,7 +110,7 @@ proptest! {
         }
         let mass: f64 = grove.forest.segments().iter().map(|segment| f64::from(segment.mass)).sum();
         // As fast as the wind, and as fast as its own height makes it fall.
-        let fastest = f64::from(speed) + (2.0f64 * 9.81 * 15.0).sqrt();
+        let fastest = f64::from(speed) + (2.0 * GRAVITY * 15.0).sqrt();
         let bound = 0.5 * mass * (2.0 * fastest).powi(2);
         let mut largest = 0.0f64;
         for step in 0..400 {
@@ -136,18 +137,21 @@ proptest! {
     }
 }
 
-/// The tip of a bare pole in a steady wind leans as far as the beam under its drag does.
+/// The tip of a bare pole in a steady wind leans as far as the beam under its drag and weight does, on the Moon, on Earth
+/// and under three times its gravity.
 #[test]
 fn a_pole_leans_as_far_as_its_drag_bends_it() {
     for scheme in [SwayScheme::Articulated, SwayScheme::Quigley, SwayScheme::OliapuramKumar] {
-        pole_leans(scheme);
+        let shares = [1.62, STANDARD_GRAVITY_M_S2, 30.0].map(|gravity_m_s2| pole_leans(scheme, gravity_m_s2));
+        assert!(shares[2] - shares[0] > 0.06, "{scheme:?}: weight counts, {shares:?}");
     }
 }
 
-fn pole_leans(scheme: SwayScheme) {
+/// Checks how far a pole leans; gives its weight as a share of the weight that would buckle it.
+fn pole_leans(scheme: SwayScheme, gravity_m_s2: f32) -> f64 {
     let (length, radius, links) = (4.0f32, 0.02f32, 16u32);
     let wood = Wood { damping: 0.5, drag: 1.2, density_kg_m3: 400.0, anchorage: 1e6, ..Wood::default() };
-    let mut grove = Grove::new(vec![bare(chain(links, length, radius), wood)], 1.0 / 60.0);
+    let mut grove = Grove::under(gravity_m_s2, vec![bare(chain(links, length, radius), wood)], 1.0 / 60.0);
     grove.blow(|scene| {
         scene.sway = scheme;
         scene.wind.speed = MeanSpeed::MetresPerSecond(6.0);
@@ -162,7 +166,7 @@ fn pole_leans(scheme: SwayScheme) {
     // the beam's own theory gives: a factor of 1 / (1 - q) with q the weight over the weight that would buckle it.
     let drag = 0.5 * 1.2 * 1.2 * 2.0 * f64::from(radius) * 36.0;
     let rigidity = 9.5e9 * std::f64::consts::FRAC_PI_4 * f64::from(radius).powi(4);
-    let weight = 400.0 * std::f64::consts::PI * f64::from(radius).powi(2) * 9.81;
+    let weight = 400.0 * std::f64::consts::PI * f64::from(radius).powi(2) * f64::from(gravity_m_s2);
     let l = f64::from(length);
     let buckling = weight * l.powi(3) / (7.837 * rigidity);
     let expected = drag * l.powi(4) / (8.0 * rigidity) / (1.0 - buckling);
@@ -170,8 +174,9 @@ fn pole_leans(scheme: SwayScheme) {
     assert!(expected < 0.1 * l, "a small deflection: {expected} m");
     assert!(
         (found / expected - 1.0).abs() < 0.03,
-        "{scheme:?}: {found} m, beam theory {expected} m, buckling share {buckling}"
+        "{scheme:?}, {gravity_m_s2} m/s²: {found} m, beam theory {expected} m, buckling share {buckling}"
     );
+    buckling
 }
 
 /// The force form of the thesis, kept as a control: restoring and damping forces at the rod's middle, crossed with the

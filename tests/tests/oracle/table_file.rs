@@ -8,7 +8,7 @@ use crate::common::{build, quaternion, step, still_scene, uniform_species};
 use proptest::prelude::*;
 use windfall_core::device::motion::lookup::motion_state;
 use windfall_core::motion::{MotionTables, PrimitiveTable};
-use windfall_core::scene::{MotionParameters, RotationModel, Species};
+use windfall_core::scene::{MotionParameters, RotationModel, STANDARD_GRAVITY_M_S2, Species};
 use windfall_core::{SceneError, World};
 
 /// Lines of a file: two of head, then six blocks of one and 513.
@@ -64,7 +64,7 @@ proptest! {
             RotationModel::TanabeKaneko { friction_per_s }
         });
         let species = Species { motion, size_m, areal_density_kg_m2, rotation, ..uniform_species() };
-        let tables = MotionTables::generate(&species, seed);
+        let tables = MotionTables::generate(&species, seed, STANDARD_GRAVITY_M_S2);
         let read = MotionTables::from_text(&tables.to_text(), "test")
             .map_err(|error| TestCaseError::fail(error.to_string()))?;
         for (before, after) in tables.0.iter().zip(&read.0) {
@@ -98,7 +98,7 @@ proptest! {
 }
 
 fn tables() -> MotionTables {
-    MotionTables::generate(&uniform_species(), [1, 2])
+    MotionTables::generate(&uniform_species(), [1, 2], STANDARD_GRAVITY_M_S2)
 }
 
 /// Those tables as a file, made once.
@@ -182,7 +182,7 @@ fn a_scene_with_a_saved_file_falls_like_one_without() {
     let file = folder.join("saved.motions");
     let scene = still_scene(uniform_species(), 64, 12.0);
     let seed = [u32::try_from(scene.seed).expect("a small seed"), 0];
-    let saved = MotionTables::generate(&scene.species[0], seed);
+    let saved = MotionTables::generate(&scene.species[0], seed, STANDARD_GRAVITY_M_S2);
     std::fs::write(&file, saved.to_text()).expect("a file for the test");
     let mut from_file = scene.clone();
     from_file.species[0].tables = Some(file.to_string_lossy().into_owned());

@@ -5,16 +5,16 @@
 use std::f64::consts::TAU;
 
 use crate::common::{
-    attitude, build, quaternion, single_motion, step, still_scene, uniform, uniform_species, vector,
+    GRAVITY, attitude, build, quaternion, single_motion, step, still_scene, uniform, uniform_species, vector,
 };
 use glam::{DQuat, DVec3};
 use windfall_core::device::leaf::record::leaf_stage;
 use windfall_core::device::motion::lookup::{motion_displacement, motion_state};
 use windfall_core::motion::{
-    GRAVITY, MotionConstants, MotionTables, Path, PeriodicFluttering, PeriodicSpiraling, PeriodicTumbling,
-    Primitive, PrimitiveTable, SteadyDescent, TransitionalChaotic, TransitionalHelical,
+    MotionConstants, MotionTables, Path, PeriodicFluttering, PeriodicSpiraling, PeriodicTumbling, Primitive,
+    PrimitiveTable, SteadyDescent, TransitionalChaotic, TransitionalHelical,
 };
-use windfall_core::scene::Species;
+use windfall_core::scene::{STANDARD_GRAVITY_M_S2, Species};
 use windfall_core::{Clock, Environment};
 
 const SEED: [u32; 2] = [1, 0];
@@ -25,7 +25,7 @@ fn paper_leaf() -> Species {
 }
 
 fn path(primitive: Primitive, species: &Species) -> Box<dyn Path> {
-    let constants = MotionConstants::of(species);
+    let constants = MotionConstants::of(species, STANDARD_GRAVITY_M_S2);
     match primitive {
         Primitive::SteadyDescent => Box::new(SteadyDescent::new(&constants, SEED)),
         Primitive::PeriodicTumbling => Box::new(PeriodicTumbling::new(&constants)),
@@ -49,7 +49,7 @@ fn angle(a: DQuat, b: DQuat) -> f64 {
 #[test]
 fn rows_are_the_equations() {
     for species in [uniform_species(), paper_leaf(), Species { size_m: 0.03, ..uniform_species() }] {
-        let tables = MotionTables::generate(&species, SEED);
+        let tables = MotionTables::generate(&species, SEED, STANDARD_GRAVITY_M_S2);
         for primitive in Primitive::ALL {
             let (table, path) = (&tables.0[primitive as usize], path(primitive, &species));
             assert_eq!(table.period_s, path.period_s(), "period of {primitive:?}");
@@ -93,7 +93,9 @@ fn orientations_are_unit_smooth_and_closed() {
     for size_m in [0.02, 0.045, 0.07, 0.1, 0.2] {
         for areal_density_kg_m2 in [0.03, 0.07, 0.12] {
             let species = Species { size_m, areal_density_kg_m2, ..uniform_species() };
-            for (primitive, table) in Primitive::ALL.iter().zip(&MotionTables::generate(&species, SEED).0) {
+            for (primitive, table) in
+                Primitive::ALL.iter().zip(&MotionTables::generate(&species, SEED, STANDARD_GRAVITY_M_S2).0)
+            {
                 let turns: Vec<_> = table.orientation.iter().map(|&q| quaternion(q)).collect();
                 for (row, pair) in turns.windows(2).enumerate() {
                     let norm = pair[0].length();
@@ -132,7 +134,8 @@ fn spirals_bank_inwards_like_a_coordinated_turn() {
         species.motion.spiral_radius_m = Some(radius);
         species.motion.spiral_rad_s = Some(rate);
         let path = path(Primitive::PeriodicSpiraling, &species);
-        let table = &MotionTables::generate(&species, SEED).0[Primitive::PeriodicSpiraling as usize];
+        let table = &MotionTables::generate(&species, SEED, STANDARD_GRAVITY_M_S2).0
+            [Primitive::PeriodicSpiraling as usize];
         let axis = DVec3::NEG_X * f64::from(radius);
         let expected = (f64::from(radius) * f64::from(rate).powi(2) / GRAVITY).atan();
         assert!(
@@ -167,7 +170,8 @@ fn spirals_bank_inwards_like_a_coordinated_turn() {
 
 #[test]
 fn fluttering_tilts_to_sixty_degrees_and_stays_upright() {
-    let table = &MotionTables::generate(&paper_leaf(), SEED).0[Primitive::PeriodicFluttering as usize];
+    let table = &MotionTables::generate(&paper_leaf(), SEED, STANDARD_GRAVITY_M_S2).0
+        [Primitive::PeriodicFluttering as usize];
     let tilts: Vec<_> = normals(table).iter().map(|normal| normal.y.acos().to_degrees()).collect();
     let (low, high) = tilts.iter().fold((f64::MAX, 0.0f64), |(a, b), &tilt| (a.min(tilt), b.max(tilt)));
     println!("PF tilts from {low:.2} to {high:.2} degrees");
@@ -185,7 +189,8 @@ fn fluttering_tilts_to_sixty_degrees_and_stays_upright() {
 fn helical_normals_follow_the_specific_force() {
     let species = paper_leaf();
     let path = path(Primitive::TransitionalHelical, &species);
-    let table = &MotionTables::generate(&species, SEED).0[Primitive::TransitionalHelical as usize];
+    let table = &MotionTables::generate(&species, SEED, STANDARD_GRAVITY_M_S2).0
+        [Primitive::TransitionalHelical as usize];
     for (row, normal) in normals(table).into_iter().enumerate() {
         let force = path.at(path.period_s() * row as f64 / ROWS as f64).acceleration + DVec3::Y * GRAVITY;
         let error = normal.angle_between(force);
@@ -196,7 +201,8 @@ fn helical_normals_follow_the_specific_force() {
 #[test]
 fn tumbling_turns_once_per_period_towards_its_drift() {
     let species = paper_leaf();
-    let table = &MotionTables::generate(&species, SEED).0[Primitive::PeriodicTumbling as usize];
+    let table = &MotionTables::generate(&species, SEED, STANDARD_GRAVITY_M_S2).0
+        [Primitive::PeriodicTumbling as usize];
     let turned: f64 =
         normals(table).windows(2).map(|pair| pair[0].cross(pair[1]).z.atan2(pair[0].dot(pair[1]))).sum();
     assert!((turned - TAU).abs() < 1e-4, "{turned} rad per period, one turn about +z expected");
@@ -207,7 +213,7 @@ fn tumbling_turns_once_per_period_towards_its_drift() {
 #[test]
 fn a_tumbling_leaf_turns_at_its_rate() {
     let species = single_motion(Primitive::PeriodicTumbling);
-    let rate = MotionConstants::of(&species).tumble_rad_s;
+    let rate = MotionConstants::of(&species, STANDARD_GRAVITY_M_S2).tumble_rad_s;
     for rotation_speed in [0.5f32, 1.0, 2.0] {
         // So high that the first stage of a fall lasts minutes: a join would change the phase.
         let mut scene = still_scene(species.clone(), 20, 600.0);

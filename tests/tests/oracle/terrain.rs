@@ -2,13 +2,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Leaves and trees on hills, held to the hills' grid and to the mechanics of an inclined plane, in double precision.
 
-use crate::common::{attitude, build, position, step, velocity};
+use crate::common::{GRAVITY, attitude, build, position, step, velocity};
 use glam::DVec3;
 use windfall_core::arith::Vec3;
 use windfall_core::device::leaf::settle::slide;
 use windfall_core::device::terrain::ground::Slope;
 use windfall_core::leaf::LeafState;
-use windfall_core::motion::GRAVITY;
 use windfall_core::terrain::Hills;
 use windfall_core::{REST_OFFSET_M, Scene, World};
 use windfall_tests::strategies::{flying_scene, hilly_scene, varied_scene};

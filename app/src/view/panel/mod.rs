@@ -193,7 +193,8 @@ impl Panel {
         self.scene_groups(ui, &groups, input, actions);
         self.view_groups(ui, &groups, input, camera);
         let (scene, own) = (&mut self.draft.scene, &*input.loaded);
-        let differs = (scene.seed, scene.dt_s) != (own.seed, own.dt_s);
+        let numbers = |scene: &Scene| (scene.seed, scene.dt_s, scene.gravity_m_s2);
+        let differs = numbers(scene) != numbers(own);
         groups.show(ui, Group::Simulation, differs, |ui| simulation::show(ui, scene, own, input, actions));
         groups.show(ui, Group::Counts, false, |ui| numbers::counts(ui, input));
         groups.show(ui, Group::Timings, false, |ui| numbers::timings(ui, input));

@@ -13,12 +13,12 @@ use super::style;
 /// Names of the primitive motions, in their order.
 const NAMES: [&str; 6] = ["steady descent", "tumbling", "chaotic", "fluttering", "helical", "spiraling"];
 
-pub(super) fn show(ui: &mut Ui, species: &mut Species, own: Option<&Species>) {
+pub(super) fn show(ui: &mut Ui, species: &mut Species, own: Option<&Species>, gravity_m_s2: f32) {
     let options: [_; 6] = std::array::from_fn(|index| (NAMES[index], Primitive::ALL[index]));
     let tip = "First motion of every fall";
     choice(ui, "Begins with", tip, &mut species.start, own.map(|own| &own.start), &options);
     transitions(ui, &mut species.transitions);
-    numbers(ui, species, own);
+    numbers(ui, species, own, gravity_m_s2);
 }
 
 /// Counts of changes, from the row's motion to the column's.
@@ -45,10 +45,10 @@ fn transitions(ui: &mut Ui, table: &mut TransitionTable) {
     });
 }
 
-/// Numbers that follow from size and mass unless they are stated.
+/// Numbers that follow from size, mass and gravity unless they are stated.
 #[expect(clippy::cast_possible_truncation, reason = "scenes are in single precision")]
-fn numbers(ui: &mut Ui, species: &mut Species, own: Option<&Species>) {
-    let used = MotionConstants::of(species);
+fn numbers(ui: &mut Ui, species: &mut Species, own: Option<&Species>, gravity_m_s2: f32) {
+    let used = MotionConstants::of(species, gravity_m_s2);
     let motion = &mut species.motion;
     let own = own.map(|own| own.motion);
     let rows = [

@@ -22,5 +22,7 @@ pub(super) fn show(
     field("Seed", tip, seeds).wide().show(ui, &mut scene.seed, own.seed);
     let tip = "Length of one step";
     field("Step length", tip, limits::DT_S).fine(0.001).show(ui, &mut scene.dt_s, own.dt_s);
+    let tip = "Gravity, for leaves and trees: 9.81 on Earth, 3.73 on Mars, 1.62 on the Moon";
+    field("Gravity", tip, limits::GRAVITY_M_S2).show(ui, &mut scene.gravity_m_s2, own.gravity_m_s2);
     numbers::backend(ui, input, actions);
 }

@@ -62,7 +62,7 @@ pub(super) fn show(ui: &mut Ui, scene: &mut Scene, own: &Scene) {
     }
     let tip = "Fastest spin about the leaf's own normal, either way round";
     field("Spin", tip, limits::SPIN_RAD_S).show(ui, &mut species.spin_rad_s, own.map(|own| own.spin_rad_s));
-    motion::show(ui, species, own);
+    motion::show(ui, species, own, scene.gravity_m_s2);
     let options = [
         ("force", RotationModel::SpecificForce),
         ("Tanabe-Kaneko", RotationModel::TanabeKaneko { friction_per_s: 10.0 }),

@@ -36,6 +36,7 @@ impl Change {
             dt_s,
             fall_speed,
             rotation_speed,
+            gravity_m_s2,
             species,
             sources,
             tree_kinds,
@@ -52,6 +53,7 @@ impl Change {
             || *wind != old.wind
             || *sway != old.sway;
         change.rebuild("seed", *seed != old.seed, true, true);
+        change.rebuild("gravity", *gravity_m_s2 != old.gravity_m_s2, true, false);
         change.rebuild("step length", *dt_s != old.dt_s, true, false);
         change.rebuild("species", *species != old.species, true, looks(species) != looks(&old.species));
         change.rebuild("sources", *sources != old.sources, true, crowns(new) != crowns(old));

@@ -4,7 +4,7 @@
 
 use windfall_core::arith::Vec3;
 use windfall_core::device::flight::body::body_of;
-use windfall_core::device::flight::rates::{FLIGHT_GRAVITY, FlightMotion, flight_rates};
+use windfall_core::device::flight::rates::{FlightMotion, flight_rates};
 use windfall_core::device::flight::regime::REGIME_NAMES;
 use windfall_core::device::motion::feature::feature;
 use windfall_core::device::wind::sample::wind_at;
@@ -48,9 +48,10 @@ pub(crate) fn card(environment: &Environment, clock: &Clock, slot: u32, records:
         let body = body_of(&cx, records.place.bits, records.schedule.size);
         let motion =
             FlightMotion { velocity: leaf.velocity, pose: leaf.attitude, turning: spin * body.size_ratio };
-        let push = flight_rates(&body, &motion, wind).velocity;
+        let push = flight_rates(&cx, &body, &motion, wind).velocity;
         // The air's share is all but the weight.
-        let air = Vec3::new(push.x, push.y + FLIGHT_GRAVITY, push.z) * (1.0 / FLIGHT_GRAVITY);
+        let gravity = cx.environment.gravity_m_s2;
+        let air = Vec3::new(push.x, push.y + gravity, push.z) * (1.0 / gravity);
         rows.push(("air", format!("{:.2} weights, {:.2} of them upwards", length(air), air.y)));
         rows.push(("spin", format!("{:.1} rad/s", length(spin))));
     } else if is_released {

@@ -85,15 +85,16 @@ fn flight_rates(body: LeafBody, motion: FlightMotion, wind: vec3<f32>) -> Flight
         torque.z * body.inv_inertia.z + body.gyration.z * (turn.x * turn.y),
     );
 
+    let weight = environment.gravity_m_s2;
     let size = body.inv_size_ratio;
     let frame_accel = (turn.z * u.x - turn.x * u.z) * size;
     let centroid_accel = body.centroid.x * angular_accel.z - body.centroid.z * angular_accel.x;
-    let normal_accel = ((push.y - FLIGHT_GRAVITY * normal.y) - frame_accel) + centroid_accel;
+    let normal_accel = ((push.y - weight * normal.y) - frame_accel) + centroid_accel;
     let normal_force = body.resistance * normal_accel;
     let inner = vec3<f32>(
-        push.x - FLIGHT_GRAVITY * across.y,
-        (push.y - FLIGHT_GRAVITY * normal.y) - normal_force,
-        push.z - FLIGHT_GRAVITY * along.y,
+        push.x - weight * across.y,
+        (push.y - weight * normal.y) - normal_force,
+        push.z - weight * along.y,
     );
     let acceleration = across * inner.x + normal * inner.y + along * inner.z;
     let turning = vec3<f32>(

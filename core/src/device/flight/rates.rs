@@ -13,11 +13,7 @@ use crate::flight::coefficients::{
     DAMPING_NORMAL, DAMPING_ROLL, DAMPING_TURN, DRAG_BEND, DRAG_RISE, LIFT_BEND, LIFT_EDGE, LIFT_RISE,
     MUNK_EDGE, MUNK_RISE, WHIRL_EDGE, WHIRL_RISE,
 };
-
-crate::shared_constants! {
-    /// Acceleration of gravity in m/s².
-    pub const FLIGHT_GRAVITY: f32 = 9.81;
-}
+use crate::context::Context;
 
 /// Motion of a body, or of eight of them; or its rates of change.
 #[derive(Clone, Copy, Debug)]
@@ -32,7 +28,12 @@ pub struct FlightMotion<R: Real = f32> {
 
 /// Rates of change of the motion of a body in wind; the pose's is that of its four components.
 #[inline(always)]
-pub fn flight_rates<R: Real>(body: &LeafBody<R>, motion: &FlightMotion<R>, wind: Vec3<R>) -> FlightMotion<R> {
+pub fn flight_rates<R: Real>(
+    cx: &Context<'_>,
+    body: &LeafBody<R>,
+    motion: &FlightMotion<R>,
+    wind: Vec3<R>,
+) -> FlightMotion<R> {
     let Quat { x, y, z, w } = motion.pose;
     let (x2, y2, z2) = (x + x, y + y, z + z);
     let (xx, yy, zz) = (x * x2, y * y2, z * z2);
@@ -100,7 +101,7 @@ pub fn flight_rates<R: Real>(body: &LeafBody<R>, motion: &FlightMotion<R>, wind:
     );
 
     // The resistance acts at the centroid: on the body's fall and, if its mass is not centred there, on its turning.
-    let weight = x.all(FLIGHT_GRAVITY);
+    let weight = x.all(cx.environment.gravity_m_s2);
     let size = body.inv_size_ratio;
     let frame_accel = (turn.z * u.x - turn.x * u.z) * size;
     let centroid_accel = body.centroid.x * angular_accel.z - body.centroid.z * angular_accel.x;

@@ -9,6 +9,7 @@ use super::rates::{FlightMotion, flight_rates};
 use crate::arith::lane::{Mask, Real};
 use crate::arith::quaternion::{Quat, quat_normalize};
 use crate::arith::vector::Vec3;
+use crate::context::Context;
 
 crate::shared_constants! {
     /// Largest number of halvings of a step.
@@ -47,16 +48,17 @@ pub fn flight_sum<R: Real>(a: &FlightMotion<R>, b: &FlightMotion<R>) -> FlightMo
 /// One step of `time` seconds: way in m and the motion at its end.
 #[inline(always)]
 pub fn flight_step<R: Real>(
+    cx: &Context<'_>,
     body: &LeafBody<R>,
     motion: &FlightMotion<R>,
     wind: Vec3<R>,
     time: R,
 ) -> (Vec3<R>, FlightMotion<R>) {
     let half = time * 0.5;
-    let k1 = flight_rates(body, motion, wind);
-    let k2 = flight_rates(body, &flight_stage(motion, &k1, half), wind);
-    let k3 = flight_rates(body, &flight_stage(motion, &k2, half), wind);
-    let k4 = flight_rates(body, &flight_stage(motion, &k3, time), wind);
+    let k1 = flight_rates(cx, body, motion, wind);
+    let k2 = flight_rates(cx, body, &flight_stage(motion, &k1, half), wind);
+    let k3 = flight_rates(cx, body, &flight_stage(motion, &k2, half), wind);
+    let k4 = flight_rates(cx, body, &flight_stage(motion, &k3, time), wind);
     let middle = flight_sum(&k2, &k3);
     let all = flight_sum(&flight_sum(&k1, &k4), &flight_sum(&middle, &middle));
     let sixth = time * SIXTH;

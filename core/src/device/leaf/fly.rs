@@ -71,7 +71,7 @@ pub fn flight_advance<R: Real>(
         if !on.any() {
             break;
         }
-        let (way, next) = flight_step(&body, &motion, wind, time);
+        let (way, next) = flight_step(cx, &body, &motion, wind, time);
         position = chosen(on, position + way, position);
         motion = FlightMotion {
             velocity: chosen(on, next.velocity, motion.velocity),

@@ -71,7 +71,7 @@ impl Scene {
         for (index, species) in self.species.iter().enumerate().filter(|(_, species)| is_synthesised(species))
         {
             let at = check.inside(format!("species[{index}].motion"));
-            let (given, used) = (&species.motion, MotionConstants::of(species));
+            let (given, used) = (&species.motion, MotionConstants::of(species, self.gravity_m_s2));
             let leaf = (1.0 + f64::from(species.speed_variation)) / (1.0 - f64::from(species.size_variation));
             let speedup = leaf * (1.0 + used.chaos_jitter) * f64::from(self.rotation_speed.max(1.0));
             let fastest = MAX_PERIODS_PER_STEP * TAU / (f64::from(self.dt_s) * speedup);
@@ -104,7 +104,8 @@ impl Scene {
                 (format!("reaching down to {lowest_m} m"), allowed)
             })?;
             for species in self.species.iter().filter(|species| source.lets_go(species)) {
-                let limit_m = MAX_FALL_STEPS * f64::from(self.dt_s) * species.slowest_descent_m_s();
+                let limit_m =
+                    MAX_FALL_STEPS * f64::from(self.dt_s) * species.slowest_descent_m_s(self.gravity_m_s2);
                 at.holds(highest_m - ground_m < limit_m, "shape", || {
                     let found = format!("reaching up to {} m above the ground", highest_m - ground_m);
                     let reason = format!("{MAX_FALL_STEPS} steps for a fall of {:?}", species.name);
@@ -157,7 +158,7 @@ impl SourceShape {
 
 impl Species {
     /// Mean descent speed of the slowest leaf of the species in m/s.
-    fn slowest_descent_m_s(&self) -> f64 {
-        MotionConstants::of(self).descent_m_s * (1.0 - f64::from(self.speed_variation))
+    fn slowest_descent_m_s(&self, gravity_m_s2: f32) -> f64 {
+        MotionConstants::of(self, gravity_m_s2).descent_m_s * (1.0 - f64::from(self.speed_variation))
     }
 }

@@ -8,6 +8,7 @@ use glam::Vec3;
 
 use super::kind;
 use crate::arith::pack::BLOCK;
+use crate::scene::STANDARD_GRAVITY_M_S2;
 use crate::tree::forest::{Forest, Seedling};
 use crate::tree::record::NO_SEGMENT;
 use crate::tree::testing::tree;
@@ -22,7 +23,7 @@ fn planted(skeletons: impl Iterator<Item = Skeleton>) -> Forest {
         foot_m: Vec3::ZERO,
         leaf_slots: 0,
     };
-    Forest::plant(skeletons.map(seedling).collect(), 1.0 / 60.0)
+    Forest::plant(skeletons.map(seedling).collect(), 1.0 / 60.0, STANDARD_GRAVITY_M_S2)
 }
 
 /// Forty trees of three sizes, in several batches.

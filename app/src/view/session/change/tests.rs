@@ -61,9 +61,10 @@ fn what_is_only_seen_leaves_the_simulation_alone() {
 
 #[test]
 fn what_the_world_is_made_of_begins_it_again() {
-    let edits: [(&str, bool, Edit); 9] = [
+    let edits: [(&str, bool, Edit); 10] = [
         ("seed", true, |scene| scene.seed += 1),
         ("step length", false, |scene| scene.dt_s = 0.01),
+        ("gravity", false, |scene| scene.gravity_m_s2 = 1.62),
         ("species", false, |scene| scene.species[0].spin_rad_s += 1.0),
         ("species", true, |scene| scene.species[0].season.0 = 0.0),
         ("sources", false, |scene| scene.sources[0].count += 1),

@@ -46,6 +46,7 @@ fn segment_load(constants: SegmentConstants, body: Body, axis: vec3<f32>, air: v
     let mass = constants.mass + leaves;
     let moment = constants.first_moment + leaves * half;
     let across = constants.inertia_across + leaves * ((constants.length * constants.length) * THIRD);
+    let gravity = environment.gravity_m_s2;
     let dt = environment.dt_s;
     let added = held * dt;
     let heavy = across + added * (half * half);
@@ -55,7 +56,7 @@ fn segment_load(constants: SegmentConstants, body: Body, axis: vec3<f32>, air: v
     let gyration = body.spin * ((constants.inertia_along - across) * turning);
     let outward = body.spin * turning - axis * vec3_dot(body.spin, body.spin);
     let levered = gyration + push * half;
-    let moved = vec3<f32>(levered.x, levered.y - moment * GRAVITY_M_S2, levered.z);
+    let moved = vec3<f32>(levered.x, levered.y - moment * gravity, levered.z);
     let force = outward * moment - push;
     return Load(
         constants.inertia_along,
@@ -64,7 +65,7 @@ fn segment_load(constants: SegmentConstants, body: Body, axis: vec3<f32>, air: v
         bare - drag.wood * dt,
         bare,
         vec3_cross(moved, axis),
-        vec3<f32>(force.x, force.y + mass * GRAVITY_M_S2, force.z),
+        vec3<f32>(force.x, force.y + mass * gravity, force.z),
     );
 }
 

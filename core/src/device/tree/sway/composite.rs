@@ -13,9 +13,10 @@
 //! would count it several times and become unstable.
 
 use super::load::segment_drag;
-use super::{Body, Constants, GRAVITY_M_S2, THIRD};
+use super::{Body, Constants, THIRD};
 use crate::arith::matrix::{Sym3, sym3_add, sym3_axial};
 use crate::arith::vector::{Vec3, vec3_cross, vec3_dot};
+use crate::context::Context;
 
 /// Composite rigid body about a joint.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -41,6 +42,7 @@ pub struct Composite {
 /// Rigid body of a segment by itself that carries `leaf_count` leaves in moving air.
 #[inline(always)]
 pub fn segment_composite(
+    cx: &Context<'_>,
     constants: &Constants,
     body: &Body,
     axis: Vec3,
@@ -58,7 +60,7 @@ pub fn segment_composite(
     let mass = constants.mass + leaves;
     let moment = constants.first_moment + leaves * half;
     let across = constants.inertia_across + leaves * ((constants.length * constants.length) * THIRD);
-    let weight = Vec3::new(0.0, -GRAVITY_M_S2, 0.0);
+    let weight = Vec3::new(0.0, -cx.environment.gravity_m_s2, 0.0);
     Composite {
         inertia: sym3_axial(axis, constants.inertia_along, across),
         moment: axis * moment,

@@ -8,7 +8,7 @@
 //! Drag by the velocity relative to the air, and its fall as leaves turn aside: Vogel, "Drag and reconfiguration of broad
 //! leaves in high winds" (1989). Across a branch only the wind's part across it counts.
 
-use super::{ArticulatedInertia, Body, Constants, GRAVITY_M_S2, Load, THIRD};
+use super::{ArticulatedInertia, Body, Constants, Load, THIRD};
 use crate::arith::lane::{Mask, Real};
 use crate::arith::math::{inverse_sqrt, reciprocal};
 use crate::arith::matrix::{mat3_cross, sym3_axial};
@@ -82,6 +82,7 @@ pub fn segment_load<R: Real>(
     let mass = constants.mass + leaves;
     let moment = constants.first_moment + leaves * half;
     let across = constants.inertia_across + leaves * ((constants.length * constants.length) * THIRD);
+    let gravity = cx.environment.gravity_m_s2;
     // Implicit drag acts like a mass added at the centre.
     let dt = cx.environment.dt_s;
     let added = held * dt;
@@ -93,7 +94,7 @@ pub fn segment_load<R: Real>(
     let outward = body.spin * turning - axis * vec3_dot(body.spin, body.spin);
     // Torques about the joint are vector products with the axis, of all forces together.
     let levered = gyration + push * half;
-    let moved = Vec3::new(levered.x, levered.y - moment * GRAVITY_M_S2, levered.z);
+    let moved = Vec3::new(levered.x, levered.y - moment * gravity, levered.z);
     let force = outward * moment - push;
     Load {
         rotation_along: constants.inertia_along,
@@ -102,7 +103,7 @@ pub fn segment_load<R: Real>(
         mass_along: bare - drag.wood * dt,
         mass_across: bare,
         moment: vec3_cross(moved, axis),
-        force: Vec3::new(force.x, force.y + mass * GRAVITY_M_S2, force.z),
+        force: Vec3::new(force.x, force.y + mass * gravity, force.z),
     }
 }
 

@@ -35,8 +35,6 @@ crate::shared_constants! {
     /// Share of the step at which springs act: 1/2 is the trapezoidal rule, which does not damp slow sway; a larger one
     /// damps oscillations that are too fast for the step.
     pub const IMPLICITNESS: f32 = 0.6;
-    /// Acceleration of gravity in m/s².
-    pub const GRAVITY_M_S2: f32 = 9.81;
     /// Angle in rad from which a joint stiffens. No wind bends sound wood that far between two joints; joints that are
     /// far too soft lean on it.
     pub const STOP_ANGLE: f32 = 0.7;

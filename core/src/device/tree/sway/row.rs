@@ -144,7 +144,7 @@ pub fn row_gather(cx: &Context<'_>, rows: &mut Rows<'_>, row: usize) {
     let body = rows.body(row);
     let bearing = rows.branches.bearing[row] as f32;
     let air = row_air(cx, rows, row);
-    let mut whole = segment_composite(&constants, &body, segment_axis(&body), air, bearing);
+    let mut whole = segment_composite(cx, &constants, &body, segment_axis(&body), air, bearing);
     for child in rows.children(row) {
         let arm = rows.body(child).base - body.base;
         whole = composite_add(&whole, &composite_shift(&load_composite(&rows.work[child]), arm));

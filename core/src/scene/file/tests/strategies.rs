@@ -100,7 +100,7 @@ prop_compose! {
             tables,
             leaves,
         };
-        let rates = MotionConstants::of(&species);
+        let rates = MotionConstants::of(&species, STANDARD_GRAVITY_M_S2);
         if rates.tumble_rad_s.max(rates.flutter_rad_s) > 11.0 {
             // Too fast a leaf for the steps below.
             (species.motion.flutter_rad_s, species.motion.tumble_rad_s) = (Some(7.0), Some(11.0));
@@ -307,7 +307,8 @@ prop_compose! {
         name in "[^\\p{Cc}]{0,30}",
         seed in any::<u64>(),
         dt_s in 0.005f32..0.01,
-        (fall_speed, rotation_speed) in (within(limits::FALL_SPEED), within(limits::ROTATION_SPEED)),
+        (fall_speed, rotation_speed, gravity_m_s2) in
+            (within(limits::FALL_SPEED), within(limits::ROTATION_SPEED), 0.5f32..=STANDARD_GRAVITY_M_S2),
         mut species in vec(species(), 1..5),
         mut sources in vec(source(), 1..=MAX_SOURCES),
         (mut tree_kinds, mut trees) in (vec(tree_kind(), 0..4), vec(tree(), 0..6)),
@@ -339,7 +340,7 @@ prop_compose! {
             tree.kind.clone_from(&kind.name);
         }
         let mut scene = Scene {
-            name, seed, dt_s, fall_speed, rotation_speed, species, sources, tree_kinds, trees, sway, autumn, regrow_after_s, wind, ground,
+            name, seed, dt_s, fall_speed, rotation_speed, gravity_m_s2, species, sources, tree_kinds, trees, sway, autumn, regrow_after_s, wind, ground,
             view,
         };
         // Hills no deeper than the slowest leaf has time to fall.

@@ -35,6 +35,7 @@ const REALS: &[Row<f32>] = &[
     ("dt_s", 0.001, 0.05, |s, v| s.dt_s = v),
     ("fall_speed", 0.0, 3.0, |s, v| s.fall_speed = v),
     ("rotation_speed", 0.1, 3.0, |s, v| s.rotation_speed = v),
+    ("gravity_m_s2", 0.5, 30.0, |s, v| s.gravity_m_s2 = v),
     ("species[0].season.0", 0.0, 1.0, |s, v| s.species[0].season.0 = v),
     ("species[0].season.1", 0.0, 1.0, |s, v| s.species[0].season.1 = v),
     ("species[0].size_m", 0.005, 0.5, |s, v| s.species[0].size_m = v),
