@@ -44,7 +44,7 @@ pub fn contracts() -> Vec<(Gpu, Contract)> {
 fn report(line: &str) {
     let mut reported = REPORTED.lock().unwrap_or_else(PoisonError::into_inner);
     if !reported.iter().any(|earlier| earlier == line) {
-        // Nobody to tell if the terminal is gone.
+        // Nobody reads it if the terminal is gone.
         let _ = writeln!(std::io::stderr(), "{line}");
         reported.push(line.into());
     }

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! How far apart two states may be.
+//! Largest differences between two states.
 
 use std::fmt;
 
@@ -19,11 +19,11 @@ pub const STEP_ULPS: f32 = 4.0;
 /// tolerant contract. On hills the height above the ground that the wind grows with has its own rounding: 1.05e-5 was seen.
 pub const STEP_SEGMENT: f32 = 2e-5;
 
-/// What the stores of two worlds differ in.
+/// Differences between the stores of two worlds.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Difference(Vec<StoreDifference>);
 
-/// What two stores differ in.
+/// Differences between two stores.
 #[derive(Clone, PartialEq)]
 pub struct StoreDifference {
     /// Name of what the rows are.
@@ -47,7 +47,7 @@ impl Difference {
         self.0.iter().flat_map(|store| &store.fields).all(|(_, largest)| largest.is_finite())
     }
 
-    /// What the stores of this name differ in.
+    /// Differences between the stores of this name.
     ///
     /// # Panics
     /// If the worlds have none.

@@ -14,7 +14,7 @@ use windfall_core::arith::{Quat, Vec3};
 
 use crate::runner::{NO_WORDS, Words};
 
-/// What an input word may be.
+/// Range of an input word.
 #[derive(Clone, Copy, Debug)]
 pub enum Input {
     /// Any word.

@@ -12,7 +12,7 @@ pub type Words = [u32; 64];
 /// No words yet.
 pub const NO_WORDS: Words = [0; 64];
 
-/// How the statements of a function reach the words of their case.
+/// Access of a function's statements to the words of their case.
 const ACCESS: &str = include_str!("runner/access.wgsl");
 /// The same for matrices, for what trees are made of and for what holds leaves; each for modules that know such things.
 const RECORDS: [(&str, &str); 3] = [

@@ -15,7 +15,7 @@ const BATCHES: [u32; 4] = [1, 2, 60, 137];
 /// A world to check a simulator in.
 #[derive(Debug)]
 pub struct Case {
-    /// What distinguishes it.
+    /// Distinguishing features of it.
     pub name: &'static str,
     /// Its state at time zero.
     pub world: World,

@@ -71,7 +71,7 @@ fn resealed(mut bytes: Vec<u8>) -> Vec<u8> {
     bytes
 }
 
-/// Where the leaf count of a checkpoint stands: behind magic, version, scene, step and wind travel.
+/// Offset of the leaf count in a checkpoint: behind magic, version, scene, step and wind travel.
 fn leaf_count_at(bytes: &[u8]) -> usize {
     let length = u64::from_le_bytes(bytes[12..20].try_into().expect("eight bytes"));
     20 + usize::try_from(length).expect("a short scene") + 4 + 8

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Pictures of scenes against those in `tests/golden`, by a perceptual metric, and broken shaders, which it must notice.
 //!
-//! The metric is SSIMULACRA 2 (Cloudinary 2022): 100 is the same picture, 90 cannot be told apart side by side, 70 is what a
+//! The metric is SSIMULACRA 2 (Cloudinary 2022): 100 is the same picture, 90 cannot be distinguished side by side, 70 is what a
 //! photograph loses as a good JPEG. `scripts/bless` draws the pictures anew. A failure leaves a sheet (golden, now, what differs) in
 //! `target/tmp/golden`.
 
@@ -137,7 +137,7 @@ fn pictures_are_as_they_were() {
     assert!(failures.is_empty(), "{failures:#?}; if they are meant to be so, run scripts/bless");
 }
 
-/// What is broken, in which picture, and how.
+/// A break: its name, its picture, and its edit.
 #[rustfmt::skip]
 const BREAKS: [(&str, usize, &str, &str); 8] = [
     ("sunlight is blue", 0, "frame.sun_color.rgb", "frame.sun_color.bgr"),

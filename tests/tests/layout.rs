@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What Rust and WGSL share, checked without a GPU: layouts, twins, and the rules that make bits equal.
+//! Agreement of Rust and WGSL, checked without a GPU: layouts, twins, and the rules that make bits equal.
 
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -27,7 +27,7 @@ fn world() -> World {
     world
 }
 
-/// Why a case's results do not fit, if they do not.
+/// Reason for which a case's results do not fit, if they do not.
 fn mismatch(
     function: &Function,
     contract: Contract,
@@ -111,7 +111,7 @@ fn functions_agree_on_every_adapter() {
     assert!(failures.is_empty(), "{} of the functions differ:\n{}", failures.len(), failures.join("\n"));
 }
 
-/// Canary: one constant or operator changed in one twin is noticed by the function that uses it.
+/// Mutation test: one constant or operator changed in one twin is noticed by the function that uses it.
 #[test]
 fn a_changed_twin_is_noticed() {
     let edits = [
@@ -171,7 +171,7 @@ fn a_changed_twin_is_noticed() {
     }
 }
 
-/// What only a kernel can be asked for, as it reads or writes records of leaves and segments.
+/// Functions that only a kernel can call, as they read or write records of leaves and segments.
 const RECORDS: [&str; 11] = [
     "places",
     "drifts",
@@ -192,7 +192,7 @@ fn bodies(text: &str) -> Vec<(&str, &str)> {
     pieces.filter_map(|piece| Some((piece.split_once('(')?.0, piece.split_once("\n}")?.0))).collect()
 }
 
-/// Whether a text says this word, as `is_call` a call.
+/// Returns true if a text says this word, as `is_call` a call.
 fn says(text: &str, word: &str, is_call: bool) -> bool {
     let is_part = |character: char| character.is_alphanumeric() || character == '_';
     text.match_indices(word).any(|(at, _)| {

@@ -132,7 +132,7 @@ fn what_is_not_a_number_is_noticed() {
     }
 }
 
-/// Canary: each line of the life of a leaf that is changed in WGSL shows within one step of a busy world.
+/// Mutation test: each line of the life of a leaf that is changed in WGSL shows within one step of a busy world.
 #[test]
 fn a_changed_kernel_is_noticed() {
     let synthesised = [

@@ -127,7 +127,7 @@ fn pages_change_nothing() {
     }
 }
 
-/// Canary: the last bit of one constant shows.
+/// Mutation test: the last bit of one constant shows.
 #[test]
 fn one_bit_of_one_constant_is_noticed() {
     let world = world();

@@ -142,7 +142,7 @@ fn a_checkpoint_brings_trees_back_to_the_bit() {
     assert_eq!(on.state_hash(), again.state_hash(), "stepped on");
 }
 
-/// Canary: each line of the trees' dynamics that is changed in WGSL shows.
+/// Mutation test: each line of the trees' dynamics that is changed in WGSL shows.
 #[test]
 fn a_changed_kernel_is_noticed() {
     let edits = [

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! How the area of every shape lies: what scenes take for it, against outlines as they are drawn.
+//! Planform of every shape: the scene's numbers against outlines as they are drawn.
 
 use glam::{DVec2, Vec2};
 use windfall_core::scene::{LeafShape, Planform};
@@ -13,7 +13,7 @@ const SIDE_PX: u32 = 128;
 /// Most that a tabulated mean may be off.
 const TOLERANCE: f32 = 0.02;
 
-/// What draws a shape's outline for a seed.
+/// Drawing of a shape's outline for a seed.
 type Outline = fn(u64) -> Vec<Vec2>;
 
 fn blade(shape: Shape, seed: u64) -> Vec<Vec2> {

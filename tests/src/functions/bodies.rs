@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What trees are made of among the words of a case, field by field in their order, and the ranges they are drawn from.
+//! Records of trees among the words of a case, field by field in their order, and the ranges they are drawn from.
 
 use windfall_core::arith::{Mat3, Quat, Sym3, Vec3};
 use windfall_core::device::tree::sway::{

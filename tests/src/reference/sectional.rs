@@ -25,7 +25,7 @@ use windfall_core::scene::STANDARD_GRAVITY_M_S2;
 
 /// Incidence at which half of the flow has separated, rad.
 const STALL: f64 = 14.0 * PI / 180.0;
-/// How far the stall is spread over incidences, rad.
+/// Spread of the stall over incidences, rad.
 const STALL_WIDTH: f64 = 6.0 * PI / 180.0;
 /// Lift of rotation `C_R`.
 const ROTATIONAL_LIFT: f64 = 1.1;

@@ -32,7 +32,7 @@ fn floats(document: &Value, buffer: &[u8], accessor: &Value) -> Vec<f32> {
     bytes.map(|word| f32::from_le_bytes([word[0], word[1], word[2], word[3]])).collect()
 }
 
-/// Whether two quaternions turn the same way.
+/// Returns true if two quaternions turn the same way.
 fn same_turn(a: &[f32], b: [f32; 4]) -> bool {
     let dot: f32 = a.iter().zip(b).map(|(a, b)| a * b).sum();
     (dot.abs() - 1.0).abs() < 1e-5

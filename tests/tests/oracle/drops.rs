@@ -23,7 +23,7 @@ const HEIGHT_M: f64 = 1.8;
 const SKIPPED_M: f64 = 0.6;
 const DROPS: u32 = 300;
 
-/// What is measured of one drop.
+/// Measurements of one drop.
 #[derive(Clone, Copy, Default)]
 struct Drop {
     from: Option<(u32, DVec3)>,
@@ -98,7 +98,7 @@ fn tumbling(drops: &[Drop]) -> f64 {
     drops.iter().filter(tumbles).count() as f64 / drops.len() as f64
 }
 
-/// The hold that a row of a table tells of.
+/// Hold of a row of a table.
 fn hold_of(row: &[(&str, &str)]) -> Hold {
     if field(row, "release") == "broadside" { Hold::Broadside } else { Hold::EdgeOn }
 }

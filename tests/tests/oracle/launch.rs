@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! How bodies begin to fly: held before they are let go, broken off a twig, or found in the air when time begins.
+//! Beginnings of flight: held before release, broken off a twig, or in the air already when time begins.
 
 use crate::common::{GRAVITY, attitude, position, still_scene};
 use glam::DVec3;
@@ -58,7 +58,7 @@ fn bodies_are_held_as_the_scene_says() {
     assert!((level - 0.5).abs() < 0.03, "heights of points on a sphere are even: {level}");
 }
 
-/// What breaks off its twig goes on with the place, velocity, attitude and spin that it had there, to the bit, and keeps
+/// A leaf that breaks off its twig goes on with the place, velocity, attitude and spin that it had there, to the bit, and keeps
 /// its size.
 #[test]
 fn a_leaf_takes_its_twigs_motion_along() {
@@ -108,10 +108,10 @@ fn bodies_let_go_before_time_zero_are_on_their_way() {
     assert_eq!(found.stats().leaves.broken, 0, "all of them somewhere");
 }
 
-/// Regimes told of made-up motions whose regime is known.
+/// Classification of made-up motions whose regime is known.
 #[test]
 fn regimes_are_told_from_motion() {
-    let told = |motion: &dyn Fn(f64) -> [DVec3; 3]| {
+    let classified = |motion: &dyn Fn(f64) -> [DVec3; 3]| {
         let mut memory = 0u32;
         let mut ticks = 0;
         for step in 1..900u32 {
@@ -124,14 +124,14 @@ fn regimes_are_told_from_motion() {
         regime_of(memory)
     };
     let steady = |_: f64| [DVec3::new(0.02, -0.8, 0.01), DVec3::ZERO, DVec3::new(0.02, -0.8, 0.01)];
-    assert_eq!(told(&steady), REGIME_STEADY, "nearly straight down");
+    assert_eq!(classified(&steady), REGIME_STEADY, "nearly straight down");
     let tumble = |t: f64| {
         let (sine, cosine) = (15.0 * t).sin_cos();
         let path = DVec3::new(0.6, -0.76, 0.05);
         let flow = DVec3::new(cosine * path.x + sine * path.y, cosine * path.y - sine * path.x, 0.05);
         [flow, DVec3::new(0.1, 0.0, 15.0), path]
     };
-    assert_eq!(told(&tumble), REGIME_TUMBLE, "over and over");
+    assert_eq!(classified(&tumble), REGIME_TUMBLE, "over and over");
     // Banked so that its force points along its normal.
     let flutter = |t: f64| {
         let (sine, cosine) = (6.8 * t).sin_cos();
@@ -140,7 +140,7 @@ fn regimes_are_told_from_motion() {
         let across = DVec3::new(normal.y, -normal.x, 0.0);
         [DVec3::new(path.dot(across), path.dot(normal), 0.0), DVec3::new(0.1, 0.0, 0.1), path]
     };
-    assert_eq!(told(&flutter), REGIME_FLUTTER, "to and fro");
+    assert_eq!(classified(&flutter), REGIME_FLUTTER, "to and fro");
     // Over one way, back the other way.
     let mixed = |t: f64| {
         let way = if (t * 1.25).fract() < 0.5 { 1.0 } else { -1.0 };
@@ -149,5 +149,5 @@ fn regimes_are_told_from_motion() {
         let flow = DVec3::new(cosine * path.x + sine * path.y, cosine * path.y - sine * path.x, 0.05);
         [flow, DVec3::new(0.1, 0.0, 12.0 * way), path]
     };
-    assert_eq!(told(&mixed), REGIME_CHAOTIC, "now this way, now that");
+    assert_eq!(classified(&mixed), REGIME_CHAOTIC, "now this way, now that");
 }

@@ -186,7 +186,7 @@ fn rose(ellipticity: f32, swings: u32) -> (Vec<f64>, Vec<f64>) {
     (radii, tips)
 }
 
-/// How many directions differ by more than a hundredth of a turn.
+/// Number of directions that differ by more than a hundredth of a turn.
 fn distinct(directions: &[f64]) -> usize {
     let apart = |a: f64, b: f64| {
         let difference = (a - b).rem_euclid(1.0);

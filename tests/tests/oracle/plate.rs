@@ -54,7 +54,7 @@ struct Motion {
     velocity: [f64; 2],
 }
 
-/// What `states` repeat: swings of a plate that keeps its face up, else half-turns, `per_repeat` of them at a time.
+/// Cycles of `states`: swings of a plate that keeps its face up, else half-turns, `per_repeat` of them at a time.
 fn motion(states: &[State], per_repeat: usize) -> Motion {
     let half_turns = (states[states.len() - 1][3] - states[0][3]) / PI;
     let phase = |pitch: f64| {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Where and when leaves are let go, and how large, fast and of which species they are.
+//! Release of leaves: places, times, sizes, speeds and species.
 
 use crate::common::{build, many_species, position, single_motion, step, still_scene, uniform_species};
 use glam::{DVec3, Vec3};

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! How a leaf answers gravity, the wind and the two speeds of a scene.
+//! Response of a leaf to gravity, the wind and the two speeds of a scene.
 
 use std::f64::consts::TAU;
 

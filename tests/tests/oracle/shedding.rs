@@ -104,7 +104,7 @@ fn the_table_of_chances_is_the_model() {
                 let chance = f64::from(shed_chance(&cx, petiole.facts, speed as f32)) / 2f64.powi(32);
                 let rate = -(1.0 - chance).ln() / interval_s;
                 let model = model_rate_per_s(&scene, class, speed);
-                // Rates beneath what a word can say, and above what a look can tell from at once, are cut off.
+                // Rates below the resolution of a word, and above those of a break at the next sample, are cut off.
                 if (1e-7..10.0).contains(&model) {
                     assert!((rate / model - 1.0).abs() < 0.02, "{class}, {speed} m/s: {rate}, {model}");
                     checked += 1;

@@ -52,7 +52,7 @@ fn pull_and_release(mut grove: Grove, speed_m_s: f32) -> (f64, f64) {
     (1.0 / period_s, decrement / (decrement * decrement + std::f64::consts::TAU.powi(2)).sqrt())
 }
 
-/// How far to the side the wood is on average, by mass, in m.
+/// Mean sideways displacement of the wood, by mass, in m.
 fn middle(forest: &Forest, branches: &Branches) -> f64 {
     let rows = forest.segments().iter().zip(&branches.base);
     let (sum, mass) = rows.fold((0.0, 0.0), |(sum, mass), (segment, base)| {
@@ -69,15 +69,15 @@ fn sways_like_a_real_one(kind: &str, height_m: f32, number: u32) {
     leafy.put_on_leaves();
     let (hz, damping) = pull_and_release(leafy, 6.0);
     let (bare_hz, bare_damping) = pull_and_release(tree(kind, height_m, number), 6.0);
-    let told = format!(
+    let report = format!(
         "{kind} of {height_m} m, number {number}: {hz:.3} Hz, {damping:.3} of critical; bare {bare_hz:.3} Hz, \
          {bare_damping:.3}"
     );
-    println!("{told}");
-    assert!((0.15..=0.30).contains(&hz), "{told}");
-    assert!((0.04..=0.12).contains(&damping), "{told}");
-    assert!((1.10..=1.25).contains(&(bare_hz / hz)), "{told}");
-    assert!(bare_damping < damping, "{told}");
+    println!("{report}");
+    assert!((0.15..=0.30).contains(&hz), "{report}");
+    assert!((0.04..=0.12).contains(&damping), "{report}");
+    assert!((1.10..=1.25).contains(&(bare_hz / hz)), "{report}");
+    assert!(bare_damping < damping, "{report}");
 }
 
 #[test]

@@ -123,7 +123,7 @@ fn shell_spectrum_falls_with_the_five_thirds_power() {
     }
 }
 
-/// What a fixed anemometer sees as the box drifts by. Of the 32 wave numbers between one wave per box length and the
+/// Wind at a fixed anemometer as the box drifts by. Of the 32 wave numbers between one wave per box length and the
 /// Nyquist limit the test uses 3 to 10. Below, the box (32 cells wide) lacks the oblique waves that a one-dimensional
 /// spectrum folds in; above, it folds in ever more of those waves that are shorter than two cells, which do not exist.
 #[test]

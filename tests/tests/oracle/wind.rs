@@ -216,7 +216,7 @@ fn beaufort_speeds_lie_in_their_classes() {
     }
 }
 
-/// What is changed, and how.
+/// A change, and its name.
 type Change = (&'static str, fn(&mut Scene));
 
 #[test]

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What a file of ours says beyond plain glTF, stated once for reading and writing.
+//! Our conventions beyond plain glTF, stated once for reading and writing.
 
 use serde::{Deserialize, Serialize};
 
@@ -23,7 +23,7 @@ pub const BEARING: &str = "_BEARING";
 /// On request the same numbers stand in `COLOR_0` too, red to alpha, where engines look for them.
 pub const WIND_WEIGHT: &str = "_WINDWEIGHT";
 
-/// What the `extras` of a joint's node may say about its segment.
+/// Numbers of a segment that the `extras` of its joint's node may give.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(super) struct JointExtras {
     /// Length in metres from the joint along its y axis.

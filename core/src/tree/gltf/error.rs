@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What can be wrong with a glTF file as a tree.
+//! Faults of a glTF file as a tree.
 
 use thiserror::Error;
 
@@ -31,7 +31,7 @@ pub enum GltfError {
     Format {
         /// The file.
         file: String,
-        /// What is wrong.
+        /// The fault.
         reason: String,
     },
     /// A buffer whose bytes are not to be had.
@@ -41,7 +41,7 @@ pub enum GltfError {
         file: String,
         /// Index of the buffer.
         buffer: usize,
-        /// What is wrong.
+        /// The fault.
         reason: String,
     },
     /// An accessor that cannot be used.
@@ -51,9 +51,9 @@ pub enum GltfError {
         file: String,
         /// Index of the accessor.
         accessor: usize,
-        /// What it is used as.
+        /// Its use.
         used_as: String,
-        /// What is wrong, and what is allowed.
+        /// The fault, and the allowed values.
         reason: String,
     },
     /// No skin at all.
@@ -97,7 +97,7 @@ pub enum GltfError {
         node: usize,
         /// Its name.
         name: Option<String>,
-        /// What is wrong.
+        /// The fault.
         reason: String,
     },
     /// A number of a node that cannot be used.
@@ -113,7 +113,7 @@ pub enum GltfError {
         field: &'static str,
         /// The value found.
         value: String,
-        /// What is allowed.
+        /// Allowed values.
         allowed: String,
     },
     /// A joint that leaves no room for a segment.
@@ -136,7 +136,7 @@ pub enum GltfError {
     Skeleton {
         /// The file.
         file: String,
-        /// What is wrong with it.
+        /// Its fault.
         source: SkeletonError,
     },
 }

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What is written is read again, and what others have rigged is measured.
+//! Round trips of written files, and measurements of trees that others have rigged.
 
 mod refused;
 

@@ -11,7 +11,7 @@ use std::time::{Duration, Instant};
 use serde_json::Value;
 use tempfile::TempDir;
 
-/// What a run of the program came to.
+/// Outcome of a run of the program.
 #[derive(Debug)]
 pub(crate) struct Outcome {
     /// Exit code; `None` if a signal ended it.
@@ -110,7 +110,7 @@ pub(crate) fn assert_interrupted(folder: &TempDir, arguments: &[&str]) {
     assert_eq!(contents(folder.path()), before, "{arguments:?}: nothing is left");
 }
 
-/// What the program says when it is interrupted half a second after `is_at_work`; it ends with exit code 2.
+/// Output of the program when it is interrupted half a second after `is_at_work`; it ends with exit code 2.
 pub(crate) fn interrupted(folder: &TempDir, arguments: &[&str], is_at_work: impl Fn() -> bool) -> String {
     let child = command(folder, arguments)
         .stderr(Stdio::piped())

@@ -13,7 +13,7 @@ use super::vertices::{Vertices, along};
 use crate::tree::skeleton::MIN_LENGTH_M;
 use crate::tree::{Segment, Skeleton};
 
-/// Radius over length where no vertex tells.
+/// Radius over length where no vertex gives it.
 const SLENDER: f32 = 0.02;
 
 /// The skeleton of a rig, without attachments, and the segment of every joint.
@@ -73,7 +73,7 @@ pub(super) fn skeleton(rig: &Rig, skinned: &Skinned, file: &str) -> Result<(Skel
     Ok((skeleton, segments))
 }
 
-/// How segments follow each other.
+/// Order of segments.
 struct Course {
     /// The root that is the trunk's.
     trunk: usize,
@@ -120,12 +120,12 @@ impl Course {
     }
 }
 
-/// Where a joint is.
+/// Place of a joint.
 fn place(rig: &Rig, joint: usize) -> Vec3 {
     rig.joints[joint].world.w_axis.truncate().as_vec3()
 }
 
-/// How many joints each carries, itself included; those that only mark ends count nothing.
+/// Number of joints that each carries, itself included; those that only mark ends count nothing.
 fn carried(rig: &Rig, is_mark: &[bool]) -> Vec<u32> {
     let mut carried: Vec<u32> = is_mark.iter().map(|is_mark| u32::from(!is_mark)).collect();
     for &joint in rig.order.iter().rev() {

@@ -23,7 +23,7 @@ pub(super) struct Joint {
     pub(super) world: DMat4,
     /// From the mesh as it was bound to the world as it is at rest.
     pub(super) skinning: DMat4,
-    /// What the file says about its segment.
+    /// Numbers of its segment in the file.
     pub(super) extras: JointExtras,
 }
 

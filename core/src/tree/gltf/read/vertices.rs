@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What the vertices of a joint tell about its segment.
+//! Measurements of a segment from the vertices of its joint.
 
 use glam::{DVec3, Vec3};
 
@@ -20,7 +20,7 @@ pub(super) fn along(rig: &Rig, joint: usize) -> Vec3 {
 pub(super) struct Vertices {
     /// Places of the vertices that follow each joint.
     firm: Vec<Vec<Vec3>>,
-    /// Whether a joint moves any vertex.
+    /// True if a joint moves any vertex.
     pub(super) is_moved: Vec<bool>,
 }
 

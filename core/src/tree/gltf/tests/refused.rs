@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What is no tree is refused, and nothing in a file makes the reader panic.
+//! Refusal of files that are no trees; nothing in a file makes the reader panic.
 
 use std::path::Path;
 

@@ -12,7 +12,7 @@ const FLUTTER: [f32; 2] = [0.1, 0.01];
 /// Stream of the phases.
 const PHASE: u32 = 1;
 
-/// What is the same for a whole segment.
+/// Numbers that are the same for a whole segment.
 #[derive(Clone, Copy)]
 struct Course {
     /// Way from the trunk to the lower end in metres.
