@@ -24,10 +24,12 @@ use super::path::Path;
 /// Periods integrated before the one that is kept, for the start to be forgotten.
 const WARM_UP_PERIODS: usize = 4;
 /// Largest step in radians of the pitching at its fastest, and in time constants of the friction. The fourth-order
-/// error per radian is then below 1e-7.
-const MAX_STEP_RAD: f64 = 0.05;
-/// Most steps between two rows: what the lightest, fastest and roughest leaves need for a stable integration.
-const MAX_STEPS: u32 = 256;
+/// error per radian is then below 1e-6.
+const MAX_STEP_RAD: f64 = 0.1;
+/// Most steps between two rows, unless so few were unstable.
+const MAX_STEPS: f64 = 64.0;
+/// Largest step in the same unit that is stable, with some reserve: the method's limit is 2.8.
+const STABLE_STEP_RAD: f64 = 2.0;
 
 struct PitchEquation<'a, P> {
     path: &'a P,
@@ -61,8 +63,9 @@ impl<P: Path> PitchEquation<'_, P> {
         let speed2 = |row: usize| self.path.at(row_s * row as f64).velocity.truncate().length_squared();
         let fastest2 = (0..rows).map(speed2).fold(0.0, f64::max);
         let rate = libm::sqrt(self.stiffness_per_m2 * fastest2).max(self.friction_per_s);
-        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "1 to MAX_STEPS")]
-        let steps = libm::ceil(rate * row_s / MAX_STEP_RAD).clamp(1.0, f64::from(MAX_STEPS)) as u32;
+        let most = libm::ceil(rate * row_s / STABLE_STEP_RAD).max(MAX_STEPS);
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a positive number")]
+        let steps = libm::ceil(rate * row_s / MAX_STEP_RAD).clamp(1.0, most) as u32;
         steps
     }
 }
