@@ -107,7 +107,7 @@ impl Comparison {
         })
     }
 
-    /// Returns true if the median of a metric is within the 90th percentile; `None` where it does not count.
+    /// Verdict on a metric: the median is within the 90th percentile; `None` where it does not count.
     pub fn passes_in(&self, metric: Metric) -> Option<bool> {
         let k = Metric::ALL.iter().position(|m| *m == metric)?;
         let counts = self.has_own_outlines || !metric.is_shape();

@@ -151,7 +151,7 @@ impl<'a> Draft<'a> {
         Ok(())
     }
 
-    /// Returns true if a segment may be added.
+    /// Checks that a segment may be added.
     fn check(&self, from: u32, to_node: Option<u32>, to: Vec2, clearance: f32) -> Result<(), Refusal> {
         let start = self.at(from);
         let length = start.distance(to);
