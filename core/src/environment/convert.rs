@@ -3,7 +3,7 @@
 //! Numbers of a scene as the words and floats of a block.
 
 #[expect(clippy::cast_possible_truncation, reason = "kernels work in single precision")]
-pub(super) fn single(value: f64) -> f32 {
+pub(crate) fn single(value: f64) -> f32 {
     value as f32
 }
 
@@ -22,8 +22,8 @@ pub(super) fn low_word(value: i64) -> u32 {
     value as u32
 }
 
-#[expect(clippy::cast_possible_truncation, reason = "lists of a scene are short")]
-pub(super) fn len32(length: usize) -> u32 {
+#[expect(clippy::cast_possible_truncation, reason = "lists are counted in words")]
+pub(crate) fn len32(length: usize) -> u32 {
     length as u32
 }
 

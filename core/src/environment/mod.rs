@@ -4,7 +4,7 @@
 
 mod block;
 mod body;
-mod convert;
+pub(crate) mod convert;
 mod cycle;
 mod field;
 mod foliage;

@@ -5,8 +5,6 @@
 //! For every primitive a table holds displacement, orientation and velocity over one period. The state at any phase
 //! is one lookup and a step is a difference of two, so a path neither depends on the time step nor drifts.
 
-use glam::{DQuat, DVec3};
-
 use super::constants::MotionConstants;
 use super::orientation;
 use super::path::Path;
@@ -82,18 +80,8 @@ fn sample(path: &impl Path, constants: &MotionConstants, rotation: RotationModel
     let start = moments[0].position;
     PrimitiveTable {
         period_s,
-        displacement_m: moments.iter().map(|moment| single(moment.position - start)).collect(),
-        orientation: orientation.into_iter().map(single_quat).collect(),
-        velocity_m: moments.iter().map(|moment| single(moment.velocity * period_s)).collect(),
+        displacement_m: moments.iter().map(|moment| (moment.position - start).as_vec3().to_array()).collect(),
+        orientation: orientation.into_iter().map(|pose| pose.as_quat().to_array()).collect(),
+        velocity_m: moments.iter().map(|moment| (moment.velocity * period_s).as_vec3().to_array()).collect(),
     }
-}
-
-#[expect(clippy::cast_possible_truncation, reason = "tables are stored in single precision")]
-fn single(v: DVec3) -> [f32; 3] {
-    [v.x as f32, v.y as f32, v.z as f32]
-}
-
-#[expect(clippy::cast_possible_truncation, reason = "tables are stored in single precision")]
-fn single_quat(q: DQuat) -> [f32; 4] {
-    [q.x as f32, q.y as f32, q.z as f32, q.w as f32]
 }

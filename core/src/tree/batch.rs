@@ -14,6 +14,7 @@ use glam::Vec3;
 use super::forest::Planted;
 use super::record::{NO_SEGMENT, SegmentConstants, TWIG};
 use super::skeleton::Skeleton;
+use crate::environment::convert::len32;
 use crate::arith::pack::BLOCK;
 
 /// Largest distance in m at rest between the middle of a twig and the end of its parent, whose air it feels.
@@ -80,13 +81,13 @@ pub(super) fn order_of(batches: &[TreeBatch]) -> (Vec<u32>, Vec<u32>) {
     let mut limbs = vec![Vec::new(); depth];
     let mut twigs = vec![Vec::new(); depth + 1];
     for (first, block) in blocks() {
-        limbs[block.level].extend(block.limbs().map(|row| first + word(row)));
-        twigs[block.level + 1].extend(block.twigs().flatten().map(|row| first + word(row)));
+        limbs[block.level].extend(block.limbs().map(|row| first + len32(row)));
+        twigs[block.level + 1].extend(block.twigs().flatten().map(|row| first + len32(row)));
     }
     let mut order = Vec::new();
     let level_ends = limbs.iter().zip(&twigs).map(|(limbs, twigs)| {
         order.extend(limbs.iter().chain(twigs));
-        word(order.len())
+        len32(order.len())
     });
     let level_ends = level_ends.collect();
     (order, level_ends)
@@ -113,7 +114,7 @@ impl Children {
             if let Some(parent) = segment.parent {
                 let is_twig = !has_children[index] && is_near(&segments[index], &segments[parent as usize]);
                 let kind = if is_twig { &mut children.twigs } else { &mut children.limbs };
-                kind[parent as usize].push(word(index));
+                kind[parent as usize].push(len32(index));
             }
         }
         children
@@ -138,14 +139,14 @@ struct Layout<'a> {
 impl Layout<'_> {
     /// The next row, for this segment, as the last child of its parent.
     fn push(&mut self, (tree, segment): Grown, first_child: u32) {
-        let row = word(self.segments.len());
+        let row = len32(self.segments.len());
         let planted = &mut self.trees[tree];
         planted.rows[segment as usize] = row;
         let mut constants = self.drafts[tree][segment as usize];
         let parent = planted.skeleton.segments[segment as usize].parent;
         constants.parent = parent.map_or(NO_SEGMENT, |parent| planted.rows[parent as usize]);
         constants.first_child = first_child;
-        constants.tree = word(self.first_tree + tree);
+        constants.tree = len32(self.first_tree + tree);
         self.segments.push(constants);
         self.link(row, constants.parent);
     }
@@ -175,7 +176,7 @@ pub(super) fn lay_out(
     first: usize,
     drafts: Vec<Vec<SegmentConstants>>,
 ) -> TreeBatch {
-    let start = word(segments.len());
+    let start = len32(segments.len());
     let trees = &mut trees[first..];
     let slots = trees[0].slots.start..trees[trees.len() - 1].slots.end;
     let mut children = Vec::with_capacity(drafts.len());
@@ -210,9 +211,4 @@ pub(super) fn lay_out(
         limbs = limbs.iter().flat_map(grow).collect();
     }
     TreeBatch { first: start, blocks, slots }
-}
-
-#[expect(clippy::cast_possible_truncation, reason = "segments are counted in words")]
-fn word(number: usize) -> u32 {
-    number as u32
 }

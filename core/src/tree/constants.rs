@@ -14,6 +14,7 @@ use super::crown::ground_m2;
 use super::record::{NO_SEGMENT, SegmentConstants};
 use super::skeleton::{Bearing, Segment, Skeleton};
 use crate::device::tree::sway::IMPLICITNESS;
+use crate::environment::convert::single;
 use crate::motion::AIR_DENSITY;
 use crate::scene::{Foliage, Wood};
 
@@ -147,11 +148,6 @@ pub(super) fn segment_constants(
         sway_hz,
     };
     (segments.collect(), facts)
-}
-
-#[expect(clippy::cast_possible_truncation, reason = "kernels work in single precision")]
-fn single(value: f64) -> f32 {
-    value as f32
 }
 
 /// A truncated cone of wood, and the joint at its lower end.

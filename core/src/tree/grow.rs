@@ -12,6 +12,7 @@ use super::growth::{self, Grown};
 use super::skeleton::{Segment, Skeleton, SkeletonError};
 use super::turtle::{self, Shoot, rotated};
 use super::{crown, from_file};
+use crate::environment::convert::single;
 use crate::scene::{Tree, TreeForm, TreeKind};
 
 /// Lowest full-grown tree in the grammar's unit.
@@ -160,8 +161,8 @@ impl Plan {
             parent: segment.parent.map(|parent| u32::try_from(parent).expect("at most MAX_SEGMENTS")),
             start_m: segment.start_m.as_vec3(),
             end_m: segment.end_m.as_vec3(),
-            start_radius_m: narrow(segment.start_radius_m),
-            end_radius_m: narrow(segment.end_radius_m),
+            start_radius_m: single(segment.start_radius_m),
+            end_radius_m: single(segment.end_radius_m),
             order: self.shoots[segment.shoot].order,
         });
         Skeleton { segments: segments.collect(), attachments }
@@ -187,9 +188,4 @@ fn shoots(grammar: &Grammar, tree: &Tree, seed: u64) -> Result<(Vec<Shoot>, f64)
     }
     let height_m = tree.height_m.map_or(grammar.settings().height_m, f64::from);
     Ok((shoots, height_m / height))
-}
-
-#[expect(clippy::cast_possible_truncation, reason = "the nearest single-precision number")]
-fn narrow(value: f64) -> f32 {
-    value as f32
 }
