@@ -3,7 +3,7 @@
 //! Regimes of falling bodies.
 
 use serde::Serialize;
-use windfall_core::flight::regime::REGIME_NAMES;
+use windfall_core::device::flight::regime::REGIME_NAMES;
 
 /// Regime of a falling body, as the simulation classifies it from its latest turns.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

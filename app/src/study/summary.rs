@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A point of a study in one row.
 
-use windfall_core::flight::regime::REGIME_NAMES;
+use windfall_core::device::flight::regime::REGIME_NAMES;
 use windfall_core::motion::Primitive;
 
 use super::landing::{Landing, MOTION_COUNT};

@@ -5,7 +5,7 @@
 use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
-use windfall_core::flight::regime::REGIME_NAMES;
+use windfall_core::device::flight::regime::REGIME_NAMES;
 use windfall_core::motion::Primitive;
 
 use super::heat_map::short;
