@@ -4,7 +4,7 @@
 
 use glam::{DQuat, DVec3};
 use windfall_core::World;
-use windfall_core::leaf::record::leaf_regime;
+use windfall_core::device::leaf::record::leaf_regime;
 
 use super::regime::Regime;
 

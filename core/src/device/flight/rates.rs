@@ -9,11 +9,11 @@ use crate::arith::lane::Real;
 use crate::arith::math::inverse_sqrt;
 use crate::arith::quaternion::Quat;
 use crate::arith::vector::{TINY_SQUARED, Vec3, vec3_cross, vec3_dot};
+use crate::context::Context;
 use crate::flight::coefficients::{
     DAMPING_NORMAL, DAMPING_ROLL, DAMPING_TURN, DRAG_BEND, DRAG_RISE, LIFT_BEND, LIFT_EDGE, LIFT_RISE,
     MUNK_EDGE, MUNK_RISE, WHIRL_EDGE, WHIRL_RISE,
 };
-use crate::context::Context;
 
 /// Motion of a body, or of eight of them; or its rates of change.
 #[derive(Clone, Copy, Debug)]
