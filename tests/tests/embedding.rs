@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What programs with a wgpu loop of their own use: steps in their encoders, and readings that do not wait.
+//! Interface for programs with a wgpu loop of their own: steps in their encoders, and readings that do not wait.
 
 use windfall_core::{Simulator, World};
 use windfall_tests::adapter;
