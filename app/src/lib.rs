@@ -80,3 +80,8 @@ mod study;
 mod view;
 
 pub use run::{backend, cancel, drawing, studio};
+
+/// The example of README.md, compiled and run.
+#[cfg(doctest)]
+#[doc = include_str!("../../README.md")]
+struct Readme;
