@@ -252,7 +252,6 @@ proptest! {
     }
 }
 
-/// All photos have their petiole down.
 /// Folder of photos with a folder for each species, in which every photo has its mask beside it.
 pub(crate) fn photos() -> PathBuf {
     std::env::var_os("WINDFALL_LEAF_PHOTOS")
@@ -260,6 +259,7 @@ pub(crate) fn photos() -> PathBuf {
         .into()
 }
 
+/// All photos have their petiole down.
 #[test]
 #[ignore = "reads the photos in WINDFALL_LEAF_PHOTOS"]
 fn photos_are_read_the_right_way_round() {
