@@ -8,6 +8,9 @@ mod custom_backend;
 #[path = "../../../app/examples/custom_wind.rs"]
 #[allow(dead_code, reason = "an example's own main")]
 mod custom_wind;
+#[path = "../../../app/render/examples/draw_scene.rs"]
+#[allow(dead_code, reason = "an example's own main")]
+mod draw_scene;
 #[path = "../../../app/examples/embed.rs"]
 #[allow(dead_code, reason = "an example's own main")]
 mod embed;
@@ -30,6 +33,15 @@ fn leaves_are_drawn_by_another_program() {
     let leaves = picture.pixels().filter(|pixel| **pixel != sky).count();
     assert!(leaves > 500, "leaves cover {leaves} pixels");
     assert!(picture.pixels().any(|pixel| pixel[0] > 100 && pixel[2] < 60), "and are red or yellow");
+}
+
+#[test]
+fn a_whole_scene_is_drawn_into_another_programs_texture() {
+    let picture = draw_scene::run(2).expect("it runs");
+    let (above, below) = (*picture.get_pixel(320, 4), *picture.get_pixel(320, 350));
+    assert!(above[2] > below[2], "sky over meadow: {above:?} and {below:?}");
+    let colors: std::collections::BTreeSet<[u8; 4]> = picture.pixels().map(|pixel| pixel.0).collect();
+    assert!(colors.len() > 2000, "trees, grass and leaves: {} colours", colors.len());
 }
 
 #[test]
