@@ -73,7 +73,7 @@ fn trees_stand_on_the_moon_with_a_sixth_of_the_load() {
     earth.sources[0].shape =
         SourceShape::Box { center_m: glam::Vec3::Y * 3.0, half_extent_m: glam::Vec3::ONE };
     let moon = Scene { gravity_m_s2: MOON_M_S2, ..earth.clone() };
-    let [mut here, mut there] = [&earth, &moon].map(|scene| build(scene));
+    let [mut here, mut there] = [&earth, &moon].map(build);
     let loads = |world: &windfall_core::World| {
         let segments = world.environment.forest().segments().iter();
         segments.map(|segment| glam::Vec3::from(segment.preload).length()).fold(0.0, f32::max)

@@ -131,7 +131,8 @@ fn resting_leaves_stay_below_the_lift_off_speed() {
     step(&mut world, 900);
     assert_eq!(world.stats().leaves.resting, 1000, "all leaves have landed");
     let lightest = many_species().iter().map(|species| species.areal_density_kg_m2).fold(f32::MAX, f32::min);
-    let lift_off_m_s = (2.0 * lightest * GRAVITY as f32 / AIR_DENSITY as f32).sqrt();
+    #[expect(clippy::cast_possible_truncation, reason = "a speed to the accuracy of a scene")]
+    let lift_off_m_s = (2.0 * f64::from(lightest) * GRAVITY / AIR_DENSITY).sqrt() as f32;
     println!("the lightest of them, {lightest} kg/m², can lift off at {lift_off_m_s:.2} m/s");
     for wind_m_s in [0.0, 0.25 * lift_off_m_s, 0.5 * lift_off_m_s] {
         let calm = Scene { wind: steady_wind(wind_m_s), ..landing_scene() };
