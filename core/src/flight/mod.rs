@@ -4,7 +4,7 @@
 //!
 //! A leaf is an ellipse with a mass, an inertia and a centroid that need not be its centre of mass. The air resists it,
 //! lifts it, is carried along by it and turns it broadside; fluttering, tumbling and spiralling follow from this and are
-//! nowhere written down. One set of coefficients serves all bodies ([`coefficients`]); [`regime`] classifies a body's fall
+//! nowhere written down. One set of coefficients serves all bodies ([`coefficients`]); [`regime`](crate::device::flight::regime) classifies a body's fall
 //! by its own motion.
 //!
 //! # Source

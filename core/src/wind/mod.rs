@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! One wind for everything that moves: mean flow with a height profile, gusts, turbulence and vortices.
 //!
-//! The tables are built once per scene; [`sample::wind_at`] reads them at a place, the same in Rust and in WGSL. Gusts
+//! The tables are built once per scene; [`wind_at`](crate::device::wind::sample::wind_at) reads them at a place, the same in Rust and in WGSL. Gusts
 //! and turbulence are frozen patterns that the mean wind carries along (Taylor's hypothesis).
 
 mod beaufort;
