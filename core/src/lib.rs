@@ -54,6 +54,7 @@ pub mod blocks;
 pub mod checkpoint;
 mod clock;
 mod context;
+mod convert;
 pub mod device;
 mod environment;
 pub mod error;

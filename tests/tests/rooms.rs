@@ -47,6 +47,7 @@ const APP: Order = Order {
 const CORE: Order = Order {
     sources: "core/src",
     rooms: &[
+        "convert",
         "error",
         "layout",
         "device/arith",

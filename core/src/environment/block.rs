@@ -3,12 +3,12 @@
 //! Compiles the numbers of a scene that every kernel reads.
 
 use super::body::body_block;
-use super::convert::{len32, q16, single, steps, word};
 use super::source::{source_block, trees_block};
 use super::species::{response_block, species_block};
 use super::wind::wind_block;
 use crate::arith::rng::seed_words;
 use crate::blocks::{EnvironmentBlock, SOURCE_TREES};
+use crate::convert::{len32, q16, single, steps, word};
 use crate::device::tree::sway::{SCHEME_ARTICULATED, SCHEME_OLIAPURAM_KUMAR, SCHEME_QUIGLEY};
 use crate::flight::coefficients::TICKS_PER_S;
 use crate::motion::MotionTables;

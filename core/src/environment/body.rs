@@ -6,7 +6,7 @@ use std::f64::consts::PI;
 
 use glam::DVec3;
 
-use super::convert::{single, word};
+use crate::convert::{single, word};
 use crate::flight::block::{BodyBlock, HOLD_RANDOM, HOLD_TILTED};
 use crate::flight::coefficients::{
     ASYMMETRY_CURL, DRAG_BEND, DRAG_BORNE, DRAG_RISE, LIFT_EDGE, SPIN_BORNE_RAD, SWING_BORNE_RAD,

@@ -8,8 +8,8 @@
 //! Trees: petioles hold, flutter fits the cycle, and damping brings segments to the motion that the wind repeats.
 
 use super::block::FLUTTER_HZ;
-use super::convert::single;
 use crate::SceneError;
+use crate::convert::single;
 use crate::device::leaf::record::leaf_appearance;
 use crate::device::wind::gust::{GUST_ROWS, GUST_SPACING};
 use crate::device::wind::turbulence::TURBULENCE_X;

@@ -5,7 +5,7 @@
 use glam::DVec3;
 
 use super::Environment;
-use super::convert::single;
+use crate::convert::single;
 use crate::device::wind::turbulence::{
     TURBULENCE_NODES, TURBULENCE_UNIT, TURBULENCE_X, TURBULENCE_Y, TURBULENCE_Z, turbulence_rows,
 };

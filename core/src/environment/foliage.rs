@@ -132,7 +132,7 @@ pub(super) fn shed_rows(scene: &Scene, kinds: &[TreeKind]) -> Vec<Uint4> {
                 let load = weight + leaf_drag_n(&kind.foliage, leaf, f64::from(speed));
                 let rate = shed_rate_per_s(load, strength, weakened);
                 let chance = 1.0 - libm::exp(-rate * interval_s);
-                chances.push(super::convert::word((chance * 4_294_967_296.0).min(4_294_967_295.0)));
+                chances.push(crate::convert::word((chance * 4_294_967_296.0).min(4_294_967_295.0)));
             }
         }
     }
@@ -164,7 +164,7 @@ pub(super) fn petiole_rows(scene: &Scene, forest: &Forest, kinds: &[TreeKind]) -
         let leaves = planted.skeleton.attachments.iter().filter(|at| at.bearing == Bearing::Leaf);
         let first = petioles.len();
         let cluster = libm::sqrt(planted.facts.leaves_each.clamp(1.0, LARGEST_CLUSTER));
-        let cluster = super::convert::word(cluster * 16.0) << PETIOLE_CLUSTER_SHIFT;
+        let cluster = crate::convert::word(cluster * 16.0) << PETIOLE_CLUSTER_SHIFT;
         if let Some((species_number, species)) = found {
             for attachment in leaves.take(tree.leaves as usize) {
                 let row = planted.rows[attachment.segment as usize];
@@ -215,7 +215,7 @@ fn petiole_of(
         rest: (pose.inverse() * leaf).normalize().as_quat().to_array(),
         place: [units(middle.x), units(middle.y), units(middle.z)],
         facts: facts
-            | (super::convert::word(reach / f64::from(PETIOLE_REACH_UNIT)).min(PETIOLE_REACH_MASK)
+            | (crate::convert::word(reach / f64::from(PETIOLE_REACH_UNIT)).min(PETIOLE_REACH_MASK)
                 << PETIOLE_REACH_SHIFT),
     }
 }

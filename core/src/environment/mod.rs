@@ -4,7 +4,6 @@
 
 mod block;
 mod body;
-pub(crate) mod convert;
 mod cycle;
 mod field;
 mod foliage;
@@ -17,7 +16,6 @@ use std::sync::Arc;
 
 pub use self::block::REST_OFFSET_M;
 use self::block::{compile_block, retune_block};
-use self::convert::{len32, single};
 pub use self::cycle::Cycle;
 use self::cycle::firm;
 pub(crate) use self::foliage::leaf_site;
@@ -28,6 +26,7 @@ use crate::arith::rng::seed_words;
 use crate::blocks::{EnvironmentBlock, StepBlock, VortexBlock};
 use crate::clock::Clock;
 use crate::context::Context;
+use crate::convert::{len32, single};
 use crate::device::motion::lookup::MotionRows;
 use crate::device::terrain::ground::ground_relief;
 use crate::device::wind::gust::{GUST_ROWS, GUST_SPACING, gust_rows};

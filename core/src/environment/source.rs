@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Compiles a source, and the steps at which its slots are released.
 
-use super::convert::{low_word, steps};
 use crate::blocks::{NEVER, SOURCE_BOX, SOURCE_DISC, SOURCE_SPHERE, SourceBlock};
+use crate::convert::{low_word, steps};
 use crate::scene::{MAX_SPECIES, Release, Scene, Source, SourceShape, Species};
 
 pub(super) fn source_block(scene: &Scene, source: &Source) -> SourceBlock {

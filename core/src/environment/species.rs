@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Compiles a species.
 
-use super::convert::{single, word};
 use super::wind::deviation_m_s;
 use crate::blocks::{ResponseBlock, SpeciesBlock};
+use crate::convert::{single, word};
 use crate::device::leaf::record::{AERODYNAMIC, SIZE_ONE};
 use crate::motion::{MotionConstants, MotionTables};
 use crate::scene::{FlightModel, Scene, Species};

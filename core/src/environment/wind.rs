@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Compiles the wind.
 
-use super::convert::single;
 use crate::blocks::WindBlock;
+use crate::convert::single;
 use crate::device::wind::gust::{GUST_ROWS, GUST_SPACING};
 use crate::device::wind::profile::PROFILE_ROWS;
 use crate::scene::{Scene, WindParameters};

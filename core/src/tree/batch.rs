@@ -15,7 +15,7 @@ use super::forest::Planted;
 use super::record::{NO_SEGMENT, SegmentConstants, TWIG};
 use super::skeleton::Skeleton;
 use crate::arith::pack::BLOCK;
-use crate::environment::convert::len32;
+use crate::convert::len32;
 
 /// Largest distance in m at rest between the middle of a twig and the end of its parent, whose air it feels.
 const TWIG_REACH_M: f32 = 0.5;

@@ -13,8 +13,8 @@ use glam::{DQuat, DVec3, swizzles::Vec3Swizzles};
 use super::crown::ground_m2;
 use super::record::{NO_SEGMENT, SegmentConstants};
 use super::skeleton::{Bearing, Segment, Skeleton};
+use crate::convert::single;
 use crate::device::tree::sway::IMPLICITNESS;
-use crate::environment::convert::single;
 use crate::motion::AIR_DENSITY;
 use crate::scene::{Foliage, Wood};
 

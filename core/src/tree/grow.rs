@@ -12,7 +12,7 @@ use super::growth::{self, Grown};
 use super::skeleton::{Segment, Skeleton, SkeletonError};
 use super::turtle::{self, Shoot, rotated};
 use super::{crown, from_file};
-use crate::environment::convert::single;
+use crate::convert::single;
 use crate::scene::{Tree, TreeForm, TreeKind};
 
 /// Lowest full-grown tree in the grammar's unit.
