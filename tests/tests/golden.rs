@@ -140,14 +140,14 @@ fn pictures_are_as_they_were() {
 /// A break: its name, its picture, and its edit.
 #[rustfmt::skip]
 const BREAKS: [(&str, usize, &str, &str); 8] = [
-    ("sunlight is blue", 0, "frame.sun_color.rgb", "frame.sun_color.bgr"),
+    ("sunlight is blue", 0, "frame.sun_color *", "frame.sun_color.bgr *"),
     ("leaves face the other way", 2, "let facing = dot(normal, light);", "let facing = dot(-normal, light);"),
     ("leaves are whole squares", 2, "in.air.rgb, alpha);", "in.air.rgb, 1.0);"),
     ("no ambient light", 2, "return Ambient(max(even + odd, vec3(0.0)),", "return Ambient(vec3(0.0),"),
     ("the picture is a third of a stop too bright", 2, "lens.key * exp2(", "1.26 * lens.key * exp2("),
-    ("the filmic curve has too much contrast", 2, "const STOPS: f32 = 16.5;", "const STOPS: f32 = 14.0;"),
+    ("the filmic curve has too much contrast", 2, "const STOPS: f32 = 16.5f;", "const STOPS: f32 = 14.0f;"),
     ("Reinhard without white", 1, "(1.0 + bright / (white * white))", "1.0"),
-    ("glare four times too strong", 1, "color += lens.strength *", "color += 4.0 * lens.strength *"),
+    ("glare four times too strong", 1, "color += lens.glare_strength *", "color += 4.0 * lens.glare_strength *"),
 ];
 
 #[test]
