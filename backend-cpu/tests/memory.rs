@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What a leaf takes, and that a step takes nothing more.
+//! Memory of a leaf, and of a step: nothing more.
 
 use windfall_core::leaf::{HOT_BYTES_PER_STEP, LEAF_BYTES, Leaves};
 use windfall_core::scene::{MeanSpeed, Tree};

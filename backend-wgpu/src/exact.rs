@@ -15,7 +15,7 @@ const DECORATION_NO_CONTRACTION: u32 = 42;
 /// Fma in the GLSL.std.450 instruction set.
 const GLSL_FMA: u32 = 50;
 
-/// Whether an instruction computes with floats in a way a driver might re-arrange.
+/// Returns true if an instruction computes with floats in a way a driver might re-arrange.
 fn is_float_arithmetic(opcode: u32, words: &[u32]) -> bool {
     match opcode {
         // FNegate, FAdd, FSub, FMul, FDiv, FRem, FMod.

@@ -23,7 +23,7 @@ pub struct Gpu {
     is_own: bool,
 }
 
-/// How instances are made here: the platform's first-class APIs (Vulkan, Metal, DX12), or what `WGPU_BACKEND` names.
+/// Descriptor of instances: the platform's first-class APIs (Vulkan, Metal, DX12), or what `WGPU_BACKEND` names.
 pub fn instance_descriptor() -> wgpu::InstanceDescriptor {
     let mut descriptor = wgpu::InstanceDescriptor::new_without_display_handle();
     descriptor.backends = wgpu::Backends::from_env().unwrap_or(wgpu::Backends::PRIMARY);

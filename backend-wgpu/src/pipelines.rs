@@ -24,7 +24,7 @@ pub(crate) enum GroupLayout {
     Level,
     /// Blocks, wind tables and hot leaf columns, for leaves on twigs.
     Carried,
-    /// What carries them.
+    /// Kernel that carries them.
     Carriers,
 }
 
@@ -32,7 +32,7 @@ impl GroupLayout {
     const ALL: [Self; 6] =
         [Self::Leaves, Self::Extra, Self::Sway, Self::Level, Self::Carried, Self::Carriers];
 
-    /// What is bound, binding by binding.
+    /// Resources, binding by binding.
     fn slots(self) -> &'static [Slot] {
         use Slot::{Block, BlockOfMany, Read, Write};
         // The bindings of shaders/bindings.wgsl: all of them, those up to the wind, those up to the schedules.
@@ -95,7 +95,7 @@ pub(crate) struct Pipelines {
     contract: Contract,
 }
 
-/// What is bound in one place of a layout.
+/// Resource bound at one place of a layout.
 #[derive(Clone, Copy)]
 enum Slot {
     Block,

@@ -30,7 +30,7 @@ const PAGE_STEP: u32 = 4096;
 /// Most workgroups of one dispatch; further leaves are strided over.
 pub(crate) const MAX_GROUPS: u32 = 65_535;
 
-/// How the wgpu simulator runs.
+/// Options of the wgpu simulator.
 #[derive(Clone, Debug, Default)]
 pub struct WgpuOptions {
     /// Contract to keep; the closest that the device can when `None`.
@@ -136,7 +136,7 @@ impl WgpuSimulator {
         }
     }
 
-    /// What every kernel sees first: blocks and tables.
+    /// Bind group that every kernel sees first: blocks and tables.
     fn sway_blocks(&self) -> [wgpu::BindingResource<'_>; 3] {
         [self.environment_buffer.as_entire_binding(), self.step_binding(), self.tables.1.as_entire_binding()]
     }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! One step of `million`, scaled from a thousand leaves to four million, on every backend. Elements are leaf-steps. The
-//! clock stops when the backend is done, not when it has been told.
+//! clock stops when the backend is done, not when the steps have been submitted.
 
 use std::time::Duration;
 

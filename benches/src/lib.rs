@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What the benches share: scenes of any size, both backends with their answers proved, and a timer that waits.
+//! Common parts of the benches: scenes of any size, both backends with their answers proved, and a timer that waits.
 
 use std::sync::OnceLock;
 use std::time::{Duration, Instant};

@@ -182,7 +182,7 @@ pub fn hash_stores(stores: &[&dyn Store]) -> u64 {
     (0..).zip(stores).fold(0u64, |sum, (index, store)| sum.wrapping_add(hash_store(*store, salt(index))))
 }
 
-/// What distinguishes the rows of one store of a world from those of another.
+/// Salt that distinguishes the rows of one store of a world from those of another.
 fn salt(index: u64) -> u64 {
     match index {
         0 => 0,

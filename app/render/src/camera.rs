@@ -52,7 +52,7 @@ impl From<&scene::Camera> for Camera {
 }
 
 impl Camera {
-    /// Where the camera stands, in metres.
+    /// Position of the camera in metres.
     pub fn eye_m(&self) -> Vec3 {
         let (pitch_sin, pitch_cos) = self.pitch_rad.sin_cos();
         let (yaw_sin, yaw_cos) = self.yaw_rad.sin_cos();

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Why a picture cannot be drawn.
+//! Errors of drawing.
 
 use thiserror::Error;
 

@@ -7,31 +7,14 @@ use std::path::{Path, PathBuf};
 
 use windfall_core::leaf::LeafState;
 
-use super::frame::state_name;
 use super::{Exporter, Frame, FrameLeaf};
 use crate::files::{CsvFile, WriteError};
+use crate::run::leaf_row::{LeafRow, header};
 
-const HEADER: [&str; 19] = [
-    "frame",
-    "step",
-    "time_s",
-    "leaf",
-    "id",
-    "state",
-    "primitive",
-    "species",
-    "x_m",
-    "y_m",
-    "z_m",
-    "vx_m_s",
-    "vy_m_s",
-    "vz_m_s",
-    "qx",
-    "qy",
-    "qz",
-    "qw",
-    "size_m",
-];
+/// Columns before those of the leaf.
+const BEFORE: [&str; 3] = ["frame", "step", "time_s"];
+/// Columns behind them.
+const AFTER: [&str; 1] = ["size_m"];
 
 /// Bytes of a row, about.
 pub(super) const ROW_BYTES: u64 = 170;
@@ -45,7 +28,7 @@ pub(super) struct CsvExport {
 impl CsvExport {
     /// Begins the table.
     pub(super) fn start(path: &Path) -> anyhow::Result<Self> {
-        Ok(Self { table: CsvFile::create(path, &HEADER)? })
+        Ok(Self { table: CsvFile::create(path, &header(&BEFORE, &AFTER))? })
     }
 }
 
@@ -81,13 +64,19 @@ fn write_leaf<W: Write>(
     species: &str,
     species_m: f32,
 ) -> Result<(), WriteError> {
-    table.field(leaf.slot).field(leaf.id).field(state_name(leaf.state));
+    let row = LeafRow {
+        slot: leaf.slot,
+        id: leaf.id,
+        state: leaf.state,
+        motion: leaf.motion,
+        species,
+        position_m: leaf.position_m,
+        velocity_m_s: leaf.velocity_m_s,
+        attitude: leaf.quaternion,
+    };
+    row.write(table);
     if leaf.state == LeafState::Dormant {
-        return table.empty(HEADER.len() - 6).end_row();
-    }
-    table.field(leaf.motion).field(species);
-    for number in leaf.position_m.iter().chain(&leaf.velocity_m_s).chain(&leaf.quaternion) {
-        table.field(number);
+        return table.empty(AFTER.len()).end_row();
     }
     table.field(leaf.size * species_m).end_row()
 }
@@ -122,7 +111,7 @@ mod tests {
         let mut observer = Observer::default();
         let frame = observer.look(&world, 0);
         let table = |room| {
-            let mut table = CsvFile::new(Small(room), Path::new("a.csv"), &HEADER)?;
+            let mut table = CsvFile::new(Small(room), Path::new("a.csv"), &header(&BEFORE, &AFTER))?;
             write_frame(&mut table, &frame)?;
             table.flush()
         };
@@ -153,7 +142,7 @@ mod tests {
             size: 2.0,
             appearance: 0,
         };
-        let mut table = CsvFile::new(Vec::new(), Path::new("a.csv"), &HEADER).expect("room");
+        let mut table = CsvFile::new(Vec::new(), Path::new("a.csv"), &header(&BEFORE, &AFTER)).expect("room");
         for state in [LeafState::Dormant, LeafState::Falling] {
             table.field(0).field(0).field(0);
             write_leaf(&mut table, &leaf(state), "maple", 0.5).expect("as long as the header");

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The leaves of one frame as every format describes them.
 
-use windfall_core::leaf::{LeafMotion, LeafState};
+use windfall_core::leaf::LeafState;
 use windfall_core::{Context, World};
 
 /// A leaf at one moment.
@@ -69,25 +69,12 @@ fn leaf(world: &World, cx: &Context<'_>, slot: usize) -> FrameLeaf {
         slot: u32::try_from(slot).unwrap_or(u32::MAX),
         id: leaf.id,
         state: leaf.state,
-        motion: match leaf.motion {
-            Some(LeafMotion::Primitive(primitive)) => primitive.code(),
-            _ => "",
-        },
+        motion: leaf.motion_code(),
         species: leaf.species,
         position_m: leaf.position.to_array(),
         quaternion: if is_turned { quaternion } else { [0.0, 0.0, 0.0, 1.0] },
         velocity_m_s: leaf.velocity.to_array(),
         size: leaf.size,
         appearance: world.leaves.identity[slot].appearance,
-    }
-}
-
-/// Name of a state in tables.
-pub(super) fn state_name(state: LeafState) -> &'static str {
-    match state {
-        LeafState::Dormant => "dormant",
-        LeafState::Attached => "attached",
-        LeafState::Falling => "falling",
-        LeafState::Resting => "resting",
     }
 }

@@ -7,6 +7,7 @@ pub mod cancel;
 pub(crate) mod digits;
 pub mod drawing;
 pub(crate) mod frame_steps;
+pub(crate) mod leaf_row;
 pub(crate) mod looped;
 pub(crate) mod memory;
 pub(crate) mod parse;

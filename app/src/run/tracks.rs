@@ -6,31 +6,15 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use windfall_core::leaf::{LeafMotion, LeafState, LeafView};
+use windfall_core::leaf::LeafView;
 use windfall_core::{Context, World};
 
+use super::leaf_row::{LeafRow, header};
 use crate::files::{CsvFile, WriteError};
 use crate::run::parse::whole;
 
-const HEADER: [&str; 17] = [
-    "step",
-    "time_s",
-    "leaf",
-    "id",
-    "state",
-    "primitive",
-    "species",
-    "x_m",
-    "y_m",
-    "z_m",
-    "vx_m_s",
-    "vy_m_s",
-    "vz_m_s",
-    "qx",
-    "qy",
-    "qz",
-    "qw",
-];
+/// Columns before those of the leaf.
+const BEFORE: [&str; 2] = ["step", "time_s"];
 
 /// Options of tracks.
 #[derive(Clone, Debug, Args)]
@@ -73,7 +57,7 @@ impl Tracks {
     /// # Errors
     /// Whatever would keep the file from being written.
     pub(crate) fn create(path: &Path, every: u32, leaves: usize) -> anyhow::Result<Self> {
-        Ok(Self { table: CsvFile::create(path, &HEADER)?, every, leaves })
+        Ok(Self { table: CsvFile::create(path, &header(&BEFORE, &[]))?, every, leaves })
     }
 
     /// Path that the table will lie at.
@@ -123,32 +107,27 @@ fn write_row<W: Write>(
     slot: usize,
     leaf: &LeafView,
 ) -> Result<(), WriteError> {
-    let name = match leaf.state {
-        LeafState::Dormant => "dormant",
-        LeafState::Attached => "attached",
-        LeafState::Falling => "falling",
-        LeafState::Resting => "resting",
-    };
     table.field(world.clock.step()).field(format_args!("{:.6}", world.clock.seconds()));
-    table.field(slot).field(leaf.id).field(name);
-    if leaf.state == LeafState::Dormant {
-        return table.empty(HEADER.len() - 5).end_row();
-    }
-    table.field(match leaf.motion {
-        Some(LeafMotion::Primitive(primitive)) => primitive.code(),
-        _ => "",
-    });
     let species = world.environment.scene().species.get(leaf.species);
-    table.field(species.map_or("", |species| &species.name));
-    let numbers = leaf.position.to_array().into_iter().chain(leaf.velocity.to_array());
-    for number in numbers.chain(leaf.attitude.to_array()) {
-        table.field(number);
-    }
+    let row = LeafRow {
+        // Scenes have far fewer leaves.
+        slot: u32::try_from(slot).unwrap_or(u32::MAX),
+        id: leaf.id,
+        state: leaf.state,
+        motion: leaf.motion_code(),
+        species: species.map_or("", |species| &species.name),
+        position_m: leaf.position.to_array(),
+        velocity_m_s: leaf.velocity.to_array(),
+        attitude: leaf.attitude.to_array(),
+    };
+    row.write(table);
     table.end_row()
 }
 
 #[cfg(test)]
 mod tests {
+    use windfall_core::leaf::LeafState;
+
     use super::*;
 
     #[test]
@@ -157,7 +136,8 @@ mod tests {
         let world = World::build(&scene).expect("valid");
         let step = world.step_block();
         let cx = world.context(&step);
-        let mut table = CsvFile::new(Vec::new(), Path::new("tracks.csv"), &HEADER).expect("room");
+        let mut table =
+            CsvFile::new(Vec::new(), Path::new("tracks.csv"), &header(&BEFORE, &[])).expect("room");
         for slot in (0..world.leaves.len()).step_by(97) {
             write_row(&mut table, &world, slot, &world.leaves.view(&cx, slot))
                 .expect("as long as the header");

@@ -165,7 +165,7 @@ pub(crate) struct BatchStep<'a, 'b> {
 /// Constants that a pass reads, as bytes of [`Constants`].
 pub(crate) struct ConstantsOf(Range<usize>);
 
-/// Where the constants begin that the inward pass reads: behind rest and offset, the only ones of the outward pass.
+/// First of the constants that the inward pass reads: behind rest and offset, the only ones of the outward pass.
 const INWARD_OFFSET: usize = offset_of!(Constants<Lanes>, length);
 
 impl ConstantsOf {

@@ -21,6 +21,18 @@ pub enum LeafState {
     Resting,
 }
 
+impl LeafState {
+    /// Name in tables: `dormant`, `attached`, `falling` or `resting`.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Dormant => "dormant",
+            Self::Attached => "attached",
+            Self::Falling => "falling",
+            Self::Resting => "resting",
+        }
+    }
+}
+
 impl Place {
     /// State of the leaf.
     pub fn state(&self) -> LeafState {

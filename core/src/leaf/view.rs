@@ -72,6 +72,16 @@ pub struct LeafView {
 }
 
 impl LeafView {
+    /// Code of the primitive motion in tables, such as `SD`; empty if it has none.
+    pub fn motion_code(&self) -> &'static str {
+        match self.motion {
+            Some(LeafMotion::Primitive(primitive)) => primitive.code(),
+            _ => "",
+        }
+    }
+}
+
+impl LeafView {
     /// Decodes the records of a leaf at the step of a context.
     pub fn new(cx: &Context<'_>, leaf: &LeafRecords) -> Self {
         let LeafRecords { place, drift, attitude, schedule, identity } = *leaf;

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A tree at rest: straight segments from the foot to the twigs, and the places where leaves and fruit grow.
 //!
-//! Where it comes from does not matter here: an L-system or a file. The tree's frame has its origin at the foot of the
+//! Either source, an L-system or a file, gives the same structure. The tree's frame has its origin at the foot of the
 //! trunk, y up, lengths in metres.
 
 use glam::Vec3;

@@ -36,7 +36,7 @@ const _: () =
     assert!(Branches::COLUMNS.len() == BRANCH_COLUMNS as usize + 1, "six columns of four, and the leaves");
 
 impl Branches {
-    /// Where a segment is and how it moves.
+    /// Position, orientation and velocities of a segment.
     pub fn body(&self, row: usize) -> Body {
         Body {
             base: first_three(self.base[row]),

@@ -24,7 +24,6 @@ pub fn strip(shape: Shape, steps: u32, size_px: u32, seed: u64) -> Result<RgbIma
     if steps * size_px > 32_768 {
         return Err(TexgenError::out_of_range("steps times size", steps * size_px, "at most 32768"));
     }
-    // TODO
     let leaf = |step: u32| {
         let season = step as f32 / (steps - 1) as f32;
         let options =

@@ -23,14 +23,14 @@ pub(crate) fn shadow_size(picture_height: u32) -> u32 {
     if picture_height > 512 { 2048 } else { 1024 }
 }
 
-/// Where the slices end, in metres from the camera. Trees farther away only have the shade of their pictures.
+/// Far ends of the slices, in metres from the camera. Trees farther away only have the shade of their pictures.
 const ENDS_M: [f32; CASCADES as usize] = [8.0, 26.0, 80.0];
 /// A camera that looks at something near has its first slice end so much farther than that.
 const BEYOND_TARGET: f32 = 1.6;
 /// Least end of the first slice and largest end of the last, in metres.
 const FIRST_END_M: f32 = 1.2;
 const LAST_END_M: f32 = 200.0;
-/// How far beyond the ball something may stand towards the sun and still throw its shadow into it, in metres.
+/// Largest distance beyond the ball, towards the sun, of things that still throw their shadow into it, in metres.
 const TOWARD_SUN_M: f32 = 150.0;
 
 /// A shadow map's place.

@@ -20,9 +20,9 @@ pub(crate) struct FrameGroup {
     shape: wgpu::Buffer,
     hills: wgpu::TextureView,
     hill_shade: wgpu::TextureView,
-    /// Whether the land is not level.
+    /// True if the land is not level.
     pub(crate) is_hilly: bool,
-    /// Whether the scene has trees of its own.
+    /// True if the scene has trees of its own.
     pub(crate) has_trees: bool,
 }
 

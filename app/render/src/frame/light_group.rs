@@ -8,7 +8,7 @@ use crate::gpu::pipeline::{FILTERABLE, sampler_entry, texture_entry};
 use crate::gpu::upload;
 use crate::light::{Daylight, prefiltered};
 
-/// What `light.wgsl` binds.
+/// Bind group of `light.wgsl`.
 #[derive(Debug)]
 pub(crate) struct LightGroup {
     pub(crate) layout: wgpu::BindGroupLayout,

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What all pipelines of the scene pass have in common.
+//! Common parts of the scene pass's pipelines.
 
 use super::group::FrameGroup;
 use crate::gpu::pipeline::layout;
 use crate::gpu::targets::{DEPTH_FORMAT, HDR_FORMAT, SAMPLE_COUNT};
 
-/// How a pipeline of the scene pass differs from the others.
+/// Settings in which one pipeline of the scene pass differs from the others.
 pub(crate) struct ScenePipeline<'a> {
     pub(crate) label: &'a str,
     /// Bind group 0.

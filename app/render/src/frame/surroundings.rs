@@ -17,7 +17,7 @@ use crate::light::{Daylight, MapError, SphericalHarmonics};
 shared_constants! {
     /// Half edge of the square in which trees cast shade, in metres.
     pub(crate) const PARK_RADIUS_M: f32 = 64.0;
-    /// How far the path's bends reach to either side, in metres.
+    /// Amplitude of the path's bends, in metres.
     pub(crate) const PATH_BEND_M: f32 = 3.4;
     /// Phase of the bends along the path in radians per metre.
     pub(crate) const PATH_BEND_RAD_M: f32 = 0.10;
@@ -122,7 +122,7 @@ impl FrameUniform {
     }
 }
 
-/// How the park's path winds.
+/// Course of the park's path.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Path {
     /// Direction it leads, x and z.
@@ -131,12 +131,12 @@ pub(crate) struct Path {
     pub(crate) phase: f32,
 }
 
-/// What a frame's light and place are computed from.
+/// Sources of a frame's light and place.
 #[derive(Clone, Debug)]
 pub(crate) struct Surroundings {
     /// Sun and sky.
     pub(crate) daylight: Daylight,
-    /// What the sky does to matt surfaces.
+    /// Light of the sky on matt surfaces.
     ambient: [Vec3; 9],
     /// Haze.
     haze: Haze,

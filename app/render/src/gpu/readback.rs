@@ -14,7 +14,7 @@ pub struct PictureTarget {
     texture: wgpu::Texture,
     buffer: wgpu::Buffer,
     bytes_per_row: u32,
-    /// Whether blue comes first.
+    /// True if blue comes first.
     is_bgra: bool,
 }
 
@@ -77,7 +77,7 @@ impl PictureTarget {
         Ok(Self { texture, buffer, bytes_per_row, is_bgra })
     }
 
-    /// What to draw into.
+    /// Target to draw into.
     pub fn view(&self) -> wgpu::TextureView {
         self.texture.create_view(&wgpu::TextureViewDescriptor::default())
     }

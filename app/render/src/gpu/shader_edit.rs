@@ -4,7 +4,7 @@
 
 use std::cell::RefCell;
 
-/// What to look for, what to put there, and how often it was found.
+/// Text to replace, its replacement, and the number of places found.
 struct Edit {
     from: String,
     to: String,

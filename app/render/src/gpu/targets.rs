@@ -25,7 +25,7 @@ pub(crate) struct Targets {
     resolved_tile: Option<wgpu::TextureView>,
     /// Size of a tile in pixels.
     pub(crate) tile_size: (u32, u32),
-    /// How far what moves in a tile goes while the shutter is open; only if the lens asks for it.
+    /// Largest motion in a tile while the shutter is open; only if the lens asks for it.
     pub(crate) ways: Option<Ways>,
 }
 
@@ -88,7 +88,7 @@ impl Targets {
         tiles(self.size, self.tile_size)
     }
 
-    /// What the scene pass resolves to.
+    /// Resolve target of the scene pass.
     pub(crate) fn resolve(&self) -> &wgpu::TextureView {
         self.resolved_tile.as_ref().unwrap_or(&self.resolved)
     }

@@ -13,13 +13,13 @@ use glam::{Mat4, Vec2, Vec4};
 pub(crate) struct Tile {
     /// Upper left corner in pixels of the picture.
     pub(crate) corner: (u32, u32),
-    /// How much of the tile lies inside the picture, in pixels.
+    /// Part of the tile inside the picture, in pixels.
     pub(crate) inside: (u32, u32),
     /// Middle in clip coordinates of the whole picture.
     center: Vec2,
     /// Size relative to the whole picture.
     scale: Vec2,
-    /// How many tiles come after it.
+    /// Number of tiles after it.
     pub(crate) left: u32,
 }
 

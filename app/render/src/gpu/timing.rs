@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! How long the device works on each pass, where it can tell.
+//! Time that the device takes for each pass, where it can be queried.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU8, AtomicU64, Ordering};
@@ -63,7 +63,7 @@ impl GpuTimer {
         })
     }
 
-    /// What the descriptor of the pass of this number needs to be timed.
+    /// Timestamp writes for the descriptor of the pass of this number.
     pub(crate) fn render_writes(&self, pass: u32) -> wgpu::RenderPassTimestampWrites<'_> {
         self.encoded.fetch_or(1 << pass, Ordering::Relaxed);
         wgpu::RenderPassTimestampWrites {
@@ -92,7 +92,7 @@ impl GpuTimer {
         }
     }
 
-    /// Copies the frame's timestamps, unless an earlier frame's are still on their way; tells whether it did.
+    /// Copies the frame's timestamps, unless an earlier frame's are still on their way; returns true if it did.
     pub fn resolve(&self, encoder: &mut wgpu::CommandEncoder) -> bool {
         let encoded = self.encoded.swap(0, Ordering::Relaxed);
         let is_free = self.state.compare_exchange(IDLE, COPIED, Ordering::AcqRel, Ordering::Acquire).is_ok();

@@ -18,7 +18,7 @@ macro_rules! vertex_struct {
         }
 
         impl $name {
-            /// Where pipelines find the fields.
+            /// Attributes of the fields for pipelines.
             $vis const ATTRIBUTES: &'static [wgpu::VertexAttribute] = &{
                 let mut location = $first;
                 [$({

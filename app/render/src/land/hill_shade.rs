@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Where hills stand before the sun: for every grid point the height up to which they hide it.
+//! Shade of hills: for every grid point the height up to which they hide the sun.
 
 use glam::{Vec2, Vec3};
 use rayon::iter::{IntoParallelIterator, ParallelIterator};

@@ -53,7 +53,7 @@ impl Land {
         self.ground_m(x_m, z_m).max(self.water_m.unwrap_or(f32::MIN))
     }
 
-    /// Whether a place is under water.
+    /// Returns true if a place is under water.
     pub(crate) fn is_wet(&self, x_m: f32, z_m: f32) -> bool {
         self.water_m.is_some_and(|water_m| self.ground_m(x_m, z_m) < water_m)
     }

@@ -7,11 +7,11 @@ use windfall_core::terrain::Hills;
 
 use super::Land;
 
-/// Grid points to each side whose mean a point is compared with to tell hollows from knolls.
+/// Grid points to each side whose mean a point is compared with to distinguish hollows from knolls.
 const NEIGHBOURHOOD: i64 = 3;
 /// Height in metres below or above that mean at which a place is altogether a hollow or a knoll.
 const HOLLOW_M: f32 = 0.6;
-/// Where water lies that is not there, in metres.
+/// Height that stands for no water, in metres.
 const NO_WATER_M: f32 = -1.0e6;
 
 shared_struct! {

@@ -21,11 +21,11 @@ use crate::trees::records::TreeRecords;
 /// Views of a frame, each with its own uniform block.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum View {
-    /// What the camera sees.
+    /// View of the camera.
     Camera,
-    /// What the camera sees in water.
+    /// View of the camera in water.
     Mirror,
-    /// What the sun sees in a shadow map, or who looks from above.
+    /// View of a shadow map from the sun, or from above.
     Shadow(usize),
 }
 
@@ -90,7 +90,7 @@ pub(crate) struct CullPass {
     species_table: wgpu::BindGroup,
     views: [wgpu::Buffer; 2 + MAPS],
     steps: [wgpu::ComputePipeline; 4],
-    /// Whether leaves bring marks with them.
+    /// True if leaves bring marks with them.
     pub(crate) is_painted: bool,
 }
 

@@ -244,7 +244,7 @@ mod tests {
         Atlas { size_px: 64, variants: 1, layers }
     }
 
-    /// What the shader reads of a corner at a stage.
+    /// Record of a corner at a stage, for the shader.
     fn read(forms: &LeafMeshes, corner: usize, stage: usize) -> Vec3 {
         let words = &forms.corners[corner * CORNER_WORDS as usize + 1 + 2 * stage..];
         let half = |word: u32| {

@@ -17,7 +17,7 @@ use crate::gpu::targets::{DEPTH_FORMAT, SAMPLE_COUNT, Targets, WAY_FORMAT};
 const FASTEST_M_S: f32 = 80.0;
 
 shared_struct! {
-    /// How far leaves may go, and how long the shutter is open.
+    /// Largest motion of a leaf, and the time that the shutter is open.
     pub(crate) struct MotionUniform {
         /// Part of the way since the frame before that the shutter is open for.
         open_share: f32,

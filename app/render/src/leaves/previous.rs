@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Where the leaves were a frame before: copies of their columns.
+//! Leaves a frame before: copies of their columns.
 
 use windfall_wgpu::LeafColumns;
 

@@ -10,7 +10,7 @@ shared_constants! {
     pub(crate) const SLOT_SHIFT: u32 = 12;
     /// Mask of the layer there.
     const LAYER_MASK: u32 = 0xfff;
-    /// How high over the ground the lowest point of a leaf at rest lies, on what has fallen before it, in metres.
+    /// Height of the lowest point of a leaf at rest, on the leaves below it, above the ground in metres.
     const LITTER_M: f32 = 0.005;
     /// Edge of a picture in diameters of the disc with the leaf's area, roughly.
     pub(crate) const PICTURE_EDGE: f32 = 1.6;
@@ -55,7 +55,7 @@ shared_struct! {
         instance_count: u32,
         first_vertex: u32,
         first_instance: u32,
-        /// Where the records of the level begin.
+        /// First record of the level.
         pub(crate) first_record: u32,
         /// Level of detail.
         pub(crate) level: u32,
@@ -78,7 +78,7 @@ shared_struct! {
 }
 
 shared_struct! {
-    /// What a view shows.
+    /// Sides and scale of a view, by which leaves are culled.
     pub(crate) struct ViewUniform, padding 8 {
         /// Inward unit normals of the view's sides, and their distances from the origin.
         pub(crate) sides: [Float4; 6],

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What the shaders know of the species: sizes, the texture arrays of leaf pictures and surfaces, and meshes.
+//! Species for the shaders: sizes, the texture arrays of leaf pictures and surfaces, and meshes.
 
 use bytemuck::Zeroable;
 use image::RgbaImage;
@@ -28,7 +28,7 @@ shared_struct! {
         pub offset_x: f32,
         /// The same along z.
         pub offset_z: f32,
-        /// How much of a dry leaf's folds it has.
+        /// Share of a dry leaf's folds that it has.
         pub folds: f32,
     }
 }
@@ -48,7 +48,7 @@ shared_struct! {
 }
 
 shared_struct! {
-    /// What shaders know of the species and of their leaf pictures.
+    /// Species and their leaf pictures, for shaders.
     pub(crate) struct SpeciesUniform, padding 8 {
         species: [SpeciesRow; MAX_SPECIES],
         layers: [LayerRow; MAX_LAYERS],
@@ -193,7 +193,7 @@ pub fn dryness(layer: &Layer) -> f32 {
     if is_drying { (fresh + more * season).min(STAGES as f32) } else { -1.0 }
 }
 
-/// How far a leaf has turned, from its colour: green is below 0, yellow about 0.1, red and brown above.
+/// Autumn colouring of a leaf: green is below 0, yellow about 0.1, red and brown above.
 pub fn turned(layer: &Layer) -> f32 {
     let Some(mip) = layer.mips.first() else { return 0.0 };
     let leaf = mip.pixels().filter(|pixel| pixel.0[3] > 127);

@@ -20,7 +20,7 @@ shared_constants! {
 
 /// Contrast of middle greys: 1 is that of the scene. Film, and what people like in pictures, has more.
 const CONTRAST: f32 = 1.25;
-/// How late and how suddenly the curve bends: that of AgX as Blender has it.
+/// Exponent of the curve's toe and shoulder: that of AgX in Blender.
 const BEND: f32 = 1.5;
 
 /// The curve through black, middle grey and white.
@@ -33,7 +33,7 @@ pub(crate) struct Curve {
 pub(crate) const CURVE: Curve = Curve { contrast: CONTRAST };
 
 impl Curve {
-    /// Where middle grey lies on the logarithmic scale and on that of encoded light.
+    /// Place of middle grey on the logarithmic scale and on that of encoded light.
     fn pivot() -> (f32, f32) {
         (STOPS_BELOW / STOPS, MIDDLE_GREY.powf(1.0 / DISPLAY))
     }

@@ -4,7 +4,7 @@
 
 use crate::gpu::pipeline::{texture_entry, uniform_entry};
 
-/// What a blur reads: its uniform block at binding 0, the depth of a tile with all samples at 1, and pictures behind.
+/// Inputs of a blur: its uniform block at binding 0, the depth of a tile with all samples at 1, and pictures behind.
 #[derive(Debug)]
 pub(crate) struct BlurGroup {
     pub(crate) layout: wgpu::BindGroupLayout,

@@ -63,7 +63,7 @@ impl ExposurePass {
         Self { measure: pipeline("measure"), adapt: pipeline("adapt"), layout: bind_layout, sums }
     }
 
-    /// What to meter.
+    /// Binds the picture to meter.
     pub(crate) fn bind(
         &self,
         device: &wgpu::Device,

@@ -32,7 +32,7 @@ pub(crate) struct FocusPass {
     group: BlurGroup,
 }
 
-/// What pictures of one size need.
+/// Resources for pictures of one size.
 #[derive(Debug)]
 pub(crate) struct FocusChain {
     /// Light in focus and out of it.

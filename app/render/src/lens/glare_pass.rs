@@ -217,7 +217,7 @@ impl GlarePass {
     }
 }
 
-/// How often a picture is halved.
+/// Number of halvings of a picture.
 fn halvings(height: u32) -> u32 {
     let mut count = 1;
     while height as f32 / (1u32 << (count + 1)) as f32 >= LEAST_HEIGHT {

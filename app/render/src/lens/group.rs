@@ -15,11 +15,11 @@ shared_struct! {
         size_px: [f32; 2],
         /// Their reciprocals.
         inv_size_px: [f32; 2],
-        /// Where the picture's corner lies in the output.
+        /// Place of the picture's corner in the output.
         origin_px: [f32; 2],
-        /// What the log-average becomes; 0 with manual exposure.
+        /// Value that the log-average of radiance is mapped to; 0 with manual exposure.
         key: f32,
-        /// How much of the way to a new exposure is gone in this frame.
+        /// Share of the way to a new exposure that this frame goes.
         adaptation: f32,
         /// Multiplier of manual exposure.
         manual: f32,
@@ -86,7 +86,7 @@ pub(crate) fn blur_block(height: u32) -> u32 {
     (MAX_BLUR * height as f32).ceil().max(1.0) as u32
 }
 
-/// What of a frame matters to its lens.
+/// Parts of a frame that matter to its lens.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Shot {
     /// Size of the picture in pixels.

@@ -43,7 +43,7 @@ struct Passes {
     tonemap: TonemapPass,
 }
 
-/// What depends on the textures.
+/// Resources that depend on the textures.
 #[derive(Debug)]
 struct Bound {
     shutter: Option<ShutterChain>,
@@ -89,7 +89,7 @@ impl Post {
         }
     }
 
-    /// How long the shutter is open, in seconds.
+    /// Time that the shutter is open, in seconds.
     pub(crate) fn shutter_s(&self) -> f32 {
         self.lens.shutter_s
     }

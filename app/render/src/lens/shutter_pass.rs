@@ -31,7 +31,7 @@ pub(crate) struct ShutterPass {
     group: BlurGroup,
 }
 
-/// What pictures of one size need.
+/// Resources for pictures of one size.
 #[derive(Debug)]
 pub(crate) struct ShutterChain {
     /// Light with all ways drawn out.

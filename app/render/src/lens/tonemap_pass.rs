@@ -54,7 +54,7 @@ impl TonemapPass {
         Self { curves, layout, sampler: smooth_sampler(device), pixels }
     }
 
-    /// What to turn into the picture.
+    /// Binds the radiance to turn into the picture.
     pub(crate) fn bind(
         &self,
         device: &wgpu::Device,

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What the air is made of: molecules, aerosol and ozone over a round Earth. Lengths are in km.
+//! Composition of the air: molecules, aerosol and ozone over a round Earth. Lengths are in km.
 
 use super::spectrum::{BANDS, OZONE, Spectrum, WAVELENGTHS_NM};
 use super::table::single;
@@ -15,7 +15,7 @@ const RAYLEIGH_PER_KM: f32 = 1.24e-3;
 /// Heights in which molecules and aerosol thin to 1/e.
 const RAYLEIGH_HEIGHT_KM: f64 = 8.0;
 const AEROSOL_HEIGHT_KM: f64 = 1.2;
-/// How aerosol extinction falls with wavelength: Ångström's exponent of continental air.
+/// Decrease of aerosol extinction with wavelength: Ångström's exponent of continental air.
 const ANGSTROM_EXPONENT: f32 = 1.3;
 /// Share of what aerosol takes out of a ray that it scatters.
 const AEROSOL_ALBEDO: f32 = 0.93;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What clouds do to daylight, by measured means.
+//! Effect of clouds on daylight, by measured means.
 
 /// Daylight under a cover of clouds relative to a clear sky, and how it is divided.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! How much air lies between a place and the sun, tabulated.
+//! Table of the air between a place and the sun.
 
 use super::atmosphere::{Columns, EARTH_KM, TOP_KM, densities};
 use super::table::{cell, single};

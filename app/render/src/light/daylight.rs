@@ -41,9 +41,9 @@ pub struct Daylight {
     pub sun: SunLight,
     /// Everything else that lights.
     pub sky: EnvironmentMap,
-    /// What is seen of it behind sun and clouds.
+    /// Visible sky behind sun and clouds.
     pub seen: EnvironmentMap,
-    /// Whether `seen` is a picture, which has a sun, clouds and a horizon of its own.
+    /// True if `seen` is a picture, which has a sun, clouds and a horizon of its own.
     pub is_picture: bool,
     /// Clouds to be drawn before the sky, 0 to 1.
     pub cloud_cover: f32,

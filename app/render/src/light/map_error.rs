@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Why a picture cannot light a scene.
+//! Errors of pictures that are to light a scene.
 
 use thiserror::Error;
 
@@ -29,7 +29,7 @@ pub enum MapError {
     Broken {
         /// The file.
         file: String,
-        /// What the decoder met.
+        /// Error of the decoder.
         source: image::ImageError,
     },
     /// More bytes than any allowed picture has.

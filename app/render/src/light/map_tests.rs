@@ -30,7 +30,7 @@ fn picture(width: usize, height: usize, value: impl Fn(usize, usize) -> Vec3) ->
     Picture { width, height, pixels }
 }
 
-/// The direction that a pixel of a cross shows, by the faces as a file's reader is told of them.
+/// The direction that a pixel of a cross shows, by the faces as readers of files define them.
 fn cross_direction(x: usize, y: usize, edge: usize, is_upright: bool) -> Vec3 {
     let on_face = |at: usize| (at % edge) as f32 * 2.0 / edge as f32 + 1.0 / edge as f32 - 1.0;
     let (u, v) = (on_face(x), on_face(y));

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What rough surfaces mirror of an environment.
+//! Reflections of an environment in rough surfaces.
 
 use glam::Vec3;
 use rayon::prelude::*;
@@ -13,7 +13,7 @@ const ROWS: usize = 64;
 shared_constants! {
     /// Roughness of the first level.
     pub(crate) const LEAST_ROUGHNESS: f32 = 0.1;
-    /// How much rougher each level is than the one before.
+    /// Difference in roughness from one level to the next.
     pub(crate) const ROUGHNESS_STEP: f32 = 0.225;
 }
 

@@ -19,7 +19,7 @@ const COARSE_STEPS: u32 = 12;
 /// Heights and suns for which multiple scattering is tabulated.
 const HEIGHTS: usize = 12;
 const SUNS: usize = 9;
-/// How far the sun of a place in sight may stand from the sun here, in radians.
+/// Largest angle between the sun of a place in sight and the sun here, in radians.
 const SUN_RANGE: f64 = 0.17;
 /// Share of light that the land throws back into the air.
 const LAND_ALBEDO: f32 = 0.12;
@@ -172,7 +172,7 @@ impl ClearAir {
     }
 }
 
-/// What a ray met.
+/// Light collected along a ray, and the share of it that was scattered.
 #[derive(Debug)]
 struct Ray {
     light: Spectrum,

@@ -9,7 +9,7 @@ use glam::Vec3;
 
 use super::EnvironmentMap;
 
-/// What the half sphere around a normal does to each order: its projection, relative to pi.
+/// Factor of each order by the half sphere around a normal: its projection, relative to pi.
 const COSINE_LOBE: [f32; 9] = [1.0, 2.0 / 3.0, 2.0 / 3.0, 2.0 / 3.0, 0.25, 0.25, 0.25, 0.25, 0.25];
 
 /// Radiance projected onto the real spherical harmonics of orders 0 to 2.

@@ -19,7 +19,7 @@ pub use landing_count::LANDINGS_PER_M2;
 pub use palette::{ATTACHED, MOTIONS, RESTING, shade_bytes};
 pub use trail_pass::MAX_TRAILS;
 
-/// What colours tell.
+/// Property that colours show.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Measure {
     /// Which motion or regime a falling leaf is in.
@@ -32,10 +32,10 @@ pub enum Measure {
     Height,
 }
 
-/// How leaves are painted.
+/// Paint of the leaves.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Paint {
-    /// What colours tell.
+    /// Property that colours show.
     pub measure: Measure,
     /// The amount at the light end of the colours, above zero; for motions nothing.
     pub most: f32,

@@ -30,7 +30,7 @@ shared_constants! {
 }
 
 shared_struct! {
-    /// What is shown of the leaves, and its colours.
+    /// Property of the leaves that is shown, and its colours.
     pub(crate) struct PaintUniform, padding 8 {
         /// Colours from low to high, or of each kind of motion; then of leaves without a value. w unused.
         palette: [Float4; COLORS],
@@ -59,7 +59,7 @@ pub(crate) struct PaintPass {
     uniform: wgpu::Buffer,
     /// A mark for each leaf, in place of its identity.
     pub(crate) marks: wgpu::Buffer,
-    /// Where each leaf was.
+    /// Earlier position of each leaf.
     past: wgpu::Buffer,
     group_layout: wgpu::BindGroupLayout,
     pipeline: wgpu::ComputePipeline,
@@ -118,7 +118,7 @@ impl PaintPass {
         self.paint = paint;
     }
 
-    /// How it paints.
+    /// Paint in use.
     pub(crate) fn paint(&self) -> Paint {
         self.paint
     }

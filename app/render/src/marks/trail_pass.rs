@@ -52,7 +52,7 @@ struct RingClock {
     seen_s: Option<f64>,
 }
 
-/// What the ring's clock says about a frame.
+/// Changes of the ring of trails in a frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Tick {
     clear: bool,

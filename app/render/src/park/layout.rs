@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Where the trees of the park stand.
+//! Places of the park's trees.
 
 use glam::{Vec2, Vec3};
 use windfall_core::Scene;
@@ -131,7 +131,7 @@ pub(crate) fn plant(scene: &Scene, land: &Land, center: Vec3, view: Vec2) -> Par
     Park { trees, leaves, path_phase }
 }
 
-/// Whether a tree at `foot` would stand right before the viewer.
+/// Returns true if a tree at `foot` would stand right before the viewer.
 fn hides(eye: Vec3, view: Vec2, foot: Vec3) -> bool {
     let offset = Vec2::new(foot.x - eye.x, foot.z - eye.z);
     let distance = offset.length();

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What the scene's own trees mean for the park around them: shade, litter.
+//! Effects of the scene's own trees on the park around them: shade, litter.
 
 use super::layout::TreeInstance;
 use super::litter::Shedding;

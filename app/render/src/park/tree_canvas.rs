@@ -32,7 +32,7 @@ pub(crate) struct Dab {
 }
 
 impl Dab {
-    /// How far a place in half widths lies out, 1 at the edge: wood is round at its ends, leaves are pointed.
+    /// Distance of a place from the axis, 1 at the edge: wood is round at its ends, leaves are pointed.
     fn reach(&self, local: Vec2) -> f32 {
         let round = local.length();
         if self.surface[2] > 0.0 { round } else { 0.45 * round + 0.55 * local.abs().element_sum() }
@@ -120,8 +120,8 @@ fn drawn_share(canvas: &[[f32; 7]], thicker: f32) -> f32 {
     drawn as f32 / canvas.len() as f32
 }
 
-/// How many times as much the texels of a halving must cover for as large a share to be drawn as of the whole: neither twigs
-/// nor gaps vanish with distance.
+/// Factor on the coverage of a halving's texels with which as large a share of them is drawn as of the whole: neither
+/// twigs nor gaps vanish with distance.
 fn thickening(canvas: &[[f32; 7]], drawn: f32) -> f32 {
     let (mut low, mut high) = (0.5, 4.0);
     for _ in 0..12 {

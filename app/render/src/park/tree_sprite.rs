@@ -13,7 +13,7 @@ use crate::trees::{Crown, cluster};
 /// Number of different trees; the last quarter are bushes.
 pub(crate) const SPRITE_COUNT: u32 = 8;
 
-/// What is painted, and which individual of it.
+/// Kinds of the painted trees, and the individual of each.
 const TREES: [(TreePreset, u32); SPRITE_COUNT as usize] = [
     (TreePreset::Maple, 11),
     (TreePreset::Oak, 12),
@@ -80,7 +80,7 @@ impl Painter {
         Self { random, scale: 0.92 / size.max_element(), crown, hues, dabs: Vec::new() }
     }
 
-    /// How far out of the crown's middle a place lies, 1 at its surface; and the direction.
+    /// Distance of a place from the crown's centre, 1 at its surface; and the direction.
     fn outward(&self, at_m: Vec3) -> Vec3 {
         (at_m - self.crown.center_m) / self.crown.radii_m
     }

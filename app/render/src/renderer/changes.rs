@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What of the picture can change between two frames.
+//! Changes of the picture between two frames.
 
 use windfall_core::scene::{Lens, View};
 

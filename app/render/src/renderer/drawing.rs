@@ -150,13 +150,13 @@ impl Renderer {
         self.fruit_pass.draw(pass, branches);
     }
 
-    /// What is drawn as leaves: nothing has a mark that is not simulated.
+    /// Leaves that are drawn: nothing has a mark that is not simulated.
     fn visible(&self) -> Vec<&VisibleLeaves> {
         let litter = (!self.cull.is_painted).then_some(&self.visible_litter);
         std::iter::once(&self.visible_leaves).chain(litter).collect()
     }
 
-    /// Tells the culling what each view of a frame sees.
+    /// Writes the views of a frame for the culling.
     fn write_views(&self, uniform: &FrameUniform, camera: &Camera) {
         let height_px = self.targets.size.1 as f32;
         let pixels_per_m = 0.5 * height_px / (0.5 * camera.vertical_fov_rad).tan();

@@ -47,7 +47,7 @@ use crate::trees::records::TreeRecords;
 
 /// Passes that are timed, in order of drawing.
 const TIMED_PASSES: [&str; 7] = ["shadows", "scene", "shutter", "focus", "exposure", "glare", "tone map"];
-/// Where those after the scene are among them.
+/// Numbers of the timed passes after the scene.
 const TIMED_POSTS: TimedPosts = TimedPosts { shutter: 2, focus: 3, exposure: 4, glare: 5, tone_map: 6 };
 
 /// Draws a scene's leaves in their park.
@@ -194,7 +194,7 @@ impl Renderer {
         &self.land
     }
 
-    /// Whether leaves draw trails.
+    /// True if leaves draw trails.
     pub fn has_trails(&self) -> bool {
         self.trail_pass.is_some()
     }
@@ -218,13 +218,13 @@ impl Renderer {
         }
     }
 
-    /// Milliseconds the device last spent on each pass, where it can tell; call it after submitting a frame.
+    /// Milliseconds the device last spent on each pass, where timestamps are supported; call it after submitting a frame.
     pub fn timings(&mut self) -> Vec<(&'static str, f32)> {
         self.timer.as_mut().map_or_else(Vec::new, |timer| timer.collect(&self.device).to_vec())
     }
 }
 
-/// Whether leaves are drawn longer than they are.
+/// Returns true if leaves are drawn longer than they are.
 fn is_moving(lens: &Lens) -> bool {
     lens.shutter_s > 0.0
 }

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What a renderer is asked to draw.
+//! Input of a renderer.
 
 use windfall_core::Scene;
 use windfall_core::scene::Release;
@@ -42,7 +42,7 @@ impl RendererOptions {
     }
 }
 
-/// What a renderer draws.
+/// Scene, trees and leaf pictures that a renderer draws.
 #[derive(Clone, Copy, Debug)]
 pub struct RenderScene<'a> {
     /// The scene.

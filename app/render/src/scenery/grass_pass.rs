@@ -31,7 +31,7 @@ vertex_struct! {
         corner_m: [f32; 2] = Float32x2,
         /// Blades of a full square.
         blades: f32 = Float32,
-        /// How far from the eye all of them stand.
+        /// Distance from the eye up to which all of them stand.
         dense_m: f32 = Float32,
     }
 }

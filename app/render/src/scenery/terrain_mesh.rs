@@ -53,7 +53,7 @@ fn ring_indices(keep: impl Fn(i32, i32) -> bool) -> Vec<u32> {
     indices
 }
 
-/// Whether a cell lies in a ring's hole. The ring within is moved by up to one cell from where this one is: the hole is
+/// Returns true if a cell lies in a ring's hole. The ring within is moved by up to one cell from where this one is: the hole is
 /// what it covers in any case.
 fn is_within(x: i32, z: i32) -> bool {
     let quarter = i32::try_from(RING_CELLS / 4).unwrap_or(0);
@@ -75,7 +75,7 @@ impl TerrainMesh {
         }
     }
 
-    /// How pipelines read the vertices.
+    /// Layout of the vertices for pipelines.
     pub(crate) const LAYOUT: wgpu::VertexBufferLayout<'static> = wgpu::VertexBufferLayout {
         array_stride: 4,
         step_mode: wgpu::VertexStepMode::Vertex,
@@ -98,7 +98,7 @@ mod tests {
 
     use super::*;
 
-    /// Where a vertex of a ring comes to lie, in cells of the innermost ring: the rule of `vertex_hilly` in `ground_pass.wgsl`.
+    /// Position of a vertex of a ring, in cells of the innermost ring: the rule of `vertex_hilly` in `ground_pass.wgsl`.
     fn laid(grid: [i16; 2], ring: u32, eye: [f32; 2]) -> [f32; 2] {
         let cell = f32::from(1u16 << ring);
         let half = 0.5 * RING_CELLS as f32 * cell;

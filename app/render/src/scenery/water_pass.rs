@@ -82,12 +82,12 @@ impl WaterPass {
         self.frame.write(queue, &self.mirrored(frame).sized(size));
     }
 
-    /// What the water mirrors of a frame.
+    /// Uniform of a frame as the water mirrors it.
     pub(crate) fn mirrored(&self, frame: FrameUniform) -> FrameUniform {
         frame.mirrored(self.water_m)
     }
 
-    /// Where what is mirrored is drawn.
+    /// Targets of the mirror image.
     pub(crate) fn targets(&self) -> Option<&Targets> {
         self.mirror.as_ref().map(|(targets, _)| targets)
     }

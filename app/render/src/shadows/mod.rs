@@ -31,7 +31,7 @@ pub(crate) struct ShadowPass {
     /// Their edge in texels.
     pub(crate) size_px: u32,
     passes: [MapPass; MAPS],
-    /// Whether anything stands that hides the sky.
+    /// True if anything stands that hides the sky.
     has_trees: bool,
 }
 
@@ -43,7 +43,7 @@ struct MapPass {
     bark: wgpu::RenderPipeline,
 }
 
-/// What casts shadows.
+/// Casters of shadows.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Casters<'a> {
     pub(crate) species_table: &'a SpeciesTable,

@@ -28,7 +28,7 @@ fn unit(leaf: u32, axis: u32) -> f32 {
     (bits >> 8) as f32 / 16_777_216.0
 }
 
-/// Where a leaf is, in the air; every ninth is dormant.
+/// Position of a leaf in the air; every ninth is dormant.
 fn place(leaf: u32) -> [u32; 4] {
     let at = Vec3::from([0, 1, 2].map(|axis| unit(leaf, axis) - 0.5)) * Vec3::new(40.0, 10.0, 40.0)
         + 7.0 * Vec3::Y;
@@ -36,7 +36,7 @@ fn place(leaf: u32) -> [u32; 4] {
     [at.x.to_bits(), at.y.to_bits(), at.z.to_bits(), state]
 }
 
-/// What a buffer of the device holds.
+/// Contents of a buffer of the device.
 fn read(device: &wgpu::Device, queue: &wgpu::Queue, buffer: &wgpu::Buffer) -> Vec<u32> {
     let copy = device.create_buffer(&wgpu::BufferDescriptor {
         label: None,
@@ -204,7 +204,7 @@ fn culling_finds_what_a_plain_loop_finds() {
     }
 }
 
-/// Whether a ball lies wholly beyond a side of the view, or behind the camera.
+/// Returns true if a ball lies wholly beyond a side of the view, or behind the camera.
 fn is_beyond(clip: Mat4, at: Vec3, radius_m: f32) -> bool {
     let row = |index: usize| clip.row(index);
     let sides = [row(3) + row(0), row(3) - row(0), row(3) + row(1), row(3) - row(1), row(3) - row(2)];

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What the lens makes of light that is known, on whatever Vulkan adapter there is.
+//! Response of the lens to known light, on any Vulkan adapter.
 
 use image::RgbaImage;
 use windfall_core::scene::{Exposure, Glare, Lens, ToneMap};

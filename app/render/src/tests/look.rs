@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What is counted and painted, read back from the device.
+//! Counts and paint, read back from the device.
 
 use glam::Vec3;
 use windfall_core::device::leaf::record::{
@@ -79,7 +79,7 @@ fn leaves_are_counted_where_they_lie() {
     }
 }
 
-/// Whether a mark's colour is this one of sRGB, but for rounding.
+/// Returns true if a mark's colour is this one of sRGB, but for rounding.
 fn is_color(mark: u32, wanted: [u8; 3]) -> bool {
     let bytes = mark.to_le_bytes();
     let linear = |byte: u8| {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What an open shutter makes of a leaf that moves.
+//! Motion blur of a leaf.
 
 use image::RgbaImage;
 use windfall_core::scene::{Exposure, ToneMap};
@@ -29,7 +29,7 @@ fn moved(shutter_s: f32, way_m: f32) -> RgbaImage {
     bench.draw(FALLING, 0.0, FRAME_S)
 }
 
-/// How a leaf changes the picture: by how much in all, and where: mean and variance of column and row.
+/// Change of the picture by a leaf: its sum, and its place: mean and variance of column and row.
 fn seen(empty: &RgbaImage, picture: &RgbaImage) -> (f64, [(f64, f64); 2]) {
     let mut sums = [0.0; 5];
     for ((x, y, before), after) in empty.enumerate_pixels().zip(picture.pixels()) {

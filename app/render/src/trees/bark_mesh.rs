@@ -74,7 +74,7 @@ impl BarkBuffers {
     }
 }
 
-/// How closely the bark of a tree shows from `eye_m`.
+/// Level of detail of a tree's bark as seen from `eye_m`.
 fn detail(tree: &StandingTree, eye_m: Vec3) -> BarkDetail {
     let distance_m = tree.foot_m.distance(eye_m);
     let height_m = tree.skeleton.height_m();

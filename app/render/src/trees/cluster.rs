@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! How the leaves stand that one simulated leaf stands for on its twig. Pictures set each cluster on the device
+//! Arrangement of the leaves that one simulated leaf represents on its twig. Pictures set each cluster on the device
 //! (`leaves/cull.wgsl`); other programs are given a few clusters to choose from.
 
 use glam::{Quat, Vec3};
@@ -12,7 +12,7 @@ shared_constants! {
     pub const MAX_CLUSTER: u32 = 16;
     /// Size of leaves on twigs relative to what they have when they fall, so that crowns close: set by eye.
     pub const TWIG_SIZE: f32 = 1.42;
-    /// How far leaves lie from the first at most, across and along the blade, in diameters of one times the root of their
+    /// Largest distance of a leaf from the first, across and along the blade, in diameters of one times the root of their
     /// number.
     const CLUSTER_REACH: [f32; 3] = [0.9, 0.54, 0.9];
     /// Vector part of the quaternion, beside a real part of 1, that turns leaves against the first at most.

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Where a tree's leaves grow, as an ellipsoid: enough to know how deep in the crown a leaf sits.
+//! Extent of a tree's leaves as an ellipsoid: enough to know how deep in the crown a leaf sits.
 
 use glam::Vec3;
 use windfall_core::tree::Skeleton;

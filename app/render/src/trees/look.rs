@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What a tree looks like: its bark, and how far its own leaves have turned.
+//! Appearance of a tree: its bark, and the season of its own leaves.
 
 use glam::Vec3;
 use windfall_core::Scene;
@@ -46,12 +46,12 @@ impl BarkKind {
     }
 }
 
-/// How one tree differs from the next.
+/// Differences of one tree from the next.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Look {
     /// Its bark.
     pub bark: BarkKind,
-    /// Where in the order of the year its species' leaf pictures are taken from: 0 the greenest, 1 the brownest.
+    /// Place of its leaf pictures in the species' order of the year: 0 the greenest, 1 the brownest.
     pub turned: f32,
     /// Range of that order over its leaves.
     pub turned_range: f32,
@@ -59,7 +59,7 @@ pub struct Look {
     pub tint: Vec3,
     /// Random number of its own, 0 to 1.
     pub own: f32,
-    /// Whether its wood hides under leaves from the ground up.
+    /// True if its wood hides under leaves from the ground up.
     pub is_low: bool,
 }
 

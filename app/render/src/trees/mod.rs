@@ -53,7 +53,7 @@ pub struct StandingTree {
     pub cluster: u32,
     /// Slots of its leaves among those of the world, in the order of the scene's trees.
     pub leaves: u32,
-    /// Where its leaves grow.
+    /// Extent of its leaves.
     pub crown: Crown,
     /// Bark, tint and colour of the season.
     pub look: Look,

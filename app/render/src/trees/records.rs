@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What all parts of one tree share, for the shaders: one record for every tree, and one for leaves of no tree.
+//! Data that all parts of one tree share, for the shaders: one record for every tree, and one for leaves of no tree.
 
 use windfall_core::shared_struct;
 
