@@ -5,7 +5,9 @@
 
 use std::error::Error;
 
-use windfall_core::{Clock, Contract, Environment, SimError, Simulator, SimulatorInfo, Stats, World, oracle};
+use windfall_core::{
+    Clock, CompiledScene, Contract, SimError, Simulator, SimulatorInfo, Stats, World, oracle,
+};
 use windfall_tests::suite;
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -29,7 +31,7 @@ pub(crate) struct Plain {
 impl Plain {
     /// A simulator of a world without trees.
     pub(crate) fn new(world: &World) -> Result<Self, SimError> {
-        if !world.environment.forest().is_empty() {
+        if !world.compiled.forest().is_empty() {
             return Err(SimError::Device { reason: "trees are not simulated here".into() });
         }
         Ok(Self { world: world.clone() })
@@ -67,9 +69,9 @@ impl Simulator for Plain {
         world.copy_state(&self.world)
     }
 
-    fn set_environment(&mut self, environment: &Environment) -> Result<(), SimError> {
-        environment.fits(&self.world.sizes())?;
-        self.world.environment = environment.clone();
+    fn set_scene(&mut self, compiled: &CompiledScene) -> Result<(), SimError> {
+        compiled.fits(&self.world.sizes())?;
+        self.world.compiled = compiled.clone();
         Ok(())
     }
 

@@ -47,7 +47,7 @@ pub(crate) fn run(steps: u32) -> Result<World, Box<dyn std::error::Error>> {
         ..Scene::default()
     };
     let mut world = World::build(&scene)?;
-    world.environment.set_wind_field(updraught);
+    world.compiled.set_wind_field(updraught);
 
     let mut on_cpu = CpuSimulator::new(&world, CpuOptions::default())?;
     let mut on_gpu = WgpuSimulator::new(&Gpu::request(None)?, &world, &WgpuOptions::default())?;

@@ -7,7 +7,7 @@ use std::sync::{Arc, Mutex};
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use windfall_core::tree::Forest;
 use windfall_core::tree::batch::TreeBatch;
-use windfall_core::{Clock, Contract, Environment, SimError, Simulator, SimulatorInfo, Stats, World};
+use windfall_core::{Clock, CompiledScene, Contract, SimError, Simulator, SimulatorInfo, Stats, World};
 
 use crate::kernels::CHUNK;
 use crate::kernels::measure::measure;
@@ -49,7 +49,7 @@ impl CpuSimulator {
         let simd = options.simd.unwrap_or_else(Simd::best);
         let mut simulator =
             Self { world: world.clone(), blocks: Vec::new(), scratches: Vec::new(), pool, simd };
-        simulator.plant(world.environment.forest());
+        simulator.plant(world.compiled.forest());
         Ok(simulator)
     }
 
@@ -90,7 +90,7 @@ impl Simulator for CpuSimulator {
 
     fn write_state(&mut self, world: &World) -> Result<(), SimError> {
         world.fits(&self.world.sizes())?;
-        self.set_environment(&world.environment)?;
+        self.set_scene(&world.compiled)?;
         self.world.copy_state(world)
     }
 
@@ -99,26 +99,26 @@ impl Simulator for CpuSimulator {
         world.copy_state(&self.world)
     }
 
-    fn set_environment(&mut self, environment: &Environment) -> Result<(), SimError> {
-        environment.fits(&self.world.sizes())?;
-        if !Arc::ptr_eq(self.world.environment.forest(), environment.forest()) {
-            self.plant(environment.forest());
+    fn set_scene(&mut self, compiled: &CompiledScene) -> Result<(), SimError> {
+        compiled.fits(&self.world.sizes())?;
+        if !Arc::ptr_eq(self.world.compiled.forest(), compiled.forest()) {
+            self.plant(compiled.forest());
         }
-        self.world.environment = environment.clone();
+        self.world.compiled = compiled.clone();
         Ok(())
     }
 
     fn step(&mut self, count: u32) -> Result<(), SimError> {
-        let World { environment, clock, leaves, branches } = &mut self.world;
+        let World { compiled, clock, leaves, branches } = &mut self.world;
         let (simd, blocks, scratches) = (self.simd, &self.blocks, &self.scratches);
-        let forest = Arc::clone(environment.forest());
+        let forest = Arc::clone(compiled.forest());
         let is_small = leaves.len() <= CHUNK && forest.len() <= CHUNK / 16;
         let mut steps = || {
             for _ in 0..count {
-                let block = environment.step_block(clock);
-                let cx = environment.context(&block);
+                let block = compiled.step_block(clock);
+                let cx = compiled.context(&block);
                 if !forest.is_empty() {
-                    let (on_trees, _) = leaves.as_mut().split_at(cx.environment.tree_leaf_count as usize);
+                    let (on_trees, _) = leaves.as_mut().split_at(cx.scene.tree_leaf_count as usize);
                     step_trees(
                         &cx,
                         BatchRun {
@@ -133,7 +133,7 @@ impl Simulator for CpuSimulator {
                     );
                 }
                 step_leaves(&cx, leaves.as_mut(), simd);
-                clock.advance(environment);
+                compiled.advance(clock);
             }
         };
         // A small world is done before another thread would have woken up.

@@ -29,7 +29,7 @@ pub(crate) struct ForestBuffers {
 }
 
 impl ForestBuffers {
-    /// Buffers and bindings for the trees of a forest, whose state lies in `branches`. `blocks` are the environment, the step
+    /// Buffers and bindings for the trees of a forest, whose state lies in `branches`. `blocks` are the scene's, the step's
     /// and the wind tables.
     pub(crate) fn new(
         gpu: &Gpu,

@@ -5,7 +5,7 @@
 use std::borrow::Cow;
 
 use windfall_core::scene::SwayScheme;
-use windfall_core::{Contract, Environment, SimError};
+use windfall_core::{CompiledScene, Contract, SimError};
 
 use crate::gpu::Gpu;
 use crate::prelude::WORKGROUP_SIZE;
@@ -64,15 +64,15 @@ impl KernelId {
         }
     }
 
-    /// The kernels that step and count a world of this environment.
-    pub(crate) fn needed(environment: &Environment) -> Vec<Self> {
+    /// The kernels that step and count a world of this scene.
+    pub(crate) fn needed(compiled: &CompiledScene) -> Vec<Self> {
         let mut kernels = vec![Self::Advance, Self::ResolveEvents, Self::Measure];
-        if environment.block().has_bodies() {
+        if compiled.block().has_bodies() {
             kernels.push(Self::Fly);
         }
-        if !environment.forest().is_empty() {
+        if !compiled.forest().is_empty() {
             kernels.push(Self::Carry);
-            kernels.extend(Self::of_scheme(environment.scene().sway));
+            kernels.extend(Self::of_scheme(compiled.scene().sway));
         }
         kernels
     }
@@ -156,7 +156,7 @@ impl Pipelines {
     pub(crate) fn kernel(&self, kernel: KernelId) -> &wgpu::ComputePipeline {
         self.kernels[kernel as usize]
             .as_ref()
-            .expect("the kernels that an environment needs are prepared with it")
+            .expect("the kernels that an compiled needs are prepared with it")
     }
 
     /// The layout of a group.

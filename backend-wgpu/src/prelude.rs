@@ -40,7 +40,7 @@ pub(crate) fn structs() -> String {
         blocks::WindBlock::declaration(),
         blocks::ResponseBlock::declaration(),
         flight::block::BodyBlock::declaration(),
-        blocks::EnvironmentBlock::declaration(),
+        blocks::SceneBlock::declaration(),
         blocks::VortexBlock::declaration(),
         blocks::StepBlock::declaration(),
         tree::record::SegmentConstants::declaration(),

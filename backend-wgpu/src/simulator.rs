@@ -8,10 +8,10 @@ mod steps;
 
 use std::sync::Arc;
 
-use windfall_core::blocks::{EnvironmentBlock, StepBlock};
+use windfall_core::blocks::{SceneBlock, StepBlock};
 use windfall_core::layout::Uint4;
 use windfall_core::stats::COUNTER_COUNT;
-use windfall_core::{Clock, Contract, Environment, SimError, Simulator, SimulatorInfo, Stats, World};
+use windfall_core::{Clock, CompiledScene, Contract, SimError, Simulator, SimulatorInfo, Stats, World};
 
 use self::pages::Page;
 pub use self::requests::{StateRequest, StatsRequest};
@@ -47,11 +47,11 @@ pub struct WgpuSimulator {
     gpu: Gpu,
     contract: Contract,
     pipelines: Pipelines,
-    environment: Environment,
+    compiled: CompiledScene,
     clock: Clock,
     buffers: WorldBuffers,
     page_leaves: u32,
-    environment_buffer: wgpu::Buffer,
+    scene_buffer: wgpu::Buffer,
     step_buffer: wgpu::Buffer,
     step_stride: u32,
     tables: (Arc<[Uint4]>, wgpu::Buffer),
@@ -74,9 +74,9 @@ impl WgpuSimulator {
     fn on_device(gpu: &Gpu, world: &World, options: &WgpuOptions) -> Result<Self, SimError> {
         let contract = options.contract.unwrap_or(gpu.contract());
         let shaders = options.shaders.clone().unwrap_or_default();
-        let environment = world.environment.clone();
+        let compiled = world.compiled.clone();
         let mut pipelines = Pipelines::new(gpu, shaders, contract)?;
-        pipelines.prepare(gpu, KernelId::needed(&environment))?;
+        pipelines.prepare(gpu, KernelId::needed(&compiled))?;
         let buffers = WorldBuffers::new(gpu, world)?;
         let limits = gpu.device().limits();
         let binding = limits.max_storage_buffer_binding_size / LARGEST_RECORD;
@@ -85,7 +85,7 @@ impl WgpuSimulator {
             .expect("a step block is small")
             .next_multiple_of(limits.min_uniform_buffer_offset_alignment);
         let uniform = |label, size| buffer(gpu, label, size, wgpu::BufferUsages::UNIFORM);
-        let tables = table(gpu, environment.tables())?;
+        let tables = table(gpu, compiled.tables())?;
         let counters = buffer(
             gpu,
             "counters",
@@ -97,11 +97,11 @@ impl WgpuSimulator {
             gpu: gpu.clone(),
             contract,
             pipelines,
-            environment,
+            compiled,
             clock: world.clock,
             buffers,
             page_leaves: (largest / PAGE_STEP).max(1) * PAGE_STEP,
-            environment_buffer: uniform("environment", size_of::<EnvironmentBlock>() as u64),
+            scene_buffer: uniform("scene", size_of::<SceneBlock>() as u64),
             step_buffer: uniform("step", u64::from(STEPS_PER_PASS * step_stride)),
             step_stride,
             tables,
@@ -127,9 +127,9 @@ impl WgpuSimulator {
         self.pages.len()
     }
 
-    /// Makes room for the trees of the environment; trees that are there already go on as they stand.
+    /// Makes room for the trees of the scene; trees that are there already go on as they stand.
     fn plant(&mut self) {
-        let forest = self.environment.forest();
+        let forest = self.compiled.forest();
         if !forest.is_empty() {
             let (blocks, branches) = (self.sway_blocks(), self.buffers.branches());
             self.forest = Some(ForestBuffers::new(&self.gpu, &self.pipelines, forest, blocks, branches));
@@ -138,7 +138,7 @@ impl WgpuSimulator {
 
     /// Bind group that every kernel sees first: blocks and tables.
     fn sway_blocks(&self) -> [wgpu::BindingResource<'_>; 3] {
-        [self.environment_buffer.as_entire_binding(), self.step_binding(), self.tables.1.as_entire_binding()]
+        [self.scene_buffer.as_entire_binding(), self.step_binding(), self.tables.1.as_entire_binding()]
     }
 
     /// The block of one step; its place among the steps of a submission is a dynamic offset.
@@ -150,19 +150,19 @@ impl WgpuSimulator {
         })
     }
 
-    /// Replaces the environment by one of the same sizes.
-    fn take_over(&mut self, environment: &Environment) -> Result<(), SimError> {
-        self.pipelines.prepare(&self.gpu, KernelId::needed(environment))?;
-        self.gpu.queue().write_buffer(&self.environment_buffer, 0, bytemuck::bytes_of(environment.block()));
+    /// Replaces the scene by one of the same sizes.
+    fn take_over(&mut self, compiled: &CompiledScene) -> Result<(), SimError> {
+        self.pipelines.prepare(&self.gpu, KernelId::needed(compiled))?;
+        self.gpu.queue().write_buffer(&self.scene_buffer, 0, bytemuck::bytes_of(compiled.block()));
         let mut moved = false;
-        let is_replanted = !Arc::ptr_eq(self.environment.forest(), environment.forest());
-        self.environment = environment.clone();
-        if !Arc::ptr_eq(&self.tables.0, environment.tables()) {
-            moved = self.tables.0.len() != environment.tables().len();
+        let is_replanted = !Arc::ptr_eq(self.compiled.forest(), compiled.forest());
+        self.compiled = compiled.clone();
+        if !Arc::ptr_eq(&self.tables.0, compiled.tables()) {
+            moved = self.tables.0.len() != compiled.tables().len();
             if moved {
-                self.tables = table(&self.gpu, environment.tables())?;
+                self.tables = table(&self.gpu, compiled.tables())?;
             } else {
-                self.tables.0 = Arc::clone(environment.tables());
+                self.tables.0 = Arc::clone(compiled.tables());
                 self.gpu.queue().write_buffer(&self.tables.1, 0, bytemuck::cast_slice(&self.tables.0));
             }
         }
@@ -197,7 +197,7 @@ impl Simulator for WgpuSimulator {
         world.fits(&self.buffers.sizes())?;
         self.buffers.write(&self.gpu, world)?;
         self.clock = world.clock;
-        self.set_environment(&world.environment)?;
+        self.set_scene(&world.compiled)?;
         self.gpu.scoped(|| self.clear_events())
     }
 
@@ -207,10 +207,10 @@ impl Simulator for WgpuSimulator {
         self.buffers.read(&self.gpu, world)
     }
 
-    fn set_environment(&mut self, environment: &Environment) -> Result<(), SimError> {
-        environment.fits(&self.buffers.sizes())?;
+    fn set_scene(&mut self, compiled: &CompiledScene) -> Result<(), SimError> {
+        compiled.fits(&self.buffers.sizes())?;
         let gpu = self.gpu.clone();
-        gpu.scoped(|| self.take_over(environment))?
+        gpu.scoped(|| self.take_over(compiled))?
     }
 
     fn step(&mut self, count: u32) -> Result<(), SimError> {

@@ -111,9 +111,9 @@ fn functions(criterion: &mut Criterion) {
     let mut group = group(criterion, "function");
     group.throughput(Throughput::Elements(CALLS as u64)).sampling_mode(SamplingMode::Auto);
     // What the functions meet in a step: falling leaves of all species, in wind with two vortices.
-    let World { environment, clock, leaves, .. } = world(&scaled("storm", 1000));
-    let block = environment.step_block(&clock);
-    let cx = environment.context(&block);
+    let World { compiled, clock, leaves, .. } = world(&scaled("storm", 1000));
+    let block = compiled.step_block(&clock);
+    let cx = compiled.context(&block);
     let flying = |&slot: &usize| leaves.place[slot].state() == LeafState::Falling;
     let slots: Vec<usize> = (0..leaves.len()).filter(flying).take(CALLS).collect();
 
@@ -127,12 +127,12 @@ fn functions(criterion: &mut Criterion) {
     });
     let mut released = Leaves::zeroed(CALLS);
     let ids: Vec<u32> = (0..).take(CALLS).collect();
-    let sources = u32::try_from(environment.scene().sources.len()).expect("a few sources");
+    let sources = u32::try_from(compiled.scene().sources.len()).expect("a few sources");
     calls(&mut group, "leaf_release", &ids, |&id| {
         leaf_release(&cx, &mut released.as_mut().row_mut(id as usize), id, id % sources, 0);
     });
     black_box(&released);
-    let seed = environment.block().seed;
+    let seed = compiled.block().seed;
     calls(&mut group, "philox", &ids, |&id| philox(seed, [id, 16, 0, 0]));
     group.finish();
 }

@@ -9,7 +9,7 @@ use criterion::measurement::WallTime;
 use criterion::{BenchmarkGroup, Criterion, SamplingMode, Throughput};
 use windfall_benches::{scaled, world};
 use windfall_core::wind::turbulence_box;
-use windfall_core::{Environment, Scene, World};
+use windfall_core::{CompiledScene, Scene, World};
 
 /// Leaves of the larger world.
 const LEAVES: u32 = 100_000;
@@ -28,11 +28,11 @@ fn scene(criterion: &mut Criterion) {
     group.finish();
 }
 
-fn environment(criterion: &mut Criterion) {
-    let mut group = group(criterion, "environment");
+fn compiled(criterion: &mut Criterion) {
+    let mut group = group(criterion, "compiled");
     let park = Scene::preset(PARK).expect("a preset");
     group.bench_function("compile/autumn-park", |bencher| {
-        bencher.iter(|| Environment::compile(black_box(&park)).expect("a valid scene"));
+        bencher.iter(|| CompiledScene::compile(black_box(&park)).expect("a valid scene"));
     });
     group.bench_function("turbulence_box", |bencher| bencher.iter(|| turbulence_box(black_box([20, 0]), 64)));
     group.finish();
@@ -74,7 +74,7 @@ fn checkpoint(criterion: &mut Criterion) {
 fn main() {
     let mut criterion = Criterion::default().configure_from_args();
     scene(&mut criterion);
-    environment(&mut criterion);
+    compiled(&mut criterion);
     build(&mut criterion);
     checkpoint(&mut criterion);
     criterion.final_summary();

@@ -153,7 +153,7 @@ pub fn contenders(world: &World) -> Vec<Box<dyn Simulator>> {
         let state = warmed_up(contender.as_mut(), world);
         let info = contender.info();
         let stats = contender.stats().expect("the device is not lost");
-        let count = world.environment.scene().leaf_count();
+        let count = world.compiled.scene().leaf_count();
         assert_eq!(stats.leaves.total() + stats.leaves.dormant, count, "{} lost leaves", info.backend);
         assert_eq!(stats, expected.stats(), "{} counts otherwise", info.backend);
         if info.contract == Contract::Exact {

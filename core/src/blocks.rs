@@ -86,8 +86,8 @@ crate::shared_struct! {
 }
 
 crate::shared_struct! {
-    /// Everything that stays the same until the environment is set anew.
-    pub struct EnvironmentBlock {
+    /// Everything that stays the same until the scene is set anew.
+    pub struct SceneBlock {
         /// Seed, low and high word.
         pub seed: [u32; 2],
         /// Difference between the numbers of a slot's leaf and of its next one: the number of slots, or 0 in a world that
@@ -164,7 +164,7 @@ crate::shared_struct! {
     }
 }
 
-impl EnvironmentBlock {
+impl SceneBlock {
     /// Returns true if the ground has hills.
     #[inline(always)]
     pub fn has_terrain(&self) -> bool {

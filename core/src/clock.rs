@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Simulated time.
 
-use crate::environment::Environment;
-
 /// Simulated time: a step index times a fixed step, and the way the mean wind has come.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Clock {
@@ -43,9 +41,9 @@ impl Clock {
         self.wind_travel_m
     }
 
-    /// One step on.
-    pub fn advance(&mut self, environment: &Environment) {
+    /// One step on, in which the mean wind travels so far.
+    pub(crate) fn advance(&mut self, wind_travel_m: f64) {
         self.step = self.step.wrapping_add(1);
-        self.wind_travel_m += environment.wind_travel_per_step_m();
+        self.wind_travel_m += wind_travel_m;
     }
 }

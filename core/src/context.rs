@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The view of a kernel besides the leaf it works on.
 
-use crate::blocks::{EnvironmentBlock, StepBlock};
+use crate::blocks::{SceneBlock, StepBlock};
 use crate::device::motion::lookup::MotionRows;
 use crate::layout::Uint4;
 
@@ -10,11 +10,11 @@ use crate::layout::Uint4;
 #[derive(Clone, Copy, Debug)]
 pub struct Context<'a> {
     /// Numbers that stay.
-    pub environment: &'a EnvironmentBlock,
+    pub scene: &'a SceneBlock,
     /// Numbers that change with the step.
     pub step: &'a StepBlock,
     /// Motion tables.
     pub motion: MotionRows<'a>,
-    /// All tables (see [`Environment::tables`](crate::Environment::tables)).
+    /// All tables (see [`CompiledScene::tables`](crate::CompiledScene::tables)).
     pub tables: &'a [Uint4],
 }

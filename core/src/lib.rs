@@ -3,7 +3,7 @@
 //! Falling leaves: scenes, leaf stores, and the physics as pure functions.
 //!
 //! Data flows one way: a [`Scene`] (RON file or preset) becomes a [`World`] (leaf columns, clock and compiled
-//! [`Environment`]), which a [`Simulator`] steps. SI units, y up, right-handed; state is `f32`, time a step index times
+//! [`CompiledScene`]), which a [`Simulator`] steps. SI units, y up, right-handed; state is `f32`, time a step index times
 //! a fixed step.
 //!
 //! # A first world
@@ -35,7 +35,7 @@
 //! # Where to go on
 //!
 //! - [`scene`]: what a scene file says, field by field, with ranges.
-//! - [`World::build_cycle`]: worlds that repeat, for clips without a seam; [`Environment::set_wind_field`]: a wind of
+//! - [`World::build_cycle`]: worlds that repeat, for clips without a seam; [`CompiledScene::set_wind_field`]: a wind of
 //!   your own.
 //! - [`store`]: the columns that a state consists of.
 //! - [`leaf`]: the leaf store, and leaves decoded.
@@ -51,33 +51,27 @@
 #![warn(clippy::print_stdout, clippy::print_stderr)]
 
 pub mod blocks;
-pub mod checkpoint;
 mod clock;
+mod compile;
 mod context;
 mod convert;
 pub mod device;
-mod environment;
 pub mod error;
 pub mod flight;
 pub mod layout;
 pub mod leaf;
 pub mod motion;
-pub mod oracle;
 pub mod scene;
-mod simulator;
-pub mod stats;
+mod sim;
 pub mod store;
 pub mod terrain;
 pub mod tree;
 pub mod wind;
-mod world;
 
 pub use clock::Clock;
+pub use compile::{CompiledScene, Cycle, REST_OFFSET_M};
 pub use context::Context;
 pub use device::arith;
-pub use environment::{Cycle, Environment, REST_OFFSET_M};
 pub use error::{SceneError, SimError};
 pub use scene::Scene;
-pub use simulator::{Contract, Simulator, SimulatorInfo};
-pub use stats::{LeafStats, Stats};
-pub use world::World;
+pub use sim::{Contract, LeafStats, Simulator, SimulatorInfo, Stats, World, checkpoint, oracle, stats};

@@ -9,7 +9,7 @@ use windfall_core::scene::{
 };
 use windfall_core::tree::forest::Seedling;
 use windfall_core::tree::{Attachment, Bearing, Branches, Forest, LeafFacts, Segment, Skeleton};
-use windfall_core::{Clock, Environment, Scene};
+use windfall_core::{Clock, CompiledScene, Scene};
 
 /// A forest in a wind.
 #[derive(Debug)]
@@ -20,7 +20,7 @@ pub struct Grove {
     pub forest: Forest,
     /// Their state.
     pub branches: Branches,
-    environment: Environment,
+    compiled: CompiledScene,
     clock: Clock,
     work: Vec<windfall_core::tree::record::Work>,
 }
@@ -38,21 +38,21 @@ impl Grove {
         scene.wind.turbulence = Turbulence { intensity: 0.0, calm_m_s: 0.0, ..scene.wind.turbulence };
         let forest = Forest::plant(seedlings, dt_s, gravity_m_s2);
         let branches = forest.at_rest();
-        let environment = Environment::compile(&scene).expect("a valid scene");
+        let compiled = CompiledScene::compile(&scene).expect("a valid scene");
         let work = vec![Default::default(); forest.len()];
-        Self { scene, forest, branches, environment, clock: Clock::new(dt_s), work }
+        Self { scene, forest, branches, compiled, clock: Clock::new(dt_s), work }
     }
 
     /// Changes the wind from now on.
     pub fn blow(&mut self, change: impl FnOnce(&mut Scene)) {
         change(&mut self.scene);
-        self.environment.retune(&self.scene);
+        self.compiled.retune(&self.scene);
     }
 
     /// One step.
     pub fn step(&mut self) {
-        let block = self.environment.step_block(&self.clock);
-        let cx = self.environment.context(&block);
+        let block = self.compiled.step_block(&self.clock);
+        let cx = self.compiled.context(&block);
         let mut rest = self.branches.as_mut();
         let mut work = &mut self.work[..];
         let mut segments = &self.forest.segments()[..];
@@ -70,7 +70,7 @@ impl Grove {
             }
             (rest, work, segments) = (others, other_work, other_segments);
         }
-        self.clock.advance(&self.environment);
+        self.compiled.advance(&mut self.clock);
     }
 
     /// Upper end of a segment of a tree in m.

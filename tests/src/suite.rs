@@ -26,7 +26,7 @@ pub struct Case {
 impl Case {
     /// Returns true if there are trees in it.
     pub fn has_trees(&self) -> bool {
-        !self.world.environment.forest().is_empty()
+        !self.world.compiled.forest().is_empty()
     }
 }
 
@@ -97,7 +97,7 @@ pub fn check<S: Simulator>(
     candidate.read_state(&mut found).map_err(failed)?;
     agree(case, info.contract, &expected, &found)
         .map_err(|reason| format!("{name}, after its state was written back: {reason}"))?;
-    let mut other = case.world.environment.scene().clone();
+    let mut other = case.world.compiled.scene().clone();
     other.sources[0].count += 1;
     let other = World::build(&other).map_err(|error| error.to_string())?;
     match candidate.write_state(&other) {

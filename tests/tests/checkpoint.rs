@@ -98,14 +98,14 @@ proptest! {
             other.wind.direction_deg = 123.4;
             other.rotation_speed = 1.7;
             other.ground.friction = 0.9;
-            unbroken.environment.retune(&other);
+            unbroken.compiled.retune(&other);
             step(&mut unbroken, 3);
         }
         let bytes = saved(&unbroken);
         let mut resumed = World::from_checkpoint(&bytes, "test")
             .map_err(|error| TestCaseError::fail(error.to_string()))?;
         prop_assert_eq!(resumed.state_hash(), unbroken.state_hash(), "right after reading");
-        prop_assert!(resumed.environment.scene() == unbroken.environment.scene(), "the scene inside");
+        prop_assert!(resumed.compiled.scene() == unbroken.compiled.scene(), "the scene inside");
         prop_assert_eq!(&saved(&resumed), &bytes, "saved again");
         step(&mut unbroken, after);
         step(&mut resumed, after);
@@ -157,7 +157,7 @@ proptest! {
         let place = 12 + place.index(leaf_count_at(good()) + 8 - 12);
         bytes[place] = value;
         if let Ok(world) = World::from_checkpoint(&resealed(bytes), "test") {
-            prop_assert_eq!(world.leaves.len(), world.environment.scene().leaf_count() as usize, "byte {}", place);
+            prop_assert_eq!(world.leaves.len(), world.compiled.scene().leaf_count() as usize, "byte {}", place);
         }
     }
 }

@@ -161,7 +161,7 @@ fn a_hash_sees_every_bit() {
         }
     }
     let mut other = world.clone();
-    other.clock.advance(&world.environment);
+    world.compiled.advance(&mut other.clock);
     assert_ne!(other.state_hash(), hash, "the clock");
     let mut other = world.clone();
     other.leaves.place.swap(3, 4);

@@ -5,7 +5,7 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use windfall_core::{Environment, SimError, Simulator, World};
+use windfall_core::{CompiledScene, SimError, Simulator, World};
 use windfall_tests::adapter;
 use windfall_tests::strategies::{varied_scene, wooded_scene};
 use windfall_wgpu::{Gpu, Shaders, WgpuOptions, WgpuSimulator, instance_descriptor, list_adapters, wgpu};
@@ -53,24 +53,24 @@ fn a_world_of_another_size_is_refused() {
 
 /// Setting another wind between steps means the same on both backends.
 #[test]
-fn a_new_environment_takes_effect_alike() {
+fn a_new_scene_takes_effect_alike() {
     let mut world = World::build(&varied_scene(9, 1000, 2.0, 1.0 / 60.0)).expect("valid");
     for gpu in adapter::all() {
         let mut candidate =
             WgpuSimulator::new(&gpu, &world, &WgpuOptions::default()).expect("the device takes it");
         let mut oracle = windfall_cpu::CpuSimulator::new(&world, windfall_cpu::CpuOptions::default())
             .expect("threads start");
-        let mut scene = world.environment.scene().clone();
+        let mut scene = world.compiled.scene().clone();
         scene.wind.direction_deg = 200.0;
         scene.wind.speed = windfall_core::scene::MeanSpeed::MetresPerSecond(9.0);
         scene.wind.profile = windfall_core::scene::Profile::Uniform;
         scene.fall_speed = 1.7;
-        let mut environment = world.environment.clone();
-        environment.retune(&scene);
+        let mut compiled = world.compiled.clone();
+        compiled.retune(&scene);
         let mut hashes = Vec::new();
         for simulator in [&mut candidate as &mut dyn Simulator, &mut oracle] {
             simulator.step(50).expect("it steps");
-            simulator.set_environment(&environment).expect("it is set");
+            simulator.set_scene(&compiled).expect("it is set");
             simulator.step(50).expect("it steps");
             simulator.read_state(&mut world).expect("same size");
             hashes.push(world.state_hash());
@@ -82,17 +82,17 @@ fn a_new_environment_takes_effect_alike() {
 
 /// Trees go on as they stand when a scene is compiled anew, and other trees are refused.
 #[test]
-fn trees_stand_through_a_new_environment() {
+fn trees_stand_through_a_new_scene() {
     let scene = wooded_scene(3, 300, 9.0, 1.0 / 60.0);
     let mut world = World::build(&scene).expect("valid");
     let mut windy = scene.clone();
     windy.wind.speed = windfall_core::scene::MeanSpeed::MetresPerSecond(15.0);
-    let anew = Environment::compile(&windy).expect("valid");
+    let anew = CompiledScene::compile(&windy).expect("valid");
     let mut other = scene.clone();
     other.trees[0].age = 0.4;
-    let other = Environment::compile(&other).expect("valid");
-    assert_eq!(other.scene().leaf_count(), world.environment.scene().leaf_count());
-    assert_ne!(other.forest().len(), world.environment.forest().len());
+    let other = CompiledScene::compile(&other).expect("valid");
+    assert_eq!(other.scene().leaf_count(), world.compiled.scene().leaf_count());
+    assert_ne!(other.forest().len(), world.compiled.forest().len());
     for gpu in adapter::all() {
         let mut candidate =
             WgpuSimulator::new(&gpu, &world, &WgpuOptions::default()).expect("the device takes it");
@@ -101,9 +101,9 @@ fn trees_stand_through_a_new_environment() {
         let mut hashes = Vec::new();
         for simulator in [&mut candidate as &mut dyn Simulator, &mut oracle] {
             simulator.step(40).expect("it steps");
-            simulator.set_environment(&anew).expect("it is set");
+            simulator.set_scene(&anew).expect("it is set");
             simulator.step(40).expect("it steps");
-            let refused = simulator.set_environment(&other);
+            let refused = simulator.set_scene(&other);
             assert!(matches!(refused, Err(SimError::Size { store: "segments", .. })), "{refused:?}");
             let mut after = world.clone();
             simulator.read_state(&mut after).expect("same size");

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use naga::{AddressSpace, TypeInner};
 use windfall_core::blocks::{
-    EnvironmentBlock, ResponseBlock, SourceBlock, SpeciesBlock, StepBlock, VortexBlock, WindBlock,
+    ResponseBlock, SceneBlock, SourceBlock, SpeciesBlock, StepBlock, VortexBlock, WindBlock,
 };
 use windfall_core::flight::block::BodyBlock;
 use windfall_core::layout::WgslStruct;
@@ -57,7 +57,7 @@ fn every_module_is_valid_and_every_struct_has_one_layout() {
     same_layout::<WindBlock>(&module);
     same_layout::<ResponseBlock>(&module);
     same_layout::<BodyBlock>(&module);
-    same_layout::<EnvironmentBlock>(&module);
+    same_layout::<SceneBlock>(&module);
     same_layout::<VortexBlock>(&module);
     same_layout::<StepBlock>(&module);
     same_layout::<SegmentConstants>(&module);
@@ -144,8 +144,8 @@ fn shaders_read_no_lanes_of_blocks_and_records() {
     }
     // A lane read that is put in is found, also behind a name of its own.
     let planted = [
-        ("leaf/release", "environment.species[species].rates[0]", "rates.x"),
-        ("leaf/release", "environment.seed", "rates.y"),
+        ("leaf/release", "compiled.species[species].rates[0]", "rates.x"),
+        ("leaf/release", "compiled.seed", "rates.y"),
         ("leaf/advance", "attitudes[leaf].quaternion", "u32(rates.x)"),
     ];
     for (module, read, lane) in planted {
@@ -233,7 +233,7 @@ fn words_are_read_by_name() {
     let count = |files: &[PathBuf]| files.iter().filter(|path| !is_test(path)).count();
     assert!(count(&rust) > 100 && count(&shaders) > 40, "both languages were read");
     // Lines that must be found, and lines that may stand.
-    for line in ["cx.environment.seed.0[2]", "x = block.sources[0].timing.0[3];", "(a.0)[0] + b.0[1]"] {
+    for line in ["cx.scene.seed.0[2]", "x = block.sources[0].timing.0[3];", "(a.0)[0] + b.0[1]"] {
         assert!(indexes_a_vector(line), "{line}");
     }
     for line in ["species.rates[(p >> 2) as usize].0[1]", "self.0[from as usize]", "place.position[1]"] {

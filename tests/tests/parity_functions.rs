@@ -22,7 +22,7 @@ fn world() -> World {
     let scene = hilly_scene(flying_scene(5, 300, 6.0, 1.0 / 60.0));
     let mut world = World::build(&scene).expect("the flying scene is valid on hills");
     for _ in 0..100 {
-        world.clock.advance(&world.environment.clone());
+        world.compiled.advance(&mut world.clock);
     }
     world
 }
@@ -71,8 +71,8 @@ fn check(
 ) -> Result<(), String> {
     let runner = FunctionRunner::new(gpu, contract, shaders, function, world)
         .map_err(|error| format!("{}: {error}", function.name))?;
-    let step = world.environment.step_block(&world.clock);
-    let cx = world.environment.context(&step);
+    let step = world.compiled.step_block(&world.clock);
+    let cx = world.compiled.context(&step);
     let failure = RefCell::new(None);
     let mut proptest = TestRunner::new(Config {
         cases: ROUNDS,
@@ -151,7 +151,7 @@ fn a_changed_twin_is_noticed() {
         ),
         ("flight/runge_kutta", "flight_sum(middle, middle)", "middle", "flight_step"),
         ("flight/regime", "2u < octants_apart", "3u < octants_apart", "regime_after"),
-        ("leaf/fly", "substeps.share * environment", "substeps.count * environment", "flight_advance"),
+        ("leaf/fly", "substeps.share * compiled", "substeps.count * compiled", "flight_advance"),
         ("leaf/launch", "share * inverse_sqrt", "rest * inverse_sqrt", "hold_pose"),
         ("leaf/carry", "SHED_SPEEDS - 1u", "SHED_SPEEDS - 9u", "shed_chance"),
         ("leaf/carry", "still, vec3<f32>(0.0", "still, vec3<f32>(0.1", "leaf_hang"),

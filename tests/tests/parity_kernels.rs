@@ -61,7 +61,7 @@ fn agree(contract: Contract, oracle: &World, candidate: &World) -> TestCaseResul
             // Leaves on twigs are as far off as the twigs; at most so fast have twigs come there within a step.
             let is_wooded = !oracle.branches.is_empty();
             let carried = if is_wooded { STEP_SEGMENT } else { 0.0 };
-            let swung = carried * oracle.environment.block().inv_dt_s;
+            let swung = carried * oracle.compiled.block().inv_dt_s;
             // A body's step is up to 64 steps of some hundred roundings each, of forces that grow with its speed.
             let is_flown = oracle.leaves.place.iter().any(|place| flies(place.bits));
             let flown = if is_flown { 1e-3 + 3e-4 * drift } else { 0.0 };
@@ -138,7 +138,7 @@ fn a_changed_kernel_is_noticed() {
     let synthesised = [
         ("leaf/fall", "before * part.decay", "before * (part.decay * 1.001)"),
         ("leaf/own", "sin_cos_half(heading_angle(heading))", "sin_cos_half(heading >> 15u)"),
-        ("leaf/settle", "(1.0 - share) * environment.dt_s", "share * environment.dt_s"),
+        ("leaf/settle", "(1.0 - share) * compiled.dt_s", "share * compiled.dt_s"),
         ("leaf/join", "before - after", "after - before"),
         ("leaf/advance", "state == STATE_RESTING", "state == STATE_ATTACHED"),
         ("wind/sample", "turbulence.y *", "turbulence.x *"),
@@ -151,7 +151,7 @@ fn a_changed_kernel_is_noticed() {
     ];
     let hilly = [
         ("terrain/ground", "cell.z * (far - near)", "cell.x * (far - near)"),
-        ("terrain/ground", "max(ground_relief(x, z), environment.water_relief_m)", "ground_relief(x, z)"),
+        ("terrain/ground", "max(ground_relief(x, z), compiled.water_relief_m)", "ground_relief(x, z)"),
         ("leaf/settle", "came.x - slope.x * pull", "came.x + slope.x * pull"),
         ("leaf/settle", "flatten(quat_multiply(back, q), kept)", "flatten(q, kept)"),
         ("wind/sample", "above = height - ground_relief", "above = height + ground_relief"),

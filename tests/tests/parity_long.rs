@@ -4,7 +4,7 @@
 //! the last bit, in any wind. Under the tolerant one, in a wind without chaos, the integers are the same and positions
 //! stay together; in turbulence a rounding error grows e-fold every second or so, and the counts still agree.
 
-use windfall_core::{Clock, Contract, Environment, SimError, Simulator, SimulatorInfo, Stats, World};
+use windfall_core::{Clock, CompiledScene, Contract, SimError, Simulator, SimulatorInfo, Stats, World};
 use windfall_cpu::{CpuOptions, CpuSimulator};
 use windfall_tests::compare::{LONG_POSITION_M, LONG_QUATERNION, difference};
 use windfall_tests::strategies::{flying_scene, hilly_scene, smooth_scene, varied_scene};
@@ -188,8 +188,8 @@ impl Simulator for Spoilt {
         Ok(())
     }
 
-    fn set_environment(&mut self, environment: &Environment) -> Result<(), SimError> {
-        self.0.set_environment(environment)
+    fn set_scene(&mut self, compiled: &CompiledScene) -> Result<(), SimError> {
+        self.0.set_scene(compiled)
     }
 
     fn step(&mut self, count: u32) -> Result<(), SimError> {

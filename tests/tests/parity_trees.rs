@@ -40,7 +40,7 @@ fn on_gpu(gpu: &Gpu, world: &World, steps: u32, options: &WgpuOptions) -> World 
 /// Leaves hang, fall and lie, and the trees move.
 fn is_lively(before: &World, after: &World) {
     let stats = after.stats();
-    let trees = before.environment.scene().tree_leaf_count() as usize;
+    let trees = before.compiled.scene().tree_leaf_count() as usize;
     let off = (0..trees).filter(|&slot| {
         let state = |world: &World| world.leaves.place[slot].state();
         state(before) == windfall_core::leaf::LeafState::Attached && state(after) != state(before)

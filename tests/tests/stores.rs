@@ -154,7 +154,7 @@ fn no_column_is_left_out() {
 #[test]
 fn a_compiled_scene_knows_the_sizes_of_its_stores() {
     let world = world();
-    assert_eq!(world.environment.sizes(), world.sizes(), "one list");
+    assert_eq!(world.compiled.sizes(), world.sizes(), "one list");
     let mut other = world.clone();
     other.branches = windfall_core::tree::Branches::zeroed(3);
     let refused = other.fits(&world.sizes());

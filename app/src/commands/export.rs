@@ -82,10 +82,10 @@ pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
             (world, frames, Steps::Round(round), note)
         }
     };
-    let scene = world.environment.scene().clone();
+    let scene = world.compiled.scene().clone();
     let choice = arguments.backend.choose()?;
     let mut backend = choice.device.simulator(&world)?;
-    let stand = SceneTrees::of(&scene, world.environment.forest());
+    let stand = SceneTrees::of(&scene, world.compiled.forest());
     let mut observer = Observer::default();
     let job = Job { scene: &scene, stand: &stand, path, frames, fps: arguments.fps, cancel: &cancel };
     let mut exporter = export::start(format, &job)?;

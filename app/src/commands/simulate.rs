@@ -87,7 +87,7 @@ pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
     }
     let name = match &scene {
         Some(_) => arguments.scene.name().to_owned(),
-        None => world.environment.scene().name.clone(),
+        None => world.compiled.scene().name.clone(),
     };
     let report = Report::new(name, &backend, &world, arguments.steps, &stepping, trees);
     // The state first: it is what cannot be had again without the whole run.

@@ -46,7 +46,7 @@ impl Exporter for CsvExport {
 
 /// Writes the rows of a frame.
 fn write_frame<W: Write>(table: &mut CsvFile<W>, frame: &Frame<'_>) -> Result<(), WriteError> {
-    let species = &frame.world.environment.scene().species;
+    let species = &frame.world.compiled.scene().species;
     let time_s = format!("{:.6}", frame.world.clock.seconds());
     for leaf in frame.leaves {
         table.field(frame.number).field(frame.world.clock.step()).field(&time_s);

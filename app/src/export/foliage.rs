@@ -168,7 +168,7 @@ pub(super) mod tests {
         scene.tree_kinds = vec![TreeKind { name: "one".into(), form, foliage: twigs, ..TreeKind::default() }];
         scene.trees = vec![Tree { kind: "one".into(), leaves: 500, ..Tree::default() }];
         let world = World::build(&scene).expect("a scene");
-        let stand = SceneTrees::of(&scene, world.environment.forest());
+        let stand = SceneTrees::of(&scene, world.compiled.forest());
         let atlas = crate::leaves::atlas_of(&scene, &|_, _| ()).expect("pictures");
         let foliage = Foliage::new(&scene, &stand, &atlas);
         (scene, stand, foliage)

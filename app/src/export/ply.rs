@@ -59,7 +59,7 @@ fn name(number: u32) -> String {
 
 /// Writes a whole file.
 pub(super) fn write_frame(out: &mut impl Write, frame: &Frame<'_>) -> io::Result<()> {
-    let species = &frame.world.environment.scene().species;
+    let species = &frame.world.compiled.scene().species;
     let present = || frame.leaves.iter().filter(|leaf| leaf.state != LeafState::Dormant);
     let mut header = "ply\nformat binary_little_endian 1.0\n".to_owned();
     // Writing to a String cannot fail.

@@ -10,7 +10,7 @@ use std::fmt;
 use anyhow::bail;
 use clap::{Args, ValueEnum};
 use windfall_core::leaf::Leaves;
-use windfall_core::{Clock, Environment, SimError, Simulator, SimulatorInfo, Stats, World};
+use windfall_core::{Clock, CompiledScene, SimError, Simulator, SimulatorInfo, Stats, World};
 use windfall_cpu::{CpuOptions, CpuSimulator};
 use windfall_wgpu::{
     Gpu, WgpuOptions, WgpuSimulator, WorldBuffers, WorldColumns, describe_adapter, instance_descriptor,
@@ -266,8 +266,8 @@ impl Simulator for Backend {
         self.simulator_mut().read_state(world)
     }
 
-    fn set_environment(&mut self, environment: &Environment) -> Result<(), SimError> {
-        self.simulator_mut().set_environment(environment)
+    fn set_scene(&mut self, compiled: &CompiledScene) -> Result<(), SimError> {
+        self.simulator_mut().set_scene(compiled)
     }
 
     fn step(&mut self, count: u32) -> Result<(), SimError> {

@@ -83,7 +83,7 @@ impl Report {
             backend: info.backend,
             adapter: info.adapter,
             contract: info.contract.to_string(),
-            seed: world.environment.scene().seed,
+            seed: world.compiled.scene().seed,
             steps,
             time_s: world.clock.seconds(),
             leaves: LeafCounts { total, attached, falling, resting, dormant },
@@ -91,7 +91,7 @@ impl Report {
             mean_position_m,
             mean_velocity_m_s,
             state_hash: format!("{:016x}", world.state_hash()),
-            leaf_steps_per_s: stepping.rate(world.environment.scene().leaf_count(), steps),
+            leaf_steps_per_s: stepping.rate(world.compiled.scene().leaf_count(), steps),
             cpu_s: stepping.cpu.as_secs_f64(),
             bytes_per_leaf: LEAF_BYTES,
         }

@@ -52,7 +52,7 @@ impl Studio {
         cancel: &Cancel,
         progress: &LeafProgress,
     ) -> anyhow::Result<Self> {
-        let scene = world.environment.scene();
+        let scene = world.compiled.scene();
         let Drawing { device, gpu, .. } = drawing;
         let target = PictureTarget::new(gpu.device(), size)?;
         let backend = device.simulator(world)?;
@@ -60,7 +60,7 @@ impl Studio {
         let atlas = leaves::atlas_of(scene, progress)?;
         let options = RendererOptions::for_scene(scene);
         let format = PictureTarget::FORMAT;
-        let stand = SceneTrees::of(scene, world.environment.forest());
+        let stand = SceneTrees::of(scene, world.compiled.forest());
         let subject = RenderScene { scene, trees: &stand, atlas: &atlas };
         let renderer = Renderer::new(gpu.device(), gpu.queue(), subject, format, size, options)?;
         gpu.check()?;

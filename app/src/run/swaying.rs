@@ -36,7 +36,7 @@ pub(crate) struct Swaying {
 impl Swaying {
     /// A run of so many steps begins with this state.
     pub(crate) fn new(world: &World, steps: u32) -> Self {
-        let looks = if world.environment.forest().is_empty() { LOOKS } else { 0 };
+        let looks = if world.compiled.forest().is_empty() { LOOKS } else { 0 };
         Self { falls: falls(world), extent: extent(world), steps, looks }
     }
 
@@ -57,8 +57,8 @@ impl Swaying {
     pub(crate) fn finish(self, world: &World) -> TreeReport {
         let extent = self.extent.or(extent(world));
         TreeReport {
-            count: world.environment.forest().trees().len(),
-            segments: world.environment.forest().len(),
+            count: world.compiled.forest().trees().len(),
+            segments: world.compiled.forest().len(),
             max_joint_angle_rad: extent.joint_angle_rad,
             tip_speed_max_m_s: extent.tip_speed_m_s,
             leaves_shed: falls(world).saturating_sub(self.falls),
@@ -67,13 +67,13 @@ impl Swaying {
 }
 
 fn extent(world: &World) -> SwayExtent {
-    SwayExtent::of(world.environment.forest(), &world.branches)
+    SwayExtent::of(world.compiled.forest(), &world.branches)
 }
 
 /// Number of times that leaves of trees have come off since the beginning: each time, a leaf's number rises by the number of
 /// all slots.
 fn falls(world: &World) -> u64 {
-    let scene = world.environment.scene();
+    let scene = world.compiled.scene();
     let (slots, of_trees) = (scene.leaf_count(), scene.tree_leaf_count() as usize);
     let numbers = world.leaves.identity.iter().take(of_trees);
     numbers.map(|identity| u64::from(identity.id / slots)).sum()

@@ -108,7 +108,7 @@ fn write_row<W: Write>(
     leaf: &LeafView,
 ) -> Result<(), WriteError> {
     table.field(world.clock.step()).field(format_args!("{:.6}", world.clock.seconds()));
-    let species = world.environment.scene().species.get(leaf.species);
+    let species = world.compiled.scene().species.get(leaf.species);
     let row = LeafRow {
         // Scenes have far fewer leaves.
         slot: u32::try_from(slot).unwrap_or(u32::MAX),

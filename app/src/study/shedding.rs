@@ -86,8 +86,8 @@ impl Crown {
 
     /// Rates per second at which the petioles break that still hang, in air of a speed.
     fn rates(&self, world: &World, speed_m_s: f32) -> Vec<f64> {
-        let block = world.environment.step_block(&world.clock);
-        let cx = world.environment.context(&block);
+        let block = world.compiled.step_block(&world.clock);
+        let cx = world.compiled.context(&block);
         let interval_s = f64::from(SHED_INTERVAL) * f64::from(STEP_S);
         let hanging = (0u32..).zip(&world.leaves.place);
         let hanging = hanging.filter(|(_, place)| place.state() == LeafState::Attached);
@@ -110,7 +110,7 @@ impl Season {
     pub(crate) fn of(crown: &Crown, minutes: u32, cancel: &Cancel) -> anyhow::Result<Self> {
         let seconds = 60.0 * f64::from(minutes);
         let still = crown.world(0.0, false)?;
-        let facts = still.environment.forest().trees()[0].facts;
+        let facts = still.compiled.forest().trees()[0].facts;
         let per_hour = facts.leaves_each * 3600.0 / seconds;
         let lost = |speed| -> f64 {
             let rates = crown.rates(&still, speed);

@@ -67,7 +67,7 @@ fn carry_lanes<P: Pack>(
     leaves: LeavesMut<'_>,
     first: u32,
 ) {
-    let grow_back = cx.environment.sources[SOURCE_TREES as usize].lifetime_steps != 0;
+    let grow_back = cx.scene.sources[SOURCE_TREES as usize].lifetime_steps != 0;
     let mut slot = first;
     let mut rest = leaves;
     while !rest.is_empty() {

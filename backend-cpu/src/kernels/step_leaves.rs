@@ -22,7 +22,7 @@ pub(crate) fn step_leaves(cx: &Context<'_>, mut leaves: LeavesMut<'_>, simd: Sim
     }
     let events = advance(cx, &mut leaves, simd);
     resolve_events(cx, &mut leaves, &events);
-    if cx.environment.has_bodies() {
+    if cx.scene.has_bodies() {
         fly(cx, &mut leaves, simd);
     }
 }

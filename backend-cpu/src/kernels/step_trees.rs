@@ -80,7 +80,7 @@ fn step_batch(
     first_slot: u32,
     simd: Simd,
 ) {
-    if cx.environment.sway_scheme == SCHEME_ARTICULATED {
+    if cx.scene.sway_scheme == SCHEME_ARTICULATED {
         sway_inward(cx, &mut rows, blocks, scratch, simd);
         sway_outward(cx, &mut rows, blocks, scratch, simd);
     } else {

@@ -38,7 +38,7 @@ fn stalks_of<P: Pack>(
     slots: P::Word,
     first: u32,
 ) -> (Stalk<P::Word>, P::Word) {
-    let from = slots.all(cx.environment.first_petiole_row).plus(slots.times(slots.all(PETIOLE_ROWS)));
+    let from = slots.all(cx.scene.first_petiole_row).plus(slots.times(slots.all(PETIOLE_ROWS)));
     let spans = P::spans::<{ PETIOLE_ROWS as usize }>(from, cast_slice(cx.tables));
     let (at, segment) = vector_and_fourth(P::column(simd, &spans, 0));
     let rest = Quat::from(P::column(simd, &spans, 1));

@@ -53,7 +53,7 @@ pub(crate) fn advance_eight<S: Simd>(
     let waits = u32x8::splat(simd, cx.step.index).less_than(event);
     let falls = state.equals(STATE_FALLING) & waits & !flies(bits);
     let slides = !((Real::to_bits(velocity.x) | Real::to_bits(velocity.z)) << 1).equals(0);
-    let is_settling = slides | ground_steps(phase).less_than(bits.all(cx.environment.settle_steps));
+    let is_settling = slides | ground_steps(phase).less_than(bits.all(cx.scene.settle_steps));
     let is_left = !waits | (state.equals(STATE_RESTING) & is_settling);
     if !falls.any() {
         return bits_of(is_left);

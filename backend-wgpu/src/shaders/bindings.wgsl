@@ -3,7 +3,7 @@
 // What every kernel sees: the uniform blocks, the tables and the leaf columns (see core/src/leaf/record.rs).
 // A page of leaves is a window of each column, so indices count from the page's first leaf.
 
-@group(0) @binding(0) var<uniform> environment: EnvironmentBlock;
+@group(0) @binding(0) var<uniform> scene: SceneBlock;
 @group(0) @binding(1) var<uniform> step_block: StepBlock;
 // Rows of all tables; the block holds the first of each.
 @group(0) @binding(2) var<storage, read> tables: array<vec4<u32>>;

@@ -58,7 +58,7 @@ impl WgpuSimulator {
             buffer(&self.gpu, "event_list", EVENT_LIST_HEADER.len() as u64 + u64::from(leaves) * 4, usage);
         let events =
             group(&self.gpu, self.pipelines.layout(GroupLayout::Extra), [event_counts.as_entire_binding()]);
-        let tree_leaves = self.environment.scene().tree_leaf_count().saturating_sub(first).min(leaves);
+        let tree_leaves = self.compiled.scene().tree_leaf_count().saturating_sub(first).min(leaves);
         let on_trees = (self.forest.is_some() && tree_leaves > 0).then(|| {
             let branches = self.buffers.branches();
             let stride = branches.stride(BRANCH_TURN as usize);

@@ -83,9 +83,9 @@ impl WgpuSimulator {
     ) {
         let mut blocks = vec![0; (count * self.step_stride) as usize];
         for slot in blocks.chunks_exact_mut(self.step_stride as usize) {
-            let block = self.environment.step_block(&self.clock);
+            let block = self.compiled.step_block(&self.clock);
             slot[..size_of::<StepBlock>()].copy_from_slice(bytemuck::bytes_of(&block));
-            self.clock.advance(&self.environment);
+            self.compiled.advance(&mut self.clock);
         }
         // A write to a buffer takes effect before the whole submission, a copy between its passes: the blocks go into a
         // buffer of their own and are copied from there.
@@ -95,11 +95,11 @@ impl WgpuSimulator {
         let descriptor = wgpu::ComputePassDescriptor { label: Some("advance"), timestamp_writes };
         let mut pass = encoder.begin_compute_pass(&descriptor);
         let kernel = |kernel| self.pipelines.kernel(kernel);
-        let has_bodies = self.environment.block().has_bodies();
+        let has_bodies = self.compiled.block().has_bodies();
         for step in 0..count {
             let offset = step * self.step_stride;
             if let Some(forest) = &self.forest {
-                let sway = KernelId::of_scheme(self.environment.scene().sway);
+                let sway = KernelId::of_scheme(self.compiled.scene().sway);
                 forest.encode(&mut pass, sway.map(kernel), offset);
                 pass.set_pipeline(kernel(KernelId::Carry));
             }

@@ -59,7 +59,7 @@ pub(crate) struct DropTable {
 impl DropTable {
     /// Follows the drops of a species.
     pub(crate) fn new(cx: &Context<'_>, species: u32) -> Self {
-        let steps = (1..).take_while(|&step| f64::from(step) * f64::from(cx.environment.dt_s) < FOLLOWED_S);
+        let steps = (1..).take_while(|&step| f64::from(step) * f64::from(cx.scene.dt_s) < FOLLOWED_S);
         let steps = steps.count();
         let bits = place_bits(STATE_FALLING, 0, AERODYNAMIC, species, 0);
         let follow = |id: u32| {
@@ -79,7 +79,7 @@ impl DropTable {
     /// The flight of body `id`, let go `elapsed` steps ago from the origin, `height` metres above the ground; and whether
     /// it is down by then.
     pub(crate) fn look_up(&self, cx: &Context<'_>, id: u32, elapsed: u32, height: f32) -> (Flight, bool) {
-        let words = random(cx.environment.seed, id, STREAM_DROP);
+        let words = random(cx.scene.seed, id, STREAM_DROP);
         let drop = &self.drops[(words[0] % DROPS) as usize];
         let turn = turn_about_y(words[1]);
         let step = elapsed as usize;
@@ -94,8 +94,6 @@ impl DropTable {
 
 /// Drop tables of all species that fly as bodies, by number.
 pub(crate) fn drop_tables(cx: &Context<'_>) -> Vec<Option<DropTable>> {
-    let flies = |species: u32| cx.environment.species[species as usize].first_motion == AERODYNAMIC;
-    (0..cx.environment.species_count)
-        .map(|species| flies(species).then(|| DropTable::new(cx, species)))
-        .collect()
+    let flies = |species: u32| cx.scene.species[species as usize].first_motion == AERODYNAMIC;
+    (0..cx.scene.species_count).map(|species| flies(species).then(|| DropTable::new(cx, species))).collect()
 }

@@ -7,13 +7,13 @@ use super::seek::leaf_seek_any;
 use super::store::{LeafMut, Leaves};
 use crate::arith::rng::random;
 use crate::blocks::{LENGTH_UNIT, NEVER, SOURCE_TREES};
+use crate::compile::{CompiledScene, leaf_site};
 use crate::context::Context;
 use crate::device::leaf::carry::{CarriedLeaf, leaf_hang, leaf_size_on_twig, petiole_of};
 use crate::device::leaf::record::{STATE_ATTACHED, leaf_appearance, leaf_state, place_bits};
 use crate::device::leaf::release::{SizeSpeed, leaf_drop, release_fall_time, release_size_speed};
 use crate::device::motion::feature::STREAM_TRAITS;
 use crate::device::terrain::ground::ground_surface;
-use crate::environment::{Environment, leaf_site};
 use crate::flight::drop_table::DropTable;
 use crate::tree::Branches;
 use crate::tree::record::NO_SEGMENT;
@@ -23,7 +23,7 @@ const LONG_AGO: u32 = 1 << 22;
 
 /// Writes the state at time zero of the leaf in a tree's slot.
 pub(crate) fn leaf_grow(
-    environment: &Environment,
+    compiled: &CompiledScene,
     cx: &Context<'_>,
     branches: &Branches,
     tables: &[Option<DropTable>],
@@ -37,19 +37,19 @@ pub(crate) fn leaf_grow(
     if petiole.segment == NO_SEGMENT {
         return;
     }
-    let seed = cx.environment.seed;
+    let seed = cx.scene.seed;
     let traits = random(seed, slot, STREAM_TRAITS);
     let species_index = petiole.facts & PETIOLE_SPECIES_MASK;
-    if leaf_site(environment.scene(), slot).1 {
+    if leaf_site(compiled.scene(), slot).1 {
         let release = 0u32.wrapping_sub(LONG_AGO);
         leaf_drop(cx, leaf, slot, traits, SOURCE_TREES, species_index, petiole.place, release);
         leaf_seek_any(cx, tables, leaf, LONG_AGO);
         return;
     }
-    let species = &cx.environment.species[species_index as usize];
+    let species = &cx.scene.species[species_index as usize];
     let SizeSpeed { size, speed } = release_size_speed(species, traits);
     let [x, z] = [petiole.place[0], petiole.place[2]].map(|units| units as f32 * LENGTH_UNIT);
-    let ground = ((ground_surface(cx, x, z) + cx.environment.surface_height_m) * 1024.0).floor();
+    let ground = ((ground_surface(cx, x, z) + cx.scene.surface_height_m) * 1024.0).floor();
     #[expect(clippy::cast_possible_truncation, reason = "a whole number in range")]
     let height = petiole.place[1] - ground as i32;
     leaf.identity.fall_time = release_fall_time(species, height, speed);
@@ -69,7 +69,7 @@ pub(crate) fn leaf_grow(
 
 /// Counts the leaves that hang on every segment.
 pub(crate) fn count_leaves(branches: &mut Branches, cx: &Context<'_>, leaves: &Leaves) {
-    for slot in 0..cx.environment.tree_leaf_count {
+    for slot in 0..cx.scene.tree_leaf_count {
         if leaf_state(leaves.place[slot as usize].bits) == STATE_ATTACHED {
             branches.bearing[petiole_of(cx, slot).segment as usize] += 1;
         }

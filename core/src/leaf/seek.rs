@@ -85,7 +85,7 @@ fn above_rest(cx: &Context<'_>, place: Vec3) -> f32 {
 
 /// Time from release to the end of a leaf's stage in 2^-16 steps.
 fn stage_end_after(cx: &Context<'_>, leaf: &LeafMut<'_>) -> u64 {
-    let seed = cx.environment.seed;
+    let seed = cx.scene.seed;
     let stage = leaf_stage(leaf.identity.appearance);
     if stage + 1 < STAGE_COUNT {
         u64::from(stage_end(seed, leaf.identity.id, leaf.identity.fall_time, stage))
@@ -139,7 +139,7 @@ fn arrive(cx: &Context<'_>, leaf: &mut LeafMut<'_>, glide: Glide, elapsed: u64) 
 
 /// Any length of time within one stage, in still air.
 fn glide_long(cx: &Context<'_>, leaf: &LeafMut<'_>, glide: Glide, part_q16: u64) -> Glide {
-    let environment = cx.environment;
+    let compiled = cx.scene;
     let (bits, params) = (leaf.place.bits, motion_params(*leaf.schedule));
     let response = response_of(cx, bits);
     let rate = u128::from(own_rate(cx, params.rate));
@@ -149,7 +149,7 @@ fn glide_long(cx: &Context<'_>, leaf: &LeafMut<'_>, glide: Glide, part_q16: u64)
     let end = glide.phase.wrapping_add(low);
     let own = own_advance(cx, bits, params, glide.phase, end) + own_period(cx, bits, params) * periods;
     #[expect(clippy::cast_possible_truncation, reason = "seconds in single precision")]
-    let elapsed = (part_q16 as f64 / 65536.0 * f64::from(environment.dt_s)) as f32;
+    let elapsed = (part_q16 as f64 / 65536.0 * f64::from(compiled.dt_s)) as f32;
     let drift = glide.drift * exponential(-elapsed * response.inv_time_constant);
     let spent = on_grid(glide.drift * response.time_constant_s) - on_grid(drift * response.time_constant_s);
     Glide { position: glide.position + (own + spent), drift, phase: end }
@@ -157,13 +157,13 @@ fn glide_long(cx: &Context<'_>, leaf: &LeafMut<'_>, glide: Glide, part_q16: u64)
 
 /// Lays a leaf down where it is.
 fn rest(cx: &Context<'_>, leaf: &mut LeafMut<'_>) {
-    let lifetime = cx.environment.sources[leaf_source(leaf.identity.appearance) as usize].lifetime_steps;
+    let lifetime = cx.scene.sources[leaf_source(leaf.identity.appearance) as usize].lifetime_steps;
     let [x, _, z] = leaf.place.position;
     leaf.place.position[1] = ground_rest(cx, x, z);
     leaf.place.bits = with_state(leaf.place.bits, STATE_RESTING);
-    *leaf.drift = Drift { velocity: [0.0; 3], phase: cx.environment.settle_steps };
+    *leaf.drift = Drift { velocity: [0.0; 3], phase: cx.scene.settle_steps };
     let before = Quat::from(leaf.attitude.quaternion);
-    let is_hilly = cx.environment.has_terrain();
+    let is_hilly = cx.scene.has_terrain();
     let flat = if is_hilly { flatten_on(ground_slope(cx, x, z), before, 0.0) } else { flatten(before, 0.0) };
     leaf.attitude.quaternion = flat.to_array();
     leaf.schedule.event = if lifetime == 0 { NEVER } else { leaf.identity.release.wrapping_add(lifetime) };

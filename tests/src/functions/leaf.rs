@@ -234,12 +234,12 @@ functions! {
 
     transition_next in "motion/feature" (SPECIES, Input::Below(6), ANY) tolerance None;
     wgsl "r.x = transition_next(a.x, a.y, a.z);";
-    rust |cx, w| integers([transition_next(&cx.environment.species[w[0] as usize], w[1], w[2])]);
+    rust |cx, w| integers([transition_next(&cx.scene.species[w[0] as usize], w[1], w[2])]);
 
     release_place in "leaf/release" (ANY, ANY, ANY, SOURCE, ANY) tolerance None;
     wgsl "let p = release_place(a.w, a.xy, a.z); r = vec4<u32>(bitcast<vec3<u32>>(p), release_species(a.w, b.x));";
     rust |cx, w| {
-        let source = &cx.environment.sources[w[3] as usize];
+        let source = &cx.scene.sources[w[3] as usize];
         let p = release_place(source, seed(w), w[2]);
         integers([p[0] as u32, p[1] as u32, p[2] as u32, release_species(source, w[4])])
     };
@@ -249,7 +249,7 @@ functions! {
         r = vec4<u32>(z.size, z.speed, q, release_rate(a.x, a.w, q));
         s.x = release_fall_time(a.x, i32(b.x), z.speed);";
     rust |cx, w| {
-        let species = &cx.environment.species[w[0] as usize];
+        let species = &cx.scene.species[w[0] as usize];
         let z = release_size_speed(species, [w[0], w[1], w[2], w[3]]);
         let q = release_ratio(z);
         let fall_time = release_fall_time(species, w[4] as i32, z.speed);

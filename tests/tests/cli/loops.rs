@@ -37,7 +37,7 @@ fn two_rounds(simulator: &mut dyn Simulator, world: &World, cycle: &Cycle, steps
 
 /// Falling leaves, and leaves of which another slot has not every bit one round before.
 fn off_after(cycle: &Cycle, [before, after]: &[World; 2]) -> (usize, usize) {
-    let scene = after.environment.scene();
+    let scene = after.compiled.scene();
     let dt = f64::from(scene.dt_s);
     let mut first = scene.tree_leaf_count() as usize;
     let (mut falling, mut off) = (0, 0);

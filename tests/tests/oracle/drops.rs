@@ -214,8 +214,8 @@ fn planar(size_m: f32, tilt: f32) -> Vec<f32> {
     let body =
         Aerodynamics { planform: Some(Planform::default()), irregularity: 0.0, ..Aerodynamics::default() };
     let world = World::build(&still_scene(paper(size_m, 0.07, body), 1, 10.0)).expect("valid");
-    let step = world.environment.step_block(&world.clock);
-    let cx = world.environment.context(&step);
+    let step = world.compiled.step_block(&world.clock);
+    let cx = world.compiled.context(&step);
     let (sine, cosine) = (0.5 * tilt).sin_cos();
     let (position, velocity, spin) = (Vec3::ZERO, Vec3::ZERO, Vec3::ZERO);
     let mut flight = Flight { position, velocity, pose: Quat::new(sine, 0.0, 0.0, cosine), spin };
@@ -245,8 +245,8 @@ fn no_gust_blows_a_body_up() {
                 let mut scene = still_scene(paper(size, density, body), 1, 10.0);
                 scene.dt_s = dt_s;
                 let world = World::build(&scene).expect("valid");
-                let step = world.environment.step_block(&world.clock);
-                let cx = world.environment.context(&step);
+                let step = world.compiled.step_block(&world.clock);
+                let cx = world.compiled.context(&step);
                 for gust in [5.0f32, 15.0, 30.0] {
                     let (position, velocity) = (Vec3::ZERO, Vec3::ZERO);
                     let mut flight = Flight { position, velocity, pose: Quat::IDENTITY, spin: Vec3::ZERO };

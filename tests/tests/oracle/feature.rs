@@ -6,7 +6,7 @@ use crate::common::{build, csv, field, number, step, still_scene, uniform_specie
 use windfall_core::device::motion::feature::{Stage, feature, stage_end};
 use windfall_core::motion::{PRIMITIVE_COUNT, Primitive, TransitionTable};
 use windfall_core::scene::Species;
-use windfall_core::{Environment, Stats};
+use windfall_core::{CompiledScene, Stats};
 
 const IDS: u32 = 100_000;
 const SEED: [u32; 2] = [2024, 7];
@@ -15,8 +15,8 @@ const STAGES: usize = 5;
 
 /// Features of the first ids.
 fn features(species: Species, seed: [u32; 2]) -> Vec<[Stage; STAGES]> {
-    let environment = Environment::compile(&still_scene(species, 1, 5.0)).expect("the scene is valid");
-    let block = &environment.block().species[0];
+    let compiled = CompiledScene::compile(&still_scene(species, 1, 5.0)).expect("the scene is valid");
+    let block = &compiled.block().species[0];
     (0..IDS).map(|id| feature(block, seed, id)).collect()
 }
 

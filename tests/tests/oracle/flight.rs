@@ -17,7 +17,7 @@ use windfall_core::flight::coefficients::{
     MUNK_EDGE, MUNK_RISE, WHIRL_EDGE, WHIRL_RISE,
 };
 use windfall_core::scene::{Aerodynamics, FlightModel, Planform, Species};
-use windfall_core::{Clock, Environment, Scene};
+use windfall_core::{Clock, CompiledScene, Scene};
 use windfall_tests::reference::{DiscCoefficients, DiscState, LeafDisc};
 
 /// The coefficients of the kernel.
@@ -34,14 +34,14 @@ fn ours(body: &Aerodynamics) -> DiscCoefficients {
     }
 }
 
-fn paper(size_m: f32, body: Aerodynamics) -> Environment {
+fn paper(size_m: f32, body: Aerodynamics) -> CompiledScene {
     let species = Species {
         size_m,
         areal_density_kg_m2: 0.07,
         flight: FlightModel::Aerodynamic(body),
         ..Species::default()
     };
-    Environment::compile(&Scene { species: vec![species], wind: still_air(), ..Scene::default() })
+    CompiledScene::compile(&Scene { species: vec![species], wind: still_air(), ..Scene::default() })
         .expect("valid")
 }
 
@@ -81,13 +81,13 @@ proptest! {
             irregularity: 0.0,
             ..Aerodynamics::default()
         };
-        let environment = paper(size_m, aerodynamics);
-        let step = environment.step_block(&Clock::new(1.0 / 60.0));
+        let compiled = paper(size_m, aerodynamics);
+        let step = compiled.step_block(&Clock::new(1.0 / 60.0));
         for (ratio, pose, velocity, wind, spin) in states {
             #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small positive number")]
             let size = (ratio * SIZE_ONE as f32) as u32;
             let ratio = f64::from(size) / f64::from(SIZE_ONE);
-            let cx = environment.context(&step);
+            let cx = compiled.context(&step);
             let body = body_of(&cx, 0u32, size);
             let turning = spin * body.size_ratio;
             let found = flight_rates(&cx, &body, &FlightMotion { velocity, pose: Quat::from(pose), turning }, wind);

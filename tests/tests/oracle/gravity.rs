@@ -60,7 +60,7 @@ fn synthesised_leaves_fall_by_the_root_of_gravity() {
 fn slides_are_longer_under_less_gravity() {
     let stop = |gravity_m_s2: f32| {
         let scene = Scene { gravity_m_s2, ..still_scene(uniform_species(), 1, 2.0) };
-        f64::from(build(&scene).environment.block().stop_s2_m)
+        f64::from(build(&scene).compiled.block().stop_s2_m)
     };
     let ratio = stop(MOON_M_S2) / stop(windfall_core::scene::STANDARD_GRAVITY_M_S2);
     assert!((ratio * root() * root() - 1.0).abs() < 1e-5, "stopping distances differ by a factor of {ratio}");
@@ -75,7 +75,7 @@ fn trees_stand_on_the_moon_with_a_sixth_of_the_load() {
     let moon = Scene { gravity_m_s2: MOON_M_S2, ..earth.clone() };
     let [mut here, mut there] = [&earth, &moon].map(build);
     let loads = |world: &windfall_core::World| {
-        let segments = world.environment.forest().segments().iter();
+        let segments = world.compiled.forest().segments().iter();
         segments.map(|segment| glam::Vec3::from(segment.preload).length()).fold(0.0, f32::max)
     };
     let ratio = f64::from(loads(&there) / loads(&here));

@@ -9,7 +9,7 @@ use glam::{DVec3, Vec3};
 use windfall_core::leaf::LeafState;
 use windfall_core::motion::{AIR_DENSITY, Primitive};
 use windfall_core::scene::{Ground, Release, Scene, Source, SourceShape};
-use windfall_core::{Environment, REST_OFFSET_M, World};
+use windfall_core::{CompiledScene, REST_OFFSET_M, World};
 
 fn state(world: &World, slot: usize) -> LeafState {
     world.leaves.place[slot].state()
@@ -136,7 +136,7 @@ fn resting_leaves_stay_below_the_lift_off_speed() {
     println!("the lightest of them, {lightest} kg/m², can lift off at {lift_off_m_s:.2} m/s");
     for wind_m_s in [0.0, 0.25 * lift_off_m_s, 0.5 * lift_off_m_s] {
         let calm = Scene { wind: steady_wind(wind_m_s), ..landing_scene() };
-        world.environment = Environment::compile(&calm).expect("the scene of this test is valid");
+        world.compiled = CompiledScene::compile(&calm).expect("the scene of this test is valid");
         let before = world.leaves.clone();
         step(&mut world, 600);
         assert!(world.leaves == before, "resting leaves moved, turned or vanished in {wind_m_s} m/s");

@@ -63,8 +63,8 @@ fn bodies_are_held_as_the_scene_says() {
 #[test]
 fn a_leaf_takes_its_twigs_motion_along() {
     let world = World::build(&still_scene(species(Hold::Random), 1, 5.0)).expect("valid");
-    let step = world.environment.step_block(&world.clock);
-    let cx = world.environment.context(&step);
+    let step = world.compiled.step_block(&world.clock);
+    let cx = world.compiled.context(&step);
     let mut leaves = world.leaves.clone();
     let mut all = leaves.as_mut();
     let mut leaf = all.row_mut(0);

@@ -91,9 +91,9 @@ fn stepping_equals_seeking() {
     let mut worst = 0.0f64;
     for dt_s in [1.0 / 60.0, 1.0 / 240.0] {
         let mut world = build(&varied_scene(5, dt_s));
-        let block = world.environment.step_block(&world.clock);
-        let environment = world.environment.clone();
-        let cx = environment.context(&block);
+        let block = world.compiled.step_block(&world.clock);
+        let compiled = world.compiled.clone();
+        let cx = compiled.context(&block);
         let mut sought = Leaves::zeroed(LEAVES);
         let mut elapsed = 0;
         for round in 0..24u64 {

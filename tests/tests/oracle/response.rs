@@ -12,7 +12,7 @@ use glam::DVec3;
 use windfall_core::device::leaf::record::leaf_stage;
 use windfall_core::motion::{MotionConstants, Primitive};
 use windfall_core::scene::{MeanSpeed, STANDARD_GRAVITY_M_S2, Scene};
-use windfall_core::{Environment, World};
+use windfall_core::{CompiledScene, World};
 
 #[test]
 fn a_released_leaf_starts_at_rest_and_falls_like_a_stone_at_first() {
@@ -93,8 +93,8 @@ fn the_response_to_a_step_of_the_wind_is_exponential() {
     step(&mut world, 1000);
     scene.wind.direction_deg = 90.0;
     scene.wind.speed = MeanSpeed::MetresPerSecond(5.0);
-    let turned = Environment::compile(&scene).expect("the scene of this test is valid");
-    world.environment = turned;
+    let turned = CompiledScene::compile(&scene).expect("the scene of this test is valid");
+    world.compiled = turned;
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "about forty steps")]
     let steps = (tau / 0.002).round() as u32;
     step(&mut world, steps);

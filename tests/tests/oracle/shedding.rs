@@ -66,9 +66,9 @@ fn shed(scene: &Scene, seconds: f64) -> usize {
 }
 
 fn petioles(world: &World) -> Vec<Petiole> {
-    let block = world.environment.step_block(&world.clock);
-    let cx = world.environment.context(&block);
-    (0..world.environment.scene().tree_leaf_count()).map(|slot| petiole_of(&cx, slot)).collect()
+    let block = world.compiled.step_block(&world.clock);
+    let cx = world.compiled.context(&block);
+    (0..world.compiled.scene().tree_leaf_count()).map(|slot| petiole_of(&cx, slot)).collect()
 }
 
 /// The model, written down once more: rate per second at which the petioles of a class break in air of that speed.
@@ -94,8 +94,8 @@ fn the_table_of_chances_is_the_model() {
     for autumn in [0.3, 0.5, 0.7, 0.9] {
         let scene = scene("maple", 1500, autumn, 0.0);
         let world = world(&scene);
-        let block = world.environment.step_block(&world.clock);
-        let cx = world.environment.context(&block);
+        let block = world.compiled.step_block(&world.clock);
+        let cx = world.compiled.context(&block);
         let interval_s = f64::from(SHED_INTERVAL) * f64::from(scene.dt_s);
         let mut checked = 0;
         for petiole in petioles(&world) {
@@ -124,8 +124,8 @@ fn counts_agree_with_the_rates_within_the_error_of_counting() {
         let before = stepped(&world(&scene), 500);
         let seconds = 90.0;
         let after = stepped(&before, (seconds / LONG_STEP_S) as u32);
-        let block = before.environment.step_block(&before.clock);
-        let cx = before.environment.context(&block);
+        let block = before.compiled.step_block(&before.clock);
+        let cx = before.compiled.context(&block);
         let looks = f64::from(seconds / LONG_STEP_S) / f64::from(SHED_INTERVAL);
         let hanging = before.leaves.place.iter().zip(petioles(&before));
         let hanging = hanging.filter(|(place, _)| place.state() == LeafState::Attached);
@@ -186,8 +186,8 @@ fn gusts_take_what_lulls_leave() {
     let middle = Vec3::new(0.0, 2.0, 0.0);
     let mut hanging = attached(&now);
     for _ in 0..900 {
-        let block = now.environment.step_block(&now.clock);
-        let cx = now.environment.context(&block);
+        let block = now.compiled.step_block(&now.clock);
+        let cx = now.compiled.context(&block);
         let air = wind_at(&cx, windfall_core::arith::Vec3::new(middle.x, middle.y, middle.z));
         simulator.step(2).expect("the CPU steps");
         simulator.read_state(&mut now).expect("same size");
@@ -221,8 +221,8 @@ fn nothing_jumps_where_a_leaf_comes_off() {
         let mut after = before.clone();
         simulator.step(1).expect("the CPU steps");
         simulator.read_state(&mut after).expect("same size");
-        let block = before.environment.step_block(&before.clock);
-        let cx = before.environment.context(&block);
+        let block = before.compiled.step_block(&before.clock);
+        let cx = before.compiled.context(&block);
         for (slot, place) in before.leaves.place.iter().enumerate() {
             let next = &after.leaves.place[slot];
             if place.state() != LeafState::Attached || next.state() != LeafState::Falling {
@@ -305,7 +305,7 @@ fn drawn_leaves_cover_what_the_leaf_area_index_says() {
     for (leaves, is_capped) in [(20_000, false), (6000, false), (200, true)] {
         let scene = scene("maple", leaves, 0.0, 0.0);
         let world = world(&scene);
-        let tree = &world.environment.forest().trees()[0];
+        let tree = &world.compiled.forest().trees()[0];
         let foliage = scene.tree_kind("maple").expect("a preset").foliage;
         let area = std::f32::consts::PI / 4.0 * scene.species[0].size_m * scene.species[0].size_m;
         let drawn: f64 = world
@@ -345,7 +345,7 @@ fn a_forest_costs_what_it_asks_for() {
     let start = Instant::now();
     let world = world(&scene);
     let elapsed = start.elapsed();
-    let trees = world.environment.forest().trees();
+    let trees = world.compiled.forest().trees();
     let full = trees.iter().map(|tree| tree.facts.leaves_each * 200.0).sum::<f64>() / 1000.0;
     let bytes = size_of::<Petiole>() + LEAF_BYTES;
     println!("{elapsed:?} to build; {full:.0} leaves a tree; {bytes} bytes a slot");

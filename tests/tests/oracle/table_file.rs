@@ -202,13 +202,13 @@ fn a_scene_with_a_saved_file_falls_like_one_without() {
     std::fs::write(&file, flipped.to_text()).expect("a file for the test");
     let read = build(&from_file);
     let contexts = [&worlds[0], &read].map(|world| {
-        let block = world.environment.step_block(&world.clock);
+        let block = world.compiled.step_block(&world.clock);
         (world, block)
     });
     for phase in (0..1000).map(|index: u32| index.wrapping_mul(0x9E37_79B9)) {
         let [a, b] = [0, 1].map(|index: usize| {
             let (world, block) = &contexts[index];
-            quaternion(motion_state(&world.environment.context(block).motion, 1, phase).1.to_array())
+            quaternion(motion_state(&world.compiled.context(block).motion, 1, phase).1.to_array())
         });
         let cosine = a.dot(b).abs();
         assert!(

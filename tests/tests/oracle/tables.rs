@@ -15,7 +15,7 @@ use windfall_core::motion::{
     PrimitiveTable, SteadyDescent, TransitionalChaotic, TransitionalHelical,
 };
 use windfall_core::scene::{STANDARD_GRAVITY_M_S2, Species};
-use windfall_core::{Clock, Environment};
+use windfall_core::{Clock, CompiledScene};
 
 const SEED: [u32; 2] = [1, 0];
 const ROWS: usize = 512;
@@ -69,9 +69,9 @@ fn rows_are_the_equations() {
 #[test]
 fn interpolation_stays_within_a_tenth_of_a_millimetre() {
     let scene = still_scene(paper_leaf(), 1, 5.0);
-    let environment = Environment::compile(&scene).expect("the scene of this test is valid");
-    let block = environment.step_block(&Clock::new(scene.dt_s));
-    let cx = environment.context(&block);
+    let compiled = CompiledScene::compile(&scene).expect("the scene of this test is valid");
+    let block = compiled.step_block(&Clock::new(scene.dt_s));
+    let cx = compiled.context(&block);
     for primitive in Primitive::ALL {
         let path = path(primitive, &scene.species[0]);
         let mut worst = 0.0f64;
@@ -114,9 +114,9 @@ fn orientations_are_unit_smooth_and_closed() {
 #[test]
 fn interpolated_orientations_are_unit() {
     let scene = still_scene(Species { size_m: 0.03, ..uniform_species() }, 1, 5.0);
-    let environment = Environment::compile(&scene).expect("the scene of this test is valid");
-    let block = environment.step_block(&Clock::new(scene.dt_s));
-    let cx = environment.context(&block);
+    let compiled = CompiledScene::compile(&scene).expect("the scene of this test is valid");
+    let block = compiled.step_block(&Clock::new(scene.dt_s));
+    let cx = compiled.context(&block);
     for primitive in Primitive::ALL {
         for index in 0..20_000 {
             #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a share of 2^32")]

@@ -40,7 +40,7 @@ fn ground(hills: &Hills, x: f64, z: f64) -> DVec3 {
 }
 
 fn hills_of(world: &World) -> Hills {
-    Hills::grow(&world.environment.scene().ground.terrain.expect("the scene has hills"))
+    Hills::grow(&world.compiled.scene().ground.terrain.expect("the scene has hills"))
 }
 
 fn hilly(leaves: u32) -> Scene {
@@ -98,9 +98,9 @@ fn leaves_lie_on_hills_and_water_along_the_slope() {
 #[test]
 fn slides_obey_the_inclined_plane() {
     let world = build(&varied_scene(1, 3, 0.0, 1.0 / 60.0));
-    let clock = world.environment.step_block(&world.clock);
-    let cx = world.environment.context(&clock);
-    let friction = f64::from(world.environment.scene().ground.friction);
+    let clock = world.compiled.step_block(&world.clock);
+    let cx = world.compiled.context(&clock);
+    let friction = f64::from(world.compiled.scene().ground.friction);
     for rise in [-0.4f32, -0.2, 0.0, 0.3, 1.0, 3.0] {
         let gain = 1.0 + rise * rise;
         let slope = Slope { x: rise, z: 0.0, gain, inv_gain: 1.0 / gain };
@@ -130,7 +130,7 @@ fn trees_stand_on_the_hills() {
     let world: World = build(&hilly_scene(flying_scene(3, 30, 2.0, 1.0 / 60.0)));
     let hills = hills_of(&world);
     let mut heights = Vec::new();
-    for tree in world.environment.forest().trees() {
+    for tree in world.compiled.forest().trees() {
         let [x, y, z] = tree.foot_m.to_array().map(f64::from);
         let height = ground(&hills, x, z).x;
         assert!((y - height).abs() < 1e-4, "a foot at {y} m on ground at {height} m");
@@ -144,15 +144,15 @@ fn trees_stand_on_the_hills() {
 #[test]
 fn other_winds_leave_the_hills_where_they_are() {
     let mut world = build(&hilly(30));
-    let before = (hills_of(&world), world.environment.tables().clone());
-    let mut scene = world.environment.scene().clone();
+    let before = (hills_of(&world), world.compiled.tables().clone());
+    let mut scene = world.compiled.scene().clone();
     scene.wind.reference_height_m = 20.0;
     scene.ground.terrain = None;
-    world.environment.retune(&scene);
+    world.compiled.retune(&scene);
     assert_eq!(before.0, hills_of(&world), "the scene keeps its hills");
     let rows = before.0.heights_m.len();
-    let tables = world.environment.tables();
+    let tables = world.compiled.tables();
     assert_ne!(before.1, *tables, "the profile is another");
-    let hills = world.environment.block().first_hill_row as usize..;
+    let hills = world.compiled.block().first_hill_row as usize..;
     assert_eq!(before.1[hills.clone()][..rows], tables[hills][..rows], "the table of the hills stays");
 }

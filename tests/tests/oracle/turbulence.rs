@@ -13,7 +13,7 @@ use windfall_core::device::wind::sample::wind_at;
 use windfall_core::device::wind::turbulence::{TURBULENCE_X, TURBULENCE_Y, TURBULENCE_Z};
 use windfall_core::scene::Turbulence;
 use windfall_core::wind::turbulence_box;
-use windfall_core::{Clock, Environment};
+use windfall_core::{Clock, CompiledScene};
 
 const SIZE: [usize; 3] = [TURBULENCE_X as usize, TURBULENCE_Y as usize, TURBULENCE_Z as usize];
 const NODES: usize = SIZE[0] * SIZE[1] * SIZE[2];
@@ -29,19 +29,19 @@ const EDGES_M: DVec3 = DVec3::new(48.0, 12.0, 19.2);
 const SAMPLES: usize = 256;
 
 /// Turbulent wind towards +x and nothing else; a box of turbulence passes in `SAMPLES` steps.
-fn turbulent_air(seed: u64) -> Environment {
+fn turbulent_air(seed: u64) -> CompiledScene {
     let mut scene = still_scene(uniform_species(), 1, 5.0);
     scene.seed = seed;
     scene.dt_s = 48.0 / 10.0 / 256.0;
     scene.wind = steady_wind(SPEED_M_S);
     scene.wind.turbulence = Turbulence { intensity: INTENSITY, cell_m: CELL_M, calm_m_s: 0.0 };
-    Environment::compile(&scene).expect("the scene of this test is valid")
+    CompiledScene::compile(&scene).expect("the scene of this test is valid")
 }
 
 /// Turbulence at places in one step, in units of its standard deviations.
-fn fluctuations(environment: &Environment, clock: &Clock, places: &[DVec3]) -> Vec<DVec3> {
-    let block = environment.step_block(clock);
-    let cx = environment.context(&block);
+fn fluctuations(compiled: &CompiledScene, clock: &Clock, places: &[DVec3]) -> Vec<DVec3> {
+    let block = compiled.step_block(clock);
+    let cx = compiled.context(&block);
     let mean = DVec3::X * f64::from(SPEED_M_S);
     let at = |place: &DVec3| {
         let wind = wind_at(&cx, Vec3::from(place.as_vec3().to_array()));
@@ -59,17 +59,17 @@ fn anywhere(index: u64) -> DVec3 {
 #[test]
 fn variance_of_each_component_is_the_stated_one() {
     for seed in SEEDS {
-        let environment = turbulent_air(seed);
-        let mut clock = Clock::new(environment.scene().dt_s);
+        let compiled = turbulent_air(seed);
+        let mut clock = Clock::new(compiled.scene().dt_s);
         let (mut sum, mut squares, mut count) = (DVec3::ZERO, DVec3::ZERO, 0.0);
         for step in 0..SAMPLES as u64 {
             let places: Vec<_> = (0..1000).map(|point| anywhere(1000 * step + point)).collect();
-            for value in fluctuations(&environment, &clock, &places) {
+            for value in fluctuations(&compiled, &clock, &places) {
                 sum += value;
                 squares += value * value;
                 count += 1.0;
             }
-            clock.advance(&environment);
+            compiled.advance(&mut clock);
         }
         let (mean, variance) = (sum / count, squares / count);
         println!("seed {seed}: mean {mean:.4}, variance {variance:.4}");
@@ -130,15 +130,15 @@ fn shell_spectrum_falls_with_the_five_thirds_power() {
 fn time_series_have_the_five_thirds_spectrum() {
     let forward = FftPlanner::new().plan_fft_forward(SAMPLES);
     for seed in SEEDS {
-        let environment = turbulent_air(seed);
-        let mut clock = Clock::new(environment.scene().dt_s);
+        let compiled = turbulent_air(seed);
+        let mut clock = Clock::new(compiled.scene().dt_s);
         let places: Vec<_> = (0..400).map(anywhere).collect();
         let mut series = vec![Vec::with_capacity(SAMPLES); places.len()];
         for _ in 0..SAMPLES {
-            for (line, value) in series.iter_mut().zip(fluctuations(&environment, &clock, &places)) {
+            for (line, value) in series.iter_mut().zip(fluctuations(&compiled, &clock, &places)) {
                 line.push(value);
             }
-            clock.advance(&environment);
+            compiled.advance(&mut clock);
         }
         let mut energy = [0.0; 11];
         for axis in 0..3 {
@@ -163,8 +163,8 @@ fn time_series_have_the_five_thirds_spectrum() {
 /// The interpolated field lets as much air out of every cell as in: over a face it averages to its four corners.
 #[test]
 fn no_cell_has_a_net_flux() {
-    let environment = turbulent_air(7);
-    let clock = Clock::new(environment.scene().dt_s);
+    let compiled = turbulent_air(7);
+    let clock = Clock::new(compiled.scene().dt_s);
     let cell = EDGES_M / DVec3::new(64.0, 32.0, 32.0);
     let mut worst = 0.0f64;
     for index in 0..2000 {
@@ -175,7 +175,7 @@ fn no_cell_has_a_net_flux() {
                     + cell * DVec3::new(f64::from(bits & 1), f64::from(bits >> 1 & 1), f64::from(bits >> 2))
             })
             .collect();
-        let winds = fluctuations(&environment, &clock, &corners);
+        let winds = fluctuations(&compiled, &clock, &corners);
         // In units of the cell and of its velocities the faces are alike: the mean outward velocity over all six.
         let flux: f64 = (0..3)
             .map(|axis| {
@@ -194,11 +194,11 @@ fn no_cell_has_a_net_flux() {
 /// Moving by a thousandth of a cell, across seams of the box too, or letting it drift on, never jumps.
 #[test]
 fn seams_do_not_show() {
-    let environment = turbulent_air(5);
+    let compiled = turbulent_air(5);
     let cell = EDGES_M / DVec3::new(64.0, 32.0, 32.0);
     // No two neighbouring nodes differ by more than ten deviations, so a thousandth of a cell by no more than 0.01.
     let small = 0.001;
-    let mut clock = Clock::new(environment.scene().dt_s);
+    let mut clock = Clock::new(compiled.scene().dt_s);
     for index in 0..600 {
         let place = anywhere(index);
         for axis in 0..3 {
@@ -209,18 +209,18 @@ fn seams_do_not_show() {
                 seam - direction * (0.5 * small * cell[axis]),
                 seam + direction * (0.5 * small * cell[axis]),
             ];
-            let winds = fluctuations(&environment, &clock, &pair);
+            let winds = fluctuations(&compiled, &clock, &pair);
             let jump = (winds[1] - winds[0]).length();
             assert!(jump < 0.02, "axis {axis}, seam at {seam}: jump of {jump:.3} deviations");
             let period = direction * EDGES_M[axis];
-            let far = fluctuations(&environment, &clock, &[place, place + period]);
+            let far = fluctuations(&compiled, &clock, &[place, place + period]);
             let difference = (far[1] - far[0]).length();
             assert!(difference < 0.01, "axis {axis}: {place} differs from one box on by {difference:.4}");
         }
-        let now = fluctuations(&environment, &clock, &[place])[0];
-        clock.advance(&environment);
-        let carried = place + DVec3::X * environment.wind_travel_per_step_m();
-        let later = fluctuations(&environment, &clock, &[carried])[0];
+        let now = fluctuations(&compiled, &clock, &[place])[0];
+        compiled.advance(&mut clock);
+        let carried = place + DVec3::X * compiled.wind_travel_per_step_m();
+        let later = fluctuations(&compiled, &clock, &[carried])[0];
         let change = (later - now).length();
         assert!(change < 0.01, "step {index}: an eddy changed by {change:.4} on its way downwind");
     }

@@ -11,20 +11,20 @@ use windfall_core::device::wind::profile::{profile_factor, wind_profile};
 use windfall_core::device::wind::sample::wind_at;
 use windfall_core::scene::{Gusts, MeanSpeed, Profile, Scene, Turbulence, Vortex, WindParameters};
 use windfall_core::wind::{BEAUFORT_MAX, beaufort_speed};
-use windfall_core::{Clock, Environment};
+use windfall_core::{Clock, CompiledScene};
 
 fn scene(wind: WindParameters) -> Scene {
     Scene { wind, ..still_scene(uniform_species(), 1, 5.0) }
 }
 
-fn compile(wind: WindParameters) -> Environment {
-    Environment::compile(&scene(wind)).expect("the scene of this test is valid")
+fn compile(wind: WindParameters) -> CompiledScene {
+    CompiledScene::compile(&scene(wind)).expect("the scene of this test is valid")
 }
 
 /// Wind at places, at one moment.
-fn winds(environment: &Environment, clock: &Clock, places: &[DVec3]) -> Vec<DVec3> {
-    let block = environment.step_block(clock);
-    let cx = environment.context(&block);
+fn winds(compiled: &CompiledScene, clock: &Clock, places: &[DVec3]) -> Vec<DVec3> {
+    let block = compiled.step_block(clock);
+    let cx = compiled.context(&block);
     places
         .iter()
         .map(|place| vector(wind_at(&cx, Kernel::from(place.as_vec3().to_array())).to_array()))
@@ -57,9 +57,9 @@ fn tables_hold_the_profile() {
         Profile::Power { exponent: 0.22 },
         Profile::Log { roughness_m: 0.03, displacement_m: 0.0 },
     ] {
-        let environment = compile(WindParameters { profile, ..steady_wind(5.0) });
-        let block = environment.step_block(&Clock::new(1.0 / 60.0));
-        let cx = environment.context(&block);
+        let compiled = compile(WindParameters { profile, ..steady_wind(5.0) });
+        let block = compiled.step_block(&Clock::new(1.0 / 60.0));
+        let cx = compiled.context(&block);
         for index in 0..630u16 {
             let height = f32::from(index) * 0.1;
             let read = f64::from(wind_profile(&cx, height));
@@ -88,7 +88,7 @@ fn the_mean_over_time_is_the_profile() {
     scene.ground.height_m = 3.0;
     // 64 gusts of 6 s are a whole period of the gusts and, nearly, 64 of the turbulence.
     scene.dt_s = 0.03;
-    let environment = Environment::compile(&scene).expect("the scene of this test is valid");
+    let compiled = CompiledScene::compile(&scene).expect("the scene of this test is valid");
     let heights = [1.0, 2.0, 5.0, 10.0, 20.0, 50.0];
     let places: Vec<_> = heights
         .iter()
@@ -99,10 +99,10 @@ fn the_mean_over_time_is_the_profile() {
     let mut sums = vec![DVec3::ZERO; places.len()];
     let steps = 12_800;
     for _ in 0..steps {
-        for (sum, wind) in sums.iter_mut().zip(winds(&environment, &clock, &places)) {
+        for (sum, wind) in sums.iter_mut().zip(winds(&compiled, &clock, &places)) {
             *sum += wind / f64::from(steps);
         }
-        clock.advance(&environment);
+        compiled.advance(&mut clock);
     }
     let direction = DVec3::new(30f64.to_radians().cos(), 0.0, 30f64.to_radians().sin());
     for (height, mean) in heights.into_iter().zip(sums) {
@@ -118,15 +118,15 @@ fn gusts_exceed_the_mean_by_their_strength() {
     for strength in [0.4f32, 1.0, 2.0] {
         let mut wind = steady_wind(8.0);
         wind.gusts = Gusts { strength, interval_s: 6.0 };
-        let environment = compile(wind);
+        let compiled = compile(wind);
         let mut clock = Clock::new(1.0 / 60.0);
         let steps = 64 * 360;
         let mut excess = Vec::with_capacity(steps);
         for _ in 0..steps {
-            let wind = winds(&environment, &clock, &[DVec3::new(1.0, 5.0, 2.0)])[0];
+            let wind = winds(&compiled, &clock, &[DVec3::new(1.0, 5.0, 2.0)])[0];
             assert!(wind.y == 0.0 && wind.z == 0.0, "gusts blow along the wind: {wind}");
             excess.push((wind.x / 8.0 - 1.0) / f64::from(strength));
-            clock.advance(&environment);
+            compiled.advance(&mut clock);
         }
         let mean = excess.iter().sum::<f64>() / steps as f64;
         assert!(mean.abs() < 1e-3, "strength {strength}: gusts change the mean wind by {mean}");
@@ -157,7 +157,7 @@ fn vortex() -> Vortex {
 
 #[test]
 fn vortices_swirl_as_kaufmann_says() {
-    let environment = compile(WindParameters { vortices: vec![vortex()], ..steady_wind(0.0) });
+    let compiled = compile(WindParameters { vortices: vec![vortex()], ..steady_wind(0.0) });
     let mut clock = Clock::new(1.0 / 60.0);
     let axis = vortex().axis.as_dvec3().normalize();
     let side = axis.any_orthonormal_vector();
@@ -166,7 +166,7 @@ fn vortices_swirl_as_kaufmann_says() {
         for (index, radius) in (0u32..).zip([0.0, 0.1, 0.4, 0.8, 2.0, 10.0]) {
             let along = 3.0 * uniform(index.into());
             let out = glam::DQuat::from_axis_angle(axis, f64::from(index)) * side;
-            let wind = winds(&environment, &clock, &[center + axis * along + out * radius])[0];
+            let wind = winds(&compiled, &clock, &[center + axis * along + out * radius])[0];
             let share = 0.64 / (radius * radius + 0.64);
             let swirl = 12.0 * radius / (TAU * (radius * radius + 0.64));
             let expected = axis.cross(out) * swirl + axis * (2.0 * share);
@@ -174,14 +174,14 @@ fn vortices_swirl_as_kaufmann_says() {
             assert!(error < 1e-4, "moment {moment}, {radius} m: wind {wind}, expected {expected}");
         }
         for _ in 0..200 {
-            clock.advance(&environment);
+            compiled.advance(&mut clock);
         }
     }
 }
 
 #[test]
 fn vortices_are_free_of_divergence() {
-    let environment = compile(WindParameters { vortices: vec![vortex()], ..steady_wind(0.0) });
+    let compiled = compile(WindParameters { vortices: vec![vortex()], ..steady_wind(0.0) });
     let clock = Clock::new(1.0 / 60.0);
     let h = 0.02;
     for index in 0..300 {
@@ -191,7 +191,7 @@ fn vortices_are_free_of_divergence() {
         let mut shear = 0.0f64;
         for axis in 0..3 {
             let pair =
-                winds(&environment, &clock, &[place - DVec3::AXES[axis] * h, place + DVec3::AXES[axis] * h]);
+                winds(&compiled, &clock, &[place - DVec3::AXES[axis] * h, place + DVec3::AXES[axis] * h]);
             let derivative = (pair[1] - pair[0]) / (2.0 * h);
             sum += derivative[axis];
             shear = shear.max(derivative.length());
@@ -237,9 +237,9 @@ fn retuning_equals_compiling_anew() {
         ("ground", |scene| scene.ground.friction = 0.31),
         ("speeds", |scene| (scene.fall_speed, scene.rotation_speed) = (1.3, 2.2)),
     ];
-    let mut retuned = Environment::compile(&base).expect("a preset");
-    let check = |retuned: &Environment, scene: &Scene, name: &str| {
-        let fresh = Environment::compile(scene).expect("a valid scene");
+    let mut retuned = CompiledScene::compile(&base).expect("a preset");
+    let check = |retuned: &CompiledScene, scene: &Scene, name: &str| {
+        let fresh = CompiledScene::compile(scene).expect("a valid scene");
         assert!(
             bytemuck::bytes_of(retuned.block()) == bytemuck::bytes_of(fresh.block()),
             "changing {name}: the block differs from a fresh one"

@@ -91,7 +91,7 @@ mod tests {
         for step in 0u16..400 {
             let (x, z) = (f32::from(step) * 7.3 - 900.0, f32::from(step) * -3.1 + 400.0);
             let own = land.ground_m(x, z);
-            let apart = own - world.environment.ground_height(x, z);
+            let apart = own - world.compiled.ground_height(x, z);
             assert!(apart.abs() < 1.0e-3, "{apart} m apart at {x}, {z}");
             assert_eq!(land.is_wet(x, z), own < 1.0, "under water below its surface");
             assert_eq!(land.surface_m(x, z), own.max(1.0), "the higher of the two");

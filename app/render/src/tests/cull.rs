@@ -125,7 +125,7 @@ fn every_leaf_of_a_cluster_is_drawn() {
     let trees = "(trees: [(kind: \"weed\", leaves: 50), (kind: \"weed\", at_m: (3.0, 0.0), leaves: 70)])";
     let scene = Scene::from_ron(trees, "two weeds").expect("a scene");
     let world = World::build(&scene).expect("a world");
-    let mut scene_trees = SceneTrees::of(&scene, world.environment.forest());
+    let mut scene_trees = SceneTrees::of(&scene, world.compiled.forest());
     let clusters = [3, 16];
     for (tree, cluster) in scene_trees.trees.iter_mut().zip(clusters) {
         tree.cluster = cluster;

@@ -105,7 +105,7 @@ impl Contender {
             }
             Self::Backend(backend) => backend.stats()?,
         };
-        let count = world.environment.scene().leaf_count();
+        let count = world.compiled.scene().leaf_count();
         Ok(stats.leaves.broken == 0 && stats.leaves.total() + stats.leaves.dormant == count)
     }
 

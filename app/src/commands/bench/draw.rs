@@ -98,7 +98,7 @@ fn measure(
     let Drawing { device, gpu, .. } = Drawing::without_window(backend)?;
     let world = World::build(scene)?;
     let mut backend = device.simulator(&world)?;
-    let stand = SceneTrees::of(scene, world.environment.forest());
+    let stand = SceneTrees::of(scene, world.compiled.forest());
     let atlas = atlas_of(scene, &making_leaves())?;
     let subject = RenderScene { scene, trees: &stand, atlas: &atlas };
     let (options, format) = (RendererOptions::for_scene(scene), PictureTarget::FORMAT);

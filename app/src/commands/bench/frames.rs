@@ -36,7 +36,7 @@ impl Stage {
         let atlas = atlas_of(scene, &making_leaves())?;
         let options = RendererOptions::for_scene(scene);
         let format = PictureTarget::FORMAT;
-        let stand = SceneTrees::of(scene, world.environment.forest());
+        let stand = SceneTrees::of(scene, world.compiled.forest());
         let subject = RenderScene { scene, trees: &stand, atlas: &atlas };
         let renderer = Renderer::new(gpu.device(), gpu.queue(), subject, format, SIZE, options)?;
         let buffers = StoreBuffers::new(gpu, &Leaves::zeroed(scene.leaf_count() as usize))?;

@@ -162,7 +162,7 @@ fn measure(
 ) -> anyhow::Result<Row> {
     let mut contender = approach.take(world)?;
     let (backend, adapter) = contender.names();
-    let leaves = world.environment.scene().leaf_count();
+    let leaves = world.compiled.scene().leaf_count();
     contender.step(WARM_UP_STEPS)?;
     if let Some(hash) = contender.exact_hash(world)?
         && *expected.get_or_insert(hash) != hash

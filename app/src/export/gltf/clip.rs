@@ -97,7 +97,7 @@ impl ClipExport {
 impl Exporter for ClipExport {
     fn push(&mut self, frame: &Frame<'_>) -> anyhow::Result<()> {
         if self.times.is_empty() {
-            let scene = frame.world.environment.scene();
+            let scene = frame.world.compiled.scene();
             view(&mut self.document, scene, self.sun, frame.world.clock.seconds());
             add_surfaces(&mut self.document, scene);
         }

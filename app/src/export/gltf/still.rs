@@ -43,7 +43,7 @@ impl StillExport {
 
     fn add(&mut self, frame: &Frame<'_>) -> io::Result<()> {
         let document = &mut self.document;
-        let scene = frame.world.environment.scene();
+        let scene = frame.world.compiled.scene();
         view(document, scene, self.sun, frame.world.clock.seconds());
         add_surfaces(document, scene);
         let mut kinds: Vec<Vec<&FrameLeaf>> = vec![Vec::new(); self.foliage.meshes.len()];

@@ -60,12 +60,12 @@ impl Session {
         self.twin.is_some()
     }
 
-    /// Makes the environment hold from the next step on.
+    /// Makes the scene hold from the next step on.
     pub(super) fn impose(&mut self) -> Result<(), SimError> {
         let twin = self.twin.as_mut().map(|twin| &mut twin.backend);
         std::iter::once(&mut self.backend)
             .chain(twin)
-            .try_for_each(|backend| backend.set_environment(&self.environment))
+            .try_for_each(|backend| backend.set_scene(&self.compiled))
     }
 
     /// Makes `world` the present.

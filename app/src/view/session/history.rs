@@ -8,7 +8,7 @@
 
 use std::collections::BTreeMap;
 
-use windfall_core::{Environment, World};
+use windfall_core::{CompiledScene, World};
 
 /// Memory that kept moments may take, in bytes.
 const BUDGET_BYTES: usize = 256 << 20;
@@ -21,8 +21,8 @@ const APART_S: f64 = 0.5;
 #[derive(Debug)]
 pub(crate) struct History {
     moments: BTreeMap<u32, World>,
-    /// The environment from each step on.
-    changes: BTreeMap<u32, Environment>,
+    /// The compiled scene from each step on.
+    changes: BTreeMap<u32, CompiledScene>,
     most: usize,
     apart: u32,
     /// The latest step that was reached.
@@ -38,7 +38,7 @@ impl History {
         let step = world.clock.step();
         let mut history = Self {
             moments: BTreeMap::new(),
-            changes: BTreeMap::from([(step, world.environment.clone())]),
+            changes: BTreeMap::from([(step, world.compiled.clone())]),
             most,
             apart,
             end: step,
@@ -77,10 +77,10 @@ impl History {
         }
     }
 
-    /// From `step` on another environment holds: what came after has not happened.
-    pub(crate) fn change(&mut self, step: u32, environment: Environment) {
+    /// From `step` on another scene holds: what came after has not happened.
+    pub(crate) fn change(&mut self, step: u32, compiled: CompiledScene) {
         self.changes.split_off(&step);
-        self.changes.insert(step, environment);
+        self.changes.insert(step, compiled);
         // A moment at this very step is of the past: only the steps after it are other ones.
         self.moments.split_off(&step.saturating_add(1));
         self.end = step;
@@ -89,8 +89,8 @@ impl History {
     /// The last kept moment at or before `step`, under what holds there.
     pub(crate) fn before(&self, step: u32) -> Option<World> {
         let (at, world) = self.moments.range(..=step).next_back()?;
-        let environment = self.environment(*at).unwrap_or(&world.environment).clone();
-        Some(World { environment, ..world.clone() })
+        let compiled = self.compiled(*at).unwrap_or(&world.compiled).clone();
+        Some(World { compiled, ..world.clone() })
     }
 
     /// Step of the last kept moment at or before `step`.
@@ -98,9 +98,9 @@ impl History {
         self.moments.range(..=step).next_back().map(|(at, _)| *at)
     }
 
-    /// Environment at `step`.
-    pub(crate) fn environment(&self, step: u32) -> Option<&Environment> {
-        self.changes.range(..=step).next_back().map(|(_, environment)| environment)
+    /// CompiledScene at `step`.
+    pub(crate) fn compiled(&self, step: u32) -> Option<&CompiledScene> {
+        self.changes.range(..=step).next_back().map(|(_, compiled)| compiled)
     }
 
     /// Returns true if something changes at this very step.

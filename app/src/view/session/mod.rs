@@ -15,7 +15,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use windfall_core::scene::limits;
-use windfall_core::{Environment, Scene, SimError, Simulator, Stats, World};
+use windfall_core::{CompiledScene, Scene, SimError, Simulator, Stats, World};
 use windfall_cpu::CpuOptions;
 use windfall_render::GpuTimer;
 use windfall_wgpu::{Gpu, WorldColumns};
@@ -40,7 +40,7 @@ pub(crate) struct Session {
     /// The scene with what the user has changed.
     scene: Arc<Scene>,
     /// The compiled `scene`.
-    environment: Environment,
+    compiled: CompiledScene,
     gpu: Gpu,
     threads: Option<usize>,
     backend: Backend,
@@ -75,7 +75,7 @@ impl Session {
         Ok(Self {
             pace: Pace::default(),
             scene: Arc::new(scene),
-            environment: world.environment.clone(),
+            compiled: world.compiled.clone(),
             threads,
             backend: device.simulator(world)?,
             twin: None,
@@ -163,9 +163,9 @@ impl Session {
     pub(crate) fn take_over(&mut self, scene: Arc<Scene>, has_other_numbers: bool) -> Result<(), SimError> {
         self.scene = scene;
         if has_other_numbers {
-            self.environment.retune(&self.scene);
+            self.compiled.retune(&self.scene);
             self.impose()?;
-            self.history.change(self.backend.clock().step(), self.environment.clone());
+            self.history.change(self.backend.clock().step(), self.compiled.clone());
             self.target = None;
         }
         Ok(())
@@ -176,7 +176,7 @@ impl Session {
     /// # Errors
     /// More leaves than memory or the device hold; a device that refuses or is lost.
     pub(crate) fn simulator_of(&self, world: &World) -> anyhow::Result<Backend> {
-        let scene = world.environment.scene();
+        let scene = world.compiled.scene();
         check_memory(&scene.name, scene.leaf_count())?;
         Ok(self.device(self.kind()).simulator(world)?)
     }
@@ -194,7 +194,7 @@ impl Session {
         let compares = self.is_comparing();
         self.twin = None;
         self.scene = scene;
-        self.environment = world.environment.clone();
+        self.compiled = world.compiled.clone();
         self.backend = simulator;
         self.begin_again(world);
         self.set_comparing(compares)
@@ -206,7 +206,7 @@ impl Session {
     /// A lost device.
     pub(crate) fn reset(&mut self) -> anyhow::Result<()> {
         let world = World::build(&self.scene)?;
-        self.environment = world.environment.clone();
+        self.compiled = world.compiled.clone();
         self.put_back(&world)?;
         self.begin_again(&world);
         Ok(())

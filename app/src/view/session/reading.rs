@@ -5,7 +5,7 @@
 use std::time::{Duration, Instant};
 
 use windfall_core::leaf::Leaves;
-use windfall_core::{Environment, SimError, Simulator, Stats, World};
+use windfall_core::{CompiledScene, SimError, Simulator, Stats, World};
 
 use super::Session;
 
@@ -31,14 +31,14 @@ impl Session {
     /// # Errors
     /// A lost device.
     pub(crate) fn world(&mut self) -> Result<World, SimError> {
-        let mut world = World::zeroed(self.environment.clone(), self.backend.clock());
+        let mut world = World::zeroed(self.compiled.clone(), self.backend.clock());
         self.backend.read_state(&mut world)?;
         Ok(world)
     }
 
     /// The compiled scene, as it is now.
-    pub(crate) fn environment(&self) -> &Environment {
-        &self.environment
+    pub(crate) fn compiled(&self) -> &CompiledScene {
+        &self.compiled
     }
 
     /// The leaves as they are now, if they need not be brought from a device.

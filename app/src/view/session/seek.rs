@@ -85,12 +85,12 @@ impl Session {
     fn go_back(&mut self, step: u32) -> Result<(), SimError> {
         let Some(world) = self.history.before(step) else { return Ok(()) };
         self.put_back(&world)?;
-        self.adopt(world.environment);
+        self.adopt(world.compiled);
         self.counted = None;
         Ok(())
     }
 
-    /// Steps until another environment holds; as many as there are, if none ever does.
+    /// Steps until another scene holds; as many as there are, if none ever does.
     pub(super) fn steps_to_change(&self) -> u32 {
         let now = self.backend.clock().step();
         self.history.next_change(now).map_or(u32::MAX, |step| step - now)
@@ -100,9 +100,9 @@ impl Session {
     pub(super) fn take_note(&mut self) -> Result<(), SimError> {
         let now = self.backend.clock().step();
         if self.history.changes_at(now)
-            && let Some(environment) = self.history.environment(now).cloned()
+            && let Some(compiled) = self.history.compiled(now).cloned()
         {
-            self.adopt(environment);
+            self.adopt(compiled);
             self.impose()?;
         }
         let is_rested = self.kept.is_none_or(|(since, took)| since.elapsed() >= took * KEEPING_SHARE);
@@ -116,10 +116,10 @@ impl Session {
     }
 
     /// Takes over wind and speeds as they were; the picture stays as it is set now.
-    fn adopt(&mut self, environment: windfall_core::Environment) {
+    fn adopt(&mut self, compiled: windfall_core::CompiledScene) {
         let view = self.scene.view.clone();
-        self.scene = Arc::new(Scene { view, ..environment.scene().clone() });
-        self.environment = environment;
+        self.scene = Arc::new(Scene { view, ..compiled.scene().clone() });
+        self.compiled = compiled;
     }
 
     /// State of the time bar.

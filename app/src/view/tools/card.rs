@@ -10,7 +10,7 @@ use windfall_core::device::motion::feature::feature;
 use windfall_core::device::wind::sample::wind_at;
 use windfall_core::leaf::{LeafMotion, LeafRecords, LeafState, LeafView};
 use windfall_core::motion::Primitive;
-use windfall_core::{Clock, Environment};
+use windfall_core::{Clock, CompiledScene};
 
 use crate::run::digits::grouped;
 
@@ -22,18 +22,18 @@ pub(crate) struct Card {
 }
 
 /// The card of a leaf in `slot`, as it is at `clock`.
-pub(crate) fn card(environment: &Environment, clock: &Clock, slot: u32, records: &LeafRecords) -> Card {
-    let block = environment.step_block(clock);
-    let cx = environment.context(&block);
+pub(crate) fn card(compiled: &CompiledScene, clock: &Clock, slot: u32, records: &LeafRecords) -> Card {
+    let block = compiled.step_block(clock);
+    let cx = compiled.context(&block);
     let leaf = LeafView::new(&cx, records);
-    let described = environment.scene().species.get(leaf.species);
+    let described = compiled.scene().species.get(leaf.species);
     let name = described.map_or("leaf", |species| species.name.as_str());
 
     let mut rows = vec![("leaf", format!("{}, slot {}", grouped(leaf.id), grouped(slot)))];
     rows.push(("state", doing(&leaf)));
     let level = leaf.velocity.x.hypot(leaf.velocity.z);
     rows.push(("speed", format!("{:.2} m/s, {level:.2} level", length(leaf.velocity))));
-    let ground = environment.ground_height(leaf.position.x, leaf.position.z);
+    let ground = compiled.ground_height(leaf.position.x, leaf.position.z);
     rows.push(("height", format!("{:.2} m above the ground", leaf.position.y - ground)));
     let is_released = matches!(leaf.state, LeafState::Falling | LeafState::Resting);
     if is_released {
@@ -50,12 +50,12 @@ pub(crate) fn card(environment: &Environment, clock: &Clock, slot: u32, records:
             FlightMotion { velocity: leaf.velocity, pose: leaf.attitude, turning: spin * body.size_ratio };
         let push = flight_rates(&cx, &body, &motion, wind).velocity;
         // The air's share is all but the weight.
-        let gravity = cx.environment.gravity_m_s2;
+        let gravity = cx.scene.gravity_m_s2;
         let air = Vec3::new(push.x, push.y + gravity, push.z) * (1.0 / gravity);
         rows.push(("air", format!("{:.2} weights, {:.2} of them upwards", length(air), air.y)));
         rows.push(("spin", format!("{:.1} rad/s", length(spin))));
     } else if is_released {
-        rows.push(("feature", feature_text(environment, leaf.species, leaf.id, leaf.stage as usize)));
+        rows.push(("feature", feature_text(compiled, leaf.species, leaf.id, leaf.stage as usize)));
     }
     Card { title: name.to_owned(), rows }
 }
@@ -80,8 +80,8 @@ fn doing(leaf: &LeafView) -> String {
 }
 
 /// The stages of a fall with their shares; the present one in brackets.
-fn feature_text(environment: &Environment, species: usize, id: u32, present: usize) -> String {
-    let block = environment.block();
+fn feature_text(compiled: &CompiledScene, species: usize, id: u32, present: usize) -> String {
+    let block = compiled.block();
     let Some(species) = block.species.get(species) else { return String::new() };
     let stages = feature(species, block.seed, id);
     let texts = stages.iter().enumerate().map(|(index, stage)| {
@@ -113,7 +113,7 @@ mod tests {
         (0..world.leaves.len())
             .map(|slot| {
                 let records = world.leaves.records(slot);
-                card(&world.environment, &world.clock, u32::try_from(slot).expect("few"), &records)
+                card(&world.compiled, &world.clock, u32::try_from(slot).expect("few"), &records)
             })
             .collect()
     }

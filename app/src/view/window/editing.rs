@@ -5,7 +5,7 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use windfall_core::{Environment, Scene, World};
+use windfall_core::{CompiledScene, Scene, World};
 use windfall_render::camera::Camera;
 use windfall_render::trees::SceneTrees;
 use windfall_render::{RenderScene, Renderer, RendererOptions};
@@ -162,17 +162,17 @@ impl Viewer {
         }
         let world = if change.world { Some(World::build(&scene)?) } else { None };
         let simulator = world.as_ref().map(|world| self.session.simulator_of(world)).transpose()?;
-        let environment = world.as_ref().map_or(self.session.environment(), |world| &world.environment);
+        let compiled = world.as_ref().map_or(self.session.compiled(), |world| &world.compiled);
         if change.picture {
             let (format, size) = (self.screen.format(), self.renderer.size());
-            self.renderer = renderer_of(&self.gpu, environment, &scene, format, size)?;
+            self.renderer = renderer_of(&self.gpu, compiled, &scene, format, size)?;
         } else if change.view {
             self.renderer.update_scene_view(&scene.view)?;
         } else if change.lens {
             self.renderer.set_lens(scene.view.lens);
         }
         if scene.leaf_count() != before.leaf_count() && !change.picture {
-            let stand = SceneTrees::of(&scene, environment.forest());
+            let stand = SceneTrees::of(&scene, compiled.forest());
             self.renderer.update_leaves(&stand, scene.leaf_count());
         }
         match (world, simulator) {
@@ -198,16 +198,16 @@ impl Viewer {
     }
 }
 
-/// A renderer of a scene whose trees stand as in `environment`.
+/// A renderer of a scene whose trees stand as in `compiled`.
 pub(super) fn renderer_of(
     gpu: &Gpu,
-    environment: &Environment,
+    compiled: &CompiledScene,
     scene: &Scene,
     format: wgpu::TextureFormat,
     size: (u32, u32),
 ) -> anyhow::Result<Renderer> {
     let atlas = leaves::atlas_of(scene, &making_leaves())?;
-    let stand = SceneTrees::of(scene, environment.forest());
+    let stand = SceneTrees::of(scene, compiled.forest());
     let subject = RenderScene { scene, trees: &stand, atlas: &atlas };
     let options = RendererOptions::for_scene(scene);
     Ok(Renderer::new(gpu.device(), gpu.queue(), subject, format, size, options)?)

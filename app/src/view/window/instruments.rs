@@ -144,7 +144,7 @@ impl Viewer {
         // The records may be a frame old: the card is of their own step.
         let clock = self.session.simulator().clock();
         let clock = windfall_core::Clock::at(selection.latest.step, clock.dt_s(), clock.wind_travel_m());
-        Some(card(self.session.environment(), &clock, selection.slot, &selection.latest.leaf))
+        Some(card(self.session.compiled(), &clock, selection.slot, &selection.latest.leaf))
     }
 
     /// Track of the leaf that is followed.
@@ -159,7 +159,7 @@ impl Viewer {
             return Vec::new();
         }
         let clock = self.session.simulator().clock();
-        wind_slice(self.session.environment(), &clock, &self.camera, overlays.wind_height_m)
+        wind_slice(self.session.compiled(), &clock, &self.camera, overlays.wind_height_m)
     }
 
     /// Speed in m/s at the light end of the arrows' colours.

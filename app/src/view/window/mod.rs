@@ -111,7 +111,7 @@ impl Viewer {
             Drawing::choose(&options.backend, &instance, Some(&surface))?;
         let screen = Screen::new(Arc::clone(&window), surface, &adapter, &gpu)?;
         let session = Session::new(scene.clone(), world, &device, gpu.clone())?;
-        let renderer = renderer_of(&gpu, &world.environment, scene, screen.format(), screen.size())?;
+        let renderer = renderer_of(&gpu, &world.compiled, scene, screen.format(), screen.size())?;
         let gui = Gui::new(&window, &gpu, screen.format());
         gpu.check()?;
         if let Some(reason) = reason {

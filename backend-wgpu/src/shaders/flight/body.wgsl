@@ -28,7 +28,7 @@ struct LeafBody {
 }
 
 fn body_of(bits: u32, size: u32) -> LeafBody {
-    let block = environment.bodies[leaf_species(bits)];
+    let block = scene.bodies[leaf_species(bits)];
 
     let ratio = size_ratio(size);
     let inv_size_ratio = reciprocal(ratio);

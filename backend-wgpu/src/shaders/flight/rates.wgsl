@@ -85,7 +85,7 @@ fn flight_rates(body: LeafBody, motion: FlightMotion, wind: vec3<f32>) -> Flight
         torque.z * body.inv_inertia.z + body.gyration.z * (turn.x * turn.y),
     );
 
-    let weight = environment.gravity_m_s2;
+    let weight = scene.gravity_m_s2;
     let size = body.inv_size_ratio;
     let frame_accel = (turn.z * u.x - turn.x * u.z) * size;
     let centroid_accel = body.centroid.x * angular_accel.z - body.centroid.z * angular_accel.x;

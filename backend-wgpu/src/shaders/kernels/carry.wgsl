@@ -11,7 +11,7 @@ fn carrier_row(column: u32, row: u32) -> vec4<f32> {
 @compute @workgroup_size(WORKGROUP_SIZE)
 fn carry(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>) {
     let first = carry_block.first_slot;
-    let count = min(arrayLength(&places), environment.tree_leaf_count - first);
+    let count = min(arrayLength(&places), scene.tree_leaf_count - first);
     for (var leaf = id.x; leaf < count; leaf += groups.x * WORKGROUP_SIZE) {
         let slot = first + leaf;
         let petiole = petiole_of(slot);

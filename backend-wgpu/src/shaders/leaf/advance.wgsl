@@ -17,7 +17,7 @@ fn leaf_has_event(leaf: u32) -> bool {
 fn leaf_is_settling(leaf: u32) -> bool {
     let drift = drifts[leaf];
     let slides = ((bitcast<u32>(drift.velocity.x) | bitcast<u32>(drift.velocity.z)) << 1u) != 0u;
-    return ground_steps(drift.phase) < environment.settle_steps || slides;
+    return ground_steps(drift.phase) < scene.settle_steps || slides;
 }
 
 fn leaf_advance_plain(leaf: u32) -> bool {
@@ -40,14 +40,14 @@ fn leaf_advance_event(leaf: u32) {
     let now = step_block.index;
     let identity = identities[leaf];
     let source = leaf_source(identity.appearance);
-    let lifetime = environment.sources[source].lifetime_steps;
+    let lifetime = scene.sources[source].lifetime_steps;
     let state = leaf_state(places[leaf].bits);
     if (state == STATE_ATTACHED) {
         leaf_detach(leaf, now);
     } else if (state == STATE_DORMANT) {
         leaf_release(leaf, identity.id, source, now);
     } else if (source != SOURCE_TREES && lifetime != 0u && now - identity.release >= lifetime) {
-        leaf_release(leaf, identity.id + environment.ids_per_life, source, now);
+        leaf_release(leaf, identity.id + scene.ids_per_life, source, now);
     }
     let bits = places[leaf].bits;
     if (leaf_state(bits) == STATE_FALLING && !flies(bits)) {

@@ -34,17 +34,17 @@ fn shed_chance(facts: u32, speed: f32) -> u32 {
     let strength = (facts >> PETIOLE_CLASS_SHIFT) & PETIOLE_CLASS_MASK;
     let level = min(bitcast<u32>(i32(floor(speed))), SHED_SPEEDS - 1u);
     let index = (kind * SHED_CLASSES + strength) * SHED_SPEEDS + level;
-    return tables[environment.first_shed_row + (index >> 2u)][index & 3u];
+    return tables[scene.first_shed_row + (index >> 2u)][index & 3u];
 }
 
 fn leaf_hang(air_speed: f32, slot: u32, petiole: Petiole, segment: Body) -> Hang {
     let still = quat_multiply(segment.pose, petiole.rest);
     let tip = quat_rotate(still, vec3<f32>(0.0, 0.0, 1.0));
     let side = quat_rotate(still, vec3<f32>(1.0, 0.0, 0.0));
-    let wind = vec3<f32>(environment.wind.direction_x, 0.0, environment.wind.direction_z);
+    let wind = vec3<f32>(scene.wind.direction_x, 0.0, scene.wind.direction_z);
     let share = air_speed * reciprocal(air_speed + LEAN_SPEED);
     let unrest = share * share;
-    let rate = environment.flutter_per_step;
+    let rate = scene.flutter_per_step;
     let own_rate = rate + (rate >> 5u) * (slot & 15u);
     let phase = own_rate * step_block.index + slot * 0x9e3779b9u;
     let roll = sin_cos_turns(phase).x;
@@ -62,7 +62,7 @@ fn leaf_size_on_twig(size: u32, facts: u32) -> u32 {
 }
 
 fn petiole_of(slot: u32) -> Petiole {
-    let first = environment.first_petiole_row + slot * PETIOLE_ROWS;
+    let first = scene.first_petiole_row + slot * PETIOLE_ROWS;
     let at = tables[first];
     return Petiole(
         bitcast<vec3<f32>>(at.xyz),
@@ -74,7 +74,7 @@ fn petiole_of(slot: u32) -> Petiole {
 
 fn leaf_return(leaf: u32, facts: u32) -> u32 {
     let is_back = leaf_state(places[leaf].bits) == STATE_RESTING
-        && environment.sources[SOURCE_TREES].lifetime_steps != 0u
+        && scene.sources[SOURCE_TREES].lifetime_steps != 0u
         && step_block.index >= schedules[leaf].event;
     if (!is_back) {
         return 0u;
@@ -101,7 +101,7 @@ fn leaf_sample_air(air_speed: f32, slot: u32, petiole: Petiole, segment: Body) -
     let squared = vec3_dot(relative, relative);
     let speed = squared * inverse_sqrt(max(squared, TINY_SQUARED));
     let counter = vec4<u32>(slot, STREAM_SHED, step_block.index, 0u);
-    let breaks = philox(environment.seed, counter).x < shed_chance(petiole.facts, speed);
+    let breaks = philox(scene.seed, counter).x < shed_chance(petiole.facts, speed);
     return AirSample(air_speed + (speed - air_speed) * AIR_SPEED_SMOOTHING, breaks);
 }
 

@@ -31,7 +31,7 @@ struct Turned {
 }
 
 fn response_of(bits: u32) -> ResponseBlock {
-    return environment.responses[leaf_species(bits)];
+    return scene.responses[leaf_species(bits)];
 }
 
 fn glide_of(place: Place, drift: Drift) -> Glide {
@@ -45,7 +45,7 @@ fn glide_part(glide: Glide, bits: u32, params: MotionParams, wind: vec3<f32>, pa
     let before = glide.drift - wind;
     let after = before * part.decay;
     let spent = on_grid(before * part.tau) - on_grid(after * part.tau);
-    let carried = wind * ((f32(part.length) * STEP_UNIT) * environment.dt_s);
+    let carried = wind * ((f32(part.length) * STEP_UNIT) * scene.dt_s);
     return Glide(glide.position + ((own + spent) + carried), wind + after, end);
 }
 

@@ -25,7 +25,7 @@ struct Regime {
 }
 
 fn flight_load(bits: u32, relative: vec3<f32>, spin: vec3<f32>) -> f32 {
-    let block = environment.bodies[leaf_species(bits)];
+    let block = scene.bodies[leaf_species(bits)];
     let squared = max(vec3_dot(relative, relative), TINY_SQUARED);
     let turned = max(vec3_dot(spin, spin), TINY_SQUARED);
     return block.load_per_speed * (squared * inverse_sqrt(squared)) + block.load_per_spin * (turned * inverse_sqrt(turned));
@@ -38,7 +38,7 @@ fn flight_advance(flight: Flight, bits: u32, size: u32, wind: vec3<f32>) -> Flig
     let substeps = substep_count(load);
     let clamped = select(1.0, MAX_SUBSTEPS * reciprocal(load), MAX_SUBSTEPS < load);
     let air = flight.velocity - relative * clamped;
-    let time = substeps.share * environment.dt_s;
+    let time = substeps.share * scene.dt_s;
     var position = flight.position;
     var motion = FlightMotion(flight.velocity, flight.pose, flight.spin * (body.size_ratio * clamped));
     for (var done = 0.0; done < substeps.count; done += 1.0) {
@@ -53,9 +53,9 @@ fn update_regime(flight: Flight, wind: vec3<f32>, state: u32, bits: u32) -> Regi
     let path = flight.velocity - wind;
     let flow = quat_rotate_back(flight.pose, path);
     let now = step_block.index;
-    let rate = environment.ticks_per_step_q16;
+    let rate = scene.ticks_per_step_q16;
     let ticks = mul_q16(now + 1u, rate) - mul_q16(now, rate);
-    let idle_timeout = u32(environment.bodies[leaf_species(bits)].idle_timeout_ticks);
+    let idle_timeout = u32(scene.bodies[leaf_species(bits)].idle_timeout_ticks);
     let next = regime_after(state, flow, flight.spin, path, ticks, idle_timeout);
     return Regime(next, with_regime(bits, regime_of(next)));
 }

@@ -13,7 +13,7 @@
 #import wind/sample
 
 fn leaf_join(leaf: u32, glide: Glide) -> Glide {
-    let seed = environment.seed;
+    let seed = scene.seed;
     let identity = identities[leaf];
     let id = identity.id;
     let old_bits = places[leaf].bits;
@@ -33,14 +33,14 @@ fn leaf_join(leaf: u32, glide: Glide) -> Glide {
         heading_word(words.z >> 16u, old.heading),
     );
     schedules[leaf] = schedule;
-    let bits = with_blend(with_primitive(old_bits, primitive), environment.blend_steps);
+    let bits = with_blend(with_primitive(old_bits, primitive), scene.blend_steps);
     places[leaf].bits = bits;
     let after = own_velocity(bits, words.y, motion_params(schedule));
     return Glide(glide.position, glide.drift + (before - after), words.y);
 }
 
 fn part_of_step(response: ResponseBlock, length: u32) -> Part {
-    let elapsed = (f32(length) * STEP_UNIT) * environment.dt_s;
+    let elapsed = (f32(length) * STEP_UNIT) * scene.dt_s;
     let decay = exponential((0.0 - elapsed) * response.inv_time_constant);
     return Part(length, decay, response.time_constant_s);
 }
@@ -50,7 +50,7 @@ fn leaf_fall_joining(leaf: u32) {
     let start = place.position;
     let response = response_of(place.bits);
     let wind = wind_at(start);
-    let seed = environment.seed;
+    let seed = scene.seed;
     var glide = glide_of(place, drifts[leaf]);
     var done = 0u;
     for (var join = 1u; join < STAGE_COUNT; join++) {

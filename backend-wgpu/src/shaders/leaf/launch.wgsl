@@ -24,12 +24,12 @@ fn random_pose(words: vec4<u32>) -> vec4<f32> {
 }
 
 fn hold_pose(species: u32, id: u32) -> vec4<f32> {
-    let words = random(environment.seed, id, STREAM_HOLD);
-    if (environment.bodies[species].hold_kind == HOLD_RANDOM) {
+    let words = random(scene.seed, id, STREAM_HOLD);
+    if (scene.bodies[species].hold_kind == HOLD_RANDOM) {
         return random_pose(words);
     }
-    let spread = (bitcast<i32>(environment.bodies[species].hold_spread) * (triangular(words.x) >> 4u)) >> 12u;
-    let tilt = bitcast<u32>(bitcast<i32>(environment.bodies[species].hold_tilt) + spread);
+    let spread = (bitcast<i32>(scene.bodies[species].hold_spread) * (triangular(words.x) >> 4u)) >> 12u;
+    let tilt = bitcast<u32>(bitcast<i32>(scene.bodies[species].hold_tilt) + spread);
     let half = sin_cos_turns((tilt << 16u) >> 1u);
     let tilted = quat_multiply(vec4<f32>(half.x, 0.0, 0.0, half.y), turn_about_y(words.y));
     return quat_multiply(turn_about_y(words.z), tilted);
@@ -43,7 +43,7 @@ fn leaf_hold(leaf: u32, id: u32) {
 }
 
 fn random_asymmetry(id: u32) -> u32 {
-    return random(environment.seed, id, STREAM_ASYMMETRY).x & HALF_MASK;
+    return random(scene.seed, id, STREAM_ASYMMETRY).x & HALF_MASK;
 }
 
 fn leaf_launch(leaf: u32, id: u32) {

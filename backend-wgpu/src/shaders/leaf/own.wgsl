@@ -28,11 +28,11 @@ fn turn_to_heading(v: vec3<f32>, angle: u32) -> vec3<f32> {
 }
 
 fn own_scale(params: MotionParams) -> f32 {
-    return size_ratio(params.size) * environment.displacement_gain;
+    return size_ratio(params.size) * scene.displacement_gain;
 }
 
 fn own_rate(rate: u32) -> u32 {
-    let speed = environment.rotation_speed_q16;
+    let speed = scene.rotation_speed_q16;
     if (speed == WHOLE_STEP) {
         return rate;
     }
@@ -42,7 +42,7 @@ fn own_rate(rate: u32) -> u32 {
 // The sum with the anchor is held in an integer, changed by a zero that shader compilers cannot know of: they might take
 // the anchor away from where it was just added and leave nothing of the rounding.
 fn on_grid(v: vec3<f32>) -> vec3<f32> {
-    let zero = environment.zero;
+    let zero = scene.zero;
     return vec3<f32>(
         bitcast<f32>(bitcast<u32>(v.x + GRID_ANCHOR) | zero) - GRID_ANCHOR,
         bitcast<f32>(bitcast<u32>(v.y + GRID_ANCHOR) | zero) - GRID_ANCHOR,
@@ -72,7 +72,7 @@ fn own_velocity(bits: u32, phase: u32, params: MotionParams) -> vec3<f32> {
     let local = motion_velocity(motion_table(bits), phase);
     let rate = own_rate(params.rate);
     let rounded = f32(rate >> 16u) * 65536.0 + f32(rate & HALF_MASK);
-    let periods_per_s = (rounded * PHASE_UNIT) * environment.inv_dt_s;
+    let periods_per_s = (rounded * PHASE_UNIT) * scene.inv_dt_s;
     return turn_to_heading(local, heading_angle(params.heading)) * (own_scale(params) * periods_per_s);
 }
 

@@ -29,9 +29,9 @@ fn unit_coordinate(word: u32) -> i32 {
 }
 
 fn release_place(source: u32, seed: vec2<u32>, id: u32) -> vec3<i32> {
-    let center = environment.sources[source].center_units;
-    let extent = environment.sources[source].extent_units;
-    let kind = environment.sources[source].kind;
+    let center = scene.sources[source].center_units;
+    let extent = scene.sources[source].extent_units;
+    let kind = scene.sources[source].kind;
     var words = random(seed, id, STREAM_PLACE);
     if (kind == SOURCE_BOX) {
         return vec3<i32>(
@@ -65,7 +65,7 @@ fn release_place(source: u32, seed: vec2<u32>, id: u32) -> vec3<i32> {
 }
 
 fn source_share(source: u32, species: u32) -> u32 {
-    return environment.sources[source].shares[species >> 2u][species & 3u];
+    return scene.sources[source].shares[species >> 2u][species & 3u];
 }
 
 fn release_species(source: u32, word: u32) -> u32 {
@@ -77,8 +77,8 @@ fn release_species(source: u32, word: u32) -> u32 {
 }
 
 fn release_size_speed(species: u32, words: vec4<u32>) -> SizeSpeed {
-    let size_spread = bitcast<i32>(environment.species[species].size_spread_q14);
-    let speed_spread = bitcast<i32>(environment.species[species].speed_spread_q14);
+    let size_spread = bitcast<i32>(scene.species[species].size_spread_q14);
+    let speed_spread = bitcast<i32>(scene.species[species].speed_spread_q14);
     let size = bitcast<i32>(SIZE_ONE) + ((size_spread * triangular(words.y)) >> 16u);
     let speed = bitcast<i32>(SIZE_ONE) + ((speed_spread * triangular(words.z)) >> 16u);
     return SizeSpeed(bitcast<u32>(size), bitcast<u32>(speed));
@@ -89,7 +89,7 @@ fn release_ratio(size_speed: SizeSpeed) -> u32 {
 }
 
 fn species_rate(species: u32, primitive: u32) -> u32 {
-    return environment.species[species].rates[primitive >> 2u][primitive & 3u];
+    return scene.species[species].rates[primitive >> 2u][primitive & 3u];
 }
 
 fn release_rate(species: u32, primitive: u32, ratio_q16: u32) -> u32 {
@@ -98,25 +98,25 @@ fn release_rate(species: u32, primitive: u32, ratio_q16: u32) -> u32 {
 
 fn release_fall_time(species: u32, height: i32, speed: u32) -> u32 {
     let positive = bitcast<u32>(max(height, 0));
-    let per_metre = environment.species[species].fall_steps_q16_per_m;
+    let per_metre = scene.species[species].fall_steps_q16_per_m;
     let nominal = (mul_high(positive, per_metre) << 22u) | ((positive * per_metre) >> 10u);
     return mul_q16(nominal, (1u << 30u) / speed);
 }
 
 fn next_event(id: u32, release: u32, fall_time: u32, stage: u32, source: u32) -> u32 {
-    let lifetime = environment.sources[source].lifetime_steps;
+    let lifetime = scene.sources[source].lifetime_steps;
     // A tree takes its leaves back only from the ground.
     let is_final = lifetime == 0u || source == SOURCE_TREES;
     let recycle = select(release + lifetime, NEVER, is_final);
     if (stage + 1u >= STAGE_COUNT) {
         return recycle;
     }
-    let seed = environment.seed;
+    let seed = scene.seed;
     return min(recycle, release + (stage_end(seed, id, fall_time, stage) >> 16u));
 }
 
 fn leaf_release(leaf: u32, id: u32, source: u32, release: u32) {
-    let seed = environment.seed;
+    let seed = scene.seed;
     let place = release_place(source, seed, id);
     let traits = random(seed, id, STREAM_TRAITS);
     leaf_drop(leaf, id, traits, source, release_species(source, traits.x), place, release);
@@ -134,26 +134,26 @@ fn leaf_drop(
     let size_speed = release_size_speed(species, traits);
     let position =
         vec3<f32>(f32(place.x) * LENGTH_UNIT, f32(place.y) * LENGTH_UNIT, f32(place.z) * LENGTH_UNIT);
-    let ground = (ground_surface(position.x, position.z) + environment.surface_height_m) * 1024.0;
+    let ground = (ground_surface(position.x, position.z) + scene.surface_height_m) * 1024.0;
     identities[leaf].fall_time = release_fall_time(species, place.y - i32(floor(ground)), size_speed.speed);
     identities[leaf].appearance = leaf_appearance(traits.w, traits.x, source);
     schedules[leaf].size = size_speed.size;
     schedules[leaf].heading = heading_word(0u, traits.w >> 16u);
     places[leaf] = Place(position, place_bits(STATE_DORMANT, 0u, 0u, species, 0u));
     drifts[leaf].velocity = vec3<f32>(0.0, 0.0, 0.0);
-    if (environment.species[species].first_motion == AERODYNAMIC) {
+    if (scene.species[species].first_motion == AERODYNAMIC) {
         leaf_hold(leaf, id);
     }
     leaf_set_off(leaf, id, release, size_speed);
 }
 
 fn leaf_set_off(leaf: u32, id: u32, release: u32, size_speed: SizeSpeed) {
-    let seed = environment.seed;
+    let seed = scene.seed;
     let before = places[leaf].bits;
     let source = leaf_source(identities[leaf].appearance);
     let species = leaf_species(before);
     let stage = stage_words(seed, id, 0u);
-    let primitive = environment.species[species].first_motion;
+    let primitive = scene.species[species].first_motion;
     identities[leaf].id = id;
     identities[leaf].release = release;
     identities[leaf].appearance = with_stage(identities[leaf].appearance, 0u);
@@ -177,15 +177,15 @@ fn leaf_set_off(leaf: u32, id: u32, release: u32, size_speed: SizeSpeed) {
 }
 
 fn leaf_detach(leaf: u32, release: u32) {
-    let seed = environment.seed;
-    let id = identities[leaf].id + environment.ids_per_life;
+    let seed = scene.seed;
+    let id = identities[leaf].id + scene.ids_per_life;
     let traits = random(seed, id, STREAM_TRAITS);
     let species = leaf_species(places[leaf].bits);
     let size = own_size(schedules[leaf].size);
     schedules[leaf].size = twig_sizes(size, size);
-    if (environment.species[species].first_motion != AERODYNAMIC) {
+    if (scene.species[species].first_motion != AERODYNAMIC) {
         schedules[leaf].heading = heading_word(0u, traits.w >> 16u);
     }
-    places[leaf].bits = with_blend(places[leaf].bits, environment.blend_steps);
+    places[leaf].bits = with_blend(places[leaf].bits, scene.blend_steps);
     leaf_set_off(leaf, id, release, SizeSpeed(size, release_size_speed(species, traits).speed));
 }

@@ -14,7 +14,7 @@ struct Slide {
 }
 
 fn slide(came: vec3<f32>, seconds: f32, slope: Slope) -> Slide {
-    let pull = (environment.gravity_m_s2 * seconds) * slope.inv_gain;
+    let pull = (scene.gravity_m_s2 * seconds) * slope.inv_gain;
     let velocity = vec3<f32>(came.x - slope.x * pull, came.y, came.z - slope.z * pull);
     if (velocity.x * came.x + velocity.z * came.z < 0.0) {
         return Slide(vec3<f32>(0.0, 0.0, 0.0), vec3<f32>(0.0, 0.0, 0.0));
@@ -25,8 +25,8 @@ fn slide(came: vec3<f32>, seconds: f32, slope: Slope) -> Slide {
     }
     let inverse = inverse_sqrt(squared);
     let speed = squared * inverse;
-    let left = max(speed - (environment.friction_m_s2 * slope.inv_gain) * seconds, 0.0);
-    let stop = squared * (environment.stop_s2_m * slope.gain);
+    let left = max(speed - (scene.friction_m_s2 * slope.inv_gain) * seconds, 0.0);
+    let stop = squared * (scene.stop_s2_m * slope.gain);
     let way = select(stop, (0.5 * seconds) * (speed + left), left > 0.0);
     return Slide(velocity * (way * inverse), velocity * (left * inverse));
 }
@@ -56,9 +56,9 @@ fn leaf_land(leaf: u32, start: vec3<f32>) {
     let way = end - start;
     let hit = start + way * share;
     let slid =
-        slide(way * environment.inv_dt_s, (1.0 - share) * environment.dt_s, ground_slope(hit.x, hit.z));
+        slide(way * scene.inv_dt_s, (1.0 - share) * scene.dt_s, ground_slope(hit.x, hit.z));
     let identity = identities[leaf];
-    let lifetime = environment.sources[leaf_source(identity.appearance)].lifetime_steps;
+    let lifetime = scene.sources[leaf_source(identity.appearance)].lifetime_steps;
     let x = hit.x + slid.way.x;
     let z = hit.z + slid.way.z;
     let position = vec3<f32>(x, ground_rest(x, z), z);
@@ -72,11 +72,11 @@ fn leaf_settle(leaf: u32) {
     let steps = ground_steps(drift.phase);
     let position = places[leaf].position;
     let slides = drift.velocity.x != 0.0 || drift.velocity.z != 0.0;
-    let is_hilly = environment.has_terrain != 0u;
+    let is_hilly = scene.has_terrain != 0u;
     let slope = ground_slope(position.x, position.z);
-    if (steps < environment.settle_steps || (slides && is_hilly)) {
+    if (steps < scene.settle_steps || (slides && is_hilly)) {
         let before = attitudes[leaf].quaternion;
-        let kept = environment.tilt_kept;
+        let kept = scene.tilt_kept;
         if (is_hilly) {
             attitudes[leaf].quaternion = flatten_on(slope, before, kept);
         } else {
@@ -85,7 +85,7 @@ fn leaf_settle(leaf: u32) {
         drifts[leaf].phase = select(steps + 1u, 0u, slides && is_hilly);
     }
     if (slides) {
-        let slid = slide(drift.velocity, environment.dt_s, slope);
+        let slid = slide(drift.velocity, scene.dt_s, slope);
         let x = position.x + slid.way.x;
         let z = position.z + slid.way.z;
         var y = position.y;

@@ -24,7 +24,7 @@ fn stage_end(seed: vec2<u32>, id: u32, fall_q16: u32, stage: u32) -> u32 {
 
 fn transition_count(species: u32, origin: u32, next: u32) -> u32 {
     let index = origin * 6u + next;
-    return environment.species[species].transitions[index >> 2u][index & 3u];
+    return scene.species[species].transitions[index >> 2u][index & 3u];
 }
 
 fn transition_next(species: u32, origin: u32, word: u32) -> u32 {

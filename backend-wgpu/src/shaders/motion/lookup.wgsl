@@ -19,7 +19,7 @@ fn row_of(table: u32, phase: u32) -> u32 {
 }
 
 fn displacement_in(row: u32) -> vec3<f32> {
-    let state = bitcast<vec4<f32>>(tables[environment.first_motion_row + 2u * row]);
+    let state = bitcast<vec4<f32>>(tables[scene.first_motion_row + 2u * row]);
     return vec3<f32>(state.x, state.y, state.z);
 }
 
@@ -36,15 +36,15 @@ fn motion_state(table: u32, phase: u32) -> MotionState {
     let row = row_of(table, phase);
     let t = fraction_of(phase);
     let displacement = vec3_lerp(displacement_in(row), displacement_in(row + 1u), t);
-    let a = bitcast<vec4<f32>>(tables[environment.first_motion_row + 2u * row + 1u]);
-    let b = bitcast<vec4<f32>>(tables[environment.first_motion_row + 2u * row + 3u]);
+    let a = bitcast<vec4<f32>>(tables[scene.first_motion_row + 2u * row + 1u]);
+    let b = bitcast<vec4<f32>>(tables[scene.first_motion_row + 2u * row + 3u]);
     let orientation =
         vec4<f32>(a.x + t * (b.x - a.x), a.y + t * (b.y - a.y), a.z + t * (b.z - a.z), a.w + t * (b.w - a.w));
     return MotionState(displacement, quat_renormalize(orientation));
 }
 
 fn motion_velocity(table: u32, phase: u32) -> vec3<f32> {
-    let first = environment.first_motion_row + environment.species_count * (2u * TABLES_PER_SPECIES * TABLE_ROWS);
+    let first = scene.first_motion_row + scene.species_count * (2u * TABLES_PER_SPECIES * TABLE_ROWS);
     let row = first + row_of(table, phase);
     let a = bitcast<vec4<f32>>(tables[row]);
     let b = bitcast<vec4<f32>>(tables[row + 1u]);

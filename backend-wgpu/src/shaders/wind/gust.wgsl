@@ -6,9 +6,9 @@
 #import wind/row
 
 fn wind_gust(along: f32) -> f32 {
-    let x = along * environment.wind.gust_rows_per_m - step_block.gust_offset;
+    let x = along * scene.wind.gust_rows_per_m - step_block.gust_offset;
     let k = floor(x);
     let index = bitcast<u32>(i32(k)) & (GUST_ROWS - 1u);
-    let row = wind_row(index, environment.wind.first_gust_row);
+    let row = wind_row(index, scene.wind.first_gust_row);
     return row.x + (x - k) * (row.y - row.x);
 }

@@ -8,6 +8,6 @@
 fn wind_profile(height: f32) -> f32 {
     let x = min(max(height * PROFILE_PER_METRE, 0.0), PROFILE_TOP);
     let k = floor(x);
-    let row = wind_row(u32(k), environment.wind.first_profile_row);
+    let row = wind_row(u32(k), scene.wind.first_profile_row);
     return row.x + (x - k) * (row.y - row.x);
 }

@@ -9,17 +9,17 @@
 #import wind/vortex
 
 fn wind_at(place: vec3<f32>) -> vec3<f32> {
-    let direction_x = environment.wind.direction_x;
-    let direction_z = environment.wind.direction_z;
+    let direction_x = scene.wind.direction_x;
+    let direction_z = scene.wind.direction_z;
     let along = place.x * direction_x + place.z * direction_z;
     let across = place.z * direction_x - place.x * direction_z;
-    let height = place.y - environment.ground_height_m;
+    let height = place.y - scene.ground_height_m;
     var above = height;
-    if (environment.has_terrain != 0u) {
+    if (scene.has_terrain != 0u) {
         above = height - ground_relief(place.x, place.z);
     }
-    let mean = (wind_profile(above) * environment.wind.mean_speed_m_s) * (wind_gust(along) * environment.wind.gust_strength + 1.0);
-    let deviation = environment.wind.deviation_m_s;
+    let mean = (wind_profile(above) * scene.wind.mean_speed_m_s) * (wind_gust(along) * scene.wind.gust_strength + 1.0);
+    let deviation = scene.wind.deviation_m_s;
     var turbulence = vec3<f32>(0.0, 0.0, 0.0);
     if (deviation.x != 0.0) {
         turbulence = wind_turbulence(vec3<f32>(along, height, across));

@@ -13,7 +13,7 @@ fn turbulence_index(column: u32, layer: u32) -> u32 {
 }
 
 fn turbulence_face(index: u32, along: f32, up: f32) -> vec2<f32> {
-    let row = tables[environment.wind.first_turbulence_row + index];
+    let row = tables[scene.wind.first_turbulence_row + index];
     let a = turbulence_unpack(row.x);
     let b = turbulence_unpack(row.y);
     let c = turbulence_unpack(row.z);
@@ -29,7 +29,7 @@ fn turbulence_edge(edge: u32, along: f32) -> f32 {
 }
 
 fn turbulence_across(index: u32, t: vec3<f32>) -> f32 {
-    let edges = tables[environment.wind.first_turbulence_row + TURBULENCE_NODES + index];
+    let edges = tables[scene.wind.first_turbulence_row + TURBULENCE_NODES + index];
     let a = turbulence_edge(edges.x, t.x);
     let b = turbulence_edge(edges.y, t.x);
     let c = turbulence_edge(edges.z, t.x);
@@ -40,7 +40,7 @@ fn turbulence_across(index: u32, t: vec3<f32>) -> f32 {
 }
 
 fn wind_turbulence(place: vec3<f32>) -> vec3<f32> {
-    let cells = environment.wind.cells_per_m;
+    let cells = scene.wind.cells_per_m;
     let x = place.x * cells.x - step_block.turbulence_offset;
     let y = place.y * cells.y;
     let z = place.z * cells.z;

@@ -60,7 +60,7 @@ pub struct LeafBody<R: Real = f32> {
 #[inline(always)]
 pub fn body_row<W: Word>(cx: &Context<'_>, bits: W, row: u32) -> [W::Real; 4] {
     let first = leaf_species(bits).times(bits.all(BODY_ROWS));
-    first.plus(first.all(row)).look_up(bytemuck::cast_slice(&cx.environment.bodies))
+    first.plus(first.all(row)).look_up(bytemuck::cast_slice(&cx.scene.bodies))
 }
 
 /// The body of a leaf with these bits and this size word.

@@ -101,7 +101,7 @@ pub fn flight_rates<R: Real>(
     );
 
     // The resistance acts at the centroid: on the body's fall and, if its mass is not centred there, on its turning.
-    let weight = x.all(cx.environment.gravity_m_s2);
+    let weight = x.all(cx.scene.gravity_m_s2);
     let size = body.inv_size_ratio;
     let frame_accel = (turn.z * u.x - turn.x * u.z) * size;
     let centroid_accel = body.centroid.x * angular_accel.z - body.centroid.z * angular_accel.x;

@@ -27,7 +27,7 @@ pub fn leaf_has_event(cx: &Context<'_>, leaf: &LeafMut<'_>) -> bool {
 pub fn leaf_is_settling(cx: &Context<'_>, leaf: &LeafMut<'_>) -> bool {
     let [x, _, z] = leaf.drift.velocity;
     let slides = ((x.to_bits() | z.to_bits()) << 1) != 0;
-    ground_steps(leaf.drift.phase) < cx.environment.settle_steps || slides
+    ground_steps(leaf.drift.phase) < cx.scene.settle_steps || slides
 }
 
 /// One step of a leaf without an event in it: it goes on falling, or lies still. Other leaves are left alone, and those
@@ -49,14 +49,14 @@ pub fn leaf_advance_plain(cx: &Context<'_>, leaf: &mut LeafMut<'_>) -> bool {
 pub fn leaf_advance_event(cx: &Context<'_>, leaf: &mut LeafMut<'_>) {
     let now = cx.step.index;
     let source = leaf_source(leaf.identity.appearance);
-    let lifetime = cx.environment.sources[source as usize].lifetime_steps;
+    let lifetime = cx.scene.sources[source as usize].lifetime_steps;
     let state = leaf_state(leaf.place.bits);
     if state == STATE_ATTACHED {
         leaf_detach(cx, leaf, now);
     } else if state == STATE_DORMANT {
         leaf_release(cx, leaf, leaf.identity.id, source, now);
     } else if source != SOURCE_TREES && lifetime != 0 && now.wrapping_sub(leaf.identity.release) >= lifetime {
-        leaf_release(cx, leaf, leaf.identity.id.wrapping_add(cx.environment.ids_per_life), source, now);
+        leaf_release(cx, leaf, leaf.identity.id.wrapping_add(cx.scene.ids_per_life), source, now);
     }
     if leaf_state(leaf.place.bits) == STATE_FALLING && !flies(leaf.place.bits) {
         leaf_fall_joining(cx, leaf);

@@ -5,7 +5,7 @@
 //! A leaf on its twig: it goes where the branch goes, leans and flutters in the wind, and its petiole breaks.
 //!
 //! Its break is drawn afresh every few steps: a random word against the chance that its strength, the season and the
-//! speed of the air leave it (see `environment/foliage.rs`). The load of its own inertia is left out: at the few m/s²
+//! speed of the air leave it (see `compile/foliage.rs`). The load of its own inertia is left out: at the few m/s²
 //! of a swaying twig a leaf of half a gram pulls with some thousandths of a newton, a tenth of what the wind does.
 
 use super::record::{
@@ -101,7 +101,7 @@ pub fn shed_chance<W: Word>(cx: &Context<'_>, facts: W, speed: W::Real) -> W {
     let level = whole.less_than(most).select(whole, most);
     let of_kind = kind.times(facts.all(SHED_CLASSES)).plus(strength);
     let index = of_kind.times(facts.all(SHED_SPEEDS)).plus(level);
-    let rows = &cx.tables[cx.environment.first_shed_row as usize..];
+    let rows = &cx.tables[cx.scene.first_shed_row as usize..];
     let [a, b, c, d] = (index >> 2).look_up_words(bytemuck::cast_slice(rows));
     let low = (index & 1).equals(0).select(a, b);
     let high = (index & 1).equals(0).select(c, d);
@@ -132,11 +132,11 @@ pub fn leaf_hang<W: Word>(
     let still = quat_multiply(segment.pose, stalk.rest);
     let tip = quat_rotate(still, along);
     let side = quat_rotate(still, Vec3::new(1.0, 0.0, 0.0).spread(air_speed));
-    let mean = &cx.environment.wind;
+    let mean = &cx.scene.wind;
     let wind = Vec3::new(mean.direction_x, 0.0, mean.direction_z).spread(air_speed);
     let share = air_speed * reciprocal(air_speed + LEAN_SPEED);
     let unrest = share * share;
-    let rate = cx.environment.flutter_per_step;
+    let rate = cx.scene.flutter_per_step;
     let own_rate = slot.all(rate).plus(slot.all(rate >> 5).times(slot & 15));
     let phase = own_rate.times(slot.all(cx.step.index)).plus(slot.times(slot.all(0x9E37_79B9)));
     let (roll, _) = sin_cos_turns(phase);
@@ -162,7 +162,7 @@ pub fn leaf_size_on_twig(size: u32, facts: u32) -> u32 {
 
 /// The petiole of a tree's slot.
 pub fn petiole_of(cx: &Context<'_>, slot: u32) -> Petiole {
-    let first = (cx.environment.first_petiole_row + slot * PETIOLE_ROWS) as usize;
+    let first = (cx.scene.first_petiole_row + slot * PETIOLE_ROWS) as usize;
     let rows: &[Uint4; PETIOLE_ROWS as usize] = cx.tables[first..].first_chunk().expect("a slot of a tree");
     bytemuck::cast(*rows)
 }
@@ -172,7 +172,7 @@ pub fn petiole_of(cx: &Context<'_>, slot: u32) -> Petiole {
 #[inline(always)]
 pub fn leaf_return(cx: &Context<'_>, leaf: &mut CarriedLeaf<'_>, facts: u32) -> u32 {
     let is_back = leaf_state(leaf.place.bits) == STATE_RESTING
-        && cx.environment.sources[SOURCE_TREES as usize].lifetime_steps != 0
+        && cx.scene.sources[SOURCE_TREES as usize].lifetime_steps != 0
         && cx.step.index >= leaf.schedule.event;
     if !is_back {
         return 0;
@@ -210,7 +210,7 @@ pub fn leaf_sample_air<W: Word>(
     let relative = wind_at(cx, segment.base + arm) - velocity;
     let squared = vec3_dot(relative, relative);
     let speed = squared * inverse_sqrt(squared.max(squared.all(TINY_SQUARED)));
-    let seed = cx.environment.seed;
+    let seed = cx.scene.seed;
     let counter = [slot, slot.all(STREAM_SHED), slot.all(cx.step.index), slot.all(0)];
     let breaks = philox(seed, counter)[0].less_than(shed_chance(cx, stalk.facts, speed));
     (air_speed + (speed - air_speed) * AIR_SPEED_SMOOTHING, breaks)

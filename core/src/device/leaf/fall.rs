@@ -66,7 +66,7 @@ pub struct Response<R: Real = f32> {
 /// Response of the species of a leaf with these bits.
 #[inline(always)]
 pub fn response_of<W: Word>(cx: &Context<'_>, bits: W) -> Response<W::Real> {
-    let responses: &[ResponseBlock] = &cx.environment.responses;
+    let responses: &[ResponseBlock] = &cx.scene.responses;
     let [drift_kept, fastest_spin, time_constant_s, inv_time_constant] =
         leaf_species(bits).look_up(bytemuck::must_cast_slice(responses));
     Response { drift_kept, fastest_spin, time_constant_s, inv_time_constant }
@@ -94,7 +94,7 @@ pub fn glide_part<R: Real>(
     let before = glide.drift - wind;
     let after = before * part.decay;
     let spent = on_grid(before * part.tau) - on_grid(after * part.tau);
-    let carried = wind * wind.x.all((part.length as f32 * STEP_UNIT) * cx.environment.dt_s);
+    let carried = wind * wind.x.all((part.length as f32 * STEP_UNIT) * cx.scene.dt_s);
     Glide { position: glide.position + ((own + spent) + carried), drift: wind + after, phase: end }
 }
 

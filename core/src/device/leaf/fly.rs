@@ -62,7 +62,7 @@ pub fn flight_advance<R: Real>(
     let clamped = most.less_than(load).select_real(most * reciprocal(load), load.all(1.0));
     let wind = flight.velocity - relative * clamped;
     let turning = flight.spin * (body.size_ratio * clamped);
-    let time = substeps.share * cx.environment.dt_s;
+    let time = substeps.share * cx.scene.dt_s;
     let mut position = flight.position;
     let mut motion = FlightMotion { velocity: flight.velocity, pose: flight.pose, turning };
     let mut done = time.all(0.0);
@@ -114,7 +114,7 @@ pub fn update_regime<R: Real>(
     let path = flight.velocity - wind;
     let flow = quat_rotate_back(flight.pose, path);
     let now = cx.step.index;
-    let rate = cx.environment.ticks_per_step_q16;
+    let rate = cx.scene.ticks_per_step_q16;
     let ticks = mul_q16(now.wrapping_add(1), rate).wrapping_sub(mul_q16(now, rate));
     let [_, _, idle_timeout, _] = body_row(cx, bits, BODY_LOAD_ROW);
     let next = regime_after(state, flow, flight.spin, path, ticks, idle_timeout.to_whole());

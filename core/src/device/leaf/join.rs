@@ -28,14 +28,14 @@ use crate::leaf::LeafMut;
 /// Ends the current stage: draws the next motion and hands the difference of velocities to the drift.
 #[inline(always)]
 pub fn leaf_join(cx: &Context<'_>, leaf: &mut LeafMut<'_>, glide: Glide) -> Glide {
-    let seed = cx.environment.seed;
+    let seed = cx.scene.seed;
     let identity = *leaf.identity;
     let id = identity.id;
     let old_bits = leaf.place.bits;
     let old = *leaf.schedule;
     let before = own_velocity(cx, old_bits, glide.phase, motion_params(old));
     let stage = leaf_stage(identity.appearance) + 1;
-    let species = &cx.environment.species[leaf_species(old_bits) as usize];
+    let species = &cx.scene.species[leaf_species(old_bits) as usize];
     let words = stage_words(seed, id, stage);
     let primitive = transition_next(species, leaf_primitive(old_bits), words[0]);
     let ratio = release_ratio(release_size_speed(species, random(seed, id, STREAM_TRAITS)));
@@ -49,7 +49,7 @@ pub fn leaf_join(cx: &Context<'_>, leaf: &mut LeafMut<'_>, glide: Glide) -> Glid
         heading: heading_word(words[2] >> 16, old.heading),
     };
     *leaf.schedule = schedule;
-    let bits = with_blend(with_primitive(old_bits, primitive), cx.environment.blend_steps);
+    let bits = with_blend(with_primitive(old_bits, primitive), cx.scene.blend_steps);
     leaf.place.bits = bits;
     let after = own_velocity(cx, bits, words[1], motion_params(schedule));
     Glide { position: glide.position, drift: glide.drift + (before - after), phase: words[1] }
@@ -58,7 +58,7 @@ pub fn leaf_join(cx: &Context<'_>, leaf: &mut LeafMut<'_>, glide: Glide) -> Glid
 /// Part of a step of any length, for a species of that response.
 #[inline(always)]
 pub fn part_of_step(cx: &Context<'_>, response: Response, length: u32) -> Part {
-    let elapsed = (length as f32 * STEP_UNIT) * cx.environment.dt_s;
+    let elapsed = (length as f32 * STEP_UNIT) * cx.scene.dt_s;
     let decay = exponential((0.0 - elapsed) * response.inv_time_constant);
     Part { length, decay, tau: response.time_constant_s }
 }
@@ -69,7 +69,7 @@ pub fn leaf_fall_joining(cx: &Context<'_>, leaf: &mut LeafMut<'_>) {
     let start = Vec3::from(leaf.place.position);
     let response = response_of(cx, leaf.place.bits);
     let wind = wind_at(cx, start);
-    let seed = cx.environment.seed;
+    let seed = cx.scene.seed;
     let mut glide = glide_of(leaf.place, leaf.drift);
     let mut done = 0;
     for _ in 1..STAGE_COUNT {

@@ -45,9 +45,9 @@ pub fn random_pose(words: [u32; 4]) -> Quat {
 /// Pose of body `id` of a species before its release.
 #[inline(always)]
 pub fn hold_pose(cx: &Context<'_>, species: u32, id: u32) -> Quat {
-    let seed = cx.environment.seed;
+    let seed = cx.scene.seed;
     let words = random(seed, id, STREAM_HOLD);
-    let body = &cx.environment.bodies[species as usize];
+    let body = &cx.scene.bodies[species as usize];
     if body.hold_kind == HOLD_RANDOM {
         return random_pose(words);
     }
@@ -70,7 +70,7 @@ pub fn leaf_hold(cx: &Context<'_>, leaf: &mut LeafMut<'_>, id: u32) {
 /// Asymmetries of body `id`: four of four bits.
 #[inline(always)]
 pub fn random_asymmetry(cx: &Context<'_>, id: u32) -> u32 {
-    random(cx.environment.seed, id, STREAM_ASYMMETRY)[0] & HALF_MASK
+    random(cx.scene.seed, id, STREAM_ASYMMETRY)[0] & HALF_MASK
 }
 
 /// Gives a leaf that takes wing its asymmetries, and a regime without events.

@@ -46,13 +46,13 @@ pub fn turn_to_heading<W: Word>(v: Vec3<W::Real>, angle: W) -> Vec3<W::Real> {
 /// Metres that a leaf moves per metre of its table.
 #[inline(always)]
 pub fn own_scale<W: Word>(cx: &Context<'_>, params: MotionParams<W>) -> W::Real {
-    size_ratio(params.size) * cx.environment.displacement_gain
+    size_ratio(params.size) * cx.scene.displacement_gain
 }
 
 /// Phase per step with the scene's rotation speed.
 #[inline(always)]
 pub fn own_rate<W: Word>(cx: &Context<'_>, rate: W) -> W {
-    let speed = cx.environment.rotation_speed_q16;
+    let speed = cx.scene.rotation_speed_q16;
     if speed == WHOLE_STEP { rate } else { mul_q16(rate, rate.all(speed)) }
 }
 
@@ -108,7 +108,7 @@ pub fn own_velocity(cx: &Context<'_>, bits: u32, phase: u32, params: MotionParam
     let rate = own_rate(cx, params.rate);
     // In halves, which floats hold exactly.
     let rounded = (rate >> 16) as f32 * 65536.0 + (rate & HALF_MASK) as f32;
-    let periods_per_s = (rounded * PHASE_UNIT) * cx.environment.inv_dt_s;
+    let periods_per_s = (rounded * PHASE_UNIT) * cx.scene.inv_dt_s;
     turn_to_heading(local, heading_angle(params.heading)) * (own_scale(cx, params) * periods_per_s)
 }
 

@@ -145,22 +145,22 @@ pub fn release_fall_time(species: &SpeciesBlock, height: i32, speed: u32) -> u32
 /// The step of the next event of a leaf in `stage`: the stage's end or the slot's next release.
 #[inline(always)]
 pub fn next_event(cx: &Context<'_>, id: u32, release: u32, fall_time: u32, stage: u32, source: u32) -> u32 {
-    let lifetime = cx.environment.sources[source as usize].lifetime_steps;
+    let lifetime = cx.scene.sources[source as usize].lifetime_steps;
     // A tree takes its leaves back only from the ground.
     let is_final = lifetime == 0 || source == SOURCE_TREES;
     let recycle = if is_final { NEVER } else { release.wrapping_add(lifetime) };
     if stage + 1 >= STAGE_COUNT {
         return recycle;
     }
-    let seed = cx.environment.seed;
+    let seed = cx.scene.seed;
     recycle.min(release.wrapping_add(stage_end(seed, id, fall_time, stage) >> 16))
 }
 
 /// Lets leaf `id` go from `source` at step `release`: at rest, in the first primitive motion of its species.
 #[inline(always)]
 pub fn leaf_release(cx: &Context<'_>, leaf: &mut LeafMut<'_>, id: u32, source: u32, release: u32) {
-    let seed = cx.environment.seed;
-    let from = &cx.environment.sources[source as usize];
+    let seed = cx.scene.seed;
+    let from = &cx.scene.sources[source as usize];
     let place = release_place(from, seed, id);
     let traits = random(seed, id, STREAM_TRAITS);
     leaf_drop(cx, leaf, id, traits, source, release_species(from, traits[0]), place, release);
@@ -183,11 +183,11 @@ pub fn leaf_drop(
     place: [i32; 3],
     release: u32,
 ) {
-    let species = &cx.environment.species[species_index as usize];
+    let species = &cx.scene.species[species_index as usize];
     let size_speed = release_size_speed(species, traits);
     let position =
         [place[0] as f32 * LENGTH_UNIT, place[1] as f32 * LENGTH_UNIT, place[2] as f32 * LENGTH_UNIT];
-    let ground = (ground_surface(cx, position[0], position[2]) + cx.environment.surface_height_m) * 1024.0;
+    let ground = (ground_surface(cx, position[0], position[2]) + cx.scene.surface_height_m) * 1024.0;
     leaf.identity.fall_time = release_fall_time(species, place[1] - ground.floor() as i32, size_speed.speed);
     leaf.identity.appearance = leaf_appearance(traits[3], traits[0], source);
     leaf.schedule.size = size_speed.size;
@@ -203,11 +203,11 @@ pub fn leaf_drop(
 /// Begins the first stage of a leaf's fall, or its flight. It sets off with the velocity in its drift.
 #[inline(always)]
 pub fn leaf_set_off(cx: &Context<'_>, leaf: &mut LeafMut<'_>, id: u32, release: u32, size_speed: SizeSpeed) {
-    let seed = cx.environment.seed;
+    let seed = cx.scene.seed;
     let before = leaf.place.bits;
     let source = leaf_source(leaf.identity.appearance);
     let species_index = leaf_species(before);
-    let species = &cx.environment.species[species_index as usize];
+    let species = &cx.scene.species[species_index as usize];
     let stage = stage_words(seed, id, 0);
     let primitive = species.first_motion;
     leaf.identity.id = id;
@@ -235,16 +235,16 @@ pub fn leaf_set_off(cx: &Context<'_>, leaf: &mut LeafMut<'_>, id: u32, release: 
 /// Lets a leaf go whose petiole has broken, where it is and as fast as it is.
 #[inline(always)]
 pub fn leaf_detach(cx: &Context<'_>, leaf: &mut LeafMut<'_>, release: u32) {
-    let seed = cx.environment.seed;
-    let id = leaf.identity.id.wrapping_add(cx.environment.ids_per_life);
+    let seed = cx.scene.seed;
+    let id = leaf.identity.id.wrapping_add(cx.scene.ids_per_life);
     let traits = random(seed, id, STREAM_TRAITS);
-    let species = &cx.environment.species[leaf_species(leaf.place.bits) as usize];
+    let species = &cx.scene.species[leaf_species(leaf.place.bits) as usize];
     let size = own_size(leaf.schedule.size);
     leaf.schedule.size = twig_sizes(size, size);
     if species.first_motion != AERODYNAMIC {
         leaf.schedule.heading = heading_word(0, traits[3] >> 16);
     }
-    leaf.place.bits = with_blend(leaf.place.bits, cx.environment.blend_steps);
+    leaf.place.bits = with_blend(leaf.place.bits, cx.scene.blend_steps);
     let size_speed = SizeSpeed { size, speed: release_size_speed(species, traits).speed };
     leaf_set_off(cx, leaf, id, release, size_speed);
 }

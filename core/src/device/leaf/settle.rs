@@ -22,7 +22,7 @@ use crate::leaf::LeafMut;
 /// round lies still.
 #[inline(always)]
 pub fn slide(cx: &Context<'_>, came: Vec3, seconds: f32, slope: Slope) -> (Vec3, Vec3) {
-    let pull = (cx.environment.gravity_m_s2 * seconds) * slope.inv_gain;
+    let pull = (cx.scene.gravity_m_s2 * seconds) * slope.inv_gain;
     let velocity = Vec3::new(came.x - slope.x * pull, came.y, came.z - slope.z * pull);
     if velocity.x * came.x + velocity.z * came.z < 0.0 {
         return (Vec3::ZERO, Vec3::ZERO);
@@ -33,8 +33,8 @@ pub fn slide(cx: &Context<'_>, came: Vec3, seconds: f32, slope: Slope) -> (Vec3,
     }
     let inverse = inverse_sqrt(squared);
     let speed = squared * inverse;
-    let left = (speed - (cx.environment.friction_m_s2 * slope.inv_gain) * seconds).max(0.0);
-    let stop = squared * (cx.environment.stop_s2_m * slope.gain);
+    let left = (speed - (cx.scene.friction_m_s2 * slope.inv_gain) * seconds).max(0.0);
+    let stop = squared * (cx.scene.stop_s2_m * slope.gain);
     let way = if left > 0.0 { (0.5 * seconds) * (speed + left) } else { stop };
     (velocity * (way * inverse), velocity * (left * inverse))
 }
@@ -67,13 +67,9 @@ pub fn leaf_land(cx: &Context<'_>, leaf: &mut LeafMut<'_>, start: Vec3) {
     let share = ((start.y - above) * reciprocal(drop)).max(0.0).min(1.0);
     let way = end - start;
     let hit = start + way * share;
-    let (slid, velocity) = slide(
-        cx,
-        way * cx.environment.inv_dt_s,
-        (1.0 - share) * cx.environment.dt_s,
-        ground_slope(cx, hit.x, hit.z),
-    );
-    let lifetime = cx.environment.sources[leaf_source(leaf.identity.appearance) as usize].lifetime_steps;
+    let (slid, velocity) =
+        slide(cx, way * cx.scene.inv_dt_s, (1.0 - share) * cx.scene.dt_s, ground_slope(cx, hit.x, hit.z));
+    let lifetime = cx.scene.sources[leaf_source(leaf.identity.appearance) as usize].lifetime_steps;
     let (x, z) = (hit.x + slid.x, hit.z + slid.z);
     let bits = with_state(with_blend(leaf.place.bits, 0), STATE_RESTING);
     *leaf.place = Place { position: [x, ground_rest(cx, x, z), z], bits };
@@ -88,17 +84,17 @@ pub fn leaf_settle(cx: &Context<'_>, leaf: &mut LeafMut<'_>) {
     let velocity = Vec3::from(leaf.drift.velocity);
     let position = leaf.place.position;
     let slides = velocity.x != 0.0 || velocity.z != 0.0;
-    let is_hilly = cx.environment.has_terrain();
+    let is_hilly = cx.scene.has_terrain();
     let slope = ground_slope(cx, position[0], position[2]);
-    if steps < cx.environment.settle_steps || (slides && is_hilly) {
-        let (before, kept) = (Quat::from(leaf.attitude.quaternion), cx.environment.tilt_kept);
+    if steps < cx.scene.settle_steps || (slides && is_hilly) {
+        let (before, kept) = (Quat::from(leaf.attitude.quaternion), cx.scene.tilt_kept);
         let flat = if is_hilly { flatten_on(slope, before, kept) } else { flatten(before, kept) };
         leaf.attitude.quaternion = flat.to_array();
         // On hills what slides comes to other slopes.
         leaf.drift.phase = if slides && is_hilly { 0 } else { steps + 1 };
     }
     if slides {
-        let (slid, left) = slide(cx, velocity, cx.environment.dt_s, slope);
+        let (slid, left) = slide(cx, velocity, cx.scene.dt_s, slope);
         let (x, z) = (position[0] + slid.x, position[2] + slid.z);
         leaf.place.position = [x, if is_hilly { ground_rest(cx, x, z) } else { position[1] }, z];
         leaf.drift.velocity = left.to_array();

@@ -36,14 +36,14 @@ pub struct Slope {
 /// The cell at a place.
 #[inline(always)]
 fn ground_cell<R: Real>(cx: &Context<'_>, x: R, z: R) -> Cell<R> {
-    let shift = cx.environment.hill_shift;
+    let shift = cx.scene.hill_shift;
     let mask = (1 << shift) - 1;
-    let u = x * cx.environment.hill_cells_per_m;
-    let v = z * cx.environment.hill_cells_per_m;
+    let u = x * cx.scene.hill_cells_per_m;
+    let v = z * cx.scene.hill_cells_per_m;
     let ku = u.floor();
     let kv = v.floor();
     let index = ((kv.to_whole() & mask) << shift) | (ku.to_whole() & mask);
-    let corners = index.look_up(bytemuck::cast_slice(&cx.tables[cx.environment.first_hill_row as usize..]));
+    let corners = index.look_up(bytemuck::cast_slice(&cx.tables[cx.scene.first_hill_row as usize..]));
     Cell { corners, x: u - ku, z: v - kv }
 }
 
@@ -61,23 +61,23 @@ pub fn ground_relief<R: Real>(cx: &Context<'_>, x: R, z: R) -> R {
 /// ground.
 #[inline(always)]
 pub fn ground_surface<R: Real>(cx: &Context<'_>, x: R, z: R) -> R {
-    if !cx.environment.has_terrain() {
+    if !cx.scene.has_terrain() {
         return x.all(0.0);
     }
-    ground_relief(cx, x, z).max(x.all(cx.environment.water_relief_m))
+    ground_relief(cx, x, z).max(x.all(cx.scene.water_relief_m))
 }
 
 /// Height of a leaf that rests at a place in metres.
 #[inline(always)]
 pub fn ground_rest<R: Real>(cx: &Context<'_>, x: R, z: R) -> R {
-    ground_surface(cx, x, z) + cx.environment.rest_height_m
+    ground_surface(cx, x, z) + cx.scene.rest_height_m
 }
 
 /// Returns true if a leaf at a place has come to the ground. Most are above all hills: nothing is read for those.
 #[inline(always)]
 pub fn ground_met<R: Real>(cx: &Context<'_>, place: Vec3<R>) -> R::Mask {
-    let low = place.y.less_than(place.y.all(cx.environment.highest_rest_m));
-    if !cx.environment.has_terrain() || !low.any() {
+    let low = place.y.less_than(place.y.all(cx.scene.highest_rest_m));
+    if !cx.scene.has_terrain() || !low.any() {
         return low;
     }
     place.y.less_than(ground_rest(cx, place.x, place.z))
@@ -86,15 +86,15 @@ pub fn ground_met<R: Real>(cx: &Context<'_>, place: Vec3<R>) -> R::Mask {
 /// Slope of the ground at a place; none on water.
 #[inline(always)]
 pub fn ground_slope(cx: &Context<'_>, x: f32, z: f32) -> Slope {
-    if !cx.environment.has_terrain() || ground_relief(cx, x, z) < cx.environment.water_relief_m {
+    if !cx.scene.has_terrain() || ground_relief(cx, x, z) < cx.scene.water_relief_m {
         return Slope { x: 0.0, z: 0.0, gain: 1.0, inv_gain: 1.0 };
     }
     let cell = ground_cell(cx, x, z);
     let [a, b, c, d] = cell.corners;
     let near = b - a;
     let west = c - a;
-    let rise_x = (near + cell.z * ((d - c) - near)) * cx.environment.hill_cells_per_m;
-    let rise_z = (west + cell.x * ((d - b) - west)) * cx.environment.hill_cells_per_m;
+    let rise_x = (near + cell.z * ((d - c) - near)) * cx.scene.hill_cells_per_m;
+    let rise_z = (west + cell.x * ((d - b) - west)) * cx.scene.hill_cells_per_m;
     let gain = 1.0 + (rise_x * rise_x + rise_z * rise_z);
     Slope { x: rise_x, z: rise_z, gain, inv_gain: reciprocal(gain) }
 }

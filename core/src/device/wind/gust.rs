@@ -25,10 +25,10 @@ const STREAM: u32 = 0x4755_0000;
 /// Excess over the mean wind, in units of a typical gust's, at `along` metres down the wind.
 #[inline(always)]
 pub fn wind_gust<R: Real>(cx: &Context<'_>, along: R) -> R {
-    let x = along * cx.environment.wind.gust_rows_per_m - cx.step.gust_offset;
+    let x = along * cx.scene.wind.gust_rows_per_m - cx.step.gust_offset;
     let k = x.floor();
     let index = k.to_whole() & (GUST_ROWS - 1);
-    let row = wind_row(cx, index, cx.environment.wind.first_gust_row);
+    let row = wind_row(cx, index, cx.scene.wind.first_gust_row);
     row[0] + (x - k) * (row[1] - row[0])
 }
 

@@ -24,7 +24,7 @@ crate::shared_constants! {
 pub fn wind_profile<R: Real>(cx: &Context<'_>, height: R) -> R {
     let x = (height * PROFILE_PER_METRE).max(height.all(0.0)).min(height.all(PROFILE_TOP));
     let k = x.floor();
-    let row = wind_row(cx, k.to_whole(), cx.environment.wind.first_profile_row);
+    let row = wind_row(cx, k.to_whole(), cx.scene.wind.first_profile_row);
     row[0] + (x - k) * (row[1] - row[0])
 }
 

@@ -17,14 +17,13 @@ use crate::device::terrain::ground::ground_relief;
 /// Velocity of the air at `place` in m/s.
 #[inline(always)]
 pub fn wind_at<R: Real>(cx: &Context<'_>, place: Vec3<R>) -> Vec3<R> {
-    let wind = &cx.environment.wind;
+    let wind = &cx.scene.wind;
     let direction_x = wind.direction_x;
     let direction_z = wind.direction_z;
     let along = place.x * direction_x + place.z * direction_z;
     let across = place.z * direction_x - place.x * direction_z;
-    let height = place.y - cx.environment.ground_height_m;
-    let above =
-        if cx.environment.has_terrain() { height - ground_relief(cx, place.x, place.z) } else { height };
+    let height = place.y - cx.scene.ground_height_m;
+    let above = if cx.scene.has_terrain() { height - ground_relief(cx, place.x, place.z) } else { height };
     let mean =
         (wind_profile(cx, above) * wind.mean_speed_m_s) * (wind_gust(cx, along) * wind.gust_strength + 1.0);
     let deviation = Vec3::from(wind.deviation_m_s);

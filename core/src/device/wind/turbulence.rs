@@ -72,7 +72,7 @@ fn turbulence_index<W: Word>(column: W, layer: W) -> W {
 /// Along and up on one z face of a cell, in packed units.
 #[inline(always)]
 fn turbulence_face<W: Word>(cx: &Context<'_>, index: W, along: W::Real, up: W::Real) -> (W::Real, W::Real) {
-    let rows = &cx.tables[cx.environment.wind.first_turbulence_row as usize..];
+    let rows = &cx.tables[cx.scene.wind.first_turbulence_row as usize..];
     let [a, b, c, d] = index.look_up_words(bytemuck::cast_slice(rows));
     let (ax, ay) = turbulence_unpack(a);
     let (bx, by) = turbulence_unpack(b);
@@ -93,7 +93,7 @@ fn turbulence_edge<W: Word>(edge: W, along: W::Real) -> W::Real {
 /// Across within a cell, in packed units.
 #[inline(always)]
 fn turbulence_across<W: Word>(cx: &Context<'_>, index: W, t: Vec3<W::Real>) -> W::Real {
-    let rows = &cx.tables[(cx.environment.wind.first_turbulence_row + TURBULENCE_NODES) as usize..];
+    let rows = &cx.tables[(cx.scene.wind.first_turbulence_row + TURBULENCE_NODES) as usize..];
     let [a, b, c, d] = index.look_up_words(bytemuck::cast_slice(rows));
     let a = turbulence_edge(a, t.x);
     let b = turbulence_edge(b, t.x);
@@ -107,7 +107,7 @@ fn turbulence_across<W: Word>(cx: &Context<'_>, index: W, t: Vec3<W::Real>) -> W
 /// Turbulent velocity of unit variance at a place in the wind's frame (along, up, across in metres).
 #[inline(always)]
 pub fn wind_turbulence<R: Real>(cx: &Context<'_>, place: Vec3<R>) -> Vec3<R> {
-    let cells = Vec3::from(cx.environment.wind.cells_per_m);
+    let cells = Vec3::from(cx.scene.wind.cells_per_m);
     let x = place.x * cells.x - cx.step.turbulence_offset;
     let y = place.y * cells.y;
     let z = place.z * cells.z;

@@ -4,7 +4,7 @@
 
 use windfall_core::device::leaf::advance::leaf_advance;
 use windfall_core::leaf::{Attitude, Drift, Identity, LeafMut, Leaves, Place, Schedule};
-use windfall_core::{Clock, Environment, World, oracle};
+use windfall_core::{Clock, CompiledScene, World, oracle};
 
 /// Everything about one leaf.
 #[derive(Clone, Copy, Debug)]
@@ -19,7 +19,7 @@ struct Leaf {
 /// Leaves as objects, the way most particle systems begin.
 #[derive(Clone, Debug)]
 pub(crate) struct ArrayOfStructs {
-    environment: Environment,
+    compiled: CompiledScene,
     clock: Clock,
     leaves: Vec<Leaf>,
 }
@@ -40,13 +40,13 @@ impl ArrayOfStructs {
                 identity: columns.identity[slot],
             })
             .collect();
-        Self { environment: world.environment.clone(), clock: world.clock, leaves }
+        Self { compiled: world.compiled.clone(), clock: world.clock, leaves }
     }
 
     /// Moves every leaf through `count` steps.
     pub(crate) fn step(&mut self, count: u32) {
-        let Self { environment, clock, leaves } = self;
-        oracle::each_step(environment, clock, count, |cx| {
+        let Self { compiled, clock, leaves } = self;
+        oracle::each_step(compiled, clock, count, |cx| {
             for Leaf { place, drift, attitude, schedule, identity } in &mut *leaves {
                 leaf_advance(cx, &mut LeafMut { place, drift, attitude, schedule, identity });
             }

@@ -35,7 +35,7 @@ fn segment_composite(
     let mass = constants.mass + leaves;
     let moment = constants.first_moment + leaves * half;
     let across = constants.inertia_across + leaves * ((constants.length * constants.length) * THIRD);
-    let weight = vec3<f32>(0.0, -environment.gravity_m_s2, 0.0);
+    let weight = vec3<f32>(0.0, -scene.gravity_m_s2, 0.0);
     return Composite(
         sym3_axial(axis, constants.inertia_along, across),
         axis * moment,

@@ -34,7 +34,7 @@ fn articulated_add(a: ArticulatedInertia, b: ArticulatedInertia) -> ArticulatedI
 
 fn joint_spring(constants: SegmentConstants, joint: Joint, body: Body, carried: f32) -> Spring {
     let bending = constants.bending;
-    let ahead = environment.dt_s * IMPLICITNESS;
+    let ahead = scene.dt_s * IMPLICITNESS;
     let turn = turn_of_quat(joint.turn);
     let spring = turn + joint.rate * (constants.damping + ahead);
     var torque = vec3<f32>(

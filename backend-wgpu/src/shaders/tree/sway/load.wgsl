@@ -46,8 +46,8 @@ fn segment_load(constants: SegmentConstants, body: Body, axis: vec3<f32>, air: v
     let mass = constants.mass + leaves;
     let moment = constants.first_moment + leaves * half;
     let across = constants.inertia_across + leaves * ((constants.length * constants.length) * THIRD);
-    let gravity = environment.gravity_m_s2;
-    let dt = environment.dt_s;
+    let gravity = scene.gravity_m_s2;
+    let dt = scene.dt_s;
     let added = held * dt;
     let heavy = across + added * (half * half);
     let bare = mass + added;

@@ -115,7 +115,7 @@ fn row_follow(row: u32) {
     let joint = row_joint(row);
     let whole = load_composite(row);
     var moved: Moved;
-    if (environment.sway_scheme == SCHEME_QUIGLEY) {
+    if (scene.sway_scheme == SCHEME_QUIGLEY) {
         moved = quigley_step(constants, joint, body, segment_axis(body), whole);
     } else {
         moved = oliapuram_kumar_step(constants, joint, body, whole);

@@ -60,7 +60,7 @@ pub fn segment_composite(
     let mass = constants.mass + leaves;
     let moment = constants.first_moment + leaves * half;
     let across = constants.inertia_across + leaves * ((constants.length * constants.length) * THIRD);
-    let weight = Vec3::new(0.0, -cx.environment.gravity_m_s2, 0.0);
+    let weight = Vec3::new(0.0, -cx.scene.gravity_m_s2, 0.0);
     Composite {
         inertia: sym3_axial(axis, constants.inertia_along, across),
         moment: axis * moment,

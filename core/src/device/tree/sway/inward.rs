@@ -55,7 +55,7 @@ pub fn joint_spring<R: Real>(
     carried: R,
 ) -> Spring<R> {
     let bending = constants.bending;
-    let ahead = bending.all(cx.environment.dt_s * IMPLICITNESS);
+    let ahead = bending.all(cx.scene.dt_s * IMPLICITNESS);
     let turn = turn_of_quat(joint.turn);
     let spring = turn + joint.rate * (constants.damping + ahead);
     let mut torque = Vec3::new(

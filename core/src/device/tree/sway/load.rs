@@ -82,9 +82,9 @@ pub fn segment_load<R: Real>(
     let mass = constants.mass + leaves;
     let moment = constants.first_moment + leaves * half;
     let across = constants.inertia_across + leaves * ((constants.length * constants.length) * THIRD);
-    let gravity = cx.environment.gravity_m_s2;
+    let gravity = cx.scene.gravity_m_s2;
     // Implicit drag acts like a mass added at the centre.
-    let dt = cx.environment.dt_s;
+    let dt = cx.scene.dt_s;
     let added = held * dt;
     let heavy = across + added * (half * half);
     let bare = mass + added;

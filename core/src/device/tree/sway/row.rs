@@ -159,7 +159,7 @@ pub fn row_follow(cx: &Context<'_>, rows: &mut Rows<'_>, row: usize) {
     let body = rows.body(row);
     let joint = rows.joint(row);
     let whole = load_composite(&rows.work[row]);
-    let moved = if cx.environment.sway_scheme == SCHEME_QUIGLEY {
+    let moved = if cx.scene.sway_scheme == SCHEME_QUIGLEY {
         quigley_step(cx, &constants, &joint, &body, segment_axis(&body), &whole)
     } else {
         oliapuram_kumar_step(cx, &constants, &joint, &body, &whole)

@@ -4,24 +4,24 @@
 
 use glam::DVec3;
 
-use super::Environment;
+use super::CompiledScene;
 use crate::convert::single;
 use crate::device::wind::turbulence::{
     TURBULENCE_NODES, TURBULENCE_UNIT, TURBULENCE_X, TURBULENCE_Y, TURBULENCE_Z, turbulence_rows,
 };
 
-impl Environment {
+impl CompiledScene {
     /// Replaces the turbulence by a wind of the caller's, which comes on top of mean wind, gusts and vortices: both
     /// backends read it as they read turbulence, with the same bits, once it has been handed to them
-    /// ([`Simulator::set_environment`](crate::Simulator::set_environment)) or a world with it has.
+    /// ([`Simulator::set_scene`](crate::Simulator::set_scene)) or a world with it has.
     ///
     /// `velocity` is asked for the velocity in m/s at places in metres. Both are in the wind's frame: x along the mean
     /// wind, y up from the ground's height, z across to the right of it; with `direction_deg: 0.0` these are the scene's
-    /// axes. It is sampled at the nodes of a box of 64 x 32 x 32 cells, [`Environment::wind_cell_m`] large each, from
+    /// axes. It is sampled at the nodes of a box of 64 x 32 x 32 cells, [`CompiledScene::wind_cell_m`] large each, from
     /// the origin on; between nodes it is interpolated, beyond the box it repeats, and the mean wind carries it along: in a
     /// scene without mean wind it stays. A component is stored in 16 bits of its largest value.
     ///
-    /// For a wind that changes with time, call this every few steps. [`Environment::retune`] and checkpoints go
+    /// For a wind that changes with time, call this every few steps. [`CompiledScene::retune`] and checkpoints go
     /// back to the scene's own turbulence.
     pub fn set_wind_field(&mut self, velocity: impl Fn(DVec3) -> DVec3) {
         let cell_m = self.wind_cell_m();
@@ -46,7 +46,7 @@ impl Environment {
         self.block.wind.deviation_m_s = unit;
     }
 
-    /// Size of a cell of the box that [`Environment::set_wind_field`] samples, in metres: along the wind
+    /// Size of a cell of the box that [`CompiledScene::set_wind_field`] samples, in metres: along the wind
     /// `wind.turbulence.cell_m`, upwards 0.5 and across 0.8 of it.
     pub fn wind_cell_m(&self) -> DVec3 {
         glam::Vec3::from(self.block.wind.cells_per_m).as_dvec3().recip()

@@ -7,7 +7,7 @@ use super::source::{source_block, trees_block};
 use super::species::{response_block, species_block};
 use super::wind::wind_block;
 use crate::arith::rng::seed_words;
-use crate::blocks::{EnvironmentBlock, SOURCE_TREES};
+use crate::blocks::{SOURCE_TREES, SceneBlock};
 use crate::convert::{len32, q16, single, steps, word};
 use crate::device::tree::sway::{SCHEME_ARTICULATED, SCHEME_OLIAPURAM_KUMAR, SCHEME_QUIGLEY};
 use crate::flight::coefficients::TICKS_PER_S;
@@ -28,9 +28,9 @@ pub(super) const FLUTTER_HZ: f32 = 3.2;
 const NO_WATER_M: f32 = -1.0e6;
 
 /// Uniform block of a scene, but for the places of its tables behind those of the wind.
-pub(super) fn compile_block(scene: &Scene, tables: &[MotionTables]) -> EnvironmentBlock {
+pub(super) fn compile_block(scene: &Scene, tables: &[MotionTables]) -> SceneBlock {
     let [low, high] = seed_words(scene.seed);
-    let mut block: EnvironmentBlock = bytemuck::Zeroable::zeroed();
+    let mut block: SceneBlock = bytemuck::Zeroable::zeroed();
     block.seed = [low, high];
     block.ids_per_life = scene.leaf_count();
     block.species_count = len32(scene.species.len());
@@ -62,7 +62,7 @@ pub(super) fn compile_block(scene: &Scene, tables: &[MotionTables]) -> Environme
 }
 
 /// Sets what may change while a simulation runs: wind, ground, fall and rotation speed, the scheme of trees.
-pub(super) fn retune_block(scene: &Scene, block: &mut EnvironmentBlock) {
+pub(super) fn retune_block(scene: &Scene, block: &mut SceneBlock) {
     block.rotation_speed_q16 = q16(scene.rotation_speed);
     block.displacement_gain =
         single(f64::from(scene.fall_speed) * 65536.0 / f64::from(block.rotation_speed_q16));
@@ -84,7 +84,7 @@ fn scheme(scene: &Scene) -> u32 {
 }
 
 /// Sets the numbers of the ground, of the water on it and of leaves that slide there.
-fn set_ground(scene: &Scene, block: &mut EnvironmentBlock) {
+fn set_ground(scene: &Scene, block: &mut SceneBlock) {
     let ground = &scene.ground;
     let loss = f64::from(ground.friction) * f64::from(scene.gravity_m_s2);
     block.gravity_m_s2 = scene.gravity_m_s2;

@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The interface of every backend.
 
+use super::stats::Stats;
+use super::world::World;
 use crate::clock::Clock;
-use crate::environment::Environment;
+use crate::compile::CompiledScene;
 use crate::error::SimError;
-use crate::stats::Stats;
 use crate::store::StoreSize;
-use crate::world::World;
 
 /// Closeness to which a backend's state agrees with the CPU oracle's.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -40,7 +40,7 @@ pub struct SimulatorInfo {
     pub sizes: Vec<StoreSize>,
 }
 
-/// A backend: owns the stores of a world, a clock and a compiled environment, and moves them on.
+/// A backend: owns the stores of a world, a clock and a compiled scene, and moves them on.
 ///
 /// Constructors stay outside, because every backend needs something else to run on.
 pub trait Simulator {
@@ -50,7 +50,7 @@ pub trait Simulator {
     /// The present.
     fn clock(&self) -> Clock;
 
-    /// Replaces the whole state: leaves, trees, clock and environment.
+    /// Replaces the whole state: leaves, trees, clock and scene.
     ///
     /// # Errors
     /// [`SimError::Size`] if a store of the world is of another size.
@@ -66,7 +66,7 @@ pub trait Simulator {
     ///
     /// # Errors
     /// [`SimError::Size`] if it is that of a world of another size; a lost device.
-    fn set_environment(&mut self, environment: &Environment) -> Result<(), SimError>;
+    fn set_scene(&mut self, compiled: &CompiledScene) -> Result<(), SimError>;
 
     /// Submits `count` steps and does not wait for them.
     ///

@@ -1,21 +1,21 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A scene brought to life: compiled environment, clock and leaves.
+//! A scene brought to life: compiled scene, clock and stores.
 
+use super::stats::Stats;
 use crate::arith::hash::mix;
 use crate::blocks::StepBlock;
 use crate::clock::Clock;
+use crate::compile::{CompiledScene, Cycle, lifetime_steps, release_step};
 use crate::context::Context;
 use crate::device::leaf::record::leaf_appearance;
 use crate::device::leaf::release::leaf_release;
-use crate::environment::{Cycle, Environment, lifetime_steps, release_step};
 use crate::error::{SceneError, SimError};
 use crate::flight::drop_table::{DropTable, drop_tables};
 use crate::leaf::grow::{count_leaves, leaf_grow};
 use crate::leaf::seek::leaf_seek_any;
 use crate::leaf::{Leaves, LeavesMut};
 use crate::scene::Scene;
-use crate::stats::Stats;
 use crate::store::{Store, StoreSize, check_sizes, copy_stores, hash_stores, state_bytes};
 use crate::tree::Branches;
 
@@ -26,7 +26,7 @@ const SMALLEST_SHARE: usize = 4096;
 #[derive(Clone, Debug)]
 pub struct World {
     /// The compiled scene.
-    pub environment: Environment,
+    pub compiled: CompiledScene,
     /// The present.
     pub clock: Clock,
     /// The leaves.
@@ -40,10 +40,10 @@ impl World {
     /// where a fall through still air has brought them.
     ///
     /// # Errors
-    /// Scenes that [`Scene::validate`] or [`Environment::compile`] reject.
+    /// Scenes that [`Scene::validate`] or [`CompiledScene::compile`] reject.
     pub fn build(scene: &Scene) -> Result<Self, SceneError> {
         scene.validate(&scene.name)?;
-        Self::fill(Environment::compile(scene)?)
+        Self::fill(CompiledScene::compile(scene)?)
     }
 
     /// A world that repeats after about `seconds`, to be stepped [`Cycle::run_in`] steps before it does: from then on
@@ -54,30 +54,30 @@ impl World {
     /// Scenes that [`Cycle::of`] finds cannot repeat, and that [`World::build`] rejects.
     pub fn build_cycle(scene: &Scene, file: &str, seconds: f64) -> Result<(Self, Cycle), SceneError> {
         let (scene, cycle) = Cycle::of(scene, file, seconds)?;
-        let mut world = Self::fill(Environment::compile_with(&scene, Some(cycle.clone()))?)?;
+        let mut world = Self::fill(CompiledScene::compile_with(&scene, Some(cycle.clone()))?)?;
         cycle.schedule(&scene, &mut world.leaves);
         Ok((world, cycle))
     }
 
     /// A world of a compiled scene with every word of its stores zero, to be filled.
-    pub fn zeroed(environment: Environment, clock: Clock) -> Self {
-        let leaves = Leaves::zeroed(environment.scene().leaf_count() as usize);
-        let branches = Branches::zeroed(environment.forest().len());
-        Self { environment, clock, leaves, branches }
+    pub fn zeroed(compiled: CompiledScene, clock: Clock) -> Self {
+        let leaves = Leaves::zeroed(compiled.scene().leaf_count() as usize);
+        let branches = Branches::zeroed(compiled.forest().len());
+        Self { compiled, clock, leaves, branches }
     }
 
     /// Fills the stores of a compiled scene.
-    fn fill(environment: Environment) -> Result<Self, SceneError> {
-        let clock = Clock::new(environment.scene().dt_s);
-        let mut world = Self::zeroed(environment, clock);
-        world.branches = world.environment.forest().at_rest();
-        let Self { environment, clock, leaves, branches } = &mut world;
-        let step = environment.step_block(clock);
-        let cx = environment.context(&step);
+    fn fill(compiled: CompiledScene) -> Result<Self, SceneError> {
+        let clock = Clock::new(compiled.scene().dt_s);
+        let mut world = Self::zeroed(compiled, clock);
+        world.branches = world.compiled.forest().at_rest();
+        let Self { compiled, clock, leaves, branches } = &mut world;
+        let step = compiled.step_block(clock);
+        let cx = compiled.context(&step);
         let threads = std::thread::available_parallelism().map_or(1, usize::from);
         let share = leaves.len().div_ceil(threads).max(SMALLEST_SHARE);
         let tables = drop_tables(&cx);
-        let (compiled, still, tables) = (&*environment, &*branches, tables.as_slice());
+        let (compiled, still, tables) = (&*compiled, &*branches, tables.as_slice());
         std::thread::scope(|scope| {
             let mut rest = leaves.as_mut();
             let mut first = 0;
@@ -100,13 +100,13 @@ impl World {
 
     /// All stores, in the order of checkpoints.
     pub fn stores(&self) -> Vec<&dyn Store> {
-        let Self { environment: _, clock: _, leaves, branches } = self;
+        let Self { compiled: _, clock: _, leaves, branches } = self;
         vec![leaves, branches]
     }
 
     /// All stores, to be filled.
     pub fn stores_mut(&mut self) -> Vec<&mut dyn Store> {
-        let Self { environment: _, clock: _, leaves, branches } = self;
+        let Self { compiled: _, clock: _, leaves, branches } = self;
         vec![leaves, branches]
     }
 
@@ -120,7 +120,7 @@ impl World {
         state_bytes(&self.stores())
     }
 
-    /// Takes over the state and the time of a world of the same size; the environment stays.
+    /// Takes over the state and the time of a world of the same size; the compiled scene stays.
     ///
     /// # Errors
     /// [`SimError::Size`] if it is of another size.
@@ -131,12 +131,12 @@ impl World {
         Ok(())
     }
 
-    /// Checks that this world and its environment are of the sizes of a simulator.
+    /// Checks that this world and its scene are of the sizes of a simulator.
     ///
     /// # Errors
     /// [`SimError::Size`] for the first store that is not.
     pub fn fits(&self, simulator: &[StoreSize]) -> Result<(), SimError> {
-        self.environment.fits(simulator)?;
+        self.compiled.fits(simulator)?;
         check_sizes(&self.sizes(), simulator)
     }
 
@@ -149,30 +149,30 @@ impl World {
 
     /// The block of the present step, for [`World::context`].
     pub fn step_block(&self) -> StepBlock {
-        self.environment.step_block(&self.clock)
+        self.compiled.step_block(&self.clock)
     }
 
     /// The view of a kernel at the step of this block, which is made once for all leaves ([`World::step_block`]).
     pub fn context<'a>(&'a self, step: &'a StepBlock) -> Context<'a> {
-        self.environment.context(step)
+        self.compiled.context(step)
     }
 }
 
 /// Puts the leaves of a run of slots from `first` on where they are at time zero.
 fn place_leaves(
-    environment: &Environment,
+    compiled: &CompiledScene,
     cx: &Context<'_>,
     branches: &Branches,
     tables: &[Option<DropTable>],
     mut leaves: LeavesMut<'_>,
     first: usize,
 ) {
-    let scene = environment.scene();
+    let scene = compiled.scene();
     let total = scene.leaf_count();
     let mut source_first = scene.tree_leaf_count() as usize;
     for slot in first..source_first.min(first + leaves.len()) {
         #[expect(clippy::cast_possible_truncation, reason = "slots are counted in words")]
-        leaf_grow(environment, cx, branches, tables, &mut leaves.row_mut(slot - first), slot as u32);
+        leaf_grow(compiled, cx, branches, tables, &mut leaves.row_mut(slot - first), slot as u32);
     }
     for (index, source) in (0..).zip(&scene.sources) {
         let lifetime = i64::from(lifetime_steps(scene, source));

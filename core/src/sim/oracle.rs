@@ -2,17 +2,17 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Steps worlds in plain loops: what every simulator is compared with.
 
+use super::world::World;
 use crate::clock::Clock;
+use crate::compile::CompiledScene;
 use crate::context::Context;
 use crate::device::leaf::advance::leaf_advance;
 use crate::device::leaf::fly::leaf_fly;
-use crate::environment::Environment;
-use crate::world::World;
 
 /// Steps the leaves of a world one after another. Trees, and the leaves that hang on them, stay as they are.
 pub fn step(world: &mut World, count: u32) {
-    let World { environment, clock, leaves, branches: _ } = world;
-    each_step(environment, clock, count, |cx| {
+    let World { compiled, clock, leaves, branches: _ } = world;
+    each_step(compiled, clock, count, |cx| {
         for mut leaf in leaves.as_mut().iter_mut() {
             leaf_advance(cx, &mut leaf);
             leaf_fly(cx, &mut leaf);
@@ -22,14 +22,14 @@ pub fn step(world: &mut World, count: u32) {
 
 /// Calls `advance` with what kernels see in each of `count` steps, and moves the clock on.
 pub fn each_step(
-    environment: &Environment,
+    compiled: &CompiledScene,
     clock: &mut Clock,
     count: u32,
     mut advance: impl FnMut(&Context<'_>),
 ) {
     for _ in 0..count {
-        let block = environment.step_block(clock);
-        advance(&environment.context(&block));
-        clock.advance(environment);
+        let block = compiled.step_block(clock);
+        advance(&compiled.context(&block));
+        compiled.advance(clock);
     }
 }

@@ -8,12 +8,12 @@
 
 use std::io::{self, Write};
 
+use super::world::World;
 use crate::clock::Clock;
-use crate::environment::Environment;
+use crate::compile::CompiledScene;
 use crate::error::SceneError;
 use crate::scene::Scene;
 use crate::store::{Store, StoreSize};
-use crate::world::World;
 
 const MAGIC: &[u8; 8] = b"WINDFALL";
 const VERSION: u32 = 3;
@@ -25,7 +25,7 @@ impl World {
     /// Errors of the writer.
     pub fn write_checkpoint(&self, out: &mut impl Write) -> io::Result<()> {
         let mut out = Checked { out, crc: crc32fast::Hasher::new() };
-        let scene = self.environment.scene().to_ron();
+        let scene = self.compiled.scene().to_ron();
         out.write_all(MAGIC)?;
         out.write_all(&VERSION.to_le_bytes())?;
         out.write_all(&(scene.len() as u64).to_le_bytes())?;
@@ -63,10 +63,10 @@ impl World {
         let text =
             std::str::from_utf8(rest.take(length)?).map_err(|_| reject("its scene is not text".into()))?;
         let scene = Scene::from_ron(text, file)?;
-        let environment = Environment::compile(&scene)?;
+        let compiled = CompiledScene::compile(&scene)?;
         let step = u32::from_le_bytes(rest.array()?);
         let travel = f64::from_le_bytes(rest.array()?);
-        let mut world = Self::zeroed(environment, Clock::at(step, scene.dt_s, travel));
+        let mut world = Self::zeroed(compiled, Clock::at(step, scene.dt_s, travel));
         rest.bytes = read_stores(rest.bytes, file, &mut world.stores_mut())?;
         if !rest.bytes.is_empty() {
             return Err(reject(format!("it is longer than its stores by {} bytes", rest.bytes.len())));

@@ -23,7 +23,7 @@ use self::foliage::{foliage_of, petiole_rows, seedlings, shed_rows};
 pub(crate) use self::source::{lifetime_steps, release_step};
 use self::tables::{pack_motion, tables_of};
 use crate::arith::rng::seed_words;
-use crate::blocks::{EnvironmentBlock, StepBlock, VortexBlock};
+use crate::blocks::{SceneBlock, StepBlock, VortexBlock};
 use crate::clock::Clock;
 use crate::context::Context;
 use crate::convert::{len32, single};
@@ -43,15 +43,15 @@ use crate::wind::turbulence_box;
 
 /// A compiled scene: uniform block and tables, ready for any backend.
 #[derive(Clone, Debug)]
-pub struct Environment {
+pub struct CompiledScene {
     scene: Scene,
-    block: EnvironmentBlock,
+    block: SceneBlock,
     tables: Arc<[Uint4]>,
     forest: Arc<Forest>,
     cycle: Option<Cycle>,
 }
 
-impl Environment {
+impl CompiledScene {
     /// Compiles a validated scene. Motion tables that a species names as a file are read now.
     ///
     /// # Errors
@@ -60,7 +60,7 @@ impl Environment {
         Self::compile_with(scene, None)
     }
 
-    /// Compiles a scene as [`Environment::compile`] does; one that [`Cycle::of`] made together with its cycle.
+    /// Compiles a scene as [`CompiledScene::compile`] does; one that [`Cycle::of`] made together with its cycle.
     ///
     /// # Errors
     /// As there.
@@ -98,7 +98,7 @@ impl Environment {
         Ok(Self { scene: scene.clone(), block, tables: tables.into(), forest: forest.into(), cycle })
     }
 
-    /// The same environment with another wind, season, ground, fall and rotation speed; species, sources, trees, hills,
+    /// The same scene with another wind, season, ground, fall and rotation speed; species, sources, trees, hills,
     /// seed, step length and gravity stay. Much cheaper than compiling anew.
     pub fn retune(&mut self, scene: &Scene) {
         let keep_trees = (self.scene.trees.clone(), self.scene.tree_kinds.clone());
@@ -137,7 +137,7 @@ impl Environment {
         ]
     }
 
-    /// Checks that a simulator with stores of these sizes can go on in this environment.
+    /// Checks that a simulator with stores of these sizes can go on with this scene.
     ///
     /// # Errors
     /// [`SimError::Size`] for the first store that would have another number of rows.
@@ -151,7 +151,7 @@ impl Environment {
     }
 
     /// The uniform block.
-    pub fn block(&self) -> &EnvironmentBlock {
+    pub fn block(&self) -> &SceneBlock {
         &self.block
     }
 
@@ -209,7 +209,7 @@ impl Environment {
     /// The view of a kernel in one step.
     pub fn context<'a>(&'a self, step: &'a StepBlock) -> Context<'a> {
         Context {
-            environment: &self.block,
+            scene: &self.block,
             step,
             motion: MotionRows::new(bytemuck::cast_slice(
                 &self.tables[self.block.first_motion_row as usize..],
@@ -223,6 +223,11 @@ impl Environment {
         foot_height(&self.block, &self.tables, x_m, z_m)
     }
 
+    /// Moves a clock on by one step.
+    pub fn advance(&self, clock: &mut Clock) {
+        clock.advance(self.wind_travel_per_step_m());
+    }
+
     /// Distance in metres that the mean wind travels in one step.
     pub fn wind_travel_per_step_m(&self) -> f64 {
         f64::from(self.block.wind.mean_speed_m_s) * f64::from(self.scene.dt_s)
@@ -230,9 +235,9 @@ impl Environment {
 }
 
 /// Height of the ground in metres, whatever the water above it.
-fn foot_height(block: &EnvironmentBlock, tables: &[Uint4], x_m: f32, z_m: f32) -> f32 {
+fn foot_height(block: &SceneBlock, tables: &[Uint4], x_m: f32, z_m: f32) -> f32 {
     let step = bytemuck::Zeroable::zeroed();
-    let cx = Context { environment: block, step: &step, motion: MotionRows::new(&[]), tables };
+    let cx = Context { scene: block, step: &step, motion: MotionRows::new(&[]), tables };
     let relief = if block.has_terrain() { ground_relief(&cx, x_m, z_m) } else { 0.0 };
     block.ground_height_m + relief
 }
