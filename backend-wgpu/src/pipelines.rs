@@ -14,23 +14,23 @@ use crate::shaders::{KernelId, Shaders, compile_exact};
 /// A group of bindings that kernels share.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum GroupLayout {
-    /// Blocks, tables and leaf columns.
+    /// Blocks, tables and all leaf columns.
     Leaves,
+    /// The same without identities, for leaves that have no event.
+    LeavesInMotion,
     /// One storage buffer: the event list of a page, or the counters.
     Extra,
     /// Blocks and wind tables, for trees.
     Sway,
     /// A level of the forest.
     Level,
-    /// Blocks, wind tables and hot leaf columns, for leaves on twigs.
-    Carried,
-    /// Kernel that carries them.
+    /// Segments that carry leaves.
     Carriers,
 }
 
 impl GroupLayout {
     const ALL: [Self; 6] =
-        [Self::Leaves, Self::Extra, Self::Sway, Self::Level, Self::Carried, Self::Carriers];
+        [Self::Leaves, Self::LeavesInMotion, Self::Extra, Self::Sway, Self::Level, Self::Carriers];
 
     /// Resources, binding by binding.
     fn slots(self) -> &'static [Slot] {
@@ -40,7 +40,7 @@ impl GroupLayout {
         match self {
             Self::Leaves => ALL,
             Self::Sway => &ALL[..3],
-            Self::Carried => &ALL[..7],
+            Self::LeavesInMotion => &ALL[..7],
             Self::Extra => &[Write],
             // The bindings of shaders/tree/bindings.wgsl.
             Self::Level => &[BlockOfMany, Read, Read, Write, Write, Read],
@@ -52,15 +52,15 @@ impl GroupLayout {
 
 impl KernelId {
     /// The groups that the kernel binds.
-    fn layouts(self) -> [GroupLayout; 2] {
+    fn layouts(self) -> &'static [GroupLayout] {
         match self {
             Self::SwayInward | Self::SwayOutward | Self::SwayGather | Self::SwayFollow => {
-                [GroupLayout::Sway, GroupLayout::Level]
+                &[GroupLayout::Sway, GroupLayout::Level]
             }
-            Self::Carry => [GroupLayout::Carried, GroupLayout::Carriers],
-            Self::Advance | Self::Fly | Self::ResolveEvents | Self::Measure => {
-                [GroupLayout::Leaves, GroupLayout::Extra]
-            }
+            Self::Carry => &[GroupLayout::LeavesInMotion, GroupLayout::Carriers],
+            Self::Advance | Self::Measure => &[GroupLayout::LeavesInMotion, GroupLayout::Extra],
+            Self::ResolveEvents => &[GroupLayout::Leaves, GroupLayout::Extra],
+            Self::Fly => &[GroupLayout::Leaves],
         }
     }
 
@@ -144,8 +144,9 @@ impl Pipelines {
     ) -> Result<(), SimError> {
         for kernel in kernels {
             if self.kernels[kernel as usize].is_none() {
-                let layouts = kernel.layouts().map(|group| self.layout(group));
-                let pipeline = pipeline(gpu, &self.shaders, self.contract, kernel, layouts)?;
+                let layouts: Vec<_> =
+                    kernel.layouts().iter().map(|&group| Some(self.layout(group))).collect();
+                let pipeline = pipeline(gpu, &self.shaders, self.contract, kernel, &layouts)?;
                 self.kernels[kernel as usize] = Some(pipeline);
             }
         }
@@ -171,14 +172,14 @@ fn pipeline(
     shaders: &Shaders,
     contract: Contract,
     kernel: KernelId,
-    layouts: [&wgpu::BindGroupLayout; 2],
+    layouts: &[Option<&wgpu::BindGroupLayout>],
 ) -> Result<wgpu::ComputePipeline, SimError> {
     let source = shaders.kernel(kernel).map_err(|error| SimError::Device { reason: error.to_string() })?;
     let module = shader_module(gpu, &source, kernel.name(), contract)?;
     gpu.scoped(|| {
         let layout = gpu.device().create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
             label: Some(kernel.name()),
-            bind_group_layouts: &layouts.map(Some),
+            bind_group_layouts: layouts,
             immediate_size: 0,
         });
         gpu.device().create_compute_pipeline(&wgpu::ComputePipelineDescriptor {

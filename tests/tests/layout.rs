@@ -144,8 +144,8 @@ fn shaders_read_no_lanes_of_blocks_and_records() {
     }
     // A lane read that is put in is found, also behind a name of its own.
     let planted = [
-        ("leaf/release", "compiled.species[species].rates[0]", "rates.x"),
-        ("leaf/release", "compiled.seed", "rates.y"),
+        ("leaf/release", "scene.species[species].rates[0]", "rates.x"),
+        ("leaf/release", "scene.seed", "rates.y"),
         ("leaf/advance", "attitudes[leaf].quaternion", "u32(rates.x)"),
     ];
     for (module, read, lane) in planted {
@@ -251,10 +251,15 @@ fn words_are_read_by_name() {
     }
 }
 
-/// Common devices, and browsers, allow eight storage buffers; one stays free for the stores to come.
+/// Kernels that work on a listed part of the leaves: the event list comes on top of tables and columns, or the segments
+/// that carry leaves and their counts.
+const SPARSE: [KernelId; 2] = [KernelId::ResolveEvents, KernelId::Carry];
+
+/// Common devices, and browsers, allow eight storage buffers; some stay free for the stores to come.
 #[test]
 fn kernels_leave_room_among_eight_storage_buffers() {
     for kernel in KernelId::ALL {
+        let share = if SPARSE.contains(&kernel) { 7 } else { 6 };
         let kernel = &format!("kernels/{}", kernel.name());
         let (module, info) = parse(kernel);
         let storage = |space: &AddressSpace| matches!(space, AddressSpace::Storage { .. });
@@ -264,7 +269,7 @@ fn kernels_leave_room_among_eight_storage_buffers() {
             .iter()
             .filter(|(handle, variable)| storage(&variable.space) && !entry[*handle].is_empty())
             .count();
-        assert!((1..=7).contains(&count), "{kernel} uses {count} storage buffers; 7 of 8 are its share");
+        assert!((1..=share).contains(&count), "{kernel} uses {count} storage buffers; its share is {share}");
     }
 }
 

@@ -138,7 +138,7 @@ fn a_changed_kernel_is_noticed() {
     let synthesised = [
         ("leaf/fall", "before * part.decay", "before * (part.decay * 1.001)"),
         ("leaf/own", "sin_cos_half(heading_angle(heading))", "sin_cos_half(heading >> 15u)"),
-        ("leaf/settle", "(1.0 - share) * compiled.dt_s", "share * compiled.dt_s"),
+        ("leaf/settle", "(1.0 - share) * scene.dt_s", "share * scene.dt_s"),
         ("leaf/join", "before - after", "after - before"),
         ("leaf/advance", "state == STATE_RESTING", "state == STATE_ATTACHED"),
         ("wind/sample", "turbulence.y *", "turbulence.x *"),
@@ -151,7 +151,7 @@ fn a_changed_kernel_is_noticed() {
     ];
     let hilly = [
         ("terrain/ground", "cell.z * (far - near)", "cell.x * (far - near)"),
-        ("terrain/ground", "max(ground_relief(x, z), compiled.water_relief_m)", "ground_relief(x, z)"),
+        ("terrain/ground", "max(ground_relief(x, z), scene.water_relief_m)", "ground_relief(x, z)"),
         ("leaf/settle", "came.x - slope.x * pull", "came.x + slope.x * pull"),
         ("leaf/settle", "flatten(quat_multiply(back, q), kept)", "flatten(q, kept)"),
         ("wind/sample", "above = height - ground_relief", "above = height + ground_relief"),

@@ -8,6 +8,8 @@ use super::WgpuSimulator;
 use crate::buffers::{buffer, group};
 use crate::pipelines::GroupLayout;
 
+/// Leaf columns before the identities.
+const COLUMNS_IN_MOTION: usize = 4;
 /// Header of an empty event list.
 const EVENT_LIST_HEADER: [u8; 16] = [0; 16];
 
@@ -16,6 +18,8 @@ const EVENT_LIST_HEADER: [u8; 16] = [0; 16];
 pub(super) struct Page {
     pub(super) leaves: u32,
     pub(super) columns: wgpu::BindGroup,
+    /// The same without identities.
+    pub(super) in_motion: wgpu::BindGroup,
     pub(super) events: wgpu::BindGroup,
     /// Header of `events`: lengths of the lists of even and odd steps.
     event_counts: wgpu::Buffer,
@@ -26,7 +30,6 @@ pub(super) struct Page {
 #[derive(Debug)]
 pub(super) struct OnTrees {
     pub(super) leaves: u32,
-    pub(super) carried: wgpu::BindGroup,
     pub(super) carriers: wgpu::BindGroup,
 }
 
@@ -50,8 +53,10 @@ impl WgpuSimulator {
         let leaves = self.page_leaves.min(self.buffers.leaves().rows() - first);
         let blocks = || self.sway_blocks().into_iter();
         let columns = || self.buffers.leaves().windows(first, leaves);
-        let resources = blocks().chain(columns());
-        let page = group(&self.gpu, self.pipelines.layout(GroupLayout::Leaves), resources);
+        let all = blocks().chain(columns());
+        let page = group(&self.gpu, self.pipelines.layout(GroupLayout::Leaves), all);
+        let hot = blocks().chain(columns().take(COLUMNS_IN_MOTION));
+        let in_motion = group(&self.gpu, self.pipelines.layout(GroupLayout::LeavesInMotion), hot);
         // Header of four counts, then a place for every leaf; new buffers are zero.
         let usage = wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST;
         let event_counts =
@@ -62,7 +67,6 @@ impl WgpuSimulator {
         let on_trees = (self.forest.is_some() && tree_leaves > 0).then(|| {
             let branches = self.buffers.branches();
             let stride = branches.stride(BRANCH_TURN as usize);
-            let carried = blocks().chain(columns().take(4));
             let block = buffer(&self.gpu, "carry", 16, wgpu::BufferUsages::UNIFORM);
             self.gpu.queue().write_buffer(&block, 0, bytemuck::bytes_of(&[first, stride, 0, 0]));
             let carriers = [
@@ -72,10 +76,9 @@ impl WgpuSimulator {
             ];
             OnTrees {
                 leaves: tree_leaves,
-                carried: group(&self.gpu, self.pipelines.layout(GroupLayout::Carried), carried),
                 carriers: group(&self.gpu, self.pipelines.layout(GroupLayout::Carriers), carriers),
             }
         });
-        Page { leaves, columns: page, events, event_counts, on_trees }
+        Page { leaves, columns: page, in_motion, events, event_counts, on_trees }
     }
 }

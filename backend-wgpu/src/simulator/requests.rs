@@ -50,7 +50,7 @@ impl WgpuSimulator {
                 pass.set_pipeline(self.pipelines.kernel(KernelId::Measure));
                 pass.set_bind_group(1, &self.counters_group, &[]);
                 for page in &self.pages {
-                    pass.set_bind_group(0, &page.columns, &[0]);
+                    pass.set_bind_group(0, &page.in_motion, &[0]);
                     pass.dispatch_workgroups(page.leaves.div_ceil(WORKGROUP_SIZE).min(MAX_GROUPS), 1, 1);
                 }
             }

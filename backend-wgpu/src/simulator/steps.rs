@@ -103,17 +103,19 @@ impl WgpuSimulator {
                 forest.encode(&mut pass, sway.map(kernel), offset);
                 pass.set_pipeline(kernel(KernelId::Carry));
             }
-            for on_trees in self.pages.iter().filter_map(|page| page.on_trees.as_ref()) {
-                pass.set_bind_group(0, &on_trees.carried, &[offset]);
+            for page in &self.pages {
+                let Some(on_trees) = &page.on_trees else { continue };
+                pass.set_bind_group(0, &page.in_motion, &[offset]);
                 pass.set_bind_group(1, &on_trees.carriers, &[]);
                 pass.dispatch_workgroups(on_trees.leaves.div_ceil(WORKGROUP_SIZE).min(MAX_GROUPS), 1, 1);
             }
             for page in &self.pages {
-                pass.set_bind_group(0, &page.columns, &[offset]);
+                pass.set_bind_group(0, &page.in_motion, &[offset]);
                 pass.set_bind_group(1, &page.events, &[]);
                 let groups = page.leaves.div_ceil(WORKGROUP_SIZE);
                 pass.set_pipeline(kernel(KernelId::Advance));
                 pass.dispatch_workgroups(groups.min(MAX_GROUPS), 1, 1);
+                pass.set_bind_group(0, &page.columns, &[offset]);
                 pass.set_pipeline(kernel(KernelId::ResolveEvents));
                 pass.dispatch_workgroups(groups.div_ceil(EVENT_SHARE), 1, 1);
                 if has_bodies {

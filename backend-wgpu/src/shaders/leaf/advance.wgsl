@@ -31,7 +31,7 @@ fn leaf_advance_plain(leaf: u32) -> bool {
         if (flies(place.bits)) {
             return true;
         }
-        return leaf_fall(leaf, place, schedule, false);
+        return leaf_fall_aloft(leaf, place, schedule);
     }
     return state != STATE_RESTING || !leaf_is_settling(leaf);
 }
@@ -63,7 +63,7 @@ fn leaf_advance(leaf: u32) {
     let place = places[leaf];
     let state = leaf_state(place.bits);
     if (state == STATE_FALLING && !flies(place.bits)) {
-        _ = leaf_fall(leaf, place, schedules[leaf], true);
+        leaf_fall(leaf, place, schedules[leaf]);
     } else if (state == STATE_RESTING) {
         leaf_settle(leaf);
     }

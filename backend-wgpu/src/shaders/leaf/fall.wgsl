@@ -64,15 +64,12 @@ fn attitude_after(leaf: u32, bits: u32, phase: u32, heading: u32) -> Turned {
     return Turned(count_down_blend(bits, true), mixed);
 }
 
-fn glide_end(leaf: u32, start: vec3<f32>, glide: Glide, bits: u32, heading: u32, lands: bool) {
+fn glide_end(leaf: u32, glide: Glide, bits: u32, heading: u32) {
     let spun = spin_advance(bits, heading, response_of(bits).fastest_spin);
     let turned = attitude_after(leaf, spun, glide.phase, heading);
     attitudes[leaf].quaternion = turned.attitude;
     places[leaf] = Place(glide.position, turned.bits);
     drifts[leaf] = Drift(glide.drift, glide.phase);
-    if (lands) {
-        leaf_land(leaf, start);
-    }
 }
 
 fn glide_step(glide: Glide, bits: u32, params: MotionParams, response: ResponseBlock) -> Glide {
@@ -81,13 +78,21 @@ fn glide_step(glide: Glide, bits: u32, params: MotionParams, response: ResponseB
     return glide_part(glide, bits, params, wind, part);
 }
 
-fn leaf_fall(leaf: u32, place: Place, schedule: Schedule, may_land: bool) -> bool {
+fn leaf_fall_aloft(leaf: u32, place: Place, schedule: Schedule) -> bool {
     let glide = glide_of(place, drifts[leaf]);
     let moved = glide_step(glide, place.bits, motion_params(schedule), response_of(place.bits));
-    let lands = ground_met(moved.position);
-    if (lands && !may_land) {
+    if (ground_met(moved.position)) {
         return false;
     }
-    glide_end(leaf, place.position, moved, place.bits, schedule.heading, lands);
+    glide_end(leaf, moved, place.bits, schedule.heading);
     return true;
+}
+
+fn leaf_fall(leaf: u32, place: Place, schedule: Schedule) {
+    let glide = glide_of(place, drifts[leaf]);
+    let moved = glide_step(glide, place.bits, motion_params(schedule), response_of(place.bits));
+    glide_end(leaf, moved, place.bits, schedule.heading);
+    if (ground_met(moved.position)) {
+        leaf_land(leaf, place.position);
+    }
 }

@@ -68,5 +68,8 @@ fn leaf_fall_joining(leaf: u32) {
     let bits = places[leaf].bits;
     let schedule = schedules[leaf];
     let moved = glide_part(glide, bits, motion_params(schedule), wind, part);
-    glide_end(leaf, start, moved, bits, schedule.heading, ground_met(moved.position));
+    glide_end(leaf, moved, bits, schedule.heading);
+    if (ground_met(moved.position)) {
+        leaf_land(leaf, start);
+    }
 }

@@ -5,7 +5,7 @@
 //! One step of one leaf: the whole of its life in one place. Steps with an event (a release, a join) are few and long;
 //! kernels take them apart from the many short ones.
 
-use super::fall::leaf_fall;
+use super::fall::{leaf_fall, leaf_fall_aloft};
 use super::join::leaf_fall_joining;
 use super::record::{
     STATE_ATTACHED, STATE_DORMANT, STATE_FALLING, STATE_RESTING, flies, ground_steps, leaf_source, leaf_state,
@@ -39,7 +39,7 @@ pub fn leaf_advance_plain(cx: &Context<'_>, leaf: &mut LeafMut<'_>) -> bool {
     }
     let state = leaf_state(leaf.place.bits);
     if state == STATE_FALLING {
-        return flies(leaf.place.bits) || leaf_fall(cx, leaf, false);
+        return flies(leaf.place.bits) || leaf_fall_aloft(cx, leaf);
     }
     state != STATE_RESTING || !leaf_is_settling(cx, leaf)
 }
@@ -72,7 +72,7 @@ pub fn leaf_advance(cx: &Context<'_>, leaf: &mut LeafMut<'_>) {
     }
     let state = leaf_state(leaf.place.bits);
     if state == STATE_FALLING && !flies(leaf.place.bits) {
-        leaf_fall(cx, leaf, true);
+        leaf_fall(cx, leaf);
     } else if state == STATE_RESTING {
         leaf_settle(cx, leaf);
     }

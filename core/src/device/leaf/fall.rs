@@ -131,26 +131,15 @@ pub fn attitude_after<R: Real>(
     (count_down_blend(bits, is_blending), attitude)
 }
 
-/// Writes back a leaf that has come from `start` to the end of its step: spin, orientation, and the ground if it `lands`.
+/// Writes back a leaf at the end of its step, with its spin and orientation there.
 #[inline(always)]
-pub fn glide_end(
-    cx: &Context<'_>,
-    leaf: &mut LeafMut<'_>,
-    start: Vec3,
-    glide: Glide,
-    bits: u32,
-    heading: u32,
-    lands: bool,
-) {
+pub fn glide_end(cx: &Context<'_>, leaf: &mut LeafMut<'_>, glide: Glide, bits: u32, heading: u32) {
     let spun = spin_advance(bits, heading, response_of(cx, bits).fastest_spin);
     let before = || Quat::from(leaf.attitude.quaternion);
     let (bits, attitude) = attitude_after(cx, spun, glide.phase, heading, before);
     leaf.attitude.quaternion = attitude.to_array();
     *leaf.place = Place { position: glide.position.to_array(), bits };
     *leaf.drift = Drift { velocity: glide.drift.to_array(), phase: glide.phase };
-    if lands {
-        leaf_land(cx, leaf, start);
-    }
 }
 
 /// The whole step of falling leaves that have no event in it, up to the ground.
@@ -167,17 +156,28 @@ pub fn glide_step<R: Real>(
     glide_part(cx, glide, bits, params, wind, part)
 }
 
-/// One step of a falling leaf that has no event in it. One that comes to the ground and may not land is left alone.
-/// Returns true if it has been moved.
+/// One step of a falling leaf that has no event in it and does not come to the ground. One that does is left alone.
+/// Returns true if the leaf has been moved.
 #[inline(always)]
-pub fn leaf_fall(cx: &Context<'_>, leaf: &mut LeafMut<'_>, may_land: bool) -> bool {
+pub fn leaf_fall_aloft(cx: &Context<'_>, leaf: &mut LeafMut<'_>) -> bool {
+    let (bits, heading) = (leaf.place.bits, leaf.schedule.heading);
+    let glide = glide_of(leaf.place, leaf.drift);
+    let moved = glide_step(cx, glide, bits, motion_params(*leaf.schedule), response_of(cx, bits));
+    if ground_met(cx, moved.position) {
+        return false;
+    }
+    glide_end(cx, leaf, moved, bits, heading);
+    true
+}
+
+/// One step of a falling leaf that has no event in it, to the ground if it comes there.
+#[inline(always)]
+pub fn leaf_fall(cx: &Context<'_>, leaf: &mut LeafMut<'_>) {
     let (start, bits, heading) = (Vec3::from(leaf.place.position), leaf.place.bits, leaf.schedule.heading);
     let glide = glide_of(leaf.place, leaf.drift);
     let moved = glide_step(cx, glide, bits, motion_params(*leaf.schedule), response_of(cx, bits));
-    let lands = ground_met(cx, moved.position);
-    if lands && !may_land {
-        return false;
+    glide_end(cx, leaf, moved, bits, heading);
+    if ground_met(cx, moved.position) {
+        leaf_land(cx, leaf, start);
     }
-    glide_end(cx, leaf, start, moved, bits, heading, lands);
-    true
 }

@@ -16,6 +16,7 @@ use super::record::{
     with_primitive, with_stage,
 };
 use super::release::{next_event, release_rate, release_ratio, release_size_speed};
+use super::settle::leaf_land;
 use crate::arith::math::exponential;
 use crate::arith::rng::random;
 use crate::arith::vector::Vec3;
@@ -85,5 +86,8 @@ pub fn leaf_fall_joining(cx: &Context<'_>, leaf: &mut LeafMut<'_>) {
     let part = part_of_step(cx, response, WHOLE_STEP - done);
     let (bits, schedule) = (leaf.place.bits, *leaf.schedule);
     let moved = glide_part(cx, glide, bits, motion_params(schedule), wind, part);
-    glide_end(cx, leaf, start, moved, bits, schedule.heading, ground_met(cx, moved.position));
+    glide_end(cx, leaf, moved, bits, schedule.heading);
+    if ground_met(cx, moved.position) {
+        leaf_land(cx, leaf, start);
+    }
 }
