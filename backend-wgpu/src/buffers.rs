@@ -5,7 +5,7 @@
 use std::sync::Arc;
 
 use windfall_core::SimError;
-use windfall_core::layout::Uint4;
+use windfall_core::layout::{Uint4, WgslStruct};
 
 use crate::gpu::Gpu;
 
@@ -22,6 +22,14 @@ pub(crate) fn buffer(gpu: &Gpu, label: &str, size: u64, usage: wgpu::BufferUsage
 /// A storage buffer that holds these bytes.
 pub(crate) fn filled(gpu: &Gpu, label: &str, bytes: &[u8]) -> wgpu::Buffer {
     let buffer = buffer(gpu, label, bytes.len() as u64, wgpu::BufferUsages::STORAGE);
+    gpu.queue().write_buffer(&buffer, 0, bytes);
+    buffer
+}
+
+/// A uniform buffer that holds this block.
+pub(crate) fn uniform<T: WgslStruct>(gpu: &Gpu, label: &str, block: &T) -> wgpu::Buffer {
+    let bytes = bytemuck::bytes_of(block);
+    let buffer = buffer(gpu, label, bytes.len() as u64, wgpu::BufferUsages::UNIFORM);
     gpu.queue().write_buffer(&buffer, 0, bytes);
     buffer
 }

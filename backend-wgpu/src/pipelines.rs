@@ -44,7 +44,7 @@ impl GroupLayout {
             Self::Extra => &[Write],
             // The bindings of shaders/tree/bindings.wgsl.
             Self::Level => &[BlockOfMany, Read, Read, Write, Write, Read],
-            // The bindings of shaders/leaf/petioles.wgsl.
+            // The bindings of shaders/leaf/carrier_bindings.wgsl.
             Self::Carriers => &[Block, Read, Write],
         }
     }

@@ -45,6 +45,8 @@ pub(crate) fn structs() -> String {
         blocks::StepBlock::declaration(),
         tree::record::SegmentConstants::declaration(),
         tree::record::LevelBlock::declaration(),
+        tree::record::CarryBlock::declaration(),
+        leaf::Petiole::declaration(),
         records(),
     ]
     .concat()
@@ -66,7 +68,7 @@ pub(crate) fn constants() -> String {
         device::leaf::carry::wgsl_constants(),
         device::leaf::fall::wgsl_constants(),
         device::leaf::launch::wgsl_constants(),
-        leaf::petiole::wgsl_constants(),
+        device::leaf::petiole::wgsl_constants(),
         device::leaf::record::wgsl_constants(),
         device::leaf::release::wgsl_constants(),
         device::motion::feature::wgsl_constants(),

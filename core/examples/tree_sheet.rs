@@ -13,7 +13,7 @@ use glam::{Vec2, Vec3};
 use image::{Rgb, RgbImage};
 use windfall_core::scene::{Tree, TreeForm, TreeKind, TreePreset};
 use windfall_core::tree::grammar::Grammar;
-use windfall_core::tree::{Bearing, Skeleton, full_leaf_count, grow};
+use windfall_core::tree::{AttachmentKind, Skeleton, full_leaf_count, grow};
 
 /// Width and height of a picture in pixels.
 const CELL: (u32, u32) = (400, 400);
@@ -82,7 +82,7 @@ fn leaf_m2(kind: &TreeKind, tree: &Tree, skeleton: &Skeleton) -> Result<f32, Box
         TreeForm::Preset(preset) => preset.text(),
         TreeForm::Grammar(text) | TreeForm::File(text) => text,
     };
-    let leaves = skeleton.attachments.iter().filter(|one| one.bearing == Bearing::Leaf).count();
+    let leaves = skeleton.attachments.iter().filter(|one| one.kind == AttachmentKind::Leaf).count();
     let each = full_leaf_count(kind, tree, SEED)? / leaves.max(1) as f64;
     Ok((each * Grammar::parse(text)?.settings().leaf_area_m2) as f32)
 }
@@ -112,9 +112,9 @@ fn draw(sheet: &mut RgbImage, corner: (u32, u32), skeleton: &Skeleton, leaf_m2: 
         let near = 0.5 + 0.5 * attachment.at_m.z / reach;
         let light = 0.45 + 0.55 * attachment.normal.dot(Vec3::new(-0.6, 0.6, 0.5).normalize()).max(0.0);
         let shade = |value: f32| (value * light * (0.55 + 0.45 * near)) as u8;
-        let (colour, radius_m) = match attachment.bearing {
-            Bearing::Leaf => (Rgb([shade(120.0), shade(170.0), shade(60.0)]), leaf_m),
-            Bearing::Fruit => (Rgb([shade(255.0), shade(40.0), shade(60.0)]), 0.008),
+        let (colour, radius_m) = match attachment.kind {
+            AttachmentKind::Leaf => (Rgb([shade(120.0), shade(170.0), shade(60.0)]), leaf_m),
+            AttachmentKind::Fruit => (Rgb([shade(255.0), shade(40.0), shade(60.0)]), 0.008),
         };
         let centre = place(attachment.at_m + attachment.direction * radius_m);
         let radius = radius_m * pixels_per_m;

@@ -8,7 +8,7 @@ use windfall_core::scene::{
     Foliage, MeanSpeed, STANDARD_GRAVITY_M_S2, SwayScheme, TreeKind, Turbulence, Wood,
 };
 use windfall_core::tree::forest::Seedling;
-use windfall_core::tree::{Attachment, Bearing, Branches, Forest, LeafFacts, Segment, Skeleton};
+use windfall_core::tree::{Attachment, AttachmentKind, Branches, Forest, LeafFacts, Segment, Skeleton};
 use windfall_core::{Clock, CompiledScene, Scene};
 
 /// A forest in a wind.
@@ -152,7 +152,7 @@ pub fn forked(depth: u32, height_m: f32) -> Skeleton {
             let normal = direction.any_orthonormal_vector();
             Attachment {
                 segment: u32::try_from(index).expect("a small tree"),
-                bearing: Bearing::Leaf,
+                kind: AttachmentKind::Leaf,
                 at_m: segment.end_m,
                 direction,
                 normal,
@@ -199,7 +199,7 @@ impl Grove {
     pub fn put_on_leaves(&mut self) {
         for tree in self.forest.trees() {
             for attachment in &tree.skeleton.attachments {
-                self.branches.bearing[tree.rows[attachment.segment as usize] as usize] += 1;
+                self.branches.leaf_count[tree.rows[attachment.segment as usize] as usize] += 1;
             }
         }
     }

@@ -11,8 +11,8 @@ use windfall_core::blocks::{
 };
 use windfall_core::flight::block::BodyBlock;
 use windfall_core::layout::WgslStruct;
-use windfall_core::leaf::{Attitude, Drift, Identity, Place, Schedule};
-use windfall_core::tree::record::{LevelBlock, SegmentConstants};
+use windfall_core::leaf::{Attitude, Drift, Identity, Petiole, Place, Schedule};
+use windfall_core::tree::record::{CarryBlock, LevelBlock, SegmentConstants};
 use windfall_wgpu::{KernelId, Shaders};
 
 fn root() -> PathBuf {
@@ -62,6 +62,8 @@ fn every_module_is_valid_and_every_struct_has_one_layout() {
     same_layout::<StepBlock>(&module);
     same_layout::<SegmentConstants>(&module);
     same_layout::<LevelBlock>(&module);
+    same_layout::<CarryBlock>(&module);
+    same_layout::<Petiole>(&module);
     same_layout::<Place>(&module);
     same_layout::<Drift>(&module);
     same_layout::<Attitude>(&module);
@@ -73,7 +75,7 @@ fn every_module_is_valid_and_every_struct_has_one_layout() {
 const LIST_READERS: [&str; 3] = ["source_share", "species_rate", "transition_count"];
 
 /// Members that are vectors of four with axes.
-const QUATERNIONS: [&str; 1] = ["quaternion"];
+const QUATERNIONS: [&str; 2] = ["quaternion", "rest_quaternion"];
 
 /// Returns true if an expression reads a lane of a vector without axes: of a vector of two or four that is a member of a
 /// struct in a buffer, but for quaternions. Vectors of three have axes, and rows of a table have no members.
@@ -184,8 +186,10 @@ fn indexes_a_vector(line: &str) -> bool {
 
 /// Constants of places within the words of records.
 fn packing_constants() -> Vec<&'static str> {
-    let constants = windfall_core::device::leaf::record::wgsl_constants().into_iter().map(|(name, _)| name);
+    use windfall_core::device::leaf::{petiole, record};
+    let constants = record::wgsl_constants().into_iter().chain(petiole::wgsl_constants());
     constants
+        .map(|(name, _)| name)
         .filter(|name| name.ends_with("_SHIFT") || name.ends_with("_MASK") && *name != "HALF_MASK")
         .collect()
 }
@@ -221,7 +225,7 @@ fn words_are_read_by_name() {
     };
     for path in rust.iter().chain(&shaders).filter(|path| !is_test(path)) {
         let text = fs::read_to_string(path).expect("readable");
-        let is_accessor = path.file_stem().is_some_and(|stem| stem == "record");
+        let is_accessor = path.file_stem().is_some_and(|stem| stem == "record" || stem == "petiole");
         for line in text.lines().filter(|line| !line.trim_start().starts_with("//")) {
             if indexes_a_vector(line) {
                 faults.push(format!("{}: '{}'", path.display(), line.trim()));
@@ -244,9 +248,10 @@ fn words_are_read_by_name() {
         "leaf.drift.phase = spin.x.to_bits();",
         "let spin = bitcast<f32>(drifts[leaf].phase);",
         "(bits >> SPECIES_SHIFT) & 31u",
+        "petiole.bits >> PETIOLE_KIND_SHIFT",
     ];
     assert!(by_hand.iter().all(|line| unpacks_by_hand(line).is_some()), "found in every line");
-    for line in ["let up = place.position.y;", "PETIOLE_SPECIES_MASK", "x.to_bits()", "drift.phase + 1"] {
+    for line in ["let up = place.position.y;", "PETIOLE_SPECIES_MASKS", "x.to_bits()", "drift.phase + 1"] {
         assert_eq!(unpacks_by_hand(line), None, "{line}");
     }
 }
@@ -293,7 +298,7 @@ fn wgsl_files(folder: &Path) -> Vec<PathBuf> {
 
 /// Files without a twin: on the CPU what they declare are arguments.
 const BINDINGS_ONLY: [&str; 4] =
-    ["bindings.wgsl", "event_list.wgsl", "leaf/petioles.wgsl", "tree/bindings.wgsl"];
+    ["bindings.wgsl", "event_list.wgsl", "leaf/carrier_bindings.wgsl", "tree/bindings.wgsl"];
 
 /// Every WGSL file names its Rust twin, the twin names it back, and their functions have the same names in the same
 /// order (Rust may have more, for the host).

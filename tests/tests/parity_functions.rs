@@ -151,10 +151,10 @@ fn a_changed_twin_is_noticed() {
         ),
         ("flight/runge_kutta", "flight_sum(middle, middle)", "middle", "flight_step"),
         ("flight/regime", "2u < octants_apart", "3u < octants_apart", "regime_after"),
-        ("leaf/fly", "substeps.share * compiled", "substeps.count * compiled", "flight_advance"),
+        ("leaf/fly", "substeps.share * scene", "substeps.count * scene", "flight_advance"),
         ("leaf/launch", "share * inverse_sqrt", "rest * inverse_sqrt", "hold_pose"),
         ("leaf/carry", "SHED_SPEEDS - 1u", "SHED_SPEEDS - 9u", "shed_chance"),
-        ("leaf/carry", "still, vec3<f32>(0.0", "still, vec3<f32>(0.1", "leaf_hang"),
+        ("leaf/carry", "still, vec3<f32>(0.0", "still, vec3<f32>(0.1", "leaf_twig_pose"),
         ("leaf/carry", "0u - (step_block", "1u - (step_block", "leaf_hangs"),
         ("leaf/carry", "- velocity;\n    let squared", "+ velocity;\n    let squared", "leaf_sample_air"),
     ];
@@ -181,7 +181,7 @@ const RECORDS: [&str; 11] = [
     "segments",
     "branch_rows",
     "work_rows",
-    "bearings",
+    "leaf_counts",
     "carrier_rows",
     "carried",
 ];

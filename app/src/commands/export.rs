@@ -85,9 +85,10 @@ pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let scene = world.compiled.scene().clone();
     let choice = arguments.backend.choose()?;
     let mut backend = choice.device.simulator(&world)?;
-    let stand = SceneTrees::of(&scene, world.compiled.forest());
+    let scene_trees = SceneTrees::of(&scene, world.compiled.forest());
     let mut observer = Observer::default();
-    let job = Job { scene: &scene, stand: &stand, path, frames, fps: arguments.fps, cancel: &cancel };
+    let job =
+        Job { scene: &scene, scene_trees: &scene_trees, path, frames, fps: arguments.fps, cancel: &cancel };
     let mut exporter = export::start(format, &job)?;
     for line in [choice.reason, note].into_iter().flatten() {
         terminal::note(&line);

@@ -47,7 +47,7 @@ struct Crown {
 
 impl Foliage {
     /// The kinds of leaves that `atlas` has for the scene.
-    pub(super) fn new(scene: &Scene, stand: &SceneTrees, atlas: &Atlas) -> Self {
+    pub(super) fn new(scene: &Scene, scene_trees: &SceneTrees, atlas: &Atlas) -> Self {
         let mut foliage = Self {
             meshes: Vec::new(),
             pictures: Vec::new(),
@@ -63,13 +63,14 @@ impl Foliage {
         }
         for (number, (species, layers)) in &kinds {
             let is_own = |tree: &&StandingTree| tree.species.is_some_and(|own| own as usize == *number);
-            let counts: BTreeSet<u32> = stand.trees.iter().filter(is_own).map(|tree| tree.cluster).collect();
+            let counts: BTreeSet<u32> =
+                scene_trees.trees.iter().filter(is_own).map(|tree| tree.cluster).collect();
             for count in counts {
                 foliage.add_clusters(*number, species, layers, count);
             }
         }
         let mut next = 0;
-        foliage.trees.extend(stand.trees.iter().map(|tree| {
+        foliage.trees.extend(scene_trees.trees.iter().map(|tree| {
             next += tree.leaves;
             Crown { end: next, turned: [tree.look.turned, tree.look.turned_range], cluster: tree.cluster }
         }));
@@ -168,10 +169,10 @@ pub(super) mod tests {
         scene.tree_kinds = vec![TreeKind { name: "one".into(), form, foliage: twigs, ..TreeKind::default() }];
         scene.trees = vec![Tree { kind: "one".into(), leaves: 500, ..Tree::default() }];
         let world = World::build(&scene).expect("a scene");
-        let stand = SceneTrees::of(&scene, world.compiled.forest());
+        let scene_trees = SceneTrees::of(&scene, world.compiled.forest());
         let atlas = crate::leaves::atlas_of(&scene, &|_, _| ()).expect("pictures");
-        let foliage = Foliage::new(&scene, &stand, &atlas);
-        (scene, stand, foliage)
+        let foliage = Foliage::new(&scene, &scene_trees, &atlas);
+        (scene, scene_trees, foliage)
     }
 
     /// A leaf of nominal size at the origin.
@@ -228,8 +229,8 @@ pub(super) mod tests {
 
     #[test]
     fn a_leaf_on_its_twig_shows_all_that_it_stands_for() {
-        let (_, stand, foliage) = foliage(LeafShape::Plate);
-        let count = stand.trees[0].cluster;
+        let (_, scene_trees, foliage) = foliage(LeafShape::Plate);
+        let count = scene_trees.trees[0].cluster;
         assert!(count > 3, "{count} leaves are a cluster");
         let mut seen = BTreeSet::new();
         for look in 0..40 * 257 {

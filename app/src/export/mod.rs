@@ -38,7 +38,7 @@ pub(crate) struct Job<'a> {
     /// The scene, scaled and seeded.
     pub scene: &'a Scene,
     /// Its trees.
-    pub stand: &'a SceneTrees,
+    pub scene_trees: &'a SceneTrees,
     /// Path that the result will lie at.
     pub path: &'a Path,
     /// Frames that come.

@@ -28,15 +28,16 @@ pub(super) fn rotations(joints: &[Joint], pose: &[[f32; 4]]) -> impl Iterator<It
 }
 
 /// Place of a row's joint at rest, and the turn of its segment.
-pub(super) fn at_rest(stand: &SceneTrees, row: usize) -> (Vec3, Quat) {
-    let [x, y, z, _] = stand.rest_base[row];
-    (Vec3::new(x, y, z), Quat::from_array(stand.rest_pose[row]).normalize())
+pub(super) fn at_rest(scene_trees: &SceneTrees, row: usize) -> (Vec3, Quat) {
+    let [x, y, z, _] = scene_trees.rest_base[row];
+    (Vec3::new(x, y, z), Quat::from_array(scene_trees.rest_pose[row]).normalize())
 }
 
 /// The same seen from the joint that it grows from.
-pub(super) fn at_rest_above(stand: &SceneTrees, (row, parent): Joint) -> (Vec3, Quat) {
-    let (at, turn) = at_rest(stand, row);
-    let (above, above_turn) = parent.map_or((Vec3::ZERO, Quat::IDENTITY), |parent| at_rest(stand, parent));
+pub(super) fn at_rest_above(scene_trees: &SceneTrees, (row, parent): Joint) -> (Vec3, Quat) {
+    let (at, turn) = at_rest(scene_trees, row);
+    let (above, above_turn) =
+        parent.map_or((Vec3::ZERO, Quat::IDENTITY), |parent| at_rest(scene_trees, parent));
     let back = above_turn.conjugate();
     (back * (at - above), back * turn)
 }
@@ -51,7 +52,7 @@ pub(super) fn bark(tree: &StandingTree) -> BarkMesh {
 /// Bends the bark of a tree as its segments are turned.
 pub(super) fn bend(
     mesh: &mut BarkMesh,
-    stand: &SceneTrees,
+    scene_trees: &SceneTrees,
     tree: &StandingTree,
     base: &[[f32; 4]],
     pose: &[[f32; 4]],
@@ -61,7 +62,7 @@ pub(super) fn bend(
         let (mut moved, mut turned) = (Vec3::ZERO, Vec3::ZERO);
         for (&joint, &share) in joints.iter().zip(shares) {
             let row = tree.rows[usize::from(joint)] as usize;
-            let (rest, rest_turn) = at_rest(stand, row);
+            let (rest, rest_turn) = at_rest(scene_trees, row);
             let turn = Quat::from_array(pose[row]) * rest_turn.conjugate();
             let [x, y, z, _] = base[row];
             moved += share * (Vec3::new(x, y, z) + turn * (Vec3::from(*place) - rest));
@@ -84,8 +85,8 @@ pub(super) fn bark_name(kind: BarkKind) -> &'static str {
 }
 
 /// The barks of a stand, each once.
-pub(super) fn barks(stand: &SceneTrees) -> impl Iterator<Item = BarkKind> {
-    BarkKind::ALL.into_iter().filter(|kind| stand.trees.iter().any(|tree| tree.look.bark == *kind))
+pub(super) fn barks(scene_trees: &SceneTrees) -> impl Iterator<Item = BarkKind> {
+    BarkKind::ALL.into_iter().filter(|kind| scene_trees.trees.iter().any(|tree| tree.look.bark == *kind))
 }
 
 /// The colour of a bark, up the trunk from its lower edge.

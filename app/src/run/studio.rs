@@ -60,9 +60,9 @@ impl Studio {
         let atlas = leaves::atlas_of(scene, progress)?;
         let options = RendererOptions::for_scene(scene);
         let format = PictureTarget::FORMAT;
-        let stand = SceneTrees::of(scene, world.compiled.forest());
-        let subject = RenderScene { scene, trees: &stand, atlas: &atlas };
-        let renderer = Renderer::new(gpu.device(), gpu.queue(), subject, format, size, options)?;
+        let scene_trees = SceneTrees::of(scene, world.compiled.forest());
+        let render_scene = RenderScene { scene, trees: &scene_trees, atlas: &atlas };
+        let renderer = Renderer::new(gpu.device(), gpu.queue(), render_scene, format, size, options)?;
         gpu.check()?;
         Ok(Self {
             cancel: cancel.clone(),

@@ -2,9 +2,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Leaves that a crown loses: by the model of its petioles, and by simulating it.
 
-use windfall_core::device::leaf::carry::{petiole_of, shed_chance};
+use windfall_core::device::leaf::carry::shed_chance;
+use windfall_core::device::leaf::petiole::SHED_INTERVAL;
+use windfall_core::device::leaf::petiole::petiole_of;
 use windfall_core::leaf::LeafState;
-use windfall_core::leaf::petiole::SHED_INTERVAL;
 use windfall_core::scene::{Gusts, MeanSpeed, Profile, Tree, TreePreset, Turbulence};
 use windfall_core::{Scene, Simulator, World};
 use windfall_cpu::{CpuOptions, CpuSimulator};
@@ -92,7 +93,7 @@ impl Crown {
         let hanging = (0u32..).zip(&world.leaves.place);
         let hanging = hanging.filter(|(_, place)| place.state() == LeafState::Attached);
         hanging
-            .map(|(slot, _)| shed_chance(&cx, petiole_of(&cx, slot).facts, speed_m_s))
+            .map(|(slot, _)| shed_chance(&cx, petiole_of(&cx, slot).bits, speed_m_s))
             .map(|chance| -(1.0 - f64::from(chance) / 4_294_967_296.0).ln() / interval_s)
             .collect()
     }

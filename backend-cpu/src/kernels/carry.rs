@@ -8,12 +8,12 @@ use windfall_core::Context;
 use windfall_core::arith::pack::{BLOCK, Pack};
 use windfall_core::blocks::SOURCE_TREES;
 use windfall_core::device::leaf::carry::{
-    CarriedLeaf, Stalk, leaf_carry, leaf_follow, leaf_hangs, leaf_return, petiole_of,
+    CarriedLeaf, PetioleLanes, leaf_carry, leaf_follow, leaf_hangs, leaf_return,
 };
+use windfall_core::device::leaf::petiole::{SHED_INTERVAL, petiole_of};
 use windfall_core::device::tree::sway::Body;
 use windfall_core::device::tree::sway::row::Rows;
 use windfall_core::leaf::LeavesMut;
-use windfall_core::leaf::petiole::SHED_INTERVAL;
 use windfall_core::tree::record::NO_SEGMENT;
 
 use crate::simd::branch_block::word;
@@ -44,15 +44,15 @@ fn carry_each(
     rows: &mut Rows<'_>,
     leaves: &mut LeavesMut<'_>,
     first: u32,
-    change: impl Fn(&Context<'_>, &mut CarriedLeaf<'_>, u32, &Stalk, &Body) -> u32,
+    change: impl Fn(&Context<'_>, &mut CarriedLeaf<'_>, u32, &PetioleLanes, &Body) -> u32,
 ) {
     for (slot, leaf) in (first..).zip(leaves.iter_mut()) {
         let petiole = petiole_of(cx, slot);
         if petiole.segment != NO_SEGMENT {
             let row = (petiole.segment - rows.first) as usize;
-            let change = change(cx, &mut leaf.into(), slot, &Stalk::from(&petiole), &rows.body(row));
-            let bearing = &mut rows.branches.bearing[row];
-            *bearing = bearing.wrapping_add(change);
+            let change = change(cx, &mut leaf.into(), slot, &PetioleLanes::from(&petiole), &rows.body(row));
+            let leaf_count = &mut rows.branches.leaf_count[row];
+            *leaf_count = leaf_count.wrapping_add(change);
         }
     }
 }
@@ -77,8 +77,8 @@ fn carry_lanes<P: Pack>(
         };
         let count = group.len();
         if grow_back {
-            carry_each(cx, rows, &mut group, slot, |cx, leaf, _, stalk, _| {
-                leaf_return(cx, leaf, stalk.facts)
+            carry_each(cx, rows, &mut group, slot, |cx, leaf, _, petiole, _| {
+                leaf_return(cx, leaf, petiole.bits)
             });
         }
         for part in 0..BLOCK / P::LANES {
@@ -87,9 +87,9 @@ fn carry_lanes<P: Pack>(
         let (blocks, mut few) = group.split_at(count - count % BLOCK);
         let few_first = slot + word(blocks.len());
         follow::<P>(simd, cx, rows, blocks, slot);
-        carry_each(cx, rows, &mut few, few_first, |cx, leaf, slot, stalk, segment| {
+        carry_each(cx, rows, &mut few, few_first, |cx, leaf, slot, petiole, segment| {
             if leaf_hangs(cx, leaf.place.bits, leaf.schedule.event) {
-                leaf_follow(cx, leaf, slot, stalk, segment);
+                leaf_follow(cx, leaf, slot, petiole, segment);
             }
             0
         });

@@ -222,6 +222,6 @@ impl BatchStep<'_, '_> {
         prefetch(branches.pose.as_ptr().wrapping_add(first), BLOCK);
         prefetch(branches.velocity.as_ptr().wrapping_add(first), BLOCK);
         prefetch(branches.spin.as_ptr().wrapping_add(first), BLOCK);
-        prefetch(branches.bearing.as_ptr().wrapping_add(first), BLOCK);
+        prefetch(branches.leaf_count.as_ptr().wrapping_add(first), BLOCK);
     }
 }

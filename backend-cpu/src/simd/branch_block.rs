@@ -114,7 +114,7 @@ impl Spare {
         fill_up(&mut self.columns.pose, &branches.pose[rows.clone()]);
         fill_up(&mut self.columns.velocity, &branches.velocity[rows.clone()]);
         fill_up(&mut self.columns.spin, &branches.spin[rows.clone()]);
-        fill_up(&mut self.leaf_counts, &branches.bearing[rows]);
+        fill_up(&mut self.leaf_counts, &branches.leaf_count[rows]);
     }
 
     /// Copies the rows back.
@@ -158,7 +158,7 @@ pub(crate) fn state_of<'a>(
             velocity: block(&*branches.velocity, rows),
             spin: block(&*branches.spin, rows),
         },
-        leaf_counts: block(&*branches.bearing, rows),
+        leaf_counts: block(&*branches.leaf_count, rows),
     }
 }
 

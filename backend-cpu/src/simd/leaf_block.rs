@@ -11,11 +11,11 @@ use windfall_core::arith::lane::{Mask, Word};
 use windfall_core::arith::pack::{BLOCK, Pack, ROWS_OF_LANES, load_block, store_block};
 use windfall_core::arith::vector::vec3_select;
 use windfall_core::device::leaf::carry::{
-    CarriedLeaf, Stalk, leaf_follow, leaf_hang, leaf_hangs, leaf_next_sample, leaf_sample_air, petiole_of,
+    CarriedLeaf, PetioleLanes, leaf_follow, leaf_hangs, leaf_next_sample, leaf_sample_air, leaf_twig_pose,
 };
+use windfall_core::device::leaf::petiole::{PETIOLE_ROWS, SHED_INTERVAL, petiole_of};
 use windfall_core::device::leaf::record::{smoothed_air_speed, smoothed_air_speed_word};
 use windfall_core::device::tree::sway::row::Rows;
-use windfall_core::leaf::petiole::{PETIOLE_ROWS, SHED_INTERVAL};
 use windfall_core::leaf::{Attitude, Drift, LeavesMut, Place, Schedule};
 
 use super::branch_block::{Column, bodies_of, store_vector, vector_and_fourth, word};
@@ -32,18 +32,18 @@ pub(crate) struct LeafBlock<'a> {
 
 /// Petioles of slots, and the rows of their segments, counted from the batch's first.
 #[inline(always)]
-fn stalks_of<P: Pack>(
+fn petioles_of<P: Pack>(
     simd: P::Simd,
     cx: &Context<'_>,
     slots: P::Word,
     first: u32,
-) -> (Stalk<P::Word>, P::Word) {
+) -> (PetioleLanes<P::Word>, P::Word) {
     let from = slots.all(cx.scene.first_petiole_row).plus(slots.times(slots.all(PETIOLE_ROWS)));
     let spans = P::spans::<{ PETIOLE_ROWS as usize }>(from, cast_slice(cx.tables));
-    let (at, segment) = vector_and_fourth(P::column(simd, &spans, 0));
+    let (base, segment) = vector_and_fourth(P::column(simd, &spans, 0));
     let rest = Quat::from(P::column(simd, &spans, 1));
-    let (_, facts) = vector_and_fourth(P::column(simd, &spans, 2));
-    (Stalk { at, rest, facts: facts.to_bits() }, segment.to_bits().minus(slots.all(first)))
+    let (_, bits) = vector_and_fourth(P::column(simd, &spans, 2));
+    (PetioleLanes { base, rest, bits: bits.to_bits() }, segment.to_bits().minus(slots.all(first)))
 }
 
 /// `yes` where true, `no` elsewhere.
@@ -55,7 +55,7 @@ fn select_four<P: Pack>(mask: P::Mask, yes: [P; 4], no: [P; 4]) -> [P; 4] {
     )
 }
 
-/// Smoothed air speeds of leaves that hang. The counts of others in that word would be subnormal floats, on which
+/// Smoothed air speeds of leaves that pose. The counts of others in that word would be subnormal floats, on which
 /// processors are slow.
 #[inline(always)]
 fn air_speed_of<P: Pack>(simd: P::Simd, hangs: P::Mask, phase: P::Word) -> P {
@@ -87,10 +87,10 @@ pub(crate) fn sample_air<P: Pack>(
     }
     let [_, _, _, before] = number.look_up(cast_slice(leaves.drift));
     let slots = number.plus(number.all(first));
-    let (stalk, row) = stalks_of::<P>(simd, cx, slots, rows.first);
+    let (petiole, row) = petioles_of::<P>(simd, cx, slots, rows.first);
     let segment = bodies_of(rows, hangs.select(row, row.all(0)));
     let (air_speed, breaks) =
-        leaf_sample_air(cx, air_speed_of(simd, hangs, before.to_bits()), slots, &stalk, &segment);
+        leaf_sample_air(cx, air_speed_of(simd, hangs, before.to_bits()), slots, &petiole, &segment);
     let zero = P::fill(simd, 0.0);
     let air_speeds = floats(hangs.select_real(air_speed, before));
     let breaks = floats((hangs & breaks).select_real(P::fill(simd, 1.0), zero));
@@ -103,8 +103,8 @@ pub(crate) fn sample_air<P: Pack>(
         if breaks[lane] > 0.0 {
             leaves.schedule[number].event = cx.step.index + 1;
             let segment = petiole_of(cx, first + word(number)).segment;
-            let bearing = &mut rows.branches.bearing[(segment - rows.first) as usize];
-            *bearing = bearing.wrapping_sub(1);
+            let leaf_count = &mut rows.branches.leaf_count[(segment - rows.first) as usize];
+            *leaf_count = leaf_count.wrapping_sub(1);
         }
     }
 }
@@ -118,7 +118,7 @@ fn floats<P: Pack>(pack: P) -> [f32; BLOCK] {
 }
 
 impl LeafBlock<'_> {
-    /// Moves those that hang.
+    /// Moves those that pose.
     #[inline(always)]
     pub(crate) fn follow<P: Pack>(&mut self, simd: P::Simd, cx: &Context<'_>, rows: &Rows<'_>) {
         let mut some_break = false;
@@ -149,19 +149,20 @@ impl LeafBlock<'_> {
         let (velocity, phase) = vector_and_fourth::<P>(load_block(simd, must_cast_ref(self.drift), part));
         let slots = P::load_words(simd, &ROWS_OF_LANES[part * P::LANES..]);
         let slots = slots.plus(slots.all(self.first));
-        let (stalk, row) = stalks_of::<P>(simd, cx, slots, rows.first);
+        let (petiole, row) = petioles_of::<P>(simd, cx, slots, rows.first);
         let segment = bodies_of(rows, hangs.select(row, row.all(0)));
-        let mut hang = leaf_hang(cx, air_speed_of(simd, hangs, phase.to_bits()), slots, &stalk, &segment);
+        let mut pose =
+            leaf_twig_pose(cx, air_speed_of(simd, hangs, phase.to_bits()), slots, &petiole, &segment);
         let attitude: &mut Column = must_cast_mut(self.attitude);
         if (!hangs).any() {
-            hang.position = vec3_select(hangs, hang.position, position);
-            hang.velocity = vec3_select(hangs, hang.velocity, velocity);
+            pose.position = vec3_select(hangs, pose.position, position);
+            pose.velocity = vec3_select(hangs, pose.velocity, velocity);
             let before = load_block(simd, attitude, part);
-            hang.attitude = select_four(hangs, hang.attitude.to_array(), before).into();
+            pose.attitude = select_four(hangs, pose.attitude.to_array(), before).into();
         }
-        store_vector(must_cast_mut(self.place), part, hang.position, bits);
-        store_vector(must_cast_mut(self.drift), part, hang.velocity, phase);
-        store_block(attitude, part, hang.attitude.to_array());
+        store_vector(must_cast_mut(self.place), part, pose.position, bits);
+        store_vector(must_cast_mut(self.drift), part, pose.velocity, phase);
+        store_block(attitude, part, pose.attitude.to_array());
         (hangs & event.equals(cx.step.index + 1)).any()
     }
 
@@ -181,7 +182,7 @@ impl LeafBlock<'_> {
                     attitude: &mut self.attitude[number],
                     schedule: &mut self.schedule[number],
                 };
-                leaf_follow(cx, &mut leaf, slot, &Stalk::from(&petiole), &segment);
+                leaf_follow(cx, &mut leaf, slot, &PetioleLanes::from(&petiole), &segment);
             }
         }
     }

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// What every kernel sees: the uniform blocks, the tables and the leaf columns (see core/src/leaf/record.rs).
+// Bindings of every kernel: the uniform blocks, the tables and the leaf columns (see core/src/device/leaf/record.rs).
 // A page of leaves is a window of each column, so indices count from the page's first leaf.
 
 @group(0) @binding(0) var<uniform> scene: SceneBlock;

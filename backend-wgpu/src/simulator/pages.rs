@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The leaf columns in windows that fit in one binding each.
 
-use windfall_core::tree::record::{BRANCH_COLUMNS, BRANCH_TURN};
+use windfall_core::tree::record::{BRANCH_COLUMNS, BRANCH_TURN, CarryBlock};
 
 use super::WgpuSimulator;
-use crate::buffers::{buffer, group};
+use crate::buffers::{buffer, group, uniform};
 use crate::pipelines::GroupLayout;
 
 /// Leaf columns before the identities.
@@ -67,8 +67,8 @@ impl WgpuSimulator {
         let on_trees = (self.forest.is_some() && tree_leaves > 0).then(|| {
             let branches = self.buffers.branches();
             let stride = branches.stride(BRANCH_TURN as usize);
-            let block = buffer(&self.gpu, "carry", 16, wgpu::BufferUsages::UNIFORM);
-            self.gpu.queue().write_buffer(&block, 0, bytemuck::bytes_of(&[first, stride, 0, 0]));
+            let block = CarryBlock { first_slot: first, column_stride: stride, unused: [0; 2] };
+            let block = uniform(&self.gpu, "carry", &block);
             let carriers = [
                 block.as_entire_binding(),
                 branches.buffer(BRANCH_TURN as usize).as_entire_binding(),

@@ -13,17 +13,17 @@ use std::sync::Arc;
 use glam::{DMat3, DQuat, DVec3};
 
 use crate::arith::rng::{random, seed_words, unit_float};
+use crate::convert::word;
+use crate::device::leaf::petiole::{
+    PETIOLE_LENGTH_UNIT, Petiole, SHED_CLASSES, SHED_INTERVAL, SHED_SPEEDS, petiole_bits,
+};
 use crate::error::SceneError;
 use crate::layout::Uint4;
-use crate::leaf::petiole::{
-    PETIOLE_CLASS_SHIFT, PETIOLE_CLUSTER_SHIFT, PETIOLE_KIND_SHIFT, PETIOLE_REACH_MASK, PETIOLE_REACH_SHIFT,
-    PETIOLE_REACH_UNIT, Petiole, SHED_CLASSES, SHED_INTERVAL, SHED_SPEEDS,
-};
 use crate::motion::AIR_DENSITY;
 use crate::scene::{Foliage, Scene, Species, TreeKind};
 use crate::tree::forest::Seedling;
 use crate::tree::record::NO_SEGMENT;
-use crate::tree::{Attachment, Bearing, Forest, LeafFacts, grow};
+use crate::tree::{Attachment, AttachmentKind, Forest, LeafFacts, grow};
 
 /// Classes of the time in autumn at which petioles weaken; in each, as many of strength as fill the classes.
 const AUTUMN_CLASSES: u32 = 16;
@@ -132,7 +132,7 @@ pub(super) fn shed_rows(scene: &Scene, kinds: &[TreeKind]) -> Vec<Uint4> {
                 let load = weight + leaf_drag_n(&kind.foliage, leaf, f64::from(speed));
                 let rate = shed_rate_per_s(load, strength, weakened);
                 let chance = 1.0 - libm::exp(-rate * interval_s);
-                chances.push(crate::convert::word((chance * 4_294_967_296.0).min(4_294_967_295.0)));
+                chances.push(word((chance * 4_294_967_296.0).min(4_294_967_295.0)));
             }
         }
     }
@@ -161,10 +161,10 @@ pub(super) fn petiole_rows(scene: &Scene, forest: &Forest, kinds: &[TreeKind]) -
             .and_then(|kind| kinds.iter().position(|known| known.name == kind.name))
             .unwrap_or(0);
         let found = species_of(scene, &kinds[number].foliage);
-        let leaves = planted.skeleton.attachments.iter().filter(|at| at.bearing == Bearing::Leaf);
+        let leaves = planted.skeleton.attachments.iter().filter(|at| at.kind == AttachmentKind::Leaf);
         let first = petioles.len();
         let cluster = libm::sqrt(planted.facts.leaves_each.clamp(1.0, LARGEST_CLUSTER));
-        let cluster = crate::convert::word(cluster * 16.0) << PETIOLE_CLUSTER_SHIFT;
+        let cluster = word(cluster * 16.0);
         if let Some((species_number, species)) = found {
             for attachment in leaves.take(tree.leaves as usize) {
                 let row = planted.rows[attachment.segment as usize];
@@ -172,18 +172,15 @@ pub(super) fn petiole_rows(scene: &Scene, forest: &Forest, kinds: &[TreeKind]) -
                 let pose = glam::Quat::from_array(branches.pose[row as usize]).as_dquat();
                 let foot = planted.foot_m.as_dvec3();
                 let slot = super::len32(petioles.len());
-                let facts = super::len32(species_number)
-                    | (leaf_site(scene, slot).0 << PETIOLE_CLASS_SHIFT)
-                    | (super::len32(number) << PETIOLE_KIND_SHIFT);
-                petioles.push(petiole_of(
-                    attachment,
-                    row,
-                    foot,
-                    base,
-                    pose,
-                    f64::from(species.size_m),
-                    facts | cluster,
-                ));
+                let length_m = f64::from(species.size_m) * REACH_SHARE;
+                let bits = petiole_bits(
+                    super::len32(species_number),
+                    leaf_site(scene, slot).0,
+                    super::len32(number),
+                    word(length_m / f64::from(PETIOLE_LENGTH_UNIT)),
+                    cluster,
+                );
+                petioles.push(petiole_of(attachment, row, foot, base, pose, length_m, bits));
             }
         }
         petioles.resize(first + tree.leaves as usize, Petiole { segment: NO_SEGMENT, ..Petiole::default() });
@@ -198,24 +195,21 @@ fn petiole_of(
     foot: DVec3,
     base: DVec3,
     pose: DQuat,
-    size_m: f64,
-    facts: u32,
+    length_m: f64,
+    bits: u32,
 ) -> Petiole {
     let (tip, upper) = (attachment.direction.as_dvec3(), attachment.normal.as_dvec3());
     let across = upper.cross(tip).normalize();
     let leaf = DQuat::from_mat3(&DMat3::from_cols(across, tip.cross(across), tip));
     let at = foot + attachment.at_m.as_dvec3();
-    let reach = size_m * REACH_SHARE;
-    let middle = at + tip * reach;
+    let blade = at + tip * length_m;
     #[expect(clippy::cast_possible_truncation, reason = "trees stand within the lengths that words hold")]
     let units = |metres: f64| libm::floor(metres * 1024.0 + 0.5) as i32;
     Petiole {
-        at: (pose.inverse() * (at - base)).as_vec3().to_array(),
+        base: (pose.inverse() * (at - base)).as_vec3().to_array(),
         segment,
-        rest: (pose.inverse() * leaf).normalize().as_quat().to_array(),
-        place: [units(middle.x), units(middle.y), units(middle.z)],
-        facts: facts
-            | (crate::convert::word(reach / f64::from(PETIOLE_REACH_UNIT)).min(PETIOLE_REACH_MASK)
-                << PETIOLE_REACH_SHIFT),
+        rest_quaternion: (pose.inverse() * leaf).normalize().as_quat().to_array(),
+        blade: [units(blade.x), units(blade.y), units(blade.z)],
+        bits,
     }
 }

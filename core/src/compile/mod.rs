@@ -156,7 +156,7 @@ impl CompiledScene {
     }
 
     /// All tables as rows of four words, one after another: the wind's profile, gusts and turbulence; hills; chances of
-    /// petioles to break ([`SHED_ROWS`](crate::leaf::petiole::SHED_ROWS) for each kind of trees); petioles; motion (see
+    /// petioles to break ([`SHED_ROWS`](crate::device::leaf::petiole::SHED_ROWS) for each kind of trees); petioles; motion (see
     /// [`MotionRows`]). The block holds the first row of each.
     pub fn tables(&self) -> &Arc<[Uint4]> {
         &self.tables

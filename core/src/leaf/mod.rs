@@ -3,12 +3,11 @@
 //! Leaves: their columns, and their life from twig or release to rest.
 
 pub(crate) mod grow;
-pub mod petiole;
 pub mod seek;
 mod store;
 mod view;
 
+pub use crate::device::leaf::petiole::Petiole;
 pub use crate::device::leaf::record::{Attitude, Drift, Identity, Place, Schedule};
-pub use petiole::Petiole;
 pub use store::{HOT_BYTES_PER_STEP, LEAF_BYTES, LeafMut, LeafState, Leaves, LeavesMut};
 pub use view::{LeafMotion, LeafRecords, LeafView};

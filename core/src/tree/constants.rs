@@ -12,7 +12,7 @@ use glam::{DQuat, DVec3, swizzles::Vec3Swizzles};
 
 use super::crown::ground_m2;
 use super::record::{NO_SEGMENT, SegmentConstants};
-use super::skeleton::{Bearing, Segment, Skeleton};
+use super::skeleton::{AttachmentKind, Segment, Skeleton};
 use crate::convert::single;
 use crate::device::tree::sway::IMPLICITNESS;
 use crate::motion::AIR_DENSITY;
@@ -84,7 +84,7 @@ pub(super) fn segment_constants(
         let draft = draft_of(segment, parent, young, f64::from(wood.density_kg_m3));
         drafts.push(draft);
     }
-    let leaves: Vec<_> = skeleton.attachments.iter().filter(|at| at.bearing == Bearing::Leaf).collect();
+    let leaves: Vec<_> = skeleton.attachments.iter().filter(|at| at.kind == AttachmentKind::Leaf).collect();
     for attachment in &leaves {
         drafts[attachment.segment as usize].leaves += 1;
     }

@@ -11,7 +11,7 @@ use glam::{DVec2, DVec3};
 
 use super::grammar::{Draws, Phyllotaxis, Settings};
 use super::growth::Grown;
-use super::skeleton::{Attachment, Bearing};
+use super::skeleton::{Attachment, AttachmentKind};
 use super::turtle::{Shoot, rotated};
 
 /// Step number of the draws for leaves, which no step of a derivation has.
@@ -90,7 +90,7 @@ pub(crate) fn attachments(
                 let around_deg = phase_deg + azimuth_deg(settings.phyllotaxis, leaf);
                 let angle_deg = settings.leaf_angle_deg + SPREAD_DEG * (2.0 * draws.unit() - 1.0);
                 let place = Place { along, around_deg, angle_deg, droop: DROOP };
-                attachments.push(place.attachment(index, segment, Bearing::Leaf));
+                attachments.push(place.attachment(index, segment, AttachmentKind::Leaf));
             }
         }
     }
@@ -107,7 +107,7 @@ pub(crate) fn attachments(
                 angle_deg: 40.0 + 60.0 * draws.unit(),
                 droop: 1.5,
             };
-            attachments.push(place.attachment(index, segment, Bearing::Fruit));
+            attachments.push(place.attachment(index, segment, AttachmentKind::Fruit));
         }
     }
     attachments
@@ -154,7 +154,7 @@ struct Place {
 }
 
 impl Place {
-    fn attachment(&self, index: u32, segment: &Grown, bearing: Bearing) -> Attachment {
+    fn attachment(&self, index: u32, segment: &Grown, kind: AttachmentKind) -> Attachment {
         let axis = (segment.end_m - segment.start_m).normalize();
         let level = DVec3::Y.cross(axis).try_normalize().unwrap_or(DVec3::NEG_X);
         let outward = rotated(level, axis, self.around_deg.to_radians());
@@ -168,7 +168,7 @@ impl Place {
         let normal = normal.unwrap_or_else(|| direction.any_orthonormal_vector());
         Attachment {
             segment: index,
-            bearing,
+            kind,
             at_m: at_m.as_vec3(),
             direction: direction.as_vec3().normalize(),
             normal: normal.as_vec3().normalize(),

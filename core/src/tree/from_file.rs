@@ -12,7 +12,7 @@ use super::crown;
 use super::gltf;
 use super::grammar::{Draws, Settings};
 use super::growth::Grown;
-use super::skeleton::{Attachment, Bearing, Skeleton};
+use super::skeleton::{Attachment, AttachmentKind, Skeleton};
 use super::turtle::Shoot;
 use crate::scene::{Tree, TreeKind};
 
@@ -42,9 +42,9 @@ pub(super) fn read(
         skeleton.attachments = crown::attachments(&grown, &shoots, &settings, full, most, draws);
         return Ok((skeleton, full));
     }
-    let of = |bearing| skeleton.attachments.iter().copied().filter(move |one| one.bearing == bearing);
-    let leaves: Vec<Attachment> = of(Bearing::Leaf).collect();
-    let fruit: Vec<Attachment> = of(Bearing::Fruit).collect();
+    let of = |kind| skeleton.attachments.iter().copied().filter(move |one| one.kind == kind);
+    let leaves: Vec<Attachment> = of(AttachmentKind::Leaf).collect();
+    let fruit: Vec<Attachment> = of(AttachmentKind::Fruit).collect();
     let mut kept = thinned(&leaves, most);
     kept.extend(thinned(&fruit, most));
     skeleton.attachments = kept;

@@ -36,5 +36,5 @@ pub use forest::Forest;
 pub(crate) use grow::segments_of;
 pub use grow::{TreeError, full_leaf_count, grow};
 pub use record::SegmentConstants;
-pub use skeleton::{Attachment, Bearing, Segment, Skeleton, SkeletonError};
+pub use skeleton::{Attachment, AttachmentKind, Segment, Skeleton, SkeletonError};
 pub use store::{BranchMut, Branches, BranchesMut};

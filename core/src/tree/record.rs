@@ -93,6 +93,18 @@ crate::shared_struct! {
     }
 }
 
+crate::shared_struct! {
+    /// Leaves of trees in a page, and the columns of the segments that carry them.
+    pub struct CarryBlock {
+        /// First slot of the page.
+        pub first_slot: u32,
+        /// Rows from one branch column to the next in their buffer.
+        pub column_stride: u32,
+        /// Zeros; fill the block up to 16 bytes.
+        pub unused: [u32; 2],
+    }
+}
+
 impl SegmentConstants {
     /// Returns true for a twig.
     pub fn is_twig(&self) -> bool {

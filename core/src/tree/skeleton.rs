@@ -46,7 +46,7 @@ impl Segment {
 
 /// Organ at an attachment.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Bearing {
+pub enum AttachmentKind {
     /// A leaf.
     Leaf,
     /// A fruit.
@@ -59,7 +59,7 @@ pub struct Attachment {
     /// Segment that it grows on.
     pub segment: u32,
     /// Organ that grows there.
-    pub bearing: Bearing,
+    pub kind: AttachmentKind,
     /// Base of the petiole in metres, on the bark.
     pub at_m: Vec3,
     /// Unit vector from the base of the petiole to the tip of the leaf.

@@ -24,7 +24,7 @@ crate::columns! {
         /// Angular velocity of the segment in rad/s; one unused.
         pub spin: [f32; 4],
         /// Leaves that hang on the segment.
-        pub bearing: u32,
+        pub leaf_count: u32,
     }
     /// The records of one segment.
     row BranchMut;

@@ -6,7 +6,7 @@ use std::f32::consts::TAU;
 
 use glam::{Quat, Vec3};
 
-use super::{Attachment, Bearing, Segment, Skeleton};
+use super::{Attachment, AttachmentKind, Segment, Skeleton};
 use crate::arith::rng::{random, unit_float};
 
 /// A tree of `depth` orders with leaves and fruit on its twigs, another for every seed: bent limbs, forks, side branches
@@ -17,10 +17,10 @@ pub(crate) fn tree(seed: u32, depth: u32) -> Skeleton {
     let twigs = skeleton.segments.iter().zip(0u32..).filter(|(segment, _)| segment.order + 1 == depth);
     for (segment, index) in twigs {
         let direction = segment.direction().any_orthonormal_vector();
-        let bearing = if index % 5 == 0 { Bearing::Fruit } else { Bearing::Leaf };
+        let kind = if index % 5 == 0 { AttachmentKind::Fruit } else { AttachmentKind::Leaf };
         let at_m = segment.end_m + direction * segment.end_radius_m;
         let normal = segment.direction().reject_from(direction).normalize();
-        skeleton.attachments.push(Attachment { segment: index, bearing, at_m, direction, normal });
+        skeleton.attachments.push(Attachment { segment: index, kind, at_m, direction, normal });
     }
     skeleton.validate().expect("a tree that can be");
     skeleton

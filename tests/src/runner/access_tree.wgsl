@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// What trees are made of among the words of a case, field by field in their order.
+// Records of trees among the words of a case, field by field in their order.
 fn in_constants(at: u32) -> SegmentConstants {
     let wood = in_vec4(at + 8u);
     let air = in_vec4(at + 12u);

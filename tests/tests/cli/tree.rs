@@ -7,7 +7,7 @@ use std::fs;
 use crate::common_cli::{assert_refused, file, folder, windfall};
 use serde_json::Value;
 use tempfile::TempDir;
-use windfall_core::tree::{Bearing, gltf};
+use windfall_core::tree::{AttachmentKind, gltf};
 
 /// Kinds of trees that need no file.
 const KINDS: [&str; 6] = ["maple", "birch", "oak", "bush", "weed", "berry-bush"];
@@ -37,7 +37,7 @@ fn every_kind_is_exported_and_read_again() {
             assert!((value(&grown) - value(&again)).abs() < 1e-4, "{kind}: {key} of {grown} and {again}");
         }
         assert_eq!(report["joints"], grown["segments"], "{report}");
-        let fruit = read.skeleton.attachments.iter().filter(|a| a.bearing == Bearing::Fruit).count();
+        let fruit = read.skeleton.attachments.iter().filter(|a| a.kind == AttachmentKind::Fruit).count();
         assert_eq!(fruit > 0, kind == "berry-bush", "{kind} bears {fruit} fruit");
     }
 }

@@ -10,11 +10,11 @@ use std::time::Instant;
 use glam::{Quat, Vec3};
 use windfall_core::Simulator;
 use windfall_core::World;
-use windfall_core::device::leaf::carry::{petiole_of, shed_chance};
+use windfall_core::device::leaf::carry::shed_chance;
 use windfall_core::device::leaf::fall::response_of;
+use windfall_core::device::leaf::petiole::{SHED_INTERVAL, petiole_of, petiole_strength};
 use windfall_core::device::leaf::record::size_ratio;
 use windfall_core::device::wind::sample::wind_at;
-use windfall_core::leaf::petiole::{PETIOLE_CLASS_MASK, PETIOLE_CLASS_SHIFT, SHED_INTERVAL};
 use windfall_core::leaf::{LEAF_BYTES, LeafState, Petiole};
 use windfall_core::scene::{Gusts, MeanSpeed, Profile, STANDARD_GRAVITY_M_S2, Scene, Tree, Turbulence};
 use windfall_core::tree::record::NO_SEGMENT;
@@ -99,9 +99,9 @@ fn the_table_of_chances_is_the_model() {
         let interval_s = f64::from(SHED_INTERVAL) * f64::from(scene.dt_s);
         let mut checked = 0;
         for petiole in petioles(&world) {
-            let class = (petiole.facts >> PETIOLE_CLASS_SHIFT) & PETIOLE_CLASS_MASK;
+            let class = petiole_strength(petiole.bits);
             for speed in [0.0, 3.0, 7.0, 12.0, 20.0, 31.0] {
-                let chance = f64::from(shed_chance(&cx, petiole.facts, speed as f32)) / 2f64.powi(32);
+                let chance = f64::from(shed_chance(&cx, petiole.bits, speed as f32)) / 2f64.powi(32);
                 let rate = -(1.0 - chance).ln() / interval_s;
                 let model = model_rate_per_s(&scene, class, speed);
                 // Rates below the resolution of a word, and above those of a break at the next sample, are cut off.
@@ -131,7 +131,7 @@ fn counts_agree_with_the_rates_within_the_error_of_counting() {
         let hanging = hanging.filter(|(place, _)| place.state() == LeafState::Attached);
         let gone: Vec<f64> = hanging
             .map(|(_, petiole)| {
-                let chance = f64::from(shed_chance(&cx, petiole.facts, speed_m_s)) / 2f64.powi(32);
+                let chance = f64::from(shed_chance(&cx, petiole.bits, speed_m_s)) / 2f64.powi(32);
                 1.0 - (1.0 - chance).powf(looks)
             })
             .collect();
@@ -279,7 +279,7 @@ fn what_has_fallen_lies_beneath_the_crown() {
     let sites: Vec<Vec3> = petioles(&world)
         .iter()
         .filter(|petiole| petiole.segment != NO_SEGMENT)
-        .map(|petiole| Vec3::from(petiole.place.map(|units| units as f32 / 1024.0)))
+        .map(|petiole| Vec3::from(petiole.blade.map(|units| units as f32 / 1024.0)))
         .collect();
     let lying: Vec<Vec3> = world
         .leaves

@@ -4,7 +4,7 @@
 
 use glam::{Vec2, Vec3};
 use windfall_core::scene::{Tree, TreePreset};
-use windfall_core::tree::{Attachment, Bearing, Skeleton, grow};
+use windfall_core::tree::{Attachment, AttachmentKind, Skeleton, grow};
 
 use super::tree_canvas::{Dab, EDGE, LEAST_TEXELS, TreeSprite, render};
 use crate::random::Random;
@@ -42,8 +42,8 @@ pub(crate) fn paint_tree(index: u32, leaves: f32) -> TreeSprite {
     let skeleton = grow(&preset.kind(), &tree, 0).expect("presets grow");
     let mut painter = Painter::new(&skeleton, Random::new(977 + index));
     painter.wood(&skeleton);
-    let bearing = skeleton.attachments.iter().filter(|at| at.bearing == Bearing::Leaf);
-    for (number, site) in (0u32..).zip(bearing) {
+    let kind = skeleton.attachments.iter().filter(|at| at.kind == AttachmentKind::Leaf);
+    for (number, site) in (0u32..).zip(kind) {
         if leaves < 1.0 && number % TWIG_EVERY == 0 {
             painter.twig(site);
         }

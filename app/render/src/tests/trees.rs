@@ -9,7 +9,7 @@ use image::RgbaImage;
 use windfall_core::Scene;
 use windfall_core::scene::{Exposure, Tree, TreeKind};
 use windfall_core::tree::forest::Seedling;
-use windfall_core::tree::{Attachment, Bearing, Forest, LeafFacts, Segment, Skeleton};
+use windfall_core::tree::{Attachment, AttachmentKind, Forest, LeafFacts, Segment, Skeleton};
 use windfall_wgpu::BranchColumns;
 
 use super::{Bench, SIZE, bench_with, differing};
@@ -165,7 +165,7 @@ fn berries_are_red_and_ride_their_twigs() {
         let (direction, normal) = (Vec3::Y, Vec3::Z);
         skeleton.attachments.push(Attachment {
             segment: 5,
-            bearing: Bearing::Fruit,
+            kind: AttachmentKind::Fruit,
             at_m,
             direction,
             normal,

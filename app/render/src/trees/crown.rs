@@ -50,7 +50,7 @@ impl Crown {
 
 #[cfg(test)]
 mod tests {
-    use windfall_core::tree::{Attachment, Bearing};
+    use windfall_core::tree::{Attachment, AttachmentKind};
 
     use super::*;
 
@@ -58,7 +58,7 @@ mod tests {
     fn crown_surrounds_the_leaves_where_the_tree_stands() {
         let leaf = |at_m| Attachment {
             segment: 0,
-            bearing: Bearing::Leaf,
+            kind: AttachmentKind::Leaf,
             at_m,
             direction: Vec3::X,
             normal: Vec3::Y,

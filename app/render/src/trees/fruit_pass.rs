@@ -3,7 +3,7 @@
 //! Draws berries, moved with the twigs that bear them.
 
 use glam::Vec3;
-use windfall_core::tree::Bearing;
+use windfall_core::tree::AttachmentKind;
 
 use super::branch_group::BranchGroup;
 use super::{SceneTrees, StandingTree};
@@ -103,7 +103,7 @@ pub struct Berry {
 
 /// The berries of a tree where it stands.
 pub fn berries(tree: &StandingTree) -> impl Iterator<Item = Berry> {
-    let fruit = tree.skeleton.attachments.iter().filter(|at| at.bearing == Bearing::Fruit);
+    let fruit = tree.skeleton.attachments.iter().filter(|at| at.kind == AttachmentKind::Fruit);
     fruit.enumerate().map(|(number, at)| {
         // Golden ratio: neighbours differ.
         let own = (number as f32 * 0.618_034 + tree.look.own).fract();

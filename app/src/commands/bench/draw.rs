@@ -98,11 +98,11 @@ fn measure(
     let Drawing { device, gpu, .. } = Drawing::without_window(backend)?;
     let world = World::build(scene)?;
     let mut backend = device.simulator(&world)?;
-    let stand = SceneTrees::of(scene, world.compiled.forest());
+    let scene_trees = SceneTrees::of(scene, world.compiled.forest());
     let atlas = atlas_of(scene, &making_leaves())?;
-    let subject = RenderScene { scene, trees: &stand, atlas: &atlas };
+    let render_scene = RenderScene { scene, trees: &scene_trees, atlas: &atlas };
     let (options, format) = (RendererOptions::for_scene(scene), PictureTarget::FORMAT);
-    let mut renderer = Renderer::new(gpu.device(), gpu.queue(), subject, format, size, options)?;
+    let mut renderer = Renderer::new(gpu.device(), gpu.queue(), render_scene, format, size, options)?;
     let target = PictureTarget::new(gpu.device(), size)?;
     gpu.check()?;
     let camera = Camera::from(&scene.view.camera);

@@ -36,9 +36,9 @@ impl Stage {
         let atlas = atlas_of(scene, &making_leaves())?;
         let options = RendererOptions::for_scene(scene);
         let format = PictureTarget::FORMAT;
-        let stand = SceneTrees::of(scene, world.compiled.forest());
-        let subject = RenderScene { scene, trees: &stand, atlas: &atlas };
-        let renderer = Renderer::new(gpu.device(), gpu.queue(), subject, format, SIZE, options)?;
+        let scene_trees = SceneTrees::of(scene, world.compiled.forest());
+        let render_scene = RenderScene { scene, trees: &scene_trees, atlas: &atlas };
+        let renderer = Renderer::new(gpu.device(), gpu.queue(), render_scene, format, SIZE, options)?;
         let buffers = StoreBuffers::new(gpu, &Leaves::zeroed(scene.leaf_count() as usize))?;
         gpu.check()?;
         let camera = Camera::from(&scene.view.camera);

@@ -6,7 +6,7 @@ use std::fmt::{Display, Write as _};
 
 use clap::Args;
 use serde::Serialize;
-use windfall_core::tree::{BarkDetail, Bearing, Skeleton, bark_mesh};
+use windfall_core::tree::{AttachmentKind, BarkDetail, Skeleton, bark_mesh};
 
 use super::source::{GivenTree, TreeArguments};
 use crate::run::terminal;
@@ -92,7 +92,7 @@ impl Report {
             let mesh = bark_mesh(skeleton, detail);
             Size { vertices: mesh.positions_m.len(), triangles: mesh.triangle_count() }
         };
-        let bearing = |wanted: Bearing| skeleton.attachments.iter().filter(|a| a.bearing == wanted).count();
+        let count = |wanted: AttachmentKind| skeleton.attachments.iter().filter(|a| a.kind == wanted).count();
         Self {
             tree: tree.name.clone(),
             height_m: skeleton.height_m(),
@@ -101,8 +101,8 @@ impl Report {
             segments: skeleton.segments.len(),
             depth: skeleton.depth(),
             orders: skeleton.segments.iter().map(|segment| segment.order).max().unwrap_or(0),
-            leaves: bearing(Bearing::Leaf),
-            fruit: bearing(Bearing::Fruit),
+            leaves: count(AttachmentKind::Leaf),
+            fruit: count(AttachmentKind::Fruit),
             full_leaf_count: tree.full_leaf_count,
             bark: Bark {
                 full: size(BarkDetail::Full),

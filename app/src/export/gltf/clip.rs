@@ -31,7 +31,7 @@ pub(super) struct ClipExport {
     file: OutputFile,
     document: Document,
     foliage: Foliage,
-    stand: SceneTrees,
+    scene_trees: SceneTrees,
     sun: SunLight,
     name: String,
     first: u32,
@@ -49,13 +49,14 @@ impl ClipExport {
     pub(super) fn start(job: &Job<'_>) -> anyhow::Result<Self> {
         let file = OutputFile::create(job.path)?;
         let sun = Daylight::new(&job.scene.view)?.sun;
-        let foliage = Foliage::new(job.scene, job.stand, &atlas_of(job.scene, &making_leaves())?);
-        let trees = job.stand.trees.iter().map(|tree| (joints(tree), vec![Vec::new(); tree.rows.len()]));
+        let foliage = Foliage::new(job.scene, job.scene_trees, &atlas_of(job.scene, &making_leaves())?);
+        let trees =
+            job.scene_trees.trees.iter().map(|tree| (joints(tree), vec![Vec::new(); tree.rows.len()]));
         Ok(Self {
             file,
             document: Document::default(),
             foliage,
-            stand: job.stand.clone(),
+            scene_trees: job.scene_trees.clone(),
             sun,
             name: job.scene.name.clone(),
             first: job.frames.first,
@@ -84,9 +85,9 @@ impl ClipExport {
         }
         let mut barks = Barks::default();
         for (number, (joints, turns)) in self.trees.iter().enumerate() {
-            self.stand.trees[number].rows.first().map_or(Ok(()), |_| {
+            self.scene_trees.trees[number].rows.first().map_or(Ok(()), |_| {
                 let moved = (times, &joints[..], &turns[..]);
-                add_tree(&mut self.document, &mut movement, &mut barks, &self.stand, number, moved)
+                add_tree(&mut self.document, &mut movement, &mut barks, &self.scene_trees, number, moved)
             })?;
         }
         self.document.root.animations.extend(movement.animation("fall"));
@@ -128,11 +129,11 @@ fn add_tree(
     document: &mut Document,
     movement: &mut Movement,
     barks: &mut Barks,
-    stand: &SceneTrees,
+    scene_trees: &SceneTrees,
     number: usize,
     (times, joints, turns): (Index<Accessor>, &[Joint], &[Turns]),
 ) -> io::Result<()> {
-    let tree = &stand.trees[number];
+    let tree = &scene_trees.trees[number];
     // One node above all joints, then these.
     let first = document.root.nodes.len() + 1;
     let mut children: Vec<Vec<Index<Node>>> = vec![Vec::new(); joints.len()];
@@ -146,7 +147,7 @@ fn add_tree(
     let foot = Node { name: Some(format!("tree.{number}")), children: Some(lowest), ..Node::default() };
     let foot = document.add_root(foot);
     for (index, (&joint, children)) in joints.iter().zip(children).enumerate() {
-        let (place, turn) = at_rest_above(stand, joint);
+        let (place, turn) = at_rest_above(scene_trees, joint);
         let node = document.root.push(Node {
             name: Some(format!("tree.{number}.segment.{index}")),
             translation: Some(place.to_array()),
@@ -159,7 +160,7 @@ fn add_tree(
     let binds: Vec<[f32; 16]> = joints
         .iter()
         .map(|&(row, _)| {
-            let (place, turn) = at_rest(stand, row);
+            let (place, turn) = at_rest(scene_trees, row);
             let back = turn.conjugate();
             Mat4::from_rotation_translation(back, back * -place).to_cols_array()
         })

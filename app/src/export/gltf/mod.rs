@@ -35,7 +35,7 @@ pub(super) fn start(job: &Job<'_>) -> anyhow::Result<Box<dyn Exporter>> {
             job.path.display()
         );
     }
-    let joints: u64 = job.stand.trees.iter().map(|tree| tree.rows.len() as u64).sum();
+    let joints: u64 = job.scene_trees.trees.iter().map(|tree| tree.rows.len() as u64).sum();
     let bytes = u64::from(job.frames.count()) * (LEAF_BYTES * u64::from(leaves) + 16 * joints);
     if bytes > MAX_BYTES {
         bail!(

@@ -27,7 +27,7 @@ pub(super) struct StillExport {
     file: OutputFile,
     document: Document,
     foliage: Foliage,
-    stand: SceneTrees,
+    scene_trees: SceneTrees,
     sun: SunLight,
     name: String,
 }
@@ -36,9 +36,16 @@ impl StillExport {
     pub(super) fn start(job: &Job<'_>) -> anyhow::Result<Self> {
         let file = OutputFile::create(job.path)?;
         let sun = Daylight::new(&job.scene.view)?.sun;
-        let foliage = Foliage::new(job.scene, job.stand, &atlas_of(job.scene, &making_leaves())?);
+        let foliage = Foliage::new(job.scene, job.scene_trees, &atlas_of(job.scene, &making_leaves())?);
         let name = job.scene.name.clone();
-        Ok(Self { file, document: Document::default(), foliage, stand: job.stand.clone(), sun, name })
+        Ok(Self {
+            file,
+            document: Document::default(),
+            foliage,
+            scene_trees: job.scene_trees.clone(),
+            sun,
+            name,
+        })
     }
 
     fn add(&mut self, frame: &Frame<'_>) -> io::Result<()> {
@@ -75,15 +82,15 @@ impl StillExport {
             document.add_root(node);
         }
         let mut barks = Barks::default();
-        for (number, tree) in self.stand.trees.iter().enumerate() {
+        for (number, tree) in self.scene_trees.trees.iter().enumerate() {
             let mut mesh = wood::bark(tree);
             let branches = &frame.world.branches;
-            wood::bend(&mut mesh, &self.stand, tree, &branches.base, &branches.pose);
+            wood::bend(&mut mesh, &self.scene_trees, tree, &branches.base, &branches.pose);
             let bark = barks.bark(document, tree.look.bark)?;
             let index = tree_mesh(document, "bark", bark, &mesh, false);
             document.add_root(shown(format!("tree.{number}"), index));
             if let Some(mut mesh) = fruit(tree) {
-                wood::bend(&mut mesh, &self.stand, tree, &branches.base, &branches.pose);
+                wood::bend(&mut mesh, &self.scene_trees, tree, &branches.base, &branches.pose);
                 let berry = barks.berry(document);
                 let index = tree_mesh(document, "fruit", berry, &mesh, false);
                 document.add_root(shown(format!("tree.{number}.fruit"), index));

@@ -63,12 +63,12 @@ impl UsdExport {
         let daylight = Daylight::new(&job.scene.view)?;
         let atlas = leaves::atlas_of(job.scene, &making_leaves())?;
         job.cancel.check()?;
-        let foliage = Foliage::new(job.scene, job.stand, &atlas);
+        let foliage = Foliage::new(job.scene, job.scene_trees, &atlas);
         drop(atlas);
         let clock = stage::Clock::new(job.frames, job.fps);
         let mut samples = Samples::new();
         let attributes = LeafAttributes::declare(&mut samples);
-        let trees = TreeSamples::declare(&mut samples, job.stand);
+        let trees = TreeSamples::declare(&mut samples, job.scene_trees);
         let view = ViewSamples::declare(&mut samples, job.scene);
         let written = File::create(folder.partial().join(STAGE)).and_then(|file| {
             let mut out = BufWriter::new(file);
@@ -80,7 +80,7 @@ impl UsdExport {
         });
         written.map_err(WriteError::at(folder.destination()))?;
         prototypes::write_pictures(folder.partial(), folder.destination(), &foliage)?;
-        trees::write_pictures(folder.partial(), folder.destination(), job.stand)?;
+        trees::write_pictures(folder.partial(), folder.destination(), job.scene_trees)?;
         let reach_m = foliage
             .meshes
             .iter()

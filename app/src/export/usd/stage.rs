@@ -88,7 +88,7 @@ pub(super) fn write_stage(
         let coat = prototypes::Coat { name: &picture.name, is_cut_out: true, roughness: 0.6 };
         prototypes::write_material(out, &coat)?;
     }
-    trees::write_materials(out, job.stand)?;
+    trees::write_materials(out, job.scene_trees)?;
     let surfaces = surface::surfaces(job.scene);
     surfaces.iter().try_for_each(|surface| prototypes::write_plain(out, &surface.plain))?;
     writeln!(out, "}}\ndef PointInstancer \"Leaves\"\n{{")?;
@@ -97,7 +97,7 @@ pub(super) fn write_stage(
     writeln!(out, "int[] primvars:windfall:state (\ninterpolation = \"varying\"\n)")?;
     prototypes::write_meshes(out, foliage)?;
     writeln!(out, "}}")?;
-    trees::write_trees(out, job.stand)?;
+    trees::write_trees(out, job.scene_trees)?;
     surfaces.iter().try_for_each(|surface| write_surface(out, surface))?;
     writeln!(out, "}}")
 }

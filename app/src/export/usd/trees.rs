@@ -31,8 +31,8 @@ pub(super) struct TreeSamples {
 }
 
 impl TreeSamples {
-    pub(super) fn declare(samples: &mut Samples, stand: &SceneTrees) -> Self {
-        let trees = stand.trees.iter().enumerate().map(|(number, tree)| {
+    pub(super) fn declare(samples: &mut Samples, scene_trees: &SceneTrees) -> Self {
+        let trees = scene_trees.trees.iter().enumerate().map(|(number, tree)| {
             let prim = format!("World/Trees/Tree_{number}/Sway");
             (samples.declare(&prim, "quatf[] rotations"), joints(tree))
         });
@@ -48,18 +48,23 @@ impl TreeSamples {
 }
 
 /// Writes the trees.
-pub(super) fn write_trees(out: &mut impl Write, stand: &SceneTrees) -> io::Result<()> {
-    if stand.trees.is_empty() {
+pub(super) fn write_trees(out: &mut impl Write, scene_trees: &SceneTrees) -> io::Result<()> {
+    if scene_trees.trees.is_empty() {
         return Ok(());
     }
     writeln!(out, "def Scope \"Trees\"\n{{")?;
-    for (number, tree) in stand.trees.iter().enumerate() {
-        write_tree(out, stand, tree, &format!("Tree_{number}"))?;
+    for (number, tree) in scene_trees.trees.iter().enumerate() {
+        write_tree(out, scene_trees, tree, &format!("Tree_{number}"))?;
     }
     writeln!(out, "}}")
 }
 
-fn write_tree(out: &mut impl Write, stand: &SceneTrees, tree: &StandingTree, name: &str) -> io::Result<()> {
+fn write_tree(
+    out: &mut impl Write,
+    scene_trees: &SceneTrees,
+    tree: &StandingTree,
+    name: &str,
+) -> io::Result<()> {
     let path = format!("/World/Trees/{name}");
     let joints = joints(tree);
     let mut names: Vec<String> = Vec::with_capacity(joints.len());
@@ -70,7 +75,7 @@ fn write_tree(out: &mut impl Write, stand: &SceneTrees, tree: &StandingTree, nam
             None => own,
         });
     }
-    let rest = joints.iter().map(|&joint| at_rest_above(stand, joint));
+    let rest = joints.iter().map(|&joint| at_rest_above(scene_trees, joint));
     let rest: Vec<(Vec3, Quat)> = rest.collect();
     let mut list = String::new();
     text::texts(&mut list, names);
@@ -78,7 +83,7 @@ fn write_tree(out: &mut impl Write, stand: &SceneTrees, tree: &StandingTree, nam
     text::matrices(
         &mut bind,
         joints.iter().map(|&(row, _)| {
-            let (at, turn) = at_rest(stand, row);
+            let (at, turn) = at_rest(scene_trees, row);
             Mat4::from_rotation_translation(turn, at)
         }),
     );
@@ -146,19 +151,23 @@ fn write_skin(
 }
 
 /// Writes the materials of all barks, and of berries.
-pub(super) fn write_materials(out: &mut impl Write, stand: &SceneTrees) -> io::Result<()> {
-    barks(stand).try_for_each(|kind| {
+pub(super) fn write_materials(out: &mut impl Write, scene_trees: &SceneTrees) -> io::Result<()> {
+    barks(scene_trees).try_for_each(|kind| {
         write_material(out, &Coat { name: bark_name(kind), is_cut_out: false, roughness: 0.9 })
     })?;
-    let has_fruit = stand.trees.iter().any(|tree| fruit(tree).is_some());
+    let has_fruit = scene_trees.trees.iter().any(|tree| fruit(tree).is_some());
     if has_fruit { write_plain(out, &SKIN) } else { Ok(()) }
 }
 
 /// Writes the pictures of all barks into the folder that is there; `destination` is the folder that errors name.
-pub(super) fn write_pictures(folder: &Path, destination: &Path, stand: &SceneTrees) -> anyhow::Result<()> {
+pub(super) fn write_pictures(
+    folder: &Path,
+    destination: &Path,
+    scene_trees: &SceneTrees,
+) -> anyhow::Result<()> {
     let folder = folder.join(PICTURES);
     fs::create_dir_all(&folder).map_err(WriteError::at(destination))?;
-    for kind in barks(stand) {
+    for kind in barks(scene_trees) {
         let saved = bark_picture(kind).save(folder.join(format!("{}.png", bark_name(kind))));
         saved.map_err(|error| WriteError::at(destination)(io::Error::other(error)))?;
     }

@@ -172,8 +172,8 @@ impl Viewer {
             self.renderer.set_lens(scene.view.lens);
         }
         if scene.leaf_count() != before.leaf_count() && !change.picture {
-            let stand = SceneTrees::of(&scene, compiled.forest());
-            self.renderer.update_leaves(&stand, scene.leaf_count());
+            let scene_trees = SceneTrees::of(&scene, compiled.forest());
+            self.renderer.update_leaves(&scene_trees, scene.leaf_count());
         }
         match (world, simulator) {
             (Some(world), Some(simulator)) => self.session.begin(Arc::clone(&scene), &world, simulator)?,
@@ -207,8 +207,8 @@ pub(super) fn renderer_of(
     size: (u32, u32),
 ) -> anyhow::Result<Renderer> {
     let atlas = leaves::atlas_of(scene, &making_leaves())?;
-    let stand = SceneTrees::of(scene, compiled.forest());
-    let subject = RenderScene { scene, trees: &stand, atlas: &atlas };
+    let scene_trees = SceneTrees::of(scene, compiled.forest());
+    let render_scene = RenderScene { scene, trees: &scene_trees, atlas: &atlas };
     let options = RendererOptions::for_scene(scene);
-    Ok(Renderer::new(gpu.device(), gpu.queue(), subject, format, size, options)?)
+    Ok(Renderer::new(gpu.device(), gpu.queue(), render_scene, format, size, options)?)
 }

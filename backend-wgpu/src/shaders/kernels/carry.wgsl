@@ -5,7 +5,7 @@
 #import leaf/carry
 
 fn carrier_row(column: u32, row: u32) -> vec4<f32> {
-    return carrier_rows[column * carry_block.column_rows + row];
+    return carrier_rows[column * carry_block.column_stride + row];
 }
 
 @compute @workgroup_size(WORKGROUP_SIZE)
@@ -25,7 +25,7 @@ fn carry(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) 
             );
             let change = leaf_carry(leaf, slot, petiole, body);
             if (change != 0u) {
-                atomicAdd(&carried[row], change);
+                atomicAdd(&leaf_counts[row], change);
             }
         }
     }

@@ -6,19 +6,13 @@
 #import arith/quaternion
 #import arith/rng
 #import arith/vector
-#import leaf/petioles
+#import leaf/carrier_bindings
+#import leaf/petiole
 #import leaf/record
 #import tree/sway/body
 #import wind/sample
 
-struct Petiole {
-    at: vec3<f32>,
-    segment: u32,
-    rest: vec4<f32>,
-    facts: u32,
-}
-
-struct Hang {
+struct TwigPose {
     position: vec3<f32>,
     attitude: vec4<f32>,
     velocity: vec3<f32>,
@@ -29,16 +23,14 @@ struct AirSample {
     breaks: bool,
 }
 
-fn shed_chance(facts: u32, speed: f32) -> u32 {
-    let kind = (facts >> PETIOLE_KIND_SHIFT) & PETIOLE_KIND_MASK;
-    let strength = (facts >> PETIOLE_CLASS_SHIFT) & PETIOLE_CLASS_MASK;
+fn shed_chance(bits: u32, speed: f32) -> u32 {
     let level = min(bitcast<u32>(i32(floor(speed))), SHED_SPEEDS - 1u);
-    let index = (kind * SHED_CLASSES + strength) * SHED_SPEEDS + level;
+    let index = (petiole_kind(bits) * SHED_CLASSES + petiole_strength(bits)) * SHED_SPEEDS + level;
     return tables[scene.first_shed_row + (index >> 2u)][index & 3u];
 }
 
-fn leaf_hang(air_speed: f32, slot: u32, petiole: Petiole, segment: Body) -> Hang {
-    let still = quat_multiply(segment.pose, petiole.rest);
+fn leaf_twig_pose(air_speed: f32, slot: u32, petiole: Petiole, segment: Body) -> TwigPose {
+    let still = quat_multiply(segment.pose, petiole.rest_quaternion);
     let tip = quat_rotate(still, vec3<f32>(0.0, 0.0, 1.0));
     let side = quat_rotate(still, vec3<f32>(1.0, 0.0, 0.0));
     let wind = vec3<f32>(scene.wind.direction_x, 0.0, scene.wind.direction_z);
@@ -52,27 +44,16 @@ fn leaf_hang(air_speed: f32, slot: u32, petiole: Petiole, segment: Body) -> Hang
     let lean = vec3_cross(tip, wind) * (share * LEAN_MOST);
     let flutter = tip * ((unrest * FLUTTER_ROLL) * roll) + side * ((unrest * FLUTTER_PITCH) * pitch);
     let attitude = quat_renormalize(quat_multiply(quat_of_turn(lean + flutter), still));
-    let reach = f32((petiole.facts >> PETIOLE_REACH_SHIFT) & PETIOLE_REACH_MASK) * PETIOLE_REACH_UNIT;
-    let arm = quat_rotate(segment.pose, petiole.at) + quat_rotate(attitude, vec3<f32>(0.0, 0.0, reach));
-    return Hang(segment.base + arm, attitude, segment.velocity + vec3_cross(segment.spin, arm));
+    let length = petiole_length(petiole.bits);
+    let arm = quat_rotate(segment.pose, petiole.base) + quat_rotate(attitude, vec3<f32>(0.0, 0.0, length));
+    return TwigPose(segment.base + arm, attitude, segment.velocity + vec3_cross(segment.spin, arm));
 }
 
-fn leaf_size_on_twig(size: u32, facts: u32) -> u32 {
-    return twig_sizes(size, min((size * (facts >> PETIOLE_CLUSTER_SHIFT)) >> 4u, HALF_MASK));
+fn leaf_size_on_twig(size: u32, bits: u32) -> u32 {
+    return twig_sizes(size, min((size * petiole_cluster(bits)) >> 4u, HALF_MASK));
 }
 
-fn petiole_of(slot: u32) -> Petiole {
-    let first = scene.first_petiole_row + slot * PETIOLE_ROWS;
-    let at = tables[first];
-    return Petiole(
-        bitcast<vec3<f32>>(at.xyz),
-        at.w,
-        bitcast<vec4<f32>>(tables[first + 1u]),
-        tables[first + 2u].w,
-    );
-}
-
-fn leaf_return(leaf: u32, facts: u32) -> u32 {
+fn leaf_return(leaf: u32, bits: u32) -> u32 {
     let is_back = leaf_state(places[leaf].bits) == STATE_RESTING
         && scene.sources[SOURCE_TREES].lifetime_steps != 0u
         && step_block.index >= schedules[leaf].event;
@@ -81,7 +62,7 @@ fn leaf_return(leaf: u32, facts: u32) -> u32 {
     }
     places[leaf].bits = with_state(with_blend(places[leaf].bits, 0u), STATE_ATTACHED);
     schedules[leaf].event = NEVER;
-    schedules[leaf].size = leaf_size_on_twig(drawn_size(schedules[leaf].size), facts);
+    schedules[leaf].size = leaf_size_on_twig(drawn_size(schedules[leaf].size), bits);
     drifts[leaf].phase = 0u;
     return 1u;
 }
@@ -95,24 +76,24 @@ fn leaf_next_sample(slot: u32) -> u32 {
 }
 
 fn leaf_sample_air(air_speed: f32, slot: u32, petiole: Petiole, segment: Body) -> AirSample {
-    let arm = quat_rotate(segment.pose, petiole.at);
+    let arm = quat_rotate(segment.pose, petiole.base);
     let velocity = segment.velocity + vec3_cross(segment.spin, arm);
     let relative = wind_at(segment.base + arm) - velocity;
     let squared = vec3_dot(relative, relative);
     let speed = squared * inverse_sqrt(max(squared, TINY_SQUARED));
     let counter = vec4<u32>(slot, STREAM_SHED, step_block.index, 0u);
-    let breaks = philox(scene.seed, counter).x < shed_chance(petiole.facts, speed);
+    let breaks = philox(scene.seed, counter).x < shed_chance(petiole.bits, speed);
     return AirSample(air_speed + (speed - air_speed) * AIR_SPEED_SMOOTHING, breaks);
 }
 
 fn leaf_follow(leaf: u32, slot: u32, petiole: Petiole, segment: Body) {
     let phase = drifts[leaf].phase;
-    let hang = leaf_hang(smoothed_air_speed(phase), slot, petiole, segment);
-    places[leaf].position = hang.position;
-    drifts[leaf].velocity = hang.velocity;
-    attitudes[leaf].quaternion = hang.attitude;
+    let pose = leaf_twig_pose(smoothed_air_speed(phase), slot, petiole, segment);
+    places[leaf].position = pose.position;
+    drifts[leaf].velocity = pose.velocity;
+    attitudes[leaf].quaternion = pose.attitude;
     if (schedules[leaf].event == step_block.index + 1u) {
-        let spin = body_spin_words(quat_rotate_back(hang.attitude, segment.spin));
+        let spin = body_spin_words(quat_rotate_back(pose.attitude, segment.spin));
         drifts[leaf].phase = spin.x;
         schedules[leaf].rate = spin.y;
         schedules[leaf].heading = spin.z;
@@ -120,7 +101,7 @@ fn leaf_follow(leaf: u32, slot: u32, petiole: Petiole, segment: Body) {
 }
 
 fn leaf_carry(leaf: u32, slot: u32, petiole: Petiole, segment: Body) -> u32 {
-    var change = leaf_return(leaf, petiole.facts);
+    var change = leaf_return(leaf, petiole.bits);
     if (!leaf_hangs(places[leaf].bits, schedules[leaf].event)) {
         return change;
     }

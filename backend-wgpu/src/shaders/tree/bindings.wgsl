@@ -12,4 +12,4 @@
 // Results of a pass for every segment, WORK_ROWS rows each.
 @group(1) @binding(4) var<storage, read_write> work_rows: array<vec4<f32>>;
 // Numbers of leaves that hang on the segments.
-@group(1) @binding(5) var<storage, read> bearings: array<u32>;
+@group(1) @binding(5) var<storage, read> leaf_counts: array<u32>;

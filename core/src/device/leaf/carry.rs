@@ -8,6 +8,10 @@
 //! speed of the air leave it (see `compile/foliage.rs`). The load of its own inertia is left out: at the few m/s²
 //! of a swaying twig a leaf of half a gram pulls with some thousandths of a newton, a tenth of what the wind does.
 
+use super::petiole::{
+    Petiole, SHED_CLASSES, SHED_INTERVAL, SHED_SPEEDS, petiole_cluster, petiole_kind, petiole_length,
+    petiole_strength,
+};
 use super::record::{
     Attitude, Drift, HALF_MASK, Place, STATE_ATTACHED, STATE_RESTING, Schedule, body_spin_words, drawn_size,
     leaf_state, smoothed_air_speed, smoothed_air_speed_word, twig_sizes, with_blend, with_state,
@@ -23,13 +27,7 @@ use crate::blocks::{NEVER, SOURCE_TREES};
 use crate::context::Context;
 use crate::device::tree::sway::Body;
 use crate::device::wind::sample::wind_at;
-use crate::layout::Uint4;
 use crate::leaf::LeafMut;
-use crate::leaf::petiole::{
-    PETIOLE_CLASS_MASK, PETIOLE_CLASS_SHIFT, PETIOLE_CLUSTER_SHIFT, PETIOLE_KIND_MASK, PETIOLE_KIND_SHIFT,
-    PETIOLE_REACH_MASK, PETIOLE_REACH_SHIFT, PETIOLE_REACH_UNIT, PETIOLE_ROWS, Petiole, SHED_CLASSES,
-    SHED_INTERVAL, SHED_SPEEDS,
-};
 
 crate::shared_constants! {
     /// Stream of random words that break petioles.
@@ -66,41 +64,39 @@ impl<'a> From<LeafMut<'a>> for CarriedLeaf<'a> {
 }
 
 impl CarriedLeaf<'_> {
-    /// Hangs the leaf there.
-    pub fn hang(&mut self, hang: &Hang) {
-        self.place.position = hang.position.to_array();
-        self.attitude.quaternion = hang.attitude.to_array();
-        self.drift.velocity = hang.velocity.to_array();
+    /// Moves the leaf there.
+    pub fn set_pose(&mut self, pose: &TwigPose) {
+        self.place.position = pose.position.to_array();
+        self.attitude.quaternion = pose.attitude.to_array();
+        self.drift.velocity = pose.velocity.to_array();
     }
 }
 
-/// The numbers of a petiole that a step needs, or of several petioles.
+/// Constants of a petiole that a step needs, of one leaf or lane by lane.
 #[derive(Clone, Copy, Debug)]
-pub struct Stalk<W: Word = u32> {
+pub struct PetioleLanes<W: Word = u32> {
     /// Base in the frame of its segment in m.
-    pub at: Vec3<W::Real>,
+    pub base: Vec3<W::Real>,
     /// Orientation of the leaf in the frame of its segment, in still air.
     pub rest: Quat<W::Real>,
-    /// As in [`Petiole::facts`].
-    pub facts: W,
+    /// As in [`Petiole::bits`].
+    pub bits: W,
 }
 
-impl From<&Petiole> for Stalk {
+impl From<&Petiole> for PetioleLanes {
     fn from(petiole: &Petiole) -> Self {
-        Self { at: petiole.at.into(), rest: petiole.rest.into(), facts: petiole.facts }
+        Self { base: petiole.base.into(), rest: petiole.rest_quaternion.into(), bits: petiole.bits }
     }
 }
 
 /// Chance, of 2^32, that a petiole breaks in air of that speed at one of its samples.
 #[inline(always)]
-pub fn shed_chance<W: Word>(cx: &Context<'_>, facts: W, speed: W::Real) -> W {
-    let kind = (facts >> PETIOLE_KIND_SHIFT) & PETIOLE_KIND_MASK;
-    let strength = (facts >> PETIOLE_CLASS_SHIFT) & PETIOLE_CLASS_MASK;
-    let most = facts.all(SHED_SPEEDS - 1);
+pub fn shed_chance<W: Word>(cx: &Context<'_>, bits: W, speed: W::Real) -> W {
+    let most = bits.all(SHED_SPEEDS - 1);
     let whole = speed.floor().to_whole();
     let level = whole.less_than(most).select(whole, most);
-    let of_kind = kind.times(facts.all(SHED_CLASSES)).plus(strength);
-    let index = of_kind.times(facts.all(SHED_SPEEDS)).plus(level);
+    let of_kind = petiole_kind(bits).times(bits.all(SHED_CLASSES)).plus(petiole_strength(bits));
+    let index = of_kind.times(bits.all(SHED_SPEEDS)).plus(level);
     let rows = &cx.tables[cx.scene.first_shed_row as usize..];
     let [a, b, c, d] = (index >> 2).look_up_words(bytemuck::cast_slice(rows));
     let low = (index & 1).equals(0).select(a, b);
@@ -110,7 +106,7 @@ pub fn shed_chance<W: Word>(cx: &Context<'_>, facts: W, speed: W::Real) -> W {
 
 /// Pose of a leaf on its twig.
 #[derive(Clone, Copy, Debug)]
-pub struct Hang<R = f32> {
+pub struct TwigPose<R = f32> {
     /// Centre of its blade in m.
     pub position: Vec3<R>,
     /// Orientation.
@@ -121,15 +117,15 @@ pub struct Hang<R = f32> {
 
 /// Pose of a leaf on its segment in air of the smoothed speed `air_speed` in m/s.
 #[inline(always)]
-pub fn leaf_hang<W: Word>(
+pub fn leaf_twig_pose<W: Word>(
     cx: &Context<'_>,
     air_speed: W::Real,
     slot: W,
-    stalk: &Stalk<W>,
+    petiole: &PetioleLanes<W>,
     segment: &Body<W::Real>,
-) -> Hang<W::Real> {
+) -> TwigPose<W::Real> {
     let along = Vec3::new(0.0, 0.0, 1.0).spread(air_speed);
-    let still = quat_multiply(segment.pose, stalk.rest);
+    let still = quat_multiply(segment.pose, petiole.rest);
     let tip = quat_rotate(still, along);
     let side = quat_rotate(still, Vec3::new(1.0, 0.0, 0.0).spread(air_speed));
     let mean = &cx.scene.wind;
@@ -144,10 +140,9 @@ pub fn leaf_hang<W: Word>(
     let lean = vec3_cross(tip, wind) * (share * LEAN_MOST);
     let flutter = tip * ((unrest * FLUTTER_ROLL) * roll) + side * ((unrest * FLUTTER_PITCH) * pitch);
     let attitude = quat_renormalize(quat_multiply(quat_of_turn(lean + flutter), still));
-    let reach = ((stalk.facts >> PETIOLE_REACH_SHIFT) & PETIOLE_REACH_MASK).to_real() * PETIOLE_REACH_UNIT;
-    let blade = Vec3::new(air_speed.all(0.0), air_speed.all(0.0), reach);
-    let arm = quat_rotate(segment.pose, stalk.at) + quat_rotate(attitude, blade);
-    Hang {
+    let blade = Vec3::new(air_speed.all(0.0), air_speed.all(0.0), petiole_length(petiole.bits));
+    let arm = quat_rotate(segment.pose, petiole.base) + quat_rotate(attitude, blade);
+    TwigPose {
         position: segment.base + arm,
         attitude,
         velocity: segment.velocity + vec3_cross(segment.spin, arm),
@@ -156,21 +151,14 @@ pub fn leaf_hang<W: Word>(
 
 /// Size of a leaf on its twig: its own in the high half, as it is drawn in the low one.
 #[inline(always)]
-pub fn leaf_size_on_twig(size: u32, facts: u32) -> u32 {
-    twig_sizes(size, ((size * (facts >> PETIOLE_CLUSTER_SHIFT)) >> 4).min(HALF_MASK))
-}
-
-/// The petiole of a tree's slot.
-pub fn petiole_of(cx: &Context<'_>, slot: u32) -> Petiole {
-    let first = (cx.scene.first_petiole_row + slot * PETIOLE_ROWS) as usize;
-    let rows: &[Uint4; PETIOLE_ROWS as usize] = cx.tables[first..].first_chunk().expect("a slot of a tree");
-    bytemuck::cast(*rows)
+pub fn leaf_size_on_twig(size: u32, bits: u32) -> u32 {
+    twig_sizes(size, ((size * petiole_cluster(bits)) >> 4).min(HALF_MASK))
 }
 
 /// Lets a leaf that lies on the ground grow back once its time has come. Returns the change of the number of leaves on the
 /// segment.
 #[inline(always)]
-pub fn leaf_return(cx: &Context<'_>, leaf: &mut CarriedLeaf<'_>, facts: u32) -> u32 {
+pub fn leaf_return(cx: &Context<'_>, leaf: &mut CarriedLeaf<'_>, bits: u32) -> u32 {
     let is_back = leaf_state(leaf.place.bits) == STATE_RESTING
         && cx.scene.sources[SOURCE_TREES as usize].lifetime_steps != 0
         && cx.step.index >= leaf.schedule.event;
@@ -179,7 +167,7 @@ pub fn leaf_return(cx: &Context<'_>, leaf: &mut CarriedLeaf<'_>, facts: u32) -> 
     }
     leaf.place.bits = with_state(with_blend(leaf.place.bits, 0), STATE_ATTACHED);
     leaf.schedule.event = NEVER;
-    leaf.schedule.size = leaf_size_on_twig(drawn_size(leaf.schedule.size), facts);
+    leaf.schedule.size = leaf_size_on_twig(drawn_size(leaf.schedule.size), bits);
     leaf.drift.phase = 0;
     1
 }
@@ -202,28 +190,34 @@ pub fn leaf_sample_air<W: Word>(
     cx: &Context<'_>,
     air_speed: W::Real,
     slot: W,
-    stalk: &Stalk<W>,
+    petiole: &PetioleLanes<W>,
     segment: &Body<W::Real>,
 ) -> (W::Real, W::Mask) {
-    let arm = quat_rotate(segment.pose, stalk.at);
+    let arm = quat_rotate(segment.pose, petiole.base);
     let velocity = segment.velocity + vec3_cross(segment.spin, arm);
     let relative = wind_at(cx, segment.base + arm) - velocity;
     let squared = vec3_dot(relative, relative);
     let speed = squared * inverse_sqrt(squared.max(squared.all(TINY_SQUARED)));
     let seed = cx.scene.seed;
     let counter = [slot, slot.all(STREAM_SHED), slot.all(cx.step.index), slot.all(0)];
-    let breaks = philox(seed, counter)[0].less_than(shed_chance(cx, stalk.facts, speed));
+    let breaks = philox(seed, counter)[0].less_than(shed_chance(cx, petiole.bits, speed));
     (air_speed + (speed - air_speed) * AIR_SPEED_SMOOTHING, breaks)
 }
 
 /// A leaf that hangs goes where its segment went. If its petiole has broken in this step and it is to fly as a body, it
 /// takes the segment's spin along.
 #[inline(always)]
-pub fn leaf_follow(cx: &Context<'_>, leaf: &mut CarriedLeaf<'_>, slot: u32, stalk: &Stalk, segment: &Body) {
-    let hang = leaf_hang(cx, smoothed_air_speed(leaf.drift.phase), slot, stalk, segment);
-    leaf.hang(&hang);
+pub fn leaf_follow(
+    cx: &Context<'_>,
+    leaf: &mut CarriedLeaf<'_>,
+    slot: u32,
+    petiole: &PetioleLanes,
+    segment: &Body,
+) {
+    let pose = leaf_twig_pose(cx, smoothed_air_speed(leaf.drift.phase), slot, petiole, segment);
+    leaf.set_pose(&pose);
     if leaf.schedule.event == cx.step.index + 1 {
-        let spin = quat_rotate_back(hang.attitude, segment.spin);
+        let spin = quat_rotate_back(pose.attitude, segment.spin);
         [leaf.drift.phase, leaf.schedule.rate, leaf.schedule.heading] = body_spin_words(spin);
     }
 }
@@ -235,22 +229,22 @@ pub fn leaf_carry(
     cx: &Context<'_>,
     leaf: &mut CarriedLeaf<'_>,
     slot: u32,
-    stalk: &Stalk,
+    petiole: &PetioleLanes,
     segment: &Body,
 ) -> u32 {
-    let mut change = leaf_return(cx, leaf, stalk.facts);
+    let mut change = leaf_return(cx, leaf, petiole.bits);
     if !leaf_hangs(cx, leaf.place.bits, leaf.schedule.event) {
         return change;
     }
     if leaf_next_sample(cx, slot) == 0 {
         let (air_speed, breaks) =
-            leaf_sample_air(cx, smoothed_air_speed(leaf.drift.phase), slot, stalk, segment);
+            leaf_sample_air(cx, smoothed_air_speed(leaf.drift.phase), slot, petiole, segment);
         leaf.drift.phase = smoothed_air_speed_word(air_speed);
         if breaks {
             leaf.schedule.event = cx.step.index + 1;
             change = change.wrapping_sub(1);
         }
     }
-    leaf_follow(cx, leaf, slot, stalk, segment);
+    leaf_follow(cx, leaf, slot, petiole, segment);
     change
 }

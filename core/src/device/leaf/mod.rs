@@ -9,6 +9,7 @@ pub mod fly;
 pub mod join;
 pub mod launch;
 pub mod own;
+pub mod petiole;
 pub mod record;
 pub mod release;
 pub mod settle;

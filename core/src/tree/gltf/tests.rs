@@ -59,7 +59,7 @@ fn assert_same(read: &Skeleton, written: &Skeleton) {
     }
     assert_eq!(read.attachments.len(), written.attachments.len(), "attachments");
     for (a, b) in read.attachments.iter().zip(&written.attachments) {
-        assert_eq!((a.segment, a.bearing), (b.segment, b.bearing), "attachment");
+        assert_eq!((a.segment, a.kind), (b.segment, b.kind), "attachment");
         assert!(a.at_m.distance(b.at_m) < 1e-5, "{} for {}", a.at_m, b.at_m);
         assert!(a.direction.distance(b.direction) < 1e-5, "{} for {}", a.direction, b.direction);
         assert!(a.normal.distance(b.normal) < 1e-5, "{} for {}", a.normal, b.normal);

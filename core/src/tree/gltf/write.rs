@@ -18,7 +18,7 @@ use serde_json::value::to_raw_value;
 
 use super::buffer::{GltfBuffer, write_glb};
 use super::convention::{BEARING, DIRECTION, JointExtras, WIND_WEIGHT};
-use crate::tree::{BarkMesh, Bearing, Skeleton};
+use crate::tree::{AttachmentKind, BarkMesh, Skeleton};
 
 /// Look of a tree in a file.
 #[derive(Clone, Debug, PartialEq)]
@@ -179,7 +179,7 @@ fn attachments(data: &mut GltfBuffer, skeleton: &Skeleton) -> Mesh {
     let normals: Vec<[f32; 3]> = all().map(|attachment| attachment.normal.to_array()).collect();
     let directions: Vec<[f32; 3]> = all().map(|attachment| attachment.direction.to_array()).collect();
     let bearings: Vec<[f32; 1]> =
-        all().map(|a| [if a.bearing == Bearing::Leaf { 0.0 } else { 1.0 }]).collect();
+        all().map(|a| [if a.kind == AttachmentKind::Leaf { 0.0 } else { 1.0 }]).collect();
     // A skeleton has no more than 65536 segments.
     let joints: Vec<[u16; 4]> =
         all().map(|a| [u16::try_from(a.segment).unwrap_or(u16::MAX), 0, 0, 0]).collect();

@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use super::{SEED, grown};
 use crate::scene::{Foliage, Tree, TreeForm, TreeKind, TreePreset};
 use crate::tree::gltf::{GltfLook, to_glb};
-use crate::tree::{BarkDetail, Bearing, Skeleton, bark_mesh, full_leaf_count, grow};
+use crate::tree::{AttachmentKind, BarkDetail, Skeleton, bark_mesh, full_leaf_count, grow};
 
 /// A file that is gone when the test ends.
 struct Glb(PathBuf);
@@ -51,8 +51,8 @@ fn a_tree_from_a_file_takes_height_heading_and_number_of_leaves() {
     );
     let radii = changed.segments[0].start_radius_m / plain.segments[0].start_radius_m;
     assert!((radii - 2.8 / plain.height_m()).abs() < 1e-4, "as much thicker: {radii}");
-    for bearing in [Bearing::Leaf, Bearing::Fruit] {
-        let of = |one: &&crate::tree::Attachment| one.bearing == bearing;
+    for kind in [AttachmentKind::Leaf, AttachmentKind::Fruit] {
+        let of = |one: &&crate::tree::Attachment| one.kind == kind;
         assert_eq!(changed.attachments.iter().filter(of).count(), 50, "no more than asked for");
     }
     let lowest = |skeleton: &Skeleton| skeleton.attachments.iter().map(|one| one.segment).min();

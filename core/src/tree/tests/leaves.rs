@@ -6,10 +6,10 @@ use glam::Vec3;
 
 use super::{SEED, grown, grown_by, kind};
 use crate::scene::{Foliage, Tree, TreePreset};
-use crate::tree::{Attachment, Bearing, Skeleton, full_leaf_count, grow};
+use crate::tree::{Attachment, AttachmentKind, Skeleton, full_leaf_count, grow};
 
 fn leaves(skeleton: &Skeleton) -> Vec<&Attachment> {
-    skeleton.attachments.iter().filter(|one| one.bearing == Bearing::Leaf).collect()
+    skeleton.attachments.iter().filter(|one| one.kind == AttachmentKind::Leaf).collect()
 }
 
 #[test]
@@ -78,7 +78,7 @@ fn leaves_and_fruit_sit_on_the_bark() {
                 let outward = attachment.at_m - (segment.start_m + axis * along);
                 let from_bark = attachment.direction.dot(outward.normalize_or_zero());
                 assert!(
-                    attachment.bearing == Bearing::Fruit || from_bark > -0.5,
+                    attachment.kind == AttachmentKind::Fruit || from_bark > -0.5,
                     "a leaf leads through its twig"
                 );
             }
@@ -125,13 +125,13 @@ fn fruit_hang_where_the_grammar_puts_them() {
     let text = "height_m = 1; axiom F(0.5) [ &(60) F(0.3) L K(3) ] F(0.5) L K(2);";
     let skeleton = grown_by(text, &Tree::default());
     let on = |index| {
-        let fruit = skeleton.attachments.iter().filter(|one| one.bearing == Bearing::Fruit);
+        let fruit = skeleton.attachments.iter().filter(|one| one.kind == AttachmentKind::Fruit);
         fruit.filter(|one| one.segment == index).count()
     };
     assert_eq!([on(0), on(1), on(2)], [0, 3, 2], "as many as it says");
     assert_eq!(grown_by("axiom F K(5);", &Tree { age: 0.2, ..Tree::default() }).attachments, [], "unripe");
     let berries = grown(TreePreset::BerryBush, &Tree::default());
-    let fruit: Vec<_> = berries.attachments.iter().filter(|one| one.bearing == Bearing::Fruit).collect();
+    let fruit: Vec<_> = berries.attachments.iter().filter(|one| one.kind == AttachmentKind::Fruit).collect();
     assert!(fruit.len() > 50, "a berry bush has berries: {}", fruit.len());
     let down = fruit.iter().filter(|one| one.direction.y < 0.0).count();
     assert!(down * 10 > fruit.len() * 9, "berries hang: {down} of {}", fruit.len());

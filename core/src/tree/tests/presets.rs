@@ -10,7 +10,7 @@ use proptest::sample::select;
 
 use super::{SEED, grown};
 use crate::scene::{Tree, TreePreset};
-use crate::tree::{Bearing, Skeleton, grow, segments_of};
+use crate::tree::{AttachmentKind, Skeleton, grow, segments_of};
 
 proptest! {
     #![proptest_config(ProptestConfig { cases: 300, failure_persistence: None, ..ProptestConfig::default() })]
@@ -28,8 +28,8 @@ proptest! {
         let count = segments_of(&preset.grammar(), &tree, seed).expect("presets grow");
         prop_assert_eq!(skeleton.segments.len(), count, "counted without growing");
         prop_assert!(count <= preset.most_segments(), "{} segments", count);
-        let of = |bearing| skeleton.attachments.iter().filter(|one| one.bearing == bearing).count();
-        prop_assert!(of(Bearing::Leaf) <= leaves as usize && of(Bearing::Fruit) <= leaves as usize, "asked for");
+        let of = |kind| skeleton.attachments.iter().filter(|one| one.kind == kind).count();
+        prop_assert!(of(AttachmentKind::Leaf) <= leaves as usize && of(AttachmentKind::Fruit) <= leaves as usize, "asked for");
         prop_assert!(skeleton.height_m() <= height_m * 1.0001, "not above its full height");
         let again = grow(&preset.kind(), &tree, seed).expect("presets grow");
         prop_assert_eq!(&again, &skeleton, "the same bits");

@@ -15,17 +15,17 @@ struct Drag {
     leaves: f32,
 }
 
-fn segment_drag(constants: SegmentConstants, axis: vec3<f32>, air: vec3<f32>, velocity: vec3<f32>, bearing: f32) -> Drag {
+fn segment_drag(constants: SegmentConstants, axis: vec3<f32>, air: vec3<f32>, velocity: vec3<f32>, leaf_count: f32) -> Drag {
     let wind = air - velocity;
     let across = wind - axis * vec3_dot(wind, axis);
     let squared_across = max(vec3_dot(across, across), TINY_SQUARED);
     let speed_across = squared_across * inverse_sqrt(squared_across);
     var leaves = 0.0;
-    if (leaves < bearing) {
+    if (leaves < leaf_count) {
         let squared = vec3_dot(wind, wind);
         let speed = squared * inverse_sqrt(max(squared, TINY_SQUARED));
         let yielding = reciprocal(speed * constants.leaf_yield + 1.0);
-        leaves = ((constants.leaf_drag * bearing) * speed) * yielding;
+        leaves = ((constants.leaf_drag * leaf_count) * speed) * yielding;
     }
     return Drag(wind, across, constants.wood_drag * speed_across, leaves);
 }
@@ -34,15 +34,15 @@ fn segment_air(body: Body, axis: vec3<f32>, length: f32) -> vec3<f32> {
     return wind_at(body.base + axis * length);
 }
 
-fn segment_load(constants: SegmentConstants, body: Body, axis: vec3<f32>, air: vec3<f32>, bearing: f32) -> Load {
+fn segment_load(constants: SegmentConstants, body: Body, axis: vec3<f32>, air: vec3<f32>, leaf_count: f32) -> Load {
     let half = constants.length * 0.5;
     let middle = axis * half;
     let velocity = body.velocity + vec3_cross(body.spin, middle);
-    let drag = segment_drag(constants, axis, air, velocity, bearing);
+    let drag = segment_drag(constants, axis, air, velocity, leaf_count);
     let held = drag.wood + drag.leaves;
     let push = drag.across * drag.wood + drag.wind * drag.leaves;
 
-    let leaves = constants.leaf_mass * bearing;
+    let leaves = constants.leaf_mass * leaf_count;
     let mass = constants.mass + leaves;
     let moment = constants.first_moment + leaves * half;
     let across = constants.inertia_across + leaves * ((constants.length * constants.length) * THIRD);

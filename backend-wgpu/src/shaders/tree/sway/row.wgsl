@@ -57,8 +57,8 @@ fn row_inward(row: u32) {
     let joint = row_joint(row);
     let axis = segment_axis(body);
     let products = velocity_products(body, parent_body(constants.parent));
-    let bearing = f32(bearings[row]);
-    let load = segment_load(constants, body, axis, row_air(row), bearing);
+    let leaf_count = f32(leaf_counts[row]);
+    let load = segment_load(constants, body, axis, row_air(row), leaf_count);
     if (constants.first_child == TWIG) {
         let spring = joint_spring(constants, joint, body, load_trace(load));
         let reduction = twig_response(spring, load, axis, products);
@@ -100,8 +100,8 @@ fn row_outward(row: u32) {
 fn row_gather(row: u32) {
     let constants = segments[row];
     let body = row_body(row);
-    let bearing = f32(bearings[row]);
-    var whole = segment_composite(constants, body, segment_axis(body), row_air(row), bearing);
+    let leaf_count = f32(leaf_counts[row]);
+    var whole = segment_composite(constants, body, segment_axis(body), row_air(row), leaf_count);
     for (var child = constants.first_child; child < TWIG; child = segments[child].next_sibling) {
         let arm = row_body(child).base - body.base;
         whole = composite_add(whole, composite_shift(load_composite(child), arm));

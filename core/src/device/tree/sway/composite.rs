@@ -47,16 +47,16 @@ pub fn segment_composite(
     body: &Body,
     axis: Vec3,
     air: Vec3,
-    bearing: f32,
+    leaf_count: f32,
 ) -> Composite {
     let half = constants.length * 0.5;
     let middle = axis * half;
     let velocity = body.velocity + vec3_cross(body.spin, middle);
-    let drag = segment_drag(constants, axis, air, velocity, bearing);
+    let drag = segment_drag(constants, axis, air, velocity, leaf_count);
     let held = drag.wood + drag.leaves;
     let push = air * held - axis * (vec3_dot(air, axis) * drag.wood);
 
-    let leaves = constants.leaf_mass * bearing;
+    let leaves = constants.leaf_mass * leaf_count;
     let mass = constants.mass + leaves;
     let moment = constants.first_moment + leaves * half;
     let across = constants.inertia_across + leaves * ((constants.length * constants.length) * THIRD);

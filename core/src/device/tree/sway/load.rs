@@ -37,20 +37,20 @@ pub fn segment_drag<R: Real>(
     axis: Vec3<R>,
     air: Vec3<R>,
     velocity: Vec3<R>,
-    bearing: R,
+    leaf_count: R,
 ) -> Drag<R> {
     let wind = air - velocity;
     // Not from squares, whose difference is all rounding in a wind along the wood.
     let across = wind - axis * vec3_dot(wind, axis);
-    let tiny = bearing.all(TINY_SQUARED);
+    let tiny = leaf_count.all(TINY_SQUARED);
     let squared_across = vec3_dot(across, across).max(tiny);
     let speed_across = squared_across * inverse_sqrt(squared_across);
-    let mut leaves = bearing.all(0.0);
-    if leaves.less_than(bearing).any() {
+    let mut leaves = leaf_count.all(0.0);
+    if leaves.less_than(leaf_count).any() {
         let squared = vec3_dot(wind, wind);
         let speed = squared * inverse_sqrt(squared.max(tiny));
         let yielding = reciprocal(speed * constants.leaf_yield + 1.0);
-        leaves = ((constants.leaf_drag * bearing) * speed) * yielding;
+        leaves = ((constants.leaf_drag * leaf_count) * speed) * yielding;
     }
     Drag { wind, across, wood: constants.wood_drag * speed_across, leaves }
 }
@@ -69,16 +69,16 @@ pub fn segment_load<R: Real>(
     body: &Body<R>,
     axis: Vec3<R>,
     air: Vec3<R>,
-    bearing: R,
+    leaf_count: R,
 ) -> Load<R> {
     let half = constants.length * 0.5;
     let middle = axis * half;
     let velocity = body.velocity + vec3_cross(body.spin, middle);
-    let drag = segment_drag(constants, axis, air, velocity, bearing);
+    let drag = segment_drag(constants, axis, air, velocity, leaf_count);
     let held = drag.wood + drag.leaves;
     let push = drag.across * drag.wood + drag.wind * drag.leaves;
 
-    let leaves = constants.leaf_mass * bearing;
+    let leaves = constants.leaf_mass * leaf_count;
     let mass = constants.mass + leaves;
     let moment = constants.first_moment + leaves * half;
     let across = constants.inertia_across + leaves * ((constants.length * constants.length) * THIRD);

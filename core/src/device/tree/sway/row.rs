@@ -96,8 +96,8 @@ pub fn row_inward(cx: &Context<'_>, rows: &mut Rows<'_>, row: usize) {
     let joint = rows.joint(row);
     let axis = segment_axis(&body);
     let products = velocity_products(&body, &rows.parent_body(row));
-    let bearing = rows.branches.bearing[row] as f32;
-    let load = segment_load(cx, &constants, &body, axis, row_air(cx, rows, row), bearing);
+    let leaf_count = rows.branches.leaf_count[row] as f32;
+    let load = segment_load(cx, &constants, &body, axis, row_air(cx, rows, row), leaf_count);
     let apparent = if rows.segments[row].is_twig() {
         let spring = joint_spring(cx, &constants, &joint, &body, load_trace(&load));
         let (response, apparent) = twig_response(&spring, &load, axis, &products);
@@ -142,9 +142,9 @@ pub fn row_outward(cx: &Context<'_>, rows: &mut Rows<'_>, row: usize) {
 pub fn row_gather(cx: &Context<'_>, rows: &mut Rows<'_>, row: usize) {
     let constants = Constants::from(&rows.segments[row]);
     let body = rows.body(row);
-    let bearing = rows.branches.bearing[row] as f32;
+    let leaf_count = rows.branches.leaf_count[row] as f32;
     let air = row_air(cx, rows, row);
-    let mut whole = segment_composite(cx, &constants, &body, segment_axis(&body), air, bearing);
+    let mut whole = segment_composite(cx, &constants, &body, segment_axis(&body), air, leaf_count);
     for child in rows.children(row) {
         let arm = rows.body(child).base - body.base;
         whole = composite_add(&whole, &composite_shift(&load_composite(&rows.work[child]), arm));

@@ -12,7 +12,7 @@ use super::rig::Rig;
 use super::skinned::check_count;
 use crate::tree::gltf::convention::{BEARING, DIRECTION};
 use crate::tree::skeleton::{MAX_ATTACHMENTS, SkeletonError};
-use crate::tree::{Attachment, Bearing};
+use crate::tree::{Attachment, AttachmentKind};
 
 /// The attachments on a skin: its points that have a direction, a normal and a joint.
 ///
@@ -71,7 +71,7 @@ pub(super) fn of(
             };
             attachments.push(Attachment {
                 segment: u32::from(segments[joints[at][0] as usize]),
-                bearing: if bearings[at][0] < 0.5 { Bearing::Leaf } else { Bearing::Fruit },
+                kind: if bearings[at][0] < 0.5 { AttachmentKind::Leaf } else { AttachmentKind::Fruit },
                 at_m: owner.skinning.transform_point3(Vec3::from_array(places[at]).as_dvec3()).as_vec3(),
                 direction: direction_at,
                 normal: normal_at,
