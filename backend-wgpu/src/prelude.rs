@@ -71,6 +71,7 @@ pub(crate) fn constants() -> String {
         device::leaf::petiole::wgsl_constants(),
         device::leaf::record::wgsl_constants(),
         device::leaf::release::wgsl_constants(),
+        device::leaf::settle::wgsl_constants(),
         device::motion::feature::wgsl_constants(),
         device::motion::lookup::wgsl_constants(),
         motion::table::wgsl_constants(),

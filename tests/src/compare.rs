@@ -34,6 +34,8 @@ pub struct StoreDifference {
     pub bit_rows: usize,
     /// Column and field, and the largest difference of its floats: infinite where one is not a number and the other another.
     fields: Vec<(String, f32)>,
+    /// First field that differs in any bit, with its row and its words in hexadecimal.
+    first: Option<String>,
 }
 
 impl Difference {
@@ -80,10 +82,11 @@ impl StoreDifference {
 
 impl fmt::Debug for StoreDifference {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { store, integer_rows, bit_rows, fields } = self;
+        let Self { store, integer_rows, bit_rows, fields, first: _ } = self;
         write!(f, "{bit_rows} {store} differ, {integer_rows} in integers")?;
         let apart = fields.iter().filter(|(_, largest)| *largest > 0.0);
-        apart.clone().try_for_each(|(name, largest)| write!(f, ", {name} by {largest:e}"))
+        apart.clone().try_for_each(|(name, largest)| write!(f, ", {name} by {largest:e}"))?;
+        self.first.iter().try_for_each(|first| write!(f, "; first {first}"))
     }
 }
 
@@ -113,6 +116,7 @@ fn compare(a: &dyn Store, b: &dyn Store) -> StoreDifference {
     let mut fields: Vec<_> = names.map(|name| (name, 0f32)).collect();
     let (columns_a, columns_b) = (a.columns(), b.columns());
     let (mut integer_rows, mut bit_rows) = (0, 0);
+    let mut first = None;
     for row in 0..a.rows() {
         let (mut same_bits, mut same_integers) = (true, true);
         let mut place = 0;
@@ -126,10 +130,13 @@ fn compare(a: &dyn Store, b: &dyn Store) -> StoreDifference {
             }
             same_bits = false;
             let mut start = 0;
-            for (field, (_, largest)) in column.fields.iter().zip(&mut fields[places]) {
+            for (field, (name, largest)) in column.fields.iter().zip(&mut fields[places]) {
                 let bytes = start..start + 4 * field.words;
                 start = bytes.end;
                 let (field_a, field_b) = (&record_a[bytes.clone()], &record_b[bytes]);
+                if field_a != field_b && first.is_none() {
+                    first = Some(format!("{name} of {row}: {:x?} and {:x?}", words(field_a), words(field_b)));
+                }
                 let is_float = [a, b].iter().any(|store| store.kind(row, column, field) == FieldKind::Float);
                 if is_float {
                     *largest = distance(field_a, field_b).max(*largest);
@@ -141,7 +148,11 @@ fn compare(a: &dyn Store, b: &dyn Store) -> StoreDifference {
         integer_rows += usize::from(!same_integers);
         bit_rows += usize::from(!same_bits);
     }
-    StoreDifference { store: a.name(), integer_rows, bit_rows, fields }
+    StoreDifference { store: a.name(), integer_rows, bit_rows, fields, first }
+}
+
+fn words(field: &[u8]) -> Vec<u32> {
+    field.as_chunks::<4>().0.iter().map(|word| u32::from_ne_bytes(*word)).collect()
 }
 
 /// Largest difference of floats that differ in any bit; infinite if it is not a number.

@@ -6,6 +6,9 @@ use crate::common::{
     GRAVITY, attitude, build, many_species, position, single_motion, steady_wind, step, still_scene, velocity,
 };
 use glam::{DVec3, Vec3};
+use windfall_core::arith::Quat;
+use windfall_core::device::leaf::settle::flatten_on;
+use windfall_core::device::terrain::ground::Slope;
 use windfall_core::leaf::LeafState;
 use windfall_core::motion::{AIR_DENSITY, Primitive};
 use windfall_core::scene::{Ground, Release, Scene, Source, SourceShape};
@@ -144,6 +147,22 @@ fn resting_leaves_stay_below_the_lift_off_speed() {
 }
 
 /// A slot is released again exactly when its time has come, whether its leaf has landed or not.
+/// A leaf that never comes to rest lies down without end. Devices may take subnormal numbers for zero, so there are none.
+#[test]
+fn lying_down_ends_flat_and_passes_no_subnormal_number() {
+    for hint in [Quat::new(0.3, 0.8, -0.2, 0.5), Quat::new(-0.7, 0.1, 0.6, -0.3)] {
+        let mut q = hint;
+        for step in 0..20_000 {
+            q = flatten_on(Slope { x: 0.0, z: 0.0, gain: 1.0, inv_gain: 1.0 }, q, 0.97);
+            let parts = q.to_array();
+            assert!(parts.iter().all(|part| *part == 0.0 || part.is_normal()), "step {step}: {parts:?}");
+        }
+        let [x, y, z, w] = q.to_array();
+        let (upright, tilted) = (y * y + w * w, x * x + z * z);
+        assert!(upright == 0.0 && tilted > 0.99 || tilted == 0.0 && upright > 0.99, "{q:?} is flat");
+    }
+}
+
 #[test]
 fn slots_are_recycled_on_schedule() {
     let count = 90;

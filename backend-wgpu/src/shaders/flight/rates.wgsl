@@ -71,7 +71,7 @@ fn flight_rates(body: LeafBody, motion: FlightMotion, wind: vec3<f32>) -> Flight
     let roll = (inv_speed * DAMPING_ROLL) * (edge_x * flow.x + edge_z * flow.z);
     let pitch = (inv_speed * (q * body.pitch_damping)) * (edge_x * flow.z - edge_z * flow.x);
     let wheel = turn.y * body.half_mean_m;
-    let wheeling = (speed + max(wheel, 0.0 - wheel)) * DAMPING_NORMAL;
+    let wheeling = (speed + max(wheel, -wheel)) * DAMPING_NORMAL;
     let lever = vec3_cross(body.centroid, push);
     let torque = vec3<f32>(
         (lever.x + munk * flow.z) - body.air_along * (damping * edge_x + (roll * flow.x + pitch * flow.z)),
@@ -108,7 +108,7 @@ fn flight_rates(body: LeafBody, motion: FlightMotion, wind: vec3<f32>) -> Flight
         w * half.x + (y * half.z - z * half.y),
         w * half.y + (z * half.x - x * half.z),
         w * half.z + (x * half.y - y * half.x),
-        0.0 - (x * half.x + y * half.y + z * half.z),
+        -(x * half.x + y * half.y + z * half.z),
     );
     return FlightMotion(acceleration, pose, turning);
 }

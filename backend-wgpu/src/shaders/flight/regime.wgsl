@@ -5,8 +5,8 @@
 #import prelude
 
 fn octant(x: f32, z: f32) -> u32 {
-    let ax = max(x, 0.0 - x);
-    let az = max(z, 0.0 - z);
+    let ax = max(x, -x);
+    let az = max(z, -z);
     let is_back = x < 0.0;
     let is_down = z < 0.0;
     let flat = select(0u, 4u, is_back);
@@ -29,7 +29,7 @@ fn gone_round(round: f32, by: u32) -> f32 {
     let forward = select(round, half, round < 0.0);
     let backward = select(round, half, 0.0 < round);
     let ahead = min(forward + f32(by), ROUND_MOST);
-    let behind = max(backward - f32(8u - by), 0.0 - ROUND_MOST);
+    let behind = max(backward - f32(8u - by), -ROUND_MOST);
     let fading = select(select(round, round + 1.0, round < 0.0), round - 1.0, 0.0 < round);
     let turned = select(select(fading, behind, 5u < by), ahead, by < 3u);
     return select(turned, round, by == 0u);
@@ -105,7 +105,7 @@ fn regime_of(state: u32) -> u32 {
         counts += select(vec4<u32>(), vec4<u32>(1u), vec4<u32>(event) == vec4<u32>(0u, 1u, 2u, 3u));
     }
     let round = f32(bitcast<i32>(state) >> ROUND_SHIFT);
-    let goes_round = max(round, 0.0 - round) >= ROUND_OCTANTS;
+    let goes_round = max(round, -round) >= ROUND_OCTANTS;
     let is_quiet = counts.x > 1u;
     let tumbles = counts.y > 2u && counts.z + counts.w == 0u;
     let only_swings = counts.y + counts.z == 0u;

@@ -41,7 +41,7 @@ fn leaf_join(leaf: u32, glide: Glide) -> Glide {
 
 fn part_of_step(response: ResponseBlock, length: u32) -> Part {
     let elapsed = (f32(length) * STEP_UNIT) * scene.dt_s;
-    let decay = exponential((0.0 - elapsed) * response.inv_time_constant);
+    let decay = exponential((-elapsed) * response.inv_time_constant);
     return Part(length, decay, response.time_constant_s);
 }
 

@@ -35,12 +35,16 @@ fn flatten(q: vec4<f32>, kept: f32) -> vec4<f32> {
     let face_up = q.y * q.y + q.w * q.w >= q.x * q.x + q.z * q.z;
     let upright = select(kept, 1.0, face_up);
     let tilted = select(1.0, kept, face_up);
-    return quat_normalize(vec4<f32>(q.x * tilted, q.y * upright, q.z * tilted, q.w * upright));
+    let flat = vec4<f32>(q.x * tilted, q.y * upright, q.z * tilted, q.w * upright);
+    return quat_normalize(select(flat, vec4<f32>(0.0), flat * flat < vec4<f32>(FLAT_SQUARED)));
 }
 
 fn flatten_on(slope: Slope, q: vec4<f32>, kept: f32) -> vec4<f32> {
+    if (slope.gain == 1.0) {
+        return flatten(q, kept);
+    }
     let lean = ground_lean(slope);
-    let back = vec4<f32>(0.0 - lean.x, 0.0 - lean.y, 0.0 - lean.z, lean.w);
+    let back = vec4<f32>(-lean.x, -lean.y, -lean.z, lean.w);
     return quat_multiply(lean, flatten(quat_multiply(back, q), kept));
 }
 

@@ -73,5 +73,5 @@ fn ground_slope(x: f32, z: f32) -> Slope {
 
 fn ground_lean(slope: Slope) -> vec4<f32> {
     let up = inverse_sqrt(slope.gain);
-    return quat_normalize(vec4<f32>((0.0 - slope.z) * up, 0.0, slope.x * up, 1.0 + up));
+    return quat_normalize(vec4<f32>((-slope.z) * up, 0.0, slope.x * up, 1.0 + up));
 }

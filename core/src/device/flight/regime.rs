@@ -119,7 +119,7 @@ fn gone_round<R: Real>(round: R, by: R::Word) -> R {
     let forward = round.less_than(zero).select_real(half, round);
     let backward = zero.less_than(round).select_real(half, round);
     let ahead = (forward + by.to_real()).min(round.all(ROUND_MOST));
-    let behind = (backward - by.all(8).minus(by).to_real()).max(round.all(0.0 - ROUND_MOST));
+    let behind = (backward - by.all(8).minus(by).to_real()).max(round.all(-ROUND_MOST));
     let fading =
         zero.less_than(round).select_real(round - 1.0, round.less_than(zero).select_real(round + 1.0, round));
     let is_ahead = by.less_than(by.all(3));

@@ -60,7 +60,7 @@ pub fn leaf_join(cx: &Context<'_>, leaf: &mut LeafMut<'_>, glide: Glide) -> Glid
 #[inline(always)]
 pub fn part_of_step(cx: &Context<'_>, response: Response, length: u32) -> Part {
     let elapsed = (length as f32 * STEP_UNIT) * cx.scene.dt_s;
-    let decay = exponential((0.0 - elapsed) * response.inv_time_constant);
+    let decay = exponential((-elapsed) * response.inv_time_constant);
     Part { length, decay, tau: response.time_constant_s }
 }
 

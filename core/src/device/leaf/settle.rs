@@ -18,6 +18,12 @@ use crate::context::Context;
 use crate::device::terrain::ground::{Slope, ground_lean, ground_rest, ground_slope};
 use crate::leaf::LeafMut;
 
+crate::shared_constants! {
+    /// Square of a quaternion's components below which they count as zero. A leaf that goes on sliding lies down without
+    /// end: its tilt would become a subnormal number, which devices may take for zero.
+    pub const FLAT_SQUARED: f32 = 1e-14;
+}
+
 /// A sliding leaf after `seconds` of gravity and Coulomb friction: displacement and velocity left. One that would turn
 /// round lies still.
 #[inline(always)]
@@ -45,14 +51,23 @@ pub fn flatten(q: Quat, kept: f32) -> Quat {
     let face_up = q.y * q.y + q.w * q.w >= q.x * q.x + q.z * q.z;
     let upright = if face_up { 1.0 } else { kept };
     let tilted = if face_up { kept } else { 1.0 };
-    quat_normalize(Quat::new(q.x * tilted, q.y * upright, q.z * tilted, q.w * upright))
+    let whole = |part: f32| if part * part < FLAT_SQUARED { 0.0 } else { part };
+    quat_normalize(Quat::new(
+        whole(q.x * tilted),
+        whole(q.y * upright),
+        whole(q.z * tilted),
+        whole(q.w * upright),
+    ))
 }
 
 /// One step towards lying flat along a slope.
 #[inline(always)]
 pub fn flatten_on(slope: Slope, q: Quat, kept: f32) -> Quat {
+    if slope.gain == 1.0 {
+        return flatten(q, kept);
+    }
     let lean = ground_lean(slope);
-    let back = Quat::new(0.0 - lean.x, 0.0 - lean.y, 0.0 - lean.z, lean.w);
+    let back = Quat::new(-lean.x, -lean.y, -lean.z, lean.w);
     quat_multiply(lean, flatten(quat_multiply(back, q), kept))
 }
 

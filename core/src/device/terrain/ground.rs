@@ -103,5 +103,5 @@ pub fn ground_slope(cx: &Context<'_>, x: f32, z: f32) -> Slope {
 #[inline(always)]
 pub fn ground_lean(slope: Slope) -> Quat {
     let up = inverse_sqrt(slope.gain);
-    quat_normalize(Quat::new((0.0 - slope.z) * up, 0.0, slope.x * up, 1.0 + up))
+    quat_normalize(Quat::new((-slope.z) * up, 0.0, slope.x * up, 1.0 + up))
 }

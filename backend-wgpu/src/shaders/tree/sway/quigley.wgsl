@@ -38,9 +38,9 @@ fn inverse_factor(a: Sym3) -> Factor {
     let l32 = (a.off.x - l31 * l21) * i2;
     let rest = (a.diagonal.z - l31 * l31) - l32 * l32;
     let i3 = inverse_sqrt(max(max(rest, a.diagonal.z * 1e-6), low));
-    let m21 = 0.0 - (l21 * i1) * i2;
-    let m32 = 0.0 - (l32 * i2) * i3;
-    let m31 = 0.0 - ((l31 * i1 + l32 * m21) * i3);
+    let m21 = -(l21 * i1) * i2;
+    let m32 = -(l32 * i2) * i3;
+    let m31 = -((l31 * i1 + l32 * m21) * i3);
     return Factor(vec3<f32>(i1, i2, i3), vec3<f32>(m21, m31, m32));
 }
 
@@ -53,9 +53,9 @@ fn jacobi_turn(p: f32, q: f32, off: f32) -> vec2<f32> {
         return vec2<f32>(0.0, 1.0);
     }
     let length = square * inverse_sqrt(square);
-    let reach = select(span, 0.0 - span, span < 0.0);
+    let reach = select(span, -span, span < 0.0);
     let tangent = twice * reciprocal(reach + length);
-    let turned = select(tangent, 0.0 - tangent, span < 0.0);
+    let turned = select(tangent, -tangent, span < 0.0);
     let cosine = inverse_sqrt(1.0 + turned * turned);
     return vec2<f32>(turned * cosine, cosine);
 }
@@ -132,10 +132,10 @@ fn swing_step(swing: Swing, stiffness: f32, a: f32, force: f32, dt: f32) -> Swin
     let x = swing.place - destination;
     let discriminant = a * a - spring;
     let small = CRITICAL_SHARE * (a * a + spring);
-    var cosine = exponential(0.0 - min(a * dt, DAMPED_MOST));
+    var cosine = exponential(-min(a * dt, DAMPED_MOST));
     var sine = dt * cosine;
-    if (discriminant < 0.0 - small) {
-        let frequency = 0.0 - discriminant;
+    if (discriminant < -small) {
+        let frequency = -discriminant;
         let inverse = inverse_sqrt(frequency);
         let turn = sin_cos(min((frequency * inverse) * dt, PHASE_MOST));
         sine = (cosine * turn.x) * inverse;
@@ -144,8 +144,8 @@ fn swing_step(swing: Swing, stiffness: f32, a: f32, force: f32, dt: f32) -> Swin
         let inverse = inverse_sqrt(discriminant);
         let root = discriminant * inverse;
         let slow = spring * reciprocal(a + root);
-        let late = exponential(0.0 - min(slow * dt, DAMPED_MOST));
-        let early = exponential(0.0 - min((a + root) * dt, DAMPED_MOST));
+        let late = exponential(-min(slow * dt, DAMPED_MOST));
+        let early = exponential(-min((a + root) * dt, DAMPED_MOST));
         cosine = (late + early) * 0.5;
         sine = (late - early) * (0.5 * inverse);
     }

@@ -102,9 +102,9 @@ pub fn composite_shift(body: &Composite, arm: Vec3) -> Composite {
             round - (arm.z * own.z + body.moment.z * arm.z),
         ),
         off: Vec3::new(
-            0.0 - (arm.y * own.z + body.moment.y * arm.z),
-            0.0 - (arm.x * own.z + body.moment.x * arm.z),
-            0.0 - (arm.x * own.y + body.moment.x * arm.y),
+            -(arm.y * own.z + body.moment.y * arm.z),
+            -(arm.x * own.z + body.moment.x * arm.z),
+            -(arm.x * own.y + body.moment.x * arm.y),
         ),
     };
     let reach = vec3_dot(arm, arm * body.drag + body.drag_moment * 2.0);

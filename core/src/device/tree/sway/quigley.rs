@@ -71,9 +71,9 @@ fn inverse_factor(a: Sym3) -> (Vec3, Vec3) {
     let l32 = (a.off.x - l31 * l21) * i2;
     let rest = (a.diagonal.z - l31 * l31) - l32 * l32;
     let i3 = inverse_sqrt(rest.max(a.diagonal.z * 1e-6).max(floor));
-    let m21 = 0.0 - (l21 * i1) * i2;
-    let m32 = 0.0 - (l32 * i2) * i3;
-    let m31 = 0.0 - ((l31 * i1 + l32 * m21) * i3);
+    let m21 = -(l21 * i1) * i2;
+    let m32 = -(l32 * i2) * i3;
+    let m31 = -((l31 * i1 + l32 * m21) * i3);
     (Vec3::new(i1, i2, i3), Vec3::new(m21, m31, m32))
 }
 
@@ -87,9 +87,9 @@ fn jacobi_turn(p: f32, q: f32, off: f32) -> (f32, f32) {
         return (0.0, 1.0);
     }
     let length = square * inverse_sqrt(square);
-    let reach = if span < 0.0 { 0.0 - span } else { span };
+    let reach = if span < 0.0 { -span } else { span };
     let tangent = twice * reciprocal(reach + length);
-    let signed = if span < 0.0 { 0.0 - tangent } else { tangent };
+    let signed = if span < 0.0 { -tangent } else { tangent };
     let cosine = inverse_sqrt(1.0 + signed * signed);
     (signed * cosine, cosine)
 }
@@ -171,10 +171,10 @@ pub fn swing_step(swing: Swing, stiffness: f32, a: f32, force: f32, dt: f32) -> 
     let x = swing.place - target;
     let discriminant = a * a - spring;
     let small = CRITICAL_SHARE * (a * a + spring);
-    let mut cosine = exponential(0.0 - (a * dt).min(DAMPED_MOST));
+    let mut cosine = exponential(-(a * dt).min(DAMPED_MOST));
     let mut sine = dt * cosine;
-    if discriminant < 0.0 - small {
-        let frequency = 0.0 - discriminant;
+    if discriminant < -small {
+        let frequency = -discriminant;
         let inverse = inverse_sqrt(frequency);
         let (s, c) = sin_cos(((frequency * inverse) * dt).min(PHASE_MOST));
         sine = (cosine * s) * inverse;
@@ -184,8 +184,8 @@ pub fn swing_step(swing: Swing, stiffness: f32, a: f32, force: f32, dt: f32) -> 
         let root = discriminant * inverse;
         // a - root without cancellation: their product is the stiffness.
         let slow = spring * reciprocal(a + root);
-        let late = exponential(0.0 - (slow * dt).min(DAMPED_MOST));
-        let early = exponential(0.0 - ((a + root) * dt).min(DAMPED_MOST));
+        let late = exponential(-(slow * dt).min(DAMPED_MOST));
+        let early = exponential(-((a + root) * dt).min(DAMPED_MOST));
         cosine = (late + early) * 0.5;
         sine = (late - early) * (0.5 * inverse);
     }
