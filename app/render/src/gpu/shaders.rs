@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Shader modules of the rooms, composed by the simulator's `#import`: every room has its own and those of the rooms below.
 
-use windfall_core::device::leaf::record;
 pub(crate) use windfall_wgpu::Shaders;
+use windfall_wgpu::leaf_wgsl;
 
 use super::shader_edit;
 
@@ -20,10 +20,10 @@ pub(crate) fn declarations<const N: usize>(lists: [Vec<(&'static str, String)>; 
     lists.into_iter().flatten().map(|(_, declaration)| declaration).collect()
 }
 
-/// Modules that bind nothing: numbers, and what is packed into the records of leaves.
+/// Modules that bind nothing: numbers, and the records of leaves with their accessors.
 pub(crate) fn shaders() -> Shaders {
     let mut shaders = Shaders::from_iter(wgsl_files!("gpu": "numbers"));
-    shaders.extend([("leaf_records", declarations([record::wgsl_constants()]))]);
+    shaders.extend([("leaf_records", leaf_wgsl())]);
     shaders
 }
 

@@ -54,12 +54,14 @@ impl ViewUniform {
     }
 
     fn with(clip: [[f32; 4]; 4], pixels_per_m: f32, limits_px: [f32; 4]) -> Self {
-        let [coarse, medium, fine, thin_px] = limits_px;
+        let [coarse_px, medium_px, fine_px, thin_px] = limits_px;
         Self {
             sides: sides(clip).map(Float4),
             eye_m: [0.0; 3],
             pixels_per_m,
-            mesh_px: [coarse, medium, fine],
+            coarse_px,
+            medium_px,
+            fine_px,
             thin_px,
             least_share: LEAST_SHARE,
             is_parallel: 1,

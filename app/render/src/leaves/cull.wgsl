@@ -16,16 +16,22 @@
 @group(0) @binding(4) var<storage, read_write> draws: array<LeafDraw, 4>;
 @group(0) @binding(5) var<storage, read_write> records: array<LeafRecord>;
 
-@group(1) @binding(0) var<storage, read> places: array<vec4<u32>>;
-@group(1) @binding(1) var<storage, read> attitudes: array<vec4<f32>>;
-@group(1) @binding(2) var<storage, read> schedules: array<vec4<u32>>;
-@group(1) @binding(3) var<storage, read> identities: array<vec4<u32>>;
+@group(1) @binding(0) var<storage, read> places: array<Place>;
+@group(1) @binding(1) var<storage, read> attitudes: array<Attitude>;
+@group(1) @binding(2) var<storage, read> schedules: array<Schedule>;
+// Of painted leaves their marks, written by `marks/paint_pass.wgsl`.
+@group(1) @binding(3) var<storage, read> identities: array<Identity>;
 
 const COPY_SLOT_MASK: u32 = (1u << COPY_SHIFT) - 1u;
 
-// Leaves have marks, written by `marks/paint_pass.wgsl`, which stand in for their identities: the second word holds the roots
-// of the colour in bytes.
+// Leaves have marks, which stand in for their identities.
 override IS_PAINTED: bool = false;
+
+// Colour of a mark: its roots in bytes stand in the word of the release.
+fn mark_color(mark: Identity) -> vec3<f32> {
+    let root = unpack4x8unorm(mark.release).rgb;
+    return root * root;
+}
 
 fn signed_bytes(word: u32) -> vec4<f32> {
     return vec4<f32>((vec4<u32>(word) >> vec4(0u, 8u, 16u, 24u)) & vec4(255u)) / 127.5 - 1.0;
@@ -69,29 +75,29 @@ fn within(center: vec3<f32>) -> f32 {
 fn sight_of(index: u32) -> Sight {
     var out: Sight;
     let place = places[index];
-    let state = place.w & STATE_MASK;
+    let state = leaf_state(place.bits);
     out.tree = tree_of(page.first + index);
     let cluster = trees[out.tree].cluster;
-    let word = schedules[index].z;
-    let relative = f32(word & HALF_MASK) * SIZE_UNIT;
-    // On its twig a leaf may stand for several: the high half is then its own size. Of those, one falls.
-    let stated = f32(word >> 16u) * SIZE_UNIT;
+    let size = schedules[index].size;
+    let relative = size_ratio(size);
+    // On its twig a leaf may stand for several, and states its own size. Of those, one falls.
+    let stated = f32(own_size(size)) * SIZE_UNIT;
     let on_twig = select(relative * inverseSqrt(cluster), stated, stated > 0.0);
     let is_attached = state == STATE_ATTACHED;
     let copies = select(1u, clamp(u32(cluster), 1u, MAX_CLUSTER), is_attached);
-    let species = (place.w >> SPECIES_SHIFT) & SPECIES_MASK;
+    let species = leaf_species(place.bits);
     out.diameter = table.species[species].diameter_m * select(relative, TWIG_SIZE * on_twig, is_attached);
-    let center = bitcast<vec3<f32>>(place.xyz);
+    let center = place.position;
     let radius = out.diameter * (PICTURE_EDGE + 1.2 * sqrt(f32(copies) - 1.0));
     let is_hidden = within(center) < -radius || state == STATE_DORMANT;
     out.copies = select(copies, 0u, is_hidden);
     let distance_m = select(max(distance(view.eye_m, center), 0.01), 1.0, view.is_parallel == 1u);
     let pixels = PICTURE_EDGE * out.diameter * view.pixels_per_m / distance_m;
-    out.level = u32(pixels >= view.mesh_px.x) + u32(pixels >= view.mesh_px.y) + u32(pixels >= view.mesh_px.z);
+    out.level = u32(pixels >= view.coarse_px) + u32(pixels >= view.medium_px) + u32(pixels >= view.fine_px);
     let small = pixels / view.thin_px;
     out.share = clamp(small * small, view.least_share, 1.0);
     let identity = identities[index];
-    out.key = hash_u32(identity.w + hash_u32(identity.x));
+    out.key = hash_u32(identity.appearance + hash_u32(identity.id));
     return out;
 }
 
@@ -214,15 +220,15 @@ fn record_of(index: u32, sight: Sight, copy: u32) -> LeafRecord {
     let place = places[index];
     let identity = identities[index];
     let tree = trees[sight.tree];
-    let species = (place.w >> SPECIES_SHIFT) & SPECIES_MASK;
-    let state = place.w & STATE_MASK;
+    let species = leaf_species(place.bits);
+    let state = leaf_state(place.bits);
     let key = copy_key(sight.key, copy);
-    let tint = select(key & HALF_MASK, identity.w & HALF_MASK, copy == 0u);
+    let tint = leaf_tint(select(key, identity.appearance, copy == 0u));
     let variants = table.variants;
-    var variant = ((identity.w >> VARIANT_SHIFT) & VARIANT_MASK) % variants;
+    var variant = leaf_variant(identity.appearance) % variants;
     if sight.tree > 0u && tree.turned >= 0.0 {
         // Leaves of one tree have turned about as far as each other.
-        let spread = tree.turned_range * (unit_from(hash_u32(tint ^ hash_u32(identity.x))) - 0.5);
+        let spread = tree.turned_range * (unit_from(hash_u32(tint ^ hash_u32(identity.id))) - 0.5);
         let rank = u32(clamp(tree.turned + spread, 0.0, 0.9999) * f32(variants));
         variant = table.layers[min(species * variants + rank, table.layer_count - 1u)].variant;
     }
@@ -232,9 +238,9 @@ fn record_of(index: u32, sight: Sight, copy: u32) -> LeafRecord {
     let diameter = sight.diameter * inverseSqrt(sight.share);
     let edge = diameter * table.layers[layer].edge;
 
-    var center = bitcast<vec3<f32>>(place.xyz);
+    var center = place.position;
     // A leaf that nothing has turned yet has no attitude.
-    var attitude = attitudes[index];
+    var attitude = attitudes[index].quaternion;
     attitude = select(vec4(0.0, 0.0, 0.0, 1.0), attitude, dot(attitude, attitude) > 0.25);
     var offset = vec3(build.offset_x, 0.0, build.offset_z) * diameter;
     if copy > 0u {
@@ -271,8 +277,7 @@ fn record_of(index: u32, sight: Sight, copy: u32) -> LeafRecord {
     var color = mix(vec3(0.94, 1.05, 0.95), vec3(1.08, 0.93, 0.92), unit_from(hash_u32(looks)));
     color *= mix(0.80, 1.16, unit_from(looks)) * tree.tint;
     if IS_PAINTED {
-        let root = unpack4x8unorm(identities[index].y).rgb;
-        color = root * root;
+        color = mark_color(identity);
     }
     var open = 1.0;
     var outward = vec3(0.0);
@@ -287,7 +292,8 @@ fn record_of(index: u32, sight: Sight, copy: u32) -> LeafRecord {
     return LeafRecord(
         center,
         select(edge, -edge, is_mirrored),
-        vec2(pack2x16snorm(attitude.xy), pack2x16snorm(attitude.zw)),
+        pack2x16snorm(attitude.xy),
+        pack2x16snorm(attitude.zw),
         pack2x16float(vec2(stage, fold)),
         pack2x16float(vec2(bend, twist)),
         layer | (index << SLOT_SHIFT),

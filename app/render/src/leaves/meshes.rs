@@ -7,7 +7,7 @@
 //! shorter than the longest its last corner is repeated. A corner takes 52 bytes, a piece of strip 2.
 
 use glam::{Vec2, Vec3};
-use windfall_core::shared_constants;
+use windfall_core::{shared_constants, shared_struct};
 use windfall_texgen::{Atlas, FormLevel, Layer};
 
 use super::strip::strip;
@@ -26,6 +26,21 @@ shared_constants! {
     const LAST_BUT_ONE_STAGE: u32 = 4;
 }
 
+shared_struct! {
+    /// A mesh: a strip of corner numbers, and the corners.
+    #[derive(Default)]
+    pub(crate) struct LeafMesh {
+        /// First piece of its strip.
+        first_piece: u32,
+        /// Pieces of the strip.
+        piece_count: u32,
+        /// First corner.
+        first_corner: u32,
+        /// Unused.
+        unused: u32,
+    }
+}
+
 /// All meshes of an atlas.
 #[derive(Debug, Default)]
 pub(crate) struct LeafMeshes {
@@ -33,8 +48,8 @@ pub(crate) struct LeafMeshes {
     pub(crate) corners: Vec<u32>,
     /// Corner numbers, counted from a mesh's first, two to a word.
     pub(crate) strips: Vec<u32>,
-    /// For each picture and level: first piece of its strip, pieces, first corner.
-    pub(crate) meshes: Vec<[u32; 4]>,
+    /// Meshes of each picture, level by level.
+    pub(crate) meshes: Vec<LeafMesh>,
     /// Longest strip of each level.
     pub(crate) longest: [u32; LEVELS],
     /// For each picture: lowest and highest corner of its finest mesh at every stage, in sides, about the middle.
@@ -60,15 +75,19 @@ impl LeafMeshes {
             let levels: Vec<&FormLevel> = card.iter().chain(&layer.form.levels).take(LEVELS).collect();
             for number in 0..LEVELS {
                 let Some(level) = levels.get(number.min(levels.len().saturating_sub(1))) else {
-                    forms.meshes.push([0, 0, 0, 0]);
+                    forms.meshes.push(LeafMesh::default());
                     continue;
                 };
                 let strip = strip(&level.triangles);
-                let count = u32::try_from(strip.len()).unwrap_or(0);
-                let first = u32::try_from(pieces.len()).unwrap_or(0);
-                let corner = u32::try_from(forms.corners.len() / CORNER_WORDS as usize).unwrap_or(0);
-                forms.meshes.push([first, count, corner, 0]);
-                forms.longest[number] = forms.longest[number].max(count);
+                let whole = |count: usize| u32::try_from(count).unwrap_or(0);
+                let mesh = LeafMesh {
+                    first_piece: whole(pieces.len()),
+                    piece_count: whole(strip.len()),
+                    first_corner: whole(forms.corners.len() / CORNER_WORDS as usize),
+                    unused: 0,
+                };
+                forms.meshes.push(mesh);
+                forms.longest[number] = forms.longest[number].max(mesh.piece_count);
                 pieces.extend(strip);
                 forms.add_corners(level, &Posed::of(level, &middles));
             }
@@ -261,7 +280,7 @@ mod tests {
         let forms = LeafMeshes::new(&atlas);
         let form = &atlas.layers[0].form;
         for (number, level) in form.levels.iter().enumerate() {
-            let first = forms.meshes[number + 1][2] as usize;
+            let first = forms.meshes[number + 1].first_corner as usize;
             for stage in [0, 2, STAGES] {
                 let root = read(&forms, first, stage);
                 for corner in [1, level.positions.len() - 1] {

@@ -23,6 +23,7 @@ pub(crate) fn shaders() -> Shaders {
         species_table::SpeciesRow::declaration(),
         species_table::LayerRow::declaration(),
         species_table::SpeciesUniform::declaration(),
+        meshes::LeafMesh::declaration(),
         record::LeafRecord::declaration(),
         record::LeafDraw::declaration(),
         record::PageUniform::declaration(),

@@ -9,10 +9,10 @@
 
 @group(1) @binding(0) var<uniform> motion: MotionUniform;
 
-@group(3) @binding(1) var<storage, read> places: array<vec4<u32>>;
-@group(3) @binding(2) var<storage, read> attitudes: array<vec4<f32>>;
-@group(3) @binding(3) var<storage, read> past_places: array<vec4<u32>>;
-@group(3) @binding(4) var<storage, read> past_attitudes: array<vec4<f32>>;
+@group(3) @binding(1) var<storage, read> places: array<Place>;
+@group(3) @binding(2) var<storage, read> attitudes: array<Attitude>;
+@group(3) @binding(3) var<storage, read> past_places: array<Place>;
+@group(3) @binding(4) var<storage, read> past_attitudes: array<Attitude>;
 
 struct Varyings {
     @builtin(position) @invariant clip: vec4<f32>,
@@ -26,15 +26,14 @@ fn turned(attitude: vec4<f32>) -> vec4<f32> {
 
 // Where a point of a leaf was, as the leaf moved and turned without bending.
 fn past_of(point: vec3<f32>, slot: u32) -> vec3<f32> {
-    let now = bitcast<vec3<f32>>(places[slot].xyz);
+    let now = places[slot].position;
     let before = past_places[slot];
-    let there = bitcast<vec3<f32>>(before.xyz);
-    if distance(now, there) > motion.farthest_m || (before.w & STATE_MASK) == STATE_DORMANT {
+    if distance(now, before.position) > motion.farthest_m || leaf_state(before.bits) == STATE_DORMANT {
         return point;
     }
-    let back = turned(attitudes[slot]) * vec4(-1.0, -1.0, -1.0, 1.0);
-    let turn = quaternion_product(turned(past_attitudes[slot]), back);
-    return there + rotate(turn, point - now);
+    let back = turned(attitudes[slot].quaternion) * vec4(-1.0, -1.0, -1.0, 1.0);
+    let turn = quaternion_product(turned(past_attitudes[slot].quaternion), back);
+    return before.position + rotate(turn, point - now);
 }
 
 @vertex

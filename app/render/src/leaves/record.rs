@@ -31,8 +31,10 @@ shared_struct! {
         center_m: [f32; 3],
         /// Edge of its picture, negative if the picture is mirrored.
         edge_m: f32,
-        /// Attitude as four signed halves.
-        attitude: [u32; 2],
+        /// Attitude, x and y.
+        attitude_xy: u32,
+        /// Attitude, z and w.
+        attitude_zw: u32,
         /// Stage of drying, and fold.
         stage_fold: u32,
         /// Bend, and twist.
@@ -86,8 +88,12 @@ shared_struct! {
         pub(crate) eye_m: [f32; 3],
         /// Pixels of a metre at a distance of a metre, or anywhere in a parallel projection.
         pub(crate) pixels_per_m: f32,
-        /// Least edges in pixels of pictures of leaves that are drawn as coarse, medium and fine meshes.
-        pub(crate) mesh_px: [f32; 3],
+        /// Least edge in pixels of pictures of leaves that are drawn as coarse meshes.
+        pub(crate) coarse_px: f32,
+        /// The same of medium meshes.
+        pub(crate) medium_px: f32,
+        /// The same of fine meshes.
+        pub(crate) fine_px: f32,
         /// Edge in pixels below which leaves are thinned out.
         pub(crate) thin_px: f32,
         /// Least share of leaves that are kept.

@@ -10,7 +10,7 @@
 @group(2) @binding(3) var surfaces: texture_2d_array<f32>;
 @group(2) @binding(4) var<storage, read> corners: array<u32>;
 @group(2) @binding(5) var<storage, read> strips: array<u32>;
-@group(2) @binding(6) var<storage, read> meshes: array<vec4<u32>>;
+@group(2) @binding(6) var<storage, read> meshes: array<LeafMesh>;
 @group(3) @binding(0) var<storage, read> records: array<LeafRecord>;
 
 struct BladePoint {
@@ -43,9 +43,9 @@ fn record_of(in: LeafVertex) -> LeafRecord {
 // Corner `vertex` of the strip of a leaf's mesh at a level of detail.
 fn blade_point(record: LeafRecord, level: u32, vertex: u32) -> BladePoint {
     let mesh = meshes[4u * (record.layer_slot & LAYER_MASK) + level];
-    let piece = mesh.x + min(vertex, mesh.y - 1u);
+    let piece = mesh.first_piece + min(vertex, mesh.piece_count - 1u);
     let number = (strips[piece / 2u] >> (16u * (piece & 1u))) & 0xffffu;
-    let first = (mesh.z + number) * CORNER_WORDS;
+    let first = (mesh.first_corner + number) * CORNER_WORDS;
 
     let stage_fold = unpack2x16float(record.stage_fold);
     let bend_twist = unpack2x16float(record.bend_twist);
@@ -78,7 +78,7 @@ fn blade_point(record: LeafRecord, level: u32, vertex: u32) -> BladePoint {
     let edge = abs(record.edge_m);
     out.mirror = sign(record.edge_m);
     let local = edge * vec3(out.mirror * place.x, REACH * height + 0.5 * extra, place.y);
-    out.attitude = vec4(unpack2x16snorm(record.attitude.x), unpack2x16snorm(record.attitude.y));
+    out.attitude = vec4(unpack2x16snorm(record.attitude_xy), unpack2x16snorm(record.attitude_zw));
     out.attitude = normalize(out.attitude);
     out.world = rotate(out.attitude, local) + record.center_m;
     out.normal = rotate(out.attitude, vec3(out.mirror * normal.x, normal.z, normal.y));

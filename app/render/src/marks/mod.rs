@@ -49,11 +49,18 @@ shared_constants! {
 /// Shader modules of this room and of those below.
 pub(crate) fn shaders() -> Shaders {
     let mut shaders = crate::frame::shaders();
-    let lists = [wgsl_constants(), palette::wgsl_constants(), paint_pass::wgsl_constants()];
+    let lists = [
+        wgsl_constants(),
+        palette::wgsl_constants(),
+        paint_pass::wgsl_constants(),
+        trail_pass::wgsl_constants(),
+    ];
     let structs = [
         landing_count::LandingUniform::declaration(),
         paint_pass::PaintUniform::declaration(),
+        paint_pass::PastMark::declaration(),
         trail_pass::TrailUniform::declaration(),
+        trail_pass::TrailSample::declaration(),
     ];
     shaders.extend([("marks/structs", declarations(lists) + &structs.concat())]);
     shaders.extend(wgsl_files!(

@@ -49,6 +49,16 @@ shared_struct! {
     }
 }
 
+shared_struct! {
+    /// A leaf when it was last marked.
+    pub(crate) struct PastMark {
+        /// Its position in metres.
+        position: [f32; 3],
+        /// Roots of its colour in bytes; 0 before the first time.
+        color: u32,
+    }
+}
+
 /// The marks, and the pipeline that makes them.
 #[derive(Debug)]
 pub(crate) struct PaintPass {
@@ -59,7 +69,7 @@ pub(crate) struct PaintPass {
     uniform: wgpu::Buffer,
     /// A mark for each leaf, in place of its identity.
     pub(crate) marks: wgpu::Buffer,
-    /// Earlier position of each leaf.
+    /// A [`PastMark`] for each leaf.
     past: wgpu::Buffer,
     group_layout: wgpu::BindGroupLayout,
     pipeline: wgpu::ComputePipeline,

@@ -6,12 +6,11 @@
 #import marks/structs
 
 @group(0) @binding(0) var<uniform> paint: PaintUniform;
-@group(0) @binding(1) var<storage, read> places: array<vec4<u32>>;
-@group(0) @binding(2) var<storage, read> identities: array<vec4<u32>>;
-// The identities, with a colour in place of the release.
-@group(0) @binding(3) var<storage, read_write> marks: array<vec4<u32>>;
-// Where each leaf was, and its colour then; 0 before the first time.
-@group(0) @binding(4) var<storage, read_write> past: array<vec4<u32>>;
+@group(0) @binding(1) var<storage, read> places: array<Place>;
+@group(0) @binding(2) var<storage, read> identities: array<Identity>;
+// The identities, with the roots of a colour in bytes in the word of the release.
+@group(0) @binding(3) var<storage, read_write> marks: array<Identity>;
+@group(0) @binding(4) var<storage, read_write> past: array<PastMark>;
 
 // Regimes of bodies in the order of the motions that look like them.
 const LIKE = array<u32, 6>(0u, 3u, 1u, 2u, 4u, 5u);
@@ -32,42 +31,41 @@ fn mark(@builtin(global_invocation_id) id: vec3<u32>) {
         return;
     }
     let place = places[index];
-    let state = place.w & STATE_MASK;
+    let state = leaf_state(place.bits);
     let before = past[index];
-    let here = bitcast<vec3<f32>>(place.xyz);
     var color = select(paint.palette[RESTING_COLOR].rgb, paint.palette[ATTACHED_COLOR].rgb, state == STATE_ATTACHED);
     var keeps = false;
     switch paint.measure {
         case MEASURE_MOTION: {
             if state == STATE_FALLING {
-                let primitive = (place.w >> PRIMITIVE_SHIFT) & PRIMITIVE_MASK;
-                let regime = (place.w >> REGIME_SHIFT) & REGIME_MASK;
+                let primitive = leaf_primitive(place.bits);
+                let regime = leaf_regime(place.bits);
                 let kind = select(min(primitive, 5u), LIKE[min(regime, 5u)], primitive == AERODYNAMIC);
                 color = paint.palette[kind].rgb;
             }
         }
         case MEASURE_SPEED: {
-            let gone_m = distance(here, bitcast<vec3<f32>>(before.xyz));
+            let gone_m = distance(place.position, before.position);
             let speed = gone_m / max(paint.since_s, 1.0e-6);
-            let is_known = before.w != 0u && speed < JUMP_M_S;
+            let is_known = before.color != 0u && speed < JUMP_M_S;
             color = select(paint.palette[NO_COLOR].rgb, shade(speed), is_known);
             // While time stands still everything keeps the speed that it had.
             keeps = paint.since_s <= 0.0;
         }
         case MEASURE_AGE: {
             if state != STATE_ATTACHED {
-                let age = bitcast<i32>(paint.step) - bitcast<i32>(identities[index].y);
+                let age = bitcast<i32>(paint.step) - bitcast<i32>(identities[index].release);
                 color = shade(f32(age) * paint.dt_s);
             }
         }
         default: {
-            color = shade(here.y);
+            color = shade(place.position.y);
         }
     }
     let packed = pack4x8unorm(vec4(sqrt(color), 1.0));
-    let is_new = !keeps || before.w == 0u;
-    let shown = select(before.w, packed, is_new);
-    past[index] = vec4(place.xyz, shown);
+    let is_new = !keeps || before.color == 0u;
+    let shown = select(before.color, packed, is_new);
+    past[index] = PastMark(place.position, shown);
     let identity = identities[index];
-    marks[index] = vec4(identity.x, shown, identity.zw);
+    marks[index] = Identity(identity.id, shown, identity.fall_time, identity.appearance);
 }

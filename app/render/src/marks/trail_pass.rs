@@ -2,11 +2,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Draws where leaves have been: a ring of past positions per leaf, sampled and drawn on the device.
 
-use windfall_core::shared_struct;
+use windfall_core::{shared_constants, shared_struct};
 use windfall_wgpu::LeafColumns;
 
 use super::MARKS_GROUP_SIZE;
-
 use crate::frame::group::FrameGroup;
 use crate::frame::light_group::LightGroup;
 use crate::frame::scene_pipeline::ScenePipeline;
@@ -22,6 +21,29 @@ const HALF_WIDTH_M: f32 = 0.008;
 /// A leaf that goes farther than this between two frames was put elsewhere: one metre, or 60 m/s.
 const BREAK_M: f32 = 1.0;
 const BREAK_M_S: f32 = 60.0;
+
+shared_constants! {
+    /// Joint of a sample without a place.
+    const NO_PLACE: u32 = 0;
+    /// Joint of a place that is joined to the one before it.
+    const JOINED: u32 = 1;
+    /// Joint of a place that is not.
+    const BROKEN: u32 = 2;
+    /// Mask of the joint in [`TrailSample::joint_regime`].
+    const JOINT_MASK: u32 = 3;
+    /// Place of the regime there: of a body in the air its number plus one, else 0.
+    const JOINT_REGIME_SHIFT: u32 = 2;
+}
+
+shared_struct! {
+    /// A leaf at a moment.
+    pub(crate) struct TrailSample {
+        /// Its position in metres.
+        position: [f32; 3],
+        /// Joint, and regime.
+        joint_regime: u32,
+    }
+}
 
 shared_struct! {
     /// Trails of a frame; the lengths of time are relative to the trail's.
@@ -107,7 +129,7 @@ impl TrailPass {
                 mapped_at_creation: false,
             })
         };
-        let ring_bytes = u64::from(trail_count) * u64::from(SAMPLES) * 16;
+        let ring_bytes = u64::from(trail_count) * u64::from(SAMPLES) * size_of::<TrailSample>() as u64;
         let ring = buffer("trail ring", ring_bytes, wgpu::BufferUsages::STORAGE);
         let uniform = buffer("trail", size_of::<TrailUniform>() as u64, wgpu::BufferUsages::UNIFORM);
 

@@ -6,7 +6,7 @@
 #import marks/structs
 
 @group(2) @binding(0) var<uniform> trail: TrailUniform;
-@group(2) @binding(1) var<storage, read> ring: array<vec4<f32>>;
+@group(2) @binding(1) var<storage, read> ring: array<TrailSample>;
 
 struct Varyings {
     @builtin(position) clip: vec4<f32>,
@@ -14,7 +14,7 @@ struct Varyings {
     @location(1) @interpolate(perspective, centroid) across: f32,
 }
 
-fn sample_at(leaf: u32, age: u32) -> vec4<f32> {
+fn sample_at(leaf: u32, age: u32) -> TrailSample {
     let count = trail.sample_count;
     return ring[leaf * count + (trail.newest + count - min(age, count - 1u)) % count];
 }
@@ -29,9 +29,9 @@ const REGIMES = array<vec3<f32>, 6>(
     vec3(0.22, 0.08, 0.37),
 );
 
-// Whether there is a place, and whether it is joined to the one before it: 1 or 2, without the regime.
-fn joint(sample: vec4<f32>) -> f32 {
-    return sample.w % 4.0;
+// NO_PLACE, JOINED or BROKEN.
+fn joint(sample: TrailSample) -> u32 {
+    return sample.joint_regime & JOINT_MASK;
 }
 
 fn hue(at: f32) -> vec3<f32> {
@@ -48,25 +48,25 @@ fn vertex(@builtin(vertex_index) index: u32, @builtin(instance_index) leaf: u32)
     var out: Varyings;
     let young = sample_at(leaf, segment);
     let old = sample_at(leaf, segment + 1u);
-    if joint(young) < 0.5 || joint(young) > 1.5 || joint(old) < 0.5 || segment + 2u > trail.sample_count {
+    if joint(young) != JOINED || joint(old) == NO_PLACE || segment + 2u > trail.sample_count {
         out.clip = vec4(0.0, 0.0, -1.0, 1.0);
         return out;
     }
     let age = segment + older;
-    let here = sample_at(leaf, age).xyz;
+    let here = sample_at(leaf, age).position;
     // The ribbon's direction at a sample is that of its neighbours, so segments meet without a gap.
-    var ahead = young.xyz;
-    var behind = old.xyz;
-    if older == 0u && segment > 0u && joint(young) < 1.5 {
+    var ahead = young.position;
+    var behind = old.position;
+    if older == 0u && segment > 0u {
         let next = sample_at(leaf, segment - 1u);
-        if joint(next) > 0.5 && joint(next) < 1.5 {
-            ahead = next.xyz;
+        if joint(next) == JOINED {
+            ahead = next.position;
         }
     }
-    if older == 1u && joint(old) < 1.5 {
+    if older == 1u && joint(old) == JOINED {
         let next = sample_at(leaf, segment + 2u);
-        if joint(next) > 0.5 && segment + 3u <= trail.sample_count {
-            behind = next.xyz;
+        if joint(next) != NO_PLACE && segment + 3u <= trail.sample_count {
+            behind = next.position;
         }
     }
     let to_eye = frame.eye_m - here;
@@ -91,7 +91,7 @@ fn vertex(@builtin(vertex_index) index: u32, @builtin(instance_index) leaf: u32)
         let thin = min(trail.half_width_m / half_width, 1.0);
         out.color = vec4(color * 0.9, 0.85 * life * life * mix(0.5, 1.0, thin));
     }
-    let regime = u32(sample_at(leaf, age).w / 4.0);
+    let regime = sample_at(leaf, age).joint_regime >> JOINT_REGIME_SHIFT;
     if regime > 0u {
         out.color = vec4(REGIMES[min(regime, 6u) - 1u] * 1.5, out.color.a);
     }
