@@ -7,9 +7,9 @@
 
 use windfall_core::shared_constants;
 
-use super::group::MIDDLE_GREY;
-
 shared_constants! {
+    /// Luminance that automatic exposure makes of the log-average, and every tone map of itself but for Reinhard's.
+    pub(crate) const MIDDLE_GREY: f32 = 0.18;
     /// Stops below middle grey.
     const STOPS_BELOW: f32 = 10.0;
     /// All stops.

@@ -3,9 +3,9 @@
 //! Bind group 0 of everything that happens after the scene is drawn: the lens, and how far it is open.
 
 use windfall_core::scene::{self, Lens, ToneMap};
-use windfall_core::{shared_constants, shared_struct};
+use windfall_core::shared_struct;
 
-use super::agx;
+use super::agx::{CURVE, MIDDLE_GREY};
 use crate::gpu::pipeline::{buffer_entry, uniform_entry};
 
 shared_struct! {
@@ -68,11 +68,6 @@ shared_struct! {
     }
 }
 
-shared_constants! {
-    /// Luminance that automatic exposure makes of the log-average, and every tone map of itself but for Reinhard's.
-    pub(crate) const MIDDLE_GREY: f32 = 0.18;
-}
-
 /// Unit of light in cd/m².
 const LIGHT_UNIT: f32 = 1000.0;
 /// Height of the sensor in metres: that of 35 mm film.
@@ -111,7 +106,7 @@ impl LensUniform {
             }
             scene::Exposure::Manual { ev100 } => (0.0, 1.0, LIGHT_UNIT / (1.2 * ev100.exp2())),
         };
-        let [agx_slope, agx_below, agx_above, agx_bend] = agx::CURVE.constants();
+        let [agx_slope, agx_below, agx_above, agx_bend] = CURVE.constants();
         let curve_parameter = match lens.tone_map {
             ToneMap::Linear { gamma } => gamma,
             ToneMap::Reinhard { white } => white,

@@ -24,7 +24,6 @@ pub(crate) fn shaders() -> Shaders {
         agx::wgsl_constants(),
         exposure_pass::wgsl_constants(),
         glare_pass::wgsl_constants(),
-        group::wgsl_constants(),
         tonemap_pass::wgsl_constants(),
     ];
     let structs = [
