@@ -25,7 +25,7 @@ const SETTLE_TAU_S: f32 = 0.04;
 /// Frequency at which the slowest leaf flutters on its twig in Hz; the fastest flutter half as fast again.
 pub(super) const FLUTTER_HZ: f32 = 3.2;
 /// Height of water that is not there, in metres.
-const NO_WATER_M: f32 = -1.0e6;
+pub const NO_WATER_M: f32 = -1.0e6;
 
 /// Uniform block of a scene, but for the places of its tables behind those of the wind.
 pub(super) fn compile_block(scene: &Scene, tables: &[MotionTables]) -> SceneBlock {

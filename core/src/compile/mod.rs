@@ -14,7 +14,7 @@ mod wind;
 
 use std::sync::Arc;
 
-pub use self::block::REST_OFFSET_M;
+pub use self::block::{NO_WATER_M, REST_OFFSET_M};
 use self::block::{compile_block, retune_block};
 pub use self::cycle::Cycle;
 use self::cycle::firm;

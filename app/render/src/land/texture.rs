@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The land as shaders read it: a texel for every grid point of the hills.
 
-use windfall_core::shared_struct;
 use windfall_core::terrain::Hills;
+use windfall_core::{NO_WATER_M, shared_struct};
 
 use super::Land;
 
@@ -11,8 +11,6 @@ use super::Land;
 const NEIGHBOURHOOD: i64 = 3;
 /// Height in metres below or above that mean at which a place is altogether a hollow or a knoll.
 const HOLLOW_M: f32 = 0.6;
-/// Height that stands for no water, in metres.
-const NO_WATER_M: f32 = -1.0e6;
 
 shared_struct! {
     /// Size of the hills, and how high the ground and the water lie.
@@ -23,7 +21,7 @@ shared_struct! {
         cells: u32,
         /// Height of the ground at the origin.
         base_m: f32,
-        /// Height of the water.
+        /// Height of the water, or [`NO_WATER_M`].
         water_m: f32,
     }
 }
