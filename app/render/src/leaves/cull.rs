@@ -10,9 +10,9 @@
 use glam::{Mat4, Vec4};
 use windfall_core::layout::Float4;
 
+use super::page::Page;
 use super::record::{CULL_GROUP_SIZE, ViewUniform};
 use super::species_table::SpeciesTable;
-use super::visible::Page;
 use crate::frame::cascades::{CASCADES, MAPS};
 use crate::gpu::pipeline::{buffer_entry, layout};
 use crate::gpu::shaders::compile;

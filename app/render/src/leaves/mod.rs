@@ -6,6 +6,7 @@ pub(crate) mod cull;
 pub(crate) mod leaf_pass;
 pub(crate) mod meshes;
 pub(crate) mod motion_pass;
+pub(crate) mod page;
 pub(crate) mod previous;
 pub(crate) mod record;
 pub(crate) mod species_table;

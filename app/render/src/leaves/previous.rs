@@ -4,8 +4,8 @@
 
 use windfall_wgpu::LeafColumns;
 
-/// Bytes of a record of a column.
-const COLUMN_BYTES: u64 = 16;
+use super::record::COLUMN_BYTES;
+
 /// Frames farther apart than this do not belong together, in seconds.
 const LONGEST_S: f64 = 0.25;
 

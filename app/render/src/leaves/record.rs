@@ -3,7 +3,11 @@
 //! A leaf that is drawn, and the draws of a page: written by the culling, read by vertex shaders.
 
 use windfall_core::layout::Float4;
+use windfall_core::leaf::Place;
 use windfall_core::{shared_constants, shared_struct};
+
+/// Bytes of a record of a column.
+pub(crate) const COLUMN_BYTES: u64 = size_of::<Place>() as u64;
 
 shared_constants! {
     /// Place of the slot within its page in [`LeafRecord::layer_slot`].

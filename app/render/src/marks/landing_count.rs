@@ -12,15 +12,14 @@ use super::palette::{SHADES, shade};
 use crate::gpu::pipeline::{buffer_entry, layout};
 use crate::gpu::shaders::compile;
 use crate::gpu::upload;
-use crate::leaves::visible::PAGE_SLOTS;
+use crate::leaves::page::PAGE_SLOTS;
+use crate::leaves::record::COLUMN_BYTES;
 
 /// Leaves per square metre at the ends of the colours, which go by ratios.
 pub const LANDINGS_PER_M2: (f32, f32) = (1.0, 100.0);
 /// Cells along an edge of the square, and the edge of one in metres.
 pub(crate) const CELLS: u32 = 160;
 pub(crate) const CELL_M: f32 = 0.5;
-/// Bytes of a record of a column.
-const COLUMN_BYTES: u64 = 16;
 
 shared_struct! {
     /// The square that is counted, and its colours.

@@ -11,10 +11,9 @@ use super::palette::{self, ATTACHED_COLOR, MOTIONS, NO_COLOR, RESTING_COLOR, SHA
 use super::{MARKS_GROUP_SIZE, Measure, Paint};
 use crate::gpu::pipeline::{buffer_entry, layout};
 use crate::gpu::shaders::compile;
-use crate::leaves::visible::PAGE_SLOTS;
+use crate::leaves::page::PAGE_SLOTS;
+use crate::leaves::record::COLUMN_BYTES;
 
-/// Bytes of a mark and of a record of a column.
-const MARK_BYTES: u64 = 16;
 /// Colours in the uniform block: the shades, and three for leaves that have none.
 const COLORS: usize = NO_COLOR as usize + 1;
 
@@ -109,7 +108,7 @@ impl PaintPass {
         };
         let uniform_usage = wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST;
         let marks_usage = wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC;
-        let bytes = u64::from(leaf_count.max(1)) * MARK_BYTES;
+        let bytes = u64::from(leaf_count.max(1)) * COLUMN_BYTES;
         Self {
             paint,
             dt_s,
@@ -169,15 +168,15 @@ impl PaintPass {
             padding: [0; 8],
         };
         queue.write_buffer(&self.uniform, 0, bytemuck::bytes_of(&uniform));
-        let count = u64::from(leaves.leaf_count).min(self.marks.size() / MARK_BYTES);
+        let count = u64::from(leaves.leaf_count).min(self.marks.size() / COLUMN_BYTES);
         let mut first = 0;
         while first < count {
             let part = (count - first).min(u64::from(PAGE_SLOTS));
             let window = |buffer| {
-                let size = wgpu::BufferSize::new(part * MARK_BYTES);
+                let size = wgpu::BufferSize::new(part * COLUMN_BYTES);
                 wgpu::BindingResource::Buffer(wgpu::BufferBinding {
                     buffer,
-                    offset: first * MARK_BYTES,
+                    offset: first * COLUMN_BYTES,
                     size,
                 })
             };

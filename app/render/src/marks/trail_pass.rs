@@ -11,6 +11,7 @@ use crate::frame::light_group::LightGroup;
 use crate::frame::scene_pipeline::ScenePipeline;
 use crate::gpu::pipeline::{buffer_entry, layout};
 use crate::gpu::shaders::compile;
+use crate::leaves::record::COLUMN_BYTES;
 
 /// Leaves that draw a trail.
 pub const MAX_TRAILS: u32 = 4096;
@@ -233,7 +234,7 @@ impl TrailPass {
             half_width_m: HALF_WIDTH_M,
         };
         queue.write_buffer(&self.uniform, 0, bytemuck::bytes_of(&uniform));
-        let Some(bytes) = wgpu::BufferSize::new(u64::from(count) * 16) else { return };
+        let Some(bytes) = wgpu::BufferSize::new(u64::from(count) * COLUMN_BYTES) else { return };
         let place = wgpu::BufferBinding { buffer: leaves.place, offset: 0, size: Some(bytes) };
         let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some("trail samples"),

@@ -10,9 +10,10 @@ use windfall_wgpu::LeafColumns;
 use crate::camera::Camera;
 use crate::gpu::upload;
 use crate::leaves::cull::{CullPass, LIMITS_PX, View};
+use crate::leaves::page::{Page, RECORD_BYTES};
 use crate::leaves::record::{PICTURE_EDGE, SLOT_SHIFT, ViewUniform};
 use crate::leaves::species_table::SpeciesTable;
-use crate::leaves::visible::{Page, RECORD_BYTES, VisibleLeaves};
+use crate::leaves::visible::VisibleLeaves;
 use crate::trees::SceneTrees;
 use crate::trees::records::TreeRecords;
 
