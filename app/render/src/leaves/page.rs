@@ -11,8 +11,8 @@ use crate::trees::SceneTrees;
 pub(crate) const PAGE_SLOTS: u32 = 1 << 20;
 const PAGE_RECORDS: u32 = 1 << 21;
 /// Bytes of a record and of a draw.
-pub(crate) const RECORD_BYTES: u64 = size_of::<LeafRecord>() as u64;
-pub(crate) const DRAW_BYTES: u64 = size_of::<LeafDraw>() as u64;
+const RECORD_BYTES: u64 = size_of::<LeafRecord>() as u64;
+const DRAW_BYTES: u64 = size_of::<LeafDraw>() as u64;
 
 /// Slots that are culled together, and what comes of it.
 #[derive(Debug)]

@@ -32,7 +32,7 @@ shared_struct! {
     /// A leaf of a view, ready for its corners.
     pub(crate) struct LeafRecord {
         /// Middle of the blade.
-        center_m: [f32; 3],
+        pub(crate) center_m: [f32; 3],
         /// Edge of its picture, negative if the picture is mirrored.
         edge_m: f32,
         /// Attitude, x and y.
@@ -44,7 +44,7 @@ shared_struct! {
         /// Bend, and twist.
         bend_twist: u32,
         /// Layer, and slot within the page.
-        layer_slot: u32,
+        pub(crate) layer_slot: u32,
         /// Factors on red and green.
         red_green: u32,
         /// Factor on blue, and share of open sky.
@@ -58,7 +58,7 @@ shared_struct! {
     /// Arguments of an indirect draw, and what its vertices ask for.
     pub(crate) struct LeafDraw {
         vertex_count: u32,
-        instance_count: u32,
+        pub(crate) instance_count: u32,
         first_vertex: u32,
         first_instance: u32,
         /// First record of the level.

@@ -5,13 +5,15 @@
 use glam::{Mat4, Vec3, Vec4};
 use windfall_core::device::leaf::record::{SIZE_ONE, STATE_ATTACHED, STATE_DORMANT, STATE_FALLING};
 use windfall_core::{Scene, World, scene};
-use windfall_wgpu::LeafColumns;
+use windfall_wgpu::{Gpu, LeafColumns};
 
+use super::{encoder, gpu, read};
 use crate::camera::Camera;
 use crate::gpu::upload;
 use crate::leaves::cull::{CullPass, LIMITS_PX, View};
-use crate::leaves::page::{Page, RECORD_BYTES};
-use crate::leaves::record::{PICTURE_EDGE, SLOT_SHIFT, ViewUniform};
+use crate::leaves::meshes::LEVELS;
+use crate::leaves::page::Page;
+use crate::leaves::record::{LeafDraw, LeafRecord, PICTURE_EDGE, SLOT_SHIFT, ViewUniform};
 use crate::leaves::species_table::SpeciesTable;
 use crate::leaves::visible::VisibleLeaves;
 use crate::trees::SceneTrees;
@@ -37,38 +39,19 @@ fn place(leaf: u32) -> [u32; 4] {
     [at.x.to_bits(), at.y.to_bits(), at.z.to_bits(), state]
 }
 
-/// Contents of a buffer of the device.
-fn read(device: &wgpu::Device, queue: &wgpu::Queue, buffer: &wgpu::Buffer) -> Vec<u32> {
-    let copy = device.create_buffer(&wgpu::BufferDescriptor {
-        label: None,
-        size: buffer.size(),
-        usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
-        mapped_at_creation: false,
-    });
-    let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-    encoder.copy_buffer_to_buffer(buffer, 0, &copy, 0, buffer.size());
-    queue.submit([encoder.finish()]);
-    copy.map_async(wgpu::MapMode::Read, .., |result| result.expect("a mapped buffer"));
-    device.poll(wgpu::PollType::wait_indefinitely()).expect("a device that answers");
-    let words = bytemuck::pod_collect_to_vec(&copy.get_mapped_range(..).expect("mapped"));
-    copy.unmap();
-    words
-}
-
-/// Middles of the records of every level, as the bits of their coordinates.
-fn found(device: &wgpu::Device, queue: &wgpu::Queue, page: &Page) -> [Vec<[u32; 3]>; 4] {
-    let (draws, records) = (read(device, queue, &page.draws), read(device, queue, &page.records));
-    let words = usize::try_from(RECORD_BYTES / 4).expect("small");
+/// Records of every level.
+fn found(gpu: &Gpu, page: &Page) -> [Vec<LeafRecord>; LEVELS] {
+    let draws: Vec<LeafDraw> = read(gpu, &page.draws);
+    let records: Vec<LeafRecord> = read(gpu, &page.records);
     std::array::from_fn(|level| {
-        let [count, first] = [draws[8 * level + 1] as usize, draws[8 * level + 4] as usize];
-        records[first * words..(first + count) * words].chunks(words).map(|r| [r[0], r[1], r[2]]).collect()
+        let [first, count] = [draws[level].first_record, draws[level].instance_count];
+        records.iter().skip(first as usize).take(count as usize).copied().collect()
     })
 }
 
 /// A device, what the culling needs of a scene, and buffers of leaves.
 struct Field {
-    device: wgpu::Device,
-    queue: wgpu::Queue,
+    gpu: Gpu,
     cull: CullPass,
     tree_records: TreeRecords,
     visible: VisibleLeaves,
@@ -85,17 +68,18 @@ impl Field {
         leaf_count: u32,
         place: &dyn Fn(u32) -> [u32; 4],
     ) -> Self {
-        let (device, queue) = super::device();
+        let gpu = gpu();
+        let (device, queue) = (gpu.device(), gpu.queue());
         let atlas = super::disc_atlas(scene, 16);
         let species_table =
-            SpeciesTable::new(&device, &queue, scene, &atlas).expect("species_table within default limits");
-        let cull = CullPass::new(&device, &species_table, false);
-        let tree_records = TreeRecords::new(&device, &queue, scene_trees);
-        let visible = VisibleLeaves::new(&device, &queue, &cull, scene_trees, leaf_count);
+            SpeciesTable::new(device, queue, scene, &atlas).expect("species_table within default limits");
+        let cull = CullPass::new(device, &species_table, false);
+        let tree_records = TreeRecords::new(device, queue, scene_trees);
+        let visible = VisibleLeaves::new(device, queue, &cull, scene_trees, leaf_count);
         let column = |row: &dyn Fn(u32) -> [u32; 4]| {
             let rows: Vec<[u32; 4]> = (0..leaf_count).map(row).collect();
             let usage = wgpu::BufferUsages::STORAGE;
-            upload::buffer(&device, &queue, "column", usage, bytemuck::cast_slice(&rows))
+            upload::buffer(device, queue, "column", usage, bytemuck::cast_slice(&rows))
         };
         let columns = [
             column(place),
@@ -103,7 +87,7 @@ impl Field {
             column(&|_| [0, 0, SIZE_ONE, 0]),
             column(&|leaf| [leaf, 0, 0, leaf * 77]),
         ];
-        Self { device, queue, cull, tree_records, visible, columns, leaf_count }
+        Self { gpu, cull, tree_records, visible, columns, leaf_count }
     }
 
     /// Culls for a camera in a picture 1.6 times as wide as high.
@@ -113,11 +97,11 @@ impl Field {
         let columns = LeafColumns { place, drift: place, attitude, schedule, identity, leaf_count };
         let clip = camera.view_projection(1.6).to_cols_array_2d();
         let eye_m = camera.eye_m().to_array();
-        self.cull.write(&self.queue, View::Camera, &ViewUniform::perspective(clip, eye_m, PIXELS_PER_M));
-        let mut encoder = self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        self.cull.write(self.gpu.queue(), View::Camera, &ViewUniform::perspective(clip, eye_m, PIXELS_PER_M));
+        let mut encoder = encoder(&self.gpu);
         let leaves = (&columns, None, &self.tree_records);
-        self.visible.cull(&self.device, &mut encoder, &self.cull, leaves, View::Camera);
-        self.queue.submit([encoder.finish()]);
+        self.visible.cull(self.gpu.device(), &mut encoder, &self.cull, leaves, View::Camera);
+        self.gpu.queue().submit([encoder.finish()]);
     }
 }
 
@@ -142,15 +126,9 @@ fn every_leaf_of_a_cluster_is_drawn() {
     let look =
         scene::Camera { eye_m: Vec3::new(0.0, 2.0, 4.0), target_m: 2.0 * Vec3::Y, vertical_fov_deg: 60.0 };
     field.run(&Camera::from(&look));
-    let page = &field.visible.pages[0];
-    let (draws, records) =
-        (read(&field.device, &field.queue, &page.draws), read(&field.device, &field.queue, &page.records));
     let mut drawn = vec![0; 150];
-    for level in 0..4 {
-        let [count, first] = [draws[8 * level + 1] as usize, draws[8 * level + 4] as usize];
-        for record in records.chunks(12).skip(first).take(count) {
-            drawn[(record[8] >> SLOT_SHIFT) as usize] += 1;
-        }
+    for record in found(&field.gpu, &field.visible.pages[0]).iter().flatten() {
+        drawn[(record.layer_slot >> SLOT_SHIFT) as usize] += 1;
     }
     let wanted: Vec<u32> = (0..150)
         .map(|leaf| match leaf {
@@ -171,7 +149,8 @@ fn culling_finds_what_a_plain_loop_finds() {
     let (clip, eye_m) = (camera.view_projection(1.6), camera.eye_m());
     let run = || {
         field.run(&camera);
-        found(&field.device, &field.queue, &field.visible.pages[0])
+        found(&field.gpu, &field.visible.pages[0])
+            .map(|level| level.iter().map(|record| record.center_m.map(f32::to_bits)).collect::<Vec<_>>())
     };
     let levels = run();
     assert_eq!(levels, run(), "equal leaves in the same order");

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Response of the lens to known light, on any Vulkan adapter.
 
+use half::f16;
 use image::RgbaImage;
 use windfall_core::scene::{Exposure, Glare, Lens, ToneMap};
 
@@ -10,27 +11,8 @@ use crate::gpu::targets::Targets;
 use crate::lens::group::Shot;
 use crate::lens::post::Post;
 
-/// A float of 16 bits; what is too small becomes zero.
-fn to_half(value: f32) -> u16 {
-    if value.is_nan() {
-        return 0x7e00;
-    }
-    let bits = value.to_bits();
-    let exponent = (bits >> 23 & 0xff) as i32 - 112;
-    // Half of the last place: to nearest.
-    let rounded = (bits & 0x7f_ffff) + 0x1000;
-    let carried = ((exponent as u32) << 10) + (rounded >> 13);
-    if exponent <= 0 { 0 } else { u16::try_from(carried).expect("within range") }
-}
-
-fn from_half(half: u16) -> f32 {
-    let (exponent, fraction) = (i32::from(half >> 10 & 0x1f), f32::from(half & 0x3ff));
-    if exponent == 0 {
-        fraction * (-24.0f32).exp2()
-    } else {
-        (1024.0 + fraction) * ((exponent - 25) as f32).exp2()
-    }
-}
+/// Bytes of a texel of light, four halves.
+const TEXEL_BYTES: u32 = 8;
 
 /// A lens that does nothing to grey light but expose it one to one and tone map it.
 fn plain(tone_map: ToneMap) -> Lens {
@@ -41,8 +23,7 @@ fn plain(tone_map: ToneMap) -> Lens {
 }
 
 struct Bench {
-    device: wgpu::Device,
-    queue: wgpu::Queue,
+    gpu: Gpu,
     targets: Targets,
     post: Post,
     target: PictureTarget,
@@ -50,11 +31,12 @@ struct Bench {
 
 impl Bench {
     fn new(size: (u32, u32), lens: Lens) -> Self {
-        let (device, queue) = device();
-        let targets = Targets::new(&device, size, u32::MAX, false).expect("targets");
-        let post = Post::new(&device, &queue, &targets, PictureTarget::FORMAT, lens);
-        let target = PictureTarget::new(&device, size).expect("a target");
-        Self { device, queue, targets, post, target }
+        let gpu = gpu();
+        let (device, queue) = (gpu.device(), gpu.queue());
+        let targets = Targets::new(device, size, u32::MAX, false).expect("targets");
+        let post = Post::new(device, queue, &targets, PictureTarget::FORMAT, lens);
+        let target = PictureTarget::new(device, size).expect("a target");
+        Self { gpu, targets, post, target }
     }
 
     /// The picture of grey light.
@@ -65,15 +47,21 @@ impl Bench {
     fn draw_colored(&mut self, since_s: f32, light: impl Fn(u32, u32) -> [f32; 3]) -> RgbaImage {
         let (width, height) = self.targets.size;
         let places = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
-        let halves: Vec<u16> =
-            places.flat_map(|(x, y)| light(x, y).into_iter().chain([1.0])).map(to_half).collect();
-        self.queue.write_texture(
+        let texel = |[red, green, blue]: [f32; 3]| {
+            [red, green, blue, 1.0].map(|light| f16::from_f32(light).to_bits())
+        };
+        let texels: Vec<[u16; 4]> = places.map(|(x, y)| texel(light(x, y))).collect();
+        self.gpu.queue().write_texture(
             self.targets.resolved.texture().as_image_copy(),
-            bytemuck::cast_slice(&halves),
-            wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(8 * width), rows_per_image: None },
+            bytemuck::cast_slice(&texels),
+            wgpu::TexelCopyBufferLayout {
+                offset: 0,
+                bytes_per_row: Some(TEXEL_BYTES * width),
+                rows_per_image: None,
+            },
             wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
         );
-        let mut encoder = self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        let mut encoder = encoder(&self.gpu);
         let shot = Shot {
             size: self.targets.size,
             origin: (0, 0),
@@ -81,44 +69,35 @@ impl Bench {
             vertical_fov_rad: 0.8,
             near_m: camera::NEAR_M,
         };
-        self.post.begin(&self.queue, &shot);
+        self.post.begin(self.gpu.queue(), &shot);
         self.post.draw(&mut encoder, None, &self.target.view(), &shot);
-        self.target.submit_and_read(&self.device, &self.queue, encoder).expect("a picture")
+        self.target.submit_and_read(self.gpu.device(), self.gpu.queue(), encoder).expect("a picture")
     }
 
     /// Sum of the glare over the pixels of the picture.
     fn glare_energy(&self) -> f32 {
         let (view, pixels) = self.post.glare();
         let size = view.texture().size();
-        let row = (size.width * 8).next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
-        let buffer = self.device.create_buffer(&wgpu::BufferDescriptor {
+        let row = (size.width * TEXEL_BYTES).next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
+        let buffer = self.gpu.device().create_buffer(&wgpu::BufferDescriptor {
             label: None,
             size: u64::from(row * size.height),
-            usage: wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST,
+            usage: wgpu::BufferUsages::COPY_SRC | wgpu::BufferUsages::COPY_DST,
             mapped_at_creation: false,
         });
-        let mut encoder = self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        let mut encoder = encoder(&self.gpu);
+        let layout =
+            wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(row), rows_per_image: None };
         encoder.copy_texture_to_buffer(
             view.texture().as_image_copy(),
-            wgpu::TexelCopyBufferInfo {
-                buffer: &buffer,
-                layout: wgpu::TexelCopyBufferLayout {
-                    offset: 0,
-                    bytes_per_row: Some(row),
-                    rows_per_image: None,
-                },
-            },
+            wgpu::TexelCopyBufferInfo { buffer: &buffer, layout },
             size,
         );
-        self.queue.submit([encoder.finish()]);
-        buffer.map_async(wgpu::MapMode::Read, .., |result| result.expect("mapped"));
-        self.device.poll(wgpu::PollType::wait_indefinitely()).expect("the device works");
-        let bytes = buffer.get_mapped_range(..).expect("mapped");
-        let rows = bytes.chunks_exact(row as usize);
-        let sum: f32 = rows
-            .flat_map(|row| row[..size.width as usize * 8].chunks_exact(8))
-            .map(|texel| from_half(u16::from_le_bytes([texel[2], texel[3]])))
-            .sum();
+        self.gpu.queue().submit([encoder.finish()]);
+        let texels: Vec<[u16; 4]> = read(&self.gpu, &buffer);
+        let rows = texels.chunks((row / TEXEL_BYTES) as usize);
+        let seen = rows.flat_map(|row| &row[..size.width as usize]);
+        let sum: f32 = seen.map(|[_, green, ..]| f16::from_bits(*green).to_f32()).sum();
         sum * (pixels * pixels) as f32
     }
 }
@@ -149,7 +128,7 @@ fn reinhard_follows_the_published_curve() {
     }
     // Equation 2 with the key 0.18: the log-average of 0.2 and 0.8 is 0.4, which makes 0.09 and 0.36 of them.
     let lens = Lens { exposure: Exposure::default(), ..plain(ToneMap::Reinhard { white: 1000.0 }) };
-    bench.post.set_lens(&bench.device, &bench.queue, &bench.targets, lens);
+    bench.post.set_lens(bench.gpu.device(), bench.gpu.queue(), &bench.targets, lens);
     let picture = bench.draw(f32::INFINITY, |x, _| if x % 2 == 0 { 0.2 } else { 0.8 });
     assert_displays(&picture, (2, 1), 0.09 / 1.09);
     assert_displays(&picture, (3, 1), 0.36 / 1.36);

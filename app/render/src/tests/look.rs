@@ -6,33 +6,15 @@ use glam::Vec3;
 use windfall_core::device::leaf::record::{
     AERODYNAMIC, PRIMITIVE_SHIFT, REGIME_SHIFT, STATE_ATTACHED, STATE_DORMANT, STATE_FALLING, STATE_RESTING,
 };
-use windfall_core::leaf::{Leaves, Place};
-use windfall_wgpu::{Gpu, LeafColumns, StoreBuffers};
+use windfall_core::leaf::{Identity, Leaves, Place};
+use windfall_wgpu::{LeafColumns, StoreBuffers};
 
+use super::{encoder, gpu, read};
 use crate::Measure;
 use crate::Paint;
 use crate::marks::landing_count::{CELL_M, CELLS, LandingCount};
 use crate::marks::paint_pass::PaintPass;
 use crate::marks::{ATTACHED, MOTIONS, RESTING, shade_bytes};
-
-fn gpu() -> Gpu {
-    Gpu::request(None).expect("an adapter; apt install mesa-vulkan-drivers")
-}
-
-/// Words of a buffer after `encoder` has run.
-fn words(gpu: &Gpu, mut encoder: wgpu::CommandEncoder, buffer: &wgpu::Buffer) -> Vec<u32> {
-    let staging = gpu.device().create_buffer(&wgpu::BufferDescriptor {
-        label: None,
-        size: buffer.size(),
-        usage: wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST,
-        mapped_at_creation: false,
-    });
-    encoder.copy_buffer_to_buffer(buffer, 0, &staging, 0, buffer.size());
-    gpu.queue().submit([encoder.finish()]);
-    staging.map_async(wgpu::MapMode::Read, .., |result| result.expect("mapped"));
-    gpu.wait().expect("the device is there");
-    bytemuck::pod_collect_to_vec(&staging.get_mapped_range(..).expect("mapped"))
-}
 
 fn leaves(places: &[([f32; 3], u32)]) -> Leaves {
     let mut leaves = Leaves::zeroed(places.len());
@@ -65,9 +47,10 @@ fn leaves_are_counted_where_they_lie() {
     let count = LandingCount::new(gpu.device(), gpu.queue(), center);
     // Twice: nothing is left of the first time.
     for _ in 0..2 {
-        let mut encoder = gpu.device().create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        let mut encoder = encoder(&gpu);
         count.run(gpu.device(), &mut encoder, &LeafColumns::of(&buffers));
-        let cells = words(&gpu, encoder, &count.cells);
+        gpu.queue().submit([encoder.finish()]);
+        let cells: Vec<u32> = read(&gpu, &count.cells);
         let at = |x: u32, z: u32| cells[(z * CELLS + x) as usize];
         let middle = CELLS / 2;
         assert_eq!(
@@ -108,9 +91,10 @@ fn marks_tell_what_leaves_do() {
     let mut marks = |leaves: &Leaves, chosen: Paint, time_s: f64| -> Vec<u32> {
         buffers.write(&gpu, leaves).expect("as many");
         paint.set(chosen);
-        let mut encoder = gpu.device().create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        let mut encoder = encoder(&gpu);
         paint.mark(gpu.device(), gpu.queue(), &mut encoder, &LeafColumns::of(&buffers), time_s);
-        words(&gpu, encoder, &paint.marks).chunks(4).map(|mark| mark[1]).collect()
+        gpu.queue().submit([encoder.finish()]);
+        read::<Identity>(&gpu, &paint.marks).into_iter().map(|mark| mark.release).collect()
     };
     let found = marks(&leaves, Paint { measure: Measure::Motion, most: 1.0 }, 1.0);
     for (mark, wanted) in found.iter().zip([MOTIONS[1].1, MOTIONS[3].1, RESTING, ATTACHED]) {

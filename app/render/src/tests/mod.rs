@@ -12,22 +12,23 @@ mod motion;
 mod rooms;
 mod trees;
 
+use bytemuck::Pod;
 use image::RgbaImage;
 use windfall_core::Scene;
 use windfall_core::scene::{Exposure, Focus, Terrain};
 use windfall_texgen::{Atlas, Layer};
-use windfall_wgpu::{BranchColumns, LeafColumns, WorldColumns};
+use windfall_wgpu::{BranchColumns, Gpu, LeafColumns, WorldColumns};
 
 use super::*;
 use crate::camera::Camera;
+use crate::gpu::upload;
 use crate::trees::SceneTrees;
 
 /// A width whose rows need padding on their way back.
 pub(crate) const SIZE: (u32, u32) = (150, 90);
 
 pub(crate) struct Bench {
-    pub(crate) device: wgpu::Device,
-    pub(crate) queue: wgpu::Queue,
+    pub(crate) gpu: Gpu,
     pub(crate) scene: Scene,
     pub(crate) scene_trees: SceneTrees,
     pub(crate) renderer: Renderer,
@@ -40,8 +41,8 @@ pub(crate) fn bench(change: impl FnOnce(&mut Scene)) -> Bench {
     })
 }
 
-/// A device of the best Vulkan adapter.
-pub(crate) fn device() -> (wgpu::Device, wgpu::Queue) {
+/// The best Vulkan adapter, with default limits.
+pub(crate) fn gpu() -> Gpu {
     let mut descriptor = wgpu::InstanceDescriptor::new_without_display_handle_from_env();
     descriptor.backends = wgpu::Backends::VULKAN;
     let instance = wgpu::Instance::new(descriptor);
@@ -49,7 +50,21 @@ pub(crate) fn device() -> (wgpu::Device, wgpu::Queue) {
         .expect("a Vulkan adapter; apt install mesa-vulkan-drivers");
     let features = adapter.features() & wgpu::Features::TIMESTAMP_QUERY;
     let descriptor = wgpu::DeviceDescriptor { required_features: features, ..Default::default() };
-    pollster::block_on(adapter.request_device(&descriptor)).expect("a device")
+    let (device, queue) = pollster::block_on(adapter.request_device(&descriptor)).expect("a device");
+    Gpu::from_parts(adapter.get_info(), device, queue)
+}
+
+/// An encoder of commands.
+pub(crate) fn encoder(gpu: &Gpu) -> wgpu::CommandEncoder {
+    gpu.device().create_command_encoder(&wgpu::CommandEncoderDescriptor::default())
+}
+
+/// Rows of a buffer after everything submitted.
+pub(crate) fn read<T: Pod>(gpu: &Gpu, buffer: &wgpu::Buffer) -> Vec<T> {
+    let bytes = usize::try_from(buffer.size()).expect("it fits");
+    let mut rows = vec![T::zeroed(); bytes / size_of::<T>()];
+    gpu.read(buffer, bytemuck::cast_slice_mut(&mut rows)).expect("a device that answers");
+    rows
 }
 
 /// A bench for a changed scene and its trees.
@@ -79,12 +94,12 @@ pub(super) fn disc_atlas(scene: &Scene, size_px: u32) -> Atlas {
 
 /// A bench for a scene with pictures of its own.
 pub(crate) fn bench_of(scene: Scene, scene_trees: SceneTrees, atlas: &Atlas) -> Bench {
-    let (device, queue) = device();
+    let gpu = gpu();
     let options = RendererOptions { litter_count: 0, tile_px: u32::MAX };
     let subject = RenderScene { scene: &scene, trees: &scene_trees, atlas };
-    let renderer = Renderer::new(&device, &queue, subject, PictureTarget::FORMAT, SIZE, options)
+    let renderer = Renderer::new(gpu.device(), gpu.queue(), subject, PictureTarget::FORMAT, SIZE, options)
         .expect("a renderer within default limits");
-    Bench { device, queue, scene, scene_trees, renderer }
+    Bench { gpu, scene, scene_trees, renderer }
 }
 
 impl Bench {
@@ -111,11 +126,11 @@ impl Bench {
         offset_m: f32,
         time_s: f64,
     ) -> RgbaImage {
+        let (device, queue) = (self.gpu.device(), self.gpu.queue());
         let at = self.scene.view.camera.target_m;
         let usage = wgpu::BufferUsages::VERTEX | wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC;
-        let column = |words: [u32; 4]| {
-            gpu::upload::buffer(&self.device, &self.queue, "column", usage, bytemuck::bytes_of(&words))
-        };
+        let column =
+            |words: [u32; 4]| upload::buffer(device, queue, "column", usage, bytemuck::bytes_of(&words));
         let half = std::f32::consts::FRAC_1_SQRT_2;
         let place = column([(at.x + offset_m).to_bits(), at.y.to_bits(), (at.z + 6.0).to_bits(), state]);
         let attitude = column([half.to_bits(), 0, 0, half.to_bits()]);
@@ -128,8 +143,8 @@ impl Bench {
             identity: &identity,
             leaf_count: 1,
         };
-        let target = PictureTarget::new(&self.device, SIZE).expect("a target");
-        let mut encoder = self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        let target = PictureTarget::new(device, SIZE).expect("a target");
+        let mut encoder = encoder(&self.gpu);
         let camera = Camera::from(&self.scene.view.camera);
         self.renderer.draw(
             &mut encoder,
@@ -137,7 +152,7 @@ impl Bench {
             &WorldColumns { leaves, branches: branches.cloned() },
             &FrameInput { camera, time_s, since_s: f32::INFINITY, origin: (0, 0) },
         );
-        target.submit_and_read(&self.device, &self.queue, encoder).expect("a picture")
+        target.submit_and_read(device, queue, encoder).expect("a picture")
     }
 }
 
@@ -225,7 +240,7 @@ fn sizes_beyond_the_device_are_refused() {
     for size in [(0, 10), (10, 0), (100_000, 10)] {
         let error = bench.renderer.resize(size).expect_err("an impossible size");
         assert!(matches!(error, RenderError::Size { .. }), "{size:?}: {error}");
-        assert!(PictureTarget::new(&bench.device, size).is_err(), "{size:?} as a target");
+        assert!(PictureTarget::new(bench.gpu.device(), size).is_err(), "{size:?} as a target");
     }
     assert_eq!(bench.renderer.size(), SIZE, "the renderer keeps its size");
 }

@@ -84,7 +84,7 @@ fn bent(scene_trees: &SceneTrees, lean_rad: f32) -> [Vec<[f32; 4]>; 2] {
 fn draw_bent(bench: &mut Bench, lean_rad: f32) -> RgbaImage {
     let columns = bent(&bench.scene_trees, lean_rad).map(|rows| {
         let bytes = bytemuck::cast_slice(&rows);
-        upload::buffer(&bench.device, &bench.queue, "branches", wgpu::BufferUsages::STORAGE, bytes)
+        upload::buffer(bench.gpu.device(), bench.gpu.queue(), "branches", wgpu::BufferUsages::STORAGE, bytes)
     });
     let count = u32::try_from(bench.scene_trees.rest_base.len()).expect("few");
     let [base, pose] = columns.each_ref().map(wgpu::Buffer::as_entire_buffer_binding);
