@@ -6,6 +6,7 @@
 
 pub(crate) mod landing_count;
 pub(crate) mod landing_pass;
+mod overlay;
 pub(crate) mod paint_pass;
 mod palette;
 pub(crate) mod trail_pass;

@@ -6,9 +6,9 @@ use windfall_core::{shared_constants, shared_struct};
 use windfall_wgpu::LeafColumns;
 
 use super::MARKS_GROUP_SIZE;
+use super::overlay::Overlay;
 use crate::frame::group::FrameGroup;
 use crate::frame::light_group::LightGroup;
-use crate::frame::scene_pipeline::ScenePipeline;
 use crate::gpu::pipeline::{buffer_entry, layout};
 use crate::gpu::shaders::compile;
 use crate::leaves::record::COLUMN_BYTES;
@@ -108,8 +108,7 @@ pub(crate) struct TrailPass {
     ring: wgpu::Buffer,
     sample_pipeline: wgpu::ComputePipeline,
     sample_layout: wgpu::BindGroupLayout,
-    draw_pipeline: wgpu::RenderPipeline,
-    draw_group: wgpu::BindGroup,
+    overlay: Overlay,
 }
 
 impl TrailPass {
@@ -145,8 +144,7 @@ impl TrailPass {
                 buffer_entry(2, write, compute),
             ],
         });
-        let shaders = super::shaders();
-        let module = compile(device, &shaders, "marks/trail_sample");
+        let module = compile(device, &super::shaders(), "marks/trail_sample");
         let sample_pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
             label: Some("trail samples"),
             layout: Some(&layout(device, &[Some(&sample_layout)])),
@@ -156,49 +154,9 @@ impl TrailPass {
             cache: None,
         });
 
-        let vertex = wgpu::ShaderStages::VERTEX;
-        let draw_layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-            label: Some("trails"),
-            entries: &[
-                buffer_entry(0, wgpu::BufferBindingType::Uniform, vertex),
-                buffer_entry(1, read, vertex),
-            ],
-        });
-        let draw_group = device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: Some("trails"),
-            layout: &draw_layout,
-            entries: &[
-                wgpu::BindGroupEntry { binding: 0, resource: uniform.as_entire_binding() },
-                wgpu::BindGroupEntry { binding: 1, resource: ring.as_entire_binding() },
-            ],
-        });
-        let module = compile(device, &shaders, "marks/trail_pass");
-        let draw_pipeline = ScenePipeline {
-            label: "trails",
-            frame,
-            groups: &[&light.layout, &draw_layout],
-            topology: wgpu::PrimitiveTopology::TriangleList,
-            shader: &module,
-            vertex: "vertex",
-            constants: &[],
-            buffers: &[],
-            blend: Some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING),
-            depth_write: false,
-            alpha_to_coverage: false,
-        }
-        .build(device);
+        let overlay = Overlay::new(device, (frame, light), "trails", "marks/trail_pass", [&uniform, &ring]);
         let clock = RingClock::default();
-        Self {
-            trail_s,
-            trail_count,
-            clock,
-            uniform,
-            ring,
-            sample_pipeline,
-            sample_layout,
-            draw_pipeline,
-            draw_group,
-        }
+        Self { trail_s, trail_count, clock, uniform, ring, sample_pipeline, sample_layout, overlay }
     }
 
     /// Length of the trails in seconds.
@@ -256,9 +214,7 @@ impl TrailPass {
 
     /// Draws the ribbons; bind groups 0 and 1 are set.
     pub(crate) fn draw(&self, pass: &mut wgpu::RenderPass<'_>, leaf_count: u32) {
-        pass.set_pipeline(&self.draw_pipeline);
-        pass.set_bind_group(2, &self.draw_group, &[]);
-        pass.draw(0..6 * (SAMPLES - 1), 0..leaf_count.min(self.trail_count));
+        self.overlay.draw(pass, 6 * (SAMPLES - 1), leaf_count.min(self.trail_count));
     }
 }
 
