@@ -7,6 +7,8 @@
 //! in linear light (bark, leaves, fruit, grass, ground, far trees, sky, trails), and the tone map. Bark, leaves and fruit
 //! of the scene's trees move with the branch columns on the device; the far woods are pictures. Leaves are cut out by coverage, so their order never matters. Nothing here needs a window.
 
+#![warn(unreachable_pub)]
+
 pub mod camera;
 mod error;
 mod frame;

@@ -49,7 +49,7 @@ impl Land {
     }
 
     /// Height of ground or water at a place in metres, whichever is higher.
-    pub fn surface_m(&self, x_m: f32, z_m: f32) -> f32 {
+    pub(crate) fn surface_m(&self, x_m: f32, z_m: f32) -> f32 {
         self.ground_m(x_m, z_m).max(self.water_m.unwrap_or(f32::MIN))
     }
 

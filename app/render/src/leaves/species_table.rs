@@ -29,7 +29,7 @@ shared_struct! {
         /// The same along z.
         pub offset_z: f32,
         /// Share of a dry leaf's folds that it has.
-        pub folds: f32,
+        pub(crate) folds: f32,
     }
 }
 

@@ -29,7 +29,7 @@ pub(super) type Columns = [f64; 3];
 
 /// The scattering and absorption of clear air.
 #[derive(Clone, Copy, Debug)]
-pub struct Atmosphere {
+pub(crate) struct Atmosphere {
     /// Scattering by molecules at sea level, 1/km.
     pub(super) rayleigh: Spectrum,
     /// Extinction by aerosol at sea level, 1/km.
@@ -40,7 +40,7 @@ pub struct Atmosphere {
 
 impl Atmosphere {
     /// Air with an aerosol of this vertical optical depth at 550 nm.
-    pub fn new(aerosol: f32) -> Self {
+    pub(crate) fn new(aerosol: f32) -> Self {
         let rayleigh = WAVELENGTHS_NM.map(|nm| RAYLEIGH_PER_KM * (nm / 1000.0).powi(-4));
         let at_550 = aerosol / single(AEROSOL_HEIGHT_KM);
         let aerosol = WAVELENGTHS_NM.map(|nm| at_550 * (nm / 550.0).powf(-ANGSTROM_EXPONENT));

@@ -42,13 +42,13 @@ pub struct Daylight {
     /// Everything else that lights.
     pub sky: EnvironmentMap,
     /// Visible sky behind sun and clouds.
-    pub seen: EnvironmentMap,
+    pub(crate) seen: EnvironmentMap,
     /// True if `seen` is a picture, which has a sun, clouds and a horizon of its own.
-    pub is_picture: bool,
+    pub(crate) is_picture: bool,
     /// Clouds to be drawn before the sky, 0 to 1.
-    pub cloud_cover: f32,
+    pub(crate) cloud_cover: f32,
     /// Radiance of the brightest and of the darkest clouds.
-    pub clouds: [Vec3; 2],
+    pub(crate) clouds: [Vec3; 2],
 }
 
 impl Daylight {
@@ -67,7 +67,7 @@ impl Daylight {
     ///
     /// # Errors
     /// A file that cannot be used.
-    pub fn of_picture(map: &SkyMap) -> Result<Self, MapError> {
+    pub(crate) fn of_picture(map: &SkyMap) -> Result<Self, MapError> {
         let whole = EnvironmentMap::of_picture(Picture::read(&map.path)?).turned(map.rotation_deg);
         let whole = whole.map(|_, radiance| radiance * map.intensity_kcd_m2);
         let (sun, sky) = take_sun(&whole);
@@ -75,7 +75,7 @@ impl Daylight {
     }
 
     /// Sun and sky as the model has them.
-    pub fn physical(sun: &Sun, sky: PhysicalSky) -> Self {
+    pub(crate) fn physical(sun: &Sun, sky: PhysicalSky) -> Self {
         let direction = sun_direction(sun);
         let elevation = f64::from(sun.elevation_deg).to_radians();
         let air = ClearAir::new(Atmosphere::new(sky.aerosol), elevation);

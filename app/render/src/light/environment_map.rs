@@ -20,30 +20,30 @@ impl EnvironmentMap {
     ///
     /// # Panics
     /// If there are not `width` times `height` pixels, or none.
-    pub fn new(width: usize, height: usize, pixels: Vec<Vec3>) -> Self {
+    pub(crate) fn new(width: usize, height: usize, pixels: Vec<Vec3>) -> Self {
         assert_eq!(pixels.len(), width * height, "one value for each pixel");
         assert!(!pixels.is_empty(), "a map has pixels");
         Self { width, height, pixels }
     }
 
     /// A map of what `radiance` says of the direction of every pixel's middle.
-    pub fn from_fn(width: usize, height: usize, radiance: impl Fn(Vec3) -> Vec3) -> Self {
+    pub(crate) fn from_fn(width: usize, height: usize, radiance: impl Fn(Vec3) -> Vec3) -> Self {
         let pixels = (0..width * height).map(|index| radiance(direction(width, height, index))).collect();
         Self::new(width, height, pixels)
     }
 
     /// Width and height in pixels.
-    pub fn size(&self) -> (usize, usize) {
+    pub(crate) fn size(&self) -> (usize, usize) {
         (self.width, self.height)
     }
 
     /// Pixels, row by row from the zenith.
-    pub fn pixels(&self) -> &[Vec3] {
+    pub(crate) fn pixels(&self) -> &[Vec3] {
         &self.pixels
     }
 
     /// Directions, radiances and solid angles of all pixels. The solid angles sum up to 4 pi.
-    pub fn parts(&self) -> impl Iterator<Item = (Vec3, Vec3, f32)> {
+    pub(crate) fn parts(&self) -> impl Iterator<Item = (Vec3, Vec3, f32)> {
         self.pixels
             .iter()
             .enumerate()
@@ -65,7 +65,7 @@ impl EnvironmentMap {
     }
 
     /// Radiance from a direction, between pixels linearly.
-    pub fn sample(&self, direction: Vec3) -> Vec3 {
+    pub(crate) fn sample(&self, direction: Vec3) -> Vec3 {
         let turn = (direction.z.atan2(direction.x) + FRAC_PI_2) / TAU + 0.5;
         let x = turn * self.width as f32 - 0.5;
         let y = direction.y.clamp(-1.0, 1.0).acos() / PI * self.height as f32 - 0.5;

@@ -16,7 +16,7 @@ use super::EnvironmentMap;
 use super::MapError;
 use super::luminance;
 use super::picture_file::Picture;
-use super::prefilter::{LEAST_ROUGHNESS, ROUGHNESS_STEP};
+use super::prefilter::{LEAST_ROUGHNESS, ROUGHNESS, ROUGHNESS_STEP};
 use super::prefiltered;
 use super::sun_search::take_sun;
 
@@ -90,12 +90,12 @@ fn rough_mirrors_keep_the_light() {
     let sky =
         EnvironmentMap::from_fn(256, 128, |to| Vec3::splat(if to.dot(spot) > 0.97 { 50.0 } else { 1.0 }));
     let levels = prefiltered(&sky);
-    for (level, roughness) in (0u8..).zip(super::ROUGHNESS) {
+    for (level, roughness) in (0u8..).zip(ROUGHNESS) {
         let stepped = LEAST_ROUGHNESS + f32::from(level) * ROUGHNESS_STEP;
         assert!((roughness - stepped).abs() < 1.0e-6, "shaders find level {level}: {roughness} at {stepped}");
     }
-    assert_eq!(levels.len(), super::ROUGHNESS.len(), "one level for each roughness");
-    for (level, roughness) in levels.iter().zip(super::ROUGHNESS) {
+    assert_eq!(levels.len(), ROUGHNESS.len(), "one level for each roughness");
+    for (level, roughness) in levels.iter().zip(ROUGHNESS) {
         let kept = all(level).x / all(&sky).x;
         assert!((kept - 1.0).abs() < 0.05, "{kept} of all light is left at roughness {roughness}");
     }

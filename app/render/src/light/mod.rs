@@ -18,13 +18,13 @@ mod spherical_harmonics;
 mod sun_search;
 mod table;
 
-pub use atmosphere::Atmosphere;
+pub(crate) use atmosphere::Atmosphere;
 pub use daylight::{Daylight, SunLight, luminance};
 pub use environment_map::EnvironmentMap;
 pub use map_error::MapError;
+pub(crate) use prefilter::prefiltered;
 pub(crate) use prefilter::wgsl_constants;
-pub use prefilter::{ROUGHNESS, prefiltered};
-pub use spherical_harmonics::SphericalHarmonics;
+pub(crate) use spherical_harmonics::SphericalHarmonics;
 
 #[cfg(test)]
 mod map_tests;

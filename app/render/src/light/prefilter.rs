@@ -18,14 +18,14 @@ shared_constants! {
 }
 
 /// Roughness of each level, as artists count it: the square root of the width of the microfacets' distribution.
-pub const ROUGHNESS: [f32; 5] = [0.1, 0.325, 0.55, 0.775, 1.0];
+pub(crate) const ROUGHNESS: [f32; 5] = [0.1, 0.325, 0.55, 0.775, 1.0];
 /// Directions drawn for each pixel.
 const DRAWS: u32 = 48;
 
 /// Radiance mirrored by surfaces of rising roughness, seen head on: the GGX distribution of normals (Walter et al. 2007),
 /// weighted by the cosine of the light as Karis (2013) proposed. Draws that stand for a wide cone read a small map
 /// (Křivánek and Colbert 2008), so that few are enough.
-pub fn prefiltered(map: &EnvironmentMap) -> Vec<EnvironmentMap> {
+pub(crate) fn prefiltered(map: &EnvironmentMap) -> Vec<EnvironmentMap> {
     let pyramid = pyramid(map);
     let levels = (0u32..).zip(ROUGHNESS);
     levels.map(|(level, roughness)| filtered(&pyramid, ROWS >> level, roughness)).collect()

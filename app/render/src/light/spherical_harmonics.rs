@@ -3,8 +3,6 @@
 //! Diffuse light of a whole environment in nine coefficients (Ramamoorthi and Hanrahan 2001, "An Efficient Representation
 //! for Irradiance Environment Maps").
 
-use std::f32::consts::PI;
-
 use glam::Vec3;
 
 use super::EnvironmentMap;
@@ -14,11 +12,11 @@ const COSINE_LOBE: [f32; 9] = [1.0, 2.0 / 3.0, 2.0 / 3.0, 2.0 / 3.0, 0.25, 0.25,
 
 /// Radiance projected onto the real spherical harmonics of orders 0 to 2.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct SphericalHarmonics([Vec3; 9]);
+pub(crate) struct SphericalHarmonics([Vec3; 9]);
 
 impl SphericalHarmonics {
     /// Projects a map.
-    pub fn of(map: &EnvironmentMap) -> Self {
+    pub(crate) fn of(map: &EnvironmentMap) -> Self {
         let mut sums = [glam::DVec3::ZERO; 9];
         for (direction, radiance, angle) in map.parts() {
             let light = (radiance * angle).as_dvec3();
@@ -31,15 +29,16 @@ impl SphericalHarmonics {
 
     /// Coefficients of illuminance divided by pi, the radiance of a white matt surface: the sum of products with
     /// the basis functions of its normal.
-    pub fn white_surface(&self) -> [Vec3; 9] {
+    pub(crate) fn white_surface(&self) -> [Vec3; 9] {
         std::array::from_fn(|index| self.0[index] * COSINE_LOBE[index])
     }
 
     /// Illuminance of a surface that faces `normal`.
-    pub fn irradiance(&self, normal: Vec3) -> Vec3 {
+    #[cfg(test)]
+    pub(crate) fn irradiance(&self, normal: Vec3) -> Vec3 {
         let sum: Vec3 =
             self.white_surface().iter().zip(basis(normal)).map(|(&light, basis)| light * basis).sum();
-        sum * PI
+        std::f32::consts::PI * sum
     }
 }
 

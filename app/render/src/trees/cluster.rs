@@ -9,7 +9,7 @@ use windfall_core::shared_constants;
 
 shared_constants! {
     /// Most leaves that one simulated leaf stands for on a tree.
-    pub const MAX_CLUSTER: u32 = 16;
+    pub(crate) const MAX_CLUSTER: u32 = 16;
     /// Size of leaves on twigs relative to what they have when they fall, so that crowns close: set by eye.
     pub const TWIG_SIZE: f32 = 1.42;
     /// Largest distance of a leaf from the first, across and along the blade, in diameters of one times the root of their

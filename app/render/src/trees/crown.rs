@@ -12,16 +12,16 @@ const LEAST_M: f32 = 0.1;
 
 /// An ellipsoid with upright axes around the leaves of a tree, or around its wood if it bears none.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Crown {
+pub(crate) struct Crown {
     /// Centre in metres.
-    pub center_m: Vec3,
+    pub(crate) center_m: Vec3,
     /// Half axes in metres.
-    pub radii_m: Vec3,
+    pub(crate) radii_m: Vec3,
 }
 
 impl Crown {
     /// The crown of a tree that stands at `foot_m`.
-    pub fn of(skeleton: &Skeleton, foot_m: Vec3) -> Self {
+    pub(crate) fn of(skeleton: &Skeleton, foot_m: Vec3) -> Self {
         let mut places: Vec<Vec3> = skeleton.attachments.iter().map(|at| at.at_m).collect();
         if places.is_empty() {
             places = skeleton.segments.iter().map(|segment| segment.end_m).collect();

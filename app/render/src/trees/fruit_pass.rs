@@ -96,7 +96,7 @@ pub struct Berry {
     /// Radius in metres.
     pub radius_m: f32,
     /// Linear colour.
-    pub color: Vec3,
+    pub(crate) color: Vec3,
     /// Segment that bears it.
     pub segment: u32,
 }

@@ -56,11 +56,11 @@ pub struct Look {
     /// Range of that order over its leaves.
     pub turned_range: f32,
     /// Factor on the colour of its leaves.
-    pub tint: Vec3,
+    pub(crate) tint: Vec3,
     /// Random number of its own, 0 to 1.
-    pub own: f32,
+    pub(crate) own: f32,
     /// True if its wood hides under leaves from the ground up.
-    pub is_low: bool,
+    pub(crate) is_low: bool,
 }
 
 impl Look {

@@ -20,9 +20,9 @@ use windfall_core::Scene;
 use windfall_core::layout::WgslStruct;
 use windfall_core::tree::{Forest, Skeleton};
 
-pub use cluster::MAX_CLUSTER;
+pub(crate) use cluster::MAX_CLUSTER;
 pub use cluster::{TWIG_SIZE, cluster};
-pub use crown::Crown;
+pub(crate) use crown::Crown;
 pub use look::{BarkKind, Look};
 
 use crate::gpu::shaders::{Shaders, declarations, wgsl_files};
@@ -44,17 +44,17 @@ pub struct StandingTree {
     /// The tree at rest, turned as it stands, with its foot at the origin.
     pub skeleton: Arc<Skeleton>,
     /// Foot in metres.
-    pub foot_m: Vec3,
+    pub(crate) foot_m: Vec3,
     /// Row of the branch columns for every segment.
     pub rows: Vec<u32>,
     /// Number of the species of its leaves in the scene.
     pub species: Option<u32>,
-    /// Leaves that each of its simulated leaves stands for: 1 to [`MAX_CLUSTER`].
+    /// Leaves that each of its simulated leaves stands for, at least 1.
     pub cluster: u32,
     /// Slots of its leaves among those of the world, in the order of the scene's trees.
     pub leaves: u32,
     /// Extent of its leaves.
-    pub crown: Crown,
+    pub(crate) crown: Crown,
     /// Bark, tint and colour of the season.
     pub look: Look,
 }
@@ -102,10 +102,5 @@ impl SceneTrees {
             });
         }
         Self { trees, rest_base: branches.base, rest_pose: branches.pose }
-    }
-
-    /// Number of leaf slots of all trees: the first of the world.
-    pub fn leaf_count(&self) -> u32 {
-        self.trees.iter().map(|tree| tree.leaves).sum()
     }
 }
