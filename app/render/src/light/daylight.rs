@@ -14,7 +14,8 @@ use super::MapError;
 use super::clouds::{OVERCAST_ILLUMINANCE, cloud_share, overcast};
 use super::picture_file::Picture;
 use super::scattering::ClearAir;
-use super::spectrum::ToRgb;
+use super::spectrum::{ToRgb, luminance};
+use super::sun::{SunLight, sun_direction};
 use super::sun_search::take_sun;
 
 /// Width and height of a computed sky in pixels.
@@ -24,15 +25,6 @@ const GROUND_ALBEDO: Vec3 = Vec3::new(0.125, 0.115, 0.055);
 
 /// Colour of an overcast sky, of luminance 1: about 6800 K (Lee and Hernández-Andrés 2005).
 const OVERCAST_COLOR: Vec3 = Vec3::new(0.975, 1.0, 1.075);
-
-/// A directional light.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SunLight {
-    /// Direction towards it.
-    pub direction: Vec3,
-    /// Illuminance in klx of a surface that faces it.
-    pub illuminance: Vec3,
-}
 
 /// All light that comes from above, and what the ground returns of it.
 #[derive(Clone, Debug)]
@@ -114,18 +106,6 @@ impl Daylight {
             clouds: [tint * (zenith / cover), ground],
         }
     }
-}
-
-/// Unit vector towards the sun.
-pub(crate) fn sun_direction(sun: &Sun) -> Vec3 {
-    let (elevation_sin, elevation_cos) = sun.elevation_deg.to_radians().sin_cos();
-    let (azimuth_sin, azimuth_cos) = sun.azimuth_deg.to_radians().sin_cos();
-    Vec3::new(elevation_cos * azimuth_cos, elevation_sin, elevation_cos * azimuth_sin)
-}
-
-/// Luminance of linear sRGB.
-pub fn luminance(color: Vec3) -> f32 {
-    color.dot(Vec3::new(0.2126, 0.7152, 0.0722))
 }
 
 /// The upper half of the sky without clouds; the lower half is black. The sky is alike on both sides of the sun, so half of it is computed.

@@ -15,16 +15,19 @@ mod prefilter;
 mod scattering;
 mod spectrum;
 mod spherical_harmonics;
+mod sun;
 mod sun_search;
 mod table;
 
 pub(crate) use atmosphere::Atmosphere;
-pub use daylight::{Daylight, SunLight, luminance};
+pub use daylight::Daylight;
 pub use environment_map::EnvironmentMap;
 pub use map_error::MapError;
 pub(crate) use prefilter::prefiltered;
 pub(crate) use prefilter::wgsl_constants;
+pub use spectrum::luminance;
 pub(crate) use spherical_harmonics::SphericalHarmonics;
+pub use sun::SunLight;
 
 #[cfg(test)]
 mod map_tests;

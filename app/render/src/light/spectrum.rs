@@ -24,6 +24,11 @@ const BAND_NM: f32 = 40.0;
 /// Luminous efficacy in lm/W where the eye is most sensitive.
 const EFFICACY: f32 = 683.0;
 
+/// Luminance of linear sRGB.
+pub fn luminance(color: Vec3) -> f32 {
+    color.dot(Vec3::new(0.2126, 0.7152, 0.0722))
+}
+
 /// From W/m²/nm in every band to linear sRGB in klx (or from W/m²/sr/nm to kcd/m²): luminance is that of Rec. 709.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ToRgb([Vec3; BANDS]);

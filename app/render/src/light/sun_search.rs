@@ -5,8 +5,8 @@
 use glam::Vec3;
 
 use super::EnvironmentMap;
-use super::SunLight;
-use super::luminance;
+use super::spectrum::luminance;
+use super::sun::SunLight;
 
 /// Cosines of the angles around the brightest pixel within which everything is the sun's (4 degrees), and between which the
 /// sky behind it is measured (6 and 10 degrees).
