@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Words of doc comments: the first is the noun or the verb of the item, and banned words stand nowhere.
+//! Words of doc comments, and of comments in shaders: the first is the noun or the verb of the item, and banned words stand
+//! nowhere.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -17,14 +18,14 @@ fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("the package is a folder of the workspace")
 }
 
-/// Rust files below a folder, in order.
-fn rust_files(folder: &Path) -> Vec<PathBuf> {
+/// Rust and WGSL files below a folder, in order.
+fn source_files(folder: &Path) -> Vec<PathBuf> {
     let mut found = Vec::new();
     for entry in fs::read_dir(folder).expect("a folder of the workspace") {
         let path = entry.expect("a readable entry").path();
         if path.is_dir() {
-            found.extend(rust_files(&path));
-        } else if path.extension().is_some_and(|ending| ending == "rs") {
+            found.extend(source_files(&path));
+        } else if path.extension().is_some_and(|ending| ending == "rs" || ending == "wgsl") {
             found.push(path);
         }
     }
@@ -32,10 +33,21 @@ fn rust_files(folder: &Path) -> Vec<PathBuf> {
     found
 }
 
-/// Text of a line of a doc comment.
-fn doc(line: &str) -> Option<&str> {
+/// Language of a source.
+#[derive(Clone, Copy, PartialEq)]
+enum Language {
+    Rust,
+    Wgsl,
+}
+
+/// Text of a line of a doc comment, or of any comment in a shader.
+fn doc(line: &str, language: Language) -> Option<&str> {
     let line = line.trim_start();
-    line.strip_prefix("///").or_else(|| line.strip_prefix("//!")).map(str::trim)
+    let found = match language {
+        Language::Rust => line.strip_prefix("///").or_else(|| line.strip_prefix("//!")),
+        Language::Wgsl => line.strip_prefix("//"),
+    };
+    found.map(str::trim)
 }
 
 /// Words of a text without the marks around them.
@@ -44,11 +56,11 @@ fn words(text: &str) -> impl Iterator<Item = &str> {
 }
 
 /// Lines of a file, by number from one, that break a rule.
-fn faults(text: &str) -> Vec<(usize, String)> {
+fn faults(text: &str, language: Language) -> Vec<(usize, String)> {
     let mut found = Vec::new();
     let mut is_first = true;
     for (number, line) in (1..).zip(text.lines()) {
-        let Some(doc) = doc(line) else {
+        let Some(doc) = doc(line, language) else {
             is_first = true;
             continue;
         };
@@ -59,8 +71,8 @@ fn faults(text: &str) -> Vec<(usize, String)> {
         for word in words(doc).filter(|word| BANNED.contains(&word.to_lowercase().as_str())) {
             found.push((number, format!("says \"{word}\": {doc}")));
         }
-        // A head such as `# Source` begins anew behind it.
-        is_first = doc.starts_with('#');
+        // A head such as `# Source` begins anew behind it, as do the lines at the beginning of a shader.
+        is_first = ["#", "SPDX", "twin:"].iter().any(|head| doc.starts_with(head));
     }
     found
 }
@@ -69,10 +81,14 @@ fn faults(text: &str) -> Vec<(usize, String)> {
 fn doc_comments_begin_with_a_noun_or_a_verb() {
     let mut found = Vec::new();
     for folder in SOURCES {
-        for path in rust_files(&root().join(folder)) {
+        for path in source_files(&root().join(folder)) {
             let text = fs::read_to_string(&path).expect("a source file");
             let name = path.strip_prefix(root()).expect("below the root").display();
-            found.extend(faults(&text).into_iter().map(|(line, fault)| format!("{name}:{line} {fault}")));
+            let is_shader = path.extension().is_some_and(|ending| ending == "wgsl");
+            let language = if is_shader { Language::Wgsl } else { Language::Rust };
+            found.extend(
+                faults(&text, language).into_iter().map(|(line, fault)| format!("{name}:{line} {fault}")),
+            );
         }
     }
     assert!(found.is_empty(), "{} doc comments:\n{}", found.len(), found.join("\n"));
@@ -91,8 +107,10 @@ fn planted_lines_are_found() {
         ("let what = \"What, told in code\"; // How, in a plain comment", 0),
         ("/// Storytelling is no word of ours, nor is `tell_tale`.", 0),
     ] {
-        let found = faults(&plant(line));
+        let found = faults(&plant(line), Language::Rust);
         assert_eq!(found.len(), count, "{line}: {found:?}");
         assert!(found.iter().all(|(number, _)| *number == 3), "{line}: {found:?}");
     }
+    let shader = "// SPDX-License-Identifier: MIT\n// twin: a.rs\n// How leaves fall.\nfn fall() {}\n";
+    assert_eq!(faults(shader, Language::Wgsl).len(), 1, "the first words of a shader");
 }

@@ -13,9 +13,9 @@
 // Of every grid point: height above the origin's up to which hills hide the sun, and how far away they are, in metres.
 @group(0) @binding(3) var hill_shade: texture_2d<f32>;
 
-// Where the land is level, shaders are built without hills: software adapters take both ways through a condition.
+// On level land shaders are built without hills: software adapters take both ways through a condition.
 override IS_HILLY: bool = true;
-// Where no tree stands, nothing hides the sky.
+// Without trees nothing hides the sky.
 override HAS_TREES: bool = true;
 
 // The grid points around a place, lowest (xy) and highest (zw), and where between them it lies.

@@ -74,7 +74,7 @@ fn sky_openness(position: vec3<f32>) -> f32 {
     return 1.0 - 0.75 * textureSampleLevel(shade_map, clamp_sampler, uv, 0.0).b;
 }
 
-// How far around a place the sky is looked for, in metres, and how often.
+// Radius around a place within which the sky is sampled, in metres, and number of samples.
 const SKY_REACH_M: f32 = 2.4;
 const SKY_TAPS: u32 = 6u;
 
@@ -125,7 +125,7 @@ fn sky_place(direction: vec3<f32>) -> vec2<f32> {
     return vec2(turn, acos(clamp(direction.y, -1.0, 1.0)) * 0.31830989);
 }
 
-// What a surface of a roughness from 0.1 to 1 mirrors of the sky along a direction.
+// Radiance of the sky that a surface of a roughness from 0.1 to 1 mirrors along a direction.
 fn sky_reflection(direction: vec3<f32>, roughness: f32) -> vec3<f32> {
     let level = (roughness - LEAST_ROUGHNESS) / ROUGHNESS_STEP;
     return textureSampleLevel(mirrored_sky, sky_sampler, sky_place(direction), level).rgb;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// Which leaves are drawn, and how finely: counts them, makes room, lists them, and writes a record for each, in the order
+// Selects the leaves that are drawn, and their level of detail: counts them, makes room, lists them, and writes a record for each, in the order
 // of their slots whatever the order of threads, so that equal frames give equal pictures.
 
 #import gpu/numbers
@@ -50,7 +50,7 @@ fn tree_of(slot: u32) -> u32 {
     return select(0u, tree, slot < trees[tree].end_slot);
 }
 
-// How a leaf is drawn in this view.
+// Appearance of a leaf in this view.
 struct Sight {
     // Leaves that it stands for; 0 if it is out of sight.
     copies: u32,
@@ -63,7 +63,7 @@ struct Sight {
     key: u32,
 }
 
-// How far a place lies within the side of the view that it is farthest beyond, or nearest to.
+// Distance of a place within the side of the view that it is farthest beyond, or nearest to.
 fn within(center: vec3<f32>) -> f32 {
     var least = 3.0e38;
     for (var side = 0u; side < 6u; side++) {

@@ -21,7 +21,7 @@ struct Varyings {
     // Direction out of the crown, as far as the leaf is one of its surface; 1, or -1 if the picture is mirrored.
     @location(6) @interpolate(flat) outward_mirror: vec4<f32>,
     @location(7) @interpolate(flat) settled: f32,
-    // What changes little over a leaf: sunlight that the trees let through, and what the air does to its light.
+    // Values that change little over a leaf: sunlight that the trees let through, and the air's effect on its light.
     @location(8) @interpolate(perspective, centroid) sunlit: f32,
     @location(9) @interpolate(perspective, centroid) air: vec4<f32>,
 }
@@ -29,7 +29,7 @@ struct Varyings {
 // Roughness (GGX alpha is its square) of the waxy upper and the dull lower side; reflectance of wax head-on.
 const ROUGHNESS: vec2<f32> = vec2(0.42, 0.62);
 const WAX: f32 = 0.04;
-// What an uneven sheet mirrors at a slant, set by eye; the rest it mirrors onto itself.
+// Share that an uneven sheet mirrors at a slant, set by eye; the rest it mirrors onto itself.
 const SLANTED: f32 = 0.25;
 // Chance that light which leaves a leaf of a crown meets another one (recollision probability of Smolander and Stenberg,
 // 2005), for leaves that the sky can see; the value is set by eye.
@@ -94,7 +94,7 @@ struct Painted {
     @builtin(sample_mask) mask: u32,
 }
 
-// Which of a pixel's four samples a leaf covers: as many as its share says on average over leaves, others for every leaf,
+// Mask of a pixel's four samples that a leaf covers: as many as its share says on average over leaves, others for every leaf,
 // so that leaves behind one another hide what is behind them all.
 fn covered(share: f32, leaf: u32) -> u32 {
     let random = hash_u32(leaf);

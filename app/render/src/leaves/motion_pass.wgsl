@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// How far leaves move over the picture while the shutter is open. Drawn where leaves were drawn before: the same points, at
+// Motion of leaves over the picture while the shutter is open. Drawn where leaves were drawn before: the same points, at
 // the same depth.
 
 #import frame/common
@@ -24,7 +24,7 @@ fn turned(attitude: vec4<f32>) -> vec4<f32> {
     return select(vec4(0.0, 0.0, 0.0, 1.0), attitude, dot(attitude, attitude) > 0.25);
 }
 
-// Where a point of a leaf was, as the leaf moved and turned without bending.
+// Earlier place of a point of a leaf, which moved and turned without bending.
 fn past_of(point: vec3<f32>, slot: u32) -> vec3<f32> {
     let now = places[slot].position;
     let before = past_places[slot];

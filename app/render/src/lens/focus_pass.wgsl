@@ -65,7 +65,7 @@ fn gather(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
         let offset = distance * vec2(cos(index * GOLDEN_ANGLE), sin(index * GOLDEN_ANGLE));
         let there = clamp(vec2<i32>(floor(position.xy + offset)), vec2(0), last);
         let other = textureLoad(circles, there, 0).r;
-        // What lies behind is hidden by what is sharp in front of it.
+        // Things behind are hidden by what is sharp in front of them.
         let width = max(select(abs(other), min(other, abs(own)), other > own), 0.5);
         let weight = area * clamp(width - distance + 0.5, 0.0, 1.0) / (PI * width * width);
         sum += weight * textureLoad(light, there, 0).rgb;

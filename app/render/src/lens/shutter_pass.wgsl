@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// What moves while the shutter is open is drawn out along its way: every pixel gathers the light of those that cross it
+// Draws out along its way what moves while the shutter is open: every pixel gathers the light of those that cross it
 // meanwhile, and sees what is behind them for as long as none does.
 //
 // Source: the blocks and taps of McGuire, Hennessy, Bukowski, Osman, "A reconstruction filter for plausible motion blur"
@@ -53,7 +53,7 @@ fn block_longest(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f3
     return vec4(way, 0.0, 1.0);
 }
 
-// How much the first of two distances is before the second.
+// Weight of the first of two distances being before the second.
 fn before(first_m: f32, second_m: f32) -> f32 {
     return clamp(1.0 - (first_m - second_m) / (SOFT * min(first_m, second_m)), 0.0, 1.0);
 }
@@ -73,7 +73,7 @@ fn gather(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
         return vec4(own_light, 1.0);
     }
     let own = textureLoad(ways, at, 0);
-    // What passes here, by the share of the time that it does, and what is there all the while.
+    // Light of what passes here, by the share of the time that it does, and of what is there all the while.
     var passing = vec4(0.0);
     var staying = vec4(0.0);
     let last = vec2<i32>(textureDimensions(light)) - 1;

@@ -14,7 +14,7 @@
 // Off where the target encodes by itself.
 override ENCODE: bool = true;
 
-// Which of the curves this pipeline has.
+// Curve of this pipeline.
 override CURVE: u32 = CURVE_AGX;
 
 // Equation 4 of Reinhard et al. 2002, on luminance: hues stay.

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// How densely leaves lie, as a cloth of colours on the ground.
+// Density of leaves that have landed, as a cloth of colours on the ground.
 
 #import frame/light
 #import marks/structs
@@ -8,7 +8,7 @@
 @group(2) @binding(0) var<uniform> landing: LandingUniform;
 @group(2) @binding(1) var<storage, read> cells: array<u32>;
 
-// How high over the ground the cloth lies, in metres: over grass and litter.
+// Height of the cloth over the ground in metres: over grass and litter.
 const LIFT_M: f32 = 0.07;
 
 struct Varyings {

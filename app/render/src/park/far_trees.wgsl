@@ -14,7 +14,7 @@ struct Varyings {
     @location(1) uv: vec2<f32>,
     @location(2) @interpolate(flat) sprite: u32,
     @location(3) @interpolate(flat) look: vec3<f32>,
-    // What the air does to its light, which changes little over a tree.
+    // Effect of the air on its light, which changes little over a tree.
     @location(4) air: vec4<f32>,
 }
 

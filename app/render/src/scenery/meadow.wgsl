@@ -7,7 +7,7 @@
 // Half width of the path in metres.
 const PATH_HALF_WIDTH_M: f32 = 1.05;
 
-// How far a place lies outside the winding path, in metres; negative on it. `park/layout.rs` keeps trees off it.
+// Distance of a place from the edge of the winding path, in metres; negative on it. `park/layout.rs` keeps trees off it.
 fn beyond_path(at: vec2<f32>) -> f32 {
     let lead = frame.path_lead;
     let local = at - frame.park_center_m.xz;

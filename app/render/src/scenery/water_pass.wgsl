@@ -5,7 +5,7 @@
 #import frame/light
 #import scenery/horizon
 
-// What the water mirrors, as the same pixels of the picture show it.
+// Light that the water mirrors, as the same pixels of the picture show it.
 @group(2) @binding(0) var mirror: texture_2d<f32>;
 
 // Reflectance of water seen from straight above (Fresnel, index of refraction 1.33).
@@ -59,7 +59,7 @@ fn fragment(in: Varyings) -> @location(0) vec4<f32> {
     let facing = max(dot(normal, view), 0.0);
     let mirrored = WATER_F0 + (1.0 - WATER_F0) * pow(1.0 - facing, 5.0);
 
-    // What lies under it, by the way that light goes down and back up.
+    // Light from under it, by the way that light goes down and back up.
     let depth = max(land.water_m - ground_height(in.world.xz), 0.0);
     let kept = exp(-WATER_EXTINCTION * depth * (1.0 / max(view.y, 0.25) + 1.0));
     let grain = textureSample(noise, repeat_sampler, in.world.xz * 0.35).a;

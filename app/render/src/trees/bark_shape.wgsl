@@ -18,7 +18,7 @@ fn branch_turn(row: u32) -> vec4<f32> {
     return quaternion_product(a, b);
 }
 
-// Where the segment has taken a point that was at `position` at rest.
+// Place to which the segment has taken a point that was at `position` at rest.
 fn moved(row: u32, position: vec3<f32>) -> vec3<f32> {
     return branch_base[row].xyz + rotate(branch_turn(row), position - rest_base[row].xyz);
 }

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// What all parts of one tree share: bark, leaves and fruit.
+// Records that all parts of one tree share: bark, leaves and fruit.
 
 #import trees/structs
 
