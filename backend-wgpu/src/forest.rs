@@ -77,7 +77,7 @@ impl ForestBuffers {
             branches.buffer(BRANCH_COLUMNS as usize).as_entire_binding(),
         ];
         let level_group = group(gpu, pipelines.layout(GroupLayout::Level), resources);
-        let sway = sway_group(gpu, pipelines, blocks);
+        let sway = blocks_group(gpu, pipelines, blocks);
         Self { levels, sway, level_group, level_stride }
     }
 
@@ -88,7 +88,7 @@ impl ForestBuffers {
         pipelines: &Pipelines,
         blocks: [wgpu::BindingResource<'_>; 3],
     ) {
-        self.sway = sway_group(gpu, pipelines, blocks);
+        self.sway = blocks_group(gpu, pipelines, blocks);
     }
 
     /// Encodes a step of all trees, whose step block lies at `step_offset`, by the pipelines of a scheme: its inward and its
@@ -114,6 +114,6 @@ impl ForestBuffers {
     }
 }
 
-fn sway_group(gpu: &Gpu, pipelines: &Pipelines, blocks: [wgpu::BindingResource<'_>; 3]) -> wgpu::BindGroup {
-    group(gpu, pipelines.layout(GroupLayout::Sway), blocks)
+fn blocks_group(gpu: &Gpu, pipelines: &Pipelines, blocks: [wgpu::BindingResource<'_>; 3]) -> wgpu::BindGroup {
+    group(gpu, pipelines.layout(GroupLayout::Blocks), blocks)
 }

@@ -19,9 +19,9 @@ pub(crate) enum GroupLayout {
     /// The same without identities, for leaves that have no event.
     LeavesInMotion,
     /// One storage buffer: the event list of a page, or the counters.
-    Extra,
-    /// Blocks and wind tables, for trees.
-    Sway,
+    OneBuffer,
+    /// Blocks and tables.
+    Blocks,
     /// A level of the forest.
     Level,
     /// Segments that carry leaves.
@@ -30,7 +30,7 @@ pub(crate) enum GroupLayout {
 
 impl GroupLayout {
     const ALL: [Self; 6] =
-        [Self::Leaves, Self::LeavesInMotion, Self::Extra, Self::Sway, Self::Level, Self::Carriers];
+        [Self::Leaves, Self::LeavesInMotion, Self::OneBuffer, Self::Blocks, Self::Level, Self::Carriers];
 
     /// Resources, binding by binding.
     fn slots(self) -> &'static [Slot] {
@@ -39,9 +39,9 @@ impl GroupLayout {
         const ALL: &[Slot] = &[Block, BlockOfMany, Read, Write, Write, Write, Write, Write];
         match self {
             Self::Leaves => ALL,
-            Self::Sway => &ALL[..3],
+            Self::Blocks => &ALL[..3],
             Self::LeavesInMotion => &ALL[..7],
-            Self::Extra => &[Write],
+            Self::OneBuffer => &[Write],
             // The bindings of shaders/tree/bindings.wgsl.
             Self::Level => &[BlockOfMany, Read, Read, Write, Write, Read],
             // The bindings of shaders/leaf/carrier_bindings.wgsl.
@@ -55,11 +55,11 @@ impl KernelId {
     fn layouts(self) -> &'static [GroupLayout] {
         match self {
             Self::SwayInward | Self::SwayOutward | Self::SwayGather | Self::SwayFollow => {
-                &[GroupLayout::Sway, GroupLayout::Level]
+                &[GroupLayout::Blocks, GroupLayout::Level]
             }
             Self::Carry => &[GroupLayout::LeavesInMotion, GroupLayout::Carriers],
-            Self::Advance | Self::Measure => &[GroupLayout::LeavesInMotion, GroupLayout::Extra],
-            Self::ResolveEvents => &[GroupLayout::Leaves, GroupLayout::Extra],
+            Self::Advance | Self::Measure => &[GroupLayout::LeavesInMotion, GroupLayout::OneBuffer],
+            Self::ResolveEvents => &[GroupLayout::Leaves, GroupLayout::OneBuffer],
             Self::Fly => &[GroupLayout::Leaves],
         }
     }

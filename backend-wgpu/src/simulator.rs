@@ -92,7 +92,8 @@ impl WgpuSimulator {
             u64::from(COUNTER_COUNT) * 4,
             wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC,
         );
-        let counters_group = group(gpu, pipelines.layout(GroupLayout::Extra), [counters.as_entire_binding()]);
+        let counters_group =
+            group(gpu, pipelines.layout(GroupLayout::OneBuffer), [counters.as_entire_binding()]);
         let mut simulator = Self {
             gpu: gpu.clone(),
             contract,
@@ -131,13 +132,13 @@ impl WgpuSimulator {
     fn plant(&mut self) {
         let forest = self.compiled.forest();
         if !forest.is_empty() {
-            let (blocks, branches) = (self.sway_blocks(), self.buffers.branches());
+            let (blocks, branches) = (self.shared_blocks(), self.buffers.branches());
             self.forest = Some(ForestBuffers::new(&self.gpu, &self.pipelines, forest, blocks, branches));
         }
     }
 
     /// Bind group that every kernel sees first: blocks and tables.
-    fn sway_blocks(&self) -> [wgpu::BindingResource<'_>; 3] {
+    fn shared_blocks(&self) -> [wgpu::BindingResource<'_>; 3] {
         [self.scene_buffer.as_entire_binding(), self.step_binding(), self.tables.1.as_entire_binding()]
     }
 
@@ -169,7 +170,7 @@ impl WgpuSimulator {
         if is_replanted {
             self.plant();
         } else if let Some(mut forest) = self.forest.take() {
-            forest.rebind(&self.gpu, &self.pipelines, self.sway_blocks());
+            forest.rebind(&self.gpu, &self.pipelines, self.shared_blocks());
             self.forest = Some(forest);
         }
         if moved || is_replanted {

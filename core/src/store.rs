@@ -154,19 +154,28 @@ pub fn state_bytes(stores: &[&dyn Store]) -> usize {
 /// Checks that stores of one list are as large as those of another.
 ///
 /// # Errors
-/// [`SimError::Size`] for the first that is not.
+/// [`SimError::Size`] for the first that is not; one that the other list lacks has no rows there.
 pub fn check_sizes(world: &[StoreSize], simulator: &[StoreSize]) -> Result<(), SimError> {
-    for (world, simulator) in world.iter().zip(simulator) {
-        if world.rows != simulator.rows {
-            let store = world.store;
-            return Err(SimError::Size { store, world: world.rows, simulator: simulator.rows });
+    let rows = |sizes: &[StoreSize], index: usize| sizes.get(index).map_or(0, |size| size.rows);
+    for (index, StoreSize { store, .. }) in longer(world, simulator).iter().enumerate() {
+        let (world, simulator) = (rows(world, index), rows(simulator, index));
+        if world != simulator {
+            return Err(SimError::Size { store, world, simulator });
         }
     }
     Ok(())
 }
 
+fn longer<'a>(a: &'a [StoreSize], b: &'a [StoreSize]) -> &'a [StoreSize] {
+    if a.len() < b.len() { b } else { a }
+}
+
 /// Copies the rows of stores into others of the same kinds and sizes.
+///
+/// # Panics
+/// If they are not as many, or of other sizes.
 pub fn copy_stores(from: &[&dyn Store], to: &mut [&mut dyn Store]) {
+    assert_eq!(from.len(), to.len(), "the same stores");
     for (from, to) in from.iter().zip(to) {
         for (from, to) in from.columns().into_iter().zip(to.columns_mut()) {
             to.copy_from_slice(from);

@@ -55,6 +55,11 @@ fn a_further_store_is_saved_hashed_copied_compared_and_measured() {
         matches!(refused, Err(SimError::Size { store: "pebbles", world: 38, simulator: 37 })),
         "{refused:?}"
     );
+    let shorter = check_sizes(&sizes[..2], &sizes);
+    assert!(
+        matches!(shorter, Err(SimError::Size { store: "pebbles", world: 0, simulator: 37 })),
+        "{shorter:?}"
+    );
 
     let mut bytes = Vec::new();
     write_stores(&mut bytes, &all(&world, &full)).expect("memory takes every byte");

@@ -51,7 +51,7 @@ impl WgpuSimulator {
 
     fn page(&self, first: u32) -> Page {
         let leaves = self.page_leaves.min(self.buffers.leaves().rows() - first);
-        let blocks = || self.sway_blocks().into_iter();
+        let blocks = || self.shared_blocks().into_iter();
         let columns = || self.buffers.leaves().windows(first, leaves);
         let all = blocks().chain(columns());
         let page = group(&self.gpu, self.pipelines.layout(GroupLayout::Leaves), all);
@@ -61,8 +61,11 @@ impl WgpuSimulator {
         let usage = wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST;
         let event_counts =
             buffer(&self.gpu, "event_list", EVENT_LIST_HEADER.len() as u64 + u64::from(leaves) * 4, usage);
-        let events =
-            group(&self.gpu, self.pipelines.layout(GroupLayout::Extra), [event_counts.as_entire_binding()]);
+        let events = group(
+            &self.gpu,
+            self.pipelines.layout(GroupLayout::OneBuffer),
+            [event_counts.as_entire_binding()],
+        );
         let tree_leaves = self.compiled.scene().tree_leaf_count().saturating_sub(first).min(leaves);
         let on_trees = (self.forest.is_some() && tree_leaves > 0).then(|| {
             let branches = self.buffers.branches();
