@@ -8,6 +8,7 @@
 #![warn(clippy::print_stdout, clippy::print_stderr)]
 
 mod kernels;
+mod quiet;
 mod simd;
 mod simulator;
 

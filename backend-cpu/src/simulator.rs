@@ -5,6 +5,7 @@
 use std::sync::{Arc, Mutex};
 
 use rayon::{ThreadPool, ThreadPoolBuilder};
+use windfall_core::blocks::StepBlock;
 use windfall_core::tree::Forest;
 use windfall_core::tree::batch::TreeBatch;
 use windfall_core::{Clock, CompiledScene, Contract, SimError, Simulator, SimulatorInfo, Stats, World};
@@ -13,9 +14,13 @@ use crate::kernels::CHUNK;
 use crate::kernels::measure::measure;
 use crate::kernels::step_leaves::step_leaves;
 use crate::kernels::step_trees::{BatchRun, step_trees};
+use crate::quiet::{QuietUnits, are_quiet};
 use crate::simd::Simd;
 use crate::simd::batch_blocks::BatchBlocks;
 use crate::simd::sway_scratch::Scratch;
+
+/// Most steps that a chunk of leaves goes through before the next chunk.
+const MOST_FUSED: usize = 8;
 
 /// Options of the CPU simulator.
 #[derive(Clone, Copy, Debug, Default)]
@@ -32,6 +37,7 @@ pub struct CpuSimulator {
     world: World,
     blocks: Vec<BatchBlocks>,
     scratches: Vec<Mutex<Scratch>>,
+    quiet: QuietUnits,
     pool: ThreadPool,
     simd: Simd,
 }
@@ -47,9 +53,11 @@ impl CpuSimulator {
             .build()
             .map_err(|error| SimError::Device { reason: error.to_string() })?;
         let simd = options.simd.unwrap_or_else(Simd::best);
-        let mut simulator =
-            Self { world: world.clone(), blocks: Vec::new(), scratches: Vec::new(), pool, simd };
-        simulator.plant(world.compiled.forest());
+        let quiet = QuietUnits::new(world.leaves.len());
+        let (world, blocks, scratches) = (world.clone(), Vec::new(), Vec::new());
+        let mut simulator = Self { world, blocks, scratches, quiet, pool, simd };
+        let forest = Arc::clone(simulator.world.compiled.forest());
+        simulator.plant(&forest);
         Ok(simulator)
     }
 
@@ -105,39 +113,62 @@ impl Simulator for CpuSimulator {
             self.plant(compiled.forest());
         }
         self.world.compiled = compiled.clone();
+        self.quiet.forget();
         Ok(())
     }
 
     fn step(&mut self, count: u32) -> Result<(), SimError> {
         let World { compiled, clock, leaves, branches } = &mut self.world;
-        let (simd, blocks, scratches) = (self.simd, &self.blocks, &self.scratches);
+        let (simd, blocks, scratches, quiet) = (self.simd, &self.blocks, &self.scratches, &self.quiet);
         let forest = Arc::clone(compiled.forest());
         let is_small = leaves.len() <= CHUNK && forest.len() <= CHUNK / 16;
-        let mut steps = || {
-            for _ in 0..count {
-                let block = compiled.step_block(clock);
-                let cx = compiled.context(&block);
-                if !forest.is_empty() {
-                    let (on_trees, _) = leaves.as_mut().split_at(cx.scene.tree_leaf_count as usize);
+        let last = clock.step().saturating_add(count).saturating_sub(1);
+        let is_resting = forest.is_empty() && are_quiet(quiet.split_at(0).1, last);
+        let tree_leaves = compiled.block().tree_leaf_count as usize;
+        // Leaves of trees, in whole chunks, follow the segments step by step.
+        let carried =
+            if forest.is_empty() { 0 } else { tree_leaves.next_multiple_of(CHUNK).min(leaves.len()) };
+        let (quiet_trees, quiet_free) = quiet.split_at(carried);
+        let mut run = |count: usize| {
+            let mut step_blocks = [<StepBlock as bytemuck::Zeroable>::zeroed(); MOST_FUSED];
+            for block in &mut step_blocks[..count] {
+                *block = compiled.step_block(clock);
+                compiled.advance(clock);
+            }
+            let steps = step_blocks.each_ref().map(|block| compiled.context(block));
+            let steps = &steps[..count];
+            if !forest.is_empty() {
+                for cx in steps {
                     step_trees(
-                        &cx,
+                        cx,
                         BatchRun {
                             batches: forest.batches(),
                             blocks,
                             segments: forest.segments(),
                             branches: branches.as_mut(),
-                            leaves: on_trees,
+                            leaves: leaves.as_mut().split_at(tree_leaves).0,
+                            quiet,
                         },
                         scratches,
                         simd,
                     );
+                    let on_trees = leaves.as_mut().split_at(carried).0;
+                    step_leaves(std::slice::from_ref(cx), on_trees, quiet_trees, simd);
                 }
-                step_leaves(&cx, leaves.as_mut(), simd);
-                compiled.advance(clock);
+            }
+            let free = leaves.as_mut().split_at(carried).1;
+            step_leaves(steps, free, quiet_free, simd);
+        };
+        let mut steps = || {
+            let mut left = count as usize;
+            while left > 0 {
+                let portion = left.min(MOST_FUSED);
+                run(portion);
+                left -= portion;
             }
         };
-        // A small world is done before another thread would have woken up.
-        if is_small {
+        // A small world, or one at rest, is done before another thread would have woken up.
+        if is_small || is_resting {
             steps()
         } else {
             self.pool.install(steps)

@@ -16,6 +16,8 @@ pub const WARM_UP_STEPS: u32 = 4;
 /// Height in metres that the leaves of [`falling`] start from. In [`FALLING_STEPS`] steps, 33 seconds, none lands:
 /// leaves fall at one or two metres per second.
 const HIGH_M: f32 = 300.0;
+/// Depth of their cloud in metres: they read every layer of the turbulence.
+const DEPTH_M: f32 = 40.0;
 /// Steps after which [`falling`] begins anew.
 pub const FALLING_STEPS: u32 = 2000;
 
@@ -34,8 +36,9 @@ pub fn falling(leaves: u32) -> Scene {
     for source in &mut scene.sources {
         source.release = Release::Burst { at_s: 0.0 };
         source.recycle_after_s = None;
-        if let SourceShape::Box { center_m, .. } = &mut source.shape {
+        if let SourceShape::Box { center_m, half_extent_m } = &mut source.shape {
             center_m.y = HIGH_M;
+            half_extent_m.y = 0.5 * DEPTH_M;
         }
     }
     scene

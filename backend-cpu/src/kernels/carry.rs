@@ -16,6 +16,7 @@ use windfall_core::device::tree::sway::row::Rows;
 use windfall_core::leaf::LeavesMut;
 use windfall_core::tree::record::NO_SEGMENT;
 
+use crate::quiet::QuietUnits;
 use crate::simd::branch_block::word;
 use crate::simd::leaf_block::{LeafBlock, sample_air};
 use crate::simd::{Simd, in_packs};
@@ -23,17 +24,20 @@ use crate::simd::{Simd, in_packs};
 /// Slots of which as many sample the wind in a step as a block has lanes.
 const GROUP: usize = BLOCK * SHED_INTERVAL as usize;
 
-/// The leaves of a batch, whose first slot is `first`.
-pub(crate) fn carry(
-    cx: &Context<'_>,
-    rows: &mut Rows<'_>,
-    mut leaves: LeavesMut<'_>,
-    first: u32,
-    simd: Simd,
-) {
+/// Leaves of a batch.
+pub(crate) struct BatchLeaves<'a> {
+    pub(crate) leaves: LeavesMut<'a>,
+    /// Slot of the first.
+    pub(crate) first: u32,
+    pub(crate) quiet: &'a QuietUnits,
+}
+
+/// Moves the leaves of a batch.
+pub(crate) fn carry(cx: &Context<'_>, rows: &mut Rows<'_>, of_batch: BatchLeaves<'_>, simd: Simd) {
+    let BatchLeaves { mut leaves, first, quiet } = of_batch;
     match simd {
-        Simd::Scalar => carry_each(cx, rows, &mut leaves, first, leaf_carry),
-        Simd::Lanes(level) => in_packs!(level, carry_lanes(cx, rows, leaves, first)),
+        Simd::Scalar => carry_each(cx, rows, &mut leaves, quiet, first, leaf_carry),
+        Simd::Lanes(level) => in_packs!(level, carry_lanes(cx, rows, leaves, quiet, first)),
     }
 }
 
@@ -43,6 +47,7 @@ fn carry_each(
     cx: &Context<'_>,
     rows: &mut Rows<'_>,
     leaves: &mut LeavesMut<'_>,
+    quiet: &QuietUnits,
     first: u32,
     change: impl Fn(&Context<'_>, &mut CarriedLeaf<'_>, u32, &PetioleLanes, &Body) -> u32,
 ) {
@@ -53,6 +58,9 @@ fn carry_each(
             let change = change(cx, &mut leaf.into(), slot, &PetioleLanes::from(&petiole), &rows.body(row));
             let leaf_count = &mut rows.branches.leaf_count[row];
             *leaf_count = leaf_count.wrapping_add(change);
+            if change != 0 {
+                quiet.wake(slot);
+            }
         }
     }
 }
@@ -65,6 +73,7 @@ fn carry_lanes<P: Pack>(
     cx: &Context<'_>,
     rows: &mut Rows<'_>,
     leaves: LeavesMut<'_>,
+    quiet: &QuietUnits,
     first: u32,
 ) {
     let grow_back = cx.scene.sources[SOURCE_TREES as usize].lifetime_steps != 0;
@@ -77,17 +86,17 @@ fn carry_lanes<P: Pack>(
         };
         let count = group.len();
         if grow_back {
-            carry_each(cx, rows, &mut group, slot, |cx, leaf, _, petiole, _| {
+            carry_each(cx, rows, &mut group, quiet, slot, |cx, leaf, _, petiole, _| {
                 leaf_return(cx, leaf, petiole.bits)
             });
         }
         for part in 0..BLOCK / P::LANES {
-            sample_air::<P>(simd, cx, rows, &mut group, slot, part);
+            sample_air::<P>(simd, cx, rows, &mut group, quiet, slot, part);
         }
         let (blocks, mut few) = group.split_at(count - count % BLOCK);
         let few_first = slot + word(blocks.len());
         follow::<P>(simd, cx, rows, blocks, slot);
-        carry_each(cx, rows, &mut few, few_first, |cx, leaf, slot, petiole, segment| {
+        carry_each(cx, rows, &mut few, quiet, few_first, |cx, leaf, slot, petiole, segment| {
             if leaf_hangs(cx, leaf.place.bits, leaf.schedule.event) {
                 leaf_follow(cx, leaf, slot, petiole, segment);
             }

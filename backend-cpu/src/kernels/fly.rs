@@ -4,6 +4,8 @@
 //!
 //! Moves the leaves of a chunk that fly as bodies through one step.
 
+use std::ops::Range;
+
 use bytemuck::{must_cast_mut, must_cast_ref};
 use fearless_simd::{Simd as Lanes, dispatch, f32x8, mask32x8, u32x8};
 use windfall_core::Context;
@@ -16,30 +18,45 @@ use windfall_core::device::terrain::ground::ground_met;
 use windfall_core::device::wind::sample::wind_at;
 use windfall_core::leaf::LeavesMut;
 
+use super::resolve_events::EventList;
+use crate::quiet::UNIT;
 use crate::simd::Simd;
 use crate::simd::leaf_eight::{bits_of, vector_and_word, with_word};
 
-/// Steps the bodies of one chunk.
-pub(crate) fn fly(cx: &Context<'_>, leaves: &mut LeavesMut<'_>, simd: Simd) {
+/// Steps the bodies of one chunk, in the units that `advance` has not passed by.
+pub(crate) fn fly(cx: &Context<'_>, leaves: &mut LeavesMut<'_>, events: &EventList, simd: Simd) {
     match simd {
-        Simd::Scalar => leaves.iter_mut().for_each(|mut leaf| leaf_fly(cx, &mut leaf)),
-        Simd::Lanes(level) => dispatch!(level, simd => fly_lanes(simd, cx, leaves)),
+        Simd::Scalar => {
+            let count = leaves.len();
+            for slot in events.stepped().flat_map(|unit| slots_of(unit, count)) {
+                leaf_fly(cx, &mut leaves.row_mut(slot));
+            }
+        }
+        Simd::Lanes(level) => dispatch!(level, simd => fly_lanes(simd, cx, leaves, events)),
     }
 }
 
-/// Steps the bodies of a chunk eight slots at a time; those that land, and the last few slots, one by one.
+/// Slots of a unit in a chunk of so many.
+fn slots_of(unit: usize, count: usize) -> Range<usize> {
+    unit * UNIT..count.min((unit + 1) * UNIT)
+}
+
+/// Steps the bodies of units eight slots at a time; those that land, and the last few slots, one by one.
 #[inline(always)]
-fn fly_lanes<S: Lanes>(simd: S, cx: &Context<'_>, leaves: &mut LeavesMut<'_>) {
-    let count = leaves.len();
-    for first in (0..count - count % LANES).step_by(LANES) {
-        let mut landing = fly_eight(simd, cx, leaves, first);
-        while landing != 0 {
-            leaf_fly(cx, &mut leaves.row_mut(first + landing.trailing_zeros() as usize));
-            landing &= landing - 1;
+fn fly_lanes<S: Lanes>(simd: S, cx: &Context<'_>, leaves: &mut LeavesMut<'_>, events: &EventList) {
+    for unit in events.stepped() {
+        let slots = slots_of(unit, leaves.len());
+        let few = slots.end - slots.len() % LANES;
+        for first in (slots.start..few).step_by(LANES) {
+            let mut landing = fly_eight(simd, cx, leaves, first);
+            while landing != 0 {
+                leaf_fly(cx, &mut leaves.row_mut(first + landing.trailing_zeros() as usize));
+                landing &= landing - 1;
+            }
         }
-    }
-    for slot in count - count % LANES..count {
-        leaf_fly(cx, &mut leaves.row_mut(slot));
+        for slot in few..slots.end {
+            leaf_fly(cx, &mut leaves.row_mut(slot));
+        }
     }
 }
 

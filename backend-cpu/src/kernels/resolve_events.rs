@@ -10,22 +10,34 @@ use windfall_core::device::leaf::advance::leaf_advance;
 use windfall_core::leaf::LeavesMut;
 
 use super::CHUNK;
+use crate::quiet::UNIT;
 
-/// The leaves of a chunk that `advance` has left alone: a bit for each, a byte for eight.
+/// Result of `advance` for a chunk.
 pub(crate) struct EventList {
+    /// Leaves that it has left alone: a bit for each, a byte for eight.
     pub(crate) lanes: [u8; CHUNK / LANES],
+    /// Units of slots that it has not passed by.
+    pub(crate) is_stepped: [bool; CHUNK / UNIT],
 }
 
 impl Default for EventList {
     fn default() -> Self {
-        Self { lanes: [0; CHUNK / LANES] }
+        Self { lanes: [0; CHUNK / LANES], is_stepped: [false; CHUNK / UNIT] }
+    }
+}
+
+impl EventList {
+    /// Numbers of the units that have been stepped.
+    pub(crate) fn stepped(&self) -> impl Iterator<Item = usize> {
+        (0..).zip(self.is_stepped).filter_map(|(unit, is_stepped)| is_stepped.then_some(unit))
     }
 }
 
 /// Steps the leaves of a chunk that have an event, that land, or that have just landed.
 pub(crate) fn resolve_events(cx: &Context<'_>, leaves: &mut LeavesMut<'_>, events: &EventList) {
-    for (group, &lanes) in events.lanes.iter().enumerate() {
-        let mut left = lanes;
+    let groups_of = |unit: usize| unit * (UNIT / LANES)..(unit + 1) * (UNIT / LANES);
+    for group in events.stepped().flat_map(groups_of) {
+        let mut left = events.lanes[group];
         while left != 0 {
             let slot = group * LANES + left.trailing_zeros() as usize;
             leaf_advance(cx, &mut leaves.row_mut(slot));

@@ -12,11 +12,12 @@ use windfall_core::leaf::LeavesMut;
 use windfall_core::tree::batch::TreeBatch;
 use windfall_core::tree::{BranchesMut, SegmentConstants};
 
-use super::carry::carry;
+use super::carry::{BatchLeaves, carry};
 use super::sway_follow::sway_follow;
 use super::sway_gather::sway_gather;
 use super::sway_inward::sway_inward;
 use super::sway_outward::sway_outward;
+use crate::quiet::QuietUnits;
 use crate::simd::Simd;
 use crate::simd::batch_blocks::BatchBlocks;
 use crate::simd::sway_scratch::{BlockScratch, Scratch};
@@ -28,11 +29,12 @@ pub(crate) struct BatchRun<'a> {
     pub(crate) segments: &'a [SegmentConstants],
     pub(crate) branches: BranchesMut<'a>,
     pub(crate) leaves: LeavesMut<'a>,
+    pub(crate) quiet: &'a QuietUnits,
 }
 
 /// Steps consecutive batches, halving them until a piece is one. There is a scratch for each thread.
 pub(crate) fn step_trees(cx: &Context<'_>, run: BatchRun<'_>, scratches: &[Mutex<Scratch>], simd: Simd) {
-    let BatchRun { batches, blocks, segments, branches, leaves } = run;
+    let BatchRun { batches, blocks, segments, branches, leaves, quiet } = run;
     let [first, .., last] = batches else {
         if let ([batch], [blocks]) = (batches, blocks) {
             // A thread of another pool may have a larger number; then it waits for the scratch of another.
@@ -40,7 +42,8 @@ pub(crate) fn step_trees(cx: &Context<'_>, run: BatchRun<'_>, scratches: &[Mutex
             let mut scratch = scratches[own].lock().unwrap_or_else(PoisonError::into_inner);
             let Scratch { work, blocks: block_scratch } = &mut *scratch;
             let rows = Rows { first: batch.first, segments, branches, work };
-            step_batch(cx, blocks, rows, block_scratch, leaves, batch.slots.start, simd);
+            let leaves = BatchLeaves { leaves, first: batch.slots.start, quiet };
+            step_batch(cx, blocks, rows, block_scratch, leaves, simd);
         }
         return;
     };
@@ -59,6 +62,7 @@ pub(crate) fn step_trees(cx: &Context<'_>, run: BatchRun<'_>, scratches: &[Mutex
         segments: front_segments,
         branches: front_branches,
         leaves: front_leaves,
+        quiet,
     };
     let back = BatchRun {
         batches: back,
@@ -66,6 +70,7 @@ pub(crate) fn step_trees(cx: &Context<'_>, run: BatchRun<'_>, scratches: &[Mutex
         segments: back_segments,
         branches: back_branches,
         leaves: back_leaves,
+        quiet,
     };
     join(|| step_trees(cx, front, scratches, simd), || step_trees(cx, back, scratches, simd));
 }
@@ -76,8 +81,7 @@ fn step_batch(
     blocks: &BatchBlocks,
     mut rows: Rows<'_>,
     scratch: &mut BlockScratch,
-    leaves: LeavesMut<'_>,
-    first_slot: u32,
+    leaves: BatchLeaves<'_>,
     simd: Simd,
 ) {
     if cx.scene.sway_scheme == SCHEME_ARTICULATED {
@@ -87,5 +91,5 @@ fn step_batch(
         sway_gather(cx, &mut rows);
         sway_follow(cx, &mut rows);
     }
-    carry(cx, &mut rows, leaves, first_slot, simd);
+    carry(cx, &mut rows, leaves, simd);
 }

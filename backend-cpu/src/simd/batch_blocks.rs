@@ -18,6 +18,7 @@ use windfall_core::tree::record::{SegmentConstants, children_of};
 
 use super::branch_block::word;
 use super::lanes::Lanes;
+use super::prefetch::{SECOND_LEVEL, prefetch};
 use super::sway_scratch::{ACCELERATION_RECORDS, INERTIA_RECORDS};
 
 /// One index for each segment of a block.
@@ -173,28 +174,8 @@ impl ConstantsOf {
     pub(crate) const OUTWARD: Self = Self(0..INWARD_OFFSET);
 }
 
-/// Number of blocks to prefetch ahead: one is too late where memory is slow, four and more gain nothing.
+/// Number of blocks to prefetch ahead, into the second level of cache, which gained more than the first: one is too late where memory is slow, four and more gain nothing.
 pub(crate) const AHEAD: usize = 2;
-
-/// Bytes of a cache line.
-const LINE: usize = 64;
-
-/// Prefetches so many items into the second level of cache, which gained more than the first.
-#[inline(always)]
-fn prefetch<T>(first: *const T, count: usize) {
-    #[cfg(target_arch = "x86_64")]
-    for line in 0..(count * size_of::<T>()).div_ceil(LINE) {
-        use std::arch::x86_64::{_MM_HINT_T1, _mm_prefetch};
-        // SAFETY: a hint about any address is allowed, and changes nothing but time: of a step of a thousand trees a
-        // quarter (`benches/record/README.md`).
-        #[expect(unsafe_code, reason = "a hint reads nothing")]
-        unsafe {
-            _mm_prefetch::<_MM_HINT_T1>(first.cast::<i8>().wrapping_add(line * LINE));
-        }
-    }
-    #[cfg(not(target_arch = "x86_64"))]
-    let _ = (first, count);
-}
 
 impl BatchStep<'_, '_> {
     /// Prefetches a block of limbs and its twigs, if there is such a block: state, leaf counts and the constants of a pass.
@@ -213,15 +194,15 @@ impl BatchStep<'_, '_> {
     #[inline(always)]
     fn prefetch_rows(&self, segments: &SegmentBlock, ConstantsOf(bytes): &ConstantsOf) {
         let constants = std::ptr::from_ref(&segments.constants).cast::<u8>();
-        prefetch(constants.wrapping_add(bytes.start), bytes.len());
+        prefetch::<SECOND_LEVEL, _>(constants.wrapping_add(bytes.start), bytes.len());
         let branches = &self.rows.branches;
         let first = segments.rows.start;
-        prefetch(branches.turn.as_ptr().wrapping_add(first), BLOCK);
-        prefetch(branches.rate.as_ptr().wrapping_add(first), BLOCK);
-        prefetch(branches.base.as_ptr().wrapping_add(first), BLOCK);
-        prefetch(branches.pose.as_ptr().wrapping_add(first), BLOCK);
-        prefetch(branches.velocity.as_ptr().wrapping_add(first), BLOCK);
-        prefetch(branches.spin.as_ptr().wrapping_add(first), BLOCK);
-        prefetch(branches.leaf_count.as_ptr().wrapping_add(first), BLOCK);
+        prefetch::<SECOND_LEVEL, _>(branches.turn.as_ptr().wrapping_add(first), BLOCK);
+        prefetch::<SECOND_LEVEL, _>(branches.rate.as_ptr().wrapping_add(first), BLOCK);
+        prefetch::<SECOND_LEVEL, _>(branches.base.as_ptr().wrapping_add(first), BLOCK);
+        prefetch::<SECOND_LEVEL, _>(branches.pose.as_ptr().wrapping_add(first), BLOCK);
+        prefetch::<SECOND_LEVEL, _>(branches.velocity.as_ptr().wrapping_add(first), BLOCK);
+        prefetch::<SECOND_LEVEL, _>(branches.spin.as_ptr().wrapping_add(first), BLOCK);
+        prefetch::<SECOND_LEVEL, _>(branches.leaf_count.as_ptr().wrapping_add(first), BLOCK);
     }
 }

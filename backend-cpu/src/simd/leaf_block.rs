@@ -19,6 +19,7 @@ use windfall_core::device::tree::sway::row::Rows;
 use windfall_core::leaf::{Attitude, Drift, LeavesMut, Place, Schedule};
 
 use super::branch_block::{Column, bodies_of, store_vector, vector_and_fourth, word};
+use crate::quiet::QuietUnits;
 
 /// Slots that follow one another.
 pub(crate) struct LeafBlock<'a> {
@@ -55,7 +56,7 @@ fn select_four<P: Pack>(mask: P::Mask, yes: [P; 4], no: [P; 4]) -> [P; 4] {
     )
 }
 
-/// Smoothed air speeds of leaves that pose. The counts of others in that word would be subnormal floats, on which
+/// Smoothed air speeds of leaves that hang. The counts of others in that word would be subnormal floats, on which
 /// processors are slow.
 #[inline(always)]
 fn air_speed_of<P: Pack>(simd: P::Simd, hangs: P::Mask, phase: P::Word) -> P {
@@ -70,6 +71,7 @@ pub(crate) fn sample_air<P: Pack>(
     cx: &Context<'_>,
     rows: &mut Rows<'_>,
     leaves: &mut LeavesMut<'_>,
+    quiet: &QuietUnits,
     first: u32,
     part: usize,
 ) {
@@ -102,6 +104,7 @@ pub(crate) fn sample_air<P: Pack>(
         leaves.drift[number].phase = smoothed_air_speed_word(air_speeds[lane]);
         if breaks[lane] > 0.0 {
             leaves.schedule[number].event = cx.step.index + 1;
+            quiet.wake(first + word(number));
             let segment = petiole_of(cx, first + word(number)).segment;
             let leaf_count = &mut rows.branches.leaf_count[(segment - rows.first) as usize];
             *leaf_count = leaf_count.wrapping_sub(1);
@@ -118,7 +121,7 @@ fn floats<P: Pack>(pack: P) -> [f32; BLOCK] {
 }
 
 impl LeafBlock<'_> {
-    /// Moves those that pose.
+    /// Moves those that hang.
     #[inline(always)]
     pub(crate) fn follow<P: Pack>(&mut self, simd: P::Simd, cx: &Context<'_>, rows: &Rows<'_>) {
         let mut some_break = false;

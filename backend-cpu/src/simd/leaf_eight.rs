@@ -33,8 +33,16 @@ pub(crate) fn bits_of<S: Simd>(mask: mask32x8<S>) -> u8 {
     mask.to_bitmask() as u8
 }
 
-/// Steps those of eight leaves that fall without an event and do not land. Returns a bit for each of the others that needs
-/// a step of its own.
+/// Result of a step of eight leaves.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Outcome {
+    /// A bit for each leaf that needs a step of its own.
+    pub(crate) left: u8,
+    /// Something happens to one of them in this step.
+    pub(crate) is_busy: bool,
+}
+
+/// Steps those of eight leaves that fall without an event and do not land.
 #[inline(always)]
 pub(crate) fn advance_eight<S: Simd>(
     simd: S,
@@ -43,7 +51,7 @@ pub(crate) fn advance_eight<S: Simd>(
     drift: &mut [Drift; LANES],
     attitude: &mut [Attitude; LANES],
     schedule: &[Schedule; LANES],
-) -> u8 {
+) -> Outcome {
     let places = load_records(simd, must_cast_ref(place));
     let drifts = load_records(simd, must_cast_ref(drift));
     let (position, bits) = vector_and_word(places);
@@ -51,12 +59,13 @@ pub(crate) fn advance_eight<S: Simd>(
     let [event, rate, size, heading] = load_records(simd, must_cast_ref(schedule));
     let state = leaf_state(bits);
     let waits = u32x8::splat(simd, cx.step.index).less_than(event);
-    let falls = state.equals(STATE_FALLING) & waits & !flies(bits);
+    let is_falling = state.equals(STATE_FALLING);
+    let falls = is_falling & waits & !flies(bits);
     let slides = !((Real::to_bits(velocity.x) | Real::to_bits(velocity.z)) << 1).equals(0);
     let is_settling = slides | ground_steps(phase).less_than(bits.all(cx.scene.settle_steps));
     let is_left = !waits | (state.equals(STATE_RESTING) & is_settling);
     if !falls.any() {
-        return bits_of(is_left);
+        return Outcome { left: bits_of(is_left), is_busy: (is_left | is_falling).any() };
     }
     let start = Glide { position, drift: velocity, phase };
     let response = response_of(cx, bits);
@@ -79,5 +88,5 @@ pub(crate) fn advance_eight<S: Simd>(
     store_records(must_cast_mut(place), new_places);
     store_records(must_cast_mut(drift), new_drifts);
     store_records(must_cast_mut(attitude), new_attitudes);
-    bits_of(is_left | (falls & lands))
+    Outcome { left: bits_of(is_left | (falls & lands)), is_busy: true }
 }

@@ -7,6 +7,7 @@ pub(crate) mod branch_block;
 pub(crate) mod lanes;
 pub(crate) mod leaf_block;
 pub(crate) mod leaf_eight;
+pub(crate) mod prefetch;
 pub(crate) mod sway_scratch;
 
 use fearless_simd::Level;

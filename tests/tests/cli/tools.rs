@@ -62,7 +62,7 @@ fn bench_measures_every_approach_and_the_memory() {
         .collect();
     assert_eq!(
         which,
-        ["trajectory", "structs", "cpu", "wgpu"].map(|approach| (approach, 100)),
+        ["trajectory", "structs", "cpu", "cpu-fused", "wgpu"].map(|approach| (approach, 100)),
         "all of them"
     );
     for row in &rows {
@@ -84,10 +84,12 @@ fn bench_measures_every_approach_and_the_memory() {
             "scene",
             "steps",
             "steps_per_s",
+            "turbulence_m_s",
         ];
         assert_eq!(keys, expected, "{row}");
         assert_eq!((&row["scene"], &row["steps"]), (&"storm".into(), &3.into()), "{row}");
         assert_eq!(row["bytes_per_leaf_step"], 96, "six records of 16 bytes");
+        assert!(row["turbulence_m_s"].as_f64().expect("a number") > 1.0, "a storm: {row}");
         let rate = |key: &str| row[key].as_f64().expect("a number");
         let (low, high) = (rate("leaf_steps_per_s_min"), rate("leaf_steps_per_s_max"));
         assert!(0.0 < low && (low..=high).contains(&rate("leaf_steps_per_s")), "the median: {row}");
@@ -104,7 +106,8 @@ fn bench_prints_a_table_and_chooses_its_steps() {
     let outcome = windfall(&folder(), &["bench", "--leaves", "10", "--backend", "cpu"]);
     let text = outcome.text();
     let last: Vec<_> = text.lines().last().expect("a row").split_whitespace().collect();
-    assert_eq!(&last[..2], ["cpu", "10"], "{text}");
+    assert_eq!(&last[..2], ["cpu-fused", "10"], "{text}");
+    assert!(text.contains("scene: million, turbulence of 0."), "turbulence is stated: {text}");
     assert!(last[2].parse::<f64>().expect("steps per second") > 1000.0, "ten leaves take no time: {text}");
     assert!(text.contains("GB/s changed in place"), "the memory's speed: {text}");
 }
@@ -115,7 +118,11 @@ fn bench_without_adapters_measures_the_processor() {
     let outcome = windfall_without_adapter(&folder(), &arguments);
     assert!(outcome.stderr.contains("no usable adapter"), "{}", outcome.stderr);
     let last: Value = serde_json::from_str(outcome.text().lines().last().expect("a row")).expect("JSON");
-    assert_eq!((&last["backend"], &last["frames_per_s"]), (&"cpu".into(), &Value::Null), "nothing drawn");
+    assert_eq!(
+        (&last["backend"], &last["frames_per_s"]),
+        (&"cpu-fused".into(), &Value::Null),
+        "nothing drawn"
+    );
 }
 
 #[test]

@@ -16,15 +16,17 @@ pub(super) enum Approach {
     Trajectories,
     /// An array of structs in a loop.
     Structs,
-    /// One of the backends.
+    /// One of the backends. The CPU is asked for one step at a time, as a window asks.
     Device(Device),
+    /// The CPU, asked for many steps at a time: it moves a chunk of leaves through several while they are in the cache.
+    Fused(Device),
 }
 
 /// A world in the hands of one of them.
 pub(super) enum Contender {
     Trajectories(Box<Trajectories>),
     Structs { leaves: Box<ArrayOfStructs>, columns: Box<Leaves> },
-    Backend(Backend),
+    Backend { backend: Backend, is_fused: bool },
 }
 
 impl Approach {
@@ -33,7 +35,7 @@ impl Approach {
         match self {
             Self::Trajectories => Trajectories::leaf_bytes(dt_s),
             Self::Structs => ArrayOfStructs::LEAF_BYTES,
-            Self::Device(_) => LEAF_BYTES,
+            Self::Device(_) | Self::Fused(_) => LEAF_BYTES,
         }
     }
 
@@ -45,7 +47,11 @@ impl Approach {
                 leaves: Box::new(ArrayOfStructs::new(world)),
                 columns: Box::new(world.leaves.clone()),
             },
-            Self::Device(device) => Contender::Backend(device.simulator(world)?),
+            Self::Device(device) => {
+                let is_fused = matches!(device, Device::Wgpu(_));
+                Contender::Backend { backend: device.simulator(world)?, is_fused }
+            }
+            Self::Fused(device) => Contender::Backend { backend: device.simulator(world)?, is_fused: true },
         })
     }
 }
@@ -56,9 +62,10 @@ impl Contender {
         match self {
             Self::Trajectories(_) => ("trajectory", "1 thread".into()),
             Self::Structs { .. } => ("structs", "1 thread".into()),
-            Self::Backend(backend) => {
+            Self::Backend { backend, is_fused } => {
                 let info = backend.info();
-                (info.backend, info.adapter)
+                let name = if *is_fused && info.backend == "cpu" { "cpu-fused" } else { info.backend };
+                (name, info.adapter)
             }
         }
     }
@@ -68,8 +75,11 @@ impl Contender {
         match self {
             Self::Trajectories(trajectories) => trajectories.step(count),
             Self::Structs { leaves, .. } => leaves.step(count),
-            Self::Backend(backend) => {
-                backend.step(count)?;
+            Self::Backend { backend, is_fused } => {
+                let portion = if *is_fused { count.max(1) } else { 1 };
+                for _ in 0..count / portion {
+                    backend.step(portion)?;
+                }
                 backend.sync()?;
             }
         }
@@ -82,11 +92,11 @@ impl Contender {
         match self {
             Self::Trajectories(_) => return Ok(None),
             Self::Structs { leaves, .. } => leaves.read(&mut state.leaves),
-            Self::Backend(backend) if backend.info().contract == Contract::Exact => {
+            Self::Backend { backend, .. } if backend.info().contract == Contract::Exact => {
                 backend.read_state(&mut state)?;
                 state.clock = world.clock;
             }
-            Self::Backend(_) => return Ok(None),
+            Self::Backend { .. } => return Ok(None),
         }
         Ok(Some(state.state_hash()))
     }
@@ -103,7 +113,7 @@ impl Contender {
                 leaves.read(&mut state.leaves);
                 state.stats()
             }
-            Self::Backend(backend) => backend.stats()?,
+            Self::Backend { backend, .. } => backend.stats()?,
         };
         let count = world.compiled.scene().leaf_count();
         Ok(stats.leaves.broken == 0 && stats.leaves.total() + stats.leaves.dormant == count)
@@ -121,7 +131,7 @@ impl Contender {
                 leaves.read(columns);
                 buffers.write(gpu, columns.as_ref())?;
             }
-            Self::Backend(backend) => return backend.columns(gpu),
+            Self::Backend { backend, .. } => return backend.columns(gpu),
         }
         Ok(WorldColumns { leaves: LeafColumns::of(buffers), branches: None })
     }

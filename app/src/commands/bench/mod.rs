@@ -97,10 +97,14 @@ pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
                 terminal::print(&format!("{device}\n"))?;
             }
         }
-        terminal::print(&format!("{}\n\n{HEADER}\n", floor.line()))?;
+        terminal::print(&format!("{}\n", floor.line()))?;
     }
-    for scene in &scenes {
+    for (number, scene) in scenes.iter().enumerate() {
         let world = World::build(scene)?;
+        if number == 0 && !arguments.json {
+            let (name, turbulence) = (&arguments.scene, turbulence_m_s(&world));
+            terminal::print(&format!("scene: {name}, turbulence of {turbulence:.2} m/s\n\n{HEADER}\n"))?;
+        }
         let mut stage = gpu.as_ref().map(|gpu| Stage::new(gpu, scene, &world)).transpose()?;
         let mut expected = None;
         for approach in &approaches {
@@ -130,9 +134,9 @@ fn approaches(arguments: &BackendArguments) -> anyhow::Result<(Vec<Approach>, Op
         Device::Wgpu(gpu) => Some(gpu.as_ref().clone()),
         Device::Cpu(_) => None,
     };
-    let cpu = Approach::Device(arguments.cpu());
+    let (cpu, fused) = (Approach::Device(arguments.cpu()), Approach::Fused(arguments.cpu()));
     Ok(match arguments.kind()? {
-        Some(BackendKind::Cpu) => (vec![cpu], None),
+        Some(BackendKind::Cpu) => (vec![cpu, fused], None),
         Some(BackendKind::Wgpu) => {
             let device = arguments.wgpu()?;
             let gpu = gpu_of(&device);
@@ -141,14 +145,21 @@ fn approaches(arguments: &BackendArguments) -> anyhow::Result<(Vec<Approach>, Op
         None => match arguments.wgpu() {
             Ok(device) => {
                 let gpu = gpu_of(&device);
-                (vec![Approach::Trajectories, Approach::Structs, cpu, Approach::Device(device)], gpu)
+                let older = [Approach::Trajectories, Approach::Structs];
+                (older.into_iter().chain([cpu, fused, Approach::Device(device)]).collect(), gpu)
             }
             Err(error) => {
                 terminal::note(&format!("backend cpu only, nothing drawn: {error}"));
-                (vec![Approach::Trajectories, Approach::Structs, cpu], None)
+                (vec![Approach::Trajectories, Approach::Structs, cpu, fused], None)
             }
         },
     })
+}
+
+/// Standard deviation of the turbulence along the wind in m/s. It takes two fifths of a falling leaf's step, so that
+/// speeds compare only with it stated.
+fn turbulence_m_s(world: &World) -> f32 {
+    world.compiled.block().wind.deviation_m_s[0]
 }
 
 /// Measures one approach. `expected` is the state after the warm-up that all exact ones have to agree with.
@@ -193,6 +204,7 @@ fn measure(
         adapter,
         scene: arguments.scene.clone(),
         leaves,
+        turbulence_m_s: turbulence_m_s(world),
         steps,
         leaf_steps_per_s: rate,
         leaf_steps_per_s_min: rates[0],

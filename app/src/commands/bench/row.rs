@@ -22,6 +22,8 @@ pub(super) struct Row {
     pub(super) adapter: String,
     pub(super) scene: String,
     pub(super) leaves: u32,
+    /// Standard deviation of the turbulence along the wind in m/s; 0 without.
+    pub(super) turbulence_m_s: f32,
     /// Steps of each timed batch.
     pub(super) steps: u32,
     /// Median over the batches.
