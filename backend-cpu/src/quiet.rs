@@ -10,28 +10,43 @@ pub(crate) const UNIT: usize = 64;
 /// Steps before which nothing happens to the leaves of a unit: none falls, slides or lies down, and none has an event. 0 where
 /// that is not known.
 #[derive(Debug)]
-pub(crate) struct QuietUnits(Vec<AtomicU32>);
+pub(crate) struct QuietUnits {
+    units: Vec<AtomicU32>,
+    /// The same of all units together.
+    all: AtomicU32,
+}
 
 impl QuietUnits {
     /// Units for so many slots, nothing known of any.
     pub(crate) fn new(slots: usize) -> Self {
-        Self((0..slots.div_ceil(UNIT)).map(|_| AtomicU32::new(0)).collect())
+        let units = (0..slots.div_ceil(UNIT)).map(|_| AtomicU32::new(0)).collect();
+        Self { units, all: AtomicU32::new(0) }
     }
 
     /// Forgets all that is known, after the state or the scene has changed.
     pub(crate) fn forget(&self) {
-        self.0.iter().for_each(|until| until.store(0, Ordering::Relaxed));
+        self.units.iter().chain([&self.all]).for_each(|until| set_quiet(until, 0));
     }
 
     /// Forgets about the unit of a slot.
     #[inline(always)]
     pub(crate) fn wake(&self, slot: u32) {
-        self.0[slot as usize / UNIT].store(0, Ordering::Relaxed);
+        set_quiet(&self.units[slot as usize / UNIT], 0);
+        set_quiet(&self.all, 0);
+    }
+
+    /// Returns true if nothing happens to any leaf up to a step.
+    pub(crate) fn are_all_quiet(&self, last: u32) -> bool {
+        if !is_quiet(&self.all, last) && are_quiet(&self.units, last) {
+            let earliest = self.units.iter().map(|until| until.load(Ordering::Relaxed)).min();
+            set_quiet(&self.all, earliest.unwrap_or(0));
+        }
+        is_quiet(&self.all, last)
     }
 
     /// Units of the slots before one that begins a unit or is behind the last, and of those from it on.
     pub(crate) fn split_at(&self, slot: usize) -> (&[AtomicU32], &[AtomicU32]) {
-        self.0.split_at(slot.div_ceil(UNIT))
+        self.units.split_at(slot.div_ceil(UNIT))
     }
 }
 

@@ -14,7 +14,7 @@ use crate::kernels::CHUNK;
 use crate::kernels::measure::measure;
 use crate::kernels::step_leaves::step_leaves;
 use crate::kernels::step_trees::{BatchRun, step_trees};
-use crate::quiet::{QuietUnits, are_quiet};
+use crate::quiet::QuietUnits;
 use crate::simd::Simd;
 use crate::simd::batch_blocks::BatchBlocks;
 use crate::simd::sway_scratch::Scratch;
@@ -123,7 +123,10 @@ impl Simulator for CpuSimulator {
         let forest = Arc::clone(compiled.forest());
         let is_small = leaves.len() <= CHUNK && forest.len() <= CHUNK / 16;
         let last = clock.step().saturating_add(count).saturating_sub(1);
-        let is_resting = forest.is_empty() && are_quiet(quiet.split_at(0).1, last);
+        if forest.is_empty() && quiet.are_all_quiet(last) {
+            (0..count).for_each(|_| compiled.advance(clock));
+            return Ok(());
+        }
         let tree_leaves = compiled.block().tree_leaf_count as usize;
         // Leaves of trees, in whole chunks, follow the segments step by step.
         let carried =
@@ -167,8 +170,8 @@ impl Simulator for CpuSimulator {
                 left -= portion;
             }
         };
-        // A small world, or one at rest, is done before another thread would have woken up.
-        if is_small || is_resting {
+        // A small world is done before another thread would have woken up.
+        if is_small {
             steps()
         } else {
             self.pool.install(steps)

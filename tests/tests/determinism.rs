@@ -133,6 +133,38 @@ fn steps_may_be_asked_for_in_any_portions() {
     assert_eq!(world.state_hash(), run(&start, 3, 40).state_hash(), "40 steps in portions and at once");
 }
 
+/// Units of slots to which nothing happens are passed by; a plain loop steps every leaf.
+#[test]
+fn leaves_at_rest_wake_when_their_time_has_come() {
+    let mut scene = storm();
+    for (source, after_s) in scene.sources.iter_mut().zip([60.0, 61.0, 60.5, 62.0].into_iter().cycle()) {
+        source.release = Release::Rate { per_s: 1e5, from_s: -59.0 };
+        source.recycle_after_s = Some(after_s);
+    }
+    let start = build(&scene);
+    let resting = start.stats().leaves.resting as usize;
+    assert!(resting > start.leaves.len() / 2, "{resting} leaves lie on the ground");
+    for simd in Simd::available() {
+        let options = CpuOptions { threads: Some(2), simd: Some(simd) };
+        let mut simulator = CpuSimulator::new(&start, options).expect("threads can be started");
+        let mut plain = start.clone();
+        for (round, portion) in [1, 50, 3, 90, 1, 60].into_iter().enumerate() {
+            if round == 3 {
+                scene.ground.friction *= 0.5;
+                plain.compiled.retune(&scene);
+                simulator.set_scene(&plain.compiled).expect("the same sizes");
+            }
+            simulator.step(portion).expect("the CPU can step");
+            step(&mut plain, portion);
+            let mut world = start.clone();
+            simulator.read_state(&mut world).expect("worlds of one size");
+            assert_eq!(world.state_hash(), plain.state_hash(), "{simd:?}, round {round}");
+        }
+        let falling = plain.stats().leaves.falling as usize;
+        assert!(falling > start.leaves.len() / 4, "{falling} leaves fall again");
+    }
+}
+
 #[test]
 fn the_same_scene_gives_the_same_world_and_another_seed_another() {
     let scene = storm();
