@@ -19,7 +19,7 @@ use crate::simd::Simd;
 use crate::simd::leaf_eight::{Outcome, advance_eight};
 use crate::simd::prefetch::{FIRST_LEVEL, prefetch};
 
-/// Groups of eight leaves to prefetch ahead: 4, 8, 16 and 32 are alike.
+/// Groups of eight leaves to prefetch ahead.
 const AHEAD: usize = 8;
 
 /// Steps the leaves of one chunk but for those of quiet units, and notes which units are quiet from now on.

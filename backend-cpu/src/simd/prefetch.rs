@@ -15,8 +15,8 @@ const LINE: usize = 64;
 pub(crate) fn prefetch<const LEVEL: i32, T>(first: *const T, count: usize) {
     #[cfg(target_arch = "x86_64")]
     for line in 0..(count * size_of::<T>()).div_ceil(LINE) {
-        // SAFETY: a hint about any address is allowed, and changes nothing but time: a quarter of a step of a thousand trees,
-        // a tenth to a quarter of one of a million leaves (`benches/record/README.md`).
+        // SAFETY: a hint about any address is allowed, and changes nothing but time: a quarter of a step of a thousand trees, up
+        // to a fifth of one of a million leaves in turbulence (`benches/record/README.md`).
         #[expect(unsafe_code, reason = "a hint reads nothing")]
         unsafe {
             std::arch::x86_64::_mm_prefetch::<LEVEL>(first.cast::<i8>().wrapping_add(line * LINE));

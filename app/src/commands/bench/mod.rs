@@ -156,7 +156,7 @@ fn approaches(arguments: &BackendArguments) -> anyhow::Result<(Vec<Approach>, Op
     })
 }
 
-/// Standard deviation of the turbulence along the wind in m/s. It takes two fifths of a falling leaf's step, so that
+/// Standard deviation of the turbulence along the wind in m/s. It takes about half of a falling leaf's step, so that
 /// speeds compare only with it stated.
 fn turbulence_m_s(world: &World) -> f32 {
     world.compiled.block().wind.deviation_m_s[0]
