@@ -9,8 +9,7 @@ use crate::buffers::{buffer, filled, group};
 use crate::columns::StoreBuffers;
 use crate::gpu::Gpu;
 use crate::pipelines::{GroupLayout, Pipelines};
-use crate::prelude::WORKGROUP_SIZE;
-use crate::simulator::MAX_GROUPS;
+use crate::prelude::{MAX_GROUPS, WORKGROUP_SIZE};
 
 /// Bytes of a row.
 const ROW_BYTES: u64 = 16;

@@ -7,6 +7,8 @@ use windfall_core::{arith, blocks, device, flight, leaf, motion, stats, tree};
 
 /// Invocations per workgroup.
 pub const WORKGROUP_SIZE: u32 = 256;
+/// Most workgroups of one dispatch; further invocations are strided over.
+pub(crate) const MAX_GROUPS: u32 = 65_535;
 
 /// WGSL for shaders of other programs that read the leaf columns: the records [`LeafColumns`](crate::LeafColumns) hold
 /// (`array<Place>` and so on), the constants of their packed words, and a function for every value packed there, such as
@@ -66,7 +68,7 @@ pub(crate) fn constants() -> String {
         arith::rng::wgsl_constants(),
         arith::vector::wgsl_constants(),
         device::leaf::carry::wgsl_constants(),
-        device::leaf::fall::wgsl_constants(),
+        device::leaf::own::wgsl_constants(),
         device::leaf::launch::wgsl_constants(),
         device::leaf::petiole::wgsl_constants(),
         device::leaf::record::wgsl_constants(),

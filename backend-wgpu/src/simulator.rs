@@ -27,8 +27,6 @@ use crate::shaders::{KernelId, Shaders};
 const LARGEST_RECORD: u64 = 16;
 /// Leaves per page are a multiple of this, which keeps windows aligned on any device.
 const PAGE_STEP: u32 = 4096;
-/// Most workgroups of one dispatch; further leaves are strided over.
-pub(crate) const MAX_GROUPS: u32 = 65_535;
 
 /// Options of the wgpu simulator.
 #[derive(Clone, Debug, Default)]

@@ -6,8 +6,8 @@ use windfall_core::stats::COUNTER_COUNT;
 use windfall_core::store::StoreSize;
 use windfall_core::{Clock, SimError, Stats, World};
 
-use super::{MAX_GROUPS, WgpuSimulator};
-use crate::prelude::WORKGROUP_SIZE;
+use super::WgpuSimulator;
+use crate::prelude::{MAX_GROUPS, WORKGROUP_SIZE};
 use crate::readback::{Readback, Run};
 use crate::shaders::KernelId;
 

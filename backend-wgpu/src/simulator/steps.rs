@@ -5,9 +5,9 @@
 use windfall_core::SimError;
 use windfall_core::blocks::StepBlock;
 
-use super::{MAX_GROUPS, WgpuSimulator};
+use super::WgpuSimulator;
 use crate::buffers::buffer;
-use crate::prelude::WORKGROUP_SIZE;
+use crate::prelude::{MAX_GROUPS, WORKGROUP_SIZE};
 use crate::shaders::KernelId;
 
 /// Steps per compute pass: their blocks are copied at once.

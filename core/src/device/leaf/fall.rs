@@ -7,7 +7,9 @@
 //! The leaf's velocity is its own motion's plus a drift that relaxes towards the wind within the response time
 //! tau = U/g, exactly for a wind that holds still during the step. In still air the path does not depend on dt.
 
-use super::own::{MotionParams, motion_params, on_grid, own_advance, own_orientation, own_rate};
+use super::own::{
+    MotionParams, STEP_UNIT, WHOLE_STEP, motion_params, on_grid, own_advance, own_orientation, own_rate,
+};
 use super::record::{Drift, Place, blend_steps_left, count_down_blend, leaf_species, spin_rate, turn_spin};
 use super::settle::leaf_land;
 use crate::arith::lane::{Mask, Real, Word};
@@ -20,13 +22,6 @@ use crate::context::Context;
 use crate::device::terrain::ground::ground_met;
 use crate::device::wind::sample::wind_at;
 use crate::leaf::LeafMut;
-
-crate::shared_constants! {
-    /// A whole step in 2^-16 steps.
-    pub const WHOLE_STEP: u32 = 65536;
-    /// Inverse of it.
-    pub const STEP_UNIT: f32 = 1.0 / 65536.0;
-}
 
 /// A leaf on its way through one step, or eight of them.
 #[derive(Clone, Copy)]

@@ -7,10 +7,8 @@
 //! At a join the drift takes up the difference between the old motion's velocity and the new one's, so that position
 //! and velocity go on without a jump, at the exact moment within the step; orientation blends over a few steps.
 
-use super::fall::{
-    Glide, Part, Response, STEP_UNIT, WHOLE_STEP, glide_end, glide_of, glide_part, response_of,
-};
-use super::own::{motion_params, own_velocity};
+use super::fall::{Glide, Part, Response, glide_end, glide_of, glide_part, response_of};
+use super::own::{STEP_UNIT, WHOLE_STEP, motion_params, own_velocity};
 use super::record::{
     HALF_MASK, Schedule, heading_word, leaf_primitive, leaf_source, leaf_species, leaf_stage, with_blend,
     with_primitive, with_stage,

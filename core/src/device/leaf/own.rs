@@ -4,7 +4,6 @@
 //!
 //! A leaf's own motion: the tables scaled to its size and speed, turned to its heading, with its spin.
 
-use super::fall::WHOLE_STEP;
 use super::record::{GRID_ANCHOR, HALF_MASK, Schedule, heading_angle, motion_table, size_ratio, spin_angle};
 use crate::arith::lane::{Mask, Real, Word};
 use crate::arith::math::sin_cos_half;
@@ -15,6 +14,13 @@ use crate::context::Context;
 use crate::device::motion::lookup::{
     PHASE_UNIT, motion_displacement, motion_period, motion_state, motion_velocity,
 };
+
+crate::shared_constants! {
+    /// A whole step in 2^-16 steps.
+    pub const WHOLE_STEP: u32 = 65536;
+    /// Inverse of it.
+    pub const STEP_UNIT: f32 = 1.0 / 65536.0;
+}
 
 /// Parameters of a leaf's motion until its next event, or of eight leaves': the last three words of their schedules.
 #[derive(Clone, Copy, Debug)]
