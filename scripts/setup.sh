@@ -20,7 +20,8 @@ done
 
 say() { printf '%s\n' "$*" >&2; }
 
-has_library() { ldconfig -p 2>/dev/null | grep -q "$1" || ls /usr/lib*/"$1"* /usr/lib/*/"$1"* >/dev/null 2>&1; }
+# grep reads to the end: one that left early would break the pipe, which pipefail takes for a failure.
+has_library() { ldconfig -p 2>/dev/null | grep "$1" >/dev/null || compgen -G "/usr/lib*/$1*" >/dev/null || compgen -G "/usr/lib/*/$1*" >/dev/null; }
 
 # Succeeds if there is a Vulkan driver: a loader, and a driver manifest for it to find.
 has_vulkan() {
