@@ -12,6 +12,7 @@ mod species;
 mod tables;
 mod wind;
 
+use std::panic::resume_unwind;
 use std::sync::Arc;
 
 pub use self::block::{NO_WATER_M, REST_OFFSET_M};
@@ -21,7 +22,7 @@ use self::cycle::firm;
 pub(crate) use self::foliage::leaf_site;
 use self::foliage::{foliage_of, petiole_rows, seedlings, shed_rows};
 pub(crate) use self::source::{lifetime_steps, release_step};
-use self::tables::{pack_motion, tables_of};
+use self::tables::{motions_of, pack_motion};
 use crate::arith::rng::seed_words;
 use crate::blocks::{SceneBlock, StepBlock, VortexBlock};
 use crate::clock::Clock;
@@ -66,16 +67,17 @@ impl CompiledScene {
     /// As there.
     pub fn compile_with(scene: &Scene, cycle: Option<Cycle>) -> Result<Self, SceneError> {
         let seed = seed_words(scene.seed);
-        let motions = scene
-            .species
-            .iter()
-            .map(|species| tables_of(scene, species, seed))
-            .collect::<Result<Vec<_>, _>>()?;
-        let mut tables = profile_rows(scene.wind.profile, scene.wind.reference_height_m);
         let gusts = cycle.as_ref().map_or(GUST_ROWS / GUST_SPACING, Cycle::gusts);
         let cells = cycle.as_ref().map_or(TURBULENCE_X, Cycle::cell_period);
+        let (motions, turbulence) = std::thread::scope(|scope| {
+            let turbulence = scope.spawn(|| turbulence_rows(&turbulence_box(seed, cells)));
+            let motions = motions_of(scene, seed);
+            (motions, turbulence.join().unwrap_or_else(|panic| resume_unwind(panic)))
+        });
+        let motions = motions?;
+        let mut tables = profile_rows(scene.wind.profile, scene.wind.reference_height_m);
         tables.extend(gust_rows(seed, gusts));
-        tables.extend(turbulence_rows(&turbulence_box(seed, cells)));
+        tables.extend(turbulence);
         let mut block = compile_block(scene, &motions);
         block.first_hill_row = len32(tables.len());
         tables.extend(scene.ground.terrain.iter().flat_map(|terrain| Hills::grow(terrain).rows()));

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Makes or reads the motion tables of the species and packs them for the kernels.
 
+use std::panic::resume_unwind;
+
 use crate::error::SceneError;
 use crate::layout::Float4;
 use crate::motion::table::{TABLE_ROWS, TABLES_PER_SPECIES};
@@ -9,13 +11,21 @@ use crate::motion::{MotionTables, Primitive};
 use crate::scene::limits::MAX_PERIODS_PER_STEP;
 use crate::scene::{Scene, Species};
 
+/// Tables of every species, each made on a thread of its own.
+pub(super) fn motions_of(scene: &Scene, seed: [u32; 2]) -> Result<Vec<MotionTables>, SceneError> {
+    std::thread::scope(|scope| {
+        let made: Vec<_> = scene
+            .species
+            .iter()
+            .map(|species| scope.spawn(move || tables_of(scene, species, seed)))
+            .collect();
+        made.into_iter().map(|made| made.join().unwrap_or_else(|panic| resume_unwind(panic))).collect()
+    })
+}
+
 /// Tables from a file or from the equations. The rates that the equations give have been validated with the scene;
 /// those of a file are known only now.
-pub(super) fn tables_of(
-    scene: &Scene,
-    species: &Species,
-    seed: [u32; 2],
-) -> Result<MotionTables, SceneError> {
+fn tables_of(scene: &Scene, species: &Species, seed: [u32; 2]) -> Result<MotionTables, SceneError> {
     let Some(path) = &species.tables else {
         return Ok(MotionTables::generate(species, seed, scene.gravity_m_s2));
     };

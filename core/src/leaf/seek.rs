@@ -22,6 +22,8 @@ use crate::flight::drop_table::DropTable;
 
 /// Refinements of the moment of landing.
 const LANDING_ROUNDS: u32 = 6;
+/// Speed in m/s below which a drift carries no leaf to the next point of the grid, whatever its time constant.
+const SLOWEST_M_S: f32 = 1e-20;
 
 /// Moves a synthesised leaf that has just been let go on to its state `elapsed` steps later, as a fall through still air gives it;
 /// on the ground, flat and still, if that fall is over. Orientation is that of the stage, without the short blend after
@@ -35,8 +37,8 @@ pub fn leaf_seek(cx: &Context<'_>, leaf: &mut LeafMut<'_>, elapsed: u32) {
         let part = end.min(goal) - now;
         let next = glide_long(cx, leaf, glide, part);
         if part > 0 && above_rest(cx, next.position) < 0.0 {
-            let landing = landing_within(cx, leaf, glide, part);
-            arrive(cx, leaf, glide_long(cx, leaf, glide, landing), now + landing);
+            let (landing, landed) = landing_within(cx, leaf, glide, (part, next));
+            arrive(cx, leaf, landed, now + landing);
             rest(cx, leaf);
             return;
         }
@@ -94,16 +96,17 @@ fn stage_end_after(cx: &Context<'_>, leaf: &LeafMut<'_>) -> u64 {
     }
 }
 
-/// Time within `part` of the stage that begins with `glide` at which the leaf comes to the ground. The fall is nearly uniform:
-/// its end is bracketed and refined by the secant through the bracket's ends.
-fn landing_within(cx: &Context<'_>, leaf: &LeafMut<'_>, glide: Glide, part: u64) -> u64 {
-    let height = |part| {
-        let position = glide_long(cx, leaf, glide, part).position;
-        f64::from(above_rest(cx, position))
-    };
-    let (mut early, mut early_height) = (0, height(0).max(0.0));
-    let (mut late, mut late_height) = (part, height(part).min(-1e-9));
+/// Time within the stage that begins with `glide` at which the leaf comes to the ground, and the leaf there. `late` is a time
+/// when it is below. The fall is nearly uniform: its end is bracketed and refined by the secant through the bracket's ends.
+fn landing_within(cx: &Context<'_>, leaf: &LeafMut<'_>, glide: Glide, late: (u64, Glide)) -> (u64, Glide) {
+    let height = |glide: Glide| f64::from(above_rest(cx, glide.position));
+    let (mut early, mut early_height) = (0, height(glide).max(0.0));
+    let (mut late, mut landed) = late;
+    let mut late_height = height(landed).min(-1e-9);
     for _ in 0..LANDING_ROUNDS {
+        if late - early <= 1 {
+            break;
+        }
         let share = early_height / (early_height - late_height);
         #[expect(
             clippy::cast_possible_truncation,
@@ -111,16 +114,17 @@ fn landing_within(cx: &Context<'_>, leaf: &LeafMut<'_>, glide: Glide, part: u64)
             reason = "share is between 0 and 1"
         )]
         let middle = early + ((late - early) as f64 * share) as u64;
-        let found = height(middle);
+        let tried = glide_long(cx, leaf, glide, middle);
+        let found = height(tried);
         if found > 0.0 {
             (early, early_height) = (middle, found);
             late_height *= 0.5;
         } else {
-            (late, late_height) = (middle, found.min(-1e-9));
+            (late, late_height, landed) = (middle, found.min(-1e-9), tried);
             early_height *= 0.5;
         }
     }
-    late
+    (late, landed)
 }
 
 /// Writes the state of a leaf `elapsed` (2^-16 steps) after its release.
@@ -145,14 +149,37 @@ fn glide_long(cx: &Context<'_>, leaf: &LeafMut<'_>, glide: Glide, part_q16: u64)
     let rate = u128::from(own_rate(cx, params.rate));
     let turned = (rate * u128::from(part_q16)) >> 16;
     #[expect(clippy::cast_possible_truncation, reason = "the low word is the phase, the rest whole periods")]
-    let (periods, low) = ((turned >> 32) as f32, turned as u32);
+    let (periods, low) = ((turned >> 32) as u64 as f32, turned as u32);
     let end = glide.phase.wrapping_add(low);
     let own = own_advance(cx, bits, params, glide.phase, end) + own_period(cx, bits, params) * periods;
     #[expect(clippy::cast_possible_truncation, reason = "seconds in single precision")]
     let elapsed = (part_q16 as f64 / 65536.0 * f64::from(compiled.dt_s)) as f32;
-    let drift = glide.drift * exponential(-elapsed * response.inv_time_constant);
-    let spent = on_grid(glide.drift * response.time_constant_s) - on_grid(drift * response.time_constant_s);
+    let kept = exponential(-elapsed * response.inv_time_constant);
+    let drift = Vec3::from(glide.drift.to_array().map(|drift| fade(drift, kept)));
+    let spent = reach(glide.drift, response.time_constant_s) - reach(drift, response.time_constant_s);
     Glide { position: glide.position + (own + spent), drift, phase: end }
+}
+
+/// Way that a drift still carries a leaf, in metres. One too slow to matter on the grid is none, and spares the processor
+/// numbers too small to be normal, for which it takes a hundred times as long.
+fn reach(drift: Vec3, time_constant_s: f32) -> Vec3 {
+    let felt = drift.to_array().map(|drift| if drift.abs() < SLOWEST_M_S { 0.0 } else { drift });
+    on_grid(Vec3::from(felt) * time_constant_s)
+}
+
+/// `drift * kept`, to the bit. Where the product is too small to be normal, double precision holds it exactly, and there
+/// it is rounded to whole units of the smallest number.
+fn fade(drift: f32, kept: f32) -> f32 {
+    /// The number whose last place is 2^-149.
+    const LAST_PLACES: f64 = f64::from_bits((1023 - 149 + 52) << 52);
+    let exact = f64::from(drift) * f64::from(kept);
+    if exact.abs() >= f64::from(f32::MIN_POSITIVE) {
+        return drift * kept;
+    }
+    let units = (LAST_PLACES + exact.abs()).to_bits() - LAST_PLACES.to_bits();
+    #[expect(clippy::cast_possible_truncation, reason = "at most 2^23 units")]
+    let faded = f32::from_bits(units as u32);
+    faded.copysign(drift)
 }
 
 /// Lays a leaf down where it is.
@@ -167,4 +194,29 @@ fn rest(cx: &Context<'_>, leaf: &mut LeafMut<'_>) {
     let flat = if is_hilly { flatten_on(ground_slope(cx, x, z), before, 0.0) } else { flatten(before, 0.0) };
     leaf.attitude.quaternion = flat.to_array();
     leaf.schedule.event = if lifetime == 0 { NEVER } else { leaf.identity.release.wrapping_add(lifetime) };
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{fade, reach};
+    use crate::arith::vector::Vec3;
+    use crate::device::leaf::own::on_grid;
+    use proptest::prelude::{prop_assert, prop_assert_eq, proptest};
+
+    proptest! {
+        #[test]
+        fn drift_fades_to_the_bits_of_a_product(drift in -20.0_f32..20.0, times_constant in 60.0_f32..120.0) {
+            let kept = crate::arith::math::exponential(-times_constant);
+            prop_assert_eq!(fade(drift, kept).to_bits(), (drift * kept).to_bits());
+        }
+
+        #[test]
+        fn ties_round_as_a_product_does(units in 0_u32..1 << 24, shift in 0_u32..24) {
+            let (drift, kept) = (-(units as f32), f32::from_bits(1 << shift));
+            let faded = fade(drift, kept);
+            prop_assert_eq!(faded.to_bits(), (drift * kept).to_bits());
+            let (slow, tau) = (Vec3::new(faded, -faded, drift), 0.25);
+            prop_assert_eq!(reach(slow, tau), on_grid(slow * tau));
+        }
+    }
 }

@@ -22,8 +22,19 @@ const STREAM: u32 = 0x5344_0000;
 #[derive(Clone, Debug)]
 pub struct SteadyDescent {
     descent_m_s: f64,
-    /// Angular rate, velocity amplitude and phase of each harmonic, for x and for z.
-    harmonics: Vec<[(f64, f64, f64); 2]>,
+    /// Each harmonic, for x and for z.
+    harmonics: Vec<[Harmonic; 2]>,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Harmonic {
+    /// Angular rate in rad/s.
+    rate: f64,
+    /// Amplitude of the velocity in m/s.
+    amplitude: f64,
+    /// Phase in radians, and its sine.
+    phase: f64,
+    sine: f64,
 }
 
 impl SteadyDescent {
@@ -36,7 +47,10 @@ impl SteadyDescent {
             .map(|n| {
                 let amplitude = constants.wander_m_s * libm::sqrt(2.0 * power(n) / total);
                 let words = random(seed, n, STREAM);
-                [words[0], words[1]].map(|word| (rate(n), amplitude, TAU * f64::from(word) / 4_294_967_296.0))
+                [words[0], words[1]].map(|word| {
+                    let phase = TAU * f64::from(word) / 4_294_967_296.0;
+                    Harmonic { rate: rate(n), amplitude, phase, sine: libm::sin(phase) }
+                })
             })
             .collect();
         Self { descent_m_s: constants.descent_m_s, harmonics }
@@ -56,11 +70,13 @@ impl Path for SteadyDescent {
             turn: None,
         };
         for pair in &self.harmonics {
-            for (axis, &(rate, amplitude, phase)) in [DVec3::X, DVec3::Z].into_iter().zip(pair) {
-                let angle = rate * time_s + phase;
-                moment.position += axis * (amplitude / rate * (libm::sin(angle) - libm::sin(phase)));
-                moment.velocity += axis * (amplitude * libm::cos(angle));
-                moment.acceleration -= axis * (amplitude * rate * libm::sin(angle));
+            for (axis, &Harmonic { rate, amplitude, phase, sine }) in
+                [DVec3::X, DVec3::Z].into_iter().zip(pair)
+            {
+                let (sin, cos) = libm::sincos(rate * time_s + phase);
+                moment.position += axis * (amplitude / rate * (sin - sine));
+                moment.velocity += axis * (amplitude * cos);
+                moment.acceleration -= axis * (amplitude * rate * sin);
             }
         }
         moment

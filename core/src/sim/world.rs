@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A scene brought to life: compiled scene, clock and stores.
 
+use std::sync::{Mutex, PoisonError};
+
 use super::stats::Stats;
 use crate::arith::hash::mix;
 use crate::blocks::StepBlock;
@@ -19,8 +21,8 @@ use crate::scene::Scene;
 use crate::store::{Store, StoreSize, check_sizes, copy_stores, hash_stores, state_bytes};
 use crate::tree::Branches;
 
-/// Leaves below which another thread costs more than it saves.
-const SMALLEST_SHARE: usize = 4096;
+/// Leaves that a thread places before it takes the next: those that have landed take longer than those in the air.
+const RUN: usize = 4096;
 
 /// Everything a simulation consists of, on the host. The exchange type of all backends.
 #[derive(Clone, Debug)]
@@ -74,21 +76,23 @@ impl World {
         let Self { compiled, clock, leaves, branches } = &mut world;
         let step = compiled.step_block(clock);
         let cx = compiled.context(&step);
-        let threads = std::thread::available_parallelism().map_or(1, usize::from);
-        let share = leaves.len().div_ceil(threads).max(SMALLEST_SHARE);
         let tables = drop_tables(&cx);
         let (compiled, still, tables) = (&*compiled, &*branches, tables.as_slice());
-        std::thread::scope(|scope| {
-            let mut rest = leaves.as_mut();
-            let mut first = 0;
-            while rest.len() > share {
-                let (front, back) = rest.split_at(share);
-                scope.spawn(move || place_leaves(compiled, &cx, still, tables, front, first));
-                first += share;
-                rest = back;
+        let threads = std::thread::available_parallelism().map_or(1, usize::from);
+        let runs = Mutex::new(runs_of(leaves.as_mut()));
+        let next = || runs.lock().unwrap_or_else(PoisonError::into_inner).next();
+        let place = || {
+            while let Some((first, run)) = next() {
+                place_leaves(compiled, &cx, still, tables, run, first);
             }
-            place_leaves(compiled, &cx, still, tables, rest, first);
+        };
+        std::thread::scope(|scope| {
+            for _ in 1..threads {
+                scope.spawn(place);
+            }
+            place();
         });
+        drop(runs);
         count_leaves(branches, &cx, leaves);
         Ok(world)
     }
@@ -156,6 +160,18 @@ impl World {
     pub fn context<'a>(&'a self, step: &'a StepBlock) -> Context<'a> {
         self.compiled.context(step)
     }
+}
+
+/// Runs of slots, each with its first.
+fn runs_of(leaves: LeavesMut<'_>) -> impl Iterator<Item = (usize, LeavesMut<'_>)> {
+    let mut rest = Some((0, leaves));
+    std::iter::from_fn(move || {
+        let (first, leaves) = rest.take().filter(|(_, leaves)| !leaves.is_empty())?;
+        let count = RUN.min(leaves.len());
+        let (front, back) = leaves.split_at(count);
+        rest = Some((first + count, back));
+        Some((first, front))
+    })
 }
 
 /// Puts the leaves of a run of slots from `first` on where they are at time zero.
