@@ -28,14 +28,15 @@ pub(crate) fn quadratic(a: Vec2, control: Vec2, b: Vec2, t: f32) -> Vec2 {
     a.lerp(control, t).lerp(control.lerp(b, t), t)
 }
 
-/// Floor as an integer; callers stay far inside the range of `i32`.
+/// Floor as an integer; callers stay far inside the range of `i32`. (Older processors have no instruction for it, and a
+/// call for each pixel costs more than all else about it.)
 pub(crate) fn floor_i32(x: f32) -> i32 {
     #[expect(
         clippy::cast_possible_truncation,
         reason = "the cast saturates and callers pass grid coordinates"
     )]
-    let floor = x.floor() as i32;
-    floor
+    let towards_zero = x as i32;
+    towards_zero.saturating_sub(i32::from(towards_zero as f32 > x))
 }
 
 /// Nearest `f32`, for lengths and colours that need no more.
@@ -52,9 +53,30 @@ pub(crate) fn to_byte(x: f32) -> u8 {
     byte
 }
 
+/// Linear light to an sRGB byte, by the formula.
+fn encoded(x: f32) -> u8 {
+    to_byte(if x <= 0.003_130_8 { 12.92 * x } else { 1.055 * libm::powf(x, 1.0 / 2.4) - 0.055 })
+}
+
 /// Linear light to an sRGB byte.
 pub(crate) fn srgb_from_linear(x: f32) -> u8 {
-    to_byte(if x <= 0.003_130_8 { 12.92 * x } else { 1.055 * libm::powf(x, 1.0 / 2.4) - 0.055 })
+    // Least light of each byte but 0.
+    static LEAST: LazyLock<[f32; 255]> = LazyLock::new(|| {
+        std::array::from_fn(|below| {
+            // Positive numbers are in the order of their bits.
+            let (mut less, mut enough) = (0, 1.0_f32.to_bits());
+            while enough - less > 1 {
+                let middle = less.midpoint(enough);
+                if usize::from(encoded(f32::from_bits(middle))) > below {
+                    enough = middle;
+                } else {
+                    less = middle;
+                }
+            }
+            f32::from_bits(enough)
+        })
+    });
+    u8::try_from(LEAST.partition_point(|least| *least <= x)).unwrap_or(u8::MAX)
 }
 
 /// sRGB byte to linear light.
@@ -113,6 +135,23 @@ mod tests {
     fn srgb_bytes_survive_the_round_trip() {
         for byte in 0..=255 {
             assert_eq!(srgb_from_linear(linear_from_srgb(byte)), byte, "sRGB transfer must invert");
+        }
+    }
+
+    #[test]
+    fn srgb_bytes_are_those_of_the_formula() {
+        for i in 0..=100_000_u32 {
+            let x = i as f32 / 80_000.0 - 0.1;
+            assert_eq!(srgb_from_linear(x), encoded(x), "byte of {x}");
+        }
+    }
+
+    #[test]
+    fn floors_are_those_of_the_library() {
+        for x in [-2.5, -2.0, -1e-9, -0.0, 0.0, 0.5, 1.0, 3e9, -3e9, f32::INFINITY, f32::NAN] {
+            #[expect(clippy::cast_possible_truncation, reason = "the cast saturates")]
+            let floor = x.floor() as i32;
+            assert_eq!(floor_i32(x), floor, "floor of {x}");
         }
     }
 

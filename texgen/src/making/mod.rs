@@ -8,6 +8,8 @@ mod habit;
 mod manner;
 mod turning;
 
+use rayon::prelude::{IntoParallelIterator, ParallelIterator};
+
 use crate::maps::{Dressed, PetioleColour};
 use crate::paint;
 use crate::rng::{Rng, hash64};
@@ -93,13 +95,13 @@ impl LeafMaker {
         options.validate()?;
         let season = options.season.unwrap_or(MID_AUTUMN);
         let side = options.size_px.clamp(EXAMPLE_SIZE.0, EXAMPLE_SIZE.1);
-        let (mut examples, mut stems) = (Vec::new(), Vec::new());
-        for number in 0..PAINTED_EXAMPLES {
+        let painted = |number: u64| {
             let seed = hash64(options.seed ^ hash64(number + 0x5eed));
-            let painted = paint::specimen(shape, season, side, seed)?;
-            examples.push(painted.specimen);
-            stems.push(painted.stem);
-        }
+            paint::specimen(shape, season, side, seed)
+        };
+        let painted = (0..PAINTED_EXAMPLES).into_par_iter().map(painted).collect::<Result<Vec<_>, _>>()?;
+        let (examples, stems): (Vec<_>, Vec<_>) =
+            painted.into_iter().map(|painted| (painted.specimen, painted.stem)).unzip();
         let manner = Manner::Shape(shape);
         let look = season::pigments(shape, season).appearance();
         Ok(Self {

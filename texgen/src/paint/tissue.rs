@@ -88,10 +88,10 @@ impl Tissue {
         let blade = veined.albedo();
         // The blade bulges between its veins; the renderer lights it, so only a hint is painted.
         let shade = 1.0 + 0.06 * spot.slope;
-        let stem = self.stem(spot);
         // The petiole goes on into the ribs and only slowly takes their colour.
         let into_ribs = 0.7 * spot.strokes[0] * (-spot.at.distance(BASE) / 0.3).exp();
         let stem_share = spot.petiole.max(into_ribs);
+        let stem = if stem_share > 0.0 { self.stem(spot) } else { blade };
         std::array::from_fn(|i| lerp(blade[i] * shade, stem[i], stem_share).clamp(0.0, 1.0))
     }
 
@@ -148,8 +148,11 @@ impl Tissue {
 
     /// Scattered spots of up to a radius; `share` of the cells hold one.
     fn dots(&self, layer: u64, at: Vec2, radius: f32, share: f32) -> f32 {
-        let cell = noise::cells(self.seed ^ layer, at);
         let share = share * self.specks;
+        if share <= 0.0 {
+            return 0.0;
+        }
+        let cell = noise::cells(self.seed ^ layer, at);
         if cell.lot >= share {
             return 0.0;
         }

@@ -111,7 +111,12 @@ fn exponential_integral(x: f64) -> f64 {
         let mut k = 1.0;
         while k < 30.0 {
             term *= -x / k;
-            sum += term / k;
+            let next = sum + term / k;
+            // From k = 2 on terms only shrink.
+            if next == sum && k >= 2.0 {
+                break;
+            }
+            sum = next;
             k += 1.0;
         }
         return sum;

@@ -24,6 +24,7 @@ mod vein_profile;
 
 use glam::Vec2;
 use image::RgbImage;
+use rayon::prelude::{IntoParallelRefIterator, ParallelIterator};
 
 use crate::distance::nearest_seed;
 use crate::lab::{self, Lab};
@@ -74,7 +75,7 @@ impl Painter {
         if examples.is_empty() {
             return Err(TexgenError::out_of_range("examples.len()", 0, "1 or more"));
         }
-        let exemplars = examples.iter().map(Exemplar::new).collect::<Result<_, _>>()?;
+        let exemplars = examples.par_iter().map(Exemplar::new).collect::<Result<_, _>>()?;
         Ok(Self { exemplars })
     }
 

@@ -140,12 +140,18 @@ fn merge_small(inside: &Plane<bool>, label: &mut Plane<u32>) {
 
 /// Renumbers labels from zero in the order of their first pixels.
 pub(crate) fn renumber(label: &mut Plane<u32>) -> usize {
-    let mut names: BTreeMap<u32, u32> = BTreeMap::new();
+    let labels = || label.data.iter().copied().filter(|label| *label != OUTSIDE);
+    let mut names = vec![OUTSIDE; labels().max().map_or(0, |largest| largest as usize + 1)];
+    let mut count = 0;
     for slot in label.data.iter_mut().filter(|slot| **slot != OUTSIDE) {
-        let next = u32::try_from(names.len()).unwrap_or(OUTSIDE - 1);
-        *slot = *names.entry(*slot).or_insert(next);
+        let name = &mut names[*slot as usize];
+        if *name == OUTSIDE {
+            *name = count;
+            count += 1;
+        }
+        *slot = *name;
     }
-    names.len()
+    count as usize
 }
 
 #[cfg(test)]

@@ -3,6 +3,7 @@
 //! Superpixels inside a mask: SLIC (Achanta et al. 2012) that neither seeds nor measures outside the blade.
 
 use std::collections::BTreeMap;
+use std::ops::Range;
 
 use glam::Vec2;
 
@@ -39,31 +40,41 @@ pub(crate) fn superpixels(inside: &Plane<bool>, feature: &[Feature], wanted: usi
     let step = (area as f32 / wanted.max(1) as f32).sqrt().max(1.0);
     let mut centres = seeds(inside, feature, step);
     let mut label: Plane<u32> = Plane::filled(inside.width, inside.height, OUTSIDE);
-    let mut best = vec![f32::INFINITY; inside.data.len()];
+    let features = [0, 1].map(|i| feature.iter().map(|feature| feature[i]).collect::<Vec<_>>());
+    let middles: Vec<f32> = (0..inside.width).map(|x| x as f32 + 0.5).collect();
+    // Nothing is nearer to a pixel off the blade.
+    let unreached: Vec<f32> =
+        inside.data.iter().map(|&inside| if inside { f32::INFINITY } else { f32::NEG_INFINITY }).collect();
+    let mut best = unreached.clone();
     let spread = (COMPACTNESS / step) * (COMPACTNESS / step);
     for _ in 0..ROUNDS {
-        best.fill(f32::INFINITY);
+        best.copy_from_slice(&unreached);
         for (number, centre) in (0_u32..).zip(&centres) {
-            for (x, y) in window(inside, centre.at, step) {
-                let at = y * inside.width + x;
-                if !inside.data[at] {
-                    continue;
-                }
-                let offset = label.centre(at) - centre.at;
-                let f = [feature[at][0] - centre.feature[0], feature[at][1] - centre.feature[1]];
-                let distance = f[0] * f[0] + f[1] * f[1] + offset.length_squared() * spread;
-                if distance < best[at] {
-                    best[at] = distance;
-                    label.data[at] = number;
+            let (columns, rows) = window(inside, centre.at, step);
+            for y in rows {
+                let dy = y as f32 + 0.5 - centre.at.y;
+                let row = y * inside.width + columns.start..y * inside.width + columns.end;
+                let pixels = best[row.clone()].iter_mut().zip(&mut label.data[row.clone()]);
+                let features = features[0][row.clone()].iter().zip(&features[1][row]);
+                for (((best, label), (a, b)), middle) in pixels.zip(features).zip(&middles[columns.clone()]) {
+                    let (dx, a, b) = (middle - centre.at.x, a - centre.feature[0], b - centre.feature[1]);
+                    let distance = a * a + b * b + (dx * dx + dy * dy) * spread;
+                    // Chosen by masks, which compilers do for several pixels at once.
+                    let nearer = u32::from(distance < *best).wrapping_neg();
+                    *best = f32::from_bits(distance.to_bits() & nearer | best.to_bits() & !nearer);
+                    *label = number & nearer | *label & !nearer;
                 }
             }
         }
         let mut sums = vec![(Vec2::ZERO, [0.0_f32; 2], 0.0_f32); centres.len()];
-        for (at, &number) in label.data.iter().enumerate().filter(|(_, number)| **number != OUTSIDE) {
-            let sum = &mut sums[number as usize];
-            sum.0 += label.centre(at);
-            sum.1 = [sum.1[0] + feature[at][0], sum.1[1] + feature[at][1]];
-            sum.2 += 1.0;
+        for (y, row) in label.data.chunks_exact(inside.width).enumerate() {
+            for (x, &number) in row.iter().enumerate().filter(|(_, number)| **number != OUTSIDE) {
+                let sum = &mut sums[number as usize];
+                let feature = feature[y * inside.width + x];
+                sum.0 += Vec2::new(x as f32 + 0.5, y as f32 + 0.5);
+                sum.1 = [sum.1[0] + feature[0], sum.1[1] + feature[1]];
+                sum.2 += 1.0;
+            }
         }
         for (centre, (at, feature, count)) in centres.iter_mut().zip(sums) {
             if count > 0.0 {
@@ -76,12 +87,12 @@ pub(crate) fn superpixels(inside: &Plane<bool>, feature: &[Feature], wanted: usi
     Superpixels { label, count }
 }
 
-/// Pixels within one step of a centre, in both directions.
-fn window(inside: &Plane<bool>, centre: Vec2, step: f32) -> impl Iterator<Item = (usize, usize)> + use<> {
+/// Columns and rows of the pixels within one step of a centre.
+fn window(inside: &Plane<bool>, centre: Vec2, step: f32) -> (Range<usize>, Range<usize>) {
     let clamp = |x: f32, size: usize| usize::try_from(floor_i32(x)).unwrap_or(0).min(size);
     let columns = clamp(centre.x - step, inside.width)..clamp(centre.x + step + 1.0, inside.width);
     let rows = clamp(centre.y - step, inside.height)..clamp(centre.y + step + 1.0, inside.height);
-    rows.flat_map(move |y| columns.clone().map(move |x| (x, y)))
+    (columns, rows)
 }
 
 /// Seeds on a grid, each at the flattest pixel of its 3 by 3 neighbourhood; cells that the blade only grazes are
