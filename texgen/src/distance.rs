@@ -16,26 +16,23 @@ pub(crate) fn nearest_seed(
 ) -> (Plane<f32>, Plane<u32>) {
     let mut rows: Plane<u32> = Plane::filled(width, height, NO_SEED);
     let row_number = |y: usize| u32::try_from(y).unwrap_or(NO_SEED);
-    for x in 0..width {
-        let mut last = None;
-        for y in 0..height {
+    // Nearest seed row above each pixel, then below, a row at a time.
+    let mut last = vec![NO_SEED; width];
+    for (y, row) in rows.data.chunks_exact_mut(width.max(1)).enumerate() {
+        for (x, (slot, last)) in row.iter_mut().zip(&mut last).enumerate() {
             if is_seed(y * width + x) {
-                last = Some(y);
+                *last = row_number(y);
             }
-            if let Some(seed) = last {
-                rows.data[y * width + x] = row_number(seed);
-            }
+            *slot = *last;
         }
-        let mut below: Option<usize> = None;
-        for y in (0..height).rev() {
-            let at = y * width + x;
-            if rows.data[at] == row_number(y) {
-                below = Some(y);
-            }
-            if let Some(seed) = below
-                && (rows.data[at] == NO_SEED || seed - y < y - rows.data[at] as usize)
-            {
-                rows.data[at] = row_number(seed);
+    }
+    last.fill(NO_SEED);
+    for (y, row) in (0..height).map(row_number).zip(rows.data.chunks_exact_mut(width.max(1))).rev() {
+        for (slot, below) in row.iter_mut().zip(&mut last) {
+            if *slot == y {
+                *below = y;
+            } else if *below != NO_SEED && (*slot == NO_SEED || *below - y < y - *slot) {
+                *slot = *below;
             }
         }
     }

@@ -66,16 +66,29 @@ pub(crate) fn superpixels(inside: &Plane<bool>, feature: &[Feature], wanted: usi
                 }
             }
         }
-        let mut sums = vec![(Vec2::ZERO, [0.0_f32; 2], 0.0_f32); centres.len()];
+        let nothing = (Vec2::ZERO, [0.0_f32; 2], 0.0_f32);
+        let mut sums = vec![nothing; centres.len()];
+        // The sum of the superpixel at hand stays in registers.
+        let mut gathered = (OUTSIDE, nothing);
+        let keep = |sums: &mut Vec<_>, (number, sum)| {
+            if let Some(slot) = sums.get_mut(number as usize) {
+                *slot = sum;
+            }
+        };
         for (y, row) in label.data.chunks_exact(inside.width).enumerate() {
             for (x, &number) in row.iter().enumerate().filter(|(_, number)| **number != OUTSIDE) {
-                let sum = &mut sums[number as usize];
+                if number != gathered.0 {
+                    keep(&mut sums, gathered);
+                    gathered = (number, sums[number as usize]);
+                }
+                let (_, sum) = &mut gathered;
                 let feature = feature[y * inside.width + x];
                 sum.0 += Vec2::new(x as f32 + 0.5, y as f32 + 0.5);
                 sum.1 = [sum.1[0] + feature[0], sum.1[1] + feature[1]];
                 sum.2 += 1.0;
             }
         }
+        keep(&mut sums, gathered);
         for (centre, (at, feature, count)) in centres.iter_mut().zip(sums) {
             if count > 0.0 {
                 *centre = Centre { at: at / count, feature: feature.map(|f| f / count) };
