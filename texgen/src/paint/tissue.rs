@@ -135,23 +135,36 @@ impl Tissue {
 
     /// Adds a dead border and dead spots.
     fn kill(&self, spot: &Spot, pigments: &mut Pigments) {
+        let dead = self.scorched(spot).max(self.speckled(spot));
+        *pigments = *pigments * (1.0 - 0.75 * dead)
+            + Pigments { brown: 1.5 * dead, carotenoid: 3.0 * dead, ..Pigments::default() };
+    }
+
+    /// Share of the dead border at a spot.
+    fn scorched(&self, spot: &Spot) -> f32 {
+        // Noise reaches 1.4.
+        if spot.margin > self.scorch * (0.55 + 1.1 * 1.4) + 0.02 {
+            return 0.0;
+        }
         let ragged = noise::fractal(self.seed ^ 0x40, spot.at * 4.0, 3);
         let border = self.scorch * (0.55 + 1.1 * ragged);
-        let scorched = smoothstep(border + 0.02, border - 0.03, spot.margin) * smoothstep(0.0, 0.02, border);
+        smoothstep(border + 0.02, border - 0.03, spot.margin) * smoothstep(0.0, 0.02, border)
+    }
+
+    /// Share of dead spots, large and small.
+    fn speckled(&self, spot: &Spot) -> f32 {
+        if self.specks <= 0.0 {
+            return 0.0;
+        }
         let gate = 0.35 + 0.65 * smoothstep(-0.2, 0.6, noise::value(self.seed ^ 0x52, spot.at * 2.0));
         let large = self.dots(0x50, spot.at * 4.0, 0.2, 0.2 * gate);
         let small = self.dots(0x51, spot.at * 10.0, 0.26, 0.32 * gate) * 0.7;
-        let dead = scorched.max(large).max(small);
-        *pigments = *pigments * (1.0 - 0.75 * dead)
-            + Pigments { brown: 1.5 * dead, carotenoid: 3.0 * dead, ..Pigments::default() };
+        large.max(small)
     }
 
     /// Scattered spots of up to a radius; `share` of the cells hold one.
     fn dots(&self, layer: u64, at: Vec2, radius: f32, share: f32) -> f32 {
         let share = share * self.specks;
-        if share <= 0.0 {
-            return 0.0;
-        }
         let cell = noise::cells(self.seed ^ layer, at);
         if cell.lot >= share {
             return 0.0;

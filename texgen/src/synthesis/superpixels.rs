@@ -166,34 +166,18 @@ fn seeds(inside: &Plane<bool>, feature: &[Feature], step: f32) -> Vec<Centre> {
 /// Keeps what is connected and large enough; the rest joins the neighbour with the longest common border. Pixels that
 /// no window reached form superpixels of their own.
 fn absorb_fragments(inside: &Plane<bool>, label: &mut Plane<u32>, smallest: f32) {
-    let before = label.clone();
-    let mut part: Plane<u32> = Plane::filled(inside.width, inside.height, OUTSIDE);
-    let mut members: Vec<Vec<usize>> = Vec::new();
-    let mut stack = Vec::new();
-    for start in (0..inside.data.len()).filter(|&at| inside.data[at]) {
-        if part.data[start] != OUTSIDE {
-            continue;
+    let (mut part, mut sizes) = connected(inside, label);
+    let is_small = |size: usize| (size as f32) < smallest;
+    let mut members: Vec<Vec<usize>> = vec![Vec::new(); sizes.len()];
+    for (at, &number) in part.data.iter().enumerate().filter(|(_, number)| **number != OUTSIDE) {
+        if is_small(sizes[number as usize]) {
+            members[number as usize].push(at);
         }
-        let number = u32::try_from(members.len()).unwrap_or(OUTSIDE - 1);
-        let mut found = Vec::new();
-        part.data[start] = number;
-        stack.push(start);
-        while let Some(at) = stack.pop() {
-            found.push(at);
-            for next in inside.neighbours4(at) {
-                let same = inside.data[next] && before.data[next] == before.data[start];
-                if same && part.data[next] == OUTSIDE {
-                    part.data[next] = number;
-                    stack.push(next);
-                }
-            }
-        }
-        members.push(found);
     }
-    let mut order: Vec<usize> = (0..members.len()).collect();
-    order.sort_by_key(|&number| (members[number].len(), number));
+    let mut order: Vec<usize> = (0..sizes.len()).filter(|&number| is_small(sizes[number])).collect();
+    order.sort_by_key(|&number| (sizes[number], number));
     for number in order {
-        if members[number].len() as f32 >= smallest {
+        if !is_small(sizes[number]) {
             continue;
         }
         let mut borders: BTreeMap<u32, usize> = BTreeMap::new();
@@ -209,10 +193,64 @@ fn absorb_fragments(inside: &Plane<bool>, label: &mut Plane<u32>, smallest: f32)
             for &at in &moved {
                 part.data[at] = neighbour;
             }
+            sizes[neighbour as usize] += moved.len();
             members[neighbour as usize].extend(moved);
         }
     }
     *label = part;
+}
+
+/// 4-connected parts of one label each, numbered in the order of their first pixels, and their sizes.
+fn connected(inside: &Plane<bool>, label: &Plane<u32>) -> (Plane<u32>, Vec<usize>) {
+    fn root(parent: &mut [u32], mut part: u32) -> u32 {
+        while parent[part as usize] != part {
+            let above = parent[parent[part as usize] as usize];
+            parent[part as usize] = above;
+            part = above;
+        }
+        part
+    }
+    let width = inside.width;
+    let mut part: Plane<u32> = Plane::filled(width, inside.height, OUTSIDE);
+    // Each run of pixels joins those that it touches above; a part goes by the lowest number of its runs.
+    let mut parent: Vec<u32> = Vec::new();
+    for y in 0..inside.height {
+        for x in 0..width {
+            let at = y * width + x;
+            if !inside.data[at] {
+                continue;
+            }
+            let same = |next: usize| inside.data[next] && label.data[next] == label.data[at];
+            let left = (x > 0 && same(at - 1)).then(|| part.data[at - 1]);
+            let above = (y > 0 && same(at - width)).then(|| part.data[at - width]);
+            part.data[at] = match (left, above) {
+                (Some(left), Some(above)) if left != above => {
+                    let (left, above) = (root(&mut parent, left), root(&mut parent, above));
+                    let lowest = left.min(above);
+                    parent[left.max(above) as usize] = lowest;
+                    lowest
+                }
+                (Some(one), _) | (None, Some(one)) => one,
+                (None, None) => {
+                    let new = u32::try_from(parent.len()).unwrap_or(OUTSIDE - 1);
+                    parent.push(new);
+                    new
+                }
+            };
+        }
+    }
+    let mut sizes = Vec::new();
+    let mut names = vec![OUTSIDE; parent.len()];
+    for part in part.data.iter_mut().filter(|part| **part != OUTSIDE) {
+        let name = &mut names[root(&mut parent, *part) as usize];
+        if *name == OUTSIDE {
+            *name = u32::try_from(sizes.len()).unwrap_or(OUTSIDE - 1);
+            sizes.push(0);
+        }
+        *part = *name;
+        sizes[*name as usize] += 1;
+    }
+    (part, sizes)
 }
 
 #[cfg(test)]
