@@ -201,7 +201,7 @@ mod tests {
     use super::{fade, reach};
     use crate::arith::vector::Vec3;
     use crate::device::leaf::own::on_grid;
-    use proptest::prelude::{prop_assert, prop_assert_eq, proptest};
+    use proptest::prelude::{prop_assert_eq, proptest};
 
     proptest! {
         #[test]
