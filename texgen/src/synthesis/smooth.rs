@@ -90,35 +90,40 @@ pub(crate) fn local_mean(
 ) -> Vec<Lab> {
     let (width, height) = (leaf.inside.width, leaf.inside.height);
     let reach = usize::try_from(floor_i32(reach)).unwrap_or(0).max(1);
-    // Running sums over rows, then over columns; the fourth number counts.
-    let mut table = vec![[0.0_f64; 4]; (width + 1) * (height + 1)];
+    // Sums over all that is above and to the left; the fourth number counts. Of their rows only those are kept that a square
+    // reaches.
+    let kept = 2 * reach + 2;
+    let mut table = vec![[0.0_f64; 4]; kept * (width + 1)];
+    let start = |row: usize| row % kept * (width + 1);
+    let mut means = Vec::with_capacity(width * height);
+    let mut summed = 0;
     for y in 0..height {
-        let mut row = [0.0_f64; 4];
-        for x in 0..width {
-            let at = y * width + x;
-            if counts(at) {
-                for (sum, value) in row.iter_mut().zip(colour[at]) {
-                    *sum += f64::from(value);
+        let (top, bottom) = (y.saturating_sub(reach), (y + reach + 1).min(height));
+        while summed < bottom {
+            let (above, below) = (start(summed), start(summed + 1));
+            let mut row = [0.0_f64; 4];
+            for x in 0..width {
+                let at = summed * width + x;
+                if counts(at) {
+                    for (sum, value) in row.iter_mut().zip(colour[at]) {
+                        *sum += f64::from(value);
+                    }
+                    row[3] += 1.0;
                 }
-                row[3] += 1.0;
+                let above = table[above + x + 1];
+                table[below + x + 1] = std::array::from_fn(|i| above[i] + row[i]);
             }
-            let above = table[y * (width + 1) + x + 1];
-            table[(y + 1) * (width + 1) + x + 1] = std::array::from_fn(|i| above[i] + row[i]);
+            summed += 1;
         }
-    }
-    (0..width * height)
-        .map(|at| {
-            let (x, y) = (at % width, at / width);
+        let (top, bottom) = (&table[start(top)..], &table[start(bottom)..]);
+        means.extend((0..width).map(|x| {
             let (left, right) = (x.saturating_sub(reach), (x + reach + 1).min(width));
-            let (top, bottom) = (y.saturating_sub(reach), (y + reach + 1).min(height));
-            let corner = |x: usize, y: usize| table[y * (width + 1) + x];
-            let sum: [f64; 4] = std::array::from_fn(|i| {
-                corner(right, bottom)[i] - corner(left, bottom)[i] - corner(right, top)[i]
-                    + corner(left, top)[i]
-            });
+            let sum: [f64; 4] =
+                std::array::from_fn(|i| bottom[right][i] - bottom[left][i] - top[right][i] + top[left][i]);
             #[expect(clippy::cast_possible_truncation, reason = "a mean of single precision values is one")]
             let mean = |i: usize| if sum[3] > 0.5 { (sum[i] / sum[3]) as f32 } else { 0.0 };
             [mean(0), mean(1), mean(2)]
-        })
-        .collect()
+        }));
+    }
+    means
 }
