@@ -6,21 +6,20 @@
 
 use std::sync::atomic::AtomicU32;
 
-use fearless_simd::dispatch;
 use windfall_core::Context;
-use windfall_core::arith::lane::LANES;
+use windfall_core::arith::pack::{BLOCK, Pack};
 use windfall_core::device::leaf::advance::leaf_advance_plain;
 use windfall_core::device::leaf::record::{STATE_FALLING, leaf_state};
 use windfall_core::leaf::{LeavesMut, Schedule};
 
 use super::resolve_events::EventList;
 use crate::quiet::{UNIT, is_quiet, set_quiet};
-use crate::simd::Simd;
-use crate::simd::leaf_eight::{Outcome, advance_eight};
+use crate::simd::falling_block::FallingBlock;
 use crate::simd::prefetch::{FIRST_LEVEL, prefetch};
+use crate::simd::{Simd, in_packs};
 
-/// Groups of eight leaves to prefetch ahead.
-const AHEAD: usize = 8;
+/// Blocks to prefetch ahead.
+const AHEAD: usize = 4;
 
 /// Steps the leaves of one chunk but for those of quiet units, and notes which units are quiet from now on.
 pub(crate) fn advance(
@@ -32,7 +31,7 @@ pub(crate) fn advance(
     let mut events = EventList::default();
     match simd {
         Simd::Scalar => advance_each(cx, leaves, quiet, &mut events),
-        Simd::Lanes(level) => dispatch!(level, simd => advance_lanes(simd, cx, leaves, quiet, &mut events)),
+        Simd::Lanes(level) => in_packs!(level, advance_lanes(cx, leaves, quiet, &mut events)),
     }
     events
 }
@@ -54,53 +53,54 @@ fn advance_each(cx: &Context<'_>, leaves: &mut LeavesMut<'_>, quiet: &[AtomicU32
         let mut is_busy = false;
         for slot in slots.clone() {
             let is_left = !leaf_advance_plain(cx, &mut leaves.row_mut(slot));
-            events.lanes[slot / LANES] |= u8::from(is_left) << (slot % LANES);
+            events.blocks[slot / BLOCK] |= u32::from(is_left) << (slot % BLOCK);
             is_busy |= is_left || leaf_state(leaves.place[slot].bits) == STATE_FALLING;
         }
         set_quiet(until, quiet_until(is_busy, &leaves.schedule[slots]));
     }
 }
 
-/// Steps a chunk eight leaves at a time; the last few, if they are fewer than eight, are all listed.
+/// Steps a chunk block by block; the last few leaves, if they are fewer than a block, are all listed.
 #[inline(always)]
-fn advance_lanes<S: fearless_simd::Simd>(
-    simd: S,
+fn advance_lanes<P: Pack>(
+    simd: P::Simd,
     cx: &Context<'_>,
     leaves: &mut LeavesMut<'_>,
     quiet: &[AtomicU32],
     events: &mut EventList,
 ) {
-    const GROUPS: usize = UNIT / LANES;
+    const BLOCKS: usize = UNIT / BLOCK;
     let count = leaves.len();
-    let (place, _) = leaves.place.as_chunks_mut::<LANES>();
-    let (drift, _) = leaves.drift.as_chunks_mut::<LANES>();
-    let (attitude, _) = leaves.attitude.as_chunks_mut::<LANES>();
-    let (schedule, _) = leaves.schedule.as_chunks::<LANES>();
-    let units = place.chunks_mut(GROUPS).zip(drift.chunks_mut(GROUPS)).zip(attitude.chunks_mut(GROUPS));
-    let units = units.zip(schedule.chunks(GROUPS)).zip(quiet).enumerate();
+    let (place, _) = leaves.place.as_chunks_mut::<BLOCK>();
+    let (drift, _) = leaves.drift.as_chunks_mut::<BLOCK>();
+    let (attitude, _) = leaves.attitude.as_chunks_mut::<BLOCK>();
+    let (schedule, _) = leaves.schedule.as_chunks::<BLOCK>();
+    let units = place.chunks_mut(BLOCKS).zip(drift.chunks_mut(BLOCKS)).zip(attitude.chunks_mut(BLOCKS));
+    let units = units.zip(schedule.chunks(BLOCKS)).zip(quiet).enumerate();
     for (unit, ((((place, drift), attitude), schedule), until)) in units {
         if is_quiet(until, cx.step.index) {
             continue;
         }
         events.is_stepped[unit] = true;
         let mut is_busy = false;
-        let lanes = &mut events.lanes[unit * GROUPS..];
-        let groups = place.iter_mut().zip(drift).zip(attitude).zip(schedule).zip(lanes);
-        for ((((place, drift), attitude), schedule), left) in groups {
+        let lists = &mut events.blocks[unit * BLOCKS..];
+        let blocks = place.iter_mut().zip(drift).zip(attitude).zip(schedule).zip(lists);
+        for ((((place, drift), attitude), schedule), list) in blocks {
             // Four streams are more than processors foresee.
             prefetch::<FIRST_LEVEL, _>(std::ptr::from_ref(place).wrapping_add(AHEAD), 1);
             prefetch::<FIRST_LEVEL, _>(std::ptr::from_ref(drift).wrapping_add(AHEAD), 1);
             prefetch::<FIRST_LEVEL, _>(std::ptr::from_ref(attitude).wrapping_add(AHEAD), 1);
             prefetch::<FIRST_LEVEL, _>(std::ptr::from_ref(schedule).wrapping_add(AHEAD), 1);
-            let outcome: Outcome = advance_eight(simd, cx, place, drift, attitude, schedule);
-            *left = outcome.left;
+            let mut block = FallingBlock { place, drift, attitude, schedule };
+            let outcome = block.advance::<P>(simd, cx);
+            *list = outcome.left;
             is_busy |= outcome.is_busy;
         }
         set_quiet(until, quiet_until(is_busy, schedule.as_flattened()));
     }
-    let rest = count % LANES;
+    let rest = count % BLOCK;
     if rest != 0 {
-        events.lanes[count / LANES] = (1 << rest) - 1;
+        events.blocks[count / BLOCK] = (1 << rest) - 1;
         events.is_stepped[count / UNIT] = true;
         set_quiet(&quiet[count / UNIT], 0);
     }

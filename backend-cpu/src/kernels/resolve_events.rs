@@ -5,7 +5,7 @@
 //! Moves the listed leaves through one step with an event in it.
 
 use windfall_core::Context;
-use windfall_core::arith::lane::LANES;
+use windfall_core::arith::pack::BLOCK;
 use windfall_core::device::leaf::advance::leaf_advance;
 use windfall_core::leaf::LeavesMut;
 
@@ -14,15 +14,15 @@ use crate::quiet::UNIT;
 
 /// Result of `advance` for a chunk.
 pub(crate) struct EventList {
-    /// Leaves that it has left alone: a bit for each, a byte for eight.
-    pub(crate) lanes: [u8; CHUNK / LANES],
+    /// Leaves that it has left alone: a bit for each, the first of a block in the lowest place.
+    pub(crate) blocks: [u32; CHUNK / BLOCK],
     /// Units of slots that it has not passed by.
     pub(crate) is_stepped: [bool; CHUNK / UNIT],
 }
 
 impl Default for EventList {
     fn default() -> Self {
-        Self { lanes: [0; CHUNK / LANES], is_stepped: [false; CHUNK / UNIT] }
+        Self { blocks: [0; CHUNK / BLOCK], is_stepped: [false; CHUNK / UNIT] }
     }
 }
 
@@ -35,11 +35,11 @@ impl EventList {
 
 /// Steps the leaves of a chunk that have an event, that land, or that have just landed.
 pub(crate) fn resolve_events(cx: &Context<'_>, leaves: &mut LeavesMut<'_>, events: &EventList) {
-    let groups_of = |unit: usize| unit * (UNIT / LANES)..(unit + 1) * (UNIT / LANES);
-    for group in events.stepped().flat_map(groups_of) {
-        let mut left = events.lanes[group];
+    let blocks_of = |unit: usize| unit * (UNIT / BLOCK)..(unit + 1) * (UNIT / BLOCK);
+    for block in events.stepped().flat_map(blocks_of) {
+        let mut left = events.blocks[block];
         while left != 0 {
-            let slot = group * LANES + left.trailing_zeros() as usize;
+            let slot = block * BLOCK + left.trailing_zeros() as usize;
             leaf_advance(cx, &mut leaves.row_mut(slot));
             left &= left - 1;
         }

@@ -49,7 +49,7 @@ fn petioles_of<P: Pack>(
 
 /// `yes` where true, `no` elsewhere.
 #[inline(always)]
-fn select_four<P: Pack>(mask: P::Mask, yes: [P; 4], no: [P; 4]) -> [P; 4] {
+pub(crate) fn select_four<P: Pack>(mask: P::Mask, yes: [P; 4], no: [P; 4]) -> [P; 4] {
     core::array::from_fn(
         #[inline(always)]
         |number| mask.select_real(yes[number], no[number]),

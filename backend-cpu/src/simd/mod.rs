@@ -4,6 +4,7 @@
 
 pub(crate) mod batch_blocks;
 pub(crate) mod branch_block;
+pub(crate) mod falling_block;
 pub(crate) mod lanes;
 pub(crate) mod leaf_block;
 pub(crate) mod leaf_eight;

@@ -31,6 +31,17 @@ pub const ROWS_OF_LANES: [u32; BLOCK] = {
     rows
 };
 
+/// A bit for each row of a block, the first in the lowest place, from a bit for each lane.
+#[inline(always)]
+pub const fn rows_of_bits(lanes: u32) -> u32 {
+    // Lane and row are a place in a square of four by four and its mirror image.
+    let kept = lanes & 0x8421;
+    let near = ((lanes & 0x0842) << 3) | ((lanes >> 3) & 0x0842);
+    let next = ((lanes & 0x0084) << 6) | ((lanes >> 6) & 0x0084);
+    let far = ((lanes & 0x0008) << 9) | ((lanes >> 9) & 0x0008);
+    kept | near | next | far
+}
+
 /// Several floats side by side.
 pub trait Pack: Real {
     /// The instructions.
@@ -46,6 +57,8 @@ pub trait Pack: Real {
     fn load(simd: Self::Simd, floats: &[f32]) -> Self;
     /// The first words of a slice.
     fn load_words(simd: Self::Simd, words: &[u32]) -> Self::Word;
+    /// A bit for each lane, the first in the lowest place.
+    fn bits_of(mask: Self::Mask) -> u32;
     /// Into the first floats of a slice.
     fn store(self, floats: &mut [f32]);
     /// Transposes four vectors within each four lanes.
@@ -148,6 +161,27 @@ mod tests {
     }
 
     #[test]
+    fn bits_of_lanes_become_bits_of_rows() {
+        for lane in 0..BLOCK {
+            assert_eq!(rows_of_bits(1 << lane), 1 << row_of_lane(lane), "lane {lane}");
+        }
+        assert_eq!(rows_of_bits(0xffff), 0xffff, "all of them");
+    }
+
+    /// Truth values come out as bits, the first lane in the lowest place.
+    #[inline(always)]
+    fn count_alike<P: Pack>(simd: P::Simd) {
+        let lanes: [u32; BLOCK] = std::array::from_fn(word_of);
+        let bits = P::bits_of(P::load_words(simd, &lanes).less_than(P::load_words(simd, &[3; BLOCK])));
+        assert_eq!(bits, 0b111, "the first three of {} lanes", P::LANES);
+    }
+
+    #[expect(clippy::cast_possible_truncation, reason = "sixteen lanes")]
+    fn word_of(lane: usize) -> u32 {
+        lane as u32
+    }
+
+    #[test]
     fn lanes_do_what_one_does() {
         let level = Level::new();
         #[cfg(target_arch = "x86_64")]
@@ -157,6 +191,8 @@ mod tests {
         for level in std::iter::once(level).chain(others.into_iter().flatten()) {
             dispatch!(level, simd => look_up_alike::<f32x8<_>>(simd));
             dispatch!(level, simd => look_up_alike::<f32x16<_>>(simd));
+            dispatch!(level, simd => count_alike::<f32x8<_>>(simd));
+            dispatch!(level, simd => count_alike::<f32x16<_>>(simd));
             dispatch!(level, simd => turn_alike::<f32x8<_>>(simd));
             dispatch!(level, simd => turn_alike::<f32x16<_>>(simd));
         }

@@ -165,6 +165,11 @@ macro_rules! pack {
             fn load_words(simd: S, words: &[u32]) -> $words<S> {
                 $words::load_array_ref(simd, words.first_chunk().expect("enough words for all lanes"))
             }
+            #[expect(clippy::cast_possible_truncation, reason = "no more than sixteen lanes")]
+            #[inline(always)]
+            fn bits_of(mask: $masks<S>) -> u32 {
+                mask.to_bitmask() as u32
+            }
             #[inline(always)]
             fn store(self, floats: &mut [f32]) {
                 self.store_array(floats.first_chunk_mut().expect("room for all lanes"));
