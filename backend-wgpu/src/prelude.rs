@@ -44,6 +44,7 @@ pub(crate) fn structs() -> String {
         flight::block::BodyBlock::declaration(),
         blocks::SceneBlock::declaration(),
         blocks::VortexBlock::declaration(),
+        blocks::MomentBlock::declaration(),
         blocks::StepBlock::declaration(),
         tree::record::SegmentConstants::declaration(),
         tree::record::LevelBlock::declaration(),

@@ -194,24 +194,37 @@ crate::shared_struct! {
 }
 
 crate::shared_struct! {
-    /// Everything that changes from step to step.
-    pub struct StepBlock {
-        /// Index of the step.
-        pub index: u32,
+    /// The wind's patterns at one moment.
+    pub struct MomentBlock, padding 8 {
+        /// The vortices where they are then.
+        pub vortices: [VortexBlock; MAX_VORTICES],
         /// Rows of the gust table that the mean wind has carried past, within one period.
         pub gust_offset: f32,
         /// Cells of turbulence that the mean wind has carried past, within one period.
         pub turbulence_offset: f32,
+    }
+}
+
+crate::shared_struct! {
+    /// Everything that changes from step to step.
+    pub struct StepBlock, padding 8 {
+        /// The wind at the start of the step ([`MOMENT_NOW`]), and in the middle of the interval for which a falling leaf samples it
+        /// ([`MOMENT_MIDDLE`]).
+        pub moments: [MomentBlock; 2],
+        /// Index of the step.
+        pub index: u32,
         /// Number of vortices.
         pub vortex_count: u32,
-        /// The vortices where they are at this step.
-        pub vortices: [VortexBlock; MAX_VORTICES],
     }
 }
 
 crate::shared_constants! {
     /// Vectors of a source's share thresholds: one word for each species.
     pub const SHARE_VECTORS: u32 = 32 / 4;
+    /// Start of the step, among the moments of a step.
+    pub const MOMENT_NOW: u32 = 0;
+    /// Middle of the sampling interval of falling leaves, which begins with the step.
+    pub const MOMENT_MIDDLE: u32 = 1;
     /// Kind of a box source.
     pub const SOURCE_BOX: u32 = 0;
     /// Kind of a disc source.

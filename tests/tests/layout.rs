@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use naga::{AddressSpace, TypeInner};
 use windfall_core::blocks::{
-    ResponseBlock, SceneBlock, SourceBlock, SpeciesBlock, StepBlock, VortexBlock, WindBlock,
+    MomentBlock, ResponseBlock, SceneBlock, SourceBlock, SpeciesBlock, StepBlock, VortexBlock, WindBlock,
 };
 use windfall_core::flight::block::BodyBlock;
 use windfall_core::layout::WgslStruct;
@@ -59,6 +59,7 @@ fn every_module_is_valid_and_every_struct_has_one_layout() {
     same_layout::<BodyBlock>(&module);
     same_layout::<SceneBlock>(&module);
     same_layout::<VortexBlock>(&module);
+    same_layout::<MomentBlock>(&module);
     same_layout::<StepBlock>(&module);
     same_layout::<SegmentConstants>(&module);
     same_layout::<LevelBlock>(&module);

@@ -144,9 +144,9 @@ impl Cycle {
         period(self.cells, TURBULENCE_X)
     }
 
-    /// Share of the cycle that has passed at a step.
-    pub(super) fn share(&self, step: u32) -> f64 {
-        f64::from(step % self.steps) / f64::from(self.steps)
+    /// Share of the cycle that has passed so many steps after a step.
+    pub(super) fn share(&self, step: u32, after: f64) -> f64 {
+        (f64::from(step % self.steps) + after) / f64::from(self.steps)
     }
 
     /// Rate of a fluttering leaf in 2^-32 turns a step: as near to the usual as a whole number of turns in a cycle

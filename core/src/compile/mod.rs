@@ -24,7 +24,7 @@ use self::foliage::{foliage_of, petiole_rows, seedlings, shed_rows};
 pub(crate) use self::source::{lifetime_steps, release_step};
 use self::tables::{motions_of, pack_motion};
 use crate::arith::rng::seed_words;
-use crate::blocks::{SceneBlock, StepBlock, VortexBlock};
+use crate::blocks::{MomentBlock, SceneBlock, StepBlock, VortexBlock};
 use crate::clock::Clock;
 use crate::context::Context;
 use crate::convert::{len32, single};
@@ -171,11 +171,24 @@ impl CompiledScene {
 
     /// The block of one step.
     pub fn step_block(&self, clock: &Clock) -> StepBlock {
+        StepBlock {
+            moments: [0.0, 0.5].map(|steps| self.moment_block(clock, steps)),
+            index: clock.step(),
+            vortex_count: len32(self.scene.wind.vortices.len()),
+            padding: Default::default(),
+        }
+    }
+
+    /// The wind so many steps after a step's start.
+    fn moment_block(&self, clock: &Clock, steps: f64) -> MomentBlock {
         let wind = &self.block.wind;
         let carried = |per_metre: f32, period: u32, of_cycle: fn(&Cycle) -> u32| {
             let places = match &self.cycle {
-                None => clock.wind_travel_m() * f64::from(per_metre),
-                Some(cycle) => cycle.share(clock.step()) * f64::from(of_cycle(cycle)),
+                None => {
+                    let travel_m = clock.wind_travel_m() + steps * self.wind_travel_per_step_m();
+                    travel_m * f64::from(per_metre)
+                }
+                Some(cycle) => cycle.share(clock.step(), steps) * f64::from(of_cycle(cycle)),
             };
             let period = f64::from(period);
             #[expect(
@@ -185,9 +198,10 @@ impl CompiledScene {
             let within = (places - libm::floor(places / period) * period) as f32;
             within
         };
+        let seconds = clock.seconds() + steps * f64::from(clock.dt_s());
         let mut vortices = [<VortexBlock as bytemuck::Zeroable>::zeroed(); crate::scene::MAX_VORTICES];
         for (vortex, block) in self.scene.wind.vortices.iter().zip(&mut vortices) {
-            let center = vortex.center_m.as_dvec3() + vortex.drift_m_s.as_dvec3() * clock.seconds();
+            let center = vortex.center_m.as_dvec3() + vortex.drift_m_s.as_dvec3() * seconds;
             let axis = vortex.axis.as_dvec3().normalize();
             let core_squared = f64::from(vortex.core_m) * f64::from(vortex.core_m);
             *block = VortexBlock {
@@ -199,12 +213,11 @@ impl CompiledScene {
                 padding: Default::default(),
             };
         }
-        StepBlock {
-            index: clock.step(),
+        MomentBlock {
+            vortices,
             gust_offset: carried(wind.gust_rows_per_m, GUST_ROWS, |cycle| cycle.gust_rows),
             turbulence_offset: carried(wind.cells_per_m[0], TURBULENCE_X, |cycle| cycle.cells),
-            vortex_count: len32(self.scene.wind.vortices.len()),
-            vortices,
+            padding: Default::default(),
         }
     }
 

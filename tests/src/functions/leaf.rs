@@ -12,7 +12,7 @@ use windfall_core::arith::quaternion::{
 };
 use windfall_core::arith::rng::{below, mul_high, mul_q16, philox, triangular, unit_float};
 use windfall_core::arith::vector::{vec3_cross, vec3_dot, vec3_length, vec3_lerp};
-use windfall_core::device::leaf::fall::{glide_of, response_of, spin_advance};
+use windfall_core::device::leaf::fall::{glide_of, response_of, spin_advance, wind_in_step};
 use windfall_core::device::leaf::join::part_of_step;
 use windfall_core::device::leaf::own::{
     MotionParams, motion_params, own_advance, own_orientation, own_velocity, turn_to_heading,
@@ -356,16 +356,22 @@ functions! {
     rust |cx, w| floats([wind_profile(cx, float(w[0]))]);
 
     wind_gust in "wind/gust" (METRES) tolerance Some(1e-6);
-    wgsl "r.x = bitcast<u32>(wind_gust(bitcast<f32>(a.x)));";
-    rust |cx, w| floats([wind_gust(cx, float(w[0]))]);
+    wgsl "r.x = bitcast<u32>(wind_gust(MOMENT_NOW, bitcast<f32>(a.x)));";
+    rust |cx, w| floats([wind_gust(cx, &cx.step.moments[0], float(w[0]))]);
 
     wind_turbulence in "wind/turbulence" (METRES, METRES, METRES) tolerance Some(2e-6);
-    wgsl "r = vec4<u32>(bitcast<vec3<u32>>(wind_turbulence(bitcast<vec3<f32>>(a.xyz))), 0u);";
-    rust |cx, w| floats(wind_turbulence(cx, vector(w, 0)).to_array());
+    wgsl "r = vec4<u32>(bitcast<vec3<u32>>(wind_turbulence(MOMENT_NOW, bitcast<vec3<f32>>(a.xyz))), 0u);";
+    rust |cx, w| floats(wind_turbulence(cx, &cx.step.moments[0], vector(w, 0)).to_array());
 
     wind_vortex in "wind/vortex" (METRES, METRES, METRES) tolerance Some(2e-6);
-    wgsl "r = vec4<u32>(bitcast<vec3<u32>>(wind_vortex(0u, bitcast<vec3<f32>>(a.xyz))), 0u);";
-    rust |cx, w| floats(wind_vortex(&cx.step.vortices[0], vector(w, 0)).to_array());
+    wgsl "r = vec4<u32>(bitcast<vec3<u32>>(wind_vortex(MOMENT_NOW, 0u, bitcast<vec3<f32>>(a.xyz))), 0u);";
+    rust |cx, w| floats(wind_vortex(&cx.step.moments[0].vortices[0], vector(w, 0)).to_array());
+
+    wind_in_step in "leaf/fall" (METRES, METRES, METRES, UNIT, UNIT, UNIT) tolerance Some(4e-6);
+    wgsl "let p = bitcast<vec3<f32>>(a.xyz);
+        let drift = bitcast<vec3<f32>>(vec3<u32>(a.w, b.xy));
+        r = vec4<u32>(bitcast<vec3<u32>>(wind_in_step(p, drift, 0.1)), 0u);";
+    rust |cx, w| floats(wind_in_step(cx, vector(w, 0), vector(w, 3), 0.1).to_array());
 
     wind_at in "wind/sample" (METRES, METRES, METRES) tolerance Some(4e-6);
     wgsl "r = vec4<u32>(bitcast<vec3<u32>>(wind_at(bitcast<vec3<f32>>(a.xyz))), 0u);";

@@ -18,6 +18,7 @@ mod plate;
 mod release;
 mod response;
 mod rotation;
+mod sampling;
 mod schemes;
 mod sectional;
 mod shedding;

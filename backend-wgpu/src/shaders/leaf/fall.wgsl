@@ -72,8 +72,15 @@ fn glide_end(leaf: u32, glide: Glide, bits: u32, heading: u32) {
     drifts[leaf] = Drift(glide.drift, glide.phase);
 }
 
+fn wind_in_step(position: vec3<f32>, drift: vec3<f32>, time_constant_s: f32) -> vec3<f32> {
+    let descent = time_constant_s * scene.gravity_m_s2;
+    let velocity = vec3<f32>(drift.x, drift.y - descent, drift.z);
+    let way = velocity * (0.5 * scene.dt_s);
+    return wind_at_moment(MOMENT_MIDDLE, position + way);
+}
+
 fn glide_step(glide: Glide, bits: u32, params: MotionParams, response: ResponseBlock) -> Glide {
-    let wind = wind_at(glide.position);
+    let wind = wind_in_step(glide.position, glide.drift, response.time_constant_s);
     let part = Part(WHOLE_STEP, response.drift_kept, response.time_constant_s);
     return glide_part(glide, bits, params, wind, part);
 }

@@ -10,7 +10,6 @@
 #import leaf/record
 #import leaf/release
 #import motion/feature
-#import wind/sample
 
 fn leaf_join(leaf: u32, glide: Glide) -> Glide {
     let seed = scene.seed;
@@ -49,9 +48,9 @@ fn leaf_fall_joining(leaf: u32) {
     let place = places[leaf];
     let start = place.position;
     let response = response_of(place.bits);
-    let wind = wind_at(start);
     let seed = scene.seed;
     var glide = glide_of(place, drifts[leaf]);
+    let wind = wind_in_step(start, glide.drift, response.time_constant_s);
     var done = 0u;
     for (var join = 1u; join < STAGE_COUNT; join++) {
         if (step_block.index >= schedules[leaf].event) {

@@ -39,9 +39,9 @@ fn turbulence_across(index: u32, t: vec3<f32>) -> f32 {
     return near + t.z * (far - near);
 }
 
-fn wind_turbulence(place: vec3<f32>) -> vec3<f32> {
+fn wind_turbulence(moment: u32, place: vec3<f32>) -> vec3<f32> {
     let cells = scene.wind.cells_per_m;
-    let x = place.x * cells.x - step_block.turbulence_offset;
+    let x = place.x * cells.x - step_block.moments[moment].turbulence_offset;
     let y = place.y * cells.y;
     let z = place.z * cells.z;
     let kx = floor(x);

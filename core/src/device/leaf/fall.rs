@@ -5,7 +5,8 @@
 //! A leaf in the air: its own motion from the tables, and the wind's drift.
 //!
 //! The leaf's velocity is its own motion's plus a drift that relaxes towards the wind within the response time
-//! tau = U/g, exactly for a wind that holds still during the step. In still air the path does not depend on dt.
+//! tau = U/g, exactly for a wind that holds still during the step: it is sampled once, in the middle. In still air the path does not
+//! depend on dt.
 
 use super::own::{
     MotionParams, STEP_UNIT, WHOLE_STEP, motion_params, on_grid, own_advance, own_orientation, own_rate,
@@ -17,10 +18,10 @@ use crate::arith::math::reciprocal;
 use crate::arith::quaternion::{Quat, quat_blend};
 use crate::arith::rng::mul_q16;
 use crate::arith::vector::Vec3;
-use crate::blocks::ResponseBlock;
+use crate::blocks::{MOMENT_MIDDLE, ResponseBlock};
 use crate::context::Context;
 use crate::device::terrain::ground::ground_met;
-use crate::device::wind::sample::wind_at;
+use crate::device::wind::sample::wind_at_moment;
 use crate::leaf::LeafMut;
 
 /// A leaf on its way through one step, or eight of them.
@@ -137,6 +138,21 @@ pub fn glide_end(cx: &Context<'_>, leaf: &mut LeafMut<'_>, glide: Glide, bits: u
     *leaf.drift = Drift { velocity: glide.drift.to_array(), phase: glide.phase };
 }
 
+/// Velocity in m/s of the air that leaves meet in a step: sampled in its middle, where they will be by then, it stands for the step's
+/// mean to second order. Of their own motion the steady descent g tau counts.
+#[inline(always)]
+pub fn wind_in_step<R: Real>(
+    cx: &Context<'_>,
+    position: Vec3<R>,
+    drift: Vec3<R>,
+    time_constant_s: R,
+) -> Vec3<R> {
+    let descent = time_constant_s * cx.scene.gravity_m_s2;
+    let velocity = Vec3::new(drift.x, drift.y - descent, drift.z);
+    let way = velocity * position.x.all(0.5 * cx.scene.dt_s);
+    wind_at_moment(cx, MOMENT_MIDDLE, position + way)
+}
+
 /// The whole step of falling leaves that have no event in it, up to the ground.
 #[inline(always)]
 pub fn glide_step<R: Real>(
@@ -146,7 +162,7 @@ pub fn glide_step<R: Real>(
     params: MotionParams<R::Word>,
     response: Response<R>,
 ) -> Glide<R> {
-    let wind = wind_at(cx, glide.position);
+    let wind = wind_in_step(cx, glide.position, glide.drift, response.time_constant_s);
     let part = Part { length: WHOLE_STEP, decay: response.drift_kept, tau: response.time_constant_s };
     glide_part(cx, glide, bits, params, wind, part)
 }

@@ -8,6 +8,7 @@ use std::f64::consts::TAU;
 
 use crate::arith::lane::Real;
 use crate::arith::rng::random;
+use crate::blocks::MomentBlock;
 use crate::context::Context;
 use crate::device::wind::row::{wind_entry, wind_row};
 use crate::layout::Uint4;
@@ -24,8 +25,8 @@ const STREAM: u32 = 0x4755_0000;
 
 /// Excess over the mean wind, in units of a typical gust's, at `along` metres down the wind.
 #[inline(always)]
-pub fn wind_gust<R: Real>(cx: &Context<'_>, along: R) -> R {
-    let x = along * cx.scene.wind.gust_rows_per_m - cx.step.gust_offset;
+pub fn wind_gust<R: Real>(cx: &Context<'_>, moment: &MomentBlock, along: R) -> R {
+    let x = along * cx.scene.wind.gust_rows_per_m - moment.gust_offset;
     let k = x.floor();
     let index = k.to_whole() & (GUST_ROWS - 1);
     let row = wind_row(cx, index, cx.scene.wind.first_gust_row);

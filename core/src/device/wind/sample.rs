@@ -11,12 +11,20 @@ use super::turbulence::wind_turbulence;
 use super::vortex::wind_vortex;
 use crate::arith::lane::Real;
 use crate::arith::vector::Vec3;
+use crate::blocks::MOMENT_NOW;
 use crate::context::Context;
 use crate::device::terrain::ground::ground_relief;
 
-/// Velocity of the air at `place` in m/s.
+/// Velocity of the air at `place` at the start of the step, in m/s.
 #[inline(always)]
 pub fn wind_at<R: Real>(cx: &Context<'_>, place: Vec3<R>) -> Vec3<R> {
+    wind_at_moment(cx, MOMENT_NOW, place)
+}
+
+/// Velocity of the air at `place` at a moment of the step, in m/s.
+#[inline(always)]
+pub fn wind_at_moment<R: Real>(cx: &Context<'_>, moment: u32, place: Vec3<R>) -> Vec3<R> {
+    let at = &cx.step.moments[moment as usize];
     let wind = &cx.scene.wind;
     let direction_x = wind.direction_x;
     let direction_z = wind.direction_z;
@@ -24,19 +32,19 @@ pub fn wind_at<R: Real>(cx: &Context<'_>, place: Vec3<R>) -> Vec3<R> {
     let across = place.z * direction_x - place.x * direction_z;
     let height = place.y - cx.scene.ground_height_m;
     let above = if cx.scene.has_terrain() { height - ground_relief(cx, place.x, place.z) } else { height };
-    let mean =
-        (wind_profile(cx, above) * wind.mean_speed_m_s) * (wind_gust(cx, along) * wind.gust_strength + 1.0);
+    let mean = (wind_profile(cx, above) * wind.mean_speed_m_s)
+        * (wind_gust(cx, at, along) * wind.gust_strength + 1.0);
     let deviation = Vec3::from(wind.deviation_m_s);
     let mut turbulence = Vec3::<f32>::ZERO.spread(height);
     if deviation.x != 0.0 {
-        turbulence = wind_turbulence(cx, Vec3::new(along, height, across));
+        turbulence = wind_turbulence(cx, at, Vec3::new(along, height, across));
     }
     let u = mean + turbulence.x * deviation.x;
     let v = turbulence.y * deviation.y;
     let w = turbulence.z * deviation.z;
     let mut air = Vec3::new(u * direction_x - w * direction_z, v, u * direction_z + w * direction_x);
     for index in 0..cx.step.vortex_count {
-        air = air + wind_vortex(&cx.step.vortices[index as usize], place);
+        air = air + wind_vortex(&at.vortices[index as usize], place);
     }
     air
 }

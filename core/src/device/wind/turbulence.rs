@@ -10,6 +10,7 @@
 
 use crate::arith::lane::{Real, Word};
 use crate::arith::vector::Vec3;
+use crate::blocks::MomentBlock;
 use crate::context::Context;
 use crate::layout::Uint4;
 
@@ -106,9 +107,9 @@ fn turbulence_across<W: Word>(cx: &Context<'_>, index: W, t: Vec3<W::Real>) -> W
 
 /// Turbulent velocity of unit variance at a place in the wind's frame (along, up, across in metres).
 #[inline(always)]
-pub fn wind_turbulence<R: Real>(cx: &Context<'_>, place: Vec3<R>) -> Vec3<R> {
+pub fn wind_turbulence<R: Real>(cx: &Context<'_>, moment: &MomentBlock, place: Vec3<R>) -> Vec3<R> {
     let cells = Vec3::from(cx.scene.wind.cells_per_m);
-    let x = place.x * cells.x - cx.step.turbulence_offset;
+    let x = place.x * cells.x - moment.turbulence_offset;
     let y = place.y * cells.y;
     let z = place.z * cells.z;
     let kx = x.floor();
