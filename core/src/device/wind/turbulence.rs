@@ -4,9 +4,9 @@
 //!
 //! Turbulence: a periodic box of velocities, interpolated linearly in each direction.
 //!
-//! A component is packed into 16 bits. One row of the table holds along and up of the four nodes of a cell's lower z
-//! face, another one across of all eight nodes, so that a leaf reads three rows of 16 bytes. Packing moves a velocity by
-//! at most 8e-5 of its standard deviation.
+//! A component is packed into 16 bits. A row of the table holds the three components of a node and of the next one along
+//! the wind, so that a leaf reads four rows of 16 bytes, and the box takes one megabyte. Packing moves a velocity by at most
+//! 8e-5 of its standard deviation.
 
 use crate::arith::lane::{Real, Word};
 use crate::arith::vector::Vec3;
@@ -23,7 +23,7 @@ crate::shared_constants! {
     pub const TURBULENCE_Z: u32 = 32;
     /// Standard deviations that a packed unit stands for: 5 for 32767.
     pub const TURBULENCE_UNIT: f32 = 5.0 / 32767.0;
-    /// Nodes of the box: rows of along and up, and behind them as many rows of across.
+    /// Nodes of the box, a row of the table each.
     pub const TURBULENCE_NODES: u32 = 65536;
 }
 
@@ -41,68 +41,35 @@ pub fn turbulence_unpack<W: Word>(word: W) -> (W::Real, W::Real) {
 
 /// Table of the box. `nodes` are velocities, x running fastest, then y, then z.
 pub(crate) fn turbulence_rows(nodes: &[[f32; 3]]) -> Vec<Uint4> {
-    let node = |x: u32, y: u32, z: u32| {
-        let (x, y, z) = (x % TURBULENCE_X, y % TURBULENCE_Y, z % TURBULENCE_Z);
-        nodes[((z * TURBULENCE_Y + y) * TURBULENCE_X + x) as usize].map(turbulence_pack)
+    let row = |index: usize| {
+        let columns = TURBULENCE_X as usize;
+        let next = index / columns * columns + (index + 1) % columns;
+        let [start, end] = [index, next].map(|node| nodes[node].map(turbulence_pack));
+        let [along, up, across] = [0, 1, 2].map(|part| start[part] | (end[part] << 16));
+        Uint4([along, up, across, 0])
     };
-    let place = |index: u32| {
-        (index % TURBULENCE_X, index / TURBULENCE_X % TURBULENCE_Y, index / (TURBULENCE_X * TURBULENCE_Y))
-    };
-    let level = |index: u32| {
-        let (x, y, z) = place(index);
-        let at = |x, y| {
-            let [along, up, _] = node(x, y, z);
-            along | (up << 16)
-        };
-        Uint4([at(x, y), at(x + 1, y), at(x, y + 1), at(x + 1, y + 1)])
-    };
-    let across = |index: u32| {
-        let (x, y, z) = place(index);
-        let at = |y, z| node(x, y, z)[2] | (node(x + 1, y, z)[2] << 16);
-        Uint4([at(y, z), at(y + 1, z), at(y, z + 1), at(y + 1, z + 1)])
-    };
-    (0..TURBULENCE_NODES).map(level).chain((0..TURBULENCE_NODES).map(across)).collect()
+    (0..TURBULENCE_NODES as usize).map(row).collect()
 }
 
-/// Row of the node at the lower corner of a cell.
+/// Row of the node at the start of an edge.
 #[inline(always)]
-fn turbulence_index<W: Word>(column: W, layer: W) -> W {
-    ((layer & (TURBULENCE_Z - 1)) << 11) | column
+fn turbulence_index<W: Word>(column: W, level: W, layer: W) -> W {
+    ((layer & (TURBULENCE_Z - 1)) << 11) | ((level & (TURBULENCE_Y - 1)) << 6) | (column & (TURBULENCE_X - 1))
 }
 
-/// Along and up on one z face of a cell, in packed units.
+/// A component on an edge along the wind, in packed units.
 #[inline(always)]
-fn turbulence_face<W: Word>(cx: &Context<'_>, index: W, along: W::Real, up: W::Real) -> (W::Real, W::Real) {
-    let rows = &cx.tables[cx.scene.wind.first_turbulence_row as usize..];
-    let [a, b, c, d] = index.look_up_words(bytemuck::cast_slice(rows));
-    let (ax, ay) = turbulence_unpack(a);
-    let (bx, by) = turbulence_unpack(b);
-    let (cx, cy) = turbulence_unpack(c);
-    let (dx, dy) = turbulence_unpack(d);
-    let lower = (ax + along * (bx - ax), ay + along * (by - ay));
-    let upper = (cx + along * (dx - cx), cy + along * (dy - cy));
-    (lower.0 + up * (upper.0 - lower.0), lower.1 + up * (upper.1 - lower.1))
-}
-
-/// Across on an edge along the wind, in packed units.
-#[inline(always)]
-fn turbulence_edge<W: Word>(edge: W, along: W::Real) -> W::Real {
+fn turbulence_component<W: Word>(edge: W, along: W::Real) -> W::Real {
     let (start, end) = turbulence_unpack(edge);
     start + along * (end - start)
 }
 
-/// Across within a cell, in packed units.
+/// Velocity on an edge along the wind, in packed units.
 #[inline(always)]
-fn turbulence_across<W: Word>(cx: &Context<'_>, index: W, t: Vec3<W::Real>) -> W::Real {
-    let rows = &cx.tables[(cx.scene.wind.first_turbulence_row + TURBULENCE_NODES) as usize..];
-    let [a, b, c, d] = index.look_up_words(bytemuck::cast_slice(rows));
-    let a = turbulence_edge(a, t.x);
-    let b = turbulence_edge(b, t.x);
-    let c = turbulence_edge(c, t.x);
-    let d = turbulence_edge(d, t.x);
-    let near = a + t.y * (b - a);
-    let far = c + t.y * (d - c);
-    near + t.z * (far - near)
+fn turbulence_edge<W: Word>(cx: &Context<'_>, index: W, along: W::Real) -> Vec3<W::Real> {
+    let rows = &cx.tables[cx.scene.wind.first_turbulence_row as usize..];
+    let [x, y, z, _] = index.look_up_words(bytemuck::cast_slice(rows));
+    Vec3::new(turbulence_component(x, along), turbulence_component(y, along), turbulence_component(z, along))
 }
 
 /// Turbulent velocity of unit variance at a place in the wind's frame (along, up, across in metres).
@@ -116,15 +83,16 @@ pub fn wind_turbulence<R: Real>(cx: &Context<'_>, moment: &MomentBlock, place: V
     let ky = y.floor();
     let kz = z.floor();
     let t = Vec3::new(x - kx, y - ky, z - kz);
-    let column = ((ky.to_whole() & (TURBULENCE_Y - 1)) << 6) | (kx.to_whole() & (TURBULENCE_X - 1));
+    let column = kx.to_whole();
+    let level = ky.to_whole();
     let layer = kz.to_whole();
-    let index = turbulence_index(column, layer);
-    let near = turbulence_face(cx, index, t.x, t.y);
-    let far = turbulence_face(cx, turbulence_index(column, layer.plus(layer.all(1))), t.x, t.y);
-    let across = turbulence_across(cx, index, t);
-    Vec3::new(
-        (near.0 + t.z * (far.0 - near.0)) * TURBULENCE_UNIT,
-        (near.1 + t.z * (far.1 - near.1)) * TURBULENCE_UNIT,
-        across * TURBULENCE_UNIT,
-    )
+    let above = level.plus(level.all(1));
+    let beyond = layer.plus(layer.all(1));
+    let a = turbulence_edge(cx, turbulence_index(column, level, layer), t.x);
+    let b = turbulence_edge(cx, turbulence_index(column, above, layer), t.x);
+    let c = turbulence_edge(cx, turbulence_index(column, level, beyond), t.x);
+    let d = turbulence_edge(cx, turbulence_index(column, above, beyond), t.x);
+    let near = a + (b - a) * t.y;
+    let far = c + (d - c) * t.y;
+    (near + (far - near) * t.z) * t.x.all(TURBULENCE_UNIT)
 }
