@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The CPU backend: rayon over chunks of leaves. It is the oracle that the other backends are checked against.
 //!
-//! Every leaf is stepped by the same functions of `windfall-core`, one or eight at a time, so the result is the
+//! Every leaf is stepped by the same functions of `windfall-core`, one, eight or sixteen at a time, so the result is the
 //! same to the bit for any number of threads and any instruction set.
 
 #![warn(clippy::print_stdout, clippy::print_stderr)]

@@ -18,7 +18,7 @@ use fearless_simd::Level;
 pub enum Simd {
     /// One leaf after another, as the oracle is written.
     Scalar,
-    /// Eight leaves at once, with the instructions of a level.
+    /// Eight or sixteen leaves at once, with the instructions of a level.
     Lanes(Level),
 }
 

@@ -24,7 +24,7 @@ use crate::device::terrain::ground::ground_met;
 use crate::device::wind::sample::wind_at_moment;
 use crate::leaf::LeafMut;
 
-/// A leaf on its way through one step, or eight of them.
+/// A leaf on its way through one step, or several of them.
 #[derive(Clone, Copy)]
 pub struct Glide<R: Real = f32> {
     /// Position in metres.
@@ -46,7 +46,7 @@ pub struct Part<R: Real = f32> {
     pub tau: R,
 }
 
-/// Response of a leaf's species, or of eight leaves' (see [`ResponseBlock`]).
+/// Response of a leaf's species, or of several leaves' (see [`ResponseBlock`]).
 #[derive(Clone, Copy)]
 pub struct Response<R: Real = f32> {
     /// Drift kept over a step.

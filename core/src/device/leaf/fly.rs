@@ -21,7 +21,7 @@ use crate::device::wind::sample::wind_at;
 use crate::flight::block::BODY_LOAD_ROW;
 use crate::leaf::LeafMut;
 
-/// A body on its way, or eight of them.
+/// A body on its way, or several of them.
 #[derive(Clone, Copy, Debug)]
 pub struct Flight<R: Real = f32> {
     /// Position in metres.

@@ -22,7 +22,7 @@ crate::shared_constants! {
     pub const STEP_UNIT: f32 = 1.0 / 65536.0;
 }
 
-/// Parameters of a leaf's motion until its next event, or of eight leaves': the last three words of their schedules.
+/// Parameters of a leaf's motion until its next event, or of several leaves': the last three words of their schedules.
 #[derive(Clone, Copy, Debug)]
 pub struct MotionParams<W = u32> {
     /// Phase per step.
