@@ -156,7 +156,8 @@ fn a_changed_kernel_is_noticed() {
         ("leaf/settle", "flatten(quat_multiply(back, q), kept)", "flatten(q, kept)"),
         ("wind/sample", "above = height - ground_relief", "above = height + ground_relief"),
     ];
-    let mut calm = [varied_scene(3, 3000, 5.0, 1.0 / 60.0), flying_scene(3, 3000, 5.0, 1.0 / 60.0)];
+    // So many leaves that some land within any step.
+    let mut calm = [varied_scene(3, 10_000, 5.0, 1.0 / 60.0), flying_scene(3, 3000, 5.0, 1.0 / 60.0)];
     calm.iter_mut().for_each(|scene| scene.wind.vortices.clear());
     let hills = warmed(&hilly_scene(calm[0].clone()), 400);
     let [plain, flying] = calm.map(|scene| warmed(&scene, 400));
