@@ -190,8 +190,8 @@ impl<'a> LeafColumns<'a> {
     /// The columns of a store of leaves.
     pub fn of(leaves: &'a StoreBuffers) -> Self {
         debug_assert_eq!(leaves.size.store, Leaves::NAME, "buffers of leaves");
-        let [place, drift, attitude, schedule, identity] =
-            [0, 1, 2, 3, 4].map(|column| leaves.buffer(column));
+        let [place, drift, attitude, schedule, _air, identity] =
+            [0, 1, 2, 3, 4, 5].map(|column| leaves.buffer(column));
         Self { place, drift, attitude, schedule, identity, leaf_count: leaves.rows() }
     }
 }

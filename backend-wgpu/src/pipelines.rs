@@ -35,12 +35,12 @@ impl GroupLayout {
     /// Resources, binding by binding.
     fn slots(self) -> &'static [Slot] {
         use Slot::{Block, BlockOfMany, Read, Write};
-        // The bindings of shaders/bindings.wgsl: all of them, those up to the wind, those up to the schedules.
-        const ALL: &[Slot] = &[Block, BlockOfMany, Read, Write, Write, Write, Write, Write];
+        // The bindings of shaders/bindings.wgsl: all of them, those up to the tables, those up to the airs.
+        const ALL: &[Slot] = &[Block, BlockOfMany, Read, Write, Write, Write, Write, Write, Write];
         match self {
             Self::Leaves => ALL,
             Self::Blocks => &ALL[..3],
-            Self::LeavesInMotion => &ALL[..7],
+            Self::LeavesInMotion => &ALL[..8],
             Self::OneBuffer => &[Write],
             // The bindings of shaders/tree/bindings.wgsl.
             Self::Level => &[BlockOfMany, Read, Read, Write, Write, Read],
@@ -58,6 +58,7 @@ impl KernelId {
                 &[GroupLayout::Blocks, GroupLayout::Level]
             }
             Self::Carry => &[GroupLayout::LeavesInMotion, GroupLayout::Carriers],
+            Self::SampleAir => &[GroupLayout::LeavesInMotion],
             Self::Advance | Self::Measure => &[GroupLayout::LeavesInMotion, GroupLayout::OneBuffer],
             Self::ResolveEvents => &[GroupLayout::Leaves, GroupLayout::OneBuffer],
             Self::Fly => &[GroupLayout::Leaves],
@@ -66,7 +67,7 @@ impl KernelId {
 
     /// The kernels that step and count a world of this scene.
     pub(crate) fn needed(compiled: &CompiledScene) -> Vec<Self> {
-        let mut kernels = vec![Self::Advance, Self::ResolveEvents, Self::Measure];
+        let mut kernels = vec![Self::SampleAir, Self::Advance, Self::ResolveEvents, Self::Measure];
         if compiled.block().has_bodies() {
             kernels.push(Self::Fly);
         }

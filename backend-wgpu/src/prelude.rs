@@ -68,6 +68,7 @@ pub(crate) fn constants() -> String {
         arith::quaternion::wgsl_constants(),
         arith::rng::wgsl_constants(),
         arith::vector::wgsl_constants(),
+        device::leaf::air::wgsl_constants(),
         device::leaf::carry::wgsl_constants(),
         device::leaf::own::wgsl_constants(),
         device::leaf::launch::wgsl_constants(),
@@ -83,6 +84,7 @@ pub(crate) fn constants() -> String {
         device::tree::sway::quigley::wgsl_constants(),
         device::tree::sway::wgsl_constants(),
         device::wind::gust::wgsl_constants(),
+        device::wind::packed::wgsl_constants(),
         device::wind::profile::wgsl_constants(),
         device::wind::turbulence::wgsl_constants(),
     ];

@@ -12,6 +12,8 @@ use crate::prelude;
 /// The compute kernels; one name for file, entry point and twin.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum KernelId {
+    /// Samples the air for the leaves whose turn it is.
+    SampleAir,
     /// Moves the leaves without an event through one step.
     Advance,
     /// Moves the bodies among them.
@@ -34,7 +36,8 @@ pub enum KernelId {
 
 impl KernelId {
     /// All kernels.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 10] = [
+        Self::SampleAir,
         Self::Advance,
         Self::Fly,
         Self::ResolveEvents,
@@ -49,6 +52,7 @@ impl KernelId {
     /// Name of the file and of the entry point.
     pub const fn name(self) -> &'static str {
         match self {
+            Self::SampleAir => "sample_air",
             Self::Advance => "advance",
             Self::Fly => "fly",
             Self::ResolveEvents => "resolve_events",
@@ -102,6 +106,7 @@ impl Default for Shaders {
             "event_list",
             "kernels/advance",
             "kernels/resolve_events",
+            "kernels/sample_air",
             "kernels/carry",
             "kernels/fly",
             "kernels/measure",
@@ -110,6 +115,7 @@ impl Default for Shaders {
             "kernels/sway_gather",
             "kernels/sway_outward",
             "leaf/advance",
+            "leaf/air",
             "leaf/carry",
             "leaf/fall",
             "leaf/fly",
@@ -136,6 +142,7 @@ impl Default for Shaders {
             "tree/sway/twig",
             "tree/sway/work",
             "wind/gust",
+            "wind/packed",
             "wind/profile",
             "wind/row",
             "wind/sample",

@@ -47,7 +47,7 @@ crate::shared_struct! {
 
 crate::shared_struct! {
     /// The wind, compiled.
-    pub struct WindBlock, padding 8 {
+    pub struct WindBlock {
         /// Unit vector that the mean wind blows towards, along x.
         pub direction_x: f32,
         /// The same along z.
@@ -68,6 +68,10 @@ crate::shared_struct! {
         pub first_gust_row: u32,
         /// First row of the turbulence table.
         pub first_turbulence_row: u32,
+        /// Steps of the interval for which a falling leaf samples the wind: 1, 2 or 4.
+        pub interval_steps: u32,
+        /// Half of the interval in s.
+        pub half_interval_s: f32,
     }
 }
 

@@ -79,6 +79,11 @@ impl Record for f32 {
     const FIELDS: &'static [Field] = &[Field::of::<Self>("")];
 }
 
+impl Record for [u32; 2] {
+    const NAME: &'static str = "vec2<u32>";
+    const FIELDS: &'static [Field] = &[Field::of::<Self>("")];
+}
+
 impl Record for [f32; 4] {
     const NAME: &'static str = "vec4<f32>";
     const FIELDS: &'static [Field] = &[Field::of::<Self>("")];

@@ -142,6 +142,8 @@ fn a_changed_kernel_is_noticed() {
         ("leaf/join", "before - after", "after - before"),
         ("leaf/advance", "state == STATE_RESTING", "state == STATE_ATTACHED"),
         ("wind/sample", "turbulence.y *", "turbulence.x *"),
+        ("wind/packed", "words.x << 21u", "words.x << 20u"),
+        ("kernels/sample_air", "0u - step_block.index", "1u - step_block.index"),
         ("prelude", "const TABLE_ROWS: u32 = 513u", "const TABLE_ROWS: u32 = 512u"),
     ];
     let flown = [
@@ -179,7 +181,9 @@ fn every_kernel_has_a_twin_on_the_cpu() {
     for kernel in KernelId::ALL {
         let rust = format!("{root}/backend-cpu/src/kernels/{}.rs", kernel.name());
         let text = std::fs::read_to_string(&rust).unwrap_or_else(|error| panic!("{rust}: {error}"));
-        assert!(text.contains(&format!("fn {}(", kernel.name())), "{rust} holds no function of its name");
+        let name = format!("fn {}", kernel.name());
+        let is_there = text.split(&name).skip(1).any(|rest| rest.starts_with(['(', '<']));
+        assert!(is_there, "{rust} holds no function of its name");
         let source = Shaders::default().kernel(kernel).expect("it composes");
         assert!(
             source.contains(&format!("fn {}(", kernel.name())),

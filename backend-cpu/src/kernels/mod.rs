@@ -7,6 +7,7 @@ pub(crate) mod carry;
 mod fly;
 pub(crate) mod measure;
 mod resolve_events;
+mod sample_air;
 pub(crate) mod step_leaves;
 pub(crate) mod step_trees;
 pub(crate) mod sway_follow;
@@ -14,5 +15,5 @@ pub(crate) mod sway_gather;
 pub(crate) mod sway_inward;
 pub(crate) mod sway_outward;
 
-/// Leaves per chunk: a chunk's hot columns (64 bytes a leaf) fit in a core's level-two cache.
+/// Leaves per chunk: a chunk's hot columns (72 bytes a leaf) fit in a core's level-two cache.
 pub(crate) const CHUNK: usize = 4096;

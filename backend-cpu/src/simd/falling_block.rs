@@ -6,11 +6,12 @@ use bytemuck::{must_cast_mut, must_cast_ref};
 use windfall_core::Context;
 use windfall_core::arith::Quat;
 use windfall_core::arith::lane::{Mask, Real, Word};
-use windfall_core::arith::pack::{BLOCK, Pack, load_block, rows_of_bits, store_block};
+use windfall_core::arith::pack::{BLOCK, Pack, load_block, load_pairs, rows_of_bits, store_block};
 use windfall_core::device::leaf::fall::{Glide, attitude_after, glide_step, response_of, spin_advance};
 use windfall_core::device::leaf::own::MotionParams;
 use windfall_core::device::leaf::record::{STATE_FALLING, STATE_RESTING, flies, ground_steps, leaf_state};
 use windfall_core::device::terrain::ground::ground_met;
+use windfall_core::device::wind::packed::wind_unpack;
 use windfall_core::leaf::{Attitude, Drift, Place, Schedule};
 
 use super::branch_block::{Column, vector_and_fourth};
@@ -22,6 +23,7 @@ pub(crate) struct FallingBlock<'a> {
     pub(crate) drift: &'a mut [Drift; BLOCK],
     pub(crate) attitude: &'a mut [Attitude; BLOCK],
     pub(crate) schedule: &'a [Schedule; BLOCK],
+    pub(crate) air: &'a [[u32; 2]; BLOCK],
 }
 
 /// Result of a step of a block.
@@ -71,7 +73,8 @@ impl FallingBlock<'_> {
         }
         let start = Glide { position, drift: velocity, phase };
         let response = response_of(cx, bits);
-        let glide = glide_step(cx, start, bits, MotionParams { rate, size, heading }, response);
+        let wind = wind_unpack(load_pairs::<P>(simd, self.air, part));
+        let glide = glide_step(cx, start, bits, MotionParams { rate, size, heading }, response, wind);
         let spun = spin_advance(bits, heading, response.fastest_spin);
         let before = || Quat::from(load_block::<P>(simd, attitude, part));
         let (bits, turned) = attitude_after(cx, spun, glide.phase, heading, before);

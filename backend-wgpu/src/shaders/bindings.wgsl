@@ -11,4 +11,5 @@
 @group(0) @binding(4) var<storage, read_write> drifts: array<Drift>;
 @group(0) @binding(5) var<storage, read_write> attitudes: array<Attitude>;
 @group(0) @binding(6) var<storage, read_write> schedules: array<Schedule>;
-@group(0) @binding(7) var<storage, read_write> identities: array<Identity>;
+@group(0) @binding(7) var<storage, read_write> airs: array<vec2<u32>>;
+@group(0) @binding(8) var<storage, read_write> identities: array<Identity>;

@@ -9,7 +9,7 @@ use crate::buffers::{buffer, group, uniform};
 use crate::pipelines::GroupLayout;
 
 /// Leaf columns before the identities.
-const COLUMNS_IN_MOTION: usize = 4;
+const COLUMNS_IN_MOTION: usize = 5;
 /// Header of an empty event list.
 const EVENT_LIST_HEADER: [u8; 16] = [0; 16];
 

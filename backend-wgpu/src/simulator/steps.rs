@@ -4,6 +4,7 @@
 
 use windfall_core::SimError;
 use windfall_core::blocks::StepBlock;
+use windfall_core::device::leaf::air::AIR_UNIT_SHIFT;
 
 use super::WgpuSimulator;
 use crate::buffers::buffer;
@@ -74,6 +75,17 @@ impl WgpuSimulator {
         Ok(())
     }
 
+    /// Most leaves of a page of so many that sample the air in a step.
+    fn sampling_leaves(&self, leaves: u32, step: u32) -> u32 {
+        let block = self.compiled.block();
+        let interval = block.wind.interval_steps;
+        // In a world that repeats all have the same turns.
+        if block.ids_per_life == 0 {
+            return if step.is_multiple_of(interval) { leaves } else { 0 };
+        }
+        leaves.div_ceil(interval << AIR_UNIT_SHIFT) << AIR_UNIT_SHIFT
+    }
+
     /// Encodes a compute pass of at most [`STEPS_PER_PASS`] steps.
     fn encode_pass(
         &mut self,
@@ -81,6 +93,7 @@ impl WgpuSimulator {
         count: u32,
         timestamp_writes: Option<wgpu::ComputePassTimestampWrites<'_>>,
     ) {
+        let first = self.clock.step();
         let mut blocks = vec![0; (count * self.step_stride) as usize];
         for slot in blocks.chunks_exact_mut(self.step_stride as usize) {
             let block = self.compiled.step_block(&self.clock);
@@ -96,7 +109,7 @@ impl WgpuSimulator {
         let mut pass = encoder.begin_compute_pass(&descriptor);
         let kernel = |kernel| self.pipelines.kernel(kernel);
         let has_bodies = self.compiled.block().has_bodies();
-        for step in 0..count {
+        for (step, index) in (0..count).zip(first..) {
             let offset = step * self.step_stride;
             if let Some(forest) = &self.forest {
                 let sway = KernelId::of_scheme(self.compiled.scene().sway);
@@ -111,6 +124,11 @@ impl WgpuSimulator {
             }
             for page in &self.pages {
                 pass.set_bind_group(0, &page.in_motion, &[offset]);
+                let sampling = self.sampling_leaves(page.leaves, index);
+                if sampling > 0 {
+                    pass.set_pipeline(kernel(KernelId::SampleAir));
+                    pass.dispatch_workgroups(sampling.div_ceil(WORKGROUP_SIZE).min(MAX_GROUPS), 1, 1);
+                }
                 pass.set_bind_group(1, &page.events, &[]);
                 let groups = page.leaves.div_ceil(WORKGROUP_SIZE);
                 pass.set_pipeline(kernel(KernelId::Advance));

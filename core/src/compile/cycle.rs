@@ -170,6 +170,7 @@ impl Cycle {
                     leaves.place[slot] = Place::default();
                     leaves.drift[slot] = Default::default();
                     leaves.attitude[slot] = Default::default();
+                    leaves.air[slot] = Default::default();
                     leaves.schedule[slot] = Schedule { event, ..Schedule::default() };
                     leaves.identity[slot] = Identity {
                         id: first + leaf,

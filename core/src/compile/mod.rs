@@ -171,8 +171,9 @@ impl CompiledScene {
 
     /// The block of one step.
     pub fn step_block(&self, clock: &Clock) -> StepBlock {
+        let middle = 0.5 * f64::from(self.block.wind.interval_steps);
         StepBlock {
-            moments: [0.0, 0.5].map(|steps| self.moment_block(clock, steps)),
+            moments: [0.0, middle].map(|steps| self.moment_block(clock, steps)),
             index: clock.step(),
             vortex_count: len32(self.scene.wind.vortices.len()),
             padding: Default::default(),

@@ -10,6 +10,12 @@ use crate::scene::{Scene, WindParameters};
 
 /// Turbulence up and across the wind relative to along it (IEC 61400-1).
 const DEVIATION_RATIOS: [f32; 3] = [1.0, 0.5, 0.8];
+/// Longest interval in seconds for which a falling leaf samples the wind: half of the time in which it responds.
+const LONGEST_INTERVAL_S: f64 = 1.0 / 15.0;
+/// Speed in m/s of a leaf through the eddies that carry it: that of its descent.
+const DESCENT_M_S: f64 = 1.2;
+/// Largest part of an eddy that a leaf passes through in an interval.
+const LARGEST_SHARE: f64 = 0.2;
 
 pub(super) fn wind_block(scene: &Scene) -> WindBlock {
     let wind = &scene.wind;
@@ -17,6 +23,7 @@ pub(super) fn wind_block(scene: &Scene) -> WindBlock {
     let (sin, cos) = libm::sincos(f64::from(wind.direction_deg).to_radians());
     let gust_length = speed * f64::from(wind.gusts.interval_s) / f64::from(GUST_SPACING);
     let deviation = deviation_m_s(wind);
+    let interval_steps = interval_steps(scene);
     WindBlock {
         direction_x: single(cos),
         direction_z: single(sin),
@@ -28,11 +35,33 @@ pub(super) fn wind_block(scene: &Scene) -> WindBlock {
         first_profile_row: 0,
         first_gust_row: PROFILE_ROWS,
         first_turbulence_row: PROFILE_ROWS + GUST_ROWS,
-        padding: Default::default(),
+        interval_steps,
+        half_interval_s: single(0.5 * f64::from(interval_steps) * f64::from(scene.dt_s)),
     }
 }
 
 /// Standard deviation of the along-wind turbulence in m/s.
 pub(super) fn deviation_m_s(wind: &WindParameters) -> f32 {
     single(f64::from(wind.turbulence.intensity) * wind.speed.metres_per_second()) + wind.turbulence.calm_m_s
+}
+
+/// Steps of the interval for which a falling leaf samples the wind: the most of 4, 2 and 1 in which the wind that it
+/// meets changes little.
+fn interval_steps(scene: &Scene) -> u32 {
+    let wind = &scene.wind;
+    let deviation = f64::from(deviation_m_s(wind));
+    let mut most_s = LONGEST_INTERVAL_S;
+    if deviation > 0.0 {
+        let passing = libm::hypot(deviation, DESCENT_M_S);
+        most_s = most_s.min(LARGEST_SHARE * f64::from(wind.turbulence.cell_m) / passing);
+    }
+    for vortex in &wind.vortices {
+        let core = f64::from(vortex.core_m);
+        let swirl = f64::from(vortex.circulation_m2_s).abs() / (4.0 * std::f64::consts::PI * core);
+        let passing = libm::hypot(swirl, f64::from(vortex.axial_m_s));
+        most_s = most_s.min(LARGEST_SHARE * core / passing.max(DESCENT_M_S));
+    }
+    // Step lengths are given in single precision.
+    let fits = |steps: &u32| f64::from(*steps) * f64::from(scene.dt_s) <= most_s * (1.0 + 1e-6);
+    [4, 2].into_iter().find(fits).unwrap_or(1)
 }

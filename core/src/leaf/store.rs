@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The leaf store: a struct of arrays of 16-byte records, the same bytes on every backend.
+//! The leaf store: a struct of arrays of records, the same bytes on every backend.
 
 use crate::device::leaf::record::{
     Attitude, Drift, Identity, Place, STATE_ATTACHED, STATE_DORMANT, STATE_FALLING, Schedule, leaf_state,
@@ -56,6 +56,9 @@ crate::columns! {
         pub attitude: Attitude,
         /// Next event and motion parameters.
         pub schedule: Schedule,
+        /// Velocity of the air that the leaf meets while it falls, packed by
+        /// [`wind_pack`](crate::device::wind::packed::wind_pack); of others it means nothing. Hot, but written once in an interval.
+        pub air: [u32; 2],
         /// Identity.
         pub identity: Identity,
     }
@@ -70,17 +73,21 @@ crate::columns! {
 pub const LEAF_BYTES: usize = Leaves::ROW_BYTES;
 
 /// Bytes that one step of one leaf moves between two events: place and drift are read and written, attitude is
-/// written, schedule is read. Identity, and an attitude that blends, are touched in few steps and do not count.
-pub const HOT_BYTES_PER_STEP: usize =
-    2 * (size_of::<Place>() + size_of::<Drift>()) + size_of::<Attitude>() + size_of::<Schedule>();
+/// written, schedule and air are read. Writing air, identity, and an attitude that blends, come in few steps and do not
+/// count.
+pub const HOT_BYTES_PER_STEP: usize = 2 * (size_of::<Place>() + size_of::<Drift>())
+    + size_of::<Attitude>()
+    + size_of::<Schedule>()
+    + size_of::<[u32; 2]>();
 
 /// Meaning of the words of a field of a leaf: those reused by leaves on twigs and by bodies hold floats there.
-fn leaf_kind(leaves: &Leaves, slot: usize, _column: &Column, field: &Field) -> FieldKind {
+fn leaf_kind(leaves: &Leaves, slot: usize, column: &Column, field: &Field) -> FieldKind {
     let place = &leaves.place[slot];
     let is_float = match field.name {
         "phase" => phase_is_float(place.bits),
         "rate" | "heading" => spin_is_float(place.bits),
-        _ => field.kind == FieldKind::Float,
+        // The high bits of both words are those of floats.
+        _ => field.kind == FieldKind::Float || column.name == "air",
     };
     if is_float { FieldKind::Float } else { FieldKind::Integer }
 }

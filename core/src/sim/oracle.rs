@@ -7,13 +7,17 @@ use crate::clock::Clock;
 use crate::compile::CompiledScene;
 use crate::context::Context;
 use crate::device::leaf::advance::leaf_advance;
+use crate::device::leaf::air::{air_is_sampled, leaf_sample_air};
 use crate::device::leaf::fly::leaf_fly;
 
 /// Steps the leaves of a world one after another. Trees, and the leaves that hang on them, stay as they are.
 pub fn step(world: &mut World, count: u32) {
     let World { compiled, clock, leaves, branches: _ } = world;
     each_step(compiled, clock, count, |cx| {
-        for mut leaf in leaves.as_mut().iter_mut() {
+        for (slot, mut leaf) in (0..).zip(leaves.as_mut().iter_mut()) {
+            if air_is_sampled(cx, slot) {
+                leaf_sample_air(cx, &mut leaf);
+            }
             leaf_advance(cx, &mut leaf);
             leaf_fly(cx, &mut leaf);
         }

@@ -10,6 +10,7 @@ use crate::blocks::StepBlock;
 use crate::clock::Clock;
 use crate::compile::{CompiledScene, Cycle, lifetime_steps, release_step};
 use crate::context::Context;
+use crate::device::leaf::air::leaf_sample_air;
 use crate::device::leaf::record::leaf_appearance;
 use crate::device::leaf::release::leaf_release;
 use crate::error::{SceneError, SimError};
@@ -217,6 +218,7 @@ fn place_leaves(
                 let id = id.wrapping_add(word(lives).wrapping_mul(total));
                 leaf_release(cx, &mut leaf, id, index, word(release));
                 leaf_seek_any(cx, tables, &mut leaf, word(-release));
+                leaf_sample_air(cx, &mut leaf);
             }
         }
     }

@@ -12,7 +12,8 @@ use windfall_core::arith::quaternion::{
 };
 use windfall_core::arith::rng::{below, mul_high, mul_q16, philox, triangular, unit_float};
 use windfall_core::arith::vector::{vec3_cross, vec3_dot, vec3_length, vec3_lerp};
-use windfall_core::device::leaf::fall::{glide_of, response_of, spin_advance, wind_in_step};
+use windfall_core::device::leaf::air::air_sample;
+use windfall_core::device::leaf::fall::{glide_of, response_of, spin_advance};
 use windfall_core::device::leaf::join::part_of_step;
 use windfall_core::device::leaf::own::{
     MotionParams, motion_params, own_advance, own_orientation, own_velocity, turn_to_heading,
@@ -35,6 +36,7 @@ use windfall_core::device::motion::lookup::{
 };
 use windfall_core::device::terrain::ground::{ground_met, ground_relief, ground_rest, ground_slope};
 use windfall_core::device::wind::gust::wind_gust;
+use windfall_core::device::wind::packed::{wind_pack, wind_unpack};
 use windfall_core::device::wind::profile::wind_profile;
 use windfall_core::device::wind::sample::wind_at;
 use windfall_core::device::wind::turbulence::wind_turbulence;
@@ -367,11 +369,19 @@ functions! {
     wgsl "r = vec4<u32>(bitcast<vec3<u32>>(wind_vortex(MOMENT_NOW, 0u, bitcast<vec3<f32>>(a.xyz))), 0u);";
     rust |cx, w| floats(wind_vortex(&cx.step.moments[0].vortices[0], vector(w, 0)).to_array());
 
-    wind_in_step in "leaf/fall" (METRES, METRES, METRES, UNIT, UNIT, UNIT) tolerance Some(4e-6);
+    wind_pack in "wind/packed" (SPEED, SPEED, SPEED) tolerance None;
+    wgsl "r = vec4<u32>(wind_pack(bitcast<vec3<f32>>(a.xyz)), 0u, 0u);";
+    rust |_cx, w| integers(wind_pack(vector(w, 0)));
+
+    wind_unpack in "wind/packed" (SPEED, SPEED, SPEED) tolerance None;
+    wgsl "r = vec4<u32>(bitcast<vec3<u32>>(wind_unpack(wind_pack(bitcast<vec3<f32>>(a.xyz)))), 0u);";
+    rust |_cx, w| floats(wind_unpack(wind_pack(vector(w, 0))).to_array());
+
+    air_sample in "leaf/air" (METRES, METRES, METRES, UNIT, UNIT, UNIT) tolerance Some(3e-4);
     wgsl "let p = bitcast<vec3<f32>>(a.xyz);
         let drift = bitcast<vec3<f32>>(vec3<u32>(a.w, b.xy));
-        r = vec4<u32>(bitcast<vec3<u32>>(wind_in_step(p, drift, 0.1)), 0u);";
-    rust |cx, w| floats(wind_in_step(cx, vector(w, 0), vector(w, 3), 0.1).to_array());
+        r = vec4<u32>(bitcast<vec3<u32>>(wind_unpack(air_sample(p, drift, 0.1))), 0u);";
+    rust |cx, w| floats(wind_unpack(air_sample(cx, vector(w, 0), vector(w, 3), 0.1)).to_array());
 
     wind_at in "wind/sample" (METRES, METRES, METRES) tolerance Some(4e-6);
     wgsl "r = vec4<u32>(bitcast<vec3<u32>>(wind_at(bitcast<vec3<f32>>(a.xyz))), 0u);";

@@ -3,6 +3,7 @@
 // twin: core/src/device/leaf/advance.rs
 // One step of one leaf: plain steps apart from those with an event.
 #import bindings
+#import leaf/air
 #import leaf/fall
 #import leaf/fly
 #import leaf/join
@@ -42,12 +43,18 @@ fn leaf_advance_event(leaf: u32) {
     let source = leaf_source(identity.appearance);
     let lifetime = scene.sources[source].lifetime_steps;
     let state = leaf_state(places[leaf].bits);
+    var is_let_go = true;
     if (state == STATE_ATTACHED) {
         leaf_detach(leaf, now);
     } else if (state == STATE_DORMANT) {
         leaf_release(leaf, identity.id, source, now);
     } else if (source != SOURCE_TREES && lifetime != 0u && now - identity.release >= lifetime) {
         leaf_release(leaf, identity.id + scene.ids_per_life, source, now);
+    } else {
+        is_let_go = false;
+    }
+    if (is_let_go) {
+        leaf_sample_air(leaf);
     }
     let bits = places[leaf].bits;
     if (leaf_state(bits) == STATE_FALLING && !flies(bits)) {

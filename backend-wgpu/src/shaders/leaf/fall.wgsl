@@ -11,7 +11,7 @@
 #import leaf/settle
 #import motion/lookup
 #import terrain/ground
-#import wind/sample
+#import wind/packed
 
 struct Glide {
     position: vec3<f32>,
@@ -72,22 +72,15 @@ fn glide_end(leaf: u32, glide: Glide, bits: u32, heading: u32) {
     drifts[leaf] = Drift(glide.drift, glide.phase);
 }
 
-fn wind_in_step(position: vec3<f32>, drift: vec3<f32>, time_constant_s: f32) -> vec3<f32> {
-    let descent = time_constant_s * scene.gravity_m_s2;
-    let velocity = vec3<f32>(drift.x, drift.y - descent, drift.z);
-    let way = velocity * (0.5 * scene.dt_s);
-    return wind_at_moment(MOMENT_MIDDLE, position + way);
-}
-
-fn glide_step(glide: Glide, bits: u32, params: MotionParams, response: ResponseBlock) -> Glide {
-    let wind = wind_in_step(glide.position, glide.drift, response.time_constant_s);
+fn glide_step(glide: Glide, bits: u32, params: MotionParams, response: ResponseBlock, wind: vec3<f32>) -> Glide {
     let part = Part(WHOLE_STEP, response.drift_kept, response.time_constant_s);
     return glide_part(glide, bits, params, wind, part);
 }
 
 fn leaf_fall_aloft(leaf: u32, place: Place, schedule: Schedule) -> bool {
     let glide = glide_of(place, drifts[leaf]);
-    let moved = glide_step(glide, place.bits, motion_params(schedule), response_of(place.bits));
+    let wind = wind_unpack(airs[leaf]);
+    let moved = glide_step(glide, place.bits, motion_params(schedule), response_of(place.bits), wind);
     if (ground_met(moved.position)) {
         return false;
     }
@@ -97,7 +90,8 @@ fn leaf_fall_aloft(leaf: u32, place: Place, schedule: Schedule) -> bool {
 
 fn leaf_fall(leaf: u32, place: Place, schedule: Schedule) {
     let glide = glide_of(place, drifts[leaf]);
-    let moved = glide_step(glide, place.bits, motion_params(schedule), response_of(place.bits));
+    let wind = wind_unpack(airs[leaf]);
+    let moved = glide_step(glide, place.bits, motion_params(schedule), response_of(place.bits), wind);
     glide_end(leaf, moved, place.bits, schedule.heading);
     if (ground_met(moved.position)) {
         leaf_land(leaf, place.position);

@@ -10,6 +10,7 @@
 #import leaf/record
 #import leaf/release
 #import motion/feature
+#import wind/packed
 
 fn leaf_join(leaf: u32, glide: Glide) -> Glide {
     let seed = scene.seed;
@@ -50,7 +51,7 @@ fn leaf_fall_joining(leaf: u32) {
     let response = response_of(place.bits);
     let seed = scene.seed;
     var glide = glide_of(place, drifts[leaf]);
-    let wind = wind_in_step(start, glide.drift, response.time_constant_s);
+    let wind = wind_unpack(airs[leaf]);
     var done = 0u;
     for (var join = 1u; join < STAGE_COUNT; join++) {
         if (step_block.index >= schedules[leaf].event) {

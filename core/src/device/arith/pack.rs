@@ -4,10 +4,10 @@
 
 mod lanes;
 
-use bytemuck::must_cast_slice;
+use bytemuck::{must_cast_ref, must_cast_slice};
 use fearless_simd::Simd;
 
-use super::lane::Real;
+use super::lane::{Mask, Real, Word};
 
 /// Rows that packs take together: two packs of eight or one of sixteen.
 pub const BLOCK: usize = 16;
@@ -97,10 +97,32 @@ pub fn store_block<P: Pack>(records: &mut [[f32; 4]; BLOCK], part: usize, column
     d.store(&mut floats[3 * BLOCK + at..]);
 }
 
+/// Two words of each record of a block of which pack number `part` holds its lanes.
+#[inline(always)]
+pub fn load_pairs<P: Pack>(simd: P::Simd, records: &[[u32; 2]; BLOCK], part: usize) -> [P::Word; 2] {
+    let rows = P::load_words(simd, &ROWS_OF_LANES[part * P::LANES..]);
+    let twos: &[[u32; 4]; BLOCK / 2] = must_cast_ref(records);
+    let [x, y, next_x, next_y] = (rows >> 1).look_up_words(twos);
+    let is_next = (rows & 1).equals(1);
+    [is_next.select(next_x, x), is_next.select(next_y, y)]
+}
+
+/// The reverse of [`load_pairs`], for the lanes of which a bit is set.
+#[inline(always)]
+pub fn store_pairs<P: Pack>(records: &mut [[u32; 2]; BLOCK], part: usize, words: [P::Word; 2], lanes: u32) {
+    let [mut x, mut y] = [[0.0; BLOCK]; 2];
+    P::from_bits(words[0]).store(&mut x);
+    P::from_bits(words[1]).store(&mut y);
+    for lane in 0..P::LANES {
+        if lanes >> lane & 1 == 1 {
+            records[row_of_lane(part * P::LANES + lane)] = [x[lane].to_bits(), y[lane].to_bits()];
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::arith::lane::Word;
     use fearless_simd::{Level, SimdBase, dispatch, f32x8, f32x16};
 
     fn numbers<P: Pack>(pack: P) -> Vec<f32> {
@@ -158,6 +180,24 @@ mod tests {
             store_block(&mut back, part, columns);
         }
         assert_eq!(back, records, "as they were");
+
+        let pairs = records.map(|[x, y, ..]| [x, y].map(f32::to_bits));
+        let mut some = [[0; 2]; BLOCK];
+        for part in 0..BLOCK / P::LANES {
+            let words = load_pairs::<P>(simd, &pairs, part);
+            for (number, word) in words.into_iter().enumerate() {
+                for (lane, float) in numbers(P::from_bits(word)).into_iter().enumerate() {
+                    let row = row_of_lane(part * P::LANES + lane);
+                    assert_eq!(float, records[row][number], "word {number} of row {row}");
+                }
+            }
+            store_pairs::<P>(&mut some, part, words, 0b1111_0101_1111_0101);
+        }
+        for lane in 0..BLOCK {
+            let row = row_of_lane(lane);
+            let is_stored = 0b1111_0101 >> (lane % 8) & 1 == 1;
+            assert_eq!(some[row], if is_stored { pairs[row] } else { [0; 2] }, "pair of row {row}");
+        }
     }
 
     #[test]

@@ -5,6 +5,7 @@
 //! One step of one leaf: the whole of its life in one place. Steps with an event (a release, a join) are few and long;
 //! kernels take them apart from the many short ones.
 
+use super::air::leaf_sample_air;
 use super::fall::{leaf_fall, leaf_fall_aloft};
 use super::join::leaf_fall_joining;
 use super::record::{
@@ -44,26 +45,33 @@ pub fn leaf_advance_plain(cx: &Context<'_>, leaf: &mut LeafMut<'_>) -> bool {
     state != STATE_RESTING || !leaf_is_settling(cx, leaf)
 }
 
-/// One step of a leaf with an event in it: it is released, its petiole has broken, or it comes to the end of a stage.
+/// One step of a leaf with an event in it: it is let go, or it comes to the end of a stage. Let go, it samples the air at once.
 #[inline(always)]
 pub fn leaf_advance_event(cx: &Context<'_>, leaf: &mut LeafMut<'_>) {
     let now = cx.step.index;
     let source = leaf_source(leaf.identity.appearance);
     let lifetime = cx.scene.sources[source as usize].lifetime_steps;
     let state = leaf_state(leaf.place.bits);
+    let mut is_let_go = true;
     if state == STATE_ATTACHED {
         leaf_detach(cx, leaf, now);
     } else if state == STATE_DORMANT {
         leaf_release(cx, leaf, leaf.identity.id, source, now);
     } else if source != SOURCE_TREES && lifetime != 0 && now.wrapping_sub(leaf.identity.release) >= lifetime {
         leaf_release(cx, leaf, leaf.identity.id.wrapping_add(cx.scene.ids_per_life), source, now);
+    } else {
+        is_let_go = false;
+    }
+    if is_let_go {
+        leaf_sample_air(cx, leaf);
     }
     if leaf_state(leaf.place.bits) == STATE_FALLING && !flies(leaf.place.bits) {
         leaf_fall_joining(cx, leaf);
     }
 }
 
-/// One step of any leaf. Those that fly as bodies are left to [`leaf_fly`](super::fly::leaf_fly), which comes after.
+/// One step of any leaf, which has sampled the air if it is its turn. Those that fly as bodies are left to
+/// [`leaf_fly`](super::fly::leaf_fly), which comes after.
 #[inline(always)]
 pub fn leaf_advance(cx: &Context<'_>, leaf: &mut LeafMut<'_>) {
     if leaf_has_event(cx, leaf) {

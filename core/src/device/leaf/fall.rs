@@ -5,7 +5,7 @@
 //! A leaf in the air: its own motion from the tables, and the wind's drift.
 //!
 //! The leaf's velocity is its own motion's plus a drift that relaxes towards the wind within the response time
-//! tau = U/g, exactly for a wind that holds still during the step: it is sampled once, in the middle. In still air the path does not
+//! tau = U/g, exactly, as the air that it meets holds still during the step (see [`super::air`]). In still air the path does not
 //! depend on dt.
 
 use super::own::{
@@ -18,10 +18,10 @@ use crate::arith::math::reciprocal;
 use crate::arith::quaternion::{Quat, quat_blend};
 use crate::arith::rng::mul_q16;
 use crate::arith::vector::Vec3;
-use crate::blocks::{MOMENT_MIDDLE, ResponseBlock};
+use crate::blocks::ResponseBlock;
 use crate::context::Context;
 use crate::device::terrain::ground::ground_met;
-use crate::device::wind::sample::wind_at_moment;
+use crate::device::wind::packed::wind_unpack;
 use crate::leaf::LeafMut;
 
 /// A leaf on its way through one step, or several of them.
@@ -138,22 +138,7 @@ pub fn glide_end(cx: &Context<'_>, leaf: &mut LeafMut<'_>, glide: Glide, bits: u
     *leaf.drift = Drift { velocity: glide.drift.to_array(), phase: glide.phase };
 }
 
-/// Velocity in m/s of the air that leaves meet in a step: sampled in its middle, where they will be by then, it stands for the step's
-/// mean to second order. Of their own motion the steady descent g tau counts.
-#[inline(always)]
-pub fn wind_in_step<R: Real>(
-    cx: &Context<'_>,
-    position: Vec3<R>,
-    drift: Vec3<R>,
-    time_constant_s: R,
-) -> Vec3<R> {
-    let descent = time_constant_s * cx.scene.gravity_m_s2;
-    let velocity = Vec3::new(drift.x, drift.y - descent, drift.z);
-    let way = velocity * position.x.all(0.5 * cx.scene.dt_s);
-    wind_at_moment(cx, MOMENT_MIDDLE, position + way)
-}
-
-/// The whole step of falling leaves that have no event in it, up to the ground.
+/// The whole step of falling leaves that have no event in it in that wind, up to the ground.
 #[inline(always)]
 pub fn glide_step<R: Real>(
     cx: &Context<'_>,
@@ -161,8 +146,8 @@ pub fn glide_step<R: Real>(
     bits: R::Word,
     params: MotionParams<R::Word>,
     response: Response<R>,
+    wind: Vec3<R>,
 ) -> Glide<R> {
-    let wind = wind_in_step(cx, glide.position, glide.drift, response.time_constant_s);
     let part = Part { length: WHOLE_STEP, decay: response.drift_kept, tau: response.time_constant_s };
     glide_part(cx, glide, bits, params, wind, part)
 }
@@ -173,7 +158,8 @@ pub fn glide_step<R: Real>(
 pub fn leaf_fall_aloft(cx: &Context<'_>, leaf: &mut LeafMut<'_>) -> bool {
     let (bits, heading) = (leaf.place.bits, leaf.schedule.heading);
     let glide = glide_of(leaf.place, leaf.drift);
-    let moved = glide_step(cx, glide, bits, motion_params(*leaf.schedule), response_of(cx, bits));
+    let (params, wind) = (motion_params(*leaf.schedule), wind_unpack(*leaf.air));
+    let moved = glide_step(cx, glide, bits, params, response_of(cx, bits), wind);
     if ground_met(cx, moved.position) {
         return false;
     }
@@ -186,7 +172,8 @@ pub fn leaf_fall_aloft(cx: &Context<'_>, leaf: &mut LeafMut<'_>) -> bool {
 pub fn leaf_fall(cx: &Context<'_>, leaf: &mut LeafMut<'_>) {
     let (start, bits, heading) = (Vec3::from(leaf.place.position), leaf.place.bits, leaf.schedule.heading);
     let glide = glide_of(leaf.place, leaf.drift);
-    let moved = glide_step(cx, glide, bits, motion_params(*leaf.schedule), response_of(cx, bits));
+    let (params, wind) = (motion_params(*leaf.schedule), wind_unpack(*leaf.air));
+    let moved = glide_step(cx, glide, bits, params, response_of(cx, bits), wind);
     glide_end(cx, leaf, moved, bits, heading);
     if ground_met(cx, moved.position) {
         leaf_land(cx, leaf, start);

@@ -7,7 +7,7 @@
 //! At a join the drift takes up the difference between the old motion's velocity and the new one's, so that position
 //! and velocity go on without a jump, at the exact moment within the step; orientation blends over a few steps.
 
-use super::fall::{Glide, Part, Response, glide_end, glide_of, glide_part, response_of, wind_in_step};
+use super::fall::{Glide, Part, Response, glide_end, glide_of, glide_part, response_of};
 use super::own::{STEP_UNIT, WHOLE_STEP, motion_params, own_velocity};
 use super::record::{
     HALF_MASK, Schedule, heading_word, leaf_primitive, leaf_source, leaf_species, leaf_stage, with_blend,
@@ -21,6 +21,7 @@ use crate::arith::vector::Vec3;
 use crate::context::Context;
 use crate::device::motion::feature::{STAGE_COUNT, STREAM_TRAITS, stage_end, stage_words, transition_next};
 use crate::device::terrain::ground::ground_met;
+use crate::device::wind::packed::wind_unpack;
 use crate::leaf::LeafMut;
 
 /// Ends the current stage: draws the next motion and hands the difference of velocities to the drift.
@@ -68,7 +69,7 @@ pub fn leaf_fall_joining(cx: &Context<'_>, leaf: &mut LeafMut<'_>) {
     let response = response_of(cx, leaf.place.bits);
     let seed = cx.scene.seed;
     let mut glide = glide_of(leaf.place, leaf.drift);
-    let wind = wind_in_step(cx, start, glide.drift, response.time_constant_s);
+    let wind = wind_unpack(*leaf.air);
     let mut done = 0;
     for _ in 1..STAGE_COUNT {
         if cx.step.index >= leaf.schedule.event {

@@ -3,6 +3,7 @@
 //! One step of one leaf, from twig or release to rest.
 
 pub mod advance;
+pub mod air;
 pub mod carry;
 pub mod fall;
 pub mod fly;

@@ -3,6 +3,7 @@
 //! An array of structs, stepped leaf after leaf on one thread.
 
 use windfall_core::device::leaf::advance::leaf_advance;
+use windfall_core::device::leaf::air::{air_is_sampled, leaf_sample_air};
 use windfall_core::leaf::{Attitude, Drift, Identity, LeafMut, Leaves, Place, Schedule};
 use windfall_core::{Clock, CompiledScene, World, oracle};
 
@@ -13,6 +14,7 @@ struct Leaf {
     drift: Drift,
     attitude: Attitude,
     schedule: Schedule,
+    air: [u32; 2],
     identity: Identity,
 }
 
@@ -37,6 +39,7 @@ impl ArrayOfStructs {
                 drift: columns.drift[slot],
                 attitude: columns.attitude[slot],
                 schedule: columns.schedule[slot],
+                air: columns.air[slot],
                 identity: columns.identity[slot],
             })
             .collect();
@@ -47,8 +50,13 @@ impl ArrayOfStructs {
     pub(crate) fn step(&mut self, count: u32) {
         let Self { compiled, clock, leaves } = self;
         oracle::each_step(compiled, clock, count, |cx| {
-            for Leaf { place, drift, attitude, schedule, identity } in &mut *leaves {
-                leaf_advance(cx, &mut LeafMut { place, drift, attitude, schedule, identity });
+            for (slot, leaf) in (0..).zip(&mut *leaves) {
+                let Leaf { place, drift, attitude, schedule, air, identity } = leaf;
+                let mut leaf = LeafMut { place, drift, attitude, schedule, air, identity };
+                if air_is_sampled(cx, slot) {
+                    leaf_sample_air(cx, &mut leaf);
+                }
+                leaf_advance(cx, &mut leaf);
             }
         });
     }
@@ -60,6 +68,7 @@ impl ArrayOfStructs {
             leaves.drift[slot] = leaf.drift;
             leaves.attitude[slot] = leaf.attitude;
             leaves.schedule[slot] = leaf.schedule;
+            leaves.air[slot] = leaf.air;
             leaves.identity[slot] = leaf.identity;
         }
     }
