@@ -98,7 +98,8 @@ fn the_text_for_other_shaders_is_whole() {
     let flags = naga::valid::ValidationFlags::all();
     let valid = naga::valid::Validator::new(flags, naga::valid::Capabilities::all()).validate(&module);
     assert!(valid.is_ok(), "{valid:?}");
-    for column in windfall_core::leaf::Leaves::COLUMNS {
+    // Nobody draws the air that a leaf meets.
+    for column in windfall_core::leaf::Leaves::COLUMNS.iter().filter(|column| column.name != "air") {
         let found = module.types.iter().find(|(_, ty)| ty.name.as_deref() == Some(column.record));
         let Some((_, naga::Type { inner: naga::TypeInner::Struct { members, span }, .. })) = found else {
             panic!("no struct {}", column.record);
