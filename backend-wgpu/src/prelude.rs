@@ -70,6 +70,7 @@ pub(crate) fn constants() -> String {
         arith::vector::wgsl_constants(),
         device::leaf::air::wgsl_constants(),
         device::leaf::carry::wgsl_constants(),
+        device::leaf::fall::wgsl_constants(),
         device::leaf::own::wgsl_constants(),
         device::leaf::launch::wgsl_constants(),
         device::leaf::petiole::wgsl_constants(),

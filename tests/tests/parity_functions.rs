@@ -117,7 +117,8 @@ fn a_changed_twin_is_noticed() {
     let edits = [
         ("arith/math", "0.5 * r2", "0.4999 * r2", "sin_cos_turns"),
         ("arith/rng", "high1 ^ c.y", "high1 ^ c.z", "philox"),
-        ("motion/lookup", "row + 1u), fraction_of", "row + 2u), fraction_of", "motion_displacement"),
+        ("motion/lookup", "after << 16u", "after << 15u", "motion_displacement"),
+        ("leaf/fall", "vec3<u32>(SLOWEST_DRIFT_TWICE)", "vec3<u32>(2u * SLOWEST_DRIFT_TWICE)", "felt_drift"),
         ("wind/gust", "row.y - row.x", "row.x - row.y", "wind_gust"),
         ("leaf/settle", "0.5 * seconds", "0.51 * seconds", "slide"),
         ("terrain/ground", "corners.w - corners.z)", "corners.z - corners.w)", "ground_relief"),

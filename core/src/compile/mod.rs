@@ -96,7 +96,7 @@ impl CompiledScene {
         block.first_petiole_row = len32(tables.len());
         tables.extend(petiole_rows(scene, &forest, &kinds));
         block.first_motion_row = len32(tables.len());
-        tables.extend_from_slice(bytemuck::cast_slice(&pack_motion(&motions)));
+        tables.extend(pack_motion(&motions));
         Ok(Self { scene: scene.clone(), block, tables: tables.into(), forest: forest.into(), cycle })
     }
 
@@ -227,9 +227,7 @@ impl CompiledScene {
         Context {
             scene: &self.block,
             step,
-            motion: MotionRows::new(bytemuck::cast_slice(
-                &self.tables[self.block.first_motion_row as usize..],
-            )),
+            motion: MotionRows::new(&self.tables[self.block.first_motion_row as usize..]),
             tables: &self.tables,
         }
     }

@@ -4,12 +4,16 @@
 
 use std::panic::resume_unwind;
 
+use crate::device::motion::lookup::PAIR_WEIGHT;
 use crate::error::SceneError;
-use crate::layout::Float4;
+use crate::layout::Uint4;
 use crate::motion::table::{TABLE_ROWS, TABLES_PER_SPECIES};
 use crate::motion::{MotionTables, Primitive};
 use crate::scene::limits::MAX_PERIODS_PER_STEP;
 use crate::scene::{Scene, Species};
+
+/// Largest number of a half of a word.
+const LARGEST_HALF: f32 = 32767.0;
 
 /// Tables of every species, each made on a thread of its own.
 pub(super) fn motions_of(scene: &Scene, seed: [u32; 2]) -> Result<Vec<MotionTables>, SceneError> {
@@ -48,28 +52,57 @@ fn tables_of(scene: &Scene, species: &Species, seed: [u32; 2]) -> Result<MotionT
     Ok(tables)
 }
 
-/// Displacement and orientation rows of all tables, interleaved; behind them the velocity rows. Of the two quaternions
-/// of a rotation each row takes the one nearer to the row before: a file may hold either, and rows are interpolated.
-pub(super) fn pack_motion(tables: &[MotionTables]) -> Vec<Float4> {
+/// Displacement and orientation rows of all tables, interleaved, in pairs of 16 bits (see
+/// [`MotionRows`](crate::device::motion::lookup::MotionRows)); behind them the velocity rows.
+pub(super) fn pack_motion(tables: &[MotionTables]) -> Vec<Uint4> {
     let rows = TABLE_ROWS as usize;
     let per_species = TABLES_PER_SPECIES as usize;
     let count = tables.len() * per_species;
-    let mut packed = vec![Float4::default(); count * rows * 3];
+    let mut packed = vec![Uint4::default(); count * rows * 3];
     for (species, tables) in tables.iter().enumerate() {
         for (primitive, table) in tables.0.iter().enumerate() {
             let first = (species * per_species + primitive) * rows;
-            let mut orientation = table.orientation[0];
+            let unit = displacement_unit(&table.displacement_m);
+            let turns = consistent_signs(&table.orientation);
             for row in 0..rows {
-                let [x, y, z] = table.displacement_m[row];
-                packed[2 * (first + row)] = Float4([x, y, z, 0.0]);
-                let next = table.orientation[row];
-                let cosine: f32 = orientation.iter().zip(next).map(|(a, b)| a * b).sum();
-                orientation = if cosine < 0.0 { next.map(|part| -part) } else { next };
-                packed[2 * (first + row) + 1] = Float4(orientation);
-                let [x, y, z] = table.velocity_m[row];
-                packed[2 * count * rows + first + row] = Float4([x, y, z, 0.0]);
+                let next = (row + 1).min(rows - 1);
+                let [x, y, z] = pairs(table.displacement_m[row], table.displacement_m[next], unit);
+                let weighted = (unit / PAIR_WEIGHT as f32).to_bits();
+                packed[2 * (first + row)] = Uint4([x, y, z, weighted]);
+                packed[2 * (first + row) + 1] = Uint4(pairs(turns[row], turns[next], 1.0 / LARGEST_HALF));
+                let [x, y, z] = table.velocity_m[row].map(f32::to_bits);
+                packed[2 * count * rows + first + row] = Uint4([x, y, z, 0]);
             }
         }
     }
     packed
+}
+
+/// Unit in metres in which all displacements of a table fit 16 bits.
+fn displacement_unit(displacements: &[[f32; 3]]) -> f32 {
+    displacements.as_flattened().iter().fold(0f32, |most, part| most.max(part.abs())) / LARGEST_HALF
+}
+
+/// Of the two quaternions of a rotation those nearer to the rows before: a file may hold either, and rows are interpolated.
+fn consistent_signs(turns: &[[f32; 4]]) -> Vec<[f32; 4]> {
+    let mut before = turns[0];
+    turns
+        .iter()
+        .map(|turn| {
+            let cosine: f32 = before.iter().zip(turn).map(|(a, b)| a * b).sum();
+            before = if cosine < 0.0 { turn.map(|part| -part) } else { *turn };
+            before
+        })
+        .collect()
+}
+
+/// Numbers of a row and of the next one in that unit, each two in the halves of a word.
+fn pairs<const N: usize>(this: [f32; N], next: [f32; N], unit: f32) -> [u32; N] {
+    let half = |number: f32| {
+        let units = if unit > 0.0 { libm::roundf(number / unit) } else { 0.0 };
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most LARGEST_HALF")]
+        let half = units as i16 as u16;
+        u32::from(half)
+    };
+    std::array::from_fn(|part| half(this[part]) | (half(next[part]) << 16))
 }

@@ -156,30 +156,15 @@ fn glide_long(cx: &Context<'_>, leaf: &LeafMut<'_>, glide: Glide, part_q16: u64)
     let elapsed = (part_q16 as f64 / 65536.0 * f64::from(compiled.dt_s)) as f32;
     let kept = exponential(-elapsed * response.inv_time_constant);
     let drift = Vec3::from(glide.drift.to_array().map(|drift| fade(drift, kept)));
-    let spent = reach(glide.drift, response.time_constant_s) - reach(drift, response.time_constant_s);
+    let tau = response.time_constant_s;
+    let spent = on_grid(glide.drift * tau) - on_grid(drift * tau);
     Glide { position: glide.position + (own + spent), drift, phase: end }
 }
 
-/// Way that a drift still carries a leaf, in metres. One too slow to matter on the grid is none, and spares the processor
-/// numbers too small to be normal, for which it takes a hundred times as long.
-fn reach(drift: Vec3, time_constant_s: f32) -> Vec3 {
-    let felt = drift.to_array().map(|drift| if drift.abs() < SLOWEST_M_S { 0.0 } else { drift });
-    on_grid(Vec3::from(felt) * time_constant_s)
-}
-
-/// `drift * kept`, to the bit. Where the product is too small to be normal, double precision holds it exactly, and there
-/// it is rounded to whole units of the smallest number.
+/// Drift left over, none if it is too slow to move a leaf: numbers too small to be normal take a hundred times as long.
 fn fade(drift: f32, kept: f32) -> f32 {
-    /// The number whose last place is 2^-149.
-    const LAST_PLACES: f64 = f64::from_bits((1023 - 149 + 52) << 52);
-    let exact = f64::from(drift) * f64::from(kept);
-    if exact.abs() >= f64::from(f32::MIN_POSITIVE) {
-        return drift * kept;
-    }
-    let units = (LAST_PLACES + exact.abs()).to_bits() - LAST_PLACES.to_bits();
-    #[expect(clippy::cast_possible_truncation, reason = "at most 2^23 units")]
-    let faded = f32::from_bits(units as u32);
-    faded.copysign(drift)
+    let left = f64::from(drift) * f64::from(kept);
+    if left.abs() < f64::from(SLOWEST_M_S) { 0.0 } else { drift * kept }
 }
 
 /// Lays a leaf down where it is.
@@ -194,29 +179,4 @@ fn rest(cx: &Context<'_>, leaf: &mut LeafMut<'_>) {
     let flat = if is_hilly { flatten_on(ground_slope(cx, x, z), before, 0.0) } else { flatten(before, 0.0) };
     leaf.attitude.quaternion = flat.to_array();
     leaf.schedule.event = if lifetime == 0 { NEVER } else { leaf.identity.release.wrapping_add(lifetime) };
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{fade, reach};
-    use crate::arith::vector::Vec3;
-    use crate::device::leaf::own::on_grid;
-    use proptest::prelude::{prop_assert_eq, proptest};
-
-    proptest! {
-        #[test]
-        fn drift_fades_to_the_bits_of_a_product(drift in -20.0_f32..20.0, times_constant in 60.0_f32..120.0) {
-            let kept = crate::arith::math::exponential(-times_constant);
-            prop_assert_eq!(fade(drift, kept).to_bits(), (drift * kept).to_bits());
-        }
-
-        #[test]
-        fn ties_round_as_a_product_does(units in 0_u32..1 << 24, shift in 0_u32..24) {
-            let (drift, kept) = (-(units as f32), f32::from_bits(1 << shift));
-            let faded = fade(drift, kept);
-            prop_assert_eq!(faded.to_bits(), (drift * kept).to_bits());
-            let (slow, tau) = (Vec3::new(faded, -faded, drift), 0.25);
-            prop_assert_eq!(reach(slow, tau), on_grid(slow * tau));
-        }
-    }
 }

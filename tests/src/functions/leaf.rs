@@ -13,7 +13,7 @@ use windfall_core::arith::quaternion::{
 use windfall_core::arith::rng::{below, mul_high, mul_q16, philox, triangular, unit_float};
 use windfall_core::arith::vector::{vec3_cross, vec3_dot, vec3_length, vec3_lerp};
 use windfall_core::device::leaf::air::air_sample;
-use windfall_core::device::leaf::fall::{glide_of, response_of, spin_advance};
+use windfall_core::device::leaf::fall::{felt_drift, glide_of, response_of, spin_advance};
 use windfall_core::device::leaf::join::part_of_step;
 use windfall_core::device::leaf::own::{
     MotionParams, motion_params, own_advance, own_orientation, own_velocity, turn_to_heading,
@@ -376,6 +376,10 @@ functions! {
     wind_unpack in "wind/packed" (SPEED, SPEED, SPEED) tolerance None;
     wgsl "r = vec4<u32>(bitcast<vec3<u32>>(wind_unpack(wind_pack(bitcast<vec3<f32>>(a.xyz)))), 0u);";
     rust |_cx, w| floats(wind_unpack(wind_pack(vector(w, 0))).to_array());
+
+    felt_drift in "leaf/fall" (Input::Scale(-30.0, 2.0), Input::Scale(-22.0, -18.0), SPEED) tolerance None;
+    wgsl "r = vec4<u32>(bitcast<vec3<u32>>(felt_drift(bitcast<vec3<f32>>(a.xyz))), 0u);";
+    rust |_cx, w| floats(felt_drift(vector(w, 0)).to_array());
 
     air_sample in "leaf/air" (METRES, METRES, METRES, UNIT, UNIT, UNIT) tolerance Some(3e-4);
     wgsl "let p = bitcast<vec3<f32>>(a.xyz);

@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The path of a leaf: independent of the time step, equal to a direct seek, without a jump at joins.
 
-use crate::common::{attitude, build, many_species, position, step, still_air, uniform, vector, velocity};
+use crate::common::{
+    attitude, build, many_species, position, step, still_air, still_scene, uniform, vector, velocity,
+};
 use glam::Vec3;
 use windfall_core::World;
 use windfall_core::device::leaf::record::{leaf_species, leaf_stage};
@@ -10,7 +12,7 @@ use windfall_core::device::leaf::release::leaf_release;
 use windfall_core::leaf::seek::leaf_seek;
 use windfall_core::leaf::{LeafState, Leaves};
 use windfall_core::motion::MotionConstants;
-use windfall_core::scene::{Release, STANDARD_GRAVITY_M_S2, Scene, Source, SourceShape};
+use windfall_core::scene::{Release, STANDARD_GRAVITY_M_S2, Scene, Source, SourceShape, Species};
 
 const LEAVES: usize = 1500;
 
@@ -218,4 +220,18 @@ fn joins_jump_neither_in_position_nor_in_velocity() {
     }
     println!("{joins} joins: at most {fastest:.2e} m and {strongest:.2e} m/s in a millisecond");
     assert!(joins > 300, "{joins} joins were seen");
+}
+
+/// After many response times nothing is left of an earlier motion, not a number too small to be normal.
+#[test]
+fn drifts_fade_to_nothing() {
+    let mut world = build(&still_scene(Species::default(), 200, 30.0));
+    step(&mut world, 900);
+    let drifts: Vec<f32> = (0..200)
+        .filter(|&slot| world.leaves.place[slot].state() == LeafState::Falling)
+        .flat_map(|slot| world.leaves.drift[slot].velocity)
+        .collect();
+    assert!(drifts.len() > 300, "leaves still fall");
+    assert!(drifts.contains(&0.0), "some have fallen for long");
+    assert!(drifts.iter().all(|drift| *drift == 0.0 || drift.is_normal()), "{drifts:?}");
 }

@@ -67,7 +67,7 @@ fn rows_are_the_equations() {
 }
 
 #[test]
-fn interpolation_stays_within_a_tenth_of_a_millimetre() {
+fn reading_between_packed_rows_stays_within_a_fifth_of_a_millimetre() {
     let scene = still_scene(paper_leaf(), 1, 5.0);
     let compiled = CompiledScene::compile(&scene).expect("the scene of this test is valid");
     let block = compiled.step_block(&Clock::new(scene.dt_s));
@@ -83,8 +83,8 @@ fn interpolation_stays_within_a_tenth_of_a_millimetre() {
             let exact = path.at(share * path.period_s()).position - path.at(0.0).position;
             worst = worst.max((read - exact).length());
         }
-        println!("{primitive:?}: worst interpolation error {worst:.1e} m");
-        assert!(worst < 1e-4, "{primitive:?}: interpolation is off by {worst:.1e} m");
+        println!("{primitive:?}: worst error {worst:.1e} m");
+        assert!(worst < 2e-4, "{primitive:?}: off by {worst:.1e} m");
     }
 }
 

@@ -55,7 +55,8 @@ fn both_backends_lend_the_same_columns() {
             assert_eq!(columns.leaf_count, 6, "all leaves");
             let buffers =
                 [columns.place, columns.drift, columns.attitude, columns.schedule, columns.identity];
-            let drawn = Leaves::COLUMNS.iter().zip(now.leaves.columns()).filter(|(column, _)| column.name != "air");
+            let drawn =
+                Leaves::COLUMNS.iter().zip(now.leaves.columns()).filter(|(column, _)| column.name != "air");
             for (buffer, (_, column)) in buffers.into_iter().zip(drawn) {
                 assert_eq!(read(&gpu, buffer), column, "{device}: what is drawn is what is simulated");
             }

@@ -38,11 +38,16 @@ fn glide_of(place: Place, drift: Drift) -> Glide {
     return Glide(place.position, drift.velocity, drift.phase);
 }
 
+fn felt_drift(drift: vec3<f32>) -> vec3<f32> {
+    let twice = bitcast<vec3<u32>>(drift) << vec3<u32>(1u);
+    return select(drift, vec3<f32>(0.0), twice < vec3<u32>(SLOWEST_DRIFT_TWICE));
+}
+
 fn glide_part(glide: Glide, bits: u32, params: MotionParams, wind: vec3<f32>, part: Part) -> Glide {
     let rate = own_rate(params.rate);
     let end = glide.phase + mul_q16(rate, part.length);
     let own = own_advance(bits, params, glide.phase, end);
-    let before = glide.drift - wind;
+    let before = felt_drift(glide.drift - wind);
     let after = before * part.decay;
     let spent = on_grid(before * part.tau) - on_grid(after * part.tau);
     let carried = wind * ((f32(part.length) * STEP_UNIT) * scene.dt_s);

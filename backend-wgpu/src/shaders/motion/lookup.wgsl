@@ -14,33 +14,50 @@ fn fraction_of(phase: u32) -> f32 {
     return f32(phase & PHASE_FRACTION_MASK) * PHASE_FRACTION_UNIT;
 }
 
+fn weights_of(phase: u32) -> u32 {
+    let after = (phase >> PAIR_WEIGHT_SHIFT) & (PAIR_WEIGHT - 1u);
+    return (PAIR_WEIGHT - after) | (after << 16u);
+}
+
+fn dot_halves(pair: u32, weights: u32) -> f32 {
+    let low = (bitcast<i32>(pair << 16u) >> 16u) * (bitcast<i32>(weights << 16u) >> 16u);
+    let high = (bitcast<i32>(pair) >> 16u) * (bitcast<i32>(weights) >> 16u);
+    return f32(low + high);
+}
+
 fn row_of(table: u32, phase: u32) -> u32 {
     return table * TABLE_ROWS + (phase >> PHASE_ROW_SHIFT);
 }
 
-fn displacement_in(row: u32) -> vec3<f32> {
-    let state = bitcast<vec4<f32>>(tables[scene.first_motion_row + 2u * row]);
-    return vec3<f32>(state.x, state.y, state.z);
+fn displacement_of(pairs: vec4<u32>, weights: u32) -> vec3<f32> {
+    let unit = bitcast<f32>(pairs.w);
+    return vec3<f32>(
+        dot_halves(pairs.x, weights) * unit,
+        dot_halves(pairs.y, weights) * unit,
+        dot_halves(pairs.z, weights) * unit,
+    );
 }
 
 fn motion_displacement(table: u32, phase: u32) -> vec3<f32> {
-    let row = row_of(table, phase);
-    return vec3_lerp(displacement_in(row), displacement_in(row + 1u), fraction_of(phase));
+    return displacement_of(tables[scene.first_motion_row + 2u * row_of(table, phase)], weights_of(phase));
 }
 
 fn motion_period(table: u32) -> vec3<f32> {
-    return displacement_in(row_of(table, 0u) + (TABLE_ROWS - 1u));
+    let end = row_of(table, 0u) + (TABLE_ROWS - 1u);
+    return displacement_of(tables[scene.first_motion_row + 2u * end], weights_of(0u));
 }
 
 fn motion_state(table: u32, phase: u32) -> MotionState {
-    let row = row_of(table, phase);
-    let t = fraction_of(phase);
-    let displacement = vec3_lerp(displacement_in(row), displacement_in(row + 1u), t);
-    let a = bitcast<vec4<f32>>(tables[scene.first_motion_row + 2u * row + 1u]);
-    let b = bitcast<vec4<f32>>(tables[scene.first_motion_row + 2u * row + 3u]);
-    let orientation =
-        vec4<f32>(a.x + t * (b.x - a.x), a.y + t * (b.y - a.y), a.z + t * (b.z - a.z), a.w + t * (b.w - a.w));
-    return MotionState(displacement, quat_renormalize(orientation));
+    let row = scene.first_motion_row + 2u * row_of(table, phase);
+    let weights = weights_of(phase);
+    let pairs = tables[row + 1u];
+    let turn = vec4<f32>(
+        dot_halves(pairs.x, weights) * PAIR_TURN_UNIT,
+        dot_halves(pairs.y, weights) * PAIR_TURN_UNIT,
+        dot_halves(pairs.z, weights) * PAIR_TURN_UNIT,
+        dot_halves(pairs.w, weights) * PAIR_TURN_UNIT,
+    );
+    return MotionState(displacement_of(tables[row], weights), quat_renormalize(turn));
 }
 
 fn motion_velocity(table: u32, phase: u32) -> vec3<f32> {

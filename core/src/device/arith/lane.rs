@@ -86,11 +86,12 @@ pub trait Word:
     fn look_up(self, rows: &[[f32; 4]]) -> [Self::Real; 4];
     /// The rows of four words that the words stand for, component by component.
     fn look_up_words(self, rows: &[[u32; 4]]) -> [Self; 4];
+    /// The same, and the rows behind them.
+    fn look_up_two(self, rows: &[[u32; 4]]) -> [[Self; 4]; 2];
     /// The first two floats of the rows that the words stand for, component by component.
     fn look_up_pairs(self, rows: &[[f32; 4]]) -> [Self::Real; 2];
-    /// The rows of eight floats that the words stand for, each blended with the row after it, `a + t (b - a)`,
-    /// component by component.
-    fn look_up_blend(self, rows: &[[f32; 8]], t: Self::Real) -> [Self::Real; 8];
+    /// Sum of the products of the lower and of the upper halves of two words, all of them two's complement, as a float.
+    fn dot_halves(self, other: Self) -> Self::Real;
 }
 
 /// A truth value, or one in each lane.
@@ -195,14 +196,19 @@ impl Word for u32 {
         rows[self as usize]
     }
     #[inline(always)]
+    fn look_up_two(self, rows: &[[u32; 4]]) -> [[u32; 4]; 2] {
+        [rows[self as usize], rows[self as usize + 1]]
+    }
+    #[inline(always)]
     fn look_up_pairs(self, rows: &[[f32; 4]]) -> [f32; 2] {
         let [first, second, _, _] = rows[self as usize];
         [first, second]
     }
     #[inline(always)]
-    fn look_up_blend(self, rows: &[[f32; 8]], t: f32) -> [f32; 8] {
-        let (a, b) = (rows[self as usize], rows[self as usize + 1]);
-        core::array::from_fn(|component| a[component] + t * (b[component] - a[component]))
+    fn dot_halves(self, other: Self) -> f32 {
+        let high = |word: u32| (word as i32) >> 16;
+        let low = |word: u32| high(word << 16);
+        (low(self) * low(other) + high(self) * high(other)) as f32
     }
 }
 

@@ -7,6 +7,7 @@
 //! integers and Newton steps. Every function has a twin of the same name in `backend-wgpu/src/shaders/arith/`.
 
 pub mod eight;
+mod halves;
 pub(crate) mod hash;
 pub mod lane;
 pub mod math;

@@ -137,24 +137,25 @@ mod tests {
         let fours: Vec<[f32; 4]> =
             (0..40u8).map(|row| [0, 1, 2, 3].map(|part| f32::from(row * 4 + part))).collect();
         let words: Vec<[u32; 4]> = fours.iter().map(|row| row.map(f32::to_bits)).collect();
-        let eights: Vec<[f32; 8]> =
-            fours.chunks_exact(2).map(|pair| std::array::from_fn(|part| pair[part / 4][part % 4])).collect();
         let indices = [3, 0, 18, 7, 7, 11, 1, 16, 2, 2, 17, 5, 9, 0, 14, 6];
-        let blend =
-            [0.0, 0.25, 1.0, 0.5, 0.75, 0.125, 0.0, 1.0, 0.5, 0.5, 0.0, 0.25, 1.0, 0.75, 0.625, 0.375];
-        let (index, t) = (P::load_words(simd, &indices), P::load(simd, &blend));
+        let halves: [u32; BLOCK] =
+            std::array::from_fn(|lane| word_of(lane).wrapping_mul(0x9e37_79b9) ^ 0x8000);
+        let weights: [u32; BLOCK] = std::array::from_fn(|lane| (512 - word_of(lane)) | (word_of(lane) << 16));
+        let index = P::load_words(simd, &indices);
         let rows = index.look_up(&fours).map(numbers);
-        let bits = index.look_up_words(&words).map(|word| numbers(P::from_bits(word)));
+        let two = index.look_up_two(&words);
+        let [bits, next] = two.map(|row| row.map(|word| numbers(P::from_bits(word))));
         let pairs = index.look_up_pairs(&fours).map(numbers);
-        let blends = index.look_up_blend(&eights, t).map(numbers);
+        let dots = numbers(P::load_words(simd, &halves).dot_halves(P::load_words(simd, &weights)));
         let spans = P::spans::<5>(index, &fours);
         let further = P::column(simd, &spans, 4).map(numbers);
-        for (lane, (index, t)) in indices.into_iter().zip(blend).enumerate().take(P::LANES) {
+        for (lane, index) in indices.into_iter().enumerate().take(P::LANES) {
             assert_eq!([0, 1, 2, 3].map(|part| rows[part][lane]), index.look_up(&fours), "row {index}");
             assert_eq!([0, 1, 2, 3].map(|part| bits[part][lane]), index.look_up(&fours), "words {index}");
+            let after = (index + 1).look_up(&fours);
+            assert_eq!([0, 1, 2, 3].map(|part| next[part][lane]), after, "words after {index}");
             assert_eq!([0, 1].map(|part| pairs[part][lane]), index.look_up_pairs(&fours), "pair {index}");
-            let one = index.look_up_blend(&eights, t);
-            assert_eq!(blends.each_ref().map(|part| part[lane]), one, "blend {index}");
+            assert_eq!(dots[lane], halves[lane].dot_halves(weights[lane]), "halves of lane {lane}");
             assert_eq!(
                 [0, 1, 2, 3].map(|part| further[part][lane]),
                 (index + 4).look_up(&fours),

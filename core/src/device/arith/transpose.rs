@@ -93,21 +93,6 @@ pub(crate) fn columns_of_sixteen<S: Simd>(simd: S, row: impl Fn(usize) -> f32x4<
     ])
 }
 
-/// Eight rows of eight to eight columns.
-#[inline(always)]
-pub(crate) fn columns_of_eight<S: Simd>(rows: [f32x8<S>; 8]) -> [f32x8<S>; 8] {
-    let simd = rows[0].simd;
-    #[cfg(target_arch = "x86_64")]
-    if let Some(avx2) = simd.level().as_avx2() {
-        let columns = x86::transpose_eight(avx2, rows.map(Into::into));
-        return columns.map(|column| SimdInto::simd_into(column, simd));
-    }
-    let halves = rows.map(|row| simd.split_f32x8(row));
-    let [a, b, c, d] = columns_of_four(simd, |row| halves[row].0);
-    let [e, f, g, h] = columns_of_four(simd, |row| halves[row].1);
-    [a, b, c, d, e, f, g, h]
-}
-
 #[cfg(target_arch = "x86_64")]
 mod x86 {
     use core::arch::x86_64::{
@@ -152,18 +137,6 @@ mod x86 {
                 _mm512_castpd_ps(_mm512_unpackhi_pd(ab_high, cd_high)),
             ]
         }
-    }
-
-    /// Eight rows of eight to eight columns.
-    #[inline(always)]
-    pub(super) fn transpose_eight(avx2: fearless_simd::x86::Avx2, rows: [__m256; 8]) -> [__m256; 8] {
-        let [a, b, c, d, e, f, g, h] = rows;
-        // Columns 0 to 3 in the lower halves, 4 to 7 in the upper; of rows 0 to 3 and of rows 4 to 7.
-        let [p0, p1, p2, p3] = transpose_in_halves(avx2, [a, b, c, d]);
-        let [q0, q1, q2, q3] = transpose_in_halves(avx2, [e, f, g, h]);
-        let [x0, x1, x4, x5] = join_halves(avx2, [p0, q0, p1, q1]);
-        let [x2, x3, x6, x7] = join_halves(avx2, [p2, q2, p3, q3]);
-        [x0, x1, x2, x3, x4, x5, x6, x7]
     }
 
     kernel! {

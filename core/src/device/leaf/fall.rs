@@ -24,6 +24,11 @@ use crate::device::terrain::ground::ground_met;
 use crate::device::wind::packed::wind_unpack;
 use crate::leaf::LeafMut;
 
+crate::shared_constants! {
+    /// Twice the bits of 1e-20 m/s, a drift too slow to move any leaf.
+    pub const SLOWEST_DRIFT_TWICE: u32 = 1e-20f32.to_bits() << 1;
+}
+
 /// A leaf on its way through one step, or several of them.
 #[derive(Clone, Copy)]
 pub struct Glide<R: Real = f32> {
@@ -74,6 +79,18 @@ pub fn glide_of(place: &Place, drift: &Drift) -> Glide {
     Glide { position: place.position.into(), drift: drift.velocity.into(), phase: drift.phase }
 }
 
+/// Drift relative to the air without components too slow to matter. They would fade to subnormal numbers, for which
+/// processors take a hundred times as long and devices may take zero.
+#[inline(always)]
+pub fn felt_drift<R: Real>(drift: Vec3<R>) -> Vec3<R> {
+    let felt = |part: R| {
+        let bits = part.to_bits();
+        let is_felt = !(bits << 1).less_than(bits.all(SLOWEST_DRIFT_TWICE));
+        is_felt.select_real(part, part.all(0.0))
+    };
+    Vec3::new(felt(drift.x), felt(drift.y), felt(drift.z))
+}
+
 /// Moves a leaf through a part of a step within one stage.
 #[inline(always)]
 pub fn glide_part<R: Real>(
@@ -87,7 +104,7 @@ pub fn glide_part<R: Real>(
     let rate = own_rate(cx, params.rate);
     let end = glide.phase.plus(mul_q16(rate, rate.all(part.length)));
     let own = own_advance(cx, bits, params, glide.phase, end);
-    let before = glide.drift - wind;
+    let before = felt_drift(glide.drift - wind);
     let after = before * part.decay;
     let spent = on_grid(before * part.tau) - on_grid(after * part.tau);
     let carried = wind * wind.x.all((part.length as f32 * STEP_UNIT) * cx.scene.dt_s);

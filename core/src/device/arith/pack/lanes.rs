@@ -8,16 +8,16 @@ use fearless_simd::{
 };
 
 use super::Pack;
+use crate::arith::halves::{dot_halves_of_eight, dot_halves_of_sixteen};
 use crate::arith::lane::{Mask, Real, WHOLE_ANCHOR, Word};
 use crate::arith::transpose::{
-    columns_of_eight, columns_of_four, columns_of_sixteen, transpose_eight_in_fours,
-    transpose_sixteen_in_fours,
+    columns_of_four, columns_of_sixteen, transpose_eight_in_fours, transpose_sixteen_in_fours,
 };
 
 macro_rules! pack {
     (
         $lanes:literal $reals:ident $words:ident $signed:ident $masks:ident, pick $pick:ident,
-        columns $columns:ident, fours $fours:ident, pairs $pairs:ident, blend $blend:ident
+        columns $columns:ident, fours $fours:ident, pairs $pairs:ident, halves $halves:ident
     ) => {
         impl<S: Simd> Real for $reals<S> {
             type Word = $words<S>;
@@ -121,12 +121,30 @@ macro_rules! pack {
                 [x.bitcast(), y.bitcast(), z.bitcast(), w.bitcast()]
             }
             #[inline(always)]
+            fn look_up_two(self, rows: &[[u32; 4]]) -> [[Self; 4]; 2] {
+                let rows = $pick::<_, _, 2>(self, rows);
+                let [a, b, c, d] = $columns(
+                    self.simd,
+                    #[inline(always)]
+                    |lane| u32x4::load_array_ref(self.simd, &rows.at(lane)[0]).bitcast(),
+                );
+                let [x, y, z, w] = $columns(
+                    self.simd,
+                    #[inline(always)]
+                    |lane| u32x4::load_array_ref(self.simd, &rows.at(lane)[1]).bitcast(),
+                );
+                [
+                    [a.bitcast(), b.bitcast(), c.bitcast(), d.bitcast()],
+                    [x.bitcast(), y.bitcast(), z.bitcast(), w.bitcast()],
+                ]
+            }
+            #[inline(always)]
             fn look_up_pairs(self, rows: &[[f32; 4]]) -> [$reals<S>; 2] {
                 $pairs(self, rows)
             }
             #[inline(always)]
-            fn look_up_blend(self, rows: &[[f32; 8]], t: $reals<S>) -> [$reals<S>; 8] {
-                $blend(self, rows, t)
+            fn dot_halves(self, other: Self) -> $reals<S> {
+                $halves(self, other).to_real()
             }
         }
 
@@ -199,10 +217,13 @@ macro_rules! pack {
         /// If an index is too large.
         #[inline(always)]
         fn $pick<S: Simd, T, const N: usize>(index: $words<S>, elements: &[T]) -> Picked<'_, T, $lanes, N> {
+            const { assert!(size_of::<T>().is_power_of_two(), "an index shifted is an offset") };
             let end = elements.len().saturating_sub(N - 1);
-            let inside = index.simd_lt($words::splat(index.simd, u32::try_from(end).unwrap_or(u32::MAX)));
+            let addressable = u32::MAX >> size_of::<T>().trailing_zeros();
+            let end = u32::try_from(end).unwrap_or(addressable).min(addressable);
+            let inside = index.simd_lt($words::splat(index.simd, end));
             assert!(inside.all_true(), "an index lies beyond the table");
-            Picked { elements, index: index.to_array() }
+            Picked { elements, offsets: (index << size_of::<T>().trailing_zeros()).to_array() }
         }
     };
 }
@@ -211,28 +232,30 @@ macro_rules! pack {
 #[derive(Clone, Copy, Debug)]
 pub struct Picked<'a, T, const LANES: usize, const N: usize> {
     elements: &'a [T],
-    /// Start of the elements of each lane: all of them are in the slice.
-    index: [u32; LANES],
+    /// Bytes before the elements of each lane, all of which are in the slice.
+    offsets: [u32; LANES],
 }
 
 impl<'a, T, const LANES: usize, const N: usize> Picked<'a, T, LANES, N> {
     #[inline(always)]
     fn at(&self, lane: usize) -> &'a [T; N] {
-        let start = self.index[lane] as usize;
-        // SAFETY: whoever makes this checks that index + N - 1 < elements.len() for every lane.
+        // SAFETY: whoever makes this checks for every lane that index + N - 1 < elements.len(), and that the index times the size of
+        // an element, which the offset is, fits a word. Processors do not address rows of 16 bytes by index.
         #[expect(unsafe_code, reason = "checked for all lanes at once")]
-        let chunk = unsafe { self.elements.get_unchecked(start..start + N) };
-        chunk.first_chunk().expect("N elements were asked for")
+        unsafe {
+            let first: *const u8 = self.elements.as_ptr().cast();
+            &*first.add(self.offsets[lane] as usize).cast()
+        }
     }
 }
 
 pack!(
     8 f32x8 u32x8 i32x8 mask32x8, pick pick_eight,
-    columns columns_of_four, fours transpose_eight_in_fours, pairs pairs_of_eight, blend blend_of_eight
+    columns columns_of_four, fours transpose_eight_in_fours, pairs pairs_of_eight, halves dot_halves_of_eight
 );
 pack!(
     16 f32x16 u32x16 i32x16 mask32x16, pick pick_sixteen,
-    columns columns_of_sixteen, fours transpose_sixteen_in_fours, pairs pairs_of_sixteen, blend blend_of_sixteen
+    columns columns_of_sixteen, fours transpose_sixteen_in_fours, pairs pairs_of_sixteen, halves dot_halves_of_sixteen
 );
 
 /// Rows of which only two floats are asked for.
@@ -253,23 +276,4 @@ fn pairs_of_eight<S: Simd>(index: u32x8<S>, rows: &[[f32; 4]]) -> [f32x8<S>; 2] 
 fn pairs_of_sixteen<S: Simd>(index: u32x16<S>, rows: &[[f32; 4]]) -> [f32x16<S>; 2] {
     let [first, second, _, _] = index.look_up(rows);
     [first, second]
-}
-
-#[inline(always)]
-fn blend_of_eight<S: Simd>(index: u32x8<S>, rows: &[[f32; 8]], t: f32x8<S>) -> [f32x8<S>; 8] {
-    let simd = index.simd;
-    let (rows, t) = (pick_eight::<_, _, 2>(index, rows), t.to_array());
-    columns_of_eight(core::array::from_fn(|lane| {
-        let [a, b] = rows.at(lane);
-        let (a, b) = (f32x8::load_array_ref(simd, a), f32x8::load_array_ref(simd, b));
-        a + f32x8::splat(simd, t[lane]) * (b - a)
-    }))
-}
-
-#[inline(always)]
-fn blend_of_sixteen<S: Simd>(index: u32x16<S>, rows: &[[f32; 8]], t: f32x16<S>) -> [f32x16<S>; 8] {
-    let simd = index.simd;
-    let ((low, high), (t_low, t_high)) = (simd.split_u32x16(index), simd.split_f32x16(t));
-    let (low, high) = (low.look_up_blend(rows, t_low), high.look_up_blend(rows, t_high));
-    core::array::from_fn(|part| simd.combine_f32x8(low[part], high[part]))
 }
