@@ -5,7 +5,7 @@
 //! Both backends get these same bytes, so nothing that depends on time or scene alone is computed twice.
 
 use crate::flight::block::BodyBlock;
-use crate::layout::Uint4;
+use crate::layout::{Float4, Uint4};
 use crate::scene::{MAX_SOURCES, MAX_SPECIES, MAX_VORTICES};
 
 crate::shared_struct! {
@@ -76,16 +76,17 @@ crate::shared_struct! {
 }
 
 crate::shared_struct! {
-    /// Response of a species' drift and spin to a step.
+    /// Responses of the species' drift and spin to a step, four species to a vector (see
+    /// [`response_of`](crate::device::leaf::fall::response_of)).
     pub struct ResponseBlock {
         /// Drift kept over a step, `e^(-dt/tau)`.
-        pub drift_kept: f32,
+        pub drift_kept: [Float4; MAX_SPECIES / 4],
         /// Fastest spin per step in 2^-18 turns, a whole number.
-        pub fastest_spin: f32,
+        pub fastest_spin: [Float4; MAX_SPECIES / 4],
         /// Time constant tau in s: the distance per drift speed until none is left.
-        pub time_constant_s: f32,
+        pub time_constant_s: [Float4; MAX_SPECIES / 4],
         /// `1/tau` in 1/s.
-        pub inv_time_constant: f32,
+        pub inv_time_constant: [Float4; MAX_SPECIES / 4],
     }
 }
 
@@ -158,7 +159,7 @@ crate::shared_struct! {
         /// The wind.
         pub wind: WindBlock,
         /// Responses of the species.
-        pub responses: [ResponseBlock; MAX_SPECIES],
+        pub responses: ResponseBlock,
         /// The species.
         pub species: [SpeciesBlock; MAX_SPECIES],
         /// The species as bodies.

@@ -73,7 +73,7 @@ fn every_module_is_valid_and_every_struct_has_one_layout() {
 }
 
 /// Functions that read a list of words which stands in a uniform block four to a vector.
-const LIST_READERS: [&str; 3] = ["source_share", "species_rate", "transition_count"];
+const LIST_READERS: [&str; 4] = ["source_share", "species_rate", "transition_count", "response_of"];
 
 /// Members that are vectors of four with axes.
 const QUATERNIONS: [&str; 2] = ["quaternion", "rest_quaternion"];

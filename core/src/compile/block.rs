@@ -69,9 +69,7 @@ pub(super) fn retune_block(scene: &Scene, block: &mut SceneBlock) {
     block.sway_scheme = scheme(scene);
     block.wind = wind_block(scene);
     set_ground(scene, block);
-    for (response, species) in block.responses.iter_mut().zip(&scene.species) {
-        *response = response_block(scene, species);
-    }
+    block.responses = response_block(scene);
 }
 
 /// Number of the scheme that trees sway by.

@@ -2,12 +2,14 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Compiles a species.
 
+use bytemuck::must_cast_mut;
+
 use super::wind::deviation_m_s;
 use crate::blocks::{ResponseBlock, SpeciesBlock};
 use crate::convert::{single, word};
 use crate::device::leaf::record::{AERODYNAMIC, SIZE_ONE};
 use crate::motion::{MotionConstants, MotionTables};
-use crate::scene::{FlightModel, Scene, Species};
+use crate::scene::{FlightModel, MAX_SPECIES, Scene, Species};
 
 /// Cells of the turbulence box that an eddy of typical size spans.
 const EDDY_CELLS: f32 = 8.0;
@@ -37,15 +39,21 @@ pub(super) fn species_block(scene: &Scene, species: &Species, tables: &MotionTab
     }
 }
 
-pub(super) fn response_block(scene: &Scene, species: &Species) -> ResponseBlock {
-    let tau = MotionConstants::of(species, scene.gravity_m_s2).response_s();
-    let decay = libm::exp(-f64::from(scene.dt_s) / tau);
-    ResponseBlock {
-        drift_kept: single(decay),
-        fastest_spin: fastest_spin(scene, species),
-        time_constant_s: single(tau),
-        inv_time_constant: single(1.0 / tau),
+/// Responses of all species.
+pub(super) fn response_block(scene: &Scene) -> ResponseBlock {
+    let mut block: ResponseBlock = bytemuck::Zeroable::zeroed();
+    let drifts_kept: &mut [f32; MAX_SPECIES] = must_cast_mut(&mut block.drift_kept);
+    let fastest_spins: &mut [f32; MAX_SPECIES] = must_cast_mut(&mut block.fastest_spin);
+    let time_constants_s: &mut [f32; MAX_SPECIES] = must_cast_mut(&mut block.time_constant_s);
+    let inv_time_constants: &mut [f32; MAX_SPECIES] = must_cast_mut(&mut block.inv_time_constant);
+    for (index, species) in scene.species.iter().enumerate() {
+        let tau = MotionConstants::of(species, scene.gravity_m_s2).response_s();
+        drifts_kept[index] = single(libm::exp(-f64::from(scene.dt_s) / tau));
+        fastest_spins[index] = fastest_spin(scene, species);
+        time_constants_s[index] = single(tau);
+        inv_time_constants[index] = single(1.0 / tau);
     }
+    block
 }
 
 /// Fastest spin per step in 2^-18 turns, a whole number. Wind makes leaves spin faster by what they lag behind its turbulence, in

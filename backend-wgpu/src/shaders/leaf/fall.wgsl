@@ -25,13 +25,27 @@ struct Part {
     tau: f32,
 }
 
+struct Response {
+    drift_kept: f32,
+    fastest_spin: f32,
+    time_constant_s: f32,
+    inv_time_constant: f32,
+}
+
 struct Turned {
     bits: u32,
     attitude: vec4<f32>,
 }
 
-fn response_of(bits: u32) -> ResponseBlock {
-    return scene.responses[leaf_species(bits)];
+fn response_of(bits: u32) -> Response {
+    let vector = leaf_species(bits) >> 2u;
+    let lane = leaf_species(bits) & 3u;
+    return Response(
+        scene.responses.drift_kept[vector][lane],
+        scene.responses.fastest_spin[vector][lane],
+        scene.responses.time_constant_s[vector][lane],
+        scene.responses.inv_time_constant[vector][lane],
+    );
 }
 
 fn glide_of(place: Place, drift: Drift) -> Glide {
@@ -77,7 +91,7 @@ fn glide_end(leaf: u32, glide: Glide, bits: u32, heading: u32) {
     drifts[leaf] = Drift(glide.drift, glide.phase);
 }
 
-fn glide_step(glide: Glide, bits: u32, params: MotionParams, response: ResponseBlock, wind: vec3<f32>) -> Glide {
+fn glide_step(glide: Glide, bits: u32, params: MotionParams, response: Response, wind: vec3<f32>) -> Glide {
     let part = Part(WHOLE_STEP, response.drift_kept, response.time_constant_s);
     return glide_part(glide, bits, params, wind, part);
 }

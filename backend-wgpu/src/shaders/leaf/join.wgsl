@@ -39,7 +39,7 @@ fn leaf_join(leaf: u32, glide: Glide) -> Glide {
     return Glide(glide.position, glide.drift + (before - after), words.y);
 }
 
-fn part_of_step(response: ResponseBlock, length: u32) -> Part {
+fn part_of_step(response: Response, length: u32) -> Part {
     let elapsed = (f32(length) * STEP_UNIT) * scene.dt_s;
     let decay = exponential((-elapsed) * response.inv_time_constant);
     return Part(length, decay, response.time_constant_s);

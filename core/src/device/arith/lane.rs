@@ -11,6 +11,9 @@ use core::ops::{Add, BitAnd, BitOr, BitXor, Mul, Neg, Not, Shl, Shr, Sub};
 /// Leaves that one SIMD step moves.
 pub const LANES: usize = 8;
 
+/// Numbers of a table that [`Word::pick`] reads.
+pub const PICK_COUNT: usize = 32;
+
 /// 1.5 * 2^23: floats near it lie 1 apart, so a small whole number added to it stands in the low bits.
 pub(super) const WHOLE_ANCHOR: f32 = 12_582_912.0;
 
@@ -82,6 +85,8 @@ pub trait Word:
     fn less_than(self, other: Self) -> Self::Mask;
     /// True where equal to a constant.
     fn equals(self, other: u32) -> Self::Mask;
+    /// The numbers of a table that the words, which are below its length, stand for.
+    fn pick(self, table: &[f32; PICK_COUNT]) -> Self::Real;
     /// The rows of four floats that the words stand for, component by component.
     fn look_up(self, rows: &[[f32; 4]]) -> [Self::Real; 4];
     /// The rows of four words that the words stand for, component by component.
@@ -186,6 +191,10 @@ impl Word for u32 {
     #[inline(always)]
     fn equals(self, other: u32) -> bool {
         self == other
+    }
+    #[inline(always)]
+    fn pick(self, table: &[f32; PICK_COUNT]) -> f32 {
+        table[self as usize]
     }
     #[inline(always)]
     fn look_up(self, rows: &[[f32; 4]]) -> [f32; 4] {

@@ -13,6 +13,7 @@ pub mod lane;
 pub mod math;
 pub mod matrix;
 pub mod pack;
+mod pick;
 pub mod quaternion;
 pub mod rng;
 mod transpose;

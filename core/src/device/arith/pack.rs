@@ -123,6 +123,7 @@ pub fn store_pairs<P: Pack>(records: &mut [[u32; 2]; BLOCK], part: usize, words:
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::arith::lane::PICK_COUNT;
     use fearless_simd::{Level, SimdBase, dispatch, f32x8, f32x16};
 
     fn numbers<P: Pack>(pack: P) -> Vec<f32> {
@@ -141,6 +142,9 @@ mod tests {
         let halves: [u32; BLOCK] =
             std::array::from_fn(|lane| word_of(lane).wrapping_mul(0x9e37_79b9) ^ 0x8000);
         let weights: [u32; BLOCK] = std::array::from_fn(|lane| (512 - word_of(lane)) | (word_of(lane) << 16));
+        let table: [f32; PICK_COUNT] = std::array::from_fn(|number| number as f32 - 7.5);
+        let few: [u32; BLOCK] = std::array::from_fn(|lane| word_of(lane * 7 % PICK_COUNT));
+        let picked = numbers(P::load_words(simd, &few).pick(&table));
         let index = P::load_words(simd, &indices);
         let rows = index.look_up(&fours).map(numbers);
         let two = index.look_up_two(&words);
@@ -155,6 +159,7 @@ mod tests {
             let after = (index + 1).look_up(&fours);
             assert_eq!([0, 1, 2, 3].map(|part| next[part][lane]), after, "words after {index}");
             assert_eq!([0, 1].map(|part| pairs[part][lane]), index.look_up_pairs(&fours), "pair {index}");
+            assert_eq!(picked[lane], few[lane].pick(&table), "number {}", few[lane]);
             assert_eq!(dots[lane], halves[lane].dot_halves(weights[lane]), "halves of lane {lane}");
             assert_eq!(
                 [0, 1, 2, 3].map(|part| further[part][lane]),

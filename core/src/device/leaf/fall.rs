@@ -8,6 +8,8 @@
 //! tau = U/g, exactly, as the air that it meets holds still during the step (see [`super::air`]). In still air the path does not
 //! depend on dt.
 
+use bytemuck::must_cast_ref;
+
 use super::own::{
     MotionParams, STEP_UNIT, WHOLE_STEP, motion_params, on_grid, own_advance, own_orientation, own_rate,
 };
@@ -18,7 +20,6 @@ use crate::arith::math::reciprocal;
 use crate::arith::quaternion::{Quat, quat_blend};
 use crate::arith::rng::mul_q16;
 use crate::arith::vector::Vec3;
-use crate::blocks::ResponseBlock;
 use crate::context::Context;
 use crate::device::terrain::ground::ground_met;
 use crate::device::wind::packed::wind_unpack;
@@ -51,7 +52,7 @@ pub struct Part<R: Real = f32> {
     pub tau: R,
 }
 
-/// Response of a leaf's species, or of several leaves' (see [`ResponseBlock`]).
+/// Response of a leaf's species, or of several leaves' (see [`ResponseBlock`](crate::blocks::ResponseBlock)).
 #[derive(Clone, Copy)]
 pub struct Response<R: Real = f32> {
     /// Drift kept over a step.
@@ -67,10 +68,13 @@ pub struct Response<R: Real = f32> {
 /// Response of the species of a leaf with these bits.
 #[inline(always)]
 pub fn response_of<W: Word>(cx: &Context<'_>, bits: W) -> Response<W::Real> {
-    let responses: &[ResponseBlock] = &cx.scene.responses;
-    let [drift_kept, fastest_spin, time_constant_s, inv_time_constant] =
-        leaf_species(bits).look_up(bytemuck::must_cast_slice(responses));
-    Response { drift_kept, fastest_spin, time_constant_s, inv_time_constant }
+    let (species, responses) = (leaf_species(bits), &cx.scene.responses);
+    Response {
+        drift_kept: species.pick(must_cast_ref(&responses.drift_kept)),
+        fastest_spin: species.pick(must_cast_ref(&responses.fastest_spin)),
+        time_constant_s: species.pick(must_cast_ref(&responses.time_constant_s)),
+        inv_time_constant: species.pick(must_cast_ref(&responses.inv_time_constant)),
+    }
 }
 
 /// A leaf on its way from where its records place it.

@@ -9,7 +9,8 @@ use fearless_simd::{
 
 use super::Pack;
 use crate::arith::halves::{dot_halves_of_eight, dot_halves_of_sixteen};
-use crate::arith::lane::{Mask, Real, WHOLE_ANCHOR, Word};
+use crate::arith::lane::{Mask, PICK_COUNT, Real, WHOLE_ANCHOR, Word};
+use crate::arith::pick::{pick_of_eight, pick_of_sixteen};
 use crate::arith::transpose::{
     columns_of_four, columns_of_sixteen, transpose_eight_in_fours, transpose_sixteen_in_fours,
 };
@@ -17,7 +18,7 @@ use crate::arith::transpose::{
 macro_rules! pack {
     (
         $lanes:literal $reals:ident $words:ident $signed:ident $masks:ident, pick $pick:ident,
-        columns $columns:ident, fours $fours:ident, pairs $pairs:ident, halves $halves:ident
+        columns $columns:ident, fours $fours:ident, pairs $pairs:ident, halves $halves:ident, few $pick_few:ident
     ) => {
         impl<S: Simd> Real for $reals<S> {
             type Word = $words<S>;
@@ -100,6 +101,10 @@ macro_rules! pack {
             #[inline(always)]
             fn equals(self, other: u32) -> $masks<S> {
                 self.simd_eq(Self::splat(self.simd, other))
+            }
+            #[inline(always)]
+            fn pick(self, table: &[f32; PICK_COUNT]) -> $reals<S> {
+                $pick_few(self, table)
             }
             #[inline(always)]
             fn look_up(self, rows: &[[f32; 4]]) -> [$reals<S>; 4] {
@@ -251,11 +256,11 @@ impl<'a, T, const LANES: usize, const N: usize> Picked<'a, T, LANES, N> {
 
 pack!(
     8 f32x8 u32x8 i32x8 mask32x8, pick pick_eight,
-    columns columns_of_four, fours transpose_eight_in_fours, pairs pairs_of_eight, halves dot_halves_of_eight
+    columns columns_of_four, fours transpose_eight_in_fours, pairs pairs_of_eight, halves dot_halves_of_eight, few pick_of_eight
 );
 pack!(
     16 f32x16 u32x16 i32x16 mask32x16, pick pick_sixteen,
-    columns columns_of_sixteen, fours transpose_sixteen_in_fours, pairs pairs_of_sixteen, halves dot_halves_of_sixteen
+    columns columns_of_sixteen, fours transpose_sixteen_in_fours, pairs pairs_of_sixteen, halves dot_halves_of_sixteen, few pick_of_sixteen
 );
 
 /// Rows of which only two floats are asked for.
