@@ -5,9 +5,9 @@
 pub(crate) mod batch_blocks;
 pub(crate) mod branch_block;
 pub(crate) mod falling_block;
+pub(crate) mod flying_block;
 pub(crate) mod lanes;
 pub(crate) mod leaf_block;
-pub(crate) mod leaf_eight;
 pub(crate) mod prefetch;
 pub(crate) mod sway_scratch;
 

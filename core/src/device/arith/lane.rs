@@ -8,9 +8,6 @@
 
 use core::ops::{Add, BitAnd, BitOr, BitXor, Mul, Neg, Not, Shl, Shr, Sub};
 
-/// Leaves that one SIMD step moves.
-pub const LANES: usize = 8;
-
 /// Numbers of a table that [`Word::pick`] reads.
 pub const PICK_COUNT: usize = 32;
 

@@ -6,7 +6,6 @@
 //! counts is an integer. No division, root, fused or built-in transcendental function: those are made here from
 //! integers and Newton steps. Every function has a twin of the same name in `backend-wgpu/src/shaders/arith/`.
 
-pub mod eight;
 mod halves;
 pub(crate) mod hash;
 pub mod lane;

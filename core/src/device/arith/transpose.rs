@@ -30,21 +30,6 @@ pub(crate) fn columns_of_four<S: Simd>(simd: S, row: impl Fn(usize) -> f32x4<S>)
     ])
 }
 
-/// Four columns of eight to eight rows of four, two to a vector.
-#[inline(always)]
-pub(crate) fn rows_of_four<S: Simd>(columns: [f32x8<S>; 4]) -> [f32x8<S>; 4] {
-    let simd = columns[0].simd;
-    #[cfg(target_arch = "x86_64")]
-    if let Some(avx2) = simd.level().as_avx2() {
-        let rows = x86::join_halves(avx2, x86::transpose_in_halves(avx2, columns.map(Into::into)));
-        return rows.map(|row| SimdInto::simd_into(row, simd));
-    }
-    let halves = columns.map(|column| simd.split_f32x8(column));
-    let [a, b, c, d] = transpose_four(halves.map(|(low, _)| low));
-    let [e, f, g, h] = transpose_four(halves.map(|(_, high)| high));
-    [simd.combine_f32x4(a, b), simd.combine_f32x4(c, d), simd.combine_f32x4(e, f), simd.combine_f32x4(g, h)]
-}
-
 /// Transposes four vectors within each four lanes.
 #[inline(always)]
 pub(crate) fn transpose_eight_in_fours<S: Simd>(rows: [f32x8<S>; 4]) -> [f32x8<S>; 4] {
@@ -96,9 +81,9 @@ pub(crate) fn columns_of_sixteen<S: Simd>(simd: S, row: impl Fn(usize) -> f32x4<
 #[cfg(target_arch = "x86_64")]
 mod x86 {
     use core::arch::x86_64::{
-        __m256, __m512, _mm256_castpd_ps, _mm256_castps_pd, _mm256_permute2f128_ps, _mm256_unpackhi_pd,
-        _mm256_unpackhi_ps, _mm256_unpacklo_pd, _mm256_unpacklo_ps, _mm512_castpd_ps, _mm512_castps_pd,
-        _mm512_unpackhi_pd, _mm512_unpackhi_ps, _mm512_unpacklo_pd, _mm512_unpacklo_ps,
+        __m256, __m512, _mm256_castpd_ps, _mm256_castps_pd, _mm256_unpackhi_pd, _mm256_unpackhi_ps,
+        _mm256_unpacklo_pd, _mm256_unpacklo_ps, _mm512_castpd_ps, _mm512_castps_pd, _mm512_unpackhi_pd,
+        _mm512_unpackhi_ps, _mm512_unpacklo_pd, _mm512_unpacklo_ps,
     };
 
     use fearless_simd::kernel;
@@ -135,20 +120,6 @@ mod x86 {
                 _mm512_castpd_ps(_mm512_unpackhi_pd(ab_low, cd_low)),
                 _mm512_castpd_ps(_mm512_unpacklo_pd(ab_high, cd_high)),
                 _mm512_castpd_ps(_mm512_unpackhi_pd(ab_high, cd_high)),
-            ]
-        }
-    }
-
-    kernel! {
-        /// The lower halves of two pairs of vectors, then the upper halves.
-        #[inline(always)]
-        pub(super) fn join_halves(avx2: Avx2, pairs: [__m256; 4]) -> [__m256; 4] {
-            let [a, b, c, d] = pairs;
-            [
-                _mm256_permute2f128_ps::<0x20>(a, b),
-                _mm256_permute2f128_ps::<0x20>(c, d),
-                _mm256_permute2f128_ps::<0x31>(a, b),
-                _mm256_permute2f128_ps::<0x31>(c, d),
             ]
         }
     }
