@@ -32,7 +32,7 @@ pub struct LeafColumns<'a> {
     pub drift: &'a wgpu::Buffer,
     /// `Attitude`: unit quaternion x, y, z, w as `f32`.
     pub attitude: &'a wgpu::Buffer,
-    /// `Course`: four `u32`; the third's low half is the size relative to the species' in 2^-14.
+    /// `Schedule`: four `u32`; the third's low half is the size relative to the species' in 2^-14.
     pub schedule: &'a wgpu::Buffer,
     /// `Identity`: four `u32`; the fourth holds tint (bits 0-15) and image variant (bits 16-23).
     pub identity: &'a wgpu::Buffer,

@@ -4,16 +4,13 @@
 
 use std::panic::resume_unwind;
 
-use crate::device::motion::lookup::PAIR_WEIGHT;
+use crate::device::motion::lookup::{LARGEST_HALF, PAIR_WEIGHT};
 use crate::error::SceneError;
 use crate::layout::Uint4;
 use crate::motion::table::{TABLE_ROWS, TABLES_PER_SPECIES};
 use crate::motion::{MotionTables, Primitive};
 use crate::scene::limits::MAX_PERIODS_PER_STEP;
 use crate::scene::{Scene, Species};
-
-/// Largest number of a half of a word.
-const LARGEST_HALF: f32 = 32767.0;
 
 /// Tables of every species, each made on a thread of its own.
 pub(super) fn motions_of(scene: &Scene, seed: [u32; 2]) -> Result<Vec<MotionTables>, SceneError> {

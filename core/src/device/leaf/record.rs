@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! twin: backend-wgpu/src/shaders/leaf/record.wgsl
 //!
-//! The five records of 16 bytes that make a leaf besides its air, and the accessors of every word that packs several values or changes its
-//! meaning with the leaf's state.
+//! The five records of 16 bytes that make a leaf besides its air, and the accessors of every word that packs several
+//! values or changes its meaning with the leaf's state.
 
 use crate::arith::lane::{Mask, Real, Word};
 use crate::arith::vector::Vec3;

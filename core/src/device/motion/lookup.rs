@@ -25,9 +25,11 @@ crate::shared_constants! {
     /// Sum of the weights of two rows. With numbers of 16 bits weighted sums stay below 2^24, which floats hold exactly.
     pub const PAIR_WEIGHT: u32 = 512;
     /// Right shift that leaves row and weight of a phase.
-    pub const PAIR_WEIGHT_SHIFT: u32 = PHASE_ROW_SHIFT - 9;
+    pub const PAIR_WEIGHT_SHIFT: u32 = PHASE_ROW_SHIFT - PAIR_WEIGHT.trailing_zeros();
+    /// Largest number of a pair.
+    pub const LARGEST_HALF: f32 = 32767.0;
     /// Unit of weighted components of quaternions.
-    pub const PAIR_TURN_UNIT: f32 = 1.0 / (32767.0 * 512.0);
+    pub const PAIR_TURN_UNIT: f32 = 1.0 / (LARGEST_HALF * PAIR_WEIGHT as f32);
 }
 
 /// Packed tables, as kernels read them.

@@ -14,20 +14,20 @@ crate::shared_constants! {
     pub const PACKED_HEIGHT_MASK: u32 = 0xffff_fc00;
 }
 
-/// Bits of a number rounded to those of a mask whose lowest bit is 2 `half`; zero has no sign.
+/// Bits of a number rounded to those of a mask; zero has no sign.
 #[inline(always)]
-fn round_bits<R: Real>(number: R, mask: u32, half: u32) -> R::Word {
+fn round_bits<R: Real>(number: R, mask: u32) -> R::Word {
     let bits = number.to_bits();
-    let rounded = bits.plus(bits.all(half)) & mask;
+    let rounded = bits.plus(bits.all((!mask >> 1) + 1)) & mask;
     (rounded << 1).equals(0).select(bits.all(0), rounded)
 }
 
 /// Velocity of the air in two words, right to one part in 8,192 of each component.
 #[inline(always)]
 pub fn wind_pack<R: Real>(air: Vec3<R>) -> [R::Word; 2] {
-    let x = round_bits(air.x, PACKED_MASK, 0x400);
-    let y = round_bits(air.y, PACKED_HEIGHT_MASK, 0x200);
-    let z = round_bits(air.z, PACKED_MASK, 0x400);
+    let x = round_bits(air.x, PACKED_MASK);
+    let y = round_bits(air.y, PACKED_HEIGHT_MASK);
+    let z = round_bits(air.z, PACKED_MASK);
     [x | (y >> 21), z | ((y >> 10) & !PACKED_MASK)]
 }
 
