@@ -106,6 +106,20 @@ impl ForestBuffers {
         numbers.for_each(|number| self.encode_level(pass, number));
     }
 
+    /// Encodes a step between two solutions of the joints, by the pipeline for it.
+    pub(crate) fn encode_coast(
+        &self,
+        pass: &mut wgpu::ComputePass<'_>,
+        coast: &wgpu::ComputePipeline,
+        step_offset: u32,
+    ) {
+        pass.set_bind_group(0, &self.sway, &[step_offset]);
+        pass.set_bind_group(1, &self.level_group, &[0]);
+        pass.set_pipeline(coast);
+        let rows: u32 = self.levels.iter().sum();
+        pass.dispatch_workgroups(rows.div_ceil(WORKGROUP_SIZE).min(MAX_GROUPS), 1, 1);
+    }
+
     /// One dispatch over a level.
     fn encode_level(&self, pass: &mut wgpu::ComputePass<'_>, number: u32) {
         pass.set_bind_group(1, &self.level_group, &[number * self.level_stride]);

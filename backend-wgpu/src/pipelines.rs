@@ -54,7 +54,7 @@ impl KernelId {
     /// The groups that the kernel binds.
     fn layouts(self) -> &'static [GroupLayout] {
         match self {
-            Self::SwayInward | Self::SwayOutward | Self::SwayGather | Self::SwayFollow => {
+            Self::SwayInward | Self::SwayOutward | Self::SwayGather | Self::SwayFollow | Self::SwayCoast => {
                 &[GroupLayout::Blocks, GroupLayout::Level]
             }
             Self::Carry => &[GroupLayout::LeavesInMotion, GroupLayout::Carriers],
@@ -72,7 +72,7 @@ impl KernelId {
             kernels.push(Self::Fly);
         }
         if !compiled.forest().is_empty() {
-            kernels.push(Self::Carry);
+            kernels.extend([Self::Carry, Self::SwayCoast]);
             kernels.extend(Self::of_scheme(compiled.scene().sway));
         }
         kernels

@@ -40,6 +40,7 @@ pub(crate) fn structs() -> String {
         blocks::SpeciesBlock::declaration(),
         blocks::SourceBlock::declaration(),
         blocks::WindBlock::declaration(),
+        blocks::SwayBlock::declaration(),
         blocks::ResponseBlock::declaration(),
         flight::block::BodyBlock::declaration(),
         blocks::SceneBlock::declaration(),

@@ -30,13 +30,15 @@ pub enum KernelId {
     SwayGather,
     /// Outward pass of these schemes: the integration of joints.
     SwayFollow,
+    /// Moves segments on between two solutions of their joints.
+    SwayCoast,
     /// Carries leaves along with their twigs, and breaks petioles.
     Carry,
 }
 
 impl KernelId {
     /// All kernels.
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 11] = [
         Self::SampleAir,
         Self::Advance,
         Self::Fly,
@@ -46,6 +48,7 @@ impl KernelId {
         Self::SwayOutward,
         Self::SwayGather,
         Self::SwayFollow,
+        Self::SwayCoast,
         Self::Carry,
     ];
 
@@ -61,6 +64,7 @@ impl KernelId {
             Self::SwayOutward => "sway_outward",
             Self::SwayGather => "sway_gather",
             Self::SwayFollow => "sway_follow",
+            Self::SwayCoast => "sway_coast",
             Self::Carry => "carry",
         }
     }
@@ -110,6 +114,7 @@ impl Default for Shaders {
             "kernels/carry",
             "kernels/fly",
             "kernels/measure",
+            "kernels/sway_coast",
             "kernels/sway_inward",
             "kernels/sway_follow",
             "kernels/sway_gather",
@@ -132,6 +137,7 @@ impl Default for Shaders {
             "terrain/ground",
             "tree/bindings",
             "tree/sway/body",
+            "tree/sway/coast",
             "tree/sway/composite",
             "tree/sway/inward",
             "tree/sway/load",

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Trees on every backend, and on one thread: a step of bare ones, a step with a hundred thousand leaves on them, and the
+//! Trees on every backend, and on one thread: a step of bare ones, in a breeze and in a gale, a step with a hundred thousand leaves on them, and the
 //! growing of a forest. Elements are segments, or leaves.
 //!
 //! `carry` is to be read beside `carry/bare`, the same trees without their leaves: the difference is the leaves'.
@@ -11,6 +11,7 @@ use std::time::Duration;
 use criterion::measurement::WallTime;
 use criterion::{BenchmarkGroup, BenchmarkId, Criterion, SamplingMode, Throughput};
 use windfall_benches::{WARM_UP_STEPS, YOUNG, contenders, time_steps, woods, world};
+use windfall_core::scene::MeanSpeed;
 use windfall_core::{Simulator, World};
 use windfall_cpu::{CpuOptions, CpuSimulator};
 
@@ -32,11 +33,16 @@ fn group<'a>(criterion: &'a mut Criterion, name: &str) -> BenchmarkGroup<'a, Wal
 fn simulators(world: &World) -> Vec<(&'static str, Box<dyn Simulator>)> {
     let mut all: Vec<_> =
         contenders(world).into_iter().map(|simulator| (simulator.info().backend, simulator)).collect();
+    all.push(("one-thread", Box::new(one_thread(world))));
+    all
+}
+
+/// The CPU backend on one thread.
+fn one_thread(world: &World) -> CpuSimulator {
     let one = CpuOptions { threads: Some(1), ..CpuOptions::default() };
     let mut single = CpuSimulator::new(world, one).expect("a thread can be started");
     single.step(WARM_UP_STEPS).expect("the CPU steps");
-    all.push(("one-thread", Box::new(single)));
-    all
+    single
 }
 
 /// Trees move, and no leaf that hangs has come off.
@@ -62,6 +68,25 @@ fn sway(criterion: &mut Criterion) {
             });
             is_sound(&world, simulator.as_mut());
         }
+    }
+    group.finish();
+}
+
+/// A hundred trees on one thread in winds of two strengths; in the weaker one joints may be solved in every other step.
+fn winds(criterion: &mut Criterion) {
+    let mut group = group(criterion, "winds");
+    for (name, speed_m_s, sway_every) in
+        [("breeze", 6.5, 1), ("breeze-every-other", 6.5, 2), ("gale", 18.0, 1)]
+    {
+        let mut scene = woods(100, YOUNG, 0);
+        scene.wind.speed = MeanSpeed::MetresPerSecond(speed_m_s);
+        scene.sway_every = sway_every;
+        let world = world(&scene);
+        assert_eq!(world.compiled.block().sway.interval_steps, sway_every, "{name}");
+        group.throughput(Throughput::Elements(world.branches.len() as u64));
+        let mut simulator = one_thread(&world);
+        group.bench_function(name, |bencher| bencher.iter_custom(|count| time_steps(&mut simulator, count)));
+        is_sound(&world, &mut simulator);
     }
     group.finish();
 }
@@ -98,6 +123,7 @@ fn forest(criterion: &mut Criterion) {
 fn main() {
     let mut criterion = Criterion::default().configure_from_args();
     sway(&mut criterion);
+    winds(&mut criterion);
     carry(&mut criterion);
     forest(&mut criterion);
     criterion.final_summary();

@@ -76,6 +76,20 @@ crate::shared_struct! {
 }
 
 crate::shared_struct! {
+    /// Times at which the joints of trees are solved.
+    pub struct SwayBlock {
+        /// Steps from one solution to the next: 1 or 2.
+        pub interval_steps: u32,
+        /// Time from one solution to the next in s.
+        pub dt_s: f32,
+        /// Its inverse in 1/s.
+        pub inv_dt_s: f32,
+        /// Part of that time after which springs act in s (see [`IMPLICITNESS`](crate::device::tree::sway::IMPLICITNESS)).
+        pub ahead_s: f32,
+    }
+}
+
+crate::shared_struct! {
     /// Responses of the species' drift and spin to a step, four species to a vector (see
     /// [`response_of`](crate::device::leaf::fall::response_of)).
     pub struct ResponseBlock {
@@ -156,6 +170,8 @@ crate::shared_struct! {
         pub flutter_per_step: u32,
         /// Scheme that moves the joints of trees.
         pub sway_scheme: u32,
+        /// Times at which it does.
+        pub sway: SwayBlock,
         /// The wind.
         pub wind: WindBlock,
         /// Responses of the species.
@@ -179,6 +195,15 @@ impl SceneBlock {
     /// Returns true if leaves of some species fly as bodies.
     pub fn has_bodies(&self) -> bool {
         self.has_bodies != 0
+    }
+}
+
+impl SwayBlock {
+    /// Returns true if a step solves the joints: from the state that the solution before left, to the end of this step. In other
+    /// steps segments go on as they move.
+    #[inline(always)]
+    pub fn solves_joints(&self, step: u32) -> bool {
+        step.wrapping_add(1).is_multiple_of(self.interval_steps)
     }
 }
 

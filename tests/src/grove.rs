@@ -3,7 +3,9 @@
 //! Trees by themselves, stepped on the oracle, without leaves in the air.
 
 use glam::Vec3;
-use windfall_core::device::tree::sway::row::{Rows, row_follow, row_gather, row_inward, row_outward};
+use windfall_core::device::tree::sway::row::{
+    Rows, row_coast, row_follow, row_gather, row_inward, row_outward,
+};
 use windfall_core::scene::{
     Foliage, MeanSpeed, STANDARD_GRAVITY_M_S2, SwayScheme, TreeKind, Turbulence, Wood,
 };
@@ -36,7 +38,7 @@ impl Grove {
         let mut scene = Scene { dt_s, gravity_m_s2, ..Scene::default() };
         scene.wind.speed = MeanSpeed::MetresPerSecond(0.0);
         scene.wind.turbulence = Turbulence { intensity: 0.0, calm_m_s: 0.0, ..scene.wind.turbulence };
-        let forest = Forest::plant(seedlings, dt_s, gravity_m_s2);
+        let forest = Forest::plant(seedlings, gravity_m_s2);
         let branches = forest.at_rest();
         let compiled = CompiledScene::compile(&scene).expect("a valid scene");
         let work = vec![Default::default(); forest.len()];
@@ -62,11 +64,16 @@ impl Grove {
             let (own_segments, other_segments) = segments.split_at(batch.len());
             let mut rows = Rows { first: batch.first, segments: own_segments, branches, work: own_work };
             let articulated = self.scene.sway == SwayScheme::Articulated;
-            for row in (0..batch.len()).rev() {
+            let solves = cx.scene.sway.solves_joints(cx.step.index);
+            for row in (0..batch.len()).rev().filter(|_| solves) {
                 if articulated { row_inward(&cx, &mut rows, row) } else { row_gather(&cx, &mut rows, row) }
             }
             for row in 0..batch.len() {
-                if articulated { row_outward(&cx, &mut rows, row) } else { row_follow(&cx, &mut rows, row) }
+                match (solves, articulated) {
+                    (true, true) => row_outward(&cx, &mut rows, row),
+                    (true, false) => row_follow(&cx, &mut rows, row),
+                    (false, _) => row_coast(&cx, &mut rows, row),
+                }
             }
             (rest, work, segments) = (others, other_work, other_segments);
         }

@@ -7,7 +7,8 @@ use std::path::{Path, PathBuf};
 
 use naga::{AddressSpace, TypeInner};
 use windfall_core::blocks::{
-    MomentBlock, ResponseBlock, SceneBlock, SourceBlock, SpeciesBlock, StepBlock, VortexBlock, WindBlock,
+    MomentBlock, ResponseBlock, SceneBlock, SourceBlock, SpeciesBlock, StepBlock, SwayBlock, VortexBlock,
+    WindBlock,
 };
 use windfall_core::flight::block::BodyBlock;
 use windfall_core::layout::WgslStruct;
@@ -55,6 +56,7 @@ fn every_module_is_valid_and_every_struct_has_one_layout() {
     same_layout::<SpeciesBlock>(&module);
     same_layout::<SourceBlock>(&module);
     same_layout::<WindBlock>(&module);
+    same_layout::<SwayBlock>(&module);
     same_layout::<ResponseBlock>(&module);
     same_layout::<BodyBlock>(&module);
     same_layout::<SceneBlock>(&module);

@@ -94,6 +94,28 @@ fn every_scheme_is_equal_to_the_bit_under_the_exact_contract() {
 }
 
 #[test]
+fn joints_solved_in_every_other_step_are_equal_to_the_bit() {
+    let scene = Scene { sway_every: 2, ..wooded_scene(7, 600, 4.0, 1.0 / 60.0) };
+    let world = World::build(&scene).expect("the wooded scene is valid");
+    assert_eq!(world.compiled.block().sway.interval_steps, 2, "a wind light enough");
+    let oracle = on_cpu(&world, 301, CpuOptions { simd: Some(Simd::Scalar), ..CpuOptions::default() });
+    let every = World::build(&Scene { sway_every: 1, ..scene }).expect("the same scene");
+    let every = on_cpu(&every, 301, CpuOptions::default());
+    assert!(difference(&every, &oracle).segments().largest("base") > 1e-5, "it is another motion");
+    for simd in Simd::available() {
+        let lanes = on_cpu(&world, 301, CpuOptions { simd: Some(simd), threads: Some(2) });
+        assert!(difference(&oracle, &lanes).is_none(), "{simd:?}");
+    }
+    for (gpu, contract) in adapter::contracts() {
+        if contract == Contract::Exact {
+            let options = WgpuOptions { contract: Some(contract), ..WgpuOptions::default() };
+            let found = difference(&oracle, &on_gpu(&gpu, &world, 301, &options));
+            assert!(found.is_none(), "{}: {found:?}", gpu.info().name);
+        }
+    }
+}
+
+#[test]
 fn trees_stay_together_under_the_tolerant_contract() {
     let world = world();
     let warm = on_cpu(&world, 240, CpuOptions::default());

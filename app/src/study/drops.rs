@@ -41,6 +41,7 @@ pub(crate) fn drop_scene(scene: &Scene, file: &str, options: &DropOptions) -> an
         trees: Vec::new(),
         tree_kinds: Vec::new(),
         sway: plain.sway,
+        sway_every: plain.sway_every,
         autumn: plain.autumn,
         regrow_after_s: None,
         view: View::default(),

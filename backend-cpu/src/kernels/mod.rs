@@ -10,6 +10,7 @@ mod resolve_events;
 mod sample_air;
 pub(crate) mod step_leaves;
 pub(crate) mod step_trees;
+pub(crate) mod sway_coast;
 pub(crate) mod sway_follow;
 pub(crate) mod sway_gather;
 pub(crate) mod sway_inward;

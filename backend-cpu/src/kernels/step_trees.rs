@@ -13,6 +13,7 @@ use windfall_core::tree::batch::TreeBatch;
 use windfall_core::tree::{BranchesMut, SegmentConstants};
 
 use super::carry::{BatchLeaves, carry};
+use super::sway_coast::sway_coast;
 use super::sway_follow::sway_follow;
 use super::sway_gather::sway_gather;
 use super::sway_inward::sway_inward;
@@ -75,7 +76,7 @@ pub(crate) fn step_trees(cx: &Context<'_>, run: BatchRun<'_>, scratches: &[Mutex
     join(|| step_trees(cx, front, scratches, simd), || step_trees(cx, back, scratches, simd));
 }
 
-/// Steps one batch: inward pass, outward pass, and the leaves on its twigs.
+/// Steps one batch: inward and outward pass, or none between two solutions of the joints, and the leaves on its twigs.
 fn step_batch(
     cx: &Context<'_>,
     blocks: &BatchBlocks,
@@ -84,7 +85,9 @@ fn step_batch(
     leaves: BatchLeaves<'_>,
     simd: Simd,
 ) {
-    if cx.scene.sway_scheme == SCHEME_ARTICULATED {
+    if !cx.scene.sway.solves_joints(cx.step.index) {
+        sway_coast(cx, &mut rows, simd);
+    } else if cx.scene.sway_scheme == SCHEME_ARTICULATED {
         sway_inward(cx, &mut rows, blocks, scratch, simd);
         sway_outward(cx, &mut rows, blocks, scratch, simd);
     } else {

@@ -194,6 +194,26 @@ pub(crate) fn change_state<T>(
     result
 }
 
+/// Changes position and orientation of the rows of a full block by what they and the velocities are.
+#[inline(always)]
+pub(crate) fn change_places<P: Pack>(
+    simd: P::Simd,
+    branches: &mut BranchesMut<'_>,
+    (first, part): (usize, usize),
+    change: impl FnOnce(&Body<P>) -> Body<P>,
+) {
+    let rows = first..first + BLOCK;
+    let (base, pose) = (block_mut(branches.base, &rows), block_mut(branches.pose, &rows));
+    let body = change(&Body {
+        base: vector_and_fourth(load_block(simd, base, part)).0,
+        pose: load_block(simd, pose, part).into(),
+        velocity: vector_and_fourth(load_block(simd, block(&*branches.velocity, &rows), part)).0,
+        spin: vector_and_fourth(load_block(simd, block(&*branches.spin, &rows), part)).0,
+    });
+    store_vector(base, part, body.base, P::fill(simd, 0.0));
+    store_block(pose, part, body.pose.to_array());
+}
+
 #[inline(always)]
 fn block<'a, T>(column: &'a [T], rows: &Range<usize>) -> &'a [T; BLOCK] {
     column[rows.start..].first_chunk().expect("a full block")

@@ -112,8 +112,12 @@ impl WgpuSimulator {
         for (step, index) in (0..count).zip(first..) {
             let offset = step * self.step_stride;
             if let Some(forest) = &self.forest {
-                let sway = KernelId::of_scheme(self.compiled.scene().sway);
-                forest.encode(&mut pass, sway.map(kernel), offset);
+                if self.compiled.block().sway.solves_joints(index) {
+                    let sway = KernelId::of_scheme(self.compiled.scene().sway);
+                    forest.encode(&mut pass, sway.map(kernel), offset);
+                } else {
+                    forest.encode_coast(&mut pass, kernel(KernelId::SwayCoast), offset);
+                }
                 pass.set_pipeline(kernel(KernelId::Carry));
             }
             for page in &self.pages {

@@ -5,11 +5,11 @@
 use super::body::body_block;
 use super::source::{source_block, trees_block};
 use super::species::{response_block, species_block};
-use super::wind::wind_block;
+use super::wind::{MOST_INTERVAL_STEPS, wind_block};
 use crate::arith::rng::seed_words;
-use crate::blocks::{SOURCE_TREES, SceneBlock};
+use crate::blocks::{SOURCE_TREES, SceneBlock, SwayBlock, WindBlock};
 use crate::convert::{len32, q16, single, steps, word};
-use crate::device::tree::sway::{SCHEME_ARTICULATED, SCHEME_OLIAPURAM_KUMAR, SCHEME_QUIGLEY};
+use crate::device::tree::sway::{IMPLICITNESS, SCHEME_ARTICULATED, SCHEME_OLIAPURAM_KUMAR, SCHEME_QUIGLEY};
 use crate::flight::coefficients::TICKS_PER_S;
 use crate::motion::MotionTables;
 use crate::scene::{FlightModel, MAX_SOURCES, Scene, SwayScheme};
@@ -68,6 +68,7 @@ pub(super) fn retune_block(scene: &Scene, block: &mut SceneBlock) {
         single(f64::from(scene.fall_speed) * 65536.0 / f64::from(block.rotation_speed_q16));
     block.sway_scheme = scheme(scene);
     block.wind = wind_block(scene);
+    block.sway = sway_block(scene, &block.wind);
     set_ground(scene, block);
     block.responses = response_block(scene);
 }
@@ -78,6 +79,19 @@ fn scheme(scene: &Scene) -> u32 {
         SwayScheme::Articulated => SCHEME_ARTICULATED,
         SwayScheme::Quigley => SCHEME_QUIGLEY,
         SwayScheme::OliapuramKumar => SCHEME_OLIAPURAM_KUMAR,
+    }
+}
+
+/// Times at which joints are solved. In the step between, segments go on as they move, which is right where the wind is so
+/// weak that falling leaves, too, sample it for the longest interval.
+fn sway_block(scene: &Scene, wind: &WindBlock) -> SwayBlock {
+    let interval_steps = if wind.interval_steps == MOST_INTERVAL_STEPS { scene.sway_every } else { 1 };
+    let dt = f64::from(interval_steps) * f64::from(scene.dt_s);
+    SwayBlock {
+        interval_steps,
+        dt_s: single(dt),
+        inv_dt_s: single(1.0 / dt),
+        ahead_s: single(f64::from(IMPLICITNESS) * dt),
     }
 }
 

@@ -90,7 +90,7 @@ impl CompiledScene {
             block.flutter_per_step = cycle.flutter(scene.dt_s);
         }
         let seedlings = seedlings(scene, |x, z| foot_height(&block, &tables, x, z))?;
-        let forest = Forest::plant(seedlings, scene.dt_s, scene.gravity_m_s2);
+        let forest = Forest::plant(seedlings, scene.gravity_m_s2);
         block.first_shed_row = len32(tables.len());
         tables.extend(chances);
         block.first_petiole_row = len32(tables.len());

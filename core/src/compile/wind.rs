@@ -12,6 +12,8 @@ use crate::scene::{Scene, WindParameters};
 const DEVIATION_RATIOS: [f32; 3] = [1.0, 0.5, 0.8];
 /// Longest interval in seconds for which a falling leaf samples the wind: half of the time in which it responds.
 const LONGEST_INTERVAL_S: f64 = 1.0 / 15.0;
+/// Most steps of that interval.
+pub(super) const MOST_INTERVAL_STEPS: u32 = 4;
 /// Speed in m/s of a leaf through the eddies that carry it: that of its descent.
 const DESCENT_M_S: f64 = 1.2;
 /// Largest part of an eddy that a leaf passes through in an interval.
@@ -63,5 +65,5 @@ fn interval_steps(scene: &Scene) -> u32 {
     }
     // Step lengths are given in single precision.
     let fits = |steps: &u32| f64::from(*steps) * f64::from(scene.dt_s) <= most_s * (1.0 + 1e-6);
-    [4, 2].into_iter().find(fits).unwrap_or(1)
+    [MOST_INTERVAL_STEPS, 2].into_iter().find(fits).unwrap_or(1)
 }

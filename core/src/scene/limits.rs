@@ -51,6 +51,7 @@ limits! {
     FALL_SPEED: f32 = 0.0, 3.0, "", fall_speed;
     ROTATION_SPEED: f32 = 0.1, 3.0, "", rotation_speed;
     GRAVITY_M_S2: f32 = 0.5, 30.0, "m/s²", gravity_m_s2;
+    SWAY_EVERY: u32 = 1, 2, "steps", sway_every;
 
     SEASON: f32 = 0.0, 1.0, "", season;
     SIZE_M: f32 = 0.005, 0.5, "m", size_m;

@@ -89,6 +89,10 @@ pub struct Scene {
     pub trees: Vec<Tree>,
     /// Integration scheme of the joints of trees.
     pub sway: SwayScheme,
+    /// Steps from one solution of the joints of trees to the next, 1 to 2. In the step between, segments go on as they
+    /// move. 2 takes effect in winds in which leaves sample the air once in four steps; in stronger ones joints are
+    /// solved in every step.
+    pub sway_every: u32,
     /// Season of the leaves on the trees, 0 to 1: 0 in summer, 1 in winter, when none are left.
     pub autumn: f32,
     /// Seconds from a leaf's break from its tree until it is back on its twig, if it lies on the ground by then, 1 to
@@ -116,6 +120,7 @@ impl Default for Scene {
             tree_kinds: Vec::new(),
             trees: Vec::new(),
             sway: SwayScheme::default(),
+            sway_every: 1,
             autumn: 0.0,
             regrow_after_s: None,
             wind: WindParameters::default(),

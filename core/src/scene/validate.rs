@@ -31,6 +31,7 @@ impl Scene {
             ("rotation_speed", self.rotation_speed.into(), limits::ROTATION_SPEED),
             ("gravity_m_s2", self.gravity_m_s2.into(), limits::GRAVITY_M_S2),
         ])?;
+        check.numbers([("sway_every", Some(self.sway_every), limits::SWAY_EVERY)])?;
         check.length("species", self.species.len(), 1, MAX_SPECIES)?;
         let fewest = usize::from(self.trees.is_empty());
         check.holds((fewest..=MAX_SOURCES).contains(&self.sources.len()), "sources", || {

@@ -14,7 +14,6 @@ use super::crown::ground_m2;
 use super::record::{NO_SEGMENT, SegmentConstants};
 use super::skeleton::{AttachmentKind, Segment, Skeleton};
 use crate::convert::single;
-use crate::device::tree::sway::IMPLICITNESS;
 use crate::motion::AIR_DENSITY;
 use crate::scene::{Foliage, Wood};
 
@@ -74,7 +73,7 @@ pub(super) fn segment_constants(
     wood: &Wood,
     foliage: &Foliage,
     leaf: LeafFacts,
-    (dt_s, gravity_m_s2): (f32, f32),
+    gravity_m_s2: f32,
 ) -> (Vec<SegmentConstants>, TreeFacts) {
     let young = f64::from(wood.youngs_modulus_gpa) * 1e9;
     let mut drafts: Vec<Draft> = Vec::with_capacity(skeleton.segments.len());
@@ -103,8 +102,6 @@ pub(super) fn segment_constants(
     let sway_hz = sway_frequency(skeleton, &drafts, &outboard, leaf_mass);
     let damping = 2.0 * f64::from(wood.damping) / (TAU * sway_hz);
     let half_air = 0.5 * AIR_DENSITY;
-    let (dt, ahead) = (f64::from(dt_s), f64::from(IMPLICITNESS));
-    let implicit = ahead * dt * damping + ahead * ahead * dt * dt;
     let segments =
         skeleton.segments.iter().zip(&drafts).zip(&outboard).map(|((segment, draft), outboard)| {
             let (parent_pose, parent_start) =
@@ -115,7 +112,6 @@ pub(super) fn segment_constants(
             let preload =
                 draft.pose.inverse() * -(outboard.moment - draft.start * outboard.mass).cross(weight);
             let diameter = f64::from(segment.start_radius_m + segment.end_radius_m);
-            let twisting = draft.bending * 2.0 * SHEAR_SHARE;
             SegmentConstants {
                 rest: (parent_pose.inverse() * draft.pose).normalize().as_quat().to_array(),
                 offset: (parent_pose.inverse() * (draft.start - parent_start)).as_vec3().to_array(),
@@ -131,13 +127,12 @@ pub(super) fn segment_constants(
                 preload: preload.as_vec3().to_array(),
                 damping: single(damping),
                 bending: single(draft.bending),
-                twisting: single(twisting),
-                bending_inertia: single(draft.bending * implicit),
-                twisting_inertia: single(twisting * implicit),
+                twisting: single(draft.bending * 2.0 * SHEAR_SHARE),
                 parent: NO_SEGMENT,
                 first_child: NO_SEGMENT,
                 next_sibling: NO_SEGMENT,
                 tree: 0,
+                padding: Default::default(),
             }
         });
     let facts = TreeFacts {

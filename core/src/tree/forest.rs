@@ -65,8 +65,8 @@ pub struct Forest {
 }
 
 impl Forest {
-    /// Plants trees for steps of `dt_s` seconds; skeletons are valid.
-    pub fn plant(seedlings: Vec<Seedling>, dt_s: f32, gravity_m_s2: f32) -> Self {
+    /// Plants trees; skeletons are valid.
+    pub fn plant(seedlings: Vec<Seedling>, gravity_m_s2: f32) -> Self {
         let mut segments = Vec::new();
         let mut batches = Vec::new();
         let mut trees: Vec<Planted> = Vec::new();
@@ -79,7 +79,7 @@ impl Forest {
             let slots = next_slot..next_slot + leaf_slots;
             next_slot = slots.end;
             let (mut constants, facts) =
-                segment_constants(&skeleton, &kind.wood, &kind.foliage, leaf, (dt_s, gravity_m_s2));
+                segment_constants(&skeleton, &kind.wood, &kind.foliage, leaf, gravity_m_s2);
             let offset = (Vec3::from(constants[0].offset) + foot_m).to_array();
             constants[0].offset = offset;
             waiting += constants.len();

@@ -33,7 +33,7 @@ crate::shared_struct! {
     ///
     /// A segment's own frame has its origin at its lower joint and y along it. A joint's springs and rates are given in the
     /// frame of the segment above it.
-    pub struct SegmentConstants {
+    pub struct SegmentConstants, padding 8 {
         /// Rotation x, y, z, w at rest from the segment's frame to its parent's; to the world's for a trunk.
         pub rest: [f32; 4],
         /// Position of the joint in the parent's frame in m; in the world's for a trunk.
@@ -64,10 +64,6 @@ crate::shared_struct! {
         pub bending: f32,
         /// Stiffness against twisting in N m/rad.
         pub twisting: f32,
-        /// Inertia in kg m² that implicit bending adds.
-        pub bending_inertia: f32,
-        /// Inertia in kg m² that implicit twisting adds.
-        pub twisting_inertia: f32,
         /// Row of the parent; [`NO_SEGMENT`] for a trunk.
         pub parent: u32,
         /// Row of the first child; [`NO_SEGMENT`] if there is none, [`TWIG`] for a twig.

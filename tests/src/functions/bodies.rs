@@ -36,8 +36,6 @@ pub(super) fn constants(words: &Words, at: usize) -> Constants {
         damping: number(19),
         bending: number(20),
         twisting: number(21),
-        bending_inertia: number(22),
-        twisting_inertia: number(23),
     }
 }
 
@@ -170,4 +168,4 @@ pub(super) const TURN_COSINE: Input = Input::Float(0.85, 1.0);
 pub(super) const LENGTH: Input = Input::Float(0.05, 2.0);
 pub(super) const SCALARS: Input = Input::Floats(8, 0.01, 3.0);
 pub(super) const PRELOAD: Input = Input::Floats(3, -5.0, 5.0);
-pub(super) const SPRINGS: Input = Input::Floats(5, 0.01, 50.0);
+pub(super) const SPRINGS: Input = Input::Floats(3, 0.01, 50.0);

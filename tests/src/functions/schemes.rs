@@ -58,16 +58,16 @@ functions! {
         QUATERNION, DIRECTION, LENGTH, SCALARS, PRELOAD, SPRINGS, PLACE, QUATERNION, VELOCITY, VELOCITY,
         Input::Below(500), VELOCITY
     ) tolerance Some(1e-5);
-    wgsl "let body = in_body(24u);
+    wgsl "let body = in_body(22u);
         let whole = segment_composite(
-            in_constants(0u), body, segment_axis(body), in_vec3(38u), f32(in_word(37u)));
+            in_constants(0u), body, segment_axis(body), in_vec3(36u), f32(in_word(35u)));
         out_sym3(0u, whole.inertia); out_vec3(6u, whole.moment); out_float(9u, whole.mass); out_vec3(10u, whole.torque);
         out_vec3(13u, whole.force); out_float(16u, whole.drag); out_vec3(17u, whole.drag_moment);
         out_float(20u, whole.drag_inertia);";
     rust |cx, w| {
-        let body = body(w, 24);
+        let body = body(w, 22);
         let axis = segment_axis(&body);
-        results(&segment_composite(cx, &constants(w, 0), &body, axis, vector(w, 38), w[37] as f32)).0
+        results(&segment_composite(cx, &constants(w, 0), &body, axis, vector(w, 36), w[35] as f32)).0
     };
 
     composite_shift in "tree/sway/composite" (Input::Floats(42, -9.0, 9.0), DIRECTION) tolerance Some(4e-6);
@@ -88,14 +88,14 @@ functions! {
         QUATERNION, DIRECTION, LENGTH, SCALARS, PRELOAD, SPRINGS, TURN, TURN_COSINE, VELOCITY, PLACE, QUATERNION,
         VELOCITY, VELOCITY, DIAGONAL, OFF, VELOCITY, Input::Float(0.0, 60.0)
     ) tolerance Some(1e-3);
-    wgsl "let body = in_body(31u); let t = in_vec3(50u); let d = in_float(53u);
-        let whole = Composite(in_sym3(44u), t, d, t, t, d, t, d);
-        let m = quigley_step(in_constants(0u), in_joint(24u), body, segment_axis(body), whole);
+    wgsl "let body = in_body(29u); let t = in_vec3(48u); let d = in_float(51u);
+        let whole = Composite(in_sym3(42u), t, d, t, t, d, t, d);
+        let m = quigley_step(in_constants(0u), in_joint(22u), body, segment_axis(body), whole);
         out_vec3(0u, m.turn); out_vec3(3u, m.rate);";
     rust |cx, w| {
-        let body = body(w, 31);
+        let body = body(w, 29);
         let axis = segment_axis(&body);
-        let moved = quigley_step(cx, &constants(w, 0), &joint(w, 24), &body, axis, &carried(w, 44));
+        let moved = quigley_step(cx, &constants(w, 0), &joint(w, 22), &body, axis, &carried(w, 42));
         Results::new().vec3(moved.turn).vec3(moved.rate).0
     };
 
@@ -103,13 +103,13 @@ functions! {
         QUATERNION, DIRECTION, LENGTH, SCALARS, PRELOAD, SPRINGS, TURN, TURN_COSINE, VELOCITY, PLACE, QUATERNION,
         VELOCITY, VELOCITY, DIAGONAL, OFF, VELOCITY, Input::Float(0.0, 60.0)
     ) tolerance Some(1e-5);
-    wgsl "let t = in_vec3(50u); let d = in_float(53u);
-        let whole = Composite(in_sym3(44u), t, d, t, t, d, t, d);
-        let m = oliapuram_kumar_step(in_constants(0u), in_joint(24u), in_body(31u), whole);
+    wgsl "let t = in_vec3(48u); let d = in_float(51u);
+        let whole = Composite(in_sym3(42u), t, d, t, t, d, t, d);
+        let m = oliapuram_kumar_step(in_constants(0u), in_joint(22u), in_body(29u), whole);
         out_vec3(0u, m.turn); out_vec3(3u, m.rate);";
     rust |cx, w| {
-        let body = body(w, 31);
-        let moved = oliapuram_kumar_step(cx, &constants(w, 0), &joint(w, 24), &body, &carried(w, 44));
+        let body = body(w, 29);
+        let moved = oliapuram_kumar_step(cx, &constants(w, 0), &joint(w, 22), &body, &carried(w, 42));
         Results::new().vec3(moved.turn).vec3(moved.rate).0
     };
 

@@ -8,6 +8,7 @@ use windfall_core::arith::matrix::{
     mat3_twice_symmetric, sym3_add, sym3_axial, sym3_inverse, sym3_minus, sym3_rows, sym3_times, sym3_trace,
 };
 use windfall_core::arith::quaternion::{quat_axis_y, quat_of_turn, quat_rotate_back, turn_of_quat};
+use windfall_core::device::tree::sway::coast::segment_coast;
 use windfall_core::device::tree::sway::inward::{
     articulated_add, articulated_shift, joint_response, joint_spring, velocity_products,
 };
@@ -97,10 +98,10 @@ functions! {
     segment_drag in "tree/sway/load" (
         QUATERNION, DIRECTION, LENGTH, SCALARS, PRELOAD, SPRINGS, DIRECTION, VELOCITY, VELOCITY, Input::Below(500)
     ) tolerance Some(4e-6);
-    wgsl "let d = segment_drag(in_constants(0u), in_vec3(24u), in_vec3(27u), in_vec3(30u), f32(in_word(33u)));
+    wgsl "let d = segment_drag(in_constants(0u), in_vec3(22u), in_vec3(25u), in_vec3(28u), f32(in_word(31u)));
         out_vec3(0u, d.wind); out_vec3(3u, d.across); out_float(6u, d.wood); out_float(7u, d.leaves);";
     rust |_cx, w| {
-        let d = segment_drag(&constants(w, 0), vector(w, 24), vector(w, 27), vector(w, 30), w[33] as f32);
+        let d = segment_drag(&constants(w, 0), vector(w, 22), vector(w, 25), vector(w, 28), w[31] as f32);
         Results::new().vec3(d.wind).vec3(d.across).floats(&[d.wood, d.leaves]).0
     };
 
@@ -109,14 +110,14 @@ functions! {
         QUATERNION, DIRECTION, LENGTH, SCALARS, PRELOAD, SPRINGS, PLACE, QUATERNION, VELOCITY, VELOCITY,
         Input::Below(500), VELOCITY
     ) tolerance Some(1e-5);
-    wgsl "let body = in_body(24u); let axis = segment_axis(body); out_vec3(11u, axis);
-        let l = segment_load(in_constants(0u), body, axis, in_vec3(38u), f32(in_word(37u)));
+    wgsl "let body = in_body(22u); let axis = segment_axis(body); out_vec3(11u, axis);
+        let l = segment_load(in_constants(0u), body, axis, in_vec3(36u), f32(in_word(35u)));
         out_float(0u, l.rotation_along); out_float(1u, l.rotation_across); out_float(2u, l.coupling);
         out_float(3u, l.mass_along); out_float(4u, l.mass_across); out_vec3(5u, l.moment); out_vec3(8u, l.force);";
     rust |cx, w| {
-        let body = body(w, 24);
+        let body = body(w, 22);
         let axis = segment_axis(&body);
-        let load = segment_load(cx, &constants(w, 0), &body, axis, vector(w, 38), w[37] as f32);
+        let load = segment_load(cx, &constants(w, 0), &body, axis, vector(w, 36), w[35] as f32);
         Results::new().load(&load).vec3(axis).0
     };
 
@@ -142,11 +143,11 @@ functions! {
         QUATERNION, DIRECTION, LENGTH, SCALARS, PRELOAD, SPRINGS, TURN, TURN_COSINE, VELOCITY, PLACE, QUATERNION,
         VELOCITY, VELOCITY, Input::Float(6.0, 12.0)
     ) tolerance Some(1e-5);
-    wgsl "let spring = joint_spring(in_constants(0u), in_joint(24u), in_body(31u), in_float(44u));
+    wgsl "let spring = joint_spring(in_constants(0u), in_joint(22u), in_body(29u), in_float(42u));
         out_vec3(0u, spring.torque); out_float(3u, spring.along); out_float(4u, spring.across);";
     rust |cx, w| {
-        let (joint, body) = (joint(w, 24), body(w, 31));
-        let spring = joint_spring(cx, &constants(w, 0), &joint, &body, float(w[44]));
+        let (joint, body) = (joint(w, 22), body(w, 29));
+        let spring = joint_spring(cx, &constants(w, 0), &joint, &body, float(w[42]));
         Results::new().vec3(spring.torque).floats(&[spring.along, spring.across]).0
     };
 
@@ -229,10 +230,14 @@ functions! {
     wgsl "out_joint(0u, joint_step(in_joint(0u), in_body(7u), in_vec3(20u)));";
     rust |cx, w| Results::new().joint(joint_step(cx, &joint(w, 0), &body(w, 7), vector(w, 20))).0;
 
+    segment_coast in "tree/sway/coast" (PLACE, QUATERNION, VELOCITY, VELOCITY) tolerance Some(4e-6);
+    wgsl "out_body(0u, segment_coast(in_body(0u)));";
+    rust |cx, w| Results::new().body(segment_coast(cx, &body(w, 0))).0;
+
     segment_place in "tree/sway/outward" (
         QUATERNION, DIRECTION, LENGTH, SCALARS, PRELOAD, SPRINGS, TURN, TURN_COSINE, VELOCITY, PLACE, QUATERNION,
         VELOCITY, VELOCITY
     ) tolerance Some(4e-6);
-    wgsl "out_body(0u, segment_place(in_constants(0u), in_joint(24u), in_body(31u)));";
-    rust |_cx, w| Results::new().body(segment_place(&constants(w, 0), &joint(w, 24), &body(w, 31))).0;
+    wgsl "out_body(0u, segment_place(in_constants(0u), in_joint(22u), in_body(29u)));";
+    rust |_cx, w| Results::new().body(segment_place(&constants(w, 0), &joint(w, 22), &body(w, 29))).0;
 }

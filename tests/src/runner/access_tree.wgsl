@@ -4,10 +4,9 @@
 fn in_constants(at: u32) -> SegmentConstants {
     let wood = in_vec4(at + 8u);
     let air = in_vec4(at + 12u);
-    let spring = in_vec4(at + 20u);
     return SegmentConstants(
         in_vec4(at), in_vec3(at + 4u), in_float(at + 7u), wood.x, wood.y, wood.z, wood.w, air.x, air.y, air.z, air.w,
-        in_vec3(at + 16u), in_float(at + 19u), spring.x, spring.y, spring.z, spring.w, NO_SEGMENT, NO_SEGMENT, NO_SEGMENT, 0u,
+        in_vec3(at + 16u), in_float(at + 19u), in_float(at + 20u), in_float(at + 21u), NO_SEGMENT, NO_SEGMENT, NO_SEGMENT, 0u,
     );
 }
 

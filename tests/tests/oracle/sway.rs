@@ -101,10 +101,11 @@ proptest! {
             SwayScheme::Quigley,
             SwayScheme::OliapuramKumar,
         ]),
+        sway_every in 1u32..=2,
     ) {
         let wood = Wood { youngs_modulus_gpa: 9.5 * 10f32.powf(stiffness), ..Wood::default() };
         let mut grove = Grove::new(vec![bare(forked(depth, 15.0), wood)], dt);
-        grove.blow(|scene| scene.sway = scheme);
+        grove.blow(|scene| (scene.sway, scene.sway_every) = (scheme, sway_every));
         if leaves {
             grove.put_on_leaves();
         }

@@ -46,8 +46,7 @@ fn stand_of(scene: &mut Scene, skeleton: Skeleton, cluster: u32) -> SceneTrees {
     let kind = TreeKind::default();
     let (leaf, foot_m) = (LeafFacts::default(), Vec3::ZERO);
     let seedling = Seedling { skeleton: Arc::new(skeleton), kind, leaf, foot_m, leaf_slots: 1 };
-    let mut scene_trees =
-        SceneTrees::of(scene, &Forest::plant(vec![seedling], scene.dt_s, scene.gravity_m_s2));
+    let mut scene_trees = SceneTrees::of(scene, &Forest::plant(vec![seedling], scene.gravity_m_s2));
     scene_trees.trees[0].cluster = cluster;
     scene_trees
 }

@@ -134,8 +134,7 @@ mod tests {
             leaf_slots: 0,
         };
         let seedlings = [(0.0, 0.1), (30.0, 0.2)].map(seedling);
-        let scene_trees =
-            SceneTrees::of(&scene, &Forest::plant(seedlings.into(), scene.dt_s, scene.gravity_m_s2));
+        let scene_trees = SceneTrees::of(&scene, &Forest::plant(seedlings.into(), scene.gravity_m_s2));
         let tree = &scene_trees.trees[1];
         let mesh = bark_mesh(&tree.skeleton, BarkDetail::Full);
         for at in 0..mesh.positions_m.len() {

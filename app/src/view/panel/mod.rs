@@ -228,7 +228,7 @@ impl Panel {
         let differs = scene.wind != own.wind;
         groups
             .show(ui, Group::Wind, differs, |ui| wind::show(ui, &mut scene.wind, &own.wind, input.look_deg));
-        let season = |scene: &Scene| (scene.autumn, scene.sway, scene.regrow_after_s);
+        let season = |scene: &Scene| (scene.autumn, scene.sway, scene.sway_every, scene.regrow_after_s);
         let differs = scene.trees != own.trees || season(scene) != season(own);
         groups.show(ui, Group::Trees, differs, |ui| trees::show(ui, scene, own));
         let differs = scene.tree_kinds != own.tree_kinds;

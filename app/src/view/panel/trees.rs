@@ -21,6 +21,8 @@ pub(super) fn show(ui: &mut Ui, scene: &mut Scene, own: &Scene) {
     let tip =
         "How joints are moved: together as articulated bodies, or joint by joint by one of two older schemes";
     choice(ui, "Sway", tip, &mut scene.sway, Some(&own.sway), &options);
+    let tip = "Steps from one solution of the joints to the next; in strong wind it is always one";
+    field("Solve every", tip, limits::SWAY_EVERY).show(ui, &mut scene.sway_every, own.sway_every);
     let tip =
         "Time from a leaf's break from its tree until it is back on its twig; without one it lies for ever";
     let regrow = field("Regrow after", tip, limits::REGROW_AFTER_S).fine(1.0);

@@ -42,6 +42,7 @@ impl Change {
             tree_kinds,
             trees,
             sway,
+            sway_every,
             autumn,
             regrow_after_s,
             wind,
@@ -51,7 +52,8 @@ impl Change {
         change.retune = *fall_speed != old.fall_speed
             || *rotation_speed != old.rotation_speed
             || *wind != old.wind
-            || *sway != old.sway;
+            || *sway != old.sway
+            || *sway_every != old.sway_every;
         change.rebuild("seed", *seed != old.seed, true, true);
         change.rebuild("gravity", *gravity_m_s2 != old.gravity_m_s2, true, false);
         change.rebuild("step length", *dt_s != old.dt_s, true, false);

@@ -23,7 +23,7 @@ fn planted(skeletons: impl Iterator<Item = Skeleton>) -> Forest {
         foot_m: Vec3::ZERO,
         leaf_slots: 0,
     };
-    Forest::plant(skeletons.map(seedling).collect(), 1.0 / 60.0, STANDARD_GRAVITY_M_S2)
+    Forest::plant(skeletons.map(seedling).collect(), STANDARD_GRAVITY_M_S2)
 }
 
 /// Forty trees of three sizes, in several batches.

@@ -25,13 +25,14 @@ fn what_stays_asks_for_nothing() {
 
 #[test]
 fn wind_and_speeds_go_on_at_once() {
-    let edits: [fn(&mut Scene); 7] = [
+    let edits: [fn(&mut Scene); 8] = [
         |scene| scene.wind.direction_deg += 1.0,
         |scene| scene.wind.profile = Profile::Uniform,
         |scene| scene.wind.turbulence.cell_m *= 2.0,
         |scene| scene.fall_speed = 0.5,
         |scene| scene.rotation_speed = 0.5,
         |scene| scene.sway = SwayScheme::Quigley,
+        |scene| scene.sway_every = 2,
         |scene| scene.ground.friction = 0.9,
     ];
     for (number, edit) in edits.into_iter().enumerate() {

@@ -34,16 +34,18 @@ fn articulated_add(a: ArticulatedInertia, b: ArticulatedInertia) -> ArticulatedI
 
 fn joint_spring(constants: SegmentConstants, joint: Joint, body: Body, carried: f32) -> Spring {
     let bending = constants.bending;
-    let ahead = scene.dt_s * IMPLICITNESS;
+    let ahead = scene.sway.ahead_s;
+    let damping = constants.damping + ahead;
     let turn = turn_of_quat(joint.turn);
-    let spring = turn + joint.rate * (constants.damping + ahead);
+    let spring = turn + joint.rate * damping;
     var torque = vec3<f32>(
         constants.preload.x - bending * spring.x,
         constants.preload.y - constants.twisting * spring.y,
         constants.preload.z - bending * spring.z,
     );
-    var along = constants.twisting_inertia;
-    var across = constants.bending_inertia;
+    let implicit = ahead * damping;
+    var along = constants.twisting * implicit;
+    var across = bending * implicit;
     let squared = vec3_dot(turn, turn);
     if (STOP_ANGLE * STOP_ANGLE < squared) {
         let stiffness = carried * STOP_STIFFNESS;

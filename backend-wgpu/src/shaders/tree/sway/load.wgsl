@@ -47,7 +47,7 @@ fn segment_load(constants: SegmentConstants, body: Body, axis: vec3<f32>, air: v
     let moment = constants.first_moment + leaves * half;
     let across = constants.inertia_across + leaves * ((constants.length * constants.length) * THIRD);
     let gravity = scene.gravity_m_s2;
-    let dt = scene.dt_s;
+    let dt = scene.sway.dt_s;
     let added = held * dt;
     let heavy = across + added * (half * half);
     let bare = mass + added;

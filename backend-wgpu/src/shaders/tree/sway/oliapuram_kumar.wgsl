@@ -13,7 +13,7 @@ fn rod_step(turn: f32, rate: f32, torque: f32, stiffness: f32, inertia: f32, dam
 }
 
 fn oliapuram_kumar_step(constants: SegmentConstants, joint: Joint, body: Body, whole: Composite) -> Moved {
-    let dt = scene.dt_s;
+    let dt = scene.sway.dt_s;
     let inertia = 0.5 * ((whole.inertia.diagonal.x + whole.inertia.diagonal.y) + whole.inertia.diagonal.z);
     let torque = quat_rotate_back(body.pose, whole.torque) + constants.preload;
     let turn = turn_of_quat(joint.turn);

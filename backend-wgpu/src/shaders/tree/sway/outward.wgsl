@@ -42,8 +42,8 @@ fn shortened(v: vec3<f32>, limit: f32) -> vec3<f32> {
 }
 
 fn joint_step(joint: Joint, body: Body, own: vec3<f32>) -> Joint {
-    let dt = scene.dt_s;
-    let limit = TURN_LIMIT * scene.inv_dt_s;
+    let dt = scene.sway.dt_s;
+    let limit = TURN_LIMIT * scene.sway.inv_dt_s;
     let gain = quat_rotate_back(body.pose, own) * dt;
     let rate = shortened(joint.rate + gain, limit);
     let on_the_way = shortened(joint.rate + gain * IMPLICITNESS, limit);
@@ -69,7 +69,7 @@ fn joint_held(turn: vec3<f32>, rate: vec3<f32>) -> Joint {
     let kept = rate - turn * select(0.0, outward, stopped);
     return Joint(
         quat_renormalize(quat_of_turn(shortened(turn, TURN_LIMIT))),
-        shortened(kept, TURN_LIMIT * scene.inv_dt_s),
+        shortened(kept, TURN_LIMIT * scene.sway.inv_dt_s),
     );
 }
 

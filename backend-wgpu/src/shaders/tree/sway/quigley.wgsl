@@ -156,7 +156,7 @@ fn swing_step(swing: Swing, stiffness: f32, a: f32, force: f32, dt: f32) -> Swin
 }
 
 fn quigley_step(constants: SegmentConstants, joint: Joint, body: Body, axis: vec3<f32>, whole: Composite) -> Moved {
-    let dt = scene.dt_s;
+    let dt = scene.sway.dt_s;
     let springs = sym3_axial(axis, constants.twisting, constants.bending);
     let modes = joint_modes(whole.inertia, springs);
     let turn = quat_rotate(body.pose, turn_of_quat(joint.turn));

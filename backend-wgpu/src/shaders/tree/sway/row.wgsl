@@ -3,6 +3,7 @@
 // twin: core/src/device/tree/sway/row.rs
 // One segment in each pass of a step.
 #import tree/bindings
+#import tree/sway/coast
 #import tree/sway/composite
 #import tree/sway/inward
 #import tree/sway/load
@@ -122,4 +123,11 @@ fn row_follow(row: u32) {
     }
     let held = joint_held(moved.turn, moved.rate);
     move_to(row, held, segment_place(constants, held, parent_body(constants.parent)));
+}
+
+fn row_coast(row: u32) {
+    let columns = level.column_stride;
+    let body = segment_coast(row_body(row));
+    branch_rows[BRANCH_BASE * columns + row] = vec4<f32>(body.base, 0.0);
+    branch_rows[BRANCH_POSE * columns + row] = body.pose;
 }

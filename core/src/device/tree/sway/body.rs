@@ -30,13 +30,11 @@ pub struct Constants<R = f32> {
     pub damping: R,
     pub bending: R,
     pub twisting: R,
-    pub bending_inertia: R,
-    pub twisting_inertia: R,
 }
 
 each_number!(Constants {
     length, mass, first_moment, inertia_across, inertia_along, leaf_mass, wood_drag, leaf_drag, leaf_yield, damping,
-    bending, twisting, bending_inertia, twisting_inertia;
+    bending, twisting;
     rest, offset, preload
 });
 
@@ -59,8 +57,6 @@ impl From<&SegmentConstants> for Constants {
             damping: segment.damping,
             bending: segment.bending,
             twisting: segment.twisting,
-            bending_inertia: segment.bending_inertia,
-            twisting_inertia: segment.twisting_inertia,
         }
     }
 }

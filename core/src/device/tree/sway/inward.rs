@@ -5,8 +5,8 @@
 //! Inward pass of the articulated-body algorithm: the response of a joint, and the inertia that its parent feels through it.
 
 use super::{
-    ArticulatedInertia, Body, Constants, IMPLICITNESS, Joint, JointResponse, STOP_ANGLE, STOP_DAMPING,
-    STOP_STIFFNESS, Spring, VelocityProducts,
+    ArticulatedInertia, Body, Constants, Joint, JointResponse, STOP_ANGLE, STOP_DAMPING, STOP_STIFFNESS,
+    Spring, VelocityProducts,
 };
 use crate::arith::lane::{Mask, Real};
 use crate::arith::math::inverse_sqrt;
@@ -55,16 +55,18 @@ pub fn joint_spring<R: Real>(
     carried: R,
 ) -> Spring<R> {
     let bending = constants.bending;
-    let ahead = bending.all(cx.scene.dt_s * IMPLICITNESS);
+    let ahead = bending.all(cx.scene.sway.ahead_s);
+    let damping = constants.damping + ahead;
     let turn = turn_of_quat(joint.turn);
-    let spring = turn + joint.rate * (constants.damping + ahead);
+    let spring = turn + joint.rate * damping;
     let mut torque = Vec3::new(
         constants.preload.x - bending * spring.x,
         constants.preload.y - constants.twisting * spring.y,
         constants.preload.z - bending * spring.z,
     );
-    let mut along = constants.twisting_inertia;
-    let mut across = constants.bending_inertia;
+    let implicit = ahead * damping;
+    let mut along = constants.twisting * implicit;
+    let mut across = bending * implicit;
     // The stop is implicit too, so that segments beyond the joint feel it.
     let squared = vec3_dot(turn, turn);
     let beyond = bending.all(STOP_ANGLE * STOP_ANGLE).less_than(squared);

@@ -84,7 +84,7 @@ pub fn segment_load<R: Real>(
     let across = constants.inertia_across + leaves * ((constants.length * constants.length) * THIRD);
     let gravity = cx.scene.gravity_m_s2;
     // Implicit drag acts like a mass added at the centre.
-    let dt = cx.scene.dt_s;
+    let dt = cx.scene.sway.dt_s;
     let added = held * dt;
     let heavy = across + added * (half * half);
     let bare = mass + added;

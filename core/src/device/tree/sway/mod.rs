@@ -8,7 +8,7 @@
 //! pass on, computes the response of its joint, and passes the inertia and bias force that remain through the joint on to
 //! its parent. The outward pass ([`outward`]), from the trunk to the twigs, computes every joint's acceleration from its
 //! parent's and integrates it. Springs, their damping and drag act implicitly, so no wind, stiffness or step length makes
-//! them pump energy.
+//! them pump energy. Where a scene consents, joints are solved in every other step only, and [`coast`] moves segments in between.
 //!
 //! Two simpler schemes that step joints one by one are kept for comparison: [`quigley`] and [`oliapuram_kumar`].
 //!
@@ -17,6 +17,7 @@
 //! own point, in world axes, with classical accelerations.
 
 mod body;
+pub mod coast;
 pub mod composite;
 pub mod inward;
 pub mod load;

@@ -37,7 +37,7 @@ pub fn oliapuram_kumar_step(
     body: &Body,
     whole: &Composite,
 ) -> Moved {
-    let dt = cx.scene.dt_s;
+    let dt = cx.scene.sway.dt_s;
     // A rod has the same moment of inertia about both axes across it, and next to none along it.
     let inertia = 0.5 * ((whole.inertia.diagonal.x + whole.inertia.diagonal.y) + whole.inertia.diagonal.z);
     let torque = quat_rotate_back(body.pose, whole.torque) + constants.preload;

@@ -52,7 +52,7 @@ pub fn joint_acceleration<R: Real>(
 
 /// Vector clamped to a length of `limit`.
 #[inline(always)]
-fn shortened<R: Real>(v: Vec3<R>, limit: R) -> Vec3<R> {
+pub fn shortened<R: Real>(v: Vec3<R>, limit: R) -> Vec3<R> {
     let squared = vec3_dot(v, v);
     let over = (limit * limit).less_than(squared);
     if !over.any() {
@@ -65,8 +65,8 @@ fn shortened<R: Real>(v: Vec3<R>, limit: R) -> Vec3<R> {
 /// Joint after a step with the angular acceleration `own` in world axes.
 #[inline(always)]
 pub fn joint_step<R: Real>(cx: &Context<'_>, joint: &Joint<R>, body: &Body<R>, own: Vec3<R>) -> Joint<R> {
-    let dt = cx.scene.dt_s;
-    let limit = own.x.all(TURN_LIMIT * cx.scene.inv_dt_s);
+    let dt = cx.scene.sway.dt_s;
+    let limit = own.x.all(TURN_LIMIT * cx.scene.sway.inv_dt_s);
     let gain = quat_rotate_back(body.pose, own) * own.x.all(dt);
     let rate = shortened(joint.rate + gain, limit);
     let on_the_way = shortened(joint.rate + gain * own.x.all(IMPLICITNESS), limit);
@@ -101,7 +101,7 @@ pub fn joint_held(cx: &Context<'_>, turn: Vec3, rate: Vec3) -> Joint {
     let kept = rate - turn * if stopped { outward } else { 0.0 };
     Joint {
         turn: quat_renormalize(quat_of_turn(shortened(turn, TURN_LIMIT))),
-        rate: shortened(kept, TURN_LIMIT * cx.scene.inv_dt_s),
+        rate: shortened(kept, TURN_LIMIT * cx.scene.sway.inv_dt_s),
     }
 }
 

@@ -205,7 +205,7 @@ pub fn quigley_step(
     axis: Vec3,
     whole: &Composite,
 ) -> Moved {
-    let dt = cx.scene.dt_s;
+    let dt = cx.scene.sway.dt_s;
     let springs = sym3_axial(axis, constants.twisting, constants.bending);
     let modes = joint_modes(whole.inertia, springs);
     let turn = quat_rotate(body.pose, turn_of_quat(joint.turn));

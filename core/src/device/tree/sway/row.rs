@@ -4,6 +4,7 @@
 //!
 //! One segment in each pass of a step.
 
+use super::coast::segment_coast;
 use super::composite::{composite_add, composite_shift, segment_composite};
 use super::inward::{articulated_add, articulated_shift, joint_response, joint_spring, velocity_products};
 use super::load::{load_trace, segment_air, segment_axis, segment_body, segment_load};
@@ -167,4 +168,12 @@ pub fn row_follow(cx: &Context<'_>, rows: &mut Rows<'_>, row: usize) {
     let joint = joint_held(cx, moved.turn, moved.rate);
     let body = segment_place(&constants, &joint, &rows.parent_body(row));
     rows.move_to(row, &joint, &body);
+}
+
+/// Step of one row between two solutions of its joint.
+#[inline(always)]
+pub fn row_coast(cx: &Context<'_>, rows: &mut Rows<'_>, row: usize) {
+    let body = segment_coast(cx, &rows.body(row));
+    rows.branches.base[row] = four(body.base, 0.0);
+    rows.branches.pose[row] = body.pose.to_array();
 }

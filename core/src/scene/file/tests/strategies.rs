@@ -313,6 +313,7 @@ prop_compose! {
         mut sources in vec(source(), 1..=MAX_SOURCES),
         (mut tree_kinds, mut trees) in (vec(tree_kind(), 0..4), vec(tree(), 0..6)),
         sway in select(vec![SwayScheme::Articulated, SwayScheme::Quigley, SwayScheme::OliapuramKumar]),
+        sway_every in 1..=2u32,
         (autumn, regrow_after_s) in (within(limits::AUTUMN), maybe(limits::REGROW_AFTER_S)),
         wind in wind(),
         ground in (-4.0f32..=4.0, within(limits::FRICTION), option::of(terrain()), maybe(limits::HEIGHT_M))
@@ -340,7 +341,7 @@ prop_compose! {
             tree.kind.clone_from(&kind.name);
         }
         let mut scene = Scene {
-            name, seed, dt_s, fall_speed, rotation_speed, gravity_m_s2, species, sources, tree_kinds, trees, sway, autumn, regrow_after_s, wind, ground,
+            name, seed, dt_s, fall_speed, rotation_speed, gravity_m_s2, species, sources, tree_kinds, trees, sway, sway_every, autumn, regrow_after_s, wind, ground,
             view,
         };
         // Hills no deeper than the slowest leaf has time to fall.
