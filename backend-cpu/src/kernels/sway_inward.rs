@@ -13,14 +13,17 @@ use windfall_core::device::tree::sway::inward::{
     articulated_add, articulated_shift, joint_response, joint_spring, velocity_products,
 };
 use windfall_core::device::tree::sway::load::{
-    load_trace, segment_air, segment_axis, segment_body, segment_load,
+    load_trace, segment_air, segment_air_is_sampled, segment_axis, segment_body, segment_load,
 };
 use windfall_core::device::tree::sway::row::{Rows, row_inward};
 use windfall_core::device::tree::sway::twig::twig_response;
 use windfall_core::device::tree::sway::{ArticulatedInertia, Body, TwigResponse};
+use windfall_core::tree::BranchesMut;
 
 use crate::simd::batch_blocks::{AHEAD, BatchBlocks, BatchStep, ConstantsOf, SegmentBlock};
-use crate::simd::branch_block::{BlockState, bodies_of, ground, lanes_with_rows, state_of};
+use crate::simd::branch_block::{
+    BlockState, Spare, bodies_of, change_state, ground, lanes_with_rows, state_of,
+};
 use crate::simd::lanes::Lanes;
 use crate::simd::sway_scratch::{BlockScratch, InertiaBlock};
 use crate::simd::{Simd, in_packs};
@@ -44,9 +47,10 @@ pub(crate) fn sway_inward(
 
 /// Steps block after block in lanes, with the same bits as row by row.
 #[inline(always)]
-fn inward_lanes<P: Pack>(simd: P::Simd, step: BatchStep<'_, '_>, scratch: &mut BlockScratch) {
+fn inward_lanes<P: Pack>(simd: P::Simd, mut step: BatchStep<'_, '_>, scratch: &mut BlockScratch) {
     for number in 0..step.blocks.limbs.len() {
         step.prefetch(number + AHEAD, &ConstantsOf::INWARD);
+        step.prefetch_airs(number + AHEAD);
         for part in 0..BLOCK / P::LANES {
             step.inward::<P>(simd, number, part, scratch);
         }
@@ -56,11 +60,14 @@ fn inward_lanes<P: Pack>(simd: P::Simd, step: BatchStep<'_, '_>, scratch: &mut B
 impl BatchStep<'_, '_> {
     /// Steps part of a block of limbs and its twigs.
     #[inline(always)]
-    fn inward<P: Pack>(&self, simd: P::Simd, number: usize, part: usize, scratch: &mut BlockScratch) {
+    fn inward<P: Pack>(&mut self, simd: P::Simd, number: usize, part: usize, scratch: &mut BlockScratch) {
         let block = &self.blocks.limbs[number];
         let BlockScratch { limbs: responses, twigs: twig_responses, inertias, spare, spare_twigs, .. } =
             scratch;
         let constants = block.segments.constants::<P>(simd, part);
+        if segment_air_is_sampled(self.cx) {
+            sample_air::<P>(self.cx, simd, &mut self.rows.branches, &block.segments, part, spare);
+        }
         let state = state_of(&self.rows.branches, &block.segments.rows, spare);
         let body = state.bodies(simd, part);
         let parent = match &block.parents {
@@ -69,7 +76,7 @@ impl BatchStep<'_, '_> {
         };
         let products = velocity_products(&body, &parent);
         let axis = segment_axis(&body);
-        let air = segment_air(self.cx, &body, axis, constants.length);
+        let air = state.airs(simd, part);
         let leaf_count = state.leaf_counts(simd, part);
         let mut whole = segment_body(&segment_load(self.cx, &constants, &body, axis, air, leaf_count), axis);
         let twig_responses = &mut twig_responses[block.twigs.clone()];
@@ -126,6 +133,30 @@ impl BatchStep<'_, '_> {
         );
         articulated_shift(&apparent, products.arm)
     }
+}
+
+/// Samples the air at the ends of the limbs in part of a block.
+#[inline(always)]
+fn sample_air<P: Pack>(
+    cx: &Context<'_>,
+    simd: P::Simd,
+    branches: &mut BranchesMut<'_>,
+    limbs: &SegmentBlock,
+    part: usize,
+    spare: &mut Spare,
+) {
+    let length = limbs.constants::<P>(simd, part).length;
+    change_state(
+        branches,
+        &limbs.rows,
+        spare,
+        #[inline(always)]
+        |mut state| {
+            let body = state.bodies(simd, part);
+            let air = segment_air(cx, &body, segment_axis(&body), length);
+            state.store_airs(simd, part, air);
+        },
+    );
 }
 
 /// `yes` where true, `no` elsewhere.

@@ -191,6 +191,14 @@ impl BatchStep<'_, '_> {
         }
     }
 
+    /// Prefetches the air at a block of limbs, if there is such a block.
+    #[inline(always)]
+    pub(crate) fn prefetch_airs(&self, number: usize) {
+        let Some(block) = self.blocks.limbs.get(number) else { return };
+        let airs = self.rows.branches.air.as_ptr().wrapping_add(block.segments.rows.start);
+        prefetch::<SECOND_LEVEL, _>(airs, BLOCK);
+    }
+
     #[inline(always)]
     fn prefetch_rows(&self, segments: &SegmentBlock, ConstantsOf(bytes): &ConstantsOf) {
         let constants = std::ptr::from_ref(&segments.constants).cast::<u8>();

@@ -23,6 +23,7 @@ pub(crate) struct BranchBlock<C> {
     pub(crate) pose: C,
     pub(crate) velocity: C,
     pub(crate) spin: C,
+    pub(crate) air: C,
 }
 
 /// State of a block and the leaves on its segments, to be read.
@@ -36,18 +37,20 @@ impl BlockState<'_> {
     /// Pose and velocity of the segments.
     #[inline(always)]
     pub(crate) fn bodies<P: Pack>(&self, simd: P::Simd, part: usize) -> Body<P> {
-        Body {
-            base: vector_and_fourth(load_block(simd, self.columns.base, part)).0,
-            pose: load_block(simd, self.columns.pose, part).into(),
-            velocity: vector_and_fourth(load_block(simd, self.columns.velocity, part)).0,
-            spin: vector_and_fourth(load_block(simd, self.columns.spin, part)).0,
-        }
+        let BranchBlock { base, pose, velocity, spin, .. } = self.columns;
+        bodies_in(simd, [base, pose, velocity, spin], part)
     }
 
     /// Joints of the segments.
     #[inline(always)]
     pub(crate) fn joints<P: Pack>(&self, simd: P::Simd, part: usize) -> Joint<P> {
         joints_of(simd, self.columns.turn, self.columns.rate, part)
+    }
+
+    /// Air that was sampled at the ends of the limbs.
+    #[inline(always)]
+    pub(crate) fn airs<P: Pack>(&self, simd: P::Simd, part: usize) -> Vec3<P> {
+        vector_and_fourth(load_block(simd, self.columns.air, part)).0
     }
 
     /// Numbers of leaves on the segments.
@@ -59,6 +62,12 @@ impl BlockState<'_> {
 }
 
 impl BranchBlock<&mut Column> {
+    /// Poses and velocities of the segments.
+    #[inline(always)]
+    pub(crate) fn bodies<P: Pack>(&self, simd: P::Simd, part: usize) -> Body<P> {
+        bodies_in(simd, [&*self.base, &*self.pose, &*self.velocity, &*self.spin], part)
+    }
+
     /// Orientations of the segments.
     #[inline(always)]
     pub(crate) fn poses<P: Pack>(&self, simd: P::Simd, part: usize) -> Quat<P> {
@@ -82,6 +91,23 @@ impl BranchBlock<&mut Column> {
         store_vector(self.velocity, part, body.velocity, zero);
         store_vector(self.spin, part, body.spin, zero);
     }
+
+    /// Replaces the air.
+    #[inline(always)]
+    pub(crate) fn store_airs<P: Pack>(&mut self, simd: P::Simd, part: usize, air: Vec3<P>) {
+        store_vector(self.air, part, air, P::fill(simd, 0.0));
+    }
+}
+
+/// Poses and velocities in the columns of base, pose, velocity and spin.
+#[inline(always)]
+fn bodies_in<P: Pack>(simd: P::Simd, [base, pose, velocity, spin]: [&Column; 4], part: usize) -> Body<P> {
+    Body {
+        base: vector_and_fourth(load_block(simd, base, part)).0,
+        pose: load_block(simd, pose, part).into(),
+        velocity: vector_and_fourth(load_block(simd, velocity, part)).0,
+        spin: vector_and_fourth(load_block(simd, spin, part)).0,
+    }
 }
 
 #[inline(always)]
@@ -101,8 +127,8 @@ pub(crate) struct Spare {
 
 impl Spare {
     pub(crate) fn new() -> Self {
-        let [turn, rate, base, pose, velocity, spin] = [[[0.0; 4]; BLOCK]; 6];
-        Self { columns: BranchBlock { turn, rate, base, pose, velocity, spin }, leaf_counts: [0; BLOCK] }
+        let [turn, rate, base, pose, velocity, spin, air] = [[[0.0; 4]; BLOCK]; 7];
+        Self { columns: BranchBlock { turn, rate, base, pose, velocity, spin, air }, leaf_counts: [0; BLOCK] }
     }
 
     /// Copies fewer rows than a block has, the last one once more for each that is missing.
@@ -114,6 +140,7 @@ impl Spare {
         fill_up(&mut self.columns.pose, &branches.pose[rows.clone()]);
         fill_up(&mut self.columns.velocity, &branches.velocity[rows.clone()]);
         fill_up(&mut self.columns.spin, &branches.spin[rows.clone()]);
+        fill_up(&mut self.columns.air, &branches.air[rows.clone()]);
         fill_up(&mut self.leaf_counts, &branches.leaf_count[rows]);
     }
 
@@ -126,7 +153,8 @@ impl Spare {
         branches.base[rows.clone()].copy_from_slice(&self.columns.base[..count]);
         branches.pose[rows.clone()].copy_from_slice(&self.columns.pose[..count]);
         branches.velocity[rows.clone()].copy_from_slice(&self.columns.velocity[..count]);
-        branches.spin[rows].copy_from_slice(&self.columns.spin[..count]);
+        branches.spin[rows.clone()].copy_from_slice(&self.columns.spin[..count]);
+        branches.air[rows].copy_from_slice(&self.columns.air[..count]);
     }
 }
 
@@ -145,8 +173,8 @@ pub(crate) fn state_of<'a>(
 ) -> BlockState<'a> {
     if branches.turn.len() < rows.start + BLOCK {
         spare.fill(branches, rows.clone());
-        let BranchBlock { turn, rate, base, pose, velocity, spin } = &spare.columns;
-        let columns = BranchBlock { turn, rate, base, pose, velocity, spin };
+        let BranchBlock { turn, rate, base, pose, velocity, spin, air } = &spare.columns;
+        let columns = BranchBlock { turn, rate, base, pose, velocity, spin, air };
         return BlockState { columns, leaf_counts: &spare.leaf_counts };
     }
     BlockState {
@@ -157,6 +185,7 @@ pub(crate) fn state_of<'a>(
             pose: block(&*branches.pose, rows),
             velocity: block(&*branches.velocity, rows),
             spin: block(&*branches.spin, rows),
+            air: block(&*branches.air, rows),
         },
         leaf_counts: block(&*branches.leaf_count, rows),
     }
@@ -182,10 +211,11 @@ pub(crate) fn change_state<T>(
             pose: block_mut(branches.pose, rows),
             velocity: block_mut(branches.velocity, rows),
             spin: block_mut(branches.spin, rows),
+            air: block_mut(branches.air, rows),
         }
     } else {
-        let BranchBlock { turn, rate, base, pose, velocity, spin } = &mut spare.columns;
-        BranchBlock { turn, rate, base, pose, velocity, spin }
+        let BranchBlock { turn, rate, base, pose, velocity, spin, air } = &mut spare.columns;
+        BranchBlock { turn, rate, base, pose, velocity, spin, air }
     };
     let result = change(columns);
     if !is_full {
@@ -204,12 +234,8 @@ pub(crate) fn change_places<P: Pack>(
 ) {
     let rows = first..first + BLOCK;
     let (base, pose) = (block_mut(branches.base, &rows), block_mut(branches.pose, &rows));
-    let body = change(&Body {
-        base: vector_and_fourth(load_block(simd, base, part)).0,
-        pose: load_block(simd, pose, part).into(),
-        velocity: vector_and_fourth(load_block(simd, block(&*branches.velocity, &rows), part)).0,
-        spin: vector_and_fourth(load_block(simd, block(&*branches.spin, &rows), part)).0,
-    });
+    let (velocity, spin) = (block(&*branches.velocity, &rows), block(&*branches.spin, &rows));
+    let body = change(&bodies_in(simd, [&*base, &*pose, velocity, spin], part));
     store_vector(base, part, body.base, P::fill(simd, 0.0));
     store_block(pose, part, body.pose.to_array());
 }

@@ -19,8 +19,10 @@ crate::shared_constants! {
     pub const BRANCH_VELOCITY: u32 = 4;
     /// Column of angular velocities.
     pub const BRANCH_SPIN: u32 = 5;
+    /// Column of the air at the ends of limbs.
+    pub const BRANCH_AIR: u32 = 6;
     /// Number of columns.
-    pub const BRANCH_COLUMNS: u32 = 6;
+    pub const BRANCH_COLUMNS: u32 = 7;
     /// No segment.
     pub const NO_SEGMENT: u32 = 0xffff_ffff;
     /// Mark of a twig in place of its first child. A twig is a short segment without children that takes the wind at the end
@@ -124,7 +126,7 @@ pub fn children_of(segments: &[SegmentConstants], first: u32, row: usize) -> imp
 /// each, fewer segments would fit a binding of 128 MiB.
 pub type Work = [[f32; 4]; WORK_ROWS as usize];
 
-/// Bytes of memory traffic that a step needs for a segment: constants once, state in both directions, and the number of
-/// leaves. The results of a thread's inward pass, and what its outward pass reads again, can stay in its cache.
+/// Bytes of memory traffic that a step needs for a segment: constants once, the joint and the body in both directions, the number
+/// of leaves, and the air, which is sampled once for several steps and counted as read by every segment. The results of a thread's inward pass, and what its outward pass reads again, can stay in its cache.
 pub const SEGMENT_BYTES_PER_STEP: usize =
-    size_of::<SegmentConstants>() + 2 * BRANCH_COLUMNS as usize * 16 + 4;
+    size_of::<SegmentConstants>() + (2 * BRANCH_AIR as usize + 1) * 16 + 4;

@@ -23,6 +23,9 @@ crate::columns! {
         pub velocity: [f32; 4],
         /// Angular velocity of the segment in rad/s; one unused.
         pub spin: [f32; 4],
+        /// Velocity of the air in m/s at the end of a limb, sampled once for an interval of a few steps, and one unused. Twigs feel the
+        /// air of the limb that they grow from.
+        pub air: [f32; 4],
         /// Leaves that hang on the segment.
         pub leaf_count: u32,
     }
@@ -33,7 +36,7 @@ crate::columns! {
 }
 
 const _: () =
-    assert!(Branches::COLUMNS.len() == BRANCH_COLUMNS as usize + 1, "six columns of four, and the leaves");
+    assert!(Branches::COLUMNS.len() == BRANCH_COLUMNS as usize + 1, "seven columns of four, and the leaves");
 
 impl Branches {
     /// Position, orientation and velocities of a segment.

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Tier 0: whole trees sway as fast, and come to rest as soon, as measured ones do.
 
+use glam::DVec3;
 use windfall_core::Scene;
 use windfall_core::scene::{MeanSpeed, Profile, Tree};
 use windfall_core::tree::forest::Seedling;
@@ -10,8 +11,8 @@ use windfall_tests::grove::Grove;
 
 const DT_S: f32 = 1.0 / 60.0;
 
-/// A preset tree by itself, as a scene with default species plants it.
-fn tree(kind: &str, height_m: f32, number: u32) -> Grove {
+/// A preset tree by itself, as a scene with default species plants it, to be stepped by `dt_s`.
+fn tree(kind: &str, height_m: f32, number: u32, dt_s: f32) -> Grove {
     let scene = Scene::default();
     let tree = Tree { kind: kind.into(), height_m: Some(height_m), number, leaves: 2000, ..Tree::default() };
     let kind = scene.tree_kind(kind).expect("a preset");
@@ -19,7 +20,7 @@ fn tree(kind: &str, height_m: f32, number: u32) -> Grove {
     let leaf = LeafFacts { area_m2: 0.0035, mass_kg: 2.5e-4 };
     let seedling =
         Seedling { skeleton: skeleton.into(), kind, leaf, foot_m: glam::Vec3::ZERO, leaf_slots: 0 };
-    Grove::new(vec![seedling], DT_S)
+    Grove::new(vec![seedling], dt_s)
 }
 
 /// Frequency in Hz and share of critical damping of a tree that is pulled over by a steady wind and let go.
@@ -67,10 +68,10 @@ fn middle(forest: &Forest, branches: &Branches) -> f64 {
 /// Measured trees of this height sway at 0.20 to 0.24 Hz (see `data/tree_sway_frequencies.csv`); 0.15 to 0.30 Hz is what
 /// is asked for. Without leaves they sway 10 to 25 % faster, and die down more slowly.
 fn sways_like_a_real_one(kind: &str, height_m: f32, number: u32) {
-    let mut leafy = tree(kind, height_m, number);
+    let mut leafy = tree(kind, height_m, number, DT_S);
     leafy.put_on_leaves();
     let (hz, damping) = pull_and_release(leafy, 6.0);
-    let (bare_hz, bare_damping) = pull_and_release(tree(kind, height_m, number), 6.0);
+    let (bare_hz, bare_damping) = pull_and_release(tree(kind, height_m, number, DT_S), 6.0);
     let report = format!(
         "{kind} of {height_m} m, number {number}: {hz:.3} Hz, {damping:.3} of critical; bare {bare_hz:.3} Hz, \
          {bare_damping:.3}"
@@ -87,7 +88,7 @@ fn sways_like_a_real_one(kind: &str, height_m: f32, number: u32) {
 fn half_of_the_solutions_keep_frequency_and_damping() {
     for kind in ["maple", "birch", "oak"] {
         let measured = [1, 2].map(|sway_every| {
-            let mut grove = tree(kind, 20.0, 1);
+            let mut grove = tree(kind, 20.0, 1, DT_S);
             grove.put_on_leaves();
             grove.blow(|scene| scene.sway_every = sway_every);
             pull_and_release(grove, 6.0)
@@ -98,6 +99,71 @@ fn half_of_the_solutions_keep_frequency_and_damping() {
         assert_ne!(measured[0], measured[1], "{report}");
         assert!((half_hz / hz - 1.0).abs() < 0.01, "{report}");
         assert!((half_damping / damping - 1.0).abs() < 0.05, "{report}");
+    }
+}
+
+/// Tracks of the ends of all segments of a tree in a gusty breeze, seen 60 times a second from 10 s to 25 s.
+fn tracks(kind: &str, sway_every: u32, dt_s: f32) -> Vec<Vec<DVec3>> {
+    let mut grove = tree(kind, 15.0, 1, dt_s);
+    grove.put_on_leaves();
+    grove.blow(|scene| {
+        scene.wind = Scene::default().wind;
+        scene.wind.speed = MeanSpeed::MetresPerSecond(6.5);
+        scene.sway_every = sway_every;
+    });
+    let pause = (DT_S / dt_s).round() as usize;
+    let segments = grove.forest.segments().len();
+    let mut tracks = Vec::new();
+    for moment in 0..1500 {
+        (0..pause).for_each(|_| grove.step());
+        if moment >= 600 {
+            tracks.push((0..segments).map(|segment| grove.tip(0, segment).as_dvec3()).collect());
+        }
+    }
+    tracks
+}
+
+/// Motion of all segments about their mean places: its root mean square in m.
+fn motion_m(tracks: &[Vec<DVec3>]) -> f64 {
+    let mean = |segment: usize| tracks.iter().map(|now| now[segment]).sum::<DVec3>() / tracks.len() as f64;
+    let means: Vec<DVec3> = (0..tracks[0].len()).map(mean).collect();
+    distance_m(tracks, |_, segment| means[segment])
+}
+
+/// Distance of all segments from other places: its root mean square in m.
+fn distance_m(tracks: &[Vec<DVec3>], other: impl Fn(usize, usize) -> DVec3) -> f64 {
+    let all = tracks
+        .iter()
+        .enumerate()
+        .flat_map(|(moment, now)| now.iter().enumerate().map(move |(segment, end)| (moment, segment, *end)));
+    let sum: f64 = all.map(|(moment, segment, end)| end.distance_squared(other(moment, segment))).sum();
+    (sum / (tracks.len() * tracks[0].len()) as f64).sqrt()
+}
+
+/// Trees that sample the wind once in four steps move as in steps of a quarter of the length, and so they do with joints solved
+/// in every other step; then their paths bend at the solutions by what they would have bent in two steps.
+#[test]
+fn a_breeze_moves_trees_as_in_finer_steps() {
+    for kind in ["maple", "birch"] {
+        let fine = tracks(kind, 1, 0.25 * DT_S);
+        let mut bend_m = Vec::new();
+        for sway_every in [1, 2] {
+            let found = tracks(kind, sway_every, DT_S);
+            let (all, own) = (motion_m(&fine), motion_m(&found));
+            let off = distance_m(&found, |moment, segment| fine[moment][segment]);
+            let bends = found.windows(3).flat_map(|three| {
+                (0..three[0].len()).map(move |at| (three[2][at] - 2.0 * three[1][at] + three[0][at]).length())
+            });
+            let bend = bends.fold(0.0, f64::max);
+            let report = format!(
+                "{kind}, every {sway_every}: moves {own:.4} m of {all:.4} m, {off:.4} m off, bends {bend:.5} m"
+            );
+            println!("{report}");
+            assert!((0.97..1.0).contains(&(own / all)), "{report}");
+            assert!(off < 0.03 * all, "{report}");
+            bend_m.push(bend);
+        }
+        assert!(bend_m[1] < 2.5 * bend_m[0], "{kind}: {bend_m:?}");
     }
 }
 

@@ -30,8 +30,13 @@ fn segment_drag(constants: SegmentConstants, axis: vec3<f32>, air: vec3<f32>, ve
     return Drag(wind, across, constants.wood_drag * speed_across, leaves);
 }
 
+fn segment_air_is_sampled() -> bool {
+    let first = scene.sway.interval_steps - 1u;
+    return ((step_block.index - first) & (scene.wind.interval_steps - 1u)) == 0u;
+}
+
 fn segment_air(body: Body, axis: vec3<f32>, length: f32) -> vec3<f32> {
-    return wind_at(body.base + axis * length);
+    return wind_at_moment(MOMENT_MIDDLE, body.base + axis * length);
 }
 
 fn segment_load(constants: SegmentConstants, body: Body, axis: vec3<f32>, air: vec3<f32>, leaf_count: f32) -> Load {

@@ -47,9 +47,18 @@ fn move_to(row: u32, joint: Joint, body: Body) {
 }
 
 fn row_air(row: u32) -> vec3<f32> {
-    let felt = select(row, segments[row].parent, segments[row].first_child == TWIG);
+    let columns = level.column_stride;
+    let is_twig = segments[row].first_child == TWIG;
+    let felt = select(row, segments[row].parent, is_twig);
+    if (!segment_air_is_sampled()) {
+        return branch_rows[BRANCH_AIR * columns + felt].xyz;
+    }
     let body = row_body(felt);
-    return segment_air(body, segment_axis(body), segments[felt].length);
+    let air = segment_air(body, segment_axis(body), segments[felt].length);
+    if (!is_twig) {
+        branch_rows[BRANCH_AIR * columns + row] = vec4<f32>(air, 0.0);
+    }
+    return air;
 }
 
 fn row_inward(row: u32) {

@@ -14,8 +14,9 @@ use crate::arith::math::{inverse_sqrt, reciprocal};
 use crate::arith::matrix::{mat3_cross, sym3_axial};
 use crate::arith::quaternion::quat_axis_y;
 use crate::arith::vector::{TINY_SQUARED, Vec3, vec3_cross, vec3_dot};
+use crate::blocks::MOMENT_MIDDLE;
 use crate::context::Context;
-use crate::device::wind::sample::wind_at;
+use crate::device::wind::sample::wind_at_moment;
 
 /// Drag on a segment at its centre.
 #[derive(Clone, Copy, Debug)]
@@ -55,10 +56,18 @@ pub fn segment_drag<R: Real>(
     Drag { wind, across, wood: constants.wood_drag * speed_across, leaves }
 }
 
-/// Velocity of the air at the end of a segment, for the segment and for the twigs that grow there.
+/// Returns true if limbs sample the air in this step, in which a new interval begins for them. It is the interval of falling leaves, in
+/// steps that solve the joints.
+#[inline(always)]
+pub fn segment_air_is_sampled(cx: &Context<'_>) -> bool {
+    let first = cx.scene.sway.interval_steps - 1;
+    (cx.step.index.wrapping_sub(first) & (cx.scene.wind.interval_steps - 1)) == 0
+}
+
+/// Velocity of the air at the end of a segment in the middle of the interval that begins with the step, for the segment and for the twigs that grow there.
 #[inline(always)]
 pub fn segment_air<R: Real>(cx: &Context<'_>, body: &Body<R>, axis: Vec3<R>, length: R) -> Vec3<R> {
-    wind_at(cx, body.base + axis * length)
+    wind_at_moment(cx, MOMENT_MIDDLE, body.base + axis * length)
 }
 
 /// Load on a segment with `leaf_count` leaves in air of velocity `air`.

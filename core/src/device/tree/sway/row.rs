@@ -7,7 +7,9 @@
 use super::coast::segment_coast;
 use super::composite::{composite_add, composite_shift, segment_composite};
 use super::inward::{articulated_add, articulated_shift, joint_response, joint_spring, velocity_products};
-use super::load::{load_trace, segment_air, segment_axis, segment_body, segment_load};
+use super::load::{
+    load_trace, segment_air, segment_air_is_sampled, segment_axis, segment_body, segment_load,
+};
 use super::oliapuram_kumar::oliapuram_kumar_step;
 use super::outward::{Acceleration, joint_acceleration, joint_held, joint_step, segment_place};
 use super::quigley::quigley_step;
@@ -80,13 +82,21 @@ impl Rows<'_> {
     }
 }
 
-/// Velocity of the air at a row: at the end of a twig's parent, or of any other segment itself.
+/// Velocity of the air at a row: at the end of a twig's parent, or of any other segment itself, which keeps it.
 #[inline(always)]
-fn row_air(cx: &Context<'_>, rows: &Rows<'_>, row: usize) -> Vec3 {
+fn row_air(cx: &Context<'_>, rows: &mut Rows<'_>, row: usize) -> Vec3 {
     let segment = &rows.segments[row];
-    let felt = if segment.is_twig() { (segment.parent - rows.first) as usize } else { row };
+    let is_twig = segment.is_twig();
+    let felt = if is_twig { (segment.parent - rows.first) as usize } else { row };
+    if !segment_air_is_sampled(cx) {
+        return first_three(rows.branches.air[felt]);
+    }
     let body = rows.body(felt);
-    segment_air(cx, &body, segment_axis(&body), rows.segments[felt].length)
+    let air = segment_air(cx, &body, segment_axis(&body), rows.segments[felt].length);
+    if !is_twig {
+        rows.branches.air[row] = four(air, 0.0);
+    }
+    air
 }
 
 /// Inward pass at one row, after its children.
@@ -98,7 +108,8 @@ pub fn row_inward(cx: &Context<'_>, rows: &mut Rows<'_>, row: usize) {
     let axis = segment_axis(&body);
     let products = velocity_products(&body, &rows.parent_body(row));
     let leaf_count = rows.branches.leaf_count[row] as f32;
-    let load = segment_load(cx, &constants, &body, axis, row_air(cx, rows, row), leaf_count);
+    let air = row_air(cx, rows, row);
+    let load = segment_load(cx, &constants, &body, axis, air, leaf_count);
     let apparent = if rows.segments[row].is_twig() {
         let spring = joint_spring(cx, &constants, &joint, &body, load_trace(&load));
         let (response, apparent) = twig_response(&spring, &load, axis, &products);
