@@ -49,7 +49,7 @@ pub(crate) fn sway_inward(
 #[inline(always)]
 fn inward_lanes<P: Pack>(simd: P::Simd, mut step: BatchStep<'_, '_>, scratch: &mut BlockScratch) {
     for number in 0..step.blocks.limbs.len() {
-        step.prefetch(number + AHEAD, &ConstantsOf::INWARD);
+        step.prefetch_limbs(number + AHEAD, &ConstantsOf::INWARD);
         step.prefetch_airs(number + AHEAD);
         for part in 0..BLOCK / P::LANES {
             step.inward::<P>(simd, number, part, scratch);
@@ -80,7 +80,9 @@ impl BatchStep<'_, '_> {
         let leaf_count = state.leaf_counts(simd, part);
         let mut whole = segment_body(&segment_load(self.cx, &constants, &body, axis, air, leaf_count), axis);
         let twig_responses = &mut twig_responses[block.twigs.clone()];
-        for (twigs, responses) in self.blocks.twigs[block.twigs.clone()].iter().zip(twig_responses) {
+        for (number, responses) in block.twigs.clone().zip(twig_responses) {
+            self.prefetch_twigs(number + AHEAD, &ConstantsOf::INWARD);
+            let twigs = &self.blocks.twigs[number];
             let state = state_of(&self.rows.branches, &twigs.rows, spare_twigs);
             let sum = articulated_add(
                 &whole,

@@ -42,7 +42,7 @@ pub(crate) fn sway_outward(
 fn outward_lanes<P: Pack>(simd: P::Simd, mut step: BatchStep<'_, '_>, scratch: &mut BlockScratch) {
     for number in (0..step.blocks.limbs.len()).rev() {
         if let Some(ahead) = number.checked_sub(AHEAD) {
-            step.prefetch(ahead, &ConstantsOf::OUTWARD);
+            step.prefetch_limbs(ahead, &ConstantsOf::OUTWARD);
         }
         for part in 0..BLOCK / P::LANES {
             step.outward::<P>(simd, number, part, scratch);
@@ -75,6 +75,7 @@ impl BatchStep<'_, '_> {
         let own = |_| own;
         let body = self.integrate(simd, &block.segments, part, own, &parent, &mut scratch.spare);
         for number in block.twigs.clone() {
+            self.prefetch_twigs(number.wrapping_sub(AHEAD), &ConstantsOf::OUTWARD);
             let response = scratch.twigs[number].map(
                 #[inline(always)]
                 |lanes| lanes.load(simd, part),

@@ -174,29 +174,38 @@ impl ConstantsOf {
     pub(crate) const OUTWARD: Self = Self(0..INWARD_OFFSET);
 }
 
-/// Number of blocks to prefetch ahead, into the second level of cache, which gained more than the first: one is too late where memory is slow, four and more gain nothing.
+/// Number of blocks of limbs, or of twigs, to prefetch ahead, into the second level of cache, which gained more than the first: one is too late where
+/// memory is slow, four and more gain nothing.
 pub(crate) const AHEAD: usize = 2;
 
+/// Prefetching of state, leaf counts and the constants of a pass.
+///
+/// A block with its twigs is some ninety cache lines in eight columns and two tables, a few lines from each page: processors do not all foresee them.
+/// A core waits for a dozen or so lines at a time, so limbs and each block of twigs are prefetched apart, with work in between.
 impl BatchStep<'_, '_> {
-    /// Prefetches a block of limbs and its twigs, if there is such a block: state, leaf counts and the constants of a pass.
-    ///
-    /// A block with its twigs is some ninety cache lines in seven columns and two tables, a few lines from each page:
-    /// processors do not foresee them, and without a hint a step of a large forest waited for them as long as it computed.
+    /// Prefetches a block of limbs, if there is such a block.
     #[inline(always)]
-    pub(crate) fn prefetch(&self, number: usize, constants: &ConstantsOf) {
-        let Some(block) = self.blocks.limbs.get(number) else { return };
-        self.prefetch_rows(&block.segments, constants);
-        for twigs in &self.blocks.twigs[block.twigs.clone()] {
-            self.prefetch_rows(twigs, constants);
+    pub(crate) fn prefetch_limbs(&self, number: usize, constants: &ConstantsOf) {
+        if let Some(block) = self.blocks.limbs.get(number) {
+            self.prefetch_rows(&block.segments, constants);
         }
     }
 
     /// Prefetches the air at a block of limbs, if there is such a block.
     #[inline(always)]
     pub(crate) fn prefetch_airs(&self, number: usize) {
-        let Some(block) = self.blocks.limbs.get(number) else { return };
-        let airs = self.rows.branches.air.as_ptr().wrapping_add(block.segments.rows.start);
-        prefetch::<SECOND_LEVEL, _>(airs, BLOCK);
+        if let Some(block) = self.blocks.limbs.get(number) {
+            let airs = self.rows.branches.air.as_ptr().wrapping_add(block.segments.rows.start);
+            prefetch::<SECOND_LEVEL, _>(airs, BLOCK);
+        }
+    }
+
+    /// Prefetches a block of twigs, if there is such a block.
+    #[inline(always)]
+    pub(crate) fn prefetch_twigs(&self, number: usize, constants: &ConstantsOf) {
+        if let Some(twigs) = self.blocks.twigs.get(number) {
+            self.prefetch_rows(twigs, constants);
+        }
     }
 
     #[inline(always)]
