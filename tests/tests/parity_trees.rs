@@ -175,7 +175,9 @@ fn a_changed_kernel_is_noticed() {
         ("tree/sway/inward", "sym3_add(turned, swung)", "sym3_add(turned, turned)"),
         ("tree/sway/outward", "gain * IMPLICITNESS", "gain"),
         ("tree/sway/twig", "inverse_across * load.coupling", "inverse_along * load.coupling"),
-        ("tree/sway/row", "select(row, segments[row].parent, segments[row].first_child == TWIG)", "row"),
+        ("tree/sway/row", "select(row, segments[row].parent, is_twig)", "row"),
+        ("tree/sway/row", "columns + row] = vec4<f32>(air,", "columns + row] = vec4<f32>(body.velocity,"),
+        ("tree/sway/load", "wind_at_moment(MOMENT_MIDDLE", "wind_at_moment(MOMENT_NOW"),
         (
             "tree/sway/row",
             "whole = articulated_add(whole, load",

@@ -13,7 +13,7 @@ use windfall_core::device::tree::sway::inward::{
     articulated_add, articulated_shift, joint_response, joint_spring, velocity_products,
 };
 use windfall_core::device::tree::sway::load::{
-    load_trace, segment_air, segment_axis, segment_body, segment_drag, segment_load,
+    load_trace, segment_air, segment_air_is_sampled, segment_axis, segment_body, segment_drag, segment_load,
 };
 use windfall_core::device::tree::sway::outward::{
     Acceleration, joint_acceleration, joint_step, segment_place,
@@ -122,10 +122,12 @@ functions! {
     };
 
     segment_air in "tree/sway/load" (PLACE, QUATERNION, VELOCITY, VELOCITY, LENGTH) tolerance Some(1e-5);
-    wgsl "let body = in_body(0u); out_vec3(0u, segment_air(body, segment_axis(body), in_float(13u)));";
+    wgsl "let body = in_body(0u); out_vec3(0u, segment_air(body, segment_axis(body), in_float(13u)));
+        out_float(3u, f32(segment_air_is_sampled()));";
     rust |cx, w| {
         let body = body(w, 0);
-        Results::new().vec3(segment_air(cx, &body, segment_axis(&body), float(w[13]))).0
+        let sampled = f32::from(u8::from(segment_air_is_sampled(cx)));
+        Results::new().vec3(segment_air(cx, &body, segment_axis(&body), float(w[13]))).floats(&[sampled]).0
     };
 
     segment_body in "tree/sway/load" (LOAD, VELOCITY, VELOCITY, AXIS) tolerance Some(1e-6);
