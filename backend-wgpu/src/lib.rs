@@ -23,6 +23,7 @@ mod columns;
 mod exact;
 mod forest;
 mod gpu;
+mod lists;
 mod pipelines;
 mod prelude;
 mod readback;

@@ -18,8 +18,12 @@ pub(crate) enum GroupLayout {
     Leaves,
     /// The same without identities, for leaves that have no event.
     LeavesInMotion,
-    /// One storage buffer: the event list of a page, or the counters.
-    OneBuffer,
+    /// The same without airs, for leaves on twigs.
+    LeavesOnTwigs,
+    /// One storage buffer that kernels only read: the active list or the event lists of a page.
+    ReadBuffer,
+    /// One storage buffer that they write: the same while they are filled, or the counters.
+    WrittenBuffer,
     /// Blocks and tables.
     Blocks,
     /// A level of the forest.
@@ -29,19 +33,29 @@ pub(crate) enum GroupLayout {
 }
 
 impl GroupLayout {
-    const ALL: [Self; 6] =
-        [Self::Leaves, Self::LeavesInMotion, Self::OneBuffer, Self::Blocks, Self::Level, Self::Carriers];
+    const ALL: [Self; 8] = [
+        Self::Leaves,
+        Self::LeavesInMotion,
+        Self::LeavesOnTwigs,
+        Self::ReadBuffer,
+        Self::WrittenBuffer,
+        Self::Blocks,
+        Self::Level,
+        Self::Carriers,
+    ];
 
     /// Resources, binding by binding.
     fn slots(self) -> &'static [Slot] {
         use Slot::{Block, BlockOfMany, Read, Write};
-        // The bindings of shaders/bindings.wgsl: all of them, those up to the tables, those up to the airs.
+        // The bindings of shaders/bindings.wgsl: all of them, or those up to the tables, the airs, the schedules.
         const ALL: &[Slot] = &[Block, BlockOfMany, Read, Write, Write, Write, Write, Write, Write];
         match self {
             Self::Leaves => ALL,
             Self::Blocks => &ALL[..3],
             Self::LeavesInMotion => &ALL[..8],
-            Self::OneBuffer => &[Write],
+            Self::LeavesOnTwigs => &ALL[..7],
+            Self::ReadBuffer => &[Read],
+            Self::WrittenBuffer => &[Write],
             // The bindings of shaders/tree/bindings.wgsl.
             Self::Level => &[BlockOfMany, Read, Read, Write, Write, Read],
             // The bindings of shaders/leaf/carrier_bindings.wgsl.
@@ -57,17 +71,20 @@ impl KernelId {
             Self::SwayInward | Self::SwayOutward | Self::SwayGather | Self::SwayFollow | Self::SwayCoast => {
                 &[GroupLayout::Blocks, GroupLayout::Level]
             }
-            Self::Carry => &[GroupLayout::LeavesInMotion, GroupLayout::Carriers],
-            Self::SampleAir => &[GroupLayout::LeavesInMotion],
-            Self::Advance | Self::Measure => &[GroupLayout::LeavesInMotion, GroupLayout::OneBuffer],
-            Self::ResolveEvents => &[GroupLayout::Leaves, GroupLayout::OneBuffer],
-            Self::Fly => &[GroupLayout::Leaves],
+            Self::Carry => &[GroupLayout::LeavesOnTwigs, GroupLayout::WrittenBuffer, GroupLayout::Carriers],
+            Self::ListActive | Self::Measure => &[GroupLayout::LeavesInMotion, GroupLayout::WrittenBuffer],
+            Self::SampleAir => &[GroupLayout::LeavesInMotion, GroupLayout::ReadBuffer],
+            Self::Advance => {
+                &[GroupLayout::LeavesInMotion, GroupLayout::ReadBuffer, GroupLayout::WrittenBuffer]
+            }
+            Self::ResolveEvents | Self::Fly => &[GroupLayout::Leaves, GroupLayout::ReadBuffer],
         }
     }
 
     /// The kernels that step and count a world of this scene.
     pub(crate) fn needed(compiled: &CompiledScene) -> Vec<Self> {
-        let mut kernels = vec![Self::SampleAir, Self::Advance, Self::ResolveEvents, Self::Measure];
+        let mut kernels =
+            vec![Self::ListActive, Self::SampleAir, Self::Advance, Self::ResolveEvents, Self::Measure];
         if compiled.block().has_bodies() {
             kernels.push(Self::Fly);
         }
@@ -227,4 +244,19 @@ pub(crate) fn shader_module(
     #[expect(unsafe_code, reason = "WGSL has no way to forbid contraction; SPIR-V has")]
     let module = gpu.scoped(|| unsafe { gpu.device().create_shader_module_passthrough(descriptor) });
     module
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Layouts count as well as what kernels use of them: browsers and many devices allow eight storage buffers.
+    #[test]
+    fn layouts_have_at_most_eight_storage_buffers() {
+        for kernel in KernelId::ALL {
+            let slots = kernel.layouts().iter().flat_map(|layout| layout.slots());
+            let count = slots.filter(|slot| matches!(slot, Slot::Read | Slot::Write)).count();
+            assert!(count <= 8, "{} has {count}", kernel.name());
+        }
+    }
 }

@@ -91,5 +91,7 @@ pub(crate) fn constants() -> String {
         device::wind::turbulence::wgsl_constants(),
     ];
     let declarations: String = lists.into_iter().flatten().map(|(_, declaration)| declaration).collect();
-    format!("const WORKGROUP_SIZE: u32 = {WORKGROUP_SIZE}u;\n{declarations}")
+    let groups =
+        format!("const WORKGROUP_SIZE: u32 = {WORKGROUP_SIZE}u;\nconst MAX_GROUPS: u32 = {MAX_GROUPS}u;\n");
+    groups + &declarations
 }

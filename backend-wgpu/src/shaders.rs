@@ -7,11 +7,13 @@ use std::collections::BTreeSet;
 use thiserror::Error;
 
 use crate::exact::decorate_no_contraction;
-use crate::prelude;
+use crate::{lists, prelude};
 
-/// The compute kernels; one name for file, entry point and twin.
+/// The compute kernels; one name for file, entry point and twin. [`KernelId::ListActive`] has none: the CPU notes idle units as it steps.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum KernelId {
+    /// Lists the leaves that the steps of a window can change.
+    ListActive,
     /// Samples the air for the leaves whose turn it is.
     SampleAir,
     /// Moves the leaves without an event through one step.
@@ -38,7 +40,8 @@ pub enum KernelId {
 
 impl KernelId {
     /// All kernels.
-    pub const ALL: [Self; 11] = [
+    pub const ALL: [Self; 12] = [
+        Self::ListActive,
         Self::SampleAir,
         Self::Advance,
         Self::Fly,
@@ -55,6 +58,7 @@ impl KernelId {
     /// Name of the file and of the entry point.
     pub const fn name(self) -> &'static str {
         match self {
+            Self::ListActive => "list_active",
             Self::SampleAir => "sample_air",
             Self::Advance => "advance",
             Self::Fly => "fly",
@@ -107,8 +111,8 @@ impl Default for Shaders {
             "arith/quaternion",
             "arith/rng",
             "arith/vector",
-            "event_list",
             "kernels/advance",
+            "kernels/list_active",
             "kernels/resolve_events",
             "kernels/sample_air",
             "kernels/carry",
@@ -132,6 +136,11 @@ impl Default for Shaders {
             "leaf/record",
             "leaf/release",
             "leaf/settle",
+            "lists/active",
+            "lists/events",
+            "lists/fill_active",
+            "lists/fill_events",
+            "lists/turns",
             "motion/feature",
             "motion/lookup",
             "terrain/ground",
@@ -155,7 +164,7 @@ impl Default for Shaders {
             "wind/turbulence",
             "wind/vortex",
         ];
-        modules.push(("prelude", prelude::structs() + &prelude::constants()));
+        modules.push(("prelude", prelude::structs() + &prelude::constants() + &lists::declarations()));
         // Every binding is of a prelude type.
         modules[0].1.insert_str(0, "#import prelude\n");
         Self { modules }

@@ -57,6 +57,8 @@ pub struct WgpuSimulator {
     counters: wgpu::Buffer,
     counters_group: wgpu::BindGroup,
     pages: Vec<Page>,
+    /// Steps for which the active lists still hold.
+    listed_steps: u32,
 }
 
 impl WgpuSimulator {
@@ -91,7 +93,7 @@ impl WgpuSimulator {
             wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC,
         );
         let counters_group =
-            group(gpu, pipelines.layout(GroupLayout::OneBuffer), [counters.as_entire_binding()]);
+            group(gpu, pipelines.layout(GroupLayout::WrittenBuffer), [counters.as_entire_binding()]);
         let mut simulator = Self {
             gpu: gpu.clone(),
             contract,
@@ -108,6 +110,7 @@ impl WgpuSimulator {
             counters,
             counters_group,
             pages: Vec::new(),
+            listed_steps: 0,
         };
         simulator.plant();
         simulator.bind_pages();
@@ -156,6 +159,7 @@ impl WgpuSimulator {
         let mut moved = false;
         let is_replanted = !Arc::ptr_eq(self.compiled.forest(), compiled.forest());
         self.compiled = compiled.clone();
+        self.listed_steps = 0;
         if !Arc::ptr_eq(&self.tables.0, compiled.tables()) {
             moved = self.tables.0.len() != compiled.tables().len();
             if moved {
@@ -194,6 +198,7 @@ impl Simulator for WgpuSimulator {
 
     fn write_state(&mut self, world: &World) -> Result<(), SimError> {
         world.fits(&self.buffers.sizes())?;
+        self.listed_steps = 0;
         self.buffers.write(&self.gpu, world)?;
         self.clock = world.clock;
         self.set_scene(&world.compiled)?;

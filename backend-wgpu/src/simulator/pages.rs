@@ -6,12 +6,13 @@ use windfall_core::tree::record::{BRANCH_COLUMNS, BRANCH_TURN, CarryBlock};
 
 use super::WgpuSimulator;
 use crate::buffers::{buffer, group, uniform};
+use crate::lists::{active_bytes, empty_events, event_bytes};
 use crate::pipelines::GroupLayout;
 
 /// Leaf columns before the identities.
 const COLUMNS_IN_MOTION: usize = 5;
-/// Header of an empty event list.
-const EVENT_LIST_HEADER: [u8; 16] = [0; 16];
+/// Leaf columns before the airs.
+const COLUMNS_ON_TWIGS: usize = 4;
 
 /// A window of the leaf columns that fits in one binding.
 #[derive(Debug)]
@@ -20,16 +21,25 @@ pub(super) struct Page {
     pub(super) columns: wgpu::BindGroup,
     /// The same without identities.
     pub(super) in_motion: wgpu::BindGroup,
-    pub(super) events: wgpu::BindGroup,
-    /// Header of `events`: lengths of the lists of even and odd steps.
-    event_counts: wgpu::Buffer,
+    pub(super) active: List,
+    pub(super) events: List,
     pub(super) on_trees: Option<OnTrees>,
+}
+
+/// A buffer of lists of leaves, bound for kernels that read it and for those that fill it.
+#[derive(Debug)]
+pub(super) struct List {
+    pub(super) buffer: wgpu::Buffer,
+    pub(super) read: wgpu::BindGroup,
+    pub(super) filled: wgpu::BindGroup,
 }
 
 /// The leaves of a page that trees have.
 #[derive(Debug)]
 pub(super) struct OnTrees {
     pub(super) leaves: u32,
+    /// The columns of the page without airs and identities.
+    pub(super) columns: wgpu::BindGroup,
     pub(super) carriers: wgpu::BindGroup,
 }
 
@@ -40,12 +50,14 @@ impl WgpuSimulator {
         let pages: Vec<Page> =
             (0..count).step_by(self.page_leaves as usize).map(|first| self.page(first)).collect();
         self.pages = pages;
+        self.clear_events();
     }
 
     /// Clears the event lists. A step clears the list of the next one; after a jump in time that is another.
     pub(super) fn clear_events(&self) {
         for page in &self.pages {
-            self.gpu.queue().write_buffer(&page.event_counts, 0, &EVENT_LIST_HEADER);
+            let empty = empty_events();
+            self.gpu.queue().write_buffer(&page.events.buffer, 0, bytemuck::cast_slice(&empty));
         }
     }
 
@@ -53,19 +65,9 @@ impl WgpuSimulator {
         let leaves = self.page_leaves.min(self.buffers.leaves().rows() - first);
         let blocks = || self.shared_blocks().into_iter();
         let columns = || self.buffers.leaves().windows(first, leaves);
-        let all = blocks().chain(columns());
-        let page = group(&self.gpu, self.pipelines.layout(GroupLayout::Leaves), all);
-        let hot = blocks().chain(columns().take(COLUMNS_IN_MOTION));
-        let in_motion = group(&self.gpu, self.pipelines.layout(GroupLayout::LeavesInMotion), hot);
-        // Header of four counts, then a place for every leaf; new buffers are zero.
-        let usage = wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST;
-        let event_counts =
-            buffer(&self.gpu, "event_list", EVENT_LIST_HEADER.len() as u64 + u64::from(leaves) * 4, usage);
-        let events = group(
-            &self.gpu,
-            self.pipelines.layout(GroupLayout::OneBuffer),
-            [event_counts.as_entire_binding()],
-        );
+        let bound = |layout, count| {
+            group(&self.gpu, self.pipelines.layout(layout), blocks().chain(columns().take(count)))
+        };
         let tree_leaves = self.compiled.scene().tree_leaf_count().saturating_sub(first).min(leaves);
         let on_trees = (self.forest.is_some() && tree_leaves > 0).then(|| {
             let branches = self.buffers.branches();
@@ -79,9 +81,26 @@ impl WgpuSimulator {
             ];
             OnTrees {
                 leaves: tree_leaves,
+                columns: bound(GroupLayout::LeavesOnTwigs, COLUMNS_ON_TWIGS),
                 carriers: group(&self.gpu, self.pipelines.layout(GroupLayout::Carriers), carriers),
             }
         });
-        Page { leaves, columns: page, in_motion, events, event_counts, on_trees }
+        let carried = on_trees.as_ref().map_or(0, |on_trees| on_trees.leaves);
+        Page {
+            leaves,
+            columns: bound(GroupLayout::Leaves, usize::MAX),
+            in_motion: bound(GroupLayout::LeavesInMotion, COLUMNS_IN_MOTION),
+            active: self.list("active_list", active_bytes(leaves, carried)),
+            events: self.list("event_lists", event_bytes(leaves)),
+            on_trees,
+        }
+    }
+
+    fn list(&self, label: &str, bytes: u64) -> List {
+        let buffer =
+            buffer(&self.gpu, label, bytes, wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::INDIRECT);
+        let bound = |layout| group(&self.gpu, self.pipelines.layout(layout), [buffer.as_entire_binding()]);
+        let (read, filled) = (bound(GroupLayout::ReadBuffer), bound(GroupLayout::WrittenBuffer));
+        List { buffer, read, filled }
     }
 }

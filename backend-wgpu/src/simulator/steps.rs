@@ -4,17 +4,17 @@
 
 use windfall_core::SimError;
 use windfall_core::blocks::StepBlock;
-use windfall_core::device::leaf::air::AIR_UNIT_SHIFT;
 
 use super::WgpuSimulator;
 use crate::buffers::buffer;
+use crate::lists::{
+    ACTIVE_HEAD_BYTES, ALL_GROUPS, SAMPLING_GROUPS, WINDOW_STEPS, empty_active, event_groups,
+};
 use crate::prelude::{MAX_GROUPS, WORKGROUP_SIZE};
 use crate::shaders::KernelId;
 
 /// Steps per compute pass: their blocks are copied at once.
 pub(super) const STEPS_PER_PASS: u32 = 32;
-/// One in this many workgroups resolves events, which about one leaf in a hundred has; a longer list is strided over.
-const EVENT_SHARE: u32 = 64;
 
 impl WgpuSimulator {
     /// Encodes `count` steps, for a program that submits several things at once: the clock moves on, and the commands are
@@ -33,7 +33,7 @@ impl WgpuSimulator {
         let mut left = count;
         gpu.scoped(|| {
             while left > 0 {
-                let batch = left.min(STEPS_PER_PASS);
+                let batch = left.min(self.longest_pass());
                 left -= batch;
                 self.encode_pass(encoder, batch, None);
             }
@@ -52,7 +52,7 @@ impl WgpuSimulator {
     ) -> Result<(), SimError> {
         let mut left = count;
         while left > 0 {
-            let batch = left.min(STEPS_PER_PASS);
+            let batch = left.min(self.longest_pass());
             let first = left == count;
             left -= batch;
             let writes = timestamps.clone().map(|stamps| wgpu::ComputePassTimestampWrites {
@@ -75,18 +75,19 @@ impl WgpuSimulator {
         Ok(())
     }
 
-    /// Most leaves of a page of so many that sample the air in a step.
-    fn sampling_leaves(&self, leaves: u32, step: u32) -> u32 {
-        let block = self.compiled.block();
-        let interval = block.wind.interval_steps;
-        // In a world that repeats all have the same turns.
-        if block.ids_per_life == 0 {
-            return if step.is_multiple_of(interval) { leaves } else { 0 };
-        }
-        leaves.div_ceil(interval << AIR_UNIT_SHIFT) << AIR_UNIT_SHIFT
+    /// Most steps of the next pass, which ends with the window of the active lists.
+    fn longest_pass(&self) -> u32 {
+        let left = if self.listed_steps == 0 { WINDOW_STEPS } else { self.listed_steps };
+        left.min(STEPS_PER_PASS)
     }
 
-    /// Encodes a compute pass of at most [`STEPS_PER_PASS`] steps.
+    /// Returns true if some leaves sample the air in a step: in a world that repeats they all do so in the same steps.
+    fn samples_air(&self, step: u32) -> bool {
+        let block = self.compiled.block();
+        block.ids_per_life != 0 || step.is_multiple_of(block.wind.interval_steps)
+    }
+
+    /// Encodes a compute pass of at most [`Self::longest_pass`] steps.
     fn encode_pass(
         &mut self,
         encoder: &mut wgpu::CommandEncoder,
@@ -95,55 +96,92 @@ impl WgpuSimulator {
     ) {
         let first = self.clock.step();
         let mut blocks = vec![0; (count * self.step_stride) as usize];
+        let steps_bytes = blocks.len() as u64;
         for slot in blocks.chunks_exact_mut(self.step_stride as usize) {
             let block = self.compiled.step_block(&self.clock);
             slot[..size_of::<StepBlock>()].copy_from_slice(bytemuck::bytes_of(&block));
             self.compiled.advance(&mut self.clock);
         }
-        // A write to a buffer takes effect before the whole submission, a copy between its passes: the blocks go into a
-        // buffer of their own and are copied from there.
+        let is_window_start = self.listed_steps == 0;
+        if is_window_start {
+            self.listed_steps = WINDOW_STEPS;
+            blocks.extend_from_slice(bytemuck::cast_slice(&empty_active()));
+        }
+        self.listed_steps -= count;
+        // A write to a buffer takes effect before the whole submission, a copy between its passes: what changes from pass to pass
+        // goes into a buffer of its own and is copied from there.
         let staged = buffer(&self.gpu, "steps", blocks.len() as u64, wgpu::BufferUsages::COPY_SRC);
         self.gpu.queue().write_buffer(&staged, 0, &blocks);
-        encoder.copy_buffer_to_buffer(&staged, 0, &self.step_buffer, 0, blocks.len() as u64);
+        encoder.copy_buffer_to_buffer(&staged, 0, &self.step_buffer, 0, steps_bytes);
+        if is_window_start {
+            for page in &self.pages {
+                encoder.copy_buffer_to_buffer(
+                    &staged,
+                    steps_bytes,
+                    &page.active.buffer,
+                    0,
+                    ACTIVE_HEAD_BYTES,
+                );
+            }
+        }
         let descriptor = wgpu::ComputePassDescriptor { label: Some("advance"), timestamp_writes };
         let mut pass = encoder.begin_compute_pass(&descriptor);
-        let kernel = |kernel| self.pipelines.kernel(kernel);
-        let has_bodies = self.compiled.block().has_bodies();
+        if is_window_start {
+            self.encode_lists(&mut pass);
+        }
         for (step, index) in (0..count).zip(first..) {
-            let offset = step * self.step_stride;
-            if let Some(forest) = &self.forest {
-                if self.compiled.block().sway.solves_joints(index) {
-                    let sway = KernelId::of_scheme(self.compiled.scene().sway);
-                    forest.encode(&mut pass, sway.map(kernel), offset);
-                } else {
-                    forest.encode_coast(&mut pass, kernel(KernelId::SwayCoast), offset);
-                }
-                pass.set_pipeline(kernel(KernelId::Carry));
+            self.encode_step(&mut pass, step * self.step_stride, index);
+        }
+    }
+
+    /// Lists the leaves that the steps of a window can change; the first of them has its block in front.
+    fn encode_lists(&self, pass: &mut wgpu::ComputePass<'_>) {
+        pass.set_pipeline(self.pipelines.kernel(KernelId::ListActive));
+        for page in &self.pages {
+            pass.set_bind_group(0, &page.in_motion, &[0]);
+            pass.set_bind_group(1, &page.active.filled, &[]);
+            pass.dispatch_workgroups(page.leaves.div_ceil(WORKGROUP_SIZE).min(MAX_GROUPS), 1, 1);
+        }
+    }
+
+    /// Encodes step number `index`, whose block lies at `offset`.
+    fn encode_step(&self, pass: &mut wgpu::ComputePass<'_>, offset: u32, index: u32) {
+        let kernel = |kernel| self.pipelines.kernel(kernel);
+        if let Some(forest) = &self.forest {
+            if self.compiled.block().sway.solves_joints(index) {
+                let sway = KernelId::of_scheme(self.compiled.scene().sway);
+                forest.encode(pass, sway.map(kernel), offset);
+            } else {
+                forest.encode_coast(pass, kernel(KernelId::SwayCoast), offset);
             }
-            for page in &self.pages {
-                let Some(on_trees) = &page.on_trees else { continue };
-                pass.set_bind_group(0, &page.in_motion, &[offset]);
-                pass.set_bind_group(1, &on_trees.carriers, &[]);
-                pass.dispatch_workgroups(on_trees.leaves.div_ceil(WORKGROUP_SIZE).min(MAX_GROUPS), 1, 1);
+            pass.set_pipeline(kernel(KernelId::Carry));
+        }
+        for page in &self.pages {
+            let Some(on_trees) = &page.on_trees else { continue };
+            pass.set_bind_group(0, &on_trees.columns, &[offset]);
+            pass.set_bind_group(1, &page.active.filled, &[]);
+            pass.set_bind_group(2, &on_trees.carriers, &[]);
+            pass.dispatch_workgroups(on_trees.leaves.div_ceil(WORKGROUP_SIZE).min(MAX_GROUPS), 1, 1);
+        }
+        for page in &self.pages {
+            let active = &page.active.buffer;
+            pass.set_bind_group(0, &page.in_motion, &[offset]);
+            pass.set_bind_group(1, &page.active.read, &[]);
+            if self.samples_air(index) {
+                pass.set_pipeline(kernel(KernelId::SampleAir));
+                pass.dispatch_workgroups_indirect(active, SAMPLING_GROUPS);
             }
-            for page in &self.pages {
-                pass.set_bind_group(0, &page.in_motion, &[offset]);
-                let sampling = self.sampling_leaves(page.leaves, index);
-                if sampling > 0 {
-                    pass.set_pipeline(kernel(KernelId::SampleAir));
-                    pass.dispatch_workgroups(sampling.div_ceil(WORKGROUP_SIZE).min(MAX_GROUPS), 1, 1);
-                }
-                pass.set_bind_group(1, &page.events, &[]);
-                let groups = page.leaves.div_ceil(WORKGROUP_SIZE);
-                pass.set_pipeline(kernel(KernelId::Advance));
-                pass.dispatch_workgroups(groups.min(MAX_GROUPS), 1, 1);
-                pass.set_bind_group(0, &page.columns, &[offset]);
-                pass.set_pipeline(kernel(KernelId::ResolveEvents));
-                pass.dispatch_workgroups(groups.div_ceil(EVENT_SHARE), 1, 1);
-                if has_bodies {
-                    pass.set_pipeline(kernel(KernelId::Fly));
-                    pass.dispatch_workgroups(groups.min(MAX_GROUPS), 1, 1);
-                }
+            pass.set_pipeline(kernel(KernelId::Advance));
+            pass.set_bind_group(2, &page.events.filled, &[]);
+            pass.dispatch_workgroups_indirect(active, ALL_GROUPS);
+            pass.set_pipeline(kernel(KernelId::ResolveEvents));
+            pass.set_bind_group(0, &page.columns, &[offset]);
+            pass.set_bind_group(1, &page.events.read, &[]);
+            pass.dispatch_workgroups_indirect(&page.events.buffer, event_groups(index));
+            if self.compiled.block().has_bodies() {
+                pass.set_pipeline(kernel(KernelId::Fly));
+                pass.set_bind_group(1, &page.active.read, &[]);
+                pass.dispatch_workgroups_indirect(active, ALL_GROUPS);
             }
         }
     }

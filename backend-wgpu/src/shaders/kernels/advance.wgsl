@@ -1,21 +1,36 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // twin: backend-cpu/src/kernels/advance.rs
-// Moves every leaf through one step without an event in it, and lists the others.
+// Moves every active leaf through one step without an event in it, and lists the others.
 #import bindings
-#import event_list
 #import leaf/advance
+#import lists/active
+#import lists/fill_events
+
+fn list_event(leaf: u32) {
+    let parity = step_block.index & 1u;
+    let place = atomicAdd(&event_lists.counts[parity], 1u);
+    event_lists.leaves[place] = leaf;
+    if ((place & (WORKGROUP_SIZE - 1u)) == 0u) {
+        atomicMax(&event_lists.groups[parity][0], min(place / WORKGROUP_SIZE + 1u, MAX_GROUPS));
+    }
+}
 
 @compute @workgroup_size(WORKGROUP_SIZE)
 fn advance(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>) {
-    let parity = step_block.index & 1u;
     if (id.x == 0u) {
-        atomicStore(&event_list.counts[1u - parity], 0u);
+        let next = (step_block.index + 1u) & 1u;
+        atomicStore(&event_lists.counts[next], 0u);
+        atomicStore(&event_lists.groups[next][0], 0u);
     }
-    let count = arrayLength(&places);
-    for (var leaf = id.x; leaf < count; leaf += groups.x * WORKGROUP_SIZE) {
+    let lists = scene.wind.interval_steps;
+    let turn = list_of(id.x, lists);
+    let start = list_start(turn);
+    let count = active_list.counts[turn];
+    for (var place = place_of(id.x, lists); place < count; place += list_stride(groups.x, lists)) {
+        let leaf = active_list.leaves[start + place];
         if (!leaf_advance_plain(leaf)) {
-            event_list.leaves[atomicAdd(&event_list.counts[parity], 1u)] = leaf;
+            list_event(leaf);
         }
     }
 }

@@ -3,9 +3,21 @@
 // twin: backend-cpu/src/kernels/carry.rs
 // Moves leaves with their twigs, and breaks petioles.
 #import leaf/carry
+#import lists/fill_active
 
 fn carrier_row(column: u32, row: u32) -> vec4<f32> {
     return carrier_rows[column * carry_block.column_stride + row];
+}
+
+// Lists a leaf for the rest of the window, unless it is listed: a leaf that has come back to its twig within the window is.
+fn list_released(leaf: u32) {
+    let mark = lists_room() + leaf;
+    if (active_list.leaves[mark] == 0u) {
+        active_list.leaves[mark] = 1u;
+        let turn = turn_of(leaf >> AIR_UNIT_SHIFT);
+        let place = atomicAdd(&active_list.counts[turn], 1u);
+        active_list.leaves[list_start(turn) + place] = leaf;
+    }
 }
 
 @compute @workgroup_size(WORKGROUP_SIZE)
@@ -26,6 +38,9 @@ fn carry(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) 
             let change = leaf_carry(leaf, slot, petiole, body);
             if (change != 0u) {
                 atomicAdd(&leaf_counts[row], change);
+            }
+            if (schedules[leaf].event == step_block.index + 1u) {
+                list_released(leaf);
             }
         }
     }

@@ -3,13 +3,13 @@
 // twin: backend-cpu/src/kernels/resolve_events.rs
 // Moves the listed leaves through one step with an event in it.
 #import bindings
-#import event_list
 #import leaf/advance
+#import lists/events
 
 @compute @workgroup_size(WORKGROUP_SIZE)
 fn resolve_events(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>) {
-    let count = atomicLoad(&event_list.counts[step_block.index & 1u]);
+    let count = event_lists.counts[step_block.index & 1u];
     for (var index = id.x; index < count; index += groups.x * WORKGROUP_SIZE) {
-        leaf_advance(event_list.leaves[index]);
+        leaf_advance(event_lists.leaves[index]);
     }
 }

@@ -3,8 +3,8 @@
 // Bindings of the kernel that carries leaves on their twigs, besides the blocks, tables and leaf columns.
 #import bindings
 
-@group(1) @binding(0) var<uniform> carry_block: CarryBlock;
+@group(2) @binding(0) var<uniform> carry_block: CarryBlock;
 // The columns BRANCH_TURN, BRANCH_RATE and so on, one after another.
-@group(1) @binding(1) var<storage, read> carrier_rows: array<vec4<f32>>;
+@group(2) @binding(1) var<storage, read> carrier_rows: array<vec4<f32>>;
 // Leaves that hang on every segment.
-@group(1) @binding(2) var<storage, read_write> leaf_counts: array<atomic<u32>>;
+@group(2) @binding(2) var<storage, read_write> leaf_counts: array<atomic<u32>>;
