@@ -65,7 +65,7 @@ pub(crate) fn active_bytes(leaves: u32, tree_leaves: u32) -> u64 {
     ACTIVE_HEAD_BYTES + (u64::from(leaves.next_multiple_of(WORKGROUP_SIZE)) + u64::from(tree_leaves)) * 4
 }
 
-/// Head of empty active lists. A workgroup or more is there for empty lists, too, because petioles that break make them longer.
+/// Head of empty active lists. A workgroup is there for empty lists, too, to clear the event list of the next step.
 pub(crate) fn empty_active() -> [u32; 10] {
     [1, 1, 1, 1, 1, 1, 0, 0, 0, 0]
 }

@@ -7,7 +7,7 @@ use windfall_core::{arith, blocks, device, flight, leaf, motion, stats, tree};
 
 /// Invocations per workgroup.
 pub const WORKGROUP_SIZE: u32 = 256;
-/// Most workgroups of one dispatch; further invocations are strided over.
+/// Most workgroups of one dispatch. A page of leaves has no more; over further rows of trees invocations stride.
 pub(crate) const MAX_GROUPS: u32 = 65_535;
 
 /// WGSL for shaders of other programs that read the leaf columns: the records [`LeafColumns`](crate::LeafColumns) hold
@@ -91,7 +91,5 @@ pub(crate) fn constants() -> String {
         device::wind::turbulence::wgsl_constants(),
     ];
     let declarations: String = lists.into_iter().flatten().map(|(_, declaration)| declaration).collect();
-    let groups =
-        format!("const WORKGROUP_SIZE: u32 = {WORKGROUP_SIZE}u;\nconst MAX_GROUPS: u32 = {MAX_GROUPS}u;\n");
-    groups + &declarations
+    format!("const WORKGROUP_SIZE: u32 = {WORKGROUP_SIZE}u;\n{declarations}")
 }

@@ -21,6 +21,7 @@ use crate::columns::{WorldBuffers, WorldColumns};
 use crate::forest::ForestBuffers;
 use crate::gpu::{Gpu, describe_adapter};
 use crate::pipelines::{GroupLayout, Pipelines};
+use crate::prelude::{MAX_GROUPS, WORKGROUP_SIZE};
 use crate::shaders::{KernelId, Shaders};
 
 /// Bytes of the largest record of a leaf column.
@@ -33,7 +34,7 @@ const PAGE_STEP: u32 = 4096;
 pub struct WgpuOptions {
     /// Contract to keep; the closest that the device can when `None`.
     pub contract: Option<Contract>,
-    /// Most leaves in one binding; what the device allows when `None`. For testing the paging of large worlds.
+    /// Most leaves in one binding; what the device's bindings and dispatches allow when `None`. For testing the paging of large worlds.
     pub page_leaves: Option<u32>,
     /// Other shaders than the project's own, for tests that must notice the difference.
     pub shaders: Option<Shaders>,
@@ -57,7 +58,7 @@ pub struct WgpuSimulator {
     counters: wgpu::Buffer,
     counters_group: wgpu::BindGroup,
     pages: Vec<Page>,
-    /// Steps for which the active lists still hold.
+    /// Steps for which the lists of active leaves still hold.
     listed_steps: u32,
 }
 
@@ -80,7 +81,8 @@ impl WgpuSimulator {
         let buffers = WorldBuffers::new(gpu, world)?;
         let limits = gpu.device().limits();
         let binding = limits.max_storage_buffer_binding_size / LARGEST_RECORD;
-        let largest = u32::try_from(binding).unwrap_or(u32::MAX).min(options.page_leaves.unwrap_or(u32::MAX));
+        let largest = u32::try_from(binding).unwrap_or(u32::MAX).min(MAX_GROUPS * WORKGROUP_SIZE);
+        let largest = largest.min(options.page_leaves.unwrap_or(u32::MAX));
         let step_stride = u32::try_from(size_of::<StepBlock>())
             .expect("a step block is small")
             .next_multiple_of(limits.min_uniform_buffer_offset_alignment);
@@ -119,7 +121,7 @@ impl WgpuSimulator {
     }
 
     /// The columns as buffers, to be drawn on the same device without a copy. They hold the state after all submitted
-    /// steps.
+    /// steps, and are not to be written: a step passes by leaves that nothing of its own can move.
     pub fn columns(&self) -> WorldColumns<'_> {
         self.buffers.columns()
     }

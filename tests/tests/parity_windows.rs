@@ -210,6 +210,7 @@ fn a_changed_list_is_noticed() {
         ("kernels/carry", "schedules[leaf].event == step_block.index + 1u", "false"),
         ("kernels/carry", "active_list.leaves[mark] == 0u", "true"),
         ("kernels/carry", "list_start(turn) + place", "place"),
+        ("kernels/carry", "count_groups(place + 1u);", ""),
     ];
     let world = stormy_wood(600);
     let mut oracle = CpuSimulator::new(&world, CpuOptions::default()).expect("threads start");

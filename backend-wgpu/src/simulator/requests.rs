@@ -7,7 +7,7 @@ use windfall_core::store::StoreSize;
 use windfall_core::{Clock, SimError, Stats, World};
 
 use super::WgpuSimulator;
-use crate::prelude::{MAX_GROUPS, WORKGROUP_SIZE};
+use crate::prelude::WORKGROUP_SIZE;
 use crate::readback::{Readback, Run};
 use crate::shaders::KernelId;
 
@@ -51,7 +51,7 @@ impl WgpuSimulator {
                 pass.set_bind_group(1, &self.counters_group, &[]);
                 for page in &self.pages {
                     pass.set_bind_group(0, &page.in_motion, &[0]);
-                    pass.dispatch_workgroups(page.leaves.div_ceil(WORKGROUP_SIZE).min(MAX_GROUPS), 1, 1);
+                    pass.dispatch_workgroups(page.leaves.div_ceil(WORKGROUP_SIZE), 1, 1);
                 }
             }
             self.gpu.queue().submit([encoder.finish()]);

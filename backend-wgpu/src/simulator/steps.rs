@@ -10,7 +10,7 @@ use crate::buffers::buffer;
 use crate::lists::{
     ACTIVE_HEAD_BYTES, ALL_GROUPS, SAMPLING_GROUPS, WINDOW_STEPS, empty_active, event_groups,
 };
-use crate::prelude::{MAX_GROUPS, WORKGROUP_SIZE};
+use crate::prelude::WORKGROUP_SIZE;
 use crate::shaders::KernelId;
 
 /// Steps per compute pass: their blocks are copied at once.
@@ -140,7 +140,7 @@ impl WgpuSimulator {
         for page in &self.pages {
             pass.set_bind_group(0, &page.in_motion, &[0]);
             pass.set_bind_group(1, &page.active.filled, &[]);
-            pass.dispatch_workgroups(page.leaves.div_ceil(WORKGROUP_SIZE).min(MAX_GROUPS), 1, 1);
+            pass.dispatch_workgroups(page.leaves.div_ceil(WORKGROUP_SIZE), 1, 1);
         }
     }
 
@@ -161,7 +161,7 @@ impl WgpuSimulator {
             pass.set_bind_group(0, &on_trees.columns, &[offset]);
             pass.set_bind_group(1, &page.active.filled, &[]);
             pass.set_bind_group(2, &on_trees.carriers, &[]);
-            pass.dispatch_workgroups(on_trees.leaves.div_ceil(WORKGROUP_SIZE).min(MAX_GROUPS), 1, 1);
+            pass.dispatch_workgroups(on_trees.leaves.div_ceil(WORKGROUP_SIZE), 1, 1);
         }
         for page in &self.pages {
             let active = &page.active.buffer;

@@ -12,12 +12,12 @@ fn list_event(leaf: u32) {
     let place = atomicAdd(&event_lists.counts[parity], 1u);
     event_lists.leaves[place] = leaf;
     if ((place & (WORKGROUP_SIZE - 1u)) == 0u) {
-        atomicMax(&event_lists.groups[parity][0], min(place / WORKGROUP_SIZE + 1u, MAX_GROUPS));
+        atomicMax(&event_lists.groups[parity][0], place / WORKGROUP_SIZE + 1u);
     }
 }
 
 @compute @workgroup_size(WORKGROUP_SIZE)
-fn advance(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>) {
+fn advance(@builtin(global_invocation_id) id: vec3<u32>) {
     if (id.x == 0u) {
         let next = (step_block.index + 1u) & 1u;
         atomicStore(&event_lists.counts[next], 0u);
@@ -25,10 +25,9 @@ fn advance(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups
     }
     let lists = scene.wind.interval_steps;
     let turn = list_of(id.x, lists);
-    let start = list_start(turn);
-    let count = active_list.counts[turn];
-    for (var place = place_of(id.x, lists); place < count; place += list_stride(groups.x, lists)) {
-        let leaf = active_list.leaves[start + place];
+    let place = place_of(id.x, lists);
+    if (place < active_list.counts[turn]) {
+        let leaf = active_list.leaves[list_start(turn) + place];
         if (!leaf_advance_plain(leaf)) {
             list_event(leaf);
         }

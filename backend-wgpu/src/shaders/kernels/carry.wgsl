@@ -17,14 +17,16 @@ fn list_released(leaf: u32) {
         let turn = turn_of(leaf >> AIR_UNIT_SHIFT);
         let place = atomicAdd(&active_list.counts[turn], 1u);
         active_list.leaves[list_start(turn) + place] = leaf;
+        count_groups(place + 1u);
     }
 }
 
 @compute @workgroup_size(WORKGROUP_SIZE)
-fn carry(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>) {
+fn carry(@builtin(global_invocation_id) id: vec3<u32>) {
     let first = carry_block.first_slot;
     let count = min(arrayLength(&places), scene.tree_leaf_count - first);
-    for (var leaf = id.x; leaf < count; leaf += groups.x * WORKGROUP_SIZE) {
+    let leaf = id.x;
+    if (leaf < count) {
         let slot = first + leaf;
         let petiole = petiole_of(slot);
         if (petiole.segment != NO_SEGMENT) {

@@ -7,12 +7,11 @@
 #import lists/active
 
 @compute @workgroup_size(WORKGROUP_SIZE)
-fn fly(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>) {
+fn fly(@builtin(global_invocation_id) id: vec3<u32>) {
     let lists = scene.wind.interval_steps;
     let turn = list_of(id.x, lists);
-    let start = list_start(turn);
-    let count = active_list.counts[turn];
-    for (var place = place_of(id.x, lists); place < count; place += list_stride(groups.x, lists)) {
-        leaf_fly(active_list.leaves[start + place]);
+    let place = place_of(id.x, lists);
+    if (place < active_list.counts[turn]) {
+        leaf_fly(active_list.leaves[list_start(turn) + place]);
     }
 }

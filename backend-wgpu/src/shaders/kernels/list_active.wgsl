@@ -24,46 +24,40 @@ fn leaf_is_active(leaf: u32) -> bool {
 
 fn reserve_places(turn: u32, count: u32) -> u32 {
     let first = atomicAdd(&active_list.counts[turn], count);
-    let end = first + count;
-    atomicMax(&active_list.all_groups[0], groups_for(end, scene.wind.interval_steps));
-    atomicMax(&active_list.sampling_groups[0], groups_for(end, sampled_lists()));
+    count_groups(first + count);
     return list_start(turn) + first;
 }
 
 @compute @workgroup_size(WORKGROUP_SIZE)
 fn list_active(
+    @builtin(global_invocation_id) id: vec3<u32>,
     @builtin(local_invocation_id) local_id: vec3<u32>,
-    @builtin(workgroup_id) group: vec3<u32>,
-    @builtin(num_workgroups) groups: vec3<u32>,
 ) {
-    let count = arrayLength(&places);
+    let leaf = id.x;
     let local_unit = local_id.x >> AIR_UNIT_SHIFT;
-    for (var first = group.x * WORKGROUP_SIZE; first < count; first += groups.x * WORKGROUP_SIZE) {
-        if (local_id.x < UNITS_PER_GROUP) {
-            atomicStore(&unit_counts[local_id.x], 0u);
-        }
-        workgroupBarrier();
-        let leaf = first + local_id.x;
-        var is_active = false;
-        var place = 0u;
-        if (leaf < count) {
-            is_active = leaf_is_active(leaf);
-        }
-        if (is_active) {
-            place = atomicAdd(&unit_counts[local_unit], 1u);
-        }
-        workgroupBarrier();
-        if (local_id.x < UNITS_PER_GROUP) {
-            let unit = (first >> AIR_UNIT_SHIFT) + local_id.x;
-            unit_places[local_id.x] = reserve_places(turn_of(unit), atomicLoad(&unit_counts[local_id.x]));
-        }
-        workgroupBarrier();
-        if (is_active) {
-            active_list.leaves[unit_places[local_unit] + place] = leaf;
-        }
-        let mark = lists_room() + leaf;
-        if (mark < arrayLength(&active_list.leaves)) {
-            active_list.leaves[mark] = select(0u, 1u, is_active);
-        }
+    if (local_id.x < UNITS_PER_GROUP) {
+        atomicStore(&unit_counts[local_id.x], 0u);
+    }
+    workgroupBarrier();
+    var is_active = false;
+    var place = 0u;
+    if (leaf < arrayLength(&places)) {
+        is_active = leaf_is_active(leaf);
+    }
+    if (is_active) {
+        place = atomicAdd(&unit_counts[local_unit], 1u);
+    }
+    workgroupBarrier();
+    if (local_id.x < UNITS_PER_GROUP) {
+        let unit = ((leaf - local_id.x) >> AIR_UNIT_SHIFT) + local_id.x;
+        unit_places[local_id.x] = reserve_places(turn_of(unit), atomicLoad(&unit_counts[local_id.x]));
+    }
+    workgroupBarrier();
+    if (is_active) {
+        active_list.leaves[unit_places[local_unit] + place] = leaf;
+    }
+    let mark = lists_room() + leaf;
+    if (mark < arrayLength(&active_list.leaves)) {
+        active_list.leaves[mark] = select(0u, 1u, is_active);
     }
 }

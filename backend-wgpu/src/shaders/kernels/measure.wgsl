@@ -28,15 +28,13 @@ fn count_leaf(place: Place) {
 fn measure(
     @builtin(global_invocation_id) id: vec3<u32>,
     @builtin(local_invocation_id) local_id: vec3<u32>,
-    @builtin(num_workgroups) groups: vec3<u32>,
 ) {
     if (local_id.x < COUNTER_COUNT) {
         atomicStore(&local_counters[local_id.x], 0u);
     }
     workgroupBarrier();
-    let count = arrayLength(&places);
-    for (var leaf = id.x; leaf < count; leaf += groups.x * WORKGROUP_SIZE) {
-        count_leaf(places[leaf]);
+    if (id.x < arrayLength(&places)) {
+        count_leaf(places[id.x]);
     }
     workgroupBarrier();
     if (local_id.x < COUNTER_COUNT) {

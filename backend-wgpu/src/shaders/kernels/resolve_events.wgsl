@@ -7,9 +7,8 @@
 #import lists/events
 
 @compute @workgroup_size(WORKGROUP_SIZE)
-fn resolve_events(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>) {
-    let count = event_lists.counts[step_block.index & 1u];
-    for (var index = id.x; index < count; index += groups.x * WORKGROUP_SIZE) {
-        leaf_advance(event_lists.leaves[index]);
+fn resolve_events(@builtin(global_invocation_id) id: vec3<u32>) {
+    if (id.x < event_lists.counts[step_block.index & 1u]) {
+        leaf_advance(event_lists.leaves[id.x]);
     }
 }

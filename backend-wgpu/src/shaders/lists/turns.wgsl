@@ -22,13 +22,7 @@ fn sampled_lists() -> u32 {
     return select(1u, scene.wind.interval_steps, scene.ids_per_life == 0u);
 }
 
-// Workgroups that go through as many lists of so many leaves. Units of the lists alternate, as they do in memory.
-fn groups_for(leaves: u32, lists: u32) -> u32 {
-    let units = ((leaves + (1u << AIR_UNIT_SHIFT) - 1u) >> AIR_UNIT_SHIFT) * lists;
-    return min((units + UNITS_PER_GROUP - 1u) / UNITS_PER_GROUP, MAX_GROUPS);
-}
-
-// List of an invocation among as many.
+// List of an invocation among as many. Units of the lists alternate, as they do in memory.
 fn list_of(invocation: u32, lists: u32) -> u32 {
     return (invocation >> AIR_UNIT_SHIFT) & (lists - 1u);
 }
@@ -37,9 +31,4 @@ fn list_of(invocation: u32, lists: u32) -> u32 {
 fn place_of(invocation: u32, lists: u32) -> u32 {
     let unit = (invocation >> AIR_UNIT_SHIFT) >> firstTrailingBit(lists);
     return (unit << AIR_UNIT_SHIFT) | (invocation & ((1u << AIR_UNIT_SHIFT) - 1u));
-}
-
-// Places in a list from one that an invocation works on to its next.
-fn list_stride(groups: u32, lists: u32) -> u32 {
-    return groups * (WORKGROUP_SIZE >> firstTrailingBit(lists));
 }
