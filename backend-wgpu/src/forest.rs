@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The trees of a world on the device: constants, and the passes that move them.
 
+use windfall_core::scene::MAX_FOREST_SEGMENTS;
 use windfall_core::tree::Forest;
 use windfall_core::tree::record::{BRANCH_COLUMNS, BRANCH_TURN, LevelBlock, WORK_ROWS};
 
@@ -11,6 +12,10 @@ use crate::gpu::Gpu;
 use crate::pipelines::{GroupLayout, Pipelines};
 use crate::prelude::{MAX_GROUPS, WORKGROUP_SIZE};
 
+const _: () = assert!(
+    MAX_FOREST_SEGMENTS <= (MAX_GROUPS * WORKGROUP_SIZE) as usize,
+    "an invocation for every segment of a dispatch"
+);
 /// Bytes of a row.
 const ROW_BYTES: u64 = 16;
 /// Bytes of the block of a level.
@@ -117,13 +122,13 @@ impl ForestBuffers {
         pass.set_bind_group(1, &self.level_group, &[0]);
         pass.set_pipeline(coast);
         let rows: u32 = self.levels.iter().sum();
-        pass.dispatch_workgroups(rows.div_ceil(WORKGROUP_SIZE).min(MAX_GROUPS), 1, 1);
+        pass.dispatch_workgroups(rows.div_ceil(WORKGROUP_SIZE), 1, 1);
     }
 
     /// One dispatch over a level.
     fn encode_level(&self, pass: &mut wgpu::ComputePass<'_>, number: u32) {
         pass.set_bind_group(1, &self.level_group, &[number * self.level_stride]);
-        pass.dispatch_workgroups(self.levels[number as usize].div_ceil(WORKGROUP_SIZE).min(MAX_GROUPS), 1, 1);
+        pass.dispatch_workgroups(self.levels[number as usize].div_ceil(WORKGROUP_SIZE), 1, 1);
     }
 }
 

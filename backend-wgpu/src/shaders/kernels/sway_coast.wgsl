@@ -4,9 +4,8 @@
 #import tree/sway/row
 
 @compute @workgroup_size(WORKGROUP_SIZE)
-fn sway_coast(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>) {
-    let count = arrayLength(&forest_order);
-    for (var row = id.x; row < count; row += groups.x * WORKGROUP_SIZE) {
-        row_coast(row);
+fn sway_coast(@builtin(global_invocation_id) id: vec3<u32>) {
+    if (id.x < arrayLength(&forest_order)) {
+        row_coast(id.x);
     }
 }

@@ -4,8 +4,8 @@
 #import tree/sway/row
 
 @compute @workgroup_size(WORKGROUP_SIZE)
-fn sway_follow(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>) {
-    for (var index = id.x; index < level.count; index += groups.x * WORKGROUP_SIZE) {
-        row_follow(forest_order[level.first + index]);
+fn sway_follow(@builtin(global_invocation_id) id: vec3<u32>) {
+    if (id.x < level.count) {
+        row_follow(forest_order[level.first + id.x]);
     }
 }
