@@ -47,7 +47,7 @@ crate::shared_struct! {
 
 crate::shared_struct! {
     /// The wind, compiled.
-    pub struct WindBlock {
+    pub struct WindBlock, padding 8 {
         /// Unit vector that the mean wind blows towards, along x.
         pub direction_x: f32,
         /// The same along z.
@@ -72,6 +72,10 @@ crate::shared_struct! {
         pub interval_steps: u32,
         /// Half of the interval in s.
         pub half_interval_s: f32,
+        /// Share of vertical turbulence that the ground leaves at no height.
+        pub least_vertical: f32,
+        /// Growth of that share with height, up to 1, in 1/m.
+        pub vertical_per_m: f32,
     }
 }
 

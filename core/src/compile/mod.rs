@@ -75,7 +75,7 @@ impl CompiledScene {
             (motions, turbulence.join().unwrap_or_else(|panic| resume_unwind(panic)))
         });
         let motions = motions?;
-        let mut tables = profile_rows(scene.wind.profile, scene.wind.reference_height_m);
+        let mut tables = profile_rows_of(scene);
         tables.extend(gust_rows(seed, gusts));
         tables.extend(turbulence);
         let mut block = compile_block(scene, &motions);
@@ -107,8 +107,9 @@ impl CompiledScene {
         let keep = (self.scene.species.clone(), self.scene.sources.clone(), self.scene.seed, self.scene.dt_s);
         if self.scene.wind.profile != scene.wind.profile
             || self.scene.wind.reference_height_m != scene.wind.reference_height_m
+            || self.scene.ground.surface_roughness_m != scene.ground.surface_roughness_m
         {
-            let rows = profile_rows(scene.wind.profile, scene.wind.reference_height_m);
+            let rows = profile_rows_of(scene);
             self.replace_rows(self.block.wind.first_profile_row, &rows);
         }
         let autumn = self.scene.autumn;
@@ -246,6 +247,11 @@ impl CompiledScene {
     pub fn wind_travel_per_step_m(&self) -> f64 {
         f64::from(self.block.wind.mean_speed_m_s) * f64::from(self.scene.dt_s)
     }
+}
+
+/// Rows of the wind's profile over the ground of a scene.
+fn profile_rows_of(scene: &Scene) -> Vec<Uint4> {
+    profile_rows(scene.wind.profile, scene.wind.reference_height_m, scene.ground.surface_roughness_m)
 }
 
 /// Height of the ground in metres, whatever the water above it.

@@ -6,10 +6,12 @@ use crate::blocks::WindBlock;
 use crate::convert::single;
 use crate::device::wind::gust::{GUST_ROWS, GUST_SPACING};
 use crate::device::wind::profile::PROFILE_ROWS;
-use crate::scene::{Scene, WindParameters};
+use crate::scene::{Profile, Scene, WindParameters};
 
 /// Turbulence up and across the wind relative to along it (IEC 61400-1).
 const DEVIATION_RATIOS: [f32; 3] = [1.0, 0.5, 0.8];
+/// Height in m below which the ground keeps air from moving up and down.
+const BLOCKED_M: f32 = 0.5;
 /// Longest interval in seconds for which a falling leaf samples the wind: half of the time in which it responds.
 const LONGEST_INTERVAL_S: f64 = 1.0 / 15.0;
 /// Most steps of that interval.
@@ -26,6 +28,9 @@ pub(super) fn wind_block(scene: &Scene) -> WindBlock {
     let gust_length = speed * f64::from(wind.gusts.interval_s) / f64::from(GUST_SPACING);
     let deviation = deviation_m_s(wind);
     let interval_steps = interval_steps(scene);
+    // A uniform wind has no ground.
+    let (least_vertical, vertical_per_m) =
+        if wind.profile == Profile::Uniform { (1.0, 0.0) } else { (0.0, 1.0 / BLOCKED_M) };
     WindBlock {
         direction_x: single(cos),
         direction_z: single(sin),
@@ -39,6 +44,9 @@ pub(super) fn wind_block(scene: &Scene) -> WindBlock {
         first_turbulence_row: PROFILE_ROWS + GUST_ROWS,
         interval_steps,
         half_interval_s: single(0.5 * f64::from(interval_steps) * f64::from(scene.dt_s)),
+        least_vertical,
+        vertical_per_m,
+        padding: Default::default(),
     }
 }
 

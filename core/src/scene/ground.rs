@@ -14,6 +14,9 @@ pub struct Ground {
     pub height_m: f32,
     /// Coulomb friction coefficient between leaf and ground, 0.05 to 5: dry grass 0.4 to 0.6, wet 0.8.
     pub friction: f32,
+    /// Roughness length in metres that the wind meets below one metre, 0.0001 to 0.1: pavement 0.0005, mown lawn 0.005, litter
+    /// 0.005 to 0.01, long grass 0.01 to 0.03.
+    pub surface_roughness_m: f32,
     /// Hills.
     pub terrain: Option<Terrain>,
     /// Water: what of the ground lies lower is under it.
@@ -22,6 +25,6 @@ pub struct Ground {
 
 impl Default for Ground {
     fn default() -> Self {
-        Self { height_m: 0.0, friction: 0.5, terrain: None, water: None }
+        Self { height_m: 0.0, friction: 0.5, surface_roughness_m: 0.005, terrain: None, water: None }
     }
 }

@@ -120,6 +120,7 @@ limits! {
 
     HEIGHT_M: f32 = -4096.0, 4096.0, "m", height_m;
     FRICTION: f32 = 0.05, 5.0, "", friction;
+    SURFACE_ROUGHNESS_M: f32 = 0.0001, 0.1, "m", surface_roughness_m;
     EDGE_M: f32 = 16.0, 4096.0, "m", edge_m;
     RELIEF_M: f32 = 0.0, 500.0, "m", relief_m;
     TERRAIN_LEVELS: u32 = 2, 9, "", levels;

@@ -237,6 +237,7 @@ impl Ground {
         at.numbers([
             ("height_m", self.height_m.into(), limits::HEIGHT_M),
             ("friction", self.friction.into(), limits::FRICTION),
+            ("surface_roughness_m", self.surface_roughness_m.into(), limits::SURFACE_ROUGHNESS_M),
         ])?;
         if let Some(terrain) = &self.terrain {
             terrain.check(&at.inside("terrain"))?;

@@ -37,7 +37,7 @@ use windfall_core::device::motion::lookup::{
 use windfall_core::device::terrain::ground::{ground_met, ground_relief, ground_rest, ground_slope};
 use windfall_core::device::wind::gust::wind_gust;
 use windfall_core::device::wind::packed::{wind_pack, wind_unpack};
-use windfall_core::device::wind::profile::wind_profile;
+use windfall_core::device::wind::profile::{wind_profile, wind_vertical};
 use windfall_core::device::wind::sample::wind_at;
 use windfall_core::device::wind::turbulence::wind_turbulence;
 use windfall_core::device::wind::vortex::wind_vortex;
@@ -354,8 +354,12 @@ functions! {
     };
 
     wind_profile in "wind/profile" (Input::Float(-5.0, 90.0)) tolerance Some(1e-6);
-    wgsl "r.x = bitcast<u32>(wind_profile(bitcast<f32>(a.x)));";
-    rust |cx, w| floats([wind_profile(cx, float(w[0]))]);
+    wgsl "let height = bitcast<f32>(a.x); let profile = wind_profile(height);
+        r.x = bitcast<u32>(profile.x); r.y = bitcast<u32>(profile.y); r.z = bitcast<u32>(wind_vertical(height));";
+    rust |cx, w| {
+        let [mean, level] = wind_profile(cx, float(w[0]));
+        floats([mean, level, wind_vertical(cx, float(w[0]))])
+    };
 
     wind_gust in "wind/gust" (METRES) tolerance Some(1e-6);
     wgsl "r.x = bitcast<u32>(wind_gust(MOMENT_NOW, bitcast<f32>(a.x)));";

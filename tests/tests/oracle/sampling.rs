@@ -70,11 +70,14 @@ fn one_sample_in_the_middle_of_an_interval_is_better_than_one_at_the_start_of_ev
     }
 }
 
-/// In turbulence single paths part after some seconds; how fast leaves drift and how far they spread stays the same.
+/// In turbulence single paths part after some seconds; how fast leaves drift and how far they spread stays the same. In the storm
+/// paths have nothing in common in the end, so that both runs are draws, with a standard error of half a percent.
 #[test]
 fn leaves_drift_as_fast_and_spread_as_far() {
     const LEAVES: usize = 4000;
-    for (name, speed_m_s, cell_m) in [("park", 1.8, 0.75), ("breeze", 6.5, 1.0), ("storm", 22.6, 1.0)] {
+    for (name, speed_m_s, cell_m, most) in
+        [("park", 1.8, 0.75, 0.002), ("breeze", 6.5, 1.0, 0.002), ("storm", 22.6, 1.0, 0.01)]
+    {
         #[expect(clippy::cast_possible_truncation, reason = "a few thousand")]
         let worlds = flown(&turbulent(speed_m_s, cell_m), LEAVES as u32, 26.0, 8);
         let start = windy(&turbulent(speed_m_s, cell_m), 4000, 26.0, 1);
@@ -86,8 +89,8 @@ fn leaves_drift_as_fast_and_spread_as_far() {
             (rms(drifts), rms(ways.into_iter().map(|way| way - mean)))
         });
         let (drift, spread) = (long.0 / short.0 - 1.0, long.1 / short.1 - 1.0);
-        assert!(drift.abs() < 0.002, "{name}: {drift} faster");
-        assert!(spread.abs() < 0.005, "{name}: {spread} farther");
+        assert!(drift.abs() < most, "{name}: {drift} faster");
+        assert!(spread.abs() < 2.5 * most, "{name}: {spread} farther");
     }
 }
 

@@ -7,7 +7,7 @@ use std::f64::consts::TAU;
 use crate::common::{csv, number, steady_wind, still_scene, uniform, uniform_species, vector};
 use glam::{DVec3, Vec3};
 use windfall_core::arith::Vec3 as Kernel;
-use windfall_core::device::wind::profile::{profile_factor, wind_profile};
+use windfall_core::device::wind::profile::{profile_factor, surface_factors, wind_profile};
 use windfall_core::device::wind::sample::wind_at;
 use windfall_core::scene::{Gusts, MeanSpeed, Profile, Scene, Turbulence, Vortex, WindParameters};
 use windfall_core::wind::{BEAUFORT_MAX, beaufort_speed};
@@ -57,21 +57,97 @@ fn tables_hold_the_profile() {
         Profile::Power { exponent: 0.22 },
         Profile::Log { roughness_m: 0.03, displacement_m: 0.0 },
     ] {
-        let compiled = compile(WindParameters { profile, ..steady_wind(5.0) });
-        let block = compiled.step_block(&Clock::new(1.0 / 60.0));
-        let cx = compiled.context(&block);
-        for index in 0..630u16 {
-            let height = f32::from(index) * 0.1;
-            let read = f64::from(wind_profile(&cx, height));
-            let exact = profile_factor(profile, height.into(), 10.0);
-            // Rows are half a metre apart: near the ground a straight line is all there is.
-            let tolerance = if height < 2.0 { 0.35 } else { 0.003 };
-            assert!((read - exact).abs() < tolerance, "{profile:?} at {height} m: {read}, exact {exact}");
+        for roughness_m in [0.0005f32, 0.005, 0.03] {
+            let mut scene = scene(WindParameters { profile, ..steady_wind(5.0) });
+            scene.ground.surface_roughness_m = roughness_m;
+            let compiled = CompiledScene::compile(&scene).expect("the scene of this test is valid");
+            let block = compiled.step_block(&Clock::new(1.0 / 60.0));
+            let cx = compiled.context(&block);
+            for index in 0..1600u16 {
+                let height = 0.001 * 2f32.powf(f32::from(index) * 0.01);
+                let read = wind_profile(&cx, height).map(f64::from);
+                let exact = surface_factors(profile, height.into(), 10.0, roughness_m.into());
+                for (read, exact) in read.into_iter().zip(exact) {
+                    let off = (read - exact).abs() / exact;
+                    assert!(
+                        off < 0.006,
+                        "{profile:?} over {roughness_m} m at {height} m: {read}, exact {exact}"
+                    );
+                }
+            }
+            let [top, above] = [63.99, 5000.0].map(|height| wind_profile(&cx, height)[0]);
+            assert!(
+                (top - above).abs() < 0.002,
+                "{profile:?} goes on growing above the table: {top}, {above}"
+            );
+            let below = wind_profile(&cx, -3.0);
+            assert_eq!(below, wind_profile(&cx, 0.0), "{profile:?} below the ground");
         }
-        let [top, above] = [63.4, 5000.0].map(|height| wind_profile(&cx, height));
-        assert!((top - above).abs() < 0.002, "{profile:?} goes on growing above the table: {top}, {above}");
-        let below = wind_profile(&cx, -3.0);
-        assert_eq!(below, wind_profile(&cx, 0.0), "{profile:?} below the ground");
+    }
+}
+
+/// Wind at the ground follows the logarithmic law of the ground's own roughness, and goes over into the scene's profile at a metre.
+#[test]
+fn wind_at_the_ground_follows_its_roughness() {
+    let power = Profile::Power { exponent: 0.22 };
+    // log(1 + z / z0) / log(1 + 1 / z0) by hand.
+    for (roughness_m, height_m, share) in [
+        (0.0005, 0.02, 0.488_538),
+        (0.005, 0.02, 0.303_478),
+        (0.005, 0.004, 0.110_834),
+        (0.03, 0.5, 0.812_100),
+    ] {
+        let [mean, level] = surface_factors(power, height_m, 10.0, roughness_m);
+        assert!((level - share).abs() < 1e-5, "{roughness_m} m at {height_m} m: {level}, expected {share}");
+        assert!((mean - 0.602_56 * share).abs() < 1e-5, "{roughness_m} m at {height_m} m: {mean}");
+    }
+    let [below, above] = [1.0 - 1e-9, 1.0].map(|height_m| surface_factors(power, height_m, 10.0, 0.005));
+    assert!((below[0] - above[0]).abs() < 1e-6 && (below[1] - above[1]).abs() < 1e-6, "{below:?}, {above:?}");
+}
+
+/// Turbulence dies out at the ground, up and down sooner than along it.
+#[test]
+fn turbulence_dies_out_at_the_ground() {
+    let mut wind = steady_wind(8.0);
+    wind.profile = Profile::Power { exponent: 0.22 };
+    wind.turbulence = Turbulence { intensity: 0.2, cell_m: 0.75, calm_m_s: 0.0 };
+    let compiled = compile(wind);
+    let mut clock = Clock::new(1.0 / 60.0);
+    let heights = [0.004, 0.02, 0.25, 0.5, 1.0, 3.0];
+    let mut squares = [DVec3::ZERO; 6];
+    let columns = 400;
+    for moment in 0..20 {
+        for (square, height) in squares.iter_mut().zip(heights) {
+            let places: Vec<_> = (0..columns)
+                .map(|number| {
+                    DVec3::new(0.0, height, 0.0)
+                        + 90.0 * DVec3::new(uniform(2 * number), 0.0, uniform(2 * number + 1))
+                })
+                .collect();
+            let all = winds(&compiled, &clock, &places);
+            let mean = all.iter().sum::<DVec3>() / all.len() as f64;
+            *square += all.iter().map(|wind| (*wind - mean) * (*wind - mean)).sum::<DVec3>()
+                / (20.0 * columns as f64);
+        }
+        (0..37 * (moment + 1)).for_each(|_| compiled.advance(&mut clock));
+    }
+    let rms = squares.map(|square| DVec3::new(square.x.sqrt(), square.y.sqrt(), square.z.sqrt()));
+    println!("{rms:.4?}");
+    let far = rms[5];
+    assert!((0.8..1.2).contains(&(far.x / 1.6)) && (0.8..1.2).contains(&(far.y / 0.8)), "{far}");
+    for (height, near) in heights.into_iter().zip(rms) {
+        let [_, level] = surface_factors(Profile::Power { exponent: 0.22 }, height, 10.0, 0.005);
+        let up = (height / 0.5).min(1.0);
+        // Levels of the box differ by what is left of a finite sample.
+        assert!(
+            (near.x / far.x - level).abs() < 0.2 * level,
+            "{height} m: {near} of {far}, expected {level}"
+        );
+        assert!(
+            (near.z / far.z - level).abs() < 0.2 * level,
+            "{height} m: {near} of {far}, expected {level}"
+        );
+        assert!((near.y / far.y - up).abs() < 0.2 * up, "{height} m: {near} of {far}, expected {up}");
     }
 }
 

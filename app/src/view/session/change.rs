@@ -103,8 +103,8 @@ impl Change {
     }
 
     fn ground(&mut self, old: &Ground, new: &Ground) {
-        let Ground { height_m, friction, terrain, water } = *new;
-        self.retune |= friction != old.friction;
+        let Ground { height_m, friction, surface_roughness_m, terrain, water } = *new;
+        self.retune |= (friction, surface_roughness_m) != (old.friction, old.surface_roughness_m);
         self.rebuild("ground", height_m != old.height_m, true, true);
         self.rebuild("hills", terrain != old.terrain, true, true);
         self.rebuild("water", water != old.water, false, true);

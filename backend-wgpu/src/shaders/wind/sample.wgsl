@@ -22,15 +22,16 @@ fn wind_at_moment(moment: u32, place: vec3<f32>) -> vec3<f32> {
     if (scene.has_terrain != 0u) {
         above = height - ground_relief(place.x, place.z);
     }
-    let mean = (wind_profile(above) * scene.wind.mean_speed_m_s) * (wind_gust(moment, along) * scene.wind.gust_strength + 1.0);
+    let profile = wind_profile(above);
+    let mean = (profile.x * scene.wind.mean_speed_m_s) * (wind_gust(moment, along) * scene.wind.gust_strength + 1.0);
     let deviation = scene.wind.deviation_m_s;
     var turbulence = vec3<f32>(0.0, 0.0, 0.0);
     if (deviation.x != 0.0) {
         turbulence = wind_turbulence(moment, vec3<f32>(along, height, across));
     }
-    let u = mean + turbulence.x * deviation.x;
-    let v = turbulence.y * deviation.y;
-    let w = turbulence.z * deviation.z;
+    let u = mean + (turbulence.x * deviation.x) * profile.y;
+    let v = (turbulence.y * deviation.y) * wind_vertical(above);
+    let w = (turbulence.z * deviation.z) * profile.y;
     var air = vec3<f32>(u * direction_x - w * direction_z, v, u * direction_z + w * direction_x);
     for (var index = 0u; index < step_block.vortex_count; index++) {
         air = air + wind_vortex(moment, index, place);

@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! twin: backend-wgpu/src/shaders/wind/sample.wgsl
 //!
-//! The wind at a place and step. The mean wind grows with height above the ground beneath; turbulence is carried on
-//! the level.
+//! The wind at a place and step. The mean wind and turbulence grow with height above the ground beneath;
+//! turbulence is carried on the level.
 
 use super::gust::wind_gust;
-use super::profile::wind_profile;
+use super::profile::{wind_profile, wind_vertical};
 use super::turbulence::wind_turbulence;
 use super::vortex::wind_vortex;
 use crate::arith::lane::Real;
@@ -32,16 +32,16 @@ pub fn wind_at_moment<R: Real>(cx: &Context<'_>, moment: u32, place: Vec3<R>) ->
     let across = place.z * direction_x - place.x * direction_z;
     let height = place.y - cx.scene.ground_height_m;
     let above = if cx.scene.has_terrain() { height - ground_relief(cx, place.x, place.z) } else { height };
-    let mean = (wind_profile(cx, above) * wind.mean_speed_m_s)
-        * (wind_gust(cx, at, along) * wind.gust_strength + 1.0);
+    let [profile, level] = wind_profile(cx, above);
+    let mean = (profile * wind.mean_speed_m_s) * (wind_gust(cx, at, along) * wind.gust_strength + 1.0);
     let deviation = Vec3::from(wind.deviation_m_s);
     let mut turbulence = Vec3::<f32>::ZERO.spread(height);
     if deviation.x != 0.0 {
         turbulence = wind_turbulence(cx, at, Vec3::new(along, height, across));
     }
-    let u = mean + turbulence.x * deviation.x;
-    let v = turbulence.y * deviation.y;
-    let w = turbulence.z * deviation.z;
+    let u = mean + (turbulence.x * deviation.x) * level;
+    let v = (turbulence.y * deviation.y) * wind_vertical(cx, above);
+    let w = (turbulence.z * deviation.z) * level;
     let mut air = Vec3::new(u * direction_x - w * direction_z, v, u * direction_z + w * direction_x);
     for index in 0..cx.step.vortex_count {
         air = air + wind_vortex(&at.vortices[index as usize], place);

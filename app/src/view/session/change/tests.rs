@@ -25,7 +25,7 @@ fn what_stays_asks_for_nothing() {
 
 #[test]
 fn wind_and_speeds_go_on_at_once() {
-    let edits: [fn(&mut Scene); 8] = [
+    let edits: [fn(&mut Scene); 9] = [
         |scene| scene.wind.direction_deg += 1.0,
         |scene| scene.wind.profile = Profile::Uniform,
         |scene| scene.wind.turbulence.cell_m *= 2.0,
@@ -34,6 +34,7 @@ fn wind_and_speeds_go_on_at_once() {
         |scene| scene.sway = SwayScheme::Quigley,
         |scene| scene.sway_every = 2,
         |scene| scene.ground.friction = 0.9,
+        |scene| scene.ground.surface_roughness_m = 0.02,
     ];
     for (number, edit) in edits.into_iter().enumerate() {
         let change = change(edit);

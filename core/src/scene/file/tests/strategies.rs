@@ -316,9 +316,9 @@ prop_compose! {
         sway_every in 1..=2u32,
         (autumn, regrow_after_s) in (within(limits::AUTUMN), maybe(limits::REGROW_AFTER_S)),
         wind in wind(),
-        ground in (-4.0f32..=4.0, within(limits::FRICTION), option::of(terrain()), maybe(limits::HEIGHT_M))
-            .prop_map(|(height_m, friction, terrain, water)| {
-                Ground { height_m, friction, terrain, water: water.map(|height_m| Water { height_m }) }
+        ground in (-4.0f32..=4.0, within(limits::FRICTION), within(limits::SURFACE_ROUGHNESS_M), option::of(terrain()), maybe(limits::HEIGHT_M))
+            .prop_map(|(height_m, friction, surface_roughness_m, terrain, water)| {
+                Ground { height_m, friction, surface_roughness_m, terrain, water: water.map(|height_m| Water { height_m }) }
             }),
         view in view(),
     ) -> Scene {

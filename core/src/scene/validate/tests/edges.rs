@@ -104,6 +104,7 @@ const REALS: &[Row<f32>] = &[
         s.ground.height_m = v;
     }),
     ("ground.friction", 0.05, 5.0, |s, v| s.ground.friction = v),
+    ("ground.surface_roughness_m", 0.0001, 0.1, |s, v| s.ground.surface_roughness_m = v),
     ("ground.terrain.edge_m", 16.0, 4096.0, |s, v| hills(s).edge_m = v),
     ("ground.terrain.relief_m", 0.0, 500.0, |s, v| {
         hills(s).relief_m = v;
