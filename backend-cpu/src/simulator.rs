@@ -38,7 +38,8 @@ pub struct CpuSimulator {
     blocks: Vec<BatchBlocks>,
     scratches: Vec<Mutex<Scratch>>,
     quiet: QuietUnits,
-    pool: ThreadPool,
+    /// None where threads cannot be started: there the caller's does everything.
+    pool: Option<ThreadPool>,
     simd: Simd,
 }
 
@@ -48,10 +49,12 @@ impl CpuSimulator {
     /// # Errors
     /// [`SimError::Device`] if the threads cannot be started.
     pub fn new(world: &World, options: CpuOptions) -> Result<Self, SimError> {
-        let pool = ThreadPoolBuilder::new()
-            .num_threads(options.threads.unwrap_or(0))
-            .build()
-            .map_err(|error| SimError::Device { reason: error.to_string() })?;
+        let pool = if cfg!(target_family = "wasm") {
+            None
+        } else {
+            let builder = ThreadPoolBuilder::new().num_threads(options.threads.unwrap_or(0));
+            Some(builder.build().map_err(|error| SimError::Device { reason: error.to_string() })?)
+        };
         let simd = options.simd.unwrap_or_else(Simd::best);
         let quiet = QuietUnits::new(world.leaves.len());
         let (world, blocks, scratches) = (world.clone(), Vec::new(), Vec::new());
@@ -77,13 +80,18 @@ impl CpuSimulator {
         self.blocks = forest.batches().iter().map(of_batch).collect();
         let twigs = self.blocks.iter().map(|blocks| blocks.twigs.len()).max().unwrap_or(0);
         let scratch = |_| Mutex::new(Scratch::new(rows, most, twigs));
-        self.scratches = (0..self.pool.current_num_threads()).map(scratch).collect();
+        self.scratches = (0..self.threads()).map(scratch).collect();
+    }
+
+    /// Number of threads.
+    fn threads(&self) -> usize {
+        self.pool.as_ref().map_or(1, ThreadPool::current_num_threads)
     }
 }
 
 impl Simulator for CpuSimulator {
     fn info(&self) -> SimulatorInfo {
-        let threads = self.pool.current_num_threads();
+        let threads = self.threads();
         SimulatorInfo {
             backend: "cpu",
             adapter: format!("{threads} thread{}", if threads == 1 { "" } else { "s" }),
@@ -171,10 +179,9 @@ impl Simulator for CpuSimulator {
             }
         };
         // A small world is done before another thread would have woken up.
-        if is_small {
-            steps()
-        } else {
-            self.pool.install(steps)
+        match &self.pool {
+            Some(pool) if !is_small => pool.install(steps),
+            _ => steps(),
         }
         Ok(())
     }
@@ -184,7 +191,11 @@ impl Simulator for CpuSimulator {
     }
 
     fn stats(&mut self) -> Result<Stats, SimError> {
-        let counters = self.pool.install(|| measure(&self.world.leaves.place));
+        let places = &self.world.leaves.place;
+        let counters = match &self.pool {
+            Some(pool) => pool.install(|| measure(places)),
+            None => measure(places),
+        };
         Ok(Stats::from_counters(&counters, self.world.clock.step()))
     }
 }

@@ -65,6 +65,7 @@ pub mod scene;
 mod sim;
 pub mod store;
 pub mod terrain;
+mod threads;
 pub mod tree;
 pub mod wind;
 

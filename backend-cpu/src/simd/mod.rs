@@ -53,15 +53,22 @@ pub(crate) struct Line {
     _words: [u64; 8],
 }
 
-/// Calls a function that is generic over packs with the widest ones of a level: `function::<P>(simd, arguments…)`.
+/// Calls a function that is generic over packs with those of eight lanes: `function::<P>(simd, arguments…)`.
+macro_rules! in_packs_of_eight {
+    ($level:expr, $function:ident($($argument:expr),*)) => {
+        fearless_simd::dispatch!($level, simd => {
+            std::hint::black_box(&$crate::simd::Line::default());
+            $function::<fearless_simd::f32x8<_>>(simd, $($argument),*)
+        })
+    };
+}
+
+/// Calls such a function with the widest packs of a level.
+#[cfg(target_arch = "x86_64")]
 macro_rules! in_packs {
     ($level:expr, $function:ident($($argument:expr),*)) => {{
         let level: fearless_simd::Level = $level;
-        #[cfg(target_arch = "x86_64")]
-        let sixteen = level.as_avx512();
-        #[cfg(not(target_arch = "x86_64"))]
-        let sixteen: Option<fearless_simd::Fallback> = None;
-        match sixteen {
+        match level.as_avx512() {
             Some(simd) => fearless_simd::Simd::vectorize(
                 simd,
                 #[inline(always)]
@@ -70,11 +77,11 @@ macro_rules! in_packs {
                     $function::<fearless_simd::f32x16<_>>(simd, $($argument),*)
                 },
             ),
-            None => fearless_simd::dispatch!(level, simd => {
-                std::hint::black_box(&$crate::simd::Line::default());
-                $function::<fearless_simd::f32x8<_>>(simd, $($argument),*)
-            }),
+            None => $crate::simd::in_packs_of_eight!(level, $function($($argument),*)),
         }
     }};
 }
-pub(crate) use in_packs;
+#[cfg(not(target_arch = "x86_64"))]
+pub(crate) use in_packs_of_eight as in_packs;
+#[cfg(target_arch = "x86_64")]
+pub(crate) use {in_packs, in_packs_of_eight};

@@ -8,6 +8,7 @@ pub(crate) const FIRST_LEVEL: i32 = 3;
 pub(crate) const SECOND_LEVEL: i32 = 2;
 
 /// Bytes of a cache line.
+#[cfg(target_arch = "x86_64")]
 const LINE: usize = 64;
 
 /// Prefetches so many items.

@@ -12,7 +12,6 @@ mod species;
 mod tables;
 mod wind;
 
-use std::panic::resume_unwind;
 use std::sync::Arc;
 
 pub use self::block::{NO_WATER_M, REST_OFFSET_M};
@@ -39,6 +38,7 @@ use crate::leaf::Leaves;
 use crate::scene::Scene;
 use crate::store::{StoreSize, check_sizes};
 use crate::terrain::Hills;
+use crate::threads::both;
 use crate::tree::{Branches, Forest};
 use crate::wind::turbulence_box;
 
@@ -69,11 +69,8 @@ impl CompiledScene {
         let seed = seed_words(scene.seed);
         let gusts = cycle.as_ref().map_or(GUST_ROWS / GUST_SPACING, Cycle::gusts);
         let cells = cycle.as_ref().map_or(TURBULENCE_X, Cycle::cell_period);
-        let (motions, turbulence) = std::thread::scope(|scope| {
-            let turbulence = scope.spawn(|| turbulence_rows(&turbulence_box(seed, cells)));
-            let motions = motions_of(scene, seed);
-            (motions, turbulence.join().unwrap_or_else(|panic| resume_unwind(panic)))
-        });
+        let (turbulence, motions) =
+            both(|| turbulence_rows(&turbulence_box(seed, cells)), || motions_of(scene, seed));
         let motions = motions?;
         let mut tables = profile_rows_of(scene);
         tables.extend(gust_rows(seed, gusts));

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Makes or reads the motion tables of the species and packs them for the kernels.
 
-use std::panic::resume_unwind;
-
 use crate::device::motion::lookup::{LARGEST_HALF, PAIR_WEIGHT};
 use crate::error::SceneError;
 use crate::layout::Uint4;
@@ -11,17 +9,11 @@ use crate::motion::table::{TABLE_ROWS, TABLES_PER_SPECIES};
 use crate::motion::{MotionTables, Primitive};
 use crate::scene::limits::MAX_PERIODS_PER_STEP;
 use crate::scene::{Scene, Species};
+use crate::threads::each;
 
 /// Tables of every species, each made on a thread of its own.
 pub(super) fn motions_of(scene: &Scene, seed: [u32; 2]) -> Result<Vec<MotionTables>, SceneError> {
-    std::thread::scope(|scope| {
-        let made: Vec<_> = scene
-            .species
-            .iter()
-            .map(|species| scope.spawn(move || tables_of(scene, species, seed)))
-            .collect();
-        made.into_iter().map(|made| made.join().unwrap_or_else(|panic| resume_unwind(panic))).collect()
-    })
+    each(scene.species.iter(), |species| tables_of(scene, species, seed)).into_iter().collect()
 }
 
 /// Tables from a file or from the equations. The rates that the equations give have been validated with the scene;

@@ -20,6 +20,7 @@ use crate::leaf::seek::leaf_seek_any;
 use crate::leaf::{Leaves, LeavesMut};
 use crate::scene::Scene;
 use crate::store::{Store, StoreSize, check_sizes, copy_stores, hash_stores, state_bytes};
+use crate::threads::on_all;
 use crate::tree::Branches;
 
 /// Leaves that a thread places before it takes the next: those that have landed take longer than those in the air.
@@ -79,19 +80,12 @@ impl World {
         let cx = compiled.context(&step);
         let tables = drop_tables(&cx);
         let (compiled, still, tables) = (&*compiled, &*branches, tables.as_slice());
-        let threads = std::thread::available_parallelism().map_or(1, usize::from);
         let runs = Mutex::new(runs_of(leaves.as_mut()));
         let next = || runs.lock().unwrap_or_else(PoisonError::into_inner).next();
-        let place = || {
+        on_all(|| {
             while let Some((first, run)) = next() {
                 place_leaves(compiled, &cx, still, tables, run, first);
             }
-        };
-        std::thread::scope(|scope| {
-            for _ in 1..threads {
-                scope.spawn(place);
-            }
-            place();
         });
         drop(runs);
         count_leaves(branches, &cx, leaves);
