@@ -15,7 +15,7 @@ const SCENE: &str = r#"(
     wind: (speed: Beaufort(5)),
     species: [(name: "plate, \"thin\"", shape: Plate, size_m: 0.06)],
     sources: [(shape: Sphere(center_m: (0.0, 0.4, 0.0), radius_m: 0.3), count: 30,
-               release: Rate(per_s: 8.0, from_s: -3.0), recycle_after_s: 0.2)],
+               release: Rate(per_s: 8.0, from_s: -3.0), recycle_after_s: 0.6)],
     tree_kinds: [(name: "mine", form: Preset(Weed), foliage: (species: Some("plate, \"thin\"")))],
     trees: [(kind: "mine", at_m: (2.0, -1.0), leaves: 10)],
 )"#;
