@@ -51,6 +51,7 @@ const CORE: Order = Order {
         "convert",
         "error",
         "layout",
+        "threads",
         "device/arith",
         "store",
         "scene",
