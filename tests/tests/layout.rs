@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Agreement of Rust and WGSL, checked without a GPU: layouts, twins, and the rules that make bits equal.
+//! Agreement of Rust and WGSL, checked without a GPU: layouts, twins, and the rules that make bits equal. One file, because all of
+//! these read the same two trees of sources in the same way.
 
 use std::fs;
 use std::path::{Path, PathBuf};

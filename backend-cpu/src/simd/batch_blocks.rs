@@ -181,7 +181,7 @@ pub(crate) const AHEAD: usize = 2;
 /// Prefetching of state, leaf counts and the constants of a pass.
 ///
 /// A block with its twigs is some ninety cache lines in eight columns and two tables, a few lines from each page: processors do not all foresee them.
-/// A core waits for a dozen or so lines at a time, so limbs and each block of twigs are prefetched apart, with work in between.
+/// Many at once hold a core up, so limbs and each block of twigs are prefetched apart, with work in between.
 impl BatchStep<'_, '_> {
     /// Prefetches a block of limbs, if there is such a block.
     #[inline(always)]

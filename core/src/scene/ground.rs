@@ -14,8 +14,9 @@ pub struct Ground {
     pub height_m: f32,
     /// Coulomb friction coefficient between leaf and ground, 0.05 to 5: dry grass 0.4 to 0.6, wet 0.8.
     pub friction: f32,
-    /// Roughness length in metres that the wind meets below one metre, 0.0001 to 0.1: pavement 0.0005, mown lawn 0.005, litter
-    /// 0.005 to 0.01, long grass 0.01 to 0.03.
+    /// Roughness length in metres that the wind meets below one metre, 0.0001 to 0.1: paved areas 0.0002 (Stull, "Meteorology for
+    /// Scientists and Engineers"), short grass 0.008 to 0.02, long grass 0.02 to 0.06 (Brutsaert, "Hydrology", table 2.6). The
+    /// default, 0.005, is assumed for a mown lawn.
     pub surface_roughness_m: f32,
     /// Hills.
     pub terrain: Option<Terrain>,

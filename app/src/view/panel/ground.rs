@@ -12,7 +12,7 @@ pub(super) fn show(ui: &mut Ui, ground: &mut Ground, own: &Ground) {
     field("Height", tip, limits::HEIGHT_M).wide().show(ui, &mut ground.height_m, own.height_m);
     let tip = "Coulomb friction between leaf and ground: dry grass 0.4 to 0.6, wet 0.8";
     field("Friction", tip, limits::FRICTION).fine(0.05).show(ui, &mut ground.friction, own.friction);
-    let tip = "Roughness length that the wind meets below one metre: pavement 0.0005 m, mown lawn 0.005, long grass 0.01 to 0.03";
+    let tip = "Roughness length that the wind meets below one metre: paved areas 0.0002 m, short grass 0.008 to 0.02, long grass 0.02 to 0.06";
     let roughness = field("Roughness", tip, limits::SURFACE_ROUGHNESS_M).fine(0.0001);
     roughness.show(ui, &mut ground.surface_roughness_m, own.surface_roughness_m);
     let options = [("level", None), ("hills", Some(Terrain::default()))];

@@ -5,7 +5,7 @@
 //! Growth of the mean wind and of turbulence with height.
 //!
 //! Rows lie at quarters of octaves of height, where a number's bits begin anew, so that a leaf on the ground meets the wind of its own
-//! height: at 2 cm over a lawn a third of that at half a metre.
+//! height: at 2 cm over ground of a roughness length of 5 mm a third of that at half a metre.
 
 use crate::arith::lane::{Real, Word};
 use crate::context::Context;
