@@ -40,6 +40,7 @@ pub(crate) fn structs() -> String {
         blocks::SpeciesBlock::declaration(),
         blocks::SourceBlock::declaration(),
         blocks::WindBlock::declaration(),
+        blocks::ShelterBlock::declaration(),
         blocks::SwayBlock::declaration(),
         blocks::ResponseBlock::declaration(),
         flight::block::BodyBlock::declaration(),
@@ -88,6 +89,7 @@ pub(crate) fn constants() -> String {
         device::wind::gust::wgsl_constants(),
         device::wind::packed::wgsl_constants(),
         device::wind::profile::wgsl_constants(),
+        device::wind::shelter::wgsl_constants(),
         device::wind::turbulence::wgsl_constants(),
     ];
     let declarations: String = lists.into_iter().flatten().map(|(_, declaration)| declaration).collect();

@@ -161,6 +161,7 @@ impl Default for Shaders {
             "wind/profile",
             "wind/row",
             "wind/sample",
+            "wind/shelter",
             "wind/turbulence",
             "wind/vortex",
         ];

@@ -80,6 +80,28 @@ crate::shared_struct! {
 }
 
 crate::shared_struct! {
+    /// Place of the shelter table (see [`wind_shelter`](crate::device::wind::shelter::wind_shelter)).
+    pub struct ShelterBlock {
+        /// 1 if anything shelters anything, else 0.
+        pub is_on: u32,
+        /// First row of the table.
+        pub first_row: u32,
+        /// Least x in m.
+        pub west_m: f32,
+        /// Least z in m.
+        pub north_m: f32,
+        /// Cells per metre along x and z.
+        pub cells_per_m: f32,
+        /// Layers per metre up.
+        pub layers_per_m: f32,
+        /// Number of cells along x.
+        pub cells_x: f32,
+        /// Number of cells along z.
+        pub cells_z: f32,
+    }
+}
+
+crate::shared_struct! {
     /// Times at which the joints of trees are solved.
     pub struct SwayBlock {
         /// Steps from one solution to the next: 1 or 2.
@@ -176,6 +198,8 @@ crate::shared_struct! {
         pub sway_scheme: u32,
         /// Times at which it does.
         pub sway: SwayBlock,
+        /// Shelter from the wind.
+        pub shelter: ShelterBlock,
         /// The wind.
         pub wind: WindBlock,
         /// Responses of the species.
@@ -199,6 +223,12 @@ impl SceneBlock {
     /// Returns true if leaves of some species fly as bodies.
     pub fn has_bodies(&self) -> bool {
         self.has_bodies != 0
+    }
+
+    /// Returns true if anything shelters anything from the wind.
+    #[inline(always)]
+    pub fn has_shelter(&self) -> bool {
+        self.shelter.is_on != 0
     }
 }
 

@@ -8,8 +8,8 @@ use std::path::{Path, PathBuf};
 
 use naga::{AddressSpace, TypeInner};
 use windfall_core::blocks::{
-    MomentBlock, ResponseBlock, SceneBlock, SourceBlock, SpeciesBlock, StepBlock, SwayBlock, VortexBlock,
-    WindBlock,
+    MomentBlock, ResponseBlock, SceneBlock, ShelterBlock, SourceBlock, SpeciesBlock, StepBlock, SwayBlock,
+    VortexBlock, WindBlock,
 };
 use windfall_core::flight::block::BodyBlock;
 use windfall_core::layout::WgslStruct;
@@ -56,6 +56,7 @@ fn every_module_is_valid_and_every_struct_has_one_layout() {
     let (module, _) = parse("bindings");
     same_layout::<SpeciesBlock>(&module);
     same_layout::<SourceBlock>(&module);
+    same_layout::<ShelterBlock>(&module);
     same_layout::<WindBlock>(&module);
     same_layout::<SwayBlock>(&module);
     same_layout::<ResponseBlock>(&module);

@@ -120,6 +120,8 @@ fn a_changed_twin_is_noticed() {
         ("motion/lookup", "after << 16u", "after << 15u", "motion_displacement"),
         ("leaf/fall", "vec3<u32>(SLOWEST_DRIFT_TWICE)", "vec3<u32>(2u * SLOWEST_DRIFT_TWICE)", "felt_drift"),
         ("wind/gust", "row.y - row.x", "row.x - row.y", "wind_gust"),
+        ("wind/shelter", "word >> 16u", "word >> 15u", "wind_shelter"),
+        ("wind/shelter", "kw * shelter.cells_z", "kw * shelter.cells_x", "wind_shelter"),
         ("leaf/settle", "0.5 * seconds", "0.51 * seconds", "slide"),
         ("terrain/ground", "corners.w - corners.z)", "corners.z - corners.w)", "ground_relief"),
         ("terrain/ground", "<< shift", "<< (shift - 1u)", "ground_relief"),

@@ -93,6 +93,33 @@ fn every_scheme_is_equal_to_the_bit_under_the_exact_contract() {
     }
 }
 
+/// Three trees in a row along the wind, the middle one first.
+#[test]
+fn trees_that_shelter_each_other_are_equal_to_the_bit() {
+    let mut scene = wooded_scene(7, 600, 9.0, 1.0 / 60.0);
+    scene.trees.truncate(3);
+    for (tree, along_m) in scene.trees.iter_mut().zip([0.0, 11.0, -12.0]) {
+        tree.at_m = [along_m * 0.866, along_m * 0.5];
+    }
+    let world = World::build(&scene).expect("the wooded scene is valid");
+    assert!(world.compiled.block().has_shelter(), "trees shelter each other");
+    let oracle = on_cpu(&world, 300, CpuOptions::default());
+    scene.wind.shelter = false;
+    let free = on_cpu(&World::build(&scene).expect("the same scene"), 300, CpuOptions::default());
+    assert!(difference(&free, &oracle).segments().largest("base") > 1e-3, "shelter moves trees");
+    for simd in Simd::available() {
+        let lanes = on_cpu(&world, 300, CpuOptions { simd: Some(simd), threads: Some(2) });
+        assert!(difference(&oracle, &lanes).is_none(), "{simd:?}");
+    }
+    for (gpu, contract) in adapter::contracts() {
+        if contract == Contract::Exact {
+            let options = WgpuOptions { contract: Some(contract), ..WgpuOptions::default() };
+            let found = difference(&oracle, &on_gpu(&gpu, &world, 300, &options));
+            assert!(found.is_none(), "{}: {found:?}", gpu.info().name);
+        }
+    }
+}
+
 #[test]
 fn joints_solved_in_every_other_step_are_equal_to_the_bit() {
     let scene = Scene { sway_every: 2, ..wooded_scene(7, 600, 4.0, 1.0 / 60.0) };
@@ -178,6 +205,7 @@ fn a_changed_kernel_is_noticed() {
         ("tree/sway/row", "select(row, segments[row].parent, is_twig)", "row"),
         ("tree/sway/row", "columns + row] = vec4<f32>(air,", "columns + row] = vec4<f32>(body.velocity,"),
         ("tree/sway/load", "wind_at_moment(MOMENT_MIDDLE", "wind_at_moment(MOMENT_NOW"),
+        ("wind/sample", "place.x, above, place.z", "place.z, above, place.x"),
         (
             "tree/sway/row",
             "whole = articulated_add(whole, load",

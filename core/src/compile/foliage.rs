@@ -114,6 +114,14 @@ pub(crate) fn leaf_site(scene: &Scene, slot: u32) -> (u32, bool) {
     (class, f64::from(scene.autumn) > (time + FALL_DELAY).min(0.999))
 }
 
+/// Share of the leaves that hang on the trees at a time of the autumn: of all sites those that [`leaf_site`] leaves theirs.
+pub(super) fn leaves_left(autumn: f64) -> f64 {
+    if autumn > 0.999 {
+        return 0.0;
+    }
+    1.0 - 1.0 / (1.0 + libm::exp((0.5 + FALL_DELAY - autumn) / AUTUMN_SPREAD))
+}
+
 /// Chances of all petioles of each kind to break at a look, by class and speed.
 pub(super) fn shed_rows(scene: &Scene, kinds: &[TreeKind]) -> Vec<Uint4> {
     let interval_s = f64::from(SHED_INTERVAL) * f64::from(scene.dt_s);

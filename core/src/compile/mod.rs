@@ -7,6 +7,7 @@ mod body;
 mod cycle;
 mod field;
 mod foliage;
+mod shelter;
 mod source;
 mod species;
 mod tables;
@@ -20,6 +21,7 @@ pub use self::cycle::Cycle;
 use self::cycle::firm;
 pub(crate) use self::foliage::leaf_site;
 use self::foliage::{foliage_of, petiole_rows, seedlings, shed_rows};
+use self::shelter::{is_sheltered, shelter_inputs, shelter_rows};
 pub(crate) use self::source::{lifetime_steps, release_step};
 use self::tables::{motions_of, pack_motion};
 use crate::arith::rng::seed_words;
@@ -40,7 +42,7 @@ use crate::store::{StoreSize, check_sizes};
 use crate::terrain::Hills;
 use crate::threads::both;
 use crate::tree::{Branches, Forest};
-use crate::wind::turbulence_box;
+use crate::wind::{ShelterGrid, turbulence_box};
 
 /// A compiled scene: uniform block and tables, ready for any backend.
 #[derive(Clone, Debug)]
@@ -88,6 +90,12 @@ impl CompiledScene {
         }
         let seedlings = seedlings(scene, |x, z| foot_height(&block, &tables, x, z))?;
         let forest = Forest::plant(seedlings, scene.gravity_m_s2);
+        if let Some(grid) = ShelterGrid::of(scene, &forest) {
+            let rows = shelter_rows(&grid, scene, &forest, &block, &tables);
+            block.shelter = grid.block(len32(tables.len()));
+            block.shelter.is_on = u32::from(is_sheltered(scene, &rows));
+            tables.extend(rows);
+        }
         block.first_shed_row = len32(tables.len());
         tables.extend(chances);
         block.first_petiole_row = len32(tables.len());
@@ -110,6 +118,7 @@ impl CompiledScene {
             self.replace_rows(self.block.wind.first_profile_row, &rows);
         }
         let autumn = self.scene.autumn;
+        let inputs = shelter_inputs(&self.scene);
         let (terrain, gravity_m_s2) = (self.scene.ground.terrain, self.scene.gravity_m_s2);
         self.scene = scene.clone();
         (self.scene.species, self.scene.sources, self.scene.seed, self.scene.dt_s) = keep;
@@ -120,6 +129,14 @@ impl CompiledScene {
             self.replace_rows(self.block.first_shed_row, &rows);
         }
         retune_block(&self.scene, &mut self.block);
+        if let Some(grid) = ShelterGrid::of(&self.scene, &self.forest) {
+            if shelter_inputs(&self.scene) != inputs {
+                let rows = shelter_rows(&grid, &self.scene, &self.forest, &self.block, &self.tables);
+                self.replace_rows(self.block.shelter.first_row, &rows);
+            }
+            let rows = &self.tables[self.block.shelter.first_row as usize..][..grid.row_count()];
+            self.block.shelter.is_on = u32::from(is_sheltered(&self.scene, rows));
+        }
     }
 
     /// Puts other rows in the place of those from `first` on.
@@ -155,7 +172,7 @@ impl CompiledScene {
         &self.block
     }
 
-    /// All tables as rows of four words, one after another: the wind's profile, gusts and turbulence; hills; chances of
+    /// All tables as rows of four words, one after another: the wind's profile, gusts and turbulence; hills; shelter; chances of
     /// petioles to break ([`SHED_ROWS`](crate::device::leaf::petiole::SHED_ROWS) for each kind of trees); petioles; motion (see
     /// [`MotionRows`]). The block holds the first row of each.
     pub fn tables(&self) -> &Arc<[Uint4]> {

@@ -101,6 +101,8 @@ pub struct WindParameters {
     pub gusts: Gusts,
     /// Turbulence.
     pub turbulence: Turbulence,
+    /// Shelter from the mean wind in the lee of trees and hills; none in a uniform wind, which has no ground.
+    pub shelter: bool,
     /// Point vortices, at most 8.
     pub vortices: Vec<Vortex>,
 }
@@ -114,6 +116,7 @@ impl Default for WindParameters {
             profile: Profile::Power { exponent: 0.22 },
             gusts: Gusts::default(),
             turbulence: Turbulence::default(),
+            shelter: true,
             vortices: Vec::new(),
         }
     }

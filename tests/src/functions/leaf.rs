@@ -39,6 +39,7 @@ use windfall_core::device::wind::gust::wind_gust;
 use windfall_core::device::wind::packed::{wind_pack, wind_unpack};
 use windfall_core::device::wind::profile::{wind_profile, wind_vertical};
 use windfall_core::device::wind::sample::wind_at;
+use windfall_core::device::wind::shelter::wind_shelter;
 use windfall_core::device::wind::turbulence::wind_turbulence;
 use windfall_core::device::wind::vortex::wind_vortex;
 use windfall_core::leaf::{Drift, Place, Schedule};
@@ -364,6 +365,10 @@ functions! {
     wind_gust in "wind/gust" (METRES) tolerance Some(1e-6);
     wgsl "r.x = bitcast<u32>(wind_gust(MOMENT_NOW, bitcast<f32>(a.x)));";
     rust |cx, w| floats([wind_gust(cx, &cx.step.moments[0], float(w[0]))]);
+
+    wind_shelter in "wind/shelter" (METRES, Input::Float(-5.0, 40.0), METRES) tolerance Some(1e-6);
+    wgsl "r.x = bitcast<u32>(wind_shelter(bitcast<f32>(a.x), bitcast<f32>(a.y), bitcast<f32>(a.z)));";
+    rust |cx, w| floats([wind_shelter(cx, float(w[0]), float(w[1]), float(w[2]))]);
 
     wind_turbulence in "wind/turbulence" (METRES, METRES, METRES) tolerance Some(2e-6);
     wgsl "r = vec4<u32>(bitcast<vec3<u32>>(wind_turbulence(MOMENT_NOW, bitcast<vec3<f32>>(a.xyz))), 0u);";

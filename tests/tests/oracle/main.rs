@@ -22,6 +22,7 @@ mod sampling;
 mod schemes;
 mod sectional;
 mod shedding;
+mod shelter;
 mod sway;
 mod table_file;
 mod tables;

@@ -5,6 +5,7 @@
 #import terrain/ground
 #import wind/gust
 #import wind/profile
+#import wind/shelter
 #import wind/turbulence
 #import wind/vortex
 
@@ -23,7 +24,10 @@ fn wind_at_moment(moment: u32, place: vec3<f32>) -> vec3<f32> {
         above = height - ground_relief(place.x, place.z);
     }
     let profile = wind_profile(above);
-    let mean = (profile.x * scene.wind.mean_speed_m_s) * (wind_gust(moment, along) * scene.wind.gust_strength + 1.0);
+    var mean = (profile.x * scene.wind.mean_speed_m_s) * (wind_gust(moment, along) * scene.wind.gust_strength + 1.0);
+    if (scene.shelter.is_on != 0u) {
+        mean = mean * wind_shelter(place.x, above, place.z);
+    }
     let deviation = scene.wind.deviation_m_s;
     var turbulence = vec3<f32>(0.0, 0.0, 0.0);
     if (deviation.x != 0.0) {

@@ -7,5 +7,6 @@ pub mod packed;
 pub mod profile;
 pub mod row;
 pub mod sample;
+pub mod shelter;
 pub mod turbulence;
 pub mod vortex;

@@ -3,10 +3,11 @@
 //! twin: backend-wgpu/src/shaders/wind/sample.wgsl
 //!
 //! The wind at a place and step. The mean wind and turbulence grow with height above the ground beneath;
-//! turbulence is carried on the level.
+//! turbulence is carried on the level. Shelter takes from the mean wind alone.
 
 use super::gust::wind_gust;
 use super::profile::{wind_profile, wind_vertical};
+use super::shelter::wind_shelter;
 use super::turbulence::wind_turbulence;
 use super::vortex::wind_vortex;
 use crate::arith::lane::Real;
@@ -33,7 +34,10 @@ pub fn wind_at_moment<R: Real>(cx: &Context<'_>, moment: u32, place: Vec3<R>) ->
     let height = place.y - cx.scene.ground_height_m;
     let above = if cx.scene.has_terrain() { height - ground_relief(cx, place.x, place.z) } else { height };
     let [profile, level] = wind_profile(cx, above);
-    let mean = (profile * wind.mean_speed_m_s) * (wind_gust(cx, at, along) * wind.gust_strength + 1.0);
+    let mut mean = (profile * wind.mean_speed_m_s) * (wind_gust(cx, at, along) * wind.gust_strength + 1.0);
+    if cx.scene.has_shelter() {
+        mean = mean * wind_shelter(cx, place.x, above, place.z);
+    }
     let deviation = Vec3::from(wind.deviation_m_s);
     let mut turbulence = Vec3::<f32>::ZERO.spread(height);
     if deviation.x != 0.0 {

@@ -25,8 +25,9 @@ fn what_stays_asks_for_nothing() {
 
 #[test]
 fn wind_and_speeds_go_on_at_once() {
-    let edits: [fn(&mut Scene); 9] = [
+    let edits: [fn(&mut Scene); 10] = [
         |scene| scene.wind.direction_deg += 1.0,
+        |scene| scene.wind.shelter = false,
         |scene| scene.wind.profile = Profile::Uniform,
         |scene| scene.wind.turbulence.cell_m *= 2.0,
         |scene| scene.fall_speed = 0.5,

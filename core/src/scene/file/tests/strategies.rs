@@ -171,9 +171,10 @@ prop_compose! {
             .prop_map(|(strength, interval_s)| Gusts { strength, interval_s }),
         turbulence in (within(limits::INTENSITY), within(limits::CELL_M), within(limits::CALM_M_S))
             .prop_map(|(intensity, cell_m, calm_m_s)| Turbulence { intensity, cell_m, calm_m_s }),
+        shelter in any::<bool>(),
         vortices in vec(vortex(), 0..=MAX_VORTICES),
     ) -> WindParameters {
-        WindParameters { direction_deg, speed, reference_height_m, profile, gusts, turbulence, vortices }
+        WindParameters { direction_deg, speed, reference_height_m, profile, gusts, turbulence, shelter, vortices }
     }
 }
 

@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Compiles shelter.
+
+use super::foliage::leaves_left;
+use super::foot_height;
+use crate::blocks::SceneBlock;
+use crate::convert::single;
+use crate::layout::Uint4;
+use crate::scene::{Profile, Scene};
+use crate::tree::Forest;
+use crate::wind::{ShelterGrid, ShelterWind};
+
+/// Rows of the shelter table; the tables hold the hills.
+pub(super) fn shelter_rows(
+    grid: &ShelterGrid,
+    scene: &Scene,
+    forest: &Forest,
+    block: &SceneBlock,
+    tables: &[Uint4],
+) -> Vec<Uint4> {
+    let (sin, cos) = libm::sincos(f64::from(scene.wind.direction_deg).to_radians());
+    let leaves_left = leaves_left(f64::from(scene.autumn));
+    let wind = ShelterWind { direction_x: cos, direction_z: sin, leaves_left };
+    grid.rows(scene, forest, &wind, |x_m, z_m| foot_height(block, tables, single(x_m), single(z_m)).into())
+}
+
+/// Numbers that these rows depend on and that may change while a simulation runs.
+pub(super) fn shelter_inputs(scene: &Scene) -> [f32; 3] {
+    [scene.wind.direction_deg, scene.autumn, scene.ground.height_m]
+}
+
+/// Returns true if shelter takes part in the wind: where it is asked for, where anything lacks wind, and where the wind has a ground.
+pub(super) fn is_sheltered(scene: &Scene, rows: &[Uint4]) -> bool {
+    let lacks = |row: &Uint4| row.0 != [0; 4];
+    scene.wind.shelter && scene.wind.profile != Profile::Uniform && rows.iter().any(lacks)
+}

@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! twin: backend-wgpu/src/shaders/wind/shelter.wgsl
+//!
+//! Shelter behind trees and hills: the share of the mean wind that is left there, from the table of
+//! [`ShelterGrid`](crate::wind::ShelterGrid).
+
+use crate::arith::lane::{Real, Word};
+use crate::context::Context;
+
+crate::shared_constants! {
+    /// Layers of the table between the ground and its top, as a number of them.
+    pub const SHELTER_LAYERS: f32 = 8.0;
+    /// Lack of wind that a unit of the table stands for, as a share of the mean wind.
+    pub const SHELTER_UNIT: f32 = 1.0 / 65536.0;
+}
+
+/// Lack of wind in units between the two heights of a corner's word: the lower half of the word at the lower height, the upper half at
+/// the upper one.
+#[inline(always)]
+fn shelter_between<W: Word>(word: W, share: W::Real) -> W::Real {
+    let low = (word & 0xffff).to_real();
+    low + share * ((word >> 16).to_real() - low)
+}
+
+/// Share of the mean wind that trees and hills upwind leave at a place so many metres above the ground. Only where the scene has shelter.
+#[inline(always)]
+pub fn wind_shelter<R: Real>(cx: &Context<'_>, x: R, above: R, z: R) -> R {
+    let shelter = &cx.scene.shelter;
+    let none = x.all(0.0);
+    let u = ((x - shelter.west_m) * shelter.cells_per_m).max(none).min(x.all(shelter.cells_x));
+    let v = ((z - shelter.north_m) * shelter.cells_per_m).max(none).min(x.all(shelter.cells_z));
+    let w = (above * shelter.layers_per_m).max(none).min(x.all(SHELTER_LAYERS));
+    let ku = u.floor().min(x.all(shelter.cells_x - 1.0));
+    let kv = v.floor().min(x.all(shelter.cells_z - 1.0));
+    let kw = w.floor().min(x.all(SHELTER_LAYERS - 1.0));
+    let index = (kw * shelter.cells_z + kv) * shelter.cells_x + ku;
+    let rows = &cx.tables[shelter.first_row as usize..];
+    let [a, b, c, d] = index.to_whole().look_up_words(bytemuck::cast_slice(rows));
+    let share = w - kw;
+    let a = shelter_between(a, share);
+    let b = shelter_between(b, share);
+    let c = shelter_between(c, share);
+    let d = shelter_between(d, share);
+    let near = a + (u - ku) * (b - a);
+    let far = c + (u - ku) * (d - c);
+    let lack = near + (v - kv) * (far - near);
+    x.all(1.0) - lack * SHELTER_UNIT
+}

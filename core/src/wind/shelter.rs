@@ -1,0 +1,382 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The shelter table: the share of the mean wind that is left behind trees and hills, on a level grid.
+//!
+//! # Model
+//! A tree takes from the wind the momentum that its drag is: lidar scans of the wake of a solitary mature tree found there all but
+//! 1 to 10 % of the force on its stem (Angelou, Mann and Dellwik, 2021, doi 10.1017/jfm.2021.275). The lack is spread as a Gaussian that widens
+//! downwind and keeps its momentum, as behind a wind turbine (Bastankhah and Porté-Agel, 2014, doi 10.1016/j.renene.2014.01.002), with the
+//! tree's own drag in place of the turbine's thrust. At the rim of the crown the wake is as wide as makes the air on its axis √(1 - c) of the free,
+//! c the drag coefficient of the crown, as the momentum theory of a porous disc has it. The ground mirrors it.
+//!
+//! A wake begins behind the rim, so that no tree shelters itself. Wakes multiply: each takes its share of the wind that arrives, so the order
+//! of the trees does not matter, and air never turns back. Turbulence is left as it is.
+//!
+//! What lies below a line that falls at 15° from higher ground upwind is sheltered: the shadow zone of Werner's model of dunes ("Eolian
+//! dunes: computer simulations and attractor interpretation", 1995). How much wind is left there is an assumption.
+
+use std::f64::consts::{SQRT_2, TAU};
+use std::ops::Range;
+
+use crate::blocks::ShelterBlock;
+use crate::convert::{single, word};
+use crate::device::wind::shelter::{SHELTER_LAYERS, SHELTER_UNIT};
+use crate::layout::Uint4;
+use crate::motion::AIR_DENSITY;
+use crate::scene::Scene;
+use crate::threads::each;
+use crate::tree::forest::Planted;
+use crate::tree::{AttachmentKind, Forest};
+
+/// Heights of the table: one more than its layers.
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small whole number")]
+const LEVELS: usize = SHELTER_LAYERS as usize + 1;
+/// Smallest cell in m.
+const LEAST_CELL_M: f64 = 1.0;
+/// Most cells along an edge.
+const MOST_CELLS: f64 = 192.0;
+/// Top of the table relative to the height of the tallest tree.
+const TOP_HEIGHTS: f64 = 2.0;
+/// Length of a wake in heights of its tree. Without fading out, the axis behind a maple of 12 m would lack 2.5 % of the wind there.
+const WAKE_HEIGHTS: f64 = 7.0;
+/// Half width of a wake in standard deviations; it lacks next to nothing beyond.
+const MOST_SIDE: f64 = 4.0;
+/// Part of the length in which the rest of a wake fades out.
+const FADE_SHARE: f64 = 0.25;
+/// Widening of a wake's standard deviation per metre: an assumption.
+const SPREAD: f64 = 0.1;
+/// Wind speed in m/s at which crowns have turned aside as far as the table assumes, so that it does not depend on the wind's speed.
+const DRAG_SPEED_M_S: f64 = 5.0;
+/// Largest drag coefficient of a crown: what the leaves of a dense one take from each other is not in the sum over them.
+const MOST_DRAG: f64 = 0.8;
+/// Way in heights of the tree that limbs sway out of its rim downwind.
+const SWAY_HEIGHTS: f64 = 0.2;
+/// Slope of the line below which hills shelter: the tangent of 15°.
+const LEE_SLOPE: f64 = 0.267_949_192_431_122_7;
+/// Share of the mean wind that is missing deep below that line: an assumption.
+const LEE_LACK: f64 = 0.7;
+/// Depth in m below the line at which all of that is missing: an assumption.
+const LEE_DEPTH_M: f64 = 2.0;
+/// Most places upwind at which higher ground is looked for.
+const MOST_LEE_STEPS: f64 = 256.0;
+/// Rows of nodes that a thread works on at a time.
+const BAND_ROWS: usize = 16;
+
+/// Shares of the wind that are left at the heights of a node.
+type Node = [f64; LEVELS];
+
+/// Place and cells of the shelter table of a scene: the same for every direction of the wind.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ShelterGrid {
+    /// Least x in m.
+    pub west_m: f64,
+    /// Least z in m.
+    pub north_m: f64,
+    /// Edge of a cell in m.
+    pub cell_m: f64,
+    /// Cells along x and z.
+    pub cells: [usize; 2],
+    /// Height of a layer in m.
+    pub layer_m: f64,
+}
+
+/// The wind that the table is made for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ShelterWind {
+    /// Unit vector that the mean wind blows towards, along x.
+    pub direction_x: f64,
+    /// The same along z.
+    pub direction_z: f64,
+    /// Share of the leaves that hang on the trees.
+    pub leaves_left: f64,
+}
+
+impl ShelterWind {
+    /// Distance along and across the wind in m.
+    fn frame(&self, x_m: f64, z_m: f64) -> [f64; 2] {
+        [x_m * self.direction_x + z_m * self.direction_z, z_m * self.direction_x - x_m * self.direction_z]
+    }
+
+    /// Place of a distance along and across the wind: the inverse.
+    fn place(&self, along_m: f64, across_m: f64) -> [f64; 2] {
+        [
+            along_m * self.direction_x - across_m * self.direction_z,
+            along_m * self.direction_z + across_m * self.direction_x,
+        ]
+    }
+}
+
+/// Wake of a tree, in the frame of the wind.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Wake {
+    /// Downwind rim of the crown in m along the wind.
+    rim_m: f64,
+    /// Distance behind the rim in m at which the wake begins.
+    gap_m: f64,
+    /// Distance behind the rim in m at which nothing is left of it.
+    length_m: f64,
+    /// Middle in m across the wind.
+    across_m: f64,
+    /// Middle in m above the ground.
+    height_m: f64,
+    /// Standard deviations in m across and up at the rim.
+    spread_m: [f64; 2],
+    /// Drag area in m²: drag over dynamic pressure.
+    drag_m2: f64,
+}
+
+/// Sums over the drag areas of a tree, which its place and width follow from.
+#[derive(Clone, Copy, Debug, Default)]
+struct DragSum {
+    area: f64,
+    across: f64,
+    across_squared: f64,
+    height: f64,
+    height_squared: f64,
+    rim_m: f64,
+}
+
+impl DragSum {
+    fn add(&mut self, area: f64, [along_m, across_m]: [f64; 2], height_m: f64) {
+        self.area += area;
+        self.across += area * across_m;
+        self.across_squared += area * across_m * across_m;
+        self.height += area * height_m;
+        self.height_squared += area * height_m * height_m;
+        self.rim_m = self.rim_m.max(along_m);
+    }
+}
+
+impl Wake {
+    /// The wake of a tree; `None` if it has no drag.
+    fn of(tree: &Planted, forest: &Forest, grid: &ShelterGrid, wind: &ShelterWind) -> Option<Self> {
+        let half_air = 0.5 * AIR_DENSITY;
+        let constants = |segment: usize| &forest.segments()[tree.rows[segment] as usize];
+        let mut sum = DragSum { rim_m: f64::NEG_INFINITY, ..DragSum::default() };
+        for (index, segment) in tree.skeleton.segments.iter().enumerate() {
+            let (start, end) = (segment.start_m.as_dvec3(), segment.end_m.as_dvec3());
+            let axis = (end - start).normalize();
+            let along = axis.x * wind.direction_x + axis.z * wind.direction_z;
+            // Only the wind across a branch counts, and only that part of the force which is along the wind.
+            let squared = (1.0 - along * along).max(0.0);
+            let area = f64::from(constants(index).wood_drag) / half_air * squared * libm::sqrt(squared);
+            let middle = 0.5 * (start + end);
+            sum.add(area, wind.frame(middle.x, middle.z), middle.y);
+            sum.rim_m = sum.rim_m.max(wind.frame(end.x, end.z)[0]);
+        }
+        for leaf in tree.skeleton.attachments.iter().filter(|at| at.kind == AttachmentKind::Leaf) {
+            let constants = constants(leaf.segment as usize);
+            let yielding = 1.0 + DRAG_SPEED_M_S * f64::from(constants.leaf_yield);
+            let area = f64::from(constants.leaf_drag) / half_air / yielding * wind.leaves_left;
+            let place = leaf.at_m.as_dvec3();
+            sum.add(area, wind.frame(place.x, place.z), place.y);
+        }
+        if sum.area < 1e-6 {
+            return None;
+        }
+        let (across_m, height_m) = (sum.across / sum.area, sum.height / sum.area);
+        // A disc has a quarter of its diameter as its deviation; a wake with √2 times that lacks c - c²/2 on its axis, as the disc does.
+        let spread = |squares: f64, mean: f64, least_m: f64| {
+            libm::hypot(libm::sqrt(2.0 * (squares / sum.area - mean * mean).max(0.0)), least_m)
+        };
+        let spread_m = [
+            spread(sum.across_squared, across_m, 0.5 * grid.cell_m),
+            spread(sum.height_squared, height_m, 0.5 * grid.layer_m),
+        ];
+        let foot = wind.frame(tree.foot_m.x.into(), tree.foot_m.z.into());
+        let tall_m = f64::from(tree.skeleton.height_m());
+        let gap_m = SQRT_2 * grid.cell_m + SWAY_HEIGHTS * tall_m;
+        Some(Self {
+            rim_m: foot[0] + sum.rim_m,
+            gap_m,
+            length_m: gap_m + WAKE_HEIGHTS * tall_m,
+            across_m: foot[1] + across_m,
+            height_m,
+            spread_m,
+            drag_m2: sum.area.min(MOST_DRAG * TAU * spread_m[0] * spread_m[1]),
+        })
+    }
+
+    /// Share of the wind that the wake lacks at a place, at every height of the table; `None` outside of the wake.
+    fn lack(&self, [along_m, across_m]: [f64; 2], layer_m: f64) -> Option<Node> {
+        let behind_m = along_m - self.rim_m;
+        if behind_m <= self.gap_m || behind_m >= self.length_m {
+            return None;
+        }
+        let [wide, tall] = self.spread_m.map(|spread_m| spread_m + SPREAD * behind_m);
+        let side = (across_m - self.across_m) / wide;
+        if side.abs() > MOST_SIDE {
+            return None;
+        }
+        let fade = ((1.0 - behind_m / self.length_m) / FADE_SHARE).min(1.0);
+        let axis = 1.0 - libm::sqrt((1.0 - self.drag_m2 / (TAU * wide * tall)).max(0.0));
+        let level = fade * axis * libm::exp(-0.5 * side * side);
+        let bell = |up_m: f64| libm::exp(-0.5 * (up_m / tall) * (up_m / tall));
+        Some(std::array::from_fn(|number| {
+            let above_m = number as f64 * layer_m;
+            (level * (bell(above_m - self.height_m) + bell(above_m + self.height_m))).min(1.0)
+        }))
+    }
+}
+
+impl ShelterGrid {
+    /// The grid of a scene: around its trees and the wakes that they may have, and around the hills' square. `None` if the scene has
+    /// neither.
+    pub fn of(scene: &Scene, forest: &Forest) -> Option<Self> {
+        let (mut least, mut most) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
+        let mut include = |x_m: f64, z_m: f64, reach_m: f64| {
+            for (axis, at_m) in [x_m, z_m].into_iter().enumerate() {
+                least[axis] = least[axis].min(at_m - reach_m);
+                most[axis] = most[axis].max(at_m + reach_m);
+            }
+        };
+        let mut top_m = 0.0f64;
+        for tree in forest.trees() {
+            let tall_m = f64::from(tree.skeleton.height_m());
+            let ends = tree.skeleton.segments.iter().map(|segment| segment.end_m.as_dvec3());
+            let rim_m = ends.map(|end| libm::hypot(end.x, end.z)).fold(0.0, f64::max);
+            let reach_m = rim_m + (WAKE_HEIGHTS + SWAY_HEIGHTS) * tall_m;
+            include(tree.foot_m.x.into(), tree.foot_m.z.into(), reach_m + LEAST_CELL_M);
+            top_m = top_m.max(TOP_HEIGHTS * tall_m);
+        }
+        if let Some(terrain) = scene.ground.terrain {
+            include(0.0, 0.0, 0.5 * f64::from(terrain.edge_m));
+            top_m = top_m.max(terrain.relief_m.into());
+        }
+        if top_m <= 0.0 {
+            return None;
+        }
+        let edges = [most[0] - least[0], most[1] - least[1]];
+        let cell_m = (edges[0].max(edges[1]) / MOST_CELLS).max(LEAST_CELL_M);
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "1 to MOST_CELLS")]
+        let cells = edges.map(|edge_m| (libm::ceil(edge_m / cell_m).clamp(1.0, MOST_CELLS)) as usize);
+        let layer_m = top_m / f64::from(SHELTER_LAYERS);
+        Some(Self { west_m: least[0], north_m: least[1], cell_m, cells, layer_m })
+    }
+
+    /// Number of rows of the table.
+    pub fn row_count(&self) -> usize {
+        (LEVELS - 1) * self.cells[0] * self.cells[1]
+    }
+
+    /// The grid as kernels read it, switched off, with the table from that row on.
+    pub fn block(&self, first_row: u32) -> ShelterBlock {
+        ShelterBlock {
+            is_on: 0,
+            first_row,
+            west_m: single(self.west_m),
+            north_m: single(self.north_m),
+            cells_per_m: single(1.0 / self.cell_m),
+            layers_per_m: single(1.0 / self.layer_m),
+            cells_x: single(self.cells[0] as f64),
+            cells_z: single(self.cells[1] as f64),
+        }
+    }
+
+    /// The table for a wind over ground of these heights: for every cell of every layer the lack of wind at its corners, along x and then along
+    /// z, below and above.
+    pub fn rows(
+        &self,
+        scene: &Scene,
+        forest: &Forest,
+        wind: &ShelterWind,
+        ground_height_m: impl Fn(f64, f64) -> f64 + Sync,
+    ) -> Vec<Uint4> {
+        let nodes = self.cells.map(|cells| cells + 1);
+        let wakes: Vec<_> =
+            forest.trees().iter().filter_map(|tree| Wake::of(tree, forest, self, wind)).collect();
+        let bands = (0..nodes[1]).step_by(BAND_ROWS).map(|first| first..(first + BAND_ROWS).min(nodes[1]));
+        let left = each(bands, |band| {
+            let mut left = vec![[1.0; LEVELS]; nodes[0] * band.len()];
+            wakes.iter().for_each(|wake| self.add_wake(&mut left, &band, wake, wind));
+            if let Some(terrain) = scene.ground.terrain {
+                self.add_lee(&mut left, &band, terrain.relief_m.into(), wind, &ground_height_m);
+            }
+            left
+        });
+        let left = left.concat();
+        // The wind is free at the edges and at the top, and so it is beyond them.
+        let lack = |x: usize, z: usize, level: usize| {
+            let is_edge = x == 0 || z == 0 || x == self.cells[0] || z == self.cells[1] || level + 1 == LEVELS;
+            let lack = if is_edge { 0.0 } else { 1.0 - left[z * nodes[0] + x][level] };
+            word(lack / f64::from(SHELTER_UNIT)).min(0xffff)
+        };
+        let mut rows = Vec::with_capacity(self.row_count());
+        for layer in 0..LEVELS - 1 {
+            let corner = |x, z| lack(x, z, layer) | lack(x, z, layer + 1) << 16;
+            for z in 0..self.cells[1] {
+                rows.extend((0..self.cells[0]).map(|x| {
+                    Uint4([corner(x, z), corner(x + 1, z), corner(x, z + 1), corner(x + 1, z + 1)])
+                }));
+            }
+        }
+        rows
+    }
+
+    /// Place of a node in m.
+    fn node_m(&self, x: usize, z: usize) -> [f64; 2] {
+        [self.west_m + x as f64 * self.cell_m, self.north_m + z as f64 * self.cell_m]
+    }
+
+    /// Takes the share of a tree's wake from what is left of the wind in a band of rows.
+    fn add_wake(&self, left: &mut [Node], band: &Range<usize>, wake: &Wake, wind: &ShelterWind) {
+        let begin_m = wake.rim_m + wake.gap_m;
+        let end_m = wake.rim_m + wake.length_m;
+        let half_m = MOST_SIDE * (wake.spread_m[0] + SPREAD * wake.length_m);
+        let sides = [wake.across_m - half_m, wake.across_m + half_m];
+        let corners = [begin_m, end_m]
+            .into_iter()
+            .flat_map(|along_m| sides.map(|across_m| wind.place(along_m, across_m)));
+        let (mut least, mut most) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
+        for corner in corners {
+            for axis in 0..2 {
+                least[axis] = least[axis].min(corner[axis]);
+                most[axis] = most[axis].max(corner[axis]);
+            }
+        }
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped to the grid")]
+        let nodes = |axis: usize, first_m: f64| {
+            let node =
+                |at_m: f64| ((at_m - first_m) / self.cell_m).clamp(0.0, self.cells[axis] as f64) as usize;
+            node(least[axis])..node(most[axis]) + 1
+        };
+        let rows = nodes(1, self.north_m);
+        for z in rows.start.max(band.start)..rows.end.min(band.end) {
+            for x in nodes(0, self.west_m) {
+                let [x_m, z_m] = self.node_m(x, z);
+                if let Some(lack) = wake.lack(wind.frame(x_m, z_m), self.layer_m) {
+                    let left = &mut left[(z - band.start) * (self.cells[0] + 1) + x];
+                    left.iter_mut().zip(lack).for_each(|(left, lack)| *left *= 1.0 - lack);
+                }
+            }
+        }
+    }
+
+    /// Takes the share of hills from what is left of the wind in their lee, in a band of rows.
+    fn add_lee(
+        &self,
+        left: &mut [Node],
+        band: &Range<usize>,
+        relief_m: f64,
+        wind: &ShelterWind,
+        ground_height_m: impl Fn(f64, f64) -> f64,
+    ) {
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most MOST_LEE_STEPS")]
+        let steps = libm::ceil(relief_m / LEE_SLOPE / self.cell_m).min(MOST_LEE_STEPS) as usize;
+        let places = band.clone().flat_map(|z| (0..=self.cells[0]).map(move |x| (x, z)));
+        for ((x, z), node) in places.zip(left) {
+            let [x_m, z_m] = self.node_m(x, z);
+            let line_m = (1..=steps).fold(f64::NEG_INFINITY, |line_m, step| {
+                let away_m = step as f64 * self.cell_m;
+                let upwind =
+                    ground_height_m(x_m - away_m * wind.direction_x, z_m - away_m * wind.direction_z);
+                line_m.max(upwind - away_m * LEE_SLOPE)
+            });
+            let depth_m = line_m - ground_height_m(x_m, z_m);
+            for (level, left) in node.iter_mut().enumerate() {
+                let below = (depth_m - level as f64 * self.layer_m) / LEE_DEPTH_M;
+                *left *= 1.0 - LEE_LACK * below.clamp(0.0, 1.0);
+            }
+        }
+    }
+}
