@@ -12,7 +12,8 @@ use windfall_core::{Clock, CompiledScene, Contract, SimError, Simulator, Simulat
 
 use crate::kernels::CHUNK;
 use crate::kernels::measure::measure;
-use crate::kernels::step_leaves::step_leaves;
+use crate::kernels::stack_litter::{LitterChanges, stack_litter};
+use crate::kernels::step_leaves::{LeafSteps, step_leaves};
 use crate::kernels::step_trees::{BatchRun, step_trees};
 use crate::quiet::QuietUnits;
 use crate::simd::Simd;
@@ -126,12 +127,14 @@ impl Simulator for CpuSimulator {
     }
 
     fn step(&mut self, count: u32) -> Result<(), SimError> {
-        let World { compiled, clock, leaves, branches } = &mut self.world;
+        let World { compiled, clock, leaves, branches, bed } = &mut self.world;
         let (simd, blocks, scratches, quiet) = (self.simd, &self.blocks, &self.scratches, &self.quiet);
+        let has_litter = !bed.is_empty();
+        let changes = LitterChanges::default();
         let forest = Arc::clone(compiled.forest());
         let is_small = leaves.len() <= CHUNK && forest.len() <= CHUNK / 16;
         let last = clock.step().saturating_add(count).saturating_sub(1);
-        if forest.is_empty() && quiet.are_all_quiet(last) {
+        if forest.is_empty() && !has_litter && quiet.are_all_quiet(last) {
             (0..count).for_each(|_| compiled.advance(clock));
             return Ok(());
         }
@@ -146,8 +149,9 @@ impl Simulator for CpuSimulator {
                 *block = compiled.step_block(clock);
                 compiled.advance(clock);
             }
-            let steps = step_blocks.each_ref().map(|block| compiled.context(block));
+            let steps = step_blocks.each_ref().map(|block| compiled.context(block).over(&bed.words));
             let steps = &steps[..count];
+            let of = |steps| LeafSteps { steps, changes: &changes, simd };
             if !forest.is_empty() {
                 for cx in steps {
                     step_trees(
@@ -164,16 +168,21 @@ impl Simulator for CpuSimulator {
                         simd,
                     );
                     let on_trees = leaves.as_mut().split_at(carried).0;
-                    step_leaves(std::slice::from_ref(cx), on_trees, quiet_trees, simd);
+                    step_leaves(&of(std::slice::from_ref(cx)), on_trees, quiet_trees, 0);
                 }
             }
             let free = leaves.as_mut().split_at(carried).1;
-            step_leaves(steps, free, quiet_free, simd);
+            step_leaves(&of(steps), free, quiet_free, carried);
+            if has_litter {
+                let bare = compiled.context(&step_blocks[0]);
+                stack_litter(&bare, &mut leaves.as_mut(), bed, quiet, &changes);
+            }
         };
         let mut steps = || {
             let mut left = count as usize;
             while left > 0 {
-                let portion = left.min(MOST_FUSED);
+                // Leaves see what others have left in the litter a step before.
+                let portion = left.min(if has_litter { 1 } else { MOST_FUSED });
                 run(portion);
                 left -= portion;
             }

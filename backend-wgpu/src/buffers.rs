@@ -34,19 +34,26 @@ pub(crate) fn uniform<T: WgslStruct>(gpu: &Gpu, label: &str, block: &T) -> wgpu:
     buffer
 }
 
-/// A storage buffer that holds these rows, and the rows, to know them again.
+/// A storage buffer that holds these rows and has room for a bed of litter behind them, and the rows, to know them again.
 ///
 /// # Errors
 /// [`SimError::Capacity`] if they do not fit in one binding.
-pub(crate) fn table(gpu: &Gpu, rows: &Arc<[Uint4]>) -> Result<(Arc<[Uint4]>, wgpu::Buffer), SimError> {
-    let needed = size_of_val(&**rows) as u64;
+pub(crate) fn table(
+    gpu: &Gpu,
+    rows: &Arc<[Uint4]>,
+    bed_bytes: u64,
+) -> Result<(Arc<[Uint4]>, wgpu::Buffer), SimError> {
+    let needed = size_of_val(&**rows) as u64 + bed_bytes;
     let limits = gpu.device().limits();
     let allowed = limits.max_storage_buffer_binding_size.min(limits.max_buffer_size);
     if needed > allowed {
         let (store, device) = ("rows of tables", gpu.info().name.clone());
         return Err(SimError::Capacity { store, rows: rows.len(), needed, allowed, device });
     }
-    Ok((Arc::clone(rows), filled(gpu, "tables", bytemuck::cast_slice(rows))))
+    let usage = wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC;
+    let tables = buffer(gpu, "tables", needed, usage);
+    gpu.queue().write_buffer(&tables, 0, bytemuck::cast_slice(rows));
+    Ok((Arc::clone(rows), tables))
 }
 
 /// Resources bound one after another.

@@ -13,6 +13,9 @@ use crate::readback::{Readback, Run, read_buffer};
 /// Columns that share a buffer begin at a multiple of this many rows, so that each can be bound on any device.
 const COLUMN_STEP: u64 = 16;
 
+/// Place of the bed of litter among the stores of a world.
+const BED: usize = 2;
+
 /// Borrowed columns of a world, to be drawn on the device they were made on.
 #[derive(Clone, Debug)]
 pub struct WorldColumns<'a> {
@@ -113,6 +116,13 @@ impl StoreBuffers {
             }));
         }
         Ok(Self { size, columns })
+    }
+
+    /// Columns of single words within a buffer of another's.
+    fn within(size: StoreSize, buffer: &wgpu::Buffer, offset: u64) -> Self {
+        let column =
+            ColumnBuffer { buffer: buffer.clone(), offset, stride: size.rows as u64, record_bytes: 4 };
+        Self { size, columns: vec![column] }
     }
 
     /// Replaces all columns.
@@ -246,6 +256,19 @@ impl WorldBuffers {
         let column = |column: u32| self.branches().window(column as usize, 0, count);
         let branches = || BranchColumns { base: column(BRANCH_BASE), pose: column(BRANCH_POSE), count };
         WorldColumns { leaves: LeafColumns::of(self.leaves()), branches: (count > 0).then(branches) }
+    }
+
+    /// Keeps the bed of litter within a buffer from an offset on, where kernels find it.
+    pub(crate) fn keep_bed_in(&mut self, buffer: &wgpu::Buffer, offset: u64) {
+        let size = self.stores[BED].size;
+        if size.rows > 0 {
+            self.stores[BED] = StoreBuffers::within(size, buffer, offset);
+        }
+    }
+
+    /// Bytes of the bed of litter.
+    pub(crate) fn bed_bytes(&self) -> u64 {
+        self.stores[BED].size.rows as u64 * 4
     }
 
     /// The leaves, the first store of a world.

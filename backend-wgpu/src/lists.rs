@@ -21,7 +21,7 @@ const ACTIVE_LIST: &str = "
     sampling_groups: array<count, 3>,
     // Lengths of the lists.
     counts: array<count, TURNS>,
-    // The lists, and behind them a mark for every leaf of trees: 1 once it is listed.
+    // The lists, and behind them a mark for every leaf of trees, or of all where there is litter: 1 once it is listed.
     leaves: array<u32>,
 ";
 
@@ -58,11 +58,11 @@ pub(crate) fn empty_events() -> [u32; 8] {
     [0, 1, 1, 0, 1, 1, 0, 0]
 }
 
-/// Bytes of the active lists of so many leaves, of which trees have some. The lists take whole workgroups of units, so that all turns
+/// Bytes of the active lists of so many leaves, of which twigs or litter may let the first few go. The lists take whole workgroups of units, so that all turns
 /// have as many units.
-pub(crate) fn active_bytes(leaves: u32, tree_leaves: u32) -> u64 {
+pub(crate) fn active_bytes(leaves: u32, kept_leaves: u32) -> u64 {
     const { assert!(UNITS_PER_GROUP.is_multiple_of(TURNS), "units of all turns in a workgroup") };
-    ACTIVE_HEAD_BYTES + (u64::from(leaves.next_multiple_of(WORKGROUP_SIZE)) + u64::from(tree_leaves)) * 4
+    ACTIVE_HEAD_BYTES + (u64::from(leaves.next_multiple_of(WORKGROUP_SIZE)) + u64::from(kept_leaves)) * 4
 }
 
 /// Head of empty active lists. A workgroup is there for empty lists, too, to clear the event list of the next step.

@@ -20,6 +20,8 @@ pub(crate) enum GroupLayout {
     LeavesInMotion,
     /// The same without airs, for leaves on twigs.
     LeavesOnTwigs,
+    /// All leaf columns, and the tables to be written, behind which the litter is.
+    LeavesAndLitter,
     /// One storage buffer that kernels only read: the active list or the event lists of a page.
     ReadBuffer,
     /// One storage buffer that they write: the same while they are filled, or the counters.
@@ -33,10 +35,11 @@ pub(crate) enum GroupLayout {
 }
 
 impl GroupLayout {
-    const ALL: [Self; 8] = [
+    const ALL: [Self; 9] = [
         Self::Leaves,
         Self::LeavesInMotion,
         Self::LeavesOnTwigs,
+        Self::LeavesAndLitter,
         Self::ReadBuffer,
         Self::WrittenBuffer,
         Self::Blocks,
@@ -54,6 +57,7 @@ impl GroupLayout {
             Self::Blocks => &ALL[..3],
             Self::LeavesInMotion => &ALL[..8],
             Self::LeavesOnTwigs => &ALL[..7],
+            Self::LeavesAndLitter => &[Block, BlockOfMany, Write, Write, Write, Write, Write, Write, Write],
             Self::ReadBuffer => &[Read],
             Self::WrittenBuffer => &[Write],
             // The bindings of shaders/tree/bindings.wgsl.
@@ -73,6 +77,8 @@ impl KernelId {
             }
             Self::Carry => &[GroupLayout::LeavesOnTwigs, GroupLayout::WrittenBuffer, GroupLayout::Carriers],
             Self::ListActive | Self::Measure => &[GroupLayout::LeavesInMotion, GroupLayout::WrittenBuffer],
+            Self::WakeLying => &[GroupLayout::LeavesInMotion, GroupLayout::WrittenBuffer],
+            Self::StackLitter => &[GroupLayout::LeavesAndLitter, GroupLayout::ReadBuffer],
             Self::SampleAir => &[GroupLayout::LeavesInMotion, GroupLayout::ReadBuffer],
             Self::Advance => {
                 &[GroupLayout::LeavesInMotion, GroupLayout::ReadBuffer, GroupLayout::WrittenBuffer]
@@ -87,6 +93,9 @@ impl KernelId {
             vec![Self::ListActive, Self::SampleAir, Self::Advance, Self::ResolveEvents, Self::Measure];
         if compiled.block().has_bodies() {
             kernels.push(Self::Fly);
+        }
+        if compiled.block().has_living_litter() {
+            kernels.extend([Self::WakeLying, Self::StackLitter]);
         }
         if !compiled.forest().is_empty() {
             kernels.extend([Self::Carry, Self::SwayCoast]);

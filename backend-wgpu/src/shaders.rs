@@ -22,6 +22,10 @@ pub enum KernelId {
     Fly,
     /// Moves the others.
     ResolveEvents,
+    /// Samples the wind at leaves that lie in the litter.
+    WakeLying,
+    /// Makes the changes of the litter that leaves wait for.
+    StackLitter,
     /// Counts leaves by state and motion.
     Measure,
     /// Inward pass of the articulated-body algorithm over trees, level by level: responses of joints.
@@ -40,12 +44,14 @@ pub enum KernelId {
 
 impl KernelId {
     /// All kernels.
-    pub const ALL: [Self; 12] = [
+    pub const ALL: [Self; 14] = [
         Self::ListActive,
         Self::SampleAir,
         Self::Advance,
         Self::Fly,
         Self::ResolveEvents,
+        Self::WakeLying,
+        Self::StackLitter,
         Self::Measure,
         Self::SwayInward,
         Self::SwayOutward,
@@ -63,6 +69,8 @@ impl KernelId {
             Self::Advance => "advance",
             Self::Fly => "fly",
             Self::ResolveEvents => "resolve_events",
+            Self::WakeLying => "wake_lying",
+            Self::StackLitter => "stack_litter",
             Self::Measure => "measure",
             Self::SwayInward => "sway_inward",
             Self::SwayOutward => "sway_outward",
@@ -103,6 +111,7 @@ impl Default for Shaders {
         let mut modules = modules![
             "bindings",
             "flight/body",
+            "flight/contact",
             "flight/rates",
             "flight/regime",
             "flight/runge_kutta",
@@ -118,6 +127,8 @@ impl Default for Shaders {
             "kernels/carry",
             "kernels/fly",
             "kernels/measure",
+            "kernels/stack_litter",
+            "kernels/wake_lying",
             "kernels/sway_coast",
             "kernels/sway_inward",
             "kernels/sway_follow",
@@ -125,18 +136,23 @@ impl Default for Shaders {
             "kernels/sway_outward",
             "leaf/advance",
             "leaf/air",
+            "leaf/at_rest",
             "leaf/carry",
             "leaf/fall",
             "leaf/fly",
             "leaf/join",
             "leaf/launch",
+            "leaf/lie",
             "leaf/own",
             "leaf/carrier_bindings",
             "leaf/petiole",
             "leaf/record",
             "leaf/release",
             "leaf/settle",
+            "leaf/stack",
+            "leaf/wake",
             "lists/active",
+            "lists/append_active",
             "lists/events",
             "lists/fill_active",
             "lists/fill_events",
@@ -144,6 +160,7 @@ impl Default for Shaders {
             "motion/feature",
             "motion/lookup",
             "terrain/ground",
+            "terrain/litter",
             "tree/bindings",
             "tree/sway/body",
             "tree/sway/coast",

@@ -78,7 +78,7 @@ impl WgpuSimulator {
         let compiled = world.compiled.clone();
         let mut pipelines = Pipelines::new(gpu, shaders, contract)?;
         pipelines.prepare(gpu, KernelId::needed(&compiled))?;
-        let buffers = WorldBuffers::new(gpu, world)?;
+        let mut buffers = WorldBuffers::new(gpu, world)?;
         let limits = gpu.device().limits();
         let binding = limits.max_storage_buffer_binding_size / LARGEST_RECORD;
         let largest = u32::try_from(binding).unwrap_or(u32::MAX).min(MAX_GROUPS * WORKGROUP_SIZE);
@@ -87,7 +87,8 @@ impl WgpuSimulator {
             .expect("a step block is small")
             .next_multiple_of(limits.min_uniform_buffer_offset_alignment);
         let uniform = |label, size| buffer(gpu, label, size, wgpu::BufferUsages::UNIFORM);
-        let tables = table(gpu, compiled.tables())?;
+        let tables = table(gpu, compiled.tables(), buffers.bed_bytes())?;
+        buffers.keep_bed_in(&tables.1, bed_offset(&compiled));
         let counters = buffer(
             gpu,
             "counters",
@@ -154,18 +155,34 @@ impl WgpuSimulator {
         })
     }
 
+    /// Makes tables of another length, and moves the bed of litter behind them.
+    fn move_tables(&mut self, former: &CompiledScene) -> Result<(), SimError> {
+        let bytes = self.buffers.bed_bytes();
+        let tables = table(&self.gpu, self.compiled.tables(), bytes)?;
+        let to = bed_offset(&self.compiled);
+        if bytes > 0 {
+            let mut encoder =
+                self.gpu.device().create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+            encoder.copy_buffer_to_buffer(&self.tables.1, bed_offset(former), &tables.1, to, bytes);
+            self.gpu.queue().submit([encoder.finish()]);
+        }
+        self.buffers.keep_bed_in(&tables.1, to);
+        self.tables = tables;
+        Ok(())
+    }
+
     /// Replaces the scene by one of the same sizes.
     fn take_over(&mut self, compiled: &CompiledScene) -> Result<(), SimError> {
         self.pipelines.prepare(&self.gpu, KernelId::needed(compiled))?;
         self.gpu.queue().write_buffer(&self.scene_buffer, 0, bytemuck::bytes_of(compiled.block()));
         let mut moved = false;
         let is_replanted = !Arc::ptr_eq(self.compiled.forest(), compiled.forest());
-        self.compiled = compiled.clone();
+        let former = std::mem::replace(&mut self.compiled, compiled.clone());
         self.listed_steps = 0;
         if !Arc::ptr_eq(&self.tables.0, compiled.tables()) {
             moved = self.tables.0.len() != compiled.tables().len();
             if moved {
-                self.tables = table(&self.gpu, compiled.tables())?;
+                self.move_tables(&former)?;
             } else {
                 self.tables.0 = Arc::clone(compiled.tables());
                 self.gpu.queue().write_buffer(&self.tables.1, 0, bytemuck::cast_slice(&self.tables.0));
@@ -182,6 +199,11 @@ impl WgpuSimulator {
         }
         Ok(())
     }
+}
+
+/// Bytes of the tables of a scene, behind which its bed of litter lies.
+fn bed_offset(compiled: &CompiledScene) -> u64 {
+    u64::from(compiled.block().litter.first_row) * size_of::<Uint4>() as u64
 }
 
 impl Simulator for WgpuSimulator {

@@ -116,6 +116,38 @@ crate::shared_struct! {
 }
 
 crate::shared_struct! {
+    /// Litter, compiled.
+    pub struct LitterBlock, padding 12 {
+        /// First row of the heights, behind all tables; four heights to a row.
+        pub first_row: u32,
+        /// Cells along x; 0 without litter.
+        pub columns: u32,
+        /// Cells along z.
+        pub lines: u32,
+        /// 1 if leaves raise litter and leave it, else 0.
+        pub is_living: u32,
+        /// Number of the first column among cells from the origin on, two's complement.
+        pub first_column: u32,
+        /// The same of lines.
+        pub first_line: u32,
+        /// Friction coefficient of leaf on leaf.
+        pub friction: f32,
+        /// Friction coefficient of leaf on ground.
+        pub ground_friction: f32,
+        /// Restitution of leaves that strike the bare ground.
+        pub restitution: f32,
+        /// Suction of wet leaves over the density of the air in m²/s².
+        pub adhesion_m2_s2: f32,
+        /// Least angle by which the edges of a leaf stand up in 2^-16 turns.
+        pub least_raise: u32,
+        /// Largest angle beyond that.
+        pub raise_spread: u32,
+        /// Square of the speed in m²/s² below which a body that touches the ground comes to rest.
+        pub rest_m2_s2: f32,
+    }
+}
+
+crate::shared_struct! {
     /// Responses of the species' drift and spin to a step, four species to a vector (see
     /// [`response_of`](crate::device::leaf::fall::response_of)).
     pub struct ResponseBlock {
@@ -202,14 +234,16 @@ crate::shared_struct! {
         pub shelter: ShelterBlock,
         /// The wind.
         pub wind: WindBlock,
+        /// The litter.
+        pub litter: LitterBlock,
         /// Responses of the species.
         pub responses: ResponseBlock,
         /// The species.
         pub species: [SpeciesBlock; MAX_SPECIES],
         /// The species as bodies.
         pub bodies: [BodyBlock; MAX_SPECIES],
-        /// The sources, and behind them the trees as one.
-        pub sources: [SourceBlock; MAX_SOURCES + 1],
+        /// The sources, and behind them the trees and the leaves that lie on the ground from the start as one each.
+        pub sources: [SourceBlock; MAX_SOURCES + 2],
     }
 }
 
@@ -218,6 +252,18 @@ impl SceneBlock {
     #[inline(always)]
     pub fn has_terrain(&self) -> bool {
         self.has_terrain != 0
+    }
+
+    /// Returns true if leaves may lie higher than on level ground.
+    #[inline(always)]
+    pub fn has_relief(&self) -> bool {
+        self.has_terrain() || self.litter.columns != 0
+    }
+
+    /// Returns true if leaves raise litter and leave it.
+    #[inline(always)]
+    pub fn has_living_litter(&self) -> bool {
+        self.litter.is_living != 0
     }
 
     /// Returns true if leaves of some species fly as bodies.
@@ -299,6 +345,8 @@ crate::shared_constants! {
     pub const LENGTH_UNIT: f32 = 1.0 / 1024.0;
     /// Number of the trees as a source.
     pub const SOURCE_TREES: u32 = 16;
+    /// Number of the litter as a source.
+    pub const SOURCE_LITTER: u32 = 17;
     /// A step that never comes.
     pub const NEVER: u32 = 0xffff_ffff;
 }

@@ -17,4 +17,19 @@ pub struct Context<'a> {
     pub motion: MotionRows<'a>,
     /// All tables (see [`CompiledScene::tables`](crate::CompiledScene::tables)).
     pub tables: &'a [Uint4],
+    /// Heights of litter, node by node, and what else a [`Bed`](crate::litter::Bed) holds; empty without litter.
+    pub litter: &'a [u32],
+}
+
+impl<'a> Context<'a> {
+    /// The same view over litter of these heights.
+    pub fn over(self, litter: &'a [u32]) -> Self {
+        Self { litter, ..self }
+    }
+
+    /// Returns true if leaves lie on one another.
+    #[inline(always)]
+    pub fn has_litter(&self) -> bool {
+        !self.litter.is_empty()
+    }
 }

@@ -40,6 +40,7 @@
 //! - [`store`]: the columns that a state consists of.
 //! - [`leaf`]: the leaf store, and leaves decoded.
 //! - [`device`]: device functions, which have twins in WGSL: the life of a leaf step by step, the sway of trees.
+//! - [`litter`]: leaves that lie on one another.
 //! - [`motion`]: six primitive motions, their tables and the chain that joins them.
 //! - [`flight`]: leaves as rigid bodies under air forces.
 //! - [`wind`]: mean flow, gusts, turbulence, vortices.
@@ -60,6 +61,7 @@ pub mod error;
 pub mod flight;
 pub mod layout;
 pub mod leaf;
+pub mod litter;
 pub mod motion;
 pub mod scene;
 mod sim;

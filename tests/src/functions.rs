@@ -6,6 +6,7 @@ mod bodies;
 mod carry;
 mod flight;
 mod leaf;
+mod litter;
 mod schemes;
 mod tree;
 
@@ -103,4 +104,5 @@ pub fn all() -> impl Iterator<Item = &'static Function> {
         .chain(carry::CARRY_FUNCTIONS)
         .chain(schemes::SCHEME_FUNCTIONS)
         .chain(flight::FLIGHT_FUNCTIONS)
+        .chain(litter::LITTER_FUNCTIONS)
 }

@@ -87,10 +87,12 @@ impl<'a> FunctionRunner<'a> {
         let context_layout = layout(&entries);
         let cases_layout = layout(&[entry(0, storage(true)), entry(1, storage(false))]);
         let step = world.compiled.step_block(&world.clock);
+        let tables: &[u8] = bytemuck::cast_slice(world.compiled.tables());
+        let bed: &[u8] = bytemuck::cast_slice(&world.bed.words);
         let buffers = [
             upload(gpu, bytemuck::bytes_of(world.compiled.block()), wgpu::BufferUsages::UNIFORM),
             upload(gpu, bytemuck::bytes_of(&step), wgpu::BufferUsages::UNIFORM),
-            upload(gpu, bytemuck::cast_slice(world.compiled.tables()), wgpu::BufferUsages::STORAGE),
+            upload(gpu, &[tables, bed].concat(), wgpu::BufferUsages::STORAGE),
         ];
         let context_group = bind(gpu, &context_layout, &buffers);
         let module = gpu.compute_module(&kernel_source(shaders, function), "evaluate", contract)?;

@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Random inputs and random worlds.
 
-use glam::Vec3;
+use glam::{Vec2, Vec3};
 use proptest::prelude::*;
 use windfall_core::motion::Primitive;
 use windfall_core::scene::{
-    Aerodynamics, FlightModel, Foliage, Gusts, Hold, MeanSpeed, Planform, Profile, Release, Scene, Share,
-    Source, SourceShape, Species, Terrain, Tree, TreeKind, Turbulence, Vortex, Water, WindParameters,
+    Aerodynamics, FlightModel, Foliage, Gusts, Hold, Litter, MeanSpeed, Planform, Profile, Release, Scene,
+    Share, Source, SourceShape, Species, Terrain, Tree, TreeKind, Turbulence, Vortex, Water, WindParameters,
 };
 
 use crate::functions::Input;
@@ -170,6 +170,24 @@ pub fn hilly_scene(mut scene: Scene) -> Scene {
     let hills = Terrain { seed: 7, edge_m: 64.0, relief_m: 9.0, levels: 6, noise: 0.6, ..Terrain::default() };
     scene.ground.terrain = Some(hills);
     scene.ground.water = Some(Water { height_m: 1.5 });
+    scene
+}
+
+/// A bed of leaves of both flight models under a gusty wind, on which others fall that are released again: leaves slide, tumble, hop
+/// and come to rest, on one another and at the foot of a heap.
+pub fn littered_scene(seed: u64, leaves: u32, speed_m_s: f32, dt_s: f32) -> Scene {
+    let mut scene = varied_scene(seed, leaves, speed_m_s, dt_s);
+    scene.species[1].flight = FlightModel::Aerodynamic(Aerodynamics::default());
+    scene.ground.surface_roughness_m = 0.001;
+    scene.ground.litter =
+        Some(Litter { size_m: Vec2::new(14.0, 12.0), leaf_area_index: 0.08, ..Litter::default() });
+    scene.sources.push(Source {
+        shape: SourceShape::Disc { center_m: Vec3::new(2.0, 0.6, 1.0), radius_m: 0.1 },
+        count: (leaves / 3).max(1),
+        release: Release::Rate { per_s: f64_as_f32(f64::from(leaves) / 3.0), from_s: -1.0 },
+        recycle_after_s: Some(9.0),
+        species: Vec::new(),
+    });
     scene
 }
 

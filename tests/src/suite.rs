@@ -7,7 +7,9 @@ use windfall_core::{Contract, SimError, Simulator, World};
 use windfall_cpu::{CpuOptions, CpuSimulator};
 
 use crate::compare::{LONG_POSITION_M, LONG_QUATERNION, difference};
-use crate::strategies::{flying_scene, hilly_scene, smooth_scene, varied_scene, wooded_scene};
+use crate::strategies::{
+    flying_scene, hilly_scene, littered_scene, smooth_scene, varied_scene, wooded_scene,
+};
 
 /// Steps of a check: in several submissions of different lengths.
 const BATCHES: [u32; 4] = [1, 2, 60, 137];
@@ -45,6 +47,7 @@ pub fn worlds(leaves: u32) -> Vec<Case> {
         case("turbulence and every motion", varied_scene(32, leaves, 3.0, dt_s), false),
         case("bodies and trees", flying_scene(33, leaves, 3.0, dt_s), false),
         case("hills", hilly_scene(varied_scene(34, leaves, 3.0, dt_s)), false),
+        case("litter", littered_scene(36, leaves, 5.0, dt_s), false),
         case("trees", wooded_scene(35, leaves, 6.0, dt_s), false),
     ]
 }

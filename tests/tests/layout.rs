@@ -305,9 +305,10 @@ fn wgsl_files(folder: &Path) -> Vec<PathBuf> {
 /// Files without a twin: on the CPU what they declare are arguments.
 const BINDINGS_ONLY: [&str; 3] = ["bindings.wgsl", "leaf/carrier_bindings.wgsl", "tree/bindings.wgsl"];
 /// Files of lists, which only a GPU has: the CPU notes which units of slots are idle as it steps them.
-const GPU_ONLY: [&str; 6] = [
+const GPU_ONLY: [&str; 7] = [
     "kernels/list_active.wgsl",
     "lists/active.wgsl",
+    "lists/append_active.wgsl",
     "lists/events.wgsl",
     "lists/fill_active.wgsl",
     "lists/fill_events.wgsl",

@@ -4,8 +4,10 @@
 
 use std::cell::RefCell;
 
+use glam::Vec2;
 use proptest::prelude::*;
 use proptest::test_runner::{Config, TestRunner};
+use windfall_core::scene::Litter;
 use windfall_core::{Contract, World};
 use windfall_tests::adapter;
 use windfall_tests::functions::{self, Function};
@@ -18,8 +20,14 @@ const CASES: usize = 1234;
 /// Dispatches for each function.
 const ROUNDS: u32 = 6;
 
-fn world() -> World {
-    let scene = hilly_scene(flying_scene(5, 300, 6.0, 1.0 / 60.0));
+/// A bed of several layers.
+fn bed() -> Litter {
+    Litter { size_m: Vec2::splat(12.0), leaf_area_index: 3.0, adhesion_n_m2: 0.5, ..Litter::default() }
+}
+
+fn world(litter: Option<Litter>) -> World {
+    let mut scene = hilly_scene(flying_scene(5, 300, 6.0, 1.0 / 60.0));
+    scene.ground.litter = litter;
     let mut world = World::build(&scene).expect("the flying scene is valid on hills");
     for _ in 0..100 {
         world.compiled.advance(&mut world.clock);
@@ -72,7 +80,7 @@ fn check(
     let runner = FunctionRunner::new(gpu, contract, shaders, function, world)
         .map_err(|error| format!("{}: {error}", function.name))?;
     let step = world.compiled.step_block(&world.clock);
-    let cx = world.compiled.context(&step);
+    let cx = world.context(&step);
     let failure = RefCell::new(None);
     let mut proptest = TestRunner::new(Config {
         cases: ROUNDS,
@@ -99,12 +107,13 @@ fn check(
 
 #[test]
 fn functions_agree_on_every_adapter() {
-    let world = world();
     let mut failures = Vec::new();
-    for (gpu, contract) in adapter::contracts() {
-        for function in functions::all() {
-            if let Err(message) = check(&gpu, contract, &Shaders::default(), function, &world) {
-                failures.push(format!("{} {contract}: {message}", gpu.info().name));
+    for world in [world(None), world(Some(bed()))] {
+        for (gpu, contract) in adapter::contracts() {
+            for function in functions::all() {
+                if let Err(message) = check(&gpu, contract, &Shaders::default(), function, &world) {
+                    failures.push(format!("{} {contract}: {message}", gpu.info().name));
+                }
             }
         }
     }
@@ -155,20 +164,32 @@ fn a_changed_twin_is_noticed() {
         ("flight/runge_kutta", "flight_sum(middle, middle)", "middle", "flight_step"),
         ("flight/regime", "2u < octants_apart", "3u < octants_apart", "regime_after"),
         ("leaf/fly", "substeps.share * scene", "substeps.count * scene", "flight_advance"),
+        ("terrain/litter", "column - 1u <", "column <", "litter_shares"),
+        ("terrain/litter", "right * near", "left * near", "litter_shares"),
+        ("terrain/litter", "corners.w - corners.z", "corners.w - corners.y", "litter_height"),
+        ("terrain/litter", "2.0 - above_ground", "2.1 - above_ground", "litter_height"),
+        ("terrain/ground", "direction.y * reach", "direction.x * reach", "ground_gradient"),
+        ("flight/contact", "(along * along) * normal.z", "(along * across) * normal.z", "support"),
+        ("flight/contact", "drag * -1.0", "drag * -0.9", "flight_contact"),
+        ("flight/contact", "above * up - ", "above - ", "flight_contact"),
+        ("flight/rates", "munk * flow.z, lever.y + twist", "munk * flow.x, lever.y + twist", "still_load"),
+        ("leaf/at_rest", "lift + lever", "lift - lever", "wake_square"),
+        ("leaf/lie", "raise_spread + 1u", "raise_spread + 9u", "lying_tilt"),
+        ("leaf/fly", "touch_steps(bits) >=", "touch_steps(bits) >", "flight_ends"),
         ("leaf/launch", "share * inverse_sqrt", "rest * inverse_sqrt", "hold_pose"),
         ("leaf/carry", "SHED_SPEEDS - 1u", "SHED_SPEEDS - 9u", "shed_chance"),
         ("leaf/carry", "still, vec3<f32>(0.0", "still, vec3<f32>(0.1", "leaf_twig_pose"),
         ("leaf/carry", "0u - (step_block", "1u - (step_block", "leaf_hangs"),
         ("leaf/carry", "- velocity;\n    let squared", "+ velocity;\n    let squared", "leaf_sample_air"),
     ];
-    let world = world();
+    let worlds = [world(None), world(Some(bed()))];
     for (gpu, contract) in adapter::contracts() {
         for (module, old, new, name) in edits {
             let shaders = Shaders::default().edited(module, old, new).expect("the edited text is there");
             let function =
                 functions::all().find(|function| function.name == name).expect("a function of the table");
-            let result = check(&gpu, contract, &shaders, function, &world);
-            let noticed = result.expect_err(new);
+            let mut results = worlds.iter().map(|world| check(&gpu, contract, &shaders, function, world));
+            let noticed = results.find_map(Result::err).unwrap_or_else(|| panic!("{module}: {new}"));
             assert!(noticed.contains(": input "), "{name} differs on {}: {noticed}", gpu.info().name);
         }
     }

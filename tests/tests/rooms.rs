@@ -70,6 +70,7 @@ const CORE: Order = Order {
         "device/leaf",
         "device/flight",
         "device",
+        "litter",
         "compile",
         "sim",
         "lib",

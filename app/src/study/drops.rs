@@ -29,7 +29,7 @@ pub(crate) struct DropOptions {
     pub tracks: u32,
 }
 
-/// The scene in which each leaf of the sources falls once: none before time zero, none again. Trees and view, which no
+/// The scene in which each leaf of the sources falls once: none before time zero, none again. Trees, litter and view, which no
 /// drop depends on, are left out.
 ///
 /// # Errors
@@ -47,6 +47,7 @@ pub(crate) fn drop_scene(scene: &Scene, file: &str, options: &DropOptions) -> an
         view: View::default(),
         ..scene.clone()
     };
+    bare.ground.litter = None;
     let sources = bare.sources.len();
     if sources == 0 {
         bail!("{file}: sources is empty; allowed: at least one, for leaves of trees are not dropped");

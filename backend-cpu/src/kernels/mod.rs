@@ -8,6 +8,7 @@ mod fly;
 pub(crate) mod measure;
 mod resolve_events;
 mod sample_air;
+pub(crate) mod stack_litter;
 pub(crate) mod step_leaves;
 pub(crate) mod step_trees;
 pub(crate) mod sway_coast;
@@ -15,6 +16,7 @@ pub(crate) mod sway_follow;
 pub(crate) mod sway_gather;
 pub(crate) mod sway_inward;
 pub(crate) mod sway_outward;
+mod wake_lying;
 
 /// Leaves per chunk: a chunk's hot columns (72 bytes a leaf) fit in a core's level-two cache.
 pub(crate) const CHUNK: usize = 4096;

@@ -7,6 +7,7 @@
 use windfall_core::Context;
 use windfall_core::arith::pack::BLOCK;
 use windfall_core::device::leaf::advance::leaf_advance;
+use windfall_core::device::leaf::stack::leaf_changes_litter;
 use windfall_core::leaf::LeavesMut;
 
 use super::CHUNK;
@@ -33,14 +34,22 @@ impl EventList {
     }
 }
 
-/// Steps the leaves of a chunk that have an event, that land, or that have just landed.
-pub(crate) fn resolve_events(cx: &Context<'_>, leaves: &mut LeavesMut<'_>, events: &EventList) {
+/// Steps the leaves of a chunk that have an event, that land, or that have just landed. Lists those that wait for the litter to change.
+pub(crate) fn resolve_events(
+    cx: &Context<'_>,
+    leaves: &mut LeavesMut<'_>,
+    events: &EventList,
+    changing: &mut Vec<usize>,
+) {
     let blocks_of = |unit: usize| unit * (UNIT / BLOCK)..(unit + 1) * (UNIT / BLOCK);
     for block in events.stepped().flat_map(blocks_of) {
         let mut left = events.blocks[block];
         while left != 0 {
             let slot = block * BLOCK + left.trailing_zeros() as usize;
             leaf_advance(cx, &mut leaves.row_mut(slot));
+            if leaf_changes_litter(leaves.place[slot].bits) {
+                changing.push(slot);
+            }
             left &= left - 1;
         }
     }

@@ -7,9 +7,10 @@ use windfall_core::Context;
 use windfall_core::arith::Quat;
 use windfall_core::arith::lane::{Mask, Word};
 use windfall_core::arith::pack::{BLOCK, Pack, load_block, rows_of_bits, store_block};
-use windfall_core::device::leaf::fly::{Flight, flight_advance, update_regime};
+use windfall_core::device::leaf::fly::{
+    Flight, Flown, count_calm_steps, flight_advance, flight_ends, update_regime,
+};
 use windfall_core::device::leaf::record::{body_spin, body_spin_words, flies, regime_state};
-use windfall_core::device::terrain::ground::ground_met;
 use windfall_core::device::wind::sample::wind_at;
 use windfall_core::leaf::{Attitude, Drift, Identity, Place, Schedule};
 
@@ -65,14 +66,15 @@ impl FlyingBlock<'_> {
         let start =
             Flight { position, velocity, pose: Quat::from(attitudes), spin: body_spin(phase, rate, heading) };
         let wind = wind_at(cx, start.position);
-        let flight = flight_advance(cx, start, bits, size.to_bits(), wind);
+        let Flown { flight, is_calm } = flight_advance(cx, start, bits, size.to_bits(), wind);
         let regime = update_regime(cx, &flight, wind, regime_state(fall_time.to_bits()), bits);
-        let lands = ground_met(cx, flight.position);
+        let bits = count_calm_steps(cx, regime.bits, is_calm);
+        let lands = flight_ends(cx, bits, flight.position);
         let moved = on & !lands;
         let Flight { position, velocity, pose, spin } = flight;
         let [x, y, z] = body_spin_words(spin);
         let [x, y, z] = [P::from_bits(x), P::from_bits(y), P::from_bits(z)];
-        let bits = P::from_bits(regime.bits);
+        let bits = P::from_bits(bits);
         let new_places = [position.x, position.y, position.z, bits];
         let new_drifts = [velocity.x, velocity.y, velocity.z, x];
         let new_identities = [id, release, P::from_bits(regime.state), appearance];

@@ -21,6 +21,8 @@ pub(super) struct Page {
     pub(super) columns: wgpu::BindGroup,
     /// The same without identities.
     pub(super) in_motion: wgpu::BindGroup,
+    /// All columns, and the litter to be written; `None` without any that changes.
+    pub(super) with_litter: Option<wgpu::BindGroup>,
     pub(super) active: List,
     pub(super) events: List,
     pub(super) on_trees: Option<OnTrees>,
@@ -86,11 +88,15 @@ impl WgpuSimulator {
             }
         });
         let carried = on_trees.as_ref().map_or(0, |on_trees| on_trees.leaves);
+        let is_living = self.compiled.block().has_living_litter();
+        // Leaves that carriers or the litter may let go within a window.
+        let kept = if is_living { leaves } else { carried };
         Page {
             leaves,
             columns: bound(GroupLayout::Leaves, usize::MAX),
             in_motion: bound(GroupLayout::LeavesInMotion, COLUMNS_IN_MOTION),
-            active: self.list("active_list", active_bytes(leaves, carried)),
+            with_litter: is_living.then(|| bound(GroupLayout::LeavesAndLitter, usize::MAX)),
+            active: self.list("active_list", active_bytes(leaves, kept)),
             events: self.list("event_lists", event_bytes(leaves)),
             on_trees,
         }

@@ -4,6 +4,8 @@
 
 use windfall_core::SimError;
 use windfall_core::blocks::StepBlock;
+use windfall_core::device::leaf::air::AIR_UNIT_SHIFT;
+use windfall_core::device::leaf::wake::WAKE_INTERVAL;
 
 use super::WgpuSimulator;
 use crate::buffers::buffer;
@@ -183,6 +185,26 @@ impl WgpuSimulator {
                 pass.set_bind_group(1, &page.active.read, &[]);
                 pass.dispatch_workgroups_indirect(active, ALL_GROUPS);
             }
+        }
+        if self.compiled.block().has_living_litter() {
+            self.encode_litter(pass, offset);
+        }
+    }
+
+    /// Encodes what leaves do to the litter in a step: all of them sample the heights before any changes.
+    fn encode_litter(&self, pass: &mut wgpu::ComputePass<'_>, offset: u32) {
+        pass.set_pipeline(self.pipelines.kernel(KernelId::WakeLying));
+        for page in &self.pages {
+            let units = page.leaves.div_ceil(1 << AIR_UNIT_SHIFT).div_ceil(WAKE_INTERVAL);
+            pass.set_bind_group(0, &page.in_motion, &[offset]);
+            pass.set_bind_group(1, &page.active.filled, &[]);
+            pass.dispatch_workgroups((units << AIR_UNIT_SHIFT).div_ceil(WORKGROUP_SIZE), 1, 1);
+        }
+        pass.set_pipeline(self.pipelines.kernel(KernelId::StackLitter));
+        for page in &self.pages {
+            pass.set_bind_group(0, &page.with_litter, &[offset]);
+            pass.set_bind_group(1, &page.active.read, &[]);
+            pass.dispatch_workgroups_indirect(&page.active.buffer, ALL_GROUPS);
         }
     }
 }

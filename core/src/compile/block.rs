@@ -7,12 +7,13 @@ use super::source::{source_block, trees_block};
 use super::species::{response_block, species_block};
 use super::wind::{MOST_INTERVAL_STEPS, wind_block};
 use crate::arith::rng::seed_words;
-use crate::blocks::{SOURCE_TREES, SceneBlock, SwayBlock, WindBlock};
-use crate::convert::{len32, q16, single, steps, word};
+use crate::blocks::{LitterBlock, SOURCE_TREES, SceneBlock, SwayBlock, WindBlock};
+use crate::convert::{len32, low_word, q16, single, steps, word};
+use crate::device::terrain::litter::{LITTER_CELLS_PER_M, LITTER_HIGHEST_M};
 use crate::device::tree::sway::{IMPLICITNESS, SCHEME_ARTICULATED, SCHEME_OLIAPURAM_KUMAR, SCHEME_QUIGLEY};
 use crate::flight::coefficients::TICKS_PER_S;
-use crate::motion::MotionTables;
-use crate::scene::{FlightModel, MAX_SOURCES, Scene, SwayScheme};
+use crate::motion::{AIR_DENSITY, MotionTables};
+use crate::scene::{FlightModel, Litter, MAX_SOURCES, Scene, SwayScheme};
 
 /// Height of resting leaves above the ground in metres: half the thickness of a curled dry leaf.
 pub const REST_OFFSET_M: f32 = 0.004;
@@ -37,9 +38,14 @@ pub(super) fn compile_block(scene: &Scene, tables: &[MotionTables]) -> SceneBloc
     block.settle_steps = steps(SETTLE_S, scene.dt_s);
     block.blend_steps = steps(BLEND_S, scene.dt_s).min(63);
     let dt = f64::from(scene.dt_s);
+    let litter = scene.ground.litter.as_ref();
     block.ticks_per_step_q16 = word(TICKS_PER_S * dt * 65536.0);
-    block.has_bodies =
-        u32::from(scene.species.iter().any(|species| species.flight != FlightModel::Synthesis));
+    block.has_bodies = u32::from(
+        litter.is_some() || scene.species.iter().any(|species| species.flight != FlightModel::Synthesis),
+    );
+    if let Some(litter) = litter {
+        set_litter_grid(litter, &mut block.litter);
+    }
     block.dt_s = scene.dt_s;
     block.inv_dt_s = single(1.0 / dt);
     block.tilt_kept = single(libm::exp(-dt / f64::from(SETTLE_TAU_S)));
@@ -115,4 +121,35 @@ fn set_ground(scene: &Scene, block: &mut SceneBlock) {
         block.highest_rest_m = block.rest_height_m + terrain.relief_m.max(block.water_relief_m) + 0.001;
         block.hill_cells_per_m = single(f64::from(1u32 << terrain.levels) / f64::from(terrain.edge_m));
     }
+    if let Some(litter) = &ground.litter {
+        block.highest_rest_m += LITTER_HIGHEST_M;
+        set_litter(scene, litter, &mut block.litter);
+    }
+}
+
+/// Sets the grid of litter: the cells that the rectangle covers, and one more all around.
+fn set_litter_grid(litter: &Litter, block: &mut LitterBlock) {
+    let cells = f64::from(LITTER_CELLS_PER_M);
+    let span = |center_m: f32, size_m: f32| {
+        let first = libm::floor((f64::from(center_m) - 0.5 * f64::from(size_m)) * cells);
+        #[expect(clippy::cast_possible_truncation, reason = "validated to stay within 4096 m and a few")]
+        let first = first as i64 - 1;
+        (low_word(first), word(f64::from(size_m) * cells) + 2)
+    };
+    (block.first_column, block.columns) = span(litter.center_m.x, litter.size_m.x);
+    (block.first_line, block.lines) = span(litter.center_m.y, litter.size_m.y);
+    block.is_living = u32::from(!litter.still);
+}
+
+/// Sets what of litter may change while a simulation runs.
+fn set_litter(scene: &Scene, litter: &Litter, block: &mut LitterBlock) {
+    let turns = |degrees: f32| word(f64::from(degrees) / 360.0 * 65536.0);
+    let (least, most) = litter.raised_deg;
+    block.friction = litter.friction;
+    block.ground_friction = scene.ground.friction;
+    block.restitution = litter.restitution;
+    block.adhesion_m2_s2 = single(f64::from(litter.adhesion_n_m2) / AIR_DENSITY);
+    block.least_raise = turns(least);
+    block.raise_spread = turns(most) - turns(least);
+    block.rest_m2_s2 = scene.gravity_m_s2 * REST_OFFSET_M;
 }

@@ -7,6 +7,7 @@ use std::f64::consts::PI;
 use glam::DVec3;
 
 use crate::convert::{single, word};
+use crate::device::terrain::litter::{LITTER_CELLS_PER_M, LITTER_UNIT_M};
 use crate::flight::block::{BodyBlock, HOLD_RANDOM, HOLD_TILTED};
 use crate::flight::coefficients::{
     ASYMMETRY_CURL, DRAG_BEND, DRAG_BORNE, DRAG_RISE, LIFT_EDGE, SPIN_BORNE_RAD, SWING_BORNE_RAD,
@@ -28,7 +29,9 @@ pub(super) fn body_block(species: &Species, scene: &Scene) -> BodyBlock {
         FlightModel::Synthesis => Aerodynamics::default(),
         FlightModel::Aerodynamic(body) => body,
     };
-    let areal = f64::from(species.areal_density_kg_m2) * (1.0 + f64::from(body.moisture));
+    let litter = scene.ground.litter.unwrap_or_default();
+    let water = f64::from(body.moisture) + f64::from(litter.moisture);
+    let areal = f64::from(species.areal_density_kg_m2) * (1.0 + water);
     // Air per mass and area, in 1/m.
     let air = AIR_DENSITY / areal;
     let radius = 0.5 * f64::from(species.size_m);
@@ -57,6 +60,7 @@ pub(super) fn body_block(species: &Species, scene: &Scene) -> BodyBlock {
     let dt = f64::from(scene.dt_s);
     let weight = areal / USUAL_AREAL_KG_M2 * f64::from(scene.gravity_m_s2 / STANDARD_GRAVITY_M_S2);
     let usual_m_s = USUAL_DESCENT_M_S * libm::sqrt(weight);
+    let layer = f64::from(species.areal_density_kg_m2) / f64::from(litter.bulk_density_kg_m3);
     let (hold_kind, hold_tilt) = match body.hold {
         Hold::Random => (HOLD_RANDOM, 0),
         Hold::Broadside => (HOLD_TILTED, 0),
@@ -89,7 +93,10 @@ pub(super) fn body_block(species: &Species, scene: &Scene) -> BodyBlock {
         hold_kind,
         hold_tilt,
         hold_spread: tilt_q16(f64::from(body.tilt_deg)),
-        padding: Default::default(),
+        layer_m: single(layer),
+        litter_units: single(
+            PI * radius * radius * layer * f64::from(LITTER_CELLS_PER_M).powi(2) / f64::from(LITTER_UNIT_M),
+        ),
     }
 }
 

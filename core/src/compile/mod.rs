@@ -37,6 +37,7 @@ use crate::device::wind::turbulence::{TURBULENCE_X, turbulence_rows};
 use crate::error::{SceneError, SimError};
 use crate::layout::Uint4;
 use crate::leaf::Leaves;
+use crate::litter::Bed;
 use crate::scene::Scene;
 use crate::store::{StoreSize, check_sizes};
 use crate::terrain::Hills;
@@ -102,11 +103,12 @@ impl CompiledScene {
         tables.extend(petiole_rows(scene, &forest, &kinds));
         block.first_motion_row = len32(tables.len());
         tables.extend(pack_motion(&motions));
+        block.litter.first_row = len32(tables.len());
         Ok(Self { scene: scene.clone(), block, tables: tables.into(), forest: forest.into(), cycle })
     }
 
-    /// The same scene with another wind, season, ground, fall and rotation speed; species, sources, trees, hills,
-    /// seed, step length and gravity stay. Much cheaper than compiling anew.
+    /// The same scene with another wind, season, ground, fall and rotation speed; species, sources, trees, hills, litter but for how
+    /// it rubs, sticks, bounces and tilts, seed, step length and gravity stay. Much cheaper than compiling anew.
     pub fn retune(&mut self, scene: &Scene) {
         let keep_trees = (self.scene.trees.clone(), self.scene.tree_kinds.clone());
         let keep = (self.scene.species.clone(), self.scene.sources.clone(), self.scene.seed, self.scene.dt_s);
@@ -120,10 +122,12 @@ impl CompiledScene {
         let autumn = self.scene.autumn;
         let inputs = shelter_inputs(&self.scene);
         let (terrain, gravity_m_s2) = (self.scene.ground.terrain, self.scene.gravity_m_s2);
+        let litter = self.scene.ground.litter.map(|kept| kept.retuned(scene.ground.litter));
         self.scene = scene.clone();
         (self.scene.species, self.scene.sources, self.scene.seed, self.scene.dt_s) = keep;
         (self.scene.trees, self.scene.tree_kinds) = keep_trees;
         (self.scene.ground.terrain, self.scene.gravity_m_s2) = (terrain, gravity_m_s2);
+        self.scene.ground.litter = litter;
         if self.scene.autumn != autumn {
             let rows = shed_rows(&self.scene, &foliage_of(&self.scene));
             self.replace_rows(self.block.first_shed_row, &rows);
@@ -151,6 +155,7 @@ impl CompiledScene {
         vec![
             StoreSize { store: Leaves::NAME, rows: self.scene.leaf_count() as usize },
             StoreSize { store: Branches::NAME, rows: self.forest.len() },
+            StoreSize { store: Bed::NAME, rows: Bed::rows_of(&self.block.litter) },
         ]
     }
 
@@ -244,6 +249,7 @@ impl CompiledScene {
             step,
             motion: MotionRows::new(&self.tables[self.block.first_motion_row as usize..]),
             tables: &self.tables,
+            litter: &[],
         }
     }
 
@@ -271,7 +277,7 @@ fn profile_rows_of(scene: &Scene) -> Vec<Uint4> {
 /// Height of the ground in metres, whatever the water above it.
 fn foot_height(block: &SceneBlock, tables: &[Uint4], x_m: f32, z_m: f32) -> f32 {
     let step = bytemuck::Zeroable::zeroed();
-    let cx = Context { scene: block, step: &step, motion: MotionRows::new(&[]), tables };
+    let cx = Context { scene: block, step: &step, motion: MotionRows::new(&[]), tables, litter: &[] };
     let relief = if block.has_terrain() { ground_relief(&cx, x_m, z_m) } else { 0.0 };
     block.ground_height_m + relief
 }

@@ -7,6 +7,8 @@ crate::shared_constants! {
     pub const BODY_ROWS: u32 = 8;
     /// Row of the loads on a step.
     pub const BODY_LOAD_ROW: u32 = 6;
+    /// Row that ends with what a lying leaf takes up.
+    pub const BODY_LITTER_ROW: u32 = 7;
     /// Held any way round.
     pub const HOLD_RANDOM: u32 = 0;
     /// Held at the angle that the block says.
@@ -15,7 +17,7 @@ crate::shared_constants! {
 
 crate::shared_struct! {
     /// A species as a body, for a leaf of nominal size, per unit of mass. x is across the leaf, y its normal, z along it.
-    pub struct BodyBlock, padding 8 {
+    pub struct BodyBlock {
         /// Density of the air over mass per area in 1/m.
         pub air_per_m: f32,
         /// Added mass over mass.
@@ -64,11 +66,19 @@ crate::shared_struct! {
         pub hold_tilt: u32,
         /// Half width of the spread of the tilt in 2^-16 turns.
         pub hold_spread: u32,
+        /// Thickness in m by which a layer of such leaves raises litter.
+        pub layer_m: f32,
+        /// Volume of a lying leaf of nominal size, in units of height over a cell of litter.
+        pub litter_units: f32,
     }
 }
 
 const _: () = assert!(
     core::mem::offset_of!(BodyBlock, load_per_speed) == BODY_LOAD_ROW as usize * 16,
     "the loads begin a row"
+);
+const _: () = assert!(
+    core::mem::offset_of!(BodyBlock, layer_m) == BODY_LITTER_ROW as usize * 16 + 8,
+    "layer and volume end a row"
 );
 const _: () = assert!(size_of::<BodyBlock>() == BODY_ROWS as usize * 16, "rows of four numbers");

@@ -68,7 +68,7 @@ impl DropTable {
             let size = with_asymmetry(SIZE_ONE, random_asymmetry(cx, id));
             let mut flights = vec![flight];
             for _ in 0..steps {
-                flight = flight_advance(cx, flight, bits, size, Vec3::ZERO);
+                flight = flight_advance(cx, flight, bits, size, Vec3::ZERO).flight;
                 flights.push(flight);
             }
             Drop { flights }

@@ -4,7 +4,7 @@
 
 use crate::device::leaf::record::{
     Attitude, Drift, Identity, Place, STATE_ATTACHED, STATE_DORMANT, STATE_FALLING, Schedule, leaf_state,
-    phase_is_float, spin_is_float,
+    lies, phase_is_float, spin_is_float,
 };
 use crate::store::{Column, Field, FieldKind};
 
@@ -85,7 +85,8 @@ fn leaf_kind(leaves: &Leaves, slot: usize, column: &Column, field: &Field) -> Fi
     let place = &leaves.place[slot];
     let is_float = match field.name {
         "phase" => phase_is_float(place.bits),
-        "rate" | "heading" => spin_is_float(place.bits),
+        "rate" => spin_is_float(place.bits) || lies(place.bits),
+        "heading" => spin_is_float(place.bits),
         // The high bits of both words are those of floats.
         _ => field.kind == FieldKind::Float || column.name == "air",
     };

@@ -4,7 +4,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{Terrain, Water};
+use super::{Litter, Terrain, Water};
 
 /// A level plane, or hills; with or without water.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -22,10 +22,19 @@ pub struct Ground {
     pub terrain: Option<Terrain>,
     /// Water: what of the ground lies lower is under it.
     pub water: Option<Water>,
+    /// Leaves that pile up and blow on.
+    pub litter: Option<Litter>,
 }
 
 impl Default for Ground {
     fn default() -> Self {
-        Self { height_m: 0.0, friction: 0.5, surface_roughness_m: 0.005, terrain: None, water: None }
+        Self {
+            height_m: 0.0,
+            friction: 0.5,
+            surface_roughness_m: 0.005,
+            terrain: None,
+            water: None,
+            litter: None,
+        }
     }
 }

@@ -120,6 +120,12 @@ limits! {
 
     HEIGHT_M: f32 = -4096.0, 4096.0, "m", height_m;
     FRICTION: f32 = 0.05, 5.0, "", friction;
+    LITTER_SIZE_M: f32 = 1.0, 256.0, "m", size_m;
+    LITTER_AREA_INDEX: f32 = 0.0, 30.0, "", leaf_area_index;
+    BULK_DENSITY_KG_M3: f32 = 1.0, 100.0, "kg/m³", bulk_density_kg_m3;
+    RAISED_DEG: f32 = 0.0, 60.0, "degrees", raised_deg;
+    RESTITUTION: f32 = 0.0, 1.0, "", restitution;
+    ADHESION_N_M2: f32 = 0.0, 20.0, "N/m²", adhesion_n_m2;
     SURFACE_ROUGHNESS_M: f32 = 0.0001, 0.1, "m", surface_roughness_m;
     EDGE_M: f32 = 16.0, 4096.0, "m", edge_m;
     RELIEF_M: f32 = 0.0, 500.0, "m", relief_m;
@@ -190,6 +196,7 @@ mod tests {
         include_str!("flight.rs"),
         include_str!("ground.rs"),
         include_str!("lens.rs"),
+        include_str!("litter.rs"),
         include_str!("path.rs"),
         include_str!("sky.rs"),
         include_str!("source.rs"),
@@ -204,7 +211,7 @@ mod tests {
     fn is_number(kind: &str) -> bool {
         let kind = kind.trim_start_matches([' ', '(', '[']);
         let kind = kind.strip_prefix("Option<").unwrap_or(kind);
-        ["f32", "u32", "u8", "Vec3"].iter().any(|number| {
+        ["f32", "u32", "u8", "Vec2", "Vec3"].iter().any(|number| {
             kind.strip_prefix(number).is_some_and(|rest| rest.starts_with([',', ')', '>', ';']))
         })
     }

@@ -10,6 +10,7 @@ mod flight;
 mod ground;
 mod lens;
 pub mod limits;
+mod litter;
 pub(crate) mod nearest;
 mod path;
 mod presets;
@@ -29,6 +30,7 @@ use serde::{Deserialize, Serialize};
 pub use flight::{Aerodynamics, FlightModel, Hold, Planform};
 pub use ground::Ground;
 pub use lens::{Exposure, Focus, Glare, Lens, ToneMap};
+pub use litter::Litter;
 pub use path::{CameraKey, camera_at};
 pub use presets::PRESETS;
 pub use sky::{Haze, PhysicalSky, Sky, SkyMap};
@@ -80,7 +82,7 @@ pub struct Scene {
     pub gravity_m_s2: f32,
     /// The kinds of leaves.
     pub species: Vec<Species>,
-    /// Sources of leaves besides the trees. At least one if there are no trees.
+    /// Sources of leaves besides the trees. At least one if there are no trees and no leaves on the ground.
     pub sources: Vec<Source>,
     /// The kinds of trees. May be empty: trees name the presets `maple`, `birch`, `oak`, `bush`, `weed` and
     /// `berry-bush` without a kind of the scene's own; see [`Scene::tree_kind`].
@@ -131,9 +133,16 @@ impl Default for Scene {
 }
 
 impl Scene {
-    /// Number of leaf slots: of the trees first, then of the sources.
+    /// Number of leaf slots: of the trees first, then of the sources, then of the leaves that lie there from the start.
     pub fn leaf_count(&self) -> u32 {
-        self.sources.iter().fold(self.tree_leaf_count(), |sum, source| sum.saturating_add(source.count))
+        let falling =
+            self.sources.iter().fold(self.tree_leaf_count(), |sum, source| sum.saturating_add(source.count));
+        falling.saturating_add(self.bed_leaf_count())
+    }
+
+    /// Number of leaf slots of the leaves that lie on the ground from the start.
+    pub fn bed_leaf_count(&self) -> u32 {
+        self.ground.litter.map_or(0, |litter| litter.bed_leaf_count(&self.species))
     }
 
     /// Number of leaf slots of all trees.

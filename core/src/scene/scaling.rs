@@ -42,7 +42,8 @@ impl Scene {
 
 /// Number of leaves on trees among `leaves` leaves; `leaves` is at least the number of sources.
 fn tree_leaves(scene: &Scene, leaves: u32) -> u32 {
-    let (all, on_trees) = (u64::from(scene.leaf_count()), u64::from(scene.tree_leaf_count()));
+    let falling = scene.leaf_count() - scene.bed_leaf_count();
+    let (all, on_trees) = (u64::from(falling), u64::from(scene.tree_leaf_count()));
     let Some(largest) = scene.trees.iter().map(|tree| u64::from(tree.leaves)).max().filter(|&most| most > 0)
     else {
         return 0;

@@ -133,6 +133,15 @@ impl Default for Species {
     }
 }
 
+impl Species {
+    /// Mean area of a leaf in m², over the spread of sizes.
+    pub(crate) fn mean_area_m2(&self) -> f64 {
+        let (size_m, spread) = (f64::from(self.size_m), f64::from(self.size_variation));
+        // Sizes follow a triangle, of variance one sixth of its squared half width.
+        std::f64::consts::PI / 4.0 * size_m * size_m * (1.0 + spread * spread / 6.0)
+    }
+}
+
 /// Physical numbers of the primitive motions. What is `None` follows from size and areal density by the scalings
 /// measured on 380 drops of paper pieces (Howison, Hughes and Iida 2020), see [`crate::motion::MotionConstants`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]

@@ -10,9 +10,9 @@ mod tests;
 mod trees;
 
 use super::{
-    Aerodynamics, Camera, FlightModel, Ground, Haze, MAX_LEAVES, MAX_SOURCES, MAX_SPECIES, MAX_TREE_LEAVES,
-    MAX_VORTICES, MeanSpeed, MotionParameters, PhysicalSky, Profile, Release, RotationModel, Scene, Sky,
-    SkyMap, Source, SourceShape, Species, Sun, Terrain, View, Vortex, WindParameters, limits,
+    Aerodynamics, Camera, FlightModel, Ground, Haze, Litter, MAX_LEAVES, MAX_SOURCES, MAX_SPECIES,
+    MAX_TREE_LEAVES, MAX_VORTICES, MeanSpeed, MotionParameters, PhysicalSky, Profile, Release, RotationModel,
+    Scene, Sky, SkyMap, Source, SourceShape, Species, Sun, Terrain, View, Vortex, WindParameters, limits,
 };
 use crate::SceneError;
 use check::Check;
@@ -33,9 +33,11 @@ impl Scene {
         ])?;
         check.numbers([("sway_every", Some(self.sway_every), limits::SWAY_EVERY)])?;
         check.length("species", self.species.len(), 1, MAX_SPECIES)?;
-        let fewest = usize::from(self.trees.is_empty());
+        let has_bed = self.ground.litter.is_some_and(|litter| litter.leaf_area_index > 0.0);
+        let fewest = usize::from(self.trees.is_empty() && !has_bed);
         check.holds((fewest..=MAX_SOURCES).contains(&self.sources.len()), "sources", || {
-            let allowed = format!("1 to {MAX_SOURCES} entries, or none if there are trees");
+            let allowed =
+                format!("1 to {MAX_SOURCES} entries, or none if there are trees or a bed of litter");
             (format!("a list of {}", self.sources.len()), allowed)
         })?;
         for (index, species) in self.species.iter().enumerate() {
@@ -55,6 +57,10 @@ impl Scene {
         let leaves = on_trees + self.sources.iter().map(|source| u64::from(source.count)).sum::<u64>();
         check.holds(leaves <= u64::from(MAX_LEAVES), "sources", || {
             (format!("{leaves} leaves"), format!("at most {MAX_LEAVES} leaves over all sources and trees"))
+        })?;
+        let lying = u64::from(self.bed_leaf_count());
+        check.holds(leaves + lying <= u64::from(MAX_LEAVES), "ground.litter.leaf_area_index", || {
+            (format!("{lying} leaves"), format!("at most {MAX_LEAVES} leaves, those that fall included"))
         })?;
         self.check_species_names(&check)?;
         self.check_trees(&check)?;
@@ -245,7 +251,32 @@ impl Ground {
         if let Some(water) = &self.water {
             at.inside("water").numbers([("height_m", water.height_m.into(), limits::HEIGHT_M)])?;
         }
+        if let Some(litter) = &self.litter {
+            litter.check(&at.inside("litter"))?;
+        }
         Ok(())
+    }
+}
+
+impl Litter {
+    fn check(&self, at: &Check<'_>) -> Result<(), SceneError> {
+        at.numbers([
+            ("center_m.x", self.center_m.x.into(), limits::CENTER_M),
+            ("center_m.y", self.center_m.y.into(), limits::CENTER_M),
+            ("size_m.x", self.size_m.x.into(), limits::LITTER_SIZE_M),
+            ("size_m.y", self.size_m.y.into(), limits::LITTER_SIZE_M),
+            ("leaf_area_index", self.leaf_area_index.into(), limits::LITTER_AREA_INDEX),
+            ("bulk_density_kg_m3", self.bulk_density_kg_m3.into(), limits::BULK_DENSITY_KG_M3),
+            ("friction", self.friction.into(), limits::FRICTION),
+            ("raised_deg.0", self.raised_deg.0.into(), limits::RAISED_DEG),
+            ("raised_deg.1", self.raised_deg.1.into(), limits::RAISED_DEG),
+            ("restitution", self.restitution.into(), limits::RESTITUTION),
+            ("moisture", self.moisture.into(), limits::MOISTURE),
+            ("adhesion_n_m2", self.adhesion_n_m2.into(), limits::ADHESION_N_M2),
+        ])?;
+        at.holds(self.raised_deg.0 <= self.raised_deg.1, "raised_deg", || {
+            (format!("{:?}", self.raised_deg), "two values in rising order".into())
+        })
     }
 }
 

@@ -18,6 +18,8 @@ use crate::flight::drop_table::{DropTable, drop_tables};
 use crate::leaf::grow::{count_leaves, leaf_grow};
 use crate::leaf::seek::leaf_seek_any;
 use crate::leaf::{Leaves, LeavesMut};
+use crate::litter::lay::{lay_all, strew};
+use crate::litter::{Bed, LitterStats};
 use crate::scene::Scene;
 use crate::store::{Store, StoreSize, check_sizes, copy_stores, hash_stores, state_bytes};
 use crate::threads::on_all;
@@ -37,6 +39,8 @@ pub struct World {
     pub leaves: Leaves,
     /// The trees' segments.
     pub branches: Branches,
+    /// The litter.
+    pub bed: Bed,
 }
 
 impl World {
@@ -67,7 +71,8 @@ impl World {
     pub fn zeroed(compiled: CompiledScene, clock: Clock) -> Self {
         let leaves = Leaves::zeroed(compiled.scene().leaf_count() as usize);
         let branches = Branches::zeroed(compiled.forest().len());
-        Self { compiled, clock, leaves, branches }
+        let bed = Bed::zeroed(Bed::rows_of(&compiled.block().litter));
+        Self { compiled, clock, leaves, branches, bed }
     }
 
     /// Fills the stores of a compiled scene.
@@ -75,7 +80,7 @@ impl World {
         let clock = Clock::new(compiled.scene().dt_s);
         let mut world = Self::zeroed(compiled, clock);
         world.branches = world.compiled.forest().at_rest();
-        let Self { compiled, clock, leaves, branches } = &mut world;
+        let Self { compiled, clock, leaves, branches, bed } = &mut world;
         let step = compiled.step_block(clock);
         let cx = compiled.context(&step);
         let tables = drop_tables(&cx);
@@ -89,6 +94,10 @@ impl World {
         });
         drop(runs);
         count_leaves(branches, &cx, leaves);
+        if let Some(litter) = &compiled.scene().ground.litter {
+            strew(&cx, litter, leaves, leaves.len() - compiled.scene().bed_leaf_count() as usize);
+            lay_all(&cx, leaves, bed);
+        }
         Ok(world)
     }
 
@@ -97,16 +106,22 @@ impl World {
         Stats::of(&self.leaves, self.clock.step())
     }
 
+    /// Counts and sums over the litter; `None` without any.
+    pub fn litter_stats(&self) -> Option<LitterStats> {
+        let block = &self.compiled.block().litter;
+        LitterStats::of(self.compiled.scene(), block, &self.leaves, &self.bed)
+    }
+
     /// All stores, in the order of checkpoints.
     pub fn stores(&self) -> Vec<&dyn Store> {
-        let Self { compiled: _, clock: _, leaves, branches } = self;
-        vec![leaves, branches]
+        let Self { compiled: _, clock: _, leaves, branches, bed } = self;
+        vec![leaves, branches, bed]
     }
 
     /// All stores, to be filled.
     pub fn stores_mut(&mut self) -> Vec<&mut dyn Store> {
-        let Self { compiled: _, clock: _, leaves, branches } = self;
-        vec![leaves, branches]
+        let Self { compiled: _, clock: _, leaves, branches, bed } = self;
+        vec![leaves, branches, bed]
     }
 
     /// Number of rows of each store.
@@ -153,7 +168,7 @@ impl World {
 
     /// The view of a kernel at the step of this block, which is made once for all leaves ([`World::step_block`]).
     pub fn context<'a>(&'a self, step: &'a StepBlock) -> Context<'a> {
-        self.compiled.context(step)
+        self.compiled.context(step).over(&self.bed.words)
     }
 }
 

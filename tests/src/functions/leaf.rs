@@ -29,7 +29,7 @@ use windfall_core::device::leaf::release::{
     next_event, release_fall_time, release_place, release_rate, release_ratio, release_size_speed,
     release_species,
 };
-use windfall_core::device::leaf::settle::{flatten, flatten_on, slide};
+use windfall_core::device::leaf::settle::{flatten, flatten_on, ground_friction, slide};
 use windfall_core::device::motion::feature::{stage_end, stage_words, transition_next};
 use windfall_core::device::motion::lookup::{
     motion_displacement, motion_period, motion_state, motion_velocity,
@@ -314,11 +314,11 @@ functions! {
 
     slide in "leaf/settle" (SPEED, SPEED, SPEED, Input::Float(0.0, 0.05), METRES, METRES) tolerance Some(1e-5);
     wgsl "let p = bitcast<vec2<f32>>(b.xy);
-        let g = slide(bitcast<vec3<f32>>(a.xyz), bitcast<f32>(a.w), ground_slope(p.x, p.y));
+        let g = slide(bitcast<vec3<f32>>(a.xyz), bitcast<f32>(a.w), ground_slope(p.x, p.y), ground_friction());
         r = vec4<u32>(bitcast<vec3<u32>>(g.way), 0u); s = vec4<u32>(bitcast<vec3<u32>>(g.velocity), 0u);";
     rust |cx, w| {
         let slope = ground_slope(cx, float(w[4]), float(w[5]));
-        let (d, v) = slide(cx, vector(w, 0), float(w[3]), slope);
+        let (d, v) = slide(cx, vector(w, 0), float(w[3]), slope, ground_friction(cx));
         floats([d.x, d.y, d.z, 0.0, v.x, v.y, v.z])
     };
 

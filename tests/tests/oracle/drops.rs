@@ -221,7 +221,7 @@ fn planar(size_m: f32, tilt: f32) -> Vec<f32> {
     let mut flight = Flight { position, velocity, pose: Quat::new(sine, 0.0, 0.0, cosine), spin };
     let mut spins = Vec::new();
     for _ in 0..2400 {
-        flight = flight_advance(&cx, flight, 0u32, SIZE_ONE, Vec3::ZERO);
+        flight = flight_advance(&cx, flight, 0u32, SIZE_ONE, Vec3::ZERO).flight;
         spins.push(flight.spin.x);
     }
     spins
@@ -255,7 +255,8 @@ fn no_gust_blows_a_body_up() {
                         let phase = index as f32 * dt_s;
                         let on = |period: f32| if (phase / period) as u32 % 2 == 1 { gust } else { 0.0 };
                         let wind = Vec3::new(on(0.31), 0.5 * on(0.47) - 0.25 * gust, -on(0.83));
-                        flight = flight_advance(&cx, flight, 0u32, with_asymmetry(SIZE_ONE, 0x39c6), wind);
+                        flight =
+                            flight_advance(&cx, flight, 0u32, with_asymmetry(SIZE_ONE, 0x39c6), wind).flight;
                         fastest = fastest.max(windfall_core::arith::vector::vec3_length(flight.velocity));
                         let spin = windfall_core::arith::vector::vec3_length(flight.spin);
                         assert!(spin < 60.0 + 4.0 * gust / size, "{body:?} {size} {gust}: {spin} rad/s");

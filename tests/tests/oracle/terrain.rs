@@ -5,7 +5,7 @@
 use crate::common::{GRAVITY, attitude, build, position, step, velocity};
 use glam::DVec3;
 use windfall_core::arith::Vec3;
-use windfall_core::device::leaf::settle::slide;
+use windfall_core::device::leaf::settle::{ground_friction, slide};
 use windfall_core::device::terrain::ground::Slope;
 use windfall_core::leaf::LeafState;
 use windfall_core::terrain::Hills;
@@ -107,7 +107,7 @@ fn slides_obey_the_inclined_plane() {
         let mut velocity = Vec3::new(2.0, 0.0, 0.0);
         let (mut way, mut seconds) = (0.0, 0.0);
         while velocity.x > 0.0 && seconds < 60.0 {
-            let (moved, left) = slide(&cx, velocity, 0.001, slope);
+            let (moved, left) = slide(&cx, velocity, 0.001, slope, ground_friction(&cx));
             way += f64::from(moved.x);
             velocity = left;
             seconds += 0.001;
@@ -119,7 +119,7 @@ fn slides_obey_the_inclined_plane() {
     let steep = Slope { x: -1.0, z: 0.0, gain: 2.0, inv_gain: 0.5 };
     let mut velocity = Vec3::new(0.1, 0.0, 0.0);
     for _ in 0..1000 {
-        velocity = slide(&cx, velocity, 0.001, steep).1;
+        velocity = slide(&cx, velocity, 0.001, steep, ground_friction(&cx)).1;
     }
     let expected = 0.1 + GRAVITY * (1.0 - friction) / 2.0;
     assert!((f64::from(velocity.x) / expected - 1.0).abs() < 1e-3, "{} m/s, not {expected}", velocity.x);

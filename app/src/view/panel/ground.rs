@@ -6,6 +6,7 @@ use egui::Ui;
 use windfall_core::scene::{Ground, Terrain, Water, limits};
 
 use super::field::{choice, field};
+use super::litter;
 
 pub(super) fn show(ui: &mut Ui, ground: &mut Ground, own: &Ground) {
     let tip = "Height of the plane, or of hilly ground at the origin";
@@ -32,6 +33,7 @@ pub(super) fn show(ui: &mut Ui, ground: &mut Ground, own: &Ground) {
             own,
         );
     }
+    litter::show(ui, &mut ground.litter, own.litter.as_ref());
 }
 
 fn hills(ui: &mut Ui, terrain: &mut Terrain, own: Option<&Terrain>) {

@@ -18,6 +18,7 @@ mod kinds;
 mod leaves;
 mod lens;
 mod list;
+mod litter;
 mod motion;
 mod numbers;
 mod over_picture;

@@ -103,11 +103,17 @@ impl Change {
     }
 
     fn ground(&mut self, old: &Ground, new: &Ground) {
-        let Ground { height_m, friction, surface_roughness_m, terrain, water } = *new;
+        let Ground { height_m, friction, surface_roughness_m, terrain, water, litter } = *new;
         self.retune |= (friction, surface_roughness_m) != (old.friction, old.surface_roughness_m);
         self.rebuild("ground", height_m != old.height_m, true, true);
         self.rebuild("hills", terrain != old.terrain, true, true);
         self.rebuild("water", water != old.water, false, true);
+        let is_laid_anew = match (old.litter, litter) {
+            (Some(old), Some(new)) => old.retuned(Some(new)) != new,
+            (old, new) => old != new,
+        };
+        self.rebuild("litter", is_laid_anew, true, false);
+        self.retune |= litter != old.litter;
         self.retune |= water != old.water;
     }
 

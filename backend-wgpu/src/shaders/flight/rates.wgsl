@@ -12,6 +12,51 @@ struct FlightMotion {
     turning: vec3<f32>,
 }
 
+struct AirLoad {
+    speed: f32,
+    inv_speed: f32,
+    q: f32,
+    tangent: f32,
+    drag: f32,
+    lift: f32,
+}
+
+struct StillLoad {
+    force: vec3<f32>,
+    torque: vec3<f32>,
+}
+
+fn air_load(body: LeafBody, flow: vec3<f32>) -> AirLoad {
+    let squared = max(vec3_dot(flow, flow), TINY_SQUARED);
+    let inv_speed = inverse_sqrt(squared);
+    let speed = squared * inv_speed;
+    let across2 = flow.x * flow.x;
+    let along2 = flow.z * flow.z;
+    let tangent = across2 + along2;
+    let incidence = flow.y * inv_speed;
+    let q = incidence * incidence;
+
+    let drag = (body.air_per_m * 0.5) * ((q * (DRAG_RISE - q * DRAG_BEND) + body.edge_drag) * speed);
+    let slope =
+        q + (body.lift_slope_across * across2 + body.lift_slope_along * along2) * (inv_speed * inv_speed);
+    let lift = (body.air_per_m * slope) * ((q * (q * LIFT_BEND + LIFT_RISE) + LIFT_EDGE) * incidence);
+    return AirLoad(speed, inv_speed, q, tangent, drag, lift);
+}
+
+fn still_load(body: LeafBody, flow: vec3<f32>) -> StillLoad {
+    let load = air_load(body, flow);
+    let push = load.lift * flow.y - load.drag;
+    let force = vec3<f32>(
+        push * flow.x,
+        (load.lift * load.tangent + load.drag * flow.y) * -1.0,
+        push * flow.z,
+    );
+    let munk = (body.added_mass * flow.y) * (load.q * MUNK_RISE + MUNK_EDGE);
+    let lever = vec3_cross(body.centroid, force);
+    let twist = body.twist_m * (load.speed * flow.y);
+    return StillLoad(force, vec3<f32>(lever.x + munk * flow.z, lever.y + twist, lever.z - munk * flow.x));
+}
+
 fn flight_rates(body: LeafBody, motion: FlightMotion, wind: vec3<f32>) -> FlightMotion {
     let x = motion.pose.x;
     let y = motion.pose.y;
@@ -37,19 +82,13 @@ fn flight_rates(body: LeafBody, motion: FlightMotion, wind: vec3<f32>) -> Flight
     let u = vec3<f32>(vec3_dot(across, relative), vec3_dot(normal, relative), vec3_dot(along, relative));
     let turn = motion.turning;
     let flow = u + vec3_cross(turn, body.centroid);
-    let squared = max(vec3_dot(flow, flow), TINY_SQUARED);
-    let inv_speed = inverse_sqrt(squared);
-    let speed = squared * inv_speed;
-    let across2 = flow.x * flow.x;
-    let along2 = flow.z * flow.z;
-    let tangent = across2 + along2;
-    let incidence = flow.y * inv_speed;
-    let q = incidence * incidence;
-
-    let drag = (body.air_per_m * 0.5) * ((q * (DRAG_RISE - q * DRAG_BEND) + body.edge_drag) * speed);
-    let slope =
-        q + (body.lift_slope_across * across2 + body.lift_slope_along * along2) * (inv_speed * inv_speed);
-    let lift = (body.air_per_m * slope) * ((q * (q * LIFT_BEND + LIFT_RISE) + LIFT_EDGE) * incidence);
+    let load = air_load(body, flow);
+    let speed = load.speed;
+    let inv_speed = load.inv_speed;
+    let q = load.q;
+    let tangent = load.tangent;
+    let drag = load.drag;
+    let lift = load.lift;
     let circulation = q * WHIRL_RISE + WHIRL_EDGE;
     let whirl = vec3_cross(
         vec3<f32>((body.air_along * circulation) * turn.x, 0.0, (body.air_across * circulation) * turn.z),

@@ -3,22 +3,10 @@
 // twin: backend-cpu/src/kernels/carry.rs
 // Moves leaves with their twigs, and breaks petioles.
 #import leaf/carry
-#import lists/fill_active
+#import lists/append_active
 
 fn carrier_row(column: u32, row: u32) -> vec4<f32> {
     return carrier_rows[column * carry_block.column_stride + row];
-}
-
-// Lists a leaf for the rest of the window, unless it is listed: a leaf that has come back to its twig within the window is.
-fn list_released(leaf: u32) {
-    let mark = lists_room() + leaf;
-    if (active_list.leaves[mark] == 0u) {
-        active_list.leaves[mark] = 1u;
-        let turn = turn_of(leaf >> AIR_UNIT_SHIFT);
-        let place = atomicAdd(&active_list.counts[turn], 1u);
-        active_list.leaves[list_start(turn) + place] = leaf;
-        count_groups(place + 1u);
-    }
 }
 
 @compute @workgroup_size(WORKGROUP_SIZE)

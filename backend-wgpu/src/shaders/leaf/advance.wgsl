@@ -7,6 +7,7 @@
 #import leaf/fall
 #import leaf/fly
 #import leaf/join
+#import leaf/lie
 #import leaf/record
 #import leaf/release
 #import leaf/settle
@@ -42,7 +43,13 @@ fn leaf_advance_event(leaf: u32) {
     let identity = identities[leaf];
     let source = leaf_source(identity.appearance);
     let lifetime = scene.sources[source].lifetime_steps;
-    let state = leaf_state(places[leaf].bits);
+    let before = places[leaf].bits;
+    if (lies(before)) {
+        // The litter gives it back first.
+        places[leaf].bits = with_litter_change(before, CHANGE_REMOVED);
+        return;
+    }
+    let state = leaf_state(before);
     var is_let_go = true;
     if (state == STATE_ATTACHED) {
         leaf_detach(leaf, now);
@@ -71,6 +78,10 @@ fn leaf_advance(leaf: u32) {
     let state = leaf_state(place.bits);
     if (state == STATE_FALLING && !flies(place.bits)) {
         leaf_fall(leaf, place, schedules[leaf]);
+    } else if (state == STATE_RESTING && scene.litter.columns != 0u) {
+        if (leaf_is_settling(leaf)) {
+            leaf_settle_on_litter(leaf);
+        }
     } else if (state == STATE_RESTING) {
         leaf_settle(leaf);
     }

@@ -56,7 +56,8 @@ fn leaf_size_on_twig(size: u32, bits: u32) -> u32 {
 fn leaf_return(leaf: u32, bits: u32) -> u32 {
     let is_back = leaf_state(places[leaf].bits) == STATE_RESTING
         && scene.sources[SOURCE_TREES].lifetime_steps != 0u
-        && step_block.index >= schedules[leaf].event;
+        && step_block.index >= schedules[leaf].event
+        && !lies(places[leaf].bits);
     if (!is_back) {
         return 0u;
     }

@@ -3,13 +3,18 @@
 // twin: core/src/device/leaf/fly.rs
 // A leaf that flies as a body in the air: one step, in as many substeps as its speed and spin ask for.
 #import bindings
+#import arith/quaternion
 #import flight/body
+#import flight/contact
 #import flight/regime
 #import flight/runge_kutta
 #import arith/rng
+#import leaf/at_rest
+#import leaf/lie
 #import leaf/record
 #import leaf/settle
 #import terrain/ground
+#import terrain/litter
 #import wind/sample
 
 struct Flight {
@@ -24,6 +29,11 @@ struct Regime {
     bits: u32,
 }
 
+struct Flown {
+    flight: Flight,
+    is_calm: bool,
+}
+
 fn flight_load(bits: u32, relative: vec3<f32>, spin: vec3<f32>) -> f32 {
     let block = scene.bodies[leaf_species(bits)];
     let squared = max(vec3_dot(relative, relative), TINY_SQUARED);
@@ -31,7 +41,15 @@ fn flight_load(bits: u32, relative: vec3<f32>, spin: vec3<f32>) -> f32 {
     return block.load_per_speed * (squared * inverse_sqrt(squared)) + block.load_per_spin * (turned * inverse_sqrt(turned));
 }
 
-fn flight_advance(flight: Flight, bits: u32, size: u32, wind: vec3<f32>) -> Flight {
+fn bounded_turning(bits: u32, body: LeafBody, substeps: Substeps, turning: vec3<f32>) -> vec3<f32> {
+    let per_spin = scene.bodies[leaf_species(bits)].load_per_spin;
+    let most = (substeps.count * body.size_ratio) * reciprocal(per_spin);
+    let squared = max(vec3_dot(turning, turning), TINY_SQUARED);
+    let share = most * inverse_sqrt(squared);
+    return turning * min(share, 1.0);
+}
+
+fn flight_advance(flight: Flight, bits: u32, size: u32, wind: vec3<f32>) -> Flown {
     let body = body_of(bits, size);
     let relative = flight.velocity - wind;
     let load = flight_load(bits, relative, flight.spin);
@@ -41,12 +59,23 @@ fn flight_advance(flight: Flight, bits: u32, size: u32, wind: vec3<f32>) -> Flig
     let time = substeps.share * scene.dt_s;
     var position = flight.position;
     var motion = FlightMotion(flight.velocity, flight.pose, flight.spin * (body.size_ratio * clamped));
+    var touches = false;
     for (var done = 0.0; done < substeps.count; done += 1.0) {
         let step = flight_step(body, motion, air, time);
         position = position + step.way;
         motion = step.end;
+        if (scene.litter.columns != 0u) {
+            let contact = flight_contact(body, position, motion);
+            position = contact.position;
+            motion = contact.motion;
+            motion.turning = bounded_turning(bits, body, substeps, motion.turning);
+            touches = touches || contact.touches;
+        }
     }
-    return Flight(position, motion.velocity, motion.pose, motion.turning * body.inv_size_ratio);
+    let end = Flight(position, motion.velocity, motion.pose, motion.turning * body.inv_size_ratio);
+    let swing = end.spin * ((body.half_mean_m * body.size_ratio) * 0.5);
+    let energy = vec3_dot(end.velocity, end.velocity) + vec3_dot(swing, swing);
+    return Flown(end, touches && energy < scene.litter.rest_m2_s2);
 }
 
 fn update_regime(flight: Flight, wind: vec3<f32>, state: u32, bits: u32) -> Regime {
@@ -58,6 +87,42 @@ fn update_regime(flight: Flight, wind: vec3<f32>, state: u32, bits: u32) -> Regi
     let idle_timeout = u32(scene.bodies[leaf_species(bits)].idle_timeout_ticks);
     let next = regime_after(state, flow, flight.spin, path, ticks, idle_timeout);
     return Regime(next, with_regime(bits, regime_of(next)));
+}
+
+fn count_calm_steps(bits: u32, is_calm: bool) -> u32 {
+    if (scene.litter.columns == 0u) {
+        return bits;
+    }
+    return with_touch_steps(bits, select(0u, touch_steps(bits) + 1u, is_calm));
+}
+
+fn flight_ends(bits: u32, position: vec3<f32>) -> bool {
+    if (scene.litter.columns == 0u) {
+        return ground_met(position);
+    }
+    return touch_steps(bits) >= scene.settle_steps;
+}
+
+fn leaf_end_flight(leaf: u32, start: vec3<f32>) {
+    if (scene.litter.columns == 0u) {
+        leaf_land(leaf, start);
+        return;
+    }
+    let x = places[leaf].position.x;
+    let z = places[leaf].position.z;
+    let words = random(scene.seed, identities[leaf].id, STREAM_LYING);
+    let slope = ground_slope(x, z);
+    let lean = quat_multiply(ground_lean(slope), lying_tilt(words));
+    let pose = flatten_to(lean, attitudes[leaf].quaternion, 0.0);
+    let body = body_of(places[leaf].bits, schedules[leaf].size);
+    let friction = own_friction(words, litter_height(x, z));
+    let wind = wind_at(vec3<f32>(x, ground_rest(x, z) + reach_down(body, pose), z));
+    let at_rest = leaf_at_rest(body, pose, slope, friction, own_raise(words));
+    if (wind_moves(at_rest, wind, REST_SHARE_SQUARED)) {
+        places[leaf].bits = with_touch_steps(places[leaf].bits, 0u);
+    } else {
+        leaf_rest(leaf);
+    }
 }
 
 fn flight_of(leaf: u32) -> Flight {
@@ -86,12 +151,13 @@ fn leaf_fly(leaf: u32) {
     }
     let start = flight_of(leaf);
     let wind = wind_at(start.position);
-    let flight = flight_advance(start, places[leaf].bits, schedules[leaf].size, wind);
-    flight_write(leaf, flight);
-    let regime = update_regime(flight, wind, regime_state(identities[leaf].fall_time), places[leaf].bits);
+    let flown = flight_advance(start, places[leaf].bits, schedules[leaf].size, wind);
+    flight_write(leaf, flown.flight);
+    let regime = update_regime(flown.flight, wind, regime_state(identities[leaf].fall_time), places[leaf].bits);
     identities[leaf].fall_time = regime.state;
-    places[leaf].bits = regime.bits;
-    if (ground_met(flight.position)) {
-        leaf_land(leaf, start.position);
+    let bits = count_calm_steps(regime.bits, flown.is_calm);
+    places[leaf].bits = bits;
+    if (flight_ends(bits, flown.flight.position)) {
+        leaf_end_flight(leaf, start.position);
     }
 }

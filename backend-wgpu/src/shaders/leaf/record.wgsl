@@ -61,6 +61,31 @@ fn turn_spin(bits: u32, turn: u32) -> u32 {
     return bits + (turn << SPIN_SHIFT);
 }
 
+fn lies(bits: u32) -> bool {
+    let lying = STATE_RESTING | (LYING << PRIMITIVE_SHIFT);
+    return (bits & (STATE_MASK | (PRIMITIVE_MASK << PRIMITIVE_SHIFT))) == lying;
+}
+
+fn litter_change(bits: u32) -> u32 {
+    return (bits >> CHANGE_SHIFT) & CHANGE_MASK;
+}
+
+fn with_litter_change(bits: u32, change: u32) -> u32 {
+    return (bits & ~(CHANGE_MASK << CHANGE_SHIFT)) | (change << CHANGE_SHIFT);
+}
+
+fn lying_volume(bits: u32) -> u32 {
+    return bits >> SPIN_SHIFT;
+}
+
+fn touch_steps(bits: u32) -> u32 {
+    return bits >> SPIN_SHIFT;
+}
+
+fn with_touch_steps(bits: u32, steps: u32) -> u32 {
+    return (bits & HALF_MASK) | (steps << SPIN_SHIFT);
+}
+
 fn place_bits(state: u32, blend: u32, primitive: u32, species: u32, spin: u32) -> u32 {
     return state
         | (blend << BLEND_SHIFT)
@@ -79,6 +104,34 @@ fn body_spin_words(spin: vec3<f32>) -> vec3<u32> {
 
 fn ground_steps(phase: u32) -> u32 {
     return phase;
+}
+
+fn wake_speed_squared(phase: u32) -> f32 {
+    return bitcast<f32>(phase);
+}
+
+fn wake_speed_word(square: f32) -> u32 {
+    return bitcast<u32>(square);
+}
+
+fn lying_support(rate: u32) -> f32 {
+    return bitcast<f32>(rate);
+}
+
+fn lying_support_word(height_m: f32) -> u32 {
+    return bitcast<u32>(height_m);
+}
+
+fn lying_friction(heading: u32) -> f32 {
+    return f32(heading & HALF_MASK) * LYING_FRICTION_UNIT;
+}
+
+fn lying_raise(heading: u32) -> u32 {
+    return heading >> 16u;
+}
+
+fn lying_word(friction: f32, raise: u32) -> u32 {
+    return u32(friction * LYING_FRICTION_ONE) | (raise << 16u);
 }
 
 fn smoothed_air_speed(phase: u32) -> f32 {

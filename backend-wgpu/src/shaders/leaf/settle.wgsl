@@ -13,7 +13,16 @@ struct Slide {
     velocity: vec3<f32>,
 }
 
-fn slide(came: vec3<f32>, seconds: f32, slope: Slope) -> Slide {
+struct Friction {
+    loss_m_s2: f32,
+    stop_s2_m: f32,
+}
+
+fn ground_friction() -> Friction {
+    return Friction(scene.friction_m_s2, scene.stop_s2_m);
+}
+
+fn slide(came: vec3<f32>, seconds: f32, slope: Slope, friction: Friction) -> Slide {
     let pull = (scene.gravity_m_s2 * seconds) * slope.inv_gain;
     let velocity = vec3<f32>(came.x - slope.x * pull, came.y, came.z - slope.z * pull);
     if (velocity.x * came.x + velocity.z * came.z < 0.0) {
@@ -25,8 +34,8 @@ fn slide(came: vec3<f32>, seconds: f32, slope: Slope) -> Slide {
     }
     let inverse = inverse_sqrt(squared);
     let speed = squared * inverse;
-    let left = max(speed - (scene.friction_m_s2 * slope.inv_gain) * seconds, 0.0);
-    let stop = squared * (scene.stop_s2_m * slope.gain);
+    let left = max(speed - (friction.loss_m_s2 * slope.inv_gain) * seconds, 0.0);
+    let stop = squared * (friction.stop_s2_m * slope.gain);
     let way = select(stop, (0.5 * seconds) * (speed + left), left > 0.0);
     return Slide(velocity * (way * inverse), velocity * (left * inverse));
 }
@@ -59,8 +68,8 @@ fn leaf_land(leaf: u32, start: vec3<f32>) {
     let share = min(max((start.y - above) * reciprocal(drop), 0.0), 1.0);
     let way = end - start;
     let hit = start + way * share;
-    let slid =
-        slide(way * scene.inv_dt_s, (1.0 - share) * scene.dt_s, ground_slope(hit.x, hit.z));
+    let left = (1.0 - share) * scene.dt_s;
+    let slid = slide(way * scene.inv_dt_s, left, ground_slope(hit.x, hit.z), ground_friction());
     let identity = identities[leaf];
     let lifetime = scene.sources[leaf_source(identity.appearance)].lifetime_steps;
     let x = hit.x + slid.way.x;
@@ -89,7 +98,7 @@ fn leaf_settle(leaf: u32) {
         drifts[leaf].phase = select(steps + 1u, 0u, slides && is_hilly);
     }
     if (slides) {
-        let slid = slide(drift.velocity, scene.dt_s, slope);
+        let slid = slide(drift.velocity, scene.dt_s, slope, ground_friction());
         let x = position.x + slid.way.x;
         let z = position.z + slid.way.z;
         var y = position.y;

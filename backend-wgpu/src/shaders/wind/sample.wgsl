@@ -3,6 +3,7 @@
 // twin: core/src/device/wind/sample.rs
 // Velocity of the air at a place: mean flow, gusts, turbulence, vortices.
 #import terrain/ground
+#import terrain/litter
 #import wind/gust
 #import wind/profile
 #import wind/shelter
@@ -22,6 +23,9 @@ fn wind_at_moment(moment: u32, place: vec3<f32>) -> vec3<f32> {
     var above = height;
     if (scene.has_terrain != 0u) {
         above = height - ground_relief(place.x, place.z);
+    }
+    if (scene.litter.columns != 0u) {
+        above = above_litter(above, place.x, place.z);
     }
     let profile = wind_profile(above);
     var mean = (profile.x * scene.wind.mean_speed_m_s) * (wind_gust(moment, along) * scene.wind.gust_strength + 1.0);

@@ -92,6 +92,8 @@ pub trait Word:
     fn look_up_two(self, rows: &[[u32; 4]]) -> [[Self; 4]; 2];
     /// The first two floats of the rows that the words stand for, component by component.
     fn look_up_pairs(self, rows: &[[f32; 4]]) -> [Self::Real; 2];
+    /// The words of a list that the words stand for.
+    fn look_up_word(self, words: &[u32]) -> Self;
     /// Sum of the products of the lower and of the upper halves of two words, all of them two's complement, as a float.
     fn dot_halves(self, other: Self) -> Self::Real;
 }
@@ -209,6 +211,10 @@ impl Word for u32 {
     fn look_up_pairs(self, rows: &[[f32; 4]]) -> [f32; 2] {
         let [first, second, _, _] = rows[self as usize];
         [first, second]
+    }
+    #[inline(always)]
+    fn look_up_word(self, words: &[u32]) -> u32 {
+        words[self as usize]
     }
     #[inline(always)]
     fn dot_halves(self, other: Self) -> f32 {

@@ -147,6 +147,7 @@ mod tests {
         let picked = numbers(P::load_words(simd, &few).pick(&table));
         let index = P::load_words(simd, &indices);
         let rows = index.look_up(&fours).map(numbers);
+        let ones = numbers(P::from_bits(index.look_up_word(words.as_flattened())));
         let two = index.look_up_two(&words);
         let [bits, next] = two.map(|row| row.map(|word| numbers(P::from_bits(word))));
         let pairs = index.look_up_pairs(&fours).map(numbers);
@@ -158,6 +159,7 @@ mod tests {
             assert_eq!([0, 1, 2, 3].map(|part| bits[part][lane]), index.look_up(&fours), "words {index}");
             let after = (index + 1).look_up(&fours);
             assert_eq!([0, 1, 2, 3].map(|part| next[part][lane]), after, "words after {index}");
+            assert_eq!(ones[lane].to_bits(), words.as_flattened()[index as usize], "word {index}");
             assert_eq!([0, 1].map(|part| pairs[part][lane]), index.look_up_pairs(&fours), "pair {index}");
             assert_eq!(picked[lane], few[lane].pick(&table), "number {}", few[lane]);
             assert_eq!(dots[lane], halves[lane].dot_halves(weights[lane]), "halves of lane {lane}");

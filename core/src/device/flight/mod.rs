@@ -3,6 +3,7 @@
 //! Forces, motion and regime of a leaf that flies as a body.
 
 pub mod body;
+pub mod contact;
 pub mod rates;
 pub mod regime;
 pub mod runge_kutta;

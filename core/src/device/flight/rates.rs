@@ -26,6 +26,58 @@ pub struct FlightMotion<R: Real = f32> {
     pub turning: Vec3<R>,
 }
 
+/// Flow past a body, and what it pushes and lifts the body with.
+#[derive(Clone, Copy, Debug)]
+pub struct AirLoad<R: Real = f32> {
+    /// Speed of the flow in m/s.
+    pub speed: R,
+    /// Its inverse.
+    pub inv_speed: R,
+    /// Squared sine of the incidence.
+    pub q: R,
+    /// Squared speed within the plane of the blade.
+    pub tangent: R,
+    /// Drag over mass per velocity.
+    pub drag: R,
+    /// Lift over mass per product of velocities.
+    pub lift: R,
+}
+
+/// Load of a flow past a body, whose velocity is in the leaf's frame.
+#[inline(always)]
+pub fn air_load<R: Real>(body: &LeafBody<R>, flow: Vec3<R>) -> AirLoad<R> {
+    let one = |value: f32| flow.x.all(value);
+    let squared = vec3_dot(flow, flow).max(one(TINY_SQUARED));
+    let inv_speed = inverse_sqrt(squared);
+    let speed = squared * inv_speed;
+    let (across2, along2) = (flow.x * flow.x, flow.z * flow.z);
+    let tangent = across2 + along2;
+    let incidence = flow.y * inv_speed;
+    let q = incidence * incidence;
+
+    let drag = (body.air_per_m * 0.5) * ((q * (one(DRAG_RISE) - q * DRAG_BEND) + body.edge_drag) * speed);
+    let slope =
+        q + (body.lift_slope_across * across2 + body.lift_slope_along * along2) * (inv_speed * inv_speed);
+    let lift = (body.air_per_m * slope) * ((q * (q * LIFT_BEND + LIFT_RISE) + LIFT_EDGE) * incidence);
+    AirLoad { speed, inv_speed, q, tangent, drag, lift }
+}
+
+/// Force over mass and torque over mass of a flow past a body that does not turn, in the leaf's frame; the torque is that of a leaf
+/// of nominal size.
+#[inline(always)]
+pub fn still_load(body: &LeafBody, flow: Vec3) -> (Vec3, Vec3) {
+    let AirLoad { speed, q, tangent, drag, lift, .. } = air_load(body, flow);
+    let force = Vec3::new(
+        (lift * flow.y - drag) * flow.x,
+        (lift * tangent + drag * flow.y) * -1.0,
+        (lift * flow.y - drag) * flow.z,
+    );
+    let munk = (body.added_mass * flow.y) * (q * MUNK_RISE + MUNK_EDGE);
+    let lever = vec3_cross(body.centroid, force);
+    let twist = body.twist_m * (speed * flow.y);
+    (force, Vec3::new(lever.x + munk * flow.z, lever.y + twist, lever.z - munk * flow.x))
+}
+
 /// Rates of change of the motion of a body in wind; the pose's is that of its four components.
 #[inline(always)]
 pub fn flight_rates<R: Real>(
@@ -49,18 +101,7 @@ pub fn flight_rates<R: Real>(
     let u = Vec3::new(vec3_dot(across, relative), vec3_dot(normal, relative), vec3_dot(along, relative));
     let turn = motion.turning;
     let flow = u + vec3_cross(turn, body.centroid);
-    let squared = vec3_dot(flow, flow).max(x.all(TINY_SQUARED));
-    let inv_speed = inverse_sqrt(squared);
-    let speed = squared * inv_speed;
-    let (across2, along2) = (flow.x * flow.x, flow.z * flow.z);
-    let tangent = across2 + along2;
-    let incidence = flow.y * inv_speed;
-    let q = incidence * incidence;
-
-    let drag = (body.air_per_m * 0.5) * ((q * (x.all(DRAG_RISE) - q * DRAG_BEND) + body.edge_drag) * speed);
-    let slope =
-        q + (body.lift_slope_across * across2 + body.lift_slope_along * along2) * (inv_speed * inv_speed);
-    let lift = (body.air_per_m * slope) * ((q * (q * LIFT_BEND + LIFT_RISE) + LIFT_EDGE) * incidence);
+    let AirLoad { speed, inv_speed, q, tangent, drag, lift } = air_load(body, flow);
     let circulation = q * WHIRL_RISE + WHIRL_EDGE;
     let whirl = vec3_cross(
         Vec3::new(

@@ -8,8 +8,10 @@
 use super::air::leaf_sample_air;
 use super::fall::{leaf_fall, leaf_fall_aloft};
 use super::join::leaf_fall_joining;
+use super::lie::leaf_settle_on_litter;
 use super::record::{
-    STATE_ATTACHED, STATE_DORMANT, STATE_FALLING, STATE_RESTING, flies, ground_steps, leaf_source, leaf_state,
+    CHANGE_REMOVED, STATE_ATTACHED, STATE_DORMANT, STATE_FALLING, STATE_RESTING, flies, ground_steps,
+    leaf_source, leaf_state, lies, with_litter_change,
 };
 use super::release::{leaf_detach, leaf_release};
 use super::settle::leaf_settle;
@@ -51,6 +53,11 @@ pub fn leaf_advance_event(cx: &Context<'_>, leaf: &mut LeafMut<'_>) {
     let now = cx.step.index;
     let source = leaf_source(leaf.identity.appearance);
     let lifetime = cx.scene.sources[source as usize].lifetime_steps;
+    if lies(leaf.place.bits) {
+        // The litter gives it back first.
+        leaf.place.bits = with_litter_change(leaf.place.bits, CHANGE_REMOVED);
+        return;
+    }
     let state = leaf_state(leaf.place.bits);
     let mut is_let_go = true;
     if state == STATE_ATTACHED {
@@ -81,6 +88,10 @@ pub fn leaf_advance(cx: &Context<'_>, leaf: &mut LeafMut<'_>) {
     let state = leaf_state(leaf.place.bits);
     if state == STATE_FALLING && !flies(leaf.place.bits) {
         leaf_fall(cx, leaf);
+    } else if state == STATE_RESTING && cx.has_litter() {
+        if leaf_is_settling(cx, leaf) {
+            leaf_settle_on_litter(cx, leaf);
+        }
     } else if state == STATE_RESTING {
         leaf_settle(cx, leaf);
     }

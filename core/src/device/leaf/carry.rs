@@ -14,7 +14,7 @@ use super::petiole::{
 };
 use super::record::{
     Attitude, Drift, HALF_MASK, Place, STATE_ATTACHED, STATE_RESTING, Schedule, body_spin_words, drawn_size,
-    leaf_state, smoothed_air_speed, smoothed_air_speed_word, twig_sizes, with_blend, with_state,
+    leaf_state, lies, smoothed_air_speed, smoothed_air_speed_word, twig_sizes, with_blend, with_state,
 };
 use crate::arith::lane::{Mask, Real, Word};
 use crate::arith::math::{inverse_sqrt, reciprocal, sin_cos_turns};
@@ -161,7 +161,8 @@ pub fn leaf_size_on_twig(size: u32, bits: u32) -> u32 {
 pub fn leaf_return(cx: &Context<'_>, leaf: &mut CarriedLeaf<'_>, bits: u32) -> u32 {
     let is_back = leaf_state(leaf.place.bits) == STATE_RESTING
         && cx.scene.sources[SOURCE_TREES as usize].lifetime_steps != 0
-        && cx.step.index >= leaf.schedule.event;
+        && cx.step.index >= leaf.schedule.event
+        && !lies(leaf.place.bits);
     if !is_back {
         return 0;
     }

@@ -4,19 +4,25 @@
 //!
 //! A leaf that flies as a body in the air: one step, in as many substeps as its speed and spin ask for.
 
-use super::record::{Drift, body_spin, body_spin_words, flies, regime_state, with_regime};
+use super::at_rest::{REST_SHARE_SQUARED, leaf_at_rest, wind_moves};
+use super::lie::{STREAM_LYING, flatten_to, leaf_rest, lying_tilt, own_friction, own_raise, reach_down};
+use super::record::{
+    Drift, body_spin, body_spin_words, flies, regime_state, touch_steps, with_regime, with_touch_steps,
+};
 use super::settle::leaf_land;
-use crate::arith::lane::{Mask, Real};
+use crate::arith::lane::{Mask, Real, Word};
 use crate::arith::math::{inverse_sqrt, reciprocal};
-use crate::arith::quaternion::{Quat, quat_rotate_back};
-use crate::arith::rng::mul_q16;
+use crate::arith::quaternion::{Quat, quat_multiply, quat_rotate_back};
+use crate::arith::rng::{mul_q16, random};
 use crate::arith::vector::{TINY_SQUARED, Vec3, vec3_dot};
 use crate::context::Context;
-use crate::device::flight::body::{body_of, body_row};
+use crate::device::flight::body::{LeafBody, body_of, body_row};
+use crate::device::flight::contact::flight_contact;
 use crate::device::flight::rates::FlightMotion;
 use crate::device::flight::regime::{regime_after, regime_of};
-use crate::device::flight::runge_kutta::{MAX_SUBSTEPS, flight_step, substep_count};
-use crate::device::terrain::ground::ground_met;
+use crate::device::flight::runge_kutta::{MAX_SUBSTEPS, Substeps, flight_step, substep_count};
+use crate::device::terrain::ground::{ground_lean, ground_met, ground_rest, ground_slope};
+use crate::device::terrain::litter::litter_height;
 use crate::device::wind::sample::wind_at;
 use crate::flight::block::BODY_LOAD_ROW;
 use crate::leaf::LeafMut;
@@ -44,6 +50,31 @@ pub fn flight_load<R: Real>(cx: &Context<'_>, bits: R::Word, relative: Vec3<R>, 
     per_speed * (squared * inverse_sqrt(squared)) + per_spin * (turned * inverse_sqrt(turned))
 }
 
+/// Turning after a contact, no faster than the substeps of this step bear.
+#[inline(always)]
+fn bounded_turning<R: Real>(
+    cx: &Context<'_>,
+    bits: R::Word,
+    body: &LeafBody<R>,
+    substeps: &Substeps<R>,
+    turning: Vec3<R>,
+) -> Vec3<R> {
+    let [_, per_spin, ..] = body_row(cx, bits, BODY_LOAD_ROW);
+    let most = (substeps.count * body.size_ratio) * reciprocal(per_spin);
+    let squared = vec3_dot(turning, turning).max(per_spin.all(TINY_SQUARED));
+    let share = most * inverse_sqrt(squared);
+    turning * share.min(per_spin.all(1.0))
+}
+
+/// Bodies after a step.
+#[derive(Clone, Copy, Debug)]
+pub struct Flown<R: Real = f32> {
+    /// Their flight.
+    pub flight: Flight<R>,
+    /// True of those that touch the ground and hardly move. Only where there is litter.
+    pub is_calm: R::Mask,
+}
+
 /// The step of bodies, in wind that holds still during it.
 #[inline(always)]
 pub fn flight_advance<R: Real>(
@@ -52,7 +83,7 @@ pub fn flight_advance<R: Real>(
     bits: R::Word,
     size: R::Word,
     wind: Vec3<R>,
-) -> Flight<R> {
+) -> Flown<R> {
     let body = body_of(cx, bits, size);
     let relative = flight.velocity - wind;
     let load = flight_load(cx, bits, relative, flight.spin);
@@ -66,6 +97,7 @@ pub fn flight_advance<R: Real>(
     let mut position = flight.position;
     let mut motion = FlightMotion { velocity: flight.velocity, pose: flight.pose, turning };
     let mut done = time.all(0.0);
+    let mut touches = done.less_than(done);
     loop {
         let on = done.less_than(substeps.count);
         if !on.any() {
@@ -83,14 +115,28 @@ pub fn flight_advance<R: Real>(
             ),
             turning: chosen(on, next.turning, motion.turning),
         };
+        if cx.has_litter() {
+            let contact = flight_contact(cx, &body, position, motion);
+            position = chosen(on, contact.position, position);
+            motion.velocity = chosen(on, contact.motion.velocity, motion.velocity);
+            motion.turning = chosen(
+                on,
+                bounded_turning(cx, bits, &body, &substeps, contact.motion.turning),
+                motion.turning,
+            );
+            touches = touches | (on & contact.touches);
+        }
         done = done + 1.0;
     }
-    Flight {
+    let flight = Flight {
         position,
         velocity: motion.velocity,
         pose: motion.pose,
         spin: motion.turning * body.inv_size_ratio,
-    }
+    };
+    let swing = flight.spin * ((body.half_mean_m * body.size_ratio) * 0.5);
+    let energy = vec3_dot(flight.velocity, flight.velocity) + vec3_dot(swing, swing);
+    Flown { flight, is_calm: touches & energy.less_than(energy.all(cx.scene.litter.rest_m2_s2)) }
 }
 
 /// State of a body's regime after a step, and its bits with that regime.
@@ -119,6 +165,48 @@ pub fn update_regime<R: Real>(
     let [_, _, idle_timeout, _] = body_row(cx, bits, BODY_LOAD_ROW);
     let next = regime_after(state, flow, flight.spin, path, ticks, idle_timeout.to_whole());
     Regime { state: next, bits: with_regime(bits, regime_of(next)) }
+}
+
+/// Bits of bodies with the steps for which they have been calm.
+#[inline(always)]
+pub fn count_calm_steps<W: Word>(cx: &Context<'_>, bits: W, is_calm: W::Mask) -> W {
+    if !cx.has_litter() {
+        return bits;
+    }
+    with_touch_steps(bits, is_calm.select(touch_steps(bits).plus(bits.all(1)), bits.all(0)))
+}
+
+/// Returns true if bodies with these bits, at this place after a step, are done with flying: they have been calm for a while, or, where
+/// there is no litter, have come to the ground.
+#[inline(always)]
+pub fn flight_ends<R: Real>(cx: &Context<'_>, bits: R::Word, position: Vec3<R>) -> R::Mask {
+    if !cx.has_litter() {
+        return ground_met(cx, position);
+    }
+    !touch_steps(bits).less_than(bits.all(cx.scene.settle_steps))
+}
+
+/// Lays a body down whose flight ends, unless the wind would take it from the litter again.
+#[inline(always)]
+fn leaf_end_flight(cx: &Context<'_>, leaf: &mut LeafMut<'_>, start: Vec3) {
+    if !cx.has_litter() {
+        leaf_land(cx, leaf, start);
+        return;
+    }
+    let [x, _, z] = leaf.place.position;
+    let words = random(cx.scene.seed, leaf.identity.id, STREAM_LYING);
+    let slope = ground_slope(cx, x, z);
+    let lean = quat_multiply(ground_lean(slope), lying_tilt(cx, words));
+    let pose = flatten_to(lean, Quat::from(leaf.attitude.quaternion), 0.0);
+    let body = body_of(cx, leaf.place.bits, leaf.schedule.size);
+    let friction = own_friction(cx, words, litter_height(cx, x, z));
+    let wind = wind_at(cx, Vec3::new(x, ground_rest(cx, x, z) + reach_down(&body, pose), z));
+    let at_rest = leaf_at_rest(cx, body, pose, slope, friction, own_raise(cx, words));
+    if wind_moves(cx, &at_rest, wind, REST_SHARE_SQUARED) {
+        leaf.place.bits = with_touch_steps(leaf.place.bits, 0);
+    } else {
+        leaf_rest(cx, leaf);
+    }
 }
 
 /// `yes` where the mask is true, `no` elsewhere.
@@ -157,13 +245,13 @@ pub fn leaf_fly(cx: &Context<'_>, leaf: &mut LeafMut<'_>) {
     }
     let start = flight_of(leaf);
     let wind = wind_at(cx, start.position);
-    let flight = flight_advance(cx, start, leaf.place.bits, leaf.schedule.size, wind);
+    let Flown { flight, is_calm } = flight_advance(cx, start, leaf.place.bits, leaf.schedule.size, wind);
     flight_write(leaf, flight);
     let before = regime_state(leaf.identity.fall_time);
     let regime = update_regime(cx, &flight, wind, before, leaf.place.bits);
     leaf.identity.fall_time = regime.state;
-    leaf.place.bits = regime.bits;
-    if ground_met(cx, flight.position) {
-        leaf_land(cx, leaf, start.position);
+    leaf.place.bits = count_calm_steps(cx, regime.bits, is_calm);
+    if flight_ends(cx, leaf.place.bits, flight.position) {
+        leaf_end_flight(cx, leaf, start.position);
     }
 }

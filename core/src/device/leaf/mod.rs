@@ -4,13 +4,17 @@
 
 pub mod advance;
 pub mod air;
+pub mod at_rest;
 pub mod carry;
 pub mod fall;
 pub mod fly;
 pub mod join;
 pub mod launch;
+pub mod lie;
 pub mod own;
 pub mod petiole;
 pub mod record;
 pub mod release;
 pub mod settle;
+pub mod stack;
+pub mod wake;

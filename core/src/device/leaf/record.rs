@@ -33,6 +33,20 @@ crate::shared_constants! {
     pub const PRIMITIVE_MASK: u32 = 7;
     /// In place of a primitive motion: the leaf flies as a body in the air.
     pub const AERODYNAMIC: u32 = 6;
+    /// In place of a primitive motion: the leaf lies in the litter.
+    pub const LYING: u32 = 7;
+    /// Place of a lying leaf's change of the litter, where others keep their blend.
+    pub const CHANGE_SHIFT: u32 = 2;
+    /// Mask of the change.
+    pub const CHANGE_MASK: u32 = 3;
+    /// The litter has the leaf's volume, and the leaf lies still.
+    pub const CHANGE_NONE: u32 = 0;
+    /// The leaf has just lain down: the litter takes its volume.
+    pub const CHANGE_ADDED: u32 = 1;
+    /// The wind takes the leaf: the litter loses its volume, and the leaf flies.
+    pub const CHANGE_WOKEN: u32 = 2;
+    /// The leaf sinks or is recycled: the litter loses its volume.
+    pub const CHANGE_REMOVED: u32 = 3;
     /// Place of such a leaf's regime, where others keep their blend.
     pub const REGIME_SHIFT: u32 = 2;
     /// Mask of the regime.
@@ -69,6 +83,10 @@ crate::shared_constants! {
     pub const ASYMMETRY_MIDDLE: f32 = 7.5;
     /// Inverse of it.
     pub const ASYMMETRY_UNIT: f32 = 1.0 / 7.5;
+    /// A friction coefficient of one of a leaf in the litter.
+    pub const LYING_FRICTION_ONE: f32 = 4096.0;
+    /// Inverse of it.
+    pub const LYING_FRICTION_UNIT: f32 = 1.0 / 4096.0;
     /// Middle of a range, 32 to 64, in which floats lie [`GRID_UNIT`] apart.
     pub const GRID_ANCHOR: f32 = 48.0;
     /// Distance of the grid that displacements lie on, in metres.
@@ -80,7 +98,8 @@ crate::shared_record! {
     pub struct Place {
         /// Position in metres.
         pub position: [f32; 3],
-        /// State, blend or regime, primitive motion, species and spin angle: see [`leaf_state`] to [`spin_angle`].
+        /// State; blend, regime or change of the litter; primitive motion; species; spin angle, steps of touch or volume: see
+        /// [`leaf_state`] to [`lying_volume`].
         pub bits: u32,
     }
 }
@@ -93,7 +112,7 @@ crate::shared_record! {
         /// velocity of the blade.
         pub velocity: [f32; 3],
         /// Phase of the primitive motion in 2^-32 periods. Of a body in the air: its spin about x ([`body_spin`]). On the
-        /// ground: [`ground_steps`]. On the twig: [`smoothed_air_speed`].
+        /// ground: [`ground_steps`], in the litter [`wake_speed_squared`]. On the twig: [`smoothed_air_speed`].
         pub phase: u32,
     }
 }
@@ -114,13 +133,14 @@ crate::shared_record! {
     pub struct Schedule {
         /// Step of the next event: release, end of a stage, recycling, the petiole's break.
         pub event: u32,
-        /// Phase per step in 2^-32 periods. Of a body in the air: its spin about y ([`body_spin`]).
+        /// Phase per step in 2^-32 periods. Of a body in the air: its spin about y ([`body_spin`]). In the litter:
+        /// [`lying_support`].
         pub rate: u32,
         /// Low half: size relative to the species' ([`size_ratio`]). High half: of a leaf on its twig, [`own_size`]; of a
         /// body in the air, [`asymmetry`].
         pub size: u32,
         /// Heading and spin rate ([`heading_angle`], [`spin_rate`]). Of a body in the air: its spin about z
-        /// ([`body_spin`]).
+        /// ([`body_spin`]). In the litter: [`lying_friction`], [`lying_raise`].
         pub heading: u32,
     }
 }
@@ -225,6 +245,43 @@ pub fn turn_spin<W: Word>(bits: W, turn: W) -> W {
     bits.plus(turn << SPIN_SHIFT)
 }
 
+/// Returns true if leaves with these bits lie in the litter.
+#[inline(always)]
+pub fn lies<W: Word>(bits: W) -> W::Mask {
+    let lying = STATE_RESTING | (LYING << PRIMITIVE_SHIFT);
+    (bits & (STATE_MASK | (PRIMITIVE_MASK << PRIMITIVE_SHIFT))).equals(lying)
+}
+
+/// Change of the litter that a lying leaf waits for: [`CHANGE_NONE`] to [`CHANGE_REMOVED`].
+#[inline(always)]
+pub fn litter_change(bits: u32) -> u32 {
+    (bits >> CHANGE_SHIFT) & CHANGE_MASK
+}
+
+/// Bits of a lying leaf with another change.
+#[inline(always)]
+pub fn with_litter_change(bits: u32, change: u32) -> u32 {
+    (bits & !(CHANGE_MASK << CHANGE_SHIFT)) | (change << CHANGE_SHIFT)
+}
+
+/// Volume of a lying leaf in units of height over a cell.
+#[inline(always)]
+pub fn lying_volume(bits: u32) -> u32 {
+    bits >> SPIN_SHIFT
+}
+
+/// Steps for which a body has touched the ground nearly at rest.
+#[inline(always)]
+pub fn touch_steps<W: Word>(bits: W) -> W {
+    bits >> SPIN_SHIFT
+}
+
+/// Bits of a body with another number of such steps.
+#[inline(always)]
+pub fn with_touch_steps<W: Word>(bits: W, steps: W) -> W {
+    (bits & HALF_MASK) | (steps << SPIN_SHIFT)
+}
+
 /// Bits of a leaf; of `spin` the low half counts.
 #[inline(always)]
 pub fn place_bits(state: u32, blend: u32, primitive: u32, species: u32, spin: u32) -> u32 {
@@ -252,6 +309,53 @@ pub fn body_spin_words<R: Real>(spin: Vec3<R>) -> [R::Word; 3] {
 #[inline(always)]
 pub fn ground_steps<W: Word>(phase: W) -> W {
     phase
+}
+
+/// Square in m²/s² of the lowest speed of level wind that moves a leaf in the litter with nothing on it, from [`Drift::phase`].
+#[inline(always)]
+pub fn wake_speed_squared(phase: u32) -> f32 {
+    f32::from_bits(phase)
+}
+
+/// The word of such a square.
+#[inline(always)]
+pub fn wake_speed_word(square: f32) -> u32 {
+    square.to_bits()
+}
+
+/// Height in m of the centre of a leaf in the litter above its lowest point, from [`Schedule::rate`].
+#[inline(always)]
+pub fn lying_support(rate: u32) -> f32 {
+    f32::from_bits(rate)
+}
+
+/// The word of such a height.
+#[inline(always)]
+pub fn lying_support_word(height_m: f32) -> u32 {
+    height_m.to_bits()
+}
+
+/// Friction coefficient of a leaf in the litter, from [`Schedule::heading`].
+#[inline(always)]
+pub fn lying_friction(heading: u32) -> f32 {
+    (heading & HALF_MASK) as f32 * LYING_FRICTION_UNIT
+}
+
+/// Angle in 2^-16 turns by which the edges of a leaf in the litter stand up, from [`Schedule::heading`].
+#[inline(always)]
+pub fn lying_raise(heading: u32) -> u32 {
+    heading >> 16
+}
+
+/// Heading word of a leaf in the litter.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "below eight, by the scene's limits"
+)]
+#[inline(always)]
+pub fn lying_word(friction: f32, raise: u32) -> u32 {
+    ((friction * LYING_FRICTION_ONE) as u32) | (raise << 16)
 }
 
 /// Low-pass filtered speed in m/s of the air that blows past a leaf on its twig, from [`Drift::phase`].
@@ -368,7 +472,7 @@ pub(crate) fn spin_is_float(bits: u32) -> bool {
     leaf_state(bits) == STATE_ATTACHED || leaf_primitive(bits) == AERODYNAMIC
 }
 
-/// Returns true if [`Drift::phase`] holds a float: of the same leaves, unless they lie on the ground.
+/// Returns true if [`Drift::phase`] holds a float: of the same leaves, unless they come to rest on the ground, and in the litter.
 pub(crate) fn phase_is_float(bits: u32) -> bool {
-    spin_is_float(bits) && leaf_state(bits) != STATE_RESTING
+    (spin_is_float(bits) && leaf_state(bits) != STATE_RESTING) || lies(bits)
 }

@@ -24,10 +24,25 @@ crate::shared_constants! {
     pub const FLAT_SQUARED: f32 = 1e-14;
 }
 
+/// Coulomb friction of a sliding leaf on level ground.
+#[derive(Clone, Copy, Debug)]
+pub struct Friction {
+    /// Speed lost per second in m/s².
+    pub loss_m_s2: f32,
+    /// Stopping distance per squared speed in s²/m.
+    pub stop_s2_m: f32,
+}
+
+/// Friction of bare ground.
+#[inline(always)]
+pub fn ground_friction(cx: &Context<'_>) -> Friction {
+    Friction { loss_m_s2: cx.scene.friction_m_s2, stop_s2_m: cx.scene.stop_s2_m }
+}
+
 /// A sliding leaf after `seconds` of gravity and Coulomb friction: displacement and velocity left. One that would turn
 /// round lies still.
 #[inline(always)]
-pub fn slide(cx: &Context<'_>, came: Vec3, seconds: f32, slope: Slope) -> (Vec3, Vec3) {
+pub fn slide(cx: &Context<'_>, came: Vec3, seconds: f32, slope: Slope, friction: Friction) -> (Vec3, Vec3) {
     let pull = (cx.scene.gravity_m_s2 * seconds) * slope.inv_gain;
     let velocity = Vec3::new(came.x - slope.x * pull, came.y, came.z - slope.z * pull);
     if velocity.x * came.x + velocity.z * came.z < 0.0 {
@@ -39,8 +54,8 @@ pub fn slide(cx: &Context<'_>, came: Vec3, seconds: f32, slope: Slope) -> (Vec3,
     }
     let inverse = inverse_sqrt(squared);
     let speed = squared * inverse;
-    let left = (speed - (cx.scene.friction_m_s2 * slope.inv_gain) * seconds).max(0.0);
-    let stop = squared * (cx.scene.stop_s2_m * slope.gain);
+    let left = (speed - (friction.loss_m_s2 * slope.inv_gain) * seconds).max(0.0);
+    let stop = squared * (friction.stop_s2_m * slope.gain);
     let way = if left > 0.0 { (0.5 * seconds) * (speed + left) } else { stop };
     (velocity * (way * inverse), velocity * (left * inverse))
 }
@@ -82,8 +97,9 @@ pub fn leaf_land(cx: &Context<'_>, leaf: &mut LeafMut<'_>, start: Vec3) {
     let share = ((start.y - above) * reciprocal(drop)).max(0.0).min(1.0);
     let way = end - start;
     let hit = start + way * share;
+    let left = (1.0 - share) * cx.scene.dt_s;
     let (slid, velocity) =
-        slide(cx, way * cx.scene.inv_dt_s, (1.0 - share) * cx.scene.dt_s, ground_slope(cx, hit.x, hit.z));
+        slide(cx, way * cx.scene.inv_dt_s, left, ground_slope(cx, hit.x, hit.z), ground_friction(cx));
     let lifetime = cx.scene.sources[leaf_source(leaf.identity.appearance) as usize].lifetime_steps;
     let (x, z) = (hit.x + slid.x, hit.z + slid.z);
     let bits = with_state(with_blend(leaf.place.bits, 0), STATE_RESTING);
@@ -92,7 +108,7 @@ pub fn leaf_land(cx: &Context<'_>, leaf: &mut LeafMut<'_>, start: Vec3) {
     leaf.schedule.event = if lifetime == 0 { NEVER } else { leaf.identity.release.wrapping_add(lifetime) };
 }
 
-/// One step of a leaf on the ground.
+/// One step of a leaf on ground that bears no litter.
 #[inline(always)]
 pub fn leaf_settle(cx: &Context<'_>, leaf: &mut LeafMut<'_>) {
     let steps = ground_steps(leaf.drift.phase);
@@ -109,7 +125,7 @@ pub fn leaf_settle(cx: &Context<'_>, leaf: &mut LeafMut<'_>) {
         leaf.drift.phase = if slides && is_hilly { 0 } else { steps + 1 };
     }
     if slides {
-        let (slid, left) = slide(cx, velocity, cx.scene.dt_s, slope);
+        let (slid, left) = slide(cx, velocity, cx.scene.dt_s, slope, ground_friction(cx));
         let (x, z) = (position[0] + slid.x, position[2] + slid.z);
         leaf.place.position = [x, if is_hilly { ground_rest(cx, x, z) } else { position[1] }, z];
         leaf.drift.velocity = left.to_array();

@@ -3,3 +3,4 @@
 //! The ground, as leaves meet it.
 
 pub mod ground;
+pub mod litter;

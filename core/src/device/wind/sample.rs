@@ -15,6 +15,7 @@ use crate::arith::vector::Vec3;
 use crate::blocks::MOMENT_NOW;
 use crate::context::Context;
 use crate::device::terrain::ground::ground_relief;
+use crate::device::terrain::litter::above_litter;
 
 /// Velocity of the air at `place` at the start of the step, in m/s.
 #[inline(always)]
@@ -33,6 +34,7 @@ pub fn wind_at_moment<R: Real>(cx: &Context<'_>, moment: u32, place: Vec3<R>) ->
     let across = place.z * direction_x - place.x * direction_z;
     let height = place.y - cx.scene.ground_height_m;
     let above = if cx.scene.has_terrain() { height - ground_relief(cx, place.x, place.z) } else { height };
+    let above = if cx.has_litter() { above_litter(cx, above, place.x, place.z) } else { above };
     let [profile, level] = wind_profile(cx, above);
     let mut mean = (profile * wind.mean_speed_m_s) * (wind_gust(cx, at, along) * wind.gust_strength + 1.0);
     if cx.scene.has_shelter() {

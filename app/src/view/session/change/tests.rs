@@ -1,7 +1,9 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
 
-use windfall_core::scene::{Exposure, Haze, Profile, Release, Sky, SkyMap, SwayScheme, Terrain, Tree, Water};
+use windfall_core::scene::{
+    Exposure, Haze, Litter, Profile, Release, Sky, SkyMap, SwayScheme, Terrain, Tree, Water,
+};
 
 use super::*;
 
@@ -44,6 +46,21 @@ fn wind_and_speeds_go_on_at_once() {
 }
 
 #[test]
+fn litter_that_lies_goes_on_with_another_friction() {
+    let mut old = Scene::preset("autumn-park").expect("a preset");
+    old.ground.litter = Some(Litter::default());
+    let to = |litter| {
+        let mut new = old.clone();
+        new.ground.litter = Some(litter);
+        Change::between(&old, &new)
+    };
+    let tuned = to(Litter { friction: 1.2, raised_deg: (1.0, 2.0), ..Litter::default() });
+    assert_eq!(tuned, Change { retune: true, ..Change::default() }, "friction and raised edges");
+    let laid = to(Litter { leaf_area_index: 0.01, ..Litter::default() });
+    assert!(laid.world && laid.parts == ["litter"], "a bed: {laid:?}");
+}
+
+#[test]
 fn what_is_only_seen_leaves_the_simulation_alone() {
     let seen = change(|scene| scene.view.lens.exposure = Exposure::Manual { ev100: 14.0 });
     assert_eq!(seen, Change { lens: true, ..Change::default() }, "a lens");
@@ -64,7 +81,7 @@ fn what_is_only_seen_leaves_the_simulation_alone() {
 
 #[test]
 fn what_the_world_is_made_of_begins_it_again() {
-    let edits: [(&str, bool, Edit); 10] = [
+    let edits: [(&str, bool, Edit); 11] = [
         ("seed", true, |scene| scene.seed += 1),
         ("step length", false, |scene| scene.dt_s = 0.01),
         ("gravity", false, |scene| scene.gravity_m_s2 = 1.62),
@@ -75,6 +92,7 @@ fn what_the_world_is_made_of_begins_it_again() {
         ("regrowth", false, |scene| scene.regrow_after_s = Some(77.0)),
         ("ground", true, |scene| scene.ground.height_m -= 1.0),
         ("hills", true, |scene| scene.ground.terrain = Some(Terrain::default())),
+        ("litter", false, |scene| scene.ground.litter = Some(Litter::default())),
     ];
     for (part, picture, edit) in edits {
         let change = change(edit);

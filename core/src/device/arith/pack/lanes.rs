@@ -148,6 +148,15 @@ macro_rules! pack {
                 $pairs(self, rows)
             }
             #[inline(always)]
+            fn look_up_word(self, words: &[u32]) -> Self {
+                let picked = $pick::<_, _, 1>(self, words);
+                let mut found = [0; $lanes];
+                for (lane, word) in found.iter_mut().enumerate() {
+                    *word = picked.at(lane)[0];
+                }
+                Self::load_array(self.simd, found)
+            }
+            #[inline(always)]
             fn dot_halves(self, other: Self) -> $reals<S> {
                 $halves(self, other).to_real()
             }

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Random valid scenes: full ranges, narrowed only where one value depends on another.
 
-use glam::Vec3;
+use glam::{Vec2, Vec3};
 use proptest::collection::vec;
 use proptest::option;
 use proptest::prelude::*;
@@ -304,6 +304,28 @@ prop_compose! {
 }
 
 prop_compose! {
+    fn litter()(
+        (x_m, z_m, along_m, across_m) in (
+            within(limits::CENTER_M), within(limits::CENTER_M), within(limits::LITTER_SIZE_M), within(limits::LITTER_SIZE_M)
+        ),
+        // Larger ones have more leaves than slots, where leaves are small.
+        leaf_area_index in 0.0f32..=1e-4,
+        (bulk_density_kg_m3, friction, restitution) in
+            (within(limits::BULK_DENSITY_KG_M3), within(limits::FRICTION), within(limits::RESTITUTION)),
+        (least_raised_deg, raised_spread) in (within(limits::RAISED_DEG), 0.0f32..=1.0),
+        (moisture, adhesion_n_m2, still) in
+            (within(limits::MOISTURE), within(limits::ADHESION_N_M2), any::<bool>()),
+    ) -> Litter {
+        Litter {
+            center_m: Vec2::new(x_m, z_m),
+            size_m: Vec2::new(along_m, across_m),
+            raised_deg: (least_raised_deg, least_raised_deg + raised_spread * (limits::RAISED_DEG.high - least_raised_deg)),
+            leaf_area_index, bulk_density_kg_m3, friction, restitution, moisture, adhesion_n_m2, still,
+        }
+    }
+}
+
+prop_compose! {
     pub(super) fn any_scene()(
         name in "[^\\p{Cc}]{0,30}",
         seed in any::<u64>(),
@@ -317,9 +339,10 @@ prop_compose! {
         sway_every in 1..=2u32,
         (autumn, regrow_after_s) in (within(limits::AUTUMN), maybe(limits::REGROW_AFTER_S)),
         wind in wind(),
-        ground in (-4.0f32..=4.0, within(limits::FRICTION), within(limits::SURFACE_ROUGHNESS_M), option::of(terrain()), maybe(limits::HEIGHT_M))
-            .prop_map(|(height_m, friction, surface_roughness_m, terrain, water)| {
-                Ground { height_m, friction, surface_roughness_m, terrain, water: water.map(|height_m| Water { height_m }) }
+        ground in (-4.0f32..=4.0, within(limits::FRICTION), within(limits::SURFACE_ROUGHNESS_M), option::of(terrain()), maybe(limits::HEIGHT_M), option::of(litter()))
+            .prop_map(|(height_m, friction, surface_roughness_m, terrain, water, litter)| {
+                let water = water.map(|height_m| Water { height_m });
+                Ground { height_m, friction, surface_roughness_m, terrain, water, litter }
             }),
         view in view(),
     ) -> Scene {

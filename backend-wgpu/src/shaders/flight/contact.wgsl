@@ -1,0 +1,110 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// twin: core/src/device/flight/contact.rs
+// Contact of a body with the ground or the litter on it: an impulse at the lowest point of its outline, an ellipse.
+#import flight/body
+#import flight/rates
+#import arith/math
+#import arith/quaternion
+#import arith/vector
+#import terrain/ground
+#import terrain/litter
+
+struct Contact {
+    position: vec3<f32>,
+    motion: FlightMotion,
+    touches: bool,
+}
+
+struct Support {
+    radius: f32,
+    arm: vec3<f32>,
+}
+
+struct Struck {
+    velocity: vec3<f32>,
+    spin: vec3<f32>,
+}
+
+fn contact_friction(depth: f32) -> f32 {
+    return select(scene.litter.friction, scene.litter.ground_friction, depth < LITTER_DEEP_M);
+}
+
+fn support(body: LeafBody, normal: vec3<f32>) -> Support {
+    let across = body.half_across_m * body.size_ratio;
+    let along = body.half_along_m * body.size_ratio;
+    let x = (across * across) * normal.x;
+    let z = (along * along) * normal.z;
+    let squared = max(x * normal.x + z * normal.z, TINY_SQUARED);
+    let inverse = inverse_sqrt(squared);
+    return Support(squared * inverse, vec3<f32>((x * inverse) * -1.0, 0.0, (z * inverse) * -1.0));
+}
+
+fn flight_contact(body: LeafBody, position: vec3<f32>, motion: FlightMotion) -> Contact {
+    let reach = max(body.half_along_m, body.half_across_m) * body.size_ratio;
+    if (!(position.y < reach + scene.highest_rest_m)) {
+        return Contact(position, motion, false);
+    }
+    let above = position.y - ground_rest(position.x, position.z);
+    if (!(above < reach * CONTACT_REACH)) {
+        return Contact(position, motion, false);
+    }
+    let rise = ground_gradient(position.x, position.z);
+    let up = inverse_sqrt((rise.x * rise.x + rise.y * rise.y) + 1.0);
+    let normal = vec3<f32>((rise.x * up) * -1.0, up, (rise.y * up) * -1.0);
+    let inner = quat_rotate_back(motion.pose, normal);
+    let lowest = support(body, inner);
+    let gap = above * up - lowest.radius;
+    if (!(gap < 0.0)) {
+        return Contact(position, motion, false);
+    }
+    let depth = litter_height(position.x, position.z);
+    let share = body.inv_size_ratio * body.inv_size_ratio;
+    let inv_inertia = body.inv_inertia * share;
+    let velocity = quat_rotate_back(motion.pose, motion.velocity);
+    let spin = motion.turning * body.inv_size_ratio;
+    let meeting = velocity + vec3_cross(spin, lowest.arm);
+    let closing = vec3_dot(meeting, inner);
+    let bounces = closing < -BOUNCE_M_S && depth < LITTER_DEEP_M;
+    let restitution = select(0.0, scene.litter.restitution, bounces);
+    let striking = (closing * (restitution + 1.0)) * reciprocal(contact_yield(inv_inertia, lowest.arm, inner));
+    let push = max(striking * -1.0, 0.0);
+    let struck = contact_impulse(inv_inertia, lowest.arm, velocity, spin, inner * push);
+    let left = struck.velocity + vec3_cross(struck.spin, lowest.arm);
+    let sliding = left - inner * vec3_dot(left, inner);
+    let squared = max(vec3_dot(sliding, sliding), TINY_SQUARED);
+    let inverse = inverse_sqrt(squared);
+    let way = sliding * inverse;
+    let stopping = (squared * inverse) * reciprocal(contact_yield(inv_inertia, lowest.arm, way));
+    let drag = min(stopping, contact_friction(depth) * push);
+    let next = contact_impulse(inv_inertia, lowest.arm, struck.velocity, struck.spin, way * (drag * -1.0));
+    let next_velocity = quat_rotate(motion.pose, next.velocity);
+    let out = normal * (gap * -1.0);
+    return Contact(
+        position + out,
+        FlightMotion(next_velocity, motion.pose, next.spin * body.size_ratio),
+        true,
+    );
+}
+
+fn contact_impulse(
+    inv_inertia: vec3<f32>,
+    arm: vec3<f32>,
+    velocity: vec3<f32>,
+    spin: vec3<f32>,
+    impulse: vec3<f32>,
+) -> Struck {
+    let turned = vec3_cross(arm, impulse);
+    let next_spin = vec3<f32>(
+        spin.x + inv_inertia.x * turned.x,
+        spin.y + inv_inertia.y * turned.y,
+        spin.z + inv_inertia.z * turned.z,
+    );
+    return Struck(velocity + impulse, next_spin);
+}
+
+fn contact_yield(inv_inertia: vec3<f32>, arm: vec3<f32>, direction: vec3<f32>) -> f32 {
+    let lever = vec3_cross(arm, direction);
+    let turn = vec3<f32>(inv_inertia.x * lever.x, inv_inertia.y * lever.y, inv_inertia.z * lever.z);
+    return vec3_dot(lever, turn) + 1.0;
+}

@@ -1,0 +1,19 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// twin: backend-cpu/src/kernels/wake_lying.rs
+// Samples the wind at the leaves that lie in the litter, for the units that have their turn: invocations are those of these units.
+#import bindings
+#import leaf/wake
+#import lists/append_active
+
+@compute @workgroup_size(WORKGROUP_SIZE)
+fn wake_lying(@builtin(global_invocation_id) id: vec3<u32>) {
+    let turn = (0u - step_block.index) & (WAKE_INTERVAL - 1u);
+    let unit = (id.x >> AIR_UNIT_SHIFT) * WAKE_INTERVAL + turn;
+    let leaf = (unit << AIR_UNIT_SHIFT) | (id.x & ((1u << AIR_UNIT_SHIFT) - 1u));
+    if (leaf < arrayLength(&places) && wake_is_due(leaf)) {
+        if (leaf_wake(leaf)) {
+            list_released(leaf);
+        }
+    }
+}

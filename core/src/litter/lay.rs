@@ -1,0 +1,98 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Lays leaves down before time zero: those that have landed by then, and those that a scene strews.
+
+use super::Bed;
+use crate::arith::quaternion::{Quat, quat_multiply};
+use crate::arith::rng::{mul_high, random, triangular, unit_float};
+use crate::arith::vector::Vec3;
+use crate::blocks::{NEVER, SOURCE_LITTER};
+use crate::context::Context;
+use crate::device::flight::body::body_of;
+use crate::device::leaf::launch::turn_about_y;
+use crate::device::leaf::lie::{
+    STREAM_LYING, flatten_to, leaf_lie_down, lying_tilt, own_friction, own_raise, reach_down,
+};
+use crate::device::leaf::record::{STATE_RESTING, leaf_appearance, leaf_state, place_bits};
+use crate::device::leaf::release::release_size_speed;
+use crate::device::leaf::stack::{leaf_changes_litter, leaf_stack};
+use crate::device::motion::feature::{STREAM_PLACE, STREAM_TRAITS};
+use crate::device::terrain::ground::{ground_lean, ground_slope, lying_height};
+use crate::device::terrain::litter::{LITTER_CELLS_PER_M, litter_height};
+use crate::leaf::{LeafMut, Leaves};
+use crate::scene::Litter;
+
+/// Random words that thin a bed out.
+const STREAM_RIM: u32 = 37;
+/// Most cells that a leaf slides down a heap before time zero.
+const MOST_SLIDES: u32 = 64;
+
+/// Strews the leaves that lie on the ground from the start, in the slots from `first` on: uniformly over the rectangle but for its
+/// rim, where they thin out.
+pub(crate) fn strew(cx: &Context<'_>, litter: &Litter, leaves: &mut Leaves, first: usize) {
+    let rim_m = litter.rim_m();
+    let mut run = leaves.as_mut().split_at(first).1;
+    for (slot, leaf) in (first..).zip(run.iter_mut()) {
+        #[expect(clippy::cast_possible_truncation, reason = "slots are counted in words")]
+        let id = slot as u32;
+        let words = random(cx.scene.seed, id, STREAM_PLACE);
+        let rims = random(cx.scene.seed, id, STREAM_RIM);
+        let traits = random(cx.scene.seed, id, STREAM_TRAITS);
+        let species = mul_high(words[3], cx.scene.species_count);
+        let along = |word: u32, rim: u32, center_m: f32, edge_m: f32| {
+            let within = (unit_float(word) - 0.5) * (edge_m - 2.0 * rim_m);
+            center_m + (within + triangular(rim) as f32 * (rim_m / 65536.0))
+        };
+        let x = along(words[0], rims[0], litter.center_m.x, litter.size_m.x);
+        let z = along(words[1], rims[1], litter.center_m.y, litter.size_m.y);
+        leaf.identity.id = id;
+        leaf.identity.appearance = leaf_appearance(traits[3], traits[0], SOURCE_LITTER);
+        leaf.schedule.size = release_size_speed(&cx.scene.species[species as usize], traits).size;
+        leaf.schedule.event = NEVER;
+        leaf.place.position = [x, 0.0, z];
+        leaf.place.bits = place_bits(STATE_RESTING, 0, 0, species, 0);
+        leaf.attitude.quaternion = turn_about_y(words[2]).to_array();
+    }
+}
+
+/// Lays every leaf that rests into the bed, one after another.
+pub(crate) fn lay_all(cx: &Context<'_>, leaves: &mut Leaves, bed: &mut Bed) {
+    for mut leaf in leaves.as_mut().iter_mut() {
+        if leaf_state(leaf.place.bits) != STATE_RESTING {
+            continue;
+        }
+        lay(&cx.over(&bed.words), &mut leaf);
+        if leaf_changes_litter(leaf.place.bits) {
+            let change = leaf_stack(&cx.over(&bed.words), &mut leaf);
+            bed.apply(&cx.scene.litter, &change);
+        }
+    }
+}
+
+/// Lets a leaf slide down to where it stays, and lays it down there in its own pose.
+fn lay(cx: &Context<'_>, leaf: &mut LeafMut<'_>) {
+    let words = random(cx.scene.seed, leaf.identity.id, STREAM_LYING);
+    let [mut x, _, mut z] = leaf.place.position;
+    let mut slope = ground_slope(cx, x, z);
+    let mut friction = own_friction(cx, words, litter_height(cx, x, z));
+    for _ in 0..MOST_SLIDES {
+        let steep = slope.gain - 1.0;
+        if steep <= friction * friction {
+            break;
+        }
+        let way = Vec3::new(slope.x, 0.0, slope.z) * (1.0 / (libm::sqrtf(steep) * LITTER_CELLS_PER_M));
+        (x, z) = (x - way.x, z - way.z);
+        slope = ground_slope(cx, x, z);
+        friction = own_friction(cx, words, litter_height(cx, x, z));
+    }
+    let lean = quat_multiply(ground_lean(slope), lying_tilt(cx, words));
+    let pose = flatten_to(lean, Quat::from(leaf.attitude.quaternion), 0.0);
+    let body = body_of(cx, leaf.place.bits, leaf.schedule.size);
+    leaf.attitude.quaternion = pose.to_array();
+    leaf.place.position = [x, lying_height(cx, x, z, reach_down(&body, pose)), z];
+    leaf.drift.velocity = [0.0; 3];
+    leaf.drift.phase = cx.scene.settle_steps;
+    if cx.scene.has_living_litter() {
+        leaf_lie_down(cx, leaf, slope, friction, own_raise(cx, words));
+    }
+}

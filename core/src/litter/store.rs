@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The bed: heights of litter at the nodes of its grid, and how many leaves the wind has taken from it.
+
+use crate::blocks::LitterBlock;
+use crate::device::leaf::stack::LitterChange;
+
+/// Words in a row of the tables, behind which devices keep the bed.
+const ROW_WORDS: usize = 4;
+
+crate::columns! {
+    /// Litter of a world. The nodes of its grid, line by line, then [`Bed::woken`]; no row without litter.
+    pub struct Bed("litter") {
+        /// Heights in units of [`LITTER_UNIT_M`](crate::device::terrain::litter::LITTER_UNIT_M).
+        pub words: u32,
+    }
+    /// The words of one row.
+    row BedWord;
+    /// A run of rows.
+    run BedMut;
+}
+
+impl Bed {
+    /// Number of rows for a scene, whole rows of tables.
+    pub(crate) fn rows_of(litter: &LitterBlock) -> usize {
+        if litter.columns == 0 { 0 } else { (nodes(litter) + 1).next_multiple_of(ROW_WORDS) }
+    }
+
+    /// Heights of the nodes.
+    pub fn heights(&self, litter: &LitterBlock) -> &[u32] {
+        &self.words[..nodes(litter).min(self.words.len())]
+    }
+
+    /// Number of leaves that the wind has taken so far.
+    pub fn woken(&self, litter: &LitterBlock) -> u32 {
+        self.words.get(nodes(litter)).copied().unwrap_or(0)
+    }
+
+    /// Makes the change of a leaf. Changes of integers, they may come in any order.
+    pub fn apply(&mut self, litter: &LitterBlock, change: &LitterChange) {
+        let first = change.shares.node as usize;
+        let far = first + litter.columns as usize + 1;
+        for (node, height) in [first, first + 1, far, far + 1].into_iter().zip(change.shares.heights) {
+            let word = &mut self.words[node];
+            *word = if change.is_added { word.wrapping_add(height) } else { word.wrapping_sub(height) };
+        }
+        self.words[nodes(litter)] += u32::from(change.is_woken);
+    }
+}
+
+/// Number of nodes of the grid.
+fn nodes(litter: &LitterBlock) -> usize {
+    (litter.columns as usize + 1) * (litter.lines as usize + 1)
+}

@@ -1,0 +1,115 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Living litter: the same bits on CPU and GPU, and heights that are what lies there.
+
+use windfall_core::device::leaf::record::{lies, lying_volume};
+use windfall_core::scene::Scene;
+use windfall_core::{Contract, Simulator, World};
+use windfall_cpu::{CpuOptions, CpuSimulator, Simd};
+use windfall_tests::adapter;
+use windfall_tests::compare::difference;
+use windfall_tests::strategies::{hilly_scene, littered_scene, wooded_scene};
+use windfall_wgpu::{Gpu, WgpuOptions, WgpuSimulator};
+
+const LEAVES: u32 = 3000;
+const STEPS: u32 = 1000;
+
+fn world() -> World {
+    World::build(&littered_scene(77, LEAVES, 6.0, 1.0 / 60.0)).expect("the littered scene is valid")
+}
+
+fn oracle(world: &World, options: CpuOptions, steps: u32) -> World {
+    let mut result = world.clone();
+    let mut simulator = CpuSimulator::new(world, options).expect("threads start");
+    simulator.step(steps).expect("the CPU steps");
+    simulator.read_state(&mut result).expect("same size");
+    result
+}
+
+fn candidate(gpu: &Gpu, world: &World, page_leaves: Option<u32>, batches: &[u32]) -> World {
+    let mut result = world.clone();
+    let options = WgpuOptions { contract: Some(Contract::Exact), page_leaves, ..WgpuOptions::default() };
+    let mut simulator = WgpuSimulator::new(gpu, world, &options).expect("the device takes the world");
+    for steps in batches {
+        simulator.step(*steps).expect("it steps");
+    }
+    simulator.read_state(&mut result).expect("same size");
+    result
+}
+
+fn exact_adapters() -> impl Iterator<Item = Gpu> {
+    adapter::contracts().into_iter().filter(|(_, contract)| *contract == Contract::Exact).map(|(gpu, _)| gpu)
+}
+
+/// Sum of the heights, and of the volumes of the leaves that lie.
+fn sums(world: &World) -> (u64, u64) {
+    let heights = world.bed.heights(&world.compiled.block().litter);
+    let lying = world.leaves.place.iter().filter(|place| lies(place.bits));
+    (
+        heights.iter().copied().map(u64::from).sum(),
+        lying.map(|place| u64::from(lying_volume(place.bits))).sum(),
+    )
+}
+
+#[test]
+fn a_thousand_steps_of_living_litter_are_equal_to_the_bit() {
+    let world = world();
+    let expected = oracle(&world, CpuOptions::default(), STEPS);
+    let stats = expected.litter_stats().expect("there is litter");
+    assert!(stats.lying > 500 && stats.awake > 100 && stats.woken > 1000, "{stats:?}");
+    for gpu in exact_adapters() {
+        for (page_leaves, batches) in [(None, &[STEPS][..]), (Some(4096), &[1, 40, 7, 952])] {
+            let found = candidate(&gpu, &world, page_leaves, batches);
+            let apart = difference(&expected, &found);
+            assert!(apart.is_none(), "{}, pages of {page_leaves:?}: {apart:?}", gpu.info().name);
+            assert_eq!(expected.state_hash(), found.state_hash(), "{}", gpu.info().name);
+        }
+    }
+}
+
+#[test]
+fn hills_and_trees_with_litter_are_equal_to_the_bit() {
+    let littered = littered_scene(78, 1200, 7.0, 1.0 / 60.0);
+    let mut wooded = wooded_scene(79, 600, 9.0, 1.0 / 60.0);
+    wooded.ground.litter = littered.ground.litter;
+    wooded.autumn = 0.8;
+    let scenes: [Scene; 2] = [hilly_scene(littered), wooded];
+    for scene in scenes {
+        let world = World::build(&scene).expect("valid");
+        let expected = oracle(&world, CpuOptions::default(), 400);
+        let stats = expected.litter_stats().expect("there is litter");
+        assert!(stats.lying > 50 && stats.woken > 100, "{stats:?}");
+        for gpu in exact_adapters() {
+            let apart = difference(&expected, &candidate(&gpu, &world, None, &[400]));
+            assert!(apart.is_none(), "{} in {}: {apart:?}", gpu.info().name, scene.name);
+        }
+    }
+}
+
+#[test]
+fn every_instruction_set_and_number_of_threads_gives_the_same_litter() {
+    let world = world();
+    let plain = oracle(&world, CpuOptions { simd: Some(Simd::Scalar), threads: Some(1) }, 300);
+    for simd in Simd::available() {
+        for threads in [1, 3] {
+            let options = CpuOptions { simd: Some(simd), threads: Some(threads) };
+            let found = oracle(&world, options, 300);
+            assert_eq!(found.state_hash(), plain.state_hash(), "{simd:?} on {threads} threads");
+        }
+    }
+    let mut stepped = world.clone();
+    windfall_core::oracle::step(&mut stepped, 300);
+    assert_eq!(stepped.state_hash(), plain.state_hash(), "the plain loop");
+}
+
+#[test]
+fn heights_are_what_lies_there_to_the_unit() {
+    let mut world = world();
+    let (heights, volumes) = sums(&world);
+    assert!(heights > 0 && heights == volumes, "before: {heights} of {volumes}");
+    for step in 0..60 {
+        world = oracle(&world, CpuOptions::default(), 10);
+        let (heights, volumes) = sums(&world);
+        assert_eq!(heights, volumes, "after {} steps", 10 * step + 10);
+    }
+}
