@@ -7,7 +7,9 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
-use crate::commands::{bench, export, flight, info, leaf, motions, render, simulate, study, tree, view};
+use crate::commands::{
+    bench, export, flight, info, leaf, litter, motions, render, simulate, study, tree, view,
+};
 use crate::run::terminal;
 
 /// Exit code of everything that goes wrong.
@@ -39,6 +41,8 @@ pub enum Command {
     Bench(bench::Arguments),
     /// Drop leaves or pieces of paper in still air, and measure how they fall.
     Flight(flight::Arguments),
+    /// Blow at leaves that lie on the ground, and measure which move and how.
+    Litter(litter::Arguments),
     /// Drop leaves under many settings of a scene, and compare how they fall and where they land.
     Study(study::Arguments),
     /// Write the motion tables of every species of a scene as text files.
@@ -61,6 +65,7 @@ impl Command {
             Self::Info => info::run(),
             Self::Bench(arguments) => bench::run(&arguments),
             Self::Flight(arguments) => flight::run(&arguments),
+            Self::Litter(arguments) => litter::run(&arguments),
             Self::Study(arguments) => study::run(&arguments),
             Self::Motions(arguments) => motions::run(&arguments),
             Self::Leaf(command) => command.run(),

@@ -7,6 +7,7 @@ use std::fmt::Write as _;
 use serde::Serialize;
 use windfall_core::device::flight::regime::REGIME_NAMES;
 use windfall_core::leaf::{LEAF_BYTES, LeafState};
+use windfall_core::litter::LitterStats;
 use windfall_core::motion::Primitive;
 use windfall_core::{LeafStats, Simulator, Stats, World};
 
@@ -26,6 +27,30 @@ pub(crate) struct LeafCounts {
     pub resting: u32,
     /// Not let go yet, and not part of the total.
     pub dormant: u32,
+}
+
+/// Leaves that lie on one another.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub(crate) struct LitterReport {
+    /// In the litter.
+    pub lying: u32,
+    /// Moving as bodies, in the air or on the ground.
+    pub awake: u32,
+    /// Taken from the litter by the wind since time zero, each time that one was.
+    pub woken: u32,
+    /// Greatest height of the litter.
+    pub deepest_m: f64,
+    /// Volume of the litter.
+    pub volume_m3: f64,
+    /// Mass of the leaves in it, with their water.
+    pub mass_kg: f64,
+}
+
+impl From<LitterStats> for LitterReport {
+    fn from(stats: LitterStats) -> Self {
+        let LitterStats { lying, awake, woken, deepest_m, volume_m3, mass_kg } = stats;
+        Self { lying, awake, woken, deepest_m, volume_m3, mass_kg }
+    }
 }
 
 /// The outcome of `windfall simulate`. The names of these fields are the keys of its JSON; they stay.
@@ -49,6 +74,8 @@ pub(crate) struct Report {
     pub leaves: LeafCounts,
     /// The trees.
     pub trees: TreeReport,
+    /// The litter; null without any.
+    pub litter: Option<LitterReport>,
     /// Mean position over the total.
     pub mean_position_m: [f64; 3],
     /// Mean velocity over the total.
@@ -88,6 +115,7 @@ impl Report {
             time_s: world.clock.seconds(),
             leaves: LeafCounts { total, attached, falling, resting, dormant },
             trees,
+            litter: world.litter_stats().map(LitterReport::from),
             mean_position_m,
             mean_velocity_m_s,
             state_hash: format!("{:016x}", world.state_hash()),
@@ -117,6 +145,12 @@ impl Report {
         let TreeReport { count, segments, max_joint_angle_rad, tip_speed_max_m_s, leaves_shed } = self.trees;
         let sway = format!("joints to {max_joint_angle_rad:.3} rad, tips to {tip_speed_max_m_s:.2} m/s");
         row("trees", format!("{count} of {segments} segments, {sway}, {leaves_shed} leaves shed"));
+        if let Some(litter) = self.litter {
+            let LitterReport { lying, awake, woken, deepest_m, volume_m3, mass_kg } = litter;
+            let lies =
+                format!("{lying} lying, {mass_kg:.3} kg in {volume_m3:.4} m³, up to {deepest_m:.3} m deep");
+            row("litter", format!("{lies}; {awake} awake, {woken} woken"));
+        }
         row("motions", motions.join(", "));
         let regimes = REGIME_NAMES.iter().zip(stats.leaves.regimes);
         let regimes: Vec<_> = regimes.map(|(regime, count)| format!("{regime} {count}")).collect();

@@ -6,13 +6,15 @@
 //! the statistics of how it falls. `windfall study` drops the leaves of a scene's sources under many settings:
 //! [`Variation`]s say which fields take which values, [`place::SceneTree`] puts them there, and every combination is a
 //! [`Point`]; [`drops`] makes of a point's scene one in which every leaf falls once, [`Summary`] are its numbers, and
-//! [`StudyFolder`] keeps finished points, so that an interrupted study goes on. [`shedding`] counts leaves that a crown loses.
+//! [`StudyFolder`] keeps finished points, so that an interrupted study goes on. [`shedding`] counts leaves that a crown loses,
+//! [`litter_tunnel`] leaves on the ground that the wind moves.
 
 pub(crate) mod descent;
 pub(crate) mod drops;
 mod experiment;
 pub(crate) mod folder;
 pub(crate) mod landing;
+pub(crate) mod litter_tunnel;
 pub(crate) mod place;
 pub(crate) mod point;
 pub(crate) mod regime;
