@@ -10,6 +10,7 @@ use windfall_core::tree::Forest;
 use windfall_core::tree::batch::TreeBatch;
 use windfall_core::{Clock, CompiledScene, Contract, SimError, Simulator, SimulatorInfo, Stats, World};
 
+use crate::exposed::ExposedLeaves;
 use crate::kernels::CHUNK;
 use crate::kernels::measure::measure;
 use crate::kernels::stack_litter::{LitterChanges, stack_litter};
@@ -39,6 +40,7 @@ pub struct CpuSimulator {
     blocks: Vec<BatchBlocks>,
     scratches: Vec<Mutex<Scratch>>,
     quiet: QuietUnits,
+    exposed: ExposedLeaves,
     /// None where threads cannot be started: there the caller's does everything.
     pool: Option<ThreadPool>,
     simd: Simd,
@@ -58,8 +60,9 @@ impl CpuSimulator {
         };
         let simd = options.simd.unwrap_or_else(Simd::best);
         let quiet = QuietUnits::new(world.leaves.len());
+        let exposed = ExposedLeaves::new(world.leaves.len());
         let (world, blocks, scratches) = (world.clone(), Vec::new(), Vec::new());
-        let mut simulator = Self { world, blocks, scratches, quiet, pool, simd };
+        let mut simulator = Self { world, blocks, scratches, quiet, exposed, pool, simd };
         let forest = Arc::clone(simulator.world.compiled.forest());
         simulator.plant(&forest);
         Ok(simulator)
@@ -123,6 +126,7 @@ impl Simulator for CpuSimulator {
         }
         self.world.compiled = compiled.clone();
         self.quiet.forget();
+        self.exposed.forget();
         Ok(())
     }
 
@@ -130,7 +134,7 @@ impl Simulator for CpuSimulator {
         let World { compiled, clock, leaves, branches, bed } = &mut self.world;
         let (simd, blocks, scratches, quiet) = (self.simd, &self.blocks, &self.scratches, &self.quiet);
         let has_litter = !bed.is_empty();
-        let changes = LitterChanges::default();
+        let (changes, exposed) = (LitterChanges::default(), &self.exposed);
         let forest = Arc::clone(compiled.forest());
         let is_small = leaves.len() <= CHUNK && forest.len() <= CHUNK / 16;
         let last = clock.step().saturating_add(count).saturating_sub(1);
@@ -151,7 +155,7 @@ impl Simulator for CpuSimulator {
             }
             let steps = step_blocks.each_ref().map(|block| compiled.context(block).over(&bed.words));
             let steps = &steps[..count];
-            let of = |steps| LeafSteps { steps, changes: &changes, simd };
+            let of = |steps| LeafSteps { steps, changes: &changes, exposed, simd };
             if !forest.is_empty() {
                 for cx in steps {
                     step_trees(
@@ -175,7 +179,7 @@ impl Simulator for CpuSimulator {
             step_leaves(&of(steps), free, quiet_free, carried);
             if has_litter {
                 let bare = compiled.context(&step_blocks[0]);
-                stack_litter(&bare, &mut leaves.as_mut(), bed, quiet, &changes);
+                stack_litter(&bare, &mut leaves.as_mut(), bed, quiet, exposed, &changes);
             }
         };
         let mut steps = || {

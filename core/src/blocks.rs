@@ -117,7 +117,7 @@ crate::shared_struct! {
 
 crate::shared_struct! {
     /// Litter, compiled.
-    pub struct LitterBlock, padding 12 {
+    pub struct LitterBlock, padding 8 {
         /// First row of the heights, behind all tables; four heights to a row.
         pub first_row: u32,
         /// Cells along x; 0 without litter.
@@ -142,6 +142,8 @@ crate::shared_struct! {
         pub least_raise: u32,
         /// Largest angle beyond that.
         pub raise_spread: u32,
+        /// Steps from one sample of the wind at a lying leaf to the next; as many as for the cover where no wind blows.
+        pub wake_steps: u32,
         /// Square of the speed in m²/s² below which a body that touches the ground comes to rest.
         pub rest_m2_s2: f32,
     }

@@ -15,7 +15,7 @@ const LEAVES: u32 = 3000;
 const STEPS: u32 = 1000;
 
 fn world() -> World {
-    World::build(&littered_scene(77, LEAVES, 6.0, 1.0 / 60.0)).expect("the littered scene is valid")
+    World::build(&littered_scene(77, LEAVES, 3.0, 1.0 / 60.0)).expect("the littered scene is valid")
 }
 
 fn oracle(world: &World, options: CpuOptions, steps: u32) -> World {
@@ -69,8 +69,8 @@ fn a_thousand_steps_of_living_litter_are_equal_to_the_bit() {
 
 #[test]
 fn hills_and_trees_with_litter_are_equal_to_the_bit() {
-    let littered = littered_scene(78, 1200, 7.0, 1.0 / 60.0);
-    let mut wooded = wooded_scene(79, 600, 9.0, 1.0 / 60.0);
+    let littered = littered_scene(78, 1200, 3.5, 1.0 / 60.0);
+    let mut wooded = wooded_scene(79, 600, 5.0, 1.0 / 60.0);
     wooded.ground.litter = littered.ground.litter;
     wooded.autumn = 0.8;
     let scenes: [Scene; 2] = [hilly_scene(littered), wooded];

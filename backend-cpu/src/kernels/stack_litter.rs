@@ -11,6 +11,7 @@ use windfall_core::device::leaf::stack::leaf_stack;
 use windfall_core::leaf::LeavesMut;
 use windfall_core::litter::Bed;
 
+use crate::exposed::ExposedLeaves;
 use crate::quiet::QuietUnits;
 use crate::simd::branch_block::word;
 
@@ -34,12 +35,15 @@ pub(crate) fn stack_litter(
     leaves: &mut LeavesMut<'_>,
     bed: &mut Bed,
     quiet: &QuietUnits,
+    exposed: &ExposedLeaves,
     changes: &LitterChanges,
 ) {
     for slot in changes.0.lock().unwrap_or_else(PoisonError::into_inner).drain(..) {
         let change = leaf_stack(cx, &mut leaves.row_mut(slot as usize));
         bed.apply(&cx.scene.litter, &change);
-        if !change.is_added {
+        if change.is_added {
+            exposed.add(slot as usize);
+        } else {
             quiet.wake(slot);
         }
     }

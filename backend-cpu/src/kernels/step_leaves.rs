@@ -16,6 +16,7 @@ use super::fly::fly;
 use super::resolve_events::resolve_events;
 use super::stack_litter::LitterChanges;
 use super::wake_lying::wake_lying;
+use crate::exposed::ExposedLeaves;
 use crate::quiet::{UNIT, are_quiet};
 use crate::simd::Simd;
 
@@ -27,12 +28,13 @@ pub(crate) struct LeafSteps<'a> {
     /// A view for each step.
     pub(crate) steps: &'a [Context<'a>],
     pub(crate) changes: &'a LitterChanges,
+    pub(crate) exposed: &'a ExposedLeaves,
     pub(crate) simd: Simd,
 }
 
 /// Steps leaves from slot `first` on, halving the columns until a piece is one chunk. There is a word for each unit of slots.
 pub(crate) fn step_leaves(all: &LeafSteps<'_>, mut leaves: LeavesMut<'_>, quiet: &[AtomicU32], first: usize) {
-    let LeafSteps { steps, changes, simd } = *all;
+    let LeafSteps { steps, changes, exposed, simd } = *all;
     let last = steps.last().map_or(0, |cx| cx.step.index);
     let has_litter = steps.iter().any(Context::has_litter);
     if !has_litter && leaves.len() <= LARGEST_REST && are_quiet(quiet, last) {
@@ -56,7 +58,7 @@ pub(crate) fn step_leaves(all: &LeafSteps<'_>, mut leaves: LeavesMut<'_>, quiet:
             fly(cx, &mut leaves, &events, simd);
         }
         if cx.scene.has_living_litter() {
-            wake_lying(cx, &mut leaves, first, &mut changing);
+            wake_lying(cx, &mut leaves, first, exposed, &mut changing);
             changes.list(&changing, first);
         }
     }

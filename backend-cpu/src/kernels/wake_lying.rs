@@ -5,9 +5,11 @@
 //! Samples the wind at the leaves of a chunk that lie in the litter, for the units that have their turn.
 
 use windfall_core::Context;
-use windfall_core::device::leaf::wake::{leaf_wake, wake_is_due};
+use windfall_core::device::leaf::record::{is_covered, lies};
+use windfall_core::device::leaf::wake::{cover_is_due, leaf_check_cover, leaf_wake, wake_is_due};
 use windfall_core::leaf::LeavesMut;
 
+use crate::exposed::ExposedLeaves;
 use crate::quiet::UNIT;
 use crate::simd::branch_block::word;
 
@@ -16,14 +18,27 @@ pub(crate) fn wake_lying(
     cx: &Context<'_>,
     leaves: &mut LeavesMut<'_>,
     first: usize,
+    exposed: &ExposedLeaves,
     changing: &mut Vec<usize>,
 ) {
-    for unit in (0..leaves.len()).step_by(UNIT) {
-        if wake_is_due(cx, word(first + unit)) {
-            for slot in unit..leaves.len().min(unit + UNIT) {
-                if leaf_wake(cx, &mut leaves.row_mut(slot)) {
+    for unit in (0..leaves.len()).step_by(UNIT).filter(|unit| wake_is_due(cx, word(first + unit))) {
+        let slots = unit..leaves.len().min(unit + UNIT);
+        if cover_is_due(cx, word(first + unit)) {
+            for slot in slots.clone() {
+                if leaf_check_cover(cx, &mut leaves.row_mut(slot)) {
                     changing.push(slot);
                 }
+            }
+            let is_exposed = |slot: &usize| {
+                let bits = leaves.place[*slot].bits;
+                lies(bits) && !is_covered(bits)
+            };
+            exposed.set(first + unit, slots.filter(is_exposed).map(|slot| slot - unit));
+        }
+        for place in exposed.of_unit(first + unit) {
+            let slot = unit + place;
+            if slot < leaves.len() && leaf_wake(cx, &mut leaves.row_mut(slot)) {
+                changing.push(slot);
             }
         }
     }

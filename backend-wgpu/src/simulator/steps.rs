@@ -5,7 +5,6 @@
 use windfall_core::SimError;
 use windfall_core::blocks::StepBlock;
 use windfall_core::device::leaf::air::AIR_UNIT_SHIFT;
-use windfall_core::device::leaf::wake::WAKE_INTERVAL;
 
 use super::WgpuSimulator;
 use crate::buffers::buffer;
@@ -195,7 +194,8 @@ impl WgpuSimulator {
     fn encode_litter(&self, pass: &mut wgpu::ComputePass<'_>, offset: u32) {
         pass.set_pipeline(self.pipelines.kernel(KernelId::WakeLying));
         for page in &self.pages {
-            let units = page.leaves.div_ceil(1 << AIR_UNIT_SHIFT).div_ceil(WAKE_INTERVAL);
+            let units =
+                page.leaves.div_ceil(1 << AIR_UNIT_SHIFT).div_ceil(self.compiled.block().litter.wake_steps);
             pass.set_bind_group(0, &page.in_motion, &[offset]);
             pass.set_bind_group(1, &page.active.filled, &[]);
             pass.dispatch_workgroups((units << AIR_UNIT_SHIFT).div_ceil(WORKGROUP_SIZE), 1, 1);

@@ -5,10 +5,11 @@
 use super::body::body_block;
 use super::source::{source_block, trees_block};
 use super::species::{response_block, species_block};
-use super::wind::{MOST_INTERVAL_STEPS, wind_block};
+use super::wind::{MOST_INTERVAL_STEPS, deviation_m_s, wind_block};
 use crate::arith::rng::seed_words;
 use crate::blocks::{LitterBlock, SOURCE_TREES, SceneBlock, SwayBlock, WindBlock};
 use crate::convert::{len32, low_word, q16, single, steps, word};
+use crate::device::leaf::wake::{COVER_INTERVAL, WAKE_INTERVAL};
 use crate::device::terrain::litter::{LITTER_CELLS_PER_M, LITTER_HIGHEST_M};
 use crate::device::tree::sway::{IMPLICITNESS, SCHEME_ARTICULATED, SCHEME_OLIAPURAM_KUMAR, SCHEME_QUIGLEY};
 use crate::flight::coefficients::TICKS_PER_S;
@@ -151,5 +152,9 @@ fn set_litter(scene: &Scene, litter: &Litter, block: &mut LitterBlock) {
     block.adhesion_m2_s2 = single(f64::from(litter.adhesion_n_m2) / AIR_DENSITY);
     block.least_raise = turns(least);
     block.raise_spread = turns(most) - turns(least);
+    let is_calm = scene.wind.speed.metres_per_second() == 0.0
+        && deviation_m_s(&scene.wind) == 0.0
+        && scene.wind.vortices.is_empty();
+    block.wake_steps = if is_calm { COVER_INTERVAL } else { WAKE_INTERVAL };
     block.rest_m2_s2 = scene.gravity_m_s2 * REST_OFFSET_M;
 }

@@ -16,6 +16,7 @@ use crate::device::leaf::lie::{
 use crate::device::leaf::record::{STATE_RESTING, leaf_appearance, leaf_state, place_bits};
 use crate::device::leaf::release::release_size_speed;
 use crate::device::leaf::stack::{leaf_changes_litter, leaf_stack};
+use crate::device::leaf::wake::leaf_check_cover;
 use crate::device::motion::feature::{STREAM_PLACE, STREAM_TRAITS};
 use crate::device::terrain::ground::{ground_lean, ground_slope, lying_height};
 use crate::device::terrain::litter::{LITTER_CELLS_PER_M, litter_height};
@@ -66,6 +67,9 @@ pub(crate) fn lay_all(cx: &Context<'_>, leaves: &mut Leaves, bed: &mut Bed) {
             let change = leaf_stack(&cx.over(&bed.words), &mut leaf);
             bed.apply(&cx.scene.litter, &change);
         }
+    }
+    for mut leaf in leaves.as_mut().iter_mut() {
+        leaf_check_cover(&cx.over(&bed.words), &mut leaf);
     }
 }
 

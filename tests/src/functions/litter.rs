@@ -11,12 +11,12 @@ use windfall_core::device::leaf::at_rest::{
 use windfall_core::device::leaf::fly::{count_calm_steps, flight_ends};
 use windfall_core::device::leaf::lie::{flatten_to, lying_tilt, lying_units, own_friction, reach_down};
 use windfall_core::device::leaf::record::{
-    SIZE_ONE, SPECIES_SHIFT, lies, litter_change, lying_friction, lying_raise, lying_support,
+    SIZE_ONE, SPECIES_SHIFT, is_covered, lies, litter_change, lying_friction, lying_raise, lying_support,
     lying_support_word, lying_volume, lying_word, touch_steps, wake_speed_squared, wake_speed_word,
-    with_litter_change, with_touch_steps,
+    with_cover, with_litter_change, with_touch_steps,
 };
 use windfall_core::device::leaf::stack::leaf_changes_litter;
-use windfall_core::device::leaf::wake::wake_is_due;
+use windfall_core::device::leaf::wake::{cover_is_due, layers_above, wake_is_due};
 use windfall_core::device::terrain::ground::{
     drop_direction, ground_bare, ground_gradient, ground_is_water, ground_slope, lying_height,
 };
@@ -59,6 +59,14 @@ functions! {
         touch_steps(w[0]), with_touch_steps(w[0], w[1]), u32::from(wake_is_due(cx, w[0])),
         wake_speed_word(float(w[0])) ^ lying_support_word(float(w[1])) ^ lying_word(0.5, w[1]),
         wake_speed_squared(w[0]).to_bits(), lying_support(w[0]).to_bits(), lying_friction(w[0]).to_bits(), (lying_raise(w[0]) as f32).to_bits(),
+    ]);
+
+    cover_is_due in "leaf/wake" (ANY, Input::Below(2)) tolerance Some(1e-6);
+    wgsl "r = vec4<u32>(u32(cover_is_due(a.x)), u32(is_covered(a.x)), with_cover(a.x, a.y == 1u),
+            bitcast<u32>(layers_above((a.x & 1u) << SPECIES_SHIFT, 0.01)));";
+    rust |cx, w| integers([
+        u32::from(cover_is_due(cx, w[0])), u32::from(is_covered(w[0])), with_cover(w[0], w[1] == 1),
+        layers_above(cx, (w[0] & 1) << SPECIES_SHIFT, 0.01).to_bits(),
     ]);
 
     leaf_changes_litter in "leaf/stack" (ANY) tolerance None;

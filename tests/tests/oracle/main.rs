@@ -12,6 +12,7 @@ mod flight;
 mod gravity;
 mod landing;
 mod launch;
+mod litter;
 mod motion;
 mod path;
 mod plate;

@@ -8,11 +8,15 @@
 
 @compute @workgroup_size(WORKGROUP_SIZE)
 fn wake_lying(@builtin(global_invocation_id) id: vec3<u32>) {
-    let turn = (0u - step_block.index) & (WAKE_INTERVAL - 1u);
-    let unit = (id.x >> AIR_UNIT_SHIFT) * WAKE_INTERVAL + turn;
+    let turns = scene.litter.wake_steps;
+    let unit = (id.x >> AIR_UNIT_SHIFT) * turns + ((0u - step_block.index) & (turns - 1u));
     let leaf = (unit << AIR_UNIT_SHIFT) | (id.x & ((1u << AIR_UNIT_SHIFT) - 1u));
     if (leaf < arrayLength(&places) && wake_is_due(leaf)) {
-        if (leaf_wake(leaf)) {
+        var leaves_litter = false;
+        if (cover_is_due(leaf)) {
+            leaves_litter = leaf_check_cover(leaf);
+        }
+        if (leaf_wake(leaf) || leaves_litter) {
             list_released(leaf);
         }
     }

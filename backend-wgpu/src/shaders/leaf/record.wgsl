@@ -74,6 +74,15 @@ fn with_litter_change(bits: u32, change: u32) -> u32 {
     return (bits & ~(CHANGE_MASK << CHANGE_SHIFT)) | (change << CHANGE_SHIFT);
 }
 
+fn is_covered(bits: u32) -> bool {
+    return ((bits >> COVERED_SHIFT) & 1u) != 0u;
+}
+
+fn with_cover(bits: u32, covered: bool) -> u32 {
+    let mark = 1u << COVERED_SHIFT;
+    return select(bits & ~mark, bits | mark, covered);
+}
+
 fn lying_volume(bits: u32) -> u32 {
     return bits >> SPIN_SHIFT;
 }

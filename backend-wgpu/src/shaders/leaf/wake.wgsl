@@ -12,27 +12,51 @@
 #import terrain/ground
 #import wind/sample
 
-fn wake_is_due(slot: u32) -> bool {
-    return (((slot >> AIR_UNIT_SHIFT) + step_block.index) & (WAKE_INTERVAL - 1u)) == 0u;
+fn unit_has_turn(slot: u32, interval_steps: u32) -> bool {
+    return (((slot >> AIR_UNIT_SHIFT) + step_block.index) & (interval_steps - 1u)) == 0u;
 }
 
-fn leaf_wake(leaf: u32) -> bool {
+fn wake_is_due(slot: u32) -> bool {
+    return unit_has_turn(slot, scene.litter.wake_steps);
+}
+
+fn cover_is_due(slot: u32) -> bool {
+    return unit_has_turn(slot, COVER_INTERVAL);
+}
+
+fn layers_above(bits: u32, height: f32) -> f32 {
+    return height * reciprocal(scene.bodies[leaf_species(bits)].layer_m);
+}
+
+fn leaf_check_cover(leaf: u32) -> bool {
     let place = places[leaf];
     let bits = place.bits;
     if (!lies(bits) || litter_change(bits) != CHANGE_NONE) {
         return false;
     }
     let x = place.position.x;
-    let y = place.position.y;
     let z = place.position.z;
-    let reach = lying_support(schedules[leaf].rate);
-    let rest = ground_rest(x, z);
-    let layer = scene.bodies[leaf_species(bits)].layer_m;
-    if (y > rest + LOOSE_LAYERS * layer && y > lying_height(x, z, reach) + LOOSE_LAYERS * layer) {
+    let ground = lying_height(x, z, lying_support(schedules[leaf].rate));
+    if (layers_above(bits, place.position.y - ground) > LOOSE_LAYERS) {
         places[leaf].bits = with_litter_change(bits, CHANGE_REMOVED);
         return true;
     }
-    let cover = max((rest - y) * reciprocal(layer) - 1.0, 0.0);
+    let above = layers_above(bits, ground_rest(x, z) - place.position.y);
+    places[leaf].bits = with_cover(bits, above > COVERED_LAYERS);
+    return false;
+}
+
+fn leaf_wake(leaf: u32) -> bool {
+    let place = places[leaf];
+    let bits = place.bits;
+    if (!lies(bits) || is_covered(bits) || litter_change(bits) != CHANGE_NONE) {
+        return false;
+    }
+    let x = place.position.x;
+    let z = place.position.z;
+    let reach = lying_support(schedules[leaf].rate);
+    let rest = ground_rest(x, z);
+    let cover = max(layers_above(bits, rest - place.position.y) - 1.0, 0.0);
     let wind = wind_at(vec3<f32>(x, rest + reach, z));
     if (vec3_dot(wind, wind) < wake_speed_squared(drifts[leaf].phase) * (1.0 + cover)) {
         return false;

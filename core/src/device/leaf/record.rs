@@ -47,6 +47,8 @@ crate::shared_constants! {
     pub const CHANGE_WOKEN: u32 = 2;
     /// The leaf sinks or is recycled: the litter loses its volume.
     pub const CHANGE_REMOVED: u32 = 3;
+    /// Place of the mark of a lying leaf that others cover.
+    pub const COVERED_SHIFT: u32 = 4;
     /// Place of such a leaf's regime, where others keep their blend.
     pub const REGIME_SHIFT: u32 = 2;
     /// Mask of the regime.
@@ -262,6 +264,19 @@ pub fn litter_change(bits: u32) -> u32 {
 #[inline(always)]
 pub fn with_litter_change(bits: u32, change: u32) -> u32 {
     (bits & !(CHANGE_MASK << CHANGE_SHIFT)) | (change << CHANGE_SHIFT)
+}
+
+/// Returns true if others cover a lying leaf, so that no wind reaches it.
+#[inline(always)]
+pub fn is_covered(bits: u32) -> bool {
+    (bits >> COVERED_SHIFT) & 1 != 0
+}
+
+/// Bits of a lying leaf that others cover, or no longer do.
+#[inline(always)]
+pub fn with_cover(bits: u32, is_covered: bool) -> u32 {
+    let mark = 1 << COVERED_SHIFT;
+    if is_covered { bits | mark } else { bits & !mark }
 }
 
 /// Volume of a lying leaf in units of height over a cell.

@@ -7,8 +7,8 @@
 use super::air::AIR_UNIT_SHIFT;
 use super::at_rest::{leaf_at_rest, raising_axis, wind_moves};
 use super::record::{
-    CHANGE_NONE, CHANGE_REMOVED, CHANGE_WOKEN, body_spin_words, lies, litter_change, lying_friction,
-    lying_raise, lying_support, wake_speed_squared, with_litter_change,
+    CHANGE_NONE, CHANGE_REMOVED, CHANGE_WOKEN, body_spin_words, is_covered, lies, litter_change,
+    lying_friction, lying_raise, lying_support, wake_speed_squared, with_cover, with_litter_change,
 };
 use crate::arith::math::reciprocal;
 use crate::arith::quaternion::{Quat, quat_rotate_back};
@@ -21,36 +21,73 @@ use crate::flight::block::BODY_LITTER_ROW;
 use crate::leaf::LeafMut;
 
 crate::shared_constants! {
-    /// Steps from one sample of the wind at a lying leaf to the next.
+    /// Steps from one sample of the wind at a lying leaf to the next, where it blows.
     pub const WAKE_INTERVAL: u32 = 8;
+    /// Steps after which it is seen what lies on and beneath a leaf; a multiple of the other.
+    pub const COVER_INTERVAL: u32 = 64;
+    /// Layers above a leaf from which on no wind reaches it.
+    pub const COVERED_LAYERS: f32 = 2.0;
     /// Spin in rad/s with which the wind turns a leaf up that it takes: by 20 degrees in a tenth of a second.
     pub const RAISING_RAD_S: f32 = 3.5;
     /// Layers of litter by which a leaf may lie above it before it sinks.
     pub const LOOSE_LAYERS: f32 = 2.0;
 }
 
+/// Returns true if a slot's unit has its turn in this step, of as many turns.
+#[inline(always)]
+fn unit_has_turn(cx: &Context<'_>, slot: u32, interval_steps: u32) -> bool {
+    ((slot >> AIR_UNIT_SHIFT).wrapping_add(cx.step.index) & (interval_steps - 1)) == 0
+}
+
 /// Returns true if the lying leaves in a slot's unit sample the wind in this step.
 #[inline(always)]
 pub fn wake_is_due(cx: &Context<'_>, slot: u32) -> bool {
-    ((slot >> AIR_UNIT_SHIFT).wrapping_add(cx.step.index) & (WAKE_INTERVAL - 1)) == 0
+    unit_has_turn(cx, slot, cx.scene.litter.wake_steps)
 }
 
-/// Finds out if a leaf in the litter stays: the wind may take it, or it has lost what it lay on. Returns true if it leaves.
+/// Returns true if it is seen in this step what lies on and beneath the leaves in a slot's unit.
 #[inline(always)]
-pub fn leaf_wake(cx: &Context<'_>, leaf: &mut LeafMut<'_>) -> bool {
+pub fn cover_is_due(cx: &Context<'_>, slot: u32) -> bool {
+    unit_has_turn(cx, slot, COVER_INTERVAL)
+}
+
+/// Layers of litter above a leaf that lies, less than none if it lies above the litter.
+#[inline(always)]
+pub fn layers_above(cx: &Context<'_>, bits: u32, height: f32) -> f32 {
+    let [_, _, layer, _] = body_row(cx, bits, BODY_LITTER_ROW);
+    height * reciprocal(layer)
+}
+
+/// Marks a leaf in the litter that others cover. Returns true if it has lost what it lay on, and leaves.
+#[inline(always)]
+pub fn leaf_check_cover(cx: &Context<'_>, leaf: &mut LeafMut<'_>) -> bool {
     let bits = leaf.place.bits;
     if !lies(bits) || litter_change(bits) != CHANGE_NONE {
         return false;
     }
     let [x, y, z] = leaf.place.position;
-    let reach = lying_support(leaf.schedule.rate);
-    let rest = ground_rest(cx, x, z);
-    let [_, _, layer, _] = body_row(cx, bits, BODY_LITTER_ROW);
-    if y > rest + LOOSE_LAYERS * layer && y > lying_height(cx, x, z, reach) + LOOSE_LAYERS * layer {
+    let floor = lying_height(cx, x, z, lying_support(leaf.schedule.rate));
+    if layers_above(cx, bits, y - floor) > LOOSE_LAYERS {
         leaf.place.bits = with_litter_change(bits, CHANGE_REMOVED);
         return true;
     }
-    let cover = ((rest - y) * reciprocal(layer) - 1.0).max(0.0);
+    let above = layers_above(cx, bits, ground_rest(cx, x, z) - y);
+    leaf.place.bits = with_cover(bits, above > COVERED_LAYERS);
+    false
+}
+
+/// Lets the wind at a leaf in the litter decide if it stays. Returns true if the wind takes it.
+#[inline(always)]
+pub fn leaf_wake(cx: &Context<'_>, leaf: &mut LeafMut<'_>) -> bool {
+    let bits = leaf.place.bits;
+    if !lies(bits) || is_covered(bits) || litter_change(bits) != CHANGE_NONE {
+        return false;
+    }
+    let [x, y, z] = leaf.place.position;
+    let reach = lying_support(leaf.schedule.rate);
+    let rest = ground_rest(cx, x, z);
+    // Its own layer is above where it came to lie.
+    let cover = (layers_above(cx, bits, rest - y) - 1.0).max(0.0);
     let wind = wind_at(cx, Vec3::new(x, rest + reach, z));
     if vec3_dot(wind, wind) < wake_speed_squared(leaf.drift.phase) * (1.0 + cover) {
         return false;
