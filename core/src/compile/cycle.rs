@@ -74,6 +74,10 @@ impl Cycle {
                 return refuse(field, vortex.drift_m_s.to_string(), "vortices that stay where they are");
             }
         }
+        if scene.ground.litter.is_some_and(|litter| !litter.still) {
+            let allowed = "true, for what leaves do to each other has a memory,";
+            return refuse("ground.litter.still".into(), "false".into(), allowed);
+        }
         let mut looped = scene.clone();
         looped.regrow_after_s = None;
         let dt = f64::from(scene.dt_s);

@@ -40,6 +40,10 @@ fn unknown_commands_and_options() {
     refuse(&["bench", "--steps", "0"], &["'0'", "--steps", "1 to 100000"]);
     refuse(&["motions"], &["--out <DIR>"]);
     refuse(&["info", "storm"], &["'storm'"]);
+    refuse(&["litter", "--ground", "sand"], &["'sand'", "pavement", "lawn", "litter"]);
+    refuse(&["litter", "--species", "palm"], &["'palm'", "maple", "beech"]);
+    refuse(&["litter", "--u10", "5..1/3"], &["'5..1/3'", "A..B/N", "0 to 30"]);
+    refuse(&["litter", "--u10", "5", "--out", "x.png"], &["--out", "A..B/N"]);
 }
 
 #[test]
@@ -78,6 +82,13 @@ fn scenes_that_are_broken() {
     refuse("count.ron", count, &["count.ron: sources[0].count is 0", "1 to 268435456"]);
     let many = b"(sources: [(count: 268435456, release: Rate(per_s: 1e8, from_s: 0.0)), (count: 1)])";
     refuse("many.ron", many, &["many.ron: sources is 268435457 leaves", "268435456"]);
+    let litter = b"(ground: (litter: Some((size_m: (300, 4)))))";
+    refuse("litter.ron", litter, &["litter.ron: ground.litter.size_m.x is 300", "1 to 256 m"]);
+    let litter = b"(ground: (litter: Some((raised_deg: (20, 10)))))";
+    refuse("raised.ron", litter, &["raised.ron: ground.litter.raised_deg is (20.0, 10.0)", "rising order"]);
+    let litter =
+        b"(species: [(size_m: 0.005)], ground: (litter: Some((size_m: (256, 256), leaf_area_index: 30))))";
+    refuse("bed.ron", litter, &["bed.ron: ground.litter.leaf_area_index is", "at most 268435456 leaves"]);
     let tables = b"(species: [(tables: \"none.motions\")])";
     refuse("tables.ron", tables, &["none.motions"]);
     file(&there, "bad.motions", "windfall-motions 1\nrows 7\n");

@@ -10,6 +10,7 @@ mod export;
 mod export_gltf;
 mod flight;
 mod leaf;
+mod litter;
 mod loops;
 mod render;
 mod simulate;
