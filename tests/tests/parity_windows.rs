@@ -208,9 +208,9 @@ fn a_changed_list_is_noticed() {
         ("kernels/list_active", "&& leaf_is_settling(leaf)", "&& false"),
         ("kernels/list_active", "select(0u, 1u, is_active)", "0u"),
         ("kernels/carry", "schedules[leaf].event == step_block.index + 1u", "false"),
-        ("kernels/carry", "active_list.leaves[mark] == 0u", "true"),
-        ("kernels/carry", "list_start(turn) + place", "place"),
-        ("kernels/carry", "count_groups(place + 1u);", ""),
+        ("lists/append_active", "active_list.leaves[mark] == 0u", "true"),
+        ("lists/append_active", "list_start(turn) + place", "place"),
+        ("lists/append_active", "count_groups(place + 1u);", ""),
     ];
     let world = stormy_wood(600);
     let mut oracle = CpuSimulator::new(&world, CpuOptions::default()).expect("threads start");

@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Stores: whatever handles whole states takes a further store as it is, and leaves out no column of those there are.
 
+use glam::Vec2;
 use windfall_core::checkpoint::{read_stores, write_stores};
+use windfall_core::scene::Litter;
 use windfall_core::store::{Store, StoreSize, check_sizes, copy_stores, hash_stores, state_bytes};
 use windfall_core::{SceneError, SimError, Simulator, World};
 use windfall_cpu::{CpuOptions, CpuSimulator};
@@ -26,7 +28,9 @@ windfall_core::columns! {
 }
 
 fn world() -> World {
-    World::build(&wooded_scene(5, 200, 3.0, 1.0 / 60.0)).expect("the wooded scene is valid")
+    let mut scene = wooded_scene(5, 200, 3.0, 1.0 / 60.0);
+    scene.ground.litter = Some(Litter { size_m: Vec2::splat(2.0), ..Litter::default() });
+    World::build(&scene).expect("the wooded scene is valid with litter")
 }
 
 fn pebbles() -> Pebbles {

@@ -24,8 +24,8 @@ const MOST_WINDS: u32 = 100;
 
 /// Options of `windfall litter`.
 ///
-/// Leaves lie on a ground, each in its own pose, and the wind blows at them with the turbulence of its own profile. None is told when
-/// to go: a leaf slides, tips or lifts by the forces of the flight model, and flies as a body from then on.
+/// Leaves lie on a ground, each in its own pose, and the wind blows at them with the turbulence of its own profile. A leaf
+/// slides, tips or lifts by the forces of the flight model, and flies as a body from then on.
 #[derive(Clone, Debug, Args)]
 pub struct Arguments {
     /// Kinds of leaves, separated by commas: maple, oak, birch, beech, linden, ginkgo, japanese-maple, hornbeam, or feather,

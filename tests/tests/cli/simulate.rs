@@ -12,7 +12,7 @@ use windfall_core::{Scene, World};
 use windfall_tests::strategies::wooded_scene;
 
 /// Keys of the report, in their order. They stay.
-const KEYS: [&str; 15] = [
+const KEYS: [&str; 16] = [
     "scene",
     "backend",
     "adapter",
@@ -22,6 +22,7 @@ const KEYS: [&str; 15] = [
     "time_s",
     "leaves",
     "trees",
+    "litter",
     "mean_position_m",
     "mean_velocity_m_s",
     "state_hash",

@@ -6,6 +6,7 @@ use windfall_core::arith::Vec3;
 use windfall_core::device::flight::body::body_of;
 use windfall_core::device::flight::rates::{FlightMotion, flight_rates};
 use windfall_core::device::flight::regime::REGIME_NAMES;
+use windfall_core::device::leaf::record::{is_covered, lies, wake_speed_squared};
 use windfall_core::device::motion::feature::feature;
 use windfall_core::device::wind::sample::wind_at;
 use windfall_core::leaf::{LeafMotion, LeafRecords, LeafState, LeafView};
@@ -31,6 +32,9 @@ pub(crate) fn card(compiled: &CompiledScene, clock: &Clock, slot: u32, records: 
 
     let mut rows = vec![("leaf", format!("{}, slot {}", grouped(leaf.id), grouped(slot)))];
     rows.push(("state", doing(&leaf)));
+    if lies(records.place.bits) {
+        rows.push(("litter", lying(records)));
+    }
     let level = leaf.velocity.x.hypot(leaf.velocity.z);
     rows.push(("speed", format!("{:.2} m/s, {level:.2} level", length(leaf.velocity))));
     let ground = compiled.ground_height(leaf.position.x, leaf.position.z);
@@ -58,6 +62,13 @@ pub(crate) fn card(compiled: &CompiledScene, clock: &Clock, slot: u32, records: 
         rows.push(("feature", feature_text(compiled, leaf.species, leaf.id, leaf.stage as usize)));
     }
     Card { title: name.to_owned(), rows }
+}
+
+/// Condition of a leaf in the litter, in words.
+fn lying(records: &LeafRecords) -> String {
+    let speed_m_s = wake_speed_squared(records.drift.phase).sqrt();
+    let cover = if is_covered(records.place.bits) { "covered" } else { "on top" };
+    format!("{cover}; uncovered it goes in {speed_m_s:.2} m/s at its edge")
 }
 
 /// The state of a leaf in words.
@@ -116,6 +127,21 @@ mod tests {
                 card(&world.compiled, &world.clock, u32::try_from(slot).expect("few"), &records)
             })
             .collect()
+    }
+
+    #[test]
+    fn lying_leaves_show_the_wind_that_takes_them() {
+        let text = "(sources: [], ground: (litter: Some((size_m: (2.0, 2.0), leaf_area_index: 4.0))))";
+        let world = World::build(&Scene::from_ron(text, "bed").expect("RON")).expect("valid");
+        let texts: Vec<String> = (0..world.leaves.len())
+            .map(|slot| card(&world.compiled, &world.clock, 0, &world.leaves.records(slot)))
+            .filter_map(|card| row(&card, "litter"))
+            .collect();
+        let covered = texts.iter().filter(|text| text.starts_with("covered")).count();
+        assert!(covered > 50 && texts.len() - covered > 50, "{covered} of {} covered", texts.len());
+        let slowest = texts.iter().filter_map(|text| text.split(' ').rev().nth(4)?.parse::<f64>().ok());
+        let slowest = slowest.fold(f64::INFINITY, f64::min);
+        assert!((0.3..1.2).contains(&slowest), "{slowest} m/s: {}", texts[0]);
     }
 
     fn row(card: &Card, name: &str) -> Option<String> {
