@@ -27,18 +27,13 @@ impl ExposedLeaves {
         self.0[slot / UNIT].fetch_or(1 << (slot % UNIT), Ordering::Relaxed);
     }
 
-    /// Notes all of the unit that begins with a slot: their places in it.
-    pub(crate) fn set(&self, first: usize, places: impl Iterator<Item = usize>) {
-        self.0[first / UNIT].store(places.fold(0, |bits, place| bits | (1 << place)), Ordering::Relaxed);
+    /// Notes all of the unit that begins with a slot.
+    pub(crate) fn set(&self, first: usize, bits: u64) {
+        self.0[first / UNIT].store(bits, Ordering::Relaxed);
     }
 
-    /// Places in the unit that begins with a slot.
-    pub(crate) fn of_unit(&self, first: usize) -> impl Iterator<Item = usize> {
-        let mut left = self.0[first / UNIT].load(Ordering::Relaxed);
-        std::iter::from_fn(move || {
-            let place = left.trailing_zeros() as usize;
-            left &= left.wrapping_sub(1);
-            (place < UNIT).then_some(place)
-        })
+    /// Bits of the unit that begins with a slot.
+    pub(crate) fn of_unit(&self, first: usize) -> u64 {
+        self.0[first / UNIT].load(Ordering::Relaxed)
     }
 }

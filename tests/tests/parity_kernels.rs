@@ -159,9 +159,9 @@ fn a_changed_kernel_is_noticed() {
         ("wind/sample", "above = height - ground_relief", "above = height + ground_relief"),
     ];
     let littered = [
-        ("leaf/wake", "rest + reach, z));", "rest + 2.0 * reach, z));"),
+        ("leaf/wake", "rest + reach, place.z));", "rest + 2.0 * reach, place.z));"),
         ("leaf/wake", "* RAISING_RAD_S", "* LOOSE_LAYERS"),
-        ("leaf/wake", "above > COVERED_LAYERS", "above > LOOSE_LAYERS * 4.0"),
+        ("leaf/wake", "COVERED_LAYERS < above", "LOOSE_LAYERS * 4.0 < above"),
         ("leaf/lie", "own * scene.gravity_m_s2", "own * 9.0"),
         ("leaf/fly", "contact.position", "contact.position + vec3<f32>(0.0, 0.001, 0.0)"),
         ("leaf/stack", "change == CHANGE_ADDED, change", "change != CHANGE_ADDED, change"),

@@ -58,7 +58,7 @@ pub(crate) fn step_leaves(all: &LeafSteps<'_>, mut leaves: LeavesMut<'_>, quiet:
             fly(cx, &mut leaves, &events, simd);
         }
         if cx.scene.has_living_litter() {
-            wake_lying(cx, &mut leaves, first, exposed, &mut changing);
+            wake_lying(cx, &mut leaves, first, exposed, &mut changing, simd);
             changes.list(&changing, first);
         }
     }

@@ -5,13 +5,16 @@
 //! Samples the wind at the leaves of a chunk that lie in the litter, for the units that have their turn.
 
 use windfall_core::Context;
-use windfall_core::device::leaf::record::{is_covered, lies};
-use windfall_core::device::leaf::wake::{cover_is_due, leaf_check_cover, leaf_wake, wake_is_due};
+use windfall_core::arith::pack::{BLOCK, Pack};
+use windfall_core::device::leaf::record::is_covered;
+use windfall_core::device::leaf::wake::{cover_is_due, leaf_check_cover, leaf_wake, lies_still, wake_is_due};
 use windfall_core::leaf::LeavesMut;
 
 use crate::exposed::ExposedLeaves;
 use crate::quiet::UNIT;
 use crate::simd::branch_block::word;
+use crate::simd::lying_block::LyingBlock;
+use crate::simd::{Simd, in_packs};
 
 /// Wakes leaves of a chunk that begins with slot `first`, and lists them.
 pub(crate) fn wake_lying(
@@ -20,26 +23,110 @@ pub(crate) fn wake_lying(
     first: usize,
     exposed: &ExposedLeaves,
     changing: &mut Vec<usize>,
+    simd: Simd,
 ) {
     for unit in (0..leaves.len()).step_by(UNIT).filter(|unit| wake_is_due(cx, word(first + unit))) {
-        let slots = unit..leaves.len().min(unit + UNIT);
         if cover_is_due(cx, word(first + unit)) {
-            for slot in slots.clone() {
-                if leaf_check_cover(cx, &mut leaves.row_mut(slot)) {
-                    changing.push(slot);
-                }
-            }
-            let is_exposed = |slot: &usize| {
-                let bits = leaves.place[*slot].bits;
-                lies(bits) && !is_covered(bits)
+            let bits = match simd {
+                Simd::Scalar => check_each(cx, leaves, unit, changing),
+                Simd::Lanes(level) => in_packs!(level, check_lanes(cx, leaves, unit, changing)),
             };
-            exposed.set(first + unit, slots.filter(is_exposed).map(|slot| slot - unit));
+            exposed.set(first + unit, bits);
         }
-        for place in exposed.of_unit(first + unit) {
-            let slot = unit + place;
+        let mut waking = exposed.of_unit(first + unit);
+        if let Simd::Lanes(level) = simd
+            && waking != 0
+        {
+            waking = in_packs!(level, sample_lanes(cx, leaves, unit, waking));
+        }
+        while waking != 0 {
+            let slot = unit + waking.trailing_zeros() as usize;
             if slot < leaves.len() && leaf_wake(cx, &mut leaves.row_mut(slot)) {
                 changing.push(slot);
             }
+            waking &= waking - 1;
         }
+    }
+}
+
+/// Checks the covers of a unit one leaf after another. A bit for each that lies with nothing on it.
+fn check_each(cx: &Context<'_>, leaves: &mut LeavesMut<'_>, unit: usize, changing: &mut Vec<usize>) -> u64 {
+    check_slots(cx, leaves, unit, unit..leaves.len().min(unit + UNIT), changing)
+}
+
+/// The same for some of its slots.
+fn check_slots(
+    cx: &Context<'_>,
+    leaves: &mut LeavesMut<'_>,
+    unit: usize,
+    slots: std::ops::Range<usize>,
+    changing: &mut Vec<usize>,
+) -> u64 {
+    let mut exposed = 0;
+    for slot in slots {
+        if leaf_check_cover(cx, &mut leaves.row_mut(slot)) {
+            changing.push(slot);
+        }
+        let bits = leaves.place[slot].bits;
+        exposed |= u64::from(lies_still(bits) && !is_covered(bits)) << (slot - unit);
+    }
+    exposed
+}
+
+/// The same block by block, the last few slots one by one.
+#[inline(always)]
+fn check_lanes<P: Pack>(
+    simd: P::Simd,
+    cx: &Context<'_>,
+    leaves: &mut LeavesMut<'_>,
+    unit: usize,
+    changing: &mut Vec<usize>,
+) -> u64 {
+    let end = leaves.len().min(unit + UNIT);
+    let few = end - (end - unit) % BLOCK;
+    let mut exposed = 0;
+    for first in (unit..few).step_by(BLOCK) {
+        let covers = block_of(leaves, first).check_cover::<P>(simd, cx);
+        exposed |= u64::from(covers.exposed) << (first - unit);
+        let mut loose = covers.loose;
+        while loose != 0 {
+            let slot = first + loose.trailing_zeros() as usize;
+            leaf_check_cover(cx, &mut leaves.row_mut(slot));
+            changing.push(slot);
+            loose &= loose - 1;
+        }
+    }
+    exposed | check_slots(cx, leaves, unit, few..end, changing)
+}
+
+/// Of the leaves of a unit with a bit in `waking` those that the wind may take; the last few slots unseen.
+#[inline(always)]
+fn sample_lanes<P: Pack>(
+    simd: P::Simd,
+    cx: &Context<'_>,
+    leaves: &mut LeavesMut<'_>,
+    unit: usize,
+    waking: u64,
+) -> u64 {
+    let mut left = waking;
+    let end = leaves.len().min(unit + UNIT);
+    for first in (unit..end - (end - unit) % BLOCK).step_by(BLOCK) {
+        let of_block = ((1 << BLOCK) - 1) << (first - unit);
+        if waking & of_block != 0 {
+            let may_wake = u64::from(block_of(leaves, first).sample_wind::<P>(simd, cx));
+            left &= !of_block | (may_wake << (first - unit));
+        }
+    }
+    left
+}
+
+/// The block of slots from one on.
+#[inline(always)]
+fn block_of<'a>(leaves: &'a mut LeavesMut<'_>, first: usize) -> LyingBlock<'a> {
+    let whole = "as many slots are left";
+    LyingBlock {
+        place: leaves.place[first..].first_chunk_mut().expect(whole),
+        drift: leaves.drift[first..].first_chunk().expect(whole),
+        schedule: leaves.schedule[first..].first_chunk().expect(whole),
     }
 }

@@ -16,9 +16,11 @@ use windfall_core::device::leaf::record::{
     with_cover, with_litter_change, with_touch_steps,
 };
 use windfall_core::device::leaf::stack::leaf_changes_litter;
-use windfall_core::device::leaf::wake::{cover_is_due, layers_above, wake_is_due};
+use windfall_core::device::leaf::wake::{
+    cover_is_due, cover_of, layers_above, lies_still, lying_wind, wake_is_due,
+};
 use windfall_core::device::terrain::ground::{
-    drop_direction, ground_bare, ground_gradient, ground_is_water, ground_slope, lying_height,
+    drop_direction, ground_bare, ground_gradient, ground_is_water, ground_rest, ground_slope, lying_height,
 };
 use windfall_core::device::terrain::litter::{above_litter, litter_cell, litter_height, litter_shares};
 
@@ -68,6 +70,22 @@ functions! {
         u32::from(cover_is_due(cx, w[0])), u32::from(is_covered(w[0])), with_cover(w[0], w[1] == 1),
         layers_above(cx, (w[0] & 1) << SPECIES_SHIFT, 0.01).to_bits(),
     ]);
+
+    lying_wind in "leaf/wake" (SPECIES, NEAR, Input::Float(-0.02, 0.06), Input::Float(0.0, 0.02), Input::Float(0.1, 2.0)) tolerance Some(1e-3);
+    wgsl "let p = in_vec3(1u); let place = vec3<f32>(p.x, ground_rest(p.x, p.y) - p.z, p.y); let bits = a.x << SPECIES_SHIFT;
+        let met = lying_wind(bits, place, in_float(4u), in_float(5u)); let cover = cover_of(bits, place, in_float(4u));
+        out_vec3(0u, met.wind); out_float(3u, met.cover);
+        out_vec3(4u, vec3<f32>(f32(met.may_wake), f32(cover.is_loose), f32(cover.is_covered)));
+        out_float(7u, f32(lies_still(a.y)));";
+    rust |cx, w| {
+        let (x, z, reach, bits) = (float(w[1]), float(w[2]), float(w[4]), w[0] << SPECIES_SHIFT);
+        let place = windfall_core::arith::Vec3::new(x, ground_rest(cx, x, z) - float(w[3]), z);
+        let met = lying_wind(cx, bits, place, reach, float(w[5]));
+        let cover = cover_of(cx, bits, place, reach);
+        let truth = |is: bool| f32::from(u8::from(is));
+        let (wind, signs) = (met.wind, [met.may_wake, cover.is_loose, cover.is_covered].map(truth));
+        floats([wind.x, wind.y, wind.z, met.cover, signs[0], signs[1], signs[2], truth(lies_still(w[1]))])
+    };
 
     leaf_changes_litter in "leaf/stack" (ANY) tolerance None;
     wgsl "r.x = u32(leaf_changes_litter(a.x));";
@@ -131,7 +149,7 @@ functions! {
         out_float(9u, f32(c.touches));";
     rust |cx, w| {
         let (x, z) = (float(w[3]), float(w[4]));
-        let y = windfall_core::device::terrain::ground::ground_rest(cx, x, z) + float(w[5]);
+        let y = ground_rest(cx, x, z) + float(w[5]);
         let motion = FlightMotion { velocity: vector(w, 6), pose: quaternion(w, 9), turning: vector(w, 13) };
         let c = flight_contact(cx, &body(cx, w), windfall_core::arith::Vec3::new(x, y, z), motion);
         let (p, v, t) = (c.position, c.motion.velocity, c.motion.turning);

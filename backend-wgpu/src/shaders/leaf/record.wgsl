@@ -80,7 +80,7 @@ fn is_covered(bits: u32) -> bool {
 
 fn with_cover(bits: u32, covered: bool) -> u32 {
     let mark = 1u << COVERED_SHIFT;
-    return select(bits & ~mark, bits | mark, covered);
+    return (bits & ~mark) | select(0u, mark, covered);
 }
 
 fn lying_volume(bits: u32) -> u32 {

@@ -28,45 +28,70 @@ fn layers_above(bits: u32, height: f32) -> f32 {
     return height * reciprocal(scene.bodies[leaf_species(bits)].layer_m);
 }
 
+struct Cover {
+    is_loose: bool,
+    is_covered: bool,
+}
+
+struct LyingWind {
+    wind: vec3<f32>,
+    cover: f32,
+    may_wake: bool,
+}
+
+fn cover_of(bits: u32, place: vec3<f32>, reach: f32) -> Cover {
+    let ground = lying_height(place.x, place.z, reach);
+    let beneath = layers_above(bits, place.y - ground);
+    let above = layers_above(bits, ground_rest(place.x, place.z) - place.y);
+    return Cover(LOOSE_LAYERS < beneath, COVERED_LAYERS < above);
+}
+
 fn leaf_check_cover(leaf: u32) -> bool {
     let place = places[leaf];
     let bits = place.bits;
-    if (!lies(bits) || litter_change(bits) != CHANGE_NONE) {
+    if (!lies_still(bits)) {
         return false;
     }
-    let x = place.position.x;
-    let z = place.position.z;
-    let ground = lying_height(x, z, lying_support(schedules[leaf].rate));
-    if (layers_above(bits, place.position.y - ground) > LOOSE_LAYERS) {
+    let cover = cover_of(bits, place.position, lying_support(schedules[leaf].rate));
+    places[leaf].bits = with_cover(bits, cover.is_covered);
+    if (cover.is_loose) {
         places[leaf].bits = with_litter_change(bits, CHANGE_REMOVED);
-        return true;
     }
-    let above = layers_above(bits, ground_rest(x, z) - place.position.y);
-    places[leaf].bits = with_cover(bits, above > COVERED_LAYERS);
-    return false;
+    return cover.is_loose;
+}
+
+fn lies_still(bits: u32) -> bool {
+    return lies(bits) && litter_change(bits) == CHANGE_NONE;
+}
+
+fn lying_wind(bits: u32, place: vec3<f32>, reach: f32, wake_square: f32) -> LyingWind {
+    let rest = ground_rest(place.x, place.z);
+    let cover = max(layers_above(bits, rest - place.y) - 1.0, 0.0);
+    let wind = wind_at(vec3<f32>(place.x, rest + reach, place.z));
+    let may_wake = !(vec3_dot(wind, wind) < wake_square * (cover + 1.0));
+    return LyingWind(wind, cover, may_wake);
 }
 
 fn leaf_wake(leaf: u32) -> bool {
     let place = places[leaf];
     let bits = place.bits;
-    if (!lies(bits) || is_covered(bits) || litter_change(bits) != CHANGE_NONE) {
+    if (!lies_still(bits) || is_covered(bits)) {
         return false;
     }
     let x = place.position.x;
     let z = place.position.z;
     let reach = lying_support(schedules[leaf].rate);
-    let rest = ground_rest(x, z);
-    let cover = max(layers_above(bits, rest - place.position.y) - 1.0, 0.0);
-    let wind = wind_at(vec3<f32>(x, rest + reach, z));
-    if (vec3_dot(wind, wind) < wake_speed_squared(drifts[leaf].phase) * (1.0 + cover)) {
+    let met = lying_wind(bits, place.position, reach, wake_speed_squared(drifts[leaf].phase));
+    if (!met.may_wake) {
         return false;
     }
+    let wind = met.wind;
     let slope = ground_slope(x, z);
     let body = body_of(bits, schedules[leaf].size);
     let pose = attitudes[leaf].quaternion;
     let heading = schedules[leaf].heading;
     var at_rest = leaf_at_rest(body, pose, slope, lying_friction(heading), lying_raise(heading));
-    at_rest.pressing_m_s2 = at_rest.pressing_m_s2 + scene.gravity_m_s2 * cover;
+    at_rest.pressing_m_s2 = at_rest.pressing_m_s2 + scene.gravity_m_s2 * met.cover;
     if (!wind_moves(at_rest, wind, 1.0)) {
         return false;
     }

@@ -256,7 +256,7 @@ pub fn lies<W: Word>(bits: W) -> W::Mask {
 
 /// Change of the litter that a lying leaf waits for: [`CHANGE_NONE`] to [`CHANGE_REMOVED`].
 #[inline(always)]
-pub fn litter_change(bits: u32) -> u32 {
+pub fn litter_change<W: Word>(bits: W) -> W {
     (bits >> CHANGE_SHIFT) & CHANGE_MASK
 }
 
@@ -268,15 +268,15 @@ pub fn with_litter_change(bits: u32, change: u32) -> u32 {
 
 /// Returns true if others cover a lying leaf, so that no wind reaches it.
 #[inline(always)]
-pub fn is_covered(bits: u32) -> bool {
-    (bits >> COVERED_SHIFT) & 1 != 0
+pub fn is_covered<W: Word>(bits: W) -> W::Mask {
+    !((bits >> COVERED_SHIFT) & 1).equals(0)
 }
 
 /// Bits of a lying leaf that others cover, or no longer do.
 #[inline(always)]
-pub fn with_cover(bits: u32, is_covered: bool) -> u32 {
+pub fn with_cover<W: Word>(bits: W, is_covered: W::Mask) -> W {
     let mark = 1 << COVERED_SHIFT;
-    if is_covered { bits | mark } else { bits & !mark }
+    (bits & !mark) | is_covered.select(bits.all(mark), bits.all(0))
 }
 
 /// Volume of a lying leaf in units of height over a cell.
@@ -328,8 +328,8 @@ pub fn ground_steps<W: Word>(phase: W) -> W {
 
 /// Square in m²/s² of the lowest speed of level wind that moves a leaf in the litter with nothing on it, from [`Drift::phase`].
 #[inline(always)]
-pub fn wake_speed_squared(phase: u32) -> f32 {
-    f32::from_bits(phase)
+pub fn wake_speed_squared<W: Word>(phase: W) -> W::Real {
+    W::Real::from_bits(phase)
 }
 
 /// The word of such a square.
@@ -340,8 +340,8 @@ pub fn wake_speed_word(square: f32) -> u32 {
 
 /// Height in m of the centre of a leaf in the litter above its lowest point, from [`Schedule::rate`].
 #[inline(always)]
-pub fn lying_support(rate: u32) -> f32 {
-    f32::from_bits(rate)
+pub fn lying_support<W: Word>(rate: W) -> W::Real {
+    W::Real::from_bits(rate)
 }
 
 /// The word of such a height.

@@ -10,6 +10,7 @@ use super::record::{
     CHANGE_NONE, CHANGE_REMOVED, CHANGE_WOKEN, body_spin_words, is_covered, lies, litter_change,
     lying_friction, lying_raise, lying_support, wake_speed_squared, with_cover, with_litter_change,
 };
+use crate::arith::lane::{Real, Word};
 use crate::arith::math::reciprocal;
 use crate::arith::quaternion::{Quat, quat_rotate_back};
 use crate::arith::vector::{Vec3, vec3_dot};
@@ -51,45 +52,96 @@ pub fn cover_is_due(cx: &Context<'_>, slot: u32) -> bool {
     unit_has_turn(cx, slot, COVER_INTERVAL)
 }
 
-/// Layers of litter above a leaf that lies, less than none if it lies above the litter.
+/// Layers of litter that a height is, of leaves like one with these bits.
 #[inline(always)]
-pub fn layers_above(cx: &Context<'_>, bits: u32, height: f32) -> f32 {
+pub fn layers_above<R: Real>(cx: &Context<'_>, bits: R::Word, height: R) -> R {
     let [_, _, layer, _] = body_row(cx, bits, BODY_LITTER_ROW);
     height * reciprocal(layer)
+}
+
+/// Litter above and beneath leaves that lie in it.
+#[derive(Clone, Copy, Debug)]
+pub struct Cover<M = bool> {
+    /// True of leaves that have lost what they lay on.
+    pub is_loose: M,
+    /// True of leaves that no wind reaches.
+    pub is_covered: M,
+}
+
+/// Cover of leaves at a place, which reach down so far.
+#[inline(always)]
+pub fn cover_of<R: Real>(cx: &Context<'_>, bits: R::Word, place: Vec3<R>, reach: R) -> Cover<R::Mask> {
+    let floor = lying_height(cx, place.x, place.z, reach);
+    let beneath = layers_above(cx, bits, place.y - floor);
+    let above = layers_above(cx, bits, ground_rest(cx, place.x, place.z) - place.y);
+    Cover {
+        is_loose: beneath.all(LOOSE_LAYERS).less_than(beneath),
+        is_covered: above.all(COVERED_LAYERS).less_than(above),
+    }
 }
 
 /// Marks a leaf in the litter that others cover. Returns true if it has lost what it lay on, and leaves.
 #[inline(always)]
 pub fn leaf_check_cover(cx: &Context<'_>, leaf: &mut LeafMut<'_>) -> bool {
     let bits = leaf.place.bits;
-    if !lies(bits) || litter_change(bits) != CHANGE_NONE {
+    if !lies_still(bits) {
         return false;
     }
-    let [x, y, z] = leaf.place.position;
-    let floor = lying_height(cx, x, z, lying_support(leaf.schedule.rate));
-    if layers_above(cx, bits, y - floor) > LOOSE_LAYERS {
+    let Cover { is_loose, is_covered } =
+        cover_of(cx, bits, leaf.place.position.into(), lying_support(leaf.schedule.rate));
+    leaf.place.bits = with_cover(bits, is_covered);
+    if is_loose {
         leaf.place.bits = with_litter_change(bits, CHANGE_REMOVED);
-        return true;
     }
-    let above = layers_above(cx, bits, ground_rest(cx, x, z) - y);
-    leaf.place.bits = with_cover(bits, above > COVERED_LAYERS);
-    false
+    is_loose
+}
+
+/// Returns true if leaves with these bits lie in the litter and wait for no change of it.
+#[inline(always)]
+pub fn lies_still<W: Word>(bits: W) -> W::Mask {
+    lies(bits) & litter_change(bits).equals(CHANGE_NONE)
+}
+
+/// Wind at leaves in the litter.
+#[derive(Clone, Copy, Debug)]
+pub struct LyingWind<R: Real = f32> {
+    /// Velocity in m/s.
+    pub wind: Vec3<R>,
+    /// Layers above the leaves but for their own.
+    pub cover: R,
+    /// True where it may take them: in the direction that is the best for it, it would.
+    pub may_wake: R::Mask,
+}
+
+/// Wind at leaves at a place, which reach down so far and wake at such a squared speed with nothing on them.
+#[inline(always)]
+pub fn lying_wind<R: Real>(
+    cx: &Context<'_>,
+    bits: R::Word,
+    place: Vec3<R>,
+    reach: R,
+    wake_square: R,
+) -> LyingWind<R> {
+    let rest = ground_rest(cx, place.x, place.z);
+    let cover = (layers_above(cx, bits, rest - place.y) - reach.all(1.0)).max(reach.all(0.0));
+    let wind = wind_at(cx, Vec3::new(place.x, rest + reach, place.z));
+    let may_wake = !vec3_dot(wind, wind).less_than(wake_square * (cover + 1.0));
+    LyingWind { wind, cover, may_wake }
 }
 
 /// Lets the wind at a leaf in the litter decide if it stays. Returns true if the wind takes it.
 #[inline(always)]
 pub fn leaf_wake(cx: &Context<'_>, leaf: &mut LeafMut<'_>) -> bool {
     let bits = leaf.place.bits;
-    if !lies(bits) || is_covered(bits) || litter_change(bits) != CHANGE_NONE {
+    if !lies_still(bits) || is_covered(bits) {
         return false;
     }
-    let [x, y, z] = leaf.place.position;
+    let [x, _, z] = leaf.place.position;
     let reach = lying_support(leaf.schedule.rate);
-    let rest = ground_rest(cx, x, z);
-    // Its own layer is above where it came to lie.
-    let cover = (layers_above(cx, bits, rest - y) - 1.0).max(0.0);
-    let wind = wind_at(cx, Vec3::new(x, rest + reach, z));
-    if vec3_dot(wind, wind) < wake_speed_squared(leaf.drift.phase) * (1.0 + cover) {
+    let wake_square = wake_speed_squared(leaf.drift.phase);
+    let LyingWind { wind, cover, may_wake } =
+        lying_wind(cx, bits, leaf.place.position.into(), reach, wake_square);
+    if !may_wake {
         return false;
     }
     let slope = ground_slope(cx, x, z);

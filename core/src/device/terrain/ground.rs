@@ -100,7 +100,7 @@ pub fn ground_rest<R: Real>(cx: &Context<'_>, x: R, z: R) -> R {
 
 /// Height in m of the centre of a leaf that lies at a place and reaches so far down: it sinks into litter, not into the ground.
 #[inline(always)]
-pub fn lying_height(cx: &Context<'_>, x: f32, z: f32, reach: f32) -> f32 {
+pub fn lying_height<R: Real>(cx: &Context<'_>, x: R, z: R, reach: R) -> R {
     let bare = ground_bare(cx, x, z) + cx.scene.rest_height_m;
     (bare + reach).max(ground_rest(cx, x, z))
 }
