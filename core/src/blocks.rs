@@ -117,7 +117,7 @@ crate::shared_struct! {
 
 crate::shared_struct! {
     /// Litter, compiled.
-    pub struct LitterBlock, padding 8 {
+    pub struct LitterBlock, padding 4 {
         /// First row of the heights, behind all tables; four heights to a row.
         pub first_row: u32,
         /// Cells along x; 0 without litter.
@@ -144,6 +144,8 @@ crate::shared_struct! {
         pub raise_spread: u32,
         /// Steps from one sample of the wind at a lying leaf to the next; as many as for the cover where no wind blows.
         pub wake_steps: u32,
+        /// 1 if there is no wind, else 0.
+        pub is_calm: u32,
         /// Square of the speed in m²/s² below which a body that touches the ground comes to rest.
         pub rest_m2_s2: f32,
     }
@@ -266,6 +268,12 @@ impl SceneBlock {
     #[inline(always)]
     pub fn has_living_litter(&self) -> bool {
         self.litter.is_living != 0
+    }
+
+    /// Returns true if there is no wind that could take a leaf from the litter.
+    #[inline(always)]
+    pub fn is_calm(&self) -> bool {
+        self.litter.is_calm != 0
     }
 
     /// Returns true if leaves of some species fly as bodies.

@@ -51,11 +51,14 @@ pub(crate) fn step_leaves(all: &LeafSteps<'_>, mut leaves: LeavesMut<'_>, quiet:
         return;
     }
     for cx in steps {
-        let events = advance(cx, &mut leaves, quiet, simd);
         let mut changing = Vec::new();
-        resolve_events(cx, &mut leaves, &events, &mut changing);
-        if cx.scene.has_bodies() {
-            fly(cx, &mut leaves, &events, simd);
+        // Without litter that has been asked before, for all steps together.
+        if !has_litter || !are_quiet(quiet, cx.step.index) {
+            let events = advance(cx, &mut leaves, quiet, simd);
+            resolve_events(cx, &mut leaves, &events, &mut changing);
+            if cx.scene.has_bodies() {
+                fly(cx, &mut leaves, &events, simd);
+            }
         }
         if cx.scene.has_living_litter() {
             wake_lying(cx, &mut leaves, first, exposed, &mut changing, simd);

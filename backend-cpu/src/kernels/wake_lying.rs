@@ -33,7 +33,7 @@ pub(crate) fn wake_lying(
             };
             exposed.set(first + unit, bits);
         }
-        let mut waking = exposed.of_unit(first + unit);
+        let mut waking = if cx.scene.is_calm() { 0 } else { exposed.of_unit(first + unit) };
         if let Simd::Lanes(level) = simd
             && waking != 0
         {

@@ -155,6 +155,7 @@ fn set_litter(scene: &Scene, litter: &Litter, block: &mut LitterBlock) {
     let is_calm = scene.wind.speed.metres_per_second() == 0.0
         && deviation_m_s(&scene.wind) == 0.0
         && scene.wind.vortices.is_empty();
+    block.is_calm = u32::from(is_calm);
     block.wake_steps = if is_calm { COVER_INTERVAL } else { WAKE_INTERVAL };
     block.rest_m2_s2 = scene.gravity_m_s2 * REST_OFFSET_M;
 }

@@ -8,6 +8,7 @@ use crate::arith::rng::{mul_high, random, triangular, unit_float};
 use crate::arith::vector::Vec3;
 use crate::blocks::{NEVER, SOURCE_LITTER};
 use crate::context::Context;
+use crate::convert::len32;
 use crate::device::flight::body::body_of;
 use crate::device::leaf::launch::turn_about_y;
 use crate::device::leaf::lie::{
@@ -29,23 +30,21 @@ const STREAM_RIM: u32 = 37;
 const MOST_SLIDES: u32 = 64;
 
 /// Strews the leaves that lie on the ground from the start, in the slots from `first` on: uniformly over the rectangle but for its
-/// rim, where they thin out.
+/// rim, where they thin out. Neighbours lie in neighbouring slots, so that those who visit them find the same heights again.
 pub(crate) fn strew(cx: &Context<'_>, litter: &Litter, leaves: &mut Leaves, first: usize) {
-    let rim_m = litter.rim_m();
     let mut run = leaves.as_mut().split_at(first).1;
-    for (slot, leaf) in (first..).zip(run.iter_mut()) {
-        #[expect(clippy::cast_possible_truncation, reason = "slots are counted in words")]
-        let id = slot as u32;
+    let mut places: Vec<(u32, f32, f32)> = (first..first + run.len())
+        .map(|slot| {
+            let (x, z) = strewn_place(cx, litter, len32(slot));
+            (tile_of(litter, x, z), x, z)
+        })
+        .collect();
+    places.sort_by_key(|&(tile, ..)| tile);
+    for ((slot, leaf), (_, x, z)) in (first..).zip(run.iter_mut()).zip(places) {
+        let id = len32(slot);
         let words = random(cx.scene.seed, id, STREAM_PLACE);
-        let rims = random(cx.scene.seed, id, STREAM_RIM);
         let traits = random(cx.scene.seed, id, STREAM_TRAITS);
         let species = mul_high(words[3], cx.scene.species_count);
-        let along = |word: u32, rim: u32, center_m: f32, edge_m: f32| {
-            let within = (unit_float(word) - 0.5) * (edge_m - 2.0 * rim_m);
-            center_m + (within + triangular(rim) as f32 * (rim_m / 65536.0))
-        };
-        let x = along(words[0], rims[0], litter.center_m.x, litter.size_m.x);
-        let z = along(words[1], rims[1], litter.center_m.y, litter.size_m.y);
         leaf.identity.id = id;
         leaf.identity.appearance = leaf_appearance(traits[3], traits[0], SOURCE_LITTER);
         leaf.schedule.size = release_size_speed(&cx.scene.species[species as usize], traits).size;
@@ -54,6 +53,29 @@ pub(crate) fn strew(cx: &Context<'_>, litter: &Litter, leaves: &mut Leaves, firs
         leaf.place.bits = place_bits(STATE_RESTING, 0, 0, species, 0);
         leaf.attitude.quaternion = turn_about_y(words[2]).to_array();
     }
+}
+
+/// Place x, z in m of one of the leaves that are strewn.
+fn strewn_place(cx: &Context<'_>, litter: &Litter, number: u32) -> (f32, f32) {
+    let rim_m = litter.rim_m();
+    let words = random(cx.scene.seed, number, STREAM_PLACE);
+    let rims = random(cx.scene.seed, number, STREAM_RIM);
+    let along = |word: u32, rim: u32, center_m: f32, edge_m: f32| {
+        let within = (unit_float(word) - 0.5) * (edge_m - 2.0 * rim_m);
+        center_m + (within + triangular(rim) as f32 * (rim_m / 65536.0))
+    };
+    (
+        along(words[0], rims[0], litter.center_m.x, litter.size_m.x),
+        along(words[1], rims[1], litter.center_m.y, litter.size_m.y),
+    )
+}
+
+/// Number of the square metre that a place lies in, line by line.
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most 256 on a side")]
+fn tile_of(litter: &Litter, x_m: f32, z_m: f32) -> u32 {
+    let place = |at_m: f32, center_m: f32, edge_m: f32| (at_m - center_m + 0.5 * edge_m).max(0.0) as u32;
+    let column = place(x_m, litter.center_m.x, litter.size_m.x);
+    place(z_m, litter.center_m.y, litter.size_m.y) << 16 | column
 }
 
 /// Lays every leaf that rests into the bed, one after another.

@@ -16,7 +16,7 @@ fn wake_lying(@builtin(global_invocation_id) id: vec3<u32>) {
         if (cover_is_due(leaf)) {
             leaves_litter = leaf_check_cover(leaf);
         }
-        if (leaf_wake(leaf) || leaves_litter) {
+        if (leaves_litter || (scene.litter.is_calm == 0u && leaf_wake(leaf))) {
             list_released(leaf);
         }
     }

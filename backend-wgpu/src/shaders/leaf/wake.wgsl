@@ -40,9 +40,10 @@ struct LyingWind {
 }
 
 fn cover_of(bits: u32, place: vec3<f32>, reach: f32) -> Cover {
-    let ground = lying_height(place.x, place.z, reach);
-    let beneath = layers_above(bits, place.y - ground);
-    let above = layers_above(bits, ground_rest(place.x, place.z) - place.y);
+    let rest = ground_rest(place.x, place.z);
+    let lowest = lying_over(place.x, place.z, reach, rest);
+    let beneath = layers_above(bits, place.y - lowest);
+    let above = layers_above(bits, rest - place.y);
     return Cover(LOOSE_LAYERS < beneath, COVERED_LAYERS < above);
 }
 

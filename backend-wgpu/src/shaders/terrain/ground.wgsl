@@ -65,9 +65,13 @@ fn ground_rest(x: f32, z: f32) -> f32 {
     return ground_surface(x, z) + scene.rest_height_m;
 }
 
-fn lying_height(x: f32, z: f32, reach: f32) -> f32 {
+fn lying_over(x: f32, z: f32, reach: f32, rest: f32) -> f32 {
     let bare = ground_bare(x, z) + scene.rest_height_m;
-    return max(bare + reach, ground_rest(x, z));
+    return max(bare + reach, rest);
+}
+
+fn lying_height(x: f32, z: f32, reach: f32) -> f32 {
+    return lying_over(x, z, reach, ground_rest(x, z));
 }
 
 fn ground_met(place: vec3<f32>) -> bool {

@@ -16,7 +16,7 @@ use crate::arith::quaternion::{Quat, quat_rotate_back};
 use crate::arith::vector::{Vec3, vec3_dot};
 use crate::context::Context;
 use crate::device::flight::body::{body_of, body_row};
-use crate::device::terrain::ground::{ground_rest, ground_slope, lying_height};
+use crate::device::terrain::ground::{ground_rest, ground_slope, lying_over};
 use crate::device::wind::sample::wind_at;
 use crate::flight::block::BODY_LITTER_ROW;
 use crate::leaf::LeafMut;
@@ -71,9 +71,10 @@ pub struct Cover<M = bool> {
 /// Cover of leaves at a place, which reach down so far.
 #[inline(always)]
 pub fn cover_of<R: Real>(cx: &Context<'_>, bits: R::Word, place: Vec3<R>, reach: R) -> Cover<R::Mask> {
-    let floor = lying_height(cx, place.x, place.z, reach);
+    let rest = ground_rest(cx, place.x, place.z);
+    let floor = lying_over(cx, place.x, place.z, reach, rest);
     let beneath = layers_above(cx, bits, place.y - floor);
-    let above = layers_above(cx, bits, ground_rest(cx, place.x, place.z) - place.y);
+    let above = layers_above(cx, bits, rest - place.y);
     Cover {
         is_loose: beneath.all(LOOSE_LAYERS).less_than(beneath),
         is_covered: above.all(COVERED_LAYERS).less_than(above),

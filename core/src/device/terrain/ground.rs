@@ -98,11 +98,18 @@ pub fn ground_rest<R: Real>(cx: &Context<'_>, x: R, z: R) -> R {
     ground_surface(cx, x, z) + cx.scene.rest_height_m
 }
 
-/// Height in m of the centre of a leaf that lies at a place and reaches so far down: it sinks into litter, not into the ground.
+/// Height in m of the centre of a leaf that lies at a place and reaches so far down, over ground or litter on which a leaf rests at
+/// `rest`: it sinks into litter, not into the ground.
+#[inline(always)]
+pub fn lying_over<R: Real>(cx: &Context<'_>, x: R, z: R, reach: R, rest: R) -> R {
+    let bare = ground_bare(cx, x, z) + cx.scene.rest_height_m;
+    (bare + reach).max(rest)
+}
+
+/// The same over what is there.
 #[inline(always)]
 pub fn lying_height<R: Real>(cx: &Context<'_>, x: R, z: R, reach: R) -> R {
-    let bare = ground_bare(cx, x, z) + cx.scene.rest_height_m;
-    (bare + reach).max(ground_rest(cx, x, z))
+    lying_over(cx, x, z, reach, ground_rest(cx, x, z))
 }
 
 /// Returns true if a leaf at a place has come to the ground. Most are above all hills: nothing is read for those.
