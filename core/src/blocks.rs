@@ -117,7 +117,7 @@ crate::shared_struct! {
 
 crate::shared_struct! {
     /// Litter, compiled.
-    pub struct LitterBlock, padding 4 {
+    pub struct LitterBlock {
         /// First row of the heights, behind all tables; four heights to a row.
         pub first_row: u32,
         /// Cells along x; 0 without litter.
@@ -142,8 +142,10 @@ crate::shared_struct! {
         pub least_raise: u32,
         /// Largest angle beyond that.
         pub raise_spread: u32,
-        /// Steps from one sample of the wind at a lying leaf to the next; as many as for the cover where no wind blows.
+        /// Steps from one sample of the wind at a lying leaf to the next.
         pub wake_steps: u32,
+        /// Steps after which it is seen what lies on and beneath a leaf; a multiple of the other.
+        pub cover_steps: u32,
         /// 1 if there is no wind, else 0.
         pub is_calm: u32,
         /// Square of the speed in m²/s² below which a body that touches the ground comes to rest.

@@ -9,7 +9,8 @@ use std::ops::Range;
 use windfall_core::Context;
 use windfall_core::arith::pack::{BLOCK, Pack};
 use windfall_core::device::leaf::fly::leaf_fly;
-use windfall_core::leaf::LeavesMut;
+use windfall_core::device::leaf::record::flies;
+use windfall_core::leaf::{Attitude, Drift, Identity, LeavesMut, Place, Schedule};
 
 use super::resolve_events::EventList;
 use crate::quiet::UNIT;
@@ -34,23 +35,82 @@ fn slots_of(unit: usize, count: usize) -> Range<usize> {
     unit * UNIT..count.min((unit + 1) * UNIT)
 }
 
+/// Bodies of a block from which on it is stepped where it lies. Blocks with fewer share registers: where a few leaves of the litter
+/// are awake among many that lie, most lanes would be idle.
+const DENSE: u32 = 8;
+
 /// Steps the bodies of units block by block; those that land, and the last few slots, one by one.
 #[inline(always)]
 fn fly_lanes<P: Pack>(simd: P::Simd, cx: &Context<'_>, leaves: &mut LeavesMut<'_>, events: &EventList) {
+    let mut few = Vec::new();
     for unit in events.stepped() {
         let slots = slots_of(unit, leaves.len());
-        let few = slots.end - slots.len() % BLOCK;
-        for first in (slots.start..few).step_by(BLOCK) {
-            let mut landing = block_of(leaves, first).fly::<P>(simd, cx);
-            while landing != 0 {
-                leaf_fly(cx, &mut leaves.row_mut(first + landing.trailing_zeros() as usize));
-                landing &= landing - 1;
+        let whole = slots.end - slots.len() % BLOCK;
+        for first in (slots.start..whole).step_by(BLOCK) {
+            let awake = bodies_in(leaves, first);
+            if awake.count_ones() >= DENSE {
+                let landing = block_of(leaves, first).fly::<P>(simd, cx);
+                each_bit(landing, |place| leaf_fly(cx, &mut leaves.row_mut(first + place)));
+            } else {
+                each_bit(awake, |place| few.push(first + place));
             }
         }
-        for slot in few..slots.end {
+        for slot in whole..slots.end {
             leaf_fly(cx, &mut leaves.row_mut(slot));
         }
     }
+    for slots in few.chunks(BLOCK) {
+        fly_gathered::<P>(simd, cx, leaves, slots);
+    }
+}
+
+/// Calls `act` with the place of every bit.
+#[inline(always)]
+fn each_bit(mut bits: u32, mut act: impl FnMut(usize)) {
+    while bits != 0 {
+        act(bits.trailing_zeros() as usize);
+        bits &= bits - 1;
+    }
+}
+
+/// A bit for each leaf of a block that flies as a body.
+#[inline(always)]
+fn bodies_in(leaves: &LeavesMut<'_>, first: usize) -> u32 {
+    let places = leaves.place[first..].iter().take(BLOCK);
+    (0..).zip(places).fold(0, |bits, (place, of)| bits | (u32::from(flies(of.bits)) << place))
+}
+
+/// Steps bodies from here and there side by side, at most as many as a block has.
+#[inline(always)]
+fn fly_gathered<P: Pack>(simd: P::Simd, cx: &Context<'_>, leaves: &mut LeavesMut<'_>, slots: &[usize]) {
+    let mut place = [Place::default(); BLOCK];
+    let mut drift = [Drift::default(); BLOCK];
+    let mut attitude = [Attitude::default(); BLOCK];
+    let mut schedule = [Schedule::default(); BLOCK];
+    let mut identity = [Identity::default(); BLOCK];
+    for (at, &slot) in slots.iter().enumerate() {
+        place[at] = leaves.place[slot];
+        drift[at] = leaves.drift[slot];
+        attitude[at] = leaves.attitude[slot];
+        schedule[at] = leaves.schedule[slot];
+        identity[at] = leaves.identity[slot];
+    }
+    let mut block = FlyingBlock {
+        place: &mut place,
+        drift: &mut drift,
+        attitude: &mut attitude,
+        schedule: &mut schedule,
+        identity: &mut identity,
+    };
+    let landing = block.fly::<P>(simd, cx);
+    for (at, &slot) in slots.iter().enumerate() {
+        leaves.place[slot] = place[at];
+        leaves.drift[slot] = drift[at];
+        leaves.attitude[slot] = attitude[at];
+        leaves.schedule[slot] = schedule[at];
+        leaves.identity[slot] = identity[at];
+    }
+    each_bit(landing, |at| leaf_fly(cx, &mut leaves.row_mut(slots[at])));
 }
 
 /// The block of slots from one on.

@@ -9,7 +9,7 @@ use super::wind::{MOST_INTERVAL_STEPS, deviation_m_s, wind_block};
 use crate::arith::rng::seed_words;
 use crate::blocks::{LitterBlock, SOURCE_TREES, SceneBlock, SwayBlock, WindBlock};
 use crate::convert::{len32, low_word, q16, single, steps, word};
-use crate::device::leaf::wake::{COVER_INTERVAL, WAKE_INTERVAL};
+use crate::device::leaf::wake::{CALM_INTERVAL, COVER_INTERVAL, WAKE_INTERVAL};
 use crate::device::terrain::litter::{LITTER_CELLS_PER_M, LITTER_HIGHEST_M};
 use crate::device::tree::sway::{IMPLICITNESS, SCHEME_ARTICULATED, SCHEME_OLIAPURAM_KUMAR, SCHEME_QUIGLEY};
 use crate::flight::coefficients::TICKS_PER_S;
@@ -156,6 +156,7 @@ fn set_litter(scene: &Scene, litter: &Litter, block: &mut LitterBlock) {
         && deviation_m_s(&scene.wind) == 0.0
         && scene.wind.vortices.is_empty();
     block.is_calm = u32::from(is_calm);
-    block.wake_steps = if is_calm { COVER_INTERVAL } else { WAKE_INTERVAL };
+    (block.wake_steps, block.cover_steps) =
+        if is_calm { (CALM_INTERVAL, CALM_INTERVAL) } else { (WAKE_INTERVAL, COVER_INTERVAL) };
     block.rest_m2_s2 = scene.gravity_m_s2 * REST_OFFSET_M;
 }

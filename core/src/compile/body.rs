@@ -60,6 +60,7 @@ pub(super) fn body_block(species: &Species, scene: &Scene) -> BodyBlock {
     let dt = f64::from(scene.dt_s);
     let weight = areal / USUAL_AREAL_KG_M2 * f64::from(scene.gravity_m_s2 / STANDARD_GRAVITY_M_S2);
     let usual_m_s = USUAL_DESCENT_M_S * libm::sqrt(weight);
+    let cells_per_m = f64::from(LITTER_CELLS_PER_M);
     let layer = f64::from(species.areal_density_kg_m2) / f64::from(litter.bulk_density_kg_m3);
     let (hold_kind, hold_tilt) = match body.hold {
         Hold::Random => (HOLD_RANDOM, 0),
@@ -95,7 +96,7 @@ pub(super) fn body_block(species: &Species, scene: &Scene) -> BodyBlock {
         hold_spread: tilt_q16(f64::from(body.tilt_deg)),
         layer_m: single(layer),
         litter_units: single(
-            PI * radius * radius * layer * f64::from(LITTER_CELLS_PER_M).powi(2) / f64::from(LITTER_UNIT_M),
+            PI * radius * radius * layer * cells_per_m * cells_per_m / f64::from(LITTER_UNIT_M),
         ),
     }
 }

@@ -31,11 +31,11 @@ impl LitterStats {
     pub(crate) fn of(scene: &Scene, block: &LitterBlock, leaves: &Leaves, bed: &Bed) -> Option<Self> {
         let litter = scene.ground.litter?;
         let heights = bed.heights(block);
-        let cell_m2 = f64::from(LITTER_CELLS_PER_M).powi(-2);
+        let cell_m = 1.0 / f64::from(LITTER_CELLS_PER_M);
         let mut stats = Self { woken: bed.woken(block), ..Self::default() };
         stats.deepest_m = f64::from(heights.iter().copied().max().unwrap_or(0)) * f64::from(LITTER_UNIT_M);
         let sum: u64 = heights.iter().copied().map(u64::from).sum();
-        stats.volume_m3 = sum as f64 * f64::from(LITTER_UNIT_M) * cell_m2;
+        stats.volume_m3 = sum as f64 * f64::from(LITTER_UNIT_M) * cell_m * cell_m;
         for (place, schedule) in leaves.place.iter().zip(&leaves.schedule) {
             stats.awake += u32::from(flies(place.bits));
             if lies(place.bits) {

@@ -48,7 +48,7 @@ fn still_load(body: LeafBody, flow: vec3<f32>) -> StillLoad {
     let push = load.lift * flow.y - load.drag;
     let force = vec3<f32>(
         push * flow.x,
-        (load.lift * load.tangent + load.drag * flow.y) * -1.0,
+        -(load.lift * load.tangent + load.drag * flow.y),
         push * flow.z,
     );
     let munk = (body.added_mass * flow.y) * (load.q * MUNK_RISE + MUNK_EDGE);

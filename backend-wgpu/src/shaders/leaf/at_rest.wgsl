@@ -22,7 +22,7 @@ struct LeafAtRest {
 
 fn leaf_at_rest(body: LeafBody, pose: vec4<f32>, slope: Slope, friction: f32, raise: u32) -> LeafAtRest {
     let up = inverse_sqrt(slope.gain);
-    let normal = vec3<f32>((slope.x * up) * -1.0, up, (slope.z * up) * -1.0);
+    let normal = vec3<f32>(-(slope.x * up), up, -(slope.z * up));
     let suction = scene.litter.adhesion_m2_s2 * body.air_per_m;
     return LeafAtRest(body, pose, normal, friction, raise, scene.gravity_m_s2 + suction);
 }

@@ -21,7 +21,7 @@ fn wake_is_due(slot: u32) -> bool {
 }
 
 fn cover_is_due(slot: u32) -> bool {
-    return unit_has_turn(slot, COVER_INTERVAL);
+    return unit_has_turn(slot, scene.litter.cover_steps);
 }
 
 fn layers_above(bits: u32, height: f32) -> f32 {

@@ -69,7 +69,7 @@ pub fn still_load(body: &LeafBody, flow: Vec3) -> (Vec3, Vec3) {
     let AirLoad { speed, q, tangent, drag, lift, .. } = air_load(body, flow);
     let force = Vec3::new(
         (lift * flow.y - drag) * flow.x,
-        (lift * tangent + drag * flow.y) * -1.0,
+        -(lift * tangent + drag * flow.y),
         (lift * flow.y - drag) * flow.z,
     );
     let munk = (body.added_mass * flow.y) * (q * MUNK_RISE + MUNK_EDGE);

@@ -56,7 +56,7 @@ pub fn leaf_at_rest(
     raise: u32,
 ) -> LeafAtRest {
     let up = inverse_sqrt(slope.gain);
-    let normal = Vec3::new((slope.x * up) * -1.0, up, (slope.z * up) * -1.0);
+    let normal = Vec3::new(-(slope.x * up), up, -(slope.z * up));
     let suction = cx.scene.litter.adhesion_m2_s2 * body.air_per_m;
     LeafAtRest { body, pose, normal, friction, raise, pressing_m_s2: cx.scene.gravity_m_s2 + suction }
 }

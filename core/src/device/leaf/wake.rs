@@ -26,6 +26,8 @@ crate::shared_constants! {
     pub const WAKE_INTERVAL: u32 = 8;
     /// Steps after which it is seen what lies on and beneath a leaf; a multiple of the other.
     pub const COVER_INTERVAL: u32 = 64;
+    /// The same where no wind blows: leaves sink only where others are recycled.
+    pub const CALM_INTERVAL: u32 = 256;
     /// Layers above a leaf from which on no wind reaches it.
     pub const COVERED_LAYERS: f32 = 2.0;
     /// Spin in rad/s with which the wind turns a leaf up that it takes: by 20 degrees in a tenth of a second.
@@ -49,7 +51,7 @@ pub fn wake_is_due(cx: &Context<'_>, slot: u32) -> bool {
 /// Returns true if it is seen in this step what lies on and beneath the leaves in a slot's unit.
 #[inline(always)]
 pub fn cover_is_due(cx: &Context<'_>, slot: u32) -> bool {
-    unit_has_turn(cx, slot, COVER_INTERVAL)
+    unit_has_turn(cx, slot, cx.scene.litter.cover_steps)
 }
 
 /// Layers of litter that a height is, of leaves like one with these bits.
@@ -150,7 +152,7 @@ pub fn leaf_wake(cx: &Context<'_>, leaf: &mut LeafMut<'_>) -> bool {
     let pose = Quat::from(leaf.attitude.quaternion);
     let heading = leaf.schedule.heading;
     let mut at_rest = leaf_at_rest(cx, body, pose, slope, lying_friction(heading), lying_raise(heading));
-    at_rest.pressing_m_s2 = at_rest.pressing_m_s2 + cx.scene.gravity_m_s2 * cover;
+    at_rest.pressing_m_s2 += cx.scene.gravity_m_s2 * cover;
     if !wind_moves(cx, &at_rest, wind, 1.0) {
         return false;
     }
