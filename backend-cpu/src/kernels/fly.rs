@@ -12,6 +12,7 @@ use windfall_core::device::leaf::fly::leaf_fly;
 use windfall_core::device::leaf::record::flies;
 use windfall_core::leaf::{Attitude, Drift, Identity, LeavesMut, Place, Schedule};
 
+use super::CHUNK;
 use super::resolve_events::EventList;
 use crate::quiet::UNIT;
 use crate::simd::flying_block::FlyingBlock;
@@ -42,7 +43,7 @@ const DENSE: u32 = 8;
 /// Steps the bodies of units block by block; those that land, and the last few slots, one by one.
 #[inline(always)]
 fn fly_lanes<P: Pack>(simd: P::Simd, cx: &Context<'_>, leaves: &mut LeavesMut<'_>, events: &EventList) {
-    let mut few = Vec::new();
+    let mut few = [0; CHUNK / BLOCK];
     for unit in events.stepped() {
         let slots = slots_of(unit, leaves.len());
         let whole = slots.end - slots.len() % BLOCK;
@@ -50,27 +51,38 @@ fn fly_lanes<P: Pack>(simd: P::Simd, cx: &Context<'_>, leaves: &mut LeavesMut<'_
             let awake = bodies_in(leaves, first);
             if awake.count_ones() >= DENSE {
                 let landing = block_of(leaves, first).fly::<P>(simd, cx);
-                each_bit(landing, |place| leaf_fly(cx, &mut leaves.row_mut(first + place)));
+                places_of(landing).for_each(|place| leaf_fly(cx, &mut leaves.row_mut(first + place)));
             } else {
-                each_bit(awake, |place| few.push(first + place));
+                few[first / BLOCK] = awake;
             }
         }
         for slot in whole..slots.end {
             leaf_fly(cx, &mut leaves.row_mut(slot));
         }
     }
-    for slots in few.chunks(BLOCK) {
-        fly_gathered::<P>(simd, cx, leaves, slots);
+    let blocks = few.into_iter().enumerate();
+    let mut few = blocks.flat_map(|(block, awake)| places_of(awake).map(move |place| block * BLOCK + place));
+    loop {
+        let (mut slots, mut count) = ([0; BLOCK], 0);
+        for (to, slot) in slots.iter_mut().zip(few.by_ref()) {
+            *to = slot;
+            count += 1;
+        }
+        if count == 0 {
+            break;
+        }
+        fly_gathered::<P>(simd, cx, leaves, &slots[..count]);
     }
 }
 
-/// Calls `act` with the place of every bit.
+/// Places of the bits.
 #[inline(always)]
-fn each_bit(mut bits: u32, mut act: impl FnMut(usize)) {
-    while bits != 0 {
-        act(bits.trailing_zeros() as usize);
-        bits &= bits - 1;
-    }
+fn places_of(mut bits: u32) -> impl Iterator<Item = usize> {
+    std::iter::from_fn(move || {
+        let place = (bits != 0).then(|| bits.trailing_zeros() as usize);
+        bits &= bits.wrapping_sub(1);
+        place
+    })
 }
 
 /// A bit for each leaf of a block that flies as a body.
@@ -110,7 +122,7 @@ fn fly_gathered<P: Pack>(simd: P::Simd, cx: &Context<'_>, leaves: &mut LeavesMut
         leaves.schedule[slot] = schedule[at];
         leaves.identity[slot] = identity[at];
     }
-    each_bit(landing, |at| leaf_fly(cx, &mut leaves.row_mut(slots[at])));
+    places_of(landing).for_each(|at| leaf_fly(cx, &mut leaves.row_mut(slots[at])));
 }
 
 /// The block of slots from one on.
