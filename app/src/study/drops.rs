@@ -44,6 +44,8 @@ pub(crate) fn drop_scene(scene: &Scene, file: &str, options: &DropOptions) -> an
         sway_every: plain.sway_every,
         autumn: plain.autumn,
         regrow_after_s: None,
+        objects: Vec::new(),
+        walkers: Vec::new(),
         view: View::default(),
         ..scene.clone()
     };

@@ -127,6 +127,18 @@ limits! {
     RESTITUTION: f32 = 0.0, 1.0, "", restitution;
     ADHESION_N_M2: f32 = 0.0, 20.0, "N/m²", adhesion_n_m2;
     SURFACE_ROUGHNESS_M: f32 = 0.0001, 0.1, "m", surface_roughness_m;
+    OBJECT_RADIUS_M: f32 = 0.005, 50.0, "m", radius_m;
+    OBJECT_LENGTH_M: f32 = 0.0, 200.0, "m", length_m;
+    OBJECT_HEIGHT_M: f32 = 0.02, 200.0, "m", height_m;
+    OBJECT_SIZE_M: f32 = 0.02, 200.0, "m", size_m;
+    OBJECT_AT_M: f32 = -4096.0, 4096.0, "m", at_m moved_m;
+    OBJECT_TILT_DEG: f32 = -180.0, 180.0, "degrees", tilt_deg;
+    TURNED_DEG: f32 = -360.0, 360.0, "degrees", turned_deg;
+    COULOMB: f32 = 0.0, 5.0, "", Coulomb;
+    LOSS: f32 = 0.0, 1.0, "", Loss;
+    COLOR: f32 = 0.0, 1.0, "", color;
+    WALK_M_S: f32 = 0.2, 3.0, "m/s", speed_m_s;
+    START_S: f32 = 0.0, 86_400.0, "s", start_s;
     EDGE_M: f32 = 16.0, 4096.0, "m", edge_m;
     RELIEF_M: f32 = 0.0, 500.0, "m", relief_m;
     TERRAIN_LEVELS: u32 = 2, 9, "", levels;
@@ -197,6 +209,7 @@ mod tests {
         include_str!("ground.rs"),
         include_str!("lens.rs"),
         include_str!("litter.rs"),
+        include_str!("object.rs"),
         include_str!("path.rs"),
         include_str!("sky.rs"),
         include_str!("source.rs"),

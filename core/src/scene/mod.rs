@@ -8,10 +8,12 @@
 mod file;
 mod flight;
 mod ground;
+pub(crate) mod keyed;
 mod lens;
 pub mod limits;
 mod litter;
 pub(crate) mod nearest;
+mod object;
 mod path;
 mod presets;
 mod scaling;
@@ -31,6 +33,7 @@ pub use flight::{Aerodynamics, FlightModel, Hold, Planform};
 pub use ground::Ground;
 pub use lens::{Exposure, Focus, Glare, Lens, ToneMap};
 pub use litter::Litter;
+pub use object::{Object, ObjectFriction, ObjectKey, ObjectMotion, ObjectShape, Walker};
 pub use path::{CameraKey, camera_at};
 pub use presets::PRESETS;
 pub use sky::{Haze, PhysicalSky, Sky, SkyMap};
@@ -50,6 +53,13 @@ pub const MAX_SPECIES: usize = 32;
 pub const MAX_SOURCES: usize = 16;
 /// Most point vortices a scene may have: they travel in the uniform block of every step.
 pub const MAX_VORTICES: usize = 8;
+/// Most objects a scene may have.
+pub const MAX_OBJECTS: usize = 4096;
+/// Most solid parts of a scene that may move: objects on a path, and ten limbs of each walker. They travel in the uniform block of every
+/// step.
+pub const MAX_MOVERS: usize = 32;
+/// Most corners of a walker's way, and most keys of the path of an object.
+pub const MAX_PATH_KEYS: usize = 256;
 /// Most keys the path of a camera may have.
 pub const MAX_CAMERA_KEYS: usize = 1024;
 /// Most leaves a scene may have, over all sources (four billion words of state would not fit anywhere yet).
@@ -104,6 +114,10 @@ pub struct Scene {
     pub wind: WindParameters,
     /// Ground on which leaves land.
     pub ground: Ground,
+    /// Solid things in the way of leaves. They need `ground.litter`: leaves come to rest on them as they do there.
+    pub objects: Vec<Object>,
+    /// People who walk through the leaves. They need `ground.litter` as well.
+    pub walkers: Vec<Walker>,
     /// Camera, sun, sky, haze and trails; no effect on the simulation.
     pub view: View,
 }
@@ -127,6 +141,8 @@ impl Default for Scene {
             regrow_after_s: None,
             wind: WindParameters::default(),
             ground: Ground::default(),
+            objects: Vec::new(),
+            walkers: Vec::new(),
             view: View::default(),
         }
     }

@@ -6,6 +6,7 @@ use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
 use super::Camera;
+use super::keyed::numbers_at;
 
 /// Camera position at a time.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -30,51 +31,10 @@ impl CameraKey {
 }
 
 /// The camera that moves along `keys`, whose times increase, at a time; `None` without keys. Before the first key and after
-/// the last it stands still.
-///
-/// Between keys every number follows a monotone cubic (Steffen, "A simple method for monotonic interpolation in one
-/// dimension", Astronomy and Astrophysics 239, 1990): its rate has no jumps, and it goes beyond no key, so a camera over
-/// the ground stays there.
+/// the last it stands still. Between keys it moves smoothly, and goes beyond none of them, so a camera over the ground stays there.
 pub fn camera_at(keys: &[CameraKey], time_s: f64) -> Option<Camera> {
-    let (first, last) = (keys.first()?, keys.last()?);
-    let time_s = time_s.clamp(first.time_s.into(), last.time_s.into());
-    let after = keys.partition_point(|key| f64::from(key.time_s) <= time_s).clamp(1, keys.len().max(2) - 1);
-    let (Some(a), Some(b)) = (keys.get(after - 1), keys.get(after)) else {
-        return Some(camera(first.numbers()));
-    };
-    let step = |from: &CameraKey, to: &CameraKey| f64::from(to.time_s) - f64::from(from.time_s);
-    let span_s = step(a, b);
-    let part = (time_s - f64::from(a.time_s)) / span_s;
-    let (from, to) = (a.numbers(), b.numbers());
-    let before = after.checked_sub(2).and_then(|index| keys.get(index));
-    let beyond = keys.get(after + 1);
-    Some(camera(std::array::from_fn(|index| {
-        let slope = (to[index] - from[index]) / span_s;
-        // At its ends the camera starts and stops.
-        let begin = before.map_or(0.0, |key| {
-            let before_s = step(key, a);
-            steffen((from[index] - key.numbers()[index]) / before_s, slope, before_s, span_s)
-        });
-        let end = beyond.map_or(0.0, |key| {
-            let beyond_s = step(b, key);
-            steffen(slope, (key.numbers()[index] - to[index]) / beyond_s, span_s, beyond_s)
-        });
-        hermite(part, from[index], to[index], begin * span_s, end * span_s)
-    })))
-}
-
-/// Rate at a key between two spans of these slopes and lengths: equation 11 of Steffen 1990.
-fn steffen(slope: f64, next_slope: f64, length: f64, next_length: f64) -> f64 {
-    let parabola = (slope * next_length + next_slope * length) / (length + next_length);
-    (slope.signum() + next_slope.signum()) * slope.abs().min(next_slope.abs()).min(0.5 * parabola.abs())
-}
-
-/// Cubic from `from` to `to` whose slopes at its ends are `begin` and `end`.
-fn hermite(t: f64, from: f64, to: f64, begin: f64, end: f64) -> f64 {
-    let (square, cube) = (t * t, t * t * t);
-    from + (3.0 * square - 2.0 * cube) * (to - from)
-        + (cube - 2.0 * square + t) * begin
-        + (cube - square) * end
+    let keys: Vec<_> = keys.iter().map(|key| (key.time_s.into(), key.numbers())).collect();
+    numbers_at(&keys, time_s).map(camera)
 }
 
 #[expect(clippy::cast_possible_truncation, reason = "scenes are in single precision")]

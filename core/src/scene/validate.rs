@@ -5,6 +5,7 @@
 mod check;
 mod cross;
 mod lens;
+mod objects;
 #[cfg(test)]
 mod tests;
 mod trees;
@@ -49,6 +50,7 @@ impl Scene {
         self.wind.check(&check.inside("wind"))?;
         self.ground.check(&check.inside("ground"))?;
         self.view.check(&check.inside("view"))?;
+        self.check_objects(&check)?;
 
         let on_trees: u64 = self.trees.iter().map(|tree| u64::from(tree.leaves)).sum();
         check.holds(on_trees <= u64::from(MAX_TREE_LEAVES), "trees", || {

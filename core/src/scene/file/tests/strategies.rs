@@ -303,6 +303,63 @@ prop_compose! {
     }
 }
 
+fn object_shape() -> impl Strategy<Value = ObjectShape> {
+    let radius = || within(limits::OBJECT_RADIUS_M);
+    prop_oneof![
+        radius().prop_map(|radius_m| ObjectShape::Sphere { radius_m }),
+        (radius(), within(limits::OBJECT_LENGTH_M))
+            .prop_map(|(radius_m, length_m)| ObjectShape::Capsule { radius_m, length_m }),
+        vector(limits::OBJECT_SIZE_M).prop_map(|size_m| ObjectShape::Box { size_m }),
+        (radius(), within(limits::OBJECT_HEIGHT_M))
+            .prop_map(|(radius_m, height_m)| ObjectShape::Cylinder { radius_m, height_m }),
+    ]
+}
+
+fn object_motion() -> impl Strategy<Value = ObjectMotion> {
+    let key = (vector(limits::OBJECT_AT_M), within(limits::TURNED_DEG));
+    let path = (0.0f32..100.0, vec(((0.01f32..100.0), key), 1..6)).prop_map(|(first_s, keys)| {
+        let mut time_s = first_s;
+        let keys = keys.into_iter().map(|(later_s, (moved_m, turned_deg))| {
+            time_s += later_s;
+            ObjectKey { time_s, moved_m, turned_deg }
+        });
+        ObjectMotion::Path(keys.collect())
+    });
+    prop_oneof![2 => Just(ObjectMotion::Still), 1 => path]
+}
+
+prop_compose! {
+    fn object()(
+        shape in object_shape(),
+        at_m in vector(limits::OBJECT_AT_M),
+        (heading_deg, tilt_deg) in (within(limits::HEADING_DEG), within(limits::OBJECT_TILT_DEG)),
+        motion in object_motion(),
+        friction in prop_oneof![
+            within(limits::COULOMB).prop_map(ObjectFriction::Coulomb), within(limits::LOSS).prop_map(ObjectFriction::Loss),
+        ],
+        restitution in within(limits::RESTITUTION),
+        color in vector(limits::COLOR),
+    ) -> Object {
+        Object { shape, at_m, heading_deg, tilt_deg, motion, friction, restitution, color }
+    }
+}
+
+prop_compose! {
+    fn walker()(
+        (x_m, z_m) in (within(limits::OBJECT_AT_M), -4000.0f32..=4000.0),
+        steps in vec(0.1f32..10.0, 1..5),
+        (speed_m_s, start_s) in (within(limits::WALK_M_S), within(limits::START_S)),
+    ) -> Walker {
+        let mut corner = Vec2::new(x_m, z_m);
+        let mut way_m = vec![corner];
+        for step_m in steps {
+            corner.y += step_m.max(0.11);
+            way_m.push(corner);
+        }
+        Walker { way_m, speed_m_s, start_s }
+    }
+}
+
 prop_compose! {
     fn litter()(
         (x_m, z_m, along_m, across_m) in (
@@ -345,6 +402,7 @@ prop_compose! {
                 Ground { height_m, friction, surface_roughness_m, terrain, water, litter }
             }),
         view in view(),
+        (mut objects, mut walkers) in (vec(object(), 0..4), vec(walker(), 0..2)),
     ) -> Scene {
         for (index, species) in species.iter_mut().enumerate() {
             species.name = format!("{index} {}", species.name);
@@ -364,9 +422,13 @@ prop_compose! {
         for (tree, kind) in trees.iter_mut().zip(&tree_kinds) {
             tree.kind.clone_from(&kind.name);
         }
+        if ground.litter.is_none() {
+            objects.clear();
+            walkers.clear();
+        }
         let mut scene = Scene {
             name, seed, dt_s, fall_speed, rotation_speed, gravity_m_s2, species, sources, tree_kinds, trees, sway, sway_every, autumn, regrow_after_s, wind, ground,
-            view,
+            objects, walkers, view,
         };
         // Hills no deeper than the slowest leaf has time to fall.
         while scene.validate("random").is_err() {

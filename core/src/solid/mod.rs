@@ -1,0 +1,9 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Solid things as convex parts with a pose at every time: the objects of a scene, and the limbs of those who walk there.
+
+mod part;
+mod walk;
+
+pub use part::{Solid, SolidPose, solids_of};
+pub(crate) use walk::LIMB_COUNT;

@@ -1,0 +1,108 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! One solid part.
+
+use glam::{DQuat, DVec3, Vec3};
+
+use super::walk::{Gait, LIMBS, Limb};
+use crate::scene::keyed::{Key, numbers_at};
+use crate::scene::{Object, ObjectFriction, ObjectMotion, ObjectShape, Scene};
+
+/// Place and orientation of a solid part.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SolidPose {
+    /// Centre in m.
+    pub center_m: DVec3,
+    /// Turn from the part's own frame.
+    pub turn: DQuat,
+}
+
+/// A convex solid part.
+#[derive(Clone, Debug)]
+pub struct Solid {
+    /// Shape.
+    pub shape: ObjectShape,
+    /// Friction.
+    pub friction: ObjectFriction,
+    /// Coefficient of restitution.
+    pub restitution: f32,
+    /// Reflectance, linear red, green and blue.
+    pub color: Vec3,
+    path: Path,
+}
+
+/// Motion of a part.
+#[derive(Clone, Debug)]
+enum Path {
+    Still(SolidPose),
+    Keys { tilt: DQuat, keys: Vec<Key<4>> },
+    Limb { gait: Gait, limb: Limb },
+}
+
+/// Friction of leaves on clothes and boots, assumed.
+const WALKER_FRICTION: ObjectFriction = ObjectFriction::Coulomb(0.5);
+/// Restitution of leaves that strike them, assumed.
+const WALKER_RESTITUTION: f32 = 0.1;
+
+/// All solid parts of a scene: the objects in their order, then the limbs of walkers.
+pub fn solids_of(scene: &Scene) -> Vec<Solid> {
+    let objects = scene.objects.iter().map(Solid::of_object);
+    let walkers = scene.walkers.iter().flat_map(|walker| {
+        let gait = Gait::of(walker);
+        LIMBS.iter().map(move |&limb| Solid {
+            shape: limb.shape(),
+            friction: WALKER_FRICTION,
+            restitution: WALKER_RESTITUTION,
+            color: limb.color(),
+            path: Path::Limb { gait: gait.clone(), limb },
+        })
+    });
+    objects.chain(walkers).collect()
+}
+
+impl Solid {
+    /// The part that an object is.
+    fn of_object(object: &Object) -> Self {
+        let tilt = DQuat::from_rotation_x(f64::from(object.tilt_deg).to_radians());
+        let (at, heading) = (object.at_m.as_dvec3(), f64::from(object.heading_deg));
+        let path = match &object.motion {
+            ObjectMotion::Still => Path::Still(SolidPose { center_m: at, turn: turned(heading) * tilt }),
+            ObjectMotion::Path(keys) => {
+                let keys = keys.iter().map(|key| {
+                    let center = at + key.moved_m.as_dvec3();
+                    (key.time_s.into(), [center.x, center.y, center.z, heading + f64::from(key.turned_deg)])
+                });
+                Path::Keys { tilt, keys: keys.collect() }
+            }
+        };
+        Self {
+            shape: object.shape,
+            friction: object.friction,
+            restitution: object.restitution,
+            color: object.color,
+            path,
+        }
+    }
+
+    /// Returns true if it ever moves.
+    pub fn moves(&self) -> bool {
+        !matches!(self.path, Path::Still(_))
+    }
+
+    /// Pose at a time in seconds, over ground of a height in m at x, z.
+    pub fn pose_at(&self, time_s: f64, ground_m: impl Fn(f64, f64) -> f64) -> SolidPose {
+        match &self.path {
+            Path::Still(pose) => *pose,
+            Path::Keys { tilt, keys } => {
+                let [x, y, z, heading] = numbers_at(keys, time_s).unwrap_or_default();
+                SolidPose { center_m: DVec3::new(x, y, z), turn: turned(heading) * *tilt }
+            }
+            Path::Limb { gait, limb } => gait.pose(*limb, time_s, ground_m),
+        }
+    }
+}
+
+/// Turn about the vertical by degrees.
+fn turned(degrees: f64) -> DQuat {
+    DQuat::from_rotation_y(degrees.to_radians())
+}

@@ -1,0 +1,298 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The gait of somebody who walks: each foot stands for three fifths of a stride and swings for the rest; legs and body follow.
+
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
+
+use glam::{DQuat, DVec2, DVec3, Vec3};
+
+use super::part::SolidPose;
+use crate::scene::{ObjectShape, Walker};
+
+/// Way of the body in two steps in m.
+const STRIDE_M: f64 = 1.45;
+/// Share of a stride for which a foot stands (Perry, "Gait Analysis": 60 %).
+const STANCE: f64 = 0.6;
+/// Height in m to which a swinging foot rises.
+const LIFT_M: f64 = 0.09;
+/// Half of the distance between the feet in m.
+const HALF_WIDTH_M: f64 = 0.09;
+/// Height of the hips in m.
+const HIPS_M: f64 = 0.92;
+/// Length of a shank, and of a thigh, in m.
+const HALF_LEG_M: f64 = 0.45;
+/// Distance in m of the ankle behind the middle of the foot.
+const ANKLE_BEHIND_M: f64 = 0.07;
+/// Radius of a boot in m.
+const BOOT_RADIUS_M: f32 = 0.05;
+/// Length of its straight part in m.
+const BOOT_LENGTH_M: f32 = 0.19;
+
+/// A limb of a walker.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Limb {
+    Boot(Side),
+    Shank(Side),
+    Thigh(Side),
+    Arm(Side),
+    Trunk,
+    Head,
+}
+
+/// A side of the body.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Side {
+    Left,
+    Right,
+}
+
+impl Side {
+    /// +1 to the left, -1 to the right of the way.
+    fn sign(self) -> f64 {
+        if self == Self::Left { 1.0 } else { -1.0 }
+    }
+
+    /// Share of a stride by which this side is ahead.
+    fn lead(self) -> f64 {
+        if self == Self::Left { 0.0 } else { 0.5 }
+    }
+
+    fn other(self) -> Self {
+        if self == Self::Left { Self::Right } else { Self::Left }
+    }
+}
+
+/// Number of limbs of a walker.
+pub(crate) const LIMB_COUNT: usize = 10;
+
+/// All limbs of a walker.
+pub(super) const LIMBS: [Limb; LIMB_COUNT] = [
+    Limb::Boot(Side::Left),
+    Limb::Boot(Side::Right),
+    Limb::Shank(Side::Left),
+    Limb::Shank(Side::Right),
+    Limb::Thigh(Side::Left),
+    Limb::Thigh(Side::Right),
+    Limb::Arm(Side::Left),
+    Limb::Arm(Side::Right),
+    Limb::Trunk,
+    Limb::Head,
+];
+
+impl Limb {
+    /// Shape of a limb.
+    pub(super) fn shape(self) -> ObjectShape {
+        let (radius_m, length_m) = match self {
+            Self::Boot(_) => (BOOT_RADIUS_M, BOOT_LENGTH_M),
+            Self::Shank(_) => (0.055, 0.36),
+            Self::Thigh(_) => (0.075, 0.36),
+            Self::Arm(_) => (0.045, 0.5),
+            Self::Trunk => (0.16, 0.36),
+            Self::Head => (0.1, 0.05),
+        };
+        ObjectShape::Capsule { radius_m, length_m }
+    }
+
+    /// Reflectance of a limb: boots, trousers, coat and skin.
+    pub(super) fn color(self) -> Vec3 {
+        match self {
+            Self::Boot(_) => Vec3::new(0.09, 0.05, 0.03),
+            Self::Shank(_) | Self::Thigh(_) => Vec3::new(0.05, 0.07, 0.12),
+            Self::Arm(_) | Self::Trunk => Vec3::new(0.28, 0.08, 0.05),
+            Self::Head => Vec3::new(0.45, 0.27, 0.18),
+        }
+    }
+}
+
+/// A walk along a way.
+#[derive(Clone, Debug)]
+pub(super) struct Gait {
+    corners: Vec<DVec2>,
+    speed_m_s: f64,
+    start_s: f64,
+}
+
+/// A foot at a time.
+struct Foot {
+    /// Place of its middle on the ground, and the direction of the way there.
+    at: DVec2,
+    ahead: DVec2,
+    /// Height in m above its place on the ground.
+    lift_m: f64,
+    /// Angle in radians by which its toes point down.
+    pitch: f64,
+}
+
+impl Gait {
+    /// The gait of a walker.
+    pub(super) fn of(walker: &Walker) -> Self {
+        Self {
+            corners: walker.way_m.iter().map(|corner| corner.as_dvec2()).collect(),
+            speed_m_s: walker.speed_m_s.into(),
+            start_s: walker.start_s.into(),
+        }
+    }
+
+    /// Length of the way in m.
+    fn length_m(&self) -> f64 {
+        self.corners.windows(2).map(|ends| ends[0].distance(ends[1])).sum()
+    }
+
+    /// Place so many metres along the way, and its direction there. Before its first corner and behind its last it goes straight on.
+    fn along(&self, mut way_m: f64) -> (DVec2, DVec2) {
+        let last = self.corners.len().saturating_sub(2);
+        for (index, ends) in self.corners.windows(2).enumerate() {
+            let length = ends[0].distance(ends[1]);
+            let ahead = (ends[1] - ends[0]) / length;
+            if way_m <= length || index == last {
+                return (ends[0] + ahead * way_m, ahead);
+            }
+            way_m -= length;
+        }
+        (DVec2::ZERO, DVec2::X)
+    }
+
+    /// Way in m that the body has come at a time.
+    fn walked_m(&self, time_s: f64) -> f64 {
+        ((time_s - self.start_s) * self.speed_m_s).clamp(0.0, self.length_m())
+    }
+
+    /// A foot when the body has come so far.
+    fn foot(&self, side: Side, walked_m: f64) -> Foot {
+        let strides = walked_m / STRIDE_M + side.lead();
+        let (number, phase) = (strides.floor(), strides - strides.floor());
+        let swing = ((phase - STANCE) / (1.0 - STANCE)).max(0.0);
+        let eased = swing * swing * (3.0 - 2.0 * swing);
+        let way_m = STRIDE_M * (number - side.lead() + 0.5 * STANCE + eased);
+        let (middle, ahead) = self.along(way_m);
+        let left = DVec2::new(ahead.y, -ahead.x);
+        let raised = libm::sin(PI * swing);
+        Foot {
+            at: middle + left * (side.sign() * HALF_WIDTH_M),
+            ahead,
+            lift_m: LIFT_M * raised * raised,
+            pitch: 0.35 * libm::sin(TAU * swing),
+        }
+    }
+
+    /// Pose of a limb at a time, over ground of a height at x, z.
+    pub(super) fn pose(&self, limb: Limb, time_s: f64, ground_m: impl Fn(f64, f64) -> f64) -> SolidPose {
+        let walked_m = self.walked_m(time_s);
+        let (middle, ahead) = self.along(walked_m);
+        let left = DVec2::new(ahead.y, -ahead.x);
+        let above = |at: DVec2, height_m: f64| DVec3::new(at.x, ground_m(at.x, at.y) + height_m, at.y);
+        match limb {
+            Limb::Boot(side) => {
+                let foot = self.foot(side, walked_m);
+                let turn = facing(foot.ahead) * DQuat::from_rotation_x(FRAC_PI_2 + foot.pitch);
+                SolidPose { center_m: above(foot.at, f64::from(BOOT_RADIUS_M) + foot.lift_m), turn }
+            }
+            Limb::Shank(side) | Limb::Thigh(side) => {
+                let foot = self.foot(side, walked_m);
+                let heel = foot.at - foot.ahead * ANKLE_BEHIND_M;
+                let ankle = above(heel, 2.0 * f64::from(BOOT_RADIUS_M) + foot.lift_m);
+                let hip = above(middle + left * (side.sign() * HALF_WIDTH_M), HIPS_M);
+                let knee = knee_between(ankle, hip, DVec3::new(ahead.x, 0.0, ahead.y));
+                if matches!(limb, Limb::Shank(_)) { rod(ankle, knee) } else { rod(knee, hip) }
+            }
+            Limb::Arm(side) => {
+                // An arm swings with the leg of the other side.
+                let foot = self.foot(side.other(), walked_m);
+                let reach = (foot.at - middle).dot(ahead);
+                let shoulder = above(middle + left * (side.sign() * 0.22), 1.38);
+                let hand = shoulder + DVec3::new(ahead.x * 0.5 * reach, -0.55, ahead.y * 0.5 * reach);
+                rod(hand, shoulder)
+            }
+            Limb::Trunk => SolidPose { center_m: above(middle, 1.2), turn: facing(ahead) },
+            Limb::Head => SolidPose { center_m: above(middle, 1.66), turn: facing(ahead) },
+        }
+    }
+}
+
+/// Turn of a part that faces a direction: its own z points ahead.
+fn facing(ahead: DVec2) -> DQuat {
+    DQuat::from_rotation_y(libm::atan2(ahead.x, ahead.y))
+}
+
+/// Pose of a rod between two places: its own y points from one to the other.
+fn rod(from: DVec3, to: DVec3) -> SolidPose {
+    let way = (to - from).normalize_or(DVec3::Y);
+    SolidPose { center_m: (from + to) * 0.5, turn: DQuat::from_rotation_arc(DVec3::Y, way) }
+}
+
+/// Place of a knee between ankle and hip: both halves of the leg are as long, and it bends forward.
+fn knee_between(ankle: DVec3, hip: DVec3, ahead: DVec3) -> DVec3 {
+    let half = (hip - ankle) * 0.5;
+    let bend = (HALF_LEG_M * HALF_LEG_M - half.length_squared()).max(0.0).sqrt();
+    let across = (ahead - half * (ahead.dot(half) / half.length_squared())).normalize_or(ahead);
+    ankle + half + across * bend
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::Vec2;
+
+    fn gait() -> Gait {
+        Gait::of(&Walker {
+            way_m: vec![Vec2::new(0.0, 0.0), Vec2::new(10.0, 0.0), Vec2::new(10.0, 8.0)],
+            speed_m_s: 1.4,
+            start_s: 2.0,
+        })
+    }
+
+    fn boot(side: Side, time_s: f64) -> DVec3 {
+        gait().pose(Limb::Boot(side), time_s, |_, _| 0.0).center_m
+    }
+
+    #[test]
+    fn feet_stand_three_fifths_of_the_time_and_swing_at_three_to_four_metres_a_second_on_average() {
+        let (mut standing, mut swung_m, mut swinging_s) = (0.0, 0.0, 0.0);
+        let (count, step_s) = (4000, 1.0e-3);
+        for number in 0..count {
+            let time_s = 2.5 + f64::from(number) * step_s;
+            let way_m = boot(Side::Left, time_s).distance(boot(Side::Left, time_s + step_s));
+            if way_m < 1.0e-9 {
+                standing += 1.0;
+            } else {
+                swung_m += way_m;
+                swinging_s += step_s;
+            }
+        }
+        let share = standing / f64::from(count);
+        assert!((share - 0.6).abs() < 0.06, "a foot stands {share} of the time");
+        let speed = swung_m / swinging_s;
+        assert!((3.0..4.0).contains(&speed), "a foot swings at {speed} m/s");
+    }
+
+    #[test]
+    fn legs_hold_together_and_nothing_is_below_the_ground() {
+        let gait = gait();
+        for number in 0..1500 {
+            let time_s = 0.01 * f64::from(number);
+            for limb in LIMBS {
+                let pose = gait.pose(limb, time_s, |_, _| 3.0);
+                assert!(pose.turn.is_normalized(), "{limb:?} at {time_s} s");
+                let ObjectShape::Capsule { radius_m, length_m } = limb.shape() else {
+                    unreachable!("capsules")
+                };
+                let half = pose.turn * DVec3::Y * f64::from(0.5 * length_m);
+                let lowest = pose.center_m.y - half.y.abs() - f64::from(radius_m);
+                assert!(lowest > 3.0 - 0.04, "{limb:?} reaches down to {lowest} m at {time_s} s");
+            }
+            for side in [Side::Left, Side::Right] {
+                let shank = gait.pose(Limb::Shank(side), time_s, |_, _| 3.0).center_m;
+                let thigh = gait.pose(Limb::Thigh(side), time_s, |_, _| 3.0).center_m;
+                assert!(shank.distance(thigh) < HALF_LEG_M + 0.02, "a knee comes apart at {time_s} s");
+            }
+        }
+    }
+
+    #[test]
+    fn a_walk_begins_and_ends_at_rest() {
+        assert_eq!(boot(Side::Left, 0.0), boot(Side::Left, 2.0), "before its start");
+        assert_eq!(boot(Side::Right, 40.0), boot(Side::Right, 60.0), "after its end");
+        let end = gait().pose(Limb::Trunk, 60.0, |_, _| 0.0).center_m;
+        assert!((end - DVec3::new(10.0, 1.2, 8.0)).length() < 1.0e-9, "at the end of the way: {end}");
+    }
+}
