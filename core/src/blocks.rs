@@ -6,7 +6,7 @@
 
 use crate::flight::block::BodyBlock;
 use crate::layout::{Float4, Uint4};
-use crate::scene::{MAX_SOURCES, MAX_SPECIES, MAX_VORTICES};
+use crate::scene::{MAX_MOVERS, MAX_SOURCES, MAX_SPECIES, MAX_VORTICES};
 
 crate::shared_struct! {
     /// One species, compiled.
@@ -154,6 +154,37 @@ crate::shared_struct! {
 }
 
 crate::shared_struct! {
+    /// Solid parts, compiled: those that move first (see [`solid_at`](crate::device::solid::shape::solid_at)), and a grid of the lists
+    /// of the others (see [`may_meet_solids`](crate::device::solid::near::may_meet_solids)).
+    pub struct SolidsBlock {
+        /// First row of the parts.
+        pub first_row: u32,
+        /// Number of parts that move.
+        pub mover_count: u32,
+        /// Number of all parts.
+        pub count: u32,
+        /// First row of the grid's cells, four to a row: place of a list's first entry, shifted, and length of the list.
+        pub first_cell_row: u32,
+        /// First row of the lists, four entries to a row.
+        pub first_list_row: u32,
+        /// Cells along x.
+        pub columns: u32,
+        /// Cells along z.
+        pub lines: u32,
+        /// Cells per metre.
+        pub cells_per_m: f32,
+        /// Least x of the grid in m.
+        pub west_m: f32,
+        /// Least z of the grid in m.
+        pub north_m: f32,
+        /// Height in m above which no leaf meets a part that stands still.
+        pub highest_m: f32,
+        /// Distance in m from which the fastest leaf may reach a part in a step.
+        pub reach_m: f32,
+    }
+}
+
+crate::shared_struct! {
     /// Responses of the species' drift and spin to a step, four species to a vector (see
     /// [`response_of`](crate::device::leaf::fall::response_of)).
     pub struct ResponseBlock {
@@ -242,6 +273,8 @@ crate::shared_struct! {
         pub wind: WindBlock,
         /// The litter.
         pub litter: LitterBlock,
+        /// Solid parts.
+        pub solids: SolidsBlock,
         /// Responses of the species.
         pub responses: ResponseBlock,
         /// The species.
@@ -270,6 +303,12 @@ impl SceneBlock {
     #[inline(always)]
     pub fn has_living_litter(&self) -> bool {
         self.litter.is_living != 0
+    }
+
+    /// Returns true if there are solid parts in the way of leaves.
+    #[inline(always)]
+    pub fn has_solids(&self) -> bool {
+        self.solids.count != 0
     }
 
     /// Returns true if there is no wind that could take a leaf from the litter.
@@ -328,11 +367,31 @@ crate::shared_struct! {
 }
 
 crate::shared_struct! {
+    /// One solid part that moves, in one step: it goes straight on, turned as it is in the step's middle.
+    pub struct MoverBlock, padding 4 {
+        /// Centre at the step's start in m.
+        pub center_m: [f32; 3],
+        /// Distance in m from there within which leaves may meet it.
+        pub bound_m: f32,
+        /// Unit quaternion x, y, z, w that turns it into place.
+        pub turn: [f32; 4],
+        /// Velocity in m/s.
+        pub velocity_m_s: [f32; 3],
+        /// Distance in m that any of its points moves at most.
+        pub way_m: f32,
+        /// Angular velocity in rad/s.
+        pub spin_rad_s: [f32; 3],
+    }
+}
+
+crate::shared_struct! {
     /// Everything that changes from step to step.
     pub struct StepBlock, padding 8 {
         /// The wind at the start of the step ([`MOMENT_NOW`]), and in the middle of the interval for which a falling leaf samples it
         /// ([`MOMENT_MIDDLE`]).
         pub moments: [MomentBlock; 2],
+        /// Solid parts that move.
+        pub movers: [MoverBlock; MAX_MOVERS],
         /// Index of the step.
         pub index: u32,
         /// Number of vortices.

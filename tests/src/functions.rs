@@ -8,6 +8,7 @@ mod flight;
 mod leaf;
 mod litter;
 mod schemes;
+mod solids;
 mod tree;
 
 use windfall_core::Context;
@@ -105,4 +106,5 @@ pub fn all() -> impl Iterator<Item = &'static Function> {
         .chain(schemes::SCHEME_FUNCTIONS)
         .chain(flight::FLIGHT_FUNCTIONS)
         .chain(litter::LITTER_FUNCTIONS)
+        .chain(solids::SOLID_FUNCTIONS)
 }

@@ -6,8 +6,9 @@ use glam::{Vec2, Vec3};
 use proptest::prelude::*;
 use windfall_core::motion::Primitive;
 use windfall_core::scene::{
-    Aerodynamics, FlightModel, Foliage, Gusts, Hold, Litter, MeanSpeed, Planform, Profile, Release, Scene,
-    Share, Source, SourceShape, Species, Terrain, Tree, TreeKind, Turbulence, Vortex, Water, WindParameters,
+    Aerodynamics, FlightModel, Foliage, Gusts, Hold, Litter, MeanSpeed, Object, ObjectFriction, ObjectKey,
+    ObjectMotion, ObjectShape, Planform, Profile, Release, Scene, Share, Source, SourceShape, Species,
+    Terrain, Tree, TreeKind, Turbulence, Vortex, Walker, Water, WindParameters,
 };
 
 use crate::functions::Input;
@@ -188,6 +189,47 @@ pub fn littered_scene(seed: u64, leaves: u32, speed_m_s: f32, dt_s: f32) -> Scen
         recycle_after_s: Some(9.0),
         species: Vec::new(),
     });
+    scene
+}
+
+/// A scene with living litter, `leaves` leaves in the air and solid things of every shape among them, still and moving, and somebody
+/// who walks there.
+pub fn obstructed_scene(seed: u64, leaves: u32, speed_m_s: f32, dt_s: f32) -> Scene {
+    let mut scene = littered_scene(seed, leaves, speed_m_s, dt_s);
+    let solid = |shape, x, y, z| Object { shape, at_m: Vec3::new(x, y, z), ..Object::default() };
+    let key = |time_s, x, y, z| ObjectKey { time_s, moved_m: Vec3::new(x, y, z), turned_deg: 40.0 * time_s };
+    scene.objects = vec![
+        Object {
+            heading_deg: 20.0,
+            ..solid(ObjectShape::Box { size_m: Vec3::new(1.6, 0.45, 1.2) }, 0.5, 0.225, 0.3)
+        },
+        Object {
+            tilt_deg: 25.0,
+            ..solid(ObjectShape::Box { size_m: Vec3::new(2.0, 0.1, 2.0) }, -2.0, 0.6, 1.0)
+        },
+        solid(ObjectShape::Cylinder { radius_m: 0.5, height_m: 2.0 }, 2.5, 1.0, 1.5),
+        Object {
+            friction: ObjectFriction::Loss(0.3),
+            restitution: 0.6,
+            ..solid(ObjectShape::Sphere { radius_m: 0.7 }, 2.0, 0.5, -1.0)
+        },
+        Object {
+            tilt_deg: 80.0,
+            ..solid(ObjectShape::Capsule { radius_m: 0.2, length_m: 1.5 }, -1.0, 0.3, -2.0)
+        },
+        Object {
+            motion: ObjectMotion::Path(vec![
+                key(0.0, 0.0, 0.0, 0.0),
+                key(2.0, 4.0, 0.3, 1.0),
+                key(6.0, -1.0, 0.0, 4.0),
+            ]),
+            ..solid(ObjectShape::Capsule { radius_m: 0.25, length_m: 0.6 }, -2.0, 0.5, -2.0)
+        },
+    ];
+    scene.walkers = vec![Walker {
+        way_m: vec![Vec2::new(-4.0, 2.0), Vec2::new(3.0, 0.5), Vec2::new(4.0, -3.0)],
+        ..Walker::default()
+    }];
     scene
 }
 

@@ -8,8 +8,8 @@ use std::path::{Path, PathBuf};
 
 use naga::{AddressSpace, TypeInner};
 use windfall_core::blocks::{
-    MomentBlock, ResponseBlock, SceneBlock, ShelterBlock, SourceBlock, SpeciesBlock, StepBlock, SwayBlock,
-    VortexBlock, WindBlock,
+    LitterBlock, MomentBlock, MoverBlock, ResponseBlock, SceneBlock, ShelterBlock, SolidsBlock, SourceBlock,
+    SpeciesBlock, StepBlock, SwayBlock, VortexBlock, WindBlock,
 };
 use windfall_core::flight::block::BodyBlock;
 use windfall_core::layout::WgslStruct;
@@ -65,6 +65,9 @@ fn every_module_is_valid_and_every_struct_has_one_layout() {
     same_layout::<VortexBlock>(&module);
     same_layout::<MomentBlock>(&module);
     same_layout::<StepBlock>(&module);
+    same_layout::<LitterBlock>(&module);
+    same_layout::<SolidsBlock>(&module);
+    same_layout::<MoverBlock>(&module);
     same_layout::<SegmentConstants>(&module);
     same_layout::<LevelBlock>(&module);
     same_layout::<CarryBlock>(&module);
@@ -80,7 +83,7 @@ fn every_module_is_valid_and_every_struct_has_one_layout() {
 const LIST_READERS: [&str; 4] = ["source_share", "species_rate", "transition_count", "response_of"];
 
 /// Members that are vectors of four with axes.
-const QUATERNIONS: [&str; 2] = ["quaternion", "rest_quaternion"];
+const QUATERNIONS: [&str; 3] = ["quaternion", "rest_quaternion", "turn"];
 
 /// Returns true if an expression reads a lane of a vector without axes: of a vector of two or four that is a member of a
 /// struct in a buffer, but for quaternions. Vectors of three have axes, and rows of a table have no members.

@@ -12,7 +12,7 @@ use windfall_core::{Contract, World};
 use windfall_tests::adapter;
 use windfall_tests::functions::{self, Function};
 use windfall_tests::runner::{FunctionRunner, Words};
-use windfall_tests::strategies::{cases, flying_scene, hilly_scene};
+use windfall_tests::strategies::{cases, flying_scene, hilly_scene, obstructed_scene};
 use windfall_wgpu::{Gpu, Shaders};
 
 /// Cases in one dispatch; not a multiple of the workgroup size.
@@ -30,6 +30,19 @@ fn world(litter: Option<Litter>) -> World {
     scene.ground.litter = litter;
     let mut world = World::build(&scene).expect("the flying scene is valid on hills");
     for _ in 0..100 {
+        world.compiled.advance(&mut world.clock);
+    }
+    world
+}
+
+/// The same with solid things, half a second after its start.
+fn obstructed() -> World {
+    let mut scene = hilly_scene(flying_scene(5, 300, 6.0, 1.0 / 60.0));
+    let among = obstructed_scene(6, 300, 4.0, 1.0 / 60.0);
+    scene.ground.litter = Some(bed());
+    (scene.objects, scene.walkers) = (among.objects, among.walkers);
+    let mut world = World::build(&scene).expect("valid");
+    for _ in 0..30 {
         world.compiled.advance(&mut world.clock);
     }
     world
@@ -108,13 +121,14 @@ fn check(
 #[test]
 fn functions_agree_on_every_adapter() {
     let mut failures = Vec::new();
-    for world in [world(None), world(Some(bed()))] {
+    for world in [world(None), world(Some(bed())), obstructed()] {
         for (gpu, contract) in adapter::contracts() {
             // Rounding decides if a body touches: after that it goes another way.
             let decides = |function: &Function| {
                 contract == Contract::Tolerant
                     && !world.bed.is_empty()
-                    && ["flight_advance", "flight_contact"].contains(&function.name)
+                    && ["flight_advance", "flight_contact", "strike_solids", "solid_footing", "solids_cell"]
+                        .contains(&function.name)
             };
             for function in functions::all().filter(|function| !decides(function)) {
                 if let Err(message) = check(&gpu, contract, &Shaders::default(), function, &world) {
@@ -178,6 +192,12 @@ fn a_changed_twin_is_noticed() {
         ("flight/contact", "(along * along) * normal.z", "(along * across) * normal.z", "support"),
         ("flight/contact", "drag * -1.0", "drag * -0.9", "flight_contact"),
         ("flight/contact", "above * up - ", "above - ", "flight_contact"),
+        ("solid/shape", "beyond_z, 0.0)", "beyond_y, 0.0)", "solid_distance"),
+        ("solid/shape", "place - solid.center;", "solid.center - place;", "solid_distance"),
+        ("solid/near", "line * scene", "column * scene", "solids_cell"),
+        ("flight/strike", "motion.velocity - along", "motion.velocity", "strike_solids"),
+        ("flight/strike", "radius * reach_share", "radius", "first_strike"),
+        ("leaf/strike", "-(normal.x * inverse)", "-(normal.z * inverse)", "solid_footing"),
         ("flight/rates", "munk * flow.z, lever.y + twist", "munk * flow.x, lever.y + twist", "still_load"),
         ("leaf/at_rest", "lift + lever", "lift - lever", "wake_square"),
         ("leaf/lie", "raise_spread + 1u", "raise_spread + 9u", "lying_tilt"),
@@ -188,7 +208,7 @@ fn a_changed_twin_is_noticed() {
         ("leaf/carry", "0u - (step_block", "1u - (step_block", "leaf_hangs"),
         ("leaf/carry", "- velocity;\n    let squared", "+ velocity;\n    let squared", "leaf_sample_air"),
     ];
-    let worlds = [world(None), world(Some(bed()))];
+    let worlds = [world(None), world(Some(bed())), obstructed()];
     for (gpu, contract) in adapter::contracts() {
         for (module, old, new, name) in edits {
             let shaders = Shaders::default().edited(module, old, new).expect("the edited text is there");

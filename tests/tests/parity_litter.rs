@@ -8,7 +8,7 @@ use windfall_core::{Contract, Simulator, World};
 use windfall_cpu::{CpuOptions, CpuSimulator, Simd};
 use windfall_tests::adapter;
 use windfall_tests::compare::difference;
-use windfall_tests::strategies::{hilly_scene, littered_scene, wooded_scene};
+use windfall_tests::strategies::{hilly_scene, littered_scene, obstructed_scene, wooded_scene};
 use windfall_wgpu::{Gpu, WgpuOptions, WgpuSimulator};
 
 const LEAVES: u32 = 3000;
@@ -87,13 +87,35 @@ fn hills_and_trees_with_litter_are_equal_to_the_bit() {
 }
 
 #[test]
+fn leaves_among_solid_things_are_equal_to_the_bit() {
+    let world = World::build(&obstructed_scene(80, LEAVES, 0.6, 1.0 / 60.0)).expect("valid");
+    let expected = oracle(&world, CpuOptions::default(), STEPS);
+    let stats = expected.litter_stats().expect("there is litter");
+    assert!(stats.held > 10 && stats.woken > 100, "{stats:?}");
+    for gpu in exact_adapters() {
+        for (page_leaves, batches) in [(None, &[STEPS][..]), (Some(4096), &[1, 40, 7, 952])] {
+            let found = candidate(&gpu, &world, page_leaves, batches);
+            let apart = difference(&expected, &found);
+            assert!(apart.is_none(), "{}, pages of {page_leaves:?}: {apart:?}", gpu.info().name);
+        }
+    }
+}
+
+#[test]
 fn every_instruction_set_and_number_of_threads_gives_the_same_litter() {
-    let world = world();
-    let plain = oracle(&world, CpuOptions { simd: Some(Simd::Scalar), threads: Some(1) }, 300);
+    let obstructed = World::build(&obstructed_scene(81, LEAVES, 4.0, 1.0 / 60.0)).expect("valid");
+    for world in [world(), obstructed] {
+        same_litter_everywhere(&world);
+    }
+}
+
+/// Steps a world in every way that the CPU has.
+fn same_litter_everywhere(world: &World) {
+    let plain = oracle(world, CpuOptions { simd: Some(Simd::Scalar), threads: Some(1) }, 300);
     for simd in Simd::available() {
         for threads in [1, 3] {
             let options = CpuOptions { simd: Some(simd), threads: Some(threads) };
-            let found = oracle(&world, options, 300);
+            let found = oracle(world, options, 300);
             assert_eq!(found.state_hash(), plain.state_hash(), "{simd:?} on {threads} threads");
         }
     }

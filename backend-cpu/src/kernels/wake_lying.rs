@@ -2,12 +2,16 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! twin: backend-wgpu/src/shaders/kernels/wake_lying.wgsl
 //!
-//! Samples the wind at the leaves of a chunk that lie in the litter, for the units that have their turn.
+//! Wakes leaves of a chunk that lie in the litter: those in the way of solid parts that move, and, in units that have their turn, those
+//! that the wind takes.
+
+use std::ops::Range;
 
 use windfall_core::Context;
 use windfall_core::arith::pack::{BLOCK, Pack};
-use windfall_core::device::leaf::record::is_covered;
-use windfall_core::device::leaf::wake::{cover_is_due, leaf_check_cover, leaf_wake, lies_still, wake_is_due};
+use windfall_core::device::leaf::record::{is_covered, lies_still};
+use windfall_core::device::leaf::strike::leaf_push;
+use windfall_core::device::leaf::wake::{cover_is_due, leaf_check_cover, leaf_wake, wake_is_due};
 use windfall_core::leaf::LeavesMut;
 
 use crate::exposed::ExposedLeaves;
@@ -25,7 +29,20 @@ pub(crate) fn wake_lying(
     changing: &mut Vec<usize>,
     simd: Simd,
 ) {
-    for unit in (0..leaves.len()).step_by(UNIT).filter(|unit| wake_is_due(cx, word(first + unit))) {
+    let movers = cx.scene.solids.mover_count;
+    for unit in (0..leaves.len()).step_by(UNIT) {
+        if movers != 0 {
+            match simd {
+                Simd::Scalar => {
+                    let slots = unit..leaves.len().min(unit + UNIT);
+                    push_slots(cx, leaves, slots, changing);
+                }
+                Simd::Lanes(level) => in_packs!(level, push_lanes(cx, leaves, unit, changing)),
+            }
+        }
+        if !wake_is_due(cx, word(first + unit)) {
+            continue;
+        }
         if cover_is_due(cx, word(first + unit)) {
             let bits = match simd {
                 Simd::Scalar => check_each(cx, leaves, unit, changing),
@@ -49,6 +66,37 @@ pub(crate) fn wake_lying(
     }
 }
 
+/// Wakes those of some slots that solid parts which move come upon.
+fn push_slots(cx: &Context<'_>, leaves: &mut LeavesMut<'_>, slots: Range<usize>, changing: &mut Vec<usize>) {
+    for slot in slots {
+        if leaf_push(cx, &mut leaves.row_mut(slot)) {
+            changing.push(slot);
+        }
+    }
+}
+
+/// The same for a unit block by block, the last few slots one by one.
+#[inline(always)]
+fn push_lanes<P: Pack>(
+    simd: P::Simd,
+    cx: &Context<'_>,
+    leaves: &mut LeavesMut<'_>,
+    unit: usize,
+    changing: &mut Vec<usize>,
+) {
+    let end = leaves.len().min(unit + UNIT);
+    let few = end - (end - unit) % BLOCK;
+    for first in (unit..few).step_by(BLOCK) {
+        let mut near = block_of(leaves, first).meet_movers::<P>(simd, cx);
+        while near != 0 {
+            let slot = first + near.trailing_zeros() as usize;
+            push_slots(cx, leaves, slot..slot + 1, changing);
+            near &= near - 1;
+        }
+    }
+    push_slots(cx, leaves, few..end, changing);
+}
+
 /// Checks the covers of a unit one leaf after another. A bit for each that lies with nothing on it.
 fn check_each(cx: &Context<'_>, leaves: &mut LeavesMut<'_>, unit: usize, changing: &mut Vec<usize>) -> u64 {
     check_slots(cx, leaves, unit, unit..leaves.len().min(unit + UNIT), changing)
@@ -59,7 +107,7 @@ fn check_slots(
     cx: &Context<'_>,
     leaves: &mut LeavesMut<'_>,
     unit: usize,
-    slots: std::ops::Range<usize>,
+    slots: Range<usize>,
     changing: &mut Vec<usize>,
 ) -> u64 {
     let mut exposed = 0;

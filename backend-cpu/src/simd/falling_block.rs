@@ -10,6 +10,7 @@ use windfall_core::arith::pack::{BLOCK, Pack, load_block, load_pairs, rows_of_bi
 use windfall_core::device::leaf::fall::{Glide, attitude_after, glide_step, response_of, spin_advance};
 use windfall_core::device::leaf::own::MotionParams;
 use windfall_core::device::leaf::record::{STATE_FALLING, STATE_RESTING, flies, ground_steps, leaf_state};
+use windfall_core::device::solid::near::may_meet_solids;
 use windfall_core::device::terrain::ground::ground_met;
 use windfall_core::device::wind::packed::wind_unpack;
 use windfall_core::leaf::{Attitude, Drift, Place, Schedule};
@@ -36,7 +37,7 @@ pub(crate) struct Outcome {
 }
 
 impl FallingBlock<'_> {
-    /// Steps those that fall without an event and do not land.
+    /// Steps those that fall without an event, do not land and are near no solid part.
     #[inline(always)]
     pub(crate) fn advance<P: Pack>(&mut self, simd: P::Simd, cx: &Context<'_>) -> Outcome {
         let mut block = Outcome { left: 0, is_busy: false };
@@ -79,7 +80,10 @@ impl FallingBlock<'_> {
         let before = || Quat::from(load_block::<P>(simd, attitude, part));
         let (bits, turned) = attitude_after(cx, spun, glide.phase, heading, before);
 
-        let lands = ground_met(cx, glide.position);
+        let mut lands = ground_met(cx, glide.position);
+        if cx.scene.has_solids() {
+            lands = lands | may_meet_solids(cx, position);
+        }
         let moved = falls & !lands;
         let Glide { position, drift: velocity, phase } = glide;
         let mut new_places = [position.x, position.y, position.z, P::from_bits(bits)];

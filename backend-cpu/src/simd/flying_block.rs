@@ -7,10 +7,12 @@ use windfall_core::Context;
 use windfall_core::arith::Quat;
 use windfall_core::arith::lane::{Mask, Word};
 use windfall_core::arith::pack::{BLOCK, Pack, load_block, rows_of_bits, store_block};
+use windfall_core::device::flight::contact::OverGround;
 use windfall_core::device::leaf::fly::{
     Flight, Flown, count_calm_steps, flight_advance, flight_ends, update_regime,
 };
 use windfall_core::device::leaf::record::{body_spin, body_spin_words, flies, regime_state};
+use windfall_core::device::solid::near::may_meet_solids;
 use windfall_core::device::wind::sample::wind_at;
 use windfall_core::leaf::{Attitude, Drift, Identity, Place, Schedule};
 
@@ -33,7 +35,7 @@ fn flying<W: Word>(on: W::Mask, words: W) -> W {
 }
 
 impl FlyingBlock<'_> {
-    /// Steps those that fly as bodies and do not land. A bit for each that does, the first in the lowest place.
+    /// Steps those that fly as bodies, do not land and are near no solid part. A bit for each other body, the first in the lowest place.
     #[inline(always)]
     pub(crate) fn fly<P: Pack>(&mut self, simd: P::Simd, cx: &Context<'_>) -> u32 {
         let mut landing = 0;
@@ -50,9 +52,18 @@ impl FlyingBlock<'_> {
         let places: [P; 4] = load_block(simd, place, part);
         let (position, bits) = vector_and_fourth(places);
         let bits = bits.to_bits();
-        let on = flies(bits);
+        let mut on = flies(bits);
         if !on.any() {
             return 0;
+        }
+        let mut left = 0;
+        if cx.scene.has_solids() {
+            let near = may_meet_solids(cx, position);
+            left = P::bits_of(on & near);
+            on = on & !near;
+            if !on.any() {
+                return left;
+            }
         }
         let drifts: [P; 4] = load_block(simd, must_cast_ref(self.drift), part);
         let attitudes: [P; 4] = load_block(simd, must_cast_ref(self.attitude), part);
@@ -66,7 +77,8 @@ impl FlyingBlock<'_> {
         let start =
             Flight { position, velocity, pose: Quat::from(attitudes), spin: body_spin(phase, rate, heading) };
         let wind = wind_at(cx, start.position);
-        let Flown { flight, is_calm } = flight_advance(cx, start, bits, size.to_bits(), wind);
+        let Flown { flight, is_calm } =
+            flight_advance::<P, OverGround>(cx, start, bits, size.to_bits(), wind);
         let regime = update_regime(cx, &flight, wind, regime_state(fall_time.to_bits()), bits);
         let bits = count_calm_steps(cx, regime.bits, is_calm);
         let lands = flight_ends(cx, bits, flight.position);
@@ -84,6 +96,6 @@ impl FlyingBlock<'_> {
         store_block(must_cast_mut(self.attitude), part, new_attitudes);
         store_block(must_cast_mut(self.schedule), part, select_four(moved, [event, y, size, z], schedules));
         store_block(must_cast_mut(self.identity), part, select_four(moved, new_identities, identities));
-        P::bits_of(on & lands)
+        left | P::bits_of(on & lands)
     }
 }

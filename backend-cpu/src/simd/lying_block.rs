@@ -7,8 +7,11 @@ use bytemuck::{must_cast_mut, must_cast_ref};
 use windfall_core::Context;
 use windfall_core::arith::lane::{Mask, Word};
 use windfall_core::arith::pack::{BLOCK, Pack, load_block, rows_of_bits, store_block};
-use windfall_core::device::leaf::record::{is_covered, lying_support, wake_speed_squared, with_cover};
-use windfall_core::device::leaf::wake::{Cover, LyingWind, cover_of, lies_still, lying_wind};
+use windfall_core::device::leaf::record::{
+    is_covered, lies_still, lying_support, wake_speed_squared, with_cover,
+};
+use windfall_core::device::leaf::wake::{Cover, LyingWind, cover_of, lying_wind};
+use windfall_core::device::solid::near::may_meet_movers;
 use windfall_core::leaf::{Drift, Place, Schedule};
 
 use super::branch_block::{Column, vector_and_fourth};
@@ -50,6 +53,20 @@ impl LyingBlock<'_> {
             covers.exposed |= P::bits_of(lies & !is_covered) << (part * P::LANES);
         }
         Covers { loose: rows_of_bits(covers.loose), exposed: rows_of_bits(covers.exposed) }
+    }
+
+    /// A bit for each that a solid part which moves may come upon.
+    #[inline(always)]
+    pub(crate) fn meet_movers<P: Pack>(&self, simd: P::Simd, cx: &Context<'_>) -> u32 {
+        let mut near = 0;
+        for part in 0..BLOCK / P::LANES {
+            let (position, bits) = vector_and_fourth::<P>(load_block(simd, must_cast_ref(self.place), part));
+            let lies = lies_still(bits.to_bits());
+            if lies.any() {
+                near |= P::bits_of(lies & may_meet_movers(cx, position)) << (part * P::LANES);
+            }
+        }
+        rows_of_bits(near)
     }
 
     /// Samples the wind at those that nothing covers. A bit for each that it may take.

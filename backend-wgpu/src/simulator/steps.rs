@@ -194,8 +194,9 @@ impl WgpuSimulator {
     fn encode_litter(&self, pass: &mut wgpu::ComputePass<'_>, offset: u32) {
         pass.set_pipeline(self.pipelines.kernel(KernelId::WakeLying));
         for page in &self.pages {
-            let units =
-                page.leaves.div_ceil(1 << AIR_UNIT_SHIFT).div_ceil(self.compiled.block().litter.wake_steps);
+            let block = self.compiled.block();
+            let turns = if block.solids.mover_count == 0 { block.litter.wake_steps } else { 1 };
+            let units = page.leaves.div_ceil(1 << AIR_UNIT_SHIFT).div_ceil(turns);
             pass.set_bind_group(0, &page.in_motion, &[offset]);
             pass.set_bind_group(1, &page.active.filled, &[]);
             pass.dispatch_workgroups((units << AIR_UNIT_SHIFT).div_ceil(WORKGROUP_SIZE), 1, 1);

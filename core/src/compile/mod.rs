@@ -8,6 +8,7 @@ mod cycle;
 mod field;
 mod foliage;
 mod shelter;
+mod solids;
 mod source;
 mod species;
 mod tables;
@@ -22,10 +23,11 @@ use self::cycle::firm;
 pub(crate) use self::foliage::leaf_site;
 use self::foliage::{foliage_of, petiole_rows, seedlings, shed_rows};
 use self::shelter::{is_sheltered, shelter_inputs, shelter_rows};
+use self::solids::Solids;
 pub(crate) use self::source::{lifetime_steps, release_step};
 use self::tables::{motions_of, pack_motion};
 use crate::arith::rng::seed_words;
-use crate::blocks::{MomentBlock, SceneBlock, StepBlock, VortexBlock};
+use crate::blocks::{MomentBlock, MoverBlock, SceneBlock, StepBlock, VortexBlock};
 use crate::clock::Clock;
 use crate::context::Context;
 use crate::convert::{len32, single};
@@ -38,7 +40,7 @@ use crate::error::{SceneError, SimError};
 use crate::layout::Uint4;
 use crate::leaf::Leaves;
 use crate::litter::Bed;
-use crate::scene::Scene;
+use crate::scene::{MAX_MOVERS, Scene};
 use crate::store::{StoreSize, check_sizes};
 use crate::terrain::Hills;
 use crate::threads::both;
@@ -52,6 +54,7 @@ pub struct CompiledScene {
     block: SceneBlock,
     tables: Arc<[Uint4]>,
     forest: Arc<Forest>,
+    solids: Arc<Solids>,
     cycle: Option<Cycle>,
 }
 
@@ -101,14 +104,23 @@ impl CompiledScene {
         tables.extend(chances);
         block.first_petiole_row = len32(tables.len());
         tables.extend(petiole_rows(scene, &forest, &kinds));
+        let solids = Solids::of(scene);
+        block.solids = solids.tabulate(scene, &block, &mut tables);
         block.first_motion_row = len32(tables.len());
         tables.extend(pack_motion(&motions));
         block.litter.first_row = len32(tables.len());
-        Ok(Self { scene: scene.clone(), block, tables: tables.into(), forest: forest.into(), cycle })
+        Ok(Self {
+            scene: scene.clone(),
+            block,
+            tables: tables.into(),
+            forest: forest.into(),
+            solids: solids.into(),
+            cycle,
+        })
     }
 
     /// The same scene with another wind, season, ground, fall and rotation speed; species, sources, trees, hills, litter but for how
-    /// it rubs, sticks, bounces and tilts, seed, step length and gravity stay. Much cheaper than compiling anew.
+    /// it rubs, sticks, bounces and tilts, solid things, seed, step length and gravity stay. Much cheaper than compiling anew.
     pub fn retune(&mut self, scene: &Scene) {
         let keep_trees = (self.scene.trees.clone(), self.scene.tree_kinds.clone());
         let keep = (self.scene.species.clone(), self.scene.sources.clone(), self.scene.seed, self.scene.dt_s);
@@ -123,11 +135,13 @@ impl CompiledScene {
         let inputs = shelter_inputs(&self.scene);
         let (terrain, gravity_m_s2) = (self.scene.ground.terrain, self.scene.gravity_m_s2);
         let litter = self.scene.ground.litter.map(|kept| kept.retuned(scene.ground.litter));
+        let solid = (self.scene.objects.clone(), self.scene.walkers.clone());
         self.scene = scene.clone();
         (self.scene.species, self.scene.sources, self.scene.seed, self.scene.dt_s) = keep;
         (self.scene.trees, self.scene.tree_kinds) = keep_trees;
         (self.scene.ground.terrain, self.scene.gravity_m_s2) = (terrain, gravity_m_s2);
         self.scene.ground.litter = litter;
+        (self.scene.objects, self.scene.walkers) = solid;
         if self.scene.autumn != autumn {
             let rows = shed_rows(&self.scene, &foliage_of(&self.scene));
             self.replace_rows(self.block.first_shed_row, &rows);
@@ -178,8 +192,8 @@ impl CompiledScene {
     }
 
     /// All tables as rows of four words, one after another: the wind's profile, gusts and turbulence; hills; shelter; chances of
-    /// petioles to break ([`SHED_ROWS`](crate::device::leaf::petiole::SHED_ROWS) for each kind of trees); petioles; motion (see
-    /// [`MotionRows`]). The block holds the first row of each.
+    /// petioles to break ([`SHED_ROWS`](crate::device::leaf::petiole::SHED_ROWS) for each kind of trees); petioles; solid parts;
+    /// motion (see [`MotionRows`]). The block holds the first row of each.
     pub fn tables(&self) -> &Arc<[Uint4]> {
         &self.tables
     }
@@ -194,10 +208,21 @@ impl CompiledScene {
         let middle = 0.5 * f64::from(self.block.wind.interval_steps);
         StepBlock {
             moments: [0.0, middle].map(|steps| self.moment_block(clock, steps)),
+            movers: self.movers_at(clock.seconds()),
             index: clock.step(),
             vortex_count: len32(self.scene.wind.vortices.len()),
             padding: Default::default(),
         }
+    }
+
+    /// Solid parts that move, in the step that begins at a time.
+    fn movers_at(&self, time_s: f64) -> [MoverBlock; MAX_MOVERS] {
+        if self.solids.are_still() {
+            return bytemuck::Zeroable::zeroed();
+        }
+        self.solids.movers_at(time_s, f64::from(self.block.dt_s), self.block.solids.reach_m, |x_m, z_m| {
+            self.ground_height(single(x_m), single(z_m)).into()
+        })
     }
 
     /// The wind so many steps after a step's start.

@@ -7,6 +7,7 @@ use crate::arith::quaternion::{quat_multiply, quat_rotate};
 use crate::arith::rng::random;
 use crate::arith::vector::Vec3;
 use crate::context::Context;
+use crate::device::flight::contact::OverGround;
 use crate::device::leaf::fly::{Flight, flight_advance};
 use crate::device::leaf::launch::{hold_pose, random_asymmetry, turn_about_y};
 use crate::device::leaf::record::{AERODYNAMIC, SIZE_ONE, STATE_FALLING, place_bits, with_asymmetry};
@@ -68,7 +69,7 @@ impl DropTable {
             let size = with_asymmetry(SIZE_ONE, random_asymmetry(cx, id));
             let mut flights = vec![flight];
             for _ in 0..steps {
-                flight = flight_advance(cx, flight, bits, size, Vec3::ZERO).flight;
+                flight = flight_advance::<f32, OverGround>(cx, flight, bits, size, Vec3::ZERO).flight;
                 flights.push(flight);
             }
             Drop { flights }

@@ -10,6 +10,7 @@ use crate::blocks::{NEVER, SOURCE_LITTER};
 use crate::context::Context;
 use crate::convert::len32;
 use crate::device::flight::body::body_of;
+use crate::device::flight::strike::{STRIKE_GAP_M, SolidGap, deepest_overlap, solid_gap};
 use crate::device::leaf::launch::turn_about_y;
 use crate::device::leaf::lie::{
     STREAM_LYING, flatten_to, leaf_lie_down, lying_tilt, own_friction, own_raise, reach_down,
@@ -17,9 +18,12 @@ use crate::device::leaf::lie::{
 use crate::device::leaf::record::{STATE_RESTING, leaf_appearance, leaf_state, place_bits};
 use crate::device::leaf::release::release_size_speed;
 use crate::device::leaf::stack::{leaf_changes_litter, leaf_stack};
+use crate::device::leaf::strike::{held_at_rest, is_borne, leaf_rest_on};
 use crate::device::leaf::wake::leaf_check_cover;
 use crate::device::motion::feature::{STREAM_PLACE, STREAM_TRAITS};
-use crate::device::terrain::ground::{ground_lean, ground_slope, lying_height};
+use crate::device::solid::near::solids_cell;
+use crate::device::solid::shape::solid_at;
+use crate::device::terrain::ground::{ground_lean, ground_rest, ground_slope, lying_height};
 use crate::device::terrain::litter::{LITTER_CELLS_PER_M, litter_height};
 use crate::leaf::{LeafMut, Leaves};
 use crate::scene::Litter;
@@ -97,6 +101,9 @@ pub(crate) fn lay_all(cx: &Context<'_>, leaves: &mut Leaves, bed: &mut Bed) {
 
 /// Lets a leaf slide down to where it stays, and lays it down there in its own pose.
 fn lay(cx: &Context<'_>, leaf: &mut LeafMut<'_>) {
+    if cx.scene.has_solids() && lay_by_solids(cx, leaf) {
+        return;
+    }
     let words = random(cx.scene.seed, leaf.identity.id, STREAM_LYING);
     let [mut x, _, mut z] = leaf.place.position;
     let mut slope = ground_slope(cx, x, z);
@@ -121,4 +128,31 @@ fn lay(cx: &Context<'_>, leaf: &mut LeafMut<'_>) {
     if cx.scene.has_living_litter() {
         leaf_lie_down(cx, leaf, slope, friction, own_raise(cx, words));
     }
+}
+
+/// Moves a leaf whose place is inside a solid part out of it. Returns true if that holds the leaf now.
+fn lay_by_solids(cx: &Context<'_>, leaf: &mut LeafMut<'_>) -> bool {
+    let pose = Quat::from(leaf.attitude.quaternion);
+    let body = body_of(cx, leaf.place.bits, leaf.schedule.size);
+    let [x, _, z] = leaf.place.position;
+    leaf.place.position[1] = ground_rest(cx, x, z) + reach_down(&body, pose);
+    for _ in 0..MOST_SLIDES {
+        let place = Vec3::from(leaf.place.position);
+        let overlap = deepest_overlap(cx, &body, pose, solids_cell(cx, place), place, 0.0);
+        if overlap.number == NEVER {
+            break;
+        }
+        let solid = solid_at(cx, overlap.number, 0.0);
+        let SolidGap { gap_m, normal, .. } = solid_gap(&solid, &body, pose, place, 1.0);
+        let out = normal * (gap_m.min(-STRIKE_GAP_M) * -1.0);
+        leaf.place.position = (place + out).to_array();
+    }
+    if !is_borne(cx, &body, pose, leaf.place.position.into()) {
+        return false;
+    }
+    let held = held_at_rest(cx, leaf);
+    if held.is_firm {
+        leaf_rest_on(cx, leaf, &held.at_rest);
+    }
+    held.is_firm
 }

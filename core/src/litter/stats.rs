@@ -4,7 +4,7 @@
 
 use super::Bed;
 use crate::blocks::LitterBlock;
-use crate::device::leaf::record::{flies, leaf_species, lies, size_ratio};
+use crate::device::leaf::record::{flies, is_held, leaf_species, lies, size_ratio};
 use crate::device::terrain::litter::{LITTER_CELLS_PER_M, LITTER_UNIT_M};
 use crate::leaf::Leaves;
 use crate::scene::Scene;
@@ -14,6 +14,8 @@ use crate::scene::Scene;
 pub struct LitterStats {
     /// Leaves that lie in the litter.
     pub lying: u32,
+    /// Leaves that lie on solid things.
+    pub held: u32,
     /// Leaves that move as bodies, in the air or on the ground.
     pub awake: u32,
     /// Leaves that the wind has taken from the litter since time zero, each time that it did.
@@ -38,7 +40,9 @@ impl LitterStats {
         stats.volume_m3 = sum as f64 * f64::from(LITTER_UNIT_M) * cell_m * cell_m;
         for (place, schedule) in leaves.place.iter().zip(&leaves.schedule) {
             stats.awake += u32::from(flies(place.bits));
-            if lies(place.bits) {
+            if is_held(place.bits) && lies(place.bits) {
+                stats.held += 1;
+            } else if lies(place.bits) {
                 let species = &scene.species[leaf_species(place.bits) as usize];
                 let size_m = f64::from(species.size_m * size_ratio(schedule.size));
                 let wet = f64::from(species.areal_density_kg_m2) * (1.0 + f64::from(litter.moisture));

@@ -58,6 +58,8 @@ pub const MAX_OBJECTS: usize = 4096;
 /// Most solid parts of a scene that may move: objects on a path, and ten limbs of each walker. They travel in the uniform block of every
 /// step.
 pub const MAX_MOVERS: usize = 32;
+/// Limbs of a walker.
+pub const WALKER_LIMBS: usize = 10;
 /// Most corners of a walker's way, and most keys of the path of an object.
 pub const MAX_PATH_KEYS: usize = 256;
 /// Most keys the path of a camera may have.

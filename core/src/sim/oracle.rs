@@ -10,6 +10,7 @@ use crate::device::leaf::advance::leaf_advance;
 use crate::device::leaf::air::{air_is_sampled, leaf_sample_air};
 use crate::device::leaf::fly::leaf_fly;
 use crate::device::leaf::stack::{leaf_changes_litter, leaf_stack};
+use crate::device::leaf::strike::leaf_push;
 use crate::device::leaf::wake::{cover_is_due, leaf_check_cover, leaf_wake, wake_is_due};
 
 /// Steps the leaves of a world one after another. Trees, and the leaves that hang on them, stay as they are.
@@ -24,6 +25,9 @@ pub fn step(world: &mut World, count: u32) {
             }
             leaf_advance(cx, &mut leaf);
             leaf_fly(cx, &mut leaf);
+            if cx.scene.has_living_litter() {
+                leaf_push(cx, &mut leaf);
+            }
             if cx.scene.has_living_litter() && cover_is_due(cx, slot) {
                 leaf_check_cover(cx, &mut leaf);
             }

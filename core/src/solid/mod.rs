@@ -6,4 +6,3 @@ mod part;
 mod walk;
 
 pub use part::{Solid, SolidPose, solids_of};
-pub(crate) use walk::LIMB_COUNT;

@@ -7,7 +7,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use glam::{DQuat, DVec2, DVec3, Vec3};
 
 use super::part::SolidPose;
-use crate::scene::{ObjectShape, Walker};
+use crate::scene::{ObjectShape, WALKER_LIMBS, Walker};
 
 /// Way of the body in two steps in m.
 const STRIDE_M: f64 = 1.45;
@@ -62,11 +62,8 @@ impl Side {
     }
 }
 
-/// Number of limbs of a walker.
-pub(crate) const LIMB_COUNT: usize = 10;
-
 /// All limbs of a walker.
-pub(super) const LIMBS: [Limb; LIMB_COUNT] = [
+pub(super) const LIMBS: [Limb; WALKER_LIMBS] = [
     Limb::Boot(Side::Left),
     Limb::Boot(Side::Right),
     Limb::Shank(Side::Left),

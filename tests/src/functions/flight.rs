@@ -4,6 +4,7 @@
 
 use windfall_core::arith::Vec3;
 use windfall_core::device::flight::body::{LeafBody, body_of};
+use windfall_core::device::flight::contact::OverGround;
 use windfall_core::device::flight::rates::{FlightMotion, flight_rates};
 use windfall_core::device::flight::regime::{regime_after, regime_of};
 use windfall_core::device::flight::runge_kutta::{flight_step, substep_count};
@@ -114,7 +115,7 @@ functions! {
     flight_advance in "leaf/fly" (SPECIES, SIZE, ANY, FLOW, FLOW, POSE, SPIN, FLOW) tolerance Some(1e-2);
     wgsl "let flown = flight_advance(
             Flight(in_vec3(3u), in_vec3(6u), in_vec4(9u), in_vec3(13u)),
-            (1u + a.x) << SPECIES_SHIFT, (SIZE_ONE - 4096u + a.y) | (a.z << 16u), in_vec3(16u));
+            (1u + a.x) << SPECIES_SHIFT, (SIZE_ONE - 4096u + a.y) | (a.z << 16u), in_vec3(16u), false);
         let flight = flown.flight;
         out_vec3(0u, flight.position); out_vec3(3u, flight.velocity); out_vec4(6u, flight.pose);
         out_vec3(10u, flight.spin);";
@@ -122,7 +123,7 @@ functions! {
         let start =
             Flight { position: vector(w, 3), velocity: vector(w, 6), pose: quaternion(w, 9), spin: vector(w, 13) };
         let size = (SIZE_ONE - 4096 + w[1]) | (w[2] << 16);
-        let flight = flight_advance(cx, start, (1 + w[0]) << SPECIES_SHIFT, size, vector(w, 16)).flight;
+        let flight = flight_advance::<f32, OverGround>(cx, start, (1 + w[0]) << SPECIES_SHIFT, size, vector(w, 16)).flight;
         let mut all = [0.0; 13];
         all[..3].copy_from_slice(&flight.position.to_array());
         all[3..6].copy_from_slice(&flight.velocity.to_array());

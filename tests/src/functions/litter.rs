@@ -11,14 +11,12 @@ use windfall_core::device::leaf::at_rest::{
 use windfall_core::device::leaf::fly::{count_calm_steps, flight_ends};
 use windfall_core::device::leaf::lie::{flatten_to, lying_tilt, lying_units, own_friction, reach_down};
 use windfall_core::device::leaf::record::{
-    SIZE_ONE, SPECIES_SHIFT, is_covered, lies, litter_change, lying_friction, lying_raise, lying_support,
-    lying_support_word, lying_volume, lying_word, touch_steps, wake_speed_squared, wake_speed_word,
-    with_cover, with_litter_change, with_touch_steps,
+    SIZE_ONE, SPECIES_SHIFT, is_covered, lies, lies_still, litter_change, lying_friction, lying_raise,
+    lying_support, lying_support_word, lying_volume, lying_word, touch_steps, wake_speed_squared,
+    wake_speed_word, with_cover, with_litter_change, with_touch_steps,
 };
 use windfall_core::device::leaf::stack::leaf_changes_litter;
-use windfall_core::device::leaf::wake::{
-    cover_is_due, cover_of, layers_above, lies_still, lying_wind, wake_is_due,
-};
+use windfall_core::device::leaf::wake::{cover_is_due, cover_of, layers_above, lying_wind, wake_is_due};
 use windfall_core::device::terrain::ground::{
     drop_direction, ground_bare, ground_gradient, ground_is_water, ground_rest, ground_slope, lying_height,
 };

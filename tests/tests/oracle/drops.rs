@@ -11,6 +11,7 @@ use std::f64::consts::{PI, TAU};
 use crate::common::{csv, field, number, still_scene, velocity};
 use glam::DVec3;
 use windfall_core::arith::{Quat, Vec3};
+use windfall_core::device::flight::contact::OverGround;
 use windfall_core::device::flight::regime::REGIME_TUMBLE;
 use windfall_core::device::leaf::fly::{Flight, flight_advance, flight_of};
 use windfall_core::device::leaf::record::{SIZE_ONE, flies, leaf_regime, with_asymmetry};
@@ -221,7 +222,7 @@ fn planar(size_m: f32, tilt: f32) -> Vec<f32> {
     let mut flight = Flight { position, velocity, pose: Quat::new(sine, 0.0, 0.0, cosine), spin };
     let mut spins = Vec::new();
     for _ in 0..2400 {
-        flight = flight_advance(&cx, flight, 0u32, SIZE_ONE, Vec3::ZERO).flight;
+        flight = flight_advance::<f32, OverGround>(&cx, flight, 0u32, SIZE_ONE, Vec3::ZERO).flight;
         spins.push(flight.spin.x);
     }
     spins
@@ -255,8 +256,14 @@ fn no_gust_blows_a_body_up() {
                         let phase = index as f32 * dt_s;
                         let on = |period: f32| if (phase / period) as u32 % 2 == 1 { gust } else { 0.0 };
                         let wind = Vec3::new(on(0.31), 0.5 * on(0.47) - 0.25 * gust, -on(0.83));
-                        flight =
-                            flight_advance(&cx, flight, 0u32, with_asymmetry(SIZE_ONE, 0x39c6), wind).flight;
+                        flight = flight_advance::<f32, OverGround>(
+                            &cx,
+                            flight,
+                            0u32,
+                            with_asymmetry(SIZE_ONE, 0x39c6),
+                            wind,
+                        )
+                        .flight;
                         fastest = fastest.max(windfall_core::arith::vector::vec3_length(flight.velocity));
                         let spin = windfall_core::arith::vector::vec3_length(flight.spin);
                         assert!(spin < 60.0 + 4.0 * gust / size, "{body:?} {size} {gust}: {spin} rad/s");

@@ -24,6 +24,7 @@ mod schemes;
 mod sectional;
 mod shedding;
 mod shelter;
+mod solids;
 mod sway;
 mod table_file;
 mod tables;

@@ -47,6 +47,8 @@ impl Change {
             regrow_after_s,
             wind,
             ground,
+            objects,
+            walkers,
             view,
         } = new;
         change.retune = *fall_speed != old.fall_speed
@@ -61,6 +63,8 @@ impl Change {
         change.rebuild("sources", *sources != old.sources, true, crowns(new) != crowns(old));
         change.rebuild("trees", *trees != old.trees || *tree_kinds != old.tree_kinds, true, true);
         change.rebuild("regrowth", *regrow_after_s != old.regrow_after_s, true, false);
+        change.rebuild("objects", *objects != old.objects, true, true);
+        change.rebuild("walkers", *walkers != old.walkers, true, true);
         change.rebuild("season", *autumn != old.autumn, false, true);
         change.retune |= *autumn != old.autumn;
         change.ground(&old.ground, ground);

@@ -21,6 +21,14 @@ struct Support {
     arm: vec3<f32>,
 }
 
+struct Surface {
+    normal: vec3<f32>,
+    arm: vec3<f32>,
+    restitution: f32,
+    friction: f32,
+    takes_share: bool,
+}
+
 struct Struck {
     velocity: vec3<f32>,
     spin: vec3<f32>,
@@ -59,32 +67,37 @@ fn flight_contact(body: LeafBody, position: vec3<f32>, motion: FlightMotion) -> 
         return Contact(position, motion, false);
     }
     let depth = litter_height(position.x, position.z);
+    let is_bare = depth < LITTER_DEEP_M;
+    let restitution = select(0.0, scene.litter.restitution, is_bare);
+    let surface = Surface(inner, lowest.arm, restitution, contact_friction(depth), false);
+    let next = contact_response(body, motion, surface);
+    let out = normal * (gap * -1.0);
+    return Contact(position + out, next, true);
+}
+
+fn contact_response(body: LeafBody, motion: FlightMotion, surface: Surface) -> FlightMotion {
+    let normal = surface.normal;
+    let arm = surface.arm;
     let share = body.inv_size_ratio * body.inv_size_ratio;
     let inv_inertia = body.inv_inertia * share;
     let velocity = quat_rotate_back(motion.pose, motion.velocity);
     let spin = motion.turning * body.inv_size_ratio;
-    let meeting = velocity + vec3_cross(spin, lowest.arm);
-    let closing = vec3_dot(meeting, inner);
-    let bounces = closing < -BOUNCE_M_S && depth < LITTER_DEEP_M;
-    let restitution = select(0.0, scene.litter.restitution, bounces);
-    let striking = (closing * (restitution + 1.0)) * reciprocal(contact_yield(inv_inertia, lowest.arm, inner));
+    let meeting = velocity + vec3_cross(spin, arm);
+    let closing = vec3_dot(meeting, normal);
+    let restitution = select(0.0, surface.restitution, closing < -BOUNCE_M_S);
+    let striking = (closing * (restitution + 1.0)) * reciprocal(contact_yield(inv_inertia, arm, normal));
     let push = max(striking * -1.0, 0.0);
-    let struck = contact_impulse(inv_inertia, lowest.arm, velocity, spin, inner * push);
-    let left = struck.velocity + vec3_cross(struck.spin, lowest.arm);
-    let sliding = left - inner * vec3_dot(left, inner);
+    let struck = contact_impulse(inv_inertia, arm, velocity, spin, normal * push);
+    let left = struck.velocity + vec3_cross(struck.spin, arm);
+    let sliding = left - normal * vec3_dot(left, normal);
     let squared = max(vec3_dot(sliding, sliding), TINY_SQUARED);
     let inverse = inverse_sqrt(squared);
     let way = sliding * inverse;
-    let stopping = (squared * inverse) * reciprocal(contact_yield(inv_inertia, lowest.arm, way));
-    let drag = min(stopping, contact_friction(depth) * push);
-    let next = contact_impulse(inv_inertia, lowest.arm, struck.velocity, struck.spin, way * (drag * -1.0));
-    let next_velocity = quat_rotate(motion.pose, next.velocity);
-    let out = normal * (gap * -1.0);
-    return Contact(
-        position + out,
-        FlightMotion(next_velocity, motion.pose, next.spin * body.size_ratio),
-        true,
-    );
+    let stopping = (squared * inverse) * reciprocal(contact_yield(inv_inertia, arm, way));
+    let taken = select(0.0, stopping * surface.friction, 0.0 < push);
+    let drag = select(min(stopping, surface.friction * push), taken, surface.takes_share);
+    let next = contact_impulse(inv_inertia, arm, struck.velocity, struck.spin, way * (drag * -1.0));
+    return FlightMotion(quat_rotate(motion.pose, next.velocity), motion.pose, next.spin * body.size_ratio);
 }
 
 fn contact_impulse(

@@ -44,7 +44,7 @@ fn leaf_advance_event(leaf: u32) {
     let source = leaf_source(identity.appearance);
     let lifetime = scene.sources[source].lifetime_steps;
     let before = places[leaf].bits;
-    if (lies(before)) {
+    if (lies(before) && !is_held(before)) {
         // The litter gives it back first.
         places[leaf].bits = with_litter_change(before, CHANGE_REMOVED);
         return;

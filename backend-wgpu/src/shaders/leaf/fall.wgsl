@@ -9,7 +9,9 @@
 #import leaf/own
 #import leaf/record
 #import leaf/settle
+#import leaf/strike
 #import motion/lookup
+#import solid/near
 #import terrain/ground
 #import wind/packed
 
@@ -100,7 +102,7 @@ fn leaf_fall_aloft(leaf: u32, place: Place, schedule: Schedule) -> bool {
     let glide = glide_of(place, drifts[leaf]);
     let wind = wind_unpack(airs[leaf]);
     let moved = glide_step(glide, place.bits, motion_params(schedule), response_of(place.bits), wind);
-    if (ground_met(moved.position)) {
+    if (ground_met(moved.position) || (scene.solids.count != 0u && may_meet_solids(glide.position))) {
         return false;
     }
     glide_end(leaf, moved, place.bits, schedule.heading);
@@ -111,6 +113,9 @@ fn leaf_fall(leaf: u32, place: Place, schedule: Schedule) {
     let glide = glide_of(place, drifts[leaf]);
     let wind = wind_unpack(airs[leaf]);
     let moved = glide_step(glide, place.bits, motion_params(schedule), response_of(place.bits), wind);
+    if (leaf_strike(leaf, moved.position)) {
+        return;
+    }
     glide_end(leaf, moved, place.bits, schedule.heading);
     if (ground_met(moved.position)) {
         leaf_land(leaf, place.position);

@@ -8,11 +8,14 @@
 #import flight/contact
 #import flight/regime
 #import flight/runge_kutta
+#import flight/strike
 #import arith/rng
 #import leaf/at_rest
 #import leaf/lie
 #import leaf/record
 #import leaf/settle
+#import leaf/strike
+#import solid/near
 #import terrain/ground
 #import terrain/litter
 #import wind/sample
@@ -49,7 +52,7 @@ fn bounded_turning(bits: u32, body: LeafBody, substeps: Substeps, turning: vec3<
     return turning * min(share, 1.0);
 }
 
-fn flight_advance(flight: Flight, bits: u32, size: u32, wind: vec3<f32>) -> Flown {
+fn flight_advance(flight: Flight, bits: u32, size: u32, wind: vec3<f32>, is_among_solids: bool) -> Flown {
     let body = body_of(bits, size);
     let relative = flight.velocity - wind;
     let load = flight_load(bits, relative, flight.spin);
@@ -62,9 +65,16 @@ fn flight_advance(flight: Flight, bits: u32, size: u32, wind: vec3<f32>) -> Flow
     var touches = false;
     for (var done = 0.0; done < substeps.count; done += 1.0) {
         let step = flight_step(body, motion, air, time);
+        let start = position;
         position = position + step.way;
         motion = step.end;
         if (scene.litter.columns != 0u) {
+            if (is_among_solids) {
+                let struck = strike_solids(body, start, step.way, motion, time * done, time);
+                position = struck.position;
+                motion = struck.motion;
+                touches = touches || struck.touches;
+            }
             let contact = flight_contact(body, position, motion);
             position = contact.position;
             motion = contact.motion;
@@ -108,13 +118,24 @@ fn leaf_end_flight(leaf: u32, start: vec3<f32>) {
         leaf_land(leaf, start);
         return;
     }
+    let before = attitudes[leaf].quaternion;
+    let body = body_of(places[leaf].bits, schedules[leaf].size);
+    if (is_borne(body, before, places[leaf].position)) {
+        let held = held_at_rest(leaf);
+        let air = wind_at(places[leaf].position);
+        if (!held.is_firm || wind_moves(held.at_rest, air, REST_SHARE_SQUARED)) {
+            places[leaf].bits = with_touch_steps(places[leaf].bits, 0u);
+        } else {
+            leaf_rest(leaf);
+        }
+        return;
+    }
     let x = places[leaf].position.x;
     let z = places[leaf].position.z;
     let words = random(scene.seed, identities[leaf].id, STREAM_LYING);
     let slope = ground_slope(x, z);
     let lean = quat_multiply(ground_lean(slope), lying_tilt(words));
-    let pose = flatten_to(lean, attitudes[leaf].quaternion, 0.0);
-    let body = body_of(places[leaf].bits, schedules[leaf].size);
+    let pose = flatten_to(lean, before, 0.0);
     let friction = own_friction(words, litter_height(x, z));
     let wind = wind_at(vec3<f32>(x, ground_rest(x, z) + reach_down(body, pose), z));
     let at_rest = leaf_at_rest(body, pose, slope, friction, own_raise(words));
@@ -151,7 +172,8 @@ fn leaf_fly(leaf: u32) {
     }
     let start = flight_of(leaf);
     let wind = wind_at(start.position);
-    let flown = flight_advance(start, places[leaf].bits, schedules[leaf].size, wind);
+    let is_among_solids = scene.solids.count != 0u && may_meet_solids(start.position);
+    let flown = flight_advance(start, places[leaf].bits, schedules[leaf].size, wind, is_among_solids);
     flight_write(leaf, flown.flight);
     let regime = update_regime(flown.flight, wind, regime_state(identities[leaf].fall_time), places[leaf].bits);
     identities[leaf].fall_time = regime.state;

@@ -12,6 +12,7 @@
 #import leaf/launch
 #import leaf/record
 #import leaf/settle
+#import leaf/strike
 #import terrain/ground
 #import terrain/litter
 
@@ -40,34 +41,44 @@ fn reach_down(body: LeafBody, pose: vec4<f32>) -> f32 {
 }
 
 fn leaf_rest(leaf: u32) {
-    let identity = identities[leaf];
-    let lifetime = scene.sources[leaf_source(identity.appearance)].lifetime_steps;
     places[leaf].bits = with_state(with_blend(places[leaf].bits & HALF_MASK, 0u), STATE_RESTING);
     drifts[leaf].velocity.y = 0.0;
     drifts[leaf].phase = 0u;
-    schedules[leaf].event = select(identity.release + lifetime, NEVER, lifetime == 0u);
+    schedules[leaf].event = recycling_step(leaf);
 }
 
 fn leaf_settle_on_litter(leaf: u32) {
     let words = random(scene.seed, identities[leaf].id, STREAM_LYING);
     let position = places[leaf].position;
+    let leaning = attitudes[leaf].quaternion;
+    let body = body_of(places[leaf].bits, schedules[leaf].size);
+    if (is_borne(body, leaning, position)) {
+        let held = held_at_rest(leaf);
+        if (held.is_firm) {
+            leaf_rest_on(leaf, held.at_rest);
+            return;
+        }
+    }
     let slope = ground_slope(position.x, position.z);
     let own = own_friction(words, litter_height(position.x, position.z));
     let loss = own * scene.gravity_m_s2;
     let friction = Friction(loss, 0.5 * reciprocal(loss));
     let slid = slide(drifts[leaf].velocity, scene.dt_s, slope, friction);
-    let x = position.x + slid.way.x;
-    let z = position.z + slid.way.z;
     let lean = quat_multiply(ground_lean(slope), lying_tilt(words));
-    let pose = flatten_to(lean, attitudes[leaf].quaternion, scene.tilt_kept);
+    let lying = flatten_to(lean, leaning, scene.tilt_kept);
+    let is_blocked =
+        is_inside_solid(body, lying, vec3<f32>(position.x + slid.way.x, position.y, position.z + slid.way.z));
+    let pose = select(lying, leaning, is_blocked);
+    let x = select(position.x + slid.way.x, position.x, is_blocked);
+    let z = select(position.z + slid.way.z, position.z, is_blocked);
     attitudes[leaf].quaternion = pose;
-    let body = body_of(places[leaf].bits, schedules[leaf].size);
     let rest = lying_height(x, z, reach_down(body, pose));
     let above = (position.y - rest) * scene.tilt_kept;
     let y = select(rest, rest + above, above > SUNK_M);
     places[leaf].position = vec3<f32>(x, y, z);
-    drifts[leaf].velocity = vec3<f32>(slid.velocity.x, 0.0, slid.velocity.z);
-    let slides = slid.velocity.x != 0.0 || slid.velocity.z != 0.0;
+    let slides = !is_blocked && (slid.velocity.x != 0.0 || slid.velocity.z != 0.0);
+    let left = vec3<f32>(slid.velocity.x, 0.0, slid.velocity.z);
+    drifts[leaf].velocity = select(vec3<f32>(0.0, 0.0, 0.0), left, slides);
     let steps = select(ground_steps(drifts[leaf].phase) + 1u, 0u, slides);
     drifts[leaf].phase = steps;
     if (steps >= scene.settle_steps && scene.litter.is_living != 0u) {

@@ -70,6 +70,10 @@ fn litter_change(bits: u32) -> u32 {
     return (bits >> CHANGE_SHIFT) & CHANGE_MASK;
 }
 
+fn lies_still(bits: u32) -> bool {
+    return lies(bits) && litter_change(bits) == CHANGE_NONE;
+}
+
 fn with_litter_change(bits: u32, change: u32) -> u32 {
     return (bits & ~(CHANGE_MASK << CHANGE_SHIFT)) | (change << CHANGE_SHIFT);
 }
@@ -81,6 +85,14 @@ fn is_covered(bits: u32) -> bool {
 fn with_cover(bits: u32, covered: bool) -> u32 {
     let mark = 1u << COVERED_SHIFT;
     return (bits & ~mark) | select(0u, mark, covered);
+}
+
+fn is_held(bits: u32) -> bool {
+    return ((bits >> HELD_SHIFT) & 1u) != 0u;
+}
+
+fn held_bits(species: u32) -> u32 {
+    return place_bits(STATE_RESTING, 1u << (HELD_SHIFT - BLEND_SHIFT), LYING, species, 0u);
 }
 
 fn lying_volume(bits: u32) -> u32 {

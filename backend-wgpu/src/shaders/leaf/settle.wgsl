@@ -57,6 +57,12 @@ fn flatten_on(slope: Slope, q: vec4<f32>, kept: f32) -> vec4<f32> {
     return quat_multiply(lean, flatten(quat_multiply(back, q), kept));
 }
 
+fn recycling_step(leaf: u32) -> u32 {
+    let identity = identities[leaf];
+    let lifetime = scene.sources[leaf_source(identity.appearance)].lifetime_steps;
+    return select(identity.release + lifetime, NEVER, lifetime == 0u);
+}
+
 // Landing is decided by a float comparison, the one place where the backends' integers could part for a step under the
 // tolerant contract; the step is continuous across that decision.
 fn leaf_land(leaf: u32, start: vec3<f32>) {
@@ -70,14 +76,12 @@ fn leaf_land(leaf: u32, start: vec3<f32>) {
     let hit = start + way * share;
     let left = (1.0 - share) * scene.dt_s;
     let slid = slide(way * scene.inv_dt_s, left, ground_slope(hit.x, hit.z), ground_friction());
-    let identity = identities[leaf];
-    let lifetime = scene.sources[leaf_source(identity.appearance)].lifetime_steps;
     let x = hit.x + slid.way.x;
     let z = hit.z + slid.way.z;
     let position = vec3<f32>(x, ground_rest(x, z), z);
     places[leaf] = Place(position, with_state(with_blend(place.bits, 0u), STATE_RESTING));
     drifts[leaf] = Drift(vec3<f32>(slid.velocity.x, 0.0, slid.velocity.z), 0u);
-    schedules[leaf].event = select(identity.release + lifetime, NEVER, lifetime == 0u);
+    schedules[leaf].event = recycling_step(leaf);
 }
 
 fn leaf_settle(leaf: u32) {

@@ -9,6 +9,7 @@
 #import flight/body
 #import leaf/at_rest
 #import leaf/record
+#import leaf/strike
 #import terrain/ground
 #import wind/sample
 
@@ -44,7 +45,8 @@ fn cover_of(bits: u32, place: vec3<f32>, reach: f32) -> Cover {
     let lowest = lying_over(place.x, place.z, reach, rest);
     let beneath = layers_above(bits, place.y - lowest);
     let above = layers_above(bits, rest - place.y);
-    return Cover(LOOSE_LAYERS < beneath, COVERED_LAYERS < above);
+    let on_ground = !is_held(bits);
+    return Cover(on_ground && LOOSE_LAYERS < beneath, on_ground && COVERED_LAYERS < above);
 }
 
 fn leaf_check_cover(leaf: u32) -> bool {
@@ -61,12 +63,8 @@ fn leaf_check_cover(leaf: u32) -> bool {
     return cover.is_loose;
 }
 
-fn lies_still(bits: u32) -> bool {
-    return lies(bits) && litter_change(bits) == CHANGE_NONE;
-}
-
 fn lying_wind(bits: u32, place: vec3<f32>, reach: f32, wake_square: f32) -> LyingWind {
-    let rest = ground_rest(place.x, place.z);
+    let rest = select(ground_rest(place.x, place.z), place.y - reach, is_held(bits));
     let cover = max(layers_above(bits, rest - place.y) - 1.0, 0.0);
     let wind = wind_at(vec3<f32>(place.x, rest + reach, place.z));
     let may_wake = !(vec3_dot(wind, wind) < wake_square * (cover + 1.0));
@@ -87,9 +85,12 @@ fn leaf_wake(leaf: u32) -> bool {
         return false;
     }
     let wind = met.wind;
-    let slope = ground_slope(x, z);
     let body = body_of(bits, schedules[leaf].size);
     let pose = attitudes[leaf].quaternion;
+    var slope = ground_slope(x, z);
+    if (is_held(bits)) {
+        slope = solid_footing(body, pose, place.position).slope;
+    }
     let heading = schedules[leaf].heading;
     var at_rest = leaf_at_rest(body, pose, slope, lying_friction(heading), lying_raise(heading));
     at_rest.pressing_m_s2 = at_rest.pressing_m_s2 + scene.gravity_m_s2 * met.cover;

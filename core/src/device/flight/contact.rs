@@ -56,6 +56,40 @@ pub fn support<R: Real>(body: &LeafBody<R>, normal: Vec3<R>) -> (R, Vec3<R>) {
     (squared * inverse, Vec3::new((x * inverse) * -1.0, x.all(0.0), (z * inverse) * -1.0))
 }
 
+/// Contacts of bodies with everything that may be in their way.
+pub trait Contacts<R: Real> {
+    /// Contacts of a body in a substep of `time` that began `seconds` into the step, and took it from a place `way` on in free flight.
+    /// Only in scenes with litter.
+    fn contact(
+        cx: &Context<'_>,
+        body: &LeafBody<R>,
+        from: Vec3<R>,
+        way: Vec3<R>,
+        motion: FlightMotion<R>,
+        seconds: R,
+        time: R,
+    ) -> Contact<R>;
+}
+
+/// Contacts with the ground and the litter on it.
+#[derive(Clone, Copy, Debug)]
+pub struct OverGround;
+
+impl<R: Real> Contacts<R> for OverGround {
+    #[inline(always)]
+    fn contact(
+        cx: &Context<'_>,
+        body: &LeafBody<R>,
+        from: Vec3<R>,
+        way: Vec3<R>,
+        motion: FlightMotion<R>,
+        _: R,
+        _: R,
+    ) -> Contact<R> {
+        flight_contact(cx, body, from + way, motion)
+    }
+}
+
 /// Contact of a body at the end of a substep. Only in scenes with litter.
 #[inline(always)]
 pub fn flight_contact<R: Real>(
@@ -86,37 +120,76 @@ pub fn flight_contact<R: Real>(
         return Contact { position, motion, touches };
     }
     let depth = litter_height(cx, position.x, position.z);
+    let is_bare = depth.less_than(reach.all(LITTER_DEEP_M));
+    let surface = Surface {
+        normal: inner,
+        arm,
+        restitution: is_bare.select_real(reach.all(cx.scene.litter.restitution), none),
+        friction: contact_friction(cx, depth),
+        takes_share: none.less_than(none),
+    };
+    let next = contact_response(body, &motion, &surface);
+    let out = normal * (gap * -1.0);
+    Contact {
+        position: vec3_select(touches, position + out, position),
+        motion: FlightMotion {
+            velocity: vec3_select(touches, next.velocity, motion.velocity),
+            pose: motion.pose,
+            turning: vec3_select(touches, next.turning, motion.turning),
+        },
+        touches,
+    }
+}
+
+/// What a body strikes, in the body's frame.
+#[derive(Clone, Copy, Debug)]
+pub struct Surface<R: Real = f32> {
+    /// Unit vector away from it.
+    pub normal: Vec3<R>,
+    /// Point of the body that strikes it.
+    pub arm: Vec3<R>,
+    /// Coefficient of restitution.
+    pub restitution: R,
+    /// Friction coefficient, or the share of the speed along the surface that a contact takes.
+    pub friction: R,
+    /// True where it is such a share.
+    pub takes_share: R::Mask,
+}
+
+/// Motion of a body, relative to a surface, after it has struck that.
+#[inline(always)]
+pub fn contact_response<R: Real>(
+    body: &LeafBody<R>,
+    motion: &FlightMotion<R>,
+    surface: &Surface<R>,
+) -> FlightMotion<R> {
+    let Surface { normal, arm, .. } = *surface;
+    let none = normal.x.all(0.0);
     let share = body.inv_size_ratio * body.inv_size_ratio;
     let inv_inertia = body.inv_inertia * share;
     let velocity = quat_rotate_back(motion.pose, motion.velocity);
     let spin = motion.turning * body.inv_size_ratio;
     let meeting = velocity + vec3_cross(spin, arm);
-    let closing = vec3_dot(meeting, inner);
-    let bounces = closing.less_than(reach.all(-BOUNCE_M_S)) & depth.less_than(reach.all(LITTER_DEEP_M));
-    let restitution = bounces.select_real(reach.all(cx.scene.litter.restitution), none);
-    let striking = (closing * (restitution + 1.0)) * reciprocal(contact_yield(inv_inertia, arm, inner));
+    let closing = vec3_dot(meeting, normal);
+    let restitution = closing.less_than(none.all(-BOUNCE_M_S)).select_real(surface.restitution, none);
+    let striking = (closing * (restitution + 1.0)) * reciprocal(contact_yield(inv_inertia, arm, normal));
     let push = (striking * -1.0).max(none);
-    let struck = contact_impulse(inv_inertia, arm, velocity, spin, inner * push);
+    let struck = contact_impulse(inv_inertia, arm, velocity, spin, normal * push);
     // Friction acts on what the push leaves: neither adds energy then.
     let left = struck.0 + vec3_cross(struck.1, arm);
-    let sliding = left - inner * vec3_dot(left, inner);
-    let squared = vec3_dot(sliding, sliding).max(reach.all(TINY_SQUARED));
+    let sliding = left - normal * vec3_dot(left, normal);
+    let squared = vec3_dot(sliding, sliding).max(none.all(TINY_SQUARED));
     let inverse = inverse_sqrt(squared);
     let way = sliding * inverse;
     let stopping = (squared * inverse) * reciprocal(contact_yield(inv_inertia, arm, way));
-    let drag = stopping.min(contact_friction(cx, depth) * push);
-    let (inner_velocity, next_spin) =
+    let shared = none.less_than(push).select_real(stopping * surface.friction, none);
+    let drag = surface.takes_share.select_real(shared, stopping.min(surface.friction * push));
+    let (next_velocity, next_spin) =
         contact_impulse(inv_inertia, arm, struck.0, struck.1, way * (drag * -1.0));
-    let next_velocity = quat_rotate(motion.pose, inner_velocity);
-    let out = normal * (gap * -1.0);
-    Contact {
-        position: vec3_select(touches, position + out, position),
-        motion: FlightMotion {
-            velocity: vec3_select(touches, next_velocity, motion.velocity),
-            pose: motion.pose,
-            turning: vec3_select(touches, next_spin * body.size_ratio, motion.turning),
-        },
-        touches,
+    FlightMotion {
+        velocity: quat_rotate(motion.pose, next_velocity),
+        pose: motion.pose,
+        turning: next_spin * body.size_ratio,
     }
 }
 

@@ -7,3 +7,4 @@ pub mod contact;
 pub mod rates;
 pub mod regime;
 pub mod runge_kutta;
+pub mod strike;

@@ -11,7 +11,7 @@ use super::join::leaf_fall_joining;
 use super::lie::leaf_settle_on_litter;
 use super::record::{
     CHANGE_REMOVED, STATE_ATTACHED, STATE_DORMANT, STATE_FALLING, STATE_RESTING, flies, ground_steps,
-    leaf_source, leaf_state, lies, with_litter_change,
+    is_held, leaf_source, leaf_state, lies, with_litter_change,
 };
 use super::release::{leaf_detach, leaf_release};
 use super::settle::leaf_settle;
@@ -53,7 +53,7 @@ pub fn leaf_advance_event(cx: &Context<'_>, leaf: &mut LeafMut<'_>) {
     let now = cx.step.index;
     let source = leaf_source(leaf.identity.appearance);
     let lifetime = cx.scene.sources[source as usize].lifetime_steps;
-    if lies(leaf.place.bits) {
+    if lies(leaf.place.bits) && !is_held(leaf.place.bits) {
         // The litter gives it back first.
         leaf.place.bits = with_litter_change(leaf.place.bits, CHANGE_REMOVED);
         return;

@@ -15,12 +15,14 @@ use super::own::{
 };
 use super::record::{Drift, Place, blend_steps_left, count_down_blend, leaf_species, spin_rate, turn_spin};
 use super::settle::leaf_land;
+use super::strike::leaf_strike;
 use crate::arith::lane::{Mask, Real, Word};
 use crate::arith::math::reciprocal;
 use crate::arith::quaternion::{Quat, quat_blend};
 use crate::arith::rng::mul_q16;
 use crate::arith::vector::Vec3;
 use crate::context::Context;
+use crate::device::solid::near::may_meet_solids;
 use crate::device::terrain::ground::ground_met;
 use crate::device::wind::packed::wind_unpack;
 use crate::leaf::LeafMut;
@@ -173,7 +175,7 @@ pub fn glide_step<R: Real>(
     glide_part(cx, glide, bits, params, wind, part)
 }
 
-/// One step of a falling leaf that has no event in it and does not come to the ground. One that does is left alone.
+/// One step of a falling leaf that has no event in it, does not come to the ground, and is near no solid part. Others are left alone.
 /// Returns true if the leaf has been moved.
 #[inline(always)]
 pub fn leaf_fall_aloft(cx: &Context<'_>, leaf: &mut LeafMut<'_>) -> bool {
@@ -181,20 +183,24 @@ pub fn leaf_fall_aloft(cx: &Context<'_>, leaf: &mut LeafMut<'_>) -> bool {
     let glide = glide_of(leaf.place, leaf.drift);
     let (params, wind) = (motion_params(*leaf.schedule), wind_unpack(*leaf.air));
     let moved = glide_step(cx, glide, bits, params, response_of(cx, bits), wind);
-    if ground_met(cx, moved.position) {
+    if ground_met(cx, moved.position) || (cx.scene.has_solids() && may_meet_solids(cx, glide.position)) {
         return false;
     }
     glide_end(cx, leaf, moved, bits, heading);
     true
 }
 
-/// One step of a falling leaf that has no event in it, to the ground if it comes there.
+/// One step of a falling leaf that has no event in it, to the ground if it comes there. One that strikes a solid part is left to
+/// [`leaf_fly`](super::fly::leaf_fly).
 #[inline(always)]
 pub fn leaf_fall(cx: &Context<'_>, leaf: &mut LeafMut<'_>) {
     let (start, bits, heading) = (Vec3::from(leaf.place.position), leaf.place.bits, leaf.schedule.heading);
     let glide = glide_of(leaf.place, leaf.drift);
     let (params, wind) = (motion_params(*leaf.schedule), wind_unpack(*leaf.air));
     let moved = glide_step(cx, glide, bits, params, response_of(cx, bits), wind);
+    if leaf_strike(cx, leaf, moved.position) {
+        return;
+    }
     glide_end(cx, leaf, moved, bits, heading);
     if ground_met(cx, moved.position) {
         leaf_land(cx, leaf, start);

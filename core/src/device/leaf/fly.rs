@@ -10,6 +10,7 @@ use super::record::{
     Drift, body_spin, body_spin_words, flies, regime_state, touch_steps, with_regime, with_touch_steps,
 };
 use super::settle::leaf_land;
+use super::strike::{held_at_rest, is_borne};
 use crate::arith::lane::{Mask, Real, Word};
 use crate::arith::math::{inverse_sqrt, reciprocal};
 use crate::arith::quaternion::{Quat, quat_multiply, quat_rotate_back};
@@ -17,10 +18,12 @@ use crate::arith::rng::{mul_q16, random};
 use crate::arith::vector::{TINY_SQUARED, Vec3, vec3_dot};
 use crate::context::Context;
 use crate::device::flight::body::{LeafBody, body_of, body_row};
-use crate::device::flight::contact::flight_contact;
+use crate::device::flight::contact::{Contacts, OverGround};
 use crate::device::flight::rates::FlightMotion;
 use crate::device::flight::regime::{regime_after, regime_of};
 use crate::device::flight::runge_kutta::{MAX_SUBSTEPS, Substeps, flight_step, substep_count};
+use crate::device::flight::strike::AmongSolids;
+use crate::device::solid::near::may_meet_solids;
 use crate::device::terrain::ground::{ground_lean, ground_met, ground_rest, ground_slope};
 use crate::device::terrain::litter::litter_height;
 use crate::device::wind::sample::wind_at;
@@ -77,7 +80,7 @@ pub struct Flown<R: Real = f32> {
 
 /// The step of bodies, in wind that holds still during it.
 #[inline(always)]
-pub fn flight_advance<R: Real>(
+pub fn flight_advance<R: Real, C: Contacts<R>>(
     cx: &Context<'_>,
     flight: Flight<R>,
     bits: R::Word,
@@ -104,6 +107,7 @@ pub fn flight_advance<R: Real>(
             break;
         }
         let (way, next) = flight_step(cx, &body, &motion, wind, time);
+        let from = position;
         position = chosen(on, position + way, position);
         motion = FlightMotion {
             velocity: chosen(on, next.velocity, motion.velocity),
@@ -116,7 +120,7 @@ pub fn flight_advance<R: Real>(
             turning: chosen(on, next.turning, motion.turning),
         };
         if cx.has_litter() {
-            let contact = flight_contact(cx, &body, position, motion);
+            let contact = C::contact(cx, &body, from, way, motion, time * done, time);
             position = chosen(on, contact.position, position);
             motion.velocity = chosen(on, contact.motion.velocity, motion.velocity);
             motion.turning = chosen(
@@ -186,19 +190,30 @@ pub fn flight_ends<R: Real>(cx: &Context<'_>, bits: R::Word, position: Vec3<R>) 
     !touch_steps(bits).less_than(bits.all(cx.scene.settle_steps))
 }
 
-/// Lays a body down whose flight ends, unless the wind would take it from the litter again.
+/// Lays a body down whose flight ends, on the ground or on a solid part, unless the wind would take it again.
 #[inline(always)]
 fn leaf_end_flight(cx: &Context<'_>, leaf: &mut LeafMut<'_>, start: Vec3) {
     if !cx.has_litter() {
         leaf_land(cx, leaf, start);
         return;
     }
+    let before = Quat::from(leaf.attitude.quaternion);
+    let body = body_of(cx, leaf.place.bits, leaf.schedule.size);
+    if is_borne(cx, &body, before, leaf.place.position.into()) {
+        let held = held_at_rest(cx, leaf);
+        let wind = wind_at(cx, leaf.place.position.into());
+        if !held.is_firm || wind_moves(cx, &held.at_rest, wind, REST_SHARE_SQUARED) {
+            leaf.place.bits = with_touch_steps(leaf.place.bits, 0);
+        } else {
+            leaf_rest(cx, leaf);
+        }
+        return;
+    }
     let [x, _, z] = leaf.place.position;
     let words = random(cx.scene.seed, leaf.identity.id, STREAM_LYING);
     let slope = ground_slope(cx, x, z);
     let lean = quat_multiply(ground_lean(slope), lying_tilt(cx, words));
-    let pose = flatten_to(lean, Quat::from(leaf.attitude.quaternion), 0.0);
-    let body = body_of(cx, leaf.place.bits, leaf.schedule.size);
+    let pose = flatten_to(lean, before, 0.0);
     let friction = own_friction(cx, words, litter_height(cx, x, z));
     let wind = wind_at(cx, Vec3::new(x, ground_rest(cx, x, z) + reach_down(&body, pose), z));
     let at_rest = leaf_at_rest(cx, body, pose, slope, friction, own_raise(cx, words));
@@ -245,7 +260,12 @@ pub fn leaf_fly(cx: &Context<'_>, leaf: &mut LeafMut<'_>) {
     }
     let start = flight_of(leaf);
     let wind = wind_at(cx, start.position);
-    let Flown { flight, is_calm } = flight_advance(cx, start, leaf.place.bits, leaf.schedule.size, wind);
+    let (bits, size) = (leaf.place.bits, leaf.schedule.size);
+    let Flown { flight, is_calm } = if cx.scene.has_solids() && may_meet_solids(cx, start.position) {
+        flight_advance::<f32, AmongSolids>(cx, start, bits, size, wind)
+    } else {
+        flight_advance::<f32, OverGround>(cx, start, bits, size, wind)
+    };
     flight_write(leaf, flight);
     let before = regime_state(leaf.identity.fall_time);
     let regime = update_regime(cx, &flight, wind, before, leaf.place.bits);

@@ -8,16 +8,16 @@
 use super::at_rest::{leaf_at_rest, least_wake_square};
 use super::launch::random_asymmetry;
 use super::record::{
-    CHANGE_ADDED, HALF_MASK, LYING, STATE_RESTING, ground_steps, leaf_source, leaf_species,
-    lying_support_word, lying_word, place_bits, size_ratio, wake_speed_word, with_asymmetry, with_blend,
-    with_litter_change, with_state,
+    CHANGE_ADDED, HALF_MASK, LYING, STATE_RESTING, ground_steps, leaf_species, lying_support_word,
+    lying_word, place_bits, size_ratio, wake_speed_word, with_asymmetry, with_blend, with_litter_change,
+    with_state,
 };
-use super::settle::{Friction, flatten, slide};
+use super::settle::{Friction, flatten, recycling_step, slide};
+use super::strike::{held_at_rest, is_borne, is_inside_solid, leaf_rest_on};
 use crate::arith::math::{reciprocal, sin_cos_turns};
 use crate::arith::quaternion::{Quat, quat_multiply, quat_rotate_back};
 use crate::arith::rng::{mul_high, random, unit_float};
 use crate::arith::vector::Vec3;
-use crate::blocks::NEVER;
 use crate::context::Context;
 use crate::device::flight::body::{LeafBody, body_of, body_row};
 use crate::device::flight::contact::{contact_friction, support};
@@ -75,11 +75,10 @@ pub fn reach_down(body: &LeafBody, pose: Quat) -> f32 {
 /// Begins to lay a body down where it is, nearly at rest.
 #[inline(always)]
 pub fn leaf_rest(cx: &Context<'_>, leaf: &mut LeafMut<'_>) {
-    let lifetime = cx.scene.sources[leaf_source(leaf.identity.appearance) as usize].lifetime_steps;
     leaf.place.bits = with_state(with_blend(leaf.place.bits & HALF_MASK, 0), STATE_RESTING);
     leaf.drift.velocity[1] = 0.0;
     leaf.drift.phase = 0;
-    leaf.schedule.event = if lifetime == 0 { NEVER } else { leaf.identity.release.wrapping_add(lifetime) };
+    leaf.schedule.event = recycling_step(cx, leaf.identity);
 }
 
 /// One step of a leaf that slides or lies down where there may be litter.
@@ -87,22 +86,35 @@ pub fn leaf_rest(cx: &Context<'_>, leaf: &mut LeafMut<'_>) {
 pub fn leaf_settle_on_litter(cx: &Context<'_>, leaf: &mut LeafMut<'_>) {
     let words = random(cx.scene.seed, leaf.identity.id, STREAM_LYING);
     let position = leaf.place.position;
+    let leaning = Quat::from(leaf.attitude.quaternion);
+    let body = body_of(cx, leaf.place.bits, leaf.schedule.size);
+    if is_borne(cx, &body, leaning, position.into()) {
+        let held = held_at_rest(cx, leaf);
+        if held.is_firm {
+            leaf_rest_on(cx, leaf, &held.at_rest);
+            return;
+        }
+    }
     let slope = ground_slope(cx, position[0], position[2]);
     let own = own_friction(cx, words, litter_height(cx, position[0], position[2]));
     let loss = own * cx.scene.gravity_m_s2;
     let friction = Friction { loss_m_s2: loss, stop_s2_m: 0.5 * reciprocal(loss) };
     let (slid, left) = slide(cx, leaf.drift.velocity.into(), cx.scene.dt_s, slope, friction);
-    let (x, z) = (position[0] + slid.x, position[2] + slid.z);
     let lean = quat_multiply(ground_lean(slope), lying_tilt(cx, words));
-    let pose = flatten_to(lean, Quat::from(leaf.attitude.quaternion), cx.scene.tilt_kept);
+    let lying = flatten_to(lean, leaning, cx.scene.tilt_kept);
+    // What would slide or turn into a solid part stays leaning on it.
+    let is_blocked =
+        is_inside_solid(cx, &body, lying, Vec3::new(position[0] + slid.x, position[1], position[2] + slid.z));
+    let pose = if is_blocked { leaning } else { lying };
+    let (x, z) =
+        if is_blocked { (position[0], position[2]) } else { (position[0] + slid.x, position[2] + slid.z) };
     leaf.attitude.quaternion = pose.to_array();
-    let body = body_of(cx, leaf.place.bits, leaf.schedule.size);
     let rest = lying_height(cx, x, z, reach_down(&body, pose));
     let above = (position[1] - rest) * cx.scene.tilt_kept;
     let y = if above > SUNK_M { rest + above } else { rest };
+    let slides = !is_blocked && (left.x != 0.0 || left.z != 0.0);
     leaf.place.position = [x, y, z];
-    leaf.drift.velocity = [left.x, 0.0, left.z];
-    let slides = left.x != 0.0 || left.z != 0.0;
+    leaf.drift.velocity = if slides { [left.x, 0.0, left.z] } else { [0.0; 3] };
     leaf.drift.phase = if slides { 0 } else { ground_steps(leaf.drift.phase) + 1 };
     if leaf.drift.phase >= cx.scene.settle_steps && cx.scene.has_living_litter() {
         leaf_lie_down(cx, leaf, slope, own, own_raise(cx, words));

@@ -17,4 +17,5 @@ pub mod record;
 pub mod release;
 pub mod settle;
 pub mod stack;
+pub mod strike;
 pub mod wake;

@@ -49,6 +49,8 @@ crate::shared_constants! {
     pub const CHANGE_REMOVED: u32 = 3;
     /// Place of the mark of a lying leaf that others cover.
     pub const COVERED_SHIFT: u32 = 4;
+    /// Place of the mark of a lying leaf that a solid part holds, not the ground: it has no volume in the litter.
+    pub const HELD_SHIFT: u32 = 5;
     /// Place of such a leaf's regime, where others keep their blend.
     pub const REGIME_SHIFT: u32 = 2;
     /// Mask of the regime.
@@ -260,6 +262,12 @@ pub fn litter_change<W: Word>(bits: W) -> W {
     (bits >> CHANGE_SHIFT) & CHANGE_MASK
 }
 
+/// Returns true if leaves with these bits lie in the litter and wait for no change of it.
+#[inline(always)]
+pub fn lies_still<W: Word>(bits: W) -> W::Mask {
+    lies(bits) & litter_change(bits).equals(CHANGE_NONE)
+}
+
 /// Bits of a lying leaf with another change.
 #[inline(always)]
 pub fn with_litter_change(bits: u32, change: u32) -> u32 {
@@ -277,6 +285,18 @@ pub fn is_covered<W: Word>(bits: W) -> W::Mask {
 pub fn with_cover<W: Word>(bits: W, is_covered: W::Mask) -> W {
     let mark = 1 << COVERED_SHIFT;
     (bits & !mark) | is_covered.select(bits.all(mark), bits.all(0))
+}
+
+/// Returns true if a solid part holds a lying leaf.
+#[inline(always)]
+pub fn is_held<W: Word>(bits: W) -> W::Mask {
+    !((bits >> HELD_SHIFT) & 1).equals(0)
+}
+
+/// Bits of a leaf of a species that a solid part holds.
+#[inline(always)]
+pub fn held_bits(species: u32) -> u32 {
+    place_bits(STATE_RESTING, 1 << (HELD_SHIFT - BLEND_SHIFT), LYING, species, 0)
 }
 
 /// Volume of a lying leaf in units of height over a cell.

@@ -9,7 +9,9 @@
 //! Landing is decided by a float comparison, the one place where the backends' integers could part for a step under
 //! the tolerant contract; the step is continuous across that decision, and what it writes is the same a moment later.
 
-use super::record::{Drift, Place, STATE_RESTING, ground_steps, leaf_source, with_blend, with_state};
+use super::record::{
+    Drift, Identity, Place, STATE_RESTING, ground_steps, leaf_source, with_blend, with_state,
+};
 use crate::arith::math::{inverse_sqrt, reciprocal};
 use crate::arith::quaternion::{Quat, quat_multiply, quat_normalize};
 use crate::arith::vector::Vec3;
@@ -86,6 +88,13 @@ pub fn flatten_on(slope: Slope, q: Quat, kept: f32) -> Quat {
     quat_multiply(lean, flatten(quat_multiply(back, q), kept))
 }
 
+/// Step at which a leaf that has come to rest is recycled, if it ever is.
+#[inline(always)]
+pub fn recycling_step(cx: &Context<'_>, identity: &Identity) -> u32 {
+    let lifetime = cx.scene.sources[leaf_source(identity.appearance) as usize].lifetime_steps;
+    if lifetime == 0 { NEVER } else { identity.release.wrapping_add(lifetime) }
+}
+
 /// Puts a leaf that has just passed below the resting height on the ground, where its path from `start` met it.
 #[expect(clippy::manual_clamp, reason = "written as in WGSL")]
 #[inline(always)]
@@ -100,12 +109,11 @@ pub fn leaf_land(cx: &Context<'_>, leaf: &mut LeafMut<'_>, start: Vec3) {
     let left = (1.0 - share) * cx.scene.dt_s;
     let (slid, velocity) =
         slide(cx, way * cx.scene.inv_dt_s, left, ground_slope(cx, hit.x, hit.z), ground_friction(cx));
-    let lifetime = cx.scene.sources[leaf_source(leaf.identity.appearance) as usize].lifetime_steps;
     let (x, z) = (hit.x + slid.x, hit.z + slid.z);
     let bits = with_state(with_blend(leaf.place.bits, 0), STATE_RESTING);
     *leaf.place = Place { position: [x, ground_rest(cx, x, z), z], bits };
     *leaf.drift = Drift { velocity: [velocity.x, 0.0, velocity.z], phase: 0 };
-    leaf.schedule.event = if lifetime == 0 { NEVER } else { leaf.identity.release.wrapping_add(lifetime) };
+    leaf.schedule.event = recycling_step(cx, leaf.identity);
 }
 
 /// One step of a leaf on ground that bears no litter.

@@ -7,10 +7,11 @@
 use super::air::AIR_UNIT_SHIFT;
 use super::at_rest::{leaf_at_rest, raising_axis, wind_moves};
 use super::record::{
-    CHANGE_NONE, CHANGE_REMOVED, CHANGE_WOKEN, body_spin_words, is_covered, lies, litter_change,
-    lying_friction, lying_raise, lying_support, wake_speed_squared, with_cover, with_litter_change,
+    CHANGE_REMOVED, CHANGE_WOKEN, body_spin_words, is_covered, is_held, lies_still, lying_friction,
+    lying_raise, lying_support, wake_speed_squared, with_cover, with_litter_change,
 };
-use crate::arith::lane::{Real, Word};
+use super::strike::solid_footing;
+use crate::arith::lane::{Mask, Real};
 use crate::arith::math::reciprocal;
 use crate::arith::quaternion::{Quat, quat_rotate_back};
 use crate::arith::vector::{Vec3, vec3_dot};
@@ -77,9 +78,10 @@ pub fn cover_of<R: Real>(cx: &Context<'_>, bits: R::Word, place: Vec3<R>, reach:
     let floor = lying_over(cx, place.x, place.z, reach, rest);
     let beneath = layers_above(cx, bits, place.y - floor);
     let above = layers_above(cx, bits, rest - place.y);
+    let on_ground = !is_held(bits);
     Cover {
-        is_loose: beneath.all(LOOSE_LAYERS).less_than(beneath),
-        is_covered: above.all(COVERED_LAYERS).less_than(above),
+        is_loose: on_ground & beneath.all(LOOSE_LAYERS).less_than(beneath),
+        is_covered: on_ground & above.all(COVERED_LAYERS).less_than(above),
     }
 }
 
@@ -97,12 +99,6 @@ pub fn leaf_check_cover(cx: &Context<'_>, leaf: &mut LeafMut<'_>) -> bool {
         leaf.place.bits = with_litter_change(bits, CHANGE_REMOVED);
     }
     is_loose
-}
-
-/// Returns true if leaves with these bits lie in the litter and wait for no change of it.
-#[inline(always)]
-pub fn lies_still<W: Word>(bits: W) -> W::Mask {
-    lies(bits) & litter_change(bits).equals(CHANGE_NONE)
 }
 
 /// Wind at leaves in the litter.
@@ -125,7 +121,7 @@ pub fn lying_wind<R: Real>(
     reach: R,
     wake_square: R,
 ) -> LyingWind<R> {
-    let rest = ground_rest(cx, place.x, place.z);
+    let rest = is_held(bits).select_real(place.y - reach, ground_rest(cx, place.x, place.z));
     let cover = (layers_above(cx, bits, rest - place.y) - reach.all(1.0)).max(reach.all(0.0));
     let wind = wind_at(cx, Vec3::new(place.x, rest + reach, place.z));
     let may_wake = !vec3_dot(wind, wind).less_than(wake_square * (cover + 1.0));
@@ -147,9 +143,13 @@ pub fn leaf_wake(cx: &Context<'_>, leaf: &mut LeafMut<'_>) -> bool {
     if !may_wake {
         return false;
     }
-    let slope = ground_slope(cx, x, z);
     let body = body_of(cx, bits, leaf.schedule.size);
     let pose = Quat::from(leaf.attitude.quaternion);
+    let slope = if is_held(bits) {
+        solid_footing(cx, &body, pose, leaf.place.position.into()).slope
+    } else {
+        ground_slope(cx, x, z)
+    };
     let heading = leaf.schedule.heading;
     let mut at_rest = leaf_at_rest(cx, body, pose, slope, lying_friction(heading), lying_raise(heading));
     at_rest.pressing_m_s2 += cx.scene.gravity_m_s2 * cover;

@@ -8,22 +8,21 @@ use super::check::Check;
 use crate::SceneError;
 use crate::scene::{
     MAX_MOVERS, MAX_OBJECTS, MAX_PATH_KEYS, Object, ObjectFriction, ObjectKey, ObjectMotion, ObjectShape,
-    Scene, Walker, limits,
+    Scene, WALKER_LIMBS, Walker, limits,
 };
-use crate::solid::LIMB_COUNT;
 
 impl Scene {
     /// Checks objects and walkers, each by itself and all together.
     pub(super) fn check_objects(&self, check: &Check<'_>) -> Result<(), SceneError> {
         check.length("objects", self.objects.len(), 0, MAX_OBJECTS)?;
-        check.length("walkers", self.walkers.len(), 0, MAX_MOVERS / LIMB_COUNT)?;
+        check.length("walkers", self.walkers.len(), 0, MAX_MOVERS / WALKER_LIMBS)?;
         for (index, object) in self.objects.iter().enumerate() {
             object.check(&check.inside(format!("objects[{index}]")))?;
         }
         for (index, walker) in self.walkers.iter().enumerate() {
             walker.check(&check.inside(format!("walkers[{index}]")))?;
         }
-        let limbs = LIMB_COUNT * self.walkers.len();
+        let limbs = WALKER_LIMBS * self.walkers.len();
         let moving = self.objects.iter().filter(|object| object.motion != ObjectMotion::Still).count();
         check.holds(moving + limbs <= MAX_MOVERS, "objects", || {
             let found = format!("{moving} that move, and {limbs} limbs of walkers");

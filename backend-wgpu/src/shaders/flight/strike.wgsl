@@ -1,0 +1,149 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// twin: core/src/device/flight/strike.rs
+// Contact of a body with solid parts, swept over a substep.
+#import bindings
+#import arith/math
+#import arith/quaternion
+#import arith/vector
+#import flight/body
+#import flight/contact
+#import flight/rates
+#import solid/near
+#import solid/shape
+
+struct SolidGap {
+    gap_m: f32,
+    normal: vec3<f32>,
+    inner: vec3<f32>,
+    arm: vec3<f32>,
+}
+
+struct Passage {
+    start: vec3<f32>,
+    way: vec3<f32>,
+    seconds: f32,
+    time: f32,
+    reach_share: f32,
+}
+
+struct Strike {
+    number: u32,
+    share: f32,
+}
+
+fn solid_gap(solid: SolidAt, body: LeafBody, pose: vec4<f32>, place: vec3<f32>, reach_share: f32) -> SolidGap {
+    let outside = solid_distance(solid, place);
+    let inner = quat_rotate_back(pose, outside.normal);
+    let nearest = support(body, inner);
+    return SolidGap(outside.distance_m - nearest.radius * reach_share, outside.normal, inner, nearest.arm);
+}
+
+fn first_strike(body: LeafBody, pose: vec4<f32>, cell: u32, passage: Passage) -> Strike {
+    var strike = Strike(NEVER, 1.0);
+    let size = max(body.half_along_m, body.half_across_m) * body.size_ratio;
+    for (var entry = 0u; entry < near_count(cell); entry += 1u) {
+        let number = near_solid(cell, entry);
+        let solid = solid_at(number, passage.seconds);
+        let relative = passage.way - solid.velocity * passage.time;
+        let squared = max(vec3_dot(relative, relative), TINY_SQUARED);
+        let bound = (solid.bound_m + size) + squared * inverse_sqrt(squared);
+        let apart = passage.start - solid.center;
+        if (bound * bound < vec3_dot(apart, apart)) {
+            continue;
+        }
+        var share = 0.0;
+        for (var round = 0u; round < STRIKE_ROUNDS; round += 1u) {
+            let place = passage.start + relative * share;
+            let gap = solid_gap(solid, body, pose, place, passage.reach_share);
+            let closing = -vec3_dot(gap.normal, relative);
+            if (!(0.0 < closing && gap.gap_m < closing * (strike.share - share))) {
+                share = 1.0;
+                break;
+            }
+            if (gap.gap_m < STRIKE_GAP_M) {
+                break;
+            }
+            share = share + gap.gap_m * reciprocal(closing);
+        }
+        if (share < strike.share) {
+            strike = Strike(number, share);
+        }
+    }
+    return strike;
+}
+
+fn struck_motion(
+    body: LeafBody,
+    motion: FlightMotion,
+    solid: SolidAt,
+    gap: SolidGap,
+    place: vec3<f32>,
+) -> FlightMotion {
+    let along = solid_velocity(solid, place + quat_rotate(motion.pose, gap.arm));
+    let takes_share = (solid.flags & SOLID_LOSS) != 0u;
+    let surface = Surface(gap.inner, gap.arm, solid.restitution, solid.friction, takes_share);
+    let relative = FlightMotion(motion.velocity - along, motion.pose, motion.turning);
+    var struck = contact_response(body, relative, surface);
+    struck.velocity = struck.velocity + along;
+    return struck;
+}
+
+fn strike_solids(
+    body: LeafBody,
+    start: vec3<f32>,
+    way: vec3<f32>,
+    flown: FlightMotion,
+    seconds: f32,
+    time: f32,
+) -> Contact {
+    let cell = solids_cell(start);
+    var contact = Contact(start, flown, false);
+    var passage = Passage(start, way, seconds, time, STRIKE_REACH);
+    for (var number = 0u; number < MOST_STRIKES; number += 1u) {
+        let strike = first_strike(body, flown.pose, cell, passage);
+        contact.position = passage.start + passage.way * strike.share;
+        if (strike.number == NEVER) {
+            break;
+        }
+        passage.start = contact.position;
+        passage.seconds = passage.seconds + passage.time * strike.share;
+        passage.time = passage.time * (1.0 - strike.share);
+        let solid = solid_at(strike.number, passage.seconds);
+        let gap = solid_gap(solid, body, flown.pose, contact.position, 1.0);
+        contact.motion = struck_motion(body, contact.motion, solid, gap, contact.position);
+        contact.touches = true;
+        passage.way = contact.motion.velocity * passage.time;
+    }
+    for (var push = 0u; push < MOST_STRIKES + 1u; push += 1u) {
+        let deepest = deepest_overlap(body, flown.pose, cell, contact.position, seconds + time);
+        if (deepest.number == NEVER) {
+            break;
+        }
+        if (push == MOST_STRIKES) {
+            if (deepest.share < -STUCK_M) {
+                contact.position = start;
+                contact.motion.velocity = vec3<f32>(0.0, 0.0, 0.0);
+            }
+            break;
+        }
+        let solid = solid_at(deepest.number, seconds + time);
+        let gap = solid_gap(solid, body, flown.pose, contact.position, 1.0);
+        contact.motion = struck_motion(body, contact.motion, solid, gap, contact.position);
+        contact.position = contact.position - gap.normal * gap.gap_m;
+        contact.touches = true;
+    }
+    return contact;
+}
+
+fn deepest_overlap(body: LeafBody, pose: vec4<f32>, cell: u32, place: vec3<f32>, seconds: f32) -> Strike {
+    var deepest = Strike(NEVER, 0.0);
+    for (var entry = 0u; entry < near_count(cell); entry += 1u) {
+        let number = near_solid(cell, entry);
+        let gap = solid_gap(solid_at(number, seconds), body, pose, place, 1.0);
+        if (gap.gap_m < deepest.share) {
+            deepest = Strike(number, gap.gap_m);
+        }
+    }
+    return deepest;
+}

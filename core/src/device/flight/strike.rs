@@ -1,0 +1,232 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! twin: backend-wgpu/src/shaders/flight/strike.wgsl
+//!
+//! Contact of a body with solid parts, swept over a substep: of the first part that it strikes it takes an impulse there, and goes on
+//! with what is left of the substep, up to four times. What then still overlaps a part, since it turned, is pushed out.
+//!
+//! A body reaches towards a part as far as its outline, an ellipse, does against the normal of the part's nearest point: the plane
+//! there separates them while the gap is positive. At edges smaller than a leaf that is early by less than the leaf's own reach.
+
+use super::body::LeafBody;
+use super::contact::{Contact, Contacts, Surface, contact_response, flight_contact, support};
+use super::rates::FlightMotion;
+use crate::arith::math::{inverse_sqrt, reciprocal};
+use crate::arith::quaternion::{Quat, quat_rotate, quat_rotate_back};
+use crate::arith::vector::{TINY_SQUARED, Vec3, vec3_dot};
+use crate::blocks::NEVER;
+use crate::context::Context;
+use crate::device::solid::near::{near_count, near_solid, solids_cell};
+use crate::device::solid::shape::{SOLID_LOSS, SolidAt, solid_at, solid_distance, solid_velocity};
+
+crate::shared_constants! {
+    /// Most parts that a body strikes in a substep, and most that push it out at its end.
+    pub const MOST_STRIKES: u32 = 4;
+    /// Most rounds of the search for the moment at which it does.
+    pub const STRIKE_ROUNDS: u32 = 8;
+    /// Share of its reach up to which a body may come nearer within a substep: turning takes it there, and it is pushed out at the end.
+    pub const STRIKE_REACH: f32 = 0.5;
+    /// Gap in m below which there is none.
+    pub const STRIKE_GAP_M: f32 = 1e-5;
+    /// Overlap in m from which on a body that four pushes have not freed goes back to where its substep began.
+    pub const STUCK_M: f32 = 1e-3;
+}
+
+/// Gap between a body and a solid part.
+#[derive(Clone, Copy, Debug)]
+pub struct SolidGap {
+    /// Gap in m, below zero where they overlap.
+    pub gap_m: f32,
+    /// Unit vector away from the part.
+    pub normal: Vec3,
+    /// The same in the body's frame.
+    pub inner: Vec3,
+    /// Point of the body that is nearest, in its frame.
+    pub arm: Vec3,
+}
+
+/// Gap between a body at a place, of whose reach a share counts, and a solid part.
+#[inline(always)]
+pub fn solid_gap(solid: &SolidAt, body: &LeafBody, pose: Quat, place: Vec3, reach_share: f32) -> SolidGap {
+    let from = solid_distance(solid, place);
+    let inner = quat_rotate_back(pose, from.normal);
+    let (radius, arm) = support(body, inner);
+    SolidGap { gap_m: from.distance_m - radius * reach_share, normal: from.normal, inner, arm }
+}
+
+/// First solid part that a body strikes.
+#[derive(Clone, Copy, Debug)]
+pub struct Strike {
+    /// Number of the part, or [`NEVER`].
+    pub number: u32,
+    /// Share of the way up to there.
+    pub share: f32,
+}
+
+/// A straight way of a body.
+#[derive(Clone, Copy, Debug)]
+pub struct Passage {
+    /// Place where it begins, in m.
+    pub from: Vec3,
+    /// Displacement in m.
+    pub way: Vec3,
+    /// Time into the step at which it begins, in s.
+    pub seconds: f32,
+    /// Its duration in s.
+    pub time: f32,
+    /// Share of the body's reach up to which it may come near a part.
+    pub reach_share: f32,
+}
+
+/// First of the parts of a cell that a body strikes on its way.
+#[inline(always)]
+pub fn first_strike(cx: &Context<'_>, body: &LeafBody, pose: Quat, cell: u32, passage: &Passage) -> Strike {
+    let mut strike = Strike { number: NEVER, share: 1.0 };
+    let size = body.half_along_m.max(body.half_across_m) * body.size_ratio;
+    for entry in 0..near_count(cx, cell) {
+        let number = near_solid(cx, cell, entry);
+        let solid = solid_at(cx, number, passage.seconds);
+        let relative = passage.way - solid.velocity * passage.time;
+        let squared = vec3_dot(relative, relative).max(TINY_SQUARED);
+        let bound = (solid.bound_m + size) + squared * inverse_sqrt(squared);
+        let apart = passage.from - solid.center;
+        if bound * bound < vec3_dot(apart, apart) {
+            continue;
+        }
+        let mut share = 0.0;
+        for _ in 0..STRIKE_ROUNDS {
+            let place = passage.from + relative * share;
+            let gap = solid_gap(&solid, body, pose, place, passage.reach_share);
+            let closing = -vec3_dot(gap.normal, relative);
+            if !(0.0 < closing && gap.gap_m < closing * (strike.share - share)) {
+                share = 1.0;
+                break;
+            }
+            if gap.gap_m < STRIKE_GAP_M {
+                break;
+            }
+            share += gap.gap_m * reciprocal(closing);
+        }
+        if share < strike.share {
+            strike = Strike { number, share };
+        }
+    }
+    strike
+}
+
+/// Motion of a body after it has struck a part.
+#[inline(always)]
+pub fn struck_motion(
+    body: &LeafBody,
+    motion: &FlightMotion,
+    solid: &SolidAt,
+    gap: &SolidGap,
+    place: Vec3,
+) -> FlightMotion {
+    let along = solid_velocity(solid, place + quat_rotate(motion.pose, gap.arm));
+    let surface = Surface {
+        normal: gap.inner,
+        arm: gap.arm,
+        restitution: solid.restitution,
+        friction: solid.friction,
+        takes_share: (solid.flags & SOLID_LOSS) != 0,
+    };
+    let relative =
+        FlightMotion { velocity: motion.velocity - along, pose: motion.pose, turning: motion.turning };
+    let mut struck = contact_response(body, &relative, &surface);
+    struck.velocity = struck.velocity + along;
+    struck
+}
+
+/// Contacts with solid parts, the ground and the litter on it.
+#[derive(Clone, Copy, Debug)]
+pub struct AmongSolids;
+
+impl Contacts<f32> for AmongSolids {
+    #[inline(always)]
+    fn contact(
+        cx: &Context<'_>,
+        body: &LeafBody,
+        from: Vec3,
+        way: Vec3,
+        motion: FlightMotion,
+        seconds: f32,
+        time: f32,
+    ) -> Contact {
+        let struck = strike_solids(cx, body, from, way, motion, seconds, time);
+        let mut contact = flight_contact(cx, body, struck.position, struck.motion);
+        contact.touches |= struck.touches;
+        contact
+    }
+}
+
+/// A body at the end of a substep of `time` that began `seconds` into the step, and took it `way` on in free flight.
+#[inline(always)]
+pub fn strike_solids(
+    cx: &Context<'_>,
+    body: &LeafBody,
+    from: Vec3,
+    way: Vec3,
+    flown: FlightMotion,
+    seconds: f32,
+    time: f32,
+) -> Contact {
+    let cell = solids_cell(cx, from);
+    let mut contact = Contact { position: from, motion: flown, touches: false };
+    let mut passage = Passage { from, way, seconds, time, reach_share: STRIKE_REACH };
+    for _ in 0..MOST_STRIKES {
+        let strike = first_strike(cx, body, flown.pose, cell, &passage);
+        contact.position = passage.from + passage.way * strike.share;
+        if strike.number == NEVER {
+            break;
+        }
+        passage.from = contact.position;
+        passage.seconds += passage.time * strike.share;
+        passage.time *= 1.0 - strike.share;
+        let solid = solid_at(cx, strike.number, passage.seconds);
+        let gap = solid_gap(&solid, body, flown.pose, contact.position, 1.0);
+        contact.motion = struck_motion(body, &contact.motion, &solid, &gap, contact.position);
+        contact.touches = true;
+        passage.way = contact.motion.velocity * passage.time;
+    }
+    for push in 0..MOST_STRIKES + 1 {
+        let deepest = deepest_overlap(cx, body, flown.pose, cell, contact.position, seconds + time);
+        if deepest.number == NEVER {
+            break;
+        }
+        if push == MOST_STRIKES {
+            if deepest.share < -STUCK_M {
+                contact.position = from;
+                contact.motion.velocity = Vec3::ZERO;
+            }
+            break;
+        }
+        let solid = solid_at(cx, deepest.number, seconds + time);
+        let gap = solid_gap(&solid, body, flown.pose, contact.position, 1.0);
+        contact.motion = struck_motion(body, &contact.motion, &solid, &gap, contact.position);
+        contact.position = contact.position - gap.normal * gap.gap_m;
+        contact.touches = true;
+    }
+    contact
+}
+
+/// Part that a body overlaps the deepest, so many seconds into the step, and the gap in m in place of a share.
+#[inline(always)]
+pub fn deepest_overlap(
+    cx: &Context<'_>,
+    body: &LeafBody,
+    pose: Quat,
+    cell: u32,
+    place: Vec3,
+    seconds: f32,
+) -> Strike {
+    let mut deepest = Strike { number: NEVER, share: 0.0 };
+    for entry in 0..near_count(cx, cell) {
+        let number = near_solid(cx, cell, entry);
+        let gap = solid_gap(&solid_at(cx, number, seconds), body, pose, place, 1.0);
+        if gap.gap_m < deepest.share {
+            deepest = Strike { number, share: gap.gap_m };
+        }
+    }
+    deepest
+}

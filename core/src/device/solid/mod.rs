@@ -1,0 +1,6 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Solid parts as kernels see them.
+
+pub mod near;
+pub mod shape;
