@@ -170,7 +170,10 @@ fn a_changed_kernel_is_noticed() {
     ];
     // So many leaves that some land within any step.
     let mut calm = [varied_scene(3, 10_000, 5.0, 1.0 / 60.0), flying_scene(3, 3000, 5.0, 1.0 / 60.0)];
-    calm.iter_mut().for_each(|scene| scene.wind.vortices.clear());
+    calm.iter_mut().for_each(|scene| {
+        scene.wind.vortices.clear();
+        scene.wind.jets.clear();
+    });
     let hills = warmed(&hilly_scene(calm[0].clone()), 400);
     let litter = warmed(&littered_scene(5, 20_000, 3.5, 1.0 / 60.0), 400);
     let [plain, flying] = calm.map(|scene| warmed(&scene, 400));

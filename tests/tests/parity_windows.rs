@@ -172,6 +172,7 @@ fn a_scene_edited_within_a_window_is_listed_anew() {
     let calm = varied_scene(8, 3000, 1.0, 1.0 / 60.0);
     let mut still = calm.clone();
     still.wind.vortices.clear();
+    still.wind.jets.clear();
     let stormy = varied_scene(8, 3000, 25.0, 1.0 / 60.0);
     // In finer steps a leaf lies down in more of them.
     let fine = varied_scene(8, 3000, 1.0, 1.0 / 240.0);

@@ -8,6 +8,7 @@
 mod file;
 mod flight;
 mod ground;
+mod jet;
 mod lens;
 pub mod limits;
 mod litter;
@@ -29,6 +30,7 @@ use serde::{Deserialize, Serialize};
 
 pub use flight::{Aerodynamics, FlightModel, Hold, Planform};
 pub use ground::Ground;
+pub use jet::{Jet, JetKey};
 pub use lens::{Exposure, Focus, Glare, Lens, ToneMap};
 pub use litter::Litter;
 pub use path::{CameraKey, camera_at};
@@ -50,6 +52,10 @@ pub const MAX_SPECIES: usize = 32;
 pub const MAX_SOURCES: usize = 16;
 /// Most point vortices a scene may have: they travel in the uniform block of every step.
 pub const MAX_VORTICES: usize = 8;
+/// Most jets a scene may have: they travel there, too.
+pub const MAX_JETS: usize = 8;
+/// Most keys a jet may have.
+pub const MAX_JET_KEYS: usize = 1024;
 /// Most keys the path of a camera may have.
 pub const MAX_CAMERA_KEYS: usize = 1024;
 /// Most leaves a scene may have, over all sources (four billion words of state would not fit anywhere yet).

@@ -153,6 +153,21 @@ prop_compose! {
     }
 }
 
+/// One jet with keys a second apart.
+fn jet() -> impl Strategy<Value = Jet> {
+    let end = (vector(limits::JET_M), vector(limits::JET_M).prop_map(|v| v.with_y(v.y.min(4000.0) + 0.5)));
+    let key = (end, within(limits::JET_SPEED_M_S));
+    (within(limits::NOZZLE_M), vec(key, 1..4), 0f32..1000.0).prop_map(|(nozzle_m, keys, from_s)| {
+        let key = |(number, ((at_m, toward_m), speed_m_s))| JetKey {
+            time_s: from_s + number as f32,
+            at_m: at_m.with_y(toward_m.y - 0.5),
+            toward_m,
+            speed_m_s,
+        };
+        Jet { nozzle_m, keys: keys.into_iter().enumerate().map(key).collect() }
+    })
+}
+
 prop_compose! {
     fn wind()(
         direction_deg in within(limits::DIRECTION_DEG),
@@ -172,9 +187,11 @@ prop_compose! {
         turbulence in (within(limits::INTENSITY), within(limits::CELL_M), within(limits::CALM_M_S))
             .prop_map(|(intensity, cell_m, calm_m_s)| Turbulence { intensity, cell_m, calm_m_s }),
         shelter in any::<bool>(),
-        vortices in vec(vortex(), 0..=MAX_VORTICES),
+        (vortices, jets) in (vec(vortex(), 0..=MAX_VORTICES), vec(jet(), 0..=MAX_JETS)),
     ) -> WindParameters {
-        WindParameters { direction_deg, speed, reference_height_m, profile, gusts, turbulence, shelter, vortices }
+        let uniform =
+            WindParameters { direction_deg, speed, reference_height_m, profile, ..WindParameters::default() };
+        WindParameters { gusts, turbulence, shelter, vortices, jets, ..uniform }
     }
 }
 
