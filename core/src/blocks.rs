@@ -334,7 +334,7 @@ crate::shared_struct! {
         pub bend: [f32; 3],
         /// Share of the bend per m along the axis.
         pub turns_per_m: f32,
-        /// Where the axis meets the ground, in m.
+        /// Place at which the axis meets the ground, in m.
         pub middle_m: [f32; 3],
         /// Speed of the radial wall jet times distance in m²/s.
         pub wall_m2_s: f32,

@@ -143,6 +143,9 @@ fn a_changed_kernel_is_noticed() {
         ("leaf/advance", "state == STATE_RESTING) {", "state == STATE_ATTACHED) {"),
         ("wind/sample", "turbulence.y *", "turbulence.x *"),
         ("wind/packed", "words.x << 21u", "words.x << 20u"),
+        ("wind/jet", "(width_squared - squared)", "(width_squared + squared)"),
+        ("wind/jet", "low = height * inverse_rim", "low = from_middle.y * inverse_rim"),
+        ("wind/jet", "* slowed, velocity.y", ", velocity.y"),
         ("kernels/sample_air", "0u - step_block.index", "1u - step_block.index"),
         ("prelude", "const TABLE_ROWS: u32 = 513u", "const TABLE_ROWS: u32 = 512u"),
     ];
@@ -170,10 +173,7 @@ fn a_changed_kernel_is_noticed() {
     ];
     // So many leaves that some land within any step.
     let mut calm = [varied_scene(3, 10_000, 5.0, 1.0 / 60.0), flying_scene(3, 3000, 5.0, 1.0 / 60.0)];
-    calm.iter_mut().for_each(|scene| {
-        scene.wind.vortices.clear();
-        scene.wind.jets.clear();
-    });
+    calm.iter_mut().for_each(|scene| scene.wind.vortices.clear());
     let hills = warmed(&hilly_scene(calm[0].clone()), 400);
     let litter = warmed(&littered_scene(5, 20_000, 3.5, 1.0 / 60.0), 400);
     let [plain, flying] = calm.map(|scene| warmed(&scene, 400));

@@ -153,18 +153,18 @@ prop_compose! {
     }
 }
 
-/// One jet with keys a second apart.
+/// A jet with keys a second apart.
 fn jet() -> impl Strategy<Value = Jet> {
-    let end = (vector(limits::JET_M), vector(limits::JET_M).prop_map(|v| v.with_y(v.y.min(4000.0) + 0.5)));
-    let key = (end, within(limits::JET_SPEED_M_S));
-    (within(limits::NOZZLE_M), vec(key, 1..4), 0f32..1000.0).prop_map(|(nozzle_m, keys, from_s)| {
-        let key = |(number, ((at_m, toward_m), speed_m_s))| JetKey {
-            time_s: from_s + number as f32,
-            at_m: at_m.with_y(toward_m.y - 0.5),
-            toward_m,
-            speed_m_s,
-        };
-        Jet { nozzle_m, keys: keys.into_iter().enumerate().map(key).collect() }
+    let key = (vector(limits::JET_M), vector(limits::JET_M), within(limits::JET_SPEED_M_S));
+    (within(limits::NOZZLE_M), vec(key, 1..4), 0f32..1000.0).prop_map(|(nozzle_m, ends, from_s)| {
+        let mut keys: Vec<JetKey> = Vec::new();
+        for (at_m, toward_m, speed_m_s) in ends {
+            let time_s = keys.last().map_or(from_s, |key| key.time_s + 1.0);
+            // Points apart.
+            let at_m = at_m.with_y(toward_m.y - toward_m.y.signum());
+            keys.push(JetKey { time_s, at_m, toward_m, speed_m_s });
+        }
+        Jet { nozzle_m, keys }
     })
 }
 
