@@ -263,7 +263,7 @@ fn the_wind_that_moves_a_leaf_depends_on_slope_water_and_weight() {
 }
 
 /// Metres from a leaf blower to where more than half of the leaves of a bed are left in its way.
-fn cleared_m(height_m: f32, aim_m: f32) -> usize {
+fn cleared_m(height_m: f32, aim_m: u8) -> usize {
     let litter = Litter {
         center_m: Vec2::new(9.0, 0.0),
         size_m: Vec2::new(20.0, 3.0),
@@ -271,7 +271,7 @@ fn cleared_m(height_m: f32, aim_m: f32) -> usize {
         ..Litter::default()
     };
     let mut scene = bed(litter);
-    let (at_m, toward_m) = (Point::Y * height_m, Point::X * aim_m);
+    let (at_m, toward_m) = (Point::Y * height_m, Point::X * f32::from(aim_m));
     let key = JetKey { time_s: 0.0, at_m, toward_m, speed_m_s: 106.0 };
     scene.wind.jets = vec![Jet { nozzle_m: 0.062, keys: vec![key] }];
     let world = World::build(&scene).expect("valid");
@@ -280,15 +280,14 @@ fn cleared_m(height_m: f32, aim_m: f32) -> usize {
         lying.filter(|[x, _, z]| z.abs() < 0.25 && (x - 0.5 - metre as f32).abs() < 0.5).count()
     };
     let later = stepped(&world, 600.0);
-    let first = aim_m as usize;
     let is_left = |metre: &usize| 2 * count(&later, *metre) > count(&world, *metre);
-    (first..19).find(is_left).expect("an end")
+    (usize::from(aim_m)..19).find(is_left).expect("an end")
 }
 
 /// A leaf blower of 0.32 m³/s at 106 m/s moves leaves up to 12 m, says the trade; it clears a bed of 0.2 kg/m² for 8 to 13 m.
 #[test]
 fn a_leaf_blower_clears_as_far_as_it_is_said_to() {
-    for (height_m, aim_m) in [(1.0, 3.0), (1.0, 6.0), (0.4, 4.0)] {
+    for (height_m, aim_m) in [(1.0, 3), (1.0, 6), (0.4, 4)] {
         let cleared = cleared_m(height_m, aim_m);
         assert!((8..=13).contains(&cleared), "from {height_m} m, aimed {aim_m} m ahead: {cleared} m");
     }
