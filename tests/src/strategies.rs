@@ -193,6 +193,8 @@ pub fn hilly_scene(mut scene: Scene) -> Scene {
 /// and come to rest, on one another and at the foot of a heap.
 pub fn littered_scene(seed: u64, leaves: u32, speed_m_s: f32, dt_s: f32) -> Scene {
     let mut scene = varied_scene(seed, leaves, speed_m_s, dt_s);
+    // So weak that leaves still lie.
+    scene.wind.jets[0].keys.iter_mut().for_each(|key| key.speed_m_s *= 0.2);
     scene.species[1].flight = FlightModel::Aerodynamic(Aerodynamics::default());
     scene.ground.surface_roughness_m = 0.001;
     scene.ground.litter =
