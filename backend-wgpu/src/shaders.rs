@@ -178,6 +178,7 @@ impl Default for Shaders {
             "tree/sway/twig",
             "tree/sway/work",
             "wind/gust",
+            "wind/jet",
             "wind/packed",
             "wind/profile",
             "wind/row",

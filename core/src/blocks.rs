@@ -6,7 +6,7 @@
 
 use crate::flight::block::BodyBlock;
 use crate::layout::{Float4, Uint4};
-use crate::scene::{MAX_MOVERS, MAX_SOURCES, MAX_SPECIES, MAX_VORTICES};
+use crate::scene::{MAX_JETS, MAX_MOVERS, MAX_SOURCES, MAX_SPECIES, MAX_VORTICES};
 
 crate::shared_struct! {
     /// One species, compiled.
@@ -355,10 +355,44 @@ crate::shared_struct! {
 }
 
 crate::shared_struct! {
+    /// One jet at one step (see [`wind_jet`](crate::device::wind::jet::wind_jet)).
+    pub struct JetBlock, padding 4 {
+        /// Middle of the nozzle in m.
+        pub nozzle_m: [f32; 3],
+        /// Width b of the core in m.
+        pub width_m: f32,
+        /// Unit vector along the axis.
+        pub axis: [f32; 3],
+        /// Speed in the core times its width in m²/s; 0 while nothing blows.
+        pub strength_m2_s: f32,
+        /// Unit vector along the ground below the axis.
+        pub heading: [f32; 3],
+        /// Distance along the axis in m from which on it bends.
+        pub turn_start_m: f32,
+        /// Way across the axis that the bent one is off it, per m along it.
+        pub bend: [f32; 3],
+        /// Share of the bend per m along the axis.
+        pub turns_per_m: f32,
+        /// Place at which the axis meets the ground, in m.
+        pub middle_m: [f32; 3],
+        /// Speed of the radial wall jet times distance in m²/s.
+        pub wall_m2_s: f32,
+        /// Square of the radius in m² within which that jet begins.
+        pub middle_m2: f32,
+        /// Half of the length of the bend in m.
+        pub half_turn_m: f32,
+        /// Diameters of the nozzle per m.
+        pub diameters_per_m: f32,
+    }
+}
+
+crate::shared_struct! {
     /// The wind's patterns at one moment.
     pub struct MomentBlock, padding 8 {
         /// The vortices where they are then.
         pub vortices: [VortexBlock; MAX_VORTICES],
+        /// The jets where they are then.
+        pub jets: [JetBlock; MAX_JETS],
         /// Rows of the gust table that the mean wind has carried past, within one period.
         pub gust_offset: f32,
         /// Cells of turbulence that the mean wind has carried past, within one period.
@@ -386,7 +420,7 @@ crate::shared_struct! {
 
 crate::shared_struct! {
     /// Everything that changes from step to step.
-    pub struct StepBlock, padding 8 {
+    pub struct StepBlock, padding 4 {
         /// The wind at the start of the step ([`MOMENT_NOW`]), and in the middle of the interval for which a falling leaf samples it
         /// ([`MOMENT_MIDDLE`]).
         pub moments: [MomentBlock; 2],
@@ -396,6 +430,8 @@ crate::shared_struct! {
         pub index: u32,
         /// Number of vortices.
         pub vortex_count: u32,
+        /// Number of jets.
+        pub jet_count: u32,
     }
 }
 

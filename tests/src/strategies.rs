@@ -6,9 +6,9 @@ use glam::{Vec2, Vec3};
 use proptest::prelude::*;
 use windfall_core::motion::Primitive;
 use windfall_core::scene::{
-    Aerodynamics, FlightModel, Foliage, Gusts, Hold, Litter, MeanSpeed, Object, ObjectFriction, ObjectKey,
-    ObjectMotion, ObjectShape, Planform, Profile, Release, Scene, Share, Source, SourceShape, Species,
-    Terrain, Tree, TreeKind, Turbulence, Vortex, Walker, Water, WindParameters,
+    Aerodynamics, FlightModel, Foliage, Gusts, Hold, Jet, JetKey, Litter, MeanSpeed, Object, ObjectFriction,
+    ObjectKey, ObjectMotion, ObjectShape, Planform, Profile, Release, Scene, Share, Source, SourceShape,
+    Species, Terrain, Tree, TreeKind, Turbulence, Vortex, Walker, Water, WindParameters,
 };
 
 use crate::functions::Input;
@@ -38,6 +38,20 @@ fn shape(inputs: &[Input], raw: &[u32]) -> Words {
         };
     }
     words
+}
+
+/// A fan in the air that turns down to the ground.
+pub fn jet() -> Jet {
+    let key = |time_s, x, y, speed_m_s| JetKey {
+        time_s,
+        at_m: Vec3::new(-6.0, 2.0, 1.0),
+        toward_m: Vec3::new(x, y, 0.0),
+        speed_m_s,
+    };
+    Jet {
+        nozzle_m: 2.0,
+        keys: vec![key(0.0, 4.0, 2.5, 0.0), key(2.0, 4.0, 1.0, 5.0), key(9.0, -5.0, 0.0, 4.0)],
+    }
 }
 
 /// A scene with every kind of source, gusts, turbulence, a vortex and two species; small enough to build in no time.
@@ -192,10 +206,17 @@ pub fn littered_scene(seed: u64, leaves: u32, speed_m_s: f32, dt_s: f32) -> Scen
     scene
 }
 
-/// A scene with living litter, `leaves` leaves in the air and solid things of every shape among them, still and moving, and somebody
+/// A scene with living litter, a jet, `leaves` leaves in the air and solid things of every shape among them, still and moving, and somebody
 /// who walks there.
 pub fn obstructed_scene(seed: u64, leaves: u32, speed_m_s: f32, dt_s: f32) -> Scene {
     let mut scene = littered_scene(seed, leaves, speed_m_s, dt_s);
+    // So weak that leaves still lie.
+    let mut jet = jet();
+    jet.keys.iter_mut().for_each(|key| key.speed_m_s *= 0.2);
+    scene.wind.jets = vec![jet];
+    if let Some(source) = scene.sources.last_mut() {
+        source.shape = SourceShape::Disc { center_m: Vec3::new(0.5, 1.5, 0.5), radius_m: 1.5 };
+    }
     let solid = |shape, x, y, z| Object { shape, at_m: Vec3::new(x, y, z), ..Object::default() };
     let key = |time_s, x, y, z| ObjectKey { time_s, moved_m: Vec3::new(x, y, z), turned_deg: 40.0 * time_s };
     scene.objects = vec![
@@ -251,12 +272,13 @@ fn ground() -> impl Strategy<Value = (Option<Terrain>, Option<Water>)> {
     (proptest::option::of(terrain), proptest::option::of(water))
 }
 
-/// The same scene in a wind without chaos: profile and gusts, but eddies of tens of metres and no vortex, so that two
+/// The same scene in a wind without chaos: profile and gusts, but eddies of tens of metres, no vortex and no jet, so that two
 /// leaves a rounding error apart stay about that far apart.
 pub fn smooth_scene(seed: u64, leaves: u32, speed_m_s: f32, dt_s: f32) -> Scene {
     let mut scene = varied_scene(seed, leaves, speed_m_s, dt_s);
     scene.wind.turbulence = Turbulence { intensity: 0.1, cell_m: 10.0, ..Turbulence::default() };
     scene.wind.vortices.clear();
+    scene.wind.jets.clear();
     scene
 }
 
@@ -318,11 +340,11 @@ pub fn scenes(leaves: std::ops::Range<u32>) -> impl Strategy<Value = Scene> {
         prop_oneof![Just(1.0 / 60.0), Just(1.0 / 30.0), Just(1.0 / 240.0)],
     );
     let motion = (0.3f32..2.5, 0.2f32..1.5, 0usize..6, 0f32..0.25, 0.05f32..2.0);
-    let place = (-200f32..200.0, 0.1f32..1.0, 0usize..3, 0u32..2);
+    let place = (-200f32..200.0, 0.1f32..1.0, 0usize..3, (0usize..2, 0usize..2));
     (numbers, motion, place, woods(), proptest::option::of(aerodynamics()), ground())
         .prop_map(|((seed, leaves, speed, dt), motion, place, woods, body, ground)| {
             let (fall_speed, rotation_speed, start, variation, friction) = motion;
-            let (offset, intensity, profile, vortices) = place;
+            let (offset, intensity, profile, (vortices, jets)) = place;
             let mut scene = varied_scene(seed, leaves, speed, dt);
             (scene.trees, scene.autumn, scene.regrow_after_s) = woods;
             scene.fall_speed = fall_speed;
@@ -338,7 +360,8 @@ pub fn scenes(leaves: std::ops::Range<u32>) -> impl Strategy<Value = Scene> {
                 Profile::Power { exponent: 0.3 },
                 Profile::Log { roughness_m: 0.05, displacement_m: 0.5 },
             ][profile];
-            scene.wind.vortices.truncate(vortices as usize);
+            scene.wind.vortices.truncate(vortices);
+            scene.wind.jets.truncate(jets);
             for source in &mut scene.sources {
                 let (SourceShape::Box { center_m, .. }
                 | SourceShape::Disc { center_m, .. }

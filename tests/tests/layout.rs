@@ -8,8 +8,8 @@ use std::path::{Path, PathBuf};
 
 use naga::{AddressSpace, TypeInner};
 use windfall_core::blocks::{
-    LitterBlock, MomentBlock, MoverBlock, ResponseBlock, SceneBlock, ShelterBlock, SolidsBlock, SourceBlock,
-    SpeciesBlock, StepBlock, SwayBlock, VortexBlock, WindBlock,
+    JetBlock, LitterBlock, MomentBlock, MoverBlock, ResponseBlock, SceneBlock, ShelterBlock, SolidsBlock,
+    SourceBlock, SpeciesBlock, StepBlock, SwayBlock, VortexBlock, WindBlock,
 };
 use windfall_core::flight::block::BodyBlock;
 use windfall_core::layout::WgslStruct;
@@ -63,6 +63,7 @@ fn every_module_is_valid_and_every_struct_has_one_layout() {
     same_layout::<BodyBlock>(&module);
     same_layout::<SceneBlock>(&module);
     same_layout::<VortexBlock>(&module);
+    same_layout::<JetBlock>(&module);
     same_layout::<MomentBlock>(&module);
     same_layout::<StepBlock>(&module);
     same_layout::<LitterBlock>(&module);

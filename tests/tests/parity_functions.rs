@@ -12,7 +12,7 @@ use windfall_core::{Contract, World};
 use windfall_tests::adapter;
 use windfall_tests::functions::{self, Function};
 use windfall_tests::runner::{FunctionRunner, Words};
-use windfall_tests::strategies::{cases, flying_scene, hilly_scene, obstructed_scene};
+use windfall_tests::strategies::{cases, flying_scene, hilly_scene, jet, obstructed_scene};
 use windfall_wgpu::{Gpu, Shaders};
 
 /// Cases in one dispatch; not a multiple of the workgroup size.
@@ -27,6 +27,7 @@ fn bed() -> Litter {
 
 fn world(litter: Option<Litter>) -> World {
     let mut scene = hilly_scene(flying_scene(5, 300, 6.0, 1.0 / 60.0));
+    scene.wind.jets = vec![jet()];
     scene.ground.litter = litter;
     let mut world = World::build(&scene).expect("the flying scene is valid on hills");
     for _ in 0..100 {

@@ -10,7 +10,9 @@ use windfall_core::{Contract, Scene, Simulator, World};
 use windfall_cpu::{CpuOptions, CpuSimulator};
 use windfall_tests::adapter;
 use windfall_tests::compare::{STEP_SEGMENT, STEP_ULPS, difference, ulp};
-use windfall_tests::strategies::{flying_scene, hilly_scene, littered_scene, scenes, varied_scene};
+use windfall_tests::strategies::{
+    flying_scene, hilly_scene, jet, littered_scene, obstructed_scene, scenes, varied_scene,
+};
 use windfall_wgpu::{Gpu, KernelId, Shaders, WgpuOptions, WgpuSimulator};
 
 /// Worlds for each adapter and contract.
@@ -146,6 +148,11 @@ fn a_changed_kernel_is_noticed() {
         ("kernels/sample_air", "0u - step_block.index", "1u - step_block.index"),
         ("prelude", "const TABLE_ROWS: u32 = 513u", "const TABLE_ROWS: u32 = 512u"),
     ];
+    let blown = [
+        ("wind/jet", "(width_squared - squared)", "(width_squared + squared)"),
+        ("wind/jet", "low = height * inverse_rim", "low = from_middle.y * inverse_rim"),
+        ("wind/jet", "* slowed, velocity.y", ", velocity.y"),
+    ];
     let flown = [
         ("flight/rates", "- normal_force,", "+ normal_force,"),
         ("leaf/fly", "motion = step.end", "motion.velocity = step.end.velocity"),
@@ -168,18 +175,32 @@ fn a_changed_kernel_is_noticed() {
         ("kernels/stack_litter", "near + line, heights.z", "near + line, heights.y"),
         ("kernels/wake_lying", "0u - step_block.index", "1u - step_block.index"),
     ];
+    let obstructed = [
+        ("leaf/strike", "(end - start) * scene.inv_dt_s", "(end - start) * scene.dt_s"),
+        ("leaf/strike", "< size_m + way", "< way"),
+        ("flight/strike", "- gap.normal * gap.gap_m", "- gap.normal * (0.5 * gap.gap_m)"),
+        ("solid/shape", "solid.velocity * seconds", "solid.velocity"),
+        ("solid/near", "(place - movers)", "place"),
+    ];
     // So many leaves that some land within any step.
     let mut calm = [varied_scene(3, 10_000, 5.0, 1.0 / 60.0), flying_scene(3, 3000, 5.0, 1.0 / 60.0)];
     calm.iter_mut().for_each(|scene| scene.wind.vortices.clear());
     let hills = warmed(&hilly_scene(calm[0].clone()), 400);
+    let mut jets = calm[0].clone();
+    jets.wind.jets = vec![jet()];
+    let jets = warmed(&jets, 400);
     let litter = warmed(&littered_scene(5, 20_000, 3.5, 1.0 / 60.0), 400);
+    let solids = warmed(&obstructed_scene(5, 20_000, 2.0, 1.0 / 60.0), 150);
     let [plain, flying] = calm.map(|scene| warmed(&scene, 400));
     for (gpu, contract) in adapter::contracts() {
         let edits = synthesised.map(|edit| (edit, &plain)).into_iter();
+        let edits = edits.chain(blown.map(|edit| (edit, &jets)));
         let edits = edits.chain(flown.map(|edit| (edit, &flying))).chain(hilly.map(|edit| (edit, &hills)));
         // The wind decides about lying leaves by comparing floats: to the bit, or not at all.
         let is_exact = contract == Contract::Exact;
-        let edits = edits.chain(littered.map(|edit| (edit, &litter)).into_iter().filter(|_| is_exact));
+        let among =
+            littered.map(|edit| (edit, &litter)).into_iter().chain(obstructed.map(|edit| (edit, &solids)));
+        let edits = edits.chain(among.filter(|_| is_exact));
         for ((module, old, new), world) in edits {
             let shaders = Shaders::default().edited(module, old, new).expect("the edited text is there");
             let (oracle, candidate) = one_step(&gpu, contract, Some(shaders), world);

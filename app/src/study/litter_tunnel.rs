@@ -138,6 +138,7 @@ impl Tunnel {
             gusts: Gusts { strength: 0.0, ..Gusts::default() },
             turbulence: Turbulence { intensity, cell_m: 1.0, calm_m_s: 0.0 },
             vortices: Vec::new(),
+            jets: Vec::new(),
             shelter: false,
         };
         scene.ground.surface_roughness_m = roughness_m;

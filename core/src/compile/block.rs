@@ -154,7 +154,8 @@ fn set_litter(scene: &Scene, litter: &Litter, block: &mut LitterBlock) {
     block.raise_spread = turns(most) - turns(least);
     let is_calm = scene.wind.speed.metres_per_second() == 0.0
         && deviation_m_s(&scene.wind) == 0.0
-        && scene.wind.vortices.is_empty();
+        && scene.wind.vortices.is_empty()
+        && scene.wind.jets.is_empty();
     block.is_calm = u32::from(is_calm);
     (block.wake_steps, block.cover_steps) =
         if is_calm { (CALM_INTERVAL, CALM_INTERVAL) } else { (WAKE_INTERVAL, COVER_INTERVAL) };

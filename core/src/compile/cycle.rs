@@ -52,7 +52,7 @@ impl Cycle {
     /// second as they do on average, evenly, gusts and cells of turbulence are a little longer or shorter.
     ///
     /// # Errors
-    /// [`SceneError::Field`] for what cannot repeat: leaves let go once, vortices that travel. Pictures of a scene may have more
+    /// [`SceneError::Field`] for what cannot repeat: leaves let go once, vortices that travel, jets that move or change. Pictures of a scene may have more
     /// that does not, such as a camera that travels.
     pub fn of(scene: &Scene, file: &str, seconds: f64) -> Result<(Scene, Self), SceneError> {
         let refuse = |field: String, value: String, allowed: &str| {
@@ -72,6 +72,13 @@ impl Cycle {
             if vortex.drift_m_s != glam::Vec3::ZERO {
                 let field = format!("wind.vortices[{index}].drift_m_s");
                 return refuse(field, vortex.drift_m_s.to_string(), "vortices that stay where they are");
+            }
+        }
+        for (index, jet) in scene.wind.jets.iter().enumerate() {
+            if !jet.is_steady() {
+                let field = format!("wind.jets[{index}].keys");
+                let value = format!("{} that differ", jet.keys.len());
+                return refuse(field, value, "jets that stay as they are");
             }
         }
         if scene.ground.litter.is_some_and(|litter| !litter.still) {

@@ -7,6 +7,7 @@ mod body;
 mod cycle;
 mod field;
 mod foliage;
+mod jet;
 mod shelter;
 mod solids;
 mod source;
@@ -22,12 +23,13 @@ pub use self::cycle::Cycle;
 use self::cycle::firm;
 pub(crate) use self::foliage::leaf_site;
 use self::foliage::{foliage_of, petiole_rows, seedlings, shed_rows};
+use self::jet::jet_block;
 use self::shelter::{is_sheltered, shelter_inputs, shelter_rows};
 use self::solids::Solids;
 pub(crate) use self::source::{lifetime_steps, release_step};
 use self::tables::{motions_of, pack_motion};
 use crate::arith::rng::seed_words;
-use crate::blocks::{MomentBlock, MoverBlock, SceneBlock, StepBlock, VortexBlock};
+use crate::blocks::{JetBlock, MomentBlock, MoverBlock, SceneBlock, StepBlock, VortexBlock};
 use crate::clock::Clock;
 use crate::context::Context;
 use crate::convert::{len32, single};
@@ -40,7 +42,7 @@ use crate::error::{SceneError, SimError};
 use crate::layout::Uint4;
 use crate::leaf::Leaves;
 use crate::litter::Bed;
-use crate::scene::{MAX_MOVERS, Scene};
+use crate::scene::{MAX_MOVERS, Profile, Scene};
 use crate::store::{StoreSize, check_sizes};
 use crate::terrain::Hills;
 use crate::threads::both;
@@ -211,6 +213,7 @@ impl CompiledScene {
             movers: self.movers_at(clock.seconds()),
             index: clock.step(),
             vortex_count: len32(self.scene.wind.vortices.len()),
+            jet_count: len32(self.scene.wind.jets.len()),
             padding: Default::default(),
         }
     }
@@ -259,8 +262,20 @@ impl CompiledScene {
                 padding: Default::default(),
             };
         }
+        let mut jets = [<JetBlock as bytemuck::Zeroable>::zeroed(); crate::scene::MAX_JETS];
+        // A uniform wind has no ground.
+        let has_ground = self.scene.wind.profile != Profile::Uniform;
+        let ground = |at: glam::DVec3| {
+            has_ground.then(|| {
+                self.ground_height(single(at.x), single(at.z)).max(self.block.surface_height_m).into()
+            })
+        };
+        for (jet, block) in self.scene.wind.jets.iter().zip(&mut jets) {
+            *block = jet_block(jet, seconds, ground);
+        }
         MomentBlock {
             vortices,
+            jets,
             gust_offset: carried(wind.gust_rows_per_m, GUST_ROWS, |cycle| cycle.gust_rows),
             turbulence_offset: carried(wind.cells_per_m[0], TURBULENCE_X, |cycle| cycle.cells),
             padding: Default::default(),

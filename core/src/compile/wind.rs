@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Compiles the wind.
 
+use super::jet::core_width_m;
 use crate::blocks::WindBlock;
 use crate::convert::single;
 use crate::device::wind::gust::{GUST_ROWS, GUST_SPACING};
@@ -70,6 +71,9 @@ fn interval_steps(scene: &Scene) -> u32 {
         let swirl = f64::from(vortex.circulation_m2_s).abs() / (4.0 * std::f64::consts::PI * core);
         let passing = libm::hypot(swirl, f64::from(vortex.axial_m_s));
         most_s = most_s.min(LARGEST_SHARE * core / passing.max(DESCENT_M_S));
+    }
+    for jet in &wind.jets {
+        most_s = most_s.min(LARGEST_SHARE * core_width_m(jet) / jet.fastest_m_s().max(DESCENT_M_S));
     }
     // Step lengths are given in single precision.
     let fits = |steps: &u32| f64::from(*steps) * f64::from(scene.dt_s) <= most_s * (1.0 + 1e-6);

@@ -163,6 +163,9 @@ limits! {
     CORE_M: f32 = 0.05, 100.0, "m", core_m;
     AXIAL_M_S: f32 = -50.0, 50.0, "m/s", axial_m_s;
     DRIFT_M_S: f32 = -50.0, 50.0, "m/s", drift_m_s;
+    NOZZLE_M: f32 = 0.01, 20.0, "m", nozzle_m;
+    JET_SPEED_M_S: f32 = 0.0, 300.0, "m/s", speed_m_s;
+    JET_M: f32 = -4096.0, 4096.0, "m", at_m toward_m;
 
     CAMERA_M: f32 = -100_000.0, 100_000.0, "m", eye_m target_m;
     VERTICAL_FOV_DEG: f32 = 5.0, 120.0, "degrees", vertical_fov_deg;
@@ -207,6 +210,7 @@ mod tests {
         include_str!("mod.rs"),
         include_str!("flight.rs"),
         include_str!("ground.rs"),
+        include_str!("jet.rs"),
         include_str!("lens.rs"),
         include_str!("litter.rs"),
         include_str!("object.rs"),

@@ -8,6 +8,7 @@
 mod file;
 mod flight;
 mod ground;
+mod jet;
 pub(crate) mod keyed;
 mod lens;
 pub mod limits;
@@ -31,6 +32,7 @@ use serde::{Deserialize, Serialize};
 
 pub use flight::{Aerodynamics, FlightModel, Hold, Planform};
 pub use ground::Ground;
+pub use jet::{Jet, JetKey};
 pub use lens::{Exposure, Focus, Glare, Lens, ToneMap};
 pub use litter::Litter;
 pub use object::{Object, ObjectFriction, ObjectKey, ObjectMotion, ObjectShape, Walker};
@@ -53,6 +55,10 @@ pub const MAX_SPECIES: usize = 32;
 pub const MAX_SOURCES: usize = 16;
 /// Most point vortices a scene may have: they travel in the uniform block of every step.
 pub const MAX_VORTICES: usize = 8;
+/// Most jets a scene may have: they travel there, too.
+pub const MAX_JETS: usize = 8;
+/// Most keys a jet may have.
+pub const MAX_JET_KEYS: usize = 1024;
 /// Most objects a scene may have.
 pub const MAX_OBJECTS: usize = 4096;
 /// Most solid parts of a scene that may move: objects on a path, and ten limbs of each walker. They travel in the uniform block of every

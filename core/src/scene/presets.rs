@@ -18,6 +18,7 @@ pub const PRESETS: &[(&str, &str)] = &[
     ("macro", include_str!("../../scenes/macro.ron")),
     ("winter", include_str!("../../scenes/winter.ron")),
     ("hills", include_str!("../../scenes/hills.ron")),
+    ("blower", include_str!("../../scenes/blower.ron")),
 ];
 
 impl Scene {
@@ -57,7 +58,8 @@ mod tests {
                 "evening",
                 "macro",
                 "winter",
-                "hills"
+                "hills",
+                "blower"
             ],
             "names and their order"
         );

@@ -11,9 +11,10 @@ mod tests;
 mod trees;
 
 use super::{
-    Aerodynamics, Camera, FlightModel, Ground, Haze, Litter, MAX_LEAVES, MAX_SOURCES, MAX_SPECIES,
-    MAX_TREE_LEAVES, MAX_VORTICES, MeanSpeed, MotionParameters, PhysicalSky, Profile, Release, RotationModel,
-    Scene, Sky, SkyMap, Source, SourceShape, Species, Sun, Terrain, View, Vortex, WindParameters, limits,
+    Aerodynamics, Camera, FlightModel, Ground, Haze, Jet, Litter, MAX_JET_KEYS, MAX_JETS, MAX_LEAVES,
+    MAX_SOURCES, MAX_SPECIES, MAX_TREE_LEAVES, MAX_VORTICES, MeanSpeed, MotionParameters, PhysicalSky,
+    Profile, Release, RotationModel, Scene, Sky, SkyMap, Source, SourceShape, Species, Sun, Terrain, View,
+    Vortex, WindParameters, limits,
 };
 use crate::SceneError;
 use check::Check;
@@ -220,6 +221,10 @@ impl WindParameters {
         for (index, vortex) in self.vortices.iter().enumerate() {
             vortex.check(&at.inside(format!("vortices[{index}]")))?;
         }
+        at.length("jets", self.jets.len(), 0, MAX_JETS)?;
+        for (index, jet) in self.jets.iter().enumerate() {
+            jet.check(&at.inside(format!("jets[{index}]")))?;
+        }
         Ok(())
     }
 }
@@ -237,6 +242,28 @@ impl Vortex {
             ("axial_m_s", self.axial_m_s.into(), limits::AXIAL_M_S),
         ])?;
         at.vector("drift_m_s", self.drift_m_s, limits::DRIFT_M_S)
+    }
+}
+
+impl Jet {
+    fn check(&self, at: &Check<'_>) -> Result<(), SceneError> {
+        at.numbers([("nozzle_m", self.nozzle_m.into(), limits::NOZZLE_M)])?;
+        at.length("keys", self.keys.len(), 1, MAX_JET_KEYS)?;
+        let mut earlier_s = None;
+        for (index, key) in self.keys.iter().enumerate() {
+            let at = at.inside(format!("keys[{index}]"));
+            at.numbers([
+                ("time_s", key.time_s.into(), limits::KEY_TIME_S),
+                ("speed_m_s", key.speed_m_s.into(), limits::JET_SPEED_M_S),
+            ])?;
+            at.vector("at_m", key.at_m, limits::JET_M)?;
+            at.vector("toward_m", key.toward_m, limits::JET_M)?;
+            at.holds(key.at_m.distance(key.toward_m) >= 0.01, "toward_m", || {
+                (format!("{:?}", key.toward_m.to_array()), "a point at least 0.01 m from at_m".into())
+            })?;
+            at.later(key.time_s, &mut earlier_s)?;
+        }
+        Ok(())
     }
 }
 

@@ -5,6 +5,8 @@
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
+use super::Jet;
+
 /// Mean wind speed at the reference height.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum MeanSpeed {
@@ -85,7 +87,7 @@ pub struct Vortex {
     pub drift_m_s: Vec3,
 }
 
-/// The wind: mean flow, gusts, turbulence and vortices.
+/// The wind: mean flow, gusts, turbulence, vortices and jets.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct WindParameters {
@@ -105,6 +107,8 @@ pub struct WindParameters {
     pub shelter: bool,
     /// Point vortices, at most 8.
     pub vortices: Vec<Vortex>,
+    /// Jets of air, at most 8.
+    pub jets: Vec<Jet>,
 }
 
 impl Default for WindParameters {
@@ -118,6 +122,7 @@ impl Default for WindParameters {
             turbulence: Turbulence::default(),
             shelter: true,
             vortices: Vec::new(),
+            jets: Vec::new(),
         }
     }
 }

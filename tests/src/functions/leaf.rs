@@ -36,6 +36,7 @@ use windfall_core::device::motion::lookup::{
 };
 use windfall_core::device::terrain::ground::{ground_met, ground_relief, ground_rest, ground_slope};
 use windfall_core::device::wind::gust::wind_gust;
+use windfall_core::device::wind::jet::wind_jet;
 use windfall_core::device::wind::packed::{wind_pack, wind_unpack};
 use windfall_core::device::wind::profile::{wind_profile, wind_vertical};
 use windfall_core::device::wind::sample::wind_at;
@@ -377,6 +378,10 @@ functions! {
     wind_vortex in "wind/vortex" (METRES, METRES, METRES) tolerance Some(2e-6);
     wgsl "r = vec4<u32>(bitcast<vec3<u32>>(wind_vortex(MOMENT_NOW, 0u, bitcast<vec3<f32>>(a.xyz))), 0u);";
     rust |cx, w| floats(wind_vortex(&cx.step.moments[0].vortices[0], vector(w, 0)).to_array());
+
+    wind_jet in "wind/jet" (METRES, Input::Float(-1.0, 9.0), METRES, Input::Float(0.0, 1.2)) tolerance Some(1e-4);
+    wgsl "r = vec4<u32>(bitcast<vec3<u32>>(wind_jet(MOMENT_NOW, 0u, bitcast<vec3<f32>>(a.xyz), bitcast<f32>(a.w))), 0u);";
+    rust |cx, w| floats(wind_jet(cx, &cx.step.moments[0].jets[0], vector(w, 0), float(w[3])).to_array());
 
     wind_pack in "wind/packed" (SPEED, SPEED, SPEED) tolerance None;
     wgsl "r = vec4<u32>(wind_pack(bitcast<vec3<f32>>(a.xyz)), 0u, 0u);";

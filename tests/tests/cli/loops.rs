@@ -11,7 +11,7 @@ use windfall_wgpu::{Gpu, WgpuOptions, WgpuSimulator};
 
 use crate::common_cli::{assert_refused, file, folder, windfall};
 
-/// Two sources, one of bodies, in gusts, turbulence and a vortex.
+/// Two sources, one of bodies, in gusts, turbulence, a vortex and a jet.
 const SCENE: &str = "(
     species: [(name: \"leaf\"), (name: \"body\", flight: Aerodynamic(()))],
     sources: [
@@ -21,7 +21,8 @@ const SCENE: &str = "(
          release: Rate(per_s: 20.0, from_s: -4.0), recycle_after_s: 5.0, species: [(species: \"body\", weight: 1)]),
     ],
     wind: (speed: MetresPerSecond(2.0), vortices: [(center_m: (1.0, 1.0, 0.0), axis: (0.0, 1.0, 0.0),
-        circulation_m2_s: 2.0, core_m: 0.5, axial_m_s: 0.0, drift_m_s: (0.0, 0.0, 0.0))]),
+        circulation_m2_s: 2.0, core_m: 0.5, axial_m_s: 0.0, drift_m_s: (0.0, 0.0, 0.0))],
+        jets: [(nozzle_m: 0.5, keys: [(time_s: 0.0, at_m: (-2.0, 1.0, 0.0), toward_m: (0.0, 0.5, 0.0), speed_m_s: 3.0)])]),
     view: (camera: (eye_m: (0.0, 2.0, 8.0), target_m: (0.0, 1.6, 0.0))),
 )";
 
@@ -190,6 +191,9 @@ fn what_cannot_repeat_is_refused() {
         "(wind: (vortices: [(center_m: (0.0, 0.0, 0.0), axis: (0.0, 1.0, 0.0), circulation_m2_s: 1.0,
         core_m: 1.0, axial_m_s: 0.0, drift_m_s: (1.0, 0.0, 0.0))]))";
     refuse(vortex, "4", &["wind.vortices[0].drift_m_s", "stay"]);
+    let jet = "(wind: (jets: [(nozzle_m: 0.1, keys: [(time_s: 0.0, at_m: (0.0, 1.0, 0.0), toward_m: (1.0, 1.0, 0.0), speed_m_s: 0.0),
+        (time_s: 1.0, at_m: (0.0, 1.0, 0.0), toward_m: (1.0, 1.0, 0.0), speed_m_s: 9.0)])]))";
+    refuse(jet, "4", &["wind.jets[0].keys is 2 that differ", "jets that stay as they are in a loop"]);
     file(&there, "no.ron", "()");
     let exported = ["export", "no.ron", "--loop", "0.5", "--out", "x.csv"];
     assert_refused(&there, &exported, &["--loop", "1", "120"]);

@@ -10,6 +10,7 @@ mod drops;
 mod feature;
 mod flight;
 mod gravity;
+mod jet;
 mod landing;
 mod launch;
 mod litter;

@@ -300,7 +300,7 @@ fn retuning_equals_compiling_anew() {
     let mut base = Scene::preset("storm").expect("a preset");
     base.fall_speed = 0.8;
     let calm = still_scene(uniform_species(), 1, 5.0).wind;
-    let changes: [Change; 11] = [
+    let changes: [Change; 12] = [
         ("nothing", |_| {}),
         ("speed", |scene| scene.wind.speed = MeanSpeed::MetresPerSecond(3.3)),
         ("direction", |scene| scene.wind.direction_deg = -77.0),
@@ -313,6 +313,7 @@ fn retuning_equals_compiling_anew() {
         ("ground", |scene| scene.ground.friction = 0.31),
         ("roughness", |scene| scene.ground.surface_roughness_m = 0.02),
         ("sway", |scene| scene.sway_every = 2),
+        ("jets", |scene| scene.wind.jets = vec![super::jet::blower(), super::jet::blower()]),
         ("speeds", |scene| (scene.fall_speed, scene.rotation_speed) = (1.3, 2.2)),
     ];
     let mut retuned = CompiledScene::compile(&base).expect("a preset");

@@ -1,10 +1,11 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // twin: core/src/device/wind/sample.rs
-// Velocity of the air at a place: mean flow, gusts, turbulence, vortices.
+// Velocity of the air at a place: mean flow, gusts, turbulence, vortices, jets.
 #import terrain/ground
 #import terrain/litter
 #import wind/gust
+#import wind/jet
 #import wind/profile
 #import wind/shelter
 #import wind/turbulence
@@ -43,6 +44,9 @@ fn wind_at_moment(moment: u32, place: vec3<f32>) -> vec3<f32> {
     var air = vec3<f32>(u * direction_x - w * direction_z, v, u * direction_z + w * direction_x);
     for (var index = 0u; index < step_block.vortex_count; index++) {
         air = air + wind_vortex(moment, index, place);
+    }
+    for (var index = 0u; index < step_block.jet_count; index++) {
+        air = air + wind_jet(moment, index, place, above);
     }
     return air;
 }

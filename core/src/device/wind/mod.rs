@@ -3,6 +3,7 @@
 //! The wind at a place.
 
 pub mod gust;
+pub mod jet;
 pub mod packed;
 pub mod profile;
 pub mod row;

@@ -6,6 +6,7 @@
 //! turbulence is carried on the level. Shelter takes from the mean wind alone.
 
 use super::gust::wind_gust;
+use super::jet::wind_jet;
 use super::profile::{wind_profile, wind_vertical};
 use super::shelter::wind_shelter;
 use super::turbulence::wind_turbulence;
@@ -51,6 +52,9 @@ pub fn wind_at_moment<R: Real>(cx: &Context<'_>, moment: u32, place: Vec3<R>) ->
     let mut air = Vec3::new(u * direction_x - w * direction_z, v, u * direction_z + w * direction_x);
     for index in 0..cx.step.vortex_count {
         air = air + wind_vortex(&at.vortices[index as usize], place);
+    }
+    for index in 0..cx.step.jet_count {
+        air = air + wind_jet(cx, &at.jets[index as usize], place, above);
     }
     air
 }

@@ -78,6 +78,17 @@ impl<'a> Check<'a> {
         Err(self.error(name, value, allowed))
     }
 
+    /// The time of a key, which is after that of the key before and then takes its place.
+    pub(super) fn later(&self, time_s: f32, earlier_s: &mut Option<f32>) -> Result<(), SceneError> {
+        let is_later = earlier_s.is_none_or(|earlier_s| time_s > earlier_s);
+        self.holds(is_later, "time_s", || {
+            let allowed = format!("more than the {:?} s of the key before", earlier_s.unwrap_or(0.0));
+            (format!("{time_s:?}"), allowed)
+        })?;
+        *earlier_s = Some(time_s);
+        Ok(())
+    }
+
     /// The error for a value that is not allowed.
     pub(super) fn error(&self, name: &str, value: String, allowed: String) -> SceneError {
         let field = format!("{}{name}", self.prefix);

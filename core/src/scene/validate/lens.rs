@@ -53,12 +53,7 @@ pub(super) fn check_path(path: &[CameraKey], at: &Check<'_>) -> Result<(), Scene
         at.holds(key.eye_m.distance(key.target_m) >= 0.01, "target_m", || {
             (format!("{:?}", key.target_m.to_array()), "a point at least 0.01 m from eye_m".into())
         })?;
-        let is_later = earlier_s.is_none_or(|earlier_s| key.time_s > earlier_s);
-        at.holds(is_later, "time_s", || {
-            let allowed = format!("more than the {:?} s of the key before", earlier_s.unwrap_or(0.0));
-            (format!("{:?}", key.time_s), allowed)
-        })?;
-        earlier_s = Some(key.time_s);
+        at.later(key.time_s, &mut earlier_s)?;
     }
     Ok(())
 }

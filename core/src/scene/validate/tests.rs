@@ -11,8 +11,9 @@ use glam::Vec3;
 use crate::SceneError;
 use crate::motion::{Primitive, TransitionTable};
 use crate::scene::{
-    CameraKey, Exposure, Focus, Foliage, Lens, MeanSpeed, MotionParameters, Profile, Release, RotationModel,
-    Scene, Share, Source, SourceShape, Species, ToneMap, Tree, TreeKind, View, Vortex, WindParameters,
+    CameraKey, Exposure, Focus, Foliage, Jet, JetKey, Lens, MeanSpeed, MotionParameters, Profile, Release,
+    RotationModel, Scene, Share, Source, SourceShape, Species, ToneMap, Tree, TreeKind, View, Vortex,
+    WindParameters,
 };
 
 /// A valid scene in which every optional number is present.
@@ -53,6 +54,8 @@ fn full() -> Scene {
         axial_m_s: 1.0,
         drift_m_s: Vec3::X,
     };
+    let blowing = |time_s| JetKey { time_s, at_m: Vec3::Y, toward_m: Vec3::X, speed_m_s: 50.0 };
+    let jet = Jet { nozzle_m: 0.1, keys: vec![blowing(1.0), blowing(6.0)] };
     let foliage = Foliage { species: Some("maple".into()), ..Foliage::default() };
     let key = |time_s| CameraKey { time_s, eye_m: Vec3::Y, target_m: Vec3::ZERO, vertical_fov_deg: 50.0 };
     let lens = Lens { focus: Some(Focus { distance_m: 4.0, f_number: 2.8 }), ..Lens::default() };
@@ -63,7 +66,7 @@ fn full() -> Scene {
         sources: vec![source],
         tree_kinds: vec![TreeKind { foliage, ..TreeKind::default() }],
         trees: vec![Tree { height_m: Some(12.0), ..Tree::default() }],
-        wind: WindParameters { vortices: vec![vortex], ..WindParameters::default() },
+        wind: WindParameters { vortices: vec![vortex], jets: vec![jet], ..WindParameters::default() },
         view,
         ..Scene::default()
     }

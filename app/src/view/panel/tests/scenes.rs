@@ -5,9 +5,9 @@
 use glam::Vec3;
 use windfall_core::Scene;
 use windfall_core::scene::{
-    Aerodynamics, CameraKey, Exposure, FlightModel, Focus, MeanSpeed, Planform, Profile, Release,
-    RotationModel, Share, Sky, SkyMap, SourceShape, Terrain, ToneMap, Tree, TreeForm, TreeKind, Vortex,
-    Water,
+    Aerodynamics, CameraKey, Exposure, FlightModel, Focus, Jet, JetKey, MeanSpeed, Planform, Profile,
+    Release, RotationModel, Share, Sky, SkyMap, SourceShape, Terrain, ToneMap, Tree, TreeForm, TreeKind,
+    Vortex, Water,
 };
 
 /// A park with one of everything that may be added to a scene.
@@ -27,6 +27,8 @@ pub(super) fn full() -> Scene {
         axial_m_s: 1.0,
         drift_m_s: Vec3::X,
     }];
+    let key = JetKey { time_s: 0.0, at_m: Vec3::Y, toward_m: Vec3::X, speed_m_s: 40.0 };
+    scene.wind.jets = vec![Jet { nozzle_m: 0.1, keys: vec![key] }];
     scene.ground.terrain = Some(Terrain { levels: 4, ..Terrain::default() });
     scene.ground.water = Some(Water { height_m: -0.5 });
     scene.view.path =

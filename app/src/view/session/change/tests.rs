@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 
 use windfall_core::scene::{
-    Exposure, Haze, Litter, Profile, Release, Sky, SkyMap, SwayScheme, Terrain, Tree, Water,
+    Exposure, Haze, Jet, Litter, Profile, Release, Sky, SkyMap, SwayScheme, Terrain, Tree, Water,
 };
 
 use super::*;
@@ -27,9 +27,10 @@ fn what_stays_asks_for_nothing() {
 
 #[test]
 fn wind_and_speeds_go_on_at_once() {
-    let edits: [fn(&mut Scene); 10] = [
+    let edits: [fn(&mut Scene); 11] = [
         |scene| scene.wind.direction_deg += 1.0,
         |scene| scene.wind.shelter = false,
+        |scene| scene.wind.jets = vec![Jet { nozzle_m: 0.1, keys: Vec::new() }],
         |scene| scene.wind.profile = Profile::Uniform,
         |scene| scene.wind.turbulence.cell_m *= 2.0,
         |scene| scene.fall_speed = 0.5,

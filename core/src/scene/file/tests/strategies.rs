@@ -153,6 +153,21 @@ prop_compose! {
     }
 }
 
+/// A jet with keys a second apart.
+fn jet() -> impl Strategy<Value = Jet> {
+    let key = (vector(limits::JET_M), vector(limits::JET_M), within(limits::JET_SPEED_M_S));
+    (within(limits::NOZZLE_M), vec(key, 1..4), 0f32..1000.0).prop_map(|(nozzle_m, ends, from_s)| {
+        let mut keys: Vec<JetKey> = Vec::new();
+        for (at_m, toward_m, speed_m_s) in ends {
+            let time_s = keys.last().map_or(from_s, |key| key.time_s + 1.0);
+            // Points apart.
+            let at_m = at_m.with_y(toward_m.y - toward_m.y.signum());
+            keys.push(JetKey { time_s, at_m, toward_m, speed_m_s });
+        }
+        Jet { nozzle_m, keys }
+    })
+}
+
 prop_compose! {
     fn wind()(
         direction_deg in within(limits::DIRECTION_DEG),
@@ -172,9 +187,11 @@ prop_compose! {
         turbulence in (within(limits::INTENSITY), within(limits::CELL_M), within(limits::CALM_M_S))
             .prop_map(|(intensity, cell_m, calm_m_s)| Turbulence { intensity, cell_m, calm_m_s }),
         shelter in any::<bool>(),
-        vortices in vec(vortex(), 0..=MAX_VORTICES),
+        (vortices, jets) in (vec(vortex(), 0..=MAX_VORTICES), vec(jet(), 0..=MAX_JETS)),
     ) -> WindParameters {
-        WindParameters { direction_deg, speed, reference_height_m, profile, gusts, turbulence, shelter, vortices }
+        let uniform =
+            WindParameters { direction_deg, speed, reference_height_m, profile, ..WindParameters::default() };
+        WindParameters { gusts, turbulence, shelter, vortices, jets, ..uniform }
     }
 }
 

@@ -7,8 +7,8 @@ use glam::Vec3;
 use super::{failing_field, full};
 use crate::motion::Primitive;
 use crate::scene::{
-    Aerodynamics, FlightModel, MAX_LEAVES, MAX_SOURCES, MAX_SPECIES, MAX_VORTICES, Profile, Release, Scene,
-    Share, Sky, SkyMap, SourceShape, Species,
+    Aerodynamics, FlightModel, MAX_JETS, MAX_LEAVES, MAX_SOURCES, MAX_SPECIES, MAX_VORTICES, Profile,
+    Release, Scene, Share, Sky, SkyMap, SourceShape, Species,
 };
 
 /// Change of a valid scene, and the field that must be named then; `None` where it stays valid.
@@ -185,6 +185,16 @@ const WIND_AND_VIEW: &[Case] = &[
     (|s| s.wind.vortices.clear(), None),
     (|s| s.wind.vortices[0].axis = Vec3::ZERO, Some("wind.vortices[0].axis")),
     (|s| s.wind.vortices[0].axis = Vec3::X * 0.001, None),
+    (|s| s.wind.jets = vec![s.wind.jets[0].clone(); MAX_JETS], None),
+    (|s| s.wind.jets = vec![s.wind.jets[0].clone(); MAX_JETS + 1], Some("wind.jets")),
+    (|s| s.wind.jets.clear(), None),
+    (|s| s.wind.jets[0].keys.clear(), Some("wind.jets[0].keys")),
+    (
+        |s| s.wind.jets[0].keys[1].toward_m = s.wind.jets[0].keys[1].at_m,
+        Some("wind.jets[0].keys[1].toward_m"),
+    ),
+    (|s| s.wind.jets[0].keys[1].time_s = 1.0, Some("wind.jets[0].keys[1].time_s")),
+    (|s| s.wind.jets[0].keys[1].time_s = 1.5, None),
     (|s| s.wind.profile = Profile::Log { roughness_m: 1.5, displacement_m: 8.0 }, None),
     (|s| s.wind.profile = Profile::Log { roughness_m: 2.0, displacement_m: 8.0 }, Some("wind.profile")),
     (|s| s.view.camera.target_m = s.view.camera.eye_m, Some("view.camera.target_m")),
