@@ -18,9 +18,9 @@ const LIFT_M: f64 = 0.09;
 /// Half of the distance between the feet in m.
 const HALF_WIDTH_M: f64 = 0.09;
 /// Height of the hips in m.
-const HIPS_M: f64 = 0.92;
+const HIPS_M: f64 = 0.88;
 /// Length of a shank, and of a thigh, in m.
-const HALF_LEG_M: f64 = 0.45;
+const HALF_LEG_M: f64 = 0.46;
 /// Distance in m of the ankle behind the middle of the foot.
 const ANKLE_BEHIND_M: f64 = 0.07;
 /// Radius of a boot in m.
