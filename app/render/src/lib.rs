@@ -18,6 +18,7 @@ mod leaves;
 mod lens;
 pub mod light;
 mod marks;
+pub mod objects;
 mod park;
 mod random;
 mod renderer;

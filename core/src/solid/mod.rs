@@ -7,3 +7,4 @@ mod walk;
 
 pub use part::{Solid, SolidPose, solids_of};
 pub(crate) use walk::LIMB_COUNT;
+pub use walk::{LIMBS, Limb, Side};
