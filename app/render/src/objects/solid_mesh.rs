@@ -170,7 +170,7 @@ fn rounded_box() -> (Vec<SolidVertex>, Vec<u32>) {
     let (mut vertices, mut indices) = (Vec::new(), Vec::new());
     for (out, side) in [(Vec3::X, Vec3::Y), (Vec3::Y, Vec3::Z), (Vec3::Z, Vec3::X)] {
         for out in [out, -out] {
-            let up = out.cross(side);
+            let up = side.cross(out);
             let first = u32::try_from(vertices.len()).unwrap_or(u32::MAX);
             for &(v, v_lean) in &across {
                 vertices.extend(across.iter().map(|&(u, u_lean)| {

@@ -21,6 +21,7 @@ mod list;
 mod litter;
 mod motion;
 mod numbers;
+mod objects;
 mod over_picture;
 mod overlays;
 pub(crate) mod panel_input;
@@ -38,6 +39,7 @@ mod time;
 mod timeline;
 mod trees;
 mod vortices;
+mod walkers;
 mod wind;
 mod words;
 
@@ -234,6 +236,11 @@ impl Panel {
         groups.show(ui, Group::Trees, differs, |ui| trees::show(ui, scene, own));
         let differs = scene.tree_kinds != own.tree_kinds;
         groups.show(ui, Group::TreeKinds, differs, |ui| kinds::show(ui, scene, own));
+        let differs = scene.objects != own.objects || scene.walkers != own.walkers;
+        groups.show(ui, Group::Objects, differs, |ui| {
+            objects::show(ui, &mut scene.objects, &own.objects);
+            walkers::show(ui, &mut scene.walkers, &own.walkers, &scene.objects);
+        });
         let differs = scene.ground != own.ground;
         groups.show(ui, Group::Ground, differs, |ui| ground::show(ui, &mut scene.ground, &own.ground));
     }
