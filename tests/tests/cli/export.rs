@@ -205,6 +205,7 @@ fn a_stage_has_the_numbers_of_the_table() {
 const SOLIDS: &str = r#"(
     species: [(name: "plate", shape: Plate, size_m: 0.06)],
     sources: [(shape: Sphere(center_m: (0.0, 1.0, 0.0), radius_m: 0.3), count: 3)],
+    ground: (litter: Some((size_m: (4.0, 4.0), leaf_area_index: 0.0))),
     objects: [
         (shape: Box(size_m: (1.0, 0.5, 0.4)), at_m: (1.5, 0.25, 2.0), color: (0.5, 0.25, 0.125)),
         (shape: Sphere(radius_m: 0.25), at_m: (0.0, 0.5, -1.0), motion: Path([

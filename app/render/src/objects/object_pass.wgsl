@@ -156,7 +156,7 @@ fn fragment(in: Varyings) -> @location(0) vec4<f32> {
             albedo *= (1.0 + 0.35 * (weave - 0.5)) * (0.85 + 0.3 * folds);
             // Folds lie across.
             relief_per_m = vec3(0.7, 1.5, 0.7);
-            relief_m = vec4(0.04, 0.05, 0.0, 0.0);
+            relief_m = vec4(0.028, 0.028, 0.0, 0.0);
             if object.surface == SLEEVE_SURFACE {
                 // The hand below the cuff.
                 let cuff = smoothstep(0.004, -0.004, local.y + object.inner_m.y - 0.045);

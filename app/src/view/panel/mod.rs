@@ -238,8 +238,8 @@ impl Panel {
         groups.show(ui, Group::TreeKinds, differs, |ui| kinds::show(ui, scene, own));
         let differs = scene.objects != own.objects || scene.walkers != own.walkers;
         groups.show(ui, Group::Objects, differs, |ui| {
-            objects::show(ui, &mut scene.objects, &own.objects);
-            walkers::show(ui, &mut scene.walkers, &own.walkers, &scene.objects);
+            objects::show(ui, scene, own);
+            walkers::show(ui, scene, own);
         });
         let differs = scene.ground != own.ground;
         groups.show(ui, Group::Ground, differs, |ui| ground::show(ui, &mut scene.ground, &own.ground));

@@ -2,15 +2,23 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Objects: their shape, where they stand, and what leaves find on them.
 
-use egui::Ui;
+use egui::{RichText, Ui};
 use glam::Vec3;
+use windfall_core::Scene;
 use windfall_core::scene::{MAX_OBJECTS, Object, ObjectFriction, ObjectShape, limits};
 
 use super::field::{choice, field, vector};
 use super::list::List;
+use super::style;
 
-pub(super) fn show(ui: &mut Ui, objects: &mut Vec<Object>, own: &[Object]) {
-    let list = List { name: "Object", entry: "object", fewest: 0, most: MAX_OBJECTS };
+pub(super) fn show(ui: &mut Ui, scene: &mut Scene, own: &Scene) {
+    let has_litter = scene.ground.litter.is_some();
+    if !has_litter {
+        ui.label(RichText::new("Objects and walkers need litter on the ground.").color(style::QUIET));
+    }
+    let most = if has_litter { MAX_OBJECTS } else { 0 };
+    let list = List { name: "Object", entry: "object", fewest: 0, most };
+    let (objects, own) = (&mut scene.objects, &own.objects);
     let name = |index: usize, object: &Object| {
         let shape = match object.shape {
             ObjectShape::Sphere { .. } => "ball",

@@ -4,7 +4,8 @@
 
 use egui::Ui;
 use glam::Vec2;
-use windfall_core::scene::{MAX_MOVERS, MAX_PATH_KEYS, Object, ObjectMotion, Walker, limits};
+use windfall_core::Scene;
+use windfall_core::scene::{MAX_MOVERS, MAX_PATH_KEYS, ObjectMotion, Walker, limits};
 use windfall_core::solid::LIMBS;
 
 use super::field::field;
@@ -14,14 +15,16 @@ use super::list::List;
 const FEWEST_CORNERS: usize = 2;
 const NEXT_M: f32 = 3.0;
 
-/// Most walkers beside the objects that move.
-fn most(objects: &[Object]) -> usize {
-    let moving = objects.iter().filter(|object| object.motion != ObjectMotion::Still).count();
-    MAX_MOVERS.saturating_sub(moving) / LIMBS.len()
+/// Most walkers beside the objects that move; none without litter.
+fn most(scene: &Scene) -> usize {
+    let moving = scene.objects.iter().filter(|object| object.motion != ObjectMotion::Still).count();
+    let room = MAX_MOVERS.saturating_sub(moving) / LIMBS.len();
+    if scene.ground.litter.is_some() { room } else { 0 }
 }
 
-pub(super) fn show(ui: &mut Ui, walkers: &mut Vec<Walker>, own: &[Walker], objects: &[Object]) {
-    let list = List { name: "Walker", entry: "walker", fewest: 0, most: most(objects) };
+pub(super) fn show(ui: &mut Ui, scene: &mut Scene, own: &Scene) {
+    let list = List { name: "Walker", entry: "walker", fewest: 0, most: most(scene) };
+    let (walkers, own) = (&mut scene.walkers, &own.walkers);
     let name = |index: usize, walker: &Walker| format!("{}: at {:.1} m/s", index + 1, walker.speed_m_s);
     let chosen = list.show(ui, walkers, name, |like, _| like.cloned().unwrap_or_default());
     let Some(walker) = chosen.and_then(|index| walkers.get_mut(index)) else { return };

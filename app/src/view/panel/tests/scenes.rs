@@ -5,9 +5,9 @@
 use glam::Vec3;
 use windfall_core::Scene;
 use windfall_core::scene::{
-    Aerodynamics, CameraKey, Exposure, FlightModel, Focus, MeanSpeed, Object, ObjectFriction, ObjectShape,
-    Planform, Profile, Release, RotationModel, Share, Sky, SkyMap, SourceShape, Terrain, ToneMap, Tree,
-    TreeForm, TreeKind, Vortex, Walker, Water,
+    Aerodynamics, CameraKey, Exposure, FlightModel, Focus, Litter, MeanSpeed, Object, ObjectFriction,
+    ObjectShape, Planform, Profile, Release, RotationModel, Share, Sky, SkyMap, SourceShape, Terrain,
+    ToneMap, Tree, TreeForm, TreeKind, Vortex, Walker, Water,
 };
 
 /// A park with one of everything that may be added to a scene.
@@ -27,6 +27,7 @@ pub(super) fn full() -> Scene {
         axial_m_s: 1.0,
         drift_m_s: Vec3::X,
     }];
+    scene.ground.litter = Some(Litter { leaf_area_index: 0.0, ..Litter::default() });
     scene.objects = vec![Object::default()];
     scene.walkers = vec![Walker::default()];
     scene.ground.terrain = Some(Terrain { levels: 4, ..Terrain::default() });
@@ -64,6 +65,7 @@ pub(super) fn third() -> Scene {
     (motion.descent_m_s, motion.rose_swings) = (Some(1.0), Some(5));
     scene.species[0].tables = Some("a.tables".into());
     let shape = ObjectShape::Cylinder { radius_m: 0.2, height_m: 1.0 };
+    scene.ground.litter = Some(Litter { leaf_area_index: 0.0, ..Litter::default() });
     scene.objects = vec![Object { shape, ..Object::default() }];
     scene.view.lens.tone_map = ToneMap::Linear { gamma: 2.0 };
     scene
