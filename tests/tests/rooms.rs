@@ -55,6 +55,7 @@ const CORE: Order = Order {
         "device/arith",
         "store",
         "scene",
+        "solid",
         "flight",
         "motion",
         "tree",

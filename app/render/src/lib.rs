@@ -4,7 +4,7 @@
 //!
 //! A frame: the shade of the far trees from above (once per sun), past positions of leaves for their trails, three shadow
 //! maps of leaves and bark (each around a slice of what is seen), then one multisampled scene pass
-//! in linear light (bark, leaves, fruit, grass, ground, far trees, sky, trails), and the tone map. Bark, leaves and fruit
+//! in linear light (bark, objects, leaves, fruit, grass, ground, far trees, sky, trails), and the tone map. Bark, leaves and fruit
 //! of the scene's trees move with the branch columns on the device; the far woods are pictures. Leaves are cut out by coverage, so their order never matters. Nothing here needs a window.
 
 #![warn(unreachable_pub)]
@@ -18,6 +18,7 @@ mod leaves;
 mod lens;
 pub mod light;
 mod marks;
+pub mod objects;
 mod park;
 mod random;
 mod renderer;

@@ -15,6 +15,7 @@ mod leaf_mesh;
 mod plain;
 mod ply;
 mod range;
+mod solids;
 mod space;
 mod surface;
 mod usd;

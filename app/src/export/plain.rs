@@ -4,9 +4,9 @@
 
 /// A material without a picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Plain {
+pub(super) struct Plain<'a> {
     /// Name of letters that no other material has.
-    pub(super) name: &'static str,
+    pub(super) name: &'a str,
     /// Linear colour.
     pub(super) color: [f32; 3],
     /// From 0 to 1.

@@ -12,9 +12,9 @@ use super::plain::Plain;
 /// Half an edge of level ground, and of water on it, in metres.
 const REACH_M: f32 = 200.0;
 /// About the mean of the meadow of `grass_color.wgsl`.
-const MEADOW: Plain = Plain { name: "meadow", color: [0.092, 0.124, 0.037], roughness: 0.95 };
+const MEADOW: Plain<'static> = Plain { name: "meadow", color: [0.092, 0.124, 0.037], roughness: 0.95 };
 /// Deep water of `water.wgsl`.
-const POND: Plain = Plain { name: "pond", color: [0.010, 0.017, 0.011], roughness: 0.03 };
+const POND: Plain<'static> = Plain { name: "pond", color: [0.010, 0.017, 0.011], roughness: 0.03 };
 
 /// A mesh that does not move.
 #[derive(Clone, Debug)]
@@ -22,7 +22,7 @@ pub(super) struct Surface {
     /// Name of letters that no other has.
     pub(super) name: &'static str,
     /// Material.
-    pub(super) plain: Plain,
+    pub(super) plain: Plain<'static>,
     /// Corners in metres.
     pub(super) positions_m: Vec<[f32; 3]>,
     /// Unit normals upwards.
@@ -51,7 +51,7 @@ pub(super) fn surfaces(scene: &Scene) -> Vec<Surface> {
 /// A square of cells from its corner of least x and z on.
 fn surface(
     name: &'static str,
-    plain: Plain,
+    plain: Plain<'static>,
     [x_m, z_m]: [f32; 2],
     cell_m: f32,
     cells: u32,

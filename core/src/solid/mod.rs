@@ -6,3 +6,4 @@ mod part;
 mod walk;
 
 pub use part::{Solid, SolidPose, solids_of};
+pub use walk::{LIMBS, Limb, Side};

@@ -89,6 +89,14 @@ impl Solid {
         !matches!(self.path, Path::Still(_))
     }
 
+    /// The limb of a walker that it is; `None` for an object.
+    pub fn limb(&self) -> Option<Limb> {
+        match self.path {
+            Path::Limb { limb, .. } => Some(limb),
+            _ => None,
+        }
+    }
+
     /// Pose at a time in seconds, over ground of a height in m at x, z.
     pub fn pose_at(&self, time_s: f64, ground_m: impl Fn(f64, f64) -> f64) -> SolidPose {
         match &self.path {

@@ -30,19 +30,27 @@ const BOOT_LENGTH_M: f32 = 0.19;
 
 /// A limb of a walker.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Limb {
+pub enum Limb {
+    /// A foot in its boot; its own y points to the toes.
     Boot(Side),
+    /// A leg below the knee.
     Shank(Side),
+    /// A leg above it.
     Thigh(Side),
+    /// An arm with its hand, at the lower end of its own y.
     Arm(Side),
+    /// Chest and hips.
     Trunk,
+    /// The head.
     Head,
 }
 
 /// A side of the body.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Side {
+pub enum Side {
+    /// Left of the way.
     Left,
+    /// Right of it.
     Right,
 }
 
@@ -63,7 +71,7 @@ impl Side {
 }
 
 /// All limbs of a walker.
-pub(super) const LIMBS: [Limb; WALKER_LIMBS] = [
+pub const LIMBS: [Limb; WALKER_LIMBS] = [
     Limb::Boot(Side::Left),
     Limb::Boot(Side::Right),
     Limb::Shank(Side::Left),
@@ -77,15 +85,30 @@ pub(super) const LIMBS: [Limb; WALKER_LIMBS] = [
 ];
 
 impl Limb {
+    /// Number among the limbs of a walker.
+    pub fn number(self) -> usize {
+        LIMBS.iter().position(|&limb| limb == self).unwrap_or(0)
+    }
+
+    /// Returns true if two limbs share a joint, or are the same one.
+    pub fn joins(self, other: Self) -> bool {
+        let is_jointed = |pair| match pair {
+            (Self::Boot(one), Self::Shank(two)) | (Self::Shank(one), Self::Thigh(two)) => one == two,
+            (Self::Thigh(_) | Self::Arm(_) | Self::Head, Self::Trunk) => true,
+            _ => false,
+        };
+        self == other || is_jointed((self, other)) || is_jointed((other, self))
+    }
+
     /// Shape of a limb.
     pub(super) fn shape(self) -> ObjectShape {
         let (radius_m, length_m) = match self {
             Self::Boot(_) => (BOOT_RADIUS_M, BOOT_LENGTH_M),
             Self::Shank(_) => (0.055, 0.36),
-            Self::Thigh(_) => (0.075, 0.36),
-            Self::Arm(_) => (0.045, 0.5),
-            Self::Trunk => (0.16, 0.36),
-            Self::Head => (0.1, 0.05),
+            Self::Thigh(_) => (0.08, 0.36),
+            Self::Arm(_) => (0.047, 0.5),
+            Self::Trunk => (0.16, 0.4),
+            Self::Head => (0.092, 0.06),
         };
         ObjectShape::Capsule { radius_m, length_m }
     }
@@ -196,12 +219,12 @@ impl Gait {
                 // An arm swings with the leg of the other side.
                 let foot = self.foot(side.other(), walked_m);
                 let reach = (foot.at - middle).dot(ahead);
-                let shoulder = above(middle + left * (side.sign() * 0.22), 1.38);
+                let shoulder = above(middle + left * (side.sign() * 0.2), 1.4);
                 let hand = shoulder + DVec3::new(ahead.x * 0.5 * reach, -0.55, ahead.y * 0.5 * reach);
                 rod(hand, shoulder)
             }
             Limb::Trunk => SolidPose { center_m: above(middle, 1.2), turn: facing(ahead) },
-            Limb::Head => SolidPose { center_m: above(middle, 1.66), turn: facing(ahead) },
+            Limb::Head => SolidPose { center_m: above(middle, 1.67), turn: facing(ahead) },
         }
     }
 }

@@ -201,6 +201,46 @@ fn a_stage_has_the_numbers_of_the_table() {
     assert_eq!(left, Vec::<std::ffi::OsString>::new(), "nothing of the old one is left");
 }
 
+/// A scene with a box, a ball that goes two metres along x in a second, and a walker.
+const SOLIDS: &str = r#"(
+    species: [(name: "plate", shape: Plate, size_m: 0.06)],
+    sources: [(shape: Sphere(center_m: (0.0, 1.0, 0.0), radius_m: 0.3), count: 3)],
+    ground: (litter: Some((size_m: (4.0, 4.0), leaf_area_index: 0.0))),
+    objects: [
+        (shape: Box(size_m: (1.0, 0.5, 0.4)), at_m: (1.5, 0.25, 2.0), color: (0.5, 0.25, 0.125)),
+        (shape: Sphere(radius_m: 0.25), at_m: (0.0, 0.5, -1.0), motion: Path([
+            (time_s: 0.0, moved_m: (0.0, 0.0, 0.0)), (time_s: 1.0, moved_m: (2.0, 0.0, 0.0))])),
+    ],
+    walkers: [()],
+)"#;
+
+pub(super) fn solid_scene() -> TempDir {
+    let there = folder();
+    file(&there, "scene.ron", SOLIDS);
+    there
+}
+
+#[test]
+fn a_stage_has_objects_where_they_are() {
+    let there = solid_scene();
+    export(&there, "0..30", "shot.usda", &["--fps", "30"]);
+    let read = |name: &str| fs::read_to_string(there.path().join(name)).expect("a layer");
+    let (stage, layer) = (read("shot_layers/stage.usda"), read("shot_layers/frames_00000.usda"));
+    assert!(stage.contains("(1.5, 0.25, 2, 1))"), "the box stands where it is");
+    assert!(stage.contains("inputs:diffuseColor = (0.5, 0.25, 0.125)"), "in its colour");
+    assert_eq!(stage.matches("def Mesh \"Walker_0_").count(), 10, "a mesh for every limb");
+    assert!(!layer.contains("over \"Object_0\""), "what stands has no samples");
+    let ball = layer.split_once("over \"Object_1\"").expect("samples of the ball").1;
+    for (number, x_m) in [(0, 0.0), (15, 1.0), (30, 2.0)] {
+        let matrix = sample(ball, "matrix4d xformOp:transform", number);
+        assert!((matrix[12] - x_m).abs() < 1e-5, "frame {number}: {matrix:?}");
+        assert_eq!(matrix[13..], [0.5, -1.0, 1.0], "frame {number}");
+    }
+    let limb = layer.split_once("over \"Walker_0_8\"").expect("samples of the trunk").1;
+    let at = |number| sample(limb, "matrix4d xformOp:transform", number)[12];
+    assert!((at(30) - at(0) - 1.4).abs() < 1e-4, "the walker goes {} m in a second", at(30) - at(0));
+}
+
 #[test]
 fn both_backends_write_the_same_stage() {
     let there = scene();

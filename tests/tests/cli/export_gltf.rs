@@ -7,7 +7,7 @@ use std::path::Path;
 
 use serde_json::Value;
 
-use super::export::{LEAVES, PLACE, TURN, export, frame, numbers, scene};
+use super::export::{LEAVES, PLACE, TURN, export, frame, numbers, scene, solid_scene};
 
 /// The document of a `.glb` file and its buffer.
 fn glb(path: &Path) -> (Value, Vec<u8>) {
@@ -114,4 +114,41 @@ fn a_still_gltf_file_has_the_numbers_of_the_table() {
         document["extensionsRequired"][0], "EXT_mesh_gpu_instancing",
         "without it nothing is in its place"
     );
+}
+
+#[test]
+fn objects_stand_and_move_in_gltf_files() {
+    let there = solid_scene();
+    for (frames, out) in [("0..30", "clip.glb"), ("15..15", "still.glb")] {
+        export(&there, frames, out, &["--fps", "30"]);
+    }
+    let [clip, still] = ["clip.glb", "still.glb"].map(|name| glb(&there.path().join(name)));
+    let nodes = |document: &Value| document["nodes"].as_array().expect("nodes").clone();
+    let find = |document: &Value, name: &str| {
+        let found = nodes(document).iter().position(|node| node["name"] == name);
+        found.unwrap_or_else(|| panic!("a node {name}"))
+    };
+    for (document, ball_m) in [(&clip.0, 0.0), (&still.0, 1.0)] {
+        let place = |name| numbers_of(&nodes(document)[find(document, name)]["translation"]);
+        assert_eq!(place("Object_0"), [1.5, 0.25, 2.0], "the box");
+        assert!((place("Object_1")[0] - ball_m).abs() < 1e-5, "the ball: {:?}", place("Object_1"));
+        assert!(find(document, "Walker_0_9") > 0, "a node for every limb");
+    }
+    let (document, buffer) = &clip;
+    let animation = &document["animations"][0];
+    let places = |name: &str| {
+        let node = find(document, name);
+        let mut channels = animation["channels"].as_array().expect("channels").iter();
+        let channel = channels.find(|channel| {
+            channel["target"]["node"] == node && channel["target"]["path"] == "translation"
+        })?;
+        let sampler = usize::try_from(channel["sampler"].as_u64().expect("a number")).expect("small");
+        Some(floats(document, buffer, &animation["samplers"][sampler]["output"]))
+    };
+    assert_eq!(places("Object_0"), None, "what stands has no channel");
+    let ball = places("Object_1").expect("a channel");
+    assert_eq!(ball.len(), 93, "a place for every frame");
+    assert!((ball[90] - 2.0).abs() < 1e-5, "at the end: {:?}", &ball[90..]);
+    let trunk = places("Walker_0_8").expect("a channel");
+    assert!((trunk[90] - trunk[0] - 1.4).abs() < 1e-4, "a second of the walk: {}", trunk[90] - trunk[0]);
 }

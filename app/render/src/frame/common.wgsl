@@ -15,8 +15,9 @@
 
 // On level land shaders are built without hills: software adapters take both ways through a condition.
 override IS_HILLY: bool = true;
-// Without trees nothing hides the sky.
-override HAS_TREES: bool = true;
+// Without trees and objects nothing hides the sky.
+override HAS_ROOF: bool = true;
+override HAS_OBJECTS: bool = true;
 
 // The grid points around a place, lowest (xy) and highest (zw), and where between them it lies.
 struct Cell {

@@ -11,6 +11,15 @@ use crate::land::Land;
 use crate::land::hill_shade::hill_shade;
 use crate::land::texture::{LandUniform, grid_texture, land_texture, write_grid};
 
+/// Kinds of things of a scene that stand on its land: shaders are built without those that it has not.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Standing {
+    /// True if the scene has trees of its own.
+    pub(crate) trees: bool,
+    /// True if it has objects or walkers.
+    pub(crate) objects: bool,
+}
+
 /// The frame's uniform buffer and bind group.
 #[derive(Debug)]
 pub(crate) struct FrameGroup {
@@ -22,12 +31,11 @@ pub(crate) struct FrameGroup {
     hill_shade: wgpu::TextureView,
     /// True if the land is not level.
     pub(crate) is_hilly: bool,
-    /// True if the scene has trees of its own.
-    pub(crate) has_trees: bool,
+    pub(crate) standing: Standing,
 }
 
 impl FrameGroup {
-    pub(crate) fn new(device: &wgpu::Device, queue: &wgpu::Queue, land: &Land, has_trees: bool) -> Self {
+    pub(crate) fn new(device: &wgpu::Device, queue: &wgpu::Queue, land: &Land, standing: Standing) -> Self {
         let hills = wgpu::TextureSampleType::Float { filterable: false };
         let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
             label: Some("frame"),
@@ -43,14 +51,14 @@ impl FrameGroup {
             upload::buffer(device, queue, "land", wgpu::BufferUsages::UNIFORM, bytemuck::bytes_of(&shape));
         let shade = grid_texture(device, "hill shade", wgpu::TextureFormat::Rg32Float, land);
         let textures = [land_texture(device, queue, land), shade];
-        Self::bind(device, layout, shape, textures, [land.hills().is_some(), has_trees])
+        Self::bind(device, layout, shape, textures, land.hills().is_some(), standing)
     }
 
     /// Another frame on the same land.
     pub(crate) fn another(&self, device: &wgpu::Device) -> Self {
         let Self { layout, shape, hills, hill_shade, .. } = self;
         let textures = [hills.clone(), hill_shade.clone()];
-        Self::bind(device, layout.clone(), shape.clone(), textures, [self.is_hilly, self.has_trees])
+        Self::bind(device, layout.clone(), shape.clone(), textures, self.is_hilly, self.standing)
     }
 
     fn bind(
@@ -58,7 +66,8 @@ impl FrameGroup {
         layout: wgpu::BindGroupLayout,
         shape: wgpu::Buffer,
         [hills, hill_shade]: [wgpu::TextureView; 2],
-        [is_hilly, has_trees]: [bool; 2],
+        is_hilly: bool,
+        standing: Standing,
     ) -> Self {
         let buffer = device.create_buffer(&wgpu::BufferDescriptor {
             label: Some("frame"),
@@ -79,7 +88,7 @@ impl FrameGroup {
                 },
             ],
         });
-        Self { layout, group, buffer, shape, hills, hill_shade, is_hilly, has_trees }
+        Self { layout, group, buffer, shape, hills, hill_shade, is_hilly, standing }
     }
 
     /// Takes over another sun, by the direction towards it; level ground has no shade.

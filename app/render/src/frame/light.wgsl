@@ -78,10 +78,10 @@ fn sky_openness(position: vec3<f32>) -> f32 {
 const SKY_REACH_M: f32 = 2.4;
 const SKY_TAPS: u32 = 6u;
 
-// Part of the sky overhead that the scene's own trees and their leaves leave open, by looks straight up from around a place,
+// Part of the sky overhead that the scene's own trees, their leaves and its objects leave open, by looks straight up from around a place,
 // as far out as leaves of a middling crown are above it; `taps` of 0 see all of it.
 fn open_above(position: vec3<f32>, taps: u32) -> f32 {
-    if !HAS_TREES {
+    if !HAS_ROOF {
         return 1.0;
     }
     let clip = (frame.shadows[CASCADES] * vec4(position + vec3(0.0, 0.12, 0.0), 1.0)).xyz;
@@ -97,6 +97,29 @@ fn open_above(position: vec3<f32>, taps: u32) -> f32 {
     let beyond = select(0.0, 1.0, taps == 0u || clip.z > 1.0);
     let far = max(smoothstep(0.8, 0.98, max(abs(clip.x), abs(clip.y))), beyond);
     return mix(sum / max(f32(taps), 1.0), 1.0, far);
+}
+
+// Radius around the foot of an object within which it hides the sky from the ground, in metres, and number of samples.
+const FOOT_REACH_M: f32 = 0.32;
+const FOOT_TAPS: u32 = 5u;
+
+// Part of the sky that things which stand close by leave open above a place on the ground.
+fn open_beside(position: vec3<f32>) -> f32 {
+    if !HAS_OBJECTS {
+        return 1.0;
+    }
+    let clip = (frame.shadows[CASCADES] * vec4(position + vec3(0.0, 0.08, 0.0), 1.0)).xyz;
+    let own = fract(dot(position, vec3(127.1, 311.7, 74.7)));
+    let scale = FOOT_REACH_M / (frame.texels_m[CASCADES] * f32(textureDimensions(shadow_maps).x));
+    var sum = 0.0;
+    for (var tap = 0u; tap < FOOT_TAPS; tap++) {
+        let reach = scale * sqrt((f32(tap) + 0.5) / f32(FOOT_TAPS));
+        let angle = 2.3999632 * f32(tap) + 6.2831853 * own;
+        let uv = clip.xy * vec2(0.5, -0.5) + 0.5 + reach * vec2(cos(angle), sin(angle));
+        sum += textureSampleCompareLevel(shadow_maps, shadow_sampler, uv, CASCADES, clip.z);
+    }
+    let far = smoothstep(0.8, 0.98, max(abs(clip.x), abs(clip.y)));
+    return mix(0.45, 1.0, mix(sum / f32(FOOT_TAPS), 1.0, far));
 }
 
 struct Ambient {

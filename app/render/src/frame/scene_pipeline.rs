@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Common parts of the scene pass's pipelines.
 
-use super::group::FrameGroup;
+use super::group::{FrameGroup, Standing};
 use crate::gpu::pipeline::layout;
 use crate::gpu::targets::{DEPTH_FORMAT, HDR_FORMAT, SAMPLE_COUNT};
 
@@ -32,7 +32,12 @@ impl ScenePipeline<'_> {
         let groups = std::iter::once(&self.frame.layout).chain(self.groups.iter().copied()).map(Some);
         let layout = layout(device, &groups.collect::<Vec<_>>());
         let of = |is: bool| f64::from(u8::from(is));
-        let common = [("IS_HILLY", of(self.frame.is_hilly)), ("HAS_TREES", of(self.frame.has_trees))];
+        let Standing { trees, objects } = self.frame.standing;
+        let common = [
+            ("IS_HILLY", of(self.frame.is_hilly)),
+            ("HAS_ROOF", of(trees || objects)),
+            ("HAS_OBJECTS", of(objects)),
+        ];
         let constants = [&common, self.constants].concat();
         let compilation_options =
             wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() };

@@ -41,6 +41,9 @@ impl Renderer {
             near_m: NEAR_M,
         };
         self.post.begin(&self.queue, &shot);
+        if let Some((objects, _)) = &mut self.objects {
+            objects.prepare(&self.queue, input.time_s, &self.land);
+        }
         let mut is_first = true;
         for tile in self.targets.tiles() {
             // Every tile has uniforms of its own, which are written when its commands are submitted.
@@ -102,6 +105,7 @@ impl Renderer {
             visible: &visible,
             bark: &self.bark,
             branches: &group,
+            objects: self.objects.as_ref().map(|(objects, _)| objects),
         };
         // The last tile is timed: its commands are those that are resolved.
         let timer = self.timer.as_ref().filter(|_| tile.left == 0);
@@ -137,15 +141,18 @@ impl Renderer {
         let mut pass = begin_scene(encoder, targets, None);
         pass.set_bind_group(0, &water.frame.group, &[]);
         pass.set_bind_group(1, &self.light.group, &[]);
-        self.draw_trees_and_leaves(&mut pass, branches);
+        self.draw_things(&mut pass, branches);
         self.ground_pass.draw(&mut pass);
         self.tree_pass.draw(&mut pass, &self.trees);
         self.sky_pass.draw(&mut pass);
     }
 
-    /// Draws the scene's own trees and all leaves; bind groups 0 and 1 are set.
-    fn draw_trees_and_leaves(&self, pass: &mut wgpu::RenderPass<'_>, branches: &wgpu::BindGroup) {
+    /// Draws the scene's own trees, its objects and all leaves; bind groups 0 and 1 are set.
+    fn draw_things(&self, pass: &mut wgpu::RenderPass<'_>, branches: &wgpu::BindGroup) {
         self.bark_pass.draw(pass, branches, &self.bark);
+        if let Some((objects, object_pass)) = &self.objects {
+            object_pass.draw(pass, objects);
+        }
         self.leaf_pass.draw(pass, &self.species_table, self.visible().into_iter());
         self.fruit_pass.draw(pass, branches);
     }
@@ -201,7 +208,7 @@ impl Renderer {
         let mut pass = begin_scene(encoder, &self.targets, timestamps);
         pass.set_bind_group(0, &self.frame.group, &[]);
         pass.set_bind_group(1, &self.light.group, &[]);
-        self.draw_trees_and_leaves(&mut pass, branches);
+        self.draw_things(&mut pass, branches);
         self.grass_pass.draw(&mut pass);
         self.ground_pass.draw(&mut pass);
         if let Some(water) = &self.water_pass {

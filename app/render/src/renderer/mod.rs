@@ -14,7 +14,7 @@ use self::scene::{RenderScene, RendererOptions};
 use crate::camera::Camera;
 use crate::error::RenderError;
 use crate::frame::cascades::shadow_size;
-use crate::frame::group::FrameGroup;
+use crate::frame::group::{FrameGroup, Standing};
 use crate::frame::light_group::LightGroup;
 use crate::frame::surroundings::{Path, Surroundings};
 use crate::gpu::targets::Targets;
@@ -29,6 +29,8 @@ use crate::lens::post::{Post, TimedPosts};
 use crate::marks::landing_pass::LandingPass;
 use crate::marks::paint_pass::PaintPass;
 use crate::marks::trail_pass::TrailPass;
+use crate::objects::object_pass::ObjectPass;
+use crate::objects::records::ObjectBuffers;
 use crate::park::far_trees::{ShadePass, TreePass, Trees};
 use crate::park::layout::{Park, plant};
 use crate::park::litter::Litter;
@@ -74,6 +76,7 @@ pub struct Renderer {
     cull: CullPass,
     bark: BarkBuffers,
     branches: BranchGroup,
+    objects: Option<(ObjectBuffers, ObjectPass)>,
     shadow_pass: ShadowPass,
     shade_pass: ShadePass,
     shade_is_old: bool,
@@ -118,19 +121,32 @@ impl Renderer {
         let Park { trees: planted, leaves, path_phase } = plant(scene, &land, center, level);
 
         let targets = Targets::new(device, size, options.tile_px, is_moving(&scene.view.lens))?;
-        let frame = FrameGroup::new(device, queue, &land, !scene_trees.trees.is_empty());
+        let objects = ObjectBuffers::new(device, queue, scene);
+        let standing = Standing { trees: !scene_trees.trees.is_empty(), objects: objects.is_some() };
+        let frame = FrameGroup::new(device, queue, &land, standing);
         let species_table = SpeciesTable::new(device, queue, scene, atlas)?;
         let own = own_trees(scene_trees, scene.autumn > 0.0);
         let trees = Trees::new(device, queue, (&planted, leaves), &own);
         let branches = BranchGroup::new(device, queue, scene_trees);
         let cull = CullPass::new(device, &species_table, false);
-        let shadow_pass =
-            ShadowPass::new(device, &frame, &species_table, &cull, &branches, shadow_size(size.1));
+        let shadow_pass = ShadowPass::new(
+            device,
+            &frame,
+            &species_table,
+            &cull,
+            &branches,
+            objects.as_ref(),
+            shadow_size(size.1),
+        );
         let shade_pass = ShadePass::new(device, &frame, &trees);
         let surroundings = Surroundings::new(&scene.view, center, Path { lead: level, phase: path_phase })?;
         frame.set_sun(queue, &land, surroundings.daylight.sun.direction);
         let light =
             LightGroup::new(device, queue, &shadow_pass.maps, &shade_pass.map, &surroundings.daylight);
+        let objects = objects.map(|objects| {
+            let pass = ObjectPass::new(device, &frame, &light, &objects);
+            (objects, pass)
+        });
         let eye_m = camera.eye_m();
         let shedding = shedding(&planted, scene_trees);
         let species_count = u32::try_from(scene.species.len()).unwrap_or(1);
@@ -176,6 +192,7 @@ impl Renderer {
             cull,
             trees,
             branches,
+            objects,
             shadow_pass,
             shade_pass,
         };

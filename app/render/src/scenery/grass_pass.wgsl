@@ -76,7 +76,7 @@ fn vertex(
     let depth = mix(mix(0.30, 0.95, smoothstep(7.0, 20.0, distance_m)), 1.0, rise);
     var color = frame.sun_color * sun * (albedo * reflected * 0.72 + glow) * depth;
     color += albedo * ambient_light(vec3(0.0, 1.0, 0.0)) * mix(0.35, 1.0, rise)
-        * min(sky_openness(foot), mix(0.35, 1.0, open_above(foot, SKY_TAPS)));
+        * min(sky_openness(foot), mix(0.35, 1.0, open_above(foot, SKY_TAPS))) * open_beside(foot);
     // A sheen of the sky on the bend.
     color += frame.sky_horizon * 0.02 * rise * sun;
 

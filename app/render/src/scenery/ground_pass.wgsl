@@ -80,6 +80,6 @@ fn fragment(in: Varyings) -> @location(0) vec4<f32> {
     let facing = mix(0.75, 1.0, max(far, path)) * max(dot(normal, frame.sun_direction), 0.0) + 0.12;
     var color = albedo * (frame.sun_color * sun * (facing + 0.55 * rough * against));
     color += albedo * ambient_light(normal) * mix(0.55, 0.95, max(far, path))
-        * min(sky_openness(in.world), mix(0.35, 1.0, open_above(in.world, SKY_TAPS)));
+        * min(sky_openness(in.world), mix(0.35, 1.0, open_above(in.world, SKY_TAPS))) * open_beside(in.world);
     return vec4(haze(color, in.world), 1.0);
 }

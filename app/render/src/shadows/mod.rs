@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Draws the shadows of leaves and trees, finer near the camera than far from it, and what hides the sky from above.
+//! Draws the shadows of leaves, trees and objects, finer near the camera than far from it, and what hides the sky from above.
 
 use crate::frame::cascades::{CASCADES, MAPS};
 use crate::frame::group::FrameGroup;
@@ -9,13 +9,15 @@ use crate::gpu::shaders::{Shaders, compile, wgsl_files};
 use crate::leaves::cull::CullPass;
 use crate::leaves::species_table::SpeciesTable;
 use crate::leaves::visible::VisibleLeaves;
+use crate::objects::records::ObjectBuffers;
 use crate::trees::bark_mesh::{BarkBuffers, BarkVertex};
 use crate::trees::branch_group::BranchGroup;
 
 /// Shader modules of this room and of those below.
 pub(crate) fn shaders() -> Shaders {
     let mut shaders = crate::leaves::shaders();
-    shaders.extend(wgsl_files!("shadows": "leaf_shadow", "bark_shadow"));
+    shaders.extend(crate::objects::own_shaders());
+    shaders.extend(wgsl_files!("shadows": "leaf_shadow", "bark_shadow", "object_shadow"));
     shaders
 }
 
@@ -32,7 +34,7 @@ pub(crate) struct ShadowPass {
     pub(crate) size_px: u32,
     passes: [MapPass; MAPS],
     /// True if anything stands that hides the sky.
-    has_trees: bool,
+    has_roof: bool,
 }
 
 /// One of the maps.
@@ -41,6 +43,7 @@ struct MapPass {
     map: wgpu::TextureView,
     leaves: wgpu::RenderPipeline,
     bark: wgpu::RenderPipeline,
+    objects: Option<wgpu::RenderPipeline>,
 }
 
 /// Casters of shadows.
@@ -50,6 +53,7 @@ pub(crate) struct Casters<'a> {
     pub(crate) visible: &'a [&'a VisibleLeaves],
     pub(crate) bark: &'a BarkBuffers,
     pub(crate) branches: &'a wgpu::BindGroup,
+    pub(crate) objects: Option<&'a ObjectBuffers>,
 }
 
 impl ShadowPass {
@@ -59,19 +63,21 @@ impl ShadowPass {
         species_table: &SpeciesTable,
         cull: &CullPass,
         branches: &BranchGroup,
+        objects: Option<&ObjectBuffers>,
         size_px: u32,
     ) -> Self {
         let (maps, each) = new_maps(device, size_px);
         let shaders = shaders();
         let leaf_shader = compile(device, &shaders, "shadows/leaf_shadow");
         let bark_shader = compile(device, &shaders, "shadows/bark_shadow");
+        let object_shader = objects.map(|_| compile(device, &shaders, "shadows/object_shadow"));
         let pipeline = |label,
                         number: u32,
                         module,
                         groups: [Option<&wgpu::BindGroupLayout>; 2],
                         buffers: &[wgpu::VertexBufferLayout<'_>],
                         cut_out| {
-            // Leaves are strips, bark is not.
+            // Leaves are strips, bark and objects are not.
             let topology = if cut_out {
                 wgpu::PrimitiveTopology::TriangleStrip
             } else {
@@ -134,9 +140,14 @@ impl ShadowPass {
                     &[BarkVertex::layout(wgpu::VertexStepMode::Vertex)],
                     false,
                 ),
+                objects: objects.zip(object_shader.as_ref()).map(|(objects, shader)| {
+                    let groups = [Some(&objects.layout), None];
+                    let buffers = [ObjectBuffers::vertex_layout()];
+                    pipeline("object shadows", number, shader, groups, &buffers, false)
+                }),
             }
         });
-        Self { maps, size_px, passes, has_trees: frame.has_trees }
+        Self { maps, size_px, passes, has_roof: frame.standing.trees || frame.standing.objects }
     }
 
     /// Takes maps of another size; the old ones are read no more.
@@ -148,8 +159,8 @@ impl ShadowPass {
         }
     }
 
-    /// Draws all trees into all maps, and the leaves that `cull` keeps of each; `timestamps` are those of the first and of
-    /// the last. Without trees nobody looks from above.
+    /// Draws all trees and objects into all maps, and the leaves that `cull` keeps of each; `timestamps` are those of the first and of
+    /// the last. Without trees and objects nobody looks from above.
     pub(crate) fn draw(
         &self,
         encoder: &mut wgpu::CommandEncoder,
@@ -159,7 +170,7 @@ impl ShadowPass {
         cull: &dyn Fn(&mut wgpu::CommandEncoder, usize),
     ) {
         let [begin, end] = timestamps.map_or([None, None], |writes| writes.map(Some));
-        let drawn = if self.has_trees { MAPS } else { CASCADES as usize };
+        let drawn = if self.has_roof { MAPS } else { CASCADES as usize };
         let (mut begin, mut end) = (begin, end);
         for (number, pass) in self.passes[..drawn].iter().enumerate() {
             cull(encoder, number);
@@ -223,6 +234,10 @@ impl MapPass {
             pass.set_vertex_buffer(0, casters.bark.vertices.slice(..));
             pass.set_index_buffer(casters.bark.indices.slice(..), wgpu::IndexFormat::Uint32);
             pass.draw_indexed(all, 0, 0..1);
+        }
+        if let Some((pipeline, objects)) = self.objects.as_ref().zip(casters.objects) {
+            pass.set_pipeline(pipeline);
+            objects.draw(&mut pass);
         }
         pass.set_pipeline(&self.leaves);
         pass.set_bind_group(2, &casters.species_table.group, &[]);

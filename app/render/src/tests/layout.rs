@@ -12,14 +12,15 @@ use windfall_core::leaf::{Attitude, Drift, Identity, Place, Schedule};
 
 use crate::gpu::shaders::Shaders;
 use crate::land::texture::LandUniform;
-use crate::{frame, leaves, lens, marks, park, scenery, shadows, trees};
+use crate::{frame, leaves, lens, marks, objects, park, scenery, shadows, trees};
 
 /// Modules of every room.
-fn rooms() -> [Shaders; 8] {
+fn rooms() -> [Shaders; 9] {
     [
         frame::shaders(),
         lens::shaders(),
         trees::shaders(),
+        objects::shaders(),
         leaves::shaders(),
         shadows::shaders(),
         scenery::shaders(),
@@ -81,6 +82,7 @@ fn every_struct_has_one_layout() {
     let module = parse(&frame::shaders(), "frame/structs");
     assert_same::<frame::surroundings::FrameUniform>(&module);
     assert_same::<LandUniform>(&module);
+    assert_same::<objects::records::ObjectRecord>(&parse(&objects::shaders(), "objects/structs"));
     assert_same::<trees::records::TreeRecord>(&parse(&trees::shaders(), "trees/structs"));
     let module = parse(&leaves::shaders(), "leaves/structs");
     assert_same::<leaves::species_table::SpeciesRow>(&module);

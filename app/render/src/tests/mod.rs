@@ -9,6 +9,7 @@ mod layout;
 mod lens;
 mod look;
 mod motion;
+mod objects;
 mod rooms;
 mod trees;
 

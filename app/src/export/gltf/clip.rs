@@ -16,6 +16,7 @@ use super::file::{Document, node_index};
 use super::leaf_track::{Track, add_leaf, near};
 use super::movement::Movement;
 use super::scenery::{Barks, LeafMeshes, add_surfaces, tree_mesh, view};
+use super::solids::SolidTracks;
 use crate::export::foliage::Foliage;
 use crate::export::fruit::fruit;
 use crate::export::wood::{Joint, at_rest, at_rest_above, bark, joints, rotations};
@@ -40,6 +41,7 @@ pub(super) struct ClipExport {
     leaves: Vec<Track>,
     /// For every tree its joints, and their orientations in every frame.
     trees: Vec<(Vec<Joint>, Vec<Turns>)>,
+    solids: SolidTracks,
 }
 
 /// Orientation of a joint in every frame.
@@ -64,6 +66,7 @@ impl ClipExport {
             times: Vec::new(),
             leaves: vec![Track::default(); job.scene.leaf_count() as usize],
             trees: trees.collect(),
+            solids: SolidTracks::new(job.scene),
         })
     }
 
@@ -90,6 +93,7 @@ impl ClipExport {
                 add_tree(&mut self.document, &mut movement, &mut barks, &self.scene_trees, number, moved)
             })?;
         }
+        self.solids.add(&mut self.document, Some((&mut movement, times)));
         self.document.root.animations.extend(movement.animation("fall"));
         Ok(())
     }
@@ -108,6 +112,7 @@ impl Exporter for ClipExport {
         for (track, leaf) in self.leaves.iter_mut().zip(frame.leaves) {
             track.push(leaf, &self.foliage);
         }
+        self.solids.push(frame);
         let pose = &frame.world.branches.pose;
         for (joints, turns) in &mut self.trees {
             for (turns, turn) in turns.iter_mut().zip(rotations(joints, pose)) {

@@ -143,7 +143,7 @@ pub(super) fn tree_mesh(
 }
 
 /// Adds a material of one colour.
-fn plain(document: &mut Document, plain: &Plain) -> Index<Material> {
+pub(super) fn plain(document: &mut Document, plain: &Plain<'_>) -> Index<Material> {
     let [r, g, b] = plain.color;
     document.root.push(Material {
         name: Some(plain.name.into()),
@@ -214,7 +214,8 @@ pub(super) fn view(document: &mut Document, scene: &Scene, sun: SunLight, time_s
     }
 }
 
-fn placed(name: &str, place: Vec3, turn: Quat) -> Node {
+/// A node at a place.
+pub(super) fn placed(name: &str, place: Vec3, turn: Quat) -> Node {
     Node {
         name: Some(name.into()),
         translation: Some(place.to_array()),

@@ -14,6 +14,7 @@ use windfall_render::trees::SceneTrees;
 
 use super::file::Document;
 use super::scenery::{Barks, LeafMeshes, add_surfaces, shown, tree_mesh, view};
+use super::solids::SolidTracks;
 use crate::export::foliage::Foliage;
 use crate::export::fruit::fruit;
 use crate::export::{Exporter, Frame, FrameLeaf, Job, wood};
@@ -81,6 +82,9 @@ impl StillExport {
             };
             document.add_root(node);
         }
+        let mut solids = SolidTracks::new(scene);
+        solids.push(frame);
+        solids.add(document, None);
         let mut barks = Barks::default();
         for (number, tree) in self.scene_trees.trees.iter().enumerate() {
             let mut mesh = wood::bark(tree);

@@ -8,6 +8,7 @@
 
 mod prototypes;
 mod samples;
+mod solids;
 mod stage;
 mod text;
 mod trees;
@@ -23,6 +24,7 @@ use windfall_core::leaf::LeafState;
 use windfall_render::light::Daylight;
 
 use self::samples::{Handle, Samples};
+use self::solids::SolidSamples;
 use self::trees::TreeSamples;
 use self::view::ViewSamples;
 use super::foliage::Foliage;
@@ -47,6 +49,7 @@ pub(super) struct UsdExport {
     samples: Samples,
     attributes: LeafAttributes,
     trees: TreeSamples,
+    solids: SolidSamples,
     view: ViewSamples,
     clock: stage::Clock,
     /// Greatest distance of a leaf's corners from its place in metres.
@@ -69,6 +72,7 @@ impl UsdExport {
         let mut samples = Samples::new();
         let attributes = LeafAttributes::declare(&mut samples);
         let trees = TreeSamples::declare(&mut samples, job.scene_trees);
+        let solids = SolidSamples::declare(&mut samples, job.scene);
         let view = ViewSamples::declare(&mut samples, job.scene);
         let written = File::create(folder.partial().join(STAGE)).and_then(|file| {
             let mut out = BufWriter::new(file);
@@ -86,13 +90,14 @@ impl UsdExport {
             .iter()
             .flat_map(|mesh| &mesh.positions_m)
             .fold(0.0_f32, |most, corner| most.max(Vec3::from(*corner).length()));
-        Ok(Self { root, folder, foliage, samples, attributes, trees, view, clock, reach_m })
+        Ok(Self { root, folder, foliage, samples, attributes, trees, solids, view, clock, reach_m })
     }
 
     fn add(&mut self, frame: &Frame<'_>) {
         self.samples.begin(frame.number);
         self.attributes.add(&mut self.samples, frame, &self.foliage, self.reach_m);
         self.trees.add(&mut self.samples, frame);
+        self.solids.add(&mut self.samples, frame);
         self.view.add(&mut self.samples, frame);
     }
 }

@@ -102,7 +102,7 @@ pub(super) fn write_material(out: &mut impl Write, coat: &Coat<'_>) -> io::Resul
 }
 
 /// Writes a material of one colour.
-pub(super) fn write_plain(out: &mut impl Write, plain: &Plain) -> io::Result<()> {
+pub(super) fn write_plain(out: &mut impl Write, plain: &Plain<'_>) -> io::Result<()> {
     let Plain { name, color: [r, g, b], roughness } = plain;
     write!(
         out,

@@ -7,8 +7,9 @@ use std::io::{self, Write};
 use windfall_render::light::Daylight;
 
 use super::samples::SampleLayer;
-use super::{MANIFEST, STAGE, prototypes, text, trees, view};
+use super::{MANIFEST, STAGE, prototypes, solids, text, trees, view};
 use crate::export::foliage::Foliage;
+use crate::export::solids::solid_parts;
 use crate::export::surface::{self, Surface};
 use crate::export::{FrameRange, Job};
 
@@ -91,6 +92,8 @@ pub(super) fn write_stage(
     trees::write_materials(out, job.scene_trees)?;
     let surfaces = surface::surfaces(job.scene);
     surfaces.iter().try_for_each(|surface| prototypes::write_plain(out, &surface.plain))?;
+    let (parts, paints) = solid_parts(job.scene);
+    solids::write_materials(out, &paints)?;
     writeln!(out, "}}\ndef PointInstancer \"Leaves\"\n{{")?;
     let paths = foliage.meshes.iter().map(|mesh| format!("</World/Leaves/Prototypes/{}>", mesh.name));
     writeln!(out, "rel prototypes = [{}]", paths.collect::<Vec<_>>().join(", "))?;
@@ -98,6 +101,7 @@ pub(super) fn write_stage(
     prototypes::write_meshes(out, foliage)?;
     writeln!(out, "}}")?;
     trees::write_trees(out, job.scene_trees)?;
+    solids::write_parts(out, &parts, &paints)?;
     surfaces.iter().try_for_each(|surface| write_surface(out, surface))?;
     writeln!(out, "}}")
 }

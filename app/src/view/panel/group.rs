@@ -29,6 +29,8 @@ pub(crate) enum Group {
     Trees,
     /// Kinds of trees.
     TreeKinds,
+    /// Objects and walkers.
+    Objects,
     /// Ground, hills, water.
     Ground,
     /// Sun, sky, haze.
@@ -48,7 +50,7 @@ pub(crate) enum Group {
 impl Group {
     /// All of them, in their order.
     #[cfg(test)]
-    pub(crate) const ALL: [Self; 15] = [
+    pub(crate) const ALL: [Self; 16] = [
         Self::Scene,
         Self::Presets,
         Self::Leaves,
@@ -57,6 +59,7 @@ impl Group {
         Self::Wind,
         Self::Trees,
         Self::TreeKinds,
+        Self::Objects,
         Self::Ground,
         Self::Sky,
         Self::Camera,
@@ -76,6 +79,7 @@ impl Group {
             Self::Wind => "Wind",
             Self::Trees => "Trees and season",
             Self::TreeKinds => "Tree kinds",
+            Self::Objects => "Objects and walkers",
             Self::Ground => "Ground and water",
             Self::Sky => "Sun, sky, haze",
             Self::Camera => "Camera",

@@ -22,6 +22,7 @@ mod list;
 mod litter;
 mod motion;
 mod numbers;
+mod objects;
 mod over_picture;
 mod overlays;
 pub(crate) mod panel_input;
@@ -39,6 +40,7 @@ mod time;
 mod timeline;
 mod trees;
 mod vortices;
+mod walkers;
 mod wind;
 mod words;
 
@@ -235,6 +237,11 @@ impl Panel {
         groups.show(ui, Group::Trees, differs, |ui| trees::show(ui, scene, own));
         let differs = scene.tree_kinds != own.tree_kinds;
         groups.show(ui, Group::TreeKinds, differs, |ui| kinds::show(ui, scene, own));
+        let differs = scene.objects != own.objects || scene.walkers != own.walkers;
+        groups.show(ui, Group::Objects, differs, |ui| {
+            objects::show(ui, scene, own);
+            walkers::show(ui, scene, own);
+        });
         let differs = scene.ground != own.ground;
         groups.show(ui, Group::Ground, differs, |ui| ground::show(ui, &mut scene.ground, &own.ground));
     }

@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Changes from one scene to another: nothing, other numbers, or something that is built anew.
 
+use glam::Vec3;
 use windfall_core::Scene;
-use windfall_core::scene::{Ground, Share, SourceShape, Species, View};
+use windfall_core::scene::{Ground, Object, Share, SourceShape, Species, View};
 use windfall_render::RendererOptions;
 
 /// Changes that follow when one scene takes the place of another.
@@ -68,6 +69,13 @@ impl Change {
         change.rebuild("season", *autumn != old.autumn, false, true);
         change.retune |= *autumn != old.autumn;
         change.ground(&old.ground, ground);
+        change.rebuild(
+            "objects",
+            *objects != old.objects,
+            uncolored(objects) != uncolored(&old.objects),
+            true,
+        );
+        change.rebuild("walkers", *walkers != old.walkers, true, true);
         change.view(&old.view, view);
         let litter = |scene| RendererOptions::for_scene(scene).litter_count;
         if litter(old) != litter(new) {
@@ -143,6 +151,11 @@ fn looks(species: &[Species]) -> Vec<Species> {
         ..Species::default()
     };
     species.iter().map(look).collect()
+}
+
+/// Objects but for what only the renderer uses.
+fn uncolored(objects: &[Object]) -> Vec<Object> {
+    objects.iter().map(|object| Object { color: Vec3::ZERO, ..object.clone() }).collect()
 }
 
 /// The sources that the renderer shows a tree for: balls of leaves, where the scene has no trees.

@@ -5,9 +5,9 @@
 use glam::Vec3;
 use windfall_core::Scene;
 use windfall_core::scene::{
-    Aerodynamics, CameraKey, Exposure, FlightModel, Focus, Jet, JetKey, MeanSpeed, Planform, Profile,
-    Release, RotationModel, Share, Sky, SkyMap, SourceShape, Terrain, ToneMap, Tree, TreeForm, TreeKind,
-    Vortex, Water,
+    Aerodynamics, CameraKey, Exposure, FlightModel, Focus, Jet, JetKey, Litter, MeanSpeed, Object,
+    ObjectFriction, ObjectShape, Planform, Profile, Release, RotationModel, Share, Sky, SkyMap, SourceShape,
+    Terrain, ToneMap, Tree, TreeForm, TreeKind, Vortex, Walker, Water,
 };
 
 /// A park with one of everything that may be added to a scene.
@@ -29,6 +29,9 @@ pub(super) fn full() -> Scene {
     }];
     let key = JetKey { time_s: 0.0, at_m: Vec3::Y, toward_m: Vec3::X, speed_m_s: 40.0 };
     scene.wind.jets = vec![Jet { nozzle_m: 0.1, keys: vec![key] }];
+    scene.ground.litter = Some(Litter { leaf_area_index: 0.0, ..Litter::default() });
+    scene.objects = vec![Object::default()];
+    scene.walkers = vec![Walker::default()];
     scene.ground.terrain = Some(Terrain { levels: 4, ..Terrain::default() });
     scene.ground.water = Some(Water { height_m: -0.5 });
     scene.view.path =
@@ -44,6 +47,8 @@ pub(super) fn other() -> Scene {
     scene.species[0].flight = FlightModel::Aerodynamic(body);
     scene.sources[0].shape = SourceShape::Disc { center_m: Vec3::new(0.0, 6.0, 0.0), radius_m: 3.0 };
     scene.sources[0].release = Release::Burst { at_s: 1.0 };
+    scene.objects[0].shape = ObjectShape::Capsule { radius_m: 0.3, length_m: 1.0 };
+    scene.objects[0].friction = ObjectFriction::Loss(0.4);
     scene.wind.profile = Profile::Log { roughness_m: 0.05, displacement_m: 0.5 };
     scene.wind.speed = MeanSpeed::MetresPerSecond(2.0);
     scene.tree_kinds[0].form = TreeForm::File("a.glb".into());
@@ -61,6 +66,9 @@ pub(super) fn third() -> Scene {
     let motion = &mut scene.species[0].motion;
     (motion.descent_m_s, motion.rose_swings) = (Some(1.0), Some(5));
     scene.species[0].tables = Some("a.tables".into());
+    let shape = ObjectShape::Cylinder { radius_m: 0.2, height_m: 1.0 };
+    scene.ground.litter = Some(Litter { leaf_area_index: 0.0, ..Litter::default() });
+    scene.objects = vec![Object { shape, ..Object::default() }];
     scene.view.lens.tone_map = ToneMap::Linear { gamma: 2.0 };
     scene
 }

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 
 use windfall_core::scene::{
-    Exposure, Haze, Jet, Litter, Profile, Release, Sky, SkyMap, SwayScheme, Terrain, Tree, Water,
+    Exposure, Haze, Jet, Litter, Object, Profile, Release, Sky, SkyMap, SwayScheme, Terrain, Tree, Walker,
+    Water,
 };
 
 use super::*;
@@ -81,8 +82,20 @@ fn what_is_only_seen_leaves_the_simulation_alone() {
 }
 
 #[test]
+fn a_colour_of_an_object_is_only_seen() {
+    let mut old = Scene::preset("autumn-park").expect("a preset");
+    old.objects = vec![Object::default()];
+    let mut new = old.clone();
+    new.objects[0].color.x = 0.9;
+    let change = Change::between(&old, &new);
+    assert!(change.picture && !change.world && change.parts == ["objects"], "drawn anew: {change:?}");
+    new.objects[0].restitution = 0.7;
+    assert!(Change::between(&old, &new).world, "leaves strike it otherwise");
+}
+
+#[test]
 fn what_the_world_is_made_of_begins_it_again() {
-    let edits: [(&str, bool, Edit); 11] = [
+    let edits: [(&str, bool, Edit); 13] = [
         ("seed", true, |scene| scene.seed += 1),
         ("step length", false, |scene| scene.dt_s = 0.01),
         ("gravity", false, |scene| scene.gravity_m_s2 = 1.62),
@@ -94,6 +107,8 @@ fn what_the_world_is_made_of_begins_it_again() {
         ("ground", true, |scene| scene.ground.height_m -= 1.0),
         ("hills", true, |scene| scene.ground.terrain = Some(Terrain::default())),
         ("litter", false, |scene| scene.ground.litter = Some(Litter::default())),
+        ("objects", true, |scene| scene.objects.push(Object::default())),
+        ("walkers", true, |scene| scene.walkers.push(Walker::default())),
     ];
     for (part, picture, edit) in edits {
         let change = change(edit);

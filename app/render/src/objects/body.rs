@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The look of a walker's limbs: tapered where a body is, and joined smoothly where they meet.
+
+use windfall_core::shared_constants;
+use windfall_core::solid::Limb;
+
+shared_constants! {
+    /// Limbs of a body.
+    pub(super) const BODY_LIMBS: u32 = 10;
+    /// Surface of an object: stone, wood or metal by its colour alone.
+    pub(super) const OBJECT_SURFACE: u32 = 0;
+    /// Woven cloth.
+    pub(super) const CLOTH_SURFACE: u32 = 1;
+    /// A sleeve with a hand at its lower end.
+    pub(super) const SLEEVE_SURFACE: u32 = 2;
+    /// Leather.
+    pub(super) const LEATHER_SURFACE: u32 = 3;
+    /// Skin under hair.
+    pub(super) const HEAD_SURFACE: u32 = 4;
+}
+
+/// A limb as it is drawn: within some two centimetres of the capsule that leaves meet.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct LimbLook {
+    /// Part of the radius by which its upper end is thicker than the middle, and its lower end thinner.
+    pub(super) taper: f32,
+    /// Factor by which it is thinner from front to back than from side to side.
+    pub(super) flatness: f32,
+    /// Number of its surface.
+    pub(super) surface: u32,
+}
+
+impl LimbLook {
+    /// The look of a limb.
+    pub(super) fn of(limb: Limb) -> Self {
+        let (taper, flatness, surface) = match limb {
+            Limb::Boot(_) => (-0.06, 1.0, LEATHER_SURFACE),
+            Limb::Shank(_) => (0.14, 1.0, CLOTH_SURFACE),
+            Limb::Thigh(_) => (0.12, 1.0, CLOTH_SURFACE),
+            Limb::Arm(_) => (0.14, 1.0, SLEEVE_SURFACE),
+            Limb::Trunk => (0.06, 0.76, CLOTH_SURFACE),
+            Limb::Head => (0.1, 1.0, HEAD_SURFACE),
+        };
+        Self { taper, flatness, surface }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use windfall_core::solid::LIMBS;
+
+    use super::*;
+
+    #[test]
+    fn shaders_see_all_limbs() {
+        assert_eq!(LIMBS.len(), BODY_LIMBS as usize, "as many");
+        assert!(LIMBS.iter().all(|limb| LIMBS[limb.number()] == *limb), "each by its number");
+    }
+}

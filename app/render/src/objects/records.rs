@@ -1,0 +1,169 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Records of all solid parts of a scene for the shaders, at a time.
+
+use std::ops::Range;
+
+use glam::{Quat, Vec3};
+use windfall_core::Scene;
+use windfall_core::shared_struct;
+use windfall_core::solid::{LIMBS, Limb, Solid, SolidPose, solids_of};
+
+use super::body::{LimbLook, OBJECT_SURFACE};
+use super::solid_mesh::{SolidMesh, SolidVertex, all};
+use crate::gpu::pipeline::buffer_entry;
+use crate::gpu::upload;
+use crate::land::Land;
+
+shared_struct! {
+    /// A solid part.
+    pub(crate) struct ObjectRecord {
+        /// Centre.
+        center_m: [f32; 3],
+        /// Rounding radius of its mesh.
+        rounding_m: f32,
+        /// Half edges of its mesh's inner shape.
+        inner_m: [f32; 3],
+        /// Random number of the object, 0 to 1.
+        own: f32,
+        /// Reflectance.
+        color: [f32; 3],
+        /// Number of its surface.
+        surface: u32,
+        /// Turn from its own frame, a quaternion.
+        turn: [f32; 4],
+        /// Record of the first limb of the body it belongs to.
+        body: u32,
+        /// Limbs of that body which it is joined with, itself among them, a bit for each; 0 for objects.
+        joined: u32,
+        /// Part of the radius by which its upper end is thicker.
+        taper: f32,
+        /// Depth from front to back relative to its width.
+        flatness: f32,
+    }
+}
+
+/// The solid parts of a scene, their meshes and their records.
+#[derive(Debug)]
+pub(crate) struct ObjectBuffers {
+    /// Parts by their mesh, in the order of the records.
+    solids: Vec<Solid>,
+    records: Vec<ObjectRecord>,
+    buffer: wgpu::Buffer,
+    vertices: wgpu::Buffer,
+    indices: wgpu::Buffer,
+    /// Indices of a mesh, and the records of the parts that have it.
+    draws: Vec<(Range<u32>, Range<u32>)>,
+    pub(crate) layout: wgpu::BindGroupLayout,
+    group: wgpu::BindGroup,
+}
+
+impl ObjectBuffers {
+    /// The parts of a scene; `None` if it has none.
+    pub(crate) fn new(device: &wgpu::Device, queue: &wgpu::Queue, scene: &Scene) -> Option<Self> {
+        let mut solids: Vec<(f32, Solid)> = (0..32_000u16)
+            .cycle()
+            .zip(solids_of(scene))
+            // Golden ratio: neighbours differ.
+            .map(|(number, solid)| ((f32::from(number) * 0.618_034).fract(), solid))
+            .collect();
+        if solids.is_empty() {
+            return None;
+        }
+        // Limbs of a walker stay together: they all have the same mesh.
+        solids.sort_by_key(|(_, solid)| SolidMesh::of(solid.shape).0);
+        let (vertices, indices, ranges) = all();
+        let records: Vec<ObjectRecord> =
+            (0..).zip(&solids).map(|(at, (own, solid))| record(at, *own, solid)).collect();
+        let mut draws: Vec<(Range<u32>, Range<u32>)> = Vec::new();
+        for (at, (_, solid)) in (0..).zip(&solids) {
+            let mesh = SolidMesh::of(solid.shape).0;
+            let range = ranges[mesh as usize].clone();
+            match draws.last_mut() {
+                Some((last, records)) if *last == range => records.end = at + 1,
+                _ => draws.push((range, at..at + 1)),
+            }
+        }
+        let filled = |usage, bytes: &[u8]| upload::buffer(device, queue, "objects", usage, bytes);
+        let buffer = filled(wgpu::BufferUsages::STORAGE, bytemuck::cast_slice(&records));
+        let ty = wgpu::BufferBindingType::Storage { read_only: true };
+        let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+            label: Some("objects"),
+            entries: &[buffer_entry(0, ty, wgpu::ShaderStages::VERTEX_FRAGMENT)],
+        });
+        let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("objects"),
+            layout: &layout,
+            entries: &[wgpu::BindGroupEntry { binding: 0, resource: buffer.as_entire_binding() }],
+        });
+        Some(Self {
+            solids: solids.into_iter().map(|(_, solid)| solid).collect(),
+            records,
+            buffer,
+            vertices: filled(wgpu::BufferUsages::VERTEX, bytemuck::cast_slice(&vertices)),
+            indices: filled(wgpu::BufferUsages::INDEX, bytemuck::cast_slice(&indices)),
+            draws,
+            layout,
+            group,
+        })
+    }
+
+    /// Puts every part where it is at a time.
+    pub(crate) fn prepare(&mut self, queue: &wgpu::Queue, time_s: f64, land: &Land) {
+        let mut is_same = true;
+        for (record, solid) in self.records.iter_mut().zip(&self.solids) {
+            #[expect(clippy::cast_possible_truncation, reason = "places within kilometres")]
+            let pose = solid.pose_at(time_s, |x, z| f64::from(land.ground_m(x as f32, z as f32)));
+            let (center_m, turn) = single(pose);
+            is_same &= record.center_m == center_m && record.turn == turn;
+            (record.center_m, record.turn) = (center_m, turn);
+        }
+        if !is_same {
+            queue.write_buffer(&self.buffer, 0, bytemuck::cast_slice(&self.records));
+        }
+    }
+
+    /// Draws all parts with the pipeline that is set and its bind groups 0 and 1.
+    pub(crate) fn draw(&self, pass: &mut wgpu::RenderPass<'_>) {
+        pass.set_bind_group(2, &self.group, &[]);
+        pass.set_vertex_buffer(0, self.vertices.slice(..));
+        pass.set_index_buffer(self.indices.slice(..), wgpu::IndexFormat::Uint32);
+        for (indices, records) in &self.draws {
+            pass.draw_indexed(indices.clone(), 0, records.clone());
+        }
+    }
+
+    /// Layout of the vertices.
+    pub(crate) const fn vertex_layout() -> wgpu::VertexBufferLayout<'static> {
+        SolidVertex::layout(wgpu::VertexStepMode::Vertex)
+    }
+}
+
+/// Centre and turn in single precision.
+fn single(pose: SolidPose) -> ([f32; 3], [f32; 4]) {
+    (pose.center_m.as_vec3().to_array(), pose.turn.as_quat().to_array())
+}
+
+/// The record of the part that is number `at`, at no place yet.
+fn record(at: u32, own: f32, solid: &Solid) -> ObjectRecord {
+    let (_, size) = SolidMesh::of(solid.shape);
+    let joined = |limb: Limb| {
+        let others = LIMBS.into_iter().filter(|other| limb.joins(*other));
+        others.fold(0, |bits, other| bits | 1 << other.number())
+    };
+    let look = solid.limb().map(LimbLook::of);
+    let number = solid.limb().map_or(0, |limb| u32::try_from(limb.number()).unwrap_or(0));
+    ObjectRecord {
+        center_m: Vec3::ZERO.to_array(),
+        rounding_m: size.rounding_m,
+        inner_m: size.inner_m.to_array(),
+        own,
+        color: solid.color.to_array(),
+        surface: look.map_or(OBJECT_SURFACE, |look| look.surface),
+        turn: Quat::IDENTITY.to_array(),
+        body: at - number,
+        joined: solid.limb().map_or(0, joined),
+        taper: look.map_or(0.0, |look| look.taper),
+        flatness: look.map_or(1.0, |look| look.flatness),
+    }
+}

@@ -1,0 +1,132 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Objects and the limbs of walkers for other programs: a mesh for each, in a frame of its own, and where that is.
+
+use glam::{Quat, Vec3};
+use windfall_core::Scene;
+use windfall_core::solid::{LIMBS, Solid, solids_of};
+use windfall_render::objects::solid_mesh::SolidMesh;
+
+use super::Frame;
+use super::plain::Plain;
+
+/// Roughness of all of them.
+const ROUGHNESS: f32 = 0.9;
+
+/// A solid part of a scene as a mesh.
+#[derive(Clone, Debug)]
+pub(super) struct SolidPart {
+    /// Name of letters, digits and underscores that no other has.
+    pub(super) name: String,
+    /// Number of its material.
+    pub(super) material: usize,
+    /// Corners in metres about its centre.
+    pub(super) positions_m: Vec<[f32; 3]>,
+    /// Unit normals outwards.
+    pub(super) normals: Vec<[f32; 3]>,
+    /// Corners of the triangles, counter-clockwise as seen from outside.
+    pub(super) triangles: Vec<[u32; 3]>,
+    solid: Solid,
+}
+
+/// A colour of solid parts.
+#[derive(Clone, Debug)]
+pub(super) struct SolidPaint {
+    name: String,
+    color: Vec3,
+}
+
+impl SolidPaint {
+    /// The material of this colour.
+    pub(super) fn plain(&self) -> Plain<'_> {
+        Plain { name: &self.name, color: self.color.to_array(), roughness: ROUGHNESS }
+    }
+}
+
+/// All solid parts of a scene, and their colours.
+pub(super) fn solid_parts(scene: &Scene) -> (Vec<SolidPart>, Vec<SolidPaint>) {
+    let mut paints: Vec<SolidPaint> = Vec::new();
+    let objects = scene.objects.len();
+    let parts = solids_of(scene).into_iter().enumerate().map(|(number, solid)| {
+        let name = match number.checked_sub(objects) {
+            Some(limb) => format!("Walker_{}_{}", limb / LIMBS.len(), limb % LIMBS.len()),
+            None => format!("Object_{number}"),
+        };
+        let material = paints.iter().position(|paint| paint.color == solid.color).unwrap_or_else(|| {
+            paints.push(SolidPaint { name: format!("solid_{}", paints.len()), color: solid.color });
+            paints.len() - 1
+        });
+        part(name, material, solid)
+    });
+    let parts = parts.collect();
+    (parts, paints)
+}
+
+fn part(name: String, material: usize, solid: Solid) -> SolidPart {
+    let (mesh, size) = SolidMesh::of(solid.shape);
+    let (vertices, indices) = mesh.build();
+    let corners: Vec<(Vec3, Vec3)> = vertices.iter().map(|vertex| vertex.on(size)).collect();
+    // Poles, and the middle of a ball, have triangles without an area.
+    let has_area = |corners: &[Vec3; 3]| {
+        let [a, b, c] = *corners;
+        (b - a).cross(c - a).length() > 1.0e-9
+    };
+    let (triangles, _) = indices.as_chunks::<3>();
+    let triangles = triangles.iter().filter(|triangle| has_area(&triangle.map(|at| corners[at as usize].0)));
+    SolidPart {
+        name,
+        material,
+        positions_m: corners.iter().map(|(at, _)| at.to_array()).collect(),
+        normals: corners.iter().map(|(_, normal)| normal.to_array()).collect(),
+        triangles: triangles.copied().collect(),
+        solid,
+    }
+}
+
+impl SolidPart {
+    /// Returns true if it ever moves.
+    pub(super) fn moves(&self) -> bool {
+        self.solid.moves()
+    }
+
+    /// Place of its centre in metres, and its turn.
+    pub(super) fn pose(&self, frame: &Frame<'_>) -> (Vec3, Quat) {
+        let compiled = &frame.world.compiled;
+        self.pose_at(frame.world.clock.seconds(), |x, z| compiled.ground_height(x, z))
+    }
+
+    /// The same of a part that never moves.
+    pub(super) fn still_pose(&self) -> (Vec3, Quat) {
+        self.pose_at(0.0, |_, _| 0.0)
+    }
+
+    fn pose_at(&self, time_s: f64, ground_m: impl Fn(f32, f32) -> f32) -> (Vec3, Quat) {
+        #[expect(clippy::cast_possible_truncation, reason = "places within kilometres")]
+        let pose = self.solid.pose_at(time_s, |x, z| f64::from(ground_m(x as f32, z as f32)));
+        (pose.center_m.as_vec3(), pose.turn.as_quat().normalize())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use windfall_core::scene::{Object, ObjectShape, Walker};
+
+    use super::*;
+
+    #[test]
+    fn every_part_has_a_mesh_of_its_size_and_a_shared_colour() {
+        let shape = ObjectShape::Sphere { radius_m: 0.5 };
+        let objects = vec![Object { shape, ..Object::default() }, Object::default()];
+        let scene = Scene { objects, walkers: vec![Walker::default()], ..Scene::default() };
+        let (parts, paints) = solid_parts(&scene);
+        assert_eq!(parts.len(), 2 + LIMBS.len(), "all of them");
+        assert_eq!(parts[0].material, parts[1].material, "one colour");
+        assert!(paints.len() < parts.len(), "{} colours", paints.len());
+        assert_eq!((&*parts[1].name, &*parts[2].name), ("Object_1", "Walker_0_0"), "names");
+        assert!(!parts[0].moves() && parts[2].moves(), "who moves");
+        for at in parts[0].triangles.as_flattened() {
+            let away = Vec3::from(parts[0].positions_m[*at as usize]).length();
+            assert!((away - 0.5).abs() < 1.0e-6, "a corner {away} m from the middle of the ball");
+        }
+    }
+}

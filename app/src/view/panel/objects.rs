@@ -1,0 +1,127 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Objects: their shape, where they stand, and what leaves find on them.
+
+use egui::{RichText, Ui};
+use glam::Vec3;
+use windfall_core::Scene;
+use windfall_core::scene::{MAX_OBJECTS, Object, ObjectFriction, ObjectShape, limits};
+
+use super::field::{choice, field, vector};
+use super::list::List;
+use super::style;
+
+pub(super) fn show(ui: &mut Ui, scene: &mut Scene, own: &Scene) {
+    let has_litter = scene.ground.litter.is_some();
+    if !has_litter {
+        ui.label(RichText::new("Objects and walkers need litter on the ground.").color(style::QUIET));
+    }
+    let most = if has_litter { MAX_OBJECTS } else { 0 };
+    let list = List { name: "Object", entry: "object", fewest: 0, most };
+    let (objects, own) = (&mut scene.objects, &own.objects);
+    let name = |index: usize, object: &Object| {
+        let shape = match object.shape {
+            ObjectShape::Sphere { .. } => "ball",
+            ObjectShape::Capsule { .. } => "capsule",
+            ObjectShape::Box { .. } => "box",
+            ObjectShape::Cylinder { .. } => "cylinder",
+        };
+        format!("{}: {shape} at {:.1}, {:.1}", index + 1, object.at_m.x, object.at_m.z)
+    };
+    let chosen = list.show(ui, objects, name, |like, _| like.cloned().unwrap_or_default());
+    let Some(object) = chosen.and_then(|index| objects.get_mut(index)) else { return };
+    let own = chosen.and_then(|index| own.get(index));
+    shape(ui, &mut object.shape, own.map(|own| own.shape));
+    let tip = "Middle of the object";
+    vector(ui, "Place", tip, &mut object.at_m, own.map(|own| own.at_m), limits::OBJECT_AT_M);
+    let tip = "Turn about the vertical, from z towards x";
+    let heading = field("Heading", tip, limits::HEADING_DEG);
+    heading.show(ui, &mut object.heading_deg, own.map(|own| own.heading_deg));
+    let tip = "Turn about its own x axis before that";
+    let tilt = field("Tilt", tip, limits::OBJECT_TILT_DEG);
+    tilt.show(ui, &mut object.tilt_deg, own.map(|own| own.tilt_deg));
+    friction(ui, &mut object.friction, own.map(|own| own.friction));
+    let tip = "Coefficient of restitution of leaves that strike it";
+    let restitution = field("Restitution", tip, limits::RESTITUTION);
+    restitution.show(ui, &mut object.restitution, own.map(|own| own.restitution));
+    let tip = "Reflectance of its surface: linear red, green and blue";
+    vector(ui, "Colour", tip, &mut object.color, own.map(|own| own.color), limits::COLOR);
+}
+
+fn shape(ui: &mut Ui, shape: &mut ObjectShape, own: Option<ObjectShape>) {
+    // Another shape is about as large.
+    let size_m = match *shape {
+        ObjectShape::Sphere { radius_m } => Vec3::splat(2.0 * radius_m),
+        ObjectShape::Capsule { radius_m, length_m } => {
+            Vec3::new(2.0 * radius_m, length_m + 2.0 * radius_m, 2.0 * radius_m)
+        }
+        ObjectShape::Box { size_m } => size_m,
+        ObjectShape::Cylinder { radius_m, height_m } => Vec3::new(2.0 * radius_m, height_m, 2.0 * radius_m),
+    };
+    let size_m =
+        size_m.clamp(Vec3::splat(limits::OBJECT_SIZE_M.low), Vec3::splat(limits::OBJECT_SIZE_M.high));
+    let radius_m = (0.5 * size_m.x.min(size_m.z)).min(limits::OBJECT_RADIUS_M.high);
+    let options = [
+        ("ball", ObjectShape::Sphere { radius_m }),
+        ("capsule", ObjectShape::Capsule { radius_m, length_m: (size_m.y - 2.0 * radius_m).max(0.0) }),
+        ("box", ObjectShape::Box { size_m }),
+        ("cylinder", ObjectShape::Cylinder { radius_m, height_m: size_m.y }),
+    ];
+    choice(ui, "Shape", "Shape of the object", shape, own.as_ref(), &options);
+    let own = own.filter(|own| std::mem::discriminant(own) == std::mem::discriminant(shape));
+    let radius = |ui: &mut Ui, radius_m: &mut f32, own: Option<f32>| {
+        field("Radius", "Radius", limits::OBJECT_RADIUS_M).fine(0.01).show(ui, radius_m, own);
+    };
+    match shape {
+        ObjectShape::Sphere { radius_m } => {
+            let own =
+                own.and_then(
+                    |own| if let ObjectShape::Sphere { radius_m } = own { Some(radius_m) } else { None },
+                );
+            radius(ui, radius_m, own);
+        }
+        ObjectShape::Capsule { radius_m, length_m } => {
+            let own = own.and_then(|own| match own {
+                ObjectShape::Capsule { radius_m, length_m } => Some((radius_m, length_m)),
+                _ => None,
+            });
+            radius(ui, radius_m, own.map(|own| own.0));
+            let tip = "Distance of the centres of its two rounded ends";
+            field("Length", tip, limits::OBJECT_LENGTH_M).fine(0.01).show(ui, length_m, own.map(|own| own.1));
+        }
+        ObjectShape::Box { size_m } => {
+            let own =
+                own.and_then(|own| if let ObjectShape::Box { size_m } = own { Some(size_m) } else { None });
+            vector(ui, "Size", "Edges of the box", size_m, own, limits::OBJECT_SIZE_M);
+        }
+        ObjectShape::Cylinder { radius_m, height_m } => {
+            let own = own.and_then(|own| match own {
+                ObjectShape::Cylinder { radius_m, height_m } => Some((radius_m, height_m)),
+                _ => None,
+            });
+            radius(ui, radius_m, own.map(|own| own.0));
+            let height = field("Height", "Height of the cylinder", limits::OBJECT_HEIGHT_M).fine(0.01);
+            height.show(ui, height_m, own.map(|own| own.1));
+        }
+    }
+}
+
+fn friction(ui: &mut Ui, friction: &mut ObjectFriction, own: Option<ObjectFriction>) {
+    let options = [("Coulomb", ObjectFriction::Coulomb(0.5)), ("share lost", ObjectFriction::Loss(0.5))];
+    let tip =
+        "Speed along the surface that a contact takes: by the impulse into it, or a share of that speed";
+    choice(ui, "Friction", tip, friction, own.as_ref(), &options);
+    match (friction, own) {
+        (ObjectFriction::Coulomb(coefficient), own) => {
+            let own =
+                own.and_then(|own| if let ObjectFriction::Coulomb(own) = own { Some(own) } else { None });
+            let tip = "Coefficient of Coulomb friction of leaves on it";
+            field("Coefficient", tip, limits::COULOMB).show(ui, coefficient, own);
+        }
+        (ObjectFriction::Loss(share), own) => {
+            let own = own.and_then(|own| if let ObjectFriction::Loss(own) = own { Some(own) } else { None });
+            let tip = "Share of the speed along the surface that a contact takes";
+            field("Share lost", tip, limits::LOSS).show(ui, share, own);
+        }
+    }
+}
