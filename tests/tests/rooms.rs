@@ -55,13 +55,14 @@ const CORE: Order = Order {
         "device/arith",
         "store",
         "scene",
-        "solid",
         "flight",
         "motion",
         "tree",
+        "solid",
         "blocks",
         "device/motion",
         "context",
+        "device/solid",
         "device/terrain",
         "device/wind",
         "device/tree",
@@ -80,6 +81,7 @@ const CORE: Order = Order {
     exceptions: &[
         ("device/leaf", "device/flight", "a leaf that flies as a body takes its steps"),
         ("flight", "context", "drop tables are flown in the air of a scene"),
+        ("flight", "device/flight", "drop tables are flown over no ground but their own"),
         ("flight", "device/leaf", "drop tables are flown by the leaf's own functions"),
         (
             "leaf",

@@ -106,7 +106,7 @@ impl CompiledScene {
         tables.extend(chances);
         block.first_petiole_row = len32(tables.len());
         tables.extend(petiole_rows(scene, &forest, &kinds));
-        let solids = Solids::of(scene);
+        let solids = Solids::of(scene, &forest);
         block.solids = solids.tabulate(scene, &block, &mut tables);
         block.first_motion_row = len32(tables.len());
         tables.extend(pack_motion(&motions));

@@ -10,13 +10,14 @@ use crate::device::solid::near::LIST_LENGTH_BITS;
 use crate::device::solid::shape::{SOLID_LOSS, SOLID_ROUND};
 use crate::layout::Uint4;
 use crate::scene::{MAX_MOVERS, ObjectFriction, ObjectShape, Scene};
-use crate::solid::{Solid, SolidPose, solids_of};
+use crate::solid::{Solid, SolidPose, solids_of, trunks_of};
+use crate::tree::Forest;
 
 /// Edge in m of the smallest cells of the grid.
 const CELL_M: f64 = 2.0;
 /// Most cells along an edge of the grid.
 const MOST_CELLS: f64 = 128.0;
-/// Most entries of all lists, as many as places of first entries can tell apart.
+/// Most entries of all lists: places of first entries have so many values.
 const MOST_ENTRIES: usize = 1 << (32 - LIST_LENGTH_BITS);
 /// Fastest leaf in m/s that no part is missed by: beyond the fastest wind with its gusts.
 const FASTEST_M_S: f64 = 120.0;
@@ -32,9 +33,12 @@ pub(super) struct Solids {
 type Rectangle = [f64; 4];
 
 impl Solids {
-    /// The parts of a scene.
-    pub(super) fn of(scene: &Scene) -> Self {
-        let (movers, still) = solids_of(scene).into_iter().partition(Solid::moves);
+    /// The parts of a scene and, where leaves rest on what they strike, of its trees.
+    pub(super) fn of(scene: &Scene, forest: &Forest) -> Self {
+        let (movers, mut still): (Vec<_>, Vec<_>) = solids_of(scene).into_iter().partition(Solid::moves);
+        if scene.ground.litter.is_some() {
+            still.extend(trunks_of(forest));
+        }
         Self { movers, still }
     }
 

@@ -1,9 +1,12 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Solid things as convex parts with a pose at every time: the objects of a scene, and the limbs of those who walk there.
+//! Solid things as convex parts with a pose at every time: the objects of a scene, the limbs of those who walk there, and
+//! the trunks of its trees.
 
 mod part;
+mod trunk;
 mod walk;
 
 pub use part::{Solid, SolidPose, solids_of};
+pub(crate) use trunk::trunks_of;
 pub use walk::{LIMBS, Limb, Side};

@@ -84,6 +84,16 @@ impl Solid {
         }
     }
 
+    /// A part that stands still, of no colour of its own.
+    pub(super) fn still(
+        shape: ObjectShape,
+        friction: ObjectFriction,
+        restitution: f32,
+        pose: SolidPose,
+    ) -> Self {
+        Self { shape, friction, restitution, color: Vec3::ZERO, path: Path::Still(pose) }
+    }
+
     /// Returns true if it ever moves.
     pub fn moves(&self) -> bool {
         !matches!(self.path, Path::Still(_))
