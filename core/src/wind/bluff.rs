@@ -5,13 +5,14 @@
 //! # Model
 //! Behind a wall that is long across the wind, at a distance x and a height z, the wind lacks
 //! `9.75 (h/x) η exp(-0.67 η^1.5)` of what it is at the wall's height h, with `η = (z/h) (K x/h)^(-1/(n+2))`, n = 1/7 and
-//! `K = 2 κ²/ln(h/z0)`: Perera's fit to fences (1981, J. Wind Eng. Ind. Aerodyn. 8, 93), in the form of the theory of Counihan, Hunt and
-//! Jackson (1974, J. Fluid Mech. 64, 529). Such a wake keeps its moment, `∫ z U u dz`, and not its momentum, which the ground takes up; at the
-//! ground the lack grows with the logarithm of the height, as the wind does there, so that the share is the same below where it is least.
+//! `K = 2 κ²/ln(h/z0)`: Perera's fit to fences ("Shelter behind two-dimensional solid and porous fences", 1981), in the form of the theory of Counihan,
+//! Hunt and Jackson (1974, doi 10.1017/S0022112074002539). Such a wake keeps its moment, `∫ z U u dz`, and not its momentum, which the ground takes up;
+//! at the ground the lack grows with the logarithm of the height, as the wind does there, so that the share is the same below where it is least.
 //!
-//! Sideways it spreads as a Gaussian with the deviation `½ √(h x)`, as in the model of Taylor and Salmon (1993, J. Appl. Meteor. 32, 1683), here
-//! summed over the width. Their moments, 0.8 of a long fence, 0.2 to 0.35 of a cube and 0.2 of a pole, are joined by an assumed formula. Of these papers
-//! the abstracts were read; the formulas and numbers are as programs after them state them.
+//! Sideways it spreads as a Gaussian with the deviation `½ √(h x)`, as in the model of Taylor and Salmon
+//! (1993, doi 10.1175/1520-0450(1993)032<1683:AMFTCO>2.0.CO;2), here summed over the width. Their moments, 0.8 of a long fence, 0.2 to 0.35 of a
+//! cube and 0.2 of a pole, are joined by an assumed formula. The abstracts of the latter two papers were read; formulas and numbers are as programs state them
+//! that follow the papers.
 //!
 //! No share is below none, so there is no wind back to the wall in the cavity behind it: no mean wind for 1.5 heights behind a cube and 5 behind a
 //! long wall. Nearer than the lesser of height and width the wake is as it is there.

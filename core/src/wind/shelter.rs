@@ -15,8 +15,8 @@
 //! What lies below a line that falls at 15° from higher ground upwind is sheltered: the shadow zone of Werner's model of dunes ("Eolian
 //! dunes: computer simulations and attractor interpretation", 1995). How much wind is left there is an assumption.
 //!
-//! Behind solid things that stand on the ground and are at least half as wide as high, the wake is that of [`BluffWake`]. Slender ones, and those above the
-//! ground, have one of the same kind as trees, as far as the table reaches up. Those that move have none.
+//! Behind solid things that stand on the ground and are at least half as wide as high, the wake is that of [`BluffWake`]. Slender ones, and those
+//! above the ground, have one of the same kind as trees, as far as the table reaches up. Those that move have none.
 
 use std::f64::consts::{SQRT_2, TAU};
 use std::ops::Range;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Shelter: wakes of trees by what they lack, those of walls by measured ones, lees of hills by rays, and what stands in them.
+//! Shelter: wakes of trees by what they lack, those of walls by a fit to measured ones, lees of hills by rays, and what stands in them.
 
 use crate::common::{build, vector};
 use glam::DVec3;
@@ -308,7 +308,7 @@ fn yard(objects: Vec<Object>) -> Scene {
 /// Length, height and thickness of a long wall in m.
 const WALL_M: [f32; 3] = [60.0, 2.0, 0.2];
 
-/// Perera, 1981: what fences lack of the wind, here over ground of a roughness length of 5 mm.
+/// Share of the wind behind fences by the fit of Perera, 1981, here over ground of a roughness length of 5 mm.
 fn fence_share(heights_behind: f64, heights_up: f64, height_m: f64) -> f64 {
     let widening = 2.0 * 0.4 * 0.4 / (height_m / 0.005 + 1.0).ln();
     let eta = heights_up / (widening * heights_behind).powf(7.0 / 15.0);
@@ -324,8 +324,8 @@ fn behind_a_long_wall_the_wind_recovers_as_behind_fences() {
     for heights in [1.0, 2.0, 3.0, 5.0, 7.0, 10.0, 15.0, 20.0] {
         let (share, fence) = (behind(heights, 0.5), fence_share(heights, 0.5, 2.0));
         let foot = behind(heights, 0.025);
-        println!("{heights:4} heights: {share:.3}, as measured {fence:.3}; at the ground {foot:.3}");
-        assert!((share - fence).abs() < 0.06, "{heights} heights behind: {share}, as measured {fence}");
+        println!("{heights:4} heights: {share:.3}, by the fit {fence:.3}; at the ground {foot:.3}");
+        assert!((share - fence).abs() < 0.06, "{heights} heights behind: {share}, by the fit {fence}");
         assert!(share >= last, "{heights} heights behind: {share} after {last}");
         assert!((foot - share).abs() < 0.06, "{heights} heights behind: {foot} at the ground, {share} above");
         last = share;
@@ -338,10 +338,7 @@ fn behind_a_long_wall_the_wind_recovers_as_behind_fences() {
     // Above the wall as well.
     for heights in [5.0, 10.0, 20.0] {
         let (share, fence) = (behind(heights, 1.5), fence_share(heights, 1.5, 2.0));
-        assert!(
-            (share - fence).abs() < 0.06,
-            "{heights} heights behind, above: {share}, as measured {fence}"
-        );
+        assert!((share - fence).abs() < 0.06, "{heights} heights behind, above: {share}, by the fit {fence}");
     }
     // In front.
     let before: Vec<f64> = [0.25, 0.75, 1.5, 3.0].iter().map(|heights| behind(-heights, 0.025)).collect();
