@@ -21,13 +21,14 @@ pub(super) fn shelter_rows(
 ) -> Vec<Uint4> {
     let (sin, cos) = libm::sincos(f64::from(scene.wind.direction_deg).to_radians());
     let leaves_left = leaves_left(f64::from(scene.autumn));
-    let wind = ShelterWind { direction_x: cos, direction_z: sin, leaves_left };
+    let roughness_m = scene.ground.surface_roughness_m.into();
+    let wind = ShelterWind { direction_x: cos, direction_z: sin, leaves_left, roughness_m };
     grid.rows(scene, forest, &wind, |x_m, z_m| foot_height(block, tables, single(x_m), single(z_m)).into())
 }
 
 /// Numbers that these rows depend on and that may change while a simulation runs.
-pub(super) fn shelter_inputs(scene: &Scene) -> [f32; 3] {
-    [scene.wind.direction_deg, scene.autumn, scene.ground.height_m]
+pub(super) fn shelter_inputs(scene: &Scene) -> [f32; 4] {
+    [scene.wind.direction_deg, scene.autumn, scene.ground.height_m, scene.ground.surface_roughness_m]
 }
 
 /// Returns true if shelter takes part in the wind: where it is asked for, where anything lacks wind, and where the wind has a ground.

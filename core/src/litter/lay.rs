@@ -144,7 +144,7 @@ fn lay_by_solids(cx: &Context<'_>, leaf: &mut LeafMut<'_>) -> bool {
         }
         let solid = solid_at(cx, overlap.number, 0.0);
         let SolidGap { gap_m, normal, .. } = solid_gap(&solid, &body, pose, place, 1.0);
-        let out = normal * (gap_m.min(-STRIKE_GAP_M) * -1.0);
+        let out = normal * -gap_m.min(-STRIKE_GAP_M);
         leaf.place.position = (place + out).to_array();
     }
     if !is_borne(cx, &body, pose, leaf.place.position.into()) {

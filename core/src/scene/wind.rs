@@ -103,7 +103,8 @@ pub struct WindParameters {
     pub gusts: Gusts,
     /// Turbulence.
     pub turbulence: Turbulence,
-    /// Shelter from the mean wind in the lee of trees and hills; none in a uniform wind, which has no ground.
+    /// Shelter from the mean wind in the lee of trees, hills and still objects, and in front of the latter; none in a uniform wind, which has
+    /// no ground.
     pub shelter: bool,
     /// Point vortices, at most 8.
     pub vortices: Vec<Vortex>,

@@ -6,6 +6,7 @@
 //! and turbulence are frozen patterns that the mean wind carries along (Taylor's hypothesis).
 
 mod beaufort;
+mod bluff;
 mod shelter;
 mod synthesis;
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The shelter table: the share of the mean wind that is left behind trees and hills, on a level grid.
+//! The shelter table: the share of the mean wind that is left behind trees, hills and solid things, on a level grid.
 //!
 //! # Model
 //! A tree takes from the wind the momentum that its drag is: lidar scans of the wake of a solitary mature tree found there all but
@@ -14,16 +14,21 @@
 //!
 //! What lies below a line that falls at 15° from higher ground upwind is sheltered: the shadow zone of Werner's model of dunes ("Eolian
 //! dunes: computer simulations and attractor interpretation", 1995). How much wind is left there is an assumption.
+//!
+//! Behind solid things that stand on the ground and are at least half as wide as high, the wake is that of [`BluffWake`]. Slender ones, and those
+//! above the ground, have one of the same kind as trees, as far as the table reaches up. Those that move have none.
 
 use std::f64::consts::{SQRT_2, TAU};
 use std::ops::Range;
 
+use super::bluff::{BluffWake, Footprint, wake_heights};
 use crate::blocks::ShelterBlock;
 use crate::convert::{single, word};
 use crate::device::wind::shelter::{SHELTER_LAYERS, SHELTER_UNIT};
 use crate::layout::Uint4;
 use crate::motion::AIR_DENSITY;
 use crate::scene::Scene;
+use crate::solid::{Outline, solids_of};
 use crate::threads::each;
 use crate::tree::forest::Planted;
 use crate::tree::{AttachmentKind, Forest};
@@ -31,8 +36,24 @@ use crate::tree::{AttachmentKind, Forest};
 /// Heights of the table: one more than its layers.
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small whole number")]
 const LEVELS: usize = SHELTER_LAYERS as usize + 1;
-/// Smallest cell in m.
+/// Smallest cell in m where there are no solid things.
 const LEAST_CELL_M: f64 = 1.0;
+/// Smallest cell in m where there are.
+const LEAST_SOLID_CELL_M: f64 = 0.25;
+/// Smallest cell where there are, in heights of the lowest one that shelters.
+const CELL_HEIGHTS: f64 = 0.25;
+/// Height in m of the lowest solid thing that shelters.
+const LEAST_SOLID_M: f64 = 0.2;
+/// The same in layers of the table.
+const LEAST_SOLID_LAYERS: f64 = 0.25;
+/// Gap below a solid thing, in its heights, up to which it stands on the ground.
+const STANDING_GAP: f64 = 0.1;
+/// Width in heights of the narrowest solid thing with the wake of a bluff body.
+const LEAST_BLUFF: f64 = 0.5;
+/// Drag coefficient of others: an assumption between those of round and of angular ones.
+const SOLID_DRAG: f64 = 1.0;
+/// Length of their wakes in square roots of their areas.
+const SLENDER_LENGTHS: f64 = 12.0;
 /// Most cells along an edge.
 const MOST_CELLS: f64 = 192.0;
 /// Top of the table relative to the height of the tallest tree.
@@ -63,7 +84,7 @@ const MOST_LEE_STEPS: f64 = 256.0;
 const BAND_ROWS: usize = 16;
 
 /// Shares of the wind that are left at the heights of a node.
-type Node = [f64; LEVELS];
+pub(super) type Node = [f64; LEVELS];
 
 /// Place and cells of the shelter table of a scene: the same for every direction of the wind.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -89,11 +110,13 @@ pub struct ShelterWind {
     pub direction_z: f64,
     /// Share of the leaves that hang on the trees.
     pub leaves_left: f64,
+    /// Roughness length in m of the ground.
+    pub roughness_m: f64,
 }
 
 impl ShelterWind {
     /// Distance along and across the wind in m.
-    fn frame(&self, x_m: f64, z_m: f64) -> [f64; 2] {
+    pub(super) fn frame(&self, x_m: f64, z_m: f64) -> [f64; 2] {
         [x_m * self.direction_x + z_m * self.direction_z, z_m * self.direction_x - x_m * self.direction_z]
     }
 
@@ -106,10 +129,10 @@ impl ShelterWind {
     }
 }
 
-/// Wake of a tree, in the frame of the wind.
+/// Wake of a tree, or of a solid thing that is slender or above the ground, in the frame of the wind.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Wake {
-    /// Downwind rim of the crown in m along the wind.
+    /// Downwind rim in m along the wind.
     rim_m: f64,
     /// Distance behind the rim in m at which the wake begins.
     gap_m: f64,
@@ -197,6 +220,34 @@ impl Wake {
         })
     }
 
+    /// The wake of a solid thing whose lowest and highest points are so high above the ground.
+    fn of_solid(footprint: &Footprint, [low_m, high_m]: [f64; 2], grid: &ShelterGrid) -> Self {
+        let [from_m, to_m] = footprint.sides_m();
+        let (wide_m, tall_m) = (to_m - from_m, high_m - low_m);
+        let area_m2 = wide_m * tall_m;
+        // As of a tree: √2 times the deviation of the thing itself.
+        let spread = |size_m: f64, least_m: f64| libm::hypot(size_m * SQRT_2 / libm::sqrt(12.0), least_m);
+        let spread_m = [spread(wide_m, 0.5 * grid.cell_m), spread(tall_m, 0.5 * grid.layer_m)];
+        Self {
+            rim_m: footprint.ends_m()[1],
+            gap_m: 0.0,
+            length_m: SLENDER_LENGTHS * libm::sqrt(area_m2),
+            across_m: 0.5 * (from_m + to_m),
+            height_m: 0.5 * (low_m + high_m),
+            spread_m,
+            drag_m2: (SOLID_DRAG * area_m2).min(MOST_DRAG * TAU * spread_m[0] * spread_m[1]),
+        }
+    }
+
+    /// The rectangle of places whose wind it may lack: ranges in m along and across the wind.
+    fn reach_m(&self) -> [[f64; 2]; 2] {
+        let half_m = MOST_SIDE * (self.spread_m[0] + SPREAD * self.length_m);
+        [
+            [self.rim_m + self.gap_m, self.rim_m + self.length_m],
+            [self.across_m - half_m, self.across_m + half_m],
+        ]
+    }
+
     /// Share of the wind that the wake lacks at a place, at every height of the table; `None` outside of the wake.
     fn lack(&self, [along_m, across_m]: [f64; 2], layer_m: f64) -> Option<Node> {
         let behind_m = along_m - self.rim_m;
@@ -219,9 +270,45 @@ impl Wake {
     }
 }
 
+/// Wakes of solid things.
+#[derive(Clone, Debug, Default)]
+struct SolidWakes {
+    bluff: Vec<BluffWake>,
+    others: Vec<Wake>,
+}
+
+impl SolidWakes {
+    /// The wakes of those that stand still and are high enough for the table.
+    fn of(scene: &Scene, grid: &ShelterGrid, wind: &ShelterWind, ground_m: impl Fn(f64, f64) -> f64) -> Self {
+        let mut wakes = Self::default();
+        for outline in sheltering(scene) {
+            let middle_m = outline.middle_m();
+            let ground_m = ground_m(middle_m.x, middle_m.z);
+            let [low_m, high_m] = outline.heights_m.map(|at_m| at_m - ground_m);
+            if high_m < LEAST_SOLID_M.max(LEAST_SOLID_LAYERS * grid.layer_m) {
+                continue;
+            }
+            let footprint = Footprint::of(&outline, wind);
+            let stands = low_m <= STANDING_GAP * outline.height_m();
+            if stands && footprint.width_m() >= LEAST_BLUFF * high_m {
+                wakes.bluff.push(BluffWake::of(footprint, high_m, grid, wind));
+            } else {
+                wakes.others.push(Wake::of_solid(&footprint, [low_m.max(0.0), high_m], grid));
+            }
+        }
+        wakes
+    }
+}
+
+/// Outlines of a scene's solid things that may shelter.
+fn sheltering(scene: &Scene) -> impl Iterator<Item = Outline> {
+    let outlines = solids_of(scene).into_iter().filter_map(|solid| Outline::of_still(&solid));
+    outlines.filter(|outline| outline.height_m() >= LEAST_SOLID_M)
+}
+
 impl ShelterGrid {
-    /// The grid of a scene: around its trees and the wakes that they may have, and around the hills' square. `None` if the scene has
-    /// neither.
+    /// The grid of a scene: around its trees and solid things and the wakes that they may have, and around the hills' square. `None` if the
+    /// scene has none of them.
     pub fn of(scene: &Scene, forest: &Forest) -> Option<Self> {
         let (mut least, mut most) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
         let mut include = |x_m: f64, z_m: f64, reach_m: f64| {
@@ -243,11 +330,26 @@ impl ShelterGrid {
             include(0.0, 0.0, 0.5 * f64::from(terrain.edge_m));
             top_m = top_m.max(terrain.relief_m.into());
         }
+        let mut least_cell_m = LEAST_CELL_M;
+        for outline in sheltering(scene) {
+            // One that stands on the ground may reach up higher by its gap.
+            let tall_m = (1.0 + STANDING_GAP) * outline.height_m();
+            let middle_m = outline.middle_m();
+            let rims = outline.points.iter().map(|at| libm::hypot(at.x - middle_m.x, at.z - middle_m.z));
+            let rim_m = rims.fold(0.0, f64::max);
+            let wide_m = 2.0 * rim_m;
+            let bluff_m = tall_m * wake_heights(wide_m / outline.height_m());
+            let slender_m = SLENDER_LENGTHS * libm::sqrt(wide_m * tall_m);
+            let reach_m = if wide_m < LEAST_BLUFF * tall_m { slender_m } else { bluff_m };
+            include(middle_m.x, middle_m.z, rim_m + reach_m + LEAST_CELL_M);
+            top_m = top_m.max(TOP_HEIGHTS * tall_m);
+            least_cell_m = least_cell_m.min(CELL_HEIGHTS * tall_m);
+        }
         if top_m <= 0.0 {
             return None;
         }
         let edges = [most[0] - least[0], most[1] - least[1]];
-        let cell_m = (edges[0].max(edges[1]) / MOST_CELLS).max(LEAST_CELL_M);
+        let cell_m = (edges[0].max(edges[1]) / MOST_CELLS).max(least_cell_m.max(LEAST_SOLID_CELL_M));
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "1 to MOST_CELLS")]
         let cells = edges.map(|edge_m| (libm::ceil(edge_m / cell_m).clamp(1.0, MOST_CELLS)) as usize);
         let layer_m = top_m / f64::from(SHELTER_LAYERS);
@@ -285,10 +387,17 @@ impl ShelterGrid {
         let nodes = self.cells.map(|cells| cells + 1);
         let wakes: Vec<_> =
             forest.trees().iter().filter_map(|tree| Wake::of(tree, forest, self, wind)).collect();
+        let solids = SolidWakes::of(scene, self, wind, &ground_height_m);
+        let layer_m = self.layer_m;
         let bands = (0..nodes[1]).step_by(BAND_ROWS).map(|first| first..(first + BAND_ROWS).min(nodes[1]));
         let left = each(bands, |band| {
             let mut left = vec![[1.0; LEVELS]; nodes[0] * band.len()];
-            wakes.iter().for_each(|wake| self.add_wake(&mut left, &band, wake, wind));
+            for wake in wakes.iter().chain(&solids.others) {
+                self.add_wake(&mut left, &band, wake.reach_m(), wind, |place| wake.lack(place, layer_m));
+            }
+            for wake in &solids.bluff {
+                self.add_wake(&mut left, &band, wake.reach_m(), wind, |place| wake.lack(place, layer_m));
+            }
             if let Some(terrain) = scene.ground.terrain {
                 self.add_lee(&mut left, &band, terrain.relief_m.into(), wind, &ground_height_m);
             }
@@ -318,15 +427,17 @@ impl ShelterGrid {
         [self.west_m + x as f64 * self.cell_m, self.north_m + z as f64 * self.cell_m]
     }
 
-    /// Takes the share of a tree's wake from what is left of the wind in a band of rows.
-    fn add_wake(&self, left: &mut [Node], band: &Range<usize>, wake: &Wake, wind: &ShelterWind) {
-        let begin_m = wake.rim_m + wake.gap_m;
-        let end_m = wake.rim_m + wake.length_m;
-        let half_m = MOST_SIDE * (wake.spread_m[0] + SPREAD * wake.length_m);
-        let sides = [wake.across_m - half_m, wake.across_m + half_m];
-        let corners = [begin_m, end_m]
-            .into_iter()
-            .flat_map(|along_m| sides.map(|across_m| wind.place(along_m, across_m)));
+    /// Takes what a wake lacks in a rectangle, ranges along and across the wind, from what is left of the wind in a band of rows.
+    fn add_wake(
+        &self,
+        left: &mut [Node],
+        band: &Range<usize>,
+        [along, across]: [[f64; 2]; 2],
+        wind: &ShelterWind,
+        lack: impl Fn([f64; 2]) -> Option<Node>,
+    ) {
+        let corners =
+            along.into_iter().flat_map(|along_m| across.map(|across_m| wind.place(along_m, across_m)));
         let (mut least, mut most) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
         for corner in corners {
             for axis in 0..2 {
@@ -344,7 +455,7 @@ impl ShelterGrid {
         for z in rows.start.max(band.start)..rows.end.min(band.end) {
             for x in nodes(0, self.west_m) {
                 let [x_m, z_m] = self.node_m(x, z);
-                if let Some(lack) = wake.lack(wind.frame(x_m, z_m), self.layer_m) {
+                if let Some(lack) = lack(wind.frame(x_m, z_m)) {
                     let left = &mut left[(z - band.start) * (self.cells[0] + 1) + x];
                     left.iter_mut().zip(lack).for_each(|(left, lack)| *left *= 1.0 - lack);
                 }

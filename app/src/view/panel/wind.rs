@@ -37,7 +37,7 @@ pub(super) fn show(ui: &mut Ui, wind: &mut WindParameters, own: &WindParameters,
     let cell = field("Eddy cell", tip, limits::CELL_M).fine(0.1);
     cell.show(ui, &mut turbulence.cell_m, own.turbulence.cell_m);
     profile(ui, wind, own);
-    let tip = "Trees and hills shelter what is in their lee from the mean wind";
+    let tip = "Trees, hills and still objects shelter what is in their lee from the mean wind";
     let options = [("on", true), ("off", false)];
     choice(ui, "Shelter", tip, &mut wind.shelter, Some(&own.shelter), &options);
     vortices::show(ui, &mut wind.vortices, &own.vortices);

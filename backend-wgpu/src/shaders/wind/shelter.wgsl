@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // twin: core/src/device/wind/shelter.rs
-// Share of the mean wind that trees and hills upwind leave, from a table.
+// Share of the mean wind that trees, hills and still objects leave, from a table.
 #import bindings
 
 fn shelter_between(word: u32, share: f32) -> f32 {

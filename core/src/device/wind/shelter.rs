@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! twin: backend-wgpu/src/shaders/wind/shelter.wgsl
 //!
-//! Shelter behind trees and hills: the share of the mean wind that is left there, from the table of
+//! Shelter behind trees, hills and still objects: the share of the mean wind that is left there, from the table of
 //! [`ShelterGrid`](crate::wind::ShelterGrid).
 
 use crate::arith::lane::{Real, Word};
@@ -23,7 +23,7 @@ fn shelter_between<W: Word>(word: W, share: W::Real) -> W::Real {
     low + share * ((word >> 16).to_real() - low)
 }
 
-/// Share of the mean wind that trees and hills upwind leave at a place so many metres above the ground. Only where the scene has shelter.
+/// Share of the mean wind that trees, hills and still objects leave at a place so many metres above the ground. Only where the scene has shelter.
 #[inline(always)]
 pub fn wind_shelter<R: Real>(cx: &Context<'_>, x: R, above: R, z: R) -> R {
     let shelter = &cx.scene.shelter;
