@@ -17,7 +17,7 @@ pub(crate) const DEFAULT_SCENE: &str = "autumn-park";
 /// The scene to work on.
 #[derive(Clone, Debug, Default, Args)]
 pub(crate) struct SceneArguments {
-    /// Preset (autumn-park, six-motions, flight-lab, storm, million, forest, gale, hurricane, evening, macro, winter, hills, blower) or path of a RON file [default: autumn-park].
+    /// Preset (autumn-park, six-motions, flight-lab, storm, million, forest, gale, hurricane, evening, macro, winter, hills, blower, square, drift, walk, heap) or path of a RON file [default: autumn-park].
     #[arg(value_name = "SCENE")]
     pub scene: Option<String>,
     /// Number of leaves; trees and sources share them as they share those of the scene, at rates that go along.

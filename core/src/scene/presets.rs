@@ -19,6 +19,10 @@ pub const PRESETS: &[(&str, &str)] = &[
     ("winter", include_str!("../../scenes/winter.ron")),
     ("hills", include_str!("../../scenes/hills.ron")),
     ("blower", include_str!("../../scenes/blower.ron")),
+    ("square", include_str!("../../scenes/square.ron")),
+    ("drift", include_str!("../../scenes/drift.ron")),
+    ("walk", include_str!("../../scenes/walk.ron")),
+    ("heap", include_str!("../../scenes/heap.ron")),
 ];
 
 impl Scene {
@@ -59,7 +63,11 @@ mod tests {
                 "macro",
                 "winter",
                 "hills",
-                "blower"
+                "blower",
+                "square",
+                "drift",
+                "walk",
+                "heap"
             ],
             "names and their order"
         );

@@ -17,10 +17,21 @@ const STANCE: f64 = 0.6;
 const LIFT_M: f64 = 0.09;
 /// Half of the distance between the feet in m.
 const HALF_WIDTH_M: f64 = 0.09;
-/// Height of the hips in m.
-const HIPS_M: f64 = 0.88;
+/// Height of the hips in m while both feet stand.
+const HIPS_M: f64 = 0.915;
+/// Height in m by which the body rises above a single leg that stands (Perry: the centre of mass moves by 4 to 5 cm).
+const RISE_M: f64 = 0.045;
+/// Height in m of the middle of the trunk above the hips, of the shoulders and of the head.
+const TRUNK_M: f64 = 0.265;
+const SHOULDERS_M: f64 = 0.465;
+const HEAD_M: f64 = 0.735;
 /// Length of a shank, and of a thigh, in m.
-const HALF_LEG_M: f64 = 0.46;
+const HALF_LEG_M: f64 = 0.44;
+/// Share of a stride after which a standing foot lifts its heel, and the angle in radians that it has when its toes leave the ground.
+const HEEL_OFF: f64 = 0.35;
+const TOE_OFF_RAD: f64 = 0.5;
+/// Share of the swing within which it is level again.
+const LEVEL_AGAIN: f64 = 0.7;
 /// Distance in m of the ankle behind the middle of the foot.
 const ANKLE_BEHIND_M: f64 = 0.07;
 /// Radius of a boot in m.
@@ -143,6 +154,18 @@ struct Foot {
     pitch: f64,
 }
 
+impl Foot {
+    /// Place of its ankle, over ground of a height at x, z.
+    fn ankle(&self, ground_m: impl Fn(f64, f64) -> f64) -> DVec3 {
+        let (sin, cos) = (libm::sin(self.pitch), libm::cos(self.pitch));
+        let radius = f64::from(BOOT_RADIUS_M);
+        let ahead = radius * sin - ANKLE_BEHIND_M * cos;
+        let up = radius * cos + ANKLE_BEHIND_M * sin;
+        let height = ground_m(self.at.x, self.at.y) + radius + self.lift_m + up;
+        DVec3::new(self.at.x + self.ahead.x * ahead, height, self.at.y + self.ahead.y * ahead)
+    }
+}
+
 impl Gait {
     /// The gait of a walker.
     pub(super) fn of(walker: &Walker) -> Self {
@@ -182,16 +205,22 @@ impl Gait {
         let strides = walked_m / STRIDE_M + side.lead();
         let (number, phase) = (strides.floor(), strides - strides.floor());
         let swing = ((phase - STANCE) / (1.0 - STANCE)).max(0.0);
-        let eased = swing * swing * (3.0 - 2.0 * swing);
-        let way_m = STRIDE_M * (number - side.lead() + 0.5 * STANCE + eased);
+        let way_m = STRIDE_M * (number - side.lead() + 0.5 * STANCE + eased(swing));
+        // The heel rises about the toes, the foot swings on level again, and its toes rise before it lands.
+        let heel_up = TOE_OFF_RAD
+            * eased(((phase - HEEL_OFF) / (STANCE - HEEL_OFF)).clamp(0.0, 1.0))
+            * (1.0 - eased((swing / LEVEL_AGAIN).min(1.0)));
+        let toes_up = 0.3 * libm::sin(PI * (2.0 * swing - 1.0).max(0.0));
+        let to_toes_m = 0.5 * f64::from(BOOT_LENGTH_M);
+        let way_m = way_m + to_toes_m * (1.0 - libm::cos(heel_up));
         let (middle, ahead) = self.along(way_m);
         let left = DVec2::new(ahead.y, -ahead.x);
         let raised = libm::sin(PI * swing);
         Foot {
             at: middle + left * (side.sign() * HALF_WIDTH_M),
             ahead,
-            lift_m: LIFT_M * raised * raised,
-            pitch: 0.35 * libm::sin(TAU * swing),
+            lift_m: LIFT_M * raised * raised + to_toes_m * libm::sin(heel_up),
+            pitch: heel_up - toes_up,
         }
     }
 
@@ -201,6 +230,7 @@ impl Gait {
         let (middle, ahead) = self.along(walked_m);
         let left = DVec2::new(ahead.y, -ahead.x);
         let above = |at: DVec2, height_m: f64| DVec3::new(at.x, ground_m(at.x, at.y) + height_m, at.y);
+        let hips_m = hips_m(walked_m);
         match limb {
             Limb::Boot(side) => {
                 let foot = self.foot(side, walked_m);
@@ -209,9 +239,8 @@ impl Gait {
             }
             Limb::Shank(side) | Limb::Thigh(side) => {
                 let foot = self.foot(side, walked_m);
-                let heel = foot.at - foot.ahead * ANKLE_BEHIND_M;
-                let ankle = above(heel, 2.0 * f64::from(BOOT_RADIUS_M) + foot.lift_m);
-                let hip = above(middle + left * (side.sign() * HALF_WIDTH_M), HIPS_M);
+                let ankle = foot.ankle(&ground_m);
+                let hip = above(middle + left * (side.sign() * HALF_WIDTH_M), hips_m);
                 let knee = knee_between(ankle, hip, DVec3::new(ahead.x, 0.0, ahead.y));
                 if matches!(limb, Limb::Shank(_)) { rod(ankle, knee) } else { rod(knee, hip) }
             }
@@ -219,14 +248,25 @@ impl Gait {
                 // An arm swings with the leg of the other side.
                 let foot = self.foot(side.other(), walked_m);
                 let reach = (foot.at - middle).dot(ahead);
-                let shoulder = above(middle + left * (side.sign() * 0.2), 1.4);
+                let shoulder = above(middle + left * (side.sign() * 0.2), hips_m + SHOULDERS_M);
                 let hand = shoulder + DVec3::new(ahead.x * 0.5 * reach, -0.55, ahead.y * 0.5 * reach);
                 rod(hand, shoulder)
             }
-            Limb::Trunk => SolidPose { center_m: above(middle, 1.2), turn: facing(ahead) },
-            Limb::Head => SolidPose { center_m: above(middle, 1.67), turn: facing(ahead) },
+            Limb::Trunk => SolidPose { center_m: above(middle, hips_m + TRUNK_M), turn: facing(ahead) },
+            Limb::Head => SolidPose { center_m: above(middle, hips_m + HEAD_M), turn: facing(ahead) },
         }
     }
+}
+
+/// Height of the hips in m: over each leg that stands alone they go as over a pendulum upside down.
+fn hips_m(walked_m: f64) -> f64 {
+    let strides = walked_m / STRIDE_M - 0.5 * STANCE;
+    HIPS_M + 0.5 * RISE_M * (1.0 + libm::cos(2.0 * TAU * strides))
+}
+
+/// Smooth step from 0 to 1.
+fn eased(part: f64) -> f64 {
+    part * part * (3.0 - 2.0 * part)
 }
 
 /// Turn of a part that faces a direction: its own z points ahead.
@@ -261,8 +301,10 @@ mod tests {
         })
     }
 
-    fn boot(side: Side, time_s: f64) -> DVec3 {
-        gait().pose(Limb::Boot(side), time_s, |_, _| 0.0).center_m
+    /// Place of the middle of the toes.
+    fn toes(side: Side, time_s: f64) -> DVec3 {
+        let pose = gait().pose(Limb::Boot(side), time_s, |_, _| 0.0);
+        pose.center_m + pose.turn * DVec3::Y * (0.5 * f64::from(BOOT_LENGTH_M))
     }
 
     #[test]
@@ -271,7 +313,7 @@ mod tests {
         let (count, step_s) = (4000, 1.0e-3);
         for number in 0..count {
             let time_s = 2.5 + f64::from(number) * step_s;
-            let way_m = boot(Side::Left, time_s).distance(boot(Side::Left, time_s + step_s));
+            let way_m = toes(Side::Left, time_s).distance(toes(Side::Left, time_s + step_s));
             if way_m < 1.0e-9 {
                 standing += 1.0;
             } else {
@@ -310,9 +352,43 @@ mod tests {
 
     #[test]
     fn a_walk_begins_and_ends_at_rest() {
-        assert_eq!(boot(Side::Left, 0.0), boot(Side::Left, 2.0), "before its start");
-        assert_eq!(boot(Side::Right, 40.0), boot(Side::Right, 60.0), "after its end");
+        assert_eq!(toes(Side::Left, 0.0), toes(Side::Left, 2.0), "before its start");
+        assert_eq!(toes(Side::Right, 40.0), toes(Side::Right, 60.0), "after its end");
         let end = gait().pose(Limb::Trunk, 60.0, |_, _| 0.0).center_m;
-        assert!((end - DVec3::new(10.0, 1.2, 8.0)).length() < 1.0e-9, "at the end of the way: {end}");
+        assert!(
+            end.with_y(0.0).distance(DVec3::new(10.0, 0.0, 8.0)) < 1.0e-9,
+            "at the end of the way: {end}"
+        );
+    }
+
+    #[test]
+    fn a_body_rises_over_a_leg_that_stands_alone_and_legs_are_almost_straight_then() {
+        let gait = gait();
+        let hips = |strides: f64| hips_m(STRIDE_M * strides);
+        assert!((hips(0.3) - hips(0.05) - RISE_M).abs() < 1.0e-12, "highest in the middle of a stance");
+        assert!((hips(0.8) - hips(0.55) - RISE_M).abs() < 1.0e-12, "of either foot");
+        for stride in 2..6 {
+            for (side, phase) in [(Side::Left, 0.3), (Side::Right, 0.8)] {
+                let time_s = 2.0 + STRIDE_M * (f64::from(stride) + phase) / 1.4;
+                let bent = leg_m(&gait, side, time_s) / (2.0 * HALF_LEG_M);
+                assert!((0.95..0.99).contains(&bent), "{side:?} in stride {stride}: {bent}");
+            }
+        }
+        for number in 0..1200 {
+            let time_s = 2.0 + 0.01 * f64::from(number);
+            let longest = leg_m(&gait, Side::Left, time_s).max(leg_m(&gait, Side::Right, time_s));
+            assert!(longest < 2.0 * HALF_LEG_M + 0.05, "a leg of {longest} m at {time_s} s");
+        }
+    }
+
+    /// Distance in m from hip to ankle.
+    fn leg_m(gait: &Gait, side: Side, time_s: f64) -> f64 {
+        let end = |limb, up: f64| {
+            let pose = gait.pose(limb, time_s, |_, _| 0.0);
+            (pose.center_m, pose.turn * DVec3::Y * up)
+        };
+        let ((shank, down), (thigh, up)) = (end(Limb::Shank(side), -1.0), end(Limb::Thigh(side), 1.0));
+        let half = 0.5 * HALF_LEG_M;
+        (thigh + up * half).distance(shank + down * half)
     }
 }

@@ -76,3 +76,10 @@ fn view_ray(clip: vec2<f32>) -> vec3<f32> {
 
 // Grass stands this deep below the leaves that lie on its tips, in metres.
 const SWARD_M: f32 = 0.028;
+// Paving lies this deep below them.
+const PAVING_M: f32 = 0.003;
+
+// Depth in metres of the ground that is drawn below the leaves on it.
+fn ground_depth() -> f32 {
+    return select(SWARD_M, PAVING_M, land.paved_half_m.x > 0.0);
+}

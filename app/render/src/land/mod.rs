@@ -5,9 +5,12 @@
 pub(crate) mod hill_shade;
 pub(crate) mod texture;
 
-use glam::Vec3;
+use glam::{Vec2, Vec3};
 use windfall_core::scene::Ground;
 use windfall_core::terrain::Hills;
+
+/// Largest roughness length in metres of ground that is paved where its litter lies: a mown lawn has five times as much.
+const PAVED_ROUGHNESS_M: f32 = 0.001;
 
 /// Heights of a scene's ground and of the water on it.
 #[derive(Clone, Debug)]
@@ -16,6 +19,16 @@ pub struct Land {
     base_m: f32,
     hills: Option<Hills>,
     water_m: Option<f32>,
+    paving: Option<Paving>,
+}
+
+/// A rectangle of paving.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Paving {
+    /// Its centre x, z in metres.
+    pub(crate) center_m: Vec2,
+    /// Half of its edges in metres.
+    pub(crate) half_m: Vec2,
 }
 
 impl Land {
@@ -25,6 +38,7 @@ impl Land {
             base_m: ground.height_m,
             hills: ground.terrain.as_ref().map(Hills::grow),
             water_m: ground.water.map(|water| water.height_m),
+            paving: Paving::of(ground),
         }
     }
 
@@ -41,6 +55,11 @@ impl Land {
     /// Height of the water's surface in metres, if there is any.
     pub fn water_m(&self) -> Option<f32> {
         self.water_m
+    }
+
+    /// The paving, if there is any.
+    pub(crate) fn paving(&self) -> Option<Paving> {
+        self.paving
     }
 
     /// Height of the ground at a place in metres, also under water.
@@ -67,11 +86,20 @@ impl Land {
     }
 }
 
+impl Paving {
+    /// The paving of level ground that is as smooth as paved areas are: where its litter lies.
+    fn of(ground: &Ground) -> Option<Self> {
+        let is_paved = ground.terrain.is_none() && ground.surface_roughness_m <= PAVED_ROUGHNESS_M;
+        let litter = ground.litter.filter(|_| is_paved)?;
+        Some(Self { center_m: litter.center_m, half_m: 0.5 * litter.size_m })
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use windfall_core::Scene;
     use windfall_core::World;
-    use windfall_core::scene::{Terrain, Water};
+    use windfall_core::scene::{Litter, Terrain, Water};
 
     use super::*;
 
@@ -106,5 +134,18 @@ mod tests {
         let land = Land::of(&Ground { height_m: 2.0, ..Ground::default() });
         assert_eq!(land.surface_m(13.0, -7.0), 2.0, "everywhere as high");
         assert_eq!(land.normal(5.0, 5.0), Vec3::Y, "and level");
+    }
+    #[test]
+    fn smooth_ground_is_paved_where_its_litter_lies() {
+        let litter =
+            Litter { center_m: Vec2::new(3.0, -1.0), size_m: Vec2::new(8.0, 6.0), ..Litter::default() };
+        let lawn = Ground { litter: Some(litter), ..Ground::default() };
+        let square = Ground { surface_roughness_m: 0.0003, ..lawn };
+        assert_eq!(Land::of(&lawn).paving(), None, "a lawn");
+        let paving = Paving { center_m: litter.center_m, half_m: Vec2::new(4.0, 3.0) };
+        assert_eq!(Land::of(&square).paving(), Some(paving), "a square");
+        assert_eq!(Land::of(&Ground { litter: None, ..square }).paving(), None, "no litter, no edge");
+        let hilly = Ground { terrain: Some(Terrain::default()), ..square };
+        assert_eq!(Land::of(&hilly).paving(), None, "hills");
     }
 }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The land as shaders read it: a texel for every grid point of the hills.
 
+use glam::Vec2;
 use windfall_core::terrain::Hills;
 use windfall_core::{NO_WATER_M, shared_struct};
 
@@ -23,13 +24,25 @@ shared_struct! {
         base_m: f32,
         /// Height of the water, or [`NO_WATER_M`].
         water_m: f32,
+        /// Centre x, z of the paving.
+        paved_center_m: [f32; 2],
+        /// Half of its edges; 0 without paving.
+        paved_half_m: [f32; 2],
     }
 }
 
 impl LandUniform {
     pub(crate) fn of(land: &Land) -> Self {
         let (cells_per_m, cells) = land.hills().map_or((0.0, 1), |hills| (1.0 / hills.cell_m, hills.cells));
-        Self { cells_per_m, cells, base_m: land.base_m(), water_m: land.water_m().unwrap_or(NO_WATER_M) }
+        let paving = land.paving();
+        Self {
+            cells_per_m,
+            cells,
+            base_m: land.base_m(),
+            water_m: land.water_m().unwrap_or(NO_WATER_M),
+            paved_center_m: paving.map_or(Vec2::ZERO, |paving| paving.center_m).to_array(),
+            paved_half_m: paving.map_or(Vec2::ZERO, |paving| paving.half_m).to_array(),
+        }
     }
 }
 

@@ -191,7 +191,9 @@ fn fragment(in: Varyings) -> @location(0) vec4<f32> {
     var color = albedo * (sun * facing + ambient_light(normal) * open * sky_openness(in.world));
     let half_way = normalize(light + to_eye);
     color += sun * gloss * 0.5 * pow(max(dot(normal, half_way), 0.0), 14.0) * facing;
-    let fresnel = gloss + 0.3 * pow(1.0 - clamp(dot(normal, to_eye), 0.0, 1.0), 5.0);
+    // Cloth and skin are too rough to mirror the sky at their outlines.
+    let grazing = select(0.3, 0.05, object.joined != 0u);
+    let fresnel = gloss + grazing * pow(1.0 - clamp(dot(normal, to_eye), 0.0, 1.0), 5.0);
     color += sky_reflection(reflect(-to_eye, normal), 0.8) * fresnel * open * 0.6;
     return vec4(haze(color, in.world), 1.0);
 }

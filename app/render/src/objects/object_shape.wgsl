@@ -51,7 +51,7 @@ fn body_distance(object: ObjectRecord, at: vec3<f32>) -> f32 {
 // Grass and path are drawn lower than leaves lie: the foot of what stands there reaches down to them.
 fn set_down(world: vec3<f32>) -> vec3<f32> {
     let height = world.y - ground_height(world.xz);
-    return world - vec3(0.0, SWARD_M * (1.0 - smoothstep(0.0, 0.07, height)), 0.0);
+    return world - vec3(0.0, ground_depth() * (1.0 - smoothstep(0.0, 0.07, height)), 0.0);
 }
 
 fn object_point(vertex: SolidVertex, instance: u32) -> ObjectPoint {

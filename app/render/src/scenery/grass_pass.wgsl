@@ -29,14 +29,14 @@ fn vertex(
     let key_3 = hash_u32(key_2);
     let at = cell.corner_m + GRASS_CELL_M * vec2(unit_from(key), unit_from(key_2));
     let hill = hills_at(at);
-    let foot = vec3(at.x, land.base_m + hill.x - SWARD_M, at.y);
+    let foot = vec3(at.x, land.base_m + hill.x - ground_depth(), at.y);
     let to_eye = frame.eye_m - foot;
     let distance_m = length(to_eye);
 
     // The rank of a blade is its number: fewer stand farther away, and the last ones shrink before they vanish.
     let rank = f32(blade) / cell.blades;
     let kept = standing(distance_m, cell.dense_m);
-    let verge = smoothstep(-0.1, 0.2, beyond_path(at) - 0.25 * (unit_from(key_3) - 0.5));
+    let verge = smoothstep(-0.1, 0.2, beyond_path(at) - 0.25 * (unit_from(key_3) - 0.5)) * (1.0 - paved_share(at, 0.04));
     let grown = smoothstep(rank, rank * 1.25 + 0.002, kept) * verge
         * (1.0 - smoothstep(0.3, 0.6, bare_soil(at, foot.y, length(hill.yz)) + 0.2 * (unit_from(key_3) - 0.5)));
     let tall = 0.6 + 0.8 * textureSampleLevel(noise, repeat_sampler, at * 0.31, 0.0).g;

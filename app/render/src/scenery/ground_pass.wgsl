@@ -16,7 +16,7 @@ struct Varyings {
 fn vertex_level(@builtin(vertex_index) index: u32) -> Varyings {
     let at = horizon_fan(index);
     var out: Varyings;
-    out.world = vec3(at.x, land.base_m - SWARD_M, at.y);
+    out.world = vec3(at.x, land.base_m - ground_depth(), at.y);
     out.clip = frame.view_projection * vec4(out.world, 1.0);
     return out;
 }
@@ -33,7 +33,7 @@ fn vertex_hilly(@location(0) grid: vec2<i32>, @builtin(instance_index) ring: u32
     let glide = clamp((apart - 0.6) / (1.0 - 8.0 / f32(RING_CELLS) - 0.6), 0.0, 1.0);
     at -= vec2<f32>(grid & vec2(1)) * (cell * glide);
     var out: Varyings;
-    out.world = vec3(at.x, ground_height(at) - SWARD_M, at.y);
+    out.world = vec3(at.x, ground_height(at) - ground_depth(), at.y);
     out.clip = frame.view_projection * vec4(out.world, 1.0);
     return out;
 }
@@ -60,19 +60,26 @@ fn fragment(in: Varyings) -> @location(0) vec4<f32> {
         * (0.75 + 0.9 * (fine - 0.5) + 0.8 * (coarse - 0.5) + 0.5 * (specks - 0.5));
     albedo = mix(albedo, soil, bare);
     let softness = 0.06 + 0.004 * distance_m;
-    let path = 1.0 - smoothstep(-softness, softness + 0.1, beyond_path(at));
+    var path = 1.0 - smoothstep(-softness, softness + 0.1, beyond_path(at));
     let gravel = vec3(0.235, 0.185, 0.130) * (0.82 + 0.5 * (fine - 0.5) + 0.5 * (coarse - 0.5) + 0.3 * (specks - 0.5));
     albedo = mix(albedo, gravel, path);
+    let pixel_m = max(length(dpdx(at)), length(dpdy(at)));
+    let paved = paved_share(at, pixel_m);
+    if paved > 0.0 {
+        let stone = paving(at, pixel_m) * (1.0 + 0.35 * (fine - 0.5) + 0.45 * (coarse - 0.5) + 0.35 * (specks - 0.5));
+        albedo = mix(albedo, stone, paved);
+    }
+    path = max(path, paved);
     // Fallen leaves too far away to be drawn one by one.
     let shade = tree_shade(in.world);
     let density = clamp(shade.g * 0.85 + 0.10 + 0.25 * (coarse - 0.5), 0.0, 0.8);
     let seen = smoothstep(12.0, 34.0, distance_m);
     let speck = mix(smoothstep(0.62, 0.70, specks), 0.55, smoothstep(18.0, 45.0, distance_m));
     let litter = mix(vec3(0.42, 0.22, 0.05), vec3(0.36, 0.13, 0.04), coarse * 1.2 - 0.2);
-    albedo = mix(albedo, litter, density * speck * seen);
+    albedo = mix(albedo, litter, density * speck * seen * (1.0 - paved));
 
     // The path lies as high as the leaves on it do: their shadows touch them.
-    let sun = shade.r * leaf_shadow(in.world + vec3(0.0, 0.8 * SWARD_M * path, 0.0));
+    let sun = shade.r * leaf_shadow(in.world + vec3(0.0, 0.8 * ground_depth() * path, 0.0));
     // Grass is rough: against the sun it glows, with the sun behind one it shows its lit side.
     let view = normalize(frame.eye_m - in.world);
     let against = pow(max(dot(-view, frame.sun_direction), 0.0), 3.0);

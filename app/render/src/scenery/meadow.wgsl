@@ -17,6 +17,35 @@ fn beyond_path(at: vec2<f32>) -> f32 {
     return abs(aside - PATH_BEND_M * sin(along * PATH_BEND_RAD_M + frame.path_phase_rad)) - PATH_HALF_WIDTH_M + 0.35 * ragged;
 }
 
+// Share of paving in a pixel of some width in metres; none beyond its edge.
+fn paved_share(at: vec2<f32>, pixel_m: f32) -> f32 {
+    let beyond = abs(at - land.paved_center_m) - land.paved_half_m;
+    let inside = -max(beyond.x, beyond.y);
+    return select(0.0, smoothstep(0.0, max(pixel_m, 0.01), inside), land.paved_half_m.x > 0.0);
+}
+
+// Width of a row of paving stones, length of a stone and width of the joints between them, in metres.
+const STONE_ROW_M: f32 = 0.40;
+const STONE_M: f32 = 0.60;
+const JOINT_WIDTH_M: f32 = 0.009;
+
+// Albedo of paving in a pixel of some width in metres: rows of stones, each row half a stone on from the one before.
+fn paving(at: vec2<f32>, pixel_m: f32) -> vec3<f32> {
+    let row = floor(at.y / STONE_ROW_M);
+    let along = at.x / STONE_M + 0.5 * row;
+    let stone = floor(along);
+    let key = hash_u32(bitcast<u32>(i32(row)) + hash_u32(bitcast<u32>(i32(stone - 0.5 * row))));
+    // From the nearest joint.
+    let away = vec2(STONE_M, STONE_ROW_M) * (0.5 - abs(vec2(along - stone, at.y / STONE_ROW_M - row) - 0.5));
+    let soft = max(pixel_m, 0.004);
+    let joint = (1.0 - smoothstep(0.0, 0.5 * (JOINT_WIDTH_M + soft), min(away.x, away.y))) * min(1.0, JOINT_WIDTH_M / soft);
+    // Rain washes dust into shallow stains, and treads wear some stones smooth.
+    let stain = textureSampleLevel(noise, repeat_sampler, at * 0.07 + 0.19, 0.0).r;
+    let tint = mix(vec3(0.205, 0.195, 0.180), vec3(0.235, 0.205, 0.165), unit_from(hash_u32(key)));
+    let tone = 0.84 + 0.32 * unit_from(key) + 0.7 * (stain - 0.5);
+    return mix(tint * tone, vec3(0.070, 0.066, 0.052), 0.85 * joint);
+}
+
 // Grass albedo (rgb) and dryness (a) at a place on the ground.
 fn meadow(at: vec2<f32>, lod: f32) -> vec4<f32> {
     let wide = textureSampleLevel(noise, repeat_sampler, at * 0.011, lod).r;

@@ -64,8 +64,6 @@ impl Change {
         change.rebuild("sources", *sources != old.sources, true, crowns(new) != crowns(old));
         change.rebuild("trees", *trees != old.trees || *tree_kinds != old.tree_kinds, true, true);
         change.rebuild("regrowth", *regrow_after_s != old.regrow_after_s, true, false);
-        change.rebuild("objects", *objects != old.objects, true, true);
-        change.rebuild("walkers", *walkers != old.walkers, true, true);
         change.rebuild("season", *autumn != old.autumn, false, true);
         change.retune |= *autumn != old.autumn;
         change.ground(&old.ground, ground);
