@@ -141,7 +141,7 @@ pub fn flight_contact<R: Real>(
     }
 }
 
-/// What a body strikes, in the body's frame.
+/// Surface that a body strikes, in the body's frame.
 #[derive(Clone, Copy, Debug)]
 pub struct Surface<R: Real = f32> {
     /// Unit vector away from it.

@@ -447,10 +447,11 @@ prop_compose! {
             name, seed, dt_s, fall_speed, rotation_speed, gravity_m_s2, species, sources, tree_kinds, trees, sway, sway_every, autumn, regrow_after_s, wind, ground,
             objects, walkers, view,
         };
-        // Hills no deeper than the slowest leaf has time to fall.
+        // Hills no deeper, and steps no shorter, than the slowest leaf has time to fall.
         while scene.validate("random").is_err() {
             match &mut scene.ground.terrain {
                 Some(terrain) if terrain.relief_m > 0.01 => terrain.relief_m *= 0.5,
+                _ if scene.dt_s < 0.009 => scene.dt_s *= 1.1,
                 _ => break,
             }
         }
