@@ -15,7 +15,7 @@ use crate::device::wind::gust::{GUST_ROWS, GUST_SPACING};
 use crate::device::wind::turbulence::TURBULENCE_X;
 use crate::layout::Uint4;
 use crate::leaf::{Identity, Leaves, Place, Schedule};
-use crate::scene::{Release, Scene, limits};
+use crate::scene::{ObjectMotion, Release, Scene, limits};
 
 /// Seconds in which trees come to repeat what the wind does: ten times what the slowest sway takes to fade e-fold.
 const TREES_SETTLE_S: f64 = 120.0;
@@ -52,7 +52,8 @@ impl Cycle {
     /// second as they do on average, evenly, gusts and cells of turbulence are a little longer or shorter.
     ///
     /// # Errors
-    /// [`SceneError::Field`] for what cannot repeat: leaves let go once, vortices that travel, jets that move or change. Pictures of a scene may have more
+    /// [`SceneError::Field`] for what cannot repeat: leaves let go once, vortices that travel, jets that move or change,
+    /// objects that move, those who walk. Pictures of a scene may have more
     /// that does not, such as a camera that travels.
     pub fn of(scene: &Scene, file: &str, seconds: f64) -> Result<(Scene, Self), SceneError> {
         let refuse = |field: String, value: String, allowed: &str| {
@@ -80,6 +81,16 @@ impl Cycle {
                 let value = format!("{} that differ", jet.keys.len());
                 return refuse(field, value, "jets that stay as they are");
             }
+        }
+        for (index, object) in scene.objects.iter().enumerate() {
+            if object.motion != ObjectMotion::Still {
+                let field = format!("objects[{index}].motion");
+                return refuse(field, "a path".into(), "Still");
+            }
+        }
+        if !scene.walkers.is_empty() {
+            let value = format!("a list of {}", scene.walkers.len());
+            return refuse("walkers".into(), value, "nobody who walks");
         }
         if scene.ground.litter.is_some_and(|litter| !litter.still) {
             let allowed = "true, for what leaves do to each other has a memory,";

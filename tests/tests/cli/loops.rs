@@ -194,6 +194,10 @@ fn what_cannot_repeat_is_refused() {
     let jet = "(wind: (jets: [(nozzle_m: 0.1, keys: [(time_s: 0.0, at_m: (0.0, 1.0, 0.0), toward_m: (1.0, 1.0, 0.0), speed_m_s: 0.0),
         (time_s: 1.0, at_m: (0.0, 1.0, 0.0), toward_m: (1.0, 1.0, 0.0), speed_m_s: 9.0)])]))";
     refuse(jet, "4", &["wind.jets[0].keys is 2 that differ", "jets that stay as they are in a loop"]);
+    let path = "(ground: (litter: Some((still: true))), objects: [(motion: Path([(time_s: 0.0, moved_m: (0.0, 0.0, 0.0))]))])";
+    refuse(path, "4", &["objects[0].motion is a path", "Still in a loop"]);
+    let walker = "(ground: (litter: Some((still: true))), walkers: [()])";
+    refuse(walker, "4", &["walkers is a list of 1", "nobody who walks in a loop"]);
     file(&there, "no.ron", "()");
     let exported = ["export", "no.ron", "--loop", "0.5", "--out", "x.csv"];
     assert_refused(&there, &exported, &["--loop", "1", "120"]);
