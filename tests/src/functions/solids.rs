@@ -123,7 +123,7 @@ functions! {
             out_float(0u, footing.slope.x); out_float(1u, footing.slope.z); out_float(2u, footing.friction);
             out_float(3u, f32(footing.is_firm)); out_float(4u, f32(is_borne(body, pose, place)));
             out_float(5u, f32(is_inside_solid(body, pose, place)));
-            let mover = a.w % scene.solids.mover_count;
+            let mover = a.w % max(scene.solids.mover_count, 1u);
             out_float(6u, f32(comes_upon(solid_at(mover, 0.0), mover, place, 0.05)));
             out_float(7u, f32(is_held(a.w)) + f32(held_bits(a.w & 31u)) * 1e-6);
         }";
@@ -137,7 +137,7 @@ functions! {
         let (body, pose) = (body(cx, w), quaternion(w, 7));
         let footing = solid_footing(cx, &body, pose, place);
         let truth = |is: bool| f32::from(u8::from(is));
-        let mover = w[3] % cx.scene.solids.mover_count;
+        let mover = w[3] % cx.scene.solids.mover_count.max(1);
         let comes = comes_upon(cx, &solid_at(cx, mover, 0.0), mover, place, 0.05);
         floats([
             footing.slope.x, footing.slope.z, footing.friction, truth(footing.is_firm),

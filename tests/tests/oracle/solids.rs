@@ -60,14 +60,15 @@ fn stepped(world: &World, steps: u32) -> World {
     simulator.world().clone()
 }
 
-/// Deepest that any leaf of a world is inside a solid part, in m.
+/// Deepest that any body, or any leaf that lies, is inside a solid part, in m.
 fn deepest_m(world: &World) -> f32 {
     let step = world.compiled.step_block(&world.clock);
     let cx = world.context(&step);
     let mut deepest = 0f32;
     for slot in 0..world.leaves.len() {
         let place = world.leaves.place[slot];
-        if leaf_state(place.bits) == STATE_DORMANT {
+        // A synthesised fall is not swept in the steps in which its motion changes.
+        if !flies(place.bits) && !lies(place.bits) {
             continue;
         }
         let body = body_of(&cx, place.bits, world.leaves.schedule[slot].size);
@@ -76,9 +77,7 @@ fn deepest_m(world: &World) -> f32 {
         let cell = solids_cell(&cx, at);
         for entry in 0..near_count(&cx, cell) {
             let part = solid_at(&cx, near_solid(&cx, cell, entry), 0.0);
-            // Leaves in a synthesised fall turn as they do, whatever they pass: their centres stay outside.
-            let share = if flies(place.bits) || lies(place.bits) { 1.0 } else { 0.0 };
-            deepest = deepest.max(-solid_gap(&part, &body, pose, at, share).gap_m);
+            deepest = deepest.max(-solid_gap(&part, &body, pose, at, 1.0).gap_m);
         }
     }
     deepest
