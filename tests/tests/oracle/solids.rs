@@ -8,7 +8,7 @@ use windfall_core::arith::{Quat, Vec3};
 use windfall_core::device::flight::body::{LeafBody, body_of};
 use windfall_core::device::flight::rates::FlightMotion;
 use windfall_core::device::flight::strike::{solid_gap, strike_solids};
-use windfall_core::device::leaf::record::{SIZE_ONE, STATE_DORMANT, flies, is_held, leaf_state, lies};
+use windfall_core::device::leaf::record::{SIZE_ONE, flies, is_held, lies};
 use windfall_core::device::solid::near::{may_meet_solids, near_count, near_solid, solids_cell};
 use windfall_core::device::solid::shape::{solid_at, solid_distance};
 use windfall_core::scene::{
