@@ -7,6 +7,7 @@
 
 #![warn(clippy::print_stdout, clippy::print_stderr)]
 
+mod collision_cells;
 mod exposed;
 mod kernels;
 mod quiet;

@@ -44,6 +44,11 @@ impl QuietUnits {
         is_quiet(&self.all, last)
     }
 
+    /// All units.
+    pub(crate) fn units(&self) -> &[AtomicU32] {
+        &self.units
+    }
+
     /// Units of the slots before one that begins a unit or is behind the last, and of those from it on.
     pub(crate) fn split_at(&self, slot: usize) -> (&[AtomicU32], &[AtomicU32]) {
         self.units.split_at(slot.div_ceil(UNIT))
@@ -65,4 +70,11 @@ pub(crate) fn are_quiet(units: &[AtomicU32], last: u32) -> bool {
 #[inline(always)]
 pub(crate) fn set_quiet(until: &AtomicU32, step: u32) {
     until.store(step, Ordering::Relaxed);
+}
+
+/// Slots of those units, which have so many slots together, to which something may happen in a step.
+#[inline(always)]
+pub(crate) fn stirring_slots(units: &[AtomicU32], step: u32, slots: usize) -> impl Iterator<Item = usize> {
+    let stirring = units.iter().enumerate().filter(move |(_, until)| !is_quiet(until, step));
+    stirring.flat_map(move |(unit, _)| unit * UNIT..slots.min((unit + 1) * UNIT))
 }

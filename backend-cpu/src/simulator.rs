@@ -10,10 +10,12 @@ use windfall_core::tree::Forest;
 use windfall_core::tree::batch::TreeBatch;
 use windfall_core::{Clock, CompiledScene, Contract, SimError, Simulator, SimulatorInfo, Stats, World};
 
+use crate::collision_cells::CollisionCells;
 use crate::exposed::ExposedLeaves;
 use crate::kernels::CHUNK;
 use crate::kernels::measure::measure;
 use crate::kernels::stack_litter::{LitterChanges, stack_litter};
+use crate::kernels::step_collisions::step_collisions;
 use crate::kernels::step_leaves::{LeafSteps, step_leaves};
 use crate::kernels::step_trees::{BatchRun, step_trees};
 use crate::quiet::QuietUnits;
@@ -41,6 +43,7 @@ pub struct CpuSimulator {
     scratches: Vec<Mutex<Scratch>>,
     quiet: QuietUnits,
     exposed: ExposedLeaves,
+    cells: CollisionCells,
     /// None where threads cannot be started: there the caller's does everything.
     pool: Option<ThreadPool>,
     simd: Simd,
@@ -62,7 +65,8 @@ impl CpuSimulator {
         let quiet = QuietUnits::new(world.leaves.len());
         let exposed = ExposedLeaves::new(world.leaves.len());
         let (world, blocks, scratches) = (world.clone(), Vec::new(), Vec::new());
-        let mut simulator = Self { world, blocks, scratches, quiet, exposed, pool, simd };
+        let cells = CollisionCells::default();
+        let mut simulator = Self { world, blocks, scratches, quiet, exposed, cells, pool, simd };
         let forest = Arc::clone(simulator.world.compiled.forest());
         simulator.plant(&forest);
         Ok(simulator)
@@ -135,6 +139,10 @@ impl Simulator for CpuSimulator {
         let (simd, blocks, scratches, quiet) = (self.simd, &self.blocks, &self.scratches, &self.quiet);
         let has_litter = !bed.is_empty();
         let (changes, exposed) = (LitterChanges::default(), &self.exposed);
+        if compiled.block().has_living_litter() && self.cells.is_empty() {
+            self.cells = CollisionCells::new();
+        }
+        let cells = &self.cells;
         let forest = Arc::clone(compiled.forest());
         let is_small = leaves.len() <= CHUNK && forest.len() <= CHUNK / 16;
         let last = clock.step().saturating_add(count).saturating_sub(1);
@@ -155,6 +163,12 @@ impl Simulator for CpuSimulator {
             }
             let steps = step_blocks.each_ref().map(|block| compiled.context(block).over(&bed.words));
             let steps = &steps[..count];
+            // With litter it is one step.
+            if let [cx] = steps
+                && cx.scene.collides(cx.step.index)
+            {
+                step_collisions(cx, leaves, quiet.units(), cells);
+            }
             let of = |steps| LeafSteps { steps, changes: &changes, exposed, simd };
             if !forest.is_empty() {
                 for cx in steps {

@@ -22,7 +22,7 @@ pub(crate) enum GroupLayout {
     LeavesOnTwigs,
     /// All leaf columns, and the tables to be written, behind which the litter is.
     LeavesAndLitter,
-    /// One storage buffer that kernels only read: the active list or the event lists of a page.
+    /// One storage buffer that kernels only read: the active list or the event lists of a page, or the cells of collisions.
     ReadBuffer,
     /// One storage buffer that they write: the same while they are filled, or the counters.
     WrittenBuffer,
@@ -80,6 +80,10 @@ impl KernelId {
             Self::WakeLying => &[GroupLayout::LeavesInMotion, GroupLayout::WrittenBuffer],
             Self::StackLitter => &[GroupLayout::LeavesAndLitter, GroupLayout::ReadBuffer],
             Self::SampleAir => &[GroupLayout::LeavesInMotion, GroupLayout::ReadBuffer],
+            Self::Collide => &[GroupLayout::LeavesInMotion, GroupLayout::ReadBuffer, GroupLayout::ReadBuffer],
+            Self::GatherCollisions | Self::ClearCollisions => {
+                &[GroupLayout::LeavesInMotion, GroupLayout::ReadBuffer, GroupLayout::WrittenBuffer]
+            }
             Self::Advance => {
                 &[GroupLayout::LeavesInMotion, GroupLayout::ReadBuffer, GroupLayout::WrittenBuffer]
             }
@@ -96,6 +100,7 @@ impl KernelId {
         }
         if compiled.block().has_living_litter() {
             kernels.extend([Self::WakeLying, Self::StackLitter]);
+            kernels.extend([Self::GatherCollisions, Self::Collide, Self::ClearCollisions]);
         }
         if !compiled.forest().is_empty() {
             kernels.extend([Self::Carry, Self::SwayCoast]);

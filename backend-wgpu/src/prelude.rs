@@ -43,12 +43,14 @@ pub(crate) fn structs() -> String {
         blocks::ShelterBlock::declaration(),
         blocks::SwayBlock::declaration(),
         blocks::LitterBlock::declaration(),
+        blocks::CollisionBlock::declaration(),
         blocks::SolidsBlock::declaration(),
         blocks::ResponseBlock::declaration(),
         flight::block::BodyBlock::declaration(),
         blocks::SceneBlock::declaration(),
         blocks::VortexBlock::declaration(),
         blocks::JetBlock::declaration(),
+        blocks::SlipstreamBlock::declaration(),
         blocks::MomentBlock::declaration(),
         blocks::MoverBlock::declaration(),
         blocks::StepBlock::declaration(),
@@ -56,6 +58,7 @@ pub(crate) fn structs() -> String {
         tree::record::LevelBlock::declaration(),
         tree::record::CarryBlock::declaration(),
         leaf::Petiole::declaration(),
+        device::leaf::collide::CollisionSums::declaration(),
         records(),
     ]
     .concat()
@@ -76,9 +79,11 @@ pub(crate) fn constants() -> String {
         arith::quaternion::wgsl_constants(),
         arith::rng::wgsl_constants(),
         arith::vector::wgsl_constants(),
+        device::leaf::afloat::wgsl_constants(),
         device::leaf::air::wgsl_constants(),
         device::leaf::at_rest::wgsl_constants(),
         device::leaf::carry::wgsl_constants(),
+        device::leaf::collide::wgsl_constants(),
         device::leaf::fall::wgsl_constants(),
         device::leaf::own::wgsl_constants(),
         device::leaf::launch::wgsl_constants(),
@@ -105,6 +110,7 @@ pub(crate) fn constants() -> String {
         device::wind::packed::wgsl_constants(),
         device::wind::profile::wgsl_constants(),
         device::wind::shelter::wgsl_constants(),
+        device::wind::slipstream::wgsl_constants(),
         device::wind::turbulence::wgsl_constants(),
     ];
     let declarations: String = lists.into_iter().flatten().map(|(_, declaration)| declaration).collect();

@@ -14,6 +14,12 @@ use crate::{lists, prelude};
 pub enum KernelId {
     /// Lists the leaves that the steps of a window can change.
     ListActive,
+    /// Adds bodies to the cells of the air that they are in.
+    GatherCollisions,
+    /// Lets them collide with the others there.
+    Collide,
+    /// Clears these cells.
+    ClearCollisions,
     /// Samples the air for the leaves whose turn it is.
     SampleAir,
     /// Moves the leaves without an event through one step.
@@ -44,8 +50,11 @@ pub enum KernelId {
 
 impl KernelId {
     /// All kernels.
-    pub const ALL: [Self; 14] = [
+    pub const ALL: [Self; 17] = [
         Self::ListActive,
+        Self::GatherCollisions,
+        Self::Collide,
+        Self::ClearCollisions,
         Self::SampleAir,
         Self::Advance,
         Self::Fly,
@@ -65,6 +74,9 @@ impl KernelId {
     pub const fn name(self) -> &'static str {
         match self {
             Self::ListActive => "list_active",
+            Self::GatherCollisions => "gather_collisions",
+            Self::Collide => "collide",
+            Self::ClearCollisions => "clear_collisions",
             Self::SampleAir => "sample_air",
             Self::Advance => "advance",
             Self::Fly => "fly",
@@ -126,7 +138,10 @@ impl Default for Shaders {
             "kernels/resolve_events",
             "kernels/sample_air",
             "kernels/carry",
+            "kernels/clear_collisions",
+            "kernels/collide",
             "kernels/fly",
+            "kernels/gather_collisions",
             "kernels/measure",
             "kernels/stack_litter",
             "kernels/wake_lying",
@@ -136,9 +151,11 @@ impl Default for Shaders {
             "kernels/sway_gather",
             "kernels/sway_outward",
             "leaf/advance",
+            "leaf/afloat",
             "leaf/air",
             "leaf/at_rest",
             "leaf/carry",
+            "leaf/collide",
             "leaf/fall",
             "leaf/fly",
             "leaf/join",
@@ -184,6 +201,7 @@ impl Default for Shaders {
             "wind/row",
             "wind/sample",
             "wind/shelter",
+            "wind/slipstream",
             "wind/turbulence",
             "wind/vortex",
         ];

@@ -13,7 +13,7 @@ use windfall_core::layout::Uint4;
 use windfall_core::stats::COUNTER_COUNT;
 use windfall_core::{Clock, CompiledScene, Contract, SimError, Simulator, SimulatorInfo, Stats, World};
 
-use self::pages::Page;
+use self::pages::{List, Page};
 pub use self::requests::{StateRequest, StatsRequest};
 use self::steps::STEPS_PER_PASS;
 use crate::buffers::{buffer, group, table};
@@ -58,6 +58,8 @@ pub struct WgpuSimulator {
     counters: wgpu::Buffer,
     counters_group: wgpu::BindGroup,
     pages: Vec<Page>,
+    /// Cells of the air in which leaves collide with each other; clear between steps.
+    collisions: Option<List>,
     /// Steps for which the lists of active leaves still hold.
     listed_steps: u32,
 }
@@ -113,10 +115,12 @@ impl WgpuSimulator {
             counters,
             counters_group,
             pages: Vec::new(),
+            collisions: None,
             listed_steps: 0,
         };
         simulator.plant();
         simulator.bind_pages();
+        simulator.make_collision_cells();
         simulator.write_state(world)?;
         Ok(simulator)
     }
@@ -197,6 +201,7 @@ impl WgpuSimulator {
         if moved || is_replanted {
             self.bind_pages();
         }
+        self.make_collision_cells();
         Ok(())
     }
 }

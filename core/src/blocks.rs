@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Uniform blocks that every kernel reads: the compiled scene, and the state of one step.
+//! Uniform blocks that every kernel reads: the compiled scene, and the state of one step. One file, because they are the parts of two
+//! blocks, and shaders get them as one list.
 //!
 //! Both backends get these same bytes, so nothing that depends on time or scene alone is computed twice.
 
@@ -47,7 +48,7 @@ crate::shared_struct! {
 
 crate::shared_struct! {
     /// The wind, compiled.
-    pub struct WindBlock, padding 8 {
+    pub struct WindBlock, padding 4 {
         /// Unit vector that the mean wind blows towards, along x.
         pub direction_x: f32,
         /// The same along z.
@@ -76,6 +77,8 @@ crate::shared_struct! {
         pub least_vertical: f32,
         /// Growth of that share with height, up to 1, in 1/m.
         pub vertical_per_m: f32,
+        /// Height in m above the ground at the origin of water on which leaves float: the wind blows over its surface.
+        pub lowest_surface_m: f32,
     }
 }
 
@@ -150,6 +153,28 @@ crate::shared_struct! {
         pub is_calm: u32,
         /// Square of the speed in m²/s² below which a body that touches the ground comes to rest.
         pub rest_m2_s2: f32,
+        /// Steps for which a leaf floats on water; 0 where none does.
+        pub soaking_steps: u32,
+        /// Speed of a leaf afloat relative to the wind at its height of sampling.
+        pub drift_share: f32,
+        /// Share of the difference to that speed that is left after as many steps as lie between two samples of the wind.
+        pub drift_kept: f32,
+        /// Height in m of a leaf that lies on the ground at the origin, whatever the water above it.
+        pub bottom_m: f32,
+    }
+}
+
+crate::shared_struct! {
+    /// Collisions of leaves with each other (see [`collisions_of`](crate::device::leaf::collide::collisions_of)).
+    pub struct CollisionBlock {
+        /// Steps from one time at which leaves collide to the next.
+        pub interval_steps: u32,
+        /// The same in s.
+        pub interval_s: f32,
+        /// Restitution.
+        pub restitution: f32,
+        /// Weight of a leaf, but for the one that every leaf has, per unit of its volume in litter.
+        pub weight_per_unit: f32,
     }
 }
 
@@ -273,6 +298,8 @@ crate::shared_struct! {
         pub wind: WindBlock,
         /// The litter.
         pub litter: LitterBlock,
+        /// Collisions of leaves with each other.
+        pub collisions: CollisionBlock,
         /// Solid parts.
         pub solids: SolidsBlock,
         /// Responses of the species.
@@ -303,6 +330,18 @@ impl SceneBlock {
     #[inline(always)]
     pub fn has_living_litter(&self) -> bool {
         self.litter.is_living != 0
+    }
+
+    /// Returns true if leaves collide with each other in a step.
+    #[inline(always)]
+    pub fn collides(&self, step: u32) -> bool {
+        self.has_living_litter() && step.is_multiple_of(self.collisions.interval_steps)
+    }
+
+    /// Returns true if leaves float on water.
+    #[inline(always)]
+    pub fn leaves_float(&self) -> bool {
+        self.litter.soaking_steps != 0
     }
 
     /// Returns true if there are solid parts in the way of leaves.
@@ -387,12 +426,34 @@ crate::shared_struct! {
 }
 
 crate::shared_struct! {
+    /// The air that one solid thing drags along at one step (see [`wind_slipstream`](crate::device::wind::slipstream::wind_slipstream)).
+    pub struct SlipstreamBlock, padding 4 {
+        /// Centre of the thing in m.
+        pub center_m: [f32; 3],
+        /// Standard deviation of the bell at its centre in m.
+        pub spread_m: f32,
+        /// Unit vector along its way.
+        pub heading: [f32; 3],
+        /// Drag over dynamic pressure and 3 pi in m².
+        pub drag_m2: f32,
+        /// Speed of the thing in m/s.
+        pub speed_m_s: f32,
+        /// Inverse of the distance in 1/m in front of the centre at which the slipstream begins.
+        pub fronts_per_m: f32,
+        /// Inverse of its length in 1/m.
+        pub lengths_per_m: f32,
+    }
+}
+
+crate::shared_struct! {
     /// The wind's patterns at one moment.
     pub struct MomentBlock, padding 8 {
         /// The vortices where they are then.
         pub vortices: [VortexBlock; MAX_VORTICES],
         /// The jets where they are then.
         pub jets: [JetBlock; MAX_JETS],
+        /// The air that things drag along then.
+        pub slipstreams: [SlipstreamBlock; MAX_MOVERS],
         /// Rows of the gust table that the mean wind has carried past, within one period.
         pub gust_offset: f32,
         /// Cells of turbulence that the mean wind has carried past, within one period.
@@ -426,12 +487,16 @@ crate::shared_struct! {
         pub moments: [MomentBlock; 2],
         /// Solid parts that move.
         pub movers: [MoverBlock; MAX_MOVERS],
+        /// Shift of the grid in which leaves collide with each other, in m.
+        pub collision_shift_m: [f32; 3],
         /// Index of the step.
         pub index: u32,
         /// Number of vortices.
         pub vortex_count: u32,
         /// Number of jets.
         pub jet_count: u32,
+        /// Number of slipstreams.
+        pub slipstream_count: u32,
     }
 }
 

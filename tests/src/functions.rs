@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Every device function, as it is called in Rust and in WGSL.
 
+mod afloat;
 mod bodies;
 mod carry;
+mod collisions;
 mod flight;
 mod leaf;
 mod litter;
@@ -107,4 +109,6 @@ pub fn all() -> impl Iterator<Item = &'static Function> {
         .chain(flight::FLIGHT_FUNCTIONS)
         .chain(litter::LITTER_FUNCTIONS)
         .chain(solids::SOLID_FUNCTIONS)
+        .chain(collisions::COLLISION_FUNCTIONS)
+        .chain(afloat::AFLOAT_FUNCTIONS)
 }

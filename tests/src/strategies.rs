@@ -254,6 +254,16 @@ pub fn obstructed_scene(seed: u64, leaves: u32, speed_m_s: f32, dt_s: f32) -> Sc
     scene
 }
 
+/// The same things in and around a pond, on which leaves float for a few seconds before they sink.
+pub fn pond_scene(seed: u64, leaves: u32, speed_m_s: f32, dt_s: f32) -> Scene {
+    let mut scene = obstructed_scene(seed, leaves, speed_m_s, dt_s);
+    let hollow = Terrain { edge_m: 32.0, relief_m: 3.0, levels: 6, noise: 0.2, ..Terrain::default() };
+    scene.ground.terrain = Some(hollow);
+    scene.ground.water = Some(Water { height_m: 0.2 });
+    scene.ground.litter = scene.ground.litter.map(|litter| Litter { float_hours: 0.002, ..litter });
+    scene
+}
+
 /// Level ground half of the time, otherwise hills from rolling to jagged; either with water or without.
 fn ground() -> impl Strategy<Value = (Option<Terrain>, Option<Water>)> {
     let rough = (0f32..1.0, 0f32..0.5, 0u32..4);

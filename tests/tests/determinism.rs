@@ -11,7 +11,7 @@ use windfall_core::scene::{MeanSpeed, Profile, Release, Scene, Source, SourceSha
 use windfall_core::store::Store;
 use windfall_core::{Simulator, World};
 use windfall_cpu::{CpuOptions, CpuSimulator, Simd};
-use windfall_tests::strategies::wooded_scene;
+use windfall_tests::strategies::{pond_scene, wooded_scene};
 
 /// State hash of [`small_scene`] after [`GOLDEN_STEPS`] steps.
 ///
@@ -23,6 +23,9 @@ const GOLDEN: u64 = 0x3ea8_13a3_f261_f364;
 const GOLDEN_STEPS: u32 = 240;
 /// The same of [`wooded_scene`] with three hundred leaves besides those on its trees.
 const WOODED_GOLDEN: u64 = 0x5afb_e5a6_c3a8_4acf;
+/// The same of [`pond_scene`] with fifteen hundred leaves besides those of its bed, after [`LITTER_STEPS`] steps.
+const LITTER_GOLDEN: u64 = 0xd6e9_689d_57d4_6278;
+const LITTER_STEPS: u32 = 600;
 
 /// Twenty thousand leaves in a storm: every state, join, vortex and source shape within a few seconds.
 fn storm() -> Scene {
@@ -224,4 +227,15 @@ fn trees_still_give_the_golden_bits() {
     assert!(world.branches != start.branches, "trees sway");
     let hash = world.state_hash();
     assert_eq!(hash, WOODED_GOLDEN, "the state hash is 0x{hash:016x}, see GOLDEN for what that means");
+}
+
+/// Wind, a jet, a walker, things that stand and that move, and a pond.
+#[test]
+fn living_litter_still_gives_the_golden_bits() {
+    let world = run(&build(&pond_scene(4, 1500, 2.0, 1.0 / 60.0)), 2, LITTER_STEPS);
+    let stats = world.litter_stats().expect("there is litter");
+    let counts = [stats.lying, stats.awake, stats.held, stats.afloat, stats.sunk];
+    assert!(counts.iter().all(|&count| count > 10) && stats.woken > 100, "{stats:?}");
+    let hash = world.state_hash();
+    assert_eq!(hash, LITTER_GOLDEN, "the state hash is 0x{hash:016x}, see GOLDEN for what that means");
 }

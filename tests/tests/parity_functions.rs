@@ -128,8 +128,16 @@ fn functions_agree_on_every_adapter() {
             let decides = |function: &Function| {
                 contract == Contract::Tolerant
                     && !world.bed.is_empty()
-                    && ["flight_advance", "flight_contact", "strike_solids", "solid_footing", "solids_cell"]
-                        .contains(&function.name)
+                    && [
+                        "flight_advance",
+                        "flight_contact",
+                        "strike_solids",
+                        "solid_footing",
+                        "solids_cell",
+                        "own_sums",
+                        "collisions_of",
+                    ]
+                    .contains(&function.name)
             };
             for function in functions::all().filter(|function| !decides(function)) {
                 if let Err(message) = check(&gpu, contract, &Shaders::default(), function, &world) {
@@ -192,6 +200,7 @@ fn a_changed_twin_is_noticed() {
         ("terrain/ground", "direction.y * reach", "direction.x * reach", "ground_gradient"),
         ("flight/contact", "(along * along) * normal.z", "(along * across) * normal.z", "support"),
         ("flight/contact", "drag * -1.0", "drag * -0.9", "flight_contact"),
+        ("flight/contact", "push < weight + weight", "push < weight", "flight_contact"),
         ("flight/contact", "above * up - ", "above - ", "flight_contact"),
         ("solid/shape", "beyond_z, 0.0)", "beyond_y, 0.0)", "solid_distance"),
         ("solid/shape", "place - solid.center;", "solid.center - place;", "solid_distance"),
@@ -199,6 +208,11 @@ fn a_changed_twin_is_noticed() {
         ("flight/strike", "motion.velocity - along", "motion.velocity", "strike_solids"),
         ("flight/strike", "radius * reach_share", "radius", "first_strike"),
         ("leaf/strike", "-(normal.x * inverse)", "-(normal.z * inverse)", "solid_footing"),
+        ("wind/slipstream", "1.0 - inverse * stream.drag_m2", "1.0 - stream.drag_m2", "wind_slipstream"),
+        ("leaf/collide", "layer * 19349663u", "layer * 19349661u", "own_sums"),
+        ("leaf/collide", "number + 0.5", "number", "own_sums"),
+        ("leaf/collide", "energy - vec3_dot(velocity, velocity)", "energy", "collisions_of"),
+        ("leaf/collide", "leaves * reciprocal(others)", "others * reciprocal(leaves)", "collisions_of"),
         ("flight/rates", "munk * flow.z, lever.y + twist", "munk * flow.x, lever.y + twist", "still_load"),
         ("leaf/at_rest", "lift + lever", "lift - lever", "wake_square"),
         ("leaf/lie", "raise_spread + 1u", "raise_spread + 9u", "lying_tilt"),

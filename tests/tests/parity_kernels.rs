@@ -163,7 +163,7 @@ fn a_changed_kernel_is_noticed() {
         ("terrain/ground", "max(ground_relief(x, z), scene.water_relief_m)", "ground_relief(x, z)"),
         ("leaf/settle", "came.x - slope.x * pull", "came.x + slope.x * pull"),
         ("leaf/settle", "flatten(quat_multiply(back, q), kept)", "flatten(q, kept)"),
-        ("wind/sample", "above = height - ground_relief", "above = height + ground_relief"),
+        ("wind/sample", "above = height - max(ground_relief", "above = height + max(ground_relief"),
     ];
     let littered = [
         ("leaf/wake", "rest + reach, place.z));", "rest + 2.0 * reach, place.z));"),
@@ -171,8 +171,10 @@ fn a_changed_kernel_is_noticed() {
         ("leaf/wake", "COVERED_LAYERS < above", "LOOSE_LAYERS * 4.0 < above"),
         ("leaf/lie", "own * scene.gravity_m_s2", "own * 9.0"),
         ("leaf/fly", "contact.position", "contact.position + vec3<f32>(0.0, 0.001, 0.0)"),
+        ("leaf/collide", "collisions.velocity - own", "own - collisions.velocity"),
+        ("kernels/gather_collisions", "first + 11u", "first + 10u"),
         ("leaf/stack", "change == CHANGE_ADDED, change", "change != CHANGE_ADDED, change"),
-        ("kernels/stack_litter", "near + line, heights.z", "near + line, heights.y"),
+        ("kernels/stack_litter", "node + line, heights.z", "node + line, heights.y"),
         ("kernels/wake_lying", "0u - step_block.index", "1u - step_block.index"),
     ];
     let obstructed = [

@@ -8,7 +8,7 @@ use windfall_core::{Contract, Simulator, World};
 use windfall_cpu::{CpuOptions, CpuSimulator, Simd};
 use windfall_tests::adapter;
 use windfall_tests::compare::difference;
-use windfall_tests::strategies::{hilly_scene, littered_scene, obstructed_scene, wooded_scene};
+use windfall_tests::strategies::{hilly_scene, littered_scene, obstructed_scene, pond_scene, wooded_scene};
 use windfall_wgpu::{Gpu, WgpuOptions, WgpuSimulator};
 
 const LEAVES: u32 = 3000;
@@ -67,6 +67,29 @@ fn a_thousand_steps_of_living_litter_are_equal_to_the_bit() {
     }
 }
 
+/// Presets of living litter, and steps after which much goes on in them: gusts, boots among leaves, a jet at work, a ball in its heap,
+/// rafts.
+const SHOWS: [(&str, u32); 6] =
+    [("square", 480), ("drift", 300), ("walk", 150), ("blower", 240), ("heap", 90), ("pond", 300)];
+
+#[test]
+fn every_preset_of_living_litter_is_equal_to_the_bit() {
+    for (preset, before) in SHOWS {
+        let scene = Scene::preset(preset).expect("a preset");
+        let start = World::build(&scene).expect("a preset can be built");
+        let world = oracle(&start, CpuOptions::default(), before);
+        let expected = oracle(&world, CpuOptions::default(), 12);
+        let stats = expected.litter_stats().expect("there is litter");
+        assert!(stats.awake > 20, "{preset}: {stats:?}");
+        for gpu in exact_adapters() {
+            let found = candidate(&gpu, &world, None, &[12]);
+            let apart = difference(&expected, &found);
+            assert!(apart.is_none(), "{} in {preset}: {apart:?}", gpu.info().name);
+            assert_eq!(expected.state_hash(), found.state_hash(), "{} in {preset}", gpu.info().name);
+        }
+    }
+}
+
 #[test]
 fn hills_and_trees_with_litter_are_equal_to_the_bit() {
     let littered = littered_scene(78, 1200, 3.5, 1.0 / 60.0);
@@ -102,9 +125,25 @@ fn leaves_among_solid_things_are_equal_to_the_bit() {
 }
 
 #[test]
+fn leaves_on_a_pond_are_equal_to_the_bit() {
+    let world = World::build(&pond_scene(82, LEAVES, 3.0, 1.0 / 60.0)).expect("valid");
+    let expected = oracle(&world, CpuOptions::default(), STEPS);
+    let stats = expected.litter_stats().expect("there is litter");
+    assert!(stats.afloat > 100 && stats.sunk > 100 && stats.lying > 100, "{stats:?}");
+    for gpu in exact_adapters() {
+        for (page_leaves, batches) in [(None, &[STEPS][..]), (Some(4096), &[1, 40, 7, 952])] {
+            let found = candidate(&gpu, &world, page_leaves, batches);
+            let apart = difference(&expected, &found);
+            assert!(apart.is_none(), "{}, pages of {page_leaves:?}: {apart:?}", gpu.info().name);
+        }
+    }
+}
+
+#[test]
 fn every_instruction_set_and_number_of_threads_gives_the_same_litter() {
     let obstructed = World::build(&obstructed_scene(81, LEAVES, 4.0, 1.0 / 60.0)).expect("valid");
-    for world in [world(), obstructed] {
+    let pond = World::build(&pond_scene(83, LEAVES, 4.0, 1.0 / 60.0)).expect("valid");
+    for world in [world(), obstructed, pond] {
         same_litter_everywhere(&world);
     }
 }

@@ -5,7 +5,7 @@
 use std::path::PathBuf;
 
 use anyhow::bail;
-use clap::Args;
+use clap::{Args, ValueEnum};
 use windfall_core::{Scene, World};
 
 use crate::output::{Output, Writer};
@@ -21,6 +21,7 @@ use crate::run::scene_arguments::SceneArguments;
 use crate::run::sky_arguments::SkyArguments;
 use crate::run::studio::Studio;
 use crate::run::terminal;
+use crate::view::{Overlays, Show};
 
 /// Most steps of a clip.
 const MAX_STEPS: u64 = 1_000_000_000;
@@ -59,6 +60,9 @@ pub struct Arguments {
     /// clouds stand still, and what can never repeat (water, a camera or a vortex on its way, leaves that fall only once) is refused.
     #[arg(long = "loop", value_name = "SECONDS", conflicts_with = "frames", value_parser = loop_length)]
     looped: Option<f64>,
+    /// Overlays in the picture: leaves coloured by motion, speed, age, height, wake or depth; landings. The others are for the window.
+    #[arg(long, value_name = "WHAT", value_delimiter = ',', value_parser = overlay)]
+    show: Vec<Show>,
 }
 
 /// Runs the command. Everything that can be found wrong is found before the first step.
@@ -95,9 +99,14 @@ pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
 fn studio(arguments: &Arguments, world: &World, size: (u32, u32), cancel: &Cancel) -> anyhow::Result<Studio> {
     let mut drawing = Drawing::without_window(&arguments.backend)?;
     let reason = drawing.reason.take();
-    let studio = Studio::of_world(world, drawing, size, cancel, &making_leaves())?;
+    let mut studio = Studio::of_world(world, drawing, size, cancel, &making_leaves())?;
     if let Some(reason) = reason {
         terminal::note(&reason);
+    }
+    let overlays = arguments.show.iter().fold(Overlays::default(), |overlays, show| overlays.with(*show));
+    studio.mark(overlays.paint(), overlays.landings);
+    if let Some((title, end)) = overlays.scale() {
+        terminal::note(&format!("{title}: 0 is dark violet, {end} light yellow"));
     }
     Ok(studio)
 }
@@ -181,4 +190,15 @@ fn film(
 
 fn playback_speed(text: &str) -> Result<f64, String> {
     within(text, 0.001, 1000.0)
+}
+
+/// An overlay that is drawn with the scene.
+fn overlay(text: &str) -> Result<Show, String> {
+    let show = Show::from_str(text, false)?;
+    match show {
+        Show::Wind | Show::Trails | Show::Leaf | Show::Compare => {
+            Err("shown in the window only; allowed: motion, speed, age, height, wake, depth, landings".into())
+        }
+        show => Ok(show),
+    }
 }

@@ -36,6 +36,10 @@ pub(crate) struct LitterReport {
     pub lying: u32,
     /// Lying on solid things.
     pub held: u32,
+    /// Floating on water.
+    pub afloat: u32,
+    /// Sinking in water, or lying under it.
+    pub sunk: u32,
     /// Moving as bodies, in the air or on the ground.
     pub awake: u32,
     /// Taken from the litter by the wind since time zero, each time that one was.
@@ -50,8 +54,8 @@ pub(crate) struct LitterReport {
 
 impl From<LitterStats> for LitterReport {
     fn from(stats: LitterStats) -> Self {
-        let LitterStats { lying, held, awake, woken, deepest_m, volume_m3, mass_kg } = stats;
-        Self { lying, held, awake, woken, deepest_m, volume_m3, mass_kg }
+        let LitterStats { lying, held, afloat, sunk, awake, woken, deepest_m, volume_m3, mass_kg } = stats;
+        Self { lying, held, afloat, sunk, awake, woken, deepest_m, volume_m3, mass_kg }
     }
 }
 
@@ -148,10 +152,14 @@ impl Report {
         let sway = format!("joints to {max_joint_angle_rad:.3} rad, tips to {tip_speed_max_m_s:.2} m/s");
         row("trees", format!("{count} of {segments} segments, {sway}, {leaves_shed} leaves shed"));
         if let Some(litter) = self.litter {
-            let LitterReport { lying, held, awake, woken, deepest_m, volume_m3, mass_kg } = litter;
+            let LitterReport { lying, held, afloat, sunk, awake, woken, deepest_m, volume_m3, mass_kg } =
+                litter;
             let lies =
                 format!("{lying} lying, {mass_kg:.3} kg in {volume_m3:.4} m³, up to {deepest_m:.3} m deep");
-            row("litter", format!("{lies}; {held} held, {awake} awake, {woken} woken"));
+            row(
+                "litter",
+                format!("{lies}; {held} held, {afloat} afloat, {sunk} sunk, {awake} awake, {woken} woken"),
+            );
         }
         row("motions", motions.join(", "));
         let regimes = REGIME_NAMES.iter().zip(stats.leaves.regimes);

@@ -17,10 +17,10 @@ pub(crate) const DEFAULT_SCENE: &str = "autumn-park";
 /// The scene to work on.
 #[derive(Clone, Debug, Default, Args)]
 pub(crate) struct SceneArguments {
-    /// Preset (autumn-park, six-motions, flight-lab, storm, million, forest, gale, hurricane, evening, macro, winter, hills, blower, square, drift, walk, heap) or path of a RON file [default: autumn-park].
+    /// Preset (autumn-park, six-motions, flight-lab, storm, million, forest, gale, hurricane, evening, macro, winter, hills, blower, square, drift, walk, heap, pond) or path of a RON file [default: autumn-park].
     #[arg(value_name = "SCENE")]
     pub scene: Option<String>,
-    /// Number of leaves; trees and sources share them as they share those of the scene, at rates that go along.
+    /// Number of leaves; trees, sources and litter share them as they share those of the scene, at rates that go along.
     #[arg(long, value_name = "N", value_parser = whole::<u32, 1, { MAX_LEAVES as u64 }>)]
     pub leaves: Option<u32>,
     /// Seed of everything random, in place of the scene's.

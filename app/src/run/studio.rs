@@ -6,7 +6,7 @@ use windfall_core::scene::{CameraKey, camera_at};
 use windfall_core::{Scene, Simulator, World};
 use windfall_render::camera::Camera;
 use windfall_render::trees::SceneTrees;
-use windfall_render::{FrameInput, PictureTarget, RenderScene, Renderer, RendererOptions};
+use windfall_render::{FrameInput, Paint, PictureTarget, RenderScene, Renderer, RendererOptions};
 use windfall_wgpu::Gpu;
 
 use crate::leaves::{self, LeafProgress};
@@ -108,6 +108,12 @@ impl Studio {
     /// Lets grass repeat after `length_s` seconds from `begin_s` on, and clouds stand still: for clips without a seam.
     pub fn repeat(&mut self, begin_s: f64, length_s: f64) {
         self.renderer.repeat(begin_s, length_s);
+    }
+
+    /// Paints leaves by what they do, if so, and shows how densely they lie, if so.
+    pub fn mark(&mut self, paint: Option<Paint>, landings: bool) {
+        self.renderer.set_paint(paint);
+        self.renderer.set_landings(landings);
     }
 
     /// Simulates until `step` steps are done.

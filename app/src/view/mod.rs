@@ -12,5 +12,5 @@ mod tools;
 mod window;
 
 pub(crate) use panel::Group;
-pub(crate) use tools::overlays::Show;
+pub(crate) use tools::overlays::{Overlays, Show};
 pub(crate) use window::event_loop::{Options, run};

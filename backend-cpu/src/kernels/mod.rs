@@ -4,11 +4,15 @@
 
 mod advance;
 pub(crate) mod carry;
+mod clear_collisions;
+mod collide;
 mod fly;
+mod gather_collisions;
 pub(crate) mod measure;
 mod resolve_events;
 mod sample_air;
 pub(crate) mod stack_litter;
+pub(crate) mod step_collisions;
 pub(crate) mod step_leaves;
 pub(crate) mod step_trees;
 pub(crate) mod sway_coast;

@@ -47,7 +47,7 @@ pub(crate) fn resolve_events(
         while left != 0 {
             let slot = block * BLOCK + left.trailing_zeros() as usize;
             leaf_advance(cx, &mut leaves.row_mut(slot));
-            if leaf_changes_litter(leaves.place[slot].bits) {
+            if leaf_changes_litter(leaves.place[slot].bits, leaves.drift[slot].velocity.into()) {
                 changing.push(slot);
             }
             left &= left - 1;

@@ -41,7 +41,7 @@ pub(crate) fn stack_litter(
     for slot in changes.0.lock().unwrap_or_else(PoisonError::into_inner).drain(..) {
         let change = leaf_stack(cx, &mut leaves.row_mut(slot as usize));
         bed.apply(&cx.scene.litter, &change);
-        if change.is_added {
+        if change.lies {
             exposed.add(slot as usize);
         } else {
             quiet.wake(slot);

@@ -3,13 +3,14 @@
 //! twin: backend-wgpu/src/shaders/kernels/wake_lying.wgsl
 //!
 //! Wakes leaves of a chunk that lie in the litter: those in the way of solid parts that move, and, in units that have their turn, those
-//! that the wind takes.
+//! that the wind takes. Those afloat it sets drifting.
 
 use std::ops::Range;
 
 use windfall_core::Context;
 use windfall_core::arith::pack::{BLOCK, Pack};
 use windfall_core::device::leaf::record::{is_covered, lies_still};
+use windfall_core::device::leaf::stack::leaf_changes_litter;
 use windfall_core::device::leaf::strike::leaf_push;
 use windfall_core::device::leaf::wake::{cover_is_due, leaf_check_cover, leaf_wake, wake_is_due};
 use windfall_core::leaf::LeavesMut;
@@ -69,7 +70,9 @@ pub(crate) fn wake_lying(
 /// Wakes those of some slots that solid parts which move come upon.
 fn push_slots(cx: &Context<'_>, leaves: &mut LeavesMut<'_>, slots: Range<usize>, changing: &mut Vec<usize>) {
     for slot in slots {
-        if leaf_push(cx, &mut leaves.row_mut(slot)) {
+        // What drifts is listed.
+        let is_listed = leaf_changes_litter(leaves.place[slot].bits, leaves.drift[slot].velocity.into());
+        if leaf_push(cx, &mut leaves.row_mut(slot)) && !is_listed {
             changing.push(slot);
         }
     }

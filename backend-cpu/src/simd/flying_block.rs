@@ -77,10 +77,10 @@ impl FlyingBlock<'_> {
         let start =
             Flight { position, velocity, pose: Quat::from(attitudes), spin: body_spin(phase, rate, heading) };
         let wind = wind_at(cx, start.position);
-        let Flown { flight, is_calm } =
+        let Flown { flight, is_calm, is_wet } =
             flight_advance::<P, OverGround>(cx, start, bits, size.to_bits(), wind);
         let regime = update_regime(cx, &flight, wind, regime_state(fall_time.to_bits()), bits);
-        let bits = count_calm_steps(cx, regime.bits, is_calm);
+        let bits = count_calm_steps(cx, regime.bits, is_calm, is_wet);
         let lands = flight_ends(cx, bits, flight.position);
         let moved = on & !lands;
         let Flight { position, velocity, pose, spin } = flight;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The leaf columns in windows that fit in one binding each.
 
+use windfall_core::device::leaf::collide::{COLLISION_CELL_BITS, CollisionSums};
 use windfall_core::tree::record::{BRANCH_COLUMNS, BRANCH_TURN, CarryBlock};
 
 use super::WgpuSimulator;
@@ -28,7 +29,7 @@ pub(super) struct Page {
     pub(super) on_trees: Option<OnTrees>,
 }
 
-/// A buffer of lists of leaves, bound for kernels that read it and for those that fill it.
+/// A buffer of lists of leaves or of cells, bound for kernels that read it and for those that fill it.
 #[derive(Debug)]
 pub(super) struct List {
     pub(super) buffer: wgpu::Buffer,
@@ -99,6 +100,14 @@ impl WgpuSimulator {
             active: self.list("active_list", active_bytes(leaves, kept)),
             events: self.list("event_lists", event_bytes(leaves)),
             on_trees,
+        }
+    }
+
+    /// Makes cells for the collisions of leaves, where they may collide.
+    pub(super) fn make_collision_cells(&mut self) {
+        if self.compiled.block().has_living_litter() && self.collisions.is_none() {
+            let bytes = (size_of::<CollisionSums>() as u64) << COLLISION_CELL_BITS;
+            self.collisions = Some(self.list("collision cells", bytes));
         }
     }
 

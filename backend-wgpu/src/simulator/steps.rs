@@ -7,6 +7,7 @@ use windfall_core::blocks::StepBlock;
 use windfall_core::device::leaf::air::AIR_UNIT_SHIFT;
 
 use super::WgpuSimulator;
+use super::pages::List;
 use crate::buffers::buffer;
 use crate::lists::{
     ACTIVE_HEAD_BYTES, ALL_GROUPS, SAMPLING_GROUPS, WINDOW_STEPS, empty_active, event_groups,
@@ -148,6 +149,11 @@ impl WgpuSimulator {
     /// Encodes step number `index`, whose block lies at `offset`.
     fn encode_step(&self, pass: &mut wgpu::ComputePass<'_>, offset: u32, index: u32) {
         let kernel = |kernel| self.pipelines.kernel(kernel);
+        if let Some(cells) = &self.collisions
+            && self.compiled.block().collides(index)
+        {
+            self.encode_collisions(pass, cells, offset);
+        }
         if let Some(forest) = &self.forest {
             if self.compiled.block().sway.solves_joints(index) {
                 let sway = KernelId::of_scheme(self.compiled.scene().sway);
@@ -187,6 +193,24 @@ impl WgpuSimulator {
         }
         if self.compiled.block().has_living_litter() {
             self.encode_litter(pass, offset);
+        }
+    }
+
+    /// Encodes the collisions of bodies with each other, as they are at the start of a step.
+    fn encode_collisions(&self, pass: &mut wgpu::ComputePass<'_>, cells: &List, offset: u32) {
+        let rounds = [
+            (KernelId::GatherCollisions, &cells.filled),
+            (KernelId::Collide, &cells.read),
+            (KernelId::ClearCollisions, &cells.filled),
+        ];
+        for (kernel, bound) in rounds {
+            pass.set_pipeline(self.pipelines.kernel(kernel));
+            pass.set_bind_group(2, bound, &[]);
+            for page in &self.pages {
+                pass.set_bind_group(0, &page.in_motion, &[offset]);
+                pass.set_bind_group(1, &page.active.read, &[]);
+                pass.dispatch_workgroups_indirect(&page.active.buffer, ALL_GROUPS);
+            }
         }
     }
 

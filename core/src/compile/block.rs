@@ -5,16 +5,18 @@
 use super::body::body_block;
 use super::source::{source_block, trees_block};
 use super::species::{response_block, species_block};
+use super::water::set_floating;
 use super::wind::{MOST_INTERVAL_STEPS, deviation_m_s, wind_block};
 use crate::arith::rng::seed_words;
-use crate::blocks::{LitterBlock, SOURCE_TREES, SceneBlock, SwayBlock, WindBlock};
+use crate::blocks::{CollisionBlock, LitterBlock, SOURCE_TREES, SceneBlock, SwayBlock, WindBlock};
 use crate::convert::{len32, low_word, q16, single, steps, word};
+use crate::device::leaf::collide::COLLISION_WEIGHT_MOST;
 use crate::device::leaf::wake::{CALM_INTERVAL, COVER_INTERVAL, WAKE_INTERVAL};
 use crate::device::terrain::litter::{LITTER_CELLS_PER_M, LITTER_HIGHEST_M};
 use crate::device::tree::sway::{IMPLICITNESS, SCHEME_ARTICULATED, SCHEME_OLIAPURAM_KUMAR, SCHEME_QUIGLEY};
 use crate::flight::coefficients::TICKS_PER_S;
 use crate::motion::{AIR_DENSITY, MotionTables};
-use crate::scene::{FlightModel, Litter, MAX_SOURCES, Scene, SwayScheme};
+use crate::scene::{FlightModel, Litter, MAX_SOURCES, ObjectMotion, Scene, SwayScheme};
 
 /// Height of resting leaves above the ground in metres: half the thickness of a curled dry leaf.
 pub const REST_OFFSET_M: f32 = 0.004;
@@ -26,6 +28,11 @@ const SETTLE_S: f32 = 0.3;
 const SETTLE_TAU_S: f32 = 0.04;
 /// Frequency at which the slowest leaf flutters on its twig in Hz; the fastest flutter half as fast again.
 pub(super) const FLUTTER_HZ: f32 = 3.2;
+/// Restitution of leaves that strike each other, assumed.
+const COLLISION_RESTITUTION: f32 = 0.1;
+/// Time in s from one at which leaves collide with each other to the next: one runs through a few cells of the air at most.
+const COLLISION_S: f32 = 1.0 / 15.0;
+
 /// Height of water that is not there, in metres.
 pub const NO_WATER_M: f32 = -1.0e6;
 
@@ -61,6 +68,7 @@ pub(super) fn compile_block(scene: &Scene, tables: &[MotionTables]) -> SceneBloc
         block.species[index] = species_block(scene, species, tables);
         block.bodies[index] = body_block(species, scene);
     }
+    block.collisions = collision_block(scene, &block);
     for (index, source) in scene.sources.iter().take(MAX_SOURCES).enumerate() {
         block.sources[index] = source_block(scene, source);
     }
@@ -155,9 +163,28 @@ fn set_litter(scene: &Scene, litter: &Litter, block: &mut LitterBlock) {
     let is_calm = scene.wind.speed.metres_per_second() == 0.0
         && deviation_m_s(&scene.wind) == 0.0
         && scene.wind.vortices.is_empty()
-        && scene.wind.jets.is_empty();
+        && scene.wind.jets.is_empty()
+        && scene.walkers.is_empty()
+        && scene.objects.iter().all(|object| object.motion == ObjectMotion::Still);
     block.is_calm = u32::from(is_calm);
     (block.wake_steps, block.cover_steps) =
         if is_calm { (CALM_INTERVAL, CALM_INTERVAL) } else { (WAKE_INTERVAL, COVER_INTERVAL) };
     block.rest_m2_s2 = scene.gravity_m_s2 * REST_OFFSET_M;
+    set_floating(scene, litter, block);
+}
+
+/// Collisions of leaves with each other. Their weights are their masses, since the density of litter is the same for all.
+fn collision_block(scene: &Scene, block: &SceneBlock) -> CollisionBlock {
+    let interval_steps = steps(COLLISION_S, scene.dt_s);
+    let heaviest = scene.species.iter().zip(&block.bodies).map(|(species, body)| {
+        let ratio = 1.0 + f64::from(species.size_variation);
+        f64::from(body.litter_units) * ratio * ratio
+    });
+    let heaviest = heaviest.fold(0.0, f64::max).max(1.0);
+    CollisionBlock {
+        interval_steps,
+        interval_s: single(f64::from(interval_steps) * f64::from(scene.dt_s)),
+        restitution: COLLISION_RESTITUTION,
+        weight_per_unit: single((f64::from(COLLISION_WEIGHT_MOST) - 1.0) / heaviest),
+    }
 }

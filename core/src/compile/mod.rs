@@ -9,10 +9,12 @@ mod field;
 mod foliage;
 mod jet;
 mod shelter;
+mod slipstream;
 mod solids;
 mod source;
 mod species;
 mod tables;
+mod water;
 mod wind;
 
 use std::sync::Arc;
@@ -28,11 +30,12 @@ use self::shelter::{is_sheltered, shelter_inputs, shelter_rows};
 use self::solids::Solids;
 pub(crate) use self::source::{lifetime_steps, release_step};
 use self::tables::{motions_of, pack_motion};
-use crate::arith::rng::seed_words;
+use crate::arith::rng::{random, seed_words, unit_float};
 use crate::blocks::{JetBlock, MomentBlock, MoverBlock, SceneBlock, StepBlock, VortexBlock};
 use crate::clock::Clock;
 use crate::context::Context;
 use crate::convert::{len32, single};
+use crate::device::leaf::collide::COLLISION_CELLS_PER_M;
 use crate::device::motion::lookup::MotionRows;
 use crate::device::terrain::ground::ground_relief;
 use crate::device::wind::gust::{GUST_ROWS, GUST_SPACING, gust_rows};
@@ -48,6 +51,9 @@ use crate::terrain::Hills;
 use crate::threads::both;
 use crate::tree::{Branches, Forest};
 use crate::wind::{ShelterGrid, turbulence_box};
+
+/// Random words of the grid in which leaves collide, by step.
+const STREAM_COLLISION: u32 = 38;
 
 /// A compiled scene: uniform block and tables, ready for any backend.
 #[derive(Clone, Debug)]
@@ -211,11 +217,22 @@ impl CompiledScene {
         StepBlock {
             moments: [0.0, middle].map(|steps| self.moment_block(clock, steps)),
             movers: self.movers_at(clock.seconds()),
+            collision_shift_m: self.collision_shift_m(clock.step()),
             index: clock.step(),
             vortex_count: len32(self.scene.wind.vortices.len()),
             jet_count: len32(self.scene.wind.jets.len()),
+            slipstream_count: self.solids.slipstream_count(),
             padding: Default::default(),
         }
+    }
+
+    /// Shift of the grid in which leaves collide in a step, less than a cell along each axis.
+    fn collision_shift_m(&self, step: u32) -> [f32; 3] {
+        if !self.block.collides(step) {
+            return [0.0; 3];
+        }
+        let [x, y, z, _] = random(self.block.seed, step, STREAM_COLLISION);
+        [x, y, z].map(|word| unit_float(word) * (1.0 / COLLISION_CELLS_PER_M))
     }
 
     /// Solid parts that move, in the step that begins at a time.
@@ -273,9 +290,16 @@ impl CompiledScene {
         for (jet, block) in self.scene.wind.jets.iter().zip(&mut jets) {
             *block = jet_block(jet, seconds, ground);
         }
+        let slipstreams = if self.solids.are_still() {
+            bytemuck::Zeroable::zeroed()
+        } else {
+            let ground = |x_m, z_m| self.ground_height(single(x_m), single(z_m)).into();
+            self.solids.slipstreams_at(seconds, f64::from(self.block.dt_s), ground)
+        };
         MomentBlock {
             vortices,
             jets,
+            slipstreams,
             gust_offset: carried(wind.gust_rows_per_m, GUST_ROWS, |cycle| cycle.gust_rows),
             turbulence_offset: carried(wind.cells_per_m[0], TURBULENCE_X, |cycle| cycle.cells),
             padding: Default::default(),

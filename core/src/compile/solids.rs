@@ -4,7 +4,8 @@
 
 use glam::{DQuat, DVec3, Vec3};
 
-use crate::blocks::{MoverBlock, SceneBlock, SolidsBlock};
+use super::slipstream::{drags_air, slipstream_block};
+use crate::blocks::{MoverBlock, SceneBlock, SlipstreamBlock, SolidsBlock};
 use crate::convert::{len32, single, word};
 use crate::device::solid::near::LIST_LENGTH_BITS;
 use crate::device::solid::shape::{SOLID_LOSS, SOLID_ROUND};
@@ -57,7 +58,6 @@ impl Solids {
             mover_count: len32(self.movers.len()),
             count: len32(count),
             reach_m: single(reach_m),
-            cells_per_m: single(1.0 / CELL_M),
             ..bytemuck::Zeroable::zeroed()
         };
         for solid in self.movers.iter().chain(&self.still) {
@@ -142,6 +142,25 @@ impl Solids {
                 spin_rad_s: vector(spin),
                 padding: Default::default(),
             };
+        }
+        blocks
+    }
+
+    /// Number of the parts that drag air along.
+    pub(super) fn slipstream_count(&self) -> u32 {
+        len32(self.movers.iter().filter(|solid| drags_air(solid)).count())
+    }
+
+    /// The air that they drag along at a time.
+    pub(super) fn slipstreams_at(
+        &self,
+        time_s: f64,
+        dt_s: f64,
+        ground_m: impl Fn(f64, f64) -> f64,
+    ) -> [SlipstreamBlock; MAX_MOVERS] {
+        let mut blocks = [<SlipstreamBlock as bytemuck::Zeroable>::zeroed(); MAX_MOVERS];
+        for (solid, block) in self.movers.iter().filter(|solid| drags_air(solid)).zip(&mut blocks) {
+            *block = slipstream_block(solid, time_s, dt_s, &ground_m);
         }
         blocks
     }

@@ -2,7 +2,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Compiles the wind.
 
+use super::block::NO_WATER_M;
 use super::jet::core_width_m;
+use super::slipstream::widths_and_speeds;
+use super::water::floating_surface_m;
 use crate::blocks::WindBlock;
 use crate::convert::single;
 use crate::device::wind::gust::{GUST_ROWS, GUST_SPACING};
@@ -47,6 +50,7 @@ pub(super) fn wind_block(scene: &Scene) -> WindBlock {
         half_interval_s: single(0.5 * f64::from(interval_steps) * f64::from(scene.dt_s)),
         least_vertical,
         vertical_per_m,
+        lowest_surface_m: floating_surface_m(scene).unwrap_or(NO_WATER_M),
         padding: Default::default(),
     }
 }
@@ -74,6 +78,9 @@ fn interval_steps(scene: &Scene) -> u32 {
     }
     for jet in &wind.jets {
         most_s = most_s.min(LARGEST_SHARE * core_width_m(jet) / jet.fastest_m_s().max(DESCENT_M_S));
+    }
+    for (width_m, speed_m_s) in widths_and_speeds(scene) {
+        most_s = most_s.min(LARGEST_SHARE * width_m / speed_m_s.max(DESCENT_M_S));
     }
     // Step lengths are given in single precision.
     let fits = |steps: &u32| f64::from(*steps) * f64::from(scene.dt_s) <= most_s * (1.0 + 1e-6);

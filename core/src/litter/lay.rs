@@ -13,7 +13,7 @@ use crate::device::flight::body::body_of;
 use crate::device::flight::strike::{STRIKE_GAP_M, SolidGap, deepest_overlap, solid_gap};
 use crate::device::leaf::launch::turn_about_y;
 use crate::device::leaf::lie::{
-    STREAM_LYING, flatten_to, leaf_lie_down, lying_tilt, own_friction, own_raise, reach_down,
+    STREAM_LYING, flatten_to, leaf_lie_down, lying_tilt, own_friction, reach_down,
 };
 use crate::device::leaf::record::{STATE_RESTING, leaf_appearance, leaf_state, place_bits};
 use crate::device::leaf::release::release_size_speed;
@@ -89,7 +89,7 @@ pub(crate) fn lay_all(cx: &Context<'_>, leaves: &mut Leaves, bed: &mut Bed) {
             continue;
         }
         lay(&cx.over(&bed.words), &mut leaf);
-        if leaf_changes_litter(leaf.place.bits) {
+        if leaf_changes_litter(leaf.place.bits, leaf.drift.velocity.into()) {
             let change = leaf_stack(&cx.over(&bed.words), &mut leaf);
             bed.apply(&cx.scene.litter, &change);
         }
@@ -126,7 +126,7 @@ fn lay(cx: &Context<'_>, leaf: &mut LeafMut<'_>) {
     leaf.drift.velocity = [0.0; 3];
     leaf.drift.phase = cx.scene.settle_steps;
     if cx.scene.has_living_litter() {
-        leaf_lie_down(cx, leaf, slope, friction, own_raise(cx, words));
+        leaf_lie_down(cx, leaf, slope, friction, words);
     }
 }
 

@@ -38,11 +38,15 @@ impl Bed {
 
     /// Makes the change of a leaf. Changes of integers, they may come in any order.
     pub fn apply(&mut self, litter: &LitterBlock, change: &LitterChange) {
-        let first = change.shares.node as usize;
-        let far = first + litter.columns as usize + 1;
-        for (node, height) in [first, first + 1, far, far + 1].into_iter().zip(change.shares.heights) {
-            let word = &mut self.words[node];
-            *word = if change.is_added { word.wrapping_add(height) } else { word.wrapping_sub(height) };
+        let nodes_from = |node: u32| {
+            let far = node + litter.columns + 1;
+            [node, node + 1, far, far + 1].map(|node| node as usize)
+        };
+        for (node, height) in nodes_from(change.taken.node).into_iter().zip(change.taken.heights) {
+            self.words[node] = self.words[node].wrapping_sub(height);
+        }
+        for (node, height) in nodes_from(change.added.node).into_iter().zip(change.added.heights) {
+            self.words[node] = self.words[node].wrapping_add(height);
         }
         self.words[nodes(litter)] += u32::from(change.is_woken);
     }

@@ -126,6 +126,7 @@ limits! {
     RAISED_DEG: f32 = 0.0, 60.0, "degrees", raised_deg;
     RESTITUTION: f32 = 0.0, 1.0, "", restitution;
     ADHESION_N_M2: f32 = 0.0, 20.0, "N/m²", adhesion_n_m2;
+    FLOAT_HOURS: f32 = 0.001, 48.0, "h", float_hours;
     SURFACE_ROUGHNESS_M: f32 = 0.0001, 0.1, "m", surface_roughness_m;
     OBJECT_RADIUS_M: f32 = 0.005, 50.0, "m", radius_m;
     OBJECT_LENGTH_M: f32 = 0.0, 200.0, "m", length_m;

@@ -40,6 +40,9 @@ pub struct Litter {
     pub moisture: f32,
     /// Suction in N/m² of the film that holds wet leaves, 0 to 20.
     pub adhesion_n_m2: f32,
+    /// Hours for which leaves float on water, 0.001 to 48, each between half and one and a half times as long; then they are soaked and
+    /// sink. The default, 6, is an assumption: leaves take up their water over hours.
+    pub float_hours: f32,
     /// Leaves lie as still as painted: none is woken, and none that lands raises the litter.
     pub still: bool,
 }
@@ -47,12 +50,12 @@ pub struct Litter {
 impl Litter {
     /// The same litter as far as it cannot change while a simulation runs, otherwise as another says.
     pub fn retuned(self, to: Option<Self>) -> Self {
-        let Self { friction, raised_deg, restitution, adhesion_n_m2, .. } = to.unwrap_or(self);
-        Self { friction, raised_deg, restitution, adhesion_n_m2, ..self }
+        let Self { friction, raised_deg, restitution, adhesion_n_m2, float_hours, .. } = to.unwrap_or(self);
+        Self { friction, raised_deg, restitution, adhesion_n_m2, float_hours, ..self }
     }
 
     /// Half of the width in m within which a bed thins out towards each edge.
-    pub(crate) fn rim_m(&self) -> f32 {
+    pub fn rim_m(&self) -> f32 {
         (0.25 * self.size_m.min_element()).min(WIDEST_RIM_M)
     }
 
@@ -77,6 +80,7 @@ impl Default for Litter {
             restitution: 0.1,
             moisture: 0.0,
             adhesion_n_m2: 0.0,
+            float_hours: 6.0,
             still: false,
         }
     }

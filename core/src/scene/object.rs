@@ -39,7 +39,8 @@ pub enum ObjectShape {
 pub enum ObjectFriction {
     /// At most a coefficient, 0 to 5, times the impulse into the surface.
     Coulomb(f32),
-    /// A share, 0 to 1, of the speed along the surface, as of the particles of Witkin and Baraff ("Physically Based Modeling").
+    /// Share, 0 to 1, of the speed along the surface that each strike takes, whatever its impulse: the response of particles in
+    /// Zachmann's lectures ("Virtuelle Realität und Simulation", 2008).
     Loss(f32),
 }
 

@@ -23,6 +23,7 @@ pub const PRESETS: &[(&str, &str)] = &[
     ("drift", include_str!("../../scenes/drift.ron")),
     ("walk", include_str!("../../scenes/walk.ron")),
     ("heap", include_str!("../../scenes/heap.ron")),
+    ("pond", include_str!("../../scenes/pond.ron")),
 ];
 
 impl Scene {
@@ -67,7 +68,8 @@ mod tests {
                 "square",
                 "drift",
                 "walk",
-                "heap"
+                "heap",
+                "pond"
             ],
             "names and their order"
         );

@@ -9,8 +9,8 @@ impl Scene {
     /// Field that errors of [`Scene::with_leaf_count`] name.
     pub const LEAF_COUNT: &str = "leaf count";
 
-    /// The scene with `leaves` leaves in total: every tree gets its share of them, as far as it may have so many, and every
-    /// source the like and at least one, which it lets go at a rate that keeps the time it takes to let go of all.
+    /// The scene with `leaves` leaves in total: every tree and the bed of litter get their shares of them, as far as they may have so
+    /// many, and every source the like and at least one, which it lets go at a rate that keeps the time it takes to let go of all.
     ///
     /// # Errors
     /// [`SceneError::Field`] for fewer leaves than sources, or for rates that are not allowed; `file` names the scene.
@@ -25,6 +25,7 @@ impl Scene {
             });
         }
         let mut scaled = self.clone();
+        let leaves = leaves - scaled.thin_bed(self, leaves);
         let on_trees = tree_leaves(self, leaves);
         share_out(&mut scaled.trees, on_trees);
         for (source, count) in scaled.sources.iter_mut().zip(shares(&counts, leaves - on_trees)) {
@@ -37,6 +38,20 @@ impl Scene {
         }
         scaled.validate(file)?;
         Ok(scaled)
+    }
+
+    /// Gives the bed its share of `leaves` leaves of a scene, which are at least as many as its sources, and returns their number.
+    fn thin_bed(&mut self, scene: &Self, leaves: u32) -> u32 {
+        let (bed, all) = (u64::from(scene.bed_leaf_count()), u64::from(scene.leaf_count()));
+        let others = u64::from(all > bed) * scene.sources.len() as u64;
+        let Some(litter) = self.ground.litter.as_mut().filter(|_| bed > 0) else { return 0 };
+        // Half a leaf more, since the number is rounded down.
+        let share = (u64::from(leaves) * bed / all).min(u64::from(leaves) - others) as f64 + 0.5;
+        let index = f64::from(litter.leaf_area_index) * share / (bed as f64 + 0.5);
+        #[expect(clippy::cast_possible_truncation, reason = "scene files hold single precision")]
+        let index = (index as f32).min(limits::LITTER_AREA_INDEX.high);
+        litter.leaf_area_index = if u64::from(leaves) == all { litter.leaf_area_index } else { index };
+        self.bed_leaf_count().min(leaves)
     }
 }
 
@@ -92,6 +107,29 @@ fn shares(counts: &[u32], total: u32) -> Vec<u32> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_bed_gets_its_share() {
+        let text = "(sources: [(count: 1000)], ground: (litter: Some((size_m: (20.0, 20.0), leaf_area_index: 1.0))))";
+        let scene = Scene::from_ron(text, "bed").expect("a scene");
+        let (bed, all) = (scene.bed_leaf_count(), scene.leaf_count());
+        assert!(bed > 50_000 && all == bed + 1000, "{bed} of {all} leaves lie there");
+        assert_eq!(
+            scene.with_leaf_count("bed", all).expect("allowed"),
+            scene,
+            "its own number changes nothing"
+        );
+        for leaves in [1, 50, 700, 12_345, 2 * all] {
+            let scaled = scene.with_leaf_count("bed", leaves).expect("allowed");
+            assert_eq!(scaled.leaf_count(), leaves, "in total");
+            let share = f64::from(bed) * f64::from(leaves) / f64::from(all);
+            let apart = (f64::from(scaled.bed_leaf_count()) - share).abs();
+            assert!(apart <= 2.0, "{apart} leaves from the share of {leaves}");
+        }
+        let most = scene.with_leaf_count("bed", 40 * all).expect("allowed");
+        let litter = most.ground.litter.expect("litter");
+        assert_eq!((litter.leaf_area_index, most.leaf_count()), (30.0, 40 * all), "no deeper than allowed");
+    }
 
     #[test]
     fn shares_are_proportional_complete_and_never_empty() {

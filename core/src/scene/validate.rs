@@ -302,6 +302,7 @@ impl Litter {
             ("restitution", self.restitution.into(), limits::RESTITUTION),
             ("moisture", self.moisture.into(), limits::MOISTURE),
             ("adhesion_n_m2", self.adhesion_n_m2.into(), limits::ADHESION_N_M2),
+            ("float_hours", self.float_hours.into(), limits::FLOAT_HOURS),
         ])?;
         at.holds(self.raised_deg.0 <= self.raised_deg.1, "raised_deg", || {
             (format!("{:?}", self.raised_deg), "two values in rising order".into())

@@ -2,16 +2,21 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Steps worlds in plain loops: what every simulator is compared with.
 
+use std::collections::BTreeMap;
+
 use super::world::World;
 use crate::clock::Clock;
 use crate::compile::CompiledScene;
 use crate::context::Context;
 use crate::device::leaf::advance::leaf_advance;
 use crate::device::leaf::air::{air_is_sampled, leaf_sample_air};
+use crate::device::leaf::collide::{COLLISION_WORDS, collision_cell, leaf_collide, own_sums};
 use crate::device::leaf::fly::leaf_fly;
+use crate::device::leaf::record::flies;
 use crate::device::leaf::stack::{leaf_changes_litter, leaf_stack};
 use crate::device::leaf::strike::leaf_push;
 use crate::device::leaf::wake::{cover_is_due, leaf_check_cover, leaf_wake, wake_is_due};
+use crate::leaf::Leaves;
 
 /// Steps the leaves of a world one after another. Trees, and the leaves that hang on them, stay as they are.
 pub fn step(world: &mut World, count: u32) {
@@ -19,6 +24,9 @@ pub fn step(world: &mut World, count: u32) {
     each_step(compiled, clock, count, |cx| {
         let bare = cx;
         let cx = &cx.over(&bed.words);
+        if cx.scene.collides(cx.step.index) {
+            collide(cx, leaves);
+        }
         for (slot, mut leaf) in (0..).zip(leaves.as_mut().iter_mut()) {
             if air_is_sampled(cx, slot) {
                 leaf_sample_air(cx, &mut leaf);
@@ -36,12 +44,29 @@ pub fn step(world: &mut World, count: u32) {
             }
         }
         for mut leaf in leaves.as_mut().iter_mut() {
-            if leaf_changes_litter(leaf.place.bits) {
+            if leaf_changes_litter(leaf.place.bits, leaf.drift.velocity.into()) {
                 let change = leaf_stack(bare, &mut leaf);
                 bed.apply(&bare.scene.litter, &change);
             }
         }
     });
+}
+
+/// Lets the leaves that fly as bodies collide with each other.
+fn collide(cx: &Context<'_>, leaves: &mut Leaves) {
+    let mut cells = BTreeMap::<u32, [u32; COLLISION_WORDS as usize]>::new();
+    for leaf in leaves.as_mut().iter_mut().filter(|leaf| flies(leaf.place.bits)) {
+        let cell = collision_cell(cx, leaf.place.position.into());
+        let velocity = leaf.drift.velocity.into();
+        let own = own_sums(cx, &cell, leaf.place.bits, leaf.schedule.size, velocity);
+        let own: [u32; COLLISION_WORDS as usize] = bytemuck::cast(own);
+        let sums = cells.entry(cell.index).or_default();
+        sums.iter_mut().zip(own).for_each(|(sum, own)| *sum = sum.wrapping_add(own));
+    }
+    for mut leaf in leaves.as_mut().iter_mut().filter(|leaf| flies(leaf.place.bits)) {
+        let cell = collision_cell(cx, leaf.place.position.into());
+        leaf_collide(cx, &mut leaf, &cell, &bytemuck::cast(cells[&cell.index]));
+    }
 }
 
 /// Calls `advance` with what kernels see in each of `count` steps, and moves the clock on.

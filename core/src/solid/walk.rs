@@ -11,7 +11,7 @@ use crate::scene::{ObjectShape, WALKER_LIMBS, Walker};
 
 /// Way of the body in two steps in m.
 const STRIDE_M: f64 = 1.45;
-/// Share of a stride for which a foot stands (Perry, "Gait Analysis": 60 %).
+/// Share of a stride for which a foot stands, as the gait cycle is usually divided.
 const STANCE: f64 = 0.6;
 /// Height in m to which a swinging foot rises.
 const LIFT_M: f64 = 0.09;
@@ -19,7 +19,7 @@ const LIFT_M: f64 = 0.09;
 const HALF_WIDTH_M: f64 = 0.09;
 /// Height of the hips in m while both feet stand.
 const HIPS_M: f64 = 0.915;
-/// Height in m by which the body rises above a single leg that stands (Perry: the centre of mass moves by 4 to 5 cm).
+/// Height in m by which the body rises above a single leg that stands, assumed.
 const RISE_M: f64 = 0.045;
 /// Height in m of the middle of the trunk above the hips, of the shoulders and of the head.
 const TRUNK_M: f64 = 0.265;

@@ -7,6 +7,7 @@
 
 mod beaufort;
 mod bluff;
+mod porous;
 mod shelter;
 mod synthesis;
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The functions that move leaves and make wind.
+//! The functions that move leaves and make wind. One list, of which a part would be no easier to read.
 
 use windfall_core::arith::Vec3;
 use windfall_core::arith::math::{
@@ -41,6 +41,7 @@ use windfall_core::device::wind::packed::{wind_pack, wind_unpack};
 use windfall_core::device::wind::profile::{wind_profile, wind_vertical};
 use windfall_core::device::wind::sample::wind_at;
 use windfall_core::device::wind::shelter::wind_shelter;
+use windfall_core::device::wind::slipstream::wind_slipstream;
 use windfall_core::device::wind::turbulence::wind_turbulence;
 use windfall_core::device::wind::vortex::wind_vortex;
 use windfall_core::leaf::{Drift, Place, Schedule};
@@ -382,6 +383,17 @@ functions! {
     wind_jet in "wind/jet" (METRES, Input::Float(-1.0, 9.0), METRES, Input::Float(0.0, 1.2)) tolerance Some(1e-4);
     wgsl "r = vec4<u32>(bitcast<vec3<u32>>(wind_jet(MOMENT_NOW, 0u, bitcast<vec3<f32>>(a.xyz), bitcast<f32>(a.w))), 0u);";
     rust |cx, w| floats(wind_jet(cx, &cx.step.moments[0].jets[0], vector(w, 0), float(w[3])).to_array());
+
+    wind_slipstream in "wind/slipstream" (Input::Floats(3, -6.0, 6.0)) tolerance Some(1e-4);
+    wgsl "if (step_block.slipstream_count != 0u) {
+            r = vec4<u32>(bitcast<vec3<u32>>(wind_slipstream(MOMENT_NOW, 0u, bitcast<vec3<f32>>(a.xyz))), 0u);
+        }";
+    rust |cx, w| {
+        if cx.step.slipstream_count == 0 {
+            return floats([0.0; 3]);
+        }
+        floats(wind_slipstream(&cx.step.moments[0].slipstreams[0], vector(w, 0)).to_array())
+    };
 
     wind_pack in "wind/packed" (SPEED, SPEED, SPEED) tolerance None;
     wgsl "r = vec4<u32>(wind_pack(bitcast<vec3<f32>>(a.xyz)), 0u, 0u);";

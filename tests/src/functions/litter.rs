@@ -6,7 +6,7 @@ use windfall_core::device::flight::body::{LeafBody, body_of};
 use windfall_core::device::flight::contact::{contact_friction, contact_yield, flight_contact, support};
 use windfall_core::device::flight::rates::{FlightMotion, still_load};
 use windfall_core::device::leaf::at_rest::{
-    LeafAtRest, leaf_at_rest, least_wake_square, wake_square, wind_moves,
+    LeafAtRest, leaf_at_rest, least_wake_square, slides_down, wake_square, wind_moves,
 };
 use windfall_core::device::leaf::fly::{count_calm_steps, flight_ends};
 use windfall_core::device::leaf::lie::{flatten_to, lying_tilt, lying_units, own_friction, reach_down};
@@ -85,9 +85,12 @@ functions! {
         floats([wind.x, wind.y, wind.z, met.cover, signs[0], signs[1], signs[2], truth(lies_still(w[1]))])
     };
 
-    leaf_changes_litter in "leaf/stack" (ANY) tolerance None;
-    wgsl "r.x = u32(leaf_changes_litter(a.x));";
-    rust |_cx, w| integers([u32::from(leaf_changes_litter(w[0]))]);
+    leaf_changes_litter in "leaf/stack" (ANY, Input::Below(2)) tolerance None;
+    wgsl "r.x = u32(leaf_changes_litter(a.x, vec3<f32>(f32(a.y), 0.0, 0.0)));";
+    rust |_cx, w| {
+        let velocity = windfall_core::arith::Vec3::new(w[1] as f32, 0.0, 0.0);
+        integers([u32::from(leaf_changes_litter(w[0], velocity))])
+    };
 
     litter_height in "terrain/litter" (NEAR, Input::Float(-0.5, 4.0)) tolerance Some(1e-5);
     wgsl "let p = in_vec3(0u);
@@ -142,14 +145,14 @@ functions! {
     ) tolerance Some(1e-3);
     wgsl "let body = body_of(a.x << SPECIES_SHIFT, (SIZE_ONE - 4096u + a.y) | (a.z << 16u));
         let p = in_vec3(3u); let y = ground_rest(p.x, p.y) + p.z;
-        let c = flight_contact(body, vec3<f32>(p.x, y, p.y), FlightMotion(in_vec3(6u), in_vec4(9u), in_vec3(13u)));
+        let c = flight_contact(body, vec3<f32>(p.x, y, p.y), FlightMotion(in_vec3(6u), in_vec4(9u), in_vec3(13u)), 0.3);
         out_vec3(0u, c.position); out_vec3(3u, c.motion.velocity); out_vec3(6u, c.motion.turning);
         out_float(9u, f32(c.touches));";
     rust |cx, w| {
         let (x, z) = (float(w[3]), float(w[4]));
         let y = ground_rest(cx, x, z) + float(w[5]);
         let motion = FlightMotion { velocity: vector(w, 6), pose: quaternion(w, 9), turning: vector(w, 13) };
-        let c = flight_contact(cx, &body(cx, w), windfall_core::arith::Vec3::new(x, y, z), motion);
+        let c = flight_contact(cx, &body(cx, w), windfall_core::arith::Vec3::new(x, y, z), motion, 0.3);
         let (p, v, t) = (c.position, c.motion.velocity, c.motion.turning);
         floats([p.x, p.y, p.z, v.x, v.y, v.z, t.x, t.y, t.z, f32::from(u8::from(c.touches))])
     };
@@ -176,8 +179,12 @@ functions! {
     wind_moves in "leaf/at_rest" (SPECIES, SIZE, ANY, NEAR, FRICTION, POSE, FLOW) tolerance Some(1.0);
     wgsl "let body = body_of(a.x << SPECIES_SHIFT, (SIZE_ONE - 4096u + a.y) | (a.z << 16u));
         let leaf = leaf_at_rest(body, in_vec4(6u), ground_slope(in_float(3u), in_float(4u)), in_float(5u), a.z & 0x1fffu);
-        out_float(0u, f32(wind_moves(leaf, in_vec3(10u), 1.0)));";
-    rust |cx, w| floats([f32::from(u8::from(wind_moves(cx, &at_rest(cx, w), vector(w, 10), 1.0)))]);
+        out_float(0u, f32(wind_moves(leaf, in_vec3(10u), 1.0))); out_float(1u, f32(slides_down(leaf)));";
+    rust |cx, w| {
+        let leaf = at_rest(cx, w);
+        let moves = [wind_moves(cx, &leaf, vector(w, 10), 1.0), slides_down(&leaf)];
+        floats(moves.map(|moves| f32::from(u8::from(moves))))
+    };
 
     lying_tilt in "leaf/lie" (ANY, ANY, ANY, ANY, Input::Float(0.0, 0.004), POSE, SPECIES, SIZE) tolerance Some(1e-5);
     wgsl "let tilt = lying_tilt(a); let pose = flatten_to(tilt, in_vec4(5u), 0.6);
@@ -199,11 +206,11 @@ functions! {
         floats(all)
     };
 
-    flight_ends in "leaf/fly" (ANY, Input::Below(2), Input::Floats(3, -9.0, 9.0)) tolerance None;
-    wgsl "let bits = count_calm_steps(a.x & 0x1fffffu, a.y == 1u);
+    flight_ends in "leaf/fly" (ANY, Input::Below(3), Input::Floats(3, -9.0, 9.0)) tolerance None;
+    wgsl "let bits = count_calm_steps(a.x & 0x1fffffu, a.y == 1u, a.y == 2u);
         r = vec4<u32>(bits, u32(flight_ends(bits, in_vec3(2u))), 0u, 0u);";
     rust |cx, w| {
-        let bits = count_calm_steps(cx, w[0] & 0x1f_ffff, w[1] == 1);
+        let bits = count_calm_steps(cx, w[0] & 0x1f_ffff, w[1] == 1, w[1] == 2);
         integers([bits, u32::from(flight_ends(cx, bits, vector(w, 2))), 0, 0])
     };
 }

@@ -2,9 +2,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! `windfall render`: pictures and clips of both backends, and what it refuses.
 
+use std::ffi::OsString;
 use std::fs::{self, File};
 use std::io::BufReader;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use crate::common_cli::{
@@ -55,6 +56,49 @@ fn both_backends_draw_the_same_picture() {
             assert!(cpu == wgpu, "{scene}: the same leaves give the same pixels; {apart} apart");
         }
         assert_eq!(contents(there.path()).len(), 2, "{scene}: two files and nothing else");
+    }
+}
+
+#[test]
+fn both_backends_make_the_same_clip_of_living_litter() {
+    if adapter::all()[0].contract() != Contract::Exact {
+        return;
+    }
+    let there = folder();
+    let [cpu, wgpu] = BACKENDS.map(|backend| {
+        let options =
+            ["--backend", backend, "--frames", "8", "--fps", "6", "--size", "320x180", "--out", backend];
+        windfall(&there, &[&["render", "square"], &options[..]].concat()).text();
+        let names = |(path, bytes): (PathBuf, Vec<u8>)| (path.file_name().map(OsString::from), bytes);
+        contents(&there.path().join(backend)).into_iter().map(names).collect::<Vec<_>>()
+    });
+    assert_eq!(cpu.len(), 8, "every frame");
+    assert!(cpu.windows(2).all(|frames| frames[0].1 != frames[1].1), "leaves run");
+    assert!(cpu == wgpu, "the same leaves give the same bytes");
+}
+
+#[test]
+fn overlays_colour_leaves_that_lie() {
+    adapter::all();
+    let there = folder();
+    file(
+        &there,
+        "bed.ron",
+        "(sources: [], ground: (litter: Some((size_m: (12.0, 12.0), leaf_area_index: 2.0))))",
+    );
+    let drawn = |show: &[&str]| {
+        let still = ["render", "bed.ron", "--frames", "1", "--size", "160x90", "--out", "a.png"];
+        windfall(&there, &[&still, show].concat()).text();
+        picture(&there.path().join("a.png"))
+    };
+    let pictures = [&[][..], &["--show", "wake"], &["--show", "depth"], &["--show", "landings"]].map(drawn);
+    for (number, a) in pictures.iter().enumerate() {
+        for b in &pictures[number + 1..] {
+            assert!(difference(a, b) > 0.5, "picture {number} and another: {} apart", difference(a, b));
+        }
+    }
+    for show in ["wind", "trails", "leaf", "compare"] {
+        assert_refused(&there, &["render", "--show", show, "--out", "b.png"], &[show, "window", "depth"]);
     }
 }
 

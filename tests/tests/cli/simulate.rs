@@ -183,7 +183,7 @@ fn no_steps_show_the_beginning() {
 #[test]
 fn the_whole_scene_is_the_default() {
     let report = simulate(&["--steps", "1", "--threads", "1"]);
-    assert_eq!(report["leaves"]["total"], 45_600, "{report}");
+    assert_eq!(report["leaves"]["total"], 94_767, "{report}");
     let report = simulate(&["six-motions", "--steps", "1", "--backend", "wgpu"]);
     assert_eq!(report["leaves"]["total"], 6, "{report}");
 }

@@ -215,7 +215,7 @@ fn contacts_take_energy_and_bounce_by_the_restitution() {
             turning: Vec3::new(200.0 * number(7), 200.0 * number(8), 200.0 * number(9)),
         };
         let at = Vec3::new(3.0 * number(10), 0.05 * number(11), 3.0 * number(12));
-        let contact = flight_contact(&cx, &body, at, motion);
+        let contact = flight_contact(&cx, &body, at, motion, 1.0 / 60.0);
         touched += u32::from(contact.touches);
         let (before, after) = (energy(&motion), energy(&contact.motion));
         assert!(after <= before * (1.0 + 1e-4), "case {case}: {before} to {after} J/kg");
@@ -227,7 +227,7 @@ fn contacts_take_energy_and_bounce_by_the_restitution() {
         pose: Quat::new(0.0, 0.0, 0.0, 1.0),
         turning: Vec3::ZERO,
     };
-    let bounced = flight_contact(&cx, &body, Vec3::new(0.0, 0.0, 0.0), flat).motion.velocity;
+    let bounced = flight_contact(&cx, &body, Vec3::new(0.0, 0.0, 0.0), flat, 1.0 / 60.0).motion.velocity;
     assert!((bounced.y - 0.8).abs() < 1e-5, "{bounced:?}");
 }
 

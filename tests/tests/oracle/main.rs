@@ -6,13 +6,16 @@
 #[path = "../common/mod.rs"]
 mod common;
 
+mod collide;
 mod drops;
 mod feature;
 mod flight;
+mod floating;
 mod gravity;
 mod jet;
 mod landing;
 mod launch;
+mod lee;
 mod litter;
 mod motion;
 mod path;
@@ -25,6 +28,7 @@ mod schemes;
 mod sectional;
 mod shedding;
 mod shelter;
+mod slipstream;
 mod solids;
 mod sway;
 mod table_file;

@@ -37,14 +37,18 @@ pub(crate) struct FrameGroup {
 impl FrameGroup {
     pub(crate) fn new(device: &wgpu::Device, queue: &wgpu::Queue, land: &Land, standing: Standing) -> Self {
         let hills = wgpu::TextureSampleType::Float { filterable: false };
+        let mut entries = [
+            uniform_entry(0),
+            uniform_entry(1),
+            texture_entry(2, hills, wgpu::TextureViewDimension::D2),
+            texture_entry(3, hills, wgpu::TextureViewDimension::D2),
+        ];
+        for entry in &mut entries {
+            entry.visibility |= wgpu::ShaderStages::COMPUTE;
+        }
         let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
             label: Some("frame"),
-            entries: &[
-                uniform_entry(0),
-                uniform_entry(1),
-                texture_entry(2, hills, wgpu::TextureViewDimension::D2),
-                texture_entry(3, hills, wgpu::TextureViewDimension::D2),
-            ],
+            entries: &entries,
         });
         let shape = LandUniform::of(land);
         let shape =
@@ -89,6 +93,13 @@ impl FrameGroup {
             ],
         });
         Self { layout, group, buffer, shape, hills, hill_shade, is_hilly, standing }
+    }
+
+    /// Values of the overrides of every module that binds the group.
+    pub(crate) fn overrides(&self) -> [(&'static str, f64); 3] {
+        let of = |is: bool| f64::from(u8::from(is));
+        let Standing { trees, objects } = self.standing;
+        [("IS_HILLY", of(self.is_hilly)), ("HAS_ROOF", of(trees || objects)), ("HAS_OBJECTS", of(objects))]
     }
 
     /// Takes over another sun, by the direction towards it; level ground has no shade.

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Common parts of the scene pass's pipelines.
 
-use super::group::{FrameGroup, Standing};
+use super::group::FrameGroup;
 use crate::gpu::pipeline::layout;
 use crate::gpu::targets::{DEPTH_FORMAT, HDR_FORMAT, SAMPLE_COUNT};
 
@@ -31,14 +31,7 @@ impl ScenePipeline<'_> {
     pub(crate) fn build(&self, device: &wgpu::Device) -> wgpu::RenderPipeline {
         let groups = std::iter::once(&self.frame.layout).chain(self.groups.iter().copied()).map(Some);
         let layout = layout(device, &groups.collect::<Vec<_>>());
-        let of = |is: bool| f64::from(u8::from(is));
-        let Standing { trees, objects } = self.frame.standing;
-        let common = [
-            ("IS_HILLY", of(self.frame.is_hilly)),
-            ("HAS_ROOF", of(trees || objects)),
-            ("HAS_OBJECTS", of(objects)),
-        ];
-        let constants = [&common, self.constants].concat();
+        let constants = [&self.frame.overrides()[..], self.constants].concat();
         let compilation_options =
             wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() };
         let buffers: Vec<_> = self.buffers.iter().cloned().map(Some).collect();

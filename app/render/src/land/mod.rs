@@ -89,10 +89,15 @@ impl Land {
 impl Paving {
     /// The paving of level ground that is as smooth as paved areas are: where its litter lies.
     fn of(ground: &Ground) -> Option<Self> {
-        let is_paved = ground.terrain.is_none() && ground.surface_roughness_m <= PAVED_ROUGHNESS_M;
-        let litter = ground.litter.filter(|_| is_paved)?;
+        let litter = ground.litter.filter(|_| is_paved(ground))?;
         Some(Self { center_m: litter.center_m, half_m: 0.5 * litter.size_m })
     }
+}
+
+/// Returns true if a scene's ground is drawn paved where its litter lies.
+pub fn is_paved(ground: &Ground) -> bool {
+    let is_smooth = ground.terrain.is_none() && ground.surface_roughness_m <= PAVED_ROUGHNESS_M;
+    is_smooth && ground.litter.is_some()
 }
 
 #[cfg(test)]

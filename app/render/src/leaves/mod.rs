@@ -20,6 +20,7 @@ use crate::gpu::shaders::{Shaders, declarations, wgsl_files};
 /// Shader modules of this room and of those below.
 pub(crate) fn shaders() -> Shaders {
     let mut shaders = crate::trees::shaders();
+    shaders.extend(crate::lens::motion_shaders());
     let structs = [
         species_table::SpeciesRow::declaration(),
         species_table::LayerRow::declaration(),
@@ -29,7 +30,6 @@ pub(crate) fn shaders() -> Shaders {
         record::LeafDraw::declaration(),
         record::PageUniform::declaration(),
         record::ViewUniform::declaration(),
-        motion_pass::MotionUniform::declaration(),
     ];
     let lists = [meshes::wgsl_constants(), record::wgsl_constants()];
     shaders.extend([("leaves/structs", declarations(lists) + &structs.concat())]);

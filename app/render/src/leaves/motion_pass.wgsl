@@ -6,8 +6,7 @@
 #import frame/common
 #import leaf_records
 #import leaves/shape
-
-@group(1) @binding(0) var<uniform> motion: MotionUniform;
+#import lens/motion
 
 @group(3) @binding(1) var<storage, read> places: array<Place>;
 @group(3) @binding(2) var<storage, read> attitudes: array<Attitude>;
@@ -43,10 +42,7 @@ fn vertex(in: LeafVertex) -> Varyings {
     let past = frame.view_projection * vec4(past_of(point.world, record.layer_slot >> SLOT_SHIFT), 1.0);
     var out: Varyings;
     out.clip = frame.view_projection * vec4(point.world, 1.0);
-    // Before and after the middle of the exposure by as much; half of clip space is the tile.
-    let way = out.clip.xy / out.clip.w - past.xy / past.w;
-    let is_seen = out.clip.w > 0.0 && past.w > 0.0;
-    out.way = select(vec2(0.0), 0.25 * motion.open_share * motion.size_px * vec2(way.x, -way.y), is_seen);
+    out.way = way_between(out.clip, past);
     return out;
 }
 

@@ -9,6 +9,7 @@ pub(crate) mod focus_pass;
 pub(crate) mod fullscreen;
 pub(crate) mod glare_pass;
 pub(crate) mod group;
+pub(crate) mod motion;
 pub(crate) mod post;
 pub(crate) mod shutter_pass;
 pub(crate) mod tonemap_pass;
@@ -45,4 +46,10 @@ pub(crate) fn shaders() -> Shaders {
         "tonemap_pass"
     ));
     shaders
+}
+
+/// Shader modules with which other rooms draw the ways of what moves.
+pub(crate) fn motion_shaders() -> impl Iterator<Item = (&'static str, String)> {
+    let structs = ("lens/motion_structs", motion::MotionUniform::declaration());
+    wgsl_files!("lens": "motion").into_iter().chain([structs])
 }

@@ -31,6 +31,10 @@ pub enum Measure {
     Age,
     /// Metres above the ground at the origin.
     Height,
+    /// Speed in m/s of the wind at its edge that takes a leaf from the litter, if none covers it.
+    Wake,
+    /// Metres that a lying leaf lies above the ground: the depth of the litter under it.
+    Depth,
 }
 
 /// Paint of the leaves.

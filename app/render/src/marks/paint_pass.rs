@@ -9,6 +9,7 @@ use windfall_wgpu::LeafColumns;
 
 use super::palette::{self, ATTACHED_COLOR, MOTIONS, NO_COLOR, RESTING_COLOR, SHADES, linear, shade};
 use super::{MARKS_GROUP_SIZE, Measure, Paint};
+use crate::frame::group::FrameGroup;
 use crate::gpu::pipeline::{buffer_entry, layout};
 use crate::gpu::shaders::compile;
 use crate::leaves::page::PAGE_SLOTS;
@@ -26,6 +27,10 @@ shared_constants! {
     const MEASURE_AGE: u32 = 2;
     /// Number of [`Measure::Height`].
     const MEASURE_HEIGHT: u32 = 3;
+    /// Number of [`Measure::Wake`].
+    const MEASURE_WAKE: u32 = 4;
+    /// Number of [`Measure::Depth`].
+    const MEASURE_DEPTH: u32 = 5;
 }
 
 shared_struct! {
@@ -76,7 +81,14 @@ pub(crate) struct PaintPass {
 
 impl PaintPass {
     /// Marks for `leaf_count` leaves of a scene with steps of `dt_s`, whose ground lies at `base_m`.
-    pub(crate) fn new(device: &wgpu::Device, paint: Paint, leaf_count: u32, dt_s: f32, base_m: f32) -> Self {
+    pub(crate) fn new(
+        device: &wgpu::Device,
+        frame: &FrameGroup,
+        paint: Paint,
+        leaf_count: u32,
+        dt_s: f32,
+        base_m: f32,
+    ) -> Self {
         let compute = wgpu::ShaderStages::COMPUTE;
         let storage = |read_only| wgpu::BufferBindingType::Storage { read_only };
         let group_layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
@@ -87,15 +99,19 @@ impl PaintPass {
                 buffer_entry(2, storage(true), compute),
                 buffer_entry(3, storage(false), compute),
                 buffer_entry(4, storage(false), compute),
+                buffer_entry(5, storage(true), compute),
             ],
         });
         let module = compile(device, &super::shaders(), "marks/paint_pass");
         let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
             label: Some("paint"),
-            layout: Some(&layout(device, &[Some(&group_layout)])),
+            layout: Some(&layout(device, &[Some(&frame.layout), Some(&group_layout)])),
             module: &module,
             entry_point: Some("mark"),
-            compilation_options: wgpu::PipelineCompilationOptions::default(),
+            compilation_options: wgpu::PipelineCompilationOptions {
+                constants: &frame.overrides(),
+                ..Default::default()
+            },
             cache: None,
         });
         let buffer = |label, size, usage| {
@@ -140,9 +156,9 @@ impl PaintPass {
     )]
     pub(crate) fn mark(
         &mut self,
-        device: &wgpu::Device,
-        queue: &wgpu::Queue,
+        (device, queue): (&wgpu::Device, &wgpu::Queue),
         encoder: &mut wgpu::CommandEncoder,
+        frame: &FrameGroup,
         leaves: &LeafColumns<'_>,
         time_s: f64,
     ) {
@@ -155,6 +171,8 @@ impl PaintPass {
             Measure::Speed => MEASURE_SPEED,
             Measure::Age => MEASURE_AGE,
             Measure::Height => MEASURE_HEIGHT,
+            Measure::Wake => MEASURE_WAKE,
+            Measure::Depth => MEASURE_DEPTH,
         };
         let low = if self.paint.measure == Measure::Height { self.base_m } else { 0.0 };
         let uniform = PaintUniform {
@@ -189,6 +207,7 @@ impl PaintPass {
                     wgpu::BindGroupEntry { binding: 2, resource: window(leaves.identity) },
                     wgpu::BindGroupEntry { binding: 3, resource: window(&self.marks) },
                     wgpu::BindGroupEntry { binding: 4, resource: window(&self.past) },
+                    wgpu::BindGroupEntry { binding: 5, resource: window(leaves.drift) },
                 ],
             });
             let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
@@ -196,7 +215,8 @@ impl PaintPass {
                 timestamp_writes: None,
             });
             pass.set_pipeline(&self.pipeline);
-            pass.set_bind_group(0, &group, &[]);
+            pass.set_bind_group(0, &frame.group, &[]);
+            pass.set_bind_group(1, &group, &[]);
             pass.dispatch_workgroups((part as u32).div_ceil(MARKS_GROUP_SIZE), 1, 1);
             first += part;
         }

@@ -2,15 +2,17 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // Marks every leaf with the colour of what it does.
 
+#import frame/common
 #import leaf_records
 #import marks/structs
 
-@group(0) @binding(0) var<uniform> paint: PaintUniform;
-@group(0) @binding(1) var<storage, read> places: array<Place>;
-@group(0) @binding(2) var<storage, read> identities: array<Identity>;
+@group(1) @binding(0) var<uniform> paint: PaintUniform;
+@group(1) @binding(1) var<storage, read> places: array<Place>;
+@group(1) @binding(2) var<storage, read> identities: array<Identity>;
 // The identities, with the roots of a colour in bytes in the word of the release.
-@group(0) @binding(3) var<storage, read_write> marks: array<Identity>;
-@group(0) @binding(4) var<storage, read_write> past: array<PastMark>;
+@group(1) @binding(3) var<storage, read_write> marks: array<Identity>;
+@group(1) @binding(4) var<storage, read_write> past: array<PastMark>;
+@group(1) @binding(5) var<storage, read> drifts: array<Drift>;
 
 // Regimes of bodies in the order of the motions that look like them.
 const LIKE = array<u32, 6>(0u, 3u, 1u, 2u, 4u, 5u);
@@ -56,6 +58,16 @@ fn mark(@builtin(global_invocation_id) id: vec3<u32>) {
             if state != STATE_ATTACHED {
                 let age = bitcast<i32>(paint.step) - bitcast<i32>(identities[index].release);
                 color = shade(f32(age) * paint.dt_s);
+            }
+        }
+        case MEASURE_WAKE: {
+            if lies(place.bits) && !is_covered(place.bits) {
+                color = shade(sqrt(max(wake_speed_squared(drifts[index].phase), 0.0)));
+            }
+        }
+        case MEASURE_DEPTH: {
+            if state == STATE_RESTING {
+                color = shade(place.position.y - ground_height(place.position.xz));
             }
         }
         default: {

@@ -6,7 +6,7 @@
 #import objects/object_shape
 
 struct Varyings {
-    @builtin(position) clip: vec4<f32>,
+    @builtin(position) @invariant clip: vec4<f32>,
     @location(0) world: vec3<f32>,
     @location(1) normal: vec3<f32>,
     @location(2) standing: vec3<f32>,

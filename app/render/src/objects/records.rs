@@ -7,7 +7,7 @@ use std::ops::Range;
 use glam::{Quat, Vec3};
 use windfall_core::Scene;
 use windfall_core::shared_struct;
-use windfall_core::solid::{LIMBS, Limb, Solid, SolidPose, solids_of};
+use windfall_core::solid::{LIMBS, Limb, Solid, solids_of};
 
 use super::body::{LimbLook, OBJECT_SURFACE};
 use super::solid_mesh::{SolidMesh, SolidVertex, all};
@@ -43,6 +43,16 @@ shared_struct! {
     }
 }
 
+shared_struct! {
+    /// A solid part a frame before.
+    pub(crate) struct PastPose, padding 4 {
+        /// Turn from its own frame, a quaternion.
+        turn: [f32; 4],
+        /// Centre.
+        center_m: [f32; 3],
+    }
+}
+
 /// The solid parts of a scene, their meshes and their records.
 #[derive(Debug)]
 pub(crate) struct ObjectBuffers {
@@ -50,10 +60,14 @@ pub(crate) struct ObjectBuffers {
     solids: Vec<Solid>,
     records: Vec<ObjectRecord>,
     buffer: wgpu::Buffer,
+    /// A [`PastPose`] for each part.
+    past: wgpu::Buffer,
     vertices: wgpu::Buffer,
     indices: wgpu::Buffer,
     /// Indices of a mesh, and the records of the parts that have it.
     draws: Vec<(Range<u32>, Range<u32>)>,
+    /// Those of the parts that ever move.
+    moving: Vec<(Range<u32>, Range<u32>)>,
     pub(crate) layout: wgpu::BindGroupLayout,
     group: wgpu::BindGroup,
 }
@@ -75,34 +89,46 @@ impl ObjectBuffers {
         let (vertices, indices, ranges) = all();
         let records: Vec<ObjectRecord> =
             (0..).zip(&solids).map(|(at, (own, solid))| record(at, *own, solid)).collect();
-        let mut draws: Vec<(Range<u32>, Range<u32>)> = Vec::new();
-        for (at, (_, solid)) in (0..).zip(&solids) {
-            let mesh = SolidMesh::of(solid.shape).0;
-            let range = ranges[mesh as usize].clone();
-            match draws.last_mut() {
-                Some((last, records)) if *last == range => records.end = at + 1,
-                _ => draws.push((range, at..at + 1)),
+        let draws_of = |is_drawn: fn(&Solid) -> bool| {
+            let mut draws: Vec<(Range<u32>, Range<u32>)> = Vec::new();
+            for (at, (_, solid)) in (0..).zip(&solids).filter(|(_, (_, solid))| is_drawn(solid)) {
+                let range = ranges[SolidMesh::of(solid.shape).0 as usize].clone();
+                match draws.last_mut() {
+                    Some((last, records)) if *last == range && records.end == at => records.end = at + 1,
+                    _ => draws.push((range, at..at + 1)),
+                }
             }
-        }
+            draws
+        };
+        let (draws, moving) = (draws_of(|_| true), draws_of(Solid::moves));
         let filled = |usage, bytes: &[u8]| upload::buffer(device, queue, "objects", usage, bytes);
         let buffer = filled(wgpu::BufferUsages::STORAGE, bytemuck::cast_slice(&records));
+        let past = filled(wgpu::BufferUsages::STORAGE, &vec![0; records.len() * size_of::<PastPose>()]);
         let ty = wgpu::BufferBindingType::Storage { read_only: true };
         let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
             label: Some("objects"),
-            entries: &[buffer_entry(0, ty, wgpu::ShaderStages::VERTEX_FRAGMENT)],
+            entries: &[
+                buffer_entry(0, ty, wgpu::ShaderStages::VERTEX_FRAGMENT),
+                buffer_entry(1, ty, wgpu::ShaderStages::VERTEX),
+            ],
         });
         let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some("objects"),
             layout: &layout,
-            entries: &[wgpu::BindGroupEntry { binding: 0, resource: buffer.as_entire_binding() }],
+            entries: &[
+                wgpu::BindGroupEntry { binding: 0, resource: buffer.as_entire_binding() },
+                wgpu::BindGroupEntry { binding: 1, resource: past.as_entire_binding() },
+            ],
         });
         Some(Self {
             solids: solids.into_iter().map(|(_, solid)| solid).collect(),
             records,
             buffer,
+            past,
             vertices: filled(wgpu::BufferUsages::VERTEX, bytemuck::cast_slice(&vertices)),
             indices: filled(wgpu::BufferUsages::INDEX, bytemuck::cast_slice(&indices)),
             draws,
+            moving,
             layout,
             group,
         })
@@ -112,9 +138,7 @@ impl ObjectBuffers {
     pub(crate) fn prepare(&mut self, queue: &wgpu::Queue, time_s: f64, land: &Land) {
         let mut is_same = true;
         for (record, solid) in self.records.iter_mut().zip(&self.solids) {
-            #[expect(clippy::cast_possible_truncation, reason = "places within kilometres")]
-            let pose = solid.pose_at(time_s, |x, z| f64::from(land.ground_m(x as f32, z as f32)));
-            let (center_m, turn) = single(pose);
+            let (center_m, turn) = pose(solid, time_s, land);
             is_same &= record.center_m == center_m && record.turn == turn;
             (record.center_m, record.turn) = (center_m, turn);
         }
@@ -123,12 +147,34 @@ impl ObjectBuffers {
         }
     }
 
+    /// Notes where the parts were at a time, as that of the frame before.
+    pub(crate) fn prepare_past(&self, queue: &wgpu::Queue, time_s: f64, land: &Land) {
+        if self.moving.is_empty() {
+            return;
+        }
+        let past = |solid: &Solid| {
+            let (center_m, turn) = pose(solid, time_s, land);
+            PastPose { turn, center_m, padding: [0; 4] }
+        };
+        let poses: Vec<PastPose> = self.solids.iter().map(past).collect();
+        queue.write_buffer(&self.past, 0, bytemuck::cast_slice(&poses));
+    }
+
     /// Draws all parts with the pipeline that is set and its bind groups 0 and 1.
     pub(crate) fn draw(&self, pass: &mut wgpu::RenderPass<'_>) {
+        self.draw_each(pass, &self.draws);
+    }
+
+    /// Draws the parts that ever move in the same way.
+    pub(crate) fn draw_moving(&self, pass: &mut wgpu::RenderPass<'_>) {
+        self.draw_each(pass, &self.moving);
+    }
+
+    fn draw_each(&self, pass: &mut wgpu::RenderPass<'_>, draws: &[(Range<u32>, Range<u32>)]) {
         pass.set_bind_group(2, &self.group, &[]);
         pass.set_vertex_buffer(0, self.vertices.slice(..));
         pass.set_index_buffer(self.indices.slice(..), wgpu::IndexFormat::Uint32);
-        for (indices, records) in &self.draws {
+        for (indices, records) in draws {
             pass.draw_indexed(indices.clone(), 0, records.clone());
         }
     }
@@ -139,8 +185,10 @@ impl ObjectBuffers {
     }
 }
 
-/// Centre and turn in single precision.
-fn single(pose: SolidPose) -> ([f32; 3], [f32; 4]) {
+/// Centre and turn of a part at a time.
+#[expect(clippy::cast_possible_truncation, reason = "places within kilometres")]
+fn pose(solid: &Solid, time_s: f64, land: &Land) -> ([f32; 3], [f32; 4]) {
+    let pose = solid.pose_at(time_s, |x, z| f64::from(land.ground_m(x as f32, z as f32)));
     (pose.center_m.as_vec3().to_array(), pose.turn.as_quat().to_array())
 }
 

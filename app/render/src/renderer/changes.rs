@@ -4,8 +4,8 @@
 
 use windfall_core::scene::{Lens, View};
 
-use super::Renderer;
 use super::is_moving;
+use super::{Moving, Renderer};
 use crate::error::RenderError;
 use crate::frame::cascades::shadow_size;
 use crate::frame::surroundings::Surroundings;
@@ -14,11 +14,13 @@ use crate::leaves::cull::CullPass;
 use crate::leaves::leaf_pass::LeafPass;
 use crate::leaves::motion_pass::MotionPass;
 use crate::leaves::visible::VisibleLeaves;
+use crate::lens::motion::Motion;
 use crate::marks::Paint;
 use crate::marks::landing_count::LandingCount;
 use crate::marks::landing_pass::LandingPass;
 use crate::marks::paint_pass::PaintPass;
 use crate::marks::trail_pass::TrailPass;
+use crate::objects::motion_pass::ObjectMotionPass;
 use crate::trees::SceneTrees;
 use crate::trees::records::TreeRecords;
 
@@ -76,13 +78,13 @@ impl Renderer {
     }
 
     fn targets_of(&self, size: (u32, u32)) -> Result<Targets, RenderError> {
-        Targets::new(&self.device, size, self.tile_px, self.motion_pass.is_some())
+        Targets::new(&self.device, size, self.tile_px, self.moving.is_some())
     }
 
     /// Takes over another lens.
     pub fn set_lens(&mut self, lens: Lens) {
-        if is_moving(&lens) != self.motion_pass.is_some() {
-            self.motion_pass = is_moving(&lens).then(|| self.new_motion());
+        if is_moving(&lens) != self.moving.is_some() {
+            self.moving = is_moving(&lens).then(|| self.new_motion());
             // They were made for this size before.
             if let Ok(targets) = self.targets_of(self.targets.size) {
                 self.targets = targets;
@@ -98,14 +100,19 @@ impl Renderer {
         self.visible_leaves =
             VisibleLeaves::new(&self.device, &self.queue, &self.cull, scene_trees, leaf_count);
         self.make_trails(self.trail_pass.as_ref().map_or(0.0, TrailPass::trail_s));
-        self.motion_pass = self.motion_pass.is_some().then(|| self.new_motion());
+        self.moving = self.moving.is_some().then(|| self.new_motion());
         if let Some(paint) = self.paint_pass.take().map(|pass| pass.paint()) {
             self.set_paint(Some(paint));
         }
     }
 
-    pub(super) fn new_motion(&self) -> MotionPass {
-        MotionPass::new(&self.device, &self.frame, &self.species_table, self.leaf_count)
+    pub(super) fn new_motion(&self) -> Moving {
+        let (device, frame) = (&self.device, &self.frame);
+        let motion = Motion::new(device);
+        let leaves = MotionPass::new(device, frame, &motion, &self.species_table, self.leaf_count);
+        let objects = self.objects.as_ref();
+        let objects = objects.map(|(objects, _)| ObjectMotionPass::new(device, frame, &motion, objects));
+        Moving { motion, leaves, objects }
     }
 
     /// Paints leaves by what they do, or leaves them their own colours. Litter that is not simulated is not drawn then.
@@ -115,7 +122,8 @@ impl Renderer {
             (None, None) => {}
             (_, paint) => {
                 let (device, base_m) = (&self.device, self.land.base_m());
-                let pass = |paint| PaintPass::new(device, paint, self.leaf_count, self.dt_s, base_m);
+                let pass =
+                    |paint| PaintPass::new(device, &self.frame, paint, self.leaf_count, self.dt_s, base_m);
                 self.paint_pass = paint.map(pass);
                 if self.cull.is_painted != paint.is_some() {
                     self.cull = CullPass::new(device, &self.species_table, paint.is_some());

@@ -43,6 +43,11 @@ impl Renderer {
         self.post.begin(&self.queue, &shot);
         if let Some((objects, _)) = &mut self.objects {
             objects.prepare(&self.queue, input.time_s, &self.land);
+            let since_s =
+                self.moving.as_ref().and_then(|moving| moving.leaves.past.since_s(leaves, input.time_s));
+            if let Some(since_s) = since_s {
+                objects.prepare_past(&self.queue, input.time_s - since_s, &self.land);
+            }
         }
         let mut is_first = true;
         for tile in self.targets.tiles() {
@@ -55,7 +60,7 @@ impl Renderer {
                     landings.count.run(&self.device, encoder, leaves);
                 }
                 if let Some(paint) = &mut self.paint_pass {
-                    paint.mark(&self.device, &self.queue, encoder, leaves, input.time_s);
+                    paint.mark((&self.device, &self.queue), encoder, &self.frame, leaves, input.time_s);
                 }
             }
             self.draw_tile(encoder, world, input, (&tile, &shot));
@@ -126,12 +131,16 @@ impl Renderer {
         self.post.take_tile(&self.queue, encoder, tile, shot);
     }
 
-    /// Draws how far the leaves of the world move; litter lies.
+    /// Draws how far the leaves of the world and its objects move; litter lies.
     fn draw_motion(&self, encoder: &mut wgpu::CommandEncoder, leaves: &LeafColumns<'_>, time_s: f64) {
-        let Some(motion) = &self.motion_pass else { return };
-        let device = (&self.device, &self.queue);
-        let scene = (&self.frame, &self.species_table, &self.visible_leaves);
-        motion.draw(device, encoder, &self.targets, scene, leaves, (time_s, self.post.shutter_s()));
+        let Some(moving) = &self.moving else { return };
+        let times = (moving.leaves.past.since_s(leaves, time_s), self.post.shutter_s());
+        let pass = moving.motion.begin(&self.queue, encoder, &self.targets, &self.frame, times);
+        let Some(mut pass) = pass else { return };
+        moving.leaves.draw(&self.device, &mut pass, (&self.species_table, &self.visible_leaves), leaves);
+        if let Some((object_motion, (objects, _))) = moving.objects.as_ref().zip(self.objects.as_ref()) {
+            object_motion.draw(&mut pass, objects);
+        }
     }
 
     /// Draws what the water mirrors; grass is too low to be seen in it.

@@ -25,10 +25,12 @@ use crate::leaves::leaf_pass::LeafPass;
 use crate::leaves::motion_pass::MotionPass;
 use crate::leaves::species_table::SpeciesTable;
 use crate::leaves::visible::VisibleLeaves;
+use crate::lens::motion::Motion;
 use crate::lens::post::{Post, TimedPosts};
 use crate::marks::landing_pass::LandingPass;
 use crate::marks::paint_pass::PaintPass;
 use crate::marks::trail_pass::TrailPass;
+use crate::objects::motion_pass::ObjectMotionPass;
 use crate::objects::object_pass::ObjectPass;
 use crate::objects::records::ObjectBuffers;
 use crate::park::far_trees::{ShadePass, TreePass, Trees};
@@ -82,7 +84,8 @@ pub struct Renderer {
     shade_is_old: bool,
     bark_pass: BarkPass,
     leaf_pass: LeafPass,
-    motion_pass: Option<MotionPass>,
+    /// Passes for the time that the shutter is open.
+    moving: Option<Moving>,
     fruit_pass: FruitPass,
     grass_pass: GrassPass,
     ground_pass: GroundPass,
@@ -96,6 +99,14 @@ pub struct Renderer {
     timer: Option<GpuTimer>,
     /// Beginning and length in seconds of a round that scenery repeats.
     round: Option<(f64, f64)>,
+}
+
+/// Passes that draw ways over the picture.
+#[derive(Debug)]
+struct Moving {
+    motion: Motion,
+    leaves: MotionPass,
+    objects: Option<ObjectMotionPass>,
 }
 
 impl Renderer {
@@ -149,14 +160,13 @@ impl Renderer {
         });
         let eye_m = camera.eye_m();
         let shedding = shedding(&planted, scene_trees);
-        let species_count = u32::try_from(scene.species.len()).unwrap_or(1);
         let mut renderer = Self {
             device: device.clone(),
             queue: queue.clone(),
             surroundings,
             leaf_count: scene.leaf_count(),
             dt_s: scene.dt_s,
-            litter: Litter::new(device, queue, options.litter_count, species_count, &land, center, &shedding),
+            litter: Litter::new(device, queue, options.litter_count, scene, &land, center, &shedding),
             visible_litter: VisibleLeaves::new(
                 device,
                 queue,
@@ -179,7 +189,7 @@ impl Renderer {
             timer: GpuTimer::new(device, queue, &TIMED_PASSES),
             round: None,
             trail_pass: None,
-            motion_pass: None,
+            moving: None,
             paint_pass: None,
             landing_pass: None,
             shade_is_old: true,
@@ -197,7 +207,7 @@ impl Renderer {
             shade_pass,
         };
         renderer.make_trails(scene.view.trail_s);
-        renderer.motion_pass = is_moving(&scene.view.lens).then(|| renderer.new_motion());
+        renderer.moving = is_moving(&scene.view.lens).then(|| renderer.new_motion());
         Ok(renderer)
     }
 
@@ -224,8 +234,8 @@ impl Renderer {
     }
 
     fn note_motion(&mut self, encoder: &mut wgpu::CommandEncoder, leaves: &LeafColumns<'_>, time_s: f64) {
-        if let Some(motion) = &mut self.motion_pass {
-            motion.past.note(encoder, leaves, time_s);
+        if let Some(moving) = &mut self.moving {
+            moving.leaves.past.note(encoder, leaves, time_s);
         }
     }
 
@@ -241,7 +251,7 @@ impl Renderer {
     }
 }
 
-/// Returns true if leaves are drawn longer than they are.
+/// Returns true if what moves is drawn longer than it is.
 fn is_moving(lens: &Lens) -> bool {
     lens.shutter_s > 0.0
 }

@@ -6,6 +6,7 @@ use windfall_core::Scene;
 use windfall_core::scene::Release;
 use windfall_texgen::Atlas;
 
+use crate::park::litter::BedRim;
 use crate::trees::SceneTrees;
 
 /// Leaves of litter on a meadow in autumn.
@@ -25,7 +26,7 @@ pub struct RendererOptions {
 
 impl RendererOptions {
     /// A scene that has been going on since before time zero has leaves on its ground; one that only begins then has a
-    /// clean one, on which its own leaves and their trails show.
+    /// clean one, on which its own leaves and their trails show. A bed of living litter goes on beyond its rim.
     pub fn for_scene(scene: &Scene) -> Self {
         let began = |release| matches!(release, Release::Rate { from_s, .. } if from_s < 0.0);
         let has_past = scene.sources.iter().any(|source| began(source.release));
@@ -37,7 +38,10 @@ impl RendererOptions {
             reason = "a share of a small number"
         )]
         let litter_count = (season * LITTER as f32) as u32;
-        let litter_count = if has_past && scene.view.trail_s == 0.0 { litter_count } else { 0 };
+        let litter_count = if has_past { litter_count } else { 0 };
+        let fringe_count = BedRim::of(scene).map_or(0, |bed| bed.fringe_count());
+        let is_strewn = scene.view.trail_s == 0.0;
+        let litter_count = if is_strewn { litter_count + fringe_count } else { 0 };
         Self { litter_count, tile_px: TILE_PX }
     }
 }

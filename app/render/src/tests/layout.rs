@@ -82,7 +82,10 @@ fn every_struct_has_one_layout() {
     let module = parse(&frame::shaders(), "frame/structs");
     assert_same::<frame::surroundings::FrameUniform>(&module);
     assert_same::<LandUniform>(&module);
-    assert_same::<objects::records::ObjectRecord>(&parse(&objects::shaders(), "objects/structs"));
+    let module = parse(&objects::shaders(), "objects/structs");
+    assert_same::<objects::records::ObjectRecord>(&module);
+    assert_same::<objects::records::PastPose>(&module);
+    assert_same::<lens::motion::MotionUniform>(&parse(&objects::shaders(), "lens/motion_structs"));
     assert_same::<trees::records::TreeRecord>(&parse(&trees::shaders(), "trees/structs"));
     let module = parse(&leaves::shaders(), "leaves/structs");
     assert_same::<leaves::species_table::SpeciesRow>(&module);
@@ -93,7 +96,6 @@ fn every_struct_has_one_layout() {
     assert_same::<leaves::record::LeafDraw>(&module);
     assert_same::<leaves::record::PageUniform>(&module);
     assert_same::<leaves::record::ViewUniform>(&module);
-    assert_same::<leaves::motion_pass::MotionUniform>(&module);
     let module = parse(&lens::shaders(), "lens/structs");
     assert_same::<lens::group::LensUniform>(&module);
     assert_same::<lens::group::Exposure>(&module);

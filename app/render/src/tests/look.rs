@@ -4,14 +4,18 @@
 
 use glam::Vec3;
 use windfall_core::device::leaf::record::{
-    AERODYNAMIC, PRIMITIVE_SHIFT, REGIME_SHIFT, STATE_ATTACHED, STATE_DORMANT, STATE_FALLING, STATE_RESTING,
+    AERODYNAMIC, LYING, PRIMITIVE_SHIFT, REGIME_SHIFT, STATE_ATTACHED, STATE_DORMANT, STATE_FALLING,
+    STATE_RESTING, wake_speed_word, with_cover,
 };
 use windfall_core::leaf::{Identity, Leaves, Place};
+use windfall_core::scene::Ground;
 use windfall_wgpu::{LeafColumns, StoreBuffers};
 
 use super::{encoder, gpu, read};
 use crate::Measure;
 use crate::Paint;
+use crate::frame::group::{FrameGroup, Standing};
+use crate::land::Land;
 use crate::marks::landing_count::{CELL_M, CELLS, LandingCount};
 use crate::marks::paint_pass::PaintPass;
 use crate::marks::{ATTACHED, MOTIONS, RESTING, shade_bytes};
@@ -87,12 +91,17 @@ fn marks_tell_what_leaves_do() {
         ([0.0, 0.0, 0.0], STATE_DORMANT),
     ]);
     let buffers = StoreBuffers::new(&gpu, &Leaves::zeroed(5)).expect("they fit");
-    let mut paint = PaintPass::new(gpu.device(), Paint { measure: Measure::Motion, most: 1.0 }, 5, 0.01, 0.0);
+    let ground = Ground { height_m: 1.0, ..Ground::default() };
+    let standing = Standing { trees: false, objects: false };
+    let frame = FrameGroup::new(gpu.device(), gpu.queue(), &Land::of(&ground), standing);
+    let first = Paint { measure: Measure::Motion, most: 1.0 };
+    let mut paint = PaintPass::new(gpu.device(), &frame, first, 5, 0.01, 0.0);
     let mut marks = |leaves: &Leaves, chosen: Paint, time_s: f64| -> Vec<u32> {
         buffers.write(&gpu, leaves).expect("as many");
         paint.set(chosen);
         let mut encoder = encoder(&gpu);
-        paint.mark(gpu.device(), gpu.queue(), &mut encoder, &LeafColumns::of(&buffers), time_s);
+        let device = (gpu.device(), gpu.queue());
+        paint.mark(device, &mut encoder, &frame, &LeafColumns::of(&buffers), time_s);
         gpu.queue().submit([encoder.finish()]);
         read::<Identity>(&gpu, &paint.marks).into_iter().map(|mark| mark.release).collect()
     };
@@ -120,5 +129,23 @@ fn marks_tell_what_leaves_do() {
     let found = marks(&later, Paint { measure: Measure::Age, most: 4.0 }, 1.1);
     for (mark, share) in found.iter().zip([0.125, 0.5, 1.0]) {
         assert!(is_color(*mark, shade_bytes(share)), "{share} of the age: {found:08x?}");
+    }
+    // Two leaves in the litter, one of them covered, and one on bare ground a metre up.
+    let mut bed = later;
+    let lying = STATE_RESTING | LYING << PRIMITIVE_SHIFT;
+    for (slot, (height_m, bits)) in
+        [(1.1, lying), (1.3, with_cover(lying, true)), (1.0, STATE_RESTING)].into_iter().enumerate()
+    {
+        bed.place[slot] = Place { position: [0.0, height_m, 0.0], bits };
+        bed.drift[slot].phase = wake_speed_word(6.25);
+    }
+    let found = marks(&bed, Paint { measure: Measure::Wake, most: 5.0 }, 1.2);
+    for (mark, wanted) in found.iter().zip([shade_bytes(0.5), RESTING, RESTING, ATTACHED]) {
+        assert!(is_color(*mark, wanted), "{mark:08x} is not {wanted:?}: {found:08x?}");
+    }
+    let found = marks(&bed, Paint { measure: Measure::Depth, most: 0.4 }, 1.2);
+    for (mark, wanted) in found.iter().zip([shade_bytes(0.25), shade_bytes(0.75), shade_bytes(0.0), ATTACHED])
+    {
+        assert!(is_color(*mark, wanted), "{mark:08x} is not {wanted:?}: {found:08x?}");
     }
 }

@@ -1,9 +1,11 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Motion blur of a leaf.
+//! Motion blur of a leaf and of what else moves.
 
+use glam::{Vec2, Vec3};
 use image::RgbaImage;
-use windfall_core::scene::{Exposure, ToneMap};
+use windfall_core::Scene;
+use windfall_core::scene::{Exposure, Object, ObjectKey, ObjectMotion, ObjectShape, ToneMap, Walker};
 
 use super::{Bench, SIZE, bench, differing};
 
@@ -14,7 +16,13 @@ const FRAME_S: f64 = 0.02;
 
 /// A bench whose picture is proportional to light.
 fn camera_with(shutter_s: f32) -> Bench {
+    camera_at(shutter_s, |_| {})
+}
+
+/// The same with other things in sight.
+fn camera_at(shutter_s: f32, change: impl FnOnce(&mut Scene)) -> Bench {
     bench(|scene| {
+        change(scene);
         scene.view.lens.shutter_s = shutter_s;
         scene.view.lens.tone_map = ToneMap::Linear { gamma: 1.0 };
         scene.view.lens.exposure = Exposure::Manual { ev100: 15.5 };
@@ -108,4 +116,71 @@ fn a_shutter_that_opens_later_blurs_too() {
     bench.draw(FALLING, -0.3, 0.0);
     let sharp = camera_with(0.0).draw(FALLING, 0.0, FRAME_S);
     assert!(bench.draw(FALLING, 0.0, FRAME_S) == sharp, "and closes again");
+}
+
+/// Time in seconds at which a ball or somebody who walks is in the middle.
+const MIDDLE_S: f64 = 1.5;
+
+/// Puts a ball in sight that goes so fast to the right.
+fn roll(scene: &mut Scene, speed_m_s: f32) {
+    // At the first and the last key it stands.
+    let keys = [0.0f32, 1.0, 2.0, 3.0].map(|time_s| ObjectKey {
+        time_s,
+        moved_m: Vec3::X * (speed_m_s * (time_s - 1.5)),
+        turned_deg: 0.0,
+    });
+    let shape = ObjectShape::Sphere { radius_m: 0.3 };
+    let (at_m, color) = (scene.view.camera.target_m, Vec3::splat(0.01));
+    let motion = ObjectMotion::Path(keys.into());
+    scene.objects = vec![Object { shape, at_m, color, motion, ..Object::default() }];
+}
+
+/// The part of a picture without the shadow of what is in the middle.
+fn above_ground(picture: &RgbaImage) -> RgbaImage {
+    image::imageops::crop_imm(picture, 0, 0, SIZE.0, SIZE.1 / 2 + 6).to_image()
+}
+
+#[test]
+fn an_object_is_drawn_along_its_way() {
+    let second = |shutter_s: f32, speed_m_s: f32| {
+        let mut bench = camera_at(shutter_s, |scene| roll(scene, speed_m_s));
+        bench.draw(0, 0.0, MIDDLE_S - FRAME_S);
+        above_ground(&bench.draw(0, 0.0, MIDDLE_S))
+    };
+    let mut nothing = camera_with(0.0);
+    let empty = above_ground(&nothing.draw(0, 0.0, MIDDLE_S));
+    let sharp = second(0.0, 20.0);
+    let (light, [(column, width), (row, height)]) = seen(&empty, &sharp);
+    let (blurred_light, [(blurred_column, longer), (blurred_row, higher)]) =
+        seen(&empty, &second(0.02, 20.0));
+    // 20 m/s for 0.02 s, a metre being some eleven pixels there, as in the tests of objects.
+    let way_px = (12.0 * (longer - width)).sqrt();
+    assert!((3.6..5.6).contains(&way_px), "{way_px} px along its way");
+    assert!((higher - height).abs() < 0.1 * height, "no higher: {height} and {higher}");
+    let apart = (blurred_column - column).hypot(blurred_row - row);
+    assert!(apart < 0.5, "as far behind as ahead: the middle is {apart} px aside");
+    let kept = blurred_light / light;
+    assert!((0.9..1.1).contains(&kept), "{kept} of its light");
+    assert!(second(0.02, 0.0) == second(0.0, 0.0), "one that is on no way stays sharp");
+    let mut first = camera_at(0.02, |scene| roll(scene, 20.0));
+    assert!(above_ground(&first.draw(0, 0.0, MIDDLE_S)) == sharp, "the first picture");
+}
+
+#[test]
+fn somebody_who_walks_is_blurred_where_he_moves() {
+    let second = |shutter_s: f32| {
+        let mut bench = camera_at(shutter_s, |scene| {
+            let camera = scene.view.camera;
+            scene.view.camera.eye_m = Vec3::new(0.0, 1.0, 5.0);
+            scene.view.camera.target_m = Vec3::new(0.0, 1.0, 0.0);
+            scene.view.camera.vertical_fov_deg = camera.vertical_fov_deg;
+            let way_m = vec![Vec2::new(-3.0, 0.0), Vec2::new(6.0, 0.0)];
+            scene.walkers = vec![Walker { way_m, speed_m_s: 2.0, start_s: 0.0 }];
+        });
+        bench.draw(0, 0.0, MIDDLE_S - 0.1);
+        bench.draw(0, 0.0, MIDDLE_S)
+    };
+    let (sharp, blurred) = (second(0.0), second(0.1));
+    let changed = sharp.pixels().zip(blurred.pixels()).filter(|(a, b)| a != b).count();
+    assert!((60..2000).contains(&changed), "{changed} pixels differ");
 }

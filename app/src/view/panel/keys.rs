@@ -11,7 +11,7 @@ pub(crate) const HELP: [(&str, &[(&str, &str)]); 4] = [
     (
         "Look",
         &[
-            ("Drag", "orbit about what you look at"),
+            ("Drag", "orbit about what you look at; move an object over the ground"),
             ("Right-drag, Shift-drag", "move sideways"),
             ("Ctrl-drag", "look around"),
             ("Wheel, pinch", "go nearer or farther"),

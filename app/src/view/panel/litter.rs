@@ -44,6 +44,9 @@ pub(super) fn show(ui: &mut Ui, litter: &mut Option<Litter>, own: Option<&Litter
     let tip = "Suction of the film that holds wet leaves";
     let adhesion = field("Adhesion", tip, limits::ADHESION_N_M2).fine(0.1);
     adhesion.show(ui, &mut litter.adhesion_n_m2, own.map(|own| own.adhesion_n_m2));
+    let tip = "Hours for which leaves float on water before they are soaked and sink, half as long to half as long again";
+    let hours = field("Floats for", tip, limits::FLOAT_HOURS).fine(0.1);
+    hours.show(ui, &mut litter.float_hours, own.map(|own| own.float_hours));
     let options = [("wakes", false), ("still", true)];
     let tip = "Leaves wake in the wind, or lie as still as painted";
     choice(ui, "Leaves there", tip, &mut litter.still, own.map(|own| &own.still), &options);

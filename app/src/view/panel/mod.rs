@@ -44,13 +44,14 @@ mod walkers;
 mod wind;
 mod words;
 
-use egui::{Area, Id, Pos2, Rect, Response, RichText, ScrollArea, Sense, Ui, vec2};
+use egui::{Area, Id, PointerButton, Pos2, Rect, Response, RichText, ScrollArea, Sense, Ui, vec2};
 use windfall_core::Scene;
 use windfall_render::camera::Camera;
 use windfall_render::land::Land;
 
 use crate::view::panel::action::Action;
 use crate::view::panel::panel_input::{Message, PanelInput};
+use crate::view::tools::grab::Grab;
 use crate::view::tools::pick::Projection;
 use draft::Draft;
 pub(crate) use group::Group;
@@ -79,6 +80,8 @@ pub(super) struct Panel {
     focused: Option<Id>,
     /// Left edge of the picture in pixels.
     picture_left: u32,
+    /// Object that the pointer moves.
+    grab: Option<Grab>,
 }
 
 impl Panel {
@@ -96,6 +99,7 @@ impl Panel {
             open,
             focused: None,
             picture_left: 0,
+            grab: None,
         }
     }
 
@@ -134,16 +138,24 @@ impl Panel {
                 },
             );
         }
-        actions.extend(self.draft.end(ui));
         let picture = ui.available_rect_before_wrap();
         self.picture_left = pixels(picture.left() * ui.ctx().pixels_per_point());
         let response = ui.interact(picture, Id::unique("picture"), Sense::click_and_drag());
-        pointer::steer(camera, &response, land);
+        self.grab(&response, &Projection::new(camera, picture), land);
+        if self.grab.is_none() {
+            pointer::steer(camera, &response, land);
+        }
+        // Objects are edited in the picture as in the panel.
+        actions.extend(self.draft.end(ui));
         if let Some(pointer) = response.interact_pointer_pos().filter(|_| response.clicked()) {
             actions.push(Action::Pick(pointer));
         }
         self.picture = picture;
-        over_picture::show(ui, input, &Projection::new(camera, picture), picture);
+        let projection = Projection::new(camera, picture);
+        over_picture::show(ui, input, &projection, picture);
+        if let Some(object) = self.grab.and_then(|grab| self.draft.scene.objects.get(grab.object)) {
+            over_picture::object(ui, object, &projection, picture);
+        }
         if self.is_open {
             timeline::show(ui, input, picture, &mut actions);
         }
@@ -154,6 +166,23 @@ impl Panel {
             help::show_drop_hint(ui, picture);
         }
         actions
+    }
+
+    /// Takes the object under the pointer when a drag begins there, moves it, and lets go of it.
+    fn grab(&mut self, picture: &Response, projection: &Projection, land: &Land) {
+        let (origin, modifiers) = picture.ctx.input(|input| (input.pointer.press_origin(), input.modifiers));
+        let objects = &mut self.draft.scene.objects;
+        if picture.drag_started_by(PointerButton::Primary) && modifiers.is_none() {
+            self.grab = origin.and_then(|origin| Grab::at(projection, origin, objects));
+        }
+        if !picture.dragged_by(PointerButton::Primary) && !picture.drag_stopped() {
+            self.grab = None;
+        }
+        let Some(grab) = self.grab else { return };
+        let place = picture.interact_pointer_pos().and_then(|at| grab.place(projection, at, land));
+        if let Some((object, place)) = objects.get_mut(grab.object).zip(place) {
+            object.at_m = place;
+        }
     }
 
     /// Handles the actions that are the panel's own, and turns others into what they mean here.

@@ -1,11 +1,13 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Objects: their shape, where they stand, and what leaves find on them.
+//! Objects: their shape, where they stand, how they move, and what leaves find on them.
 
 use egui::{RichText, Ui};
 use glam::Vec3;
 use windfall_core::Scene;
-use windfall_core::scene::{MAX_OBJECTS, Object, ObjectFriction, ObjectShape, limits};
+use windfall_core::scene::{
+    MAX_OBJECTS, MAX_PATH_KEYS, Object, ObjectFriction, ObjectKey, ObjectMotion, ObjectShape, limits,
+};
 
 use super::field::{choice, field, vector};
 use super::list::List;
@@ -46,6 +48,33 @@ pub(super) fn show(ui: &mut Ui, scene: &mut Scene, own: &Scene) {
     restitution.show(ui, &mut object.restitution, own.map(|own| own.restitution));
     let tip = "Reflectance of its surface: linear red, green and blue";
     vector(ui, "Colour", tip, &mut object.color, own.map(|own| own.color), limits::COLOR);
+    motion(ui, &mut object.motion, own.map(|own| &own.motion));
+}
+
+/// A key at which an object is where it stands.
+const FRESH: ObjectKey = ObjectKey { time_s: 0.0, moved_m: Vec3::ZERO, turned_deg: 0.0 };
+
+/// Motion of an object, and the keys that it goes through.
+fn motion(ui: &mut Ui, motion: &mut ObjectMotion, own: Option<&ObjectMotion>) {
+    let options = [("still", ObjectMotion::Still), ("path", ObjectMotion::Path(vec![FRESH]))];
+    choice(ui, "Motion", "It stays where it is, or goes through keys", motion, own, &options);
+    let ObjectMotion::Path(keys) = motion else { return };
+    let own: &[ObjectKey] = if let Some(ObjectMotion::Path(keys)) = own { keys } else { &[] };
+    let list = List { name: "Path key", entry: "key of the path", fewest: 1, most: MAX_PATH_KEYS };
+    let name = |index: usize, key: &ObjectKey| format!("{}: at {:.1} s", index + 1, key.time_s);
+    let fresh = |like: Option<&ObjectKey>, keys: &[ObjectKey]| {
+        let time_s = keys.last().map_or(0.0, |key| key.time_s + 1.0).min(limits::KEY_TIME_S.high);
+        ObjectKey { time_s, ..*like.unwrap_or(&FRESH) }
+    };
+    let Some(index) = list.show(ui, keys, name, fresh) else { return };
+    let (key, own) = (&mut keys[index], own.get(index));
+    let tip = "Time of this key, later than the key before";
+    field("Key time", tip, limits::KEY_TIME_S).wide().show(ui, &mut key.time_s, own.map(|own| own.time_s));
+    let tip = "Way from where the object stands";
+    vector(ui, "Moved", tip, &mut key.moved_m, own.map(|own| own.moved_m), limits::OBJECT_AT_M);
+    let tip = "Turn about the vertical beyond the object's own";
+    let turned = field("Turned", tip, limits::TURNED_DEG);
+    turned.show(ui, &mut key.turned_deg, own.map(|own| own.turned_deg));
 }
 
 fn shape(ui: &mut Ui, shape: &mut ObjectShape, own: Option<ObjectShape>) {

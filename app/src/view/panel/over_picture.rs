@@ -7,9 +7,11 @@ use egui::{
     pos2, vec2,
 };
 use glam::Vec3;
-use windfall_render::{ATTACHED, MOTIONS, Measure, RESTING, shade_bytes};
+use windfall_core::scene::Object;
+use windfall_render::{ATTACHED, MOTIONS, RESTING, shade_bytes};
 
 use super::{PanelInput, style};
+use crate::view::tools::grab::outline;
 use crate::view::tools::overlays::Overlays;
 use crate::view::tools::pick::Projection;
 
@@ -31,8 +33,8 @@ pub(super) fn show(ui: &Ui, input: &PanelInput, projection: &Projection, picture
     }
     followed(&painter, input, projection);
     let mut corner = picture.right_top() + vec2(-12.0, 12.0);
-    if let Some(measure) = input.overlays.measure {
-        corner.y = measure_legend(ui, measure, &input.overlays, corner).bottom() + 8.0;
+    if input.overlays.measure.is_some() {
+        corner.y = measure_legend(ui, &input.overlays, corner).bottom() + 8.0;
     }
     if input.overlays.wind {
         let most = input.arrow_most_m_s;
@@ -93,16 +95,22 @@ fn followed(painter: &Painter, input: &PanelInput, projection: &Projection) {
     }
 }
 
-fn measure_legend(ui: &Ui, measure: Measure, overlays: &Overlays, corner: egui::Pos2) -> Rect {
-    let amount = Overlays::scale_of(measure).map_or(0.0, |index| overlays.most[index]);
-    let (title, unit) = match measure {
-        Measure::Motion => return motion_legend(ui, corner),
-        Measure::Speed => ("Speed", "m/s"),
-        Measure::Age => ("Since release", "s"),
-        Measure::Height => ("Height", "m"),
-    };
-    let end = if amount < 10.0 { format!("{amount:.1} {unit}") } else { format!("{amount:.0} {unit}") };
-    scale_legend(ui, "legend", title, ["0", &end], corner)
+/// Edges of the box around an object that is being moved.
+pub(super) fn object(ui: &Ui, object: &Object, projection: &Projection, picture: Rect) {
+    let painter = ui.painter().with_clip_rect(picture);
+    for [from, to] in outline(object) {
+        if let (Some(from), Some(to)) = (projection.place(from), projection.place(to)) {
+            painter.line_segment([from, to], Stroke::new(3.0, Color32::from_black_alpha(130)));
+            painter.line_segment([from, to], Stroke::new(1.5, style::TITLE));
+        }
+    }
+}
+
+fn measure_legend(ui: &Ui, overlays: &Overlays, corner: egui::Pos2) -> Rect {
+    match overlays.scale() {
+        Some((title, end)) => scale_legend(ui, "legend", title, ["0", &end], corner),
+        None => motion_legend(ui, corner),
+    }
 }
 
 /// A strip of colours with its ends; its upper right corner is given.

@@ -11,10 +11,12 @@ use super::{Action, PanelInput, style};
 use crate::view::tools::overlays::Overlays;
 
 /// Ends of the colours that can be chosen.
-const MOST: [(&str, Limit<f32>); 3] = [
+const MOST: [(&str, Limit<f32>); 5] = [
     ("Colours to", Limit { low: 0.1, high: 60.0, unit: "m/s" }),
     ("Colours to", Limit { low: 0.5, high: 600.0, unit: "s" }),
     ("Colours to", Limit { low: 0.5, high: 200.0, unit: "m" }),
+    ("Colours to", Limit { low: 0.5, high: 30.0, unit: "m/s" }),
+    ("Colours to", Limit { low: 0.01, high: 5.0, unit: "m" }),
 ];
 /// Heights of the wind's slice.
 const WIND_HEIGHT_M: Limit<f32> = Limit { low: 0.1, high: 100.0, unit: "m" };
@@ -49,7 +51,7 @@ pub(super) fn show(ui: &mut Ui, input: &PanelInput, actions: &mut Vec<Action>) {
 
 /// Measure that leaves are coloured by, and the end of its scale.
 fn colors(ui: &mut Ui, overlays: &mut Overlays) {
-    ui.horizontal(|ui| {
+    ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().item_spacing.x = 3.0;
         for (measure, label, tip) in [
             (None, "Autumn", "Leaves in their own colours"),
@@ -57,6 +59,12 @@ fn colors(ui: &mut Ui, overlays: &mut Overlays) {
             (Some(Measure::Speed), "Speed", "Coloured by speed over the last frame"),
             (Some(Measure::Age), "Age", "Coloured by the time since release"),
             (Some(Measure::Height), "Height", "Coloured by height above the ground at the origin"),
+            (
+                Some(Measure::Wake),
+                "Wakes at",
+                "Lying leaves coloured by the wind at their edge that takes them; covered ones brown",
+            ),
+            (Some(Measure::Depth), "Depth", "Lying leaves coloured by the depth of the litter under them"),
         ] {
             if ui.selectable_label(overlays.measure == measure, label).on_hover_text(tip).clicked() {
                 overlays.measure = measure;

@@ -6,12 +6,14 @@ use std::sync::Arc;
 use egui::{
     Event, Modifiers, MouseWheelSource, MouseWheelUnit, PointerButton, RawInput, Rect, TouchPhase, pos2,
 };
+use glam::Vec3;
 use windfall_core::scene::{self, PRESETS};
 use windfall_core::{Contract, Scene, SimulatorInfo, World};
 
 use super::*;
 use crate::run::backend::BackendKind;
 use crate::view::session::Timeline;
+use crate::view::session::undo::Undo;
 use crate::view::tools::clip::ClipStatus;
 use crate::view::tools::frame_times::Frames;
 use crate::view::tools::overlays::Overlays;
@@ -158,6 +160,75 @@ fn dragging_the_picture_moves_the_camera_and_dragging_the_panel_does_not() {
         bench.pass(Vec::new());
     }
     assert!(bench.camera.distance_m < 0.9 * distance_m, "zooms: {} m", bench.camera.distance_m);
+}
+
+#[test]
+fn an_object_is_dragged_over_the_ground_in_one_edit() {
+    let mut scene = Scene::default();
+    scene.ground.litter = Some(scene::Litter::default());
+    scene.objects = vec![scene::Object { at_m: Vec3::new(0.0, 0.5, 0.0), ..scene::Object::default() }];
+    let mut bench = Bench::new(&scene);
+    let camera = bench.camera;
+    let projection = Projection::new(&bench.camera, bench.panel.picture());
+    let at = |x: f32| projection.place(Vec3::new(x, 0.5, 0.0)).expect("in front");
+    let (from, to) = (at(0.0), at(2.0));
+    let mut actions = bench.drag((from.x, from.y), (to.x, to.y), PointerButton::Primary);
+    actions.extend(bench.pass(Vec::new()));
+    assert_eq!(bench.camera, camera, "the camera stays");
+    let edits: Vec<&Action> = actions.iter().filter(|action| matches!(action, Action::Edit { .. })).collect();
+    let [Action::Edit { scene: edited, .. }] = edits[..] else { panic!("one edit: {actions:?}") };
+    let moved = edited.objects[0].at_m - scene.objects[0].at_m;
+    assert!(moved.x > 1.0 && moved.y == 0.0, "moved by {moved}");
+    let like = Scene { objects: scene.objects.clone(), ..Scene::clone(edited) };
+    assert_eq!(like, scene, "and nothing else");
+    bench.drag((from.x, from.y - 250.0), (to.x, to.y - 250.0), PointerButton::Primary);
+    assert!(bench.camera != camera, "beside it the camera turns");
+}
+
+#[test]
+fn undoing_a_drag_puts_the_object_back() {
+    let mut scene = Scene::default();
+    scene.ground.litter = Some(scene::Litter::default());
+    scene.objects = vec![scene::Object { at_m: Vec3::new(0.0, 0.5, 0.0), ..scene::Object::default() }];
+    let mut bench = Bench::new(&scene);
+    let projection = Projection::new(&bench.camera, bench.panel.picture());
+    let at = |x: f32| projection.place(Vec3::new(x, 0.5, 0.0)).expect("in front");
+    let mut undo = Undo::default();
+    // As a window does: what is asked for is there in the next frame.
+    let mut drag = |bench: &mut Bench, from: f32, to: f32| {
+        let (from, to) = (at(from), at(to));
+        let mut actions = bench.drag((from.x, from.y), (to.x, to.y), PointerButton::Primary);
+        actions.extend(bench.pass(Vec::new()));
+        for action in actions {
+            if let Action::Edit { scene, gesture } = action {
+                undo.record(std::mem::replace(&mut bench.input.scene, Arc::new(*scene)), gesture);
+            }
+        }
+        assert_eq!(bench.pass(Vec::new()), [], "it is let go of");
+        undo.depths().0
+    };
+    assert_eq!(drag(&mut bench, 0.0, 2.0), 1, "one step");
+    let there = bench.input.scene.objects[0].at_m;
+    assert_eq!(drag(&mut bench, 2.0, -1.0), 2, "taken where it is, another step");
+    for (to_m, left) in [(there, 1), (scene.objects[0].at_m, 0)] {
+        let command = Modifiers::COMMAND;
+        let press = Event::Key {
+            key: egui::Key::Z,
+            physical_key: None,
+            pressed: true,
+            repeat: false,
+            modifiers: command,
+        };
+        assert_eq!(bench.pass(vec![press]), [Action::Undo], "asked for");
+        let now = Arc::clone(&bench.input.scene);
+        let back = undo.undo(now, |scene| {
+            bench.input.scene = Arc::clone(scene);
+            Ok::<(), ()>(())
+        });
+        assert_eq!((back, undo.depths().0), (Ok(true), left), "one step each");
+        assert_eq!(bench.pass(Vec::new()), [], "the panel has no other idea");
+        assert_eq!(bench.input.scene.objects[0].at_m, to_m, "as before that drag");
+    }
 }
 
 #[test]

@@ -4,8 +4,9 @@
 
 use glam::Vec3;
 use windfall_core::Scene;
-use windfall_core::scene::{Ground, Object, Share, SourceShape, Species, View};
+use windfall_core::scene::{Ground, Litter, Object, Share, SourceShape, Species, View};
 use windfall_render::RendererOptions;
+use windfall_render::land::is_paved;
 
 /// Changes that follow when one scene takes the place of another.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -122,7 +123,11 @@ impl Change {
             (Some(old), Some(new)) => old.retuned(Some(new)) != new,
             (old, new) => old != new,
         };
-        self.rebuild("litter", is_laid_anew, true, false);
+        // Painted leaves lie around the bed, and stones under it.
+        let bed = |litter: Option<Litter>| litter.map(|bed| (bed.center_m, bed.size_m, bed.leaf_area_index));
+        self.rebuild("litter", is_laid_anew, true, bed(old.litter) != bed(litter));
+        let is_bared = old.litter.is_some() && litter.is_some() && is_paved(old) != is_paved(new);
+        self.rebuild("paving", is_bared, false, true);
         self.retune |= litter != old.litter;
         self.retune |= water != old.water;
     }

@@ -6,7 +6,9 @@ use windfall_core::arith::Vec3;
 use windfall_core::device::flight::body::body_of;
 use windfall_core::device::flight::rates::{FlightMotion, flight_rates};
 use windfall_core::device::flight::regime::REGIME_NAMES;
-use windfall_core::device::leaf::record::{is_covered, lies, wake_speed_squared};
+use windfall_core::device::leaf::record::{
+    is_afloat, is_covered, is_held, is_sunk, lies, wake_speed_squared,
+};
 use windfall_core::device::motion::feature::feature;
 use windfall_core::device::wind::sample::wind_at;
 use windfall_core::leaf::{LeafMotion, LeafRecords, LeafState, LeafView};
@@ -33,7 +35,7 @@ pub(crate) fn card(compiled: &CompiledScene, clock: &Clock, slot: u32, records: 
     let mut rows = vec![("leaf", format!("{}, slot {}", grouped(leaf.id), grouped(slot)))];
     rows.push(("state", doing(&leaf)));
     if lies(records.place.bits) {
-        rows.push(("litter", lying(records)));
+        rows.extend(lying(records));
     }
     let level = leaf.velocity.x.hypot(leaf.velocity.z);
     rows.push(("speed", format!("{:.2} m/s, {level:.2} level", length(leaf.velocity))));
@@ -64,11 +66,19 @@ pub(crate) fn card(compiled: &CompiledScene, clock: &Clock, slot: u32, records: 
     Card { title: name.to_owned(), rows }
 }
 
-/// Condition of a leaf in the litter, in words.
-fn lying(records: &LeafRecords) -> String {
+/// Rows of a leaf in the litter: what lies on it, what bears it, and the wind that takes it.
+fn lying(records: &LeafRecords) -> Vec<(&'static str, String)> {
+    if is_sunk(records.place.bits) {
+        return vec![("litter", "sunk".to_owned())];
+    }
+    if is_afloat(records.place.bits) {
+        return vec![("litter", "afloat".to_owned())];
+    }
     let speed_m_s = wake_speed_squared(records.drift.phase).sqrt();
-    let cover = if is_covered(records.place.bits) { "covered" } else { "on top" };
-    format!("{cover}; uncovered it goes in {speed_m_s:.2} m/s at its edge")
+    let cover = if is_covered(records.place.bits) { "covered: no wind reaches it" } else { "on top" };
+    let held = if is_held(records.place.bits) { "by a solid thing" } else { "by ground or litter" };
+    let wakes = format!("{speed_m_s:.2} m/s at its edge, uncovered");
+    vec![("litter", cover.to_owned()), ("held", held.to_owned()), ("wakes at", wakes)]
 }
 
 /// The state of a leaf in words.
@@ -133,15 +143,35 @@ mod tests {
     fn lying_leaves_show_the_wind_that_takes_them() {
         let text = "(sources: [], ground: (litter: Some((size_m: (2.0, 2.0), leaf_area_index: 4.0))))";
         let world = World::build(&Scene::from_ron(text, "bed").expect("RON")).expect("valid");
-        let texts: Vec<String> = (0..world.leaves.len())
+        let cards: Vec<Card> = (0..world.leaves.len())
             .map(|slot| card(&world.compiled, &world.clock, 0, &world.leaves.records(slot)))
-            .filter_map(|card| row(&card, "litter"))
             .collect();
-        let covered = texts.iter().filter(|text| text.starts_with("covered")).count();
-        assert!(covered > 50 && texts.len() - covered > 50, "{covered} of {} covered", texts.len());
-        let slowest = texts.iter().filter_map(|text| text.split(' ').rev().nth(4)?.parse::<f64>().ok());
+        let texts = |name: &str| cards.iter().filter_map(|card| row(card, name)).collect::<Vec<_>>();
+        let lying = texts("litter");
+        let covered = lying.iter().filter(|text| text.starts_with("covered")).count();
+        assert!(covered > 50 && lying.len() - covered > 50, "{covered} of {} covered", lying.len());
+        let speeds = texts("wakes at");
+        let slowest = speeds.iter().filter_map(|text| text.split(' ').next()?.parse::<f64>().ok());
         let slowest = slowest.fold(f64::INFINITY, f64::min);
-        assert!((0.3..1.2).contains(&slowest), "{slowest} m/s: {}", texts[0]);
+        assert!((0.3..1.2).contains(&slowest), "{slowest} m/s: {}", speeds[0]);
+        assert!(texts("held").iter().all(|text| text == "by ground or litter"), "no solid thing is there");
+    }
+
+    #[test]
+    fn leaves_on_a_table_are_held_by_it() {
+        let text = "(sources: [], ground: (litter: Some((size_m: (3.0, 3.0), leaf_area_index: 2.0))), \
+            objects: [(shape: Box(size_m: (1.0, 0.02, 1.0)), at_m: (0.0, 0.0, 0.0))])";
+        let world = World::build(&Scene::from_ron(text, "table").expect("RON")).expect("valid");
+        let is_held = |slot: &usize| {
+            let card = card(&world.compiled, &world.clock, 0, &world.leaves.records(*slot));
+            row(&card, "held").as_deref() == Some("by a solid thing")
+        };
+        let held: Vec<_> = (0..world.leaves.len()).filter(is_held).collect();
+        assert!(held.len() > 50, "{} lie on it", held.len());
+        for slot in held {
+            let [x, _, z] = world.leaves.place[slot].position;
+            assert!(x.abs() < 0.6 && z.abs() < 0.6, "beside it, at {x}, {z}");
+        }
     }
 
     fn row(card: &Card, name: &str) -> Option<String> {
@@ -150,7 +180,7 @@ mod tests {
 
     #[test]
     fn synthesised_leaves_have_their_feature() {
-        let falling: Vec<Card> = cards("autumn-park")
+        let falling: Vec<Card> = cards("storm")
             .into_iter()
             .filter(|card| row(card, "state").is_some_and(|text| text.starts_with("falls")))
             .collect();

@@ -1,10 +1,11 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Instruments of the window: picked leaves and their tracks, overlays, clips, timings.
+//! Instruments of the window: picked leaves and their tracks, objects in the hand, overlays, clips, timings.
 
 pub(crate) mod card;
 pub(crate) mod clip;
 pub(crate) mod frame_times;
+pub(crate) mod grab;
 pub(crate) mod meter;
 pub(crate) mod overlays;
 pub(crate) mod pick;

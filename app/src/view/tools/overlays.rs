@@ -19,6 +19,10 @@ pub(crate) enum Show {
     Age,
     /// Leaves coloured by height.
     Height,
+    /// Lying leaves coloured by the wind at their edge that takes them.
+    Wake,
+    /// Lying leaves coloured by the depth of the litter under them.
+    Depth,
     /// Numbers of leaves on the ground by place.
     Landings,
     /// Arrows of the wind in a level slice.
@@ -36,8 +40,8 @@ pub(crate) enum Show {
 pub(crate) struct Overlays {
     /// Measure that leaves are coloured by.
     pub(crate) measure: Option<Measure>,
-    /// Speed in m/s, age in s and height in m at the end of the colours.
-    pub(crate) most: [f32; 3],
+    /// Speed in m/s, age in s, height in m, wind in m/s and depth in m at the end of the colours.
+    pub(crate) most: [f32; 5],
     pub(crate) landings: bool,
     pub(crate) wind: bool,
     /// Height of the slice above the ground in metres.
@@ -49,7 +53,7 @@ impl Default for Overlays {
     fn default() -> Self {
         Self {
             measure: None,
-            most: [4.0, 20.0, 10.0],
+            most: [4.0, 20.0, 10.0, 2.0, 0.2],
             landings: false,
             wind: false,
             wind_height_m: WIND_HEIGHT_M,
@@ -66,6 +70,8 @@ impl Overlays {
             Show::Speed => self.measure = Some(Measure::Speed),
             Show::Age => self.measure = Some(Measure::Age),
             Show::Height => self.measure = Some(Measure::Height),
+            Show::Wake => self.measure = Some(Measure::Wake),
+            Show::Depth => self.measure = Some(Measure::Depth),
             Show::Landings => self.landings = true,
             Show::Wind => self.wind = true,
             Show::Trails => self.trails = true,
@@ -74,14 +80,31 @@ impl Overlays {
         self
     }
 
-    /// Place of a measure's scale among the three; none for motions.
+    /// Place of a measure's scale among them; none for motions.
     pub(crate) fn scale_of(measure: Measure) -> Option<usize> {
         match measure {
             Measure::Motion => None,
             Measure::Speed => Some(0),
             Measure::Age => Some(1),
             Measure::Height => Some(2),
+            Measure::Wake => Some(3),
+            Measure::Depth => Some(4),
         }
+    }
+
+    /// Title of the colours, and the amount at their light end; none for motions and for leaves in their own colours.
+    pub(crate) fn scale(&self) -> Option<(&'static str, String)> {
+        let (title, unit) = match self.measure? {
+            Measure::Motion => return None,
+            Measure::Speed => ("Speed", "m/s"),
+            Measure::Age => ("Since release", "s"),
+            Measure::Height => ("Height", "m"),
+            Measure::Wake => ("Wind that takes it", "m/s"),
+            Measure::Depth => ("Litter under it", "m"),
+        };
+        let amount = self.measure.and_then(Self::scale_of).map_or(0.0, |index| self.most[index]);
+        let digits = usize::from(amount < 10.0) + usize::from(amount < 1.0);
+        Some((title, format!("{amount:.digits$} {unit}")))
     }
 
     /// Paint of the leaves.
@@ -105,13 +128,16 @@ mod tests {
 
     #[test]
     fn a_measure_brings_its_scale() {
-        let overlays = Overlays { most: [3.0, 11.0, 7.0], ..Overlays::default() };
+        let overlays = Overlays { most: [3.0, 11.0, 7.0, 2.0, 0.5], ..Overlays::default() };
         let most = |show| overlays.with(show).paint().map(|paint| paint.most);
         assert_eq!(
-            [Show::Speed, Show::Age, Show::Height].map(most),
-            [Some(3.0), Some(11.0), Some(7.0)],
+            [Show::Speed, Show::Age, Show::Height, Show::Wake, Show::Depth].map(most),
+            [Some(3.0), Some(11.0), Some(7.0), Some(2.0), Some(0.5)],
             "each"
         );
         assert_eq!(overlays.with(Show::Wind).paint(), None, "the wind is no paint");
+        let scale = overlays.with(Show::Depth).scale().expect("an amount");
+        assert_eq!(scale, ("Litter under it", "0.50 m".to_owned()), "with its unit");
+        assert_eq!(overlays.with(Show::Motion).scale(), None, "kinds have no amount");
     }
 }

@@ -36,6 +36,16 @@ impl Projection {
         })
     }
 
+    /// Beginning and direction of the view through a place of the screen.
+    pub(crate) fn ray(&self, place: Pos2) -> (Vec3, Vec3) {
+        let share = (place - self.picture.min) / self.picture.size();
+        let back = self.matrix.inverse();
+        // Depth is one at the near plane and none at the horizon.
+        let [near, far] = [1.0, 0.01]
+            .map(|depth| back.project_point3(Vec3::new(2.0 * share.x - 1.0, 1.0 - 2.0 * share.y, depth)));
+        (near, (far - near).normalize())
+    }
+
     /// Distance along the view in metres.
     fn depth(&self, world: Vec3) -> f32 {
         (self.matrix * world.extend(1.0)).w

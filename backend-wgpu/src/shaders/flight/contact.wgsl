@@ -26,6 +26,7 @@ struct Surface {
     arm: vec3<f32>,
     restitution: f32,
     friction: f32,
+    weight_m_s: f32,
     takes_share: bool,
 }
 
@@ -48,7 +49,7 @@ fn support(body: LeafBody, normal: vec3<f32>) -> Support {
     return Support(squared * inverse, vec3<f32>((x * inverse) * -1.0, 0.0, (z * inverse) * -1.0));
 }
 
-fn flight_contact(body: LeafBody, position: vec3<f32>, motion: FlightMotion) -> Contact {
+fn flight_contact(body: LeafBody, position: vec3<f32>, motion: FlightMotion, time: f32) -> Contact {
     let reach = max(body.half_along_m, body.half_across_m) * body.size_ratio;
     if (!(position.y < reach + scene.highest_rest_m)) {
         return Contact(position, motion, false);
@@ -69,7 +70,8 @@ fn flight_contact(body: LeafBody, position: vec3<f32>, motion: FlightMotion) -> 
     let depth = litter_height(position.x, position.z);
     let is_bare = depth < LITTER_DEEP_M;
     let restitution = select(0.0, scene.litter.restitution, is_bare);
-    let surface = Surface(inner, lowest.arm, restitution, contact_friction(depth), false);
+    let weight = (time * scene.gravity_m_s2) * up;
+    let surface = Surface(inner, lowest.arm, restitution, contact_friction(depth), weight, false);
     let next = contact_response(body, motion, surface);
     let out = normal * (gap * -1.0);
     return Contact(position + out, next, true);
@@ -94,8 +96,11 @@ fn contact_response(body: LeafBody, motion: FlightMotion, surface: Surface) -> F
     let inverse = inverse_sqrt(squared);
     let way = sliding * inverse;
     let stopping = (squared * inverse) * reciprocal(contact_yield(inv_inertia, arm, way));
+    let weight = surface.weight_m_s;
+    let resting = max(min(vec3_dot(velocity, normal) * -1.0, weight), 0.0);
+    let pressing = select(push, resting, push < weight + weight);
     let taken = select(0.0, stopping * surface.friction, 0.0 < push);
-    let drag = select(min(stopping, surface.friction * push), taken, surface.takes_share);
+    let drag = select(min(stopping, surface.friction * pressing), taken, surface.takes_share);
     let next = contact_impulse(inv_inertia, arm, struck.velocity, struck.spin, way * (drag * -1.0));
     return FlightMotion(quat_rotate(motion.pose, next.velocity), motion.pose, next.spin * body.size_ratio);
 }

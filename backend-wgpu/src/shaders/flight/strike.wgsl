@@ -79,10 +79,12 @@ fn struck_motion(
     solid: SolidAt,
     gap: SolidGap,
     place: vec3<f32>,
+    weight_m_s: f32,
 ) -> FlightMotion {
     let along = solid_velocity(solid, place + quat_rotate(motion.pose, gap.arm));
     let takes_share = (solid.flags & SOLID_LOSS) != 0u;
-    let surface = Surface(gap.inner, gap.arm, solid.restitution, solid.friction, takes_share);
+    let weight = select(0.0, weight_m_s * gap.normal.y, 0.0 < gap.normal.y);
+    let surface = Surface(gap.inner, gap.arm, solid.restitution, solid.friction, weight, takes_share);
     let relative = FlightMotion(motion.velocity - along, motion.pose, motion.turning);
     var struck = contact_response(body, relative, surface);
     struck.velocity = struck.velocity + along;
@@ -98,6 +100,7 @@ fn strike_solids(
     time: f32,
 ) -> Contact {
     let cell = solids_cell(start);
+    let weight_m_s = time * scene.gravity_m_s2;
     var contact = Contact(start, flown, false);
     var passage = Passage(start, way, seconds, time, STRIKE_REACH);
     for (var number = 0u; number < MOST_STRIKES; number += 1u) {
@@ -111,7 +114,7 @@ fn strike_solids(
         passage.time = passage.time * (1.0 - strike.share);
         let solid = solid_at(strike.number, passage.seconds);
         let gap = solid_gap(solid, body, flown.pose, contact.position, 1.0);
-        contact.motion = struck_motion(body, contact.motion, solid, gap, contact.position);
+        contact.motion = struck_motion(body, contact.motion, solid, gap, contact.position, 0.0);
         contact.touches = true;
         passage.way = contact.motion.velocity * passage.time;
     }
@@ -129,7 +132,8 @@ fn strike_solids(
         }
         let solid = solid_at(deepest.number, seconds + time);
         let gap = solid_gap(solid, body, flown.pose, contact.position, 1.0);
-        contact.motion = struck_motion(body, contact.motion, solid, gap, contact.position);
+        let weight = select(0.0, weight_m_s, push == 0u);
+        contact.motion = struck_motion(body, contact.motion, solid, gap, contact.position, weight);
         contact.position = contact.position - gap.normal * gap.gap_m;
         contact.touches = true;
     }

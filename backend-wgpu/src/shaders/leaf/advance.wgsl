@@ -3,6 +3,7 @@
 // twin: core/src/device/leaf/advance.rs
 // One step of one leaf: plain steps apart from those with an event.
 #import bindings
+#import leaf/afloat
 #import leaf/air
 #import leaf/fall
 #import leaf/fly
@@ -45,8 +46,12 @@ fn leaf_advance_event(leaf: u32) {
     let lifetime = scene.sources[source].lifetime_steps;
     let before = places[leaf].bits;
     if (lies(before) && !is_held(before)) {
-        // The litter gives it back first.
-        places[leaf].bits = with_litter_change(before, CHANGE_REMOVED);
+        if (is_afloat(before) && now < recycling_step(leaf)) {
+            leaf_soak(leaf);
+        } else {
+            // The litter gives it back first.
+            places[leaf].bits = with_litter_change(before, CHANGE_REMOVED);
+        }
         return;
     }
     let state = leaf_state(before);
@@ -79,7 +84,9 @@ fn leaf_advance(leaf: u32) {
     if (state == STATE_FALLING && !flies(place.bits)) {
         leaf_fall(leaf, place, schedules[leaf]);
     } else if (state == STATE_RESTING && scene.litter.columns != 0u) {
-        if (leaf_is_settling(leaf)) {
+        if (leaf_is_settling(leaf) && lies(place.bits)) {
+            leaf_drift(leaf);
+        } else if (leaf_is_settling(leaf)) {
             leaf_settle_on_litter(leaf);
         }
     } else if (state == STATE_RESTING) {

@@ -77,3 +77,8 @@ fn wind_moves(leaf: LeafAtRest, wind: vec3<f32>, share_squared: f32) -> bool {
     let direction = wind * inverse_sqrt(squared);
     return wake_square(leaf, direction) * share_squared < squared;
 }
+
+fn slides_down(leaf: LeafAtRest) -> bool {
+    let up_squared = leaf.normal.y * leaf.normal.y;
+    return (leaf.friction * leaf.friction) * up_squared < 1.0 - up_squared;
+}

@@ -35,6 +35,7 @@ struct Regime {
 struct Flown {
     flight: Flight,
     is_calm: bool,
+    is_wet: bool,
 }
 
 fn flight_load(bits: u32, relative: vec3<f32>, spin: vec3<f32>) -> f32 {
@@ -75,7 +76,7 @@ fn flight_advance(flight: Flight, bits: u32, size: u32, wind: vec3<f32>, is_amon
                 motion = struck.motion;
                 touches = touches || struck.touches;
             }
-            let contact = flight_contact(body, position, motion);
+            let contact = flight_contact(body, position, motion, time);
             position = contact.position;
             motion = contact.motion;
             motion.turning = bounded_turning(bits, body, substeps, motion.turning);
@@ -85,7 +86,11 @@ fn flight_advance(flight: Flight, bits: u32, size: u32, wind: vec3<f32>, is_amon
     let end = Flight(position, motion.velocity, motion.pose, motion.turning * body.inv_size_ratio);
     let swing = end.spin * ((body.half_mean_m * body.size_ratio) * 0.5);
     let energy = vec3_dot(end.velocity, end.velocity) + vec3_dot(swing, swing);
-    return Flown(end, touches && energy < scene.litter.rest_m2_s2);
+    var is_wet = false;
+    if (scene.litter.soaking_steps != 0u && touches) {
+        is_wet = ground_is_water(position.x, position.z);
+    }
+    return Flown(end, touches && energy < scene.litter.rest_m2_s2, is_wet);
 }
 
 fn update_regime(flight: Flight, wind: vec3<f32>, state: u32, bits: u32) -> Regime {
@@ -99,11 +104,12 @@ fn update_regime(flight: Flight, wind: vec3<f32>, state: u32, bits: u32) -> Regi
     return Regime(next, with_regime(bits, regime_of(next)));
 }
 
-fn count_calm_steps(bits: u32, is_calm: bool) -> u32 {
+fn count_calm_steps(bits: u32, is_calm: bool, is_wet: bool) -> u32 {
     if (scene.litter.columns == 0u) {
         return bits;
     }
-    return with_touch_steps(bits, select(0u, touch_steps(bits) + 1u, is_calm));
+    let calm = select(0u, touch_steps(bits) + 1u, is_calm);
+    return with_touch_steps(bits, select(calm, scene.settle_steps, is_wet));
 }
 
 fn flight_ends(bits: u32, position: vec3<f32>) -> bool {
@@ -123,7 +129,7 @@ fn leaf_end_flight(leaf: u32, start: vec3<f32>) {
     if (is_borne(body, before, places[leaf].position)) {
         let held = held_at_rest(leaf);
         let air = wind_at(places[leaf].position);
-        if (!held.is_firm || wind_moves(held.at_rest, air, REST_SHARE_SQUARED)) {
+        if (!held.is_firm || slides_down(held.at_rest) || wind_moves(held.at_rest, air, REST_SHARE_SQUARED)) {
             places[leaf].bits = with_touch_steps(places[leaf].bits, 0u);
         } else {
             leaf_rest(leaf);
@@ -132,6 +138,10 @@ fn leaf_end_flight(leaf: u32, start: vec3<f32>) {
     }
     let x = places[leaf].position.x;
     let z = places[leaf].position.z;
+    if (scene.litter.soaking_steps != 0u && ground_is_water(x, z)) {
+        leaf_rest(leaf);
+        return;
+    }
     let words = random(scene.seed, identities[leaf].id, STREAM_LYING);
     let slope = ground_slope(x, z);
     let lean = quat_multiply(ground_lean(slope), lying_tilt(words));
@@ -177,7 +187,7 @@ fn leaf_fly(leaf: u32) {
     flight_write(leaf, flown.flight);
     let regime = update_regime(flown.flight, wind, regime_state(identities[leaf].fall_time), places[leaf].bits);
     identities[leaf].fall_time = regime.state;
-    let bits = count_calm_steps(regime.bits, flown.is_calm);
+    let bits = count_calm_steps(regime.bits, flown.is_calm, flown.is_wet);
     places[leaf].bits = bits;
     if (flight_ends(bits, flown.flight.position)) {
         leaf_end_flight(leaf, start.position);

@@ -9,6 +9,7 @@
 #import leaf/own
 #import leaf/record
 #import leaf/release
+#import leaf/strike
 #import motion/feature
 #import wind/packed
 
@@ -68,6 +69,9 @@ fn leaf_fall_joining(leaf: u32) {
     let bits = places[leaf].bits;
     let schedule = schedules[leaf];
     let moved = glide_part(glide, bits, motion_params(schedule), wind, part);
+    if (leaf_strike(leaf, moved.position)) {
+        return;
+    }
     glide_end(leaf, moved, bits, schedule.heading);
     if (ground_met(moved.position)) {
         leaf_land(leaf, start);

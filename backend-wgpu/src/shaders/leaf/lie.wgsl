@@ -8,6 +8,7 @@
 #import arith/rng
 #import flight/body
 #import flight/contact
+#import leaf/afloat
 #import leaf/at_rest
 #import leaf/launch
 #import leaf/record
@@ -82,15 +83,16 @@ fn leaf_settle_on_litter(leaf: u32) {
     let steps = select(ground_steps(drifts[leaf].phase) + 1u, 0u, slides);
     drifts[leaf].phase = steps;
     if (steps >= scene.settle_steps && scene.litter.is_living != 0u) {
-        leaf_lie_down(leaf, slope, own, own_raise(words));
+        leaf_lie_down(leaf, slope, own, words);
     }
 }
 
-fn leaf_lie_down(leaf: u32, slope: Slope, friction: f32, raise: u32) {
+fn leaf_lie_down(leaf: u32, slope: Slope, friction: f32, words: vec4<u32>) {
     let position = places[leaf].position;
-    if (!litter_cell(position.x, position.z).bears || ground_is_water(position.x, position.z)) {
+    if (!litter_cell(position.x, position.z).bears) {
         return;
     }
+    let raise = own_raise(words);
     let bits = places[leaf].bits;
     let size = with_asymmetry(schedules[leaf].size, random_asymmetry(identities[leaf].id));
     schedules[leaf].size = size;
@@ -105,6 +107,10 @@ fn leaf_lie_down(leaf: u32, slope: Slope, friction: f32, raise: u32) {
     drifts[leaf].phase = wake_speed_word(least_wake_square(leaf_at_rest(body, pose, slope, friction, raise)));
     schedules[leaf].rate = lying_support_word(reach);
     schedules[leaf].heading = lying_word(friction, raise);
+    if (floats_at(position.x, position.z)) {
+        places[leaf].position.y = ground_bare(position.x, position.z) + (scene.rest_height_m + reach);
+        leaf_set_afloat(leaf, words);
+    }
 }
 
 fn lying_units(bits: u32, size: u32, depth: f32) -> u32 {

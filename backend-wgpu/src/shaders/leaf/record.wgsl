@@ -95,6 +95,31 @@ fn held_bits(species: u32) -> u32 {
     return place_bits(STATE_RESTING, 1u << (HELD_SHIFT - BLEND_SHIFT), LYING, species, 0u);
 }
 
+fn is_afloat(bits: u32) -> bool {
+    return ((bits >> AFLOAT_SHIFT) & 1u) != 0u;
+}
+
+fn with_afloat(bits: u32) -> u32 {
+    return bits | (1u << AFLOAT_SHIFT);
+}
+
+fn is_sunk(bits: u32) -> bool {
+    return ((bits >> SUNK_SHIFT) & 1u) != 0u;
+}
+
+fn soaked_bits(bits: u32) -> u32 {
+    return with_litter_change(bits, CHANGE_REMOVED) | (1u << SUNK_SHIFT);
+}
+
+fn sunk_bits(species: u32) -> u32 {
+    let marks = (1u << (SUNK_SHIFT - BLEND_SHIFT)) | (1u << (COVERED_SHIFT - BLEND_SHIFT));
+    return place_bits(STATE_RESTING, marks, LYING, species, 0u);
+}
+
+fn is_on_ground(bits: u32) -> bool {
+    return (bits & ((1u << HELD_SHIFT) | (1u << AFLOAT_SHIFT) | (1u << SUNK_SHIFT))) == 0u;
+}
+
 fn lying_volume(bits: u32) -> u32 {
     return bits >> SPIN_SHIFT;
 }

@@ -115,7 +115,7 @@ fn comes_upon(mover: SolidAt, number: u32, place: vec3<f32>, size_m: f32) -> boo
 fn leaf_push(leaf: u32) -> bool {
     let bits = places[leaf].bits;
     let place = places[leaf].position;
-    if (!lies_still(bits) || !may_meet_movers(place)) {
+    if (!lies_still(bits) || is_sunk(bits) || !may_meet_movers(place)) {
         return false;
     }
     let body = body_of(bits, schedules[leaf].size);

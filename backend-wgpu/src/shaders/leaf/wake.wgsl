@@ -7,6 +7,7 @@
 #import arith/quaternion
 #import arith/vector
 #import flight/body
+#import leaf/afloat
 #import leaf/at_rest
 #import leaf/record
 #import leaf/strike
@@ -45,8 +46,13 @@ fn cover_of(bits: u32, place: vec3<f32>, reach: f32) -> Cover {
     let lowest = lying_over(place.x, place.z, reach, rest);
     let beneath = layers_above(bits, place.y - lowest);
     let above = layers_above(bits, rest - place.y);
-    let on_ground = !is_held(bits);
-    return Cover(on_ground && LOOSE_LAYERS < beneath, on_ground && COVERED_LAYERS < above);
+    let on_ground = is_on_ground(bits);
+    var is_loose = on_ground && LOOSE_LAYERS < beneath;
+    if (is_afloat(bits)) {
+        let height = place.y - (ground_bare(place.x, place.z) + scene.rest_height_m);
+        is_loose = height < 0.0 || reach < height || !ground_is_water(place.x, place.z);
+    }
+    return Cover(is_loose, is_sunk(bits) || (on_ground && COVERED_LAYERS < above));
 }
 
 fn leaf_check_cover(leaf: u32) -> bool {
@@ -85,6 +91,9 @@ fn leaf_wake(leaf: u32) -> bool {
         return false;
     }
     let wind = met.wind;
+    if (is_afloat(bits)) {
+        return leaf_float(leaf, wind);
+    }
     let body = body_of(bits, schedules[leaf].size);
     let pose = attitudes[leaf].quaternion;
     var slope = ground_slope(x, z);

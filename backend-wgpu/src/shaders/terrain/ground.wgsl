@@ -50,7 +50,15 @@ fn ground_is_water(x: f32, z: f32) -> bool {
     if (scene.has_terrain != 0u) {
         return ground_relief(x, z) < scene.water_relief_m;
     }
-    return scene.surface_height_m > scene.ground_height_m;
+    return scene.ground_height_m < scene.surface_height_m;
+}
+
+fn ground_bottom(x: f32, z: f32) -> f32 {
+    var relief = 0.0;
+    if (scene.has_terrain != 0u) {
+        relief = ground_relief(x, z);
+    }
+    return relief + scene.litter.bottom_m;
 }
 
 fn ground_surface(x: f32, z: f32) -> f32 {
@@ -82,6 +90,20 @@ fn ground_met(place: vec3<f32>) -> bool {
     return place.y < ground_rest(place.x, place.z);
 }
 
+fn ground_rise(x: f32, z: f32) -> vec2<f32> {
+    if (scene.has_terrain == 0u) {
+        return vec2<f32>(0.0, 0.0);
+    }
+    let cell = ground_cell(x, z);
+    let corners = cell.corners;
+    let near = corners.y - corners.x;
+    let west = corners.z - corners.x;
+    return vec2<f32>(
+        (near + cell.z * ((corners.w - corners.z) - near)) * scene.hill_cells_per_m,
+        (west + cell.x * ((corners.w - corners.y) - west)) * scene.hill_cells_per_m,
+    );
+}
+
 fn ground_slope(x: f32, z: f32) -> Slope {
     if (scene.litter.columns != 0u) {
         return steepest_slope(x, z);
@@ -89,14 +111,9 @@ fn ground_slope(x: f32, z: f32) -> Slope {
     if (scene.has_terrain == 0u || ground_relief(x, z) < scene.water_relief_m) {
         return Slope(0.0, 0.0, 1.0, 1.0);
     }
-    let cell = ground_cell(x, z);
-    let corners = cell.corners;
-    let near = corners.y - corners.x;
-    let west = corners.z - corners.x;
-    let rise_x = (near + cell.z * ((corners.w - corners.z) - near)) * scene.hill_cells_per_m;
-    let rise_z = (west + cell.x * ((corners.w - corners.y) - west)) * scene.hill_cells_per_m;
-    let gain = 1.0 + (rise_x * rise_x + rise_z * rise_z);
-    return Slope(rise_x, rise_z, gain, reciprocal(gain));
+    let rise = ground_rise(x, z);
+    let gain = 1.0 + (rise.x * rise.x + rise.y * rise.y);
+    return Slope(rise.x, rise.y, gain, reciprocal(gain));
 }
 
 fn steepest_slope(x: f32, z: f32) -> Slope {

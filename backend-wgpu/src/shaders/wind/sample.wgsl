@@ -8,6 +8,7 @@
 #import wind/jet
 #import wind/profile
 #import wind/shelter
+#import wind/slipstream
 #import wind/turbulence
 #import wind/vortex
 
@@ -21,9 +22,10 @@ fn wind_at_moment(moment: u32, place: vec3<f32>) -> vec3<f32> {
     let along = place.x * direction_x + place.z * direction_z;
     let across = place.z * direction_x - place.x * direction_z;
     let height = place.y - scene.ground_height_m;
-    var above = height;
+    let lowest = scene.wind.lowest_surface_m;
+    var above = height - max(lowest, 0.0);
     if (scene.has_terrain != 0u) {
-        above = height - ground_relief(place.x, place.z);
+        above = height - max(ground_relief(place.x, place.z), lowest);
     }
     if (scene.litter.columns != 0u) {
         above = above_litter(above, place.x, place.z);
@@ -47,6 +49,9 @@ fn wind_at_moment(moment: u32, place: vec3<f32>) -> vec3<f32> {
     }
     for (var index = 0u; index < step_block.jet_count; index++) {
         air = air + wind_jet(moment, index, place, above);
+    }
+    for (var index = 0u; index < step_block.slipstream_count; index++) {
+        air = air + wind_slipstream(moment, index, place);
     }
     return air;
 }

@@ -84,19 +84,20 @@ impl<R: Real> Contacts<R> for OverGround {
         way: Vec3<R>,
         motion: FlightMotion<R>,
         _: R,
-        _: R,
+        time: R,
     ) -> Contact<R> {
-        flight_contact(cx, body, from + way, motion)
+        flight_contact(cx, body, from + way, motion, time)
     }
 }
 
-/// Contact of a body at the end of a substep. Only in scenes with litter.
+/// Contact of a body at the end of a substep of `time`. Only in scenes with litter.
 #[inline(always)]
 pub fn flight_contact<R: Real>(
     cx: &Context<'_>,
     body: &LeafBody<R>,
     position: Vec3<R>,
     motion: FlightMotion<R>,
+    time: R,
 ) -> Contact<R> {
     let reach = (body.half_along_m.max(body.half_across_m)) * body.size_ratio;
     let low = position.y.less_than(reach + cx.scene.highest_rest_m);
@@ -126,6 +127,7 @@ pub fn flight_contact<R: Real>(
         arm,
         restitution: is_bare.select_real(reach.all(cx.scene.litter.restitution), none),
         friction: contact_friction(cx, depth),
+        weight_m_s: (time * cx.scene.gravity_m_s2) * up,
         takes_share: none.less_than(none),
     };
     let next = contact_response(body, &motion, &surface);
@@ -152,6 +154,8 @@ pub struct Surface<R: Real = f32> {
     pub restitution: R,
     /// Friction coefficient, or the share of the speed along the surface that a contact takes.
     pub friction: R,
+    /// Speed towards it that the body's weight gives it in a substep, in m/s.
+    pub weight_m_s: R,
     /// True where it is such a share.
     pub takes_share: R::Mask,
 }
@@ -182,8 +186,12 @@ pub fn contact_response<R: Real>(
     let inverse = inverse_sqrt(squared);
     let way = sliding * inverse;
     let stopping = (squared * inverse) * reciprocal(contact_yield(inv_inertia, arm, way));
+    // A body that lies on it presses with its weight, whichever of its points strikes.
+    let weight = surface.weight_m_s;
+    let resting = (vec3_dot(velocity, normal) * -1.0).min(weight).max(none);
+    let pressing = push.less_than(weight + weight).select_real(resting, push);
     let shared = none.less_than(push).select_real(stopping * surface.friction, none);
-    let drag = surface.takes_share.select_real(shared, stopping.min(surface.friction * push));
+    let drag = surface.takes_share.select_real(shared, stopping.min(surface.friction * pressing));
     let (next_velocity, next_spin) =
         contact_impulse(inv_inertia, arm, struck.0, struck.1, way * (drag * -1.0));
     FlightMotion {

@@ -114,7 +114,7 @@ pub fn first_strike(cx: &Context<'_>, body: &LeafBody, pose: Quat, cell: u32, pa
     strike
 }
 
-/// Motion of a body after it has struck a part.
+/// Motion of a body after it has struck a part, where its weight gives it a speed downward in a substep.
 #[inline(always)]
 pub fn struck_motion(
     body: &LeafBody,
@@ -122,6 +122,7 @@ pub fn struck_motion(
     solid: &SolidAt,
     gap: &SolidGap,
     place: Vec3,
+    weight_m_s: f32,
 ) -> FlightMotion {
     let along = solid_velocity(solid, place + quat_rotate(motion.pose, gap.arm));
     let surface = Surface {
@@ -129,6 +130,7 @@ pub fn struck_motion(
         arm: gap.arm,
         restitution: solid.restitution,
         friction: solid.friction,
+        weight_m_s: if 0.0 < gap.normal.y { weight_m_s * gap.normal.y } else { 0.0 },
         takes_share: (solid.flags & SOLID_LOSS) != 0,
     };
     let relative =
@@ -154,7 +156,7 @@ impl Contacts<f32> for AmongSolids {
         time: f32,
     ) -> Contact {
         let struck = strike_solids(cx, body, from, way, motion, seconds, time);
-        let mut contact = flight_contact(cx, body, struck.position, struck.motion);
+        let mut contact = flight_contact(cx, body, struck.position, struck.motion, time);
         contact.touches |= struck.touches;
         contact
     }
@@ -172,6 +174,7 @@ pub fn strike_solids(
     time: f32,
 ) -> Contact {
     let cell = solids_cell(cx, from);
+    let weight_m_s = time * cx.scene.gravity_m_s2;
     let mut contact = Contact { position: from, motion: flown, touches: false };
     let mut passage = Passage { from, way, seconds, time, reach_share: STRIKE_REACH };
     for _ in 0..MOST_STRIKES {
@@ -185,7 +188,7 @@ pub fn strike_solids(
         passage.time *= 1.0 - strike.share;
         let solid = solid_at(cx, strike.number, passage.seconds);
         let gap = solid_gap(&solid, body, flown.pose, contact.position, 1.0);
-        contact.motion = struck_motion(body, &contact.motion, &solid, &gap, contact.position);
+        contact.motion = struck_motion(body, &contact.motion, &solid, &gap, contact.position, 0.0);
         contact.touches = true;
         passage.way = contact.motion.velocity * passage.time;
     }
@@ -203,7 +206,9 @@ pub fn strike_solids(
         }
         let solid = solid_at(cx, deepest.number, seconds + time);
         let gap = solid_gap(&solid, body, flown.pose, contact.position, 1.0);
-        contact.motion = struck_motion(body, &contact.motion, &solid, &gap, contact.position);
+        // Its weight presses once.
+        let weight = if push == 0 { weight_m_s } else { 0.0 };
+        contact.motion = struck_motion(body, &contact.motion, &solid, &gap, contact.position, weight);
         contact.position = contact.position - gap.normal * gap.gap_m;
         contact.touches = true;
     }

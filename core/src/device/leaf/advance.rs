@@ -5,16 +5,17 @@
 //! One step of one leaf: the whole of its life in one place. Steps with an event (a release, a join) are few and long;
 //! kernels take them apart from the many short ones.
 
+use super::afloat::{leaf_drift, leaf_soak};
 use super::air::leaf_sample_air;
 use super::fall::{leaf_fall, leaf_fall_aloft};
 use super::join::leaf_fall_joining;
 use super::lie::leaf_settle_on_litter;
 use super::record::{
     CHANGE_REMOVED, STATE_ATTACHED, STATE_DORMANT, STATE_FALLING, STATE_RESTING, flies, ground_steps,
-    is_held, leaf_source, leaf_state, lies, with_litter_change,
+    is_afloat, is_held, leaf_source, leaf_state, lies, with_litter_change,
 };
 use super::release::{leaf_detach, leaf_release};
-use super::settle::leaf_settle;
+use super::settle::{leaf_settle, recycling_step};
 use crate::blocks::SOURCE_TREES;
 use crate::context::Context;
 use crate::leaf::LeafMut;
@@ -25,7 +26,7 @@ pub fn leaf_has_event(cx: &Context<'_>, leaf: &LeafMut<'_>) -> bool {
     cx.step.index >= leaf.schedule.event
 }
 
-/// Returns true if a leaf on the ground still slides or lies down.
+/// Returns true if a leaf on the ground still slides or lies down, or drifts on water, or sinks.
 #[inline(always)]
 pub fn leaf_is_settling(cx: &Context<'_>, leaf: &LeafMut<'_>) -> bool {
     let [x, _, z] = leaf.drift.velocity;
@@ -47,15 +48,19 @@ pub fn leaf_advance_plain(cx: &Context<'_>, leaf: &mut LeafMut<'_>) -> bool {
     state != STATE_RESTING || !leaf_is_settling(cx, leaf)
 }
 
-/// One step of a leaf with an event in it: it is let go, or it comes to the end of a stage. Let go, it samples the air at once.
+/// One step of a leaf with an event in it: it is let go, comes to the end of a stage, or is soaked. Let go, it samples the air at once.
 #[inline(always)]
 pub fn leaf_advance_event(cx: &Context<'_>, leaf: &mut LeafMut<'_>) {
     let now = cx.step.index;
     let source = leaf_source(leaf.identity.appearance);
     let lifetime = cx.scene.sources[source as usize].lifetime_steps;
     if lies(leaf.place.bits) && !is_held(leaf.place.bits) {
-        // The litter gives it back first.
-        leaf.place.bits = with_litter_change(leaf.place.bits, CHANGE_REMOVED);
+        if is_afloat(leaf.place.bits) && now < recycling_step(cx, leaf.identity) {
+            leaf_soak(cx, leaf);
+        } else {
+            // The litter gives it back first.
+            leaf.place.bits = with_litter_change(leaf.place.bits, CHANGE_REMOVED);
+        }
         return;
     }
     let state = leaf_state(leaf.place.bits);
@@ -89,7 +94,9 @@ pub fn leaf_advance(cx: &Context<'_>, leaf: &mut LeafMut<'_>) {
     if state == STATE_FALLING && !flies(leaf.place.bits) {
         leaf_fall(cx, leaf);
     } else if state == STATE_RESTING && cx.has_litter() {
-        if leaf_is_settling(cx, leaf) {
+        if leaf_is_settling(cx, leaf) && lies(leaf.place.bits) {
+            leaf_drift(cx, leaf);
+        } else if leaf_is_settling(cx, leaf) {
             leaf_settle_on_litter(cx, leaf);
         }
     } else if state == STATE_RESTING {

@@ -119,3 +119,10 @@ pub fn wind_moves(cx: &Context<'_>, leaf: &LeafAtRest, wind: Vec3, share_squared
     let direction = wind * inverse_sqrt(squared);
     wake_square(cx, leaf, direction) * share_squared < squared
 }
+
+/// Returns true if a leaf slides down, without any wind: the slope exceeds its friction.
+#[inline(always)]
+pub fn slides_down(leaf: &LeafAtRest) -> bool {
+    let up_squared = leaf.normal.y * leaf.normal.y;
+    (leaf.friction * leaf.friction) * up_squared < 1.0 - up_squared
+}

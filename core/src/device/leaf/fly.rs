@@ -4,7 +4,7 @@
 //!
 //! A leaf that flies as a body in the air: one step, in as many substeps as its speed and spin ask for.
 
-use super::at_rest::{REST_SHARE_SQUARED, leaf_at_rest, wind_moves};
+use super::at_rest::{REST_SHARE_SQUARED, leaf_at_rest, slides_down, wind_moves};
 use super::lie::{STREAM_LYING, flatten_to, leaf_rest, lying_tilt, own_friction, own_raise, reach_down};
 use super::record::{
     Drift, body_spin, body_spin_words, flies, regime_state, touch_steps, with_regime, with_touch_steps,
@@ -24,7 +24,7 @@ use crate::device::flight::regime::{regime_after, regime_of};
 use crate::device::flight::runge_kutta::{MAX_SUBSTEPS, Substeps, flight_step, substep_count};
 use crate::device::flight::strike::AmongSolids;
 use crate::device::solid::near::may_meet_solids;
-use crate::device::terrain::ground::{ground_lean, ground_met, ground_rest, ground_slope};
+use crate::device::terrain::ground::{ground_is_water, ground_lean, ground_met, ground_rest, ground_slope};
 use crate::device::terrain::litter::litter_height;
 use crate::device::wind::sample::wind_at;
 use crate::flight::block::BODY_LOAD_ROW;
@@ -76,6 +76,8 @@ pub struct Flown<R: Real = f32> {
     pub flight: Flight<R>,
     /// True of those that touch the ground and hardly move. Only where there is litter.
     pub is_calm: R::Mask,
+    /// True of those that touch water on which leaves float.
+    pub is_wet: R::Mask,
 }
 
 /// The step of bodies, in wind that holds still during it.
@@ -140,7 +142,12 @@ pub fn flight_advance<R: Real, C: Contacts<R>>(
     };
     let swing = flight.spin * ((body.half_mean_m * body.size_ratio) * 0.5);
     let energy = vec3_dot(flight.velocity, flight.velocity) + vec3_dot(swing, swing);
-    Flown { flight, is_calm: touches & energy.less_than(energy.all(cx.scene.litter.rest_m2_s2)) }
+    let is_calm = touches & energy.less_than(energy.all(cx.scene.litter.rest_m2_s2));
+    let mut is_wet = energy.less_than(energy);
+    if cx.scene.leaves_float() && touches.any() {
+        is_wet = touches & ground_is_water(cx, position.x, position.z);
+    }
+    Flown { flight, is_calm, is_wet }
 }
 
 /// State of a body's regime after a step, and its bits with that regime.
@@ -171,13 +178,14 @@ pub fn update_regime<R: Real>(
     Regime { state: next, bits: with_regime(bits, regime_of(next)) }
 }
 
-/// Bits of bodies with the steps for which they have been calm.
+/// Bits of bodies with the steps for which they have been calm. Water holds those that touch it at once.
 #[inline(always)]
-pub fn count_calm_steps<W: Word>(cx: &Context<'_>, bits: W, is_calm: W::Mask) -> W {
+pub fn count_calm_steps<W: Word>(cx: &Context<'_>, bits: W, is_calm: W::Mask, is_wet: W::Mask) -> W {
     if !cx.has_litter() {
         return bits;
     }
-    with_touch_steps(bits, is_calm.select(touch_steps(bits).plus(bits.all(1)), bits.all(0)))
+    let calm = is_calm.select(touch_steps(bits).plus(bits.all(1)), bits.all(0));
+    with_touch_steps(bits, is_wet.select(bits.all(cx.scene.settle_steps), calm))
 }
 
 /// Returns true if bodies with these bits, at this place after a step, are done with flying: they have been calm for a while, or, where
@@ -190,7 +198,7 @@ pub fn flight_ends<R: Real>(cx: &Context<'_>, bits: R::Word, position: Vec3<R>) 
     !touch_steps(bits).less_than(bits.all(cx.scene.settle_steps))
 }
 
-/// Lays a body down whose flight ends, on the ground or on a solid part, unless the wind would take it again.
+/// Lays a body down whose flight ends, on the ground or on a solid part, unless the wind would take it again; on water in any wind.
 #[inline(always)]
 fn leaf_end_flight(cx: &Context<'_>, leaf: &mut LeafMut<'_>, start: Vec3) {
     if !cx.has_litter() {
@@ -202,7 +210,10 @@ fn leaf_end_flight(cx: &Context<'_>, leaf: &mut LeafMut<'_>, start: Vec3) {
     if is_borne(cx, &body, before, leaf.place.position.into()) {
         let held = held_at_rest(cx, leaf);
         let wind = wind_at(cx, leaf.place.position.into());
-        if !held.is_firm || wind_moves(cx, &held.at_rest, wind, REST_SHARE_SQUARED) {
+        if !held.is_firm
+            || slides_down(&held.at_rest)
+            || wind_moves(cx, &held.at_rest, wind, REST_SHARE_SQUARED)
+        {
             leaf.place.bits = with_touch_steps(leaf.place.bits, 0);
         } else {
             leaf_rest(cx, leaf);
@@ -210,6 +221,10 @@ fn leaf_end_flight(cx: &Context<'_>, leaf: &mut LeafMut<'_>, start: Vec3) {
         return;
     }
     let [x, _, z] = leaf.place.position;
+    if cx.scene.leaves_float() && ground_is_water(cx, x, z) {
+        leaf_rest(cx, leaf);
+        return;
+    }
     let words = random(cx.scene.seed, leaf.identity.id, STREAM_LYING);
     let slope = ground_slope(cx, x, z);
     let lean = quat_multiply(ground_lean(slope), lying_tilt(cx, words));
@@ -261,7 +276,7 @@ pub fn leaf_fly(cx: &Context<'_>, leaf: &mut LeafMut<'_>) {
     let start = flight_of(leaf);
     let wind = wind_at(cx, start.position);
     let (bits, size) = (leaf.place.bits, leaf.schedule.size);
-    let Flown { flight, is_calm } = if cx.scene.has_solids() && may_meet_solids(cx, start.position) {
+    let Flown { flight, is_calm, is_wet } = if cx.scene.has_solids() && may_meet_solids(cx, start.position) {
         flight_advance::<f32, AmongSolids>(cx, start, bits, size, wind)
     } else {
         flight_advance::<f32, OverGround>(cx, start, bits, size, wind)
@@ -270,7 +285,7 @@ pub fn leaf_fly(cx: &Context<'_>, leaf: &mut LeafMut<'_>) {
     let before = regime_state(leaf.identity.fall_time);
     let regime = update_regime(cx, &flight, wind, before, leaf.place.bits);
     leaf.identity.fall_time = regime.state;
-    leaf.place.bits = count_calm_steps(cx, regime.bits, is_calm);
+    leaf.place.bits = count_calm_steps(cx, regime.bits, is_calm, is_wet);
     if flight_ends(cx, leaf.place.bits, flight.position) {
         leaf_end_flight(cx, leaf, start.position);
     }

@@ -15,6 +15,7 @@ use super::record::{
 };
 use super::release::{next_event, release_rate, release_ratio, release_size_speed};
 use super::settle::leaf_land;
+use super::strike::leaf_strike;
 use crate::arith::math::exponential;
 use crate::arith::rng::random;
 use crate::arith::vector::Vec3;
@@ -62,7 +63,8 @@ pub fn part_of_step(cx: &Context<'_>, response: Response, length: u32) -> Part {
     Part { length, decay, tau: response.time_constant_s }
 }
 
-/// One step of a falling leaf with the joins that come within it.
+/// One step of a falling leaf with the joins that come within it. One that strikes a solid part is left to
+/// [`leaf_fly`](super::fly::leaf_fly).
 #[inline(always)]
 pub fn leaf_fall_joining(cx: &Context<'_>, leaf: &mut LeafMut<'_>) {
     let start = Vec3::from(leaf.place.position);
@@ -84,6 +86,9 @@ pub fn leaf_fall_joining(cx: &Context<'_>, leaf: &mut LeafMut<'_>) {
     let part = part_of_step(cx, response, WHOLE_STEP - done);
     let (bits, schedule) = (leaf.place.bits, *leaf.schedule);
     let moved = glide_part(cx, glide, bits, motion_params(schedule), wind, part);
+    if leaf_strike(cx, leaf, moved.position) {
+        return;
+    }
     glide_end(cx, leaf, moved, bits, schedule.heading);
     if ground_met(cx, moved.position) {
         leaf_land(cx, leaf, start);

@@ -5,6 +5,7 @@
 //! A leaf comes to rest on litter or on the ground that may bear some: it slides while the steepest drop within one cell exceeds
 //! its friction, lies down tilted as its own curl has it, and waits for the litter to take its volume.
 
+use super::afloat::{floats_at, leaf_set_afloat};
 use super::at_rest::{leaf_at_rest, least_wake_square};
 use super::launch::random_asymmetry;
 use super::record::{
@@ -21,7 +22,7 @@ use crate::arith::vector::Vec3;
 use crate::context::Context;
 use crate::device::flight::body::{LeafBody, body_of, body_row};
 use crate::device::flight::contact::{contact_friction, support};
-use crate::device::terrain::ground::{Slope, ground_is_water, ground_lean, ground_slope, lying_height};
+use crate::device::terrain::ground::{Slope, ground_bare, ground_lean, ground_slope, lying_height};
 use crate::device::terrain::litter::{LITTER_HIGHEST_M, litter_cell, litter_height};
 use crate::flight::block::BODY_LITTER_ROW;
 use crate::leaf::LeafMut;
@@ -117,17 +118,18 @@ pub fn leaf_settle_on_litter(cx: &Context<'_>, leaf: &mut LeafMut<'_>) {
     leaf.drift.velocity = if slides { [left.x, 0.0, left.z] } else { [0.0; 3] };
     leaf.drift.phase = if slides { 0 } else { ground_steps(leaf.drift.phase) + 1 };
     if leaf.drift.phase >= cx.scene.settle_steps && cx.scene.has_living_litter() {
-        leaf_lie_down(cx, leaf, slope, own, own_raise(cx, words));
+        leaf_lie_down(cx, leaf, slope, own, words);
     }
 }
 
-/// Lays a leaf that has come to rest into the litter, if it has stopped where litter may lie: its volume waits to be added.
+/// Lays a leaf that has come to rest into the litter or on the water, if it has stopped where litter may lie: its volume waits to be added.
 #[inline(always)]
-pub fn leaf_lie_down(cx: &Context<'_>, leaf: &mut LeafMut<'_>, slope: Slope, friction: f32, raise: u32) {
+pub fn leaf_lie_down(cx: &Context<'_>, leaf: &mut LeafMut<'_>, slope: Slope, friction: f32, words: [u32; 4]) {
     let [x, y, z] = leaf.place.position;
-    if !litter_cell(cx, x, z).bears || ground_is_water(cx, x, z) {
+    if !litter_cell(cx, x, z).bears {
         return;
     }
+    let raise = own_raise(cx, words);
     let species = leaf_species(leaf.place.bits);
     leaf.schedule.size = with_asymmetry(leaf.schedule.size, random_asymmetry(cx, leaf.identity.id));
     let body = body_of(cx, leaf.place.bits, leaf.schedule.size);
@@ -139,6 +141,10 @@ pub fn leaf_lie_down(cx: &Context<'_>, leaf: &mut LeafMut<'_>, slope: Slope, fri
     leaf.drift.phase = wake_speed_word(least_wake_square(cx, &at_rest));
     leaf.schedule.rate = lying_support_word(reach);
     leaf.schedule.heading = lying_word(friction, raise);
+    if floats_at(cx, x, z) {
+        leaf.place.position[1] = ground_bare(cx, x, z) + (cx.scene.rest_height_m + reach);
+        leaf_set_afloat(cx, leaf, words);
+    }
 }
 
 /// Volume that a leaf adds to litter of some height, in units of height over a cell; none to the highest.

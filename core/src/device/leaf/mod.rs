@@ -3,9 +3,11 @@
 //! One step of one leaf, from twig or release to rest.
 
 pub mod advance;
+pub mod afloat;
 pub mod air;
 pub mod at_rest;
 pub mod carry;
+pub mod collide;
 pub mod fall;
 pub mod fly;
 pub mod join;

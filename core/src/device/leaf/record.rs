@@ -3,7 +3,7 @@
 //! twin: backend-wgpu/src/shaders/leaf/record.wgsl
 //!
 //! The five records of 16 bytes that make a leaf besides its air, and the accessors of every word that packs several
-//! values or changes its meaning with the leaf's state.
+//! values or changes its meaning with the leaf's state. One file, so that no two places pack the same word.
 
 use crate::arith::lane::{Mask, Real, Word};
 use crate::arith::vector::Vec3;
@@ -51,7 +51,11 @@ crate::shared_constants! {
     pub const COVERED_SHIFT: u32 = 4;
     /// Place of the mark of a lying leaf that a solid part holds, not the ground: it has no volume in the litter.
     pub const HELD_SHIFT: u32 = 5;
-    /// Place of such a leaf's regime, where others keep their blend.
+    /// Place of the mark of a lying leaf that floats on water.
+    pub const AFLOAT_SHIFT: u32 = 6;
+    /// Place of the mark of a lying leaf that sinks or lies under water: it has no volume in the litter.
+    pub const SUNK_SHIFT: u32 = 7;
+    /// Place of a body's regime, where others keep their blend.
     pub const REGIME_SHIFT: u32 = 2;
     /// Mask of the regime.
     pub const REGIME_MASK: u32 = 7;
@@ -112,8 +116,8 @@ crate::shared_record! {
     /// Residual velocity and phase. Hot.
     pub struct Drift {
         /// Velocity beyond the leaf's own motion in m/s: the wind as far as the leaf follows it, and what is left of
-        /// earlier motion. Of a body in the air: all its velocity. On the ground: the velocity of sliding. On the twig: the
-        /// velocity of the blade.
+        /// earlier motion. Of a body in the air: all its velocity. On the ground: the velocity of sliding. On and under water:
+        /// that of drifting and sinking. On the twig: the velocity of the blade.
         pub velocity: [f32; 3],
         /// Phase of the primitive motion in 2^-32 periods. Of a body in the air: its spin about x ([`body_spin`]). On the
         /// ground: [`ground_steps`], in the litter [`wake_speed_squared`]. On the twig: [`smoothed_air_speed`].
@@ -138,7 +142,7 @@ crate::shared_record! {
         /// Step of the next event: release, end of a stage, recycling, the petiole's break.
         pub event: u32,
         /// Phase per step in 2^-32 periods. Of a body in the air: its spin about y ([`body_spin`]). In the litter:
-        /// [`lying_support`].
+        /// [`lying_support`]. Afloat: the height in m above the water at which the leaf's wind is sampled.
         pub rate: u32,
         /// Low half: size relative to the species' ([`size_ratio`]). High half: of a leaf on its twig, [`own_size`]; of a
         /// body in the air, [`asymmetry`].
@@ -297,6 +301,43 @@ pub fn is_held<W: Word>(bits: W) -> W::Mask {
 #[inline(always)]
 pub fn held_bits(species: u32) -> u32 {
     place_bits(STATE_RESTING, 1 << (HELD_SHIFT - BLEND_SHIFT), LYING, species, 0)
+}
+
+/// Returns true if a lying leaf floats on water.
+#[inline(always)]
+pub fn is_afloat<W: Word>(bits: W) -> W::Mask {
+    !((bits >> AFLOAT_SHIFT) & 1).equals(0)
+}
+
+/// Bits of a lying leaf that floats from now on.
+#[inline(always)]
+pub fn with_afloat(bits: u32) -> u32 {
+    bits | (1 << AFLOAT_SHIFT)
+}
+
+/// Returns true if a lying leaf sinks or lies under water; of a leaf afloat, if it is about to.
+#[inline(always)]
+pub fn is_sunk<W: Word>(bits: W) -> W::Mask {
+    !((bits >> SUNK_SHIFT) & 1).equals(0)
+}
+
+/// Bits of a leaf afloat that is about to sink: the litter loses its volume first.
+#[inline(always)]
+pub fn soaked_bits(bits: u32) -> u32 {
+    with_litter_change(bits, CHANGE_REMOVED) | (1 << SUNK_SHIFT)
+}
+
+/// Bits of a leaf of a species under water. No wind reaches it there.
+#[inline(always)]
+pub fn sunk_bits(species: u32) -> u32 {
+    let marks = (1 << (SUNK_SHIFT - BLEND_SHIFT)) | (1 << (COVERED_SHIFT - BLEND_SHIFT));
+    place_bits(STATE_RESTING, marks, LYING, species, 0)
+}
+
+/// Returns true if a lying leaf lies on the ground or on litter: not on a solid part, nor on or under water.
+#[inline(always)]
+pub fn is_on_ground<W: Word>(bits: W) -> W::Mask {
+    (bits & ((1 << HELD_SHIFT) | (1 << AFLOAT_SHIFT) | (1 << SUNK_SHIFT))).equals(0)
 }
 
 /// Volume of a lying leaf in units of height over a cell.

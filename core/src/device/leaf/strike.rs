@@ -10,8 +10,8 @@ use super::launch::random_asymmetry;
 use super::lie::{STREAM_LYING, own_raise, reach_down};
 use super::record::{
     AERODYNAMIC, CHANGE_ADDED, CHANGE_NONE, CHANGE_WOKEN, Drift, STATE_FALLING, body_spin_words, held_bits,
-    leaf_species, lies_still, lying_support_word, lying_word, place_bits, wake_speed_word, with_asymmetry,
-    with_litter_change,
+    is_sunk, leaf_species, lies_still, lying_support_word, lying_word, place_bits, wake_speed_word,
+    with_asymmetry, with_litter_change,
 };
 use super::settle::recycling_step;
 use crate::arith::math::reciprocal;
@@ -158,7 +158,7 @@ pub fn comes_upon(cx: &Context<'_>, mover: &SolidAt, number: u32, place: Vec3, s
 pub fn leaf_push(cx: &Context<'_>, leaf: &mut LeafMut<'_>) -> bool {
     let bits = leaf.place.bits;
     let place = Vec3::from(leaf.place.position);
-    if !lies_still(bits) || !may_meet_movers(cx, place) {
+    if !lies_still(bits) || is_sunk(bits) || !may_meet_movers(cx, place) {
         return false;
     }
     let body = body_of(cx, bits, leaf.schedule.size);

@@ -4,11 +4,13 @@
 //!
 //! Leaves in the litter wake by their own forces, in the wind at their own edge, under what lies on them.
 
+use super::afloat::leaf_float;
 use super::air::AIR_UNIT_SHIFT;
 use super::at_rest::{leaf_at_rest, raising_axis, wind_moves};
 use super::record::{
-    CHANGE_REMOVED, CHANGE_WOKEN, body_spin_words, is_covered, is_held, lies_still, lying_friction,
-    lying_raise, lying_support, wake_speed_squared, with_cover, with_litter_change,
+    CHANGE_REMOVED, CHANGE_WOKEN, body_spin_words, is_afloat, is_covered, is_held, is_on_ground, is_sunk,
+    lies_still, lying_friction, lying_raise, lying_support, wake_speed_squared, with_cover,
+    with_litter_change,
 };
 use super::strike::solid_footing;
 use crate::arith::lane::{Mask, Real};
@@ -17,7 +19,7 @@ use crate::arith::quaternion::{Quat, quat_rotate_back};
 use crate::arith::vector::{Vec3, vec3_dot};
 use crate::context::Context;
 use crate::device::flight::body::{body_of, body_row};
-use crate::device::terrain::ground::{ground_rest, ground_slope, lying_over};
+use crate::device::terrain::ground::{ground_bare, ground_is_water, ground_rest, ground_slope, lying_over};
 use crate::device::wind::sample::wind_at;
 use crate::flight::block::BODY_LITTER_ROW;
 use crate::leaf::LeafMut;
@@ -78,11 +80,16 @@ pub fn cover_of<R: Real>(cx: &Context<'_>, bits: R::Word, place: Vec3<R>, reach:
     let floor = lying_over(cx, place.x, place.z, reach, rest);
     let beneath = layers_above(cx, bits, place.y - floor);
     let above = layers_above(cx, bits, rest - place.y);
-    let on_ground = !is_held(bits);
-    Cover {
-        is_loose: on_ground & beneath.all(LOOSE_LAYERS).less_than(beneath),
-        is_covered: on_ground & above.all(COVERED_LAYERS).less_than(above),
+    let on_ground = is_on_ground(bits);
+    let mut is_loose = on_ground & beneath.all(LOOSE_LAYERS).less_than(beneath);
+    let afloat = is_afloat(bits);
+    if afloat.any() {
+        // Water whose level has been set elsewhere.
+        let above = place.y - (ground_bare(cx, place.x, place.z) + cx.scene.rest_height_m);
+        let is_there = !above.less_than(above.all(0.0)) & !reach.less_than(above);
+        is_loose = is_loose | (afloat & !(is_there & ground_is_water(cx, place.x, place.z)));
     }
+    Cover { is_loose, is_covered: is_sunk(bits) | (on_ground & above.all(COVERED_LAYERS).less_than(above)) }
 }
 
 /// Marks a leaf in the litter that others cover. Returns true if it has lost what it lay on, and leaves.
@@ -128,7 +135,7 @@ pub fn lying_wind<R: Real>(
     LyingWind { wind, cover, may_wake }
 }
 
-/// Lets the wind at a leaf in the litter decide if it stays. Returns true if the wind takes it.
+/// Lets the wind at a leaf in the litter decide if it stays; a leaf afloat drifts. Returns true if the wind takes it or sets it in motion.
 #[inline(always)]
 pub fn leaf_wake(cx: &Context<'_>, leaf: &mut LeafMut<'_>) -> bool {
     let bits = leaf.place.bits;
@@ -142,6 +149,9 @@ pub fn leaf_wake(cx: &Context<'_>, leaf: &mut LeafMut<'_>) -> bool {
         lying_wind(cx, bits, leaf.place.position.into(), reach, wake_square);
     if !may_wake {
         return false;
+    }
+    if is_afloat(bits) {
+        return leaf_float(cx, leaf, wind);
     }
     let body = body_of(cx, bits, leaf.schedule.size);
     let pose = Quat::from(leaf.attitude.quaternion);

@@ -65,10 +65,8 @@ fn row_vector(row: Uint4) -> Vec3 {
 #[inline(always)]
 pub fn solid_at(cx: &Context<'_>, number: u32, seconds: f32) -> SolidAt {
     let first = (cx.scene.solids.first_row + number * SOLID_ROWS) as usize;
-    let (sizes, surface) = (cx.tables[first], cx.tables[first + 1]);
-    let Uint4([flags, ..]) = sizes;
-    let Uint4([_, half_x, half_y, half_z]) = sizes;
-    let Uint4([rounding, bound, friction, restitution]) = surface;
+    let Uint4([flags, half_x, half_y, half_z]) = cx.tables[first];
+    let Uint4([rounding, bound, friction, restitution]) = cx.tables[first + 1];
     let Uint4(turn) = cx.tables[first + 3];
     let mut solid = SolidAt {
         flags,

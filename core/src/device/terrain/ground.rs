@@ -78,11 +78,18 @@ pub fn ground_bare<R: Real>(cx: &Context<'_>, x: R, z: R) -> R {
 
 /// Returns true if there is water at a place.
 #[inline(always)]
-pub fn ground_is_water(cx: &Context<'_>, x: f32, z: f32) -> bool {
+pub fn ground_is_water<R: Real>(cx: &Context<'_>, x: R, z: R) -> R::Mask {
     if cx.scene.has_terrain() {
-        return ground_relief(cx, x, z) < cx.scene.water_relief_m;
+        return ground_relief(cx, x, z).less_than(x.all(cx.scene.water_relief_m));
     }
-    cx.scene.surface_height_m > cx.scene.ground_height_m
+    x.all(cx.scene.ground_height_m).less_than(x.all(cx.scene.surface_height_m))
+}
+
+/// Height in m of a leaf that lies on the ground at a place, whatever the water above it. Only where there is litter.
+#[inline(always)]
+pub fn ground_bottom(cx: &Context<'_>, x: f32, z: f32) -> f32 {
+    let relief = if cx.scene.has_terrain() { ground_relief(cx, x, z) } else { 0.0 };
+    relief + cx.scene.litter.bottom_m
 }
 
 /// Height of what leaves lie on, hills or water, or the litter there, in metres above the ground at the origin.
@@ -122,6 +129,22 @@ pub fn ground_met<R: Real>(cx: &Context<'_>, place: Vec3<R>) -> R::Mask {
     place.y.less_than(ground_rest(cx, place.x, place.z))
 }
 
+/// Rise of the hills at a place along x and z, under water too; none on level ground.
+#[inline(always)]
+pub fn ground_rise(cx: &Context<'_>, x: f32, z: f32) -> [f32; 2] {
+    if !cx.scene.has_terrain() {
+        return [0.0, 0.0];
+    }
+    let cell = ground_cell(cx, x, z);
+    let [a, b, c, d] = cell.corners;
+    let near = b - a;
+    let west = c - a;
+    [
+        (near + cell.z * ((d - c) - near)) * cx.scene.hill_cells_per_m,
+        (west + cell.x * ((d - b) - west)) * cx.scene.hill_cells_per_m,
+    ]
+}
+
 /// Slope of what leaves lie on at a place; none on water.
 #[inline(always)]
 pub fn ground_slope(cx: &Context<'_>, x: f32, z: f32) -> Slope {
@@ -131,12 +154,7 @@ pub fn ground_slope(cx: &Context<'_>, x: f32, z: f32) -> Slope {
     if !cx.scene.has_terrain() || ground_relief(cx, x, z) < cx.scene.water_relief_m {
         return Slope { x: 0.0, z: 0.0, gain: 1.0, inv_gain: 1.0 };
     }
-    let cell = ground_cell(cx, x, z);
-    let [a, b, c, d] = cell.corners;
-    let near = b - a;
-    let west = c - a;
-    let rise_x = (near + cell.z * ((d - c) - near)) * cx.scene.hill_cells_per_m;
-    let rise_z = (west + cell.x * ((d - b) - west)) * cx.scene.hill_cells_per_m;
+    let [rise_x, rise_z] = ground_rise(cx, x, z);
     let gain = 1.0 + (rise_x * rise_x + rise_z * rise_z);
     Slope { x: rise_x, z: rise_z, gain, inv_gain: reciprocal(gain) }
 }

@@ -9,5 +9,6 @@ pub mod profile;
 pub mod row;
 pub mod sample;
 pub mod shelter;
+pub mod slipstream;
 pub mod turbulence;
 pub mod vortex;

@@ -9,6 +9,7 @@ use super::gust::wind_gust;
 use super::jet::wind_jet;
 use super::profile::{wind_profile, wind_vertical};
 use super::shelter::wind_shelter;
+use super::slipstream::wind_slipstream;
 use super::turbulence::wind_turbulence;
 use super::vortex::wind_vortex;
 use crate::arith::lane::Real;
@@ -34,7 +35,12 @@ pub fn wind_at_moment<R: Real>(cx: &Context<'_>, moment: u32, place: Vec3<R>) ->
     let along = place.x * direction_x + place.z * direction_z;
     let across = place.z * direction_x - place.x * direction_z;
     let height = place.y - cx.scene.ground_height_m;
-    let above = if cx.scene.has_terrain() { height - ground_relief(cx, place.x, place.z) } else { height };
+    let lowest = height.all(wind.lowest_surface_m);
+    let above = if cx.scene.has_terrain() {
+        height - ground_relief(cx, place.x, place.z).max(lowest)
+    } else {
+        height - lowest.max(height.all(0.0))
+    };
     let above = if cx.has_litter() { above_litter(cx, above, place.x, place.z) } else { above };
     let [profile, level] = wind_profile(cx, above);
     let mut mean = (profile * wind.mean_speed_m_s) * (wind_gust(cx, at, along) * wind.gust_strength + 1.0);
@@ -55,6 +61,9 @@ pub fn wind_at_moment<R: Real>(cx: &Context<'_>, moment: u32, place: Vec3<R>) ->
     }
     for index in 0..cx.step.jet_count {
         air = air + wind_jet(cx, &at.jets[index as usize], place, above);
+    }
+    for index in 0..cx.step.slipstream_count {
+        air = air + wind_slipstream(&at.slipstreams[index as usize], place);
     }
     air
 }

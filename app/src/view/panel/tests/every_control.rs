@@ -6,6 +6,7 @@
 use egui::accesskit::{Role, Toggled};
 use egui_kittest::kittest::NodeT;
 use egui_kittest::{Harness, Node};
+use windfall_core::scene::ObjectMotion;
 
 use super::scenes::{full, other, third};
 use super::*;
@@ -231,6 +232,32 @@ fn what_was_changed_can_be_reset_row_by_row() {
         harness.run_steps(2);
     }
     assert_eq!(*harness.state().input.scene, scene, "all as loaded");
+}
+
+#[test]
+fn rows_of_a_path_change_the_key_that_is_chosen() {
+    let scene = third();
+    let mut harness = open(&scene, &[Group::Objects]);
+    let keys = |scene: &Scene| match &scene.objects[0].motion {
+        ObjectMotion::Path(keys) => keys.clone(),
+        ObjectMotion::Still => panic!("it moves"),
+    };
+    let edited = |harness: &mut Harness<'_, Window>, role: &str, name: &str| {
+        let control = Control { role: role.into(), name: name.into(), number: 0 };
+        assert!(moves(harness, &control), "{name}");
+        let action = harness.state_mut().actions.pop();
+        let Some(Action::Edit { scene, .. }) = action else { panic!("{name} edits: {action:?}") };
+        keys(&scene)
+    };
+    let before = keys(&scene);
+    let turned = edited(&mut harness, "Slider", "Turned");
+    assert!(turned[0].turned_deg != 0.0 && turned[1] == before[1], "the first: {turned:?}");
+    restore(&mut harness, &scene);
+    let added = edited(&mut harness, "Button", "Add key of the path like this");
+    assert!(added[..2] == before && added[2].time_s == before[1].time_s + 1.0, "behind the last: {added:?}");
+    restore(&mut harness, &scene);
+    let left = edited(&mut harness, "Button", "Remove this key of the path");
+    assert_eq!(left, before[..1], "the last is chosen");
 }
 
 #[test]

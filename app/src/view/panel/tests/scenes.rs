@@ -6,8 +6,8 @@ use glam::Vec3;
 use windfall_core::Scene;
 use windfall_core::scene::{
     Aerodynamics, CameraKey, Exposure, FlightModel, Focus, Jet, JetKey, Litter, MeanSpeed, Object,
-    ObjectFriction, ObjectShape, Planform, Profile, Release, RotationModel, Share, Sky, SkyMap, SourceShape,
-    Terrain, ToneMap, Tree, TreeForm, TreeKind, Vortex, Walker, Water,
+    ObjectFriction, ObjectKey, ObjectMotion, ObjectShape, Planform, Profile, Release, RotationModel, Share,
+    Sky, SkyMap, SourceShape, Terrain, ToneMap, Tree, TreeForm, TreeKind, Vortex, Walker, Water,
 };
 
 /// A park with one of everything that may be added to a scene.
@@ -68,7 +68,9 @@ pub(super) fn third() -> Scene {
     scene.species[0].tables = Some("a.tables".into());
     let shape = ObjectShape::Cylinder { radius_m: 0.2, height_m: 1.0 };
     scene.ground.litter = Some(Litter { leaf_area_index: 0.0, ..Litter::default() });
-    scene.objects = vec![Object { shape, ..Object::default() }];
+    let key = |time_s, x: f32| ObjectKey { time_s, moved_m: Vec3::X * x, turned_deg: 0.0 };
+    let motion = ObjectMotion::Path(vec![key(0.0, 0.0), key(2.0, 1.0)]);
+    scene.objects = vec![Object { shape, motion, ..Object::default() }];
     scene.view.lens.tone_map = ToneMap::Linear { gamma: 2.0 };
     scene
 }

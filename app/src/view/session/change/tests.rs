@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
 
+use glam::Vec2;
 use windfall_core::scene::{
     Exposure, Haze, Jet, Litter, Object, Profile, Release, Sky, SkyMap, SwayScheme, Terrain, Tree, Walker,
     Water,
@@ -58,8 +59,34 @@ fn litter_that_lies_goes_on_with_another_friction() {
     };
     let tuned = to(Litter { friction: 1.2, raised_deg: (1.0, 2.0), ..Litter::default() });
     assert_eq!(tuned, Change { retune: true, ..Change::default() }, "friction and raised edges");
+    let soaked = to(Litter { float_hours: 0.5, ..Litter::default() });
+    assert_eq!(soaked, Change { retune: true, ..Change::default() }, "how long it floats");
     let laid = to(Litter { leaf_area_index: 0.01, ..Litter::default() });
-    assert!(laid.world && laid.parts == ["litter"], "a bed: {laid:?}");
+    assert!(laid.world && laid.picture && laid.parts == ["litter"], "a bed: {laid:?}");
+    let moved = to(Litter { center_m: Vec2::new(5.0, 0.0), ..Litter::default() });
+    assert!(moved.world && moved.picture, "stones and painted leaves go along: {moved:?}");
+    let loose = to(Litter { bulk_density_kg_m3: 6.0, ..Litter::default() });
+    assert!(loose.world && !loose.picture, "as wide and as dense: {loose:?}");
+}
+
+#[test]
+fn stones_appear_as_soon_as_the_ground_is_smooth_enough() {
+    let mut old = Scene::preset("autumn-park").expect("a preset");
+    old.ground.litter = Some(Litter::default());
+    old.ground.surface_roughness_m = 0.0011;
+    let to = |roughness_m| {
+        let mut new = old.clone();
+        new.ground.surface_roughness_m = roughness_m;
+        Change::between(&old, &new)
+    };
+    let smooth = to(0.0009);
+    assert!(smooth.picture && smooth.retune && !smooth.world, "paved: {smooth:?}");
+    assert_eq!(smooth.parts, ["paving"], "named");
+    assert_eq!(to(0.0019), Change { retune: true, ..Change::default() }, "a lawn as before");
+    old.ground.litter = None;
+    let mut new = old.clone();
+    new.ground.surface_roughness_m = 0.0005;
+    assert!(!Change::between(&old, &new).picture, "nothing is paved without litter");
 }
 
 #[test]
@@ -106,7 +133,9 @@ fn what_the_world_is_made_of_begins_it_again() {
         ("regrowth", false, |scene| scene.regrow_after_s = Some(77.0)),
         ("ground", true, |scene| scene.ground.height_m -= 1.0),
         ("hills", true, |scene| scene.ground.terrain = Some(Terrain::default())),
-        ("litter", false, |scene| scene.ground.litter = Some(Litter::default())),
+        ("litter", true, |scene| {
+            scene.ground.litter = Some(Litter { size_m: Vec2::splat(9.0), ..Litter::default() })
+        }),
         ("objects", true, |scene| scene.objects.push(Object::default())),
         ("walkers", true, |scene| scene.walkers.push(Walker::default())),
     ];

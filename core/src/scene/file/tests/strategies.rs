@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Random valid scenes: full ranges, narrowed only where one value depends on another.
+//! Random valid scenes: full ranges, narrowed only where one value depends on another. One file, because it follows the scene from top to
+//! bottom.
 
 use glam::{Vec2, Vec3};
 use proptest::collection::vec;
@@ -387,14 +388,14 @@ prop_compose! {
         (bulk_density_kg_m3, friction, restitution) in
             (within(limits::BULK_DENSITY_KG_M3), within(limits::FRICTION), within(limits::RESTITUTION)),
         (least_raised_deg, raised_spread) in (within(limits::RAISED_DEG), 0.0f32..=1.0),
-        (moisture, adhesion_n_m2, still) in
-            (within(limits::MOISTURE), within(limits::ADHESION_N_M2), any::<bool>()),
+        (moisture, adhesion_n_m2, float_hours, still) in
+            (within(limits::MOISTURE), within(limits::ADHESION_N_M2), within(limits::FLOAT_HOURS), any::<bool>()),
     ) -> Litter {
         Litter {
             center_m: Vec2::new(x_m, z_m),
             size_m: Vec2::new(along_m, across_m),
             raised_deg: (least_raised_deg, least_raised_deg + raised_spread * (limits::RAISED_DEG.high - least_raised_deg)),
-            leaf_area_index, bulk_density_kg_m3, friction, restitution, moisture, adhesion_n_m2, still,
+            leaf_area_index, bulk_density_kg_m3, friction, restitution, moisture, adhesion_n_m2, float_hours, still,
         }
     }
 }

@@ -6,7 +6,7 @@ use glam::Vec3;
 
 use super::{failing_field, full};
 use crate::scene::{
-    Exposure, Focus, MeanSpeed, PhysicalSky, Profile, Release, RotationModel, Scene, Sky, SkyMap,
+    Exposure, Focus, Litter, MeanSpeed, PhysicalSky, Profile, Release, RotationModel, Scene, Sky, SkyMap,
     SourceShape, Terrain, ToneMap, Water,
 };
 
@@ -28,6 +28,11 @@ fn tall(scene: &mut Scene, shape: SourceShape) {
 /// The scene's hills.
 fn hills(scene: &mut Scene) -> &mut Terrain {
     scene.ground.terrain.get_or_insert_default()
+}
+
+/// The scene's litter.
+fn litter(scene: &mut Scene) -> &mut Litter {
+    scene.ground.litter.get_or_insert_default()
 }
 
 #[rustfmt::skip]
@@ -114,6 +119,19 @@ const REALS: &[Row<f32>] = &[
     ("ground.terrain.noise", 0.0, 1.0, |s, v| hills(s).noise = v),
     ("ground.terrain.pulled", 0.0, 1.0, |s, v| hills(s).pulled = v),
     ("ground.water.height_m", -4096.0, 4096.0, |s, v| s.ground.water = Some(Water { height_m: v })),
+    ("ground.litter.center_m.x", -4096.0, 4096.0, |s, v| litter(s).center_m.x = v),
+    ("ground.litter.center_m.y", -4096.0, 4096.0, |s, v| litter(s).center_m.y = v),
+    ("ground.litter.size_m.x", 1.0, 256.0, |s, v| litter(s).size_m.x = v),
+    ("ground.litter.size_m.y", 1.0, 256.0, |s, v| litter(s).size_m.y = v),
+    ("ground.litter.leaf_area_index", 0.0, 30.0, |s, v| litter(s).leaf_area_index = v),
+    ("ground.litter.bulk_density_kg_m3", 1.0, 100.0, |s, v| litter(s).bulk_density_kg_m3 = v),
+    ("ground.litter.friction", 0.05, 5.0, |s, v| litter(s).friction = v),
+    ("ground.litter.raised_deg.0", 0.0, 60.0, |s, v| litter(s).raised_deg = (v, 60.0)),
+    ("ground.litter.raised_deg.1", 0.0, 60.0, |s, v| litter(s).raised_deg = (0.0, v)),
+    ("ground.litter.restitution", 0.0, 1.0, |s, v| litter(s).restitution = v),
+    ("ground.litter.moisture", 0.0, 4.0, |s, v| litter(s).moisture = v),
+    ("ground.litter.adhesion_n_m2", 0.0, 20.0, |s, v| litter(s).adhesion_n_m2 = v),
+    ("ground.litter.float_hours", 0.001, 48.0, |s, v| litter(s).float_hours = v),
     ("wind.direction_deg", -360.0, 360.0, |s, v| s.wind.direction_deg = v),
     ("wind.speed", 0.0, 80.0, |s, v| s.wind.speed = MeanSpeed::MetresPerSecond(v)),
     ("wind.reference_height_m", 1.0, 100.0, |s, v| s.wind.reference_height_m = v),
