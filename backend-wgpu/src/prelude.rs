@@ -99,6 +99,7 @@ pub(crate) fn constants() -> String {
         motion::table::wgsl_constants(),
         stats::wgsl_constants(),
         tree::record::wgsl_constants(),
+        device::solid::grid::wgsl_constants(),
         device::solid::near::wgsl_constants(),
         device::solid::shape::wgsl_constants(),
         device::terrain::ground::wgsl_constants(),

@@ -60,6 +60,7 @@ mod convert;
 pub mod device;
 pub mod error;
 pub mod flight;
+pub mod hull;
 pub mod layout;
 pub mod leaf;
 pub mod litter;

@@ -246,12 +246,42 @@ pub fn obstructed_scene(seed: u64, leaves: u32, speed_m_s: f32, dt_s: f32) -> Sc
             ]),
             ..solid(ObjectShape::Capsule { radius_m: 0.25, length_m: 0.6 }, -2.0, 0.5, -2.0)
         },
+        Object { heading_deg: -30.0, tilt_deg: 15.0, ..solid(stone(), -0.5, 0.3, 2.2) },
+        Object { tilt_deg: 70.0, ..solid(torus(1.2), 3.0, 0.6, -1.5) },
+        Object {
+            friction: ObjectFriction::Loss(0.1),
+            motion: ObjectMotion::Path(vec![key(0.0, 0.0, 0.0, 0.0), key(4.0, -2.0, 0.4, 1.5)]),
+            ..solid(torus(1.0), 2.5, 0.4, 2.0)
+        },
+        Object {
+            motion: ObjectMotion::Path(vec![key(0.0, 0.0, 0.0, 0.0), key(3.0, 1.0, 0.2, -2.5)]),
+            ..solid(stone(), -3.0, 0.4, 1.0)
+        },
     ];
     scene.walkers = vec![Walker {
         way_m: vec![Vec2::new(-4.0, 2.0), Vec2::new(3.0, 0.5), Vec2::new(4.0, -3.0)],
         ..Walker::default()
     }];
     scene
+}
+
+/// A stone with seven corners.
+pub fn stone() -> ObjectShape {
+    let corners_m = [
+        [0.4, -0.3, 0.3],
+        [-0.4, -0.3, 0.35],
+        [0.1, -0.35, -0.5],
+        [0.5, 0.2, 0.1],
+        [-0.5, 0.15, -0.1],
+        [0.0, 0.4, 0.25],
+        [0.1, 0.3, -0.4],
+    ];
+    ObjectShape::Polyhedron { corners_m: corners_m.map(Vec3::from).to_vec() }
+}
+
+/// A torus out of a file, with radii of 0.5 m and 0.15 m times a scale, about y.
+pub fn torus(scale: f32) -> ObjectShape {
+    ObjectShape::Mesh { file: concat!(env!("CARGO_MANIFEST_DIR"), "/data/torus.gltf").into(), scale }
 }
 
 /// The same things in and around a pond, on which leaves float for a few seconds before they sink.

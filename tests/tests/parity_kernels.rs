@@ -173,7 +173,7 @@ fn a_changed_kernel_is_noticed() {
         ("leaf/fly", "contact.position", "contact.position + vec3<f32>(0.0, 0.001, 0.0)"),
         ("leaf/collide", "collisions.velocity - own", "own - collisions.velocity"),
         ("kernels/gather_collisions", "first + 11u", "first + 10u"),
-        ("leaf/stack", "change == CHANGE_ADDED, change", "change != CHANGE_ADDED, change"),
+        ("leaf/stack", "added = here;", "added = none;"),
         ("kernels/stack_litter", "node + line, heights.z", "node + line, heights.y"),
         ("kernels/wake_lying", "0u - step_block.index", "1u - step_block.index"),
     ];

@@ -54,6 +54,7 @@ const CORE: Order = Order {
         "threads",
         "device/arith",
         "store",
+        "hull",
         "scene",
         "flight",
         "motion",

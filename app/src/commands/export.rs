@@ -87,8 +87,16 @@ pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let mut backend = choice.device.simulator(&world)?;
     let scene_trees = SceneTrees::of(&scene, world.compiled.forest());
     let mut observer = Observer::default();
-    let job =
-        Job { scene: &scene, scene_trees: &scene_trees, path, frames, fps: arguments.fps, cancel: &cancel };
+    let solids = world.compiled.solids();
+    let job = Job {
+        scene: &scene,
+        solids,
+        scene_trees: &scene_trees,
+        path,
+        frames,
+        fps: arguments.fps,
+        cancel: &cancel,
+    };
     let mut exporter = export::start(format, &job)?;
     for line in [choice.reason, note].into_iter().flatten() {
         terminal::note(&line);

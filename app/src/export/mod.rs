@@ -29,6 +29,7 @@ pub(crate) use frame::{Frame, FrameLeaf};
 pub(crate) use range::FrameRange;
 pub(crate) use space::{Estimate, check_space};
 use windfall_core::Scene;
+use windfall_core::solid::Solid;
 use windfall_render::trees::SceneTrees;
 
 use crate::run::cancel::Cancel;
@@ -38,6 +39,8 @@ use crate::run::cancel::Cancel;
 pub(crate) struct Job<'a> {
     /// The scene, scaled and seeded.
     pub scene: &'a Scene,
+    /// Its solid parts.
+    pub solids: &'a [Solid],
     /// Its trees.
     pub scene_trees: &'a SceneTrees,
     /// Path that the result will lie at.

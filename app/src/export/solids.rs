@@ -3,9 +3,8 @@
 //! Objects and the limbs of walkers for other programs: a mesh for each, in a frame of its own, and where that is.
 
 use glam::{Quat, Vec3};
-use windfall_core::Scene;
-use windfall_core::solid::{LIMBS, Solid, solids_of};
-use windfall_render::objects::solid_mesh::SolidMesh;
+use windfall_core::solid::{LIMBS, Solid};
+use windfall_render::objects::meshes::mesh_of;
 
 use super::Frame;
 use super::plain::Plain;
@@ -43,11 +42,11 @@ impl SolidPaint {
     }
 }
 
-/// All solid parts of a scene, and their colours.
-pub(super) fn solid_parts(scene: &Scene) -> (Vec<SolidPart>, Vec<SolidPaint>) {
+/// Parts of the solids of a scene, objects before limbs, and their colours.
+pub(super) fn solid_parts(solids: &[Solid]) -> (Vec<SolidPart>, Vec<SolidPaint>) {
     let mut paints: Vec<SolidPaint> = Vec::new();
-    let objects = scene.objects.len();
-    let parts = solids_of(scene).into_iter().enumerate().map(|(number, solid)| {
+    let objects = solids.iter().filter(|solid| solid.limb().is_none()).count();
+    let parts = solids.iter().enumerate().map(|(number, solid)| {
         let name = match number.checked_sub(objects) {
             Some(limb) => format!("Walker_{}_{}", limb / LIMBS.len(), limb % LIMBS.len()),
             None => format!("Object_{number}"),
@@ -56,15 +55,14 @@ pub(super) fn solid_parts(scene: &Scene) -> (Vec<SolidPart>, Vec<SolidPaint>) {
             paints.push(SolidPaint { name: format!("solid_{}", paints.len()), color: solid.color });
             paints.len() - 1
         });
-        part(name, material, solid)
+        part(name, material, solid.clone())
     });
     let parts = parts.collect();
     (parts, paints)
 }
 
 fn part(name: String, material: usize, solid: Solid) -> SolidPart {
-    let (mesh, size) = SolidMesh::of(solid.shape);
-    let (vertices, indices) = mesh.build();
+    let (vertices, indices, size) = mesh_of(&solid);
     let corners: Vec<(Vec3, Vec3)> = vertices.iter().map(|vertex| vertex.on(size)).collect();
     // Poles, and the middle of a ball, have triangles without an area.
     let has_area = |corners: &[Vec3; 3]| {
@@ -109,7 +107,9 @@ impl SolidPart {
 
 #[cfg(test)]
 mod tests {
+    use windfall_core::Scene;
     use windfall_core::scene::{Object, ObjectShape, Walker};
+    use windfall_core::solid::solids_of;
 
     use super::*;
 
@@ -118,7 +118,7 @@ mod tests {
         let shape = ObjectShape::Sphere { radius_m: 0.5 };
         let objects = vec![Object { shape, ..Object::default() }, Object::default()];
         let scene = Scene { objects, walkers: vec![Walker::default()], ..Scene::default() };
-        let (parts, paints) = solid_parts(&scene);
+        let (parts, paints) = solid_parts(&solids_of(&scene).expect("shapes without files"));
         assert_eq!(parts.len(), 2 + LIMBS.len(), "all of them");
         assert_eq!(parts[0].material, parts[1].material, "one colour");
         assert!(paints.len() < parts.len(), "{} colours", paints.len());

@@ -17,6 +17,7 @@ use crate::device::tree::sway::{IMPLICITNESS, SCHEME_ARTICULATED, SCHEME_OLIAPUR
 use crate::flight::coefficients::TICKS_PER_S;
 use crate::motion::{AIR_DENSITY, MotionTables};
 use crate::scene::{FlightModel, Litter, MAX_SOURCES, ObjectMotion, Scene, SwayScheme};
+use crate::solid::Solid;
 
 /// Height of resting leaves above the ground in metres: half the thickness of a curled dry leaf.
 pub const REST_OFFSET_M: f32 = 0.004;
@@ -37,7 +38,7 @@ const COLLISION_S: f32 = 1.0 / 15.0;
 pub const NO_WATER_M: f32 = -1.0e6;
 
 /// Uniform block of a scene, but for the places of its tables behind those of the wind.
-pub(super) fn compile_block(scene: &Scene, tables: &[MotionTables]) -> SceneBlock {
+pub(super) fn compile_block(scene: &Scene, tables: &[MotionTables], solids: &[Solid]) -> SceneBlock {
     let [low, high] = seed_words(scene.seed);
     let mut block: SceneBlock = bytemuck::Zeroable::zeroed();
     block.seed = [low, high];
@@ -63,7 +64,7 @@ pub(super) fn compile_block(scene: &Scene, tables: &[MotionTables]) -> SceneBloc
     }
     block.tree_leaf_count = scene.tree_leaf_count();
     block.flutter_per_step = word(4_294_967_296.0 * f64::from(FLUTTER_HZ) * dt);
-    retune_block(scene, &mut block);
+    retune_block(scene, solids, &mut block);
     for (index, (species, tables)) in scene.species.iter().zip(tables).enumerate() {
         block.species[index] = species_block(scene, species, tables);
         block.bodies[index] = body_block(species, scene);
@@ -77,12 +78,12 @@ pub(super) fn compile_block(scene: &Scene, tables: &[MotionTables]) -> SceneBloc
 }
 
 /// Sets what may change while a simulation runs: wind, ground, fall and rotation speed, the scheme of trees.
-pub(super) fn retune_block(scene: &Scene, block: &mut SceneBlock) {
+pub(super) fn retune_block(scene: &Scene, solids: &[Solid], block: &mut SceneBlock) {
     block.rotation_speed_q16 = q16(scene.rotation_speed);
     block.displacement_gain =
         single(f64::from(scene.fall_speed) * 65536.0 / f64::from(block.rotation_speed_q16));
     block.sway_scheme = scheme(scene);
-    block.wind = wind_block(scene);
+    block.wind = wind_block(scene, solids);
     block.sway = sway_block(scene, &block.wind);
     set_ground(scene, block);
     block.responses = response_block(scene);

@@ -46,6 +46,7 @@ use crate::layout::Uint4;
 use crate::leaf::Leaves;
 use crate::litter::Bed;
 use crate::scene::{MAX_MOVERS, Profile, Scene};
+use crate::solid::Solid;
 use crate::store::{StoreSize, check_sizes};
 use crate::terrain::Hills;
 use crate::threads::both;
@@ -67,10 +68,10 @@ pub struct CompiledScene {
 }
 
 impl CompiledScene {
-    /// Compiles a validated scene. Motion tables that a species names as a file are read now.
+    /// Compiles a validated scene. Motion tables and meshes that are files are read now.
     ///
     /// # Errors
-    /// A motion table file that cannot be read or used, a tree that does not grow.
+    /// A motion table or a mesh that cannot be read or used, a tree that does not grow.
     pub fn compile(scene: &Scene) -> Result<Self, SceneError> {
         Self::compile_with(scene, None)
     }
@@ -89,7 +90,8 @@ impl CompiledScene {
         let mut tables = profile_rows_of(scene);
         tables.extend(gust_rows(seed, gusts));
         tables.extend(turbulence);
-        let mut block = compile_block(scene, &motions);
+        let mut solids = Solids::of(scene)?;
+        let mut block = compile_block(scene, &motions, solids.own());
         block.first_hill_row = len32(tables.len());
         tables.extend(scene.ground.terrain.iter().flat_map(|terrain| Hills::grow(terrain).rows()));
         let kinds = foliage_of(scene);
@@ -102,8 +104,9 @@ impl CompiledScene {
         }
         let seedlings = seedlings(scene, |x, z| foot_height(&block, &tables, x, z))?;
         let forest = Forest::plant(seedlings, scene.gravity_m_s2);
-        if let Some(grid) = ShelterGrid::of(scene, &forest) {
-            let rows = shelter_rows(&grid, scene, &forest, &block, &tables);
+        solids.add_trunks(scene, &forest);
+        if let Some(grid) = ShelterGrid::of(scene, solids.own(), &forest) {
+            let rows = shelter_rows(&grid, scene, solids.own(), &forest, &block, &tables);
             block.shelter = grid.block(len32(tables.len()));
             block.shelter.is_on = u32::from(is_sheltered(scene, &rows));
             tables.extend(rows);
@@ -112,7 +115,6 @@ impl CompiledScene {
         tables.extend(chances);
         block.first_petiole_row = len32(tables.len());
         tables.extend(petiole_rows(scene, &forest, &kinds));
-        let solids = Solids::of(scene, &forest);
         block.solids = solids.tabulate(scene, &block, &mut tables);
         block.first_motion_row = len32(tables.len());
         tables.extend(pack_motion(&motions));
@@ -154,10 +156,11 @@ impl CompiledScene {
             let rows = shed_rows(&self.scene, &foliage_of(&self.scene));
             self.replace_rows(self.block.first_shed_row, &rows);
         }
-        retune_block(&self.scene, &mut self.block);
-        if let Some(grid) = ShelterGrid::of(&self.scene, &self.forest) {
+        retune_block(&self.scene, self.solids.own(), &mut self.block);
+        if let Some(grid) = ShelterGrid::of(&self.scene, self.solids.own(), &self.forest) {
             if shelter_inputs(&self.scene) != inputs {
-                let rows = shelter_rows(&grid, &self.scene, &self.forest, &self.block, &self.tables);
+                let (solids, block) = (self.solids.own(), &self.block);
+                let rows = shelter_rows(&grid, &self.scene, solids, &self.forest, block, &self.tables);
                 self.replace_rows(self.block.shelter.first_row, &rows);
             }
             let rows = &self.tables[self.block.shelter.first_row as usize..][..grid.row_count()];
@@ -209,6 +212,11 @@ impl CompiledScene {
     /// The trees.
     pub fn forest(&self) -> &Arc<Forest> {
         &self.forest
+    }
+
+    /// The solid parts of the scene: objects in their order, then the limbs of walkers.
+    pub fn solids(&self) -> &[Solid] {
+        self.solids.own()
     }
 
     /// The block of one step.

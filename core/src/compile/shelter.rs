@@ -8,6 +8,7 @@ use crate::blocks::SceneBlock;
 use crate::convert::single;
 use crate::layout::Uint4;
 use crate::scene::{Profile, Scene};
+use crate::solid::Solid;
 use crate::tree::Forest;
 use crate::wind::{ShelterGrid, ShelterWind};
 
@@ -15,6 +16,7 @@ use crate::wind::{ShelterGrid, ShelterWind};
 pub(super) fn shelter_rows(
     grid: &ShelterGrid,
     scene: &Scene,
+    solids: &[Solid],
     forest: &Forest,
     block: &SceneBlock,
     tables: &[Uint4],
@@ -23,7 +25,9 @@ pub(super) fn shelter_rows(
     let leaves_left = leaves_left(f64::from(scene.autumn));
     let roughness_m = scene.ground.surface_roughness_m.into();
     let wind = ShelterWind { direction_x: cos, direction_z: sin, leaves_left, roughness_m };
-    grid.rows(scene, forest, &wind, |x_m, z_m| foot_height(block, tables, single(x_m), single(z_m)).into())
+    grid.rows(scene, solids, forest, &wind, |x_m, z_m| {
+        foot_height(block, tables, single(x_m), single(z_m)).into()
+    })
 }
 
 /// Numbers that these rows depend on and that may change while a simulation runs.

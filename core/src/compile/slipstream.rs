@@ -42,17 +42,17 @@ pub(super) fn slipstream_block(
     let heading = velocity / speed_m_s;
     let area_m2 = match solid.limb() {
         Some(_) => WALKER_M2,
-        None => swept_m2(solid.shape, after.turn.inverse() * heading),
+        None => swept_m2(solid, after.turn.inverse() * heading),
     };
     block(0.5 * (before.center_m + after.center_m), heading, speed_m_s, area_m2)
 }
 
 /// Width in m and speed in m/s of the slipstreams of a scene: of the narrowest side of an object, and no slower than it ever is.
-pub(super) fn widths_and_speeds(scene: &Scene) -> impl Iterator<Item = (f64, f64)> {
+pub(super) fn widths_and_speeds(scene: &Scene, solids: &[Solid]) -> impl Iterator<Item = (f64, f64)> {
     let walkers = scene.walkers.iter().map(|walker| (spread_m(WALKER_M2), f64::from(walker.speed_m_s)));
-    let objects = scene.objects.iter().filter_map(|object| {
+    let objects = scene.objects.iter().zip(solids).filter_map(|(object, solid)| {
         let ObjectMotion::Path(keys) = &object.motion else { return None };
-        let narrowest = [DVec3::X, DVec3::Y, DVec3::Z].map(|axis| swept_m2(object.shape, axis));
+        let narrowest = [DVec3::X, DVec3::Y, DVec3::Z].map(|axis| swept_m2(solid, axis));
         // Between two keys an object is at most twice as fast as in the mean.
         let fastest = keys.windows(2).map(|pair| {
             let way_m = (pair[1].moved_m - pair[0].moved_m).as_dvec3().length();
@@ -83,20 +83,23 @@ fn block(center_m: DVec3, heading: DVec3, speed_m_s: f64, area_m2: f64) -> Slips
     }
 }
 
-/// Area in m² that a shape sweeps per metre of its way, in a direction of its own frame.
-fn swept_m2(shape: ObjectShape, toward: DVec3) -> f64 {
+/// Area in m² that a part sweeps per metre of its way, in a direction of its own frame.
+fn swept_m2(solid: &Solid, toward: DVec3) -> f64 {
     let across = libm::hypot(toward.x, toward.z);
     let round = |radius_m: f32, length_m: f32, ends: f64| {
         let (radius, length) = (f64::from(radius_m), f64::from(length_m));
         2.0 * radius * length * across + PI * radius * radius * ends
     };
-    match shape {
+    match solid.shape {
         ObjectShape::Sphere { radius_m } => round(radius_m, 0.0, 1.0),
         ObjectShape::Capsule { radius_m, length_m } => round(radius_m, length_m, 1.0),
         ObjectShape::Cylinder { radius_m, height_m } => round(radius_m, height_m, toward.y.abs()),
         ObjectShape::Box { size_m } => {
             let size = size_m.as_dvec3();
             toward.abs().dot(DVec3::new(size.y * size.z, size.x * size.z, size.x * size.y))
+        }
+        ObjectShape::Polyhedron { .. } | ObjectShape::Mesh { .. } => {
+            solid.surface().map_or(0.0, |surface| surface.shadow_m2(toward))
         }
     }
 }

@@ -11,6 +11,7 @@ use crate::convert::single;
 use crate::device::wind::gust::{GUST_ROWS, GUST_SPACING};
 use crate::device::wind::profile::PROFILE_ROWS;
 use crate::scene::{Profile, Scene, WindParameters};
+use crate::solid::Solid;
 
 /// Turbulence up and across the wind relative to along it (IEC 61400-1).
 const DEVIATION_RATIOS: [f32; 3] = [1.0, 0.5, 0.8];
@@ -25,13 +26,13 @@ const DESCENT_M_S: f64 = 1.2;
 /// Largest part of an eddy that a leaf passes through in an interval.
 const LARGEST_SHARE: f64 = 0.2;
 
-pub(super) fn wind_block(scene: &Scene) -> WindBlock {
+pub(super) fn wind_block(scene: &Scene, solids: &[Solid]) -> WindBlock {
     let wind = &scene.wind;
     let speed = wind.speed.metres_per_second();
     let (sin, cos) = libm::sincos(f64::from(wind.direction_deg).to_radians());
     let gust_length = speed * f64::from(wind.gusts.interval_s) / f64::from(GUST_SPACING);
     let deviation = deviation_m_s(wind);
-    let interval_steps = interval_steps(scene);
+    let interval_steps = interval_steps(scene, solids);
     // A uniform wind has no ground.
     let (least_vertical, vertical_per_m) =
         if wind.profile == Profile::Uniform { (1.0, 0.0) } else { (0.0, 1.0 / BLOCKED_M) };
@@ -62,7 +63,7 @@ pub(super) fn deviation_m_s(wind: &WindParameters) -> f32 {
 
 /// Steps of the interval for which a falling leaf samples the wind: the most of 4, 2 and 1 in which the wind that it
 /// meets changes little.
-fn interval_steps(scene: &Scene) -> u32 {
+fn interval_steps(scene: &Scene, solids: &[Solid]) -> u32 {
     let wind = &scene.wind;
     let deviation = f64::from(deviation_m_s(wind));
     let mut most_s = LONGEST_INTERVAL_S;
@@ -79,7 +80,7 @@ fn interval_steps(scene: &Scene) -> u32 {
     for jet in &wind.jets {
         most_s = most_s.min(LARGEST_SHARE * core_width_m(jet) / jet.fastest_m_s().max(DESCENT_M_S));
     }
-    for (width_m, speed_m_s) in widths_and_speeds(scene) {
+    for (width_m, speed_m_s) in widths_and_speeds(scene, solids) {
         most_s = most_s.min(LARGEST_SHARE * width_m / speed_m_s.max(DESCENT_M_S));
     }
     // Step lengths are given in single precision.

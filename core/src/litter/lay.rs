@@ -143,7 +143,7 @@ fn lay_by_solids(cx: &Context<'_>, leaf: &mut LeafMut<'_>) -> bool {
             break;
         }
         let solid = solid_at(cx, overlap.number, 0.0);
-        let SolidGap { gap_m, normal, .. } = solid_gap(&solid, &body, pose, place, 1.0);
+        let SolidGap { gap_m, normal, .. } = solid_gap(cx, &solid, &body, pose, place, 1.0);
         let out = normal * -gap_m.min(-STRIKE_GAP_M);
         leaf.place.position = (place + out).to_array();
     }

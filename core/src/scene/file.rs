@@ -14,7 +14,7 @@ use ron::extensions::Extensions;
 use ron::ser::PrettyConfig;
 
 use super::nearest::nearest;
-use super::{PRESETS, Scene, Sky, TreeForm};
+use super::{ObjectShape, PRESETS, Scene, Sky, TreeForm};
 use crate::SceneError;
 
 /// Largest scene file in bytes; sixteen sources and thirty-two species take some ten thousand.
@@ -41,6 +41,11 @@ impl Scene {
                 }
                 for kind in &mut scene.tree_kinds {
                     if let TreeForm::File(named) = &mut kind.form {
+                        *named = folder.join(&*named).to_string_lossy().into_owned();
+                    }
+                }
+                for object in &mut scene.objects {
+                    if let ObjectShape::Mesh { file: named, .. } = &mut object.shape {
                         *named = folder.join(&*named).to_string_lossy().into_owned();
                     }
                 }

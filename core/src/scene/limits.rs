@@ -132,6 +132,8 @@ limits! {
     OBJECT_LENGTH_M: f32 = 0.0, 200.0, "m", length_m;
     OBJECT_HEIGHT_M: f32 = 0.02, 200.0, "m", height_m;
     OBJECT_SIZE_M: f32 = 0.02, 200.0, "m", size_m;
+    CORNER_M: f32 = -100.0, 100.0, "m", corners_m;
+    MESH_SCALE: f32 = 0.001, 1000.0, "", scale;
     OBJECT_AT_M: f32 = -4096.0, 4096.0, "m", at_m moved_m;
     OBJECT_TILT_DEG: f32 = -180.0, 180.0, "degrees", tilt_deg;
     TURNED_DEG: f32 = -360.0, 360.0, "degrees", turned_deg;

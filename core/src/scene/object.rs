@@ -6,7 +6,7 @@ use glam::{Vec2, Vec3};
 use serde::{Deserialize, Serialize};
 
 /// Shape of an object in a frame of its own, about its centre.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum ObjectShape {
     /// A ball.
     Sphere {
@@ -32,6 +32,24 @@ pub enum ObjectShape {
         /// Height in metres, 0.02 to 200.
         height_m: f32,
     },
+    /// A convex polyhedron about a centre of its own.
+    Polyhedron {
+        /// Its corners in metres, 4 to 32 of them, each component -100 to 100; at least 0.02 from the lowest to the highest along each axis.
+        corners_m: Vec<Vec3>,
+    },
+    /// A rigid body whose surface is all triangles of a glTF file, about the file's origin: closed, and 0.02 to 200 m along each axis.
+    Mesh {
+        /// The `.gltf` or `.glb` file, as seen from the folder of the scene.
+        file: String,
+        /// Factor of its size, 0.001 to 1000.
+        #[serde(default = "true_to_size")]
+        scale: f32,
+    },
+}
+
+/// Scale of a mesh that is as large as in its file.
+fn true_to_size() -> f32 {
+    1.0
 }
 
 /// Loss of speed along a surface at a contact.

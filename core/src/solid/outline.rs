@@ -24,12 +24,12 @@ pub(crate) struct Outline {
 impl Outline {
     /// Outline of a part that stands still; `None` for others.
     pub(crate) fn of_still(solid: &Solid) -> Option<Self> {
-        (!solid.moves()).then(|| Self::of(solid.shape, &solid.pose_at(0.0, |_, _| 0.0)))
+        (!solid.moves()).then(|| Self::of(solid, &solid.pose_at(0.0, |_, _| 0.0)))
     }
 
-    fn of(shape: ObjectShape, pose: &SolidPose) -> Self {
+    fn of(solid: &Solid, pose: &SolidPose) -> Self {
         let place = |own: DVec3| pose.center_m + pose.turn * own;
-        let points: Vec<DVec3> = match shape {
+        let points: Vec<DVec3> = match solid.shape {
             ObjectShape::Box { size_m } => {
                 let half_m = 0.5 * size_m.as_dvec3();
                 let signs = |corner: u32| [1, 2, 4].map(|bit| if corner & bit == 0 { -1.0 } else { 1.0 });
@@ -46,6 +46,12 @@ impl Outline {
                 let end = |up_m: f64| ball(place(DVec3::Y * up_m), radius_m.into());
                 end(-half_m).chain(end(half_m)).collect()
             }
+            ObjectShape::Polyhedron { .. } | ObjectShape::Mesh { .. } => solid
+                .surface()
+                .into_iter()
+                .flat_map(|surface| surface.corners_m())
+                .map(|at| place(*at))
+                .collect(),
         };
         let heights = || points.iter().map(|point| point.y);
         let heights_m =

@@ -2,9 +2,15 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! One solid part.
 
+use std::collections::HashMap;
+use std::sync::Arc;
+
 use glam::{DQuat, DVec3, Vec3};
 
+use super::faces::Faces;
+use super::surface::Surface;
 use super::walk::{Gait, LIMBS, Limb};
+use crate::SceneError;
 use crate::scene::keyed::{Key, numbers_at};
 use crate::scene::{Object, ObjectFriction, ObjectMotion, ObjectShape, Scene};
 
@@ -17,11 +23,12 @@ pub struct SolidPose {
     pub turn: DQuat,
 }
 
-/// A convex solid part.
+/// A solid part.
 #[derive(Clone, Debug)]
 pub struct Solid {
     /// Shape.
     pub shape: ObjectShape,
+    pub(crate) faces: Option<Faces>,
     /// Friction.
     pub friction: ObjectFriction,
     /// Coefficient of restitution.
@@ -44,25 +51,39 @@ const WALKER_FRICTION: ObjectFriction = ObjectFriction::Coulomb(0.5);
 /// Restitution of leaves that strike them, assumed.
 const WALKER_RESTITUTION: f32 = 0.1;
 
-/// All solid parts of a scene: the objects in their order, then the limbs of walkers.
-pub fn solids_of(scene: &Scene) -> Vec<Solid> {
-    let objects = scene.objects.iter().map(Solid::of_object);
-    let walkers = scene.walkers.iter().flat_map(|walker| {
+/// All solid parts of a scene: the objects in their order, then the limbs of walkers. Meshes are read now.
+///
+/// # Errors
+/// [`SceneError::Field`] for a polyhedron that is none, or a mesh that cannot be read or is not closed.
+pub fn solids_of(scene: &Scene) -> Result<Vec<Solid>, SceneError> {
+    let mut solids: Vec<Solid> = Vec::new();
+    let mut read = HashMap::new();
+    for (index, object) in scene.objects.iter().enumerate() {
+        let faces = Faces::of(&object.shape, &mut read).map_err(|error| SceneError::Field {
+            file: scene.name.clone(),
+            field: format!("objects[{index}].shape"),
+            value: error.to_string(),
+            allowed: "the corners of a convex polyhedron, or a file with a closed mesh".into(),
+        })?;
+        solids.push(Solid::of_object(object, faces));
+    }
+    for walker in &scene.walkers {
         let gait = Gait::of(walker);
-        LIMBS.iter().map(move |&limb| Solid {
+        solids.extend(LIMBS.iter().map(|&limb| Solid {
             shape: limb.shape(),
+            faces: None,
             friction: WALKER_FRICTION,
             restitution: WALKER_RESTITUTION,
             color: limb.color(),
             path: Path::Limb { gait: gait.clone(), limb },
-        })
-    });
-    objects.chain(walkers).collect()
+        }));
+    }
+    Ok(solids)
 }
 
 impl Solid {
     /// The part that an object is.
-    fn of_object(object: &Object) -> Self {
+    fn of_object(object: &Object, faces: Option<Faces>) -> Self {
         let tilt = DQuat::from_rotation_x(f64::from(object.tilt_deg).to_radians());
         let (at, heading) = (object.at_m.as_dvec3(), f64::from(object.heading_deg));
         let path = match &object.motion {
@@ -76,7 +97,8 @@ impl Solid {
             }
         };
         Self {
-            shape: object.shape,
+            shape: object.shape.clone(),
+            faces,
             friction: object.friction,
             restitution: object.restitution,
             color: object.color,
@@ -91,7 +113,12 @@ impl Solid {
         restitution: f32,
         pose: SolidPose,
     ) -> Self {
-        Self { shape, friction, restitution, color: Vec3::ZERO, path: Path::Still(pose) }
+        Self { shape, faces: None, friction, restitution, color: Vec3::ZERO, path: Path::Still(pose) }
+    }
+
+    /// Its surface, if it is a polyhedron or a mesh.
+    pub fn surface(&self) -> Option<&Arc<Surface>> {
+        self.faces.as_ref().map(Faces::surface)
     }
 
     /// Returns true if it ever moves.

@@ -21,7 +21,7 @@ use crate::convert::{single, word};
 use crate::device::wind::shelter::{SHELTER_LAYERS, SHELTER_UNIT};
 use crate::layout::Uint4;
 use crate::scene::Scene;
-use crate::solid::{Outline, solids_of};
+use crate::solid::{Outline, Solid};
 use crate::threads::each;
 use crate::tree::Forest;
 
@@ -112,9 +112,14 @@ struct SolidWakes {
 
 impl SolidWakes {
     /// The wakes of those that stand still and are high enough for the table.
-    fn of(scene: &Scene, grid: &ShelterGrid, wind: &ShelterWind, ground_m: impl Fn(f64, f64) -> f64) -> Self {
+    fn of(
+        solids: &[Solid],
+        grid: &ShelterGrid,
+        wind: &ShelterWind,
+        ground_m: impl Fn(f64, f64) -> f64,
+    ) -> Self {
         let mut wakes = Self::default();
-        for outline in sheltering(scene) {
+        for outline in sheltering(solids) {
             let middle_m = outline.middle_m();
             let ground_m = ground_m(middle_m.x, middle_m.z);
             let [low_m, high_m] = outline.heights_m.map(|at_m| at_m - ground_m);
@@ -133,16 +138,16 @@ impl SolidWakes {
     }
 }
 
-/// Outlines of a scene's solid things that may shelter.
-fn sheltering(scene: &Scene) -> impl Iterator<Item = Outline> {
-    let outlines = solids_of(scene).into_iter().filter_map(|solid| Outline::of_still(&solid));
+/// Outlines of solid things that may shelter.
+fn sheltering(solids: &[Solid]) -> impl Iterator<Item = Outline> {
+    let outlines = solids.iter().filter_map(Outline::of_still);
     outlines.filter(|outline| outline.height_m() >= LEAST_SOLID_M)
 }
 
 impl ShelterGrid {
     /// The grid of a scene: around its trees and solid things and the wakes that they may have, and around the hills' square. `None` if the
     /// scene has none of them.
-    pub fn of(scene: &Scene, forest: &Forest) -> Option<Self> {
+    pub fn of(scene: &Scene, solids: &[Solid], forest: &Forest) -> Option<Self> {
         let (mut least, mut most) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
         let mut include = |x_m: f64, z_m: f64, reach_m: f64| {
             for (axis, at_m) in [x_m, z_m].into_iter().enumerate() {
@@ -164,7 +169,7 @@ impl ShelterGrid {
             top_m = top_m.max(terrain.relief_m.into());
         }
         let mut least_cell_m = LEAST_CELL_M;
-        for outline in sheltering(scene) {
+        for outline in sheltering(solids) {
             // One that stands on the ground may reach up higher by its gap.
             let tall_m = (1.0 + STANDING_GAP) * outline.height_m();
             let middle_m = outline.middle_m();
@@ -213,6 +218,7 @@ impl ShelterGrid {
     pub fn rows(
         &self,
         scene: &Scene,
+        solids: &[Solid],
         forest: &Forest,
         wind: &ShelterWind,
         ground_height_m: impl Fn(f64, f64) -> f64 + Sync,
@@ -220,7 +226,7 @@ impl ShelterGrid {
         let nodes = self.cells.map(|cells| cells + 1);
         let wakes: Vec<_> =
             forest.trees().iter().filter_map(|tree| PorousWake::of(tree, forest, self, wind)).collect();
-        let solids = SolidWakes::of(scene, self, wind, &ground_height_m);
+        let solids = SolidWakes::of(solids, self, wind, &ground_height_m);
         let layer_m = self.layer_m;
         let bands = (0..nodes[1]).step_by(BAND_ROWS).map(|first| first..(first + BAND_ROWS).min(nodes[1]));
         let left = each(bands, |band| {

@@ -11,8 +11,9 @@ use windfall_core::device::flight::rates::FlightMotion;
 use windfall_core::device::flight::strike::{Passage, first_strike, strike_solids};
 use windfall_core::device::leaf::record::{SIZE_ONE, SPECIES_SHIFT, held_bits, is_held};
 use windfall_core::device::leaf::strike::{comes_upon, is_borne, is_inside_solid, solid_footing};
+use windfall_core::device::solid::distance::solid_distance;
 use windfall_core::device::solid::near::{may_meet_solids, near_count, near_solid, solids_cell};
-use windfall_core::device::solid::shape::{SolidAt, SolidDistance, solid_at, solid_distance, solid_velocity};
+use windfall_core::device::solid::shape::{SolidAt, SolidDistance, solid_at, solid_velocity};
 
 use super::{Function, Input, float, floats, functions, integers, quaternion, vector};
 use crate::runner::Words;
@@ -42,7 +43,7 @@ fn beside(cx: &Context<'_>, number: u32, from: Vec3) -> (SolidAt, Vec3) {
 functions! {
     SOLID_FUNCTIONS;
 
-    solid_distance in "solid/shape" (ANY, CLOSE) tolerance Some(1e-3);
+    solid_distance in "solid/distance" (ANY, CLOSE) tolerance Some(1e-3);
     wgsl "if (scene.solids.count != 0u) {
             let solid = solid_at(a.x % scene.solids.count, 0.01); let place = solid.center + in_vec3(1u);
             let d = solid_distance(solid, place);
@@ -54,7 +55,7 @@ functions! {
             return floats([0.0; 8]);
         }
         let (solid, place) = beside(cx, w[0] % cx.scene.solids.count, vector(w, 1));
-        let SolidDistance { distance_m, normal } = solid_distance(&solid, place);
+        let SolidDistance { distance_m, normal } = solid_distance(cx, &solid, place);
         let along = solid_velocity(&solid, place);
         floats([distance_m, normal.x, normal.y, normal.z, along.x, along.y, along.z, solid.bound_m])
     };

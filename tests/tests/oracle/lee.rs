@@ -105,7 +105,7 @@ fn wakes_of_solids_grow_with_their_height_and_width() {
         ObjectShape::Sphere { radius_m: 1.0 },
         ObjectShape::Capsule { radius_m: 0.7, length_m: 0.6 },
     ] {
-        let round = Object { shape, at_m: at(0.0, 1.0, 0.0).as_vec3(), ..Object::default() };
+        let round = Object { shape: shape.clone(), at_m: at(0.0, 1.0, 0.0).as_vec3(), ..Object::default() };
         let share = Shares::of(&yard(vec![round])).at(at(2.0, 0.25, 0.0));
         println!("{shape:?}: {share:.3}");
         assert!(share < 0.4, "{shape:?}: {share}");

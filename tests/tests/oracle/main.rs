@@ -8,6 +8,7 @@ mod common;
 
 mod collide;
 mod drops;
+mod faces;
 mod feature;
 mod flight;
 mod floating;

@@ -74,7 +74,7 @@ fn the_air_takes_the_momentum_of_the_drag() {
 #[test]
 fn it_goes_with_the_thing_and_ends() {
     let shape = ObjectShape::Box { size_m: Vec3::new(4.0, 1.5, 1.8) };
-    let air_at = |x| air(passing(shape, 50.0, 10.0), 10.0)(DVec3::new(x, 50.0, 0.0)).x;
+    let air_at = |x| air(passing(shape.clone(), 50.0, 10.0), 10.0)(DVec3::new(x, 50.0, 0.0)).x;
     assert_eq!(air_at(3.0), 0.0, "nothing in front");
     assert!((2.0..6.0).contains(&air_at(-2.5)), "{} m/s right behind it", air_at(-2.5));
     assert!(
@@ -89,7 +89,7 @@ fn leaves_beside_the_way_of_a_fast_thing_fly_up_and_no_others() {
     // Half a metre above the ground: it touches none.
     let shape = ObjectShape::Box { size_m: Vec3::new(4.0, 1.4, 1.8) };
     let [fast, slow] = [(14.0, 343), (0.7, 6857)].map(|(speed_m_s, steps)| {
-        let mut scene = scene(passing(shape, 1.2, speed_m_s));
+        let mut scene = scene(passing(shape.clone(), 1.2, speed_m_s));
         scene.sources = Vec::new();
         scene.species[0].size_m = 0.06;
         scene.species[0].areal_density_kg_m2 = 0.05;

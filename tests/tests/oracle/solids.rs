@@ -9,8 +9,9 @@ use windfall_core::device::flight::body::{LeafBody, body_of};
 use windfall_core::device::flight::rates::FlightMotion;
 use windfall_core::device::flight::strike::{solid_gap, strike_solids};
 use windfall_core::device::leaf::record::{SIZE_ONE, STATE_DORMANT, flies, is_held, leaf_state, lies};
+use windfall_core::device::solid::distance::solid_distance;
 use windfall_core::device::solid::near::{may_meet_solids, near_count, near_solid, solids_cell};
-use windfall_core::device::solid::shape::{solid_at, solid_distance};
+use windfall_core::device::solid::shape::solid_at;
 use windfall_core::scene::{
     Gusts, Litter, MeanSpeed, Object, ObjectFriction, ObjectKey, ObjectMotion, ObjectShape, Profile, Release,
     Source, SourceShape, Species, Tree, Turbulence, Walker, WindParameters,
@@ -19,7 +20,7 @@ use windfall_core::{Scene, Simulator, World};
 use windfall_cpu::{CpuOptions, CpuSimulator};
 
 /// Air that does not move.
-fn calm() -> WindParameters {
+pub(crate) fn calm() -> WindParameters {
     WindParameters {
         speed: MeanSpeed::MetresPerSecond(0.0),
         gusts: Gusts { strength: 0.0, ..Gusts::default() },
@@ -29,7 +30,7 @@ fn calm() -> WindParameters {
 }
 
 /// Leaves that fall over some objects.
-fn scene(objects: Vec<Object>, leaves: u32) -> Scene {
+pub(crate) fn scene(objects: Vec<Object>, leaves: u32) -> Scene {
     let mut scene = Scene {
         species: vec![Species { size_m: 0.06, areal_density_kg_m2: 0.05, ..Species::default() }],
         wind: calm(),
@@ -50,18 +51,18 @@ fn scene(objects: Vec<Object>, leaves: u32) -> Scene {
     scene
 }
 
-fn solid(shape: ObjectShape, at_m: Point) -> Object {
+pub(crate) fn solid(shape: ObjectShape, at_m: Point) -> Object {
     Object { shape, at_m, ..Object::default() }
 }
 
-fn stepped(world: &World, steps: u32) -> World {
+pub(crate) fn stepped(world: &World, steps: u32) -> World {
     let mut simulator = CpuSimulator::new(world, CpuOptions::default()).expect("threads start");
     simulator.step(steps).expect("the CPU steps");
     simulator.world().clone()
 }
 
 /// Deepest that any body, any leaf that lies, or the centre of any other leaf in the air is inside a solid part, in m.
-fn deepest_m(world: &World) -> f32 {
+pub(crate) fn deepest_m(world: &World) -> f32 {
     let step = world.compiled.step_block(&world.clock);
     let cx = world.context(&step);
     let mut deepest = 0f32;
@@ -78,7 +79,7 @@ fn deepest_m(world: &World) -> f32 {
         let cell = solids_cell(&cx, at);
         for entry in 0..near_count(&cx, cell) {
             let part = solid_at(&cx, near_solid(&cx, cell, entry), 0.0);
-            deepest = deepest.max(-solid_gap(&part, &body, pose, at, reach_share).gap_m);
+            deepest = deepest.max(-solid_gap(&cx, &part, &body, pose, at, reach_share).gap_m);
         }
     }
     deepest
@@ -104,13 +105,13 @@ fn leaves_lie_on_tops_and_none_is_inside() {
 }
 
 /// Distance from the surface of a shape about the origin, in double precision, by clamping to its core.
-fn distance_m(shape: ObjectShape, place: DVec3) -> f64 {
+fn distance_m(shape: &ObjectShape, place: DVec3) -> f64 {
     let radial = DVec3::new(place.x, 0.0, place.z).length();
     let corner = |u: f64, v: f64| {
         let outside = u.max(0.0).hypot(v.max(0.0));
         if outside > 0.0 { outside } else { u.max(v) }
     };
-    match shape {
+    match *shape {
         ObjectShape::Sphere { radius_m } => place.length() - f64::from(radius_m),
         ObjectShape::Capsule { radius_m, length_m } => {
             let half = 0.5 * f64::from(length_m);
@@ -124,11 +125,12 @@ fn distance_m(shape: ObjectShape, place: DVec3) -> f64 {
         ObjectShape::Cylinder { radius_m, height_m } => {
             corner(radial - f64::from(radius_m), place.y.abs() - 0.5 * f64::from(height_m))
         }
+        ObjectShape::Polyhedron { .. } | ObjectShape::Mesh { .. } => unreachable!("in faces.rs"),
     }
 }
 
 /// Random numbers between -1 and 1 by a number.
-fn spread(number: u32) -> [f32; 6] {
+pub(crate) fn spread(number: u32) -> [f32; 6] {
     let mut state = u64::from(number).wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ 0x5851_f42d_4c95_7f2d;
     [(); 6].map(|()| {
         state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
@@ -152,7 +154,7 @@ fn distances_and_normals_are_those_of_the_shapes() {
     ];
     for shape in shapes {
         let object =
-            Object { heading_deg: 30.0, tilt_deg: -50.0, ..solid(shape, Point::new(0.3, 1.0, -0.2)) };
+            Object { heading_deg: 30.0, tilt_deg: -50.0, ..solid(shape.clone(), Point::new(0.3, 1.0, -0.2)) };
         let world = World::build(&scene(vec![object], 10)).expect("valid");
         let step = world.compiled.step_block(&world.clock);
         let cx = world.context(&step);
@@ -164,17 +166,17 @@ fn distances_and_normals_are_those_of_the_shapes() {
             let from_center = DVec3::new(x.into(), y.into(), z.into());
             let place = DVec3::new(0.3, 1.0, -0.2) + from_center;
             let single = place.as_vec3();
-            let found = solid_distance(&part, Vec3::new(single.x, single.y, single.z));
+            let found = solid_distance(&cx, &part, Vec3::new(single.x, single.y, single.z));
             let inner =
                 turn.inverse() * (single.as_dvec3() - DVec3::new(0.3, 1.0, -0.2).as_vec3().as_dvec3());
-            let expected = distance_m(shape, inner);
+            let expected = distance_m(&shape, inner);
             assert!(
                 (f64::from(found.distance_m) - expected).abs() < 2.0e-6,
                 "{shape:?} at {inner}: {found:?}"
             );
             // Along the normal the distance grows as the way does.
             let normal = DVec3::new(found.normal.x.into(), found.normal.y.into(), found.normal.z.into());
-            let farther = distance_m(shape, inner + turn.inverse() * normal * 1.0e-4);
+            let farther = distance_m(&shape, inner + turn.inverse() * normal * 1.0e-4);
             let growth = (farther - expected) / 1.0e-4;
             let is_smooth = expected > 0.0 || (growth - 1.0).abs() < 0.01 || expected < -0.01;
             assert!((normal.length() - 1.0).abs() < 1.0e-5, "{shape:?} at {inner}: {normal}");
@@ -184,7 +186,7 @@ fn distances_and_normals_are_those_of_the_shapes() {
 }
 
 /// A leaf that lies level, as a body.
-fn level_leaf(world: &World) -> LeafBody {
+pub(crate) fn level_leaf(world: &World) -> LeafBody {
     let step = world.compiled.step_block(&world.clock);
     body_of(&world.context(&step), 0, SIZE_ONE | 0x7777_0000)
 }
@@ -247,7 +249,7 @@ fn leaves_at_sixty_metres_a_second_pass_no_thin_wall_and_gain_no_energy() {
     let cx = world.context(&step);
     let body = level_leaf(&world);
     let part = solid_at(&cx, 0, 0.0);
-    let normal = solid_distance(&part, Vec3::new(0.0, 1.0, 0.6)).normal;
+    let normal = solid_distance(&cx, &part, Vec3::new(0.0, 1.0, 0.6)).normal;
     let side = |place: Vec3| {
         (place.x - part.center.x) * normal.x
             + (place.y - part.center.y) * normal.y
@@ -308,7 +310,7 @@ fn particles_in_wedges_stay_outside() {
         let pose = Quat::new(0.0, 0.0, 0.0, 1.0);
         let inside = |place: Vec3| {
             (0..2)
-                .map(|number| -solid_gap(&solid_at(&cx, number, 0.0), &body, pose, place, 1.0).gap_m)
+                .map(|number| -solid_gap(&cx, &solid_at(&cx, number, 0.0), &body, pose, place, 1.0).gap_m)
                 .fold(f32::MIN, f32::max)
         };
         let (mut struck, mut cases) = (0, 0);

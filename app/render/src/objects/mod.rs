@@ -3,10 +3,12 @@
 //! The objects of a scene and those who walk there, as they are drawn: a mesh for each kind of shape, and a record for each part.
 
 mod body;
+pub mod meshes;
 pub(crate) mod motion_pass;
 pub(crate) mod object_pass;
 pub(crate) mod records;
 pub mod solid_mesh;
+mod surface_mesh;
 
 use windfall_core::layout::WgslStruct;
 

@@ -5,12 +5,12 @@
 use std::ops::Range;
 
 use glam::{Quat, Vec3};
-use windfall_core::Scene;
 use windfall_core::shared_struct;
-use windfall_core::solid::{LIMBS, Limb, Solid, solids_of};
+use windfall_core::solid::{LIMBS, Limb, Solid};
 
 use super::body::{LimbLook, OBJECT_SURFACE};
-use super::solid_mesh::{SolidMesh, SolidVertex, all};
+use super::meshes::{SolidMeshes, mesh_size};
+use super::solid_mesh::SolidVertex;
 use crate::gpu::pipeline::buffer_entry;
 use crate::gpu::upload;
 use crate::land::Land;
@@ -73,11 +73,12 @@ pub(crate) struct ObjectBuffers {
 }
 
 impl ObjectBuffers {
-    /// The parts of a scene; `None` if it has none.
-    pub(crate) fn new(device: &wgpu::Device, queue: &wgpu::Queue, scene: &Scene) -> Option<Self> {
+    /// Buffers of parts; `None` if there are none.
+    pub(crate) fn new(device: &wgpu::Device, queue: &wgpu::Queue, solids: &[Solid]) -> Option<Self> {
+        let meshes = SolidMeshes::of(solids.iter());
         let mut solids: Vec<(f32, Solid)> = (0..32_000u16)
             .cycle()
-            .zip(solids_of(scene))
+            .zip(solids.iter().cloned())
             // Golden ratio: neighbours differ.
             .map(|(number, solid)| ((f32::from(number) * 0.618_034).fract(), solid))
             .collect();
@@ -85,14 +86,13 @@ impl ObjectBuffers {
             return None;
         }
         // Limbs of a walker stay together: they all have the same mesh.
-        solids.sort_by_key(|(_, solid)| SolidMesh::of(solid.shape).0);
-        let (vertices, indices, ranges) = all();
+        solids.sort_by_key(|(_, solid)| meshes.number_of(solid));
         let records: Vec<ObjectRecord> =
             (0..).zip(&solids).map(|(at, (own, solid))| record(at, *own, solid)).collect();
         let draws_of = |is_drawn: fn(&Solid) -> bool| {
             let mut draws: Vec<(Range<u32>, Range<u32>)> = Vec::new();
             for (at, (_, solid)) in (0..).zip(&solids).filter(|(_, (_, solid))| is_drawn(solid)) {
-                let range = ranges[SolidMesh::of(solid.shape).0 as usize].clone();
+                let range = meshes.range(meshes.number_of(solid));
                 match draws.last_mut() {
                     Some((last, records)) if *last == range && records.end == at => records.end = at + 1,
                     _ => draws.push((range, at..at + 1)),
@@ -125,8 +125,8 @@ impl ObjectBuffers {
             records,
             buffer,
             past,
-            vertices: filled(wgpu::BufferUsages::VERTEX, bytemuck::cast_slice(&vertices)),
-            indices: filled(wgpu::BufferUsages::INDEX, bytemuck::cast_slice(&indices)),
+            vertices: filled(wgpu::BufferUsages::VERTEX, bytemuck::cast_slice(&meshes.vertices)),
+            indices: filled(wgpu::BufferUsages::INDEX, bytemuck::cast_slice(&meshes.indices)),
             draws,
             moving,
             layout,
@@ -194,7 +194,7 @@ fn pose(solid: &Solid, time_s: f64, land: &Land) -> ([f32; 3], [f32; 4]) {
 
 /// The record of the part that is number `at`, at no place yet.
 fn record(at: u32, own: f32, solid: &Solid) -> ObjectRecord {
-    let (_, size) = SolidMesh::of(solid.shape);
+    let size = mesh_size(solid);
     let joined = |limb: Limb| {
         let others = LIMBS.into_iter().filter(|other| limb.joins(*other));
         others.fold(0, |bits, other| bits | 1 << other.number())

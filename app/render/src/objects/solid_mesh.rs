@@ -4,7 +4,6 @@
 //! radius, and that radius along the normal.
 
 use std::f32::consts::{FRAC_PI_2, FRAC_PI_4, TAU};
-use std::ops::Range;
 
 use glam::Vec3;
 use windfall_core::scene::ObjectShape;
@@ -61,15 +60,15 @@ impl SolidMesh {
     /// All meshes.
     pub(crate) const ALL: [Self; 4] = [Self::Ball, Self::LargeBall, Self::Box, Self::Cylinder];
 
-    /// Mesh and size of a shape.
-    pub fn of(shape: ObjectShape) -> (Self, SolidSize) {
+    /// Mesh and size of a shape; `None` for one with a surface of its own.
+    pub fn of(shape: &ObjectShape) -> Option<(Self, SolidSize)> {
         let ball = |radius_m: f32| if radius_m > SMALL_M { Self::LargeBall } else { Self::Ball };
         let rounding_of = |least_m: f32| (ROUNDED * least_m).min(MOST_ROUNDED_M);
         let rounded = |half_m: Vec3| {
             let rounding_m = rounding_of(2.0 * half_m.min_element());
             SolidSize { inner_m: half_m - rounding_m, rounding_m }
         };
-        match shape {
+        Some(match *shape {
             ObjectShape::Sphere { radius_m } => {
                 (ball(radius_m), SolidSize { inner_m: Vec3::ZERO, rounding_m: radius_m })
             }
@@ -80,7 +79,8 @@ impl SolidMesh {
             ObjectShape::Cylinder { radius_m, height_m } => {
                 (Self::Cylinder, rounded(Vec3::new(radius_m, 0.5 * height_m, radius_m)))
             }
-        }
+            ObjectShape::Polyhedron { .. } | ObjectShape::Mesh { .. } => return None,
+        })
     }
 
     /// Vertices and triangles.
@@ -102,7 +102,7 @@ impl SolidVertex {
     }
 }
 
-fn vertex(corner: Vec3, normal: Vec3, edge: f32) -> SolidVertex {
+pub(super) fn vertex(corner: Vec3, normal: Vec3, edge: f32) -> SolidVertex {
     SolidVertex { corner: corner.to_array(), normal: normal.to_array(), edge }
 }
 
@@ -184,27 +184,13 @@ fn rounded_box() -> (Vec<SolidVertex>, Vec<u32>) {
     (vertices, indices)
 }
 
-/// All meshes in one vertex and one index list, with the indices of each.
-pub(crate) fn all() -> (Vec<SolidVertex>, Vec<u32>, [Range<u32>; SolidMesh::ALL.len()]) {
-    let (mut vertices, mut indices) = (Vec::new(), Vec::<u32>::new());
-    let count = |length: usize| u32::try_from(length).unwrap_or(u32::MAX);
-    let ranges = SolidMesh::ALL.map(|mesh| {
-        let (base, first) = (count(vertices.len()), count(indices.len()));
-        let (own, triangles) = mesh.build();
-        vertices.extend(own);
-        indices.extend(triangles.iter().map(|index| base + index));
-        first..count(indices.len())
-    });
-    (vertices, indices, ranges)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     /// Volume within a mesh of a shape, and the largest distance of its vertices from the shape's surface.
     fn volume_m3(shape: ObjectShape) -> f32 {
-        let (mesh, size) = SolidMesh::of(shape);
+        let (mesh, size) = SolidMesh::of(&shape).expect("a shape without faces");
         let (vertices, indices) = mesh.build();
         let at = |index: u32| vertices[index as usize].on(size).0;
         let volume: f32 = indices

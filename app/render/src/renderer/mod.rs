@@ -122,7 +122,7 @@ impl Renderer {
         size: (u32, u32),
         options: RendererOptions,
     ) -> Result<Self, RenderError> {
-        let RenderScene { scene, trees: scene_trees, atlas } = subject;
+        let RenderScene { scene, solids, trees: scene_trees, atlas } = subject;
         let camera = Camera::from(&scene.view.camera);
         let forward = camera.forward();
         let level = Vec2::new(forward.x, forward.z).normalize_or(Vec2::NEG_Y);
@@ -132,7 +132,7 @@ impl Renderer {
         let Park { trees: planted, leaves, path_phase } = plant(scene, &land, center, level);
 
         let targets = Targets::new(device, size, options.tile_px, is_moving(&scene.view.lens))?;
-        let objects = ObjectBuffers::new(device, queue, scene);
+        let objects = ObjectBuffers::new(device, queue, solids);
         let standing = Standing { trees: !scene_trees.trees.is_empty(), objects: objects.is_some() };
         let frame = FrameGroup::new(device, queue, &land, standing);
         let species_table = SpeciesTable::new(device, queue, scene, atlas)?;

@@ -4,6 +4,7 @@
 
 use windfall_core::Scene;
 use windfall_core::scene::Release;
+use windfall_core::solid::Solid;
 use windfall_texgen::Atlas;
 
 use crate::park::litter::BedRim;
@@ -51,6 +52,8 @@ impl RendererOptions {
 pub struct RenderScene<'a> {
     /// The scene.
     pub scene: &'a Scene,
+    /// The solid parts of its compiled scene.
+    pub solids: &'a [Solid],
     /// Its trees.
     pub trees: &'a SceneTrees,
     /// The pictures of its species' leaves.

@@ -17,6 +17,7 @@ use bytemuck::Pod;
 use image::RgbaImage;
 use windfall_core::Scene;
 use windfall_core::scene::{Exposure, Focus, Terrain};
+use windfall_core::solid::solids_of;
 use windfall_texgen::{Atlas, Layer};
 use windfall_wgpu::{BranchColumns, Gpu, LeafColumns, WorldColumns};
 
@@ -97,7 +98,8 @@ pub(super) fn disc_atlas(scene: &Scene, size_px: u32) -> Atlas {
 pub(crate) fn bench_of(scene: Scene, scene_trees: SceneTrees, atlas: &Atlas) -> Bench {
     let gpu = gpu();
     let options = RendererOptions { litter_count: 0, tile_px: u32::MAX };
-    let subject = RenderScene { scene: &scene, trees: &scene_trees, atlas };
+    let solids = solids_of(&scene).expect("shapes without files");
+    let subject = RenderScene { scene: &scene, solids: &solids, trees: &scene_trees, atlas };
     let renderer = Renderer::new(gpu.device(), gpu.queue(), subject, PictureTarget::FORMAT, SIZE, options)
         .expect("a renderer within default limits");
     Bench { gpu, scene, scene_trees, renderer }

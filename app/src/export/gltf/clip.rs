@@ -66,7 +66,7 @@ impl ClipExport {
             times: Vec::new(),
             leaves: vec![Track::default(); job.scene.leaf_count() as usize],
             trees: trees.collect(),
-            solids: SolidTracks::new(job.scene),
+            solids: SolidTracks::new(job.solids),
         })
     }
 

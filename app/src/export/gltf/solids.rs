@@ -5,7 +5,7 @@
 use gltf::json::animation::Property;
 use gltf::json::mesh::Semantic;
 use gltf::json::{Accessor, Index, Material, Node};
-use windfall_core::Scene;
+use windfall_core::solid::Solid;
 use windfall_core::tree::gltf::new_mesh;
 
 use super::file::Document;
@@ -30,8 +30,8 @@ struct Track {
 }
 
 impl SolidTracks {
-    pub(super) fn new(scene: &Scene) -> Self {
-        let (parts, paints) = solid_parts(scene);
+    pub(super) fn new(solids: &[Solid]) -> Self {
+        let (parts, paints) = solid_parts(solids);
         Self { parts: parts.into_iter().map(|part| (part, Track::default())).collect(), paints }
     }
 

@@ -82,7 +82,7 @@ impl StillExport {
             };
             document.add_root(node);
         }
-        let mut solids = SolidTracks::new(scene);
+        let mut solids = SolidTracks::new(frame.world.compiled.solids());
         solids.push(frame);
         solids.add(document, None);
         let mut barks = Barks::default();

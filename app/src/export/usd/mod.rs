@@ -72,7 +72,7 @@ impl UsdExport {
         let mut samples = Samples::new();
         let attributes = LeafAttributes::declare(&mut samples);
         let trees = TreeSamples::declare(&mut samples, job.scene_trees);
-        let solids = SolidSamples::declare(&mut samples, job.scene);
+        let solids = SolidSamples::declare(&mut samples, job.solids);
         let view = ViewSamples::declare(&mut samples, job.scene);
         let written = File::create(folder.partial().join(STAGE)).and_then(|file| {
             let mut out = BufWriter::new(file);

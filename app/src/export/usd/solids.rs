@@ -5,7 +5,7 @@
 use std::io::{self, Write};
 
 use glam::{Mat4, Quat, Vec3};
-use windfall_core::Scene;
+use windfall_core::solid::Solid;
 
 use super::prototypes::{NORMAL_PLACES, extent_of, write_plain};
 use super::samples::{Handle, Samples};
@@ -23,8 +23,8 @@ pub(super) struct SolidSamples {
 }
 
 impl SolidSamples {
-    pub(super) fn declare(samples: &mut Samples, scene: &Scene) -> Self {
-        let (parts, _) = solid_parts(scene);
+    pub(super) fn declare(samples: &mut Samples, solids: &[Solid]) -> Self {
+        let (parts, _) = solid_parts(solids);
         let moving = parts.into_iter().filter(SolidPart::moves).map(|part| {
             let prim = format!("World/Objects/{}", part.name);
             (samples.declare(&prim, "matrix4d xformOp:transform"), part)

@@ -92,7 +92,7 @@ pub(super) fn write_stage(
     trees::write_materials(out, job.scene_trees)?;
     let surfaces = surface::surfaces(job.scene);
     surfaces.iter().try_for_each(|surface| prototypes::write_plain(out, &surface.plain))?;
-    let (parts, paints) = solid_parts(job.scene);
+    let (parts, paints) = solid_parts(job.solids);
     solids::write_materials(out, &paints)?;
     writeln!(out, "}}\ndef PointInstancer \"Leaves\"\n{{")?;
     let paths = foliage.meshes.iter().map(|mesh| format!("</World/Leaves/Prototypes/{}>", mesh.name));

@@ -5,6 +5,7 @@
 use egui::{RichText, Ui};
 use glam::Vec3;
 use windfall_core::Scene;
+use windfall_core::hull::MAX_CORNERS;
 use windfall_core::scene::{
     MAX_OBJECTS, MAX_PATH_KEYS, Object, ObjectFriction, ObjectKey, ObjectMotion, ObjectShape, limits,
 };
@@ -27,13 +28,15 @@ pub(super) fn show(ui: &mut Ui, scene: &mut Scene, own: &Scene) {
             ObjectShape::Capsule { .. } => "capsule",
             ObjectShape::Box { .. } => "box",
             ObjectShape::Cylinder { .. } => "cylinder",
+            ObjectShape::Polyhedron { .. } => "polyhedron",
+            ObjectShape::Mesh { .. } => "mesh",
         };
         format!("{}: {shape} at {:.1}, {:.1}", index + 1, object.at_m.x, object.at_m.z)
     };
     let chosen = list.show(ui, objects, name, |like, _| like.cloned().unwrap_or_default());
     let Some(object) = chosen.and_then(|index| objects.get_mut(index)) else { return };
     let own = chosen.and_then(|index| own.get(index));
-    shape(ui, &mut object.shape, own.map(|own| own.shape));
+    shape(ui, &mut object.shape, own.map(|own| &own.shape));
     let tip = "Middle of the object";
     vector(ui, "Place", tip, &mut object.at_m, own.map(|own| own.at_m), limits::OBJECT_AT_M);
     let tip = "Turn about the vertical, from z towards x";
@@ -77,9 +80,13 @@ fn motion(ui: &mut Ui, motion: &mut ObjectMotion, own: Option<&ObjectMotion>) {
     turned.show(ui, &mut key.turned_deg, own.map(|own| own.turned_deg));
 }
 
-fn shape(ui: &mut Ui, shape: &mut ObjectShape, own: Option<ObjectShape>) {
+fn shape(ui: &mut Ui, shape: &mut ObjectShape, own: Option<&ObjectShape>) {
     // Another shape is about as large.
     let size_m = match *shape {
+        ObjectShape::Polyhedron { ref corners_m } => {
+            2.0 * corners_m.iter().map(|corner| corner.abs()).fold(Vec3::ZERO, Vec3::max)
+        }
+        ObjectShape::Mesh { .. } => Vec3::ONE,
         ObjectShape::Sphere { radius_m } => Vec3::splat(2.0 * radius_m),
         ObjectShape::Capsule { radius_m, length_m } => {
             Vec3::new(2.0 * radius_m, length_m + 2.0 * radius_m, 2.0 * radius_m)
@@ -95,23 +102,26 @@ fn shape(ui: &mut Ui, shape: &mut ObjectShape, own: Option<ObjectShape>) {
         ("capsule", ObjectShape::Capsule { radius_m, length_m: (size_m.y - 2.0 * radius_m).max(0.0) }),
         ("box", ObjectShape::Box { size_m }),
         ("cylinder", ObjectShape::Cylinder { radius_m, height_m: size_m.y }),
+        ("polyhedron", ObjectShape::Polyhedron { corners_m: octahedron(0.5 * size_m) }),
     ];
-    choice(ui, "Shape", "Shape of the object", shape, own.as_ref(), &options);
-    let own = own.filter(|own| std::mem::discriminant(own) == std::mem::discriminant(shape));
+    // A mesh is a file of the scene's: none can be chosen here.
+    let mesh = [shape.clone()].into_iter().filter(|shape| matches!(shape, ObjectShape::Mesh { .. }));
+    let options: Vec<_> = options.into_iter().chain(mesh.map(|mesh| ("mesh", mesh))).collect();
+    choice(ui, "Shape", "Shape of the object", shape, own, &options);
     let radius = |ui: &mut Ui, radius_m: &mut f32, own: Option<f32>| {
         field("Radius", "Radius", limits::OBJECT_RADIUS_M).fine(0.01).show(ui, radius_m, own);
     };
     match shape {
         ObjectShape::Sphere { radius_m } => {
-            let own =
-                own.and_then(
-                    |own| if let ObjectShape::Sphere { radius_m } = own { Some(radius_m) } else { None },
-                );
+            let own = own.and_then(|own| match own {
+                ObjectShape::Sphere { radius_m } => Some(*radius_m),
+                _ => None,
+            });
             radius(ui, radius_m, own);
         }
         ObjectShape::Capsule { radius_m, length_m } => {
             let own = own.and_then(|own| match own {
-                ObjectShape::Capsule { radius_m, length_m } => Some((radius_m, length_m)),
+                ObjectShape::Capsule { radius_m, length_m } => Some((*radius_m, *length_m)),
                 _ => None,
             });
             radius(ui, radius_m, own.map(|own| own.0));
@@ -119,20 +129,54 @@ fn shape(ui: &mut Ui, shape: &mut ObjectShape, own: Option<ObjectShape>) {
             field("Length", tip, limits::OBJECT_LENGTH_M).fine(0.01).show(ui, length_m, own.map(|own| own.1));
         }
         ObjectShape::Box { size_m } => {
-            let own =
-                own.and_then(|own| if let ObjectShape::Box { size_m } = own { Some(size_m) } else { None });
+            let own = own.and_then(|own| match own {
+                ObjectShape::Box { size_m } => Some(*size_m),
+                _ => None,
+            });
             vector(ui, "Size", "Edges of the box", size_m, own, limits::OBJECT_SIZE_M);
         }
         ObjectShape::Cylinder { radius_m, height_m } => {
             let own = own.and_then(|own| match own {
-                ObjectShape::Cylinder { radius_m, height_m } => Some((radius_m, height_m)),
+                ObjectShape::Cylinder { radius_m, height_m } => Some((*radius_m, *height_m)),
                 _ => None,
             });
             radius(ui, radius_m, own.map(|own| own.0));
             let height = field("Height", "Height of the cylinder", limits::OBJECT_HEIGHT_M).fine(0.01);
             height.show(ui, height_m, own.map(|own| own.1));
         }
+        ObjectShape::Polyhedron { corners_m } => {
+            let own: &[Vec3] =
+                if let Some(ObjectShape::Polyhedron { corners_m }) = own { corners_m } else { &[] };
+            corners(ui, corners_m, own);
+        }
+        ObjectShape::Mesh { file, scale } => {
+            ui.label(RichText::new(&*file).small().color(style::QUIET)).on_hover_text("File of the mesh");
+            let own = own.and_then(|own| match own {
+                ObjectShape::Mesh { scale, .. } => Some(*scale),
+                _ => None,
+            });
+            field("Scale", "Factor of the mesh's size", limits::MESH_SCALE).show(ui, scale, own);
+        }
     }
+}
+
+/// Corners of a polyhedron.
+fn corners(ui: &mut Ui, corners_m: &mut Vec<Vec3>, own: &[Vec3]) {
+    let list = List { name: "Corner", entry: "corner", fewest: 4, most: MAX_CORNERS };
+    let name = |index: usize, corner: &Vec3| {
+        format!("{}: {:.2}, {:.2}, {:.2}", index + 1, corner.x, corner.y, corner.z)
+    };
+    // Beyond the farthest, so that it is a corner.
+    let fresh =
+        |like: Option<&Vec3>, corners_m: &[Vec3]| 1.1 * like.or(corners_m.last()).copied().unwrap_or(Vec3::Y);
+    let Some(index) = list.show(ui, corners_m, name, fresh) else { return };
+    let tip = "Corner of the convex polyhedron, from the object's middle";
+    vector(ui, "Corner at", tip, &mut corners_m[index], own.get(index).copied(), limits::CORNER_M);
+}
+
+/// Corners of an octahedron of these half axes.
+fn octahedron(half_m: Vec3) -> Vec<Vec3> {
+    [Vec3::X, Vec3::Y, Vec3::Z].into_iter().flat_map(|axis| [half_m * axis, -half_m * axis]).collect()
 }
 
 fn friction(ui: &mut Ui, friction: &mut ObjectFriction, own: Option<ObjectFriction>) {

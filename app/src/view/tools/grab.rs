@@ -46,16 +46,20 @@ impl Grab {
     }
 }
 
-/// Half of the edges in metres of the box around a shape.
-fn half_m(shape: ObjectShape) -> Vec3 {
-    match shape {
-        ObjectShape::Sphere { radius_m } => Vec3::splat(radius_m),
+/// Half of the edges in metres of the box around a shape; `None` for a mesh, of which a scene only names the file.
+fn half_m(shape: &ObjectShape) -> Option<Vec3> {
+    Some(match shape {
+        ObjectShape::Sphere { radius_m } => Vec3::splat(*radius_m),
         ObjectShape::Capsule { radius_m, length_m } => {
-            Vec3::new(radius_m, 0.5 * length_m + radius_m, radius_m)
+            Vec3::new(*radius_m, 0.5 * length_m + radius_m, *radius_m)
         }
         ObjectShape::Box { size_m } => 0.5 * size_m,
-        ObjectShape::Cylinder { radius_m, height_m } => Vec3::new(radius_m, 0.5 * height_m, radius_m),
-    }
+        ObjectShape::Cylinder { radius_m, height_m } => Vec3::new(*radius_m, 0.5 * height_m, *radius_m),
+        ObjectShape::Polyhedron { corners_m } => {
+            corners_m.iter().map(|corner| corner.abs()).fold(Vec3::ZERO, Vec3::max)
+        }
+        ObjectShape::Mesh { .. } => return None,
+    })
 }
 
 fn turn(object: &Object) -> Quat {
@@ -65,7 +69,7 @@ fn turn(object: &Object) -> Quat {
 
 /// Distance in metres at which a ray enters the box around an object.
 fn distance_m(object: &Object, eye_m: Vec3, way: Vec3) -> Option<f32> {
-    let (back, half_m) = (turn(object).inverse(), half_m(object.shape));
+    let (back, half_m) = (turn(object).inverse(), half_m(&object.shape)?);
     let (eye, way) = (back * (eye_m - object.at_m), back * way);
     let (a, b) = ((-half_m - eye) / way, (half_m - eye) / way);
     let (enters, leaves) = (a.min(b).max_element(), a.max(b).min_element());
@@ -74,7 +78,7 @@ fn distance_m(object: &Object, eye_m: Vec3, way: Vec3) -> Option<f32> {
 
 /// Edges of the box around an object.
 pub(crate) fn outline(object: &Object) -> [[Vec3; 2]; 12] {
-    let (turn, half_m) = (turn(object), half_m(object.shape));
+    let (turn, half_m) = (turn(object), half_m(&object.shape).unwrap_or_default());
     std::array::from_fn(|edge| {
         // Four edges along each axis, by the sides of the other two that they lie on.
         let (axis, side) = (edge / 4, edge % 4);

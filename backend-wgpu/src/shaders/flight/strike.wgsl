@@ -9,6 +9,8 @@
 #import flight/body
 #import flight/contact
 #import flight/rates
+#import solid/distance
+#import solid/grid
 #import solid/near
 #import solid/shape
 
@@ -27,6 +29,12 @@ struct Passage {
     reach_share: f32,
 }
 
+struct Approach {
+    start: vec3<f32>,
+    way: vec3<f32>,
+    reach_share: f32,
+}
+
 struct Strike {
     number: u32,
     share: f32,
@@ -37,6 +45,59 @@ fn solid_gap(solid: SolidAt, body: LeafBody, pose: vec4<f32>, place: vec3<f32>, 
     let inner = quat_rotate_back(pose, outside.normal);
     let nearest = support(body, inner);
     return SolidGap(outside.distance_m - nearest.radius * reach_share, outside.normal, inner, nearest.arm);
+}
+
+fn convex_strike(
+    body: LeafBody,
+    pose: vec4<f32>,
+    solid: SolidAt,
+    approach: Approach,
+    before: Strike,
+) -> Strike {
+    var share = 0.0;
+    for (var round = 0u; round < STRIKE_ROUNDS; round += 1u) {
+        let place = approach.start + approach.way * share;
+        let gap = solid_gap(solid, body, pose, place, approach.reach_share);
+        let closing = -vec3_dot(gap.normal, approach.way);
+        if (!(0.0 < closing && gap.gap_m < closing * (before.share - share))) {
+            return Strike(NEVER, 1.0);
+        }
+        if (gap.gap_m < STRIKE_GAP_M) {
+            break;
+        }
+        share = share + gap.gap_m * reciprocal(closing);
+    }
+    return Strike(before.number, share);
+}
+
+fn mesh_strike(
+    body: LeafBody,
+    pose: vec4<f32>,
+    solid: SolidAt,
+    approach: Approach,
+    before: Strike,
+) -> Strike {
+    let squared = max(vec3_dot(approach.way, approach.way), TINY_SQUARED);
+    let inv_way = inverse_sqrt(squared);
+    let half_cell = 0.5 * grid_cell_m(solid) * inv_way;
+    var share = 0.0;
+    for (var round = 0u; round < MESH_ROUNDS; round += 1u) {
+        let place = approach.start + approach.way * share;
+        let gap = solid_gap(solid, body, pose, place, approach.reach_share);
+        let closing = -vec3_dot(gap.normal, approach.way);
+        var flat_share = half_cell;
+        if (0.0 < closing) {
+            if (gap.gap_m < STRIKE_GAP_M) {
+                return Strike(before.number, share);
+            }
+            flat_share = min(half_cell, gap.gap_m * reciprocal(closing));
+        }
+        share = share + max(flat_share, gap.gap_m * inv_way);
+        if (!(share < before.share)) {
+            return Strike(NEVER, 1.0);
+        }
+    }
+    return Strike(NEVER, share);
 }
 
 fn first_strike(body: LeafBody, pose: vec4<f32>, cell: u32, passage: Passage) -> Strike {
@@ -52,22 +113,15 @@ fn first_strike(body: LeafBody, pose: vec4<f32>, cell: u32, passage: Passage) ->
         if (bound * bound < vec3_dot(apart, apart)) {
             continue;
         }
-        var share = 0.0;
-        for (var round = 0u; round < STRIKE_ROUNDS; round += 1u) {
-            let place = passage.start + relative * share;
-            let gap = solid_gap(solid, body, pose, place, passage.reach_share);
-            let closing = -vec3_dot(gap.normal, relative);
-            if (!(0.0 < closing && gap.gap_m < closing * (strike.share - share))) {
-                share = 1.0;
-                break;
-            }
-            if (gap.gap_m < STRIKE_GAP_M) {
-                break;
-            }
-            share = share + gap.gap_m * reciprocal(closing);
+        let approach = Approach(passage.start, relative, passage.reach_share);
+        var found: Strike;
+        if ((solid.flags & SOLID_GRID) != 0u) {
+            found = mesh_strike(body, pose, solid, approach, Strike(number, strike.share));
+        } else {
+            found = convex_strike(body, pose, solid, approach, Strike(number, strike.share));
         }
-        if (share < strike.share) {
-            strike = Strike(number, share);
+        if (found.share < strike.share) {
+            strike = found;
         }
     }
     return strike;

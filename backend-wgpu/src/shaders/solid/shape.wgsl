@@ -1,14 +1,15 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // twin: core/src/device/solid/shape.rs
-// Distance to a solid part: a box or a cylinder, rounded by a radius.
+// Solid parts, and the distance to those without faces: a box or a cylinder, rounded by a radius.
 #import bindings
 #import arith/math
-#import arith/quaternion
 #import arith/vector
 
 struct SolidAt {
     flags: u32,
+    first_row: u32,
+    face_count: u32,
     half_m: vec3<f32>,
     rounding_m: f32,
     bound_m: f32,
@@ -33,9 +34,15 @@ fn solid_at(number: u32, seconds: f32) -> SolidAt {
     let first = scene.solids.first_row + number * SOLID_ROWS;
     let sizes = tables[first];
     let surface = bitcast<vec4<f32>>(tables[first + 1u]);
+    var half_m = vec3<f32>(0.0, 0.0, 0.0);
+    if ((sizes.x & (SOLID_HULL | SOLID_GRID)) == 0u) {
+        half_m = bitcast<vec3<f32>>(sizes.yzw);
+    }
     var solid = SolidAt(
         sizes.x,
-        bitcast<vec3<f32>>(sizes.yzw),
+        sizes.y,
+        sizes.z,
+        half_m,
         surface.x,
         surface.y,
         surface.z,
@@ -58,8 +65,7 @@ fn with_sign(number: f32, sign_of: f32) -> f32 {
     return select(number, -number, sign_of < 0.0);
 }
 
-fn solid_distance(solid: SolidAt, place: vec3<f32>) -> SolidDistance {
-    let inner = quat_rotate_back(solid.turn, place - solid.center);
+fn core_distance(solid: SolidAt, inner: vec3<f32>) -> SolidDistance {
     let radial_squared = max(inner.x * inner.x + inner.z * inner.z, TINY_SQUARED);
     let inv_radial = inverse_sqrt(radial_squared);
     let is_round = (solid.flags & SOLID_ROUND) != 0u;
@@ -86,7 +92,7 @@ fn solid_distance(solid: SolidAt, place: vec3<f32>) -> SolidDistance {
     if (is_round) {
         normal = vec3<f32>(along.x * (inner.x * inv_radial), along.y * signs.y, along.x * (inner.z * inv_radial));
     }
-    return SolidDistance(distance - solid.rounding_m, quat_rotate(solid.turn, normal));
+    return SolidDistance(distance - solid.rounding_m, normal);
 }
 
 fn solid_velocity(solid: SolidAt, place: vec3<f32>) -> vec3<f32> {

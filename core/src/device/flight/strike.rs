@@ -16,14 +16,18 @@ use crate::arith::quaternion::{Quat, quat_rotate, quat_rotate_back};
 use crate::arith::vector::{TINY_SQUARED, Vec3, vec3_dot};
 use crate::blocks::NEVER;
 use crate::context::Context;
+use crate::device::solid::distance::solid_distance;
+use crate::device::solid::grid::grid_cell_m;
 use crate::device::solid::near::{near_count, near_solid, solids_cell};
-use crate::device::solid::shape::{SOLID_LOSS, SolidAt, solid_at, solid_distance, solid_velocity};
+use crate::device::solid::shape::{SOLID_GRID, SOLID_LOSS, SolidAt, solid_at, solid_velocity};
 
 crate::shared_constants! {
     /// Most parts that a body strikes in a substep, and most that push it out at its end.
     pub const MOST_STRIKES: u32 = 4;
     /// Most rounds of the search for the moment at which it does.
     pub const STRIKE_ROUNDS: u32 = 8;
+    /// The same where a mesh is near.
+    pub const MESH_ROUNDS: u32 = 16;
     /// Share of its reach up to which a body may come nearer within a substep: turning takes it there, and it is pushed out at the end.
     pub const STRIKE_REACH: f32 = 0.5;
     /// Gap in m below which there is none.
@@ -47,8 +51,15 @@ pub struct SolidGap {
 
 /// Gap between a body at a place, of whose reach a share counts, and a solid part.
 #[inline(always)]
-pub fn solid_gap(solid: &SolidAt, body: &LeafBody, pose: Quat, place: Vec3, reach_share: f32) -> SolidGap {
-    let from = solid_distance(solid, place);
+pub fn solid_gap(
+    cx: &Context<'_>,
+    solid: &SolidAt,
+    body: &LeafBody,
+    pose: Quat,
+    place: Vec3,
+    reach_share: f32,
+) -> SolidGap {
+    let from = solid_distance(cx, solid, place);
     let inner = quat_rotate_back(pose, from.normal);
     let (radius, arm) = support(body, inner);
     SolidGap { gap_m: from.distance_m - radius * reach_share, normal: from.normal, inner, arm }
@@ -59,7 +70,7 @@ pub fn solid_gap(solid: &SolidAt, body: &LeafBody, pose: Quat, place: Vec3, reac
 pub struct Strike {
     /// Number of the part, or [`NEVER`].
     pub number: u32,
-    /// Share of the way up to there.
+    /// Share of the way up to there, or as far as it is free.
     pub share: f32,
 }
 
@@ -78,7 +89,78 @@ pub struct Passage {
     pub reach_share: f32,
 }
 
-/// First of the parts of a cell that a body strikes on its way.
+/// A straight way of a body past a part, as seen from the part.
+#[derive(Clone, Copy, Debug)]
+pub struct Approach {
+    /// Place where it begins, in m.
+    pub from: Vec3,
+    /// Displacement in m.
+    pub way: Vec3,
+    /// Share of the body's reach up to which it may come near the part.
+    pub reach_share: f32,
+}
+
+/// Strike of a convex part, if it comes before a share of the way; its share is 1 if there is none.
+#[inline(always)]
+pub fn convex_strike(
+    cx: &Context<'_>,
+    body: &LeafBody,
+    pose: Quat,
+    solid: &SolidAt,
+    approach: &Approach,
+    before: Strike,
+) -> Strike {
+    let mut share = 0.0;
+    for _ in 0..STRIKE_ROUNDS {
+        let place = approach.from + approach.way * share;
+        let gap = solid_gap(cx, solid, body, pose, place, approach.reach_share);
+        let closing = -vec3_dot(gap.normal, approach.way);
+        if !(0.0 < closing && gap.gap_m < closing * (before.share - share)) {
+            return Strike { number: NEVER, share: 1.0 };
+        }
+        if gap.gap_m < STRIKE_GAP_M {
+            break;
+        }
+        share += gap.gap_m * reciprocal(closing);
+    }
+    Strike { number: before.number, share }
+}
+
+/// The same of a mesh, of which the plane at the nearest point bounds only what is near: beyond half a cell the distance does. Where
+/// the rounds do not suffice the way ends without a strike.
+#[inline(always)]
+pub fn mesh_strike(
+    cx: &Context<'_>,
+    body: &LeafBody,
+    pose: Quat,
+    solid: &SolidAt,
+    approach: &Approach,
+    before: Strike,
+) -> Strike {
+    let squared = vec3_dot(approach.way, approach.way).max(TINY_SQUARED);
+    let inv_way = inverse_sqrt(squared);
+    let half_cell = 0.5 * grid_cell_m(cx, solid) * inv_way;
+    let mut share = 0.0;
+    for _ in 0..MESH_ROUNDS {
+        let place = approach.from + approach.way * share;
+        let gap = solid_gap(cx, solid, body, pose, place, approach.reach_share);
+        let closing = -vec3_dot(gap.normal, approach.way);
+        let mut flat_share = half_cell;
+        if 0.0 < closing {
+            if gap.gap_m < STRIKE_GAP_M {
+                return Strike { number: before.number, share };
+            }
+            flat_share = half_cell.min(gap.gap_m * reciprocal(closing));
+        }
+        share += flat_share.max(gap.gap_m * inv_way);
+        if !(share < before.share) {
+            return Strike { number: NEVER, share: 1.0 };
+        }
+    }
+    Strike { number: NEVER, share }
+}
+
+/// First of the parts of a cell that a body strikes on its way: [`NEVER`] if there is none, and then the share of the way that is free.
 #[inline(always)]
 pub fn first_strike(cx: &Context<'_>, body: &LeafBody, pose: Quat, cell: u32, passage: &Passage) -> Strike {
     let mut strike = Strike { number: NEVER, share: 1.0 };
@@ -93,22 +175,14 @@ pub fn first_strike(cx: &Context<'_>, body: &LeafBody, pose: Quat, cell: u32, pa
         if bound * bound < vec3_dot(apart, apart) {
             continue;
         }
-        let mut share = 0.0;
-        for _ in 0..STRIKE_ROUNDS {
-            let place = passage.from + relative * share;
-            let gap = solid_gap(&solid, body, pose, place, passage.reach_share);
-            let closing = -vec3_dot(gap.normal, relative);
-            if !(0.0 < closing && gap.gap_m < closing * (strike.share - share)) {
-                share = 1.0;
-                break;
-            }
-            if gap.gap_m < STRIKE_GAP_M {
-                break;
-            }
-            share += gap.gap_m * reciprocal(closing);
-        }
-        if share < strike.share {
-            strike = Strike { number, share };
+        let approach = Approach { from: passage.from, way: relative, reach_share: passage.reach_share };
+        let found = if (solid.flags & SOLID_GRID) != 0 {
+            mesh_strike(cx, body, pose, &solid, &approach, Strike { number, share: strike.share })
+        } else {
+            convex_strike(cx, body, pose, &solid, &approach, Strike { number, share: strike.share })
+        };
+        if found.share < strike.share {
+            strike = found;
         }
     }
     strike
@@ -187,7 +261,7 @@ pub fn strike_solids(
         passage.seconds += passage.time * strike.share;
         passage.time *= 1.0 - strike.share;
         let solid = solid_at(cx, strike.number, passage.seconds);
-        let gap = solid_gap(&solid, body, flown.pose, contact.position, 1.0);
+        let gap = solid_gap(cx, &solid, body, flown.pose, contact.position, 1.0);
         contact.motion = struck_motion(body, &contact.motion, &solid, &gap, contact.position, 0.0);
         contact.touches = true;
         passage.way = contact.motion.velocity * passage.time;
@@ -205,7 +279,7 @@ pub fn strike_solids(
             break;
         }
         let solid = solid_at(cx, deepest.number, seconds + time);
-        let gap = solid_gap(&solid, body, flown.pose, contact.position, 1.0);
+        let gap = solid_gap(cx, &solid, body, flown.pose, contact.position, 1.0);
         // Its weight presses once.
         let weight = if push == 0 { weight_m_s } else { 0.0 };
         contact.motion = struck_motion(body, &contact.motion, &solid, &gap, contact.position, weight);
@@ -228,7 +302,7 @@ pub fn deepest_overlap(
     let mut deepest = Strike { number: NEVER, share: 0.0 };
     for entry in 0..near_count(cx, cell) {
         let number = near_solid(cx, cell, entry);
-        let gap = solid_gap(&solid_at(cx, number, seconds), body, pose, place, 1.0);
+        let gap = solid_gap(cx, &solid_at(cx, number, seconds), body, pose, place, 1.0);
         if gap.gap_m < deepest.share {
             deepest = Strike { number, share: gap.gap_m };
         }

@@ -22,8 +22,9 @@ use crate::blocks::NEVER;
 use crate::context::Context;
 use crate::device::flight::body::{LeafBody, body_of};
 use crate::device::flight::strike::{Passage, deepest_overlap, first_strike, solid_gap};
+use crate::device::solid::distance::solid_distance;
 use crate::device::solid::near::{may_meet_movers, near_count, near_solid, solids_cell};
-use crate::device::solid::shape::{SolidAt, solid_at, solid_distance};
+use crate::device::solid::shape::{SolidAt, solid_at};
 use crate::device::terrain::ground::{Slope, ground_rest};
 use crate::leaf::LeafMut;
 
@@ -53,7 +54,7 @@ pub fn leaf_strike(cx: &Context<'_>, leaf: &mut LeafMut<'_>, end: Vec3) -> bool 
     let pose = Quat::from(leaf.attitude.quaternion);
     let passage =
         Passage { from: start, way: end - start, seconds: 0.0, time: cx.scene.dt_s, reach_share: 1.0 };
-    if first_strike(cx, &body, pose, cell, &passage).number == NEVER {
+    if !(first_strike(cx, &body, pose, cell, &passage).share < 1.0) {
         return false;
     }
     let [x, y, z] = body_spin_words(Vec3::ZERO);
@@ -95,7 +96,7 @@ pub fn solid_footing(cx: &Context<'_>, body: &LeafBody, pose: Quat, place: Vec3)
         Footing { is_firm: false, slope: Slope { x: 0.0, z: 0.0, gain: 1.0, inv_gain: 1.0 }, friction: 0.0 };
     for entry in cx.scene.solids.mover_count..near_count(cx, cell) {
         let solid = solid_at(cx, near_solid(cx, cell, entry), 0.0);
-        let gap = solid_gap(&solid, body, pose, place, 1.0);
+        let gap = solid_gap(cx, &solid, body, pose, place, 1.0);
         if gap.gap_m < nearest && LEAST_UPWARD < gap.normal.y {
             nearest = gap.gap_m;
             normal = gap.normal;
@@ -150,7 +151,7 @@ pub fn leaf_rest_on(cx: &Context<'_>, leaf: &mut LeafMut<'_>, at_rest: &LeafAtRe
 #[inline(always)]
 pub fn comes_upon(cx: &Context<'_>, mover: &SolidAt, number: u32, place: Vec3, size_m: f32) -> bool {
     let way = cx.step.movers[number as usize].way_m;
-    0.0 < way && solid_distance(mover, place).distance_m < size_m + way
+    0.0 < way && solid_distance(cx, mover, place).distance_m < size_m + way
 }
 
 /// Wakes a leaf in the litter that a part which moves comes upon. Returns true if it does.

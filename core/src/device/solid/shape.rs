@@ -2,30 +2,38 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! twin: backend-wgpu/src/shaders/solid/shape.wgsl
 //!
-//! Distance to a solid part: a box or a cylinder, rounded by a radius. A ball is a rounded cylinder of no size, a capsule one of no
-//! radius.
+//! Solid parts, and the distance to those without faces: a box or a cylinder, rounded by a radius. A ball is a rounded cylinder of no
+//! size, a capsule one of no radius.
 
 use crate::arith::math::inverse_sqrt;
-use crate::arith::quaternion::{Quat, quat_rotate, quat_rotate_back};
+use crate::arith::quaternion::Quat;
 use crate::arith::vector::{TINY_SQUARED, Vec3, vec3_cross, vec3_dot};
 use crate::context::Context;
 use crate::layout::Uint4;
 
 crate::shared_constants! {
-    /// Rows of a part: sizes; rounding, bound, friction and restitution; centre; turn.
+    /// Rows of a part: flags, and sizes or where its faces are; rounding, bound, friction and restitution; centre; turn.
     pub const SOLID_ROWS: u32 = 4;
     /// Flag of a part that is a cylinder, not a box.
     pub const SOLID_ROUND: u32 = 1;
     /// Flag of a part whose friction is a share of the speed along it, not a coefficient of Coulomb's law.
     pub const SOLID_LOSS: u32 = 2;
+    /// Flag of a part that is a convex polyhedron.
+    pub const SOLID_HULL: u32 = 4;
+    /// Flag of a part whose distances are on a grid.
+    pub const SOLID_GRID: u32 = 8;
 }
 
 /// A solid part at a moment.
 #[derive(Clone, Copy, Debug)]
 pub struct SolidAt {
-    /// [`SOLID_ROUND`], [`SOLID_LOSS`].
+    /// [`SOLID_ROUND`], [`SOLID_LOSS`], [`SOLID_HULL`], [`SOLID_GRID`].
     pub flags: u32,
-    /// Half edges of its core in m; of a cylinder, radius, half of the height, and nothing.
+    /// First row of the faces of a polyhedron, or of a grid.
+    pub first_row: u32,
+    /// Number of the faces of a polyhedron.
+    pub face_count: u32,
+    /// Half edges of its core in m; of a cylinder, radius, half of the height, and nothing; zero of what has faces.
     pub half_m: Vec3,
     /// Radius in m by which it is rounded.
     pub rounding_m: f32,
@@ -56,7 +64,7 @@ pub struct SolidDistance {
 
 /// Three floats of a row.
 #[inline(always)]
-fn row_vector(row: Uint4) -> Vec3 {
+pub(super) fn row_vector(row: Uint4) -> Vec3 {
     let Uint4([x, y, z, _]) = row;
     Vec3::new(f32::from_bits(x), f32::from_bits(y), f32::from_bits(z))
 }
@@ -68,9 +76,15 @@ pub fn solid_at(cx: &Context<'_>, number: u32, seconds: f32) -> SolidAt {
     let Uint4([flags, half_x, half_y, half_z]) = cx.tables[first];
     let Uint4([rounding, bound, friction, restitution]) = cx.tables[first + 1];
     let Uint4(turn) = cx.tables[first + 3];
+    let mut half_m = Vec3::ZERO;
+    if (flags & (SOLID_HULL | SOLID_GRID)) == 0 {
+        half_m = Vec3::new(f32::from_bits(half_x), f32::from_bits(half_y), f32::from_bits(half_z));
+    }
     let mut solid = SolidAt {
         flags,
-        half_m: Vec3::new(f32::from_bits(half_x), f32::from_bits(half_y), f32::from_bits(half_z)),
+        first_row: half_x,
+        face_count: half_y,
+        half_m,
         rounding_m: f32::from_bits(rounding),
         bound_m: f32::from_bits(bound),
         friction: f32::from_bits(friction),
@@ -96,10 +110,9 @@ fn with_sign(number: f32, of: f32) -> f32 {
     if of < 0.0 { -number } else { number }
 }
 
-/// Distance of a place from a part. Inside its core the normal is that of the nearest face.
+/// Distance of a place in the frame of a part without faces, and the normal there. Inside its core the normal is that of the nearest side.
 #[inline(always)]
-pub fn solid_distance(solid: &SolidAt, place: Vec3) -> SolidDistance {
-    let inner = quat_rotate_back(solid.turn, place - solid.center);
+pub fn core_distance(solid: &SolidAt, inner: Vec3) -> SolidDistance {
     let radial_squared = (inner.x * inner.x + inner.z * inner.z).max(TINY_SQUARED);
     let inv_radial = inverse_sqrt(radial_squared);
     let is_round = (solid.flags & SOLID_ROUND) != 0;
@@ -128,7 +141,7 @@ pub fn solid_distance(solid: &SolidAt, place: Vec3) -> SolidDistance {
         normal =
             Vec3::new(along.x * (inner.x * inv_radial), along.y * signs.y, along.x * (inner.z * inv_radial));
     }
-    SolidDistance { distance_m: distance - solid.rounding_m, normal: quat_rotate(solid.turn, normal) }
+    SolidDistance { distance_m: distance - solid.rounding_m, normal }
 }
 
 /// Velocity of a part at a place in m/s.

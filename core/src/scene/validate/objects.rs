@@ -6,6 +6,7 @@ use glam::Vec3;
 
 use super::check::Check;
 use crate::SceneError;
+use crate::hull::{Hull, MAX_CORNERS};
 use crate::scene::{
     MAX_MOVERS, MAX_OBJECTS, MAX_PATH_KEYS, Object, ObjectFriction, ObjectKey, ObjectMotion, ObjectShape,
     Scene, WALKER_LIMBS, Walker, limits,
@@ -66,18 +67,50 @@ impl Object {
 
 impl ObjectShape {
     fn check(&self, at: &Check<'_>) -> Result<(), SceneError> {
-        match *self {
-            Self::Sphere { radius_m } => at.numbers([("radius_m", radius_m.into(), limits::OBJECT_RADIUS_M)]),
+        match self {
+            Self::Sphere { radius_m } => {
+                at.numbers([("radius_m", (*radius_m).into(), limits::OBJECT_RADIUS_M)])
+            }
             Self::Capsule { radius_m, length_m } => at.numbers([
-                ("radius_m", radius_m.into(), limits::OBJECT_RADIUS_M),
-                ("length_m", length_m.into(), limits::OBJECT_LENGTH_M),
+                ("radius_m", (*radius_m).into(), limits::OBJECT_RADIUS_M),
+                ("length_m", (*length_m).into(), limits::OBJECT_LENGTH_M),
             ]),
-            Self::Box { size_m } => at.vector("size_m", size_m, limits::OBJECT_SIZE_M),
+            Self::Box { size_m } => at.vector("size_m", *size_m, limits::OBJECT_SIZE_M),
             Self::Cylinder { radius_m, height_m } => at.numbers([
-                ("radius_m", radius_m.into(), limits::OBJECT_RADIUS_M),
-                ("height_m", height_m.into(), limits::OBJECT_HEIGHT_M),
+                ("radius_m", (*radius_m).into(), limits::OBJECT_RADIUS_M),
+                ("height_m", (*height_m).into(), limits::OBJECT_HEIGHT_M),
             ]),
+            Self::Polyhedron { corners_m } => check_corners(corners_m, at),
+            Self::Mesh { file, scale } => {
+                at.numbers([("scale", (*scale).into(), limits::MESH_SCALE)])?;
+                at.holds(!file.is_empty(), "file", || {
+                    (String::from("empty"), "the name of a .gltf or .glb file".into())
+                })
+            }
         }
+    }
+}
+
+/// Checks the corners of a polyhedron.
+fn check_corners(corners_m: &[Vec3], at: &Check<'_>) -> Result<(), SceneError> {
+    at.length("corners_m", corners_m.len(), 4, MAX_CORNERS)?;
+    for (index, corner) in corners_m.iter().enumerate() {
+        at.vector(&format!("corners_m[{index}]"), *corner, limits::CORNER_M)?;
+    }
+    let low_m = corners_m.iter().copied().fold(Vec3::INFINITY, Vec3::min);
+    let high_m = corners_m.iter().copied().fold(Vec3::NEG_INFINITY, Vec3::max);
+    let size_m = high_m - low_m;
+    at.holds(size_m.min_element() >= limits::OBJECT_SIZE_M.low, "corners_m", || {
+        (
+            format!("of a size of {size_m} m"),
+            format!("at least {} m along each axis", limits::OBJECT_SIZE_M.low),
+        )
+    })?;
+    match Hull::around(corners_m) {
+        Ok(_) => Ok(()),
+        Err(error) => at.holds(false, "corners_m", || {
+            (error.to_string(), "the corners of a convex polyhedron, and no other points".into())
+        }),
     }
 }
 

@@ -70,8 +70,14 @@ pub enum GltfError {
         /// Index of the skin.
         skin: usize,
     },
+    /// Nothing but points and lines, or nothing at all.
+    #[error("{file}: has no triangles")]
+    NoTriangles {
+        /// The file.
+        file: String,
+    },
     /// More vertices than are read.
-    #[error("{file}: has {found} vertices or more on its skin; allowed are up to {MAX_VERTICES}")]
+    #[error("{file}: has {found} vertices or more; allowed are up to {MAX_VERTICES}")]
     Vertices {
         /// The file.
         file: String,

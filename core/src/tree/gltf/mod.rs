@@ -20,5 +20,5 @@ mod write;
 pub use buffer::{GltfBuffer, write_glb};
 pub use convention::{BEARING, DIRECTION, WIND_WEIGHT};
 pub use error::GltfError;
-pub use read::{MAX_FILE_BYTES, MAX_VERTICES, RiggedTree, read, read_bytes};
+pub use read::{GltfTriangles, MAX_FILE_BYTES, MAX_VERTICES, RiggedTree, read, read_bytes, read_triangles};
 pub use write::{GltfLook, new_document, new_mesh, to_glb, to_gltf};

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Trees from glTF files with a skin.
+//! Trees from glTF files with a skin, and triangles from any.
 
 mod accessor;
 mod attachments;
@@ -9,6 +9,7 @@ mod measure;
 mod nodes;
 mod rig;
 mod skinned;
+mod triangles;
 mod vertices;
 
 use std::fs::File;
@@ -22,6 +23,7 @@ use self::accessor::Source;
 use self::nodes::Nodes;
 use self::rig::Rig;
 use self::skinned::Skinned;
+pub use self::triangles::GltfTriangles;
 use super::GltfError;
 use crate::tree::skeleton::MAX_SEGMENTS;
 use crate::tree::{BarkMesh, Skeleton};
@@ -81,6 +83,19 @@ pub fn read_bytes(bytes: &[u8], path: &Path) -> Result<RiggedTree, GltfError> {
     skeleton.validate().map_err(|source| GltfError::Skeleton { file: file.clone(), source })?;
     let mesh = skinned.into_mesh(origin_m, &segments);
     Ok(RiggedTree { skeleton, mesh })
+}
+
+/// Reads all triangles of a file of either kind, skinned or not, as they are at rest.
+///
+/// # Errors
+/// [`GltfError`] for whatever keeps the file from having any.
+pub fn read_triangles(path: &Path) -> Result<GltfTriangles, GltfError> {
+    let bytes = read_file(path, MAX_FILE_BYTES).map_err(|source| too_large(path, source))?;
+    let file = path.display().to_string();
+    let gltf = parse(&bytes)
+        .map_err(|reason| GltfError::Format { file: file.clone(), reason: one_line(&reason) })?;
+    let source = Source { file: &file, buffers: buffers::load(&gltf, path)? };
+    GltfTriangles::of(&source, &gltf.document)
 }
 
 /// The document of a file, with all its references checked.

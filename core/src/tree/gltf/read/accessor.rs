@@ -63,6 +63,21 @@ impl Source<'_> {
         self.elements(accessor, used_as, read)
     }
 
+    /// Numbers of vertices, of which there are so many.
+    ///
+    /// # Errors
+    /// [`GltfError::Accessor`] with what is wrong.
+    pub(super) fn indices(&self, accessor: &Accessor<'_>, vertices: usize) -> Result<Vec<u32>, GltfError> {
+        let indices = self.integers::<1>(accessor, "indices")?.into_flattened();
+        match indices.iter().position(|&index| index as usize >= vertices) {
+            Some(at) => {
+                let reason = format!("element {at} is {}; allowed: up to {vertices} vertices", indices[at]);
+                Err(self.reject(accessor, "indices", reason))
+            }
+            None => Ok(indices),
+        }
+    }
+
     /// Names the accessor and what is wrong with it.
     pub(super) fn reject(&self, accessor: &Accessor<'_>, used_as: &str, reason: String) -> GltfError {
         GltfError::Accessor {

@@ -130,18 +130,13 @@ impl Skinned {
             self.mesh.indices.extend((0..count - count % 3).map(vertex));
             return Ok(());
         };
-        let indices = source.integers::<1>(&accessor, "indices")?;
-        let bad = indices.iter().position(|[index]| *index as usize >= count);
-        if let Some(at) = bad {
-            let reason = format!("element {at} is {}; allowed: up to {count} vertices", indices[at][0]);
-            return Err(source.reject(&accessor, "indices", reason));
-        }
+        let indices = source.indices(&accessor, count)?;
         if self.mesh.indices.len() + indices.len() > 6 * MAX_VERTICES {
             let found = (self.mesh.indices.len() + indices.len()) / 6;
             return Err(GltfError::Vertices { file: source.file.into(), found });
         }
         let whole = indices.len() - indices.len() % 3;
-        self.mesh.indices.extend(indices[..whole].iter().map(|[index]| vertex(*index as usize)));
+        self.mesh.indices.extend(indices[..whole].iter().map(|&index| vertex(index as usize)));
         Ok(())
     }
 

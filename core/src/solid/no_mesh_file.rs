@@ -1,0 +1,19 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Refusal of meshes, in place of `mesh_file` without the feature `gltf`.
+
+use thiserror::Error;
+
+use super::surface::Surface;
+
+/// A mesh at all.
+#[derive(Debug, Error)]
+#[error("{file}: the feature gltf is off; allowed are shapes without a file")]
+pub(super) struct MeshError {
+    file: String,
+}
+
+/// Refuses the file.
+pub(super) fn read(file: &str, _: f32) -> Result<Surface, MeshError> {
+    Err(MeshError { file: file.into() })
+}
