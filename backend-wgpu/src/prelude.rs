@@ -109,6 +109,7 @@ pub(crate) fn constants() -> String {
         device::wind::gust::wgsl_constants(),
         device::wind::jet::wgsl_constants(),
         device::wind::packed::wgsl_constants(),
+        device::wind::pile_shadow::wgsl_constants(),
         device::wind::profile::wgsl_constants(),
         device::wind::shelter::wgsl_constants(),
         device::wind::slipstream::wgsl_constants(),

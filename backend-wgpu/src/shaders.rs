@@ -200,6 +200,7 @@ impl Default for Shaders {
             "wind/gust",
             "wind/jet",
             "wind/packed",
+            "wind/pile_shadow",
             "wind/profile",
             "wind/row",
             "wind/sample",

@@ -11,6 +11,11 @@ use windfall_core::{Scene, Simulator, World};
 use windfall_cpu::{CpuOptions, CpuSimulator};
 
 const LEAVES: u32 = 1_000_000;
+/// Edge in m of a lawn on which the leaves lie singly.
+const LOOSE_M: f32 = 200.0;
+/// Edge in m of one on which they lie twenty layers deep, so that one in ten is on top, and the wind that keeps ten thousand awake there.
+const DEEP_M: f32 = 11.9;
+const DEEP_M_S: f32 = 7.0;
 /// Steps until as many leaves are awake as the wind keeps awake.
 const SETTLED_STEPS: u32 = 300;
 
@@ -31,9 +36,10 @@ fn litter(criterion: &mut Criterion) {
     let worlds = [
         ("falling", world(&falling(LEAVES))),
         ("bodies", world(&flying(LEAVES))),
-        ("calm", settled(&littered(LEAVES, 0.0))),
-        ("breeze", settled(&littered(LEAVES, 3.0))),
-        ("gale", settled(&littered(LEAVES, 18.0))),
+        ("calm", settled(&littered(LEAVES, LOOSE_M, 0.0))),
+        ("breeze", settled(&littered(LEAVES, LOOSE_M, 3.0))),
+        ("gale", settled(&littered(LEAVES, LOOSE_M, 18.0))),
+        ("deep", settled(&littered(LEAVES, DEEP_M, DEEP_M_S))),
     ];
     for (name, world) in &worlds {
         for mut simulator in contenders(world) {

@@ -83,20 +83,21 @@ pub fn resting(leaves: u32) -> Scene {
     scene
 }
 
-/// About so many leaves of one kind that lie on a lawn of 200 m by 200 m, in a wind of a mean speed in m/s at a height of 10 m, with
-/// its turbulence. None falls.
-pub fn littered(leaves: u32, speed_m_s: f32) -> Scene {
+/// About so many leaves of one kind that lie on a square lawn with that many edges in m, in a wind of a mean speed in m/s at a height of
+/// 10 m, with its turbulence. None falls.
+pub fn littered(leaves: u32, edge_m: f32, speed_m_s: f32) -> Scene {
     let species = Species { size_m: 0.06, areal_density_kg_m2: 0.05, ..Species::default() };
     let leaf_m2 = std::f32::consts::FRAC_PI_4 * species.size_m * species.size_m;
-    let mut scene = Scene { name: format!("litter in {speed_m_s} m/s"), ..Scene::default() };
+    let mut scene = Scene { name: format!("litter on {edge_m} m in {speed_m_s} m/s"), ..Scene::default() };
     scene.sources.clear();
     scene.species = vec![species];
     scene.wind.speed = MeanSpeed::MetresPerSecond(speed_m_s);
     scene.wind.turbulence.intensity = 0.12;
     scene.wind.turbulence.calm_m_s = 0.0;
     #[expect(clippy::cast_precision_loss, reason = "a few significant digits")]
-    let leaf_area_index = leaves as f32 * leaf_m2 / 40_000.0;
-    scene.ground.litter = Some(Litter { size_m: Vec2::splat(202.0), leaf_area_index, ..Litter::default() });
+    let leaf_area_index = leaves as f32 * leaf_m2 / (edge_m * edge_m);
+    let size_m = Vec2::splat(edge_m + 2.0);
+    scene.ground.litter = Some(Litter { size_m, leaf_area_index, ..Litter::default() });
     scene
 }
 

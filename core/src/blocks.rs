@@ -85,8 +85,8 @@ crate::shared_struct! {
 crate::shared_struct! {
     /// Place of the shelter table (see [`wind_shelter`](crate::device::wind::shelter::wind_shelter)).
     pub struct ShelterBlock {
-        /// 1 if anything shelters anything, else 0.
-        pub is_on: u32,
+        /// Lack of wind that a unit of the table stands for, as a share of the mean wind; 0 if nothing shelters anything.
+        pub lack_unit: f32,
         /// First row of the table.
         pub first_row: u32,
         /// Least x in m.
@@ -364,7 +364,7 @@ impl SceneBlock {
     /// Returns true if anything shelters anything from the wind.
     #[inline(always)]
     pub fn has_shelter(&self) -> bool {
-        self.shelter.is_on != 0
+        self.shelter.lack_unit != 0.0
     }
 }
 

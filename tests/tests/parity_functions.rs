@@ -33,7 +33,19 @@ fn world(litter: Option<Litter>) -> World {
     for _ in 0..100 {
         world.compiled.advance(&mut world.clock);
     }
+    if litter.is_some() {
+        add_ridges(&mut world);
+    }
     world
+}
+
+/// Raises ridges of litter across the bed, a metre wide and a metre apart.
+fn add_ridges(world: &mut World) {
+    let block = &world.compiled.block().litter;
+    let (line, count) = (block.columns as usize + 1, world.bed.heights(block).len());
+    for (node, height) in world.bed.words[..count].iter_mut().enumerate() {
+        *height += if node % line / 8 % 2 == 0 { 150_000 } else { 0 };
+    }
 }
 
 /// The same with solid things, half a second after its start.
@@ -203,11 +215,15 @@ fn a_changed_twin_is_noticed() {
         ("flight/contact", "push < weight + weight", "push < weight", "flight_contact"),
         ("flight/contact", "above * up - ", "above - ", "flight_contact"),
         ("solid/shape", "beyond_z, 0.0)", "beyond_y, 0.0)", "solid_distance"),
-        ("solid/shape", "place - solid.center;", "solid.center - place;", "solid_distance"),
+        ("solid/distance", "place - solid.center)", "solid.center - place)", "solid_distance"),
+        ("solid/hull", "farthest.distance_m < distance", "farthest.distance_m < -distance", "solid_distance"),
+        ("solid/grid", "y.node) * counts.x", "y.node) * counts.y", "solid_distance"),
+        ("solid/grid", "rise_near + (rise_far", "rise_far + (rise_far", "solid_distance"),
         ("solid/near", "line * scene", "column * scene", "solids_cell"),
         ("flight/strike", "motion.velocity - along", "motion.velocity", "strike_solids"),
         ("flight/strike", "radius * reach_share", "radius", "first_strike"),
         ("leaf/strike", "-(normal.x * inverse)", "-(normal.z * inverse)", "solid_footing"),
+        ("wind/pile_shadow", "upwind - (here", "upwind - 2.0 * (here", "wind_behind_piles"),
         ("wind/slipstream", "1.0 - inverse * stream.drag_m2", "1.0 - stream.drag_m2", "wind_slipstream"),
         ("leaf/collide", "layer * 19349663u", "layer * 19349661u", "own_sums"),
         ("leaf/collide", "number + 0.5", "number", "own_sums"),

@@ -108,7 +108,9 @@ impl CompiledScene {
         if let Some(grid) = ShelterGrid::of(scene, solids.own(), &forest) {
             let rows = shelter_rows(&grid, scene, solids.own(), &forest, &block, &tables);
             block.shelter = grid.block(len32(tables.len()));
-            block.shelter.is_on = u32::from(is_sheltered(scene, &rows));
+            if is_sheltered(scene, &rows) {
+                block.shelter.lack_unit = grid.lack_unit;
+            }
             tables.extend(rows);
         }
         block.first_shed_row = len32(tables.len());
@@ -164,7 +166,7 @@ impl CompiledScene {
                 self.replace_rows(self.block.shelter.first_row, &rows);
             }
             let rows = &self.tables[self.block.shelter.first_row as usize..][..grid.row_count()];
-            self.block.shelter.is_on = u32::from(is_sheltered(&self.scene, rows));
+            self.block.shelter.lack_unit = if is_sheltered(&self.scene, rows) { grid.lack_unit } else { 0.0 };
         }
     }
 

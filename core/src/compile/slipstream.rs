@@ -20,9 +20,9 @@ const WALKER_M2: f64 = 0.7;
 /// Speed in m/s below which a thing drags nothing along.
 const LEAST_M_S: f64 = 0.01;
 
-/// Returns true if a part drags air along: objects do, and walkers as a whole, counted as their trunks.
+/// Returns true if a part drags air along: objects but planes do, and walkers as a whole, counted as their trunks.
 pub(super) fn drags_air(solid: &Solid) -> bool {
-    solid.moves() && matches!(solid.limb(), None | Some(Limb::Trunk))
+    solid.moves() && solid.shape != ObjectShape::Plane && matches!(solid.limb(), None | Some(Limb::Trunk))
 }
 
 /// The slipstream of a part at a time, of which steps are so long, over ground of a height at x, z.
@@ -52,6 +52,9 @@ pub(super) fn widths_and_speeds(scene: &Scene, solids: &[Solid]) -> impl Iterato
     let walkers = scene.walkers.iter().map(|walker| (spread_m(WALKER_M2), f64::from(walker.speed_m_s)));
     let objects = scene.objects.iter().zip(solids).filter_map(|(object, solid)| {
         let ObjectMotion::Path(keys) = &object.motion else { return None };
+        if !drags_air(solid) {
+            return None;
+        }
         let narrowest = [DVec3::X, DVec3::Y, DVec3::Z].map(|axis| swept_m2(solid, axis));
         // Between two keys an object is at most twice as fast as in the mean.
         let fastest = keys.windows(2).map(|pair| {
@@ -98,7 +101,7 @@ fn swept_m2(solid: &Solid, toward: DVec3) -> f64 {
             let size = size_m.as_dvec3();
             toward.abs().dot(DVec3::new(size.y * size.z, size.x * size.z, size.x * size.y))
         }
-        ObjectShape::Polyhedron { .. } | ObjectShape::Mesh { .. } => {
+        ObjectShape::Plane | ObjectShape::Polyhedron { .. } | ObjectShape::Mesh { .. } => {
             solid.surface().map_or(0.0, |surface| surface.shadow_m2(toward))
         }
     }
@@ -109,6 +112,8 @@ mod tests {
     use glam::Vec3;
 
     use super::*;
+    use crate::scene::Object;
+    use crate::solid::solids_of;
 
     #[test]
     fn shapes_sweep_the_area_of_their_shadow() {
@@ -118,9 +123,15 @@ mod tests {
             (ObjectShape::Box { size_m: Vec3::new(1.0, 2.0, 3.0) }, 0.6 * 6.0 + 0.8 * 3.0),
             (ObjectShape::Cylinder { radius_m: 0.5, height_m: 4.0 }, 0.6 * 4.0 + 0.8 * PI * 0.25),
             (ObjectShape::Capsule { radius_m: 0.5, length_m: 4.0 }, 0.6 * 4.0 + PI * 0.25),
+            (
+                ObjectShape::Polyhedron { corners_m: vec![Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::Z] },
+                0.5 * (0.6 + 0.8),
+            ),
         ];
         for (shape, expected) in cases {
-            let found = swept_m2(shape, diagonal);
+            let objects = vec![Object { shape: shape.clone(), ..Object::default() }];
+            let solids = solids_of(&Scene { objects, ..Scene::default() }).expect("shapes without files");
+            let found = swept_m2(&solids[0], diagonal);
             assert!((found - expected).abs() < 1e-6, "{shape:?}: {found}, not {expected}");
         }
     }

@@ -240,7 +240,9 @@ fn core_of(shape: &ObjectShape) -> (Vec3, f32, bool) {
         ObjectShape::Capsule { radius_m, length_m } => (Vec3::new(0.0, 0.5 * length_m, 0.0), radius_m, true),
         ObjectShape::Box { size_m } => (size_m * 0.5, 0.0, false),
         ObjectShape::Cylinder { radius_m, height_m } => (Vec3::new(radius_m, 0.5 * height_m, 0.0), 0.0, true),
-        ObjectShape::Polyhedron { .. } | ObjectShape::Mesh { .. } => (Vec3::ZERO, 0.0, false),
+        ObjectShape::Plane | ObjectShape::Polyhedron { .. } | ObjectShape::Mesh { .. } => {
+            (Vec3::ZERO, 0.0, false)
+        }
     }
 }
 

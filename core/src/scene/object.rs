@@ -32,6 +32,8 @@ pub enum ObjectShape {
         /// Height in metres, 0.02 to 200.
         height_m: f32,
     },
+    /// Everything below a plane, level in its own frame, as far as [`PLANE_REACH_M`] along x and z. It gives no shelter.
+    Plane,
     /// A convex polyhedron about a centre of its own.
     Polyhedron {
         /// Its corners in metres, 4 to 32 of them, each component -100 to 100; at least 0.02 from the lowest to the highest along each axis.
@@ -46,6 +48,9 @@ pub enum ObjectShape {
         scale: f32,
     },
 }
+
+/// Distance in metres from the centre of a plane, along either axis of its own, up to which it is there.
+pub const PLANE_REACH_M: f32 = 200.0;
 
 /// Scale of a mesh that is as large as in its file.
 fn true_to_size() -> f32 {

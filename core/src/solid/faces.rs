@@ -5,14 +5,17 @@
 use std::collections::HashMap;
 use std::sync::Arc;
 
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 use thiserror::Error;
 
 use super::distance_grid::DistanceGrid;
 use super::mesh_file::{self, MeshError};
 use super::surface::{Surface, SurfaceError};
 use crate::hull::{Face, Hull, HullError};
-use crate::scene::ObjectShape;
+use crate::scene::{ObjectShape, PLANE_REACH_M};
+
+/// Depth in m down to which a plane is drawn.
+const PLANE_DEPTH_M: f32 = 1.0;
 
 /// A shape with faces.
 #[derive(Clone, Debug)]
@@ -37,15 +40,32 @@ pub(super) enum FacesError {
     Mesh(#[from] MeshError),
 }
 
+/// Surface and faces of the polyhedron between corners.
+fn polyhedron(corners_m: &[Vec3]) -> Result<(Surface, Vec<Face>), FacesError> {
+    let hull = Hull::around(corners_m)?;
+    let corners_m: Vec<[f32; 3]> = corners_m.iter().map(Vec3::to_array).collect();
+    Ok((Surface::new(&corners_m, &hull.triangles)?, hull.faces))
+}
+
+/// Corners of the slab below a plane.
+fn slab() -> Vec<Vec3> {
+    let sign = |corner: u32, bit: u32| if corner & bit == 0 { -PLANE_REACH_M } else { PLANE_REACH_M };
+    let depth_m = |corner: u32| if corner & 4 == 0 { 0.0 } else { -PLANE_DEPTH_M };
+    (0..8).map(|corner| Vec3::new(sign(corner, 1), depth_m(corner), sign(corner, 2))).collect()
+}
+
 impl Faces {
     /// The faces of a shape; `None` for round ones and boxes.
     pub(super) fn of(shape: &ObjectShape, read: &mut MeshesRead) -> Result<Option<Self>, FacesError> {
         match shape {
+            ObjectShape::Plane => {
+                let (surface, faces) = polyhedron(&slab())?;
+                let top: Vec<Face> = faces.into_iter().filter(|face| face.normal.y > 0.5).collect();
+                Ok(Some(Self::Convex(Arc::new(surface), top.into())))
+            }
             ObjectShape::Polyhedron { corners_m } => {
-                let hull = Hull::around(corners_m)?;
-                let corners_m: Vec<[f32; 3]> = corners_m.iter().map(|corner| corner.to_array()).collect();
-                let surface = Surface::new(&corners_m, &hull.triangles)?;
-                Ok(Some(Self::Convex(Arc::new(surface), hull.faces.into())))
+                let (surface, faces) = polyhedron(corners_m)?;
+                Ok(Some(Self::Convex(Arc::new(surface), faces.into())))
             }
             ObjectShape::Mesh { file, scale } => {
                 let key = (file.clone(), scale.to_bits());

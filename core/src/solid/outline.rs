@@ -22,9 +22,10 @@ pub(crate) struct Outline {
 }
 
 impl Outline {
-    /// Outline of a part that stands still; `None` for others.
+    /// Outline of a part that stands still and is no plane; `None` for others.
     pub(crate) fn of_still(solid: &Solid) -> Option<Self> {
-        (!solid.moves()).then(|| Self::of(solid, &solid.pose_at(0.0, |_, _| 0.0)))
+        (!solid.moves() && solid.shape != ObjectShape::Plane)
+            .then(|| Self::of(solid, &solid.pose_at(0.0, |_, _| 0.0)))
     }
 
     fn of(solid: &Solid, pose: &SolidPose) -> Self {
@@ -46,7 +47,7 @@ impl Outline {
                 let end = |up_m: f64| ball(place(DVec3::Y * up_m), radius_m.into());
                 end(-half_m).chain(end(half_m)).collect()
             }
-            ObjectShape::Polyhedron { .. } | ObjectShape::Mesh { .. } => solid
+            ObjectShape::Plane | ObjectShape::Polyhedron { .. } | ObjectShape::Mesh { .. } => solid
                 .surface()
                 .into_iter()
                 .flat_map(|surface| surface.corners_m())

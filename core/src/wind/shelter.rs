@@ -7,18 +7,18 @@
 //! Slender ones, and those above the ground, have wakes as trees do, as far as the table reaches up. Those that move have none.
 //!
 //! A wake begins behind the rim, so that no tree shelters itself. Wakes multiply: each takes its share of the wind that arrives, so the order
-//! of the trees does not matter, and air never turns back. Turbulence is left as it is.
+//! of the trees does not matter. Air turns back nowhere but at the foot of what stands in its way. Turbulence is left as it is.
 //!
 //! What lies below a line that falls at 15° from higher ground upwind is sheltered: the shadow zone of Werner's model of dunes ("Eolian
 //! dunes: computer simulations and attractor interpretation", 1995). How much wind is left there is an assumption.
 
 use std::ops::Range;
 
-use super::bluff::{BluffWake, Footprint, wake_heights};
+use super::bluff::{BluffWake, Footprint, MOST_REVERSED, wake_heights};
 use super::porous::{PorousWake, SLENDER_LENGTHS, SWAY_HEIGHTS, WAKE_HEIGHTS};
 use crate::blocks::ShelterBlock;
 use crate::convert::{single, word};
-use crate::device::wind::shelter::{SHELTER_LAYERS, SHELTER_UNIT};
+use crate::device::wind::shelter::SHELTER_LAYERS;
 use crate::layout::Uint4;
 use crate::scene::Scene;
 use crate::solid::{Outline, Solid};
@@ -54,6 +54,8 @@ const LEE_LACK: f64 = 0.7;
 const LEE_DEPTH_M: f64 = 2.0;
 /// Most places upwind at which higher ground is looked for.
 const MOST_LEE_STEPS: f64 = 256.0;
+/// Numbers that a lack in the table may have.
+const UNITS: f32 = 65_536.0;
 /// Rows of nodes that a thread works on at a time.
 const BAND_ROWS: usize = 16;
 
@@ -73,6 +75,8 @@ pub struct ShelterGrid {
     pub cells: [usize; 2],
     /// Height of a layer in m.
     pub layer_m: f64,
+    /// Share of the mean wind that a unit of the table lacks.
+    pub lack_unit: f32,
 }
 
 /// The wind that the table is made for.
@@ -138,6 +142,11 @@ impl SolidWakes {
     }
 }
 
+/// Share of the wind that two wakes leave: where either turns it back it blows back.
+fn both_left(first: f64, second: f64) -> f64 {
+    libm::copysign(first * second, first.min(second))
+}
+
 /// Outlines of solid things that may shelter.
 fn sheltering(solids: &[Solid]) -> impl Iterator<Item = Outline> {
     let outlines = solids.iter().filter_map(Outline::of_still);
@@ -169,7 +178,10 @@ impl ShelterGrid {
             top_m = top_m.max(terrain.relief_m.into());
         }
         let mut least_cell_m = LEAST_CELL_M;
+        let mut most_lack = 1.0;
         for outline in sheltering(solids) {
+            // Before solid things the wind turns back.
+            most_lack = 1.0 + MOST_REVERSED;
             // One that stands on the ground may reach up higher by its gap.
             let tall_m = (1.0 + STANDING_GAP) * outline.height_m();
             let middle_m = outline.middle_m();
@@ -191,7 +203,14 @@ impl ShelterGrid {
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "1 to MOST_CELLS")]
         let cells = edges.map(|edge_m| (libm::ceil(edge_m / cell_m).clamp(1.0, MOST_CELLS)) as usize);
         let layer_m = top_m / f64::from(SHELTER_LAYERS);
-        Some(Self { west_m: least[0], north_m: least[1], cell_m, cells, layer_m })
+        Some(Self {
+            west_m: least[0],
+            north_m: least[1],
+            cell_m,
+            cells,
+            layer_m,
+            lack_unit: most_lack / UNITS,
+        })
     }
 
     /// Number of rows of the table.
@@ -202,7 +221,7 @@ impl ShelterGrid {
     /// The grid as kernels read it, switched off, with the table from that row on.
     pub fn block(&self, first_row: u32) -> ShelterBlock {
         ShelterBlock {
-            is_on: 0,
+            lack_unit: 0.0,
             first_row,
             west_m: single(self.west_m),
             north_m: single(self.north_m),
@@ -247,7 +266,7 @@ impl ShelterGrid {
         let lack = |x: usize, z: usize, level: usize| {
             let is_edge = x == 0 || z == 0 || x == self.cells[0] || z == self.cells[1] || level + 1 == LEVELS;
             let lack = if is_edge { 0.0 } else { 1.0 - left[z * nodes[0] + x][level] };
-            word(lack / f64::from(SHELTER_UNIT)).min(0xffff)
+            word(lack / f64::from(self.lack_unit)).min(0xffff)
         };
         let mut rows = Vec::with_capacity(self.row_count());
         for layer in 0..LEVELS - 1 {
@@ -296,7 +315,7 @@ impl ShelterGrid {
                 let [x_m, z_m] = self.node_m(x, z);
                 if let Some(lack) = lack(wind.frame(x_m, z_m)) {
                     let left = &mut left[(z - band.start) * (self.cells[0] + 1) + x];
-                    left.iter_mut().zip(lack).for_each(|(left, lack)| *left *= 1.0 - lack);
+                    left.iter_mut().zip(lack).for_each(|(left, lack)| *left = both_left(*left, 1.0 - lack));
                 }
             }
         }

@@ -21,6 +21,7 @@ use windfall_core::device::terrain::ground::{
     drop_direction, ground_bare, ground_gradient, ground_is_water, ground_rest, ground_slope, lying_height,
 };
 use windfall_core::device::terrain::litter::{above_litter, litter_cell, litter_height, litter_shares};
+use windfall_core::device::wind::pile_shadow::wind_behind_piles;
 
 use super::{Function, Input, float, floats, functions, integers, quaternion, vector};
 use crate::runner::Words;
@@ -98,6 +99,13 @@ functions! {
     rust |cx, w| {
         let (x, z) = (float(w[0]), float(w[1]));
         floats([litter_height(cx, x, z), above_litter(cx, float(w[2]), x, z), 0.0, 0.0])
+    };
+
+    wind_behind_piles in "wind/pile_shadow" (NEAR, FLOW) tolerance Some(1e-3);
+    wgsl "out_vec3(0u, wind_behind_piles(in_float(0u), in_float(1u), in_vec3(2u)));";
+    rust |cx, w| {
+        let wind = wind_behind_piles(cx, float(w[0]), float(w[1]), vector(w, 2));
+        floats(wind.to_array())
     };
 
     litter_shares in "terrain/litter" (NEAR, Input::Below(65536)) tolerance None;

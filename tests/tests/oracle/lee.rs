@@ -29,6 +29,9 @@ fn yard(objects: Vec<Object>) -> Scene {
     Scene { objects, sources: Scene::default().sources, ..maples(&[]) }
 }
 
+/// Ends along the wind in m of the band before a box of 2 m, and of the ground at its foot.
+const BAND_M: [f64; 2] = [-2.4, -1.4];
+const FOOT_M: [f64; 2] = [-1.3, -1.0];
 /// Length, height and thickness of a long wall in m.
 const WALL_M: [f32; 3] = [60.0, 2.0, 0.2];
 
@@ -64,11 +67,18 @@ fn behind_a_long_wall_the_wind_recovers_as_behind_fences() {
         let (share, fence) = (behind(heights, 1.5), fence_share(heights, 1.5, 2.0));
         assert!((share - fence).abs() < 0.06, "{heights} heights behind, above: {share}, by the fit {fence}");
     }
-    // In front.
-    let before: Vec<f64> = [0.25, 0.75, 1.5, 3.0].iter().map(|heights| behind(-heights, 0.025)).collect();
+    // In front, above the roller at the foot.
+    let before: Vec<f64> = [0.25, 0.75, 1.5, 3.0].iter().map(|heights| behind(-heights, 0.3)).collect();
     println!("before: {before:.3?}");
     assert!(before.windows(2).all(|pair| pair[0] < pair[1]), "slower towards the wall: {before:.3?}");
-    assert!(before[0] < 0.3 && before[3] == 1.0, "nothing from three heights on: {before:.3?}");
+    assert!(before[0] < 0.5 && before[3] == 1.0, "nothing from three heights on: {before:.3?}");
+    // And in it: air flows back by a quarter of the wind's speed at the height of the wall, over two centimetres.
+    let foot: Vec<f64> = [0.05, 0.25, 0.6, 1.2].iter().map(|heights| behind(-heights, 0.01)).collect();
+    let logarithm = |height_m: f64| (height_m / 0.005 + 1.0).ln();
+    let back = -0.25 * logarithm(2.0) / logarithm(0.02);
+    println!("at the foot: {foot:.3?}, by the wind at the height of the wall {back:.3}");
+    assert!(foot[0] > foot[1] && foot[1] < 0.3 * back && foot[2] < 0.6 * back, "back: {foot:.3?}");
+    assert!(foot[2] > 1.05 * back && foot[3] > 0.3, "and on: {foot:.3?}");
     for place in [at(-8.0, 0.5, 0.0), at(1.0, 0.5, 40.0), at(75.0, 0.5, 0.0), at(2.0, 4.5, 0.0)] {
         assert_eq!(shares.at(place), 1.0, "the wind is free at {place}");
     }
@@ -138,11 +148,11 @@ fn the_lee_turns_with_the_wind() {
 fn only_still_things_of_some_height_shelter() {
     let mut wall = block(WALL_M, [0.0, 0.0]);
     wall.shape = ObjectShape::Box { size_m: [4.0, 0.15, 4.0].into() };
-    assert_eq!(compile(&yard(vec![wall.clone()])).block().shelter.is_on, 0, "a slab is too low");
+    assert!(!compile(&yard(vec![wall.clone()])).block().has_shelter(), "a slab is too low");
     let key = |time_s: f32| ObjectKey { time_s, moved_m: [0.0; 3].into(), turned_deg: 0.0 };
     wall.shape = ObjectShape::Box { size_m: WALL_M.into() };
     wall.motion = ObjectMotion::Path(vec![key(0.0), key(1.0)]);
-    assert_eq!(compile(&yard(vec![wall])).block().shelter.is_on, 0, "what moves does not shelter");
+    assert!(!compile(&yard(vec![wall])).block().has_shelter(), "what moves does not shelter");
     // A beam above the ground shelters at its own height, a post by as much as its drag.
     let mut beam = block([4.0, 1.0, 1.0], [0.0, 0.0]);
     beam.at_m.y = 1.5;
@@ -155,9 +165,9 @@ fn only_still_things_of_some_height_shelter() {
     assert!((0.4..0.95).contains(&near) && far > near && far > 0.95, "a post: {near}, then {far}");
 }
 
-/// Many solids of all kinds in any pose: shares stay between none and all, and multiply.
+/// Many solids of all kinds in any pose: the mean wind is nowhere faster than it was, forth or back, and shares multiply.
 #[test]
-fn shares_stay_between_none_and_all() {
+fn shares_stay_between_all_and_all_back() {
     let objects: Vec<Object> = (0..24u32)
         .map(|number| {
             let size_m = 0.3 + 0.2 * (number % 7) as f32;
@@ -185,7 +195,7 @@ fn shares_stay_between_none_and_all() {
         (least, most) = (least.min(share), most.max(share));
     }
     println!("{least} to {most}");
-    assert!(least > -1e-6 && least < 0.1 && most <= 1.0, "{least} to {most}");
+    assert!(least > -1.0 && least < -0.2 && most <= 1.0, "{least} to {most}");
     // Two walls take more than either.
     let walls = [block(WALL_M, [0.0, 0.0]), block(WALL_M, [20.0, 0.0])];
     let place = at(45.0, 0.5, 0.0);
@@ -207,9 +217,10 @@ fn retuning_the_lee_of_solids_equals_compiling_anew() {
     );
 }
 
-/// A box in a littered square on which gusts blow at 6 m/s: leaves gather behind it, and next to its front, while the open is swept bare.
+/// A box in a littered square on which gusts blow at 6 m/s: leaves gather behind it, and in a band before it that leaves its foot clear,
+/// while the open is swept bare.
 #[test]
-fn leaves_gather_behind_a_box() {
+fn leaves_gather_around_a_box() {
     let mut scene = yard(vec![block([2.0; 3], [0.0, 0.0])]);
     scene.wind.gusts = Gusts { strength: 0.5, ..Gusts::default() };
     scene.wind.turbulence = Turbulence::default();
@@ -233,8 +244,8 @@ fn leaves_gather_behind_a_box() {
     let zones = [
         ("within a height behind", [1.0, 3.0]),
         ("within six", [1.0, 13.0]),
-        ("before", [-3.0, -1.8]),
-        ("at the foot", [-1.4, -1.0]),
+        ("before", BAND_M),
+        ("at the foot", FOOT_M),
     ];
     for (zone, along) in zones {
         let [start, end] = [&start, &end].map(|world| density(world, along, [-1.0, 1.0]));
@@ -242,7 +253,12 @@ fn leaves_gather_behind_a_box() {
     }
     let [near, far] = [[1.0, 3.0], [1.0, 13.0]].map(|along| density(&end, along, [-1.0, 1.0]));
     let [before, open] = [&start, &end].map(|world| density(world, [1.0, 13.0], [5.0, 9.0]));
+    let [band, foot] = [BAND_M, FOOT_M].map(|along| density(&end, along, [-0.5, 0.5]));
     println!("in the open: {open:.1} leaves per m², {before:.1} at the start");
     assert!(near > 1.5 * before, "{near} leaves per m² right behind, {before} at the start");
     assert!(far > 10.0 && open < 0.1 * far, "{far} leaves per m² behind, {open} in the open");
+    assert!(
+        foot < 0.7 * band && band > before,
+        "{foot} leaves per m² at the foot, {band} in the band before it"
+    );
 }

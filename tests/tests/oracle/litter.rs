@@ -9,9 +9,10 @@ use windfall_core::device::flight::body::{LeafBody, body_of};
 use windfall_core::device::flight::contact::flight_contact;
 use windfall_core::device::flight::rates::FlightMotion;
 use windfall_core::device::leaf::at_rest::{leaf_at_rest, least_wake_square};
-use windfall_core::device::leaf::record::{SIZE_ONE, lies, lying_support};
+use windfall_core::device::leaf::record::{SIZE_ONE, lies, lying_support, wake_speed_squared};
 use windfall_core::device::terrain::ground::Slope;
 use windfall_core::device::terrain::litter::LITTER_UNIT_M;
+use windfall_core::device::wind::pile_shadow::wind_behind_piles;
 use windfall_core::motion::{Primitive, TransitionTable};
 use windfall_core::scene::{
     Gusts, Jet, JetKey, Litter, MeanSpeed, MotionParameters, Release, Source, SourceShape, Species,
@@ -260,6 +261,69 @@ fn the_wind_that_moves_a_leaf_depends_on_slope_water_and_weight() {
     assert!((heavy - 2f64.sqrt()).abs() < 0.02, "twice the weight: {heavy} times the wind");
     let wet = speed(Litter { moisture: 2.0, adhesion_n_m2: 1.0, ..dry }, 0.0, 0.05) / level;
     assert!((2.0..3.0).contains(&wet), "three times the weight and a film: {wet} times the wind");
+}
+
+/// Median speed in m/s of the wind that takes leaves of a species that lie singly on pavement, from the best direction for each.
+fn median_onset_m_s(species: Species, raised_deg: (f32, f32)) -> f64 {
+    let single = Litter { size_m: Vec2::splat(12.0), leaf_area_index: 0.02, raised_deg, ..Litter::default() };
+    let mut scene = bed(single);
+    scene.species = vec![species];
+    scene.ground.friction = 0.45;
+    let world = World::build(&scene).expect("valid");
+    let lying = world.leaves.place.iter().zip(&world.leaves.drift).filter(|(place, _)| lies(place.bits));
+    let mut speeds: Vec<f64> =
+        lying.map(|(_, drift)| f64::from(wake_speed_squared(drift.phase)).sqrt()).collect();
+    speeds.sort_by(f64::total_cmp);
+    speeds[speeds.len() / 2]
+}
+
+/// Who sets off first: the lighter by the root of their mass per area, those whose edges stand up more, flat paper last.
+#[test]
+fn leaves_set_off_in_the_order_of_weight_and_tilt() {
+    let curled = (5.0, 25.0);
+    let onset =
+        |name: &str, raised_deg| median_onset_m_s(Species::preset(name).expect("a preset"), raised_deg);
+    let leaves = ["linden", "birch", "beech", "maple", "oak"].map(|name| {
+        let sigma = Species::preset(name).expect("a preset").areal_density_kg_m2;
+        (name, sigma, onset(name, curled))
+    });
+    println!("{leaves:.3?}");
+    for (name, sigma, onset) in leaves {
+        let expected = leaves[0].2 * f64::from(sigma / leaves[0].1).sqrt();
+        assert!((onset / expected - 1.0).abs() < 0.08, "{name}: {onset} m/s, {expected} by its mass");
+    }
+    let tilts = [(3.0, 7.0), (8.0, 12.0), (18.0, 22.0)].map(|raised_deg| onset("beech", raised_deg));
+    assert!(tilts.is_sorted_by(|a, b| *a > 1.2 * b), "the more they stand up, the sooner: {tilts:.3?} m/s");
+    let paper = onset("paper-scrap", (0.0, 2.0));
+    assert!(
+        leaves.iter().all(|(.., leaf)| paper > 1.5 * leaf),
+        "flat paper at {paper} m/s, after {leaves:.3?}"
+    );
+}
+
+/// Behind a heap a leaf lies out of the wind, before it and a good way behind it in the open.
+#[test]
+fn heaps_shelter_what_lies_behind_them() {
+    let world = heap(12_000, Litter::default(), 1.0 / 60.0);
+    let step = world.step_block();
+    let cx = world.context(&step);
+    let wind = |toward: [f32; 2], at_m: f32| {
+        let from = Vec3::new(4.0 * toward[0], 0.0, 4.0 * toward[1]);
+        wind_behind_piles(&cx, at_m * toward[0], at_m * toward[1], from).to_array()
+    };
+    for toward in [[1.0, 0.0], [0.0, -1.0], [-0.6, 0.8]] {
+        let left = [-1.5, -0.4, 1.0, 1.4, 3.5].map(|at_m| {
+            let [x, y, z] = wind(toward, at_m);
+            assert_eq!(y, 0.0, "level");
+            x.hypot(z) / 4.0
+        });
+        assert!((left[0] - 1.0).abs() < 1e-5 && (left[1] - 1.0).abs() < 1e-5, "before it: {left:?}");
+        assert!((left[2] - 0.3).abs() < 1e-5, "right behind it: {left:?}");
+        assert!(
+            left[2] <= left[3] && left[3] <= left[4] && (left[4] - 1.0).abs() < 1e-5,
+            "behind it: {left:?}"
+        );
+    }
 }
 
 /// Metres from a leaf blower to where more than half of the leaves of a bed are left in its way.

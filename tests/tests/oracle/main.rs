@@ -7,6 +7,7 @@
 mod common;
 
 mod collide;
+mod debris;
 mod drops;
 mod faces;
 mod feature;

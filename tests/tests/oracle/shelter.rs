@@ -56,7 +56,7 @@ pub(super) struct Shares(CompiledScene, CompiledScene);
 impl Shares {
     pub(super) fn of(scene: &Scene) -> Self {
         let shares = Self(compile(scene), compile(&free(scene.clone())));
-        assert_eq!((shares.0.block().shelter.is_on, shares.1.block().shelter.is_on), (1, 0), "switch");
+        assert_eq!((shares.0.block().has_shelter(), shares.1.block().has_shelter()), (true, false), "switch");
         shares
     }
 
@@ -160,13 +160,13 @@ fn bare_trees_shelter_less() {
 fn shelter_is_off_where_it_is_not_asked_for_and_where_there_is_none() {
     let mut scene = maples(&[[0.0, 0.0]]);
     scene.wind.profile = Profile::Uniform;
-    assert_eq!(compile(&scene).block().shelter.is_on, 0, "a uniform wind has no ground");
+    assert!(!compile(&scene).block().has_shelter(), "a uniform wind has no ground");
     let storm = Scene::preset("storm").expect("a preset");
-    assert_eq!(compile(&storm).block().shelter.is_on, 0, "neither trees nor hills");
+    assert!(!compile(&storm).block().has_shelter(), "neither trees nor hills");
     let mut flat = maples(&[]);
     flat.sources = Scene::default().sources;
     flat.ground.terrain = Some(Terrain { relief_m: 1.0, edge_m: 128.0, ..Terrain::default() });
-    assert_eq!(compile(&flat).block().shelter.is_on, 0, "hills too flat for a lee");
+    assert!(!compile(&flat).block().has_shelter(), "hills too flat for a lee");
 }
 
 /// State of a scene's world after steps.

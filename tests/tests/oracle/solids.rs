@@ -125,7 +125,9 @@ fn distance_m(shape: &ObjectShape, place: DVec3) -> f64 {
         ObjectShape::Cylinder { radius_m, height_m } => {
             corner(radial - f64::from(radius_m), place.y.abs() - 0.5 * f64::from(height_m))
         }
-        ObjectShape::Polyhedron { .. } | ObjectShape::Mesh { .. } => unreachable!("in faces.rs"),
+        ObjectShape::Plane | ObjectShape::Polyhedron { .. } | ObjectShape::Mesh { .. } => {
+            unreachable!("in faces.rs")
+        }
     }
 }
 

@@ -12,7 +12,7 @@ use super::solid_mesh::{SolidMesh, SolidSize, SolidVertex};
 use super::surface_mesh::surface_mesh;
 
 /// Size of what is drawn as large as its vertices have it.
-const OWN_SIZE: SolidSize = SolidSize { inner_m: Vec3::ONE, rounding_m: 0.0 };
+pub(super) const OWN_SIZE: SolidSize = SolidSize { inner_m: Vec3::ONE, rounding_m: 0.0 };
 
 /// Size of a part in terms of its mesh.
 pub(crate) fn mesh_size(solid: &Solid) -> SolidSize {

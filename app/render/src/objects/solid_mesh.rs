@@ -79,7 +79,7 @@ impl SolidMesh {
             ObjectShape::Cylinder { radius_m, height_m } => {
                 (Self::Cylinder, rounded(Vec3::new(radius_m, 0.5 * height_m, radius_m)))
             }
-            ObjectShape::Polyhedron { .. } | ObjectShape::Mesh { .. } => return None,
+            ObjectShape::Plane | ObjectShape::Polyhedron { .. } | ObjectShape::Mesh { .. } => return None,
         })
     }
 
@@ -221,7 +221,7 @@ mod tests {
             (ObjectShape::Cylinder { radius_m: 0.2, height_m: 1.0 }, PI * 0.04),
         ];
         for (shape, wanted) in rows {
-            let found = volume_m3(shape);
+            let found = volume_m3(shape.clone());
             assert!((found / wanted - 1.0).abs() < 0.02, "{shape:?}: {found} m³ of {wanted} m³");
         }
     }

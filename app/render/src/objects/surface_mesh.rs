@@ -35,8 +35,7 @@ pub(super) fn surface_mesh(surface: &Surface) -> (Vec<SolidVertex>, Vec<u32>) {
 
 #[cfg(test)]
 mod tests {
-    use glam::Vec3;
-
+    use super::super::meshes::OWN_SIZE;
     use super::*;
 
     #[test]
@@ -55,9 +54,11 @@ mod tests {
             let surface = Surface::new(&corners, &faces).expect("closed");
             let (vertices, indices) = surface_mesh(&surface);
             assert_eq!((vertices.len(), indices.len()), (24, 24), "three to a face");
-            let at_ridge =
-                vertices.iter().filter(|vertex| vertex.corner[1] == rise && vertex.normal[1] > 0.1);
-            let leans = at_ridge.map(|vertex| Vec3::from_array(vertex.normal).x.abs()).fold(0.0, f32::max);
+            let at_ridge = vertices
+                .iter()
+                .map(|vertex| vertex.on(OWN_SIZE))
+                .filter(|(place, normal)| place.y == rise && normal.y > 0.1);
+            let leans = at_ridge.map(|(_, normal)| normal.x.abs()).fold(0.0, f32::max);
             assert_eq!(leans > 0.5, is_creased, "{leans} at a ridge of {rise} m");
         }
     }

@@ -41,8 +41,12 @@ fn an_object_is_drawn_where_it_is_and_as_large() {
         let mut bench = bench(|scene| {
             with_exposure(scene);
             let at_m = scene.view.camera.target_m + Vec3::X;
-            scene.objects =
-                vec![Object { shape, at_m, color: Vec3::new(0.8, 0.1, 0.1), ..Object::default() }];
+            scene.objects = vec![Object {
+                shape: shape.clone(),
+                at_m,
+                color: Vec3::new(0.8, 0.1, 0.1),
+                ..Object::default()
+            }];
         });
         let picture = picture_at(&mut bench, 0.0);
         // The camera looks at a place in the middle row; a metre is some eleven pixels there.

@@ -28,6 +28,7 @@ pub(super) fn show(ui: &mut Ui, scene: &mut Scene, own: &Scene) {
             ObjectShape::Capsule { .. } => "capsule",
             ObjectShape::Box { .. } => "box",
             ObjectShape::Cylinder { .. } => "cylinder",
+            ObjectShape::Plane => "plane",
             ObjectShape::Polyhedron { .. } => "polyhedron",
             ObjectShape::Mesh { .. } => "mesh",
         };
@@ -86,7 +87,7 @@ fn shape(ui: &mut Ui, shape: &mut ObjectShape, own: Option<&ObjectShape>) {
         ObjectShape::Polyhedron { ref corners_m } => {
             2.0 * corners_m.iter().map(|corner| corner.abs()).fold(Vec3::ZERO, Vec3::max)
         }
-        ObjectShape::Mesh { .. } => Vec3::ONE,
+        ObjectShape::Plane | ObjectShape::Mesh { .. } => Vec3::ONE,
         ObjectShape::Sphere { radius_m } => Vec3::splat(2.0 * radius_m),
         ObjectShape::Capsule { radius_m, length_m } => {
             Vec3::new(2.0 * radius_m, length_m + 2.0 * radius_m, 2.0 * radius_m)
@@ -102,6 +103,7 @@ fn shape(ui: &mut Ui, shape: &mut ObjectShape, own: Option<&ObjectShape>) {
         ("capsule", ObjectShape::Capsule { radius_m, length_m: (size_m.y - 2.0 * radius_m).max(0.0) }),
         ("box", ObjectShape::Box { size_m }),
         ("cylinder", ObjectShape::Cylinder { radius_m, height_m: size_m.y }),
+        ("plane", ObjectShape::Plane),
         ("polyhedron", ObjectShape::Polyhedron { corners_m: octahedron(0.5 * size_m) }),
     ];
     // A mesh is a file of the scene's: none can be chosen here.
@@ -144,6 +146,7 @@ fn shape(ui: &mut Ui, shape: &mut ObjectShape, own: Option<&ObjectShape>) {
             let height = field("Height", "Height of the cylinder", limits::OBJECT_HEIGHT_M).fine(0.01);
             height.show(ui, height_m, own.map(|own| own.1));
         }
+        ObjectShape::Plane => {}
         ObjectShape::Polyhedron { corners_m } => {
             let own: &[Vec3] =
                 if let Some(ObjectShape::Polyhedron { corners_m }) = own { corners_m } else { &[] };

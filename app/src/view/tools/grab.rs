@@ -46,7 +46,7 @@ impl Grab {
     }
 }
 
-/// Half of the edges in metres of the box around a shape; `None` for a mesh, of which a scene only names the file.
+/// Half of the edges in metres of the box around a shape; `None` for a mesh, of which a scene only names the file, and for a plane.
 fn half_m(shape: &ObjectShape) -> Option<Vec3> {
     Some(match shape {
         ObjectShape::Sphere { radius_m } => Vec3::splat(*radius_m),
@@ -58,7 +58,7 @@ fn half_m(shape: &ObjectShape) -> Option<Vec3> {
         ObjectShape::Polyhedron { corners_m } => {
             corners_m.iter().map(|corner| corner.abs()).fold(Vec3::ZERO, Vec3::max)
         }
-        ObjectShape::Mesh { .. } => return None,
+        ObjectShape::Plane | ObjectShape::Mesh { .. } => return None,
     })
 }
 

@@ -18,6 +18,7 @@
 #import solid/near
 #import terrain/ground
 #import terrain/litter
+#import wind/pile_shadow
 #import wind/sample
 
 struct Flight {
@@ -147,7 +148,8 @@ fn leaf_end_flight(leaf: u32, start: vec3<f32>) {
     let lean = quat_multiply(ground_lean(slope), lying_tilt(words));
     let pose = flatten_to(lean, before, 0.0);
     let friction = own_friction(words, litter_height(x, z));
-    let wind = wind_at(vec3<f32>(x, ground_rest(x, z) + reach_down(body, pose), z));
+    let open_wind = wind_at(vec3<f32>(x, ground_rest(x, z) + reach_down(body, pose), z));
+    let wind = wind_behind_piles(x, z, open_wind);
     let at_rest = leaf_at_rest(body, pose, slope, friction, own_raise(words));
     if (wind_moves(at_rest, wind, REST_SHARE_SQUARED)) {
         places[leaf].bits = with_touch_steps(places[leaf].bits, 0u);

@@ -12,6 +12,7 @@
 #import leaf/record
 #import leaf/strike
 #import terrain/ground
+#import wind/pile_shadow
 #import wind/sample
 
 fn unit_has_turn(slot: u32, interval_steps: u32) -> bool {
@@ -90,15 +91,18 @@ fn leaf_wake(leaf: u32) -> bool {
     if (!met.may_wake) {
         return false;
     }
-    let wind = met.wind;
     if (is_afloat(bits)) {
-        return leaf_float(leaf, wind);
+        return leaf_float(leaf, met.wind);
     }
     let body = body_of(bits, schedules[leaf].size);
     let pose = attitudes[leaf].quaternion;
-    var slope = ground_slope(x, z);
+    var slope: Slope;
+    var wind = met.wind;
     if (is_held(bits)) {
         slope = solid_footing(body, pose, place.position).slope;
+    } else {
+        slope = ground_slope(x, z);
+        wind = wind_behind_piles(x, z, wind);
     }
     let heading = schedules[leaf].heading;
     var at_rest = leaf_at_rest(body, pose, slope, lying_friction(heading), lying_raise(heading));

@@ -32,7 +32,7 @@ fn wind_at_moment(moment: u32, place: vec3<f32>) -> vec3<f32> {
     }
     let profile = wind_profile(above);
     var mean = (profile.x * scene.wind.mean_speed_m_s) * (wind_gust(moment, along) * scene.wind.gust_strength + 1.0);
-    if (scene.shelter.is_on != 0u) {
+    if (scene.shelter.lack_unit != 0.0) {
         mean = mean * wind_shelter(place.x, above, place.z);
     }
     let deviation = scene.wind.deviation_m_s;

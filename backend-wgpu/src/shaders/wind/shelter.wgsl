@@ -27,5 +27,5 @@ fn wind_shelter(x: f32, above: f32, z: f32) -> f32 {
     let near = a + (u - ku) * (b - a);
     let far = c + (u - ku) * (d - c);
     let lack = near + (v - kv) * (far - near);
-    return 1.0 - lack * SHELTER_UNIT;
+    return 1.0 - lack * shelter.lack_unit;
 }

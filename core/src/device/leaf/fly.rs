@@ -26,6 +26,7 @@ use crate::device::flight::strike::AmongSolids;
 use crate::device::solid::near::may_meet_solids;
 use crate::device::terrain::ground::{ground_is_water, ground_lean, ground_met, ground_rest, ground_slope};
 use crate::device::terrain::litter::litter_height;
+use crate::device::wind::pile_shadow::wind_behind_piles;
 use crate::device::wind::sample::wind_at;
 use crate::flight::block::BODY_LOAD_ROW;
 use crate::leaf::LeafMut;
@@ -231,6 +232,7 @@ fn leaf_end_flight(cx: &Context<'_>, leaf: &mut LeafMut<'_>, start: Vec3) {
     let pose = flatten_to(lean, before, 0.0);
     let friction = own_friction(cx, words, litter_height(cx, x, z));
     let wind = wind_at(cx, Vec3::new(x, ground_rest(cx, x, z) + reach_down(&body, pose), z));
+    let wind = wind_behind_piles(cx, x, z, wind);
     let at_rest = leaf_at_rest(cx, body, pose, slope, friction, own_raise(cx, words));
     if wind_moves(cx, &at_rest, wind, REST_SHARE_SQUARED) {
         leaf.place.bits = with_touch_steps(leaf.place.bits, 0);

@@ -20,6 +20,7 @@ use crate::arith::vector::{Vec3, vec3_dot};
 use crate::context::Context;
 use crate::device::flight::body::{body_of, body_row};
 use crate::device::terrain::ground::{ground_bare, ground_is_water, ground_rest, ground_slope, lying_over};
+use crate::device::wind::pile_shadow::wind_behind_piles;
 use crate::device::wind::sample::wind_at;
 use crate::flight::block::BODY_LITTER_ROW;
 use crate::leaf::LeafMut;
@@ -155,10 +156,10 @@ pub fn leaf_wake(cx: &Context<'_>, leaf: &mut LeafMut<'_>) -> bool {
     }
     let body = body_of(cx, bits, leaf.schedule.size);
     let pose = Quat::from(leaf.attitude.quaternion);
-    let slope = if is_held(bits) {
-        solid_footing(cx, &body, pose, leaf.place.position.into()).slope
+    let (slope, wind) = if is_held(bits) {
+        (solid_footing(cx, &body, pose, leaf.place.position.into()).slope, wind)
     } else {
-        ground_slope(cx, x, z)
+        (ground_slope(cx, x, z), wind_behind_piles(cx, x, z, wind))
     };
     let heading = leaf.schedule.heading;
     let mut at_rest = leaf_at_rest(cx, body, pose, slope, lying_friction(heading), lying_raise(heading));

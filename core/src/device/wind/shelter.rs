@@ -3,7 +3,7 @@
 //! twin: backend-wgpu/src/shaders/wind/shelter.wgsl
 //!
 //! Shelter behind trees, hills and still objects: the share of the mean wind that is left there, from the table of
-//! [`ShelterGrid`](crate::wind::ShelterGrid).
+//! [`ShelterGrid`](crate::wind::ShelterGrid). Below zero the mean wind turns back.
 
 use crate::arith::lane::{Real, Word};
 use crate::context::Context;
@@ -11,8 +11,6 @@ use crate::context::Context;
 crate::shared_constants! {
     /// Layers of the table between the ground and its top, as a number of them.
     pub const SHELTER_LAYERS: f32 = 8.0;
-    /// Lack of wind that a unit of the table stands for, as a share of the mean wind.
-    pub const SHELTER_UNIT: f32 = 1.0 / 65536.0;
 }
 
 /// Lack of wind in units between the two heights of a corner's word: the lower half of the word at the lower height, the upper half at
@@ -45,5 +43,5 @@ pub fn wind_shelter<R: Real>(cx: &Context<'_>, x: R, above: R, z: R) -> R {
     let near = a + (u - ku) * (b - a);
     let far = c + (u - ku) * (d - c);
     let lack = near + (v - kv) * (far - near);
-    x.all(1.0) - lack * SHELTER_UNIT
+    x.all(1.0) - lack * shelter.lack_unit
 }

@@ -80,6 +80,7 @@ impl ObjectShape {
                 ("radius_m", (*radius_m).into(), limits::OBJECT_RADIUS_M),
                 ("height_m", (*height_m).into(), limits::OBJECT_HEIGHT_M),
             ]),
+            Self::Plane => Ok(()),
             Self::Polyhedron { corners_m } => check_corners(corners_m, at),
             Self::Mesh { file, scale } => {
                 at.numbers([("scale", (*scale).into(), limits::MESH_SCALE)])?;

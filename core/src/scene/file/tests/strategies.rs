@@ -330,6 +330,7 @@ fn object_shape() -> impl Strategy<Value = ObjectShape> {
         vector(limits::OBJECT_SIZE_M).prop_map(|size_m| ObjectShape::Box { size_m }),
         (radius(), within(limits::OBJECT_HEIGHT_M))
             .prop_map(|(radius_m, height_m)| ObjectShape::Cylinder { radius_m, height_m }),
+        Just(ObjectShape::Plane),
         vector(limits::OBJECT_SIZE_M).prop_map(|size_m| ObjectShape::Polyhedron {
             corners_m: [Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::Z]
                 .map(|corner| corner * size_m.min(Vec3::splat(limits::CORNER_M.high)))
