@@ -17,6 +17,8 @@ use windfall_tests::strategies::{
 };
 use windfall_wgpu::{Gpu, KernelId, Shaders, WgpuOptions, WgpuSimulator};
 
+/// One in so many edits is tried under the tolerant contract.
+const LOOSE_EDITS: usize = 4;
 /// Worlds for each adapter and contract.
 const WORLDS: u32 = 12;
 
@@ -200,8 +202,10 @@ fn a_changed_kernel_is_noticed() {
         let edits = synthesised.map(|edit| (edit, &plain)).into_iter();
         let edits = edits.chain(blown.map(|edit| (edit, &jets)));
         let edits = edits.chain(flown.map(|edit| (edit, &flying))).chain(hilly.map(|edit| (edit, &hills)));
-        // The wind decides about lying leaves by comparing floats: to the bit, or not at all.
+        // The wind decides about lying leaves by comparing floats: to the bit, or not at all. The looser contract sees the same state:
+        // of what both could notice, a few edits are enough for it.
         let is_exact = contract == Contract::Exact;
+        let edits = edits.step_by(if is_exact { 1 } else { LOOSE_EDITS });
         let among =
             littered.map(|edit| (edit, &litter)).into_iter().chain(obstructed.map(|edit| (edit, &solids)));
         let edits = edits.chain(among.filter(|_| is_exact));
