@@ -59,6 +59,7 @@ mod tests {
     }
 
     /// Share that is left at a place, by the node nearest to it.
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a node of the grid")]
     fn left_at(map: &ShelterMap, x_m: f32, z_m: f32) -> f32 {
         let node = |axis: usize, at_m: f32| ((at_m - map.corner_m[axis]) / map.apart_m).round() as usize;
         map.left[node(1, z_m) * map.nodes[0] as usize + node(0, x_m)]

@@ -139,9 +139,9 @@ fn fragment(in: Varyings) -> @location(0) vec4<f32> {
             // The seam of the cap, and the welt over a sole of rubber with soil on it.
             let seam = local.y - 0.045 - 6.0 * local.x * local.x;
             albedo *= 1.0 - 0.55 * exp(-seam * seam / 6.0e-6);
-            let welt = local.z + SOLE_M - 0.017;
+            let welt = SOLE_M - local.z - 0.017;
             albedo = mix(albedo, vec3(0.20, 0.15, 0.09), 0.7 * exp(-welt * welt / 5.0e-6));
-            let sole = smoothstep(0.0015, -0.0015, local.z + SOLE_M - 0.014);
+            let sole = smoothstep(0.0015, -0.0015, SOLE_M - local.z - 0.014);
             let soil = mix(vec3(0.016), vec3(0.075, 0.058, 0.040), 0.6 * smoothstep(0.35, 0.65, middle.a));
             albedo = mix(albedo, soil, sole);
             relief_m = vec4(0.0, 0.003, 0.0, 0.001);

@@ -58,7 +58,8 @@ fn limb_distance(limb: ObjectRecord, local: vec3<f32>) -> f32 {
             radius_m += HEM_OUT_M * jacket_at(limb, local.y, 0.004);
         }
         case LEATHER_SURFACE: {
-            return max(length(away) - radius_m, -local.z - SOLE_M);
+            // Its own z points down.
+            return max(length(away) - radius_m, local.z - SOLE_M);
         }
         default: {}
     }

@@ -14,9 +14,9 @@ vertex_struct! {
     /// A vertex of a shape of any size.
     pub struct SolidVertex from 0 {
         /// Place within the inner shape, in its half edges.
-        corner: [f32; 3] = Float32x3,
+        pub(super) corner: [f32; 3] = Float32x3,
         /// Unit normal, along which it lies one rounding radius farther out.
-        normal: [f32; 3] = Float32x3,
+        pub(super) normal: [f32; 3] = Float32x3,
         /// 1 in the middle of an edge or rim, 0 on faces.
         edge: f32 = Float32,
     }
@@ -221,7 +221,7 @@ mod tests {
             (ObjectShape::Cylinder { radius_m: 0.2, height_m: 1.0 }, PI * 0.04),
         ];
         for (shape, wanted) in rows {
-            let found = volume_m3(shape);
+            let found = volume_m3(shape.clone());
             assert!((found / wanted - 1.0).abs() < 0.02, "{shape:?}: {found} m³ of {wanted} m³");
         }
     }
