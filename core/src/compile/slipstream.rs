@@ -109,6 +109,8 @@ mod tests {
     use glam::Vec3;
 
     use super::*;
+    use crate::scene::{Object, Scene};
+    use crate::solid::solids_of;
 
     #[test]
     fn shapes_sweep_the_area_of_their_shadow() {
@@ -120,7 +122,10 @@ mod tests {
             (ObjectShape::Capsule { radius_m: 0.5, length_m: 4.0 }, 0.6 * 4.0 + PI * 0.25),
         ];
         for (shape, expected) in cases {
-            let found = swept_m2(shape, diagonal);
+            let object = Object { shape: shape.clone(), ..Object::default() };
+            let scene = Scene { objects: vec![object], ..Scene::default() };
+            let solids = solids_of(&scene).expect("shapes without files");
+            let found = swept_m2(&solids[0], diagonal);
             assert!((found - expected).abs() < 1e-6, "{shape:?}: {found}, not {expected}");
         }
     }
