@@ -114,7 +114,7 @@ const TRIANGLES: [&str; 2] = [
 fn objects_that_cannot_be() {
     let there = folder();
     let refuse = |name: &str, objects: &str, essentials: &[&str]| {
-        file(&there, name, format!("(sources: [], ground: (litter: Some(())), objects: [({objects})])"));
+        file(&there, name, format!("(ground: (litter: Some(())), objects: [({objects})])"));
         assert_refused(&there, &["simulate", name, "--checkpoint", "out.ckpt"], essentials);
     };
     let field = "objects[0].shape.radius_m is";
@@ -156,11 +156,7 @@ fn meshes_that_enclose_nothing() {
     file(&there, "open.gltf", BLOCK.replace("\"count\": 36", "\"count\": 33"));
     file(&there, "inward.gltf", BLOCK.replace(TRIANGLES[0], TRIANGLES[1]));
     let refuse = |name: &str, mesh: &str, essentials: &[&str]| {
-        file(
-            &there,
-            name,
-            format!("(sources: [], ground: (litter: Some(())), objects: [(shape: Mesh({mesh}))])"),
-        );
+        file(&there, name, format!("(ground: (litter: Some(())), objects: [(shape: Mesh({mesh}))])"));
         let field = [name, "objects[0].shape"];
         assert_refused(
             &there,

@@ -67,7 +67,7 @@ mod tests {
 
     #[test]
     fn the_wind_is_weaker_behind_a_wall_than_beside_it() {
-        let wall = "(sources: [], ground: (litter: Some(())), wind: (speed: Beaufort(4), direction_deg: 0.0), \
+        let wall = "(ground: (litter: Some(())), wind: (speed: Beaufort(4), direction_deg: 0.0), \
             objects: [(shape: Box(size_m: (0.3, 1.0, 8.0)), at_m: (0.0, 0.5, 0.0))])";
         let map = map(wall).expect("the wall shelters");
         assert_eq!(map.left.len(), (map.nodes[0] * map.nodes[1]) as usize, "a share for each node");
@@ -80,8 +80,8 @@ mod tests {
 
     #[test]
     fn where_nothing_stands_nothing_shelters() {
-        assert_eq!(map("(sources: [], ground: (litter: Some(())))"), None, "open ground");
-        let off = "(sources: [], ground: (litter: Some(())), wind: (shelter: false), objects: [()])";
+        assert_eq!(map("(ground: (litter: Some(())))"), None, "open ground");
+        let off = "(ground: (litter: Some(())), wind: (shelter: false), objects: [()])";
         assert_eq!(map(off), None, "shelter switched off");
     }
 }
