@@ -157,7 +157,7 @@ fn meshes_that_enclose_nothing() {
     file(&there, "inward.gltf", BLOCK.replace(TRIANGLES[0], TRIANGLES[1]));
     let refuse = |name: &str, mesh: &str, essentials: &[&str]| {
         file(&there, name, format!("(ground: (litter: Some(())), objects: [(shape: Mesh({mesh}))])"));
-        let essentials = [&["objects[0].shape"], essentials].concat();
+        let essentials = [&["objects[0].shape"][..], essentials].concat();
         assert_refused(&there, &["simulate", name, "--checkpoint", "out.ckpt"], &essentials);
     };
     refuse("missing.ron", "file: \"none.glb\"", &["none.glb"]);

@@ -33,11 +33,11 @@ fn shade(value: f32) -> vec3<f32> {
 fn wind_left_at(place: vec2<f32>) -> f32 {
     let at = (place - shelter.corner_m) / shelter.apart_m;
     let low = floor(at);
-    if any(low < vec2(0.0)) || any(low + 1.0 >= vec2<f32>(shelter.nodes)) {
+    if any(low < vec2(0.0)) || any(low + 1.0 >= vec2(f32(shelter.nodes_x), f32(shelter.nodes_z))) {
         return 1.0;
     }
-    let row = u32(low.y) * shelter.nodes.x + u32(low.x);
-    let next = row + shelter.nodes.x;
+    let row = u32(low.y) * shelter.nodes_x + u32(low.x);
+    let next = row + shelter.nodes_x;
     let t = at - low;
     return mix(mix(wind_left[row], wind_left[row + 1u], t.x), mix(wind_left[next], wind_left[next + 1u], t.x), t.y);
 }

@@ -19,12 +19,14 @@ shared_struct! {
         palette: [Float4; SHADES as usize],
         /// Lowest x and z.
         corner_m: [f32; 2],
-        /// Nodes along x and z; none if the wind is free everywhere.
-        nodes: [u32; 2],
         /// Distance of two nodes.
         apart_m: f32,
         /// Share at the last colour.
         high: f32,
+        /// Nodes along x; none if the wind is free everywhere.
+        nodes_x: u32,
+        /// Nodes along z.
+        nodes_z: u32,
     }
 }
 
@@ -49,9 +51,10 @@ impl ShelterBuffers {
                 Float4(shade(index as f32 / (SHADES - 1) as f32).extend(1.0).to_array())
             }),
             corner_m: map.map_or([0.0; 2], |map| map.corner_m),
-            nodes: map.map_or([0; 2], |map| map.nodes),
             apart_m: map.map_or(1.0, |map| map.apart_m),
             high,
+            nodes_x: map.map_or(0, |map| map.nodes[0]),
+            nodes_z: map.map_or(0, |map| map.nodes[1]),
             padding: [0; 8],
         };
         let left = map.map_or(&[1.0][..], |map| &map.left);

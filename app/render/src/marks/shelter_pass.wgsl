@@ -20,17 +20,17 @@ struct Varyings {
 
 @vertex
 fn vertex(@builtin(vertex_index) index: u32, @builtin(instance_index) instance: u32) -> Varyings {
-    let across = shelter.nodes.x - 1u;
+    let across = shelter.nodes_x - 1u;
     let first = vec2(instance % across, instance / across);
     let corner = first + vec2(
         u32(index == 1u || index == 2u || index == 4u),
         u32(index == 2u || index == 4u || index == 5u),
     );
     let at = shelter.corner_m + vec2<f32>(corner) * shelter.apart_m;
-    let row = first.y * shelter.nodes.x + first.x;
-    let least = min(min(nodes[row], nodes[row + 1u]), min(nodes[row + shelter.nodes.x], nodes[row + shelter.nodes.x + 1u]));
+    let row = first.y * shelter.nodes_x + first.x;
+    let least = min(min(nodes[row], nodes[row + 1u]), min(nodes[row + shelter.nodes_x], nodes[row + shelter.nodes_x + 1u]));
     var out: Varyings;
-    out.left = nodes[corner.y * shelter.nodes.x + corner.x];
+    out.left = nodes[corner.y * shelter.nodes_x + corner.x];
     // In the free wind there is no cloth.
     out.clip = vec4(0.0);
     if least < 0.999 {

@@ -115,9 +115,10 @@ const CASES: &[Case] = &[
     (|s| polyhedron(s, &CORNERS_M[..3]), Some("objects[0].shape.corners_m")),
     (|s| polyhedron(s, &prism(16)), None),
     (|s| polyhedron(s, &prism(17)), Some("objects[0].shape.corners_m")),
-    // A hole, a corner twice, all in a plane that no axis is normal to, and one that is thinner than what leaves may not pass.
+    // A hole, all in a plane that no axis is normal to, and one that is thinner than what leaves may not pass.
     (|s| polyhedron(s, &[CORNERS_M.as_slice(), &[Vec3::splat(0.2)]].concat()), Some("objects[0].shape.corners_m")),
-    (|s| polyhedron(s, &[CORNERS_M.as_slice(), &[Vec3::X]].concat()), Some("objects[0].shape.corners_m")),
+    // A corner twice is one.
+    (|s| polyhedron(s, &[CORNERS_M.as_slice(), &[Vec3::X]].concat()), None),
     (|s| polyhedron(s, &[Vec3::ZERO, Vec3::new(1.0, 0.0, 1.0), Vec3::Y, Vec3::ONE]), Some("objects[0].shape.corners_m")),
     (|s| polyhedron(s, &[Vec3::ZERO, Vec3::X, Vec3::Z, Vec3::Y * 0.02]), None),
     (|s| polyhedron(s, &[Vec3::ZERO, Vec3::X, Vec3::Z, Vec3::Y * 0.019]), Some("objects[0].shape.corners_m")),
