@@ -50,7 +50,7 @@ pub(crate) struct Selection {
     pub(crate) slot: u32,
     pub(crate) latest: LeafAt,
     pub(crate) track: Track,
-    /// Why it has left the litter last, and the step at which that was seen.
+    /// Reason why it has left the litter last, and the step at which that was seen.
     pub(crate) woken: Option<(u32, Waking)>,
 }
 

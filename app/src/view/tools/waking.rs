@@ -42,7 +42,7 @@ pub(crate) enum Waking {
     Struck,
     /// The wind has taken it, at a speed in m/s at its edge.
     Wind(Onset, f32),
-    /// What it lay on has gone, or no longer bears it.
+    /// Ground, litter or whatever else bore it has gone.
     Loose,
 }
 
