@@ -93,6 +93,33 @@ def check_tree(stage, moment):
     assert fruit == 1, f"{fruit} trees bear fruit"
 
 
+def volume(points, counts, corners):
+    """Volume inside triangles, positive if they face outwards."""
+    assert set(counts) == {3}, "triangles"
+    triangles = zip(*[iter(corners)] * 3)
+    return sum(Gf.Dot(points[a], Gf.Cross(points[b], points[c])) for a, b, c in triangles) / 6.0
+
+
+def check_objects(stage, frames):
+    """A stone that stays, and a ring that rises and goes aside, both closed and facing outwards."""
+    # A pyramid a metre wide and 0.75 m high; a ring with radii of 0.25 m and 0.075 m, of 24 by 12 sides.
+    for name, expected, off in (("Object_0", 0.25, 1e-3), ("Object_1", 0.0262, 3e-4)):
+        mesh = UsdGeom.Mesh(stage.GetPrimAtPath(f"/World/Objects/{name}"))
+        points = [Gf.Vec3d(point) for point in mesh.GetPointsAttr().Get()]
+        found = volume(points, mesh.GetFaceVertexCountsAttr().Get(), mesh.GetFaceVertexIndicesAttr().Get())
+        assert abs(found - expected) < off, f"{name} has a volume of {found}, not {expected}"
+        assert len(mesh.GetNormalsAttr().Get()) == len(points), f"{name} has normals"
+        low, high = mesh.GetExtentAttr().Get()
+        assert all(low[axis] - 1e-4 <= point[axis] <= high[axis] + 1e-4 for point in points for axis in range(3)), "extent"
+    first, last = frames
+    place = lambda name, frame: UsdGeom.Xformable(stage.GetPrimAtPath(f"/World/Objects/{name}")).ComputeLocalToWorldTransform(frame).ExtractTranslation()
+    assert (place("Object_0", last) - Gf.Vec3d(1.0, 0.75, 1.5)).GetLength() < 1e-5, "the stone stands where it is"
+    moved = place("Object_1", last) - place("Object_1", first)
+    assert moved[0] > 0.3 and moved[2] == 0.0, f"the ring goes by {moved}"
+    if first == 0 and last == 30:
+        assert (moved - Gf.Vec3d(1.0, 0.5, 0.0)).GetLength() < 1e-4, f"the ring goes by {moved}"
+
+
 def check_ground(stage):
     """Level water, and ground that is not."""
     heights = {}
@@ -118,6 +145,7 @@ def check(path):
     assert compared > 500, f"only {compared} leaves were there to compare"
     check_tree(stage, stage.GetEndTimeCode())
     check_ground(stage)
+    check_objects(stage, (stage.GetStartTimeCode(), stage.GetEndTimeCode()))
     camera = UsdGeom.Camera(stage.GetPrimAtPath("/World/Camera")).GetCamera(stage.GetStartTimeCode())
     assert 30.0 < camera.GetFieldOfView(Gf.Camera.FOVVertical) < 51.0, "a camera"
     mesh = next(prim for prim in Usd.PrimRange(stage.GetPrimAtPath("/World/Leaves")) if prim.IsA(UsdGeom.Mesh))

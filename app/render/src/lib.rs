@@ -33,7 +33,9 @@ pub use gpu::shader_edit::with_shader_edit;
 pub use gpu::timing::GpuTimer;
 pub use leaves::meshes::shaped;
 pub use leaves::species_table::{MAX_LAYERS, SpeciesRow, dryness, turned};
-pub use marks::{ATTACHED, LANDINGS_PER_M2, MAX_TRAILS, MOTIONS, Measure, Paint, RESTING, shade_bytes};
+pub use marks::{
+    ATTACHED, LANDINGS_PER_M2, MAX_TRAILS, MOTIONS, Measure, Paint, RESTING, ShelterMap, shade_bytes,
+};
 pub use renderer::Renderer;
 pub use renderer::scene::{RenderScene, RendererOptions};
 pub use trees::bark_texture::{BARK_SIZE, paint_bark};

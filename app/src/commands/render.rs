@@ -60,7 +60,7 @@ pub struct Arguments {
     /// clouds stand still, and what can never repeat (water, a camera or a vortex on its way, leaves that fall only once) is refused.
     #[arg(long = "loop", value_name = "SECONDS", conflicts_with = "frames", value_parser = loop_length)]
     looped: Option<f64>,
-    /// Overlays in the picture: leaves coloured by motion, speed, age, height, wake or depth; landings. The others are for the window.
+    /// Overlays in the picture: leaves coloured by motion, speed, age, height, wake, depth or shelter; landings. The others are for the window.
     #[arg(long, value_name = "WHAT", value_delimiter = ',', value_parser = overlay)]
     show: Vec<Show>,
 }
@@ -105,6 +105,9 @@ fn studio(arguments: &Arguments, world: &World, size: (u32, u32), cancel: &Cance
     }
     let overlays = arguments.show.iter().fold(Overlays::default(), |overlays, show| overlays.with(*show));
     studio.mark(overlays.paint(), overlays.landings);
+    if let Some(high) = overlays.shelter() {
+        studio.show_shelter(&world.compiled, high);
+    }
     if let Some((title, end)) = overlays.scale() {
         terminal::note(&format!("{title}: 0 is dark violet, {end} light yellow"));
     }
@@ -196,9 +199,10 @@ fn playback_speed(text: &str) -> Result<f64, String> {
 fn overlay(text: &str) -> Result<Show, String> {
     let show = Show::from_str(text, false)?;
     match show {
-        Show::Wind | Show::Trails | Show::Leaf | Show::Compare => {
-            Err("shown in the window only; allowed: motion, speed, age, height, wake, depth, landings".into())
-        }
+        Show::Wind | Show::Trails | Show::Leaf | Show::Compare => Err(
+            "shown in the window only; allowed: motion, speed, age, height, wake, depth, shelter, landings"
+                .into(),
+        ),
         show => Ok(show),
     }
 }

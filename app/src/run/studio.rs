@@ -3,10 +3,10 @@
 //! Pictures of a scene as it goes on, without a window.
 
 use windfall_core::scene::{CameraKey, camera_at};
-use windfall_core::{Scene, Simulator, World};
+use windfall_core::{CompiledScene, Scene, Simulator, World};
 use windfall_render::camera::Camera;
 use windfall_render::trees::SceneTrees;
-use windfall_render::{FrameInput, Paint, PictureTarget, RenderScene, Renderer, RendererOptions};
+use windfall_render::{FrameInput, Paint, PictureTarget, RenderScene, Renderer, RendererOptions, ShelterMap};
 use windfall_wgpu::Gpu;
 
 use crate::leaves::{self, LeafProgress};
@@ -115,6 +115,11 @@ impl Studio {
     pub fn mark(&mut self, paint: Option<Paint>, landings: bool) {
         self.renderer.set_paint(paint);
         self.renderer.set_landings(landings);
+    }
+
+    /// Shows how much of the mean wind of a scene is left at the ground, in colours that end at a share of `high`.
+    pub fn show_shelter(&mut self, compiled: &CompiledScene, high: f32) {
+        self.renderer.set_shelter(ShelterMap::of(compiled).as_ref(), high);
     }
 
     /// Simulates until `step` steps are done.

@@ -16,8 +16,10 @@ use crate::device::terrain::litter::{LITTER_CELLS_PER_M, LITTER_HIGHEST_M};
 use crate::device::tree::sway::{IMPLICITNESS, SCHEME_ARTICULATED, SCHEME_OLIAPURAM_KUMAR, SCHEME_QUIGLEY};
 use crate::flight::coefficients::TICKS_PER_S;
 use crate::motion::{AIR_DENSITY, MotionTables};
-use crate::scene::{FlightModel, Litter, MAX_SOURCES, ObjectMotion, Scene, SwayScheme};
+use crate::scene::{DEEPEST_BED_M, FlightModel, Litter, MAX_SOURCES, ObjectMotion, Scene, SwayScheme};
 use crate::solid::Solid;
+
+const _: () = assert!(DEEPEST_BED_M <= LITTER_HIGHEST_M, "leaves of a bed have a place in the litter");
 
 /// Height of resting leaves above the ground in metres: half the thickness of a curled dry leaf.
 pub const REST_OFFSET_M: f32 = 0.004;

@@ -22,7 +22,7 @@ pub struct Litter {
     pub size_m: Vec2,
     /// Area of the leaves that lie there from the start per area of ground, 0 to 30: broadleaf woods drop 5 to 6 in an autumn. The bed
     /// thins out over the last two metres before the edges. Its leaves are of all species of the scene alike, and have slots of their
-    /// own.
+    /// own. It is at most 2 m deep.
     pub leaf_area_index: f32,
     /// Mass of dry leaves per volume of litter in kg/m³, 1 to 100: measured beds of hardwood leaves have 8.4 to 29, on average 12.2
     /// (Ottmar and Andreu 2007); fresh curled leaves less.
@@ -57,6 +57,14 @@ impl Litter {
     /// Half of the width in m within which a bed thins out towards each edge.
     pub fn rim_m(&self) -> f32 {
         (0.25 * self.size_m.min_element()).min(WIDEST_RIM_M)
+    }
+
+    /// Depth in m of the bed that lies there from the start.
+    pub(crate) fn bed_depth_m(&self, species: &[Species]) -> f64 {
+        let area_m2: f64 = species.iter().map(Species::mean_area_m2).sum();
+        let mass_kg: f64 =
+            species.iter().map(|one| one.mean_area_m2() * f64::from(one.areal_density_kg_m2)).sum();
+        f64::from(self.leaf_area_index) * mass_kg / area_m2 / f64::from(self.bulk_density_kg_m3)
     }
 
     /// Number of leaves that lie there from the start.

@@ -68,6 +68,8 @@ pub const MAX_MOVERS: usize = 32;
 pub const WALKER_LIMBS: usize = 10;
 /// Most corners of a walker's way, and most keys of the path of an object.
 pub const MAX_PATH_KEYS: usize = 256;
+/// Depth in metres of the deepest bed of litter that a scene begins with.
+pub const DEEPEST_BED_M: f32 = 2.0;
 /// Most keys the path of a camera may have.
 pub const MAX_CAMERA_KEYS: usize = 1024;
 /// Most leaves a scene may have, over all sources (four billion words of state would not fit anywhere yet).

@@ -11,10 +11,10 @@ mod tests;
 mod trees;
 
 use super::{
-    Aerodynamics, Camera, FlightModel, Ground, Haze, Jet, Litter, MAX_JET_KEYS, MAX_JETS, MAX_LEAVES,
-    MAX_SOURCES, MAX_SPECIES, MAX_TREE_LEAVES, MAX_VORTICES, MeanSpeed, MotionParameters, PhysicalSky,
-    Profile, Release, RotationModel, Scene, Sky, SkyMap, Source, SourceShape, Species, Sun, Terrain, View,
-    Vortex, WindParameters, limits,
+    Aerodynamics, Camera, DEEPEST_BED_M, FlightModel, Ground, Haze, Jet, Litter, MAX_JET_KEYS, MAX_JETS,
+    MAX_LEAVES, MAX_SOURCES, MAX_SPECIES, MAX_TREE_LEAVES, MAX_VORTICES, MeanSpeed, MotionParameters,
+    PhysicalSky, Profile, Release, RotationModel, Scene, Sky, SkyMap, Source, SourceShape, Species, Sun,
+    Terrain, View, Vortex, WindParameters, limits,
 };
 use crate::SceneError;
 use check::Check;
@@ -65,6 +65,13 @@ impl Scene {
         check.holds(leaves + lying <= u64::from(MAX_LEAVES), "ground.litter.leaf_area_index", || {
             (format!("{lying} leaves"), format!("at most {MAX_LEAVES} leaves, those that fall included"))
         })?;
+        if let Some(litter) = &self.ground.litter {
+            let depth_m = litter.bed_depth_m(&self.species);
+            check.holds(depth_m <= DEEPEST_BED_M.into(), "ground.litter.leaf_area_index", || {
+                let found = format!("{:?}, a bed {depth_m:.1} m deep", litter.leaf_area_index);
+                (found, format!("beds of at most {DEEPEST_BED_M} m"))
+            })?;
+        }
         self.check_species_names(&check)?;
         self.check_trees(&check)?;
         self.check_transitions(&check)?;

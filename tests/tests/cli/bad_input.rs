@@ -89,11 +89,87 @@ fn scenes_that_are_broken() {
     let litter =
         b"(species: [(size_m: 0.005)], ground: (litter: Some((size_m: (256, 256), leaf_area_index: 30))))";
     refuse("bed.ron", litter, &["bed.ron: ground.litter.leaf_area_index is", "at most 268435456 leaves"]);
+    let deep = b"(ground: (litter: Some((leaf_area_index: 30.5))))";
+    refuse("deep.ron", deep, &["deep.ron: ground.litter.leaf_area_index is 30.5", "0 to 30"]);
+    let deep = b"(ground: (litter: Some((leaf_area_index: 30, bulk_density_kg_m3: 0.0))))";
+    refuse("loose.ron", deep, &["loose.ron: ground.litter.bulk_density_kg_m3 is 0.0", "1 to 100 kg/m"]);
+    let deep = b"(species: [(areal_density_kg_m2: 0.1)], ground: (litter: Some((leaf_area_index: 30, bulk_density_kg_m3: 1))))";
+    let field = "ground.litter.leaf_area_index is 30.0, a bed 3.0 m deep";
+    refuse("high.ron", deep, &["high.ron", field, "beds of at most 2 m"]);
     let tables = b"(species: [(tables: \"none.motions\")])";
     refuse("tables.ron", tables, &["none.motions"]);
     file(&there, "bad.motions", "windfall-motions 1\nrows 7\n");
     let tables = b"(species: [(tables: \"bad.motions\")])";
     refuse("bad.ron", tables, &["bad.motions:2:1", "rows 513"]);
+}
+
+/// A closed box of 2 m by 1 m by 2 m as glTF, and the end of its data: the triangles, as they are and turned inside out.
+const BLOCK: &str = include_str!("../../data/block.gltf");
+const TRIANGLES: [&str; 2] = [
+    "AAABAAIAAAACAAMABAAFAAYABAAGAAcACAAJAAoACAAKAAsADAANAA4ADAAOAA8AEAARABIAEAASABMAFAAVABYAFAAWABcA",
+    "AAACAAEAAAADAAIABAAGAAUABAAHAAYACAAKAAkACAALAAoADAAOAA0ADAAPAA4AEAASABEAEAATABIAFAAWABUAFAAXABYA",
+];
+
+#[test]
+fn objects_that_cannot_be() {
+    let there = folder();
+    let refuse = |name: &str, objects: &str, essentials: &[&str]| {
+        file(&there, name, format!("(ground: (litter: Some(())), objects: [({objects})])"));
+        assert_refused(&there, &["simulate", name, "--checkpoint", "out.ckpt"], essentials);
+    };
+    let field = "objects[0].shape.radius_m is";
+    refuse("nan.ron", "shape: Sphere(radius_m: NaN)", &["nan.ron", field, "NaN", "0.005 to 50 m"]);
+    refuse("zero.ron", "shape: Sphere(radius_m: 0.0)", &["zero.ron", field, "0.0", "0.005 to 50 m"]);
+    refuse("huge.ron", "shape: Sphere(radius_m: 1e9)", &["huge.ron", field, "0.005 to 50 m"]);
+    let size = "objects[0].shape.size_m.y is";
+    refuse("thin.ron", "shape: Box(size_m: (1.0, 0.0, 1.0))", &["thin.ron", size, "0.0", "0.02 to 200 m"]);
+
+    let field = "objects[0].shape.corners_m is";
+    let corners = "(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)";
+    let polyhedron = |corners: &str| format!("shape: Polyhedron(corners_m: [{corners}])");
+    let allowed = "the corners of a convex polyhedron, and no other points";
+    let dented = polyhedron(&format!("{corners}, (0.2, 0.2, 0.2)"));
+    refuse("dented.ron", &dented, &["dented.ron", field, "not convex: [4] lies between others", allowed]);
+    let flat = polyhedron("(0, 0, 0), (1, 0, 1), (0, 1, 0), (1, 1, 1)");
+    refuse("flat.ron", &flat, &["flat.ron", field, "flat", allowed]);
+    let sheet = polyhedron("(0, 0, 0), (1, 0, 0), (0, 0, 1), (1, 0.01, 1)");
+    refuse("sheet.ron", &sheet, &["sheet.ron", field, "0.02 m along each axis"]);
+    let few = polyhedron("(0, 0, 0), (1, 0, 0), (0, 1, 0)");
+    refuse("few.ron", &few, &["few.ron", field, "3", "4 to 32"]);
+    let corner = polyhedron("(0, 0, 0), (1, inf, 0), (0, 1, 0), (0, 0, 1)");
+    refuse("far.ron", &corner, &["far.ron", "objects[0].shape.corners_m[1].y is inf", "-100 to 100 m"]);
+
+    let keys = "motion: Path([(time_s: 2.0, moved_m: (0, 0, 0)), (time_s: 1.0, moved_m: (1, 0, 0))])";
+    refuse(
+        "order.ron",
+        keys,
+        &["order.ron", "objects[0].motion[1].time_s is 1.0", "later than the key before, at 2 s"],
+    );
+    refuse("still.ron", "motion: Path([])", &["still.ron", "objects[0].motion is", "1 to "]);
+}
+
+#[test]
+fn meshes_that_enclose_nothing() {
+    let there = folder();
+    assert!(BLOCK.contains(TRIANGLES[0]) && BLOCK.contains("\"count\": 36"), "the box's own triangles");
+    file(&there, "block.gltf", BLOCK);
+    file(&there, "open.gltf", BLOCK.replace("\"count\": 36", "\"count\": 33"));
+    file(&there, "inward.gltf", BLOCK.replace(TRIANGLES[0], TRIANGLES[1]));
+    let refuse = |name: &str, mesh: &str, essentials: &[&str]| {
+        file(&there, name, format!("(ground: (litter: Some(())), objects: [(shape: Mesh({mesh}))])"));
+        let essentials = [&["objects[0].shape"][..], essentials].concat();
+        assert_refused(&there, &["simulate", name, "--checkpoint", "out.ckpt"], &essentials);
+    };
+    refuse("missing.ron", "file: \"none.glb\"", &["none.glb"]);
+    refuse("unnamed.ron", "file: \"\"", &["shape.file is empty", ".gltf or .glb"]);
+    refuse("open.ron", "file: \"open.gltf\"", &["open.gltf", "is open", "allowed is a closed surface"]);
+    refuse(
+        "inward.ron",
+        "file: \"inward.gltf\"",
+        &["inward.gltf", "-4 m³", "counter-clockwise from outside"],
+    );
+    refuse("large.ron", "file: \"block.gltf\", scale: 500.0", &["block.gltf", "1000 m", "0.02 to 200 m"]);
+    refuse("scale.ron", "file: \"block.gltf\", scale: 0.0", &["shape.scale is 0.0", "0.001 to 1000"]);
 }
 
 #[test]

@@ -84,14 +84,16 @@ fn overlays_colour_leaves_that_lie() {
     file(
         &there,
         "bed.ron",
-        "(sources: [], ground: (litter: Some((size_m: (12.0, 12.0), leaf_area_index: 2.0))))",
+        "(sources: [], ground: (litter: Some((size_m: (12.0, 12.0), leaf_area_index: 2.0))), objects: [()])",
     );
     let drawn = |show: &[&str]| {
         let still = ["render", "bed.ron", "--frames", "1", "--size", "160x90", "--out", "a.png"];
         windfall(&there, &[&still, show].concat()).text();
         picture(&there.path().join("a.png"))
     };
-    let pictures = [&[][..], &["--show", "wake"], &["--show", "depth"], &["--show", "landings"]].map(drawn);
+    let pictures =
+        [&[][..], &["--show", "wake"], &["--show", "depth"], &["--show", "shelter"], &["--show", "landings"]]
+            .map(drawn);
     for (number, a) in pictures.iter().enumerate() {
         for b in &pictures[number + 1..] {
             assert!(difference(a, b) > 0.5, "picture {number} and another: {} apart", difference(a, b));

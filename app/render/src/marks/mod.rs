@@ -9,6 +9,8 @@ pub(crate) mod landing_pass;
 mod overlay;
 pub(crate) mod paint_pass;
 mod palette;
+mod shelter_map;
+pub(crate) mod shelter_pass;
 pub(crate) mod trail_pass;
 
 use windfall_core::layout::WgslStruct;
@@ -18,6 +20,7 @@ use crate::gpu::shaders::{Shaders, declarations, wgsl_files};
 
 pub use landing_count::LANDINGS_PER_M2;
 pub use palette::{ATTACHED, MOTIONS, RESTING, shade_bytes};
+pub use shelter_map::ShelterMap;
 pub use trail_pass::MAX_TRAILS;
 
 /// Property that colours show.
@@ -35,6 +38,8 @@ pub enum Measure {
     Wake,
     /// Metres that a lying leaf lies above the ground: the depth of the litter under it.
     Depth,
+    /// Share of the mean wind that is left at a lying leaf, by the [`ShelterMap`] that the renderer has been given.
+    Shelter,
 }
 
 /// Paint of the leaves.
@@ -64,12 +69,13 @@ pub(crate) fn shaders() -> Shaders {
         landing_count::LandingUniform::declaration(),
         paint_pass::PaintUniform::declaration(),
         paint_pass::PastMark::declaration(),
+        shelter_pass::ShelterUniform::declaration(),
         trail_pass::TrailUniform::declaration(),
         trail_pass::TrailSample::declaration(),
     ];
     shaders.extend([("marks/structs", declarations(lists) + &structs.concat())]);
     shaders.extend(wgsl_files!(
-        "marks": "landing_count", "landing_pass", "paint_pass", "trail_pass", "trail_sample"
+        "marks": "landing_count", "landing_pass", "paint_pass", "shelter_pass", "trail_pass", "trail_sample"
     ));
     shaders
 }

@@ -8,6 +8,7 @@ use windfall_core::{shared_constants, shared_struct};
 use windfall_wgpu::LeafColumns;
 
 use super::palette::{self, ATTACHED_COLOR, MOTIONS, NO_COLOR, RESTING_COLOR, SHADES, linear, shade};
+use super::shelter_pass::ShelterBuffers;
 use super::{MARKS_GROUP_SIZE, Measure, Paint};
 use crate::frame::group::FrameGroup;
 use crate::gpu::pipeline::{buffer_entry, layout};
@@ -31,6 +32,8 @@ shared_constants! {
     const MEASURE_WAKE: u32 = 4;
     /// Number of [`Measure::Depth`].
     const MEASURE_DEPTH: u32 = 5;
+    /// Number of [`Measure::Shelter`].
+    const MEASURE_SHELTER: u32 = 6;
 }
 
 shared_struct! {
@@ -100,6 +103,8 @@ impl PaintPass {
                 buffer_entry(3, storage(false), compute),
                 buffer_entry(4, storage(false), compute),
                 buffer_entry(5, storage(true), compute),
+                buffer_entry(6, wgpu::BufferBindingType::Uniform, compute),
+                buffer_entry(7, storage(true), compute),
             ],
         });
         let module = compile(device, &super::shaders(), "marks/paint_pass");
@@ -148,7 +153,7 @@ impl PaintPass {
         self.paint
     }
 
-    /// Marks `leaves` as they are at `time_s`.
+    /// Marks `leaves` as they are at `time_s`, in so much of the wind.
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
@@ -159,7 +164,7 @@ impl PaintPass {
         (device, queue): (&wgpu::Device, &wgpu::Queue),
         encoder: &mut wgpu::CommandEncoder,
         frame: &FrameGroup,
-        leaves: &LeafColumns<'_>,
+        (leaves, shelter): (&LeafColumns<'_>, &ShelterBuffers),
         time_s: f64,
     ) {
         // Back in time things move as well.
@@ -173,6 +178,7 @@ impl PaintPass {
             Measure::Height => MEASURE_HEIGHT,
             Measure::Wake => MEASURE_WAKE,
             Measure::Depth => MEASURE_DEPTH,
+            Measure::Shelter => MEASURE_SHELTER,
         };
         let low = if self.paint.measure == Measure::Height { self.base_m } else { 0.0 };
         let uniform = PaintUniform {
@@ -208,6 +214,8 @@ impl PaintPass {
                     wgpu::BindGroupEntry { binding: 3, resource: window(&self.marks) },
                     wgpu::BindGroupEntry { binding: 4, resource: window(&self.past) },
                     wgpu::BindGroupEntry { binding: 5, resource: window(leaves.drift) },
+                    wgpu::BindGroupEntry { binding: 6, resource: shelter.uniform.as_entire_binding() },
+                    wgpu::BindGroupEntry { binding: 7, resource: shelter.left.as_entire_binding() },
                 ],
             });
             let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {

@@ -13,6 +13,9 @@
 @group(1) @binding(3) var<storage, read_write> marks: array<Identity>;
 @group(1) @binding(4) var<storage, read_write> past: array<PastMark>;
 @group(1) @binding(5) var<storage, read> drifts: array<Drift>;
+@group(1) @binding(6) var<uniform> shelter: ShelterUniform;
+// Share of the mean wind that is left at each node of the grid.
+@group(1) @binding(7) var<storage, read> wind_left: array<f32>;
 
 // Regimes of bodies in the order of the motions that look like them.
 const LIKE = array<u32, 6>(0u, 3u, 1u, 2u, 4u, 5u);
@@ -24,6 +27,19 @@ fn shade(value: f32) -> vec3<f32> {
     let at = share * f32(SHADES - 1u);
     let low = min(u32(at), SHADES - 2u);
     return mix(paint.palette[low].rgb, paint.palette[low + 1u].rgb, at - f32(low));
+}
+
+// Share of the mean wind that is left at a place; beyond the grid all of it.
+fn wind_left_at(place: vec2<f32>) -> f32 {
+    let at = (place - shelter.corner_m) / shelter.apart_m;
+    let low = floor(at);
+    if any(low < vec2(0.0)) || any(low + 1.0 >= vec2(f32(shelter.nodes_x), f32(shelter.nodes_z))) {
+        return 1.0;
+    }
+    let row = u32(low.y) * shelter.nodes_x + u32(low.x);
+    let next = row + shelter.nodes_x;
+    let t = at - low;
+    return mix(mix(wind_left[row], wind_left[row + 1u], t.x), mix(wind_left[next], wind_left[next + 1u], t.x), t.y);
 }
 
 @compute @workgroup_size(MARKS_GROUP_SIZE)
@@ -68,6 +84,11 @@ fn mark(@builtin(global_invocation_id) id: vec3<u32>) {
         case MEASURE_DEPTH: {
             if state == STATE_RESTING {
                 color = shade(place.position.y - ground_height(place.position.xz));
+            }
+        }
+        case MEASURE_SHELTER: {
+            if state == STATE_RESTING {
+                color = shade(wind_left_at(place.position.xz));
             }
         }
         default: {

@@ -18,6 +18,12 @@ shared_constants! {
     pub(super) const LEATHER_SURFACE: u32 = 3;
     /// Skin under hair.
     pub(super) const HEAD_SURFACE: u32 = 4;
+    /// Trousers that end in the shaft of a boot.
+    pub(super) const SHANK_SURFACE: u32 = 5;
+    /// Trousers under the hem of a jacket.
+    pub(super) const THIGH_SURFACE: u32 = 6;
+    /// Number of the limb that a jacket has its colour of.
+    pub(super) const TRUNK_LIMB: u32 = 8;
 }
 
 /// A limb as it is drawn: within some two centimetres of the capsule that leaves meet.
@@ -36,8 +42,8 @@ impl LimbLook {
     pub(super) fn of(limb: Limb) -> Self {
         let (taper, flatness, surface) = match limb {
             Limb::Boot(_) => (-0.06, 1.0, LEATHER_SURFACE),
-            Limb::Shank(_) => (0.14, 1.0, CLOTH_SURFACE),
-            Limb::Thigh(_) => (0.12, 1.0, CLOTH_SURFACE),
+            Limb::Shank(_) => (0.10, 1.0, SHANK_SURFACE),
+            Limb::Thigh(_) => (0.12, 1.0, THIGH_SURFACE),
             Limb::Arm(_) => (0.14, 1.0, SLEEVE_SURFACE),
             Limb::Trunk => (0.06, 0.76, CLOTH_SURFACE),
             Limb::Head => (0.1, 1.0, HEAD_SURFACE),
@@ -56,5 +62,6 @@ mod tests {
     fn shaders_see_all_limbs() {
         assert_eq!(LIMBS.len(), BODY_LIMBS as usize, "as many");
         assert!(LIMBS.iter().all(|limb| LIMBS[limb.number()] == *limb), "each by its number");
+        assert_eq!(LIMBS[TRUNK_LIMB as usize], Limb::Trunk, "the trunk");
     }
 }

@@ -136,10 +136,16 @@ fn fragment(in: Varyings) -> @location(0) vec4<f32> {
         }
         case LEATHER_SURFACE: {
             albedo *= 1.0 + 0.6 * (fine.a - 0.5);
-            // Soil on the soles.
-            albedo = mix(albedo, vec3(0.075, 0.058, 0.040), 0.6 * smoothstep(0.0, -0.04, local.z));
-            relief_m = vec4(0.0, 0.004, 0.0, 0.001);
-            gloss = 0.06;
+            // The seam of the cap, and the welt over a sole of rubber with soil on it.
+            let seam = local.y - 0.045 - 6.0 * local.x * local.x;
+            albedo *= 1.0 - 0.55 * exp(-seam * seam / 6.0e-6);
+            let welt = SOLE_M - local.z - 0.017;
+            albedo = mix(albedo, vec3(0.20, 0.15, 0.09), 0.7 * exp(-welt * welt / 5.0e-6));
+            let sole = smoothstep(0.0015, -0.0015, SOLE_M - local.z - 0.014);
+            let soil = mix(vec3(0.016), vec3(0.075, 0.058, 0.040), 0.6 * smoothstep(0.35, 0.65, middle.a));
+            albedo = mix(albedo, soil, sole);
+            relief_m = vec4(0.0, 0.003, 0.0, 0.001);
+            gloss = mix(0.09, 0.02, sole);
         }
         case HEAD_SURFACE: {
             // Hair down to the neck behind and to the forehead before.
@@ -150,13 +156,26 @@ fn fragment(in: Varyings) -> @location(0) vec4<f32> {
             relief_m = vec4(0.0, 0.0, 0.0, 0.003 * hair);
         }
         default: {
+            // Leather of the shaft and cloth of the jacket, each with a rim.
+            var leather = 0.0;
+            if object.surface == SHANK_SURFACE {
+                leather = shaft_at(object, local.y, 0.0015);
+                let rim = local.y + object.inner_m.y - SHAFT_M + 0.006;
+                albedo = mix(albedo, objects[object.body].color, leather);
+                albedo *= 1.0 - 0.5 * exp(-rim * rim / 1.0e-5);
+            } else if object.surface == THIGH_SURFACE {
+                let rim = local.y - object.inner_m.y + HEM_M;
+                albedo = mix(albedo, objects[object.body + TRUNK_LIMB].color, jacket_at(object, local.y, 0.0015));
+                albedo *= 1.0 - 0.6 * exp(-rim * rim / 1.0e-5);
+            }
             // Folds across, and the weave.
             let folds = noise_at(vec2((place.x + place.z) * 0.55, place.y * 1.35), level_of(1.35 * pixel_m)).g;
             let weave = noise_at(vec2((place.x + place.z) * 6.0, place.y * 6.0), level_of(6.0 * pixel_m)).b;
             albedo *= (1.0 + 0.35 * (weave - 0.5)) * (0.85 + 0.3 * folds);
             // Folds lie across.
             relief_per_m = vec3(0.7, 1.5, 0.7);
-            relief_m = vec4(0.028, 0.028, 0.0, 0.0);
+            relief_m = vec4(0.028, 0.028, 0.0, 0.0) * (1.0 - 0.7 * leather);
+            gloss = mix(gloss, 0.09, leather);
             if object.surface == SLEEVE_SURFACE {
                 // The hand below the cuff.
                 let cuff = smoothstep(0.004, -0.004, local.y + object.inner_m.y - 0.045);

@@ -12,6 +12,14 @@
 const JOINT_M: f32 = 0.07;
 const JOINT_MOST_M: f32 = 0.06;
 
+// Height in metres of the shaft of a boot above the ankle, depth of the hem of a jacket below the hips, and how far both stand out.
+const SHAFT_M: f32 = 0.12;
+const HEM_M: f32 = 0.11;
+const SHAFT_OUT_M: f32 = 0.008;
+const HEM_OUT_M: f32 = 0.012;
+// Depth of the sole of a boot below its middle: it is flat.
+const SOLE_M: f32 = 0.042;
+
 struct ObjectPoint {
     world: vec3<f32>,
     // Place before it was set on the ground that is drawn.
@@ -26,12 +34,36 @@ fn into_part(turn: vec4<f32>, v: vec3<f32>) -> vec3<f32> {
     return rotate(turn * vec4(-1.0, -1.0, -1.0, 1.0), v);
 }
 
+// Share of the shaft of a boot at a height in metres along a shank, over so many metres of a rim.
+fn shaft_at(limb: ObjectRecord, along_m: f32, rim_m: f32) -> f32 {
+    return smoothstep(rim_m, -rim_m, along_m + limb.inner_m.y - SHAFT_M);
+}
+
+// The same of a jacket along a thigh.
+fn jacket_at(limb: ObjectRecord, along_m: f32, rim_m: f32) -> f32 {
+    return smoothstep(-rim_m, rim_m, along_m - limb.inner_m.y + HEM_M);
+}
+
 // Distance in metres of a place, in the frame of a limb, from its surface.
 fn limb_distance(limb: ObjectRecord, local: vec3<f32>) -> f32 {
     let half_length = max(limb.inner_m.y, 1.0e-4);
     let along = clamp(local.y / half_length, -1.0, 1.0);
     let away = vec3(local.x, local.y - along * half_length, local.z / limb.flatness);
-    return (length(away) - limb.rounding_m * (1.0 + limb.taper * along)) * min(limb.flatness, 1.0);
+    var radius_m = limb.rounding_m * (1.0 + limb.taper * along);
+    switch limb.surface {
+        case SHANK_SURFACE: {
+            radius_m += SHAFT_OUT_M * shaft_at(limb, local.y, 0.004);
+        }
+        case THIGH_SURFACE: {
+            radius_m += HEM_OUT_M * jacket_at(limb, local.y, 0.004);
+        }
+        case LEATHER_SURFACE: {
+            // Its own z points down.
+            return max(length(away) - radius_m, local.z - SOLE_M);
+        }
+        default: {}
+    }
+    return (length(away) - radius_m) * min(limb.flatness, 1.0);
 }
 
 // The same from the surface of a limb and those that it is joined with.

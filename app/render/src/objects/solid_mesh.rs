@@ -14,9 +14,9 @@ vertex_struct! {
     /// A vertex of a shape of any size.
     pub struct SolidVertex from 0 {
         /// Place within the inner shape, in its half edges.
-        corner: [f32; 3] = Float32x3,
+        pub(super) corner: [f32; 3] = Float32x3,
         /// Unit normal, along which it lies one rounding radius farther out.
-        normal: [f32; 3] = Float32x3,
+        pub(super) normal: [f32; 3] = Float32x3,
         /// 1 in the middle of an edge or rim, 0 on faces.
         edge: f32 = Float32,
     }

@@ -15,11 +15,12 @@ use crate::leaves::leaf_pass::LeafPass;
 use crate::leaves::motion_pass::MotionPass;
 use crate::leaves::visible::VisibleLeaves;
 use crate::lens::motion::Motion;
-use crate::marks::Paint;
 use crate::marks::landing_count::LandingCount;
 use crate::marks::landing_pass::LandingPass;
 use crate::marks::paint_pass::PaintPass;
+use crate::marks::shelter_pass::{ShelterBuffers, ShelterPass};
 use crate::marks::trail_pass::TrailPass;
+use crate::marks::{Paint, ShelterMap};
 use crate::objects::motion_pass::ObjectMotionPass;
 use crate::trees::SceneTrees;
 use crate::trees::records::TreeRecords;
@@ -142,6 +143,15 @@ impl Renderer {
             let pass = || LandingPass::new(&self.device, &self.frame, &self.light, count());
             self.landing_pass = are_shown.then(pass);
         }
+    }
+
+    /// Lays the shares of `map` over the ground in colours that end at a share of `high`, and takes them for the paint
+    /// [`Measure::Shelter`](crate::Measure::Shelter); `None` shows nothing.
+    pub fn set_shelter(&mut self, map: Option<&ShelterMap>, high: f32) {
+        let (device, queue) = (&self.device, &self.queue);
+        self.shelter = ShelterBuffers::new(device, queue, map, high);
+        let pass = |map| ShelterPass::new(device, &self.frame, &self.light, (map, &self.shelter));
+        self.shelter_pass = map.map(pass);
     }
 
     /// Draws trails of so many seconds from now on; none for 0.

@@ -60,7 +60,8 @@ impl Renderer {
                     landings.count.run(&self.device, encoder, leaves);
                 }
                 if let Some(paint) = &mut self.paint_pass {
-                    paint.mark((&self.device, &self.queue), encoder, &self.frame, leaves, input.time_s);
+                    let shown = (leaves, &self.shelter);
+                    paint.mark((&self.device, &self.queue), encoder, &self.frame, shown, input.time_s);
                 }
             }
             self.draw_tile(encoder, world, input, (&tile, &shot));
@@ -225,6 +226,9 @@ impl Renderer {
         }
         self.tree_pass.draw(&mut pass, &self.trees);
         self.sky_pass.draw(&mut pass);
+        if let Some(shelter) = &self.shelter_pass {
+            shelter.draw(&mut pass);
+        }
         if let Some(landings) = &self.landing_pass {
             landings.draw(&mut pass);
         }

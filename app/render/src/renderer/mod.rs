@@ -29,6 +29,7 @@ use crate::lens::motion::Motion;
 use crate::lens::post::{Post, TimedPosts};
 use crate::marks::landing_pass::LandingPass;
 use crate::marks::paint_pass::PaintPass;
+use crate::marks::shelter_pass::{ShelterBuffers, ShelterPass};
 use crate::marks::trail_pass::TrailPass;
 use crate::objects::motion_pass::ObjectMotionPass;
 use crate::objects::object_pass::ObjectPass;
@@ -95,6 +96,8 @@ pub struct Renderer {
     trail_pass: Option<TrailPass>,
     paint_pass: Option<PaintPass>,
     landing_pass: Option<LandingPass>,
+    shelter: ShelterBuffers,
+    shelter_pass: Option<ShelterPass>,
     post: Post,
     timer: Option<GpuTimer>,
     /// Beginning and length in seconds of a round that scenery repeats.
@@ -192,6 +195,8 @@ impl Renderer {
             moving: None,
             paint_pass: None,
             landing_pass: None,
+            shelter: ShelterBuffers::new(device, queue, None, 1.0),
+            shelter_pass: None,
             shade_is_old: true,
             targets,
             land,

@@ -14,10 +14,12 @@ use windfall_wgpu::{LeafColumns, StoreBuffers};
 use super::{encoder, gpu, read};
 use crate::Measure;
 use crate::Paint;
+use crate::ShelterMap;
 use crate::frame::group::{FrameGroup, Standing};
 use crate::land::Land;
 use crate::marks::landing_count::{CELL_M, CELLS, LandingCount};
 use crate::marks::paint_pass::PaintPass;
+use crate::marks::shelter_pass::ShelterBuffers;
 use crate::marks::{ATTACHED, MOTIONS, RESTING, shade_bytes};
 
 fn leaves(places: &[([f32; 3], u32)]) -> Leaves {
@@ -96,12 +98,16 @@ fn marks_tell_what_leaves_do() {
     let frame = FrameGroup::new(gpu.device(), gpu.queue(), &Land::of(&ground), standing);
     let first = Paint { measure: Measure::Motion, most: 1.0 };
     let mut paint = PaintPass::new(gpu.device(), &frame, first, 5, 0.01, 0.0);
+    // From x = 2 m on half of the wind is missing, up to z = 2 m.
+    let left = [1.0, 0.5, 0.5, 1.0, 0.5, 0.5];
+    let map = ShelterMap { corner_m: [0.0; 2], apart_m: 2.0, nodes: [3, 2], left: left.to_vec() };
+    let shelter = ShelterBuffers::new(gpu.device(), gpu.queue(), Some(&map), 1.0);
     let mut marks = |leaves: &Leaves, chosen: Paint, time_s: f64| -> Vec<u32> {
         buffers.write(&gpu, leaves).expect("as many");
         paint.set(chosen);
         let mut encoder = encoder(&gpu);
         let device = (gpu.device(), gpu.queue());
-        paint.mark(device, &mut encoder, &frame, &LeafColumns::of(&buffers), time_s);
+        paint.mark(device, &mut encoder, &frame, (&LeafColumns::of(&buffers), &shelter), time_s);
         gpu.queue().submit([encoder.finish()]);
         read::<Identity>(&gpu, &paint.marks).into_iter().map(|mark| mark.release).collect()
     };
@@ -145,6 +151,15 @@ fn marks_tell_what_leaves_do() {
     }
     let found = marks(&bed, Paint { measure: Measure::Depth, most: 0.4 }, 1.2);
     for (mark, wanted) in found.iter().zip([shade_bytes(0.25), shade_bytes(0.75), shade_bytes(0.0), ATTACHED])
+    {
+        assert!(is_color(*mark, wanted), "{mark:08x} is not {wanted:?}: {found:08x?}");
+    }
+    // In the lee, on the way there, and beyond the map.
+    for (slot, place) in [[3.0, 1.0, 1.0], [1.0, 1.0, 1.0], [3.0, 1.0, 5.0]].into_iter().enumerate() {
+        bed.place[slot].position = place;
+    }
+    let found = marks(&bed, Paint { measure: Measure::Shelter, most: 1.0 }, 1.2);
+    for (mark, wanted) in found.iter().zip([shade_bytes(0.5), shade_bytes(0.75), shade_bytes(1.0), ATTACHED])
     {
         assert!(is_color(*mark, wanted), "{mark:08x} is not {wanted:?}: {found:08x?}");
     }

@@ -31,11 +31,15 @@ fn extent(a: &RgbaImage, b: &RgbaImage) -> Option<[[u32; 2]; 2]> {
 #[test]
 fn an_object_is_drawn_where_it_is_and_as_large() {
     let nothing = picture_at(&mut bench(with_exposure), 0.0);
+    let sign = |corner: u8, bit: u8| if corner & bit == 0 { -0.5 } else { 0.5 };
+    let cube_m: [Vec3; 8] =
+        [0, 1, 2, 3, 4, 5, 6, 7].map(|at| Vec3::new(sign(at, 1), sign(at, 2), sign(at, 4)));
     let shapes = [
         ObjectShape::Sphere { radius_m: 0.5 },
         ObjectShape::Capsule { radius_m: 0.5, length_m: 0.4 },
         ObjectShape::Box { size_m: Vec3::splat(1.0) },
         ObjectShape::Cylinder { radius_m: 0.5, height_m: 1.0 },
+        ObjectShape::Polyhedron { corners_m: cube_m.to_vec() },
     ];
     for shape in shapes {
         let mut bench = bench(|scene| {

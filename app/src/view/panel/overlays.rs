@@ -11,12 +11,13 @@ use super::{Action, PanelInput, style};
 use crate::view::tools::overlays::Overlays;
 
 /// Ends of the colours that can be chosen.
-const MOST: [(&str, Limit<f32>); 5] = [
+const MOST: [(&str, Limit<f32>); 6] = [
     ("Colours to", Limit { low: 0.1, high: 60.0, unit: "m/s" }),
     ("Colours to", Limit { low: 0.5, high: 600.0, unit: "s" }),
     ("Colours to", Limit { low: 0.5, high: 200.0, unit: "m" }),
     ("Colours to", Limit { low: 0.5, high: 30.0, unit: "m/s" }),
     ("Colours to", Limit { low: 0.01, high: 5.0, unit: "m" }),
+    ("Colours to", Limit { low: 0.1, high: 1.0, unit: "" }),
 ];
 /// Heights of the wind's slice.
 const WIND_HEIGHT_M: Limit<f32> = Limit { low: 0.1, high: 100.0, unit: "m" };
@@ -65,6 +66,11 @@ fn colors(ui: &mut Ui, overlays: &mut Overlays) {
                 "Lying leaves coloured by the wind at their edge that takes them; covered ones brown",
             ),
             (Some(Measure::Depth), "Depth", "Lying leaves coloured by the depth of the litter under them"),
+            (
+                Some(Measure::Shelter),
+                "Shelter",
+                "Ground and lying leaves coloured by the share of the mean wind that is left there",
+            ),
         ] {
             if ui.selectable_label(overlays.measure == measure, label).on_hover_text(tip).clicked() {
                 overlays.measure = measure;

@@ -93,6 +93,11 @@ impl History {
         Some(World { compiled, ..world.clone() })
     }
 
+    /// Heights of the litter at the last kept moment at or before `step`; none if no moment is kept.
+    pub(crate) fn litter_before(&self, step: u32) -> &[u32] {
+        self.moments.range(..=step).next_back().map_or(&[], |(_, world)| &world.bed.words)
+    }
+
     /// Step of the last kept moment at or before `step`.
     pub(crate) fn step_before(&self, step: u32) -> Option<u32> {
         self.moments.range(..=step).next_back().map(|(at, _)| *at)

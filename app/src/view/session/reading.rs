@@ -41,6 +41,11 @@ impl Session {
         &self.compiled
     }
 
+    /// Heights of the litter a while before `step`, as they are kept.
+    pub(crate) fn litter_before(&self, step: u32) -> &[u32] {
+        self.history.litter_before(step)
+    }
+
     /// The leaves as they are now, if they need not be brought from a device.
     pub(crate) fn host_leaves(&self) -> Option<&Leaves> {
         self.backend.host_leaves()

@@ -16,12 +16,22 @@ use windfall_core::motion::Primitive;
 use windfall_core::{Clock, CompiledScene};
 
 use crate::run::digits::grouped;
+use crate::view::tools::waking::Waking;
 
 /// A title with rows of names and what they are.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Card {
     pub(crate) title: String,
     pub(crate) rows: Vec<(&'static str, String)>,
+}
+
+impl Card {
+    /// The card with what has woken the leaf, so many seconds ago.
+    pub(crate) fn with_waking(mut self, waking: Waking, seconds: f64) -> Self {
+        let at = self.rows.len().min(2);
+        self.rows.insert(at, ("woken", format!("{seconds:.1} s ago: {waking}")));
+        self
+    }
 }
 
 /// The card of a leaf in `slot`, as it is at `clock`.
@@ -123,6 +133,7 @@ mod tests {
     use windfall_cpu::{CpuOptions, CpuSimulator};
 
     use super::*;
+    use crate::view::tools::waking::Onset;
 
     fn cards(preset: &str) -> Vec<Card> {
         let mut scene = Scene::preset(preset).expect("a preset");
@@ -172,6 +183,14 @@ mod tests {
             let [x, _, z] = world.leaves.place[slot].position;
             assert!(x.abs() < 0.6 && z.abs() < 0.6, "beside it, at {x}, {z}");
         }
+    }
+
+    #[test]
+    fn a_leaf_that_was_woken_says_by_what() {
+        let card = cards("storm").swap_remove(0).with_waking(Waking::Wind(Onset::Tips, 1.84), 2.04);
+        assert_eq!(card.rows[1].0, "state", "first what it does: {card:?}");
+        let woken = row(&card, "woken").expect("a row");
+        assert_eq!(woken, "2.0 s ago: the wind tipped it over, 1.84 m/s at its edge", "the reason");
     }
 
     fn row(card: &Card, name: &str) -> Option<String> {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Instruments of the window: picked leaves and their tracks, objects in the hand, overlays, clips, timings.
+//! Instruments of the window: picked leaves, their tracks and what woke them, objects in the hand, overlays, clips, timings.
 
 pub(crate) mod card;
 pub(crate) mod clip;
@@ -11,4 +11,5 @@ pub(crate) mod overlays;
 pub(crate) mod pick;
 pub(crate) mod probe;
 pub(crate) mod selection;
+pub(crate) mod waking;
 pub(crate) mod wind_slice;

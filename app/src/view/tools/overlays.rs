@@ -23,6 +23,8 @@ pub(crate) enum Show {
     Wake,
     /// Lying leaves coloured by the depth of the litter under them.
     Depth,
+    /// Ground and lying leaves coloured by the share of the mean wind that is left there.
+    Shelter,
     /// Numbers of leaves on the ground by place.
     Landings,
     /// Arrows of the wind in a level slice.
@@ -40,8 +42,8 @@ pub(crate) enum Show {
 pub(crate) struct Overlays {
     /// Measure that leaves are coloured by.
     pub(crate) measure: Option<Measure>,
-    /// Speed in m/s, age in s, height in m, wind in m/s and depth in m at the end of the colours.
-    pub(crate) most: [f32; 5],
+    /// Speed in m/s, age in s, height in m, wind in m/s, depth in m and share of the wind at the end of the colours.
+    pub(crate) most: [f32; 6],
     pub(crate) landings: bool,
     pub(crate) wind: bool,
     /// Height of the slice above the ground in metres.
@@ -53,7 +55,7 @@ impl Default for Overlays {
     fn default() -> Self {
         Self {
             measure: None,
-            most: [4.0, 20.0, 10.0, 2.0, 0.2],
+            most: [4.0, 20.0, 10.0, 2.0, 0.2, 1.0],
             landings: false,
             wind: false,
             wind_height_m: WIND_HEIGHT_M,
@@ -72,6 +74,7 @@ impl Overlays {
             Show::Height => self.measure = Some(Measure::Height),
             Show::Wake => self.measure = Some(Measure::Wake),
             Show::Depth => self.measure = Some(Measure::Depth),
+            Show::Shelter => self.measure = Some(Measure::Shelter),
             Show::Landings => self.landings = true,
             Show::Wind => self.wind = true,
             Show::Trails => self.trails = true,
@@ -89,6 +92,7 @@ impl Overlays {
             Measure::Height => Some(2),
             Measure::Wake => Some(3),
             Measure::Depth => Some(4),
+            Measure::Shelter => Some(5),
         }
     }
 
@@ -101,10 +105,16 @@ impl Overlays {
             Measure::Height => ("Height", "m"),
             Measure::Wake => ("Wind that takes it", "m/s"),
             Measure::Depth => ("Litter under it", "m"),
+            Measure::Shelter => ("Wind left at the ground", "of the mean"),
         };
         let amount = self.measure.and_then(Self::scale_of).map_or(0.0, |index| self.most[index]);
         let digits = usize::from(amount < 10.0) + usize::from(amount < 1.0);
         Some((title, format!("{amount:.digits$} {unit}")))
+    }
+
+    /// Share of the wind at the end of the colours, if the ground shows how much of it is left.
+    pub(crate) fn shelter(&self) -> Option<f32> {
+        self.paint().filter(|paint| paint.measure == Measure::Shelter).map(|paint| paint.most)
     }
 
     /// Paint of the leaves.
@@ -128,16 +138,25 @@ mod tests {
 
     #[test]
     fn a_measure_brings_its_scale() {
-        let overlays = Overlays { most: [3.0, 11.0, 7.0, 2.0, 0.5], ..Overlays::default() };
+        let overlays = Overlays { most: [3.0, 11.0, 7.0, 2.0, 0.5, 0.8], ..Overlays::default() };
         let most = |show| overlays.with(show).paint().map(|paint| paint.most);
         assert_eq!(
-            [Show::Speed, Show::Age, Show::Height, Show::Wake, Show::Depth].map(most),
-            [Some(3.0), Some(11.0), Some(7.0), Some(2.0), Some(0.5)],
+            [Show::Speed, Show::Age, Show::Height, Show::Wake, Show::Depth, Show::Shelter].map(most),
+            [Some(3.0), Some(11.0), Some(7.0), Some(2.0), Some(0.5), Some(0.8)],
             "each"
         );
         assert_eq!(overlays.with(Show::Wind).paint(), None, "the wind is no paint");
         let scale = overlays.with(Show::Depth).scale().expect("an amount");
         assert_eq!(scale, ("Litter under it", "0.50 m".to_owned()), "with its unit");
+        let scale = Overlays::default().with(Show::Shelter).scale().expect("an amount");
+        assert_eq!(scale, ("Wind left at the ground", "1.0 of the mean".to_owned()), "all of it");
         assert_eq!(overlays.with(Show::Motion).scale(), None, "kinds have no amount");
+    }
+
+    #[test]
+    fn the_ground_is_coloured_by_shelter_alone() {
+        let overlays = Overlays::default();
+        assert_eq!(overlays.with(Show::Shelter).shelter(), Some(1.0), "up to the free wind");
+        assert_eq!(overlays.with(Show::Depth).shelter(), None, "depth is the leaves'");
     }
 }

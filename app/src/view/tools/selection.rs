@@ -5,6 +5,7 @@
 use glam::Vec3;
 
 use crate::view::tools::probe::LeafAt;
+use crate::view::tools::waking::Waking;
 
 /// Most places of a track; of a longer one every other is dropped.
 const MOST_PLACES: usize = 2048;
@@ -49,6 +50,8 @@ pub(crate) struct Selection {
     pub(crate) slot: u32,
     pub(crate) latest: LeafAt,
     pub(crate) track: Track,
+    /// Reason why it has left the litter last, and the step at which that was seen.
+    pub(crate) woken: Option<(u32, Waking)>,
 }
 
 impl Selection {
@@ -56,14 +59,18 @@ impl Selection {
     pub(crate) fn new(slot: u32, latest: LeafAt) -> Self {
         let mut track = Track::default();
         track.note(latest.step, Vec3::from(latest.leaf.place.position));
-        Self { slot, latest, track }
+        Self { slot, latest, track, woken: None }
     }
 
-    /// Takes note of what has become of it. A slot that holds another leaf now begins another track.
-    pub(crate) fn note(&mut self, records: LeafAt) {
+    /// Takes note of what has become of it, and of why it has just left the litter if it has. A slot that holds another leaf now
+    /// begins another track.
+    pub(crate) fn note(&mut self, records: LeafAt, waking: Option<Waking>) {
         if records.leaf.identity.id != self.latest.leaf.identity.id {
             self.track = Track::default();
+            self.woken = None;
         }
+        let is_known = |woken: &(u32, Waking)| woken.0 <= records.step;
+        self.woken = waking.map(|waking| (records.step, waking)).or(self.woken.filter(is_known));
         self.track.note(records.step, Vec3::from(records.leaf.place.position));
         self.latest = records;
     }
@@ -88,27 +95,42 @@ mod tests {
     fn a_track_goes_back_with_time() {
         let mut selection = Selection::new(3, at(10, 7));
         for step in [11, 12, 12, 13] {
-            selection.note(at(step, 7));
+            selection.note(at(step, 7), None);
         }
         assert_eq!(steps(&selection), [10, 11, 12, 13], "each step once");
-        selection.note(at(12, 7));
+        selection.note(at(12, 7), None);
         assert_eq!(steps(&selection), [10, 11, 12], "13 has not happened yet");
-        selection.note(at(4, 7));
+        selection.note(at(4, 7), None);
         assert_eq!(steps(&selection), [4], "before the click nothing is known");
     }
 
     #[test]
     fn another_leaf_in_the_slot_has_a_track_of_its_own() {
         let mut selection = Selection::new(3, at(10, 7));
-        selection.note(at(11, 507));
+        selection.note(at(11, 507), None);
         assert_eq!(steps(&selection), [11], "the old leaf is gone");
+    }
+
+    #[test]
+    fn what_woke_a_leaf_is_known_until_time_goes_back_before_it() {
+        let mut selection = Selection::new(3, at(10, 7));
+        selection.note(at(12, 7), Some(Waking::Struck));
+        selection.note(at(40, 7), None);
+        assert_eq!(selection.woken, Some((12, Waking::Struck)), "long after");
+        selection.note(at(12, 7), None);
+        assert_eq!(selection.woken, Some((12, Waking::Struck)), "back then");
+        selection.note(at(11, 7), None);
+        assert_eq!(selection.woken, None, "it has not happened yet");
+        selection.note(at(12, 7), Some(Waking::Loose));
+        selection.note(at(13, 8), None);
+        assert_eq!(selection.woken, None, "another leaf");
     }
 
     #[test]
     fn long_tracks_keep_their_ends() {
         let mut selection = Selection::new(0, at(0, 7));
         for step in 1..20_000 {
-            selection.note(at(step, 7));
+            selection.note(at(step, 7), None);
         }
         let steps = steps(&selection);
         assert!(steps.len() <= MOST_PLACES && steps.len() > MOST_PLACES / 4, "{} places", steps.len());

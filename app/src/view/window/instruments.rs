@@ -2,10 +2,13 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The instruments of the window: what is shown beside the picture, and the leaf that is followed.
 
+use std::sync::Arc;
+
 use egui::Pos2;
 use glam::Vec3;
-use windfall_core::World;
 use windfall_core::leaf::{LeafState, Leaves, Place};
+use windfall_core::{Scene, World};
+use windfall_render::ShelterMap;
 use windfall_wgpu::LeafColumns;
 
 use super::Viewer;
@@ -14,6 +17,7 @@ use crate::view::tools::overlays::{Overlays, Show};
 use crate::view::tools::pick::{Projection, REACH};
 use crate::view::tools::probe::{LeafAt, Probe};
 use crate::view::tools::selection::Selection;
+use crate::view::tools::waking::waking;
 use crate::view::tools::wind_slice::wind_slice;
 
 /// Length of trails in a scene that has none of its own, in seconds.
@@ -32,6 +36,8 @@ pub(super) struct Instruments {
     /// Instruments of the command line, until they are shown.
     asked: Vec<Show>,
     frames: u32,
+    /// Scene whose shelter is shown.
+    sheltered: Option<Arc<Scene>>,
 }
 
 impl Instruments {
@@ -42,6 +48,7 @@ impl Instruments {
             selection: None,
             asked: show.to_vec(),
             frames: 0,
+            sheltered: None,
         }
     }
 
@@ -80,7 +87,10 @@ impl Viewer {
         if let Some((slot, records)) = latest
             && let Some(selection) = self.instruments.selection.as_mut().filter(|leaf| leaf.slot == slot)
         {
-            selection.note(records);
+            let (compiled, litter) = (self.session.compiled(), self.session.litter_before(records.step));
+            let travel_m = self.session.simulator().clock().wind_travel_m();
+            let woken = waking(compiled, litter, travel_m, slot, [&selection.latest, &records]);
+            selection.note(records, woken);
         }
         if self.instruments.frames == 0 {
             let mut overlays = self.instruments.overlays;
@@ -94,6 +104,7 @@ impl Viewer {
         if self.instruments.frames == FRAMES_BEFORE_PICK && self.instruments.asked.contains(&Show::Leaf) {
             self.pick_any()?;
         }
+        self.keep_up_shelter();
         Ok(())
     }
 
@@ -102,9 +113,23 @@ impl Viewer {
         self.instruments.overlays = overlays;
         self.renderer.set_paint(overlays.paint());
         self.renderer.set_landings(overlays.landings);
+        self.instruments.sheltered = None;
+        if overlays.shelter().is_none() {
+            self.renderer.set_shelter(None, 1.0);
+        }
         let own_s = self.session.scene().view.trail_s;
         let trail_s = if own_s > 0.0 { own_s } else { TRAIL_S };
         self.renderer.set_trails(if overlays.trails { trail_s } else { 0.0 });
+    }
+
+    /// Shows how much of the wind is left at the ground, if so: anew when it blows otherwise.
+    fn keep_up_shelter(&mut self) {
+        let Some(high) = self.instruments.overlays.shelter() else { return };
+        let scene = self.session.scene();
+        if self.instruments.sheltered.as_ref().is_none_or(|shown| !Arc::ptr_eq(shown, scene)) {
+            self.instruments.sheltered = Some(Arc::clone(scene));
+            self.renderer.set_shelter(ShelterMap::of(self.session.compiled()).as_ref(), high);
+        }
     }
 
     /// Follows the leaf at a place of the screen, or none if there is none.
@@ -144,7 +169,10 @@ impl Viewer {
         // The records may be a frame old: the card is of their own step.
         let clock = self.session.simulator().clock();
         let clock = windfall_core::Clock::at(selection.latest.step, clock.dt_s(), clock.wind_travel_m());
-        Some(card(self.session.compiled(), &clock, selection.slot, &selection.latest.leaf))
+        let card = card(self.session.compiled(), &clock, selection.slot, &selection.latest.leaf);
+        let Some((step, waking)) = selection.woken else { return Some(card) };
+        let steps = selection.latest.step.saturating_sub(step);
+        Some(card.with_waking(waking, f64::from(steps) * f64::from(clock.dt_s())))
     }
 
     /// Track of the leaf that is followed.

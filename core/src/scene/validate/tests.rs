@@ -4,6 +4,7 @@
 
 mod cross;
 mod edges;
+mod objects;
 mod trees;
 
 use glam::Vec3;

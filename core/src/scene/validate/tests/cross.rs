@@ -7,7 +7,7 @@ use glam::Vec3;
 use super::{failing_field, full};
 use crate::motion::Primitive;
 use crate::scene::{
-    Aerodynamics, FlightModel, MAX_JETS, MAX_LEAVES, MAX_SOURCES, MAX_SPECIES, MAX_VORTICES, Profile,
+    Aerodynamics, FlightModel, Litter, MAX_JETS, MAX_LEAVES, MAX_SOURCES, MAX_SPECIES, MAX_VORTICES, Profile,
     Release, Scene, Share, Sky, SkyMap, SourceShape, Species,
 };
 
@@ -223,4 +223,18 @@ fn a_misspelt_species_is_recognised() {
         line.ends_with("is \"mapple\"; allowed: a species of this scene: maple (did you mean \"maple\"?)"),
         "{line}"
     );
+}
+
+#[test]
+fn beds_are_no_deeper_than_litter_can_be() {
+    let with = |leaf_area_index: f32, areal_density_kg_m2: f32| {
+        let mut scene = full();
+        scene.species[0].areal_density_kg_m2 = areal_density_kg_m2;
+        let bulk_density_kg_m3 = 1.0;
+        scene.ground.litter = Some(Litter { leaf_area_index, bulk_density_kg_m3, ..Litter::default() });
+        failing_field(&scene)
+    };
+    assert_eq!(with(19.9, 0.1), None, "not quite two metres");
+    assert_eq!(with(20.1, 0.1).as_deref(), Some("ground.litter.leaf_area_index"), "a little more");
+    assert_eq!(with(20.1, 0.05), None, "of lighter leaves");
 }
