@@ -77,7 +77,7 @@ fn behind_a_long_wall_the_wind_recovers_as_behind_fences() {
     let logarithm = |height_m: f64| (height_m / 0.005 + 1.0).ln();
     let back = -0.25 * logarithm(2.0) / logarithm(0.02);
     println!("at the foot: {foot:.3?}, by the wind at the height of the wall {back:.3}");
-    assert!(foot[0] > foot[1] && foot[1] < 0.3 * back && foot[2] < 0.6 * back, "back: {foot:.3?}");
+    assert!(foot[0] > foot[1] && foot[1] < 0.3 * back && foot[2] < 0.4 * back, "back: {foot:.3?}");
     assert!(foot[2] > 1.05 * back && foot[3] > 0.3, "and on: {foot:.3?}");
     for place in [at(-8.0, 0.5, 0.0), at(1.0, 0.5, 40.0), at(75.0, 0.5, 0.0), at(2.0, 4.5, 0.0)] {
         assert_eq!(shares.at(place), 1.0, "the wind is free at {place}");

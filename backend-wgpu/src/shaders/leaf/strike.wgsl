@@ -43,7 +43,7 @@ fn leaf_strike(leaf: u32, end: vec3<f32>) -> bool {
     let body = body_of(bits, size);
     let pose = attitudes[leaf].quaternion;
     let passage = Passage(start, end - start, 0.0, scene.dt_s, 1.0);
-    if (!(first_strike(body, pose, cell, passage).share < 1.0)) {
+    if (1.0 <= first_strike(body, pose, cell, passage).share) {
         return false;
     }
     let spin = body_spin_words(vec3<f32>(0.0, 0.0, 0.0));

@@ -15,7 +15,7 @@ struct GridAxis {
 
 fn grid_axis(cells: f32, nodes: u32) -> GridAxis {
     let last = f32(nodes - 1u);
-    if (!(0.0 < cells)) {
+    if (cells <= 0.0) {
         return GridAxis(0u, 0.0, cells);
     }
     if (last <= cells) {

@@ -54,7 +54,7 @@ pub fn leaf_strike(cx: &Context<'_>, leaf: &mut LeafMut<'_>, end: Vec3) -> bool 
     let pose = Quat::from(leaf.attitude.quaternion);
     let passage =
         Passage { from: start, way: end - start, seconds: 0.0, time: cx.scene.dt_s, reach_share: 1.0 };
-    if !(first_strike(cx, &body, pose, cell, &passage).share < 1.0) {
+    if 1.0 <= first_strike(cx, &body, pose, cell, &passage).share {
         return false;
     }
     let [x, y, z] = body_spin_words(Vec3::ZERO);

@@ -5,6 +5,7 @@
 //! Distance to a mesh: between the nodes of a grid of signed distances, linear along each axis.
 
 use super::shape::{SolidAt, SolidDistance, row_vector};
+use crate::arith::lane::Real;
 use crate::arith::math::{inverse_sqrt, reciprocal};
 use crate::arith::vector::{TINY_SQUARED, Vec3, vec3_dot};
 use crate::context::Context;
@@ -32,14 +33,14 @@ pub struct GridAxis {
 #[inline(always)]
 pub fn grid_axis(cells: f32, nodes: u32) -> GridAxis {
     let last = (nodes - 1) as f32;
-    if !(0.0 < cells) {
+    if cells <= 0.0 {
         return GridAxis { node: 0, share: 0.0, beyond: cells };
     }
     if last <= cells {
         return GridAxis { node: nodes - 2, share: 1.0, beyond: cells - last };
     }
     let before = cells.floor();
-    GridAxis { node: before as u32, share: cells - before, beyond: 0.0 }
+    GridAxis { node: before.to_whole(), share: cells - before, beyond: 0.0 }
 }
 
 /// Distance at a node, in units.
