@@ -241,9 +241,9 @@ impl BluffWake {
         let half_m = 0.5 * (self.sides_m[1] - self.sides_m[0]);
         let aside = (across_m - (self.sides_m[0] + half_m)) / half_m;
         let level = libm::hypot(before_m / self.front_m, aside);
-        // Of the roller's length; none at its ends.
+        // Of the roller's length. It fades out next to its ends, where the air goes round the body.
         let rolled = (before_m / (ROLLER_LENGTH * self.front_m)).min(1.0);
-        let full = (1.0 - aside * aside).max(0.0);
+        let full = 1.0 - libm::pow(aside.abs().min(1.0), 8.0);
         (level < 1.0).then(|| {
             std::array::from_fn(|number| {
                 let up = number as f64 * layer_m / self.height_m;
