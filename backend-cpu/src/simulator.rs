@@ -135,7 +135,7 @@ impl Simulator for CpuSimulator {
     }
 
     fn step(&mut self, count: u32) -> Result<(), SimError> {
-        let World { compiled, clock, leaves, branches, bed } = &mut self.world;
+        let World { compiled, clock, leaves, branches, bed, particles: _, tallies: _ } = &mut self.world;
         let (simd, blocks, scratches, quiet) = (self.simd, &self.blocks, &self.scratches, &self.quiet);
         let has_litter = !bed.is_empty();
         let (changes, exposed) = (LitterChanges::default(), &self.exposed);

@@ -3,7 +3,7 @@
 //! The generated head of every shader: structs and constants, from their one statement in `windfall-core`.
 
 use windfall_core::layout::WgslStruct;
-use windfall_core::{arith, blocks, device, flight, leaf, motion, stats, tree};
+use windfall_core::{arith, blocks, device, flight, leaf, motion, particle, stats, tree};
 
 /// Invocations per workgroup.
 pub const WORKGROUP_SIZE: u32 = 256;
@@ -59,6 +59,9 @@ pub(crate) fn structs() -> String {
         tree::record::CarryBlock::declaration(),
         leaf::Petiole::declaration(),
         device::leaf::collide::CollisionSums::declaration(),
+        particle::ParticlePlace::declaration(),
+        particle::ParticleMotion::declaration(),
+        particle::ParticleTraits::declaration(),
         records(),
     ]
     .concat()
@@ -96,6 +99,7 @@ pub(crate) fn constants() -> String {
         device::leaf::wake::wgsl_constants(),
         device::motion::feature::wgsl_constants(),
         device::motion::lookup::wgsl_constants(),
+        device::particle::record::wgsl_constants(),
         motion::table::wgsl_constants(),
         stats::wgsl_constants(),
         tree::record::wgsl_constants(),

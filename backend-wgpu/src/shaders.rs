@@ -178,6 +178,7 @@ impl Default for Shaders {
             "lists/turns",
             "motion/feature",
             "motion/lookup",
+            "particle/record",
             "solid/distance",
             "solid/grid",
             "solid/hull",

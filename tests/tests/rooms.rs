@@ -72,6 +72,8 @@ const CORE: Order = Order {
         "leaf",
         "device/leaf",
         "device/flight",
+        "device/particle",
+        "particle",
         "device",
         "litter",
         "compile",

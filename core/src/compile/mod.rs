@@ -45,6 +45,7 @@ use crate::error::{SceneError, SimError};
 use crate::layout::Uint4;
 use crate::leaf::Leaves;
 use crate::litter::Bed;
+use crate::particle::{ParticleStore, TallyStore};
 use crate::scene::{MAX_MOVERS, Profile, Scene};
 use crate::solid::Solid;
 use crate::store::{StoreSize, check_sizes};
@@ -129,7 +130,7 @@ impl CompiledScene {
         })
     }
 
-    /// The same scene with another wind, season, ground, fall and rotation speed; species, sources, trees, hills, litter but for how
+    /// The same scene with another wind, season, ground, fall and rotation speed; species, sources, trees, particles, hills, litter but for how
     /// it rubs, sticks, bounces and tilts, solid things, seed, step length and gravity stay. Much cheaper than compiling anew.
     pub fn retune(&mut self, scene: &Scene) {
         let keep_trees = (self.scene.trees.clone(), self.scene.tree_kinds.clone());
@@ -146,12 +147,14 @@ impl CompiledScene {
         let (terrain, gravity_m_s2) = (self.scene.ground.terrain, self.scene.gravity_m_s2);
         let litter = self.scene.ground.litter.map(|kept| kept.retuned(scene.ground.litter));
         let solid = (self.scene.objects.clone(), self.scene.walkers.clone());
+        let particles = self.scene.particles.clone();
         self.scene = scene.clone();
         (self.scene.species, self.scene.sources, self.scene.seed, self.scene.dt_s) = keep;
         (self.scene.trees, self.scene.tree_kinds) = keep_trees;
         (self.scene.ground.terrain, self.scene.gravity_m_s2) = (terrain, gravity_m_s2);
         self.scene.ground.litter = litter;
         (self.scene.objects, self.scene.walkers) = solid;
+        self.scene.particles = particles;
         if self.scene.autumn != autumn {
             let rows = shed_rows(&self.scene, &foliage_of(&self.scene));
             self.replace_rows(self.block.first_shed_row, &rows);
@@ -181,6 +184,8 @@ impl CompiledScene {
             StoreSize { store: Leaves::NAME, rows: self.scene.leaf_count() as usize },
             StoreSize { store: Branches::NAME, rows: self.forest.len() },
             StoreSize { store: Bed::NAME, rows: Bed::rows_of(&self.block.litter) },
+            StoreSize { store: ParticleStore::NAME, rows: self.scene.particle_count() as usize },
+            StoreSize { store: TallyStore::NAME, rows: TallyStore::rows_of(&self.scene) },
         ]
     }
 

@@ -15,6 +15,7 @@ pub mod limits;
 mod litter;
 pub(crate) mod nearest;
 mod object;
+mod particles;
 mod path;
 mod presets;
 mod scaling;
@@ -36,6 +37,10 @@ pub use jet::{Jet, JetKey};
 pub use lens::{Exposure, Focus, Glare, Lens, ToneMap};
 pub use litter::Litter;
 pub use object::{Object, ObjectFriction, ObjectKey, ObjectMotion, ObjectShape, Walker};
+pub use particles::{
+    Air, Bounds, Direction, Look, LookKind, Meets, NORMAL_REACH, ParticleRelease, ParticleShape, Particles,
+    Spread,
+};
 pub use path::{CameraKey, camera_at};
 pub use presets::PRESETS;
 pub use sky::{Haze, PhysicalSky, Sky, SkyMap};
@@ -72,6 +77,11 @@ pub const MAX_PATH_KEYS: usize = 256;
 pub const MAX_CAMERA_KEYS: usize = 1024;
 /// Most leaves a scene may have, over all sources (four billion words of state would not fit anywhere yet).
 pub const MAX_LEAVES: u32 = 1 << 28;
+
+/// Most populations of particles a scene may have: a particle keeps its population in four bits.
+pub const MAX_POPULATIONS: usize = 16;
+/// Most particles a scene may have, over all populations.
+pub const MAX_PARTICLES: u32 = 1 << 25;
 
 /// Most kinds of trees a scene may have of its own.
 pub const MAX_TREE_KINDS: usize = 26;
@@ -126,6 +136,8 @@ pub struct Scene {
     pub objects: Vec<Object>,
     /// People who walk through the leaves. They need `ground.litter` as well.
     pub walkers: Vec<Walker>,
+    /// Populations of particles, at most 16.
+    pub particles: Vec<Particles>,
     /// Camera, sun, sky, haze and trails; no effect on the simulation.
     pub view: View,
 }
@@ -151,6 +163,7 @@ impl Default for Scene {
             ground: Ground::default(),
             objects: Vec::new(),
             walkers: Vec::new(),
+            particles: Vec::new(),
             view: View::default(),
         }
     }
@@ -162,6 +175,11 @@ impl Scene {
         let falling =
             self.sources.iter().fold(self.tree_leaf_count(), |sum, source| sum.saturating_add(source.count));
         falling.saturating_add(self.bed_leaf_count())
+    }
+
+    /// Number of slots of particles, over all populations.
+    pub fn particle_count(&self) -> u32 {
+        self.particles.iter().fold(0, |sum, particles| sum.saturating_add(particles.count))
     }
 
     /// Number of leaf slots of the leaves that lie on the ground from the start.

@@ -6,6 +6,7 @@ mod check;
 mod cross;
 mod lens;
 mod objects;
+mod particles;
 #[cfg(test)]
 mod tests;
 mod trees;
@@ -52,6 +53,7 @@ impl Scene {
         self.ground.check(&check.inside("ground"))?;
         self.view.check(&check.inside("view"))?;
         self.check_objects(&check)?;
+        self.check_particles(&check)?;
 
         let on_trees: u64 = self.trees.iter().map(|tree| u64::from(tree.leaves)).sum();
         check.holds(on_trees <= u64::from(MAX_TREE_LEAVES), "trees", || {

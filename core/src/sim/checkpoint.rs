@@ -16,7 +16,7 @@ use crate::scene::Scene;
 use crate::store::{Store, StoreSize};
 
 const MAGIC: &[u8; 8] = b"WINDFALL";
-const VERSION: u32 = 6;
+const VERSION: u32 = 7;
 
 impl World {
     /// Writes a checkpoint.

@@ -20,7 +20,7 @@ use crate::leaf::Leaves;
 
 /// Steps the leaves of a world one after another. Trees, and the leaves that hang on them, stay as they are.
 pub fn step(world: &mut World, count: u32) {
-    let World { compiled, clock, leaves, branches: _, bed } = world;
+    let World { compiled, clock, leaves, branches: _, bed, particles: _, tallies: _ } = world;
     each_step(compiled, clock, count, |cx| {
         let bare = cx;
         let cx = &cx.over(&bed.words);

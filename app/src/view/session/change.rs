@@ -51,6 +51,7 @@ impl Change {
             ground,
             objects,
             walkers,
+            particles,
             view,
         } = new;
         change.retune = *fall_speed != old.fall_speed
@@ -75,6 +76,7 @@ impl Change {
             true,
         );
         change.rebuild("walkers", *walkers != old.walkers, true, true);
+        change.rebuild("particles", *particles != old.particles, true, true);
         change.view(&old.view, view);
         let litter = |scene| RendererOptions::for_scene(scene).litter_count;
         if litter(old) != litter(new) {

@@ -1,0 +1,222 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Checks populations of particles.
+
+use glam::Vec3;
+
+use super::check::Check;
+use crate::SceneError;
+use crate::scene::limits::{self, Limit};
+use crate::scene::{
+    Air, Bounds, Direction, Look, MAX_PARTICLES, MAX_POPULATIONS, Meets, ObjectFriction, ParticleRelease,
+    ParticleShape, Particles, Scene, Spread,
+};
+
+/// Most points of a curve.
+const MAX_CURVE_POINTS: usize = 64;
+/// Standard deviations of the number of particles alive for which there are slots, where they are born at random.
+const ROOM_DEVIATIONS: f64 = 6.0;
+
+impl Scene {
+    /// Checks particles, each population by itself and all together.
+    pub(super) fn check_particles(&self, check: &Check<'_>) -> Result<(), SceneError> {
+        check.length("particles", self.particles.len(), 0, MAX_POPULATIONS)?;
+        for (index, particles) in self.particles.iter().enumerate() {
+            let at = check.inside(format!("particles[{index}]"));
+            particles.check(&at)?;
+            particles.check_room(&at, f64::from(self.dt_s))?;
+            let earlier = &self.particles[..index];
+            at.holds(earlier.iter().all(|other| other.name != particles.name), "name", || {
+                (format!("{:?} again", particles.name), "a name of its own".into())
+            })?;
+        }
+        let count: u64 = self.particles.iter().map(|particles| u64::from(particles.count)).sum();
+        check.holds(count <= u64::from(MAX_PARTICLES), "particles", || {
+            (format!("{count} slots"), format!("at most {MAX_PARTICLES} slots over all populations"))
+        })
+    }
+}
+
+impl Particles {
+    fn check(&self, at: &Check<'_>) -> Result<(), SceneError> {
+        at.holds(!self.name.is_empty(), "name", || ("\"\"".into(), "a name".into()))?;
+        at.numbers([("count", self.count.into(), limits::PARTICLE_COUNT)])?;
+        self.from.check(&at.inside("from"))?;
+        if let Direction::Cone { axis, half_angle_deg } = self.direction {
+            let at = at.inside("direction");
+            check_axis(axis, &at)?;
+            at.numbers([("half_angle_deg", half_angle_deg.into(), limits::HALF_ANGLE_DEG)])?;
+        }
+        match self.release {
+            ParticleRelease::Burst { at_s } => {
+                at.inside("release").numbers([("at_s", at_s.into(), limits::AT_S)])?;
+            }
+            ParticleRelease::Rate { per_s, from_s } | ParticleRelease::Poisson { per_s, from_s } => {
+                at.inside("release").numbers([
+                    ("per_s", per_s.into(), limits::PER_S),
+                    ("from_s", from_s.into(), limits::FROM_S),
+                ])?;
+            }
+        }
+        check_spread(self.speed_m_s, "speed_m_s", &limits::PARTICLE_SPEED_M_S, at)?;
+        if let Some(life_s) = self.life_s {
+            check_spread(life_s, "life_s", &limits::PARTICLE_LIFE_S, at)?;
+        }
+        check_spread(self.size_m, "size_m", &limits::PARTICLE_SIZE_M, at)?;
+        // Sizes are kept relative to their mean.
+        let most = limits::MOST_SIZE_RATIO * self.size_m.mean();
+        at.holds(self.size_m.highest() <= most, "size_m", || {
+            (format!("up to {}", self.size_m.highest()), format!("at most {most}, four times the mean"))
+        })?;
+        at.numbers([("density_kg_m3", self.density_kg_m3.into(), limits::PARTICLE_DENSITY_KG_M3)])?;
+        match self.air {
+            Air::Linear { time_s } => {
+                check_spread(time_s, "time_s", &limits::AIR_TIME_S, &at.inside("air"))?;
+            }
+            Air::Settling { m_s } => {
+                check_spread(m_s, "m_s", &limits::SETTLING_M_S, &at.inside("air"))?;
+            }
+            Air::Quadratic { drag } => {
+                at.inside("air").numbers([("drag", drag.into(), limits::PARTICLE_DRAG)])?;
+            }
+            Air::Vacuum | Air::Stokes | Air::Massless => {}
+        }
+        if let Meets::Bounce { restitution, friction } = self.meets {
+            let at = at.inside("meets");
+            at.numbers([("restitution", restitution.into(), limits::RESTITUTION)])?;
+            let (name, number, limit) = match friction {
+                ObjectFriction::Coulomb(coefficient) => ("Coulomb", coefficient, limits::COULOMB),
+                ObjectFriction::Loss(share) => ("Loss", share, limits::LOSS),
+            };
+            at.inside("friction").numbers([(name, number.into(), limit)])?;
+            at.holds(self.air != Air::Massless, "Bounce", || {
+                ("of what goes with the air".into(), "Nothing, Die or Stick, where air is Massless".into())
+            })?;
+        }
+        match self.dies {
+            None => {}
+            Some(Bounds::Below(height_m)) => {
+                at.inside("dies").numbers([("Below", height_m.into(), limits::BELOW)])?;
+            }
+            Some(Bounds::Outside { center_m, half_extent_m }) => {
+                let at = at.inside("dies");
+                at.vector("center_m", center_m, limits::CENTER_M)?;
+                at.vector("half_extent_m", half_extent_m, limits::HALF_EXTENT_M)?;
+            }
+        }
+        self.look.check(&at.inside("look"))
+    }
+
+    /// Checks that lives can be counted in steps, and that there are slots for all that are alive at once.
+    fn check_room(&self, at: &Check<'_>, dt_s: f64) -> Result<(), SceneError> {
+        let most_s = limits::MOST_LIFE_STEPS * dt_s;
+        let longest_s = self.life_s.map(|life_s| f64::from(life_s.highest()));
+        at.holds(longest_s.is_none_or(|longest_s| longest_s <= most_s), "life_s", || {
+            let found = format!("up to {} s", longest_s.unwrap_or(0.0));
+            (found, format!("at most {most_s:.1} s: {} steps", limits::MOST_LIFE_STEPS))
+        })?;
+        let (per_s, deviations) = match self.release {
+            ParticleRelease::Burst { .. } => return Ok(()),
+            ParticleRelease::Rate { per_s, .. } => (f64::from(per_s), 0.0),
+            ParticleRelease::Poisson { per_s, .. } => (f64::from(per_s), ROOM_DEVIATIONS),
+        };
+        let Some(longest_s) = longest_s else {
+            return at.holds(false, "life_s", || {
+                ("None".into(), "a time, where particles are born again and again".into())
+            });
+        };
+        // A life is rounded to whole steps, and the births of the step in which it ends come after it.
+        let mean = per_s * (longest_s + dt_s);
+        let needed = libm::ceil(mean + deviations * libm::sqrt(mean)) + 1.0;
+        at.holds(f64::from(self.count) >= needed, "count", || {
+            let allowed = format!("at least {needed:.0}: {per_s} a second that live up to {longest_s} s");
+            (self.count.to_string(), allowed)
+        })
+    }
+}
+
+impl ParticleShape {
+    fn check(&self, at: &Check<'_>) -> Result<(), SceneError> {
+        match *self {
+            Self::Box { center_m, half_extent_m } => {
+                at.vector("center_m", center_m, limits::CENTER_M)?;
+                at.vector("half_extent_m", half_extent_m, limits::HALF_EXTENT_M)
+            }
+            Self::Disc { center_m, radius_m, axis } | Self::Ring { center_m, radius_m, axis } => {
+                at.vector("center_m", center_m, limits::CENTER_M)?;
+                at.numbers([("radius_m", radius_m.into(), limits::RADIUS_M)])?;
+                check_axis(axis, at)
+            }
+            Self::Sphere { center_m, radius_m, hollow: _ } => {
+                at.vector("center_m", center_m, limits::CENTER_M)?;
+                at.numbers([("radius_m", radius_m.into(), limits::RADIUS_M)])
+            }
+            Self::Cone { tip_m, base_m, radius_m } => {
+                at.vector("tip_m", tip_m, limits::PARTICLE_AT_M)?;
+                at.vector("base_m", base_m, limits::PARTICLE_AT_M)?;
+                at.numbers([("radius_m", radius_m.into(), limits::RADIUS_M)])?;
+                at.holds(tip_m.distance(base_m) >= 0.001, "base_m", || {
+                    (base_m.to_string(), "at least 0.001 m from the tip".into())
+                })
+            }
+            Self::Line { from_m, to_m } => {
+                at.vector("from_m", from_m, limits::PARTICLE_AT_M)?;
+                at.vector("to_m", to_m, limits::PARTICLE_AT_M)
+            }
+        }
+    }
+}
+
+impl Look {
+    fn check(&self, at: &Check<'_>) -> Result<(), SceneError> {
+        check_curve(&self.color, "color", at, |at, color| at.vector("color", color, limits::COLOR))?;
+        check_curve(&self.opacity, "opacity", at, |at, opacity| {
+            at.numbers([("opacity", opacity.into(), limits::OPACITY)])
+        })?;
+        check_curve(&self.size, "size", at, |at, size| {
+            at.numbers([("size", size.into(), limits::SIZE_OVER_AGE)])
+        })?;
+        at.numbers([(
+            "brightness_kcd_m2",
+            self.brightness_kcd_m2.into(),
+            limits::PARTICLE_BRIGHTNESS_KCD_M2,
+        )])?;
+        at.numbers([("layer", self.layer.into(), limits::LAYER)])
+    }
+}
+
+/// Checks the ages of a curve, and each of its values.
+fn check_curve<T: Copy>(
+    points: &[(f32, T)],
+    name: &str,
+    at: &Check<'_>,
+    check: impl Fn(&Check<'_>, T) -> Result<(), SceneError>,
+) -> Result<(), SceneError> {
+    at.length(name, points.len(), 0, MAX_CURVE_POINTS)?;
+    let mut before = f32::NEG_INFINITY;
+    for (index, (age, value)) in points.iter().enumerate() {
+        let at = at.inside(format!("{name}[{index}]"));
+        at.holds(limits::AGE_SHARE.contains(*age) && before < *age, "0", || {
+            (format!("{age:?}"), format!("{}, more than that of the point before", limits::AGE_SHARE))
+        })?;
+        before = *age;
+        check(&at, *value)?;
+    }
+    Ok(())
+}
+
+/// Checks the length of a direction.
+fn check_axis(axis: Vec3, at: &Check<'_>) -> Result<(), SceneError> {
+    at.vector("axis", axis, limits::AXIS)?;
+    at.holds(axis.length() >= 0.001, "axis", || (axis.to_string(), "at least 0.001 long".into()))
+}
+
+/// Checks that all that is drawn lies within a range.
+fn check_spread(spread: Spread, name: &str, limit: &Limit<f32>, at: &Check<'_>) -> Result<(), SceneError> {
+    let (lowest, highest) = (spread.lowest(), spread.highest());
+    let is_allowed = spread.half_width() >= 0.0
+        && spread.deviation() >= 0.0
+        && limit.contains(lowest)
+        && limit.contains(highest);
+    at.holds(is_allowed, name, || (format!("{lowest:?} to {highest:?}"), limit.to_string()))
+}
