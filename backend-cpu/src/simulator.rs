@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The CPU simulator.
 
+use std::sync::atomic::AtomicU32;
 use std::sync::{Arc, Mutex};
 
 use rayon::{ThreadPool, ThreadPoolBuilder};
@@ -17,6 +18,7 @@ use crate::kernels::measure::measure;
 use crate::kernels::stack_litter::{LitterChanges, stack_litter};
 use crate::kernels::step_collisions::step_collisions;
 use crate::kernels::step_leaves::{LeafSteps, step_leaves};
+use crate::kernels::step_particles::step_particles;
 use crate::kernels::step_trees::{BatchRun, step_trees};
 use crate::quiet::QuietUnits;
 use crate::simd::Simd;
@@ -25,6 +27,9 @@ use crate::simd::sway_scratch::Scratch;
 
 /// Most steps that a chunk of leaves goes through before the next chunk.
 const MOST_FUSED: usize = 8;
+
+/// Particles that are stepped before another thread would have woken up.
+const SMALL_PARTICLES: usize = CHUNK / 4;
 
 /// Options of the CPU simulator.
 #[derive(Clone, Copy, Debug, Default)]
@@ -135,7 +140,7 @@ impl Simulator for CpuSimulator {
     }
 
     fn step(&mut self, count: u32) -> Result<(), SimError> {
-        let World { compiled, clock, leaves, branches, bed, particles: _, tallies: _ } = &mut self.world;
+        let World { compiled, clock, leaves, branches, bed, particles, tallies } = &mut self.world;
         let (simd, blocks, scratches, quiet) = (self.simd, &self.blocks, &self.scratches, &self.quiet);
         let has_litter = !bed.is_empty();
         let (changes, exposed) = (LitterChanges::default(), &self.exposed);
@@ -144,9 +149,11 @@ impl Simulator for CpuSimulator {
         }
         let cells = &self.cells;
         let forest = Arc::clone(compiled.forest());
-        let is_small = leaves.len() <= CHUNK && forest.len() <= CHUNK / 16;
+        let is_small =
+            leaves.len() <= CHUNK && forest.len() <= CHUNK / 16 && particles.len() <= SMALL_PARTICLES;
+        let sums: Vec<AtomicU32> = tallies.count.iter().map(|&count| AtomicU32::new(count)).collect();
         let last = clock.step().saturating_add(count).saturating_sub(1);
-        if forest.is_empty() && !has_litter && quiet.are_all_quiet(last) {
+        if forest.is_empty() && particles.is_empty() && !has_litter && quiet.are_all_quiet(last) {
             (0..count).for_each(|_| compiled.advance(clock));
             return Ok(());
         }
@@ -163,6 +170,7 @@ impl Simulator for CpuSimulator {
             }
             let steps = step_blocks.each_ref().map(|block| compiled.context(block).over(&bed.words));
             let steps = &steps[..count];
+            step_particles(steps, particles.as_mut(), 0, &sums, simd);
             // With litter it is one step.
             if let [cx] = steps
                 && cx.scene.collides(cx.step.index)
@@ -210,6 +218,7 @@ impl Simulator for CpuSimulator {
             Some(pool) if !is_small => pool.install(steps),
             _ => steps(),
         }
+        tallies.count = sums.into_iter().map(AtomicU32::into_inner).collect();
         Ok(())
     }
 

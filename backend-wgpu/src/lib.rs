@@ -24,6 +24,7 @@ mod exact;
 mod forest;
 mod gpu;
 mod lists;
+mod particles;
 mod pipelines;
 mod prelude;
 mod readback;

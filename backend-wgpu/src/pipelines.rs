@@ -32,10 +32,12 @@ pub(crate) enum GroupLayout {
     Level,
     /// Segments that carry leaves.
     Carriers,
+    /// A run of particles, the columns of its page, and the counts of what happens to them.
+    Particles,
 }
 
 impl GroupLayout {
-    const ALL: [Self; 9] = [
+    const ALL: [Self; 10] = [
         Self::Leaves,
         Self::LeavesInMotion,
         Self::LeavesOnTwigs,
@@ -45,6 +47,7 @@ impl GroupLayout {
         Self::Blocks,
         Self::Level,
         Self::Carriers,
+        Self::Particles,
     ];
 
     /// Resources, binding by binding.
@@ -64,6 +67,8 @@ impl GroupLayout {
             Self::Level => &[BlockOfMany, Read, Read, Write, Write, Read],
             // The bindings of shaders/leaf/carrier_bindings.wgsl.
             Self::Carriers => &[Block, Read, Write],
+            // The bindings of shaders/particle/bindings.wgsl.
+            Self::Particles => &[BlockOfMany, Write, Write, Write, Write],
         }
     }
 }
@@ -75,6 +80,7 @@ impl KernelId {
             Self::SwayInward | Self::SwayOutward | Self::SwayGather | Self::SwayFollow | Self::SwayCoast => {
                 &[GroupLayout::Blocks, GroupLayout::Level]
             }
+            Self::StepParticles => &[GroupLayout::Blocks, GroupLayout::Particles],
             Self::Carry => &[GroupLayout::LeavesOnTwigs, GroupLayout::WrittenBuffer, GroupLayout::Carriers],
             Self::ListActive | Self::Measure => &[GroupLayout::LeavesInMotion, GroupLayout::WrittenBuffer],
             Self::WakeLying => &[GroupLayout::LeavesInMotion, GroupLayout::WrittenBuffer],
@@ -101,6 +107,9 @@ impl KernelId {
         if compiled.block().has_living_litter() {
             kernels.extend([Self::WakeLying, Self::StackLitter]);
             kernels.extend([Self::GatherCollisions, Self::Collide, Self::ClearCollisions]);
+        }
+        if compiled.scene().particle_count() > 0 {
+            kernels.push(Self::StepParticles);
         }
         if !compiled.forest().is_empty() {
             kernels.extend([Self::Carry, Self::SwayCoast]);

@@ -46,11 +46,13 @@ pub enum KernelId {
     SwayCoast,
     /// Carries leaves along with their twigs, and breaks petioles.
     Carry,
+    /// Moves particles through one step.
+    StepParticles,
 }
 
 impl KernelId {
     /// All kernels.
-    pub const ALL: [Self; 17] = [
+    pub const ALL: [Self; 18] = [
         Self::ListActive,
         Self::GatherCollisions,
         Self::Collide,
@@ -68,6 +70,7 @@ impl KernelId {
         Self::SwayFollow,
         Self::SwayCoast,
         Self::Carry,
+        Self::StepParticles,
     ];
 
     /// Name of the file and of the entry point.
@@ -90,6 +93,7 @@ impl KernelId {
             Self::SwayFollow => "sway_follow",
             Self::SwayCoast => "sway_coast",
             Self::Carry => "carry",
+            Self::StepParticles => "step_particles",
         }
     }
 }
@@ -144,6 +148,7 @@ impl Default for Shaders {
             "kernels/gather_collisions",
             "kernels/measure",
             "kernels/stack_litter",
+            "kernels/step_particles",
             "kernels/wake_lying",
             "kernels/sway_coast",
             "kernels/sway_inward",
@@ -178,7 +183,15 @@ impl Default for Shaders {
             "lists/turns",
             "motion/feature",
             "motion/lookup",
+            "particle/air",
+            "particle/birth",
+            "particle/bindings",
+            "particle/draw",
+            "particle/fly",
+            "particle/force",
             "particle/record",
+            "particle/step",
+            "particle/strike",
             "solid/distance",
             "solid/grid",
             "solid/hull",

@@ -14,6 +14,7 @@ mod sample_air;
 pub(crate) mod stack_litter;
 pub(crate) mod step_collisions;
 pub(crate) mod step_leaves;
+pub(crate) mod step_particles;
 pub(crate) mod step_trees;
 pub(crate) mod sway_coast;
 pub(crate) mod sway_follow;

@@ -8,6 +8,7 @@ mod cycle;
 mod field;
 mod foliage;
 mod jet;
+mod particles;
 mod shelter;
 mod slipstream;
 mod solids;
@@ -26,6 +27,8 @@ use self::cycle::firm;
 pub(crate) use self::foliage::leaf_site;
 use self::foliage::{foliage_of, petiole_rows, seedlings, shed_rows};
 use self::jet::jet_block;
+pub(crate) use self::particles::Births;
+use self::particles::populations_of;
 use self::shelter::{is_sheltered, shelter_inputs, shelter_rows};
 use self::solids::Solids;
 pub(crate) use self::source::{lifetime_steps, release_step};
@@ -65,6 +68,7 @@ pub struct CompiledScene {
     tables: Arc<[Uint4]>,
     forest: Arc<Forest>,
     solids: Arc<Solids>,
+    births: Arc<Births>,
     cycle: Option<Cycle>,
 }
 
@@ -117,6 +121,9 @@ impl CompiledScene {
         block.first_petiole_row = len32(tables.len());
         tables.extend(petiole_rows(scene, &forest, &kinds));
         block.solids = solids.tabulate(scene, &block, &mut tables);
+        let (populations, forces) = populations_of(scene, len32(tables.len()));
+        block.populations = populations;
+        tables.extend(forces);
         block.first_motion_row = len32(tables.len());
         tables.extend(pack_motion(&motions));
         block.litter.first_row = len32(tables.len());
@@ -126,6 +133,7 @@ impl CompiledScene {
             tables: tables.into(),
             forest: forest.into(),
             solids: solids.into(),
+            births: Births::of(scene, seed).into(),
             cycle,
         })
     }
@@ -147,14 +155,14 @@ impl CompiledScene {
         let (terrain, gravity_m_s2) = (self.scene.ground.terrain, self.scene.gravity_m_s2);
         let litter = self.scene.ground.litter.map(|kept| kept.retuned(scene.ground.litter));
         let solid = (self.scene.objects.clone(), self.scene.walkers.clone());
-        let particles = self.scene.particles.clone();
+        let particles = (self.scene.particles.clone(), self.scene.forces.clone());
         self.scene = scene.clone();
         (self.scene.species, self.scene.sources, self.scene.seed, self.scene.dt_s) = keep;
         (self.scene.trees, self.scene.tree_kinds) = keep_trees;
         (self.scene.ground.terrain, self.scene.gravity_m_s2) = (terrain, gravity_m_s2);
         self.scene.ground.litter = litter;
         (self.scene.objects, self.scene.walkers) = solid;
-        self.scene.particles = particles;
+        (self.scene.particles, self.scene.forces) = particles;
         if self.scene.autumn != autumn {
             let rows = shed_rows(&self.scene, &foliage_of(&self.scene));
             self.replace_rows(self.block.first_shed_row, &rows);
@@ -208,7 +216,7 @@ impl CompiledScene {
     }
 
     /// All tables as rows of four words, one after another: the wind's profile, gusts and turbulence; hills; shelter; chances of
-    /// petioles to break ([`SHED_ROWS`](crate::device::leaf::petiole::SHED_ROWS) for each kind of trees); petioles; solid parts;
+    /// petioles to break ([`SHED_ROWS`](crate::device::leaf::petiole::SHED_ROWS) for each kind of trees); petioles; solid parts; forces on particles;
     /// motion (see [`MotionRows`]). The block holds the first row of each.
     pub fn tables(&self) -> &Arc<[Uint4]> {
         &self.tables
@@ -230,6 +238,7 @@ impl CompiledScene {
         StepBlock {
             moments: [0.0, middle].map(|steps| self.moment_block(clock, steps)),
             movers: self.movers_at(clock.seconds()),
+            births: self.births.blocks(clock.step(), clock.born()),
             collision_shift_m: self.collision_shift_m(clock.step()),
             index: clock.step(),
             vortex_count: len32(self.scene.wind.vortices.len()),
@@ -335,9 +344,14 @@ impl CompiledScene {
         foot_height(&self.block, &self.tables, x_m, z_m)
     }
 
+    /// Births of particles.
+    pub(crate) fn births(&self) -> &Births {
+        &self.births
+    }
+
     /// Moves a clock on by one step.
     pub fn advance(&self, clock: &mut Clock) {
-        clock.advance(self.wind_travel_per_step_m());
+        clock.advance(self.wind_travel_per_step_m(), self.births.in_step(clock.step()));
     }
 
     /// Distance in metres that the mean wind travels in one step.

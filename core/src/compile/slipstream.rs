@@ -120,7 +120,7 @@ mod tests {
             (ObjectShape::Capsule { radius_m: 0.5, length_m: 4.0 }, 0.6 * 4.0 + PI * 0.25),
         ];
         for (shape, expected) in cases {
-            let found = swept_m2(&still(shape.clone()), diagonal);
+            let found = swept_m2(shape, diagonal);
             assert!((found - expected).abs() < 1e-6, "{shape:?}: {found}, not {expected}");
         }
     }

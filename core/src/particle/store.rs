@@ -23,6 +23,10 @@ crate::columns! {
     run ParticlesMut;
 }
 
+/// Bytes that one step of one particle moves without an event: place and motion are read and written, traits are read.
+pub const HOT_BYTES_PER_STEP: usize =
+    2 * (size_of::<ParticlePlace>() + size_of::<ParticleMotion>()) + size_of::<ParticleTraits>();
+
 crate::columns! {
     /// Counts of what has happened to particles since the scene began: [`TALLY_WORDS`] for each population.
     pub struct TallyStore("particle counts") {

@@ -99,6 +99,16 @@ limits! {
     RECYCLE_AFTER_S: f32 = 0.1, 86_400.0, "s", recycle_after_s;
     WEIGHT: u32 = 1, 1000, "", weight;
 
+    ALPHA: u32 = 0, 2, "", alpha;
+    SWIRL_D: f32 = -0.99, 1000.0, "", d;
+    FORCE_AT_M: f32 = -4096.0, 4096.0, "m", at_m;
+    GM_M3_S2: f32 = -1000000.0, 1000000.0, "m³/s²", gm_m3_s2;
+    SOFTENING_M: f32 = 0.001, 1000.0, "m", softening_m swirl_radius_m;
+    NOISE_M_S2: f32 = 0.0, 1000.0, "m/s²", m_s2;
+    B_T: f32 = -1000.0, 1000.0, "T", b_t;
+    E_V_M: f32 = -1000000.0, 1000000.0, "V/m", e_v_m;
+    FORCE_RAD_S: f32 = -1000.0, 1000.0, "rad/s", rad_s rate_rad_s;
+    CHARGE_C_KG: f32 = -1000000.0, 1000000.0, "C/kg", charge_c_kg;
     PARTICLE_COUNT: u32 = 1, super::MAX_PARTICLES, "", count;
     PARTICLE_AT_M: f32 = -4096.0, 4096.0, "m", tip_m base_m from_m to_m;
     HALF_ANGLE_DEG: f32 = 0.0, 180.0, "degrees", half_angle_deg;
@@ -213,7 +223,7 @@ pub const PARTICLE_LIFE_S: Limit<f32> = Limit { low: 0.001, high: 3276.0, unit: 
 /// Range of the diameters of particles.
 pub const PARTICLE_SIZE_M: Limit<f32> = Limit { low: 1e-6, high: 100.0, unit: "m" };
 /// Range of the time constants of linear drag.
-pub const AIR_TIME_S: Limit<f32> = Limit { low: 1e-4, high: 1e4, unit: "s" };
+pub const AIR_TIME_S: Limit<f32> = Limit { low: 1e-4, high: 1000.0, unit: "s" };
 /// Range of terminal speeds.
 pub const SETTLING_M_S: Limit<f32> = Limit { low: 1e-4, high: 100.0, unit: "m/s" };
 /// Range of opacities over age.
@@ -243,6 +253,7 @@ mod tests {
     const SOURCES: &[&str] = &[
         include_str!("mod.rs"),
         include_str!("flight.rs"),
+        include_str!("force.rs"),
         include_str!("ground.rs"),
         include_str!("jet.rs"),
         include_str!("lens.rs"),

@@ -7,6 +7,7 @@
 
 mod file;
 mod flight;
+mod force;
 mod ground;
 mod jet;
 pub(crate) mod keyed;
@@ -32,6 +33,7 @@ mod wind;
 use serde::{Deserialize, Serialize};
 
 pub use flight::{Aerodynamics, FlightModel, Hold, Planform};
+pub use force::{Force, ForceKind, SwirlProfile};
 pub use ground::Ground;
 pub use jet::{Jet, JetKey};
 pub use lens::{Exposure, Focus, Glare, Lens, ToneMap};
@@ -80,6 +82,10 @@ pub const MAX_LEAVES: u32 = 1 << 28;
 
 /// Most populations of particles a scene may have: a particle keeps its population in four bits.
 pub const MAX_POPULATIONS: usize = 16;
+/// Most forces on particles a scene may have, and that a population may feel.
+pub const MAX_FORCES: usize = 16;
+/// Dynamic viscosity of air at 20 °C in Pa s.
+pub const VISCOSITY_PA_S: f32 = 1.813e-5;
 /// Most particles a scene may have, over all populations.
 pub const MAX_PARTICLES: u32 = 1 << 25;
 
@@ -138,6 +144,8 @@ pub struct Scene {
     pub walkers: Vec<Walker>,
     /// Populations of particles, at most 16.
     pub particles: Vec<Particles>,
+    /// Forces on particles, at most 16.
+    pub forces: Vec<Force>,
     /// Camera, sun, sky, haze and trails; no effect on the simulation.
     pub view: View,
 }
@@ -164,6 +172,7 @@ impl Default for Scene {
             objects: Vec::new(),
             walkers: Vec::new(),
             particles: Vec::new(),
+            forces: Vec::new(),
             view: View::default(),
         }
     }

@@ -163,7 +163,7 @@ pub enum Air {
     Vacuum,
     /// Proportional to the speed through the air.
     Linear {
-        /// Time constant m/b in seconds, 0.0001 to 10000.
+        /// Time constant m/b in seconds, 0.0001 to 1000.
         time_s: Spread,
     },
     /// By Stokes' law, from size and density: right while the Reynolds number stays below one.
@@ -285,8 +285,12 @@ pub struct Particles {
     pub size_m: Spread,
     /// Density in kg/m³, 0.01 to 25000: it counts for weight in air, and for drag by size.
     pub density_kg_m3: f32,
+    /// Charge over mass in C/kg, -1000000 to 1000000.
+    pub charge_c_kg: f32,
     /// Drag of the air.
     pub air: Air,
+    /// Names of the forces that they feel besides weight and drag.
+    pub feels: Vec<String>,
     /// Answer to what is in the way.
     pub meets: Meets,
     /// Region beyond which they die.
@@ -307,6 +311,8 @@ impl Default for Particles {
             life_s: Some(Spread::Constant(8.0)),
             size_m: Spread::Constant(0.01),
             density_kg_m3: 1000.0,
+            charge_c_kg: 0.0,
+            feels: Vec::new(),
             air: Air::Settling { m_s: Spread::Constant(1.0) },
             meets: Meets::Die,
             dies: None,

@@ -4,6 +4,7 @@
 
 use std::sync::{Mutex, PoisonError};
 
+use super::lead::lead_in;
 use super::stats::Stats;
 use crate::arith::hash::mix;
 use crate::blocks::StepBlock;
@@ -106,6 +107,7 @@ impl World {
             strew(&cx, litter, leaves, leaves.len() - compiled.scene().bed_leaf_count() as usize);
             lay_all(&cx, leaves, bed);
         }
+        lead_in(&mut world);
         Ok(world)
     }
 
@@ -166,6 +168,8 @@ impl World {
     /// 2^64. A sum over rows, so that it can be taken in any order.
     pub fn state_hash(&self) -> u64 {
         let seed = mix(u64::from(self.clock.step()), self.clock.wind_travel_m().to_bits());
+        let born = &self.clock.born()[..self.compiled.scene().particles.len()];
+        let seed = born.iter().fold(seed, |seed, born| mix(seed, *born));
         seed.wrapping_add(hash_stores(&self.stores()))
     }
 

@@ -40,6 +40,22 @@ crate::shared_constants! {
     pub const PARTICLE_SIZE_SHIFT: u32 = 16;
     /// The mean size, as particles keep it.
     pub const PARTICLE_SIZE_ONE: u32 = 16384;
+    /// Flag of a population: friction takes a share of the speed along a surface.
+    pub const POPULATION_LOSS: u32 = 1;
+    /// Flag of a population: some of its forces accelerate.
+    pub const POPULATION_PULLED: u32 = 2;
+    /// Flag of a population: some of its forces turn velocities.
+    pub const POPULATION_TURNED: u32 = 4;
+    /// Flag of a population: some of its forces move places.
+    pub const POPULATION_SWIRLED: u32 = 8;
+    /// Particles pass through what is in the way.
+    pub const MEETS_NOTHING: u32 = 0;
+    /// They die there.
+    pub const MEETS_DIE: u32 = 1;
+    /// They stay there.
+    pub const MEETS_STICK: u32 = 2;
+    /// They bounce.
+    pub const MEETS_BOUNCE: u32 = 3;
     /// Counts of each population.
     pub const TALLY_WORDS: u32 = 8;
     /// Place of the count of births.
@@ -84,6 +100,20 @@ crate::shared_record! {
         /// Share of its speed through the air lost in a step and time constant in s, where drag is linear; drag per m times the step
         /// in s and nothing, where it is quadratic.
         pub air: [f32; 2],
+    }
+}
+
+crate::shared_struct! {
+    /// Run of particles of one population within a page, which one dispatch steps.
+    pub struct ParticleRun {
+        /// First of them within the page.
+        pub first: u32,
+        /// Number of them.
+        pub count: u32,
+        /// Slot of the first particle of the page.
+        pub page_slot: u32,
+        /// Zero.
+        pub unused: u32,
     }
 }
 

@@ -6,10 +6,12 @@ use glam::Vec3;
 
 use super::check::Check;
 use crate::SceneError;
+use crate::motion::AIR_DENSITY;
 use crate::scene::limits::{self, Limit};
 use crate::scene::{
-    Air, Bounds, Direction, Look, MAX_PARTICLES, MAX_POPULATIONS, Meets, ObjectFriction, ParticleRelease,
-    ParticleShape, Particles, Scene, Spread,
+    Air, Bounds, Direction, Force, ForceKind, Look, MAX_FORCES, MAX_PARTICLES, MAX_POPULATIONS, Meets,
+    ObjectFriction, ParticleRelease, ParticleShape, Particles, STANDARD_GRAVITY_M_S2, Scene, Spread,
+    SwirlProfile, VISCOSITY_PA_S,
 };
 
 /// Most points of a curve.
@@ -30,10 +32,91 @@ impl Scene {
                 (format!("{:?} again", particles.name), "a name of its own".into())
             })?;
         }
+        check.length("forces", self.forces.len(), 0, MAX_FORCES)?;
+        for (index, force) in self.forces.iter().enumerate() {
+            let at = check.inside(format!("forces[{index}]"));
+            force.check(&at)?;
+            at.holds(self.forces[..index].iter().all(|other| other.name != force.name), "name", || {
+                (format!("{:?} again", force.name), "a name of its own".into())
+            })?;
+            let is_felt = |particles: &Particles| particles.feels.contains(&force.name);
+            at.holds(self.particles.iter().any(is_felt), "name", || {
+                (format!("{:?}, which acts on nothing", force.name), "one that particles feel".into())
+            })?;
+        }
+        for (index, particles) in self.particles.iter().enumerate() {
+            self.check_feels(particles, &check.inside(format!("particles[{index}]")))?;
+        }
         let count: u64 = self.particles.iter().map(|particles| u64::from(particles.count)).sum();
         check.holds(count <= u64::from(MAX_PARTICLES), "particles", || {
             (format!("{count} slots"), format!("at most {MAX_PARTICLES} slots over all populations"))
         })
+    }
+}
+
+impl Scene {
+    /// Checks the forces that a population feels: that they are there, once each, and act on it.
+    fn check_feels(&self, particles: &Particles, at: &Check<'_>) -> Result<(), SceneError> {
+        for (index, name) in particles.feels.iter().enumerate() {
+            let field = format!("feels[{index}]");
+            let Some(force) = self.forces.iter().find(|force| force.name == *name) else {
+                let names: Vec<_> = self.forces.iter().map(|force| force.name.as_str()).collect();
+                return Err(at.error(&field, format!("{name:?}"), format!("one of the forces {names:?}")));
+            };
+            at.holds(!particles.feels[..index].contains(name), &field, || {
+                (format!("{name:?} again"), "each force once".into())
+            })?;
+            let is_lorentz = matches!(force.of, ForceKind::Lorentz { .. });
+            at.holds(!is_lorentz || particles.charge_c_kg != 0.0, &field, || {
+                (format!("{name:?}, which acts on charges"), "a charge_c_kg other than zero with it".into())
+            })?;
+            let is_swirl = matches!(force.of, ForceKind::Swirl { .. });
+            at.holds(is_swirl || particles.air != Air::Massless, &field, || {
+                (format!("{name:?}, which acts on a mass"), "Swirl alone, where air is Massless".into())
+            })?;
+        }
+        Ok(())
+    }
+}
+
+impl Force {
+    fn check(&self, at: &Check<'_>) -> Result<(), SceneError> {
+        at.holds(!self.name.is_empty(), "name", || ("\"\"".into(), "a name".into()))?;
+        let at = &at.inside("of");
+        match self.of {
+            ForceKind::Attract { at_m, gm_m3_s2, softening_m } => {
+                at.vector("at_m", at_m, limits::FORCE_AT_M)?;
+                at.numbers([
+                    ("gm_m3_s2", gm_m3_s2.into(), limits::GM_M3_S2),
+                    ("softening_m", softening_m.into(), limits::SOFTENING_M),
+                ])
+            }
+            ForceKind::Noise { m_s2, cell_m } => at.numbers([
+                ("m_s2", m_s2.into(), limits::NOISE_M_S2),
+                ("cell_m", cell_m.into(), limits::CELL_M),
+            ]),
+            ForceKind::Lorentz { b_t, e_v_m } => {
+                at.vector("b_t", b_t, limits::B_T)?;
+                at.vector("e_v_m", e_v_m, limits::E_V_M)
+            }
+            ForceKind::Spiral { rad_s, axis } => {
+                at.numbers([("rad_s", rad_s.into(), limits::FORCE_RAD_S)])?;
+                check_axis(axis, at)
+            }
+            ForceKind::Swirl { at_m, axis, rate_rad_s, swirl_radius_m, profile } => {
+                at.vector("at_m", at_m, limits::FORCE_AT_M)?;
+                check_axis(axis, at)?;
+                at.numbers([
+                    ("rate_rad_s", rate_rad_s.into(), limits::FORCE_RAD_S),
+                    ("swirl_radius_m", swirl_radius_m.into(), limits::SOFTENING_M),
+                ])?;
+                let at = at.inside("profile");
+                match profile {
+                    SwirlProfile::Power { alpha } => at.numbers([("alpha", alpha.into(), limits::ALPHA)]),
+                    SwirlProfile::Compact { d } => at.numbers([("d", d.into(), limits::SWIRL_D)]),
+                }
+            }
+        }
     }
 }
 
@@ -69,6 +152,8 @@ impl Particles {
             (format!("up to {}", self.size_m.highest()), format!("at most {most}, four times the mean"))
         })?;
         at.numbers([("density_kg_m3", self.density_kg_m3.into(), limits::PARTICLE_DENSITY_KG_M3)])?;
+        at.numbers([("charge_c_kg", self.charge_c_kg.into(), limits::CHARGE_C_KG)])?;
+        at.length("feels", self.feels.len(), 0, MAX_FORCES)?;
         match self.air {
             Air::Linear { time_s } => {
                 check_spread(time_s, "time_s", &limits::AIR_TIME_S, &at.inside("air"))?;
@@ -79,7 +164,14 @@ impl Particles {
             Air::Quadratic { drag } => {
                 at.inside("air").numbers([("drag", drag.into(), limits::PARTICLE_DRAG)])?;
             }
-            Air::Vacuum | Air::Stokes | Air::Massless => {}
+            Air::Stokes => {
+                let reynolds = self.stokes_reynolds();
+                at.holds(reynolds <= 1.0, "air", || {
+                    let found = format!("Stokes at Reynolds numbers up to {reynolds:.1}");
+                    (found, "at most 1: smaller ones, or Quadratic".into())
+                })?;
+            }
+            Air::Vacuum | Air::Massless => {}
         }
         if let Meets::Bounce { restitution, friction } = self.meets {
             let at = at.inside("meets");
@@ -105,6 +197,14 @@ impl Particles {
             }
         }
         self.look.check(&at.inside("look"))
+    }
+
+    /// Reynolds number of the largest particle that settles by Stokes' law in standard gravity.
+    fn stokes_reynolds(&self) -> f64 {
+        let (viscosity, density) = (f64::from(VISCOSITY_PA_S), f64::from(self.density_kg_m3));
+        let size_m = f64::from(self.size_m.highest());
+        let weight = density * f64::from(STANDARD_GRAVITY_M_S2);
+        AIR_DENSITY * weight * size_m * size_m * size_m / (18.0 * viscosity * viscosity)
     }
 
     /// Checks that lives can be counted in steps, and that there are slots for all that are alive at once.

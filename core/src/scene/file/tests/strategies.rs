@@ -428,12 +428,21 @@ fn particle_shape() -> impl Strategy<Value = ParticleShape> {
     prop_oneof![
         (at(), vector(limits::HALF_EXTENT_M))
             .prop_map(|(center_m, half_extent_m)| ParticleShape::Box { center_m, half_extent_m }),
-        (at(), radius(), axis())
-            .prop_map(|(center_m, radius_m, axis)| ParticleShape::Disc { center_m, radius_m, axis }),
-        (at(), radius(), axis())
-            .prop_map(|(center_m, radius_m, axis)| ParticleShape::Ring { center_m, radius_m, axis }),
-        (at(), radius(), any::<bool>())
-            .prop_map(|(center_m, radius_m, hollow)| ParticleShape::Sphere { center_m, radius_m, hollow }),
+        (at(), radius(), axis()).prop_map(|(center_m, radius_m, axis)| ParticleShape::Disc {
+            center_m,
+            radius_m,
+            axis
+        }),
+        (at(), radius(), axis()).prop_map(|(center_m, radius_m, axis)| ParticleShape::Ring {
+            center_m,
+            radius_m,
+            axis
+        }),
+        (at(), radius(), any::<bool>()).prop_map(|(center_m, radius_m, hollow)| ParticleShape::Sphere {
+            center_m,
+            radius_m,
+            hollow
+        }),
         (vector(Limit { low: -100.0, high: 100.0, unit: "m" }), radius()).prop_map(|(tip_m, radius_m)| {
             ParticleShape::Cone { tip_m, base_m: tip_m + Vec3::Y, radius_m }
         }),
@@ -488,6 +497,8 @@ prop_compose! {
         ],
         look in look(),
     ) -> Particles {
+        // Stokes' law holds for what is small.
+        let size_m = if air == Air::Stokes { Spread::Constant(1e-5) } else { size_m };
         let meets = if air == Air::Massless { Meets::Die } else { meets };
         let release = match kind {
             0 => ParticleRelease::Burst { at_s: start_s.max(0.0) },
@@ -496,7 +507,7 @@ prop_compose! {
         };
         Particles {
             name: String::new(), count: 10_000, from, direction, release, speed_m_s, life_s: Some(life_s), size_m,
-            density_kg_m3, air, meets, dies, look,
+            density_kg_m3, charge_c_kg: 1.0, air, feels: Vec::new(), meets, dies, look,
         }
     }
 }
@@ -551,7 +562,7 @@ prop_compose! {
         }
         let mut scene = Scene {
             name, seed, dt_s, fall_speed, rotation_speed, gravity_m_s2, species, sources, tree_kinds, trees, sway, sway_every, autumn, regrow_after_s, wind, ground,
-            objects, walkers, particles, view,
+            objects, walkers, particles, forces: Vec::new(), view,
         };
         // Hills no deeper, and steps no shorter, than the slowest leaf has time to fall.
         while scene.validate("random").is_err() {
