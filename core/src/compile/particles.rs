@@ -175,7 +175,7 @@ fn set_air(scene: &Scene, particles: &Particles, block: &mut PopulationBlock) {
         }
         Air::Massless => (AIR_MASSLESS, 0.0, same(0.0)),
     };
-    (block.air, block.gravity_m_s2, block.drag) = (kind, single(pull), drag);
+    (block.air, block.gravity_m_s2, block.drag) = (kind, single(pull * f64::from(particles.gravity)), drag);
 }
 
 /// Sets the points that particles start from.

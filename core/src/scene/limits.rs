@@ -108,6 +108,7 @@ limits! {
     B_T: f32 = -1000.0, 1000.0, "T", b_t;
     E_V_M: f32 = -1000000.0, 1000000.0, "V/m", e_v_m;
     FORCE_RAD_S: f32 = -1000.0, 1000.0, "rad/s", rad_s rate_rad_s;
+    WEIGHT_SHARE: f32 = -10.0, 10.0, "", gravity;
     CHARGE_C_KG: f32 = -1000000.0, 1000000.0, "C/kg", charge_c_kg;
     PARTICLE_COUNT: u32 = 1, super::MAX_PARTICLES, "", count;
     PARTICLE_AT_M: f32 = -4096.0, 4096.0, "m", tip_m base_m from_m to_m;

@@ -285,6 +285,8 @@ pub struct Particles {
     pub size_m: Spread,
     /// Density in kg/m³, 0.01 to 25000: it counts for weight in air, and for drag by size.
     pub density_kg_m3: f32,
+    /// Multiplier of the scene's gravity, -10 to 10: 0 for what floats.
+    pub gravity: f32,
     /// Charge over mass in C/kg, -1000000 to 1000000.
     pub charge_c_kg: f32,
     /// Drag of the air.
@@ -311,6 +313,7 @@ impl Default for Particles {
             life_s: Some(Spread::Constant(8.0)),
             size_m: Spread::Constant(0.01),
             density_kg_m3: 1000.0,
+            gravity: 1.0,
             charge_c_kg: 0.0,
             feels: Vec::new(),
             air: Air::Settling { m_s: Spread::Constant(1.0) },

@@ -21,7 +21,7 @@ use crate::leaf::seek::leaf_seek_any;
 use crate::leaf::{Leaves, LeavesMut};
 use crate::litter::lay::{lay_all, strew};
 use crate::litter::{Bed, LitterStats};
-use crate::particle::{ParticleStore, TallyStore};
+use crate::particle::{ParticleStats, ParticleStore, TallyStore};
 use crate::scene::Scene;
 use crate::store::{Store, StoreSize, check_sizes, copy_stores, hash_stores, state_bytes};
 use crate::threads::on_all;
@@ -114,6 +114,11 @@ impl World {
     /// Counts over all leaves.
     pub fn stats(&self) -> Stats {
         Stats::of(&self.leaves, self.clock.step())
+    }
+
+    /// Counts over the populations of particles.
+    pub fn particle_stats(&self) -> Vec<ParticleStats> {
+        ParticleStats::of(self.compiled.scene(), &self.particles, &self.tallies)
     }
 
     /// Counts and sums over the litter; `None` without any.

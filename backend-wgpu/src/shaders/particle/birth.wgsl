@@ -91,7 +91,7 @@ fn particle_birth(particle: u32, number: u32, id: u32) -> f32 {
     particle_motions[particle] = ParticleMotion(direction * speed, step_block.index);
     particle_traits[particle] = ParticleTraits(
         id,
-        life | (size << PARTICLE_SIZE_SHIFT),
+        life_size_word(life, size),
         air_numbers(number, size, airs_drawn.x, airs_drawn.y),
     );
     return select(1.0 - unit_float(airs_drawn.z), 1.0, step_block.births[number].is_burst != 0u);

@@ -27,3 +27,16 @@ fn particle_size(life_size: u32) -> u32 {
 fn particle_bits(state: u32, population: u32) -> u32 {
     return state | (population << POPULATION_SHIFT);
 }
+
+fn with_particle_state(bits: u32, state: u32) -> u32 {
+    return (bits & ~PARTICLE_STATE_MASK) | state;
+}
+
+fn with_more_hits(bits: u32, hits: u32) -> u32 {
+    let sum = min(particle_hits(bits) + hits, HITS_MASK);
+    return (bits & ~(HITS_MASK << HITS_SHIFT)) | (sum << HITS_SHIFT) | PARTICLE_HIT;
+}
+
+fn life_size_word(life: u32, size: u32) -> u32 {
+    return life | (size << PARTICLE_SIZE_SHIFT);
+}

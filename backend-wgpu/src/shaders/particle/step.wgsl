@@ -56,7 +56,7 @@ fn particle_step(particle: u32, slot: u32) -> ParticleChange {
     var is_alive = before == PARTICLE_ALIVE || before == PARTICLE_RESTING;
     var bits = particle_places[particle].bits & ~(PARTICLE_BORN | PARTICLE_DIED | PARTICLE_HIT);
     if (is_alive && life_is_over(particle_motions[particle].birth, particle_traits[particle].life_size)) {
-        bits = (bits & ~PARTICLE_STATE_MASK) | PARTICLE_DEAD | PARTICLE_DIED;
+        bits = with_particle_state(bits, PARTICLE_DEAD) | PARTICLE_DIED;
         change.died += 1u;
         is_alive = false;
     }
@@ -104,8 +104,7 @@ fn particle_step(particle: u32, slot: u32) -> ParticleChange {
         change.stopped = u32(contact.is_stopped);
     }
     if (change.hits != 0u) {
-        let hits = min(particle_hits(bits) + change.hits, HITS_MASK);
-        bits = (bits & ~(HITS_MASK << HITS_SHIFT)) | (hits << HITS_SHIFT) | PARTICLE_HIT;
+        bits = with_more_hits(bits, change.hits);
     }
     if (is_outside(number, end.position)) {
         state = PARTICLE_DEAD;
@@ -115,7 +114,7 @@ fn particle_step(particle: u32, slot: u32) -> ParticleChange {
         bits = bits | PARTICLE_DIED;
     }
     particle_places[particle].position = end.position;
-    particle_places[particle].bits = (bits & ~PARTICLE_STATE_MASK) | state;
+    particle_places[particle].bits = with_particle_state(bits, state);
     particle_motions[particle].velocity = end.velocity;
     return change;
 }

@@ -8,7 +8,7 @@
 use super::air::air_numbers;
 use super::draw::{particle_words, spread_draw};
 use super::record::{
-    PARTICLE_ALIVE, PARTICLE_BORN, PARTICLE_SIZE_SHIFT, ParticleMotion, ParticlePlace, ParticleTraits,
+    PARTICLE_ALIVE, PARTICLE_BORN, ParticleMotion, ParticlePlace, ParticleTraits, life_size_word,
     particle_bits,
 };
 use crate::arith::math::{inverse_sqrt, sin_cos_turns};
@@ -140,7 +140,7 @@ pub fn particle_birth(cx: &Context<'_>, particle: &mut ParticleMut<'_>, number: 
     *particle.motion = ParticleMotion { velocity: (direction * speed).to_array(), birth: cx.step.index };
     *particle.traits = ParticleTraits {
         id,
-        life_size: life | (size << PARTICLE_SIZE_SHIFT),
+        life_size: life_size_word(life, size),
         air: air_numbers(cx, population, size, air_a, air_b),
     };
     if cx.step.births[number as usize].is_burst != 0 { 1.0 } else { 1.0 - unit_float(moment) }

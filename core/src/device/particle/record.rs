@@ -152,3 +152,22 @@ pub fn particle_size<W: Word>(life_size: W) -> W {
 pub fn particle_bits(state: u32, population: u32) -> u32 {
     state | (population << POPULATION_SHIFT)
 }
+
+/// The bits of a particle in another state.
+#[inline(always)]
+pub fn with_particle_state(bits: u32, state: u32) -> u32 {
+    (bits & !PARTICLE_STATE_MASK) | state
+}
+
+/// The bits of a particle after some more hits.
+#[inline(always)]
+pub fn with_more_hits(bits: u32, hits: u32) -> u32 {
+    let sum = (particle_hits(bits) + hits).min(HITS_MASK);
+    (bits & !(HITS_MASK << HITS_SHIFT)) | (sum << HITS_SHIFT) | PARTICLE_HIT
+}
+
+/// Word of a life in steps and a size in 2^-14 of the mean.
+#[inline(always)]
+pub fn life_size_word(life: u32, size: u32) -> u32 {
+    life | (size << PARTICLE_SIZE_SHIFT)
+}

@@ -7,9 +7,9 @@
 use super::birth::{birth_number, particle_birth};
 use super::fly::{ParticleFlight, particle_fly};
 use super::record::{
-    HITS_MASK, HITS_SHIFT, MEETS_NOTHING, MEETS_STICK, PARTICLE_ALIVE, PARTICLE_BORN, PARTICLE_DEAD,
-    PARTICLE_DIED, PARTICLE_DORMANT, PARTICLE_GROUNDED, PARTICLE_HIT, PARTICLE_RESTING, PARTICLE_STATE_MASK,
-    particle_hits, particle_life, particle_population, particle_state,
+    MEETS_NOTHING, MEETS_STICK, PARTICLE_ALIVE, PARTICLE_BORN, PARTICLE_DEAD, PARTICLE_DIED,
+    PARTICLE_DORMANT, PARTICLE_GROUNDED, PARTICLE_HIT, PARTICLE_RESTING, particle_life, particle_population,
+    particle_state, with_more_hits, with_particle_state,
 };
 use super::strike::{STRIKE_GROUND, particle_contact, particle_push};
 use crate::arith::lane::{Real, Word};
@@ -94,7 +94,7 @@ pub fn particle_step(cx: &Context<'_>, particle: &mut ParticleMut<'_>, slot: u32
     let mut is_alive = before == PARTICLE_ALIVE || before == PARTICLE_RESTING;
     let mut bits = particle.place.bits & !(PARTICLE_BORN | PARTICLE_DIED | PARTICLE_HIT);
     if is_alive && life_is_over(cx, particle.motion.birth, particle.traits.life_size) {
-        bits = (bits & !PARTICLE_STATE_MASK) | PARTICLE_DEAD | PARTICLE_DIED;
+        bits = with_particle_state(bits, PARTICLE_DEAD) | PARTICLE_DIED;
         change.died += 1;
         is_alive = false;
     }
@@ -145,8 +145,7 @@ pub fn particle_step(cx: &Context<'_>, particle: &mut ParticleMut<'_>, slot: u32
         change.stopped = u32::from(contact.is_stopped);
     }
     if change.hits != 0 {
-        let hits = (particle_hits(bits) + change.hits).min(HITS_MASK);
-        bits = (bits & !(HITS_MASK << HITS_SHIFT)) | (hits << HITS_SHIFT) | PARTICLE_HIT;
+        bits = with_more_hits(bits, change.hits);
     }
     if is_outside(population, end.position) {
         state = PARTICLE_DEAD;
@@ -156,7 +155,7 @@ pub fn particle_step(cx: &Context<'_>, particle: &mut ParticleMut<'_>, slot: u32
         bits |= PARTICLE_DIED;
     }
     particle.place.position = end.position.to_array();
-    particle.place.bits = (bits & !PARTICLE_STATE_MASK) | state;
+    particle.place.bits = with_particle_state(bits, state);
     particle.motion.velocity = end.velocity.to_array();
     change
 }

@@ -152,7 +152,10 @@ impl Particles {
             (format!("up to {}", self.size_m.highest()), format!("at most {most}, four times the mean"))
         })?;
         at.numbers([("density_kg_m3", self.density_kg_m3.into(), limits::PARTICLE_DENSITY_KG_M3)])?;
-        at.numbers([("charge_c_kg", self.charge_c_kg.into(), limits::CHARGE_C_KG)])?;
+        at.numbers([
+            ("gravity", self.gravity.into(), limits::WEIGHT_SHARE),
+            ("charge_c_kg", self.charge_c_kg.into(), limits::CHARGE_C_KG),
+        ])?;
         at.length("feels", self.feels.len(), 0, MAX_FORCES)?;
         match self.air {
             Air::Linear { time_s } => {

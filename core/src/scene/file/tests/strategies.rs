@@ -507,7 +507,7 @@ prop_compose! {
         };
         Particles {
             name: String::new(), count: 10_000, from, direction, release, speed_m_s, life_s: Some(life_s), size_m,
-            density_kg_m3, charge_c_kg: 1.0, air, feels: Vec::new(), meets, dies, look,
+            density_kg_m3, gravity: 1.0, charge_c_kg: 1.0, air, feels: Vec::new(), meets, dies, look,
         }
     }
 }
