@@ -15,6 +15,7 @@ use crate::collision_cells::CollisionCells;
 use crate::exposed::ExposedLeaves;
 use crate::kernels::CHUNK;
 use crate::kernels::measure::measure;
+use crate::kernels::pull_particles::pull_particles;
 use crate::kernels::stack_litter::{LitterChanges, stack_litter};
 use crate::kernels::step_collisions::step_collisions;
 use crate::kernels::step_leaves::{LeafSteps, step_leaves};
@@ -49,6 +50,8 @@ pub struct CpuSimulator {
     quiet: QuietUnits,
     exposed: ExposedLeaves,
     cells: CollisionCells,
+    /// Accelerations of particles by others; empty where none attract one another.
+    pulls: Vec<[f32; 4]>,
     /// None where threads cannot be started: there the caller's does everything.
     pool: Option<ThreadPool>,
     simd: Simd,
@@ -71,7 +74,8 @@ impl CpuSimulator {
         let exposed = ExposedLeaves::new(world.leaves.len());
         let (world, blocks, scratches) = (world.clone(), Vec::new(), Vec::new());
         let cells = CollisionCells::default();
-        let mut simulator = Self { world, blocks, scratches, quiet, exposed, cells, pool, simd };
+        let mut simulator =
+            Self { world, blocks, scratches, quiet, exposed, cells, pulls: Vec::new(), pool, simd };
         let forest = Arc::clone(simulator.world.compiled.forest());
         simulator.plant(&forest);
         Ok(simulator)
@@ -147,7 +151,8 @@ impl Simulator for CpuSimulator {
         if compiled.block().has_living_litter() && self.cells.is_empty() {
             self.cells = CollisionCells::new();
         }
-        let cells = &self.cells;
+        let (cells, pulls) = (&self.cells, &mut self.pulls);
+        let is_mutual = compiled.block().has_mutual();
         let forest = Arc::clone(compiled.forest());
         let is_small =
             leaves.len() <= CHUNK && forest.len() <= CHUNK / 16 && particles.len() <= SMALL_PARTICLES;
@@ -170,7 +175,11 @@ impl Simulator for CpuSimulator {
             }
             let steps = step_blocks.each_ref().map(|block| compiled.context(block).over(&bed.words));
             let steps = &steps[..count];
-            step_particles(steps, particles.as_mut(), 0, &sums, simd);
+            if is_mutual && let [cx] = steps {
+                pulls.resize(particles.len(), [0.0; 4]);
+                pull_particles(cx, particles, pulls, simd);
+            }
+            step_particles(steps, particles.as_mut(), 0, pulls, &sums, simd);
             // With litter it is one step.
             if let [cx] = steps
                 && cx.scene.collides(cx.step.index)
@@ -207,8 +216,8 @@ impl Simulator for CpuSimulator {
         let mut steps = || {
             let mut left = count as usize;
             while left > 0 {
-                // Leaves see what others have left in the litter a step before.
-                let portion = left.min(if has_litter { 1 } else { MOST_FUSED });
+                // Leaves see what others have left in the litter a step before, and particles where others are.
+                let portion = left.min(if has_litter || is_mutual { 1 } else { MOST_FUSED });
                 run(portion);
                 left -= portion;
             }

@@ -34,10 +34,12 @@ pub(crate) enum GroupLayout {
     Carriers,
     /// A run of particles, the columns of its page, and the counts of what happens to them.
     Particles,
+    /// A population whose particles attract one another, and their accelerations.
+    Mutual,
 }
 
 impl GroupLayout {
-    const ALL: [Self; 10] = [
+    const ALL: [Self; 11] = [
         Self::Leaves,
         Self::LeavesInMotion,
         Self::LeavesOnTwigs,
@@ -48,6 +50,7 @@ impl GroupLayout {
         Self::Level,
         Self::Carriers,
         Self::Particles,
+        Self::Mutual,
     ];
 
     /// Resources, binding by binding.
@@ -68,7 +71,9 @@ impl GroupLayout {
             // The bindings of shaders/leaf/carrier_bindings.wgsl.
             Self::Carriers => &[Block, Read, Write],
             // The bindings of shaders/particle/bindings.wgsl.
-            Self::Particles => &[BlockOfMany, Write, Write, Write, Write],
+            Self::Particles => &[BlockOfMany, Write, Write, Write, Write, Read],
+            // The bindings of shaders/particle/mutual_bindings.wgsl.
+            Self::Mutual => &[BlockOfMany, Read, Read, Write],
         }
     }
 }
@@ -81,6 +86,7 @@ impl KernelId {
                 &[GroupLayout::Blocks, GroupLayout::Level]
             }
             Self::StepParticles => &[GroupLayout::Blocks, GroupLayout::Particles],
+            Self::PullParticles => &[GroupLayout::Blocks, GroupLayout::Mutual],
             Self::Carry => &[GroupLayout::LeavesOnTwigs, GroupLayout::WrittenBuffer, GroupLayout::Carriers],
             Self::ListActive | Self::Measure => &[GroupLayout::LeavesInMotion, GroupLayout::WrittenBuffer],
             Self::WakeLying => &[GroupLayout::LeavesInMotion, GroupLayout::WrittenBuffer],
@@ -110,6 +116,9 @@ impl KernelId {
         }
         if compiled.scene().particle_count() > 0 {
             kernels.push(Self::StepParticles);
+        }
+        if compiled.block().has_mutual() {
+            kernels.push(Self::PullParticles);
         }
         if !compiled.forest().is_empty() {
             kernels.extend([Self::Carry, Self::SwayCoast]);

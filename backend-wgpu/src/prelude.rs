@@ -125,6 +125,7 @@ pub(crate) fn constants() -> String {
         device::wind::shelter::wgsl_constants(),
         device::wind::slipstream::wgsl_constants(),
         device::wind::turbulence::wgsl_constants(),
+        device::wind::vortex::wgsl_constants(),
     ];
     let declarations: String = lists.into_iter().flatten().map(|(_, declaration)| declaration).collect();
     format!("const WORKGROUP_SIZE: u32 = {WORKGROUP_SIZE}u;\n{declarations}")

@@ -48,11 +48,13 @@ pub enum KernelId {
     Carry,
     /// Moves particles through one step.
     StepParticles,
+    /// Sums the attractions of particles by one another.
+    PullParticles,
 }
 
 impl KernelId {
     /// All kernels.
-    pub const ALL: [Self; 18] = [
+    pub const ALL: [Self; 19] = [
         Self::ListActive,
         Self::GatherCollisions,
         Self::Collide,
@@ -71,6 +73,7 @@ impl KernelId {
         Self::SwayCoast,
         Self::Carry,
         Self::StepParticles,
+        Self::PullParticles,
     ];
 
     /// Name of the file and of the entry point.
@@ -94,6 +97,7 @@ impl KernelId {
             Self::SwayCoast => "sway_coast",
             Self::Carry => "carry",
             Self::StepParticles => "step_particles",
+            Self::PullParticles => "pull_particles",
         }
     }
 }
@@ -147,6 +151,7 @@ impl Default for Shaders {
             "kernels/fly",
             "kernels/gather_collisions",
             "kernels/measure",
+            "kernels/pull_particles",
             "kernels/stack_litter",
             "kernels/step_particles",
             "kernels/wake_lying",
@@ -189,6 +194,8 @@ impl Default for Shaders {
             "particle/draw",
             "particle/fly",
             "particle/force",
+            "particle/mutual",
+            "particle/mutual_bindings",
             "particle/record",
             "particle/step",
             "particle/strike",

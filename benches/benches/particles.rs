@@ -32,7 +32,7 @@ fn step_spark(cx: &Context<'_>, spark: &mut Spark) {
     }
     let start =
         ParticleFlight { position: spark.place.position.into(), velocity: spark.motion.velocity.into() };
-    let mut end = particle_fly(cx, &cx.scene.populations[0], start, spark.traits.air);
+    let mut end = particle_fly(cx, &cx.scene.populations[0], start, spark.traits.air, Vec3::ZERO);
     if end.position.y < 0.0 {
         let Vec3 { x, y, z } = end.velocity;
         end.position.y = -end.position.y;

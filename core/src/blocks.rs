@@ -7,7 +7,9 @@
 
 use crate::flight::block::BodyBlock;
 use crate::layout::{Float4, Uint4};
-use crate::scene::{MAX_JETS, MAX_MOVERS, MAX_POPULATIONS, MAX_SOURCES, MAX_SPECIES, MAX_VORTICES};
+use crate::scene::{
+    MAX_JETS, MAX_MOVERS, MAX_POPULATIONS, MAX_SOURCES, MAX_SPECIES, MAX_VORTICES, SPLINE_SEGMENTS,
+};
 
 crate::shared_struct! {
     /// One species, compiled.
@@ -283,6 +285,12 @@ crate::shared_struct! {
         pub high_m: [f32; 3],
         /// Number of these forces.
         pub force_count: u32,
+        /// Product GM of each in m³/s², where they attract one another.
+        pub mutual_gm_m3_s2: f32,
+        /// Squared softening length of that in m².
+        pub mutual_softening_m2: f32,
+        /// Zero.
+        pub unused: [f32; 2],
         /// Speed at which they set off in m/s.
         pub speed_m_s: SpreadBlock,
         /// Life in steps; zero if age does not end it.
@@ -442,6 +450,11 @@ impl SceneBlock {
         self.litter.is_calm != 0
     }
 
+    /// Returns true if particles of some population attract one another.
+    pub fn has_mutual(&self) -> bool {
+        self.populations.iter().any(|population| population.mutual_gm_m3_s2 != 0.0)
+    }
+
     /// Returns true if leaves of some species fly as bodies.
     pub fn has_bodies(&self) -> bool {
         self.has_bodies != 0
@@ -465,7 +478,7 @@ impl SwayBlock {
 
 crate::shared_struct! {
     /// One vortex at one step.
-    pub struct VortexBlock, padding 12 {
+    pub struct VortexBlock {
         /// A point of the axis in m.
         pub center_m: [f32; 3],
         /// Squared core radius in m².
@@ -476,6 +489,14 @@ crate::shared_struct! {
         pub swirl_m2_s: f32,
         /// Axial speed at the centre times squared core radius in m³/s.
         pub axial_m3_s: f32,
+        /// Profile of the speed about the axis.
+        pub profile: u32,
+        /// Number d of a compact one.
+        pub widening: f32,
+        /// 1 if its axis is a curve, else 0.
+        pub is_curved: u32,
+        /// Points of the curve in m, and the inverse of the squared distance from each to the next in 1/m².
+        pub nodes: [Float4; SPLINE_SEGMENTS + 1],
     }
 }
 

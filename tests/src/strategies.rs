@@ -9,7 +9,7 @@ use windfall_core::scene::{
     Aerodynamics, Air, Bounds, Direction, FlightModel, Foliage, Force, ForceKind, Gusts, Hold, Jet, JetKey,
     Litter, MeanSpeed, Meets, Object, ObjectFriction, ObjectKey, ObjectMotion, ObjectShape, ParticleRelease,
     ParticleShape, Particles, Planform, Profile, Release, Scene, Share, Source, SourceShape, Species, Spread,
-    SwirlProfile, Terrain, Tree, TreeKind, Turbulence, Vortex, Walker, Water, WindParameters,
+    SwirlProfile, Terrain, Tree, TreeKind, Turbulence, Vortex, VortexProfile, Walker, Water, WindParameters,
 };
 
 use crate::functions::Input;
@@ -115,6 +115,8 @@ pub fn varied_scene(seed: u64, leaves: u32, speed_m_s: f32, dt_s: f32) -> Scene 
                 core_m: 1.5,
                 axial_m_s: 0.5,
                 drift_m_s: Vec3::new(0.2, 0.0, 0.1),
+                profile: VortexProfile::Kaufmann,
+                spline_m: Vec::new(),
             }],
             ..WindParameters::default()
         },

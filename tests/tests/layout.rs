@@ -316,8 +316,13 @@ fn wgsl_files(folder: &Path) -> Vec<PathBuf> {
 }
 
 /// Files without a twin: on the CPU what they declare are arguments.
-const BINDINGS_ONLY: [&str; 4] =
-    ["bindings.wgsl", "leaf/carrier_bindings.wgsl", "particle/bindings.wgsl", "tree/bindings.wgsl"];
+const BINDINGS_ONLY: [&str; 5] = [
+    "bindings.wgsl",
+    "leaf/carrier_bindings.wgsl",
+    "particle/bindings.wgsl",
+    "particle/mutual_bindings.wgsl",
+    "tree/bindings.wgsl",
+];
 /// Files of lists, which only a GPU has: the CPU notes which units of slots are idle as it steps them.
 const GPU_ONLY: [&str; 7] = [
     "kernels/list_active.wgsl",

@@ -47,6 +47,7 @@ pub(crate) fn drop_scene(scene: &Scene, file: &str, options: &DropOptions) -> an
         objects: Vec::new(),
         walkers: Vec::new(),
         particles: Vec::new(),
+        forces: Vec::new(),
         view: View::default(),
         ..scene.clone()
     };

@@ -9,6 +9,7 @@ mod collide;
 mod fly;
 mod gather_collisions;
 pub(crate) mod measure;
+pub(crate) mod pull_particles;
 mod resolve_events;
 mod sample_air;
 pub(crate) mod stack_litter;

@@ -9,6 +9,7 @@ use std::sync::atomic::{AtomicU32, Ordering};
 
 use rayon::join;
 use windfall_core::Context;
+use windfall_core::arith::Vec3;
 use windfall_core::arith::pack::{BLOCK, Pack};
 use windfall_core::blocks::BirthBlock;
 use windfall_core::device::particle::record::particle_population;
@@ -19,11 +20,13 @@ use super::CHUNK;
 use crate::simd::particle_block::ParticleBlock;
 use crate::simd::{Simd, in_packs};
 
-/// Steps particles from slot `first` on, halving the columns until a piece is one chunk, and adds to the counts of populations.
+/// Steps particles from slot `first` on, halving the columns until a piece is one chunk, and adds to the counts of populations. `pulls`
+/// are accelerations by others, slot by slot, or none.
 pub(crate) fn step_particles(
     steps: &[Context<'_>],
     mut particles: ParticlesMut<'_>,
     first: usize,
+    pulls: &[[f32; 4]],
     tallies: &[AtomicU32],
     simd: Simd,
 ) {
@@ -31,8 +34,8 @@ pub(crate) fn step_particles(
         let middle = (particles.len() / 2).next_multiple_of(CHUNK);
         let (front, back) = particles.split_at(middle);
         join(
-            || step_particles(steps, front, first, tallies, simd),
-            || step_particles(steps, back, first + middle, tallies, simd),
+            || step_particles(steps, front, first, pulls, tallies, simd),
+            || step_particles(steps, back, first + middle, pulls, tallies, simd),
         );
         return;
     }
@@ -41,10 +44,10 @@ pub(crate) fn step_particles(
         match simd {
             Simd::Scalar => {
                 for number in 0..particles.len() {
-                    step_one(cx, &mut particles, first, number, &mut counts);
+                    step_one(cx, &mut particles, first, number, pulls, &mut counts);
                 }
             }
-            Simd::Lanes(level) => in_packs!(level, step_lanes(cx, &mut particles, first, &mut counts)),
+            Simd::Lanes(level) => in_packs!(level, step_lanes(cx, &mut particles, first, pulls, &mut counts)),
         }
     }
     for (sum, count) in tallies.iter().zip(counts) {
@@ -54,19 +57,21 @@ pub(crate) fn step_particles(
     }
 }
 
-/// Steps one particle of a chunk.
-#[inline(always)]
+/// Steps one particle of a chunk. One copy of it serves all instruction sets: it is long, and few particles need it.
+#[inline(never)]
 fn step_one(
     cx: &Context<'_>,
     particles: &mut ParticlesMut<'_>,
     first: usize,
     number: usize,
+    pulls: &[[f32; 4]],
     counts: &mut [u32],
 ) {
     let population = particle_population(particles.place[number].bits);
     #[expect(clippy::cast_possible_truncation, reason = "slots are counted in words")]
     let slot = (first + number) as u32;
-    let change = particle_step(cx, &mut particles.row_mut(number), slot);
+    let mutual = pulls.get(first + number).map_or(Vec3::ZERO, |[x, y, z, _]| Vec3::new(*x, *y, *z));
+    let change = particle_step(cx, &mut particles.row_mut(number), slot, mutual);
     add_to_tally(counts, population, &change);
 }
 
@@ -77,6 +82,7 @@ fn step_lanes<P: Pack>(
     cx: &Context<'_>,
     particles: &mut ParticlesMut<'_>,
     first: usize,
+    pulls: &[[f32; 4]],
     counts: &mut [u32],
 ) {
     let count = particles.len();
@@ -94,11 +100,14 @@ fn step_lanes<P: Pack>(
                 place: (&mut particles.place[rows.clone()]).try_into().expect(whole),
                 motion: (&mut particles.motion[rows.clone()]).try_into().expect(whole),
                 traits: (&particles.traits[rows.clone()]).try_into().expect(whole),
+                pulls: pulls
+                    .get(first + begin..first + begin + BLOCK)
+                    .map(|rows| rows.try_into().expect(whole)),
             };
             left = block.advance::<P>(simd, cx, here as usize);
         }
         while left != 0 {
-            step_one(cx, particles, first, begin + left.trailing_zeros() as usize, counts);
+            step_one(cx, particles, first, begin + left.trailing_zeros() as usize, pulls, counts);
             left &= left - 1;
         }
     }

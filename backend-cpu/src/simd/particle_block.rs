@@ -4,6 +4,7 @@
 
 use bytemuck::{must_cast_mut, must_cast_ref};
 use windfall_core::Context;
+use windfall_core::arith::Vec3;
 use windfall_core::arith::lane::{Mask, Word};
 use windfall_core::arith::pack::{BLOCK, Pack, load_block, rows_of_bits, store_block};
 use windfall_core::device::particle::fly::{ParticleFlight, particle_fly};
@@ -24,6 +25,8 @@ pub(crate) struct ParticleBlock<'a> {
     pub(crate) place: &'a mut [ParticlePlace; BLOCK],
     pub(crate) motion: &'a mut [ParticleMotion; BLOCK],
     pub(crate) traits: &'a [ParticleTraits; BLOCK],
+    /// Accelerations by others of the population; `None` where particles do not attract one another.
+    pub(crate) pulls: Option<&'a Column>,
 }
 
 impl ParticleBlock<'_> {
@@ -63,7 +66,12 @@ impl ParticleBlock<'_> {
         if !flies.any() {
             return P::bits_of(!is_idle);
         }
-        let end = particle_fly(cx, population, ParticleFlight { position, velocity }, [air_a, air_b]);
+        let mutual = match self.pulls {
+            Some(pulls) => vector_and_fourth(load_block::<P>(simd, pulls, part)).0,
+            None => Vec3::<f32>::ZERO.spread(air_a),
+        };
+        let start = ParticleFlight { position, velocity };
+        let end = particle_fly(cx, population, start, [air_a, air_b], mutual);
         let ends =
             may_be_struck(cx, population, position, end.position) | is_outside(population, end.position);
         let moved = flies & !ends;

@@ -15,6 +15,7 @@ mod solids;
 mod source;
 mod species;
 mod tables;
+mod vortex;
 mod water;
 mod wind;
 
@@ -33,6 +34,7 @@ use self::shelter::{is_sheltered, shelter_inputs, shelter_rows};
 use self::solids::Solids;
 pub(crate) use self::source::{lifetime_steps, release_step};
 use self::tables::{motions_of, pack_motion};
+use self::vortex::vortex_block;
 use crate::arith::rng::{random, seed_words, unit_float};
 use crate::blocks::{JetBlock, MomentBlock, MoverBlock, SceneBlock, StepBlock, VortexBlock};
 use crate::clock::Clock;
@@ -289,17 +291,7 @@ impl CompiledScene {
         let seconds = clock.seconds() + steps * f64::from(clock.dt_s());
         let mut vortices = [<VortexBlock as bytemuck::Zeroable>::zeroed(); crate::scene::MAX_VORTICES];
         for (vortex, block) in self.scene.wind.vortices.iter().zip(&mut vortices) {
-            let center = vortex.center_m.as_dvec3() + vortex.drift_m_s.as_dvec3() * seconds;
-            let axis = vortex.axis.as_dvec3().normalize();
-            let core_squared = f64::from(vortex.core_m) * f64::from(vortex.core_m);
-            *block = VortexBlock {
-                center_m: center.to_array().map(single),
-                core_m2: single(core_squared),
-                axis: axis.to_array().map(single),
-                swirl_m2_s: single(f64::from(vortex.circulation_m2_s) / std::f64::consts::TAU),
-                axial_m3_s: single(f64::from(vortex.axial_m_s) * core_squared),
-                padding: Default::default(),
-            };
+            *block = vortex_block(vortex, seconds);
         }
         let mut jets = [<JetBlock as bytemuck::Zeroable>::zeroed(); crate::scene::MAX_JETS];
         // A uniform wind has no ground.

@@ -11,13 +11,12 @@ use crate::device::particle::air::{AIR_LINEAR, AIR_MASSLESS, AIR_QUADRATIC, AIR_
 use crate::device::particle::birth::{
     PARTICLE_BALL, PARTICLE_BOX, PARTICLE_CONE, PARTICLE_DISC, PARTICLE_LINE, PARTICLE_RING, PARTICLE_SHELL,
 };
-use crate::device::particle::force::{
-    FORCE_ATTRACT, FORCE_NOISE, FORCE_ROWS, FORCE_SWIRL, FORCE_TURN, SWIRL_COMPACT,
-};
+use crate::device::particle::force::{FORCE_ATTRACT, FORCE_NOISE, FORCE_ROWS, FORCE_SWIRL, FORCE_TURN};
 use crate::device::particle::record::{
-    MEETS_BOUNCE, MEETS_DIE, MEETS_NOTHING, MEETS_STICK, POPULATION_LOSS, POPULATION_PULLED,
-    POPULATION_SWIRLED, POPULATION_TURNED,
+    MEETS_BOUNCE, MEETS_DIE, MEETS_NOTHING, MEETS_STICK, POPULATION_LOSS, POPULATION_MUTUAL,
+    POPULATION_PULLED, POPULATION_SWIRLED, POPULATION_TURNED,
 };
+use crate::device::wind::vortex::SWIRL_COMPACT;
 use crate::layout::Uint4;
 use crate::motion::AIR_DENSITY;
 use crate::scene::{
@@ -25,8 +24,8 @@ use crate::scene::{
     ParticleShape, Particles, Scene, Spread, SwirlProfile, VISCOSITY_PA_S,
 };
 
-/// Coordinate in m beyond which no particle flies.
-const BOUNDLESS_M: f32 = 1e30;
+/// Coordinate in m beyond which particles die: tables are looked up in units that a float counts exactly.
+const BOUNDLESS_M: f32 = 1e5;
 /// Random words of the numbers that are born, by step; in the place of a particle's number, whose populations count from one.
 const STREAM_BIRTHS: u32 = 0x8000_0000;
 /// Largest mean of the numbers that one random word decides.
@@ -47,6 +46,11 @@ pub(super) fn populations_of(
         block.first_force_row = first_row + len32(rows.len());
         for force in felt(scene, particles) {
             block.flags |= flag_of(force);
+            if let ForceKind::Mutual { gm_m3_s2, softening_m } = force.of {
+                block.mutual_gm_m3_s2 = gm_m3_s2;
+                block.mutual_softening_m2 = softening_m * softening_m;
+                continue;
+            }
             block.force_count += 1;
             rows.extend(force_rows(scene, particles, force));
         }
@@ -63,6 +67,7 @@ fn flag_of(force: &Force) -> u32 {
     match force.of {
         ForceKind::Attract { .. } | ForceKind::Noise { .. } => POPULATION_PULLED,
         ForceKind::Lorentz { .. } => POPULATION_PULLED | POPULATION_TURNED,
+        ForceKind::Mutual { .. } => POPULATION_MUTUAL,
         ForceKind::Spiral { .. } => POPULATION_TURNED,
         ForceKind::Swirl { .. } => POPULATION_SWIRLED,
     }
@@ -84,6 +89,7 @@ fn force_rows(scene: &Scene, particles: &Particles, force: &Force) -> [Uint4; FO
             let numbers = row([gm_m3_s2.into(), softening * softening, 0.0, 0.0]);
             [kind(FORCE_ATTRACT, 0), numbers, vector(at_m.as_dvec3()), Uint4::default()]
         }
+        ForceKind::Mutual { .. } => [Uint4::default(); FORCE_ROWS as usize],
         ForceKind::Noise { m_s2, cell_m } => {
             let numbers = row([m_s2.into(), 1.0 / f64::from(cell_m), 0.0, 0.0]);
             [kind(FORCE_NOISE, 0), numbers, Uint4::default(), Uint4::default()]

@@ -32,6 +32,14 @@ pub enum ForceKind {
         /// Softening length in metres, 0.001 to 1000.
         softening_m: f32,
     },
+    /// Attraction of the particles of a population by one another, softened likewise: a direct sum, for at most 65536 slots that are
+    /// born from time zero on.
+    Mutual {
+        /// Product GM of each in m³/s², -1000000 to 1000000; below zero they repel each other.
+        gm_m3_s2: f32,
+        /// Softening length in metres, 0.001 to 1000.
+        softening_m: f32,
+    },
     /// Acceleration by a frozen field of noise without divergence.
     Noise {
         /// Standard deviation of each component in m/s², 0 to 1000.

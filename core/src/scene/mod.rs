@@ -51,7 +51,7 @@ pub use species::{LeafShape, MotionParameters, RotationModel, Species};
 pub use terrain::{Terrain, Water};
 pub use tree::{Foliage, SwayScheme, Tree, TreeForm, TreeKind, TreePreset, Wood};
 pub use view::{Camera, Sun, View};
-pub use wind::{Gusts, MeanSpeed, Profile, Turbulence, Vortex, WindParameters};
+pub use wind::{Gusts, MeanSpeed, Profile, Turbulence, Vortex, VortexProfile, WindParameters};
 
 /// Standard acceleration of gravity in m/s²: that of a scene which states no other.
 pub const STANDARD_GRAVITY_M_S2: f32 = 9.806_65;
@@ -62,6 +62,10 @@ pub const MAX_SPECIES: usize = 32;
 pub const MAX_SOURCES: usize = 16;
 /// Most point vortices a scene may have: they travel in the uniform block of every step.
 pub const MAX_VORTICES: usize = 8;
+/// Most control points of the axis of a vortex.
+pub const MAX_SPLINE_POINTS: usize = 12;
+/// Segments in which the curved axis of a vortex is followed.
+pub const SPLINE_SEGMENTS: usize = 16;
 /// Most jets a scene may have: they travel there, too.
 pub const MAX_JETS: usize = 8;
 /// Most keys a jet may have.
@@ -84,6 +88,8 @@ pub const MAX_LEAVES: u32 = 1 << 28;
 pub const MAX_POPULATIONS: usize = 16;
 /// Most forces on particles a scene may have, and that a population may feel.
 pub const MAX_FORCES: usize = 16;
+/// Most slots of a population whose particles attract one another.
+pub const MAX_MUTUAL: u32 = 1 << 16;
 /// Dynamic viscosity of air at 20 °C in Pa s.
 pub const VISCOSITY_PA_S: f32 = 1.813e-5;
 /// Most particles a scene may have, over all populations.

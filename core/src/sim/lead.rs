@@ -15,7 +15,7 @@ const STEPS: u32 = 64;
 /// Particles that a thread takes through them before it takes the next.
 const RUN: usize = 1024;
 
-/// Steps the particles of a world from the first birth of those that live at time zero up to then.
+/// Steps the particles of a world from the first birth of those that live at time zero up to then. None of them attract one another.
 pub(super) fn lead_in(world: &mut World) {
     let World { compiled, clock, bed, particles, tallies, .. } = world;
     let lead = compiled.births().lead();
@@ -38,7 +38,7 @@ pub(super) fn lead_in(world: &mut World) {
         on_all(|| {
             let mut counts = vec![0; sums.lock().unwrap_or_else(PoisonError::into_inner).len()];
             while let Some((first, mut run)) = next() {
-                steps.iter().for_each(|cx| step_run(cx, &mut run, first, &mut counts));
+                steps.iter().for_each(|cx| step_run(cx, &mut run, first, &[], &mut counts));
             }
             let mut sums = sums.lock().unwrap_or_else(PoisonError::into_inner);
             sums.iter_mut().zip(counts).for_each(|(sum, count)| *sum = sum.wrapping_add(count));

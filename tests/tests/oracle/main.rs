@@ -40,4 +40,5 @@ mod tables;
 mod terrain;
 mod tree_sway;
 mod turbulence;
+mod vortex;
 mod wind;

@@ -285,7 +285,7 @@ fn too_few_slots_are_refused_with_the_number_needed() {
     let error = refused(ParticleRelease::Rate { per_s: 100.0, from_s: 0.0 }, 150);
     assert!(error.contains("particles[0].count is 150") && error.contains("at least 203"), "{error}");
     let error = refused(ParticleRelease::Poisson { per_s: 100.0, from_s: 0.0 }, 210);
-    assert!(error.contains("at least 288"), "{error}");
+    assert!(error.contains("at least 289"), "{error}");
     let lasting = Particles {
         meets: Meets::Nothing,
         life_s: None,

@@ -112,7 +112,7 @@ fn terminal_speeds_are_those_of_their_laws() {
     ];
     for dt_s in STEPS_S {
         let mut world = build(&scene(rows.clone(), dt_s));
-        oracle::step(&mut world, (4.0 / dt_s) as u32);
+        oracle::step(&mut world, (8.0 / dt_s) as u32);
         let speed = |slot| -velocity(&world, slot).y;
         // Water in air at 20 °C.
         for (slot, wanted) in [(0, 0.01202), (1, 0.02704), (2, 0.10816)] {
@@ -314,6 +314,8 @@ fn tracers_stay_on_their_circle() {
         core_m: 3.0,
         axial_m_s: 0.0,
         drift_m_s: Vec3::ZERO,
+        profile: windfall_core::scene::VortexProfile::Kaufmann,
+        spline_m: Vec::new(),
     }];
     let mut world = build(&scene);
     // A turn: 2 pi r over Gamma r / (2 pi (r² + a²)).

@@ -16,7 +16,11 @@ fn step_particles(@builtin(global_invocation_id) id: vec3<u32>) {
     if (id.x < particle_run.count) {
         let particle = particle_run.first + id.x;
         let population = particle_population(particle_places[particle].bits);
-        let change = particle_step(particle, particle_run.page_slot + particle);
+        var mutual = vec3<f32>(0.0, 0.0, 0.0);
+        if ((scene.populations[population].flags & POPULATION_MUTUAL) != 0u) {
+            mutual = particle_pulls[particle].xyz;
+        }
+        let change = particle_step(particle, particle_run.page_slot + particle, mutual);
         add_to_tally(population, TALLY_BORN, change.born);
         add_to_tally(population, TALLY_DIED, change.died);
         add_to_tally(population, TALLY_HITS, change.hits);

@@ -9,3 +9,5 @@
 @group(1) @binding(2) var<storage, read_write> particle_motions: array<ParticleMotion>;
 @group(1) @binding(3) var<storage, read_write> particle_traits: array<ParticleTraits>;
 @group(1) @binding(4) var<storage, read_write> particle_tallies: array<atomic<u32>>;
+// Acceleration by others of the population in m/s²; read only where there is any.
+@group(1) @binding(5) var<storage, read> particle_pulls: array<vec4<f32>>;

@@ -19,7 +19,7 @@ fn whole_speed(speed: f32) -> f32 {
     return select(speed, 0.0, max(speed, -speed) < LEAST_M_S);
 }
 
-fn particle_fly(number: u32, start: ParticleFlight, air: vec2<f32>) -> ParticleFlight {
+fn particle_fly(number: u32, start: ParticleFlight, air: vec2<f32>, mutual: vec3<f32>) -> ParticleFlight {
     let position = start.position;
     let velocity = start.velocity;
     let dt = scene.dt_s;
@@ -34,6 +34,9 @@ fn particle_fly(number: u32, start: ParticleFlight, air: vec2<f32>) -> ParticleF
         var pull = vec3<f32>(0.0, -scene.populations[number].gravity_m_s2, 0.0);
         if ((flags & POPULATION_PULLED) != 0u) {
             pull = pull + force_pull(number, position + velocity * half);
+        }
+        if ((flags & POPULATION_MUTUAL) != 0u) {
+            pull = pull + mutual;
         }
         var wind = vec3<f32>(0.0, 0.0, 0.0);
         if (kind != AIR_VACUUM) {

@@ -6,6 +6,7 @@
 #import arith/math
 #import arith/vector
 #import wind/turbulence
+#import wind/vortex
 
 const SWIRL_TAN_3: f32 = 0.33333334;
 const SWIRL_TAN_5: f32 = 0.13333334;
@@ -78,19 +79,4 @@ fn force_swirl(number: u32, place: vec3<f32>) -> vec3<f32> {
         }
     }
     return moved;
-}
-
-fn swirl_profile(profile: u32, widening: f32, squared: f32) -> f32 {
-    if (profile == SWIRL_COMPACT) {
-        let left = 1.0 - squared;
-        let share = (left * left) * reciprocal(squared * widening + 1.0);
-        return select(0.0, share, squared < 1.0);
-    }
-    let least = max(squared, SWIRL_LEAST_SQUARED);
-    if (profile == 0u) {
-        return 1.0;
-    } else if (profile == 1u) {
-        return inverse_sqrt(least);
-    }
-    return reciprocal(least);
 }

@@ -49,7 +49,7 @@ fn rest_is_checked(slot: u32) -> bool {
     return ((step_block.index + slot) & 7u) == 0u;
 }
 
-fn particle_step(particle: u32, slot: u32) -> ParticleChange {
+fn particle_step(particle: u32, slot: u32, mutual: vec3<f32>) -> ParticleChange {
     var change = ParticleChange(0u, 0u, 0u, 0u, 0u);
     let number = particle_population(particle_places[particle].bits);
     let before = particle_state(particle_places[particle].bits);
@@ -74,7 +74,8 @@ fn particle_step(particle: u32, slot: u32) -> ParticleChange {
         return change;
     }
     let start = ParticleFlight(particle_places[particle].position, particle_motions[particle].velocity);
-    var end = particle_fly(number, start, particle_traits[particle].air);
+    let felt = select(vec3<f32>(0.0, 0.0, 0.0), mutual, among == NEVER);
+    var end = particle_fly(number, start, particle_traits[particle].air, felt);
     let time = scene.dt_s * rest;
     if (rest < 1.0) {
         end.position = start.position + (end.position - start.position) * rest;

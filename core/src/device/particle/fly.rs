@@ -6,7 +6,7 @@
 
 use super::air::{AIR_LINEAR, AIR_MASSLESS, AIR_STOKES, AIR_VACUUM, air_drag};
 use super::force::{force_pull, force_swirl, force_turn};
-use super::record::{POPULATION_PULLED, POPULATION_SWIRLED, POPULATION_TURNED};
+use super::record::{POPULATION_MUTUAL, POPULATION_PULLED, POPULATION_SWIRLED, POPULATION_TURNED};
 use crate::arith::lane::{Mask, Real};
 use crate::arith::vector::Vec3;
 use crate::blocks::PopulationBlock;
@@ -32,13 +32,14 @@ fn whole_speed<R: Real>(speed: R) -> R {
 }
 
 /// A particle after a free step. Linear drag is exact; other places follow from the mean of both velocities. Forces act where half a
-/// step takes the particle: with that mean a step is the leapfrog's, which keeps orbits.
+/// step takes the particle: with that mean a step is the leapfrog's, which keeps orbits. `mutual` is the acceleration by others of the population.
 #[inline(always)]
 pub fn particle_fly<R: Real>(
     cx: &Context<'_>,
     population: &PopulationBlock,
     start: ParticleFlight<R>,
     air: [R; 2],
+    mutual: Vec3<R>,
 ) -> ParticleFlight<R> {
     let ParticleFlight { position, velocity } = start;
     let dt = position.x.all(cx.scene.dt_s);
@@ -52,6 +53,9 @@ pub fn particle_fly<R: Real>(
         let mut pull = Vec3::new(none, position.x.all(-population.gravity_m_s2), none);
         if (population.flags & POPULATION_PULLED) != 0 {
             pull = pull + force_pull(cx, population, position + velocity * half);
+        }
+        if (population.flags & POPULATION_MUTUAL) != 0 {
+            pull = pull + mutual;
         }
         let mut wind = Vec3::<f32>::ZERO.spread(none);
         if population.air != AIR_VACUUM {

@@ -4,12 +4,13 @@
 //!
 //! Forces on particles besides weight and drag: rows of a table, those that a population feels one after another.
 
-use crate::arith::lane::{Mask, Real};
+use crate::arith::lane::Real;
 use crate::arith::math::{inverse_sqrt, reciprocal};
 use crate::arith::vector::{TINY_SQUARED, Vec3, vec3_cross, vec3_dot};
 use crate::blocks::PopulationBlock;
 use crate::context::Context;
 use crate::device::wind::turbulence::turbulence_in_cells;
+use crate::device::wind::vortex::swirl_profile;
 use crate::layout::Uint4;
 
 crate::shared_constants! {
@@ -24,10 +25,6 @@ crate::shared_constants! {
     /// Turn of the place about an axis: numbers are the angle of a step, cells of a radius per m, and d of the profile; vectors are
     /// centre and axis.
     pub const FORCE_SWIRL: u32 = 3;
-    /// Profile of a swirl that ends at its radius.
-    pub const SWIRL_COMPACT: u32 = 3;
-    /// Square of the least distance from its axis, in radii, from which on a swirl grows no more.
-    pub const SWIRL_LEAST_SQUARED: f32 = 0.01;
     /// Largest angle of a swirl in a step, in radians.
     pub const SWIRL_MOST: f32 = 0.5;
 }
@@ -124,23 +121,3 @@ const SWIRL_TAN_3: f32 = 0.333_333_34;
 const SWIRL_TAN_5: f32 = 0.133_333_34;
 /// Series of the tangent, h^7.
 const SWIRL_TAN_7: f32 = 0.053_968_254;
-
-/// Angle of a swirl over that of its number, so many squared radii from its axis.
-#[inline(always)]
-pub fn swirl_profile<R: Real>(profile: u32, widening: f32, squared: R) -> R {
-    let one = squared.all(1.0);
-    if profile == SWIRL_COMPACT {
-        let inside = squared.less_than(one);
-        let left = one - squared;
-        let share = (left * left) * reciprocal(squared * widening + 1.0);
-        return inside.select_real(share, squared.all(0.0));
-    }
-    let least = squared.max(squared.all(SWIRL_LEAST_SQUARED));
-    if profile == 0 {
-        one
-    } else if profile == 1 {
-        inverse_sqrt(least)
-    } else {
-        reciprocal(least)
-    }
-}

@@ -7,6 +7,7 @@ pub mod birth;
 pub mod draw;
 pub mod fly;
 pub mod force;
+pub mod mutual;
 pub mod record;
 pub mod step;
 pub mod strike;

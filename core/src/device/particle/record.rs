@@ -48,6 +48,8 @@ crate::shared_constants! {
     pub const POPULATION_TURNED: u32 = 4;
     /// Flag of a population: some of its forces move places.
     pub const POPULATION_SWIRLED: u32 = 8;
+    /// Flag of a population: its particles attract one another.
+    pub const POPULATION_MUTUAL: u32 = 16;
     /// Particles pass through what is in the way.
     pub const MEETS_NOTHING: u32 = 0;
     /// They die there.

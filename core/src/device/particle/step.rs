@@ -83,9 +83,14 @@ pub fn rest_is_checked(cx: &Context<'_>, slot: u32) -> bool {
     ((cx.step.index + slot) & 7) == 0
 }
 
-/// Steps the particle in a slot.
+/// Steps the particle in a slot, on which others of its population act with an acceleration.
 #[inline(always)]
-pub fn particle_step(cx: &Context<'_>, particle: &mut ParticleMut<'_>, slot: u32) -> ParticleChange {
+pub fn particle_step(
+    cx: &Context<'_>,
+    particle: &mut ParticleMut<'_>,
+    slot: u32,
+    mutual: Vec3,
+) -> ParticleChange {
     let mut change = ParticleChange::default();
     let number = particle_population(particle.place.bits);
     let population = &cx.scene.populations[number as usize];
@@ -115,7 +120,9 @@ pub fn particle_step(cx: &Context<'_>, particle: &mut ParticleMut<'_>, slot: u32
         position: particle.place.position.into(),
         velocity: particle.motion.velocity.into(),
     };
-    let mut end = particle_fly(cx, population, start, particle.traits.air);
+    // The newborn feels others from its next step on.
+    let mutual = if among == NEVER { mutual } else { Vec3::ZERO };
+    let mut end = particle_fly(cx, population, start, particle.traits.air, mutual);
     let time = cx.scene.dt_s * rest;
     if rest < 1.0 {
         end.position = start.position + (end.position - start.position) * rest;

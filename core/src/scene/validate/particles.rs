@@ -9,8 +9,8 @@ use crate::SceneError;
 use crate::motion::AIR_DENSITY;
 use crate::scene::limits::{self, Limit};
 use crate::scene::{
-    Air, Bounds, Direction, Force, ForceKind, Look, MAX_FORCES, MAX_PARTICLES, MAX_POPULATIONS, Meets,
-    ObjectFriction, ParticleRelease, ParticleShape, Particles, STANDARD_GRAVITY_M_S2, Scene, Spread,
+    Air, Bounds, Direction, Force, ForceKind, Look, MAX_FORCES, MAX_MUTUAL, MAX_PARTICLES, MAX_POPULATIONS,
+    Meets, ObjectFriction, ParticleRelease, ParticleShape, Particles, STANDARD_GRAVITY_M_S2, Scene, Spread,
     SwirlProfile, VISCOSITY_PA_S,
 };
 
@@ -70,6 +70,20 @@ impl Scene {
             at.holds(!is_lorentz || particles.charge_c_kg != 0.0, &field, || {
                 (format!("{name:?}, which acts on charges"), "a charge_c_kg other than zero with it".into())
             })?;
+            if matches!(force.of, ForceKind::Mutual { .. }) {
+                at.holds(particles.count <= MAX_MUTUAL, "count", || {
+                    (particles.count.to_string(), format!("at most {MAX_MUTUAL} that attract one another"))
+                })?;
+                at.holds(particles.first_birth_s() >= 0.0, "release.from_s", || {
+                    let found = particles.first_birth_s().to_string();
+                    (found, "0 or later, where particles attract one another".into())
+                })?;
+                let kinds = particles.feels[..index].iter().filter_map(|name| {
+                    self.forces.iter().find(|force| force.name == *name).map(|force| force.of)
+                });
+                let is_first = !kinds.into_iter().any(|kind| matches!(kind, ForceKind::Mutual { .. }));
+                at.holds(is_first, &field, || (format!("{name:?}"), "one Mutual force at most".into()))?;
+            }
             let is_swirl = matches!(force.of, ForceKind::Swirl { .. });
             at.holds(is_swirl || particles.air != Air::Massless, &field, || {
                 (format!("{name:?}, which acts on a mass"), "Swirl alone, where air is Massless".into())
@@ -91,6 +105,10 @@ impl Force {
                     ("softening_m", softening_m.into(), limits::SOFTENING_M),
                 ])
             }
+            ForceKind::Mutual { gm_m3_s2, softening_m } => at.numbers([
+                ("gm_m3_s2", gm_m3_s2.into(), limits::GM_M3_S2),
+                ("softening_m", softening_m.into(), limits::SOFTENING_M),
+            ]),
             ForceKind::Noise { m_s2, cell_m } => at.numbers([
                 ("m_s2", m_s2.into(), limits::NOISE_M_S2),
                 ("cell_m", cell_m.into(), limits::CELL_M),
@@ -200,6 +218,14 @@ impl Particles {
             }
         }
         self.look.check(&at.inside("look"))
+    }
+
+    /// Time of the first birth in seconds.
+    fn first_birth_s(&self) -> f32 {
+        match self.release {
+            ParticleRelease::Burst { at_s } => at_s,
+            ParticleRelease::Rate { from_s, .. } | ParticleRelease::Poisson { from_s, .. } => from_s,
+        }
     }
 
     /// Reynolds number of the largest particle that settles by Stokes' law in standard gravity.

@@ -149,8 +149,16 @@ prop_compose! {
         core_m in within(limits::CORE_M),
         axial_m_s in within(limits::AXIAL_M_S),
         drift_m_s in vector(limits::DRIFT_M_S),
+        (kind, d) in (0u32..6, within(limits::SWIRL_D)),
     ) -> Vortex {
-        Vortex { center_m, axis, circulation_m2_s, core_m, axial_m_s, drift_m_s }
+        let profile = match kind {
+            0..=2 => VortexProfile::Power { alpha: kind },
+            3 => VortexProfile::Compact { d },
+            _ => VortexProfile::Kaufmann,
+        };
+        let points = 4 * (kind % 2);
+        let spline_m = (0..points).map(|number| center_m * 0.5 + axis * (0.5 * number as f32)).collect();
+        Vortex { center_m, axis, circulation_m2_s, core_m, axial_m_s, drift_m_s, profile, spline_m }
     }
 }
 
