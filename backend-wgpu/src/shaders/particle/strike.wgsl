@@ -140,13 +140,14 @@ fn struck_velocity(
     pressing: f32,
     rest_m_s: f32,
 ) -> vec3<f32> {
-    let closing = max(-vec3_dot(relative, normal), 0.0);
+    let leaving = vec3_dot(relative, normal);
+    let closing = max(-leaving, 0.0);
     let push = closing * (restitution + 1.0);
-    let left = relative + normal * push;
-    let sliding = left - normal * vec3_dot(left, normal);
+    let rebound = normal * select(leaving, closing * restitution, leaving < 0.0);
+    let sliding = relative - normal * leaving;
     let squared = vec3_dot(sliding, sliding);
-    if (squared < TINY_SQUARED) {
-        return left - sliding;
+    if (squared < STILL_SQUARED) {
+        return rebound;
     }
     let inverse = inverse_sqrt(squared);
     let speed = squared * inverse;
@@ -155,7 +156,10 @@ fn struck_velocity(
         let share = scene.populations[number].friction * speed;
         drag = select(share, max(drag, share), speed < rest_m_s);
     }
-    return left - sliding * (inverse * min(drag, speed));
+    if (speed <= drag) {
+        return rebound;
+    }
+    return rebound + sliding * (1.0 - inverse * drag);
 }
 
 fn wedged_velocity(velocity: vec3<f32>, first: vec3<f32>, second: vec3<f32>, third: vec3<f32>) -> vec3<f32> {
@@ -231,7 +235,7 @@ fn particle_contact(number: u32, start: ParticleFlight, end: ParticleFlight, sec
             velocity = kept + surface.velocity;
             passage.start = place + normal * STRIKE_GAP_M;
             passage.way = ((sliding + kept) * 0.5 + surface.velocity) * left + pull * ((0.5 * left) * left);
-            if (vec3_dot(kept, kept) < TINY_SQUARED && surface.is_still) {
+            if (vec3_dot(kept, kept) < STILL_SQUARED && surface.is_still) {
                 contact.held_by = strike.number;
             }
         }

@@ -32,6 +32,8 @@ crate::shared_constants! {
     pub const BEND_ROUNDS: u32 = 6;
     /// Most pieces of a way, each no longer than the reach of the lists of solid parts.
     pub const MOST_PIECES: u32 = 64;
+    /// Squared speed in m²/s² along a surface below which there is none.
+    pub const STILL_SQUARED: f32 = 1e-12;
     /// Overlap in m from which on a particle is pushed out.
     pub const PUSHED_M: f32 = 1e-4;
 }
@@ -209,13 +211,14 @@ pub fn struck_velocity(
     pressing: f32,
     rest_m_s: f32,
 ) -> Vec3 {
-    let closing = (-vec3_dot(relative, normal)).max(0.0);
+    let leaving = vec3_dot(relative, normal);
+    let closing = (-leaving).max(0.0);
     let push = closing * (restitution + 1.0);
-    let left = relative + normal * push;
-    let sliding = left - normal * vec3_dot(left, normal);
+    let rebound = normal * (if leaving < 0.0 { closing * restitution } else { leaving });
+    let sliding = relative - normal * leaving;
     let squared = vec3_dot(sliding, sliding);
-    if squared < TINY_SQUARED {
-        return left - sliding;
+    if squared < STILL_SQUARED {
+        return rebound;
     }
     let inverse = inverse_sqrt(squared);
     let speed = squared * inverse;
@@ -224,7 +227,10 @@ pub fn struck_velocity(
         let share = population.friction * speed;
         drag = if speed < rest_m_s { drag.max(share) } else { share };
     }
-    left - sliding * (inverse * drag.min(speed))
+    if speed <= drag {
+        return rebound;
+    }
+    rebound + sliding * (1.0 - inverse * drag)
 }
 
 /// Velocity without what leads into any of the planes that were touched: along the edge of two, none in a corner of three.
@@ -315,7 +321,7 @@ pub fn particle_contact(
             velocity = kept + surface.velocity;
             passage.from = place + normal * STRIKE_GAP_M;
             passage.way = ((sliding + kept) * 0.5 + surface.velocity) * left + pull * ((0.5 * left) * left);
-            if vec3_dot(kept, kept) < TINY_SQUARED && surface.is_still {
+            if vec3_dot(kept, kept) < STILL_SQUARED && surface.is_still {
                 contact.held_by = strike.number;
             }
         }
