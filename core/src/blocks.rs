@@ -228,13 +228,15 @@ crate::shared_struct! {
 
 crate::shared_struct! {
     /// A number that differs from particle to particle: one of its widths is zero.
-    pub struct SpreadBlock, padding 4 {
+    pub struct SpreadBlock {
         /// Mean.
         pub mean: f32,
         /// Half width of a uniform spread.
         pub half_width: f32,
         /// Standard deviation of a normal one.
         pub deviation: f32,
+        /// Zero.
+        pub unused: f32,
     }
 }
 

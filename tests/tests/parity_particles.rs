@@ -189,7 +189,11 @@ fn changes_of_a_constant_or_an_operator_are_noticed() {
         ),
         ("particle/force", "half, force_vector(first + 3u)", "turned, force_vector(first + 3u)"),
         ("particle/force", "SWIRL_TAN_3: f32 = 0.33333334", "SWIRL_TAN_3: f32 = 0.33334334"),
-        ("particle/strike", "leaving, closing * restitution, leaving", "leaving, -closing * restitution, leaving"),
+        (
+            "particle/strike",
+            "leaving, closing * restitution, leaving",
+            "leaving, -closing * restitution, leaving",
+        ),
         ("particle/strike", "turn < MOST_STRIKES", "turn + 1u < MOST_STRIKES"),
         ("particle/strike", "bend * (1.0 - 2.0 * at)", "bend * (1.0 - at)"),
         ("particle/step", "age < life", "age <= life"),

@@ -17,7 +17,7 @@ fn lost_share(x: f32) -> f32 {
 }
 
 fn air_numbers(number: u32, size: u32, a: u32, b: u32) -> vec2<f32> {
-    let ratio = f32(size) * SIZE_UNIT;
+    let ratio = f32(size) * PARTICLE_SIZE_UNIT;
     let drag = spread_draw(scene.populations[number].drag, a, b);
     let air = scene.populations[number].air;
     if (air == AIR_QUADRATIC) {

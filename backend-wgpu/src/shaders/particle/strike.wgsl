@@ -146,7 +146,7 @@ fn struck_velocity(
     let rebound = normal * select(leaving, closing * restitution, leaving < 0.0);
     let sliding = relative - normal * leaving;
     let squared = vec3_dot(sliding, sliding);
-    if (squared < STILL_SQUARED) {
+    if (squared < PARTICLE_STILL_SQUARED) {
         return rebound;
     }
     let inverse = inverse_sqrt(squared);
@@ -235,7 +235,7 @@ fn particle_contact(number: u32, start: ParticleFlight, end: ParticleFlight, sec
             velocity = kept + surface.velocity;
             passage.start = place + normal * STRIKE_GAP_M;
             passage.way = ((sliding + kept) * 0.5 + surface.velocity) * left + pull * ((0.5 * left) * left);
-            if (vec3_dot(kept, kept) < STILL_SQUARED && surface.is_still) {
+            if (vec3_dot(kept, kept) < PARTICLE_STILL_SQUARED && surface.is_still) {
                 contact.held_by = strike.number;
             }
         }

@@ -26,7 +26,7 @@ crate::shared_constants! {
     /// Exponent below which the share that is lost is summed by its own series.
     pub const SMALL_EXPONENT: f32 = 0.34;
     /// Size in 2^-14 of the mean as a share.
-    pub const SIZE_UNIT: f32 = 1.0 / 16384.0;
+    pub const PARTICLE_SIZE_UNIT: f32 = 1.0 / 16384.0;
 }
 
 /// `1 - e^-x` within 3e-7 relative, for positive x.
@@ -43,7 +43,7 @@ pub fn lost_share(x: f32) -> f32 {
 /// The two numbers of its drag that a particle is born with, from its size and two random words.
 #[inline(always)]
 pub fn air_numbers(cx: &Context<'_>, population: &PopulationBlock, size: u32, a: u32, b: u32) -> [f32; 2] {
-    let ratio = size as f32 * SIZE_UNIT;
+    let ratio = size as f32 * PARTICLE_SIZE_UNIT;
     let drag = spread_draw(population.drag, a, b);
     if population.air == AIR_QUADRATIC {
         return [drag * reciprocal(ratio), 0.0];

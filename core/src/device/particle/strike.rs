@@ -33,7 +33,7 @@ crate::shared_constants! {
     /// Most pieces of a way, each no longer than the reach of the lists of solid parts.
     pub const MOST_PIECES: u32 = 64;
     /// Squared speed in m²/s² along a surface below which there is none.
-    pub const STILL_SQUARED: f32 = 1e-12;
+    pub const PARTICLE_STILL_SQUARED: f32 = 1e-12;
     /// Overlap in m from which on a particle is pushed out.
     pub const PUSHED_M: f32 = 1e-4;
 }
@@ -217,7 +217,7 @@ pub fn struck_velocity(
     let rebound = normal * (if leaving < 0.0 { closing * restitution } else { leaving });
     let sliding = relative - normal * leaving;
     let squared = vec3_dot(sliding, sliding);
-    if squared < STILL_SQUARED {
+    if squared < PARTICLE_STILL_SQUARED {
         return rebound;
     }
     let inverse = inverse_sqrt(squared);
@@ -321,7 +321,7 @@ pub fn particle_contact(
             velocity = kept + surface.velocity;
             passage.from = place + normal * STRIKE_GAP_M;
             passage.way = ((sliding + kept) * 0.5 + surface.velocity) * left + pull * ((0.5 * left) * left);
-            if vec3_dot(kept, kept) < STILL_SQUARED && surface.is_still {
+            if vec3_dot(kept, kept) < PARTICLE_STILL_SQUARED && surface.is_still {
                 contact.held_by = strike.number;
             }
         }
