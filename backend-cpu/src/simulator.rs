@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The CPU simulator.
 
+use std::sync::atomic::AtomicU32;
 use std::sync::{Arc, Mutex};
 
 use rayon::{ThreadPool, ThreadPoolBuilder};
@@ -14,9 +15,11 @@ use crate::collision_cells::CollisionCells;
 use crate::exposed::ExposedLeaves;
 use crate::kernels::CHUNK;
 use crate::kernels::measure::measure;
+use crate::kernels::pull_particles::pull_particles;
 use crate::kernels::stack_litter::{LitterChanges, stack_litter};
 use crate::kernels::step_collisions::step_collisions;
 use crate::kernels::step_leaves::{LeafSteps, step_leaves};
+use crate::kernels::step_particles::step_particles;
 use crate::kernels::step_trees::{BatchRun, step_trees};
 use crate::quiet::QuietUnits;
 use crate::simd::Simd;
@@ -25,6 +28,9 @@ use crate::simd::sway_scratch::Scratch;
 
 /// Most steps that a chunk of leaves goes through before the next chunk.
 const MOST_FUSED: usize = 8;
+
+/// Particles that are stepped before another thread would have woken up.
+const SMALL_PARTICLES: usize = CHUNK / 4;
 
 /// Options of the CPU simulator.
 #[derive(Clone, Copy, Debug, Default)]
@@ -44,6 +50,8 @@ pub struct CpuSimulator {
     quiet: QuietUnits,
     exposed: ExposedLeaves,
     cells: CollisionCells,
+    /// Accelerations of particles by others; empty where none attract one another.
+    pulls: Vec<[f32; 4]>,
     /// None where threads cannot be started: there the caller's does everything.
     pool: Option<ThreadPool>,
     simd: Simd,
@@ -66,7 +74,8 @@ impl CpuSimulator {
         let exposed = ExposedLeaves::new(world.leaves.len());
         let (world, blocks, scratches) = (world.clone(), Vec::new(), Vec::new());
         let cells = CollisionCells::default();
-        let mut simulator = Self { world, blocks, scratches, quiet, exposed, cells, pool, simd };
+        let mut simulator =
+            Self { world, blocks, scratches, quiet, exposed, cells, pulls: Vec::new(), pool, simd };
         let forest = Arc::clone(simulator.world.compiled.forest());
         simulator.plant(&forest);
         Ok(simulator)
@@ -135,18 +144,21 @@ impl Simulator for CpuSimulator {
     }
 
     fn step(&mut self, count: u32) -> Result<(), SimError> {
-        let World { compiled, clock, leaves, branches, bed } = &mut self.world;
+        let World { compiled, clock, leaves, branches, bed, particles, tallies } = &mut self.world;
         let (simd, blocks, scratches, quiet) = (self.simd, &self.blocks, &self.scratches, &self.quiet);
         let has_litter = !bed.is_empty();
         let (changes, exposed) = (LitterChanges::default(), &self.exposed);
         if compiled.block().has_living_litter() && self.cells.is_empty() {
             self.cells = CollisionCells::new();
         }
-        let cells = &self.cells;
+        let (cells, pulls) = (&self.cells, &mut self.pulls);
+        let is_mutual = compiled.block().has_mutual();
         let forest = Arc::clone(compiled.forest());
-        let is_small = leaves.len() <= CHUNK && forest.len() <= CHUNK / 16;
+        let is_small =
+            leaves.len() <= CHUNK && forest.len() <= CHUNK / 16 && particles.len() <= SMALL_PARTICLES;
+        let sums: Vec<AtomicU32> = tallies.count.iter().map(|&count| AtomicU32::new(count)).collect();
         let last = clock.step().saturating_add(count).saturating_sub(1);
-        if forest.is_empty() && !has_litter && quiet.are_all_quiet(last) {
+        if forest.is_empty() && particles.is_empty() && !has_litter && quiet.are_all_quiet(last) {
             (0..count).for_each(|_| compiled.advance(clock));
             return Ok(());
         }
@@ -163,6 +175,11 @@ impl Simulator for CpuSimulator {
             }
             let steps = step_blocks.each_ref().map(|block| compiled.context(block).over(&bed.words));
             let steps = &steps[..count];
+            if is_mutual && let [cx] = steps {
+                pulls.resize(particles.len(), [0.0; 4]);
+                pull_particles(cx, particles, pulls, simd);
+            }
+            step_particles(steps, particles.as_mut(), 0, pulls, &sums, simd);
             // With litter it is one step.
             if let [cx] = steps
                 && cx.scene.collides(cx.step.index)
@@ -199,8 +216,8 @@ impl Simulator for CpuSimulator {
         let mut steps = || {
             let mut left = count as usize;
             while left > 0 {
-                // Leaves see what others have left in the litter a step before.
-                let portion = left.min(if has_litter { 1 } else { MOST_FUSED });
+                // Leaves see what others have left in the litter a step before, and particles where others are.
+                let portion = left.min(if has_litter || is_mutual { 1 } else { MOST_FUSED });
                 run(portion);
                 left -= portion;
             }
@@ -210,6 +227,7 @@ impl Simulator for CpuSimulator {
             Some(pool) if !is_small => pool.install(steps),
             _ => steps(),
         }
+        tallies.count = sums.into_iter().map(AtomicU32::into_inner).collect();
         Ok(())
     }
 

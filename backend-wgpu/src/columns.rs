@@ -3,6 +3,7 @@
 //! The stores of a world as GPU buffers.
 
 use windfall_core::leaf::Leaves;
+use windfall_core::particle::ParticleStore;
 use windfall_core::store::{Store, StoreSize, check_sizes};
 use windfall_core::tree::record::{BRANCH_BASE, BRANCH_POSE};
 use windfall_core::{SimError, World};
@@ -23,6 +24,8 @@ pub struct WorldColumns<'a> {
     pub leaves: LeafColumns<'a>,
     /// The segments of trees; `None` in a world without trees.
     pub branches: Option<BranchColumns<'a>>,
+    /// The particles; `None` in a world without any.
+    pub particles: Option<ParticleColumns<'a>>,
 }
 
 /// Borrowed leaf columns: one 16-byte record per leaf in each buffer (see `windfall_core::leaf`), usable as vertex
@@ -52,6 +55,21 @@ pub struct BranchColumns<'a> {
     /// Orientation: unit quaternion x, y, z, w from the segment's frame, y along it, to the world's.
     pub pose: wgpu::BufferBinding<'a>,
     /// Number of segments.
+    pub count: u32,
+}
+
+/// Borrowed columns of particles (see `windfall_core::particle`): one 16-byte record per slot in each buffer, population after
+/// population, usable as vertex and storage buffers on the device they were made on.
+#[derive(Clone, Copy, Debug)]
+pub struct ParticleColumns<'a> {
+    /// `ParticlePlace`: x, y, z in metres as `f32`; `u32` of state, population and hits.
+    pub place: &'a wgpu::Buffer,
+    /// `ParticleMotion`: velocity x, y, z in m/s as `f32`; `u32` step of birth, two's complement.
+    pub motion: &'a wgpu::Buffer,
+    /// `ParticleTraits`: `u32` number; `u32` life in steps (low half) and size in 2^-14 of the population's mean (high half); two
+    /// numbers of its drag.
+    pub traits: &'a wgpu::Buffer,
+    /// Number of slots.
     pub count: u32,
 }
 
@@ -206,6 +224,15 @@ impl<'a> LeafColumns<'a> {
     }
 }
 
+impl<'a> ParticleColumns<'a> {
+    /// The columns of a store of particles; `None` without any.
+    pub fn of(particles: &'a StoreBuffers) -> Option<Self> {
+        debug_assert_eq!(particles.size.store, ParticleStore::NAME, "buffers of particles");
+        let [place, motion, traits] = [0, 1, 2].map(|column| particles.buffer(column));
+        (particles.rows() > 0).then(|| Self { place, motion, traits, count: particles.rows() })
+    }
+}
+
 /// Buffers for all stores of a world.
 #[derive(Debug)]
 pub struct WorldBuffers {
@@ -255,7 +282,11 @@ impl WorldBuffers {
         let count = self.branches().rows();
         let column = |column: u32| self.branches().window(column as usize, 0, count);
         let branches = || BranchColumns { base: column(BRANCH_BASE), pose: column(BRANCH_POSE), count };
-        WorldColumns { leaves: LeafColumns::of(self.leaves()), branches: (count > 0).then(branches) }
+        WorldColumns {
+            leaves: LeafColumns::of(self.leaves()),
+            branches: (count > 0).then(branches),
+            particles: ParticleColumns::of(self.particles()),
+        }
     }
 
     /// Keeps the bed of litter within a buffer from an offset on, where kernels find it.
@@ -274,6 +305,16 @@ impl WorldBuffers {
     /// The leaves, the first store of a world.
     pub(crate) fn leaves(&self) -> &StoreBuffers {
         &self.stores[0]
+    }
+
+    /// The particles, the fourth store of a world.
+    pub(crate) fn particles(&self) -> &StoreBuffers {
+        &self.stores[3]
+    }
+
+    /// The counts of what has happened to particles, the fifth store of a world.
+    pub(crate) fn tallies(&self) -> &StoreBuffers {
+        &self.stores[4]
     }
 
     /// The segments of trees, the second store of a world.

@@ -32,10 +32,14 @@ pub(crate) enum GroupLayout {
     Level,
     /// Segments that carry leaves.
     Carriers,
+    /// A run of particles, the columns of its page, and the counts of what happens to them.
+    Particles,
+    /// A population whose particles attract one another, and their accelerations.
+    Mutual,
 }
 
 impl GroupLayout {
-    const ALL: [Self; 9] = [
+    const ALL: [Self; 11] = [
         Self::Leaves,
         Self::LeavesInMotion,
         Self::LeavesOnTwigs,
@@ -45,6 +49,8 @@ impl GroupLayout {
         Self::Blocks,
         Self::Level,
         Self::Carriers,
+        Self::Particles,
+        Self::Mutual,
     ];
 
     /// Resources, binding by binding.
@@ -64,6 +70,10 @@ impl GroupLayout {
             Self::Level => &[BlockOfMany, Read, Read, Write, Write, Read],
             // The bindings of shaders/leaf/carrier_bindings.wgsl.
             Self::Carriers => &[Block, Read, Write],
+            // The bindings of shaders/particle/bindings.wgsl.
+            Self::Particles => &[BlockOfMany, Write, Write, Write, Write, Read],
+            // The bindings of shaders/particle/mutual_bindings.wgsl.
+            Self::Mutual => &[BlockOfMany, Read, Read, Write],
         }
     }
 }
@@ -75,6 +85,8 @@ impl KernelId {
             Self::SwayInward | Self::SwayOutward | Self::SwayGather | Self::SwayFollow | Self::SwayCoast => {
                 &[GroupLayout::Blocks, GroupLayout::Level]
             }
+            Self::StepParticles => &[GroupLayout::Blocks, GroupLayout::Particles],
+            Self::PullParticles => &[GroupLayout::Blocks, GroupLayout::Mutual],
             Self::Carry => &[GroupLayout::LeavesOnTwigs, GroupLayout::WrittenBuffer, GroupLayout::Carriers],
             Self::ListActive | Self::Measure => &[GroupLayout::LeavesInMotion, GroupLayout::WrittenBuffer],
             Self::WakeLying => &[GroupLayout::LeavesInMotion, GroupLayout::WrittenBuffer],
@@ -101,6 +113,12 @@ impl KernelId {
         if compiled.block().has_living_litter() {
             kernels.extend([Self::WakeLying, Self::StackLitter]);
             kernels.extend([Self::GatherCollisions, Self::Collide, Self::ClearCollisions]);
+        }
+        if compiled.scene().particle_count() > 0 {
+            kernels.push(Self::StepParticles);
+        }
+        if compiled.block().has_mutual() {
+            kernels.push(Self::PullParticles);
         }
         if !compiled.forest().is_empty() {
             kernels.extend([Self::Carry, Self::SwayCoast]);

@@ -3,7 +3,7 @@
 //! The generated head of every shader: structs and constants, from their one statement in `windfall-core`.
 
 use windfall_core::layout::WgslStruct;
-use windfall_core::{arith, blocks, device, flight, leaf, motion, stats, tree};
+use windfall_core::{arith, blocks, device, flight, leaf, motion, particle, stats, tree};
 
 /// Invocations per workgroup.
 pub const WORKGROUP_SIZE: u32 = 256;
@@ -47,6 +47,9 @@ pub(crate) fn structs() -> String {
         blocks::SolidsBlock::declaration(),
         blocks::ResponseBlock::declaration(),
         flight::block::BodyBlock::declaration(),
+        blocks::SpreadBlock::declaration(),
+        blocks::PopulationBlock::declaration(),
+        blocks::BirthBlock::declaration(),
         blocks::SceneBlock::declaration(),
         blocks::VortexBlock::declaration(),
         blocks::JetBlock::declaration(),
@@ -59,6 +62,10 @@ pub(crate) fn structs() -> String {
         tree::record::CarryBlock::declaration(),
         leaf::Petiole::declaration(),
         device::leaf::collide::CollisionSums::declaration(),
+        particle::ParticlePlace::declaration(),
+        particle::ParticleMotion::declaration(),
+        particle::ParticleTraits::declaration(),
+        particle::ParticleRun::declaration(),
         records(),
     ]
     .concat()
@@ -96,6 +103,11 @@ pub(crate) fn constants() -> String {
         device::leaf::wake::wgsl_constants(),
         device::motion::feature::wgsl_constants(),
         device::motion::lookup::wgsl_constants(),
+        device::particle::air::wgsl_constants(),
+        device::particle::birth::wgsl_constants(),
+        device::particle::force::wgsl_constants(),
+        device::particle::record::wgsl_constants(),
+        device::particle::strike::wgsl_constants(),
         motion::table::wgsl_constants(),
         stats::wgsl_constants(),
         tree::record::wgsl_constants(),
@@ -114,6 +126,7 @@ pub(crate) fn constants() -> String {
         device::wind::shelter::wgsl_constants(),
         device::wind::slipstream::wgsl_constants(),
         device::wind::turbulence::wgsl_constants(),
+        device::wind::vortex::wgsl_constants(),
     ];
     let declarations: String = lists.into_iter().flatten().map(|(_, declaration)| declaration).collect();
     format!("const WORKGROUP_SIZE: u32 = {WORKGROUP_SIZE}u;\n{declarations}")

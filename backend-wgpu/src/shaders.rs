@@ -46,11 +46,15 @@ pub enum KernelId {
     SwayCoast,
     /// Carries leaves along with their twigs, and breaks petioles.
     Carry,
+    /// Moves particles through one step.
+    StepParticles,
+    /// Sums the attractions of particles by one another.
+    PullParticles,
 }
 
 impl KernelId {
     /// All kernels.
-    pub const ALL: [Self; 17] = [
+    pub const ALL: [Self; 19] = [
         Self::ListActive,
         Self::GatherCollisions,
         Self::Collide,
@@ -68,6 +72,8 @@ impl KernelId {
         Self::SwayFollow,
         Self::SwayCoast,
         Self::Carry,
+        Self::StepParticles,
+        Self::PullParticles,
     ];
 
     /// Name of the file and of the entry point.
@@ -90,6 +96,8 @@ impl KernelId {
             Self::SwayFollow => "sway_follow",
             Self::SwayCoast => "sway_coast",
             Self::Carry => "carry",
+            Self::StepParticles => "step_particles",
+            Self::PullParticles => "pull_particles",
         }
     }
 }
@@ -143,7 +151,9 @@ impl Default for Shaders {
             "kernels/fly",
             "kernels/gather_collisions",
             "kernels/measure",
+            "kernels/pull_particles",
             "kernels/stack_litter",
+            "kernels/step_particles",
             "kernels/wake_lying",
             "kernels/sway_coast",
             "kernels/sway_inward",
@@ -178,6 +188,17 @@ impl Default for Shaders {
             "lists/turns",
             "motion/feature",
             "motion/lookup",
+            "particle/air",
+            "particle/birth",
+            "particle/bindings",
+            "particle/draw",
+            "particle/fly",
+            "particle/force",
+            "particle/mutual",
+            "particle/mutual_bindings",
+            "particle/record",
+            "particle/step",
+            "particle/strike",
             "solid/distance",
             "solid/grid",
             "solid/hull",

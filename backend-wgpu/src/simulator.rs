@@ -20,6 +20,7 @@ use crate::buffers::{buffer, group, table};
 use crate::columns::{WorldBuffers, WorldColumns};
 use crate::forest::ForestBuffers;
 use crate::gpu::{Gpu, describe_adapter};
+use crate::particles::ParticleBindings;
 use crate::pipelines::{GroupLayout, Pipelines};
 use crate::prelude::{MAX_GROUPS, WORKGROUP_SIZE};
 use crate::shaders::{KernelId, Shaders};
@@ -34,7 +35,7 @@ const PAGE_STEP: u32 = 4096;
 pub struct WgpuOptions {
     /// Contract to keep; the closest that the device can when `None`.
     pub contract: Option<Contract>,
-    /// Most leaves in one binding; what the device's bindings and dispatches allow when `None`. For testing the paging of large worlds.
+    /// Most leaves or particles in one binding; what the device's bindings and dispatches allow when `None`. For testing the paging of large worlds.
     pub page_leaves: Option<u32>,
     /// Other shaders than the project's own, for tests that must notice the difference.
     pub shaders: Option<Shaders>,
@@ -55,6 +56,7 @@ pub struct WgpuSimulator {
     step_stride: u32,
     tables: (Arc<[Uint4]>, wgpu::Buffer),
     forest: Option<ForestBuffers>,
+    particles: Option<ParticleBindings>,
     counters: wgpu::Buffer,
     counters_group: wgpu::BindGroup,
     pages: Vec<Page>,
@@ -112,6 +114,7 @@ impl WgpuSimulator {
             step_stride,
             tables,
             forest: None,
+            particles: None,
             counters,
             counters_group,
             pages: Vec::new(),
@@ -120,6 +123,7 @@ impl WgpuSimulator {
         };
         simulator.plant();
         simulator.bind_pages();
+        simulator.bind_particles();
         simulator.make_collision_cells();
         simulator.write_state(world)?;
         Ok(simulator)
@@ -143,6 +147,19 @@ impl WgpuSimulator {
             let (blocks, branches) = (self.shared_blocks(), self.buffers.branches());
             self.forest = Some(ForestBuffers::new(&self.gpu, &self.pipelines, forest, blocks, branches));
         }
+    }
+
+    /// Binds the columns of the particles.
+    fn bind_particles(&mut self) {
+        let blocks = self.shared_blocks();
+        self.particles = ParticleBindings::new(
+            &self.gpu,
+            &self.pipelines,
+            &self.compiled,
+            blocks,
+            &self.buffers,
+            self.page_leaves,
+        );
     }
 
     /// Bind group that every kernel sees first: blocks and tables.
@@ -200,6 +217,9 @@ impl WgpuSimulator {
         }
         if moved || is_replanted {
             self.bind_pages();
+        }
+        if moved {
+            self.bind_particles();
         }
         self.make_collision_cells();
         Ok(())

@@ -5,9 +5,10 @@
 use std::sync::OnceLock;
 use std::time::{Duration, Instant};
 
-use glam::Vec2;
+use glam::{Vec2, Vec3};
 use windfall_core::scene::{
-    Aerodynamics, FlightModel, Litter, MeanSpeed, Release, SourceShape, Species, Tree,
+    Aerodynamics, Air, Direction, FlightModel, Litter, MeanSpeed, Meets, ObjectFriction, ParticleRelease,
+    ParticleShape, Particles, Release, SourceShape, Species, Spread, Tree,
 };
 use windfall_core::{Contract, Scene, Simulator, World};
 use windfall_cpu::{CpuOptions, CpuSimulator};
@@ -98,6 +99,31 @@ pub fn littered(leaves: u32, edge_m: f32, speed_m_s: f32) -> Scene {
     let leaf_area_index = leaves as f32 * leaf_m2 / (edge_m * edge_m);
     let size_m = Vec2::splat(edge_m + 2.0);
     scene.ground.litter = Some(Litter { size_m, leaf_area_index, ..Litter::default() });
+    scene
+}
+
+/// So many sparks over a lawn that live for two seconds and are born again and again: weight, linear drag in a gusty wind, and bounces
+/// off the ground. One leaf falls beside them.
+pub fn sparks(count: u32) -> Scene {
+    let mut scene = Scene { name: format!("{count} sparks"), ..Scene::default() };
+    scene.sources[0].count = 1;
+    scene.wind.speed = MeanSpeed::MetresPerSecond(4.0);
+    scene.wind.turbulence.intensity = 0.0;
+    scene.wind.turbulence.calm_m_s = 0.0;
+    #[expect(clippy::cast_precision_loss, reason = "a few significant digits")]
+    let per_s = count as f32 / 2.04;
+    scene.particles = vec![Particles {
+        name: "sparks".into(),
+        count,
+        from: ParticleShape::Disc { center_m: Vec3::Y, radius_m: 40.0, axis: Vec3::Y },
+        direction: Direction::Cone { axis: Vec3::Y, half_angle_deg: 40.0 },
+        release: ParticleRelease::Rate { per_s, from_s: -2.0 },
+        speed_m_s: Spread::Uniform(6.0, 2.0),
+        life_s: Some(Spread::Constant(2.0)),
+        air: Air::Linear { time_s: Spread::Uniform(0.6, 0.2) },
+        meets: Meets::Bounce { restitution: 0.5, friction: ObjectFriction::Coulomb(0.3) },
+        ..Particles::default()
+    }];
     scene
 }
 

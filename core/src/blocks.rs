@@ -7,7 +7,9 @@
 
 use crate::flight::block::BodyBlock;
 use crate::layout::{Float4, Uint4};
-use crate::scene::{MAX_JETS, MAX_MOVERS, MAX_SOURCES, MAX_SPECIES, MAX_VORTICES};
+use crate::scene::{
+    MAX_JETS, MAX_MOVERS, MAX_POPULATIONS, MAX_SOURCES, MAX_SPECIES, MAX_VORTICES, SPLINE_SEGMENTS,
+};
 
 crate::shared_struct! {
     /// One species, compiled.
@@ -225,6 +227,98 @@ crate::shared_struct! {
 }
 
 crate::shared_struct! {
+    /// A number that differs from particle to particle: one of its widths is zero.
+    pub struct SpreadBlock {
+        /// Mean.
+        pub mean: f32,
+        /// Half width of a uniform spread.
+        pub half_width: f32,
+        /// Standard deviation of a normal one.
+        pub deviation: f32,
+        /// Zero.
+        pub unused: f32,
+    }
+}
+
+crate::shared_struct! {
+    /// One population of particles, compiled.
+    pub struct PopulationBlock {
+        /// First slot.
+        pub first_slot: u32,
+        /// Number of slots.
+        pub count: u32,
+        /// Kind of the shape that they start from.
+        pub shape: u32,
+        /// Kind of the drag.
+        pub air: u32,
+        /// Centre of that shape, or tip of a cone, in m.
+        pub center_m: [f32; 3],
+        /// Answer to what is in the way.
+        pub meets: u32,
+        /// Way in m from the centre for the first coordinate of a point in the shape, each from -1 to 1.
+        pub span_x_m: [f32; 3],
+        /// 1 if they set off away from the centre, else 0.
+        pub is_outward: u32,
+        /// The same for the second.
+        pub span_y_m: [f32; 3],
+        /// Share of the sphere's radius that the cap of directions is high.
+        pub cap: f32,
+        /// The same for the third.
+        pub span_z_m: [f32; 3],
+        /// Coefficient of restitution.
+        pub restitution: f32,
+        /// Unit vector to the middle of the cap.
+        pub axis: [f32; 3],
+        /// Friction coefficient, or share of the speed along a surface that a hit takes.
+        pub friction: f32,
+        /// Unit vector across it.
+        pub side: [f32; 3],
+        /// Flags, such as [`POPULATION_LOSS`](crate::device::particle::record::POPULATION_LOSS).
+        pub flags: u32,
+        /// Unit vector across both.
+        pub front: [f32; 3],
+        /// Acceleration downward, buoyancy taken off, in m/s².
+        pub gravity_m_s2: f32,
+        /// Least x, y and z in m outside which they die.
+        pub low_m: [f32; 3],
+        /// First row of the forces that they feel.
+        pub first_force_row: u32,
+        /// Largest x, y and z.
+        pub high_m: [f32; 3],
+        /// Number of these forces.
+        pub force_count: u32,
+        /// Product GM of each in m³/s², where they attract one another.
+        pub mutual_gm_m3_s2: f32,
+        /// Squared softening length of that in m².
+        pub mutual_softening_m2: f32,
+        /// Zero.
+        pub unused: [f32; 2],
+        /// Speed at which they set off in m/s.
+        pub speed_m_s: SpreadBlock,
+        /// Life in steps; zero if age does not end it.
+        pub life_steps: SpreadBlock,
+        /// Size in 2^-14 of its mean.
+        pub size: SpreadBlock,
+        /// Time constant in s where drag is linear, for the mean size; drag per m times the step, for the mean size, where it is quadratic.
+        pub drag: SpreadBlock,
+    }
+}
+
+crate::shared_struct! {
+    /// Births of one population in one step.
+    pub struct BirthBlock {
+        /// Number of the first that is born.
+        pub first_id: u32,
+        /// Number of births.
+        pub count: u32,
+        /// Place of the first among the slots of the population.
+        pub first_place: u32,
+        /// 1 if all are born at the step's start, 0 if some time within it.
+        pub is_burst: u32,
+    }
+}
+
+crate::shared_struct! {
     /// Everything that stays the same until the scene is set anew.
     pub struct SceneBlock {
         /// Seed, low and high word.
@@ -308,6 +402,8 @@ crate::shared_struct! {
         pub species: [SpeciesBlock; MAX_SPECIES],
         /// The species as bodies.
         pub bodies: [BodyBlock; MAX_SPECIES],
+        /// The populations of particles.
+        pub populations: [PopulationBlock; MAX_POPULATIONS],
         /// The sources, and behind them the trees and the leaves that lie on the ground from the start as one each.
         pub sources: [SourceBlock; MAX_SOURCES + 2],
     }
@@ -356,6 +452,11 @@ impl SceneBlock {
         self.litter.is_calm != 0
     }
 
+    /// Returns true if particles of some population attract one another.
+    pub fn has_mutual(&self) -> bool {
+        self.populations.iter().any(|population| population.mutual_gm_m3_s2 != 0.0)
+    }
+
     /// Returns true if leaves of some species fly as bodies.
     pub fn has_bodies(&self) -> bool {
         self.has_bodies != 0
@@ -379,7 +480,7 @@ impl SwayBlock {
 
 crate::shared_struct! {
     /// One vortex at one step.
-    pub struct VortexBlock, padding 12 {
+    pub struct VortexBlock {
         /// A point of the axis in m.
         pub center_m: [f32; 3],
         /// Squared core radius in m².
@@ -390,6 +491,14 @@ crate::shared_struct! {
         pub swirl_m2_s: f32,
         /// Axial speed at the centre times squared core radius in m³/s.
         pub axial_m3_s: f32,
+        /// Profile of the speed about the axis.
+        pub profile: u32,
+        /// Number d of a compact one.
+        pub widening: f32,
+        /// 1 if its axis is a curve, else 0.
+        pub is_curved: u32,
+        /// Points of the curve in m, and the inverse of the squared distance from each to the next in 1/m².
+        pub nodes: [Float4; SPLINE_SEGMENTS + 1],
     }
 }
 
@@ -487,6 +596,8 @@ crate::shared_struct! {
         pub moments: [MomentBlock; 2],
         /// Solid parts that move.
         pub movers: [MoverBlock; MAX_MOVERS],
+        /// Births of particles.
+        pub births: [BirthBlock; MAX_POPULATIONS],
         /// Shift of the grid in which leaves collide with each other, in m.
         pub collision_shift_m: [f32; 3],
         /// Index of the step.

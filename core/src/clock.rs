@@ -2,23 +2,32 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Simulated time.
 
-/// Simulated time: a step index times a fixed step, and the way the mean wind has come.
+use crate::scene::MAX_POPULATIONS;
+
+/// Simulated time: a step index times a fixed step, the way the mean wind has come, and the particles that have been born.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Clock {
     step: u32,
     dt_s: f32,
     wind_travel_m: f64,
+    born: [u64; MAX_POPULATIONS],
 }
 
 impl Clock {
     /// Time zero.
     pub fn new(dt_s: f32) -> Self {
-        Self { step: 0, dt_s, wind_travel_m: 0.0 }
+        Self::at(0, dt_s, 0.0)
     }
 
-    /// A moment read from a checkpoint.
+    /// A moment before which no particles were born. Steps before time zero are two's complement.
     pub fn at(step: u32, dt_s: f32, wind_travel_m: f64) -> Self {
-        Self { step, dt_s, wind_travel_m }
+        Self { step, dt_s, wind_travel_m, born: [0; MAX_POPULATIONS] }
+    }
+
+    /// The same moment after so many births in each population.
+    #[must_use]
+    pub fn with_born(self, born: [u64; MAX_POPULATIONS]) -> Self {
+        Self { born, ..self }
     }
 
     /// Index of the next step.
@@ -33,7 +42,7 @@ impl Clock {
 
     /// Seconds since the start.
     pub fn seconds(&self) -> f64 {
-        f64::from(self.step) * f64::from(self.dt_s)
+        f64::from(self.step.cast_signed()) * f64::from(self.dt_s)
     }
 
     /// Metres that the mean wind has travelled since the start.
@@ -41,9 +50,17 @@ impl Clock {
         self.wind_travel_m
     }
 
-    /// One step on, in which the mean wind travels so far.
-    pub(crate) fn advance(&mut self, wind_travel_m: f64) {
+    /// Particles born in each population so far.
+    pub fn born(&self) -> &[u64; MAX_POPULATIONS] {
+        &self.born
+    }
+
+    /// One step on, in which the mean wind travels so far and so many particles are born.
+    pub(crate) fn advance(&mut self, wind_travel_m: f64, births: [u32; MAX_POPULATIONS]) {
         self.step = self.step.wrapping_add(1);
         self.wind_travel_m += wind_travel_m;
+        for (born, births) in self.born.iter_mut().zip(births) {
+            *born += u64::from(births);
+        }
     }
 }

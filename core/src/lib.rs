@@ -41,6 +41,7 @@
 //! - [`leaf`]: the leaf store, and leaves decoded.
 //! - [`device`]: device functions, which have twins in WGSL: the life of a leaf step by step, the sway of trees.
 //! - [`litter`]: leaves that lie on one another.
+//! - [`particle`]: everything else that flies.
 //! - [`solid`]: solid things that leaves strike, part by part.
 //! - [`motion`]: six primitive motions, their tables and the chain that joins them.
 //! - [`flight`]: leaves as rigid bodies under air forces.
@@ -65,6 +66,7 @@ pub mod layout;
 pub mod leaf;
 pub mod litter;
 pub mod motion;
+pub mod particle;
 pub mod scene;
 mod sim;
 pub mod solid;

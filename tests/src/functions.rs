@@ -9,6 +9,7 @@ mod collisions;
 mod flight;
 mod leaf;
 mod litter;
+mod particles;
 mod schemes;
 mod solids;
 mod tree;
@@ -111,4 +112,5 @@ pub fn all() -> impl Iterator<Item = &'static Function> {
         .chain(solids::SOLID_FUNCTIONS)
         .chain(collisions::COLLISION_FUNCTIONS)
         .chain(afloat::AFLOAT_FUNCTIONS)
+        .chain(particles::PARTICLE_FUNCTIONS)
 }

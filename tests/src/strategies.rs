@@ -6,9 +6,10 @@ use glam::{Vec2, Vec3};
 use proptest::prelude::*;
 use windfall_core::motion::Primitive;
 use windfall_core::scene::{
-    Aerodynamics, FlightModel, Foliage, Gusts, Hold, Jet, JetKey, Litter, MeanSpeed, Object, ObjectFriction,
-    ObjectKey, ObjectMotion, ObjectShape, Planform, Profile, Release, Scene, Share, Source, SourceShape,
-    Species, Terrain, Tree, TreeKind, Turbulence, Vortex, Walker, Water, WindParameters,
+    Aerodynamics, Air, Bounds, Direction, FlightModel, Foliage, Force, ForceKind, Gusts, Hold, Jet, JetKey,
+    Litter, MeanSpeed, Meets, Object, ObjectFriction, ObjectKey, ObjectMotion, ObjectShape, ParticleRelease,
+    ParticleShape, Particles, Planform, Profile, Release, Scene, Share, Source, SourceShape, Species, Spread,
+    SwirlProfile, Terrain, Tree, TreeKind, Turbulence, Vortex, VortexProfile, Walker, Water, WindParameters,
 };
 
 use crate::functions::Input;
@@ -114,6 +115,8 @@ pub fn varied_scene(seed: u64, leaves: u32, speed_m_s: f32, dt_s: f32) -> Scene 
                 core_m: 1.5,
                 axial_m_s: 0.5,
                 drift_m_s: Vec3::new(0.2, 0.0, 0.1),
+                profile: VortexProfile::Kaufmann,
+                spline_m: Vec::new(),
             }],
             ..WindParameters::default()
         },
@@ -411,4 +414,126 @@ pub fn scenes(leaves: std::ops::Range<u32>) -> impl Strategy<Value = Scene> {
             scene
         })
         .prop_filter("valid", |scene| scene.validate("random").is_ok())
+}
+
+/// Particles of every kind of shape, birth, drag, force and contact among solid things, some on hills.
+pub fn particle_scene(seed: u64, speed_m_s: f32, dt_s: f32) -> Scene {
+    let mut scene = obstructed_scene(seed, 64, speed_m_s, dt_s);
+    let axis = Vec3::new(0.4, 1.0, -0.2);
+    let force = |name: &str, of: ForceKind| Force { name: name.into(), of };
+    scene.forces = vec![
+        force("sun", ForceKind::Attract { at_m: Vec3::new(0.0, 3.0, 0.0), gm_m3_s2: 4.0, softening_m: 0.2 }),
+        force("noise", ForceKind::Noise { m_s2: 3.0, cell_m: 0.5 }),
+        force(
+            "field",
+            ForceKind::Lorentz { b_t: Vec3::new(0.5, 1.5, 0.0), e_v_m: Vec3::new(0.2, 0.0, -0.4) },
+        ),
+        force("spiral", ForceKind::Spiral { rad_s: 4.0, axis }),
+        force(
+            "swirl",
+            ForceKind::Swirl {
+                at_m: Vec3::new(1.0, 0.0, 0.5),
+                axis,
+                rate_rad_s: 2.5,
+                swirl_radius_m: 1.5,
+                profile: SwirlProfile::Power { alpha: 1 },
+            },
+        ),
+        force(
+            "whirl",
+            ForceKind::Swirl {
+                at_m: Vec3::new(-1.0, 0.0, 0.5),
+                axis: Vec3::Y,
+                rate_rad_s: -5.0,
+                swirl_radius_m: 2.5,
+                profile: SwirlProfile::Compact { d: 0.5 },
+            },
+        ),
+    ];
+    let bounce = |restitution: f32, friction: ObjectFriction| Meets::Bounce { restitution, friction };
+    let cone = |half_angle_deg: f32| Direction::Cone { axis, half_angle_deg };
+    let rate = |per_s: f32, from_s: f32| ParticleRelease::Rate { per_s, from_s };
+    let high = Vec3::new(0.0, 3.0, 0.0);
+    let rows = [
+        Particles {
+            count: 1500,
+            from: ParticleShape::Disc { center_m: high, radius_m: 1.0, axis },
+            direction: cone(40.0),
+            release: ParticleRelease::Poisson { per_s: 400.0, from_s: -1.0 },
+            speed_m_s: Spread::Normal(4.0, 1.0),
+            life_s: Some(Spread::Uniform(1.6, 0.9)),
+            size_m: Spread::Uniform(0.002, 0.001),
+            density_kg_m3: 300.0,
+            air: Air::Quadratic { drag: 1.1 },
+            meets: bounce(0.45, ObjectFriction::Coulomb(0.4)),
+            ..Particles::default()
+        },
+        Particles {
+            count: 900,
+            from: ParticleShape::Box { center_m: high, half_extent_m: Vec3::new(4.0, 0.5, 4.0) },
+            release: rate(300.0, -3.0),
+            life_s: Some(Spread::Constant(2.5)),
+            air: Air::Settling { m_s: Spread::Uniform(5.0, 1.0) },
+            meets: Meets::Die,
+            ..Particles::default()
+        },
+        Particles {
+            count: 700,
+            from: ParticleShape::Line { from_m: Vec3::new(-4.0, 3.0, 0.0), to_m: Vec3::new(4.0, 3.5, 1.0) },
+            release: rate(90.0, -4.0),
+            life_s: Some(Spread::Normal(6.0, 0.3)),
+            air: Air::Settling { m_s: Spread::Constant(1.0) },
+            feels: vec!["swirl".into(), "noise".into()],
+            meets: Meets::Stick,
+            ..Particles::default()
+        },
+        Particles {
+            count: 400,
+            from: ParticleShape::Sphere { center_m: high, radius_m: 1.0, hollow: false },
+            release: ParticleRelease::Burst { at_s: 0.0 },
+            life_s: None,
+            size_m: Spread::Constant(3e-5),
+            air: Air::Stokes,
+            dies: Some(Bounds::Outside { center_m: high, half_extent_m: Vec3::splat(3.0) }),
+            ..Particles::default()
+        },
+        Particles {
+            count: 300,
+            from: ParticleShape::Ring { center_m: Vec3::new(0.0, 0.5, 0.0), radius_m: 1.0, axis: Vec3::Y },
+            direction: Direction::Outward,
+            release: rate(60.0, 0.0),
+            life_s: Some(Spread::Constant(4.0)),
+            air: Air::Massless,
+            feels: vec!["whirl".into()],
+            ..Particles::default()
+        },
+        Particles {
+            count: 300,
+            from: ParticleShape::Sphere { center_m: high, radius_m: 0.5, hollow: true },
+            direction: Direction::Outward,
+            release: ParticleRelease::Burst { at_s: 0.3 },
+            speed_m_s: Spread::Constant(1.5),
+            charge_c_kg: 2.0,
+            air: Air::Linear { time_s: Spread::Uniform(2.0, 1.0) },
+            feels: vec!["field".into(), "sun".into()],
+            meets: bounce(0.8, ObjectFriction::Loss(0.2)),
+            ..Particles::default()
+        },
+        Particles {
+            count: 900,
+            from: ParticleShape::Cone { tip_m: high, base_m: high + axis, radius_m: 0.6 },
+            direction: cone(180.0),
+            release: ParticleRelease::Poisson { per_s: 120.0, from_s: 0.5 },
+            speed_m_s: Spread::Uniform(30.0, 29.0),
+            life_s: Some(Spread::Constant(4.0)),
+            air: Air::Vacuum,
+            feels: vec!["spiral".into()],
+            meets: bounce(0.3, ObjectFriction::Coulomb(0.9)),
+            dies: Some(Bounds::Below(-1.5)),
+            ..Particles::default()
+        },
+    ];
+    scene.particles =
+        (0..).zip(rows).map(|(number, row)| Particles { name: format!("{number}"), ..row }).collect();
+    scene
 }

@@ -7,7 +7,7 @@ mod common;
 use common::{build, many_species, step};
 use glam::Vec3;
 use windfall_core::leaf::LeafState;
-use windfall_core::scene::{MeanSpeed, Profile, Release, Scene, Source, SourceShape, Vortex};
+use windfall_core::scene::{MeanSpeed, Profile, Release, Scene, Source, SourceShape, Vortex, VortexProfile};
 use windfall_core::store::Store;
 use windfall_core::{Simulator, World};
 use windfall_cpu::{CpuOptions, CpuSimulator, Simd};
@@ -56,6 +56,8 @@ fn small_scene() -> Scene {
         core_m: 0.7,
         axial_m_s: 1.0,
         drift_m_s: Vec3::new(0.1, 0.0, 0.0),
+        profile: VortexProfile::Kaufmann,
+        spline_m: Vec::new(),
     }];
     let shapes = [
         SourceShape::Box { center_m: Vec3::new(0.0, 3.0, 0.0), half_extent_m: Vec3::new(3.0, 1.0, 2.0) },

@@ -8,12 +8,14 @@ use std::path::{Path, PathBuf};
 
 use naga::{AddressSpace, TypeInner};
 use windfall_core::blocks::{
-    JetBlock, LitterBlock, MomentBlock, MoverBlock, ResponseBlock, SceneBlock, ShelterBlock, SolidsBlock,
-    SourceBlock, SpeciesBlock, StepBlock, SwayBlock, VortexBlock, WindBlock,
+    BirthBlock, JetBlock, LitterBlock, MomentBlock, MoverBlock, PopulationBlock, ResponseBlock, SceneBlock,
+    ShelterBlock, SolidsBlock, SourceBlock, SpeciesBlock, SpreadBlock, StepBlock, SwayBlock, VortexBlock,
+    WindBlock,
 };
 use windfall_core::flight::block::BodyBlock;
 use windfall_core::layout::WgslStruct;
 use windfall_core::leaf::{Attitude, Drift, Identity, Petiole, Place, Schedule};
+use windfall_core::particle::{ParticleMotion, ParticlePlace, ParticleRun, ParticleTraits};
 use windfall_core::tree::record::{CarryBlock, LevelBlock, SegmentConstants};
 use windfall_wgpu::{KernelId, Shaders};
 
@@ -73,6 +75,13 @@ fn every_module_is_valid_and_every_struct_has_one_layout() {
     same_layout::<LevelBlock>(&module);
     same_layout::<CarryBlock>(&module);
     same_layout::<Petiole>(&module);
+    same_layout::<SpreadBlock>(&module);
+    same_layout::<PopulationBlock>(&module);
+    same_layout::<BirthBlock>(&module);
+    same_layout::<ParticlePlace>(&module);
+    same_layout::<ParticleMotion>(&module);
+    same_layout::<ParticleTraits>(&module);
+    same_layout::<ParticleRun>(&module);
     same_layout::<Place>(&module);
     same_layout::<Drift>(&module);
     same_layout::<Attitude>(&module);
@@ -307,7 +316,13 @@ fn wgsl_files(folder: &Path) -> Vec<PathBuf> {
 }
 
 /// Files without a twin: on the CPU what they declare are arguments.
-const BINDINGS_ONLY: [&str; 3] = ["bindings.wgsl", "leaf/carrier_bindings.wgsl", "tree/bindings.wgsl"];
+const BINDINGS_ONLY: [&str; 5] = [
+    "bindings.wgsl",
+    "leaf/carrier_bindings.wgsl",
+    "particle/bindings.wgsl",
+    "particle/mutual_bindings.wgsl",
+    "tree/bindings.wgsl",
+];
 /// Files of lists, which only a GPU has: the CPU notes which units of slots are idle as it steps them.
 const GPU_ONLY: [&str; 7] = [
     "kernels/list_active.wgsl",

@@ -4,15 +4,15 @@
 
 use std::cell::RefCell;
 
-use glam::Vec2;
+use glam::{Vec2, Vec3};
 use proptest::prelude::*;
 use proptest::test_runner::{Config, TestRunner};
-use windfall_core::scene::Litter;
-use windfall_core::{Contract, World};
+use windfall_core::scene::{Litter, VortexProfile};
+use windfall_core::{Contract, Scene, World};
 use windfall_tests::adapter;
 use windfall_tests::functions::{self, Function};
 use windfall_tests::runner::{FunctionRunner, Words};
-use windfall_tests::strategies::{cases, flying_scene, hilly_scene, jet, obstructed_scene};
+use windfall_tests::strategies::{cases, flying_scene, hilly_scene, jet, obstructed_scene, particle_scene};
 use windfall_wgpu::{Gpu, Shaders};
 
 /// Cases in one dispatch; not a multiple of the workgroup size.
@@ -25,10 +25,17 @@ fn bed() -> Litter {
     Litter { size_m: Vec2::splat(12.0), leaf_area_index: 3.0, adhesion_n_m2: 0.5, ..Litter::default() }
 }
 
+/// Populations of particles, for the functions that read one.
+fn add_particles(scene: &mut Scene) {
+    let with = particle_scene(7, 4.0, 1.0 / 60.0);
+    (scene.particles, scene.forces) = (with.particles, with.forces);
+}
+
 fn world(litter: Option<Litter>) -> World {
     let mut scene = hilly_scene(flying_scene(5, 300, 6.0, 1.0 / 60.0));
     scene.wind.jets = vec![jet()];
     scene.ground.litter = litter;
+    add_particles(&mut scene);
     let mut world = World::build(&scene).expect("the flying scene is valid on hills");
     for _ in 0..100 {
         world.compiled.advance(&mut world.clock);
@@ -53,7 +60,14 @@ fn obstructed() -> World {
     let mut scene = hilly_scene(flying_scene(5, 300, 6.0, 1.0 / 60.0));
     let among = obstructed_scene(6, 300, 4.0, 1.0 / 60.0);
     scene.ground.litter = Some(bed());
+    for vortex in &mut scene.wind.vortices {
+        vortex.profile = VortexProfile::Compact { d: 0.5 };
+        vortex.spline_m =
+            (0..5u8).map(|point| vortex.center_m + Vec3::new(0.3, 1.0, 0.1) * f32::from(point)).collect();
+        vortex.spline_m[2].x += 1.0;
+    }
     (scene.objects, scene.walkers) = (among.objects, among.walkers);
+    add_particles(&mut scene);
     let mut world = World::build(&scene).expect("valid");
     for _ in 0..30 {
         world.compiled.advance(&mut world.clock);
@@ -151,7 +165,13 @@ fn functions_agree_on_every_adapter() {
                     ]
                     .contains(&function.name)
             };
-            for function in functions::all().filter(|function| !decides(function)) {
+            let strikes = |function: &Function| {
+                let names =
+                    ["ground_strike", "bent_share", "wedged_velocity", "particle_contact", "particle_push"];
+                contract == Contract::Tolerant && names.contains(&function.name)
+            };
+            let compared = functions::all().filter(|function| !decides(function) && !strikes(function));
+            for function in compared {
                 if let Err(message) = check(&gpu, contract, &Shaders::default(), function, &world) {
                     failures.push(format!("{} {contract}: {message}", gpu.info().name));
                 }

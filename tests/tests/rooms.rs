@@ -47,7 +47,6 @@ const APP: Order = Order {
 const CORE: Order = Order {
     sources: "core/src",
     rooms: &[
-        "clock",
         "convert",
         "error",
         "layout",
@@ -56,6 +55,7 @@ const CORE: Order = Order {
         "store",
         "hull",
         "scene",
+        "clock",
         "flight",
         "motion",
         "tree",
@@ -72,6 +72,8 @@ const CORE: Order = Order {
         "leaf",
         "device/leaf",
         "device/flight",
+        "device/particle",
+        "particle",
         "device",
         "litter",
         "compile",

@@ -9,6 +9,7 @@ use windfall_core::device::flight::regime::REGIME_NAMES;
 use windfall_core::leaf::{LEAF_BYTES, LeafState};
 use windfall_core::litter::LitterStats;
 use windfall_core::motion::Primitive;
+use windfall_core::particle::ParticleStats;
 use windfall_core::{LeafStats, Simulator, Stats, World};
 
 use crate::run::stepping::Stepping;
@@ -59,6 +60,34 @@ impl From<LitterStats> for LitterReport {
     }
 }
 
+/// A population of particles.
+#[derive(Clone, Debug, Serialize)]
+pub(crate) struct ParticleReport {
+    /// Name of the population.
+    pub name: String,
+    /// Slots.
+    pub slots: u32,
+    /// Particles alive.
+    pub alive: u32,
+    /// Births, those before time zero included.
+    pub born: u32,
+    /// Deaths by age, region or hit.
+    pub died: u32,
+    /// Hits.
+    pub hits: u32,
+    /// Steps in which a particle was stopped by its fourth hit.
+    pub stopped: u32,
+    /// Lives that ended since the slot was needed for the next.
+    pub cut_short: u32,
+}
+
+impl From<ParticleStats> for ParticleReport {
+    fn from(stats: ParticleStats) -> Self {
+        let ParticleStats { name, slots, alive, born, died, hits, stopped, cut_short } = stats;
+        Self { name, slots, alive, born, died, hits, stopped, cut_short }
+    }
+}
+
 /// The outcome of `windfall simulate`. The names of these fields are the keys of its JSON; they stay.
 #[derive(Clone, Debug, Serialize)]
 pub(crate) struct Report {
@@ -82,6 +111,8 @@ pub(crate) struct Report {
     pub trees: TreeReport,
     /// The litter; null without any.
     pub litter: Option<LitterReport>,
+    /// The populations of particles.
+    pub particles: Vec<ParticleReport>,
     /// Mean position over the total.
     pub mean_position_m: [f64; 3],
     /// Mean velocity over the total.
@@ -122,6 +153,7 @@ impl Report {
             leaves: LeafCounts { total, attached, falling, resting, dormant },
             trees,
             litter: world.litter_stats().map(LitterReport::from),
+            particles: world.particle_stats().into_iter().map(ParticleReport::from).collect(),
             mean_position_m,
             mean_velocity_m_s,
             state_hash: format!("{:016x}", world.state_hash()),
@@ -160,6 +192,11 @@ impl Report {
                 "litter",
                 format!("{lies}; {held} held, {afloat} afloat, {sunk} sunk, {awake} awake, {woken} woken"),
             );
+        }
+        for particles in &self.particles {
+            let ParticleReport { name, slots, alive, born, died, hits, stopped, cut_short } = particles;
+            let lives = format!("{alive} of {slots} alive, {born} born, {died} died, {cut_short} cut short");
+            row("particles", format!("{name}: {lives}; {hits} hits, {stopped} stopped"));
         }
         row("motions", motions.join(", "));
         let regimes = REGIME_NAMES.iter().zip(stats.leaves.regimes);

@@ -46,6 +46,8 @@ pub(crate) fn drop_scene(scene: &Scene, file: &str, options: &DropOptions) -> an
         regrow_after_s: None,
         objects: Vec::new(),
         walkers: Vec::new(),
+        particles: Vec::new(),
+        forces: Vec::new(),
         view: View::default(),
         ..scene.clone()
     };

@@ -9,6 +9,7 @@ pub(crate) mod flying_block;
 pub(crate) mod lanes;
 pub(crate) mod leaf_block;
 pub(crate) mod lying_block;
+pub(crate) mod particle_block;
 pub(crate) mod prefetch;
 pub(crate) mod sway_scratch;
 

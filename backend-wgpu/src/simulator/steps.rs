@@ -149,6 +149,10 @@ impl WgpuSimulator {
     /// Encodes step number `index`, whose block lies at `offset`.
     fn encode_step(&self, pass: &mut wgpu::ComputePass<'_>, offset: u32, index: u32) {
         let kernel = |kernel| self.pipelines.kernel(kernel);
+        if let Some(particles) = &self.particles {
+            particles.encode_pulls(pass, || kernel(KernelId::PullParticles), offset);
+            particles.encode(pass, kernel(KernelId::StepParticles), offset);
+        }
         if let Some(cells) = &self.collisions
             && self.compiled.block().collides(index)
         {

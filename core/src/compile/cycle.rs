@@ -53,7 +53,7 @@ impl Cycle {
     ///
     /// # Errors
     /// [`SceneError::Field`] for what cannot repeat: leaves let go once, vortices that travel, jets that move or change,
-    /// objects that move, those who walk. Pictures of a scene may have more
+    /// objects that move, those who walk, particles. Pictures of a scene may have more
     /// that does not, such as a camera that travels.
     pub fn of(scene: &Scene, file: &str, seconds: f64) -> Result<(Scene, Self), SceneError> {
         let refuse = |field: String, value: String, allowed: &str| {
@@ -91,6 +91,10 @@ impl Cycle {
         if !scene.walkers.is_empty() {
             let value = format!("a list of {}", scene.walkers.len());
             return refuse("walkers".into(), value, "nobody who walks");
+        }
+        if !scene.particles.is_empty() {
+            let value = format!("a list of {}", scene.particles.len());
+            return refuse("particles".into(), value, "none");
         }
         if scene.ground.litter.is_some_and(|litter| !litter.still) {
             let allowed = "true, for what leaves do to each other has a memory,";

@@ -8,12 +8,14 @@ mod cycle;
 mod field;
 mod foliage;
 mod jet;
+mod particles;
 mod shelter;
 mod slipstream;
 mod solids;
 mod source;
 mod species;
 mod tables;
+mod vortex;
 mod water;
 mod wind;
 
@@ -26,10 +28,13 @@ use self::cycle::firm;
 pub(crate) use self::foliage::leaf_site;
 use self::foliage::{foliage_of, petiole_rows, seedlings, shed_rows};
 use self::jet::jet_block;
+pub(crate) use self::particles::Births;
+use self::particles::populations_of;
 use self::shelter::{is_sheltered, shelter_inputs, shelter_rows};
 use self::solids::Solids;
 pub(crate) use self::source::{lifetime_steps, release_step};
 use self::tables::{motions_of, pack_motion};
+use self::vortex::vortex_block;
 use crate::arith::rng::{random, seed_words, unit_float};
 use crate::blocks::{JetBlock, MomentBlock, MoverBlock, SceneBlock, StepBlock, VortexBlock};
 use crate::clock::Clock;
@@ -45,6 +50,7 @@ use crate::error::{SceneError, SimError};
 use crate::layout::Uint4;
 use crate::leaf::Leaves;
 use crate::litter::Bed;
+use crate::particle::{ParticleStore, TallyStore};
 use crate::scene::{MAX_MOVERS, Profile, Scene};
 use crate::solid::Solid;
 use crate::store::{StoreSize, check_sizes};
@@ -64,6 +70,7 @@ pub struct CompiledScene {
     tables: Arc<[Uint4]>,
     forest: Arc<Forest>,
     solids: Arc<Solids>,
+    births: Arc<Births>,
     cycle: Option<Cycle>,
 }
 
@@ -118,6 +125,9 @@ impl CompiledScene {
         block.first_petiole_row = len32(tables.len());
         tables.extend(petiole_rows(scene, &forest, &kinds));
         block.solids = solids.tabulate(scene, &block, &mut tables);
+        let (populations, forces) = populations_of(scene, len32(tables.len()));
+        block.populations = populations;
+        tables.extend(forces);
         block.first_motion_row = len32(tables.len());
         tables.extend(pack_motion(&motions));
         block.litter.first_row = len32(tables.len());
@@ -127,11 +137,12 @@ impl CompiledScene {
             tables: tables.into(),
             forest: forest.into(),
             solids: solids.into(),
+            births: Births::of(scene, seed).into(),
             cycle,
         })
     }
 
-    /// The same scene with another wind, season, ground, fall and rotation speed; species, sources, trees, hills, litter but for how
+    /// The same scene with another wind, season, ground, fall and rotation speed; species, sources, trees, particles, hills, litter but for how
     /// it rubs, sticks, bounces and tilts, solid things, seed, step length and gravity stay. Much cheaper than compiling anew.
     pub fn retune(&mut self, scene: &Scene) {
         let keep_trees = (self.scene.trees.clone(), self.scene.tree_kinds.clone());
@@ -148,12 +159,14 @@ impl CompiledScene {
         let (terrain, gravity_m_s2) = (self.scene.ground.terrain, self.scene.gravity_m_s2);
         let litter = self.scene.ground.litter.map(|kept| kept.retuned(scene.ground.litter));
         let solid = (self.scene.objects.clone(), self.scene.walkers.clone());
+        let particles = (self.scene.particles.clone(), self.scene.forces.clone());
         self.scene = scene.clone();
         (self.scene.species, self.scene.sources, self.scene.seed, self.scene.dt_s) = keep;
         (self.scene.trees, self.scene.tree_kinds) = keep_trees;
         (self.scene.ground.terrain, self.scene.gravity_m_s2) = (terrain, gravity_m_s2);
         self.scene.ground.litter = litter;
         (self.scene.objects, self.scene.walkers) = solid;
+        (self.scene.particles, self.scene.forces) = particles;
         if self.scene.autumn != autumn {
             let rows = shed_rows(&self.scene, &foliage_of(&self.scene));
             self.replace_rows(self.block.first_shed_row, &rows);
@@ -183,6 +196,8 @@ impl CompiledScene {
             StoreSize { store: Leaves::NAME, rows: self.scene.leaf_count() as usize },
             StoreSize { store: Branches::NAME, rows: self.forest.len() },
             StoreSize { store: Bed::NAME, rows: Bed::rows_of(&self.block.litter) },
+            StoreSize { store: ParticleStore::NAME, rows: self.scene.particle_count() as usize },
+            StoreSize { store: TallyStore::NAME, rows: TallyStore::rows_of(&self.scene) },
         ]
     }
 
@@ -205,7 +220,7 @@ impl CompiledScene {
     }
 
     /// All tables as rows of four words, one after another: the wind's profile, gusts and turbulence; hills; shelter; chances of
-    /// petioles to break ([`SHED_ROWS`](crate::device::leaf::petiole::SHED_ROWS) for each kind of trees); petioles; solid parts;
+    /// petioles to break ([`SHED_ROWS`](crate::device::leaf::petiole::SHED_ROWS) for each kind of trees); petioles; solid parts; forces on particles;
     /// motion (see [`MotionRows`]). The block holds the first row of each.
     pub fn tables(&self) -> &Arc<[Uint4]> {
         &self.tables
@@ -227,6 +242,7 @@ impl CompiledScene {
         StepBlock {
             moments: [0.0, middle].map(|steps| self.moment_block(clock, steps)),
             movers: self.movers_at(clock.seconds()),
+            births: self.births.blocks(clock.step(), clock.born()),
             collision_shift_m: self.collision_shift_m(clock.step()),
             index: clock.step(),
             vortex_count: len32(self.scene.wind.vortices.len()),
@@ -277,17 +293,7 @@ impl CompiledScene {
         let seconds = clock.seconds() + steps * f64::from(clock.dt_s());
         let mut vortices = [<VortexBlock as bytemuck::Zeroable>::zeroed(); crate::scene::MAX_VORTICES];
         for (vortex, block) in self.scene.wind.vortices.iter().zip(&mut vortices) {
-            let center = vortex.center_m.as_dvec3() + vortex.drift_m_s.as_dvec3() * seconds;
-            let axis = vortex.axis.as_dvec3().normalize();
-            let core_squared = f64::from(vortex.core_m) * f64::from(vortex.core_m);
-            *block = VortexBlock {
-                center_m: center.to_array().map(single),
-                core_m2: single(core_squared),
-                axis: axis.to_array().map(single),
-                swirl_m2_s: single(f64::from(vortex.circulation_m2_s) / std::f64::consts::TAU),
-                axial_m3_s: single(f64::from(vortex.axial_m_s) * core_squared),
-                padding: Default::default(),
-            };
+            *block = vortex_block(vortex, seconds);
         }
         let mut jets = [<JetBlock as bytemuck::Zeroable>::zeroed(); crate::scene::MAX_JETS];
         // A uniform wind has no ground.
@@ -332,9 +338,14 @@ impl CompiledScene {
         foot_height(&self.block, &self.tables, x_m, z_m)
     }
 
+    /// Births of particles.
+    pub(crate) fn births(&self) -> &Births {
+        &self.births
+    }
+
     /// Moves a clock on by one step.
     pub fn advance(&self, clock: &mut Clock) {
-        clock.advance(self.wind_travel_per_step_m());
+        clock.advance(self.wind_travel_per_step_m(), self.births.in_step(clock.step()));
     }
 
     /// Distance in metres that the mean wind travels in one step.

@@ -9,6 +9,7 @@ pub mod arith;
 pub mod flight;
 pub mod leaf;
 pub mod motion;
+pub mod particle;
 pub mod solid;
 pub mod terrain;
 pub mod tree;

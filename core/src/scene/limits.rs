@@ -99,6 +99,27 @@ limits! {
     RECYCLE_AFTER_S: f32 = 0.1, 86_400.0, "s", recycle_after_s;
     WEIGHT: u32 = 1, 1000, "", weight;
 
+    ALPHA: u32 = 0, 2, "", alpha;
+    SWIRL_D: f32 = -0.99, 1000.0, "", d;
+    FORCE_AT_M: f32 = -4096.0, 4096.0, "m", at_m;
+    GM_M3_S2: f32 = -1000000.0, 1000000.0, "m³/s²", gm_m3_s2;
+    SOFTENING_M: f32 = 0.001, 1000.0, "m", softening_m swirl_radius_m;
+    NOISE_M_S2: f32 = 0.0, 1000.0, "m/s²", m_s2;
+    B_T: f32 = -1000.0, 1000.0, "T", b_t;
+    E_V_M: f32 = -1000000.0, 1000000.0, "V/m", e_v_m;
+    FORCE_RAD_S: f32 = -1000.0, 1000.0, "rad/s", rad_s rate_rad_s;
+    WEIGHT_SHARE: f32 = -10.0, 10.0, "", gravity;
+    CHARGE_C_KG: f32 = -1000000.0, 1000000.0, "C/kg", charge_c_kg;
+    PARTICLE_COUNT: u32 = 1, super::MAX_PARTICLES, "", count;
+    PARTICLE_AT_M: f32 = -4096.0, 4096.0, "m", tip_m base_m from_m to_m;
+    HALF_ANGLE_DEG: f32 = 0.0, 180.0, "degrees", half_angle_deg;
+    SPREAD: f32 = -1000000.0, 1000000.0, "", Constant Uniform Normal;
+    PARTICLE_DENSITY_KG_M3: f32 = 0.01, 25000.0, "kg/m³", density_kg_m3;
+    PARTICLE_DRAG: f32 = 0.01, 10.0, "", drag;
+    BELOW: f32 = -4096.0, 4096.0, "m", Below;
+    PARTICLE_BRIGHTNESS_KCD_M2: f32 = 0.001, 1000000.0, "kcd/m²", brightness_kcd_m2;
+    LAYER: u32 = 0, 15, "", layer;
+
     AUTUMN: f32 = 0.0, 1.0, "", autumn;
     AT_M: f32 = -2048.0, 2048.0, "m", at_m;
     TREE_HEIGHT_M: f32 = 0.2, 60.0, "m", height_m;
@@ -196,6 +217,27 @@ limits! {
     VIGNETTE: f32 = 0.0, 1.0, "", vignette;
 }
 
+/// Range of the speeds at which particles set off.
+pub const PARTICLE_SPEED_M_S: Limit<f32> = Limit { low: 0.0, high: 1000.0, unit: "m/s" };
+/// Range of the lives of particles, which have at most [`MOST_LIFE_STEPS`] steps as well.
+pub const PARTICLE_LIFE_S: Limit<f32> = Limit { low: 0.001, high: 3276.0, unit: "s" };
+/// Range of the diameters of particles.
+pub const PARTICLE_SIZE_M: Limit<f32> = Limit { low: 1e-6, high: 100.0, unit: "m" };
+/// Range of the time constants of linear drag.
+pub const AIR_TIME_S: Limit<f32> = Limit { low: 1e-4, high: 1000.0, unit: "s" };
+/// Range of terminal speeds.
+pub const SETTLING_M_S: Limit<f32> = Limit { low: 1e-4, high: 100.0, unit: "m/s" };
+/// Range of opacities over age.
+pub const OPACITY: Limit<f32> = Limit { low: 0.0, high: 1.0, unit: "" };
+/// Range of diameters over age, relative to the particle's own.
+pub const SIZE_OVER_AGE: Limit<f32> = Limit { low: 0.0, high: 1000.0, unit: "" };
+/// Range of ages as a share of the life.
+pub const AGE_SHARE: Limit<f32> = Limit { low: 0.0, high: 1.0, unit: "" };
+/// Most steps of the life of a particle: it is kept in 16 bits.
+pub const MOST_LIFE_STEPS: f64 = 65_535.0;
+/// Most that a particle may be larger than the mean of its population: it is kept in 16 bits, 2^14 for the mean.
+pub const MOST_SIZE_RATIO: f32 = 3.999;
+
 /// Most steps from time zero to the end of the first life of a source's last leaf: step indices are `u32`, and a
 /// difference of two must fit an `i32`.
 pub const MAX_SCHEDULE_STEPS: f64 = 2_147_483_648.0;
@@ -212,11 +254,13 @@ mod tests {
     const SOURCES: &[&str] = &[
         include_str!("mod.rs"),
         include_str!("flight.rs"),
+        include_str!("force.rs"),
         include_str!("ground.rs"),
         include_str!("jet.rs"),
         include_str!("lens.rs"),
         include_str!("litter.rs"),
         include_str!("object.rs"),
+        include_str!("particles.rs"),
         include_str!("path.rs"),
         include_str!("sky.rs"),
         include_str!("source.rs"),

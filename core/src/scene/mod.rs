@@ -7,6 +7,7 @@
 
 mod file;
 mod flight;
+mod force;
 mod ground;
 mod jet;
 pub(crate) mod keyed;
@@ -15,6 +16,7 @@ pub mod limits;
 mod litter;
 pub(crate) mod nearest;
 mod object;
+mod particles;
 mod path;
 mod presets;
 mod scaling;
@@ -31,11 +33,16 @@ mod wind;
 use serde::{Deserialize, Serialize};
 
 pub use flight::{Aerodynamics, FlightModel, Hold, Planform};
+pub use force::{Force, ForceKind, SwirlProfile};
 pub use ground::Ground;
 pub use jet::{Jet, JetKey};
 pub use lens::{Exposure, Focus, Glare, Lens, ToneMap};
 pub use litter::Litter;
 pub use object::{Object, ObjectFriction, ObjectKey, ObjectMotion, ObjectShape, PLANE_REACH_M, Walker};
+pub use particles::{
+    Air, Bounds, Direction, Look, LookKind, Meets, NORMAL_REACH, ParticleRelease, ParticleShape, Particles,
+    Spread,
+};
 pub use path::{CameraKey, camera_at};
 pub use presets::PRESETS;
 pub use sky::{Haze, PhysicalSky, Sky, SkyMap};
@@ -44,7 +51,7 @@ pub use species::{LeafShape, MotionParameters, RotationModel, Species};
 pub use terrain::{Terrain, Water};
 pub use tree::{Foliage, SwayScheme, Tree, TreeForm, TreeKind, TreePreset, Wood};
 pub use view::{Camera, Sun, View};
-pub use wind::{Gusts, MeanSpeed, Profile, Turbulence, Vortex, WindParameters};
+pub use wind::{Gusts, MeanSpeed, Profile, Turbulence, Vortex, VortexProfile, WindParameters};
 
 /// Standard acceleration of gravity in m/s²: that of a scene which states no other.
 pub const STANDARD_GRAVITY_M_S2: f32 = 9.806_65;
@@ -55,6 +62,10 @@ pub const MAX_SPECIES: usize = 32;
 pub const MAX_SOURCES: usize = 16;
 /// Most point vortices a scene may have: they travel in the uniform block of every step.
 pub const MAX_VORTICES: usize = 8;
+/// Most control points of the axis of a vortex.
+pub const MAX_SPLINE_POINTS: usize = 12;
+/// Segments in which the curved axis of a vortex is followed.
+pub const SPLINE_SEGMENTS: usize = 16;
 /// Most jets a scene may have: they travel there, too.
 pub const MAX_JETS: usize = 8;
 /// Most keys a jet may have.
@@ -74,6 +85,17 @@ pub const DEEPEST_BED_M: f32 = 2.0;
 pub const MAX_CAMERA_KEYS: usize = 1024;
 /// Most leaves a scene may have, over all sources (four billion words of state would not fit anywhere yet).
 pub const MAX_LEAVES: u32 = 1 << 28;
+
+/// Most populations of particles a scene may have: a particle keeps its population in four bits.
+pub const MAX_POPULATIONS: usize = 16;
+/// Most forces on particles a scene may have, and that a population may feel.
+pub const MAX_FORCES: usize = 16;
+/// Most slots of a population whose particles attract one another.
+pub const MAX_MUTUAL: u32 = 1 << 16;
+/// Dynamic viscosity of air at 20 °C in Pa s.
+pub const VISCOSITY_PA_S: f32 = 1.813e-5;
+/// Most particles a scene may have, over all populations.
+pub const MAX_PARTICLES: u32 = 1 << 25;
 
 /// Most kinds of trees a scene may have of its own.
 pub const MAX_TREE_KINDS: usize = 26;
@@ -128,6 +150,10 @@ pub struct Scene {
     pub objects: Vec<Object>,
     /// People who walk through the leaves. They need `ground.litter` as well.
     pub walkers: Vec<Walker>,
+    /// Populations of particles, at most 16.
+    pub particles: Vec<Particles>,
+    /// Forces on particles, at most 16.
+    pub forces: Vec<Force>,
     /// Camera, sun, sky, haze and trails; no effect on the simulation.
     pub view: View,
 }
@@ -153,6 +179,8 @@ impl Default for Scene {
             ground: Ground::default(),
             objects: Vec::new(),
             walkers: Vec::new(),
+            particles: Vec::new(),
+            forces: Vec::new(),
             view: View::default(),
         }
     }
@@ -164,6 +192,11 @@ impl Scene {
         let falling =
             self.sources.iter().fold(self.tree_leaf_count(), |sum, source| sum.saturating_add(source.count));
         falling.saturating_add(self.bed_leaf_count())
+    }
+
+    /// Number of slots of particles, over all populations.
+    pub fn particle_count(&self) -> u32 {
+        self.particles.iter().fold(0, |sum, particles| sum.saturating_add(particles.count))
     }
 
     /// Number of leaf slots of the leaves that lie on the ground from the start.

@@ -6,15 +6,16 @@ mod check;
 mod cross;
 mod lens;
 mod objects;
+mod particles;
 #[cfg(test)]
 mod tests;
 mod trees;
 
 use super::{
     Aerodynamics, Camera, DEEPEST_BED_M, FlightModel, Ground, Haze, Jet, Litter, MAX_JET_KEYS, MAX_JETS,
-    MAX_LEAVES, MAX_SOURCES, MAX_SPECIES, MAX_TREE_LEAVES, MAX_VORTICES, MeanSpeed, MotionParameters,
-    PhysicalSky, Profile, Release, RotationModel, Scene, Sky, SkyMap, Source, SourceShape, Species, Sun,
-    Terrain, View, Vortex, WindParameters, limits,
+    MAX_LEAVES, MAX_SOURCES, MAX_SPECIES, MAX_SPLINE_POINTS, MAX_TREE_LEAVES, MAX_VORTICES, MeanSpeed,
+    MotionParameters, PhysicalSky, Profile, Release, RotationModel, Scene, Sky, SkyMap, Source, SourceShape,
+    Species, Sun, Terrain, View, Vortex, VortexProfile, WindParameters, limits,
 };
 use crate::SceneError;
 use check::Check;
@@ -52,6 +53,7 @@ impl Scene {
         self.ground.check(&check.inside("ground"))?;
         self.view.check(&check.inside("view"))?;
         self.check_objects(&check)?;
+        self.check_particles(&check)?;
 
         let on_trees: u64 = self.trees.iter().map(|tree| u64::from(tree.leaves)).sum();
         check.holds(on_trees <= u64::from(MAX_TREE_LEAVES), "trees", || {
@@ -248,7 +250,27 @@ impl Vortex {
             ("core_m", self.core_m.into(), limits::CORE_M),
             ("axial_m_s", self.axial_m_s.into(), limits::AXIAL_M_S),
         ])?;
-        at.vector("drift_m_s", self.drift_m_s, limits::DRIFT_M_S)
+        at.vector("drift_m_s", self.drift_m_s, limits::DRIFT_M_S)?;
+        match self.profile {
+            VortexProfile::Kaufmann => {}
+            VortexProfile::Power { alpha } => {
+                at.inside("profile").numbers([("alpha", alpha.into(), limits::ALPHA)])?;
+            }
+            VortexProfile::Compact { d } => {
+                at.inside("profile").numbers([("d", d.into(), limits::SWIRL_D)])?;
+            }
+        }
+        let points = self.spline_m.len();
+        at.holds(points == 0 || (4..=MAX_SPLINE_POINTS).contains(&points), "spline_m", || {
+            (format!("a list of {points}"), format!("no points, or 4 to {MAX_SPLINE_POINTS}"))
+        })?;
+        for (index, point) in self.spline_m.iter().enumerate() {
+            at.vector(&format!("spline_m[{index}]"), *point, limits::CENTER_M)?;
+        }
+        let is_long = self.spline_m.windows(4).all(|four| four[0].distance(four[3]) >= 0.01);
+        at.holds(is_long, "spline_m", || {
+            ("points in one place".into(), "points at least 0.01 m from the third behind them".into())
+        })
     }
 }
 

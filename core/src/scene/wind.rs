@@ -69,8 +69,26 @@ impl Default for Turbulence {
     }
 }
 
-/// A straight vortex with a smooth core: speed Γ r / (2π (r² + a²)) about its axis.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+/// Speed of a vortex about its axis, at s core radii from it, over Γ / (2π a).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub enum VortexProfile {
+    /// s / (1 + s²): smooth everywhere.
+    #[default]
+    Kaufmann,
+    /// s^(1 - alpha), from a tenth of the core radius on: a rigid body, equal speeds, or the circulation Γ everywhere.
+    Power {
+        /// 0 to 2.
+        alpha: u32,
+    },
+    /// s (1 - s²)² / (1 + d s²) within the core radius, nothing beyond.
+    Compact {
+        /// -0.99 to 1000.
+        d: f32,
+    },
+}
+
+/// A vortex about a straight axis or a curve.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Vortex {
     /// A point of the axis in metres at time zero, each component -4096 to 4096.
@@ -85,6 +103,13 @@ pub struct Vortex {
     pub axial_m_s: f32,
     /// Velocity of the vortex itself in m/s, each component -50 to 50.
     pub drift_m_s: Vec3,
+    /// Speed over the distance from the axis.
+    #[serde(default)]
+    pub profile: VortexProfile,
+    /// Control points in metres, at time zero, of a uniform cubic B-spline that is the axis in place of a straight one: none, or 4 to
+    /// 12 of them, each component -4096 to 4096. Beyond its ends the axis is straight. The air turns anticlockwise seen from the end.
+    #[serde(default)]
+    pub spline_m: Vec<Vec3>,
 }
 
 /// The wind: mean flow, gusts, turbulence, vortices and jets.

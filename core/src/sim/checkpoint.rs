@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Saves a world and brings it back to the bit.
 //!
-//! A checkpoint is the eight bytes `WINDFALL`, a version, then the scene as RON text, the clock, and of every store the
+//! A checkpoint is the eight bytes `WINDFALL`, a version, then the scene as RON text, the clock with the particles born in each population, and of every store the
 //! number of rows and the columns, all little-endian, and at the end the CRC-32 of everything before. It stands alone: the
 //! scene travels inside (motion table files that a species names do not).
 
@@ -12,11 +12,11 @@ use super::world::World;
 use crate::clock::Clock;
 use crate::compile::CompiledScene;
 use crate::error::SceneError;
-use crate::scene::Scene;
+use crate::scene::{MAX_POPULATIONS, Scene};
 use crate::store::{Store, StoreSize};
 
 const MAGIC: &[u8; 8] = b"WINDFALL";
-const VERSION: u32 = 6;
+const VERSION: u32 = 7;
 
 impl World {
     /// Writes a checkpoint.
@@ -32,6 +32,9 @@ impl World {
         out.write_all(scene.as_bytes())?;
         out.write_all(&self.clock.step().to_le_bytes())?;
         out.write_all(&self.clock.wind_travel_m().to_le_bytes())?;
+        for born in &self.clock.born()[..self.compiled.scene().particles.len()] {
+            out.write_all(&born.to_le_bytes())?;
+        }
         write_stores(&mut out, &self.stores())?;
         let crc = out.crc.finalize();
         out.out.write_all(&crc.to_le_bytes())
@@ -66,7 +69,12 @@ impl World {
         let compiled = CompiledScene::compile(&scene)?;
         let step = u32::from_le_bytes(rest.array()?);
         let travel = f64::from_le_bytes(rest.array()?);
-        let mut world = Self::zeroed(compiled, Clock::at(step, scene.dt_s, travel));
+        let mut born = [0; MAX_POPULATIONS];
+        for born in &mut born[..scene.particles.len()] {
+            *born = u64::from_le_bytes(rest.array()?);
+        }
+        let clock = Clock::at(step, scene.dt_s, travel).with_born(born);
+        let mut world = Self::zeroed(compiled, clock);
         rest.bytes = read_stores(rest.bytes, file, &mut world.stores_mut())?;
         if !rest.bytes.is_empty() {
             return Err(reject(format!("it is longer than its stores by {} bytes", rest.bytes.len())));

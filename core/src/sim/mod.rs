@@ -3,6 +3,7 @@
 //! Worlds, and everything that steps, counts, saves and compares them.
 
 pub mod checkpoint;
+mod lead;
 pub mod oracle;
 mod simulator;
 pub mod stats;

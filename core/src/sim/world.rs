@@ -4,6 +4,7 @@
 
 use std::sync::{Mutex, PoisonError};
 
+use super::lead::lead_in;
 use super::stats::Stats;
 use crate::arith::hash::mix;
 use crate::blocks::StepBlock;
@@ -20,6 +21,7 @@ use crate::leaf::seek::leaf_seek_any;
 use crate::leaf::{Leaves, LeavesMut};
 use crate::litter::lay::{lay_all, strew};
 use crate::litter::{Bed, LitterStats};
+use crate::particle::{ParticleStats, ParticleStore, TallyStore};
 use crate::scene::Scene;
 use crate::store::{Store, StoreSize, check_sizes, copy_stores, hash_stores, state_bytes};
 use crate::threads::on_all;
@@ -41,6 +43,10 @@ pub struct World {
     pub branches: Branches,
     /// The litter.
     pub bed: Bed,
+    /// The particles.
+    pub particles: ParticleStore,
+    /// Counts of what has happened to them.
+    pub tallies: TallyStore,
 }
 
 impl World {
@@ -72,7 +78,9 @@ impl World {
         let leaves = Leaves::zeroed(compiled.scene().leaf_count() as usize);
         let branches = Branches::zeroed(compiled.forest().len());
         let bed = Bed::zeroed(Bed::rows_of(&compiled.block().litter));
-        Self { compiled, clock, leaves, branches, bed }
+        let particles = ParticleStore::zeroed(compiled.scene().particle_count() as usize);
+        let tallies = TallyStore::zeroed(TallyStore::rows_of(compiled.scene()));
+        Self { compiled, clock, leaves, branches, bed, particles, tallies }
     }
 
     /// Fills the stores of a compiled scene.
@@ -80,7 +88,8 @@ impl World {
         let clock = Clock::new(compiled.scene().dt_s);
         let mut world = Self::zeroed(compiled, clock);
         world.branches = world.compiled.forest().at_rest();
-        let Self { compiled, clock, leaves, branches, bed } = &mut world;
+        world.particles = ParticleStore::dormant(world.compiled.scene());
+        let Self { compiled, clock, leaves, branches, bed, particles: _, tallies: _ } = &mut world;
         let step = compiled.step_block(clock);
         let cx = compiled.context(&step);
         let tables = drop_tables(&cx);
@@ -98,12 +107,18 @@ impl World {
             strew(&cx, litter, leaves, leaves.len() - compiled.scene().bed_leaf_count() as usize);
             lay_all(&cx, leaves, bed);
         }
+        lead_in(&mut world);
         Ok(world)
     }
 
     /// Counts over all leaves.
     pub fn stats(&self) -> Stats {
         Stats::of(&self.leaves, self.clock.step())
+    }
+
+    /// Counts over the populations of particles.
+    pub fn particle_stats(&self) -> Vec<ParticleStats> {
+        ParticleStats::of(self.compiled.scene(), &self.particles, &self.tallies)
     }
 
     /// Counts and sums over the litter; `None` without any.
@@ -114,14 +129,14 @@ impl World {
 
     /// All stores, in the order of checkpoints.
     pub fn stores(&self) -> Vec<&dyn Store> {
-        let Self { compiled: _, clock: _, leaves, branches, bed } = self;
-        vec![leaves, branches, bed]
+        let Self { compiled: _, clock: _, leaves, branches, bed, particles, tallies } = self;
+        vec![leaves, branches, bed, particles, tallies]
     }
 
     /// All stores, to be filled.
     pub fn stores_mut(&mut self) -> Vec<&mut dyn Store> {
-        let Self { compiled: _, clock: _, leaves, branches, bed } = self;
-        vec![leaves, branches, bed]
+        let Self { compiled: _, clock: _, leaves, branches, bed, particles, tallies } = self;
+        vec![leaves, branches, bed, particles, tallies]
     }
 
     /// Number of rows of each store.
@@ -158,6 +173,8 @@ impl World {
     /// 2^64. A sum over rows, so that it can be taken in any order.
     pub fn state_hash(&self) -> u64 {
         let seed = mix(u64::from(self.clock.step()), self.clock.wind_travel_m().to_bits());
+        let born = &self.clock.born()[..self.compiled.scene().particles.len()];
+        let seed = born.iter().fold(seed, |seed, born| mix(seed, *born));
         seed.wrapping_add(hash_stores(&self.stores()))
     }
 

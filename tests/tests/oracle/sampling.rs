@@ -6,7 +6,9 @@ use crate::common::{build, position, step, still_scene};
 use glam::Vec3;
 use windfall_core::World;
 use windfall_core::device::leaf::air::air_is_sampled;
-use windfall_core::scene::{MeanSpeed, Scene, SourceShape, Species, Turbulence, Vortex, WindParameters};
+use windfall_core::scene::{
+    MeanSpeed, Scene, SourceShape, Species, Turbulence, Vortex, VortexProfile, WindParameters,
+};
 
 /// Short steps to a step of 1/60 s.
 const SHORT_STEPS: u32 = 16;
@@ -55,6 +57,8 @@ fn one_sample_in_the_middle_of_an_interval_is_better_than_one_at_the_start_of_ev
         core_m: 2.0,
         axial_m_s: 1.0,
         drift_m_s: Vec3::X,
+        profile: VortexProfile::Kaufmann,
+        spline_m: Vec::new(),
     };
     for (name, wind, interval_steps, most_mm) in [
         ("park", turbulent(1.8, 0.75), 4, 3.0),

@@ -9,7 +9,9 @@ use glam::{DVec3, Vec3};
 use windfall_core::arith::Vec3 as Kernel;
 use windfall_core::device::wind::profile::{profile_factor, surface_factors, wind_profile};
 use windfall_core::device::wind::sample::wind_at;
-use windfall_core::scene::{Gusts, MeanSpeed, Profile, Scene, Turbulence, Vortex, WindParameters};
+use windfall_core::scene::{
+    Gusts, MeanSpeed, Profile, Scene, Turbulence, Vortex, VortexProfile, WindParameters,
+};
 use windfall_core::wind::{BEAUFORT_MAX, beaufort_speed};
 use windfall_core::{Clock, CompiledScene};
 
@@ -228,6 +230,8 @@ fn vortex() -> Vortex {
         core_m: 0.8,
         axial_m_s: 2.0,
         drift_m_s: Vec3::new(0.5, 0.0, -0.25),
+        profile: VortexProfile::Kaufmann,
+        spline_m: Vec::new(),
     }
 }
 

@@ -4,7 +4,7 @@
 
 use egui::Ui;
 use glam::Vec3;
-use windfall_core::scene::{MAX_VORTICES, Vortex, limits};
+use windfall_core::scene::{MAX_VORTICES, Vortex, VortexProfile, limits};
 
 use super::field::{field, vector};
 use super::list::List;
@@ -17,6 +17,8 @@ const FRESH: Vortex = Vortex {
     core_m: 1.5,
     axial_m_s: 1.0,
     drift_m_s: Vec3::ZERO,
+    profile: VortexProfile::Kaufmann,
+    spline_m: Vec::new(),
 };
 
 pub(super) fn show(ui: &mut Ui, vortices: &mut Vec<Vortex>, own: &[Vortex]) {
@@ -24,7 +26,7 @@ pub(super) fn show(ui: &mut Ui, vortices: &mut Vec<Vortex>, own: &[Vortex]) {
     let name = |index: usize, vortex: &Vortex| {
         format!("{}: at {:.1}, {:.1}", index + 1, vortex.center_m.x, vortex.center_m.z)
     };
-    let chosen = list.show(ui, vortices, name, |like, _| like.copied().unwrap_or(FRESH));
+    let chosen = list.show(ui, vortices, name, |like, _| like.cloned().unwrap_or(FRESH));
     let Some(vortex) = chosen.and_then(|index| vortices.get_mut(index)) else { return };
     let own = chosen.and_then(|index| own.get(index));
     let tip = "A point of the axis at time zero";

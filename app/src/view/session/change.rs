@@ -51,6 +51,8 @@ impl Change {
             ground,
             objects,
             walkers,
+            particles,
+            forces,
             view,
         } = new;
         change.retune = *fall_speed != old.fall_speed
@@ -75,6 +77,7 @@ impl Change {
             true,
         );
         change.rebuild("walkers", *walkers != old.walkers, true, true);
+        change.rebuild("particles", *particles != old.particles || *forces != old.forces, true, true);
         change.view(&old.view, view);
         let litter = |scene| RendererOptions::for_scene(scene).litter_count;
         if litter(old) != litter(new) {

@@ -29,8 +29,13 @@ fn turbulence_edge(index: u32, along: f32) -> vec3<f32> {
 fn wind_turbulence(moment: u32, place: vec3<f32>) -> vec3<f32> {
     let cells = scene.wind.cells_per_m;
     let x = place.x * cells.x - step_block.moments[moment].turbulence_offset;
-    let y = place.y * cells.y;
-    let z = place.z * cells.z;
+    return turbulence_in_cells(vec3<f32>(x, place.y * cells.y, place.z * cells.z));
+}
+
+fn turbulence_in_cells(cells: vec3<f32>) -> vec3<f32> {
+    let x = cells.x;
+    let y = cells.y;
+    let z = cells.z;
     let kx = floor(x);
     let ky = floor(y);
     let kz = floor(z);

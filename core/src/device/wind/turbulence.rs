@@ -77,8 +77,13 @@ fn turbulence_edge<W: Word>(cx: &Context<'_>, index: W, along: W::Real) -> Vec3<
 pub fn wind_turbulence<R: Real>(cx: &Context<'_>, moment: &MomentBlock, place: Vec3<R>) -> Vec3<R> {
     let cells = Vec3::from(cx.scene.wind.cells_per_m);
     let x = place.x * cells.x - moment.turbulence_offset;
-    let y = place.y * cells.y;
-    let z = place.z * cells.z;
+    turbulence_in_cells(cx, Vec3::new(x, place.y * cells.y, place.z * cells.z))
+}
+
+/// The same at a place so many cells from the box's origin.
+#[inline(always)]
+pub fn turbulence_in_cells<R: Real>(cx: &Context<'_>, cells: Vec3<R>) -> Vec3<R> {
+    let Vec3 { x, y, z } = cells;
     let kx = x.floor();
     let ky = y.floor();
     let kz = z.floor();

@@ -14,7 +14,7 @@ use crate::motion::{Primitive, TransitionTable};
 use crate::scene::{
     CameraKey, Exposure, Focus, Foliage, Jet, JetKey, Lens, MeanSpeed, MotionParameters, Profile, Release,
     RotationModel, Scene, Share, Source, SourceShape, Species, ToneMap, Tree, TreeKind, View, Vortex,
-    WindParameters,
+    VortexProfile, WindParameters,
 };
 
 /// A valid scene in which every optional number is present.
@@ -54,6 +54,8 @@ fn full() -> Scene {
         core_m: 2.0,
         axial_m_s: 1.0,
         drift_m_s: Vec3::X,
+        profile: VortexProfile::Kaufmann,
+        spline_m: Vec::new(),
     };
     let blowing = |time_s| JetKey { time_s, at_m: Vec3::Y, toward_m: Vec3::X, speed_m_s: 50.0 };
     let jet = Jet { nozzle_m: 0.1, keys: vec![blowing(1.0), blowing(6.0)] };

@@ -7,7 +7,8 @@ use windfall_core::Scene;
 use windfall_core::scene::{
     Aerodynamics, CameraKey, Exposure, FlightModel, Focus, Jet, JetKey, Litter, MeanSpeed, Object,
     ObjectFriction, ObjectKey, ObjectMotion, ObjectShape, Planform, Profile, Release, RotationModel, Share,
-    Sky, SkyMap, SourceShape, Terrain, ToneMap, Tree, TreeForm, TreeKind, Vortex, Walker, Water,
+    Sky, SkyMap, SourceShape, Terrain, ToneMap, Tree, TreeForm, TreeKind, Vortex, VortexProfile, Walker,
+    Water,
 };
 
 /// A park with one of everything that may be added to a scene.
@@ -26,6 +27,8 @@ pub(super) fn full() -> Scene {
         core_m: 1.0,
         axial_m_s: 1.0,
         drift_m_s: Vec3::X,
+        profile: VortexProfile::Kaufmann,
+        spline_m: Vec::new(),
     }];
     let key = JetKey { time_s: 0.0, at_m: Vec3::Y, toward_m: Vec3::X, speed_m_s: 40.0 };
     scene.wind.jets = vec![Jet { nozzle_m: 0.1, keys: vec![key] }];

@@ -149,8 +149,16 @@ prop_compose! {
         core_m in within(limits::CORE_M),
         axial_m_s in within(limits::AXIAL_M_S),
         drift_m_s in vector(limits::DRIFT_M_S),
+        (kind, d) in (0u32..6, within(limits::SWIRL_D)),
     ) -> Vortex {
-        Vortex { center_m, axis, circulation_m2_s, core_m, axial_m_s, drift_m_s }
+        let profile = match kind {
+            0..=2 => VortexProfile::Power { alpha: kind },
+            3 => VortexProfile::Compact { d },
+            _ => VortexProfile::Kaufmann,
+        };
+        let points = 4 * (kind % 2);
+        let spline_m = (0..points).map(|number| center_m * 0.5 + axis * (0.5 * number as f32)).collect();
+        Vortex { center_m, axis, circulation_m2_s, core_m, axial_m_s, drift_m_s, profile, spline_m }
     }
 }
 
@@ -408,6 +416,111 @@ prop_compose! {
     }
 }
 
+/// Numbers about a mean, none below a half or above three times of it.
+fn spread(mean: Limit<f32>) -> impl Strategy<Value = Spread> {
+    (within(mean), 0.0f32..0.5, 0u32..3).prop_map(|(mean, share, kind)| match kind {
+        0 => Spread::Constant(mean),
+        1 => Spread::Uniform(mean, share * mean),
+        _ => Spread::Normal(mean, share * mean / NORMAL_REACH),
+    })
+}
+
+/// A third of a range on a logarithmic scale, so that spreads stay within it.
+fn inner(limit: Limit<f32>) -> Limit<f32> {
+    Limit { low: limit.low * 2.0, high: limit.high / 3.0, unit: limit.unit }
+}
+
+fn particle_shape() -> impl Strategy<Value = ParticleShape> {
+    let at = || vector(limits::PARTICLE_AT_M);
+    let radius = || within(limits::RADIUS_M);
+    let axis = || Just(Vec3::new(1.0, -2.0, 0.5));
+    prop_oneof![
+        (at(), vector(limits::HALF_EXTENT_M))
+            .prop_map(|(center_m, half_extent_m)| ParticleShape::Box { center_m, half_extent_m }),
+        (at(), radius(), axis()).prop_map(|(center_m, radius_m, axis)| ParticleShape::Disc {
+            center_m,
+            radius_m,
+            axis
+        }),
+        (at(), radius(), axis()).prop_map(|(center_m, radius_m, axis)| ParticleShape::Ring {
+            center_m,
+            radius_m,
+            axis
+        }),
+        (at(), radius(), any::<bool>()).prop_map(|(center_m, radius_m, hollow)| ParticleShape::Sphere {
+            center_m,
+            radius_m,
+            hollow
+        }),
+        (vector(Limit { low: -100.0, high: 100.0, unit: "m" }), radius()).prop_map(|(tip_m, radius_m)| {
+            ParticleShape::Cone { tip_m, base_m: tip_m + Vec3::Y, radius_m }
+        }),
+        (at(), at()).prop_map(|(from_m, to_m)| ParticleShape::Line { from_m, to_m }),
+    ]
+}
+
+prop_compose! {
+    fn look()(
+        kind in select(vec![LookKind::Dot, LookKind::Splat, LookKind::Glow, LookKind::Hidden]),
+        color in option::of((vector(limits::COLOR), vector(limits::COLOR))),
+        (opacity, size) in (maybe(limits::OPACITY), maybe(limits::SIZE_OVER_AGE)),
+        (brightness_kcd_m2, streak, layer) in (within(limits::PARTICLE_BRIGHTNESS_KCD_M2), any::<bool>(), 0u32..=15),
+    ) -> Look {
+        let color = color.map_or(Vec::new(), |(first, last)| vec![(0.0, first), (1.0, last)]);
+        let curve = |value: Option<f32>| value.map_or(Vec::new(), |value| vec![(0.25, value)]);
+        Look { kind, color, opacity: curve(opacity), size: curve(size), brightness_kcd_m2, streak, layer }
+    }
+}
+
+prop_compose! {
+    /// Every name is made unique later.
+    fn particles()(
+        from in particle_shape(),
+        direction in prop_oneof![
+            Just(Direction::Outward),
+            within(limits::HALF_ANGLE_DEG)
+                .prop_map(|half_angle_deg| Direction::Cone { axis: Vec3::new(0.5, 1.0, -0.25), half_angle_deg }),
+        ],
+        (per_s, start_s, kind) in (0.001f32..100.0, -100.0f32..86_400.0, 0u32..3),
+        speed_m_s in spread(inner(limits::PARTICLE_SPEED_M_S)),
+        life_s in spread(Limit { low: 0.01, high: 10.0, unit: "s" }),
+        size_m in spread(inner(limits::PARTICLE_SIZE_M)),
+        density_kg_m3 in within(limits::PARTICLE_DENSITY_KG_M3),
+        air in prop_oneof![
+            Just(Air::Vacuum), Just(Air::Stokes), Just(Air::Massless),
+            spread(inner(limits::AIR_TIME_S)).prop_map(|time_s| Air::Linear { time_s }),
+            spread(inner(limits::SETTLING_M_S)).prop_map(|m_s| Air::Settling { m_s }),
+            within(limits::PARTICLE_DRAG).prop_map(|drag| Air::Quadratic { drag }),
+        ],
+        meets in prop_oneof![
+            Just(Meets::Nothing), Just(Meets::Die), Just(Meets::Stick),
+            (within(limits::RESTITUTION), within(limits::COULOMB)).prop_map(|(restitution, friction)| {
+                Meets::Bounce { restitution, friction: ObjectFriction::Coulomb(friction) }
+            }),
+        ],
+        dies in prop_oneof![
+            Just(None),
+            within(limits::BELOW).prop_map(|height_m| Some(Bounds::Below(height_m))),
+            (vector(limits::CENTER_M), vector(limits::HALF_EXTENT_M))
+                .prop_map(|(center_m, half_extent_m)| Some(Bounds::Outside { center_m, half_extent_m })),
+        ],
+        look in look(),
+    ) -> Particles {
+        // Stokes' law holds for what is small.
+        let size_m = if air == Air::Stokes { Spread::Constant(1e-5) } else { size_m };
+        let meets = if air == Air::Massless { Meets::Die } else { meets };
+        let release = match kind {
+            0 => ParticleRelease::Burst { at_s: start_s.max(0.0) },
+            1 => ParticleRelease::Rate { per_s, from_s: start_s },
+            _ => ParticleRelease::Poisson { per_s, from_s: start_s },
+        };
+        Particles {
+            name: String::new(), count: 10_000, from, direction, release, speed_m_s, life_s: Some(life_s), size_m,
+            density_kg_m3, gravity: 1.0, charge_c_kg: 1.0, air, feels: Vec::new(), meets, dies, look,
+        }
+    }
+}
+
 prop_compose! {
     pub(super) fn any_scene()(
         name in "[^\\p{Cc}]{0,30}",
@@ -428,7 +541,8 @@ prop_compose! {
                 Ground { height_m, friction, surface_roughness_m, terrain, water, litter }
             }),
         view in view(),
-        (mut objects, mut walkers) in (vec(object(), 0..4), vec(walker(), 0..2)),
+        (mut objects, mut walkers, mut particles) in
+            (vec(object(), 0..4), vec(walker(), 0..2), vec(particles(), 0..3)),
     ) -> Scene {
         for (index, species) in species.iter_mut().enumerate() {
             species.name = format!("{index} {}", species.name);
@@ -452,9 +566,12 @@ prop_compose! {
             objects.clear();
             walkers.clear();
         }
+        for (index, particles) in particles.iter_mut().enumerate() {
+            particles.name = format!("{index}");
+        }
         let mut scene = Scene {
             name, seed, dt_s, fall_speed, rotation_speed, gravity_m_s2, species, sources, tree_kinds, trees, sway, sway_every, autumn, regrow_after_s, wind, ground,
-            objects, walkers, view,
+            objects, walkers, particles, forces: Vec::new(), view,
         };
         // Hills no deeper, and steps no shorter, than the slowest leaf has time to fall.
         while scene.validate("random").is_err() {

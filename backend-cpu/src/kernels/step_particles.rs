@@ -1,0 +1,121 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! twin: backend-wgpu/src/shaders/kernels/step_particles.wgsl
+//!
+//! Moves particles, chunk by chunk: those without an event and with nothing in their way in blocks, the others one by one. A chunk goes
+//! through several steps while it is in the cache, as particles do not see each other.
+
+use std::sync::atomic::{AtomicU32, Ordering};
+
+use rayon::join;
+use windfall_core::Context;
+use windfall_core::arith::Vec3;
+use windfall_core::arith::pack::{BLOCK, Pack};
+use windfall_core::blocks::BirthBlock;
+use windfall_core::device::particle::record::particle_population;
+use windfall_core::device::particle::step::particle_step;
+use windfall_core::particle::{ParticlesMut, add_to_tally};
+
+use super::CHUNK;
+use crate::simd::particle_block::ParticleBlock;
+use crate::simd::{Simd, in_packs};
+
+/// Steps particles from slot `first` on, halving the columns until a piece is one chunk, and adds to the counts of populations. `pulls`
+/// are accelerations by others, slot by slot, or none.
+pub(crate) fn step_particles(
+    steps: &[Context<'_>],
+    mut particles: ParticlesMut<'_>,
+    first: usize,
+    pulls: &[[f32; 4]],
+    tallies: &[AtomicU32],
+    simd: Simd,
+) {
+    if particles.len() > CHUNK {
+        let middle = (particles.len() / 2).next_multiple_of(CHUNK);
+        let (front, back) = particles.split_at(middle);
+        join(
+            || step_particles(steps, front, first, pulls, tallies, simd),
+            || step_particles(steps, back, first + middle, pulls, tallies, simd),
+        );
+        return;
+    }
+    let mut counts = vec![0; tallies.len()];
+    for cx in steps {
+        match simd {
+            Simd::Scalar => {
+                for number in 0..particles.len() {
+                    step_one(cx, &mut particles, first, number, pulls, &mut counts);
+                }
+            }
+            Simd::Lanes(level) => in_packs!(level, step_lanes(cx, &mut particles, first, pulls, &mut counts)),
+        }
+    }
+    for (sum, count) in tallies.iter().zip(counts) {
+        if count != 0 {
+            sum.fetch_add(count, Ordering::Relaxed);
+        }
+    }
+}
+
+/// Steps one particle of a chunk. One copy of it serves all instruction sets: it is long, and few particles need it.
+#[inline(never)]
+fn step_one(
+    cx: &Context<'_>,
+    particles: &mut ParticlesMut<'_>,
+    first: usize,
+    number: usize,
+    pulls: &[[f32; 4]],
+    counts: &mut [u32],
+) {
+    let population = particle_population(particles.place[number].bits);
+    #[expect(clippy::cast_possible_truncation, reason = "slots are counted in words")]
+    let slot = (first + number) as u32;
+    let mutual = pulls.get(first + number).map_or(Vec3::ZERO, |[x, y, z, _]| Vec3::new(*x, *y, *z));
+    let change = particle_step(cx, &mut particles.row_mut(number), slot, mutual);
+    add_to_tally(counts, population, &change);
+}
+
+/// Steps a chunk block by block; blocks with births, and those of several populations, one particle after another.
+#[inline(always)]
+fn step_lanes<P: Pack>(
+    simd: P::Simd,
+    cx: &Context<'_>,
+    particles: &mut ParticlesMut<'_>,
+    first: usize,
+    pulls: &[[f32; 4]],
+    counts: &mut [u32],
+) {
+    let count = particles.len();
+    for begin in (0..count).step_by(BLOCK) {
+        let rows = begin..count.min(begin + BLOCK);
+        let [here, last] =
+            [rows.start, rows.end - 1].map(|row| particle_population(particles.place[row].bits));
+        let population = &cx.scene.populations[here as usize];
+        let place = first + begin - population.first_slot as usize;
+        let births = &cx.step.births[here as usize];
+        let mut left = (1u32 << rows.len()) - 1;
+        if here == last && rows.len() == BLOCK && !births_touch(births, population.count as usize, place) {
+            let whole = "a whole block";
+            let mut block = ParticleBlock {
+                place: (&mut particles.place[rows.clone()]).try_into().expect(whole),
+                motion: (&mut particles.motion[rows.clone()]).try_into().expect(whole),
+                traits: (&particles.traits[rows.clone()]).try_into().expect(whole),
+                pulls: pulls
+                    .get(first + begin..first + begin + BLOCK)
+                    .map(|rows| rows.try_into().expect(whole)),
+            };
+            left = block.advance::<P>(simd, cx, here as usize);
+        }
+        while left != 0 {
+            step_one(cx, particles, first, begin + left.trailing_zeros() as usize, pulls, counts);
+            left &= left - 1;
+        }
+    }
+}
+
+/// Returns true if births of a step may fall on the block that begins at a place among the slots of a population.
+#[inline(always)]
+fn births_touch(births: &BirthBlock, count: usize, place: usize) -> bool {
+    let after = (place + count - births.first_place as usize) % count;
+    births.count != 0 && (after < births.count as usize || after + BLOCK > count)
+}

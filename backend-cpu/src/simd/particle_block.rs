@@ -1,0 +1,88 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! One step of sixteen particles of one population, side by side in SIMD registers.
+
+use bytemuck::{must_cast_mut, must_cast_ref};
+use windfall_core::Context;
+use windfall_core::arith::Vec3;
+use windfall_core::arith::lane::{Mask, Word};
+use windfall_core::arith::pack::{BLOCK, Pack, load_block, rows_of_bits, store_block};
+use windfall_core::device::particle::fly::{ParticleFlight, particle_fly};
+use windfall_core::device::particle::record::{
+    PARTICLE_ALIVE, PARTICLE_BORN, PARTICLE_DIED, PARTICLE_GROUNDED, PARTICLE_HIT, particle_state,
+};
+use windfall_core::device::particle::step::{is_outside, is_unborn, life_is_over, may_be_struck};
+use windfall_core::particle::{ParticleMotion, ParticlePlace, ParticleTraits};
+
+use super::branch_block::{Column, vector_and_fourth};
+use super::leaf_block::select_four;
+
+/// Marks that only a step of its own takes off a particle.
+const MARKS: u32 = PARTICLE_BORN | PARTICLE_DIED | PARTICLE_HIT | PARTICLE_GROUNDED;
+
+/// Slots of one population that follow one another, none of them born in the step.
+pub(crate) struct ParticleBlock<'a> {
+    pub(crate) place: &'a mut [ParticlePlace; BLOCK],
+    pub(crate) motion: &'a mut [ParticleMotion; BLOCK],
+    pub(crate) traits: &'a [ParticleTraits; BLOCK],
+    /// Accelerations by others of the population; `None` where particles do not attract one another.
+    pub(crate) pulls: Option<&'a Column>,
+}
+
+impl ParticleBlock<'_> {
+    /// Steps those that fly with nothing in their way. Returns a bit for each that needs a step of its own, the first in the lowest place.
+    #[inline(always)]
+    pub(crate) fn advance<P: Pack>(&mut self, simd: P::Simd, cx: &Context<'_>, population: usize) -> u32 {
+        let mut left = 0;
+        for part in 0..BLOCK / P::LANES {
+            left |= self.advance_part::<P>(simd, cx, population, part) << (part * P::LANES);
+        }
+        rows_of_bits(left)
+    }
+
+    /// Steps part of them. Bits are those of its lanes.
+    #[inline(always)]
+    fn advance_part<P: Pack>(
+        &mut self,
+        simd: P::Simd,
+        cx: &Context<'_>,
+        population: usize,
+        part: usize,
+    ) -> u32 {
+        let population = &cx.scene.populations[population];
+        let place: &mut Column = must_cast_mut(self.place);
+        let motion: &mut Column = must_cast_mut(self.motion);
+        let places: [P; 4] = load_block(simd, place, part);
+        let motions: [P; 4] = load_block(simd, motion, part);
+        let [_, life_size, air_a, air_b]: [P; 4] = load_block(simd, must_cast_ref(self.traits), part);
+        let (position, bits) = vector_and_fourth(places);
+        let (velocity, birth) = vector_and_fourth(motions);
+        let flags = bits.to_bits();
+        let is_plain = (flags & MARKS).equals(0);
+        let is_idle = is_plain & is_unborn(flags);
+        let flies = is_plain
+            & particle_state(flags).equals(PARTICLE_ALIVE)
+            & !life_is_over(cx, birth.to_bits(), life_size.to_bits());
+        if !flies.any() {
+            return P::bits_of(!is_idle);
+        }
+        let mutual = match self.pulls {
+            Some(pulls) => vector_and_fourth(load_block::<P>(simd, pulls, part)).0,
+            None => Vec3::<f32>::ZERO.spread(air_a),
+        };
+        let start = ParticleFlight { position, velocity };
+        let end = particle_fly(cx, population, start, [air_a, air_b], mutual);
+        let ends =
+            may_be_struck(cx, population, position, end.position) | is_outside(population, end.position);
+        let moved = flies & !ends;
+        let mut new_places = [end.position.x, end.position.y, end.position.z, bits];
+        let mut new_motions = [end.velocity.x, end.velocity.y, end.velocity.z, birth];
+        if (!moved).any() {
+            new_places = select_four(moved, new_places, places);
+            new_motions = select_four(moved, new_motions, motions);
+        }
+        store_block(place, part, new_places);
+        store_block(motion, part, new_motions);
+        P::bits_of(!(moved | is_idle))
+    }
+}

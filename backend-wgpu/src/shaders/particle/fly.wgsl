@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// twin: core/src/device/particle/fly.rs
+// Flight of a particle through a step, with nothing in its way.
+#import bindings
+#import arith/vector
+#import particle/air
+#import particle/force
+#import wind/sample
+
+const LEAST_M_S: f32 = 1e-20;
+
+struct ParticleFlight {
+    position: vec3<f32>,
+    velocity: vec3<f32>,
+}
+
+fn whole_speed(speed: f32) -> f32 {
+    return select(speed, 0.0, max(speed, -speed) < LEAST_M_S);
+}
+
+fn particle_fly(number: u32, start: ParticleFlight, air: vec2<f32>, mutual: vec3<f32>) -> ParticleFlight {
+    let position = start.position;
+    let velocity = start.velocity;
+    let dt = scene.dt_s;
+    let half = 0.5 * scene.dt_s;
+    let kind = scene.populations[number].air;
+    let flags = scene.populations[number].flags;
+    var end = start;
+    if (kind == AIR_MASSLESS) {
+        end.velocity = wind_at(position + wind_at(position) * half);
+        end.position = position + end.velocity * dt;
+    } else {
+        var pull = vec3<f32>(0.0, -scene.populations[number].gravity_m_s2, 0.0);
+        if ((flags & POPULATION_PULLED) != 0u) {
+            pull = pull + force_pull(number, position + velocity * half);
+        }
+        if ((flags & POPULATION_MUTUAL) != 0u) {
+            pull = pull + mutual;
+        }
+        var wind = vec3<f32>(0.0, 0.0, 0.0);
+        if (kind != AIR_VACUUM) {
+            wind = wind_at(position);
+        }
+        let is_linear = kind == AIR_LINEAR || kind == AIR_STOKES;
+        if (is_linear && (flags & POPULATION_TURNED) == 0u) {
+            let slip = wind - velocity;
+            let way = air.x * air.y;
+            let lag = dt - way;
+            end.position = position + (velocity * dt + (slip * lag + pull * (air.y * lag)));
+            end.velocity = velocity + (slip * air.x + pull * way);
+        } else {
+            let kick = pull * half;
+            var turned = air_drag(number, wind, velocity + kick, air);
+            if ((flags & POPULATION_TURNED) != 0u) {
+                turned = force_turn(number, turned);
+            }
+            end.velocity = turned + kick;
+            end.position = position + (velocity + end.velocity) * half;
+        }
+    }
+    end.velocity = vec3<f32>(whole_speed(end.velocity.x), whole_speed(end.velocity.y), whole_speed(end.velocity.z));
+    if ((flags & POPULATION_SWIRLED) != 0u) {
+        end.position = force_swirl(number, end.position);
+    }
+    return end;
+}

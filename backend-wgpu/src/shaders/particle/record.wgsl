@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// twin: core/src/device/particle/record.rs
+// Accessors of the packed words of particles.
+#import bindings
+
+fn particle_state(bits: u32) -> u32 {
+    return bits & PARTICLE_STATE_MASK;
+}
+
+fn particle_population(bits: u32) -> u32 {
+    return (bits >> POPULATION_SHIFT) & POPULATION_MASK;
+}
+
+fn particle_hits(bits: u32) -> u32 {
+    return (bits >> HITS_SHIFT) & HITS_MASK;
+}
+
+fn particle_life(life_size: u32) -> u32 {
+    return life_size & TRAIT_MASK;
+}
+
+fn particle_size(life_size: u32) -> u32 {
+    return life_size >> PARTICLE_SIZE_SHIFT;
+}
+
+fn particle_bits(state: u32, population: u32) -> u32 {
+    return state | (population << POPULATION_SHIFT);
+}
+
+fn with_particle_state(bits: u32, state: u32) -> u32 {
+    return (bits & ~PARTICLE_STATE_MASK) | state;
+}
+
+fn with_more_hits(bits: u32, hits: u32) -> u32 {
+    let sum = min(particle_hits(bits) + hits, HITS_MASK);
+    return (bits & ~(HITS_MASK << HITS_SHIFT)) | (sum << HITS_SHIFT) | PARTICLE_HIT;
+}
+
+fn life_size_word(life: u32, size: u32) -> u32 {
+    return life | (size << PARTICLE_SIZE_SHIFT);
+}

@@ -1,0 +1,130 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// twin: core/src/device/particle/step.rs
+// One step of one particle.
+#import particle/bindings
+#import arith/vector
+#import particle/birth
+#import particle/fly
+#import particle/record
+#import particle/strike
+#import solid/near
+#import terrain/ground
+
+struct ParticleChange {
+    born: u32,
+    died: u32,
+    hits: u32,
+    stopped: u32,
+    cut_short: u32,
+}
+
+fn life_is_over(birth: u32, life_size: u32) -> bool {
+    let life = particle_life(life_size);
+    let age = step_block.index - birth;
+    return !(life == 0u || age < life);
+}
+
+fn is_outside(number: u32, place: vec3<f32>) -> bool {
+    let low = scene.populations[number].low_m;
+    let high = scene.populations[number].high_m;
+    return place.x < low.x || place.y < low.y || place.z < low.z || high.x < place.x || high.y < place.y || high.z < place.z;
+}
+
+fn may_be_struck(number: u32, start: vec3<f32>, end: vec3<f32>) -> bool {
+    if (scene.populations[number].meets == MEETS_NOTHING) {
+        return false;
+    }
+    let meets_ground = ground_met(end);
+    if (scene.solids.count == 0u) {
+        return meets_ground;
+    }
+    let way = end - start;
+    let reach = scene.solids.reach_m;
+    let is_near = may_meet_solids(start) || reach * reach < vec3_dot(way, way);
+    return meets_ground || is_near;
+}
+
+fn rest_is_checked(slot: u32) -> bool {
+    return ((step_block.index + slot) & 7u) == 0u;
+}
+
+fn particle_step(particle: u32, slot: u32, mutual: vec3<f32>) -> ParticleChange {
+    var change = ParticleChange(0u, 0u, 0u, 0u, 0u);
+    let number = particle_population(particle_places[particle].bits);
+    let before = particle_state(particle_places[particle].bits);
+    var is_alive = before == PARTICLE_ALIVE || before == PARTICLE_RESTING;
+    var bits = particle_places[particle].bits & ~(PARTICLE_BORN | PARTICLE_DIED | PARTICLE_HIT);
+    if (is_alive && life_is_over(particle_motions[particle].birth, particle_traits[particle].life_size)) {
+        bits = with_particle_state(bits, PARTICLE_DEAD) | PARTICLE_DIED;
+        change.died += 1u;
+        is_alive = false;
+    }
+    particle_places[particle].bits = bits;
+    var rest = 1.0;
+    let among = birth_number(number, slot - scene.populations[number].first_slot);
+    if (among != NEVER) {
+        change.cut_short = u32(is_alive);
+        change.born = 1u;
+        rest = particle_birth(particle, number, step_block.births[number].first_id + among);
+        bits = particle_places[particle].bits;
+        is_alive = true;
+    }
+    if (!is_alive || (among == NEVER && before == PARTICLE_RESTING && !rest_wakes(number, slot))) {
+        return change;
+    }
+    let start = ParticleFlight(particle_places[particle].position, particle_motions[particle].velocity);
+    let felt = select(vec3<f32>(0.0, 0.0, 0.0), mutual, among == NEVER);
+    var end = particle_fly(number, start, particle_traits[particle].air, felt);
+    let time = scene.dt_s * rest;
+    if (rest < 1.0) {
+        end.position = start.position + (end.position - start.position) * rest;
+        end.velocity = start.velocity + (end.velocity - start.velocity) * rest;
+    }
+    var state = PARTICLE_ALIVE;
+    bits = bits & ~PARTICLE_GROUNDED;
+    if (may_be_struck(number, start.position, end.position)) {
+        let contact = particle_contact(number, start, end, scene.dt_s - time, time);
+        end = contact.flight;
+        if (contact.held_by == NEVER) {
+            end.position = particle_push(end.position, scene.dt_s);
+        } else {
+            state = PARTICLE_RESTING;
+            end.velocity = vec3<f32>(0.0, 0.0, 0.0);
+            if (before == PARTICLE_RESTING && among == NEVER) {
+                end.position = particle_push(start.position, scene.dt_s);
+            }
+            if (contact.held_by == STRIKE_GROUND) {
+                bits = bits | PARTICLE_GROUNDED;
+            }
+        }
+        if (contact.dies) {
+            state = PARTICLE_DEAD;
+        }
+        change.hits = contact.hits;
+        change.stopped = u32(contact.is_stopped);
+    }
+    if (change.hits != 0u) {
+        bits = with_more_hits(bits, change.hits);
+    }
+    if (is_outside(number, end.position)) {
+        state = PARTICLE_DEAD;
+    }
+    if (state == PARTICLE_DEAD) {
+        change.died += 1u;
+        bits = bits | PARTICLE_DIED;
+    }
+    particle_places[particle].position = end.position;
+    particle_places[particle].bits = with_particle_state(bits, state);
+    particle_motions[particle].velocity = end.velocity;
+    return change;
+}
+
+fn rest_wakes(number: u32, slot: u32) -> bool {
+    return scene.populations[number].meets != MEETS_STICK && rest_is_checked(slot);
+}
+
+fn is_unborn(bits: u32) -> bool {
+    let state = particle_state(bits);
+    return state == PARTICLE_DORMANT || state == PARTICLE_DEAD;
+}

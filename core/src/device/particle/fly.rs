@@ -1,0 +1,87 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! twin: backend-wgpu/src/shaders/particle/fly.wgsl
+//!
+//! Flight of a particle through a step, with nothing in its way.
+
+use super::air::{AIR_LINEAR, AIR_MASSLESS, AIR_STOKES, AIR_VACUUM, air_drag};
+use super::force::{force_pull, force_swirl, force_turn};
+use super::record::{POPULATION_MUTUAL, POPULATION_PULLED, POPULATION_SWIRLED, POPULATION_TURNED};
+use crate::arith::lane::{Mask, Real};
+use crate::arith::vector::Vec3;
+use crate::blocks::PopulationBlock;
+use crate::context::Context;
+use crate::device::wind::sample::wind_at;
+
+/// Speed along an axis in m/s below which there is none: decaying ones would become subnormal, on which processors are slow.
+const LEAST_M_S: f32 = 1e-20;
+
+/// A particle on its way.
+#[derive(Clone, Copy, Debug)]
+pub struct ParticleFlight<R: Real = f32> {
+    /// Position in m.
+    pub position: Vec3<R>,
+    /// Velocity in m/s.
+    pub velocity: Vec3<R>,
+}
+
+/// A component of a velocity, or nothing if it is tiny.
+#[inline(always)]
+fn whole_speed<R: Real>(speed: R) -> R {
+    speed.max(-speed).less_than(speed.all(LEAST_M_S)).select_real(speed.all(0.0), speed)
+}
+
+/// A particle after a free step. Linear drag is exact; other places follow from the mean of both velocities. Forces act where half a
+/// step takes the particle: with that mean a step is the leapfrog's, which keeps orbits. `mutual` is the acceleration by others of the population.
+#[inline(always)]
+pub fn particle_fly<R: Real>(
+    cx: &Context<'_>,
+    population: &PopulationBlock,
+    start: ParticleFlight<R>,
+    air: [R; 2],
+    mutual: Vec3<R>,
+) -> ParticleFlight<R> {
+    let ParticleFlight { position, velocity } = start;
+    let dt = position.x.all(cx.scene.dt_s);
+    let half = position.x.all(0.5 * cx.scene.dt_s);
+    let mut end = start;
+    if population.air == AIR_MASSLESS {
+        end.velocity = wind_at(cx, position + wind_at(cx, position) * half);
+        end.position = position + end.velocity * dt;
+    } else {
+        let none = position.x.all(0.0);
+        let mut pull = Vec3::new(none, position.x.all(-population.gravity_m_s2), none);
+        if (population.flags & POPULATION_PULLED) != 0 {
+            pull = pull + force_pull(cx, population, position + velocity * half);
+        }
+        if (population.flags & POPULATION_MUTUAL) != 0 {
+            pull = pull + mutual;
+        }
+        let mut wind = Vec3::<f32>::ZERO.spread(none);
+        if population.air != AIR_VACUUM {
+            wind = wind_at(cx, position);
+        }
+        let is_linear = population.air == AIR_LINEAR || population.air == AIR_STOKES;
+        if is_linear && (population.flags & POPULATION_TURNED) == 0 {
+            let slip = wind - velocity;
+            let way = air[0] * air[1];
+            let lag = dt - way;
+            end.position = position + (velocity * dt + (slip * lag + pull * (air[1] * lag)));
+            end.velocity = velocity + (slip * air[0] + pull * way);
+        } else {
+            let kick = pull * half;
+            let mut turned = air_drag(population, wind, velocity + kick, air);
+            if (population.flags & POPULATION_TURNED) != 0 {
+                turned = force_turn(cx, population, turned);
+            }
+            end.velocity = turned + kick;
+            end.position = position + (velocity + end.velocity) * half;
+        }
+    }
+    let Vec3 { x, y, z } = end.velocity;
+    end.velocity = Vec3::new(whole_speed(x), whole_speed(y), whole_speed(z));
+    if (population.flags & POPULATION_SWIRLED) != 0 {
+        end.position = force_swirl(cx, population, end.position);
+    }
+    end
+}

@@ -1,0 +1,13 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! One step of one particle, from birth to death.
+
+pub mod air;
+pub mod birth;
+pub mod draw;
+pub mod fly;
+pub mod force;
+pub mod mutual;
+pub mod record;
+pub mod step;
+pub mod strike;

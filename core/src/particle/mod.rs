@@ -1,0 +1,15 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Particles: their columns, population after population, and what has happened to them.
+
+mod run;
+mod stats;
+mod store;
+
+pub use crate::device::particle::record::{ParticleMotion, ParticlePlace, ParticleRun, ParticleTraits};
+pub use run::add_to_tally;
+pub(crate) use run::{step_all, step_run};
+pub use stats::ParticleStats;
+pub use store::{
+    HOT_BYTES_PER_STEP, ParticleMut, ParticleStore, ParticlesMut, TalliesMut, TallyMut, TallyStore,
+};

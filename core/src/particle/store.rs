@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The particle store, and the counts of what has happened to each population.
+
+use crate::device::particle::record::{
+    PARTICLE_DORMANT, ParticleMotion, ParticlePlace, ParticleTraits, TALLY_WORDS, particle_bits,
+};
+use crate::scene::Scene;
+
+crate::columns! {
+    /// All particles of a world, population after population. Index = slot.
+    pub struct ParticleStore("particles") {
+        /// Position and flags.
+        pub place: ParticlePlace,
+        /// Velocity and birth.
+        pub motion: ParticleMotion,
+        /// Numbers that stay for a life.
+        pub traits: ParticleTraits,
+    }
+    /// The records of one particle.
+    row ParticleMut;
+    /// A run of particles whose columns can be split.
+    run ParticlesMut;
+}
+
+/// Bytes that one step of one particle moves without an event: place and motion are read and written, traits are read.
+pub const HOT_BYTES_PER_STEP: usize =
+    2 * (size_of::<ParticlePlace>() + size_of::<ParticleMotion>()) + size_of::<ParticleTraits>();
+
+crate::columns! {
+    /// Counts of what has happened to particles since the scene began: [`TALLY_WORDS`] for each population.
+    pub struct TallyStore("particle counts") {
+        /// The counts.
+        pub count: u32,
+    }
+    /// One count.
+    row TallyMut;
+    /// A run of counts.
+    run TalliesMut;
+}
+
+impl TallyStore {
+    /// Number of rows for a scene.
+    pub(crate) fn rows_of(scene: &Scene) -> usize {
+        scene.particles.len() * TALLY_WORDS as usize
+    }
+}
+
+impl ParticleStore {
+    /// The store of a scene, in which no particle is born yet.
+    pub(crate) fn dormant(scene: &Scene) -> Self {
+        let mut store = Self::zeroed(scene.particle_count() as usize);
+        let populations = (0..).zip(&scene.particles);
+        let slots = populations.flat_map(|(number, particles)| (0..particles.count).map(move |_| number));
+        for (place, number) in store.place.iter_mut().zip(slots) {
+            place.bits = particle_bits(PARTICLE_DORMANT, number);
+        }
+        store
+    }
+}

@@ -1,0 +1,325 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Particles: points that fly besides the leaves, such as sparks, snow, rain, pollen and smoke.
+
+use glam::Vec3;
+use serde::{Deserialize, Serialize};
+
+use super::ObjectFriction;
+
+/// A number that differs from particle to particle.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub enum Spread {
+    /// The same for all, -1000000 to 1000000 and within the range of its field.
+    Constant(f32),
+    /// Uniform about a mean, by at most a half width; both -1000000 to 1000000, and all that is drawn within the range of the field.
+    Uniform(f32, f32),
+    /// Nearly normal about a mean, with a standard deviation; both -1000000 to 1000000. The sum of four uniform numbers: nothing is farther
+    /// from the mean than 3.4641 standard deviations, all of it within the range of the field.
+    Normal(f32, f32),
+}
+
+/// Standard deviations from its mean to the farthest number of [`Spread::Normal`]: twice the root of three.
+pub const NORMAL_REACH: f32 = 3.464_102;
+
+impl Spread {
+    /// Mean.
+    pub fn mean(self) -> f32 {
+        let (Self::Constant(mean) | Self::Uniform(mean, _) | Self::Normal(mean, _)) = self;
+        mean
+    }
+
+    /// Half width of the uniform part.
+    pub fn half_width(self) -> f32 {
+        if let Self::Uniform(_, half_width) = self { half_width } else { 0.0 }
+    }
+
+    /// Standard deviation of the normal part.
+    pub fn deviation(self) -> f32 {
+        if let Self::Normal(_, deviation) = self { deviation } else { 0.0 }
+    }
+
+    /// Distance from the mean to the farthest number.
+    fn reach(self) -> f32 {
+        self.half_width() + NORMAL_REACH * self.deviation()
+    }
+
+    /// Least number that is drawn.
+    pub fn lowest(self) -> f32 {
+        self.mean() - self.reach()
+    }
+
+    /// Largest number that is drawn.
+    pub fn highest(self) -> f32 {
+        self.mean() + self.reach()
+    }
+}
+
+/// Points that particles start from, uniformly by length, area or volume.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub enum ParticleShape {
+    /// An axis-aligned box.
+    Box {
+        /// Centre in metres, each component -4096 to 4096.
+        center_m: Vec3,
+        /// Half edge lengths in metres, each 0 to 4096.
+        half_extent_m: Vec3,
+    },
+    /// A disc.
+    Disc {
+        /// Centre in metres, each component -4096 to 4096.
+        center_m: Vec3,
+        /// Radius in metres, 0 to 4096.
+        radius_m: f32,
+        /// Direction across it, each component -1000 to 1000, at least 0.001 long.
+        #[serde(default = "upward")]
+        axis: Vec3,
+    },
+    /// A circle.
+    Ring {
+        /// Centre in metres, each component -4096 to 4096.
+        center_m: Vec3,
+        /// Radius in metres, 0 to 4096.
+        radius_m: f32,
+        /// Direction across it, each component -1000 to 1000, at least 0.001 long.
+        #[serde(default = "upward")]
+        axis: Vec3,
+    },
+    /// A ball, or its surface.
+    Sphere {
+        /// Centre in metres, each component -4096 to 4096.
+        center_m: Vec3,
+        /// Radius in metres, 0 to 4096.
+        radius_m: f32,
+        /// Only its surface.
+        #[serde(default)]
+        hollow: bool,
+    },
+    /// A cone.
+    Cone {
+        /// Tip in metres, each component -4096 to 4096.
+        tip_m: Vec3,
+        /// Centre of the base in metres, each component -4096 to 4096, at least 0.001 from the tip.
+        base_m: Vec3,
+        /// Radius of the base in metres, 0 to 4096.
+        radius_m: f32,
+    },
+    /// A line.
+    Line {
+        /// One end in metres, each component -4096 to 4096.
+        from_m: Vec3,
+        /// The other end in metres, each component -4096 to 4096.
+        to_m: Vec3,
+    },
+}
+
+/// Axis of a level disc or ring.
+fn upward() -> Vec3 {
+    Vec3::Y
+}
+
+/// Directions in which particles set off.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub enum Direction {
+    /// Uniform on a cap of the sphere of directions.
+    Cone {
+        /// Middle of the cap, each component -1000 to 1000, at least 0.001 long.
+        axis: Vec3,
+        /// Angle from there to its rim in degrees, 0 to 180: all directions.
+        half_angle_deg: f32,
+    },
+    /// Away from the middle of the shape; upward from the middle itself.
+    Outward,
+}
+
+/// Times at which particles are born.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub enum ParticleRelease {
+    /// All slots at once.
+    Burst {
+        /// Time in seconds, 0 to 86400.
+        at_s: f32,
+    },
+    /// One after another, evenly.
+    Rate {
+        /// Particles per second, 0.001 to 100000000.
+        per_s: f32,
+        /// Time of the first in seconds, -3600 to 86400. Those born before time zero have flown by then.
+        from_s: f32,
+    },
+    /// Independently of one another: the number in any time is Poisson distributed.
+    Poisson {
+        /// Mean number per second, 0.001 to 100000000.
+        per_s: f32,
+        /// Time from which on in seconds, -3600 to 86400. Those born before time zero have flown by then.
+        from_s: f32,
+    },
+}
+
+/// Drag of the air on particles, all in the one wind.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub enum Air {
+    /// None, and no buoyancy.
+    Vacuum,
+    /// Proportional to the speed through the air.
+    Linear {
+        /// Time constant m/b in seconds, 0.0001 to 1000.
+        time_s: Spread,
+    },
+    /// By Stokes' law, from size and density: right while the Reynolds number stays below one.
+    Stokes,
+    /// Proportional to the speed through the air, for a known terminal speed.
+    Settling {
+        /// Terminal speed in m/s, 0.0001 to 100.
+        m_s: Spread,
+    },
+    /// Proportional to the square of the speed through the air, of a sphere of size and density.
+    Quadratic {
+        /// Drag coefficient, 0.01 to 10: 0.47 of a smooth sphere.
+        drag: f32,
+    },
+    /// They go with the air, and feel no weight.
+    Massless,
+}
+
+/// Answer of particles to the ground, water and solid things.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub enum Meets {
+    /// They pass through everything.
+    Nothing,
+    /// They die.
+    Die,
+    /// They stay there until they die.
+    Stick,
+    /// They bounce, slide and come to rest, and the wind may take them up again.
+    Bounce {
+        /// Coefficient of restitution, 0 to 1.
+        restitution: f32,
+        /// Friction.
+        friction: ObjectFriction,
+    },
+}
+
+/// Region beyond which particles die.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub enum Bounds {
+    /// Below a height in metres, -4096 to 4096.
+    Below(f32),
+    /// Outside an axis-aligned box.
+    Outside {
+        /// Centre in metres, each component -4096 to 4096.
+        center_m: Vec3,
+        /// Half edge lengths in metres, each 0 to 4096.
+        half_extent_m: Vec3,
+    },
+}
+
+/// Way of drawing particles.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum LookKind {
+    /// An opaque disc, lit by sun and sky.
+    #[default]
+    Dot,
+    /// A soft disc, lit by sun and sky, seen through by its opacity.
+    Splat,
+    /// A soft disc that shines by itself and hides nothing.
+    Glow,
+    /// Not drawn.
+    Hidden,
+}
+
+/// Look of particles, over their age as a share of their life: 0 at birth, 1 at the end. Curves are linear between their points, whose
+/// ages rise, and constant before the first and after the last; without points they are one. No effect on the simulation.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Look {
+    /// Way of drawing.
+    pub kind: LookKind,
+    /// Reflectance, or colour of the light, linear red, green and blue, each component 0 to 1.
+    pub color: Vec<(f32, Vec3)>,
+    /// Opacity, 0 to 1.
+    pub opacity: Vec<(f32, f32)>,
+    /// Diameter over the particle's own, 0 to 1000.
+    pub size: Vec<(f32, f32)>,
+    /// Luminance of what shines in thousands of cd/m², 0.001 to 1000000.
+    pub brightness_kcd_m2: f32,
+    /// Drawn out along its way while the shutter is open.
+    pub streak: bool,
+    /// Layer, 0 to 15: lower ones are drawn first, whatever their distance.
+    pub layer: u32,
+}
+
+impl Default for Look {
+    fn default() -> Self {
+        Self {
+            kind: LookKind::Dot,
+            color: Vec::new(),
+            opacity: Vec::new(),
+            size: Vec::new(),
+            brightness_kcd_m2: 10.0,
+            streak: false,
+            layer: 0,
+        }
+    }
+}
+
+/// A population of particles: slots of one kind, used again and again.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Particles {
+    /// Name, unlike those of the others.
+    pub name: String,
+    /// Number of slots, 1 to 33554432; the same holds for the sum over all populations. At least as many as are alive at once.
+    pub count: u32,
+    /// Points that they start from.
+    pub from: ParticleShape,
+    /// Directions in which they set off.
+    pub direction: Direction,
+    /// Times at which they are born.
+    pub release: ParticleRelease,
+    /// Speed at which they set off in m/s, 0 to 1000.
+    pub speed_m_s: Spread,
+    /// Time in seconds from birth to death, 1 to 65535 whole steps; `None`, which only a burst may have, if age does not end them.
+    pub life_s: Option<Spread>,
+    /// Diameter in metres, 0.000001 to 100.
+    pub size_m: Spread,
+    /// Density in kg/m³, 0.01 to 25000: it counts for weight in air, and for drag by size.
+    pub density_kg_m3: f32,
+    /// Multiplier of the scene's gravity, -10 to 10: 0 for what floats.
+    pub gravity: f32,
+    /// Charge over mass in C/kg, -1000000 to 1000000.
+    pub charge_c_kg: f32,
+    /// Drag of the air.
+    pub air: Air,
+    /// Names of the forces that they feel besides weight and drag.
+    pub feels: Vec<String>,
+    /// Answer to what is in the way.
+    pub meets: Meets,
+    /// Region beyond which they die.
+    pub dies: Option<Bounds>,
+    /// Look.
+    pub look: Look,
+}
+
+impl Default for Particles {
+    fn default() -> Self {
+        Self {
+            name: "particles".into(),
+            count: 1000,
+            from: ParticleShape::Box { center_m: Vec3::new(0.0, 4.0, 0.0), half_extent_m: Vec3::splat(2.0) },
+            direction: Direction::Cone { axis: Vec3::Y, half_angle_deg: 180.0 },
+            release: ParticleRelease::Rate { per_s: 100.0, from_s: 0.0 },
+            speed_m_s: Spread::Constant(0.0),
+            life_s: Some(Spread::Constant(8.0)),
+            size_m: Spread::Constant(0.01),
+            density_kg_m3: 1000.0,
+            gravity: 1.0,
+            charge_c_kg: 0.0,
+            feels: Vec::new(),
+            air: Air::Settling { m_s: Spread::Constant(1.0) },
+            meets: Meets::Die,
+            dies: None,
+            look: Look::default(),
+        }
+    }
+}

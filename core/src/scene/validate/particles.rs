@@ -1,0 +1,351 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Checks populations of particles.
+
+use glam::Vec3;
+
+use super::check::Check;
+use crate::SceneError;
+use crate::motion::AIR_DENSITY;
+use crate::scene::limits::{self, Limit};
+use crate::scene::{
+    Air, Bounds, Direction, Force, ForceKind, Look, MAX_FORCES, MAX_MUTUAL, MAX_PARTICLES, MAX_POPULATIONS,
+    Meets, ObjectFriction, ParticleRelease, ParticleShape, Particles, STANDARD_GRAVITY_M_S2, Scene, Spread,
+    SwirlProfile, VISCOSITY_PA_S,
+};
+
+/// Most points of a curve.
+const MAX_CURVE_POINTS: usize = 64;
+/// Standard deviations of the number of particles alive for which there are slots, where they are born at random.
+const ROOM_DEVIATIONS: f64 = 6.0;
+
+impl Scene {
+    /// Checks particles, each population by itself and all together.
+    pub(super) fn check_particles(&self, check: &Check<'_>) -> Result<(), SceneError> {
+        check.length("particles", self.particles.len(), 0, MAX_POPULATIONS)?;
+        for (index, particles) in self.particles.iter().enumerate() {
+            let at = check.inside(format!("particles[{index}]"));
+            particles.check(&at)?;
+            particles.check_room(&at, f64::from(self.dt_s))?;
+            let earlier = &self.particles[..index];
+            at.holds(earlier.iter().all(|other| other.name != particles.name), "name", || {
+                (format!("{:?} again", particles.name), "a name of its own".into())
+            })?;
+        }
+        check.length("forces", self.forces.len(), 0, MAX_FORCES)?;
+        for (index, force) in self.forces.iter().enumerate() {
+            let at = check.inside(format!("forces[{index}]"));
+            force.check(&at)?;
+            at.holds(self.forces[..index].iter().all(|other| other.name != force.name), "name", || {
+                (format!("{:?} again", force.name), "a name of its own".into())
+            })?;
+            let is_felt = |particles: &Particles| particles.feels.contains(&force.name);
+            at.holds(self.particles.iter().any(is_felt), "name", || {
+                (format!("{:?}, which acts on nothing", force.name), "one that particles feel".into())
+            })?;
+        }
+        for (index, particles) in self.particles.iter().enumerate() {
+            self.check_feels(particles, &check.inside(format!("particles[{index}]")))?;
+        }
+        let count: u64 = self.particles.iter().map(|particles| u64::from(particles.count)).sum();
+        check.holds(count <= u64::from(MAX_PARTICLES), "particles", || {
+            (format!("{count} slots"), format!("at most {MAX_PARTICLES} slots over all populations"))
+        })
+    }
+}
+
+impl Scene {
+    /// Checks the forces that a population feels: that they are there, once each, and act on it.
+    fn check_feels(&self, particles: &Particles, at: &Check<'_>) -> Result<(), SceneError> {
+        for (index, name) in particles.feels.iter().enumerate() {
+            let field = format!("feels[{index}]");
+            let Some(force) = self.forces.iter().find(|force| force.name == *name) else {
+                let names: Vec<_> = self.forces.iter().map(|force| force.name.as_str()).collect();
+                return Err(at.error(&field, format!("{name:?}"), format!("one of the forces {names:?}")));
+            };
+            at.holds(!particles.feels[..index].contains(name), &field, || {
+                (format!("{name:?} again"), "each force once".into())
+            })?;
+            let is_lorentz = matches!(force.of, ForceKind::Lorentz { .. });
+            at.holds(!is_lorentz || particles.charge_c_kg != 0.0, &field, || {
+                (format!("{name:?}, which acts on charges"), "a charge_c_kg other than zero with it".into())
+            })?;
+            if matches!(force.of, ForceKind::Mutual { .. }) {
+                at.holds(particles.count <= MAX_MUTUAL, "count", || {
+                    (particles.count.to_string(), format!("at most {MAX_MUTUAL} that attract one another"))
+                })?;
+                at.holds(particles.first_birth_s() >= 0.0, "release.from_s", || {
+                    let found = particles.first_birth_s().to_string();
+                    (found, "0 or later, where particles attract one another".into())
+                })?;
+                let kinds = particles.feels[..index].iter().filter_map(|name| {
+                    self.forces.iter().find(|force| force.name == *name).map(|force| force.of)
+                });
+                let is_first = !kinds.into_iter().any(|kind| matches!(kind, ForceKind::Mutual { .. }));
+                at.holds(is_first, &field, || (format!("{name:?}"), "one Mutual force at most".into()))?;
+            }
+            let is_swirl = matches!(force.of, ForceKind::Swirl { .. });
+            at.holds(is_swirl || particles.air != Air::Massless, &field, || {
+                (format!("{name:?}, which acts on a mass"), "Swirl alone, where air is Massless".into())
+            })?;
+        }
+        Ok(())
+    }
+}
+
+impl Force {
+    fn check(&self, at: &Check<'_>) -> Result<(), SceneError> {
+        at.holds(!self.name.is_empty(), "name", || ("\"\"".into(), "a name".into()))?;
+        let at = &at.inside("of");
+        match self.of {
+            ForceKind::Attract { at_m, gm_m3_s2, softening_m } => {
+                at.vector("at_m", at_m, limits::FORCE_AT_M)?;
+                at.numbers([
+                    ("gm_m3_s2", gm_m3_s2.into(), limits::GM_M3_S2),
+                    ("softening_m", softening_m.into(), limits::SOFTENING_M),
+                ])
+            }
+            ForceKind::Mutual { gm_m3_s2, softening_m } => at.numbers([
+                ("gm_m3_s2", gm_m3_s2.into(), limits::GM_M3_S2),
+                ("softening_m", softening_m.into(), limits::SOFTENING_M),
+            ]),
+            ForceKind::Noise { m_s2, cell_m } => at.numbers([
+                ("m_s2", m_s2.into(), limits::NOISE_M_S2),
+                ("cell_m", cell_m.into(), limits::CELL_M),
+            ]),
+            ForceKind::Lorentz { b_t, e_v_m } => {
+                at.vector("b_t", b_t, limits::B_T)?;
+                at.vector("e_v_m", e_v_m, limits::E_V_M)
+            }
+            ForceKind::Spiral { rad_s, axis } => {
+                at.numbers([("rad_s", rad_s.into(), limits::FORCE_RAD_S)])?;
+                check_axis(axis, at)
+            }
+            ForceKind::Swirl { at_m, axis, rate_rad_s, swirl_radius_m, profile } => {
+                at.vector("at_m", at_m, limits::FORCE_AT_M)?;
+                check_axis(axis, at)?;
+                at.numbers([
+                    ("rate_rad_s", rate_rad_s.into(), limits::FORCE_RAD_S),
+                    ("swirl_radius_m", swirl_radius_m.into(), limits::SOFTENING_M),
+                ])?;
+                let at = at.inside("profile");
+                match profile {
+                    SwirlProfile::Power { alpha } => at.numbers([("alpha", alpha.into(), limits::ALPHA)]),
+                    SwirlProfile::Compact { d } => at.numbers([("d", d.into(), limits::SWIRL_D)]),
+                }
+            }
+        }
+    }
+}
+
+impl Particles {
+    fn check(&self, at: &Check<'_>) -> Result<(), SceneError> {
+        at.holds(!self.name.is_empty(), "name", || ("\"\"".into(), "a name".into()))?;
+        at.numbers([("count", self.count.into(), limits::PARTICLE_COUNT)])?;
+        self.from.check(&at.inside("from"))?;
+        if let Direction::Cone { axis, half_angle_deg } = self.direction {
+            let at = at.inside("direction");
+            check_axis(axis, &at)?;
+            at.numbers([("half_angle_deg", half_angle_deg.into(), limits::HALF_ANGLE_DEG)])?;
+        }
+        match self.release {
+            ParticleRelease::Burst { at_s } => {
+                at.inside("release").numbers([("at_s", at_s.into(), limits::AT_S)])?;
+            }
+            ParticleRelease::Rate { per_s, from_s } | ParticleRelease::Poisson { per_s, from_s } => {
+                at.inside("release").numbers([
+                    ("per_s", per_s.into(), limits::PER_S),
+                    ("from_s", from_s.into(), limits::FROM_S),
+                ])?;
+            }
+        }
+        check_spread(self.speed_m_s, "speed_m_s", &limits::PARTICLE_SPEED_M_S, at)?;
+        if let Some(life_s) = self.life_s {
+            check_spread(life_s, "life_s", &limits::PARTICLE_LIFE_S, at)?;
+        }
+        check_spread(self.size_m, "size_m", &limits::PARTICLE_SIZE_M, at)?;
+        // Sizes are kept relative to their mean.
+        let most = limits::MOST_SIZE_RATIO * self.size_m.mean();
+        at.holds(self.size_m.highest() <= most, "size_m", || {
+            (format!("up to {}", self.size_m.highest()), format!("at most {most}, four times the mean"))
+        })?;
+        at.numbers([("density_kg_m3", self.density_kg_m3.into(), limits::PARTICLE_DENSITY_KG_M3)])?;
+        at.numbers([
+            ("gravity", self.gravity.into(), limits::WEIGHT_SHARE),
+            ("charge_c_kg", self.charge_c_kg.into(), limits::CHARGE_C_KG),
+        ])?;
+        at.length("feels", self.feels.len(), 0, MAX_FORCES)?;
+        match self.air {
+            Air::Linear { time_s } => {
+                check_spread(time_s, "time_s", &limits::AIR_TIME_S, &at.inside("air"))?;
+            }
+            Air::Settling { m_s } => {
+                check_spread(m_s, "m_s", &limits::SETTLING_M_S, &at.inside("air"))?;
+            }
+            Air::Quadratic { drag } => {
+                at.inside("air").numbers([("drag", drag.into(), limits::PARTICLE_DRAG)])?;
+            }
+            Air::Stokes => {
+                let reynolds = self.stokes_reynolds();
+                at.holds(reynolds <= 1.0, "air", || {
+                    let found = format!("Stokes at Reynolds numbers up to {reynolds:.1}");
+                    (found, "at most 1: smaller ones, or Quadratic".into())
+                })?;
+            }
+            Air::Vacuum | Air::Massless => {}
+        }
+        if let Meets::Bounce { restitution, friction } = self.meets {
+            let at = at.inside("meets");
+            at.numbers([("restitution", restitution.into(), limits::RESTITUTION)])?;
+            let (name, number, limit) = match friction {
+                ObjectFriction::Coulomb(coefficient) => ("Coulomb", coefficient, limits::COULOMB),
+                ObjectFriction::Loss(share) => ("Loss", share, limits::LOSS),
+            };
+            at.inside("friction").numbers([(name, number.into(), limit)])?;
+            at.holds(self.air != Air::Massless, "Bounce", || {
+                ("of what goes with the air".into(), "Nothing, Die or Stick, where air is Massless".into())
+            })?;
+        }
+        match self.dies {
+            None => {}
+            Some(Bounds::Below(height_m)) => {
+                at.inside("dies").numbers([("Below", height_m.into(), limits::BELOW)])?;
+            }
+            Some(Bounds::Outside { center_m, half_extent_m }) => {
+                let at = at.inside("dies");
+                at.vector("center_m", center_m, limits::CENTER_M)?;
+                at.vector("half_extent_m", half_extent_m, limits::HALF_EXTENT_M)?;
+            }
+        }
+        self.look.check(&at.inside("look"))
+    }
+
+    /// Time of the first birth in seconds.
+    fn first_birth_s(&self) -> f32 {
+        match self.release {
+            ParticleRelease::Burst { at_s } => at_s,
+            ParticleRelease::Rate { from_s, .. } | ParticleRelease::Poisson { from_s, .. } => from_s,
+        }
+    }
+
+    /// Reynolds number of the largest particle that settles by Stokes' law in standard gravity.
+    fn stokes_reynolds(&self) -> f64 {
+        let (viscosity, density) = (f64::from(VISCOSITY_PA_S), f64::from(self.density_kg_m3));
+        let size_m = f64::from(self.size_m.highest());
+        let weight = density * f64::from(STANDARD_GRAVITY_M_S2);
+        AIR_DENSITY * weight * size_m * size_m * size_m / (18.0 * viscosity * viscosity)
+    }
+
+    /// Checks that lives can be counted in steps, and that there are slots for all that are alive at once.
+    fn check_room(&self, at: &Check<'_>, dt_s: f64) -> Result<(), SceneError> {
+        let most_s = limits::MOST_LIFE_STEPS * dt_s;
+        let longest_s = self.life_s.map(|life_s| f64::from(life_s.highest()));
+        at.holds(longest_s.is_none_or(|longest_s| longest_s <= most_s), "life_s", || {
+            let found = format!("up to {} s", longest_s.unwrap_or(0.0));
+            (found, format!("at most {most_s:.1} s: {} steps", limits::MOST_LIFE_STEPS))
+        })?;
+        let (per_s, deviations) = match self.release {
+            ParticleRelease::Burst { .. } => return Ok(()),
+            ParticleRelease::Rate { per_s, .. } => (f64::from(per_s), 0.0),
+            ParticleRelease::Poisson { per_s, .. } => (f64::from(per_s), ROOM_DEVIATIONS),
+        };
+        let Some(longest_s) = longest_s else {
+            return at.holds(false, "life_s", || {
+                ("None".into(), "a time, where particles are born again and again".into())
+            });
+        };
+        // A life is rounded to whole steps, and the births of the step in which it ends come after it.
+        let mean = per_s * (longest_s + dt_s);
+        let needed = libm::ceil(mean + deviations * libm::sqrt(mean)) + 1.0;
+        at.holds(f64::from(self.count) >= needed, "count", || {
+            let allowed = format!("at least {needed:.0}: {per_s} a second that live up to {longest_s} s");
+            (self.count.to_string(), allowed)
+        })
+    }
+}
+
+impl ParticleShape {
+    fn check(&self, at: &Check<'_>) -> Result<(), SceneError> {
+        match *self {
+            Self::Box { center_m, half_extent_m } => {
+                at.vector("center_m", center_m, limits::CENTER_M)?;
+                at.vector("half_extent_m", half_extent_m, limits::HALF_EXTENT_M)
+            }
+            Self::Disc { center_m, radius_m, axis } | Self::Ring { center_m, radius_m, axis } => {
+                at.vector("center_m", center_m, limits::CENTER_M)?;
+                at.numbers([("radius_m", radius_m.into(), limits::RADIUS_M)])?;
+                check_axis(axis, at)
+            }
+            Self::Sphere { center_m, radius_m, hollow: _ } => {
+                at.vector("center_m", center_m, limits::CENTER_M)?;
+                at.numbers([("radius_m", radius_m.into(), limits::RADIUS_M)])
+            }
+            Self::Cone { tip_m, base_m, radius_m } => {
+                at.vector("tip_m", tip_m, limits::PARTICLE_AT_M)?;
+                at.vector("base_m", base_m, limits::PARTICLE_AT_M)?;
+                at.numbers([("radius_m", radius_m.into(), limits::RADIUS_M)])?;
+                at.holds(tip_m.distance(base_m) >= 0.001, "base_m", || {
+                    (base_m.to_string(), "at least 0.001 m from the tip".into())
+                })
+            }
+            Self::Line { from_m, to_m } => {
+                at.vector("from_m", from_m, limits::PARTICLE_AT_M)?;
+                at.vector("to_m", to_m, limits::PARTICLE_AT_M)
+            }
+        }
+    }
+}
+
+impl Look {
+    fn check(&self, at: &Check<'_>) -> Result<(), SceneError> {
+        check_curve(&self.color, "color", at, |at, color| at.vector("color", color, limits::COLOR))?;
+        check_curve(&self.opacity, "opacity", at, |at, opacity| {
+            at.numbers([("opacity", opacity.into(), limits::OPACITY)])
+        })?;
+        check_curve(&self.size, "size", at, |at, size| {
+            at.numbers([("size", size.into(), limits::SIZE_OVER_AGE)])
+        })?;
+        at.numbers([(
+            "brightness_kcd_m2",
+            self.brightness_kcd_m2.into(),
+            limits::PARTICLE_BRIGHTNESS_KCD_M2,
+        )])?;
+        at.numbers([("layer", self.layer.into(), limits::LAYER)])
+    }
+}
+
+/// Checks the ages of a curve, and each of its values.
+fn check_curve<T: Copy>(
+    points: &[(f32, T)],
+    name: &str,
+    at: &Check<'_>,
+    check: impl Fn(&Check<'_>, T) -> Result<(), SceneError>,
+) -> Result<(), SceneError> {
+    at.length(name, points.len(), 0, MAX_CURVE_POINTS)?;
+    let mut before = f32::NEG_INFINITY;
+    for (index, (age, value)) in points.iter().enumerate() {
+        let at = at.inside(format!("{name}[{index}]"));
+        at.holds(limits::AGE_SHARE.contains(*age) && before < *age, "0", || {
+            (format!("{age:?}"), format!("{}, more than that of the point before", limits::AGE_SHARE))
+        })?;
+        before = *age;
+        check(&at, *value)?;
+    }
+    Ok(())
+}
+
+/// Checks the length of a direction.
+fn check_axis(axis: Vec3, at: &Check<'_>) -> Result<(), SceneError> {
+    at.vector("axis", axis, limits::AXIS)?;
+    at.holds(axis.length() >= 0.001, "axis", || (axis.to_string(), "at least 0.001 long".into()))
+}
+
+/// Checks that all that is drawn lies within a range.
+fn check_spread(spread: Spread, name: &str, limit: &Limit<f32>, at: &Check<'_>) -> Result<(), SceneError> {
+    let (lowest, highest) = (spread.lowest(), spread.highest());
+    let is_allowed = spread.half_width() >= 0.0
+        && spread.deviation() >= 0.0
+        && limit.contains(lowest)
+        && limit.contains(highest);
+    at.holds(is_allowed, name, || (format!("{lowest:?} to {highest:?}"), limit.to_string()))
+}

@@ -1,0 +1,176 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The functions of particles: draws, shapes, drag, forces, flight and contacts.
+
+use windfall_core::Context;
+use windfall_core::arith::Vec3;
+use windfall_core::blocks::PopulationBlock;
+use windfall_core::device::particle::air::{air_numbers, lost_share};
+use windfall_core::device::particle::birth::{cap_direction, shape_point};
+use windfall_core::device::particle::draw::{particle_words, spread_draw};
+use windfall_core::device::particle::fly::{ParticleFlight, particle_fly};
+use windfall_core::device::particle::force::{force_pull, force_swirl, force_turn};
+use windfall_core::device::particle::mutual::mutual_pull;
+use windfall_core::device::particle::record::{
+    MEETS_NOTHING, life_size_word, particle_hits, particle_life, particle_size, with_more_hits,
+};
+use windfall_core::device::particle::strike::{
+    bent_share, ground_strike, particle_contact, particle_push, struck_velocity, wedged_velocity,
+};
+use windfall_core::device::wind::vortex::swirl_profile;
+
+use super::{Function, Input, float, floats, functions, integers, vector};
+use crate::runner::Words;
+
+const ANY: Input = Input::Word;
+/// Populations of the test scene.
+const POPULATION: Input = Input::Below(7);
+/// Places among the objects of the test scene, and above them.
+const PLACE: Input = Input::Floats(3, -4.0, 4.0);
+const FLOW: Input = Input::Floats(3, -8.0, 8.0);
+const NORMAL: Input = Input::Floats(3, -0.6, 0.6);
+const SHARE: Input = Input::Float(0.0, 1.0);
+
+fn population<'a>(cx: &Context<'a>, words: &Words) -> &'a PopulationBlock {
+    &cx.scene.populations[words[0] as usize]
+}
+
+functions! {
+    PARTICLE_FUNCTIONS;
+
+    particle_words in "particle/draw" (POPULATION, ANY, Input::Below(5)) tolerance None;
+    wgsl "r = particle_words(scene.seed, a.x, a.y, a.z);";
+    rust |cx, w| integers(particle_words(cx.scene.seed, w[0], w[1], w[2]));
+
+    spread_draw in "particle/draw" (POPULATION, ANY, ANY) tolerance Some(1e-6);
+    wgsl "r.x = bitcast<u32>(spread_draw(scene.populations[a.x].speed_m_s, a.y, a.z));
+        r.y = bitcast<u32>(spread_draw(scene.populations[a.x].life_steps, a.y, a.z));";
+    rust |cx, w| {
+        let block = population(cx, w);
+        floats([spread_draw(block.speed_m_s, w[1], w[2]), spread_draw(block.life_steps, w[1], w[2])])
+    };
+
+    lost_share in "particle/air" (Input::Scale(1e-6, 50.0)) tolerance Some(1e-6);
+    wgsl "r.x = bitcast<u32>(lost_share(bitcast<f32>(a.x)));";
+    rust |_cx, w| floats([lost_share(float(w[0]))]);
+
+    air_numbers in "particle/air" (POPULATION, Input::Below(65535), ANY, ANY) tolerance Some(2e-6);
+    wgsl "let n = air_numbers(a.x, a.y + 1u, a.z, a.w); r.x = bitcast<u32>(n.x); r.y = bitcast<u32>(n.y);";
+    rust |cx, w| floats(air_numbers(cx, population(cx, w), w[1] + 1, w[2], w[3]));
+
+    shape_point in "particle/birth" (Input::Below(7), ANY, ANY, ANY, ANY, ANY, ANY) tolerance Some(1e-5);
+    wgsl "out_vec3(0u, shape_point(a.x, in_words(1u), in_words(5u)));";
+    rust |_cx, w| {
+        let words = |at: usize| [w[at], w[at + 1], w[at + 2], w[at + 3]];
+        floats(shape_point(w[0], words(1), words(5)).to_array())
+    };
+
+    cap_direction in "particle/birth" (POPULATION, ANY, ANY) tolerance Some(1e-5);
+    wgsl "out_vec3(0u, cap_direction(a.x, a.y, a.z));";
+    rust |cx, w| floats(cap_direction(population(cx, w), w[1], w[2]).to_array());
+
+    with_more_hits in "particle/record" (ANY, Input::Below(5), ANY) tolerance None;
+    wgsl "r.x = with_more_hits(a.x, a.y); r.y = particle_hits(a.x); r.z = particle_life(a.z); r.w = particle_size(a.z);
+        s.x = life_size_word(a.z & 0xffffu, a.x & 0xffffu);";
+    rust |_cx, w| integers([
+        with_more_hits(w[0], w[1]),
+        particle_hits(w[0]),
+        particle_life(w[2]),
+        particle_size(w[2]),
+        life_size_word(w[2] & 0xffff, w[0] & 0xffff),
+    ]);
+
+    force_pull in "particle/force" (POPULATION, PLACE) tolerance Some(1e-4);
+    wgsl "out_vec3(0u, force_pull(a.x, in_vec3(1u)));";
+    rust |cx, w| floats(force_pull(cx, population(cx, w), vector(w, 1)).to_array());
+
+    force_turn in "particle/force" (POPULATION, FLOW) tolerance Some(2e-6);
+    wgsl "out_vec3(0u, force_turn(a.x, in_vec3(1u)));";
+    rust |cx, w| floats(force_turn(cx, population(cx, w), vector(w, 1)).to_array());
+
+    force_swirl in "particle/force" (POPULATION, PLACE) tolerance Some(1e-5);
+    wgsl "out_vec3(0u, force_swirl(a.x, in_vec3(1u)));";
+    rust |cx, w| floats(force_swirl(cx, population(cx, w), vector(w, 1)).to_array());
+
+    swirl_profile in "wind/vortex" (Input::Below(4), Input::Float(-0.9, 5.0), Input::Float(0.0, 2.0)) tolerance Some(1e-4);
+    wgsl "r.x = bitcast<u32>(swirl_profile(a.x, bitcast<f32>(a.y), bitcast<f32>(a.z)));";
+    rust |_cx, w| floats([swirl_profile(w[0], float(w[1]), float(w[2]))]);
+
+    mutual_pull in "particle/mutual" (POPULATION, FLOW, PLACE, PLACE, Input::Float(0.1, 2.0)) tolerance Some(1e-2);
+    wgsl "out_vec3(0u, mutual_pull(a.x, in_vec3(1u), in_vec3(4u), vec4<f32>(in_vec3(7u) + 8.0, in_float(10u))));";
+    rust |cx, w| {
+        let [x, y, z] = vector(w, 7).to_array().map(|along| along + 8.0);
+        floats(mutual_pull(population(cx, w), vector(w, 1), vector(w, 4), [x, y, z, float(w[10])]).to_array())
+    };
+
+    particle_fly in "particle/fly" (POPULATION, PLACE, FLOW, SHARE, Input::Float(0.0, 3.0), FLOW) tolerance Some(1e-4);
+    wgsl "let end = particle_fly(a.x, ParticleFlight(in_vec3(1u), in_vec3(4u)), vec2<f32>(in_float(7u), in_float(8u)), in_vec3(9u));
+        out_vec3(0u, end.position); out_vec3(3u, end.velocity);";
+    rust |cx, w| {
+        let start = ParticleFlight { position: vector(w, 1), velocity: vector(w, 4) };
+        let end = particle_fly(cx, population(cx, w), start, [float(w[7]), float(w[8])], vector(w, 9));
+        flight(end)
+    };
+
+    ground_strike in "particle/strike" (PLACE, FLOW) tolerance Some(1e-2);
+    wgsl "let hit = ground_strike(in_vec3(0u), in_vec3(3u)); r.x = hit.number & 3u; r.y = bitcast<u32>(hit.share);";
+    rust |cx, w| {
+        let hit = ground_strike(cx, vector(w, 0), vector(w, 3));
+        integers([hit.number & 3, hit.share.to_bits()])
+    };
+
+    bent_share in "particle/strike" (SHARE, SHARE, Input::Float(-1.0, 1.0), Input::Float(-1.0, 1.0)) tolerance Some(1e-2);
+    wgsl "r.x = bitcast<u32>(bent_share(in_float(0u), in_float(1u), in_float(2u), in_float(3u)));";
+    rust |_cx, w| floats([bent_share(float(w[0]), float(w[1]), float(w[2]), float(w[3]))]);
+
+    struck_velocity in "particle/strike" (POPULATION, FLOW, NORMAL, SHARE, SHARE, SHARE) tolerance Some(1e-4);
+    wgsl "out_vec3(0u, struck_velocity(a.x, in_vec3(1u), in_vec3(4u), in_float(7u), in_float(8u), in_float(9u)));";
+    rust |cx, w| {
+        let block = population(cx, w);
+        floats(
+            struck_velocity(block, vector(w, 1), vector(w, 4), float(w[7]), float(w[8]), float(w[9])).to_array(),
+        )
+    };
+
+    wedged_velocity in "particle/strike" (FLOW, NORMAL, NORMAL, NORMAL) tolerance Some(1e-2);
+    wgsl "out_vec3(0u, wedged_velocity(in_vec3(0u), in_vec3(3u), in_vec3(6u), in_vec3(9u)));";
+    rust |_cx, w| floats(wedged_velocity(vector(w, 0), vector(w, 3), vector(w, 6), vector(w, 9)).to_array());
+
+    particle_contact in "particle/strike" (POPULATION, PLACE, FLOW, FLOW) tolerance Some(1e-2);
+    wgsl "if (scene.populations[a.x].meets != MEETS_NOTHING) {
+            let start = ParticleFlight(in_vec3(1u), in_vec3(4u)); let next = in_vec3(7u);
+            let end = ParticleFlight(start.position + (start.velocity + next) * 0.05, next);
+            let found = particle_contact(a.x, start, end, 0.0, 0.1);
+            out_vec3(0u, found.flight.position); out_vec3(3u, found.flight.velocity);
+            answer[1] |= vec4<u32>(0u, 0u, found.hits, found.held_by & 255u);
+            answer[2] |= vec4<u32>(u32(found.is_stopped), u32(found.dies), 0u, 0u);
+        }";
+    rust |cx, w| {
+        let block = population(cx, w);
+        if block.meets == MEETS_NOTHING {
+            return floats([0.0; 10]);
+        }
+        let start = ParticleFlight { position: vector(w, 1), velocity: vector(w, 4) };
+        let next = vector(w, 7);
+        let end = ParticleFlight { position: start.position + (start.velocity + next) * 0.05, velocity: next };
+        let found = particle_contact(cx, block, start, end, 0.0, 0.1);
+        let mut words = flight(found.flight);
+        words[6..10].copy_from_slice(&[
+            found.hits,
+            found.held_by & 255,
+            u32::from(found.is_stopped),
+            u32::from(found.dies),
+        ]);
+        words
+    };
+
+    particle_push in "particle/strike" (PLACE) tolerance Some(1e-2);
+    wgsl "out_vec3(0u, particle_push(in_vec3(0u), 0.01));";
+    rust |cx, w| floats(particle_push(cx, vector(w, 0), 0.01).to_array());
+}
+
+fn flight(flight: ParticleFlight) -> Words {
+    let Vec3 { x, y, z } = flight.position;
+    let velocity = flight.velocity;
+    floats([x, y, z, velocity.x, velocity.y, velocity.z])
+}

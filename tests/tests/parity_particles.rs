@@ -1,0 +1,208 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Particles: the same bits on CPU and GPU, whatever the threads, instructions and pages, and changes that must be noticed.
+
+use windfall_core::scene::{MeanSpeed, Meets};
+use windfall_core::{Contract, SimError, Simulator, World, oracle};
+use windfall_cpu::{CpuOptions, CpuSimulator, Simd};
+use windfall_tests::adapter;
+use windfall_tests::compare::difference;
+use windfall_tests::strategies::{hilly_scene, particle_scene};
+use windfall_wgpu::{Gpu, Shaders, WgpuOptions, WgpuSimulator};
+
+const DT_S: f32 = 1.0 / 60.0;
+
+fn world() -> World {
+    World::build(&particle_scene(31, 4.0, DT_S)).expect("the scene of particles is valid")
+}
+
+fn on_cpu(world: &World, options: CpuOptions, steps: u32) -> World {
+    let mut result = world.clone();
+    let mut simulator = CpuSimulator::new(world, options).expect("threads start");
+    simulator.step(steps).expect("the CPU steps");
+    simulator.read_state(&mut result).expect("same size");
+    result
+}
+
+fn on_gpu(gpu: &Gpu, world: &World, options: &WgpuOptions, batches: &[u32]) -> World {
+    let mut result = world.clone();
+    let mut simulator = WgpuSimulator::new(gpu, world, options).expect("the device takes the world");
+    for steps in batches {
+        simulator.step(*steps).expect("it steps");
+    }
+    simulator.read_state(&mut result).expect("same size");
+    result
+}
+
+fn exact(page_leaves: Option<u32>, shaders: Option<Shaders>) -> WgpuOptions {
+    WgpuOptions { contract: Some(Contract::Exact), page_leaves, shaders }
+}
+
+fn exact_adapters() -> impl Iterator<Item = Gpu> {
+    adapter::contracts().into_iter().filter(|(_, contract)| *contract == Contract::Exact).map(|(gpu, _)| gpu)
+}
+
+/// Counts of all populations together: births, deaths, hits, stops, lives cut short.
+fn totals(world: &World) -> [u32; 5] {
+    let mut totals = [0; 5];
+    for stats in world.particle_stats() {
+        let found = [stats.born, stats.died, stats.hits, stats.stopped, stats.cut_short];
+        totals = std::array::from_fn(|at| totals[at] + found[at]);
+    }
+    totals
+}
+
+#[test]
+fn a_thousand_steps_of_particles_are_equal_to_the_bit() {
+    let world = world();
+    let expected = on_cpu(&world, CpuOptions::default(), 1000);
+    let [born, died, hits, ..] = totals(&expected);
+    assert!(born > 8000 && died > 7000 && hits > 8000, "much happens: {:?}", totals(&expected));
+    for gpu in exact_adapters() {
+        for (page_leaves, batches) in [(None, &[1000][..]), (Some(4096), &[1, 40, 7, 952])] {
+            let found = on_gpu(&gpu, &world, &exact(page_leaves, None), batches);
+            let apart = difference(&expected, &found);
+            assert!(apart.is_none(), "{}, pages of {page_leaves:?}: {apart:?}", gpu.info().name);
+            assert_eq!(expected.state_hash(), found.state_hash(), "{}", gpu.info().name);
+        }
+    }
+}
+
+#[test]
+fn particles_on_hills_are_equal_to_the_bit() {
+    let world = World::build(&hilly_scene(particle_scene(32, 7.0, DT_S))).expect("valid on hills");
+    let expected = on_cpu(&world, CpuOptions::default(), 300);
+    for gpu in exact_adapters() {
+        let apart = difference(&expected, &on_gpu(&gpu, &world, &exact(None, None), &[300]));
+        assert!(apart.is_none(), "{}: {apart:?}", gpu.info().name);
+    }
+}
+
+/// Threads, instructions and the plain loop: any order of work gives the same bits (pains such as bevy_hanabi#376, where strips of a race
+/// joined the wrong particles, come from lists filled in an order of threads).
+#[test]
+fn every_instruction_set_and_number_of_threads_moves_particles_alike() {
+    for world in [world(), World::build(&hilly_scene(particle_scene(33, 2.0, DT_S))).expect("valid")] {
+        let plain = on_cpu(&world, CpuOptions { simd: Some(Simd::Scalar), threads: Some(1) }, 200);
+        for simd in Simd::available() {
+            for threads in [1, 3] {
+                let options = CpuOptions { simd: Some(simd), threads: Some(threads) };
+                let apart = difference(&on_cpu(&world, options, 200), &plain);
+                assert!(apart.is_none(), "{simd:?} on {threads} threads: {apart:?}");
+            }
+        }
+        let mut stepped = world.clone();
+        oracle::step(&mut stepped, 200);
+        let apart = difference(&stepped, &plain);
+        assert!(apart.is_none(), "the plain loop: {apart:?}");
+        assert_eq!(stepped.state_hash(), plain.state_hash(), "clock and births as well");
+    }
+}
+
+/// Under the tolerant contract integers are the same, and smooth flight stays close.
+#[test]
+fn smooth_particles_stay_close_under_the_tolerant_contract() {
+    let mut scene = particle_scene(34, 3.0, DT_S);
+    scene.wind.turbulence.intensity = 0.0;
+    for particles in &mut scene.particles {
+        particles.meets = Meets::Nothing;
+        particles.feels.retain(|name| name != "noise" && name != "sun");
+        particles.dies = None;
+    }
+    scene.forces.retain(|force| force.name != "noise" && force.name != "sun");
+    let world = World::build(&scene).expect("valid");
+    let expected = on_cpu(&world, CpuOptions::default(), 100);
+    for (gpu, contract) in adapter::contracts() {
+        let options = WgpuOptions { contract: Some(contract), ..WgpuOptions::default() };
+        let apart = difference(&expected, &on_gpu(&gpu, &world, &options, &[100]));
+        let particles = apart.of("particles");
+        assert_eq!(particles.integer_rows, 0, "{} {contract}: {particles:?}", gpu.info().name);
+        let furthest = particles.largest("place.position");
+        assert!(furthest < 1e-3, "{} {contract}: {particles:?}", gpu.info().name);
+    }
+}
+
+#[test]
+fn a_resumed_checkpoint_goes_on_to_the_bit() {
+    let world = world();
+    let whole = on_cpu(&world, CpuOptions::default(), 240);
+    let half = on_cpu(&world, CpuOptions::default(), 120);
+    let mut bytes = Vec::new();
+    half.write_checkpoint(&mut bytes).expect("memory takes every byte");
+    let read = World::from_checkpoint(&bytes, "memory").expect("whole");
+    assert_eq!(read.state_hash(), half.state_hash(), "births travel with the clock");
+    let resumed = on_cpu(&read, CpuOptions::default(), 120);
+    assert!(difference(&resumed, &whole).is_none(), "{:?}", difference(&resumed, &whole));
+    assert_eq!(resumed.state_hash(), whole.state_hash(), "the same births");
+    for gpu in exact_adapters() {
+        let found = on_gpu(&gpu, &read, &exact(None, None), &[120]);
+        assert_eq!(found.state_hash(), whole.state_hash(), "{}", gpu.info().name);
+    }
+}
+
+#[test]
+fn another_wind_is_taken_over_and_another_number_of_particles_refused() {
+    let world = world();
+    let mut windy = world.compiled.scene().clone();
+    windy.wind.speed = MeanSpeed::MetresPerSecond(9.0);
+    let mut compiled = world.compiled.clone();
+    compiled.retune(&windy);
+    let mut fewer = world.compiled.scene().clone();
+    fewer.particles[1].count += 1;
+    let other = World::build(&fewer).expect("valid");
+    let gpu = exact_adapters().next().expect("an adapter that keeps the exact contract");
+    let mut simulators: Vec<Box<dyn Simulator>> = vec![
+        Box::new(CpuSimulator::new(&world, CpuOptions::default()).expect("threads start")),
+        Box::new(WgpuSimulator::new(&gpu, &world, &exact(None, None)).expect("the device takes it")),
+    ];
+    let mut hashes = Vec::new();
+    for simulator in &mut simulators {
+        let refused = simulator.set_scene(&other.compiled);
+        assert!(matches!(refused, Err(SimError::Size { store: "particles", .. })), "{refused:?}");
+        simulator.step(30).expect("it steps");
+        simulator.set_scene(&compiled).expect("the same sizes");
+        simulator.step(30).expect("it steps");
+        let mut found = world.clone();
+        simulator.read_state(&mut found).expect("same size");
+        hashes.push(found.state_hash());
+    }
+    assert_eq!(hashes[0], hashes[1], "on both backends");
+    assert_ne!(hashes[0], on_cpu(&world, CpuOptions::default(), 60).state_hash(), "the wind counts");
+}
+
+#[test]
+fn changes_of_a_constant_or_an_operator_are_noticed() {
+    let world = world();
+    let expected = on_cpu(&world, CpuOptions::default(), 240);
+    let gpu = exact_adapters().next().expect("an adapter that keeps the exact contract");
+    let edits = [
+        ("particle/fly", "air.y * lag", "air.y * way"),
+        ("particle/fly", "velocity * half)", "velocity * dt)"),
+        ("particle/air", "let r = -x;", "let r = x;"),
+        ("particle/birth", "among < step_block.births", "among + 1u < step_block.births"),
+        ("particle/birth", "max(max(a, b), c)", "max(a, b)"),
+        ("particle/draw", "131070", "131072"),
+        (
+            "particle/force",
+            "squared = max(vec3_dot(toward, toward) + numbers.y",
+            "squared = max(vec3_dot(toward, toward)",
+        ),
+        ("particle/force", "half, force_vector(first + 3u)", "turned, force_vector(first + 3u)"),
+        ("particle/force", "SWIRL_TAN_3: f32 = 0.33333334", "SWIRL_TAN_3: f32 = 0.33334334"),
+        (
+            "particle/strike",
+            "leaving, closing * restitution, leaving",
+            "leaving, -closing * restitution, leaving",
+        ),
+        ("particle/strike", "turn < MOST_STRIKES", "turn + 1u < MOST_STRIKES"),
+        ("particle/strike", "bend * (1.0 - 2.0 * at)", "bend * (1.0 - at)"),
+        ("particle/step", "age < life", "age <= life"),
+        ("particle/step", "& 7u", "& 15u"),
+    ];
+    for (module, old, new) in edits {
+        let shaders = Shaders::default().edited(module, old, new);
+        let shaders = shaders.unwrap_or_else(|| panic!("{module} has no '{old}'"));
+        let found = on_gpu(&gpu, &world, &exact(None, Some(shaders)), &[240]);
+        assert!(!difference(&expected, &found).is_none(), "{module}: '{new}' goes unnoticed");
+    }
+}
