@@ -450,6 +450,7 @@ pub fn particle_scene(seed: u64, speed_m_s: f32, dt_s: f32) -> Scene {
             },
         ),
     ];
+    scene.forces.push(force("others", ForceKind::Mutual { gm_m3_s2: 0.02, softening_m: 0.1 }));
     let bounce = |restitution: f32, friction: ObjectFriction| Meets::Bounce { restitution, friction };
     let cone = |half_angle_deg: f32| Direction::Cone { axis, half_angle_deg };
     let rate = |per_s: f32, from_s: f32| ParticleRelease::Rate { per_s, from_s };
@@ -530,6 +531,17 @@ pub fn particle_scene(seed: u64, speed_m_s: f32, dt_s: f32) -> Scene {
             feels: vec!["spiral".into()],
             meets: bounce(0.3, ObjectFriction::Coulomb(0.9)),
             dies: Some(Bounds::Below(-1.5)),
+            ..Particles::default()
+        },
+        Particles {
+            count: 333,
+            from: ParticleShape::Sphere { center_m: high * 2.0, radius_m: 1.0, hollow: false },
+            release: ParticleRelease::Burst { at_s: 0.0 },
+            speed_m_s: Spread::Constant(0.2),
+            gravity: 0.0,
+            life_s: None,
+            air: Air::Vacuum,
+            feels: vec!["others".into()],
             ..Particles::default()
         },
     ];

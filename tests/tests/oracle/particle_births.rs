@@ -256,7 +256,7 @@ fn a_cone_is_filled_across() {
     assert!(apart < 0.0158, "{apart}");
 }
 
-/// What leaves its region dies.
+/// Regions end the lives of what leaves them.
 #[test]
 fn regions_end_lives() {
     let population = Particles {
