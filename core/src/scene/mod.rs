@@ -40,8 +40,7 @@ pub use lens::{Exposure, Focus, Glare, Lens, ToneMap};
 pub use litter::Litter;
 pub use object::{Object, ObjectFriction, ObjectKey, ObjectMotion, ObjectShape, PLANE_REACH_M, Walker};
 pub use particles::{
-    Air, Bounds, Direction, Look, LookKind, Meets, NORMAL_REACH, ParticleRelease, ParticleShape, Particles,
-    Spread,
+    Air, Bounds, Direction, Meets, NORMAL_REACH, ParticleRelease, ParticleShape, Particles, Spread,
 };
 pub use path::{CameraKey, camera_at};
 pub use presets::PRESETS;

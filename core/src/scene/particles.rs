@@ -214,55 +214,6 @@ pub enum Bounds {
     },
 }
 
-/// Way of drawing particles.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub enum LookKind {
-    /// An opaque disc, lit by sun and sky.
-    #[default]
-    Dot,
-    /// A soft disc, lit by sun and sky, seen through by its opacity.
-    Splat,
-    /// A soft disc that shines by itself and hides nothing.
-    Glow,
-    /// Not drawn.
-    Hidden,
-}
-
-/// Look of particles, over their age as a share of their life: 0 at birth, 1 at the end. Curves are linear between their points, whose
-/// ages rise, and constant before the first and after the last; without points they are one. No effect on the simulation.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct Look {
-    /// Way of drawing.
-    pub kind: LookKind,
-    /// Reflectance, or colour of the light, linear red, green and blue, each component 0 to 1.
-    pub color: Vec<(f32, Vec3)>,
-    /// Opacity, 0 to 1.
-    pub opacity: Vec<(f32, f32)>,
-    /// Diameter over the particle's own, 0 to 1000.
-    pub size: Vec<(f32, f32)>,
-    /// Luminance of what shines in thousands of cd/m², 0.001 to 1000000.
-    pub brightness_kcd_m2: f32,
-    /// Drawn out along its way while the shutter is open.
-    pub streak: bool,
-    /// Layer, 0 to 15: lower ones are drawn first, whatever their distance.
-    pub layer: u32,
-}
-
-impl Default for Look {
-    fn default() -> Self {
-        Self {
-            kind: LookKind::Dot,
-            color: Vec::new(),
-            opacity: Vec::new(),
-            size: Vec::new(),
-            brightness_kcd_m2: 10.0,
-            streak: false,
-            layer: 0,
-        }
-    }
-}
-
 /// A population of particles: slots of one kind, used again and again.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
@@ -297,8 +248,6 @@ pub struct Particles {
     pub meets: Meets,
     /// Region beyond which they die.
     pub dies: Option<Bounds>,
-    /// Look.
-    pub look: Look,
 }
 
 impl Default for Particles {
@@ -319,7 +268,6 @@ impl Default for Particles {
             air: Air::Settling { m_s: Spread::Constant(1.0) },
             meets: Meets::Die,
             dies: None,
-            look: Look::default(),
         }
     }
 }

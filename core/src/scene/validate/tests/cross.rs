@@ -180,8 +180,8 @@ const TIMES: &[Case] = &[
 ];
 
 const WIND_AND_VIEW: &[Case] = &[
-    (|s| s.wind.vortices = vec![s.wind.vortices[0]; MAX_VORTICES], None),
-    (|s| s.wind.vortices = vec![s.wind.vortices[0]; MAX_VORTICES + 1], Some("wind.vortices")),
+    (|s| s.wind.vortices = vec![s.wind.vortices[0].clone(); MAX_VORTICES], None),
+    (|s| s.wind.vortices = vec![s.wind.vortices[0].clone(); MAX_VORTICES + 1], Some("wind.vortices")),
     (|s| s.wind.vortices.clear(), None),
     (|s| s.wind.vortices[0].axis = Vec3::ZERO, Some("wind.vortices[0].axis")),
     (|s| s.wind.vortices[0].axis = Vec3::X * 0.001, None),
