@@ -51,6 +51,7 @@ pub(crate) fn structs() -> String {
         blocks::PopulationBlock::declaration(),
         blocks::BirthBlock::declaration(),
         blocks::SceneBlock::declaration(),
+        blocks::VortexNode::declaration(),
         blocks::VortexBlock::declaration(),
         blocks::JetBlock::declaration(),
         blocks::SlipstreamBlock::declaration(),

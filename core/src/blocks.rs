@@ -479,6 +479,16 @@ impl SwayBlock {
 }
 
 crate::shared_struct! {
+    /// Point of the curved axis of a vortex.
+    pub struct VortexNode {
+        /// Place in m.
+        pub place_m: [f32; 3],
+        /// Inverse of the squared distance to the next in 1/m².
+        pub inv_squared: f32,
+    }
+}
+
+crate::shared_struct! {
     /// One vortex at one step.
     pub struct VortexBlock {
         /// A point of the axis in m.
@@ -497,8 +507,8 @@ crate::shared_struct! {
         pub widening: f32,
         /// 1 if its axis is a curve, else 0.
         pub is_curved: u32,
-        /// Points of the curve in m, and the inverse of the squared distance from each to the next in 1/m².
-        pub nodes: [Float4; SPLINE_SEGMENTS + 1],
+        /// Points of the curve.
+        pub nodes: [VortexNode; SPLINE_SEGMENTS as usize + 1],
     }
 }
 

@@ -160,7 +160,7 @@ mod tests {
         let points: Vec<Vec3> = (0..32u8)
             .map(|number| {
                 let y = 1.0 - (2.0 * f32::from(number) + 1.0) / 32.0;
-                let (sin, cos) = (2.399_963_2 * f32::from(number)).sin_cos();
+                let (sin, cos) = libm::sincosf(2.399_963_2 * f32::from(number));
                 Vec3::new((1.0 - y * y).sqrt() * cos, y, (1.0 - y * y).sqrt() * sin)
             })
             .collect();

@@ -10,7 +10,7 @@ use naga::{AddressSpace, TypeInner};
 use windfall_core::blocks::{
     BirthBlock, JetBlock, LitterBlock, MomentBlock, MoverBlock, PopulationBlock, ResponseBlock, SceneBlock,
     ShelterBlock, SolidsBlock, SourceBlock, SpeciesBlock, SpreadBlock, StepBlock, SwayBlock, VortexBlock,
-    WindBlock,
+    VortexNode, WindBlock,
 };
 use windfall_core::flight::block::BodyBlock;
 use windfall_core::layout::WgslStruct;
@@ -65,6 +65,7 @@ fn every_module_is_valid_and_every_struct_has_one_layout() {
     same_layout::<BodyBlock>(&module);
     same_layout::<SceneBlock>(&module);
     same_layout::<VortexBlock>(&module);
+    same_layout::<VortexNode>(&module);
     same_layout::<JetBlock>(&module);
     same_layout::<MomentBlock>(&module);
     same_layout::<StepBlock>(&module);

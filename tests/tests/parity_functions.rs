@@ -273,7 +273,7 @@ fn a_changed_twin_is_noticed() {
 }
 
 /// Functions that only a kernel can call, as they read or write records of leaves and segments.
-const RECORDS: [&str; 11] = [
+const RECORDS: [&str; 15] = [
     "places",
     "drifts",
     "attitudes",
@@ -285,6 +285,10 @@ const RECORDS: [&str; 11] = [
     "leaf_counts",
     "carrier_rows",
     "carried",
+    "particle_places",
+    "particle_motions",
+    "particle_traits",
+    "particle_tallies",
 ];
 
 /// Names and bodies of the functions of a WGSL text.

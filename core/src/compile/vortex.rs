@@ -4,10 +4,9 @@
 
 use glam::DVec3;
 
-use crate::blocks::VortexBlock;
+use crate::blocks::{VortexBlock, VortexNode};
 use crate::convert::single;
 use crate::device::wind::vortex::{SWIRL_COMPACT, SWIRL_KAUFMANN};
-use crate::layout::Float4;
 use crate::scene::{SPLINE_SEGMENTS, Vortex, VortexProfile};
 
 /// A vortex so many seconds after time zero.
@@ -34,18 +33,18 @@ pub(super) fn vortex_block(vortex: &Vortex, seconds: f64) -> VortexBlock {
 }
 
 /// Points of a uniform cubic B-spline at equal steps of its parameter, and the inverse squared distance of each to the next.
-fn nodes(control: &[DVec3]) -> [Float4; SPLINE_SEGMENTS + 1] {
-    let mut nodes = [Float4::default(); SPLINE_SEGMENTS + 1];
+fn nodes(control: &[DVec3]) -> [VortexNode; SPLINE_SEGMENTS as usize + 1] {
+    let mut nodes = [<VortexNode as bytemuck::Zeroable>::zeroed(); SPLINE_SEGMENTS as usize + 1];
     if control.is_empty() {
         return nodes;
     }
     let pieces = (control.len() - 3) as f64;
-    let at = |number: usize| point(control, number as f64 / SPLINE_SEGMENTS as f64 * pieces);
+    let at = |number: usize| point(control, number as f64 / f64::from(SPLINE_SEGMENTS) * pieces);
     for (number, node) in nodes.iter_mut().enumerate() {
-        let (here, next) = (at(number), at((number + 1).min(SPLINE_SEGMENTS)));
+        let (here, next) = (at(number), at((number + 1).min(SPLINE_SEGMENTS.into())));
         let squared = here.distance_squared(next);
         let inverse = if squared > 0.0 { 1.0 / squared } else { 0.0 };
-        *node = Float4([here.x, here.y, here.z, inverse].map(single));
+        *node = VortexNode { place_m: here.to_array().map(single), inv_squared: single(inverse) };
     }
     nodes
 }

@@ -153,7 +153,7 @@ limits! {
     OBJECT_SIZE_M: f32 = 0.02, 200.0, "m", size_m;
     CORNER_M: f32 = -100.0, 100.0, "m", corners_m;
     MESH_SCALE: f32 = 0.001, 1000.0, "", scale;
-    OBJECT_AT_M: f32 = -4096.0, 4096.0, "m", at_m moved_m;
+    OBJECT_AT_M: f32 = -4096.0, 4096.0, "m", at_m moved_m way_m spline_m;
     OBJECT_TILT_DEG: f32 = -180.0, 180.0, "degrees", tilt_deg;
     TURNED_DEG: f32 = -360.0, 360.0, "degrees", turned_deg;
     COULOMB: f32 = 0.0, 5.0, "", Coulomb;
@@ -263,10 +263,10 @@ mod tests {
         include_str!("wind.rs"),
     ];
 
-    /// Returns true if a declared type is a number, a vector, or an option, array or tuple of them. Any `u64` is allowed.
+    /// Returns true if a declared type is a number, a vector, or an option, list, array or tuple of them. Any `u64` is allowed.
     fn is_number(kind: &str) -> bool {
         let kind = kind.trim_start_matches([' ', '(', '[']);
-        let kind = kind.strip_prefix("Option<").unwrap_or(kind);
+        let kind = kind.strip_prefix("Option<").or(kind.strip_prefix("Vec<")).unwrap_or(kind);
         ["f32", "u32", "u8", "Vec2", "Vec3"].iter().any(|number| {
             kind.strip_prefix(number).is_some_and(|rest| rest.starts_with([',', ')', '>', ';']))
         })

@@ -64,7 +64,7 @@ pub const MAX_VORTICES: usize = 8;
 /// Most control points of the axis of a vortex.
 pub const MAX_SPLINE_POINTS: usize = 12;
 /// Segments in which the curved axis of a vortex is followed.
-pub const SPLINE_SEGMENTS: usize = 16;
+pub const SPLINE_SEGMENTS: u16 = 16;
 /// Most jets a scene may have: they travel there, too.
 pub const MAX_JETS: usize = 8;
 /// Most keys a jet may have.

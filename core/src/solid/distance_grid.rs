@@ -85,8 +85,8 @@ mod tests {
         let place = |ring: u32, step: u32| {
             let [up, along] = [(ring, rings), (step % around, around / 2)]
                 .map(|(at, of)| std::f64::consts::PI * f64::from(at) / f64::from(of));
-            let out = if ring % rings == 0 { 0.0 } else { up.sin() };
-            DVec3::new(out * along.sin(), up.cos(), out * along.cos()).as_vec3().to_array()
+            let out = if ring.is_multiple_of(rings) { 0.0 } else { libm::sin(up) };
+            DVec3::new(out * libm::sin(along), libm::cos(up), out * libm::cos(along)).as_vec3().to_array()
         };
         let mut corners = Vec::new();
         for ring in 0..rings {

@@ -6,18 +6,23 @@ use windfall_core::Context;
 use windfall_core::arith::Vec3;
 use windfall_core::blocks::PopulationBlock;
 use windfall_core::device::particle::air::{air_numbers, lost_share};
-use windfall_core::device::particle::birth::{cap_direction, shape_point};
+use windfall_core::device::particle::birth::{birth_number, cap_direction, shape_point, trait_word};
 use windfall_core::device::particle::draw::{particle_words, spread_draw};
 use windfall_core::device::particle::fly::{ParticleFlight, particle_fly};
 use windfall_core::device::particle::force::{force_pull, force_swirl, force_turn};
-use windfall_core::device::particle::mutual::mutual_pull;
+use windfall_core::device::particle::mutual::{mutual_pull, mutual_source};
 use windfall_core::device::particle::record::{
-    MEETS_NOTHING, life_size_word, particle_hits, particle_life, particle_size, with_more_hits,
+    MEETS_NOTHING, life_size_word, particle_bits, particle_hits, particle_life, particle_population,
+    particle_size, particle_state, with_more_hits, with_particle_state,
+};
+use windfall_core::device::particle::step::{
+    is_outside, is_unborn, life_is_over, may_be_struck, rest_is_checked, rest_wakes,
 };
 use windfall_core::device::particle::strike::{
     bent_share, ground_strike, particle_contact, particle_push, struck_velocity, wedged_velocity,
 };
 use windfall_core::device::wind::vortex::swirl_profile;
+use windfall_core::particle::{ParticleMotion, ParticlePlace};
 
 use super::{Function, Input, float, floats, functions, integers, vector};
 use crate::runner::Words;
@@ -79,6 +84,45 @@ functions! {
         particle_size(w[2]),
         life_size_word(w[2] & 0xffff, w[0] & 0xffff),
     ]);
+
+    particle_bits in "particle/record" (ANY, ANY, ANY) tolerance None;
+    wgsl "r = vec4<u32>(particle_bits(a.x & 3u, a.y & 15u), particle_state(a.z), particle_population(a.z),
+        with_particle_state(a.z, a.x & 3u));";
+    rust |_cx, w| integers([
+        particle_bits(w[0] & 3, w[1] & 15), particle_state(w[2]), particle_population(w[2]),
+        with_particle_state(w[2], w[0] & 3),
+    ]);
+
+    birth_number in "particle/birth" (POPULATION, ANY, Input::Float(-2.0, 70_000.0)) tolerance None;
+    wgsl "let place = a.y % scene.populations[a.x].count;
+        r = vec4<u32>(birth_number(a.x, place), trait_word(bitcast<f32>(a.z)), 0u, 0u);";
+    rust |cx, w| {
+        let block = population(cx, w);
+        let births = &cx.step.births[w[0] as usize];
+        integers([birth_number(births, block.count, w[1] % block.count), trait_word(float(w[2])), 0, 0])
+    };
+
+    is_outside in "particle/step" (POPULATION, ANY, ANY, PLACE, FLOW) tolerance None;
+    wgsl "let place = in_vec3(3u);
+        r = vec4<u32>(u32(is_outside(a.x, place * 4.0)), u32(may_be_struck(a.x, place, place + in_vec3(6u))),
+            u32(life_is_over(a.y, a.z)), u32(is_unborn(a.y)));
+        s = vec4<u32>(u32(rest_is_checked(a.y)), u32(rest_wakes(a.x, a.z)), 0u, 0u);";
+    rust |cx, w| {
+        let (block, place) = (population(cx, w), vector(w, 3));
+        integers([
+            is_outside(block, place * 4.0), may_be_struck(cx, block, place, place + vector(w, 6)),
+            life_is_over(cx, w[1], w[2]), is_unborn(w[1]),
+            rest_is_checked(cx, w[1]), rest_wakes(cx, block, w[2]), false, false,
+        ].map(u32::from))
+    };
+
+    mutual_source in "particle/mutual" (POPULATION, ANY, PLACE, FLOW) tolerance Some(1e-5);
+    wgsl "let from = mutual_source(a.x, ParticlePlace(in_vec3(2u), a.y), ParticleMotion(in_vec3(5u), 0u)); out_vec4(0u, from);";
+    rust |cx, w| {
+        let place = ParticlePlace { position: vector(w, 2).to_array(), bits: w[1] };
+        let motion = ParticleMotion { velocity: vector(w, 5).to_array(), birth: 0 };
+        floats(mutual_source(cx, population(cx, w), &place, &motion))
+    };
 
     force_pull in "particle/force" (POPULATION, PLACE) tolerance Some(1e-4);
     wgsl "out_vec3(0u, force_pull(a.x, in_vec3(1u)));";

@@ -277,7 +277,7 @@ fn median_onset_m_s(species: Species, raised_deg: (f32, f32)) -> f64 {
     speeds[speeds.len() / 2]
 }
 
-/// Who sets off first: the lighter by the root of their mass per area, those whose edges stand up more, flat paper last.
+/// Lighter leaves set off sooner, by the root of their mass per area, and so do those whose edges stand up more; flat paper comes last.
 #[test]
 fn leaves_set_off_in_the_order_of_weight_and_tilt() {
     let curled = (5.0, 25.0);

@@ -1,6 +1,10 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Births and deaths of particles against their distributions.
+#![expect(
+    clippy::cast_possible_truncation,
+    reason = "small whole numbers, and angles that fit single precision"
+)]
 
 use glam::{DVec3, Vec3};
 use windfall_core::device::particle::record::{PARTICLE_ALIVE, particle_life, particle_size, particle_state};

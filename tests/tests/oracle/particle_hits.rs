@@ -1,6 +1,10 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Contacts of particles against the laws of contact: bounces, friction, rest, wedges, and nothing that gets through.
+#![expect(
+    clippy::cast_possible_truncation,
+    reason = "small whole numbers, and angles that fit single precision"
+)]
 
 use glam::{DVec3, Vec2, Vec3};
 use windfall_core::device::particle::record::{
@@ -283,10 +287,10 @@ fn nothing_gets_through_what_is_thin() {
     let mut world = placed(bouncing(0.5, ObjectFriction::Coulomb(0.2)), objects, 1.0 / 60.0, &rows);
     for _ in 0..40 {
         oracle::step(&mut world, 1);
-        for slot in 0..rows.len() {
+        for (slot, start) in rows.iter().enumerate() {
             let at = place(&world, slot);
             let beside = at.x.abs() > 14.9 || at.z.abs() > 14.9;
-            assert!(beside || at.y > 0.01 - 2e-4, "{slot} is at {at}, from {:?}", rows[slot]);
+            assert!(beside || at.y > 0.01 - 2e-4, "{slot} is at {at}, from {start:?}");
             assert!((at - DVec3::Y * 3.0).length() > 0.2998, "{slot} is in the ball at {at}");
         }
     }

@@ -93,7 +93,7 @@ fn mesh_strike(
             flat_share = min(half_cell, gap.gap_m * reciprocal(closing));
         }
         share = share + max(flat_share, gap.gap_m * inv_way);
-        if (!(share < before.share)) {
+        if (before.share <= share) {
             return Strike(NEVER, 1.0);
         }
     }

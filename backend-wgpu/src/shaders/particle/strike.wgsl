@@ -42,7 +42,7 @@ fn ground_gap(place: vec3<f32>) -> f32 {
 fn ground_strike(start: vec3<f32>, way: vec3<f32>) -> Strike {
     var high = ground_gap(start);
     var low = ground_gap(start + way);
-    if (!(low < -STRIKE_GAP_M)) {
+    if (-STRIKE_GAP_M <= low) {
         return Strike(NEVER, 1.0);
     }
     if (high <= 0.0) {
@@ -72,7 +72,7 @@ fn ground_strike(start: vec3<f32>, way: vec3<f32>) -> Strike {
 fn ground_normal(place: vec3<f32>) -> vec3<f32> {
     let rise = ground_gradient(place.x, place.z);
     let up = inverse_sqrt((rise.x * rise.x + rise.y * rise.y) + 1.0);
-    return vec3<f32>((rise.x * up) * -1.0, up, (rise.y * up) * -1.0);
+    return vec3<f32>(-(rise.x * up), up, -(rise.y * up));
 }
 
 fn struck_surface(number: u32, place: vec3<f32>, seconds: f32) -> StruckSurface {

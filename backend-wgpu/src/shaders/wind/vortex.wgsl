@@ -37,10 +37,10 @@ fn vortex_axis(moment: u32, vortex: u32, place: vec3<f32>) -> NearAxis {
     var least = 1e30;
     for (var number = 0u; number < CURVE_SEGMENTS; number += 1u) {
         let node = step_block.moments[moment].vortices[vortex].nodes[number];
-        let start = node.xyz;
-        let along = step_block.moments[moment].vortices[vortex].nodes[number + 1u].xyz - start;
+        let start = node.place_m;
+        let along = step_block.moments[moment].vortices[vortex].nodes[number + 1u].place_m - start;
         let apart = place - start;
-        var share = vec3_dot(apart, along) * node.w;
+        var share = vec3_dot(apart, along) * node.inv_squared;
         if (number != 0u) {
             share = max(share, 0.0);
         }

@@ -153,7 +153,7 @@ pub fn mesh_strike(
             flat_share = half_cell.min(gap.gap_m * reciprocal(closing));
         }
         share += flat_share.max(gap.gap_m * inv_way);
-        if !(share < before.share) {
+        if before.share <= share {
             return Strike { number: NEVER, share: 1.0 };
         }
     }

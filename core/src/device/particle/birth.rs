@@ -11,6 +11,7 @@ use super::record::{
     PARTICLE_ALIVE, PARTICLE_BORN, ParticleMotion, ParticlePlace, ParticleTraits, life_size_word,
     particle_bits,
 };
+use crate::arith::lane::Real;
 use crate::arith::math::{inverse_sqrt, sin_cos_turns};
 use crate::arith::rng::unit_float;
 use crate::arith::vector::{TINY_SQUARED, Vec3, vec3_dot};
@@ -105,8 +106,8 @@ pub fn cap_direction(population: &PopulationBlock, a: u32, b: u32) -> Vec3 {
 /// Whole positive number that fits 16 bits.
 #[expect(clippy::manual_clamp, reason = "written as in WGSL")]
 #[inline(always)]
-fn trait_word(number: f32) -> u32 {
-    (number + 0.5).floor().max(1.0).min(MOST_TRAIT) as u32
+pub fn trait_word(number: f32) -> u32 {
+    (number + 0.5).floor().max(1.0).min(MOST_TRAIT).to_whole()
 }
 
 /// Lets a particle be born, number `id` of its population, and returns the part of the step that is left to it.

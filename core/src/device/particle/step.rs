@@ -169,7 +169,7 @@ pub fn particle_step(
 
 /// Returns true if a particle at rest is moved on in a step, to see if it stays there.
 #[inline(always)]
-fn rest_wakes(cx: &Context<'_>, population: &PopulationBlock, slot: u32) -> bool {
+pub fn rest_wakes(cx: &Context<'_>, population: &PopulationBlock, slot: u32) -> bool {
     population.meets != MEETS_STICK && rest_is_checked(cx, slot)
 }
 

@@ -10,6 +10,7 @@
 
 use super::fly::ParticleFlight;
 use super::record::{MEETS_DIE, MEETS_STICK, POPULATION_LOSS};
+use crate::arith::lane::Real;
 use crate::arith::math::{inverse_sqrt, reciprocal};
 use crate::arith::quaternion::Quat;
 use crate::arith::vector::{TINY_SQUARED, Vec3, vec3_cross, vec3_dot};
@@ -103,7 +104,7 @@ pub fn ground_gap(cx: &Context<'_>, place: Vec3) -> f32 {
 pub fn ground_strike(cx: &Context<'_>, from: Vec3, way: Vec3) -> Strike {
     let mut high = ground_gap(cx, from);
     let mut low = ground_gap(cx, from + way);
-    if !(low < -STRIKE_GAP_M) {
+    if -STRIKE_GAP_M <= low {
         return Strike { number: NEVER, share: 1.0 };
     }
     if high <= 0.0 {
@@ -131,7 +132,7 @@ pub fn ground_strike(cx: &Context<'_>, from: Vec3, way: Vec3) -> Strike {
 pub fn ground_normal(cx: &Context<'_>, place: Vec3) -> Vec3 {
     let [rise_x, rise_z] = ground_gradient(cx, place.x, place.z);
     let up = inverse_sqrt((rise_x * rise_x + rise_z * rise_z) + 1.0);
-    Vec3::new((rise_x * up) * -1.0, up, (rise_z * up) * -1.0)
+    Vec3::new(-(rise_x * up), up, -(rise_z * up))
 }
 
 /// Surface at a place of the ground, or of a solid part so many seconds into the step.
@@ -158,7 +159,7 @@ pub fn particle_strike(cx: &Context<'_>, passage: &Passage) -> Strike {
     let squared = vec3_dot(passage.way, passage.way).max(TINY_SQUARED);
     let length = squared * inverse_sqrt(squared);
     let pieces =
-        (length * reciprocal(cx.scene.solids.reach_m)).floor().min((MOST_PIECES - 1) as f32) as u32 + 1;
+        (length * reciprocal(cx.scene.solids.reach_m)).floor().min((MOST_PIECES - 1) as f32).to_whole() + 1;
     let part = reciprocal(pieces as f32);
     for piece in 0..pieces {
         let begin = piece as f32 * part;
@@ -194,7 +195,7 @@ pub fn bent_share(share: f32, closing: f32, bend: f32, leaving: f32) -> f32 {
         let gap = bend * (at * (1.0 - at)) - closing * (at - share);
         let slope = bend * (1.0 - 2.0 * at) - closing;
         if slope < 0.0 {
-            at = at - gap * reciprocal(slope);
+            at -= gap * reciprocal(slope);
         }
     }
     at.max(0.0).min(1.0)

@@ -64,7 +64,7 @@ pub struct SolidDistance {
 
 /// Three floats of a row.
 #[inline(always)]
-pub(super) fn row_vector(row: Uint4) -> Vec3 {
+pub fn row_vector(row: Uint4) -> Vec3 {
     let Uint4([x, y, z, _]) = row;
     Vec3::new(f32::from_bits(x), f32::from_bits(y), f32::from_bits(z))
 }

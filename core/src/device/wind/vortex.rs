@@ -9,7 +9,6 @@ use crate::arith::lane::{Mask, Real};
 use crate::arith::math::{inverse_sqrt, reciprocal};
 use crate::arith::vector::{TINY_SQUARED, Vec3, vec3_cross, vec3_dot, vec3_select};
 use crate::blocks::VortexBlock;
-use crate::layout::Float4;
 use crate::scene::SPLINE_SEGMENTS;
 
 crate::shared_constants! {
@@ -58,12 +57,11 @@ pub fn vortex_axis<R: Real>(vortex: &VortexBlock, place: Vec3<R>) -> NearAxis<R>
     }
     let mut least = place.x.all(1e30);
     for number in 0..CURVE_SEGMENTS {
-        let Float4([x, y, z, inv_squared]) = vortex.nodes[number as usize];
-        let Float4([next_x, next_y, next_z, _]) = vortex.nodes[number as usize + 1];
-        let start = Vec3::new(x, y, z);
-        let along = (Vec3::new(next_x, next_y, next_z) - start).spread(place.x);
+        let node = &vortex.nodes[number as usize];
+        let start = Vec3::from(node.place_m);
+        let along = (Vec3::from(vortex.nodes[number as usize + 1].place_m) - start).spread(place.x);
         let apart = place - start.spread(place.x);
-        let mut share = vec3_dot(apart, along) * inv_squared;
+        let mut share = vec3_dot(apart, along) * node.inv_squared;
         if number != 0 {
             share = share.max(share.all(0.0));
         }

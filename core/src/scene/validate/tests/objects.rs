@@ -48,7 +48,8 @@ fn polyhedron(scene: &mut Scene, corners_m: &[Vec3]) {
 
 /// Corners of a prism of so many sides.
 fn prism(sides: u16) -> Vec<Vec3> {
-    let around = (0..sides).map(|side| Vec2::from_angle(f32::from(side) * 6.283_185 / f32::from(sides)));
+    let around =
+        (0..sides).map(|side| Vec2::from_angle(f32::from(side) * std::f32::consts::TAU / f32::from(sides)));
     around.flat_map(|at| [Vec3::new(at.x, 0.0, at.y), Vec3::new(at.x, 1.0, at.y)]).collect()
 }
 
