@@ -264,7 +264,7 @@ fn checkpoints_that_cannot_be_used() {
     let mut version = good.clone();
     version[8] = 9;
     file(&there, "version.ckpt", &version);
-    refuse("version.ckpt", &["not a usable checkpoint", "version 9", "version 6"]);
+    refuse("version.ckpt", &["not a usable checkpoint", "version 9", "version 7"]);
 }
 
 #[test]
