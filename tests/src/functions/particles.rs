@@ -117,7 +117,7 @@ functions! {
     };
 
     mutual_source in "particle/mutual" (POPULATION, ANY, PLACE, FLOW) tolerance Some(1e-5);
-    wgsl "let from = mutual_source(a.x, ParticlePlace(in_vec3(2u), a.y), ParticleMotion(in_vec3(5u), 0u)); out_vec4(0u, from);";
+    wgsl "let source = mutual_source(a.x, ParticlePlace(in_vec3(2u), a.y), ParticleMotion(in_vec3(5u), 0u)); out_vec4(0u, source);";
     rust |cx, w| {
         let place = ParticlePlace { position: vector(w, 2).to_array(), bits: w[1] };
         let motion = ParticleMotion { velocity: vector(w, 5).to_array(), birth: 0 };
