@@ -15,7 +15,7 @@ const LEAVES: u32 = 1_000_000;
 const LOOSE_M: f32 = 200.0;
 /// Edge in m of one on which they lie twenty layers deep, so that one in ten is on top, and the wind that keeps ten thousand awake there.
 const DEEP_M: f32 = 11.9;
-const DEEP_M_S: f32 = 7.0;
+const DEEP_M_S: f32 = 5.5;
 /// Steps until as many leaves are awake as the wind keeps awake.
 const SETTLED_STEPS: u32 = 300;
 
