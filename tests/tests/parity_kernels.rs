@@ -138,7 +138,8 @@ fn what_is_not_a_number_is_noticed() {
     }
 }
 
-/// Mutation test: each line of the life of a leaf that is changed in WGSL shows within one step of a busy world.
+/// Mutation test: each line of the life of a leaf that is changed in WGSL shows within one step of a busy world. Those of functions
+/// that the table of functions tries are changed there: an edit here compiles whole kernels.
 #[test]
 fn a_changed_kernel_is_noticed() {
     let synthesised = [
@@ -154,7 +155,6 @@ fn a_changed_kernel_is_noticed() {
     ];
     let blown = [
         ("wind/jet", "(width_squared - squared)", "(width_squared + squared)"),
-        ("wind/jet", "low = height * inverse_rim", "low = from_middle.y * inverse_rim"),
         ("wind/jet", "* slowed, velocity.y", ", velocity.y"),
     ];
     let flown = [
@@ -175,7 +175,6 @@ fn a_changed_kernel_is_noticed() {
         ("leaf/wake", "COVERED_LAYERS < above", "LOOSE_LAYERS * 4.0 < above"),
         ("leaf/lie", "own * scene.gravity_m_s2", "own * 9.0"),
         ("leaf/fly", "contact.position", "contact.position + vec3<f32>(0.0, 0.001, 0.0)"),
-        ("leaf/collide", "collisions.velocity - own", "own - collisions.velocity"),
         ("kernels/gather_collisions", "first + 11u", "first + 10u"),
         ("leaf/stack", "added = here;", "added = none;"),
         ("kernels/stack_litter", "node + line, heights.z", "node + line, heights.y"),
@@ -184,9 +183,6 @@ fn a_changed_kernel_is_noticed() {
     let obstructed = [
         ("leaf/strike", "(end - start) * scene.inv_dt_s", "(end - start) * scene.dt_s"),
         ("leaf/strike", "< size_m + way", "< way"),
-        ("flight/strike", "- gap.normal * gap.gap_m", "- gap.normal * (0.5 * gap.gap_m)"),
-        ("solid/shape", "solid.velocity * seconds", "solid.velocity"),
-        ("solid/near", "(place - movers)", "place"),
     ];
     // So many leaves that some land within any step.
     let mut calm = [varied_scene(3, 10_000, 5.0, 1.0 / 60.0), flying_scene(3, 3000, 5.0, 1.0 / 60.0)];
