@@ -13,7 +13,7 @@ use windfall_cpu::{CpuOptions, CpuSimulator};
 const LEAVES: u32 = 1_000_000;
 /// Edge in m of a lawn on which the leaves lie singly.
 const LOOSE_M: f32 = 200.0;
-/// Edge in m of one on which they lie twenty layers deep, so that one in ten is on top, and the wind that keeps ten thousand awake there.
+/// Edge in m of one on which they lie twenty layers deep, and the wind that keeps ten thousand awake there.
 const DEEP_M: f32 = 11.9;
 const DEEP_M_S: f32 = 5.5;
 /// Steps until as many leaves are awake as the wind keeps awake.

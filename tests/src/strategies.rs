@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Random inputs and random worlds.
+//! Random inputs and random worlds. One file, because every world is another one with something more in it.
 
 use glam::{Vec2, Vec3};
 use proptest::prelude::*;

@@ -205,7 +205,7 @@ fn a_changed_kernel_is_noticed() {
         let among =
             littered.map(|edit| (edit, &litter)).into_iter().chain(obstructed.map(|edit| (edit, &solids)));
         let edits = edits.chain(among.filter(|_| is_exact));
-        // Drivers compile the changed shaders on the caller's thread: two of them take half of the time.
+        // Drivers compile the changed shaders on the caller's thread: two of them share the work.
         let edits = Mutex::new(edits);
         let next = || edits.lock().expect("no thread has panicked while it held it").next();
         std::thread::scope(|scope| {

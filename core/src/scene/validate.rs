@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Checks every number of a scene: first each against its own range, then those that depend on one another.
+//! Checks every number of a scene: first each against its own range, then those that depend on one another. One file, because it follows
+//! the scene from top to bottom; longer parts have files of their own.
 
 mod check;
 mod cross;

@@ -20,8 +20,7 @@
 //! In front, within an ellipsoid that is `1.5 w/(1 + 0.8 w/h)` long (Bagal, Pardyjak and Brown, 2004, after Röckle), the wind slows towards the wall,
 //! where there is none; that it does so evenly is an assumption, as is the ellipsoid's height. In its half next to the wall, and a quarter as high as the
 //! wall, a roller turns the wind back along the ground, by up to a quarter of its speed at the wall's height: air that has come down the wall, and that keeps
-//! its foot clear. Its size and strength are assumptions within what is reported of bodies in boundary layers, separation 0.6 to 1.05 heights in front of cubes and
-//! reversed flow of 0.2 to 0.3 of the wind.
+//! its foot clear. Its size and strength are assumptions.
 
 use std::f64::consts::SQRT_2;
 
