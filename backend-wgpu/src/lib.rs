@@ -10,7 +10,7 @@
 //! ([`WgpuSimulator::columns`]), so that a renderer on the same device draws them without a copy. A program with a loop of
 //! its own encodes steps into its own submissions ([`WgpuSimulator::encode_steps`]) and reads state and counts back without
 //! waiting ([`WgpuSimulator::request_state`], [`WgpuSimulator::request_stats`]); its shaders read the columns by the text of
-//! [`leaf_wgsl`]. The [`wgpu`] that all this speaks of is
+//! [`leaf_wgsl`] and [`particle_wgsl`]. The [`wgpu`] that all this speaks of is
 //! exported.
 //!
 //! [`Contract::Exact`]: windfall_core::Contract::Exact
@@ -34,7 +34,7 @@ mod simulator;
 pub use columns::{BranchColumns, LeafColumns, ParticleColumns, StoreBuffers, WorldBuffers, WorldColumns};
 pub use exact::decorate_no_contraction;
 pub use gpu::{Gpu, describe_adapter, instance_descriptor, list_adapters, select_adapter};
-pub use prelude::{WORKGROUP_SIZE, leaf_wgsl};
+pub use prelude::{WORKGROUP_SIZE, leaf_wgsl, particle_wgsl};
 pub use shaders::{KernelId, ShaderError, Shaders};
 pub use simulator::{StateRequest, StatsRequest, WgpuOptions, WgpuSimulator};
 pub use wgpu;

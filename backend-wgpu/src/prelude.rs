@@ -14,16 +14,24 @@ pub(crate) const MAX_GROUPS: u32 = 65_535;
 /// (`array<Place>` and so on), the constants of their packed words, and a function for every value packed there, such as
 /// `leaf_state(place.bits)` and `leaf_tint(identity.appearance)`. It declares no bindings.
 pub fn leaf_wgsl() -> String {
-    let constants: String =
-        device::leaf::record::wgsl_constants().into_iter().map(|(_, declaration)| declaration).collect();
-    let accessors = include_str!("shaders/leaf/record.wgsl").lines();
-    let accessors: String =
-        accessors.filter(|line| !line.starts_with("#import ")).flat_map(|line| [line, "\n"]).collect();
-    records() + &constants + &accessors
+    let constants = device::leaf::record::wgsl_constants();
+    column_wgsl(&leaf_records(), constants, include_str!("shaders/leaf/record.wgsl"))
+}
+
+/// The same for shaders that read the columns of particles: the records that [`ParticleColumns`](crate::ParticleColumns) hold, and
+/// functions such as `particle_state(place.bits)` and `particle_life(traits.life_size)`.
+pub fn particle_wgsl() -> String {
+    let records = [
+        particle::ParticlePlace::declaration(),
+        particle::ParticleMotion::declaration(),
+        particle::ParticleTraits::declaration(),
+    ];
+    let constants = device::particle::record::wgsl_constants();
+    column_wgsl(&records.concat(), constants, include_str!("shaders/particle/record.wgsl"))
 }
 
 /// The records of the leaf columns.
-fn records() -> String {
+fn leaf_records() -> String {
     [
         leaf::Place::declaration(),
         leaf::Drift::declaration(),
@@ -32,6 +40,14 @@ fn records() -> String {
         leaf::Identity::declaration(),
     ]
     .concat()
+}
+
+/// Records, constants and accessors in one text, without the imports of the accessors.
+fn column_wgsl(records: &str, constants: Vec<(&'static str, String)>, accessors: &str) -> String {
+    let constants: String = constants.into_iter().map(|(_, declaration)| declaration).collect();
+    let accessors = accessors.lines().filter(|line| !line.starts_with("#import "));
+    let accessors: String = accessors.flat_map(|line| [line, "\n"]).collect();
+    records.to_owned() + &constants + &accessors
 }
 
 /// Structs, in an order in which each is declared before it is used.
@@ -67,7 +83,7 @@ pub(crate) fn structs() -> String {
         particle::ParticleMotion::declaration(),
         particle::ParticleTraits::declaration(),
         particle::ParticleRun::declaration(),
-        records(),
+        leaf_records(),
     ]
     .concat()
 }

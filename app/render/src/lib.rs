@@ -20,6 +20,7 @@ pub mod light;
 mod marks;
 pub mod objects;
 mod park;
+mod particles;
 mod random;
 mod renderer;
 mod scenery;

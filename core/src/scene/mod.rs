@@ -16,6 +16,7 @@ pub mod limits;
 mod litter;
 pub(crate) mod nearest;
 mod object;
+mod particle_look;
 mod particles;
 mod path;
 mod presets;
@@ -39,6 +40,7 @@ pub use jet::{Jet, JetKey};
 pub use lens::{Exposure, Focus, Glare, Lens, ToneMap};
 pub use litter::Litter;
 pub use object::{Object, ObjectFriction, ObjectKey, ObjectMotion, ObjectShape, PLANE_REACH_M, Walker};
+pub use particle_look::{Look, LookKind, LookSample};
 pub use particles::{
     Air, Bounds, Direction, Meets, NORMAL_REACH, ParticleRelease, ParticleShape, Particles, Spread,
 };

@@ -5,7 +5,7 @@
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
-use super::ObjectFriction;
+use super::{Look, ObjectFriction};
 
 /// A number that differs from particle to particle.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -248,6 +248,8 @@ pub struct Particles {
     pub meets: Meets,
     /// Region beyond which they die.
     pub dies: Option<Bounds>,
+    /// Look.
+    pub look: Look,
 }
 
 impl Default for Particles {
@@ -268,6 +270,7 @@ impl Default for Particles {
             air: Air::Settling { m_s: Spread::Constant(1.0) },
             meets: Meets::Die,
             dies: None,
+            look: Look::default(),
         }
     }
 }

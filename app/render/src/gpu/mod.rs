@@ -3,6 +3,7 @@
 //! Device plumbing that knows nothing of a scene: shaders, uploads, targets, timing, reading back.
 
 pub(crate) mod pipeline;
+pub(crate) mod radix_sort;
 pub(crate) mod readback;
 pub(crate) mod shader_edit;
 pub(crate) mod shaders;

@@ -3,7 +3,7 @@
 //! Shader modules of the rooms, composed by the simulator's `#import`: every room has its own and those of the rooms below.
 
 pub(crate) use windfall_wgpu::Shaders;
-use windfall_wgpu::leaf_wgsl;
+use windfall_wgpu::{leaf_wgsl, particle_wgsl};
 
 use super::shader_edit;
 
@@ -20,10 +20,10 @@ pub(crate) fn declarations<const N: usize>(lists: [Vec<(&'static str, String)>; 
     lists.into_iter().flatten().map(|(_, declaration)| declaration).collect()
 }
 
-/// Modules that bind nothing: numbers, and the records of leaves with their accessors.
+/// Modules that bind nothing: numbers, and the records of leaves and particles with their accessors.
 pub(crate) fn shaders() -> Shaders {
     let mut shaders = Shaders::from_iter(wgsl_files!("gpu": "numbers"));
-    shaders.extend([("leaf_records", leaf_wgsl())]);
+    shaders.extend([("leaf_records", leaf_wgsl()), ("particle_records", particle_wgsl())]);
     shaders
 }
 

@@ -56,6 +56,10 @@ impl Renderer {
             let encoder = own.as_mut().unwrap_or(encoder);
             if std::mem::take(&mut is_first) {
                 self.sample_trails(encoder, leaves, input.time_s);
+                if let Some(particles) = &mut self.particle_pass {
+                    let seen = (&input.camera, input.time_s, self.post.shutter_s());
+                    particles.prepare((&self.device, &self.queue), encoder, world.particles.as_ref(), seen);
+                }
                 if let Some(landings) = &self.landing_pass {
                     landings.count.run(&self.device, encoder, leaves);
                 }
@@ -155,6 +159,14 @@ impl Renderer {
         self.ground_pass.draw(&mut pass);
         self.tree_pass.draw(&mut pass, &self.trees);
         self.sky_pass.draw(&mut pass);
+        self.draw_particles(&mut pass);
+    }
+
+    /// Draws particles over what is in the picture; bind groups 0 and 1 are set.
+    fn draw_particles(&self, pass: &mut wgpu::RenderPass<'_>) {
+        if let Some(particles) = &self.particle_pass {
+            particles.draw(pass);
+        }
     }
 
     /// Draws the scene's own trees, its objects and all leaves; bind groups 0 and 1 are set.
@@ -226,6 +238,7 @@ impl Renderer {
         }
         self.tree_pass.draw(&mut pass, &self.trees);
         self.sky_pass.draw(&mut pass);
+        self.draw_particles(&mut pass);
         if let Some(shelter) = &self.shelter_pass {
             shelter.draw(&mut pass);
         }

@@ -38,6 +38,7 @@ use crate::park::far_trees::{ShadePass, TreePass, Trees};
 use crate::park::layout::{Park, plant};
 use crate::park::litter::Litter;
 use crate::park::park_trees::{own_trees, shedding};
+use crate::particles::particle_pass::ParticlePass;
 use crate::scenery::grass_pass::GrassPass;
 use crate::scenery::ground_pass::GroundPass;
 use crate::scenery::sky_pass::SkyPass;
@@ -93,6 +94,7 @@ pub struct Renderer {
     water_pass: Option<WaterPass>,
     tree_pass: TreePass,
     sky_pass: SkyPass,
+    particle_pass: Option<ParticlePass>,
     trail_pass: Option<TrailPass>,
     paint_pass: Option<PaintPass>,
     landing_pass: Option<LandingPass>,
@@ -188,6 +190,7 @@ impl Renderer {
             water_pass: WaterPass::new(device, &frame, &light, &land),
             tree_pass: TreePass::new(device, &frame, &light, &trees),
             sky_pass: SkyPass::new(device, &frame, &light),
+            particle_pass: ParticlePass::new(device, queue, &frame, &light, scene),
             post: Post::new(device, queue, &targets, output_format, scene.view.lens),
             timer: GpuTimer::new(device, queue, &TIMED_PASSES),
             round: None,

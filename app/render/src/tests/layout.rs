@@ -9,13 +9,14 @@ use naga::valid::{Capabilities, FunctionInfo, ModuleInfo, ValidationFlags, Valid
 use naga::{AddressSpace, Expression, Function, Handle, StructMember, Type, TypeInner, VectorSize};
 use windfall_core::layout::WgslStruct;
 use windfall_core::leaf::{Attitude, Drift, Identity, Place, Schedule};
+use windfall_core::particle::{ParticleMotion, ParticlePlace, ParticleTraits};
 
 use crate::gpu::shaders::Shaders;
 use crate::land::texture::LandUniform;
-use crate::{frame, leaves, lens, marks, objects, park, scenery, shadows, trees};
+use crate::{frame, leaves, lens, marks, objects, park, particles, scenery, shadows, trees};
 
 /// Modules of every room.
-fn rooms() -> [Shaders; 9] {
+fn rooms() -> [Shaders; 10] {
     [
         frame::shaders(),
         lens::shaders(),
@@ -25,6 +26,7 @@ fn rooms() -> [Shaders; 9] {
         shadows::shaders(),
         scenery::shaders(),
         park::shaders(),
+        particles::shaders(),
         marks::shaders(),
     ]
 }
@@ -108,6 +110,14 @@ fn every_struct_has_one_layout() {
     assert_same::<marks::paint_pass::PastMark>(&module);
     assert_same::<marks::trail_pass::TrailUniform>(&module);
     assert_same::<marks::trail_pass::TrailSample>(&module);
+    let module = parse(&particles::shaders(), "particles/structs");
+    assert_same::<particles::looks::PopulationLook>(&module);
+    assert_same::<particles::looks::LookRow>(&module);
+    assert_same::<particles::draw_list::ParticleUniform>(&module);
+    let module = parse(&particles::shaders(), "particle_records");
+    assert_same::<ParticlePlace>(&module);
+    assert_same::<ParticleMotion>(&module);
+    assert_same::<ParticleTraits>(&module);
     let module = parse(&leaves::shaders(), "leaf_records");
     assert_same::<Place>(&module);
     assert_same::<Drift>(&module);

@@ -11,6 +11,7 @@ mod look;
 mod motion;
 mod objects;
 mod rooms;
+mod sort;
 mod trees;
 
 use bytemuck::Pod;

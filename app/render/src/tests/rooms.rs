@@ -8,9 +8,25 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Rooms from the lowest to the highest: modules at the root of the crate.
-const ROOMS: [&str; 17] = [
-    "random", "light", "error", "gpu", "land", "camera", "frame", "lens", "trees", "objects", "leaves",
-    "shadows", "scenery", "park", "marks", "renderer", "lib",
+const ROOMS: [&str; 18] = [
+    "random",
+    "light",
+    "error",
+    "gpu",
+    "land",
+    "camera",
+    "frame",
+    "lens",
+    "trees",
+    "objects",
+    "leaves",
+    "shadows",
+    "scenery",
+    "park",
+    "particles",
+    "marks",
+    "renderer",
+    "lib",
 ];
 
 fn rust_files(folder: &Path) -> Vec<PathBuf> {

@@ -9,11 +9,13 @@ use crate::SceneError;
 use crate::motion::AIR_DENSITY;
 use crate::scene::limits::{self, Limit};
 use crate::scene::{
-    Air, Bounds, Direction, Force, ForceKind, MAX_FORCES, MAX_MUTUAL, MAX_PARTICLES, MAX_POPULATIONS, Meets,
-    ObjectFriction, ParticleRelease, ParticleShape, Particles, STANDARD_GRAVITY_M_S2, Scene, Spread,
-    SwirlProfile, VISCOSITY_PA_S,
+    Air, Bounds, Direction, Force, ForceKind, Look, LookKind, MAX_FORCES, MAX_MUTUAL, MAX_PARTICLES,
+    MAX_POPULATIONS, Meets, ObjectFriction, ParticleRelease, ParticleShape, Particles, STANDARD_GRAVITY_M_S2,
+    Scene, Spread, SwirlProfile, VISCOSITY_PA_S,
 };
 
+/// Most points of a curve.
+const MAX_CURVE_POINTS: usize = 64;
 /// Standard deviations of the number of particles alive for which there are slots, where they are born at random.
 const ROOM_DEVIATIONS: f64 = 6.0;
 
@@ -215,7 +217,7 @@ impl Particles {
                 at.vector("half_extent_m", half_extent_m, limits::HALF_EXTENT_M)?;
             }
         }
-        Ok(())
+        self.look.check(&at.inside("look"))
     }
 
     /// Time of the first birth in seconds.
@@ -292,6 +294,50 @@ impl ParticleShape {
             }
         }
     }
+}
+
+impl Look {
+    fn check(&self, at: &Check<'_>) -> Result<(), SceneError> {
+        check_curve(&self.color, "color", at, |at, color| at.vector("color", color, limits::COLOR))?;
+        check_curve(&self.opacity, "opacity", at, |at, opacity| {
+            at.numbers([("opacity", opacity.into(), limits::OPACITY)])
+        })?;
+        check_curve(&self.size, "size", at, |at, size| {
+            at.numbers([("size", size.into(), limits::SIZE_OVER_AGE)])
+        })?;
+        at.numbers([(
+            "brightness_kcd_m2",
+            self.brightness_kcd_m2.into(),
+            limits::PARTICLE_BRIGHTNESS_KCD_M2,
+        )])?;
+        if let Some(blink_s) = self.blink_s {
+            at.numbers([("blink_s", blink_s.into(), limits::BLINK_S)])?;
+            at.holds(self.kind == LookKind::Glow, "blink_s", || {
+                (format!("{blink_s} with kind {:?}", self.kind), "None, unless they glow".into())
+            })?;
+        }
+        at.numbers([("layer", self.layer.into(), limits::LAYER)])
+    }
+}
+
+/// Checks the ages of a curve, and each of its values.
+fn check_curve<T: Copy>(
+    points: &[(f32, T)],
+    name: &str,
+    at: &Check<'_>,
+    check: impl Fn(&Check<'_>, T) -> Result<(), SceneError>,
+) -> Result<(), SceneError> {
+    at.length(name, points.len(), 0, MAX_CURVE_POINTS)?;
+    let mut before = f32::NEG_INFINITY;
+    for (index, (age, value)) in points.iter().enumerate() {
+        let at = at.inside(format!("{name}[{index}]"));
+        at.holds(limits::AGE_SHARE.contains(*age) && before < *age, "0", || {
+            (format!("{age:?}"), format!("{}, more than that of the point before", limits::AGE_SHARE))
+        })?;
+        before = *age;
+        check(&at, *value)?;
+    }
+    Ok(())
 }
 
 /// Checks the length of a direction.

@@ -460,6 +460,21 @@ fn particle_shape() -> impl Strategy<Value = ParticleShape> {
 }
 
 prop_compose! {
+    fn look()(
+        kind in select(vec![LookKind::Dot, LookKind::Splat, LookKind::Glow, LookKind::Hidden]),
+        color in option::of((vector(limits::COLOR), vector(limits::COLOR))),
+        (opacity, size) in (maybe(limits::OPACITY), maybe(limits::SIZE_OVER_AGE)),
+        (brightness_kcd_m2, blink_s, streak, layer) in
+            (within(limits::PARTICLE_BRIGHTNESS_KCD_M2), maybe(limits::BLINK_S), any::<bool>(), 0u32..=15),
+    ) -> Look {
+        let color = color.map_or(Vec::new(), |(first, last)| vec![(0.0, first), (1.0, last)]);
+        let curve = |value: Option<f32>| value.map_or(Vec::new(), |value| vec![(0.25, value)]);
+        let blink_s = blink_s.filter(|_| kind == LookKind::Glow);
+        Look { kind, color, opacity: curve(opacity), size: curve(size), brightness_kcd_m2, blink_s, streak, layer }
+    }
+}
+
+prop_compose! {
     /// Every name is made unique later.
     fn particles()(
         from in particle_shape(),
@@ -491,6 +506,7 @@ prop_compose! {
             (vector(limits::CENTER_M), vector(limits::HALF_EXTENT_M))
                 .prop_map(|(center_m, half_extent_m)| Some(Bounds::Outside { center_m, half_extent_m })),
         ],
+        look in look(),
     ) -> Particles {
         // Stokes' law holds for what is small.
         let size_m = if air == Air::Stokes { Spread::Constant(1e-5) } else { size_m };
@@ -502,7 +518,7 @@ prop_compose! {
         };
         Particles {
             name: String::new(), count: 10_000, from, direction, release, speed_m_s, life_s: Some(life_s), size_m,
-            density_kg_m3, gravity: 1.0, charge_c_kg: 1.0, air, feels: Vec::new(), meets, dies,
+            density_kg_m3, gravity: 1.0, charge_c_kg: 1.0, air, feels: Vec::new(), meets, dies, look,
         }
     }
 }

@@ -1,0 +1,8 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// What is sorted. Only the device writes and reads it.
+
+struct SortPair {
+    key: u32,
+    value: u32,
+}

@@ -1,0 +1,169 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Order in which particles are drawn: all that are there, of all populations, from far to near.
+
+use windfall_core::{shared_constants, shared_struct};
+use windfall_wgpu::ParticleColumns;
+
+use super::looks::LookBuffers;
+use crate::camera::Camera;
+use crate::gpu::pipeline::{buffer_entry, layout};
+use crate::gpu::radix_sort::RadixSort;
+use crate::gpu::shaders::compile;
+
+/// Most slots that are drawn: what the smallest binding that WebGPU allows can hold of a column.
+pub(crate) const MAX_DRAWN: u32 = 1 << 23;
+/// Vertices of a particle.
+const VERTICES: u32 = 4;
+/// Place of the number of instances among the words of an indirect draw.
+const INSTANCES_AT: u64 = 4;
+
+shared_constants! {
+    /// Threads of a workgroup.
+    const LIST_THREADS: u32 = 256;
+}
+
+shared_struct! {
+    /// Camera and time of a frame, for particles.
+    pub(crate) struct ParticleUniform {
+        /// Camera position.
+        eye_m: [f32; 3],
+        /// Duration of a step.
+        dt_s: f32,
+        /// Camera axis.
+        forward: [f32; 3],
+        /// Time that the shutter is open.
+        shutter_s: f32,
+        /// Number of the step, two's complement.
+        step: u32,
+        /// Number of slots.
+        count: u32,
+        /// Number of pairs that are sorted, at least as many.
+        pairs: u32,
+        /// Zero.
+        unused: u32,
+    }
+}
+
+/// The list, and the pipeline that makes it.
+#[derive(Debug)]
+pub(crate) struct DrawList {
+    pub(crate) uniform: wgpu::Buffer,
+    pub(crate) sort: RadixSort,
+    /// Indirect draw of all that are there.
+    pub(crate) draw: wgpu::Buffer,
+    /// Number of those that are there, as it is counted.
+    seen_count: wgpu::Buffer,
+    slots: u32,
+    dt_s: f32,
+    layout: wgpu::BindGroupLayout,
+    pipeline: wgpu::ComputePipeline,
+}
+
+impl DrawList {
+    /// A list of `slots` particles that move in steps of `dt_s`.
+    pub(crate) fn new(device: &wgpu::Device, queue: &wgpu::Queue, slots: u32, dt_s: f32) -> Self {
+        let slots = slots.min(MAX_DRAWN);
+        let buffer = |label, size, usage| {
+            device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some(label),
+                size,
+                usage: usage | wgpu::BufferUsages::COPY_DST,
+                mapped_at_creation: false,
+            })
+        };
+        let compute = wgpu::ShaderStages::COMPUTE;
+        let storage = |read_only| wgpu::BufferBindingType::Storage { read_only };
+        let group_layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+            label: Some("particle list"),
+            entries: &[
+                buffer_entry(0, wgpu::BufferBindingType::Uniform, compute),
+                buffer_entry(1, storage(false), compute),
+                buffer_entry(2, storage(true), compute),
+                buffer_entry(3, storage(true), compute),
+                buffer_entry(4, storage(false), compute),
+            ],
+        });
+        let module = compile(device, &super::shaders(), "particles/draw_list");
+        let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+            label: Some("particle list"),
+            layout: Some(&layout(device, &[Some(&group_layout)])),
+            module: &module,
+            entry_point: Some("list"),
+            compilation_options: wgpu::PipelineCompilationOptions::default(),
+            cache: None,
+        });
+        let draw = buffer("particle draw", 16, wgpu::BufferUsages::INDIRECT);
+        queue.write_buffer(&draw, 0, bytemuck::cast_slice(&[VERTICES, 0, 0, 0]));
+        Self {
+            uniform: buffer("particles", size_of::<ParticleUniform>() as u64, wgpu::BufferUsages::UNIFORM),
+            sort: RadixSort::new(device, queue, slots),
+            draw,
+            seen_count: buffer(
+                "particles seen",
+                4,
+                wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC,
+            ),
+            slots,
+            dt_s,
+            layout: group_layout,
+            pipeline,
+        }
+    }
+
+    /// Number of slots of `columns` that are drawn.
+    pub(crate) fn count(&self, columns: &ParticleColumns<'_>) -> u32 {
+        columns.count.min(self.slots)
+    }
+
+    /// Lists what is there at `time_s`, in the order in which `camera` sees it.
+    pub(crate) fn run(
+        &self,
+        (device, queue): (&wgpu::Device, &wgpu::Queue),
+        encoder: &mut wgpu::CommandEncoder,
+        (columns, looks): (&ParticleColumns<'_>, &LookBuffers),
+        (camera, time_s, shutter_s): (&Camera, f64, f32),
+    ) {
+        #[expect(clippy::cast_possible_truncation, reason = "whole steps within weeks")]
+        let step = (time_s / f64::from(self.dt_s)).round() as i32;
+        let uniform = ParticleUniform {
+            eye_m: camera.eye_m().to_array(),
+            dt_s: self.dt_s,
+            forward: camera.forward().to_array(),
+            shutter_s,
+            step: step.cast_unsigned(),
+            count: self.count(columns),
+            pairs: self.slots,
+            unused: 0,
+        };
+        queue.write_buffer(&self.uniform, 0, bytemuck::bytes_of(&uniform));
+        let buffers = [&self.uniform, &self.sort.pairs, columns.place, &looks.populations, &self.seen_count];
+        let entries: Vec<_> = (0..)
+            .zip(buffers)
+            .map(|(binding, buffer)| wgpu::BindGroupEntry { binding, resource: whole(buffer) })
+            .collect();
+        let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("particle list"),
+            layout: &self.layout,
+            entries: &entries,
+        });
+        encoder.clear_buffer(&self.seen_count, 0, None);
+        let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
+            label: Some("particle list"),
+            timestamp_writes: None,
+        });
+        pass.set_pipeline(&self.pipeline);
+        pass.set_bind_group(0, &group, &[]);
+        pass.dispatch_workgroups(self.slots.div_ceil(LIST_THREADS), 1, 1);
+        self.sort.run(&mut pass);
+        drop(pass);
+        encoder.copy_buffer_to_buffer(&self.seen_count, 0, &self.draw, INSTANCES_AT, 4);
+    }
+}
+
+/// A buffer as far as it is drawn from.
+pub(crate) fn whole(buffer: &wgpu::Buffer) -> wgpu::BindingResource<'_> {
+    let most = u64::from(MAX_DRAWN) * 16;
+    let size = wgpu::BufferSize::new(buffer.size().min(most));
+    wgpu::BindingResource::Buffer(wgpu::BufferBinding { buffer, offset: 0, size })
+}

@@ -1,0 +1,121 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Looks of all populations for the shaders: their curves as tables.
+
+use glam::Vec3;
+use windfall_core::scene::{Look, LookKind, Particles, Scene};
+use windfall_core::{shared_constants, shared_struct};
+
+use crate::gpu::upload;
+
+shared_constants! {
+    /// A lit ball.
+    const LOOK_DOT: u32 = 0;
+    /// A lit puff.
+    const LOOK_SPLAT: u32 = 1;
+    /// A light.
+    const LOOK_GLOW: u32 = 2;
+    /// Nothing.
+    const LOOK_HIDDEN: u32 = 3;
+    /// Mask of the way of drawing in [`PopulationLook::kind_flags`].
+    const LOOK_MASK: u32 = 3;
+    /// Flag of what is drawn out along its way.
+    const LOOK_STREAKED: u32 = 4;
+    /// Rows of a population's curves, at even ages from birth to death.
+    const LOOK_ROWS: u32 = 65;
+}
+
+/// Part of the red, green and blue light of a picture in its luminance.
+const LUMINANCE: Vec3 = Vec3::new(0.2126, 0.7152, 0.0722);
+
+shared_struct! {
+    /// A population of particles as it is drawn.
+    pub(crate) struct PopulationLook {
+        /// Way of drawing, and a flag.
+        kind_flags: u32,
+        /// Layer: lower ones are drawn first.
+        layer: u32,
+        /// Mean diameter of its particles in metres.
+        size_m: f32,
+        /// Period of blinking in seconds; 0 if it does not.
+        blink_s: f32,
+    }
+}
+
+shared_struct! {
+    /// Values of a population's curves at an age.
+    pub(crate) struct LookRow, padding 12 {
+        /// Reflectance, or radiance in kcd/m².
+        color: [f32; 3],
+        /// Opacity.
+        opacity: f32,
+        /// Diameter over the particle's own.
+        size: f32,
+    }
+}
+
+/// The looks of a scene's particles on the device.
+#[derive(Debug)]
+pub(crate) struct LookBuffers {
+    pub(crate) populations: wgpu::Buffer,
+    pub(crate) rows: wgpu::Buffer,
+}
+
+impl LookBuffers {
+    pub(crate) fn new(device: &wgpu::Device, queue: &wgpu::Queue, scene: &Scene) -> Self {
+        let populations: Vec<_> = scene.particles.iter().map(population).collect();
+        let rows: Vec<_> = scene.particles.iter().flat_map(|particles| rows(&particles.look)).collect();
+        let filled =
+            |label, bytes: &[u8]| upload::buffer(device, queue, label, wgpu::BufferUsages::STORAGE, bytes);
+        Self {
+            populations: filled("looks of populations", bytemuck::cast_slice(&populations)),
+            rows: filled("look curves", bytemuck::cast_slice(&rows)),
+        }
+    }
+}
+
+fn population(particles: &Particles) -> PopulationLook {
+    let look = &particles.look;
+    let kind = match look.kind {
+        LookKind::Dot => LOOK_DOT,
+        LookKind::Splat => LOOK_SPLAT,
+        LookKind::Glow => LOOK_GLOW,
+        LookKind::Hidden => LOOK_HIDDEN,
+    };
+    PopulationLook {
+        kind_flags: if look.streak { kind | LOOK_STREAKED } else { kind },
+        layer: look.layer,
+        size_m: particles.size_m.mean(),
+        blink_s: look.blink_s.unwrap_or(0.0),
+    }
+}
+
+fn rows(look: &Look) -> impl Iterator<Item = LookRow> + '_ {
+    (0..LOOK_ROWS).map(|row| {
+        let sample = look.sample(row as f32 / (LOOK_ROWS - 1) as f32);
+        let color = match look.kind {
+            // A colour says which light it is, the brightness how much.
+            LookKind::Glow => sample.color * (look.brightness_kcd_m2 / sample.color.dot(LUMINANCE).max(1e-6)),
+            _ => sample.color,
+        };
+        LookRow { color: color.to_array(), opacity: sample.opacity, size: sample.size, padding: [0; 12] }
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lights_are_as_bright_as_they_say_whatever_their_colour() {
+        for color in [Vec3::ONE, Vec3::new(1.0, 0.2, 0.0), Vec3::new(0.0, 0.0, 0.3)] {
+            let look = Look { kind: LookKind::Glow, color: vec![(0.0, color)], ..Look::default() };
+            for row in rows(&look) {
+                let luminance = Vec3::from_array(row.color).dot(LUMINANCE);
+                assert!((luminance - 10.0).abs() < 1e-3, "{color}: {luminance} kcd/m²");
+            }
+        }
+        let matt = Look { color: vec![(0.0, Vec3::splat(0.4))], ..Look::default() };
+        assert!(rows(&matt).all(|row| row.color == [0.4; 3]), "reflectances stay");
+    }
+}

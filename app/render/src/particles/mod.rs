@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Particles: sorted by distance, and drawn as balls, puffs and lights.
+
+pub(crate) mod draw_list;
+pub(crate) mod looks;
+pub(crate) mod particle_pass;
+
+use windfall_core::layout::WgslStruct;
+
+use crate::gpu::radix_sort;
+use crate::gpu::shaders::{Shaders, declarations, wgsl_files};
+
+/// Shader modules of this room and of those below.
+pub(crate) fn shaders() -> Shaders {
+    let mut shaders = crate::frame::shaders();
+    shaders.extend(radix_sort::shaders());
+    let structs = [
+        looks::PopulationLook::declaration(),
+        looks::LookRow::declaration(),
+        draw_list::ParticleUniform::declaration(),
+    ];
+    let lists = [looks::wgsl_constants(), draw_list::wgsl_constants()];
+    shaders.extend([("particles/structs", declarations(lists) + &structs.concat())]);
+    shaders.extend(wgsl_files!("particles": "bindings", "draw_list", "particle_pass"));
+    shaders
+}

@@ -1,0 +1,211 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// Particles as discs that face the camera, drawn out along their way while the shutter is open. Premultiplied: balls and puffs
+// hide by their opacity what is behind them, lights hide nothing.
+
+#import frame/light
+#import gpu/sort_pair
+#import particles/bindings
+
+@group(2) @binding(0) var<uniform> drawn: ParticleUniform;
+@group(2) @binding(1) var<storage, read> pairs: array<SortPair>;
+@group(2) @binding(2) var<storage, read> places: array<ParticlePlace>;
+@group(2) @binding(3) var<storage, read> motions: array<ParticleMotion>;
+@group(2) @binding(4) var<storage, read> traits: array<ParticleTraits>;
+@group(2) @binding(5) var<storage, read> populations: array<PopulationLook>;
+@group(2) @binding(6) var<storage, read> rows: array<LookRow>;
+
+// Least radius in pixels: what is smaller is drawn as large, and as much fainter.
+const LEAST_PX: f32 = 0.7;
+// Room around the disc for its soft rim, in pixels.
+const RIM_PX: f32 = 0.75;
+// Asymmetry of the light that puffs scatter (Henyey, Greenstein 1941), of dust and droplets about this in total: forward.
+const FORWARD: f32 = 0.5;
+// Part of a matt ball's own radiance in sunlight, averaged over the directions it is seen from: the mean over its disc, at
+// a right angle to the sun, of a Lambertian sphere is 2/(3 pi) of what one sees with the sun behind, 2/3.
+const BALL_SHARE: f32 = 0.4;
+
+struct Varyings {
+    @builtin(position) clip: vec4<f32>,
+    // Place on the disc in radii, along the way and across it.
+    @location(0) at: vec2<f32>,
+    // Half the way in radii, and reciprocal of a pixel in radii.
+    @location(1) @interpolate(flat) way_px: vec2<f32>,
+    // Of light from the sun, of the sky, and of the air before it; opacity.
+    @location(2) @interpolate(flat) sun: vec4<f32>,
+    @location(3) @interpolate(flat) sky: vec4<f32>,
+    @location(4) @interpolate(flat) air: vec4<f32>,
+    // Axes of the disc: along the way, and across it.
+    @location(5) @interpolate(flat) along: vec3<f32>,
+    @location(6) @interpolate(flat) across: vec3<f32>,
+    @location(7) world: vec3<f32>,
+    // Radius in metres, and a number of its own from 0 to 1.
+    @location(8) @interpolate(flat) radius_own: vec2<f32>,
+    @location(9) @interpolate(flat) kind: u32,
+}
+
+// A number from 0 to 1 of a particle's own.
+fn own_number(id: u32, population: u32) -> f32 {
+    var word = id * 0x9e3779b9u + population * 0x85ebca6bu;
+    word = (word ^ (word >> 15u)) * 0x2c1b3c6du;
+    word = (word ^ (word >> 12u)) * 0x297a2d39u;
+    return f32((word ^ (word >> 15u)) >> 8u) / 16777216.0;
+}
+
+// Values of a population's curves at an age.
+fn look_at_age(population: u32, share: f32) -> LookRow {
+    let place = share * f32(LOOK_ROWS - 1u);
+    let low = min(u32(place), LOOK_ROWS - 2u);
+    let first = rows[population * LOOK_ROWS + low];
+    let second = rows[population * LOOK_ROWS + low + 1u];
+    let t = place - f32(low);
+    var row = first;
+    row.color = mix(first.color, second.color, t);
+    row.opacity = mix(first.opacity, second.opacity, t);
+    row.size = mix(first.size, second.size, t);
+    return row;
+}
+
+// Share of its light that a blinking particle gives at a moment: dark for most of a period, then a flash that swells and dies.
+fn blink(time_s: f32, period_s: f32, own: f32) -> f32 {
+    let phase = fract(time_s / period_s + own);
+    return smoothstep(0.0, 0.12, phase) * (1.0 - smoothstep(0.18, 0.42, phase));
+}
+
+// Light that is scattered at an angle over that scattered evenly.
+fn scattering(cosine: f32) -> f32 {
+    let g2 = FORWARD * FORWARD;
+    return (1.0 - g2) / pow(1.0 + g2 - 2.0 * FORWARD * cosine, 1.5);
+}
+
+@vertex
+fn vertex(@builtin(vertex_index) corner: u32, @builtin(instance_index) rank: u32) -> Varyings {
+    let slot = pairs[rank].value;
+    let place = places[slot];
+    let motion = motions[slot];
+    let born_with = traits[slot];
+    let population = particle_population(place.bits);
+    let look = populations[population];
+    let age = particle_age(motion, drawn.step);
+    let row = look_at_age(population, age_share(age, born_with.life_size));
+    let own = own_number(born_with.id, population);
+
+    let to_eye = frame.eye_m - place.position;
+    let distance_m = max(length(to_eye), 1.0e-4);
+    let view = to_eye / distance_m;
+    let pixel_m = distance_m * length(frame.up) * 2.0 * frame.inv_viewport_px.y;
+    let true_radius_m = 0.5 * look.size_m * row.size * f32(particle_size(born_with.life_size)) / f32(PARTICLE_SIZE_ONE);
+    let radius_m = max(true_radius_m, LEAST_PX * pixel_m);
+
+    // The way that is seen while the shutter is open.
+    let half_way = select(vec3(0.0), motion.velocity * (0.5 * drawn.shutter_s), (look.kind_flags & LOOK_STREAKED) != 0u);
+    let seen_way = half_way - view * dot(half_way, view);
+    let half_way_m = length(seen_way);
+    var along = cross(view, frame.right);
+    along = along / max(length(along), 1.0e-6);
+    if half_way_m > 0.05 * pixel_m {
+        along = seen_way / half_way_m;
+    }
+    let across = cross(view, along);
+    let rim_m = RIM_PX * pixel_m;
+    let side = vec2(f32(corner & 1u), f32(corner >> 1u)) * 2.0 - 1.0;
+    let offset = side * vec2(radius_m + half_way_m + rim_m, radius_m + rim_m);
+
+    var out: Varyings;
+    out.world = place.position + along * offset.x + across * offset.y;
+    out.clip = frame.view_projection * vec4(out.world, 1.0);
+    out.at = offset / radius_m;
+    out.way_px = vec2(half_way_m / radius_m, radius_m / pixel_m);
+    out.along = along;
+    out.across = across;
+    out.radius_own = vec2(radius_m, own);
+    out.kind = look_kind(look);
+
+    let small = true_radius_m / radius_m;
+    var opacity = row.opacity * small * small;
+    let air = air_before(place.position);
+    out.air = air;
+    if out.kind == LOOK_GLOW {
+        var light = row.color;
+        if look.blink_s > 0.0 {
+            light *= blink(f32(age) * drawn.dt_s, look.blink_s, own);
+        }
+        out.sun = vec4(0.0);
+        out.sky = vec4(light * air.a, opacity);
+        if max(light.x, max(light.y, light.z)) <= 0.0 {
+            out.clip = vec4(0.0, 0.0, -1.0, 1.0);
+        }
+    } else {
+        let lit = frame.sun_color * leaf_shadow(place.position) * tree_shade(place.position).x;
+        let puff = BALL_SHARE * scattering(-dot(view, frame.sun_direction));
+        out.sun = vec4(row.color * lit * select(1.0, puff, out.kind == LOOK_SPLAT) * air.a, opacity);
+        let around = 0.5 * (ambient_light(vec3(0.0, 1.0, 0.0)) + ambient_light(vec3(0.0, -1.0, 0.0)));
+        out.sky = vec4(row.color * around * air.a, opacity);
+    }
+    return out;
+}
+
+// Share of the time that the shutter is open in which a disc of radius one covers a place, if it goes `way` to both sides.
+fn covered(at: vec2<f32>, way: f32, radius_px: f32) -> f32 {
+    let still = clamp((1.0 - length(at)) * radius_px + 0.5, 0.0, 1.0);
+    if way * radius_px < 0.25 {
+        return still;
+    }
+    let chord = sqrt(max(1.0 - at.y * at.y, 0.0));
+    let span = max(min(at.x + chord, way) - max(at.x - chord, -way), 0.0);
+    return min(span / (2.0 * way), 1.0);
+}
+
+// The same for a disc that thins out to its rim, by the square of one minus the square of the distance.
+fn thinly_covered(at: vec2<f32>, way: f32) -> f32 {
+    let beside = max(1.0 - at.y * at.y, 0.0);
+    let chord = sqrt(beside);
+    let low = clamp(at.x - way, -chord, chord);
+    let high = clamp(at.x + way, -chord, chord);
+    if way < 1.0e-3 {
+        let thin = max(beside - at.x * at.x, 0.0);
+        return thin * thin;
+    }
+    // Integral of (b - s^2)^2 over the way, in closed form.
+    let integral = beside * beside * (high - low)
+        - 2.0 / 3.0 * beside * (high * high * high - low * low * low)
+        + 0.2 * (high * high * high * high * high - low * low * low * low * low);
+    return integral / (2.0 * way);
+}
+
+// Thickness of a puff at a place, 0 to 1: noise of its own, turned by its number.
+fn billows(at: vec2<f32>, own: f32) -> f32 {
+    let turn = vec2(cos(own * 6.2831853), sin(own * 6.2831853));
+    let turned = vec2(turn.x * at.x - turn.y * at.y, turn.y * at.x + turn.x * at.y);
+    let place = turned * 0.11 + vec2(own * 7.31, own * 3.17);
+    let coarse = textureSampleLevel(noise, repeat_sampler, place, 1.0).r;
+    let fine = textureSampleLevel(noise, repeat_sampler, place * 2.7, 1.0).g;
+    return smoothstep(0.25, 0.75, 0.62 * coarse + 0.38 * fine);
+}
+
+@fragment
+fn fragment(in: Varyings) -> @location(0) vec4<f32> {
+    let way = in.way_px.x;
+    let radius_px = in.way_px.y;
+    if in.kind == LOOK_DOT {
+        let share = covered(in.at, way, radius_px) * in.sky.a;
+        // A ball that stands still and is seen as one has a lit side.
+        let inward = sqrt(max(1.0 - dot(in.at, in.at), 0.0));
+        let normal = normalize(in.along * in.at.x + in.across * in.at.y + normalize(frame.eye_m - in.world) * max(inward, 0.05));
+        let round = smoothstep(1.5, 4.0, radius_px) * (1.0 - smoothstep(0.2, 1.0, way));
+        let sun = in.sun.rgb * mix(BALL_SHARE, max(dot(normal, frame.sun_direction), 0.0), round);
+        let sky = in.sky.rgb * mix(1.0, 0.7 + 0.3 * normal.y, round);
+        return vec4((sun + sky + in.air.rgb) * share, share);
+    }
+    var thick = thinly_covered(in.at, way);
+    // It meets the ground without an edge.
+    let above_m = in.world.y - surface_height(in.world.xz);
+    if in.kind == LOOK_SPLAT {
+        thick *= clamp(above_m / (0.6 * in.radius_own.x) + 0.4, 0.0, 1.0);
+        let is_large = smoothstep(4.0, 16.0, radius_px);
+        thick *= mix(1.0, 1.6 * billows(in.at, in.radius_own.y), is_large);
+        let share = clamp(thick * in.sky.a, 0.0, 1.0);
+        return vec4((in.sun.rgb + in.sky.rgb + in.air.rgb) * share, share);
+    }
+    return vec4(in.sky.rgb * (thick * in.sky.a), 0.0);
+}
