@@ -15,8 +15,10 @@
 @group(2) @binding(5) var<storage, read> populations: array<PopulationLook>;
 @group(2) @binding(6) var<storage, read> rows: array<LookRow>;
 
-// Least radius in pixels: what is smaller is drawn as large, and as much fainter.
-const LEAST_PX: f32 = 0.7;
+// Least radius in pixels of balls and of what has no edge: what is smaller is drawn as large, and as much fainter. Any narrower,
+// it would fall between the middles of pixels.
+const LEAST_BALL_PX: f32 = 0.7;
+const LEAST_SOFT_PX: f32 = 1.5;
 // Room around the disc for its soft rim, in pixels.
 const RIM_PX: f32 = 0.75;
 // Asymmetry of the light that puffs scatter (Henyey, Greenstein 1941), of dust and droplets about this in total: forward.
@@ -95,7 +97,8 @@ fn vertex(@builtin(vertex_index) corner: u32, @builtin(instance_index) rank: u32
     let view = to_eye / distance_m;
     let pixel_m = distance_m * length(frame.up) * 2.0 * frame.inv_viewport_px.y;
     let true_radius_m = 0.5 * look.size_m * row.size * f32(particle_size(born_with.life_size)) / f32(PARTICLE_SIZE_ONE);
-    let radius_m = max(true_radius_m, LEAST_PX * pixel_m);
+    let least_px = select(LEAST_SOFT_PX, LEAST_BALL_PX, look_kind(look) == LOOK_DOT);
+    let radius_m = max(true_radius_m, least_px * pixel_m);
 
     // The way that is seen while the shutter is open.
     let half_way = select(vec3(0.0), motion.velocity * (0.5 * drawn.shutter_s), (look.kind_flags & LOOK_STREAKED) != 0u);

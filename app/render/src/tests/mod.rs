@@ -10,6 +10,7 @@ mod lens;
 mod look;
 mod motion;
 mod objects;
+mod particles;
 mod rooms;
 mod sort;
 mod trees;
@@ -20,7 +21,7 @@ use windfall_core::Scene;
 use windfall_core::scene::{Exposure, Focus, Terrain};
 use windfall_core::solid::solids_of;
 use windfall_texgen::{Atlas, Layer};
-use windfall_wgpu::{BranchColumns, Gpu, LeafColumns, WorldColumns};
+use windfall_wgpu::{BranchColumns, Gpu, LeafColumns, ParticleColumns, WorldColumns};
 
 use super::*;
 use crate::camera::Camera;
@@ -122,9 +123,33 @@ impl Bench {
         self.draw_all(None, state, 60_000, offset_m, time_s)
     }
 
+    /// Draws these particles: places, motions and traits, word by word.
+    pub(crate) fn draw_particles(&mut self, rows: &[[[u32; 4]; 3]], time_s: f64) -> RgbaImage {
+        let (device, queue) = (self.gpu.device(), self.gpu.queue());
+        let usage = wgpu::BufferUsages::STORAGE;
+        let [place, motion, traits] = [0, 1, 2].map(|column| {
+            let words: Vec<[u32; 4]> = rows.iter().map(|row| row[column]).collect();
+            upload::buffer(device, queue, "column", usage, bytemuck::cast_slice(&words))
+        });
+        let count = u32::try_from(rows.len()).expect("few");
+        let particles = ParticleColumns { place: &place, motion: &motion, traits: &traits, count };
+        self.draw_world((None, Some(particles)), 0, 60_000, 0.0, time_s)
+    }
+
     fn draw_all(
         &mut self,
         branches: Option<&BranchColumns<'_>>,
+        state: u32,
+        size: u32,
+        offset_m: f32,
+        time_s: f64,
+    ) -> RgbaImage {
+        self.draw_world((branches, None), state, size, offset_m, time_s)
+    }
+
+    fn draw_world(
+        &mut self,
+        (branches, particles): (Option<&BranchColumns<'_>>, Option<ParticleColumns<'_>>),
         state: u32,
         size: u32,
         offset_m: f32,
@@ -153,7 +178,7 @@ impl Bench {
         self.renderer.draw(
             &mut encoder,
             &target.view(),
-            &WorldColumns { leaves, branches: branches.cloned(), particles: None },
+            &WorldColumns { leaves, branches: branches.cloned(), particles },
             &FrameInput { camera, time_s, since_s: f32::INFINITY, origin: (0, 0) },
         );
         target.submit_and_read(device, queue, encoder).expect("a picture")
