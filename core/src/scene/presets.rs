@@ -24,6 +24,12 @@ pub const PRESETS: &[(&str, &str)] = &[
     ("walk", include_str!("../../scenes/walk.ron")),
     ("heap", include_str!("../../scenes/heap.ron")),
     ("pond", include_str!("../../scenes/pond.ron")),
+    ("particle-lab", include_str!("../../scenes/particle-lab.ron")),
+    ("whirl", include_str!("../../scenes/whirl.ron")),
+    ("waterfall", include_str!("../../scenes/waterfall.ron")),
+    ("rain-pond", include_str!("../../scenes/rain-pond.ron")),
+    ("pollen", include_str!("../../scenes/pollen.ron")),
+    ("fireflies", include_str!("../../scenes/fireflies.ron")),
 ];
 
 impl Scene {
@@ -69,7 +75,13 @@ mod tests {
                 "drift",
                 "walk",
                 "heap",
-                "pond"
+                "pond",
+                "particle-lab",
+                "whirl",
+                "waterfall",
+                "rain-pond",
+                "pollen",
+                "fireflies",
             ],
             "names and their order"
         );

@@ -258,7 +258,7 @@ impl Particles {
         let mean = per_s * (longest_s + dt_s);
         let needed = libm::ceil(mean + deviations * libm::sqrt(mean)) + 1.0;
         at.holds(f64::from(self.count) >= needed, "count", || {
-            let allowed = format!("at least {needed:.0}: {per_s} a second that live up to {longest_s} s");
+            let allowed = format!("at least {needed:.0}: {per_s} a second that live up to {longest_s:.3} s");
             (self.count.to_string(), allowed)
         })
     }
