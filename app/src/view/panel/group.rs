@@ -31,6 +31,8 @@ pub(crate) enum Group {
     TreeKinds,
     /// Objects and walkers.
     Objects,
+    /// Particles, and forces on them.
+    Particles,
     /// Ground, hills, water.
     Ground,
     /// Sun, sky, haze.
@@ -50,7 +52,7 @@ pub(crate) enum Group {
 impl Group {
     /// All of them, in their order.
     #[cfg(test)]
-    pub(crate) const ALL: [Self; 16] = [
+    pub(crate) const ALL: [Self; 17] = [
         Self::Scene,
         Self::Presets,
         Self::Leaves,
@@ -60,6 +62,7 @@ impl Group {
         Self::Trees,
         Self::TreeKinds,
         Self::Objects,
+        Self::Particles,
         Self::Ground,
         Self::Sky,
         Self::Camera,
@@ -80,6 +83,7 @@ impl Group {
             Self::Trees => "Trees and season",
             Self::TreeKinds => "Tree kinds",
             Self::Objects => "Objects and walkers",
+            Self::Particles => "Particles and forces",
             Self::Ground => "Ground and water",
             Self::Sky => "Sun, sky, haze",
             Self::Camera => "Camera",

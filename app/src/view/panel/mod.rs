@@ -9,6 +9,7 @@ mod camera;
 mod compare;
 mod draft;
 mod field;
+mod forces;
 mod graph;
 mod ground;
 mod group;
@@ -26,6 +27,7 @@ mod objects;
 mod over_picture;
 mod overlays;
 pub(crate) mod panel_input;
+mod particles;
 pub(crate) mod pointer;
 mod presets;
 mod record;
@@ -270,6 +272,11 @@ impl Panel {
         groups.show(ui, Group::Objects, differs, |ui| {
             objects::show(ui, scene, own);
             walkers::show(ui, scene, own);
+        });
+        let differs = scene.particles != own.particles || scene.forces != own.forces;
+        groups.show(ui, Group::Particles, differs, |ui| {
+            particles::show(ui, scene, own);
+            forces::show(ui, scene, own);
         });
         let differs = scene.ground != own.ground;
         groups.show(ui, Group::Ground, differs, |ui| ground::show(ui, &mut scene.ground, &own.ground));

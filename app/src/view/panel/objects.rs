@@ -182,7 +182,7 @@ fn octahedron(half_m: Vec3) -> Vec<Vec3> {
     [Vec3::X, Vec3::Y, Vec3::Z].into_iter().flat_map(|axis| [half_m * axis, -half_m * axis]).collect()
 }
 
-fn friction(ui: &mut Ui, friction: &mut ObjectFriction, own: Option<ObjectFriction>) {
+pub(super) fn friction(ui: &mut Ui, friction: &mut ObjectFriction, own: Option<ObjectFriction>) {
     let options = [("Coulomb", ObjectFriction::Coulomb(0.5)), ("share lost", ObjectFriction::Loss(0.5))];
     let tip =
         "Speed along the surface that a contact takes: by the impulse into it, or a share of that speed";

@@ -4,7 +4,7 @@
 
 use glam::Vec3;
 use windfall_core::Scene;
-use windfall_core::scene::{Ground, Litter, Object, Share, SourceShape, Species, View};
+use windfall_core::scene::{Ground, Litter, Look, Object, Particles, Share, SourceShape, Species, View};
 use windfall_render::RendererOptions;
 use windfall_render::land::is_paved;
 
@@ -77,7 +77,8 @@ impl Change {
             true,
         );
         change.rebuild("walkers", *walkers != old.walkers, true, true);
-        change.rebuild("particles", *particles != old.particles || *forces != old.forces, true, true);
+        let moves = unpainted(particles) != unpainted(&old.particles) || *forces != old.forces;
+        change.rebuild("particles", moves || *particles != old.particles, moves, true);
         change.view(&old.view, view);
         let litter = |scene| RendererOptions::for_scene(scene).litter_count;
         if litter(old) != litter(new) {
@@ -162,6 +163,11 @@ fn looks(species: &[Species]) -> Vec<Species> {
 /// Objects but for what only the renderer uses.
 fn uncolored(objects: &[Object]) -> Vec<Object> {
     objects.iter().map(|object| Object { color: Vec3::ZERO, ..object.clone() }).collect()
+}
+
+/// Particles but for what only the renderer uses.
+fn unpainted(particles: &[Particles]) -> Vec<Particles> {
+    particles.iter().map(|one| Particles { look: Look::default(), ..one.clone() }).collect()
 }
 
 /// The sources that the renderer shows a tree for: balls of leaves, where the scene has no trees.

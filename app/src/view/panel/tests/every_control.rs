@@ -175,13 +175,14 @@ fn every_control_does_something() {
         Group::Wind,
         Group::TreeKinds,
         Group::Objects,
+        Group::Particles,
         Group::Sky,
         Group::Lens,
     ];
     let scenes: [(Scene, &[Group]); 3] = [
         (full(), &Group::ALL),
         (other(), &others),
-        (third(), &[Group::Species, Group::Objects, Group::Lens]),
+        (third(), &[Group::Species, Group::Objects, Group::Particles, Group::Lens]),
     ];
     let all: Vec<Control> = scenes.iter().flat_map(move_everything).collect();
     assert!(all.len() > 300, "only {} controls were found", all.len());

@@ -5,10 +5,11 @@
 use glam::Vec3;
 use windfall_core::Scene;
 use windfall_core::scene::{
-    Aerodynamics, CameraKey, Exposure, FlightModel, Focus, Jet, JetKey, Litter, MeanSpeed, Object,
-    ObjectFriction, ObjectKey, ObjectMotion, ObjectShape, Planform, Profile, Release, RotationModel, Share,
-    Sky, SkyMap, SourceShape, Terrain, ToneMap, Tree, TreeForm, TreeKind, Vortex, VortexProfile, Walker,
-    Water,
+    Aerodynamics, Air, CameraKey, Direction, Exposure, FlightModel, Focus, Force, ForceKind, Jet, JetKey,
+    Litter, Look, LookKind, MeanSpeed, Meets, Object, ObjectFriction, ObjectKey, ObjectMotion, ObjectShape,
+    ParticleRelease, ParticleShape, Particles, Planform, Profile, Release, RotationModel, Share, Sky, SkyMap,
+    SourceShape, Spread, SwirlProfile, Terrain, ToneMap, Tree, TreeForm, TreeKind, Vortex, VortexProfile,
+    Walker, Water,
 };
 
 /// A park with one of everything that may be added to a scene.
@@ -35,12 +36,20 @@ pub(super) fn full() -> Scene {
     scene.ground.litter = Some(Litter { leaf_area_index: 0.0, ..Litter::default() });
     scene.objects = vec![Object::default()];
     scene.walkers = vec![Walker::default()];
+    scene.particles = vec![population("first", Air::Settling { m_s: Spread::Uniform(1.0, 0.2) }, "push")];
+    scene.forces = vec![Force { name: "push".into(), of: ForceKind::Noise { m_s2: 1.0, cell_m: 1.0 } }];
     scene.ground.terrain = Some(Terrain { levels: 4, ..Terrain::default() });
     scene.ground.water = Some(Water { height_m: -0.5 });
     scene.view.path =
         vec![CameraKey { time_s: 1.0, eye_m: Vec3::ONE, target_m: Vec3::ZERO, vertical_fov_deg: 40.0 }];
     scene.view.lens.focus = Some(Focus { distance_m: 3.0, f_number: 4.0 });
     scene
+}
+
+/// A population that feels a force, with room to spare.
+fn population(name: &str, air: Air, force: &str) -> Particles {
+    let look = Look { color: vec![(0.0, Vec3::ONE)], ..Look::default() };
+    Particles { name: name.into(), count: 5000, air, look, feels: vec![force.into()], ..Particles::default() }
 }
 
 /// The other variant of every choice.
@@ -59,6 +68,13 @@ pub(super) fn other() -> Scene {
     scene.view.sky = Sky::Map(SkyMap::new("a.hdr".into()));
     scene.view.lens.exposure = Exposure::Manual { ev100: 12.0 };
     scene.view.lens.tone_map = ToneMap::Reinhard { white: 3.0 };
+    let one = &mut scene.particles[0];
+    one.from = ParticleShape::Cone { tip_m: Vec3::Y, base_m: 2.0 * Vec3::Y, radius_m: 1.0 };
+    one.air = Air::Linear { time_s: Spread::Normal(0.5, 0.1) };
+    one.meets = Meets::Bounce { restitution: 0.3, friction: ObjectFriction::Loss(0.2) };
+    one.release = ParticleRelease::Burst { at_s: 1.0 };
+    (one.look.kind, one.look.blink_s) = (LookKind::Glow, Some(2.0));
+    scene.forces[0].of = ForceKind::Attract { at_m: Vec3::Y, gm_m3_s2: 2.0, softening_m: 0.2 };
     scene
 }
 
@@ -75,5 +91,17 @@ pub(super) fn third() -> Scene {
     let motion = ObjectMotion::Path(vec![key(0.0, 0.0), key(2.0, 1.0)]);
     scene.objects = vec![Object { shape, motion, ..Object::default() }];
     scene.view.lens.tone_map = ToneMap::Linear { gamma: 2.0 };
+    let mut one = population("third", Air::Quadratic { drag: 0.5 }, "turn");
+    one.from = ParticleShape::Ring { center_m: Vec3::Y, radius_m: 1.0, axis: Vec3::Y };
+    one.direction = Direction::Outward;
+    scene.particles = vec![one];
+    let of = ForceKind::Swirl {
+        at_m: Vec3::ZERO,
+        axis: Vec3::Y,
+        rate_rad_s: 2.0,
+        swirl_radius_m: 1.0,
+        profile: SwirlProfile::Compact { d: 0.0 },
+    };
+    scene.forces = vec![Force { name: "turn".into(), of }];
     scene
 }

@@ -1,0 +1,308 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Populations of particles: births, life, air, contacts, and how they are drawn.
+
+use egui::Ui;
+use glam::Vec3;
+use windfall_core::Scene;
+use windfall_core::scene::limits::{self, Limit};
+use windfall_core::scene::{
+    Air, Direction, Force, LookKind, MAX_POPULATIONS, Meets, ObjectFriction, ParticleRelease, ParticleShape,
+    Particles, Spread,
+};
+
+use super::field::{choice, field, vector};
+use super::list::{List, free_name};
+use super::rows::title;
+use super::words::text;
+use crate::run::digits::grouped;
+
+pub(super) fn show(ui: &mut Ui, scene: &mut Scene, own: &Scene) {
+    let list = List { name: "Population", entry: "population", fewest: 0, most: MAX_POPULATIONS };
+    let name = |index: usize, one: &Particles| format!("{}: {} {}", index + 1, grouped(one.count), one.name);
+    let fresh = |like: Option<&Particles>, all: &[Particles]| {
+        let like = like.cloned().unwrap_or_default();
+        Particles { name: free_name(&like.name, all.iter().map(|one| &*one.name)), ..like }
+    };
+    let Some(index) = list.show(ui, &mut scene.particles, name, fresh) else { return };
+    let (one, own) = (&mut scene.particles[index], own.particles.get(index));
+    let tip = "Name of the population, unlike those of the others";
+    text(ui, "Called", tip, &mut one.name, own.map(|own| &*own.name), 1);
+    let tip = "Slots: at least as many as are alive at once";
+    field("Slots", tip, limits::PARTICLE_COUNT).fine(1.0).show(ui, &mut one.count, own.map(|own| own.count));
+    title(ui, "Birth");
+    shape(ui, &mut one.from, own.map(|own| own.from));
+    release(ui, &mut one.release, own.map(|own| own.release));
+    direction(ui, &mut one.direction, own.map(|own| own.direction));
+    let tip = "Speed at which they set off";
+    spread(
+        ui,
+        "Start speed",
+        tip,
+        &mut one.speed_m_s,
+        own.map(|own| own.speed_m_s),
+        limits::PARTICLE_SPEED_M_S,
+    );
+    let tip = "Time from birth to death";
+    if let Some(life_s) = &mut one.life_s {
+        spread(ui, "Life", tip, life_s, own.and_then(|own| own.life_s), limits::PARTICLE_LIFE_S);
+    }
+    title(ui, "Motion");
+    let tip = "Diameter";
+    spread(ui, "Diameter", tip, &mut one.size_m, own.map(|own| own.size_m), limits::PARTICLE_SIZE_M);
+    let tip = "Density, for weight in air, and for drag by size";
+    let density = field("Density", tip, limits::PARTICLE_DENSITY_KG_M3).fine(0.01);
+    density.show(ui, &mut one.density_kg_m3, own.map(|own| own.density_kg_m3));
+    let tip = "Share of gravity that they feel: 0 for what floats";
+    field("Weight share", tip, limits::WEIGHT_SHARE).show(ui, &mut one.gravity, own.map(|own| own.gravity));
+    let tip = "Charge over mass, for forces of fields";
+    let charge = field("Charge", tip, limits::CHARGE_C_KG).wide();
+    charge.show(ui, &mut one.charge_c_kg, own.map(|own| own.charge_c_kg));
+    air(ui, &mut one.air, own.map(|own| own.air));
+    meets(ui, &mut one.meets, own.map(|own| own.meets));
+    feels(ui, &mut one.feels, &scene.forces);
+    title(ui, "Look");
+    look(ui, one, own);
+}
+
+/// A number that differs from particle to particle.
+fn spread(ui: &mut Ui, name: &str, tip: &str, value: &mut Spread, own: Option<Spread>, limit: Limit<f32>) {
+    let mean = value.mean();
+    let width = 0.25 * mean.abs();
+    let options = [
+        ("same", Spread::Constant(mean)),
+        ("even", Spread::Uniform(mean, width)),
+        ("normal", Spread::Normal(mean, 0.5 * width)),
+    ];
+    choice(ui, name, tip, value, own.as_ref(), &options);
+    let smallest = f64::from(limit.low.max(1e-6));
+    let own_mean = own.map(Spread::mean);
+    let mean_name = format!("{name}, mean");
+    let number = field(&mean_name, tip, limit).fine(smallest);
+    match value {
+        Spread::Constant(mean) => number.show(ui, mean, own_mean),
+        Spread::Uniform(mean, half_width) => {
+            number.show(ui, mean, own_mean);
+            let own = own.and_then(|own| if let Spread::Uniform(_, own) = own { Some(own) } else { None });
+            let name = format!("{name}, at most");
+            let limit = Limit { low: 0.0, ..limit };
+            field(&name, "Farthest from the mean", limit).fine(smallest).show(ui, half_width, own);
+        }
+        Spread::Normal(mean, deviation) => {
+            number.show(ui, mean, own_mean);
+            let own = own.and_then(|own| if let Spread::Normal(_, own) = own { Some(own) } else { None });
+            let name = format!("{name}, sd");
+            let limit = Limit { low: 0.0, ..limit };
+            field(&name, "Standard deviation", limit).fine(smallest).show(ui, deviation, own);
+        }
+    }
+}
+
+fn shape(ui: &mut Ui, shape: &mut ParticleShape, own: Option<ParticleShape>) {
+    // Another shape is about as large, at the same place.
+    let (center_m, radius_m, axis) = match *shape {
+        ParticleShape::Box { center_m, half_extent_m } => (center_m, half_extent_m.max_element(), Vec3::Y),
+        ParticleShape::Disc { center_m, radius_m, axis }
+        | ParticleShape::Ring { center_m, radius_m, axis } => (center_m, radius_m, axis),
+        ParticleShape::Sphere { center_m, radius_m, .. } => (center_m, radius_m, Vec3::Y),
+        ParticleShape::Cone { tip_m, base_m, radius_m } => (base_m, radius_m, base_m - tip_m),
+        ParticleShape::Line { from_m, to_m } => (0.5 * (from_m + to_m), 0.5 * from_m.distance(to_m), Vec3::Y),
+    };
+    let aside = Vec3::X * radius_m;
+    let options = [
+        ("box", ParticleShape::Box { center_m, half_extent_m: Vec3::splat(radius_m) }),
+        ("disc", ParticleShape::Disc { center_m, radius_m, axis }),
+        ("ring", ParticleShape::Ring { center_m, radius_m, axis }),
+        ("ball", ParticleShape::Sphere { center_m, radius_m, hollow: false }),
+        ("cone", ParticleShape::Cone { tip_m: center_m - Vec3::Y, base_m: center_m, radius_m }),
+        ("line", ParticleShape::Line { from_m: center_m - aside, to_m: center_m + aside }),
+    ];
+    choice(ui, "Start from", "They start from all of it alike", shape, own.as_ref(), &options);
+    let own = own.filter(|own| std::mem::discriminant(own) == std::mem::discriminant(shape));
+    let places: Vec<(&str, &mut Vec3, Limit<f32>)> = match shape {
+        ParticleShape::Box { center_m, half_extent_m } => vec![
+            ("Start middle", center_m, limits::CENTER_M),
+            ("Half size", half_extent_m, limits::HALF_EXTENT_M),
+        ],
+        ParticleShape::Disc { center_m, axis, .. } | ParticleShape::Ring { center_m, axis, .. } => {
+            vec![("Start middle", center_m, limits::CENTER_M), ("Start axis", axis, limits::AXIS)]
+        }
+        ParticleShape::Sphere { center_m, .. } => vec![("Start middle", center_m, limits::CENTER_M)],
+        ParticleShape::Cone { tip_m, base_m, .. } => {
+            vec![("Tip", tip_m, limits::PARTICLE_AT_M), ("Base", base_m, limits::PARTICLE_AT_M)]
+        }
+        ParticleShape::Line { from_m, to_m } => {
+            vec![("One end", from_m, limits::PARTICLE_AT_M), ("Other end", to_m, limits::PARTICLE_AT_M)]
+        }
+    };
+    let own_places = own.map(|own| match own {
+        ParticleShape::Box { center_m, half_extent_m } => [center_m, half_extent_m],
+        ParticleShape::Disc { center_m, axis, .. } | ParticleShape::Ring { center_m, axis, .. } => {
+            [center_m, axis]
+        }
+        ParticleShape::Sphere { center_m, .. } => [center_m, Vec3::ZERO],
+        ParticleShape::Cone { tip_m, base_m, .. } => [tip_m, base_m],
+        ParticleShape::Line { from_m, to_m } => [from_m, to_m],
+    });
+    for (number, (name, place, limit)) in places.into_iter().enumerate() {
+        vector(ui, name, "Place of the shape", place, own_places.map(|own| own[number]), limit);
+    }
+    let radius_of = |shape: ParticleShape| match shape {
+        ParticleShape::Disc { radius_m, .. }
+        | ParticleShape::Ring { radius_m, .. }
+        | ParticleShape::Sphere { radius_m, .. }
+        | ParticleShape::Cone { radius_m, .. } => Some(radius_m),
+        ParticleShape::Box { .. } | ParticleShape::Line { .. } => None,
+    };
+    if let ParticleShape::Disc { radius_m, .. }
+    | ParticleShape::Ring { radius_m, .. }
+    | ParticleShape::Sphere { radius_m, .. }
+    | ParticleShape::Cone { radius_m, .. } = shape
+    {
+        let radius = field("Start radius", "Radius of the shape", limits::RADIUS_M).fine(0.01);
+        radius.show(ui, radius_m, own.and_then(radius_of));
+    }
+}
+
+fn release(ui: &mut Ui, release: &mut ParticleRelease, own: Option<ParticleRelease>) {
+    let (per_s, from_s) = match *release {
+        ParticleRelease::Rate { per_s, from_s } | ParticleRelease::Poisson { per_s, from_s } => {
+            (per_s, from_s)
+        }
+        ParticleRelease::Burst { at_s } => (10.0, at_s),
+    };
+    let options = [
+        ("evenly", ParticleRelease::Rate { per_s, from_s }),
+        ("random", ParticleRelease::Poisson { per_s, from_s }),
+        ("at once", ParticleRelease::Burst { at_s: from_s.max(0.0) }),
+    ];
+    choice(ui, "Births", "When they are born", release, own.as_ref(), &options);
+    match (release, own) {
+        (ParticleRelease::Burst { at_s }, own) => {
+            let own = if let Some(ParticleRelease::Burst { at_s }) = own { Some(at_s) } else { None };
+            field("Born at", "Time of their birth", limits::AT_S).fine(0.1).show(ui, at_s, own);
+        }
+        (ParticleRelease::Rate { per_s, from_s } | ParticleRelease::Poisson { per_s, from_s }, own) => {
+            let own = own.and_then(|own| match own {
+                ParticleRelease::Rate { per_s, from_s } | ParticleRelease::Poisson { per_s, from_s } => {
+                    Some((per_s, from_s))
+                }
+                ParticleRelease::Burst { .. } => None,
+            });
+            let tip = "Births in a second";
+            field("Birth rate", tip, limits::PER_S).fine(0.001).show(ui, per_s, own.map(|own| own.0));
+            let tip = "Time of the first; those born before zero have flown by then";
+            field("Born from", tip, limits::FROM_S).wide().show(ui, from_s, own.map(|own| own.1));
+        }
+    }
+}
+
+fn direction(ui: &mut Ui, direction: &mut Direction, own: Option<Direction>) {
+    let options = [
+        ("in a cone", Direction::Cone { axis: Vec3::Y, half_angle_deg: 30.0 }),
+        ("outward", Direction::Outward),
+    ];
+    let tip = "Directions in which they set off: about an axis, or away from the middle";
+    choice(ui, "Direction", tip, direction, own.as_ref(), &options);
+    if let Direction::Cone { axis, half_angle_deg } = direction {
+        let own = own.and_then(|own| match own {
+            Direction::Cone { axis, half_angle_deg } => Some((axis, half_angle_deg)),
+            Direction::Outward => None,
+        });
+        vector(ui, "Cone axis", "Middle of the cone", axis, own.map(|own| own.0), limits::AXIS);
+        let tip = "Angle from the axis to the rim; at 180 they go in all directions";
+        field("Cone angle", tip, limits::HALF_ANGLE_DEG).show(ui, half_angle_deg, own.map(|own| own.1));
+    }
+}
+
+fn air(ui: &mut Ui, air: &mut Air, own: Option<Air>) {
+    let options = [
+        ("none", Air::Vacuum),
+        ("linear", Air::Linear { time_s: Spread::Constant(0.5) }),
+        ("Stokes", Air::Stokes),
+        ("settling", Air::Settling { m_s: Spread::Constant(1.0) }),
+        ("quadratic", Air::Quadratic { drag: 0.47 }),
+        ("massless", Air::Massless),
+    ];
+    choice(ui, "Drag of air", "Law of the drag", air, own.as_ref(), &options);
+    match (air, own) {
+        (Air::Linear { time_s }, own) => {
+            let own = if let Some(Air::Linear { time_s }) = own { Some(time_s) } else { None };
+            spread(ui, "Drag time", "Time constant of the drag", time_s, own, limits::AIR_TIME_S);
+        }
+        (Air::Settling { m_s }, own) => {
+            let own = if let Some(Air::Settling { m_s }) = own { Some(m_s) } else { None };
+            spread(ui, "Settling", "Speed at which they fall in still air", m_s, own, limits::SETTLING_M_S);
+        }
+        (Air::Quadratic { drag }, own) => {
+            let own = if let Some(Air::Quadratic { drag }) = own { Some(drag) } else { None };
+            let tip = "Drag coefficient: 0.47 of a smooth ball";
+            field("Drag coefficient", tip, limits::PARTICLE_DRAG).show(ui, drag, own);
+        }
+        (Air::Vacuum | Air::Stokes | Air::Massless, _) => {}
+    }
+}
+
+fn meets(ui: &mut Ui, meets: &mut Meets, own: Option<Meets>) {
+    let options = [
+        ("pass", Meets::Nothing),
+        ("die", Meets::Die),
+        ("stick", Meets::Stick),
+        ("bounce", Meets::Bounce { restitution: 0.3, friction: ObjectFriction::Coulomb(0.4) }),
+    ];
+    let tip = "Answer to the ground, water and solid things";
+    choice(ui, "On contact", tip, meets, own.as_ref(), &options);
+    let Meets::Bounce { restitution, friction } = meets else { return };
+    let own = own.and_then(|own| match own {
+        Meets::Bounce { restitution, friction } => Some((restitution, friction)),
+        Meets::Nothing | Meets::Die | Meets::Stick => None,
+    });
+    let tip = "Part of the speed into the surface that they bounce back with";
+    field("Rebound", tip, limits::RESTITUTION).show(ui, restitution, own.map(|own| own.0));
+    super::objects::friction(ui, friction, own.map(|own| own.1));
+}
+
+/// A box to check for each force.
+fn feels(ui: &mut Ui, feels: &mut Vec<String>, forces: &[Force]) {
+    for force in forces {
+        let mut is_felt = feels.contains(&force.name);
+        let tip = "They feel this force besides weight and drag";
+        if ui.checkbox(&mut is_felt, format!("Feels {}", force.name)).on_hover_text(tip).changed() {
+            feels.retain(|name| *name != force.name);
+            if is_felt {
+                feels.push(force.name.clone());
+            }
+        }
+    }
+}
+
+fn look(ui: &mut Ui, one: &mut Particles, own: Option<&Particles>) {
+    let (look, own) = (&mut one.look, own.map(|own| &own.look));
+    let options = [
+        ("ball", LookKind::Dot),
+        ("puff", LookKind::Splat),
+        ("light", LookKind::Glow),
+        ("hidden", LookKind::Hidden),
+    ];
+    choice(ui, "Drawn as", "Way of drawing", &mut look.kind, own.map(|own| &own.kind), &options);
+    if look.kind == LookKind::Glow {
+        let tip = "Luminance of the light";
+        let brightness = field("Brightness", tip, limits::PARTICLE_BRIGHTNESS_KCD_M2).fine(0.01);
+        brightness.show(ui, &mut look.brightness_kcd_m2, own.map(|own| own.brightness_kcd_m2));
+        let tip = "Period in which each blinks, in its own time";
+        let blink = field("Blinks", tip, limits::BLINK_S).fine(0.1);
+        blink.optional(ui, &mut look.blink_s, own.map(|own| own.blink_s), (2.0, "steady"));
+    } else {
+        look.blink_s = None;
+    }
+    // A curve is edited as its first point; scene files have all of them.
+    if let Some((_, color)) = look.color.first_mut() {
+        let own = own.and_then(|own| own.color.first()).map(|(_, color)| *color);
+        let tip = "Linear red, green and blue at the first point of the curve over age";
+        vector(ui, "First colour", tip, color, own, limits::COLOR);
+    }
+    let tip = "Lower layers are drawn first, whatever their distance";
+    field("Layer", tip, limits::LAYER).show(ui, &mut look.layer, own.map(|own| own.layer));
+    let tip = "Drawn out along their way while the shutter is open";
+    ui.checkbox(&mut look.streak, "Streaks").on_hover_text(tip);
+}
