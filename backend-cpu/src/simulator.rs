@@ -7,6 +7,7 @@ use std::sync::{Arc, Mutex};
 
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use windfall_core::blocks::StepBlock;
+use windfall_core::particle::each_stage;
 use windfall_core::tree::Forest;
 use windfall_core::tree::batch::TreeBatch;
 use windfall_core::{Clock, CompiledScene, Contract, SimError, Simulator, SimulatorInfo, Stats, World};
@@ -152,7 +153,7 @@ impl Simulator for CpuSimulator {
             self.cells = CollisionCells::new();
         }
         let (cells, pulls) = (&self.cells, &mut self.pulls);
-        let is_mutual = compiled.block().has_mutual();
+        let (is_mutual, has_nests) = (compiled.block().has_mutual(), compiled.block().has_nests());
         let forest = Arc::clone(compiled.forest());
         let is_small =
             leaves.len() <= CHUNK && forest.len() <= CHUNK / 16 && particles.len() <= SMALL_PARTICLES;
@@ -179,7 +180,9 @@ impl Simulator for CpuSimulator {
                 pulls.resize(particles.len(), [0.0; 4]);
                 pull_particles(cx, particles, pulls, simd);
             }
-            step_particles(steps, particles.as_mut(), 0, pulls, &sums, simd);
+            each_stage(&compiled.block().populations, particles, |parents, first, stage| {
+                step_particles(steps, stage, parents, first as usize, pulls, &sums, simd);
+            });
             // With litter it is one step.
             if let [cx] = steps
                 && cx.scene.collides(cx.step.index)
@@ -216,8 +219,9 @@ impl Simulator for CpuSimulator {
         let mut steps = || {
             let mut left = count as usize;
             while left > 0 {
-                // Leaves see what others have left in the litter a step before, and particles where others are.
-                let portion = left.min(if has_litter || is_mutual { 1 } else { MOST_FUSED });
+                // Leaves see what others have left in the litter a step before, and particles where others are, or what befell them.
+                let sees_others = has_litter || is_mutual || has_nests;
+                let portion = left.min(if sees_others { 1 } else { MOST_FUSED });
                 run(portion);
                 left -= portion;
             }

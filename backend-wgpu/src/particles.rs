@@ -1,15 +1,18 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The particles of a world on the device, in windows that fit in one binding each.
+//! The particles of a world on the device, in windows that fit in one binding each: pages, and for those that are born of others the slots
+//! from the first parent to the last child.
 
-use windfall_core::CompiledScene;
+use std::ops::Range;
+
 use windfall_core::blocks::PopulationBlock;
 use windfall_core::device::particle::record::POPULATION_MUTUAL;
-use windfall_core::particle::ParticleRun;
+use windfall_core::particle::{ParticlePlace, ParticleRun};
+use windfall_core::{CompiledScene, SimError};
 
 use crate::buffers::{buffer, group, uniform};
 use crate::columns::WorldBuffers;
-use crate::gpu::Gpu;
+use crate::gpu::{Gpu, describe_adapter};
 use crate::pipelines::{GroupLayout, Pipelines};
 use crate::prelude::WORKGROUP_SIZE;
 
@@ -21,8 +24,8 @@ const RUN_BYTES: u32 = size_of::<ParticleRun>() as u32;
 #[derive(Debug)]
 pub(crate) struct ParticleBindings {
     blocks: wgpu::BindGroup,
-    pages: Vec<wgpu::BindGroup>,
-    /// Page and number of particles of each run.
+    windows: Vec<wgpu::BindGroup>,
+    /// Window and number of particles of each run, children behind their parents.
     runs: Vec<(usize, u32)>,
     run_stride: u32,
     /// Bindings and numbers of particles of the populations whose particles attract one another.
@@ -33,7 +36,10 @@ pub(crate) struct ParticleBindings {
 const WINDOW_STEP: u32 = 16;
 
 impl ParticleBindings {
-    /// Bindings for the particles of a scene, so many to a page; `None` without any. `blocks` are the scene's, the step's and the tables.
+    /// Bindings for the particles of a scene, so many to a window; `None` without any. `blocks` are the scene's, the step's and the tables.
+    ///
+    /// # Errors
+    /// [`SimError::Capacity`] if children are too far from their parents for a window.
     pub(crate) fn new(
         gpu: &Gpu,
         pipelines: &Pipelines,
@@ -41,30 +47,45 @@ impl ParticleBindings {
         blocks: [wgpu::BindingResource<'_>; 3],
         buffers: &WorldBuffers,
         page_particles: u32,
-    ) -> Option<Self> {
+    ) -> Result<Option<Self>, SimError> {
         let count = buffers.particles().rows();
         if count == 0 {
-            return None;
+            return Ok(None);
         }
         let run_stride =
             RUN_BYTES.next_multiple_of(gpu.device().limits().min_uniform_buffer_offset_alignment);
         let mut bytes = Vec::new();
         let mut runs = Vec::new();
-        let firsts: Vec<u32> = (0..count).step_by(page_particles as usize).collect();
-        for (page, &page_slot) in firsts.iter().enumerate() {
-            let page_end = count.min(page_slot.saturating_add(page_particles));
+        let mut add = |window: usize, page_slot: u32, slots: Range<u32>| {
+            let (first, count) = (slots.start - page_slot, slots.end - slots.start);
+            let run = ParticleRun { first, count, page_slot, unused: 0 };
+            bytes.extend_from_slice(bytemuck::bytes_of(&run));
+            bytes.resize(bytes.len().next_multiple_of(run_stride as usize), 0);
+            runs.push((window, count));
+        };
+        let populations = &compiled.block().populations[..compiled.scene().particles.len()];
+        let (children, roots): (Vec<&PopulationBlock>, Vec<_>) =
+            populations.iter().partition(|population| population.nest.fan != 0);
+        let page = |first: u32| first..count.min(first.saturating_add(page_particles));
+        let mut windows: Vec<Range<u32>> = (0..count).step_by(page_particles as usize).map(page).collect();
+        for (number, page) in windows.iter().enumerate() {
             // A run for each population, so that all invocations of a workgroup take the same way through the kernel.
-            for population in &compiled.block().populations[..compiled.scene().particles.len()] {
-                let first = page_slot.max(population.first_slot);
-                let end = page_end.min(population.first_slot + population.count);
+            for population in &roots {
+                let first = page.start.max(population.first_slot);
+                let end = page.end.min(population.first_slot + population.count);
                 if first < end {
-                    let run =
-                        ParticleRun { first: first - page_slot, count: end - first, page_slot, unused: 0 };
-                    bytes.extend_from_slice(bytemuck::bytes_of(&run));
-                    bytes.resize(bytes.len().next_multiple_of(run_stride as usize), 0);
-                    runs.push((page, end - first));
+                    add(number, page.start, first..end);
                 }
             }
+        }
+        for population in children {
+            let first = population.nest.parent_slot / WINDOW_STEP * WINDOW_STEP;
+            let end = population.first_slot + population.count;
+            if end - first > page_particles {
+                return Err(too_far(gpu, end - first, page_particles));
+            }
+            add(windows.len(), first, population.first_slot..end);
+            windows.push(first..end);
         }
         let run_blocks = gpu.device().create_buffer(&wgpu::BufferDescriptor {
             label: Some("particle runs"),
@@ -76,13 +97,14 @@ impl ParticleBindings {
         let has_mutual = compiled.block().has_mutual();
         let pull_rows = if has_mutual { u64::from(count) } else { 1 };
         let pulls = buffer(gpu, "particle pulls", pull_rows * 16, wgpu::BufferUsages::STORAGE);
-        let page = |&first: &u32| {
+        let window = |window: &Range<u32>| {
+            let first = window.start;
             let run = wgpu::BindingResource::Buffer(wgpu::BufferBinding {
                 buffer: &run_blocks,
                 offset: 0,
                 size: wgpu::BufferSize::new(RUN_BYTES.into()),
             });
-            let columns = buffers.particles().windows(first, page_particles.min(count - first));
+            let columns = buffers.particles().windows(first, window.end - first);
             let tallies = buffers.tallies().windows(0, buffers.tallies().rows());
             let pulls = wgpu::BindingResource::Buffer(wgpu::BufferBinding {
                 buffer: &pulls,
@@ -97,20 +119,20 @@ impl ParticleBindings {
             let offset = population.first_slot - first;
             let run = ParticleRun { first: offset, count: population.count, page_slot: first, unused: 0 };
             let run = uniform(gpu, "mutual run", &run);
-            let window = |column| {
+            let column = |column| {
                 wgpu::BindingResource::Buffer(buffers.particles().window(
                     column,
                     first,
                     offset + population.count,
                 ))
             };
-            let resources = [run.as_entire_binding(), window(0), window(1), pulls.as_entire_binding()];
+            let resources = [run.as_entire_binding(), column(0), column(1), pulls.as_entire_binding()];
             (group(gpu, pipelines.layout(GroupLayout::Mutual), resources), population.count)
         };
         let is_mutual = |population: &&PopulationBlock| (population.flags & POPULATION_MUTUAL) != 0;
         let mutual = compiled.block().populations.iter().filter(is_mutual).map(mutual).collect();
         let blocks = group(gpu, pipelines.layout(GroupLayout::Blocks), blocks);
-        Some(Self { blocks, pages: firsts.iter().map(page).collect(), runs, run_stride, mutual })
+        Ok(Some(Self { blocks, windows: windows.iter().map(window).collect(), runs, run_stride, mutual }))
     }
 
     /// Encodes the attractions of particles by one another, by the pipeline for it, where there are any.
@@ -140,9 +162,21 @@ impl ParticleBindings {
     ) {
         pass.set_pipeline(pipeline);
         pass.set_bind_group(0, &self.blocks, &[step_offset]);
-        for (number, &(page, count)) in (0..).zip(&self.runs) {
-            pass.set_bind_group(1, &self.pages[page], &[number * self.run_stride]);
+        for (number, &(window, count)) in (0..).zip(&self.runs) {
+            pass.set_bind_group(1, &self.windows[window], &[number * self.run_stride]);
             pass.dispatch_workgroups(count.div_ceil(WORKGROUP_SIZE), 1, 1);
         }
+    }
+}
+
+/// Error of a population that is born of another, too many slots before it for a window.
+fn too_far(gpu: &Gpu, rows: u32, page_particles: u32) -> SimError {
+    let bytes = |rows: u32| u64::from(rows) * size_of::<ParticlePlace>() as u64;
+    SimError::Capacity {
+        store: "particles from the first parent to the last child",
+        rows: rows as usize,
+        needed: bytes(rows),
+        allowed: bytes(page_particles),
+        device: describe_adapter(gpu.info()),
     }
 }

@@ -196,6 +196,7 @@ impl Default for Shaders {
             "particle/force",
             "particle/mutual",
             "particle/mutual_bindings",
+            "particle/nest",
             "particle/record",
             "particle/step",
             "particle/strike",

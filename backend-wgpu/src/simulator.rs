@@ -123,7 +123,7 @@ impl WgpuSimulator {
         };
         simulator.plant();
         simulator.bind_pages();
-        simulator.bind_particles();
+        simulator.bind_particles()?;
         simulator.make_collision_cells();
         simulator.write_state(world)?;
         Ok(simulator)
@@ -150,7 +150,7 @@ impl WgpuSimulator {
     }
 
     /// Binds the columns of the particles.
-    fn bind_particles(&mut self) {
+    fn bind_particles(&mut self) -> Result<(), SimError> {
         let blocks = self.shared_blocks();
         self.particles = ParticleBindings::new(
             &self.gpu,
@@ -159,7 +159,8 @@ impl WgpuSimulator {
             blocks,
             &self.buffers,
             self.page_leaves,
-        );
+        )?;
+        Ok(())
     }
 
     /// Bind group that every kernel sees first: blocks and tables.
@@ -218,8 +219,8 @@ impl WgpuSimulator {
         if moved || is_replanted {
             self.bind_pages();
         }
-        if moved {
-            self.bind_particles();
+        if moved || former.block().populations != compiled.block().populations {
+            self.bind_particles()?;
         }
         self.make_collision_cells();
         Ok(())

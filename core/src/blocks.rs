@@ -241,6 +241,28 @@ crate::shared_struct! {
 }
 
 crate::shared_struct! {
+    /// Births of one population by the particles of another.
+    pub struct NestBlock {
+        /// Event of a parent at which they are born, such as [`NEST_DEATH`](crate::device::particle::nest::NEST_DEATH).
+        pub event: u32,
+        /// Steps from one event to the next, where they follow one another.
+        pub steps: u32,
+        /// Number born at an event; 0 of a population without parents.
+        pub fan: u32,
+        /// Events of a parent for whose births there are slots at once.
+        pub rounds: u32,
+        /// Slot of the first parent.
+        pub parent_slot: u32,
+        /// Number of slots of parents.
+        pub parent_count: u32,
+        /// First step of the world, two's complement.
+        pub first_step: u32,
+        /// Share of the parent's velocity that they set off with.
+        pub inherit: f32,
+    }
+}
+
+crate::shared_struct! {
     /// One population of particles, compiled.
     pub struct PopulationBlock {
         /// First slot.
@@ -301,6 +323,8 @@ crate::shared_struct! {
         pub size: SpreadBlock,
         /// Time constant in s where drag is linear, for the mean size; drag per m times the step, for the mean size, where it is quadratic.
         pub drag: SpreadBlock,
+        /// Births by others.
+        pub nest: NestBlock,
     }
 }
 
@@ -455,6 +479,11 @@ impl SceneBlock {
     /// Returns true if particles of some population attract one another.
     pub fn has_mutual(&self) -> bool {
         self.populations.iter().any(|population| population.mutual_gm_m3_s2 != 0.0)
+    }
+
+    /// Returns true if particles of some population are born of others.
+    pub fn has_nests(&self) -> bool {
+        self.populations.iter().any(|population| population.nest.fan != 0)
     }
 
     /// Returns true if leaves of some species fly as bodies.

@@ -8,9 +8,9 @@ use std::path::{Path, PathBuf};
 
 use naga::{AddressSpace, TypeInner};
 use windfall_core::blocks::{
-    BirthBlock, JetBlock, LitterBlock, MomentBlock, MoverBlock, PopulationBlock, ResponseBlock, SceneBlock,
-    ShelterBlock, SolidsBlock, SourceBlock, SpeciesBlock, SpreadBlock, StepBlock, SwayBlock, VortexBlock,
-    VortexNode, WindBlock,
+    BirthBlock, JetBlock, LitterBlock, MomentBlock, MoverBlock, NestBlock, PopulationBlock, ResponseBlock,
+    SceneBlock, ShelterBlock, SolidsBlock, SourceBlock, SpeciesBlock, SpreadBlock, StepBlock, SwayBlock,
+    VortexBlock, VortexNode, WindBlock,
 };
 use windfall_core::flight::block::BodyBlock;
 use windfall_core::layout::WgslStruct;
@@ -77,6 +77,7 @@ fn every_module_is_valid_and_every_struct_has_one_layout() {
     same_layout::<CarryBlock>(&module);
     same_layout::<Petiole>(&module);
     same_layout::<SpreadBlock>(&module);
+    same_layout::<NestBlock>(&module);
     same_layout::<PopulationBlock>(&module);
     same_layout::<BirthBlock>(&module);
     same_layout::<ParticlePlace>(&module);

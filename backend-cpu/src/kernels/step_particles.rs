@@ -3,7 +3,7 @@
 //! twin: backend-wgpu/src/shaders/kernels/step_particles.wgsl
 //!
 //! Moves particles, chunk by chunk: those without an event and with nothing in their way in blocks, the others one by one. A chunk goes
-//! through several steps while it is in the cache, as particles do not see each other.
+//! through several steps while it is in the cache, as particles do not see each other; where some are born of others, through one.
 
 use std::sync::atomic::{AtomicU32, Ordering};
 
@@ -11,20 +11,22 @@ use rayon::join;
 use windfall_core::Context;
 use windfall_core::arith::Vec3;
 use windfall_core::arith::pack::{BLOCK, Pack};
-use windfall_core::blocks::BirthBlock;
-use windfall_core::device::particle::record::particle_population;
+use windfall_core::blocks::{BirthBlock, NestBlock};
+use windfall_core::device::particle::nest::{nest_events, nest_place};
+use windfall_core::device::particle::record::{PARTICLE_BORN, particle_population};
 use windfall_core::device::particle::step::particle_step;
-use windfall_core::particle::{ParticlesMut, add_to_tally};
+use windfall_core::particle::{ParticlePlace, ParticleRows, ParticlesMut, add_to_tally};
 
 use super::CHUNK;
 use crate::simd::particle_block::ParticleBlock;
 use crate::simd::{Simd, in_packs};
 
-/// Steps particles from slot `first` on, halving the columns until a piece is one chunk, and adds to the counts of populations. `pulls`
-/// are accelerations by others, slot by slot, or none.
+/// Steps particles from slot `first` on, behind their parents, halving the columns until a piece is one chunk, and adds to the counts of
+/// populations. `pulls` are accelerations by others, slot by slot, or none.
 pub(crate) fn step_particles(
     steps: &[Context<'_>],
     mut particles: ParticlesMut<'_>,
+    parents: &ParticleRows<'_>,
     first: usize,
     pulls: &[[f32; 4]],
     tallies: &[AtomicU32],
@@ -34,8 +36,8 @@ pub(crate) fn step_particles(
         let middle = (particles.len() / 2).next_multiple_of(CHUNK);
         let (front, back) = particles.split_at(middle);
         join(
-            || step_particles(steps, front, first, pulls, tallies, simd),
-            || step_particles(steps, back, first + middle, pulls, tallies, simd),
+            || step_particles(steps, front, parents, first, pulls, tallies, simd),
+            || step_particles(steps, back, parents, first + middle, pulls, tallies, simd),
         );
         return;
     }
@@ -44,10 +46,12 @@ pub(crate) fn step_particles(
         match simd {
             Simd::Scalar => {
                 for number in 0..particles.len() {
-                    step_one(cx, &mut particles, first, number, pulls, &mut counts);
+                    step_one(cx, &mut particles, parents, first, number, pulls, &mut counts);
                 }
             }
-            Simd::Lanes(level) => in_packs!(level, step_lanes(cx, &mut particles, first, pulls, &mut counts)),
+            Simd::Lanes(level) => {
+                in_packs!(level, step_lanes(cx, &mut particles, parents, first, pulls, &mut counts));
+            }
         }
     }
     for (sum, count) in tallies.iter().zip(counts) {
@@ -62,6 +66,7 @@ pub(crate) fn step_particles(
 fn step_one(
     cx: &Context<'_>,
     particles: &mut ParticlesMut<'_>,
+    parents: &ParticleRows<'_>,
     first: usize,
     number: usize,
     pulls: &[[f32; 4]],
@@ -71,7 +76,7 @@ fn step_one(
     #[expect(clippy::cast_possible_truncation, reason = "slots are counted in words")]
     let slot = (first + number) as u32;
     let mutual = pulls.get(first + number).map_or(Vec3::ZERO, |[x, y, z, _]| Vec3::new(*x, *y, *z));
-    let change = particle_step(cx, &mut particles.row_mut(number), slot, mutual);
+    let change = particle_step(cx, &mut particles.row_mut(number), parents, slot, mutual);
     add_to_tally(counts, population, &change);
 }
 
@@ -81,6 +86,7 @@ fn step_lanes<P: Pack>(
     simd: P::Simd,
     cx: &Context<'_>,
     particles: &mut ParticlesMut<'_>,
+    parents: &ParticleRows<'_>,
     first: usize,
     pulls: &[[f32; 4]],
     counts: &mut [u32],
@@ -95,6 +101,9 @@ fn step_lanes<P: Pack>(
         let births = &cx.step.births[here as usize];
         let mut left = (1u32 << rows.len()) - 1;
         if here == last && rows.len() == BLOCK && !births_touch(births, population.count as usize, place) {
+            if population.nest.fan != 0 {
+                mark_newborn(cx, &population.nest, parents, place, &mut particles.place[rows.clone()]);
+            }
             let whole = "a whole block";
             let mut block = ParticleBlock {
                 place: (&mut particles.place[rows.clone()]).try_into().expect(whole),
@@ -107,8 +116,28 @@ fn step_lanes<P: Pack>(
             left = block.advance::<P>(simd, cx, here as usize);
         }
         while left != 0 {
-            step_one(cx, particles, first, begin + left.trailing_zeros() as usize, pulls, counts);
+            step_one(cx, particles, parents, first, begin + left.trailing_zeros() as usize, pulls, counts);
             left &= left - 1;
+        }
+    }
+}
+
+/// Marks the slots of a run, from a place of their population on, on which births by parents fall in a step: marked ones take a step of their own.
+#[inline(always)]
+fn mark_newborn(
+    cx: &Context<'_>,
+    nest: &NestBlock,
+    parents: &ParticleRows<'_>,
+    first: usize,
+    places: &mut [ParticlePlace],
+) {
+    for (place, row) in (first..).zip(places) {
+        #[expect(clippy::cast_possible_truncation, reason = "slots are counted in words")]
+        let share = nest_place(nest, place as u32);
+        let parent = (nest.parent_slot + share.parent) as usize;
+        let (bits, birth) = (parents.place[parent].bits, parents.motion[parent].birth);
+        if nest_events(cx, nest, bits, birth, parents.traits[parent].id, share.round).count != 0 {
+            row.bits |= PARTICLE_BORN;
         }
     }
 }

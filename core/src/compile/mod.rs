@@ -8,6 +8,7 @@ mod cycle;
 mod field;
 mod foliage;
 mod jet;
+mod nest;
 mod particles;
 mod shelter;
 mod slipstream;
@@ -125,7 +126,8 @@ impl CompiledScene {
         block.first_petiole_row = len32(tables.len());
         tables.extend(petiole_rows(scene, &forest, &kinds));
         block.solids = solids.tabulate(scene, &block, &mut tables);
-        let (populations, forces) = populations_of(scene, len32(tables.len()));
+        let births = Births::of(scene, seed);
+        let (populations, forces) = populations_of(scene, len32(tables.len()), births.lead());
         block.populations = populations;
         tables.extend(forces);
         block.first_motion_row = len32(tables.len());
@@ -137,7 +139,7 @@ impl CompiledScene {
             tables: tables.into(),
             forest: forest.into(),
             solids: solids.into(),
-            births: Births::of(scene, seed).into(),
+            births: births.into(),
             cycle,
         })
     }

@@ -4,6 +4,7 @@
 
 use glam::{DVec3, Vec3};
 
+use super::nest::nest_block;
 use crate::arith::rng::philox;
 use crate::blocks::{BirthBlock, PopulationBlock, SpreadBlock};
 use crate::convert::{len32, single};
@@ -31,17 +32,24 @@ const STREAM_BIRTHS: u32 = 0x8000_0000;
 /// Largest mean of the numbers that one random word decides.
 const LARGEST_MEAN: f64 = 500.0;
 
-/// Populations of a scene from a row of the tables on, and the rows of the forces that they feel.
+/// Populations of a scene from a row of the tables on, and the rows of the forces that they feel. The first steps come `lead` steps before
+/// time zero.
 pub(super) fn populations_of(
     scene: &Scene,
     first_row: u32,
+    lead: u32,
 ) -> ([PopulationBlock; MAX_POPULATIONS], Vec<Uint4>) {
     let mut blocks = [<PopulationBlock as bytemuck::Zeroable>::zeroed(); MAX_POPULATIONS];
     let mut rows = Vec::new();
     let mut first_slot = 0;
+    let mut slots = Vec::new();
     for (particles, block) in scene.particles.iter().zip(&mut blocks) {
         *block = population_block(scene, particles);
+        if let Some(nest) = nest_block(particles, &scene.particles[..slots.len()], &slots, lead) {
+            block.nest = nest;
+        }
         block.first_slot = first_slot;
+        slots.push(first_slot);
         first_slot += particles.count;
         block.first_force_row = first_row + len32(rows.len());
         for force in felt(scene, particles) {
@@ -118,7 +126,12 @@ fn force_rows(scene: &Scene, particles: &Particles, force: &Force) -> [Uint4; FO
 fn population_block(scene: &Scene, particles: &Particles) -> PopulationBlock {
     let mut block: PopulationBlock = bytemuck::Zeroable::zeroed();
     block.count = particles.count;
-    set_shape(&particles.from, &mut block);
+    let around = particles.nest.as_ref().map(|nest| ParticleShape::Sphere {
+        center_m: Vec3::ZERO,
+        radius_m: nest.radius_m,
+        hollow: false,
+    });
+    set_shape(&around.unwrap_or(particles.from), &mut block);
     let (axis, half_angle_deg) = match particles.direction {
         Direction::Cone { axis, half_angle_deg } => (axis, half_angle_deg),
         Direction::Outward => (Vec3::Y, 0.0),
@@ -257,7 +270,8 @@ pub(crate) struct Births {
 /// The same of one population.
 #[derive(Clone, Debug)]
 struct PopulationBirths {
-    release: ParticleRelease,
+    /// `None` of those that are born of others.
+    release: Option<ParticleRelease>,
     count: u32,
     /// Steps before time zero in which the first is born of those that live then.
     lead: i64,
@@ -270,8 +284,8 @@ impl Births {
     /// Births of a scene.
     pub(super) fn of(scene: &Scene, seed: [u32; 2]) -> Self {
         let dt_s = f64::from(scene.dt_s);
-        let populations =
-            scene.particles.iter().map(|particles| PopulationBirths::of(particles, dt_s)).collect();
+        let births = |(particles, reach_s)| PopulationBirths::of(particles, reach_s, dt_s);
+        let populations = scene.particles.iter().zip(reaches_s(scene)).map(births).collect();
         Self { populations, seed, dt_s }
     }
 
@@ -285,7 +299,7 @@ impl Births {
     pub(crate) fn before(&self, step: i64) -> [u64; MAX_POPULATIONS] {
         let mut born = [0; MAX_POPULATIONS];
         for (born, population) in born.iter_mut().zip(&self.populations) {
-            if let ParticleRelease::Rate { per_s, from_s } = population.release {
+            if let Some(ParticleRelease::Rate { per_s, from_s }) = population.release {
                 *born = born_by(per_s, from_s, step, self.dt_s);
             }
         }
@@ -309,7 +323,7 @@ impl Births {
             #[expect(clippy::cast_possible_truncation, reason = "numbers wrap around after four billion")]
             let (first_id, first_place) =
                 (born[number] as u32, (born[number] % u64::from(population.count)) as u32);
-            let is_burst = u32::from(matches!(population.release, ParticleRelease::Burst { .. }));
+            let is_burst = u32::from(matches!(population.release, Some(ParticleRelease::Burst { .. })));
             blocks[number] = BirthBlock { first_id, count: counts[number], first_place, is_burst };
         }
         blocks
@@ -317,16 +331,16 @@ impl Births {
 }
 
 impl PopulationBirths {
-    fn of(particles: &Particles, dt_s: f64) -> Self {
-        let release = particles.release;
+    /// Births of a population that is alive, or has descendants, for `reach_s` after each.
+    fn of(particles: &Particles, reach_s: f64, dt_s: f64) -> Self {
+        let release = particles.nest.is_none().then_some(particles.release);
         let (mean, from_s) = match release {
-            ParticleRelease::Burst { .. } => (0.0, 0.0),
-            ParticleRelease::Rate { from_s, .. } => (0.0, f64::from(from_s)),
-            ParticleRelease::Poisson { per_s, from_s } => (f64::from(per_s) * dt_s, f64::from(from_s)),
+            None | Some(ParticleRelease::Burst { .. }) => (0.0, 0.0),
+            Some(ParticleRelease::Rate { from_s, .. }) => (0.0, f64::from(from_s)),
+            Some(ParticleRelease::Poisson { per_s, from_s }) => (f64::from(per_s) * dt_s, f64::from(from_s)),
         };
-        let longest_s = particles.life_s.map_or(0.0, |life_s| f64::from(life_s.highest()) + dt_s);
         #[expect(clippy::cast_possible_truncation, reason = "validated to be few")]
-        let lead = libm::ceil((-from_s).min(longest_s).max(0.0) / dt_s) as i64;
+        let lead = libm::ceil((-from_s).min(reach_s).max(0.0) / dt_s) as i64;
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "validated to be few")]
         let draws = libm::ceil(mean / LARGEST_MEAN) as u32;
         let thresholds = if draws == 0 { Vec::new() } else { poisson_thresholds(mean / f64::from(draws)) };
@@ -335,7 +349,8 @@ impl PopulationBirths {
 
     fn in_step(&self, seed: [u32; 2], number: u32, step: u32, dt_s: f64) -> u32 {
         let at = i64::from(step.cast_signed());
-        match self.release {
+        let Some(release) = self.release else { return 0 };
+        match release {
             ParticleRelease::Burst { at_s } => {
                 let is_now = step_of(at_s, dt_s) == at;
                 if is_now { self.count } else { 0 }
@@ -353,6 +368,20 @@ impl PopulationBirths {
             ParticleRelease::Poisson { .. } => 0,
         }
     }
+}
+
+/// Longest times in seconds from a birth in each population to the death of the last that descends from it.
+fn reaches_s(scene: &Scene) -> Vec<f64> {
+    let mut reaches_s = vec![0.0; scene.particles.len()];
+    for (index, particles) in scene.particles.iter().enumerate().rev() {
+        let is_child = |other: &Particles| other.nest.as_ref().is_some_and(|nest| nest.of == particles.name);
+        let later = scene.particles.iter().zip(&reaches_s).skip(index + 1);
+        let children_s = later.filter(|(other, _)| is_child(other)).map(|(_, reach_s)| *reach_s);
+        let longest_s =
+            particles.life_s.map_or(0.0, |life_s| f64::from(life_s.highest()) + f64::from(scene.dt_s));
+        reaches_s[index] = longest_s + children_s.fold(0.0, f64::max);
+    }
+    reaches_s
 }
 
 /// Step that is nearest to a time.

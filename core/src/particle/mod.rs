@@ -7,9 +7,10 @@ mod stats;
 mod store;
 
 pub use crate::device::particle::record::{ParticleMotion, ParticlePlace, ParticleRun, ParticleTraits};
-pub use run::add_to_tally;
+pub use run::{add_to_tally, each_stage};
 pub(crate) use run::{step_all, step_run};
 pub use stats::ParticleStats;
 pub use store::{
-    HOT_BYTES_PER_STEP, ParticleMut, ParticleStore, ParticlesMut, TalliesMut, TallyMut, TallyStore,
+    HOT_BYTES_PER_STEP, ParticleMut, ParticleRows, ParticleStore, ParticlesMut, TalliesMut, TallyMut,
+    TallyStore,
 };

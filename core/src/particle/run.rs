@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Steps runs of particles one after another.
 
-use super::store::{ParticleStore, ParticlesMut, TallyStore};
+use super::store::{ParticleRows, ParticleStore, ParticlesMut, TallyStore};
 use crate::arith::vector::Vec3;
 use crate::blocks::PopulationBlock;
 use crate::context::Context;
@@ -51,18 +51,45 @@ pub(crate) fn mutual_pulls(cx: &Context<'_>, particles: &ParticleStore) -> Vec<V
     pulls
 }
 
-/// Steps the particles of a run of slots from `first` on, on which others act with accelerations.
+/// Calls `step` with particles that do not see each other, one run of slots after another: all that go through a step before them, their
+/// parents among these, the first slot, and the run. There is one run if no particles are born of others.
+pub fn each_stage(
+    populations: &[PopulationBlock],
+    particles: &mut ParticleStore,
+    mut step: impl FnMut(&ParticleRows<'_>, u32, ParticlesMut<'_>),
+) {
+    let mut first = 0;
+    let mut next = |end: u32| {
+        let (earlier, rest) = particles.as_mut().split_at(first as usize);
+        let (run, _) = rest.split_at((end - first) as usize);
+        step(&earlier.rows(), first, run);
+        first = end;
+    };
+    let mut begin = 0;
+    let mut end = 0;
+    for population in populations {
+        if population.nest.fan != 0 && begin <= population.nest.parent_slot {
+            begin = population.first_slot;
+            next(begin);
+        }
+        end = end.max(population.first_slot + population.count);
+    }
+    next(end);
+}
+
+/// Steps the particles of a run of slots from `first` on, on which others act with accelerations, behind their parents.
 pub(crate) fn step_run(
     cx: &Context<'_>,
     run: &mut ParticlesMut<'_>,
+    parents: &ParticleRows<'_>,
     first: u32,
     pulls: &[Vec3],
     counts: &mut [u32],
 ) {
     for (slot, mut particle) in (first..).zip(run.iter_mut()) {
         let population = particle_population(particle.place.bits);
-        let change =
-            particle_step(cx, &mut particle, slot, pulls.get(slot as usize).copied().unwrap_or(Vec3::ZERO));
+        let pull = pulls.get(slot as usize).copied().unwrap_or(Vec3::ZERO);
+        let change = particle_step(cx, &mut particle, parents, slot, pull);
         add_to_tally(counts, population, &change);
     }
 }
@@ -70,5 +97,7 @@ pub(crate) fn step_run(
 /// Steps all particles of a world.
 pub(crate) fn step_all(cx: &Context<'_>, particles: &mut ParticleStore, tallies: &mut TallyStore) {
     let pulls = mutual_pulls(cx, particles);
-    step_run(cx, &mut particles.as_mut(), 0, &pulls, &mut tallies.count);
+    each_stage(&cx.scene.populations, particles, |parents, first, mut run| {
+        step_run(cx, &mut run, parents, first, &pulls, &mut tallies.count);
+    });
 }

@@ -23,6 +23,24 @@ crate::columns! {
     run ParticlesMut;
 }
 
+/// Columns of particles that are only read.
+#[derive(Clone, Copy, Debug)]
+pub struct ParticleRows<'a> {
+    /// Positions and flags.
+    pub place: &'a [ParticlePlace],
+    /// Velocities and births.
+    pub motion: &'a [ParticleMotion],
+    /// Numbers that stay for a life.
+    pub traits: &'a [ParticleTraits],
+}
+
+impl ParticlesMut<'_> {
+    /// The same, to be read only.
+    pub fn rows(&self) -> ParticleRows<'_> {
+        ParticleRows { place: self.place, motion: self.motion, traits: self.traits }
+    }
+}
+
 /// Bytes that one step of one particle moves without an event: place and motion are read and written, traits are read.
 pub const HOT_BYTES_PER_STEP: usize =
     2 * (size_of::<ParticlePlace>() + size_of::<ParticleMotion>()) + size_of::<ParticleTraits>();

@@ -120,6 +120,9 @@ limits! {
     PARTICLE_BRIGHTNESS_KCD_M2: f32 = 0.001, 1000000.0, "kcd/m²", brightness_kcd_m2;
     BLINK_S: f32 = 0.1, 60.0, "s", blink_s;
     LAYER: u32 = 0, 15, "", layer;
+    FAN: u32 = 1, 64, "", fan;
+    INHERIT: f32 = -1.0, 1.0, "", inherit;
+    NEST_STEPS: u32 = 1, 65535, "steps", steps;
 
     AUTUMN: f32 = 0.0, 1.0, "", autumn;
     AT_M: f32 = -2048.0, 2048.0, "m", at_m;
@@ -260,6 +263,7 @@ mod tests {
         include_str!("jet.rs"),
         include_str!("lens.rs"),
         include_str!("litter.rs"),
+        include_str!("nest.rs"),
         include_str!("object.rs"),
         include_str!("particles.rs"),
         include_str!("path.rs"),

@@ -15,6 +15,7 @@ mod lens;
 pub mod limits;
 mod litter;
 pub(crate) mod nearest;
+mod nest;
 mod object;
 mod particle_look;
 mod particles;
@@ -39,6 +40,7 @@ pub use ground::Ground;
 pub use jet::{Jet, JetKey};
 pub use lens::{Exposure, Focus, Glare, Lens, ToneMap};
 pub use litter::Litter;
+pub use nest::{Nest, ParticleEvent};
 pub use object::{Object, ObjectFriction, ObjectKey, ObjectMotion, ObjectShape, PLANE_REACH_M, Walker};
 pub use particle_look::{Look, LookKind, LookSample};
 pub use particles::{

@@ -5,7 +5,7 @@
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
-use super::{Look, ObjectFriction};
+use super::{Look, Nest, ObjectFriction};
 
 /// A number that differs from particle to particle.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -220,17 +220,21 @@ pub enum Bounds {
 pub struct Particles {
     /// Name, unlike those of the others.
     pub name: String,
-    /// Number of slots, 1 to 33554432; the same holds for the sum over all populations. At least as many as are alive at once.
+    /// Number of slots, 1 to 33554432; the same holds for the sum over all populations. At least as many as are alive at once; with
+    /// `nest` a multiple of the parents' number times its `fan`.
     pub count: u32,
-    /// Points that they start from.
+    /// Parents that they are born of; with `None` they are born by `release`.
+    pub nest: Option<Nest>,
+    /// Points that they start from; does not count with `nest`.
     pub from: ParticleShape,
-    /// Directions in which they set off.
+    /// Directions in which they set off; with `nest` `Outward` is away from the parent.
     pub direction: Direction,
-    /// Times at which they are born.
+    /// Times at which they are born; does not count with `nest`.
     pub release: ParticleRelease,
     /// Speed at which they set off in m/s, 0 to 1000.
     pub speed_m_s: Spread,
-    /// Time in seconds from birth to death, 1 to 65535 whole steps; `None`, which only a burst may have, if age does not end them.
+    /// Time in seconds from birth to death, 1 to 65535 whole steps; `None` if age does not end them, which only bursts may have and what is
+    /// born of their births and deaths.
     pub life_s: Option<Spread>,
     /// Diameter in metres, 0.000001 to 100.
     pub size_m: Spread,
@@ -257,6 +261,7 @@ impl Default for Particles {
         Self {
             name: "particles".into(),
             count: 1000,
+            nest: None,
             from: ParticleShape::Box { center_m: Vec3::new(0.0, 4.0, 0.0), half_extent_m: Vec3::splat(2.0) },
             direction: Direction::Cone { axis: Vec3::Y, half_angle_deg: 180.0 },
             release: ParticleRelease::Rate { per_s: 100.0, from_s: 0.0 },

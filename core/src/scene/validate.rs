@@ -6,6 +6,7 @@
 mod check;
 mod cross;
 mod lens;
+mod nests;
 mod objects;
 mod particles;
 #[cfg(test)]

@@ -7,7 +7,7 @@ use std::sync::{Mutex, PoisonError};
 use super::world::World;
 use crate::clock::Clock;
 use crate::compile::CompiledScene;
-use crate::particle::{ParticlesMut, step_run};
+use crate::particle::{ParticlesMut, each_stage, step_run};
 use crate::threads::on_all;
 
 /// Steps whose blocks are made at once.
@@ -15,14 +15,17 @@ const STEPS: u32 = 64;
 /// Particles that a thread takes through them before it takes the next.
 const RUN: usize = 1024;
 
-/// Steps the particles of a world from the first birth of those that live at time zero up to then. None of them attract one another.
+/// Steps the particles of a world from the first birth of those that live at time zero, or of their parents, up to then. None of them
+/// attract one another.
 pub(super) fn lead_in(world: &mut World) {
     let World { compiled, clock, bed, particles, tallies, .. } = world;
     let lead = compiled.births().lead();
     let mut before = start(compiled, clock.dt_s(), lead);
+    // Particles see how their parents have gone through the same step.
+    let most = if compiled.block().has_nests() { 1 } else { STEPS };
     let mut left = lead;
     while left > 0 {
-        let count = left.min(STEPS);
+        let count = left.min(most);
         left -= count;
         let blocks: Vec<_> = (0..count)
             .map(|_| {
@@ -33,15 +36,17 @@ pub(super) fn lead_in(world: &mut World) {
             .collect();
         let steps: Vec<_> = blocks.iter().map(|block| compiled.context(block).over(&bed.words)).collect();
         let sums = Mutex::new(&mut tallies.count);
-        let runs = Mutex::new(runs_of(particles.as_mut()));
-        let next = || runs.lock().unwrap_or_else(PoisonError::into_inner).next();
-        on_all(|| {
-            let mut counts = vec![0; sums.lock().unwrap_or_else(PoisonError::into_inner).len()];
-            while let Some((first, mut run)) = next() {
-                steps.iter().for_each(|cx| step_run(cx, &mut run, first, &[], &mut counts));
-            }
-            let mut sums = sums.lock().unwrap_or_else(PoisonError::into_inner);
-            sums.iter_mut().zip(counts).for_each(|(sum, count)| *sum = sum.wrapping_add(count));
+        each_stage(&compiled.block().populations, particles, |parents, first, stage| {
+            let runs = Mutex::new(runs_of(stage, first));
+            let next = || runs.lock().unwrap_or_else(PoisonError::into_inner).next();
+            on_all(|| {
+                let mut counts = vec![0; sums.lock().unwrap_or_else(PoisonError::into_inner).len()];
+                while let Some((first, mut run)) = next() {
+                    steps.iter().for_each(|cx| step_run(cx, &mut run, parents, first, &[], &mut counts));
+                }
+                let mut sums = sums.lock().unwrap_or_else(PoisonError::into_inner);
+                sums.iter_mut().zip(counts).for_each(|(sum, count)| *sum = sum.wrapping_add(count));
+            });
         });
     }
     let born = if lead > 0 { *before.born() } else { compiled.births().before(0) };
@@ -54,9 +59,9 @@ fn start(compiled: &CompiledScene, dt_s: f32, lead: u32) -> Clock {
     Clock::at(0u32.wrapping_sub(lead), dt_s, travel_m).with_born(compiled.births().before(-i64::from(lead)))
 }
 
-/// Runs of slots, each with its first.
-fn runs_of(particles: ParticlesMut<'_>) -> impl Iterator<Item = (u32, ParticlesMut<'_>)> {
-    let mut rest = Some((0, particles));
+/// Runs of slots from a first one on, each with its own first.
+fn runs_of(particles: ParticlesMut<'_>, first: u32) -> impl Iterator<Item = (u32, ParticlesMut<'_>)> {
+    let mut rest = Some((first, particles));
     std::iter::from_fn(move || {
         let (first, particles) = rest.take().filter(|(_, particles)| !particles.is_empty())?;
         let count = RUN.min(particles.len());

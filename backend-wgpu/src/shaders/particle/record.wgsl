@@ -16,6 +16,10 @@ fn particle_hits(bits: u32) -> u32 {
     return (bits >> HITS_SHIFT) & HITS_MASK;
 }
 
+fn particle_struck(bits: u32) -> u32 {
+    return select(0u, ((bits >> STRUCK_SHIFT) & STRUCK_MASK) + 1u, (bits & PARTICLE_HIT) != 0u);
+}
+
 fn particle_life(life_size: u32) -> u32 {
     return life_size & TRAIT_MASK;
 }
@@ -34,7 +38,8 @@ fn with_particle_state(bits: u32, state: u32) -> u32 {
 
 fn with_more_hits(bits: u32, hits: u32) -> u32 {
     let sum = min(particle_hits(bits) + hits, HITS_MASK);
-    return (bits & ~(HITS_MASK << HITS_SHIFT)) | (sum << HITS_SHIFT) | PARTICLE_HIT;
+    let kept = bits & ~((HITS_MASK << HITS_SHIFT) | (STRUCK_MASK << STRUCK_SHIFT));
+    return (kept | (sum << HITS_SHIFT)) | (((hits - 1u) << STRUCK_SHIFT) | PARTICLE_HIT);
 }
 
 fn life_size_word(life: u32, size: u32) -> u32 {

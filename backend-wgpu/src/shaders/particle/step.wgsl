@@ -6,6 +6,7 @@
 #import arith/vector
 #import particle/birth
 #import particle/fly
+#import particle/nest
 #import particle/record
 #import particle/strike
 #import solid/near
@@ -49,32 +50,64 @@ fn rest_is_checked(slot: u32) -> bool {
     return ((step_block.index + slot) & 7u) == 0u;
 }
 
+fn slot_birth(particle: u32, slot: u32, change: ptr<function, ParticleChange>) -> f32 {
+    let number = particle_population(particle_places[particle].bits);
+    if (scene.populations[number].nest.fan == 0u) {
+        let among = birth_number(number, slot - scene.populations[number].first_slot);
+        if (among == NEVER) {
+            return 1.0;
+        }
+        (*change).born = 1u;
+        return particle_birth(particle, number, step_block.births[number].first_id + among);
+    }
+    let place = nest_place(number, slot - scene.populations[number].first_slot);
+    // Parents are in the same window, as far from there as their slots are.
+    let row = particle - (slot - (scene.populations[number].nest.parent_slot + place.parent));
+    let bits = particle_places[row].bits;
+    let id = particle_traits[row].id;
+    let events = nest_events(number, bits, particle_motions[row].birth, id, place.round);
+    (*change).born = events.count;
+    if (events.count == 0u) {
+        return 1.0;
+    }
+    let own_id = nest_id(number, id, events.last, place.ordinal);
+    let rest = nest_rest(number, bits, particle_birth(particle, number, own_id));
+    let own = ParticleFlight(particle_places[particle].position, particle_motions[particle].velocity);
+    let parent = ParticleFlight(particle_places[row].position, particle_motions[row].velocity);
+    var start = nest_start(number, own, parent, rest);
+    if (scene.populations[number].meets != MEETS_NOTHING) {
+        start.position = particle_push(start.position, scene.dt_s * (1.0 - rest));
+    }
+    particle_places[particle].position = start.position;
+    particle_motions[particle].velocity = start.velocity;
+    return rest;
+}
+
 fn particle_step(particle: u32, slot: u32, mutual: vec3<f32>) -> ParticleChange {
     var change = ParticleChange(0u, 0u, 0u, 0u, 0u);
     let number = particle_population(particle_places[particle].bits);
     let before = particle_state(particle_places[particle].bits);
-    var is_alive = before == PARTICLE_ALIVE || before == PARTICLE_RESTING;
-    var bits = particle_places[particle].bits & ~(PARTICLE_BORN | PARTICLE_DIED | PARTICLE_HIT);
-    if (is_alive && life_is_over(particle_motions[particle].birth, particle_traits[particle].life_size)) {
-        bits = with_particle_state(bits, PARTICLE_DEAD) | PARTICLE_DIED;
-        change.died += 1u;
-        is_alive = false;
+    let was_alive = before == PARTICLE_ALIVE || before == PARTICLE_RESTING;
+    let is_over = was_alive && life_is_over(particle_motions[particle].birth, particle_traits[particle].life_size);
+    particle_places[particle].bits = particle_places[particle].bits & ~PARTICLE_MARKS;
+    let rest = slot_birth(particle, slot, &change);
+    let is_new = change.born != 0u;
+    if (is_new) {
+        change.cut_short = change.born - 1u + u32(was_alive);
+    } else if (is_over) {
+        particle_places[particle].bits = with_particle_state(particle_places[particle].bits, PARTICLE_DEAD) | PARTICLE_DIED;
+        change.died = 1u;
     }
-    particle_places[particle].bits = bits;
-    var rest = 1.0;
-    let among = birth_number(number, slot - scene.populations[number].first_slot);
-    if (among != NEVER) {
-        change.cut_short = u32(is_alive);
-        change.born = 1u;
-        rest = particle_birth(particle, number, step_block.births[number].first_id + among);
-        bits = particle_places[particle].bits;
-        is_alive = true;
-    }
-    if (!is_alive || (among == NEVER && before == PARTICLE_RESTING && !rest_wakes(number, slot))) {
+    if (is_new) {
+        if (rest <= 0.0) {
+            return change;
+        }
+    } else if (!was_alive || is_over || (before == PARTICLE_RESTING && !rest_wakes(number, slot))) {
         return change;
     }
+    var bits = particle_places[particle].bits;
     let start = ParticleFlight(particle_places[particle].position, particle_motions[particle].velocity);
-    let felt = select(vec3<f32>(0.0, 0.0, 0.0), mutual, among == NEVER);
+    let felt = select(mutual, vec3<f32>(0.0, 0.0, 0.0), is_new);
     var end = particle_fly(number, start, particle_traits[particle].air, felt);
     let time = scene.dt_s * rest;
     if (rest < 1.0) {
@@ -91,7 +124,7 @@ fn particle_step(particle: u32, slot: u32, mutual: vec3<f32>) -> ParticleChange 
         } else {
             state = PARTICLE_RESTING;
             end.velocity = vec3<f32>(0.0, 0.0, 0.0);
-            if (before == PARTICLE_RESTING && among == NEVER) {
+            if (before == PARTICLE_RESTING && !is_new) {
                 end.position = particle_push(start.position, scene.dt_s);
             }
             if (contact.held_by == STRIKE_GROUND) {

@@ -8,6 +8,7 @@ pub mod draw;
 pub mod fly;
 pub mod force;
 pub mod mutual;
+pub mod nest;
 pub mod record;
 pub mod step;
 pub mod strike;

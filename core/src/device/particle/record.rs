@@ -26,6 +26,12 @@ crate::shared_constants! {
     pub const PARTICLE_HIT: u32 = 16;
     /// Mark of a particle that rests on the ground, not on a solid part.
     pub const PARTICLE_GROUNDED: u32 = 32;
+    /// Place of the number of these hits less one, up to [`STRUCK_MASK`].
+    pub const STRUCK_SHIFT: u32 = 6;
+    /// Mask of that number.
+    pub const STRUCK_MASK: u32 = 3;
+    /// All marks of the step before.
+    pub const PARTICLE_MARKS: u32 = 220;
     /// Place of the population.
     pub const POPULATION_SHIFT: u32 = 8;
     /// Mask of the population.
@@ -33,7 +39,7 @@ crate::shared_constants! {
     /// Place of the number of hits within this life, up to [`HITS_MASK`].
     pub const HITS_SHIFT: u32 = 12;
     /// Mask of the number of hits.
-    pub const HITS_MASK: u32 = 255;
+    pub const HITS_MASK: u32 = 0xfffff;
     /// Mask of the life in steps, and of the size, in [`ParticleTraits::life_size`].
     pub const TRAIT_MASK: u32 = 0xffff;
     /// Place of the size in 2^-14 of the mean size of the population.
@@ -137,6 +143,12 @@ pub fn particle_hits<W: Word>(bits: W) -> W {
     (bits >> HITS_SHIFT) & HITS_MASK
 }
 
+/// Number of hits of a particle in the step before.
+#[inline(always)]
+pub fn particle_struck(bits: u32) -> u32 {
+    if (bits & PARTICLE_HIT) != 0 { ((bits >> STRUCK_SHIFT) & STRUCK_MASK) + 1 } else { 0 }
+}
+
 /// Life of a particle in steps; 0 if age does not end it.
 #[inline(always)]
 pub fn particle_life<W: Word>(life_size: W) -> W {
@@ -161,11 +173,12 @@ pub fn with_particle_state(bits: u32, state: u32) -> u32 {
     (bits & !PARTICLE_STATE_MASK) | state
 }
 
-/// The bits of a particle after some more hits.
+/// The bits of a particle after one to four more hits.
 #[inline(always)]
 pub fn with_more_hits(bits: u32, hits: u32) -> u32 {
     let sum = (particle_hits(bits) + hits).min(HITS_MASK);
-    (bits & !(HITS_MASK << HITS_SHIFT)) | (sum << HITS_SHIFT) | PARTICLE_HIT
+    let kept = bits & !((HITS_MASK << HITS_SHIFT) | (STRUCK_MASK << STRUCK_SHIFT));
+    (kept | (sum << HITS_SHIFT)) | (((hits - 1) << STRUCK_SHIFT) | PARTICLE_HIT)
 }
 
 /// Word of a life in steps and a size in 2^-14 of the mean.

@@ -6,10 +6,11 @@
 
 use super::birth::{birth_number, particle_birth};
 use super::fly::{ParticleFlight, particle_fly};
+use super::nest::{nest_events, nest_id, nest_place, nest_rest, nest_start};
 use super::record::{
-    MEETS_NOTHING, MEETS_STICK, PARTICLE_ALIVE, PARTICLE_BORN, PARTICLE_DEAD, PARTICLE_DIED,
-    PARTICLE_DORMANT, PARTICLE_GROUNDED, PARTICLE_HIT, PARTICLE_RESTING, particle_life, particle_population,
-    particle_state, with_more_hits, with_particle_state,
+    MEETS_NOTHING, MEETS_STICK, PARTICLE_ALIVE, PARTICLE_DEAD, PARTICLE_DIED, PARTICLE_DORMANT,
+    PARTICLE_GROUNDED, PARTICLE_MARKS, PARTICLE_RESTING, particle_life, particle_population, particle_state,
+    with_more_hits, with_particle_state,
 };
 use super::strike::{STRIKE_GROUND, particle_contact, particle_push};
 use crate::arith::lane::{Real, Word};
@@ -18,12 +19,12 @@ use crate::blocks::{NEVER, PopulationBlock};
 use crate::context::Context;
 use crate::device::solid::near::may_meet_solids;
 use crate::device::terrain::ground::ground_met;
-use crate::particle::ParticleMut;
+use crate::particle::{ParticleMut, ParticleRows};
 
 /// Events of a particle in a step, to be added to the counts of its population.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct ParticleChange {
-    /// Births.
+    /// Births; more than one where several events of a parent in one step fall on a slot.
     pub born: u32,
     /// Deaths.
     pub died: u32,
@@ -31,7 +32,7 @@ pub struct ParticleChange {
     pub hits: u32,
     /// 1 if its fourth hit stopped it.
     pub stopped: u32,
-    /// 1 if the slot was needed before its life was over.
+    /// Lives that were not over, or just so, when their slot was needed: they have no death.
     pub cut_short: u32,
 }
 
@@ -83,45 +84,90 @@ pub fn rest_is_checked(cx: &Context<'_>, slot: u32) -> bool {
     ((cx.step.index + slot) & 7) == 0
 }
 
-/// Steps the particle in a slot, on which others of its population act with an acceleration.
+/// Lets the particle in a slot be born if one of the numbers of a step falls on it, or an event of its parent does, and returns the part
+/// of the step that is left to it. `parents` are the particles in slots before those of its population.
+#[inline(always)]
+pub fn slot_birth(
+    cx: &Context<'_>,
+    particle: &mut ParticleMut<'_>,
+    parents: &ParticleRows<'_>,
+    slot: u32,
+    change: &mut ParticleChange,
+) -> f32 {
+    let number = particle_population(particle.place.bits);
+    let population = &cx.scene.populations[number as usize];
+    let nest = &population.nest;
+    if nest.fan == 0 {
+        let birth = &cx.step.births[number as usize];
+        let among = birth_number(birth, population.count, slot - population.first_slot);
+        if among == NEVER {
+            return 1.0;
+        }
+        change.born = 1;
+        return particle_birth(cx, particle, number, birth.first_id + among);
+    }
+    let place = nest_place(nest, slot - population.first_slot);
+    let row = (nest.parent_slot + place.parent) as usize;
+    let (from, motion, id) = (&parents.place[row], &parents.motion[row], parents.traits[row].id);
+    let events = nest_events(cx, nest, from.bits, motion.birth, id, place.round);
+    change.born = events.count;
+    if events.count == 0 {
+        return 1.0;
+    }
+    let own_id = nest_id(nest, id, events.last, place.ordinal);
+    let rest = nest_rest(nest, from.bits, particle_birth(cx, particle, number, own_id));
+    let own = ParticleFlight {
+        position: particle.place.position.into(),
+        velocity: particle.motion.velocity.into(),
+    };
+    let parent = ParticleFlight { position: from.position.into(), velocity: motion.velocity.into() };
+    let mut start = nest_start(cx, nest, own, parent, rest);
+    if population.meets != MEETS_NOTHING {
+        start.position = particle_push(cx, start.position, cx.scene.dt_s * (1.0 - rest));
+    }
+    particle.place.position = start.position.to_array();
+    particle.motion.velocity = start.velocity.to_array();
+    rest
+}
+
+/// Steps the particle in a slot, on which others of its population act with an acceleration. `parents` are the particles in slots before
+/// those of its population, which have gone through the step.
 #[inline(always)]
 pub fn particle_step(
     cx: &Context<'_>,
     particle: &mut ParticleMut<'_>,
+    parents: &ParticleRows<'_>,
     slot: u32,
     mutual: Vec3,
 ) -> ParticleChange {
     let mut change = ParticleChange::default();
-    let number = particle_population(particle.place.bits);
-    let population = &cx.scene.populations[number as usize];
-    let birth = &cx.step.births[number as usize];
+    let population = &cx.scene.populations[particle_population(particle.place.bits) as usize];
     let before = particle_state(particle.place.bits);
-    let mut is_alive = before == PARTICLE_ALIVE || before == PARTICLE_RESTING;
-    let mut bits = particle.place.bits & !(PARTICLE_BORN | PARTICLE_DIED | PARTICLE_HIT);
-    if is_alive && life_is_over(cx, particle.motion.birth, particle.traits.life_size) {
-        bits = with_particle_state(bits, PARTICLE_DEAD) | PARTICLE_DIED;
-        change.died += 1;
-        is_alive = false;
+    let was_alive = before == PARTICLE_ALIVE || before == PARTICLE_RESTING;
+    let is_over = was_alive && life_is_over(cx, particle.motion.birth, particle.traits.life_size);
+    particle.place.bits &= !PARTICLE_MARKS;
+    let rest = slot_birth(cx, particle, parents, slot, &mut change);
+    let is_new = change.born != 0;
+    if is_new {
+        change.cut_short = change.born - 1 + u32::from(was_alive);
+    } else if is_over {
+        particle.place.bits = with_particle_state(particle.place.bits, PARTICLE_DEAD) | PARTICLE_DIED;
+        change.died = 1;
     }
-    particle.place.bits = bits;
-    let mut rest = 1.0;
-    let among = birth_number(birth, population.count, slot - population.first_slot);
-    if among != NEVER {
-        change.cut_short = u32::from(is_alive);
-        change.born = 1;
-        rest = particle_birth(cx, particle, number, birth.first_id + among);
-        bits = particle.place.bits;
-        is_alive = true;
-    }
-    if !is_alive || (among == NEVER && before == PARTICLE_RESTING && !rest_wakes(cx, population, slot)) {
+    if is_new {
+        if rest <= 0.0 {
+            return change;
+        }
+    } else if !was_alive || is_over || (before == PARTICLE_RESTING && !rest_wakes(cx, population, slot)) {
         return change;
     }
+    let mut bits = particle.place.bits;
     let start = ParticleFlight {
         position: particle.place.position.into(),
         velocity: particle.motion.velocity.into(),
     };
     // The newborn feels others from its next step on.
-    let mutual = if among == NEVER { mutual } else { Vec3::ZERO };
+    let mutual = if is_new { Vec3::ZERO } else { mutual };
     let mut end = particle_fly(cx, population, start, particle.traits.air, mutual);
     let time = cx.scene.dt_s * rest;
     if rest < 1.0 {
@@ -138,7 +184,7 @@ pub fn particle_step(
         } else {
             state = PARTICLE_RESTING;
             end.velocity = Vec3::ZERO;
-            if before == PARTICLE_RESTING && among == NEVER {
+            if before == PARTICLE_RESTING && !is_new {
                 end.position = particle_push(cx, start.position, cx.scene.dt_s);
             }
             if contact.held_by == STRIKE_GROUND {

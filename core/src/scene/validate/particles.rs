@@ -17,7 +17,7 @@ use crate::scene::{
 /// Most points of a curve.
 const MAX_CURVE_POINTS: usize = 64;
 /// Standard deviations of the number of particles alive for which there are slots, where they are born at random.
-const ROOM_DEVIATIONS: f64 = 6.0;
+pub(super) const ROOM_DEVIATIONS: f64 = 6.0;
 
 impl Scene {
     /// Checks particles, each population by itself and all together.
@@ -26,11 +26,15 @@ impl Scene {
         for (index, particles) in self.particles.iter().enumerate() {
             let at = check.inside(format!("particles[{index}]"));
             particles.check(&at)?;
-            particles.check_room(&at, f64::from(self.dt_s))?;
+            particles.check_life(&at, f64::from(self.dt_s))?;
+            if particles.nest.is_none() {
+                particles.check_room(&at, f64::from(self.dt_s))?;
+            }
             let earlier = &self.particles[..index];
             at.holds(earlier.iter().all(|other| other.name != particles.name), "name", || {
                 (format!("{:?} again", particles.name), "a name of its own".into())
             })?;
+            self.check_nest(index, &at)?;
         }
         check.length("forces", self.forces.len(), 0, MAX_FORCES)?;
         for (index, force) in self.forces.iter().enumerate() {
@@ -74,8 +78,10 @@ impl Scene {
                 at.holds(particles.count <= MAX_MUTUAL, "count", || {
                     (particles.count.to_string(), format!("at most {MAX_MUTUAL} that attract one another"))
                 })?;
-                at.holds(particles.first_birth_s() >= 0.0, "release.from_s", || {
-                    let found = particles.first_birth_s().to_string();
+                let first_s = self.ancestor(particles).first_birth_s();
+                let of_first = if particles.nest.is_none() { "release.from_s" } else { "nest.of" };
+                at.holds(first_s >= 0.0, of_first, || {
+                    let found = format!("with the first birth at {first_s} s");
                     (found, "0 or later, where particles attract one another".into())
                 })?;
                 let kinds = particles.feels[..index].iter().filter_map(|name| {
@@ -236,14 +242,19 @@ impl Particles {
         AIR_DENSITY * weight * size_m * size_m * size_m / (18.0 * viscosity * viscosity)
     }
 
-    /// Checks that lives can be counted in steps, and that there are slots for all that are alive at once.
-    fn check_room(&self, at: &Check<'_>, dt_s: f64) -> Result<(), SceneError> {
+    /// Checks that lives can be counted in steps.
+    fn check_life(&self, at: &Check<'_>, dt_s: f64) -> Result<(), SceneError> {
         let most_s = limits::MOST_LIFE_STEPS * dt_s;
         let longest_s = self.life_s.map(|life_s| f64::from(life_s.highest()));
         at.holds(longest_s.is_none_or(|longest_s| longest_s <= most_s), "life_s", || {
             let found = format!("up to {} s", longest_s.unwrap_or(0.0));
             (found, format!("at most {most_s:.1} s: {} steps", limits::MOST_LIFE_STEPS))
-        })?;
+        })
+    }
+
+    /// Checks that there are slots for all that are alive at once.
+    fn check_room(&self, at: &Check<'_>, dt_s: f64) -> Result<(), SceneError> {
+        let longest_s = self.life_s.map(|life_s| f64::from(life_s.highest()));
         let (per_s, deviations) = match self.release {
             ParticleRelease::Burst { .. } => return Ok(()),
             ParticleRelease::Rate { per_s, .. } => (f64::from(per_s), 0.0),
