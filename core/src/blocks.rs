@@ -279,8 +279,8 @@ crate::shared_struct! {
         pub meets: u32,
         /// Way in m from the centre for the first coordinate of a point in the shape, each from -1 to 1.
         pub span_x_m: [f32; 3],
-        /// 1 if they set off away from the centre, else 0.
-        pub is_outward: u32,
+        /// Kind of the directions in which they set off.
+        pub direction: u32,
         /// The same for the second.
         pub span_y_m: [f32; 3],
         /// Share of the sphere's radius that the cap of directions is high.

@@ -481,6 +481,8 @@ pub fn particle_scene(seed: u64, speed_m_s: f32, dt_s: f32) -> Scene {
         Particles {
             count: 700,
             from: ParticleShape::Line { from_m: Vec3::new(-4.0, 3.0, 0.0), to_m: Vec3::new(4.0, 3.5, 1.0) },
+            direction: Direction::Around { axis },
+            speed_m_s: Spread::Constant(0.5),
             release: rate(90.0, -4.0),
             life_s: Some(Spread::Normal(6.0, 0.3)),
             air: Air::Settling { m_s: Spread::Constant(1.0) },

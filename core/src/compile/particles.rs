@@ -14,8 +14,8 @@ use crate::device::particle::birth::{
 };
 use crate::device::particle::force::{FORCE_ATTRACT, FORCE_NOISE, FORCE_ROWS, FORCE_SWIRL, FORCE_TURN};
 use crate::device::particle::record::{
-    MEETS_BOUNCE, MEETS_DIE, MEETS_NOTHING, MEETS_STICK, POPULATION_LOSS, POPULATION_MUTUAL,
-    POPULATION_PULLED, POPULATION_SWIRLED, POPULATION_TURNED,
+    DIRECTION_AROUND, DIRECTION_CAP, DIRECTION_OUTWARD, MEETS_BOUNCE, MEETS_DIE, MEETS_NOTHING, MEETS_STICK,
+    POPULATION_LOSS, POPULATION_MUTUAL, POPULATION_PULLED, POPULATION_SWIRLED, POPULATION_TURNED,
 };
 use crate::device::wind::vortex::SWIRL_COMPACT;
 use crate::layout::Uint4;
@@ -135,13 +135,18 @@ fn population_block(scene: &Scene, particles: &Particles) -> PopulationBlock {
     let (axis, half_angle_deg) = match particles.direction {
         Direction::Cone { axis, half_angle_deg } => (axis, half_angle_deg),
         Direction::Outward => (Vec3::Y, 0.0),
+        Direction::Around { axis } => (axis, 0.0),
     };
     let [axis, side, front] = frame(axis);
     (block.axis, block.side, block.front) = (vector(axis), vector(side), vector(front));
     // 1 - cos h, precise for narrow caps as well.
     let sine = libm::sin(0.5 * f64::from(half_angle_deg).to_radians());
     block.cap = single(2.0 * sine * sine);
-    block.is_outward = u32::from(particles.direction == Direction::Outward);
+    block.direction = match particles.direction {
+        Direction::Cone { .. } => DIRECTION_CAP,
+        Direction::Outward => DIRECTION_OUTWARD,
+        Direction::Around { .. } => DIRECTION_AROUND,
+    };
     let friction = |friction: ObjectFriction| match friction {
         ObjectFriction::Coulomb(coefficient) => (coefficient, 0),
         ObjectFriction::Loss(share) => (share, POPULATION_LOSS),

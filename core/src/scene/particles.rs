@@ -130,6 +130,11 @@ pub enum Direction {
     },
     /// Away from the middle of the shape; upward from the middle itself.
     Outward,
+    /// Around an axis through the middle of the shape, anticlockwise seen from its tip; along the axis from the axis itself.
+    Around {
+        /// Axis, each component -1000 to 1000, at least 0.001 long.
+        axis: Vec3,
+    },
 }
 
 /// Times at which particles are born.

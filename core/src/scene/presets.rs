@@ -30,6 +30,8 @@ pub const PRESETS: &[(&str, &str)] = &[
     ("rain-pond", include_str!("../../scenes/rain-pond.ron")),
     ("pollen", include_str!("../../scenes/pollen.ron")),
     ("fireflies", include_str!("../../scenes/fireflies.ron")),
+    ("genesis", include_str!("../../scenes/genesis.ron")),
+    ("galaxy", include_str!("../../scenes/galaxy.ron")),
 ];
 
 impl Scene {
@@ -82,6 +84,8 @@ mod tests {
                 "rain-pond",
                 "pollen",
                 "fireflies",
+                "genesis",
+                "galaxy",
             ],
             "names and their order"
         );

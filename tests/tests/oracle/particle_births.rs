@@ -260,6 +260,31 @@ fn a_cone_is_filled_across() {
     assert!(apart < 0.0158, "{apart}");
 }
 
+/// What sets off around an axis goes at a right angle to it and to the way from it, anticlockwise seen from its tip.
+#[test]
+fn directions_lead_around_their_axis() {
+    let axis = Vec3::new(2.0, 3.0, -1.0);
+    let population = Particles {
+        from: ParticleShape::Disc { center_m: Vec3::new(1.0, 5.0, 0.0), radius_m: 2.0, axis },
+        speed_m_s: Spread::Constant(1.5),
+        direction: Direction::Around { axis },
+        gravity: 0.0,
+        air: Air::Vacuum,
+        ..burst(200)
+    };
+    let mut world = build(&scene(vec![population], 0.001));
+    oracle::step(&mut world, 1);
+    for slot in 0..200 {
+        let velocity = Vec3::from(world.particles.motion[slot].velocity);
+        let away = place(&world, slot) - Vec3::new(1.0, 5.0, 0.0);
+        assert!((velocity.length() - 1.5).abs() < 1e-5, "{velocity}");
+        assert!(velocity.dot(axis).abs() < 1e-4, "{velocity} along the axis");
+        let turn = axis.normalize().dot(away.cross(velocity));
+        // It has gone straight on for a step.
+        assert!((turn / (away.length() * 1.5) - 1.0).abs() < 0.02 || away.length() < 0.02, "{away}: {turn}");
+    }
+}
+
 /// Regions end the lives of what leaves them.
 #[test]
 fn regions_end_lives() {

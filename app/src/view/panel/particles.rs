@@ -201,17 +201,29 @@ fn direction(ui: &mut Ui, direction: &mut Direction, own: Option<Direction>) {
     let options = [
         ("in a cone", Direction::Cone { axis: Vec3::Y, half_angle_deg: 30.0 }),
         ("outward", Direction::Outward),
+        ("around", Direction::Around { axis: Vec3::Y }),
     ];
-    let tip = "Directions in which they set off: about an axis, or away from the middle";
+    let tip =
+        "Directions in which they set off: in a cone, away from the middle, or around an axis through it";
     choice(ui, "Direction", tip, direction, own.as_ref(), &options);
-    if let Direction::Cone { axis, half_angle_deg } = direction {
-        let own = own.and_then(|own| match own {
-            Direction::Cone { axis, half_angle_deg } => Some((axis, half_angle_deg)),
-            Direction::Outward => None,
-        });
-        vector(ui, "Cone axis", "Middle of the cone", axis, own.map(|own| own.0), limits::AXIS);
-        let tip = "Angle from the axis to the rim; at 180 they go in all directions";
-        field("Cone angle", tip, limits::HALF_ANGLE_DEG).show(ui, half_angle_deg, own.map(|own| own.1));
+    let own_axis = own.and_then(|own| match own {
+        Direction::Cone { axis, .. } | Direction::Around { axis } => Some(axis),
+        Direction::Outward => None,
+    });
+    match direction {
+        Direction::Cone { axis, half_angle_deg } => {
+            vector(ui, "Start towards", "Middle of the cone", axis, own_axis, limits::AXIS);
+            let own = own.and_then(|own| match own {
+                Direction::Cone { half_angle_deg, .. } => Some(half_angle_deg),
+                Direction::Outward | Direction::Around { .. } => None,
+            });
+            let tip = "Angle from the axis to the rim; at 180 they go in all directions";
+            field("Cone angle", tip, limits::HALF_ANGLE_DEG).show(ui, half_angle_deg, own);
+        }
+        Direction::Around { axis } => {
+            vector(ui, "Start around", "Axis that they go around", axis, own_axis, limits::AXIS);
+        }
+        Direction::Outward => {}
     }
 }
 

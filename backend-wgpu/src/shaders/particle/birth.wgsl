@@ -74,9 +74,13 @@ fn particle_birth(particle: u32, number: u32, id: u32) -> f32 {
     let spread = scene.populations[number].span_x_m * point.x
         + (scene.populations[number].span_y_m * point.y + scene.populations[number].span_z_m * point.z);
     var direction = cap_direction(number, motion.x, motion.y);
-    let squared = vec3_dot(spread, spread);
-    if (scene.populations[number].is_outward != 0u && TINY_SQUARED < squared) {
-        direction = spread * inverse_sqrt(squared);
+    var toward = spread;
+    if (scene.populations[number].direction == DIRECTION_AROUND) {
+        toward = vec3_cross(scene.populations[number].axis, spread);
+    }
+    let squared = vec3_dot(toward, toward);
+    if (scene.populations[number].direction != DIRECTION_CAP && TINY_SQUARED < squared) {
+        direction = toward * inverse_sqrt(squared);
     }
     let speed = max(spread_draw(scene.populations[number].speed_m_s, motion.z, motion.w), 0.0);
     var life = 0u;

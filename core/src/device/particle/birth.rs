@@ -8,13 +8,13 @@
 use super::air::air_numbers;
 use super::draw::{particle_words, spread_draw};
 use super::record::{
-    PARTICLE_ALIVE, PARTICLE_BORN, ParticleMotion, ParticlePlace, ParticleTraits, life_size_word,
-    particle_bits,
+    DIRECTION_AROUND, DIRECTION_CAP, PARTICLE_ALIVE, PARTICLE_BORN, ParticleMotion, ParticlePlace,
+    ParticleTraits, life_size_word, particle_bits,
 };
 use crate::arith::lane::Real;
 use crate::arith::math::{inverse_sqrt, sin_cos_turns};
 use crate::arith::rng::unit_float;
-use crate::arith::vector::{TINY_SQUARED, Vec3, vec3_dot};
+use crate::arith::vector::{TINY_SQUARED, Vec3, vec3_cross, vec3_dot};
 use crate::blocks::{BirthBlock, NEVER, PopulationBlock};
 use crate::context::Context;
 use crate::particle::ParticleMut;
@@ -124,9 +124,13 @@ pub fn particle_birth(cx: &Context<'_>, particle: &mut ParticleMut<'_>, number: 
     let spread = Vec3::from(population.span_x_m) * point.x
         + (Vec3::from(population.span_y_m) * point.y + Vec3::from(population.span_z_m) * point.z);
     let mut direction = cap_direction(population, turn, tilt);
-    let squared = vec3_dot(spread, spread);
-    if population.is_outward != 0 && TINY_SQUARED < squared {
-        direction = spread * inverse_sqrt(squared);
+    let mut toward = spread;
+    if population.direction == DIRECTION_AROUND {
+        toward = vec3_cross(Vec3::from(population.axis), spread);
+    }
+    let squared = vec3_dot(toward, toward);
+    if population.direction != DIRECTION_CAP && TINY_SQUARED < squared {
+        direction = toward * inverse_sqrt(squared);
     }
     let speed = spread_draw(population.speed_m_s, speed_a, speed_b).max(0.0);
     let mut life = 0;

@@ -56,6 +56,12 @@ crate::shared_constants! {
     pub const POPULATION_SWIRLED: u32 = 8;
     /// Flag of a population: its particles attract one another.
     pub const POPULATION_MUTUAL: u32 = 16;
+    /// Particles set off within a cap of directions.
+    pub const DIRECTION_CAP: u32 = 0;
+    /// They set off away from the middle of their shape.
+    pub const DIRECTION_OUTWARD: u32 = 1;
+    /// They set off around an axis through it.
+    pub const DIRECTION_AROUND: u32 = 2;
     /// Particles pass through what is in the way.
     pub const MEETS_NOTHING: u32 = 0;
     /// They die there.

@@ -154,6 +154,9 @@ impl Particles {
             check_axis(axis, &at)?;
             at.numbers([("half_angle_deg", half_angle_deg.into(), limits::HALF_ANGLE_DEG)])?;
         }
+        if let Direction::Around { axis } = self.direction {
+            check_axis(axis, &at.inside("direction"))?;
+        }
         match self.release {
             ParticleRelease::Burst { at_s } => {
                 at.inside("release").numbers([("at_s", at_s.into(), limits::AT_S)])?;

@@ -480,6 +480,7 @@ prop_compose! {
         from in particle_shape(),
         direction in prop_oneof![
             Just(Direction::Outward),
+            Just(Direction::Around { axis: Vec3::new(0.5, 1.0, -0.25) }),
             within(limits::HALF_ANGLE_DEG)
                 .prop_map(|half_angle_deg| Direction::Cone { axis: Vec3::new(0.5, 1.0, -0.25), half_angle_deg }),
         ],
@@ -518,7 +519,7 @@ prop_compose! {
         };
         Particles {
             name: String::new(), count: 10_000, from, direction, release, speed_m_s, life_s: Some(life_s), size_m,
-            density_kg_m3, gravity: 1.0, charge_c_kg: 1.0, air, feels: Vec::new(), meets, dies, look,
+            density_kg_m3, gravity: 1.0, charge_c_kg: 1.0, air, feels: Vec::new(), meets, dies, look, nest: None,
         }
     }
 }
