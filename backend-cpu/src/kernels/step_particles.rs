@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! twin: backend-wgpu/src/shaders/kernels/step_particles.wgsl
 //!
-//! Moves particles, chunk by chunk: those without an event and with nothing in their way in blocks, the others one by one. A chunk goes
-//! through several steps while it is in the cache, as particles do not see each other.
+//! Moves particles, chunk by chunk: in blocks those that nothing is in the way of, those that rest and those not born yet; the others one by
+//! one. A chunk goes through several steps while it is in the cache, as particles do not see each other.
 
 use std::sync::atomic::{AtomicU32, Ordering};
 
@@ -68,8 +68,7 @@ fn step_one(
     counts: &mut [u32],
 ) {
     let population = particle_population(particles.place[number].bits);
-    #[expect(clippy::cast_possible_truncation, reason = "slots are counted in words")]
-    let slot = (first + number) as u32;
+    let slot = slot_word(first + number);
     let mutual = pulls.get(first + number).map_or(Vec3::ZERO, |[x, y, z, _]| Vec3::new(*x, *y, *z));
     let change = particle_step(cx, &mut particles.row_mut(number), slot, mutual);
     add_to_tally(counts, population, &change);
@@ -97,6 +96,7 @@ fn step_lanes<P: Pack>(
         if here == last && rows.len() == BLOCK && !births_touch(births, population.count as usize, place) {
             let whole = "a whole block";
             let mut block = ParticleBlock {
+                slot: slot_word(first + begin),
                 place: (&mut particles.place[rows.clone()]).try_into().expect(whole),
                 motion: (&mut particles.motion[rows.clone()]).try_into().expect(whole),
                 traits: (&particles.traits[rows.clone()]).try_into().expect(whole),
@@ -111,6 +111,12 @@ fn step_lanes<P: Pack>(
             left &= left - 1;
         }
     }
+}
+
+/// A slot as devices count it.
+#[expect(clippy::cast_possible_truncation, reason = "slots are counted in words")]
+fn slot_word(slot: usize) -> u32 {
+    slot as u32
 }
 
 /// Returns true if births of a step may fall on the block that begins at a place among the slots of a population.
