@@ -66,7 +66,8 @@ pub struct Arguments {
     /// Width and height of the pictures in pixels [default: 1920x1080].
     #[arg(long, value_name = "WxH", value_parser = picture_size, requires = "draw")]
     size: Option<(u32, u32)>,
-    /// Measure, besides, as many particles as leaves by themselves: sparks that bounce off the ground of the scene, in its wind.
+    /// Measure, besides, as many particles as leaves by themselves, at least four: sparks that bounce off the ground of the scene, in
+    /// its wind.
     #[arg(long, conflicts_with = "draw")]
     particles: bool,
     /// Print one JSON object per line instead of a table: first the memory's speed, then a line for each row, then one for

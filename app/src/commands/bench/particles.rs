@@ -9,7 +9,7 @@ use glam::Vec3;
 use serde::Serialize;
 use windfall_core::particle::HOT_BYTES_PER_STEP;
 use windfall_core::scene::{
-    Air, Direction, Meets, ObjectFriction, ParticleRelease, ParticleShape, Particles, Spread,
+    Air, Direction, Meets, ObjectFriction, ParticleRelease, ParticleShape, Particles, Source, Spread,
 };
 use windfall_core::{Scene, World};
 
@@ -19,8 +19,10 @@ use super::{Arguments, BATCHES, WARM_UP_STEPS, steps_of_a_batch};
 
 /// Life of a spark in seconds.
 const LIFE_S: f32 = 2.0;
-/// Slots for each spark that is alive.
+/// Slots for each spark that is alive, besides those that births need.
 const SLOTS: f32 = 1.02;
+/// Fewest sparks.
+const FEWEST: u32 = 4;
 
 /// One measurement. The names of these fields are the keys of the JSON; they stay.
 #[derive(Clone, Debug, Serialize)]
@@ -42,10 +44,11 @@ pub(super) struct SparkRow {
     floor_share: f64,
 }
 
-/// The wind and the ground of a scene with so many sparks and nothing else.
+/// The wind and the ground of a scene with so many sparks, at least [`FEWEST`], and one leaf: a scene has a source of leaves.
 pub(super) fn sparks(scene: &Scene, count: u32) -> Scene {
+    let count = count.max(FEWEST);
     let mut bare = scene.clone();
-    bare.sources.clear();
+    bare.sources = vec![Source { count: 1, ..Source::default() }];
     bare.trees.clear();
     bare.forces.clear();
     bare.particles = vec![Particles {
@@ -53,7 +56,7 @@ pub(super) fn sparks(scene: &Scene, count: u32) -> Scene {
         count,
         from: ParticleShape::Disc { center_m: Vec3::Y, radius_m: 40.0, axis: Vec3::Y },
         direction: Direction::Cone { axis: Vec3::Y, half_angle_deg: 40.0 },
-        release: ParticleRelease::Rate { per_s: count as f32 / (SLOTS * LIFE_S), from_s: -LIFE_S },
+        release: ParticleRelease::Rate { per_s: (count - 2) as f32 / (SLOTS * LIFE_S), from_s: -LIFE_S },
         speed_m_s: Spread::Uniform(6.0, 2.0),
         life_s: Some(Spread::Constant(LIFE_S)),
         air: Air::Linear { time_s: Spread::Uniform(0.6, 0.2) },

@@ -13,8 +13,9 @@ use crate::export::Frame;
 use crate::export::foliage::plain;
 use crate::run::live_particle::LiveParticle;
 
-/// Extent of no points, as `UsdGeomPoints::ComputeExtent` has it.
-const EMPTY: [Vec3; 2] = [Vec3::MAX, Vec3::MIN];
+/// Extent of no points: turned inside out, so that it adds nothing to a box. `UsdGeomPoints::ComputeExtent` has the largest numbers there
+/// are in it; these are smaller, since readers interpolate between frames, in which the largest become infinite.
+const EMPTY: [Vec3; 2] = [Vec3::splat(1e18), Vec3::splat(-1e18)];
 
 /// The attributes of all populations, in the order of the scene.
 #[derive(Debug)]
@@ -64,11 +65,13 @@ impl PointAttributes {
         samples.add(self.widths, number, |out| text::numbers(out, all().map(|one| one.size_m)));
         samples.add(self.ids, number, |out| text::numbers(out, all().map(|one| one.id)));
         samples.add(self.ages, number, |out| text::numbers(out, all().map(|one| one.age_s)));
-        let extent = all().fold(EMPTY, |[low, high], one| {
+        let boxes = all().map(|one| {
             let (place, reach) = (Vec3::from(one.position_m), Vec3::splat(0.5 * one.size_m));
-            [low.min(place - reach), high.max(place + reach)]
+            [place - reach, place + reach]
         });
-        samples.add(self.extent, number, |out| text::vectors(out, extent.map(|corner| corner.to_array())));
+        let extent = boxes.reduce(|[low, high], [from, to]| [low.min(from), high.max(to)]);
+        let extent = extent.unwrap_or(EMPTY).map(|corner| corner.to_array());
+        samples.add(self.extent, number, |out| text::vectors(out, extent));
     }
 }
 
