@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A million sparks on every backend, with nothing in their way, over a lawn, and with four forces, beside two measures of what could be: their columns read and written
-//! with nothing done in between, and the same flights in a plain loop over an array of structs. Then bodies that attract one another.
-//! Elements are particle-steps.
+//! A million sparks on every backend, with nothing in their way, over a lawn, and with four forces, beside two measures of what could be:
+//! their columns read and written with nothing done in between, and the same flights in a plain loop over an array of structs, in which
+//! nothing is born or comes to rest. Then bodies that attract one another. Elements are particle-steps.
 
 use std::hint::black_box;
 use std::thread::{available_parallelism, scope};

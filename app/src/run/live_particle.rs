@@ -10,7 +10,7 @@ use windfall_core::device::particle::record::{
     PARTICLE_ALIVE, PARTICLE_RESTING, particle_size, particle_state,
 };
 
-use crate::files::CsvFile;
+use crate::files::{CsvFile, WriteError};
 
 /// Columns of a particle in tables.
 const PARTICLE_COLUMNS: [&str; 12] = [
@@ -91,11 +91,7 @@ impl LiveParticle {
     }
 
     /// Adds its fields to a row and ends that; `population` is the name of its population.
-    pub(crate) fn write<W: Write>(
-        &self,
-        population: &str,
-        table: &mut CsvFile<W>,
-    ) -> Result<(), crate::files::WriteError> {
+    pub(crate) fn write<W: Write>(&self, population: &str, table: &mut CsvFile<W>) -> Result<(), WriteError> {
         table.field(population).field(self.slot).field(self.id);
         table.field(if self.is_resting { "resting" } else { "flying" }).field(self.age_s);
         for number in self.position_m.iter().chain(&self.velocity_m_s) {
@@ -106,7 +102,7 @@ impl LiveParticle {
 }
 
 #[cfg(test)]
-pub(crate) mod tests {
+mod tests {
     use std::path::Path;
 
     use windfall_core::Scene;
@@ -115,7 +111,7 @@ pub(crate) mod tests {
     use super::*;
 
     /// A world of two populations: a burst that has not come, and motes of two centimetres born since two seconds ago.
-    pub(crate) fn motes() -> World {
+    fn motes() -> World {
         let late = ParticleRelease::Burst { at_s: 1.0 };
         let early = ParticleRelease::Rate { per_s: 20.0, from_s: -2.0 };
         let scene = Scene {
@@ -140,7 +136,7 @@ pub(crate) mod tests {
     fn only_the_living_are_there_with_their_age_and_size() {
         let world = motes();
         let all: Vec<_> = LiveParticle::all(&world).collect();
-        let alive = world.stats().particles[1].alive;
+        let alive = world.particle_stats()[1].alive;
         assert_eq!(all.len(), alive as usize, "the living");
         assert!((39..=41).contains(&alive), "twenty a second for two seconds: {alive}");
         for particle in &all {

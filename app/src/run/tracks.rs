@@ -181,7 +181,7 @@ mod tests {
 
     #[test]
     fn every_row_has_as_many_fields_as_the_header() {
-        let scene = windfall_core::Scene::preset("autumn-park").expect("a preset");
+        let scene = Scene::preset("autumn-park").expect("a preset");
         let world = World::build(&scene).expect("valid");
         let step = world.step_block();
         let cx = world.context(&step);
