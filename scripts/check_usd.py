@@ -68,6 +68,45 @@ def compare(stage, rows):
     return compared
 
 
+def compare_particles(stage, path):
+    """Compares every frame of the points of a stage with the table of particles; how many were compared."""
+    with open(path + "_particles.csv", newline="") as file:
+        rows = list(csv.DictReader(file))
+    frames = range(int(stage.GetStartTimeCode()), int(stage.GetEndTimeCode()) + 1)
+    compared = 0
+    for prim, name in (("hot_sparks", "hot sparks"), ("late", "late")):
+        cloud = UsdGeom.Points(stage.GetPrimAtPath(f"/World/Particles/{prim}"))
+        assert cloud and cloud.GetPrim().GetDisplayName() == name, f"points of {name}"
+        assert cloud.GetWidthsInterpolation() == UsdGeom.Tokens.vertex, "a width for each point"
+        ages = UsdGeom.PrimvarsAPI(cloud).GetPrimvar("windfall:age")
+        assert ages.GetInterpolation() == UsdGeom.Tokens.vertex, "an age for each point"
+        own = {frame: [] for frame in frames}
+        for row in rows:
+            if row["population"] == name:
+                own[int(row["frame"])].append(row)
+        for frame, living in own.items():
+            points, widths = cloud.GetPointsAttr().Get(frame), cloud.GetWidthsAttr().Get(frame)
+            expected = lambda *names: [tuple(single(row[name]) for name in names) for row in living]
+            where = f"{name}, frame {frame}"
+            assert [tuple(point) for point in points] == expected("x_m", "y_m", "z_m"), f"{where}: points"
+            speeds = [tuple(speed) for speed in cloud.GetVelocitiesAttr().Get(frame)]
+            assert speeds == expected("vx_m_s", "vy_m_s", "vz_m_s"), f"{where}: velocities"
+            assert [(width,) for width in widths] == expected("size_m"), f"{where}: widths"
+            assert [(age,) for age in ages.Get(frame)] == expected("age_s"), f"{where}: ages"
+            assert list(cloud.GetIdsAttr().Get(frame)) == [int(row["id"]) for row in living], f"{where}: ids"
+            compared += len(living)
+            extent, whole = cloud.GetExtentAttr().Get(frame), UsdGeom.Points.ComputeExtent(points, widths)
+            if not living:
+                assert Gf.Range3f(*extent).IsEmpty(), f"{where}: extent of nothing"
+                continue
+            off = max(abs(a - b) for mine, other in zip(extent, whole) for a, b in zip(mine, other))
+            assert off < 1e-5, f"{where}: extent {extent} is not {whole}"
+        assert any(own.values()), f"{name} are there"
+    late = UsdGeom.Points(stage.GetPrimAtPath("/World/Particles/late"))
+    assert len(late.GetPointsAttr().Get(frames[0])) in (0, 20), "a burst is there or not"
+    return compared
+
+
 def check_tree(stage, moment):
     """Bark and joints fit each other, and at rest the skeleton is where it was bound."""
     cache = UsdSkel.Cache()
@@ -143,6 +182,8 @@ def check(path):
         rows = list(csv.DictReader(file))
     compared = compare(stage, rows)
     assert compared > 500, f"only {compared} leaves were there to compare"
+    sparks = compare_particles(stage, path)
+    assert sparks > 10000, f"only {sparks} particles were there to compare"
     check_tree(stage, stage.GetEndTimeCode())
     check_ground(stage)
     check_objects(stage, (stage.GetStartTimeCode(), stage.GetEndTimeCode()))
@@ -152,12 +193,12 @@ def check(path):
     material, _ = UsdShade.MaterialBindingAPI(mesh).ComputeBoundMaterial()
     assert material, "a leaf has a material"
     clips = len(Usd.ClipsAPI(stage.GetPrimAtPath("/World")).GetClipAssetPaths() or [])
-    print(f"{path.rsplit('/', 1)[-1]}: no issue, {compared} leaves equal, {clips} value clips")
+    print(f"{path.rsplit('/', 1)[-1]}: no issue, {compared} leaves and {sparks} particles equal, {clips} value clips")
     return clips, rows
 
 
 def check_broken(path, rows):
-    """What the checks must not let pass: a leaf upside down, a shader without an identifier."""
+    """What the checks must not let pass: a leaf upside down, a particle displaced, a shader without an identifier."""
     stage = Usd.Stage.Open(path + ".usda")
     positions = UsdGeom.PointInstancer(stage.GetPrimAtPath("/World/Leaves")).GetPositionsAttr()
     frame = stage.GetEndTimeCode()
@@ -168,6 +209,14 @@ def check_broken(path, rows):
         pass
     else:
         sys.exit("leaves below the ground are not reported")
+    cloud = UsdGeom.Points(stage.GetPrimAtPath("/World/Particles/hot_sparks")).GetPointsAttr()
+    cloud.Set([point + Gf.Vec3f(0, 1e-3, 0) for point in cloud.Get(frame)], frame)
+    try:
+        compare_particles(stage, path)
+    except AssertionError:
+        pass
+    else:
+        sys.exit("displaced particles are not reported")
     shader = next(prim for prim in stage.Traverse() if prim.IsA(UsdShade.Shader))
     UsdShade.Shader(shader).SetShaderId("NoSuchShader")
     UsdGeom.SetStageUpAxis(stage, UsdGeom.Tokens.z)

@@ -7,8 +7,8 @@ use std::time::{Duration, Instant};
 
 use glam::{Vec2, Vec3};
 use windfall_core::scene::{
-    Aerodynamics, Air, Direction, FlightModel, Litter, MeanSpeed, Meets, ObjectFriction, ParticleRelease,
-    ParticleShape, Particles, Release, SourceShape, Species, Spread, Tree,
+    Aerodynamics, Air, Direction, FlightModel, Force, ForceKind, Litter, MeanSpeed, Meets, ObjectFriction,
+    ParticleRelease, ParticleShape, Particles, Release, SourceShape, Species, Spread, SwirlProfile, Tree,
 };
 use windfall_core::{Contract, Scene, Simulator, World};
 use windfall_cpu::{CpuOptions, CpuSimulator};
@@ -122,6 +122,49 @@ pub fn sparks(count: u32) -> Scene {
         life_s: Some(Spread::Constant(2.0)),
         air: Air::Linear { time_s: Spread::Uniform(0.6, 0.2) },
         meets: Meets::Bounce { restitution: 0.5, friction: ObjectFriction::Coulomb(0.3) },
+        ..Particles::default()
+    }];
+    scene
+}
+
+/// The same sparks, in whose way nothing is: they fall through the lawn.
+pub fn free_sparks(count: u32) -> Scene {
+    let mut scene = sparks(count);
+    scene.particles[0].meets = Meets::Nothing;
+    scene
+}
+
+/// The same sparks as on the lawn, which four forces act on besides: one of each way in which forces act, and noise, the costliest.
+pub fn driven_sparks(count: u32) -> Scene {
+    let mut scene = sparks(count);
+    let (at_m, axis) = (Vec3::new(0.0, 3.0, 0.0), Vec3::Y);
+    let profile = SwirlProfile::Compact { d: 1.0 };
+    let forces = [
+        ("sun", ForceKind::Attract { at_m, gm_m3_s2: 20.0, softening_m: 1.0 }),
+        ("noise", ForceKind::Noise { m_s2: 1.0, cell_m: 2.0 }),
+        ("curl", ForceKind::Spiral { rad_s: 1.0, axis }),
+        ("whirl", ForceKind::Swirl { at_m, axis, rate_rad_s: 1.0, swirl_radius_m: 20.0, profile }),
+    ];
+    scene.forces = forces.map(|(name, of)| Force { name: name.into(), of }).into();
+    scene.particles[0].feels = scene.forces.iter().map(|force| force.name.clone()).collect();
+    scene
+}
+
+/// A ball of so many bodies without air or weight that attract one another. One leaf falls beside them.
+pub fn attracting(count: u32) -> Scene {
+    let mut scene = sparks(count);
+    let of = ForceKind::Mutual { gm_m3_s2: 0.01, softening_m: 0.1 };
+    scene.forces = vec![Force { name: "others".into(), of }];
+    scene.particles = vec![Particles {
+        name: "bodies".into(),
+        count,
+        from: ParticleShape::Sphere { center_m: Vec3::new(0.0, 40.0, 0.0), radius_m: 10.0, hollow: false },
+        release: ParticleRelease::Burst { at_s: 0.0 },
+        life_s: None,
+        gravity: 0.0,
+        air: Air::Vacuum,
+        feels: vec!["others".into()],
+        meets: Meets::Nothing,
         ..Particles::default()
     }];
     scene

@@ -9,7 +9,7 @@ use clap::Args;
 use windfall_core::{Simulator, World};
 use windfall_render::trees::SceneTrees;
 
-use crate::export::{self, Estimate, Format, FrameRange, Job, Observer, check_space};
+use crate::export::{self, Content, Estimate, Format, FrameRange, Job, Observer, check_space};
 use crate::run::backend::{Backend, BackendArguments};
 use crate::run::cancel::Cancel;
 use crate::run::frame_steps::{FrameSteps, LoopFrames};
@@ -41,7 +41,8 @@ pub struct Arguments {
     /// Format to write [default: by the ending of --out].
     #[arg(long, value_name = "FORMAT")]
     format: Option<Format>,
-    /// Output: FILE.usda (with a folder FILE_layers beside it), FILE.glb, FILE.csv, or a folder of PLY files.
+    /// Output: FILE.usda (with a folder FILE_layers beside it), FILE.glb, FILE.csv (with FILE_particles.csv beside it if the scene has
+    /// particles), or a folder of PLY files.
     #[arg(long, value_name = "FILE|DIR")]
     out: PathBuf,
     /// Frames per second.
@@ -60,8 +61,8 @@ pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let path = arguments.out.as_path();
     let cancel = Cancel::on_interrupt();
     let fit = |frames: FrameRange| {
-        let leaves = scene.leaf_count();
-        check_space(Estimate::new(format, frames, leaves, path), frames, leaves, path)
+        let content = Content::of(&scene);
+        check_space(Estimate::new(format, frames, content, path), frames, content, path)
     };
     let (mut world, frames, steps, note) = match arguments.looped {
         None => {
@@ -98,7 +99,9 @@ pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
         cancel: &cancel,
     };
     let mut exporter = export::start(format, &job)?;
-    for line in [choice.reason, note].into_iter().flatten() {
+    let lacks_particles = format == Format::Gltf && !scene.particles.is_empty();
+    let left_out = lacks_particles.then(|| "particles are left out: glTF has no form for them".into());
+    for line in [choice.reason, note, left_out].into_iter().flatten() {
         terminal::note(&line);
     }
     let bar = progress::bar(frames.count().into(), "frame");

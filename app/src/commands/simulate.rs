@@ -58,18 +58,18 @@ pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
         None => Some(arguments.scene.load()?),
         Some(_) => None,
     };
-    let mut tracks = arguments.tracks.create()?;
     let checkpoint = arguments.checkpoint.as_deref().map(OutputFile::create).transpose()?;
-    if let (Some(tracks), Some(checkpoint)) = (&tracks, &checkpoint)
-        && tracks.destination() == checkpoint.destination()
-    {
-        bail!("{}: named by --tracks and --checkpoint; allowed: once", checkpoint.destination().display());
-    }
     let choice = arguments.backend.choose()?;
     let mut world = match (&scene, &arguments.resume) {
         (Some(scene), _) => World::build(scene)?,
         (None, path) => read_checkpoint(path.as_deref().unwrap_or(Path::new("")))?,
     };
+    let mut tracks = arguments.tracks.create(world.compiled.scene())?;
+    if let (Some(tracks), Some(checkpoint)) = (&tracks, &checkpoint)
+        && tracks.destination() == checkpoint.destination()
+    {
+        bail!("{}: named by --tracks and --checkpoint; allowed: once", checkpoint.destination().display());
+    }
     let mut backend = choice.device.simulator(&world)?;
     if let Some(reason) = choice.reason {
         terminal::note(&reason);

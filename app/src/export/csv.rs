@@ -1,55 +1,74 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A table of comma-separated values: a row for every leaf of every frame.
+//! Tables of comma-separated values: a row for every leaf of every frame, and in a second one, beside it, for every living particle.
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use windfall_core::leaf::LeafState;
 
-use super::{Exporter, Frame, FrameLeaf};
+use super::{Exporter, Frame, FrameLeaf, Job};
 use crate::files::{CsvFile, WriteError};
 use crate::run::leaf_row::{LeafRow, header};
+use crate::run::live_particle;
 
-/// Columns before those of the leaf.
+/// Columns before those of the leaf or the particle.
 const BEFORE: [&str; 3] = ["frame", "step", "time_s"];
-/// Columns behind them.
+/// Columns behind those of the leaf.
 const AFTER: [&str; 1] = ["size_m"];
 
-/// Bytes of a row, about.
+/// Bytes of a row of a leaf, about.
 pub(super) const ROW_BYTES: u64 = 170;
+/// Bytes of a row of a particle, about.
+pub(super) const PARTICLE_BYTES: u64 = 130;
 
-/// A table in the making.
+/// Tables in the making.
 #[derive(Debug)]
 pub(super) struct CsvExport {
-    table: CsvFile,
+    leaves: CsvFile,
+    /// That of particles, if the scene has any.
+    particles: Option<CsvFile>,
 }
 
 impl CsvExport {
-    /// Begins the table.
-    pub(super) fn start(path: &Path) -> anyhow::Result<Self> {
-        Ok(Self { table: CsvFile::create(path, &header(&BEFORE, &AFTER))? })
+    /// Begins the tables.
+    pub(super) fn start(job: &Job<'_>) -> anyhow::Result<Self> {
+        let leaves = CsvFile::create(job.path, &header(&BEFORE, &AFTER))?;
+        let has_particles = !job.scene.particles.is_empty();
+        let begin = || CsvFile::create(&particle_path(job.path), &live_particle::header(&BEFORE));
+        Ok(Self { leaves, particles: has_particles.then(begin).transpose()? })
     }
+}
+
+/// The table of particles beside that of leaves.
+fn particle_path(path: &Path) -> PathBuf {
+    let mut name = path.file_stem().unwrap_or_default().to_owned();
+    name.push("_particles.csv");
+    path.with_file_name(name)
 }
 
 impl Exporter for CsvExport {
     fn push(&mut self, frame: &Frame<'_>) -> anyhow::Result<()> {
-        Ok(write_frame(&mut self.table, frame)?)
+        write_frame(&mut self.leaves, frame)?;
+        if let Some(table) = &mut self.particles {
+            write_particles(table, frame)?;
+        }
+        Ok(())
     }
 
     fn finish(self: Box<Self>) -> anyhow::Result<PathBuf> {
-        let path = self.table.destination().to_owned();
-        self.table.finish()?;
+        let path = self.leaves.destination().to_owned();
+        self.particles.map(CsvFile::finish).transpose()?;
+        self.leaves.finish()?;
         Ok(path)
     }
 }
 
-/// Writes the rows of a frame.
+/// Writes the rows of the leaves of a frame.
 fn write_frame<W: Write>(table: &mut CsvFile<W>, frame: &Frame<'_>) -> Result<(), WriteError> {
     let species = &frame.world.compiled.scene().species;
-    let time_s = format!("{:.6}", frame.world.clock.seconds());
     for leaf in frame.leaves {
-        table.field(frame.number).field(frame.world.clock.step()).field(&time_s);
+        begin_row(table, frame);
         let (name, size_m) =
             species.get(leaf.species).map_or(("", 0.0), |species| (&*species.name, species.size_m));
         write_leaf(table, leaf, name, size_m)?;
@@ -57,7 +76,22 @@ fn write_frame<W: Write>(table: &mut CsvFile<W>, frame: &Frame<'_>) -> Result<()
     Ok(())
 }
 
-/// Writes the rest of a row. A dormant leaf has no place yet: all fields behind its state are empty.
+/// Writes the rows of the particles of a frame.
+fn write_particles<W: Write>(table: &mut CsvFile<W>, frame: &Frame<'_>) -> Result<(), WriteError> {
+    let populations = &frame.world.compiled.scene().particles;
+    frame.particles.iter().try_for_each(|particle| {
+        begin_row(table, frame);
+        particle.write(&populations[particle.population].name, table)
+    })
+}
+
+/// Writes what the rows of a frame begin with.
+fn begin_row<W: Write>(table: &mut CsvFile<W>, frame: &Frame<'_>) {
+    let clock = &frame.world.clock;
+    table.field(frame.number).field(clock.step()).field(format_args!("{:.6}", clock.seconds()));
+}
+
+/// Writes the rest of a row of a leaf. A dormant leaf has no place yet: all fields behind its state are empty.
 fn write_leaf<W: Write>(
     table: &mut CsvFile<W>,
     leaf: &FrameLeaf,

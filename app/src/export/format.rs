@@ -11,13 +11,13 @@ use clap::ValueEnum;
 /// Format of an export.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Format {
-    /// A USD stage: a point instancer, skinned trees, camera and lights.
+    /// A USD stage: a point instancer, points for particles, skinned trees, camera and lights.
     Usd,
-    /// A binary glTF file: one frame as instances, several as animated nodes of up to 4096 leaves.
+    /// A binary glTF file: one frame as instances, several as animated nodes of up to 4096 leaves; no particles.
     Gltf,
-    /// A table with a row for every leaf and frame.
+    /// A table with a row for every leaf and frame, and one for particles.
     Csv,
-    /// A folder with a binary point cloud for every frame.
+    /// A folder with a binary point cloud for every frame, and one for particles.
     Ply,
 }
 

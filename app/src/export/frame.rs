@@ -1,9 +1,11 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The leaves of one frame as every format describes them.
+//! The leaves and particles of one frame as every format describes them.
 
 use windfall_core::leaf::LeafState;
 use windfall_core::{Context, World};
+
+use crate::run::live_particle::LiveParticle;
 
 /// A leaf at one moment.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -39,22 +41,36 @@ pub(crate) struct Frame<'a> {
     pub world: &'a World,
     /// Its leaves in the order of their slots.
     pub leaves: &'a [FrameLeaf],
+    /// Its living particles, population after population, in the order of their slots.
+    pub particles: &'a [LiveParticle],
 }
 
-/// Decodes the leaves of worlds, with room for them that is used again.
+impl<'a> Frame<'a> {
+    /// The living particles of a population, by its number in the scene.
+    pub(crate) fn particles_of(&self, population: usize) -> &'a [LiveParticle] {
+        let first = self.particles.partition_point(|particle| particle.population < population);
+        let rest = &self.particles[first..];
+        &rest[..rest.partition_point(|particle| particle.population == population)]
+    }
+}
+
+/// Decodes the leaves and particles of worlds, with room for them that is used again.
 #[derive(Debug, Default)]
 pub(crate) struct Observer {
     leaves: Vec<FrameLeaf>,
+    particles: Vec<LiveParticle>,
 }
 
 impl Observer {
-    /// The leaves of a world as frame `number`.
+    /// The leaves and particles of a world as frame `number`.
     pub(crate) fn look<'a>(&'a mut self, world: &'a World, number: u32) -> Frame<'a> {
         let step = world.step_block();
         let cx = world.context(&step);
         self.leaves.clear();
         self.leaves.extend((0..world.leaves.len()).map(|slot| leaf(world, &cx, slot)));
-        Frame { number, world, leaves: &self.leaves }
+        self.particles.clear();
+        self.particles.extend(LiveParticle::all(world));
+        Frame { number, world, leaves: &self.leaves, particles: &self.particles }
     }
 }
 

@@ -27,7 +27,7 @@ pub(crate) use format::Format;
 pub(crate) use frame::Observer;
 pub(crate) use frame::{Frame, FrameLeaf};
 pub(crate) use range::FrameRange;
-pub(crate) use space::{Estimate, check_space};
+pub(crate) use space::{Content, Estimate, check_space};
 use windfall_core::Scene;
 use windfall_core::solid::Solid;
 use windfall_render::trees::SceneTrees;
@@ -74,7 +74,7 @@ pub(crate) trait Exporter {
 /// A path that cannot be written, more leaves or frames than the format holds, leaf folders that cannot be used.
 pub(crate) fn start(format: Format, job: &Job<'_>) -> anyhow::Result<Box<dyn Exporter>> {
     Ok(match format {
-        Format::Csv => Box::new(csv::CsvExport::start(job.path)?),
+        Format::Csv => Box::new(csv::CsvExport::start(job)?),
         Format::Usd => Box::new(usd::UsdExport::start(job)?),
         Format::Gltf => gltf::start(job)?,
         Format::Ply => Box::new(ply::PlyExport::start(job.path)?),

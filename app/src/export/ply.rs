@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A folder of point clouds: a binary little-endian PLY file for every frame, a vertex for every leaf that is somewhere.
+//! A folder of point clouds: a binary little-endian PLY file for every frame, a vertex for every leaf that is somewhere, and another
+//! beside it with a vertex for every living particle.
 
 use std::fmt::Write as _;
 use std::fs::File;
@@ -13,12 +14,18 @@ use windfall_core::leaf::LeafState;
 use super::{Exporter, Frame, FrameLeaf};
 use crate::files::{OutputFolder, WriteError};
 
-/// Floats of a vertex, in their order.
+/// Floats of a leaf's vertex, in their order.
 const FLOATS: [&str; 14] =
     ["x", "y", "z", "nx", "ny", "nz", "vx", "vy", "vz", "qx", "qy", "qz", "qw", "size"];
 
-/// Bytes of a vertex: the floats, its number, state and species.
+/// Bytes of a leaf's vertex: the floats, its number, state and species.
 pub(super) const VERTEX_BYTES: u64 = 4 * FLOATS.len() as u64 + 4 + 1 + 1;
+
+/// Floats of a particle's vertex, in their order.
+const PARTICLE_FLOATS: [&str; 8] = ["x", "y", "z", "vx", "vy", "vz", "size", "age"];
+
+/// Bytes of a particle's vertex: the floats, its number, state and population.
+pub(super) const PARTICLE_BYTES: u64 = 4 * PARTICLE_FLOATS.len() as u64 + 4 + 1 + 1;
 
 /// Point clouds in the making.
 #[derive(Debug)]
@@ -35,12 +42,19 @@ impl PlyExport {
 
 impl Exporter for PlyExport {
     fn push(&mut self, frame: &Frame<'_>) -> anyhow::Result<()> {
-        let path = self.folder.partial().join(name(frame.number));
-        let written = File::create(path).and_then(|file| {
+        let path = |kind| self.folder.partial().join(format!("{kind}_{:06}.ply", frame.number));
+        let mut written = File::create(path("frame")).and_then(|file| {
             let mut out = BufWriter::new(file);
             write_frame(&mut out, frame)?;
             out.flush()
         });
+        if written.is_ok() && !frame.world.compiled.scene().particles.is_empty() {
+            written = File::create(path("particles")).and_then(|file| {
+                let mut out = BufWriter::new(file);
+                write_particles(&mut out, frame)?;
+                out.flush()
+            });
+        }
         Ok(written.map_err(WriteError::at(self.folder.destination()))?)
     }
 
@@ -52,32 +66,60 @@ impl Exporter for PlyExport {
     }
 }
 
-/// Name of a frame's file.
-fn name(number: u32) -> String {
-    format!("frame_{number:06}.ply")
-}
-
-/// Writes a whole file.
-pub(super) fn write_frame(out: &mut impl Write, frame: &Frame<'_>) -> io::Result<()> {
-    let species = &frame.world.compiled.scene().species;
-    let present = || frame.leaves.iter().filter(|leaf| leaf.state != LeafState::Dormant);
+/// Begins a header: format, time, and the names of what vertices have a number of.
+fn head<'a>(frame: &Frame<'_>, note: &str, kind: &str, names: impl Iterator<Item = &'a String>) -> String {
     let mut header = "ply\nformat binary_little_endian 1.0\n".to_owned();
     // Writing to a String cannot fail.
     let _ = writeln!(header, "comment frame {}", frame.number);
     let _ = writeln!(header, "comment time_s {:.6}", frame.world.clock.seconds());
-    header += "comment y is up; metres, m/s; size is a diameter; state: 1 attached, 2 falling, 3 resting\n";
-    for (number, species) in species.iter().enumerate() {
-        let plain: String = species.name.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
-        let _ = writeln!(header, "comment species {number} {plain}");
+    let _ = writeln!(header, "comment y is up; metres, m/s; {note}");
+    for (number, name) in names.enumerate() {
+        let plain: String = name.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
+        let _ = writeln!(header, "comment {kind} {number} {plain}");
     }
-    let _ = writeln!(header, "element vertex {}", present().count());
-    for float in FLOATS {
+    header
+}
+
+/// Adds the number of vertices and the floats of each.
+fn declare(header: &mut String, count: usize, floats: &[&str]) {
+    // Writing to a String cannot fail.
+    let _ = writeln!(header, "element vertex {count}");
+    for float in floats {
         let _ = writeln!(header, "property float {float}");
     }
+}
+
+/// Writes a whole file of leaves.
+pub(super) fn write_frame(out: &mut impl Write, frame: &Frame<'_>) -> io::Result<()> {
+    let species = &frame.world.compiled.scene().species;
+    let present = || frame.leaves.iter().filter(|leaf| leaf.state != LeafState::Dormant);
+    let note = "size is a diameter; state: 1 attached, 2 falling, 3 resting";
+    let mut header = head(frame, note, "species", species.iter().map(|species| &species.name));
+    declare(&mut header, present().count(), &FLOATS);
     header += "property uint id\nproperty uchar state\nproperty uchar species\nend_header\n";
     out.write_all(header.as_bytes())?;
     for leaf in present() {
         out.write_all(&vertex(leaf, species.get(leaf.species).map_or(0.0, |species| species.size_m)))?;
+    }
+    Ok(())
+}
+
+/// Writes a whole file of particles.
+fn write_particles(out: &mut impl Write, frame: &Frame<'_>) -> io::Result<()> {
+    let populations = &frame.world.compiled.scene().particles;
+    let note = "size is a diameter, age in seconds; state: 1 flying, 2 resting";
+    let mut header = head(frame, note, "population", populations.iter().map(|population| &population.name));
+    declare(&mut header, frame.particles.len(), &PARTICLE_FLOATS);
+    header += "property uint id\nproperty uchar state\nproperty uchar population\nend_header\n";
+    out.write_all(header.as_bytes())?;
+    for particle in frame.particles {
+        let parts = [&particle.position_m[..], &particle.velocity_m_s, &[particle.size_m, particle.age_s]];
+        let floats: Vec<u8> = parts.concat().into_iter().flat_map(f32::to_le_bytes).collect();
+        out.write_all(&floats)?;
+        out.write_all(&particle.id.to_le_bytes())?;
+        // A scene has at most 16 populations.
+        let population = u8::try_from(particle.population).unwrap_or(u8::MAX);
+        out.write_all(&[1 + u8::from(particle.is_resting), population])?;
     }
     Ok(())
 }

@@ -2,14 +2,39 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Room on the disk for an export.
 
+use std::fmt;
 use std::path::Path;
 
 use anyhow::bail;
+use windfall_core::Scene;
 
 use super::{Format, FrameRange, csv, gltf, ply, usd};
 
 /// Bytes from which a note says how much it will be.
 const LARGE: u64 = 1_000_000_000;
+
+/// Rows of every frame of an export.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Content {
+    /// Leaves.
+    pub(crate) leaves: u32,
+    /// Slots of particles: no more are alive at once.
+    pub(crate) particles: u32,
+}
+
+impl Content {
+    /// That of a scene.
+    pub(crate) fn of(scene: &Scene) -> Self {
+        Self { leaves: scene.leaf_count(), particles: scene.particle_count() }
+    }
+}
+
+impl fmt::Display for Content {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(out, "{} leaves", self.leaves)?;
+        if self.particles > 0 { write!(out, " and {} particles", self.particles) } else { Ok(()) }
+    }
+}
 
 /// Expected size of an export.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -21,32 +46,33 @@ pub(crate) struct Estimate {
 }
 
 impl Estimate {
-    /// For so many leaves in these frames at a path.
-    pub(crate) fn new(format: Format, frames: FrameRange, leaves: u32, path: &Path) -> Self {
-        let row = match format {
-            Format::Usd => usd::LEAF_BYTES,
-            Format::Gltf => gltf::LEAF_BYTES,
-            Format::Csv => csv::ROW_BYTES,
-            Format::Ply => ply::VERTEX_BYTES,
+    /// For these frames at a path.
+    pub(crate) fn new(format: Format, frames: FrameRange, content: Content, path: &Path) -> Self {
+        let (leaf, particle) = match format {
+            Format::Usd => (usd::LEAF_BYTES, usd::PARTICLE_BYTES),
+            Format::Gltf => (gltf::LEAF_BYTES, 0),
+            Format::Csv => (csv::ROW_BYTES, csv::PARTICLE_BYTES),
+            Format::Ply => (ply::VERTEX_BYTES, ply::PARTICLE_BYTES),
         };
-        Self { bytes: row * u64::from(leaves) * u64::from(frames.count()), free: free(path) }
+        let frame = leaf * u64::from(content.leaves) + particle * u64::from(content.particles);
+        Self { bytes: frame * u64::from(frames.count()), free: free(path) }
     }
 }
 
 /// Refuses what does not fit on the disk; of what is large, a line for the user.
 ///
 /// # Errors
-/// Names the frames, the leaves and the room there is.
+/// Names the frames, what is in them and the room there is.
 pub(crate) fn check_space(
     estimate: Estimate,
     frames: FrameRange,
-    leaves: u32,
+    content: Content,
     path: &Path,
 ) -> anyhow::Result<Option<String>> {
     let FrameRange { first, last } = frames;
     if let Some(free) = estimate.free.filter(|&free| estimate.bytes > free) {
         bail!(
-            "--frames is {first}..{last}, which with {leaves} leaves takes about {}; allowed: what fits into the {} that \
+            "--frames is {first}..{last}, which with {content} takes about {}; allowed: what fits into the {} that \
             are free where {} will lie",
             in_words(estimate.bytes),
             in_words(free),
@@ -55,7 +81,7 @@ pub(crate) fn check_space(
     }
     let frames = frames.count();
     let is_large = estimate.bytes >= LARGE;
-    Ok(is_large.then(|| format!("about {} for {frames} frames of {leaves} leaves", in_words(estimate.bytes))))
+    Ok(is_large.then(|| format!("about {} for {frames} frames of {content}", in_words(estimate.bytes))))
 }
 
 /// Bytes as people say them.
@@ -86,20 +112,27 @@ mod tests {
     fn what_does_not_fit_is_refused_with_its_size() {
         let frames = FrameRange { first: 0, last: 9999 };
         let path = Path::new("a.csv");
-        let mut estimate = Estimate::new(Format::Csv, frames, 10_000, path);
+        let content = Content { leaves: 10_000, particles: 0 };
+        let mut estimate = Estimate::new(Format::Csv, frames, content, path);
         assert_eq!(estimate.bytes, 10_000 * 10_000 * csv::ROW_BYTES, "a row for each leaf and frame");
         estimate.free = Some(3_000_000_000);
-        let error = check_space(estimate, frames, 10_000, path).expect_err("too much").to_string();
+        let error = check_space(estimate, frames, content, path).expect_err("too much").to_string();
         assert!(
             error.contains("0..9999") && error.contains("10000 leaves") && error.contains("17.0 GB"),
             "{error}"
         );
         assert!(error.contains("3.0 GB that are free") && error.contains("a.csv"), "{error}");
         let few = Estimate { bytes: 370_000, free: Some(200_000) };
-        let error = check_space(few, frames, 2, path).expect_err("too much").to_string();
+        let error = check_space(few, frames, Content { leaves: 2, particles: 9 }, path)
+            .expect_err("too much")
+            .to_string();
         assert!(error.contains("0.4 MB") && error.contains("0.2 MB that are free"), "{error}");
+        assert!(error.contains("with 2 leaves and 9 particles takes"), "{error}");
+        let sparks = Content { leaves: 0, particles: 100 };
+        let clouds = Estimate::new(Format::Ply, frames, sparks, path);
+        assert_eq!(clouds.bytes, 10_000 * 100 * ply::PARTICLE_BYTES, "a vertex for each slot and frame");
         estimate.free = Some(estimate.bytes);
-        let note = check_space(estimate, frames, 10_000, path).expect("just fits").expect("much");
+        let note = check_space(estimate, frames, content, path).expect("just fits").expect("much");
         assert!(note.contains("17.0 GB for 10000 frames of 10000 leaves"), "{note}");
     }
 

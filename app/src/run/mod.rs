@@ -8,6 +8,7 @@ pub(crate) mod digits;
 pub mod drawing;
 pub(crate) mod frame_steps;
 pub(crate) mod leaf_row;
+pub(crate) mod live_particle;
 pub(crate) mod looped;
 pub(crate) mod memory;
 pub(crate) mod parse;

@@ -1,19 +1,21 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Tracks of single leaves as a table of comma-separated values.
+//! Tracks of single leaves or particles as a table of comma-separated values.
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
+use anyhow::bail;
 use clap::Args;
 use windfall_core::leaf::LeafView;
-use windfall_core::{Context, World};
+use windfall_core::{Context, Scene, World};
 
 use super::leaf_row::{LeafRow, header};
+use super::live_particle::{self, LiveParticle};
 use crate::files::{CsvFile, WriteError};
 use crate::run::parse::whole;
 
-/// Columns before those of the leaf.
+/// Columns before those of the leaf or the particle.
 const BEFORE: [&str; 2] = ["step", "time_s"];
 
 /// Options of tracks.
@@ -26,29 +28,59 @@ pub(crate) struct TrackArguments {
     #[arg(long, value_name = "N", default_value = "1", requires = "tracks",
         value_parser = whole::<u32, 1, 1_000_000_000>)]
     track_every: u32,
-    /// Write the tracks of the first so many leaves.
+    /// Write the tracks of the first so many leaves, or, with --population, of the particles in its first so many slots.
     #[arg(long, value_name = "N", default_value = "100", requires = "tracks",
         value_parser = whole::<u32, 1, { u32::MAX as u64 }>)]
     track_leaves: u32,
+    /// Write the tracks of particles of this population in place of leaves: a row for each that is alive.
+    #[arg(long, value_name = "NAME", requires = "tracks")]
+    population: Option<String>,
 }
 
 impl TrackArguments {
-    /// Begins the file, if there is to be one.
+    /// Begins the file for a scene, if there is to be one.
     ///
     /// # Errors
-    /// Whatever would keep the file from being written.
-    pub(crate) fn create(&self) -> anyhow::Result<Option<Tracks>> {
+    /// A population that the scene does not have, and whatever would keep the file from being written.
+    pub(crate) fn create(&self, scene: &Scene) -> anyhow::Result<Option<Tracks>> {
         let Some(path) = &self.tracks else { return Ok(None) };
-        Tracks::create(path, self.track_every, self.track_leaves as usize).map(Some)
+        let tracks = match &self.population {
+            None => Tracks::create(path, self.track_every, self.track_leaves as usize)?,
+            Some(name) => Tracks {
+                table: CsvFile::create(path, &live_particle::header(&BEFORE))?,
+                every: self.track_every,
+                tracked: Tracked::Particles { population: population(scene, name)?, most: self.track_leaves },
+            },
+        };
+        Ok(Some(tracks))
     }
 }
 
-/// A table in the making: one row for each leaf and sampled step.
+/// Number of a population by its name.
+fn population(scene: &Scene, name: &str) -> anyhow::Result<usize> {
+    let names: Vec<&str> = scene.particles.iter().map(|particles| particles.name.as_str()).collect();
+    match names.iter().position(|known| *known == name) {
+        Some(number) => Ok(number),
+        None if names.is_empty() => bail!("--population is '{name}'; the scene has no particles"),
+        None => bail!("--population is '{name}'; allowed: '{}'", names.join("', '")),
+    }
+}
+
+/// Rows of a table.
+#[derive(Debug)]
+enum Tracked {
+    /// The first so many leaves.
+    Leaves(usize),
+    /// Particles in the first slots of a population.
+    Particles { population: usize, most: u32 },
+}
+
+/// A table in the making: one row for each leaf, or living particle, and sampled step.
 #[derive(Debug)]
 pub(crate) struct Tracks {
     table: CsvFile,
     every: u32,
-    leaves: usize,
+    tracked: Tracked,
 }
 
 impl Tracks {
@@ -57,7 +89,8 @@ impl Tracks {
     /// # Errors
     /// Whatever would keep the file from being written.
     pub(crate) fn create(path: &Path, every: u32, leaves: usize) -> anyhow::Result<Self> {
-        Ok(Self { table: CsvFile::create(path, &header(&BEFORE, &[]))?, every, leaves })
+        let table = CsvFile::create(path, &header(&BEFORE, &[]))?;
+        Ok(Self { table, every, tracked: Tracked::Leaves(leaves) })
     }
 
     /// Path that the table will lie at.
@@ -78,9 +111,20 @@ impl Tracks {
     /// # Errors
     /// Errors of the system, named with the path.
     pub(crate) fn sample(&mut self, world: &World) -> anyhow::Result<()> {
-        let step = world.step_block();
-        let cx = world.context(&step);
-        (0..world.leaves.len().min(self.leaves)).try_for_each(|slot| self.add(world, &cx, slot))
+        match self.tracked {
+            Tracked::Leaves(leaves) => {
+                let step = world.step_block();
+                let cx = world.context(&step);
+                (0..world.leaves.len().min(leaves)).try_for_each(|slot| self.add(world, &cx, slot))
+            }
+            Tracked::Particles { population, most } => {
+                let name = &world.compiled.scene().particles[population].name;
+                LiveParticle::first_of(world, population, most).try_for_each(|particle| {
+                    begin_row(&mut self.table, world);
+                    Ok(particle.write(name, &mut self.table)?)
+                })
+            }
+        }
     }
 
     /// Adds the row of one leaf, at the step of a context.
@@ -100,14 +144,19 @@ impl Tracks {
     }
 }
 
-/// Writes one row. Of a dormant leaf it holds but the state; only a falling one has a primitive motion.
+/// Writes what a row begins with.
+fn begin_row<W: Write>(table: &mut CsvFile<W>, world: &World) {
+    table.field(world.clock.step()).field(format_args!("{:.6}", world.clock.seconds()));
+}
+
+/// Writes the row of a leaf. Of a dormant leaf it holds but the state; only a falling one has a primitive motion.
 fn write_row<W: Write>(
     table: &mut CsvFile<W>,
     world: &World,
     slot: usize,
     leaf: &LeafView,
 ) -> Result<(), WriteError> {
-    table.field(world.clock.step()).field(format_args!("{:.6}", world.clock.seconds()));
+    begin_row(table, world);
     let species = world.compiled.scene().species.get(leaf.species);
     let row = LeafRow {
         // Scenes have far fewer leaves.
@@ -132,7 +181,7 @@ mod tests {
 
     #[test]
     fn every_row_has_as_many_fields_as_the_header() {
-        let scene = windfall_core::Scene::preset("autumn-park").expect("a preset");
+        let scene = Scene::preset("autumn-park").expect("a preset");
         let world = World::build(&scene).expect("valid");
         let step = world.step_block();
         let cx = world.context(&step);

@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! twin: backend-wgpu/src/shaders/kernels/step_particles.wgsl
 //!
-//! Moves particles, chunk by chunk: those without an event and with nothing in their way in blocks, the others one by one. A chunk goes
-//! through several steps while it is in the cache, as particles do not see each other; where some are born of others, through one.
+//! Moves particles, chunk by chunk: in blocks those that nothing is in the way of, those that rest and those not born yet; the others one by
+//! one. A chunk goes through several steps while it is in the cache, as particles do not see each other; where some are born of others,
+//! through one.
 
+use std::ops::Range;
 use std::sync::atomic::{AtomicU32, Ordering};
 
 use rayon::join;
@@ -13,9 +15,9 @@ use windfall_core::arith::Vec3;
 use windfall_core::arith::pack::{BLOCK, Pack};
 use windfall_core::blocks::{BirthBlock, NestBlock};
 use windfall_core::device::particle::nest::{nest_events, nest_place};
-use windfall_core::device::particle::record::{PARTICLE_BORN, particle_population};
+use windfall_core::device::particle::record::particle_population;
 use windfall_core::device::particle::step::particle_step;
-use windfall_core::particle::{ParticlePlace, ParticleRows, ParticlesMut, add_to_tally};
+use windfall_core::particle::{ParticleRows, ParticlesMut, add_to_tally};
 
 use super::CHUNK;
 use crate::simd::particle_block::ParticleBlock;
@@ -73,8 +75,7 @@ fn step_one(
     counts: &mut [u32],
 ) {
     let population = particle_population(particles.place[number].bits);
-    #[expect(clippy::cast_possible_truncation, reason = "slots are counted in words")]
-    let slot = (first + number) as u32;
+    let slot = slot_word(first + number);
     let mutual = pulls.get(first + number).map_or(Vec3::ZERO, |[x, y, z, _]| Vec3::new(*x, *y, *z));
     let change = particle_step(cx, &mut particles.row_mut(number), parents, slot, mutual);
     add_to_tally(counts, population, &change);
@@ -100,12 +101,14 @@ fn step_lanes<P: Pack>(
         let place = first + begin - population.first_slot as usize;
         let births = &cx.step.births[here as usize];
         let mut left = (1u32 << rows.len()) - 1;
-        if here == last && rows.len() == BLOCK && !births_touch(births, population.count as usize, place) {
-            if population.nest.fan != 0 {
-                mark_newborn(cx, &population.nest, parents, place, &mut particles.place[rows.clone()]);
-            }
+        let is_born_into = || match population.nest.fan {
+            0 => births_touch(births, population.count as usize, place),
+            _ => parents_bear(cx, &population.nest, parents, place..place + BLOCK),
+        };
+        if here == last && rows.len() == BLOCK && !is_born_into() {
             let whole = "a whole block";
             let mut block = ParticleBlock {
+                slot: slot_word(first + begin),
                 place: (&mut particles.place[rows.clone()]).try_into().expect(whole),
                 motion: (&mut particles.motion[rows.clone()]).try_into().expect(whole),
                 traits: (&particles.traits[rows.clone()]).try_into().expect(whole),
@@ -122,24 +125,26 @@ fn step_lanes<P: Pack>(
     }
 }
 
-/// Marks the slots of a run, from a place of their population on, on which births by parents fall in a step: marked ones take a step of their own.
+/// Returns true if births by parents fall on a run of slots in a step, from a place of their population on.
 #[inline(always)]
-fn mark_newborn(
+fn parents_bear(
     cx: &Context<'_>,
     nest: &NestBlock,
     parents: &ParticleRows<'_>,
-    first: usize,
-    places: &mut [ParticlePlace],
-) {
-    for (place, row) in (first..).zip(places) {
-        #[expect(clippy::cast_possible_truncation, reason = "slots are counted in words")]
-        let share = nest_place(nest, place as u32);
+    mut places: Range<usize>,
+) -> bool {
+    places.any(|place| {
+        let share = nest_place(nest, slot_word(place));
         let parent = (nest.parent_slot + share.parent) as usize;
         let (bits, birth) = (parents.place[parent].bits, parents.motion[parent].birth);
-        if nest_events(cx, nest, bits, birth, parents.traits[parent].id, share.round).count != 0 {
-            row.bits |= PARTICLE_BORN;
-        }
-    }
+        nest_events(cx, nest, bits, birth, parents.traits[parent].id, share.round).count != 0
+    })
+}
+
+/// A slot as devices count it.
+#[expect(clippy::cast_possible_truncation, reason = "slots are counted in words")]
+fn slot_word(slot: usize) -> u32 {
+    slot as u32
 }
 
 /// Returns true if births of a step may fall on the block that begins at a place among the slots of a population.

@@ -9,19 +9,22 @@ use windfall_core::arith::lane::{Mask, Word};
 use windfall_core::arith::pack::{BLOCK, Pack, load_block, rows_of_bits, store_block};
 use windfall_core::device::particle::fly::{ParticleFlight, particle_fly};
 use windfall_core::device::particle::record::{
-    PARTICLE_ALIVE, PARTICLE_BORN, PARTICLE_DIED, PARTICLE_GROUNDED, PARTICLE_HIT, particle_state,
+    PARTICLE_ALIVE, PARTICLE_BORN, PARTICLE_DIED, PARTICLE_GROUNDED, PARTICLE_HIT, PARTICLE_RESTING,
+    particle_state,
 };
-use windfall_core::device::particle::step::{is_outside, is_unborn, life_is_over, may_be_struck};
+use windfall_core::device::particle::step::{is_outside, is_unborn, life_is_over, may_be_struck, rest_wakes};
 use windfall_core::particle::{ParticleMotion, ParticlePlace, ParticleTraits};
 
 use super::branch_block::{Column, vector_and_fourth};
 use super::leaf_block::select_four;
 
-/// Marks that only a step of its own takes off a particle.
-const MARKS: u32 = PARTICLE_BORN | PARTICLE_DIED | PARTICLE_HIT | PARTICLE_GROUNDED;
+/// Marks of the step before, which every step takes off.
+const MARKS: u32 = PARTICLE_BORN | PARTICLE_DIED | PARTICLE_HIT;
 
 /// Slots of one population that follow one another, none of them born in the step.
 pub(crate) struct ParticleBlock<'a> {
+    /// Slot of the first of them.
+    pub(crate) slot: u32,
     pub(crate) place: &'a mut [ParticlePlace; BLOCK],
     pub(crate) motion: &'a mut [ParticleMotion; BLOCK],
     pub(crate) traits: &'a [ParticleTraits; BLOCK],
@@ -30,17 +33,29 @@ pub(crate) struct ParticleBlock<'a> {
 }
 
 impl ParticleBlock<'_> {
-    /// Steps those that fly with nothing in their way. Returns a bit for each that needs a step of its own, the first in the lowest place.
+    /// Steps those that fly with nothing in their way, rest or wait to be born. Returns a bit for each that needs a step of its own, the
+    /// first in the lowest place.
     #[inline(always)]
     pub(crate) fn advance<P: Pack>(&mut self, simd: P::Simd, cx: &Context<'_>, population: usize) -> u32 {
-        let mut left = 0;
+        let (mut left, mut resting) = (0, 0);
         for part in 0..BLOCK / P::LANES {
-            left |= self.advance_part::<P>(simd, cx, population, part) << (part * P::LANES);
+            let [others, lying] = self.advance_part::<P>(simd, cx, population, part);
+            left |= others << (part * P::LANES);
+            resting |= lying << (part * P::LANES);
         }
-        rows_of_bits(left)
+        let (mut left, mut resting) = (rows_of_bits(left), rows_of_bits(resting));
+        while resting != 0 {
+            let row = resting.trailing_zeros();
+            if rest_wakes(cx, &cx.scene.populations[population], self.slot + row) {
+                left |= 1 << row;
+            }
+            resting &= resting - 1;
+        }
+        left
     }
 
-    /// Steps part of them. Bits are those of its lanes.
+    /// Steps part of them. Bits are those of its lanes: a step of its own for those of the first word, and for those of the second, which
+    /// rest, only if they are looked at.
     #[inline(always)]
     fn advance_part<P: Pack>(
         &mut self,
@@ -48,7 +63,7 @@ impl ParticleBlock<'_> {
         cx: &Context<'_>,
         population: usize,
         part: usize,
-    ) -> u32 {
+    ) -> [u32; 2] {
         let population = &cx.scene.populations[population];
         let place: &mut Column = must_cast_mut(self.place);
         let motion: &mut Column = must_cast_mut(self.motion);
@@ -58,13 +73,18 @@ impl ParticleBlock<'_> {
         let (position, bits) = vector_and_fourth(places);
         let (velocity, birth) = vector_and_fourth(motions);
         let flags = bits.to_bits();
-        let is_plain = (flags & MARKS).equals(0);
-        let is_idle = is_plain & is_unborn(flags);
-        let flies = is_plain
-            & particle_state(flags).equals(PARTICLE_ALIVE)
-            & !life_is_over(cx, birth.to_bits(), life_size.to_bits());
+        let state = particle_state(flags);
+        let unmarked = flags & !MARKS;
+        let is_over = life_is_over(cx, birth.to_bits(), life_size.to_bits());
+        let is_idle = is_unborn(flags);
+        let rests = state.equals(PARTICLE_RESTING) & !is_over;
+        let flies = state.equals(PARTICLE_ALIVE) & !is_over;
         if !flies.any() {
-            return P::bits_of(!is_idle);
+            if (!(flags & MARKS).equals(0)).any() {
+                let [x, y, z, _] = places;
+                store_block(place, part, [x, y, z, P::from_bits(unmarked)]);
+            }
+            return [P::bits_of(!(is_idle | rests)), P::bits_of(rests)];
         }
         let mutual = match self.pulls {
             Some(pulls) => vector_and_fourth(load_block::<P>(simd, pulls, part)).0,
@@ -75,14 +95,17 @@ impl ParticleBlock<'_> {
         let ends =
             may_be_struck(cx, population, position, end.position) | is_outside(population, end.position);
         let moved = flies & !ends;
-        let mut new_places = [end.position.x, end.position.y, end.position.z, bits];
+        // Nothing holds what flies. Those that are left lose their marks here as they would there.
+        let new_bits = P::from_bits(moved.select(unmarked & !PARTICLE_GROUNDED, unmarked));
+        let mut new_places = [end.position.x, end.position.y, end.position.z, new_bits];
         let mut new_motions = [end.velocity.x, end.velocity.y, end.velocity.z, birth];
         if (!moved).any() {
-            new_places = select_four(moved, new_places, places);
+            let [x, y, z, _] = places;
+            new_places = select_four(moved, new_places, [x, y, z, new_bits]);
             new_motions = select_four(moved, new_motions, motions);
         }
         store_block(place, part, new_places);
         store_block(motion, part, new_motions);
-        P::bits_of(!(moved | is_idle))
+        [P::bits_of(!(moved | is_idle | rests)), P::bits_of(rests)]
     }
 }

@@ -37,6 +37,8 @@ fn unknown_commands_and_options() {
     refuse(&["simulate", "--seed", "0.5"], &["'0.5'", "--seed"]);
     refuse(&["simulate", "--threads", "0"], &["'0'", "--threads", "1 to 1024"]);
     refuse(&["simulate", "--track-every", "2"], &["--tracks"]);
+    refuse(&["simulate", "--population", "rain"], &["--tracks"]);
+    refuse(&["bench", "--particles", "--draw"], &["--particles", "--draw"]);
     refuse(&["bench", "--steps", "0"], &["'0'", "--steps", "1 to 100000"]);
     refuse(&["motions"], &["--out <DIR>"]);
     refuse(&["info", "storm"], &["'storm'"]);

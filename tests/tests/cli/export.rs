@@ -34,7 +34,7 @@ pub(super) fn export(there: &TempDir, frames: &str, out: &str, more: &[&str]) {
 }
 
 /// Rows of a table as columns by name; no field of these tables but the species' holds a comma.
-fn table(path: &Path) -> Vec<HashMap<String, String>> {
+pub(super) fn table(path: &Path) -> Vec<HashMap<String, String>> {
     let text = fs::read_to_string(path).expect("a table").replace("\"plate, \"\"thin\"\"\"", "plate");
     let mut lines = text.lines();
     let names: Vec<&str> = lines.next().expect("a header").split(',').collect();
@@ -52,7 +52,7 @@ pub(super) fn numbers<const N: usize>(row: &HashMap<String, String>, names: [&st
 }
 
 pub(super) const PLACE: [&str; 3] = ["x_m", "y_m", "z_m"];
-const SPEED: [&str; 3] = ["vx_m_s", "vy_m_s", "vz_m_s"];
+pub(super) const SPEED: [&str; 3] = ["vx_m_s", "vy_m_s", "vz_m_s"];
 pub(super) const TURN: [&str; 4] = ["qx", "qy", "qz", "qw"];
 
 /// The rows that the table has for a frame, slot by slot.
@@ -131,7 +131,7 @@ fn point_clouds_have_the_numbers_of_the_table() {
 }
 
 /// The sample of an attribute at a frame, as rows of numbers; one that stays is that of a frame before.
-fn sample(layer: &str, declaration: &str, frame: u32) -> Vec<f32> {
+pub(super) fn sample(layer: &str, declaration: &str, frame: u32) -> Vec<f32> {
     let samples = layer.split_once(&format!("{declaration}.timeSamples = {{\n")).expect("samples").1;
     let samples = samples.split_once("\n}").expect("an end").0;
     let mut parsed = samples.lines().filter_map(|line| line.split_once(": "));

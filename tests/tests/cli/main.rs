@@ -8,6 +8,7 @@ mod bad_input;
 mod examples;
 mod export;
 mod export_gltf;
+mod export_particles;
 mod flight;
 mod leaf;
 mod litter;

@@ -107,6 +107,32 @@ fn bench_measures_every_approach_and_the_memory() {
 }
 
 #[test]
+fn bench_measures_particles_beside_leaves() {
+    let arguments = ["bench", "six-motions", "--leaves", "60", "--steps", "3", "--particles"];
+    let text = windfall(&folder(), &[&arguments[..], &["--json"]].concat()).text();
+    let rows: Vec<Value> = text.lines().map(|line| serde_json::from_str(line).expect("JSON")).collect();
+    let bandwidth = rows[0]["update_bandwidth_bytes_per_s"].as_f64().expect("a number");
+    let sparks: Vec<_> = rows.iter().filter(|row| row.get("particles").is_some()).collect();
+    let which: Vec<_> = sparks.iter().map(|row| (&row["backend"], &row["particles"])).collect();
+    let names = ["cpu", "cpu-fused", "wgpu"].map(Value::from);
+    let count = Value::from(60);
+    assert_eq!(which, names.each_ref().map(|name| (name, &count)), "every backend");
+    assert_eq!(rows.len(), 1 + 5 + 3, "leaves are measured as ever");
+    for row in sparks {
+        assert_eq!((&row["scene"], &row["steps"]), (&"six-motions".into(), &3.into()), "{row}");
+        assert_eq!(row["bytes_per_particle_step"], 80, "two records read and written, one read");
+        let number = |key: &str| row[key].as_f64().expect("a number");
+        let rate = number("particle_steps_per_s");
+        let (low, high) = (number("particle_steps_per_s_min"), number("particle_steps_per_s_max"));
+        assert!(0.0 < low && (low..=high).contains(&rate), "the median: {row}");
+        assert!((number("ms_per_step") * rate / (1e3 * number("particles")) - 1.0).abs() < 1e-9, "{row}");
+        assert!((number("floor_share") * bandwidth / (80.0 * rate) - 1.0).abs() < 1e-9, "{row}");
+    }
+    let text = windfall(&folder(), &[&arguments[..], &["--backend", "cpu"]].concat()).text();
+    assert_eq!(text.lines().filter(|line| line.contains("60 sparks: ")).count(), 2, "for people: {text}");
+}
+
+#[test]
 fn bench_prints_a_table_and_chooses_its_steps() {
     let outcome = windfall(&folder(), &["bench", "--leaves", "10", "--backend", "cpu"]);
     let text = outcome.text();

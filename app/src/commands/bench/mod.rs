@@ -8,6 +8,7 @@ mod baseline;
 mod contender;
 mod draw;
 mod frames;
+mod particles;
 mod row;
 mod trees;
 
@@ -65,8 +66,12 @@ pub struct Arguments {
     /// Width and height of the pictures in pixels [default: 1920x1080].
     #[arg(long, value_name = "WxH", value_parser = picture_size, requires = "draw")]
     size: Option<(u32, u32)>,
+    /// Measure, besides, as many particles as leaves by themselves, at least four: sparks that bounce off the ground of the scene, in
+    /// its wind.
+    #[arg(long, conflicts_with = "draw")]
+    particles: bool,
     /// Print one JSON object per line instead of a table: first the memory's speed, then a line for each row, then one for
-    /// the trees by themselves if the scene has any; with --draw a line for each number of leaves.
+    /// the trees by themselves if the scene has any, then those of --particles; with --draw a line for each number of leaves.
     #[arg(long)]
     json: bool,
 }
@@ -122,6 +127,29 @@ pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
         if let Some(row) = trees::measure(approach, &scene, arguments, &floor)? {
             let line = if arguments.json { serde_json::to_string(&row)? } else { row.line() };
             terminal::print(&format!("{line}\n"))?;
+        }
+    }
+    if arguments.particles {
+        measure_particles(&scene, &approaches, arguments, &floor)?;
+    }
+    Ok(())
+}
+
+/// Measures particles in the wind of a scene, as many as leaves.
+fn measure_particles(
+    scene: &Scene,
+    approaches: &[Approach],
+    arguments: &Arguments,
+    floor: &Floor,
+) -> anyhow::Result<()> {
+    for &count in &arguments.leaves {
+        let world = World::build(&particles::sparks(scene, count))?;
+        let mut expected = None;
+        for approach in approaches {
+            if let Some(row) = particles::measure(approach, &world, arguments, floor, &mut expected)? {
+                let line = if arguments.json { serde_json::to_string(&row)? } else { row.line() };
+                terminal::print(&format!("{line}\n"))?;
+            }
         }
     }
     Ok(())

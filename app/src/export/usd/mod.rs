@@ -6,6 +6,7 @@
 //! A short export has its samples in one layer, which any reader takes. A long one has them in value clips, of which a
 //! reader has one or two in memory.
 
+mod particles;
 mod prototypes;
 mod samples;
 mod solids;
@@ -23,6 +24,7 @@ use glam::Vec3;
 use windfall_core::leaf::LeafState;
 use windfall_render::light::Daylight;
 
+use self::particles::ParticleSamples;
 use self::samples::{Handle, Samples};
 use self::solids::SolidSamples;
 use self::trees::TreeSamples;
@@ -35,6 +37,8 @@ use crate::run::progress::making_leaves;
 
 /// Bytes of a leaf in a frame, about.
 pub(super) const LEAF_BYTES: u64 = 200;
+/// Bytes of a particle in a frame, about.
+pub(super) const PARTICLE_BYTES: u64 = 110;
 /// Name of the layer that lists the attributes with samples.
 const MANIFEST: &str = "manifest.usda";
 /// Name of the layer of what does not move.
@@ -48,6 +52,7 @@ pub(super) struct UsdExport {
     foliage: Foliage,
     samples: Samples,
     attributes: LeafAttributes,
+    particles: ParticleSamples,
     trees: TreeSamples,
     solids: SolidSamples,
     view: ViewSamples,
@@ -71,6 +76,7 @@ impl UsdExport {
         let clock = stage::Clock::new(job.frames, job.fps);
         let mut samples = Samples::new();
         let attributes = LeafAttributes::declare(&mut samples);
+        let particles = ParticleSamples::declare(&mut samples, job.scene);
         let trees = TreeSamples::declare(&mut samples, job.scene_trees);
         let solids = SolidSamples::declare(&mut samples, job.solids);
         let view = ViewSamples::declare(&mut samples, job.scene);
@@ -90,12 +96,25 @@ impl UsdExport {
             .iter()
             .flat_map(|mesh| &mesh.positions_m)
             .fold(0.0_f32, |most, corner| most.max(Vec3::from(*corner).length()));
-        Ok(Self { root, folder, foliage, samples, attributes, trees, solids, view, clock, reach_m })
+        Ok(Self {
+            root,
+            folder,
+            foliage,
+            samples,
+            attributes,
+            particles,
+            trees,
+            solids,
+            view,
+            clock,
+            reach_m,
+        })
     }
 
     fn add(&mut self, frame: &Frame<'_>) {
         self.samples.begin(frame.number);
         self.attributes.add(&mut self.samples, frame, &self.foliage, self.reach_m);
+        self.particles.add(&mut self.samples, frame);
         self.trees.add(&mut self.samples, frame);
         self.solids.add(&mut self.samples, frame);
         self.view.add(&mut self.samples, frame);

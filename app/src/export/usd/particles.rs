@@ -1,0 +1,137 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Particles: a `Points` prim for each population. What is not alive in a frame is not in its arrays.
+
+use std::io::{self, Write};
+
+use glam::Vec3;
+use windfall_core::Scene;
+use windfall_core::scene::Look;
+
+use super::samples::{Handle, Samples};
+use super::text;
+use crate::export::Frame;
+use crate::export::foliage::plain;
+use crate::run::live_particle::LiveParticle;
+
+/// Extent of no points: turned inside out, so that it adds nothing to a box. `UsdGeomPoints::ComputeExtent` has the largest numbers there
+/// are in it; these are smaller, since readers interpolate between frames, in which the largest become infinite.
+const EMPTY: [Vec3; 2] = [Vec3::splat(1e18), Vec3::splat(-1e18)];
+
+/// The attributes of all populations, in the order of the scene.
+#[derive(Debug)]
+pub(super) struct ParticleSamples {
+    populations: Vec<PointAttributes>,
+}
+
+/// The attributes of the points of a population.
+#[derive(Debug)]
+struct PointAttributes {
+    points: Handle,
+    velocities: Handle,
+    widths: Handle,
+    ids: Handle,
+    ages: Handle,
+    colors: Handle,
+    opacities: Handle,
+    extent: Handle,
+    look: Look,
+}
+
+impl ParticleSamples {
+    pub(super) fn declare(samples: &mut Samples, scene: &Scene) -> Self {
+        let populations = prim_names(scene).into_iter().zip(&scene.particles).map(|(name, population)| {
+            let mut declare = |declaration| samples.declare(&format!("World/Particles/{name}"), declaration);
+            PointAttributes {
+                points: declare("point3f[] points"),
+                velocities: declare("vector3f[] velocities"),
+                widths: declare("float[] widths"),
+                ids: declare("int64[] ids"),
+                ages: declare("float[] primvars:windfall:age"),
+                colors: declare("color3f[] primvars:displayColor"),
+                opacities: declare("float[] primvars:displayOpacity"),
+                extent: declare("float3[] extent"),
+                look: population.look.clone(),
+            }
+        });
+        Self { populations: populations.collect() }
+    }
+
+    pub(super) fn add(&self, samples: &mut Samples, frame: &Frame<'_>) {
+        for (population, attributes) in self.populations.iter().enumerate() {
+            attributes.add(samples, frame.number, frame.particles_of(population));
+        }
+    }
+}
+
+impl PointAttributes {
+    fn add(&self, samples: &mut Samples, number: u32, particles: &[LiveParticle]) {
+        let all = || particles.iter();
+        samples.add(self.points, number, |out| text::vectors(out, all().map(|one| one.position_m)));
+        samples.add(self.velocities, number, |out| text::vectors(out, all().map(|one| one.velocity_m_s)));
+        samples.add(self.widths, number, |out| text::numbers(out, all().map(|one| one.size_m)));
+        samples.add(self.ids, number, |out| text::numbers(out, all().map(|one| one.id)));
+        samples.add(self.ages, number, |out| text::numbers(out, all().map(|one| one.age_s)));
+        let looks = || all().map(|one| self.look.sample(one.age_share));
+        samples.add(self.colors, number, |out| text::vectors(out, looks().map(|look| look.color.to_array())));
+        samples.add(self.opacities, number, |out| text::numbers(out, looks().map(|look| look.opacity)));
+        let boxes = all().map(|one| {
+            let (place, reach) = (Vec3::from(one.position_m), Vec3::splat(0.5 * one.size_m));
+            [place - reach, place + reach]
+        });
+        let extent = boxes.reduce(|[low, high], [from, to]| [low.min(from), high.max(to)]);
+        let extent = extent.unwrap_or(EMPTY).map(|corner| corner.to_array());
+        samples.add(self.extent, number, |out| text::vectors(out, extent));
+    }
+}
+
+/// Writes the prims.
+pub(super) fn write_populations(out: &mut impl Write, scene: &Scene) -> io::Result<()> {
+    if scene.particles.is_empty() {
+        return Ok(());
+    }
+    writeln!(out, "def Scope \"Particles\"\n{{")?;
+    for (name, population) in prim_names(scene).iter().zip(&scene.particles) {
+        let shown = text::quoted(&population.name);
+        write!(
+            out,
+            "def Points \"{name}\" (\ndisplayName = {shown}\n)\n{{\n\
+            float[] primvars:windfall:age (\ninterpolation = \"vertex\"\n)\n\
+            color3f[] primvars:displayColor (\ninterpolation = \"vertex\"\n)\n\
+            float[] primvars:displayOpacity (\ninterpolation = \"vertex\"\n)\n}}\n"
+        )?;
+    }
+    writeln!(out, "}}")
+}
+
+/// Names of the prims: those of the populations as the format takes them, with their number where that leaves two alike.
+fn prim_names(scene: &Scene) -> Vec<String> {
+    let mut names: Vec<String> = Vec::with_capacity(scene.particles.len());
+    for (number, population) in scene.particles.iter().enumerate() {
+        let mut name = plain(&population.name);
+        if !name.starts_with(|c: char| c.is_ascii_alphabetic()) {
+            name.insert(0, '_');
+        }
+        while names.contains(&name) {
+            name += &format!("_{number}");
+        }
+        names.push(name);
+    }
+    names
+}
+
+#[cfg(test)]
+mod tests {
+    use windfall_core::scene::Particles;
+
+    use super::*;
+
+    #[test]
+    fn every_population_has_a_name_of_its_own() {
+        let named = |name: &str| Particles { name: name.into(), ..Particles::default() };
+        let names = ["hot sparks", "hot_sparks", "3", "", "hot+sparks", "hot_sparks_4"];
+        let scene = Scene { particles: names.map(named).into(), ..Scene::default() };
+        let expected = ["hot_sparks", "hot_sparks_1", "_3", "_", "hot_sparks_4", "hot_sparks_4_5"];
+        assert_eq!(prim_names(&scene), expected, "prims");
+    }
+}
