@@ -75,7 +75,8 @@ fn part_strike(
         let gap = solid_gap(solid, body, pose, place, approach.reach_share);
         let closing = -vec3_dot(gap.normal, approach.way);
         let is_closing = 0.0 < closing;
-        if (!is_mesh && !(is_closing && gap.gap_m < closing * (before.share - share))) {
+        let is_reached = is_closing && gap.gap_m < closing * (before.share - share);
+        if (!is_mesh && !is_reached) {
             return none;
         }
         if (is_closing && gap.gap_m < STRIKE_GAP_M) {
