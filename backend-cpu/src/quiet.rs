@@ -1,80 +1,115 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Units of slots to which nothing happens for a while, so that steps pass them by. Derived from the state, not part of it.
+//! Leaves to which nothing happens for a while, so that steps pass them by. Derived from the state, not part of it.
 
-use std::sync::atomic::{AtomicU32, Ordering};
+use std::sync::atomic::{AtomicU32, AtomicU64, Ordering};
 
 /// Slots of a unit.
 pub(crate) const UNIT: usize = 64;
 
-/// Steps before which nothing happens to the leaves of a unit: none falls, slides or lies down, and none has an event. 0 where
-/// that is not known.
+/// All slots of a unit.
+const ALL: u64 = u64::MAX;
+
+/// A unit of slots.
+#[derive(Debug, Default)]
+pub(crate) struct QuietUnit {
+    /// A bit for each leaf that may be on its way: it falls, slides or lies down.
+    stirring: AtomicU64,
+    /// Step before which no other leaf of the unit has an event. 0 where that is not known, nor the bits.
+    until: AtomicU32,
+}
+
+impl QuietUnit {
+    /// Leaves to which something may happen in a step, a bit for each.
+    #[inline(always)]
+    pub(crate) fn stirring(&self, step: u32) -> u64 {
+        if step < self.until.load(Ordering::Relaxed) { self.stirring.load(Ordering::Relaxed) } else { ALL }
+    }
+
+    /// Step before which no leaf without a bit has an event.
+    #[inline(always)]
+    pub(crate) fn until(&self) -> u32 {
+        self.until.load(Ordering::Relaxed)
+    }
+
+    /// Notes which leaves are on their way, and the step before which no other has an event.
+    #[inline(always)]
+    pub(crate) fn set(&self, stirring: u64, until: u32) {
+        self.stirring.store(stirring, Ordering::Relaxed);
+        self.until.store(until, Ordering::Relaxed);
+    }
+}
+
+/// All units.
 #[derive(Debug)]
 pub(crate) struct QuietUnits {
-    units: Vec<AtomicU32>,
-    /// The same of all units together.
+    units: Vec<QuietUnit>,
+    /// Step before which nothing happens to any leaf; 0 where that is not known.
     all: AtomicU32,
 }
 
 impl QuietUnits {
     /// Units for so many slots, nothing known of any.
     pub(crate) fn new(slots: usize) -> Self {
-        let units = (0..slots.div_ceil(UNIT)).map(|_| AtomicU32::new(0)).collect();
+        const { assert!(UNIT == u64::BITS as usize, "a bit for each leaf of a unit") };
+        let units = (0..slots.div_ceil(UNIT)).map(|_| QuietUnit::default()).collect();
         Self { units, all: AtomicU32::new(0) }
     }
 
     /// Forgets all that is known, after the state or the scene has changed.
     pub(crate) fn forget(&self) {
-        self.units.iter().chain([&self.all]).for_each(|until| set_quiet(until, 0));
+        self.units.iter().for_each(|unit| unit.set(0, 0));
+        self.all.store(0, Ordering::Relaxed);
     }
 
-    /// Forgets about the unit of a slot.
+    /// Notes that something may happen to the leaf of a slot.
     #[inline(always)]
     pub(crate) fn wake(&self, slot: u32) {
-        set_quiet(&self.units[slot as usize / UNIT], 0);
-        set_quiet(&self.all, 0);
+        let slot = slot as usize;
+        self.units[slot / UNIT].stirring.fetch_or(1 << (slot % UNIT), Ordering::Relaxed);
+        self.all.store(0, Ordering::Relaxed);
     }
 
     /// Returns true if nothing happens to any leaf up to a step.
     pub(crate) fn are_all_quiet(&self, last: u32) -> bool {
-        if !is_quiet(&self.all, last) && are_quiet(&self.units, last) {
-            let earliest = self.units.iter().map(|until| until.load(Ordering::Relaxed)).min();
-            set_quiet(&self.all, earliest.unwrap_or(0));
+        if last >= self.all.load(Ordering::Relaxed) && are_quiet(&self.units, last) {
+            let earliest = self.units.iter().map(QuietUnit::until).min();
+            self.all.store(earliest.unwrap_or(0), Ordering::Relaxed);
         }
-        is_quiet(&self.all, last)
+        last < self.all.load(Ordering::Relaxed)
     }
 
     /// All units.
-    pub(crate) fn units(&self) -> &[AtomicU32] {
+    pub(crate) fn units(&self) -> &[QuietUnit] {
         &self.units
     }
 
     /// Units of the slots before one that begins a unit or is behind the last, and of those from it on.
-    pub(crate) fn split_at(&self, slot: usize) -> (&[AtomicU32], &[AtomicU32]) {
+    pub(crate) fn split_at(&self, slot: usize) -> (&[QuietUnit], &[QuietUnit]) {
         self.units.split_at(slot.div_ceil(UNIT))
     }
 }
 
-/// Returns true if nothing happens to a unit in a step.
-#[inline(always)]
-pub(crate) fn is_quiet(until: &AtomicU32, step: u32) -> bool {
-    step < until.load(Ordering::Relaxed)
-}
-
 /// Returns true if nothing happens to any of these units up to a step.
-pub(crate) fn are_quiet(units: &[AtomicU32], last: u32) -> bool {
-    units.iter().all(|until| is_quiet(until, last))
+pub(crate) fn are_quiet(units: &[QuietUnit], last: u32) -> bool {
+    units.iter().all(|unit| unit.stirring(last) == 0)
 }
 
-/// Notes that nothing happens to a unit before a step.
+/// Places of the bits that are set, the lowest first.
 #[inline(always)]
-pub(crate) fn set_quiet(until: &AtomicU32, step: u32) {
-    until.store(step, Ordering::Relaxed);
+pub(crate) fn places_of(mut bits: u64) -> impl Iterator<Item = usize> {
+    std::iter::from_fn(move || {
+        let place = (bits != 0).then(|| bits.trailing_zeros() as usize);
+        bits &= bits.wrapping_sub(1);
+        place
+    })
 }
 
 /// Slots of those units, which have so many slots together, to which something may happen in a step.
 #[inline(always)]
-pub(crate) fn stirring_slots(units: &[AtomicU32], step: u32, slots: usize) -> impl Iterator<Item = usize> {
-    let stirring = units.iter().enumerate().filter(move |(_, until)| !is_quiet(until, step));
-    stirring.flat_map(move |(unit, _)| unit * UNIT..slots.min((unit + 1) * UNIT))
+pub(crate) fn stirring_slots(units: &[QuietUnit], step: u32, slots: usize) -> impl Iterator<Item = usize> {
+    let of = move |(number, unit): (usize, &QuietUnit)| {
+        places_of(unit.stirring(step)).map(move |place| number * UNIT + place)
+    };
+    units.iter().enumerate().flat_map(of).take_while(move |&slot| slot < slots)
 }

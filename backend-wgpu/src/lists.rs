@@ -2,12 +2,16 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Lists of leaves of a page that kernels make for each other: their layout, stated once for host and device.
 
+use windfall_core::blocks::SceneBlock;
 use windfall_core::device::leaf::air::AIR_UNIT_SHIFT;
+use windfall_core::device::leaf::wake::CALM_INTERVAL;
 
 use crate::prelude::WORKGROUP_SIZE;
 
-/// Steps for which the list of active leaves holds.
-pub(crate) const WINDOW_STEPS: u32 = 32;
+/// Steps for which the list of active leaves holds where wind blows.
+const WINDOW_STEPS: u32 = 32;
+/// The same where no wind could wake leaves in the litter.
+const CALM_WINDOW_STEPS: u32 = CALM_INTERVAL;
 /// Most turns that leaves take at sampling the air. Each turn has a list of its own.
 const TURNS: u32 = 4;
 /// Units of slots that sample the air together in a workgroup.
@@ -33,6 +37,11 @@ const EVENT_LISTS: &str = "
     counts: array<count, 2>,
     leaves: array<u32>,
 ";
+
+/// Steps for which the list of active leaves of a scene holds.
+pub(crate) fn window_steps(scene: &SceneBlock) -> u32 {
+    if scene.is_calm() { CALM_WINDOW_STEPS } else { WINDOW_STEPS }
+}
 
 /// Place in the active lists of the workgroups for all turns.
 pub(crate) const ALL_GROUPS: u64 = 0;
@@ -80,7 +89,12 @@ pub(crate) fn declarations() -> String {
             format!("struct {form}{name} {{{}}}\n", fields.replace("<count", &format!("<{count}")))
         })
     });
-    let constants = [("WINDOW_STEPS", WINDOW_STEPS), ("TURNS", TURNS), ("UNITS_PER_GROUP", UNITS_PER_GROUP)];
+    let constants = [
+        ("WINDOW_STEPS", WINDOW_STEPS),
+        ("CALM_WINDOW_STEPS", CALM_WINDOW_STEPS),
+        ("TURNS", TURNS),
+        ("UNITS_PER_GROUP", UNITS_PER_GROUP),
+    ];
     let constants = constants.map(|(name, value)| format!("const {name}: u32 = {value}u;\n"));
     constants.concat() + &structs.collect::<String>()
 }

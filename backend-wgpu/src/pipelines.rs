@@ -89,7 +89,9 @@ impl KernelId {
             Self::PullParticles => &[GroupLayout::Blocks, GroupLayout::Mutual],
             Self::Carry => &[GroupLayout::LeavesOnTwigs, GroupLayout::WrittenBuffer, GroupLayout::Carriers],
             Self::ListActive | Self::Measure => &[GroupLayout::LeavesInMotion, GroupLayout::WrittenBuffer],
-            Self::WakeLying => &[GroupLayout::LeavesInMotion, GroupLayout::WrittenBuffer],
+            Self::PushLying | Self::CheckCover | Self::WakeLying => {
+                &[GroupLayout::LeavesInMotion, GroupLayout::WrittenBuffer]
+            }
             Self::StackLitter => &[GroupLayout::LeavesAndLitter, GroupLayout::ReadBuffer],
             Self::SampleAir => &[GroupLayout::LeavesInMotion, GroupLayout::ReadBuffer],
             Self::Collide => &[GroupLayout::LeavesInMotion, GroupLayout::ReadBuffer, GroupLayout::ReadBuffer],
@@ -111,8 +113,14 @@ impl KernelId {
             kernels.push(Self::Fly);
         }
         if compiled.block().has_living_litter() {
-            kernels.extend([Self::WakeLying, Self::StackLitter]);
+            kernels.extend([Self::CheckCover, Self::StackLitter]);
             kernels.extend([Self::GatherCollisions, Self::Collide, Self::ClearCollisions]);
+            if !compiled.block().is_calm() {
+                kernels.push(Self::WakeLying);
+            }
+            if compiled.block().has_movers() {
+                kernels.push(Self::PushLying);
+            }
         }
         if compiled.scene().particle_count() > 0 {
             kernels.push(Self::StepParticles);

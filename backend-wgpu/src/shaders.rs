@@ -28,6 +28,10 @@ pub enum KernelId {
     Fly,
     /// Moves the others.
     ResolveEvents,
+    /// Wakes leaves in the litter that are in the way of solid parts.
+    PushLying,
+    /// Sees what lies on and beneath leaves in the litter.
+    CheckCover,
     /// Samples the wind at leaves that lie in the litter.
     WakeLying,
     /// Makes the changes of the litter that leaves wait for.
@@ -54,7 +58,7 @@ pub enum KernelId {
 
 impl KernelId {
     /// All kernels.
-    pub const ALL: [Self; 19] = [
+    pub const ALL: [Self; 21] = [
         Self::ListActive,
         Self::GatherCollisions,
         Self::Collide,
@@ -63,6 +67,8 @@ impl KernelId {
         Self::Advance,
         Self::Fly,
         Self::ResolveEvents,
+        Self::PushLying,
+        Self::CheckCover,
         Self::WakeLying,
         Self::StackLitter,
         Self::Measure,
@@ -87,6 +93,8 @@ impl KernelId {
             Self::Advance => "advance",
             Self::Fly => "fly",
             Self::ResolveEvents => "resolve_events",
+            Self::PushLying => "push_lying",
+            Self::CheckCover => "check_cover",
             Self::WakeLying => "wake_lying",
             Self::StackLitter => "stack_litter",
             Self::Measure => "measure",
@@ -146,12 +154,14 @@ impl Default for Shaders {
             "kernels/resolve_events",
             "kernels/sample_air",
             "kernels/carry",
+            "kernels/check_cover",
             "kernels/clear_collisions",
             "kernels/collide",
             "kernels/fly",
             "kernels/gather_collisions",
             "kernels/measure",
             "kernels/pull_particles",
+            "kernels/push_lying",
             "kernels/stack_litter",
             "kernels/step_particles",
             "kernels/wake_lying",

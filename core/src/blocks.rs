@@ -470,6 +470,12 @@ impl SceneBlock {
         self.solids.count != 0
     }
 
+    /// Returns true if solid parts move.
+    #[inline(always)]
+    pub fn has_movers(&self) -> bool {
+        self.solids.mover_count != 0
+    }
+
     /// Returns true if there is no wind that could take a leaf from the litter.
     #[inline(always)]
     pub fn is_calm(&self) -> bool {

@@ -62,6 +62,19 @@ pub enum SceneError {
     },
 }
 
+impl SceneError {
+    /// The same error, of a scene that a file or preset stands for: those found when a scene is compiled name the scene.
+    #[must_use]
+    pub(crate) fn of_file(self, scene: &str, file: &str) -> Self {
+        match self {
+            Self::Field { file: named, field, value, allowed } if named == scene => {
+                Self::Field { file: file.into(), field, value, allowed }
+            }
+            other => other,
+        }
+    }
+}
+
 /// A simulator that cannot go on.
 #[derive(Debug, Error)]
 #[non_exhaustive]

@@ -178,7 +178,8 @@ fn a_changed_kernel_is_noticed() {
         ("kernels/gather_collisions", "first + 11u", "first + 10u"),
         ("leaf/stack", "added = here;", "added = none;"),
         ("kernels/stack_litter", "node + line, heights.z", "node + line, heights.y"),
-        ("kernels/wake_lying", "0u - step_block.index", "1u - step_block.index"),
+        ("lists/turns", "0u - step_block.index", "1u - step_block.index"),
+        ("kernels/check_cover", "scene.litter.cover_steps", "scene.litter.wake_steps"),
     ];
     let obstructed = [
         ("leaf/strike", "(end - start) * scene.inv_dt_s", "(end - start) * scene.dt_s"),

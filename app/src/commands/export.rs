@@ -73,7 +73,7 @@ pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
                 bail!("--frames and --fps ask for {last} steps; allowed: at most {MAX_STEPS}");
             }
             let note = fit(frames)?;
-            (World::build(&scene)?, frames, Steps::Clip(steps), note)
+            (World::build_named(&scene, arguments.scene.name())?, frames, Steps::Clip(steps), note)
         }
         Some(seconds) => {
             let (world, cycle) = build_cycle(&scene, arguments.scene.name(), seconds)?;

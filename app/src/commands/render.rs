@@ -89,7 +89,7 @@ pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
     }
     let cancel = Cancel::on_interrupt();
     let mut writer = output.start(size, arguments.fps)?;
-    let mut studio = studio(arguments, &World::build(&scene)?, size, &cancel)?;
+    let mut studio = studio(arguments, &World::build_named(&scene, arguments.scene.name())?, size, &cancel)?;
     film(&mut studio, &mut writer, steps, frames, arguments.fps, &cancel)?;
     let path = writer.finish()?;
     terminal::print(&format!("{}\n", path.display()))

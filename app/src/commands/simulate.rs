@@ -61,7 +61,7 @@ pub(crate) fn run(arguments: &Arguments) -> anyhow::Result<()> {
     let checkpoint = arguments.checkpoint.as_deref().map(OutputFile::create).transpose()?;
     let choice = arguments.backend.choose()?;
     let mut world = match (&scene, &arguments.resume) {
-        (Some(scene), _) => World::build(scene)?,
+        (Some(scene), _) => World::build_named(scene, arguments.scene.name())?,
         (None, path) => read_checkpoint(path.as_deref().unwrap_or(Path::new("")))?,
     };
     let mut tracks = arguments.tracks.create(world.compiled.scene())?;

@@ -4,21 +4,19 @@
 //!
 //! Lets leaves that fly as bodies collide with the others of their cells.
 
-use std::sync::atomic::AtomicU32;
-
 use windfall_core::Context;
 use windfall_core::device::leaf::collide::{collision_cell, leaf_collide};
 use windfall_core::device::leaf::record::flies;
 use windfall_core::leaf::LeavesMut;
 
 use crate::collision_cells::CollisionCells;
-use crate::quiet::stirring_slots;
+use crate::quiet::{QuietUnit, stirring_slots};
 
 /// Lets the bodies of a chunk collide.
 pub(crate) fn collide(
     cx: &Context<'_>,
     leaves: &mut LeavesMut<'_>,
-    quiet: &[AtomicU32],
+    quiet: &[QuietUnit],
     cells: &CollisionCells,
 ) {
     for slot in stirring_slots(quiet, cx.step.index, leaves.len()) {

@@ -4,8 +4,6 @@
 //!
 //! Moves the leaves of a chunk that fly as bodies through one step.
 
-use std::ops::Range;
-
 use windfall_core::Context;
 use windfall_core::arith::pack::{BLOCK, Pack};
 use windfall_core::device::leaf::fly::leaf_fly;
@@ -14,75 +12,79 @@ use windfall_core::leaf::{Attitude, Drift, Identity, LeavesMut, Place, Schedule}
 
 use super::CHUNK;
 use super::resolve_events::EventList;
-use crate::quiet::UNIT;
+use crate::quiet::places_of;
 use crate::simd::flying_block::FlyingBlock;
 use crate::simd::{Simd, in_packs};
 
-/// Steps the bodies of one chunk, in the units that `advance` has not passed by.
+/// Steps the bodies of one chunk, among the leaves that `advance` has found on their way.
 pub(crate) fn fly(cx: &Context<'_>, leaves: &mut LeavesMut<'_>, events: &EventList, simd: Simd) {
     match simd {
         Simd::Scalar => {
-            let count = leaves.len();
-            for slot in events.stepped().flat_map(|unit| slots_of(unit, count)) {
-                leaf_fly(cx, &mut leaves.row_mut(slot));
+            for (block, stirring) in events.stirring_blocks() {
+                fly_each(cx, leaves, block * BLOCK, stirring);
             }
         }
         Simd::Lanes(level) => in_packs!(level, fly_lanes(cx, leaves, events)),
     }
 }
 
-/// Slots of a unit in a chunk of so many.
-fn slots_of(unit: usize, count: usize) -> Range<usize> {
-    unit * UNIT..count.min((unit + 1) * UNIT)
+/// Steps those leaves of a block with a bit that are bodies. Few need it: one copy of it is enough.
+#[inline(never)]
+fn fly_each(cx: &Context<'_>, leaves: &mut LeavesMut<'_>, first: usize, bits: u32) {
+    places_of(bits.into()).for_each(|place| leaf_fly(cx, &mut leaves.row_mut(first + place)));
 }
 
-/// Bodies of a block from which on it is stepped where it lies. Blocks with fewer share registers: where a few leaves of the litter
-/// are awake among many that lie, most lanes would be idle.
-const DENSE: u32 = 8;
+/// Leaves of a block from which on it is worked on where it lies. Blocks with fewer share registers: where a few leaves of the litter are
+/// awake among many that lie, most lanes would be idle.
+pub(super) const DENSE: u32 = 8;
 
-/// Steps the bodies of units block by block; those that land, and the last few slots, one by one.
+/// Blocks of a chunk whose leaves share registers with those of others: bits of these leaves.
+pub(super) type FewOfBlocks = [u32; CHUNK / BLOCK];
+
+/// Takes the next of these slots, at most as many as a block has.
+#[inline(always)]
+pub(super) fn next_few(slots: &mut impl Iterator<Item = usize>) -> ([usize; BLOCK], usize) {
+    let (mut next, mut count) = ([0; BLOCK], 0);
+    for (to, slot) in next.iter_mut().zip(slots) {
+        *to = slot;
+        count += 1;
+    }
+    (next, count)
+}
+
+/// Slots of these leaves.
+#[inline(always)]
+pub(super) fn slots_of(few: FewOfBlocks) -> impl Iterator<Item = usize> {
+    let blocks = few.into_iter().enumerate().filter(|&(_, bits)| bits != 0);
+    blocks.flat_map(|(block, bits)| places_of(bits.into()).map(move |place| block * BLOCK + place))
+}
+
+/// Steps the bodies of blocks side by side; those that land, and the last few slots, one by one.
 #[inline(always)]
 fn fly_lanes<P: Pack>(simd: P::Simd, cx: &Context<'_>, leaves: &mut LeavesMut<'_>, events: &EventList) {
-    let mut few = [0; CHUNK / BLOCK];
-    for unit in events.stepped() {
-        let slots = slots_of(unit, leaves.len());
-        let whole = slots.end - slots.len() % BLOCK;
-        for first in (slots.start..whole).step_by(BLOCK) {
-            let awake = bodies_in(leaves, first);
-            if awake.count_ones() >= DENSE {
-                let landing = block_of(leaves, first).fly::<P>(simd, cx);
-                places_of(landing).for_each(|place| leaf_fly(cx, &mut leaves.row_mut(first + place)));
-            } else {
-                few[first / BLOCK] = awake;
-            }
+    let mut few: FewOfBlocks = [0; CHUNK / BLOCK];
+    for (block, stirring) in events.stirring_blocks() {
+        let first = block * BLOCK;
+        if leaves.len() < first + BLOCK {
+            fly_each(cx, leaves, first, stirring);
+            continue;
         }
-        for slot in whole..slots.end {
-            leaf_fly(cx, &mut leaves.row_mut(slot));
+        let awake = bodies_in(leaves, first);
+        if awake.count_ones() >= DENSE {
+            let landing = block_of(leaves, first).fly::<P>(simd, cx);
+            fly_each(cx, leaves, first, landing);
+        } else {
+            few[block] = awake;
         }
     }
-    let blocks = few.into_iter().enumerate();
-    let mut few = blocks.flat_map(|(block, awake)| places_of(awake).map(move |place| block * BLOCK + place));
+    let mut slots = slots_of(few);
     loop {
-        let (mut slots, mut count) = ([0; BLOCK], 0);
-        for (to, slot) in slots.iter_mut().zip(few.by_ref()) {
-            *to = slot;
-            count += 1;
-        }
+        let (slots, count) = next_few(&mut slots);
         if count == 0 {
             break;
         }
         fly_gathered::<P>(simd, cx, leaves, &slots[..count]);
     }
-}
-
-/// Places of the bits.
-#[inline(always)]
-fn places_of(mut bits: u32) -> impl Iterator<Item = usize> {
-    std::iter::from_fn(move || {
-        let place = (bits != 0).then(|| bits.trailing_zeros() as usize);
-        bits &= bits.wrapping_sub(1);
-        place
-    })
 }
 
 /// A bit for each leaf of a block that flies as a body.
@@ -122,7 +124,7 @@ fn fly_gathered<P: Pack>(simd: P::Simd, cx: &Context<'_>, leaves: &mut LeavesMut
         leaves.schedule[slot] = schedule[at];
         leaves.identity[slot] = identity[at];
     }
-    places_of(landing).for_each(|at| leaf_fly(cx, &mut leaves.row_mut(slots[at])));
+    places_of(landing.into()).for_each(|at| fly_each(cx, leaves, slots[at], 1));
 }
 
 /// The block of slots from one on.

@@ -4,8 +4,6 @@
 //!
 //! Adds the leaves that fly as bodies to the cells of the air that they are in.
 
-use std::sync::atomic::AtomicU32;
-
 use windfall_core::Context;
 use windfall_core::arith::Vec3;
 use windfall_core::device::leaf::collide::{collision_cell, own_sums};
@@ -13,13 +11,13 @@ use windfall_core::device::leaf::record::flies;
 use windfall_core::leaf::LeavesMut;
 
 use crate::collision_cells::CollisionCells;
-use crate::quiet::stirring_slots;
+use crate::quiet::{QuietUnit, stirring_slots};
 
 /// Adds the bodies of a chunk.
 pub(crate) fn gather_collisions(
     cx: &Context<'_>,
     leaves: &LeavesMut<'_>,
-    quiet: &[AtomicU32],
+    quiet: &[QuietUnit],
     cells: &CollisionCells,
 ) {
     let mut touched = Vec::new();

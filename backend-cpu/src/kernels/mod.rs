@@ -4,12 +4,14 @@
 
 mod advance;
 pub(crate) mod carry;
+mod check_cover;
 mod clear_collisions;
 mod collide;
 mod fly;
 mod gather_collisions;
 pub(crate) mod measure;
 pub(crate) mod pull_particles;
+mod push_lying;
 mod resolve_events;
 mod sample_air;
 pub(crate) mod stack_litter;

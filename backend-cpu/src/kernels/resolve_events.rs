@@ -11,26 +11,39 @@ use windfall_core::device::leaf::stack::leaf_changes_litter;
 use windfall_core::leaf::LeavesMut;
 
 use super::CHUNK;
-use crate::quiet::UNIT;
+use crate::quiet::{UNIT, places_of};
+
+/// Bits of a block of a unit.
+#[expect(clippy::cast_possible_truncation, reason = "as many bits as a block has leaves")]
+#[inline(always)]
+pub(crate) fn bits_of_block(of_unit: u64, block: usize) -> u32 {
+    (of_unit >> (block * BLOCK)) as u32 & ((1 << BLOCK) - 1)
+}
 
 /// Result of `advance` for a chunk.
 pub(crate) struct EventList {
     /// Leaves that it has left alone: a bit for each, the first of a block in the lowest place.
     pub(crate) blocks: [u32; CHUNK / BLOCK],
-    /// Units of slots that it has not passed by.
-    pub(crate) is_stepped: [bool; CHUNK / UNIT],
+    /// Leaves of units of slots that are on their way, or may be: a bit for each.
+    pub(crate) stirring: [u64; CHUNK / UNIT],
 }
 
 impl Default for EventList {
     fn default() -> Self {
-        Self { blocks: [0; CHUNK / BLOCK], is_stepped: [false; CHUNK / UNIT] }
+        Self { blocks: [0; CHUNK / BLOCK], stirring: [0; CHUNK / UNIT] }
     }
 }
 
 impl EventList {
-    /// Numbers of the units that have been stepped.
-    pub(crate) fn stepped(&self) -> impl Iterator<Item = usize> {
-        (0..).zip(self.is_stepped).filter_map(|(unit, is_stepped)| is_stepped.then_some(unit))
+    /// Numbers of the blocks of slots with leaves on their way, and a bit for each of these.
+    #[inline(always)]
+    pub(crate) fn stirring_blocks(&self) -> impl Iterator<Item = (usize, u32)> {
+        let blocks =
+            self.stirring.into_iter().enumerate().filter(|&(_, bits)| bits != 0).flat_map(|(unit, bits)| {
+                (0..UNIT / BLOCK)
+                    .map(move |block| (unit * (UNIT / BLOCK) + block, bits_of_block(bits, block)))
+            });
+        blocks.filter(|&(_, bits)| bits != 0)
     }
 }
 
@@ -41,16 +54,13 @@ pub(crate) fn resolve_events(
     events: &EventList,
     changing: &mut Vec<usize>,
 ) {
-    let blocks_of = |unit: usize| unit * (UNIT / BLOCK)..(unit + 1) * (UNIT / BLOCK);
-    for block in events.stepped().flat_map(blocks_of) {
-        let mut left = events.blocks[block];
-        while left != 0 {
-            let slot = block * BLOCK + left.trailing_zeros() as usize;
+    for (block, _) in events.stirring_blocks() {
+        for place in places_of(events.blocks[block].into()) {
+            let slot = block * BLOCK + place;
             leaf_advance(cx, &mut leaves.row_mut(slot));
             if leaf_changes_litter(leaves.place[slot].bits, leaves.drift[slot].velocity.into()) {
                 changing.push(slot);
             }
-            left &= left - 1;
         }
     }
 }

@@ -27,26 +27,24 @@ pub(crate) fn unit_samples(cx: &Context<'_>, unit: usize) -> bool {
     air_is_sampled(cx, first)
 }
 
-/// Samples the air for those of these leaves that fall.
+/// Samples the air for those leaves of a block that fall.
 #[inline(always)]
 pub(crate) fn sample_air<P: Pack>(
     simd: P::Simd,
     cx: &Context<'_>,
-    place: &[[Place; BLOCK]],
-    drift: &[[Drift; BLOCK]],
-    air: &mut [[[u32; 2]; BLOCK]],
+    place: &[Place; BLOCK],
+    drift: &[Drift; BLOCK],
+    air: &mut [[u32; 2]; BLOCK],
 ) {
-    for ((place, drift), air) in place.iter().zip(drift).zip(air) {
-        for part in 0..BLOCK / P::LANES {
-            let (position, bits) = vector_and_fourth::<P>(load_block(simd, must_cast_ref(place), part));
-            let bits = bits.to_bits();
-            let falls = leaf_state(bits).equals(STATE_FALLING) & !flies(bits);
-            if falls.any() {
-                let (velocity, _) = vector_and_fourth::<P>(load_block(simd, must_cast_ref(drift), part));
-                let response = response_of(cx, bits);
-                let sampled = air_sample(cx, position, velocity, response.time_constant_s);
-                store_pairs::<P>(air, part, sampled, P::bits_of(falls));
-            }
+    for part in 0..BLOCK / P::LANES {
+        let (position, bits) = vector_and_fourth::<P>(load_block(simd, must_cast_ref(place), part));
+        let bits = bits.to_bits();
+        let falls = leaf_state(bits).equals(STATE_FALLING) & !flies(bits);
+        if falls.any() {
+            let (velocity, _) = vector_and_fourth::<P>(load_block(simd, must_cast_ref(drift), part));
+            let response = response_of(cx, bits);
+            let sampled = air_sample(cx, position, velocity, response.time_constant_s);
+            store_pairs::<P>(air, part, sampled, P::bits_of(falls));
         }
     }
 }

@@ -3,8 +3,6 @@
 //! Lets leaves that fly as bodies collide with each other, as they are at the start of a step: all of them are added to the cells of the air
 //! before the first of them collides.
 
-use std::sync::atomic::AtomicU32;
-
 use rayon::join;
 use windfall_core::Context;
 use windfall_core::leaf::{Leaves, LeavesMut};
@@ -14,13 +12,13 @@ use super::clear_collisions::clear_collisions;
 use super::collide::collide;
 use super::gather_collisions::gather_collisions;
 use crate::collision_cells::CollisionCells;
-use crate::quiet::UNIT;
+use crate::quiet::{QuietUnit, UNIT};
 
 /// Lets leaves collide. There is a word for each unit of slots.
 pub(crate) fn step_collisions(
     cx: &Context<'_>,
     leaves: &mut Leaves,
-    quiet: &[AtomicU32],
+    quiet: &[QuietUnit],
     cells: &CollisionCells,
 ) {
     each_chunk(leaves.as_mut(), quiet, &|chunk, quiet| gather_collisions(cx, chunk, quiet, cells));
@@ -31,8 +29,8 @@ pub(crate) fn step_collisions(
 /// Goes through leaves chunk by chunk, in any order.
 fn each_chunk(
     mut leaves: LeavesMut<'_>,
-    quiet: &[AtomicU32],
-    work: &(impl Fn(&mut LeavesMut<'_>, &[AtomicU32]) + Sync),
+    quiet: &[QuietUnit],
+    work: &(impl Fn(&mut LeavesMut<'_>, &[QuietUnit]) + Sync),
 ) {
     if leaves.len() <= CHUNK {
         work(&mut leaves, quiet);

@@ -4,20 +4,20 @@
 //! several steps in a row. That changes nothing, as leaves do not see each other; where there is litter, which they see, it is one
 //! step, in which no height changes.
 
-use std::sync::atomic::AtomicU32;
-
 use rayon::join;
 use windfall_core::Context;
 use windfall_core::leaf::LeavesMut;
 
 use super::CHUNK;
 use super::advance::advance;
+use super::check_cover::check_cover;
 use super::fly::fly;
+use super::push_lying::push_lying;
 use super::resolve_events::resolve_events;
 use super::stack_litter::LitterChanges;
 use super::wake_lying::wake_lying;
 use crate::exposed::ExposedLeaves;
-use crate::quiet::{UNIT, are_quiet};
+use crate::quiet::{QuietUnit, UNIT, are_quiet};
 use crate::simd::Simd;
 
 /// Largest piece that is asked whether it is quiet as a whole, before it is split among threads.
@@ -32,8 +32,8 @@ pub(crate) struct LeafSteps<'a> {
     pub(crate) simd: Simd,
 }
 
-/// Steps leaves from slot `first` on, halving the columns until a piece is one chunk. There is a word for each unit of slots.
-pub(crate) fn step_leaves(all: &LeafSteps<'_>, mut leaves: LeavesMut<'_>, quiet: &[AtomicU32], first: usize) {
+/// Steps leaves from slot `first` on, halving the columns until a piece is one chunk. There is an entry for each unit of slots.
+pub(crate) fn step_leaves(all: &LeafSteps<'_>, mut leaves: LeavesMut<'_>, quiet: &[QuietUnit], first: usize) {
     let LeafSteps { steps, changes, exposed, simd } = *all;
     let last = steps.last().map_or(0, |cx| cx.step.index);
     let has_litter = steps.iter().any(Context::has_litter);
@@ -61,7 +61,13 @@ pub(crate) fn step_leaves(all: &LeafSteps<'_>, mut leaves: LeavesMut<'_>, quiet:
             }
         }
         if cx.scene.has_living_litter() {
-            wake_lying(cx, &mut leaves, first, exposed, &mut changing, simd);
+            if cx.scene.has_movers() {
+                push_lying(cx, &mut leaves, &mut changing, simd);
+            }
+            check_cover(cx, &mut leaves, first, exposed, &mut changing, simd);
+            if !cx.scene.is_calm() {
+                wake_lying(cx, &mut leaves, first, exposed, &mut changing, simd);
+            }
             changes.list(&changing, first);
         }
     }

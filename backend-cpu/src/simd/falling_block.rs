@@ -32,21 +32,21 @@ pub(crate) struct FallingBlock<'a> {
 pub(crate) struct Outcome {
     /// A bit for each leaf that needs a step of its own, the first in the lowest place.
     pub(crate) left: u32,
-    /// Something happens to one of them in this step.
-    pub(crate) is_busy: bool,
+    /// A bit for each leaf to which something happens in this step.
+    pub(crate) stirring: u32,
 }
 
 impl FallingBlock<'_> {
     /// Steps those that fall without an event, do not land and are near no solid part.
     #[inline(always)]
     pub(crate) fn advance<P: Pack>(&mut self, simd: P::Simd, cx: &Context<'_>) -> Outcome {
-        let mut block = Outcome { left: 0, is_busy: false };
+        let mut block = Outcome { left: 0, stirring: 0 };
         for part in 0..BLOCK / P::LANES {
             let outcome = self.advance_part::<P>(simd, cx, part);
             block.left |= outcome.left << (part * P::LANES);
-            block.is_busy |= outcome.is_busy;
+            block.stirring |= outcome.stirring << (part * P::LANES);
         }
-        Outcome { left: rows_of_bits(block.left), ..block }
+        Outcome { left: rows_of_bits(block.left), stirring: rows_of_bits(block.stirring) }
     }
 
     /// Steps part of them. Bits are those of its lanes.
@@ -69,8 +69,9 @@ impl FallingBlock<'_> {
         let slides = !((velocity.x.to_bits() | velocity.z.to_bits()) << 1).equals(0);
         let is_settling = slides | ground_steps(phase).less_than(bits.all(cx.scene.settle_steps));
         let is_left = !waits | (state.equals(STATE_RESTING) & is_settling);
+        let stirring = P::bits_of(is_left | is_falling);
         if !falls.any() {
-            return Outcome { left: P::bits_of(is_left), is_busy: (is_left | is_falling).any() };
+            return Outcome { left: P::bits_of(is_left), stirring };
         }
         let start = Glide { position, drift: velocity, phase };
         let response = response_of(cx, bits);
@@ -98,6 +99,6 @@ impl FallingBlock<'_> {
         store_block(place, part, new_places);
         store_block(drift, part, new_drifts);
         store_block(attitude, part, new_attitudes);
-        Outcome { left: P::bits_of(is_left | (falls & lands)), is_busy: true }
+        Outcome { left: P::bits_of(is_left | (falls & lands)), stirring }
     }
 }

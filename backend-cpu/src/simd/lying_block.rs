@@ -12,7 +12,7 @@ use windfall_core::device::leaf::record::{
 };
 use windfall_core::device::leaf::wake::{Cover, LyingWind, cover_of, lying_wind};
 use windfall_core::device::solid::near::may_meet_movers;
-use windfall_core::leaf::{Drift, Place, Schedule};
+use windfall_core::leaf::{Drift, LeavesMut, Place, Schedule};
 
 use super::branch_block::{Column, vector_and_fourth};
 
@@ -21,6 +21,17 @@ pub(crate) struct LyingBlock<'a> {
     pub(crate) place: &'a mut [Place; BLOCK],
     pub(crate) drift: &'a [Drift; BLOCK],
     pub(crate) schedule: &'a [Schedule; BLOCK],
+}
+
+/// The block of slots from one on.
+#[inline(always)]
+pub(crate) fn lying_block<'a>(leaves: &'a mut LeavesMut<'_>, first: usize) -> LyingBlock<'a> {
+    let whole = "as many slots are left";
+    LyingBlock {
+        place: leaves.place[first..].first_chunk_mut().expect(whole),
+        drift: leaves.drift[first..].first_chunk().expect(whole),
+        schedule: leaves.schedule[first..].first_chunk().expect(whole),
+    }
 }
 
 /// Leaves of a block, a bit for each, the first in the lowest place.

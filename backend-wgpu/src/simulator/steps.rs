@@ -10,7 +10,7 @@ use super::WgpuSimulator;
 use super::pages::List;
 use crate::buffers::buffer;
 use crate::lists::{
-    ACTIVE_HEAD_BYTES, ALL_GROUPS, SAMPLING_GROUPS, WINDOW_STEPS, empty_active, event_groups,
+    ACTIVE_HEAD_BYTES, ALL_GROUPS, SAMPLING_GROUPS, empty_active, event_groups, window_steps,
 };
 use crate::prelude::WORKGROUP_SIZE;
 use crate::shaders::KernelId;
@@ -79,7 +79,8 @@ impl WgpuSimulator {
 
     /// Most steps of the next pass, which ends with the window of the active lists.
     fn longest_pass(&self) -> u32 {
-        let left = if self.listed_steps == 0 { WINDOW_STEPS } else { self.listed_steps };
+        let left =
+            if self.listed_steps == 0 { window_steps(self.compiled.block()) } else { self.listed_steps };
         left.min(STEPS_PER_PASS)
     }
 
@@ -106,7 +107,7 @@ impl WgpuSimulator {
         }
         let is_window_start = self.listed_steps == 0;
         if is_window_start {
-            self.listed_steps = WINDOW_STEPS;
+            self.listed_steps = window_steps(self.compiled.block());
             blocks.extend_from_slice(bytemuck::cast_slice(&empty_active()));
         }
         self.listed_steps -= count;
@@ -218,16 +219,27 @@ impl WgpuSimulator {
         }
     }
 
-    /// Encodes what leaves do to the litter in a step: all of them sample the heights before any changes.
-    fn encode_litter(&self, pass: &mut wgpu::ComputePass<'_>, offset: u32) {
-        pass.set_pipeline(self.pipelines.kernel(KernelId::WakeLying));
+    /// Encodes a kernel that may let leaves of the litter go, for the units of slots that have their turn, of so many turns.
+    fn encode_turn(&self, pass: &mut wgpu::ComputePass<'_>, kernel: KernelId, turns: u32, offset: u32) {
+        pass.set_pipeline(self.pipelines.kernel(kernel));
         for page in &self.pages {
-            let block = self.compiled.block();
-            let turns = if block.solids.mover_count == 0 { block.litter.wake_steps } else { 1 };
             let units = page.leaves.div_ceil(1 << AIR_UNIT_SHIFT).div_ceil(turns);
             pass.set_bind_group(0, &page.in_motion, &[offset]);
             pass.set_bind_group(1, &page.active.filled, &[]);
             pass.dispatch_workgroups((units << AIR_UNIT_SHIFT).div_ceil(WORKGROUP_SIZE), 1, 1);
+        }
+    }
+
+    /// Encodes what leaves do to the litter in a step: all of them sample the heights before any changes.
+    fn encode_litter(&self, pass: &mut wgpu::ComputePass<'_>, offset: u32) {
+        let block = self.compiled.block();
+        // Solid parts that move may come upon any leaf.
+        if block.has_movers() {
+            self.encode_turn(pass, KernelId::PushLying, 1, offset);
+        }
+        self.encode_turn(pass, KernelId::CheckCover, block.litter.cover_steps, offset);
+        if !block.is_calm() {
+            self.encode_turn(pass, KernelId::WakeLying, block.litter.wake_steps, offset);
         }
         pass.set_pipeline(self.pipelines.kernel(KernelId::StackLitter));
         for page in &self.pages {

@@ -10,7 +10,7 @@ use crate::blocks::{NEVER, SOURCE_LITTER};
 use crate::context::Context;
 use crate::convert::len32;
 use crate::device::flight::body::body_of;
-use crate::device::flight::strike::{STRIKE_GAP_M, SolidGap, deepest_overlap, solid_gap};
+use crate::device::flight::strike::{STRIKE_GAP_M, SolidGap, deepest_overlap};
 use crate::device::leaf::launch::turn_about_y;
 use crate::device::leaf::lie::{
     STREAM_LYING, flatten_to, leaf_lie_down, lying_tilt, own_friction, reach_down,
@@ -22,7 +22,6 @@ use crate::device::leaf::strike::{held_at_rest, is_borne, leaf_rest_on};
 use crate::device::leaf::wake::leaf_check_cover;
 use crate::device::motion::feature::{STREAM_PLACE, STREAM_TRAITS};
 use crate::device::solid::near::solids_cell;
-use crate::device::solid::shape::solid_at;
 use crate::device::terrain::ground::{ground_lean, ground_rest, ground_slope, lying_height};
 use crate::device::terrain::litter::{LITTER_CELLS_PER_M, litter_height};
 use crate::leaf::{LeafMut, Leaves};
@@ -142,8 +141,7 @@ fn lay_by_solids(cx: &Context<'_>, leaf: &mut LeafMut<'_>) -> bool {
         if overlap.number == NEVER {
             break;
         }
-        let solid = solid_at(cx, overlap.number, 0.0);
-        let SolidGap { gap_m, normal, .. } = solid_gap(cx, &solid, &body, pose, place, 1.0);
+        let SolidGap { gap_m, normal, .. } = overlap.gap;
         let out = normal * -gap_m.min(-STRIKE_GAP_M);
         leaf.place.position = (place + out).to_array();
     }

@@ -56,8 +56,17 @@ impl World {
     /// # Errors
     /// Scenes that [`Scene::validate`] or [`CompiledScene::compile`] reject.
     pub fn build(scene: &Scene) -> Result<Self, SceneError> {
-        scene.validate(&scene.name)?;
-        Self::fill(CompiledScene::compile(scene)?)
+        Self::build_named(scene, &scene.name)
+    }
+
+    /// The same for a scene that a file or preset stands for, which errors name.
+    ///
+    /// # Errors
+    /// As [`World::build`].
+    pub fn build_named(scene: &Scene, file: &str) -> Result<Self, SceneError> {
+        scene.validate(file)?;
+        let compiled = CompiledScene::compile(scene).map_err(|error| error.of_file(&scene.name, file))?;
+        Self::fill(compiled)
     }
 
     /// A world that repeats after about `seconds`, to be stepped [`Cycle::run_in`] steps before it does: from then on
@@ -68,7 +77,9 @@ impl World {
     /// Scenes that [`Cycle::of`] finds cannot repeat, and that [`World::build`] rejects.
     pub fn build_cycle(scene: &Scene, file: &str, seconds: f64) -> Result<(Self, Cycle), SceneError> {
         let (scene, cycle) = Cycle::of(scene, file, seconds)?;
-        let mut world = Self::fill(CompiledScene::compile_with(&scene, Some(cycle.clone()))?)?;
+        let compiled = CompiledScene::compile_with(&scene, Some(cycle.clone()))
+            .map_err(|error| error.of_file(&scene.name, file))?;
+        let mut world = Self::fill(compiled)?;
         cycle.schedule(&scene, &mut world.leaves);
         Ok((world, cycle))
     }

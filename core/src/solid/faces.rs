@@ -40,6 +40,17 @@ pub(super) enum FacesError {
     Mesh(#[from] MeshError),
 }
 
+impl FacesError {
+    /// Shapes that are allowed in place of the one with the fault.
+    pub(super) fn allowed(&self) -> String {
+        match self {
+            Self::Hull(_) => "the corners of a convex polyhedron".into(),
+            Self::Surface(error) => error.allowed(),
+            Self::Mesh(error) => error.allowed(),
+        }
+    }
+}
+
 /// Surface and faces of the polyhedron between corners.
 fn polyhedron(corners_m: &[Vec3]) -> Result<(Surface, Vec<Face>), FacesError> {
     let hull = Hull::around(corners_m)?;

@@ -19,11 +19,22 @@ pub(super) enum MeshError {
     #[error(transparent)]
     Gltf(#[from] GltfError),
     /// Triangles that enclose nothing.
-    #[error("{file}: {source}")]
+    #[error("{file}, which {source}")]
     Surface { file: String, source: SurfaceError },
     /// A mesh that is too small or too large.
-    #[error("{file}: measures {size_m} m along an axis; allowed are {} to {} m", limits::OBJECT_SIZE_M.low, limits::OBJECT_SIZE_M.high)]
+    #[error("{file}, which measures {size_m} m along an axis")]
     Size { file: String, size_m: f64 },
+}
+
+impl MeshError {
+    /// Files that are allowed in place of the one with the fault.
+    pub(super) fn allowed(&self) -> String {
+        match self {
+            Self::Gltf(_) => "a .gltf or .glb file with a closed mesh".into(),
+            Self::Surface { source, .. } => source.allowed(),
+            Self::Size { .. } => format!("{} to {} m", limits::OBJECT_SIZE_M.low, limits::OBJECT_SIZE_M.high),
+        }
+    }
 }
 
 /// The surface in a file, scaled.

@@ -8,9 +8,17 @@ use super::surface::Surface;
 
 /// A mesh at all.
 #[derive(Debug, Error)]
-#[error("{file}: the feature gltf is off; allowed are shapes without a file")]
+#[error("{file}: the feature gltf is off")]
 pub(super) struct MeshError {
     file: String,
+}
+
+impl MeshError {
+    /// Shapes that are allowed in place of a mesh.
+    #[expect(clippy::unused_self, reason = "as with the feature")]
+    pub(super) fn allowed(&self) -> String {
+        "shapes without a file".into()
+    }
 }
 
 /// Refuses the file.

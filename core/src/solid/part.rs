@@ -63,7 +63,7 @@ pub fn solids_of(scene: &Scene) -> Result<Vec<Solid>, SceneError> {
             file: scene.name.clone(),
             field: format!("objects[{index}].shape"),
             value: error.to_string(),
-            allowed: "the corners of a convex polyhedron, or a file with a closed mesh".into(),
+            allowed: error.allowed(),
         })?;
         solids.push(Solid::of_object(object, faces));
     }

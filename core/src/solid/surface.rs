@@ -22,15 +22,13 @@ pub struct Surface {
 #[non_exhaustive]
 pub enum SurfaceError {
     /// More triangles than are taken.
-    #[error("has {found} triangles; allowed are up to {MAX_TRIANGLES}")]
+    #[error("has {found} triangles")]
     Triangles {
         /// Number of triangles.
         found: usize,
     },
     /// An edge with one side only.
-    #[error(
-        "is open: the edge from {from_m:?} to {to_m:?} (m) has one side only; allowed is a closed surface"
-    )]
+    #[error("is open: the edge from {from_m:?} to {to_m:?} (m) has one side only")]
     Open {
         /// One end in m.
         from_m: [f32; 3],
@@ -48,11 +46,22 @@ pub enum SurfaceError {
         to_m: [f32; 3],
     },
     /// Triangles that enclose nothing, or face inwards.
-    #[error("encloses {volume_m3} m³; allowed is more than 0, with triangles counter-clockwise from outside")]
+    #[error("encloses {volume_m3} m³")]
     Empty {
         /// Volume in m³, below zero where triangles face inwards.
         volume_m3: f64,
     },
+}
+
+impl SurfaceError {
+    /// Surfaces that are allowed in place of the one with the fault.
+    pub fn allowed(&self) -> String {
+        match self {
+            Self::Triangles { .. } => format!("up to {MAX_TRIANGLES} triangles"),
+            Self::Open { .. } | Self::Folded { .. } => "a closed surface".into(),
+            Self::Empty { .. } => "more than 0 m³, with triangles counter-clockwise from outside".into(),
+        }
+    }
 }
 
 impl Surface {

@@ -162,15 +162,35 @@ fn meshes_that_enclose_nothing() {
         let essentials = [&["objects[0].shape"][..], essentials].concat();
         assert_refused(&there, &["simulate", name, "--checkpoint", "out.ckpt"], &essentials);
     };
-    refuse("missing.ron", "file: \"none.glb\"", &["none.glb"]);
+    refuse(
+        "missing.ron",
+        "file: \"none.glb\"",
+        &["missing.ron: objects[0].shape is none.glb: ", "; allowed: a .gltf"],
+    );
     refuse("unnamed.ron", "file: \"\"", &["shape.file is empty", ".gltf or .glb"]);
-    refuse("open.ron", "file: \"open.gltf\"", &["open.gltf", "is open", "allowed is a closed surface"]);
+    refuse(
+        "open.ron",
+        "file: \"open.gltf\"",
+        &[
+            "open.ron: objects[0].shape is open.gltf, which is open: the edge from [",
+            "] (m) has one side only; allowed: a closed surface",
+        ],
+    );
     refuse(
         "inward.ron",
         "file: \"inward.gltf\"",
-        &["inward.gltf", "-4 m³", "counter-clockwise from outside"],
+        &[
+            "inward.ron: objects[0].shape is inward.gltf, which encloses -4 m³; allowed: more than 0 m³, with triangles \
+             counter-clockwise from outside",
+        ],
     );
-    refuse("large.ron", "file: \"block.gltf\", scale: 500.0", &["block.gltf", "1000 m", "0.02 to 200 m"]);
+    refuse(
+        "large.ron",
+        "file: \"block.gltf\", scale: 500.0",
+        &[
+            "large.ron: objects[0].shape is block.gltf, which measures 1000 m along an axis; allowed: 0.02 to 200 m",
+        ],
+    );
     refuse("scale.ron", "file: \"block.gltf\", scale: 0.0", &["shape.scale is 0.0", "0.001 to 1000"]);
 }
 

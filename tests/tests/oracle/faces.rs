@@ -9,7 +9,7 @@ use windfall_core::device::flight::rates::FlightMotion;
 use windfall_core::device::flight::strike::{solid_gap, strike_solids};
 use windfall_core::device::leaf::record::{is_held, lies};
 use windfall_core::device::solid::distance::solid_distance;
-use windfall_core::device::solid::shape::solid_at;
+use windfall_core::device::solid::shape::{SolidAt, solid_at};
 use windfall_core::scene::{Object, ObjectFriction, ObjectShape};
 use windfall_core::{Context, World};
 use windfall_tests::strategies::torus;
@@ -102,6 +102,35 @@ fn planes_are_half_spaces() {
     });
 }
 
+/// Asserts that normals of a mesh are the slopes of its distance between the nodes of its grid. Within a cell it is linear along each
+/// axis, so that differences have no error but rounding; places whose neighbours lie in another cell bend, and are left out.
+fn normals_are_slopes(cx: &Context<'_>, part: &SolidAt) {
+    const STEP_M: f32 = 5e-4;
+    let mut seen = 0;
+    for number in 0..20_000 {
+        let [x, y, z, ..] = spread(number);
+        let at = Vec3::new(0.6 * x, 1.0 + 0.15 * y, 0.6 * z);
+        let found = solid_distance(cx, part, at);
+        let beside_m = |step: Vec3| f64::from(solid_distance(cx, part, at + step).distance_m);
+        let mut slope = DVec3::ZERO;
+        let mut is_straight = true;
+        for axis in 0..3 {
+            let mut step = [0.0; 3];
+            step[axis] = STEP_M;
+            let (before_m, after_m) = (beside_m(Vec3::from(step) * -1.0), beside_m(Vec3::from(step)));
+            slope[axis] = after_m - before_m;
+            is_straight &= (after_m - 2.0 * f64::from(found.distance_m) + before_m).abs() < 1e-7;
+        }
+        if is_straight && slope.length() > 1e-4 {
+            seen += 1;
+            let normal = DVec3::new(found.normal.x.into(), found.normal.y.into(), found.normal.z.into());
+            let off = normal.distance(slope.normalize());
+            assert!(off < 2e-3, "{found:?} at {at:?}: off by {off} from the slope {slope}");
+        }
+    }
+    assert!(seen > 10_000, "only {seen} places lie with their neighbours in one cell");
+}
+
 #[test]
 fn meshes_have_the_distances_of_their_surfaces() {
     let object = solid(torus(1.0), Point::new(0.0, 1.0, 0.0));
@@ -128,6 +157,7 @@ fn meshes_have_the_distances_of_their_surfaces() {
             assert!(off_m < 0.0125 || expected_m < -0.1, "{found:?}, not {expected_m} m, at {at}");
         }
         println!("{near} places near the surface, off by {worst_m} m at most");
+        normals_are_slopes(cx, &part);
         assert!(near > 4_000, "{near} places near the surface");
     });
 }

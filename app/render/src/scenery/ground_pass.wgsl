@@ -42,9 +42,7 @@ fn vertex_hilly(@location(0) grid: vec2<i32>, @builtin(instance_index) ring: u32
 fn fragment(in: Varyings) -> @location(0) vec4<f32> {
     let at = in.world.xz;
     let distance_m = distance(in.world, frame.eye_m);
-    let fine = textureSample(noise, repeat_sampler, at * 0.9).b;
-    let coarse = textureSample(noise, repeat_sampler, at * 0.17 + 0.2).a;
-    let specks = textureSample(noise, repeat_sampler, at * 1.7 + 0.6).b;
+    let grain = ground_grain(at);
     let hill = hills_at(at);
     let normal = normalize(vec3(-hill.y, 1.0, -hill.z));
     let grass = meadow(at, clamp(log2(distance_m * 0.02), 0.0, 5.0));
@@ -52,30 +50,26 @@ fn fragment(in: Varyings) -> @location(0) vec4<f32> {
     let far = smoothstep(5.0, 26.0, distance_m);
     let thatch = mix(vec3(0.055, 0.050, 0.022), grass.rgb * 0.55, 0.55);
     var albedo = mix(thatch, grass.rgb, far);
-    albedo *= 1.0 + 1.1 * (fine - 0.5) + 0.8 * (coarse - 0.5);
+    albedo *= 1.0 + dot(grain.xy, vec2(1.1, 0.8));
     let rise = length(hill.yz);
     let bare = bare_soil(at, in.world.y, rise);
-    let moist = 1.0 - smoothstep(-0.1, 0.5, in.world.y - land.water_m);
-    let soil = mix(vec3(0.105, 0.074, 0.046), vec3(0.048, 0.036, 0.025), moist)
-        * (0.75 + 0.9 * (fine - 0.5) + 0.8 * (coarse - 0.5) + 0.5 * (specks - 0.5));
-    albedo = mix(albedo, soil, bare);
-    let softness = 0.06 + 0.004 * distance_m;
-    var path = 1.0 - smoothstep(-softness, softness + 0.1, beyond_path(at));
-    let gravel = vec3(0.235, 0.185, 0.130) * (0.82 + 0.5 * (fine - 0.5) + 0.5 * (coarse - 0.5) + 0.3 * (specks - 0.5));
-    albedo = mix(albedo, gravel, path);
+    let above_water_m = in.world.y - land.water_m;
+    albedo = mix(albedo, soil_albedo(grain, above_water_m), bare);
+    var path = path_share(at, distance_m);
+    albedo = mix(albedo, gravel_albedo(grain, above_water_m), path);
     let pixel_m = max(length(dpdx(at)), length(dpdy(at)));
     let paved = paved_share(at, pixel_m);
     if paved > 0.0 {
-        let stone = paving(at, pixel_m) * (1.0 + 0.35 * (fine - 0.5) + 0.45 * (coarse - 0.5) + 0.35 * (specks - 0.5));
+        let stone = paving(at, pixel_m) * (1.0 + dot(grain, vec3(0.35, 0.45, 0.35)));
         albedo = mix(albedo, stone, paved);
     }
     path = max(path, paved);
     // Fallen leaves too far away to be drawn one by one.
     let shade = tree_shade(in.world);
-    let density = clamp(shade.g * 0.85 + 0.10 + 0.25 * (coarse - 0.5), 0.0, 0.8);
+    let density = clamp(shade.g * 0.85 + 0.10 + 0.25 * grain.y, 0.0, 0.8);
     let seen = smoothstep(12.0, 34.0, distance_m);
-    let speck = mix(smoothstep(0.62, 0.70, specks), 0.55, smoothstep(18.0, 45.0, distance_m));
-    let litter = mix(vec3(0.42, 0.22, 0.05), vec3(0.36, 0.13, 0.04), coarse * 1.2 - 0.2);
+    let speck = mix(smoothstep(0.12, 0.20, grain.z), 0.55, smoothstep(18.0, 45.0, distance_m));
+    let litter = mix(vec3(0.42, 0.22, 0.05), vec3(0.36, 0.13, 0.04), grain.y * 1.2 + 0.4);
     albedo = mix(albedo, litter, density * speck * seen * (1.0 - paved));
 
     // The path lies as high as the leaves on it do: their shadows touch them.

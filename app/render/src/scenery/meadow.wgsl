@@ -61,6 +61,35 @@ fn meadow(at: vec2<f32>, lod: f32) -> vec4<f32> {
     return vec4(mix(green, straw, dry * 0.75) * (0.85 + 0.5 * (patches - 0.5)), dry);
 }
 
+// Fine and coarse grains and specks of bare ground at a place, about zero.
+fn ground_grain(at: vec2<f32>) -> vec3<f32> {
+    return vec3(
+        textureSample(noise, repeat_sampler, at * 0.9).b,
+        textureSample(noise, repeat_sampler, at * 0.17 + 0.2).a,
+        textureSample(noise, repeat_sampler, at * 1.7 + 0.6).b,
+    ) - 0.5;
+}
+
+// Albedo of bare soil of some grain at a height above the water: moist near it.
+fn soil_albedo(grain: vec3<f32>, above_water_m: f32) -> vec3<f32> {
+    let moist = 1.0 - smoothstep(-0.1, 0.5, above_water_m);
+    return mix(vec3(0.105, 0.074, 0.046), vec3(0.048, 0.036, 0.025), moist)
+        * (0.75 + dot(grain, vec3(0.9, 0.8, 0.5)));
+}
+
+// The same of the gravel of the path, which is wet only where water laps at it.
+fn gravel_albedo(grain: vec3<f32>, above_water_m: f32) -> vec3<f32> {
+    let wet = 1.0 - smoothstep(0.03, 0.15, above_water_m + 0.1 * grain.y);
+    return mix(vec3(0.235, 0.185, 0.130), vec3(0.100, 0.076, 0.050), wet)
+        * (0.82 + dot(grain, vec3(0.5, 0.5, 0.3)));
+}
+
+// Share of the path at a place, whose edge is as soft as grass or a pixel hides it.
+fn path_share(at: vec2<f32>, distance_m: f32) -> f32 {
+    let softness = 0.06 + 0.004 * distance_m;
+    return 1.0 - smoothstep(-softness, softness + 0.1, beyond_path(at));
+}
+
 // Share of bare soil at a place on ground that lies at `height` in metres and rises by `rise`: steep slopes, some worn
 // spots and the shore have it.
 fn bare_soil(at: vec2<f32>, height: f32, rise: f32) -> f32 {

@@ -4,6 +4,7 @@
 
 #import frame/light
 #import scenery/horizon
+#import scenery/meadow
 
 // Light that the water mirrors, as the same pixels of the picture show it.
 @group(2) @binding(0) var mirror: texture_2d<f32>;
@@ -12,9 +13,12 @@
 const WATER_F0: f32 = 0.02;
 // Light that a metre of pond water takes away, per metre: red first, and blue by what is dissolved in it.
 const WATER_EXTINCTION: vec3<f32> = vec3(1.5, 0.9, 1.3);
-// Albedo of deep pond water and of its bottom.
+// Albedo of deep pond water and of the silt at its bottom.
 const WATER_DEEP: vec3<f32> = vec3(0.010, 0.017, 0.011);
 const WATER_BOTTOM: vec3<f32> = vec3(0.095, 0.075, 0.042);
+// Depths in m at which the bottom is still that of the shore, and all silt.
+const SHORE_DEPTH_M: f32 = 0.01;
+const SILT_DEPTH_M: f32 = 0.22;
 
 struct Varyings {
     @builtin(position) clip: vec4<f32>,
@@ -62,11 +66,19 @@ fn fragment(in: Varyings) -> @location(0) vec4<f32> {
     // Light from under it, by the way that light goes down and back up.
     let depth = max(land.water_m - ground_height(in.world.xz), 0.0);
     let kept = exp(-WATER_EXTINCTION * depth * (1.0 / max(view.y, 0.25) + 1.0));
-    let grain = textureSample(noise, repeat_sampler, in.world.xz * 0.35).a;
-    let albedo = mix(WATER_DEEP, WATER_BOTTOM * (0.6 + 0.8 * grain), kept);
+    let mottled = textureSample(noise, repeat_sampler, in.world.xz * 0.35).a;
+    let grain = ground_grain(in.world.xz);
+    let path = path_share(in.world.xz, distance_m);
+    let shore = mix(soil_albedo(grain, -depth), gravel_albedo(grain, -depth), path);
+    // Grains differ in depth: silt begins in a ragged line.
+    let silt = smoothstep(SHORE_DEPTH_M, SILT_DEPTH_M, depth + 0.08 * grain.y);
+    let bottom = mix(shore, WATER_BOTTOM * (0.6 + 0.8 * mottled), silt);
+    let albedo = mix(WATER_DEEP, bottom, kept);
     let up = vec3(0.0, 1.0, 0.0);
     let sun = tree_shade(in.world).r * leaf_shadow(in.world);
-    let below = albedo * (frame.sun_color * (sun * max(frame.sun_direction.y, 0.0)) + ambient_light(up));
+    // The shore's share of the sky, as the ground beside it has it.
+    let open = mix(mix(0.55, 0.95, path), 1.0, silt);
+    let below = albedo * (frame.sun_color * (sun * max(frame.sun_direction.y, 0.0)) + ambient_light(up) * open);
 
     // A slope turns the mirrored ray by twice as much, which is as far in the picture, as that reaches twice its axes.
     let across = normalize(frame.right.xz);

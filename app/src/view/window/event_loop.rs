@@ -56,7 +56,7 @@ pub(crate) fn run(options: Options) -> anyhow::Result<()> {
     // Without anything to complete an interrupt ends the program at once.
     let cancel = if screenshot.is_some() { Cancel::on_interrupt() } else { Cancel::default() };
     let event_loop = EventLoop::new().map_err(|error| no_display(&error))?;
-    let world = World::build(&options.scene)?;
+    let world = World::build_named(&options.scene, &options.name)?;
     let display = Box::new(event_loop.owned_display_handle());
     let descriptor = windfall_wgpu::instance_descriptor().with_display_handle(display);
     let instance = wgpu::Instance::new(descriptor);

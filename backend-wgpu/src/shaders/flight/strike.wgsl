@@ -40,6 +40,11 @@ struct Strike {
     share: f32,
 }
 
+struct Overlap {
+    number: u32,
+    gap: SolidGap,
+}
+
 fn solid_gap(solid: SolidAt, body: LeafBody, pose: vec4<f32>, place: vec3<f32>, reach_share: f32) -> SolidGap {
     let outside = solid_distance(solid, place);
     let inner = quat_rotate_back(pose, outside.normal);
@@ -47,57 +52,49 @@ fn solid_gap(solid: SolidAt, body: LeafBody, pose: vec4<f32>, place: vec3<f32>, 
     return SolidGap(outside.distance_m - nearest.radius * reach_share, outside.normal, inner, nearest.arm);
 }
 
-fn convex_strike(
+fn part_strike(
     body: LeafBody,
     pose: vec4<f32>,
     solid: SolidAt,
     approach: Approach,
     before: Strike,
 ) -> Strike {
+    let none = Strike(NEVER, 1.0);
+    let is_mesh = (solid.flags & SOLID_GRID) != 0u;
+    var rounds = STRIKE_ROUNDS;
+    var inv_way = 0.0;
+    var half_cell = 0.0;
+    if (is_mesh) {
+        rounds = MESH_ROUNDS;
+        inv_way = inverse_sqrt(max(vec3_dot(approach.way, approach.way), TINY_SQUARED));
+        half_cell = 0.5 * grid_cell_m(solid) * inv_way;
+    }
     var share = 0.0;
-    for (var round = 0u; round < STRIKE_ROUNDS; round += 1u) {
+    for (var round = 0u; round < rounds; round += 1u) {
         let place = approach.start + approach.way * share;
         let gap = solid_gap(solid, body, pose, place, approach.reach_share);
         let closing = -vec3_dot(gap.normal, approach.way);
-        if (!(0.0 < closing && gap.gap_m < closing * (before.share - share))) {
-            return Strike(NEVER, 1.0);
+        let is_closing = 0.0 < closing;
+        let is_reached = is_closing && gap.gap_m < closing * (before.share - share);
+        if (!is_mesh && !is_reached) {
+            return none;
         }
-        if (gap.gap_m < STRIKE_GAP_M) {
-            break;
+        if (is_closing && gap.gap_m < STRIKE_GAP_M) {
+            return Strike(before.number, share);
         }
-        share = share + gap.gap_m * reciprocal(closing);
-    }
-    return Strike(before.number, share);
-}
-
-fn mesh_strike(
-    body: LeafBody,
-    pose: vec4<f32>,
-    solid: SolidAt,
-    approach: Approach,
-    before: Strike,
-) -> Strike {
-    let squared = max(vec3_dot(approach.way, approach.way), TINY_SQUARED);
-    let inv_way = inverse_sqrt(squared);
-    let half_cell = 0.5 * grid_cell_m(solid) * inv_way;
-    var share = 0.0;
-    for (var round = 0u; round < MESH_ROUNDS; round += 1u) {
-        let place = approach.start + approach.way * share;
-        let gap = solid_gap(solid, body, pose, place, approach.reach_share);
-        let closing = -vec3_dot(gap.normal, approach.way);
-        var flat_share = half_cell;
-        if (0.0 < closing) {
-            if (gap.gap_m < STRIKE_GAP_M) {
-                return Strike(before.number, share);
-            }
-            flat_share = min(half_cell, gap.gap_m * reciprocal(closing));
+        var advance = half_cell;
+        if (is_closing) {
+            advance = gap.gap_m * reciprocal(closing);
         }
-        share = share + max(flat_share, gap.gap_m * inv_way);
-        if (before.share <= share) {
-            return Strike(NEVER, 1.0);
+        if (is_mesh) {
+            advance = max(min(advance, half_cell), gap.gap_m * inv_way);
+        }
+        share = share + advance;
+        if (is_mesh && before.share <= share) {
+            return none;
         }
     }
-    return Strike(NEVER, share);
+    return Strike(select(before.number, NEVER, is_mesh), share);
 }
 
 fn first_strike(body: LeafBody, pose: vec4<f32>, cell: u32, passage: Passage) -> Strike {
@@ -114,12 +111,7 @@ fn first_strike(body: LeafBody, pose: vec4<f32>, cell: u32, passage: Passage) ->
             continue;
         }
         let approach = Approach(passage.start, relative, passage.reach_share);
-        var found: Strike;
-        if ((solid.flags & SOLID_GRID) != 0u) {
-            found = mesh_strike(body, pose, solid, approach, Strike(number, strike.share));
-        } else {
-            found = convex_strike(body, pose, solid, approach, Strike(number, strike.share));
-        }
+        let found = part_strike(body, pose, solid, approach, Strike(number, strike.share));
         if (found.share < strike.share) {
             strike = found;
         }
@@ -178,14 +170,14 @@ fn strike_solids(
             break;
         }
         if (push == MOST_STRIKES) {
-            if (deepest.share < -STUCK_M) {
+            if (deepest.gap.gap_m < -STUCK_M) {
                 contact.position = start;
                 contact.motion.velocity = vec3<f32>(0.0, 0.0, 0.0);
             }
             break;
         }
         let solid = solid_at(deepest.number, seconds + time);
-        let gap = solid_gap(solid, body, flown.pose, contact.position, 1.0);
+        let gap = deepest.gap;
         let weight = select(0.0, weight_m_s, push == 0u);
         contact.motion = struck_motion(body, contact.motion, solid, gap, contact.position, weight);
         contact.position = contact.position - gap.normal * gap.gap_m;
@@ -194,13 +186,14 @@ fn strike_solids(
     return contact;
 }
 
-fn deepest_overlap(body: LeafBody, pose: vec4<f32>, cell: u32, place: vec3<f32>, seconds: f32) -> Strike {
-    var deepest = Strike(NEVER, 0.0);
+fn deepest_overlap(body: LeafBody, pose: vec4<f32>, cell: u32, place: vec3<f32>, seconds: f32) -> Overlap {
+    let zero = vec3<f32>(0.0, 0.0, 0.0);
+    var deepest = Overlap(NEVER, SolidGap(0.0, zero, zero, zero));
     for (var entry = 0u; entry < near_count(cell); entry += 1u) {
         let number = near_solid(cell, entry);
         let gap = solid_gap(solid_at(number, seconds), body, pose, place, 1.0);
-        if (gap.gap_m < deepest.share) {
-            deepest = Strike(number, gap.gap_m);
+        if (gap.gap_m < deepest.gap.gap_m) {
+            deepest = Overlap(number, gap);
         }
     }
     return deepest;

@@ -12,10 +12,15 @@
 var<workgroup> unit_counts: array<atomic<u32>, UNITS_PER_GROUP>;
 var<workgroup> unit_places: array<u32, UNITS_PER_GROUP>;
 
+// Without wind the leaves that lie still are seen to once in a longer window, and so are these lists.
+fn window_steps() -> u32 {
+    return select(WINDOW_STEPS, CALM_WINDOW_STEPS, scene.litter.is_calm != 0u);
+}
+
 fn leaf_is_active(leaf: u32) -> bool {
     let event = schedules[leaf].event;
     // Events that are overdue count as due.
-    if (event - min(event, step_block.index) < WINDOW_STEPS) {
+    if (event - min(event, step_block.index) < window_steps()) {
         return true;
     }
     let state = leaf_state(places[leaf].bits);

@@ -1,11 +1,17 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// The lists of active leaves, one for each turn at sampling the air: which units of slots they hold, where they begin, and which
-// invocations go through them. Their number is a power of two.
+// Turns that units of slots take. The lists of active leaves, one for each turn at sampling the air: which units they hold, where they
+// begin, and which invocations go through them. Numbers of turns are powers of two.
 #import bindings
 
 fn turn_of(unit: u32) -> u32 {
     return unit & (scene.wind.interval_steps - 1u);
+}
+
+// Slot of an invocation among those of the units that have their turn in this step, of so many turns.
+fn slot_in_turn(invocation: u32, turns: u32) -> u32 {
+    let unit = (invocation >> AIR_UNIT_SHIFT) * turns + ((0u - step_block.index) & (turns - 1u));
+    return (unit << AIR_UNIT_SHIFT) | (invocation & ((1u << AIR_UNIT_SHIFT) - 1u));
 }
 
 // Leaves that all lists have room for: whole workgroups of units, so that all turns have as many.

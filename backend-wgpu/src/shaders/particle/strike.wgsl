@@ -265,10 +265,8 @@ fn particle_push(place: vec3<f32>, seconds: f32) -> vec3<f32> {
     var pushed = place;
     if (scene.solids.count != 0u) {
         let deepest = deepest_overlap(particle_body(), NO_TURN, solids_cell(place), place, seconds);
-        if (deepest.number != NEVER && deepest.share < -PUSHED_M) {
-            let solid = solid_at(deepest.number, seconds);
-            let gap = solid_gap(solid, particle_body(), NO_TURN, place, 1.0);
-            pushed = place - gap.normal * gap.gap_m;
+        if (deepest.number != NEVER && deepest.gap.gap_m < -PUSHED_M) {
+            pushed = place - deepest.gap.normal * deepest.gap.gap_m;
         }
     }
     let below = ground_gap(pushed);

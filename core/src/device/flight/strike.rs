@@ -100,9 +100,12 @@ pub struct Approach {
     pub reach_share: f32,
 }
 
-/// Strike of a convex part, if it comes before a share of the way; its share is 1 if there is none.
+/// Strike of a part, if it comes before a share of the way; its share is 1 if there is none.
+///
+/// The plane at the nearest point of a convex part bounds all of it, and the way goes on to that plane in every round. Of a mesh it bounds
+/// only what is near: beyond half a cell the distance does, and where the rounds do not suffice the way ends without a strike.
 #[inline(always)]
-pub fn convex_strike(
+pub fn part_strike(
     cx: &Context<'_>,
     body: &LeafBody,
     pose: Quat,
@@ -110,54 +113,42 @@ pub fn convex_strike(
     approach: &Approach,
     before: Strike,
 ) -> Strike {
+    let none = Strike { number: NEVER, share: 1.0 };
+    let is_mesh = (solid.flags & SOLID_GRID) != 0;
+    let mut rounds = STRIKE_ROUNDS;
+    let mut inv_way = 0.0;
+    let mut half_cell = 0.0;
+    if is_mesh {
+        rounds = MESH_ROUNDS;
+        inv_way = inverse_sqrt(vec3_dot(approach.way, approach.way).max(TINY_SQUARED));
+        half_cell = 0.5 * grid_cell_m(cx, solid) * inv_way;
+    }
     let mut share = 0.0;
-    for _ in 0..STRIKE_ROUNDS {
+    for _ in 0..rounds {
         let place = approach.from + approach.way * share;
         let gap = solid_gap(cx, solid, body, pose, place, approach.reach_share);
         let closing = -vec3_dot(gap.normal, approach.way);
-        if !(0.0 < closing && gap.gap_m < closing * (before.share - share)) {
-            return Strike { number: NEVER, share: 1.0 };
+        let is_closing = 0.0 < closing;
+        let is_reached = is_closing && gap.gap_m < closing * (before.share - share);
+        if !is_mesh && !is_reached {
+            return none;
         }
-        if gap.gap_m < STRIKE_GAP_M {
-            break;
+        if is_closing && gap.gap_m < STRIKE_GAP_M {
+            return Strike { number: before.number, share };
         }
-        share += gap.gap_m * reciprocal(closing);
-    }
-    Strike { number: before.number, share }
-}
-
-/// The same of a mesh, of which the plane at the nearest point bounds only what is near: beyond half a cell the distance does. Where
-/// the rounds do not suffice the way ends without a strike.
-#[inline(always)]
-pub fn mesh_strike(
-    cx: &Context<'_>,
-    body: &LeafBody,
-    pose: Quat,
-    solid: &SolidAt,
-    approach: &Approach,
-    before: Strike,
-) -> Strike {
-    let squared = vec3_dot(approach.way, approach.way).max(TINY_SQUARED);
-    let inv_way = inverse_sqrt(squared);
-    let half_cell = 0.5 * grid_cell_m(cx, solid) * inv_way;
-    let mut share = 0.0;
-    for _ in 0..MESH_ROUNDS {
-        let place = approach.from + approach.way * share;
-        let gap = solid_gap(cx, solid, body, pose, place, approach.reach_share);
-        let closing = -vec3_dot(gap.normal, approach.way);
-        let mut flat_share = half_cell;
-        if 0.0 < closing {
-            if gap.gap_m < STRIKE_GAP_M {
-                return Strike { number: before.number, share };
-            }
-            flat_share = half_cell.min(gap.gap_m * reciprocal(closing));
+        let mut advance = half_cell;
+        if is_closing {
+            advance = gap.gap_m * reciprocal(closing);
         }
-        share += flat_share.max(gap.gap_m * inv_way);
-        if before.share <= share {
-            return Strike { number: NEVER, share: 1.0 };
+        if is_mesh {
+            advance = advance.min(half_cell).max(gap.gap_m * inv_way);
+        }
+        share += advance;
+        if is_mesh && before.share <= share {
+            return none;
         }
     }
-    Strike { number: NEVER, share }
+    Strike { number: if is_mesh { NEVER } else { before.number }, share }
 }
 
 /// First of the parts of a cell that a body strikes on its way: [`NEVER`] if there is none, and then the share of the way that is free.
@@ -176,11 +167,7 @@ pub fn first_strike(cx: &Context<'_>, body: &LeafBody, pose: Quat, cell: u32, pa
             continue;
         }
         let approach = Approach { from: passage.from, way: relative, reach_share: passage.reach_share };
-        let found = if (solid.flags & SOLID_GRID) != 0 {
-            mesh_strike(cx, body, pose, &solid, &approach, Strike { number, share: strike.share })
-        } else {
-            convex_strike(cx, body, pose, &solid, &approach, Strike { number, share: strike.share })
-        };
+        let found = part_strike(cx, body, pose, &solid, &approach, Strike { number, share: strike.share });
         if found.share < strike.share {
             strike = found;
         }
@@ -272,14 +259,14 @@ pub fn strike_solids(
             break;
         }
         if push == MOST_STRIKES {
-            if deepest.share < -STUCK_M {
+            if deepest.gap.gap_m < -STUCK_M {
                 contact.position = from;
                 contact.motion.velocity = Vec3::ZERO;
             }
             break;
         }
-        let solid = solid_at(cx, deepest.number, seconds + time);
-        let gap = solid_gap(cx, &solid, body, flown.pose, contact.position, 1.0);
+        let Overlap { number, gap } = deepest;
+        let solid = solid_at(cx, number, seconds + time);
         // Its weight presses once.
         let weight = if push == 0 { weight_m_s } else { 0.0 };
         contact.motion = struck_motion(body, &contact.motion, &solid, &gap, contact.position, weight);
@@ -289,7 +276,16 @@ pub fn strike_solids(
     contact
 }
 
-/// Part that a body overlaps the deepest, so many seconds into the step, and the gap in m in place of a share.
+/// Solid part that a body overlaps the deepest.
+#[derive(Clone, Copy, Debug)]
+pub struct Overlap {
+    /// Number of the part, or [`NEVER`].
+    pub number: u32,
+    /// Gap between the two, below zero.
+    pub gap: SolidGap,
+}
+
+/// Part that a body overlaps the deepest, so many seconds into the step.
 #[inline(always)]
 pub fn deepest_overlap(
     cx: &Context<'_>,
@@ -298,13 +294,14 @@ pub fn deepest_overlap(
     cell: u32,
     place: Vec3,
     seconds: f32,
-) -> Strike {
-    let mut deepest = Strike { number: NEVER, share: 0.0 };
+) -> Overlap {
+    let none = SolidGap { gap_m: 0.0, normal: Vec3::ZERO, inner: Vec3::ZERO, arm: Vec3::ZERO };
+    let mut deepest = Overlap { number: NEVER, gap: none };
     for entry in 0..near_count(cx, cell) {
         let number = near_solid(cx, cell, entry);
         let gap = solid_gap(cx, &solid_at(cx, number, seconds), body, pose, place, 1.0);
-        if gap.gap_m < deepest.share {
-            deepest = Strike { number, share: gap.gap_m };
+        if gap.gap_m < deepest.gap.gap_m {
+            deepest = Overlap { number, gap };
         }
     }
     deepest

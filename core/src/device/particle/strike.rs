@@ -354,10 +354,8 @@ pub fn particle_push(cx: &Context<'_>, place: Vec3, seconds: f32) -> Vec3 {
     let mut pushed = place;
     if cx.scene.has_solids() {
         let deepest = deepest_overlap(cx, &particle_body(), NO_TURN, solids_cell(cx, place), place, seconds);
-        if deepest.number != NEVER && deepest.share < -PUSHED_M {
-            let solid = solid_at(cx, deepest.number, seconds);
-            let gap = solid_gap(cx, &solid, &particle_body(), NO_TURN, place, 1.0);
-            pushed = place - gap.normal * gap.gap_m;
+        if deepest.number != NEVER && deepest.gap.gap_m < -PUSHED_M {
+            pushed = place - deepest.gap.normal * deepest.gap.gap_m;
         }
     }
     let below = ground_gap(cx, pushed);
