@@ -276,7 +276,7 @@ fn directions_lead_around_their_axis() {
     oracle::step(&mut world, 1);
     for slot in 0..200 {
         let velocity = Vec3::from(world.particles.motion[slot].velocity);
-        let away = place(&world, slot) - Vec3::new(1.0, 5.0, 0.0);
+        let away = place(&world, slot).as_vec3() - Vec3::new(1.0, 5.0, 0.0);
         assert!((velocity.length() - 1.5).abs() < 1e-5, "{velocity}");
         assert!(velocity.dot(axis).abs() < 1e-4, "{velocity} along the axis");
         let turn = axis.normalize().dot(away.cross(velocity));
