@@ -87,8 +87,16 @@ fn children_are_the_same_on_both_backends() {
     assert_eq!(stats[13].born, stats[12].born, "of every birth");
     let gpu = exact_adapters().next().expect("an adapter that keeps the exact contract");
     assert_eq!(on_gpu(&gpu, &world, &exact(None, None), &[1000]).particle_stats(), stats, "on the device");
-    let refused = WgpuSimulator::new(&gpu, &world, &exact(Some(1024), None)).expect_err("too far apart");
-    assert!(matches!(refused, SimError::Capacity { rows: 3097, .. }), "{refused}");
+    let mut apart = world.compiled.scene().clone();
+    for (population, count) in [(8, 600), (10, 3600), (11, 4800)] {
+        apart.particles[population].count = count;
+    }
+    for population in 12..14 {
+        apart.particles[population].count = 3 * 4800;
+    }
+    let apart = World::build(&apart).expect("valid with more slots");
+    let refused = WgpuSimulator::new(&gpu, &apart, &exact(Some(4096), None)).expect_err("too far apart");
+    assert!(matches!(refused, SimError::Capacity { rows: 6005, .. }), "{refused}");
 }
 
 fn row_fan(world: &World, population: usize) -> u32 {
