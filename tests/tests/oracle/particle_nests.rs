@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Particles that are born of others: every event has its children, all of them, once, at its place and of its moment.
+#![expect(clippy::cast_possible_truncation, reason = "slots and steps are small whole numbers")]
 
 use std::collections::BTreeMap;
 
@@ -137,7 +138,7 @@ fn four_hits_in_a_step_are_four_events() {
             assert_eq!(numbers, newest, "the newest of each round");
             last += hits;
         }
-        assert_eq!(particle_hits(bits), 15);
+        assert_eq!(particle_hits(bits), 15, "all together");
     }
 }
 
@@ -164,12 +165,12 @@ fn a_death_has_its_children_once_and_in_its_step() {
             let nest = &world.compiled.block().populations[1].nest;
             let parent = nest_place(nest, (slot - 200) as u32).parent as usize;
             assert!(died.contains(&parent), "its own parent died");
-            assert_eq!(world.particles.place[slot].position, world.particles.place[parent].position);
+            assert_eq!(place(&world, slot), place(&world, parent), "at its last place");
             let id = world.particles.traits[slot].id;
             assert_eq!(ids.insert(id, step), None, "number {id} twice");
         }
     }
-    assert!(ids.len() > 3000, "{} children", ids.len());
+    assert!(ids.len() > 1500, "{} children", ids.len());
     let stats = world.particle_stats();
     assert_eq!((stats[1].born, stats[1].cut_short), (4 * stats[0].died, 0), "{stats:?}");
     adds_up(&world);
@@ -186,7 +187,7 @@ fn none_are_missing_at_a_high_rate_or_after_a_seek() {
     let scene = scene(vec![parents, grandparents, others, trail], DT_S);
     let mut whole = build(&scene);
     let seen = whole.particle_stats()[0].born;
-    assert!(seen > 1500, "{seen} before time zero");
+    assert!(seen > 1000, "{seen} before time zero");
     let mut parts = whole.clone();
     oracle::step(&mut whole, 90);
     for steps in [1, 30, 7, 52] {
@@ -292,7 +293,7 @@ fn trails_lie_evenly_on_the_way() {
     let whole = events.iter().filter(|(id, _)| **id < 170);
     assert!(whole.clone().all(|(_, count)| *count == 5 * 16), "{events:?}");
     assert_eq!(whole.count(), 170, "all parents");
-    assert_eq!(world.particle_stats()[1].cut_short, 0);
+    assert_eq!(world.particle_stats()[1].cut_short, 0, "with rounds enough");
     adds_up(&world);
 }
 

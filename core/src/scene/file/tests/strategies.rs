@@ -500,8 +500,10 @@ fn join(particles: &mut [Particles], dt_s: f32) {
         nest.of.clone_from(&parents.name);
         let life_s = particles[index].life_s.map_or(0.0, Spread::highest);
         let rounds = match nest.on {
-            // Few enough, with slots for all that live at once.
-            ParticleEvent::Every { steps } => 2 + (life_s / (dt_s * steps as f32)).ceil().min(50.0) as u32,
+            // With slots for all that live at once.
+            ParticleEvent::Every { steps } => (2..50u16)
+                .find(|&rounds| life_s < f32::from(rounds - 2) * dt_s * steps as f32)
+                .map_or(1, u32::from),
             _ => 1,
         };
         let child = Particles {
