@@ -297,7 +297,7 @@ fn trails_lie_evenly_on_the_way() {
     adds_up(&world);
 }
 
-/// Where a scene is accepted and events are known, nobody is cut short: rounds are enough, and one fewer is refused.
+/// Nobody is cut short if a scene is accepted and its events are known, with the fewest rounds that are.
 #[test]
 fn slots_that_are_enough_are_enough() {
     let spreads = [Spread::Constant(0.6), Spread::Uniform(0.6, 0.4), Spread::Normal(0.5, 0.1)];
@@ -395,7 +395,7 @@ fn numbers_of_siblings_and_cousins_differ() {
     assert_eq!(numbers.len(), 500 * 100 * 9, "each once");
 }
 
-/// Where more hits come than there are slots for, those cut short are counted, and none is lost.
+/// Hits for whose children there are no slots cut others short, which are counted; none is lost.
 #[test]
 fn hits_beyond_the_slots_cut_lives_short() {
     let dust = born_of("balls", ParticleEvent::Hit, 1, 300, 3.0);
