@@ -7,7 +7,7 @@ use std::sync::{Arc, Mutex};
 
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use windfall_core::blocks::StepBlock;
-use windfall_core::particle::each_stage;
+use windfall_core::particle::each_generation;
 use windfall_core::tree::Forest;
 use windfall_core::tree::batch::TreeBatch;
 use windfall_core::{Clock, CompiledScene, Contract, SimError, Simulator, SimulatorInfo, Stats, World};
@@ -180,8 +180,8 @@ impl Simulator for CpuSimulator {
                 pulls.resize(particles.len(), [0.0; 4]);
                 pull_particles(cx, particles, pulls, simd);
             }
-            each_stage(&compiled.block().populations, particles, |parents, first, stage| {
-                step_particles(steps, stage, parents, first as usize, pulls, &sums, simd);
+            each_generation(&compiled.block().populations, particles, |parents, first, generation| {
+                step_particles(steps, generation, parents, first as usize, pulls, &sums, simd);
             });
             // With litter it is one step.
             if let [cx] = steps

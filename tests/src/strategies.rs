@@ -7,9 +7,10 @@ use proptest::prelude::*;
 use windfall_core::motion::Primitive;
 use windfall_core::scene::{
     Aerodynamics, Air, Bounds, Direction, FlightModel, Foliage, Force, ForceKind, Gusts, Hold, Jet, JetKey,
-    Litter, MeanSpeed, Meets, Object, ObjectFriction, ObjectKey, ObjectMotion, ObjectShape, ParticleRelease,
-    ParticleShape, Particles, Planform, Profile, Release, Scene, Share, Source, SourceShape, Species, Spread,
-    SwirlProfile, Terrain, Tree, TreeKind, Turbulence, Vortex, VortexProfile, Walker, Water, WindParameters,
+    Litter, MeanSpeed, Meets, Nest, Object, ObjectFriction, ObjectKey, ObjectMotion, ObjectShape,
+    ParticleEvent, ParticleRelease, ParticleShape, Particles, Planform, Profile, Release, Scene, Share,
+    Source, SourceShape, Species, Spread, SwirlProfile, Terrain, Tree, TreeKind, Turbulence, Vortex,
+    VortexProfile, Walker, Water, WindParameters,
 };
 
 use crate::functions::Input;
@@ -416,7 +417,7 @@ pub fn scenes(leaves: std::ops::Range<u32>) -> impl Strategy<Value = Scene> {
         .prop_filter("valid", |scene| scene.validate("random").is_ok())
 }
 
-/// Particles of every kind of shape, birth, drag, force and contact among solid things, some on hills.
+/// Particles of every kind of shape, birth, drag, force, contact and event of a parent among solid things, some on hills.
 pub fn particle_scene(seed: u64, speed_m_s: f32, dt_s: f32) -> Scene {
     let mut scene = obstructed_scene(seed, 64, speed_m_s, dt_s);
     let axis = Vec3::new(0.4, 1.0, -0.2);
@@ -547,7 +548,77 @@ pub fn particle_scene(seed: u64, speed_m_s: f32, dt_s: f32) -> Scene {
             ..Particles::default()
         },
     ];
+    let rows = rows.into_iter().chain(nest_rows());
     scene.particles =
         (0..).zip(rows).map(|(number, row)| Particles { name: format!("{number}"), ..row }).collect();
     scene
+}
+
+/// Populations behind eight others that are born of others at every kind of event, over three levels.
+fn nest_rows() -> [Particles; 6] {
+    let nest = |of: u32, on: ParticleEvent, fan: u32, inherit: f32| {
+        Some(Nest { of: of.to_string(), on, fan, inherit, radius_m: 0.05 })
+    };
+    let settling = |m_s: f32| Air::Settling { m_s: Spread::Constant(m_s) };
+    [
+        // Rockets.
+        Particles {
+            count: 60,
+            from: ParticleShape::Disc { center_m: Vec3::ZERO, radius_m: 3.0, axis: Vec3::Y },
+            direction: Direction::Cone { axis: Vec3::Y, half_angle_deg: 15.0 },
+            release: ParticleRelease::Rate { per_s: 30.0, from_s: -3.0 },
+            speed_m_s: Spread::Constant(9.0),
+            life_s: Some(Spread::Uniform(0.8, 0.2)),
+            air: Air::Quadratic { drag: 0.5 },
+            ..Particles::default()
+        },
+        // Dust where the fast ones of the seventh population strike.
+        Particles {
+            count: 1800,
+            nest: nest(6, ParticleEvent::Hit, 1, 0.1),
+            speed_m_s: Spread::Constant(0.5),
+            life_s: Some(Spread::Uniform(0.4, 0.2)),
+            air: settling(0.3),
+            ..Particles::default()
+        },
+        // Trails, which go with the air.
+        Particles {
+            count: 360,
+            nest: nest(8, ParticleEvent::Every { steps: 3 }, 1, 0.0),
+            life_s: Some(Spread::Normal(0.2, 0.01)),
+            air: Air::Massless,
+            meets: Meets::Nothing,
+            ..Particles::default()
+        },
+        // Stars that bounce.
+        Particles {
+            count: 480,
+            nest: nest(8, ParticleEvent::Death, 8, 1.0),
+            speed_m_s: Spread::Uniform(4.0, 2.0),
+            life_s: Some(Spread::Constant(1.1)),
+            air: Air::Vacuum,
+            meets: Meets::Bounce { restitution: 0.6, friction: ObjectFriction::Coulomb(0.2) },
+            ..Particles::default()
+        },
+        // What they throw up.
+        Particles {
+            count: 1440,
+            nest: nest(11, ParticleEvent::Hit, 3, -0.25),
+            direction: Direction::Outward,
+            speed_m_s: Spread::Constant(1.0),
+            life_s: Some(Spread::Constant(0.5)),
+            air: settling(2.0),
+            feels: vec!["noise".into()],
+            ..Particles::default()
+        },
+        // And once more.
+        Particles {
+            count: 1440,
+            nest: nest(12, ParticleEvent::Birth, 1, 1.0),
+            life_s: Some(Spread::Constant(0.3)),
+            air: Air::Vacuum,
+            meets: Meets::Stick,
+            ..Particles::default()
+        },
+    ]
 }

@@ -69,6 +69,40 @@ fn a_thousand_steps_of_particles_are_equal_to_the_bit() {
     }
 }
 
+/// Events of parents have their children on both backends, all of them and once; a device whose windows do not reach from parents to children says so.
+#[test]
+fn children_are_the_same_on_both_backends() {
+    let world = world();
+    let expected = on_cpu(&world, CpuOptions::default(), 1000);
+    let stats = expected.particle_stats();
+    for (population, row) in stats.iter().zip(&expected.compiled.scene().particles) {
+        if row.nest.is_some() {
+            assert!(population.born > 500, "much is born: {population:?}");
+        }
+    }
+    for (children, of) in [(9, 6), (12, 11)] {
+        assert_eq!(stats[children].born, row_fan(&expected, children) * stats[of].hits, "of every hit");
+    }
+    assert_eq!(stats[11].born, 8 * stats[8].died, "of every death");
+    assert_eq!(stats[13].born, stats[12].born, "of every birth");
+    let gpu = exact_adapters().next().expect("an adapter that keeps the exact contract");
+    assert_eq!(on_gpu(&gpu, &world, &exact(None, None), &[1000]).particle_stats(), stats, "on the device");
+    let mut apart = world.compiled.scene().clone();
+    for (population, count) in [(8, 600), (10, 3600), (11, 4800)] {
+        apart.particles[population].count = count;
+    }
+    for population in 12..14 {
+        apart.particles[population].count = 3 * 4800;
+    }
+    let apart = World::build(&apart).expect("valid with more slots");
+    let refused = WgpuSimulator::new(&gpu, &apart, &exact(Some(4096), None)).expect_err("too far apart");
+    assert!(matches!(refused, SimError::Capacity { rows: 6005, .. }), "{refused}");
+}
+
+fn row_fan(world: &World, population: usize) -> u32 {
+    world.compiled.scene().particles[population].nest.as_ref().map_or(0, |nest| nest.fan)
+}
+
 #[test]
 fn particles_on_hills_are_equal_to_the_bit() {
     let world = World::build(&hilly_scene(particle_scene(32, 7.0, DT_S))).expect("valid on hills");
@@ -86,7 +120,7 @@ fn every_instruction_set_and_number_of_threads_moves_particles_alike() {
     for world in [world(), World::build(&hilly_scene(particle_scene(33, 2.0, DT_S))).expect("valid")] {
         let plain = on_cpu(&world, CpuOptions { simd: Some(Simd::Scalar), threads: Some(1) }, 60);
         for simd in Simd::available() {
-            for threads in [1, 3] {
+            for threads in [1, 3, 16] {
                 let options = CpuOptions { simd: Some(simd), threads: Some(threads) };
                 let apart = difference(&on_cpu(&world, options, 60), &plain);
                 assert!(apart.is_none(), "{simd:?} on {threads} threads: {apart:?}");
@@ -195,6 +229,12 @@ fn changes_of_a_constant_or_an_operator_are_noticed() {
         ("particle/strike", "turn < MOST_STRIKES", "turn + 1u < MOST_STRIKES"),
         ("particle/strike", "bend * (1.0 - 2.0 * at)", "bend * (1.0 - at)"),
         ("particle/step", "age < life", "age <= life"),
+        ("particle/nest", "let group = place / fan", "let group = place / (fan + 1u)"),
+        ("particle/nest", "first != 0u && age", "age"),
+        ("particle/nest", "turn = turn + first", "turn = first"),
+        ("particle/nest", "/ steps;\n        let is_alive", "/ steps + 1u;\n        let is_alive"),
+        ("particle/nest", "parent.position - parent.velocity", "parent.position + parent.velocity"),
+        ("particle/nest", "event * NEST_SPACING", "event"),
         ("kernels/pull_particles", "begin + local_id.x", "begin + (local_id.x ^ 1u)"),
     ];
     for (module, old, new) in edits {

@@ -7,7 +7,7 @@ mod stats;
 mod store;
 
 pub use crate::device::particle::record::{ParticleMotion, ParticlePlace, ParticleRun, ParticleTraits};
-pub use run::{add_to_tally, each_stage};
+pub use run::{add_to_tally, each_generation};
 pub(crate) use run::{step_all, step_run};
 pub use stats::ParticleStats;
 pub use store::{

@@ -53,7 +53,7 @@ pub(crate) fn mutual_pulls(cx: &Context<'_>, particles: &ParticleStore) -> Vec<V
 
 /// Calls `step` with particles that do not see each other, one run of slots after another: all that go through a step before them, their
 /// parents among these, the first slot, and the run. There is one run if no particles are born of others.
-pub fn each_stage(
+pub fn each_generation(
     populations: &[PopulationBlock],
     particles: &mut ParticleStore,
     mut step: impl FnMut(&ParticleRows<'_>, u32, ParticlesMut<'_>),
@@ -97,7 +97,7 @@ pub(crate) fn step_run(
 /// Steps all particles of a world.
 pub(crate) fn step_all(cx: &Context<'_>, particles: &mut ParticleStore, tallies: &mut TallyStore) {
     let pulls = mutual_pulls(cx, particles);
-    each_stage(&cx.scene.populations, particles, |parents, first, mut run| {
+    each_generation(&cx.scene.populations, particles, |parents, first, mut run| {
         step_run(cx, &mut run, parents, first, &pulls, &mut tallies.count);
     });
 }

@@ -7,7 +7,7 @@ use std::sync::{Mutex, PoisonError};
 use super::world::World;
 use crate::clock::Clock;
 use crate::compile::CompiledScene;
-use crate::particle::{ParticlesMut, each_stage, step_run};
+use crate::particle::{ParticlesMut, each_generation, step_run};
 use crate::threads::on_all;
 
 /// Steps whose blocks are made at once.
@@ -36,8 +36,8 @@ pub(super) fn lead_in(world: &mut World) {
             .collect();
         let steps: Vec<_> = blocks.iter().map(|block| compiled.context(block).over(&bed.words)).collect();
         let sums = Mutex::new(&mut tallies.count);
-        each_stage(&compiled.block().populations, particles, |parents, first, stage| {
-            let runs = Mutex::new(runs_of(stage, first));
+        each_generation(&compiled.block().populations, particles, |parents, first, generation| {
+            let runs = Mutex::new(runs_of(generation, first));
             let next = || runs.lock().unwrap_or_else(PoisonError::into_inner).next();
             on_all(|| {
                 let mut counts = vec![0; sums.lock().unwrap_or_else(PoisonError::into_inner).len()];

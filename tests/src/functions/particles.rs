@@ -4,16 +4,17 @@
 
 use windfall_core::Context;
 use windfall_core::arith::Vec3;
-use windfall_core::blocks::PopulationBlock;
+use windfall_core::blocks::{NestBlock, PopulationBlock};
 use windfall_core::device::particle::air::{air_numbers, lost_share};
 use windfall_core::device::particle::birth::{birth_number, cap_direction, shape_point, trait_word};
 use windfall_core::device::particle::draw::{particle_words, spread_draw};
 use windfall_core::device::particle::fly::{ParticleFlight, particle_fly};
 use windfall_core::device::particle::force::{force_pull, force_swirl, force_turn};
 use windfall_core::device::particle::mutual::{mutual_pull, mutual_source};
+use windfall_core::device::particle::nest::{nest_events, nest_id, nest_place, nest_rest, nest_start};
 use windfall_core::device::particle::record::{
     MEETS_NOTHING, life_size_word, particle_bits, particle_hits, particle_life, particle_population,
-    particle_size, particle_state, with_more_hits, with_particle_state,
+    particle_size, particle_state, particle_struck, with_more_hits, with_particle_state,
 };
 use windfall_core::device::particle::step::{
     is_outside, is_unborn, life_is_over, may_be_struck, rest_is_checked, rest_wakes,
@@ -30,6 +31,8 @@ use crate::runner::Words;
 const ANY: Input = Input::Word;
 /// Populations of the test scene.
 const POPULATION: Input = Input::Below(7);
+/// Populations that are born of others, from the tenth on.
+const NEST: Input = Input::Below(5);
 /// Places among the objects of the test scene, and above them.
 const PLACE: Input = Input::Floats(3, -4.0, 4.0);
 const FLOW: Input = Input::Floats(3, -8.0, 8.0);
@@ -38,6 +41,10 @@ const SHARE: Input = Input::Float(0.0, 1.0);
 
 fn population<'a>(cx: &Context<'a>, words: &Words) -> &'a PopulationBlock {
     &cx.scene.populations[words[0] as usize]
+}
+
+fn nest<'a>(cx: &Context<'a>, words: &Words) -> &'a NestBlock {
+    &cx.scene.populations[words[0] as usize + 9].nest
 }
 
 functions! {
@@ -74,15 +81,16 @@ functions! {
     wgsl "out_vec3(0u, cap_direction(a.x, a.y, a.z));";
     rust |cx, w| floats(cap_direction(population(cx, w), w[1], w[2]).to_array());
 
-    with_more_hits in "particle/record" (ANY, Input::Below(5), ANY) tolerance None;
-    wgsl "r.x = with_more_hits(a.x, a.y); r.y = particle_hits(a.x); r.z = particle_life(a.z); r.w = particle_size(a.z);
-        s.x = life_size_word(a.z & 0xffffu, a.x & 0xffffu);";
+    with_more_hits in "particle/record" (ANY, Input::Below(4), ANY) tolerance None;
+    wgsl "r.x = with_more_hits(a.x, a.y + 1u); r.y = particle_hits(a.x); r.z = particle_life(a.z); r.w = particle_size(a.z);
+        s.x = life_size_word(a.z & 0xffffu, a.x & 0xffffu); s.y = particle_struck(a.x);";
     rust |_cx, w| integers([
-        with_more_hits(w[0], w[1]),
+        with_more_hits(w[0], w[1] + 1),
         particle_hits(w[0]),
         particle_life(w[2]),
         particle_size(w[2]),
         life_size_word(w[2] & 0xffff, w[0] & 0xffff),
+        particle_struck(w[0]),
     ]);
 
     particle_bits in "particle/record" (ANY, ANY, ANY) tolerance None;
@@ -100,6 +108,35 @@ functions! {
         let block = population(cx, w);
         let births = &cx.step.births[w[0] as usize];
         integers([birth_number(births, block.count, w[1] % block.count), trait_word(float(w[2])), 0, 0])
+    };
+
+    nest_place in "particle/nest" (NEST, ANY, ANY, ANY) tolerance None;
+    wgsl "let n = a.x + 9u; let place = nest_place(n, a.y);
+        r = vec4<u32>(place.parent, place.round, place.ordinal, nest_id(n, a.y, a.z, a.w));";
+    rust |cx, w| {
+        let place = nest_place(nest(cx, w), w[1]);
+        integers([place.parent, place.round, place.ordinal, nest_id(nest(cx, w), w[1], w[2], w[3])])
+    };
+
+    nest_events in "particle/nest" (NEST, ANY, Input::Below(40), ANY, ANY) tolerance None;
+    wgsl "let n = a.x + 9u; let round = b.x % scene.populations[n].nest.rounds;
+        let events = nest_events(n, a.y, step_block.index - a.z, a.w, round);
+        r = vec4<u32>(events.count, events.last, bitcast<u32>(nest_rest(n, a.y, 0.25)), 0u);";
+    rust |cx, w| {
+        let nest = nest(cx, w);
+        let birth = cx.step.index.wrapping_sub(w[2]);
+        let events = nest_events(cx, nest, w[1], birth, w[3], w[4] % nest.rounds);
+        integers([events.count, events.last, nest_rest(nest, w[1], 0.25).to_bits(), 0])
+    };
+
+    nest_start in "particle/nest" (NEST, PLACE, FLOW, PLACE, FLOW, SHARE) tolerance Some(1e-6);
+    wgsl "let start = nest_start(a.x + 9u, ParticleFlight(in_vec3(1u), in_vec3(4u)), ParticleFlight(in_vec3(7u), in_vec3(10u)),
+            in_float(13u));
+        out_vec3(0u, start.position); out_vec3(3u, start.velocity);";
+    rust |cx, w| {
+        let own = ParticleFlight { position: vector(w, 1), velocity: vector(w, 4) };
+        let parent = ParticleFlight { position: vector(w, 7), velocity: vector(w, 10) };
+        flight(nest_start(cx, nest(cx, w), own, parent, float(w[13])))
     };
 
     is_outside in "particle/step" (POPULATION, ANY, ANY, PLACE, FLOW) tolerance None;

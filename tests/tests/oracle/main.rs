@@ -22,6 +22,7 @@ mod litter;
 mod motion;
 mod particle_births;
 mod particle_hits;
+mod particle_nests;
 mod particles;
 mod path;
 mod plate;

@@ -81,7 +81,7 @@ pub fn may_be_struck<R: Real>(
 /// Returns true if a particle at rest looks at the wind and at what holds it in a step: in one of eight.
 #[inline(always)]
 pub fn rest_is_checked(cx: &Context<'_>, slot: u32) -> bool {
-    ((cx.step.index + slot) & 7) == 0
+    (cx.step.index.wrapping_add(slot) & 7) == 0
 }
 
 /// Lets the particle in a slot be born if one of the numbers of a step falls on it, or an event of its parent does, and returns the part

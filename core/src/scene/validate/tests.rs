@@ -4,6 +4,7 @@
 
 mod cross;
 mod edges;
+mod nests;
 mod objects;
 mod trees;
 

@@ -474,8 +474,53 @@ prop_compose! {
     }
 }
 
+fn nest() -> impl Strategy<Value = Option<Nest>> {
+    let on = prop_oneof![
+        Just(ParticleEvent::Birth),
+        Just(ParticleEvent::Death),
+        Just(ParticleEvent::Hit),
+        (1u32..200).prop_map(|steps| ParticleEvent::Every { steps }),
+    ];
+    let nest = (on, 1u32..=8, within(limits::INHERIT), within(limits::RADIUS_M));
+    option::of(nest.prop_map(|(on, fan, inherit, radius_m)| Nest {
+        of: String::new(),
+        on,
+        fan,
+        inherit,
+        radius_m,
+    }))
+}
+
+/// Names populations, and lets each that may be be born of the one before it.
+fn join(particles: &mut [Particles], dt_s: f32) {
+    for index in 0..particles.len() {
+        particles[index].name = format!("{index}");
+        let Some(mut nest) = particles[index].nest.take().filter(|_| index > 0) else { continue };
+        let parents = &particles[index - 1];
+        nest.of.clone_from(&parents.name);
+        let life_s = particles[index].life_s.map_or(0.0, Spread::highest);
+        let rounds = match nest.on {
+            // With slots for all that live at once.
+            ParticleEvent::Every { steps } => (2..50u16)
+                .find(|&rounds| life_s < f32::from(rounds - 2) * dt_s * steps as f32)
+                .map_or(1, u32::from),
+            _ => 1,
+        };
+        let child = Particles {
+            count: parents.count * nest.fan * rounds,
+            nest: Some(nest),
+            ..particles[index].clone()
+        };
+        let joined =
+            Scene { dt_s, particles: [&particles[..index], &[child.clone()]].concat(), ..Scene::default() };
+        if joined.validate("random").is_ok() {
+            particles[index] = child;
+        }
+    }
+}
+
 prop_compose! {
-    /// Every name is made unique later.
+    /// Names, and those of parents, are set later.
     fn particles()(
         from in particle_shape(),
         direction in prop_oneof![
@@ -507,7 +552,7 @@ prop_compose! {
             (vector(limits::CENTER_M), vector(limits::HALF_EXTENT_M))
                 .prop_map(|(center_m, half_extent_m)| Some(Bounds::Outside { center_m, half_extent_m })),
         ],
-        look in look(),
+        (look, nest) in (look(), nest()),
     ) -> Particles {
         // Stokes' law holds for what is small.
         let size_m = if air == Air::Stokes { Spread::Constant(1e-5) } else { size_m };
@@ -518,8 +563,8 @@ prop_compose! {
             _ => ParticleRelease::Poisson { per_s, from_s: start_s },
         };
         Particles {
-            name: String::new(), count: 10_000, from, direction, release, speed_m_s, life_s: Some(life_s), size_m,
-            density_kg_m3, gravity: 1.0, charge_c_kg: 1.0, air, feels: Vec::new(), meets, dies, look, nest: None,
+            name: String::new(), count: 10_000, nest, from, direction, release, speed_m_s, life_s: Some(life_s), size_m,
+            density_kg_m3, gravity: 1.0, charge_c_kg: 1.0, air, feels: Vec::new(), meets, dies, look,
         }
     }
 }
@@ -569,9 +614,7 @@ prop_compose! {
             objects.clear();
             walkers.clear();
         }
-        for (index, particles) in particles.iter_mut().enumerate() {
-            particles.name = format!("{index}");
-        }
+        join(&mut particles, dt_s);
         let mut scene = Scene {
             name, seed, dt_s, fall_speed, rotation_speed, gravity_m_s2, species, sources, tree_kinds, trees, sway, sway_every, autumn, regrow_after_s, wind, ground,
             objects, walkers, particles, forces: Vec::new(), view,
@@ -580,7 +623,10 @@ prop_compose! {
         while scene.validate("random").is_err() {
             match &mut scene.ground.terrain {
                 Some(terrain) if terrain.relief_m > 0.01 => terrain.relief_m *= 0.5,
-                _ if scene.dt_s < 0.009 => scene.dt_s *= 1.1,
+                _ if scene.dt_s < 0.009 => {
+                    scene.dt_s *= 1.1;
+                    join(&mut scene.particles, scene.dt_s);
+                }
                 _ => break,
             }
         }
