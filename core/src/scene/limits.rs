@@ -265,6 +265,7 @@ mod tests {
         include_str!("litter.rs"),
         include_str!("nest.rs"),
         include_str!("object.rs"),
+        include_str!("particle_look.rs"),
         include_str!("particles.rs"),
         include_str!("path.rs"),
         include_str!("sky.rs"),

@@ -60,11 +60,11 @@ impl Default for Look {
 /// Values of the curves of a look at an age.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LookSample {
-    /// Reflectance, or colour of the light, linear.
+    /// Reflectance, or colour of the light, linear, each component 0 to 1.
     pub color: Vec3,
-    /// Opacity.
+    /// Opacity, 0 to 1.
     pub opacity: f32,
-    /// Diameter over the particle's own.
+    /// Diameter over the particle's own, 0 to 1000.
     pub size: f32,
 }
 

@@ -260,7 +260,7 @@ fn a_cone_is_filled_across() {
     assert!(apart < 0.0158, "{apart}");
 }
 
-/// What sets off around an axis goes at a right angle to it and to the way from it, anticlockwise seen from its tip.
+/// Velocities around an axis are at a right angle to it and to the way from it, anticlockwise seen from its tip.
 #[test]
 fn directions_lead_around_their_axis() {
     let axis = Vec3::new(2.0, 3.0, -1.0);

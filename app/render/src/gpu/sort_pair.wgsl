@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// What is sorted. Only the device writes and reads it.
+// A key and the value that is sorted by it. Only the device writes and reads it.
 
 struct SortPair {
     key: u32,

@@ -21,7 +21,7 @@ pub(crate) struct ParticlePass {
     list: DrawList,
     layout: wgpu::BindGroupLayout,
     pipeline: wgpu::RenderPipeline,
-    /// What the frame that was listed last draws from.
+    /// Buffers of the frame that was listed last.
     group: Option<wgpu::BindGroup>,
 }
 
