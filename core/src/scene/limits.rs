@@ -118,6 +118,8 @@ limits! {
     PARTICLE_DRAG: f32 = 0.01, 10.0, "", drag;
     BELOW: f32 = -4096.0, 4096.0, "m", Below;
     PARTICLE_BRIGHTNESS_KCD_M2: f32 = 0.001, 1000000.0, "kcd/m²", brightness_kcd_m2;
+    OPACITY: f32 = 0.0, 1.0, "", opacity;
+    SIZE_OVER_AGE: f32 = 0.0, 1000.0, "", size;
     BLINK_S: f32 = 0.1, 60.0, "s", blink_s;
     LAYER: u32 = 0, 15, "", layer;
     FAN: u32 = 1, 64, "", fan;
@@ -231,10 +233,6 @@ pub const PARTICLE_SIZE_M: Limit<f32> = Limit { low: 1e-6, high: 100.0, unit: "m
 pub const AIR_TIME_S: Limit<f32> = Limit { low: 1e-4, high: 1000.0, unit: "s" };
 /// Range of terminal speeds.
 pub const SETTLING_M_S: Limit<f32> = Limit { low: 1e-4, high: 100.0, unit: "m/s" };
-/// Range of opacities over age.
-pub const OPACITY: Limit<f32> = Limit { low: 0.0, high: 1.0, unit: "" };
-/// Range of diameters over age, relative to the particle's own.
-pub const SIZE_OVER_AGE: Limit<f32> = Limit { low: 0.0, high: 1000.0, unit: "" };
 /// Range of ages as a share of the life.
 pub const AGE_SHARE: Limit<f32> = Limit { low: 0.0, high: 1.0, unit: "" };
 /// Most steps of the life of a particle: it is kept in 16 bits.
