@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Particles: the same bits on CPU and GPU, whatever the threads, instructions and pages, and changes that must be noticed.
 
-use windfall_core::scene::{MeanSpeed, Meets};
+use windfall_core::scene::{MeanSpeed, Meets, ParticleEvent};
 use windfall_core::{Contract, SimError, Simulator, World, oracle};
 use windfall_cpu::{CpuOptions, CpuSimulator, Simd};
 use windfall_tests::adapter;
@@ -84,7 +84,9 @@ fn children_are_the_same_on_both_backends() {
         assert_eq!(stats[children].born, row_fan(&expected, children) * stats[of].hits, "of every hit");
     }
     assert_eq!(stats[11].born, 8 * stats[8].died, "of every death");
-    assert_eq!(stats[13].born, stats[12].born, "of every birth");
+    // Of several births in one slot and step only the last lives, and has children.
+    let lost = stats[12].born - stats[13].born;
+    assert!(lost <= stats[12].cut_short && stats[12].cut_short < stats[12].born, "of every birth: {stats:?}");
     let gpu = exact_adapters().next().expect("an adapter that keeps the exact contract");
     assert_eq!(on_gpu(&gpu, &world, &exact(None, None), &[1000]).particle_stats(), stats, "on the device");
     let mut apart = world.compiled.scene().clone();
@@ -145,6 +147,9 @@ fn smooth_particles_stay_close_under_the_tolerant_contract() {
         particles.dies = None;
     }
     scene.forces.retain(|force| !["noise", "sun", "others"].contains(&force.name.as_str()));
+    // Nothing is hit, so nothing is born of hits, nor of what would be.
+    let is_hit = |on: &ParticleEvent| matches!(on, ParticleEvent::Hit);
+    scene.particles.retain(|row| row.name != "13" && !row.nest.as_ref().is_some_and(|nest| is_hit(&nest.on)));
     let world = World::build(&scene).expect("valid");
     let expected = on_cpu(&world, CpuOptions::default(), 100);
     for (gpu, contract) in adapter::contracts() {
@@ -231,7 +236,7 @@ fn changes_of_a_constant_or_an_operator_are_noticed() {
         ("particle/step", "age < life", "age <= life"),
         ("particle/nest", "let group = place / fan", "let group = place / (fan + 1u)"),
         ("particle/nest", "first != 0u && age", "age"),
-        ("particle/nest", "turn = turn + first", "turn = first"),
+        ("particle/nest", "turn = turn + first", "turn = turn + count"),
         ("particle/nest", "/ steps;\n        let is_alive", "/ steps + 1u;\n        let is_alive"),
         ("particle/nest", "parent.position - parent.velocity", "parent.position + parent.velocity"),
         ("particle/nest", "event * NEST_SPACING", "event"),
