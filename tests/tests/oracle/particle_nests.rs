@@ -229,15 +229,15 @@ fn children_take_their_parents_velocity_once() {
     oracle::step(&mut world, 1);
     let starts: Vec<_> = slots(&world, 0).map(|slot| place(&world, slot)).collect();
     oracle::step(&mut world, 10);
-    for slot in 0..50 {
+    for (slot, start) in starts.iter().enumerate() {
         assert_eq!(velocity(&world, 50 + slot), DVec3::new(1.0, 0.0, 4.0), "a half, and its own");
-        let way = place(&world, 50 + slot) - starts[slot];
+        let way = place(&world, 50 + slot) - *start;
         assert!((way - DVec3::Z * 8.0 * 9.0 * 0.02).length() < 1e-4, "nine steps on: {way}");
     }
     oracle::step(&mut world, 10);
-    for slot in 0..50 {
+    for (slot, start) in starts.iter().enumerate() {
         assert_eq!(velocity(&world, 100 + slot), DVec3::new(0.75, 0.0, -1.0), "a quarter, back");
-        let way = place(&world, 100 + slot) - starts[slot];
+        let way = place(&world, 100 + slot) - *start;
         let wanted = DVec3::new(1.0 * 9.0, 0.0, 8.0 * 9.0 + 4.0 * 9.0) * 0.02;
         assert!((way - wanted).length() < 1e-4, "{way}, not {wanted}");
     }
@@ -275,7 +275,7 @@ fn trails_lie_evenly_on_the_way() {
             let nest = &world.compiled.block().populations[1].nest;
             let parent = nest_place(nest, (slot - 40) as u32).parent as usize;
             let age = step - world.particles.motion[parent].birth;
-            assert!(age > 0 && age % 3 == 0, "at an age of {age} steps");
+            assert!(age > 0 && age.is_multiple_of(3), "at an age of {age} steps");
             // It has stayed where the parent was.
             let behind = place(&world, parent).x - place(&world, slot).x;
             shares.push(behind / (10.0 * 0.02));

@@ -511,8 +511,11 @@ fn join(particles: &mut [Particles], dt_s: f32) {
             nest: Some(nest),
             ..particles[index].clone()
         };
-        let joined =
-            Scene { dt_s, particles: [&particles[..index], &[child.clone()]].concat(), ..Scene::default() };
+        let joined = Scene {
+            dt_s,
+            particles: [&particles[..index], std::slice::from_ref(&child)].concat(),
+            ..Scene::default()
+        };
         if joined.validate("random").is_ok() {
             particles[index] = child;
         }
