@@ -199,7 +199,7 @@ fn release(ui: &mut Ui, release: &mut ParticleRelease, own: Option<ParticleRelea
 
 fn direction(ui: &mut Ui, direction: &mut Direction, own: Option<Direction>) {
     let options = [
-        ("in a cone", Direction::Cone { axis: Vec3::Y, half_angle_deg: 30.0 }),
+        ("cone", Direction::Cone { axis: Vec3::Y, half_angle_deg: 30.0 }),
         ("outward", Direction::Outward),
         ("around", Direction::Around { axis: Vec3::Y }),
     ];
