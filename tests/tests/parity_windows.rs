@@ -203,7 +203,7 @@ fn a_scene_edited_within_a_window_is_listed_anew() {
 fn a_changed_list_is_noticed() {
     const STEPS: u32 = 6 * WINDOW;
     let edits = [
-        ("kernels/list_active", "< WINDOW_STEPS", "< WINDOW_STEPS / 2u"),
+        ("kernels/list_active", "select(WINDOW_STEPS,", "select(WINDOW_STEPS / 2u,"),
         ("kernels/list_active", "state == STATE_FALLING ||", "false ||"),
         ("kernels/list_active", "&& leaf_is_settling(leaf)", "&& false"),
         ("kernels/list_active", "select(0u, 1u, is_active)", "0u"),
