@@ -213,7 +213,7 @@ fn another_wind_is_taken_over_and_another_number_of_particles_refused() {
 #[test]
 fn changes_of_a_constant_or_an_operator_are_noticed() {
     let world = world();
-    let expected = on_cpu(&world, CpuOptions::default(), 120);
+    let expected = on_cpu(&world, CpuOptions::default(), 60);
     let gpu = exact_adapters().next().expect("an adapter that keeps the exact contract");
     let edits = [
         ("particle/fly", "air.y * lag", "air.y * way"),
@@ -245,7 +245,7 @@ fn changes_of_a_constant_or_an_operator_are_noticed() {
     for (module, old, new) in edits {
         let shaders = Shaders::default().edited(module, old, new);
         let shaders = shaders.unwrap_or_else(|| panic!("{module} has no '{old}'"));
-        let found = on_gpu(&gpu, &world, &exact(None, Some(shaders)), &[120]);
+        let found = on_gpu(&gpu, &world, &exact(None, Some(shaders)), &[60]);
         assert!(!difference(&expected, &found).is_none(), "{module}: '{new}' goes unnoticed");
     }
 }
