@@ -2,11 +2,13 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Compiles a scene into the blocks and tables that kernels read.
 
+mod births;
 mod block;
 mod body;
 mod cycle;
 mod field;
 mod foliage;
+mod forces;
 mod jet;
 mod nest;
 mod particles;
@@ -22,6 +24,7 @@ mod wind;
 
 use std::sync::Arc;
 
+pub(crate) use self::births::Births;
 pub use self::block::{NO_WATER_M, REST_OFFSET_M};
 use self::block::{compile_block, retune_block};
 pub use self::cycle::Cycle;
@@ -29,7 +32,6 @@ use self::cycle::firm;
 pub(crate) use self::foliage::leaf_site;
 use self::foliage::{foliage_of, petiole_rows, seedlings, shed_rows};
 use self::jet::jet_block;
-pub(crate) use self::particles::Births;
 use self::particles::populations_of;
 use self::shelter::{is_sheltered, shelter_inputs, shelter_rows};
 use self::solids::Solids;

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Particles that are born of others: every event has its children, all of them, once, at its place and of its moment.
+//! Particles that are born of others: every event has its children, all of them, once, at its place and of its moment. One file, because
+//! all of these share populations and count in the same way.
 #![expect(clippy::cast_possible_truncation, reason = "slots and steps are small whole numbers")]
 
 use std::collections::BTreeMap;

@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Looks of all populations for the shaders: their curves as tables.
 
-use glam::Vec3;
 use windfall_core::scene::{Look, LookKind, Particles, Scene};
 use windfall_core::{shared_constants, shared_struct};
 
 use crate::gpu::upload;
+use crate::light::luminance;
 
 shared_constants! {
     /// A lit ball.
@@ -24,9 +24,6 @@ shared_constants! {
     /// Rows of a population's curves, at even ages from birth to death.
     const LOOK_ROWS: u32 = 65;
 }
-
-/// Part of the red, green and blue light of a picture in its luminance.
-const LUMINANCE: Vec3 = Vec3::new(0.2126, 0.7152, 0.0722);
 
 shared_struct! {
     /// A population of particles as it is drawn.
@@ -95,7 +92,7 @@ fn rows(look: &Look) -> impl Iterator<Item = LookRow> + '_ {
         let sample = look.sample(row as f32 / (LOOK_ROWS - 1) as f32);
         let color = match look.kind {
             // A colour says which light it is, the brightness how much.
-            LookKind::Glow => sample.color * (look.brightness_kcd_m2 / sample.color.dot(LUMINANCE).max(1e-6)),
+            LookKind::Glow => sample.color * (look.brightness_kcd_m2 / luminance(sample.color).max(1e-6)),
             _ => sample.color,
         };
         LookRow { color: color.to_array(), opacity: sample.opacity, size: sample.size, padding: [0; 12] }
@@ -104,6 +101,8 @@ fn rows(look: &Look) -> impl Iterator<Item = LookRow> + '_ {
 
 #[cfg(test)]
 mod tests {
+    use glam::Vec3;
+
     use super::*;
 
     #[test]
@@ -111,8 +110,8 @@ mod tests {
         for color in [Vec3::ONE, Vec3::new(1.0, 0.2, 0.0), Vec3::new(0.0, 0.0, 0.3)] {
             let look = Look { kind: LookKind::Glow, color: vec![(0.0, color)], ..Look::default() };
             for row in rows(&look) {
-                let luminance = Vec3::from_array(row.color).dot(LUMINANCE);
-                assert!((luminance - 10.0).abs() < 1e-3, "{color}: {luminance} kcd/m²");
+                let seen = luminance(Vec3::from_array(row.color));
+                assert!((seen - 10.0).abs() < 1e-3, "{color}: {seen} kcd/m²");
             }
         }
         let matt = Look { color: vec![(0.0, Vec3::splat(0.4))], ..Look::default() };

@@ -23,9 +23,9 @@ const LEAST_SOFT_PX: f32 = 1.5;
 const RIM_PX: f32 = 0.75;
 // Asymmetry of the light that puffs scatter (Henyey, Greenstein 1941), of dust and droplets about this in total: forward.
 const FORWARD: f32 = 0.5;
-// Part of a matt ball's own radiance in sunlight, averaged over the directions it is seen from: the mean over its disc, at
-// a right angle to the sun, of a Lambertian sphere is 2/(3 pi) of what one sees with the sun behind, 2/3.
-const BALL_SHARE: f32 = 0.4;
+// Mean radiance of a white ball in sunlight over that of a white surface that faces the sun, over all directions: it takes the light
+// of its disc, and gives it back to the whole sphere.
+const BALL_SHARE: f32 = 0.25;
 
 struct Varyings {
     @builtin(position) clip: vec4<f32>,
@@ -48,10 +48,7 @@ struct Varyings {
 
 // A number from 0 to 1 of a particle's own.
 fn own_number(id: u32, population: u32) -> f32 {
-    var word = id * 0x9e3779b9u + population * 0x85ebca6bu;
-    word = (word ^ (word >> 15u)) * 0x2c1b3c6du;
-    word = (word ^ (word >> 12u)) * 0x297a2d39u;
-    return f32((word ^ (word >> 15u)) >> 8u) / 16777216.0;
+    return unit_from(hash_u32(id ^ hash_u32(population)));
 }
 
 // Values of a population's curves at an age.

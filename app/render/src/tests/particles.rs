@@ -148,7 +148,9 @@ fn streaks_keep_their_light() {
         "{still}, {slow}, {fast}"
     );
     let lit = |picture: &RgbaImage| {
-        picture.pixels().zip(none.pixels()).filter(|(lit, dark)| lit.0[1] > dark.0[1] + 1).count()
+        let [lit, dark] =
+            [picture, &none].map(|picture| picture.pixels().map(|image::Rgba([_, green, ..])| *green));
+        lit.zip(dark).filter(|(lit, dark)| *lit > dark + 1).count()
     };
     let [still, slow, _] = [0, 1, 2].map(|number: usize| lit(&pictures[number]));
     assert!(slow > still + still / 2, "drawn out: {still} and {slow} pixels");

@@ -121,6 +121,17 @@ fn a_colour_of_an_object_is_only_seen() {
 }
 
 #[test]
+fn a_look_of_particles_is_only_seen() {
+    let old = Scene::preset("fireflies").expect("a preset");
+    let mut new = old.clone();
+    new.particles[0].look.brightness_kcd_m2 = 3.5;
+    let change = Change::between(&old, &new);
+    assert!(change.picture && !change.world && change.parts == ["particles"], "drawn anew: {change:?}");
+    new.particles[0].gravity = 0.5;
+    assert!(Change::between(&old, &new).world, "they fall otherwise");
+}
+
+#[test]
 fn what_the_world_is_made_of_begins_it_again() {
     let edits: [(&str, bool, Edit); 13] = [
         ("seed", true, |scene| scene.seed += 1),
