@@ -62,6 +62,7 @@ pub(crate) fn structs() -> String {
         blocks::CollisionBlock::declaration(),
         blocks::SolidsBlock::declaration(),
         blocks::ResponseBlock::declaration(),
+        blocks::ConesBlock::declaration(),
         flight::block::BodyBlock::declaration(),
         blocks::SpreadBlock::declaration(),
         blocks::NestBlock::declaration(),

@@ -4,13 +4,14 @@
 
 use super::body::body_block;
 use super::source::{source_block, trees_block};
-use super::species::{response_block, species_block};
+use super::species::{cones_block, response_block, species_block};
 use super::water::set_floating;
 use super::wind::{MOST_INTERVAL_STEPS, deviation_m_s, wind_block};
 use crate::arith::rng::seed_words;
 use crate::blocks::{CollisionBlock, LitterBlock, SOURCE_TREES, SceneBlock, SwayBlock, WindBlock};
 use crate::convert::{len32, low_word, q16, single, steps, word};
 use crate::device::leaf::collide::COLLISION_WEIGHT_MOST;
+use crate::device::leaf::record::CONE_SPIRAL;
 use crate::device::leaf::wake::{CALM_INTERVAL, COVER_INTERVAL, WAKE_INTERVAL};
 use crate::device::terrain::litter::{LITTER_CELLS_PER_M, LITTER_HIGHEST_M};
 use crate::device::tree::sway::{IMPLICITNESS, SCHEME_ARTICULATED, SCHEME_OLIAPURAM_KUMAR, SCHEME_QUIGLEY};
@@ -71,6 +72,8 @@ pub(super) fn compile_block(scene: &Scene, tables: &[MotionTables], solids: &[So
         block.species[index] = species_block(scene, species, tables);
         block.bodies[index] = body_block(species, scene);
     }
+    block.cones = cones_block(scene);
+    block.has_cones = u32::from(block.species.iter().any(|species| species.first_motion == CONE_SPIRAL));
     block.collisions = collision_block(scene, &block);
     for (index, source) in scene.sources.iter().take(MAX_SOURCES).enumerate() {
         block.sources[index] = source_block(scene, source);

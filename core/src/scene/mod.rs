@@ -50,7 +50,7 @@ pub use path::{CameraKey, camera_at};
 pub use presets::PRESETS;
 pub use sky::{Haze, PhysicalSky, Sky, SkyMap};
 pub use source::{Release, Share, Source, SourceShape};
-pub use species::{LeafShape, MotionParameters, RotationModel, Species};
+pub use species::{ConeShape, LeafShape, MotionParameters, RotationModel, Species};
 pub use terrain::{Terrain, Water};
 pub use tree::{Foliage, SwayScheme, Tree, TreeForm, TreeKind, TreePreset, Wood};
 pub use view::{Camera, Sun, View};

@@ -6,6 +6,7 @@
 //! that see fewer colours. Kinds of motion have the colours of `windfall flight`.
 
 use glam::Vec3;
+use windfall_core::motion::PRIMITIVE_COUNT;
 use windfall_core::shared_constants;
 
 shared_constants! {
@@ -25,14 +26,15 @@ const HIGH: [f32; 3] = [0.92, 0.15, 100.0];
 /// Least chroma on the way, where the hues between have less room.
 const WAIST: f32 = 0.07;
 
-/// The kinds of motion in the order of their primitives, with their colours in sRGB.
-pub const MOTIONS: [(&str, [u8; 3]); 6] = [
+/// The kinds of motion in the order of [`Primitive::ALL`](windfall_core::motion::Primitive::ALL), with their colours in sRGB.
+pub const MOTIONS: [(&str, [u8; 3]); PRIMITIVE_COUNT] = [
     ("steady", [120, 132, 140]),
     ("tumbling", [222, 142, 28]),
     ("chaotic", [186, 60, 48]),
     ("fluttering", [44, 124, 176]),
     ("helical", [62, 138, 84]),
     ("spiralling", [126, 84, 162]),
+    ("cone spiral", [226, 116, 168]),
 ];
 /// At rest, on its twig, and of a leaf about which nothing is known yet.
 pub const RESTING: [u8; 3] = [82, 66, 50];

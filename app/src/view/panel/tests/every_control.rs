@@ -8,7 +8,7 @@ use egui_kittest::kittest::NodeT;
 use egui_kittest::{Harness, Node};
 use windfall_core::scene::ObjectMotion;
 
-use super::scenes::{full, other, third};
+use super::scenes::{full, other, third, winding};
 use super::*;
 
 /// A panel whose edits are taken over as a window would.
@@ -179,10 +179,11 @@ fn every_control_does_something() {
         Group::Sky,
         Group::Lens,
     ];
-    let scenes: [(Scene, &[Group]); 3] = [
+    let scenes: [(Scene, &[Group]); 4] = [
         (full(), &Group::ALL),
         (other(), &others),
         (third(), &[Group::Species, Group::Objects, Group::Particles, Group::Lens]),
+        (winding(), &[Group::Species]),
     ];
     let all: Vec<Control> = scenes.iter().flat_map(move_everything).collect();
     assert!(all.len() > 300, "only {} controls were found", all.len());
@@ -193,7 +194,7 @@ fn every_control_does_something() {
 
 #[test]
 fn every_control_lies_within_the_panel() {
-    for (scene, loaded) in [(full(), full()), (other(), full()), (third(), other())] {
+    for (scene, loaded) in [(full(), full()), (other(), full()), (third(), other()), (winding(), third())] {
         let mut harness = open(&loaded, &Group::ALL);
         // What differs from what was loaded has an arrow behind it.
         harness.state_mut().input.scene = Arc::new(scene);

@@ -4,6 +4,7 @@
 
 use glam::Vec3;
 use windfall_core::Scene;
+use windfall_core::motion::Primitive;
 use windfall_core::scene::{
     Aerodynamics, Air, CameraKey, Direction, Exposure, FlightModel, Focus, Force, ForceKind, Jet, JetKey,
     Litter, Look, LookKind, MeanSpeed, Meets, Object, ObjectFriction, ObjectKey, ObjectMotion, ObjectShape,
@@ -103,5 +104,13 @@ pub(super) fn third() -> Scene {
         profile: SwirlProfile::Compact { d: 0.0 },
     };
     scene.forces = vec![Force { name: "turn".into(), of }];
+    scene
+}
+
+/// Leaves on cone spirals.
+pub(super) fn winding() -> Scene {
+    let mut scene = Scene::default();
+    scene.species[0].start = Primitive::ConeSpiral;
+    scene.species[0].motion.cone_radius_m = Some(1.0);
     scene
 }
