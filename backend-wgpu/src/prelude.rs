@@ -110,6 +110,7 @@ pub(crate) fn constants() -> String {
         device::leaf::at_rest::wgsl_constants(),
         device::leaf::carry::wgsl_constants(),
         device::leaf::collide::wgsl_constants(),
+        device::leaf::cone_spiral::wgsl_constants(),
         device::leaf::fall::wgsl_constants(),
         device::leaf::own::wgsl_constants(),
         device::leaf::launch::wgsl_constants(),

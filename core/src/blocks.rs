@@ -229,7 +229,7 @@ crate::shared_struct! {
 crate::shared_struct! {
     /// Cone spirals of the species that have one, four species to a vector (see
     /// [`cone_offset`](crate::device::leaf::cone_spiral::cone_offset)).
-    pub struct ConesBlock {
+    pub struct ConesBlock, padding 12 {
         /// Radius in m where the spiral is open.
         pub radius_m: [Float4; MAX_SPECIES / 4],
         /// Share of the depth until there that a leaf comes down in 2^-16 steps.
@@ -244,6 +244,8 @@ crate::shared_struct! {
         pub table_rate: [Uint4; MAX_SPECIES / 4],
         /// Age in 2^-16 steps at which a leaf sets off.
         pub start_age: [Uint4; MAX_SPECIES / 4],
+        /// Number of species that have one.
+        pub count: u32,
     }
 }
 
@@ -389,10 +391,6 @@ crate::shared_struct! {
         pub has_bodies: u32,
         /// 1 if the ground has hills, else 0.
         pub has_terrain: u32,
-        /// 1 if leaves of some species wind down in cone spirals, else 0.
-        pub has_cones: u32,
-        /// Zero.
-        pub unused: [u32; 3],
         /// Step length in s.
         pub dt_s: f32,
         /// Inverse step length in 1/s.
@@ -470,7 +468,7 @@ impl SceneBlock {
     /// Returns true if leaves of some species wind down in cone spirals.
     #[inline(always)]
     pub fn has_cones(&self) -> bool {
-        self.has_cones != 0
+        self.cones.count != 0
     }
 
     /// Returns true if leaves may lie higher than on level ground.

@@ -11,7 +11,6 @@ use crate::arith::rng::seed_words;
 use crate::blocks::{CollisionBlock, LitterBlock, SOURCE_TREES, SceneBlock, SwayBlock, WindBlock};
 use crate::convert::{len32, low_word, q16, single, steps, word};
 use crate::device::leaf::collide::COLLISION_WEIGHT_MOST;
-use crate::device::leaf::record::CONE_SPIRAL;
 use crate::device::leaf::wake::{CALM_INTERVAL, COVER_INTERVAL, WAKE_INTERVAL};
 use crate::device::terrain::litter::{LITTER_CELLS_PER_M, LITTER_HIGHEST_M};
 use crate::device::tree::sway::{IMPLICITNESS, SCHEME_ARTICULATED, SCHEME_OLIAPURAM_KUMAR, SCHEME_QUIGLEY};
@@ -73,7 +72,6 @@ pub(super) fn compile_block(scene: &Scene, tables: &[MotionTables], solids: &[So
         block.bodies[index] = body_block(species, scene);
     }
     block.cones = cones_block(scene);
-    block.has_cones = u32::from(block.species.iter().any(|species| species.first_motion == CONE_SPIRAL));
     block.collisions = collision_block(scene, &block);
     for (index, source) in scene.sources.iter().take(MAX_SOURCES).enumerate() {
         block.sources[index] = source_block(scene, source);

@@ -84,6 +84,7 @@ pub(super) fn cones_block(scene: &Scene) -> ConesBlock {
     for (index, species) in scene.species.iter().enumerate() {
         let Some(spiral) = cone_spiral(scene, species) else { continue };
         let constants = MotionConstants::of(species, scene.gravity_m_s2);
+        block.count += 1;
         radii_m[index] = single(constants.cone_radius_m);
         shares_per_age[index] = single(constants.descent_m_s * dt / (65536.0 * constants.cone_depth_m));
         are_bowls[index] = f32::from(u8::from(constants.cone_shape == ConeShape::Bowl));

@@ -219,7 +219,7 @@ fn two_corners_swing_and_the_area_stays() {
     assert!(apart > 0.1, "leaves do not swing together: {apart}");
 }
 
-/// Where the spiral is open it stays as wide, so that no leaf becomes faster than that; the blade banks as a coordinated turn does.
+/// An open spiral stays as wide, so that no leaf becomes faster than that; the blade banks as a coordinated turn does.
 #[test]
 fn an_open_spiral_is_a_helix() {
     let mut world = build(&still_scene(winding(ConeShape::Cone, 0.0, 0.0), 3, 20.0));

@@ -58,6 +58,19 @@ pub fn shade_bytes(share: f32) -> [u8; 3] {
     shade(share).to_array().map(encode)
 }
 
+/// The colour of a population of particles, linear sRGB: hues by the golden angle, so that neighbours lie far apart, in turn light and
+/// dark.
+pub(crate) fn population(number: usize) -> Vec3 {
+    let lightness = if number % 2 == 0 { 0.78 } else { 0.60 };
+    let (sin, cos) = (30.0 + 137.507_77 * number as f32).to_radians().sin_cos();
+    linear_of_oklab(Vec3::new(lightness, 0.13 * cos, 0.13 * sin)).clamp(Vec3::ZERO, Vec3::ONE)
+}
+
+/// The same as bytes of sRGB.
+pub fn population_bytes(number: usize) -> [u8; 3] {
+    population(number).to_array().map(encode)
+}
+
 /// Bytes of sRGB as linear light.
 pub(crate) fn linear(bytes: [u8; 3]) -> Vec3 {
     Vec3::from(bytes.map(|byte| {
@@ -119,6 +132,18 @@ mod tests {
     fn bytes_come_back() {
         for byte in [0, 3, 10, 11, 60, 128, 254, 255] {
             assert_eq!(linear([byte; 3]).to_array().map(encode), [byte; 3], "there and back");
+        }
+    }
+
+    #[test]
+    fn populations_are_told_apart() {
+        let colors: Vec<Vec3> = (0..windfall_core::scene::MAX_POPULATIONS).map(population).collect();
+        for (first, a) in colors.iter().enumerate() {
+            for (second, b) in colors.iter().enumerate().skip(first + 1) {
+                let apart = (a.map(f32::sqrt) - b.map(f32::sqrt)).length();
+                let least = if second < 8 { 0.15 } else { 0.05 };
+                assert!(apart > least, "{first} and {second}: {apart}");
+            }
         }
     }
 

@@ -126,7 +126,8 @@ fn feature_text(compiled: &CompiledScene, species: usize, id: u32, present: usiz
     texts.collect::<Vec<_>>().join(" ")
 }
 
-fn length(v: Vec3) -> f32 {
+/// Length of a vector.
+pub(crate) fn length(v: Vec3) -> f32 {
     (v.x * v.x + v.y * v.y + v.z * v.z).sqrt()
 }
 

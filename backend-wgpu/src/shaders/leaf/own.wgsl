@@ -59,7 +59,7 @@ fn first_phase(bits: u32, word: u32) -> u32 {
 }
 
 fn table_phase(bits: u32, phase: u32, heading: u32) -> u32 {
-    if (scene.has_cones == 0u || !winds(bits)) {
+    if (scene.cones.count == 0u || !winds(bits)) {
         return phase;
     }
     return cone_table_phase(bits, phase, heading);
@@ -82,7 +82,7 @@ fn own_advance(bits: u32, params: MotionParams, start: u32, end: u32) -> vec3<f3
     if (last < first) {
         way = way + own_period(bits, params);
     }
-    if (scene.has_cones == 0u || !winds(bits)) {
+    if (scene.cones.count == 0u || !winds(bits)) {
         return way;
     }
     let inner = on_grid(cone_offset(bits, start, params.heading) * scale);
@@ -104,7 +104,7 @@ fn own_velocity(bits: u32, phase: u32, params: MotionParams) -> vec3<f32> {
 
 fn own_orientation(bits: u32, phase: u32, heading: u32) -> vec4<f32> {
     let local = motion_state(motion_table(bits), table_phase(bits, phase, heading)).orientation;
-    if (scene.has_cones != 0u && winds(bits)) {
+    if (scene.cones.count != 0u && winds(bits)) {
         return cone_orientation(bits, phase, heading, local, spin_angle(bits));
     }
     let turn = sin_cos_half(heading_angle(heading));
