@@ -93,7 +93,8 @@ fn every_module_is_valid_and_every_struct_has_one_layout() {
 }
 
 /// Functions that read a list of words which stands in a uniform block four to a vector.
-const LIST_READERS: [&str; 4] = ["source_share", "species_rate", "transition_count", "response_of"];
+const LIST_READERS: [&str; 5] =
+    ["source_share", "species_rate", "transition_count", "response_of", "cone_of"];
 
 /// Members that are vectors of four with axes.
 const QUATERNIONS: [&str; 3] = ["quaternion", "rest_quaternion", "turn"];

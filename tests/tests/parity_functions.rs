@@ -204,7 +204,7 @@ fn a_changed_twin_is_noticed() {
             "cone_offset",
         ),
         ("leaf/cone_spiral", "-(turn.x * radius)", "turn.x * radius", "cone_offset"),
-        ("leaf/cone_spiral", "inverse * 0.5, scene", "inverse * 0.6, scene", "cone_velocity"),
+        ("leaf/cone_spiral", "inverse * 0.5, cone", "inverse * 0.6, cone", "cone_velocity"),
         ("leaf/cone_spiral", "(cosine + 1.0) * 0.5", "(cosine + 1.0) * 0.4", "cone_velocity"),
         ("leaf/own", "select(1.0, 0.0, end < start)", "1.0", "table_phase"),
         ("leaf/own", "(outer - inner)", "(inner - outer)", "table_phase"),

@@ -8,7 +8,7 @@ use crate::arith::quaternion::Quat;
 use crate::arith::vector::Vec3;
 use crate::blocks::NEVER;
 use crate::context::Context;
-use crate::device::leaf::cone_spiral::{cone_table_phase, cone_table_rate, winds};
+use crate::device::leaf::cone_spiral::{cone_of, cone_table_phase, winds};
 use crate::device::leaf::fall::{Glide, glide_of, response_of, spin_advance};
 use crate::device::leaf::fly::flight_write;
 use crate::device::leaf::join::leaf_join;
@@ -165,7 +165,7 @@ fn glide_long(cx: &Context<'_>, leaf: &LeafMut<'_>, glide: Glide, part_q16: u64)
 /// Whole periods of the table of a cone spiral between two ages, but for the one that [`own_advance`] sees. An age lasts longer than any
 /// fall through still air.
 fn cone_periods(cx: &Context<'_>, bits: u32, heading: u32, start: u32, end: u32) -> f32 {
-    let rate = u64::from(cone_table_rate(cx, bits));
+    let rate = u64::from(cone_of(cx, bits).table_rate);
     let passed = ((u64::from(end) * rate) >> 16) - ((u64::from(start) * rate) >> 16);
     let first = cone_table_phase(cx, bits, start, heading);
     let periods = (u64::from(first) + passed) >> 32;

@@ -69,6 +69,8 @@ pub const MAX_VORTICES: usize = 8;
 pub const MAX_SPLINE_POINTS: usize = 12;
 /// Segments in which the curved axis of a vortex is followed.
 pub const SPLINE_SEGMENTS: u16 = 16;
+/// Most points of a curve over the age of particles.
+pub const MAX_CURVE_POINTS: usize = 64;
 /// Most jets a scene may have: they travel there, too.
 pub const MAX_JETS: usize = 8;
 /// Most keys a jet may have.

@@ -14,7 +14,7 @@ use windfall_core::arith::rng::{below, mul_high, mul_q16, philox, triangular, un
 use windfall_core::arith::vector::{vec3_cross, vec3_dot, vec3_length, vec3_lerp};
 use windfall_core::device::leaf::air::air_sample;
 use windfall_core::device::leaf::cone_spiral::{
-    cone_angle, cone_offset, cone_orientation, cone_start, cone_table_phase, cone_velocity,
+    cone_angle, cone_of, cone_offset, cone_orientation, cone_table_phase, cone_velocity,
 };
 use windfall_core::device::leaf::fall::{felt_drift, glide_of, response_of, spin_advance};
 use windfall_core::device::leaf::join::part_of_step;
@@ -281,13 +281,12 @@ functions! {
     cone_offset in "leaf/cone_spiral" (WINDING, ANY, ANY, ANY) tolerance Some(2e-6);
     wgsl "let bits = (CONE_SPIRAL << TABLE_SHIFT) | (a.x << SPECIES_SHIFT);
         r = vec4<u32>(bitcast<vec3<u32>>(cone_offset(bits, a.y, a.z)), cone_angle(bits, a.y, a.z));
-        s = vec4<u32>(cone_table_phase(bits, a.y, a.z), cone_start(bits), first_phase(bits, a.w), landed_bits(a.w));";
+        s = vec4<u32>(cone_table_phase(bits, a.y, a.z), cone_of(bits).start_age, landed_bits(a.w), 0u);";
     rust |cx, w| {
         let bits = (CONE_SPIRAL << 8) | (w[0] << SPECIES_SHIFT);
         let d = cone_offset(cx, bits, w[1], w[2]).to_array().map(f32::to_bits);
         let (angle, phase) = (cone_angle(cx, bits, w[1], w[2]), cone_table_phase(cx, bits, w[1], w[2]));
-        let (start, first) = (cone_start(cx, bits), first_phase(cx, bits, w[3]));
-        integers([d[0], d[1], d[2], angle, phase, start, first, landed_bits(w[3])])
+        integers([d[0], d[1], d[2], angle, phase, cone_of(cx, bits).start_age, landed_bits(w[3])])
     };
 
     cone_velocity in "leaf/cone_spiral" (WINDING, ANY, ANY, ANY) tolerance Some(4e-6);
@@ -308,12 +307,14 @@ functions! {
     wgsl "let bits = (CONE_SPIRAL << TABLE_SHIFT) | (a.x << SPECIES_SHIFT);
         let way = own_advance(bits, MotionParams(0u, a.w, b.x), a.y, a.z);
         r = vec4<u32>(bitcast<vec3<u32>>(way), bitcast<u32>(1f));
-        s = bitcast<vec4<u32>>(own_orientation(bits | (b.y << SPIN_SHIFT), a.y, b.x));";
+        s = bitcast<vec4<u32>>(own_orientation(bits | (b.y << SPIN_SHIFT), a.y, b.x));
+        answer[2].x = first_phase(bits, a.y);";
     rust |cx, w| {
         let bits = (CONE_SPIRAL << 8) | (w[0] << SPECIES_SHIFT);
         let d = own_advance(cx, bits, MotionParams { rate: 0, size: w[3], heading: w[4] }, w[1], w[2]);
         let q = own_orientation(cx, bits | (w[5] << 16), w[1], w[4]);
-        floats([d.x, d.y, d.z, 1.0, q.x, q.y, q.z, q.w])
+        let first = f32::from_bits(first_phase(cx, bits, w[1]));
+        floats([d.x, d.y, d.z, 1.0, q.x, q.y, q.z, q.w, first])
     };
 
     // A rounding that falls the other way is a grid unit of 4e-6 m; the one keeps it small against the whole case.

@@ -53,7 +53,7 @@ fn on_grid(v: vec3<f32>) -> vec3<f32> {
 
 fn first_phase(bits: u32, word: u32) -> u32 {
     if (winds(bits)) {
-        return cone_start(bits);
+        return cone_of(bits).start_age;
     }
     return word;
 }

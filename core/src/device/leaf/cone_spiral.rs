@@ -29,10 +29,44 @@ crate::shared_constants! {
     pub const PHASE_RADIANS: f32 = 1.462_918e-9;
 }
 
+/// Cone spiral of a species, or of several leaves' (see [`ConesBlock`](crate::blocks::ConesBlock)).
+#[derive(Clone, Copy)]
+pub struct Cone<R: Real = f32> {
+    /// Radius in m where it is open.
+    pub radius_m: R,
+    /// Share of the depth until there in 2^-16 steps.
+    pub share_per_age: R,
+    /// 1 on a bowl, 0 on a cone.
+    pub is_bowl: R,
+    /// Slope of the bank per m of radius.
+    pub bank_per_m: R,
+    /// Orbit in a step in 2^-32 turns.
+    pub orbit_rate: R::Word,
+    /// Phase of the table of heights and swings in a step.
+    pub table_rate: R::Word,
+    /// Age at which a leaf sets off.
+    pub start_age: R::Word,
+}
+
 /// Returns true if leaves with these bits wind down in a cone spiral. Only of leaves in the air.
 #[inline(always)]
 pub fn winds<W: Word>(bits: W) -> W::Mask {
     leaf_primitive(bits).equals(CONE_SPIRAL)
+}
+
+/// Cone spiral of the species of leaves with these bits.
+#[inline(always)]
+pub fn cone_of<W: Word>(cx: &Context<'_>, bits: W) -> Cone<W::Real> {
+    let (species, cones) = (leaf_species(bits), &cx.scene.cones);
+    Cone {
+        radius_m: species.pick(must_cast_ref(&cones.radius_m)),
+        share_per_age: species.pick(must_cast_ref(&cones.share_per_age)),
+        is_bowl: species.pick(must_cast_ref(&cones.is_bowl)),
+        bank_per_m: species.pick(must_cast_ref(&cones.bank_per_m)),
+        orbit_rate: species.pick(must_cast_ref(&cones.orbit_rate)).to_bits(),
+        table_rate: species.pick(must_cast_ref(&cones.table_rate)).to_bits(),
+        start_age: species.pick(must_cast_ref(&cones.start_age)).to_bits(),
+    }
 }
 
 /// An age as a float, to its precision. In halves, which floats hold exactly.
@@ -44,43 +78,31 @@ fn cone_age<W: Word>(age: W) -> W::Real {
 /// Share of the depth of the cone that the leaf has come down at that age, at most 1.
 #[inline(always)]
 fn cone_share<W: Word>(cx: &Context<'_>, bits: W, age: W) -> W::Real {
-    let per_age = leaf_species(bits).pick(must_cast_ref(&cx.scene.cones.share_per_age));
-    let share = cone_age(age) * per_age;
+    let cone = cone_of(cx, bits);
+    let share = cone_age(age) * cone.share_per_age;
     share.min(share.all(1.0))
 }
 
 /// Radius of the spiral in m at that age, of a leaf of nominal size.
 #[inline(always)]
 pub fn cone_radius<W: Word>(cx: &Context<'_>, bits: W, age: W) -> W::Real {
-    let (species, cones) = (leaf_species(bits), &cx.scene.cones);
+    let cone = cone_of(cx, bits);
     let share = cone_share(cx, bits, age);
     let root = share * inverse_sqrt(share.max(share.all(LEAST_SHARE)));
-    let is_bowl = share.all(0.5).less_than(species.pick(must_cast_ref(&cones.is_bowl)));
-    is_bowl.select_real(root, share) * species.pick(must_cast_ref(&cones.radius_m))
-}
-
-/// Phase per step of the table with heights and swings.
-#[inline(always)]
-pub fn cone_table_rate<W: Word>(cx: &Context<'_>, bits: W) -> W {
-    leaf_species(bits).pick(must_cast_ref(&cx.scene.cones.table_rate)).to_bits()
-}
-
-/// Orbit in a step in 2^-32 turns.
-#[inline(always)]
-pub fn cone_orbit_rate<W: Word>(cx: &Context<'_>, bits: W) -> W {
-    leaf_species(bits).pick(must_cast_ref(&cx.scene.cones.orbit_rate)).to_bits()
+    let is_bowl = share.all(0.5).less_than(cone.is_bowl);
+    is_bowl.select_real(root, share) * cone.radius_m
 }
 
 /// Angle about +y at that age in 2^-32 turns, from the x axis.
 #[inline(always)]
 pub fn cone_angle<W: Word>(cx: &Context<'_>, bits: W, age: W, heading: W) -> W {
-    mul_q16(age, cone_orbit_rate(cx, bits)).plus(heading_angle(heading) << 16)
+    mul_q16(age, cone_of(cx, bits).orbit_rate).plus(heading_angle(heading) << 16)
 }
 
 /// Phase of the table with heights and swings at that age.
 #[inline(always)]
 pub fn cone_table_phase<W: Word>(cx: &Context<'_>, bits: W, age: W, heading: W) -> W {
-    mul_q16(age, cone_table_rate(cx, bits)).plus(heading_angle(heading).times(age.all(SWING_SPREAD)))
+    mul_q16(age, cone_of(cx, bits).table_rate).plus(heading_angle(heading).times(age.all(SWING_SPREAD)))
 }
 
 /// Way in m from the spiral's axis to the leaf at that age, of a leaf of nominal size.
@@ -102,8 +124,8 @@ pub fn cone_orientation<W: Word>(
     swing: Quat<W::Real>,
     spin: W,
 ) -> Quat<W::Real> {
-    let slope =
-        cone_radius(cx, bits, age) * leaf_species(bits).pick(must_cast_ref(&cx.scene.cones.bank_per_m));
+    let cone = cone_of(cx, bits);
+    let slope = cone_radius(cx, bits, age) * cone.bank_per_m;
     let one = slope.all(1.0);
     let cosine = inverse_sqrt(slope * slope + one);
     let half_squared = (cosine + one) * 0.5;
@@ -116,31 +138,25 @@ pub fn cone_orientation<W: Word>(
     quat_turn_after(banked, orbit_sine, orbit_cosine)
 }
 
-/// Age at which a leaf with these bits sets off.
-#[inline(always)]
-pub fn cone_start(cx: &Context<'_>, bits: u32) -> u32 {
-    leaf_species(bits).pick(must_cast_ref(&cx.scene.cones.start_age)).to_bits()
-}
-
 /// Velocity at that age, in metres per step for a leaf of nominal size and speed.
 #[inline(always)]
 pub fn cone_velocity(cx: &Context<'_>, bits: u32, age: u32, heading: u32) -> Vec3 {
-    let (species, cones) = (leaf_species(bits), &cx.scene.cones);
-    let per_step = species.pick(must_cast_ref(&cones.share_per_age)) * 65536.0;
+    let cone = cone_of(cx, bits);
+    let per_step = cone.share_per_age * 65536.0;
     let radius = cone_radius(cx, bits, age);
     let share = cone_share(cx, bits, age);
-    let full = species.pick(must_cast_ref(&cones.radius_m));
+    let full = cone.radius_m;
     // On a bowl r dr = R² ds / 2.
     let inverse = inverse_sqrt(share.max(LEAST_SHARE));
-    let growth = if species.pick(must_cast_ref(&cones.is_bowl)) > 0.5 { inverse * 0.5 } else { 1.0 };
+    let growth = if cone.is_bowl > 0.5 { inverse * 0.5 } else { 1.0 };
     let outward = if share < 1.0 { (full * per_step) * growth } else { 0.0 };
-    let around = radius * (cone_orbit_rate(cx, bits).to_real() * PHASE_RADIANS);
+    let around = radius * (cone.orbit_rate.to_real() * PHASE_RADIANS);
     let (sine, cosine) = sin_cos_turns(cone_angle(cx, bits, age, heading));
     let phase = cone_table_phase(cx, bits, age, heading);
     let table = motion_velocity(&cx.motion, motion_table(bits), phase);
     Vec3::new(
         cosine * outward - sine * around,
-        table.y * (cone_table_rate(cx, bits).to_real() * PHASE_UNIT),
+        table.y * (cone.table_rate.to_real() * PHASE_UNIT),
         (-(sine * outward)) - cosine * around,
     )
 }

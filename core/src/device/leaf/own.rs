@@ -4,7 +4,7 @@
 //!
 //! A leaf's own motion: the tables scaled to its size and speed, turned to its heading, with its spin.
 
-use super::cone_spiral::{cone_offset, cone_orientation, cone_start, cone_table_phase, cone_velocity, winds};
+use super::cone_spiral::{cone_of, cone_offset, cone_orientation, cone_table_phase, cone_velocity, winds};
 use super::record::{GRID_ANCHOR, HALF_MASK, Schedule, heading_angle, motion_table, size_ratio, spin_angle};
 use crate::arith::lane::{Mask, Real, Word};
 use crate::arith::math::sin_cos_half;
@@ -82,7 +82,7 @@ pub fn on_grid<R: Real>(v: Vec3<R>) -> Vec3<R> {
 /// Phase at which a leaf with these bits begins its first motion, given a random word: the start of a cone spiral, else any.
 #[inline(always)]
 pub fn first_phase(cx: &Context<'_>, bits: u32, word: u32) -> u32 {
-    if winds(bits) { cone_start(cx, bits) } else { word }
+    if winds(bits) { cone_of(cx, bits).start_age } else { word }
 }
 
 /// Phase of a leaf's table at a phase of its motion.
