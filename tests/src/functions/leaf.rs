@@ -63,7 +63,7 @@ const METRES: Input = Input::Float(-300.0, 300.0);
 /// Tables of the species of the test scene.
 const TABLE: Input = Input::Below(6);
 const SPECIES: Input = Input::Below(2);
-/// Species of the test scene, of which the third and fourth may wind down on cone spirals.
+/// Species of the test scenes, of which the last two of one wind down on cone spirals.
 const WINDING: Input = Input::Below(5);
 const SOURCE: Input = Input::Below(3);
 
@@ -279,23 +279,23 @@ functions! {
     };
 
     cone_offset in "leaf/cone_spiral" (WINDING, ANY, ANY, ANY) tolerance Some(2e-6);
-    wgsl "let bits = (CONE_SPIRAL << TABLE_SHIFT) | (a.x << SPECIES_SHIFT);
+    wgsl "let bits = (CONE_SPIRAL << TABLE_SHIFT) | (min(a.x, scene.species_count - 1u) << SPECIES_SHIFT);
         r = vec4<u32>(bitcast<vec3<u32>>(cone_offset(bits, a.y, a.z)), cone_angle(bits, a.y, a.z));
         s = vec4<u32>(cone_table_phase(bits, a.y, a.z), cone_of(bits).start_age, landed_bits(a.w), 0u);";
     rust |cx, w| {
-        let bits = (CONE_SPIRAL << 8) | (w[0] << SPECIES_SHIFT);
+        let bits = (CONE_SPIRAL << 8) | (w[0].min(cx.scene.species_count - 1) << SPECIES_SHIFT);
         let d = cone_offset(cx, bits, w[1], w[2]).to_array().map(f32::to_bits);
         let (angle, phase) = (cone_angle(cx, bits, w[1], w[2]), cone_table_phase(cx, bits, w[1], w[2]));
         integers([d[0], d[1], d[2], angle, phase, cone_of(cx, bits).start_age, landed_bits(w[3])])
     };
 
     cone_velocity in "leaf/cone_spiral" (WINDING, ANY, ANY, ANY) tolerance Some(4e-6);
-    wgsl "let bits = (CONE_SPIRAL << TABLE_SHIFT) | (a.x << SPECIES_SHIFT);
+    wgsl "let bits = (CONE_SPIRAL << TABLE_SHIFT) | (min(a.x, scene.species_count - 1u) << SPECIES_SHIFT);
         r = vec4<u32>(bitcast<vec3<u32>>(cone_velocity(bits, a.y, a.z)), 0u);
         let swing = motion_state(motion_table(bits), cone_table_phase(bits, a.y, a.z)).orientation;
         s = bitcast<vec4<u32>>(cone_orientation(bits, a.y, a.z, swing, a.w));";
     rust |cx, w| {
-        let bits = (CONE_SPIRAL << 8) | (w[0] << SPECIES_SHIFT);
+        let bits = (CONE_SPIRAL << 8) | (w[0].min(cx.scene.species_count - 1) << SPECIES_SHIFT);
         let v = cone_velocity(cx, bits, w[1], w[2]);
         let (_, swing) = motion_state(&cx.motion, motion_table(bits), cone_table_phase(cx, bits, w[1], w[2]));
         let q = cone_orientation(cx, bits, w[1], w[2], swing, w[3]);
@@ -304,13 +304,13 @@ functions! {
 
     // One in two pairs of ages begins anew on the way.
     table_phase in "leaf/own" (WINDING, ANY, ANY, Input::Below(30_000), ANY, ANY) tolerance Some(1.6e-5);
-    wgsl "let bits = (CONE_SPIRAL << TABLE_SHIFT) | (a.x << SPECIES_SHIFT);
+    wgsl "let bits = (CONE_SPIRAL << TABLE_SHIFT) | (min(a.x, scene.species_count - 1u) << SPECIES_SHIFT);
         let way = own_advance(bits, MotionParams(0u, a.w, b.x), a.y, a.z);
         r = vec4<u32>(bitcast<vec3<u32>>(way), bitcast<u32>(1f));
         s = bitcast<vec4<u32>>(own_orientation(bits | (b.y << SPIN_SHIFT), a.y, b.x));
         answer[2].x = first_phase(bits, a.y);";
     rust |cx, w| {
-        let bits = (CONE_SPIRAL << 8) | (w[0] << SPECIES_SHIFT);
+        let bits = (CONE_SPIRAL << 8) | (w[0].min(cx.scene.species_count - 1) << SPECIES_SHIFT);
         let d = own_advance(cx, bits, MotionParams { rate: 0, size: w[3], heading: w[4] }, w[1], w[2]);
         let q = own_orientation(cx, bits | (w[5] << 16), w[1], w[4]);
         let first = f32::from_bits(first_phase(cx, bits, w[1]));

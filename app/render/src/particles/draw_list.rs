@@ -42,7 +42,7 @@ shared_struct! {
         count: u32,
         /// Number of pairs that are sorted, at least as many.
         pairs: u32,
-        /// What colours stand for, such as [`PAINT_NONE`](super::paint::PAINT_NONE).
+        /// Meaning of the colours, such as [`PAINT_NONE`](super::paint::PAINT_NONE).
         paint: u32,
         /// Colours that stand for something.
         palette: [Float4; PAINT_COLORS as usize],

@@ -154,8 +154,8 @@ mod tests {
 
     /// Sparks, splashes of them, and mist of the splashes.
     fn scene() -> Scene {
-        let text = "(sources: [], particles: [
-            (name: \"spark\", count: 100, release: Rate(per_s: 20.0), life_s: Some(Constant(2.0))),
+        let text = "(particles: [
+            (name: \"spark\", count: 100, release: Rate(per_s: 20.0, from_s: 0.0), life_s: Some(Constant(2.0))),
             (name: \"splash\", count: 400, nest: Some((of: \"spark\", on: Death, fan: 2)), life_s: Some(Constant(0.5))),
             (name: \"mist\", count: 400, nest: Some((of: \"splash\", on: Death)), life_s: Some(Constant(0.5))),
         ])";

@@ -110,9 +110,9 @@ mod tests {
     use super::*;
 
     /// Sparks that fall to the ground and splash into drops.
-    const SCENE: &str = "(sources: [], particles: [
-        (name: \"spark\", count: 300, from: Sphere(center_m: (0.0, 0.5, 0.0), radius_m: 0.1), release: Rate(per_s: 100.0),
-         life_s: Some(Constant(2.0)), meets: Bounce(restitution: 0.3)),
+    const SCENE: &str = "(particles: [
+        (name: \"spark\", count: 300, from: Sphere(center_m: (0.0, 0.5, 0.0), radius_m: 0.1), release: Rate(per_s: 100.0, from_s: 0.0),
+         life_s: Some(Constant(2.0)), meets: Bounce(restitution: 0.3, friction: Coulomb(0.3))),
         (name: \"drop\", count: 1200, nest: Some((of: \"spark\", on: Hit, fan: 2)), life_s: Some(Constant(0.4))),
     ])";
 

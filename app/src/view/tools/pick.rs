@@ -85,7 +85,7 @@ impl Projection {
         (self.matrix * world.extend(1.0)).w
     }
 
-    /// What a click at `pointer` means, of things and their places: within `reach` points of it, and rather one in front than one far
+    /// The thing that a click at `pointer` means, of things and their places: within `reach` points of it, and rather one in front than one far
     /// behind.
     pub(crate) fn nearest<T: Copy>(
         &self,
@@ -155,7 +155,7 @@ mod tests {
 
     #[test]
     fn particles_are_picked_among_leaves_if_they_are_seen() {
-        let text = "(sources: [], particles: [(name: \"seen\"), (name: \"unseen\", look: (kind: Hidden))])";
+        let text = "(particles: [(name: \"seen\"), (name: \"unseen\", look: (kind: Hidden))])";
         let scene = Scene::from_ron(text, "two").expect("RON");
         let place = |state, population| ParticlePlace {
             position: [0.0, 2.0, 0.0],

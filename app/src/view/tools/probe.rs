@@ -42,7 +42,7 @@ impl ParticleRecords {
     }
 }
 
-/// What has come back.
+/// Records that have come back.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Found {
     Leaf(u32, At<LeafRecords>),
@@ -54,7 +54,7 @@ pub(crate) enum Found {
 pub(crate) struct Probe {
     buffer: wgpu::Buffer,
     state: Arc<AtomicU8>,
-    /// What is on its way, and the step at which it was asked for.
+    /// Leaf or particle whose records are on their way, and the step at which it was asked for.
     asked: (Picked, u32),
 }
 
@@ -99,7 +99,7 @@ impl Probe {
         }
     }
 
-    /// What has come back; call it after submitting.
+    /// Records that have come back; call it after submitting.
     pub(crate) fn collect(&mut self, device: &wgpu::Device) -> Option<Found> {
         if self.state.compare_exchange(COPIED, MAPPING, Ordering::AcqRel, Ordering::Acquire).is_ok() {
             let state = Arc::clone(&self.state);

@@ -107,7 +107,7 @@ impl ParticleSelection {
     }
 }
 
-/// What is followed.
+/// Leaf or particle that is followed.
 #[derive(Clone, Debug)]
 pub(crate) enum Followed {
     Leaf(Selection),

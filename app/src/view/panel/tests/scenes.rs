@@ -121,8 +121,8 @@ pub(super) fn winding() -> Scene {
 
 /// Particles, others that are born of them, and others of these.
 pub(super) fn nested() -> Scene {
-    let text = "(sources: [], particles: [
-        (name: \"spark\", count: 100, release: Rate(per_s: 20.0), life_s: Some(Constant(2.0))),
+    let text = "(particles: [
+        (name: \"spark\", count: 100, release: Rate(per_s: 20.0, from_s: 0.0), life_s: Some(Constant(2.0))),
         (name: \"drop\", count: 400, nest: Some((of: \"spark\", on: Every(steps: 60), fan: 2, inherit: 0.5, radius_m: 0.1)),
          life_s: Some(Constant(0.5))),
     ])";
