@@ -98,7 +98,7 @@ fn particle_colors(ui: &mut Ui, overlays: &mut Overlays) {
         ui.label(RichText::new("Particles").small().color(style::QUIET));
         for (measure, label, tip) in [
             (None, "Own", "Particles in their own colours"),
-            (Some(ParticleMeasure::Population), "Population", "Coloured by population"),
+            (Some(ParticleMeasure::Population), "Kind", "Coloured by population"),
             (Some(ParticleMeasure::Speed), "Their speed", "Particles coloured by speed"),
             (Some(ParticleMeasure::Age), "Their age", "Particles coloured by the time since birth"),
         ] {

@@ -268,14 +268,23 @@ fn nests_can_be_edited() {
     let scene = nested();
     let mut harness = open(&scene, &[Group::Particles]);
     let control = |role: &str, name: &str| Control { role: role.into(), name: name.into(), number: 0 };
-    moves(&mut harness, &control("ComboBox", "Population"));
-    restore(&mut harness, &scene);
+    let choose = |harness: &mut Harness<'_, Window>, name: &str, option: &str| {
+        find(harness, &control("ComboBox", name)).click_accesskit();
+        harness.run_steps(2);
+        let is_it = |node: &Node<'_>| node.accesskit_node().label().is_some_and(|name| name == option);
+        harness.root().children_recursive().find(is_it).expect("an option of the menu").click_accesskit();
+        harness.run_steps(3);
+    };
+    choose(&mut harness, "Population", "2: 400 drop");
     let names: Vec<String> = controls(&harness).into_iter().map(|control| control.name).collect();
     for absent in ["Slots", "Start from", "Births"] {
         assert!(!names.iter().any(|name| name == absent), "{absent} does not count with a nest");
     }
-    let mut edited = |role: &str, name: &str| {
-        assert!(moves(&mut harness, &control(role, name)), "{name}");
+    let mut edited = |name: &str, option: Option<&str>| {
+        match option {
+            Some(option) => choose(&mut harness, name, option),
+            None => assert!(moves(&mut harness, &control("Slider", name)), "{name}"),
+        }
         let action = harness.state_mut().actions.pop();
         let Some(Action::Edit { scene: edited, .. }) = action else { panic!("{name} edits: {action:?}") };
         restore(&mut harness, &scene);
@@ -283,19 +292,19 @@ fn nests_can_be_edited() {
         (edited.particles[1].count, edited.particles[1].nest.clone())
     };
     let nest = scene.particles[1].nest.clone().expect("it has one");
-    let (_, of) = edited("ComboBox", "Born of");
+    let (_, of) = edited("Born of", Some("nothing"));
     assert_eq!(of, None, "born by itself");
-    let (_, on) = edited("ComboBox", "Born at");
+    let (_, on) = edited("Born at", Some("its death"));
     assert!(on.is_some_and(|other| other.on != nest.on), "another event");
-    let (_, every) = edited("Slider", "Every");
+    let (_, every) = edited("Every", None);
     assert!(every.is_some_and(|other| other.on != nest.on), "other steps");
-    let (count, fan) = edited("Slider", "Born at once");
+    let (count, fan) = edited("Born at once", None);
     assert_eq!(fan.map(|nest| (nest.fan, count % (100 * nest.fan))), Some((3, 0)), "and slots for them");
-    let (_, inherit) = edited("Slider", "Inherits");
+    let (_, inherit) = edited("Inherits", None);
     assert!(inherit.is_some_and(|other| other.inherit > 0.5), "more of the velocity");
-    let (_, within) = edited("Slider", "Start within");
+    let (_, within) = edited("Start within", None);
     assert!(within.is_some_and(|other| other.radius_m > 0.1), "a larger ball");
-    let (count, _) = edited("Slider", "Rounds");
+    let (count, _) = edited("Rounds", None);
     assert_eq!(count, 600, "slots for one more round");
 }
 
