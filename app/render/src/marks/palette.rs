@@ -61,7 +61,7 @@ pub fn shade_bytes(share: f32) -> [u8; 3] {
 /// The colour of a population of particles, linear sRGB: hues by the golden angle, so that neighbours lie far apart, in turn light and
 /// dark.
 pub(crate) fn population(number: usize) -> Vec3 {
-    let lightness = if number % 2 == 0 { 0.78 } else { 0.60 };
+    let lightness = if number.is_multiple_of(2) { 0.78 } else { 0.60 };
     let (sin, cos) = (30.0 + 137.507_77 * number as f32).to_radians().sin_cos();
     linear_of_oklab(Vec3::new(lightness, 0.13 * cos, 0.13 * sin)).clamp(Vec3::ZERO, Vec3::ONE)
 }

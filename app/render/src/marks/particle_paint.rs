@@ -9,7 +9,10 @@ use windfall_core::scene::MAX_POPULATIONS;
 use super::palette::{SHADES, population, shade};
 use crate::particles::paint::{PAINT_AGE, PAINT_COLORS, PAINT_POPULATION, PAINT_SPEED, PaintedParticles};
 
-const _: () = assert!(PAINT_COLORS == SHADES && PAINT_COLORS as usize >= MAX_POPULATIONS);
+const _: () = assert!(
+    PAINT_COLORS == SHADES && PAINT_COLORS as usize >= MAX_POPULATIONS,
+    "a colour for each shade, and one for each population"
+);
 
 /// Property of particles that colours show.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

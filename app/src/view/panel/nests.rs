@@ -196,7 +196,7 @@ mod tests {
         scene.particles[2].count = 7;
         make_room(&mut scene, 2);
         let rounds = scene.particles[2].count / 100;
-        assert!(rounds > 1 && scene.particles[2].count % 100 == 0, "{rounds} rounds");
+        assert!(rounds > 1 && scene.particles[2].count.is_multiple_of(100), "{rounds} rounds");
         scene.validate("long").expect("enough slots");
         scene.particles[2].count = 100 * (rounds - 1);
         scene.validate("short").expect_err("one round less is too little");
