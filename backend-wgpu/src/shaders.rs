@@ -176,6 +176,7 @@ impl Default for Shaders {
             "leaf/at_rest",
             "leaf/carry",
             "leaf/collide",
+            "leaf/cone_spiral",
             "leaf/fall",
             "leaf/fly",
             "leaf/join",

@@ -227,6 +227,29 @@ crate::shared_struct! {
 }
 
 crate::shared_struct! {
+    /// Cone spirals of the species that have one, four species to a vector (see
+    /// [`cone_offset`](crate::device::leaf::cone_spiral::cone_offset)).
+    pub struct ConesBlock, padding 12 {
+        /// Radius in m where the spiral is open.
+        pub radius_m: [Float4; MAX_SPECIES / 4],
+        /// Share of the depth until there that a leaf comes down in 2^-16 steps.
+        pub share_per_age: [Float4; MAX_SPECIES / 4],
+        /// 1 on a bowl, 0 on a cone.
+        pub is_bowl: [Float4; MAX_SPECIES / 4],
+        /// Slope of the bank per m of radius.
+        pub bank_per_m: [Float4; MAX_SPECIES / 4],
+        /// Orbit in a step in 2^-32 turns.
+        pub orbit_rate: [Uint4; MAX_SPECIES / 4],
+        /// Phase of the table of heights and swings in a step.
+        pub table_rate: [Uint4; MAX_SPECIES / 4],
+        /// Age in 2^-16 steps at which a leaf sets off.
+        pub start_age: [Uint4; MAX_SPECIES / 4],
+        /// Number of species that have one.
+        pub count: u32,
+    }
+}
+
+crate::shared_struct! {
     /// A number that differs from particle to particle: one of its widths is zero.
     pub struct SpreadBlock {
         /// Mean.
@@ -422,6 +445,8 @@ crate::shared_struct! {
         pub solids: SolidsBlock,
         /// Responses of the species.
         pub responses: ResponseBlock,
+        /// Cone spirals of the species.
+        pub cones: ConesBlock,
         /// The species.
         pub species: [SpeciesBlock; MAX_SPECIES],
         /// The species as bodies.
@@ -438,6 +463,12 @@ impl SceneBlock {
     #[inline(always)]
     pub fn has_terrain(&self) -> bool {
         self.has_terrain != 0
+    }
+
+    /// Returns true if leaves of some species wind down in cone spirals.
+    #[inline(always)]
+    pub fn has_cones(&self) -> bool {
+        self.cones.count != 0
     }
 
     /// Returns true if leaves may lie higher than on level ground.

@@ -43,7 +43,7 @@
 //! - [`litter`]: leaves that lie on one another.
 //! - [`particle`]: everything else that flies.
 //! - [`solid`]: solid things that leaves strike, part by part.
-//! - [`motion`]: six primitive motions, their tables and the chain that joins them.
+//! - [`motion`]: six primitive motions, their tables and the chain that joins them; the cone spiral.
 //! - [`flight`]: leaves as rigid bodies under air forces.
 //! - [`wind`]: mean flow, gusts, turbulence, vortices.
 //! - [`terrain`]: hills grown by subdivision.

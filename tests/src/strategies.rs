@@ -6,11 +6,11 @@ use glam::{Vec2, Vec3};
 use proptest::prelude::*;
 use windfall_core::motion::Primitive;
 use windfall_core::scene::{
-    Aerodynamics, Air, Bounds, Direction, FlightModel, Foliage, Force, ForceKind, Gusts, Hold, Jet, JetKey,
-    Litter, MeanSpeed, Meets, Nest, Object, ObjectFriction, ObjectKey, ObjectMotion, ObjectShape,
-    ParticleEvent, ParticleRelease, ParticleShape, Particles, Planform, Profile, Release, Scene, Share,
-    Source, SourceShape, Species, Spread, SwirlProfile, Terrain, Tree, TreeKind, Turbulence, Vortex,
-    VortexProfile, Walker, Water, WindParameters,
+    Aerodynamics, Air, Bounds, ConeShape, Direction, FlightModel, Foliage, Force, ForceKind, Gusts, Hold,
+    Jet, JetKey, Litter, MeanSpeed, Meets, MotionParameters, Nest, Object, ObjectFriction, ObjectKey,
+    ObjectMotion, ObjectShape, ParticleEvent, ParticleRelease, ParticleShape, Particles, Planform, Profile,
+    Release, Scene, Share, Source, SourceShape, Species, Spread, SwirlProfile, Terrain, Tree, TreeKind,
+    Turbulence, Vortex, VortexProfile, Walker, Water, WindParameters,
 };
 
 use crate::functions::Input;
@@ -326,6 +326,25 @@ pub fn smooth_scene(seed: u64, leaves: u32, speed_m_s: f32, dt_s: f32) -> Scene 
     scene
 }
 
+/// The same scene with leaves of two more species, which wind down on bowls and cones.
+pub fn winding_scene(mut scene: Scene) -> Scene {
+    for (name, shape) in [("on a bowl", ConeShape::Bowl), ("on a cone", ConeShape::Cone)] {
+        let motion = MotionParameters {
+            cone_shape: Some(shape),
+            cone_depth_m: Some(2.0),
+            corner_swing_deg: Some(40.0),
+            ..MotionParameters::default()
+        };
+        let species =
+            Species { name: name.into(), start: Primitive::ConeSpiral, motion, ..Species::default() };
+        scene.species.push(species);
+        for source in scene.sources.iter_mut().filter(|source| !source.species.is_empty()) {
+            source.species.push(Share { species: name.into(), weight: 2 });
+        }
+    }
+    scene
+}
+
 #[expect(clippy::cast_possible_truncation, reason = "scene numbers are single precision")]
 fn f64_as_f32(value: f64) -> f32 {
     value as f32
@@ -383,7 +402,7 @@ pub fn scenes(leaves: std::ops::Range<u32>) -> impl Strategy<Value = Scene> {
         0f32..20.0,
         prop_oneof![Just(1.0 / 60.0), Just(1.0 / 30.0), Just(1.0 / 240.0)],
     );
-    let motion = (0.3f32..2.5, 0.2f32..1.5, 0usize..6, 0f32..0.25, 0.05f32..2.0);
+    let motion = (0.3f32..2.5, 0.2f32..1.5, 0usize..Primitive::ALL.len(), 0f32..0.25, 0.05f32..2.0);
     let place = (-200f32..200.0, 0.1f32..1.0, 0usize..3, (0usize..2, 0usize..2));
     (numbers, motion, place, woods(), proptest::option::of(aerodynamics()), ground())
         .prop_map(|((seed, leaves, speed, dt), motion, place, woods, body, ground)| {

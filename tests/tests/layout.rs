@@ -8,9 +8,9 @@ use std::path::{Path, PathBuf};
 
 use naga::{AddressSpace, TypeInner};
 use windfall_core::blocks::{
-    BirthBlock, JetBlock, LitterBlock, MomentBlock, MoverBlock, NestBlock, PopulationBlock, ResponseBlock,
-    SceneBlock, ShelterBlock, SolidsBlock, SourceBlock, SpeciesBlock, SpreadBlock, StepBlock, SwayBlock,
-    VortexBlock, VortexNode, WindBlock,
+    BirthBlock, ConesBlock, JetBlock, LitterBlock, MomentBlock, MoverBlock, NestBlock, PopulationBlock,
+    ResponseBlock, SceneBlock, ShelterBlock, SolidsBlock, SourceBlock, SpeciesBlock, SpreadBlock, StepBlock,
+    SwayBlock, VortexBlock, VortexNode, WindBlock,
 };
 use windfall_core::flight::block::BodyBlock;
 use windfall_core::layout::WgslStruct;
@@ -62,6 +62,7 @@ fn every_module_is_valid_and_every_struct_has_one_layout() {
     same_layout::<WindBlock>(&module);
     same_layout::<SwayBlock>(&module);
     same_layout::<ResponseBlock>(&module);
+    same_layout::<ConesBlock>(&module);
     same_layout::<BodyBlock>(&module);
     same_layout::<SceneBlock>(&module);
     same_layout::<VortexBlock>(&module);
@@ -92,7 +93,8 @@ fn every_module_is_valid_and_every_struct_has_one_layout() {
 }
 
 /// Functions that read a list of words which stands in a uniform block four to a vector.
-const LIST_READERS: [&str; 4] = ["source_share", "species_rate", "transition_count", "response_of"];
+const LIST_READERS: [&str; 5] =
+    ["source_share", "species_rate", "transition_count", "response_of", "cone_of"];
 
 /// Members that are vectors of four with axes.
 const QUATERNIONS: [&str; 3] = ["quaternion", "rest_quaternion", "turn"];

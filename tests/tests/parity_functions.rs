@@ -12,7 +12,9 @@ use windfall_core::{Contract, Scene, World};
 use windfall_tests::adapter;
 use windfall_tests::functions::{self, Function};
 use windfall_tests::runner::{FunctionRunner, Words};
-use windfall_tests::strategies::{cases, flying_scene, hilly_scene, jet, obstructed_scene, particle_scene};
+use windfall_tests::strategies::{
+    cases, flying_scene, hilly_scene, jet, obstructed_scene, particle_scene, winding_scene,
+};
 use windfall_wgpu::{Gpu, Shaders};
 
 /// Cases in one dispatch; not a multiple of the workgroup size.
@@ -67,6 +69,7 @@ fn obstructed() -> World {
         vortex.spline_m[2].x += 1.0;
     }
     (scene.objects, scene.walkers) = (among.objects, among.walkers);
+    scene = winding_scene(scene);
     add_particles(&mut scene);
     let mut world = World::build(&scene).expect("valid");
     for _ in 0..30 {
@@ -188,6 +191,23 @@ fn a_changed_twin_is_noticed() {
         ("arith/math", "0.5 * r2", "0.4999 * r2", "sin_cos_turns"),
         ("arith/rng", "high1 ^ c.y", "high1 ^ c.z", "philox"),
         ("motion/lookup", "after << 16u", "after << 15u", "motion_displacement"),
+        (
+            "leaf/record",
+            "with_primitive(bits, 0u), is_spiral",
+            "with_primitive(bits, 1u), is_spiral",
+            "cone_offset",
+        ),
+        (
+            "leaf/cone_spiral",
+            "heading_angle(heading) * SWING",
+            "heading_angle(heading) + SWING",
+            "cone_offset",
+        ),
+        ("leaf/cone_spiral", "-(turn.x * radius)", "turn.x * radius", "cone_offset"),
+        ("leaf/cone_spiral", "inverse * 0.5, cone", "inverse * 0.6, cone", "cone_velocity"),
+        ("leaf/cone_spiral", "(cosine + 1.0) * 0.5", "(cosine + 1.0) * 0.4", "cone_velocity"),
+        ("leaf/own", "select(1.0, 0.0, end < start)", "1.0", "table_phase"),
+        ("leaf/own", "(outer - inner)", "(inner - outer)", "table_phase"),
         ("leaf/fall", "vec3<u32>(SLOWEST_DRIFT_TWICE)", "vec3<u32>(2u * SLOWEST_DRIFT_TWICE)", "felt_drift"),
         ("wind/gust", "row.y - row.x", "row.x - row.y", "wind_gust"),
         ("wind/shelter", "word >> 16u", "word >> 15u", "wind_shelter"),

@@ -4,10 +4,11 @@
 //! the last bit, in any wind. Under the tolerant one, in a wind without chaos, the integers are the same and positions
 //! stay together; in turbulence a rounding error grows e-fold every second or so, and the counts still agree.
 
+use windfall_core::motion::JOINED_COUNT;
 use windfall_core::{Clock, CompiledScene, Contract, SimError, Simulator, SimulatorInfo, Stats, World};
 use windfall_cpu::{CpuOptions, CpuSimulator};
 use windfall_tests::compare::{LONG_POSITION_M, LONG_QUATERNION, difference};
-use windfall_tests::strategies::{flying_scene, hilly_scene, smooth_scene, varied_scene};
+use windfall_tests::strategies::{flying_scene, hilly_scene, smooth_scene, varied_scene, winding_scene};
 use windfall_tests::{adapter, suite};
 use windfall_wgpu::{Gpu, Shaders, WgpuOptions, WgpuSimulator};
 
@@ -38,7 +39,10 @@ fn candidate(gpu: &Gpu, world: &World, options: &WgpuOptions) -> World {
 fn is_lively(world: &World) {
     let stats = world.stats();
     assert!(stats.leaves.falling > 500 && stats.leaves.resting > 500, "leaves fly and lie: {stats:?}");
-    assert!(stats.leaves.primitives.iter().all(|&count| count > 0), "all motions are flown: {stats:?}");
+    assert!(
+        stats.leaves.primitives[..JOINED_COUNT].iter().all(|&count| count > 0),
+        "all motions that are joined are flown: {stats:?}"
+    );
     assert_eq!(stats.leaves.broken, 0, "no broken leaf");
 }
 
@@ -75,6 +79,33 @@ fn a_thousand_steps_on_hills_are_equal_to_the_bit_under_the_exact_contract() {
             assert!(found.is_none(), "{}: {found:?}", gpu.info().name);
             assert_eq!(oracle.state_hash(), candidate.state_hash(), "{}", gpu.info().name);
         }
+    }
+}
+
+/// The same of leaves on cone spirals among others: to the bit, and together.
+#[test]
+fn a_thousand_steps_of_cone_spirals_agree() {
+    for (gpu, contract) in adapter::contracts() {
+        let air = if contract == Contract::Exact { varied_scene } else { smooth_scene };
+        let world =
+            World::build(&winding_scene(air(2017, LEAVES / 2, 3.0, 1.0 / 60.0))).expect("it is valid");
+        let oracle = oracle(&world);
+        is_lively(&oracle);
+        let winding = oracle.stats().leaves.primitives[JOINED_COUNT];
+        assert!(winding > 500, "{winding} leaves on cone spirals");
+        let options = WgpuOptions { contract: Some(contract), ..WgpuOptions::default() };
+        let found = difference(&oracle, &candidate(&gpu, &world, &options));
+        let is_near = match contract {
+            Contract::Exact => found.is_none(),
+            Contract::Tolerant => {
+                found.leaves().integer_rows == 0
+                    && found.is_finite()
+                    && found.leaves().largest("place.position") <= LONG_POSITION_M
+                    && found.leaves().largest("attitude.quaternion") <= LONG_QUATERNION
+            }
+        };
+        println!("{} {contract}: {found:?}", gpu.info().name);
+        assert!(is_near, "{} {contract}: {found:?}", gpu.info().name);
     }
 }
 

@@ -35,7 +35,8 @@ pub use gpu::timing::GpuTimer;
 pub use leaves::meshes::shaped;
 pub use leaves::species_table::{MAX_LAYERS, SpeciesRow, dryness, turned};
 pub use marks::{
-    ATTACHED, LANDINGS_PER_M2, MAX_TRAILS, MOTIONS, Measure, Paint, RESTING, ShelterMap, shade_bytes,
+    ATTACHED, LANDINGS_PER_M2, MAX_TRAILS, MOTIONS, Measure, Paint, ParticleMeasure, ParticlePaint, RESTING,
+    ShelterMap, population_bytes, shade_bytes,
 };
 pub use renderer::Renderer;
 pub use renderer::scene::{RenderScene, RendererOptions};

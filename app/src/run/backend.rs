@@ -10,6 +10,7 @@ use std::fmt;
 use anyhow::bail;
 use clap::{Args, ValueEnum};
 use windfall_core::leaf::Leaves;
+use windfall_core::particle::ParticleStore;
 use windfall_core::{Clock, CompiledScene, SimError, Simulator, SimulatorInfo, Stats, World};
 use windfall_cpu::{CpuOptions, CpuSimulator};
 use windfall_wgpu::{
@@ -222,6 +223,14 @@ impl Backend {
     pub fn host_leaves(&self) -> Option<&Leaves> {
         match self {
             Self::Cpu(cpu) => Some(&cpu.simulator.world().leaves),
+            Self::Wgpu(_) => None,
+        }
+    }
+
+    /// The particles where they are on this side of the device; `None` if they are on the other.
+    pub fn host_particles(&self) -> Option<&ParticleStore> {
+        match self {
+            Self::Cpu(cpu) => Some(&cpu.simulator.world().particles),
             Self::Wgpu(_) => None,
         }
     }

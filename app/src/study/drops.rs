@@ -4,6 +4,7 @@
 
 use anyhow::bail;
 use windfall_core::leaf::{LeafMotion, LeafState, LeafView};
+use windfall_core::motion::PRIMITIVE_COUNT;
 use windfall_core::scene::{Release, View};
 use windfall_core::{Scene, World};
 
@@ -12,9 +13,6 @@ use super::landing::{Landing, MOTION_COUNT};
 use crate::run::backend::Device;
 use crate::run::cancel::Cancel;
 use crate::run::tracks::Tracks;
-
-/// Motions that synthesised leaves have; those of bodies follow.
-const PRIMITIVES: usize = 6;
 
 /// Options of drops.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -123,8 +121,8 @@ fn note(world: &World, leaf: &LeafView, landing: &mut Landing) {
     match leaf.state {
         LeafState::Falling => {
             let motion = match leaf.motion {
-                Some(LeafMotion::Primitive(primitive)) => primitive as usize,
-                Some(LeafMotion::Regime(regime)) => PRIMITIVES + regime,
+                Some(LeafMotion::Primitive(primitive)) => primitive.index(),
+                Some(LeafMotion::Regime(regime)) => PRIMITIVE_COUNT + regime,
                 None => MOTION_COUNT,
             };
             landing.steps[motion.min(MOTION_COUNT - 1)] += 1;

@@ -6,11 +6,12 @@ use std::path::Path;
 
 use anyhow::{anyhow, bail};
 use windfall_core::Scene;
+use windfall_core::motion::PRIMITIVE_COUNT;
 
 use crate::files::CsvFile;
 
-/// Six motions of synthesised leaves, then six regimes of bodies.
-pub(crate) const MOTION_COUNT: usize = 12;
+/// Motions of synthesised leaves, then six regimes of bodies.
+pub(crate) const MOTION_COUNT: usize = PRIMITIVE_COUNT + 6;
 /// Header of the table.
 const HEADER: [&str; 12] = [
     "drop",

@@ -8,7 +8,7 @@ use windfall_core::motion::Primitive;
 use super::landing::{Landing, MOTION_COUNT};
 
 /// Names of the columns behind the point's number and settings. A mean and a standard deviation of drops that landed for
-/// each quantity; then shares of all time in the air: the six motions of synthesised leaves, and the regimes of bodies.
+/// each quantity; then shares of all time in the air: the motions of synthesised leaves, and the regimes of bodies.
 pub(crate) const COLUMNS: [&str; 2 + NUMBERS] = [
     "drops",
     "landed",
@@ -28,6 +28,7 @@ pub(crate) const COLUMNS: [&str; 2 + NUMBERS] = [
     Primitive::PeriodicFluttering.code(),
     Primitive::TransitionalHelical.code(),
     Primitive::PeriodicSpiraling.code(),
+    Primitive::ConeSpiral.code(),
     REGIME_NAMES[0],
     REGIME_NAMES[1],
     REGIME_NAMES[2],

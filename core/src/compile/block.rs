@@ -4,7 +4,7 @@
 
 use super::body::body_block;
 use super::source::{source_block, trees_block};
-use super::species::{response_block, species_block};
+use super::species::{cones_block, response_block, species_block};
 use super::water::set_floating;
 use super::wind::{MOST_INTERVAL_STEPS, deviation_m_s, wind_block};
 use crate::arith::rng::seed_words;
@@ -71,6 +71,7 @@ pub(super) fn compile_block(scene: &Scene, tables: &[MotionTables], solids: &[So
         block.species[index] = species_block(scene, species, tables);
         block.bodies[index] = body_block(species, scene);
     }
+    block.cones = cones_block(scene);
     block.collisions = collision_block(scene, &block);
     for (index, source) in scene.sources.iter().take(MAX_SOURCES).enumerate() {
         block.sources[index] = source_block(scene, source);

@@ -5,11 +5,15 @@
 use bytemuck::must_cast_mut;
 
 use super::wind::deviation_m_s;
-use crate::blocks::{ResponseBlock, SpeciesBlock};
+use crate::arith::rng::seed_words;
+use crate::blocks::{ConesBlock, ResponseBlock, SpeciesBlock};
 use crate::convert::{single, word};
-use crate::device::leaf::record::{AERODYNAMIC, SIZE_ONE};
-use crate::motion::{MotionConstants, MotionTables};
-use crate::scene::{FlightModel, MAX_SPECIES, Scene, Species};
+use crate::device::leaf::own::WHOLE_STEP;
+use crate::device::leaf::record::{AERODYNAMIC, CONE_SPIRAL, SIZE_ONE};
+use crate::motion::{ConeSpiral, MotionConstants, MotionTables, Primitive};
+use crate::scene::{ConeShape, FlightModel, MAX_SPECIES, Scene, Species};
+
+const _: () = assert!(Primitive::ConeSpiral as u32 == CONE_SPIRAL, "records and scenes have one number");
 
 /// Cells of the turbulence box that an eddy of typical size spans.
 const EDDY_CELLS: f32 = 8.0;
@@ -21,6 +25,8 @@ pub(super) fn species_block(scene: &Scene, species: &Species, tables: &MotionTab
     for (rate, table) in rates.iter_mut().zip(&tables.0) {
         *rate = word(4_294_967_296.0 * dt / table.period_s);
     }
+    // The phase of a cone spiral is its age in 2^-16 steps.
+    rates[CONE_SPIRAL as usize] = WHOLE_STEP;
     let mut transitions = [0; 36];
     for (count, entry) in transitions.iter_mut().zip(species.transitions.0.iter().flatten()) {
         *count = *entry;
@@ -52,6 +58,40 @@ pub(super) fn response_block(scene: &Scene) -> ResponseBlock {
         fastest_spins[index] = fastest_spin(scene, species);
         time_constants_s[index] = single(tau);
         inv_time_constants[index] = single(1.0 / tau);
+    }
+    block
+}
+
+/// Cone spiral of a species whose leaves fall that way.
+pub(super) fn cone_spiral(scene: &Scene, species: &Species) -> Option<ConeSpiral> {
+    let is_one = species.flight == FlightModel::Synthesis && species.start == Primitive::ConeSpiral;
+    let constants = MotionConstants::of(species, scene.gravity_m_s2);
+    is_one.then(|| ConeSpiral::new(&constants, seed_words(scene.seed)))
+}
+
+/// Cone spirals of all species.
+pub(super) fn cones_block(scene: &Scene) -> ConesBlock {
+    let mut block: ConesBlock = bytemuck::Zeroable::zeroed();
+    let radii_m: &mut [f32; MAX_SPECIES] = must_cast_mut(&mut block.radius_m);
+    let shares_per_age: &mut [f32; MAX_SPECIES] = must_cast_mut(&mut block.share_per_age);
+    let are_bowls: &mut [f32; MAX_SPECIES] = must_cast_mut(&mut block.is_bowl);
+    let banks_per_m: &mut [f32; MAX_SPECIES] = must_cast_mut(&mut block.bank_per_m);
+    let orbit_rates: &mut [u32; MAX_SPECIES] = must_cast_mut(&mut block.orbit_rate);
+    let table_rates: &mut [u32; MAX_SPECIES] = must_cast_mut(&mut block.table_rate);
+    let start_ages: &mut [u32; MAX_SPECIES] = must_cast_mut(&mut block.start_age);
+    let dt = f64::from(scene.dt_s);
+    let periods = |per_s: f64| word(4_294_967_296.0 * dt * per_s);
+    for (index, species) in scene.species.iter().enumerate() {
+        let Some(spiral) = cone_spiral(scene, species) else { continue };
+        let constants = MotionConstants::of(species, scene.gravity_m_s2);
+        block.count += 1;
+        radii_m[index] = single(constants.cone_radius_m);
+        shares_per_age[index] = single(constants.descent_m_s * dt / (65536.0 * constants.cone_depth_m));
+        are_bowls[index] = f32::from(u8::from(constants.cone_shape == ConeShape::Bowl));
+        banks_per_m[index] = single(constants.cone_rad_s * constants.cone_rad_s / constants.gravity_m_s2);
+        orbit_rates[index] = periods(constants.cone_rad_s / std::f64::consts::TAU);
+        table_rates[index] = periods(1.0 / spiral.period_s());
+        start_ages[index] = word(65536.0 * spiral.start_s() / dt);
     }
     block
 }

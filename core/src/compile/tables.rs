@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Makes or reads the motion tables of the species and packs them for the kernels.
 
+use super::species::cone_spiral;
 use crate::device::motion::lookup::{LARGEST_HALF, PAIR_WEIGHT};
 use crate::error::SceneError;
 use crate::layout::Uint4;
@@ -28,7 +29,7 @@ fn tables_of(scene: &Scene, species: &Species, seed: [u32; 2]) -> Result<MotionT
     let leaf = (1.0 + f64::from(species.speed_variation)) / (1.0 - f64::from(species.size_variation));
     let speedup = leaf * f64::from(scene.rotation_speed.max(1.0));
     let shortest = f64::from(scene.dt_s) * speedup / MAX_PERIODS_PER_STEP;
-    for (primitive, table) in Primitive::ALL.iter().zip(&tables.0) {
+    for (primitive, table) in Primitive::JOINED.iter().zip(&tables.0) {
         if table.period_s < shortest {
             return Err(SceneError::Field {
                 file: path.clone(),
@@ -43,13 +44,15 @@ fn tables_of(scene: &Scene, species: &Species, seed: [u32; 2]) -> Result<MotionT
 
 /// Displacement and orientation rows of all tables, interleaved, in pairs of 16 bits (see
 /// [`MotionRows`](crate::device::motion::lookup::MotionRows)); behind them the velocity rows.
-pub(super) fn pack_motion(tables: &[MotionTables]) -> Vec<Uint4> {
+pub(super) fn pack_motion(scene: &Scene, tables: &[MotionTables]) -> Vec<Uint4> {
     let rows = TABLE_ROWS as usize;
     let per_species = TABLES_PER_SPECIES as usize;
     let count = tables.len() * per_species;
     let mut packed = vec![Uint4::default(); count * rows * 3];
     for (species, tables) in tables.iter().enumerate() {
-        for (primitive, table) in tables.0.iter().enumerate() {
+        let wound = cone_spiral(scene, &scene.species[species]).map(|spiral| spiral.table());
+        let wound = wound.iter().map(|table| (Primitive::ConeSpiral as usize, table));
+        for (primitive, table) in tables.0.iter().enumerate().chain(wound) {
             let first = (species * per_species + primitive) * rows;
             let unit = displacement_unit(&table.displacement_m);
             let turns = consistent_signs(&table.orientation);

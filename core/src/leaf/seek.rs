@@ -8,13 +8,12 @@ use crate::arith::quaternion::Quat;
 use crate::arith::vector::Vec3;
 use crate::blocks::NEVER;
 use crate::context::Context;
+use crate::device::leaf::cone_spiral::{cone_of, cone_table_phase, winds};
 use crate::device::leaf::fall::{Glide, glide_of, response_of, spin_advance};
 use crate::device::leaf::fly::flight_write;
 use crate::device::leaf::join::leaf_join;
 use crate::device::leaf::own::{motion_params, on_grid, own_advance, own_orientation, own_period, own_rate};
-use crate::device::leaf::record::{
-    Drift, STATE_RESTING, leaf_source, leaf_species, leaf_stage, with_blend, with_state,
-};
+use crate::device::leaf::record::{Drift, landed_bits, leaf_source, leaf_species, leaf_stage, with_blend};
 use crate::device::leaf::settle::{flatten, flatten_on};
 use crate::device::motion::feature::{STAGE_COUNT, stage_end};
 use crate::device::terrain::ground::{ground_rest, ground_slope};
@@ -89,7 +88,7 @@ fn above_rest(cx: &Context<'_>, place: Vec3) -> f32 {
 fn stage_end_after(cx: &Context<'_>, leaf: &LeafMut<'_>) -> u64 {
     let seed = cx.scene.seed;
     let stage = leaf_stage(leaf.identity.appearance);
-    if stage + 1 < STAGE_COUNT {
+    if stage + 1 < STAGE_COUNT && !winds(leaf.place.bits) {
         u64::from(stage_end(seed, leaf.identity.id, leaf.identity.fall_time, stage))
     } else {
         u64::MAX
@@ -151,6 +150,8 @@ fn glide_long(cx: &Context<'_>, leaf: &LeafMut<'_>, glide: Glide, part_q16: u64)
     #[expect(clippy::cast_possible_truncation, reason = "the low word is the phase, the rest whole periods")]
     let (periods, low) = ((turned >> 32) as u64 as f32, turned as u32);
     let end = glide.phase.wrapping_add(low);
+    let periods =
+        if winds(bits) { cone_periods(cx, bits, params.heading, glide.phase, end) } else { periods };
     let own = own_advance(cx, bits, params, glide.phase, end) + own_period(cx, bits, params) * periods;
     #[expect(clippy::cast_possible_truncation, reason = "seconds in single precision")]
     let elapsed = (part_q16 as f64 / 65536.0 * f64::from(compiled.dt_s)) as f32;
@@ -159,6 +160,17 @@ fn glide_long(cx: &Context<'_>, leaf: &LeafMut<'_>, glide: Glide, part_q16: u64)
     let tau = response.time_constant_s;
     let spent = on_grid(glide.drift * tau) - on_grid(drift * tau);
     Glide { position: glide.position + (own + spent), drift, phase: end }
+}
+
+/// Whole periods of the table of a cone spiral between two ages, but for the one that [`own_advance`] sees. An age lasts longer than any
+/// fall through still air.
+fn cone_periods(cx: &Context<'_>, bits: u32, heading: u32, start: u32, end: u32) -> f32 {
+    let rate = u64::from(cone_of(cx, bits).table_rate);
+    let passed = ((u64::from(end) * rate) >> 16) - ((u64::from(start) * rate) >> 16);
+    let first = cone_table_phase(cx, bits, start, heading);
+    let periods = (u64::from(first) + passed) >> 32;
+    let seen = u64::from(cone_table_phase(cx, bits, end, heading) < first);
+    (periods - seen) as f32
 }
 
 /// Drift left over, none if it is too slow to move a leaf: numbers too small to be normal take a hundred times as long.
@@ -172,7 +184,7 @@ fn rest(cx: &Context<'_>, leaf: &mut LeafMut<'_>) {
     let lifetime = cx.scene.sources[leaf_source(leaf.identity.appearance) as usize].lifetime_steps;
     let [x, _, z] = leaf.place.position;
     leaf.place.position[1] = ground_rest(cx, x, z);
-    leaf.place.bits = with_state(leaf.place.bits, STATE_RESTING);
+    leaf.place.bits = landed_bits(leaf.place.bits);
     *leaf.drift = Drift { velocity: [0.0; 3], phase: cx.scene.settle_steps };
     let before = Quat::from(leaf.attitude.quaternion);
     let is_hilly = cx.scene.has_terrain();

@@ -88,10 +88,10 @@ impl LeafView {
         let state = place.state();
         let is_body = flies(place.bits);
         let is_falling = state == LeafState::Falling;
-        let primitive = Primitive::ALL.get(leaf_primitive(place.bits) as usize);
+        let primitive = Primitive::of_number(leaf_primitive(place.bits));
         let motion = match is_body {
             true => Some(LeafMotion::Regime(leaf_regime(place.bits) as usize)),
-            false => primitive.copied().filter(|_| is_falling).map(LeafMotion::Primitive),
+            false => primitive.filter(|_| is_falling).map(LeafMotion::Primitive),
         };
         let mut velocity = Vec3::from(drift.velocity);
         if is_falling && !is_body {

@@ -4,7 +4,7 @@
 
 use std::f64::consts::TAU;
 
-use crate::scene::{STANDARD_GRAVITY_M_S2, Species};
+use crate::scene::{ConeShape, STANDARD_GRAVITY_M_S2, Species};
 
 /// Density of air in kg/m³ at 20 °C.
 pub const AIR_DENSITY: f64 = 1.2;
@@ -26,7 +26,7 @@ const FLUTTER_NUMBER: f64 = 0.10;
 /// # Source
 /// Scalings fitted to 380 drops of paper pieces by Howison, Hughes and Iida (2020): `U = 0.757 sqrt(sigma/0.070)`,
 /// with the root of gravity by the balance of weight and drag; tumbling `0.20 U/d` turns/s, swinging `0.10 U/d`, amplitudes `Ax = 1.05 U`, `Ay = 0.7 U` (0.3 U under 5 cm).
-/// Spiral, wandering and chaos numbers are modelling choices.
+/// Numbers of spirals, wandering, chaos and corner swings are modelling choices.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MotionConstants {
     /// Acceleration of gravity g in m/s².
@@ -61,6 +61,20 @@ pub struct MotionConstants {
     pub spiral_radius_m: f64,
     /// Orbit rate of the spiral in rad/s.
     pub spiral_rad_s: f64,
+    /// Surface that the cone spiral lies on.
+    pub cone_shape: ConeShape,
+    /// Radius R of the cone spiral in metres, where it is open.
+    pub cone_radius_m: f64,
+    /// Depth H below its tip in metres at which it is.
+    pub cone_depth_m: f64,
+    /// Orbit rate of the cone spiral in rad/s.
+    pub cone_rad_s: f64,
+    /// Largest difference of its descent speed from U, as a share of U.
+    pub cone_unevenness: f64,
+    /// Amplitude of the corner swing in radians.
+    pub corner_swing_rad: f64,
+    /// Angular rate of the corner swing in rad/s.
+    pub corner_swing_rad_s: f64,
     /// Standard deviation of the wandering in m/s.
     pub wander_m_s: f64,
     /// Correlation time of the wandering in seconds.
@@ -104,6 +118,13 @@ impl MotionConstants {
                 (0.9 * horizontal_m_s / spiral_rad_s).clamp(0.05, 0.3),
             ),
             spiral_rad_s,
+            cone_shape: given.cone_shape.unwrap_or_default(),
+            cone_radius_m: or(given.cone_radius_m, 0.6),
+            cone_depth_m: or(given.cone_depth_m, 3.0),
+            cone_rad_s: or(given.cone_rad_s, (0.35 * flutter_rad_s).clamp(1.5, 4.0)),
+            cone_unevenness: or(given.cone_unevenness, 0.3),
+            corner_swing_rad: or(given.corner_swing_deg, 30.0).to_radians(),
+            corner_swing_rad_s: or(given.corner_swing_rad_s, flutter_rad_s),
             wander_m_s: or(given.wander_m_s, 0.03),
             wander_s: or(given.wander_s, 0.2),
         }

@@ -1,10 +1,12 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Motions of leaves through still air: six primitive motions, joined by a Markov chain.
+//! Motions of leaves through still air: six primitive motions, joined by a Markov chain, and the cone spiral, which lasts from
+//! release to ground.
 //!
 //! The equations ([`Path`]) are evaluated in double precision when a scene is built and stored as cumulative tables
 //! ([`MotionTables`]); the kernels only read those.
 
+mod cone_spiral;
 mod constants;
 mod orientation;
 mod path;
@@ -21,12 +23,13 @@ mod transition;
 mod transitional_chaotic;
 mod transitional_helical;
 
+pub use cone_spiral::{ConeSpiral, SWINGS_PER_TABLE};
 pub use constants::{AIR_DENSITY, MotionConstants};
 pub use path::{Moment, Path};
 pub use periodic_fluttering::PeriodicFluttering;
 pub use periodic_spiraling::PeriodicSpiraling;
 pub use periodic_tumbling::PeriodicTumbling;
-pub use primitive::{PRIMITIVE_COUNT, Primitive};
+pub use primitive::{JOINED_COUNT, PRIMITIVE_COUNT, Primitive};
 pub use steady_descent::SteadyDescent;
 pub use table::{MotionTables, PrimitiveTable};
 pub use transition::TransitionTable;

@@ -1,14 +1,16 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The six primitive motions by name.
+//! The primitive motions by name.
 
 use serde::{Deserialize, Serialize};
 
 /// Number of primitive motions.
-pub const PRIMITIVE_COUNT: usize = 6;
+pub const PRIMITIVE_COUNT: usize = 7;
+/// Number of those that the Markov chain joins.
+pub const JOINED_COUNT: usize = 6;
 
-/// A primitive motion of a falling leaf (Zhong, Chen and Lee 2011; Xie and Miyata 2014), in order of growing
-/// randomness. The two-letter codes appear in tables and reports.
+/// A primitive motion of a falling leaf: six of Zhong, Chen and Lee (2011) and Xie and Miyata (2014), in order of growing
+/// randomness, which the Markov chain joins, and the cone spiral. The two-letter codes appear in tables and reports.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 #[repr(u32)]
 pub enum Primitive {
@@ -24,6 +26,9 @@ pub enum Primitive {
     TransitionalHelical = 4,
     /// PS: a helix, a circle seen from above.
     PeriodicSpiraling = 5,
+    /// CS: a spiral that opens on a bowl or a cone, two corners of the blade swinging. A fall that begins with it keeps it. Its number is
+    /// the one that a leaf's record has left: six stands for a body.
+    ConeSpiral = 7,
 }
 
 impl Primitive {
@@ -35,9 +40,33 @@ impl Primitive {
         Self::PeriodicFluttering,
         Self::TransitionalHelical,
         Self::PeriodicSpiraling,
+        Self::ConeSpiral,
     ];
 
-    /// The two-letter code used in the literature.
+    /// Those that the Markov chain joins, each at the place of its number.
+    pub const JOINED: [Self; JOINED_COUNT] = [
+        Self::SteadyDescent,
+        Self::PeriodicTumbling,
+        Self::TransitionalChaotic,
+        Self::PeriodicFluttering,
+        Self::TransitionalHelical,
+        Self::PeriodicSpiraling,
+    ];
+
+    /// Place in [`Primitive::ALL`].
+    pub const fn index(self) -> usize {
+        match self {
+            Self::ConeSpiral => JOINED_COUNT,
+            joined => joined as usize,
+        }
+    }
+
+    /// The primitive of a number, as leaves' records have it.
+    pub fn of_number(number: u32) -> Option<Self> {
+        Self::ALL.into_iter().find(|primitive| *primitive as u32 == number)
+    }
+
+    /// The two-letter code used in the literature; of the cone spiral, ours.
     pub const fn code(self) -> &'static str {
         match self {
             Self::SteadyDescent => "SD",
@@ -46,6 +75,7 @@ impl Primitive {
             Self::PeriodicFluttering => "PF",
             Self::TransitionalHelical => "TH",
             Self::PeriodicSpiraling => "PS",
+            Self::ConeSpiral => "CS",
         }
     }
 }

@@ -8,7 +8,7 @@
 use super::constants::MotionConstants;
 use super::orientation;
 use super::path::Path;
-use super::primitive::{PRIMITIVE_COUNT, Primitive};
+use super::primitive::JOINED_COUNT;
 use super::rotation_ode;
 use super::{
     PeriodicFluttering, PeriodicSpiraling, PeriodicTumbling, SteadyDescent, TransitionalChaotic,
@@ -21,7 +21,7 @@ crate::shared_constants! {
     pub const TABLE_BITS: u32 = 9;
     /// Rows stored per table: both ends of the period.
     pub const TABLE_ROWS: u32 = 513;
-    /// Slots of tables per species: a power of two above the six primitive motions.
+    /// Slots of tables per species: one for each number of a primitive motion, and one more.
     pub const TABLES_PER_SPECIES: u32 = 8;
 }
 
@@ -41,29 +41,24 @@ pub struct PrimitiveTable {
     pub velocity_m: Vec<[f32; 3]>,
 }
 
-/// The tables of one species, in the order of [`Primitive::ALL`].
+/// The tables of one species, in the order of [`Primitive::JOINED`](super::Primitive::JOINED). That of the cone spiral, of which a table is but a part, is
+/// [`ConeSpiral::table`](super::ConeSpiral::table).
 #[derive(Clone, Debug, PartialEq)]
-pub struct MotionTables(pub [PrimitiveTable; PRIMITIVE_COUNT]);
+pub struct MotionTables(pub [PrimitiveTable; JOINED_COUNT]);
 
 impl MotionTables {
     /// Tables from the equations; `seed` chooses the random parts (wandering, chaotic sequence).
     pub fn generate(species: &Species, seed: [u32; 2], gravity_m_s2: f32) -> Self {
         let constants = MotionConstants::of(species, gravity_m_s2);
         let rotation = species.rotation;
-        Self(Primitive::ALL.map(|primitive| match primitive {
-            Primitive::SteadyDescent => sample(&SteadyDescent::new(&constants, seed), &constants, rotation),
-            Primitive::PeriodicTumbling => sample(&PeriodicTumbling::new(&constants), &constants, rotation),
-            Primitive::TransitionalChaotic => {
-                sample(&TransitionalChaotic::new(&constants, seed), &constants, rotation)
-            }
-            Primitive::PeriodicFluttering => {
-                sample(&PeriodicFluttering::new(&constants), &constants, rotation)
-            }
-            Primitive::TransitionalHelical => {
-                sample(&TransitionalHelical::new(&constants), &constants, rotation)
-            }
-            Primitive::PeriodicSpiraling => sample(&PeriodicSpiraling::new(&constants), &constants, rotation),
-        }))
+        Self([
+            sample(&SteadyDescent::new(&constants, seed), &constants, rotation),
+            sample(&PeriodicTumbling::new(&constants), &constants, rotation),
+            sample(&TransitionalChaotic::new(&constants, seed), &constants, rotation),
+            sample(&PeriodicFluttering::new(&constants), &constants, rotation),
+            sample(&TransitionalHelical::new(&constants), &constants, rotation),
+            sample(&PeriodicSpiraling::new(&constants), &constants, rotation),
+        ])
     }
 }
 

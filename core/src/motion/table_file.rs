@@ -21,7 +21,7 @@
 
 use std::fmt::Write as _;
 
-use super::primitive::{PRIMITIVE_COUNT, Primitive};
+use super::primitive::{JOINED_COUNT, Primitive};
 use super::table::{MotionTables, PrimitiveTable, TABLE_ROWS};
 use crate::error::SceneError;
 
@@ -31,7 +31,7 @@ impl MotionTables {
     /// The tables as the text of a motion file.
     pub fn to_text(&self) -> String {
         let mut text = format!("{MAGIC}\nrows {TABLE_ROWS}\n");
-        for (primitive, table) in Primitive::ALL.iter().zip(&self.0) {
+        for (primitive, table) in Primitive::JOINED.iter().zip(&self.0) {
             // Writing to a String cannot fail.
             let _ = writeln!(text, "primitive {} period_s {:?}", primitive.code(), table.period_s);
             for ((d, q), v) in table.displacement_m.iter().zip(&table.orientation).zip(&table.velocity_m) {
@@ -57,8 +57,8 @@ impl MotionTables {
         if lines.next()? != rows {
             return Err(lines.error(format!("expected '{rows}'")));
         }
-        let mut tables = Vec::with_capacity(PRIMITIVE_COUNT);
-        for primitive in Primitive::ALL {
+        let mut tables = Vec::with_capacity(JOINED_COUNT);
+        for primitive in Primitive::JOINED {
             tables.push(lines.table(primitive)?);
         }
         if let Some(extra) = lines.content() {

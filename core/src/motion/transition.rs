@@ -4,12 +4,12 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::primitive::{PRIMITIVE_COUNT, Primitive};
+use super::primitive::{JOINED_COUNT, Primitive};
 
-/// Counts of observed changes from one primitive motion (row) to the next (column). Rows are integers, so every row
+/// Counts of observed changes from one primitive motion (row) to the next (column), in the order of [`Primitive::JOINED`]. Rows are integers, so every row
 /// sums exactly and no draw can fall off its end.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct TransitionTable(pub [[u32; PRIMITIVE_COUNT]; PRIMITIVE_COUNT]);
+pub struct TransitionTable(pub [[u32; JOINED_COUNT]; JOINED_COUNT]);
 
 impl Default for TransitionTable {
     /// The counts behind the four-digit probabilities that Li et al. (2015, table 1) print.
@@ -28,7 +28,7 @@ impl Default for TransitionTable {
 impl TransitionTable {
     /// A table that never leaves the motion it starts with.
     pub fn stay() -> Self {
-        let mut rows = [[0; PRIMITIVE_COUNT]; PRIMITIVE_COUNT];
+        let mut rows = [[0; JOINED_COUNT]; JOINED_COUNT];
         for (index, row) in rows.iter_mut().enumerate() {
             row[index] = 1;
         }

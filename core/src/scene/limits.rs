@@ -86,6 +86,12 @@ limits! {
     ROSE_SWINGS: u32 = 2, 12, "", rose_swings;
     SPIRAL_RADIUS_M: f32 = 0.0, 5.0, "m", spiral_radius_m;
     SPIRAL_RAD_S: f32 = 0.5, 30.0, "rad/s", spiral_rad_s;
+    CONE_RADIUS_M: f32 = 0.0, 5.0, "m", cone_radius_m;
+    CONE_DEPTH_M: f32 = 0.1, 100.0, "m", cone_depth_m;
+    CONE_RAD_S: f32 = 0.5, 30.0, "rad/s", cone_rad_s;
+    CONE_UNEVENNESS: f32 = 0.0, 0.9, "", cone_unevenness;
+    CORNER_SWING_DEG: f32 = 0.0, 80.0, "degrees", corner_swing_deg;
+    CORNER_SWING_RAD_S: f32 = 0.5, 60.0, "rad/s", corner_swing_rad_s;
     WANDER_M_S: f32 = 0.0, 2.0, "m/s", wander_m_s;
     WANDER_S: f32 = 0.05, 2.0, "s", wander_s;
 

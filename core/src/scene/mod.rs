@@ -50,7 +50,7 @@ pub use path::{CameraKey, camera_at};
 pub use presets::PRESETS;
 pub use sky::{Haze, PhysicalSky, Sky, SkyMap};
 pub use source::{Release, Share, Source, SourceShape};
-pub use species::{LeafShape, MotionParameters, RotationModel, Species};
+pub use species::{ConeShape, LeafShape, MotionParameters, RotationModel, Species};
 pub use terrain::{Terrain, Water};
 pub use tree::{Foliage, SwayScheme, Tree, TreeForm, TreeKind, TreePreset, Wood};
 pub use view::{Camera, Sun, View};
@@ -69,6 +69,8 @@ pub const MAX_VORTICES: usize = 8;
 pub const MAX_SPLINE_POINTS: usize = 12;
 /// Segments in which the curved axis of a vortex is followed.
 pub const SPLINE_SEGMENTS: u16 = 16;
+/// Most points of a curve over the age of particles.
+pub const MAX_CURVE_POINTS: usize = 64;
 /// Most jets a scene may have: they travel there, too.
 pub const MAX_JETS: usize = 8;
 /// Most keys a jet may have.

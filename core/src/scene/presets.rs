@@ -8,6 +8,7 @@ use super::Scene;
 pub const PRESETS: &[(&str, &str)] = &[
     ("autumn-park", include_str!("../../scenes/autumn-park.ron")),
     ("six-motions", include_str!("../../scenes/six-motions.ron")),
+    ("cone-spirals", include_str!("../../scenes/cone-spirals.ron")),
     ("flight-lab", include_str!("../../scenes/flight-lab.ron")),
     ("storm", include_str!("../../scenes/storm.ron")),
     ("million", include_str!("../../scenes/million.ron")),
@@ -48,7 +49,7 @@ mod tests {
 
     use super::*;
     use crate::motion::Primitive;
-    use crate::scene::{FlightModel, LeafShape, MeanSpeed, Release};
+    use crate::scene::{ConeShape, FlightModel, LeafShape, MeanSpeed, MotionParameters, Release, Species};
 
     #[test]
     fn every_preset_is_a_valid_scene() {
@@ -62,6 +63,7 @@ mod tests {
             [
                 "autumn-park",
                 "six-motions",
+                "cone-spirals",
                 "flight-lab",
                 "storm",
                 "million",
@@ -130,13 +132,27 @@ mod tests {
             "one leaf each"
         );
         for (index, (species, source)) in scene.species.iter().zip(&scene.sources).enumerate() {
-            assert_eq!(species.start, Primitive::ALL[index], "in the order of their numbers");
+            assert_eq!(species.start, Primitive::JOINED[index], "in the order of their numbers");
             let row = species.transitions.0[index];
             assert!(row[index] == 1 && row.iter().sum::<u32>() == 1, "{} stays", species.name);
             assert_eq!(source.species[0].species, species.name, "each source has its own species");
             assert_eq!(species.size_m, scene.species[0].size_m, "the same size");
             assert_eq!(species.areal_density_kg_m2, scene.species[0].areal_density_kg_m2, "the same mass");
         }
+        assert_eq!(scene.wind.speed, MeanSpeed::MetresPerSecond(0.0), "still air");
+        assert!(scene.view.trail_s > 0.0, "with trails");
+    }
+
+    #[test]
+    fn cone_spirals_differ_in_nothing_but_their_surface() {
+        let scene = Scene::preset("cone-spirals").expect("a preset");
+        let [bowl, cone] = &scene.species[..] else { panic!("two species") };
+        for (species, surface) in [(bowl, ConeShape::Bowl), (cone, ConeShape::Cone)] {
+            assert_eq!(species.start, Primitive::ConeSpiral, "{}", species.name);
+            assert_eq!(species.motion.cone_shape, Some(surface), "{}", species.name);
+        }
+        let motion = MotionParameters { cone_shape: cone.motion.cone_shape, ..bowl.motion };
+        assert_eq!(Species { name: cone.name.clone(), motion, ..bowl.clone() }, *cone, "the same leaves");
         assert_eq!(scene.wind.speed, MeanSpeed::MetresPerSecond(0.0), "still air");
         assert!(scene.view.trail_s > 0.0, "with trails");
     }

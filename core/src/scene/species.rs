@@ -57,6 +57,16 @@ impl LeafShape {
     }
 }
 
+/// Surface of revolution about the vertical that a cone spiral lies on, down to the depth at which it has opened.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum ConeShape {
+    /// A paraboloid: the radius grows as the root of the depth.
+    #[default]
+    Bowl,
+    /// A cone: the radius grows as the depth.
+    Cone,
+}
+
 /// Model of the orientation along a primitive motion.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub enum RotationModel {
@@ -94,9 +104,9 @@ pub struct Species {
     pub flight: FlightModel,
     /// Fastest spin about the leaf's own normal in rad/s, 0 to 20; each leaf takes a value up to it, either way round.
     pub spin_rad_s: f32,
-    /// First primitive motion of every fall.
+    /// First primitive motion of every fall. [`Primitive::ConeSpiral`] lasts until the ground.
     pub start: Primitive,
-    /// Counts of changes from one primitive motion to the next. Rows that a fall can reach sum to 1 to 65535.
+    /// Counts of changes from one of the first six primitive motions to the next. Rows that a fall can reach sum to 1 to 65535.
     pub transitions: TransitionTable,
     /// Numbers of the primitive motions that differ from what size and mass give.
     pub motion: MotionParameters,
@@ -173,6 +183,20 @@ pub struct MotionParameters {
     pub spiral_radius_m: Option<f32>,
     /// Orbit rate of the spiral in rad/s, 0.5 to 30.
     pub spiral_rad_s: Option<f32>,
+    /// Surface that the cone spiral lies on.
+    pub cone_shape: Option<ConeShape>,
+    /// Radius R of the cone spiral in metres from `cone_depth_m` on, 0 to 5.
+    pub cone_radius_m: Option<f32>,
+    /// Depth H below its tip in metres at which the cone spiral has opened to that radius, 0.1 to 100.
+    pub cone_depth_m: Option<f32>,
+    /// Orbit rate of the cone spiral in rad/s, 0.5 to 30.
+    pub cone_rad_s: Option<f32>,
+    /// Largest difference of its descent speed from the mean as a share of it, 0 to 0.9.
+    pub cone_unevenness: Option<f32>,
+    /// Angle in degrees by which two corners swing on the cone spiral, 0 to 80.
+    pub corner_swing_deg: Option<f32>,
+    /// Angular rate of that swing in rad/s, 0.5 to 60.
+    pub corner_swing_rad_s: Option<f32>,
     /// Standard deviation of the sideways wandering of steady descent in m/s, 0 to 2.
     pub wander_m_s: Option<f32>,
     /// Correlation time of that wandering in seconds, 0.05 to 2.

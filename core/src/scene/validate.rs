@@ -155,6 +155,12 @@ impl MotionParameters {
             ("rose_ellipticity", self.rose_ellipticity, limits::ROSE_ELLIPTICITY),
             ("spiral_radius_m", self.spiral_radius_m, limits::SPIRAL_RADIUS_M),
             ("spiral_rad_s", self.spiral_rad_s, limits::SPIRAL_RAD_S),
+            ("cone_radius_m", self.cone_radius_m, limits::CONE_RADIUS_M),
+            ("cone_depth_m", self.cone_depth_m, limits::CONE_DEPTH_M),
+            ("cone_rad_s", self.cone_rad_s, limits::CONE_RAD_S),
+            ("cone_unevenness", self.cone_unevenness, limits::CONE_UNEVENNESS),
+            ("corner_swing_deg", self.corner_swing_deg, limits::CORNER_SWING_DEG),
+            ("corner_swing_rad_s", self.corner_swing_rad_s, limits::CORNER_SWING_RAD_S),
             ("wander_m_s", self.wander_m_s, limits::WANDER_M_S),
             ("wander_s", self.wander_s, limits::WANDER_S),
         ])?;

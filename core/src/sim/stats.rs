@@ -7,6 +7,7 @@
 use crate::device::flight::regime::REGIME_COUNT;
 use crate::device::leaf::record::{STATE_FALLING, flies, leaf_primitive, leaf_regime, leaf_state};
 use crate::leaf::{Leaves, Place};
+use crate::motion::{PRIMITIVE_COUNT, Primitive};
 
 crate::shared_constants! {
     /// Number of counters.
@@ -41,8 +42,8 @@ pub struct LeafStats {
     pub falling: u32,
     /// Leaves on the ground.
     pub resting: u32,
-    /// Falling leaves that are synthesised, by primitive motion.
-    pub primitives: [u32; 6],
+    /// Falling leaves that are synthesised, by primitive motion, in the order of [`Primitive::ALL`].
+    pub primitives: [u32; PRIMITIVE_COUNT],
     /// Falling leaves that fly as bodies, by regime: steady, flutter, tumble, chaotic, helical, spiral.
     pub regimes: [u32; REGIME_COUNT as usize],
     /// Leaves whose position is not a finite number: always zero unless something is wrong.
@@ -88,7 +89,8 @@ impl Stats {
             attached: counters[1],
             falling: counters[2],
             resting: counters[3],
-            primitives: core::array::from_fn(|index| counters[COUNTER_PRIMITIVE as usize + index]),
+            primitives: Primitive::ALL
+                .map(|primitive| counters[(COUNTER_PRIMITIVE + primitive as u32) as usize]),
             regimes: core::array::from_fn(|index| counters[COUNTER_REGIME as usize + index]),
             broken: counters[COUNTER_BROKEN as usize],
         };

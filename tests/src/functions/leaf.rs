@@ -13,17 +13,20 @@ use windfall_core::arith::quaternion::{
 use windfall_core::arith::rng::{below, mul_high, mul_q16, philox, triangular, unit_float};
 use windfall_core::arith::vector::{vec3_cross, vec3_dot, vec3_length, vec3_lerp};
 use windfall_core::device::leaf::air::air_sample;
+use windfall_core::device::leaf::cone_spiral::{
+    cone_angle, cone_of, cone_offset, cone_orientation, cone_table_phase, cone_velocity,
+};
 use windfall_core::device::leaf::fall::{felt_drift, glide_of, response_of, spin_advance};
 use windfall_core::device::leaf::join::part_of_step;
 use windfall_core::device::leaf::own::{
-    MotionParams, motion_params, own_advance, own_orientation, own_velocity, turn_to_heading,
+    MotionParams, first_phase, motion_params, own_advance, own_orientation, own_velocity, turn_to_heading,
 };
 use windfall_core::device::leaf::record::{
-    SPECIES_SHIFT, asymmetry, blend_steps_left, body_spin, body_spin_words, count_down_blend, drawn_size,
-    flies, ground_steps, heading_angle, heading_word, leaf_appearance, leaf_primitive, leaf_regime,
-    leaf_source, leaf_species, leaf_stage, leaf_state, leaf_tint, leaf_variant, motion_table, own_size,
-    place_bits, regime_state, size_ratio, smoothed_air_speed, spin_angle, spin_rate, turn_spin, twig_sizes,
-    with_asymmetry, with_blend, with_primitive, with_regime, with_stage, with_state,
+    CONE_SPIRAL, SPECIES_SHIFT, asymmetry, blend_steps_left, body_spin, body_spin_words, count_down_blend,
+    drawn_size, flies, ground_steps, heading_angle, heading_word, landed_bits, leaf_appearance,
+    leaf_primitive, leaf_regime, leaf_source, leaf_species, leaf_stage, leaf_state, leaf_tint, leaf_variant,
+    motion_table, own_size, place_bits, regime_state, size_ratio, smoothed_air_speed, spin_angle, spin_rate,
+    turn_spin, twig_sizes, with_asymmetry, with_blend, with_primitive, with_regime, with_stage, with_state,
 };
 use windfall_core::device::leaf::release::{
     next_event, release_fall_time, release_place, release_rate, release_ratio, release_size_speed,
@@ -60,6 +63,10 @@ const METRES: Input = Input::Float(-300.0, 300.0);
 /// Tables of the species of the test scene.
 const TABLE: Input = Input::Below(6);
 const SPECIES: Input = Input::Below(2);
+/// Species of the test scenes, of which the last two of one wind down on cone spirals.
+const WINDING: Input = Input::Below(5);
+/// Ages on a cone spiral, of which about half are of a spiral that still opens.
+const AGE: Input = Input::Below(20_000_000);
 const SOURCE: Input = Input::Below(3);
 
 functions! {
@@ -271,6 +278,45 @@ functions! {
     rust |cx, w| {
         let schedule = Schedule { event: 0, rate: w[2], size: w[3], heading: w[4] };
         floats(own_velocity(cx, w[0] << 8, w[1], motion_params(schedule)).to_array())
+    };
+
+    cone_offset in "leaf/cone_spiral" (WINDING, AGE, ANY, ANY) tolerance Some(2e-6);
+    wgsl "let bits = (CONE_SPIRAL << TABLE_SHIFT) | (min(a.x, scene.species_count - 1u) << SPECIES_SHIFT);
+        r = vec4<u32>(bitcast<vec3<u32>>(cone_offset(bits, a.y, a.z)), cone_angle(bits, a.y, a.z));
+        s = vec4<u32>(cone_table_phase(bits, a.y, a.z), cone_of(bits).start_age, landed_bits(a.w), 0u);";
+    rust |cx, w| {
+        let bits = (CONE_SPIRAL << 8) | (w[0].min(cx.scene.species_count - 1) << SPECIES_SHIFT);
+        let d = cone_offset(cx, bits, w[1], w[2]).to_array().map(f32::to_bits);
+        let (angle, phase) = (cone_angle(cx, bits, w[1], w[2]), cone_table_phase(cx, bits, w[1], w[2]));
+        integers([d[0], d[1], d[2], angle, phase, cone_of(cx, bits).start_age, landed_bits(w[3])])
+    };
+
+    cone_velocity in "leaf/cone_spiral" (WINDING, AGE, ANY, ANY) tolerance Some(4e-6);
+    wgsl "let bits = (CONE_SPIRAL << TABLE_SHIFT) | (min(a.x, scene.species_count - 1u) << SPECIES_SHIFT);
+        r = vec4<u32>(bitcast<vec3<u32>>(cone_velocity(bits, a.y, a.z)), 0u);
+        let swing = motion_state(motion_table(bits), cone_table_phase(bits, a.y, a.z)).orientation;
+        s = bitcast<vec4<u32>>(cone_orientation(bits, a.y, a.z, swing, a.w));";
+    rust |cx, w| {
+        let bits = (CONE_SPIRAL << 8) | (w[0].min(cx.scene.species_count - 1) << SPECIES_SHIFT);
+        let v = cone_velocity(cx, bits, w[1], w[2]);
+        let (_, swing) = motion_state(&cx.motion, motion_table(bits), cone_table_phase(cx, bits, w[1], w[2]));
+        let q = cone_orientation(cx, bits, w[1], w[2], swing, w[3]);
+        floats([v.x, v.y, v.z, 0.0, q.x, q.y, q.z, q.w])
+    };
+
+    // One in two pairs of ages begins anew on the way.
+    table_phase in "leaf/own" (WINDING, AGE, AGE, Input::Below(30_000), ANY, ANY) tolerance Some(1.6e-5);
+    wgsl "let bits = (CONE_SPIRAL << TABLE_SHIFT) | (min(a.x, scene.species_count - 1u) << SPECIES_SHIFT);
+        let way = own_advance(bits, MotionParams(0u, a.w, b.x), a.y, a.z);
+        r = vec4<u32>(bitcast<vec3<u32>>(way), bitcast<u32>(1f));
+        s = bitcast<vec4<u32>>(own_orientation(bits | (b.y << SPIN_SHIFT), a.y, b.x));
+        answer[2].x = first_phase(bits, a.y);";
+    rust |cx, w| {
+        let bits = (CONE_SPIRAL << 8) | (w[0].min(cx.scene.species_count - 1) << SPECIES_SHIFT);
+        let d = own_advance(cx, bits, MotionParams { rate: 0, size: w[3], heading: w[4] }, w[1], w[2]);
+        let q = own_orientation(cx, bits | (w[5] << 16), w[1], w[4]);
+        let first = f32::from_bits(first_phase(cx, bits, w[1]));
+        floats([d.x, d.y, d.z, 1.0, q.x, q.y, q.z, q.w, first])
     };
 
     // A rounding that falls the other way is a grid unit of 4e-6 m; the one keeps it small against the whole case.

@@ -5,6 +5,7 @@
 use std::path::Path;
 
 use tempfile::TempDir;
+use windfall_core::motion::Primitive;
 use windfall_core::{Cycle, Scene, Simulator, World};
 use windfall_cpu::{CpuOptions, CpuSimulator};
 use windfall_wgpu::{Gpu, WgpuOptions, WgpuSimulator};
@@ -72,7 +73,15 @@ fn off_after(cycle: &Cycle, [before, after]: &[World; 2]) -> (usize, usize) {
 #[test]
 fn leaves_repeat_to_the_bit_on_both_backends() {
     let scene = Scene::from_ron(SCENE, "loop").expect("valid");
-    let (world, cycle) = World::build_cycle(&scene, "loop", 2.0).expect("it can repeat");
+    repeats(&scene);
+    // Leaves on cone spirals begin at the same age again.
+    let mut winding = scene;
+    winding.species[0].start = Primitive::ConeSpiral;
+    repeats(&winding);
+}
+
+fn repeats(scene: &Scene) {
+    let (world, cycle) = World::build_cycle(scene, "loop", 2.0).expect("it can repeat");
     assert_eq!(cycle.steps, 120, "two seconds");
     let mut cpu = CpuSimulator::new(&world, CpuOptions::default()).expect("threads start");
     let rounds = two_rounds(&mut cpu, &world, &cycle, cycle.steps);

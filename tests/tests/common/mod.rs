@@ -67,7 +67,7 @@ pub(crate) fn many_species() -> Vec<Species> {
             areal_density_kg_m2: 0.04 + 0.002 * f32::from(number / 2),
             size_variation: 0.01 * f32::from(number),
             speed_variation: 0.15,
-            start: Primitive::ALL[usize::from(number % 6)],
+            start: Primitive::JOINED[usize::from(number % 6)],
             ..Species::default()
         })
         .collect()

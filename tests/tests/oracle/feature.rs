@@ -4,7 +4,7 @@
 
 use crate::common::{build, csv, field, number, step, still_scene, uniform_species};
 use windfall_core::device::motion::feature::{Stage, feature, stage_end};
-use windfall_core::motion::{PRIMITIVE_COUNT, Primitive, TransitionTable};
+use windfall_core::motion::{JOINED_COUNT, Primitive, TransitionTable};
 use windfall_core::scene::Species;
 use windfall_core::{CompiledScene, Stats};
 
@@ -21,15 +21,15 @@ fn features(species: Species, seed: [u32; 2]) -> Vec<[Stage; STAGES]> {
 }
 
 /// Exact probabilities of each motion in each stage.
-fn markov(start: Primitive) -> [[f64; PRIMITIVE_COUNT]; STAGES] {
+fn markov(start: Primitive) -> [[f64; JOINED_COUNT]; STAGES] {
     let table = TransitionTable::default();
-    let mut now = [0.0; PRIMITIVE_COUNT];
+    let mut now = [0.0; JOINED_COUNT];
     now[start as usize] = 1.0;
     std::array::from_fn(|stage| {
         if stage > 0 {
             let before = now;
             now = std::array::from_fn(|to| {
-                Primitive::ALL
+                Primitive::JOINED
                     .iter()
                     .map(|&from| {
                         let count = f64::from(table.0[from as usize][to]);
@@ -43,7 +43,7 @@ fn markov(start: Primitive) -> [[f64; PRIMITIVE_COUNT]; STAGES] {
 }
 
 /// Mean over the stages.
-fn occupancy(stages: [[f64; PRIMITIVE_COUNT]; STAGES]) -> [f64; PRIMITIVE_COUNT] {
+fn occupancy(stages: [[f64; JOINED_COUNT]; STAGES]) -> [f64; JOINED_COUNT] {
     std::array::from_fn(|primitive| stages.iter().map(|stage| stage[primitive]).sum::<f64>() / STAGES as f64)
 }
 
@@ -68,7 +68,7 @@ fn transition_rows_are_the_published_ones() {
     let rows = csv(include_str!("../../data/transition_table.csv"));
     assert_eq!(rows.len(), 36, "rows of the reference table");
     let primitive = |code: &str| {
-        Primitive::ALL.into_iter().find(|primitive| primitive.code() == code).expect("a known code")
+        Primitive::JOINED.into_iter().find(|primitive| primitive.code() == code).expect("a known code")
     };
     for row in rows {
         let (from, to) = (primitive(field(&row, "from")), primitive(field(&row, "to")));
@@ -92,7 +92,7 @@ fn occupancies_are_those_of_the_chain() {
     assert!((spiraling - 0.438).abs() < 6e-4, "stage five: PS {spiraling}");
 
     for start in [Primitive::SteadyDescent, Primitive::PeriodicTumbling, Primitive::TransitionalChaotic] {
-        let mut counted = [[0.0; PRIMITIVE_COUNT]; STAGES];
+        let mut counted = [[0.0; JOINED_COUNT]; STAGES];
         for feature in features(Species { start, ..uniform_species() }, SEED) {
             for (counts, stage) in counted.iter_mut().zip(feature) {
                 counts[stage.primitive as usize] += 1.0 / f64::from(IDS);
@@ -220,7 +220,7 @@ fn a_running_simulation_shows_the_same_occupancies() {
     let mut world = build(&scene);
     step(&mut world, 1);
     let fall_steps = f64::from(world.leaves.identity[0].fall_time) / 65536.0;
-    let (mut counted, mut moments) = ([0.0; PRIMITIVE_COUNT], 0.0);
+    let (mut counted, mut moments) = ([0.0; JOINED_COUNT], 0.0);
     // Leaves land about the end of the nominal fall, a few just before the last moment.
     for moment in 0..100u32 {
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a few hundred steps")]

@@ -7,6 +7,7 @@
 mod common;
 
 mod collide;
+mod cone_spiral;
 mod debris;
 mod drops;
 mod faces;

@@ -28,17 +28,16 @@ fn species() -> [Species; 3] {
 
 fn paths(species: &Species) -> [(Primitive, Box<dyn Path>); 6] {
     let constants = MotionConstants::of(species, STANDARD_GRAVITY_M_S2);
-    Primitive::ALL.map(|primitive| {
-        let path: Box<dyn Path> = match primitive {
-            Primitive::SteadyDescent => Box::new(SteadyDescent::new(&constants, [3, 4])),
-            Primitive::PeriodicTumbling => Box::new(PeriodicTumbling::new(&constants)),
-            Primitive::TransitionalChaotic => Box::new(TransitionalChaotic::new(&constants, [3, 4])),
-            Primitive::PeriodicFluttering => Box::new(PeriodicFluttering::new(&constants)),
-            Primitive::TransitionalHelical => Box::new(TransitionalHelical::new(&constants)),
-            Primitive::PeriodicSpiraling => Box::new(PeriodicSpiraling::new(&constants)),
-        };
-        (primitive, path)
-    })
+    let paths: [Box<dyn Path>; 6] = [
+        Box::new(SteadyDescent::new(&constants, [3, 4])),
+        Box::new(PeriodicTumbling::new(&constants)),
+        Box::new(TransitionalChaotic::new(&constants, [3, 4])),
+        Box::new(PeriodicFluttering::new(&constants)),
+        Box::new(TransitionalHelical::new(&constants)),
+        Box::new(PeriodicSpiraling::new(&constants)),
+    ];
+    let mut primitives = Primitive::JOINED.into_iter();
+    paths.map(|path| (primitives.next().expect("as many"), path))
 }
 
 #[test]

@@ -49,7 +49,7 @@ fn a_released_leaf_starts_at_rest_and_falls_like_a_stone_at_first() {
 /// Wind adds to the path what a leaf with response time U/g makes of it, and nothing else.
 #[test]
 fn leaves_follow_a_steady_wind_within_their_response_time() {
-    for primitive in Primitive::ALL {
+    for primitive in Primitive::JOINED {
         let scene = still_scene(single_motion(primitive), 50, 15.0);
         let tau = MotionConstants::of(&scene.species[0], STANDARD_GRAVITY_M_S2).response_s();
         let mut still = build(&scene);
@@ -109,7 +109,7 @@ fn the_response_to_a_step_of_the_wind_is_exponential() {
 /// the same swings become longer or shorter.
 #[test]
 fn fall_speed_and_rotation_speed_scale_what_they_say() {
-    for primitive in Primitive::ALL {
+    for primitive in Primitive::JOINED {
         // So high that the first stage of a fall lasts for minutes.
         let base = still_scene(single_motion(primitive), 40, 400.0);
         let period =

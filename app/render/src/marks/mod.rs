@@ -9,6 +9,7 @@ pub(crate) mod landing_pass;
 mod overlay;
 pub(crate) mod paint_pass;
 mod palette;
+mod particle_paint;
 mod shelter_map;
 pub(crate) mod shelter_pass;
 pub(crate) mod trail_pass;
@@ -19,7 +20,8 @@ use windfall_core::shared_constants;
 use crate::gpu::shaders::{Shaders, declarations, wgsl_files};
 
 pub use landing_count::LANDINGS_PER_M2;
-pub use palette::{ATTACHED, MOTIONS, RESTING, shade_bytes};
+pub use palette::{ATTACHED, MOTIONS, RESTING, population_bytes, shade_bytes};
+pub use particle_paint::{ParticleMeasure, ParticlePaint};
 pub use shelter_map::ShelterMap;
 pub use trail_pass::MAX_TRAILS;
 

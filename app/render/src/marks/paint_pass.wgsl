@@ -19,6 +19,8 @@
 
 // Regimes of bodies in the order of the motions that look like them.
 const LIKE = array<u32, 6>(0u, 3u, 1u, 2u, 4u, 5u);
+// Place of the cone spiral among the kinds of motion.
+const CONE_KIND: u32 = 6u;
 // Farthest that a leaf goes in a second; beyond it was put elsewhere.
 const JUMP_M_S: f32 = 60.0;
 
@@ -58,7 +60,8 @@ fn mark(@builtin(global_invocation_id) id: vec3<u32>) {
             if state == STATE_FALLING {
                 let primitive = leaf_primitive(place.bits);
                 let regime = leaf_regime(place.bits);
-                let kind = select(min(primitive, 5u), LIKE[min(regime, 5u)], primitive == AERODYNAMIC);
+                let own = select(min(primitive, CONE_KIND), CONE_KIND, primitive == CONE_SPIRAL);
+                let kind = select(own, LIKE[min(regime, 5u)], primitive == AERODYNAMIC);
                 color = paint.palette[kind].rgb;
             }
         }

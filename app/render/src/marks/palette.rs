@@ -6,6 +6,7 @@
 //! that see fewer colours. Kinds of motion have the colours of `windfall flight`.
 
 use glam::Vec3;
+use windfall_core::motion::PRIMITIVE_COUNT;
 use windfall_core::shared_constants;
 
 shared_constants! {
@@ -25,14 +26,15 @@ const HIGH: [f32; 3] = [0.92, 0.15, 100.0];
 /// Least chroma on the way, where the hues between have less room.
 const WAIST: f32 = 0.07;
 
-/// The kinds of motion in the order of their primitives, with their colours in sRGB.
-pub const MOTIONS: [(&str, [u8; 3]); 6] = [
+/// The kinds of motion in the order of [`Primitive::ALL`](windfall_core::motion::Primitive::ALL), with their colours in sRGB.
+pub const MOTIONS: [(&str, [u8; 3]); PRIMITIVE_COUNT] = [
     ("steady", [120, 132, 140]),
     ("tumbling", [222, 142, 28]),
     ("chaotic", [186, 60, 48]),
     ("fluttering", [44, 124, 176]),
     ("helical", [62, 138, 84]),
     ("spiralling", [126, 84, 162]),
+    ("cone spiral", [226, 116, 168]),
 ];
 /// At rest, on its twig, and of a leaf about which nothing is known yet.
 pub const RESTING: [u8; 3] = [82, 66, 50];
@@ -54,6 +56,19 @@ pub(crate) fn shade(share: f32) -> Vec3 {
 /// The same as bytes of sRGB.
 pub fn shade_bytes(share: f32) -> [u8; 3] {
     shade(share).to_array().map(encode)
+}
+
+/// The colour of a population of particles, linear sRGB: hues by the golden angle, so that neighbours lie far apart, in turn light and
+/// dark.
+pub(crate) fn population(number: usize) -> Vec3 {
+    let lightness = if number.is_multiple_of(2) { 0.78 } else { 0.60 };
+    let (sin, cos) = (30.0 + 137.507_77 * number as f32).to_radians().sin_cos();
+    linear_of_oklab(Vec3::new(lightness, 0.13 * cos, 0.13 * sin)).clamp(Vec3::ZERO, Vec3::ONE)
+}
+
+/// The same as bytes of sRGB.
+pub fn population_bytes(number: usize) -> [u8; 3] {
+    population(number).to_array().map(encode)
 }
 
 /// Bytes of sRGB as linear light.
@@ -117,6 +132,18 @@ mod tests {
     fn bytes_come_back() {
         for byte in [0, 3, 10, 11, 60, 128, 254, 255] {
             assert_eq!(linear([byte; 3]).to_array().map(encode), [byte; 3], "there and back");
+        }
+    }
+
+    #[test]
+    fn populations_are_told_apart() {
+        let colors: Vec<Vec3> = (0..windfall_core::scene::MAX_POPULATIONS).map(population).collect();
+        for (first, a) in colors.iter().enumerate() {
+            for (second, b) in colors.iter().enumerate().skip(first + 1) {
+                let apart = (a.map(f32::sqrt) - b.map(f32::sqrt)).length();
+                let least = if second < 8 { 0.15 } else { 0.05 };
+                assert!(apart > least, "{first} and {second}: {apart}");
+            }
         }
     }
 

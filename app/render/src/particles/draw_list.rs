@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Order in which particles are drawn: all that are there, of all populations, from far to near.
 
+use windfall_core::layout::Float4;
 use windfall_core::{shared_constants, shared_struct};
 use windfall_wgpu::ParticleColumns;
 
 use super::looks::LookBuffers;
+use super::paint::{PAINT_COLORS, PaintedParticles};
 use crate::camera::Camera;
 use crate::gpu::pipeline::{buffer_entry, layout};
 use crate::gpu::radix_sort::RadixSort;
@@ -25,7 +27,7 @@ shared_constants! {
 
 shared_struct! {
     /// Camera and time of a frame, for particles.
-    pub(crate) struct ParticleUniform {
+    pub(crate) struct ParticleUniform, padding 12 {
         /// Camera position.
         eye_m: [f32; 3],
         /// Duration of a step.
@@ -40,8 +42,12 @@ shared_struct! {
         count: u32,
         /// Number of pairs that are sorted, at least as many.
         pairs: u32,
-        /// Zero.
-        unused: u32,
+        /// Meaning of the colours, such as [`PAINT_NONE`](super::paint::PAINT_NONE).
+        paint: u32,
+        /// Colours that stand for something.
+        palette: [Float4; PAINT_COLORS as usize],
+        /// Amount at their end.
+        paint_most: f32,
     }
 }
 
@@ -54,6 +60,8 @@ pub(crate) struct DrawList {
     pub(crate) draw: wgpu::Buffer,
     /// Number of those that are there, as it is counted.
     seen_count: wgpu::Buffer,
+    /// Colours that stand for something.
+    pub(crate) paint: PaintedParticles,
     slots: u32,
     dt_s: f32,
     layout: wgpu::BindGroupLayout,
@@ -104,6 +112,7 @@ impl DrawList {
                 4,
                 wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC,
             ),
+            paint: PaintedParticles::default(),
             slots,
             dt_s,
             layout: group_layout,
@@ -134,7 +143,10 @@ impl DrawList {
             step: step.cast_unsigned(),
             count: self.count(columns),
             pairs: self.slots,
-            unused: 0,
+            paint: self.paint.measure,
+            palette: self.paint.colors,
+            paint_most: self.paint.most,
+            padding: [0; 12],
         };
         queue.write_buffer(&self.uniform, 0, bytemuck::bytes_of(&uniform));
         let buffers = [&self.uniform, &self.sort.pairs, columns.place, &looks.populations, &self.seen_count];

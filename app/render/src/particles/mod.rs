@@ -4,6 +4,7 @@
 
 pub(crate) mod draw_list;
 pub(crate) mod looks;
+pub(crate) mod paint;
 pub(crate) mod particle_pass;
 
 use windfall_core::layout::WgslStruct;
@@ -20,7 +21,7 @@ pub(crate) fn shaders() -> Shaders {
         looks::LookRow::declaration(),
         draw_list::ParticleUniform::declaration(),
     ];
-    let lists = [looks::wgsl_constants(), draw_list::wgsl_constants()];
+    let lists = [looks::wgsl_constants(), draw_list::wgsl_constants(), paint::wgsl_constants()];
     shaders.extend([("particles/structs", declarations(lists) + &structs.concat())]);
     shaders.extend(wgsl_files!("particles": "bindings", "draw_list", "particle_pass"));
     shaders

@@ -7,6 +7,7 @@ use windfall_wgpu::ParticleColumns;
 
 use super::draw_list::{DrawList, whole};
 use super::looks::LookBuffers;
+use super::paint::PaintedParticles;
 use crate::camera::Camera;
 use crate::frame::group::FrameGroup;
 use crate::frame::light_group::LightGroup;
@@ -67,6 +68,11 @@ impl ParticlePass {
             pipeline,
             group: None,
         })
+    }
+
+    /// Gives particles colours that stand for something from now on, or their own.
+    pub(crate) fn set_paint(&mut self, paint: PaintedParticles) {
+        self.list.paint = paint;
     }
 
     /// Puts the particles of a frame in order.

@@ -20,7 +20,7 @@ use crate::marks::landing_pass::LandingPass;
 use crate::marks::paint_pass::PaintPass;
 use crate::marks::shelter_pass::{ShelterBuffers, ShelterPass};
 use crate::marks::trail_pass::TrailPass;
-use crate::marks::{Paint, ShelterMap};
+use crate::marks::{Paint, ParticlePaint, ShelterMap};
 use crate::objects::motion_pass::ObjectMotionPass;
 use crate::trees::SceneTrees;
 use crate::trees::records::TreeRecords;
@@ -132,6 +132,13 @@ impl Renderer {
                         LeafPass::new(device, &self.frame, &self.light, &self.species_table, &self.cull);
                 }
             }
+        }
+    }
+
+    /// Paints particles by what they are or do, or leaves them their own colours.
+    pub fn set_particle_paint(&mut self, paint: Option<ParticlePaint>) {
+        if let Some(particles) = &mut self.particle_pass {
+            particles.set_paint(paint.into());
         }
     }
 

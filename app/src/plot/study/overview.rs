@@ -6,7 +6,7 @@ use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 use windfall_core::device::flight::regime::REGIME_NAMES;
-use windfall_core::motion::Primitive;
+use windfall_core::motion::{PRIMITIVE_COUNT, Primitive};
 
 use super::heat_map::short;
 use crate::plot::picture::{Area, Drawn, INK, UNIT, font};
@@ -28,7 +28,7 @@ const PANELS: [(&str, &str); 5] = [
 /// Most curves that are drawn with bands, and most that are named.
 const MOST_BANDS: usize = 4;
 const MOST_NAMES: usize = 8;
-/// Colours of the six motions of synthesised leaves, and behind them of the regimes of bodies.
+/// Colours of the motions of synthesised leaves, and behind them of the regimes of bodies.
 const MOTION_COLORS: [RGBColor; MOTION_COUNT] = [
     RGBColor(152, 160, 166),
     RGBColor(232, 170, 70),
@@ -36,6 +36,7 @@ const MOTION_COLORS: [RGBColor; MOTION_COUNT] = [
     RGBColor(88, 152, 196),
     RGBColor(104, 166, 120),
     RGBColor(154, 120, 186),
+    RGBColor(240, 160, 196),
     RGBColor(120, 132, 140),
     RGBColor(44, 124, 176),
     RGBColor(222, 142, 28),
@@ -255,7 +256,7 @@ fn motions(area: &Area<'_>, axis: &Axis<'_>, curves: usize, summaries: &[Summary
         }
         below = above;
         let name = motion
-            .checked_sub(6)
+            .checked_sub(PRIMITIVE_COUNT)
             .map_or_else(|| Primitive::ALL[motion].code(), |regime| REGIME_NAMES[regime]);
         key.draw(&Rectangle::new([(0, row - 8 * unit), (16 * unit, row + 8 * unit)], color.filled()))?;
         let style = font(18).pos(Pos::new(HPos::Left, VPos::Center));

@@ -69,6 +69,14 @@ impl List<'_> {
     }
 }
 
+impl List<'_> {
+    /// Shows another entry from the next frame on.
+    pub(super) fn choose(self, ui: &Ui, index: usize) {
+        let id = place(ui, self.name);
+        ui.data_mut(|data| data.insert_temp(id, index));
+    }
+}
+
 /// Key of the number of the chosen entry: the same list of two entries of another list has two.
 fn place(ui: &Ui, name: impl Hash + std::fmt::Debug) -> Id {
     ui.scope_id().with(("list", format!("{name:?}")))

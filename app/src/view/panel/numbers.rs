@@ -5,20 +5,21 @@
 use egui::{Grid, Label, RichText, Ui};
 use windfall_core::Contract;
 use windfall_core::device::flight::regime::REGIME_NAMES;
-use windfall_core::motion::Primitive;
+use windfall_core::motion::{PRIMITIVE_COUNT, Primitive};
 
 use super::{Action, PanelInput, compare, graph, style};
 use crate::run::backend::BackendKind;
 use crate::run::digits::grouped;
 
 /// Names of the primitive motions, in their order.
-const MOTIONS: [&str; 6] = [
+const MOTIONS: [&str; PRIMITIVE_COUNT] = [
     "steady descent: nearly straight down",
     "periodic tumbling: end over end, drifting to one side",
     "transitional chaotic: swings and turns in irregular alternation",
     "periodic fluttering: swinging from side to side",
     "transitional helical: swings whose plane turns",
     "periodic spiraling: a helix",
+    "cone spiral: a spiral that opens, two corners swinging",
 ];
 
 /// Names of what bodies in the air do, in the order of the regimes.
@@ -78,10 +79,10 @@ pub(super) fn counts(ui: &mut Ui, input: &PanelInput) {
     if !input.has_motions {
         return;
     }
-    let motions = std::array::from_fn::<_, 6, _>(|index| {
+    let motions = std::array::from_fn::<_, PRIMITIVE_COUNT, _>(|index| {
         (Primitive::ALL[index].code(), compact(stats.leaves.primitives[index]), MOTIONS[index])
     });
-    table(ui, "motions", 40.6, motions);
+    table(ui, "motions", 33.9, motions);
 }
 
 /// Names over numbers, in columns of equal width.

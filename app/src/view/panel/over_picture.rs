@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Drawing over the picture: the legend of colours, the leaf that is followed, arrows of the wind.
+//! Drawing over the picture: legends of colours, the leaf or particle that is followed, arrows of the wind.
 
 use egui::{
     Align2, Area, Color32, CornerRadius, FontId, Grid, Id, Label, Painter, Rect, RichText, Shape, Stroke, Ui,
@@ -8,7 +8,7 @@ use egui::{
 };
 use glam::Vec3;
 use windfall_core::scene::Object;
-use windfall_render::{ATTACHED, MOTIONS, RESTING, shade_bytes};
+use windfall_render::{ATTACHED, MOTIONS, RESTING, population_bytes, shade_bytes};
 
 use super::{PanelInput, style};
 use crate::view::tools::grab::outline;
@@ -35,6 +35,9 @@ pub(super) fn show(ui: &Ui, input: &PanelInput, projection: &Projection, picture
     let mut corner = picture.right_top() + vec2(-12.0, 12.0);
     if input.overlays.measure.is_some() {
         corner.y = measure_legend(ui, &input.overlays, corner).bottom() + 8.0;
+    }
+    if input.overlays.particle_measure.is_some() && !input.scene.particles.is_empty() {
+        corner.y = particle_legend(ui, input, corner).bottom() + 8.0;
     }
     if input.overlays.wind {
         let most = input.arrow_most_m_s;
@@ -70,7 +73,7 @@ fn arrow(painter: &Painter, projection: &Projection, from: Vec3, wind: Vec3, mos
     painter.add(Shape::convex_polygon(vec![tip, tip - head + wing, tip - head - wing], color, Stroke::NONE));
 }
 
-/// The track of the leaf that is followed, and a ring around it.
+/// The track of what is followed, and a ring around it.
 fn followed(painter: &Painter, input: &PanelInput, projection: &Projection) {
     let Some(track) = &input.track else { return };
     let mut line = Vec::new();
@@ -109,7 +112,21 @@ pub(super) fn object(ui: &Ui, object: &Object, projection: &Projection, picture:
 fn measure_legend(ui: &Ui, overlays: &Overlays, corner: egui::Pos2) -> Rect {
     match overlays.scale() {
         Some((title, end)) => scale_legend(ui, "legend", title, ["0", &end], corner),
-        None => motion_legend(ui, corner),
+        None => {
+            let others = [("at rest", RESTING), ("on its twig", ATTACHED)];
+            kind_legend(ui, "legend", MOTIONS.iter().chain(&others).copied(), corner)
+        }
+    }
+}
+
+fn particle_legend(ui: &Ui, input: &PanelInput, corner: egui::Pos2) -> Rect {
+    match input.overlays.particle_scale() {
+        Some((title, end)) => scale_legend(ui, "particle legend", title, ["0", &end], corner),
+        None => {
+            let names = input.scene.particles.iter().map(|population| population.name.as_str());
+            let kinds = names.enumerate().map(|(number, name)| (name, population_bytes(number)));
+            kind_legend(ui, "particle legend", kinds, corner)
+        }
     }
 }
 
@@ -139,17 +156,21 @@ fn scale_legend(ui: &Ui, id: &str, title: &str, ends: [&str; 2], corner: egui::P
     .rect
 }
 
-/// Names of motions beside their colours.
-fn motion_legend(ui: &Ui, corner: egui::Pos2) -> Rect {
-    let area = Area::new(Id::unique("legend")).pivot(Align2::RIGHT_TOP).fixed_pos(corner).interactable(false);
+/// Names of kinds beside their colours.
+fn kind_legend<'a>(
+    ui: &Ui,
+    id: &str,
+    kinds: impl Iterator<Item = (&'a str, [u8; 3])>,
+    corner: egui::Pos2,
+) -> Rect {
+    let area = Area::new(Id::unique(id)).pivot(Align2::RIGHT_TOP).fixed_pos(corner).interactable(false);
     area.show(ui.ctx(), |ui| {
         style::notice_frame().show(ui, |ui| {
-            let others = [("at rest", RESTING), ("on its twig", ATTACHED)];
-            for (name, color) in MOTIONS.iter().chain(&others) {
+            for (name, color) in kinds {
                 ui.horizontal(|ui| {
                     let (swatch, _) = ui.allocate_exact_size(vec2(12.0, 12.0), egui::Sense::hover());
-                    ui.painter().rect_filled(swatch, CornerRadius::same(2), rgb(*color));
-                    ui.label(RichText::new(*name).small());
+                    ui.painter().rect_filled(swatch, CornerRadius::same(2), rgb(color));
+                    ui.label(RichText::new(name).small());
                 });
             }
         });
@@ -158,7 +179,7 @@ fn motion_legend(ui: &Ui, corner: egui::Pos2) -> Rect {
     .rect
 }
 
-/// Card of the leaf that is followed.
+/// Card of what is followed.
 fn card(ui: &Ui, input: &PanelInput, corner: egui::Pos2) {
     let Some(card) = &input.card else { return };
     let area = Area::new(Id::unique("card")).pivot(Align2::RIGHT_TOP).fixed_pos(corner).interactable(false);

@@ -38,7 +38,7 @@ pub(crate) struct PanelInput {
     pub(crate) has_motions: bool,
     pub(crate) has_regimes: bool,
     pub(crate) overlays: Overlays,
-    /// The leaf that is followed, and where it has been.
+    /// The leaf or particle that is followed, and where it has been.
     pub(crate) card: Option<Card>,
     pub(crate) track: Option<Vec<Vec3>>,
     /// Places and winds of arrows, and the speed at the light end of their colours.

@@ -7,14 +7,15 @@ use glam::Vec3;
 use windfall_core::Scene;
 use windfall_core::scene::limits::{self, Limit};
 use windfall_core::scene::{
-    Air, Direction, Force, LookKind, MAX_POPULATIONS, Meets, ObjectFriction, ParticleRelease, ParticleShape,
-    Particles, Spread,
+    Air, Bounds, Direction, Force, LookKind, MAX_POPULATIONS, Meets, ObjectFriction, ParticleRelease,
+    ParticleShape, Particles, Spread,
 };
 
 use super::field::{choice, field, vector};
 use super::list::{List, free_name};
 use super::rows::title;
 use super::words::text;
+use super::{curves, nests};
 use crate::run::digits::grouped;
 
 pub(super) fn show(ui: &mut Ui, scene: &mut Scene, own: &Scene) {
@@ -24,15 +25,23 @@ pub(super) fn show(ui: &mut Ui, scene: &mut Scene, own: &Scene) {
         let like = like.cloned().unwrap_or_default();
         Particles { name: free_name(&like.name, all.iter().map(|one| &*one.name)), ..like }
     };
+    let before = scene.particles.clone();
     let Some(index) = list.show(ui, &mut scene.particles, name, fresh) else { return };
-    let (one, own) = (&mut scene.particles[index], own.particles.get(index));
+    let own = own.particles.get(index);
+    let one = &mut scene.particles[index];
     let tip = "Name of the population, unlike those of the others";
     text(ui, "Called", tip, &mut one.name, own.map(|own| &*own.name), 1);
-    let tip = "Slots: at least as many as are alive at once";
-    field("Slots", tip, limits::PARTICLE_COUNT).fine(1.0).show(ui, &mut one.count, own.map(|own| own.count));
+    nests::follow(&mut scene.particles, &before);
     title(ui, "Birth");
-    shape(ui, &mut one.from, own.map(|own| own.from));
-    release(ui, &mut one.release, own.map(|own| own.release));
+    if !nests::show(ui, scene, index, own) {
+        let one = &mut scene.particles[index];
+        let tip = "Slots: at least as many as are alive at once";
+        let slots = field("Slots", tip, limits::PARTICLE_COUNT).fine(1.0);
+        slots.show(ui, &mut one.count, own.map(|own| own.count));
+        shape(ui, &mut one.from, own.map(|own| own.from));
+        release(ui, &mut one.release, own.map(|own| own.release));
+    }
+    let one = &mut scene.particles[index];
     direction(ui, &mut one.direction, own.map(|own| own.direction));
     let tip = "Speed at which they set off";
     spread(
@@ -60,9 +69,11 @@ pub(super) fn show(ui: &mut Ui, scene: &mut Scene, own: &Scene) {
     charge.show(ui, &mut one.charge_c_kg, own.map(|own| own.charge_c_kg));
     air(ui, &mut one.air, own.map(|own| own.air));
     meets(ui, &mut one.meets, own.map(|own| own.meets));
+    dies(ui, &mut one.dies, own.map(|own| own.dies));
     feels(ui, &mut one.feels, &scene.forces);
     title(ui, "Look");
     look(ui, one, own);
+    nests::follow(&mut scene.particles, &before);
 }
 
 /// A number that differs from particle to particle.
@@ -274,6 +285,59 @@ fn meets(ui: &mut Ui, meets: &mut Meets, own: Option<Meets>) {
     super::objects::friction(ui, friction, own.map(|own| own.1));
 }
 
+/// Region beyond which particles die, or none.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Region {
+    Everywhere,
+    Above(f32),
+    Within { center_m: Vec3, half_extent_m: Vec3 },
+}
+
+impl From<Option<Bounds>> for Region {
+    fn from(bounds: Option<Bounds>) -> Self {
+        match bounds {
+            None => Self::Everywhere,
+            Some(Bounds::Below(height_m)) => Self::Above(height_m),
+            Some(Bounds::Outside { center_m, half_extent_m }) => Self::Within { center_m, half_extent_m },
+        }
+    }
+}
+
+/// The region in which particles live.
+fn dies(ui: &mut Ui, dies: &mut Option<Bounds>, own: Option<Option<Bounds>>) {
+    let own = own.map(Region::from);
+    let mut region = Region::from(*dies);
+    let options = [
+        ("everywhere", Region::Everywhere),
+        ("above", Region::Above(0.0)),
+        ("in a box", Region::Within { center_m: 2.0 * Vec3::Y, half_extent_m: Vec3::splat(10.0) }),
+    ];
+    choice(ui, "Lives", "Region beyond which they die", &mut region, own.as_ref(), &options);
+    match &mut region {
+        Region::Everywhere => {}
+        Region::Above(height_m) => {
+            let own = if let Some(Region::Above(own)) = own { Some(own) } else { None };
+            field("Dies below", "Height below which they die", limits::BELOW).wide().show(ui, height_m, own);
+        }
+        Region::Within { center_m, half_extent_m } => {
+            let own = if let Some(Region::Within { center_m, half_extent_m }) = own {
+                Some([center_m, half_extent_m])
+            } else {
+                None
+            };
+            let tip = "Middle of the box outside which they die";
+            vector(ui, "Box middle", tip, center_m, own.map(|own| own[0]), limits::CENTER_M);
+            let tip = "Half edge lengths of that box";
+            vector(ui, "Box half size", tip, half_extent_m, own.map(|own| own[1]), limits::HALF_EXTENT_M);
+        }
+    }
+    *dies = match region {
+        Region::Everywhere => None,
+        Region::Above(height_m) => Some(Bounds::Below(height_m)),
+        Region::Within { center_m, half_extent_m } => Some(Bounds::Outside { center_m, half_extent_m }),
+    };
+}
+
 /// A box to check for each force.
 fn feels(ui: &mut Ui, feels: &mut Vec<String>, forces: &[Force]) {
     for force in forces {
@@ -307,12 +371,7 @@ fn look(ui: &mut Ui, one: &mut Particles, own: Option<&Particles>) {
     } else {
         look.blink_s = None;
     }
-    // A curve is edited as its first point; scene files have all of them.
-    if let Some((_, color)) = look.color.first_mut() {
-        let own = own.and_then(|own| own.color.first()).map(|(_, color)| *color);
-        let tip = "Linear red, green and blue at the first point of the curve over age";
-        vector(ui, "First colour", tip, color, own, limits::COLOR);
-    }
+    curves::show(ui, look, own);
     let tip = "Lower layers are drawn first, whatever their distance";
     field("Layer", tip, limits::LAYER).show(ui, &mut look.layer, own.map(|own| own.layer));
     let tip = "Drawn out along their way while the shutter is open";

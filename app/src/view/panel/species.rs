@@ -47,10 +47,11 @@ pub(super) fn show(ui: &mut Ui, scene: &mut Scene, own: &Scene) {
     looks(ui, species, own);
     build(ui, species, own);
     let options = [
-        ("six motions", FlightModel::Synthesis),
+        ("motions", FlightModel::Synthesis),
         ("body in the air", FlightModel::Aerodynamic(Aerodynamics::default())),
     ];
-    let tip = "What moves it: six primitive motions joined by chance, or the forces on a rigid body";
+    let tip =
+        "What moves it: primitive motions joined by chance, a cone spiral, or the forces on a rigid body";
     choice(ui, "Flight", tip, &mut species.flight, own.map(|own| &own.flight), &options);
     if let FlightModel::Aerodynamic(body) = &mut species.flight {
         let own = own.and_then(|own| match &own.flight {

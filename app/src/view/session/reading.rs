@@ -5,6 +5,7 @@
 use std::time::{Duration, Instant};
 
 use windfall_core::leaf::Leaves;
+use windfall_core::particle::ParticleStore;
 use windfall_core::{CompiledScene, SimError, Simulator, Stats, World};
 
 use super::Session;
@@ -49,5 +50,10 @@ impl Session {
     /// The leaves as they are now, if they need not be brought from a device.
     pub(crate) fn host_leaves(&self) -> Option<&Leaves> {
         self.backend.host_leaves()
+    }
+
+    /// The particles as they are now, if they need not be brought from a device.
+    pub(crate) fn host_particles(&self) -> Option<&ParticleStore> {
+        self.backend.host_particles()
     }
 }

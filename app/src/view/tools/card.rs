@@ -7,7 +7,7 @@ use windfall_core::device::flight::body::body_of;
 use windfall_core::device::flight::rates::{FlightMotion, flight_rates};
 use windfall_core::device::flight::regime::REGIME_NAMES;
 use windfall_core::device::leaf::record::{
-    is_afloat, is_covered, is_held, is_sunk, lies, wake_speed_squared,
+    CONE_SPIRAL, is_afloat, is_covered, is_held, is_sunk, lies, wake_speed_squared,
 };
 use windfall_core::device::motion::feature::feature;
 use windfall_core::device::wind::sample::wind_at;
@@ -101,7 +101,7 @@ fn doing(leaf: &LeafView) -> String {
             let name = match leaf.motion {
                 Some(LeafMotion::Regime(regime)) => REGIME_NAMES.get(regime).copied(),
                 Some(LeafMotion::Primitive(primitive)) => {
-                    windfall_render::MOTIONS.get(primitive as usize).map(|(name, _)| *name)
+                    windfall_render::MOTIONS.get(primitive.index()).map(|(name, _)| *name)
                 }
                 None => None,
             };
@@ -110,20 +110,24 @@ fn doing(leaf: &LeafView) -> String {
     }
 }
 
-/// The stages of a fall with their shares; the present one in brackets.
+/// The stages of a fall with their shares, the present one in brackets. A cone spiral is one stage.
 fn feature_text(compiled: &CompiledScene, species: usize, id: u32, present: usize) -> String {
     let block = compiled.block();
     let Some(species) = block.species.get(species) else { return String::new() };
+    if species.first_motion == CONE_SPIRAL {
+        return format!("[{} 100%]", Primitive::ConeSpiral.code());
+    }
     let stages = feature(species, block.seed, id);
     let texts = stages.iter().enumerate().map(|(index, stage)| {
-        let code = Primitive::ALL.get(stage.primitive as usize).map_or("?", |primitive| primitive.code());
+        let code = Primitive::of_number(stage.primitive).map_or("?", Primitive::code);
         let text = format!("{code} {:.0}%", 100.0 * stage.share);
         if index == present { format!("[{text}]") } else { text }
     });
     texts.collect::<Vec<_>>().join(" ")
 }
 
-fn length(v: Vec3) -> f32 {
+/// Length of a vector.
+pub(crate) fn length(v: Vec3) -> f32 {
     (v.x * v.x + v.y * v.y + v.z * v.z).sqrt()
 }
 
@@ -209,6 +213,13 @@ mod tests {
             assert_eq!((feature.matches('%').count(), feature.matches('[').count()), (5, 1), "{feature}");
             assert_eq!(row(&card, "air"), None, "no forces");
         }
+    }
+
+    #[test]
+    fn a_cone_spiral_is_one_stage() {
+        let card = cards("cone-spirals").swap_remove(0);
+        assert_eq!(row(&card, "state").as_deref(), Some("falls, cone spiral"), "{card:?}");
+        assert_eq!(row(&card, "feature").as_deref(), Some("[CS 100%]"), "{card:?}");
     }
 
     #[test]

@@ -1,16 +1,18 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The leaf that is followed, and the way it has come.
+//! The leaf or particle that is followed, and the way it has come.
 
 use glam::Vec3;
+use windfall_core::leaf::LeafRecords;
 
-use crate::view::tools::probe::LeafAt;
+use crate::view::tools::pick::{Picked, is_there};
+use crate::view::tools::probe::{At, ParticleRecords};
 use crate::view::tools::waking::Waking;
 
 /// Most places of a track; of a longer one every other is dropped.
 const MOST_PLACES: usize = 2048;
 
-/// Track of a leaf, step by step.
+/// Track of a leaf or particle, step by step.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Track {
     places: Vec<(u32, Vec3)>,
@@ -48,7 +50,7 @@ impl Track {
 #[derive(Clone, Debug)]
 pub(crate) struct Selection {
     pub(crate) slot: u32,
-    pub(crate) latest: LeafAt,
+    pub(crate) latest: At<LeafRecords>,
     pub(crate) track: Track,
     /// Reason why it has left the litter last, and the step at which that was seen.
     pub(crate) woken: Option<(u32, Waking)>,
@@ -56,35 +58,89 @@ pub(crate) struct Selection {
 
 impl Selection {
     /// Follows the leaf in `slot` from now on.
-    pub(crate) fn new(slot: u32, latest: LeafAt) -> Self {
+    pub(crate) fn new(slot: u32, latest: At<LeafRecords>) -> Self {
         let mut track = Track::default();
-        track.note(latest.step, Vec3::from(latest.leaf.place.position));
+        track.note(latest.step, Vec3::from(latest.records.place.position));
         Self { slot, latest, track, woken: None }
     }
 
     /// Takes note of what has become of it, and of why it has just left the litter if it has. A slot that holds another leaf now
     /// begins another track.
-    pub(crate) fn note(&mut self, records: LeafAt, waking: Option<Waking>) {
-        if records.leaf.identity.id != self.latest.leaf.identity.id {
+    pub(crate) fn note(&mut self, records: At<LeafRecords>, waking: Option<Waking>) {
+        if records.records.identity.id != self.latest.records.identity.id {
             self.track = Track::default();
             self.woken = None;
         }
         let is_known = |woken: &(u32, Waking)| woken.0 <= records.step;
         self.woken = waking.map(|waking| (records.step, waking)).or(self.woken.filter(is_known));
-        self.track.note(records.step, Vec3::from(records.leaf.place.position));
+        self.track.note(records.step, Vec3::from(records.records.place.position));
         self.latest = records;
+    }
+}
+
+/// A particle that is followed.
+#[derive(Clone, Debug)]
+pub(crate) struct ParticleSelection {
+    pub(crate) slot: u32,
+    pub(crate) latest: At<ParticleRecords>,
+    pub(crate) track: Track,
+}
+
+impl ParticleSelection {
+    /// Follows the particle in `slot` from now on.
+    pub(crate) fn new(slot: u32, latest: At<ParticleRecords>) -> Self {
+        let mut track = Track::default();
+        track.note(latest.step, Vec3::from(latest.records.place.position));
+        Self { slot, latest, track }
+    }
+
+    /// Takes note of what has become of it. A slot that holds another particle now begins another track, and a dead one goes nowhere.
+    pub(crate) fn note(&mut self, latest: At<ParticleRecords>) {
+        let life = |at: &At<ParticleRecords>| (at.records.traits.id, at.records.motion.birth);
+        if life(&latest) != life(&self.latest) {
+            self.track = Track::default();
+        }
+        if is_there(latest.records.place.bits) {
+            self.track.note(latest.step, Vec3::from(latest.records.place.position));
+        }
+        self.latest = latest;
+    }
+}
+
+/// Leaf or particle that is followed.
+#[derive(Clone, Debug)]
+pub(crate) enum Followed {
+    Leaf(Selection),
+    Particle(ParticleSelection),
+}
+
+impl Followed {
+    pub(crate) fn picked(&self) -> Picked {
+        match self {
+            Self::Leaf(leaf) => Picked::Leaf(leaf.slot),
+            Self::Particle(particle) => Picked::Particle(particle.slot),
+        }
+    }
+
+    pub(crate) fn track(&self) -> &Track {
+        match self {
+            Self::Leaf(leaf) => &leaf.track,
+            Self::Particle(particle) => &particle.track,
+        }
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use windfall_core::leaf::{Identity, LeafRecords};
+    use windfall_core::device::particle::record::{PARTICLE_ALIVE, PARTICLE_DEAD, particle_bits};
+    use windfall_core::leaf::Identity;
+    use windfall_core::particle::{ParticleMotion, ParticlePlace, ParticleTraits};
 
     use super::*;
 
-    fn at(step: u32, id: u32) -> LeafAt {
+    fn at(step: u32, id: u32) -> At<LeafRecords> {
         let identity = Identity { id, ..Identity::default() };
-        LeafAt { step, leaf: LeafRecords { identity, ..LeafRecords::default() } }
+        At { step, records: LeafRecords { identity, ..LeafRecords::default() } }
     }
 
     fn steps(selection: &Selection) -> Vec<u32> {
@@ -124,6 +180,28 @@ mod tests {
         selection.note(at(12, 7), Some(Waking::Loose));
         selection.note(at(13, 8), None);
         assert_eq!(selection.woken, None, "another leaf");
+    }
+
+    #[test]
+    fn the_track_of_a_particle_ends_with_its_life() {
+        let at = |step: u32, state, id, birth| {
+            let place = ParticlePlace { position: [0.0; 3], bits: particle_bits(state, 0) };
+            let motion = ParticleMotion { velocity: [0.0; 3], birth };
+            let traits = ParticleTraits { id, ..ParticleTraits::default() };
+            At { step, records: ParticleRecords { place, motion, traits } }
+        };
+        let mut selection = ParticleSelection::new(3, at(10, PARTICLE_ALIVE, 7, 4));
+        let steps = |selection: &ParticleSelection| {
+            selection.track.places.iter().map(|(step, _)| *step).collect::<Vec<_>>()
+        };
+        selection.note(at(11, PARTICLE_ALIVE, 7, 4));
+        selection.note(at(12, PARTICLE_DEAD, 7, 4));
+        assert_eq!(steps(&selection), [10, 11], "where it died");
+        selection.note(at(20, PARTICLE_ALIVE, 9, 20));
+        assert_eq!(steps(&selection), [20], "another particle in the slot");
+        selection.note(at(30, PARTICLE_ALIVE, 9, 30));
+        assert_eq!(steps(&selection), [30], "and another of the same number");
+        assert_eq!(Followed::Particle(selection).picked(), Picked::Particle(3), "the slot");
     }
 
     #[test]

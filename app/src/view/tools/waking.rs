@@ -18,7 +18,7 @@ use windfall_core::device::terrain::ground::ground_slope;
 use windfall_core::leaf::LeafRecords;
 use windfall_core::{Clock, CompiledScene, Context};
 
-use crate::view::tools::probe::LeafAt;
+use crate::view::tools::probe::At;
 
 /// Most steps between two looks at a leaf: after more of them it may have come to rest again.
 const MOST_STEPS: u32 = 16;
@@ -69,10 +69,10 @@ pub(crate) fn waking(
     litter: &[u32],
     wind_travel_m: f64,
     slot: u32,
-    [before, after]: [&LeafAt; 2],
+    [before, after]: [&At<LeafRecords>; 2],
 ) -> Option<Waking> {
-    let (was, is) = (before.leaf.place.bits, after.leaf.place.bits);
-    let is_same = before.leaf.identity.id == after.leaf.identity.id;
+    let (was, is) = (before.records.place.bits, after.records.place.bits);
+    let is_same = before.records.identity.id == after.records.identity.id;
     let steps = before.step..after.step;
     if !is_same || !lies(was) || lies(is) || steps.is_empty() || after.step - before.step > MOST_STEPS {
         return None;
@@ -87,11 +87,11 @@ pub(crate) fn waking(
     for step in steps {
         let block = compiled.step_block(&Clock::at(step, compiled.block().dt_s, wind_travel_m));
         let cx = compiled.context(&block).over(litter);
-        if is_struck(&cx, &before.leaf) {
+        if is_struck(&cx, &before.records) {
             return Some(Waking::Struck);
         }
         if wake_is_due(&cx, slot) || by_wind.is_none() {
-            by_wind = Some(wind_onset(&cx, &before.leaf));
+            by_wind = Some(wind_onset(&cx, &before.records));
         }
     }
     by_wind
@@ -157,7 +157,7 @@ mod tests {
             simulator.read_state(&mut world).expect("same size");
             for slot in 0..world.leaves.len() {
                 let look =
-                    |world: &World| LeafAt { step: world.clock.step(), leaf: world.leaves.records(slot) };
+                    |world: &World| At { step: world.clock.step(), records: world.leaves.records(slot) };
                 let (litter, travel_m) = (&past.bed.words, past.clock.wind_travel_m());
                 let number = u32::try_from(slot).expect("few");
                 let looks = [&look(&past), &look(&world)];
@@ -210,15 +210,16 @@ mod tests {
     fn nothing_is_said_of_other_leaves_and_of_long_ago() {
         let text = "(sources: [], ground: (litter: Some((size_m: (2.0, 2.0), leaf_area_index: 1.0))))";
         let world = World::build(&Scene::from_ron(text, "bed").expect("RON")).expect("valid");
-        let before = LeafAt { step: 10, leaf: world.leaves.records(0) };
-        let mut after = LeafAt { step: 11, ..before };
-        let reason = |after: &LeafAt| waking(&world.compiled, &world.bed.words, 0.0, 0, [&before, after]);
+        let before = At { step: 10, records: world.leaves.records(0) };
+        let mut after = At { step: 11, ..before };
+        let reason =
+            |after: &At<LeafRecords>| waking(&world.compiled, &world.bed.words, 0.0, 0, [&before, after]);
         assert_eq!(reason(&after), None, "it lies");
-        after.leaf.place.bits = STATE_RESTING;
+        after.records.place.bits = STATE_RESTING;
         assert_eq!(reason(&after), Some(Waking::Loose), "it comes to lie anew");
-        assert_eq!(reason(&LeafAt { step: 10, ..after }), None, "in no time");
-        assert_eq!(reason(&LeafAt { step: 40, ..after }), None, "long ago");
-        after.leaf.identity.id += 1;
+        assert_eq!(reason(&At { step: 10, ..after }), None, "in no time");
+        assert_eq!(reason(&At { step: 40, ..after }), None, "long ago");
+        after.records.identity.id += 1;
         assert_eq!(reason(&after), None, "another leaf");
     }
 }

@@ -180,7 +180,7 @@ impl Viewer {
             _ => self.session.take_over(Arc::clone(&scene), change.retune)?,
         }
         if change.world {
-            self.instruments.forget_leaf();
+            self.instruments.let_go();
         }
         if change.picture || change.view {
             self.set_overlays(self.instruments.overlays);

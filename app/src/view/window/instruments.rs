@@ -1,22 +1,24 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The instruments of the window: what is shown beside the picture, and the leaf that is followed.
+//! The instruments of the window: what is shown beside the picture, and the leaf or particle that is followed.
 
 use std::sync::Arc;
 
 use egui::Pos2;
 use glam::Vec3;
-use windfall_core::leaf::{LeafState, Leaves, Place};
+use windfall_core::leaf::{LeafState, Leaves};
+use windfall_core::particle::ParticleStore;
 use windfall_core::{Scene, World};
 use windfall_render::ShelterMap;
-use windfall_wgpu::LeafColumns;
+use windfall_wgpu::WorldColumns;
 
 use super::Viewer;
 use crate::view::tools::card::{Card, card};
 use crate::view::tools::overlays::{Overlays, Show};
-use crate::view::tools::pick::{Projection, REACH};
-use crate::view::tools::probe::{LeafAt, Probe};
-use crate::view::tools::selection::Selection;
+use crate::view::tools::particle_card::particle_card;
+use crate::view::tools::pick::{Picked, Projection, REACH, leaves, particles};
+use crate::view::tools::probe::{At, Found, ParticleRecords, Probe};
+use crate::view::tools::selection::{Followed, ParticleSelection, Selection};
 use crate::view::tools::waking::waking;
 use crate::view::tools::wind_slice::wind_slice;
 
@@ -24,15 +26,15 @@ use crate::view::tools::wind_slice::wind_slice;
 const TRAIL_S: f32 = 3.0;
 /// Speed at the light end of the arrows' colours relative to the mean wind, and in still air, in m/s.
 const ARROW_MOST: (f32, f32) = (2.0, 1.0);
-/// Frames before a leaf is picked that was asked for on the command line.
+/// Frames before a leaf or particle is picked that was asked for on the command line.
 const FRAMES_BEFORE_PICK: u32 = 2;
 
-/// Overlays, and the leaf that is followed.
+/// Overlays, and the leaf or particle that is followed.
 #[derive(Debug)]
 pub(super) struct Instruments {
     pub(super) overlays: Overlays,
     probe: Probe,
-    selection: Option<Selection>,
+    followed: Option<Followed>,
     /// Instruments of the command line, until they are shown.
     asked: Vec<Show>,
     frames: u32,
@@ -45,52 +47,56 @@ impl Instruments {
         Self {
             overlays: Overlays::default(),
             probe: Probe::new(device),
-            selection: None,
+            followed: None,
             asked: show.to_vec(),
             frames: 0,
             sheltered: None,
         }
     }
 
-    /// Follows no leaf: there are others now.
-    pub(super) fn forget_leaf(&mut self) {
-        self.selection = None;
+    /// Follows nothing: there are other leaves and particles now.
+    pub(super) fn let_go(&mut self) {
+        self.followed = None;
     }
 
-    /// Asks what has become of the leaf that is followed, if it lies on the other side of a device.
+    /// Asks what has become of what is followed, if it lies on the other side of a device.
     pub(super) fn ask(
         &mut self,
         encoder: &mut wgpu::CommandEncoder,
-        leaves: &LeafColumns<'_>,
+        columns: &WorldColumns<'_>,
         step: u32,
         is_far: bool,
     ) {
-        if let Some(selection) = self.selection.as_ref().filter(|_| is_far) {
-            self.probe.ask(encoder, leaves, selection.slot, step);
+        if let Some(followed) = self.followed.as_ref().filter(|_| is_far) {
+            self.probe.ask(encoder, columns, followed.picked(), step);
         }
     }
 }
 
 impl Viewer {
-    /// Before a frame: takes what the device has returned about the leaf that is followed, and shows what was asked for.
+    /// Before a frame: takes what the device has returned about what is followed, and shows what was asked for.
     ///
     /// # Errors
     /// A lost device.
     pub(super) fn observe(&mut self) -> anyhow::Result<()> {
         let read = self.instruments.probe.collect(self.gpu.device());
         let step = self.session.simulator().clock().step();
-        let slot = self.instruments.selection.as_ref().map(|selection| selection.slot);
         // What is here needs no way back.
-        let here = self.session.host_leaves().zip(slot);
-        let here = here.map(|(leaves, slot)| (slot, records(leaves, step, slot as usize)));
-        let latest = here.or(read);
-        if let Some((slot, records)) = latest
-            && let Some(selection) = self.instruments.selection.as_mut().filter(|leaf| leaf.slot == slot)
-        {
-            let (compiled, litter) = (self.session.compiled(), self.session.litter_before(records.step));
-            let travel_m = self.session.simulator().clock().wind_travel_m();
-            let woken = waking(compiled, litter, travel_m, slot, [&selection.latest, &records]);
-            selection.note(records, woken);
+        let here =
+            self.instruments.followed.as_ref().and_then(|followed| self.found(followed.picked(), step));
+        match (here.or(read), &mut self.instruments.followed) {
+            (Some(Found::Leaf(slot, records)), Some(Followed::Leaf(leaf))) if leaf.slot == slot => {
+                let (compiled, litter) = (self.session.compiled(), self.session.litter_before(records.step));
+                let travel_m = self.session.simulator().clock().wind_travel_m();
+                let woken = waking(compiled, litter, travel_m, slot, [&leaf.latest, &records]);
+                leaf.note(records, woken);
+            }
+            (Some(Found::Particle(slot, records)), Some(Followed::Particle(particle)))
+                if particle.slot == slot =>
+            {
+                particle.note(records);
+            }
+            _ => {}
         }
         if self.instruments.frames == 0 {
             let mut overlays = self.instruments.overlays;
@@ -101,7 +107,7 @@ impl Viewer {
             self.session.set_comparing(self.instruments.asked.contains(&Show::Compare))?;
         }
         self.instruments.frames = self.instruments.frames.saturating_add(1);
-        if self.instruments.frames == FRAMES_BEFORE_PICK && self.instruments.asked.contains(&Show::Leaf) {
+        if self.instruments.frames == FRAMES_BEFORE_PICK {
             self.pick_any()?;
         }
         self.keep_up_shelter();
@@ -112,6 +118,7 @@ impl Viewer {
     pub(super) fn set_overlays(&mut self, overlays: Overlays) {
         self.instruments.overlays = overlays;
         self.renderer.set_paint(overlays.paint());
+        self.renderer.set_particle_paint(overlays.particle_paint());
         self.renderer.set_landings(overlays.landings);
         self.instruments.sheltered = None;
         if overlays.shelter().is_none() {
@@ -132,52 +139,79 @@ impl Viewer {
         }
     }
 
-    /// Follows the leaf at a place of the screen, or none if there is none.
+    /// Follows the leaf or particle at a place of the screen, or nothing if there is none.
     ///
     /// # Errors
     /// A lost device.
     pub(super) fn pick(&mut self, pointer: Pos2) -> anyhow::Result<()> {
         let world = self.session.world()?;
-        self.follow(&world, &world.leaves.place, pointer, REACH);
-        Ok(())
-    }
-
-    /// Follows the leaf in the air that is nearest to the middle of the picture.
-    fn pick_any(&mut self) -> anyhow::Result<()> {
-        let world = self.session.world()?;
-        let mut places = world.leaves.place.clone();
-        for place in &mut places {
-            // As if no other leaf were there.
-            place.bits = if place.state() == LeafState::Falling { place.bits } else { 0 };
-        }
-        self.follow(&world, &places, self.panel.picture().center(), f32::INFINITY);
-        Ok(())
-    }
-
-    fn follow(&mut self, world: &World, places: &[Place], pointer: Pos2, reach: f32) {
         let projection = Projection::new(&self.camera, self.panel.picture());
-        let slot = projection.nearest(places, pointer, reach);
-        self.instruments.selection = slot.and_then(|slot| {
-            let number = u32::try_from(slot).ok()?;
-            Some(Selection::new(number, records(&world.leaves, world.clock.step(), slot)))
+        let there =
+            leaves(&world.leaves.place).chain(particles(world.compiled.scene(), &world.particles.place));
+        let picked = projection.nearest(there, pointer, REACH);
+        self.follow(&world, picked);
+        Ok(())
+    }
+
+    /// Follows the leaf in the air or the particle that is nearest to the middle of the picture, whichever was asked for.
+    fn pick_any(&mut self) -> anyhow::Result<()> {
+        let asked = |show| self.instruments.asked.contains(&show);
+        let (wants_leaf, wants_particle) = (asked(Show::Leaf), asked(Show::Particle));
+        if !wants_leaf && !wants_particle {
+            return Ok(());
+        }
+        let world = self.session.world()?;
+        let projection = Projection::new(&self.camera, self.panel.picture());
+        let middle = self.panel.picture().center();
+        let is_aloft = |picked: &(Picked, Vec3)| match picked.0 {
+            Picked::Leaf(slot) => world.leaves.place[slot as usize].state() == LeafState::Falling,
+            Picked::Particle(_) => true,
+        };
+        let picked = if wants_leaf {
+            projection.nearest(leaves(&world.leaves.place).filter(is_aloft), middle, f32::INFINITY)
+        } else {
+            let there = particles(world.compiled.scene(), &world.particles.place);
+            projection.nearest(there, middle, f32::INFINITY)
+        };
+        self.follow(&world, picked);
+        Ok(())
+    }
+
+    fn follow(&mut self, world: &World, picked: Option<Picked>) {
+        let found = picked.map(|picked| found(&world.leaves, &world.particles, picked, world.clock.step()));
+        self.instruments.followed = found.map(|found| match found {
+            Found::Leaf(slot, records) => Followed::Leaf(Selection::new(slot, records)),
+            Found::Particle(slot, records) => Followed::Particle(ParticleSelection::new(slot, records)),
         });
     }
 
-    /// Card of the leaf that is followed.
+    /// The records of a leaf or particle, if they are on this side of the device.
+    fn found(&self, picked: Picked, step: u32) -> Option<Found> {
+        let (leaves, particles) = self.session.host_leaves().zip(self.session.host_particles())?;
+        Some(found(leaves, particles, picked, step))
+    }
+
+    /// Card of the leaf or particle that is followed.
     pub(super) fn card(&self) -> Option<Card> {
-        let selection = self.instruments.selection.as_ref()?;
-        // The records may be a frame old: the card is of their own step.
         let clock = self.session.simulator().clock();
-        let clock = windfall_core::Clock::at(selection.latest.step, clock.dt_s(), clock.wind_travel_m());
-        let card = card(self.session.compiled(), &clock, selection.slot, &selection.latest.leaf);
-        let Some((step, waking)) = selection.woken else { return Some(card) };
-        let steps = selection.latest.step.saturating_sub(step);
+        // The records may be a frame old: the card is of their own step.
+        let at = |step| windfall_core::Clock::at(step, clock.dt_s(), clock.wind_travel_m());
+        let compiled = self.session.compiled();
+        let leaf = match self.instruments.followed.as_ref()? {
+            Followed::Leaf(leaf) => leaf,
+            Followed::Particle(ParticleSelection { slot, latest, .. }) => {
+                return Some(particle_card(compiled, &at(latest.step), *slot, &latest.records));
+            }
+        };
+        let card = card(compiled, &at(leaf.latest.step), leaf.slot, &leaf.latest.records);
+        let Some((step, waking)) = leaf.woken else { return Some(card) };
+        let steps = leaf.latest.step.saturating_sub(step);
         Some(card.with_waking(waking, f64::from(steps) * f64::from(clock.dt_s())))
     }
 
-    /// Track of the leaf that is followed.
+    /// Track of the leaf or particle that is followed.
     pub(super) fn track(&self) -> Option<Vec<Vec3>> {
-        self.instruments.selection.as_ref().map(|selection| selection.track.places().collect())
+        self.instruments.followed.as_ref().map(|followed| followed.track().places().collect())
     }
 
     /// Arrows of the wind, if they are shown.
@@ -198,7 +232,12 @@ impl Viewer {
     }
 }
 
-/// The leaf in a slot.
-fn records(leaves: &Leaves, step: u32, slot: usize) -> LeafAt {
-    LeafAt { step, leaf: leaves.records(slot) }
+/// The records of a leaf or particle.
+fn found(leaves: &Leaves, particles: &ParticleStore, picked: Picked, step: u32) -> Found {
+    match picked {
+        Picked::Leaf(slot) => Found::Leaf(slot, At { step, records: leaves.records(slot as usize) }),
+        Picked::Particle(slot) => {
+            Found::Particle(slot, At { step, records: ParticleRecords::of(particles, slot as usize) })
+        }
+    }
 }

@@ -295,7 +295,7 @@ impl Viewer {
             self.gpu.device().create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         let input = FrameInput { camera: self.camera, time_s, since_s: self.since_s, origin };
         self.renderer.draw(&mut encoder, view, &columns, &input);
-        self.instruments.ask(&mut encoder, &columns.leaves, step, is_far);
+        self.instruments.ask(&mut encoder, &columns, step, is_far);
         self.meter.add(Stage::Draw, since);
         let since = Instant::now();
         self.gui.paint(&self.gpu, &mut encoder, view, self.screen.size(), painting);

@@ -6,6 +6,7 @@
 #import arith/math
 #import arith/quaternion
 #import arith/rng
+#import leaf/cone_spiral
 #import leaf/record
 #import motion/lookup
 
@@ -50,6 +51,20 @@ fn on_grid(v: vec3<f32>) -> vec3<f32> {
     );
 }
 
+fn first_phase(bits: u32, word: u32) -> u32 {
+    if (winds(bits)) {
+        return cone_of(bits).start_age;
+    }
+    return word;
+}
+
+fn table_phase(bits: u32, phase: u32, heading: u32) -> u32 {
+    if (scene.cones.count == 0u || !winds(bits)) {
+        return phase;
+    }
+    return cone_table_phase(bits, phase, heading);
+}
+
 fn own_period(bits: u32, params: MotionParams) -> vec3<f32> {
     let local = motion_period(motion_table(bits));
     return on_grid(turn_to_heading(local, heading_angle(params.heading)) * own_scale(params));
@@ -59,25 +74,39 @@ fn own_advance(bits: u32, params: MotionParams, start: u32, end: u32) -> vec3<f3
     let table = motion_table(bits);
     let angle = heading_angle(params.heading);
     let scale = own_scale(params);
-    let before = on_grid(turn_to_heading(motion_displacement(table, start), angle) * scale);
-    let after = on_grid(turn_to_heading(motion_state(table, end).displacement, angle) * scale);
+    let first = table_phase(bits, start, params.heading);
+    let last = table_phase(bits, end, params.heading);
+    let before = on_grid(turn_to_heading(motion_displacement(table, first), angle) * scale);
+    let after = on_grid(turn_to_heading(motion_state(table, last).displacement, angle) * scale);
     var way = after - before;
-    if (end < start) {
+    if (last < first) {
         way = way + own_period(bits, params);
     }
-    return way;
+    if (scene.cones.count == 0u || !winds(bits)) {
+        return way;
+    }
+    let inner = on_grid(cone_offset(bits, start, params.heading) * scale);
+    let outer = on_grid(cone_offset(bits, end, params.heading) * scale);
+    return (way + (outer - inner)) * select(1.0, 0.0, end < start);
 }
 
 fn own_velocity(bits: u32, phase: u32, params: MotionParams) -> vec3<f32> {
-    let local = motion_velocity(motion_table(bits), phase);
     let rate = own_rate(params.rate);
     let rounded = f32(rate >> 16u) * 65536.0 + f32(rate & HALF_MASK);
+    if (winds(bits)) {
+        let local = cone_velocity(bits, phase, params.heading);
+        return local * (own_scale(params) * ((rounded * STEP_UNIT) * scene.inv_dt_s));
+    }
+    let local = motion_velocity(motion_table(bits), phase);
     let periods_per_s = (rounded * PHASE_UNIT) * scene.inv_dt_s;
     return turn_to_heading(local, heading_angle(params.heading)) * (own_scale(params) * periods_per_s);
 }
 
 fn own_orientation(bits: u32, phase: u32, heading: u32) -> vec4<f32> {
-    let local = motion_state(motion_table(bits), phase).orientation;
+    let local = motion_state(motion_table(bits), table_phase(bits, phase, heading)).orientation;
+    if (scene.cones.count != 0u && winds(bits)) {
+        return cone_orientation(bits, phase, heading, local, spin_angle(bits));
+    }
     let turn = sin_cos_half(heading_angle(heading));
     let spin = sin_cos_half(spin_angle(bits));
     return quat_turn_before(quat_turn_after(local, turn.x, turn.y), spin.x, spin.y);

@@ -41,6 +41,11 @@ fn flies(bits: u32) -> bool {
     return (bits & (STATE_MASK | (PRIMITIVE_MASK << PRIMITIVE_SHIFT))) == flying;
 }
 
+fn landed_bits(bits: u32) -> u32 {
+    let is_spiral = leaf_primitive(bits) == CONE_SPIRAL;
+    return with_state(with_blend(select(bits, with_primitive(bits, 0u), is_spiral), 0u), STATE_RESTING);
+}
+
 fn leaf_regime(bits: u32) -> u32 {
     return (bits >> REGIME_SHIFT) & REGIME_MASK;
 }

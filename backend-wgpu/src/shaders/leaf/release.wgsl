@@ -163,8 +163,9 @@ fn leaf_set_off(leaf: u32, id: u32, release: u32, size_speed: SizeSpeed) {
         leaf_launch(leaf, id);
         return;
     }
+    let last = select(0u, STAGE_COUNT, primitive == CONE_SPIRAL);
     let schedule = Schedule(
-        next_event(id, release, identities[leaf].fall_time, 0u, source),
+        next_event(id, release, identities[leaf].fall_time, last, source),
         release_rate(species, primitive, release_ratio(size_speed)),
         schedules[leaf].size,
         heading_word(stage.z >> 16u, schedules[leaf].heading),
@@ -172,8 +173,9 @@ fn leaf_set_off(leaf: u32, id: u32, release: u32, size_speed: SizeSpeed) {
     schedules[leaf] = schedule;
     let bits = place_bits(STATE_FALLING, blend_steps_left(before), primitive, species, stage.w);
     places[leaf].bits = bits;
-    let own = own_velocity(bits, stage.y, motion_params(schedule));
-    drifts[leaf] = Drift(drifts[leaf].velocity - own, stage.y);
+    let phase = first_phase(bits, stage.y);
+    let own = own_velocity(bits, phase, motion_params(schedule));
+    drifts[leaf] = Drift(drifts[leaf].velocity - own, phase);
 }
 
 fn leaf_detach(leaf: u32, release: u32) {

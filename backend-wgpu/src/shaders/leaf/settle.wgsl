@@ -79,7 +79,7 @@ fn leaf_land(leaf: u32, start: vec3<f32>) {
     let x = hit.x + slid.way.x;
     let z = hit.z + slid.way.z;
     let position = vec3<f32>(x, ground_rest(x, z), z);
-    places[leaf] = Place(position, with_state(with_blend(place.bits, 0u), STATE_RESTING));
+    places[leaf] = Place(position, landed_bits(place.bits));
     drifts[leaf] = Drift(vec3<f32>(slid.velocity.x, 0.0, slid.velocity.z), 0u);
     schedules[leaf].event = recycling_step(leaf);
 }

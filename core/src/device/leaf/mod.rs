@@ -8,6 +8,7 @@ pub mod air;
 pub mod at_rest;
 pub mod carry;
 pub mod collide;
+pub mod cone_spiral;
 pub mod fall;
 pub mod fly;
 pub mod join;

@@ -33,8 +33,10 @@ crate::shared_constants! {
     pub const PRIMITIVE_MASK: u32 = 7;
     /// In place of a primitive motion: the leaf flies as a body in the air.
     pub const AERODYNAMIC: u32 = 6;
-    /// In place of a primitive motion: the leaf lies in the litter.
+    /// In place of a primitive motion, of a leaf on the ground: it lies in the litter.
     pub const LYING: u32 = 7;
+    /// Primitive motion of a leaf in the air: the cone spiral. One that comes to the ground no longer has it ([`landed_bits`]).
+    pub const CONE_SPIRAL: u32 = 7;
     /// Place of a lying leaf's change of the litter, where others keep their blend.
     pub const CHANGE_SHIFT: u32 = 2;
     /// Mask of the change.
@@ -119,7 +121,7 @@ crate::shared_record! {
         /// earlier motion. Of a body in the air: all its velocity. On the ground: the velocity of sliding. On and under water:
         /// that of drifting and sinking. On the twig: the velocity of the blade.
         pub velocity: [f32; 3],
-        /// Phase of the primitive motion in 2^-32 periods. Of a body in the air: its spin about x ([`body_spin`]). On the
+        /// Phase of the primitive motion in 2^-32 periods; of the cone spiral, its age in 2^-16 steps. Of a body in the air: its spin about x ([`body_spin`]). On the
         /// ground: [`ground_steps`], in the litter [`wake_speed_squared`]. On the twig: [`smoothed_air_speed`].
         pub phase: u32,
     }
@@ -141,7 +143,7 @@ crate::shared_record! {
     pub struct Schedule {
         /// Step of the next event: release, end of a stage, recycling, the petiole's break.
         pub event: u32,
-        /// Phase per step in 2^-32 periods. Of a body in the air: its spin about y ([`body_spin`]). In the litter:
+        /// Phase per step in 2^-32 periods; of the cone spiral, in 2^-16 steps. Of a body in the air: its spin about y ([`body_spin`]). In the litter:
         /// [`lying_support`]. Afloat: the height in m above the water at which the leaf's wind is sampled.
         pub rate: u32,
         /// Low half: size relative to the species' ([`size_ratio`]). High half: of a leaf on its twig, [`own_size`]; of a
@@ -221,6 +223,13 @@ pub fn with_primitive(bits: u32, primitive: u32) -> u32 {
 pub fn flies<W: Word>(bits: W) -> W::Mask {
     let flying = STATE_FALLING | (AERODYNAMIC << PRIMITIVE_SHIFT);
     (bits & (STATE_MASK | (PRIMITIVE_MASK << PRIMITIVE_SHIFT))).equals(flying)
+}
+
+/// Bits of a leaf of those that has come to the ground: the number of the cone spiral would say there that it lies in the litter.
+#[inline(always)]
+pub fn landed_bits(bits: u32) -> u32 {
+    let is_spiral = leaf_primitive(bits) == CONE_SPIRAL;
+    with_state(with_blend(if is_spiral { with_primitive(bits, 0) } else { bits }, 0), STATE_RESTING)
 }
 
 /// Regime of a body in the air: [`REGIME_STEADY`](crate::device::flight::regime::REGIME_STEADY) and so on.

@@ -5,11 +5,11 @@
 //! The release of a leaf: place, size, speed and first motion, in integers but for the last conversion.
 
 use super::launch::{leaf_hold, leaf_launch};
-use super::own::{motion_params, own_velocity};
+use super::own::{first_phase, motion_params, own_velocity};
 use super::record::{
-    AERODYNAMIC, Drift, Place, SIZE_ONE, STATE_DORMANT, STATE_FALLING, Schedule, blend_steps_left,
-    heading_word, leaf_appearance, leaf_source, leaf_species, own_size, place_bits, twig_sizes, with_blend,
-    with_stage,
+    AERODYNAMIC, CONE_SPIRAL, Drift, Place, SIZE_ONE, STATE_DORMANT, STATE_FALLING, Schedule,
+    blend_steps_left, heading_word, leaf_appearance, leaf_source, leaf_species, own_size, place_bits,
+    twig_sizes, with_blend, with_stage,
 };
 use crate::arith::rng::{mul_high, mul_q16, random, triangular};
 use crate::arith::vector::Vec3;
@@ -219,8 +219,10 @@ pub fn leaf_set_off(cx: &Context<'_>, leaf: &mut LeafMut<'_>, id: u32, release: 
         leaf_launch(cx, leaf, id);
         return;
     }
+    // A cone spiral lasts until the ground.
+    let last = if primitive == CONE_SPIRAL { STAGE_COUNT } else { 0 };
     let schedule = Schedule {
-        event: next_event(cx, id, release, leaf.identity.fall_time, 0, source),
+        event: next_event(cx, id, release, leaf.identity.fall_time, last, source),
         rate: release_rate(species, primitive, release_ratio(size_speed)),
         size: leaf.schedule.size,
         heading: heading_word(stage[2] >> 16, leaf.schedule.heading),
@@ -228,8 +230,9 @@ pub fn leaf_set_off(cx: &Context<'_>, leaf: &mut LeafMut<'_>, id: u32, release: 
     *leaf.schedule = schedule;
     let bits = place_bits(STATE_FALLING, blend_steps_left(before), primitive, species_index, stage[3]);
     leaf.place.bits = bits;
-    let own = own_velocity(cx, bits, stage[1], motion_params(schedule));
-    *leaf.drift = Drift { velocity: (Vec3::from(leaf.drift.velocity) - own).to_array(), phase: stage[1] };
+    let phase = first_phase(cx, bits, stage[1]);
+    let own = own_velocity(cx, bits, phase, motion_params(schedule));
+    *leaf.drift = Drift { velocity: (Vec3::from(leaf.drift.velocity) - own).to_array(), phase };
 }
 
 /// Lets a leaf go whose petiole has broken, where it is and as fast as it is.

@@ -9,9 +9,7 @@
 //! Landing is decided by a float comparison, the one place where the backends' integers could part for a step under
 //! the tolerant contract; the step is continuous across that decision, and what it writes is the same a moment later.
 
-use super::record::{
-    Drift, Identity, Place, STATE_RESTING, ground_steps, leaf_source, with_blend, with_state,
-};
+use super::record::{Drift, Identity, Place, ground_steps, landed_bits, leaf_source};
 use crate::arith::math::{inverse_sqrt, reciprocal};
 use crate::arith::quaternion::{Quat, quat_multiply, quat_normalize};
 use crate::arith::vector::Vec3;
@@ -110,7 +108,7 @@ pub fn leaf_land(cx: &Context<'_>, leaf: &mut LeafMut<'_>, start: Vec3) {
     let (slid, velocity) =
         slide(cx, way * cx.scene.inv_dt_s, left, ground_slope(cx, hit.x, hit.z), ground_friction(cx));
     let (x, z) = (hit.x + slid.x, hit.z + slid.z);
-    let bits = with_state(with_blend(leaf.place.bits, 0), STATE_RESTING);
+    let bits = landed_bits(leaf.place.bits);
     *leaf.place = Place { position: [x, ground_rest(cx, x, z), z], bits };
     *leaf.drift = Drift { velocity: [velocity.x, 0.0, velocity.z], phase: 0 };
     leaf.schedule.event = recycling_step(cx, leaf.identity);

@@ -10,6 +10,7 @@
 
 use crate::arith::rng::{below, mul_q16, random};
 use crate::blocks::SpeciesBlock;
+use crate::motion::Primitive;
 
 crate::shared_constants! {
     /// Stages of a fall.
@@ -101,7 +102,8 @@ pub fn feature(species: &SpeciesBlock, seed: [u32; 2], id: u32) -> [Stage; STAGE
     core::array::from_fn(|index| {
         let stage = index as u32;
         let words = stage_words(seed, id, stage);
-        if stage > 0 {
+        // A cone spiral lasts until the ground.
+        if stage > 0 && primitive != Primitive::ConeSpiral as u32 {
             primitive = transition_next(species, primitive, words[0]);
         }
         Stage {

@@ -6,7 +6,7 @@ use std::f64::consts::TAU;
 
 use super::check::Check;
 use crate::SceneError;
-use crate::motion::{MotionConstants, PRIMITIVE_COUNT, Primitive};
+use crate::motion::{JOINED_COUNT, MotionConstants, Primitive};
 use crate::scene::limits::{MAX_FALL_STEPS, MAX_PERIODS_PER_STEP, MAX_SCHEDULE_STEPS};
 use crate::scene::nearest::nearest;
 use crate::scene::{FlightModel, Release, Scene, Source, SourceShape, Species};
@@ -41,11 +41,12 @@ impl Scene {
         Ok(())
     }
 
-    /// Every primitive motion that a fall can reach leads on, and a draw from its row fits sixteen bits.
+    /// Every primitive motion that a fall can reach leads on, and a draw from its row fits sixteen bits. The cone spiral needs none.
     pub(super) fn check_transitions(&self, check: &Check<'_>) -> Result<(), SceneError> {
-        for (index, species) in self.species.iter().enumerate() {
+        let joins = |species: &Species| species.start != Primitive::ConeSpiral;
+        for (index, species) in self.species.iter().enumerate().filter(|(_, species)| joins(species)) {
             let rows = &species.transitions.0;
-            let mut reached = [false; PRIMITIVE_COUNT];
+            let mut reached = [false; JOINED_COUNT];
             let mut open = vec![species.start as usize];
             while let Some(from) = open.pop() {
                 if std::mem::replace(&mut reached[from], true) {
@@ -54,11 +55,11 @@ impl Scene {
                 let total: u64 = rows[from].iter().copied().map(u64::from).sum();
                 let row = format!("species[{index}].transitions[{from}]");
                 check.holds((1..=65_535).contains(&total), &row, || {
-                    let (found, code) = (&rows[from], Primitive::ALL[from].code());
+                    let (found, code) = (&rows[from], Primitive::JOINED[from].code());
                     let allowed = format!("counts with a sum of 1 to 65535, for falls reach {code}");
                     (format!("{found:?} (sum {total})"), allowed)
                 })?;
-                open.extend((0..PRIMITIVE_COUNT).filter(|&to| rows[from][to] > 0));
+                open.extend((0..JOINED_COUNT).filter(|&to| rows[from][to] > 0));
             }
         }
         Ok(())
@@ -75,11 +76,17 @@ impl Scene {
             let leaf = (1.0 + f64::from(species.speed_variation)) / (1.0 - f64::from(species.size_variation));
             let speedup = leaf * (1.0 + used.chaos_jitter) * f64::from(self.rotation_speed.max(1.0));
             let fastest = MAX_PERIODS_PER_STEP * TAU / (f64::from(self.dt_s) * speedup);
-            for (name, given, rate) in [
+            let winds = species.start == Primitive::ConeSpiral;
+            let joined = [
                 ("flutter_rad_s", given.flutter_rad_s, used.flutter_rad_s),
                 ("tumble_rad_s", given.tumble_rad_s, used.tumble_rad_s),
                 ("spiral_rad_s", given.spiral_rad_s, used.spiral_rad_s),
-            ] {
+            ];
+            let wound = [
+                ("cone_rad_s", given.cone_rad_s, used.cone_rad_s),
+                ("corner_swing_rad_s", given.corner_swing_rad_s, used.corner_swing_rad_s),
+            ];
+            for (name, given, rate) in joined.into_iter().chain(wound.into_iter().filter(|_| winds)) {
                 at.holds(rate < fastest, name, || {
                     let origin = if given.is_some() { "" } else { " (from size and mass)" };
                     let allowed =

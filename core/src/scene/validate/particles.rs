@@ -9,13 +9,11 @@ use crate::SceneError;
 use crate::motion::AIR_DENSITY;
 use crate::scene::limits::{self, Limit};
 use crate::scene::{
-    Air, Bounds, Direction, Force, ForceKind, Look, LookKind, MAX_FORCES, MAX_MUTUAL, MAX_PARTICLES,
-    MAX_POPULATIONS, Meets, ObjectFriction, ParticleRelease, ParticleShape, Particles, STANDARD_GRAVITY_M_S2,
-    Scene, Spread, SwirlProfile, VISCOSITY_PA_S,
+    Air, Bounds, Direction, Force, ForceKind, Look, LookKind, MAX_CURVE_POINTS, MAX_FORCES, MAX_MUTUAL,
+    MAX_PARTICLES, MAX_POPULATIONS, Meets, ObjectFriction, ParticleRelease, ParticleShape, Particles,
+    STANDARD_GRAVITY_M_S2, Scene, Spread, SwirlProfile, VISCOSITY_PA_S,
 };
 
-/// Most points of a curve.
-const MAX_CURVE_POINTS: usize = 64;
 /// Standard deviations of the number of particles alive for which there are slots, where they are born at random.
 pub(super) const ROOM_DEVIATIONS: f64 = 6.0;
 

@@ -13,9 +13,9 @@ use glam::Vec3;
 use crate::SceneError;
 use crate::motion::{Primitive, TransitionTable};
 use crate::scene::{
-    CameraKey, Exposure, Focus, Foliage, Jet, JetKey, Lens, MeanSpeed, MotionParameters, Profile, Release,
-    RotationModel, Scene, Share, Source, SourceShape, Species, ToneMap, Tree, TreeKind, View, Vortex,
-    VortexProfile, WindParameters,
+    CameraKey, ConeShape, Exposure, Focus, Foliage, Jet, JetKey, Lens, MeanSpeed, MotionParameters, Profile,
+    Release, RotationModel, Scene, Share, Source, SourceShape, Species, ToneMap, Tree, TreeKind, View,
+    Vortex, VortexProfile, WindParameters,
 };
 
 /// A valid scene in which every optional number is present.
@@ -34,6 +34,13 @@ fn full() -> Scene {
         rose_swings: Some(4),
         spiral_radius_m: Some(0.2),
         spiral_rad_s: Some(4.0),
+        cone_shape: Some(ConeShape::Cone),
+        cone_radius_m: Some(0.5),
+        cone_depth_m: Some(3.0),
+        cone_rad_s: Some(2.0),
+        cone_unevenness: Some(0.3),
+        corner_swing_deg: Some(30.0),
+        corner_swing_rad_s: Some(4.0),
         wander_m_s: Some(0.1),
         wander_s: Some(0.3),
     };

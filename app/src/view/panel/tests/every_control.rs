@@ -8,7 +8,7 @@ use egui_kittest::kittest::NodeT;
 use egui_kittest::{Harness, Node};
 use windfall_core::scene::ObjectMotion;
 
-use super::scenes::{full, other, third};
+use super::scenes::{full, nested, other, third, winding};
 use super::*;
 
 /// A panel whose edits are taken over as a window would.
@@ -179,10 +179,11 @@ fn every_control_does_something() {
         Group::Sky,
         Group::Lens,
     ];
-    let scenes: [(Scene, &[Group]); 3] = [
+    let scenes: [(Scene, &[Group]); 4] = [
         (full(), &Group::ALL),
         (other(), &others),
         (third(), &[Group::Species, Group::Objects, Group::Particles, Group::Lens]),
+        (winding(), &[Group::Species]),
     ];
     let all: Vec<Control> = scenes.iter().flat_map(move_everything).collect();
     assert!(all.len() > 300, "only {} controls were found", all.len());
@@ -193,7 +194,7 @@ fn every_control_does_something() {
 
 #[test]
 fn every_control_lies_within_the_panel() {
-    for (scene, loaded) in [(full(), full()), (other(), full()), (third(), other())] {
+    for (scene, loaded) in [(full(), full()), (other(), full()), (third(), other()), (winding(), third())] {
         let mut harness = open(&loaded, &Group::ALL);
         // What differs from what was loaded has an arrow behind it.
         harness.state_mut().input.scene = Arc::new(scene);
@@ -259,6 +260,76 @@ fn rows_of_a_path_change_the_key_that_is_chosen() {
     restore(&mut harness, &scene);
     let left = edited(&mut harness, "Button", "Remove this key of the path");
     assert_eq!(left, before[..1], "the last is chosen");
+}
+
+/// Controls of a population that others give birth to, behind one that is not: the second of the list has to be chosen first.
+#[test]
+fn nests_can_be_edited() {
+    let scene = nested();
+    let mut harness = open(&scene, &[Group::Particles]);
+    let control = |role: &str, name: &str| Control { role: role.into(), name: name.into(), number: 0 };
+    let choose = |harness: &mut Harness<'_, Window>, name: &str, option: &str| {
+        find(harness, &control("ComboBox", name)).click_accesskit();
+        harness.run_steps(2);
+        let is_it = |node: &Node<'_>| node.accesskit_node().label().is_some_and(|name| name == option);
+        harness.root().children_recursive().find(is_it).expect("an option of the menu").click_accesskit();
+        harness.run_steps(3);
+    };
+    choose(&mut harness, "Population", "2: 400 drop");
+    let names: Vec<String> = controls(&harness).into_iter().map(|control| control.name).collect();
+    for absent in ["Slots", "Start from", "Births"] {
+        assert!(!names.iter().any(|name| name == absent), "{absent} does not count with a nest");
+    }
+    let mut edited = |name: &str, option: Option<&str>| {
+        match option {
+            Some(option) => choose(&mut harness, name, option),
+            None => assert!(moves(&mut harness, &control("Slider", name)), "{name}"),
+        }
+        let action = harness.state_mut().actions.pop();
+        let Some(Action::Edit { scene: edited, .. }) = action else { panic!("{name} edits: {action:?}") };
+        restore(&mut harness, &scene);
+        edited.validate(name).unwrap_or_else(|error| panic!("{name}: {error}"));
+        (edited.particles[1].count, edited.particles[1].nest.clone())
+    };
+    let nest = scene.particles[1].nest.clone().expect("it has one");
+    let (_, of) = edited("Born of", Some("nothing"));
+    assert_eq!(of, None, "born by itself");
+    let (_, on) = edited("Born at", Some("its death"));
+    assert!(on.is_some_and(|other| other.on != nest.on), "another event");
+    let (_, every) = edited("Every", None);
+    assert!(every.is_some_and(|other| other.on != nest.on), "other steps");
+    let (count, fan) = edited("Born at once", None);
+    assert_eq!(fan.map(|nest| (nest.fan, count % (100 * nest.fan))), Some((3, 0)), "and slots for them");
+    let (_, inherit) = edited("Inherits", None);
+    assert!(inherit.is_some_and(|other| other.inherit > 0.5), "more of the velocity");
+    let (_, within) = edited("Start within", None);
+    assert!(within.is_some_and(|other| other.radius_m > 0.1), "a larger ball");
+    let (count, _) = edited("Rounds", None);
+    assert_eq!(count, 600, "slots for one more round");
+}
+
+/// Points of a curve are added between others, moved between their neighbours, and removed.
+#[test]
+fn curves_can_be_edited_point_by_point() {
+    let scene = third();
+    let mut harness = open(&scene, &[Group::Particles]);
+    let mut edited = |role: &str, name: &str| {
+        let control = Control { role: role.into(), name: name.into(), number: 0 };
+        assert!(moves(&mut harness, &control), "{name}");
+        let action = harness.state_mut().actions.pop();
+        let Some(Action::Edit { scene: edited, .. }) = action else { panic!("{name} edits: {action:?}") };
+        restore(&mut harness, &scene);
+        edited.validate(name).unwrap_or_else(|error| panic!("{name}: {error}"));
+        edited.particles[0].look.clone()
+    };
+    let sizes = edited("Slider", "Size age").size;
+    assert!((0.2..0.5).contains(&sizes[0].0) && sizes[0].0 != 0.2, "before the second: {sizes:?}");
+    let sizes = edited("Slider", "Size").size;
+    assert!(sizes[0].1 != 1.0 && sizes[1] == (0.5, 2.0), "the first alone: {sizes:?}");
+    let opacities = edited("Button", "Add opacity point like this").opacity;
+    assert_eq!(opacities, [(0.0, 0.5), (0.5, 0.5), (1.0, 0.0)], "between the two");
+    let opacities = edited("Button", "Remove this opacity point").opacity;
+    assert_eq!(opacities, [(0.0, 0.5)], "the second is chosen");
 }
 
 #[test]

@@ -4,12 +4,13 @@
 
 use glam::Vec3;
 use windfall_core::Scene;
+use windfall_core::motion::Primitive;
 use windfall_core::scene::{
-    Aerodynamics, Air, CameraKey, Direction, Exposure, FlightModel, Focus, Force, ForceKind, Jet, JetKey,
-    Litter, Look, LookKind, MeanSpeed, Meets, Object, ObjectFriction, ObjectKey, ObjectMotion, ObjectShape,
-    ParticleRelease, ParticleShape, Particles, Planform, Profile, Release, RotationModel, Share, Sky, SkyMap,
-    SourceShape, Spread, SwirlProfile, Terrain, ToneMap, Tree, TreeForm, TreeKind, Vortex, VortexProfile,
-    Walker, Water,
+    Aerodynamics, Air, Bounds, CameraKey, Direction, Exposure, FlightModel, Focus, Force, ForceKind, Jet,
+    JetKey, Litter, Look, LookKind, MeanSpeed, Meets, Object, ObjectFriction, ObjectKey, ObjectMotion,
+    ObjectShape, ParticleRelease, ParticleShape, Particles, Planform, Profile, Release, RotationModel, Share,
+    Sky, SkyMap, SourceShape, Spread, SwirlProfile, Terrain, ToneMap, Tree, TreeForm, TreeKind, Vortex,
+    VortexProfile, Walker, Water,
 };
 
 /// A park with one of everything that may be added to a scene.
@@ -37,6 +38,7 @@ pub(super) fn full() -> Scene {
     scene.objects = vec![Object::default()];
     scene.walkers = vec![Walker::default()];
     scene.particles = vec![population("first", Air::Settling { m_s: Spread::Uniform(1.0, 0.2) }, "push")];
+    scene.particles[0].dies = Some(Bounds::Below(-1.0));
     scene.forces = vec![Force { name: "push".into(), of: ForceKind::Noise { m_s2: 1.0, cell_m: 1.0 } }];
     scene.ground.terrain = Some(Terrain { levels: 4, ..Terrain::default() });
     scene.ground.water = Some(Water { height_m: -0.5 });
@@ -73,6 +75,7 @@ pub(super) fn other() -> Scene {
     one.air = Air::Linear { time_s: Spread::Normal(0.5, 0.1) };
     one.meets = Meets::Bounce { restitution: 0.3, friction: ObjectFriction::Loss(0.2) };
     one.release = ParticleRelease::Burst { at_s: 1.0 };
+    one.dies = Some(Bounds::Outside { center_m: Vec3::Y, half_extent_m: Vec3::splat(20.0) });
     (one.look.kind, one.look.blink_s) = (LookKind::Glow, Some(2.0));
     scene.forces[0].of = ForceKind::Attract { at_m: Vec3::Y, gm_m3_s2: 2.0, softening_m: 0.2 };
     scene
@@ -94,6 +97,8 @@ pub(super) fn third() -> Scene {
     let mut one = population("third", Air::Quadratic { drag: 0.5 }, "turn");
     one.from = ParticleShape::Ring { center_m: Vec3::Y, radius_m: 1.0, axis: Vec3::Y };
     one.direction = Direction::Outward;
+    one.look.opacity = vec![(0.0, 0.5), (1.0, 0.0)];
+    one.look.size = vec![(0.2, 1.0), (0.5, 2.0)];
     scene.particles = vec![one];
     let of = ForceKind::Swirl {
         at_m: Vec3::ZERO,
@@ -104,4 +109,22 @@ pub(super) fn third() -> Scene {
     };
     scene.forces = vec![Force { name: "turn".into(), of }];
     scene
+}
+
+/// Leaves on cone spirals.
+pub(super) fn winding() -> Scene {
+    let mut scene = Scene::default();
+    scene.species[0].start = Primitive::ConeSpiral;
+    scene.species[0].motion.cone_radius_m = Some(1.0);
+    scene
+}
+
+/// Particles, others that are born of them, and others of these.
+pub(super) fn nested() -> Scene {
+    let text = "(particles: [
+        (name: \"spark\", count: 100, release: Rate(per_s: 20.0, from_s: 0.0), life_s: Some(Constant(2.0))),
+        (name: \"drop\", count: 400, nest: Some((of: \"spark\", on: Every(steps: 60), fan: 2, inherit: 0.5, radius_m: 0.1)),
+         life_s: Some(Constant(0.5))),
+    ])";
+    Scene::from_ron(text, "nested").expect("RON")
 }

@@ -35,13 +35,20 @@ prop_compose! {
             (maybe(limits::TUMBLE_WOBBLE), maybe(limits::CHAOS_KEEP), maybe(limits::CHAOS_JITTER)),
         (rose_radius_m, rose_ellipticity, rose_swings) in
             (maybe(limits::ROSE_RADIUS_M), maybe(limits::ROSE_ELLIPTICITY), option::of(2u32..=12)),
+        (cone_shape, cone_radius_m, cone_depth_m, cone_rad_s) in (
+            option::of(select(vec![ConeShape::Bowl, ConeShape::Cone])), maybe(limits::CONE_RADIUS_M),
+            maybe(limits::CONE_DEPTH_M), option::of(0.5f32..11.0),
+        ),
+        (cone_unevenness, corner_swing_deg, corner_swing_rad_s) in
+            (maybe(limits::CONE_UNEVENNESS), maybe(limits::CORNER_SWING_DEG), option::of(0.5f32..11.0)),
         (spiral_radius_m, wander_m_s, wander_s) in
             (maybe(limits::SPIRAL_RADIUS_M), maybe(limits::WANDER_M_S), maybe(limits::WANDER_S)),
     ) -> MotionParameters {
         MotionParameters {
             descent_m_s, horizontal_m_s, vertical_m_s, flutter_rad_s, tumble_rad_s, tumble_wobble, chaos_keep,
             chaos_jitter, rose_radius_m, rose_ellipticity, rose_swings, spiral_radius_m, spiral_rad_s, wander_m_s,
-            wander_s,
+            wander_s, cone_shape, cone_radius_m, cone_depth_m, cone_rad_s, cone_unevenness, corner_swing_deg,
+            corner_swing_rad_s,
         }
     }
 }

@@ -149,6 +149,22 @@ const TIMES: &[Case] = &[
         |s| (s.dt_s, s.species[0].motion.spiral_rad_s) = (0.05, Some(18.8)),
         Some("species[0].motion.spiral_rad_s"),
     ),
+    (
+        |s| {
+            (s.dt_s, s.species[0].start) = (0.05, Primitive::ConeSpiral);
+            s.species[0].motion.cone_rad_s = Some(18.8);
+        },
+        Some("species[0].motion.cone_rad_s"),
+    ),
+    (
+        |s| {
+            (s.dt_s, s.species[0].start) = (0.05, Primitive::ConeSpiral);
+            s.species[0].motion.corner_swing_rad_s = Some(18.8);
+        },
+        Some("species[0].motion.corner_swing_rad_s"),
+    ),
+    // Of a motion that no fall has, no rate is too fast.
+    (|s| (s.dt_s, s.species[0].motion.cone_rad_s) = (0.05, Some(18.8)), None),
     (|s| (s.dt_s, s.rotation_speed) = (0.05, 3.0), Some("species[0].motion.tumble_rad_s")),
     // Unless stated, from size and mass: tumbling at 0.4 pi U/d = 0.4 pi 0.8 / 0.005 = 201 rad/s, limit 234 rad/s.
     (
