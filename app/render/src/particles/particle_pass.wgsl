@@ -51,20 +51,6 @@ fn own_number(id: u32, population: u32) -> f32 {
     return unit_from(hash_u32(id ^ hash_u32(population)));
 }
 
-// Values of a population's curves at an age.
-fn look_at_age(population: u32, share: f32) -> LookRow {
-    let place = share * f32(LOOK_ROWS - 1u);
-    let low = min(u32(place), LOOK_ROWS - 2u);
-    let first = rows[population * LOOK_ROWS + low];
-    let second = rows[population * LOOK_ROWS + low + 1u];
-    let t = place - f32(low);
-    var row = first;
-    row.color = mix(first.color, second.color, t);
-    row.opacity = mix(first.opacity, second.opacity, t);
-    row.size = mix(first.size, second.size, t);
-    return row;
-}
-
 // Share of its light that a blinking particle gives at a moment: dark for most of a period, then a flash that swells and dies.
 fn blink(time_s: f32, period_s: f32, own: f32) -> f32 {
     let phase = fract(time_s / period_s + own);
@@ -86,7 +72,8 @@ fn vertex(@builtin(vertex_index) corner: u32, @builtin(instance_index) rank: u32
     let population = particle_population(place.bits);
     let look = populations[population];
     let age = particle_age(motion, drawn.step);
-    let row = look_at_age(population, age_share(age, born_with.life_size));
+    let at = row_place(population, age_share(age, born_with.life_size));
+    let row = row_between(rows[at.row], rows[at.row + 1u], at.t);
     let own = own_number(born_with.id, population);
 
     let to_eye = frame.eye_m - place.position;

@@ -9,7 +9,7 @@ use crate::SceneError;
 use crate::motion::AIR_DENSITY;
 use crate::scene::limits::{self, Limit};
 use crate::scene::{
-    Air, Bounds, Direction, Force, ForceKind, Look, LookKind, MAX_FORCES, MAX_MUTUAL, MAX_PARTICLES,
+    Air, Bounds, Direction, Force, ForceKind, Look, LookKind, MAX_BLOBS, MAX_FORCES, MAX_MUTUAL, MAX_PARTICLES,
     MAX_POPULATIONS, Meets, ObjectFriction, ParticleRelease, ParticleShape, Particles, STANDARD_GRAVITY_M_S2,
     Scene, Spread, SwirlProfile, VISCOSITY_PA_S,
 };
@@ -226,6 +226,11 @@ impl Particles {
                 at.vector("half_extent_m", half_extent_m, limits::HALF_EXTENT_M)?;
             }
         }
+        if matches!(self.look.kind, LookKind::Blobs { .. }) {
+            at.holds(self.count <= MAX_BLOBS, "count", || {
+                (self.count.to_string(), format!("at most {MAX_BLOBS} that are drawn as blobs"))
+            })?;
+        }
         self.look.check(&at.inside("look"))
     }
 
@@ -329,6 +334,21 @@ impl Look {
             at.holds(self.kind == LookKind::Glow, "blink_s", || {
                 (format!("{blink_s} with kind {:?}", self.kind), "None, unless they glow".into())
             })?;
+        }
+        if let LookKind::Blobs { radius_m, threshold } = self.kind {
+            at.inside("kind").numbers([
+                ("radius_m", radius_m.into(), limits::BLOB_RADIUS_M),
+                ("threshold", threshold.into(), limits::BLOB_THRESHOLD),
+            ])?;
+            let needed = || "left out: blobs are opaque, stand in the picture's depth and are not drawn out";
+            let unused = [
+                ("opacity", !self.opacity.is_empty()),
+                ("streak", self.streak),
+                ("layer", self.layer != 0),
+            ];
+            for (name, is_set) in unused {
+                at.holds(!is_set, name, || ("set, with Blobs".into(), needed().into()))?;
+            }
         }
         at.numbers([("layer", self.layer.into(), limits::LAYER)])
     }
