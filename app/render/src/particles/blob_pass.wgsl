@@ -13,6 +13,8 @@ const WET_ROUGHNESS: f32 = 0.16;
 const WRAP: f32 = 0.35;
 // Share of the sunlight behind a body that comes through it, forwards.
 const THROUGH: f32 = 0.35;
+// Number of samples of the sky: on what is smooth few of them would show.
+const BLOB_SKY_TAPS: u32 = 18u;
 // Places of the samples in a pixel, from its middle: the same on all devices.
 const SAMPLES: u32 = 4u;
 const SAMPLE_AT: array<vec2<f32>, 4> = array(vec2(-0.125, -0.375), vec2(0.375, -0.125), vec2(-0.375, 0.125), vec2(0.125, 0.375));
@@ -58,16 +60,17 @@ fn vertex(@builtin(vertex_index) index: u32, @builtin(instance_index) number: u3
     return out;
 }
 
-// Light of the surface at a place towards the eye, which looks along `ray`.
-fn blob_light(at: vec3<f32>, surface: BlobSurface, ray: vec3<f32>) -> vec3<f32> {
+// Light of the surface at a place towards the eye, which looks along `ray`. What lies within half of `thick_m`, the radius of a ball, does
+// not shade it: light goes on through that.
+fn blob_light(at: vec3<f32>, surface: BlobSurface, ray: vec3<f32>, thick_m: f32) -> vec3<f32> {
     let normal = surface.normal;
     let light = frame.sun_direction;
     let distance_m = distance(at, frame.eye_m);
     let clear = clamp(0.0025 * distance_m, 0.012, 0.15);
-    let sun = frame.sun_color * tree_shade(at).r * leaf_shadow(at + normal * clear + light * 0.01);
+    let sun = frame.sun_color * tree_shade(at).r * leaf_shadow(at + normal * clear + light * (0.5 * thick_m));
     let facing = dot(normal, light);
     let half_way = normalize(light - ray);
-    let before = open_above(at + vec3(normal.x, 0.0, normal.z) * 0.2 + normal * 0.1, SKY_TAPS);
+    let before = open_above(at + vec3(normal.x, 0.0, normal.z) * 0.2 + normal * 0.1, BLOB_SKY_TAPS);
     let height = at.y - ground_height(at.xz);
     let beneath = mix(1.0, smoothstep(-0.1, 0.8, height), 0.7 * max(-normal.y, 0.0));
     let open = mix(0.4, 1.0, before) * beneath * sky_openness(at);
@@ -142,5 +145,5 @@ fn fragment(in: Varyings) -> Shown {
     if hits == 0u || clip.z > clip.w {
         discard;
     }
-    return Shown(vec4(haze(blob_light(at, surface, ray), at), 1.0), clip.z / clip.w, hits);
+    return Shown(vec4(haze(blob_light(at, surface, ray, look.lone_radius_m), at), 1.0), clip.z / clip.w, hits);
 }

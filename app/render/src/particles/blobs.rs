@@ -94,12 +94,8 @@ shared_struct! {
 
 /// Declarations of the structs.
 pub(super) fn structs() -> String {
-    let structs = [
-        BlobUniform::declaration(),
-        BlobLook::declaration(),
-        Blob::declaration(),
-        BlobCell::declaration(),
-    ];
+    let structs =
+        [BlobUniform::declaration(), BlobLook::declaration(), Blob::declaration(), BlobCell::declaration()];
     declarations([wgsl_constants()]) + &structs.concat()
 }
 
@@ -147,10 +143,10 @@ impl BlobPass {
         let uniform_entry = buffer_entry(0, wgpu::BufferBindingType::Uniform, compute);
         let read = |binding| buffer_entry(binding, storage(true), compute);
         let write = |binding| buffer_entry(binding, storage(false), compute);
-        let gathered = [uniform_entry, read(1), read(2), read(3), read(4), read(5), read(6), write(7), write(8)];
+        let gathered =
+            [uniform_entry, read(1), read(2), read(3), read(4), read(5), read(6), write(7), write(8)];
         let gather_layout = bind_layout("blobs", &gathered);
-        let cells_layout =
-            bind_layout("blob cells", &[uniform_entry, read(5), write(7), write(8), write(9)]);
+        let cells_layout = bind_layout("blob cells", &[uniform_entry, read(5), write(7), write(8), write(9)]);
         let drawn = [
             buffer_entry(0, storage(true), vertex | fragment),
             buffer_entry(1, storage(true), fragment),
@@ -201,7 +197,8 @@ impl BlobPass {
                 cache: None,
             })
         };
-        let (gather, find_cells) = (pipeline("gather", &gather_layout), pipeline("find_cells", &cells_layout));
+        let (gather, find_cells) =
+            (pipeline("gather", &gather_layout), pipeline("find_cells", &cells_layout));
         let pipeline = ScenePipeline {
             label: "blobs",
             frame,
@@ -222,7 +219,15 @@ impl BlobPass {
             let groups = [Some(&drawn_layout), None];
             let map = maps.next().unwrap_or(0);
             let topology = wgpu::PrimitiveTopology::TriangleList;
-            depth_pipeline(device, frame, "blob shadows", (map, &shadow_shader), groups, (topology, &[]), true)
+            depth_pipeline(
+                device,
+                frame,
+                "blob shadows",
+                (map, &shadow_shader),
+                groups,
+                (topology, &[]),
+                true,
+            )
         });
         Some(Self {
             uniform,
@@ -255,12 +260,8 @@ impl BlobPass {
         let Some(columns) = columns else { return };
         #[expect(clippy::cast_possible_truncation, reason = "whole steps within weeks")]
         let step = (time_s / f64::from(self.dt_s)).round() as i32;
-        let uniform = BlobUniform {
-            step: step.cast_unsigned(),
-            slots: columns.count,
-            pairs: self.pairs,
-            unused: 0,
-        };
+        let uniform =
+            BlobUniform { step: step.cast_unsigned(), slots: columns.count, pairs: self.pairs, unused: 0 };
         queue.write_buffer(&self.uniform, 0, bytemuck::bytes_of(&uniform));
         let gather_group = bind(
             device,
@@ -342,7 +343,8 @@ fn blob_look(particles: &Particles) -> BlobLook {
         return bytemuck::Zeroable::zeroed();
     };
     let sizes = particles.look.size.iter().map(|(_, size)| *size);
-    let largest = sizes.reduce(f32::max).unwrap_or(1.0) * particles.size_m.highest() / particles.size_m.mean();
+    let largest =
+        sizes.reduce(f32::max).unwrap_or(1.0) * particles.size_m.highest() / particles.size_m.mean();
     // A ball and its seam on both sides are two cells wide.
     let cell_m = (radius_m * largest / (1.0 - BLOB_SEAM)).max(1e-4);
     BlobLook { radius_m, threshold, cell_m, lone_radius_m: radius_m * lone_blob_radius(threshold) }

@@ -34,7 +34,7 @@ fn dormant(row: Row) -> Row {
 /// Share of every pixel that black blobs cover.
 fn coverage(rows: &dyn Fn(&Bench) -> Vec<Row>) -> Vec<f64> {
     let draw = |bench: &mut Bench, rows: &[Row]| bench.draw_particles(rows, 0.0);
-    let black = "haze(blob_light(at, surface, ray), at)";
+    let black = "haze(blob_light(at, surface, ray, look.lone_radius_m), at)";
     with_shader_edit(black, "vec3(0.0)", || {
         let mut bench = looks(0.0, vec![blobs(Vec3::ONE)]);
         let rows = rows(&bench);
@@ -84,7 +84,8 @@ fn blobs_are_drawn_alike_twice_and_in_any_slots() {
     let mut bench = looks(0.0, vec![blobs(Vec3::X), blobs(Vec3::Y)]);
     let row = particle(&bench, 0, (4.0, 0.0), ALIVE);
     let other = particle(&bench, 1, (3.0, 0.0), ALIVE);
-    let rows = [row, moved(row, Vec3::X), moved(other, Vec3::Y * 0.3), moved(other, Vec3::new(1.0, 0.4, 0.1))];
+    let rows =
+        [row, moved(row, Vec3::X), moved(other, Vec3::Y * 0.3), moved(other, Vec3::new(1.0, 0.4, 0.1))];
     let picture = bench.draw_particles(&rows, 0.0);
     assert_eq!(picture, bench.draw_particles(&rows, 0.0), "again");
     let none = bench.draw_particles(&rows.map(dormant), 0.0);
@@ -121,7 +122,8 @@ fn blobs_stand_before_and_behind_objects() {
             let look = blobs(Vec3::X);
             scene.particles = looks(0.0, vec![look]).scene.particles;
             let (center_m, radius_m) = (scene.view.camera.target_m, 1.0);
-            let wall = Object { shape: ObjectShape::Sphere { radius_m }, at_m: center_m, ..Object::default() };
+            let wall =
+                Object { shape: ObjectShape::Sphere { radius_m }, at_m: center_m, ..Object::default() };
             scene.objects = vec![wall];
         });
         let row = particle(&bench, 0, (toward_m, 0.0), ALIVE);

@@ -34,7 +34,12 @@ pub(super) fn looks(shutter_s: f32, looks: Vec<Look>) -> Bench {
 }
 
 /// A particle of a population, so far from the camera's target towards the camera, with a velocity to the right.
-pub(super) fn particle(bench: &Bench, population: u32, (toward_m, across_m_s): (f32, f32), state: u32) -> Row {
+pub(super) fn particle(
+    bench: &Bench,
+    population: u32,
+    (toward_m, across_m_s): (f32, f32),
+    state: u32,
+) -> Row {
     let camera = &bench.scene.view.camera;
     let toward = (camera.eye_m - camera.target_m).normalize();
     let at = camera.target_m + toward * toward_m;
