@@ -400,7 +400,7 @@ mod tests {
     fn refused(change: impl FnOnce(&mut Particles)) -> String {
         let kind = LookKind::Blobs { radius_m: 0.2, threshold: 0.5 };
         let look = Look { kind, ..Look::default() };
-        let mut one = Particles { name: "slime".into(), count: 100, look, ..Particles::default() };
+        let mut one = Particles { name: "slime".into(), count: 2000, look, ..Particles::default() };
         change(&mut one);
         let scene = Scene { particles: vec![one], ..Scene::default() };
         let line = scene.validate("a.ron").map_or_else(|error| error.to_string(), |()| String::new());
