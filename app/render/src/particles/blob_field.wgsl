@@ -105,7 +105,7 @@ fn meet_surface(cell: BlobCell, origin: vec3<f32>, ray: vec3<f32>, span: vec2<f3
         let here = field_on_ray(cell, origin + ray * way, ray);
         let gap = look.threshold - here.value;
         if gap <= 0.0 {
-            // What begins inside has met the surface in another cell.
+            // A way that begins inside has met the surface in another cell.
             meeting.distance_m = select(way, -1.0, step == 0u);
             return meeting;
         }

@@ -8,6 +8,8 @@
 // Reflectance of a wet skin seen from straight above (Fresnel, index of refraction 1.4), and its roughness.
 const WET_F0: f32 = 0.028;
 const WET_ROUGHNESS: f32 = 0.16;
+// Most that it mirrors at a glance: there the surface behind stands before the sky.
+const WET_F90: f32 = 0.55;
 // Light from the sun that goes on below the surface and comes out beside where it fell in, as the part of the cosine by which it reaches
 // around the edge of the lit side.
 const WRAP: f32 = 0.35;
@@ -82,7 +84,7 @@ fn blob_light(at: vec3<f32>, surface: BlobSurface, ray: vec3<f32>, thick_m: f32)
 
     // The skin mirrors sun and sky (Schlick 1994; Walter et al. 2007; visibility after Kelemen and Szirmay-Kalos 2001).
     let grazing = pow(1.0 - clamp(-dot(normal, ray), 0.0, 1.0), 5.0);
-    let fresnel = WET_F0 + (1.0 - WET_F0) * grazing;
+    let fresnel = WET_F0 + (WET_F90 - WET_F0) * grazing;
     let a2 = WET_ROUGHNESS * WET_ROUGHNESS * WET_ROUGHNESS * WET_ROUGHNESS;
     let cosine = max(dot(normal, half_way), 0.0);
     let spread = cosine * cosine * (a2 - 1.0) + 1.0;
@@ -107,7 +109,7 @@ fn fragment(in: Varyings) -> Shown {
     var hits = 0u;
     let span = cell_span(cell, room_m, frame.eye_m, ray);
     var surface: BlobSurface;
-    // Where the surface ends in a pixel, each of its samples has a ray of its own.
+    // Each sample of a pixel in which the surface ends has a ray of its own.
     var is_edge = false;
     if span.x < span.y {
         let meeting = meet_surface(cell, frame.eye_m, ray, span);

@@ -113,9 +113,9 @@ pub(crate) struct BlobPass {
     gather: wgpu::ComputePipeline,
     find_cells: wgpu::ComputePipeline,
     gather_layout: wgpu::BindGroupLayout,
-    /// What cells are found from.
+    /// Buffers that cells are found from.
     cells_group: wgpu::BindGroup,
-    /// What is drawn.
+    /// Buffers that are drawn from.
     drawn_group: wgpu::BindGroup,
     pipeline: wgpu::RenderPipeline,
     shadows: [wgpu::RenderPipeline; MAPS],

@@ -45,8 +45,8 @@ fn coverage(rows: &dyn Fn(&Bench) -> Vec<Row>) -> Vec<f64> {
     })
 }
 
-#[test]
-fn a_ball_alone_covers_what_its_field_says() {
+/// Pixels that a ball alone covers, over those that its field says.
+fn lone_ball_share() -> f64 {
     let covered: f64 = coverage(&|bench| vec![particle(bench, 0, (4.0, 0.0), ALIVE)]).iter().sum();
     // A sphere of a radius r at a distance d is seen as a circle of tangent r / sqrt(d^2 - r^2).
     let bench = looks(0.0, vec![blobs(Vec3::ONE)]);
@@ -58,7 +58,29 @@ fn a_ball_alone_covers_what_its_field_says() {
     let radius_px = tangent / (0.5 * camera.vertical_fov_rad).tan() * SIZE.1 as f32 / 2.0;
     let expected = std::f64::consts::PI * f64::from(radius_px).powi(2);
     println!("{covered} pixels of {expected}");
-    assert!(expected > 150.0 && (covered / expected - 1.0).abs() < 0.01, "{covered} pixels, not {expected}");
+    assert!(expected > 150.0, "large enough: {expected}");
+    covered / expected
+}
+
+#[test]
+fn a_ball_alone_covers_what_its_field_says() {
+    let share = lone_ball_share();
+    assert!((share - 1.0).abs() < 0.01, "{share} of the pixels");
+}
+
+#[test]
+fn changes_of_the_field_are_noticed() {
+    for (from, to) in [
+        ("sum.value += share * share * share;", "sum.value += share * share;"),
+        ("let gap = look.threshold - here.value;", "let gap = 1.1 * look.threshold - here.value;"),
+        ("ordinal / 9u", "0u"),
+        ("radius_m = look.radius_m * size;", "radius_m = 0.97 * look.radius_m * size;"),
+        ("4.8 * peak * peak", "0.02 * peak * peak"),
+        ("place.x + down * place.y", "place.x - 3.0 * down"),
+    ] {
+        let share = with_shader_edit(from, to, lone_ball_share);
+        assert!((share - 1.0).abs() > 0.01, "{from} as {to}: {share} of the pixels");
+    }
 }
 
 #[test]

@@ -94,6 +94,7 @@ pub(super) fn third() -> Scene {
     let mut one = population("third", Air::Quadratic { drag: 0.5 }, "turn");
     one.from = ParticleShape::Ring { center_m: Vec3::Y, radius_m: 1.0, axis: Vec3::Y };
     one.direction = Direction::Outward;
+    one.count = 4000;
     one.look.kind = LookKind::Blobs { radius_m: 0.3, threshold: 0.4 };
     scene.particles = vec![one];
     let of = ForceKind::Swirl {
