@@ -230,7 +230,7 @@ def check(path):
 
 
 def check_broken(path, rows):
-    """What the checks must not let pass: a leaf upside down, a particle displaced, a shader without an identifier."""
+    """What the checks must not let pass: a leaf upside down, a particle and a surface displaced, a shader without an identifier."""
     stage = Usd.Stage.Open(path + ".usda")
     positions = UsdGeom.PointInstancer(stage.GetPrimAtPath("/World/Leaves")).GetPositionsAttr()
     frame = stage.GetEndTimeCode()
@@ -249,6 +249,14 @@ def check_broken(path, rows):
         pass
     else:
         sys.exit("displaced particles are not reported")
+    surface = UsdGeom.Mesh(stage.GetPrimAtPath("/World/Blobs/green_slime")).GetPointsAttr()
+    surface.Set([point + Gf.Vec3f(0, 2e-3, 0) for point in surface.Get(frame)], frame)
+    try:
+        check_blobs(stage, (int(stage.GetStartTimeCode()), int(frame)))
+    except AssertionError:
+        pass
+    else:
+        sys.exit("a displaced surface is not reported")
     shader = next(prim for prim in stage.Traverse() if prim.IsA(UsdShade.Shader))
     UsdShade.Shader(shader).SetShaderId("NoSuchShader")
     UsdGeom.SetStageUpAxis(stage, UsdGeom.Tokens.z)

@@ -230,7 +230,7 @@ pub(super) mod tests {
         println!("{grown} of the volume of two");
         assert!(grown > 1.02, "their fields add up: {grown} of the volume of two");
         // Euler's number: 2 for each closed surface without a handle.
-        let euler = |mesh: &BlobMesh| mesh.positions_m.len() as i32 - mesh.triangles.len() as i32 / 2;
+        let euler = |mesh: &BlobMesh| mesh.positions_m.len() - mesh.triangles.len() / 2;
         assert_eq!((euler(&near), euler(&far)), (2, 4), "one surface, and two");
         assert!(near.colors.iter().all(|color| color.distance(Vec3::X) < 1e-5), "their colour");
         assert!(near.velocities_m_s.iter().all(|velocity| velocity.distance(Vec3::Y) < 1e-5), "and velocity");
