@@ -107,6 +107,37 @@ def compare_particles(stage, path):
     return compared
 
 
+def check_blobs(stage, frames):
+    """A ball of slime on its way: closed, as large as its field says, with its colour and velocity."""
+    mesh = UsdGeom.Mesh(stage.GetPrimAtPath("/World/Blobs/green_slime"))
+    assert mesh and mesh.GetPrim().GetDisplayName() == "green slime", "a mesh"
+    guide = UsdGeom.Points(stage.GetPrimAtPath("/World/Particles/green_slime"))
+    assert guide.ComputePurpose() == UsdGeom.Tokens.guide, "its points are not drawn besides"
+    radius = 0.3 * (1.0 - 0.4 ** (1.0 / 3.0)) ** 0.5
+    expected = 4.0 / 3.0 * 3.14159265 * radius**3
+    seen = 0
+    for frame in range(frames[0], frames[1] + 1):
+        points = [Gf.Vec3d(point) for point in mesh.GetPointsAttr().Get(frame)]
+        if not points:
+            continue
+        corners = mesh.GetFaceVertexIndicesAttr().Get(frame)
+        valid, why = UsdGeom.Mesh.ValidateTopology(corners, mesh.GetFaceVertexCountsAttr().Get(frame), len(points))
+        assert valid, why
+        found = volume(points, mesh.GetFaceVertexCountsAttr().Get(frame), corners)
+        assert abs(found / expected - 1.0) < 0.01, f"frame {frame}: a volume of {found}, not {expected}"
+        middle = Gf.Vec3d(*guide.GetPointsAttr().Get(frame)[0])
+        assert all(abs((point - middle).GetLength() - radius) < 1e-3 for point in points), "around its particle"
+        low, high = mesh.GetExtentAttr().Get(frame)
+        assert all(low[axis] - 1e-4 <= point[axis] <= high[axis] + 1e-4 for point in points for axis in range(3)), "extent"
+        normals, speeds = mesh.GetNormalsAttr().Get(frame), mesh.GetVelocitiesAttr().Get(frame)
+        assert all(Gf.Dot(Gf.Vec3d(normal), point - middle) > 0.99 * radius for normal, point in zip(normals, points)), "outwards"
+        assert len(speeds) == len(points) and all(abs(speed[0] - 0.25) < 1e-3 for speed in speeds), "its velocity"
+        colors = mesh.GetDisplayColorPrimvar()
+        assert colors.GetInterpolation() == UsdGeom.Tokens.vertex and len(colors.Get(frame)) == len(points), "colours"
+        seen += 1
+    assert seen > 15, f"a surface in {seen} frames"
+
+
 def check_tree(stage, moment):
     """Bark and joints fit each other, and at rest the skeleton is where it was bound."""
     cache = UsdSkel.Cache()
@@ -184,6 +215,7 @@ def check(path):
     assert compared > 500, f"only {compared} leaves were there to compare"
     sparks = compare_particles(stage, path)
     assert sparks > 10000, f"only {sparks} particles were there to compare"
+    check_blobs(stage, (int(stage.GetStartTimeCode()), int(stage.GetEndTimeCode())))
     check_tree(stage, stage.GetEndTimeCode())
     check_ground(stage)
     check_objects(stage, (stage.GetStartTimeCode(), stage.GetEndTimeCode()))
@@ -198,7 +230,7 @@ def check(path):
 
 
 def check_broken(path, rows):
-    """What the checks must not let pass: a leaf upside down, a particle displaced, a shader without an identifier."""
+    """What the checks must not let pass: a leaf upside down, a particle and a surface displaced, a shader without an identifier."""
     stage = Usd.Stage.Open(path + ".usda")
     positions = UsdGeom.PointInstancer(stage.GetPrimAtPath("/World/Leaves")).GetPositionsAttr()
     frame = stage.GetEndTimeCode()
@@ -217,6 +249,14 @@ def check_broken(path, rows):
         pass
     else:
         sys.exit("displaced particles are not reported")
+    surface = UsdGeom.Mesh(stage.GetPrimAtPath("/World/Blobs/green_slime")).GetPointsAttr()
+    surface.Set([point + Gf.Vec3f(0, 2e-3, 0) for point in surface.Get(frame)], frame)
+    try:
+        check_blobs(stage, (int(stage.GetStartTimeCode()), int(frame)))
+    except AssertionError:
+        pass
+    else:
+        sys.exit("a displaced surface is not reported")
     shader = next(prim for prim in stage.Traverse() if prim.IsA(UsdShade.Shader))
     UsdShade.Shader(shader).SetShaderId("NoSuchShader")
     UsdGeom.SetStageUpAxis(stage, UsdGeom.Tokens.z)

@@ -5,6 +5,7 @@
 //! Every writer works beside its destination and renames at the end, so an interrupted or failed run leaves nothing
 //! half-written behind. `docs/exchange.md` describes for users what is written.
 
+mod blob_mesh;
 mod csv;
 mod foliage;
 mod format;

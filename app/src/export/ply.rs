@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A folder of point clouds: a binary little-endian PLY file for every frame, a vertex for every leaf that is somewhere, and another
-//! beside it with a vertex for every living particle.
+//! beside it with a vertex for every living particle, and a third with the surface of those that are drawn as blobs.
 
 use std::fmt::Write as _;
 use std::fs::File;
@@ -11,6 +11,7 @@ use std::path::{Path, PathBuf};
 use glam::{Quat, Vec3};
 use windfall_core::leaf::LeafState;
 
+use super::blob_mesh::{blob_mesh, is_blobs};
 use super::{Exporter, Frame, FrameLeaf};
 use crate::files::{OutputFolder, WriteError};
 
@@ -26,6 +27,12 @@ const PARTICLE_FLOATS: [&str; 8] = ["x", "y", "z", "vx", "vy", "vz", "size", "ag
 
 /// Bytes of a particle's vertex: the floats, its number, state and population.
 pub(super) const PARTICLE_BYTES: u64 = 4 * PARTICLE_FLOATS.len() as u64 + 4 + 1 + 1;
+
+/// Floats of a corner of blobs, in their order.
+const BLOB_FLOATS: [&str; 6] = ["x", "y", "z", "nx", "ny", "nz"];
+
+/// Bytes of a slot of blobs, about: of their mesh, while they touch.
+pub(super) const BLOB_BYTES: u64 = 14_000;
 
 /// Point clouds in the making.
 #[derive(Debug)]
@@ -52,6 +59,13 @@ impl Exporter for PlyExport {
             written = File::create(path("particles")).and_then(|file| {
                 let mut out = BufWriter::new(file);
                 write_particles(&mut out, frame)?;
+                out.flush()
+            });
+        }
+        if written.is_ok() && frame.world.compiled.scene().particles.iter().any(is_blobs) {
+            written = File::create(path("blobs")).and_then(|file| {
+                let mut out = BufWriter::new(file);
+                write_blobs(&mut out, frame)?;
                 out.flush()
             });
         }
@@ -120,6 +134,46 @@ fn write_particles(out: &mut impl Write, frame: &Frame<'_>) -> io::Result<()> {
         // A scene has at most 16 populations.
         let population = u8::try_from(particle.population).unwrap_or(u8::MAX);
         out.write_all(&[1 + u8::from(particle.is_resting), population])?;
+    }
+    Ok(())
+}
+
+/// Writes a whole file of the surface of blobs.
+fn write_blobs(out: &mut impl Write, frame: &Frame<'_>) -> io::Result<()> {
+    let populations = &frame.world.compiled.scene().particles;
+    let meshes: Vec<_> = (0..)
+        .zip(populations)
+        .filter(|(_, population)| is_blobs(population))
+        .map(|(number, population)| (number, blob_mesh(population, frame.particles_of(usize::from(number)))))
+        .collect();
+    let note = "reflectance is linear, of 255";
+    let mut header = head(frame, note, "population", populations.iter().map(|population| &population.name));
+    declare(&mut header, meshes.iter().map(|(_, mesh)| mesh.positions_m.len()).sum(), &BLOB_FLOATS);
+    for color in ["red", "green", "blue", "population"] {
+        // Writing to a String cannot fail.
+        let _ = writeln!(header, "property uchar {color}");
+    }
+    let faces: usize = meshes.iter().map(|(_, mesh)| mesh.triangles.len()).sum();
+    let _ = writeln!(header, "element face {faces}\nproperty list uchar uint vertex_indices\nend_header");
+    out.write_all(header.as_bytes())?;
+    for (number, mesh) in &meshes {
+        let corners = mesh.positions_m.iter().zip(&mesh.normals).zip(&mesh.colors);
+        for ((place, normal), color) in corners {
+            let floats = place.to_array().into_iter().chain(normal.to_array());
+            out.write_all(&floats.flat_map(f32::to_le_bytes).collect::<Vec<u8>>())?;
+            #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to 255")]
+            let [red, green, blue] =
+                color.to_array().map(|part| (255.0 * part.clamp(0.0, 1.0)).round() as u8);
+            out.write_all(&[red, green, blue, *number])?;
+        }
+    }
+    let mut first = 0;
+    for (_, mesh) in &meshes {
+        for triangle in &mesh.triangles {
+            out.write_all(&[3])?;
+            triangle.iter().try_for_each(|corner| out.write_all(&(first + corner).to_le_bytes()))?;
+        }
+        first += u32::try_from(mesh.positions_m.len()).unwrap_or(u32::MAX);
     }
     Ok(())
 }

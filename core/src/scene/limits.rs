@@ -127,6 +127,8 @@ limits! {
     OPACITY: f32 = 0.0, 1.0, "", opacity;
     SIZE_OVER_AGE: f32 = 0.0, 1000.0, "", size;
     BLINK_S: f32 = 0.1, 60.0, "s", blink_s;
+    BLOB_RADIUS_M: f32 = 0.001, 10.0, "m", radius_m;
+    BLOB_THRESHOLD: f32 = 0.01, 0.95, "", threshold;
     LAYER: u32 = 0, 15, "", layer;
     FAN: u32 = 1, 64, "", fan;
     INHERIT: f32 = -1.0, 1.0, "", inherit;

@@ -6,7 +6,7 @@ use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
 /// Way of drawing particles.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub enum LookKind {
     /// A ball, lit by sun and sky.
     #[default]
@@ -15,8 +15,27 @@ pub enum LookKind {
     Splat,
     /// A soft disc that shines by itself and hides nothing.
     Glow,
+    /// Metaballs: all particles of the population together have one wet surface, on which the sum of (1 - d²/R²)³ over all that are
+    /// nearer than their radius R is the threshold. Each has its own colour of the curve, mixed where they meet.
+    ///
+    /// # Source
+    /// Wyvill, McPheeters and Wyvill, "Data structure for soft objects" (1986), with the cube of Murakami and Ichihara (1987).
+    Blobs {
+        /// Radius R in metres, 0.001 to 10, at which a particle of mean size and a `size` of one ends to count. A ball alone is smaller.
+        radius_m: f32,
+        /// Sum on the surface, 0.01 to 0.95: a low one lets balls flow together from afar.
+        threshold: f32,
+    },
     /// Not drawn.
     Hidden,
+}
+
+/// Most slots of a population that is drawn as blobs.
+pub const MAX_BLOBS: u32 = 4096;
+
+/// Radius of the surface of a ball alone whose field ends at a distance of one, for a threshold.
+pub fn lone_blob_radius(threshold: f32) -> f32 {
+    libm::sqrtf(1.0 - libm::cbrtf(threshold))
 }
 
 /// Look of particles, over their age as a share of their life: 0 at birth, 1 at the end, and 0 for those that do not age. Curves are
@@ -110,5 +129,14 @@ mod tests {
         assert_eq!(look.sample(1.0).size, 3.0, "the last point itself");
         let plain = Look::default().sample(0.3);
         assert_eq!(plain, LookSample { color: Vec3::ONE, opacity: 1.0, size: 1.0 }, "no points");
+    }
+
+    #[test]
+    fn the_field_of_a_ball_alone_is_the_threshold_on_its_surface() {
+        for threshold in [0.01, 0.3, 0.5, 0.95] {
+            let share = lone_blob_radius(threshold);
+            let left = 1.0 - share * share;
+            assert!((left * left * left - threshold).abs() < 1e-6, "{threshold}: {share}");
+        }
     }
 }

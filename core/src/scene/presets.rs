@@ -33,6 +33,7 @@ pub const PRESETS: &[(&str, &str)] = &[
     ("fireflies", include_str!("../../scenes/fireflies.ron")),
     ("genesis", include_str!("../../scenes/genesis.ron")),
     ("galaxy", include_str!("../../scenes/galaxy.ron")),
+    ("slime", include_str!("../../scenes/slime.ron")),
 ];
 
 impl Scene {
@@ -88,6 +89,7 @@ mod tests {
                 "fireflies",
                 "genesis",
                 "galaxy",
+                "slime",
             ],
             "names and their order"
         );

@@ -5,6 +5,7 @@
 mod common_cli;
 
 mod bad_input;
+mod blobs;
 mod examples;
 mod export;
 mod export_gltf;

@@ -16,6 +16,28 @@ fn age_share(age: u32, life_size: u32) -> f32 {
     return select(clamp(f32(age) / f32(max(life, 1u)), 0.0, 1.0), 0.0, life == 0u);
 }
 
+// Row of the curves before an age, and how far from there to the next row it is.
+struct RowPlace {
+    row: u32,
+    t: f32,
+}
+
+// Place of an age, as a share of the life, in a population's curves.
+fn row_place(population: u32, share: f32) -> RowPlace {
+    let place = share * f32(LOOK_ROWS - 1u);
+    let low = min(u32(place), LOOK_ROWS - 2u);
+    return RowPlace(population * LOOK_ROWS + low, place - f32(low));
+}
+
+// Values between two rows.
+fn row_between(first: LookRow, second: LookRow, t: f32) -> LookRow {
+    var row = first;
+    row.color = mix(first.color, second.color, t);
+    row.opacity = mix(first.opacity, second.opacity, t);
+    row.size = mix(first.size, second.size, t);
+    return row;
+}
+
 // Way in which a population is drawn: LOOK_DOT and so on.
 fn look_kind(look: PopulationLook) -> u32 {
     return look.kind_flags & LOOK_MASK;

@@ -77,7 +77,8 @@ fn population(particles: &Particles) -> PopulationLook {
         LookKind::Dot => LOOK_DOT,
         LookKind::Splat => LOOK_SPLAT,
         LookKind::Glow => LOOK_GLOW,
-        LookKind::Hidden => LOOK_HIDDEN,
+        // The surface of blobs is drawn by itself.
+        LookKind::Hidden | LookKind::Blobs { .. } => LOOK_HIDDEN,
     };
     PopulationLook {
         kind_flags: if look.streak { kind | LOOK_STREAKED } else { kind },

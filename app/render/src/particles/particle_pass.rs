@@ -5,6 +5,7 @@
 use windfall_core::Scene;
 use windfall_wgpu::ParticleColumns;
 
+use super::blobs::BlobPass;
 use super::draw_list::{DrawList, whole};
 use super::looks::LookBuffers;
 use super::paint::PaintedParticles;
@@ -19,6 +20,7 @@ use crate::gpu::shaders::compile;
 #[derive(Debug)]
 pub(crate) struct ParticlePass {
     looks: LookBuffers,
+    blobs: Option<BlobPass>,
     list: DrawList,
     layout: wgpu::BindGroupLayout,
     pipeline: wgpu::RenderPipeline,
@@ -63,6 +65,7 @@ impl ParticlePass {
         .build(device);
         Some(Self {
             looks: LookBuffers::new(device, queue, scene),
+            blobs: BlobPass::new((device, queue), frame, light, scene),
             list: DrawList::new(device, queue, slots, scene.dt_s),
             layout,
             pipeline,
@@ -83,6 +86,9 @@ impl ParticlePass {
         columns: Option<&ParticleColumns<'_>>,
         seen: (&Camera, f64, f32),
     ) {
+        if let Some(blobs) = &mut self.blobs {
+            blobs.prepare((device, queue), encoder, columns, (&self.looks, seen.1));
+        }
         self.group = columns.map(|columns| {
             self.list.run((device, queue), encoder, (columns, &self.looks), seen);
             let LookBuffers { populations, rows } = &self.looks;
@@ -101,7 +107,12 @@ impl ParticlePass {
         });
     }
 
-    /// Draws them; bind groups 0 and 1 are set.
+    /// The blobs, if the scene has any.
+    pub(crate) fn blobs(&self) -> Option<&BlobPass> {
+        self.blobs.as_ref()
+    }
+
+    /// Draws all others; bind groups 0 and 1 are set.
     pub(crate) fn draw(&self, pass: &mut wgpu::RenderPass<'_>) {
         if let Some(group) = &self.group {
             pass.set_pipeline(&self.pipeline);

@@ -51,20 +51,6 @@ fn own_number(id: u32, population: u32) -> f32 {
     return unit_from(hash_u32(id ^ hash_u32(population)));
 }
 
-// Values of a population's curves at an age.
-fn look_at_age(population: u32, share: f32) -> LookRow {
-    let place = share * f32(LOOK_ROWS - 1u);
-    let low = min(u32(place), LOOK_ROWS - 2u);
-    let first = rows[population * LOOK_ROWS + low];
-    let second = rows[population * LOOK_ROWS + low + 1u];
-    let t = place - f32(low);
-    var row = first;
-    row.color = mix(first.color, second.color, t);
-    row.opacity = mix(first.opacity, second.opacity, t);
-    row.size = mix(first.size, second.size, t);
-    return row;
-}
-
 // Colour that stands for a particle's population, speed or age; of a light as bright as its own.
 fn painted(population: u32, speed_m_s: f32, age_s: f32, own: vec3<f32>, is_light: bool) -> vec3<f32> {
     var color = drawn.palette[population % PAINT_COLORS].rgb;
@@ -99,7 +85,8 @@ fn vertex(@builtin(vertex_index) corner: u32, @builtin(instance_index) rank: u32
     let population = particle_population(place.bits);
     let look = populations[population];
     let age = particle_age(motion, drawn.step);
-    var row = look_at_age(population, age_share(age, born_with.life_size));
+    let at = row_place(population, age_share(age, born_with.life_size));
+    var row = row_between(rows[at.row], rows[at.row + 1u], at.t);
     if drawn.paint != PAINT_NONE {
         row.color = painted(population, length(motion.velocity), f32(age) * drawn.dt_s, row.color, look_kind(look) == LOOK_GLOW);
     }

@@ -16,6 +16,8 @@ use crate::leaves::cull::View as LeafView;
 use crate::leaves::record::ViewUniform;
 use crate::leaves::visible::VisibleLeaves;
 use crate::lens::group::Shot;
+use crate::particles::blobs::BlobPass;
+use crate::particles::particle_pass::ParticlePass;
 use crate::scenery::grass_pass::GRASS_RAD_S;
 use crate::shadows::Casters;
 
@@ -116,6 +118,11 @@ impl Renderer {
             bark: &self.bark,
             branches: &group,
             objects: self.objects.as_ref().map(|(objects, _)| objects),
+            others: &|pass, map| {
+                if let Some(blobs) = self.blobs() {
+                    blobs.draw_shadow(pass, map);
+                }
+            },
         };
         // The last tile is timed: its commands are those that are resolved.
         let timer = self.timer.as_ref().filter(|_| tile.left == 0);
@@ -169,7 +176,7 @@ impl Renderer {
         }
     }
 
-    /// Draws the scene's own trees, its objects and all leaves; bind groups 0 and 1 are set.
+    /// Draws the scene's own trees, its objects, all leaves and blobs; bind groups 0 and 1 are set.
     fn draw_things(&self, pass: &mut wgpu::RenderPass<'_>, branches: &wgpu::BindGroup) {
         self.bark_pass.draw(pass, branches, &self.bark);
         if let Some((objects, object_pass)) = &self.objects {
@@ -177,6 +184,14 @@ impl Renderer {
         }
         self.leaf_pass.draw(pass, &self.species_table, self.visible().into_iter());
         self.fruit_pass.draw(pass, branches);
+        if let Some(blobs) = self.blobs() {
+            blobs.draw(pass);
+        }
+    }
+
+    /// The blobs, if the scene has any.
+    fn blobs(&self) -> Option<&BlobPass> {
+        self.particle_pass.as_ref().and_then(ParticlePass::blobs)
     }
 
     /// Leaves that are drawn: nothing has a mark that is not simulated.

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Draws the shadows of leaves, trees and objects, finer near the camera than far from it, and what hides the sky from above.
 
+use std::fmt;
+
 use crate::frame::cascades::{CASCADES, MAPS};
 use crate::frame::group::FrameGroup;
 use crate::gpu::pipeline::layout;
@@ -47,13 +49,21 @@ struct MapPass {
 }
 
 /// Casters of shadows.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy)]
 pub(crate) struct Casters<'a> {
     pub(crate) species_table: &'a SpeciesTable,
     pub(crate) visible: &'a [&'a VisibleLeaves],
     pub(crate) bark: &'a BarkBuffers,
     pub(crate) branches: &'a wgpu::BindGroup,
     pub(crate) objects: Option<&'a ObjectBuffers>,
+    /// Drawing of what else casts a shadow into the map of a number; bind group 0 is set.
+    pub(crate) others: &'a dyn Fn(&mut wgpu::RenderPass<'_>, usize),
+}
+
+impl fmt::Debug for Casters<'_> {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        out.debug_struct("Casters").finish_non_exhaustive()
+    }
 }
 
 impl ShadowPass {
@@ -83,41 +93,7 @@ impl ShadowPass {
             } else {
                 wgpu::PrimitiveTopology::TriangleList
             };
-            let constants = [("MAP", f64::from(number))];
-            let compilation_options =
-                wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() };
-            let buffers: Vec<_> = buffers.iter().cloned().map(Some).collect();
-            device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-                label: Some(label),
-                layout: Some(&layout(device, &[Some(&frame.layout), None, groups[0], groups[1]])),
-                vertex: wgpu::VertexState {
-                    module,
-                    entry_point: Some("vertex"),
-                    compilation_options: compilation_options.clone(),
-                    buffers: &buffers,
-                },
-                primitive: wgpu::PrimitiveState { topology, ..Default::default() },
-                depth_stencil: Some(wgpu::DepthStencilState {
-                    format: SHADOW_FORMAT,
-                    depth_write_enabled: Some(true),
-                    depth_compare: Some(wgpu::CompareFunction::LessEqual),
-                    stencil: wgpu::StencilState::default(),
-                    bias: wgpu::DepthBiasState::default(),
-                }),
-                multisample: wgpu::MultisampleState::default(),
-                fragment: if cut_out {
-                    Some(wgpu::FragmentState {
-                        module,
-                        entry_point: Some("fragment"),
-                        compilation_options,
-                        targets: &[],
-                    })
-                } else {
-                    None
-                },
-                multiview_mask: None,
-                cache: None,
-            })
+            depth_pipeline(device, frame, label, (number, module), groups, (topology, buffers), cut_out)
         };
         let mut layers = 0..LAYERS;
         let passes = each.map(|map| {
@@ -175,9 +151,53 @@ impl ShadowPass {
         for (number, pass) in self.passes[..drawn].iter().enumerate() {
             cull(encoder, number);
             let writes = if number + 1 == drawn { end.take() } else { begin.take() };
-            pass.draw(encoder, writes, frame, casters);
+            pass.draw(encoder, writes, frame, (casters, number));
         }
     }
+}
+
+/// Pipeline that draws into the map of a number; what is `cut_out` by its fragments has an entry point `fragment`.
+pub(crate) fn depth_pipeline(
+    device: &wgpu::Device,
+    frame: &FrameGroup,
+    label: &str,
+    (number, module): (u32, &wgpu::ShaderModule),
+    groups: [Option<&wgpu::BindGroupLayout>; 2],
+    (topology, buffers): (wgpu::PrimitiveTopology, &[wgpu::VertexBufferLayout<'_>]),
+    cut_out: bool,
+) -> wgpu::RenderPipeline {
+    let constants = [("MAP", f64::from(number))];
+    let compilation_options =
+        wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() };
+    let buffers: Vec<_> = buffers.iter().cloned().map(Some).collect();
+    let fragment = wgpu::FragmentState {
+        module,
+        entry_point: Some("fragment"),
+        compilation_options: compilation_options.clone(),
+        targets: &[],
+    };
+    device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+        label: Some(label),
+        layout: Some(&layout(device, &[Some(&frame.layout), None, groups[0], groups[1]])),
+        vertex: wgpu::VertexState {
+            module,
+            entry_point: Some("vertex"),
+            compilation_options,
+            buffers: &buffers,
+        },
+        primitive: wgpu::PrimitiveState { topology, ..Default::default() },
+        depth_stencil: Some(wgpu::DepthStencilState {
+            format: SHADOW_FORMAT,
+            depth_write_enabled: Some(true),
+            depth_compare: Some(wgpu::CompareFunction::LessEqual),
+            stencil: wgpu::StencilState::default(),
+            bias: wgpu::DepthBiasState::default(),
+        }),
+        multisample: wgpu::MultisampleState::default(),
+        fragment: cut_out.then_some(fragment),
+        multiview_mask: None,
+        cache: None,
+    })
 }
 
 /// Maps of a size: all together, and each.
@@ -210,7 +230,7 @@ impl MapPass {
         encoder: &mut wgpu::CommandEncoder,
         timestamps: Option<wgpu::RenderPassTimestampWrites<'_>>,
         frame: &FrameGroup,
-        casters: &Casters<'_>,
+        (casters, number): (&Casters<'_>, usize),
     ) {
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("shadows"),
@@ -239,6 +259,7 @@ impl MapPass {
             pass.set_pipeline(pipeline);
             objects.draw(&mut pass);
         }
+        (casters.others)(&mut pass, number);
         pass.set_pipeline(&self.leaves);
         pass.set_bind_group(2, &casters.species_table.group, &[]);
         for leaves in casters.visible {

@@ -3,6 +3,7 @@
 //! Draws small pictures on whatever Vulkan adapter there is. A machine without one fails these tests: Mesa's
 //! software driver is enough.
 
+mod blobs;
 mod cull;
 mod halo;
 mod layout;

@@ -9,11 +9,11 @@ use windfall_core::scene::{Exposure, Look, LookKind, Particles, Spread, ToneMap}
 use super::{Bench, bench, differing};
 
 /// Words of a particle in its three columns.
-type Row = [[u32; 4]; 3];
+pub(super) type Row = [[u32; 4]; 3];
 
 /// Bits of a living particle, and of one that is not born yet.
-const ALIVE: u32 = 1;
-const DORMANT: u32 = 0;
+pub(super) const ALIVE: u32 = 1;
+pub(super) const DORMANT: u32 = 0;
 
 /// A population of large particles of a look.
 fn population(name: &str, look: Look) -> Particles {
@@ -22,7 +22,7 @@ fn population(name: &str, look: Look) -> Particles {
 }
 
 /// A bench with these looks, one population for each, whose picture is proportional to light.
-fn looks(shutter_s: f32, looks: Vec<Look>) -> Bench {
+pub(super) fn looks(shutter_s: f32, looks: Vec<Look>) -> Bench {
     bench(|scene| {
         let names = ["first", "second", "third"];
         scene.particles = names.iter().zip(looks).map(|(name, look)| population(name, look)).collect();
@@ -34,7 +34,12 @@ fn looks(shutter_s: f32, looks: Vec<Look>) -> Bench {
 }
 
 /// A particle of a population, so far from the camera's target towards the camera, with a velocity to the right.
-fn particle(bench: &Bench, population: u32, (toward_m, across_m_s): (f32, f32), state: u32) -> Row {
+pub(super) fn particle(
+    bench: &Bench,
+    population: u32,
+    (toward_m, across_m_s): (f32, f32),
+    state: u32,
+) -> Row {
     let camera = &bench.scene.view.camera;
     let toward = (camera.eye_m - camera.target_m).normalize();
     let at = camera.target_m + toward * toward_m;
@@ -46,12 +51,12 @@ fn particle(bench: &Bench, population: u32, (toward_m, across_m_s): (f32, f32), 
     [[x, y, z, state | population << 8], [vx, vy, vz, 0], [7, size_one, 0, 0]]
 }
 
-fn plain(kind: LookKind, color: Vec3) -> Look {
+pub(super) fn plain(kind: LookKind, color: Vec3) -> Look {
     Look { kind, color: vec![(0.0, color)], brightness_kcd_m2: 15.0, ..Look::default() }
 }
 
 /// Colour in the middle of a picture.
-fn middle(picture: &RgbaImage) -> [u8; 3] {
+pub(super) fn middle(picture: &RgbaImage) -> [u8; 3] {
     let image::Rgba([r, g, b, _]) = *picture.get_pixel(picture.width() / 2, picture.height() / 2);
     [r, g, b]
 }

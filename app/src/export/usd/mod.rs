@@ -6,6 +6,7 @@
 //! A short export has its samples in one layer, which any reader takes. A long one has them in value clips, of which a
 //! reader has one or two in memory.
 
+mod blobs;
 mod particles;
 mod prototypes;
 mod samples;
@@ -24,6 +25,7 @@ use glam::Vec3;
 use windfall_core::leaf::LeafState;
 use windfall_render::light::Daylight;
 
+use self::blobs::BlobSamples;
 use self::particles::ParticleSamples;
 use self::samples::{Handle, Samples};
 use self::solids::SolidSamples;
@@ -39,6 +41,8 @@ use crate::run::progress::making_leaves;
 pub(super) const LEAF_BYTES: u64 = 200;
 /// Bytes of a particle in a frame, about.
 pub(super) const PARTICLE_BYTES: u64 = 110;
+/// Bytes of a slot of blobs in a frame, about: of their mesh, while they touch.
+pub(super) const BLOB_BYTES: u64 = 30_000;
 /// Name of the layer that lists the attributes with samples.
 const MANIFEST: &str = "manifest.usda";
 /// Name of the layer of what does not move.
@@ -53,6 +57,7 @@ pub(super) struct UsdExport {
     samples: Samples,
     attributes: LeafAttributes,
     particles: ParticleSamples,
+    blobs: BlobSamples,
     trees: TreeSamples,
     solids: SolidSamples,
     view: ViewSamples,
@@ -77,6 +82,7 @@ impl UsdExport {
         let mut samples = Samples::new();
         let attributes = LeafAttributes::declare(&mut samples);
         let particles = ParticleSamples::declare(&mut samples, job.scene);
+        let blobs = BlobSamples::declare(&mut samples, job.scene);
         let trees = TreeSamples::declare(&mut samples, job.scene_trees);
         let solids = SolidSamples::declare(&mut samples, job.solids);
         let view = ViewSamples::declare(&mut samples, job.scene);
@@ -103,6 +109,7 @@ impl UsdExport {
             samples,
             attributes,
             particles,
+            blobs,
             trees,
             solids,
             view,
@@ -115,6 +122,7 @@ impl UsdExport {
         self.samples.begin(frame.number);
         self.attributes.add(&mut self.samples, frame, &self.foliage, self.reach_m);
         self.particles.add(&mut self.samples, frame);
+        self.blobs.add(&mut self.samples, frame);
         self.trees.add(&mut self.samples, frame);
         self.solids.add(&mut self.samples, frame);
         self.view.add(&mut self.samples, frame);

@@ -11,12 +11,13 @@ use windfall_core::scene::Look;
 use super::samples::{Handle, Samples};
 use super::text;
 use crate::export::Frame;
+use crate::export::blob_mesh::is_blobs;
 use crate::export::foliage::plain;
 use crate::run::live_particle::LiveParticle;
 
 /// Extent of no points: turned inside out, so that it adds nothing to a box. `UsdGeomPoints::ComputeExtent` has the largest numbers there
 /// are in it; these are smaller, since readers interpolate between frames, in which the largest become infinite.
-const EMPTY: [Vec3; 2] = [Vec3::splat(1e18), Vec3::splat(-1e18)];
+pub(super) const EMPTY: [Vec3; 2] = [Vec3::splat(1e18), Vec3::splat(-1e18)];
 
 /// The attributes of all populations, in the order of the scene.
 #[derive(Debug)]
@@ -93,19 +94,21 @@ pub(super) fn write_populations(out: &mut impl Write, scene: &Scene) -> io::Resu
     writeln!(out, "def Scope \"Particles\"\n{{")?;
     for (name, population) in prim_names(scene).iter().zip(&scene.particles) {
         let shown = text::quoted(&population.name);
+        // What has a mesh besides is not drawn twice.
+        let purpose = if is_blobs(population) { "uniform token purpose = \"guide\"\n" } else { "" };
         write!(
             out,
             "def Points \"{name}\" (\ndisplayName = {shown}\n)\n{{\n\
             float[] primvars:windfall:age (\ninterpolation = \"vertex\"\n)\n\
             color3f[] primvars:displayColor (\ninterpolation = \"vertex\"\n)\n\
-            float[] primvars:displayOpacity (\ninterpolation = \"vertex\"\n)\n}}\n"
+            float[] primvars:displayOpacity (\ninterpolation = \"vertex\"\n)\n{purpose}}}\n"
         )?;
     }
     writeln!(out, "}}")
 }
 
 /// Names of the prims: those of the populations as the format takes them, with their number where that leaves two alike.
-fn prim_names(scene: &Scene) -> Vec<String> {
+pub(super) fn prim_names(scene: &Scene) -> Vec<String> {
     let mut names: Vec<String> = Vec::with_capacity(scene.particles.len());
     for (number, population) in scene.particles.iter().enumerate() {
         let mut name = plain(&population.name);

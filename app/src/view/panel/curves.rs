@@ -4,7 +4,7 @@
 
 use egui::Ui;
 use windfall_core::scene::limits::{self, Limit};
-use windfall_core::scene::{Look, MAX_CURVE_POINTS};
+use windfall_core::scene::{Look, LookKind, MAX_CURVE_POINTS};
 
 use super::field::{field, vector};
 use super::list::List;
@@ -23,7 +23,10 @@ pub(super) fn show(ui: &mut Ui, look: &mut Look, own: Option<&Look>) {
         vector(ui, "Colour", tip, &mut look.color[point].1, own, limits::COLOR);
     }
     let opacities = list("Opacities", "opacity point");
-    if let Some(point) = points(ui, opacities, "Opacity age", &mut look.opacity, before.opacity) {
+    // Blobs are opaque.
+    if !matches!(look.kind, LookKind::Blobs { .. })
+        && let Some(point) = points(ui, opacities, "Opacity age", &mut look.opacity, before.opacity)
+    {
         let own = own_of(own.map(|own| &own.opacity), point);
         let tip = "Opacity at this age, or share of the light";
         field("Opacity", tip, limits::OPACITY).show(ui, &mut look.opacity[point].1, own);

@@ -7,8 +7,8 @@ use glam::Vec3;
 use windfall_core::Scene;
 use windfall_core::scene::limits::{self, Limit};
 use windfall_core::scene::{
-    Air, Bounds, Direction, Force, LookKind, MAX_POPULATIONS, Meets, ObjectFriction, ParticleRelease,
-    ParticleShape, Particles, Spread,
+    Air, Bounds, Direction, Force, LookKind, MAX_BLOBS, MAX_POPULATIONS, Meets, ObjectFriction,
+    ParticleRelease, ParticleShape, Particles, Spread,
 };
 
 use super::field::{choice, field, vector};
@@ -358,6 +358,7 @@ fn look(ui: &mut Ui, one: &mut Particles, own: Option<&Particles>) {
         ("ball", LookKind::Dot),
         ("puff", LookKind::Splat),
         ("light", LookKind::Glow),
+        ("blobs", LookKind::Blobs { radius_m: 0.15, threshold: 0.4 }),
         ("hidden", LookKind::Hidden),
     ];
     choice(ui, "Drawn as", "Way of drawing", &mut look.kind, own.map(|own| &own.kind), &options);
@@ -371,7 +372,26 @@ fn look(ui: &mut Ui, one: &mut Particles, own: Option<&Particles>) {
     } else {
         look.blink_s = None;
     }
+    if let LookKind::Blobs { radius_m, threshold } = &mut look.kind {
+        let own = own.and_then(|own| match own.kind {
+            LookKind::Blobs { radius_m, threshold } => Some((radius_m, threshold)),
+            _ => None,
+        });
+        let tip = "Distance at which a ball of mean size ends to count";
+        let reach = field("Radius of balls", tip, limits::BLOB_RADIUS_M).fine(0.005);
+        reach.show(ui, radius_m, own.map(|own| own.0));
+        let tip = "Sum of the balls' fields on their surface: a low one lets them flow together from afar";
+        let sum = field("Threshold", tip, limits::BLOB_THRESHOLD).fine(0.01);
+        sum.show(ui, threshold, own.map(|own| own.1));
+        // They are opaque, and stand in the picture's depth.
+        look.opacity.clear();
+        (look.layer, look.streak) = (0, false);
+        one.count = one.count.min(MAX_BLOBS);
+    }
     curves::show(ui, look, own);
+    if matches!(look.kind, LookKind::Blobs { .. }) {
+        return;
+    }
     let tip = "Lower layers are drawn first, whatever their distance";
     field("Layer", tip, limits::LAYER).show(ui, &mut look.layer, own.map(|own| own.layer));
     let tip = "Drawn out along their way while the shutter is open";

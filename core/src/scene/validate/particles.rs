@@ -9,9 +9,9 @@ use crate::SceneError;
 use crate::motion::AIR_DENSITY;
 use crate::scene::limits::{self, Limit};
 use crate::scene::{
-    Air, Bounds, Direction, Force, ForceKind, Look, LookKind, MAX_CURVE_POINTS, MAX_FORCES, MAX_MUTUAL,
-    MAX_PARTICLES, MAX_POPULATIONS, Meets, ObjectFriction, ParticleRelease, ParticleShape, Particles,
-    STANDARD_GRAVITY_M_S2, Scene, Spread, SwirlProfile, VISCOSITY_PA_S,
+    Air, Bounds, Direction, Force, ForceKind, Look, LookKind, MAX_BLOBS, MAX_CURVE_POINTS, MAX_FORCES,
+    MAX_MUTUAL, MAX_PARTICLES, MAX_POPULATIONS, Meets, ObjectFriction, ParticleRelease, ParticleShape,
+    Particles, STANDARD_GRAVITY_M_S2, Scene, Spread, SwirlProfile, VISCOSITY_PA_S,
 };
 
 /// Standard deviations of the number of particles alive for which there are slots, where they are born at random.
@@ -224,6 +224,11 @@ impl Particles {
                 at.vector("half_extent_m", half_extent_m, limits::HALF_EXTENT_M)?;
             }
         }
+        if matches!(self.look.kind, LookKind::Blobs { .. }) {
+            at.holds(self.count <= MAX_BLOBS, "count", || {
+                (self.count.to_string(), format!("at most {MAX_BLOBS} that are drawn as blobs"))
+            })?;
+        }
         self.look.check(&at.inside("look"))
     }
 
@@ -328,6 +333,23 @@ impl Look {
                 (format!("{blink_s} with kind {:?}", self.kind), "None, unless they glow".into())
             })?;
         }
+        if let LookKind::Blobs { radius_m, threshold } = self.kind {
+            at.inside("kind").numbers([
+                ("radius_m", radius_m.into(), limits::BLOB_RADIUS_M),
+                ("threshold", threshold.into(), limits::BLOB_THRESHOLD),
+            ])?;
+            let unused =
+                [("opacity", !self.opacity.is_empty()), ("streak", self.streak), ("layer", self.layer != 0)];
+            for (name, is_set) in unused {
+                at.holds(!is_set, name, || {
+                    (
+                        "something with Blobs".into(),
+                        "nothing: blobs are opaque, stand in the picture's depth and are not drawn out"
+                            .into(),
+                    )
+                })?;
+            }
+        }
         at.numbers([("layer", self.layer.into(), limits::LAYER)])
     }
 }
@@ -366,4 +388,45 @@ fn check_spread(spread: Spread, name: &str, limit: &Limit<f32>, at: &Check<'_>) 
         && limit.contains(lowest)
         && limit.contains(highest);
     at.holds(is_allowed, name, || (format!("{lowest:?} to {highest:?}"), limit.to_string()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The line that refuses a scene with a population that is drawn as blobs, changed.
+    fn refused(change: impl FnOnce(&mut Particles)) -> String {
+        let kind = LookKind::Blobs { radius_m: 0.2, threshold: 0.5 };
+        let look = Look { kind, ..Look::default() };
+        let mut one = Particles { name: "slime".into(), count: 2000, look, ..Particles::default() };
+        change(&mut one);
+        let scene = Scene { particles: vec![one], ..Scene::default() };
+        let line = scene.validate("a.ron").map_or_else(|error| error.to_string(), |()| String::new());
+        assert_eq!(line.lines().count(), usize::from(!line.is_empty()), "one line: {line}");
+        line
+    }
+
+    #[test]
+    fn blobs_have_bounds() {
+        assert_eq!(refused(|_| {}), "", "as they are");
+        let most = refused(|one| one.count = MAX_BLOBS + 1);
+        assert!(most.contains("count") && most.contains("4097") && most.contains("at most 4096"), "{most}");
+        let kinds = [
+            (0.0, 0.5, "radius_m"),
+            (f32::NAN, 0.5, "radius_m"),
+            (0.2, 0.0, "threshold"),
+            (0.2, 1.0, "threshold"),
+        ];
+        for (radius_m, threshold, name) in kinds {
+            let line = refused(|one| one.look.kind = LookKind::Blobs { radius_m, threshold });
+            assert!(line.contains(&format!("look.kind.{name}")), "{line}");
+        }
+        let opacity = refused(|one| one.look.opacity = vec![(0.0, 0.5)]);
+        let (streak, layer) = (refused(|one| one.look.streak = true), refused(|one| one.look.layer = 1));
+        for (line, name) in [(opacity, "opacity"), (streak, "streak"), (layer, "layer")] {
+            assert!(line.contains(name) && line.contains("with Blobs"), "{line}");
+        }
+        let blink = refused(|one| one.look.blink_s = Some(1.0));
+        assert!(blink.contains("blink_s"), "{blink}");
+    }
 }

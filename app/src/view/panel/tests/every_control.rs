@@ -6,7 +6,7 @@
 use egui::accesskit::{Role, Toggled};
 use egui_kittest::kittest::NodeT;
 use egui_kittest::{Harness, Node};
-use windfall_core::scene::ObjectMotion;
+use windfall_core::scene::{LookKind, ObjectMotion};
 
 use super::scenes::{full, nested, other, third, winding};
 use super::*;
@@ -311,7 +311,9 @@ fn nests_can_be_edited() {
 /// Points of a curve are added between others, moved between their neighbours, and removed.
 #[test]
 fn curves_can_be_edited_point_by_point() {
-    let scene = third();
+    let mut scene = third();
+    let look = &mut scene.particles[0].look;
+    (look.kind, look.opacity) = (LookKind::Dot, vec![(0.0, 0.5), (1.0, 0.0)]);
     let mut harness = open(&scene, &[Group::Particles]);
     let mut edited = |role: &str, name: &str| {
         let control = Control { role: role.into(), name: name.into(), number: 0 };

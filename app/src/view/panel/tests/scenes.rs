@@ -77,6 +77,7 @@ pub(super) fn other() -> Scene {
     one.release = ParticleRelease::Burst { at_s: 1.0 };
     one.dies = Some(Bounds::Outside { center_m: Vec3::Y, half_extent_m: Vec3::splat(20.0) });
     (one.look.kind, one.look.blink_s) = (LookKind::Glow, Some(2.0));
+    one.look.opacity = vec![(0.0, 0.5), (1.0, 0.0)];
     scene.forces[0].of = ForceKind::Attract { at_m: Vec3::Y, gm_m3_s2: 2.0, softening_m: 0.2 };
     scene
 }
@@ -97,8 +98,9 @@ pub(super) fn third() -> Scene {
     let mut one = population("third", Air::Quadratic { drag: 0.5 }, "turn");
     one.from = ParticleShape::Ring { center_m: Vec3::Y, radius_m: 1.0, axis: Vec3::Y };
     one.direction = Direction::Outward;
-    one.look.opacity = vec![(0.0, 0.5), (1.0, 0.0)];
+    one.count = 4000;
     one.look.size = vec![(0.2, 1.0), (0.5, 2.0)];
+    one.look.kind = LookKind::Blobs { radius_m: 0.3, threshold: 0.4 };
     scene.particles = vec![one];
     let of = ForceKind::Swirl {
         at_m: Vec3::ZERO,

@@ -468,7 +468,11 @@ fn particle_shape() -> impl Strategy<Value = ParticleShape> {
 
 prop_compose! {
     fn look()(
-        kind in select(vec![LookKind::Dot, LookKind::Splat, LookKind::Glow, LookKind::Hidden]),
+        kind in prop_oneof![
+            select(vec![LookKind::Dot, LookKind::Splat, LookKind::Glow, LookKind::Hidden]),
+            (within(limits::BLOB_RADIUS_M), within(limits::BLOB_THRESHOLD))
+                .prop_map(|(radius_m, threshold)| LookKind::Blobs { radius_m, threshold }),
+        ],
         color in option::of((vector(limits::COLOR), vector(limits::COLOR))),
         (opacity, size) in (maybe(limits::OPACITY), maybe(limits::SIZE_OVER_AGE)),
         (brightness_kcd_m2, blink_s, streak, layer) in
@@ -477,6 +481,9 @@ prop_compose! {
         let color = color.map_or(Vec::new(), |(first, last)| vec![(0.0, first), (1.0, last)]);
         let curve = |value: Option<f32>| value.map_or(Vec::new(), |value| vec![(0.25, value)]);
         let blink_s = blink_s.filter(|_| kind == LookKind::Glow);
+        let is_solid = matches!(kind, LookKind::Blobs { .. });
+        let (opacity, streak) = (opacity.filter(|_| !is_solid), streak && !is_solid);
+        let layer = if is_solid { 0 } else { layer };
         Look { kind, color, opacity: curve(opacity), size: curve(size), brightness_kcd_m2, blink_s, streak, layer }
     }
 }
@@ -572,8 +579,10 @@ prop_compose! {
             1 => ParticleRelease::Rate { per_s, from_s: start_s },
             _ => ParticleRelease::Poisson { per_s, from_s: start_s },
         };
+        // As many as blobs may be.
+        let count = if matches!(look.kind, LookKind::Blobs { .. }) { MAX_BLOBS } else { 10_000 };
         Particles {
-            name: String::new(), count: 10_000, nest, from, direction, release, speed_m_s, life_s: Some(life_s), size_m,
+            name: String::new(), count, nest, from, direction, release, speed_m_s, life_s: Some(life_s), size_m,
             density_kg_m3, gravity: 1.0, charge_c_kg: 1.0, air, feels: Vec::new(), meets, dies, look,
         }
     }
@@ -629,13 +638,16 @@ prop_compose! {
             name, seed, dt_s, fall_speed, rotation_speed, gravity_m_s2, species, sources, tree_kinds, trees, sway, sway_every, autumn, regrow_after_s, wind, ground,
             objects, walkers, particles, forces: Vec::new(), view,
         };
-        // Hills no deeper, and steps no shorter, than the slowest leaf has time to fall.
+        // Hills no deeper, steps no shorter, and at last leaves no slower, than there is time to fall.
         while scene.validate("random").is_err() {
             match &mut scene.ground.terrain {
                 Some(terrain) if terrain.relief_m > 0.01 => terrain.relief_m *= 0.5,
                 _ if scene.dt_s < 0.009 => {
                     scene.dt_s *= 1.1;
                     join(&mut scene.particles, scene.dt_s);
+                }
+                _ if scene.species.iter().any(|species| species.speed_variation > 0.0) => {
+                    scene.species.iter_mut().for_each(|species| species.speed_variation = 0.0);
                 }
                 _ => break,
             }
