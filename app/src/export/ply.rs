@@ -32,7 +32,7 @@ pub(super) const PARTICLE_BYTES: u64 = 4 * PARTICLE_FLOATS.len() as u64 + 4 + 1 
 const BLOB_FLOATS: [&str; 6] = ["x", "y", "z", "nx", "ny", "nz"];
 
 /// Bytes of a slot of blobs, about: of their mesh, while they touch.
-pub(super) const BLOB_BYTES: u64 = 14_000;
+pub(super) const BLOB_BYTES: u64 = 6_000;
 
 /// Point clouds in the making.
 #[derive(Debug)]

@@ -69,6 +69,7 @@ fn mesh(bytes: &[u8]) -> (Vec<Vec3>, Vec<[usize; 3]>) {
 }
 
 /// Pixels whose middle a mesh covers, as the camera of the scene sees it.
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "within a small picture")]
 fn silhouette((corners, triangles): &(Vec<Vec3>, Vec<[usize; 3]>)) -> Vec<bool> {
     let (width, height) = (SIZE.0 as usize, SIZE.1 as usize);
     let size_px = Vec2::new(SIZE.0 as f32, SIZE.1 as f32);
@@ -97,6 +98,7 @@ fn silhouette((corners, triangles): &(Vec<Vec3>, Vec<[usize; 3]>)) -> Vec<bool> 
 }
 
 #[test]
+#[expect(clippy::cast_possible_truncation, clippy::cast_possible_wrap, reason = "pixels of a small picture")]
 fn the_picture_of_blobs_is_the_same_on_both_backends_and_that_of_their_mesh() {
     let there = scene(BLOBS);
     let [cpu, wgpu] = ["cpu", "wgpu"].map(|backend| picture(&there, backend));

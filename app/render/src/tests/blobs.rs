@@ -113,11 +113,10 @@ fn blobs_are_drawn_alike_twice_and_in_any_slots() {
     let none = bench.draw_particles(&rows.map(dormant), 0.0);
     assert!(differing(&none, &picture) > 200, "they are seen");
     assert_eq!(none, bench.draw_particles(&[], 0.0), "what is not born is not there");
-    // A ball that is half a thousand cells away has the keys of those before the camera.
-    let cells_m = 512.0 * RADIUS_M / 0.94;
-    let far = [rows[0], moved(rows[1], Vec3::X * cells_m), rows[2], rows[3]];
-    let alone = [rows[0], dormant(rows[1]), rows[2], rows[3]];
-    assert_eq!(bench.draw_particles(&far, 0.0), bench.draw_particles(&alone, 0.0), "far away");
+    // A ball that is half a thousand cells away has the keys of the one before the camera, and comes first.
+    let far = moved(rows[0], Vec3::X * (512.0 * RADIUS_M / 0.94));
+    let with = bench.draw_particles(&[far, rows[0], rows[2], rows[3]], 0.0);
+    assert_eq!(with, bench.draw_particles(&[dormant(far), rows[0], rows[2], rows[3]], 0.0), "far away");
 }
 
 #[test]
@@ -164,8 +163,6 @@ fn blobs_stand_before_and_behind_objects() {
 #[test]
 fn blobs_throw_shadows() {
     let mut bench = looks(0.0, vec![blobs(Vec3::X)]);
-    let light = |picture: &RgbaImage| picture.pixels().map(|p| u64::from(p.0[2])).sum::<u64>();
-    // Out of the picture, between the sun and what is in it.
     let sun = {
         let (azimuth, elevation) =
             (bench.scene.view.sun.azimuth_deg.to_radians(), bench.scene.view.sun.elevation_deg.to_radians());
@@ -173,8 +170,15 @@ fn blobs_throw_shadows() {
     };
     let target = bench.scene.view.camera.target_m;
     let row = particle(&bench, 0, (0.0, 0.0), ALIVE);
-    let ground = moved(row, Vec3::Y * -target.y + sun * 9.0);
-    let lit = light(&bench.draw_particles(&[dormant(ground)], 0.0));
-    let shaded = light(&bench.draw_particles(&[ground], 0.0));
-    assert!(lit > shaded, "{lit} and {shaded}");
+    // Above the eye, between the sun and the ground before it.
+    let above = moved(row, Vec3::Y * -target.y + sun * 9.0);
+    let lit = bench.draw_particles(&[dormant(above)], 0.0);
+    let shaded = bench.draw_particles(&[above], 0.0);
+    let meadow = |picture: &RgbaImage| {
+        let rows = picture.enumerate_pixels().filter(|(_, y, _)| *y > SIZE.1 / 2);
+        rows.map(|(_, _, pixel)| u32::from(pixel.0[1])).collect::<Vec<_>>()
+    };
+    let darker =
+        meadow(&lit).into_iter().zip(meadow(&shaded)).filter(|(lit, shaded)| lit > &(shaded + 8)).count();
+    assert!(darker > 10, "{darker} pixels of meadow are darker");
 }

@@ -42,7 +42,7 @@ pub(super) const LEAF_BYTES: u64 = 200;
 /// Bytes of a particle in a frame, about.
 pub(super) const PARTICLE_BYTES: u64 = 110;
 /// Bytes of a slot of blobs in a frame, about: of their mesh, while they touch.
-pub(super) const BLOB_BYTES: u64 = 30_000;
+pub(super) const BLOB_BYTES: u64 = 17_000;
 /// Name of the layer that lists the attributes with samples.
 const MANIFEST: &str = "manifest.usda";
 /// Name of the layer of what does not move.
