@@ -237,7 +237,7 @@ pub(super) mod tests {
     }
 
     #[test]
-    fn a_heap_of_balls_is_closed() {
+    fn corners_of_a_heap_lie_on_its_surface() {
         let place = |number: u32| {
             let turn = number as f32 * 2.4;
             Vec3::new(turn.cos(), 0.02 * number as f32, turn.sin()) * (0.3 + 0.02 * number as f32)

@@ -44,14 +44,10 @@ impl Primitive {
     ];
 
     /// Those that the Markov chain joins, each at the place of its number.
-    pub const JOINED: [Self; JOINED_COUNT] = [
-        Self::SteadyDescent,
-        Self::PeriodicTumbling,
-        Self::TransitionalChaotic,
-        Self::PeriodicFluttering,
-        Self::TransitionalHelical,
-        Self::PeriodicSpiraling,
-    ];
+    pub const JOINED: [Self; JOINED_COUNT] = {
+        let [a, b, c, d, e, f, _] = Self::ALL;
+        [a, b, c, d, e, f]
+    };
 
     /// Place in [`Primitive::ALL`].
     pub const fn index(self) -> usize {

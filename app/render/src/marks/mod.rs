@@ -8,7 +8,7 @@ pub(crate) mod landing_count;
 pub(crate) mod landing_pass;
 mod overlay;
 pub(crate) mod paint_pass;
-mod palette;
+pub(crate) mod palette;
 mod particle_paint;
 mod shelter_map;
 pub(crate) mod shelter_pass;

@@ -5,8 +5,9 @@
 
 #import gpu/sort_pair
 #import particles/bindings
+#import particles/paint
 
-@group(0) @binding(0) var<uniform> listed: BlobUniform;
+@group(0) @binding(0) var<uniform> drawn: ParticleUniform;
 @group(0) @binding(1) var<storage, read> slots: array<u32>;
 @group(0) @binding(2) var<storage, read> places: array<ParticlePlace>;
 @group(0) @binding(3) var<storage, read> motions: array<ParticleMotion>;
@@ -60,21 +61,22 @@ fn ball_field(offset: vec3<f32>, inv_radius2: f32) -> f32 {
 
 @compute @workgroup_size(BLOB_THREADS)
 fn gather(@builtin(global_invocation_id) id: vec3<u32>) {
-    if id.x >= listed.pairs {
+    if id.x >= arrayLength(&pairs) {
         return;
     }
     let number = id.x / BLOB_CELLS;
     let ordinal = id.x % BLOB_CELLS;
     pairs[id.x] = SortPair(NO_CELL, number);
     let slot = slots[number];
-    if slot >= listed.slots {
+    if slot >= drawn.count {
         return;
     }
     let place = places[slot];
     let population = particle_population(place.bits);
     let born_with = traits[slot];
-    let share = age_share(particle_age(motions[slot], listed.step), born_with.life_size);
-    let at = row_place(population, share);
+    let motion = motions[slot];
+    let age = particle_age(motion, drawn.step);
+    let at = row_place(population, age_share(age, born_with.life_size));
     let row = row_between(rows[at.row], rows[at.row + 1u], at.t);
     let look = looks[population];
     let size = row.size * f32(particle_size(born_with.life_size)) / f32(PARTICLE_SIZE_ONE);
@@ -82,7 +84,8 @@ fn gather(@builtin(global_invocation_id) id: vec3<u32>) {
     if !is_there(place.bits) || radius_m < 1.0e-6 {
         return;
     }
-    let ball = Blob(place.position, 1.0 / (radius_m * radius_m), row.color, population);
+    let color = painted(population, length(motion.velocity), f32(age) * drawn.dt_s, row.color, false);
+    let ball = Blob(place.position, 1.0 / (radius_m * radius_m), color, population);
     if ordinal == 0u {
         balls[number] = ball;
     }
@@ -96,7 +99,7 @@ fn gather(@builtin(global_invocation_id) id: vec3<u32>) {
 
 @compute @workgroup_size(BLOB_THREADS)
 fn find_cells(@builtin(global_invocation_id) id: vec3<u32>) {
-    if id.x >= listed.pairs {
+    if id.x >= arrayLength(&pairs) {
         return;
     }
     cells[id.x].count = 0u;
@@ -118,7 +121,7 @@ fn find_cells(@builtin(global_invocation_id) id: vec3<u32>) {
     var most = 0.0;
     var least = 0.0;
     var end = first;
-    while end < listed.pairs && pairs[end].key == pair.key {
+    while end < arrayLength(&pairs) && pairs[end].key == pair.key {
         let other = balls[pairs[end].value];
         most += ball_field(to_cell(other.center_m, cell, look.cell_m), other.inv_radius2);
         least += ball_field(to_corner(other.center_m, cell, look.cell_m), other.inv_radius2);

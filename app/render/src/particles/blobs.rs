@@ -35,20 +35,6 @@ shared_constants! {
 const VERTICES: u32 = 36;
 
 shared_struct! {
-    /// Numbers of a frame's blobs.
-    pub(crate) struct BlobUniform {
-        /// Number of the step, two's complement.
-        step: u32,
-        /// Slots of the columns.
-        slots: u32,
-        /// Pairs of a cell and a ball.
-        pairs: u32,
-        /// Zero.
-        unused: u32,
-    }
-}
-
-shared_struct! {
     /// Numbers of a population's surface; zeros for what is drawn otherwise.
     pub(crate) struct BlobLook {
         /// Radius of the field of a ball of mean size.
@@ -94,22 +80,19 @@ shared_struct! {
 
 /// Declarations of the structs.
 pub(super) fn structs() -> String {
-    let structs =
-        [BlobUniform::declaration(), BlobLook::declaration(), Blob::declaration(), BlobCell::declaration()];
+    let structs = [BlobLook::declaration(), Blob::declaration(), BlobCell::declaration()];
     declarations([wgsl_constants()]) + &structs.concat()
 }
 
 /// Buffers and pipelines of all populations that are drawn as blobs.
 #[derive(Debug)]
 pub(crate) struct BlobPass {
-    uniform: wgpu::Buffer,
     /// Slots that balls come from.
     slots: wgpu::Buffer,
     looks: wgpu::Buffer,
     balls: wgpu::Buffer,
     sort: RadixSort,
     pairs: u32,
-    dt_s: f32,
     gather: wgpu::ComputePipeline,
     find_cells: wgpu::ComputePipeline,
     gather_layout: wgpu::BindGroupLayout,
@@ -146,7 +129,7 @@ impl BlobPass {
         let gathered =
             [uniform_entry, read(1), read(2), read(3), read(4), read(5), read(6), write(7), write(8)];
         let gather_layout = bind_layout("blobs", &gathered);
-        let cells_layout = bind_layout("blob cells", &[uniform_entry, read(5), write(7), write(8), write(9)]);
+        let cells_layout = bind_layout("blob cells", &[read(5), write(7), write(8), write(9)]);
         let drawn = [
             buffer_entry(0, storage(true), vertex | fragment),
             buffer_entry(1, storage(true), fragment),
@@ -171,17 +154,8 @@ impl BlobPass {
         let balls = empty("balls", balls as usize * size_of::<Blob>());
         let cells = empty("blob cells", pairs as usize * size_of::<BlobCell>());
         let sort = RadixSort::new(device, queue, pairs);
-        let uniform = device.create_buffer(&wgpu::BufferDescriptor {
-            label: Some("blobs"),
-            size: size_of::<BlobUniform>() as u64,
-            usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
-            mapped_at_creation: false,
-        });
-        let cells_group = bind(
-            device,
-            &cells_layout,
-            &[(0, &uniform), (5, &looks), (7, &balls), (8, &sort.pairs), (9, &cells)],
-        );
+        let cells_group =
+            bind(device, &cells_layout, &[(5, &looks), (7, &balls), (8, &sort.pairs), (9, &cells)]);
         let drawn_group =
             bind(device, &drawn_layout, &[(0, &cells), (1, &sort.pairs), (2, &balls), (3, &looks)]);
 
@@ -230,13 +204,11 @@ impl BlobPass {
             )
         });
         Some(Self {
-            uniform,
             slots,
             looks,
             balls,
             sort,
             pairs,
-            dt_s: scene.dt_s,
             gather,
             find_cells,
             gather_layout,
@@ -248,26 +220,21 @@ impl BlobPass {
         })
     }
 
-    /// Lists the balls of a frame in their cells.
+    /// Lists the balls of a frame, whose numbers are in `uniform`, in their cells.
     pub(crate) fn prepare(
         &mut self,
-        (device, queue): (&wgpu::Device, &wgpu::Queue),
+        device: &wgpu::Device,
         encoder: &mut wgpu::CommandEncoder,
         columns: Option<&ParticleColumns<'_>>,
-        (looks, time_s): (&LookBuffers, f64),
+        (looks, uniform): (&LookBuffers, &wgpu::Buffer),
     ) {
         self.is_listed = columns.is_some();
         let Some(columns) = columns else { return };
-        #[expect(clippy::cast_possible_truncation, reason = "whole steps within weeks")]
-        let step = (time_s / f64::from(self.dt_s)).round() as i32;
-        let uniform =
-            BlobUniform { step: step.cast_unsigned(), slots: columns.count, pairs: self.pairs, unused: 0 };
-        queue.write_buffer(&self.uniform, 0, bytemuck::bytes_of(&uniform));
         let gather_group = bind(
             device,
             &self.gather_layout,
             &[
-                (0, &self.uniform),
+                (0, uniform),
                 (1, &self.slots),
                 (2, columns.place),
                 (3, columns.motion),

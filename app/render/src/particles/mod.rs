@@ -24,6 +24,6 @@ pub(crate) fn shaders() -> Shaders {
     ];
     let lists = [looks::wgsl_constants(), draw_list::wgsl_constants(), paint::wgsl_constants()];
     shaders.extend([("particles/structs", declarations(lists) + &structs.concat() + &blobs::structs())]);
-    shaders.extend(wgsl_files!("particles": "bindings", "blob_field", "blob_list", "blob_pass", "blob_shadow", "draw_list", "particle_pass"));
+    shaders.extend(wgsl_files!("particles": "bindings", "blob_field", "blob_list", "blob_pass", "blob_shadow", "draw_list", "paint", "particle_pass"));
     shaders
 }

@@ -86,9 +86,6 @@ impl ParticlePass {
         columns: Option<&ParticleColumns<'_>>,
         seen: (&Camera, f64, f32),
     ) {
-        if let Some(blobs) = &mut self.blobs {
-            blobs.prepare((device, queue), encoder, columns, (&self.looks, seen.1));
-        }
         self.group = columns.map(|columns| {
             self.list.run((device, queue), encoder, (columns, &self.looks), seen);
             let LookBuffers { populations, rows } = &self.looks;
@@ -105,6 +102,9 @@ impl ParticlePass {
                 entries: &entries,
             })
         });
+        if let Some(blobs) = &mut self.blobs {
+            blobs.prepare(device, encoder, columns, (&self.looks, &self.list.uniform));
+        }
     }
 
     /// The blobs, if the scene has any.

@@ -6,6 +6,7 @@
 #import frame/light
 #import gpu/sort_pair
 #import particles/bindings
+#import particles/paint
 
 @group(2) @binding(0) var<uniform> drawn: ParticleUniform;
 @group(2) @binding(1) var<storage, read> pairs: array<SortPair>;
@@ -51,19 +52,6 @@ fn own_number(id: u32, population: u32) -> f32 {
     return unit_from(hash_u32(id ^ hash_u32(population)));
 }
 
-// Colour that stands for a particle's population, speed or age; of a light as bright as its own.
-fn painted(population: u32, speed_m_s: f32, age_s: f32, own: vec3<f32>, is_light: bool) -> vec3<f32> {
-    var color = drawn.palette[population % PAINT_COLORS].rgb;
-    if drawn.paint != PAINT_POPULATION {
-        let amount = select(age_s, speed_m_s, drawn.paint == PAINT_SPEED);
-        let at = clamp(amount / drawn.paint_most, 0.0, 1.0) * f32(PAINT_COLORS - 1u);
-        let low = min(u32(at), PAINT_COLORS - 2u);
-        color = mix(drawn.palette[low].rgb, drawn.palette[low + 1u].rgb, at - f32(low));
-    }
-    let brightness = max(own.x, max(own.y, own.z)) / max(color.x, max(color.y, color.z));
-    return color * select(1.0, brightness, is_light);
-}
-
 // Share of its light that a blinking particle gives at a moment: dark for most of a period, then a flash that swells and dies.
 fn blink(time_s: f32, period_s: f32, own: f32) -> f32 {
     let phase = fract(time_s / period_s + own);
@@ -87,9 +75,7 @@ fn vertex(@builtin(vertex_index) corner: u32, @builtin(instance_index) rank: u32
     let age = particle_age(motion, drawn.step);
     let at = row_place(population, age_share(age, born_with.life_size));
     var row = row_between(rows[at.row], rows[at.row + 1u], at.t);
-    if drawn.paint != PAINT_NONE {
-        row.color = painted(population, length(motion.velocity), f32(age) * drawn.dt_s, row.color, look_kind(look) == LOOK_GLOW);
-    }
+    row.color = painted(population, length(motion.velocity), f32(age) * drawn.dt_s, row.color, look_kind(look) == LOOK_GLOW);
     let own = own_number(born_with.id, population);
 
     let to_eye = frame.eye_m - place.position;

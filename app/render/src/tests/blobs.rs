@@ -3,7 +3,7 @@
 //! Pictures of blobs: how large they are, what hides them, and what they hide.
 
 use glam::Vec3;
-use image::RgbaImage;
+use image::{Rgba, RgbaImage};
 use windfall_core::scene::{Look, LookKind, Object, ObjectShape, lone_blob_radius};
 
 use super::particles::{ALIVE, DORMANT, Row, looks, middle, particle, plain};
@@ -40,7 +40,9 @@ fn coverage(rows: &dyn Fn(&Bench) -> Vec<Row>) -> Vec<f64> {
         let rows = rows(&bench);
         let covered = draw(&mut bench, &rows);
         let none = draw(&mut bench, &rows.iter().map(|row| dormant(*row)).collect::<Vec<_>>());
-        let light = |picture: &RgbaImage| picture.pixels().map(|p| f64::from(p.0[1])).collect::<Vec<_>>();
+        let light = |picture: &RgbaImage| {
+            picture.pixels().map(|&Rgba([_, green, _, _])| f64::from(green)).collect::<Vec<_>>()
+        };
         light(&covered).into_iter().zip(light(&none)).map(|(lit, free)| 1.0 - lit / free).collect()
     })
 }
@@ -176,7 +178,7 @@ fn blobs_throw_shadows() {
     let shaded = bench.draw_particles(&[above], 0.0);
     let meadow = |picture: &RgbaImage| {
         let rows = picture.enumerate_pixels().filter(|(_, y, _)| *y > SIZE.1 / 2);
-        rows.map(|(_, _, pixel)| u32::from(pixel.0[1])).collect::<Vec<_>>()
+        rows.map(|(_, _, &Rgba([_, green, _, _]))| u32::from(green)).collect::<Vec<_>>()
     };
     let darker =
         meadow(&lit).into_iter().zip(meadow(&shaded)).filter(|(lit, shaded)| lit > &(shaded + 8)).count();

@@ -114,7 +114,6 @@ fn every_struct_has_one_layout() {
     assert_same::<particles::looks::PopulationLook>(&module);
     assert_same::<particles::looks::LookRow>(&module);
     assert_same::<particles::draw_list::ParticleUniform>(&module);
-    assert_same::<particles::blobs::BlobUniform>(&module);
     assert_same::<particles::blobs::BlobLook>(&module);
     assert_same::<particles::blobs::Blob>(&module);
     assert_same::<particles::blobs::BlobCell>(&module);

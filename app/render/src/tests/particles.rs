@@ -7,6 +7,8 @@ use image::RgbaImage;
 use windfall_core::scene::{Exposure, Look, LookKind, Particles, Spread, ToneMap};
 
 use super::{Bench, bench, differing};
+use crate::marks::palette::{population as population_color, shade};
+use crate::marks::{ParticleMeasure, ParticlePaint};
 
 /// Words of a particle in its three columns.
 pub(super) type Row = [[u32; 4]; 3];
@@ -116,6 +118,34 @@ fn two_layers_of_paint_mix_by_their_opacities_in_either_order() {
             let expected =
                 a * first[channel] + (1.0 - a) * (b * second[channel] + (1.0 - b) * ground[channel]);
             assert!((found[channel] - expected).abs() < 3.0, "{layers:?} {channel}: {found:?}, {expected}");
+        }
+    }
+}
+
+/// Painted particles look like ones that have the paint's colour by themselves, balls and blobs alike.
+#[test]
+fn paint_takes_the_place_of_particles_own_colours() {
+    let fast_m_s = 3.0;
+    for kind in [LookKind::Dot, LookKind::Blobs { radius_m: 1.0, threshold: 0.4 }] {
+        let draw = |color: Vec3, paint: Option<ParticlePaint>| {
+            let mut bench = looks(0.0, vec![plain(kind, Vec3::Y), plain(kind, color)]);
+            bench.renderer.set_particle_paint(paint);
+            let row = particle(&bench, 1, (4.0, fast_m_s), ALIVE);
+            let unborn = particle(&bench, 0, (4.0, fast_m_s), DORMANT);
+            middle(&bench.draw_particles(&[unborn, unborn, row, unborn], 0.0))
+        };
+        let own = draw(Vec3::X, None);
+        for (measure, most, expected) in [
+            (ParticleMeasure::Population, 1.0, population_color(1)),
+            (ParticleMeasure::Speed, fast_m_s, shade(1.0)),
+            (ParticleMeasure::Age, 1.0, shade(0.0)),
+        ] {
+            let painted = draw(Vec3::X, Some(ParticlePaint { measure, most }));
+            let expected = draw(expected, None);
+            let is_same = painted.iter().zip(expected).all(|(a, b)| a.abs_diff(b) < 2);
+            assert!(is_same, "{kind:?} {measure:?}: {painted:?}, {expected:?}");
+            let is_own = painted.iter().zip(own).all(|(a, b)| a.abs_diff(b) < 8);
+            assert!(!is_own, "{kind:?} {measure:?}: {painted:?} is its own colour");
         }
     }
 }

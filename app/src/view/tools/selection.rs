@@ -66,15 +66,15 @@ impl Selection {
 
     /// Takes note of what has become of it, and of why it has just left the litter if it has. A slot that holds another leaf now
     /// begins another track.
-    pub(crate) fn note(&mut self, records: At<LeafRecords>, waking: Option<Waking>) {
-        if records.records.identity.id != self.latest.records.identity.id {
+    pub(crate) fn note(&mut self, latest: At<LeafRecords>, waking: Option<Waking>) {
+        if latest.records.identity.id != self.latest.records.identity.id {
             self.track = Track::default();
             self.woken = None;
         }
-        let is_known = |woken: &(u32, Waking)| woken.0 <= records.step;
-        self.woken = waking.map(|waking| (records.step, waking)).or(self.woken.filter(is_known));
-        self.track.note(records.step, Vec3::from(records.records.place.position));
-        self.latest = records;
+        let is_known = |woken: &(u32, Waking)| woken.0 <= latest.step;
+        self.woken = waking.map(|waking| (latest.step, waking)).or(self.woken.filter(is_known));
+        self.track.note(latest.step, Vec3::from(latest.records.place.position));
+        self.latest = latest;
     }
 }
 
