@@ -84,7 +84,11 @@ fn gather(@builtin(global_invocation_id) id: vec3<u32>) {
     if !is_there(place.bits) || radius_m < 1.0e-6 {
         return;
     }
-    let color = painted(population, length(motion.velocity), f32(age) * drawn.dt_s, row.color, false);
+    var color = row.color;
+    if drawn.paint != PAINT_NONE {
+        let hue = palette_place(drawn.paint, drawn.paint_most, population, length(motion.velocity), f32(age) * drawn.dt_s);
+        color = painted(drawn.palette[hue.color].rgb, drawn.palette[hue.color + 1u].rgb, hue.t, color, false);
+    }
     let ball = Blob(place.position, 1.0 / (radius_m * radius_m), color, population);
     if ordinal == 0u {
         balls[number] = ball;

@@ -75,7 +75,11 @@ fn vertex(@builtin(vertex_index) corner: u32, @builtin(instance_index) rank: u32
     let age = particle_age(motion, drawn.step);
     let at = row_place(population, age_share(age, born_with.life_size));
     var row = row_between(rows[at.row], rows[at.row + 1u], at.t);
-    row.color = painted(population, length(motion.velocity), f32(age) * drawn.dt_s, row.color, look_kind(look) == LOOK_GLOW);
+    if drawn.paint != PAINT_NONE {
+        let hue = palette_place(drawn.paint, drawn.paint_most, population, length(motion.velocity), f32(age) * drawn.dt_s);
+        let is_light = look_kind(look) == LOOK_GLOW;
+        row.color = painted(drawn.palette[hue.color].rgb, drawn.palette[hue.color + 1u].rgb, hue.t, row.color, is_light);
+    }
     let own = own_number(born_with.id, population);
 
     let to_eye = frame.eye_m - place.position;
