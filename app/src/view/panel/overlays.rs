@@ -99,8 +99,8 @@ fn particle_colors(ui: &mut Ui, overlays: &mut Overlays) {
         for (measure, label, tip) in [
             (None, "Own", "Particles in their own colours"),
             (Some(ParticleMeasure::Population), "Kind", "Coloured by population"),
-            (Some(ParticleMeasure::Speed), "Their speed", "Particles coloured by speed"),
-            (Some(ParticleMeasure::Age), "Their age", "Particles coloured by the time since birth"),
+            (Some(ParticleMeasure::Speed), "Particle speed", "Particles coloured by speed"),
+            (Some(ParticleMeasure::Age), "Particle age", "Particles coloured by the time since birth"),
         ] {
             let is_chosen = overlays.particle_measure == measure;
             if ui.selectable_label(is_chosen, label).on_hover_text(tip).clicked() {
@@ -111,6 +111,6 @@ fn particle_colors(ui: &mut Ui, overlays: &mut Overlays) {
     if let Some(index) = overlays.particle_measure.and_then(Overlays::particle_scale_of) {
         let tip = "What the light end of the particles' colours stands for";
         let most = &mut overlays.particle_most[index];
-        field("Theirs to", tip, PARTICLE_MOST[index]).fine(0.1).show(ui, most, None);
+        field("Particles to", tip, PARTICLE_MOST[index]).fine(0.1).show(ui, most, None);
     }
 }
