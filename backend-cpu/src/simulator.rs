@@ -7,7 +7,7 @@ use std::sync::{Arc, Mutex};
 
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use windfall_core::blocks::StepBlock;
-use windfall_core::particle::each_generation;
+use windfall_core::particle::{ParticleStart, each_generation};
 use windfall_core::tree::Forest;
 use windfall_core::tree::batch::TreeBatch;
 use windfall_core::{Clock, CompiledScene, Contract, SimError, Simulator, SimulatorInfo, Stats, World};
@@ -15,6 +15,7 @@ use windfall_core::{Clock, CompiledScene, Contract, SimError, Simulator, Simulat
 use crate::collision_cells::CollisionCells;
 use crate::exposed::ExposedLeaves;
 use crate::kernels::CHUNK;
+use crate::kernels::carry_forces::carry_forces;
 use crate::kernels::measure::measure;
 use crate::kernels::pull_particles::pull_particles;
 use crate::kernels::stack_litter::{LitterChanges, stack_litter};
@@ -53,6 +54,10 @@ pub struct CpuSimulator {
     cells: CollisionCells,
     /// Accelerations of particles by others; empty where none attract one another.
     pulls: Vec<[f32; 4]>,
+    /// Places of particles that carry forces.
+    carriers: Vec<[f32; 4]>,
+    /// Flights of particles at the start of the step; empty where none go along with others.
+    starts: Vec<ParticleStart>,
     /// None where threads cannot be started: there the caller's does everything.
     pool: Option<ThreadPool>,
     simd: Simd,
@@ -75,8 +80,9 @@ impl CpuSimulator {
         let exposed = ExposedLeaves::new(world.leaves.len());
         let (world, blocks, scratches) = (world.clone(), Vec::new(), Vec::new());
         let cells = CollisionCells::default();
+        let (pulls, carriers, starts) = (Vec::new(), Vec::new(), Vec::new());
         let mut simulator =
-            Self { world, blocks, scratches, quiet, exposed, cells, pulls: Vec::new(), pool, simd };
+            Self { world, blocks, scratches, quiet, exposed, cells, pulls, carriers, starts, pool, simd };
         let forest = Arc::clone(simulator.world.compiled.forest());
         simulator.plant(&forest);
         Ok(simulator)
@@ -152,8 +158,11 @@ impl Simulator for CpuSimulator {
         if compiled.block().has_living_litter() && self.cells.is_empty() {
             self.cells = CollisionCells::new();
         }
-        let (cells, pulls) = (&self.cells, &mut self.pulls);
+        let (cells, pulls, carriers) = (&self.cells, &mut self.pulls, &mut self.carriers);
+        let starts = &mut self.starts;
+        starts.resize(compiled.start_count(), bytemuck::Zeroable::zeroed());
         let (is_mutual, has_nests) = (compiled.block().has_mutual(), compiled.block().has_nests());
+        let has_carriers = !compiled.carriers().is_empty();
         let forest = Arc::clone(compiled.forest());
         let is_small =
             leaves.len() <= CHUNK && forest.len() <= CHUNK / 16 && particles.len() <= SMALL_PARTICLES;
@@ -175,13 +184,17 @@ impl Simulator for CpuSimulator {
                 compiled.advance(clock);
             }
             let steps = step_blocks.each_ref().map(|block| compiled.context(block).over(&bed.words));
+            if has_carriers {
+                carry_forces(&steps[0], compiled.carriers(), particles, carriers);
+            }
+            let steps = steps.map(|cx| cx.with_carriers(carriers));
             let steps = &steps[..count];
             if is_mutual && let [cx] = steps {
                 pulls.resize(particles.len(), [0.0; 4]);
                 pull_particles(cx, particles, pulls, simd);
             }
-            each_generation(&compiled.block().populations, particles, |parents, first, generation| {
-                step_particles(steps, generation, parents, first as usize, pulls, &sums, simd);
+            each_generation(&compiled.block().populations, particles, starts, |generation| {
+                step_particles(steps, generation, pulls, &sums, simd);
             });
             // With litter it is one step.
             if let [cx] = steps
@@ -220,7 +233,7 @@ impl Simulator for CpuSimulator {
             let mut left = count as usize;
             while left > 0 {
                 // Leaves see what others have left in the litter a step before, and particles where others are, or what befell them.
-                let sees_others = has_litter || is_mutual || has_nests;
+                let sees_others = has_litter || is_mutual || has_nests || has_carriers;
                 let portion = left.min(if sees_others { 1 } else { MOST_FUSED });
                 run(portion);
                 left -= portion;

@@ -6,8 +6,9 @@
 use std::ops::Range;
 
 use windfall_core::blocks::PopulationBlock;
+use windfall_core::device::particle::force_carrier::CARRIER_ROWS;
 use windfall_core::device::particle::record::POPULATION_MUTUAL;
-use windfall_core::particle::{ParticlePlace, ParticleRun};
+use windfall_core::particle::{CarrierRun, ParticlePlace, ParticleRun, ParticleStart};
 use windfall_core::{CompiledScene, SimError};
 
 use crate::buffers::{buffer, group, uniform};
@@ -20,6 +21,9 @@ use crate::prelude::WORKGROUP_SIZE;
 #[expect(clippy::cast_possible_truncation, reason = "a few words")]
 const RUN_BYTES: u32 = size_of::<ParticleRun>() as u32;
 
+/// Bytes of the flight of a particle at the start of a step.
+const START_BYTES: u64 = size_of::<ParticleStart>() as u64;
+
 /// Bindings of the particles of a world.
 #[derive(Debug)]
 pub(crate) struct ParticleBindings {
@@ -30,6 +34,8 @@ pub(crate) struct ParticleBindings {
     run_stride: u32,
     /// Bindings and numbers of particles of the populations whose particles attract one another.
     mutual: Vec<(wgpu::BindGroup, u32)>,
+    /// Bindings and numbers of particles of those that carry a force.
+    carriers: Vec<(wgpu::BindGroup, u32)>,
 }
 
 /// Rows to which the windows of populations are widened, so that they are aligned on any device.
@@ -97,6 +103,12 @@ impl ParticleBindings {
         let has_mutual = compiled.block().has_mutual();
         let pull_rows = if has_mutual { u64::from(count) } else { 1 };
         let pulls = buffer(gpu, "particle pulls", pull_rows * 16, wgpu::BufferUsages::STORAGE);
+        let carrier_rows = compiled.carriers().iter().map(|run| run.first_row + run.count * CARRIER_ROWS);
+        let carrier_rows = u64::from(carrier_rows.max().unwrap_or(1));
+        let carried = buffer(gpu, "carried forces", carrier_rows * 16, wgpu::BufferUsages::STORAGE);
+        let has_starts = compiled.start_count() > 0;
+        let start_rows = compiled.start_count().max(1) as u64;
+        let starts = buffer(gpu, "particle starts", start_rows * START_BYTES, wgpu::BufferUsages::STORAGE);
         let window = |window: &Range<u32>| {
             let first = window.start;
             let run = wgpu::BindingResource::Buffer(wgpu::BufferBinding {
@@ -111,7 +123,15 @@ impl ParticleBindings {
                 offset: if has_mutual { u64::from(first) * 16 } else { 0 },
                 size: None,
             });
-            let resources = std::iter::once(run).chain(columns).chain(tallies).chain([pulls]);
+            let starts = wgpu::BindingResource::Buffer(wgpu::BufferBinding {
+                buffer: &starts,
+                offset: if has_starts { u64::from(first) * START_BYTES } else { 0 },
+                size: has_starts
+                    .then(|| wgpu::BufferSize::new(u64::from(window.end - first) * START_BYTES))
+                    .flatten(),
+            });
+            let others = [pulls, carried.as_entire_binding(), starts];
+            let resources = std::iter::once(run).chain(columns).chain(tallies).chain(others);
             group(gpu, pipelines.layout(GroupLayout::Particles), resources)
         };
         let mutual = |population: &PopulationBlock| {
@@ -131,8 +151,38 @@ impl ParticleBindings {
         };
         let is_mutual = |population: &&PopulationBlock| (population.flags & POPULATION_MUTUAL) != 0;
         let mutual = compiled.block().populations.iter().filter(is_mutual).map(mutual).collect();
+        let carrier = |run: &CarrierRun| {
+            let first = run.first / WINDOW_STEP * WINDOW_STEP;
+            let offset = run.first - first;
+            let block = uniform(gpu, "carrier run", &CarrierRun { first: offset, ..*run });
+            let columns = buffers.particles().windows(first, offset + run.count);
+            let resources = std::iter::once(block.as_entire_binding())
+                .chain(columns)
+                .chain([carried.as_entire_binding()]);
+            (group(gpu, pipelines.layout(GroupLayout::ForceCarriers), resources), run.count)
+        };
+        let carriers = compiled.carriers().iter().map(carrier).collect();
         let blocks = group(gpu, pipelines.layout(GroupLayout::Blocks), blocks);
-        Ok(Some(Self { blocks, windows: windows.iter().map(window).collect(), runs, run_stride, mutual }))
+        let windows = windows.iter().map(window).collect();
+        Ok(Some(Self { blocks, windows, runs, run_stride, mutual, carriers }))
+    }
+
+    /// Encodes the places of carried forces, by the pipeline for it, where there are any.
+    pub(crate) fn encode_carriers<'a>(
+        &self,
+        pass: &mut wgpu::ComputePass<'_>,
+        pipeline: impl FnOnce() -> &'a wgpu::ComputePipeline,
+        step_offset: u32,
+    ) {
+        if self.carriers.is_empty() {
+            return;
+        }
+        pass.set_pipeline(pipeline());
+        pass.set_bind_group(0, &self.blocks, &[step_offset]);
+        for (bound, count) in &self.carriers {
+            pass.set_bind_group(1, bound, &[]);
+            pass.dispatch_workgroups(count.div_ceil(WORKGROUP_SIZE), 1, 1);
+        }
     }
 
     /// Encodes the attractions of particles by one another, by the pipeline for it, where there are any.

@@ -36,10 +36,12 @@ pub(crate) enum GroupLayout {
     Particles,
     /// A population whose particles attract one another, and their accelerations.
     Mutual,
+    /// A population that carries a force, and the places of all carriers.
+    ForceCarriers,
 }
 
 impl GroupLayout {
-    const ALL: [Self; 11] = [
+    const ALL: [Self; 12] = [
         Self::Leaves,
         Self::LeavesInMotion,
         Self::LeavesOnTwigs,
@@ -51,6 +53,7 @@ impl GroupLayout {
         Self::Carriers,
         Self::Particles,
         Self::Mutual,
+        Self::ForceCarriers,
     ];
 
     /// Resources, binding by binding.
@@ -71,9 +74,11 @@ impl GroupLayout {
             // The bindings of shaders/leaf/carrier_bindings.wgsl.
             Self::Carriers => &[Block, Read, Write],
             // The bindings of shaders/particle/bindings.wgsl.
-            Self::Particles => &[BlockOfMany, Write, Write, Write, Write, Read],
+            Self::Particles => &[BlockOfMany, Write, Write, Write, Write, Read, Read, Write],
             // The bindings of shaders/particle/mutual_bindings.wgsl.
             Self::Mutual => &[BlockOfMany, Read, Read, Write],
+            // The bindings of shaders/particle/force_carrier_bindings.wgsl.
+            Self::ForceCarriers => &[Block, Read, Read, Read, Write],
         }
     }
 }
@@ -87,6 +92,7 @@ impl KernelId {
             }
             Self::StepParticles => &[GroupLayout::Blocks, GroupLayout::Particles],
             Self::PullParticles => &[GroupLayout::Blocks, GroupLayout::Mutual],
+            Self::CarryForces => &[GroupLayout::Blocks, GroupLayout::ForceCarriers],
             Self::Carry => &[GroupLayout::LeavesOnTwigs, GroupLayout::WrittenBuffer, GroupLayout::Carriers],
             Self::ListActive | Self::Measure => &[GroupLayout::LeavesInMotion, GroupLayout::WrittenBuffer],
             Self::PushLying | Self::CheckCover | Self::WakeLying => {
@@ -127,6 +133,9 @@ impl KernelId {
         }
         if compiled.block().has_mutual() {
             kernels.push(Self::PullParticles);
+        }
+        if !compiled.carriers().is_empty() {
+            kernels.push(Self::CarryForces);
         }
         if !compiled.forest().is_empty() {
             kernels.extend([Self::Carry, Self::SwayCoast]);

@@ -85,6 +85,8 @@ pub(crate) fn structs() -> String {
         particle::ParticleMotion::declaration(),
         particle::ParticleTraits::declaration(),
         particle::ParticleRun::declaration(),
+        particle::CarrierRun::declaration(),
+        particle::ParticleStart::declaration(),
         leaf_records(),
     ]
     .concat()
@@ -126,6 +128,8 @@ pub(crate) fn constants() -> String {
         device::particle::air::wgsl_constants(),
         device::particle::birth::wgsl_constants(),
         device::particle::force::wgsl_constants(),
+        device::particle::force_carrier::wgsl_constants(),
+        device::particle::local_space::wgsl_constants(),
         device::particle::nest::wgsl_constants(),
         device::particle::record::wgsl_constants(),
         device::particle::strike::wgsl_constants(),

@@ -54,11 +54,13 @@ pub enum KernelId {
     StepParticles,
     /// Sums the attractions of particles by one another.
     PullParticles,
+    /// Places the forces that particles carry.
+    CarryForces,
 }
 
 impl KernelId {
     /// All kernels.
-    pub const ALL: [Self; 21] = [
+    pub const ALL: [Self; 22] = [
         Self::ListActive,
         Self::GatherCollisions,
         Self::Collide,
@@ -80,6 +82,7 @@ impl KernelId {
         Self::Carry,
         Self::StepParticles,
         Self::PullParticles,
+        Self::CarryForces,
     ];
 
     /// Name of the file and of the entry point.
@@ -106,6 +109,7 @@ impl KernelId {
             Self::Carry => "carry",
             Self::StepParticles => "step_particles",
             Self::PullParticles => "pull_particles",
+            Self::CarryForces => "carry_forces",
         }
     }
 }
@@ -154,6 +158,7 @@ impl Default for Shaders {
             "kernels/resolve_events",
             "kernels/sample_air",
             "kernels/carry",
+            "kernels/carry_forces",
             "kernels/check_cover",
             "kernels/clear_collisions",
             "kernels/collide",
@@ -205,6 +210,9 @@ impl Default for Shaders {
             "particle/draw",
             "particle/fly",
             "particle/force",
+            "particle/force_carrier",
+            "particle/force_carrier_bindings",
+            "particle/local_space",
             "particle/mutual",
             "particle/mutual_bindings",
             "particle/nest",

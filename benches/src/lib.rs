@@ -145,7 +145,7 @@ pub fn driven_sparks(count: u32) -> Scene {
         ("curl", ForceKind::Spiral { rad_s: 1.0, axis }),
         ("whirl", ForceKind::Swirl { at_m, axis, rate_rad_s: 1.0, swirl_radius_m: 20.0, profile }),
     ];
-    scene.forces = forces.map(|(name, of)| Force { name: name.into(), of }).into();
+    scene.forces = forces.map(|(name, of)| Force { name: name.into(), of, carried_by: None }).into();
     scene.particles[0].feels = scene.forces.iter().map(|force| force.name.clone()).collect();
     scene
 }
@@ -154,7 +154,7 @@ pub fn driven_sparks(count: u32) -> Scene {
 pub fn attracting(count: u32) -> Scene {
     let mut scene = sparks(count);
     let of = ForceKind::Mutual { gm_m3_s2: 0.01, softening_m: 0.1 };
-    scene.forces = vec![Force { name: "others".into(), of }];
+    scene.forces = vec![Force { name: "others".into(), of, carried_by: None }];
     scene.particles = vec![Particles {
         name: "bodies".into(),
         count,

@@ -19,12 +19,19 @@ pub struct Context<'a> {
     pub tables: &'a [Uint4],
     /// Heights of litter, node by node, and what else a [`Bed`](crate::litter::Bed) holds; empty without litter.
     pub litter: &'a [u32],
+    /// Rows of the particles that carry forces (see [`force_carrier`](crate::device::particle::force_carrier)); empty without any.
+    pub carriers: &'a [[f32; 4]],
 }
 
 impl<'a> Context<'a> {
     /// The same view over litter of these heights.
     pub fn over(self, litter: &'a [u32]) -> Self {
         Self { litter, ..self }
+    }
+
+    /// The same view with particles that carry forces at these places.
+    pub fn with_carriers(self, carriers: &'a [[f32; 4]]) -> Self {
+        Self { carriers, ..self }
     }
 
     /// Returns true if leaves lie on one another.

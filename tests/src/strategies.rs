@@ -6,11 +6,11 @@ use glam::{Vec2, Vec3};
 use proptest::prelude::*;
 use windfall_core::motion::Primitive;
 use windfall_core::scene::{
-    Aerodynamics, Air, Bounds, ConeShape, Direction, FlightModel, Foliage, Force, ForceKind, Gusts, Hold,
-    Jet, JetKey, Litter, MeanSpeed, Meets, MotionParameters, Nest, Object, ObjectFriction, ObjectKey,
-    ObjectMotion, ObjectShape, ParticleEvent, ParticleRelease, ParticleShape, Particles, Planform, Profile,
-    Release, Scene, Share, Source, SourceShape, Species, Spread, SwirlProfile, Terrain, Tree, TreeKind,
-    Turbulence, Vortex, VortexProfile, Walker, Water, WindParameters,
+    Aerodynamics, Air, Bounds, ConeShape, Direction, FlightModel, Foliage, Force, ForceCarriers, ForceKind,
+    Gusts, Hold, Jet, JetKey, Litter, MeanSpeed, Meets, MotionParameters, Nest, Object, ObjectFriction,
+    ObjectKey, ObjectMotion, ObjectShape, ParticleEvent, ParticleRelease, ParticleShape, Particles, Planform,
+    Profile, Release, Scene, Share, Source, SourceShape, Space, Species, Spread, SwirlProfile, Terrain, Tree,
+    TreeKind, Turbulence, Vortex, VortexProfile, Walker, Water, WindParameters,
 };
 
 use crate::functions::Input;
@@ -440,7 +440,7 @@ pub fn scenes(leaves: std::ops::Range<u32>) -> impl Strategy<Value = Scene> {
 pub fn particle_scene(seed: u64, speed_m_s: f32, dt_s: f32) -> Scene {
     let mut scene = obstructed_scene(seed, 64, speed_m_s, dt_s);
     let axis = Vec3::new(0.4, 1.0, -0.2);
-    let force = |name: &str, of: ForceKind| Force { name: name.into(), of };
+    let force = |name: &str, of: ForceKind| Force { name: name.into(), of, carried_by: None };
     scene.forces = vec![
         force("sun", ForceKind::Attract { at_m: Vec3::new(0.0, 3.0, 0.0), gm_m3_s2: 4.0, softening_m: 0.2 }),
         force("noise", ForceKind::Noise { m_s2: 3.0, cell_m: 0.5 }),
@@ -470,6 +470,28 @@ pub fn particle_scene(seed: u64, speed_m_s: f32, dt_s: f32) -> Scene {
             },
         ),
     ];
+    let carried = |name: &str, of: ForceKind, strength: &[(f32, f32)]| {
+        let carried_by = Some(ForceCarriers { of: "8".into(), strength: strength.to_vec() });
+        Force { name: name.into(), of, carried_by }
+    };
+    scene.forces.extend([
+        carried(
+            "pull",
+            ForceKind::Attract { at_m: Vec3::new(0.0, 0.2, 0.0), gm_m3_s2: 0.5, softening_m: 0.3 },
+            &[(0.1, 0.2), (0.5, 1.0), (1.0, -0.5)],
+        ),
+        carried(
+            "devil",
+            ForceKind::Swirl {
+                at_m: Vec3::ZERO,
+                axis: Vec3::Y,
+                rate_rad_s: 4.0,
+                swirl_radius_m: 1.0,
+                profile: SwirlProfile::Compact { d: 0.0 },
+            },
+            &[],
+        ),
+    ]);
     scene.forces.push(force("others", ForceKind::Mutual { gm_m3_s2: 0.02, softening_m: 0.1 }));
     let bounce = |restitution: f32, friction: ObjectFriction| Meets::Bounce { restitution, friction };
     let cone = |half_angle_deg: f32| Direction::Cone { axis, half_angle_deg };
@@ -527,7 +549,7 @@ pub fn particle_scene(seed: u64, speed_m_s: f32, dt_s: f32) -> Scene {
             release: rate(60.0, 0.0),
             life_s: Some(Spread::Constant(4.0)),
             air: Air::Massless,
-            feels: vec!["whirl".into()],
+            feels: vec!["whirl".into(), "devil".into()],
             ..Particles::default()
         },
         Particles {
@@ -538,7 +560,7 @@ pub fn particle_scene(seed: u64, speed_m_s: f32, dt_s: f32) -> Scene {
             speed_m_s: Spread::Constant(1.5),
             charge_c_kg: 2.0,
             air: Air::Linear { time_s: Spread::Uniform(2.0, 1.0) },
-            feels: vec!["field".into(), "sun".into()],
+            feels: vec!["field".into(), "sun".into(), "pull".into()],
             meets: bounce(0.8, ObjectFriction::Loss(0.2)),
             ..Particles::default()
         },
@@ -573,10 +595,13 @@ pub fn particle_scene(seed: u64, speed_m_s: f32, dt_s: f32) -> Scene {
     scene
 }
 
-/// Populations behind eight others that are born of others at every kind of event, over three levels.
-fn nest_rows() -> [Particles; 6] {
+/// Populations behind eight others that are born of others at every kind of event, over three levels; the last two go along with them.
+fn nest_rows() -> [Particles; 8] {
     let nest = |of: u32, on: ParticleEvent, fan: u32, inherit: f32| {
-        Some(Nest { of: of.to_string(), on, fan, inherit, radius_m: 0.05 })
+        Some(Nest { of: of.to_string(), on, fan, inherit, radius_m: 0.05, space: Space::World })
+    };
+    let local = |of: u32, on: ParticleEvent| {
+        Some(Nest { of: of.to_string(), on, radius_m: 0.3, space: Space::Local, ..Nest::default() })
     };
     let settling = |m_s: f32| Air::Settling { m_s: Spread::Constant(m_s) };
     [
@@ -589,6 +614,7 @@ fn nest_rows() -> [Particles; 6] {
             speed_m_s: Spread::Constant(9.0),
             life_s: Some(Spread::Uniform(0.8, 0.2)),
             air: Air::Quadratic { drag: 0.5 },
+            feels: vec!["devil".into(), "pull".into()],
             ..Particles::default()
         },
         // Dust where the fast ones of the seventh population strike.
@@ -637,6 +663,26 @@ fn nest_rows() -> [Particles; 6] {
             life_s: Some(Spread::Constant(0.3)),
             air: Air::Vacuum,
             meets: Meets::Stick,
+            ..Particles::default()
+        },
+        // Sparks around these stars.
+        Particles {
+            count: 480,
+            nest: local(11, ParticleEvent::Every { steps: 22 }),
+            direction: Direction::Outward,
+            speed_m_s: Spread::Uniform(1.0, 0.5),
+            life_s: Some(Spread::Constant(0.25)),
+            air: settling(0.5),
+            meets: Meets::Bounce { restitution: 0.4, friction: ObjectFriction::Coulomb(0.3) },
+            ..Particles::default()
+        },
+        // And around the sparks.
+        Particles {
+            count: 480,
+            nest: local(14, ParticleEvent::Birth),
+            speed_m_s: Spread::Constant(0.3),
+            life_s: Some(Spread::Constant(0.1)),
+            air: Air::Massless,
             ..Particles::default()
         },
     ]

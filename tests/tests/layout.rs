@@ -15,7 +15,9 @@ use windfall_core::blocks::{
 use windfall_core::flight::block::BodyBlock;
 use windfall_core::layout::WgslStruct;
 use windfall_core::leaf::{Attitude, Drift, Identity, Petiole, Place, Schedule};
-use windfall_core::particle::{ParticleMotion, ParticlePlace, ParticleRun, ParticleTraits};
+use windfall_core::particle::{
+    CarrierRun, ParticleMotion, ParticlePlace, ParticleRun, ParticleStart, ParticleTraits,
+};
 use windfall_core::tree::record::{CarryBlock, LevelBlock, SegmentConstants};
 use windfall_wgpu::{KernelId, Shaders};
 
@@ -85,6 +87,8 @@ fn every_module_is_valid_and_every_struct_has_one_layout() {
     same_layout::<ParticleMotion>(&module);
     same_layout::<ParticleTraits>(&module);
     same_layout::<ParticleRun>(&module);
+    same_layout::<CarrierRun>(&module);
+    same_layout::<ParticleStart>(&module);
     same_layout::<Place>(&module);
     same_layout::<Drift>(&module);
     same_layout::<Attitude>(&module);
@@ -279,12 +283,13 @@ fn words_are_read_by_name() {
 }
 
 /// Common devices, and browsers, allow eight storage buffers. Tables and all six columns of leaves are seven of them, and
-/// `resolve_events` has a list on top; `advance` has two lists, but no identities.
+/// `resolve_events` has a list on top; `advance` has two lists, but no identities. Particles have three columns, and as many buffers of what
+/// others do to them, besides tables and counts.
 #[test]
 fn kernels_make_do_with_eight_storage_buffers() {
     for kernel in KernelId::ALL {
         let share = match kernel {
-            KernelId::ResolveEvents | KernelId::Advance | KernelId::Carry => 8,
+            KernelId::ResolveEvents | KernelId::Advance | KernelId::Carry | KernelId::StepParticles => 8,
             KernelId::Fly => 7,
             _ => 6,
         };
@@ -320,10 +325,11 @@ fn wgsl_files(folder: &Path) -> Vec<PathBuf> {
 }
 
 /// Files without a twin: on the CPU what they declare are arguments.
-const BINDINGS_ONLY: [&str; 5] = [
+const BINDINGS_ONLY: [&str; 6] = [
     "bindings.wgsl",
     "leaf/carrier_bindings.wgsl",
     "particle/bindings.wgsl",
+    "particle/force_carrier_bindings.wgsl",
     "particle/mutual_bindings.wgsl",
     "tree/bindings.wgsl",
 ];

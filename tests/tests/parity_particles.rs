@@ -93,9 +93,11 @@ fn children_are_the_same_on_both_backends() {
     for (population, count) in [(8, 600), (10, 3600), (11, 4800)] {
         apart.particles[population].count = count;
     }
-    for population in 12..14 {
-        apart.particles[population].count = 3 * 4800;
+    for (population, count) in [(12, 3 * 4800), (13, 3 * 4800), (14, 4800), (15, 4800)] {
+        apart.particles[population].count = count;
     }
+    // So many carry no force.
+    apart.forces.iter_mut().for_each(|force| force.carried_by = None);
     let apart = World::build(&apart).expect("valid with more slots");
     let refused = WgpuSimulator::new(&gpu, &apart, &exact(Some(4096), None)).expect_err("too far apart");
     assert!(matches!(refused, SimError::Capacity { rows: 6005, .. }), "{refused}");
@@ -240,6 +242,17 @@ fn changes_of_a_constant_or_an_operator_are_noticed() {
         ("particle/nest", "/ steps;\n        let is_alive", "/ steps + 1u;\n        let is_alive"),
         ("particle/nest", "parent.position - parent.velocity", "parent.position + parent.velocity"),
         ("particle/nest", "event * NEST_SPACING", "event"),
+        ("particle/force_carrier", "row.z * max(", "row.y * max("),
+        ("particle/force", "row + 1u, at).place", "row, at).place"),
+        ("particle/local_space", "flight.velocity - frame.start.velocity", "flight.velocity"),
+        ("particle/local_space", "birth - motion.birth) >= 0", "birth - motion.birth) > 0"),
+        ("particle/local_space", "cross(cross, across) *", "cross(across, cross) *"),
+        ("particle/step", "return rest_frame(frame, new_way_s)", "return frame"),
+        (
+            "kernels/carry_forces",
+            "placed_carriers[row + 1u] = rows.end",
+            "placed_carriers[row + 1u] = rows.middle",
+        ),
         ("kernels/pull_particles", "begin + local_id.x", "begin + (local_id.x ^ 1u)"),
     ];
     for (module, old, new) in edits {

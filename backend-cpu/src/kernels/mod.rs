@@ -4,6 +4,7 @@
 
 mod advance;
 pub(crate) mod carry;
+pub(crate) mod carry_forces;
 mod check_cover;
 mod clear_collisions;
 mod collide;

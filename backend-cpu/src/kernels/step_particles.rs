@@ -15,31 +15,29 @@ use windfall_core::arith::Vec3;
 use windfall_core::arith::pack::{BLOCK, Pack};
 use windfall_core::blocks::{BirthBlock, NestBlock};
 use windfall_core::device::particle::nest::{nest_events, nest_place};
-use windfall_core::device::particle::record::particle_population;
+use windfall_core::device::particle::record::{POPULATION_FOLLOWED, POPULATION_LOCAL, particle_population};
 use windfall_core::device::particle::step::particle_step;
-use windfall_core::particle::{ParticleRows, ParticlesMut, add_to_tally};
+use windfall_core::particle::{Generation, ParticleRows, add_to_tally};
 
 use super::CHUNK;
-use crate::simd::particle_block::ParticleBlock;
+use crate::simd::particle_block::{ParentFrames, ParticleBlock};
 use crate::simd::{Simd, in_packs};
 
-/// Steps particles from slot `first` on, behind their parents, halving the columns until a piece is one chunk, and adds to the counts of
-/// populations. `pulls` are accelerations by others, slot by slot, or none.
+/// Steps a generation of particles, halving the columns until a piece is one chunk, and adds to the counts of populations. `pulls` are
+/// accelerations by others, slot by slot, or none.
 pub(crate) fn step_particles(
     steps: &[Context<'_>],
-    mut particles: ParticlesMut<'_>,
-    parents: &ParticleRows<'_>,
-    first: usize,
+    mut run: Generation<'_>,
     pulls: &[[f32; 4]],
     tallies: &[AtomicU32],
     simd: Simd,
 ) {
-    if particles.len() > CHUNK {
-        let middle = (particles.len() / 2).next_multiple_of(CHUNK);
-        let (front, back) = particles.split_at(middle);
+    if run.particles.len() > CHUNK {
+        let middle = (run.particles.len() / 2).next_multiple_of(CHUNK);
+        let (front, back) = run.split_at(middle);
         join(
-            || step_particles(steps, front, parents, first, pulls, tallies, simd),
-            || step_particles(steps, back, parents, first + middle, pulls, tallies, simd),
+            || step_particles(steps, front, pulls, tallies, simd),
+            || step_particles(steps, back, pulls, tallies, simd),
         );
         return;
     }
@@ -47,12 +45,12 @@ pub(crate) fn step_particles(
     for cx in steps {
         match simd {
             Simd::Scalar => {
-                for number in 0..particles.len() {
-                    step_one(cx, &mut particles, parents, first, number, pulls, &mut counts);
+                for number in 0..run.particles.len() {
+                    step_one(cx, &mut run, number, pulls, &mut counts);
                 }
             }
             Simd::Lanes(level) => {
-                in_packs!(level, step_lanes(cx, &mut particles, parents, first, pulls, &mut counts));
+                in_packs!(level, step_lanes(cx, &mut run, pulls, &mut counts));
             }
         }
     }
@@ -67,17 +65,17 @@ pub(crate) fn step_particles(
 #[inline(never)]
 fn step_one(
     cx: &Context<'_>,
-    particles: &mut ParticlesMut<'_>,
-    parents: &ParticleRows<'_>,
-    first: usize,
+    run: &mut Generation<'_>,
     number: usize,
     pulls: &[[f32; 4]],
     counts: &mut [u32],
 ) {
-    let population = particle_population(particles.place[number].bits);
-    let slot = slot_word(first + number);
-    let mutual = pulls.get(first + number).map_or(Vec3::ZERO, |[x, y, z, _]| Vec3::new(*x, *y, *z));
-    let change = particle_step(cx, &mut particles.row_mut(number), parents, slot, mutual);
+    let population = particle_population(run.particles.place[number].bits);
+    let slot = run.first + slot_word(number);
+    let mutual = pulls.get(slot as usize).map_or(Vec3::ZERO, |[x, y, z, _]| Vec3::new(*x, *y, *z));
+    let mut spare = bytemuck::Zeroable::zeroed();
+    let begin = run.starts.get_mut(number).unwrap_or(&mut spare);
+    let change = particle_step(cx, &mut run.particles.row_mut(number), &run.parents, slot, mutual, begin);
     add_to_tally(counts, population, &change);
 }
 
@@ -86,40 +84,43 @@ fn step_one(
 fn step_lanes<P: Pack>(
     simd: P::Simd,
     cx: &Context<'_>,
-    particles: &mut ParticlesMut<'_>,
-    parents: &ParticleRows<'_>,
-    first: usize,
+    run: &mut Generation<'_>,
     pulls: &[[f32; 4]],
     counts: &mut [u32],
 ) {
-    let count = particles.len();
+    let (count, first) = (run.particles.len(), run.first as usize);
     for begin in (0..count).step_by(BLOCK) {
         let rows = begin..count.min(begin + BLOCK);
         let [here, last] =
-            [rows.start, rows.end - 1].map(|row| particle_population(particles.place[row].bits));
+            [rows.start, rows.end - 1].map(|row| particle_population(run.particles.place[row].bits));
         let population = &cx.scene.populations[here as usize];
         let place = first + begin - population.first_slot as usize;
         let births = &cx.step.births[here as usize];
         let mut left = (1u32 << rows.len()) - 1;
         let is_born_into = || match population.nest.fan {
             0 => births_touch(births, population.count as usize, place),
-            _ => parents_bear(cx, &population.nest, parents, place..place + BLOCK),
+            _ => parents_bear(cx, &population.nest, &run.parents, place..place + BLOCK),
         };
         if here == last && rows.len() == BLOCK && !is_born_into() {
             let whole = "a whole block";
             let mut block = ParticleBlock {
                 slot: slot_word(first + begin),
-                place: (&mut particles.place[rows.clone()]).try_into().expect(whole),
-                motion: (&mut particles.motion[rows.clone()]).try_into().expect(whole),
-                traits: (&particles.traits[rows.clone()]).try_into().expect(whole),
+                place: (&mut run.particles.place[rows.clone()]).try_into().expect(whole),
+                motion: (&mut run.particles.motion[rows.clone()]).try_into().expect(whole),
+                traits: (&run.particles.traits[rows.clone()]).try_into().expect(whole),
                 pulls: pulls
                     .get(first + begin..first + begin + BLOCK)
                     .map(|rows| rows.try_into().expect(whole)),
             };
-            left = block.advance::<P>(simd, cx, here as usize);
+            if (population.flags & POPULATION_FOLLOWED) != 0 {
+                block.begin(&mut run.starts[rows.clone()]);
+            }
+            let frames = ((population.flags & POPULATION_LOCAL) != 0)
+                .then(|| ParentFrames::of(cx, population, &run.parents, &block));
+            left = block.advance::<P>(simd, cx, here as usize, frames.as_ref());
         }
         while left != 0 {
-            step_one(cx, particles, parents, first, begin + left.trailing_zeros() as usize, pulls, counts);
+            step_one(cx, run, begin + left.trailing_zeros() as usize, pulls, counts);
             left &= left - 1;
         }
     }

@@ -7,19 +7,19 @@ use windfall_core::Context;
 use windfall_core::arith::Vec3;
 use windfall_core::arith::lane::{Mask, Word};
 use windfall_core::arith::pack::{BLOCK, Pack, load_block, rows_of_bits, store_block};
+use windfall_core::blocks::PopulationBlock;
 use windfall_core::device::particle::fly::{ParticleFlight, particle_fly};
+use windfall_core::device::particle::local_space::{ParticleFrame, carried_flight, in_frame};
 use windfall_core::device::particle::record::{
-    PARTICLE_ALIVE, PARTICLE_BORN, PARTICLE_DIED, PARTICLE_GROUNDED, PARTICLE_HIT, PARTICLE_RESTING,
-    particle_state,
+    PARTICLE_ALIVE, PARTICLE_GROUNDED, PARTICLE_MARKS, PARTICLE_RESTING, particle_state,
 };
-use windfall_core::device::particle::step::{is_outside, is_unborn, life_is_over, may_be_struck, rest_wakes};
-use windfall_core::particle::{ParticleMotion, ParticlePlace, ParticleTraits};
+use windfall_core::device::particle::step::{
+    is_outside, is_unborn, life_is_over, may_be_struck, rest_wakes, slot_frame,
+};
+use windfall_core::particle::{ParticleMotion, ParticlePlace, ParticleRows, ParticleStart, ParticleTraits};
 
 use super::branch_block::{Column, vector_and_fourth};
 use super::leaf_block::select_four;
-
-/// Marks of the step before, which every step takes off.
-const MARKS: u32 = PARTICLE_BORN | PARTICLE_DIED | PARTICLE_HIT;
 
 /// Slots of one population that follow one another, none of them born in the step.
 pub(crate) struct ParticleBlock<'a> {
@@ -32,14 +32,71 @@ pub(crate) struct ParticleBlock<'a> {
     pub(crate) pulls: Option<&'a Column>,
 }
 
-impl ParticleBlock<'_> {
-    /// Steps those that fly with nothing in their way, rest or wait to be born. Returns a bit for each that needs a step of its own, the
-    /// first in the lowest place.
+/// Frames of the parents that the particles of a block go along with.
+pub(crate) struct ParentFrames {
+    start: Column,
+    start_velocity: Column,
+    end: Column,
+    end_velocity: Column,
+}
+
+impl ParentFrames {
+    /// Frames for a block none of whose particles is born in the step.
+    pub(crate) fn of(
+        cx: &Context<'_>,
+        population: &PopulationBlock,
+        parents: &ParticleRows<'_>,
+        block: &ParticleBlock<'_>,
+    ) -> Self {
+        let mut frames = Self {
+            start: [[0.0; 4]; BLOCK],
+            start_velocity: [[0.0; 4]; BLOCK],
+            end: [[0.0; 4]; BLOCK],
+            end_velocity: [[0.0; 4]; BLOCK],
+        };
+        for (row, slot) in (block.slot..).take(BLOCK).enumerate() {
+            let frame = slot_frame(cx, population, parents, slot, block.motion[row].birth, cx.scene.dt_s);
+            let four = |Vec3 { x, y, z }: Vec3| [x, y, z, 0.0];
+            frames.start[row] = four(frame.start.position);
+            frames.start_velocity[row] = four(frame.start.velocity);
+            frames.end[row] = four(frame.end.position);
+            frames.end_velocity[row] = four(frame.end.velocity);
+        }
+        frames
+    }
+
+    /// Part of the frames, side by side.
     #[inline(always)]
-    pub(crate) fn advance<P: Pack>(&mut self, simd: P::Simd, cx: &Context<'_>, population: usize) -> u32 {
+    fn part<P: Pack>(&self, simd: P::Simd, part: usize) -> ParticleFrame<P> {
+        let vector = |column| vector_and_fourth(load_block::<P>(simd, column, part)).0;
+        ParticleFrame {
+            start: ParticleFlight { position: vector(&self.start), velocity: vector(&self.start_velocity) },
+            end: ParticleFlight { position: vector(&self.end), velocity: vector(&self.end_velocity) },
+        }
+    }
+}
+
+impl ParticleBlock<'_> {
+    /// Notes where the particles start the step.
+    pub(crate) fn begin(&self, starts: &mut [ParticleStart]) {
+        for (start, (place, motion)) in starts.iter_mut().zip(self.place.iter().zip(&*self.motion)) {
+            (start.position, start.velocity) = (place.position, motion.velocity);
+        }
+    }
+
+    /// Steps those that fly with nothing in their way, rest or wait to be born. Returns a bit for each that needs a step of its own, the
+    /// first in the lowest place. `frames` are those of parents that they go along with.
+    #[inline(always)]
+    pub(crate) fn advance<P: Pack>(
+        &mut self,
+        simd: P::Simd,
+        cx: &Context<'_>,
+        population: usize,
+        frames: Option<&ParentFrames>,
+    ) -> u32 {
         let (mut left, mut resting) = (0, 0);
         for part in 0..BLOCK / P::LANES {
-            let [others, lying] = self.advance_part::<P>(simd, cx, population, part);
+            let [others, lying] = self.advance_part::<P>(simd, cx, population, frames, part);
             left |= others << (part * P::LANES);
             resting |= lying << (part * P::LANES);
         }
@@ -62,6 +119,7 @@ impl ParticleBlock<'_> {
         simd: P::Simd,
         cx: &Context<'_>,
         population: usize,
+        frames: Option<&ParentFrames>,
         part: usize,
     ) -> [u32; 2] {
         let population = &cx.scene.populations[population];
@@ -74,13 +132,13 @@ impl ParticleBlock<'_> {
         let (velocity, birth) = vector_and_fourth(motions);
         let flags = bits.to_bits();
         let state = particle_state(flags);
-        let unmarked = flags & !MARKS;
+        let unmarked = flags & !PARTICLE_MARKS;
         let is_over = life_is_over(cx, birth.to_bits(), life_size.to_bits());
         let is_idle = is_unborn(flags);
         let rests = state.equals(PARTICLE_RESTING) & !is_over;
         let flies = state.equals(PARTICLE_ALIVE) & !is_over;
         if !flies.any() {
-            if (!(flags & MARKS).equals(0)).any() {
+            if (!(flags & PARTICLE_MARKS).equals(0)).any() {
                 let [x, y, z, _] = places;
                 store_block(place, part, [x, y, z, P::from_bits(unmarked)]);
             }
@@ -91,7 +149,13 @@ impl ParticleBlock<'_> {
             None => Vec3::<f32>::ZERO.spread(air_a),
         };
         let start = ParticleFlight { position, velocity };
-        let end = particle_fly(cx, population, start, [air_a, air_b], mutual);
+        let end = match frames.map(|frames| frames.part::<P>(simd, part)) {
+            None => particle_fly(cx, population, start, [air_a, air_b], mutual),
+            Some(frame) => {
+                let inside = in_frame(frame, start);
+                carried_flight(frame, particle_fly(cx, population, inside, [air_a, air_b], mutual))
+            }
+        };
         let ends =
             may_be_struck(cx, population, position, end.position) | is_outside(population, end.position);
         let moved = flies & !ends;

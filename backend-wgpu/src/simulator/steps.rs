@@ -151,6 +151,7 @@ impl WgpuSimulator {
     fn encode_step(&self, pass: &mut wgpu::ComputePass<'_>, offset: u32, index: u32) {
         let kernel = |kernel| self.pipelines.kernel(kernel);
         if let Some(particles) = &self.particles {
+            particles.encode_carriers(pass, || kernel(KernelId::CarryForces), offset);
             particles.encode_pulls(pass, || kernel(KernelId::PullParticles), offset);
             particles.encode(pass, kernel(KernelId::StepParticles), offset);
         }

@@ -6,6 +6,7 @@ use glam::DVec3;
 
 use crate::convert::single;
 use crate::device::particle::force::{FORCE_ATTRACT, FORCE_NOISE, FORCE_ROWS, FORCE_SWIRL, FORCE_TURN};
+use crate::device::particle::force_carrier::CarrierRun;
 use crate::device::particle::record::{
     POPULATION_MUTUAL, POPULATION_PULLED, POPULATION_SWIRLED, POPULATION_TURNED,
 };
@@ -13,9 +14,14 @@ use crate::device::wind::vortex::SWIRL_COMPACT;
 use crate::layout::Uint4;
 use crate::scene::{Force, ForceKind, Particles, Scene, SwirlProfile};
 
-/// Forces that a population feels, in its order.
-pub(super) fn felt<'a>(scene: &'a Scene, particles: &'a Particles) -> impl Iterator<Item = &'a Force> {
-    particles.feels.iter().filter_map(|name| scene.forces.iter().find(|force| force.name == *name))
+/// Forces that a population feels, in its order, each with those that carry it: `carriers` has a run for every force of the scene.
+pub(super) fn felt<'a>(
+    scene: &'a Scene,
+    carriers: &'a [CarrierRun],
+    particles: &'a Particles,
+) -> impl Iterator<Item = (&'a Force, &'a CarrierRun)> {
+    let named = move |name: &String| scene.forces.iter().zip(carriers).find(|(force, _)| force.name == *name);
+    particles.feels.iter().filter_map(named)
 }
 
 /// Flag that a force sets in a population that feels it.
@@ -34,11 +40,12 @@ pub(super) fn force_rows(
     scene: &Scene,
     particles: &Particles,
     force: &Force,
+    carriers: &CarrierRun,
 ) -> [Uint4; FORCE_ROWS as usize] {
     let dt = f64::from(scene.dt_s);
     let row = |numbers: [f64; 4]| Uint4(numbers.map(|number| single(number).to_bits()));
     let vector = |of: DVec3| row([of.x, of.y, of.z, 0.0]);
-    let kind = |kind: u32, profile: u32| Uint4([kind, profile, 0, 0]);
+    let kind = |kind: u32, profile: u32| Uint4([kind, profile, carriers.first_row, carriers.count]);
     let turned = |pull: DVec3, half: DVec3| {
         let back = half * (2.0 / (1.0 + half.length_squared()));
         [kind(FORCE_TURN, 0), vector(pull), vector(half), vector(back)]

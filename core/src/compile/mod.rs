@@ -8,6 +8,7 @@ mod body;
 mod cycle;
 mod field;
 mod foliage;
+mod force_carriers;
 mod forces;
 mod jet;
 mod nest;
@@ -31,6 +32,7 @@ pub use self::cycle::Cycle;
 use self::cycle::firm;
 pub(crate) use self::foliage::leaf_site;
 use self::foliage::{foliage_of, petiole_rows, seedlings, shed_rows};
+use self::force_carriers::force_carriers;
 use self::jet::jet_block;
 use self::particles::populations_of;
 use self::shelter::{is_sheltered, shelter_inputs, shelter_rows};
@@ -45,6 +47,8 @@ use crate::context::Context;
 use crate::convert::{len32, single};
 use crate::device::leaf::collide::COLLISION_CELLS_PER_M;
 use crate::device::motion::lookup::MotionRows;
+use crate::device::particle::force_carrier::CarrierRun;
+use crate::device::particle::record::POPULATION_LOCAL;
 use crate::device::terrain::ground::ground_relief;
 use crate::device::wind::gust::{GUST_ROWS, GUST_SPACING, gust_rows};
 use crate::device::wind::profile::profile_rows;
@@ -74,6 +78,7 @@ pub struct CompiledScene {
     forest: Arc<Forest>,
     solids: Arc<Solids>,
     births: Arc<Births>,
+    carriers: Arc<[CarrierRun]>,
     cycle: Option<Cycle>,
 }
 
@@ -129,7 +134,9 @@ impl CompiledScene {
         tables.extend(petiole_rows(scene, &forest, &kinds));
         block.solids = solids.tabulate(scene, &block, &mut tables);
         let births = Births::of(scene, seed);
-        let (populations, forces) = populations_of(scene, len32(tables.len()), births.lead());
+        let (carriers, points) = force_carriers(scene, len32(tables.len()));
+        tables.extend(points);
+        let (populations, forces) = populations_of(scene, &carriers, len32(tables.len()), births.lead());
         block.populations = populations;
         tables.extend(forces);
         block.first_motion_row = len32(tables.len());
@@ -142,6 +149,7 @@ impl CompiledScene {
             forest: forest.into(),
             solids: solids.into(),
             births: births.into(),
+            carriers: carriers.into_iter().filter(|run| run.count != 0).collect(),
             cycle,
         })
     }
@@ -334,12 +342,24 @@ impl CompiledScene {
             motion: MotionRows::new(&self.tables[self.block.first_motion_row as usize..]),
             tables: &self.tables,
             litter: &[],
+            carriers: &[],
         }
     }
 
     /// Height of the ground at a place in metres, whatever the water above it.
     pub fn ground_height(&self, x_m: f32, z_m: f32) -> f32 {
         foot_height(&self.block, &self.tables, x_m, z_m)
+    }
+
+    /// Number of flights at the start of a step that particles need which go along with others: one for each particle, or none.
+    pub fn start_count(&self) -> usize {
+        let flags = self.block.populations.iter().fold(0, |flags, population| flags | population.flags);
+        if (flags & POPULATION_LOCAL) == 0 { 0 } else { self.scene.particle_count() as usize }
+    }
+
+    /// Forces that particles carry.
+    pub fn carriers(&self) -> &[CarrierRun] {
+        &self.carriers
     }
 
     /// Births of particles.
@@ -366,7 +386,14 @@ fn profile_rows_of(scene: &Scene) -> Vec<Uint4> {
 /// Height of the ground in metres, whatever the water above it.
 fn foot_height(block: &SceneBlock, tables: &[Uint4], x_m: f32, z_m: f32) -> f32 {
     let step = bytemuck::Zeroable::zeroed();
-    let cx = Context { scene: block, step: &step, motion: MotionRows::new(&[]), tables, litter: &[] };
+    let cx = Context {
+        scene: block,
+        step: &step,
+        motion: MotionRows::new(&[]),
+        tables,
+        litter: &[],
+        carriers: &[],
+    };
     let relief = if block.has_terrain() { ground_relief(&cx, x_m, z_m) } else { 0.0 };
     block.ground_height_m + relief
 }

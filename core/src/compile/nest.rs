@@ -4,7 +4,7 @@
 
 use crate::blocks::NestBlock;
 use crate::device::particle::nest::{NEST_BIRTH, NEST_DEATH, NEST_EVERY, NEST_HIT};
-use crate::scene::{ParticleEvent, Particles};
+use crate::scene::{ParticleEvent, Particles, Space};
 
 /// Births of a population by one of those before it, which have slots from `slots` on, in a world that begins `lead` steps before time zero.
 pub(super) fn nest_block(
@@ -29,6 +29,7 @@ pub(super) fn nest_block(
         parent_slot: slots[at],
         parent_count: earlier[at].count,
         first_step: 0u32.wrapping_sub(lead),
-        inherit: nest.inherit,
+        // In its own frame a parent is at rest.
+        inherit: if nest.space == Space::Local { 1.0 } else { nest.inherit },
     })
 }

@@ -12,24 +12,26 @@ use crate::device::particle::air::{AIR_LINEAR, AIR_MASSLESS, AIR_QUADRATIC, AIR_
 use crate::device::particle::birth::{
     PARTICLE_BALL, PARTICLE_BOX, PARTICLE_CONE, PARTICLE_DISC, PARTICLE_LINE, PARTICLE_RING, PARTICLE_SHELL,
 };
+use crate::device::particle::force_carrier::CarrierRun;
 use crate::device::particle::record::{
     DIRECTION_AROUND, DIRECTION_CAP, DIRECTION_OUTWARD, MEETS_BOUNCE, MEETS_DIE, MEETS_NOTHING, MEETS_STICK,
-    POPULATION_LOSS,
+    POPULATION_FOLLOWED, POPULATION_LOCAL, POPULATION_LOSS,
 };
 use crate::layout::Uint4;
 use crate::motion::AIR_DENSITY;
 use crate::scene::{
     Air, Bounds, Direction, ForceKind, MAX_POPULATIONS, Meets, ObjectFriction, ParticleShape, Particles,
-    Scene, Spread, VISCOSITY_PA_S,
+    Scene, Space, Spread, VISCOSITY_PA_S,
 };
 
 /// Coordinate in m beyond which particles die: tables are looked up in units that a float counts exactly.
 const BOUNDLESS_M: f32 = 1e5;
 
-/// Populations of a scene from a row of the tables on, and the rows of the forces that they feel. The first steps come `lead` steps before
-/// time zero.
+/// Populations of a scene from a row of the tables on, and the rows of the forces that they feel, which `carriers` carry. The first steps come
+/// `lead` steps before time zero.
 pub(super) fn populations_of(
     scene: &Scene,
+    carriers: &[CarrierRun],
     first_row: u32,
     lead: u32,
 ) -> ([PopulationBlock; MAX_POPULATIONS], Vec<Uint4>) {
@@ -41,12 +43,21 @@ pub(super) fn populations_of(
         *block = population_block(scene, particles);
         if let Some(nest) = nest_block(particles, &scene.particles[..slots.len()], &slots, lead) {
             block.nest = nest;
+            if particles.nest.as_ref().is_some_and(|nest| nest.space == Space::Local) {
+                block.flags |= POPULATION_LOCAL;
+            }
+        }
+        let follows = |other: &Particles| {
+            other.nest.as_ref().is_some_and(|nest| nest.of == particles.name && nest.space == Space::Local)
+        };
+        if scene.particles.iter().any(follows) {
+            block.flags |= POPULATION_FOLLOWED;
         }
         block.first_slot = first_slot;
         slots.push(first_slot);
         first_slot += particles.count;
         block.first_force_row = first_row + len32(rows.len());
-        for force in felt(scene, particles) {
+        for (force, run) in felt(scene, carriers, particles) {
             block.flags |= flag_of(force);
             if let ForceKind::Mutual { gm_m3_s2, softening_m } = force.of {
                 block.mutual_gm_m3_s2 = gm_m3_s2;
@@ -54,7 +65,7 @@ pub(super) fn populations_of(
                 continue;
             }
             block.force_count += 1;
-            rows.extend(force_rows(scene, particles, force));
+            rows.extend(force_rows(scene, particles, force, run));
         }
     }
     (blocks, rows)

@@ -6,8 +6,11 @@ mod run;
 mod stats;
 mod store;
 
-pub use crate::device::particle::record::{ParticleMotion, ParticlePlace, ParticleRun, ParticleTraits};
-pub use run::{add_to_tally, each_generation};
+pub use crate::device::particle::force_carrier::CarrierRun;
+pub use crate::device::particle::record::{
+    ParticleMotion, ParticlePlace, ParticleRun, ParticleStart, ParticleTraits,
+};
+pub use run::{Generation, add_to_tally, each_generation, place_carriers};
 pub(crate) use run::{step_all, step_run};
 pub use stats::ParticleStats;
 pub use store::{

@@ -5,11 +5,13 @@
 use super::store::{ParticleRows, ParticleStore, ParticlesMut, TallyStore};
 use crate::arith::vector::Vec3;
 use crate::blocks::PopulationBlock;
+use crate::compile::CompiledScene;
 use crate::context::Context;
+use crate::device::particle::force_carrier::{CarrierRun, carrier_rows};
 use crate::device::particle::mutual::{mutual_pull, mutual_source};
 use crate::device::particle::record::{
-    POPULATION_MUTUAL, TALLY_BORN, TALLY_CUT_SHORT, TALLY_DIED, TALLY_HITS, TALLY_STOPPED, TALLY_WORDS,
-    particle_population,
+    POPULATION_MUTUAL, ParticleStart, TALLY_BORN, TALLY_CUT_SHORT, TALLY_DIED, TALLY_HITS, TALLY_STOPPED,
+    TALLY_WORDS, particle_population,
 };
 use crate::device::particle::step::{ParticleChange, particle_step};
 
@@ -51,18 +53,64 @@ pub(crate) fn mutual_pulls(cx: &Context<'_>, particles: &ParticleStore) -> Vec<V
     pulls
 }
 
-/// Calls `step` with particles that do not see each other, one run of slots after another: all that go through a step before them, their
-/// parents among these, the first slot, and the run. There is one run if no particles are born of others.
+/// Rows of all carriers of forces where they are at the start of a step, in the place of those of the step before.
+pub fn place_carriers(
+    cx: &Context<'_>,
+    runs: &[CarrierRun],
+    particles: &ParticleStore,
+    rows: &mut Vec<[f32; 4]>,
+) {
+    rows.clear();
+    for run in runs {
+        let slots = run.first as usize..(run.first + run.count) as usize;
+        rows.extend(slots.flat_map(|slot| {
+            carrier_rows(cx, run, &particles.place[slot], &particles.motion[slot], &particles.traits[slot])
+        }));
+    }
+}
+
+/// Particles that do not see each other, and go through a step together.
+#[derive(Debug)]
+pub struct Generation<'a> {
+    /// All that go through the step before them, their parents among these.
+    pub parents: ParticleRows<'a>,
+    /// First slot.
+    pub first: u32,
+    /// The particles.
+    pub particles: ParticlesMut<'a>,
+    /// Their flights at the start of the step; empty where none go along with others.
+    pub starts: &'a mut [ParticleStart],
+}
+
+impl<'a> Generation<'a> {
+    /// The particles up to a slot, `count` from the first, and those behind it.
+    pub fn split_at(self, count: usize) -> (Self, Self) {
+        let Self { parents, first, particles, starts } = self;
+        let (front, back) = particles.split_at(count);
+        let (front_starts, back_starts) = starts.split_at_mut(count.min(starts.len()));
+        #[expect(clippy::cast_possible_truncation, reason = "slots are counted in words")]
+        let next = first + count as u32;
+        (
+            Generation { parents, first, particles: front, starts: front_starts },
+            Generation { parents, first: next, particles: back, starts: back_starts },
+        )
+    }
+}
+
+/// Calls `step` with one generation of particles after another; there is one if no particles are born of others. `starts` are as many as
+/// particles, or none.
 pub fn each_generation(
     populations: &[PopulationBlock],
     particles: &mut ParticleStore,
-    mut step: impl FnMut(&ParticleRows<'_>, u32, ParticlesMut<'_>),
+    starts: &mut [ParticleStart],
+    mut step: impl FnMut(Generation<'_>),
 ) {
     let mut first = 0;
     let mut next = |end: u32| {
         let (earlier, rest) = particles.as_mut().split_at(first as usize);
-        let (run, _) = rest.split_at((end - first) as usize);
-        step(&earlier.rows(), first, run);
+        let (earlier_starts, starts) = starts.split_at_mut(starts.len().min(first as usize));
+        let all = Generation { parents: earlier.rows(earlier_starts), first, particles: rest, starts };
+        step(all.split_at((end - first) as usize).0);
         first = end;
     };
     let mut begin = 0;
@@ -77,27 +125,32 @@ pub fn each_generation(
     next(end);
 }
 
-/// Steps the particles of a run of slots from `first` on, on which others act with accelerations, behind their parents.
-pub(crate) fn step_run(
-    cx: &Context<'_>,
-    run: &mut ParticlesMut<'_>,
-    parents: &ParticleRows<'_>,
-    first: u32,
-    pulls: &[Vec3],
-    counts: &mut [u32],
-) {
-    for (slot, mut particle) in (first..).zip(run.iter_mut()) {
+/// Steps particles of a generation, on which others act with accelerations.
+pub(crate) fn step_run(cx: &Context<'_>, run: &mut Generation<'_>, pulls: &[Vec3], counts: &mut [u32]) {
+    let mut starts = run.starts.iter_mut();
+    for (slot, mut particle) in (run.first..).zip(run.particles.iter_mut()) {
         let population = particle_population(particle.place.bits);
         let pull = pulls.get(slot as usize).copied().unwrap_or(Vec3::ZERO);
-        let change = particle_step(cx, &mut particle, parents, slot, pull);
+        let mut spare = bytemuck::Zeroable::zeroed();
+        let begin = starts.next().unwrap_or(&mut spare);
+        let change = particle_step(cx, &mut particle, &run.parents, slot, pull, begin);
         add_to_tally(counts, population, &change);
     }
 }
 
 /// Steps all particles of a world.
-pub(crate) fn step_all(cx: &Context<'_>, particles: &mut ParticleStore, tallies: &mut TallyStore) {
+pub(crate) fn step_all(
+    cx: &Context<'_>,
+    compiled: &CompiledScene,
+    particles: &mut ParticleStore,
+    tallies: &mut TallyStore,
+) {
     let pulls = mutual_pulls(cx, particles);
-    each_generation(&cx.scene.populations, particles, |parents, first, mut run| {
-        step_run(cx, &mut run, parents, first, &pulls, &mut tallies.count);
+    let mut carriers = Vec::new();
+    place_carriers(cx, compiled.carriers(), particles, &mut carriers);
+    let cx = &cx.with_carriers(&carriers);
+    let mut starts = vec![bytemuck::Zeroable::zeroed(); compiled.start_count()];
+    each_generation(&cx.scene.populations, particles, &mut starts, |mut run| {
+        step_run(cx, &mut run, &pulls, &mut tallies.count);
     });
 }

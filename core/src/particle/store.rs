@@ -3,7 +3,8 @@
 //! The particle store, and the counts of what has happened to each population.
 
 use crate::device::particle::record::{
-    PARTICLE_DORMANT, ParticleMotion, ParticlePlace, ParticleTraits, TALLY_WORDS, particle_bits,
+    PARTICLE_DORMANT, ParticleMotion, ParticlePlace, ParticleStart, ParticleTraits, TALLY_WORDS,
+    particle_bits,
 };
 use crate::scene::Scene;
 
@@ -32,12 +33,14 @@ pub struct ParticleRows<'a> {
     pub motion: &'a [ParticleMotion],
     /// Numbers that stay for a life.
     pub traits: &'a [ParticleTraits],
+    /// Flights at the start of the step; empty where no particles go along with others.
+    pub starts: &'a [ParticleStart],
 }
 
 impl ParticlesMut<'_> {
-    /// The same, to be read only.
-    pub fn rows(&self) -> ParticleRows<'_> {
-        ParticleRows { place: self.place, motion: self.motion, traits: self.traits }
+    /// The same, to be read only, with their flights at the start of the step.
+    pub fn rows<'a>(&'a self, starts: &'a [ParticleStart]) -> ParticleRows<'a> {
+        ParticleRows { place: self.place, motion: self.motion, traits: self.traits, starts }
     }
 }
 

@@ -23,9 +23,9 @@ pub enum SwirlProfile {
 /// Kind of a force.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum ForceKind {
-    /// Attraction by a point, softened as by a Plummer sphere: GM d / (d² + softening²)^1.5.
+    /// Attraction by a point, or by each carrier, softened as by a Plummer sphere: GM d / (d² + softening²)^1.5.
     Attract {
-        /// Place in metres, each component -4096 to 4096.
+        /// Place in metres, each component -4096 to 4096; of carried ones from their carriers.
         at_m: Vec3,
         /// Product GM of the constant of gravitation and a mass in m³/s², -1000000 to 1000000; below zero it repels.
         gm_m3_s2: f32,
@@ -63,7 +63,7 @@ pub enum ForceKind {
     },
     /// Turn of the place about an axis, whatever the velocity; at most half a radian in a step.
     Swirl {
-        /// A point of the axis in metres, each component -4096 to 4096.
+        /// A point of the axis in metres, each component -4096 to 4096; of carried ones from their carriers.
         at_m: Vec3,
         /// Axis, each component -1000 to 1000, at least 0.001 long.
         axis: Vec3,
@@ -76,6 +76,20 @@ pub enum ForceKind {
     },
 }
 
+/// Particles that carry a force along: it acts from each that is alive, and they may act on one another.
+///
+/// # Source
+/// Ilmonen and Kontkanen, "The Second Order Particle System" (2003), where forces are particles as well.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct ForceCarriers {
+    /// Name of their population, of at most 64 slots.
+    pub of: String,
+    /// Multiplier of the force over the age of a carrier as a share of its life, -1000 to 1000: linear between its points, whose ages rise, and
+    /// constant beyond; without points it is one. Of carriers that do not age the first point counts.
+    pub strength: Vec<(f32, f32)>,
+}
+
 /// A force on the particles of populations that name it in `feels`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -84,4 +98,7 @@ pub struct Force {
     pub name: String,
     /// Kind.
     pub of: ForceKind,
+    /// Particles that carry it, if it attracts or swirls; with `None` it stays where it is.
+    #[serde(default)]
+    pub carried_by: Option<ForceCarriers>,
 }

@@ -125,6 +125,7 @@ limits! {
     BELOW: f32 = -4096.0, 4096.0, "m", Below;
     PARTICLE_BRIGHTNESS_KCD_M2: f32 = 0.001, 1000000.0, "kcd/m²", brightness_kcd_m2;
     OPACITY: f32 = 0.0, 1.0, "", opacity;
+    CARRIED_STRENGTH: f32 = -1000.0, 1000.0, "", strength;
     SIZE_OVER_AGE: f32 = 0.0, 1000.0, "", size;
     BLINK_S: f32 = 0.1, 60.0, "s", blink_s;
     BLOB_RADIUS_M: f32 = 0.001, 10.0, "m", radius_m;

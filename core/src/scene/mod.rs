@@ -35,12 +35,12 @@ mod wind;
 use serde::{Deserialize, Serialize};
 
 pub use flight::{Aerodynamics, FlightModel, Hold, Planform};
-pub use force::{Force, ForceKind, SwirlProfile};
+pub use force::{Force, ForceCarriers, ForceKind, SwirlProfile};
 pub use ground::Ground;
 pub use jet::{Jet, JetKey};
 pub use lens::{Exposure, Focus, Glare, Lens, ToneMap};
 pub use litter::Litter;
-pub use nest::{Nest, ParticleEvent};
+pub use nest::{Nest, ParticleEvent, Space};
 pub use object::{Object, ObjectFriction, ObjectKey, ObjectMotion, ObjectShape, PLANE_REACH_M, Walker};
 pub use particle_look::{Look, LookKind, LookSample, MAX_BLOBS, lone_blob_radius};
 pub use particles::{
@@ -97,6 +97,8 @@ pub const MAX_POPULATIONS: usize = 16;
 pub const MAX_FORCES: usize = 16;
 /// Most slots of a population whose particles attract one another.
 pub const MAX_MUTUAL: u32 = 1 << 16;
+/// Most slots of a population that carries a force.
+pub const MAX_CARRIERS: u32 = 64;
 /// Dynamic viscosity of air at 20 °C in Pa s.
 pub const VISCOSITY_PA_S: f32 = 1.813e-5;
 /// Most particles a scene may have, over all populations.

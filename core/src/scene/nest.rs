@@ -20,6 +20,17 @@ pub enum ParticleEvent {
     },
 }
 
+/// Frame in which particles move that are born of others.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Space {
+    /// That of the world.
+    #[default]
+    World,
+    /// That of their parent as long as it lives: they go along with it, and turn with its way. They feel the wind, forces and what is in the
+    /// way where they are in the world, but not the parent's own motion. When it dies they go on as they are.
+    Local,
+}
+
 /// Births of particles by those of another population.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
@@ -30,14 +41,23 @@ pub struct Nest {
     pub on: ParticleEvent,
     /// Number born at each event, 1 to 64.
     pub fan: u32,
-    /// Share of the parent's velocity that they set off with besides their own, -1 to 1.
+    /// Share of the parent's velocity that they set off with besides their own, -1 to 1; does not count with `Local`.
     pub inherit: f32,
     /// Radius in metres of the ball around the parent that they start in, 0 to 4096.
     pub radius_m: f32,
+    /// Frame in which they move.
+    pub space: Space,
 }
 
 impl Default for Nest {
     fn default() -> Self {
-        Self { of: String::new(), on: ParticleEvent::Death, fan: 1, inherit: 0.0, radius_m: 0.0 }
+        Self {
+            of: String::new(),
+            on: ParticleEvent::Death,
+            fan: 1,
+            inherit: 0.0,
+            radius_m: 0.0,
+            space: Space::World,
+        }
     }
 }

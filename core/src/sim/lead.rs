@@ -7,7 +7,7 @@ use std::sync::{Mutex, PoisonError};
 use super::world::World;
 use crate::clock::Clock;
 use crate::compile::CompiledScene;
-use crate::particle::{ParticlesMut, each_generation, step_run};
+use crate::particle::{Generation, each_generation, place_carriers, step_run};
 use crate::threads::on_all;
 
 /// Steps whose blocks are made at once.
@@ -21,8 +21,10 @@ pub(super) fn lead_in(world: &mut World) {
     let World { compiled, clock, bed, particles, tallies, .. } = world;
     let lead = compiled.births().lead();
     let mut before = start(compiled, clock.dt_s(), lead);
-    // Particles see how their parents have gone through the same step.
-    let most = if compiled.block().has_nests() { 1 } else { STEPS };
+    // Particles see how their parents have gone through the same step, and where carriers of forces begin it.
+    let (mut carriers, mut starts) = (Vec::new(), vec![bytemuck::Zeroable::zeroed(); compiled.start_count()]);
+    let sees_others = compiled.block().has_nests() || !compiled.carriers().is_empty();
+    let most = if sees_others { 1 } else { STEPS };
     let mut left = lead;
     while left > 0 {
         let count = left.min(most);
@@ -35,14 +37,18 @@ pub(super) fn lead_in(world: &mut World) {
             })
             .collect();
         let steps: Vec<_> = blocks.iter().map(|block| compiled.context(block).over(&bed.words)).collect();
+        if let [cx] = &steps[..] {
+            place_carriers(cx, compiled.carriers(), particles, &mut carriers);
+        }
+        let steps: Vec<_> = steps.into_iter().map(|cx| cx.with_carriers(&carriers)).collect();
         let sums = Mutex::new(&mut tallies.count);
-        each_generation(&compiled.block().populations, particles, |parents, first, generation| {
-            let runs = Mutex::new(runs_of(generation, first));
+        each_generation(&compiled.block().populations, particles, &mut starts, |generation| {
+            let runs = Mutex::new(runs_of(generation));
             let next = || runs.lock().unwrap_or_else(PoisonError::into_inner).next();
             on_all(|| {
                 let mut counts = vec![0; sums.lock().unwrap_or_else(PoisonError::into_inner).len()];
-                while let Some((first, mut run)) = next() {
-                    steps.iter().for_each(|cx| step_run(cx, &mut run, parents, first, &[], &mut counts));
+                while let Some(mut run) = next() {
+                    steps.iter().for_each(|cx| step_run(cx, &mut run, &[], &mut counts));
                 }
                 let mut sums = sums.lock().unwrap_or_else(PoisonError::into_inner);
                 sums.iter_mut().zip(counts).for_each(|(sum, count)| *sum = sum.wrapping_add(count));
@@ -59,16 +65,14 @@ fn start(compiled: &CompiledScene, dt_s: f32, lead: u32) -> Clock {
     Clock::at(0u32.wrapping_sub(lead), dt_s, travel_m).with_born(compiled.births().before(-i64::from(lead)))
 }
 
-/// Runs of slots from a first one on, each with its own first.
-fn runs_of(particles: ParticlesMut<'_>, first: u32) -> impl Iterator<Item = (u32, ParticlesMut<'_>)> {
-    let mut rest = Some((first, particles));
+/// Runs of a generation, each small enough to stay in the cache.
+fn runs_of(generation: Generation<'_>) -> impl Iterator<Item = Generation<'_>> {
+    let mut rest = Some(generation);
     std::iter::from_fn(move || {
-        let (first, particles) = rest.take().filter(|(_, particles)| !particles.is_empty())?;
-        let count = RUN.min(particles.len());
-        let (front, back) = particles.split_at(count);
-        #[expect(clippy::cast_possible_truncation, reason = "slots are counted in words")]
-        let next = first + count as u32;
-        rest = Some((next, back));
-        Some((first, front))
+        let generation = rest.take().filter(|generation| !generation.particles.is_empty())?;
+        let count = RUN.min(generation.particles.len());
+        let (front, back) = generation.split_at(count);
+        rest = Some(back);
+        Some(front)
     })
 }

@@ -132,7 +132,7 @@ fn terminal_speeds_are_those_of_their_laws() {
 }
 
 fn felt(name: &str, of: ForceKind) -> Force {
-    Force { name: name.into(), of }
+    Force { name: name.into(), of, carried_by: None }
 }
 
 /// Boris' rotation: the radius is exact at any step, and the period longer by (w dt/2)/atan(w dt/2).

@@ -46,7 +46,7 @@ fn own_of<T: Copy>(own: Option<&Vec<(f32, T)>>, point: usize) -> Option<T> {
 
 /// Rows that choose a point of a curve, add and remove some, and move it between its neighbours; the chosen one, if there is any. The
 /// first one that is added stands at birth with `first`.
-fn points<T: Copy>(
+pub(super) fn points<T: Copy>(
     ui: &mut Ui,
     list: List<'_>,
     age_name: &str,

@@ -2,13 +2,18 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Forces on particles besides weight and drag.
 
-use egui::{RichText, Ui};
+use egui::{ComboBox, RichText, Ui};
 use glam::Vec3;
 use windfall_core::Scene;
-use windfall_core::scene::{Air, Force, ForceKind, MAX_FORCES, SwirlProfile, limits};
+use windfall_core::scene::{
+    Air, Force, ForceCarriers, ForceKind, MAX_CARRIERS, MAX_CURVE_POINTS, MAX_FORCES, Particles,
+    SwirlProfile, limits,
+};
 
-use super::field::{choice, field, vector};
+use super::curves;
+use super::field::{CONTROL_WIDTH, choice, field, reset, vector};
 use super::list::{List, free_name};
+use super::rows::row;
 use super::style;
 
 /// A force that acts on whatever has a mass.
@@ -26,7 +31,7 @@ pub(super) fn show(ui: &mut Ui, scene: &mut Scene, own: &Scene) {
     let fresh = |like: Option<&Force>, all: &[Force]| {
         let name = like.map_or("force", |like| &*like.name);
         let name = free_name(name, all.iter().map(|force| &*force.name));
-        Force { name, of: FRESH }
+        Force { name, of: FRESH, carried_by: None }
     };
     let before: Vec<String> = scene.forces.iter().map(|force| force.name.clone()).collect();
     let chosen = list.show(ui, &mut scene.forces, name, fresh);
@@ -38,8 +43,78 @@ pub(super) fn show(ui: &mut Ui, scene: &mut Scene, own: &Scene) {
         scene.particles[index].feels.push(force.name.clone());
     }
     let Some(index) = chosen else { return };
-    let own = own.forces.get(index).map(|own| &own.of);
-    kind(ui, &mut scene.forces[index].of, own);
+    let own = own.forces.get(index);
+    let names = carriers(&scene.particles);
+    let force = &mut scene.forces[index];
+    kind(ui, &mut force.of, own.map(|own| &own.of));
+    if matches!(force.of, ForceKind::Attract { .. } | ForceKind::Swirl { .. }) {
+        carried_by(ui, &mut force.carried_by, &names, own.map(|own| &own.carried_by));
+    } else {
+        force.carried_by = None;
+    }
+}
+
+/// Names of the populations that may carry a force.
+fn carriers(particles: &[Particles]) -> Vec<String> {
+    particles.iter().filter(|one| one.count <= MAX_CARRIERS).map(|one| one.name.clone()).collect()
+}
+
+/// Makes forces follow an edit of the populations that carry them: other names, too many slots, and those that are gone.
+pub(super) fn follow(scene: &mut Scene, before: &[Particles]) {
+    let Scene { particles, forces, .. } = scene;
+    let may_carry = carriers(particles);
+    for force in forces {
+        let Some(carriers) = &mut force.carried_by else { continue };
+        let renamed = before.iter().zip(&*particles).find(|(old, _)| old.name == carriers.of);
+        if let Some((_, now)) = renamed.filter(|_| before.len() == particles.len()) {
+            carriers.of.clone_from(&now.name);
+        }
+        if !may_carry.contains(&carriers.of) {
+            force.carried_by = None;
+        }
+    }
+}
+
+/// Rows of the particles that carry a force, and of its strength over their age.
+fn carried_by(
+    ui: &mut Ui,
+    carried_by: &mut Option<ForceCarriers>,
+    names: &[String],
+    own: Option<&Option<ForceCarriers>>,
+) {
+    let name = "Carried by";
+    let of = |carriers: &Option<ForceCarriers>| carriers.as_ref().map(|carriers| carriers.of.clone());
+    let chosen = of(carried_by);
+    let own_differs = own.filter(|own| of(own) != chosen);
+    let mut back = false;
+    let tip = "Population that the force acts from, or nothing: from where it is";
+    row(ui, name, tip, |ui| {
+        let text = chosen.clone().unwrap_or_else(|| "nothing".into());
+        let combo = ComboBox::from_id_salt(name).selected_text(text).width(CONTROL_WIDTH).truncate();
+        let response = combo.show_ui(ui, |ui| {
+            for option in std::iter::once(None).chain(names.iter().cloned().map(Some)) {
+                let label = option.as_deref().unwrap_or("nothing");
+                if ui.selectable_label(option == chosen, label).clicked() && option != chosen {
+                    let like = carried_by.take().unwrap_or_default();
+                    *carried_by = option.map(|of| ForceCarriers { of, ..like });
+                }
+            }
+        });
+        back = own_differs.is_some() && reset(ui, name);
+        response.response
+    });
+    if let Some(own) = own_differs.filter(|_| back) {
+        carried_by.clone_from(own);
+    }
+    let Some(carriers) = carried_by else { return };
+    let own = own.and_then(Option::as_ref);
+    let list = List { name: "Strengths", entry: "strength point", fewest: 0, most: MAX_CURVE_POINTS };
+    if let Some(point) = curves::points(ui, list, "Strength age", &mut carriers.strength, 1.0) {
+        let own = own.and_then(|own| own.strength.get(point)).map(|(_, strength)| *strength);
+        let tip = "Multiplier of the force at this age of a carrier";
+        let strength = field("Strength share", tip, limits::CARRIED_STRENGTH).wide();
+        strength.show(ui, &mut carriers.strength[point].1, own);
+    }
 }
 
 /// The kind of a force in a word.
@@ -140,3 +215,27 @@ fn kind(ui: &mut Ui, kind: &mut ForceKind, own: Option<&ForceKind>) {
 const GM: &str = "Product of the constant of gravitation and the mass; below zero it repels";
 /// Meaning of a softening length.
 const SOFTENING: &str = "Length over which the force is softened";
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn forces_follow_the_particles_that_carry_them() {
+        let text = "(particles: [(name: \"whirl\", count: 8, release: Burst(at_s: 0.0), feels: [\"pull\"])],
+            forces: [(name: \"pull\", of: Attract(at_m: (0.0, 0.0, 0.0), gm_m3_s2: 1.0, softening_m: 0.1),
+                      carried_by: Some((of: \"whirl\")))])";
+        let before = Scene::from_ron(text, "whirl").expect("RON");
+        let carried = |scene: &Scene| scene.forces[0].carried_by.as_ref().map(|carriers| carriers.of.clone());
+        let edited = |edit: fn(&mut Scene)| {
+            let mut scene = before.clone();
+            edit(&mut scene);
+            follow(&mut scene, &before.particles);
+            carried(&scene)
+        };
+        assert_eq!(edited(|_| {}).as_deref(), Some("whirl"));
+        assert_eq!(edited(|scene| scene.particles[0].name = "devil".into()).as_deref(), Some("devil"));
+        assert_eq!(edited(|scene| scene.particles[0].count = MAX_CARRIERS + 1), None, "too many");
+        assert_eq!(edited(|scene| scene.particles.clear()), None, "gone");
+    }
+}

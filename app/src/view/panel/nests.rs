@@ -5,7 +5,7 @@
 use egui::{ComboBox, Ui};
 use windfall_core::Scene;
 use windfall_core::scene::limits::{self, Limit};
-use windfall_core::scene::{Nest, ParticleEvent, Particles};
+use windfall_core::scene::{Nest, ParticleEvent, Particles, Space};
 
 use super::field::{CONTROL_WIDTH, choice, field, reset};
 use super::rows::row;
@@ -28,6 +28,9 @@ pub(super) fn show(ui: &mut Ui, scene: &mut Scene, index: usize, own: Option<&Pa
     let tip = "Radius of the ball around the parent that they start in";
     let radius = field("Start within", tip, limits::RADIUS_M).fine(0.001);
     radius.show(ui, &mut nest.radius_m, own.map(|own| own.radius_m));
+    let options = [("the world", Space::World), ("its parent", Space::Local)];
+    let tip = "Frame in which they move: the world's, or their parent's as long as it lives";
+    choice(ui, "Moves in", tip, &mut nest.space, own.map(|own| &own.space), &options);
     if scene.particles[index].nest != before {
         make_room(scene, index);
     }

@@ -15,7 +15,7 @@ use super::field::{choice, field, vector};
 use super::list::{List, free_name};
 use super::rows::title;
 use super::words::text;
-use super::{curves, nests};
+use super::{curves, forces, nests};
 use crate::run::digits::grouped;
 
 pub(super) fn show(ui: &mut Ui, scene: &mut Scene, own: &Scene) {
@@ -32,6 +32,7 @@ pub(super) fn show(ui: &mut Ui, scene: &mut Scene, own: &Scene) {
     let tip = "Name of the population, unlike those of the others";
     text(ui, "Called", tip, &mut one.name, own.map(|own| &*own.name), 1);
     nests::follow(&mut scene.particles, &before);
+    forces::follow(scene, &before);
     title(ui, "Birth");
     if !nests::show(ui, scene, index, own) {
         let one = &mut scene.particles[index];

@@ -11,3 +11,7 @@
 @group(1) @binding(4) var<storage, read_write> particle_tallies: array<atomic<u32>>;
 // Acceleration by others of the population in m/s²; read only where there is any.
 @group(1) @binding(5) var<storage, read> particle_pulls: array<vec4<f32>>;
+// Rows of the particles that carry forces (see core/src/device/particle/force_carrier.rs); read only where there are any.
+@group(1) @binding(6) var<storage, read> particle_carriers: array<vec4<f32>>;
+// Flights at the start of the step of particles that others go along with; as many as there are particles where there are any.
+@group(1) @binding(7) var<storage, read_write> particle_starts: array<ParticleStart>;

@@ -6,6 +6,7 @@
 #import arith/vector
 #import particle/birth
 #import particle/fly
+#import particle/local_space
 #import particle/nest
 #import particle/record
 #import particle/strike
@@ -83,6 +84,17 @@ fn slot_birth(particle: u32, slot: u32, change: ptr<function, ParticleChange>) -
     return rest;
 }
 
+fn slot_frame(particle: u32, slot: u32, birth: u32, new_way_s: f32) -> ParticleFrame {
+    let number = particle_population(particle_places[particle].bits);
+    let first = scene.populations[number].first_slot;
+    let row = particle - (slot - (scene.populations[number].nest.parent_slot + nest_place(number, slot - first).parent));
+    let frame = parent_frame(particle_places[row], particle_motions[row], particle_starts[row], birth);
+    if (birth == step_block.index) {
+        return rest_frame(frame, new_way_s);
+    }
+    return frame;
+}
+
 fn particle_step(particle: u32, slot: u32, mutual: vec3<f32>) -> ParticleChange {
     var change = ParticleChange(0u, 0u, 0u, 0u, 0u);
     let number = particle_population(particle_places[particle].bits);
@@ -98,6 +110,10 @@ fn particle_step(particle: u32, slot: u32, mutual: vec3<f32>) -> ParticleChange 
         particle_places[particle].bits = with_particle_state(particle_places[particle].bits, PARTICLE_DEAD) | PARTICLE_DIED;
         change.died = 1u;
     }
+    if ((scene.populations[number].flags & POPULATION_FOLLOWED) != 0u) {
+        particle_starts[particle].position = particle_places[particle].position;
+        particle_starts[particle].velocity = particle_motions[particle].velocity;
+    }
     if (is_new) {
         if (rest <= 0.0) {
             return change;
@@ -108,11 +124,21 @@ fn particle_step(particle: u32, slot: u32, mutual: vec3<f32>) -> ParticleChange 
     var bits = particle_places[particle].bits;
     let start = ParticleFlight(particle_places[particle].position, particle_motions[particle].velocity);
     let felt = select(mutual, vec3<f32>(0.0, 0.0, 0.0), is_new);
-    var end = particle_fly(number, start, particle_traits[particle].air, felt);
     let time = scene.dt_s * rest;
+    let is_local = (scene.populations[number].flags & POPULATION_LOCAL) != 0u;
+    var inside = start;
+    var frame: ParticleFrame;
+    if (is_local) {
+        frame = slot_frame(particle, slot, particle_motions[particle].birth, time);
+        inside = in_frame(frame, start);
+    }
+    var end = particle_fly(number, inside, particle_traits[particle].air, felt);
     if (rest < 1.0) {
-        end.position = start.position + (end.position - start.position) * rest;
-        end.velocity = start.velocity + (end.velocity - start.velocity) * rest;
+        end.position = inside.position + (end.position - inside.position) * rest;
+        end.velocity = inside.velocity + (end.velocity - inside.velocity) * rest;
+    }
+    if (is_local) {
+        end = carried_flight(frame, end);
     }
     var state = PARTICLE_ALIVE;
     bits = bits & ~PARTICLE_GROUNDED;

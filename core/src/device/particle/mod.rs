@@ -7,6 +7,8 @@ pub mod birth;
 pub mod draw;
 pub mod fly;
 pub mod force;
+pub mod force_carrier;
+pub mod local_space;
 pub mod mutual;
 pub mod nest;
 pub mod record;

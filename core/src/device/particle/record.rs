@@ -56,6 +56,10 @@ crate::shared_constants! {
     pub const POPULATION_SWIRLED: u32 = 8;
     /// Flag of a population: its particles attract one another.
     pub const POPULATION_MUTUAL: u32 = 16;
+    /// Flag of a population: its particles go along with their parents.
+    pub const POPULATION_LOCAL: u32 = 32;
+    /// Flag of a population: others go along with its particles.
+    pub const POPULATION_FOLLOWED: u32 = 64;
     /// Particles set off within a cap of directions.
     pub const DIRECTION_CAP: u32 = 0;
     /// They set off away from the middle of their shape.
@@ -114,6 +118,20 @@ crate::shared_record! {
         /// Share of its speed through the air lost in a step and time constant in s, where drag is linear; drag per m times the step
         /// in s and nothing, where it is quadratic.
         pub air: [f32; 2],
+    }
+}
+
+crate::shared_struct! {
+    /// Flight of a particle before a step, for those that go along with it. No state: it is written anew in every step.
+    pub struct ParticleStart {
+        /// Position in m.
+        pub position: [f32; 3],
+        /// Zero.
+        pub unused: f32,
+        /// Velocity in m/s.
+        pub velocity: [f32; 3],
+        /// Zero.
+        pub unused_too: f32,
     }
 }
 

@@ -6,11 +6,12 @@
 
 use super::birth::{birth_number, particle_birth};
 use super::fly::{ParticleFlight, particle_fly};
+use super::local_space::{ParticleFrame, carried_flight, in_frame, parent_frame, rest_frame};
 use super::nest::{nest_events, nest_id, nest_place, nest_rest, nest_start};
 use super::record::{
     MEETS_NOTHING, MEETS_STICK, PARTICLE_ALIVE, PARTICLE_DEAD, PARTICLE_DIED, PARTICLE_DORMANT,
-    PARTICLE_GROUNDED, PARTICLE_MARKS, PARTICLE_RESTING, particle_life, particle_population, particle_state,
-    with_more_hits, with_particle_state,
+    PARTICLE_GROUNDED, PARTICLE_MARKS, PARTICLE_RESTING, POPULATION_LOCAL, ParticleStart, particle_life,
+    particle_population, particle_state, with_more_hits, with_particle_state,
 };
 use super::strike::{STRIKE_GROUND, particle_contact, particle_push};
 use crate::arith::lane::{Real, Word};
@@ -130,8 +131,24 @@ pub fn slot_birth(
     rest
 }
 
+/// Frame of the parent of the particle in a slot, in which it moves for so many seconds of the step if it is born in it.
+#[inline(always)]
+pub fn slot_frame(
+    cx: &Context<'_>,
+    population: &PopulationBlock,
+    parents: &ParticleRows<'_>,
+    slot: u32,
+    birth: u32,
+    new_way_s: f32,
+) -> ParticleFrame {
+    let nest = &population.nest;
+    let row = (nest.parent_slot + nest_place(nest, slot - population.first_slot).parent) as usize;
+    let frame = parent_frame(&parents.place[row], &parents.motion[row], &parents.starts[row], birth);
+    if birth == cx.step.index { rest_frame(frame, new_way_s) } else { frame }
+}
+
 /// Steps the particle in a slot, on which others of its population act with an acceleration. `parents` are the particles in slots before
-/// those of its population, which have gone through the step.
+/// those of its population, which have gone through the step. `begin` takes its flight at the start, or at its birth in the step.
 #[inline(always)]
 pub fn particle_step(
     cx: &Context<'_>,
@@ -139,6 +156,7 @@ pub fn particle_step(
     parents: &ParticleRows<'_>,
     slot: u32,
     mutual: Vec3,
+    begin: &mut ParticleStart,
 ) -> ParticleChange {
     let mut change = ParticleChange::default();
     let population = &cx.scene.populations[particle_population(particle.place.bits) as usize];
@@ -154,6 +172,8 @@ pub fn particle_step(
         particle.place.bits = with_particle_state(particle.place.bits, PARTICLE_DEAD) | PARTICLE_DIED;
         change.died = 1;
     }
+    begin.position = particle.place.position;
+    begin.velocity = particle.motion.velocity;
     if is_new {
         if rest <= 0.0 {
             return change;
@@ -168,11 +188,21 @@ pub fn particle_step(
     };
     // The newborn feels others from its next step on.
     let mutual = if is_new { Vec3::ZERO } else { mutual };
-    let mut end = particle_fly(cx, population, start, particle.traits.air, mutual);
     let time = cx.scene.dt_s * rest;
+    let is_local = (population.flags & POPULATION_LOCAL) != 0;
+    let mut inside = start;
+    let mut frame = ParticleFrame::WORLD;
+    if is_local {
+        frame = slot_frame(cx, population, parents, slot, particle.motion.birth, time);
+        inside = in_frame(frame, start);
+    }
+    let mut end = particle_fly(cx, population, inside, particle.traits.air, mutual);
     if rest < 1.0 {
-        end.position = start.position + (end.position - start.position) * rest;
-        end.velocity = start.velocity + (end.velocity - start.velocity) * rest;
+        end.position = inside.position + (end.position - inside.position) * rest;
+        end.velocity = inside.velocity + (end.velocity - inside.velocity) * rest;
+    }
+    if is_local {
+        end = carried_flight(frame, end);
     }
     let mut state = PARTICLE_ALIVE;
     bits &= !PARTICLE_GROUNDED;

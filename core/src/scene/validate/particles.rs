@@ -9,9 +9,9 @@ use crate::SceneError;
 use crate::motion::AIR_DENSITY;
 use crate::scene::limits::{self, Limit};
 use crate::scene::{
-    Air, Bounds, Direction, Force, ForceKind, Look, LookKind, MAX_BLOBS, MAX_CURVE_POINTS, MAX_FORCES,
-    MAX_MUTUAL, MAX_PARTICLES, MAX_POPULATIONS, Meets, ObjectFriction, ParticleRelease, ParticleShape,
-    Particles, STANDARD_GRAVITY_M_S2, Scene, Spread, SwirlProfile, VISCOSITY_PA_S,
+    Air, Bounds, Direction, Force, ForceKind, Look, LookKind, MAX_BLOBS, MAX_CARRIERS, MAX_CURVE_POINTS,
+    MAX_FORCES, MAX_MUTUAL, MAX_PARTICLES, MAX_POPULATIONS, Meets, ObjectFriction, ParticleRelease,
+    ParticleShape, Particles, STANDARD_GRAVITY_M_S2, Scene, Spread, SwirlProfile, VISCOSITY_PA_S,
 };
 
 /// Standard deviations of the number of particles alive for which there are slots, where they are born at random.
@@ -41,6 +41,7 @@ impl Scene {
             at.holds(self.forces[..index].iter().all(|other| other.name != force.name), "name", || {
                 (format!("{:?} again", force.name), "a name of its own".into())
             })?;
+            self.check_carriers(force, &at)?;
             let is_felt = |particles: &Particles| particles.feels.contains(&force.name);
             at.holds(self.particles.iter().any(is_felt), "name", || {
                 (format!("{:?}, which acts on nothing", force.name), "one that particles feel".into())
@@ -57,6 +58,27 @@ impl Scene {
 }
 
 impl Scene {
+    /// Checks the particles that carry a force.
+    fn check_carriers(&self, force: &Force, at: &Check<'_>) -> Result<(), SceneError> {
+        let Some(carriers) = &force.carried_by else { return Ok(()) };
+        let has_place = matches!(force.of, ForceKind::Attract { .. } | ForceKind::Swirl { .. });
+        at.holds(has_place, "carried_by", || {
+            ("of a force without a place".into(), "None, unless it is Attract or Swirl".into())
+        })?;
+        let at = at.inside("carried_by");
+        let Some(population) = self.particles.iter().find(|one| one.name == carriers.of) else {
+            let names: Vec<_> = self.particles.iter().map(|one| one.name.as_str()).collect();
+            return Err(at.error("of", format!("{:?}", carriers.of), format!("one of {names:?}")));
+        };
+        at.holds(population.count <= MAX_CARRIERS, "of", || {
+            let found = format!("{:?} of {} slots", carriers.of, population.count);
+            (found, format!("a population of at most {MAX_CARRIERS} slots"))
+        })?;
+        check_curve(&carriers.strength, "strength", &at, |at, strength| {
+            at.numbers([("strength", strength.into(), limits::CARRIED_STRENGTH)])
+        })
+    }
+
     /// Checks the forces that a population feels: that they are there, once each, and act on it.
     fn check_feels(&self, particles: &Particles, at: &Check<'_>) -> Result<(), SceneError> {
         for (index, name) in particles.feels.iter().enumerate() {

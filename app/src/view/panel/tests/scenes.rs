@@ -39,7 +39,11 @@ pub(super) fn full() -> Scene {
     scene.walkers = vec![Walker::default()];
     scene.particles = vec![population("first", Air::Settling { m_s: Spread::Uniform(1.0, 0.2) }, "push")];
     scene.particles[0].dies = Some(Bounds::Below(-1.0));
-    scene.forces = vec![Force { name: "push".into(), of: ForceKind::Noise { m_s2: 1.0, cell_m: 1.0 } }];
+    scene.forces = vec![Force {
+        name: "push".into(),
+        of: ForceKind::Noise { m_s2: 1.0, cell_m: 1.0 },
+        carried_by: None,
+    }];
     scene.ground.terrain = Some(Terrain { levels: 4, ..Terrain::default() });
     scene.ground.water = Some(Water { height_m: -0.5 });
     scene.view.path =
@@ -109,7 +113,7 @@ pub(super) fn third() -> Scene {
         swirl_radius_m: 1.0,
         profile: SwirlProfile::Compact { d: 0.0 },
     };
-    scene.forces = vec![Force { name: "turn".into(), of }];
+    scene.forces = vec![Force { name: "turn".into(), of, carried_by: None }];
     scene
 }
 
@@ -121,12 +125,15 @@ pub(super) fn winding() -> Scene {
     scene
 }
 
-/// Particles, others that are born of them, and others of these.
+/// Particles, others that are born of them, and some that carry a force.
 pub(super) fn nested() -> Scene {
     let text = "(particles: [
         (name: \"spark\", count: 100, release: Rate(per_s: 20.0, from_s: 0.0), life_s: Some(Constant(2.0))),
         (name: \"drop\", count: 400, nest: Some((of: \"spark\", on: Every(steps: 60), fan: 2, inherit: 0.5, radius_m: 0.1)),
          life_s: Some(Constant(0.5))),
-    ])";
+        (name: \"whirl\", count: 8, release: Burst(at_s: 0.0), life_s: None, feels: [\"pull\"]),
+    ],
+    forces: [(name: \"pull\", of: Attract(at_m: (0.0, 0.0, 0.0), gm_m3_s2: 1.0, softening_m: 0.1),
+              carried_by: Some((of: \"whirl\", strength: [(0.2, 0.5), (0.6, 1.0)])))])";
     Scene::from_ron(text, "nested").expect("RON")
 }

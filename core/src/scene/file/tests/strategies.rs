@@ -495,13 +495,15 @@ fn nest() -> impl Strategy<Value = Option<Nest>> {
         Just(ParticleEvent::Hit),
         (1u32..200).prop_map(|steps| ParticleEvent::Every { steps }),
     ];
-    let nest = (on, 1u32..=8, within(limits::INHERIT), within(limits::RADIUS_M));
-    option::of(nest.prop_map(|(on, fan, inherit, radius_m)| Nest {
+    let space = select(vec![Space::World, Space::Local]);
+    let nest = (on, 1u32..=8, within(limits::INHERIT), within(limits::RADIUS_M), space);
+    option::of(nest.prop_map(|(on, fan, inherit, radius_m, space)| Nest {
         of: String::new(),
         on,
         fan,
         inherit,
         radius_m,
+        space,
     }))
 }
 

@@ -54,7 +54,7 @@ fn of_hits(scene: &mut Scene) {
 /// Lets population `index` attract one another, and all be born from so many seconds on.
 fn attracting(scene: &mut Scene, index: usize, from_s: f32) {
     let of = ForceKind::Mutual { gm_m3_s2: 1.0, softening_m: 0.1 };
-    scene.forces = vec![Force { name: "others".into(), of }];
+    scene.forces = vec![Force { name: "others".into(), of, carried_by: None }];
     scene.particles[index].feels = vec!["others".into()];
     scene.particles[0].release = ParticleRelease::Rate { per_s: 50.0, from_s };
 }
