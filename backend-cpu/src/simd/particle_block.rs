@@ -9,17 +9,13 @@ use windfall_core::arith::lane::{Mask, Word};
 use windfall_core::arith::pack::{BLOCK, Pack, load_block, rows_of_bits, store_block};
 use windfall_core::device::particle::fly::{ParticleFlight, particle_fly};
 use windfall_core::device::particle::record::{
-    PARTICLE_ALIVE, PARTICLE_BORN, PARTICLE_DIED, PARTICLE_GROUNDED, PARTICLE_HIT, PARTICLE_RESTING,
-    particle_state,
+    PARTICLE_ALIVE, PARTICLE_GROUNDED, PARTICLE_MARKS, PARTICLE_RESTING, particle_state,
 };
 use windfall_core::device::particle::step::{is_outside, is_unborn, life_is_over, may_be_struck, rest_wakes};
 use windfall_core::particle::{ParticleMotion, ParticlePlace, ParticleTraits};
 
 use super::branch_block::{Column, vector_and_fourth};
 use super::leaf_block::select_four;
-
-/// Marks of the step before, which every step takes off.
-const MARKS: u32 = PARTICLE_BORN | PARTICLE_DIED | PARTICLE_HIT;
 
 /// Slots of one population that follow one another, none of them born in the step.
 pub(crate) struct ParticleBlock<'a> {
@@ -74,13 +70,13 @@ impl ParticleBlock<'_> {
         let (velocity, birth) = vector_and_fourth(motions);
         let flags = bits.to_bits();
         let state = particle_state(flags);
-        let unmarked = flags & !MARKS;
+        let unmarked = flags & !PARTICLE_MARKS;
         let is_over = life_is_over(cx, birth.to_bits(), life_size.to_bits());
         let is_idle = is_unborn(flags);
         let rests = state.equals(PARTICLE_RESTING) & !is_over;
         let flies = state.equals(PARTICLE_ALIVE) & !is_over;
         if !flies.any() {
-            if (!(flags & MARKS).equals(0)).any() {
+            if (!(flags & PARTICLE_MARKS).equals(0)).any() {
                 let [x, y, z, _] = places;
                 store_block(place, part, [x, y, z, P::from_bits(unmarked)]);
             }
