@@ -16,12 +16,18 @@ use windfall_core::arith::pack::{BLOCK, Pack};
 use windfall_core::blocks::{BirthBlock, NestBlock};
 use windfall_core::device::particle::nest::{nest_events, nest_place};
 use windfall_core::device::particle::record::{POPULATION_FOLLOWED, POPULATION_LOCAL, particle_population};
-use windfall_core::device::particle::step::particle_step;
+use windfall_core::device::particle::step::{ParticleChange, particle_step};
 use windfall_core::particle::{Generation, ParticleRows, add_to_tally};
 
 use super::CHUNK;
+use super::fly::{FewOfBlocks, slots_of};
+use crate::quiet::places_of;
 use crate::simd::particle_block::{ParentFrames, ParticleBlock};
+use crate::simd::struck_block::StruckBlock;
 use crate::simd::{Simd, in_packs};
+
+/// Particles up to which registers are not worth filling.
+const FEW: usize = 2;
 
 /// Steps a generation of particles, halving the columns until a piece is one chunk, and adds to the counts of populations. `pulls` are
 /// accelerations by others, slot by slot, or none.
@@ -79,7 +85,8 @@ fn step_one(
     add_to_tally(counts, population, &change);
 }
 
-/// Steps a chunk block by block; blocks with births, and those of several populations, one particle after another.
+/// Steps a chunk block by block; blocks with births, and those of several populations, one particle after another. What something is in
+/// the way of, or dies, comes last, side by side with others from all over the chunk.
 #[inline(always)]
 fn step_lanes<P: Pack>(
     simd: P::Simd,
@@ -89,41 +96,92 @@ fn step_lanes<P: Pack>(
     counts: &mut [u32],
 ) {
     let (count, first) = (run.particles.len(), run.first as usize);
-    for begin in (0..count).step_by(BLOCK) {
+    let mut struck: FewOfBlocks = [0; CHUNK / BLOCK];
+    for (begin, struck) in (0..count).step_by(BLOCK).zip(&mut struck) {
         let rows = begin..count.min(begin + BLOCK);
         let [here, last] =
             [rows.start, rows.end - 1].map(|row| particle_population(run.particles.place[row].bits));
         let population = &cx.scene.populations[here as usize];
         let place = first + begin - population.first_slot as usize;
         let births = &cx.step.births[here as usize];
-        let mut left = (1u32 << rows.len()) - 1;
         let is_born_into = || match population.nest.fan {
             0 => births_touch(births, population.count as usize, place),
             _ => parents_bear(cx, &population.nest, &run.parents, place..place + BLOCK),
         };
-        if here == last && rows.len() == BLOCK && !is_born_into() {
-            let whole = "a whole block";
-            let mut block = ParticleBlock {
-                slot: slot_word(first + begin),
-                place: (&mut run.particles.place[rows.clone()]).try_into().expect(whole),
-                motion: (&mut run.particles.motion[rows.clone()]).try_into().expect(whole),
-                traits: (&run.particles.traits[rows.clone()]).try_into().expect(whole),
-                pulls: pulls
-                    .get(first + begin..first + begin + BLOCK)
-                    .map(|rows| rows.try_into().expect(whole)),
-            };
-            if (population.flags & POPULATION_FOLLOWED) != 0 {
-                block.begin(&mut run.starts[rows.clone()]);
-            }
-            let frames = ((population.flags & POPULATION_LOCAL) != 0)
-                .then(|| ParentFrames::of(cx, population, &run.parents, &block));
-            left = block.advance::<P>(simd, cx, here as usize, frames.as_ref());
+        if here != last || rows.len() != BLOCK || is_born_into() {
+            rows.for_each(|row| step_one(cx, run, row, pulls, counts));
+            continue;
         }
-        while left != 0 {
-            step_one(cx, run, begin + left.trailing_zeros() as usize, pulls, counts);
-            left &= left - 1;
+        let whole = "a whole block";
+        let mut block = ParticleBlock {
+            slot: slot_word(first + begin),
+            place: (&mut run.particles.place[rows.clone()]).try_into().expect(whole),
+            motion: (&mut run.particles.motion[rows.clone()]).try_into().expect(whole),
+            traits: (&run.particles.traits[rows.clone()]).try_into().expect(whole),
+            pulls: pulls.get(first + begin..first + begin + BLOCK).map(|rows| rows.try_into().expect(whole)),
+        };
+        if (population.flags & POPULATION_FOLLOWED) != 0 {
+            block.begin(&mut run.starts[rows.clone()]);
         }
+        let frames = ((population.flags & POPULATION_LOCAL) != 0)
+            .then(|| ParentFrames::of(cx, population, &run.parents, &block));
+        *struck = block.advance::<P>(simd, cx, here as usize, frames.as_ref());
     }
+    let mut block = StruckBlock::default();
+    let mut rows = slots_of(struck);
+    let mut next = rows.next();
+    while let Some(row) = next {
+        let mut together = [row; BLOCK];
+        let mut count = 0;
+        let population = particle_population(run.particles.place[row].bits);
+        while let Some(row) = next
+            && count < BLOCK
+            && particle_population(run.particles.place[row].bits) == population
+        {
+            together[count] = row;
+            count += 1;
+            next = rows.next();
+        }
+        let together = &together[..count];
+        let mut left = (1 << count) - 1;
+        let flags = cx.scene.populations[population as usize].flags;
+        // What goes along with a parent meets the ground on its parent's way.
+        if count > FEW && (flags & POPULATION_LOCAL) == 0 {
+            left = step_struck::<P>(simd, cx, run, together, pulls, &mut block, counts);
+        }
+        places_of(left).for_each(|at| step_one(cx, run, together[at], pulls, counts));
+    }
+}
+
+/// Steps particles of a population, from here and there in a chunk and none of them born, side by side. Returns a bit for each that needs
+/// a step of its own.
+#[inline(always)]
+fn step_struck<P: Pack>(
+    simd: P::Simd,
+    cx: &Context<'_>,
+    run: &mut Generation<'_>,
+    rows: &[usize],
+    pulls: &[[f32; 4]],
+    block: &mut StruckBlock,
+    counts: &mut [u32],
+) -> u64 {
+    let (first, particles) = (run.first as usize, &mut run.particles);
+    for (at, &row) in rows.iter().enumerate() {
+        block.place[at] = particles.place[row];
+        block.motion[at] = particles.motion[row];
+        block.traits[at] = particles.traits[row];
+        block.pulls[at] = pulls.get(first + row).copied().unwrap_or_default();
+    }
+    let population = particle_population(particles.place[rows[0]].bits);
+    let mut change = ParticleChange::default();
+    let left =
+        block.advance::<P>(simd, cx, &cx.scene.populations[population as usize], rows.len(), &mut change);
+    add_to_tally(counts, population, &change);
+    for (at, &row) in rows.iter().enumerate() {
+        particles.place[row] = block.place[at];
+        particles.motion[row] = block.motion[at];
+    }
+    left.into()
 }
 
 /// Returns true if births by parents fall on a run of slots in a step, from a place of their population on.

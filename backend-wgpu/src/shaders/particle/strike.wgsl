@@ -121,14 +121,14 @@ fn bent_share(share: f32, closing: f32, bend: f32, leaving: f32) -> f32 {
     if (share <= 0.0 && leaving <= 0.0) {
         return 0.0;
     }
-    var at = select(0.0, 1.0, 0.0 < bend);
-    for (var round = 0u; round < BEND_ROUNDS; round += 1u) {
-        let gap = bend * (at * (1.0 - at)) - closing * (at - share);
-        let slope = bend * (1.0 - 2.0 * at) - closing;
-        if (slope < 0.0) {
-            at = at - gap * reciprocal(slope);
-        }
-    }
+    let falling = closing - bend;
+    let height = closing * share;
+    let squared = max(falling * falling + (bend * 4.0) * height, 0.0);
+    let root = squared * inverse_sqrt(max(squared, TINY_SQUARED));
+    let rises = falling < 0.0;
+    let over = select(height * 2.0, root - falling, rises);
+    let under = select(falling + root, bend * 2.0, rises);
+    let at = select(0.0, over * reciprocal(under), TINY_SQUARED < under);
     return min(max(at, 0.0), 1.0);
 }
 
@@ -151,9 +151,9 @@ fn struck_velocity(
     }
     let inverse = inverse_sqrt(squared);
     let speed = squared * inverse;
-    var drag = scene.populations[number].friction * (push + pressing);
+    var drag = (push + pressing) * scene.populations[number].friction;
     if ((scene.populations[number].flags & POPULATION_LOSS) != 0u) {
-        let share = scene.populations[number].friction * speed;
+        let share = speed * scene.populations[number].friction;
         drag = select(share, max(drag, share), speed < rest_m_s);
     }
     if (speed <= drag) {

@@ -11,6 +11,7 @@
 use super::body::LeafBody;
 use super::contact::{Contact, Contacts, Surface, contact_response, flight_contact, support};
 use super::rates::FlightMotion;
+use crate::arith::lane::Real;
 use crate::arith::math::{inverse_sqrt, reciprocal};
 use crate::arith::quaternion::{Quat, quat_rotate, quat_rotate_back};
 use crate::arith::vector::{TINY_SQUARED, Vec3, vec3_dot};
@@ -67,11 +68,11 @@ pub fn solid_gap(
 
 /// First solid part that a body strikes.
 #[derive(Clone, Copy, Debug)]
-pub struct Strike {
+pub struct Strike<R: Real = f32> {
     /// Number of the part, or [`NEVER`].
-    pub number: u32,
+    pub number: R::Word,
     /// Share of the way up to there, or as far as it is free.
-    pub share: f32,
+    pub share: R,
 }
 
 /// A straight way of a body.

@@ -5,7 +5,7 @@
 //! The three records of 16 bytes that make a particle, and the accessors of every word that packs several values. Colour, opacity and
 //! drawn size follow from age and life: they are no state.
 
-use crate::arith::lane::Word;
+use crate::arith::lane::{Mask, Word};
 
 crate::shared_constants! {
     /// Mask of a particle's state in [`ParticlePlace::bits`].
@@ -193,16 +193,18 @@ pub fn particle_bits(state: u32, population: u32) -> u32 {
 
 /// The bits of a particle in another state.
 #[inline(always)]
-pub fn with_particle_state(bits: u32, state: u32) -> u32 {
+pub fn with_particle_state<W: Word>(bits: W, state: W) -> W {
     (bits & !PARTICLE_STATE_MASK) | state
 }
 
 /// The bits of a particle after one to four more hits.
 #[inline(always)]
-pub fn with_more_hits(bits: u32, hits: u32) -> u32 {
-    let sum = (particle_hits(bits) + hits).min(HITS_MASK);
+pub fn with_more_hits<W: Word>(bits: W, hits: W) -> W {
+    let most = bits.all(HITS_MASK);
+    let sum = particle_hits(bits).plus(hits);
+    let sum = sum.less_than(most).select(sum, most);
     let kept = bits & !((HITS_MASK << HITS_SHIFT) | (STRUCK_MASK << STRUCK_SHIFT));
-    (kept | (sum << HITS_SHIFT)) | (((hits - 1) << STRUCK_SHIFT) | PARTICLE_HIT)
+    (kept | (sum << HITS_SHIFT)) | ((hits.minus(hits.all(1)) << STRUCK_SHIFT) | PARTICLE_HIT)
 }
 
 /// Word of a life in steps and a size in 2^-14 of the mean.

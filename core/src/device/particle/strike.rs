@@ -10,10 +10,10 @@
 
 use super::fly::ParticleFlight;
 use super::record::{MEETS_DIE, MEETS_STICK, POPULATION_LOSS};
-use crate::arith::lane::Real;
+use crate::arith::lane::{Mask, Real, Word};
 use crate::arith::math::{inverse_sqrt, reciprocal};
 use crate::arith::quaternion::Quat;
-use crate::arith::vector::{TINY_SQUARED, Vec3, vec3_cross, vec3_dot};
+use crate::arith::vector::{TINY_SQUARED, Vec3, vec3_cross, vec3_dot, vec3_select};
 use crate::blocks::{NEVER, PopulationBlock};
 use crate::context::Context;
 use crate::device::flight::body::LeafBody;
@@ -29,8 +29,6 @@ crate::shared_constants! {
     pub const STRIKE_GROUND: u32 = 0xffff_fffe;
     /// Rounds of the search for the moment at which a particle meets hills.
     pub const GROUND_ROUNDS: u32 = 6;
-    /// Rounds of the search for the moment at which a bent way meets a surface.
-    pub const BEND_ROUNDS: u32 = 6;
     /// Most pieces of a way, each no longer than the reach of the lists of solid parts.
     pub const MOST_PIECES: u32 = 64;
     /// Squared speed in m²/s² along a surface below which there is none.
@@ -95,41 +93,44 @@ pub fn particle_body() -> LeafBody {
 
 /// Height of a place above the ground in m: hills, water and litter.
 #[inline(always)]
-pub fn ground_gap(cx: &Context<'_>, place: Vec3) -> f32 {
+pub fn ground_gap<R: Real>(cx: &Context<'_>, place: Vec3<R>) -> R {
     place.y - (ground_surface(cx, place.x, place.z) + cx.scene.surface_height_m)
 }
 
 /// Share of a way up to the ground; of one that does not end below it, 1 and [`NEVER`].
 #[inline(always)]
-pub fn ground_strike(cx: &Context<'_>, from: Vec3, way: Vec3) -> Strike {
+pub fn ground_strike<R: Real>(cx: &Context<'_>, from: Vec3<R>, way: Vec3<R>) -> Strike<R> {
+    let none = from.x.all(0.0);
     let mut high = ground_gap(cx, from);
     let mut low = ground_gap(cx, from + way);
-    if -STRIKE_GAP_M <= low {
-        return Strike { number: NEVER, share: 1.0 };
+    let ends_below = low.less_than(none.all(-STRIKE_GAP_M));
+    let never = low.to_bits().all(NEVER);
+    if !ends_below.any() {
+        return Strike { number: never, share: none.all(1.0) };
     }
-    if high <= 0.0 {
-        return Strike { number: STRIKE_GROUND, share: 0.0 };
-    }
-    let mut before = 0.0;
-    let mut after = 1.0;
+    let begins_above = none.less_than(high);
+    let mut before = none;
+    let mut after = none.all(1.0);
     let rounds = if cx.scene.has_relief() { GROUND_ROUNDS } else { 1 };
     for _ in 0..rounds {
         let share = before + (after - before) * (high * reciprocal(high - low));
-        let gap = if cx.scene.has_relief() { ground_gap(cx, from + way * share) } else { 0.0 };
-        if gap < 0.0 {
-            after = share;
-            low = gap;
-        } else {
-            before = share;
-            high = gap;
-        }
+        let gap = if cx.scene.has_relief() { ground_gap(cx, from + way * share) } else { none };
+        let is_below = gap.less_than(none);
+        after = is_below.select_real(share, after);
+        low = is_below.select_real(gap, low);
+        before = is_below.select_real(before, share);
+        high = is_below.select_real(high, gap);
     }
-    Strike { number: STRIKE_GROUND, share: before }
+    let share = begins_above.select_real(before, none);
+    Strike {
+        number: ends_below.select(never.all(STRIKE_GROUND), never),
+        share: ends_below.select_real(share, none.all(1.0)),
+    }
 }
 
 /// Normal of the ground at a place.
 #[inline(always)]
-pub fn ground_normal(cx: &Context<'_>, place: Vec3) -> Vec3 {
+pub fn ground_normal<R: Real>(cx: &Context<'_>, place: Vec3<R>) -> Vec3<R> {
     let [rise_x, rise_z] = ground_gradient(cx, place.x, place.z);
     let up = inverse_sqrt((rise_x * rise_x + rise_z * rise_z) + 1.0);
     Vec3::new(-(rise_x * up), up, -(rise_z * up))
@@ -184,54 +185,51 @@ pub fn particle_strike(cx: &Context<'_>, passage: &Passage) -> Strike {
 
 /// Share of a bent way at which it meets a plane that the straight one meets after `share`: `closing` is the straight way's part towards
 /// the plane, `bend` half of the acceleration's times the squared time. A way that begins on the plane and does not leave it meets it there.
-#[expect(clippy::manual_clamp, reason = "written as in WGSL")]
+///
+/// The gap over the share `s` is `closing share - (closing - bend) s - bend s²`; of its two roots the one at which it closes, in the form
+/// without a difference of numbers that are nearly equal.
 #[inline(always)]
-pub fn bent_share(share: f32, closing: f32, bend: f32, leaving: f32) -> f32 {
-    if share <= 0.0 && leaving <= 0.0 {
-        return 0.0;
-    }
-    let mut at = if 0.0 < bend { 1.0 } else { 0.0 };
-    for _ in 0..BEND_ROUNDS {
-        let gap = bend * (at * (1.0 - at)) - closing * (at - share);
-        let slope = bend * (1.0 - 2.0 * at) - closing;
-        if slope < 0.0 {
-            at -= gap * reciprocal(slope);
-        }
-    }
-    at.max(0.0).min(1.0)
+pub fn bent_share<R: Real>(share: R, closing: R, bend: R, leaving: R) -> R {
+    let none = share.all(0.0);
+    let falling = closing - bend;
+    let height = closing * share;
+    let squared = (falling * falling + (bend * 4.0) * height).max(none);
+    let root = squared * inverse_sqrt(squared.max(none.all(TINY_SQUARED)));
+    let rises = falling.less_than(none);
+    let over = rises.select_real(root - falling, height * 2.0);
+    let under = rises.select_real(bend * 2.0, falling + root);
+    let at = none.all(TINY_SQUARED).less_than(under).select_real(over * reciprocal(under), none);
+    let begins_there = !(none.less_than(share) | none.less_than(leaving));
+    begins_there.select_real(none, at.max(none).min(none.all(1.0)))
 }
 
 /// Velocity relative to a surface after a hit: a push along the normal, then friction by Coulomb's law or as a share. `pressing` is the
 /// speed that acceleration into the surface gives in the rest of the step, by which it slows down what does not bounce.
 #[inline(always)]
-pub fn struck_velocity(
+pub fn struck_velocity<R: Real>(
     population: &PopulationBlock,
-    relative: Vec3,
-    normal: Vec3,
-    restitution: f32,
-    pressing: f32,
+    relative: Vec3<R>,
+    normal: Vec3<R>,
+    restitution: R,
+    pressing: R,
     rest_m_s: f32,
-) -> Vec3 {
+) -> Vec3<R> {
+    let none = pressing.all(0.0);
     let leaving = vec3_dot(relative, normal);
-    let closing = (-leaving).max(0.0);
+    let closing = (-leaving).max(none);
     let push = closing * (restitution + 1.0);
-    let rebound = normal * (if leaving < 0.0 { closing * restitution } else { leaving });
+    let rebound = normal * leaving.less_than(none).select_real(closing * restitution, leaving);
     let sliding = relative - normal * leaving;
     let squared = vec3_dot(sliding, sliding);
-    if squared < PARTICLE_STILL_SQUARED {
-        return rebound;
-    }
     let inverse = inverse_sqrt(squared);
     let speed = squared * inverse;
-    let mut drag = population.friction * (push + pressing);
+    let mut drag = (push + pressing) * population.friction;
     if (population.flags & POPULATION_LOSS) != 0 {
-        let share = population.friction * speed;
-        drag = if speed < rest_m_s { drag.max(share) } else { share };
+        let share = speed * population.friction;
+        drag = speed.less_than(none.all(rest_m_s)).select_real(drag.max(share), share);
     }
-    if speed <= drag {
-        return rebound;
-    }
-    rebound + sliding * (1.0 - inverse * drag)
+    let slides = !squared.less_than(none.all(PARTICLE_STILL_SQUARED)) & drag.less_than(speed);
+    vec3_select(slides, rebound + sliding * (none.all(1.0) - inverse * drag), rebound)
 }
 
 /// Velocity without what leads into any of the planes that were touched: along the edge of two, none in a corner of three.
