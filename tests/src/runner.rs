@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Runs one device function on many inputs, on a GPU.
 
+use windfall_core::particle::place_carriers;
 use windfall_core::{Contract, SimError, World};
 use windfall_wgpu::{Gpu, Shaders, WORKGROUP_SIZE};
 
@@ -26,6 +27,8 @@ pub struct FunctionRunner<'a> {
     gpu: &'a Gpu,
     pipeline: wgpu::ComputePipeline,
     context_group: wgpu::BindGroup,
+    /// Particles that carry forces, of functions that read them.
+    carriers_group: Option<wgpu::BindGroup>,
     cases_layout: wgpu::BindGroupLayout,
 }
 
@@ -95,10 +98,20 @@ impl<'a> FunctionRunner<'a> {
             upload(gpu, &[tables, bed].concat(), wgpu::BufferUsages::STORAGE),
         ];
         let context_group = bind(gpu, &context_layout, &buffers);
-        let module = gpu.compute_module(&kernel_source(shaders, function), "evaluate", contract)?;
+        let source = kernel_source(shaders, function);
+        // The binding of shaders/particle/bindings.wgsl for them.
+        let carriers_layout =
+            source.contains("particle_carriers[").then(|| layout(&[entry(6, storage(true))]));
+        let carriers = carriers_layout.as_ref().map(|layout| {
+            let rows = carriers_of(world);
+            let buffer = upload(gpu, bytemuck::cast_slice(&rows), wgpu::BufferUsages::STORAGE);
+            let entry = wgpu::BindGroupEntry { binding: 6, resource: buffer.as_entire_binding() };
+            device.create_bind_group(&wgpu::BindGroupDescriptor { label: None, layout, entries: &[entry] })
+        });
+        let module = gpu.compute_module(&source, "evaluate", contract)?;
         let pipeline_layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
             label: None,
-            bind_group_layouts: &[Some(&context_layout), None, Some(&cases_layout)],
+            bind_group_layouts: &[Some(&context_layout), carriers_layout.as_ref(), Some(&cases_layout)],
             immediate_size: 0,
         });
         let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
@@ -110,7 +123,7 @@ impl<'a> FunctionRunner<'a> {
             cache: None,
         });
         gpu.check()?;
-        Ok(Self { gpu, pipeline, context_group, cases_layout })
+        Ok(Self { gpu, pipeline, context_group, carriers_group: carriers, cases_layout })
     }
 
     /// The function's results for these cases.
@@ -129,6 +142,9 @@ impl<'a> FunctionRunner<'a> {
             let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
             pass.set_pipeline(&self.pipeline);
             pass.set_bind_group(0, &self.context_group, &[]);
+            if let Some(carriers) = &self.carriers_group {
+                pass.set_bind_group(1, carriers, &[]);
+            }
             pass.set_bind_group(2, &group, &[]);
             let count = u32::try_from(cases.len()).expect("a few thousand cases");
             pass.dispatch_workgroups(count.div_ceil(WORKGROUP_SIZE), 1, 1);
@@ -138,6 +154,15 @@ impl<'a> FunctionRunner<'a> {
         self.gpu.read(&output, bytemuck::cast_slice_mut(&mut results))?;
         Ok(results)
     }
+}
+
+/// Rows of the particles of a world that carry forces; one row of zeros without any.
+pub fn carriers_of(world: &World) -> Vec<[f32; 4]> {
+    let step = world.compiled.step_block(&world.clock);
+    let mut rows = Vec::new();
+    place_carriers(&world.compiled.context(&step), world.compiled.carriers(), &world.particles, &mut rows);
+    rows.resize(rows.len().max(1), [0.0; 4]);
+    rows
 }
 
 fn upload(gpu: &Gpu, bytes: &[u8], usage: wgpu::BufferUsages) -> wgpu::Buffer {

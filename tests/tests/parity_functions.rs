@@ -11,7 +11,7 @@ use windfall_core::scene::{Litter, VortexProfile};
 use windfall_core::{Contract, Scene, World};
 use windfall_tests::adapter;
 use windfall_tests::functions::{self, Function};
-use windfall_tests::runner::{FunctionRunner, Words};
+use windfall_tests::runner::{FunctionRunner, Words, carriers_of};
 use windfall_tests::strategies::{
     cases, flying_scene, hilly_scene, jet, obstructed_scene, particle_scene, winding_scene,
 };
@@ -123,7 +123,8 @@ fn check(
     let runner = FunctionRunner::new(gpu, contract, shaders, function, world)
         .map_err(|error| format!("{}: {error}", function.name))?;
     let step = world.compiled.step_block(&world.clock);
-    let cx = world.context(&step);
+    let carriers = carriers_of(world);
+    let cx = world.context(&step).with_carriers(&carriers);
     let failure = RefCell::new(None);
     let mut proptest = TestRunner::new(Config {
         cases: ROUNDS,
@@ -293,7 +294,7 @@ fn a_changed_twin_is_noticed() {
 }
 
 /// Functions that only a kernel can call, as they read or write records of leaves and segments.
-const RECORDS: [&str; 15] = [
+const RECORDS: [&str; 16] = [
     "places",
     "drifts",
     "attitudes",
@@ -309,6 +310,7 @@ const RECORDS: [&str; 15] = [
     "particle_motions",
     "particle_traits",
     "particle_tallies",
+    "carrier_run",
 ];
 
 /// Names and bodies of the functions of a WGSL text.

@@ -234,7 +234,7 @@ fn changes_of_a_constant_or_an_operator_are_noticed() {
             "leaving, -closing * restitution, leaving",
         ),
         ("particle/strike", "turn < MOST_STRIKES", "turn + 1u < MOST_STRIKES"),
-        ("particle/strike", "bend * (1.0 - 2.0 * at)", "bend * (1.0 - at)"),
+        ("particle/strike", "(bend * 4.0) * height", "(bend * 2.0) * height"),
         ("particle/step", "age < life", "age <= life"),
         ("particle/nest", "let group = place / fan", "let group = place / (fan + 1u)"),
         ("particle/nest", "first != 0u && age", "age"),

@@ -103,7 +103,7 @@ impl ParticleBlock<'_> {
         let (mut left, mut resting) = (rows_of_bits(left), rows_of_bits(resting));
         while resting != 0 {
             let row = resting.trailing_zeros();
-            if rest_wakes(cx, &cx.scene.populations[population], self.slot + row) {
+            if rest_wakes(cx, &cx.scene.populations[population], self.traits[row as usize].id) {
                 left |= 1 << row;
             }
             resting &= resting - 1;

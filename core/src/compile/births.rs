@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Works out how many particles of each population are born in a step.
 
+use super::cycle::Cycle;
 use crate::arith::rng::philox;
 use crate::blocks::BirthBlock;
 use crate::convert::len32;
@@ -31,14 +32,21 @@ struct PopulationBirths {
     /// Number of random words of a step, and shares of them, as words, up to which so many are born by each.
     draws: u32,
     thresholds: Vec<u32>,
+    /// Number born in a cycle and steps of one, in a world that repeats.
+    rhythm: Option<(u32, u32)>,
 }
 
 impl Births {
-    /// Births of a scene.
-    pub(super) fn of(scene: &Scene, seed: [u32; 2]) -> Self {
+    /// Births of a scene, which may repeat.
+    pub(super) fn of(scene: &Scene, seed: [u32; 2], cycle: Option<&Cycle>) -> Self {
         let dt_s = f64::from(scene.dt_s);
         let births = |(particles, reach_s)| PopulationBirths::of(particles, reach_s, dt_s);
-        let populations = scene.particles.iter().zip(reaches_s(scene)).map(births).collect();
+        let mut populations: Vec<_> = scene.particles.iter().zip(reaches_s(scene)).map(births).collect();
+        if let Some((births, steps)) = cycle.map(Cycle::births) {
+            for (population, &each) in populations.iter_mut().zip(births) {
+                population.rhythm = (each != 0).then_some((each, steps));
+            }
+        }
         Self { populations, seed, dt_s }
     }
 
@@ -73,9 +81,9 @@ impl Births {
         let mut blocks = [<BirthBlock as bytemuck::Zeroable>::zeroed(); MAX_POPULATIONS];
         let counts = self.in_step(step);
         for (number, population) in self.populations.iter().enumerate() {
+            let first = population.rhythm.map_or(born[number], |(each, _)| born[number] % u64::from(each));
             #[expect(clippy::cast_possible_truncation, reason = "numbers wrap around after four billion")]
-            let (first_id, first_place) =
-                (born[number] as u32, (born[number] % u64::from(population.count)) as u32);
+            let (first_id, first_place) = (first as u32, (born[number] % u64::from(population.count)) as u32);
             let is_burst = u32::from(matches!(population.release, Some(ParticleRelease::Burst { .. })));
             blocks[number] = BirthBlock { first_id, count: counts[number], first_place, is_burst };
         }
@@ -97,12 +105,17 @@ impl PopulationBirths {
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "validated to be few")]
         let draws = libm::ceil(mean / LARGEST_MEAN) as u32;
         let thresholds = if draws == 0 { Vec::new() } else { poisson_thresholds(mean / f64::from(draws)) };
-        Self { release, count: particles.count, lead, draws, thresholds }
+        Self { release, count: particles.count, lead, draws, thresholds, rhythm: None }
     }
 
     fn in_step(&self, seed: [u32; 2], number: u32, step: u32, dt_s: f64) -> u32 {
         let at = i64::from(step.cast_signed());
         let Some(release) = self.release else { return 0 };
+        if let Some((each, steps)) = self.rhythm {
+            let by = |steps_passed: u32| u64::from(steps_passed) * u64::from(each) / u64::from(steps);
+            let within = step % steps;
+            return u32::try_from(by(within + 1) - by(within)).unwrap_or(u32::MAX);
+        }
         match release {
             ParticleRelease::Burst { at_s } => {
                 let is_now = step_of(at_s, dt_s) == at;
@@ -124,7 +137,7 @@ impl PopulationBirths {
 }
 
 /// Longest times in seconds from a birth in each population to the death of the last that descends from it.
-fn reaches_s(scene: &Scene) -> Vec<f64> {
+pub(super) fn reaches_s(scene: &Scene) -> Vec<f64> {
     let mut reaches_s = vec![0.0; scene.particles.len()];
     for (index, particles) in scene.particles.iter().enumerate().rev() {
         let is_child = |other: &Particles| other.nest.as_ref().is_some_and(|nest| nest.of == particles.name);

@@ -5,8 +5,10 @@
 //! Wind: gusts and turbulence of a period that divides the cycle, carried at the speed of the mean wind by whole
 //! periods. Leaves: a source lets go the same leaves in every cycle, and each of them comes down over several; its slot
 //! is then released again as the same leaf. What is in the air at a moment is the same as a cycle later, of other slots.
+//! Particles: populations bear the same particles in every cycle, as many as their rate gives in one, and their children with them.
 //! Trees: petioles hold, flutter fits the cycle, and damping brings segments to the motion that the wind repeats.
 
+use super::births::reaches_s;
 use super::block::FLUTTER_HZ;
 use crate::SceneError;
 use crate::convert::single;
@@ -15,7 +17,7 @@ use crate::device::wind::gust::{GUST_ROWS, GUST_SPACING};
 use crate::device::wind::turbulence::TURBULENCE_X;
 use crate::layout::Uint4;
 use crate::leaf::{Identity, Leaves, Place, Schedule};
-use crate::scene::{ObjectMotion, Release, Scene, limits};
+use crate::scene::{ForceKind, ObjectMotion, ParticleRelease, Release, Scene, limits};
 
 /// Seconds in which trees come to repeat what the wind does: ten times what the slowest sway takes to fade e-fold.
 const TREES_SETTLE_S: f64 = 120.0;
@@ -42,6 +44,8 @@ pub struct Cycle {
     /// Leaves that each source lets go in a cycle, and cycles until a slot is released again; of sources that let go
     /// nothing any more, none.
     sources: Vec<Option<(u32, u32)>>,
+    /// Particles that each population bears in a cycle, those that are born of others left out of account.
+    births: Vec<u32>,
 }
 
 impl Cycle {
@@ -53,7 +57,8 @@ impl Cycle {
     ///
     /// # Errors
     /// [`SceneError::Field`] for what cannot repeat: leaves let go once, vortices that travel, jets that move or change,
-    /// objects that move, those who walk, particles. Pictures of a scene may have more
+    /// objects that move, those who walk, particles that are born all at once or at random, whose forces sum up over slots, or that need several
+    /// rounds of slots. Pictures of a scene may have more
     /// that does not, such as a camera that travels.
     pub fn of(scene: &Scene, file: &str, seconds: f64) -> Result<(Scene, Self), SceneError> {
         let refuse = |field: String, value: String, allowed: &str| {
@@ -92,9 +97,33 @@ impl Cycle {
             let value = format!("a list of {}", scene.walkers.len());
             return refuse("walkers".into(), value, "nobody who walks");
         }
-        if !scene.particles.is_empty() {
-            let value = format!("a list of {}", scene.particles.len());
-            return refuse("particles".into(), value, "none");
+        for (index, force) in scene.forces.iter().enumerate() {
+            if matches!(force.of, ForceKind::Mutual { .. }) {
+                let allowed = "no attraction of particles by one another";
+                return refuse(format!("forces[{index}].of"), "Mutual".into(), allowed);
+            }
+            if force.carried_by.is_some() {
+                return refuse(format!("forces[{index}].carried_by"), "Some".into(), "None");
+            }
+        }
+        for (index, particles) in scene.particles.iter().enumerate() {
+            let at = |field: &str| format!("particles[{index}].{field}");
+            if let Some(nest) = &particles.nest {
+                let parents = scene.particles.iter().find(|parents| parents.name == nest.of);
+                let events = parents.map_or(0, |parents| parents.count * nest.fan);
+                if particles.count != events {
+                    let allowed = format!("{events}: slots for one event of each parent");
+                    return refuse(at("count"), particles.count.to_string(), &allowed);
+                }
+            } else if !matches!(particles.release, ParticleRelease::Rate { .. }) {
+                let value = if matches!(particles.release, ParticleRelease::Burst { .. }) {
+                    "Burst"
+                } else {
+                    "Poisson"
+                };
+                let allowed = "Rate: particles born evenly one after another";
+                return refuse(at("release"), value.into(), allowed);
+            }
         }
         if scene.ground.litter.is_some_and(|litter| !litter.still) {
             let allowed = "true, for what leaves do to each other has a memory,";
@@ -137,6 +166,23 @@ impl Cycle {
             };
             sources.push(Some((each, cycles)));
         }
+        let mut births = Vec::with_capacity(scene.particles.len());
+        let reach_s = reaches_s(scene).into_iter().fold(0.0, f64::max);
+        for particles in &mut looped.particles {
+            let mut each = 0;
+            if let (None, ParticleRelease::Rate { per_s, from_s }) = (&particles.nest, &mut particles.release)
+            {
+                each = whole(f64::from(*per_s) * length_s).max(1);
+                *per_s = single(f64::from(each) / length_s);
+                *from_s = 0.0;
+            }
+            births.push(each);
+            if let Some(blink_s) = &mut particles.look.blink_s {
+                let blinks = round(length_s / f64::from(*blink_s)).max(1);
+                *blink_s = single(length_s / f64::from(blinks));
+            }
+        }
+        longest = longest.max(ceil(reach_s / length_s));
         let way_m = scene.wind.speed.metres_per_second() * length_s;
         let gusts = periods(length_s / f64::from(scene.wind.gusts.interval_s), 1, GUST_ROWS / GUST_SPACING);
         let (mut gust_rows, mut cells) = (0, 0);
@@ -157,7 +203,12 @@ impl Cycle {
         let run_in =
             if scene.trees.is_empty() { longest } else { longest.max(ceil(TREES_SETTLE_S / length_s)) };
         looped.validate(file)?;
-        Ok((looped, Self { steps, run_in: run_in * steps, gust_rows, cells, sources }))
+        Ok((looped, Self { steps, run_in: run_in * steps, gust_rows, cells, sources, births }))
+    }
+
+    /// Particles that each population bears in a cycle, and the steps of one.
+    pub(super) fn births(&self) -> (&[u32], u32) {
+        (&self.births, self.steps)
     }
 
     /// Gusts after which those of the table repeat.
@@ -232,6 +283,11 @@ fn period(passing: u32, table: u32) -> u32 {
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "positive, saturating")]
 fn round(value: f64) -> u32 {
     libm::floor(value + 0.5) as u32
+}
+
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "positive, saturating")]
+fn whole(value: f64) -> u32 {
+    libm::floor(value + 1e-6) as u32
 }
 
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "positive, saturating")]

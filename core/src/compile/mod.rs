@@ -133,7 +133,7 @@ impl CompiledScene {
         block.first_petiole_row = len32(tables.len());
         tables.extend(petiole_rows(scene, &forest, &kinds));
         block.solids = solids.tabulate(scene, &block, &mut tables);
-        let births = Births::of(scene, seed);
+        let births = Births::of(scene, seed, cycle.as_ref());
         let (carriers, points) = force_carriers(scene, len32(tables.len()));
         tables.extend(points);
         let (populations, forces) = populations_of(scene, &carriers, len32(tables.len()), births.lead());

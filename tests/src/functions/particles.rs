@@ -10,6 +10,9 @@ use windfall_core::device::particle::birth::{birth_number, cap_direction, shape_
 use windfall_core::device::particle::draw::{particle_words, spread_draw};
 use windfall_core::device::particle::fly::{ParticleFlight, particle_fly};
 use windfall_core::device::particle::force::{force_pull, force_swirl, force_turn};
+use windfall_core::device::particle::local_space::{
+    ParticleFrame, carried_flight, frame_turn, in_frame, parent_frame, rest_frame,
+};
 use windfall_core::device::particle::mutual::{mutual_pull, mutual_source};
 use windfall_core::device::particle::nest::{nest_events, nest_id, nest_place, nest_rest, nest_start};
 use windfall_core::device::particle::record::{
@@ -23,7 +26,7 @@ use windfall_core::device::particle::strike::{
     bent_share, ground_strike, particle_contact, particle_push, struck_velocity, wedged_velocity,
 };
 use windfall_core::device::wind::vortex::swirl_profile;
-use windfall_core::particle::{ParticleMotion, ParticlePlace};
+use windfall_core::particle::{ParticleMotion, ParticlePlace, ParticleStart};
 
 use super::{Function, Input, float, floats, functions, integers, vector};
 use crate::runner::Words;
@@ -137,6 +140,37 @@ functions! {
         let own = ParticleFlight { position: vector(w, 1), velocity: vector(w, 4) };
         let parent = ParticleFlight { position: vector(w, 7), velocity: vector(w, 10) };
         flight(nest_start(cx, nest(cx, w), own, parent, float(w[13])))
+    };
+
+    frame_turn in "particle/local_space" (FLOW, FLOW, FLOW) tolerance Some(1e-3);
+    wgsl "let still = vec3<f32>(0.0, 0.0, 0.0);
+        let frame = ParticleFrame(ParticleFlight(still, in_vec3(0u)), ParticleFlight(still, in_vec3(3u)));
+        out_vec3(0u, frame_turn(frame, in_vec3(6u)));";
+    rust |_cx, w| {
+        let still = |velocity: Vec3| ParticleFlight { position: Vec3::ZERO, velocity };
+        let frame = ParticleFrame { start: still(vector(w, 0)), end: still(vector(w, 3)) };
+        floats(frame_turn(frame, vector(w, 6)).to_array())
+    };
+
+    carried_flight in "particle/local_space" (ANY, Input::Below(9), PLACE, FLOW, PLACE, FLOW, PLACE, FLOW, SHARE) tolerance Some(1e-3);
+    wgsl "let start = ParticleStart(in_vec3(2u), 0.0, in_vec3(5u), 0.0);
+        var frame = parent_frame(ParticlePlace(in_vec3(8u), a.x), ParticleMotion(in_vec3(11u), 4u), start, a.y);
+        if (a.y == 4u) {
+            frame = rest_frame(frame, in_float(20u));
+        }
+        let end = carried_flight(frame, in_frame(frame, ParticleFlight(in_vec3(14u), in_vec3(17u))));
+        out_vec3(0u, end.position); out_vec3(3u, end.velocity);";
+    rust |_cx, w| {
+        let three = |at: usize| vector(w, at).to_array();
+        let start = ParticleStart { position: three(2), unused: 0.0, velocity: three(5), unused_too: 0.0 };
+        let place = ParticlePlace { position: three(8), bits: w[0] };
+        let motion = ParticleMotion { velocity: three(11), birth: 4 };
+        let mut frame = parent_frame(&place, &motion, &start, w[1]);
+        if w[1] == 4 {
+            frame = rest_frame(frame, float(w[20]));
+        }
+        let own = ParticleFlight { position: vector(w, 14), velocity: vector(w, 17) };
+        flight(carried_flight(frame, in_frame(frame, own)))
     };
 
     is_outside in "particle/step" (POPULATION, ANY, ANY, PLACE, FLOW) tolerance None;

@@ -5,6 +5,7 @@
 use std::path::Path;
 
 use tempfile::TempDir;
+use windfall_core::device::particle::record::{PARTICLE_ALIVE, PARTICLE_RESTING, particle_state};
 use windfall_core::motion::Primitive;
 use windfall_core::{Cycle, Scene, Simulator, World};
 use windfall_cpu::{CpuOptions, CpuSimulator};
@@ -78,6 +79,61 @@ fn leaves_repeat_to_the_bit_on_both_backends() {
     let mut winding = scene;
     winding.species[0].start = Primitive::ConeSpiral;
     repeats(&winding);
+}
+
+/// Drops that bounce and rest, spray of theirs, dust that goes with the air, and sparks in the frame of the drops.
+const PARTICLES: &str = "(
+    sources: [],
+    particles: [
+        (name: \"drops\", count: 170, from: Box(center_m: (0.0, 1.0, 0.0), half_extent_m: (1.0, 0.2, 1.0)),
+         release: Rate(per_s: 41.3, from_s: -2.0), life_s: Some(Uniform(3.0, 0.9)), air: Quadratic(drag: 0.5),
+         meets: Bounce(restitution: 0.3, friction: Coulomb(0.4)), look: (kind: Glow, blink_s: Some(0.7))),
+        (name: \"spray\", count: 340, nest: Some((of: \"drops\", on: Hit, fan: 2, inherit: 0.2)), speed_m_s: Normal(0.8, 0.2),
+         life_s: Some(Constant(0.2)), air: Linear(time_s: Constant(0.4)), meets: Die),
+        (name: \"sparks\", count: 170, nest: Some((of: \"drops\", on: Birth, radius_m: 0.2, space: Local)), life_s: Some(Constant(0.5)),
+         gravity: 0.0, air: Linear(time_s: Constant(1.0)), meets: Nothing, feels: [\"stir\"]),
+        (name: \"dust\", count: 60, release: Rate(per_s: 10.0, from_s: 0.0), life_s: Some(Constant(4.0)), air: Massless, meets: Nothing),
+    ],
+    forces: [(name: \"stir\", of: Noise(m_s2: 2.0, cell_m: 0.5))],
+    wind: (speed: MetresPerSecond(2.0)),
+)";
+
+/// All that is alive, whatever its slot: bits of every word, births as ages.
+fn living(world: &World) -> Vec<[u32; 12]> {
+    let store = &world.particles;
+    let rows = store.place.iter().zip(&store.motion).zip(&store.traits);
+    let mut living: Vec<_> = rows
+        .filter(|((place, _), _)| matches!(particle_state(place.bits), PARTICLE_ALIVE | PARTICLE_RESTING))
+        .map(|((place, motion), traits)| {
+            let [x, y, z] = place.position.map(f32::to_bits);
+            let [u, v, w] = motion.velocity.map(f32::to_bits);
+            let age = world.clock.step().wrapping_sub(motion.birth);
+            let [a, b] = traits.air.map(f32::to_bits);
+            [place.bits, traits.id, x, y, z, u, v, w, age, traits.life_size, a, b]
+        })
+        .collect();
+    living.sort_unstable();
+    living
+}
+
+#[test]
+fn particles_repeat_to_the_bit_on_both_backends() {
+    let scene = Scene::from_ron(PARTICLES, "particles").expect("valid");
+    let (world, cycle) = World::build_cycle(&scene, "particles", 2.0).expect("it can repeat");
+    let mut cpu = CpuSimulator::new(&world, CpuOptions::default()).expect("threads start");
+    let rounds = two_rounds(&mut cpu, &world, &cycle, cycle.steps);
+    let [before, after] = rounds.each_ref().map(living);
+    let resting = rounds[0].particles.place.iter().filter(|row| particle_state(row.bits) == PARTICLE_RESTING);
+    assert!(before.len() > 200 && resting.count() > 20, "{} are alive", before.len());
+    assert_eq!(before, after, "the same particles, in whatever slots");
+    let mut late = CpuSimulator::new(&world, CpuOptions::default()).expect("threads start");
+    let [before, after] = two_rounds(&mut late, &world, &cycle, cycle.steps + 1).each_ref().map(living);
+    assert_ne!(before, after, "a step too many is noticed");
+    let gpu = Gpu::request(None).expect("an adapter");
+    let mut wgpu = WgpuSimulator::new(&gpu, &world, &WgpuOptions::default()).expect("the device takes it");
+    let [_, end] = two_rounds(&mut wgpu, &world, &cycle, cycle.steps);
+    assert_eq!(end.state_hash(), rounds[1].state_hash(), "the same bits on the device");
+    assert_eq!(world.compiled.scene().particles[0].look.blink_s, Some(2.0 / 3.0), "whole blinks");
 }
 
 fn repeats(scene: &Scene) {
@@ -207,6 +263,13 @@ fn what_cannot_repeat_is_refused() {
     refuse(path, "4", &["objects[0].motion is a path", "Still in a loop"]);
     let walker = "(ground: (litter: Some((still: true))), walkers: [()])";
     refuse(walker, "4", &["walkers is a list of 1", "nobody who walks in a loop"]);
+    let poisson = "(particles: [(release: Poisson(per_s: 9.0, from_s: 0.0))])";
+    refuse(poisson, "4", &["particles[0].release is Poisson", "Rate", "in a loop"]);
+    let rounds = "(particles: [(name: \"a\"), (count: 2000, nest: Some((of: \"a\", on: Birth)), life_s: Some(Constant(1.0)))])";
+    refuse(rounds, "4", &["particles[1].count is 2000", "1000: slots for one event"]);
+    let carried = "(particles: [(name: \"a\", count: 60, release: Rate(per_s: 5.0, from_s: 0.0), feels: [\"pull\"])],
+        forces: [(name: \"pull\", of: Attract(at_m: (0.0, 0.0, 0.0), gm_m3_s2: 1.0, softening_m: 0.1), carried_by: Some((of: \"a\")))])";
+    refuse(carried, "4", &["forces[0].carried_by", "None in a loop"]);
     file(&there, "no.ron", "()");
     let exported = ["export", "no.ron", "--loop", "0.5", "--out", "x.csv"];
     assert_refused(&there, &exported, &["--loop", "1", "120"]);

@@ -47,8 +47,8 @@ fn may_be_struck(number: u32, start: vec3<f32>, end: vec3<f32>) -> bool {
     return meets_ground || is_near;
 }
 
-fn rest_is_checked(slot: u32) -> bool {
-    return ((step_block.index + slot) & 7u) == 0u;
+fn rest_is_checked(id: u32) -> bool {
+    return ((step_block.index + id) & 7u) == 0u;
 }
 
 fn slot_birth(particle: u32, slot: u32, change: ptr<function, ParticleChange>) -> f32 {
@@ -118,7 +118,7 @@ fn particle_step(particle: u32, slot: u32, mutual: vec3<f32>) -> ParticleChange 
         if (rest <= 0.0) {
             return change;
         }
-    } else if (!was_alive || is_over || (before == PARTICLE_RESTING && !rest_wakes(number, slot))) {
+    } else if (!was_alive || is_over || (before == PARTICLE_RESTING && !rest_wakes(number, particle_traits[particle].id))) {
         return change;
     }
     var bits = particle_places[particle].bits;
@@ -179,8 +179,8 @@ fn particle_step(particle: u32, slot: u32, mutual: vec3<f32>) -> ParticleChange 
     return change;
 }
 
-fn rest_wakes(number: u32, slot: u32) -> bool {
-    return scene.populations[number].meets != MEETS_STICK && rest_is_checked(slot);
+fn rest_wakes(number: u32, id: u32) -> bool {
+    return scene.populations[number].meets != MEETS_STICK && rest_is_checked(id);
 }
 
 fn is_unborn(bits: u32) -> bool {

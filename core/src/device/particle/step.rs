@@ -79,10 +79,10 @@ pub fn may_be_struck<R: Real>(
     meets_ground | is_near
 }
 
-/// Returns true if a particle at rest looks at the wind and at what holds it in a step: in one of eight.
+/// Returns true if a particle at rest looks at the wind and at what holds it in a step: in one of eight, by its number.
 #[inline(always)]
-pub fn rest_is_checked(cx: &Context<'_>, slot: u32) -> bool {
-    (cx.step.index.wrapping_add(slot) & 7) == 0
+pub fn rest_is_checked(cx: &Context<'_>, id: u32) -> bool {
+    (cx.step.index.wrapping_add(id) & 7) == 0
 }
 
 /// Lets the particle in a slot be born if one of the numbers of a step falls on it, or an event of its parent does, and returns the part
@@ -178,7 +178,10 @@ pub fn particle_step(
         if rest <= 0.0 {
             return change;
         }
-    } else if !was_alive || is_over || (before == PARTICLE_RESTING && !rest_wakes(cx, population, slot)) {
+    } else if !was_alive
+        || is_over
+        || (before == PARTICLE_RESTING && !rest_wakes(cx, population, particle.traits.id))
+    {
         return change;
     }
     let mut bits = particle.place.bits;
@@ -245,8 +248,8 @@ pub fn particle_step(
 
 /// Returns true if a particle at rest is moved on in a step, to see if it stays there.
 #[inline(always)]
-pub fn rest_wakes(cx: &Context<'_>, population: &PopulationBlock, slot: u32) -> bool {
-    population.meets != MEETS_STICK && rest_is_checked(cx, slot)
+pub fn rest_wakes(cx: &Context<'_>, population: &PopulationBlock, id: u32) -> bool {
+    population.meets != MEETS_STICK && rest_is_checked(cx, id)
 }
 
 /// Returns true for states of particles to which nothing happens until they are born.
