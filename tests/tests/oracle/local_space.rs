@@ -160,17 +160,17 @@ fn another_parent_in_the_slot_takes_none_of_the_others_along() {
     for _ in 0..600 {
         let before = world.particles.motion.clone();
         oracle::step(&mut world, 1);
-        for slot in 3..12 {
+        for (slot, before) in before.iter().enumerate().skip(3) {
             let (child, parent) = (world.particles.motion[slot], (slot - 3) / 3);
             let state = |slot: usize| particle_state(world.particles.place[slot].bits);
-            if state(slot) != PARTICLE_ALIVE || child.birth != before[slot].birth {
+            if state(slot) != PARTICLE_ALIVE || child.birth != before.birth {
                 continue;
             }
             if child.birth < world.particles.motion[parent].birth {
-                assert_eq!(child.velocity, before[slot].velocity, "slot {slot} goes straight on");
+                assert_eq!(child.velocity, before.velocity, "slot {slot} goes straight on");
                 free += 1;
             } else if state(parent) == PARTICLE_ALIVE {
-                led += u32::from(child.velocity != before[slot].velocity);
+                led += u32::from(child.velocity != before.velocity);
             }
         }
     }
