@@ -5,6 +5,7 @@
 
 mod check;
 mod cross;
+mod forces;
 mod lens;
 mod nests;
 mod objects;

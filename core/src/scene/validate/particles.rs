@@ -9,9 +9,9 @@ use crate::SceneError;
 use crate::motion::AIR_DENSITY;
 use crate::scene::limits::{self, Limit};
 use crate::scene::{
-    Air, Bounds, Direction, Force, ForceKind, Look, LookKind, MAX_BLOBS, MAX_CARRIERS, MAX_CURVE_POINTS,
-    MAX_FORCES, MAX_MUTUAL, MAX_PARTICLES, MAX_POPULATIONS, Meets, ObjectFriction, ParticleRelease,
-    ParticleShape, Particles, STANDARD_GRAVITY_M_S2, Scene, Spread, SwirlProfile, VISCOSITY_PA_S,
+    Air, Bounds, Direction, Look, LookKind, MAX_BLOBS, MAX_CURVE_POINTS, MAX_FORCES, MAX_PARTICLES,
+    MAX_POPULATIONS, Meets, ObjectFriction, ParticleRelease, ParticleShape, Particles, STANDARD_GRAVITY_M_S2,
+    Scene, Spread, VISCOSITY_PA_S,
 };
 
 /// Standard deviations of the number of particles alive for which there are slots, where they are born at random.
@@ -34,133 +34,11 @@ impl Scene {
             })?;
             self.check_nest(index, &at)?;
         }
-        check.length("forces", self.forces.len(), 0, MAX_FORCES)?;
-        for (index, force) in self.forces.iter().enumerate() {
-            let at = check.inside(format!("forces[{index}]"));
-            force.check(&at)?;
-            at.holds(self.forces[..index].iter().all(|other| other.name != force.name), "name", || {
-                (format!("{:?} again", force.name), "a name of its own".into())
-            })?;
-            self.check_carriers(force, &at)?;
-            let is_felt = |particles: &Particles| particles.feels.contains(&force.name);
-            at.holds(self.particles.iter().any(is_felt), "name", || {
-                (format!("{:?}, which acts on nothing", force.name), "one that particles feel".into())
-            })?;
-        }
-        for (index, particles) in self.particles.iter().enumerate() {
-            self.check_feels(particles, &check.inside(format!("particles[{index}]")))?;
-        }
+        self.check_forces(check)?;
         let count: u64 = self.particles.iter().map(|particles| u64::from(particles.count)).sum();
         check.holds(count <= u64::from(MAX_PARTICLES), "particles", || {
             (format!("{count} slots"), format!("at most {MAX_PARTICLES} slots over all populations"))
         })
-    }
-}
-
-impl Scene {
-    /// Checks the particles that carry a force.
-    fn check_carriers(&self, force: &Force, at: &Check<'_>) -> Result<(), SceneError> {
-        let Some(carriers) = &force.carried_by else { return Ok(()) };
-        let has_place = matches!(force.of, ForceKind::Attract { .. } | ForceKind::Swirl { .. });
-        at.holds(has_place, "carried_by", || {
-            ("of a force without a place".into(), "None, unless it is Attract or Swirl".into())
-        })?;
-        let at = at.inside("carried_by");
-        let Some(population) = self.particles.iter().find(|one| one.name == carriers.of) else {
-            let names: Vec<_> = self.particles.iter().map(|one| one.name.as_str()).collect();
-            return Err(at.error("of", format!("{:?}", carriers.of), format!("one of {names:?}")));
-        };
-        at.holds(population.count <= MAX_CARRIERS, "of", || {
-            let found = format!("{:?} of {} slots", carriers.of, population.count);
-            (found, format!("a population of at most {MAX_CARRIERS} slots"))
-        })?;
-        check_curve(&carriers.strength, "strength", &at, |at, strength| {
-            at.numbers([("strength", strength.into(), limits::CARRIED_STRENGTH)])
-        })
-    }
-
-    /// Checks the forces that a population feels: that they are there, once each, and act on it.
-    fn check_feels(&self, particles: &Particles, at: &Check<'_>) -> Result<(), SceneError> {
-        for (index, name) in particles.feels.iter().enumerate() {
-            let field = format!("feels[{index}]");
-            let Some(force) = self.forces.iter().find(|force| force.name == *name) else {
-                let names: Vec<_> = self.forces.iter().map(|force| force.name.as_str()).collect();
-                return Err(at.error(&field, format!("{name:?}"), format!("one of the forces {names:?}")));
-            };
-            at.holds(!particles.feels[..index].contains(name), &field, || {
-                (format!("{name:?} again"), "each force once".into())
-            })?;
-            let is_lorentz = matches!(force.of, ForceKind::Lorentz { .. });
-            at.holds(!is_lorentz || particles.charge_c_kg != 0.0, &field, || {
-                (format!("{name:?}, which acts on charges"), "a charge_c_kg other than zero with it".into())
-            })?;
-            if matches!(force.of, ForceKind::Mutual { .. }) {
-                at.holds(particles.count <= MAX_MUTUAL, "count", || {
-                    (particles.count.to_string(), format!("at most {MAX_MUTUAL} that attract one another"))
-                })?;
-                let first_s = self.ancestor(particles).first_birth_s();
-                let of_first = if particles.nest.is_none() { "release.from_s" } else { "nest.of" };
-                at.holds(first_s >= 0.0, of_first, || {
-                    let found = format!("with the first birth at {first_s} s");
-                    (found, "0 or later, where particles attract one another".into())
-                })?;
-                let kinds = particles.feels[..index].iter().filter_map(|name| {
-                    self.forces.iter().find(|force| force.name == *name).map(|force| force.of)
-                });
-                let is_first = !kinds.into_iter().any(|kind| matches!(kind, ForceKind::Mutual { .. }));
-                at.holds(is_first, &field, || (format!("{name:?}"), "one Mutual force at most".into()))?;
-            }
-            let is_swirl = matches!(force.of, ForceKind::Swirl { .. });
-            at.holds(is_swirl || particles.air != Air::Massless, &field, || {
-                (format!("{name:?}, which acts on a mass"), "Swirl alone, where air is Massless".into())
-            })?;
-        }
-        Ok(())
-    }
-}
-
-impl Force {
-    fn check(&self, at: &Check<'_>) -> Result<(), SceneError> {
-        at.holds(!self.name.is_empty(), "name", || ("\"\"".into(), "a name".into()))?;
-        let at = &at.inside("of");
-        match self.of {
-            ForceKind::Attract { at_m, gm_m3_s2, softening_m } => {
-                at.vector("at_m", at_m, limits::FORCE_AT_M)?;
-                at.numbers([
-                    ("gm_m3_s2", gm_m3_s2.into(), limits::GM_M3_S2),
-                    ("softening_m", softening_m.into(), limits::SOFTENING_M),
-                ])
-            }
-            ForceKind::Mutual { gm_m3_s2, softening_m } => at.numbers([
-                ("gm_m3_s2", gm_m3_s2.into(), limits::GM_M3_S2),
-                ("softening_m", softening_m.into(), limits::SOFTENING_M),
-            ]),
-            ForceKind::Noise { m_s2, cell_m } => at.numbers([
-                ("m_s2", m_s2.into(), limits::NOISE_M_S2),
-                ("cell_m", cell_m.into(), limits::CELL_M),
-            ]),
-            ForceKind::Lorentz { b_t, e_v_m } => {
-                at.vector("b_t", b_t, limits::B_T)?;
-                at.vector("e_v_m", e_v_m, limits::E_V_M)
-            }
-            ForceKind::Spiral { rad_s, axis } => {
-                at.numbers([("rad_s", rad_s.into(), limits::FORCE_RAD_S)])?;
-                check_axis(axis, at)
-            }
-            ForceKind::Swirl { at_m, axis, rate_rad_s, swirl_radius_m, profile } => {
-                at.vector("at_m", at_m, limits::FORCE_AT_M)?;
-                check_axis(axis, at)?;
-                at.numbers([
-                    ("rate_rad_s", rate_rad_s.into(), limits::FORCE_RAD_S),
-                    ("swirl_radius_m", swirl_radius_m.into(), limits::SOFTENING_M),
-                ])?;
-                let at = at.inside("profile");
-                match profile {
-                    SwirlProfile::Power { alpha } => at.numbers([("alpha", alpha.into(), limits::ALPHA)]),
-                    SwirlProfile::Compact { d } => at.numbers([("d", d.into(), limits::SWIRL_D)]),
-                }
-            }
-        }
     }
 }
 
@@ -255,7 +133,7 @@ impl Particles {
     }
 
     /// Time of the first birth in seconds.
-    fn first_birth_s(&self) -> f32 {
+    pub(super) fn first_birth_s(&self) -> f32 {
         match self.release {
             ParticleRelease::Burst { at_s } => at_s,
             ParticleRelease::Rate { from_s, .. } | ParticleRelease::Poisson { from_s, .. } => from_s,
@@ -377,7 +255,7 @@ impl Look {
 }
 
 /// Checks the ages of a curve, and each of its values.
-fn check_curve<T: Copy>(
+pub(super) fn check_curve<T: Copy>(
     points: &[(f32, T)],
     name: &str,
     at: &Check<'_>,
@@ -397,7 +275,7 @@ fn check_curve<T: Copy>(
 }
 
 /// Checks the length of a direction.
-fn check_axis(axis: Vec3, at: &Check<'_>) -> Result<(), SceneError> {
+pub(super) fn check_axis(axis: Vec3, at: &Check<'_>) -> Result<(), SceneError> {
     at.vector("axis", axis, limits::AXIS)?;
     at.holds(axis.length() >= 0.001, "axis", || (axis.to_string(), "at least 0.001 long".into()))
 }
