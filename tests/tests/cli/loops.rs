@@ -83,7 +83,6 @@ fn leaves_repeat_to_the_bit_on_both_backends() {
 
 /// Drops that bounce and rest, spray of theirs, dust that goes with the air, and sparks in the frame of the drops.
 const PARTICLES: &str = "(
-    sources: [],
     particles: [
         (name: \"drops\", count: 170, from: Box(center_m: (0.0, 1.0, 0.0), half_extent_m: (1.0, 0.2, 1.0)),
          release: Rate(per_s: 41.3, from_s: -2.0), life_s: Some(Uniform(3.0, 0.9)), air: Quadratic(drag: 0.5),
