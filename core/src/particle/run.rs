@@ -5,7 +5,6 @@
 use super::store::{ParticleRows, ParticleStore, ParticlesMut, TallyStore};
 use crate::arith::vector::Vec3;
 use crate::blocks::PopulationBlock;
-use crate::compile::CompiledScene;
 use crate::context::Context;
 use crate::device::particle::force_carrier::{CarrierRun, carrier_rows};
 use crate::device::particle::mutual::{mutual_pull, mutual_source};
@@ -138,18 +137,19 @@ pub(crate) fn step_run(cx: &Context<'_>, run: &mut Generation<'_>, pulls: &[Vec3
     }
 }
 
-/// Steps all particles of a world.
+/// Steps all particles of a world, some of which carry forces; `start_count` is that of flights that others go along with.
 pub(crate) fn step_all(
     cx: &Context<'_>,
-    compiled: &CompiledScene,
+    carriers: &[CarrierRun],
+    start_count: usize,
     particles: &mut ParticleStore,
     tallies: &mut TallyStore,
 ) {
     let pulls = mutual_pulls(cx, particles);
-    let mut carriers = Vec::new();
-    place_carriers(cx, compiled.carriers(), particles, &mut carriers);
-    let cx = &cx.with_carriers(&carriers);
-    let mut starts = vec![bytemuck::Zeroable::zeroed(); compiled.start_count()];
+    let mut places = Vec::new();
+    place_carriers(cx, carriers, particles, &mut places);
+    let cx = &cx.with_carriers(&places);
+    let mut starts = vec![bytemuck::Zeroable::zeroed(); start_count];
     each_generation(&cx.scene.populations, particles, &mut starts, |mut run| {
         step_run(cx, &mut run, &pulls, &mut tallies.count);
     });

@@ -25,7 +25,7 @@ pub fn step(world: &mut World, count: u32) {
     each_step(compiled, clock, count, |cx| {
         let bare = cx;
         let cx = &cx.over(&bed.words);
-        step_all(cx, compiled, particles, tallies);
+        step_all(cx, compiled.carriers(), compiled.start_count(), particles, tallies);
         if cx.scene.collides(cx.step.index) {
             collide(cx, leaves);
         }
