@@ -110,7 +110,7 @@ impl Cycle {
             let at = |field: &str| format!("particles[{index}].{field}");
             if let Some(nest) = &particles.nest {
                 let parents = scene.particles.iter().find(|parents| parents.name == nest.of);
-                let events = parents.map_or(0, |parents| parents.count * nest.fan);
+                let events = parents.map_or(0, |parents| parents.count.saturating_mul(nest.fan));
                 if particles.count != events {
                     let allowed = format!("{events}: slots for one event of each parent");
                     return refuse(at("count"), particles.count.to_string(), &allowed);

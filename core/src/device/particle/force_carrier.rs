@@ -20,7 +20,7 @@ crate::shared_constants! {
 crate::shared_struct! {
     /// A force that the particles of a population carry.
     pub struct CarrierRun {
-        /// First of them within the window.
+        /// First of them: its slot, or its place in a window of a device.
         pub first: u32,
         /// Number of them.
         pub count: u32,
