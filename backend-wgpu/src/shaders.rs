@@ -242,6 +242,7 @@ impl Default for Shaders {
             "wind/jet",
             "wind/packed",
             "wind/pile_shadow",
+            "wind/plume",
             "wind/profile",
             "wind/row",
             "wind/sample",

@@ -5,10 +5,12 @@
 //!
 //! Both backends get these same bytes, so nothing that depends on time or scene alone is computed twice.
 
+use crate::device::wind::plume::PLUME_BENDS;
 use crate::flight::block::BodyBlock;
 use crate::layout::{Float4, Uint4};
 use crate::scene::{
-    MAX_JETS, MAX_MOVERS, MAX_POPULATIONS, MAX_SOURCES, MAX_SPECIES, MAX_VORTICES, SPLINE_SEGMENTS,
+    MAX_JETS, MAX_MOVERS, MAX_PLUMES, MAX_POPULATIONS, MAX_SOURCES, MAX_SPECIES, MAX_VORTICES,
+    SPLINE_SEGMENTS,
 };
 
 crate::shared_struct! {
@@ -611,6 +613,26 @@ crate::shared_struct! {
 }
 
 crate::shared_struct! {
+    /// One plume at one step (see [`wind_plume`](crate::device::wind::plume::wind_plume)).
+    pub struct PlumeBlock {
+        /// Middle of the base in m.
+        pub base_m: [f32; 3],
+        /// Radius of the base in m.
+        pub base_radius_m: f32,
+        /// Speed that the fire gives in m/s: its power in kW to 0.2.
+        pub speed_m_s: f32,
+        /// Inverse of the height that scales the plume in 1/m: its power in kW to -0.4.
+        pub heights_per_m: f32,
+        /// Inverse of the share of level turbulence at the top of the layer that the ground slows.
+        pub inv_layer: f32,
+        /// Slope of the axis at the base: way along the wind per m of height.
+        pub base_slope: f32,
+        /// Changes of how fast the slope grows with height, in 1/m, at heights of which each is twice the one before, four to a vector.
+        pub bends_per_m: [Float4; PLUME_BENDS as usize / 4],
+    }
+}
+
+crate::shared_struct! {
     /// The air that one solid thing drags along at one step (see [`wind_slipstream`](crate::device::wind::slipstream::wind_slipstream)).
     pub struct SlipstreamBlock, padding 4 {
         /// Centre of the thing in m.
@@ -637,6 +659,8 @@ crate::shared_struct! {
         pub vortices: [VortexBlock; MAX_VORTICES],
         /// The jets where they are then.
         pub jets: [JetBlock; MAX_JETS],
+        /// The plumes as they are then.
+        pub plumes: [PlumeBlock; MAX_PLUMES],
         /// The air that things drag along then.
         pub slipstreams: [SlipstreamBlock; MAX_MOVERS],
         /// Rows of the gust table that the mean wind has carried past, within one period.
@@ -666,7 +690,7 @@ crate::shared_struct! {
 
 crate::shared_struct! {
     /// Everything that changes from step to step.
-    pub struct StepBlock, padding 4 {
+    pub struct StepBlock {
         /// The wind at the start of the step ([`MOMENT_NOW`]), and in the middle of the interval for which a falling leaf samples it
         /// ([`MOMENT_MIDDLE`]).
         pub moments: [MomentBlock; 2],
@@ -684,6 +708,8 @@ crate::shared_struct! {
         pub jet_count: u32,
         /// Number of slipstreams.
         pub slipstream_count: u32,
+        /// Number of plumes.
+        pub plume_count: u32,
     }
 }
 

@@ -9,8 +9,8 @@ use windfall_core::scene::{
     Aerodynamics, Air, Bounds, ConeShape, Direction, FlightModel, Foliage, Force, ForceCarriers, ForceKind,
     Gusts, Hold, Jet, JetKey, Litter, MeanSpeed, Meets, MotionParameters, Nest, Object, ObjectFriction,
     ObjectKey, ObjectMotion, ObjectShape, ParticleEvent, ParticleRelease, ParticleShape, Particles, Planform,
-    Profile, Release, Scene, Share, Source, SourceShape, Space, Species, Spread, SwirlProfile, Terrain, Tree,
-    TreeKind, Turbulence, Vortex, VortexProfile, Walker, Water, WindParameters,
+    Plume, PlumeKey, Profile, Release, Scene, Share, Source, SourceShape, Space, Species, Spread,
+    SwirlProfile, Terrain, Tree, TreeKind, Turbulence, Vortex, VortexProfile, Walker, Water, WindParameters,
 };
 
 use crate::functions::Input;
@@ -54,6 +54,12 @@ pub fn jet() -> Jet {
         nozzle_m: 2.0,
         keys: vec![key(0.0, 4.0, 2.5, 0.0), key(2.0, 4.0, 1.0, 5.0), key(9.0, -5.0, 0.0, 4.0)],
     }
+}
+
+/// A fire that grows, beside the middle of the scene.
+pub fn plume() -> Plume {
+    let keys = vec![PlumeKey { time_s: 0.0, power_kw: 5.0 }, PlumeKey { time_s: 4.0, power_kw: 400.0 }];
+    Plume { name: "fire".into(), at_m: Vec3::new(1.0, 0.2, -1.5), base_radius_m: 0.6, keys }
 }
 
 /// A scene with every kind of source, gusts, turbulence, a vortex and two species; small enough to build in no time.
@@ -323,6 +329,7 @@ pub fn smooth_scene(seed: u64, leaves: u32, speed_m_s: f32, dt_s: f32) -> Scene 
     scene.wind.turbulence = Turbulence { intensity: 0.1, cell_m: 10.0, ..Turbulence::default() };
     scene.wind.vortices.clear();
     scene.wind.jets.clear();
+    scene.wind.plumes.clear();
     scene
 }
 
@@ -403,11 +410,11 @@ pub fn scenes(leaves: std::ops::Range<u32>) -> impl Strategy<Value = Scene> {
         prop_oneof![Just(1.0 / 60.0), Just(1.0 / 30.0), Just(1.0 / 240.0)],
     );
     let motion = (0.3f32..2.5, 0.2f32..1.5, 0usize..Primitive::ALL.len(), 0f32..0.25, 0.05f32..2.0);
-    let place = (-200f32..200.0, 0.1f32..1.0, 0usize..3, (0usize..2, 0usize..2));
+    let place = (-200f32..200.0, 0.1f32..1.0, 0usize..3, (0usize..2, 0usize..2, 0usize..2));
     (numbers, motion, place, woods(), proptest::option::of(aerodynamics()), ground())
         .prop_map(|((seed, leaves, speed, dt), motion, place, woods, body, ground)| {
             let (fall_speed, rotation_speed, start, variation, friction) = motion;
-            let (offset, intensity, profile, (vortices, jets)) = place;
+            let (offset, intensity, profile, (vortices, jets, plumes)) = place;
             let mut scene = varied_scene(seed, leaves, speed, dt);
             (scene.trees, scene.autumn, scene.regrow_after_s) = woods;
             scene.fall_speed = fall_speed;
@@ -425,6 +432,7 @@ pub fn scenes(leaves: std::ops::Range<u32>) -> impl Strategy<Value = Scene> {
             ][profile];
             scene.wind.vortices.truncate(vortices);
             scene.wind.jets.truncate(jets);
+            scene.wind.plumes = vec![plume(); plumes];
             for source in &mut scene.sources {
                 let (SourceShape::Box { center_m, .. }
                 | SourceShape::Disc { center_m, .. }

@@ -8,9 +8,9 @@ use std::path::{Path, PathBuf};
 
 use naga::{AddressSpace, TypeInner};
 use windfall_core::blocks::{
-    BirthBlock, ConesBlock, JetBlock, LitterBlock, MomentBlock, MoverBlock, NestBlock, PopulationBlock,
-    ResponseBlock, SceneBlock, ShelterBlock, SolidsBlock, SourceBlock, SpeciesBlock, SpreadBlock, StepBlock,
-    SwayBlock, VortexBlock, VortexNode, WindBlock,
+    BirthBlock, ConesBlock, JetBlock, LitterBlock, MomentBlock, MoverBlock, NestBlock, PlumeBlock,
+    PopulationBlock, ResponseBlock, SceneBlock, ShelterBlock, SolidsBlock, SourceBlock, SpeciesBlock,
+    SpreadBlock, StepBlock, SwayBlock, VortexBlock, VortexNode, WindBlock,
 };
 use windfall_core::flight::block::BodyBlock;
 use windfall_core::layout::WgslStruct;
@@ -70,6 +70,7 @@ fn every_module_is_valid_and_every_struct_has_one_layout() {
     same_layout::<VortexBlock>(&module);
     same_layout::<VortexNode>(&module);
     same_layout::<JetBlock>(&module);
+    same_layout::<PlumeBlock>(&module);
     same_layout::<MomentBlock>(&module);
     same_layout::<StepBlock>(&module);
     same_layout::<LitterBlock>(&module);

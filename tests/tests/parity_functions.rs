@@ -13,7 +13,7 @@ use windfall_tests::adapter;
 use windfall_tests::functions::{self, Function};
 use windfall_tests::runner::{FunctionRunner, Words, carriers_of};
 use windfall_tests::strategies::{
-    cases, flying_scene, hilly_scene, jet, obstructed_scene, particle_scene, winding_scene,
+    cases, flying_scene, hilly_scene, jet, obstructed_scene, particle_scene, plume, winding_scene,
 };
 use windfall_wgpu::{Gpu, Shaders};
 
@@ -36,6 +36,7 @@ fn add_particles(scene: &mut Scene) {
 fn world(litter: Option<Litter>) -> World {
     let mut scene = hilly_scene(flying_scene(5, 300, 6.0, 1.0 / 60.0));
     scene.wind.jets = vec![jet()];
+    scene.wind.plumes = vec![plume()];
     scene.ground.litter = litter;
     add_particles(&mut scene);
     let mut world = World::build(&scene).expect("the flying scene is valid on hills");
@@ -265,6 +266,8 @@ fn a_changed_twin_is_noticed() {
         ("flight/strike", "radius * reach_share", "radius", "first_strike"),
         ("leaf/strike", "-(normal.x * inverse)", "-(normal.z * inverse)", "solid_footing"),
         ("wind/pile_shadow", "upwind - (here", "upwind - 2.0 * (here", "wind_behind_piles"),
+        ("wind/plume", "growth * 0.5 + widening", "growth + widening", "wind_plume"),
+        ("wind/plume", "passing * (along * across)", "passing * (along * along)", "wind_plume"),
         ("wind/slipstream", "1.0 - inverse * stream.drag_m2", "1.0 - stream.drag_m2", "wind_slipstream"),
         ("leaf/collide", "layer * 19349663u", "layer * 19349661u", "own_sums"),
         ("leaf/collide", "number + 0.5", "number", "own_sums"),

@@ -13,7 +13,7 @@ use windfall_cpu::{CpuOptions, CpuSimulator};
 use windfall_tests::adapter;
 use windfall_tests::compare::{STEP_SEGMENT, STEP_ULPS, difference, ulp};
 use windfall_tests::strategies::{
-    flying_scene, hilly_scene, jet, littered_scene, obstructed_scene, scenes, varied_scene,
+    flying_scene, hilly_scene, jet, littered_scene, obstructed_scene, plume, scenes, varied_scene,
 };
 use windfall_wgpu::{Gpu, KernelId, Shaders, WgpuOptions, WgpuSimulator};
 
@@ -156,6 +156,8 @@ fn a_changed_kernel_is_noticed() {
     let blown = [
         ("wind/jet", "(width_squared - squared)", "(width_squared + squared)"),
         ("wind/jet", "* slowed, velocity.y", ", velocity.y"),
+        ("wind/plume", "(share * rest) * PLUME_BLEND", "(share * share) * PLUME_BLEND"),
+        ("wind/plume", "turned * past", "turned"),
     ];
     let flown = [
         ("flight/rates", "- normal_force,", "+ normal_force,"),
@@ -191,6 +193,7 @@ fn a_changed_kernel_is_noticed() {
     let hills = warmed(&hilly_scene(calm[0].clone()), 400);
     let mut jets = calm[0].clone();
     jets.wind.jets = vec![jet()];
+    jets.wind.plumes = vec![plume()];
     let jets = warmed(&jets, 400);
     let litter = warmed(&littered_scene(5, 20_000, 3.5, 1.0 / 60.0), 400);
     let solids = warmed(&obstructed_scene(5, 20_000, 2.0, 1.0 / 60.0), 150);

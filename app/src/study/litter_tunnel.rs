@@ -139,6 +139,7 @@ impl Tunnel {
             turbulence: Turbulence { intensity, cell_m: 1.0, calm_m_s: 0.0 },
             vortices: Vec::new(),
             jets: Vec::new(),
+            plumes: Vec::new(),
             shelter: false,
         };
         scene.ground.surface_roughness_m = roughness_m;

@@ -168,6 +168,7 @@ fn set_litter(scene: &Scene, litter: &Litter, block: &mut LitterBlock) {
         && deviation_m_s(&scene.wind) == 0.0
         && scene.wind.vortices.is_empty()
         && scene.wind.jets.is_empty()
+        && scene.wind.plumes.is_empty()
         && scene.walkers.is_empty()
         && scene.objects.iter().all(|object| object.motion == ObjectMotion::Still);
     block.is_calm = u32::from(is_calm);

@@ -56,7 +56,7 @@ impl Cycle {
     /// second as they do on average, evenly, gusts and cells of turbulence are a little longer or shorter.
     ///
     /// # Errors
-    /// [`SceneError::Field`] for what cannot repeat: leaves let go once, vortices that travel, jets that move or change,
+    /// [`SceneError::Field`] for what cannot repeat: leaves let go once, vortices that travel, jets that move or change, plumes of changing power,
     /// objects that move, those who walk, particles that are born all at once or at random, whose forces sum up over slots, or that need several
     /// rounds of slots. Pictures of a scene may have more
     /// that does not, such as a camera that travels.
@@ -85,6 +85,13 @@ impl Cycle {
                 let field = format!("wind.jets[{index}].keys");
                 let value = format!("{} that differ", jet.keys.len());
                 return refuse(field, value, "jets that stay as they are");
+            }
+        }
+        for (index, plume) in scene.wind.plumes.iter().enumerate() {
+            if !plume.is_steady() {
+                let field = format!("wind.plumes[{index}].keys");
+                let value = format!("{} that differ", plume.keys.len());
+                return refuse(field, value, "plumes of a power that stays");
             }
         }
         for (index, object) in scene.objects.iter().enumerate() {

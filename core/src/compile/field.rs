@@ -11,7 +11,7 @@ use crate::device::wind::turbulence::{
 };
 
 impl CompiledScene {
-    /// Replaces the turbulence by a wind of the caller's, which comes on top of mean wind, gusts, vortices and jets: both
+    /// Replaces the turbulence by a wind of the caller's, which comes on top of mean wind, gusts, vortices, jets and plumes: both
     /// backends read it as they read turbulence, with the same bits, once it has been handed to them
     /// ([`Simulator::set_scene`](crate::Simulator::set_scene)) or a world with it has.
     ///

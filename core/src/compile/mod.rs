@@ -13,6 +13,7 @@ mod forces;
 mod jet;
 mod nest;
 mod particles;
+mod plume;
 mod shelter;
 mod slipstream;
 mod solids;
@@ -35,13 +36,14 @@ use self::foliage::{foliage_of, petiole_rows, seedlings, shed_rows};
 use self::force_carriers::force_carriers;
 use self::jet::jet_block;
 use self::particles::populations_of;
+use self::plume::plume_block;
 use self::shelter::{is_sheltered, shelter_inputs, shelter_rows};
 use self::solids::Solids;
 pub(crate) use self::source::{lifetime_steps, release_step};
 use self::tables::{motions_of, pack_motion};
 use self::vortex::vortex_block;
 use crate::arith::rng::{random, seed_words, unit_float};
-use crate::blocks::{JetBlock, MomentBlock, MoverBlock, SceneBlock, StepBlock, VortexBlock};
+use crate::blocks::{JetBlock, MomentBlock, MoverBlock, PlumeBlock, SceneBlock, StepBlock, VortexBlock};
 use crate::clock::Clock;
 use crate::context::Context;
 use crate::convert::{len32, single};
@@ -260,7 +262,7 @@ impl CompiledScene {
             vortex_count: len32(self.scene.wind.vortices.len()),
             jet_count: len32(self.scene.wind.jets.len()),
             slipstream_count: self.solids.slipstream_count(),
-            padding: Default::default(),
+            plume_count: len32(self.scene.wind.plumes.len()),
         }
     }
 
@@ -318,6 +320,11 @@ impl CompiledScene {
         for (jet, block) in self.scene.wind.jets.iter().zip(&mut jets) {
             *block = jet_block(jet, seconds, ground);
         }
+        let mut plumes = [<PlumeBlock as bytemuck::Zeroable>::zeroed(); crate::scene::MAX_PLUMES];
+        for (plume, block) in self.scene.wind.plumes.iter().zip(&mut plumes) {
+            let ground_m = ground(plume.at_m.as_dvec3()).unwrap_or(0.0);
+            *block = plume_block(&self.scene, plume, seconds, ground_m);
+        }
         let slipstreams = if self.solids.are_still() {
             bytemuck::Zeroable::zeroed()
         } else {
@@ -327,6 +334,7 @@ impl CompiledScene {
         MomentBlock {
             vortices,
             jets,
+            plumes,
             slipstreams,
             gust_offset: carried(wind.gust_rows_per_m, GUST_ROWS, |cycle| cycle.gust_rows),
             turbulence_offset: carried(wind.cells_per_m[0], TURBULENCE_X, |cycle| cycle.cells),

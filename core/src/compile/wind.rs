@@ -4,6 +4,7 @@
 
 use super::block::NO_WATER_M;
 use super::jet::core_width_m;
+use super::plume::fastest_m_s;
 use super::slipstream::widths_and_speeds;
 use super::water::floating_surface_m;
 use crate::blocks::WindBlock;
@@ -79,6 +80,10 @@ fn interval_steps(scene: &Scene, solids: &[Solid]) -> u32 {
     }
     for jet in &wind.jets {
         most_s = most_s.min(LARGEST_SHARE * core_width_m(jet) / jet.fastest_m_s().max(DESCENT_M_S));
+    }
+    for plume in &wind.plumes {
+        let width_m = f64::from(plume.base_radius_m);
+        most_s = most_s.min(LARGEST_SHARE * width_m / fastest_m_s(plume).max(DESCENT_M_S));
     }
     for (width_m, speed_m_s) in widths_and_speeds(scene, solids) {
         most_s = most_s.min(LARGEST_SHARE * width_m / speed_m_s.max(DESCENT_M_S));

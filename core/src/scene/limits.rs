@@ -205,6 +205,8 @@ limits! {
     NOZZLE_M: f32 = 0.01, 20.0, "m", nozzle_m;
     JET_SPEED_M_S: f32 = 0.0, 300.0, "m/s", speed_m_s;
     JET_M: f32 = -4096.0, 4096.0, "m", at_m toward_m;
+    BASE_RADIUS_M: f32 = 0.05, 20.0, "m", base_radius_m;
+    POWER_KW: f32 = 0.0, 10_000.0, "kW", power_kw;
 
     CAMERA_M: f32 = -100_000.0, 100_000.0, "m", eye_m target_m;
     VERTICAL_FOV_DEG: f32 = 5.0, 120.0, "degrees", vertical_fov_deg;
@@ -275,6 +277,7 @@ mod tests {
         include_str!("particle_look.rs"),
         include_str!("particles.rs"),
         include_str!("path.rs"),
+        include_str!("plume.rs"),
         include_str!("sky.rs"),
         include_str!("source.rs"),
         include_str!("species.rs"),

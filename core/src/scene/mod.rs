@@ -20,6 +20,7 @@ mod object;
 mod particle_look;
 mod particles;
 mod path;
+mod plume;
 mod presets;
 mod scaling;
 mod sky;
@@ -47,6 +48,7 @@ pub use particles::{
     Air, Bounds, Direction, Meets, NORMAL_REACH, ParticleRelease, ParticleShape, Particles, Spread,
 };
 pub use path::{CameraKey, camera_at};
+pub use plume::{Plume, PlumeKey};
 pub use presets::PRESETS;
 pub use sky::{Haze, PhysicalSky, Sky, SkyMap};
 pub use source::{Release, Share, Source, SourceShape};
@@ -73,6 +75,10 @@ pub const SPLINE_SEGMENTS: u16 = 16;
 pub const MAX_CURVE_POINTS: usize = 64;
 /// Most jets a scene may have: they travel there, too.
 pub const MAX_JETS: usize = 8;
+/// Most plumes a scene may have.
+pub const MAX_PLUMES: usize = 4;
+/// Most keys a plume may have.
+pub const MAX_PLUME_KEYS: usize = 1024;
 /// Most keys a jet may have.
 pub const MAX_JET_KEYS: usize = 1024;
 /// Most objects a scene may have.

@@ -16,9 +16,10 @@ mod trees;
 
 use super::{
     Aerodynamics, Camera, DEEPEST_BED_M, FlightModel, Ground, Haze, Jet, Litter, MAX_JET_KEYS, MAX_JETS,
-    MAX_LEAVES, MAX_SOURCES, MAX_SPECIES, MAX_SPLINE_POINTS, MAX_TREE_LEAVES, MAX_VORTICES, MeanSpeed,
-    MotionParameters, PhysicalSky, Profile, Release, RotationModel, Scene, Sky, SkyMap, Source, SourceShape,
-    Species, Sun, Terrain, View, Vortex, VortexProfile, WindParameters, limits,
+    MAX_LEAVES, MAX_PLUME_KEYS, MAX_PLUMES, MAX_SOURCES, MAX_SPECIES, MAX_SPLINE_POINTS, MAX_TREE_LEAVES,
+    MAX_VORTICES, MeanSpeed, MotionParameters, PhysicalSky, Plume, Profile, Release, RotationModel, Scene,
+    Sky, SkyMap, Source, SourceShape, Species, Sun, Terrain, View, Vortex, VortexProfile, WindParameters,
+    limits,
 };
 use crate::SceneError;
 use check::Check;
@@ -243,6 +244,14 @@ impl WindParameters {
         for (index, jet) in self.jets.iter().enumerate() {
             jet.check(&at.inside(format!("jets[{index}]")))?;
         }
+        at.length("plumes", self.plumes.len(), 0, MAX_PLUMES)?;
+        for (index, plume) in self.plumes.iter().enumerate() {
+            let at = at.inside(format!("plumes[{index}]"));
+            plume.check(&at)?;
+            at.holds(self.plumes[..index].iter().all(|other| other.name != plume.name), "name", || {
+                (format!("{:?} again", plume.name), "a name of its own".into())
+            })?;
+        }
         Ok(())
     }
 }
@@ -299,6 +308,25 @@ impl Jet {
             at.holds(key.at_m.distance(key.toward_m) >= 0.01, "toward_m", || {
                 (format!("{:?}", key.toward_m.to_array()), "a point at least 0.01 m from at_m".into())
             })?;
+            at.later(key.time_s, &mut earlier_s)?;
+        }
+        Ok(())
+    }
+}
+
+impl Plume {
+    fn check(&self, at: &Check<'_>) -> Result<(), SceneError> {
+        at.holds(!self.name.is_empty(), "name", || ("\"\"".into(), "a name".into()))?;
+        at.vector("at_m", self.at_m, limits::JET_M)?;
+        at.numbers([("base_radius_m", self.base_radius_m.into(), limits::BASE_RADIUS_M)])?;
+        at.length("keys", self.keys.len(), 1, MAX_PLUME_KEYS)?;
+        let mut earlier_s = None;
+        for (index, key) in self.keys.iter().enumerate() {
+            let at = at.inside(format!("keys[{index}]"));
+            at.numbers([
+                ("time_s", key.time_s.into(), limits::KEY_TIME_S),
+                ("power_kw", key.power_kw.into(), limits::POWER_KW),
+            ])?;
             at.later(key.time_s, &mut earlier_s)?;
         }
         Ok(())

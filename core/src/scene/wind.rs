@@ -5,7 +5,7 @@
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
-use super::Jet;
+use super::{Jet, Plume};
 
 /// Mean wind speed at the reference height.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -112,7 +112,7 @@ pub struct Vortex {
     pub spline_m: Vec<Vec3>,
 }
 
-/// The wind: mean flow, gusts, turbulence, vortices and jets.
+/// The wind: mean flow, gusts, turbulence, vortices, jets and plumes.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct WindParameters {
@@ -135,6 +135,8 @@ pub struct WindParameters {
     pub vortices: Vec<Vortex>,
     /// Jets of air, at most 8.
     pub jets: Vec<Jet>,
+    /// Plumes of hot air above fires, at most 4.
+    pub plumes: Vec<Plume>,
 }
 
 impl Default for WindParameters {
@@ -149,6 +151,7 @@ impl Default for WindParameters {
             shelter: true,
             vortices: Vec::new(),
             jets: Vec::new(),
+            plumes: Vec::new(),
         }
     }
 }

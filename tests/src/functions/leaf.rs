@@ -4,7 +4,8 @@
 
 use windfall_core::arith::Vec3;
 use windfall_core::arith::math::{
-    arctangent2, exponential, inverse_sqrt, reciprocal, sin_cos, sin_cos_half, sin_cos_turns,
+    arctangent2, exponential, inverse_cube_root, inverse_sqrt, reciprocal, sin_cos, sin_cos_half,
+    sin_cos_turns,
 };
 use windfall_core::arith::quaternion::{
     quat_blend, quat_multiply, quat_normalize, quat_renormalize, quat_rotate, quat_turn_after,
@@ -41,6 +42,7 @@ use windfall_core::device::terrain::ground::{ground_met, ground_relief, ground_r
 use windfall_core::device::wind::gust::wind_gust;
 use windfall_core::device::wind::jet::wind_jet;
 use windfall_core::device::wind::packed::{wind_pack, wind_unpack};
+use windfall_core::device::wind::plume::wind_plume;
 use windfall_core::device::wind::profile::{wind_profile, wind_vertical};
 use windfall_core::device::wind::sample::wind_at;
 use windfall_core::device::wind::shelter::wind_shelter;
@@ -167,6 +169,10 @@ functions! {
     inverse_sqrt in "arith/math" (Input::Scale(-12.0, 12.0)) tolerance Some(5e-7);
     wgsl "r.x = bitcast<u32>(inverse_sqrt(bitcast<f32>(a.x)));";
     rust |_cx, w| floats([inverse_sqrt(float(w[0]))]);
+
+    inverse_cube_root in "arith/math" (Input::Scale(-12.0, 12.0)) tolerance Some(5e-7);
+    wgsl "r.x = bitcast<u32>(inverse_cube_root(bitcast<f32>(a.x)));";
+    rust |_cx, w| floats([inverse_cube_root(float(w[0]))]);
 
     arctangent2 in "arith/math" (SPEED, SPEED) tolerance Some(5e-7);
     wgsl "r.x = bitcast<u32>(arctangent2(bitcast<f32>(a.x), bitcast<f32>(a.y)));";
@@ -429,6 +435,10 @@ functions! {
     wind_jet in "wind/jet" (METRES, Input::Float(-1.0, 9.0), METRES, Input::Float(0.0, 1.2)) tolerance Some(1e-4);
     wgsl "r = vec4<u32>(bitcast<vec3<u32>>(wind_jet(MOMENT_NOW, 0u, bitcast<vec3<f32>>(a.xyz), bitcast<f32>(a.w))), 0u);";
     rust |cx, w| floats(wind_jet(cx, &cx.step.moments[0].jets[0], vector(w, 0), float(w[3])).to_array());
+
+    wind_plume in "wind/plume" (METRES, Input::Float(-0.5, 9.0), METRES, Input::Float(0.0, 1.0)) tolerance Some(1e-4);
+    wgsl "r = vec4<u32>(bitcast<vec3<u32>>(wind_plume(MOMENT_NOW, 0u, bitcast<vec3<f32>>(a.xyz), bitcast<f32>(a.w))), 0u);";
+    rust |cx, w| floats(wind_plume(cx, &cx.step.moments[0].plumes[0], vector(w, 0), float(w[3])).to_array());
 
     wind_slipstream in "wind/slipstream" (Input::Floats(3, -6.0, 6.0)) tolerance Some(1e-4);
     wgsl "if (step_block.slipstream_count != 0u) {

@@ -13,7 +13,7 @@ use windfall_wgpu::{Gpu, WgpuOptions, WgpuSimulator};
 
 use crate::common_cli::{assert_refused, file, folder, windfall};
 
-/// Two sources, one of bodies, in gusts, turbulence, a vortex and a jet.
+/// Two sources, one of bodies, in gusts, turbulence, a vortex, a jet and a plume.
 const SCENE: &str = "(
     species: [(name: \"leaf\"), (name: \"body\", flight: Aerodynamic(()))],
     sources: [
@@ -24,7 +24,8 @@ const SCENE: &str = "(
     ],
     wind: (speed: MetresPerSecond(2.0), vortices: [(center_m: (1.0, 1.0, 0.0), axis: (0.0, 1.0, 0.0),
         circulation_m2_s: 2.0, core_m: 0.5, axial_m_s: 0.0, drift_m_s: (0.0, 0.0, 0.0))],
-        jets: [(nozzle_m: 0.5, keys: [(time_s: 0.0, at_m: (-2.0, 1.0, 0.0), toward_m: (0.0, 0.5, 0.0), speed_m_s: 3.0)])]),
+        jets: [(nozzle_m: 0.5, keys: [(time_s: 0.0, at_m: (-2.0, 1.0, 0.0), toward_m: (0.0, 0.5, 0.0), speed_m_s: 3.0)])],
+        plumes: [(name: \"fire\", at_m: (1.0, 0.0, 1.0), base_radius_m: 0.4, keys: [(time_s: 0.0, power_kw: 20.0)])]),
     view: (camera: (eye_m: (0.0, 2.0, 8.0), target_m: (0.0, 1.6, 0.0))),
 )";
 
@@ -258,6 +259,9 @@ fn what_cannot_repeat_is_refused() {
     let jet = "(wind: (jets: [(nozzle_m: 0.1, keys: [(time_s: 0.0, at_m: (0.0, 1.0, 0.0), toward_m: (1.0, 1.0, 0.0), speed_m_s: 0.0),
         (time_s: 1.0, at_m: (0.0, 1.0, 0.0), toward_m: (1.0, 1.0, 0.0), speed_m_s: 9.0)])]))";
     refuse(jet, "4", &["wind.jets[0].keys is 2 that differ", "jets that stay as they are in a loop"]);
+    let plume = "(wind: (plumes: [(name: \"fire\", at_m: (0.0, 0.0, 0.0), base_radius_m: 0.3,
+        keys: [(time_s: 0.0, power_kw: 5.0), (time_s: 1.0, power_kw: 9.0)])]))";
+    refuse(plume, "4", &["wind.plumes[0].keys is 2 that differ", "plumes of a power that stays in a loop"]);
     let path = "(ground: (litter: Some((still: true))), objects: [(motion: Path([(time_s: 0.0, moved_m: (0.0, 0.0, 0.0))]))])";
     refuse(path, "4", &["objects[0].motion is a path", "Still in a loop"]);
     let walker = "(ground: (litter: Some((still: true))), walkers: [()])";

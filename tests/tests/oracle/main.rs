@@ -29,6 +29,7 @@ mod particle_nests;
 mod particles;
 mod path;
 mod plate;
+mod plume;
 mod release;
 mod response;
 mod rotation;

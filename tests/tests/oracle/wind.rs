@@ -304,7 +304,7 @@ fn retuning_equals_compiling_anew() {
     let mut base = Scene::preset("storm").expect("a preset");
     base.fall_speed = 0.8;
     let calm = still_scene(uniform_species(), 1, 5.0).wind;
-    let changes: [Change; 12] = [
+    let changes: [Change; 13] = [
         ("nothing", |_| {}),
         ("speed", |scene| scene.wind.speed = MeanSpeed::MetresPerSecond(3.3)),
         ("direction", |scene| scene.wind.direction_deg = -77.0),
@@ -318,6 +318,7 @@ fn retuning_equals_compiling_anew() {
         ("roughness", |scene| scene.ground.surface_roughness_m = 0.02),
         ("sway", |scene| scene.sway_every = 2),
         ("jets", |scene| scene.wind.jets = vec![super::jet::blower(), super::jet::blower()]),
+        ("plumes", |scene| scene.wind.plumes = vec![super::plume::fire()]),
         ("speeds", |scene| (scene.fall_speed, scene.rotation_speed) = (1.3, 2.2)),
     ];
     let mut retuned = CompiledScene::compile(&base).expect("a preset");

@@ -30,6 +30,7 @@ mod over_picture;
 mod overlays;
 pub(crate) mod panel_input;
 mod particles;
+mod plumes;
 pub(crate) mod pointer;
 mod presets;
 mod record;

@@ -6,7 +6,7 @@ use egui::{Painter, Pos2, RichText, Sense, Stroke, Ui, Vec2, vec2};
 use windfall_core::scene::{MeanSpeed, Profile, WindParameters, limits};
 
 use super::field::{choice, field};
-use super::{jets, style, vortices};
+use super::{jets, plumes, style, vortices};
 use crate::view::panel::beaufort::{beaufort_label, beaufort_number};
 
 /// Edge of the dial in points.
@@ -42,6 +42,7 @@ pub(super) fn show(ui: &mut Ui, wind: &mut WindParameters, own: &WindParameters,
     choice(ui, "Shelter", tip, &mut wind.shelter, Some(&own.shelter), &options);
     vortices::show(ui, &mut wind.vortices, &own.vortices);
     jets::show(ui, &mut wind.jets, &own.jets);
+    plumes::show(ui, &mut wind.plumes, &own.plumes);
 }
 
 fn speed(ui: &mut Ui, wind: &mut WindParameters, own: &WindParameters) {

@@ -70,6 +70,18 @@ fn inverse_sqrt(x: f32) -> f32 {
     return r2 * (1.5 - (h * r2) * r2);
 }
 
+fn inverse_cube_root(x: f32) -> f32 {
+    let third = x * (1.0 / 3.0);
+    let bits = bitcast<u32>(x);
+    let quarters = (bits >> 2u) + (bits >> 4u);
+    let sixteenths = quarters + (quarters >> 4u);
+    let third_bits = sixteenths + (sixteenths >> 8u);
+    let r0 = bitcast<f32>(INVERSE_CUBE_ROOT_SEED - third_bits);
+    let r1 = r0 * ((4.0 / 3.0) - (third * r0) * (r0 * r0));
+    let r2 = r1 * ((4.0 / 3.0) - (third * r1) * (r1 * r1));
+    return r2 * ((4.0 / 3.0) - (third * r2) * (r2 * r2));
+}
+
 fn arctangent2(y: f32, x: f32) -> f32 {
     let ax = abs(x);
     let ay = abs(y);

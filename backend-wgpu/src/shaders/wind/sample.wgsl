@@ -1,11 +1,12 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // twin: core/src/device/wind/sample.rs
-// Velocity of the air at a place: mean flow, gusts, turbulence, vortices, jets.
+// Velocity of the air at a place: mean flow, gusts, turbulence, vortices, jets, plumes.
 #import terrain/ground
 #import terrain/litter
 #import wind/gust
 #import wind/jet
+#import wind/plume
 #import wind/profile
 #import wind/shelter
 #import wind/slipstream
@@ -49,6 +50,9 @@ fn wind_at_moment(moment: u32, place: vec3<f32>) -> vec3<f32> {
     }
     for (var index = 0u; index < step_block.jet_count; index++) {
         air = air + wind_jet(moment, index, place, above);
+    }
+    for (var index = 0u; index < step_block.plume_count; index++) {
+        air = air + wind_plume(moment, index, place, profile.y);
     }
     for (var index = 0u; index < step_block.slipstream_count; index++) {
         air = air + wind_slipstream(moment, index, place);

@@ -88,6 +88,8 @@ crate::shared_constants! {
     pub const RECIPROCAL_SEED: u32 = 0x7ef3_11c7;
     /// Bits from which [`inverse_sqrt`] starts: within 3.5 % for any normal number.
     pub const INVERSE_SQRT_SEED: u32 = 0x5f37_5a86;
+    /// Bits from which [`inverse_cube_root`] starts: within 3.5 % for any normal number.
+    pub const INVERSE_CUBE_ROOT_SEED: u32 = 0x54a2_1800;
 }
 
 /// Sine and cosine of an offset of at most pi/4.
@@ -141,19 +143,15 @@ pub fn sin_cos(x: f32) -> (f32, f32) {
 }
 
 /// e^x, within 2e-7 relative, for -87 <= x <= 88; clamped outside.
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::manual_clamp,
-    reason = "a whole number in range; clamped as in WGSL"
-)]
 #[inline(always)]
-pub fn exponential(x: f32) -> f32 {
-    let inside = x.max(-87.0).min(88.0);
+pub fn exponential<R: Real>(x: R) -> R {
+    let inside = x.max(x.all(-87.0)).min(x.all(88.0));
     let k = (inside * LOG2_E + 0.5).floor();
     let r = (inside - k * LN_2_HIGH) - k * LN_2_LOW;
-    let series = EXP_2 + r * (EXP_3 + r * (EXP_4 + r * (EXP_5 + r * (EXP_6 + r * EXP_7))));
-    let fraction = (1.0 + r) + (r * r) * series;
-    fraction * f32::from_bits(((k as i32 + 127) as u32) << 23)
+    let series = r * (r * (r * (r * (r * EXP_7 + EXP_6) + EXP_5) + EXP_4) + EXP_3) + EXP_2;
+    let fraction = (r + 1.0) + (r * r) * series;
+    let exponent = k.to_whole();
+    fraction * R::from_bits(exponent.plus(exponent.all(127)) << 23)
 }
 
 /// 1/x within 2e-7 relative, for normal x of either sign between 1e-37 and 1e37.
@@ -179,6 +177,21 @@ pub fn inverse_sqrt<R: Real>(x: R) -> R {
     let r1 = r0 * (one_and_half - (h * r0) * r0);
     let r2 = r1 * (one_and_half - (h * r1) * r1);
     r2 * (one_and_half - (h * r2) * r2)
+}
+
+/// 1/∛x within 3e-7 relative, for positive x between 1e-27 and 1e27.
+#[inline(always)]
+pub fn inverse_cube_root<R: Real>(x: R) -> R {
+    let four_thirds = x.all(4.0 / 3.0);
+    let third = x * (1.0 / 3.0);
+    let bits = x.to_bits();
+    let quarters = (bits >> 2).plus(bits >> 4);
+    let sixteenths = quarters.plus(quarters >> 4);
+    let third_bits = sixteenths.plus(sixteenths >> 8);
+    let r0 = R::from_bits(bits.all(INVERSE_CUBE_ROOT_SEED).minus(third_bits));
+    let r1 = r0 * (four_thirds - (third * r0) * (r0 * r0));
+    let r2 = r1 * (four_thirds - (third * r1) * (r1 * r1));
+    r2 * (four_thirds - (third * r2) * (r2 * r2))
 }
 
 /// Angle of the point (x, y) from the positive x axis in radians, -pi to pi, within 4e-7; zero at the origin.
@@ -233,6 +246,9 @@ mod tests {
             let x = 10f32.powf(exponent);
             prop_assert!((f64::from(reciprocal(x)) * f64::from(x) - 1.0).abs() < 2e-7, "1/{x}");
             prop_assert!((f64::from(reciprocal(-x)) * f64::from(x) + 1.0).abs() < 2e-7, "-1/{x}");
+            let cube_root = f64::from(inverse_cube_root(x.clamp(1e-27, 1e27)));
+            let cubed = cube_root * cube_root * cube_root * f64::from(x.clamp(1e-27, 1e27));
+            prop_assert!((cubed - 1.0).abs() < 9e-7, "1/cube root {x}");
             let root = f64::from(inverse_sqrt(x));
             prop_assert!((root * root * f64::from(x) - 1.0).abs() < 6e-7, "1/sqrt {x}");
         }

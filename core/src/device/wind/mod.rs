@@ -6,6 +6,7 @@ pub mod gust;
 pub mod jet;
 pub mod packed;
 pub mod pile_shadow;
+pub mod plume;
 pub mod profile;
 pub mod row;
 pub mod sample;

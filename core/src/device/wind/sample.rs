@@ -7,6 +7,7 @@
 
 use super::gust::wind_gust;
 use super::jet::wind_jet;
+use super::plume::wind_plume;
 use super::profile::{wind_profile, wind_vertical};
 use super::shelter::wind_shelter;
 use super::slipstream::wind_slipstream;
@@ -61,6 +62,9 @@ pub fn wind_at_moment<R: Real>(cx: &Context<'_>, moment: u32, place: Vec3<R>) ->
     }
     for index in 0..cx.step.jet_count {
         air = air + wind_jet(cx, &at.jets[index as usize], place, above);
+    }
+    for index in 0..cx.step.plume_count {
+        air = air + wind_plume(cx, &at.plumes[index as usize], place, level);
     }
     for index in 0..cx.step.slipstream_count {
         air = air + wind_slipstream(&at.slipstreams[index as usize], place);

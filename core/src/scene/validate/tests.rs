@@ -13,9 +13,9 @@ use glam::Vec3;
 use crate::SceneError;
 use crate::motion::{Primitive, TransitionTable};
 use crate::scene::{
-    CameraKey, ConeShape, Exposure, Focus, Foliage, Jet, JetKey, Lens, MeanSpeed, MotionParameters, Profile,
-    Release, RotationModel, Scene, Share, Source, SourceShape, Species, ToneMap, Tree, TreeKind, View,
-    Vortex, VortexProfile, WindParameters,
+    CameraKey, ConeShape, Exposure, Focus, Foliage, Jet, JetKey, Lens, MeanSpeed, MotionParameters, Plume,
+    PlumeKey, Profile, Release, RotationModel, Scene, Share, Source, SourceShape, Species, ToneMap, Tree,
+    TreeKind, View, Vortex, VortexProfile, WindParameters,
 };
 
 /// A valid scene in which every optional number is present.
@@ -67,6 +67,9 @@ fn full() -> Scene {
     };
     let blowing = |time_s| JetKey { time_s, at_m: Vec3::Y, toward_m: Vec3::X, speed_m_s: 50.0 };
     let jet = Jet { nozzle_m: 0.1, keys: vec![blowing(1.0), blowing(6.0)] };
+    let burning = |time_s| PlumeKey { time_s, power_kw: 20.0 };
+    let keys = vec![burning(0.5), burning(2.0)];
+    let plume = Plume { name: "fire".into(), at_m: Vec3::Y, base_radius_m: 0.4, keys };
     let foliage = Foliage { species: Some("maple".into()), ..Foliage::default() };
     let key = |time_s| CameraKey { time_s, eye_m: Vec3::Y, target_m: Vec3::ZERO, vertical_fov_deg: 50.0 };
     let lens = Lens { focus: Some(Focus { distance_m: 4.0, f_number: 2.8 }), ..Lens::default() };
@@ -77,7 +80,12 @@ fn full() -> Scene {
         sources: vec![source],
         tree_kinds: vec![TreeKind { foliage, ..TreeKind::default() }],
         trees: vec![Tree { height_m: Some(12.0), ..Tree::default() }],
-        wind: WindParameters { vortices: vec![vortex], jets: vec![jet], ..WindParameters::default() },
+        wind: WindParameters {
+            vortices: vec![vortex],
+            jets: vec![jet],
+            plumes: vec![plume],
+            ..WindParameters::default()
+        },
         view,
         ..Scene::default()
     }

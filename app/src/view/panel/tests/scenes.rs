@@ -8,9 +8,9 @@ use windfall_core::motion::Primitive;
 use windfall_core::scene::{
     Aerodynamics, Air, Bounds, CameraKey, Direction, Exposure, FlightModel, Focus, Force, ForceKind, Jet,
     JetKey, Litter, Look, LookKind, MeanSpeed, Meets, Object, ObjectFriction, ObjectKey, ObjectMotion,
-    ObjectShape, ParticleRelease, ParticleShape, Particles, Planform, Profile, Release, RotationModel, Share,
-    Sky, SkyMap, SourceShape, Spread, SwirlProfile, Terrain, ToneMap, Tree, TreeForm, TreeKind, Vortex,
-    VortexProfile, Walker, Water,
+    ObjectShape, ParticleRelease, ParticleShape, Particles, Planform, Plume, PlumeKey, Profile, Release,
+    RotationModel, Share, Sky, SkyMap, SourceShape, Spread, SwirlProfile, Terrain, ToneMap, Tree, TreeForm,
+    TreeKind, Vortex, VortexProfile, Walker, Water,
 };
 
 /// A park with one of everything that may be added to a scene.
@@ -34,6 +34,9 @@ pub(super) fn full() -> Scene {
     }];
     let key = JetKey { time_s: 0.0, at_m: Vec3::Y, toward_m: Vec3::X, speed_m_s: 40.0 };
     scene.wind.jets = vec![Jet { nozzle_m: 0.1, keys: vec![key] }];
+    let key = PlumeKey { time_s: 0.0, power_kw: 40.0 };
+    scene.wind.plumes =
+        vec![Plume { name: "fire".into(), at_m: Vec3::X, base_radius_m: 0.4, keys: vec![key] }];
     scene.ground.litter = Some(Litter { leaf_area_index: 0.0, ..Litter::default() });
     scene.objects = vec![Object::default()];
     scene.walkers = vec![Walker::default()];

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
 
-use glam::Vec2;
+use glam::{Vec2, Vec3};
 use windfall_core::scene::{
-    Exposure, Haze, Jet, Litter, Object, Profile, Release, Sky, SkyMap, SwayScheme, Terrain, Tree, Walker,
-    Water,
+    Exposure, Haze, Jet, Litter, Object, Plume, PlumeKey, Profile, Release, Sky, SkyMap, SwayScheme, Terrain,
+    Tree, Walker, Water,
 };
 
 use super::*;
@@ -29,10 +29,15 @@ fn what_stays_asks_for_nothing() {
 
 #[test]
 fn wind_and_speeds_go_on_at_once() {
-    let edits: [fn(&mut Scene); 11] = [
+    let edits: [fn(&mut Scene); 12] = [
         |scene| scene.wind.direction_deg += 1.0,
         |scene| scene.wind.shelter = false,
         |scene| scene.wind.jets = vec![Jet { nozzle_m: 0.1, keys: Vec::new() }],
+        |scene| {
+            let key = PlumeKey { time_s: 0.0, power_kw: 40.0 };
+            let plume = Plume { name: "fire".into(), at_m: Vec3::ZERO, base_radius_m: 0.4, keys: vec![key] };
+            scene.wind.plumes = vec![plume];
+        },
         |scene| scene.wind.profile = Profile::Uniform,
         |scene| scene.wind.turbulence.cell_m *= 2.0,
         |scene| scene.fall_speed = 0.5,

@@ -184,6 +184,22 @@ fn jet() -> impl Strategy<Value = Jet> {
     })
 }
 
+/// Plumes of one name each, with keys a second apart.
+fn plumes() -> impl Strategy<Value = Vec<Plume>> {
+    let power = vec(within(limits::POWER_KW), 1..4);
+    let plume = (vector(limits::JET_M), within(limits::BASE_RADIUS_M), power, 0f32..1000.0);
+    vec(plume, 0..=MAX_PLUMES).prop_map(|plumes| {
+        let named = plumes.into_iter().enumerate();
+        named
+            .map(|(number, (at_m, base_radius_m, power, from_s))| {
+                let key = |(late, power_kw)| PlumeKey { time_s: from_s + late as f32, power_kw };
+                let keys = power.into_iter().enumerate().map(key).collect();
+                Plume { name: format!("fire {number}"), at_m, base_radius_m, keys }
+            })
+            .collect()
+    })
+}
+
 prop_compose! {
     fn wind()(
         direction_deg in within(limits::DIRECTION_DEG),
@@ -203,11 +219,12 @@ prop_compose! {
         turbulence in (within(limits::INTENSITY), within(limits::CELL_M), within(limits::CALM_M_S))
             .prop_map(|(intensity, cell_m, calm_m_s)| Turbulence { intensity, cell_m, calm_m_s }),
         shelter in any::<bool>(),
-        (vortices, jets) in (vec(vortex(), 0..=MAX_VORTICES), vec(jet(), 0..=MAX_JETS)),
+        (vortices, jets, plumes) in
+            (vec(vortex(), 0..=MAX_VORTICES), vec(jet(), 0..=MAX_JETS), plumes()),
     ) -> WindParameters {
         let uniform =
             WindParameters { direction_deg, speed, reference_height_m, profile, ..WindParameters::default() };
-        WindParameters { gusts, turbulence, shelter, vortices, jets, ..uniform }
+        WindParameters { gusts, turbulence, shelter, vortices, jets, plumes, ..uniform }
     }
 }
 

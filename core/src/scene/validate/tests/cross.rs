@@ -7,8 +7,8 @@ use glam::Vec3;
 use super::{failing_field, full};
 use crate::motion::Primitive;
 use crate::scene::{
-    Aerodynamics, FlightModel, Litter, MAX_JETS, MAX_LEAVES, MAX_SOURCES, MAX_SPECIES, MAX_VORTICES, Profile,
-    Release, Scene, Share, Sky, SkyMap, SourceShape, Species,
+    Aerodynamics, FlightModel, Litter, MAX_JETS, MAX_LEAVES, MAX_PLUMES, MAX_SOURCES, MAX_SPECIES,
+    MAX_VORTICES, Profile, Release, Scene, Share, Sky, SkyMap, SourceShape, Species,
 };
 
 /// Change of a valid scene, and the field that must be named then; `None` where it stays valid.
@@ -211,6 +211,12 @@ const WIND_AND_VIEW: &[Case] = &[
     ),
     (|s| s.wind.jets[0].keys[1].time_s = 1.0, Some("wind.jets[0].keys[1].time_s")),
     (|s| s.wind.jets[0].keys[1].time_s = 1.5, None),
+    (|s| s.wind.plumes.clear(), None),
+    (|s| s.wind.plumes[0].name.clear(), Some("wind.plumes[0].name")),
+    (|s| s.wind.plumes = vec![s.wind.plumes[0].clone(); 2], Some("wind.plumes[1].name")),
+    (|s| s.wind.plumes = vec![s.wind.plumes[0].clone(); MAX_PLUMES + 1], Some("wind.plumes")),
+    (|s| s.wind.plumes[0].keys.clear(), Some("wind.plumes[0].keys")),
+    (|s| s.wind.plumes[0].keys[1].time_s = 0.5, Some("wind.plumes[0].keys[1].time_s")),
     (|s| s.wind.profile = Profile::Log { roughness_m: 1.5, displacement_m: 8.0 }, None),
     (|s| s.wind.profile = Profile::Log { roughness_m: 2.0, displacement_m: 8.0 }, Some("wind.profile")),
     (|s| s.view.camera.target_m = s.view.camera.eye_m, Some("view.camera.target_m")),

@@ -1,0 +1,82 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// twin: core/src/device/wind/plume.rs
+// Hot air that rises above a fire and draws in the air around it.
+#import arith/math
+#import prelude
+
+struct PlumeRise {
+    speed: f32,
+    growth: f32,
+}
+
+fn rise_least(one: PlumeRise, other: PlumeRise) -> PlumeRise {
+    let difference = (other.speed - one.speed) * (0.5 / PLUME_BLEND);
+    let share = min(max(difference + 0.5, 0.0), 1.0);
+    let rest = 1.0 - share;
+    return PlumeRise(
+        (one.speed * share + other.speed * rest) - (share * rest) * PLUME_BLEND,
+        one.growth * share + other.growth * rest,
+    );
+}
+
+fn plume_rise(height: f32) -> PlumeRise {
+    let above_foot = max(height, PLUME_FOOT);
+    let inverse_root = inverse_sqrt(above_foot);
+    let inverse_cube = inverse_cube_root(above_foot);
+    let flame = (above_foot * inverse_root) * PLUME_FLAME;
+    let share = min(height, PLUME_FOOT) * (1.0 / PLUME_FOOT);
+    var steady = PlumeRise(
+        flame * (share * (1.5 - share * 0.5)),
+        inverse_root * ((1.5 - share) * PLUME_FLAME),
+    );
+    if (!(height < PLUME_FOOT)) {
+        steady.growth = inverse_root * (0.5 * PLUME_FLAME);
+    }
+    let flicker = PlumeRise(PLUME_FLICKER, 0.0);
+    let squared = inverse_cube * inverse_cube;
+    let above = PlumeRise(inverse_cube * PLUME_ABOVE, (squared * squared) * (-PLUME_ABOVE / 3.0));
+    return rise_least(rise_least(steady, flicker), above);
+}
+
+fn wind_plume(moment: u32, plume: u32, place: vec3<f32>, level: f32) -> vec3<f32> {
+    let direction_x = scene.wind.direction_x;
+    let direction_z = scene.wind.direction_z;
+    let from_base = place - step_block.moments[moment].plumes[plume].base_m;
+    if (from_base.y < 0.0) {
+        return vec3<f32>(0.0, 0.0, 0.0);
+    }
+    let height = max(from_base.y, 0.0);
+    var slope = step_block.moments[moment].plumes[plume].base_slope;
+    var lean = height * slope;
+    var bend_m = 0.0;
+    for (var number = 0u; number < PLUME_BENDS; number++) {
+        let past = max(height - bend_m, 0.0);
+        let turned = past * step_block.moments[moment].plumes[plume].bends_per_m[number / 4u][number % 4u];
+        slope = slope + turned;
+        lean = lean + (turned * past) * 0.5;
+        bend_m = max(bend_m * 2.0, PLUME_LOWEST_BEND_M);
+    }
+    let along = (from_base.x * direction_x + from_base.z * direction_z) - lean;
+    let across = from_base.z * direction_x - from_base.x * direction_z;
+    let inverse_width = reciprocal(height * PLUME_SPREAD + step_block.moments[moment].plumes[plume].base_radius_m);
+    let inverse_squared = inverse_width * inverse_width;
+    let squared = (along * along + across * across) * inverse_squared;
+    let bell = exponential(-squared);
+    var within = (1.0 - bell) * reciprocal(max(squared, PLUME_NEAR_AXIS));
+    if (squared < PLUME_NEAR_AXIS) {
+        within = 1.0 - squared * (0.5 - squared * (1.0 / 6.0));
+    }
+    let heights_per_m = step_block.moments[moment].plumes[plume].heights_per_m;
+    let fire_m_s = step_block.moments[moment].plumes[plume].speed_m_s;
+    let rise = plume_rise(height * heights_per_m);
+    let speed = rise.speed * fire_m_s;
+    let growth = rise.growth * (fire_m_s * heights_per_m);
+    let widening = (speed * inverse_width) * PLUME_SPREAD;
+    let slowed = min(level * step_block.moments[moment].plumes[plume].inv_layer, 1.0);
+    let inflow = (widening * bell - (growth * 0.5 + widening) * within) * slowed;
+    let passing = ((speed * slope) * (bell * inverse_squared)) * 2.0;
+    let u = inflow * along + passing * (across * across);
+    let w = inflow * across - passing * (along * across);
+    return vec3<f32>(u * direction_x - w * direction_z, speed * bell, u * direction_z + w * direction_x);
+}

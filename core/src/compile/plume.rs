@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Compiles plumes at a moment.
+
+use crate::blocks::PlumeBlock;
+use crate::convert::single;
+use crate::device::wind::plume::{PLUME_BENDS, PLUME_FLICKER, PLUME_LOWEST_BEND_M, PlumeRise, plume_rise};
+use crate::device::wind::profile::surface_factors;
+use crate::layout::Float4;
+use crate::scene::{Plume, Scene};
+
+/// Height of the middle of the steady flame over Q^0.4 in m / kW^0.4: below it the axis leans as there.
+const FLAME_MIDDLE: f64 = 0.04;
+/// Height of the layer that the ground slows, in radii of the fire.
+const LAYER: f64 = 0.1;
+
+/// Speed in m/s that a fire of so many kW gives its plume, `Q^0.2`.
+fn speed_m_s(power_kw: f64) -> f64 {
+    libm::pow(power_kw, 0.2)
+}
+
+/// Fastest speed on the axis of a plume in m/s.
+pub(super) fn fastest_m_s(plume: &Plume) -> f64 {
+    f64::from(PLUME_FLICKER) * speed_m_s(plume.greatest_kw())
+}
+
+/// A plume at a time, leaning in the mean wind of a scene over ground of a height.
+pub(super) fn plume_block(scene: &Scene, plume: &Plume, time_s: f64, ground_m: f64) -> PlumeBlock {
+    let mut block: PlumeBlock = bytemuck::Zeroable::zeroed();
+    let wind = &scene.wind;
+    let roughness_m = f64::from(scene.ground.surface_roughness_m);
+    let factors =
+        |height_m: f64| surface_factors(wind.profile, height_m, wind.reference_height_m.into(), roughness_m);
+    let base_m = (f64::from(plume.at_m.y) - ground_m).max(0.0);
+    let [_, level] = factors(LAYER * f64::from(plume.base_radius_m));
+    block.base_m = plume.at_m.to_array();
+    block.base_radius_m = plume.base_radius_m;
+    block.inv_layer = single(1.0 / level);
+    let power_kw = plume.power_kw(time_s);
+    if power_kw <= 0.0 {
+        return block;
+    }
+    let fire_m_s = speed_m_s(power_kw);
+    let heights_per_m = 1.0 / (fire_m_s * fire_m_s);
+    block.speed_m_s = single(fire_m_s);
+    block.heights_per_m = single(heights_per_m);
+    let middle_m = FLAME_MIDDLE / heights_per_m;
+    let slope = |height_m: f64| {
+        let height_m = height_m.max(middle_m);
+        let [mean, _] = factors(base_m + height_m);
+        let PlumeRise { speed, .. } = plume_rise(single(height_m * heights_per_m));
+        wind.speed.metres_per_second() * mean / (f64::from(speed) * fire_m_s)
+    };
+    block.base_slope = single(slope(0.0));
+    let mut bends = [0.0; PLUME_BENDS as usize];
+    let (mut low_m, mut bend_before) = (0.0, 0.0);
+    // The last one ends the bending: above, the axis is straight.
+    let (last, others) = bends.split_last_mut().unwrap_or_else(|| unreachable!("a plume has bends"));
+    for bend in others {
+        let high_m = f64::max(2.0 * low_m, PLUME_LOWEST_BEND_M.into());
+        let turned_per_m = (slope(high_m) - slope(low_m)) / (high_m - low_m);
+        *bend = turned_per_m - bend_before;
+        (low_m, bend_before) = (high_m, turned_per_m);
+    }
+    *last = -bend_before;
+    for (rows, four) in block.bends_per_m.iter_mut().zip(bends.chunks_exact(4)) {
+        *rows = Float4(std::array::from_fn(|lane| single(four[lane])));
+    }
+    block
+}

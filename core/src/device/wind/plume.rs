@@ -1,0 +1,132 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! twin: backend-wgpu/src/shaders/wind/plume.wgsl
+//!
+//! Hot air that rises above a fire and draws in the air around it.
+//!
+//! # Model
+//! On the axis the air rises as McCaffrey measured (Purely Buoyant Diffusion Flames, NBSIR 79-1910, 1979): of a fire of Q kW, at
+//! z / Q^0.4 = ζ, with `6.84 ζ^0.5 Q^0.2` m/s in the steady flame, `1.93 Q^0.2` where it flickers and `1.12 ζ^(-1/3) Q^0.2` above, the three
+//! joined smoothly. About the axis the speed falls as a bell `exp(-r² / b²)`, of a width b that grows by [`PLUME_SPREAD`] per metre from
+//! the radius of the fire. Towards the axis comes what the stream function `W b² (1 - exp(-r² / b²)) / 2` draws in: no divergence, for any
+//! speed and width. What lies below the base does not move.
+//!
+//! In wind the axis leans: each disc of the plume is shifted along the wind, by so much that the axis is the path of the air on it. The wind goes on through the
+//! axis and around the plume, as about something in its way, in flat layers without divergence.
+
+use crate::arith::lane::{Mask, Real};
+use crate::arith::math::{exponential, inverse_cube_root, inverse_sqrt, reciprocal};
+use crate::arith::vector::{Vec3, vec3_select};
+use crate::blocks::PlumeBlock;
+use crate::context::Context;
+
+crate::shared_constants! {
+    /// Growth of a plume's width b per metre.
+    pub const PLUME_SPREAD: f32 = 0.12;
+    /// Heights at which the lean of a plume bends.
+    pub const PLUME_BENDS: u32 = 8;
+    /// Lowest of these heights in m but for the base's; each other one is twice the one before.
+    pub const PLUME_LOWEST_BEND_M: f32 = 0.5;
+    /// Speed on the axis in the steady flame over that of the fire, per root of the height.
+    pub const PLUME_FLAME: f32 = 6.84;
+    /// Speed on the axis where the flame flickers over that of the fire.
+    pub const PLUME_FLICKER: f32 = 1.93;
+    /// Speed on the axis above the flame over that of the fire, times the cube root of the height.
+    pub const PLUME_ABOVE: f32 = 1.12;
+    /// Difference of two of these speeds below which they are blended.
+    pub const PLUME_BLEND: f32 = 0.06;
+    /// Height below which the speed falls to nothing at the base.
+    pub const PLUME_FOOT: f32 = 0.01;
+    /// Squared distance from the axis in widths below which the share of a bell within it comes from its series.
+    pub const PLUME_NEAR_AXIS: f32 = 0.02;
+}
+
+/// Speed on the axis of a plume over that of its fire, and how much it grows per height.
+#[derive(Clone, Copy, Debug)]
+pub struct PlumeRise<R> {
+    /// The speed.
+    pub speed: R,
+    /// Its growth.
+    pub growth: R,
+}
+
+/// The smaller one, blended where they are nearly the same.
+#[inline(always)]
+fn rise_least<R: Real>(one: PlumeRise<R>, other: PlumeRise<R>) -> PlumeRise<R> {
+    let difference = (other.speed - one.speed) * (0.5 / PLUME_BLEND);
+    let share = (difference + 0.5).max(one.speed.all(0.0)).min(one.speed.all(1.0));
+    let rest = one.speed.all(1.0) - share;
+    PlumeRise {
+        speed: (one.speed * share + other.speed * rest) - (share * rest) * PLUME_BLEND,
+        growth: one.growth * share + other.growth * rest,
+    }
+}
+
+/// Speed on the axis at a height over Q^0.4, which is not negative.
+#[inline(always)]
+pub fn plume_rise<R: Real>(height: R) -> PlumeRise<R> {
+    let foot = height.all(PLUME_FOOT);
+    let above_foot = height.max(foot);
+    let inverse_root = inverse_sqrt(above_foot);
+    let inverse_cube = inverse_cube_root(above_foot);
+    let flame = (above_foot * inverse_root) * PLUME_FLAME;
+    let share = height.min(foot) * (1.0 / PLUME_FOOT);
+    let steady = PlumeRise {
+        speed: flame * (share * (height.all(1.5) - share * 0.5)),
+        growth: inverse_root * ((height.all(1.5) - share) * PLUME_FLAME),
+    };
+    let in_foot = height.less_than(foot);
+    let steady = PlumeRise {
+        speed: steady.speed,
+        growth: in_foot.select_real(steady.growth, inverse_root * (0.5 * PLUME_FLAME)),
+    };
+    let flicker = PlumeRise { speed: height.all(PLUME_FLICKER), growth: height.all(0.0) };
+    let squared = inverse_cube * inverse_cube;
+    let above =
+        PlumeRise { speed: inverse_cube * PLUME_ABOVE, growth: (squared * squared) * (-PLUME_ABOVE / 3.0) };
+    rise_least(rise_least(steady, flicker), above)
+}
+
+/// Velocity that one plume adds at `place` in m/s, where the ground leaves the share `level` of level turbulence.
+#[inline(always)]
+pub fn wind_plume<R: Real>(cx: &Context<'_>, plume: &PlumeBlock, place: Vec3<R>, level: R) -> Vec3<R> {
+    let wind = &cx.scene.wind;
+    let none = level.all(0.0);
+    let one = level.all(1.0);
+    let from_base = place - Vec3::from(plume.base_m).spread(level);
+    let is_below = from_base.y.less_than(none);
+    let height = from_base.y.max(none);
+    let mut slope = level.all(plume.base_slope);
+    let mut lean = height * plume.base_slope;
+    let mut bend_m = 0.0;
+    for number in 0..PLUME_BENDS {
+        let past = (height - bend_m).max(none);
+        let turned = past * plume.bends_per_m[number as usize / 4].0[number as usize % 4];
+        slope = slope + turned;
+        lean = lean + (turned * past) * 0.5;
+        bend_m = (bend_m * 2.0).max(PLUME_LOWEST_BEND_M);
+    }
+    let along = (from_base.x * wind.direction_x + from_base.z * wind.direction_z) - lean;
+    let across = from_base.z * wind.direction_x - from_base.x * wind.direction_z;
+    let inverse_width = reciprocal(height * PLUME_SPREAD + plume.base_radius_m);
+    let inverse_squared = inverse_width * inverse_width;
+    let squared = (along * along + across * across) * inverse_squared;
+    let bell = exponential(-squared);
+    let near = squared.less_than(level.all(PLUME_NEAR_AXIS));
+    let series = one - squared * (one * 0.5 - squared * (1.0 / 6.0));
+    let within = near.select_real(series, (one - bell) * reciprocal(squared.max(level.all(PLUME_NEAR_AXIS))));
+    let rise = plume_rise(height * plume.heights_per_m);
+    let speed = rise.speed * plume.speed_m_s;
+    let growth = rise.growth * (plume.speed_m_s * plume.heights_per_m);
+    let widening = (speed * inverse_width) * PLUME_SPREAD;
+    let inflow = (widening * bell - (growth * 0.5 + widening) * within) * (level * plume.inv_layer).min(one);
+    let passing = ((speed * slope) * (bell * inverse_squared)) * 2.0;
+    let u = inflow * along + passing * (across * across);
+    let w = inflow * across - passing * (along * across);
+    let air = Vec3::new(
+        u * wind.direction_x - w * wind.direction_z,
+        speed * bell,
+        u * wind.direction_z + w * wind.direction_x,
+    );
+    vec3_select(is_below, Vec3::new(none, none, none), air)
+}
