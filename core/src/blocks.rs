@@ -252,16 +252,16 @@ crate::shared_struct! {
 }
 
 crate::shared_struct! {
-    /// A number that differs from particle to particle: one of its widths is zero.
+    /// A number that differs from particle to particle: all of its widths but one are zero.
     pub struct SpreadBlock {
-        /// Mean.
+        /// Mean, or least one of a cubic spread.
         pub mean: f32,
         /// Half width of a uniform spread.
         pub half_width: f32,
         /// Standard deviation of a normal one.
         pub deviation: f32,
-        /// Zero.
-        pub unused: f32,
+        /// Width of a cubic one.
+        pub cubic_width: f32,
     }
 }
 
@@ -338,8 +338,10 @@ crate::shared_struct! {
         pub mutual_gm_m3_s2: f32,
         /// Squared softening length of that in m².
         pub mutual_softening_m2: f32,
+        /// Number of points that they start from; 1 of other shapes.
+        pub feet: u32,
         /// Zero.
-        pub unused: [f32; 2],
+        pub unused: u32,
         /// Speed at which they set off in m/s.
         pub speed_m_s: SpreadBlock,
         /// Life in steps; zero if age does not end it.

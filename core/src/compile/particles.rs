@@ -10,7 +10,8 @@ use crate::blocks::{PopulationBlock, SpreadBlock};
 use crate::convert::{len32, single};
 use crate::device::particle::air::{AIR_LINEAR, AIR_MASSLESS, AIR_QUADRATIC, AIR_STOKES, AIR_VACUUM};
 use crate::device::particle::birth::{
-    PARTICLE_BALL, PARTICLE_BOX, PARTICLE_CONE, PARTICLE_DISC, PARTICLE_LINE, PARTICLE_RING, PARTICLE_SHELL,
+    PARTICLE_BALL, PARTICLE_BOX, PARTICLE_CONE, PARTICLE_DISC, PARTICLE_FEET, PARTICLE_LINE, PARTICLE_RING,
+    PARTICLE_SHELL,
 };
 use crate::device::particle::force_carrier::CarrierRun;
 use crate::device::particle::record::{
@@ -162,6 +163,10 @@ fn set_shape(shape: &ParticleShape, block: &mut PopulationBlock) {
         ParticleShape::Disc { center_m, radius_m, axis } => {
             (PARTICLE_DISC, center_m.as_dvec3(), across(axis, radius_m))
         }
+        ParticleShape::Feet { center_m, radius_m, feet } => {
+            block.feet = feet;
+            (PARTICLE_FEET, center_m.as_dvec3(), across(Vec3::Y, radius_m))
+        }
         ParticleShape::Ring { center_m, radius_m, axis } => {
             (PARTICLE_RING, center_m.as_dvec3(), across(axis, radius_m))
         }
@@ -181,6 +186,7 @@ fn set_shape(shape: &ParticleShape, block: &mut PopulationBlock) {
         }
     };
     block.shape = kind;
+    block.feet = block.feet.max(1);
     block.center_m = vector(center);
     [block.span_x_m, block.span_y_m, block.span_z_m] = spans.map(vector);
 }
@@ -206,9 +212,10 @@ fn vector(of: DVec3) -> [f32; 3] {
 fn spread_block(spread: Spread, units: f64) -> SpreadBlock {
     let scaled = |number: f32| single(f64::from(number) * units);
     SpreadBlock {
-        mean: scaled(spread.mean()),
+        mean: scaled(spread.base()),
         half_width: scaled(spread.half_width()),
         deviation: scaled(spread.deviation()),
+        cubic_width: scaled(spread.cubic_width()),
         ..bytemuck::Zeroable::zeroed()
     }
 }

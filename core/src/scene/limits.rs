@@ -205,6 +205,10 @@ limits! {
     NOZZLE_M: f32 = 0.01, 20.0, "m", nozzle_m;
     JET_SPEED_M_S: f32 = 0.0, 300.0, "m/s", speed_m_s;
     JET_M: f32 = -4096.0, 4096.0, "m", at_m toward_m;
+    FEET: u32 = 1, 256, "", feet;
+    TEMPERATURE_K: f32 = 500.0, 3000.0, "K", temperature_k;
+    FLAME_SAMPLES: u32 = 1, 64, "", samples;
+    FLAME_SHELL: f32 = 0.05, 20.0, "", shell;
     BASE_RADIUS_M: f32 = 0.05, 20.0, "m", base_radius_m;
     POWER_KW: f32 = 0.0, 10_000.0, "kW", power_kw;
 

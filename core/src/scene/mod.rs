@@ -43,7 +43,7 @@ pub use lens::{Exposure, Focus, Glare, Lens, ToneMap};
 pub use litter::Litter;
 pub use nest::{Nest, ParticleEvent, Space};
 pub use object::{Object, ObjectFriction, ObjectKey, ObjectMotion, ObjectShape, PLANE_REACH_M, Walker};
-pub use particle_look::{Look, LookKind, LookSample, MAX_BLOBS, lone_blob_radius};
+pub use particle_look::{Look, LookKind, LookSample, MAX_BLOBS, MAX_LIGHTS, lone_blob_radius};
 pub use particles::{
     Air, Bounds, Direction, Meets, NORMAL_REACH, ParticleRelease, ParticleShape, Particles, Spread,
 };

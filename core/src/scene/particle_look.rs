@@ -15,6 +15,14 @@ pub enum LookKind {
     Splat,
     /// A soft disc that shines by itself and hides nothing.
     Glow,
+    /// A flame: particles that were born at one of the [`Feet`](super::ParticleShape::Feet) one after another are the points of a uniform cubic
+    /// B-spline, about which soft lights are spread out to the radius of each, densest on it. Where one is dead the flame is broken.
+    Flame {
+        /// Lights from each point to the next, 1 to 64.
+        samples: u32,
+        /// Distance from the spline, in radii, over which the lights thin out as 1 / (1 + distance), 0.05 to 20: large ones fill the flame.
+        shell: f32,
+    },
     /// Metaballs: all particles of the population together have one wet surface, on which the sum of (1 - d²/R²)³ over all that are
     /// nearer than their radius R is the threshold. Each has its own colour of the curve, mixed where they meet.
     ///
@@ -47,6 +55,9 @@ pub struct Look {
     pub kind: LookKind,
     /// Reflectance, or colour of the light, linear red, green and blue, each component 0 to 1.
     pub color: Vec<(f32, Vec3)>,
+    /// Temperature in kelvin, 500 to 3000, of what glows or burns: its light is that of a black body, times the opacity. Without points
+    /// `color` and `brightness_kcd_m2` count.
+    pub temperature_k: Vec<(f32, f32)>,
     /// Opacity, or share of the light, 0 to 1.
     pub opacity: Vec<(f32, f32)>,
     /// Diameter over the particle's own, 0 to 1000.
@@ -55,6 +66,8 @@ pub struct Look {
     pub brightness_kcd_m2: f32,
     /// Period in seconds, 0.1 to 60, in which what shines blinks, each particle in its own time; `None` if it shines steadily.
     pub blink_s: Option<f32>,
+    /// True if what shines lights the scene, as one light in its middle: at most 4 populations.
+    pub lights: bool,
     /// True if it is drawn out along its way while the shutter of the lens is open, and as much fainter.
     pub streak: bool,
     /// Layer, 0 to 15: lower ones are drawn first, whatever their distance.
@@ -66,10 +79,12 @@ impl Default for Look {
         Self {
             kind: LookKind::Dot,
             color: Vec::new(),
+            temperature_k: Vec::new(),
             opacity: Vec::new(),
             size: Vec::new(),
             brightness_kcd_m2: 10.0,
             blink_s: None,
+            lights: false,
             streak: false,
             layer: 0,
         }
@@ -81,18 +96,29 @@ impl Default for Look {
 pub struct LookSample {
     /// Reflectance, or colour of the light, linear, each component 0 to 1.
     pub color: Vec3,
+    /// Temperature of a black body in kelvin.
+    pub temperature_k: Option<f32>,
     /// Opacity, 0 to 1.
     pub opacity: f32,
     /// Diameter over the particle's own, 0 to 1000.
     pub size: f32,
 }
 
+/// Most populations that light the scene.
+pub const MAX_LIGHTS: usize = 4;
+
 impl Look {
+    /// Returns true if it shines by itself.
+    pub fn shines(&self) -> bool {
+        matches!(self.kind, LookKind::Glow | LookKind::Flame { .. })
+    }
+
     /// Values at an age as a share of the life.
     pub fn sample(&self, age_share: f32) -> LookSample {
         let mix = |a: f32, b: f32, t: f32| a + (b - a) * t;
         LookSample {
             color: sample_curve(&self.color, age_share, |a, b, t| a.lerp(b, t)).unwrap_or(Vec3::ONE),
+            temperature_k: sample_curve(&self.temperature_k, age_share, mix),
             opacity: sample_curve(&self.opacity, age_share, mix).unwrap_or(1.0),
             size: sample_curve(&self.size, age_share, mix).unwrap_or(1.0),
         }
@@ -128,7 +154,11 @@ mod tests {
         assert_eq!(look.sample(0.1).color, Vec3::X, "one point holds everywhere");
         assert_eq!(look.sample(1.0).size, 3.0, "the last point itself");
         let plain = Look::default().sample(0.3);
-        assert_eq!(plain, LookSample { color: Vec3::ONE, opacity: 1.0, size: 1.0 }, "no points");
+        assert_eq!(
+            plain,
+            LookSample { color: Vec3::ONE, temperature_k: None, opacity: 1.0, size: 1.0 },
+            "no points"
+        );
     }
 
     #[test]

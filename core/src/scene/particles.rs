@@ -17,6 +17,9 @@ pub enum Spread {
     /// Nearly normal about a mean, with a standard deviation; both -1000000 to 1000000. The sum of four uniform numbers: nothing is farther
     /// from the mean than 3.4641 standard deviations, all of it within the range of the field.
     Normal(f32, f32),
+    /// The least, and more by the cube of a uniform share of a width; both -1000000 to 1000000, and all that is drawn within the range of the
+    /// field. Half of the numbers are within an eighth of the width: so long live tongues that break off a flame.
+    Cubic(f32, f32),
 }
 
 /// Standard deviations from its mean to the farthest number of [`Spread::Normal`]: twice the root of three.
@@ -25,8 +28,12 @@ pub const NORMAL_REACH: f32 = 3.464_102;
 impl Spread {
     /// Mean.
     pub fn mean(self) -> f32 {
-        let (Self::Constant(mean) | Self::Uniform(mean, _) | Self::Normal(mean, _)) = self;
-        mean
+        self.base() + 0.25 * self.cubic_width()
+    }
+
+    /// Width over which the cubic part spreads.
+    pub fn cubic_width(self) -> f32 {
+        if let Self::Cubic(_, width) = self { width } else { 0.0 }
     }
 
     /// Half width of the uniform part.
@@ -39,19 +46,26 @@ impl Spread {
         if let Self::Normal(_, deviation) = self { deviation } else { 0.0 }
     }
 
-    /// Distance from the mean to the farthest number.
+    /// Number about which the others spread: the mean, or the least one of a cubic spread.
+    pub fn base(self) -> f32 {
+        let (Self::Constant(base) | Self::Uniform(base, _) | Self::Normal(base, _) | Self::Cubic(base, _)) =
+            self;
+        base
+    }
+
+    /// Distance from the mean to the farthest number of an even spread.
     fn reach(self) -> f32 {
         self.half_width() + NORMAL_REACH * self.deviation()
     }
 
     /// Least number that is drawn.
     pub fn lowest(self) -> f32 {
-        self.mean() - self.reach()
+        self.base() - self.reach() + self.cubic_width().min(0.0)
     }
 
     /// Largest number that is drawn.
     pub fn highest(self) -> f32 {
-        self.mean() + self.reach()
+        self.base() + self.reach() + self.cubic_width().max(0.0)
     }
 }
 
@@ -103,6 +117,16 @@ pub enum ParticleShape {
         base_m: Vec3,
         /// Radius of the base in metres, 0 to 4096.
         radius_m: f32,
+    },
+    /// Points spread evenly over a level disc, one after another: of so many births each has a point of its own, where the first one of
+    /// the next round starts, too. Flames stand on them.
+    Feet {
+        /// Centre in metres, each component -4096 to 4096.
+        center_m: Vec3,
+        /// Radius in metres, 0 to 4096.
+        radius_m: f32,
+        /// Number of points, 1 to 256.
+        feet: u32,
     },
     /// A line.
     Line {

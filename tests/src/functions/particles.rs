@@ -6,7 +6,9 @@ use windfall_core::Context;
 use windfall_core::arith::Vec3;
 use windfall_core::blocks::{NestBlock, PopulationBlock};
 use windfall_core::device::particle::air::{air_numbers, lost_share};
-use windfall_core::device::particle::birth::{birth_number, cap_direction, shape_point, trait_word};
+use windfall_core::device::particle::birth::{
+    birth_number, cap_direction, foot_point, shape_point, trait_word,
+};
 use windfall_core::device::particle::draw::{particle_words, spread_draw};
 use windfall_core::device::particle::fly::{ParticleFlight, particle_fly};
 use windfall_core::device::particle::force::{force_pull, force_swirl, force_turn};
@@ -72,6 +74,10 @@ functions! {
     air_numbers in "particle/air" (POPULATION, Input::Below(65535), ANY, ANY) tolerance Some(2e-6);
     wgsl "let n = air_numbers(a.x, a.y + 1u, a.z, a.w); r.x = bitcast<u32>(n.x); r.y = bitcast<u32>(n.y);";
     rust |cx, w| floats(air_numbers(cx, population(cx, w), w[1] + 1, w[2], w[3]));
+
+    foot_point in "particle/birth" (Input::Below(256), ANY) tolerance Some(1e-6);
+    wgsl "out_vec3(0u, foot_point(a.x + 1u, a.y));";
+    rust |_cx, w| floats(foot_point(w[0] + 1, w[1]).to_array());
 
     shape_point in "particle/birth" (Input::Below(7), ANY, ANY, ANY, ANY, ANY, ANY) tolerance Some(1e-5);
     wgsl "out_vec3(0u, shape_point(a.x, in_words(1u), in_words(5u)));";

@@ -18,6 +18,8 @@ override IS_HILLY: bool = true;
 // Without trees and objects nothing hides the sky.
 override HAS_ROOF: bool = true;
 override HAS_OBJECTS: bool = true;
+// Number of fires that light the scene.
+override FIRE_LIGHTS: u32 = 0u;
 
 // The grid points around a place, lowest (xy) and highest (zw), and where between them it lies.
 struct Cell {

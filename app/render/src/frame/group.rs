@@ -18,6 +18,8 @@ pub(crate) struct Standing {
     pub(crate) trees: bool,
     /// True if it has objects or walkers.
     pub(crate) objects: bool,
+    /// Number of fires that light it.
+    pub(crate) fire_lights: u32,
 }
 
 /// The frame's uniform buffer and bind group.
@@ -96,10 +98,15 @@ impl FrameGroup {
     }
 
     /// Values of the overrides of every module that binds the group.
-    pub(crate) fn overrides(&self) -> [(&'static str, f64); 3] {
+    pub(crate) fn overrides(&self) -> [(&'static str, f64); 4] {
         let of = |is: bool| f64::from(u8::from(is));
-        let Standing { trees, objects } = self.standing;
-        [("IS_HILLY", of(self.is_hilly)), ("HAS_ROOF", of(trees || objects)), ("HAS_OBJECTS", of(objects))]
+        let Standing { trees, objects, fire_lights } = self.standing;
+        [
+            ("IS_HILLY", of(self.is_hilly)),
+            ("HAS_ROOF", of(trees || objects)),
+            ("HAS_OBJECTS", of(objects)),
+            ("FIRE_LIGHTS", fire_lights.into()),
+        ]
     }
 
     /// Takes over another sun, by the direction towards it; level ground has no shade.

@@ -2,9 +2,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Bind group 1: shadows, shade, noise and the sky.
 
+use super::fire_light;
 use super::noise::{NOISE_SIZE, noise_mips};
 use super::sky_texture::radiance_texture;
-use crate::gpu::pipeline::{FILTERABLE, sampler_entry, texture_entry};
+use crate::gpu::pipeline::{FILTERABLE, sampler_entry, texture_entry, uniform_entry};
 use crate::gpu::upload;
 use crate::light::{Daylight, prefiltered};
 
@@ -16,6 +17,8 @@ pub(crate) struct LightGroup {
     /// Shadow maps, shade map and noise.
     views: [(u32, wgpu::TextureView); 3],
     skies: [wgpu::TextureView; 2],
+    /// Lights of fires.
+    pub(crate) fires: wgpu::Buffer,
     samplers: [(u32, wgpu::Sampler); 4],
 }
 
@@ -40,6 +43,7 @@ impl LightGroup {
                 texture_entry(7, FILTERABLE, flat),
                 sampler_entry(8, wgpu::SamplerBindingType::Filtering),
                 texture_entry(9, FILTERABLE, flat),
+                uniform_entry(10),
             ],
         });
         let linear = wgpu::SamplerDescriptor {
@@ -60,8 +64,9 @@ impl LightGroup {
         ];
         let views = [(0, shadow_maps.clone()), (2, shade_map.clone()), (4, noise_view(device, queue))];
         let skies = skies(device, queue, daylight);
-        let group = bind(device, &layout, &views, &samplers, &skies);
-        Self { layout, group, views, skies, samplers }
+        let fires = fire_light::buffer(device);
+        let group = bind(device, &layout, (&views, &fires), &samplers, &skies);
+        Self { layout, group, views, skies, fires, samplers }
     }
 
     /// Takes over another sky.
@@ -77,7 +82,7 @@ impl LightGroup {
     }
 
     fn rebind(&mut self, device: &wgpu::Device) {
-        self.group = bind(device, &self.layout, &self.views, &self.samplers, &self.skies);
+        self.group = bind(device, &self.layout, (&self.views, &self.fires), &self.samplers, &self.skies);
     }
 }
 
@@ -92,7 +97,7 @@ fn skies(device: &wgpu::Device, queue: &wgpu::Queue, daylight: &Daylight) -> [wg
 fn bind(
     device: &wgpu::Device,
     layout: &wgpu::BindGroupLayout,
-    views: &[(u32, wgpu::TextureView)],
+    (views, fires): (&[(u32, wgpu::TextureView)], &wgpu::Buffer),
     samplers: &[(u32, wgpu::Sampler)],
     [seen, mirrored]: &[wgpu::TextureView; 2],
 ) -> wgpu::BindGroup {
@@ -103,7 +108,8 @@ fn bind(
         resource: wgpu::BindingResource::Sampler(sampler),
     });
     let fixed = views.iter().map(|(binding, texture)| view(*binding, texture));
-    let entries: Vec<_> = fixed.chain([view(7, seen), view(9, mirrored)]).chain(samplers).collect();
+    let fires = wgpu::BindGroupEntry { binding: 10, resource: fires.as_entire_binding() };
+    let entries: Vec<_> = fixed.chain([view(7, seen), view(9, mirrored), fires]).chain(samplers).collect();
     device.create_bind_group(&wgpu::BindGroupDescriptor { label: Some("light"), layout, entries: &entries })
 }
 

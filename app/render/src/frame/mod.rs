@@ -3,6 +3,7 @@
 //! Bind groups 0 and 1, which all passes of a scene share: camera, sun and air of a frame, the land, shadow maps and the sky.
 
 pub(crate) mod cascades;
+pub(crate) mod fire_light;
 pub(crate) mod group;
 pub(crate) mod input;
 pub(crate) mod light_group;
@@ -20,9 +21,16 @@ use crate::light;
 /// Shader modules of this room and of those below.
 pub(crate) fn shaders() -> Shaders {
     let mut shaders = crate::gpu::shaders::shaders();
-    let lists = [cascades::wgsl_constants(), surroundings::wgsl_constants(), light::wgsl_constants()];
-    let structs = surroundings::FrameUniform::declaration() + &LandUniform::declaration();
+    let lists = [
+        cascades::wgsl_constants(),
+        fire_light::wgsl_constants(),
+        surroundings::wgsl_constants(),
+        light::wgsl_constants(),
+    ];
+    let structs = surroundings::FrameUniform::declaration()
+        + &LandUniform::declaration()
+        + &fire_light::FireLight::declaration();
     shaders.extend([("frame/structs", declarations(lists) + &structs)]);
-    shaders.extend(wgsl_files!("frame": "common", "light"));
+    shaders.extend(wgsl_files!("frame": "common", "fire_light", "light"));
     shaders
 }

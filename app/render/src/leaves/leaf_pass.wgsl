@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // Leaves, lit by the sun in front of them and through them.
 
+#import frame/fire_light
 #import frame/light
 #import leaves/shape
 
@@ -156,6 +157,7 @@ fn fragment(in: Varyings) -> Painted {
     let nearness = mix(1.0, 0.75, in.settled) * in.tint_open.w;
     let ambient = ambient_light_on(normal);
     color += (reflectance * ambient.front + transmittance * ambient.back) * nearness;
+    color += reflectance * fire_light(in.world, normal) + transmittance * fire_light(in.world, -normal);
     let again = RECOLLISION * min(length(in.outward_mirror.xyz) / 0.5, 1.0);
     color /= 1.0 - again * (reflectance + transmittance);
     let mirrored = mirrored_share(clamp(dot(sheet, to_eye), 0.0, 1.0)) * nearness;

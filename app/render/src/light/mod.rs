@@ -4,6 +4,7 @@
 //! both. Radiance is in kcd/m² (a thousand candelas per square metre), illuminance in klx, colours in linear sRGB.
 
 mod atmosphere;
+mod black_body;
 mod clouds;
 mod column_table;
 mod daylight;
@@ -20,6 +21,7 @@ mod sun_search;
 mod table;
 
 pub(crate) use atmosphere::Atmosphere;
+pub(crate) use black_body::black_body;
 pub use daylight::Daylight;
 pub use environment_map::EnvironmentMap;
 pub use map_error::MapError;

@@ -22,7 +22,7 @@ pub(super) const OZONE: Spectrum = [0.0131, 0.132, 0.634, 1.994, 3.882, 4.606, 2
 /// Width of a band in nm.
 const BAND_NM: f32 = 40.0;
 /// Luminous efficacy in lm/W where the eye is most sensitive.
-const EFFICACY: f32 = 683.0;
+pub(super) const EFFICACY: f32 = 683.0;
 
 /// Luminance of linear sRGB.
 pub fn luminance(color: Vec3) -> f32 {
@@ -35,12 +35,7 @@ pub(super) struct ToRgb([Vec3; BANDS]);
 
 impl ToRgb {
     pub(super) fn new() -> Self {
-        // Columns of the inverse of the sRGB primaries (IEC 61966-2-1).
-        let from_xyz = Mat3::from_cols(
-            Vec3::new(3.240_454, -0.969_266, 0.055_643),
-            Vec3::new(-1.537_138, 1.876_011, -0.204_026),
-            Vec3::new(-0.498_531, 0.041_556, 1.057_225),
-        );
+        let from_xyz = rgb_from_xyz();
         // A spectrum is taken to be linear between the middles of the bands.
         Self(WAVELENGTHS_NM.map(|middle| {
             let steps = (-40i8..=40).map(|step| f32::from(step) / 40.0);
@@ -54,8 +49,17 @@ impl ToRgb {
     }
 }
 
+/// From CIE XYZ to linear sRGB: the inverse of the sRGB primaries (IEC 61966-2-1), column by column.
+pub(super) fn rgb_from_xyz() -> Mat3 {
+    Mat3::from_cols(
+        Vec3::new(3.240_454, -0.969_266, 0.055_643),
+        Vec3::new(-1.537_138, 1.876_011, -0.204_026),
+        Vec3::new(-0.498_531, 0.041_556, 1.057_225),
+    )
+}
+
 /// The CIE 1931 observer's response (x, y, z), as sums of lobes fitted by Wyman, Sloan and Shirley (2013).
-fn observer(nm: f32) -> Vec3 {
+pub(super) fn observer(nm: f32) -> Vec3 {
     let lobe = |middle: f32, below: f32, above: f32| {
         let t = (nm - middle) / if nm < middle { below } else { above };
         (-0.5 * t * t).exp()

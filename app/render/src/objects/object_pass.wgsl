@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // Objects and those who walk: rough surfaces with the marks of weather, and clothes.
 
+#import frame/fire_light
 #import frame/light
 #import objects/object_shape
 
@@ -208,6 +209,7 @@ fn fragment(in: Varyings) -> @location(0) vec4<f32> {
     let beneath = mix(1.0, smoothstep(-0.1, 0.8, height), 0.7 * max(-smooth_normal.y, 0.0));
     let open = mix(0.4, 1.0, before) * low * beneath;
     var color = albedo * (sun * facing + ambient_light(normal) * open * sky_openness(in.world));
+    color += albedo * fire_light(in.world, normal);
     let half_way = normalize(light + to_eye);
     color += sun * gloss * 0.5 * pow(max(dot(normal, half_way), 0.0), 14.0) * facing;
     // Cloth and skin are too rough to mirror the sky at their outlines.

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // Trees as upright pictures that turn to the camera, lit anew by the sun of the scene.
 
+#import frame/fire_light
 #import frame/light
 #import park/structs
 
@@ -72,7 +73,7 @@ fn fragment(in: Varyings) -> @location(0) vec4<f32> {
     let saturated = mix(vec3(luminance(leaf)), leaf, 1.4) * vec3(1.15, 0.95, 0.6);
     let through = saturated * (1.0 - surface.b) * against * open * open * (0.25 + 1.1 * lit);
     var color = frame.sun_color * hill_light(in.world) * (albedo * lit + through);
-    color += albedo * ambient_light(normal) * (0.25 + 0.75 * open);
+    color += albedo * (ambient_light(normal) * (0.25 + 0.75 * open) + fire_light(in.world, normal));
     return vec4(color * in.air.a + in.air.rgb, alpha);
 }
 

@@ -6,7 +6,7 @@ use windfall_core::scene::{Look, LookKind, Particles, Scene};
 use windfall_core::{shared_constants, shared_struct};
 
 use crate::gpu::upload;
-use crate::light::luminance;
+use crate::light::{black_body, luminance};
 
 shared_constants! {
     /// A lit ball.
@@ -77,8 +77,8 @@ fn population(particles: &Particles) -> PopulationLook {
         LookKind::Dot => LOOK_DOT,
         LookKind::Splat => LOOK_SPLAT,
         LookKind::Glow => LOOK_GLOW,
-        // The surface of blobs is drawn by itself.
-        LookKind::Hidden | LookKind::Blobs { .. } => LOOK_HIDDEN,
+        // Flames and the surface of blobs are drawn by themselves.
+        LookKind::Hidden | LookKind::Blobs { .. } | LookKind::Flame { .. } => LOOK_HIDDEN,
     };
     PopulationLook {
         kind_flags: if look.streak { kind | LOOK_STREAKED } else { kind },
@@ -91,9 +91,12 @@ fn population(particles: &Particles) -> PopulationLook {
 fn rows(look: &Look) -> impl Iterator<Item = LookRow> + '_ {
     (0..LOOK_ROWS).map(|row| {
         let sample = look.sample(row as f32 / (LOOK_ROWS - 1) as f32);
-        let color = match look.kind {
+        let color = match (look.kind, sample.temperature_k) {
+            (LookKind::Glow | LookKind::Flame { .. }, Some(temperature_k)) => black_body(temperature_k),
             // A colour says which light it is, the brightness how much.
-            LookKind::Glow => sample.color * (look.brightness_kcd_m2 / luminance(sample.color).max(1e-6)),
+            (LookKind::Glow | LookKind::Flame { .. }, None) => {
+                sample.color * (look.brightness_kcd_m2 / luminance(sample.color).max(1e-6))
+            }
             _ => sample.color,
         };
         LookRow { color: color.to_array(), opacity: sample.opacity, size: sample.size, padding: [0; 12] }

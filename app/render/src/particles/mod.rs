@@ -4,6 +4,7 @@
 
 pub(crate) mod blobs;
 pub(crate) mod draw_list;
+pub(crate) mod flames;
 pub(crate) mod looks;
 pub(crate) mod paint;
 pub(crate) mod particle_pass;
@@ -23,7 +24,10 @@ pub(crate) fn shaders() -> Shaders {
         draw_list::ParticleUniform::declaration(),
     ];
     let lists = [looks::wgsl_constants(), draw_list::wgsl_constants(), paint::wgsl_constants()];
-    shaders.extend([("particles/structs", declarations(lists) + &structs.concat() + &blobs::structs())]);
-    shaders.extend(wgsl_files!("particles": "bindings", "blob_field", "blob_list", "blob_pass", "blob_shadow", "draw_list", "paint", "particle_pass"));
+    shaders.extend([(
+        "particles/structs",
+        declarations(lists) + &structs.concat() + &blobs::structs() + &flames::structs(),
+    )]);
+    shaders.extend(wgsl_files!("particles": "bindings", "blob_field", "blob_list", "blob_pass", "blob_shadow", "draw_list", "fire_gather", "flame_pass", "flame_spine", "paint", "particle_pass"));
     shaders
 }

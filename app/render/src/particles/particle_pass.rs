@@ -7,6 +7,7 @@ use windfall_wgpu::ParticleColumns;
 
 use super::blobs::BlobPass;
 use super::draw_list::{DrawList, whole};
+use super::flames::FlamePass;
 use super::looks::LookBuffers;
 use super::paint::PaintedParticles;
 use crate::camera::Camera;
@@ -21,6 +22,7 @@ use crate::gpu::shaders::compile;
 pub(crate) struct ParticlePass {
     looks: LookBuffers,
     blobs: Option<BlobPass>,
+    flames: Option<FlamePass>,
     list: DrawList,
     layout: wgpu::BindGroupLayout,
     pipeline: wgpu::RenderPipeline,
@@ -66,6 +68,7 @@ impl ParticlePass {
         Some(Self {
             looks: LookBuffers::new(device, queue, scene),
             blobs: BlobPass::new((device, queue), frame, light, scene),
+            flames: FlamePass::new((device, queue), frame, light, scene),
             list: DrawList::new(device, queue, slots, scene.dt_s),
             layout,
             pipeline,
@@ -102,6 +105,9 @@ impl ParticlePass {
                 entries: &entries,
             })
         });
+        if let Some(flames) = &mut self.flames {
+            flames.prepare((device, queue), encoder, columns, (&self.looks, &self.list.uniform));
+        }
         if let Some(blobs) = &mut self.blobs {
             blobs.prepare(device, encoder, columns, (&self.looks, &self.list.uniform));
         }
@@ -114,6 +120,9 @@ impl ParticlePass {
 
     /// Draws all others; bind groups 0 and 1 are set.
     pub(crate) fn draw(&self, pass: &mut wgpu::RenderPass<'_>) {
+        if let Some(flames) = &self.flames {
+            flames.draw(pass);
+        }
         if let Some(group) = &self.group {
             pass.set_pipeline(&self.pipeline);
             pass.set_bind_group(2, group, &[]);

@@ -3,6 +3,7 @@
 // Particles as discs that face the camera, drawn out along their way while the shutter is open. Premultiplied: balls and puffs
 // hide by their opacity what is behind them, lights hide nothing.
 
+#import frame/fire_light
 #import frame/light
 #import gpu/sort_pair
 #import particles/bindings
@@ -133,7 +134,8 @@ fn vertex(@builtin(vertex_index) corner: u32, @builtin(instance_index) rank: u32
         let puff = BALL_SHARE * scattering(-dot(view, frame.sun_direction));
         out.sun = vec4(row.color * lit * select(1.0, puff, out.kind == LOOK_SPLAT) * air.a, opacity);
         let around = 0.5 * (ambient_light(vec3(0.0, 1.0, 0.0)) + ambient_light(vec3(0.0, -1.0, 0.0)));
-        out.sky = vec4(row.color * around * air.a, opacity);
+        let fires = fire_around(place.position) * BALL_SHARE;
+        out.sky = vec4(row.color * (around + fires) * air.a, opacity);
     }
     return out;
 }

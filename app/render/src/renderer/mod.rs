@@ -38,6 +38,7 @@ use crate::park::far_trees::{ShadePass, TreePass, Trees};
 use crate::park::layout::{Park, plant};
 use crate::park::litter::Litter;
 use crate::park::park_trees::{own_trees, shedding};
+use crate::particles::flames::light_count;
 use crate::particles::particle_pass::ParticlePass;
 use crate::scenery::grass_pass::GrassPass;
 use crate::scenery::ground_pass::GroundPass;
@@ -138,7 +139,11 @@ impl Renderer {
 
         let targets = Targets::new(device, size, options.tile_px, is_moving(&scene.view.lens))?;
         let objects = ObjectBuffers::new(device, queue, solids);
-        let standing = Standing { trees: !scene_trees.trees.is_empty(), objects: objects.is_some() };
+        let standing = Standing {
+            trees: !scene_trees.trees.is_empty(),
+            objects: objects.is_some(),
+            fire_lights: light_count(scene),
+        };
         let frame = FrameGroup::new(device, queue, &land, standing);
         let species_table = SpeciesTable::new(device, queue, scene, atlas)?;
         let own = own_trees(scene_trees, scene.autumn > 0.0);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // Blades of grass near the camera: one triangle each, thinned out with distance.
 
+#import frame/fire_light
 #import scenery/meadow
 #import scenery/structs
 
@@ -77,6 +78,7 @@ fn vertex(
     var color = frame.sun_color * sun * (albedo * reflected * 0.72 + glow) * depth;
     color += albedo * ambient_light(vec3(0.0, 1.0, 0.0)) * mix(0.35, 1.0, rise)
         * min(sky_openness(foot), mix(0.35, 1.0, open_above(foot, SKY_TAPS))) * open_beside(foot);
+    color += albedo * fire_light(world, normal) * depth;
     // A sheen of the sky on the bend.
     color += frame.sky_horizon * 0.02 * rise * sun;
 

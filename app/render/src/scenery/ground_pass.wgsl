@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // The ground under the grass: level out to the horizon, or rings of grid laid on the hills.
 
+#import frame/fire_light
 #import scenery/meadow
 #import scenery/horizon
 #import scenery/structs
@@ -82,5 +83,6 @@ fn fragment(in: Varyings) -> @location(0) vec4<f32> {
     var color = albedo * (frame.sun_color * sun * (facing + 0.55 * rough * against));
     color += albedo * ambient_light(normal) * mix(0.55, 0.95, max(far, path))
         * min(sky_openness(in.world), mix(0.35, 1.0, open_above(in.world, SKY_TAPS))) * open_beside(in.world);
+    color += albedo * fire_light(in.world, normal) * mix(0.75, 1.0, max(far, path));
     return vec4(haze(color, in.world), 1.0);
 }

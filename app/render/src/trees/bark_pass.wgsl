@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // Trunks, limbs and twigs.
 
+#import frame/fire_light
 #import frame/light
 #import trees/records
 #import trees/bark_shape
@@ -107,7 +108,7 @@ fn fragment(in: Varyings) -> @location(0) vec4<f32> {
     let around = in.world + smooth_normal * (in.limb.x + 0.3);
     let open = min(in.limb.z, mix(0.5, 1.0, open_above(around, SKY_TAPS))) * deep * foot;
     var color = sun * albedo * lit;
-    color += albedo * ambient_light(normal) * open;
+    color += albedo * (ambient_light(normal) * open + fire_light(in.world, normal));
     let half_way = normalize(light + to_eye);
     color += sun * 0.012 * pow(max(dot(normal, half_way), 0.0), 12.0) * max(facing, 0.0);
     // Bark is dull, but at a grazing view it mirrors the sky.

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // Berries: balls drawn as discs that face the eye.
 
+#import frame/fire_light
 #import frame/light
 #import trees/bark_shape
 
@@ -48,6 +49,7 @@ fn fragment(in: Varyings) -> @location(0) vec4<f32> {
     // The calyx leaves a dark dot below.
     let dot_below = mix(0.35, 1.0, smoothstep(-0.97, -0.90, normal.y));
     var color = sun * (in.color * lit * dot_below + gloss) + in.color * ambient_light(normal) * 0.8;
+    color += in.color * fire_light(in.center, normal);
     color += sky_reflection(reflect(-to_eye, normal), 0.2) * (0.04 + 0.6 * pow(1.0 - front, 5.0));
     return vec4(haze(color, in.center), alpha);
 }

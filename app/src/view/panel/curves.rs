@@ -12,7 +12,7 @@ use super::list::List;
 /// Least difference of the ages of two points.
 const APART: f32 = 0.001;
 
-/// Rows of the three curves.
+/// Rows of the curves.
 pub(super) fn show(ui: &mut Ui, look: &mut Look, own: Option<&Look>) {
     let before = look.sample(0.0);
     let list = |name, entry| List { name, entry, fewest: 0, most: MAX_CURVE_POINTS };
@@ -21,6 +21,16 @@ pub(super) fn show(ui: &mut Ui, look: &mut Look, own: Option<&Look>) {
         let own = own_of(own.map(|own| &own.color), point);
         let tip = "Linear red, green and blue at this age";
         vector(ui, "Colour", tip, &mut look.color[point].1, own, limits::COLOR);
+    }
+    let temperatures = list("Temperatures", "temperature point");
+    let warm = before.temperature_k.unwrap_or(1500.0);
+    if look.shines()
+        && let Some(point) = points(ui, temperatures, "Warm age", &mut look.temperature_k, warm)
+    {
+        let own = own_of(own.map(|own| &own.temperature_k), point);
+        let tip = "Temperature at this age: the light and colour of a black body";
+        let temperature = field("Temperature", tip, limits::TEMPERATURE_K).fine(10.0);
+        temperature.show(ui, &mut look.temperature_k[point].1, own);
     }
     let opacities = list("Opacities", "opacity point");
     // Blobs are opaque.

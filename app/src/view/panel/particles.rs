@@ -85,6 +85,7 @@ fn spread(ui: &mut Ui, name: &str, tip: &str, value: &mut Spread, own: Option<Sp
         ("same", Spread::Constant(mean)),
         ("even", Spread::Uniform(mean, width)),
         ("normal", Spread::Normal(mean, 0.5 * width)),
+        ("late few", Spread::Cubic(mean, width)),
     ];
     choice(ui, name, tip, value, own.as_ref(), &options);
     let smallest = f64::from(limit.low.max(1e-6));
@@ -99,6 +100,13 @@ fn spread(ui: &mut Ui, name: &str, tip: &str, value: &mut Spread, own: Option<Sp
             let name = format!("{name}, at most");
             let limit = Limit { low: 0.0, ..limit };
             field(&name, "Farthest from the mean", limit).fine(smallest).show(ui, half_width, own);
+        }
+        Spread::Cubic(least, width) => {
+            number.show(ui, least, own.map(Spread::base));
+            let own = own.and_then(|own| if let Spread::Cubic(_, own) = own { Some(own) } else { None });
+            let name = format!("{name}, more");
+            let limit = Limit { low: 0.0, ..limit };
+            field(&name, "Most above the least", limit).fine(smallest).show(ui, width, own);
         }
         Spread::Normal(mean, deviation) => {
             number.show(ui, mean, own_mean);
@@ -116,7 +124,9 @@ fn shape(ui: &mut Ui, shape: &mut ParticleShape, own: Option<ParticleShape>) {
         ParticleShape::Box { center_m, half_extent_m } => (center_m, half_extent_m.max_element(), Vec3::Y),
         ParticleShape::Disc { center_m, radius_m, axis }
         | ParticleShape::Ring { center_m, radius_m, axis } => (center_m, radius_m, axis),
-        ParticleShape::Sphere { center_m, radius_m, .. } => (center_m, radius_m, Vec3::Y),
+        ParticleShape::Sphere { center_m, radius_m, .. } | ParticleShape::Feet { center_m, radius_m, .. } => {
+            (center_m, radius_m, Vec3::Y)
+        }
         ParticleShape::Cone { tip_m, base_m, radius_m } => (base_m, radius_m, base_m - tip_m),
         ParticleShape::Line { from_m, to_m } => (0.5 * (from_m + to_m), 0.5 * from_m.distance(to_m), Vec3::Y),
     };
@@ -127,6 +137,7 @@ fn shape(ui: &mut Ui, shape: &mut ParticleShape, own: Option<ParticleShape>) {
         ("ring", ParticleShape::Ring { center_m, radius_m, axis }),
         ("ball", ParticleShape::Sphere { center_m, radius_m, hollow: false }),
         ("cone", ParticleShape::Cone { tip_m: center_m - Vec3::Y, base_m: center_m, radius_m }),
+        ("feet", ParticleShape::Feet { center_m, radius_m, feet: 9 }),
         ("line", ParticleShape::Line { from_m: center_m - aside, to_m: center_m + aside }),
     ];
     choice(ui, "Start from", "They start from all of it alike", shape, own.as_ref(), &options);
@@ -139,7 +150,9 @@ fn shape(ui: &mut Ui, shape: &mut ParticleShape, own: Option<ParticleShape>) {
         ParticleShape::Disc { center_m, axis, .. } | ParticleShape::Ring { center_m, axis, .. } => {
             vec![("Start middle", center_m, limits::CENTER_M), ("Start axis", axis, limits::AXIS)]
         }
-        ParticleShape::Sphere { center_m, .. } => vec![("Start middle", center_m, limits::CENTER_M)],
+        ParticleShape::Sphere { center_m, .. } | ParticleShape::Feet { center_m, .. } => {
+            vec![("Start middle", center_m, limits::CENTER_M)]
+        }
         ParticleShape::Cone { tip_m, base_m, .. } => {
             vec![("Tip", tip_m, limits::PARTICLE_AT_M), ("Base", base_m, limits::PARTICLE_AT_M)]
         }
@@ -152,7 +165,9 @@ fn shape(ui: &mut Ui, shape: &mut ParticleShape, own: Option<ParticleShape>) {
         ParticleShape::Disc { center_m, axis, .. } | ParticleShape::Ring { center_m, axis, .. } => {
             [center_m, axis]
         }
-        ParticleShape::Sphere { center_m, .. } => [center_m, Vec3::ZERO],
+        ParticleShape::Sphere { center_m, .. } | ParticleShape::Feet { center_m, .. } => {
+            [center_m, Vec3::ZERO]
+        }
         ParticleShape::Cone { tip_m, base_m, .. } => [tip_m, base_m],
         ParticleShape::Line { from_m, to_m } => [from_m, to_m],
     });
@@ -163,16 +178,23 @@ fn shape(ui: &mut Ui, shape: &mut ParticleShape, own: Option<ParticleShape>) {
         ParticleShape::Disc { radius_m, .. }
         | ParticleShape::Ring { radius_m, .. }
         | ParticleShape::Sphere { radius_m, .. }
+        | ParticleShape::Feet { radius_m, .. }
         | ParticleShape::Cone { radius_m, .. } => Some(radius_m),
         ParticleShape::Box { .. } | ParticleShape::Line { .. } => None,
     };
     if let ParticleShape::Disc { radius_m, .. }
     | ParticleShape::Ring { radius_m, .. }
     | ParticleShape::Sphere { radius_m, .. }
+    | ParticleShape::Feet { radius_m, .. }
     | ParticleShape::Cone { radius_m, .. } = shape
     {
         let radius = field("Start radius", "Radius of the shape", limits::RADIUS_M).fine(0.01);
         radius.show(ui, radius_m, own.and_then(radius_of));
+    }
+    if let ParticleShape::Feet { feet, .. } = shape {
+        let own =
+            own.and_then(|own| if let ParticleShape::Feet { feet, .. } = own { Some(feet) } else { None });
+        field("Feet", "Points that they start from in turns", limits::FEET).show(ui, feet, own);
     }
 }
 
@@ -354,14 +376,21 @@ fn feels(ui: &mut Ui, feels: &mut Vec<String>, forces: &[Force]) {
 }
 
 fn look(ui: &mut Ui, one: &mut Particles, own: Option<&Particles>) {
+    let feet = feet_of_flame(one);
     let (look, own) = (&mut one.look, own.map(|own| &own.look));
-    let options = [
+    if matches!(look.kind, LookKind::Flame { .. }) && feet.is_none() {
+        look.kind = LookKind::Glow;
+    }
+    let mut options = vec![
         ("ball", LookKind::Dot),
         ("puff", LookKind::Splat),
         ("light", LookKind::Glow),
         ("blobs", LookKind::Blobs { radius_m: 0.15, threshold: 0.4 }),
         ("hidden", LookKind::Hidden),
     ];
+    if feet.is_some() {
+        options.insert(3, ("flame", LookKind::Flame { samples: 24, shell: 1.0 }));
+    }
     choice(ui, "Drawn as", "Way of drawing", &mut look.kind, own.map(|own| &own.kind), &options);
     if look.kind == LookKind::Glow {
         let tip = "Luminance of the light";
@@ -372,6 +401,22 @@ fn look(ui: &mut Ui, one: &mut Particles, own: Option<&Particles>) {
         blink.optional(ui, &mut look.blink_s, own.map(|own| own.blink_s), (2.0, "steady"));
     } else {
         look.blink_s = None;
+    }
+    if !look.shines() {
+        look.temperature_k.clear();
+        look.lights = false;
+    }
+    if let LookKind::Flame { samples, shell } = &mut look.kind {
+        let own = own.and_then(|own| match own.kind {
+            LookKind::Flame { samples, shell } => Some((samples, shell)),
+            _ => None,
+        });
+        let tip = "Soft lights from each point of the flame to the next";
+        field("Samples", tip, limits::FLAME_SAMPLES).show(ui, samples, own.map(|own| own.0));
+        let tip = "Distance from the middle, in radii, over which they thin out: large ones fill the flame";
+        field("Shell", tip, limits::FLAME_SHELL).fine(0.05).show(ui, shell, own.map(|own| own.1));
+        let feet = feet.unwrap_or(1);
+        one.count = one.count.next_multiple_of(feet).max(4 * feet);
     }
     if let LookKind::Blobs { radius_m, threshold } = &mut look.kind {
         let own = own.and_then(|own| match own.kind {
@@ -397,4 +442,15 @@ fn look(ui: &mut Ui, one: &mut Particles, own: Option<&Particles>) {
     field("Layer", tip, limits::LAYER).show(ui, &mut look.layer, own.map(|own| own.layer));
     let tip = "Drawn out along their way while the shutter is open";
     ui.checkbox(&mut look.streak, "Streaks").on_hover_text(tip);
+    if look.shines() {
+        let tip = "Lights ground, leaves and trees, as one light in its middle";
+        ui.checkbox(&mut look.lights, "Lights the scene").on_hover_text(tip);
+    }
+}
+
+/// Points that a flame would stand on, if births follow one another at such.
+fn feet_of_flame(one: &Particles) -> Option<u32> {
+    let ParticleShape::Feet { feet, .. } = one.from else { return None };
+    let follow_one_another = matches!(one.release, ParticleRelease::Rate { .. }) && one.nest.is_none();
+    follow_one_another.then_some(feet)
 }

@@ -51,6 +51,13 @@ fn shape_point(shape: u32, near: vec4<u32>, far: vec4<u32>) -> vec3<f32> {
     return vec3<f32>(radius * turn.y, along, radius * turn.x);
 }
 
+fn foot_point(feet: u32, id: u32) -> vec3<f32> {
+    let foot = id % feet;
+    let radius = root((f32(foot) + 0.5) * reciprocal(f32(feet)));
+    let turn = sin_cos_turns(foot * FOOT_TURN);
+    return vec3<f32>(radius * turn.y, 0.0, radius * turn.x);
+}
+
 fn cap_direction(number: u32, a: u32, b: u32) -> vec3<f32> {
     let drop = scene.populations[number].cap * unit_float(a);
     let across = root(max(drop * (2.0 - drop), 0.0));
@@ -70,7 +77,10 @@ fn particle_birth(particle: u32, number: u32, id: u32) -> f32 {
     let motion = particle_words(seed, number, id, DRAW_MOTION);
     let lives = particle_words(seed, number, id, DRAW_LIFE);
     let airs_drawn = particle_words(seed, number, id, DRAW_AIR);
-    let point = shape_point(scene.populations[number].shape, near, far);
+    var point = shape_point(scene.populations[number].shape, near, far);
+    if (scene.populations[number].shape == PARTICLE_FEET) {
+        point = foot_point(scene.populations[number].feet, id);
+    }
     let spread = scene.populations[number].span_x_m * point.x
         + (scene.populations[number].span_y_m * point.y + scene.populations[number].span_z_m * point.z);
     var direction = cap_direction(number, motion.x, motion.y);

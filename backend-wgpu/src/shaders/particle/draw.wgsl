@@ -15,5 +15,7 @@ fn spread_draw(spread: SpreadBlock, a: u32, b: u32) -> f32 {
     let uniform_part = unit_float(a) * 2.0 - 1.0;
     let sum = ((a & 0xffffu) + (a >> 16u)) + ((b & 0xffffu) + (b >> 16u));
     let normal_part = f32(bitcast<i32>(sum) - 131070) * NORMAL_UNIT;
-    return spread.mean + (spread.half_width * uniform_part + spread.deviation * normal_part);
+    let share = unit_float(a);
+    let even = spread.half_width * uniform_part + spread.deviation * normal_part;
+    return spread.mean + (even + spread.cubic_width * ((share * share) * share));
 }

@@ -11,8 +11,8 @@ use super::record::{
     DIRECTION_AROUND, DIRECTION_CAP, PARTICLE_ALIVE, PARTICLE_BORN, ParticleMotion, ParticlePlace,
     ParticleTraits, life_size_word, particle_bits,
 };
-use crate::arith::lane::Real;
-use crate::arith::math::{inverse_sqrt, sin_cos_turns};
+use crate::arith::lane::{Real, Word};
+use crate::arith::math::{inverse_sqrt, reciprocal, sin_cos_turns};
 use crate::arith::rng::unit_float;
 use crate::arith::vector::{TINY_SQUARED, Vec3, vec3_cross, vec3_dot};
 use crate::blocks::{BirthBlock, NEVER, PopulationBlock};
@@ -34,6 +34,10 @@ crate::shared_constants! {
     pub const PARTICLE_CONE: u32 = 5;
     /// Kind of a line.
     pub const PARTICLE_LINE: u32 = 6;
+    /// Kind of points that take turns.
+    pub const PARTICLE_FEET: u32 = 7;
+    /// Turn from one of these points to the next in 2^-32 turns: the golden angle.
+    pub const FOOT_TURN: u32 = 0x61c8_8647;
     /// Random words of the place.
     pub const DRAW_PLACE: u32 = 0;
     /// More of them.
@@ -92,6 +96,16 @@ pub fn shape_point(shape: u32, near: [u32; 4], far: [u32; 4]) -> Vec3 {
     Vec3::new(radius * cosine, along, radius * sine)
 }
 
+/// Point of a shape whose points take turns, for the birth of a number: on a disc, each with as much of its area, as coordinates from
+/// -1 to 1.
+#[inline(always)]
+pub fn foot_point(feet: u32, id: u32) -> Vec3 {
+    let foot = id % feet;
+    let radius = root((foot.to_real() + 0.5) * reciprocal(feet.to_real()));
+    let (sine, cosine) = sin_cos_turns(foot.times(FOOT_TURN));
+    Vec3::new(radius * cosine, 0.0, radius * sine)
+}
+
 /// Random direction on a cap about the axis of a population.
 #[inline(always)]
 pub fn cap_direction(population: &PopulationBlock, a: u32, b: u32) -> Vec3 {
@@ -120,7 +134,10 @@ pub fn particle_birth(cx: &Context<'_>, particle: &mut ParticleMut<'_>, number: 
     let [turn, tilt, speed_a, speed_b] = particle_words(seed, number, id, DRAW_MOTION);
     let [life_a, life_b, size_a, size_b] = particle_words(seed, number, id, DRAW_LIFE);
     let [air_a, air_b, moment, _] = particle_words(seed, number, id, DRAW_AIR);
-    let point = shape_point(population.shape, near, far);
+    let mut point = shape_point(population.shape, near, far);
+    if population.shape == PARTICLE_FEET {
+        point = foot_point(population.feet, id);
+    }
     let spread = Vec3::from(population.span_x_m) * point.x
         + (Vec3::from(population.span_y_m) * point.y + Vec3::from(population.span_z_m) * point.z);
     let mut direction = cap_direction(population, turn, tilt);

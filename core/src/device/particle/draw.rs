@@ -23,5 +23,7 @@ pub fn spread_draw(spread: SpreadBlock, a: u32, b: u32) -> f32 {
     let uniform = unit_float(a) * 2.0 - 1.0;
     let sum = ((a & 0xffff) + (a >> 16)) + ((b & 0xffff) + (b >> 16));
     let normal = (sum as i32 - 131_070) as f32 * NORMAL_UNIT;
-    spread.mean + (spread.half_width * uniform + spread.deviation * normal)
+    let share = unit_float(a);
+    let even = spread.half_width * uniform + spread.deviation * normal;
+    spread.mean + (even + spread.cubic_width * ((share * share) * share))
 }

@@ -9,9 +9,9 @@ use crate::SceneError;
 use crate::motion::AIR_DENSITY;
 use crate::scene::limits::{self, Limit};
 use crate::scene::{
-    Air, Bounds, Direction, Look, LookKind, MAX_BLOBS, MAX_CURVE_POINTS, MAX_FORCES, MAX_PARTICLES,
-    MAX_POPULATIONS, Meets, ObjectFriction, ParticleRelease, ParticleShape, Particles, STANDARD_GRAVITY_M_S2,
-    Scene, Spread, VISCOSITY_PA_S,
+    Air, Bounds, Direction, Look, LookKind, MAX_BLOBS, MAX_CURVE_POINTS, MAX_FORCES, MAX_LIGHTS,
+    MAX_PARTICLES, MAX_POPULATIONS, Meets, ObjectFriction, ParticleRelease, ParticleShape, Particles,
+    STANDARD_GRAVITY_M_S2, Scene, Spread, VISCOSITY_PA_S,
 };
 
 /// Standard deviations of the number of particles alive for which there are slots, where they are born at random.
@@ -35,6 +35,10 @@ impl Scene {
             self.check_nest(index, &at)?;
         }
         self.check_forces(check)?;
+        let lights = self.particles.iter().filter(|particles| particles.look.lights).count();
+        check.holds(lights <= MAX_LIGHTS, "particles", || {
+            (format!("{lights} populations that light the scene"), format!("at most {MAX_LIGHTS} that do"))
+        })?;
         let count: u64 = self.particles.iter().map(|particles| u64::from(particles.count)).sum();
         check.holds(count <= u64::from(MAX_PARTICLES), "particles", || {
             (format!("{count} slots"), format!("at most {MAX_PARTICLES} slots over all populations"))
@@ -124,12 +128,32 @@ impl Particles {
                 at.vector("half_extent_m", half_extent_m, limits::HALF_EXTENT_M)?;
             }
         }
+        if matches!(self.look.kind, LookKind::Flame { .. }) {
+            self.check_flame(at)?;
+        }
         if matches!(self.look.kind, LookKind::Blobs { .. }) {
             at.holds(self.count <= MAX_BLOBS, "count", || {
                 (self.count.to_string(), format!("at most {MAX_BLOBS} that are drawn as blobs"))
             })?;
         }
         self.look.check(&at.inside("look"))
+    }
+
+    /// Checks that the points of a flame follow one another.
+    fn check_flame(&self, at: &Check<'_>) -> Result<(), SceneError> {
+        let ParticleShape::Feet { feet, .. } = self.from else {
+            return at.holds(false, "look.kind", || {
+                ("Flame".into(), "something else, unless from is Feet".into())
+            });
+        };
+        at.holds(
+            self.nest.is_none() && matches!(self.release, ParticleRelease::Rate { .. }),
+            "release",
+            || ("not a Rate, of a flame".into(), "Rate: the points of a flame follow one another".into()),
+        )?;
+        at.holds(self.count.is_multiple_of(feet) && self.count >= 4 * feet, "count", || {
+            (self.count.to_string(), format!("a multiple of its {feet} feet, at least four times as many"))
+        })
     }
 
     /// Time of the first birth in seconds.
@@ -197,6 +221,11 @@ impl ParticleShape {
                 at.vector("center_m", center_m, limits::CENTER_M)?;
                 at.numbers([("radius_m", radius_m.into(), limits::RADIUS_M)])
             }
+            Self::Feet { center_m, radius_m, feet } => {
+                at.vector("center_m", center_m, limits::CENTER_M)?;
+                at.numbers([("radius_m", radius_m.into(), limits::RADIUS_M)])?;
+                at.numbers([("feet", feet.into(), limits::FEET)])
+            }
             Self::Cone { tip_m, base_m, radius_m } => {
                 at.vector("tip_m", tip_m, limits::PARTICLE_AT_M)?;
                 at.vector("base_m", base_m, limits::PARTICLE_AT_M)?;
@@ -232,6 +261,19 @@ impl Look {
             at.holds(self.kind == LookKind::Glow, "blink_s", || {
                 (format!("{blink_s} with kind {:?}", self.kind), "None, unless they glow".into())
             })?;
+        }
+        check_curve(&self.temperature_k, "temperature_k", at, |at, temperature_k| {
+            at.numbers([("temperature_k", temperature_k.into(), limits::TEMPERATURE_K)])
+        })?;
+        for (name, is_set) in [("temperature_k", !self.temperature_k.is_empty()), ("lights", self.lights)] {
+            at.holds(!is_set || self.shines(), name, || {
+                (format!("set with kind {:?}", self.kind), "nothing, unless they glow or burn".into())
+            })?;
+        }
+        if let LookKind::Flame { samples, shell } = self.kind {
+            let at = at.inside("kind");
+            at.numbers([("samples", samples.into(), limits::FLAME_SAMPLES)])?;
+            at.numbers([("shell", shell.into(), limits::FLAME_SHELL)])?;
         }
         if let LookKind::Blobs { radius_m, threshold } = self.kind {
             at.inside("kind").numbers([

@@ -442,9 +442,10 @@ prop_compose! {
 
 /// Numbers about a mean, none below a half or above three times of it.
 fn spread(mean: Limit<f32>) -> impl Strategy<Value = Spread> {
-    (within(mean), 0.0f32..0.5, 0u32..3).prop_map(|(mean, share, kind)| match kind {
+    (within(mean), 0.0f32..0.5, 0u32..4).prop_map(|(mean, share, kind)| match kind {
         0 => Spread::Constant(mean),
         1 => Spread::Uniform(mean, share * mean),
+        2 => Spread::Cubic(mean, share * mean),
         _ => Spread::Normal(mean, share * mean / NORMAL_REACH),
     })
 }
@@ -479,6 +480,8 @@ fn particle_shape() -> impl Strategy<Value = ParticleShape> {
         (vector(Limit { low: -100.0, high: 100.0, unit: "m" }), radius()).prop_map(|(tip_m, radius_m)| {
             ParticleShape::Cone { tip_m, base_m: tip_m + Vec3::Y, radius_m }
         }),
+        (at(), radius(), limits::FEET.low..=limits::FEET.high)
+            .prop_map(|(center_m, radius_m, feet)| ParticleShape::Feet { center_m, radius_m, feet }),
         (at(), at()).prop_map(|(from_m, to_m)| ParticleShape::Line { from_m, to_m }),
     ]
 }
@@ -491,7 +494,8 @@ prop_compose! {
                 .prop_map(|(radius_m, threshold)| LookKind::Blobs { radius_m, threshold }),
         ],
         color in option::of((vector(limits::COLOR), vector(limits::COLOR))),
-        (opacity, size) in (maybe(limits::OPACITY), maybe(limits::SIZE_OVER_AGE)),
+        (opacity, size, temperature_k) in
+            (maybe(limits::OPACITY), maybe(limits::SIZE_OVER_AGE), maybe(limits::TEMPERATURE_K)),
         (brightness_kcd_m2, blink_s, streak, layer) in
             (within(limits::PARTICLE_BRIGHTNESS_KCD_M2), maybe(limits::BLINK_S), any::<bool>(), 0u32..=15),
     ) -> Look {
@@ -501,7 +505,19 @@ prop_compose! {
         let is_solid = matches!(kind, LookKind::Blobs { .. });
         let (opacity, streak) = (opacity.filter(|_| !is_solid), streak && !is_solid);
         let layer = if is_solid { 0 } else { layer };
-        Look { kind, color, opacity: curve(opacity), size: curve(size), brightness_kcd_m2, blink_s, streak, layer }
+        let temperature_k = curve(temperature_k.filter(|_| kind == LookKind::Glow));
+        Look {
+            kind,
+            color,
+            temperature_k,
+            opacity: curve(opacity),
+            size: curve(size),
+            brightness_kcd_m2,
+            blink_s,
+            lights: false,
+            streak,
+            layer,
+        }
     }
 }
 
