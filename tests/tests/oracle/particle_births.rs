@@ -60,7 +60,12 @@ fn births_are_poisson_distributed() {
 /// Particles alive, born at random, are Poisson distributed as well, about rate times mean life, whatever the law of lives.
 #[test]
 fn as_many_live_as_the_rate_and_the_mean_life_say() {
-    let lives = [Spread::Constant(0.5), Spread::Uniform(0.5, 0.4), Spread::Normal(0.5, 0.1)];
+    let lives = [
+        Spread::Constant(0.5),
+        Spread::Uniform(0.5, 0.4),
+        Spread::Normal(0.5, 0.1),
+        Spread::Cubic(0.25, 1.0),
+    ];
     for life_s in lives {
         let release = ParticleRelease::Poisson { per_s: 200.0, from_s: -2.0 };
         let population = Particles { life_s: Some(life_s), ..released(release, 0.5, 600) };
@@ -244,6 +249,54 @@ fn shapes_are_filled_uniformly() {
         let apart = uniform(shares);
         assert!(apart < 0.0158, "{shape:?}: {apart}");
     }
+}
+
+/// Points that take turns: each birth of a round at another one, the same ones in each round, and as many of them within a radius as of the
+/// disc's area lies there.
+#[test]
+fn feet_take_turns_and_share_their_disc() {
+    let (center_m, radius_m, feet) = (Vec3::new(1.0, 2.0, 3.0), 2.0, 50);
+    let from = ParticleShape::Feet { center_m, radius_m, feet };
+    let population = Particles { from, gravity: 0.0, air: Air::Vacuum, ..burst(200) };
+    let mut world = build(&scene(vec![population], 0.02));
+    oracle::step(&mut world, 1);
+    let at = |slot: usize| place(&world, slot) - center_m.as_dvec3();
+    for slot in 0..50 {
+        for round in 1..4 {
+            assert_eq!(at(slot), at(slot + 50 * round), "foot {slot} of round {round}");
+        }
+        assert!(at(slot).y == 0.0, "level: {}", at(slot));
+        let apart = (0..50).filter(|other| *other != slot).map(|other| at(slot).distance(at(other)));
+        let nearest = apart.fold(f64::INFINITY, f64::min);
+        assert!((0.25..0.6).contains(&nearest), "foot {slot} is {nearest} m from the next");
+    }
+    let apart = uniform((0..50).map(|slot| at(slot).length_squared() / 4.0));
+    assert!(apart < 1e-5, "{apart}");
+}
+
+/// Tongues that broke off a flame live for A u³: P(life < t) is the cube root of t / A, a quarter of A in the mean and an eighth at the median.
+#[test]
+fn lives_beyond_the_least_follow_the_cube_of_a_uniform_number() {
+    let (least_s, width_s) = (0.5, 8.0);
+    let life_s = Some(Spread::Cubic(least_s, width_s));
+    let mut world = build(&scene(vec![Particles { life_s, ..burst(20_000) }], 0.001));
+    oracle::step(&mut world, 1);
+    let beyond = |slot: usize| {
+        let steps = particle_life(world.particles.traits[slot].life_size);
+        (0.001 * f64::from(steps) - f64::from(least_s)) / f64::from(width_s)
+    };
+    let mut shares: Vec<f64> = (0..20_000).map(beyond).collect();
+    for share in [0.001_f64, 0.01, 0.1, 0.3, 0.7] {
+        let found = shares.iter().filter(|other| **other < share).count() as f64 / 20_000.0;
+        assert!((found - share.cbrt()).abs() < 0.012, "{found} below {share} of the width");
+    }
+    let mean = shares.iter().sum::<f64>() / 20_000.0;
+    shares.sort_by(f64::total_cmp);
+    assert!(
+        (mean - 0.25).abs() < 0.006 && (shares[10_000] - 0.125).abs() < 0.006,
+        "{mean}, {}",
+        shares[10_000]
+    );
 }
 
 /// A disc is level with its radii: squared distances from the axis of a cone, over those of its rim, are uniform as well.

@@ -3,6 +3,7 @@
 // One light for each population that lights the scene: the sum of what its particles give, from their middle. Each workgroup adds up one
 // population, in an order of its own, so that pictures are equal.
 
+#import frame/structs
 #import particles/flame_spine
 
 @group(3) @binding(0) var<storage, read_write> lights: array<FireLight>;

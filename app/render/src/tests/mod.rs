@@ -5,6 +5,7 @@
 
 mod blobs;
 mod cull;
+mod flames;
 mod halo;
 mod layout;
 mod lens;
