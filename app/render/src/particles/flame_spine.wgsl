@@ -138,5 +138,8 @@ fn stretch_row(population: u32, stretch: FlameStretch, u: f32) -> LookRow {
 
 // Radius of the flame there: its ends are round.
 fn flame_radius(look: PopulationLook, row: LookRow, stretch: FlameStretch, u: f32) -> f32 {
-    return 0.5 * look.size_m * row.size * sqrt(mix(stretch.widths.x, stretch.widths.y, u));
+    let widths = stretch.widths;
+    // A piece of one stretch is wide in its middle.
+    let alone = 2.0 * (1.0 - widths.x) * (1.0 - widths.y) * u * (1.0 - u);
+    return 0.5 * look.size_m * row.size * sqrt(mix(widths.x, widths.y, u) + alone);
 }
