@@ -74,7 +74,7 @@ def compare_particles(stage, path):
         rows = list(csv.DictReader(file))
     frames = range(int(stage.GetStartTimeCode()), int(stage.GetEndTimeCode()) + 1)
     compared = 0
-    for prim, name in (("hot_sparks", "hot sparks"), ("late", "late")):
+    for prim, name in (("hot_sparks", "hot sparks"), ("comets", "comets"), ("late", "late")):
         cloud = UsdGeom.Points(stage.GetPrimAtPath(f"/World/Particles/{prim}"))
         assert cloud and cloud.GetPrim().GetDisplayName() == name, f"points of {name}"
         assert cloud.GetWidthsInterpolation() == UsdGeom.Tokens.vertex, "a width for each point"
@@ -104,6 +104,38 @@ def compare_particles(stage, path):
         assert any(own.values()), f"{name} are there"
     late = UsdGeom.Points(stage.GetPrimAtPath("/World/Particles/late"))
     assert len(late.GetPointsAttr().Get(frames[0])) in (0, 20), "a burst is there or not"
+    return compared
+
+
+def check_ways(stage, path):
+    """A curve for every comet that is older than a step: from its place, through where it was a frame before, to nothing; how many."""
+    with open(path + "_particles.csv", newline="") as file:
+        rows = [row for row in csv.DictReader(file) if row["population"] == "comets"]
+    curves = UsdGeom.BasisCurves(stage.GetPrimAtPath("/World/Ways/comets"))
+    assert curves and curves.GetPrim().GetDisplayName() == "comets", "curves"
+    assert not stage.GetPrimAtPath("/World/Ways/late"), "no curves of what keeps no samples"
+    primvars = UsdGeom.PrimvarsAPI(curves)
+    places = {(int(row["frame"]), int(row["id"])): tuple(single(row[name]) for name in ("x_m", "y_m", "z_m")) for row in rows}
+    compared = 0
+    for frame in range(int(stage.GetStartTimeCode()), int(stage.GetEndTimeCode()) + 1):
+        counts, points = curves.GetCurveVertexCountsAttr().Get(frame), curves.GetPointsAttr().Get(frame)
+        widths, opacities = curves.GetWidthsAttr().Get(frame), primvars.GetPrimvar("displayOpacity").Get(frame)
+        ids, colors = primvars.GetPrimvar("windfall:id").Get(frame), primvars.GetPrimvar("displayColor").Get(frame)
+        old = [row for row in rows if int(row["frame"]) == frame and float(row["age_s"]) > 1.5 / 60.0]
+        assert list(ids) == [int(row["id"]) for row in old], f"frame {frame}: curves of {len(ids)}, not {len(old)}"
+        assert len(counts) == len(ids) == len(colors) and sum(counts) == len(points) == len(widths) == len(opacities), "counts"
+        first = 0
+        for row, count in zip(old, counts):
+            where, number = f"frame {frame}, comet {row['id']}", int(row["id"])
+            assert 2 <= count <= 6, f"{where}: {count} points"
+            assert tuple(points[first]) == places[frame, number], f"{where}: its head"
+            before = places.get((frame - 1, number))
+            if before:
+                assert count > 2 and tuple(points[first + 2]) == before, f"{where}: where it was"
+                compared += 1
+            own = list(widths[first : first + count])
+            assert abs(own[0] / single(row["size_m"]) - 0.5) < 1e-5 and own == sorted(own, reverse=True), f"{where}: {own}"
+            first += count
     return compared
 
 
@@ -215,6 +247,8 @@ def check(path):
     assert compared > 500, f"only {compared} leaves were there to compare"
     sparks = compare_particles(stage, path)
     assert sparks > 10000, f"only {sparks} particles were there to compare"
+    ways = check_ways(stage, path)
+    assert ways > 1000, f"only {ways} ways were there to compare"
     check_blobs(stage, (int(stage.GetStartTimeCode()), int(stage.GetEndTimeCode())))
     check_tree(stage, stage.GetEndTimeCode())
     check_ground(stage)
@@ -225,12 +259,12 @@ def check(path):
     material, _ = UsdShade.MaterialBindingAPI(mesh).ComputeBoundMaterial()
     assert material, "a leaf has a material"
     clips = len(Usd.ClipsAPI(stage.GetPrimAtPath("/World")).GetClipAssetPaths() or [])
-    print(f"{path.rsplit('/', 1)[-1]}: no issue, {compared} leaves and {sparks} particles equal, {clips} value clips")
+    print(f"{path.rsplit('/', 1)[-1]}: no issue, {compared} leaves, {sparks} particles and {ways} ways equal, {clips} value clips")
     return clips, rows
 
 
 def check_broken(path, rows):
-    """What the checks must not let pass: a leaf upside down, a particle and a surface displaced, a shader without an identifier."""
+    """What the checks must not let pass: a leaf upside down, a particle, a way and a surface displaced, a shader without an identifier."""
     stage = Usd.Stage.Open(path + ".usda")
     positions = UsdGeom.PointInstancer(stage.GetPrimAtPath("/World/Leaves")).GetPositionsAttr()
     frame = stage.GetEndTimeCode()
@@ -249,6 +283,14 @@ def check_broken(path, rows):
         pass
     else:
         sys.exit("displaced particles are not reported")
+    ways = UsdGeom.BasisCurves(stage.GetPrimAtPath("/World/Ways/comets")).GetPointsAttr()
+    ways.Set([point + Gf.Vec3f(0, 1e-3, 0) for point in ways.Get(frame)], frame)
+    try:
+        check_ways(stage, path)
+    except AssertionError:
+        pass
+    else:
+        sys.exit("displaced ways are not reported")
     surface = UsdGeom.Mesh(stage.GetPrimAtPath("/World/Blobs/green_slime")).GetPointsAttr()
     surface.Set([point + Gf.Vec3f(0, 2e-3, 0) for point in surface.Get(frame)], frame)
     try:

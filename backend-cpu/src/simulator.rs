@@ -7,7 +7,7 @@ use std::sync::{Arc, Mutex};
 
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use windfall_core::blocks::StepBlock;
-use windfall_core::particle::{ParticleStart, each_generation};
+use windfall_core::particle::{ParticleStart, each_generation, steps_to_sample};
 use windfall_core::tree::Forest;
 use windfall_core::tree::batch::TreeBatch;
 use windfall_core::{Clock, CompiledScene, Contract, SimError, Simulator, SimulatorInfo, Stats, World};
@@ -16,6 +16,7 @@ use crate::collision_cells::CollisionCells;
 use crate::exposed::ExposedLeaves;
 use crate::kernels::CHUNK;
 use crate::kernels::carry_forces::carry_forces;
+use crate::kernels::keep_history::keep_history;
 use crate::kernels::measure::measure;
 use crate::kernels::pull_particles::pull_particles;
 use crate::kernels::stack_litter::{LitterChanges, stack_litter};
@@ -151,7 +152,7 @@ impl Simulator for CpuSimulator {
     }
 
     fn step(&mut self, count: u32) -> Result<(), SimError> {
-        let World { compiled, clock, leaves, branches, bed, particles, tallies } = &mut self.world;
+        let World { compiled, clock, leaves, branches, bed, particles, tallies, history } = &mut self.world;
         let (simd, blocks, scratches, quiet) = (self.simd, &self.blocks, &self.scratches, &self.quiet);
         let has_litter = !bed.is_empty();
         let (changes, exposed) = (LitterChanges::default(), &self.exposed);
@@ -177,7 +178,11 @@ impl Simulator for CpuSimulator {
         let carried =
             if forest.is_empty() { 0 } else { tree_leaves.next_multiple_of(CHUNK).min(leaves.len()) };
         let (quiet_trees, quiet_free) = quiet.split_at(carried);
-        let mut run = |count: usize| {
+        let mut run = |most: usize| {
+            // Samples of ways are taken behind the last step of a portion.
+            let sampled =
+                steps_to_sample(compiled.histories(), clock.step()).map_or(most, |steps| steps as usize);
+            let count = most.min(sampled);
             let mut step_blocks = [<StepBlock as bytemuck::Zeroable>::zeroed(); MOST_FUSED];
             for block in &mut step_blocks[..count] {
                 *block = compiled.step_block(clock);
@@ -196,6 +201,9 @@ impl Simulator for CpuSimulator {
             each_generation(&compiled.block().populations, particles, starts, |generation| {
                 step_particles(steps, generation, pulls, &sums, simd);
             });
+            if let Some(cx) = steps.last() {
+                keep_history(cx, compiled.histories(), particles, history);
+            }
             // With litter it is one step.
             if let [cx] = steps
                 && cx.scene.collides(cx.step.index)
@@ -228,6 +236,7 @@ impl Simulator for CpuSimulator {
                 let bare = compiled.context(&step_blocks[0]);
                 stack_litter(&bare, &mut leaves.as_mut(), bed, quiet, exposed, &changes);
             }
+            count
         };
         let mut steps = || {
             let mut left = count as usize;
@@ -235,8 +244,7 @@ impl Simulator for CpuSimulator {
                 // Leaves see what others have left in the litter a step before, and particles where others are, or what befell them.
                 let sees_others = has_litter || is_mutual || has_nests || has_carriers;
                 let portion = left.min(if sees_others { 1 } else { MOST_FUSED });
-                run(portion);
-                left -= portion;
+                left -= run(portion);
             }
         };
         // A small world is done before another thread would have woken up.

@@ -3,7 +3,7 @@
 //! The stores of a world as GPU buffers.
 
 use windfall_core::leaf::Leaves;
-use windfall_core::particle::ParticleStore;
+use windfall_core::particle::{HistoryStore, ParticleStore};
 use windfall_core::store::{Store, StoreSize, check_sizes};
 use windfall_core::tree::record::{BRANCH_BASE, BRANCH_POSE};
 use windfall_core::{SimError, World};
@@ -71,6 +71,9 @@ pub struct ParticleColumns<'a> {
     pub traits: &'a wgpu::Buffer,
     /// Number of slots.
     pub count: u32,
+    /// `HistorySample`: x, y, z in metres as `f32`; `u32` step before which it was there. The samples of all ways, as
+    /// [`HistoryRun`](windfall_core::particle::HistoryRun) orders them; some that mean nothing if none are kept.
+    pub history: &'a wgpu::Buffer,
 }
 
 /// Buffers for all columns of a store. Neighbouring columns of one record type share a buffer, one after another.
@@ -225,11 +228,13 @@ impl<'a> LeafColumns<'a> {
 }
 
 impl<'a> ParticleColumns<'a> {
-    /// The columns of a store of particles; `None` without any.
-    pub fn of(particles: &'a StoreBuffers) -> Option<Self> {
+    /// The columns of a store of particles, and of the samples of their ways; `None` without particles.
+    pub fn of(particles: &'a StoreBuffers, history: &'a StoreBuffers) -> Option<Self> {
         debug_assert_eq!(particles.size.store, ParticleStore::NAME, "buffers of particles");
         let [place, motion, traits] = [0, 1, 2].map(|column| particles.buffer(column));
-        (particles.rows() > 0).then(|| Self { place, motion, traits, count: particles.rows() })
+        debug_assert_eq!(history.size.store, HistoryStore::NAME, "buffers of samples");
+        let (count, history) = (particles.rows(), history.buffer(0));
+        (count > 0).then_some(Self { place, motion, traits, count, history })
     }
 }
 
@@ -285,7 +290,7 @@ impl WorldBuffers {
         WorldColumns {
             leaves: LeafColumns::of(self.leaves()),
             branches: (count > 0).then(branches),
-            particles: ParticleColumns::of(self.particles()),
+            particles: ParticleColumns::of(self.particles(), self.history()),
         }
     }
 
@@ -315,6 +320,11 @@ impl WorldBuffers {
     /// The counts of what has happened to particles, the fifth store of a world.
     pub(crate) fn tallies(&self) -> &StoreBuffers {
         &self.stores[4]
+    }
+
+    /// The samples of the ways of particles, the sixth store of a world.
+    pub(crate) fn history(&self) -> &StoreBuffers {
+        &self.stores[5]
     }
 
     /// The segments of trees, the second store of a world.

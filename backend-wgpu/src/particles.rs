@@ -7,8 +7,9 @@ use std::ops::Range;
 
 use windfall_core::blocks::PopulationBlock;
 use windfall_core::device::particle::force_carrier::CARRIER_ROWS;
+use windfall_core::device::particle::history::history_is_due;
 use windfall_core::device::particle::record::POPULATION_MUTUAL;
-use windfall_core::particle::{CarrierRun, ParticlePlace, ParticleRun, ParticleStart};
+use windfall_core::particle::{CarrierRun, HistoryRun, ParticlePlace, ParticleRun, ParticleStart};
 use windfall_core::{CompiledScene, SimError};
 
 use crate::buffers::{buffer, group, uniform};
@@ -36,6 +37,8 @@ pub(crate) struct ParticleBindings {
     mutual: Vec<(wgpu::BindGroup, u32)>,
     /// Bindings and numbers of particles of those that carry a force.
     carriers: Vec<(wgpu::BindGroup, u32)>,
+    /// Bindings of those of whose ways samples are kept.
+    histories: Vec<(wgpu::BindGroup, HistoryRun)>,
 }
 
 /// Rows to which the windows of populations are widened, so that they are aligned on any device.
@@ -162,9 +165,19 @@ impl ParticleBindings {
             (group(gpu, pipelines.layout(GroupLayout::ForceCarriers), resources), run.count)
         };
         let carriers = compiled.carriers().iter().map(carrier).collect();
+        let history = |(_, run): &(usize, HistoryRun)| {
+            let first = run.first / WINDOW_STEP * WINDOW_STEP;
+            let offset = run.first - first;
+            let block = uniform(gpu, "history run", &HistoryRun { first: offset, ..*run });
+            let places = buffers.particles().window(0, first, offset + run.count);
+            let samples = buffers.history().windows(0, buffers.history().rows());
+            let resources = [block.as_entire_binding(), wgpu::BindingResource::Buffer(places)];
+            (group(gpu, pipelines.layout(GroupLayout::History), resources.into_iter().chain(samples)), *run)
+        };
+        let histories = compiled.histories().iter().map(history).collect();
         let blocks = group(gpu, pipelines.layout(GroupLayout::Blocks), blocks);
         let windows = windows.iter().map(window).collect();
-        Ok(Some(Self { blocks, windows, runs, run_stride, mutual, carriers }))
+        Ok(Some(Self { blocks, windows, runs, run_stride, mutual, carriers, histories }))
     }
 
     /// Encodes the places of carried forces, by the pipeline for it, where there are any.
@@ -200,6 +213,26 @@ impl ParticleBindings {
         for (bound, count) in &self.mutual {
             pass.set_bind_group(1, bound, &[0]);
             pass.dispatch_workgroups(count.div_ceil(WORKGROUP_SIZE), 1, 1);
+        }
+    }
+
+    /// Encodes the samples of ways that are due after step number `index`, by the pipeline for them.
+    pub(crate) fn encode_history<'a>(
+        &self,
+        pass: &mut wgpu::ComputePass<'_>,
+        pipeline: impl FnOnce() -> &'a wgpu::ComputePipeline,
+        (index, step_offset): (u32, u32),
+    ) {
+        let time = index.wrapping_add(1);
+        let mut due = self.histories.iter().filter(|(_, run)| history_is_due(run, time)).peekable();
+        if due.peek().is_none() {
+            return;
+        }
+        pass.set_pipeline(pipeline());
+        pass.set_bind_group(0, &self.blocks, &[step_offset]);
+        for (bound, run) in due {
+            pass.set_bind_group(1, bound, &[]);
+            pass.dispatch_workgroups(run.count.div_ceil(WORKGROUP_SIZE), 1, 1);
         }
     }
 

@@ -38,10 +38,12 @@ pub(crate) enum GroupLayout {
     Mutual,
     /// A population that carries a force, and the places of all carriers.
     ForceCarriers,
+    /// A population of whose ways samples are kept, and all samples.
+    History,
 }
 
 impl GroupLayout {
-    const ALL: [Self; 12] = [
+    const ALL: [Self; 13] = [
         Self::Leaves,
         Self::LeavesInMotion,
         Self::LeavesOnTwigs,
@@ -54,6 +56,7 @@ impl GroupLayout {
         Self::Particles,
         Self::Mutual,
         Self::ForceCarriers,
+        Self::History,
     ];
 
     /// Resources, binding by binding.
@@ -79,6 +82,8 @@ impl GroupLayout {
             Self::Mutual => &[BlockOfMany, Read, Read, Write],
             // The bindings of shaders/particle/force_carrier_bindings.wgsl.
             Self::ForceCarriers => &[Block, Read, Read, Read, Write],
+            // The bindings of shaders/particle/history_bindings.wgsl.
+            Self::History => &[Block, Read, Write],
         }
     }
 }
@@ -93,6 +98,7 @@ impl KernelId {
             Self::StepParticles => &[GroupLayout::Blocks, GroupLayout::Particles],
             Self::PullParticles => &[GroupLayout::Blocks, GroupLayout::Mutual],
             Self::CarryForces => &[GroupLayout::Blocks, GroupLayout::ForceCarriers],
+            Self::KeepHistory => &[GroupLayout::Blocks, GroupLayout::History],
             Self::Carry => &[GroupLayout::LeavesOnTwigs, GroupLayout::WrittenBuffer, GroupLayout::Carriers],
             Self::ListActive | Self::Measure => &[GroupLayout::LeavesInMotion, GroupLayout::WrittenBuffer],
             Self::PushLying | Self::CheckCover | Self::WakeLying => {
@@ -136,6 +142,9 @@ impl KernelId {
         }
         if !compiled.carriers().is_empty() {
             kernels.push(Self::CarryForces);
+        }
+        if !compiled.histories().is_empty() {
+            kernels.push(Self::KeepHistory);
         }
         if !compiled.forest().is_empty() {
             kernels.extend([Self::Carry, Self::SwayCoast]);

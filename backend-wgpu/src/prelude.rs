@@ -25,9 +25,13 @@ pub fn particle_wgsl() -> String {
         particle::ParticlePlace::declaration(),
         particle::ParticleMotion::declaration(),
         particle::ParticleTraits::declaration(),
+        particle::HistorySample::declaration(),
+        particle::HistoryRun::declaration(),
     ];
     let constants = device::particle::record::wgsl_constants();
-    column_wgsl(&records.concat(), constants, include_str!("shaders/particle/record.wgsl"))
+    let accessors =
+        [include_str!("shaders/particle/record.wgsl"), include_str!("shaders/particle/history.wgsl")];
+    column_wgsl(&records.concat(), constants, &accessors.concat())
 }
 
 /// The records of the leaf columns.
@@ -87,6 +91,8 @@ pub(crate) fn structs() -> String {
         particle::ParticleTraits::declaration(),
         particle::ParticleRun::declaration(),
         particle::CarrierRun::declaration(),
+        particle::HistorySample::declaration(),
+        particle::HistoryRun::declaration(),
         particle::ParticleStart::declaration(),
         leaf_records(),
     ]

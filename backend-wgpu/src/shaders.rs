@@ -56,11 +56,13 @@ pub enum KernelId {
     PullParticles,
     /// Places the forces that particles carry.
     CarryForces,
+    /// Samples the ways of particles.
+    KeepHistory,
 }
 
 impl KernelId {
     /// All kernels.
-    pub const ALL: [Self; 22] = [
+    pub const ALL: [Self; 23] = [
         Self::ListActive,
         Self::GatherCollisions,
         Self::Collide,
@@ -83,6 +85,7 @@ impl KernelId {
         Self::StepParticles,
         Self::PullParticles,
         Self::CarryForces,
+        Self::KeepHistory,
     ];
 
     /// Name of the file and of the entry point.
@@ -110,6 +113,7 @@ impl KernelId {
             Self::StepParticles => "step_particles",
             Self::PullParticles => "pull_particles",
             Self::CarryForces => "carry_forces",
+            Self::KeepHistory => "keep_history",
         }
     }
 }
@@ -164,6 +168,7 @@ impl Default for Shaders {
             "kernels/collide",
             "kernels/fly",
             "kernels/gather_collisions",
+            "kernels/keep_history",
             "kernels/measure",
             "kernels/pull_particles",
             "kernels/push_lying",
@@ -212,6 +217,8 @@ impl Default for Shaders {
             "particle/force",
             "particle/force_carrier",
             "particle/force_carrier_bindings",
+            "particle/history",
+            "particle/history_bindings",
             "particle/local_space",
             "particle/mutual",
             "particle/mutual_bindings",

@@ -7,9 +7,9 @@ use proptest::prelude::*;
 use windfall_core::motion::Primitive;
 use windfall_core::scene::{
     Aerodynamics, Air, Bounds, ConeShape, Direction, FlightModel, Foliage, Force, ForceCarriers, ForceKind,
-    Gusts, Hold, Jet, JetKey, Litter, MeanSpeed, Meets, MotionParameters, Nest, Object, ObjectFriction,
-    ObjectKey, ObjectMotion, ObjectShape, ParticleEvent, ParticleRelease, ParticleShape, Particles, Planform,
-    Plume, PlumeKey, Profile, Release, Scene, Share, Source, SourceShape, Space, Species, Spread,
+    Gusts, History, Hold, Jet, JetKey, Litter, MeanSpeed, Meets, MotionParameters, Nest, Object,
+    ObjectFriction, ObjectKey, ObjectMotion, ObjectShape, ParticleEvent, ParticleRelease, ParticleShape,
+    Particles, Planform, Plume, PlumeKey, Profile, Release, Scene, Share, Source, SourceShape, Space, Species, Spread,
     SwirlProfile, Terrain, Tree, TreeKind, Turbulence, Vortex, VortexProfile, Walker, Water, WindParameters,
 };
 
@@ -517,6 +517,7 @@ pub fn particle_scene(seed: u64, speed_m_s: f32, dt_s: f32) -> Scene {
             density_kg_m3: 300.0,
             air: Air::Quadratic { drag: 1.1 },
             meets: bounce(0.45, ObjectFriction::Coulomb(0.4)),
+            history: Some(History { samples: 8, every_steps: 2 }),
             ..Particles::default()
         },
         Particles {
@@ -538,6 +539,7 @@ pub fn particle_scene(seed: u64, speed_m_s: f32, dt_s: f32) -> Scene {
             air: Air::Settling { m_s: Spread::Constant(1.0) },
             feels: vec!["swirl".into(), "noise".into()],
             meets: Meets::Stick,
+            history: Some(History { samples: 6, every_steps: 7 }),
             ..Particles::default()
         },
         Particles {
@@ -558,6 +560,7 @@ pub fn particle_scene(seed: u64, speed_m_s: f32, dt_s: f32) -> Scene {
             life_s: Some(Spread::Constant(4.0)),
             air: Air::Massless,
             feels: vec!["whirl".into(), "devil".into()],
+            history: Some(History { samples: 3, every_steps: 5 }),
             ..Particles::default()
         },
         Particles {
@@ -651,6 +654,7 @@ fn nest_rows() -> [Particles; 8] {
             life_s: Some(Spread::Constant(1.1)),
             air: Air::Vacuum,
             meets: Meets::Bounce { restitution: 0.6, friction: ObjectFriction::Coulomb(0.2) },
+            history: Some(History { samples: 5, every_steps: 3 }),
             ..Particles::default()
         },
         // What they throw up.
@@ -682,6 +686,7 @@ fn nest_rows() -> [Particles; 8] {
             life_s: Some(Spread::Constant(0.25)),
             air: settling(0.5),
             meets: Meets::Bounce { restitution: 0.4, friction: ObjectFriction::Coulomb(0.3) },
+            history: Some(History { samples: 4, every_steps: 1 }),
             ..Particles::default()
         },
         // And around the sparks.

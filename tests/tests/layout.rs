@@ -16,7 +16,8 @@ use windfall_core::flight::block::BodyBlock;
 use windfall_core::layout::WgslStruct;
 use windfall_core::leaf::{Attitude, Drift, Identity, Petiole, Place, Schedule};
 use windfall_core::particle::{
-    CarrierRun, ParticleMotion, ParticlePlace, ParticleRun, ParticleStart, ParticleTraits,
+    CarrierRun, HistoryRun, HistorySample, ParticleMotion, ParticlePlace, ParticleRun, ParticleStart,
+    ParticleTraits,
 };
 use windfall_core::tree::record::{CarryBlock, LevelBlock, SegmentConstants};
 use windfall_wgpu::{KernelId, Shaders};
@@ -89,6 +90,8 @@ fn every_module_is_valid_and_every_struct_has_one_layout() {
     same_layout::<ParticleTraits>(&module);
     same_layout::<ParticleRun>(&module);
     same_layout::<CarrierRun>(&module);
+    same_layout::<HistorySample>(&module);
+    same_layout::<HistoryRun>(&module);
     same_layout::<ParticleStart>(&module);
     same_layout::<Place>(&module);
     same_layout::<Drift>(&module);
@@ -326,11 +329,12 @@ fn wgsl_files(folder: &Path) -> Vec<PathBuf> {
 }
 
 /// Files without a twin: on the CPU what they declare are arguments.
-const BINDINGS_ONLY: [&str; 6] = [
+const BINDINGS_ONLY: [&str; 7] = [
     "bindings.wgsl",
     "leaf/carrier_bindings.wgsl",
     "particle/bindings.wgsl",
     "particle/force_carrier_bindings.wgsl",
+    "particle/history_bindings.wgsl",
     "particle/mutual_bindings.wgsl",
     "tree/bindings.wgsl",
 ];

@@ -253,6 +253,10 @@ fn changes_of_a_constant_or_an_operator_are_noticed() {
             "placed_carriers[row + 1u] = rows.end",
             "placed_carriers[row + 1u] = rows.middle",
         ),
+        ("particle/history", "/ run.every_steps;", "/ (run.every_steps + 1u);"),
+        ("particle/history", "among * run.samples", "among"),
+        ("kernels/keep_history", "step_block.index + 1u", "step_block.index"),
+        ("kernels/keep_history", "history_run.first + id.x", "id.x"),
         ("kernels/pull_particles", "begin + local_id.x", "begin + (local_id.x ^ 1u)"),
     ];
     for (module, old, new) in edits {

@@ -4,7 +4,7 @@
 
 use glam::Vec2;
 use windfall_core::checkpoint::{read_stores, write_stores};
-use windfall_core::scene::{Litter, ParticleRelease, Particles};
+use windfall_core::scene::{History, Litter, ParticleRelease, Particles};
 use windfall_core::store::{Store, StoreSize, check_sizes, copy_stores, hash_stores, state_bytes};
 use windfall_core::{SceneError, SimError, Simulator, World};
 use windfall_cpu::{CpuOptions, CpuSimulator};
@@ -30,8 +30,12 @@ windfall_core::columns! {
 fn world() -> World {
     let mut scene = wooded_scene(5, 200, 3.0, 1.0 / 60.0);
     scene.ground.litter = Some(Litter { size_m: Vec2::splat(2.0), ..Litter::default() });
-    scene.particles =
-        vec![Particles { count: 9, release: ParticleRelease::Burst { at_s: 0.0 }, ..Particles::default() }];
+    scene.particles = vec![Particles {
+        count: 9,
+        release: ParticleRelease::Burst { at_s: 0.0 },
+        history: Some(History { samples: 3, every_steps: 2 }),
+        ..Particles::default()
+    }];
     World::build(&scene).expect("the wooded scene is valid with litter")
 }
 
@@ -55,13 +59,13 @@ fn a_further_store_is_saved_hashed_copied_compared_and_measured() {
     let sizes: Vec<_> = all(&world, &full).into_iter().map(Store::size).collect();
     let mut others = sizes.clone();
     check_sizes(&sizes, &others).expect("the same sizes");
-    others[5].rows += 1;
+    others[6].rows += 1;
     let refused = check_sizes(&others, &sizes);
     assert!(
         matches!(refused, Err(SimError::Size { store: "pebbles", world: 38, simulator: 37 })),
         "{refused:?}"
     );
-    let shorter = check_sizes(&sizes[..5], &sizes);
+    let shorter = check_sizes(&sizes[..6], &sizes);
     assert!(
         matches!(shorter, Err(SimError::Size { store: "pebbles", world: 0, simulator: 37 })),
         "{shorter:?}"

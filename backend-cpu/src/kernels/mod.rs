@@ -10,6 +10,7 @@ mod clear_collisions;
 mod collide;
 mod fly;
 mod gather_collisions;
+pub(crate) mod keep_history;
 pub(crate) mod measure;
 pub(crate) mod pull_particles;
 mod push_lying;

@@ -154,6 +154,7 @@ impl WgpuSimulator {
             particles.encode_carriers(pass, || kernel(KernelId::CarryForces), offset);
             particles.encode_pulls(pass, || kernel(KernelId::PullParticles), offset);
             particles.encode(pass, kernel(KernelId::StepParticles), offset);
+            particles.encode_history(pass, || kernel(KernelId::KeepHistory), (index, offset));
         }
         if let Some(cells) = &self.collisions
             && self.compiled.block().collides(index)

@@ -57,8 +57,8 @@ impl Cycle {
     ///
     /// # Errors
     /// [`SceneError::Field`] for what cannot repeat: leaves let go once, vortices that travel, jets that move or change, plumes of changing power,
-    /// objects that move, those who walk, particles that are born all at once or at random, whose forces sum up over slots, or that need several
-    /// rounds of slots. Pictures of a scene may have more
+    /// objects that move, those who walk, particles that are born all at once or at random, whose forces sum up over slots, that need several
+    /// rounds of slots, or whose ways are sampled in another rhythm. Pictures of a scene may have more
     /// that does not, such as a camera that travels.
     pub fn of(scene: &Scene, file: &str, seconds: f64) -> Result<(Scene, Self), SceneError> {
         let refuse = |field: String, value: String, allowed: &str| {
@@ -141,6 +141,18 @@ impl Cycle {
         let dt = f64::from(scene.dt_s);
         let steps = round(seconds / dt / f64::from(STEP_GRID)).max(1) * STEP_GRID;
         let length_s = f64::from(steps) * dt;
+        for (index, particles) in scene.particles.iter().enumerate() {
+            if let Some(history) = particles.history
+                && !steps.is_multiple_of(history.every_steps)
+            {
+                let field = format!("particles[{index}].history.every_steps");
+                return refuse(
+                    field,
+                    history.every_steps.to_string(),
+                    &format!("a divisor of its {steps} steps"),
+                );
+            }
+        }
         let mut sources = Vec::with_capacity(scene.sources.len());
         let mut longest = 1;
         for (index, source) in looped.sources.iter_mut().enumerate() {

@@ -59,7 +59,7 @@ use crate::error::{SceneError, SimError};
 use crate::layout::Uint4;
 use crate::leaf::Leaves;
 use crate::litter::Bed;
-use crate::particle::{ParticleStore, TallyStore};
+use crate::particle::{HistoryRun, HistoryStore, ParticleStore, TallyStore, history_runs};
 use crate::scene::{MAX_MOVERS, Profile, Scene};
 use crate::solid::Solid;
 use crate::store::{StoreSize, check_sizes};
@@ -81,6 +81,7 @@ pub struct CompiledScene {
     solids: Arc<Solids>,
     births: Arc<Births>,
     carriers: Arc<[CarrierRun]>,
+    histories: Arc<[(usize, HistoryRun)]>,
     cycle: Option<Cycle>,
 }
 
@@ -150,6 +151,7 @@ impl CompiledScene {
             tables: tables.into(),
             forest: forest.into(),
             solids: solids.into(),
+            histories: history_runs(scene).into(),
             births: births.into(),
             carriers: carriers.into_iter().filter(|run| run.count != 0).collect(),
             cycle,
@@ -212,6 +214,7 @@ impl CompiledScene {
             StoreSize { store: Bed::NAME, rows: Bed::rows_of(&self.block.litter) },
             StoreSize { store: ParticleStore::NAME, rows: self.scene.particle_count() as usize },
             StoreSize { store: TallyStore::NAME, rows: TallyStore::rows_of(&self.scene) },
+            StoreSize { store: HistoryStore::NAME, rows: HistoryStore::rows_of(&self.scene) },
         ]
     }
 
@@ -368,6 +371,11 @@ impl CompiledScene {
     /// Forces that particles carry.
     pub fn carriers(&self) -> &[CarrierRun] {
         &self.carriers
+    }
+
+    /// Runs of particles of whose ways samples are kept, each with the number of its population.
+    pub fn histories(&self) -> &[(usize, HistoryRun)] {
+        &self.histories
     }
 
     /// Births of particles.

@@ -130,6 +130,9 @@ limits! {
     BLINK_S: f32 = 0.1, 60.0, "s", blink_s;
     BLOB_RADIUS_M: f32 = 0.001, 10.0, "m", radius_m;
     BLOB_THRESHOLD: f32 = 0.01, 0.95, "", threshold;
+    RIBBON_WIDTH: f32 = 0.01, 100.0, "", width;
+    HISTORY_SAMPLES: u32 = 2, 64, "", samples;
+    HISTORY_STEPS: u32 = 1, 240, "steps", every_steps;
     LAYER: u32 = 0, 15, "", layer;
     FAN: u32 = 1, 64, "", fan;
     INHERIT: f32 = -1.0, 1.0, "", inherit;

@@ -43,9 +43,9 @@ pub use lens::{Exposure, Focus, Glare, Lens, ToneMap};
 pub use litter::Litter;
 pub use nest::{Nest, ParticleEvent, Space};
 pub use object::{Object, ObjectFriction, ObjectKey, ObjectMotion, ObjectShape, PLANE_REACH_M, Walker};
-pub use particle_look::{Look, LookKind, LookSample, MAX_BLOBS, MAX_LIGHTS, lone_blob_radius};
+pub use particle_look::{Look, LookKind, LookSample, MAX_BLOBS, MAX_LIGHTS, Ribbon, lone_blob_radius};
 pub use particles::{
-    Air, Bounds, Direction, Meets, NORMAL_REACH, ParticleRelease, ParticleShape, Particles, Spread,
+    Air, Bounds, Direction, History, Meets, NORMAL_REACH, ParticleRelease, ParticleShape, Particles, Spread,
 };
 pub use path::{CameraKey, camera_at};
 pub use plume::{Plume, PlumeKey};
@@ -105,6 +105,8 @@ pub const MAX_FORCES: usize = 16;
 pub const MAX_MUTUAL: u32 = 1 << 16;
 /// Most slots of a population that carries a force.
 pub const MAX_CARRIERS: u32 = 64;
+/// Most samples of the ways of particles, over all populations: they fit in one binding of any device.
+pub const MAX_HISTORY_SAMPLES: u32 = 1 << 22;
 /// Dynamic viscosity of air at 20 °C in Pa s.
 pub const VISCOSITY_PA_S: f32 = 1.813e-5;
 /// Most particles a scene may have, over all populations.

@@ -46,6 +46,15 @@ pub fn lone_blob_radius(threshold: f32) -> f32 {
     libm::sqrtf(1.0 - libm::cbrtf(threshold))
 }
 
+/// Ribbon that is drawn through the samples of a particle's way, narrower and fainter the longer it is ago, in the manner of its look.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Ribbon {
+    /// Width at its head over the diameter that the particle is drawn with, 0.01 to 100.
+    pub width: f32,
+    /// True if it takes the place of the particle, whose round end it has then.
+    pub alone: bool,
+}
+
 /// Look of particles, over their age as a share of their life: 0 at birth, 1 at the end, and 0 for those that do not age. Curves are
 /// linear between their points, whose ages rise, and constant before the first and after the last; without points they are one.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -70,6 +79,8 @@ pub struct Look {
     pub lights: bool,
     /// True if it is drawn out along its way while the shutter of the lens is open, and as much fainter.
     pub streak: bool,
+    /// Ribbon behind it, which needs `history`; `None` draws none.
+    pub ribbon: Option<Ribbon>,
     /// Layer, 0 to 15: lower ones are drawn first, whatever their distance.
     pub layer: u32,
 }
@@ -86,6 +97,7 @@ impl Default for Look {
             blink_s: None,
             lights: false,
             streak: false,
+            ribbon: None,
             layer: 0,
         }
     }

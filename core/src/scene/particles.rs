@@ -243,6 +243,15 @@ pub enum Bounds {
     },
 }
 
+/// Samples of the ways of particles, for ribbons behind them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct History {
+    /// Samples kept of each particle, 2 to 64; at most 4194304 of all populations together.
+    pub samples: u32,
+    /// Steps from one to the next, 1 to 240.
+    pub every_steps: u32,
+}
+
 /// A population of particles: slots of one kind, used again and again.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
@@ -281,6 +290,8 @@ pub struct Particles {
     pub meets: Meets,
     /// Region beyond which they die.
     pub dies: Option<Bounds>,
+    /// Samples kept of their ways; `None` keeps none.
+    pub history: Option<History>,
     /// Look.
     pub look: Look,
 }
@@ -304,6 +315,7 @@ impl Default for Particles {
             air: Air::Settling { m_s: Spread::Constant(1.0) },
             meets: Meets::Die,
             dies: None,
+            history: None,
             look: Look::default(),
         }
     }

@@ -7,7 +7,7 @@ use std::sync::{Mutex, PoisonError};
 use super::world::World;
 use crate::clock::Clock;
 use crate::compile::CompiledScene;
-use crate::particle::{Generation, each_generation, place_carriers, step_run};
+use crate::particle::{Generation, each_generation, keep_all, place_carriers, step_run, steps_to_sample};
 use crate::threads::on_all;
 
 /// Steps whose blocks are made at once.
@@ -18,7 +18,7 @@ const RUN: usize = 1024;
 /// Steps the particles of a world from the first birth of those that live at time zero, or of their parents, up to then. None of them
 /// attract one another.
 pub(super) fn lead_in(world: &mut World) {
-    let World { compiled, clock, bed, particles, tallies, .. } = world;
+    let World { compiled, clock, bed, particles, tallies, history, .. } = world;
     let lead = compiled.births().lead();
     let mut before = start(compiled, clock.dt_s(), lead);
     // Particles see how their parents have gone through the same step, and where carriers of forces begin it.
@@ -27,7 +27,8 @@ pub(super) fn lead_in(world: &mut World) {
     let most = if sees_others { 1 } else { STEPS };
     let mut left = lead;
     while left > 0 {
-        let count = left.min(most);
+        let sampled = steps_to_sample(compiled.histories(), before.step()).unwrap_or(most);
+        let count = left.min(most).min(sampled);
         left -= count;
         let blocks: Vec<_> = (0..count)
             .map(|_| {
@@ -54,6 +55,9 @@ pub(super) fn lead_in(world: &mut World) {
                 sums.iter_mut().zip(counts).for_each(|(sum, count)| *sum = sum.wrapping_add(count));
             });
         });
+        if let Some(cx) = steps.last() {
+            keep_all(cx, compiled.histories(), particles, history);
+        }
     }
     let born = if lead > 0 { *before.born() } else { compiled.births().before(0) };
     *clock = clock.with_born(born);

@@ -17,15 +17,16 @@ use crate::device::leaf::stack::{leaf_changes_litter, leaf_stack};
 use crate::device::leaf::strike::leaf_push;
 use crate::device::leaf::wake::{cover_is_due, leaf_check_cover, leaf_wake, wake_is_due};
 use crate::leaf::Leaves;
-use crate::particle::step_all;
+use crate::particle::{keep_all, step_all};
 
 /// Steps the particles and the leaves of a world one after another. Trees, and the leaves that hang on them, stay as they are.
 pub fn step(world: &mut World, count: u32) {
-    let World { compiled, clock, leaves, branches: _, bed, particles, tallies } = world;
+    let World { compiled, clock, leaves, branches: _, bed, particles, tallies, history } = world;
     each_step(compiled, clock, count, |cx| {
         let bare = cx;
         let cx = &cx.over(&bed.words);
         step_all(cx, compiled.carriers(), compiled.start_count(), particles, tallies);
+        keep_all(cx, compiled.histories(), particles, history);
         if cx.scene.collides(cx.step.index) {
             collide(cx, leaves);
         }

@@ -21,7 +21,7 @@ use crate::leaf::seek::leaf_seek_any;
 use crate::leaf::{Leaves, LeavesMut};
 use crate::litter::lay::{lay_all, strew};
 use crate::litter::{Bed, LitterStats};
-use crate::particle::{ParticleStats, ParticleStore, TallyStore};
+use crate::particle::{HistoryStore, ParticleStats, ParticleStore, TallyStore};
 use crate::scene::Scene;
 use crate::store::{Store, StoreSize, check_sizes, copy_stores, hash_stores, state_bytes};
 use crate::threads::on_all;
@@ -47,6 +47,8 @@ pub struct World {
     pub particles: ParticleStore,
     /// Counts of what has happened to them.
     pub tallies: TallyStore,
+    /// Samples of their ways.
+    pub history: HistoryStore,
 }
 
 impl World {
@@ -91,7 +93,8 @@ impl World {
         let bed = Bed::zeroed(Bed::rows_of(&compiled.block().litter));
         let particles = ParticleStore::zeroed(compiled.scene().particle_count() as usize);
         let tallies = TallyStore::zeroed(TallyStore::rows_of(compiled.scene()));
-        Self { compiled, clock, leaves, branches, bed, particles, tallies }
+        let history = HistoryStore::zeroed(HistoryStore::rows_of(compiled.scene()));
+        Self { compiled, clock, leaves, branches, bed, particles, tallies, history }
     }
 
     /// Fills the stores of a compiled scene.
@@ -100,7 +103,8 @@ impl World {
         let mut world = Self::zeroed(compiled, clock);
         world.branches = world.compiled.forest().at_rest();
         world.particles = ParticleStore::dormant(world.compiled.scene());
-        let Self { compiled, clock, leaves, branches, bed, particles: _, tallies: _ } = &mut world;
+        let Self { compiled, clock, leaves, branches, bed, particles: _, tallies: _, history: _ } =
+            &mut world;
         let step = compiled.step_block(clock);
         let cx = compiled.context(&step);
         let tables = drop_tables(&cx);
@@ -140,14 +144,14 @@ impl World {
 
     /// All stores, in the order of checkpoints.
     pub fn stores(&self) -> Vec<&dyn Store> {
-        let Self { compiled: _, clock: _, leaves, branches, bed, particles, tallies } = self;
-        vec![leaves, branches, bed, particles, tallies]
+        let Self { compiled: _, clock: _, leaves, branches, bed, particles, tallies, history } = self;
+        vec![leaves, branches, bed, particles, tallies, history]
     }
 
     /// All stores, to be filled.
     pub fn stores_mut(&mut self) -> Vec<&mut dyn Store> {
-        let Self { compiled: _, clock: _, leaves, branches, bed, particles, tallies } = self;
-        vec![leaves, branches, bed, particles, tallies]
+        let Self { compiled: _, clock: _, leaves, branches, bed, particles, tallies, history } = self;
+        vec![leaves, branches, bed, particles, tallies, history]
     }
 
     /// Number of rows of each store.

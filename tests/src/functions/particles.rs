@@ -12,6 +12,7 @@ use windfall_core::device::particle::birth::{
 use windfall_core::device::particle::draw::{particle_words, spread_draw};
 use windfall_core::device::particle::fly::{ParticleFlight, particle_fly};
 use windfall_core::device::particle::force::{force_pull, force_swirl, force_turn};
+use windfall_core::device::particle::history::{history_counts, history_is_due, history_row, history_sample};
 use windfall_core::device::particle::local_space::{
     ParticleFrame, carried_flight, frame_turn, in_frame, parent_frame, rest_frame,
 };
@@ -28,7 +29,7 @@ use windfall_core::device::particle::strike::{
     bent_share, ground_strike, particle_contact, particle_push, struck_velocity, wedged_velocity,
 };
 use windfall_core::device::wind::vortex::swirl_profile;
-use windfall_core::particle::{ParticleMotion, ParticlePlace, ParticleStart};
+use windfall_core::particle::{HistoryRun, ParticleMotion, ParticlePlace, ParticleStart};
 
 use super::{Function, Input, float, floats, functions, integers, vector};
 use crate::runner::Words;
@@ -117,6 +118,34 @@ functions! {
         let block = population(cx, w);
         let births = &cx.step.births[w[0] as usize];
         integers([birth_number(births, block.count, w[1] % block.count), trait_word(float(w[2])), 0, 0])
+    };
+
+    history_row in "particle/history" (ANY, ANY, ANY, ANY, Input::Below(70)) tolerance None;
+    wgsl "var run: HistoryRun; run.first_sample = a.z & 0xffffu; run.samples = 2u + (a.z >> 26u); run.every_steps = 1u + (a.w & 63u);
+        run.ahead_steps = a.w >> 6u;
+        let sample = history_sample(ParticlePlace(vec3<f32>(0.5, 0.25, 2.0), a.x), a.w);
+        r = vec4<u32>(history_row(run, a.y & 0xffffu, a.x), u32(history_is_due(run, a.x)),
+            u32(history_counts(sample, a.w, a.w - b.x + 5u)), u32(history_counts(sample, a.x, a.w - 5u)));
+        s.x = bitcast<u32>(sample.position.y); s.y = sample.time;";
+    rust |_cx, w| {
+        let run = HistoryRun {
+            first: 0,
+            count: 0,
+            first_sample: w[2] & 0xffff,
+            samples: 2 + (w[2] >> 26),
+            every_steps: 1 + (w[3] & 63),
+            ahead_steps: w[3] >> 6,
+            unused: [0; 2],
+        };
+        let sample = history_sample(&ParticlePlace { position: [0.5, 0.25, 2.0], bits: w[0] }, w[3]);
+        integers([
+            history_row(&run, w[1] & 0xffff, w[0]),
+            history_is_due(&run, w[0]).into(),
+            history_counts(&sample, w[3], w[3].wrapping_sub(w[4]).wrapping_add(5)).into(),
+            history_counts(&sample, w[0], w[3].wrapping_sub(5)).into(),
+            sample.position[1].to_bits(),
+            sample.time,
+        ])
     };
 
     nest_place in "particle/nest" (NEST, ANY, ANY, ANY) tolerance None;

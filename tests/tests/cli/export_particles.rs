@@ -21,7 +21,8 @@ const SCENE: &str = r#"(
          release: Rate(per_s: 80.0, from_s: 0.1), life_s: Some(Uniform(0.8, 0.15)), size_m: Uniform(0.01, 0.004),
          air: Linear(time_s: Constant(0.5)), meets: Bounce(restitution: 0.1, friction: Coulomb(0.5))),
         (name: "shells", count: 8, from: Line(from_m: (-1.0, 5.0, 0.0), to_m: (1.0, 5.0, 0.0)),
-         release: Burst(at_s: 0.0), life_s: None, speed_m_s: Constant(3.0), size_m: Constant(0.125), air: Vacuum, meets: Nothing),
+         release: Burst(at_s: 0.0), life_s: None, speed_m_s: Constant(3.0), size_m: Constant(0.125), air: Vacuum, meets: Nothing,
+         history: Some((samples: 5, every_steps: 4)), look: (ribbon: Some((width: 0.5, alone: false)))),
         (name: "late", count: 4, release: Burst(at_s: 60.0)),
     ],
 )"#;
@@ -189,6 +190,57 @@ fn a_stage_has_points_with_the_numbers_of_the_table() {
                     assert!(extent[axis] <= low && high <= extent[3 + axis], "{name}, frame {number}");
                 }
             }
+        }
+    }
+}
+
+/// The way of a body thrown into nothing is a parabola, back from where it is.
+#[test]
+fn a_stage_has_curves_of_ways() {
+    let there = scene();
+    export(&there, FRAMES, "shot.usda", &["--fps", "30"]);
+    let read = |name: &str| fs::read_to_string(there.path().join(name)).expect("a layer");
+    let (stage, layer) = (read("shot_layers/stage.usda"), read("shot_layers/frames_00000.usda"));
+    assert_eq!(stage.matches("def BasisCurves ").count(), 1, "a prim for what keeps samples");
+    assert!(stage.contains("def BasisCurves \"shells\" (\ndisplayName = \"shells\""), "{stage}");
+    let points = layer
+        .split_once("over \"Particles\"")
+        .expect("points")
+        .1
+        .split_once("over \"shells\"")
+        .expect("shells")
+        .1;
+    let ways = layer.split_once("over \"Ways\"").expect("ways").1;
+    for (number, backs) in [
+        (0, &[][..]),
+        (5, &[0.0, 2.0, 6.0][..]),
+        (12, &[0.0, 4.0, 8.0, 12.0, 16.0][..]),
+        (29, &[0.0, 2.0, 6.0, 10.0, 14.0, 18.0][..]),
+    ] {
+        let at = |declaration| sample(ways, declaration, number);
+        let (places, speeds) =
+            (sample(points, "point3f[] points", number), sample(points, "vector3f[] velocities", number));
+        let shells = if backs.is_empty() { 0 } else { 8 };
+        assert_eq!(at("int[] curveVertexCounts"), vec![backs.len() as f32; shells], "frame {number}");
+        assert_eq!(at("int64[] primvars:windfall:id").len(), shells, "frame {number}");
+        let (found, widths) = (at("point3f[] points"), at("float[] widths"));
+        assert_eq!(
+            (found.len(), widths.len()),
+            (3 * shells * backs.len(), shells * backs.len()),
+            "frame {number}"
+        );
+        for (shell, way) in found.chunks(3 * backs.len().max(1)).enumerate() {
+            let three = |row: &[f32], at: usize| Vec3::new(row[3 * at], row[3 * at + 1], row[3 * at + 2]);
+            for (point, back) in backs.iter().enumerate() {
+                let time_s = back / 60.0;
+                let expected = three(&places, shell)
+                    - three(&speeds, shell) * time_s
+                    - Vec3::Y * (0.5 * 9.806_65 * time_s * time_s);
+                let off_m = three(way, point).distance(expected);
+                assert!(off_m < 1e-4, "frame {number}, shell {shell}, {back} steps ago: {off_m} m off");
+            }
+            let own = &widths[shell * backs.len()..][..backs.len()];
+            assert!((own[0] - 0.0625).abs() < 1e-6 && own.is_sorted_by(|a, b| a >= b), "{own:?}");
         }
     }
 }

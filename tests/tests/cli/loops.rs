@@ -7,6 +7,7 @@ use std::path::Path;
 use tempfile::TempDir;
 use windfall_core::device::particle::record::{PARTICLE_ALIVE, PARTICLE_RESTING, particle_state};
 use windfall_core::motion::Primitive;
+use windfall_core::particle::way_of;
 use windfall_core::{Cycle, Scene, Simulator, World};
 use windfall_cpu::{CpuOptions, CpuSimulator};
 use windfall_wgpu::{Gpu, WgpuOptions, WgpuSimulator};
@@ -92,7 +93,8 @@ const PARTICLES: &str = "(
          life_s: Some(Constant(0.2)), air: Linear(time_s: Constant(0.4)), meets: Die),
         (name: \"sparks\", count: 170, nest: Some((of: \"drops\", on: Birth, radius_m: 0.2, space: Local)), life_s: Some(Constant(0.5)),
          gravity: 0.0, air: Linear(time_s: Constant(1.0)), meets: Nothing, feels: [\"stir\"]),
-        (name: \"dust\", count: 60, release: Rate(per_s: 10.0, from_s: 0.0), life_s: Some(Constant(4.0)), air: Massless, meets: Nothing),
+        (name: \"dust\", count: 60, release: Rate(per_s: 10.0, from_s: 0.0), life_s: Some(Constant(4.0)), air: Massless, meets: Nothing,
+         history: Some((samples: 5, every_steps: 3))),
     ],
     forces: [(name: \"stir\", of: Noise(m_s2: 2.0, cell_m: 0.5))],
     wind: (speed: MetresPerSecond(2.0)),
@@ -116,12 +118,52 @@ fn living(world: &World) -> Vec<[u32; 12]> {
     living
 }
 
+/// Ways of all that is alive and keeps samples, whatever its slot: numbers, ages and bits of every sample.
+fn ways(world: &World) -> Vec<Vec<[u32; 4]>> {
+    let (store, now) = (&world.particles, world.clock.step());
+    let slots = world
+        .compiled
+        .histories()
+        .iter()
+        .flat_map(|(_, run)| (run.first..run.first + run.count).map(move |slot| (run, slot)));
+    let alive = slots.filter(|(_, slot)| particle_state(store.place[*slot as usize].bits) == PARTICLE_ALIVE);
+    let mut ways: Vec<_> = alive
+        .map(|(run, slot)| {
+            let id = store.traits[slot as usize].id;
+            let samples = way_of(run, store, &world.history, slot, now).map(|sample| {
+                let [x, y, z] = sample.position.map(f32::to_bits);
+                [x, y, z, now.wrapping_sub(sample.time)]
+            });
+            std::iter::once([id, 0, 0, 0]).chain(samples).collect()
+        })
+        .collect();
+    ways.sort_unstable();
+    ways
+}
+
+/// A rhythm of samples that does not fit the loop is refused in one line.
+#[test]
+fn ways_must_fit_the_loop() {
+    let scene =
+        Scene::from_ron(&PARTICLES.replace("every_steps: 3", "every_steps: 7"), "particles").expect("valid");
+    let refused =
+        World::build_cycle(&scene, "particles", 2.0).expect_err("120 is no multiple of seven").to_string();
+    assert_eq!(refused.lines().count(), 1, "{refused}");
+    let says = |text: &str| assert!(refused.contains(text), "{refused}");
+    ["particles[3].history.every_steps", "7", "a divisor of its 120 steps in a loop"]
+        .into_iter()
+        .for_each(says);
+}
+
 #[test]
 fn particles_repeat_to_the_bit_on_both_backends() {
     let scene = Scene::from_ron(PARTICLES, "particles").expect("valid");
     let (world, cycle) = World::build_cycle(&scene, "particles", 2.0).expect("it can repeat");
     let mut cpu = CpuSimulator::new(&world, CpuOptions::default()).expect("threads start");
     let rounds = two_rounds(&mut cpu, &world, &cycle, cycle.steps);
+    let [before, after] = rounds.each_ref().map(ways);
+    assert!(before.iter().filter(|way| way.len() == 6).count() > 30, "{} ways", before.len());
+    assert_eq!(before, after, "the same ways");
     let [before, after] = rounds.each_ref().map(living);
     let resting = rounds[0].particles.place.iter().filter(|row| particle_state(row.bits) == PARTICLE_RESTING);
     assert!(before.len() > 200 && resting.count() > 20, "{} are alive", before.len());

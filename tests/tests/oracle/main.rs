@@ -24,6 +24,7 @@ mod litter;
 mod local_space;
 mod motion;
 mod particle_births;
+mod particle_history;
 mod particle_hits;
 mod particle_nests;
 mod particles;

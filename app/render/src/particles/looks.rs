@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Looks of all populations for the shaders: their curves as tables.
 
+use windfall_core::particle::{HistoryRun, history_runs};
 use windfall_core::scene::{Look, LookKind, Particles, Scene};
 use windfall_core::{shared_constants, shared_struct};
 
@@ -21,6 +22,10 @@ shared_constants! {
     const LOOK_MASK: u32 = 3;
     /// Flag of what is drawn out along its way.
     const LOOK_STREAKED: u32 = 4;
+    /// Flag of those in whose place their ribbons are drawn.
+    const LOOK_RIBBON_ALONE: u32 = 8;
+    /// Flag of a part of a ribbon, on its way from vertices to fragments.
+    const LOOK_RIBBON: u32 = 16;
     /// Rows of a population's curves, at even ages from birth to death.
     const LOOK_ROWS: u32 = 65;
 }
@@ -28,7 +33,7 @@ shared_constants! {
 shared_struct! {
     /// A population of particles as it is drawn.
     pub(crate) struct PopulationLook {
-        /// Way of drawing, and a flag.
+        /// Way of drawing, and flags.
         kind_flags: u32,
         /// Layer: lower ones are drawn first.
         layer: u32,
@@ -36,6 +41,16 @@ shared_struct! {
         size_m: f32,
         /// Period of blinking in seconds; 0 if it does not.
         blink_s: f32,
+        /// Samples of the ways of its particles.
+        ways: HistoryRun,
+        /// First of the parts of its ribbons, among those of all.
+        first_part: u32,
+        /// Parts of the ribbon of each; 0 without ribbons.
+        parts: u32,
+        /// Width of a ribbon at its head over the particle's diameter.
+        ribbon_width: f32,
+        /// Zero.
+        unused: u32,
     }
 }
 
@@ -56,17 +71,29 @@ shared_struct! {
 pub(crate) struct LookBuffers {
     pub(crate) populations: wgpu::Buffer,
     pub(crate) rows: wgpu::Buffer,
+    /// Parts of all ribbons.
+    pub(crate) parts: u32,
 }
 
 impl LookBuffers {
     pub(crate) fn new(device: &wgpu::Device, queue: &wgpu::Queue, scene: &Scene) -> Self {
-        let populations: Vec<_> = scene.particles.iter().map(population).collect();
+        let mut populations: Vec<_> = scene.particles.iter().map(population).collect();
+        let mut parts = 0;
+        for (number, run) in history_runs(scene) {
+            let (look, ribbon) = (&mut populations[number], scene.particles[number].look.ribbon);
+            look.ways = run;
+            if let Some(ribbon) = ribbon {
+                (look.first_part, look.parts, look.ribbon_width) = (parts, run.samples, ribbon.width);
+                parts += run.count * run.samples;
+            }
+        }
         let rows: Vec<_> = scene.particles.iter().flat_map(|particles| rows(&particles.look)).collect();
         let filled =
             |label, bytes: &[u8]| upload::buffer(device, queue, label, wgpu::BufferUsages::STORAGE, bytes);
         Self {
             populations: filled("looks of populations", bytemuck::cast_slice(&populations)),
             rows: filled("look curves", bytemuck::cast_slice(&rows)),
+            parts,
         }
     }
 }
@@ -80,11 +107,14 @@ fn population(particles: &Particles) -> PopulationLook {
         // Flames and the surface of blobs are drawn by themselves.
         LookKind::Hidden | LookKind::Blobs { .. } | LookKind::Flame { .. } => LOOK_HIDDEN,
     };
+    let streaked = if look.streak { LOOK_STREAKED } else { 0 };
+    let alone = if look.ribbon.is_some_and(|ribbon| ribbon.alone) { LOOK_RIBBON_ALONE } else { 0 };
     PopulationLook {
-        kind_flags: if look.streak { kind | LOOK_STREAKED } else { kind },
+        kind_flags: kind | streaked | alone,
         layer: look.layer,
         size_m: particles.size_m.mean(),
         blink_s: look.blink_s.unwrap_or(0.0),
+        ..bytemuck::Zeroable::zeroed()
     }
 }
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Particles: sorted by distance, and drawn as balls, puffs and lights, and the common surface of blobs.
+//! Particles: sorted by distance, and drawn as balls, puffs, lights and ribbons, and the common surface of blobs.
 
 pub(crate) mod blobs;
 pub(crate) mod draw_list;
@@ -26,8 +26,12 @@ pub(crate) fn shaders() -> Shaders {
     let lists = [looks::wgsl_constants(), draw_list::wgsl_constants(), paint::wgsl_constants()];
     shaders.extend([(
         "particles/structs",
-        declarations(lists) + &structs.concat() + &blobs::structs() + &flames::structs(),
+        "#import particle_records\n".to_owned()
+            + &declarations(lists)
+            + &structs.concat()
+            + &blobs::structs()
+            + &flames::structs(),
     )]);
-    shaders.extend(wgsl_files!("particles": "bindings", "blob_field", "blob_list", "blob_pass", "blob_shadow", "draw_list", "fire_gather", "flame_pass", "flame_spine", "paint", "particle_pass"));
+    shaders.extend(wgsl_files!("particles": "bindings", "blob_field", "blob_list", "blob_pass", "blob_shadow", "draw_list", "fire_gather", "flame_pass", "flame_spine", "paint", "particle_pass", "ribbon", "ribbon_points"));
     shaders
 }

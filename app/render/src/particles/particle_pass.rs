@@ -45,7 +45,7 @@ impl ParticlePass {
         }
         let read = wgpu::BufferBindingType::Storage { read_only: true };
         let vertex = wgpu::ShaderStages::VERTEX;
-        let entries = (1..=6).map(|binding| buffer_entry(binding, read, vertex));
+        let entries = (1..=7).map(|binding| buffer_entry(binding, read, vertex));
         let uniform = buffer_entry(0, wgpu::BufferBindingType::Uniform, vertex);
         let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
             label: Some("particles"),
@@ -65,11 +65,12 @@ impl ParticlePass {
             alpha_to_coverage: false,
         }
         .build(device);
+        let looks = LookBuffers::new(device, queue, scene);
         Some(Self {
-            looks: LookBuffers::new(device, queue, scene),
             blobs: BlobPass::new((device, queue), frame, light, scene),
             flames: FlamePass::new((device, queue), frame, light, scene),
-            list: DrawList::new(device, queue, slots, scene.dt_s),
+            list: DrawList::new((device, queue), (slots, looks.parts), scene.dt_s),
+            looks,
             layout,
             pipeline,
             group: None,
@@ -91,10 +92,10 @@ impl ParticlePass {
     ) {
         self.group = columns.map(|columns| {
             self.list.run((device, queue), encoder, (columns, &self.looks), seen);
-            let LookBuffers { populations, rows } = &self.looks;
-            let ParticleColumns { place, motion, traits, .. } = columns;
-            let buffers =
-                [&self.list.uniform, &self.list.sort.pairs, *place, *motion, *traits, populations, rows];
+            let LookBuffers { populations, rows, .. } = &self.looks;
+            let ParticleColumns { place, motion, traits, history, .. } = *columns;
+            let shared = [&self.list.uniform, place, motion, populations, history];
+            let buffers = shared.into_iter().chain([&self.list.sort.pairs, traits, rows]);
             let entries: Vec<_> = (0..)
                 .zip(buffers)
                 .map(|(binding, buffer)| wgpu::BindGroupEntry { binding, resource: whole(buffer) })

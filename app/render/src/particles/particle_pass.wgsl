@@ -1,21 +1,17 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// Particles as discs that face the camera, drawn out along their way while the shutter is open. Premultiplied: balls and puffs
-// hide by their opacity what is behind them, lights hide nothing.
+// Particles as discs that face the camera, drawn out along their way while the shutter is open, and ribbons behind them. Premultiplied:
+// balls and puffs hide by their opacity what is behind them, lights hide nothing.
 
 #import frame/fire_light
 #import frame/light
 #import gpu/sort_pair
-#import particles/bindings
 #import particles/paint
+#import particles/ribbon
 
-@group(2) @binding(0) var<uniform> drawn: ParticleUniform;
-@group(2) @binding(1) var<storage, read> pairs: array<SortPair>;
-@group(2) @binding(2) var<storage, read> places: array<ParticlePlace>;
-@group(2) @binding(3) var<storage, read> motions: array<ParticleMotion>;
-@group(2) @binding(4) var<storage, read> traits: array<ParticleTraits>;
-@group(2) @binding(5) var<storage, read> populations: array<PopulationLook>;
-@group(2) @binding(6) var<storage, read> rows: array<LookRow>;
+@group(2) @binding(5) var<storage, read> pairs: array<SortPair>;
+@group(2) @binding(6) var<storage, read> traits: array<ParticleTraits>;
+@group(2) @binding(7) var<storage, read> rows: array<LookRow>;
 
 // Least radius in pixels of balls and of what has no edge: what is smaller is drawn as large, and as much fainter. Any narrower,
 // it would fall between the middles of pixels.
@@ -31,20 +27,21 @@ const BALL_SHARE: f32 = 0.25;
 
 struct Varyings {
     @builtin(position) clip: vec4<f32>,
-    // Place on the disc in radii, along the way and across it.
+    // Place on the disc in radii, along the way and across it; on a ribbon from its middle line, along only before the head.
     @location(0) at: vec2<f32>,
-    // Half the way in radii, and reciprocal of a pixel in radii.
-    @location(1) @interpolate(flat) way_px: vec2<f32>,
+    // Half the way in radii, and reciprocal of a pixel in radii. Only along a ribbon these differ from vertex to vertex.
+    @location(1) way_px: vec2<f32>,
     // Of light from the sun, of the sky, and of the air before it; opacity.
-    @location(2) @interpolate(flat) sun: vec4<f32>,
-    @location(3) @interpolate(flat) sky: vec4<f32>,
-    @location(4) @interpolate(flat) air: vec4<f32>,
+    @location(2) sun: vec4<f32>,
+    @location(3) sky: vec4<f32>,
+    @location(4) air: vec4<f32>,
     // Axes of the disc: along the way, and across it.
-    @location(5) @interpolate(flat) along: vec3<f32>,
-    @location(6) @interpolate(flat) across: vec3<f32>,
+    @location(5) along: vec3<f32>,
+    @location(6) across: vec3<f32>,
     @location(7) world: vec3<f32>,
     // Radius in metres, and a number of its own from 0 to 1.
-    @location(8) @interpolate(flat) radius_own: vec2<f32>,
+    @location(8) radius_own: vec2<f32>,
+    // Way of drawing, and a flag for ribbons.
     @location(9) @interpolate(flat) kind: u32,
 }
 
@@ -65,13 +62,20 @@ fn scattering(cosine: f32) -> f32 {
     return (1.0 - g2) / pow(1.0 + g2 - 2.0 * FORWARD * cosine, 1.5);
 }
 
-@vertex
-fn vertex(@builtin(vertex_index) corner: u32, @builtin(instance_index) rank: u32) -> Varyings {
-    let slot = pairs[rank].value;
-    let place = places[slot];
+// A particle as it is drawn at a moment.
+struct Drawn {
+    population: u32,
+    age: u32,
+    row: LookRow,
+    // Half the diameter in metres.
+    radius_m: f32,
+    own: f32,
+}
+
+fn drawn_particle(slot: u32) -> Drawn {
     let motion = motions[slot];
     let born_with = traits[slot];
-    let population = particle_population(place.bits);
+    let population = particle_population(places[slot].bits);
     let look = populations[population];
     let age = particle_age(motion, drawn.step);
     let at = row_place(population, age_share(age, born_with.life_size));
@@ -81,18 +85,68 @@ fn vertex(@builtin(vertex_index) corner: u32, @builtin(instance_index) rank: u32
         let is_light = look_kind(look) == LOOK_GLOW;
         row.color = painted(drawn.palette[hue.color].rgb, drawn.palette[hue.color + 1u].rgb, hue.t, row.color, is_light);
     }
-    let own = own_number(born_with.id, population);
+    let radius_m = 0.5 * look.size_m * row.size * f32(particle_size(born_with.life_size)) / f32(PARTICLE_SIZE_ONE);
+    return Drawn(population, age, row, radius_m, own_number(born_with.id, population));
+}
 
+// Size of a pixel at a distance in metres.
+fn pixel_at(distance_m: f32) -> f32 {
+    return distance_m * length(frame.up) * 2.0 * frame.inv_viewport_px.y;
+}
+
+// Least radius in pixels of a way of drawing.
+fn least_px(kind: u32) -> f32 {
+    return select(LEAST_SOFT_PX, LEAST_BALL_PX, kind == LOOK_DOT);
+}
+
+// The light of a particle, or of its ribbon where it was `back` steps ago, towards the eye.
+fn lit(out: ptr<function, Varyings>, particle: Drawn, place: vec3<f32>, view: vec3<f32>, opacity: f32, back: f32) {
+    let look = populations[particle.population];
+    let kind = look_kind(look);
+    let air = air_before(place);
+    (*out).air = air;
+    if kind == LOOK_GLOW {
+        var light = particle.row.color;
+        if look.blink_s > 0.0 {
+            light *= blink((f32(particle.age) - back) * drawn.dt_s, look.blink_s, particle.own);
+        }
+        (*out).sun = vec4(0.0);
+        (*out).sky = vec4(light * air.a, opacity);
+    } else {
+        let sunlit = frame.sun_color * leaf_shadow(place) * tree_shade(place).x;
+        let puff = BALL_SHARE * scattering(-dot(view, frame.sun_direction));
+        (*out).sun = vec4(particle.row.color * sunlit * select(1.0, puff, kind == LOOK_SPLAT) * air.a, opacity);
+        let around = 0.5 * (ambient_light(vec3(0.0, 1.0, 0.0)) + ambient_light(vec3(0.0, -1.0, 0.0)));
+        let fires = fire_around(place) * BALL_SHARE;
+        (*out).sky = vec4(particle.row.color * (around + fires) * air.a, opacity);
+    }
+}
+
+@vertex
+fn vertex(@builtin(vertex_index) corner: u32, @builtin(instance_index) rank: u32) -> Varyings {
+    let item = pairs[rank].value;
+    let slot = item & ((1u << PART_SHIFT) - 1u);
+    let number = item >> PART_SHIFT;
+    if number != 0u {
+        return ribbon_vertex(slot, number - 1u, corner);
+    }
+    // All items of a scene with ribbons have as many corners as a part of one.
+    return disc_vertex(slot, min(corner, 3u));
+}
+
+fn disc_vertex(slot: u32, corner: u32) -> Varyings {
+    let place = places[slot];
+    let particle = drawn_particle(slot);
+    let look = populations[particle.population];
+    let kind = look_kind(look);
     let to_eye = frame.eye_m - place.position;
     let distance_m = max(length(to_eye), 1.0e-4);
     let view = to_eye / distance_m;
-    let pixel_m = distance_m * length(frame.up) * 2.0 * frame.inv_viewport_px.y;
-    let true_radius_m = 0.5 * look.size_m * row.size * f32(particle_size(born_with.life_size)) / f32(PARTICLE_SIZE_ONE);
-    let least_px = select(LEAST_SOFT_PX, LEAST_BALL_PX, look_kind(look) == LOOK_DOT);
-    let radius_m = max(true_radius_m, least_px * pixel_m);
+    let pixel_m = pixel_at(distance_m);
+    let radius_m = max(particle.radius_m, least_px(kind) * pixel_m);
 
     // The way that is seen while the shutter is open.
-    let half_way = select(vec3(0.0), motion.velocity * (0.5 * drawn.shutter_s), (look.kind_flags & LOOK_STREAKED) != 0u);
+    let half_way = select(vec3(0.0), motions[slot].velocity * (0.5 * drawn.shutter_s), (look.kind_flags & LOOK_STREAKED) != 0u);
     let seen_way = half_way - view * dot(half_way, view);
     let half_way_m = length(seen_way);
     var along = cross(view, frame.right);
@@ -112,31 +166,54 @@ fn vertex(@builtin(vertex_index) corner: u32, @builtin(instance_index) rank: u32
     out.way_px = vec2(half_way_m / radius_m, radius_m / pixel_m);
     out.along = along;
     out.across = across;
-    out.radius_own = vec2(radius_m, own);
-    out.kind = look_kind(look);
-
-    let small = true_radius_m / radius_m;
-    var opacity = row.opacity * small * small;
-    let air = air_before(place.position);
-    out.air = air;
-    if out.kind == LOOK_GLOW {
-        var light = row.color;
-        if look.blink_s > 0.0 {
-            light *= blink(f32(age) * drawn.dt_s, look.blink_s, own);
-        }
-        out.sun = vec4(0.0);
-        out.sky = vec4(light * air.a, opacity);
-        if max(light.x, max(light.y, light.z)) <= 0.0 {
-            out.clip = vec4(0.0, 0.0, -1.0, 1.0);
-        }
-    } else {
-        let lit = frame.sun_color * leaf_shadow(place.position) * tree_shade(place.position).x;
-        let puff = BALL_SHARE * scattering(-dot(view, frame.sun_direction));
-        out.sun = vec4(row.color * lit * select(1.0, puff, out.kind == LOOK_SPLAT) * air.a, opacity);
-        let around = 0.5 * (ambient_light(vec3(0.0, 1.0, 0.0)) + ambient_light(vec3(0.0, -1.0, 0.0)));
-        let fires = fire_around(place.position) * BALL_SHARE;
-        out.sky = vec4(row.color * (around + fires) * air.a, opacity);
+    out.radius_own = vec2(radius_m, particle.own);
+    out.kind = kind;
+    let small = particle.radius_m / radius_m;
+    lit(&out, particle, place.position, view, particle.row.opacity * small * small, 0.0);
+    if kind == LOOK_GLOW && max(out.sky.x, max(out.sky.y, out.sky.z)) <= 0.0 {
+        out.clip = vec4(0.0, 0.0, -1.0, 1.0);
     }
+    return out;
+}
+
+// A corner of a part of the ribbon behind a particle: pairs of them across the way, the first before the head.
+fn ribbon_vertex(slot: u32, part: u32, corner: u32) -> Varyings {
+    let particle = drawn_particle(slot);
+    let look = populations[particle.population];
+    let kind = look_kind(look);
+    let length_steps = ribbon_length(look.ways, particle.age);
+    let pair = corner >> 1u;
+    let strip = max(pair, 1u) - 1u;
+    let share = ribbon_share(slot, look.ways, part, length_steps) * f32(strip) / f32(RIBBON_STRIPS);
+    let at = ribbon_place(slot, look.ways, part, share);
+    let to_eye = frame.eye_m - at.place;
+    let distance_m = max(length(to_eye), 1.0e-4);
+    let view = to_eye / distance_m;
+    let pixel_m = pixel_at(distance_m);
+
+    var along = at.pace - view * dot(at.pace, view);
+    if dot(along, along) < 1.0e-20 {
+        along = cross(view, frame.right);
+    }
+    along = along / max(length(along), 1.0e-20);
+    let across = cross(view, along);
+    let left = max(1.0 - at.back / length_steps, 0.0);
+    let half_m = particle.radius_m * look.ribbon_width * left;
+    let radius_m = max(half_m, least_px(kind) * pixel_m);
+    let reach = 1.0 + RIM_PX * pixel_m / radius_m;
+    let before = select(0.0, reach, pair == 0u && part == 0u);
+    let side = (f32(corner & 1u) * 2.0 - 1.0) * reach;
+
+    var out: Varyings;
+    out.world = at.place + (along * before + across * side) * radius_m;
+    out.clip = frame.view_projection * vec4(out.world, 1.0);
+    out.at = vec2(before, side);
+    out.way_px = vec2(0.0, radius_m / pixel_m);
+    out.along = along;
+    out.across = across;
+    out.radius_own = vec2(radius_m, particle.own);
+    out.kind = kind | LOOK_RIBBON;
+    lit(&out, particle, at.place, view, particle.row.opacity * left * half_m / radius_m, at.back);
     return out;
 }
 
@@ -182,7 +259,8 @@ fn billows(at: vec2<f32>, own: f32) -> f32 {
 fn fragment(in: Varyings) -> @location(0) vec4<f32> {
     let way = in.way_px.x;
     let radius_px = in.way_px.y;
-    if in.kind == LOOK_DOT {
+    let kind = in.kind & LOOK_MASK;
+    if kind == LOOK_DOT {
         let share = covered(in.at, way, radius_px) * in.sky.a;
         // A ball that stands still and is seen as one has a lit side.
         let inward = sqrt(max(1.0 - dot(in.at, in.at), 0.0));
@@ -195,9 +273,9 @@ fn fragment(in: Varyings) -> @location(0) vec4<f32> {
     var thick = thinly_covered(in.at, way);
     // It meets the ground without an edge.
     let above_m = in.world.y - surface_height(in.world.xz);
-    if in.kind == LOOK_SPLAT {
+    if kind == LOOK_SPLAT {
         thick *= clamp(above_m / (0.6 * in.radius_own.x) + 0.4, 0.0, 1.0);
-        let is_large = smoothstep(4.0, 16.0, radius_px);
+        let is_large = select(smoothstep(4.0, 16.0, radius_px), 0.0, (in.kind & LOOK_RIBBON) != 0u);
         thick *= mix(1.0, 1.6 * billows(in.at, in.radius_own.y), is_large);
         let share = clamp(thick * in.sky.a, 0.0, 1.0);
         return vec4((in.sun.rgb + in.sky.rgb + in.air.rgb) * share, share);

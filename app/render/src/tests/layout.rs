@@ -9,7 +9,7 @@ use naga::valid::{Capabilities, FunctionInfo, ModuleInfo, ValidationFlags, Valid
 use naga::{AddressSpace, Expression, Function, Handle, StructMember, Type, TypeInner, VectorSize};
 use windfall_core::layout::WgslStruct;
 use windfall_core::leaf::{Attitude, Drift, Identity, Place, Schedule};
-use windfall_core::particle::{ParticleMotion, ParticlePlace, ParticleTraits};
+use windfall_core::particle::{HistoryRun, HistorySample, ParticleMotion, ParticlePlace, ParticleTraits};
 
 use crate::gpu::shaders::Shaders;
 use crate::land::texture::LandUniform;
@@ -121,6 +121,8 @@ fn every_struct_has_one_layout() {
     assert_same::<ParticlePlace>(&module);
     assert_same::<ParticleMotion>(&module);
     assert_same::<ParticleTraits>(&module);
+    assert_same::<HistorySample>(&module);
+    assert_same::<HistoryRun>(&module);
     let module = parse(&leaves::shaders(), "leaf_records");
     assert_same::<Place>(&module);
     assert_same::<Drift>(&module);

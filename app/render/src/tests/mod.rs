@@ -13,6 +13,7 @@ mod look;
 mod motion;
 mod objects;
 mod particles;
+mod ribbons;
 mod rooms;
 mod sort;
 mod trees;
@@ -127,6 +128,16 @@ impl Bench {
 
     /// Draws these particles: places, motions and traits, word by word.
     pub(crate) fn draw_particles(&mut self, rows: &[[[u32; 4]; 3]], time_s: f64) -> RgbaImage {
+        self.draw_ribbons(rows, &[[0; 4]], time_s)
+    }
+
+    /// The same with samples of their ways.
+    pub(crate) fn draw_ribbons(
+        &mut self,
+        rows: &[[[u32; 4]; 3]],
+        samples: &[[u32; 4]],
+        time_s: f64,
+    ) -> RgbaImage {
         let (device, queue) = (self.gpu.device(), self.gpu.queue());
         let usage = wgpu::BufferUsages::STORAGE;
         let [place, motion, traits] = [0, 1, 2].map(|column| {
@@ -134,7 +145,9 @@ impl Bench {
             upload::buffer(device, queue, "column", usage, bytemuck::cast_slice(&words))
         });
         let count = u32::try_from(rows.len()).expect("few");
-        let particles = ParticleColumns { place: &place, motion: &motion, traits: &traits, count };
+        let history = upload::buffer(device, queue, "samples", usage, bytemuck::cast_slice(samples));
+        let particles =
+            ParticleColumns { place: &place, motion: &motion, traits: &traits, count, history: &history };
         self.draw_world((None, Some(particles)), 0, 60_000, 0.0, time_s)
     }
 

@@ -15,6 +15,7 @@ mod stage;
 mod text;
 mod trees;
 pub(super) mod view;
+mod ways;
 
 use std::fs::{self, File};
 use std::io::{BufWriter, Write};
@@ -31,6 +32,7 @@ use self::samples::{Handle, Samples};
 use self::solids::SolidSamples;
 use self::trees::TreeSamples;
 use self::view::ViewSamples;
+use self::ways::WaySamples;
 use super::foliage::Foliage;
 use super::{Exporter, Frame, FrameLeaf, Job};
 use crate::files::{OutputFile, OutputFolder, WriteError};
@@ -41,6 +43,8 @@ use crate::run::progress::making_leaves;
 pub(super) const LEAF_BYTES: u64 = 200;
 /// Bytes of a particle in a frame, about.
 pub(super) const PARTICLE_BYTES: u64 = 110;
+/// Bytes of a sample of a particle's way in a frame, about.
+pub(super) const WAY_BYTES: u64 = 60;
 /// Bytes of a slot of blobs in a frame, about: of their mesh, while they touch.
 pub(super) const BLOB_BYTES: u64 = 17_000;
 /// Name of the layer that lists the attributes with samples.
@@ -58,6 +62,7 @@ pub(super) struct UsdExport {
     attributes: LeafAttributes,
     particles: ParticleSamples,
     blobs: BlobSamples,
+    ways: WaySamples,
     trees: TreeSamples,
     solids: SolidSamples,
     view: ViewSamples,
@@ -83,6 +88,7 @@ impl UsdExport {
         let attributes = LeafAttributes::declare(&mut samples);
         let particles = ParticleSamples::declare(&mut samples, job.scene);
         let blobs = BlobSamples::declare(&mut samples, job.scene);
+        let ways = WaySamples::declare(&mut samples, job.scene);
         let trees = TreeSamples::declare(&mut samples, job.scene_trees);
         let solids = SolidSamples::declare(&mut samples, job.solids);
         let view = ViewSamples::declare(&mut samples, job.scene);
@@ -110,6 +116,7 @@ impl UsdExport {
             attributes,
             particles,
             blobs,
+            ways,
             trees,
             solids,
             view,
@@ -123,6 +130,7 @@ impl UsdExport {
         self.attributes.add(&mut self.samples, frame, &self.foliage, self.reach_m);
         self.particles.add(&mut self.samples, frame);
         self.blobs.add(&mut self.samples, frame);
+        self.ways.add(&mut self.samples, frame);
         self.trees.add(&mut self.samples, frame);
         self.solids.add(&mut self.samples, frame);
         self.view.add(&mut self.samples, frame);

@@ -46,6 +46,7 @@ mod timeline;
 mod trees;
 mod vortices;
 mod walkers;
+mod ways;
 mod wind;
 mod words;
 

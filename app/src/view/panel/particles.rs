@@ -15,7 +15,7 @@ use super::field::{choice, field, vector};
 use super::list::{List, free_name};
 use super::rows::title;
 use super::words::text;
-use super::{curves, forces, nests};
+use super::{curves, forces, nests, ways};
 use crate::run::digits::grouped;
 
 pub(super) fn show(ui: &mut Ui, scene: &mut Scene, own: &Scene) {
@@ -74,6 +74,7 @@ pub(super) fn show(ui: &mut Ui, scene: &mut Scene, own: &Scene) {
     feels(ui, &mut one.feels, &scene.forces);
     title(ui, "Look");
     look(ui, one, own);
+    ways::show(ui, one, own);
     nests::follow(&mut scene.particles, &before);
 }
 

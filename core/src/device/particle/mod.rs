@@ -8,6 +8,7 @@ pub mod draw;
 pub mod fly;
 pub mod force;
 pub mod force_carrier;
+pub mod history;
 pub mod local_space;
 pub mod mutual;
 pub mod nest;

@@ -9,7 +9,7 @@ use crate::SceneError;
 use crate::motion::AIR_DENSITY;
 use crate::scene::limits::{self, Limit};
 use crate::scene::{
-    Air, Bounds, Direction, Look, LookKind, MAX_BLOBS, MAX_CURVE_POINTS, MAX_FORCES, MAX_LIGHTS,
+    Air, Bounds, Direction, Look, LookKind, MAX_BLOBS, MAX_CURVE_POINTS, MAX_FORCES, MAX_HISTORY_SAMPLES, MAX_LIGHTS,
     MAX_PARTICLES, MAX_POPULATIONS, Meets, ObjectFriction, ParticleRelease, ParticleShape, Particles,
     STANDARD_GRAVITY_M_S2, Scene, Spread, VISCOSITY_PA_S,
 };
@@ -42,6 +42,11 @@ impl Scene {
         let count: u64 = self.particles.iter().map(|particles| u64::from(particles.count)).sum();
         check.holds(count <= u64::from(MAX_PARTICLES), "particles", || {
             (format!("{count} slots"), format!("at most {MAX_PARTICLES} slots over all populations"))
+        })?;
+        let samples: u64 = self.particles.iter().map(Particles::sample_count).sum();
+        check.holds(samples <= u64::from(MAX_HISTORY_SAMPLES), "particles", || {
+            let found = format!("{samples} samples of history");
+            (found, format!("at most {MAX_HISTORY_SAMPLES} samples over all populations"))
         })
     }
 }
@@ -136,6 +141,7 @@ impl Particles {
                 (self.count.to_string(), format!("at most {MAX_BLOBS} that are drawn as blobs"))
             })?;
         }
+        self.check_ways(at)?;
         self.look.check(&at.inside("look"))
     }
 
@@ -154,6 +160,31 @@ impl Particles {
         at.holds(self.count.is_multiple_of(feet) && self.count >= 4 * feet, "count", || {
             (self.count.to_string(), format!("a multiple of its {feet} feet, at least four times as many"))
         })
+    }
+
+    /// Checks the samples of ways, and the ribbons that are drawn through them.
+    fn check_ways(&self, at: &Check<'_>) -> Result<(), SceneError> {
+        if let Some(history) = self.history {
+            at.inside("history").numbers([
+                ("samples", history.samples.into(), limits::HISTORY_SAMPLES),
+                ("every_steps", history.every_steps.into(), limits::HISTORY_STEPS),
+            ])?;
+        }
+        let Some(ribbon) = self.look.ribbon else { return Ok(()) };
+        let at = at.inside("look.ribbon");
+        at.numbers([("width", ribbon.width.into(), limits::RIBBON_WIDTH)])?;
+        at.holds(self.history.is_some(), "width", || {
+            ("a ribbon without history".into(), "one of particles with history, or None".into())
+        })?;
+        let is_drawn = matches!(self.look.kind, LookKind::Dot | LookKind::Splat | LookKind::Glow);
+        at.holds(is_drawn, "width", || {
+            (format!("a ribbon of {:?}", self.look.kind), "one of Dot, Splat or Glow, or None".into())
+        })
+    }
+
+    /// Number of samples that are kept of the ways of all.
+    fn sample_count(&self) -> u64 {
+        self.history.map_or(0, |history| u64::from(self.count) * u64::from(history.samples))
     }
 
     /// Time of the first birth in seconds.
@@ -335,6 +366,7 @@ fn check_spread(spread: Spread, name: &str, limit: &Limit<f32>, at: &Check<'_>) 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scene::{History, Ribbon};
 
     /// The line that refuses a scene with a population that is drawn as blobs, changed.
     fn refused(change: impl FnOnce(&mut Particles)) -> String {
@@ -346,6 +378,35 @@ mod tests {
         let line = scene.validate("a.ron").map_or_else(|error| error.to_string(), |()| String::new());
         assert_eq!(line.lines().count(), usize::from(!line.is_empty()), "one line: {line}");
         line
+    }
+
+    #[test]
+    fn ways_have_bounds() {
+        let history = |samples, every_steps| Some(History { samples, every_steps });
+        let refused = |change: &dyn Fn(&mut Particles)| {
+            refused(|one| {
+                one.look = Look { ribbon: Some(Ribbon { width: 1.0, alone: false }), ..Look::default() };
+                one.history = history(2, 1);
+                change(one);
+            })
+        };
+        assert_eq!(refused(&|_| {}), "", "as they are");
+        assert_eq!(refused(&|one| one.history = history(64, 240)), "", "the most");
+        for (samples, every_steps, name) in
+            [(1, 1, "samples"), (65, 1, "samples"), (2, 0, "every_steps"), (2, 241, "every_steps")]
+        {
+            let line = refused(&|one| one.history = history(samples, every_steps));
+            assert!(line.contains(&format!("history.{name}")), "{line}");
+        }
+        let bare = refused(&|one| one.history = None);
+        assert!(bare.contains("look.ribbon") && bare.contains("without history"), "{bare}");
+        let hidden = refused(&|one| one.look.kind = LookKind::Hidden);
+        assert!(hidden.contains("a ribbon of Hidden"), "{hidden}");
+        let wide = refused(&|one| one.look.ribbon = Some(Ribbon { width: 101.0, alone: true }));
+        assert!(wide.contains("look.ribbon.width"), "{wide}");
+        let many = refused(&|one| (one.count, one.history) = (1 << 17, history(33, 1)));
+        assert!(many.contains("4325376 samples of history") && many.contains("at most 4194304"), "{many}");
+        assert_eq!(refused(&|one| (one.count, one.history) = (1 << 17, history(32, 1))), "", "just so many");
     }
 
     #[test]

@@ -6,9 +6,9 @@ use glam::Vec3;
 use windfall_core::Scene;
 use windfall_core::motion::Primitive;
 use windfall_core::scene::{
-    Aerodynamics, Air, Bounds, CameraKey, Direction, Exposure, FlightModel, Focus, Force, ForceKind, Jet,
-    JetKey, Litter, Look, LookKind, MeanSpeed, Meets, Object, ObjectFriction, ObjectKey, ObjectMotion,
-    ObjectShape, ParticleRelease, ParticleShape, Particles, Planform, Plume, PlumeKey, Profile, Release,
+    Aerodynamics, Air, Bounds, CameraKey, Direction, Exposure, FlightModel, Focus, Force, ForceKind, History,
+    Jet, JetKey, Litter, Look, LookKind, MeanSpeed, Meets, Object, ObjectFriction, ObjectKey, ObjectMotion,
+    ObjectShape, ParticleRelease, ParticleShape, Particles, Planform, Plume, PlumeKey, Profile, Release, Ribbon,
     RotationModel, Share, Sky, SkyMap, SourceShape, Spread, SwirlProfile, Terrain, ToneMap, Tree, TreeForm,
     TreeKind, Vortex, VortexProfile, Walker, Water,
 };
@@ -84,6 +84,8 @@ pub(super) fn other() -> Scene {
     one.release = ParticleRelease::Burst { at_s: 1.0 };
     one.dies = Some(Bounds::Outside { center_m: Vec3::Y, half_extent_m: Vec3::splat(20.0) });
     (one.look.kind, one.look.blink_s) = (LookKind::Glow, Some(2.0));
+    one.history = Some(History { samples: 9, every_steps: 3 });
+    one.look.ribbon = Some(Ribbon { width: 0.5, alone: false });
     one.look.opacity = vec![(0.0, 0.5), (1.0, 0.0)];
     scene.forces[0].of = ForceKind::Attract { at_m: Vec3::Y, gm_m3_s2: 2.0, softening_m: 0.2 };
     scene

@@ -516,6 +516,7 @@ prop_compose! {
             blink_s,
             lights: false,
             streak,
+            ribbon: None,
             layer,
         }
     }
@@ -555,9 +556,13 @@ fn join(particles: &mut [Particles], dt_s: f32) {
                 .map_or(1, u32::from),
             _ => 1,
         };
+        // With samples of their ways, children could be too many for those behind them.
+        let look = Look { ribbon: None, ..particles[index].look.clone() };
         let child = Particles {
             count: parents.count * nest.fan * rounds,
             nest: Some(nest),
+            history: None,
+            look,
             ..particles[index].clone()
         };
         let joined = Scene {
@@ -604,7 +609,11 @@ prop_compose! {
             (vector(limits::CENTER_M), vector(limits::HALF_EXTENT_M))
                 .prop_map(|(center_m, half_extent_m)| Some(Bounds::Outside { center_m, half_extent_m })),
         ],
-        (look, nest) in (look(), nest()),
+        (mut look, nest) in (look(), nest()),
+        (history, ribbon) in (
+            option::of((2u32..=8, 1u32..=240)),
+            option::of((within(limits::RIBBON_WIDTH), any::<bool>())),
+        ),
     ) -> Particles {
         // Stokes' law holds for what is small.
         let size_m = if air == Air::Stokes { Spread::Constant(1e-5) } else { size_m };
@@ -614,11 +623,14 @@ prop_compose! {
             1 => ParticleRelease::Rate { per_s, from_s: start_s },
             _ => ParticleRelease::Poisson { per_s, from_s: start_s },
         };
+        let history = history.map(|(samples, every_steps)| History { samples, every_steps });
+        let has_ribbons = history.is_some() && matches!(look.kind, LookKind::Dot | LookKind::Splat | LookKind::Glow);
+        look.ribbon = ribbon.filter(|_| has_ribbons).map(|(width, alone)| Ribbon { width, alone });
         // As many as blobs may be.
         let count = if matches!(look.kind, LookKind::Blobs { .. }) { MAX_BLOBS } else { 10_000 };
         Particles {
             name: String::new(), count, nest, from, direction, release, speed_m_s, life_s: Some(life_s), size_m,
-            density_kg_m3, gravity: 1.0, charge_c_kg: 1.0, air, feels: Vec::new(), meets, dies, look,
+            density_kg_m3, gravity: 1.0, charge_c_kg: 1.0, air, feels: Vec::new(), meets, dies, history, look,
         }
     }
 }
