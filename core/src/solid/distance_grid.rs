@@ -5,7 +5,7 @@
 use glam::DVec3;
 
 use super::nearest::Nearest;
-use super::surface::Surface;
+use crate::surface::Surface;
 use crate::convert::word;
 use crate::threads::each;
 

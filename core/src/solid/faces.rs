@@ -10,7 +10,7 @@ use thiserror::Error;
 
 use super::distance_grid::DistanceGrid;
 use super::mesh_file::{self, MeshError};
-use super::surface::{Surface, SurfaceError};
+use crate::surface::{Surface, SurfaceError};
 use crate::hull::{Face, Hull, HullError};
 use crate::scene::{ObjectShape, PLANE_REACH_M};
 

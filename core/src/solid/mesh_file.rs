@@ -7,7 +7,7 @@ use std::path::Path;
 use glam::DVec3;
 use thiserror::Error;
 
-use super::surface::{Surface, SurfaceError};
+use crate::surface::{Surface, SurfaceError};
 use crate::convert::single;
 use crate::scene::limits;
 use crate::tree::gltf::{GltfError, read_triangles};

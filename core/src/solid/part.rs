@@ -8,7 +8,7 @@ use std::sync::Arc;
 use glam::{DQuat, DVec3, Vec3};
 
 use super::faces::Faces;
-use super::surface::Surface;
+use crate::surface::Surface;
 use super::walk::{Gait, LIMBS, Limb};
 use crate::SceneError;
 use crate::scene::keyed::{Key, numbers_at};

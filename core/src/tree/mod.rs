@@ -7,6 +7,7 @@ pub mod batch;
 mod constants;
 mod crown;
 mod extent;
+pub mod flow;
 pub mod forest;
 #[cfg(feature = "gltf")]
 mod from_file;
@@ -34,7 +35,8 @@ pub use constants::{LeafFacts, TreeFacts};
 pub use extent::SwayExtent;
 pub use forest::Forest;
 pub(crate) use grow::segments_of;
-pub use grow::{TreeError, full_leaf_count, grow};
+pub use flow::{FlowError, Obstacles, in_the_open};
+pub use grow::{TreeError, full_leaf_count, grow, grow_among};
 pub use record::SegmentConstants;
 pub use skeleton::{Attachment, AttachmentKind, Segment, Skeleton, SkeletonError};
 pub use store::{BranchMut, Branches, BranchesMut};
