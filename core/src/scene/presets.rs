@@ -34,6 +34,7 @@ pub const PRESETS: &[(&str, &str)] = &[
     ("genesis", include_str!("../../scenes/genesis.ron")),
     ("galaxy", include_str!("../../scenes/galaxy.ron")),
     ("slime", include_str!("../../scenes/slime.ron")),
+    ("flow-trees", include_str!("../../scenes/flow-trees.ron")),
 ];
 
 impl Scene {
@@ -90,6 +91,7 @@ mod tests {
                 "genesis",
                 "galaxy",
                 "slime",
+                "flow-trees",
             ],
             "names and their order"
         );

@@ -17,9 +17,9 @@ mod sight;
 mod trunk;
 mod walk;
 
+pub use crate::surface::Surface;
 pub(crate) use outline::Outline;
 pub use part::{Solid, SolidPose, solids_of};
-pub use crate::surface::Surface;
 pub(crate) use sight::stops;
 pub(crate) use trunk::trunks_of;
 pub use walk::{LIMBS, Limb, Side};

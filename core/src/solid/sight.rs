@@ -27,7 +27,8 @@ pub(crate) fn stops(solid: &Solid, pose: &SolidPose, from_m: DVec3, direction: D
         (ObjectShape::Cylinder { radius_m, height_m }, None) => {
             let half = 0.5 * f64::from(*height_m);
             let ends = clip(from, toward, [(DVec3::Y, half), (DVec3::NEG_Y, half)].into_iter());
-            ends.zip(round(from, toward, (*radius_m).into())).is_some_and(|(a, b)| a.0.max(b.0) < a.1.min(b.1))
+            ends.zip(round(from, toward, (*radius_m).into()))
+                .is_some_and(|(a, b)| a.0.max(b.0) < a.1.min(b.1))
         }
         (ObjectShape::Capsule { radius_m, length_m }, None) => {
             passes_rod(from, toward, 0.5 * f64::from(*length_m), (*radius_m).into())
@@ -101,8 +102,13 @@ fn crosses_mesh(from: DVec3, toward: DVec3, grid: &DistanceGrid) -> bool {
     let mut along = enters;
     while along < leaves {
         let cell = (from + toward * along - low) / grid.cell_m;
-        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "between the first node and the last")]
-        let [x, y, z] = [0, 1, 2].map(|axis| libm::floor(cell[axis] + 0.5).clamp(0.0, f64::from(grid.nodes[axis] - 1)) as usize);
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "between the first node and the last"
+        )]
+        let [x, y, z] = [0, 1, 2]
+            .map(|axis| libm::floor(cell[axis] + 0.5).clamp(0.0, f64::from(grid.nodes[axis] - 1)) as usize);
         let [across, down, _] = grid.nodes.map(|nodes| nodes as usize);
         if grid.distances[(z * down + y) * across + x] <= 0 {
             return true;
@@ -131,9 +137,8 @@ mod tests {
 
     #[test]
     fn rays_meet_every_shape_where_it_is() {
-        let cube = [0, 1, 2, 3, 4, 5, 6, 7].map(|bits: u8| {
-            Vec3::from([1, 2, 4].map(|bit| if bits & bit == 0 { -1.0 } else { 1.0 }))
-        });
+        let cube = [0, 1, 2, 3, 4, 5, 6, 7]
+            .map(|bits: u8| Vec3::from([1, 2, 4].map(|bit| if bits & bit == 0 { -1.0 } else { 1.0 })));
         let torus = concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/data/torus.gltf");
         let shapes = [
             ObjectShape::Box { size_m: Vec3::splat(2.0) },

@@ -5,9 +5,9 @@
 use glam::{DVec3, Vec3};
 use thiserror::Error;
 
+use super::flow::{FlowError, Grower, Obstacles, in_the_open};
 #[cfg(feature = "gltf")]
 use super::gltf::GltfError;
-use super::flow::{FlowError, Grower, Obstacles, in_the_open};
 use super::grammar::{Draws, Grammar, GrammarError, Settings};
 use super::growth::{self, Grown};
 use super::skeleton::{Segment, Skeleton, SkeletonError};
@@ -165,7 +165,9 @@ impl Plan {
     /// The plan of a tree whose kind is no file.
     fn new(kind: &TreeKind, tree: &Tree, seed: u64, obstacles: Obstacles<'_>) -> Result<Self, TreeError> {
         let grammar = match &kind.form {
-            TreeForm::ParticleFlow(flow) => return Self::towards_light(kind, Grower::Flow(flow), tree, seed, obstacles),
+            TreeForm::ParticleFlow(flow) => {
+                return Self::towards_light(kind, Grower::Flow(flow), tree, seed, obstacles);
+            }
             TreeForm::SpaceColonization(space) => {
                 return Self::towards_light(kind, Grower::Space(space), tree, seed, obstacles);
             }

@@ -4,9 +4,7 @@
 
 use super::check::Check;
 use crate::SceneError;
-use crate::scene::{
-    CrownHull, CrownLight, MAX_PROFILE_POINTS, ParticleFlow, SpaceColonization, Sun, limits,
-};
+use crate::scene::{CrownHull, CrownLight, MAX_PROFILE_POINTS, ParticleFlow, SpaceColonization, Sun, limits};
 
 impl ParticleFlow {
     pub(super) fn check(&self, at: &Check<'_>) -> Result<(), SceneError> {

@@ -10,75 +10,77 @@ use glam::DVec3;
 use super::cells::Cells;
 use super::traces::Traces;
 use super::trunk::Trunk;
-use crate::convert::len32;
 
 /// Most rounds.
 const MOST_ROUNDS: u32 = 4000;
 /// Share of a step within which a new place is the same as one before.
 const SAME: f64 = 0.05;
 
+/// A point that still attracts, with the wood nearest to it.
+struct Point {
+    place: DVec3,
+    node: u32,
+    away_m2: f64,
+}
+
+impl Point {
+    /// Takes new wood, whose number is above those before, if it is nearer.
+    fn meet(&mut self, node: u32, place: DVec3) {
+        let away_m2 = place.distance_squared(self.place);
+        if away_m2 < self.away_m2 {
+            (self.node, self.away_m2) = (node, away_m2);
+        }
+    }
+}
+
 /// Wood that grows from a trunk to points.
 pub(super) fn colonize(
-    points: &[DVec3],
+    places: &[DVec3],
     trunk: &Trunk,
     influence_m: f64,
     kill_m: f64,
     step_m: f64,
 ) -> Traces {
     let mut traces = Traces::from_trunk(&trunk.places);
-    let mut wood = Cells::new(kill_m.max(step_m));
-    for (number, place) in trunk.places.iter().enumerate() {
-        wood.put(len32(number), *place);
-    }
-    let is_free = |wood: &Cells, point: &DVec3| wood.nearest(*point, kill_m, |_| true).is_none();
-    let mut left: Vec<DVec3> = points.iter().copied().filter(|point| is_free(&wood, point)).collect();
+    let mut points: Vec<Point> =
+        places.iter().map(|&place| Point { place, node: 0, away_m2: f64::INFINITY }).collect();
+    let mut wood = Cells::new(step_m);
+    let mut first_new = 0;
     for _ in 0..MOST_ROUNDS {
-        let mut pulls: Vec<(u32, DVec3)> = Vec::new();
-        for point in &left {
-            if let Some((node, at, _)) = wood.nearest(*point, influence_m, |_| true) {
-                pulls.push((node, (*point - at).normalize_or_zero()));
-            }
+        for (node, &place) in (0u32..).zip(&traces.places).skip(first_new) {
+            wood.put(node, place);
+            points.iter_mut().for_each(|point| point.meet(node, place));
         }
+        first_new = traces.places.len();
+        points.retain(|point| point.away_m2 > kill_m * kill_m);
+        let pull = |point: &Point| {
+            let toward = (point.place - traces.places[point.node as usize]).normalize_or_zero();
+            (point.node, toward)
+        };
+        let near = points.iter().filter(|point| point.away_m2 <= influence_m * influence_m);
+        let mut pulls: Vec<(u32, DVec3)> = near.map(pull).collect();
         if pulls.is_empty() {
-            let Some((node, toward)) = reach_out(&traces, &left) else { break };
-            pulls.push((node, toward));
+            // All are out of reach: wood grows towards the one that is nearest.
+            let nearest = points.iter().min_by(|a, b| a.away_m2.total_cmp(&b.away_m2));
+            pulls.extend(nearest.map(pull));
         }
         // By number, and of one place in the order of the points.
         pulls.sort_by_key(|pull| pull.0);
-        let mut has_grown = false;
         for group in pulls.chunk_by(|a, b| a.0 == b.0) {
             let from = group[0].0;
             let sum: DVec3 = group.iter().map(|pull| pull.1).sum();
             let Some(heading) = sum.try_normalize() else { continue };
             let place = traces.places[from as usize] + heading * step_m;
-            if wood.nearest(place, SAME * step_m, |_| true).is_some() {
-                continue;
+            // Points that draw the same place back and forth keep nothing alive.
+            if wood.nearest(place, SAME * step_m, |_| true).is_none() {
+                let node = traces.put(place);
+                traces.lead(node, from);
             }
-            let node = traces.put(place);
-            traces.lead(node, from);
-            wood.put(node, place);
-            has_grown = true;
         }
-        // Points that draw the same place back and forth keep nothing alive.
-        if !has_grown {
+        if traces.places.len() == first_new {
             break;
         }
-        left.retain(|point| is_free(&wood, point));
     }
     traces.begin_at_tips();
     traces
-}
-
-/// The wood nearest to any point, and the direction to it, where all points are out of reach.
-fn reach_out(traces: &Traces, points: &[DVec3]) -> Option<(u32, DVec3)> {
-    let mut best: Option<(u32, DVec3, f64)> = None;
-    for (node, at) in (0u32..).zip(&traces.places) {
-        for point in points {
-            let away_m2 = at.distance_squared(*point);
-            if best.is_none_or(|(_, _, least_m2)| away_m2 < least_m2) {
-                best = Some((node, *point - *at, away_m2));
-            }
-        }
-    }
-    best.and_then(|(node, toward, _)| Some((node, toward.try_normalize()?)))
 }

@@ -36,7 +36,9 @@ pub enum FlowError {
         source: SurfaceError,
     },
     /// A hull in the ground, or of a size that no tree has.
-    #[error("the hull {file} reaches from {low_m} to {high_m} m; allowed: from 0 m or more up to 0.2 to 60 m, and 30 m aside")]
+    #[error(
+        "the hull {file} reaches from {low_m} to {high_m} m; allowed: from 0 m or more up to 0.2 to 60 m, and 30 m aside"
+    )]
     Size {
         /// The file.
         file: String,

@@ -48,6 +48,51 @@ fn sky() -> impl Iterator<Item = DVec3> {
     })
 }
 
+/// Rays through a hull among obstacles.
+struct Rays<'a, S> {
+    hull: &'a Hull,
+    shade: &'a CrownLight,
+    sun: DVec3,
+    stops: &'a S,
+    cell_m: DVec3,
+}
+
+impl<S: Fn(DVec3, DVec3) -> bool> Rays<'_, S> {
+    /// Share of the light of a direction that reaches a place.
+    fn ray(&self, place: DVec3, direction: DVec3) -> f64 {
+        if (self.stops)(place, direction) {
+            return 0.0;
+        }
+        let step_m = self.cell_m.max_element() / STEPS_PER_CELL;
+        let way_m = self.hull.way_m(place, direction, step_m);
+        libm::exp(-f64::from(self.shade.extinction_per_m) * way_m)
+    }
+
+    /// Light of a node: 0 for one that no place in the hull asks for.
+    fn node(&self, place: DVec3) -> f64 {
+        let mut around = (0..27).map(|at: u8| {
+            let digits = DVec3::new(f64::from(at % 3), f64::from(at / 3 % 3), f64::from(at / 9));
+            place + (digits - 1.0) * self.cell_m
+        });
+        if !around.any(|place| self.hull.holds(place)) {
+            return 0.0;
+        }
+        let direct = f64::from(self.shade.direct);
+        let from_sun =
+            if self.sun.y > 0.0 && direct > 0.0 { direct * self.ray(place, self.sun) } else { 0.0 };
+        let from_sky: f64 = sky().map(|direction| self.ray(place, direction)).sum();
+        from_sun + (1.0 - direct) / f64::from(SKY_RAYS) * from_sky
+    }
+
+    /// Light of the nodes of a layer.
+    fn layer(&self, z: u32) -> Vec<f64> {
+        let rows = (0..self.shade.nodes).flat_map(|y| (0..self.shade.nodes).map(move |x| (x, y)));
+        let place =
+            |(x, y): (u32, u32)| self.hull.low_m() + DVec3::new(x.into(), y.into(), z.into()) * self.cell_m;
+        rows.map(|node| self.node(place(node))).collect()
+    }
+}
+
 impl LightGrid {
     /// The light in a hull under a sun in that direction; `stops` says which rays meet an obstacle.
     pub(super) fn of(
@@ -56,40 +101,10 @@ impl LightGrid {
         sun: DVec3,
         stops: &(impl Fn(DVec3, DVec3) -> bool + Sync),
     ) -> Self {
-        let nodes = shade.nodes as usize;
-        let (low_m, high_m) = (hull.low_m(), hull.high_m());
-        let cell_m = (high_m - low_m) / f64::from(shade.nodes - 1);
-        let step_m = cell_m.max_element() / STEPS_PER_CELL;
-        let direct = if sun.y > 0.0 { f64::from(shade.direct) } else { 0.0 };
-        let diffuse = (1.0 - f64::from(shade.direct)) / f64::from(SKY_RAYS);
-        let extinction = f64::from(shade.extinction_per_m);
-        let ray = |place: DVec3, direction: DVec3| {
-            if stops(place, direction) {
-                return 0.0;
-            }
-            libm::exp(-extinction * hull.way_m(place, direction, step_m))
-        };
-        let near = |place: DVec3| {
-            // A node outside counts for the places between it and its neighbours inside.
-            let around = (0..27).map(|at: u8| {
-                let digits = DVec3::new(f64::from(at % 3), f64::from(at / 3 % 3), f64::from(at / 9));
-                place + (digits - 1.0) * cell_m
-            });
-            around.into_iter().any(|place| hull.holds(place))
-        };
-        let node = |place: DVec3| {
-            if !near(place) {
-                return 0.0;
-            }
-            let from_sun = if direct > 0.0 { direct * ray(place, sun) } else { 0.0 };
-            from_sun + diffuse * sky().map(|direction| ray(place, direction)).sum::<f64>()
-        };
-        let layer = |z: u32| -> Vec<f64> {
-            let rows = (0..shade.nodes).flat_map(|y| (0..shade.nodes).map(move |x| (x, y)));
-            rows.map(|(x, y)| node(low_m + DVec3::new(x.into(), y.into(), z.into()) * cell_m)).collect()
-        };
-        let light = each(0..shade.nodes, layer).concat();
-        Self { low_m, cell_m, nodes, light }
+        let cell_m = (hull.high_m() - hull.low_m()) / f64::from(shade.nodes - 1);
+        let rays = Rays { hull, shade, sun, stops, cell_m };
+        let light = each(0..shade.nodes, |z| rays.layer(z)).concat();
+        Self { low_m: hull.low_m(), cell_m, nodes: shade.nodes as usize, light }
     }
 
     /// Light at a place in the grid, linear between nodes.
@@ -116,5 +131,47 @@ impl LightGrid {
     /// Light of the brightest node.
     pub(super) fn most(&self) -> f64 {
         self.light.iter().copied().fold(0.0, f64::max)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A column of 4 m on a foot of 2 m.
+    fn column() -> Hull {
+        Hull::of_profile(6.0, &[(0.33, 0.0), (0.3334, 2.0), (0.9999, 2.0), (1.0, 0.0)])
+    }
+
+    #[test]
+    fn light_falls_off_as_beer_and_lambert_have_it() {
+        let shade = CrownLight { nodes: 32, extinction_per_m: 0.5, direct: 1.0, ..CrownLight::default() };
+        let grid = LightGrid::of(&column(), &shade, DVec3::Y, &|_, _| false);
+        for y in [2.5, 3.5, 5.0] {
+            let (found, wanted) = (grid.at(DVec3::new(0.3, y, -0.4)), libm::exp(-0.5 * (6.0 - y)));
+            assert!((found / wanted - 1.0).abs() < 0.06, "{found} of {wanted} at {y} m");
+        }
+    }
+
+    #[test]
+    fn the_open_sky_is_one_and_a_wall_hides_its_half() {
+        let shade = CrownLight { extinction_per_m: 0.0, direct: 0.0, ..CrownLight::default() };
+        let at = DVec3::new(0.2, 4.0, 0.1);
+        let open = LightGrid::of(&column(), &shade, DVec3::Y, &|_, _| false).at(at);
+        assert!((open - 1.0).abs() < 1e-12, "all rays: {open}");
+        let walled = LightGrid::of(&column(), &shade, DVec3::Y, &|_, toward: DVec3| toward.x > 0.0).at(at);
+        assert!((walled - 0.5).abs() < 0.05, "half the sky: {walled}");
+    }
+
+    #[test]
+    fn threads_do_not_matter() {
+        let (hull, shade) = (column(), CrownLight::default());
+        let sun = toward(&shade.sun);
+        let stops = |place: DVec3, toward: DVec3| place.x + toward.x > 0.5;
+        let grid = LightGrid::of(&hull, &shade, sun, &stops);
+        let rays = Rays { hull: &hull, shade: &shade, sun, stops: &stops, cell_m: grid.cell_m };
+        let alone: Vec<f64> = (0..shade.nodes).flat_map(|z| rays.layer(z)).collect();
+        assert_eq!(grid.light, alone, "layer by layer on this thread");
+        assert!(alone.iter().any(|light| *light > 0.1), "there is light");
     }
 }

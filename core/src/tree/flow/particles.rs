@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Flow of particles from their births to the root.
 //!
-//! Each moves by a step along the normalised sum of weighted directions: to the root, and to the nearest trace that leads there or the
-//! nearest other particle, whichever is nearer; of equally near ones it is the one with the lowest number. A particle within the
+//! Each moves by a step along the normalised sum of weighted directions: to the root, and to the nearest trace or the nearest other particle, whichever is nearer; of equally near ones it is the one with the lowest number. A particle within the
 //! radius of joining, which is more than a step, goes on as part of what it meets. All particles see the places of the step before, and
 //! join in the order of their numbers.
 
@@ -114,6 +113,12 @@ impl Flow<'_> {
         at
     }
 
+    /// Returns true for the latest place of a particle that still flows.
+    fn is_head(&self, node: u32) -> bool {
+        let maker = self.maker[node as usize];
+        maker != SETTLED && self.carrier[maker as usize] == maker && self.head[maker as usize] == node
+    }
+
     /// Joins a particle to what is near; true if it has.
     fn join(&mut self, particle: u32, is_lost: bool) -> bool {
         let place = self.place(particle);
@@ -145,8 +150,8 @@ impl Flow<'_> {
         let reach_m = REACH_STEPS * self.pulls.step_m;
         let other = heads.nearest(place, reach_m, |other| other != particle);
         let other_m = other.map_or(reach_m, |(_, _, away_m)| away_m);
-        let settled = |node: u32| self.carrier_of(node) == SETTLED;
-        let sum = match self.cells.nearest(place, other_m, settled) {
+        let others = |node: u32| self.carrier_of(node) != particle && !self.is_head(node);
+        let sum = match self.cells.nearest(place, other_m, others) {
             Some((node, at, away_m)) => {
                 let along = self.traces.toward_root(node).unwrap_or(root);
                 let across = (away_m / (FULL_PULL_STEPS * self.pulls.step_m)).min(1.0);

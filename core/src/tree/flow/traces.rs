@@ -135,7 +135,9 @@ impl Traces {
         while let Some(limb) = waiting.pop() {
             let mut course = vec![limb.from];
             course.extend(limb.first);
-            while let Some(node) = thickest(&outward.feeders[course[course.len() - 1] as usize], &outward.sizes) {
+            while let Some(node) =
+                thickest(&outward.feeders[course[course.len() - 1] as usize], &outward.sizes)
+            {
                 course.push(node);
             }
             let kept = self.kept(&course, |node| spacing_m(outward.sizes[node as usize]));
@@ -145,7 +147,10 @@ impl Traces {
                 let (parent, way_m) = ends[ends.len() - 1];
                 let way = self.places[course[pair[1]] as usize] - self.places[course[pair[0]] as usize];
                 let length = way.length();
-                let pipes = course[pair[0] + 1..=pair[1]].iter().map(|&node| f64::from(self.pipes[node as usize])).sum();
+                let pipes = course[pair[0] + 1..=pair[1]]
+                    .iter()
+                    .map(|&node| f64::from(self.pipes[node as usize]))
+                    .sum();
                 if let Some(parent) = parent.filter(|_| length < SHORTEST * step_m) {
                     // No room for a shoot: what begins there begins below.
                     shoots[parent].pipes += pipes;

@@ -29,7 +29,12 @@ pub(super) struct Trunk {
 
 impl Trunk {
     /// The trunk below births, of a height in m.
-    pub(super) fn of(births: &[DVec3], height_m: f64, step_m: f64, draws: impl Fn(u32, u32) -> Draws) -> Self {
+    pub(super) fn of(
+        births: &[DVec3],
+        height_m: f64,
+        step_m: f64,
+        draws: impl Fn(u32, u32) -> Draws,
+    ) -> Self {
         let middle = births.iter().copied().sum::<DVec3>() / (births.len().max(1) as f64);
         let mut draw = draws(TRUNK_DRAWS, 0);
         let phases = [0; 4].map(|_: u8| TAU * draw.unit());
@@ -38,7 +43,11 @@ impl Trunk {
             WANDER * height_m * (at(WAVES, slow) + 0.4 * at(2.3 * WAVES, fast))
         };
         let steps = libm::floor(height_m / step_m);
-        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most 60 m by steps of 0.02 of it")]
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "at most 60 m by steps of 0.02 of it"
+        )]
         let places = (0..=steps as u32).map(|step| {
             let y = f64::from(step) * step_m;
             let share = y / height_m.max(step_m);
