@@ -21,7 +21,7 @@ use crate::error::SceneError;
 use crate::layout::Uint4;
 use crate::motion::AIR_DENSITY;
 use crate::scene::{Foliage, MAX_FOREST_SEGMENTS, Scene, Species, TreeKind};
-use crate::solid::{Solid, stops};
+use crate::solid::{Solid, entry_m};
 use crate::tree::forest::Seedling;
 use crate::tree::record::NO_SEGMENT;
 use crate::tree::{Attachment, AttachmentKind, Forest, LeafFacts, grow_among};
@@ -83,7 +83,9 @@ pub(super) fn seedlings(
         let [x, z] = tree.at_m;
         let foot_m = glam::Vec3::new(x, ground_height(x, z), z);
         let obstacles = |place: DVec3, direction: DVec3| {
-            still.iter().any(|(solid, pose)| stops(solid, pose, foot_m.as_dvec3() + place, direction))
+            let from_m = foot_m.as_dvec3() + place;
+            let entries = still.iter().filter_map(|(solid, pose)| entry_m(solid, pose, from_m, direction));
+            entries.min_by(f64::total_cmp)
         };
         let skeleton = grow_among(&kind, tree, scene.seed, &obstacles)
             .map_err(|error| field(error.to_string(), "a tree that grows"))?;

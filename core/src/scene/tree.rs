@@ -81,6 +81,11 @@ pub enum TreeForm {
 }
 
 impl TreeForm {
+    /// Returns true for forms that light, and objects in its way, have a part in.
+    pub fn grows_towards_light(&self) -> bool {
+        matches!(self, Self::ParticleFlow(_) | Self::SpaceColonization(_))
+    }
+
     /// The file that it names, if it names one.
     pub fn file_mut(&mut self) -> Option<&mut String> {
         let hull = match self {

@@ -20,6 +20,6 @@ mod walk;
 pub use crate::surface::Surface;
 pub(crate) use outline::Outline;
 pub use part::{Solid, SolidPose, solids_of};
-pub(crate) use sight::stops;
+pub(crate) use sight::entry_m;
 pub(crate) use trunk::trunks_of;
 pub use walk::{LIMBS, Limb, Side};

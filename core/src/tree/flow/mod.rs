@@ -35,13 +35,13 @@ use super::grammar::{Draws, Settings};
 use super::turtle::{Shoot, rotated};
 use crate::scene::{CrownHull, CrownLight, ParticleFlow, SpaceColonization, Tree};
 
-/// Objects that stand in the light: true if they stop a ray from a place in a direction. The place is in metres from the tree's foot, and
-/// both are along the axes of the scene.
-pub type Obstacles<'a> = &'a (dyn Fn(DVec3, DVec3) -> bool + Sync);
+/// Objects that stand in the way of light and wood: the distance in metres at which a ray from a place in a direction meets the first of
+/// them, if it meets any. The place is in metres from the tree's foot, and both are along the axes of the scene.
+pub type Obstacles<'a> = &'a (dyn Fn(DVec3, DVec3) -> Option<f64> + Sync);
 
 /// No objects at all.
-pub fn in_the_open(_: DVec3, _: DVec3) -> bool {
-    false
+pub fn in_the_open(_: DVec3, _: DVec3) -> Option<f64> {
+    None
 }
 
 /// Exponent of the pipe model: areas of wood add up, as Leonardo da Vinci has it.
@@ -123,16 +123,6 @@ impl Crown {
         })
     }
 
-    /// Light in the hull of a tree that is turned by its heading afterwards, while sun and obstacles stay.
-    fn light(&self, tree: &Tree, obstacles: Obstacles<'_>) -> LightGrid {
-        let heading = f64::from(tree.heading_deg).to_radians();
-        let stops = |place: DVec3, direction: DVec3| {
-            obstacles(rotated(place, DVec3::Y, heading), rotated(direction, DVec3::Y, heading))
-        };
-        let sun = rotated(light::toward(&self.shade.sun), DVec3::Y, -heading);
-        LightGrid::of(&self.hull, &self.shade, sun, &stops)
-    }
-
     fn traces(
         &self,
         grower: Grower<'_>,
@@ -140,9 +130,15 @@ impl Crown {
         seed: u64,
         obstacles: Obstacles<'_>,
     ) -> Result<Traces, FlowError> {
-        let light = self.light(tree, obstacles);
+        // The tree is turned by its heading afterwards, while sun and obstacles stay.
+        let heading = f64::from(tree.heading_deg).to_radians();
+        let turned = |vector: DVec3, radians: f64| rotated(vector, DVec3::Y, radians);
+        let meets = |place: DVec3, toward: DVec3| obstacles(turned(place, heading), turned(toward, heading));
+        let sun = turned(light::toward(&self.shade.sun), -heading);
+        let light =
+            LightGrid::of(&self.hull, &self.shade, sun, &|place, toward| meets(place, toward).is_some());
         let draws = |step, index| Draws::new(seed, tree.number, step, index);
-        let places = births(&self.hull, &light, self.light, self.count, draws)?;
+        let places = births(&self.hull, &light, self.light, self.count, &meets, draws)?;
         let trunk = Trunk::of(&places, self.trunk * self.height_m, self.step_m, draws);
         let low_m = self.hull.low_m().y;
         Ok(match grower {

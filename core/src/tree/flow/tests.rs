@@ -7,7 +7,7 @@ use glam::DVec3;
 use super::births::births;
 use super::light::{LightGrid, toward};
 use super::{Crown, Grower, in_the_open};
-use crate::scene::{CrownHull, CrownLight, ParticleFlow, SpaceColonization, Tree, TreeForm, TreeKind};
+use crate::scene::{CrownHull, CrownLight, ParticleFlow, SpaceColonization, Sun, Tree, TreeForm, TreeKind};
 use crate::tree::grammar::Draws;
 use crate::tree::turtle::Shoot;
 use crate::tree::{Skeleton, grow, grow_among, pipe};
@@ -20,6 +20,18 @@ fn flow() -> ParticleFlow {
 
 fn space() -> SpaceColonization {
     SpaceColonization { points: 600, ..SpaceColonization::default() }
+}
+
+/// Light that a wall along z keeps away: most of it comes from the sun, which stands behind the wall.
+fn one_sided() -> CrownLight {
+    let sun = Sun { azimuth_deg: 0.0, elevation_deg: 30.0 };
+    CrownLight { direct: 0.6, extinction_per_m: 0.2, sun, ..CrownLight::default() }
+}
+
+/// A wall beside the crown, as high as it.
+fn wall(place: DVec3, direction: DVec3) -> Option<f64> {
+    let along_m = (3.95 - place.x) / direction.x;
+    (along_m > 0.0 && place.y + direction.y * along_m < 12.0).then_some(along_m)
 }
 
 /// Shoots of both ways to grow.
@@ -87,16 +99,12 @@ fn wood_hangs_together_from_one_foot() {
 /// Share of the births of a crown beside a wall that are in its half, and the share of the light that falls there.
 #[test]
 fn births_are_in_proportion_to_the_light() {
-    let form = ParticleFlow { light: 1.0, particles: 4000, ..flow() };
+    let form = ParticleFlow { light: 1.0, particles: 4000, shade: one_sided(), ..flow() };
     let crown = Crown::of(Grower::Flow(&form), &Tree::default()).expect("a hull");
-    // A wall beside the crown takes all light from its side.
-    let stops = |place: DVec3, direction: DVec3| {
-        let along_m = (4.0 - place.x) / direction.x;
-        along_m > 0.0 && place.y + direction.y * along_m < 14.0
-    };
-    let light = LightGrid::of(&crown.hull, &crown.shade, toward(&crown.shade.sun), &stops);
+    let light =
+        LightGrid::of(&crown.hull, &crown.shade, toward(&crown.shade.sun), &|at, to| wall(at, to).is_some());
     let draws = |step, index| Draws::new(SEED, 0, step, index);
-    let places = births(&crown.hull, &light, 1.0, 4000, draws).expect("room");
+    let places = births(&crown.hull, &light, 1.0, 4000, &wall, draws).expect("room");
     let by_wall = places.iter().filter(|place| place.x > 0.0).count() as f64;
     let (mut sums, size) = ([0.0; 2], crown.hull.high_m() - crown.hull.low_m());
     for number in 0..80 * 80 * 80_u32 {
@@ -122,11 +130,9 @@ fn middle(skeleton: &Skeleton) -> DVec3 {
 
 #[test]
 fn trees_grow_away_from_a_wall_whatever_their_heading() {
-    let wall = |place: DVec3, direction: DVec3| {
-        let along_m = (3.8 - place.x) / direction.x;
-        along_m > 0.0 && place.y + direction.y * along_m < 14.0
-    };
-    for form in [TreeForm::ParticleFlow(flow()), TreeForm::SpaceColonization(space())] {
+    let flow = ParticleFlow { light: 1.0, shade: one_sided(), ..flow() };
+    let space = SpaceColonization { light: 1.0, shade: one_sided(), ..space() };
+    for form in [TreeForm::ParticleFlow(flow), TreeForm::SpaceColonization(space)] {
         for heading_deg in [0.0, 130.0] {
             let tree = Tree { heading_deg, ..Tree::default() };
             let open = grow(&kind(form.clone()), &tree, SEED).expect("it grows");
@@ -135,6 +141,32 @@ fn trees_grow_away_from_a_wall_whatever_their_heading() {
             assert!(moved.x < -0.3, "away from the wall at {heading_deg}: {moved}");
             assert!(moved.z.abs() < 0.5 * -moved.x, "and not along it: {moved}");
         }
+    }
+}
+
+#[test]
+fn nothing_grows_through_a_wall() {
+    let near = |place: DVec3, direction: DVec3| {
+        let along_m = (2.0 - place.x) / direction.x;
+        (along_m > 0.0).then_some(along_m)
+    };
+    for form in [TreeForm::ParticleFlow(flow()), TreeForm::SpaceColonization(space())] {
+        let skeleton = grow_among(&kind(form), &Tree::default(), SEED, &near).expect("it grows");
+        let most_m = skeleton.segments.iter().map(|segment| segment.end_m.x).fold(0.0, f32::max);
+        assert!((1.0..1.9).contains(&most_m), "up to the wall: {most_m} m");
+    }
+}
+
+#[test]
+fn young_trees_are_lower_and_valid() {
+    for form in [TreeForm::ParticleFlow(flow()), TreeForm::SpaceColonization(space())] {
+        let height_m = |age| {
+            let tree = Tree { age, height_m: Some(9.0), ..Tree::default() };
+            grow(&kind(form.clone()), &tree, SEED).expect("valid at every age").height_m()
+        };
+        let heights: Vec<f32> = [0.05, 0.2, 0.4, 0.7, 1.0].map(height_m).to_vec();
+        assert!(heights.is_sorted_by(|a, b| a < b), "{heights:?}");
+        assert!(heights[0] < 0.2 * heights[4] && (heights[4] - 9.0).abs() < 1e-3, "{heights:?}");
     }
 }
 
@@ -178,7 +210,7 @@ fn bad_hulls_are_told_in_a_line() {
     assert!(absent.contains("no-such-hull.glb"), "{absent}");
     let shade = CrownLight { extinction_per_m: 10.0, direct: 0.0, ..CrownLight::default() };
     let dark = kind(TreeForm::ParticleFlow(ParticleFlow { light: 1.0, shade, ..flow() }));
-    let dark = grow_among(&dark, &Tree::default(), SEED, &|_, _| true).expect_err("dark").to_string();
+    let dark = grow_among(&dark, &Tree::default(), SEED, &|_, _| Some(9.0)).expect_err("dark").to_string();
     assert!(dark.contains("0 of 600 births found a place"), "{dark}");
     for line in [open, inward, sunk, absent, dark] {
         assert!(!line.contains('\n'), "one line: {line}");
