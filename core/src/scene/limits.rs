@@ -154,6 +154,7 @@ limits! {
     YIELD_M_S: f32 = 1.0, 1000.0, "m/s", yield_m_s;
     STRENGTH_N: f32 = 0.01, 100.0, "N", strength_n;
     CROWN_PARTICLES: u32 = 1, 20_000, "", particles points;
+    BULGES: f32 = 0.0, 0.5, "", bulges;
     TO_ROOT: f32 = 0.05, 1.0, "", to_root;
     TO_PARTICLE: f32 = 0.0, 0.9, "", to_particle;
     GROWTH_STEP_M: f32 = 0.02, 1.0, "m", step_m;

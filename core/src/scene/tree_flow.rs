@@ -19,6 +19,9 @@ pub enum CrownHull {
         /// Shares of the height, rising from 0 to 1 at most, and the radius there in metres, 0 to 30, linear in between: 2 to 64 points.
         /// The hull is closed, so the first radius and the last are 0.
         radii: Vec<(f32, f32)>,
+        /// Share of the radius by which the hull bulges and dents, 0 to 0.5, in another way for every number of a tree.
+        #[serde(default)]
+        bulges: f32,
     },
     /// The closed surface of a glTF file, of which all triangles are taken, above the file's origin.
     Mesh {
@@ -40,6 +43,7 @@ impl Default for CrownHull {
         Self::Profile {
             height_m: 12.0,
             radii: vec![(0.22, 0.0), (0.3, 2.2), (0.5, 3.6), (0.75, 3.0), (0.92, 1.3), (1.0, 0.0)],
+            bulges: 0.2,
         }
     }
 }
@@ -62,7 +66,7 @@ pub struct CrownLight {
 impl Default for CrownLight {
     fn default() -> Self {
         Self {
-            nodes: 24,
+            nodes: 20,
             extinction_per_m: 0.5,
             direct: 0.4,
             sun: Sun { azimuth_deg: 90.0, elevation_deg: 50.0 },

@@ -204,12 +204,16 @@ const CROWN_TRIANGLES: [&str; 2] = [
 #[test]
 fn hulls_that_no_tree_grows_into() {
     let there = folder();
-    assert!(CROWN.contains(CROWN_TRIANGLES[0]) && CROWN.contains("\"count\": 36"), "the hull's own triangles");
+    assert!(
+        CROWN.contains(CROWN_TRIANGLES[0]) && CROWN.contains("\"count\": 36"),
+        "the hull's own triangles"
+    );
     file(&there, "crown.gltf", CROWN);
     file(&there, "open.gltf", CROWN.replace("\"count\": 36", "\"count\": 33"));
     file(&there, "inward.gltf", CROWN.replace(CROWN_TRIANGLES[0], CROWN_TRIANGLES[1]));
     let refuse = |name: &str, form: &str, essentials: &[&str]| {
-        let kinds = format!("tree_kinds: [(name: \"own\", form: {form})], trees: [(kind: \"own\", leaves: 9)]");
+        let kinds =
+            format!("tree_kinds: [(name: \"own\", form: {form})], trees: [(kind: \"own\", leaves: 9)]");
         file(&there, name, format!("({kinds})"));
         assert_refused(&there, &["simulate", name, "--checkpoint", "out.ckpt"], essentials);
     };
@@ -236,7 +240,9 @@ fn hulls_that_no_tree_grows_into() {
     refuse(
         "gap.ron",
         &format!("ParticleFlow(({gap}))"),
-        &["gap.ron: tree_kinds[0].form.hull.radii[0].1 is 0.5, so the hull is open there; allowed: 0, a closed hull"],
+        &[
+            "gap.ron: tree_kinds[0].form.hull.radii[0].1 is 0.5, so the hull is open there; allowed: 0, a closed hull",
+        ],
     );
     refuse(
         "nodes.ron",

@@ -64,14 +64,16 @@ fn hull(ui: &mut Ui, hull: &mut CrownHull, own: Option<&CrownHull>) {
     let tip = "Closed hull of the crown: turned about the trunk, or a mesh";
     choice(ui, "Hull", tip, hull, own, &[("profile", profile), ("mesh", mesh)]);
     match hull {
-        CrownHull::Profile { height_m, radii } => {
+        CrownHull::Profile { height_m, radii, bulges } => {
             let own = own.and_then(|own| match own {
-                CrownHull::Profile { height_m, radii } => Some((*height_m, radii)),
+                CrownHull::Profile { height_m, radii, bulges } => Some((*height_m, radii, *bulges)),
                 CrownHull::Mesh { .. } => None,
             });
             let height = field("Hull height", "Height of the tree", limits::TREE_HEIGHT_M).fine(0.1);
             height.show(ui, height_m, own.map(|own| own.0));
             rings(ui, radii, own.map(|own| own.1));
+            let tip = "Share of the radius by which the hull bulges and dents, in another way for every tree";
+            field("Bulges", tip, limits::BULGES).show(ui, bulges, own.map(|own| own.2));
         }
         CrownHull::Mesh { file, scale } => {
             let own = own.and_then(|own| match own {

@@ -59,8 +59,8 @@ impl CrownLight {
 
 impl CrownHull {
     fn check(&self, at: &Check<'_>) -> Result<(), SceneError> {
-        let (height_m, radii) = match self {
-            Self::Profile { height_m, radii } => (height_m, radii),
+        let (height_m, radii, bulges) = match self {
+            Self::Profile { height_m, radii, bulges } => (height_m, radii, bulges),
             Self::Mesh { file, scale } => {
                 at.numbers([("scale", (*scale).into(), limits::MESH_SCALE)])?;
                 return at.holds(!file.is_empty(), "file", || {
@@ -68,7 +68,10 @@ impl CrownHull {
                 });
             }
         };
-        at.numbers([("height_m", (*height_m).into(), limits::TREE_HEIGHT_M)])?;
+        at.numbers([
+            ("height_m", (*height_m).into(), limits::TREE_HEIGHT_M),
+            ("bulges", (*bulges).into(), limits::BULGES),
+        ])?;
         at.length("radii", radii.len(), 2, MAX_PROFILE_POINTS)?;
         for (index, (height, radius_m)) in radii.iter().enumerate() {
             at.inside(format!("radii[{index}]")).numbers([

@@ -4,12 +4,20 @@
 //!
 //! A mesh is sampled once, in cells of a 64th of its longest edge: each is in the hull if its middle is.
 
+use std::f64::consts::TAU;
+
 use glam::DVec3;
 
 use crate::surface::Surface;
+use crate::tree::grammar::Draws;
 
 /// Cells along the longest edge of a mesh.
 const CELLS: f64 = 64.0;
+
+/// Bulges and dents of a profile.
+const BULGES: u32 = 14;
+/// Height of the highest by itself, as a share of the largest: they add up.
+const STEEP: f64 = 1.6;
 
 /// A closed hull in the tree's frame.
 #[derive(Clone, Debug)]
@@ -21,9 +29,33 @@ pub(super) struct Hull {
 
 #[derive(Clone, Debug)]
 enum Shape {
-    /// Heights and radii in m, rising.
-    Profile(Vec<(f64, f64)>),
+    /// Heights and radii in m, rising, and bulges.
+    Profile(Vec<(f64, f64)>, Bulges),
     Cells(Cells),
+}
+
+/// Bulges and dents of a profile, as seen from the middle of its height.
+#[derive(Clone, Debug)]
+struct Bulges {
+    middle_m: f64,
+    /// Largest share of the radius.
+    most: f64,
+    /// Direction, and height as a share of the radius, of each.
+    places: Vec<(DVec3, f64)>,
+}
+
+impl Bulges {
+    /// Factor of the radius at a place.
+    fn factor(&self, place: DVec3) -> f64 {
+        let Some(toward) = DVec3::new(place.x, place.y - self.middle_m, place.z).try_normalize() else {
+            return 1.0;
+        };
+        let rise = |(direction, height): &(DVec3, f64)| {
+            let near = toward.dot(*direction).max(0.0);
+            height * near * near * near
+        };
+        1.0 + self.places.iter().map(rise).sum::<f64>().clamp(-self.most, self.most)
+    }
 }
 
 /// Cells of a mesh, along x first and z last.
@@ -35,14 +67,23 @@ struct Cells {
 }
 
 impl Hull {
-    /// The hull of a profile that scenes may have.
-    pub(super) fn of_profile(height_m: f64, radii: &[(f32, f32)]) -> Self {
+    /// The hull of a profile that scenes may have, with bulges up to a share of its radius.
+    pub(super) fn of_profile(height_m: f64, radii: &[(f32, f32)], bulges: f64, mut draw: Draws) -> Self {
         let rings: Vec<(f64, f64)> =
             radii.iter().map(|&(share, radius_m)| (f64::from(share) * height_m, radius_m.into())).collect();
-        let widest_m = rings.iter().map(|ring| ring.1).fold(0.0, f64::max);
+        let widest_m = rings.iter().map(|ring| ring.1).fold(0.0, f64::max) * (1.0 + bulges);
         let corner = |height_m: f64, side_m: f64| DVec3::new(side_m, height_m, side_m);
         let (low_m, high_m) = (corner(rings[0].0, -widest_m), corner(rings[rings.len() - 1].0, widest_m));
-        Self { shape: Shape::Profile(rings), low_m, high_m }
+        let count = if bulges > 0.0 { BULGES } else { 0 };
+        let places = (0..count).map(|_| {
+            let up = 2.0 * draw.unit() - 1.0;
+            let (sin, cos) = libm::sincos(TAU * draw.unit());
+            let level = libm::sqrt(1.0 - up * up);
+            (DVec3::new(level * cos, up, level * sin), bulges * STEEP * (2.0 * draw.unit() - 1.0))
+        });
+        let middle_m = 0.5 * (low_m.y + high_m.y);
+        let bulges = Bulges { middle_m, most: bulges, places: places.collect() };
+        Self { shape: Shape::Profile(rings, bulges), low_m, high_m }
     }
 
     /// The hull of a closed surface.
@@ -72,9 +113,10 @@ impl Hull {
     /// The same hull at another size.
     pub(super) fn scaled(self, factor: f64) -> Self {
         let shape = match self.shape {
-            Shape::Profile(rings) => {
-                Shape::Profile(rings.into_iter().map(|(y, r)| (y * factor, r * factor)).collect())
-            }
+            Shape::Profile(rings, bulges) => Shape::Profile(
+                rings.into_iter().map(|(y, r)| (y * factor, r * factor)).collect(),
+                Bulges { middle_m: bulges.middle_m * factor, ..bulges },
+            ),
             Shape::Cells(cells) => Shape::Cells(Cells { edge_m: cells.edge_m * factor, ..cells }),
         };
         Self { shape, low_m: self.low_m * factor, high_m: self.high_m * factor }
@@ -93,14 +135,14 @@ impl Hull {
     /// Returns true for a place inside.
     pub(super) fn holds(&self, place: DVec3) -> bool {
         match &self.shape {
-            Shape::Profile(rings) => {
+            Shape::Profile(rings, bulges) => {
                 let next = rings.partition_point(|ring| ring.0 <= place.y);
                 if next == 0 || next == rings.len() {
                     return false;
                 }
                 let (below, above) = (rings[next - 1], rings[next]);
                 let share = (place.y - below.0) / (above.0 - below.0);
-                let radius_m = below.1 + (above.1 - below.1) * share;
+                let radius_m = (below.1 + (above.1 - below.1) * share) * bulges.factor(place);
                 place.x * place.x + place.z * place.z < radius_m * radius_m
             }
             Shape::Cells(cells) => {

@@ -137,10 +137,12 @@ impl LightGrid {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::tree::grammar::Draws;
 
     /// A column of 4 m on a foot of 2 m.
     fn column() -> Hull {
-        Hull::of_profile(6.0, &[(0.33, 0.0), (0.3334, 2.0), (0.9999, 2.0), (1.0, 0.0)])
+        let radii = [(0.33, 0.0), (0.3334, 2.0), (0.9999, 2.0), (1.0, 0.0)];
+        Hull::of_profile(6.0, &radii, 0.0, Draws::new(1, 0, 0, 0))
     }
 
     #[test]

@@ -47,6 +47,9 @@ pub fn in_the_open(_: DVec3, _: DVec3) -> Option<f64> {
 /// Exponent of the pipe model: areas of wood add up, as Leonardo da Vinci has it.
 const PIPE_EXPONENT: f64 = 2.0;
 
+/// Step number of the draws of hulls, which no step of a derivation has.
+const HULL_DRAWS: u32 = (1 << 17) + 2;
+
 /// Either way to grow.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Grower<'a> {
@@ -65,7 +68,7 @@ impl Grower<'_> {
         seed: u64,
         obstacles: Obstacles<'_>,
     ) -> Result<(Vec<Shoot>, Settings), FlowError> {
-        let crown = Crown::of(self, tree)?;
+        let crown = Crown::of(self, tree, seed)?;
         let traces = crown.traces(self, tree, seed, obstacles)?;
         let settings = Settings {
             height_m: crown.height_m,
@@ -92,7 +95,7 @@ struct Crown {
 }
 
 impl Crown {
-    fn of(grower: Grower<'_>, tree: &Tree) -> Result<Self, FlowError> {
+    fn of(grower: Grower<'_>, tree: &Tree, seed: u64) -> Result<Self, FlowError> {
         let (form_hull, count, step_m, light, trunk, girth, shade) = match grower {
             Grower::Flow(flow) => {
                 let ParticleFlow { hull, particles, step_m, light, trunk, girth, shade, .. } = flow;
@@ -104,7 +107,10 @@ impl Crown {
             }
         };
         let hull = match form_hull {
-            CrownHull::Profile { height_m, radii } => Hull::of_profile((*height_m).into(), radii),
+            CrownHull::Profile { height_m, radii, bulges } => {
+                let draw = Draws::new(seed, tree.number, HULL_DRAWS, 0);
+                Hull::of_profile((*height_m).into(), radii, (*bulges).into(), draw)
+            }
             CrownHull::Mesh { file, scale } => hull_file::read(file, *scale)?,
         };
         let own_m = hull.high_m().y;

@@ -100,7 +100,7 @@ fn wood_hangs_together_from_one_foot() {
 #[test]
 fn births_are_in_proportion_to_the_light() {
     let form = ParticleFlow { light: 1.0, particles: 4000, shade: one_sided(), ..flow() };
-    let crown = Crown::of(Grower::Flow(&form), &Tree::default()).expect("a hull");
+    let crown = Crown::of(Grower::Flow(&form), &Tree::default(), SEED).expect("a hull");
     let light =
         LightGrid::of(&crown.hull, &crown.shade, toward(&crown.shade.sun), &|at, to| wall(at, to).is_some());
     let draws = |step, index| Draws::new(SEED, 0, step, index);
@@ -180,6 +180,28 @@ fn the_same_seed_is_the_same_tree() {
         assert_ne!(once, grow(&kind(form.clone()), &other, SEED).expect("it grows"), "another number");
         assert_ne!(once, grow(&kind(form), &tree, SEED + 1).expect("it grows"), "another seed");
     }
+}
+
+#[test]
+fn bulges_are_within_their_share_and_another_for_every_tree() {
+    let crown = |number| {
+        let tree = Tree { number, ..Tree::default() };
+        Crown::of(Grower::Flow(&flow()), &tree, SEED).expect("a hull").hull
+    };
+    let hulls = [crown(0), crown(1)];
+    // At half of its height the default hull is 3.6 m in radius, and bulges by a fifth of that.
+    let radius_m = |hull: &super::hull::Hull, degrees: u32| {
+        let (sin, cos) = libm::sincos(f64::from(degrees).to_radians());
+        let holds =
+            |step: &u32| hull.holds(DVec3::new(cos, 0.0, sin) * (0.01 * f64::from(*step)) + DVec3::Y * 6.0);
+        0.01 * f64::from((0..600).take_while(holds).count() as u32)
+    };
+    let rims = hulls.map(|hull| (0..72).map(|step| radius_m(&hull, 5 * step)).collect::<Vec<f64>>());
+    let all = || rims.iter().flatten().copied();
+    let (least_m, most_m) = (all().fold(f64::INFINITY, f64::min), all().fold(0.0, f64::max));
+    assert!(least_m >= 2.87 && most_m <= 4.33, "within a fifth: {least_m} to {most_m} m");
+    assert!(most_m - least_m > 0.5, "uneven: {least_m} to {most_m} m");
+    assert_ne!(rims[0], rims[1], "another tree, another hull");
 }
 
 /// A hull of that file.

@@ -296,17 +296,19 @@ prop_compose! {
 fn crown_hull() -> impl Strategy<Value = CrownHull> {
     let rings = (0.0f32..0.4, vec(within(limits::HULL_RADIUS_M), 1..5), 0.6f32..=1.0);
     prop_oneof![
-        (within(limits::TREE_HEIGHT_M), rings).prop_map(|(height_m, (low, between, high))| {
-            let steps = between.len() as f32 + 1.0;
-            let mut radii = vec![(low, 0.0)];
-            radii.extend(
-                (1u8..)
-                    .zip(between)
-                    .map(|(at, radius_m)| (low + (high - low) * f32::from(at) / steps, radius_m.max(0.01))),
-            );
-            radii.push((high, 0.0));
-            CrownHull::Profile { height_m, radii }
-        }),
+        (within(limits::TREE_HEIGHT_M), rings, within(limits::BULGES)).prop_map(
+            |(height_m, (low, between, high), bulges)| {
+                let steps = between.len() as f32 + 1.0;
+                let mut radii = vec![(low, 0.0)];
+                radii.extend(
+                    (1u8..).zip(between).map(|(at, radius_m)| {
+                        (low + (high - low) * f32::from(at) / steps, radius_m.max(0.01))
+                    }),
+                );
+                radii.push((high, 0.0));
+                CrownHull::Profile { height_m, radii, bulges }
+            }
+        ),
         ("[^\\p{C}]{1,20}", within(limits::MESH_SCALE))
             .prop_map(|(file, scale)| CrownHull::Mesh { file, scale }),
     ]

@@ -33,7 +33,7 @@ fn space(scene: &mut Scene, change: fn(&mut SpaceColonization)) {
 }
 
 fn profile(scene: &mut Scene, height_m: f32, radii: &[(f32, f32)]) {
-    let hull = CrownHull::Profile { height_m, radii: radii.to_vec() };
+    let hull = CrownHull::Profile { height_m, radii: radii.to_vec(), bulges: 0.1 };
     scene.tree_kinds[0].form = TreeForm::ParticleFlow(ParticleFlow { hull, ..ParticleFlow::default() });
 }
 
@@ -117,6 +117,16 @@ const CASES: &[Case] = &[
     (|s| profile(s, 9.0, &[(0.2, 0.0), (0.5, 31.0), (1.0, 0.0)]), Some("tree_kinds[0].form.hull.radii[1].1")),
     (|s| profile(s, 9.0, &[(0.2, 0.0), (0.5, 1.0), (1.1, 0.0)]), Some("tree_kinds[0].form.hull.radii[2].0")),
     (|s| profile(s, 9.0, &[(0.2, 0.0); MAX_PROFILE_POINTS + 1]), Some("tree_kinds[0].form.hull.radii")),
+    (
+        |s| {
+            flow(s, |f| {
+                if let CrownHull::Profile { bulges, .. } = &mut f.hull {
+                    *bulges = 0.6
+                }
+            })
+        },
+        Some("tree_kinds[0].form.hull.bulges"),
+    ),
     (|s| mesh(s, "crown.glb", 1.0), None),
     (|s| mesh(s, "", 1.0), Some("tree_kinds[0].form.hull.file")),
     (|s| mesh(s, "crown.glb", 0.0), Some("tree_kinds[0].form.hull.scale")),
