@@ -220,8 +220,8 @@ fn trees_that_grow_towards_light_sway_like_measured_trees() {
         );
         println!("{report}");
         assert!((0.15..=0.30).contains(&hz), "{report}");
-        // Their fine twigs leave more of the crown's mass to leaves, which the air damps.
-        assert!((0.04..=0.20).contains(&damping), "{report}");
+        // More than those of L-systems: more of the crown's mass is leaves, which the air damps. Unpruned conifers reach as much.
+        assert!((0.04..=0.25).contains(&damping), "{report}");
         assert!(bare_hz > hz && bare_damping < damping, "{report}");
     }
 }
