@@ -30,7 +30,11 @@ fn one_sided() -> CrownLight {
 
 /// A wall beside the crown, as high as it.
 fn wall(place: DVec3, direction: DVec3) -> Option<f64> {
-    let along_m = (3.95 - place.x) / direction.x;
+    wall_at(3.95, place, direction)
+}
+
+fn wall_at(x_m: f64, place: DVec3, direction: DVec3) -> Option<f64> {
+    let along_m = (x_m - place.x) / direction.x;
     (along_m > 0.0 && place.y + direction.y * along_m < 12.0).then_some(along_m)
 }
 
@@ -136,7 +140,8 @@ fn trees_grow_away_from_a_wall_whatever_their_heading() {
         for heading_deg in [0.0, 130.0] {
             let tree = Tree { heading_deg, ..Tree::default() };
             let open = grow(&kind(form.clone()), &tree, SEED).expect("it grows");
-            let walled = grow_among(&kind(form.clone()), &tree, SEED, &wall).expect("it grows");
+            let walled = grow_among(&kind(form.clone()), &tree, SEED, &|at, to| wall_at(3.0, at, to))
+                .expect("it grows");
             let moved = middle(&walled) - middle(&open);
             assert!(moved.x < -0.3, "away from the wall at {heading_deg}: {moved}");
             assert!(moved.z.abs() < 0.5 * -moved.x, "and not along it: {moved}");
