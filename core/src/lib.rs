@@ -71,6 +71,7 @@ pub mod scene;
 mod sim;
 pub mod solid;
 pub mod store;
+pub mod surface;
 pub mod terrain;
 mod threads;
 pub mod tree;

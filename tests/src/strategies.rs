@@ -9,8 +9,9 @@ use windfall_core::scene::{
     Aerodynamics, Air, Bounds, ConeShape, Direction, FlightModel, Foliage, Force, ForceCarriers, ForceKind,
     Gusts, History, Hold, Jet, JetKey, Litter, MeanSpeed, Meets, MotionParameters, Nest, Object,
     ObjectFriction, ObjectKey, ObjectMotion, ObjectShape, ParticleEvent, ParticleRelease, ParticleShape,
-    Particles, Planform, Plume, PlumeKey, Profile, Release, Scene, Share, Source, SourceShape, Space, Species, Spread,
-    SwirlProfile, Terrain, Tree, TreeKind, Turbulence, Vortex, VortexProfile, Walker, Water, WindParameters,
+    Particles, Planform, Plume, PlumeKey, Profile, Release, Scene, Share, Source, SourceShape, Space,
+    Species, Spread, SwirlProfile, Terrain, Tree, TreeKind, Turbulence, Vortex, VortexProfile, Walker, Water,
+    WindParameters,
 };
 
 use crate::functions::Input;

@@ -54,6 +54,7 @@ const CORE: Order = Order {
         "device/arith",
         "store",
         "hull",
+        "surface",
         "scene",
         "clock",
         "flight",

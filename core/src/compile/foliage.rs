@@ -20,10 +20,11 @@ use crate::device::leaf::petiole::{
 use crate::error::SceneError;
 use crate::layout::Uint4;
 use crate::motion::AIR_DENSITY;
-use crate::scene::{Foliage, Scene, Species, TreeKind};
+use crate::scene::{Foliage, MAX_FOREST_SEGMENTS, Scene, Species, TreeKind};
+use crate::solid::{Solid, entry_m};
 use crate::tree::forest::Seedling;
 use crate::tree::record::NO_SEGMENT;
-use crate::tree::{Attachment, AttachmentKind, Forest, LeafFacts, grow};
+use crate::tree::{Attachment, AttachmentKind, Forest, LeafFacts, grow_among};
 
 /// Classes of the time in autumn at which petioles weaken; in each, as many of strength as fill the classes.
 const AUTUMN_CLASSES: u32 = 16;
@@ -56,12 +57,19 @@ pub(super) fn foliage_of(scene: &Scene) -> Vec<TreeKind> {
     kinds
 }
 
-/// All trees, grown on ground of these heights. Skeletons of equal trees are shared.
+/// All trees, grown on ground of these heights. Still solid parts stand in the light of those that grow towards it.
+///
+/// # Errors
+/// A tree that does not grow, or more segments than a forest may have.
 pub(super) fn seedlings(
     scene: &Scene,
+    solids: &[Solid],
     ground_height: impl Fn(f32, f32) -> f32,
 ) -> Result<Vec<Seedling>, SceneError> {
     let mut seedlings = Vec::with_capacity(scene.trees.len());
+    let still = solids.iter().filter(|solid| !solid.moves());
+    let still: Vec<_> = still.map(|solid| (solid, solid.pose_at(0.0, |_, _| 0.0))).collect();
+    let mut segments = 0;
     for (index, tree) in scene.trees.iter().enumerate() {
         let field = |reason: String, allowed: &str| SceneError::Field {
             file: scene.name.clone(),
@@ -72,12 +80,22 @@ pub(super) fn seedlings(
         let kind = scene
             .tree_kind(&tree.kind)
             .ok_or_else(|| field(format!("{:?}", tree.kind), "a tree kind of this scene"))?;
-        let skeleton =
-            grow(&kind, tree, scene.seed).map_err(|error| field(error.to_string(), "a tree that grows"))?;
-        let leaf = species_of(scene, &kind.foliage)
-            .map_or_else(LeafFacts::default, |(_, species)| leaf_facts(species));
         let [x, z] = tree.at_m;
         let foot_m = glam::Vec3::new(x, ground_height(x, z), z);
+        let obstacles = |place: DVec3, direction: DVec3| {
+            let from_m = foot_m.as_dvec3() + place;
+            let entries = still.iter().filter_map(|(solid, pose)| entry_m(solid, pose, from_m, direction));
+            entries.min_by(f64::total_cmp)
+        };
+        let skeleton = grow_among(&kind, tree, scene.seed, &obstacles)
+            .map_err(|error| field(error.to_string(), "a tree that grows"))?;
+        segments += skeleton.segments.len();
+        if segments > MAX_FOREST_SEGMENTS {
+            let found = format!("{segments} segments with those before it");
+            return Err(field(found, &format!("at most {MAX_FOREST_SEGMENTS} segments over all trees")));
+        }
+        let leaf = species_of(scene, &kind.foliage)
+            .map_or_else(LeafFacts::default, |(_, species)| leaf_facts(species));
         seedlings.push(Seedling {
             skeleton: Arc::new(skeleton),
             kind,

@@ -120,7 +120,7 @@ impl CompiledScene {
             block.ids_per_life = 0;
             block.flutter_per_step = cycle.flutter(scene.dt_s);
         }
-        let seedlings = seedlings(scene, |x, z| foot_height(&block, &tables, x, z))?;
+        let seedlings = seedlings(scene, solids.own(), |x, z| foot_height(&block, &tables, x, z))?;
         let forest = Forest::plant(seedlings, scene.gravity_m_s2);
         solids.add_trunks(scene, &forest);
         if let Some(grid) = ShelterGrid::of(scene, solids.own(), &forest) {

@@ -14,7 +14,7 @@ use ron::extensions::Extensions;
 use ron::ser::PrettyConfig;
 
 use super::nearest::nearest;
-use super::{ObjectShape, PRESETS, Scene, Sky, TreeForm};
+use super::{ObjectShape, PRESETS, Scene, Sky};
 use crate::SceneError;
 
 /// Largest scene file in bytes; sixteen sources and thirty-two species take some ten thousand.
@@ -40,7 +40,7 @@ impl Scene {
                     }
                 }
                 for kind in &mut scene.tree_kinds {
-                    if let TreeForm::File(named) = &mut kind.form {
+                    if let Some(named) = kind.form.file_mut() {
                         *named = folder.join(&*named).to_string_lossy().into_owned();
                     }
                 }

@@ -156,6 +156,18 @@ limits! {
     LEAF_DRAG: f32 = 0.0, 2.0, "", drag;
     YIELD_M_S: f32 = 1.0, 1000.0, "m/s", yield_m_s;
     STRENGTH_N: f32 = 0.01, 100.0, "N", strength_n;
+    CROWN_PARTICLES: u32 = 1, 20_000, "", particles points;
+    BULGES: f32 = 0.0, 0.5, "", bulges;
+    TO_ROOT: f32 = 0.05, 1.0, "", to_root;
+    TO_PARTICLE: f32 = 0.0, 0.9, "", to_particle;
+    GROWTH_STEP_M: f32 = 0.02, 1.0, "m", step_m;
+    INFLUENCE_M: f32 = 0.1, 20.0, "m", influence_m;
+    KILL_M: f32 = 0.02, 10.0, "m", kill_m;
+    LIGHT_SHARE: f32 = 0.0, 1.0, "", light direct;
+    TRUNK: f32 = 0.0, 0.95, "", trunk;
+    GIRTH: f32 = 0.001, 0.2, "", girth;
+    LIGHT_NODES: u32 = 4, 32, "", nodes;
+    EXTINCTION_PER_M: f32 = 0.0, 10.0, "1/m", extinction_per_m;
 
     HEIGHT_M: f32 = -4096.0, 4096.0, "m", height_m;
     FRICTION: f32 = 0.05, 5.0, "", friction;
@@ -241,6 +253,10 @@ limits! {
     VIGNETTE: f32 = 0.0, 1.0, "", vignette;
 }
 
+/// Range of the radii of a crown's hull.
+pub const HULL_RADIUS_M: Limit<f32> = Limit { low: 0.0, high: 30.0, unit: "m" };
+/// Range of the shares of the height of a crown's hull.
+pub const HULL_HEIGHT: Limit<f32> = Limit { low: 0.0, high: 1.0, unit: "" };
 /// Range of the speeds at which particles set off.
 pub const PARTICLE_SPEED_M_S: Limit<f32> = Limit { low: 0.0, high: 1000.0, unit: "m/s" };
 /// Range of the lives of particles, which have at most [`MOST_LIFE_STEPS`] steps as well.
@@ -290,6 +306,7 @@ mod tests {
         include_str!("species.rs"),
         include_str!("terrain.rs"),
         include_str!("tree.rs"),
+        include_str!("tree_flow.rs"),
         include_str!("view.rs"),
         include_str!("wind.rs"),
     ];

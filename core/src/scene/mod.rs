@@ -29,6 +29,7 @@ mod species;
 mod species_presets;
 mod terrain;
 mod tree;
+mod tree_flow;
 mod validate;
 mod view;
 mod wind;
@@ -55,6 +56,7 @@ pub use source::{Release, Share, Source, SourceShape};
 pub use species::{ConeShape, LeafShape, MotionParameters, RotationModel, Species};
 pub use terrain::{Terrain, Water};
 pub use tree::{Foliage, SwayScheme, Tree, TreeForm, TreeKind, TreePreset, Wood};
+pub use tree_flow::{CrownHull, CrownLight, MAX_PROFILE_POINTS, ParticleFlow, SpaceColonization};
 pub use view::{Camera, Sun, View};
 pub use wind::{Gusts, MeanSpeed, Profile, Turbulence, Vortex, VortexProfile, WindParameters};
 

@@ -35,6 +35,8 @@ pub const PRESETS: &[(&str, &str)] = &[
     ("galaxy", include_str!("../../scenes/galaxy.ron")),
     ("slime", include_str!("../../scenes/slime.ron")),
     ("ember-whirl", include_str!("../../scenes/ember-whirl.ron")),
+    ("bonfire", include_str!("../../scenes/bonfire.ron")),
+    ("flow-trees", include_str!("../../scenes/flow-trees.ron")),
 ];
 
 impl Scene {
@@ -92,6 +94,8 @@ mod tests {
                 "galaxy",
                 "slime",
                 "ember-whirl",
+                "bonfire",
+                "flow-trees",
             ],
             "names and their order"
         );

@@ -4,6 +4,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::{CrownHull, ParticleFlow, SpaceColonization};
+
 /// A tree of the scene.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
@@ -72,6 +74,28 @@ pub enum TreeForm {
     Grammar(String),
     /// As the skeleton of the skin in a glTF 2.0 file, `.gltf` or `.glb`, beside the scene file.
     File(String),
+    /// Towards light in a hull, by particles that flow to the root.
+    ParticleFlow(ParticleFlow),
+    /// Towards light in a hull, by space colonisation.
+    SpaceColonization(SpaceColonization),
+}
+
+impl TreeForm {
+    /// Returns true for forms that light, and objects in its way, have a part in.
+    pub fn grows_towards_light(&self) -> bool {
+        matches!(self, Self::ParticleFlow(_) | Self::SpaceColonization(_))
+    }
+
+    /// The file that it names, if it names one.
+    pub fn file_mut(&mut self) -> Option<&mut String> {
+        let hull = match self {
+            Self::File(file) => return Some(file),
+            Self::ParticleFlow(flow) => &mut flow.hull,
+            Self::SpaceColonization(growth) => &mut growth.hull,
+            Self::Preset(_) | Self::Grammar(_) => return None,
+        };
+        if let CrownHull::Mesh { file, .. } = hull { Some(file) } else { None }
+    }
 }
 
 impl Default for TreeForm {

@@ -12,6 +12,7 @@ mod objects;
 mod particles;
 #[cfg(test)]
 mod tests;
+mod tree_flow;
 mod trees;
 
 use super::{

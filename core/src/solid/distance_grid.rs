@@ -5,8 +5,8 @@
 use glam::DVec3;
 
 use super::nearest::Nearest;
-use super::surface::Surface;
 use crate::convert::word;
+use crate::surface::Surface;
 use crate::threads::each;
 
 /// Cells along the longest edge of a grid.

@@ -10,9 +10,9 @@ use thiserror::Error;
 
 use super::distance_grid::DistanceGrid;
 use super::mesh_file::{self, MeshError};
-use super::surface::{Surface, SurfaceError};
 use crate::hull::{Face, Hull, HullError};
 use crate::scene::{ObjectShape, PLANE_REACH_M};
+use crate::surface::{Surface, SurfaceError};
 
 /// Depth in m down to which a plane is drawn.
 const PLANE_DEPTH_M: f32 = 1.0;

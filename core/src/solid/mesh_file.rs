@@ -7,9 +7,9 @@ use std::path::Path;
 use glam::DVec3;
 use thiserror::Error;
 
-use super::surface::{Surface, SurfaceError};
 use crate::convert::single;
 use crate::scene::limits;
+use crate::surface::{Surface, SurfaceError};
 use crate::tree::gltf::{GltfError, read_triangles};
 
 /// Faults of a file as the surface of a solid thing.

@@ -13,12 +13,13 @@ mod mesh_file;
 mod nearest;
 mod outline;
 mod part;
-pub mod surface;
+mod sight;
 mod trunk;
 mod walk;
 
+pub use crate::surface::Surface;
 pub(crate) use outline::Outline;
 pub use part::{Solid, SolidPose, solids_of};
-pub use surface::Surface;
+pub(crate) use sight::entry_m;
 pub(crate) use trunk::trunks_of;
 pub use walk::{LIMBS, Limb, Side};

@@ -11,7 +11,7 @@ use std::collections::HashMap;
 
 use glam::DVec3;
 
-use super::surface::Surface;
+use crate::surface::Surface;
 
 /// Most triangles in a box that is not parted any more.
 const FEW: usize = 4;

@@ -4,7 +4,7 @@
 
 use thiserror::Error;
 
-use super::surface::Surface;
+use crate::surface::Surface;
 
 /// A mesh at all.
 #[derive(Debug, Error)]

@@ -8,11 +8,11 @@ use std::sync::Arc;
 use glam::{DQuat, DVec3, Vec3};
 
 use super::faces::Faces;
-use super::surface::Surface;
 use super::walk::{Gait, LIMBS, Limb};
 use crate::SceneError;
 use crate::scene::keyed::{Key, numbers_at};
 use crate::scene::{Object, ObjectFriction, ObjectMotion, ObjectShape, Scene};
+use crate::surface::Surface;
 
 /// Place and orientation of a solid part.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,13 +1,14 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Grows a tree of a scene: from its kind's grammar or file to its skeleton.
+//! Grows a tree of a scene: from its kind's grammar, file or hull to its skeleton.
 
 use glam::{DVec3, Vec3};
 use thiserror::Error;
 
+use super::flow::{FlowError, Grower, Obstacles, in_the_open};
 #[cfg(feature = "gltf")]
 use super::gltf::GltfError;
-use super::grammar::{Draws, Grammar, GrammarError};
+use super::grammar::{Draws, Grammar, GrammarError, Settings};
 use super::growth::{self, Grown};
 use super::skeleton::{Segment, Skeleton, SkeletonError};
 use super::turtle::{self, Shoot, rotated};
@@ -48,6 +49,14 @@ pub enum TreeError {
         /// The file.
         file: String,
     },
+    /// A kind that cannot grow into its hull.
+    #[error("tree kind '{kind}': {source}")]
+    Flow {
+        /// Name of the kind.
+        kind: String,
+        /// Fault.
+        source: FlowError,
+    },
     /// A kind that is a file which cannot be used.
     #[cfg(feature = "gltf")]
     #[error("tree kind '{kind}': {source}")]
@@ -69,7 +78,7 @@ pub enum TreeError {
     },
 }
 
-/// The skeleton of a tree in its own frame: foot at the origin, y up, turned by its heading.
+/// The skeleton of a tree that stands in the open, in its own frame: foot at the origin, y up, turned by its heading.
 ///
 /// The same kind, tree and seed give the same bits on every machine, as long as a file that the kind names stays the
 /// same.
@@ -77,12 +86,22 @@ pub enum TreeError {
 /// # Errors
 /// [`TreeError`] for a kind that does not grow, or a file that cannot be used.
 pub fn grow(kind: &TreeKind, tree: &Tree, seed: u64) -> Result<Skeleton, TreeError> {
+    grow_among(kind, tree, seed, &in_the_open)
+}
+
+/// The skeleton of a tree as [`grow`] has it, but among obstacles, which shade those kinds that grow towards light.
+///
+/// # Errors
+/// As there.
+pub fn grow_among(
+    kind: &TreeKind,
+    tree: &Tree,
+    seed: u64,
+    obstacles: Obstacles<'_>,
+) -> Result<Skeleton, TreeError> {
     let mut skeleton = match &kind.form {
         TreeForm::File(file) => from_file::read(kind, file, tree, seed)?.0,
-        TreeForm::Preset(preset) => Plan::new(kind, preset.grammar(), tree, seed)?.skeleton(kind, tree, seed),
-        TreeForm::Grammar(text) => {
-            Plan::new(kind, parsed(kind, text)?, tree, seed)?.skeleton(kind, tree, seed)
-        }
+        _ => Plan::new(kind, tree, seed, obstacles)?.skeleton(kind, tree, seed),
     };
     turn(&mut skeleton, tree.heading_deg);
     skeleton.validate().map_err(|source| TreeError::Skeleton {
@@ -117,18 +136,16 @@ pub(crate) fn segments_of(grammar: &Grammar, tree: &Tree, seed: u64) -> Result<u
     Ok(growth::present(&shoots, scale, tree.age.into()).into_iter().filter(|&present| present).count())
 }
 
-/// Number of leaves of a tree's full crown at its age. [`grow`] attaches as many, or as many as the tree asks for if
+/// Number of leaves of the full crown, at its age, of a tree that stands in the open. [`grow`] attaches as many, or as many as the tree asks for if
 /// those are fewer; each then stands for several.
 ///
 /// # Errors
 /// As [`grow`].
 pub fn full_leaf_count(kind: &TreeKind, tree: &Tree, seed: u64) -> Result<f64, TreeError> {
-    let grammar = match &kind.form {
-        TreeForm::File(file) => return Ok(from_file::read(kind, file, tree, seed)?.1),
-        TreeForm::Preset(preset) => preset.grammar(),
-        TreeForm::Grammar(text) => parsed(kind, text)?,
-    };
-    let plan = Plan::new(kind, grammar, tree, seed)?;
+    if let TreeForm::File(file) = &kind.form {
+        return Ok(from_file::read(kind, file, tree, seed)?.1);
+    }
+    let plan = Plan::new(kind, tree, seed, &in_the_open)?;
     Ok(plan.full_leaf_count(&plan.grown(tree), kind))
 }
 
@@ -138,24 +155,50 @@ fn parsed(kind: &TreeKind, text: &str) -> Result<Grammar, TreeError> {
 
 /// A full-grown tree before it has a size.
 struct Plan {
-    grammar: Grammar,
+    settings: Settings,
     shoots: Vec<Shoot>,
-    /// Metres per unit of the grammar.
+    /// Metres per unit of the shoots' lengths.
     scale: f64,
 }
 
 impl Plan {
-    fn new(kind: &TreeKind, grammar: Grammar, tree: &Tree, seed: u64) -> Result<Self, TreeError> {
+    /// The plan of a tree whose kind is no file.
+    fn new(kind: &TreeKind, tree: &Tree, seed: u64, obstacles: Obstacles<'_>) -> Result<Self, TreeError> {
+        let grammar = match &kind.form {
+            TreeForm::ParticleFlow(flow) => {
+                return Self::towards_light(kind, Grower::Flow(flow), tree, seed, obstacles);
+            }
+            TreeForm::SpaceColonization(space) => {
+                return Self::towards_light(kind, Grower::Space(space), tree, seed, obstacles);
+            }
+            TreeForm::Preset(preset) => preset.grammar(),
+            TreeForm::Grammar(text) => parsed(kind, text)?,
+            TreeForm::File(_) => unreachable!("files are read, not grown"),
+        };
         let (shoots, scale) = shoots(&grammar, tree, seed)
             .map_err(|source| TreeError::Grammar { kind: kind.name.clone(), source })?;
-        Ok(Self { grammar, shoots, scale })
+        Ok(Self { settings: *grammar.settings(), shoots, scale })
+    }
+
+    fn towards_light(
+        kind: &TreeKind,
+        grower: Grower<'_>,
+        tree: &Tree,
+        seed: u64,
+        obstacles: Obstacles<'_>,
+    ) -> Result<Self, TreeError> {
+        let (shoots, settings) = grower
+            .shoots(tree, seed, obstacles)
+            .map_err(|source| TreeError::Flow { kind: kind.name.clone(), source })?;
+        let scale = settings.height_m / growth::full_height(&shoots).max(LOWEST);
+        Ok(Self { settings, shoots, scale })
     }
 
     fn skeleton(&self, kind: &TreeKind, tree: &Tree, seed: u64) -> Skeleton {
         let grown = self.grown(tree);
         let full_count = self.full_leaf_count(&grown, kind);
         let draws = |step, index| Draws::new(seed, tree.number, step, index);
-        let settings = self.grammar.settings();
+        let settings = &self.settings;
         let attachments = crown::attachments(&grown, &self.shoots, settings, full_count, tree.leaves, draws);
         let segments = grown.iter().map(|segment| Segment {
             parent: segment.parent.map(|parent| u32::try_from(parent).expect("at most MAX_SEGMENTS")),
@@ -169,12 +212,12 @@ impl Plan {
     }
 
     fn grown(&self, tree: &Tree) -> Vec<Grown> {
-        growth::grow(&self.shoots, self.grammar.settings(), self.scale, tree.age.into())
+        growth::grow(&self.shoots, &self.settings, self.scale, tree.age.into())
     }
 
     fn full_leaf_count(&self, grown: &[Grown], kind: &TreeKind) -> f64 {
         let leaf_area_index = kind.foliage.leaf_area_index.into();
-        crown::full_count(grown, &self.shoots, self.grammar.settings(), leaf_area_index)
+        crown::full_count(grown, &self.shoots, &self.settings, leaf_area_index)
     }
 }
 

@@ -9,7 +9,7 @@ use crate::common_cli::{assert_refused, assert_refused_without_adapter, file, fo
 #[test]
 fn unknown_scenes() {
     let there = folder();
-    let presets = "autumn-park, six-motions, cone-spirals, flight-lab, storm, million, forest, gale, hurricane, evening, macro, winter, hills, blower, square, drift, walk, heap, pond, particle-lab, whirl, waterfall, rain-pond, pollen, fireflies, genesis, galaxy, slime, ember-whirl";
+    let presets = "autumn-park, six-motions, cone-spirals, flight-lab, storm, million, forest, gale, hurricane, evening, macro, winter, hills, blower, square, drift, walk, heap, pond, particle-lab, whirl, waterfall, rain-pond, pollen, fireflies, genesis, galaxy, slime, ember-whirl, bonfire, flow-trees";
     for command in [&["simulate"][..], &["bench"], &["motions", "--out", "tables"]] {
         let refuse = |scene, essentials: &[&str]| {
             assert_refused(&there, &[command, &[scene]].concat(), essentials);
@@ -192,6 +192,63 @@ fn meshes_that_enclose_nothing() {
         ],
     );
     refuse("scale.ron", "file: \"block.gltf\", scale: 0.0", &["shape.scale is 0.0", "0.001 to 1000"]);
+}
+
+/// A closed hull of a crown as glTF, and the data of its triangles as they are and turned inside out.
+const CROWN: &str = include_str!("../../data/crown.gltf");
+const CROWN_TRIANGLES: [&str; 2] = [
+    "AQAAAAMAAAACAAAAAAAAAAIAAAADAAAAAQAAAAQAAAADAAAAAAAAAAMAAAAEAAAAAQAAAAUAAAAEAAAAAAAAAAQAAAAFAAAAAQAAAAYAAAAFAAAAAAAAAAUAAAAGAAAAAQAAAAcAAAAGAAAAAAAAAAYAAAAHAAAAAQAAAAIAAAAHAAAAAAAAAAcAAAACAAAA",
+    "AQAAAAIAAAADAAAAAAAAAAMAAAACAAAAAQAAAAMAAAAEAAAAAAAAAAQAAAADAAAAAQAAAAQAAAAFAAAAAAAAAAUAAAAEAAAAAQAAAAUAAAAGAAAAAAAAAAYAAAAFAAAAAQAAAAYAAAAHAAAAAAAAAAcAAAAGAAAAAQAAAAcAAAACAAAAAAAAAAIAAAAHAAAA",
+];
+
+#[test]
+fn hulls_that_no_tree_grows_into() {
+    let there = folder();
+    assert!(
+        CROWN.contains(CROWN_TRIANGLES[0]) && CROWN.contains("\"count\": 36"),
+        "the hull's own triangles"
+    );
+    file(&there, "crown.gltf", CROWN);
+    file(&there, "open.gltf", CROWN.replace("\"count\": 36", "\"count\": 33"));
+    file(&there, "inward.gltf", CROWN.replace(CROWN_TRIANGLES[0], CROWN_TRIANGLES[1]));
+    let refuse = |name: &str, form: &str, essentials: &[&str]| {
+        let kinds =
+            format!("tree_kinds: [(name: \"own\", form: {form})], trees: [(kind: \"own\", leaves: 9)]");
+        file(&there, name, format!("({kinds})"));
+        assert_refused(&there, &["simulate", name, "--checkpoint", "out.ckpt"], essentials);
+    };
+    refuse(
+        "open.ron",
+        "ParticleFlow((hull: Mesh(file: \"open.gltf\")))",
+        &[
+            "open.ron: trees[0] is tree kind 'own': the hull open.gltf is open: the edge from [",
+            "] (m) has one side only; allowed: a closed surface",
+        ],
+    );
+    refuse(
+        "inward.ron",
+        "SpaceColonization((hull: Mesh(file: \"inward.gltf\")))",
+        &["trees[0] is", "the hull inward.gltf encloses -37.8", "allowed: more than 0 m³"],
+    );
+    refuse(
+        "large.ron",
+        "ParticleFlow((hull: Mesh(file: \"crown.gltf\", scale: 10.0)))",
+        &["the hull crown.gltf reaches from 20 to 90 m; allowed: from 0 m or more up to 0.2 to 60 m"],
+    );
+    refuse("none.ron", "ParticleFlow((hull: Mesh(file: \"none.glb\")))", &["the hull none.glb: "]);
+    let gap = "hull: Profile(height_m: 9.0, radii: [(0.2, 0.5), (0.6, 3.0), (1.0, 0.0)])";
+    refuse(
+        "gap.ron",
+        &format!("ParticleFlow(({gap}))"),
+        &[
+            "gap.ron: tree_kinds[0].form.hull.radii[0].1 is 0.5, so the hull is open there; allowed: 0, a closed hull",
+        ],
+    );
+    refuse(
+        "nodes.ron",
+        "ParticleFlow((shade: (nodes: 33)))",
+        &["nodes.ron: tree_kinds[0].form.shade.nodes is 33; allowed: 4 to 32"],
+    );
 }
 
 #[test]

@@ -4,7 +4,9 @@
 
 use glam::DVec3;
 use windfall_core::Scene;
-use windfall_core::scene::{MeanSpeed, Profile, Tree};
+use windfall_core::scene::{
+    Foliage, MeanSpeed, ParticleFlow, Profile, SpaceColonization, Tree, TreeForm, TreeKind,
+};
 use windfall_core::tree::forest::Seedling;
 use windfall_core::tree::{Branches, Forest, LeafFacts, grow};
 use windfall_tests::grove::Grove;
@@ -184,6 +186,43 @@ fn birches_sway_like_measured_trees() {
 fn oaks_sway_like_measured_trees() {
     for (height_m, number) in [(15.0, 0), (20.0, 1), (25.0, 0)] {
         sways_like_a_real_one("oak", height_m, number);
+    }
+}
+
+/// A tree of this height that has grown towards light, by itself.
+fn grown_towards_light(form: TreeForm, height_m: f32) -> Grove {
+    let foliage = Foliage { species: Some("maple".into()), ..Foliage::default() };
+    let kind = TreeKind { form, foliage, ..TreeKind::default() };
+    let tree = Tree { height_m: Some(height_m), leaves: 2000, ..Tree::default() };
+    let skeleton = grow(&kind, &tree, 1).expect("it grows");
+    let leaf = LeafFacts { area_m2: 0.0035, mass_kg: 2.5e-4 };
+    let seedling =
+        Seedling { skeleton: skeleton.into(), kind, leaf, foot_m: glam::Vec3::ZERO, leaf_slots: 0 };
+    Grove::new(vec![seedling], DT_S)
+}
+
+/// Trees that grow towards light sway in the band of the measured ones, too (see `data/tree_sway_frequencies.csv`).
+#[test]
+fn trees_that_grow_towards_light_sway_like_measured_trees() {
+    // The measured trees are 0.013 to 0.036 of their height thick at breast height.
+    let girth = 0.016;
+    let flow = || TreeForm::ParticleFlow(ParticleFlow { particles: 1500, girth, ..ParticleFlow::default() });
+    let space = || TreeForm::SpaceColonization(SpaceColonization { girth, ..SpaceColonization::default() });
+    for (name, form, height_m) in
+        [("flow", flow(), 15.0), ("flow", flow(), 20.0), ("space", space(), 15.0), ("space", space(), 20.0)]
+    {
+        let mut leafy = grown_towards_light(form.clone(), height_m);
+        leafy.put_on_leaves();
+        let (hz, damping) = pull_and_release(leafy, 6.0);
+        let (bare_hz, bare_damping) = pull_and_release(grown_towards_light(form, height_m), 6.0);
+        let report = format!(
+            "{name} of {height_m} m: {hz:.3} Hz, {damping:.3} of critical; bare {bare_hz:.3} Hz, {bare_damping:.3}"
+        );
+        println!("{report}");
+        assert!((0.15..=0.30).contains(&hz), "{report}");
+        // More than those of L-systems: more of the crown's mass is leaves, which the air damps. Unpruned conifers reach as much.
+        assert!((0.04..=0.25).contains(&damping), "{report}");
+        assert!(bare_hz > hz && bare_damping < damping, "{report}");
     }
 }
 

@@ -37,7 +37,7 @@ impl BarkKind {
             TreeForm::Preset(TreePreset::Oak) => Self::Oak,
             TreeForm::Preset(TreePreset::Bush | TreePreset::BerryBush) => Self::Shrub,
             TreeForm::Preset(TreePreset::Weed) => Self::Herb,
-            TreeForm::Grammar(_) | TreeForm::File(_) => match shape {
+            _ => match shape {
                 Some(LeafShape::Birch) => Self::Birch,
                 Some(LeafShape::Oak) => Self::Oak,
                 _ => Self::Maple,

@@ -6,10 +6,10 @@ use std::path::Path;
 
 use anyhow::{anyhow, bail};
 use clap::Args;
-use windfall_core::Scene;
 use windfall_core::scene::limits::{self, Limit};
 use windfall_core::scene::{Tree, TreeForm, TreeKind, TreePreset};
-use windfall_core::tree::{Skeleton, full_leaf_count, gltf, grow};
+use windfall_core::tree::{AttachmentKind, Skeleton, full_leaf_count, gltf, grow};
+use windfall_core::{CompiledScene, Scene};
 
 use crate::run::parse::whole;
 
@@ -87,7 +87,28 @@ impl TreeArguments {
         })?;
         let kind = scene.tree_kind(&tree.kind);
         let kind = kind.ok_or_else(|| anyhow!("{name}: trees[{index}].kind '{}' is unknown", tree.kind))?;
-        self.grown(&kind, tree.clone(), scene.seed)
+        let tree = tree.clone();
+        if scene.objects.is_empty() || !kind.form.grows_towards_light() {
+            return self.grown(&kind, tree, scene.seed);
+        }
+        // The objects of the scene stand in its light.
+        let tree = self.changed(tree);
+        let seed = self.seed.unwrap_or(scene.seed);
+        let compiled = CompiledScene::compile(&Scene { trees: vec![tree], seed, ..scene })?;
+        let planted = &compiled.forest().trees()[0];
+        let skeleton = (*planted.skeleton).clone();
+        let leaves = skeleton.attachments.iter().filter(|at| at.kind == AttachmentKind::Leaf).count();
+        let full_leaf_count = planted.facts.leaves_each * leaves as f64;
+        Ok(GivenTree { name: self.tree.clone(), preset: None, skeleton, full_leaf_count })
+    }
+
+    /// The tree with what the user has said of it.
+    fn changed(&self, mut tree: Tree) -> Tree {
+        tree.age = self.age.unwrap_or(tree.age);
+        tree.height_m = self.height.or(tree.height_m);
+        tree.number = self.number.unwrap_or(tree.number);
+        tree.leaves = self.leaves.unwrap_or(tree.leaves);
+        tree
     }
 
     fn of_file(&self, path: &Path) -> anyhow::Result<GivenTree> {
@@ -106,11 +127,8 @@ impl TreeArguments {
         Ok(GivenTree { name: self.tree.clone(), preset: None, skeleton, full_leaf_count })
     }
 
-    fn grown(&self, kind: &TreeKind, mut tree: Tree, seed: u64) -> anyhow::Result<GivenTree> {
-        tree.age = self.age.unwrap_or(tree.age);
-        tree.height_m = self.height.or(tree.height_m);
-        tree.number = self.number.unwrap_or(tree.number);
-        tree.leaves = self.leaves.unwrap_or(tree.leaves);
+    fn grown(&self, kind: &TreeKind, tree: Tree, seed: u64) -> anyhow::Result<GivenTree> {
+        let tree = self.changed(tree);
         let seed = self.seed.unwrap_or(seed);
         let preset = match &kind.form {
             TreeForm::Preset(preset) => Some(*preset),

@@ -79,7 +79,7 @@ pub(super) fn points<T: Copy>(
     let low = chosen.checked_sub(1).map_or(0.0, |before| curve[before].0 + APART);
     let high = curve.get(chosen + 1).map_or(1.0, |after| after.0 - APART);
     if low < high {
-        let tip = "Age of this point as a share of the life, between its neighbours";
+        let tip = "Share at which this point stands, between its neighbours";
         let limit = Limit { low, high, unit: "" };
         field(age_name, tip, limit).show(ui, &mut curve[chosen].0, None);
     }

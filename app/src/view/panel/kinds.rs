@@ -4,8 +4,11 @@
 
 use egui::Ui;
 use windfall_core::Scene;
-use windfall_core::scene::{Foliage, MAX_TREE_KINDS, TreeForm, TreeKind, TreePreset, Wood, limits};
+use windfall_core::scene::{
+    Foliage, MAX_TREE_KINDS, ParticleFlow, SpaceColonization, TreeForm, TreeKind, TreePreset, Wood, limits,
+};
 
+use super::crowns;
 use super::field::{choice, field};
 use super::list::{List, free_name};
 use super::words::{name_of, text};
@@ -53,8 +56,11 @@ fn form(ui: &mut Ui, form: &mut TreeForm, own: Option<&TreeForm>) {
         ("preset", TreeForm::Preset(preset)),
         ("grammar", TreeForm::Grammar(preset.text().to_owned())),
         ("file", TreeForm::File("tree.glb".into())),
+        ("particle flow", TreeForm::ParticleFlow(ParticleFlow::default())),
+        ("space colonisation", TreeForm::SpaceColonization(SpaceColonization::default())),
     ];
-    let tip = "As a kind in the program, by an L-system, or as the skeleton in a glTF file (drop one on the window)";
+    let tip = "As a kind in the program, by an L-system, as the skeleton in a glTF file (drop one on the window), or towards \
+               light in a hull";
     choice(ui, "Grows by", tip, form, own, &options);
     match (form, own) {
         (TreeForm::Preset(preset), own) => {
@@ -69,6 +75,20 @@ fn form(ui: &mut Ui, form: &mut TreeForm, own: Option<&TreeForm>) {
         (TreeForm::File(file), own) => {
             let own = if let Some(TreeForm::File(own)) = own { Some(&**own) } else { None };
             text(ui, "Tree file", "A glTF 2.0 file with a skin, .gltf or .glb", file, own, 1);
+        }
+        (TreeForm::ParticleFlow(flow), own) => {
+            crowns::flow(
+                ui,
+                flow,
+                if let Some(TreeForm::ParticleFlow(own)) = own { Some(own) } else { None },
+            );
+        }
+        (TreeForm::SpaceColonization(space), own) => {
+            crowns::space(
+                ui,
+                space,
+                if let Some(TreeForm::SpaceColonization(own)) = own { Some(own) } else { None },
+            );
         }
     }
 }

@@ -7,6 +7,7 @@ mod beaufort;
 mod body;
 mod camera;
 mod compare;
+mod crowns;
 mod curves;
 mod draft;
 mod field;

@@ -5,7 +5,7 @@
 use std::path::{Path, PathBuf, absolute};
 
 use windfall_core::Scene;
-use windfall_core::scene::{Sky, TreeForm};
+use windfall_core::scene::Sky;
 
 use crate::files::{OutputFile, WriteError};
 
@@ -26,10 +26,7 @@ pub(crate) fn save(scene: &Scene, path: &Path) -> anyhow::Result<PathBuf> {
 fn seen_from(scene: &Scene, folder: &Path) -> Scene {
     let mut scene = scene.clone();
     let species = scene.species.iter_mut().flat_map(|species| [&mut species.tables, &mut species.leaves]);
-    let forms = scene.tree_kinds.iter_mut().filter_map(|kind| match &mut kind.form {
-        TreeForm::File(file) => Some(file),
-        TreeForm::Preset(_) | TreeForm::Grammar(_) => None,
-    });
+    let forms = scene.tree_kinds.iter_mut().filter_map(|kind| kind.form.file_mut());
     let sky = match &mut scene.view.sky {
         Sky::Map(map) => Some(&mut map.path),
         Sky::Physical(_) => None,
@@ -45,7 +42,7 @@ fn seen_from(scene: &Scene, folder: &Path) -> Scene {
 
 #[cfg(test)]
 mod tests {
-    use windfall_core::scene::{SkyMap, TreeKind};
+    use windfall_core::scene::{SkyMap, TreeForm, TreeKind};
 
     use super::*;
 

@@ -10,6 +10,7 @@ use std::path::PathBuf;
 use proptest::prelude::*;
 
 use super::*;
+use crate::scene::TreeForm;
 use strategies::any_scene;
 
 proptest! {
@@ -126,7 +127,7 @@ fn files_that_are_no_scenes_are_refused_in_one_line() {
 
 #[test]
 fn names_that_stand_for_nothing_are_refused_in_one_line() {
-    let all = "presets: autumn-park, six-motions, cone-spirals, flight-lab, storm, million, forest, gale, hurricane, evening, macro, winter, hills, blower, square, drift, walk, heap, pond, particle-lab, whirl, waterfall, rain-pond, pollen, fireflies, genesis, galaxy, slime, ember-whirl";
+    let all = "presets: autumn-park, six-motions, cone-spirals, flight-lab, storm, million, forest, gale, hurricane, evening, macro, winter, hills, blower, square, drift, walk, heap, pond, particle-lab, whirl, waterfall, rain-pond, pollen, fireflies, genesis, galaxy, slime, ember-whirl, bonfire, flow-trees";
     for (name, hint) in [
         ("strom", " (did you mean 'storm'?)"),
         ("no/such/file.ron", ""),
@@ -150,14 +151,20 @@ fn named_files_are_looked_for_beside_the_scene_file() {
         (name: "a", tables: "a.tables", leaves: "oaks"),
         (name: "b", tables: "/b.tables", leaves: "/oaks"),
         (name: "c"),
-    ], tree_kinds: [(name: "a", form: File("a.glb")), (name: "b", form: File("/b.glb"))],
+    ], tree_kinds: [
+        (name: "a", form: File("a.glb")),
+        (name: "b", form: File("/b.glb")),
+        (name: "c", form: ParticleFlow((hull: Mesh(file: "crown.glb")))),
+    ],
     view: (sky: Map((path: "skies/noon.hdr"))))"#;
     fs::write(&path, text).expect("temporary files can be written");
     let loaded = Scene::load(path.to_str().expect("a UTF-8 path")).expect("a scene");
     fs::remove_dir_all(&at).expect("temporary files can be removed");
     let noon = at.join("skies/noon.hdr").to_str().expect("a UTF-8 path").to_owned();
     assert_eq!(loaded.view.sky, Sky::Map(crate::scene::SkyMap::new(noon)), "the map lies beside it");
-    let [a, b] = loaded.tree_kinds.as_slice() else { panic!("two kinds: {:?}", loaded.tree_kinds) };
+    let [a, b, c] = loaded.tree_kinds.as_slice() else { panic!("three kinds: {:?}", loaded.tree_kinds) };
+    let hull = at.join("crown.glb").to_str().expect("a UTF-8 path").to_owned();
+    assert_eq!(c.form.clone().file_mut(), Some(&mut hull.clone()), "a hull beside it");
     assert_eq!(a.form, TreeForm::File(at.join("a.glb").to_str().expect("a UTF-8 path").into()), "beside it");
     assert_eq!(b.form, TreeForm::File("/b.glb".into()), "where it says");
     let found: Vec<_> = loaded.species.into_iter().map(|species| [species.tables, species.leaves]).collect();

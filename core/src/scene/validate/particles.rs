@@ -9,9 +9,9 @@ use crate::SceneError;
 use crate::motion::AIR_DENSITY;
 use crate::scene::limits::{self, Limit};
 use crate::scene::{
-    Air, Bounds, Direction, Look, LookKind, MAX_BLOBS, MAX_CURVE_POINTS, MAX_FORCES, MAX_HISTORY_SAMPLES, MAX_LIGHTS,
-    MAX_PARTICLES, MAX_POPULATIONS, Meets, ObjectFriction, ParticleRelease, ParticleShape, Particles,
-    STANDARD_GRAVITY_M_S2, Scene, Spread, VISCOSITY_PA_S,
+    Air, Bounds, Direction, Look, LookKind, MAX_BLOBS, MAX_CURVE_POINTS, MAX_FORCES, MAX_HISTORY_SAMPLES,
+    MAX_LIGHTS, MAX_PARTICLES, MAX_POPULATIONS, Meets, ObjectFriction, ParticleRelease, ParticleShape,
+    Particles, STANDARD_GRAVITY_M_S2, Scene, Spread, VISCOSITY_PA_S,
 };
 
 /// Standard deviations of the number of particles alive for which there are slots, where they are born at random.

@@ -65,7 +65,8 @@ impl Scene {
         Ok(())
     }
 
-    /// Grammars can be read, and the trees that grow by them have no more segments together than a forest may.
+    /// Grammars can be read, and the trees that grow by them have no more segments together than a forest may; trees of files and trees
+    /// that grow towards light are counted when they are there.
     fn check_growth(&self, check: &Check<'_>) -> Result<(), SceneError> {
         let mut grammars: HashMap<&str, (usize, Grammar)> = HashMap::new();
         for (index, kind) in self.tree_kinds.iter().enumerate() {
@@ -82,6 +83,8 @@ impl Scene {
                     })?;
                     grammars.insert(&kind.name, (index, grammar));
                 }
+                TreeForm::ParticleFlow(flow) => flow.check(&at.inside("form"))?,
+                TreeForm::SpaceColonization(growth) => growth.check(&at.inside("form"))?,
             }
         }
         let own = |tree: &Tree| {

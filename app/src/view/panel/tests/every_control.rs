@@ -182,8 +182,8 @@ fn every_control_does_something() {
     let scenes: [(Scene, &[Group]); 4] = [
         (full(), &Group::ALL),
         (other(), &others),
-        (third(), &[Group::Species, Group::Objects, Group::Particles, Group::Lens]),
-        (winding(), &[Group::Species]),
+        (third(), &[Group::Species, Group::TreeKinds, Group::Objects, Group::Particles, Group::Lens]),
+        (winding(), &[Group::Species, Group::TreeKinds]),
     ];
     let all: Vec<Control> = scenes.iter().flat_map(move_everything).collect();
     assert!(all.len() > 300, "only {} controls were found", all.len());

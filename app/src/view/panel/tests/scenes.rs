@@ -6,11 +6,12 @@ use glam::Vec3;
 use windfall_core::Scene;
 use windfall_core::motion::Primitive;
 use windfall_core::scene::{
-    Aerodynamics, Air, Bounds, CameraKey, Direction, Exposure, FlightModel, Focus, Force, ForceKind, History,
-    Jet, JetKey, Litter, Look, LookKind, MeanSpeed, Meets, Object, ObjectFriction, ObjectKey, ObjectMotion,
-    ObjectShape, ParticleRelease, ParticleShape, Particles, Planform, Plume, PlumeKey, Profile, Release, Ribbon,
-    RotationModel, Share, Sky, SkyMap, SourceShape, Spread, SwirlProfile, Terrain, ToneMap, Tree, TreeForm,
-    TreeKind, Vortex, VortexProfile, Walker, Water,
+    Aerodynamics, Air, Bounds, CameraKey, CrownHull, Direction, Exposure, FlightModel, Focus, Force,
+    ForceKind, History, Jet, JetKey, Litter, Look, LookKind, MeanSpeed, Meets, Object, ObjectFriction,
+    ObjectKey, ObjectMotion, ObjectShape, ParticleFlow, ParticleRelease, ParticleShape, Particles, Planform,
+    Plume, PlumeKey, Profile, Release, Ribbon, RotationModel, Share, Sky, SkyMap, SourceShape,
+    SpaceColonization, Spread, SwirlProfile, Terrain, ToneMap, Tree, TreeForm, TreeKind, Vortex,
+    VortexProfile, Walker, Water,
 };
 
 /// A park with one of everything that may be added to a scene.
@@ -103,6 +104,9 @@ pub(super) fn third() -> Scene {
     let key = |time_s, x: f32| ObjectKey { time_s, moved_m: Vec3::X * x, turned_deg: 0.0 };
     let motion = ObjectMotion::Path(vec![key(0.0, 0.0), key(2.0, 1.0)]);
     scene.objects = vec![Object { shape, motion, ..Object::default() }];
+    let hull = CrownHull::Mesh { file: "crown.glb".into(), scale: 1.0 };
+    let form = TreeForm::SpaceColonization(SpaceColonization { hull, ..SpaceColonization::default() });
+    scene.tree_kinds = vec![TreeKind { form, ..TreeKind::default() }];
     scene.view.lens.tone_map = ToneMap::Linear { gamma: 2.0 };
     let mut one = population("third", Air::Quadratic { drag: 0.5 }, "turn");
     one.from = ParticleShape::Ring { center_m: Vec3::Y, radius_m: 1.0, axis: Vec3::Y };
@@ -122,9 +126,11 @@ pub(super) fn third() -> Scene {
     scene
 }
 
-/// Leaves on cone spirals.
+/// Leaves on cone spirals, and a kind of trees that grows into a profile.
 pub(super) fn winding() -> Scene {
     let mut scene = Scene::default();
+    let form = TreeForm::ParticleFlow(ParticleFlow::default());
+    scene.tree_kinds = vec![TreeKind { form, ..TreeKind::default() }];
     scene.species[0].start = Primitive::ConeSpiral;
     scene.species[0].motion.cone_radius_m = Some(1.0);
     scene

@@ -310,6 +310,62 @@ prop_compose! {
     }
 }
 
+fn crown_hull() -> impl Strategy<Value = CrownHull> {
+    let rings = (0.0f32..0.4, vec(within(limits::HULL_RADIUS_M), 1..5), 0.6f32..=1.0);
+    prop_oneof![
+        (within(limits::TREE_HEIGHT_M), rings, within(limits::BULGES)).prop_map(
+            |(height_m, (low, between, high), bulges)| {
+                let steps = between.len() as f32 + 1.0;
+                let mut radii = vec![(low, 0.0)];
+                radii.extend(
+                    (1u8..).zip(between).map(|(at, radius_m)| {
+                        (low + (high - low) * f32::from(at) / steps, radius_m.max(0.01))
+                    }),
+                );
+                radii.push((high, 0.0));
+                CrownHull::Profile { height_m, radii, bulges }
+            }
+        ),
+        ("[^\\p{C}]{1,20}", within(limits::MESH_SCALE))
+            .prop_map(|(file, scale)| CrownHull::Mesh { file, scale }),
+    ]
+}
+
+prop_compose! {
+    fn crown_light()(
+        nodes in limits::LIGHT_NODES.low..=limits::LIGHT_NODES.high,
+        (extinction_per_m, direct) in (within(limits::EXTINCTION_PER_M), within(limits::LIGHT_SHARE)),
+        (azimuth_deg, elevation_deg) in (within(limits::AZIMUTH_DEG), within(limits::ELEVATION_DEG)),
+    ) -> CrownLight {
+        CrownLight { nodes, extinction_per_m, direct, sun: Sun { azimuth_deg, elevation_deg } }
+    }
+}
+
+prop_compose! {
+    fn particle_flow()(
+        (hull, shade) in (crown_hull(), crown_light()),
+        particles in limits::CROWN_PARTICLES.low..=limits::CROWN_PARTICLES.high,
+        (to_root, to_particle) in (within(limits::TO_ROOT), within(limits::TO_PARTICLE)),
+        (step_m, light) in (within(limits::GROWTH_STEP_M), within(limits::LIGHT_SHARE)),
+        (trunk, girth) in (within(limits::TRUNK), within(limits::GIRTH)),
+    ) -> ParticleFlow {
+        ParticleFlow { hull, particles, to_root, to_particle, step_m, light, trunk, girth, shade }
+    }
+}
+
+prop_compose! {
+    fn space_colonization()(
+        (hull, shade) in (crown_hull(), crown_light()),
+        points in limits::CROWN_PARTICLES.low..=limits::CROWN_PARTICLES.high,
+        // No step is longer than the distance at which points go, which is less than that of influence.
+        (influence_m, kill_m, step_m) in (10.01f32..20.0, 1.0f32..=10.0, within(limits::GROWTH_STEP_M)),
+        light in within(limits::LIGHT_SHARE),
+        (trunk, girth) in (within(limits::TRUNK), within(limits::GIRTH)),
+    ) -> SpaceColonization {
+        SpaceColonization { hull, points, influence_m, kill_m, step_m, light, trunk, girth, shade }
+    }
+}
+
 prop_compose! {
     /// Every name is made unique, and the species one of the scene's, later.
     fn tree_kind()(
@@ -317,6 +373,8 @@ prop_compose! {
         form in prop_oneof![
             select(TreePreset::ALL.to_vec()).prop_map(TreeForm::Preset),
             "[^\\p{C}]{1,20}".prop_map(TreeForm::File),
+            particle_flow().prop_map(TreeForm::ParticleFlow),
+            space_colonization().prop_map(TreeForm::SpaceColonization),
             (1u32..20, "[^\\p{Cc}]{0,20}").prop_map(|(steps, remark)| {
                 TreeForm::Grammar(format!("# {remark}\niterations = {steps};\naxiom A; A -> F [ +F L ] A;"))
             }),
