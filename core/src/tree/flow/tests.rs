@@ -222,6 +222,13 @@ fn a_mesh_is_a_hull() {
     assert!((skeleton.height_m() - 9.0).abs() < 1e-3, "as high as the mesh: {}", skeleton.height_m());
     let low_m = skeleton.attachments.iter().map(|leaf| leaf.at_m.y).fold(f32::INFINITY, f32::min);
     assert!(low_m > 1.8, "leaves in the hull, which begins at 2 m: {low_m}");
+    // A cone from 5 m up to 9 m, whose sides are 2.17 m to 2.5 m away at its base.
+    let beyond_m = skeleton.attachments.iter().map(|leaf| {
+        let room_m = 2.5 * ((9.0 - leaf.at_m.y) / 4.0).min(1.0);
+        glam::Vec2::new(leaf.at_m.x, leaf.at_m.z).length() - room_m
+    });
+    let beyond_m = beyond_m.fold(f32::NEG_INFINITY, f32::max);
+    assert!((-0.4..0.4).contains(&beyond_m), "as far as its sides: {beyond_m} m beyond");
 }
 
 #[test]
