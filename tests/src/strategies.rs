@@ -509,7 +509,7 @@ pub fn particle_scene(seed: u64, speed_m_s: f32, dt_s: f32) -> Scene {
     let rows = [
         Particles {
             count: 1500,
-            from: ParticleShape::Disc { center_m: high, radius_m: 1.0, axis },
+            from: ParticleShape::Feet { center_m: high, radius_m: 1.0, feet: 7 },
             direction: cone(40.0),
             release: ParticleRelease::Poisson { per_s: 400.0, from_s: -1.0 },
             speed_m_s: Spread::Normal(4.0, 1.0),
@@ -525,7 +525,7 @@ pub fn particle_scene(seed: u64, speed_m_s: f32, dt_s: f32) -> Scene {
             count: 900,
             from: ParticleShape::Box { center_m: high, half_extent_m: Vec3::new(4.0, 0.5, 4.0) },
             release: rate(300.0, -3.0),
-            life_s: Some(Spread::Constant(2.5)),
+            life_s: Some(Spread::Cubic(1.5, 1.0)),
             air: Air::Settling { m_s: Spread::Uniform(5.0, 1.0) },
             meets: Meets::Die,
             ..Particles::default()

@@ -119,7 +119,7 @@ limits! {
     PARTICLE_COUNT: u32 = 1, super::MAX_PARTICLES, "", count;
     PARTICLE_AT_M: f32 = -4096.0, 4096.0, "m", tip_m base_m from_m to_m;
     HALF_ANGLE_DEG: f32 = 0.0, 180.0, "degrees", half_angle_deg;
-    SPREAD: f32 = -1000000.0, 1000000.0, "", Constant Uniform Normal;
+    SPREAD: f32 = -1000000.0, 1000000.0, "", Constant Uniform Normal Cubic;
     PARTICLE_DENSITY_KG_M3: f32 = 0.01, 25000.0, "kg/m³", density_kg_m3;
     PARTICLE_DRAG: f32 = 0.01, 10.0, "", drag;
     BELOW: f32 = -4096.0, 4096.0, "m", Below;

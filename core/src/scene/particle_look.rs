@@ -108,7 +108,7 @@ impl Default for Look {
 pub struct LookSample {
     /// Reflectance, or colour of the light, linear, each component 0 to 1.
     pub color: Vec3,
-    /// Temperature of a black body in kelvin.
+    /// Temperature of a black body in kelvin, 500 to 3000.
     pub temperature_k: Option<f32>,
     /// Opacity, 0 to 1.
     pub opacity: f32,

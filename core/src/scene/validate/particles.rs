@@ -381,6 +381,66 @@ mod tests {
     }
 
     #[test]
+    fn flames_stand_on_feet_and_their_points_follow_one_another() {
+        let burning = |change: &dyn Fn(&mut Particles)| {
+            refused(|one| {
+                one.look = Look { kind: LookKind::Flame { samples: 8, shell: 1.0 }, ..Look::default() };
+                one.from = ParticleShape::Feet { center_m: Vec3::Y, radius_m: 0.2, feet: 8 };
+                one.life_s = Some(Spread::Cubic(0.5, 1.0));
+                change(one);
+            })
+        };
+        assert_eq!(burning(&|_| {}), "", "as they are");
+        let bare = burning(&|one| one.from = Particles::default().from);
+        assert!(bare.contains("look.kind is Flame") && bare.contains("from is Feet"), "{bare}");
+        let at_once = burning(&|one| one.release = ParticleRelease::Burst { at_s: 0.0 });
+        assert!(at_once.contains("release") && at_once.contains("Rate"), "{at_once}");
+        let odd = burning(&|one| one.count = 2001);
+        assert!(odd.contains("count is 2001") && odd.contains("a multiple of its 8 feet"), "{odd}");
+        let none =
+            burning(&|one| one.from = ParticleShape::Feet { center_m: Vec3::Y, radius_m: 0.2, feet: 0 });
+        assert!(none.contains("from.feet is 0") && none.contains("1 to 256"), "{none}");
+        for (samples, shell, name) in
+            [(0, 1.0, "samples"), (65, 1.0, "samples"), (8, 0.01, "shell"), (8, 21.0, "shell")]
+        {
+            let line = burning(&|one| one.look.kind = LookKind::Flame { samples, shell });
+            assert!(line.contains(&format!("look.kind.{name}")), "{line}");
+        }
+        let backward = burning(&|one| one.life_s = Some(Spread::Cubic(0.5, -0.6)));
+        assert!(backward.contains("life_s"), "{backward}");
+    }
+
+    #[test]
+    fn only_what_shines_is_hot_and_lights_the_scene() {
+        let shining = |change: &dyn Fn(&mut Look)| {
+            refused(|one| {
+                one.look = Look { kind: LookKind::Glow, lights: true, ..Look::default() };
+                one.look.temperature_k = vec![(0.0, 1500.0), (1.0, 900.0)];
+                change(&mut one.look);
+            })
+        };
+        assert_eq!(shining(&|_| {}), "", "as it is");
+        let ball = shining(&|look| look.kind = LookKind::Dot);
+        assert!(ball.contains("look.temperature_k is set with kind Dot"), "{ball}");
+        let lamp = shining(&|look| (look.kind, look.temperature_k) = (LookKind::Splat, Vec::new()));
+        assert!(lamp.contains("look.lights is set with kind Splat"), "{lamp}");
+        let cold = shining(&|look| look.temperature_k[1].1 = 300.0);
+        assert!(cold.contains("temperature_k[1]") && cold.contains("500 to 3000 K"), "{cold}");
+        let unordered = shining(&|look| look.temperature_k[1].0 = 0.0);
+        assert!(unordered.contains("temperature_k[1]"), "{unordered}");
+        let look = Look { kind: LookKind::Glow, lights: true, ..Look::default() };
+        let lamp = |number: usize| Particles {
+            name: number.to_string(),
+            look: look.clone(),
+            ..Particles::default()
+        };
+        let lit = |count: usize| Scene { particles: (0..count).map(lamp).collect(), ..Scene::default() };
+        assert!(lit(MAX_LIGHTS).validate("a.ron").is_ok(), "as many as may");
+        let line = lit(MAX_LIGHTS + 1).validate("a.ron").expect_err("one more").to_string();
+        assert!(line.contains("5 populations that light the scene") && line.contains("at most 4"), "{line}");
+    }
+
+    #[test]
     fn ways_have_bounds() {
         let history = |samples, every_steps| Some(History { samples, every_steps });
         let refused = |change: &dyn Fn(&mut Particles)| {
