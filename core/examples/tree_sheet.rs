@@ -80,10 +80,8 @@ fn kind(name: &str) -> Result<TreeKind, Box<dyn std::error::Error>> {
 fn leaf_m2(kind: &TreeKind, tree: &Tree, skeleton: &Skeleton) -> Result<f32, Box<dyn std::error::Error>> {
     let text = match &kind.form {
         TreeForm::Preset(preset) => preset.text(),
-        TreeForm::Grammar(text) | TreeForm::File(text) => text,
-        TreeForm::ParticleFlow(_) | TreeForm::SpaceColonization(_) => {
-            return Err("trees that grow towards light have no grammar".into());
-        }
+        TreeForm::Grammar(text) => text,
+        _ => unreachable!("kinds are presets or grammars here"),
     };
     let leaves = skeleton.attachments.iter().filter(|one| one.kind == AttachmentKind::Leaf).count();
     let each = full_leaf_count(kind, tree, SEED)? / leaves.max(1) as f64;

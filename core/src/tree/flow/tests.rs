@@ -121,7 +121,6 @@ fn births_are_in_proportion_to_the_light() {
     }
     let share = sums[1] / (sums[0] + sums[1]);
     let sigma = libm::sqrt(4000.0 * share * (1.0 - share));
-    println!("{by_wall} of 4000 by the wall, {:.1} expected, sigma {sigma:.1}", 4000.0 * share);
     assert!(share < 0.4, "the wall takes light: {share}");
     assert!((by_wall - 4000.0 * share).abs() < 3.0 * sigma, "{by_wall} of {} at {sigma}", 4000.0 * share);
 }
@@ -199,7 +198,7 @@ fn bulges_are_within_their_share_and_another_for_every_tree() {
         let (sin, cos) = libm::sincos(f64::from(degrees).to_radians());
         let holds =
             |step: &u32| hull.holds(DVec3::new(cos, 0.0, sin) * (0.01 * f64::from(*step)) + DVec3::Y * 6.0);
-        0.01 * f64::from((0..600).take_while(holds).count() as u32)
+        0.01 * f64::from((0..600).find(|step| !holds(step)).unwrap_or(600))
     };
     let rims = hulls.map(|hull| (0..72).map(|step| radius_m(&hull, 5 * step)).collect::<Vec<f64>>());
     let all = || rims.iter().flatten().copied();

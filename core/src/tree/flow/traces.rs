@@ -215,9 +215,9 @@ impl Traces {
         let last = course.len() - 1;
         let mut kept = vec![0];
         let mut since_m = 0.0;
-        for at in 1..last {
+        for (at, &node) in course.iter().enumerate().take(last).skip(1) {
             since_m += place(at - 1).distance(place(at));
-            let spacing_m = spacing_m(course[at]);
+            let spacing_m = spacing_m(node);
             let (before, after) = (place(at) - place(kept[kept.len() - 1]), place(at + 1) - place(at));
             let is_bent = before.dot(after) < BENT * before.length() * after.length();
             if since_m >= spacing_m || (is_bent && since_m >= 0.5 * spacing_m) {
