@@ -5,7 +5,6 @@
 //!
 //! Both backends get these same bytes, so nothing that depends on time or scene alone is computed twice.
 
-use crate::device::wind::plume::PLUME_BENDS;
 use crate::flight::block::BodyBlock;
 use crate::layout::{Float4, Uint4};
 use crate::scene::{
@@ -718,6 +717,8 @@ crate::shared_struct! {
 crate::shared_constants! {
     /// Vectors of a source's share thresholds: one word for each species.
     pub const SHARE_VECTORS: u32 = 32 / 4;
+    /// Heights at which the lean of a plume bends.
+    pub const PLUME_BENDS: u32 = 8;
     /// Start of the step, among the moments of a step.
     pub const MOMENT_NOW: u32 = 0;
     /// Middle of the sampling interval of falling leaves, which begins with the step.

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Compiles plumes at a moment.
 
-use crate::blocks::PlumeBlock;
+use crate::blocks::{PLUME_BENDS, PlumeBlock};
 use crate::convert::single;
-use crate::device::wind::plume::{PLUME_BENDS, PLUME_FLICKER, PLUME_LOWEST_BEND_M, PlumeRise, plume_rise};
+use crate::device::wind::plume::{PLUME_FLICKER, PLUME_LOWEST_BEND_M, PlumeRise, plume_rise};
 use crate::device::wind::profile::surface_factors;
 use crate::layout::Float4;
 use crate::scene::{Plume, Scene};

@@ -47,7 +47,7 @@ fn vertex(@builtin(vertex_index) corner: u32, @builtin(instance_index) instance:
     let along = way / max(way_m, 1.0e-6);
     let side = normalize(cross(along, select(vec3(1.0, 0.0, 0.0), vec3(0.0, 0.0, 1.0), abs(along.x) > 0.7)));
     let front = cross(side, along);
-    // Where the flame is thin its lights still touch each other.
+    // Lights touch each other even in a thin flame.
     let true_m = max(LIGHT_SIZE * radius_m, way_m / f32(flame.samples));
     let center = spline_place(stretch, u) + max(radius_m - 0.5 * true_m, 0.0) * off * (cos(turn) * side + sin(turn) * front);
 

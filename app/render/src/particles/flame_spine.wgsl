@@ -22,7 +22,7 @@ struct FlamePoint {
     position: vec3<f32>,
     // Age as a share of the life.
     share: f32,
-    // How much of it there is: 1, less before its death, 0 after it.
+    // Share of it that is there: 1, less before its death, 0 after it.
     presence: f32,
     // True if it has been born.
     is_born: bool,
@@ -37,7 +37,7 @@ struct FlameStretch {
     d: vec3<f32>,
     // Ages at its ends.
     shares: vec2<f32>,
-    // How wide the flame is at its ends, as a share.
+    // Width of the flame at its ends, as a share.
     widths: vec2<f32>,
     is_there: bool,
 }
@@ -121,7 +121,7 @@ fn spline_place(stretch: FlameStretch, u: f32) -> vec3<f32> {
     return wide * (1.0 / 6.0);
 }
 
-// How it goes on from there.
+// Direction and length of the spline from there.
 fn spline_way(stretch: FlameStretch, u: f32) -> vec3<f32> {
     let v = 1.0 - u;
     let first = stretch.b - stretch.a;

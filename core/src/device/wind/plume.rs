@@ -17,14 +17,12 @@
 use crate::arith::lane::{Mask, Real};
 use crate::arith::math::{exponential, inverse_cube_root, inverse_sqrt, reciprocal};
 use crate::arith::vector::{Vec3, vec3_select};
-use crate::blocks::PlumeBlock;
+use crate::blocks::{PLUME_BENDS, PlumeBlock};
 use crate::context::Context;
 
 crate::shared_constants! {
     /// Growth of a plume's width b per metre.
     pub const PLUME_SPREAD: f32 = 0.12;
-    /// Heights at which the lean of a plume bends.
-    pub const PLUME_BENDS: u32 = 8;
     /// Lowest of these heights in m but for the base's; each other one is twice the one before.
     pub const PLUME_LOWEST_BEND_M: f32 = 0.5;
     /// Speed on the axis in the steady flame over that of the fire, per root of the height.
