@@ -76,6 +76,7 @@ pub(crate) fn structs() -> String {
         blocks::VortexNode::declaration(),
         blocks::VortexBlock::declaration(),
         blocks::JetBlock::declaration(),
+        blocks::PlumeBend::declaration(),
         blocks::PlumeBlock::declaration(),
         blocks::SlipstreamBlock::declaration(),
         blocks::MomentBlock::declaration(),

@@ -614,6 +614,16 @@ crate::shared_struct! {
 }
 
 crate::shared_struct! {
+    /// Height at which the axis of a plume bends.
+    pub struct PlumeBend, padding 8 {
+        /// Height above the base in m.
+        pub from_m: f32,
+        /// Change there of how fast the slope grows with height, in 1/m.
+        pub turned_per_m: f32,
+    }
+}
+
+crate::shared_struct! {
     /// One plume at one step (see [`wind_plume`](crate::device::wind::plume::wind_plume)).
     pub struct PlumeBlock {
         /// Middle of the base in m.
@@ -628,8 +638,8 @@ crate::shared_struct! {
         pub inv_layer: f32,
         /// Slope of the axis at the base: way along the wind per m of height.
         pub base_slope: f32,
-        /// Changes of how fast the slope grows with height, in 1/m, at heights of which each is twice the one before, four to a vector.
-        pub bends_per_m: [Float4; PLUME_BENDS as usize / 4],
+        /// Heights at which the axis bends, from the base on.
+        pub bends: [PlumeBend; PLUME_BENDS as usize],
     }
 }
 

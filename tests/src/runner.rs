@@ -22,13 +22,14 @@ const RECORDS: [(&str, &str); 3] = [
     ("struct Petiole ", include_str!("runner/access_carry.wgsl")),
 ];
 
+/// Binding of shaders/particle/bindings.wgsl of particles that carry forces.
+const CARRIERS_BINDING: &str = "@group(1) @binding(6)";
+
 /// A generated kernel around a device function: [`Words`] in, as many out.
 pub struct FunctionRunner<'a> {
     gpu: &'a Gpu,
     pipeline: wgpu::ComputePipeline,
     context_group: wgpu::BindGroup,
-    /// Particles that carry forces, of functions that read them.
-    carriers_group: Option<wgpu::BindGroup>,
     cases_layout: wgpu::BindGroupLayout,
 }
 
@@ -40,6 +41,8 @@ fn kernel_source(shaders: &Shaders, function: &Function) -> String {
     let head = if module.contains("@group(0)") { module } else { module + &bindings_only(&bindings) };
     let records: String =
         RECORDS.iter().filter(|(known, _)| head.contains(known)).map(|(_, text)| *text).collect();
+    // Carriers are bound beside the tables.
+    let head = head.replace(CARRIERS_BINDING, "@group(0) @binding(3)");
     format!("{head}\n{ACCESS}\n{records}\nfn statements() {{\n{}\n}}\n", statements(function.wgsl))
 }
 
@@ -83,7 +86,8 @@ impl<'a> FunctionRunner<'a> {
         let uniform = wgpu::BufferBindingType::Uniform;
         let storage = |read_only| wgpu::BufferBindingType::Storage { read_only };
         // Of the bindings of a kernel those that do not depend on a leaf.
-        let entries = [entry(0, uniform), entry(1, uniform), entry(2, storage(true))];
+        let entries =
+            [entry(0, uniform), entry(1, uniform), entry(2, storage(true)), entry(3, storage(true))];
         let layout = |entries: &[wgpu::BindGroupLayoutEntry]| {
             device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: None, entries })
         };
@@ -96,22 +100,14 @@ impl<'a> FunctionRunner<'a> {
             upload(gpu, bytemuck::bytes_of(world.compiled.block()), wgpu::BufferUsages::UNIFORM),
             upload(gpu, bytemuck::bytes_of(&step), wgpu::BufferUsages::UNIFORM),
             upload(gpu, &[tables, bed].concat(), wgpu::BufferUsages::STORAGE),
+            upload(gpu, bytemuck::cast_slice(&carriers_of(world)), wgpu::BufferUsages::STORAGE),
         ];
         let context_group = bind(gpu, &context_layout, &buffers);
         let source = kernel_source(shaders, function);
-        // The binding of shaders/particle/bindings.wgsl for them.
-        let carriers_layout =
-            source.contains("particle_carriers[").then(|| layout(&[entry(6, storage(true))]));
-        let carriers = carriers_layout.as_ref().map(|layout| {
-            let rows = carriers_of(world);
-            let buffer = upload(gpu, bytemuck::cast_slice(&rows), wgpu::BufferUsages::STORAGE);
-            let entry = wgpu::BindGroupEntry { binding: 6, resource: buffer.as_entire_binding() };
-            device.create_bind_group(&wgpu::BindGroupDescriptor { label: None, layout, entries: &[entry] })
-        });
         let module = gpu.compute_module(&source, "evaluate", contract)?;
         let pipeline_layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
             label: None,
-            bind_group_layouts: &[Some(&context_layout), carriers_layout.as_ref(), Some(&cases_layout)],
+            bind_group_layouts: &[Some(&context_layout), None, Some(&cases_layout)],
             immediate_size: 0,
         });
         let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
@@ -123,7 +119,7 @@ impl<'a> FunctionRunner<'a> {
             cache: None,
         });
         gpu.check()?;
-        Ok(Self { gpu, pipeline, context_group, carriers_group: carriers, cases_layout })
+        Ok(Self { gpu, pipeline, context_group, cases_layout })
     }
 
     /// The function's results for these cases.
@@ -142,9 +138,6 @@ impl<'a> FunctionRunner<'a> {
             let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
             pass.set_pipeline(&self.pipeline);
             pass.set_bind_group(0, &self.context_group, &[]);
-            if let Some(carriers) = &self.carriers_group {
-                pass.set_bind_group(1, carriers, &[]);
-            }
             pass.set_bind_group(2, &group, &[]);
             let count = u32::try_from(cases.len()).expect("a few thousand cases");
             pass.dispatch_workgroups(count.div_ceil(WORKGROUP_SIZE), 1, 1);

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 
 use naga::{AddressSpace, TypeInner};
 use windfall_core::blocks::{
-    BirthBlock, ConesBlock, JetBlock, LitterBlock, MomentBlock, MoverBlock, NestBlock, PlumeBlock,
+    BirthBlock, ConesBlock, JetBlock, LitterBlock, MomentBlock, MoverBlock, NestBlock, PlumeBend, PlumeBlock,
     PopulationBlock, ResponseBlock, SceneBlock, ShelterBlock, SolidsBlock, SourceBlock, SpeciesBlock,
     SpreadBlock, StepBlock, SwayBlock, VortexBlock, VortexNode, WindBlock,
 };
@@ -52,6 +52,7 @@ fn same_layout<T: WgslStruct>(module: &naga::Module) {
     assert_eq!(rust, wgsl, "fields and offsets of {name}");
 }
 
+/// No shader text is generated from scenes, and layouts are stated once (bevy_hanabi#440, #478, #479: faults of generated code).
 #[test]
 fn every_module_is_valid_and_every_struct_has_one_layout() {
     let shaders = Shaders::default();
@@ -71,6 +72,7 @@ fn every_module_is_valid_and_every_struct_has_one_layout() {
     same_layout::<VortexBlock>(&module);
     same_layout::<VortexNode>(&module);
     same_layout::<JetBlock>(&module);
+    same_layout::<PlumeBend>(&module);
     same_layout::<PlumeBlock>(&module);
     same_layout::<MomentBlock>(&module);
     same_layout::<StepBlock>(&module);

@@ -52,6 +52,8 @@ fn totals(world: &World) -> [u32; 5] {
     totals
 }
 
+/// The CPU backend moves the same particles, contacts included, with the same bits (bevy_hanabi#41, godot-proposals#3865: no such fallback, or
+/// one without collisions).
 #[test]
 fn a_thousand_steps_of_particles_are_equal_to_the_bit() {
     let world = world();

@@ -2,17 +2,19 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Compiles plumes at a moment.
 
-use crate::blocks::{PLUME_BENDS, PlumeBlock};
+use crate::blocks::PlumeBlock;
 use crate::convert::single;
-use crate::device::wind::plume::{PLUME_FLICKER, PLUME_LOWEST_BEND_M, PlumeRise, plume_rise};
+use crate::device::wind::plume::{PLUME_FLICKER, PlumeRise, plume_rise};
 use crate::device::wind::profile::surface_factors;
-use crate::layout::Float4;
 use crate::scene::{Plume, Scene};
 
 /// Height of the middle of the steady flame over Q^0.4 in m / kW^0.4: below it the axis leans as there.
 const FLAME_MIDDLE: f64 = 0.04;
 /// Height of the layer that the ground slows, in radii of the fire.
 const LAYER: f64 = 0.1;
+
+/// Lowest height in m at which the lean is followed, but for the base; each other one is twice the one before.
+const LOWEST_BEND_M: f64 = 0.5;
 
 /// Speed in m/s that a fire of so many kW gives its plume, `Q^0.2`.
 fn speed_m_s(power_kw: f64) -> f64 {
@@ -52,19 +54,15 @@ pub(super) fn plume_block(scene: &Scene, plume: &Plume, time_s: f64, ground_m: f
         wind.speed.metres_per_second() * mean / (f64::from(speed) * fire_m_s)
     };
     block.base_slope = single(slope(0.0));
-    let mut bends = [0.0; PLUME_BENDS as usize];
     let (mut low_m, mut bend_before) = (0.0, 0.0);
     // The last one ends the bending: above, the axis is straight.
-    let (last, others) = bends.split_last_mut().unwrap_or_else(|| unreachable!("a plume has bends"));
+    let (last, others) = block.bends.split_last_mut().unwrap_or_else(|| unreachable!("a plume has bends"));
     for bend in others {
-        let high_m = f64::max(2.0 * low_m, PLUME_LOWEST_BEND_M.into());
+        let high_m = f64::max(2.0 * low_m, LOWEST_BEND_M);
         let turned_per_m = (slope(high_m) - slope(low_m)) / (high_m - low_m);
-        *bend = turned_per_m - bend_before;
+        (bend.from_m, bend.turned_per_m) = (single(low_m), single(turned_per_m - bend_before));
         (low_m, bend_before) = (high_m, turned_per_m);
     }
-    *last = -bend_before;
-    for (rows, four) in block.bends_per_m.iter_mut().zip(bends.chunks_exact(4)) {
-        *rows = Float4(std::array::from_fn(|lane| single(four[lane])));
-    }
+    (last.from_m, last.turned_per_m) = (single(low_m), single(-bend_before));
     block
 }

@@ -89,6 +89,7 @@ fn what_is_near_hides_what_is_far_whatever_their_slots() {
     }
 }
 
+/// One list over all populations, whose `layer` steers what is drawn first (O3DEPopcornFXPlugin#43, effekseer#964).
 #[test]
 fn two_layers_of_paint_mix_by_their_opacities_in_either_order() {
     // Porter and Duff's "over": a1 C1 + (1 - a1) a2 C2 + (1 - a1)(1 - a2) C3, and the layer decides which is first.

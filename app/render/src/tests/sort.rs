@@ -12,6 +12,8 @@ fn word(number: u32) -> u32 {
     bits ^ bits >> 13
 }
 
+/// Any number of pairs, ties in the order of their slots, in buffers as large as the scene has slots: elsewhere sorts broke above some number or
+/// flickered (godot#67717, bevy_hanabi#183), and buffers overran (bevy_hanabi#493, #537).
 #[test]
 fn pairs_are_sorted_and_equal_keys_stay_in_order() {
     let gpu = gpu();

@@ -3,7 +3,7 @@
 // twin: core/src/device/wind/plume.rs
 // Hot air that rises above a fire and draws in the air around it.
 #import arith/math
-#import prelude
+#import bindings
 
 struct PlumeRise {
     speed: f32,
@@ -49,13 +49,12 @@ fn wind_plume(moment: u32, plume: u32, place: vec3<f32>, level: f32) -> vec3<f32
     let height = max(from_base.y, 0.0);
     var slope = step_block.moments[moment].plumes[plume].base_slope;
     var lean = height * slope;
-    var bend_m = 0.0;
     for (var number = 0u; number < PLUME_BENDS; number++) {
-        let past = max(height - bend_m, 0.0);
-        let turned = past * step_block.moments[moment].plumes[plume].bends_per_m[number / 4u][number % 4u];
+        let bend = step_block.moments[moment].plumes[plume].bends[number];
+        let past = max(height - bend.from_m, 0.0);
+        let turned = past * bend.turned_per_m;
         slope = slope + turned;
         lean = lean + (turned * past) * 0.5;
-        bend_m = max(bend_m * 2.0, PLUME_LOWEST_BEND_M);
     }
     let along = (from_base.x * direction_x + from_base.z * direction_z) - lean;
     let across = from_base.z * direction_x - from_base.x * direction_z;

@@ -17,14 +17,12 @@
 use crate::arith::lane::{Mask, Real};
 use crate::arith::math::{exponential, inverse_cube_root, inverse_sqrt, reciprocal};
 use crate::arith::vector::{Vec3, vec3_select};
-use crate::blocks::{PLUME_BENDS, PlumeBlock};
+use crate::blocks::PlumeBlock;
 use crate::context::Context;
 
 crate::shared_constants! {
     /// Growth of a plume's width b per metre.
     pub const PLUME_SPREAD: f32 = 0.12;
-    /// Lowest of these heights in m but for the base's; each other one is twice the one before.
-    pub const PLUME_LOWEST_BEND_M: f32 = 0.5;
     /// Speed on the axis in the steady flame over that of the fire, per root of the height.
     pub const PLUME_FLAME: f32 = 6.84;
     /// Speed on the axis where the flame flickers over that of the fire.
@@ -96,13 +94,11 @@ pub fn wind_plume<R: Real>(cx: &Context<'_>, plume: &PlumeBlock, place: Vec3<R>,
     let height = from_base.y.max(none);
     let mut slope = level.all(plume.base_slope);
     let mut lean = height * plume.base_slope;
-    let mut bend_m = 0.0;
-    for number in 0..PLUME_BENDS {
-        let past = (height - bend_m).max(none);
-        let turned = past * plume.bends_per_m[number as usize / 4].0[number as usize % 4];
+    for bend in &plume.bends {
+        let past = (height - bend.from_m).max(none);
+        let turned = past * bend.turned_per_m;
         slope = slope + turned;
         lean = lean + (turned * past) * 0.5;
-        bend_m = (bend_m * 2.0).max(PLUME_LOWEST_BEND_M);
     }
     let along = (from_base.x * wind.direction_x + from_base.z * wind.direction_z) - lean;
     let across = from_base.z * wind.direction_x - from_base.x * wind.direction_z;
