@@ -615,11 +615,13 @@ crate::shared_struct! {
 
 crate::shared_struct! {
     /// Height at which the axis of a plume bends.
-    pub struct PlumeBend, padding 8 {
+    pub struct PlumeBend {
         /// Height above the base in m.
         pub from_m: f32,
         /// Change there of how fast the slope grows with height, in 1/m.
         pub turned_per_m: f32,
+        /// Zero.
+        pub unused: [f32; 2],
     }
 }
 
