@@ -216,6 +216,5 @@ fn spread_block(spread: Spread, units: f64) -> SpreadBlock {
         half_width: scaled(spread.half_width()),
         deviation: scaled(spread.deviation()),
         cubic_width: scaled(spread.cubic_width()),
-        ..bytemuck::Zeroable::zeroed()
     }
 }

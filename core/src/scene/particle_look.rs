@@ -117,7 +117,7 @@ pub struct LookSample {
 }
 
 /// Most populations that light the scene.
-pub const MAX_LIGHTS: usize = 4;
+pub const MAX_LIGHTS: u32 = 4;
 
 impl Look {
     /// Returns true if it shines by itself.

@@ -7,7 +7,7 @@ use windfall_core::{shared_constants, shared_struct};
 
 shared_constants! {
     /// Most lights.
-    pub(crate) const MOST_FIRE_LIGHTS: u32 = MAX_LIGHTS as u32;
+    pub(crate) const MOST_FIRE_LIGHTS: u32 = MAX_LIGHTS;
 }
 
 shared_struct! {
@@ -28,7 +28,7 @@ shared_struct! {
 pub(crate) fn buffer(device: &wgpu::Device) -> wgpu::Buffer {
     device.create_buffer(&wgpu::BufferDescriptor {
         label: Some("fire lights"),
-        size: (size_of::<FireLight>() * MAX_LIGHTS) as u64,
+        size: size_of::<FireLight>() as u64 * u64::from(MAX_LIGHTS),
         usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::STORAGE,
         mapped_at_creation: false,
     })

@@ -18,6 +18,7 @@ const SEEN_NM: [u16; 3] = [380, 800, 2];
 ///
 /// # Source
 /// Planck's law with the constants of CODATA 2018, seen by the CIE 1931 observer.
+#[expect(clippy::cast_possible_truncation, reason = "colours are single precision")]
 pub(crate) fn black_body(temperature_k: f32) -> Vec3 {
     let [first, last, step] = SEEN_NM;
     let xyz: Vec3 = (first..=last)

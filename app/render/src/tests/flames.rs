@@ -115,6 +115,7 @@ fn lights_are_densest_on_the_spline() {
 }
 
 #[test]
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a line of the picture")]
 fn a_flame_is_broken_where_a_point_is_dead_and_its_foot_stays() {
     let mut bench = flame(LookKind::Flame { samples: 64, shell: 1.0 }, false, |_| ());
     let dark = none(&mut bench);

@@ -35,7 +35,7 @@ impl Scene {
             self.check_nest(index, &at)?;
         }
         self.check_forces(check)?;
-        let lights = self.particles.iter().filter(|particles| particles.look.lights).count();
+        let lights: u32 = self.particles.iter().map(|particles| u32::from(particles.look.lights)).sum();
         check.holds(lights <= MAX_LIGHTS, "particles", || {
             (format!("{lights} populations that light the scene"), format!("at most {MAX_LIGHTS} that do"))
         })?;
@@ -429,12 +429,9 @@ mod tests {
         let unordered = shining(&|look| look.temperature_k[1].0 = 0.0);
         assert!(unordered.contains("temperature_k[1]"), "{unordered}");
         let look = Look { kind: LookKind::Glow, lights: true, ..Look::default() };
-        let lamp = |number: usize| Particles {
-            name: number.to_string(),
-            look: look.clone(),
-            ..Particles::default()
-        };
-        let lit = |count: usize| Scene { particles: (0..count).map(lamp).collect(), ..Scene::default() };
+        let lamp =
+            |number: u32| Particles { name: number.to_string(), look: look.clone(), ..Particles::default() };
+        let lit = |count: u32| Scene { particles: (0..count).map(lamp).collect(), ..Scene::default() };
         assert!(lit(MAX_LIGHTS).validate("a.ron").is_ok(), "as many as may");
         let line = lit(MAX_LIGHTS + 1).validate("a.ron").expect_err("one more").to_string();
         assert!(line.contains("5 populations that light the scene") && line.contains("at most 4"), "{line}");
