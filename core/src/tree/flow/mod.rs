@@ -9,6 +9,7 @@ mod births;
 mod cells;
 mod colonize;
 mod error;
+#[cfg_attr(not(feature = "gltf"), expect(dead_code, reason = "meshes come from glTF files"))]
 mod hull;
 #[cfg(feature = "gltf")]
 mod hull_file;
