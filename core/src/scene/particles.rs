@@ -60,12 +60,12 @@ impl Spread {
 
     /// Least number that is drawn.
     pub fn lowest(self) -> f32 {
-        self.base() - self.reach() + self.cubic_width().min(0.0)
+        self.base() - self.reach()
     }
 
     /// Largest number that is drawn.
     pub fn highest(self) -> f32 {
-        self.base() + self.reach() + self.cubic_width().max(0.0)
+        self.base() + self.reach() + self.cubic_width()
     }
 }
 

@@ -9,6 +9,7 @@ mod forces;
 mod lens;
 mod nests;
 mod objects;
+mod particle_look;
 mod particles;
 #[cfg(test)]
 mod tests;

@@ -3,7 +3,8 @@
 //! Checks forces on particles: their numbers, what carries them, and that they act on what feels them.
 
 use super::check::Check;
-use super::particles::{check_axis, check_curve};
+use super::particle_look::check_curve;
+use super::particles::check_axis;
 use crate::SceneError;
 use crate::scene::limits;
 use crate::scene::{
