@@ -165,7 +165,8 @@ fn set_shape(shape: &ParticleShape, block: &mut PopulationBlock) {
         }
         ParticleShape::Feet { center_m, radius_m, feet } => {
             block.feet = feet;
-            (PARTICLE_FEET, center_m.as_dvec3(), across(Vec3::Y, radius_m))
+            let radius_m = f64::from(radius_m);
+            (PARTICLE_FEET, center_m.as_dvec3(), [DVec3::X * radius_m, DVec3::ZERO, DVec3::Z * radius_m])
         }
         ParticleShape::Ring { center_m, radius_m, axis } => {
             (PARTICLE_RING, center_m.as_dvec3(), across(axis, radius_m))

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // Particles and their looks, as list and picture read them.
 
+#import gpu/numbers
 #import particle_records
 #import particles/structs
 
@@ -47,4 +48,18 @@ fn look_kind(look: PopulationLook) -> u32 {
 fn is_there(bits: u32) -> bool {
     let state = particle_state(bits);
     return state == PARTICLE_ALIVE || state == PARTICLE_RESTING;
+}
+
+// A number from 0 to 1 of a particle's own.
+fn own_number(id: u32, population: u32) -> f32 {
+    return unit_from(hash_u32(id ^ hash_u32(population)));
+}
+
+// Share of its light that a particle gives at a moment: blinking ones are dark for most of a period, then flash, swelling and dying.
+fn blink_share(look: PopulationLook, time_s: f32, own: f32) -> f32 {
+    if look.blink_s <= 0.0 {
+        return 1.0;
+    }
+    let phase = fract(time_s / look.blink_s + own);
+    return smoothstep(0.0, 0.12, phase) * (1.0 - smoothstep(0.18, 0.42, phase));
 }

@@ -10,8 +10,6 @@
 
 // Threads of the workgroup.
 const GATHER_THREADS: u32 = 64u;
-// Mean of (1 - r²)² over a disc.
-const MEAN_COVER: f32 = 0.33333333;
 // Mean share of a cylinder's face that is seen from around it.
 const ROUND_SHARE: f32 = 0.78539816;
 // Least radius of what shines, in metres.
@@ -57,11 +55,13 @@ fn shining(population: u32, flame: Flame, look: PopulationLook, slot: u32) -> Sh
         return shining_at(spline_place(stretch, 0.5) - flame.center_m, row.color * (row.opacity * face_m2 * ROUND_SHARE));
     }
     let born_with = traits[slot];
-    let at = row_place(population, age_share(particle_age(motions[slot], drawn.step), born_with.life_size));
+    let age = particle_age(motions[slot], drawn.step);
+    let at = row_place(population, age_share(age, born_with.life_size));
     let row = row_between(rows[at.row], rows[at.row + 1u], at.t);
     let radius_m = 0.5 * look.size_m * row.size * f32(particle_size(born_with.life_size)) / f32(PARTICLE_SIZE_ONE);
     let disc_m2 = 3.14159265 * radius_m * radius_m * MEAN_COVER;
-    return shining_at(place.position - flame.center_m, row.color * (row.opacity * disc_m2));
+    let lit = blink_share(look, f32(age) * drawn.dt_s, own_number(born_with.id, population));
+    return shining_at(place.position - flame.center_m, row.color * (row.opacity * disc_m2 * lit));
 }
 
 @compute @workgroup_size(GATHER_THREADS)

@@ -9,8 +9,6 @@
 
 // Radius of a light over that of the flame.
 const LIGHT_SIZE: f32 = 0.55;
-// Mean of (1 - r²)² over a disc.
-const MEAN_COVER: f32 = 0.33333333;
 // Least radius of a light in pixels.
 const LEAST_PX: f32 = 1.5;
 

@@ -11,11 +11,12 @@
 @group(2) @binding(4) var<storage, read> traits: array<ParticleTraits>;
 @group(2) @binding(5) var<storage, read> populations: array<PopulationLook>;
 @group(2) @binding(6) var<storage, read> rows: array<LookRow>;
+@group(2) @binding(8) var<storage, read> feet: array<vec4<f32>>;
 
 // Steps before its death in which a point fades.
 const FADE_STEPS: f32 = 6.0;
-// Turn from one foot to the next in radians: the golden angle.
-const FOOT_TURN_RAD: f32 = 2.3999632;
+// Mean of (1 - r²)² over a disc: what a soft light gives of its face.
+const MEAN_COVER: f32 = 0.33333333;
 
 // A point of a spline.
 struct FlamePoint {
@@ -42,13 +43,9 @@ struct FlameStretch {
     is_there: bool,
 }
 
-// Place of a foot.
+// Place of the foot of a particle.
 fn foot_place(flame: Flame, id: u32) -> vec3<f32> {
-    let foot = id % flame.feet;
-    let radius = flame.radius_m * sqrt((f32(foot) + 0.5) / f32(flame.feet));
-    let turn = FOOT_TURN_RAD * f32(foot);
-    // Across an axis that points up the first way is +x, the second -z.
-    return flame.center_m + radius * vec3(cos(turn), 0.0, -sin(turn));
+    return feet[flame.first_foot + id % flame.feet].xyz;
 }
 
 // The point of a number, if its slot still holds it.

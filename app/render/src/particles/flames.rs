@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Flames: particles as points of splines, and soft lights around them; and the lights that what shines throws on the scene.
 
+use glam::Vec3;
+use windfall_core::device::particle::birth::foot_point;
+use windfall_core::layout::Float4;
 use windfall_core::scene::{LookKind, ParticleShape, Particles, Scene};
 use windfall_core::shared_struct;
 use windfall_wgpu::ParticleColumns;
@@ -23,14 +26,14 @@ shared_struct! {
     pub(crate) struct Flame {
         /// Middle of its feet.
         center_m: [f32; 3],
-        /// Radius of the disc on which they stand.
-        radius_m: f32,
         /// First slot.
         first_slot: u32,
         /// Number of slots.
         count: u32,
         /// Number of feet; 0 of what is no flame.
         feet: u32,
+        /// First of them.
+        first_foot: u32,
         /// Lights from each point to the next.
         samples: u32,
         /// Distance over which they thin out, in radii.
@@ -60,6 +63,10 @@ pub(crate) fn structs() -> String {
 #[derive(Debug)]
 pub(crate) struct FlamePass {
     flames: wgpu::Buffer,
+    /// Places of their feet.
+    feet: wgpu::Buffer,
+    /// What says which flame it is where there is none.
+    no_flame: wgpu::Buffer,
     /// Of each flame its number of instances, and the buffer that says which it is.
     drawn: Vec<(u32, wgpu::Buffer)>,
     lights: wgpu::Buffer,
@@ -81,14 +88,14 @@ impl FlamePass {
         scene: &Scene,
     ) -> Option<Self> {
         let light_count = light_count(scene);
-        let flames = flames_of(&scene.particles);
+        let (flames, feet) = flames_of(&scene.particles);
         if light_count == 0 && flames.iter().all(|flame| flame.feet == 0) {
             return None;
         }
         let visibility = wgpu::ShaderStages::VERTEX | wgpu::ShaderStages::COMPUTE;
         let uniform = wgpu::BufferBindingType::Uniform;
         let read = wgpu::BufferBindingType::Storage { read_only: true };
-        let mut entries: Vec<_> = (0..=7).map(|binding| buffer_entry(binding, read, visibility)).collect();
+        let mut entries: Vec<_> = (0..=8).map(|binding| buffer_entry(binding, read, visibility)).collect();
         entries[0] = buffer_entry(0, uniform, visibility);
         entries[7] = buffer_entry(7, uniform, visibility);
         let columns = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
@@ -131,6 +138,8 @@ impl FlamePass {
         });
         Some(Self {
             drawn: drawn.collect(),
+            feet: filled("flame feet", wgpu::BufferUsages::STORAGE, bytemuck::cast_slice(&feet)),
+            no_flame: filled("drawn flame", wgpu::BufferUsages::UNIFORM, &[0; 16]),
             flames: filled("flames", wgpu::BufferUsages::STORAGE, bytemuck::cast_slice(&flames)),
             lights: light.fires.clone(),
             light_count,
@@ -145,7 +154,7 @@ impl FlamePass {
     /// Takes over the particles of a frame, and gathers the lights that they throw.
     pub(crate) fn prepare(
         &mut self,
-        (device, queue): (&wgpu::Device, &wgpu::Queue),
+        device: &wgpu::Device,
         encoder: &mut wgpu::CommandEncoder,
         columns: Option<&ParticleColumns<'_>>,
         (looks, uniform): (&LookBuffers, &wgpu::Buffer),
@@ -164,6 +173,7 @@ impl FlamePass {
                 &looks.populations,
                 &looks.rows,
                 drawn,
+                &self.feet,
             ];
             let entries: Vec<_> = (0..)
                 .zip(buffers)
@@ -179,8 +189,7 @@ impl FlamePass {
         if self.light_count == 0 {
             return;
         }
-        let none = upload::buffer(device, queue, "drawn flame", wgpu::BufferUsages::UNIFORM, &[0; 16]);
-        let first = self.groups.first().cloned().unwrap_or_else(|| group(&none));
+        let first = self.groups.first().cloned().unwrap_or_else(|| group(&self.no_flame));
         let lights = device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some("fire lights"),
             layout: &self.gather_layout,
@@ -211,27 +220,33 @@ pub(crate) fn light_count(scene: &Scene) -> u32 {
     scene.particles.iter().map(|particles| u32::from(particles.look.lights)).sum()
 }
 
-/// All populations as flames.
-fn flames_of(populations: &[Particles]) -> Vec<Flame> {
-    let (mut first_slot, mut lights) = (0, 0);
-    populations
-        .iter()
-        .map(|particles| {
-            lights += u32::from(particles.look.lights);
-            let mut flame = Flame {
-                first_slot,
-                count: particles.count,
-                light: if particles.look.lights { lights } else { 0 },
-                ..bytemuck::Zeroable::zeroed()
-            };
-            first_slot += particles.count;
-            if let (LookKind::Flame { samples, shell }, ParticleShape::Feet { center_m, radius_m, feet }) =
-                (particles.look.kind, particles.from)
-            {
-                (flame.samples, flame.shell, flame.feet) = (samples, shell, feet);
-                (flame.center_m, flame.radius_m) = (center_m.to_array(), radius_m);
-            }
-            flame
-        })
-        .collect()
+/// All populations as flames, and the places of their feet, at least one.
+fn flames_of(populations: &[Particles]) -> (Vec<Flame>, Vec<Float4>) {
+    let (mut first_slot, mut first_foot, mut lights) = (0, 0, 0);
+    let (mut flames, mut places) = (Vec::new(), Vec::new());
+    for particles in populations {
+        lights += u32::from(particles.look.lights);
+        let mut flame = Flame {
+            first_slot,
+            count: particles.count,
+            light: if particles.look.lights { lights } else { 0 },
+            ..bytemuck::Zeroable::zeroed()
+        };
+        first_slot += particles.count;
+        if let (LookKind::Flame { samples, shell }, ParticleShape::Feet { center_m, radius_m, feet }) =
+            (particles.look.kind, particles.from)
+        {
+            (flame.samples, flame.shell, flame.feet) = (samples, shell, feet);
+            flame.center_m = center_m.to_array();
+            flame.first_foot = first_foot;
+            first_foot += feet;
+            places.extend((0..feet).map(|foot| {
+                let foot_m = center_m + radius_m * Vec3::from(foot_point(feet, foot).to_array());
+                Float4(foot_m.extend(0.0).to_array())
+            }));
+        }
+        flames.push(flame);
+    }
+    places.resize(places.len().max(1), Float4::default());
+    (flames, places)
 }

@@ -107,7 +107,7 @@ impl ParticlePass {
             })
         });
         if let Some(flames) = &mut self.flames {
-            flames.prepare((device, queue), encoder, columns, (&self.looks, &self.list.uniform));
+            flames.prepare(device, encoder, columns, (&self.looks, &self.list.uniform));
         }
         if let Some(blobs) = &mut self.blobs {
             blobs.prepare(device, encoder, columns, (&self.looks, &self.list.uniform));

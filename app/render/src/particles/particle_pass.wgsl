@@ -45,17 +45,6 @@ struct Varyings {
     @location(9) @interpolate(flat) kind: u32,
 }
 
-// A number from 0 to 1 of a particle's own.
-fn own_number(id: u32, population: u32) -> f32 {
-    return unit_from(hash_u32(id ^ hash_u32(population)));
-}
-
-// Share of its light that a blinking particle gives at a moment: dark for most of a period, then a flash that swells and dies.
-fn blink(time_s: f32, period_s: f32, own: f32) -> f32 {
-    let phase = fract(time_s / period_s + own);
-    return smoothstep(0.0, 0.12, phase) * (1.0 - smoothstep(0.18, 0.42, phase));
-}
-
 // Light that is scattered at an angle over that scattered evenly.
 fn scattering(cosine: f32) -> f32 {
     let g2 = FORWARD * FORWARD;
@@ -107,9 +96,7 @@ fn lit(out: ptr<function, Varyings>, particle: Drawn, place: vec3<f32>, view: ve
     (*out).air = air;
     if kind == LOOK_GLOW {
         var light = particle.row.color;
-        if look.blink_s > 0.0 {
-            light *= blink((f32(particle.age) - back) * drawn.dt_s, look.blink_s, particle.own);
-        }
+        light *= blink_share(look, (f32(particle.age) - back) * drawn.dt_s, particle.own);
         (*out).sun = vec4(0.0);
         (*out).sky = vec4(light * air.a, opacity);
     } else {

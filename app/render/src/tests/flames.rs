@@ -69,6 +69,11 @@ fn light(picture: &RgbaImage, without: &RgbaImage) -> (Vec<f64>, f64) {
     (lines, sum)
 }
 
+fn green(picture: &RgbaImage, x: u32, y: u32) -> f64 {
+    let image::Rgba([_, green, _, _]) = *picture.get_pixel(x, y);
+    green.into()
+}
+
 fn none(bench: &mut Bench) -> RgbaImage {
     let rows: Vec<Row> = points(bench, |_| true)
         .into_iter()
@@ -104,7 +109,7 @@ fn lights_are_densest_on_the_spline() {
         let (y, middle) = (picture.height() / 2, f64::from(picture.width()) / 2.0);
         let (mut sum, mut spread) = (0.0, 0.0);
         for x in 0..picture.width() {
-            let more = f64::from(picture.get_pixel(x, y).0[1]) - f64::from(dark.get_pixel(x, y).0[1]);
+            let more = green(&picture, x, y) - green(&dark, x, y);
             sum += more;
             spread += more * (f64::from(x) + 0.5 - middle).powi(2);
         }

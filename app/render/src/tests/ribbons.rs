@@ -125,7 +125,12 @@ fn largest_step() -> f64 {
     let picture = draw(&mut bench, &way);
     let light = |x: u32| -> f64 {
         let column = |picture: &RgbaImage| -> f64 {
-            (0..picture.height()).map(|y| f64::from(picture.get_pixel(x, y).0[1])).sum()
+            (0..picture.height())
+                .map(|y| {
+                    let image::Rgba([_, green, _, _]) = *picture.get_pixel(x, y);
+                    f64::from(green)
+                })
+                .sum()
         };
         column(&picture) - column(&none)
     };
