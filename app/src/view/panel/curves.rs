@@ -25,7 +25,7 @@ pub(super) fn show(ui: &mut Ui, look: &mut Look, own: Option<&Look>) {
     let temperatures = list("Temperatures", "temperature point");
     let warm = before.temperature_k.unwrap_or(1500.0);
     if look.shines()
-        && let Some(point) = points(ui, temperatures, "Warm age", &mut look.temperature_k, warm)
+        && let Some(point) = points(ui, temperatures, "Heat age", &mut look.temperature_k, warm)
     {
         let own = own_of(own.map(|own| &own.temperature_k), point);
         let tip = "Temperature at this age: the light and colour of a black body";

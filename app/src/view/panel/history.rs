@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Samples of the ways of particles, and the ribbons that are drawn through them.
+//! Histories of particles: samples of where they have been, and the ribbons that are drawn through them.
 
 use egui::Ui;
 use windfall_core::scene::limits;
@@ -35,7 +35,7 @@ pub(super) fn show(ui: &mut Ui, one: &mut Particles, own: Option<&Particles>) {
     let own_history = own.map(|own| own.history);
     let mut samples = samples_of(one.history);
     let tip = "Samples that are kept of the way of each, for ribbons";
-    let kept = field("Samples of ways", tip, limits::HISTORY_SAMPLES).fine(1.0);
+    let kept = field("History", tip, limits::HISTORY_SAMPLES).fine(1.0);
     kept.optional(ui, &mut samples, own_history.map(samples_of), (FIRST.samples, "none"));
     one.history = samples.map(|samples| History { samples, ..one.history.unwrap_or(FIRST) });
     let is_drawn = matches!(one.look.kind, LookKind::Dot | LookKind::Splat | LookKind::Glow);
