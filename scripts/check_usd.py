@@ -111,9 +111,9 @@ def check_ways(stage, path):
     """A curve for every comet that is older than a step: from its place, through where it was a frame before, to nothing; how many."""
     with open(path + "_particles.csv", newline="") as file:
         rows = [row for row in csv.DictReader(file) if row["population"] == "comets"]
-    curves = UsdGeom.BasisCurves(stage.GetPrimAtPath("/World/Ways/comets"))
+    curves = UsdGeom.BasisCurves(stage.GetPrimAtPath("/World/Histories/comets"))
     assert curves and curves.GetPrim().GetDisplayName() == "comets", "curves"
-    assert not stage.GetPrimAtPath("/World/Ways/late"), "no curves of what keeps no samples"
+    assert not stage.GetPrimAtPath("/World/Histories/late"), "no curves of what keeps no samples"
     primvars = UsdGeom.PrimvarsAPI(curves)
     places = {(int(row["frame"]), int(row["id"])): tuple(single(row[name]) for name in ("x_m", "y_m", "z_m")) for row in rows}
     compared = 0
@@ -283,7 +283,7 @@ def check_broken(path, rows):
         pass
     else:
         sys.exit("displaced particles are not reported")
-    ways = UsdGeom.BasisCurves(stage.GetPrimAtPath("/World/Ways/comets")).GetPointsAttr()
+    ways = UsdGeom.BasisCurves(stage.GetPrimAtPath("/World/Histories/comets")).GetPointsAttr()
     ways.Set([point + Gf.Vec3f(0, 1e-3, 0) for point in ways.Get(frame)], frame)
     try:
         check_ways(stage, path)

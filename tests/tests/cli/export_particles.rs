@@ -210,7 +210,7 @@ fn a_stage_has_curves_of_ways() {
         .split_once("over \"shells\"")
         .expect("shells")
         .1;
-    let ways = layer.split_once("over \"Ways\"").expect("ways").1;
+    let ways = layer.split_once("over \"Histories\"").expect("histories").1;
     for (number, backs) in [
         (0, &[][..]),
         (5, &[0.0, 2.0, 6.0][..]),

@@ -7,6 +7,7 @@
 //! reader has one or two in memory.
 
 mod blobs;
+mod histories;
 mod particles;
 mod prototypes;
 mod samples;
@@ -15,7 +16,6 @@ mod stage;
 mod text;
 mod trees;
 pub(super) mod view;
-mod ways;
 
 use std::fs::{self, File};
 use std::io::{BufWriter, Write};
@@ -27,12 +27,12 @@ use windfall_core::leaf::LeafState;
 use windfall_render::light::Daylight;
 
 use self::blobs::BlobSamples;
+use self::histories::HistorySamples;
 use self::particles::ParticleSamples;
 use self::samples::{Handle, Samples};
 use self::solids::SolidSamples;
 use self::trees::TreeSamples;
 use self::view::ViewSamples;
-use self::ways::WaySamples;
 use super::foliage::Foliage;
 use super::{Exporter, Frame, FrameLeaf, Job};
 use crate::files::{OutputFile, OutputFolder, WriteError};
@@ -62,7 +62,7 @@ pub(super) struct UsdExport {
     attributes: LeafAttributes,
     particles: ParticleSamples,
     blobs: BlobSamples,
-    ways: WaySamples,
+    ways: HistorySamples,
     trees: TreeSamples,
     solids: SolidSamples,
     view: ViewSamples,
@@ -88,7 +88,7 @@ impl UsdExport {
         let attributes = LeafAttributes::declare(&mut samples);
         let particles = ParticleSamples::declare(&mut samples, job.scene);
         let blobs = BlobSamples::declare(&mut samples, job.scene);
-        let ways = WaySamples::declare(&mut samples, job.scene);
+        let ways = HistorySamples::declare(&mut samples, job.scene);
         let trees = TreeSamples::declare(&mut samples, job.scene_trees);
         let solids = SolidSamples::declare(&mut samples, job.solids);
         let view = ViewSamples::declare(&mut samples, job.scene);

@@ -7,7 +7,7 @@ use std::io::{self, Write};
 use windfall_render::light::Daylight;
 
 use super::samples::SampleLayer;
-use super::{MANIFEST, STAGE, blobs, particles, prototypes, solids, text, trees, view, ways};
+use super::{MANIFEST, STAGE, blobs, histories, particles, prototypes, solids, text, trees, view};
 use crate::export::foliage::Foliage;
 use crate::export::solids::solid_parts;
 use crate::export::surface::{self, Surface};
@@ -102,7 +102,7 @@ pub(super) fn write_stage(
     writeln!(out, "}}")?;
     particles::write_populations(out, job.scene)?;
     blobs::write_blobs(out, job.scene)?;
-    ways::write_ways(out, job.scene)?;
+    histories::write_histories(out, job.scene)?;
     trees::write_trees(out, job.scene_trees)?;
     solids::write_parts(out, &parts, &paints)?;
     surfaces.iter().try_for_each(|surface| write_surface(out, surface))?;

@@ -17,7 +17,7 @@ use crate::run::live_particle::LiveParticle;
 
 /// The attributes of the curves of all populations.
 #[derive(Debug)]
-pub(super) struct WaySamples {
+pub(super) struct HistorySamples {
     populations: Vec<CurveAttributes>,
 }
 
@@ -39,18 +39,18 @@ struct CurveAttributes {
 
 /// A place on the way of a particle.
 #[derive(Clone, Copy, Debug)]
-struct WayPoint {
+struct HistoryPoint {
     place_m: [f32; 3],
     /// Share that is left of the width at the head.
     left: f32,
 }
 
-impl WaySamples {
+impl HistorySamples {
     pub(super) fn declare(samples: &mut Samples, scene: &Scene) -> Self {
         let names = prim_names(scene);
         let populations = history_runs(scene).into_iter().map(|(population, run)| {
             let name = &names[population];
-            let mut declare = |declaration| samples.declare(&format!("World/Ways/{name}"), declaration);
+            let mut declare = |declaration| samples.declare(&format!("World/Histories/{name}"), declaration);
             CurveAttributes {
                 population,
                 run,
@@ -114,25 +114,25 @@ impl CurveAttributes {
 }
 
 /// The place of a particle and the samples of its way, from its head to its end.
-fn way_points(world: &World, run: &HistoryRun, particle: &LiveParticle) -> Vec<WayPoint> {
+fn way_points(world: &World, run: &HistoryRun, particle: &LiveParticle) -> Vec<HistoryPoint> {
     let (slot, now) = (run.first + particle.slot, world.clock.step());
     let age = now.wrapping_sub(world.particles.motion[slot as usize].birth);
     let length = age.min((run.samples - 1) * run.every_steps).max(1) as f32;
     let samples = way_of(run, &world.particles, &world.history, slot, now);
-    let older = samples.filter(|sample| sample.time != now).map(|sample| WayPoint {
+    let older = samples.filter(|sample| sample.time != now).map(|sample| HistoryPoint {
         place_m: sample.position,
         left: (1.0 - now.wrapping_sub(sample.time) as f32 / length).max(0.0),
     });
-    std::iter::once(WayPoint { place_m: particle.position_m, left: 1.0 }).chain(older).collect()
+    std::iter::once(HistoryPoint { place_m: particle.position_m, left: 1.0 }).chain(older).collect()
 }
 
 /// Writes the prims.
-pub(super) fn write_ways(out: &mut impl Write, scene: &Scene) -> io::Result<()> {
+pub(super) fn write_histories(out: &mut impl Write, scene: &Scene) -> io::Result<()> {
     let keeps = |population: &Particles| population.history.is_some();
     if !scene.particles.iter().any(keeps) {
         return Ok(());
     }
-    writeln!(out, "def Scope \"Ways\"\n{{")?;
+    writeln!(out, "def Scope \"Histories\"\n{{")?;
     let names = prim_names(scene);
     for (name, population) in names.iter().zip(&scene.particles).filter(|(_, one)| keeps(one)) {
         let shown = text::quoted(&population.name);
