@@ -11,7 +11,7 @@
 @group(2) @binding(4) var<storage, read> traits: array<ParticleTraits>;
 @group(2) @binding(5) var<storage, read> populations: array<PopulationLook>;
 @group(2) @binding(6) var<storage, read> rows: array<LookRow>;
-@group(2) @binding(8) var<storage, read> feet: array<vec4<f32>>;
+@group(2) @binding(8) var<storage, read> feet: array<FlameFoot>;
 
 // Steps before its death in which a point fades.
 const FADE_STEPS: f32 = 6.0;
@@ -45,7 +45,7 @@ struct FlameStretch {
 
 // Place of the foot of a particle.
 fn foot_place(flame: Flame, id: u32) -> vec3<f32> {
-    return feet[flame.first_foot + id % flame.feet].xyz;
+    return feet[flame.first_foot + id % flame.feet].place_m;
 }
 
 // The point of a number, if its slot still holds it.

@@ -4,7 +4,6 @@
 
 use glam::Vec3;
 use windfall_core::device::particle::birth::foot_point;
-use windfall_core::layout::Float4;
 use windfall_core::scene::{LookKind, ParticleShape, Particles, Scene};
 use windfall_core::shared_struct;
 use windfall_wgpu::ParticleColumns;
@@ -46,6 +45,16 @@ shared_struct! {
 }
 
 shared_struct! {
+    /// A foot of a flame.
+    struct FlameFoot {
+        /// Its place.
+        place_m: [f32; 3],
+        /// Zero.
+        unused: f32,
+    }
+}
+
+shared_struct! {
     /// The flame that a draw is for.
     struct DrawnFlame, padding 12 {
         /// Number of its population.
@@ -56,7 +65,7 @@ shared_struct! {
 /// Structs of the shaders of flames.
 pub(crate) fn structs() -> String {
     use windfall_core::layout::WgslStruct;
-    Flame::declaration() + &DrawnFlame::declaration()
+    Flame::declaration() + &FlameFoot::declaration() + &DrawnFlame::declaration()
 }
 
 /// Flames and lights of a scene.
@@ -65,7 +74,7 @@ pub(crate) struct FlamePass {
     flames: wgpu::Buffer,
     /// Places of their feet.
     feet: wgpu::Buffer,
-    /// What says which flame it is where there is none.
+    /// Stands for a flame where there is none.
     no_flame: wgpu::Buffer,
     /// Of each flame its number of instances, and the buffer that says which it is.
     drawn: Vec<(u32, wgpu::Buffer)>,
@@ -221,7 +230,7 @@ pub(crate) fn light_count(scene: &Scene) -> u32 {
 }
 
 /// All populations as flames, and the places of their feet, at least one.
-fn flames_of(populations: &[Particles]) -> (Vec<Flame>, Vec<Float4>) {
+fn flames_of(populations: &[Particles]) -> (Vec<Flame>, Vec<FlameFoot>) {
     let (mut first_slot, mut first_foot, mut lights) = (0, 0, 0);
     let (mut flames, mut places) = (Vec::new(), Vec::new());
     for particles in populations {
@@ -242,11 +251,11 @@ fn flames_of(populations: &[Particles]) -> (Vec<Flame>, Vec<Float4>) {
             first_foot += feet;
             places.extend((0..feet).map(|foot| {
                 let foot_m = center_m + radius_m * Vec3::from(foot_point(feet, foot).to_array());
-                Float4(foot_m.extend(0.0).to_array())
+                FlameFoot { place_m: foot_m.to_array(), unused: 0.0 }
             }));
         }
         flames.push(flame);
     }
-    places.resize(places.len().max(1), Float4::default());
+    places.resize(places.len().max(1), bytemuck::Zeroable::zeroed());
     (flames, places)
 }
