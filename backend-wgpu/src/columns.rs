@@ -26,6 +26,9 @@ pub struct WorldColumns<'a> {
     pub branches: Option<BranchColumns<'a>>,
     /// The particles; `None` in a world without any.
     pub particles: Option<ParticleColumns<'a>>,
+    /// The burning of leaves, `Burn` of 16 bytes slot by slot: `f32` heat in J/m², `f32` share of the way that the front had run when water put
+    /// it out, `u32` step after the one in which it caught or 0, `u32` unused. `None` where none burn.
+    pub burns: Option<&'a wgpu::Buffer>,
 }
 
 /// Borrowed leaf columns: one 16-byte record per leaf in each buffer (see `windfall_core::leaf`), usable as vertex
@@ -291,6 +294,7 @@ impl WorldBuffers {
             leaves: LeafColumns::of(self.leaves()),
             branches: (count > 0).then(branches),
             particles: ParticleColumns::of(self.particles(), self.history()),
+            burns: (self.burns().rows() > 0).then(|| self.burns().buffer(0)),
         }
     }
 
@@ -325,6 +329,11 @@ impl WorldBuffers {
     /// The samples of the ways of particles, the sixth store of a world.
     pub(crate) fn history(&self) -> &StoreBuffers {
         &self.stores[5]
+    }
+
+    /// The burning of leaves, the seventh store of a world.
+    pub(crate) fn burns(&self) -> &StoreBuffers {
+        &self.stores[6]
     }
 
     /// The segments of trees, the second store of a world.

@@ -8,8 +8,8 @@
 use crate::flight::block::BodyBlock;
 use crate::layout::{Float4, Uint4};
 use crate::scene::{
-    MAX_JETS, MAX_MOVERS, MAX_PLUMES, MAX_POPULATIONS, MAX_SOURCES, MAX_SPECIES, MAX_VORTICES,
-    SPLINE_SEGMENTS,
+    MAX_BURNING_SPECIES, MAX_JETS, MAX_MOVERS, MAX_PLUMES, MAX_POPULATIONS, MAX_SOURCES, MAX_SPECIES,
+    MAX_VORTICES, SPLINE_SEGMENTS,
 };
 
 crate::shared_struct! {
@@ -178,6 +178,28 @@ crate::shared_struct! {
         pub restitution: f32,
         /// Weight of a leaf, but for the one that every leaf has, per unit of its volume in litter.
         pub weight_per_unit: f32,
+    }
+}
+
+crate::shared_struct! {
+    /// Burning of the leaves of a species.
+    pub struct BurnBlock {
+        /// Steps in which the front runs over a leaf of nominal size; 0 where leaves do not burn.
+        pub steps: f32,
+        /// Mean heat release of such a leaf in W.
+        pub mean_w: f32,
+        /// Heat in J/m² that leaves take up in an interval per K by which the air is hotter.
+        pub exchange_j_m2_k: f32,
+        /// Rise of temperature per heat in m² K/J, up to the boiling of water.
+        pub wet_m2_k_j: f32,
+        /// Heat in J/m² after which all water has boiled away.
+        pub dry_j_m2: f32,
+        /// Rise of temperature per heat in m² K/J, of dry leaves.
+        pub dry_m2_k_j: f32,
+        /// Least temperature rise in K at which leaves catch.
+        pub ignition_k: f32,
+        /// Largest rise beyond that.
+        pub ignition_span_k: f32,
     }
 }
 
@@ -436,6 +458,10 @@ crate::shared_struct! {
         pub sway_scheme: u32,
         /// Times at which it does.
         pub sway: SwayBlock,
+        /// Steps from one time at which leaves are heated and burn on to the next; 0 where none burn.
+        pub burn_steps: u32,
+        /// Zeros.
+        pub unused: [u32; 3],
         /// Shelter from the wind.
         pub shelter: ShelterBlock,
         /// The wind.
@@ -446,6 +472,8 @@ crate::shared_struct! {
         pub collisions: CollisionBlock,
         /// Solid parts.
         pub solids: SolidsBlock,
+        /// Burning of the species; only those of the scene have any, not their stages.
+        pub burns: [BurnBlock; MAX_BURNING_SPECIES],
         /// Responses of the species.
         pub responses: ResponseBlock,
         /// Cone spirals of the species.
@@ -490,6 +518,18 @@ impl SceneBlock {
     #[inline(always)]
     pub fn collides(&self, step: u32) -> bool {
         self.has_living_litter() && step.is_multiple_of(self.collisions.interval_steps)
+    }
+
+    /// Returns true if leaves burn.
+    #[inline(always)]
+    pub fn leaves_burn(&self) -> bool {
+        self.burn_steps != 0
+    }
+
+    /// Returns true if leaves are heated and burn on in a step.
+    #[inline(always)]
+    pub fn heats(&self, step: u32) -> bool {
+        self.leaves_burn() && step.is_multiple_of(self.burn_steps)
     }
 
     /// Returns true if leaves float on water.

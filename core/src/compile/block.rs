@@ -3,6 +3,7 @@
 //! Compiles the numbers of a scene that every kernel reads.
 
 use super::body::body_block;
+use super::burn::set_burning;
 use super::source::{source_block, trees_block};
 use super::species::{cones_block, response_block, species_block};
 use super::water::set_floating;
@@ -71,6 +72,7 @@ pub(super) fn compile_block(scene: &Scene, tables: &[MotionTables], solids: &[So
         block.species[index] = species_block(scene, species, tables);
         block.bodies[index] = body_block(species, scene);
     }
+    set_burning(scene, &mut block);
     block.cones = cones_block(scene);
     block.collisions = collision_block(scene, &block);
     for (index, source) in scene.sources.iter().take(MAX_SOURCES).enumerate() {

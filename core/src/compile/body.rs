@@ -30,7 +30,7 @@ pub(super) fn body_block(species: &Species, scene: &Scene) -> BodyBlock {
         FlightModel::Aerodynamic(body) => body,
     };
     let litter = scene.ground.litter.unwrap_or_default();
-    let water = f64::from(body.moisture) + f64::from(litter.moisture);
+    let water = species.moisture(scene.ground.litter.as_ref());
     let areal = f64::from(species.areal_density_kg_m2) * (1.0 + water);
     // Air per mass and area, in 1/m.
     let air = AIR_DENSITY / areal;

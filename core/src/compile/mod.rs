@@ -5,6 +5,7 @@
 mod births;
 mod block;
 mod body;
+mod burn;
 mod cycle;
 mod field;
 mod foliage;
@@ -54,7 +55,7 @@ use crate::device::wind::profile::profile_rows;
 use crate::device::wind::turbulence::{TURBULENCE_X, turbulence_rows};
 use crate::error::{SceneError, SimError};
 use crate::layout::Uint4;
-use crate::leaf::Leaves;
+use crate::leaf::{Burns, Leaves};
 use crate::litter::Bed;
 use crate::particle::{HistoryRun, HistoryStore, ParticleStore, TallyStore, history_runs};
 use crate::scene::Scene;
@@ -209,6 +210,7 @@ impl CompiledScene {
             StoreSize { store: ParticleStore::NAME, rows: self.scene.particle_count() as usize },
             StoreSize { store: TallyStore::NAME, rows: TallyStore::rows_of(&self.scene) },
             StoreSize { store: HistoryStore::NAME, rows: HistoryStore::rows_of(&self.scene) },
+            StoreSize { store: Burns::NAME, rows: Burns::rows_of(&self.scene) },
         ]
     }
 

@@ -35,9 +35,9 @@ impl CompiledScene {
         }
     }
 
-    /// Shift of the grid in which leaves collide in a step, less than a cell along each axis.
+    /// Shift of the grids in which leaves collide and heat each other in a step, less than a cell of the coarser one along each axis.
     fn collision_shift_m(&self, step: u32) -> [f32; 3] {
-        if !self.block.collides(step) {
+        if !self.block.collides(step) && !self.block.heats(step) {
             return [0.0; 3];
         }
         let [x, y, z, _] = random(self.block.seed, step, STREAM_COLLISION);

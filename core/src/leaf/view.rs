@@ -5,10 +5,11 @@
 use super::store::{LeafState, Leaves};
 use crate::arith::{Quat, Vec3};
 use crate::context::Context;
+use crate::device::leaf::burn::scene_species;
 use crate::device::leaf::own::{motion_params, own_velocity};
 use crate::device::leaf::record::{
     Attitude, Drift, Identity, Place, SIZE_UNIT, Schedule, body_spin, flies, leaf_primitive, leaf_regime,
-    leaf_source, leaf_species, leaf_stage, leaf_tint, leaf_variant, own_size, size_ratio,
+    leaf_source, leaf_stage, leaf_tint, leaf_variant, own_size, size_ratio,
 };
 use crate::motion::Primitive;
 
@@ -104,7 +105,7 @@ impl LeafView {
             id: identity.id,
             release: identity.release,
             state,
-            species: leaf_species(place.bits) as usize,
+            species: scene_species(cx, place.bits) as usize,
             source: leaf_source(appearance),
             motion,
             stage: leaf_stage(appearance),

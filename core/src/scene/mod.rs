@@ -5,6 +5,7 @@
 //! A [`Scene`] is plain data in SI units (y up, right-handed), read from RON; every field has a default, so
 //! `()` is a whole scene. [`Scene::validate`] checks every number before anything is built from it.
 
+mod burning;
 mod file;
 mod flight;
 mod force;
@@ -36,6 +37,7 @@ mod wind;
 
 use serde::{Deserialize, Serialize};
 
+pub use burning::Burning;
 pub use flight::{Aerodynamics, FlightModel, Hold, Planform};
 pub use force::{Force, ForceCarriers, ForceKind, SwirlProfile};
 pub use ground::Ground;
@@ -65,6 +67,8 @@ pub const STANDARD_GRAVITY_M_S2: f32 = 9.806_65;
 
 /// Most species a scene may have: a leaf keeps its species in five bits.
 pub const MAX_SPECIES: usize = 32;
+/// Most species of a scene in which leaves burn: each goes through [`BURN_STAGES`](crate::device::leaf::burn::BURN_STAGES) stages that count like species.
+pub const MAX_BURNING_SPECIES: usize = 8;
 /// Most sources a scene may have: a leaf keeps its source in five bits, and one number is for all trees.
 pub const MAX_SOURCES: usize = 16;
 /// Most point vortices a scene may have: they travel in the uniform block of every step.
@@ -209,6 +213,11 @@ impl Scene {
         let falling =
             self.sources.iter().fold(self.tree_leaf_count(), |sum, source| sum.saturating_add(source.count));
         falling.saturating_add(self.bed_leaf_count())
+    }
+
+    /// Returns true if leaves of some species burn.
+    pub fn leaves_burn(&self) -> bool {
+        self.species.iter().any(|species| species.burns.is_some())
     }
 
     /// Number of slots of particles, over all populations.

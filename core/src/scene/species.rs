@@ -4,7 +4,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{FlightModel, Planform};
+use super::{Aerodynamics, Burning, FlightModel, Litter, Planform};
 use crate::motion::{Primitive, TransitionTable};
 
 /// Outline family of a leaf, or of another light body; texture makers paint one set of pictures for each.
@@ -119,6 +119,8 @@ pub struct Species {
     /// pictures when absent. A species that flies as a body and states no planform is built as the leaves of the folder
     /// are, as far as their manifest states them: size, mass per area, planform and curl.
     pub leaves: Option<String>,
+    /// Burning of the leaves, in the litter of the ground and in the air above it; `None` if they do not burn.
+    pub burns: Option<Burning>,
 }
 
 impl Default for Species {
@@ -139,11 +141,21 @@ impl Default for Species {
             rotation: RotationModel::default(),
             tables: None,
             leaves: None,
+            burns: None,
         }
     }
 }
 
 impl Species {
+    /// Water in kg per kg of dry leaf, with what the litter holds besides.
+    pub(crate) fn moisture(&self, litter: Option<&Litter>) -> f64 {
+        let own = match self.flight {
+            FlightModel::Synthesis => Aerodynamics::default().moisture,
+            FlightModel::Aerodynamic(body) => body.moisture,
+        };
+        f64::from(own) + f64::from(litter.map_or(0.0, |litter| litter.moisture))
+    }
+
     /// Mean area of a leaf in m², over the spread of sizes.
     pub(crate) fn mean_area_m2(&self) -> f64 {
         let (size_m, spread) = (f64::from(self.size_m), f64::from(self.size_variation));

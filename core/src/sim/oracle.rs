@@ -10,18 +10,19 @@ use crate::compile::CompiledScene;
 use crate::context::Context;
 use crate::device::leaf::advance::leaf_advance;
 use crate::device::leaf::air::{air_is_sampled, leaf_sample_air};
+use crate::device::leaf::burn::{BURN_WORDS, burn_cell, cell_power, leaf_burn, leaf_heat_release};
 use crate::device::leaf::collide::{COLLISION_WORDS, collision_cell, leaf_collide, own_sums};
 use crate::device::leaf::fly::leaf_fly;
 use crate::device::leaf::record::flies;
 use crate::device::leaf::stack::{leaf_changes_litter, leaf_stack};
 use crate::device::leaf::strike::leaf_push;
 use crate::device::leaf::wake::{cover_is_due, leaf_check_cover, leaf_wake, wake_is_due};
-use crate::leaf::Leaves;
+use crate::leaf::{Burns, Leaves};
 use crate::particle::{keep_all, step_all};
 
 /// Steps the particles and the leaves of a world one after another. Trees, and the leaves that hang on them, stay as they are.
 pub fn step(world: &mut World, count: u32) {
-    let World { compiled, clock, leaves, branches: _, bed, particles, tallies, history } = world;
+    let World { compiled, clock, leaves, branches: _, bed, particles, tallies, history, burns } = world;
     each_step(compiled, clock, count, |cx| {
         let bare = cx;
         let cx = &cx.over(&bed.words);
@@ -29,6 +30,9 @@ pub fn step(world: &mut World, count: u32) {
         keep_all(cx, compiled.histories(), particles, history);
         if cx.scene.collides(cx.step.index) {
             collide(cx, leaves);
+        }
+        if cx.scene.heats(cx.step.index) {
+            burn(cx, leaves, burns);
         }
         for (slot, mut leaf) in (0..).zip(leaves.as_mut().iter_mut()) {
             if air_is_sampled(cx, slot) {
@@ -69,6 +73,25 @@ fn collide(cx: &Context<'_>, leaves: &mut Leaves) {
     for mut leaf in leaves.as_mut().iter_mut().filter(|leaf| flies(leaf.place.bits)) {
         let cell = collision_cell(cx, leaf.place.position.into());
         leaf_collide(cx, &mut leaf, &cell, &bytemuck::cast(cells[&cell.index]));
+    }
+}
+
+/// Heats leaves, and lets those that are lit burn on.
+fn burn(cx: &Context<'_>, leaves: &mut Leaves, burns: &mut Burns) {
+    let mut cells = BTreeMap::<u32, [u32; BURN_WORDS as usize]>::new();
+    for (leaf, burn) in leaves.as_mut().iter_mut().zip(&burns.burn) {
+        let (place, size) = (leaf.place.position.into(), leaf.schedule.size);
+        let heat = leaf_heat_release(cx, place, leaf.place.bits, size, burn);
+        if heat.sums.count != 0 {
+            let own: [u32; BURN_WORDS as usize] = bytemuck::cast(heat.sums);
+            let sums = cells.entry(heat.index).or_default();
+            sums.iter_mut().zip(own).for_each(|(sum, own)| *sum = sum.wrapping_add(own));
+        }
+    }
+    for (mut leaf, burn) in leaves.as_mut().iter_mut().zip(&mut burns.burn) {
+        let cell = burn_cell(cx, leaf.place.position.into());
+        let sums = cells.get(&cell.index).copied().unwrap_or_default();
+        leaf_burn(cx, &mut leaf, burn, cell_power(&cell, &bytemuck::cast(sums)));
     }
 }
 

@@ -18,7 +18,7 @@ use crate::error::{SceneError, SimError};
 use crate::flight::drop_table::{DropTable, drop_tables};
 use crate::leaf::grow::{count_leaves, leaf_grow};
 use crate::leaf::seek::leaf_seek_any;
-use crate::leaf::{Leaves, LeavesMut};
+use crate::leaf::{BurnStats, Burns, Leaves, LeavesMut};
 use crate::litter::lay::{lay_all, strew};
 use crate::litter::{Bed, LitterStats};
 use crate::particle::{HistoryStore, ParticleStats, ParticleStore, TallyStore};
@@ -49,6 +49,8 @@ pub struct World {
     pub tallies: TallyStore,
     /// Samples of their ways.
     pub history: HistoryStore,
+    /// Burning of the leaves; no row where none burn.
+    pub burns: Burns,
 }
 
 impl World {
@@ -94,7 +96,8 @@ impl World {
         let particles = ParticleStore::zeroed(compiled.scene().particle_count() as usize);
         let tallies = TallyStore::zeroed(TallyStore::rows_of(compiled.scene()));
         let history = HistoryStore::zeroed(HistoryStore::rows_of(compiled.scene()));
-        Self { compiled, clock, leaves, branches, bed, particles, tallies, history }
+        let burns = Burns::zeroed(Burns::rows_of(compiled.scene()));
+        Self { compiled, clock, leaves, branches, bed, particles, tallies, history, burns }
     }
 
     /// Fills the stores of a compiled scene.
@@ -103,8 +106,7 @@ impl World {
         let mut world = Self::zeroed(compiled, clock);
         world.branches = world.compiled.forest().at_rest();
         world.particles = ParticleStore::dormant(world.compiled.scene());
-        let Self { compiled, clock, leaves, branches, bed, particles: _, tallies: _, history: _ } =
-            &mut world;
+        let Self { compiled, clock, leaves, branches, bed, .. } = &mut world;
         let step = compiled.step_block(clock);
         let cx = compiled.context(&step);
         let tables = drop_tables(&cx);
@@ -142,16 +144,27 @@ impl World {
         LitterStats::of(self.compiled.scene(), block, &self.leaves, &self.bed)
     }
 
+    /// Counts and masses of leaves that burn; `None` where none do.
+    pub fn burn_stats(&self) -> Option<BurnStats> {
+        BurnStats::of(
+            self.compiled.scene(),
+            self.compiled.block(),
+            self.clock.step(),
+            &self.leaves,
+            &self.burns,
+        )
+    }
+
     /// All stores, in the order of checkpoints.
     pub fn stores(&self) -> Vec<&dyn Store> {
-        let Self { compiled: _, clock: _, leaves, branches, bed, particles, tallies, history } = self;
-        vec![leaves, branches, bed, particles, tallies, history]
+        let Self { compiled: _, clock: _, leaves, branches, bed, particles, tallies, history, burns } = self;
+        vec![leaves, branches, bed, particles, tallies, history, burns]
     }
 
     /// All stores, to be filled.
     pub fn stores_mut(&mut self) -> Vec<&mut dyn Store> {
-        let Self { compiled: _, clock: _, leaves, branches, bed, particles, tallies, history } = self;
-        vec![leaves, branches, bed, particles, tallies, history]
+        let Self { compiled: _, clock: _, leaves, branches, bed, particles, tallies, history, burns } = self;
+        vec![leaves, branches, bed, particles, tallies, history, burns]
     }
 
     /// Number of rows of each store.

@@ -58,6 +58,10 @@ fn leaf_species(bits: u32) -> u32 {
     return (bits >> SPECIES_SHIFT) & SPECIES_MASK;
 }
 
+fn with_species(bits: u32, species: u32) -> u32 {
+    return (bits & ~(SPECIES_MASK << SPECIES_SHIFT)) | (species << SPECIES_SHIFT);
+}
+
 fn spin_angle(bits: u32) -> u32 {
     return bits >> SPIN_SHIFT;
 }

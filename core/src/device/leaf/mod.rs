@@ -6,6 +6,7 @@ pub mod advance;
 pub mod afloat;
 pub mod air;
 pub mod at_rest;
+pub mod burn;
 pub mod carry;
 pub mod collide;
 pub mod cone_spiral;

@@ -250,6 +250,12 @@ pub fn leaf_species<W: Word>(bits: W) -> W {
     (bits >> SPECIES_SHIFT) & SPECIES_MASK
 }
 
+/// Bits of another species.
+#[inline(always)]
+pub fn with_species(bits: u32, species: u32) -> u32 {
+    (bits & !(SPECIES_MASK << SPECIES_SHIFT)) | (species << SPECIES_SHIFT)
+}
+
 /// Spin angle in 2^-16 turns. Not of a body in the air.
 #[inline(always)]
 pub fn spin_angle<W: Word>(bits: W) -> W {

@@ -9,7 +9,7 @@
 //! z / Q^0.4 = ζ, with `6.84 ζ^0.5 Q^0.2` m/s in the steady flame, `1.93 Q^0.2` where it flickers and `1.12 ζ^(-1/3) Q^0.2` above, the three
 //! joined smoothly. About the axis the speed falls as a bell `exp(-r² / b²)`, of a width b that grows by [`PLUME_SPREAD`] per metre from
 //! the radius of the fire. Towards the axis comes what the stream function `W b² (1 - exp(-r² / b²)) / 2` draws in: no divergence, for any
-//! speed and width. What lies below the base does not move.
+//! speed and width. What lies below the base does not move. The temperature, which heats leaves, is that of the same measurements.
 //!
 //! In wind the axis leans: each disc of the plume is shifted along the wind, by so much that the axis is the path of the air on it. The wind goes on through the
 //! axis and around the plume, as about something in its way, in flat layers without divergence.
@@ -29,6 +29,12 @@ crate::shared_constants! {
     pub const PLUME_FLICKER: f32 = 1.93;
     /// Speed on the axis above the flame over that of the fire, times the cube root of the height.
     pub const PLUME_ABOVE: f32 = 1.12;
+    /// Temperature rise in K in the steady flame.
+    pub const PLUME_FLAME_K: f32 = 800.0;
+    /// Temperature rise in K where the flame flickers, times the height over Q^0.4.
+    pub const PLUME_FLICKER_K: f32 = 63.0;
+    /// Temperature rise in K above the flame, times that height to the power of 5/3.
+    pub const PLUME_ABOVE_K: f32 = 21.6;
     /// Difference of two of these speeds below which they are blended.
     pub const PLUME_BLEND: f32 = 0.06;
     /// Height below which the speed falls to nothing at the base.
@@ -83,16 +89,30 @@ pub fn plume_rise<R: Real>(height: R) -> PlumeRise<R> {
     rise_least(rise_least(steady, flicker), above)
 }
 
-/// Velocity that one plume adds at `place` in m/s, where the ground leaves the share `level` of level turbulence.
+/// A place in a plume.
+#[derive(Clone, Copy, Debug)]
+pub struct PlumePoint<R: Real> {
+    /// True below the base.
+    pub is_below: R::Mask,
+    /// Height above the base in m.
+    pub height: R,
+    /// Slope of the axis there.
+    pub slope: R,
+    /// Distance from the axis along the wind in m.
+    pub along: R,
+    /// Distance from it across the wind in m.
+    pub across: R,
+}
+
+/// A place in the frame of a plume, whose axis leans.
 #[inline(always)]
-pub fn wind_plume<R: Real>(cx: &Context<'_>, plume: &PlumeBlock, place: Vec3<R>, level: R) -> Vec3<R> {
+pub fn plume_point<R: Real>(cx: &Context<'_>, plume: &PlumeBlock, place: Vec3<R>) -> PlumePoint<R> {
     let wind = &cx.scene.wind;
-    let none = level.all(0.0);
-    let one = level.all(1.0);
-    let from_base = place - Vec3::from(plume.base_m).spread(level);
+    let none = place.x.all(0.0);
+    let from_base = place - Vec3::from(plume.base_m).spread(place.x);
     let is_below = from_base.y.less_than(none);
     let height = from_base.y.max(none);
-    let mut slope = level.all(plume.base_slope);
+    let mut slope = place.x.all(plume.base_slope);
     let mut lean = height * plume.base_slope;
     for bend in &plume.bends {
         let past = (height - bend.from_m).max(none);
@@ -102,6 +122,44 @@ pub fn wind_plume<R: Real>(cx: &Context<'_>, plume: &PlumeBlock, place: Vec3<R>,
     }
     let along = (from_base.x * wind.direction_x + from_base.z * wind.direction_z) - lean;
     let across = from_base.z * wind.direction_x - from_base.x * wind.direction_z;
+    PlumePoint { is_below, height, slope, along, across }
+}
+
+/// Temperature rise in K on the axis of a plume at a height over Q^0.4: [`PLUME_FLAME_K`] in the steady flame, then falling as measured.
+#[inline(always)]
+pub fn plume_axis_warmth(height: f32) -> f32 {
+    let above_foot = height.max(PLUME_FOOT);
+    let inverse_cube = inverse_cube_root(above_foot);
+    let squared = inverse_cube * inverse_cube;
+    let above = (squared * squared) * inverse_cube * PLUME_ABOVE_K;
+    (reciprocal(above_foot) * PLUME_FLICKER_K).min(above).min(PLUME_FLAME_K)
+}
+
+/// Temperature rise in K of the air at a place by all plumes: that of the hottest. It falls away from an axis as the speed does.
+#[inline(always)]
+pub fn plume_warmth(cx: &Context<'_>, place: Vec3) -> f32 {
+    let mut warmth = 0.0_f32;
+    let moment = &cx.step.moments[0];
+    for plume in &moment.plumes[..cx.step.plume_count as usize] {
+        let point = plume_point(cx, plume, place);
+        if point.is_below || plume.speed_m_s == 0.0 {
+            continue;
+        }
+        let inverse_width = reciprocal(point.height * PLUME_SPREAD + plume.base_radius_m);
+        let squared =
+            (point.along * point.along + point.across * point.across) * (inverse_width * inverse_width);
+        warmth = warmth.max(plume_axis_warmth(point.height * plume.heights_per_m) * exponential(-squared));
+    }
+    warmth
+}
+
+/// Velocity that one plume adds at `place` in m/s, where the ground leaves the share `level` of level turbulence.
+#[inline(always)]
+pub fn wind_plume<R: Real>(cx: &Context<'_>, plume: &PlumeBlock, place: Vec3<R>, level: R) -> Vec3<R> {
+    let wind = &cx.scene.wind;
+    let none = level.all(0.0);
+    let one = level.all(1.0);
+    let PlumePoint { is_below, height, slope, along, across } = plume_point(cx, plume, place);
     let inverse_width = reciprocal(height * PLUME_SPREAD + plume.base_radius_m);
     let inverse_squared = inverse_width * inverse_width;
     let squared = (along * along + across * across) * inverse_squared;
