@@ -9,6 +9,7 @@
 
 mod collision_cells;
 mod exposed;
+mod heat_sums;
 mod kernels;
 mod quiet;
 mod simd;

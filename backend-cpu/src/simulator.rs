@@ -14,11 +14,16 @@ use windfall_core::{Clock, CompiledScene, Contract, SimError, Simulator, Simulat
 
 use crate::collision_cells::CollisionCells;
 use crate::exposed::ExposedLeaves;
+use crate::heat_sums::HeatSums;
 use crate::kernels::CHUNK;
+use crate::kernels::burn_leaves::burn_leaves;
 use crate::kernels::carry_forces::carry_forces;
+use crate::kernels::follow_leaves::follow_leaves;
+use crate::kernels::gather_heat::gather_heat;
 use crate::kernels::keep_history::keep_history;
 use crate::kernels::measure::measure;
 use crate::kernels::pull_particles::pull_particles;
+use crate::kernels::settle_fires::settle_fires;
 use crate::kernels::stack_litter::{LitterChanges, stack_litter};
 use crate::kernels::step_collisions::step_collisions;
 use crate::kernels::step_leaves::{LeafSteps, step_leaves};
@@ -53,6 +58,7 @@ pub struct CpuSimulator {
     quiet: QuietUnits,
     exposed: ExposedLeaves,
     cells: CollisionCells,
+    heat: HeatSums,
     /// Accelerations of particles by others; empty where none attract one another.
     pulls: Vec<[f32; 4]>,
     /// Places of particles that carry forces.
@@ -80,10 +86,22 @@ impl CpuSimulator {
         let quiet = QuietUnits::new(world.leaves.len());
         let exposed = ExposedLeaves::new(world.leaves.len());
         let (world, blocks, scratches) = (world.clone(), Vec::new(), Vec::new());
-        let cells = CollisionCells::default();
+        let (cells, heat) = (CollisionCells::default(), HeatSums::default());
         let (pulls, carriers, starts) = (Vec::new(), Vec::new(), Vec::new());
-        let mut simulator =
-            Self { world, blocks, scratches, quiet, exposed, cells, pulls, carriers, starts, pool, simd };
+        let mut simulator = Self {
+            world,
+            blocks,
+            scratches,
+            quiet,
+            exposed,
+            cells,
+            heat,
+            pulls,
+            carriers,
+            starts,
+            pool,
+            simd,
+        };
         let forest = Arc::clone(simulator.world.compiled.forest());
         simulator.plant(&forest);
         Ok(simulator)
@@ -152,13 +170,18 @@ impl Simulator for CpuSimulator {
     }
 
     fn step(&mut self, count: u32) -> Result<(), SimError> {
-        let World { compiled, clock, leaves, branches, bed, particles, tallies, history } = &mut self.world;
+        let World { compiled, clock, leaves, branches, bed, particles, tallies, history, burns } =
+            &mut self.world;
         let (simd, blocks, scratches, quiet) = (self.simd, &self.blocks, &self.scratches, &self.quiet);
         let has_litter = !bed.is_empty();
         let (changes, exposed) = (LitterChanges::default(), &self.exposed);
         if compiled.block().has_living_litter() && self.cells.is_empty() {
             self.cells = CollisionCells::new();
         }
+        if compiled.block().leaves_burn() {
+            self.heat.make();
+        }
+        let heat = &self.heat;
         let (cells, pulls, carriers) = (&self.cells, &mut self.pulls, &mut self.carriers);
         let starts = &mut self.starts;
         starts.resize(compiled.start_count(), bytemuck::Zeroable::zeroed());
@@ -210,6 +233,12 @@ impl Simulator for CpuSimulator {
             {
                 step_collisions(cx, leaves, quiet.units(), cells);
             }
+            let heating = steps.first().filter(|cx| cx.scene.heats(cx.step.index));
+            if let Some(cx) = heating {
+                gather_heat(cx, leaves, burns, heat);
+                burn_leaves(cx, leaves.as_mut(), burns.as_mut(), 0, heat, &changes);
+            }
+            let heats = heating.is_some();
             let of = |steps| LeafSteps { steps, changes: &changes, exposed, simd };
             if !forest.is_empty() {
                 for cx in steps {
@@ -235,6 +264,10 @@ impl Simulator for CpuSimulator {
             if has_litter {
                 let bare = compiled.context(&step_blocks[0]);
                 stack_litter(&bare, &mut leaves.as_mut(), bed, quiet, exposed, &changes);
+                if heats {
+                    settle_fires(bare.scene, bed, heat);
+                }
+                follow_leaves(&bare, leaves, burns, particles);
             }
             count
         };

@@ -4,7 +4,7 @@
 
 use std::borrow::Cow;
 
-use windfall_core::scene::SwayScheme;
+use windfall_core::scene::{Particles, SwayScheme};
 use windfall_core::{CompiledScene, Contract, SimError};
 
 use crate::gpu::Gpu;
@@ -40,10 +40,20 @@ pub(crate) enum GroupLayout {
     ForceCarriers,
     /// A population of whose ways samples are kept, and all samples.
     History,
+    /// Blocks, tables, and places and drifts of leaves.
+    LeavesThatMove,
+    /// Blocks, and the tables to be written, behind which the fires are.
+    BlocksAndLitter,
+    /// The burning of the leaves of a page, and sums of heat to be added to.
+    Heat,
+    /// The same with sums that are only read.
+    Heated,
+    /// Particles that are where leaves burn, and the burning of these leaves.
+    OnLeaves,
 }
 
 impl GroupLayout {
-    const ALL: [Self; 13] = [
+    const ALL: [Self; 18] = [
         Self::Leaves,
         Self::LeavesInMotion,
         Self::LeavesOnTwigs,
@@ -57,6 +67,11 @@ impl GroupLayout {
         Self::Mutual,
         Self::ForceCarriers,
         Self::History,
+        Self::LeavesThatMove,
+        Self::BlocksAndLitter,
+        Self::Heat,
+        Self::Heated,
+        Self::OnLeaves,
     ];
 
     /// Resources, binding by binding.
@@ -68,6 +83,8 @@ impl GroupLayout {
             Self::Leaves => ALL,
             Self::Blocks => &ALL[..3],
             Self::LeavesInMotion => &ALL[..8],
+            Self::LeavesThatMove => &ALL[..5],
+            Self::BlocksAndLitter => &[Block, BlockOfMany, Write],
             Self::LeavesOnTwigs => &ALL[..7],
             Self::LeavesAndLitter => &[Block, BlockOfMany, Write, Write, Write, Write, Write, Write, Write],
             Self::ReadBuffer => &[Read],
@@ -82,6 +99,11 @@ impl GroupLayout {
             Self::Mutual => &[BlockOfMany, Read, Read, Write],
             // The bindings of shaders/particle/force_carrier_bindings.wgsl.
             Self::ForceCarriers => &[Block, Read, Read, Read, Write],
+            // The bindings of shaders/leaf/burn_bindings.wgsl, and the sums.
+            Self::Heat => &[Block, Write, Write],
+            Self::Heated => &[Block, Write, Read],
+            // The bindings of shaders/particle/on_leaf_bindings.wgsl.
+            Self::OnLeaves => &[Block, Write, Write, Write, Read],
             // The bindings of shaders/particle/history_bindings.wgsl.
             Self::History => &[Block, Read, Write],
         }
@@ -99,6 +121,12 @@ impl KernelId {
             Self::PullParticles => &[GroupLayout::Blocks, GroupLayout::Mutual],
             Self::CarryForces => &[GroupLayout::Blocks, GroupLayout::ForceCarriers],
             Self::KeepHistory => &[GroupLayout::Blocks, GroupLayout::History],
+            Self::GatherHeat => &[GroupLayout::LeavesOnTwigs, GroupLayout::ReadBuffer, GroupLayout::Heat],
+            Self::BurnLeaves => {
+                &[GroupLayout::LeavesOnTwigs, GroupLayout::WrittenBuffer, GroupLayout::Heated]
+            }
+            Self::SettleFires => &[GroupLayout::BlocksAndLitter, GroupLayout::WrittenBuffer],
+            Self::FollowLeaves => &[GroupLayout::LeavesThatMove, GroupLayout::OnLeaves],
             Self::Carry => &[GroupLayout::LeavesOnTwigs, GroupLayout::WrittenBuffer, GroupLayout::Carriers],
             Self::ListActive | Self::Measure => &[GroupLayout::LeavesInMotion, GroupLayout::WrittenBuffer],
             Self::PushLying | Self::CheckCover | Self::WakeLying => {
@@ -133,6 +161,12 @@ impl KernelId {
             if compiled.block().has_movers() {
                 kernels.push(Self::PushLying);
             }
+        }
+        if compiled.block().leaves_burn() {
+            kernels.extend([Self::GatherHeat, Self::BurnLeaves, Self::SettleFires]);
+        }
+        if compiled.scene().particles.iter().any(Particles::is_on_leaves) {
+            kernels.push(Self::FollowLeaves);
         }
         if compiled.scene().particle_count() > 0 {
             kernels.push(Self::StepParticles);

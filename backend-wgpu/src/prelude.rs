@@ -42,6 +42,7 @@ fn leaf_records() -> String {
         leaf::Attitude::declaration(),
         leaf::Schedule::declaration(),
         leaf::Identity::declaration(),
+        leaf::Burn::declaration(),
     ]
     .concat()
 }
@@ -65,6 +66,7 @@ pub(crate) fn structs() -> String {
         blocks::LitterBlock::declaration(),
         blocks::CollisionBlock::declaration(),
         blocks::SolidsBlock::declaration(),
+        blocks::BurnBlock::declaration(),
         blocks::ResponseBlock::declaration(),
         blocks::ConesBlock::declaration(),
         flight::block::BodyBlock::declaration(),
@@ -87,6 +89,9 @@ pub(crate) fn structs() -> String {
         tree::record::CarryBlock::declaration(),
         leaf::Petiole::declaration(),
         device::leaf::collide::CollisionSums::declaration(),
+        device::leaf::burn::BurnSums::declaration(),
+        device::leaf::burn::BurnPage::declaration(),
+        particle::LeafParticles::declaration(),
         particle::ParticlePlace::declaration(),
         particle::ParticleMotion::declaration(),
         particle::ParticleTraits::declaration(),
@@ -118,6 +123,7 @@ pub(crate) fn constants() -> String {
         device::leaf::afloat::wgsl_constants(),
         device::leaf::air::wgsl_constants(),
         device::leaf::at_rest::wgsl_constants(),
+        device::leaf::burn::wgsl_constants(),
         device::leaf::carry::wgsl_constants(),
         device::leaf::collide::wgsl_constants(),
         device::leaf::cone_spiral::wgsl_constants(),

@@ -58,11 +58,19 @@ pub enum KernelId {
     CarryForces,
     /// Samples the ways of particles.
     KeepHistory,
+    /// Adds the heat of burning leaves to cells of the air.
+    GatherHeat,
+    /// Heats leaves, and lets those that are lit burn on.
+    BurnLeaves,
+    /// Lets fires follow the leaves that feed them.
+    SettleFires,
+    /// Lets particles follow burning leaves.
+    FollowLeaves,
 }
 
 impl KernelId {
     /// All kernels.
-    pub const ALL: [Self; 23] = [
+    pub const ALL: [Self; 27] = [
         Self::ListActive,
         Self::GatherCollisions,
         Self::Collide,
@@ -86,6 +94,10 @@ impl KernelId {
         Self::PullParticles,
         Self::CarryForces,
         Self::KeepHistory,
+        Self::GatherHeat,
+        Self::BurnLeaves,
+        Self::SettleFires,
+        Self::FollowLeaves,
     ];
 
     /// Name of the file and of the entry point.
@@ -114,6 +126,10 @@ impl KernelId {
             Self::PullParticles => "pull_particles",
             Self::CarryForces => "carry_forces",
             Self::KeepHistory => "keep_history",
+            Self::GatherHeat => "gather_heat",
+            Self::BurnLeaves => "burn_leaves",
+            Self::SettleFires => "settle_fires",
+            Self::FollowLeaves => "follow_leaves",
         }
     }
 }
@@ -158,6 +174,10 @@ impl Default for Shaders {
             "arith/rng",
             "arith/vector",
             "kernels/advance",
+            "kernels/burn_leaves",
+            "kernels/follow_leaves",
+            "kernels/gather_heat",
+            "kernels/settle_fires",
             "kernels/list_active",
             "kernels/resolve_events",
             "kernels/sample_air",
@@ -184,6 +204,8 @@ impl Default for Shaders {
             "leaf/afloat",
             "leaf/air",
             "leaf/at_rest",
+            "leaf/burn",
+            "leaf/burn_bindings",
             "leaf/carry",
             "leaf/collide",
             "leaf/cone_spiral",
@@ -223,6 +245,8 @@ impl Default for Shaders {
             "particle/mutual",
             "particle/mutual_bindings",
             "particle/nest",
+            "particle/on_leaf",
+            "particle/on_leaf_bindings",
             "particle/record",
             "particle/step",
             "particle/strike",

@@ -13,7 +13,7 @@ use windfall_core::layout::Uint4;
 use windfall_core::stats::COUNTER_COUNT;
 use windfall_core::{Clock, CompiledScene, Contract, SimError, Simulator, SimulatorInfo, Stats, World};
 
-use self::pages::{List, Page};
+use self::pages::{HeatSums, List, Page};
 pub use self::requests::{StateRequest, StatsRequest};
 use self::steps::STEPS_PER_PASS;
 use crate::buffers::{buffer, group, table};
@@ -62,6 +62,7 @@ pub struct WgpuSimulator {
     pages: Vec<Page>,
     /// Cells of the air in which leaves collide with each other; clear between steps.
     collisions: Option<List>,
+    heat: Option<HeatSums>,
     /// Steps for which the lists of active leaves still hold.
     listed_steps: u32,
 }
@@ -119,9 +120,11 @@ impl WgpuSimulator {
             counters_group,
             pages: Vec::new(),
             collisions: None,
+            heat: None,
             listed_steps: 0,
         };
         simulator.plant();
+        simulator.make_heat_sums();
         simulator.bind_pages();
         simulator.bind_particles()?;
         simulator.make_collision_cells();
@@ -216,7 +219,10 @@ impl WgpuSimulator {
             forest.rebind(&self.gpu, &self.pipelines, self.shared_blocks());
             self.forest = Some(forest);
         }
-        if moved || is_replanted {
+        if moved {
+            self.make_heat_sums();
+        }
+        if moved || is_replanted || former.block().populations != compiled.block().populations {
             self.bind_pages();
         }
         if moved || former.block().populations != compiled.block().populations {

@@ -460,8 +460,10 @@ crate::shared_struct! {
         pub sway: SwayBlock,
         /// Steps from one time at which leaves are heated and burn on to the next; 0 where none burn.
         pub burn_steps: u32,
+        /// Place of the fires that leaves feed among the words of the litter ([`FIRE_WORDS`](crate::device::leaf::burn::FIRE_WORDS)), one for each plume; 0 where there are none.
+        pub first_fire: u32,
         /// Zeros.
-        pub unused: [u32; 3],
+        pub unused: [u32; 2],
         /// Shelter from the wind.
         pub shelter: ShelterBlock,
         /// The wind.
@@ -680,6 +682,12 @@ crate::shared_struct! {
         pub inv_layer: f32,
         /// Slope of the axis at the base: way along the wind per m of height.
         pub base_slope: f32,
+        /// Square in m² of the distance from the base within which burning leaves feed the fire; 0 if its power is given.
+        pub feeding_m2: f32,
+        /// Place of such a fire among the words of the litter; 0 if its power is given.
+        pub fire: u32,
+        /// Zeros.
+        pub unused: [u32; 2],
         /// Heights at which the axis bends, from the base on.
         pub bends: [PlumeBend; PLUME_BENDS as usize],
     }

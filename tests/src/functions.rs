@@ -4,6 +4,7 @@
 
 mod afloat;
 mod bodies;
+mod burning;
 mod carry;
 mod collisions;
 mod flight;
@@ -113,4 +114,5 @@ pub fn all() -> impl Iterator<Item = &'static Function> {
         .chain(collisions::COLLISION_FUNCTIONS)
         .chain(afloat::AFLOAT_FUNCTIONS)
         .chain(particles::PARTICLE_FUNCTIONS)
+        .chain(burning::BURNING_FUNCTIONS)
 }

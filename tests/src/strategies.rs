@@ -6,8 +6,8 @@ use glam::{Vec2, Vec3};
 use proptest::prelude::*;
 use windfall_core::motion::Primitive;
 use windfall_core::scene::{
-    Aerodynamics, Air, Bounds, ConeShape, Direction, FlightModel, Foliage, Force, ForceCarriers, ForceKind,
-    Gusts, History, Hold, Jet, JetKey, Litter, MeanSpeed, Meets, MotionParameters, Nest, Object,
+    Aerodynamics, Air, Bounds, Burning, ConeShape, Direction, FlightModel, Foliage, Force, ForceCarriers,
+    ForceKind, Gusts, History, Hold, Jet, JetKey, Litter, MeanSpeed, Meets, MotionParameters, Nest, Object,
     ObjectFriction, ObjectKey, ObjectMotion, ObjectShape, ParticleEvent, ParticleRelease, ParticleShape,
     Particles, Planform, Plume, PlumeKey, Profile, Release, Scene, Share, Source, SourceShape, Space,
     Species, Spread, SwirlProfile, Terrain, Tree, TreeKind, Turbulence, Vortex, VortexProfile, Walker, Water,
@@ -60,7 +60,13 @@ pub fn jet() -> Jet {
 /// A fire that grows, beside the middle of the scene.
 pub fn plume() -> Plume {
     let keys = vec![PlumeKey { time_s: 0.0, power_kw: 5.0 }, PlumeKey { time_s: 4.0, power_kw: 400.0 }];
-    Plume { name: "fire".into(), at_m: Vec3::new(1.0, 0.2, -1.5), base_radius_m: 0.6, keys }
+    Plume {
+        name: "fire".into(),
+        at_m: Vec3::new(1.0, 0.2, -1.5),
+        base_radius_m: 0.6,
+        keys,
+        ..Plume::default()
+    }
 }
 
 /// A scene with every kind of source, gusts, turbulence, a vortex and two species; small enough to build in no time.
@@ -214,6 +220,41 @@ pub fn littered_scene(seed: u64, leaves: u32, speed_m_s: f32, dt_s: f32) -> Scen
         recycle_after_s: Some(9.0),
         species: Vec::new(),
     });
+    scene
+}
+
+/// A scene with litter of dry leaves of two species, one of which burns, a fire beneath some of it and `leaves` leaves in the air, in hill country with a pond. What burns feeds
+/// a second fire; embers and a glow are born of it.
+pub fn burning_scene(seed: u64, leaves: u32, speed_m_s: f32, dt_s: f32) -> Scene {
+    let mut scene = littered_scene(seed, leaves, speed_m_s, dt_s);
+    scene.sources.iter_mut().for_each(|source| source.recycle_after_s = None);
+    scene.ground.litter =
+        Some(Litter { size_m: Vec2::new(8.0, 7.0), leaf_area_index: 0.9, ..Litter::default() });
+    scene.species[1].burns =
+        Some(Burning { ignition_c: (200.0, 300.0), front_mm_s: 20.0, ..Burning::default() });
+    scene.wind.plumes = vec![
+        Plume { keys: vec![PlumeKey { time_s: 0.0, power_kw: 6.0 }], base_radius_m: 0.8, ..plume() },
+        Plume { name: "fed".into(), fed_within_m: Some(2.5), keys: Vec::new(), ..plume() },
+    ];
+    let on_leaves = Particles {
+        name: "glow".into(),
+        count: scene.leaf_count(),
+        release: ParticleRelease::BurningLeaves,
+        ..Particles::default()
+    };
+    let embers = Particles {
+        name: "embers".into(),
+        count: 2 * scene.leaf_count(),
+        nest: Some(Nest {
+            of: "glow".into(),
+            on: ParticleEvent::Every { steps: 20 },
+            inherit: 0.5,
+            ..Nest::default()
+        }),
+        life_s: Some(Spread::Constant(0.4)),
+        ..Particles::default()
+    };
+    scene.particles = vec![on_leaves, embers];
     scene
 }
 

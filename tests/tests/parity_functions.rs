@@ -7,7 +7,8 @@ use std::cell::RefCell;
 use glam::{Vec2, Vec3};
 use proptest::prelude::*;
 use proptest::test_runner::{Config, TestRunner};
-use windfall_core::scene::{Litter, VortexProfile};
+use windfall_core::device::leaf::burn::fire_words;
+use windfall_core::scene::{Burning, Litter, Plume, VortexProfile};
 use windfall_core::{Contract, Scene, World};
 use windfall_tests::adapter;
 use windfall_tests::functions::{self, Function};
@@ -38,6 +39,16 @@ fn world(litter: Option<Litter>) -> World {
     scene.wind.jets = vec![jet()];
     scene.wind.plumes = vec![plume()];
     scene.ground.litter = litter;
+    if litter.is_some() {
+        scene.sources.iter_mut().for_each(|source| source.recycle_after_s = None);
+        scene.species[0].burns = Some(Burning::default());
+        scene.wind.plumes.push(Plume {
+            name: "fed".into(),
+            fed_within_m: Some(3.0),
+            keys: Vec::new(),
+            ..plume()
+        });
+    }
     add_particles(&mut scene);
     let mut world = World::build(&scene).expect("the flying scene is valid on hills");
     for _ in 0..100 {
@@ -45,6 +56,8 @@ fn world(litter: Option<Litter>) -> World {
     }
     if litter.is_some() {
         add_ridges(&mut world);
+        let fires = world.bed.fires_mut(world.compiled.block());
+        fires.iter_mut().for_each(|fire| *fire = fire_words(300_000, 900_000));
     }
     world
 }
@@ -268,6 +281,13 @@ fn a_changed_twin_is_noticed() {
         ("wind/pile_shadow", "upwind - (here", "upwind - 2.0 * (here", "wind_behind_piles"),
         ("wind/plume", "growth * 0.5 + widening", "growth + widening", "wind_plume"),
         ("wind/plume", "passing * (along * across)", "passing * (along * along)", "wind_plume"),
+        ("wind/plume", "* inverse_cube * PLUME_ABOVE_K", "* PLUME_ABOVE_K", "plume_warmth"),
+        ("wind/plume", "bitcast<f32>(words.z)", "bitcast<f32>(words.y)", "plume_warmth"),
+        ("arith/math", "1.2 - (fifth * r2)", "1.2 - (fifth * r1)", "inverse_fifth_root"),
+        ("leaf/burn", "way * (1.0 - way)", "way * way", "leaf_rise"),
+        ("leaf/burn", "heat - scene.burns", "heat + scene.burns", "leaf_rise"),
+        ("leaf/burn", "place.y, place.z + wind.z", "place.y, place.z - wind.z", "leaf_heat_release"),
+        ("leaf/burn", ">> FIRE_FOLLOWS", ">> FIRE_WORDS", "fire_words"),
         ("wind/slipstream", "1.0 - inverse * stream.drag_m2", "1.0 - stream.drag_m2", "wind_slipstream"),
         ("leaf/collide", "layer * 19349663u", "layer * 19349661u", "own_sums"),
         ("leaf/collide", "number + 0.5", "number", "own_sums"),
@@ -297,12 +317,13 @@ fn a_changed_twin_is_noticed() {
 }
 
 /// Functions that only a kernel can call, as they read or write records of leaves and segments.
-const RECORDS: [&str; 16] = [
+const RECORDS: [&str; 17] = [
     "places",
     "drifts",
     "attitudes",
     "schedules",
     "identities",
+    "burns",
     "segments",
     "branch_rows",
     "work_rows",

@@ -6,7 +6,7 @@ use std::fmt::Write as _;
 
 use serde::Serialize;
 use windfall_core::device::flight::regime::REGIME_NAMES;
-use windfall_core::leaf::{LEAF_BYTES, LeafState};
+use windfall_core::leaf::{BurnStats, LEAF_BYTES, LeafState};
 use windfall_core::litter::LitterStats;
 use windfall_core::motion::Primitive;
 use windfall_core::particle::ParticleStats;
@@ -88,6 +88,36 @@ impl From<ParticleStats> for ParticleReport {
     }
 }
 
+/// Leaves that burn.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub(crate) struct BurningReport {
+    /// Leaves that burn now.
+    pub burning: u64,
+    /// Leaves that have burnt and are gone.
+    pub burnt: u64,
+    /// Leaves that water has put out.
+    pub put_out: u64,
+    /// Dry mass of what is left of leaves, without ash.
+    pub left_kg: f64,
+    /// Ash.
+    pub ash_kg: f64,
+    /// Mass that has gone up in flames.
+    pub gone_kg: f64,
+    /// Heat that has been released.
+    pub heat_mj: f64,
+    /// Heat that is released per second now.
+    pub power_kw: f64,
+}
+
+impl From<BurnStats> for BurningReport {
+    fn from(stats: BurnStats) -> Self {
+        let BurnStats { burning, burnt, put_out, left_ug, ash_ug, gone_ug, heat_j, power_w } = stats;
+        let [left_kg, ash_kg, gone_kg] = [left_ug, ash_ug, gone_ug].map(|mass| mass as f64 * 1e-9);
+        let (heat_mj, power_kw) = (heat_j * 1e-6, power_w * 1e-3);
+        Self { burning, burnt, put_out, left_kg, ash_kg, gone_kg, heat_mj, power_kw }
+    }
+}
+
 /// The outcome of `windfall simulate`. The names of these fields are the keys of its JSON; they stay.
 #[derive(Clone, Debug, Serialize)]
 pub(crate) struct Report {
@@ -111,6 +141,8 @@ pub(crate) struct Report {
     pub trees: TreeReport,
     /// The litter; null without any.
     pub litter: Option<LitterReport>,
+    /// Leaves that burn; null where none do.
+    pub burning: Option<BurningReport>,
     /// The populations of particles.
     pub particles: Vec<ParticleReport>,
     /// Mean position over the total.
@@ -153,6 +185,7 @@ impl Report {
             leaves: LeafCounts { total, attached, falling, resting, dormant },
             trees,
             litter: world.litter_stats().map(LitterReport::from),
+            burning: world.burn_stats().map(BurningReport::from),
             particles: world.particle_stats().into_iter().map(ParticleReport::from).collect(),
             mean_position_m,
             mean_velocity_m_s,
@@ -192,6 +225,13 @@ impl Report {
                 "litter",
                 format!("{lies}; {held} held, {afloat} afloat, {sunk} sunk, {awake} awake, {woken} woken"),
             );
+        }
+        if let Some(burning) = self.burning {
+            let BurningReport { burning, burnt, put_out, left_kg, ash_kg, gone_kg, heat_mj, power_kw } =
+                burning;
+            let leaves = format!("{burning} leaves, {burnt} burnt, {put_out} put out by water");
+            let masses = format!("{left_kg:.4} kg left, {ash_kg:.4} kg of ash, {gone_kg:.4} kg gone");
+            row("burning", format!("{leaves}; {masses}; {heat_mj:.3} MJ, {power_kw:.1} kW"));
         }
         for particles in &self.particles {
             let ParticleReport { name, slots, alive, born, died, hits, stopped, cut_short } = particles;

@@ -3,19 +3,23 @@
 //! Loops over leaves and over segments of trees; one file per kernel, each with a twin in `backend-wgpu/src/shaders/kernels/`.
 
 mod advance;
+pub(crate) mod burn_leaves;
 pub(crate) mod carry;
 pub(crate) mod carry_forces;
 mod check_cover;
 mod clear_collisions;
 mod collide;
 mod fly;
+pub(crate) mod follow_leaves;
 mod gather_collisions;
+pub(crate) mod gather_heat;
 pub(crate) mod keep_history;
 pub(crate) mod measure;
 pub(crate) mod pull_particles;
 mod push_lying;
 mod resolve_events;
 mod sample_air;
+pub(crate) mod settle_fires;
 pub(crate) mod stack_litter;
 pub(crate) mod step_collisions;
 pub(crate) mod step_leaves;

@@ -15,7 +15,10 @@ use windfall_core::arith::Vec3;
 use windfall_core::arith::pack::{BLOCK, Pack};
 use windfall_core::blocks::{BirthBlock, NestBlock};
 use windfall_core::device::particle::nest::{nest_events, nest_place};
-use windfall_core::device::particle::record::{POPULATION_FOLLOWED, POPULATION_LOCAL, particle_population};
+use windfall_core::device::particle::record::{
+    PARTICLE_DORMANT, PARTICLE_MARKS, PARTICLE_STATE_MASK, POPULATION_FOLLOWED, POPULATION_LOCAL,
+    POPULATION_ON_LEAVES, particle_population,
+};
 use windfall_core::device::particle::step::{ParticleChange, particle_step};
 use windfall_core::particle::{Generation, ParticleRows, add_to_tally};
 
@@ -108,6 +111,17 @@ fn step_lanes<P: Pack>(
             0 => births_touch(births, population.count as usize, place),
             _ => parents_bear(cx, &population.nest, &run.parents, place..place + BLOCK),
         };
+        if (population.flags & POPULATION_ON_LEAVES) != 0 && here == last {
+            for row in rows {
+                // Most leaves do not burn.
+                if (run.particles.place[row].bits & (PARTICLE_STATE_MASK | PARTICLE_MARKS))
+                    != PARTICLE_DORMANT
+                {
+                    step_one(cx, run, row, pulls, counts);
+                }
+            }
+            continue;
+        }
         if here != last || rows.len() != BLOCK || is_born_into() {
             rows.for_each(|row| step_one(cx, run, row, pulls, counts));
             continue;

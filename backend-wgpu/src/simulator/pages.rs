@@ -2,7 +2,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The leaf columns in windows that fit in one binding each.
 
+use windfall_core::device::leaf::burn::{BURN_CELL_BITS, BURN_WORDS, BurnPage};
 use windfall_core::device::leaf::collide::{COLLISION_CELL_BITS, CollisionSums};
+use windfall_core::particle::{LeafParticles, leaf_particles};
+use windfall_core::scene::MAX_PLUMES;
 use windfall_core::tree::record::{BRANCH_COLUMNS, BRANCH_TURN, CarryBlock};
 
 use super::WgpuSimulator;
@@ -14,6 +17,10 @@ use crate::pipelines::GroupLayout;
 const COLUMNS_IN_MOTION: usize = 5;
 /// Leaf columns before the airs.
 const COLUMNS_ON_TWIGS: usize = 4;
+/// Places and drifts.
+const COLUMNS_THAT_MOVE: usize = 2;
+/// Rows to which windows of particles are widened, so that they are aligned on any device.
+const PARTICLE_WINDOW_STEP: u32 = 16;
 
 /// A window of the leaf columns that fits in one binding.
 #[derive(Debug)]
@@ -27,6 +34,33 @@ pub(super) struct Page {
     pub(super) active: List,
     pub(super) events: List,
     pub(super) on_trees: Option<OnTrees>,
+    /// `None` where no leaves burn.
+    pub(super) burning: Option<BurningPage>,
+}
+
+/// Bindings of the burning of the leaves of a page.
+#[derive(Debug)]
+pub(super) struct BurningPage {
+    /// The columns of the page without airs and identities.
+    pub(super) columns: wgpu::BindGroup,
+    /// Burning and sums of heat, to be added to.
+    pub(super) heat: wgpu::BindGroup,
+    /// Burning and sums of heat, to be read.
+    pub(super) heated: wgpu::BindGroup,
+    /// Places and drifts of the page.
+    pub(super) moved: wgpu::BindGroup,
+    /// The particles of each population that is where leaves burn.
+    pub(super) on_leaves: Vec<wgpu::BindGroup>,
+}
+
+/// Sums of heat in cells of the air and of the fires that leaves feed; clear between steps.
+#[derive(Debug)]
+pub(super) struct HeatSums {
+    pub(super) buffer: wgpu::Buffer,
+    pub(super) words: u32,
+    pub(super) written: wgpu::BindGroup,
+    /// Blocks, and the tables to be written.
+    pub(super) fires: wgpu::BindGroup,
 }
 
 /// A buffer of lists of leaves or of cells, bound for kernels that read it and for those that fill it.
@@ -100,7 +134,52 @@ impl WgpuSimulator {
             active: self.list("active_list", active_bytes(leaves, kept)),
             events: self.list("event_lists", event_bytes(leaves)),
             on_trees,
+            burning: self.heat.as_ref().map(|heat| self.burning_page(heat, first, leaves)),
         }
+    }
+
+    fn burning_page(&self, heat: &HeatSums, first: u32, leaves: u32) -> BurningPage {
+        let bound = |layout, count| {
+            let columns = self.buffers.leaves().windows(first, leaves).take(count);
+            group(&self.gpu, self.pipelines.layout(layout), self.shared_blocks().into_iter().chain(columns))
+        };
+        let page = uniform(&self.gpu, "burn page", &BurnPage { first_slot: first, unused: [0; 3] });
+        let burns = || wgpu::BindingResource::Buffer(self.buffers.burns().window(0, first, leaves));
+        let sums = |layout| {
+            let resources = [page.as_entire_binding(), burns(), heat.buffer.as_entire_binding()];
+            group(&self.gpu, self.pipelines.layout(layout), resources)
+        };
+        let on_leaves = |run: LeafParticles| {
+            let slot = run.first + first;
+            let aligned = slot / PARTICLE_WINDOW_STEP * PARTICLE_WINDOW_STEP;
+            let run = LeafParticles { first: slot - aligned, count: leaves, first_leaf: first, ..run };
+            let block = uniform(&self.gpu, "leaf particles", &run);
+            let columns = self.buffers.particles().windows(aligned, run.first + leaves);
+            let resources = std::iter::once(block.as_entire_binding()).chain(columns).chain([burns()]);
+            group(&self.gpu, self.pipelines.layout(GroupLayout::OnLeaves), resources)
+        };
+        let runs = leaf_particles(self.compiled.block(), self.buffers.leaves().rows());
+        BurningPage {
+            columns: bound(GroupLayout::LeavesOnTwigs, COLUMNS_ON_TWIGS),
+            heat: sums(GroupLayout::Heat),
+            heated: sums(GroupLayout::Heated),
+            moved: bound(GroupLayout::LeavesThatMove, COLUMNS_THAT_MOVE),
+            on_leaves: runs.map(on_leaves).collect(),
+        }
+    }
+
+    /// Makes room for sums of heat, where leaves burn.
+    pub(super) fn make_heat_sums(&mut self) {
+        if !self.compiled.block().leaves_burn() {
+            return;
+        }
+        let words = (BURN_WORDS << BURN_CELL_BITS) + MAX_PLUMES as u32;
+        let buffer = buffer(&self.gpu, "sums of heat", u64::from(words) * 4, wgpu::BufferUsages::STORAGE);
+        let written =
+            group(&self.gpu, self.pipelines.layout(GroupLayout::WrittenBuffer), [buffer.as_entire_binding()]);
+        let fires =
+            group(&self.gpu, self.pipelines.layout(GroupLayout::BlocksAndLitter), self.shared_blocks());
+        self.heat = Some(HeatSums { buffer, words, written, fires });
     }
 
     /// Makes cells for the collisions of leaves, where they may collide.

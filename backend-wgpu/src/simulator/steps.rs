@@ -150,6 +150,7 @@ impl WgpuSimulator {
     /// Encodes step number `index`, whose block lies at `offset`.
     fn encode_step(&self, pass: &mut wgpu::ComputePass<'_>, offset: u32, index: u32) {
         let kernel = |kernel| self.pipelines.kernel(kernel);
+        let mut heats = None;
         if let Some(particles) = &self.particles {
             particles.encode_carriers(pass, || kernel(KernelId::CarryForces), offset);
             particles.encode_pulls(pass, || kernel(KernelId::PullParticles), offset);
@@ -160,6 +161,10 @@ impl WgpuSimulator {
             && self.compiled.block().collides(index)
         {
             self.encode_collisions(pass, cells, offset);
+        }
+        if let Some(heat) = self.heat.as_ref().filter(|_| self.compiled.block().heats(index)) {
+            self.encode_burning(pass, offset);
+            heats = Some(heat);
         }
         if let Some(forest) = &self.forest {
             if self.compiled.block().sway.solves_joints(index) {
@@ -200,6 +205,40 @@ impl WgpuSimulator {
         }
         if self.compiled.block().has_living_litter() {
             self.encode_litter(pass, offset);
+        }
+        if let Some(heat) = heats {
+            pass.set_pipeline(kernel(KernelId::SettleFires));
+            pass.set_bind_group(0, &heat.fires, &[offset]);
+            pass.set_bind_group(1, &heat.written, &[]);
+            pass.dispatch_workgroups(heat.words.div_ceil(WORKGROUP_SIZE), 1, 1);
+        }
+        self.encode_following(pass, offset);
+    }
+
+    /// Encodes the heating of leaves, and their burning: all release their heat before the first takes any up.
+    fn encode_burning(&self, pass: &mut wgpu::ComputePass<'_>, offset: u32) {
+        for kernel in [KernelId::GatherHeat, KernelId::BurnLeaves] {
+            pass.set_pipeline(self.pipelines.kernel(kernel));
+            for page in &self.pages {
+                let Some(burning) = &page.burning else { continue };
+                let gathers = kernel == KernelId::GatherHeat;
+                pass.set_bind_group(0, &burning.columns, &[offset]);
+                pass.set_bind_group(1, if gathers { &page.active.read } else { &page.active.filled }, &[]);
+                pass.set_bind_group(2, if gathers { &burning.heat } else { &burning.heated }, &[]);
+                pass.dispatch_workgroups(page.leaves.div_ceil(WORKGROUP_SIZE), 1, 1);
+            }
+        }
+    }
+
+    /// Encodes the places of particles that are where leaves burn.
+    fn encode_following(&self, pass: &mut wgpu::ComputePass<'_>, offset: u32) {
+        for (page, burning) in self.pages.iter().filter_map(|page| Some((page, page.burning.as_ref()?))) {
+            for bound in &burning.on_leaves {
+                pass.set_pipeline(self.pipelines.kernel(KernelId::FollowLeaves));
+                pass.set_bind_group(0, &burning.moved, &[offset]);
+                pass.set_bind_group(1, bound, &[]);
+                pass.dispatch_workgroups(page.leaves.div_ceil(WORKGROUP_SIZE), 1, 1);
+            }
         }
     }
 

@@ -96,7 +96,7 @@ impl PopulationBirths {
     fn of(particles: &Particles, reach_s: f64, dt_s: f64) -> Self {
         let release = particles.nest.is_none().then_some(particles.release);
         let (mean, from_s) = match release {
-            None | Some(ParticleRelease::Burst { .. }) => (0.0, 0.0),
+            None | Some(ParticleRelease::Burst { .. } | ParticleRelease::BurningLeaves) => (0.0, 0.0),
             Some(ParticleRelease::Rate { from_s, .. }) => (0.0, f64::from(from_s)),
             Some(ParticleRelease::Poisson { per_s, from_s }) => (f64::from(per_s) * dt_s, f64::from(from_s)),
         };
@@ -117,6 +117,7 @@ impl PopulationBirths {
             return u32::try_from(by(within + 1) - by(within)).unwrap_or(u32::MAX);
         }
         match release {
+            ParticleRelease::BurningLeaves => 0,
             ParticleRelease::Burst { at_s } => {
                 let is_now = step_of(at_s, dt_s) == at;
                 if is_now { self.count } else { 0 }

@@ -8,6 +8,7 @@ use super::body::body_block;
 use crate::blocks::{BurnBlock, SceneBlock};
 use crate::convert::single;
 use crate::device::leaf::burn::{BOILING_RISE_K, BURN_INTERVAL, BURN_STAGES, burnt_share};
+use crate::litter::Bed;
 use crate::scene::{Burning, Scene, Species};
 
 /// Coefficient of heat transfer in W/(m² K) between a leaf and a flame: laminar flow at 3 m/s along 5 cm (Nusselt number 0.664 Re^(1/2)
@@ -21,6 +22,10 @@ const WATER_J_KG_K: f64 = 4_186.0;
 const EVAPORATION_J_KG: f64 = 2.257e6;
 /// Temperature in °C of the air and of leaves in it.
 const AMBIENT_C: f64 = 20.0;
+/// Water in kg per kg of dry leaf with which no fire spreads: 0.25 to 0.3 of hardwood litter (Albini 1976, USDA General Technical Report INT-30).
+const EXTINCTION: f64 = 0.3;
+/// Least speed of burning over that of dry leaves.
+const LEAST_DAMPING: f64 = 0.1;
 /// Intervals within a stage over which its mean mass is taken.
 const STAGE_PARTS: u32 = 64;
 
@@ -30,6 +35,9 @@ pub(super) fn set_burning(scene: &Scene, block: &mut SceneBlock) {
         return;
     }
     block.burn_steps = BURN_INTERVAL;
+    if scene.wind.plumes.iter().any(|plume| plume.fed_within_m.is_some()) {
+        block.first_fire = Bed::first_fire(&block.litter);
+    }
     let count = scene.species.len();
     for (index, species) in scene.species.iter().enumerate() {
         let Some(burning) = &species.burns else { continue };
@@ -59,6 +67,16 @@ fn in_stage(scene: &Scene, species: &Species, burning: &Burning, stage: u32) -> 
     Species { areal_density_kg_m2, ..species.clone() }
 }
 
+/// Speed of burning of leaves with water in kg per kg over that of dry ones.
+///
+/// # Source
+/// Rothermel 1972 (USDA Research Paper INT-115), equation 29: it falls to nothing at the moisture of extinction. Wetter leaves, which only a flame
+/// dries, smoulder on at [`LEAST_DAMPING`].
+fn damping(moisture: f64) -> f64 {
+    let ratio = (moisture / EXTINCTION).min(1.0);
+    (1.0 + ratio * (-2.59 + ratio * (5.11 - ratio * 3.52))).max(LEAST_DAMPING)
+}
+
 /// Burning of a species.
 fn burn_block(scene: &Scene, species: &Species, burning: &Burning) -> BurnBlock {
     let (dt, size_m) = (f64::from(scene.dt_s), f64::from(species.size_m));
@@ -69,7 +87,8 @@ fn burn_block(scene: &Scene, species: &Species, burning: &Burning) -> BurnBlock 
     let length_m = size_m
         * f64::from(planform.extent)
         * libm::sqrt(f64::from(planform.aspect.max(1.0 / planform.aspect)));
-    let seconds = 1000.0 * length_m / f64::from(burning.front_mm_s);
+    let moisture = species.moisture(scene.ground.litter.as_ref());
+    let seconds = 1000.0 * length_m / (f64::from(burning.front_mm_s) * damping(moisture));
     let burnt_kg = PI / 4.0 * size_m * size_m * areal * (1.0 - f64::from(burning.ash));
     let (dry_j, wet_j) = (areal * LEAF_J_KG_K, areal * LEAF_J_KG_K + water * WATER_J_KG_K);
     let interval_s = f64::from(BURN_INTERVAL) * dt;

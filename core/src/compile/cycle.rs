@@ -123,10 +123,10 @@ impl Cycle {
                     return refuse(at("count"), particles.count.to_string(), &allowed);
                 }
             } else if !matches!(particles.release, ParticleRelease::Rate { .. }) {
-                let value = if matches!(particles.release, ParticleRelease::Burst { .. }) {
-                    "Burst"
-                } else {
-                    "Poisson"
+                let value = match particles.release {
+                    ParticleRelease::Burst { .. } => "Burst",
+                    ParticleRelease::BurningLeaves => "BurningLeaves",
+                    _ => "Poisson",
                 };
                 let allowed = "Rate: particles born evenly one after another";
                 return refuse(at("release"), value.into(), allowed);

@@ -206,7 +206,7 @@ impl CompiledScene {
         vec![
             StoreSize { store: Leaves::NAME, rows: self.scene.leaf_count() as usize },
             StoreSize { store: Branches::NAME, rows: self.forest.len() },
-            StoreSize { store: Bed::NAME, rows: Bed::rows_of(&self.block.litter) },
+            StoreSize { store: Bed::NAME, rows: Bed::rows_of(&self.block) },
             StoreSize { store: ParticleStore::NAME, rows: self.scene.particle_count() as usize },
             StoreSize { store: TallyStore::NAME, rows: TallyStore::rows_of(&self.scene) },
             StoreSize { store: HistoryStore::NAME, rows: HistoryStore::rows_of(&self.scene) },

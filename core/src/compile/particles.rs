@@ -16,7 +16,7 @@ use crate::device::particle::birth::{
 use crate::device::particle::force_carrier::CarrierRun;
 use crate::device::particle::record::{
     DIRECTION_AROUND, DIRECTION_CAP, DIRECTION_OUTWARD, MEETS_BOUNCE, MEETS_DIE, MEETS_NOTHING, MEETS_STICK,
-    POPULATION_FOLLOWED, POPULATION_LOCAL, POPULATION_LOSS,
+    POPULATION_FOLLOWED, POPULATION_LOCAL, POPULATION_LOSS, POPULATION_ON_LEAVES,
 };
 use crate::layout::Uint4;
 use crate::motion::AIR_DENSITY;
@@ -111,6 +111,9 @@ fn population_block(scene: &Scene, particles: &Particles) -> PopulationBlock {
             MEETS_BOUNCE
         }
     };
+    if particles.is_on_leaves() {
+        block.flags |= POPULATION_ON_LEAVES;
+    }
     (block.low_m, block.high_m) = ([-BOUNDLESS_M; 3], [BOUNDLESS_M; 3]);
     match particles.dies {
         None => {}

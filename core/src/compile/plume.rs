@@ -38,6 +38,9 @@ pub(super) fn plume_block(scene: &Scene, plume: &Plume, time_s: f64, ground_m: f
     block.base_m = plume.at_m.to_array();
     block.base_radius_m = plume.base_radius_m;
     block.inv_layer = single(1.0 / level);
+    if let Some(within_m) = plume.fed_within_m {
+        block.feeding_m2 = within_m * within_m;
+    }
     let power_kw = plume.power_kw(time_s);
     if power_kw <= 0.0 {
         return block;

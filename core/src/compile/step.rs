@@ -10,6 +10,7 @@ use crate::arith::rng::{random, unit_float};
 use crate::blocks::{JetBlock, MomentBlock, MoverBlock, PlumeBlock, StepBlock, VortexBlock};
 use crate::clock::Clock;
 use crate::convert::{len32, single};
+use crate::device::leaf::burn::FIRE_WORDS;
 use crate::device::leaf::collide::COLLISION_CELLS_PER_M;
 use crate::device::wind::gust::GUST_ROWS;
 use crate::device::wind::turbulence::TURBULENCE_X;
@@ -93,6 +94,9 @@ impl CompiledScene {
         for (plume, block) in self.scene.wind.plumes.iter().zip(&mut plumes) {
             let ground_m = ground(plume.at_m.as_dvec3()).unwrap_or(0.0);
             *block = plume_block(&self.scene, plume, seconds, ground_m);
+        }
+        for (fire, block) in (0..).zip(&mut plumes).filter(|(_, block)| block.feeding_m2 != 0.0) {
+            block.fire = self.block.first_fire + fire * FIRE_WORDS;
         }
         let slipstreams = if self.solids.are_still() {
             bytemuck::Zeroable::zeroed()

@@ -89,14 +89,14 @@ impl BurnStats {
             let number = leaf_species(place.bits) as usize % count;
             let species = &scene.species[number];
             let Some(burning) = &species.burns else { continue };
-            let (block, size) = (&block.burns[number], schedule.size);
+            let (of_species, size) = (&block.burns[number], schedule.size);
             let is_lit = burn.lit != UNLIT;
             // Leaves that wait for their release have no size yet.
             if leaf_state(place.bits) == STATE_DORMANT && !is_lit {
                 continue;
             }
             let is_gone = is_lit && leaf_state(place.bits) == STATE_DORMANT;
-            let way = if is_gone { 1.0 } else { burn_way(step, block, size, burn) };
+            let way = if is_gone { 1.0 } else { burn_way(step, burn) };
             let burns = is_lit && way < 1.0;
             let [left, ash, gone] = leaf_masses(species, size, burnt_share(way));
             stats.burning += u64::from(burns);
@@ -107,7 +107,7 @@ impl BurnStats {
             stats.gone_ug += gone;
             stats.heat_j += gone as f64 * f64::from(burning.heat_mj_kg) * 1e-3;
             if burns {
-                stats.power_w += f64::from(burn_power(block, size_ratio(size), way));
+                stats.power_w += f64::from(burn_power(of_species, size_ratio(size), way));
             }
         }
         Some(stats)

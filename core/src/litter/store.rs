@@ -2,14 +2,17 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The bed: heights of litter at the nodes of its grid, and how many leaves the wind has taken from it.
 
-use crate::blocks::LitterBlock;
+use crate::blocks::{LitterBlock, SceneBlock};
+use crate::convert::len32;
+use crate::device::leaf::burn::FIRE_WORDS;
 use crate::device::leaf::stack::LitterChange;
+use crate::scene::MAX_PLUMES;
 
 /// Words in a row of the tables, behind which devices keep the bed.
 const ROW_WORDS: usize = 4;
 
 crate::columns! {
-    /// Litter of a world. The nodes of its grid, line by line, then [`Bed::woken`]; no row without litter.
+    /// Litter of a world. The nodes of its grid, line by line, then [`Bed::woken`], then the fires that leaves feed; no row without litter.
     pub struct Bed("litter") {
         /// Heights in units of [`LITTER_UNIT_M`](crate::device::terrain::litter::LITTER_UNIT_M).
         pub words: u32,
@@ -22,8 +25,21 @@ crate::columns! {
 
 impl Bed {
     /// Number of rows for a scene, whole rows of tables.
-    pub(crate) fn rows_of(litter: &LitterBlock) -> usize {
-        if litter.columns == 0 { 0 } else { (nodes(litter) + 1).next_multiple_of(ROW_WORDS) }
+    pub(crate) fn rows_of(scene: &SceneBlock) -> usize {
+        let litter = &scene.litter;
+        let fires = if scene.first_fire == 0 { 0 } else { MAX_PLUMES * FIRE_WORDS as usize };
+        if litter.columns == 0 { 0 } else { (nodes(litter) + 1).next_multiple_of(ROW_WORDS) + fires }
+    }
+
+    /// Place of the first fire that leaves feed, a whole number of rows from the start.
+    pub(crate) fn first_fire(litter: &LitterBlock) -> u32 {
+        len32((nodes(litter) + 1).next_multiple_of(ROW_WORDS))
+    }
+
+    /// The fires that leaves feed; empty where there are none.
+    pub fn fires_mut(&mut self, scene: &SceneBlock) -> &mut [[u32; FIRE_WORDS as usize]] {
+        let first = if scene.first_fire == 0 { self.words.len() } else { scene.first_fire as usize };
+        self.words[first..].as_chunks_mut().0
     }
 
     /// Heights of the nodes.

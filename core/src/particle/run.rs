@@ -4,15 +4,18 @@
 
 use super::store::{ParticleRows, ParticleStore, ParticlesMut, TallyStore};
 use crate::arith::vector::Vec3;
-use crate::blocks::PopulationBlock;
+use crate::blocks::{PopulationBlock, SceneBlock};
 use crate::context::Context;
+use crate::convert::len32;
 use crate::device::particle::force_carrier::{CarrierRun, carrier_rows};
 use crate::device::particle::mutual::{mutual_pull, mutual_source};
+use crate::device::particle::on_leaf::{LeafParticles, particle_on_leaf};
 use crate::device::particle::record::{
-    POPULATION_MUTUAL, ParticleStart, TALLY_BORN, TALLY_CUT_SHORT, TALLY_DIED, TALLY_HITS, TALLY_STOPPED,
-    TALLY_WORDS, particle_population,
+    POPULATION_MUTUAL, POPULATION_ON_LEAVES, ParticleStart, TALLY_BORN, TALLY_CUT_SHORT, TALLY_DIED,
+    TALLY_HITS, TALLY_STOPPED, TALLY_WORDS, particle_population,
 };
 use crate::device::particle::step::{ParticleChange, particle_step};
+use crate::leaf::{Burns, Leaves};
 
 /// Adds what has happened to a particle to the counts of its population.
 #[inline(always)]
@@ -65,6 +68,31 @@ pub fn place_carriers(
         rows.extend(slots.flat_map(|slot| {
             carrier_rows(cx, run, &particles.place[slot], &particles.motion[slot], &particles.traits[slot])
         }));
+    }
+}
+
+/// The populations of a scene whose particles are where leaves burn.
+pub fn leaf_particles(scene: &SceneBlock, leaves: u32) -> impl Iterator<Item = LeafParticles> {
+    let on_leaves = |(_, block): &(u32, &PopulationBlock)| (block.flags & POPULATION_ON_LEAVES) != 0;
+    let of = move |(population, block): (u32, &PopulationBlock)| LeafParticles {
+        first: block.first_slot,
+        count: leaves,
+        first_leaf: 0,
+        population,
+    };
+    (0..).zip(&scene.populations).filter(on_leaves).map(of)
+}
+
+/// Lets the particles of burning leaves be where these are at the end of a step.
+pub(crate) fn follow_leaves(cx: &Context<'_>, leaves: &Leaves, burns: &Burns, particles: &mut ParticleStore) {
+    let mut particles = particles.as_mut();
+    for run in leaf_particles(cx.scene, len32(leaves.len())) {
+        for (slot, burn) in (0..).zip(&burns.burn) {
+            let (place, drift) = (&leaves.place[slot as usize], &leaves.drift[slot as usize]);
+            let mut particle = particles.row_mut((run.first + slot) as usize);
+            let (at, velocity) = (place.position.into(), drift.velocity.into());
+            particle_on_leaf(cx, &mut particle, run.population, slot, place.bits, at, velocity, burn);
+        }
     }
 }
 

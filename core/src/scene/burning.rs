@@ -19,7 +19,8 @@ pub struct Burning {
     /// 2007), with great scatter.
     #[serde(default = "usual_ignition")]
     pub ignition_c: (f32, f32),
-    /// Speed of the front in mm/s, 0.5 to 50. The default, 8, is an assumption: single leaves burn for a few seconds.
+    /// Speed of the front over a dry leaf in mm/s, 0.5 to 50: water slows it. The default, 12, is an assumption: single leaves burn for a few
+    /// seconds.
     #[serde(default = "usual_front")]
     pub front_mm_s: f32,
     /// Share of the dry mass that is left as ash, 0 to 0.4. The default is 0.06.
@@ -37,7 +38,7 @@ fn usual_ignition() -> (f32, f32) {
 }
 
 fn usual_front() -> f32 {
-    8.0
+    12.0
 }
 
 fn usual_ash() -> f32 {

@@ -59,6 +59,11 @@ limits! {
     SPEED_VARIATION: f32 = 0.0, 0.5, "", speed_variation;
     AREAL_DENSITY_KG_M2: f32 = 0.005, 2.0, "kg/m²", areal_density_kg_m2;
     SPIN_RAD_S: f32 = 0.0, 20.0, "rad/s", spin_rad_s;
+    HEAT_MJ_KG: f32 = 5.0, 30.0, "MJ/kg", heat_mj_kg;
+    IGNITION_C: f32 = 150.0, 700.0, "°C", ignition_c;
+    FRONT_MM_S: f32 = 0.5, 50.0, "mm/s", front_mm_s;
+    ASH: f32 = 0.0, 0.4, "", ash;
+    FED_WITHIN_M: f32 = 0.1, 20.0, "m", fed_within_m;
     FRICTION_PER_S: f32 = 0.1, 1000.0, "1/s", friction_per_s;
 
     ASPECT: f32 = 0.1, 10.0, "", aspect;
@@ -289,6 +294,7 @@ mod tests {
     /// The text of every file that describes a scene.
     const SOURCES: &[&str] = &[
         include_str!("mod.rs"),
+        include_str!("burning.rs"),
         include_str!("flight.rs"),
         include_str!("force.rs"),
         include_str!("ground.rs"),

@@ -183,6 +183,9 @@ pub enum ParticleRelease {
         /// Time from which on in seconds, -3600 to 86400. Those born before time zero have flown by then.
         from_s: f32,
     },
+    /// As leaves catch: each particle is where a leaf burns for as long as that burns. There is one for each leaf of the scene, and nothing but
+    /// its leaf moves it; others may be born of it.
+    BurningLeaves,
 }
 
 /// Drag of the air on particles, all in the one wind.
@@ -250,6 +253,13 @@ pub struct History {
     pub samples: u32,
     /// Steps from one to the next, 1 to 240.
     pub every_steps: u32,
+}
+
+impl Particles {
+    /// Returns true if each particle is where a leaf burns.
+    pub fn is_on_leaves(&self) -> bool {
+        self.nest.is_none() && self.release == ParticleRelease::BurningLeaves
+    }
 }
 
 /// A population of particles: slots of one kind, used again and again.

@@ -5,6 +5,8 @@
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
+use crate::device::leaf::burn::FIRE_MOST_KW;
+
 /// Heat release of a fire at a time.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -25,13 +27,37 @@ pub struct Plume {
     pub at_m: Vec3,
     /// Radius of the base in metres, 0.05 to 20.
     pub base_radius_m: f32,
-    /// Heat release over time, 1 to 1024 keys.
+    /// Heat release over time, 1 to 1024 keys; none with `fed_within_m`.
+    #[serde(default)]
     pub keys: Vec<PlumeKey>,
+    /// Distance from `at_m` in metres, 0.1 to 20, within which burning leaves feed the fire: its power is what they release. `None` if `keys` state it.
+    #[serde(default)]
+    pub fed_within_m: Option<f32>,
 }
+
+impl Default for Plume {
+    fn default() -> Self {
+        Self {
+            name: "fire".into(),
+            at_m: Vec3::ZERO,
+            base_radius_m: 0.3,
+            keys: vec![PlumeKey { time_s: 0.0, power_kw: 50.0 }],
+            fed_within_m: None,
+        }
+    }
+}
+
+/// Power in kW of a fire that leaves feed for which its axis leans.
+const FED_KW: f64 = 20.0;
 
 impl Plume {
     /// Heat released per second at a time in kW; none without keys.
+    ///
+    /// Where leaves feed it, a power between that of a few and of a heap of them.
     pub fn power_kw(&self, time_s: f64) -> f64 {
+        if self.fed_within_m.is_some() {
+            return FED_KW;
+        }
         let next = self.keys.partition_point(|key| f64::from(key.time_s) <= time_s);
         let Some(end) = self.keys.get(next).or(self.keys.last()) else { return 0.0 };
         let start = self.keys.get(next.saturating_sub(1)).unwrap_or(end);
@@ -47,7 +73,8 @@ impl Plume {
 
     /// Largest heat released per second in kW.
     pub(crate) fn greatest_kw(&self) -> f64 {
-        self.keys.iter().fold(0.0, |greatest, key| f64::from(key.power_kw).max(greatest))
+        let fed_kw = if self.fed_within_m.is_some() { FIRE_MOST_KW.into() } else { 0.0 };
+        self.keys.iter().fold(fed_kw, |greatest, key| f64::from(key.power_kw).max(greatest))
     }
 }
 
@@ -59,7 +86,7 @@ mod tests {
     fn the_power_goes_evenly_from_key_to_key_and_stays_at_the_ends() {
         let key = |time_s, power_kw| PlumeKey { time_s, power_kw };
         let keys = vec![key(1.0, 2.0), key(3.0, 90.0), key(4.0, 10.0)];
-        let plume = Plume { name: "pile".into(), at_m: Vec3::ZERO, base_radius_m: 0.3, keys };
+        let plume = Plume { keys, ..Plume::default() };
         for (time_s, power_kw) in
             [(0.0, 2.0), (1.0, 2.0), (2.0, 46.0), (3.0, 90.0), (3.5, 50.0), (4.0, 10.0), (9.0, 10.0)]
         {

@@ -36,8 +36,29 @@ impl Scene {
             }
             source.count = count;
         }
+        scaled.follow_leaf_count();
         scaled.validate(file)?;
         Ok(scaled)
+    }
+
+    /// Gives every population of particles on leaves one for each leaf, and those that are born of them as many slots for each as before.
+    fn follow_leaf_count(&mut self) {
+        let leaves = self.leaf_count();
+        let before: Vec<_> = self.particles.iter().map(|one| (one.name.clone(), one.count)).collect();
+        for index in 0..self.particles.len() {
+            let one = &self.particles[index];
+            let parents = one.nest.as_ref().and_then(|nest| {
+                let at = before[..index].iter().position(|(name, _)| *name == nest.of)?;
+                Some((u64::from(before[at].1), u64::from(self.particles[at].count)))
+            });
+            self.particles[index].count = match parents {
+                Some((former, now)) if former != now && former != 0 => {
+                    u32::try_from(u64::from(one.count) / former * now).unwrap_or(u32::MAX)
+                }
+                _ if one.is_on_leaves() => leaves,
+                _ => continue,
+            };
+        }
     }
 
     /// Gives the bed its share of `leaves` leaves of a scene, which are at least as many as its sources, and returns their number.

@@ -3,6 +3,7 @@
 //! Checks every number of a scene: first each against its own range, then those that depend on one another. One file, because it follows
 //! the scene from top to bottom; longer parts have files of their own.
 
+mod burning;
 mod check;
 mod cross;
 mod forces;
@@ -80,6 +81,7 @@ impl Scene {
                 (found, format!("beds of at most {DEEPEST_BED_M} m"))
             })?;
         }
+        self.check_burning(&check)?;
         self.check_species_names(&check)?;
         self.check_trees(&check)?;
         self.check_transitions(&check)?;
@@ -112,6 +114,9 @@ impl Species {
         if let RotationModel::TanabeKaneko { friction_per_s } = self.rotation {
             let at = at.inside("rotation");
             at.numbers([("friction_per_s", friction_per_s.into(), limits::FRICTION_PER_S)])?;
+        }
+        if let Some(burning) = &self.burns {
+            burning.check(&at.inside("burns"))?;
         }
         if let FlightModel::Aerodynamic(body) = self.flight {
             body.check(&at.inside("flight"))?;
@@ -321,6 +326,12 @@ impl Plume {
         at.holds(!self.name.is_empty(), "name", || ("\"\"".into(), "a name".into()))?;
         at.vector("at_m", self.at_m, limits::JET_M)?;
         at.numbers([("base_radius_m", self.base_radius_m.into(), limits::BASE_RADIUS_M)])?;
+        at.numbers([("fed_within_m", self.fed_within_m, limits::FED_WITHIN_M)])?;
+        if self.fed_within_m.is_some() {
+            return at.holds(self.keys.is_empty(), "keys", || {
+                (format!("a list of {}", self.keys.len()), "none, where leaves feed the fire".into())
+            });
+        }
         at.length("keys", self.keys.len(), 1, MAX_PLUME_KEYS)?;
         let mut earlier_s = None;
         for (index, key) in self.keys.iter().enumerate() {

@@ -10,7 +10,9 @@ use crate::compile::CompiledScene;
 use crate::context::Context;
 use crate::device::leaf::advance::leaf_advance;
 use crate::device::leaf::air::{air_is_sampled, leaf_sample_air};
-use crate::device::leaf::burn::{BURN_WORDS, burn_cell, cell_power, leaf_burn, leaf_heat_release};
+use crate::device::leaf::burn::{
+    BURN_WORDS, burn_cell, cell_power, feeds_plume, fire_words, leaf_burn, leaf_heat_release,
+};
 use crate::device::leaf::collide::{COLLISION_WORDS, collision_cell, leaf_collide, own_sums};
 use crate::device::leaf::fly::leaf_fly;
 use crate::device::leaf::record::flies;
@@ -18,13 +20,15 @@ use crate::device::leaf::stack::{leaf_changes_litter, leaf_stack};
 use crate::device::leaf::strike::leaf_push;
 use crate::device::leaf::wake::{cover_is_due, leaf_check_cover, leaf_wake, wake_is_due};
 use crate::leaf::{Burns, Leaves};
-use crate::particle::{keep_all, step_all};
+use crate::particle::{follow_leaves, keep_all, step_all};
+use crate::scene::MAX_PLUMES;
 
 /// Steps the particles and the leaves of a world one after another. Trees, and the leaves that hang on them, stay as they are.
 pub fn step(world: &mut World, count: u32) {
     let World { compiled, clock, leaves, branches: _, bed, particles, tallies, history, burns } = world;
     each_step(compiled, clock, count, |cx| {
         let bare = cx;
+        let mut fires = None;
         let cx = &cx.over(&bed.words);
         step_all(cx, compiled.carriers(), compiled.start_count(), particles, tallies);
         keep_all(cx, compiled.histories(), particles, history);
@@ -32,7 +36,8 @@ pub fn step(world: &mut World, count: u32) {
             collide(cx, leaves);
         }
         if cx.scene.heats(cx.step.index) {
-            burn(cx, leaves, burns);
+            let fed = burn(cx, leaves, burns);
+            fires = Some(fed);
         }
         for (slot, mut leaf) in (0..).zip(leaves.as_mut().iter_mut()) {
             if air_is_sampled(cx, slot) {
@@ -56,6 +61,10 @@ pub fn step(world: &mut World, count: u32) {
                 bed.apply(&bare.scene.litter, &change);
             }
         }
+        for (fire, fed) in bed.fires_mut(bare.scene).iter_mut().zip(fires.iter().flatten()) {
+            *fire = fire_words(fire[0], *fed);
+        }
+        follow_leaves(bare, leaves, burns, particles);
     });
 }
 
@@ -76,8 +85,9 @@ fn collide(cx: &Context<'_>, leaves: &mut Leaves) {
     }
 }
 
-/// Heats leaves, and lets those that are lit burn on.
-fn burn(cx: &Context<'_>, leaves: &mut Leaves, burns: &mut Burns) {
+/// Heats leaves, and lets those that are lit burn on. Returns the heat that feeds the fire of each plume.
+fn burn(cx: &Context<'_>, leaves: &mut Leaves, burns: &mut Burns) -> [u32; MAX_PLUMES] {
+    let mut fed = [0_u32; MAX_PLUMES];
     let mut cells = BTreeMap::<u32, [u32; BURN_WORDS as usize]>::new();
     for (leaf, burn) in leaves.as_mut().iter_mut().zip(&burns.burn) {
         let (place, size) = (leaf.place.position.into(), leaf.schedule.size);
@@ -86,13 +96,19 @@ fn burn(cx: &Context<'_>, leaves: &mut Leaves, burns: &mut Burns) {
             let own: [u32; BURN_WORDS as usize] = bytemuck::cast(heat.sums);
             let sums = cells.entry(heat.index).or_default();
             sums.iter_mut().zip(own).for_each(|(sum, own)| *sum = sum.wrapping_add(own));
+            for (fed, plume) in fed.iter_mut().zip(&cx.step.moments[0].plumes) {
+                if feeds_plume(plume, place) {
+                    *fed = fed.wrapping_add(heat.sums.power);
+                }
+            }
         }
     }
-    for (mut leaf, burn) in leaves.as_mut().iter_mut().zip(&mut burns.burn) {
+    for (slot, (mut leaf, burn)) in (0..).zip(leaves.as_mut().iter_mut().zip(&mut burns.burn)) {
         let cell = burn_cell(cx, leaf.place.position.into());
         let sums = cells.get(&cell.index).copied().unwrap_or_default();
-        leaf_burn(cx, &mut leaf, burn, cell_power(&cell, &bytemuck::cast(sums)));
+        leaf_burn(cx, &mut leaf, slot, burn, cell_power(&cell, &bytemuck::cast(sums)));
     }
+    fed
 }
 
 /// Calls `advance` with what kernels see in each of `count` steps, and moves the clock on.

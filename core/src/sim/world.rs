@@ -92,7 +92,7 @@ impl World {
     pub fn zeroed(compiled: CompiledScene, clock: Clock) -> Self {
         let leaves = Leaves::zeroed(compiled.scene().leaf_count() as usize);
         let branches = Branches::zeroed(compiled.forest().len());
-        let bed = Bed::zeroed(Bed::rows_of(&compiled.block().litter));
+        let bed = Bed::zeroed(Bed::rows_of(compiled.block()));
         let particles = ParticleStore::zeroed(compiled.scene().particle_count() as usize);
         let tallies = TallyStore::zeroed(TallyStore::rows_of(compiled.scene()));
         let history = HistoryStore::zeroed(HistoryStore::rows_of(compiled.scene()));

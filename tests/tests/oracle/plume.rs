@@ -18,7 +18,7 @@ const BASE_M: Vec3 = Vec3::new(1.0, 0.3, -2.0);
 /// A fire of a constant power.
 fn burning(power_kw: f32, base_radius_m: f32) -> Plume {
     let keys = vec![PlumeKey { time_s: 0.0, power_kw }];
-    Plume { name: "fire".into(), at_m: BASE_M, base_radius_m, keys }
+    Plume { name: "fire".into(), at_m: BASE_M, base_radius_m, keys, ..Plume::default() }
 }
 
 /// A heap of leaves that burns.

@@ -193,7 +193,7 @@ impl Bench {
         self.renderer.draw(
             &mut encoder,
             &target.view(),
-            &WorldColumns { leaves, branches: branches.cloned(), particles },
+            &WorldColumns { leaves, branches: branches.cloned(), particles, burns: None },
             &FrameInput { camera, time_s, since_s: f32::INFINITY, origin: (0, 0) },
         );
         target.submit_and_read(device, queue, encoder).expect("a picture")

@@ -5,6 +5,7 @@
 pub(crate) mod action;
 mod beaufort;
 mod body;
+mod burning;
 mod camera;
 mod compare;
 mod crowns;

@@ -205,6 +205,8 @@ fn release(ui: &mut Ui, release: &mut ParticleRelease, own: Option<ParticleRelea
             (per_s, from_s)
         }
         ParticleRelease::Burst { at_s } => (10.0, at_s),
+        // A leaf makes each, and ends it.
+        ParticleRelease::BurningLeaves => return,
     };
     let options = [
         ("evenly", ParticleRelease::Rate { per_s, from_s }),
@@ -213,6 +215,7 @@ fn release(ui: &mut Ui, release: &mut ParticleRelease, own: Option<ParticleRelea
     ];
     choice(ui, "Births", "When they are born", release, own.as_ref(), &options);
     match (release, own) {
+        (ParticleRelease::BurningLeaves, _) => {}
         (ParticleRelease::Burst { at_s }, own) => {
             let own = if let Some(ParticleRelease::Burst { at_s }) = own { Some(at_s) } else { None };
             field("Born at", "Time of their birth", limits::AT_S).fine(0.1).show(ui, at_s, own);
@@ -222,7 +225,7 @@ fn release(ui: &mut Ui, release: &mut ParticleRelease, own: Option<ParticleRelea
                 ParticleRelease::Rate { per_s, from_s } | ParticleRelease::Poisson { per_s, from_s } => {
                     Some((per_s, from_s))
                 }
-                ParticleRelease::Burst { .. } => None,
+                ParticleRelease::Burst { .. } | ParticleRelease::BurningLeaves => None,
             });
             let tip = "Births in a second";
             field("Birth rate", tip, limits::PER_S).fine(0.001).show(ui, per_s, own.map(|own| own.0));

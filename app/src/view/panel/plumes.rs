@@ -3,7 +3,6 @@
 //! Plumes of hot air in the wind.
 
 use egui::Ui;
-use glam::Vec3;
 use windfall_core::scene::{MAX_PLUME_KEYS, MAX_PLUMES, Plume, PlumeKey, limits};
 
 use super::field::{field, vector};
@@ -19,8 +18,7 @@ pub(super) fn show(ui: &mut Ui, plumes: &mut Vec<Plume>, own: &[Plume]) {
     let fresh = |like: Option<&Plume>, all: &[Plume]| {
         let name = like.map_or("fire", |like| &*like.name);
         let name = free_name(name, all.iter().map(|plume| &*plume.name));
-        let plume = Plume { name: name.clone(), at_m: Vec3::ZERO, base_radius_m: 0.3, keys: vec![FRESH] };
-        like.map_or(plume, |like| Plume { name, ..like.clone() })
+        Plume { name, ..like.cloned().unwrap_or_default() }
     };
     let Some(index) = list.show(ui, plumes, name, fresh) else { return };
     let (plume, own) = (&mut plumes[index], own.get(index));
@@ -29,6 +27,12 @@ pub(super) fn show(ui: &mut Ui, plumes: &mut Vec<Plume>, own: &[Plume]) {
     let tip = "Radius of the base: the plume begins as wide";
     let radius = field("Fire radius", tip, limits::BASE_RADIUS_M).fine(0.01);
     radius.show(ui, &mut plume.base_radius_m, own.map(|own| own.base_radius_m));
+    if let Some(within_m) = &mut plume.fed_within_m {
+        let tip = "Distance from its base within which burning leaves feed the fire";
+        let within = field("Fed within", tip, limits::FED_WITHIN_M).fine(0.1);
+        within.show(ui, within_m, own.and_then(|own| own.fed_within_m));
+        return;
+    }
     keys(ui, &mut plume.keys, own.map_or(&[], |own| &own.keys));
 }
 

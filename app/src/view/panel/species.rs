@@ -46,6 +46,9 @@ pub(super) fn show(ui: &mut Ui, scene: &mut Scene, own: &Scene) {
     let species = &mut scene.species[index];
     looks(ui, species, own);
     build(ui, species, own);
+    if let Some(burning) = &mut species.burns {
+        super::burning::show(ui, burning, own.and_then(|own| own.burns.as_ref()));
+    }
     let options = [
         ("motions", FlightModel::Synthesis),
         ("body in the air", FlightModel::Aerodynamic(Aerodynamics::default())),

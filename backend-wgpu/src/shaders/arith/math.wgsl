@@ -82,6 +82,14 @@ fn inverse_cube_root(x: f32) -> f32 {
     return r2 * ((4.0 / 3.0) - (third * r2) * (r2 * r2));
 }
 
+fn inverse_fifth_root(x: f32) -> f32 {
+    let fifth = x * (1.0 / 5.0);
+    let r0 = bitcast<f32>(INVERSE_FIFTH_ROOT_SEED - bitcast<u32>(x) / 5u);
+    let r1 = r0 * (1.2 - (fifth * r0) * ((r0 * r0) * (r0 * r0)));
+    let r2 = r1 * (1.2 - (fifth * r1) * ((r1 * r1) * (r1 * r1)));
+    return r2 * (1.2 - (fifth * r2) * ((r2 * r2) * (r2 * r2)));
+}
+
 fn arctangent2(y: f32, x: f32) -> f32 {
     let ax = abs(x);
     let ay = abs(y);

@@ -39,13 +39,19 @@ fn plume_rise(height: f32) -> PlumeRise {
     return rise_least(rise_least(steady, flicker), above);
 }
 
-fn wind_plume(moment: u32, plume: u32, place: vec3<f32>, level: f32) -> vec3<f32> {
+struct PlumePoint {
+    is_below: bool,
+    height: f32,
+    slope: f32,
+    along: f32,
+    across: f32,
+}
+
+fn plume_point(moment: u32, plume: u32, place: vec3<f32>) -> PlumePoint {
     let direction_x = scene.wind.direction_x;
     let direction_z = scene.wind.direction_z;
     let from_base = place - step_block.moments[moment].plumes[plume].base_m;
-    if (from_base.y < 0.0) {
-        return vec3<f32>(0.0, 0.0, 0.0);
-    }
+    let is_below = from_base.y < 0.0;
     let height = max(from_base.y, 0.0);
     var slope = step_block.moments[moment].plumes[plume].base_slope;
     var lean = height * slope;
@@ -58,6 +64,62 @@ fn wind_plume(moment: u32, plume: u32, place: vec3<f32>, level: f32) -> vec3<f32
     }
     let along = (from_base.x * direction_x + from_base.z * direction_z) - lean;
     let across = from_base.z * direction_x - from_base.x * direction_z;
+    return PlumePoint(is_below, height, slope, along, across);
+}
+
+struct PlumeFire {
+    speed_m_s: f32,
+    heights_per_m: f32,
+}
+
+fn plume_fire(moment: u32, plume: u32) -> PlumeFire {
+    let fire = step_block.moments[moment].plumes[plume].fire;
+    if (fire == 0u) {
+        return PlumeFire(
+            step_block.moments[moment].plumes[plume].speed_m_s,
+            step_block.moments[moment].plumes[plume].heights_per_m,
+        );
+    }
+    let words = tables[scene.litter.first_row + (fire >> 2u)];
+    return PlumeFire(bitcast<f32>(words.y), bitcast<f32>(words.z));
+}
+
+fn plume_axis_warmth(height: f32) -> f32 {
+    let above_foot = max(height, PLUME_FOOT);
+    let inverse_cube = inverse_cube_root(above_foot);
+    let squared = inverse_cube * inverse_cube;
+    let above = (squared * squared) * inverse_cube * PLUME_ABOVE_K;
+    return min(min(reciprocal(above_foot) * PLUME_FLICKER_K, above), PLUME_FLAME_K);
+}
+
+fn plume_warmth(place: vec3<f32>) -> f32 {
+    var warmth = 0.0;
+    for (var plume = 0u; plume < step_block.plume_count; plume++) {
+        let point = plume_point(MOMENT_NOW, plume, place);
+        let fire = plume_fire(MOMENT_NOW, plume);
+        if (point.is_below || fire.speed_m_s == 0.0) {
+            continue;
+        }
+        let base_radius_m = step_block.moments[MOMENT_NOW].plumes[plume].base_radius_m;
+        let inverse_width = reciprocal(point.height * PLUME_SPREAD + base_radius_m);
+        let squared =
+            (point.along * point.along + point.across * point.across) * (inverse_width * inverse_width);
+        warmth = max(warmth, plume_axis_warmth(point.height * fire.heights_per_m) * exponential(-squared));
+    }
+    return warmth;
+}
+
+fn wind_plume(moment: u32, plume: u32, place: vec3<f32>, level: f32) -> vec3<f32> {
+    let direction_x = scene.wind.direction_x;
+    let direction_z = scene.wind.direction_z;
+    let point = plume_point(moment, plume, place);
+    if (point.is_below) {
+        return vec3<f32>(0.0, 0.0, 0.0);
+    }
+    let height = point.height;
+    let slope = point.slope;
+    let along = point.along;
+    let across = point.across;
     let inverse_width = reciprocal(height * PLUME_SPREAD + step_block.moments[moment].plumes[plume].base_radius_m);
     let inverse_squared = inverse_width * inverse_width;
     let squared = (along * along + across * across) * inverse_squared;
@@ -66,8 +128,9 @@ fn wind_plume(moment: u32, plume: u32, place: vec3<f32>, level: f32) -> vec3<f32
     if (squared < PLUME_NEAR_AXIS) {
         within = 1.0 - squared * (0.5 - squared * (1.0 / 6.0));
     }
-    let heights_per_m = step_block.moments[moment].plumes[plume].heights_per_m;
-    let fire_m_s = step_block.moments[moment].plumes[plume].speed_m_s;
+    let fire = plume_fire(moment, plume);
+    let heights_per_m = fire.heights_per_m;
+    let fire_m_s = fire.speed_m_s;
     let rise = plume_rise(height * heights_per_m);
     let speed = rise.speed * fire_m_s;
     let growth = rise.growth * (fire_m_s * heights_per_m);

@@ -90,6 +90,8 @@ crate::shared_constants! {
     pub const INVERSE_SQRT_SEED: u32 = 0x5f37_5a86;
     /// Bits from which [`inverse_cube_root`] starts: within 3.5 % for any normal number.
     pub const INVERSE_CUBE_ROOT_SEED: u32 = 0x54a2_1800;
+    /// Bits from which [`inverse_fifth_root`] starts: within 4 % for any normal number.
+    pub const INVERSE_FIFTH_ROOT_SEED: u32 = 0x4c2c_3c00;
 }
 
 /// Sine and cosine of an offset of at most pi/4.
@@ -192,6 +194,16 @@ pub fn inverse_cube_root<R: Real>(x: R) -> R {
     let r1 = r0 * (four_thirds - (third * r0) * (r0 * r0));
     let r2 = r1 * (four_thirds - (third * r1) * (r1 * r1));
     r2 * (four_thirds - (third * r2) * (r2 * r2))
+}
+
+/// x to the power of -1/5 within 4e-7 relative, for positive x between 1e-27 and 1e27.
+#[inline(always)]
+pub fn inverse_fifth_root(x: f32) -> f32 {
+    let fifth = x * (1.0 / 5.0);
+    let r0 = f32::from_bits(INVERSE_FIFTH_ROOT_SEED - x.to_bits() / 5);
+    let r1 = r0 * (1.2 - (fifth * r0) * ((r0 * r0) * (r0 * r0)));
+    let r2 = r1 * (1.2 - (fifth * r1) * ((r1 * r1) * (r1 * r1)));
+    r2 * (1.2 - (fifth * r2) * ((r2 * r2) * (r2 * r2)))
 }
 
 /// Angle of the point (x, y) from the positive x axis in radians, -pi to pi, within 4e-7; zero at the origin.

@@ -4,7 +4,8 @@
 //!
 //! Burning leaves. Hot air and burning neighbours heat a leaf: its water boils away first, then it warms until it catches. A front runs over
 //! it from one end to the other. What it has passed has burnt, all but the ash; the leaf goes through stages of falling mass, each compiled
-//! like a species of its own, and is gone in the end.
+//! like a species of its own, and is gone in the end. What lies clings to its neighbours as before: the wind that wakes it is that of a whole
+//! leaf.
 //!
 //! Burning leaves add their heat release to cells of the air, as integers, so that the order of leaves does not matter. A leaf is heated by
 //! its own cell: the grid lies elsewhere each time, by the same random shift as that of collisions, so that its faces leave no trace. Flames
@@ -12,14 +13,13 @@
 
 use super::record::{
     CHANGE_REMOVED, STATE_DORMANT, STATE_RESTING, flies, is_afloat, is_covered, is_sunk, leaf_species,
-    leaf_state, lies, lies_still, place_bits, size_ratio, wake_speed_squared, wake_speed_word,
-    with_litter_change, with_species,
+    leaf_state, lies, lies_still, place_bits, size_ratio, with_litter_change, with_species,
 };
 use crate::arith::lane::{Real, Word};
-use crate::arith::math::reciprocal;
+use crate::arith::math::{inverse_fifth_root, reciprocal};
 use crate::arith::rng::{random, unit_float};
-use crate::arith::vector::Vec3;
-use crate::blocks::{BurnBlock, NEVER};
+use crate::arith::vector::{Vec3, vec3_dot};
+use crate::blocks::{BurnBlock, NEVER, PlumeBlock};
 use crate::context::Context;
 use crate::device::wind::plume::plume_warmth;
 use crate::device::wind::sample::wind_at;
@@ -50,6 +50,17 @@ crate::shared_constants! {
     pub const BOILING_RISE_K: f32 = 80.0;
     /// Time in s for which the wind carries the heat of a burning leaf before it comes to its neighbours.
     pub const FLAME_LEAN_S: f32 = 0.1;
+    /// Words of a fire that leaves feed, behind the heights of litter: its heat release in the units above, and as floats the speed in m/s and the inverse height in 1/m that
+    /// it gives its plume; one is unused.
+    pub const FIRE_WORDS: u32 = 4;
+    /// Binary logarithm of the intervals in which the heat release of a fire follows its leaves.
+    pub const FIRE_FOLLOWS: u32 = 2;
+    /// Kilowatts of a unit of heat release.
+    pub const FIRE_KW: f32 = 1e-4;
+    /// Heat release in kW below which there is no plume.
+    pub const FIRE_LEAST_KW: f32 = 0.01;
+    /// Largest heat release in kW that a plume follows.
+    pub const FIRE_MOST_KW: f32 = 200.0;
     /// Random words of a leaf's ignition.
     pub const STREAM_IGNITION: u32 = 39;
 }
@@ -63,8 +74,8 @@ crate::shared_record! {
         pub out_way: f32,
         /// Step after the one in which it caught, or [`UNLIT`].
         pub lit: u32,
-        /// Zero.
-        pub unused: u32,
+        /// Steps in which its front runs over it; 0 unless it has caught.
+        pub steps: f32,
     }
 }
 
@@ -79,6 +90,16 @@ crate::shared_struct! {
         pub power: u32,
         /// Zero.
         pub unused: u32,
+    }
+}
+
+crate::shared_struct! {
+    /// Window of the leaves that kernels see.
+    pub struct BurnPage {
+        /// Slot of its first leaf.
+        pub first_slot: u32,
+        /// Zeros.
+        pub unused: [u32; 3],
     }
 }
 
@@ -105,14 +126,14 @@ pub fn burnt_share(way: f32) -> f32 {
     (way * way) * (3.0 - 2.0 * way)
 }
 
-/// Share of the way that the front of a leaf has run in a step, 0 to 1. One that is not lit has none, but for one that water has put out.
+/// Share of the way that the front of a leaf has run at the start of a step, 0 to 1. One that is not lit has none, but for one that water has put out.
 #[inline(always)]
-pub fn burn_way(step: u32, block: &BurnBlock, size: u32, burn: &Burn) -> f32 {
+pub fn burn_way(step: u32, burn: &Burn) -> f32 {
     if burn.lit == UNLIT {
         return burn.out_way;
     }
     let steps = step.wrapping_sub(burn.lit).wrapping_add(1);
-    (steps.to_real() * reciprocal(block.steps * size_ratio(size))).min(1.0)
+    (steps.to_real() * reciprocal(burn.steps)).min(1.0)
 }
 
 /// Heat release in W of a leaf of a relative size whose front has run a share of the way.
@@ -128,10 +149,10 @@ pub fn leaf_rise(block: &BurnBlock, heat: f32) -> f32 {
     wet + (heat - block.dry_j_m2).max(0.0) * block.dry_m2_k_j
 }
 
-/// Temperature rise in K at which a leaf catches.
+/// Temperature rise in K at which the leaf in a slot catches.
 #[inline(always)]
-pub fn ignition_rise(cx: &Context<'_>, block: &BurnBlock, id: u32) -> f32 {
-    let [word, _, _, _] = random(cx.scene.seed, id, STREAM_IGNITION);
+pub fn ignition_rise(cx: &Context<'_>, block: &BurnBlock, slot: u32) -> f32 {
+    let [word, _, _, _] = random(cx.scene.seed, slot, STREAM_IGNITION);
     block.ignition_k + block.ignition_span_k * unit_float(word)
 }
 
@@ -186,12 +207,31 @@ pub fn leaf_heat_release(cx: &Context<'_>, place: Vec3, bits: u32, size: u32, bu
         return none;
     }
     let block = &cx.scene.burns[scene_species(cx, bits) as usize];
-    let way = burn_way(cx.step.index, block, size, burn);
+    let way = burn_way(cx.step.index, burn);
     if way >= 1.0 {
         return none;
     }
     let cell = heated_cell(cx, place);
     LeafHeat { index: cell.index, sums: burn_sums(&cell, burn_power(block, size_ratio(size), way)) }
+}
+
+/// Returns true if a leaf at a place feeds the fire of a plume.
+#[inline(always)]
+pub fn feeds_plume(plume: &PlumeBlock, place: Vec3) -> bool {
+    let from_base = place - Vec3::from(plume.base_m);
+    vec3_dot(from_base, from_base) < plume.feeding_m2
+}
+
+/// Words of a fire that its leaves feed with so much heat release, which had another before.
+#[inline(always)]
+pub fn fire_words(before: u32, fed: u32) -> [u32; FIRE_WORDS as usize] {
+    let power = before.plus(fed.minus(before).shift_signed(FIRE_FOLLOWS));
+    let power_kw = (power.to_real() * FIRE_KW).min(FIRE_MOST_KW);
+    if power_kw < FIRE_LEAST_KW {
+        return [power, 0, 0, 0];
+    }
+    let inverse_root = inverse_fifth_root(power_kw);
+    [power, reciprocal(inverse_root).to_bits(), (inverse_root * inverse_root).to_bits(), 0]
 }
 
 /// Heat release in W that goes to a cell with these sums; none if cells of the air share it.
@@ -210,9 +250,16 @@ pub fn flame_warmth(power_w: f32) -> f32 {
     (power_w * (cells_per_m3 * (FLAME_RISE_K / FLAME_W_PER_M3))).min(FLAME_RISE_K)
 }
 
-/// Heats a leaf that is not lit, with so much power going to its cell, and lights it.
+/// Heats the leaf in a slot, which is not lit, with so much power going to its cell, and lights it.
 #[inline(always)]
-pub fn leaf_heat(cx: &Context<'_>, leaf: &LeafMut<'_>, block: &BurnBlock, burn: &mut Burn, power_w: f32) {
+pub fn leaf_heat(
+    cx: &Context<'_>,
+    leaf: &LeafMut<'_>,
+    slot: u32,
+    block: &BurnBlock,
+    burn: &mut Burn,
+    power_w: f32,
+) {
     let bits = leaf.place.bits;
     let is_open = lies_still(bits) && !is_covered(bits) && !is_afloat(bits) && !is_sunk(bits);
     if !is_open && !flies(bits) {
@@ -221,8 +268,9 @@ pub fn leaf_heat(cx: &Context<'_>, leaf: &LeafMut<'_>, block: &BurnBlock, burn: 
     }
     let warmth = plume_warmth(cx, leaf.place.position.into()).max(flame_warmth(power_w));
     burn.heat = (burn.heat + block.exchange_j_m2_k * (warmth - leaf_rise(block, burn.heat))).max(0.0);
-    if leaf_rise(block, burn.heat) >= ignition_rise(cx, block, leaf.identity.id) {
+    if leaf_rise(block, burn.heat) >= ignition_rise(cx, block, slot) {
         burn.lit = cx.step.index.wrapping_add(1);
+        burn.steps = block.steps * size_ratio(leaf.schedule.size);
     }
 }
 
@@ -256,11 +304,6 @@ pub fn leaf_waste(cx: &Context<'_>, leaf: &mut LeafMut<'_>, species: u32, burn: 
     let stage = (way * BURN_STAGES as f32).floor().to_whole() + 1;
     let number = species + stage * cx.scene.species_count;
     if (is_lying || is_flying) && number != leaf_species(bits) {
-        if is_lying {
-            let lighter = cx.scene.bodies[leaf_species(bits) as usize].air_per_m
-                * reciprocal(cx.scene.bodies[number as usize].air_per_m);
-            leaf.drift.phase = wake_speed_word(wake_speed_squared(leaf.drift.phase) * lighter);
-        }
         leaf.place.bits = with_species(bits, number);
     }
     false
@@ -272,9 +315,9 @@ fn is_water_leaf(bits: u32) -> bool {
     lies(bits) && (is_afloat(bits) || is_sunk(bits))
 }
 
-/// Heats a leaf or lets it burn on, with so much power going to its cell. Returns true if it waits for the litter to lose its volume.
+/// Heats the leaf in a slot or lets it burn on, with so much power going to its cell. Returns true if it waits for the litter to lose its volume.
 #[inline(always)]
-pub fn leaf_burn(cx: &Context<'_>, leaf: &mut LeafMut<'_>, burn: &mut Burn, power_w: f32) -> bool {
+pub fn leaf_burn(cx: &Context<'_>, leaf: &mut LeafMut<'_>, slot: u32, burn: &mut Burn, power_w: f32) -> bool {
     let species = scene_species(cx, leaf.place.bits);
     let block = &cx.scene.burns[species as usize];
     if block.steps == 0.0 {
@@ -284,9 +327,9 @@ pub fn leaf_burn(cx: &Context<'_>, leaf: &mut LeafMut<'_>, burn: &mut Burn, powe
         if burn.out_way != 0.0 {
             return false;
         }
-        leaf_heat(cx, leaf, block, burn, power_w);
+        leaf_heat(cx, leaf, slot, block, burn, power_w);
         return false;
     }
-    let way = burn_way(cx.step.index, block, leaf.schedule.size, burn);
+    let way = burn_way(cx.step.index, burn);
     leaf_waste(cx, leaf, species, burn, way)
 }

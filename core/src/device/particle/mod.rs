@@ -12,6 +12,7 @@ pub mod history;
 pub mod local_space;
 pub mod mutual;
 pub mod nest;
+pub mod on_leaf;
 pub mod record;
 pub mod step;
 pub mod strike;

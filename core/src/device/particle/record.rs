@@ -58,6 +58,8 @@ crate::shared_constants! {
     pub const POPULATION_MUTUAL: u32 = 16;
     /// Flag of a population: its particles go along with their parents.
     pub const POPULATION_LOCAL: u32 = 32;
+    /// Flag of a population: each particle is a leaf that burns.
+    pub const POPULATION_ON_LEAVES: u32 = 128;
     /// Flag of a population: others go along with its particles.
     pub const POPULATION_FOLLOWED: u32 = 64;
     /// Particles set off within a cap of directions.

@@ -10,8 +10,8 @@ use super::local_space::{ParticleFrame, carried_flight, in_frame, parent_frame, 
 use super::nest::{nest_events, nest_id, nest_place, nest_rest, nest_start};
 use super::record::{
     MEETS_NOTHING, MEETS_STICK, PARTICLE_ALIVE, PARTICLE_DEAD, PARTICLE_DIED, PARTICLE_DORMANT,
-    PARTICLE_GROUNDED, PARTICLE_MARKS, PARTICLE_RESTING, POPULATION_LOCAL, ParticleStart, particle_life,
-    particle_population, particle_state, with_more_hits, with_particle_state,
+    PARTICLE_GROUNDED, PARTICLE_MARKS, PARTICLE_RESTING, POPULATION_LOCAL, POPULATION_ON_LEAVES,
+    ParticleStart, particle_life, particle_population, particle_state, with_more_hits, with_particle_state,
 };
 use super::strike::{STRIKE_GROUND, particle_contact, particle_push};
 use crate::arith::lane::{Real, Word};
@@ -163,6 +163,11 @@ pub fn particle_step(
     let before = particle_state(particle.place.bits);
     let was_alive = before == PARTICLE_ALIVE || before == PARTICLE_RESTING;
     let is_over = was_alive && life_is_over(cx, particle.motion.birth, particle.traits.life_size);
+    if (population.flags & POPULATION_ON_LEAVES) != 0 {
+        begin.position = particle.place.position;
+        begin.velocity = particle.motion.velocity;
+        return leaf_particle_step(cx, particle);
+    }
     particle.place.bits &= !PARTICLE_MARKS;
     let rest = slot_birth(cx, particle, parents, slot, &mut change);
     let is_new = change.born != 0;
@@ -243,6 +248,23 @@ pub fn particle_step(
     particle.place.position = end.position.to_array();
     particle.place.bits = with_particle_state(bits, state);
     particle.motion.velocity = end.velocity.to_array();
+    change
+}
+
+/// Steps a particle that is where a leaf burns: the leaf moves it.
+#[inline(always)]
+pub fn leaf_particle_step(cx: &Context<'_>, particle: &mut ParticleMut<'_>) -> ParticleChange {
+    let mut change = ParticleChange::default();
+    let is_alive = particle_state(particle.place.bits) == PARTICLE_ALIVE;
+    if is_alive && particle.motion.birth == cx.step.index {
+        change.born = 1;
+        return change;
+    }
+    particle.place.bits &= !PARTICLE_MARKS;
+    if is_alive && life_is_over(cx, particle.motion.birth, particle.traits.life_size) {
+        particle.place.bits = with_particle_state(particle.place.bits, PARTICLE_DEAD) | PARTICLE_DIED;
+        change.died = 1;
+    }
     change
 }
 

@@ -125,6 +125,27 @@ pub fn plume_point<R: Real>(cx: &Context<'_>, plume: &PlumeBlock, place: Vec3<R>
     PlumePoint { is_below, height, slope, along, across }
 }
 
+/// Fire beneath a plume.
+#[derive(Clone, Copy, Debug)]
+pub struct PlumeFire {
+    /// Speed that it gives in m/s.
+    pub speed_m_s: f32,
+    /// Inverse of the height that scales the plume in 1/m.
+    pub heights_per_m: f32,
+}
+
+/// Fire beneath a plume, of a given power or as leaves feed it.
+#[inline(always)]
+pub fn plume_fire(cx: &Context<'_>, plume: &PlumeBlock) -> PlumeFire {
+    if plume.fire == 0 {
+        return PlumeFire { speed_m_s: plume.speed_m_s, heights_per_m: plume.heights_per_m };
+    }
+    // Before there is litter, nothing burns.
+    let word =
+        |place: u32| f32::from_bits(cx.litter.get((plume.fire + place) as usize).copied().unwrap_or(0));
+    PlumeFire { speed_m_s: word(1), heights_per_m: word(2) }
+}
+
 /// Temperature rise in K on the axis of a plume at a height over Q^0.4: [`PLUME_FLAME_K`] in the steady flame, then falling as measured.
 #[inline(always)]
 pub fn plume_axis_warmth(height: f32) -> f32 {
@@ -142,13 +163,14 @@ pub fn plume_warmth(cx: &Context<'_>, place: Vec3) -> f32 {
     let moment = &cx.step.moments[0];
     for plume in &moment.plumes[..cx.step.plume_count as usize] {
         let point = plume_point(cx, plume, place);
-        if point.is_below || plume.speed_m_s == 0.0 {
+        let fire = plume_fire(cx, plume);
+        if point.is_below || fire.speed_m_s == 0.0 {
             continue;
         }
         let inverse_width = reciprocal(point.height * PLUME_SPREAD + plume.base_radius_m);
         let squared =
             (point.along * point.along + point.across * point.across) * (inverse_width * inverse_width);
-        warmth = warmth.max(plume_axis_warmth(point.height * plume.heights_per_m) * exponential(-squared));
+        warmth = warmth.max(plume_axis_warmth(point.height * fire.heights_per_m) * exponential(-squared));
     }
     warmth
 }
@@ -167,9 +189,10 @@ pub fn wind_plume<R: Real>(cx: &Context<'_>, plume: &PlumeBlock, place: Vec3<R>,
     let near = squared.less_than(level.all(PLUME_NEAR_AXIS));
     let series = one - squared * (one * 0.5 - squared * (1.0 / 6.0));
     let within = near.select_real(series, (one - bell) * reciprocal(squared.max(level.all(PLUME_NEAR_AXIS))));
-    let rise = plume_rise(height * plume.heights_per_m);
-    let speed = rise.speed * plume.speed_m_s;
-    let growth = rise.growth * (plume.speed_m_s * plume.heights_per_m);
+    let PlumeFire { speed_m_s: fire_m_s, heights_per_m } = plume_fire(cx, plume);
+    let rise = plume_rise(height * heights_per_m);
+    let speed = rise.speed * fire_m_s;
+    let growth = rise.growth * (fire_m_s * heights_per_m);
     let widening = (speed * inverse_width) * PLUME_SPREAD;
     let inflow = (widening * bell - (growth * 0.5 + widening) * within) * (level * plume.inv_layer).min(one);
     let passing = ((speed * slope) * (bell * inverse_squared)) * 2.0;

@@ -74,6 +74,7 @@ impl Particles {
                     ("from_s", from_s.into(), limits::FROM_S),
                 ])?;
             }
+            ParticleRelease::BurningLeaves => {}
         }
         check_spread(self.speed_m_s, "speed_m_s", &limits::PARTICLE_SPEED_M_S, at)?;
         if let Some(life_s) = self.life_s {
@@ -146,6 +147,7 @@ impl Particles {
         match self.release {
             ParticleRelease::Burst { at_s } => at_s,
             ParticleRelease::Rate { from_s, .. } | ParticleRelease::Poisson { from_s, .. } => from_s,
+            ParticleRelease::BurningLeaves => 0.0,
         }
     }
 
@@ -171,7 +173,7 @@ impl Particles {
     fn check_room(&self, at: &Check<'_>, dt_s: f64) -> Result<(), SceneError> {
         let longest_s = self.life_s.map(|life_s| f64::from(life_s.highest()));
         let (per_s, deviations) = match self.release {
-            ParticleRelease::Burst { .. } => return Ok(()),
+            ParticleRelease::Burst { .. } | ParticleRelease::BurningLeaves => return Ok(()),
             ParticleRelease::Rate { per_s, .. } => (f64::from(per_s), 0.0),
             ParticleRelease::Poisson { per_s, .. } => (f64::from(per_s), ROOM_DEVIATIONS),
         };

@@ -69,7 +69,7 @@ fn full() -> Scene {
     let jet = Jet { nozzle_m: 0.1, keys: vec![blowing(1.0), blowing(6.0)] };
     let burning = |time_s| PlumeKey { time_s, power_kw: 20.0 };
     let keys = vec![burning(0.5), burning(2.0)];
-    let plume = Plume { name: "fire".into(), at_m: Vec3::Y, base_radius_m: 0.4, keys };
+    let plume = Plume { name: "fire".into(), at_m: Vec3::Y, base_radius_m: 0.4, keys, ..Plume::default() };
     let foliage = Foliage { species: Some("maple".into()), ..Foliage::default() };
     let key = |time_s| CameraKey { time_s, eye_m: Vec3::Y, target_m: Vec3::ZERO, vertical_fov_deg: 50.0 };
     let lens = Lens { focus: Some(Focus { distance_m: 4.0, f_number: 2.8 }), ..Lens::default() };

@@ -6,7 +6,7 @@ use glam::Vec3;
 use windfall_core::Scene;
 use windfall_core::motion::Primitive;
 use windfall_core::scene::{
-    Aerodynamics, Air, Bounds, CameraKey, CrownHull, Direction, Exposure, FlightModel, Focus, Force,
+    Aerodynamics, Air, Bounds, Burning, CameraKey, CrownHull, Direction, Exposure, FlightModel, Focus, Force,
     ForceKind, History, Jet, JetKey, Litter, Look, LookKind, MeanSpeed, Meets, Object, ObjectFriction,
     ObjectKey, ObjectMotion, ObjectShape, ParticleFlow, ParticleRelease, ParticleShape, Particles, Planform,
     Plume, PlumeKey, Profile, Release, Ribbon, RotationModel, Share, Sky, SkyMap, SourceShape,
@@ -36,8 +36,7 @@ pub(super) fn full() -> Scene {
     let key = JetKey { time_s: 0.0, at_m: Vec3::Y, toward_m: Vec3::X, speed_m_s: 40.0 };
     scene.wind.jets = vec![Jet { nozzle_m: 0.1, keys: vec![key] }];
     let key = PlumeKey { time_s: 0.0, power_kw: 40.0 };
-    scene.wind.plumes =
-        vec![Plume { name: "fire".into(), at_m: Vec3::X, base_radius_m: 0.4, keys: vec![key] }];
+    scene.wind.plumes = vec![Plume { at_m: Vec3::X, keys: vec![key], ..Plume::default() }];
     scene.ground.litter = Some(Litter { leaf_area_index: 0.0, ..Litter::default() });
     scene.objects = vec![Object::default()];
     scene.walkers = vec![Walker::default()];
@@ -95,6 +94,9 @@ pub(super) fn other() -> Scene {
 /// A scene with what neither of the other two has.
 pub(super) fn third() -> Scene {
     let mut scene = Scene::default();
+    scene.species[0].burns = Some(Burning::default());
+    scene.sources[0].recycle_after_s = None;
+    scene.wind.plumes = vec![Plume { keys: Vec::new(), fed_within_m: Some(2.0), ..Plume::default() }];
     scene.species[0].rotation = RotationModel::TanabeKaneko { friction_per_s: 5.0 };
     let motion = &mut scene.species[0].motion;
     (motion.descent_m_s, motion.rose_swings) = (Some(1.0), Some(5));

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
 
-use glam::{Vec2, Vec3};
+use glam::Vec2;
 use windfall_core::scene::{
     Exposure, Haze, Jet, Litter, Object, Plume, PlumeKey, Profile, Release, Sky, SkyMap, SwayScheme, Terrain,
     Tree, Walker, Water,
@@ -35,7 +35,7 @@ fn wind_and_speeds_go_on_at_once() {
         |scene| scene.wind.jets = vec![Jet { nozzle_m: 0.1, keys: Vec::new() }],
         |scene| {
             let key = PlumeKey { time_s: 0.0, power_kw: 40.0 };
-            let plume = Plume { name: "fire".into(), at_m: Vec3::ZERO, base_radius_m: 0.4, keys: vec![key] };
+            let plume = Plume { keys: vec![key], ..Plume::default() };
             scene.wind.plumes = vec![plume];
         },
         |scene| scene.wind.profile = Profile::Uniform,

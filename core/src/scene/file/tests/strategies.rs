@@ -107,6 +107,7 @@ prop_compose! {
             }),
             tables,
             leaves,
+            burns: None,
         };
         let rates = MotionConstants::of(&species, STANDARD_GRAVITY_M_S2);
         if rates.tumble_rad_s.max(rates.flutter_rad_s) > 11.0 {
@@ -194,7 +195,7 @@ fn plumes() -> impl Strategy<Value = Vec<Plume>> {
             .map(|(number, (at_m, base_radius_m, power, from_s))| {
                 let key = |(late, power_kw)| PlumeKey { time_s: from_s + late as f32, power_kw };
                 let keys = power.into_iter().enumerate().map(key).collect();
-                Plume { name: format!("fire {number}"), at_m, base_radius_m, keys }
+                Plume { name: format!("fire {number}"), at_m, base_radius_m, keys, fed_within_m: None }
             })
             .collect()
     })
