@@ -228,6 +228,7 @@ pub fn littered_scene(seed: u64, leaves: u32, speed_m_s: f32, dt_s: f32) -> Scen
 pub fn burning_scene(seed: u64, leaves: u32, speed_m_s: f32, dt_s: f32) -> Scene {
     let mut scene = littered_scene(seed, leaves, speed_m_s, dt_s);
     scene.sources.iter_mut().for_each(|source| source.recycle_after_s = None);
+    scene.regrow_after_s = None;
     scene.ground.litter =
         Some(Litter { size_m: Vec2::new(8.0, 7.0), leaf_area_index: 0.9, ..Litter::default() });
     scene.species[1].burns =
@@ -247,7 +248,7 @@ pub fn burning_scene(seed: u64, leaves: u32, speed_m_s: f32, dt_s: f32) -> Scene
         count: 2 * scene.leaf_count(),
         nest: Some(Nest {
             of: "glow".into(),
-            on: ParticleEvent::Every { steps: 20 },
+            on: ParticleEvent::Every { steps: 30 },
             inherit: 0.5,
             ..Nest::default()
         }),

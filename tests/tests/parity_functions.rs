@@ -41,7 +41,7 @@ fn world(litter: Option<Litter>) -> World {
     scene.ground.litter = litter;
     if litter.is_some() {
         scene.sources.iter_mut().for_each(|source| source.recycle_after_s = None);
-        scene.species[0].burns = Some(Burning::default());
+        (scene.regrow_after_s, scene.species[0].burns) = (None, Some(Burning::default()));
         scene.wind.plumes.push(Plume {
             name: "fed".into(),
             fed_within_m: Some(3.0),

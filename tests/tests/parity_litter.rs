@@ -8,7 +8,9 @@ use windfall_core::{Contract, Simulator, World};
 use windfall_cpu::{CpuOptions, CpuSimulator, Simd};
 use windfall_tests::adapter;
 use windfall_tests::compare::difference;
-use windfall_tests::strategies::{hilly_scene, littered_scene, obstructed_scene, pond_scene, wooded_scene};
+use windfall_tests::strategies::{
+    burning_scene, hilly_scene, littered_scene, obstructed_scene, pond_scene, wooded_scene,
+};
 use windfall_wgpu::{Gpu, WgpuOptions, WgpuSimulator};
 
 const LEAVES: u32 = 3000;
@@ -120,6 +122,31 @@ fn leaves_among_solid_things_are_equal_to_the_bit() {
             let found = candidate(&gpu, &world, page_leaves, batches);
             let apart = difference(&expected, &found);
             assert!(apart.is_none(), "{}, pages of {page_leaves:?}: {apart:?}", gpu.info().name);
+        }
+    }
+}
+
+#[test]
+fn burning_leaves_are_equal_to_the_bit() {
+    let world = World::build(&burning_scene(83, 600, 0.7, 1.0 / 60.0)).expect("valid");
+    let expected = oracle(&world, CpuOptions::default(), STEPS);
+    let stats = expected.burn_stats().expect("leaves burn");
+    assert!(stats.burning > 50 && stats.burnt > 100, "{stats:?}");
+    let [glow, embers] = [0, 1].map(|number| expected.particle_stats()[number].clone());
+    assert!(glow.alive > 30 && embers.alive > 20, "{glow:?}, {embers:?}");
+    let mut fed = expected.bed.clone();
+    let [_, fire, ..] = fed.fires_mut(expected.compiled.block()) else { panic!("a fire for each plume") };
+    assert!(fire[0] > 1000, "leaves feed the second fire: {fire:?}");
+    for (threads, simd) in [(Some(1), None), (Some(3), Some(Simd::Scalar))] {
+        let found = oracle(&world, CpuOptions { threads, simd }, STEPS);
+        assert_eq!(expected.state_hash(), found.state_hash(), "{threads:?} threads, {simd:?}");
+    }
+    for gpu in exact_adapters() {
+        for (page_leaves, batches) in [(None, &[STEPS][..]), (Some(4096), &[1, 40, 7, 952])] {
+            let found = candidate(&gpu, &world, page_leaves, batches);
+            let apart = difference(&expected, &found);
+            assert!(apart.is_none(), "{}, pages of {page_leaves:?}: {apart:?}", gpu.info().name);
+            assert_eq!(expected.state_hash(), found.state_hash(), "{}", gpu.info().name);
         }
     }
 }

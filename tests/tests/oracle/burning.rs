@@ -69,7 +69,7 @@ fn no_mass_is_lost_in_a_fire() {
         assert_eq!(now.left_ug + now.ash_ug + now.gone_ug, start.left_ug, "{now:?}");
     }
     let end = stats(&world);
-    assert!(end.burnt > 500 && end.burning > 50, "{end:?}");
+    assert!(end.burnt > 300 && end.burning > 50, "{end:?}");
     let burnt_j = end.gone_ug as f64 * 1e-9 * 16e6;
     assert!((end.heat_j / burnt_j - 1.0).abs() < 1e-9, "{} J of {burnt_j} J", end.heat_j);
     assert!((released_j / burnt_j - 1.0).abs() < 0.01, "{released_j} J released, {burnt_j} J burnt");
@@ -218,10 +218,11 @@ fn wet_leaves_do_not_catch_from_others() {
 #[test]
 fn burning_leaves_rise() {
     let mut fed = kindling(1.0);
-    (fed.name, fed.keys, fed.fed_within_m) = ("fed".into(), Vec::new(), Some(1.5));
+    (fed.name, fed.base_radius_m) = ("fed".into(), 1.0);
+    (fed.keys, fed.fed_within_m) = (Vec::new(), Some(1.5));
     let mut world = World::build(&bed(0.1, vec![kindling(5.0), fed])).expect("valid");
     let mut highest_m = 0f32;
-    let mut fed_kw = 0f64;
+    let (mut peak_kw, mut power_kw) = (0f64, 0f64);
     for _ in 0..45 {
         oracle::step(&mut world, STEPS_PER_S);
         let burning = world
@@ -233,18 +234,16 @@ fn burning_leaves_rise() {
         highest_m = burning.fold(highest_m, |highest, (place, _)| highest.max(place.position[1]));
         let block = *world.compiled.block();
         let [_, fire, ..] = *world.bed.fires_mut(&block) else { panic!("a fire for each plume") };
-        fed_kw = f64::from(fire[0]) * 1e-4;
+        let fed_kw = f64::from(fire[0]) * 1e-4;
+        peak_kw = peak_kw.max(fed_kw);
+        power_kw = power_kw.max(stats(&world).power_w * 1e-3);
         let speed = f64::from(f32::from_bits(fire[1]));
         if fed_kw > 0.01 {
             assert!((speed / fed_kw.min(200.0).powf(0.2) - 1.0).abs() < 1e-5, "{speed} m/s of {fed_kw} kW");
         }
     }
     assert!(highest_m > 1.0, "{highest_m} m");
-    assert!(
-        fed_kw > 1.0 && fed_kw * 1000.0 <= stats(&world).power_w * 1.2,
-        "{fed_kw} kW, {:?}",
-        stats(&world)
-    );
+    assert!(peak_kw > 5.0 && peak_kw < 1.5 * power_kw, "fed with {peak_kw} kW of {power_kw} kW");
 }
 
 /// Without a fire nothing becomes hot; by its ignition temperature a leaf that stands at the edge of one does not catch.
