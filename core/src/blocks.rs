@@ -462,8 +462,10 @@ crate::shared_struct! {
         pub burn_steps: u32,
         /// Place of the fires that leaves feed among the words of the litter ([`FIRE_WORDS`](crate::device::leaf::burn::FIRE_WORDS)), one for each plume; 0 where there are none.
         pub first_fire: u32,
-        /// Zeros.
-        pub unused: [u32; 2],
+        /// Number of species with motion tables, stages of burning ones included.
+        pub table_species: u32,
+        /// Zero.
+        pub unused: u32,
         /// Shelter from the wind.
         pub shelter: ShelterBlock,
         /// The wind.

@@ -83,6 +83,7 @@ fn obstructed() -> World {
         vortex.spline_m[2].x += 1.0;
     }
     (scene.objects, scene.walkers) = (among.objects, among.walkers);
+    scene.wind.plumes = vec![plume()];
     scene = winding_scene(scene);
     add_particles(&mut scene);
     let mut world = World::build(&scene).expect("valid");

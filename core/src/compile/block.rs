@@ -11,6 +11,7 @@ use super::wind::{MOST_INTERVAL_STEPS, deviation_m_s, wind_block};
 use crate::arith::rng::seed_words;
 use crate::blocks::{CollisionBlock, LitterBlock, SOURCE_TREES, SceneBlock, SwayBlock, WindBlock};
 use crate::convert::{len32, low_word, q16, single, steps, word};
+use crate::device::leaf::burn::BURN_STAGES;
 use crate::device::leaf::collide::COLLISION_WEIGHT_MOST;
 use crate::device::leaf::wake::{CALM_INTERVAL, COVER_INTERVAL, WAKE_INTERVAL};
 use crate::device::terrain::litter::{LITTER_CELLS_PER_M, LITTER_HIGHEST_M};
@@ -47,6 +48,7 @@ pub(super) fn compile_block(scene: &Scene, tables: &[MotionTables], solids: &[So
     block.seed = [low, high];
     block.ids_per_life = scene.leaf_count();
     block.species_count = len32(scene.species.len());
+    block.table_species = block.species_count * if scene.leaves_burn() { 1 + BURN_STAGES } else { 1 };
     block.settle_steps = steps(SETTLE_S, scene.dt_s);
     block.blend_steps = steps(BLEND_S, scene.dt_s).min(63);
     let dt = f64::from(scene.dt_s);

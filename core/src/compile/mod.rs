@@ -138,7 +138,7 @@ impl CompiledScene {
         block.populations = populations;
         tables.extend(forces);
         block.first_motion_row = len32(tables.len());
-        tables.extend(pack_motion(scene, &motions));
+        tables.extend(pack_motion(scene, &motions, block.table_species));
         block.litter.first_row = len32(tables.len());
         Ok(Self {
             scene: scene.clone(),

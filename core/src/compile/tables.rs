@@ -43,11 +43,12 @@ fn tables_of(scene: &Scene, species: &Species, seed: [u32; 2]) -> Result<MotionT
 }
 
 /// Displacement and orientation rows of all tables, interleaved, in pairs of 16 bits (see
-/// [`MotionRows`](crate::device::motion::lookup::MotionRows)); behind them the velocity rows.
-pub(super) fn pack_motion(scene: &Scene, tables: &[MotionTables]) -> Vec<Uint4> {
+/// [`MotionRows`](crate::device::motion::lookup::MotionRows)); behind them the velocity rows. There is room for the tables of all that counts like species: bodies, which need none,
+/// are looked up beside others.
+pub(super) fn pack_motion(scene: &Scene, tables: &[MotionTables], table_species: u32) -> Vec<Uint4> {
     let rows = TABLE_ROWS as usize;
     let per_species = TABLES_PER_SPECIES as usize;
-    let count = tables.len() * per_species;
+    let count = table_species as usize * per_species;
     let mut packed = vec![Uint4::default(); count * rows * 3];
     for (species, tables) in tables.iter().enumerate() {
         let wound = cone_spiral(scene, &scene.species[species]).map(|spiral| spiral.table());

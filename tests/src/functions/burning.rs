@@ -94,7 +94,7 @@ functions! {
         ])
     };
 
-    leaf_heat_release in "leaf/burn" (Input::Below(8), Input::Below(900), PLACE) tolerance None;
+    leaf_heat_release in "leaf/burn" (Input::Below(8), Input::Below(90), PLACE) tolerance None;
     wgsl "let burn = Burn(0.0, 0.0, a.y, 500.0);
         let bits = STATE_FALLING | (a.x << SPECIES_SHIFT);
         let heat = leaf_heat_release(in_vec3(2u), bits, SIZE_ONE, burn);

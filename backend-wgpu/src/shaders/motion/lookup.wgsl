@@ -61,7 +61,7 @@ fn motion_state(table: u32, phase: u32) -> MotionState {
 }
 
 fn motion_velocity(table: u32, phase: u32) -> vec3<f32> {
-    let first = scene.first_motion_row + scene.species_count * (2u * TABLES_PER_SPECIES * TABLE_ROWS);
+    let first = scene.first_motion_row + scene.table_species * (2u * TABLES_PER_SPECIES * TABLE_ROWS);
     let row = first + row_of(table, phase);
     let a = bitcast<vec4<f32>>(tables[row]);
     let b = bitcast<vec4<f32>>(tables[row + 1u]);
