@@ -91,7 +91,8 @@ fn first_place(inside: &[bool], width: usize, seed: u64) -> Option<usize> {
 
 /// Slowness of the front at every pixel; infinite beyond the leaf.
 fn slowness(surface: &RgbaImage, inside: &[bool], seed: u64) -> Vec<f32> {
-    let clearness = || surface.pixels().zip(inside).filter(|(_, inside)| **inside).map(|(texel, _)| texel[CLEARNESS]);
+    let clearness =
+        || surface.pixels().zip(inside).filter(|(_, inside)| **inside).map(|(texel, _)| texel[CLEARNESS]);
     let mut sorted: Vec<u8> = clearness().collect();
     sorted.sort_unstable();
     let middling = f32::from(sorted[sorted.len() / 2]).max(1.0);
@@ -177,7 +178,9 @@ mod tests {
         let layer = leaf(104);
         let map = BurnMap::new(&layer, 5, share);
         assert_eq!(map.surface.len(), layer.surface.len(), "as many levels");
-        let rest = |surface: &RgbaImage| surface.pixels().map(|texel| [texel[0], texel[1], texel[2]]).collect::<Vec<_>>();
+        let rest = |surface: &RgbaImage| {
+            surface.pixels().map(|texel| [texel[0], texel[1], texel[2]]).collect::<Vec<_>>()
+        };
         for (level, old) in map.surface.iter().zip(&layer.surface) {
             assert_eq!(rest(level), rest(old), "normals and clearness");
         }
@@ -195,7 +198,8 @@ mod tests {
         let layer = Layer::from_picture(picture);
         let price = slowness(&layer.surface[0], &[true; 64 * 64], 1);
         let mean = |columns: std::ops::Range<usize>| {
-            let sum: f32 = columns.clone().flat_map(|x| (0..64).map(move |y| y * 64 + x)).map(|at| price[at]).sum();
+            let sum: f32 =
+                columns.clone().flat_map(|x| (0..64).map(move |y| y * 64 + x)).map(|at| price[at]).sum();
             sum / (64 * columns.len()) as f32
         };
         let (rib, blade) = (mean(28..36), mean(0..28));

@@ -71,8 +71,8 @@ impl Field {
         let gpu = gpu();
         let (device, queue) = (gpu.device(), gpu.queue());
         let atlas = super::disc_atlas(scene, 16);
-        let species_table =
-            SpeciesTable::new(device, queue, scene, &atlas).expect("species_table within default limits");
+        let species_table = SpeciesTable::new(device, queue, scene, &atlas, &[])
+            .expect("species_table within default limits");
         let cull = CullPass::new(device, &species_table, false);
         let tree_records = TreeRecords::new(device, queue, scene_trees);
         let visible = VisibleLeaves::new(device, queue, &cull, scene_trees, leaf_count);

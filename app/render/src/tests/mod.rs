@@ -104,7 +104,7 @@ pub(crate) fn bench_of(scene: Scene, scene_trees: SceneTrees, atlas: &Atlas) -> 
     let gpu = gpu();
     let options = RendererOptions { litter_count: 0, tile_px: u32::MAX };
     let solids = solids_of(&scene).expect("shapes without files");
-    let subject = RenderScene { scene: &scene, solids: &solids, trees: &scene_trees, atlas };
+    let subject = RenderScene { scene: &scene, solids: &solids, burns, trees: &scene_trees, atlas };
     let renderer = Renderer::new(gpu.device(), gpu.queue(), subject, PictureTarget::FORMAT, SIZE, options)
         .expect("a renderer within default limits");
     Bench { gpu, scene, scene_trees, renderer }
@@ -193,7 +193,7 @@ impl Bench {
         self.renderer.draw(
             &mut encoder,
             &target.view(),
-            &WorldColumns { leaves, branches: branches.cloned(), particles },
+            &WorldColumns { leaves, branches: branches.cloned(), particles, burns },
             &FrameInput { camera, time_s, since_s: f32::INFINITY, origin: (0, 0) },
         );
         target.submit_and_read(device, queue, encoder).expect("a picture")
