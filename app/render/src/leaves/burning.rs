@@ -20,7 +20,7 @@ use crate::light::black_body;
 /// Most workgroups that go through the records of a page.
 const MAX_GROUPS: u32 = 1024;
 /// Temperature in K of a front at its hottest: what smoulders has 900 to 1100 K, and flames that lick it heat it further.
-const FRONT_K: f32 = 1200.0;
+const FRONT_K: f32 = 1150.0;
 /// Temperature by which its light there and behind it is measured.
 const COOLER_K: f32 = 1000.0;
 /// Cooling behind a front in K/s: it is dark after half a second.

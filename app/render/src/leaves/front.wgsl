@@ -12,22 +12,24 @@ override LEAVES_BURN: bool = false;
 const CRUMBLING_S: f32 = 1.25;
 const MOST_CHAR: f32 = 0.3;
 // Widths in metres of tissue that dries and browns before the front, and of what chars there.
-const DRYING_M: f32 = 0.007;
-const SCORCHED_M: f32 = 0.0022;
+const DRYING_M: f32 = 0.012;
+const SCORCHED_M: f32 = 0.0035;
 // Distance over which the rim dims before the front, where it is still tissue, in metres.
-const RIM_M: f32 = 0.0003;
+const RIM_M: f32 = 0.00025;
 // Unevenness of the front in metres for the whole range of coarse and of fine grain.
-const RAGGED_M: vec2<f32> = vec2(0.0035, 0.0012);
+const RAGGED_M: vec2<f32> = vec2(0.005, 0.0015);
 // Edge of a tile of grain in metres.
-const GRAIN_TILE_M: f32 = 0.04;
+const GRAIN_TILE_M: f32 = 0.065;
 // Contrast of the rim's light, as the range of its logarithm.
-const RIM_CONTRAST: f32 = 4.0;
+const RIM_CONTRAST: f32 = 8.0;
+// Way of that unevenness in tiles of grain a second: it smoulders.
+const SMOULDER_PER_S: f32 = 0.12;
 // Light of sparks in the char relative to the rim's, and how much longer they last.
 const SPARKS: f32 = 0.5;
 const SPARK_LASTING: f32 = 4.5;
 // Reflectance of char, and of the ash on it.
 const CHAR: vec3<f32> = vec3(0.022, 0.021, 0.020);
-const ASH: vec3<f32> = vec3(0.34, 0.32, 0.30);
+const ASH: vec3<f32> = vec3(0.185, 0.168, 0.150);
 
 // The front of a leaf.
 struct Front {
@@ -86,8 +88,8 @@ fn rim_integral(behind_s: f32, rise_s: f32, fade_per_s: vec3<f32>) -> vec3<f32> 
 }
 
 // A point where a front arrives at share `arrival` of its way; a pixel spans shares of `span`, or what one texel of the picture does. Grain
-// is coarse and fine, 0 to 1.
-fn tissue_at(front: Front, arrival: f32, span: f32, grain: vec2<f32>) -> Tissue {
+// is coarse and fine; `draught` makes it glow more or less: all are 0 to 1.
+fn tissue_at(front: Front, arrival: f32, span: f32, grain: vec2<f32>, draught: f32) -> Tissue {
     if front.way < 0.0 {
         return Tissue(1.0, 0.0, 0.0, 0.0, vec3(0.0));
     }
@@ -97,12 +99,12 @@ fn tissue_at(front: Front, arrival: f32, span: f32, grain: vec2<f32>) -> Tissue 
     let ahead_m = -behind * front.whole_m;
     let span_m = span * front.whole_m;
     var out: Tissue;
-    out.left = clamp((arrival - crumbled_before(front, 0.6 * grain.y + 0.4 * grain.x)) / span + 0.5, 0.0, 1.0);
+    out.left = clamp((arrival - crumbled_before(front, 0.45 * grain.y + 0.55 * grain.x)) / span + 0.5, 0.0, 1.0);
     let dried = 1.0 - clamp(ahead_m / (DRYING_M * (0.6 + 0.8 * grain.x)), 0.0, 1.0);
-    out.dried = dried * dried;
+    out.dried = dried * dried * (3.0 - 2.0 * dried);
     out.charred = 1.0 - smoothstep(-0.5 * span_m, SCORCHED_M + 0.5 * span_m, ahead_m);
     let age = behind_s / CRUMBLING_S;
-    out.ash = smoothstep(0.25, 1.1, age + 0.9 * (grain.y - 0.5)) * smoothstep(0.35, 0.8, grain.x + 0.3 * age);
+    out.ash = smoothstep(0.3, 1.3, age + 1.2 * (grain.y - 0.5)) * smoothstep(0.3, 0.9, grain.x + 0.2 * age);
     // The mean over the pixel: a rim finer than that is as bright as it is wide.
     let rise_s = RIM_M * front.whole_s / front.whole_m;
     let half_s = 0.5 * span * front.whole_s;
@@ -110,7 +112,7 @@ fn tissue_at(front: Front, arrival: f32, span: f32, grain: vec2<f32>) -> Tissue 
     let rim = rim_integral(behind_s + half_s, rise_s, fade) - rim_integral(behind_s - half_s, rise_s, fade);
     let slow = fade / SPARK_LASTING;
     let sparks = rim_integral(behind_s + half_s, rise_s, slow) - rim_integral(behind_s - half_s, rise_s, slow);
-    let hot = exp(RIM_CONTRAST * (0.5 * (grain.x + grain.y) - 0.5));
+    let hot = exp(RIM_CONTRAST * (0.6 * draught + 0.25 * grain.x + 0.15 * grain.y - 0.5));
     let spots = smoothstep(0.62, 0.9, grain.y);
     out.glow = FRONT_RADIANCE * front.lit * (rim * hot + sparks * (SPARKS * spots)) / (2.0 * half_s);
     return out;

@@ -116,7 +116,8 @@ fn burnt_tissue(in: Varyings, arrival: f32, span: f32) -> Tissue {
     // Grain lies in the plane of the blade, as large on small leaves, and elsewhere on each.
     let edge_m = front.whole_m / max(unpack2x16float(table.layers[in.layer].burning).y, 0.1);
     let place = in.uv * (edge_m / GRAIN_TILE_M) + in.tint_open.rg * 7.0;
-    return tissue_at(front, arrival, span, textureSample(noise, repeat_sampler, place).ab);
+    let draught = textureSample(noise, repeat_sampler, place + SMOULDER_PER_S * front.way * front.whole_s).r;
+    return tissue_at(front, arrival, span, textureSample(noise, repeat_sampler, place).ab, draught);
 }
 
 @fragment
