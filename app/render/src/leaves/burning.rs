@@ -20,9 +20,12 @@ use crate::light::black_body;
 /// Most workgroups that go through the records of a page.
 const MAX_GROUPS: u32 = 1024;
 /// Temperature in K of a front at its hottest: what smoulders has 900 to 1100 K, and flames that lick it heat it further.
-const FRONT_K: f32 = 1150.0;
+const FRONT_K: f32 = 1100.0;
+/// Temperature in K and opacity of the foot of the flame that stands on it.
+const FLAME_K: f32 = 1600.0;
+const FLAME_OPACITY: f32 = 0.002;
 /// Temperature by which its light there and behind it is measured.
-const COOLER_K: f32 = 1000.0;
+const COOLER_K: f32 = 900.0;
 /// Cooling behind a front in K/s: it is dark after half a second.
 const COOLING_K_S: f32 = 550.0;
 
@@ -50,12 +53,15 @@ shared_struct! {
 /// WGSL constants of the light of fronts.
 pub(crate) fn light_constants() -> String {
     let [hot, cooler] = [FRONT_K, COOLER_K].map(black_body);
+    let hot = hot + FLAME_OPACITY * black_body(FLAME_K);
     // Between two temperatures light fades about exponentially, and blue before red.
     let fading = |hot: f32, cooler: f32| {
         let per_k = (hot / cooler).ln() / (FRONT_K - COOLER_K);
-        if per_k.is_finite() { per_k * COOLING_K_S } else { 1.0 }
+        per_k * COOLING_K_S
     };
-    let fade = Vec3::new(fading(hot.x, cooler.x), fading(hot.y, cooler.y), fading(hot.z, cooler.z));
+    let [red, green, blue] = [0, 1, 2].map(|channel| fading(hot[channel], cooler[channel]));
+    // There is hardly any blue.
+    let fade = Vec3::new(red, green, if blue.is_finite() { blue } else { green });
     let constant =
         |name: &str, Vec3 { x, y, z }: Vec3| format!("const {name} = vec3<f32>({x:?}, {y:?}, {z:?});\n");
     constant("FRONT_RADIANCE", hot) + &constant("FRONT_FADE_PER_S", fade)

@@ -22,6 +22,8 @@ const RAGGED_M: vec2<f32> = vec2(0.005, 0.0015);
 const GRAIN_TILE_M: f32 = 0.065;
 // Contrast of the rim's light, as the range of its logarithm.
 const RIM_CONTRAST: f32 = 8.0;
+// Most light of a hot spot relative to the rim's: 100 K hotter.
+const MOST_HEAT: f32 = 6.0;
 // Way of that unevenness in tiles of grain a second: it smoulders.
 const SMOULDER_PER_S: f32 = 0.12;
 // Light of sparks in the char relative to the rim's, and how much longer they last.
@@ -112,7 +114,7 @@ fn tissue_at(front: Front, arrival: f32, span: f32, grain: vec2<f32>, draught: f
     let rim = rim_integral(behind_s + half_s, rise_s, fade) - rim_integral(behind_s - half_s, rise_s, fade);
     let slow = fade / SPARK_LASTING;
     let sparks = rim_integral(behind_s + half_s, rise_s, slow) - rim_integral(behind_s - half_s, rise_s, slow);
-    let hot = exp(RIM_CONTRAST * (0.6 * draught + 0.25 * grain.x + 0.15 * grain.y - 0.5));
+    let hot = min(exp(RIM_CONTRAST * (0.6 * draught + 0.25 * grain.x + 0.15 * grain.y - 0.55)), MOST_HEAT);
     let spots = smoothstep(0.62, 0.9, grain.y);
     out.glow = FRONT_RADIANCE * front.lit * (rim * hot + sparks * (SPARKS * spots)) / (2.0 * half_s);
     return out;

@@ -8,7 +8,7 @@ use std::collections::BTreeSet;
 use naga::valid::{Capabilities, FunctionInfo, ModuleInfo, ValidationFlags, Validator};
 use naga::{AddressSpace, Expression, Function, Handle, StructMember, Type, TypeInner, VectorSize};
 use windfall_core::layout::WgslStruct;
-use windfall_core::leaf::{Attitude, Drift, Identity, Place, Schedule};
+use windfall_core::leaf::{Attitude, Burn, Drift, Identity, Place, Schedule};
 use windfall_core::particle::{HistoryRun, HistorySample, ParticleMotion, ParticlePlace, ParticleTraits};
 
 use crate::gpu::shaders::Shaders;
