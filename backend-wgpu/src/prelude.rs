@@ -11,11 +11,12 @@ pub const WORKGROUP_SIZE: u32 = 256;
 pub(crate) const MAX_GROUPS: u32 = 65_535;
 
 /// WGSL for shaders of other programs that read the leaf columns: the records [`LeafColumns`](crate::LeafColumns) hold
-/// (`array<Place>` and so on), the constants of their packed words, and a function for every value packed there, such as
+/// (`array<Place>` and so on), that of their burning, the constants of their packed words, and a function for every value packed there, such as
 /// `leaf_state(place.bits)` and `leaf_tint(identity.appearance)`. It declares no bindings.
 pub fn leaf_wgsl() -> String {
     let constants = device::leaf::record::wgsl_constants();
-    column_wgsl(&leaf_records(), constants, include_str!("shaders/leaf/record.wgsl"))
+    let records = leaf_records() + &leaf::Burn::declaration();
+    column_wgsl(&records, constants, include_str!("shaders/leaf/record.wgsl"))
 }
 
 /// The same for shaders that read the columns of particles: the records that [`ParticleColumns`](crate::ParticleColumns) hold, and

@@ -22,7 +22,7 @@ pub struct Layer {
     /// Mip levels from full size down to one texel.
     pub mips: Vec<RgbaImage>,
     /// As many levels of its surface: normal x to the right and y up, -1 to 1 as 0 to 255; share of light that passes
-    /// through, 0 to 1 as 0 to 255; unused.
+    /// through, 0 to 1 as 0 to 255; 255, or the arrivals of a [`BurnMap`](crate::BurnMap).
     pub surface: Vec<RgbaImage>,
     /// Meshes, coarse first, a little wider than what the picture covers.
     pub form: LeafForm,

@@ -21,6 +21,7 @@
 mod atlas;
 mod blade;
 mod bleed;
+mod burn;
 mod compare;
 mod contour;
 mod distance;
@@ -54,6 +55,7 @@ mod vein_graph;
 
 pub use atlas::Atlas;
 pub use blade::{Blade, Mask};
+pub use burn::BurnMap;
 pub use compare::{
     ComparedLeaf, Comparison, Distances, Levels, Measured, Metric, Variety, leaf_pictures,
     sheet as comparison_sheet,

@@ -50,8 +50,13 @@ pub(crate) fn run(frames: u32) -> Result<image::RgbaImage, Box<dyn Error>> {
     let gpu = Gpu::from_parts(adapter.get_info(), device.clone(), queue.clone());
     let mut simulator = WgpuSimulator::new(&gpu, &world, &WgpuOptions::default())?;
     let (trees, atlas) = (SceneTrees::of(&scene, world.compiled.forest()), leaf_pictures(&scene)?);
-    let subject =
-        RenderScene { scene: &scene, solids: world.compiled.solids(), trees: &trees, atlas: &atlas };
+    let subject = RenderScene {
+        scene: &scene,
+        solids: world.compiled.solids(),
+        burns: &world.compiled.block().burns,
+        trees: &trees,
+        atlas: &atlas,
+    };
     let options = RendererOptions::for_scene(&scene);
     let mut renderer = Renderer::new(&device, &queue, subject, FORMAT, SIZE, options)?;
 

@@ -36,6 +36,7 @@ pub const PRESETS: &[(&str, &str)] = &[
     ("slime", include_str!("../../scenes/slime.ron")),
     ("ember-whirl", include_str!("../../scenes/ember-whirl.ron")),
     ("bonfire", include_str!("../../scenes/bonfire.ron")),
+    ("burning-leaves", include_str!("../../scenes/burning-leaves.ron")),
     ("flow-trees", include_str!("../../scenes/flow-trees.ron")),
 ];
 
@@ -95,6 +96,7 @@ mod tests {
                 "slime",
                 "ember-whirl",
                 "bonfire",
+                "burning-leaves",
                 "flow-trees",
             ],
             "names and their order"

@@ -85,7 +85,7 @@ fn sight_of(index: u32) -> Sight {
     let on_twig = select(relative * inverseSqrt(cluster), stated, stated > 0.0);
     let is_attached = state == STATE_ATTACHED;
     let copies = select(1u, clamp(u32(cluster), 1u, MAX_CLUSTER), is_attached);
-    let species = leaf_species(place.bits);
+    let species = leaf_species(place.bits) % table.species_count;
     out.diameter = table.species[species].diameter_m * select(relative, TWIG_SIZE * on_twig, is_attached);
     let center = place.position;
     let radius = out.diameter * (PICTURE_EDGE + 1.2 * sqrt(f32(copies) - 1.0));
@@ -220,7 +220,7 @@ fn record_of(index: u32, sight: Sight, copy: u32) -> LeafRecord {
     let place = places[index];
     let identity = identities[index];
     let tree = trees[sight.tree];
-    let species = leaf_species(place.bits);
+    let species = leaf_species(place.bits) % table.species_count;
     let state = leaf_state(place.bits);
     let key = copy_key(sight.key, copy);
     let tint = leaf_tint(select(key, identity.appearance, copy == 0u));

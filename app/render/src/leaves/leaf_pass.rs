@@ -32,7 +32,10 @@ impl LeafPass {
             topology: wgpu::PrimitiveTopology::TriangleStrip,
             shader: &shader,
             vertex: "vertex",
-            constants: &[("IS_PAINTED", f64::from(u8::from(cull.is_painted)))],
+            constants: &[
+                ("IS_PAINTED", f64::from(u8::from(cull.is_painted))),
+                ("LEAVES_BURN", f64::from(u8::from(species_table.leaves_burn))),
+            ],
             buffers: &[VisibleLeaves::layout()],
             blend: None,
             depth_write: true,

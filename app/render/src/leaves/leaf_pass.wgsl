@@ -4,6 +4,7 @@
 
 #import frame/fire_light
 #import frame/light
+#import leaves/front
 #import leaves/shape
 
 // Leaves are painted by what they do: the colour is the mark's, the picture only shows in its veins and spots, and both sides
@@ -25,6 +26,8 @@ struct Varyings {
     // Values that change little over a leaf: sunlight that the trees let through, and the air's effect on its light.
     @location(8) @interpolate(perspective, centroid) sunlit: f32,
     @location(9) @interpolate(perspective, centroid) air: vec4<f32>,
+    // Share of the way that its front has run, time and length of that way, and 1 while it burns.
+    @location(10) @interpolate(flat) front: vec4<f32>,
 }
 
 // Roughness (GGX alpha is its square) of the waxy upper and the dull lower side; reflectance of wax head-on.
@@ -52,7 +55,7 @@ fn vertex(in: LeafVertex) -> Varyings {
     out.layer = record.layer_slot & LAYER_MASK;
     out.attitude = point.attitude;
     let blue_open = unpack2x16float(record.blue_open);
-    let outward = unpack4x8snorm(record.outward_settled);
+    let outward = outward_of(record);
     // Of leaves on twigs it follows from their place in the crown.
     let is_free = dot(outward.xyz, outward.xyz) == 0.0;
     let open = mix(0.35, 1.0, open_above(point.world, select(0u, SKY_TAPS, is_free)));
@@ -61,6 +64,8 @@ fn vertex(in: LeafVertex) -> Varyings {
     out.settled = outward.w;
     out.sunlit = tree_shade(point.world).r;
     out.air = air_before(point.world);
+    let front = front_of(record);
+    out.front = vec4(front.way, front.whole_s, front.whole_m, front.lit);
     return out;
 }
 
@@ -105,6 +110,16 @@ fn covered(share: f32, leaf: u32) -> u32 {
     return (bits | (bits >> 4u)) & 15u;
 }
 
+// What the front of a leaf has made of it at a point.
+fn burnt_tissue(in: Varyings, arrival: f32, span: f32) -> Tissue {
+    let front = Front(in.front.x, in.front.y, in.front.z, in.front.w);
+    // Grain lies in the plane of the blade, as large on small leaves, and elsewhere on each.
+    let edge_m = front.whole_m / max(unpack2x16float(table.layers[in.layer].burning).y, 0.1);
+    let place = in.uv * (edge_m / GRAIN_TILE_M) + in.tint_open.rg * 7.0;
+    let draught = textureSample(noise, repeat_sampler, place + SMOULDER_PER_S * front.way * front.whole_s).r;
+    return tissue_at(front, arrival, span, textureSample(noise, repeat_sampler, place).ab, draught);
+}
+
 @fragment
 fn fragment(in: Varyings) -> Painted {
     let image = textureSample(images, image_sampler, in.uv, in.layer);
@@ -115,7 +130,12 @@ fn fragment(in: Varyings) -> Painted {
     let span = max(length(dpdx(in.uv) * size), length(dpdy(in.uv) * size));
     let levels_left = f32(textureNumLevels(images)) - 1.0 - log2(max(span, 1.0));
     let rim = max(fwidth(image.a), mix(1.0, 0.04, smoothstep(4.0, 6.0, levels_left)));
-    let alpha = clamp((image.a - 0.5) / rim + 0.5, 0.0, 1.0);
+    var alpha = clamp((image.a - 0.5) / rim + 0.5, 0.0, 1.0);
+    var tissue: Tissue;
+    if LEAVES_BURN {
+        tissue = burnt_tissue(in, surface.a, max(fwidth(surface.a), exp2(-levels_left)));
+        alpha *= tissue.left;
+    }
     let mask = covered(alpha, bitcast<u32>(in.attitude.x) ^ bitcast<u32>(in.attitude.y));
     if mask == 0u {
         discard;
@@ -145,6 +165,12 @@ fn fragment(in: Varyings) -> Painted {
         reflectance = pale;
     }
     reflectance = min(reflectance, vec3(0.8));
+    var wax = 1.0;
+    if LEAVES_BURN {
+        reflectance = burnt_reflectance(tissue, reflectance);
+        transmittance *= (1.0 - 0.6 * tissue.dried) * (1.0 - tissue.charred);
+        wax = 1.0 - 0.85 * tissue.charred;
+    }
     transmittance = min(transmittance, MOST - reflectance);
 
     let light = frame.sun_direction;
@@ -152,7 +178,7 @@ fn fragment(in: Varyings) -> Painted {
     let facing = dot(normal, light);
     let roughness = select(ROUGHNESS.y, ROUGHNESS.x, seen > 0.0);
     var color = sun * (reflectance * max(facing, 0.0) + transmittance * max(-facing, 0.0));
-    color += sun * PI * gloss(sheet, to_eye, light, roughness) * mix(1.0, 0.35, in.settled);
+    color += sun * PI * gloss(sheet, to_eye, light, roughness) * mix(1.0, 0.35, in.settled) * wax;
 
     let nearness = mix(1.0, 0.75, in.settled) * in.tint_open.w;
     let ambient = ambient_light_on(normal);
@@ -161,6 +187,9 @@ fn fragment(in: Varyings) -> Painted {
     let again = RECOLLISION * min(length(in.outward_mirror.xyz) / 0.5, 1.0);
     color /= 1.0 - again * (reflectance + transmittance);
     let mirrored = mirrored_share(clamp(dot(sheet, to_eye), 0.0, 1.0)) * nearness;
-    color += sky_reflection(reflect(-to_eye, sheet), roughness) * mirrored;
+    color += sky_reflection(reflect(-to_eye, sheet), roughness) * (mirrored * wax);
+    if LEAVES_BURN {
+        color += tissue.glow;
+    }
     return Painted(vec4(color * in.air.a + in.air.rgb, 1.0), mask);
 }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Leaves: from a simulator's columns to records of those that a view shows, and from these to pictures of blades.
 
+pub(crate) mod burning;
 pub(crate) mod cull;
 pub(crate) mod leaf_pass;
 pub(crate) mod meshes;
@@ -13,6 +14,7 @@ pub(crate) mod species_table;
 mod strip;
 pub(crate) mod visible;
 
+use windfall_core::device::leaf::burn;
 use windfall_core::layout::WgslStruct;
 
 use crate::gpu::shaders::{Shaders, declarations, wgsl_files};
@@ -30,9 +32,16 @@ pub(crate) fn shaders() -> Shaders {
         record::LeafDraw::declaration(),
         record::PageUniform::declaration(),
         record::ViewUniform::declaration(),
+        burning::BurningUniform::declaration(),
     ];
-    let lists = [meshes::wgsl_constants(), record::wgsl_constants()];
-    shaders.extend([("leaves/structs", declarations(lists) + &structs.concat())]);
-    shaders.extend(wgsl_files!("leaves": "species_table", "shape", "cull", "leaf_pass", "motion_pass"));
+    let lists = [
+        meshes::wgsl_constants(),
+        record::wgsl_constants(),
+        burning::wgsl_constants(),
+        burn::wgsl_constants(),
+    ];
+    let text = declarations(lists) + &burning::light_constants() + &structs.concat();
+    shaders.extend([("leaves/structs", text)]);
+    shaders.extend(wgsl_files!("leaves": "species_table", "shape", "front", "cull", "burning", "leaf_pass", "motion_pass"));
     shaders
 }

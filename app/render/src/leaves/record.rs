@@ -50,7 +50,7 @@ shared_struct! {
         /// Factor on blue, and share of open sky.
         blue_open: u32,
         /// Direction out of the crown, as far as the leaf is one of its surface, and how far it has come to rest.
-        outward_settled: u32,
+        pub(crate) outward_settled: u32,
     }
 }
 

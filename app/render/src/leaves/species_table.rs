@@ -3,11 +3,15 @@
 //! Species for the shaders: sizes, the texture arrays of leaf pictures and surfaces, and meshes.
 
 use bytemuck::Zeroable;
+use half::f16;
 use image::RgbaImage;
+use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, ParallelIterator};
+use windfall_core::blocks::BurnBlock;
+use windfall_core::device::leaf::burn::burnt_share;
 use windfall_core::layout::Uint4;
 use windfall_core::scene::{FlightModel, LeafShape, MAX_SPECIES, Species};
 use windfall_core::{Scene, shared_struct};
-use windfall_texgen::{Atlas, Layer};
+use windfall_texgen::{Atlas, BurnMap, Layer};
 
 use super::meshes::{LEVELS, LeafMeshes, STAGES, two_shares};
 use crate::error::RenderError;
@@ -40,8 +44,9 @@ shared_struct! {
         edge: f32,
         /// Stage of drying, 0 fresh to 5; negative for what does not dry.
         dryness: f32,
-        /// Unused.
-        unused: f32,
+        /// Seconds that a front takes for each metre of the picture's edge, and the length of its way in edges, as halves; zeros where leaves
+        /// do not burn.
+        burning: u32,
         /// The variant that has this layer's place in the order from green to brown.
         variant: u32,
     }
@@ -49,7 +54,7 @@ shared_struct! {
 
 shared_struct! {
     /// Species and their leaf pictures, for shaders.
-    pub(crate) struct SpeciesUniform, padding 8 {
+    pub(crate) struct SpeciesUniform, padding 4 {
         species: [SpeciesRow; MAX_SPECIES],
         layers: [LayerRow; MAX_LAYERS],
         /// Of each layer, lowest and highest corner at each of six stages, as signed halves of two sides; two words are unused.
@@ -60,6 +65,8 @@ shared_struct! {
         variants: u32,
         /// Number of layers.
         layer_count: u32,
+        /// Number of species: behind them come the stages of those that burn.
+        species_count: u32,
     }
 }
 
@@ -69,6 +76,8 @@ pub(crate) struct SpeciesTable {
     pub(crate) layout: wgpu::BindGroupLayout,
     pub(crate) group: wgpu::BindGroup,
     pub(crate) uniform: wgpu::Buffer,
+    /// True if leaves of some species burn.
+    pub(crate) leaves_burn: bool,
 }
 
 impl SpeciesTable {
@@ -77,6 +86,7 @@ impl SpeciesTable {
         queue: &wgpu::Queue,
         scene: &Scene,
         atlas: &Atlas,
+        burns: &[BurnBlock],
     ) -> Result<Self, RenderError> {
         check(scene, atlas, device.limits().max_texture_array_layers)?;
         let read = wgpu::BufferBindingType::Storage { read_only: true };
@@ -92,13 +102,18 @@ impl SpeciesTable {
                 buffer_entry(6, read, wgpu::ShaderStages::VERTEX),
             ],
         });
-        let array = |label, format, mips: fn(&Layer) -> &Vec<RgbaImage>| {
-            let bytes = |layer| mips(layer).iter().map(|mip| mip.as_raw().as_slice()).collect();
-            let layers: Vec<Vec<&[u8]>> = atlas.layers.iter().map(bytes).collect();
+        let maps = burn_maps(atlas, burns);
+        let array = |label, format, pictures: Vec<&[RgbaImage]>| {
+            let layers: Vec<Vec<&[u8]>> = pictures.into_iter().map(bytes_of).collect();
             upload::texture_array(device, queue, label, format, atlas.size_px, &layers)
         };
-        let view = array("leaf images", wgpu::TextureFormat::Rgba8UnormSrgb, |layer| &layer.mips);
-        let surfaces = array("leaf surfaces", wgpu::TextureFormat::Rgba8Unorm, |layer| &layer.surface);
+        let images = atlas.layers.iter().map(|layer| layer.mips.as_slice()).collect();
+        let view = array("leaf images", wgpu::TextureFormat::Rgba8UnormSrgb, images);
+        let pairs = atlas.layers.iter().zip(&maps);
+        let surfaces = pairs
+            .map(|(layer, map)| map.as_ref().map_or(layer.surface.as_slice(), |map| &map.surface))
+            .collect();
+        let surfaces = array("leaf surfaces", wgpu::TextureFormat::Rgba8Unorm, surfaces);
         let forms = LeafMeshes::new(atlas);
         let storage =
             |label, bytes: &[u8]| upload::buffer(device, queue, label, wgpu::BufferUsages::STORAGE, bytes);
@@ -116,7 +131,7 @@ impl SpeciesTable {
             queue,
             "leaf species_table",
             wgpu::BufferUsages::UNIFORM,
-            bytemuck::bytes_of(&table(scene, atlas, &forms)),
+            bytemuck::bytes_of(&table(scene, atlas, &forms, (burns, &maps))),
         );
         let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some("leaf species_table"),
@@ -131,15 +146,37 @@ impl SpeciesTable {
                 wgpu::BindGroupEntry { binding: 6, resource: meshes.as_entire_binding() },
             ],
         });
-        Ok(Self { layout, group, uniform })
+        let leaves_burn = maps.iter().any(Option::is_some);
+        Ok(Self { layout, group, uniform, leaves_burn })
     }
 }
 
-fn table(scene: &Scene, atlas: &Atlas, forms: &LeafMeshes) -> SpeciesUniform {
+/// Bytes of every level of a picture.
+fn bytes_of(mips: &[RgbaImage]) -> Vec<&[u8]> {
+    mips.iter().map(|mip| mip.as_raw().as_slice()).collect()
+}
+
+/// Arrivals of fronts on the pictures of species that burn.
+fn burn_maps(atlas: &Atlas, burns: &[BurnBlock]) -> Vec<Option<BurnMap>> {
+    let variants = (atlas.variants as usize).max(1);
+    let map = |(number, layer): (usize, &Layer)| {
+        let burns = burns.get(number / variants).is_some_and(|burn| burn.steps > 0.0);
+        burns.then(|| BurnMap::new(layer, number as u64, burnt_share))
+    };
+    atlas.layers.par_iter().enumerate().map(map).collect()
+}
+
+fn table(
+    scene: &Scene,
+    atlas: &Atlas,
+    forms: &LeafMeshes,
+    (burns, maps): (&[BurnBlock], &[Option<BurnMap>]),
+) -> SpeciesUniform {
     let mut table = SpeciesUniform {
         strips: forms.longest,
         variants: atlas.variants,
         layer_count: u32::try_from(atlas.layers.len()).unwrap_or(u32::MAX),
+        species_count: u32::try_from(scene.species.len()).unwrap_or(u32::MAX),
         ..SpeciesUniform::zeroed()
     };
     for (row, species) in table.species.iter_mut().zip(&scene.species) {
@@ -157,6 +194,12 @@ fn table(scene: &Scene, atlas: &Atlas, forms: &LeafMeshes) -> SpeciesUniform {
         }
     }
     let variants = (atlas.variants as usize).max(1);
+    for (number, (row, map)) in table.layers.iter_mut().zip(maps).enumerate() {
+        let species = number / variants;
+        let Some((map, burn)) = map.as_ref().zip(burns.get(species)) else { continue };
+        let edge_m = table.species[species].diameter_m * row.edge;
+        row.burning = halves(burn.steps * scene.dt_s / edge_m, map.way);
+    }
     for (rows, layers) in table.layers.chunks_mut(variants).zip(atlas.layers.chunks(variants)) {
         let mut order: Vec<(f32, u32)> =
             layers.iter().zip(0..).map(|(layer, variant)| (turned(layer), variant)).collect();
@@ -166,6 +209,12 @@ fn table(scene: &Scene, atlas: &Atlas, forms: &LeafMeshes) -> SpeciesUniform {
         }
     }
     table
+}
+
+/// Two numbers as halves, the first in the low one.
+fn halves(low: f32, high: f32) -> u32 {
+    let [low, high] = [low, high].map(|number| u32::from(f16::from_f32(number).to_bits()));
+    low | high << 16
 }
 
 impl SpeciesRow {
@@ -232,7 +281,7 @@ mod tests {
     fn blade_has_the_area_the_species_says() {
         let scene = Scene::default();
         let atlas = disc_atlas(&scene, 16);
-        let table = table(&scene, &atlas, &LeafMeshes::new(&atlas));
+        let table = table(&scene, &atlas, &LeafMeshes::new(&atlas), (&[], &[]));
         let edge_m = table.species[0].diameter_m * table.layers[1].edge;
         let area = atlas.layers[1].area_fraction * edge_m * edge_m;
         let disc = std::f32::consts::FRAC_PI_4 * scene.species[0].size_m.powi(2);

@@ -7,6 +7,7 @@ use std::mem::offset_of;
 
 use windfall_wgpu::LeafColumns;
 
+use super::burning::BurningPass;
 use super::cull::{CullPass, View};
 use super::page::Page;
 use super::record::LeafDraw;
@@ -48,6 +49,22 @@ impl VisibleLeaves {
             match page.windows(columns, leaf_count) {
                 None => encoder.clear_buffer(&page.draws, 0, None),
                 Some(windows) => cull.run(device, encoder, page, windows, tree_records, view),
+            }
+        }
+    }
+
+    /// Marks the leaves of `columns` that burn, by the column of their burning, in what the last culling left.
+    pub(crate) fn mark_burning(
+        &self,
+        device: &wgpu::Device,
+        encoder: &mut wgpu::CommandEncoder,
+        burning: &BurningPass,
+        (columns, burns): (&LeafColumns<'_>, &wgpu::Buffer),
+    ) {
+        for page in &self.pages {
+            if let Some(windows) = page.windows([burns], columns.leaf_count) {
+                let [burns] = windows;
+                burning.run(device, encoder, page, burns);
             }
         }
     }

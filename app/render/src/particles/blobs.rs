@@ -197,7 +197,7 @@ impl BlobPass {
                 device,
                 frame,
                 "blob shadows",
-                (map, &shadow_shader),
+                (&[("MAP", f64::from(map))], &shadow_shader),
                 groups,
                 (topology, &[]),
                 true,

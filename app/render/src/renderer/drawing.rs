@@ -103,6 +103,11 @@ impl Renderer {
             water.prepare(&self.device, &self.queue, frame, self.targets.tile_size);
         }
         self.write_views(&frame, &input.camera);
+        if let Some(burning) = &self.burning {
+            #[expect(clippy::cast_possible_truncation, reason = "whole steps within weeks")]
+            let step = (input.time_s / f64::from(self.dt_s)).round() as i32;
+            burning.write(&self.queue, step.cast_unsigned());
+        }
         self.trees.prepare(&self.queue, input.camera.eye_m());
         self.grass_pass.prepare(&self.queue, &input.camera, self.targets.size, &self.land);
         if self.shade_is_old {
@@ -129,14 +134,14 @@ impl Renderer {
         let writes = |pass| timer.map(|timer| timer.render_writes(pass));
         let shadow_writes = timer.map(|timer| timer.split_writes(0));
         let cull_for = |encoder: &mut wgpu::CommandEncoder, map| {
-            self.cull_leaves(encoder, leaves, LeafView::Shadow(map));
+            self.cull_leaves(encoder, world, LeafView::Shadow(map));
         };
         self.shadow_pass.draw(encoder, shadow_writes, &self.frame, &casters, &cull_for);
         if self.water_pass.is_some() {
-            self.cull_leaves(encoder, leaves, LeafView::Mirror);
+            self.cull_leaves(encoder, world, LeafView::Mirror);
         }
         self.draw_mirror(encoder, &group);
-        self.cull_leaves(encoder, leaves, LeafView::Camera);
+        self.cull_leaves(encoder, world, LeafView::Camera);
         self.draw_scene(encoder, writes(1), leaves.leaf_count, &group);
         self.draw_motion(encoder, leaves, input.time_s);
         self.targets.place(encoder, tile);
@@ -219,10 +224,15 @@ impl Renderer {
     }
 
     /// Chooses the leaves of the world and of the litter that a view shows.
-    fn cull_leaves(&self, encoder: &mut wgpu::CommandEncoder, leaves: &LeafColumns<'_>, view: LeafView) {
-        let (device, cull) = (&self.device, &self.cull);
+    fn cull_leaves(&self, encoder: &mut wgpu::CommandEncoder, world: &WorldColumns<'_>, view: LeafView) {
+        let (device, cull, leaves) = (&self.device, &self.cull, &world.leaves);
         let marks = self.paint_pass.as_ref().map(|pass| &pass.marks);
         self.visible_leaves.cull(device, encoder, cull, (leaves, marks, &self.tree_records), view);
+        // Leaves that are painted by what they do stay whole.
+        let burning = self.burning.as_ref().zip(world.burns).filter(|_| !cull.is_painted);
+        if let Some((burning, burns)) = burning {
+            self.visible_leaves.mark_burning(device, encoder, burning, (leaves, burns));
+        }
         if let Some(litter) = self.litter.as_ref().filter(|_| !cull.is_painted) {
             self.visible_litter.cull(
                 device,

@@ -20,6 +20,7 @@ use crate::frame::surroundings::{Path, Surroundings};
 use crate::gpu::targets::Targets;
 use crate::gpu::timing::GpuTimer;
 use crate::land::Land;
+use crate::leaves::burning::BurningPass;
 use crate::leaves::cull::CullPass;
 use crate::leaves::leaf_pass::LeafPass;
 use crate::leaves::motion_pass::MotionPass;
@@ -87,6 +88,8 @@ pub struct Renderer {
     shade_is_old: bool,
     bark_pass: BarkPass,
     leaf_pass: LeafPass,
+    /// Marks the leaves that burn.
+    burning: Option<BurningPass>,
     /// Passes for the time that the shutter is open.
     moving: Option<Moving>,
     fruit_pass: FruitPass,
@@ -128,7 +131,7 @@ impl Renderer {
         size: (u32, u32),
         options: RendererOptions,
     ) -> Result<Self, RenderError> {
-        let RenderScene { scene, solids, trees: scene_trees, atlas } = subject;
+        let RenderScene { scene, solids, burns, trees: scene_trees, atlas } = subject;
         let camera = Camera::from(&scene.view.camera);
         let forward = camera.forward();
         let level = Vec2::new(forward.x, forward.z).normalize_or(Vec2::NEG_Y);
@@ -145,7 +148,7 @@ impl Renderer {
             fire_lights: light_count(scene),
         };
         let frame = FrameGroup::new(device, queue, &land, standing);
-        let species_table = SpeciesTable::new(device, queue, scene, atlas)?;
+        let species_table = SpeciesTable::new(device, queue, scene, atlas, burns)?;
         let own = own_trees(scene_trees, scene.autumn > 0.0);
         let trees = Trees::new(device, queue, (&planted, leaves), &own);
         let branches = BranchGroup::new(device, queue, scene_trees);
@@ -188,6 +191,7 @@ impl Renderer {
             tree_records: TreeRecords::new(device, queue, scene_trees),
             bark: BarkBuffers::new(device, queue, scene_trees, eye_m),
             bark_pass: BarkPass::new(device, &frame, &light, &branches),
+            burning: BurningPass::new(device, &species_table),
             leaf_pass: LeafPass::new(device, &frame, &light, &species_table, &cull),
             fruit_pass: FruitPass::new(device, queue, &frame, &light, &branches, scene_trees),
             grass_pass: GrassPass::new(device, &frame, &light),

@@ -3,6 +3,7 @@
 //! Input of a renderer.
 
 use windfall_core::Scene;
+use windfall_core::blocks::BurnBlock;
 use windfall_core::scene::Release;
 use windfall_core::solid::Solid;
 use windfall_texgen::Atlas;
@@ -54,6 +55,8 @@ pub struct RenderScene<'a> {
     pub scene: &'a Scene,
     /// The solid parts of its compiled scene.
     pub solids: &'a [Solid],
+    /// Burning of its species, of its compiled scene's block.
+    pub burns: &'a [BurnBlock],
     /// Its trees.
     pub trees: &'a SceneTrees,
     /// The pictures of its species' leaves.

@@ -3,6 +3,7 @@
 // Leaves in a shadow map, of the sun or from above.
 
 #import frame/common
+#import leaves/front
 #import leaves/shape
 
 // Number of the map.
@@ -12,6 +13,8 @@ struct Varyings {
     @builtin(position) clip: vec4<f32>,
     @location(0) uv: vec2<f32>,
     @location(1) @interpolate(flat) layer: u32,
+    // Arrival of its front before which nothing is left.
+    @location(2) @interpolate(flat) burnt: f32,
 }
 
 @vertex
@@ -22,6 +25,7 @@ fn vertex(in: LeafVertex) -> Varyings {
     out.clip = frame.shadows[MAP] * vec4(point.world, 1.0);
     out.uv = point.uv;
     out.layer = record.layer_slot & LAYER_MASK;
+    out.burnt = select(-1.0, crumbled_before(front_of(record), 0.5), LEAVES_BURN);
     return out;
 }
 
@@ -30,6 +34,9 @@ fn fragment(in: Varyings) {
     // An eighth of a leaf is as fine as the map.
     let level = max(f32(textureNumLevels(images)) - 6.0, 0.0);
     if textureSampleLevel(images, image_sampler, in.uv, in.layer, level).a < 0.5 {
+        discard;
+    }
+    if LEAVES_BURN && textureSampleLevel(surfaces, image_sampler, in.uv, in.layer, level).a < in.burnt {
         discard;
     }
 }

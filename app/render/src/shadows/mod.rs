@@ -93,7 +93,10 @@ impl ShadowPass {
             } else {
                 wgpu::PrimitiveTopology::TriangleList
             };
-            depth_pipeline(device, frame, label, (number, module), groups, (topology, buffers), cut_out)
+            let constants =
+                [("MAP", f64::from(number)), ("LEAVES_BURN", f64::from(u8::from(species_table.leaves_burn)))];
+            let constants = if cut_out { &constants[..] } else { &constants[..1] };
+            depth_pipeline(device, frame, label, (constants, module), groups, (topology, buffers), cut_out)
         };
         let mut layers = 0..LAYERS;
         let passes = each.map(|map| {
@@ -156,19 +159,17 @@ impl ShadowPass {
     }
 }
 
-/// Pipeline that draws into the map of a number; what is `cut_out` by its fragments has an entry point `fragment`.
+/// Pipeline that draws into a map, of a shader module with values of its overrides; what is `cut_out` by its fragments has an entry point `fragment`.
 pub(crate) fn depth_pipeline(
     device: &wgpu::Device,
     frame: &FrameGroup,
     label: &str,
-    (number, module): (u32, &wgpu::ShaderModule),
+    (constants, module): (&[(&str, f64)], &wgpu::ShaderModule),
     groups: [Option<&wgpu::BindGroupLayout>; 2],
     (topology, buffers): (wgpu::PrimitiveTopology, &[wgpu::VertexBufferLayout<'_>]),
     cut_out: bool,
 ) -> wgpu::RenderPipeline {
-    let constants = [("MAP", f64::from(number))];
-    let compilation_options =
-        wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() };
+    let compilation_options = wgpu::PipelineCompilationOptions { constants, ..Default::default() };
     let buffers: Vec<_> = buffers.iter().cloned().map(Some).collect();
     let fragment = wgpu::FragmentState {
         module,

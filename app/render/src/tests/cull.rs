@@ -40,7 +40,7 @@ fn place(leaf: u32) -> [u32; 4] {
 }
 
 /// Records of every level.
-fn found(gpu: &Gpu, page: &Page) -> [Vec<LeafRecord>; LEVELS] {
+pub(super) fn found(gpu: &Gpu, page: &Page) -> [Vec<LeafRecord>; LEVELS] {
     let draws: Vec<LeafDraw> = read(gpu, &page.draws);
     let records: Vec<LeafRecord> = read(gpu, &page.records);
     std::array::from_fn(|level| {
@@ -50,19 +50,19 @@ fn found(gpu: &Gpu, page: &Page) -> [Vec<LeafRecord>; LEVELS] {
 }
 
 /// A device, what the culling needs of a scene, and buffers of leaves.
-struct Field {
-    gpu: Gpu,
+pub(super) struct Field {
+    pub(super) gpu: Gpu,
     cull: CullPass,
     tree_records: TreeRecords,
-    visible: VisibleLeaves,
+    pub(super) visible: VisibleLeaves,
     /// Place, attitude, schedule and identity.
-    columns: [wgpu::Buffer; 4],
+    pub(super) columns: [wgpu::Buffer; 4],
     leaf_count: u32,
 }
 
 impl Field {
     /// So many leaves at these places, the first of them those of the trees of `scene_trees`.
-    fn new(
+    pub(super) fn new(
         scene: &Scene,
         scene_trees: &SceneTrees,
         leaf_count: u32,
@@ -71,8 +71,8 @@ impl Field {
         let gpu = gpu();
         let (device, queue) = (gpu.device(), gpu.queue());
         let atlas = super::disc_atlas(scene, 16);
-        let species_table =
-            SpeciesTable::new(device, queue, scene, &atlas).expect("species_table within default limits");
+        let species_table = SpeciesTable::new(device, queue, scene, &atlas, &[])
+            .expect("species_table within default limits");
         let cull = CullPass::new(device, &species_table, false);
         let tree_records = TreeRecords::new(device, queue, scene_trees);
         let visible = VisibleLeaves::new(device, queue, &cull, scene_trees, leaf_count);
@@ -90,11 +90,15 @@ impl Field {
         Self { gpu, cull, tree_records, visible, columns, leaf_count }
     }
 
-    /// Culls for a camera in a picture 1.6 times as wide as high.
-    fn run(&self, camera: &Camera) {
+    /// The leaves.
+    pub(super) fn leaves(&self) -> LeafColumns<'_> {
         let [place, attitude, schedule, identity] = &self.columns;
-        let leaf_count = self.leaf_count;
-        let columns = LeafColumns { place, drift: place, attitude, schedule, identity, leaf_count };
+        LeafColumns { place, drift: place, attitude, schedule, identity, leaf_count: self.leaf_count }
+    }
+
+    /// Culls for a camera in a picture 1.6 times as wide as high.
+    pub(super) fn run(&self, camera: &Camera) {
+        let columns = self.leaves();
         let clip = camera.view_projection(1.6).to_cols_array_2d();
         let eye_m = camera.eye_m().to_array();
         self.cull.write(self.gpu.queue(), View::Camera, &ViewUniform::perspective(clip, eye_m, PIXELS_PER_M));

@@ -8,7 +8,7 @@ use std::collections::BTreeSet;
 use naga::valid::{Capabilities, FunctionInfo, ModuleInfo, ValidationFlags, Validator};
 use naga::{AddressSpace, Expression, Function, Handle, StructMember, Type, TypeInner, VectorSize};
 use windfall_core::layout::WgslStruct;
-use windfall_core::leaf::{Attitude, Drift, Identity, Place, Schedule};
+use windfall_core::leaf::{Attitude, Burn, Drift, Identity, Place, Schedule};
 use windfall_core::particle::{HistoryRun, HistorySample, ParticleMotion, ParticlePlace, ParticleTraits};
 
 use crate::gpu::shaders::Shaders;
@@ -98,6 +98,8 @@ fn every_struct_has_one_layout() {
     assert_same::<leaves::record::LeafDraw>(&module);
     assert_same::<leaves::record::PageUniform>(&module);
     assert_same::<leaves::record::ViewUniform>(&module);
+    assert_same::<leaves::burning::BurningUniform>(&module);
+    assert_same::<Burn>(&parse(&leaves::shaders(), "leaf_records"));
     let module = parse(&lens::shaders(), "lens/structs");
     assert_same::<lens::group::LensUniform>(&module);
     assert_same::<lens::group::Exposure>(&module);
@@ -167,7 +169,7 @@ const WITH_AXES: [&str; 7] =
     ["ambient", "palette", "sides", "path_lead", "paved_half_m", "inv_size_px", "inv_viewport_px"];
 
 /// Members that are lists by number, four to a vector.
-const LISTS: [&str; 4] = ["heights", "kernel", "strips", "texels_m"];
+const LISTS: [&str; 5] = ["heights", "kernel", "steps", "strips", "texels_m"];
 
 /// Buffers that are rows of vectors: columns of the branches, whose rows are positions and quaternions.
 const ROWS: [&str; 4] = ["branch_base", "branch_pose", "rest_base", "rest_pose"];

@@ -4,6 +4,7 @@
 //! software driver is enough.
 
 mod blobs;
+mod burning;
 mod cull;
 mod flames;
 mod halo;
@@ -20,9 +21,11 @@ mod trees;
 
 use bytemuck::Pod;
 use image::RgbaImage;
-use windfall_core::Scene;
+use windfall_core::device::leaf::record::STATE_FALLING;
+use windfall_core::leaf::Burn;
 use windfall_core::scene::{Exposure, Focus, Terrain};
 use windfall_core::solid::solids_of;
+use windfall_core::{CompiledScene, Scene};
 use windfall_texgen::{Atlas, Layer};
 use windfall_wgpu::{BranchColumns, Gpu, LeafColumns, ParticleColumns, WorldColumns};
 
@@ -104,7 +107,9 @@ pub(crate) fn bench_of(scene: Scene, scene_trees: SceneTrees, atlas: &Atlas) -> 
     let gpu = gpu();
     let options = RendererOptions { litter_count: 0, tile_px: u32::MAX };
     let solids = solids_of(&scene).expect("shapes without files");
-    let subject = RenderScene { scene: &scene, solids: &solids, trees: &scene_trees, atlas };
+    let compiled = scene.leaves_burn().then(|| CompiledScene::compile(&scene).expect("a scene"));
+    let burns = compiled.as_ref().map_or(&[][..], |compiled| &compiled.block().burns);
+    let subject = RenderScene { scene: &scene, solids: &solids, burns, trees: &scene_trees, atlas };
     let renderer = Renderer::new(gpu.device(), gpu.queue(), subject, PictureTarget::FORMAT, SIZE, options)
         .expect("a renderer within default limits");
     Bench { gpu, scene, scene_trees, renderer }
@@ -148,7 +153,12 @@ impl Bench {
         let history = upload::buffer(device, queue, "samples", usage, bytemuck::cast_slice(samples));
         let particles =
             ParticleColumns { place: &place, motion: &motion, traits: &traits, count, history: &history };
-        self.draw_world((None, Some(particles)), 0, 60_000, 0.0, time_s)
+        self.draw_world((None, Some(particles), None), 0, 60_000, 0.0, time_s)
+    }
+
+    /// Draws one big falling leaf that burns as `burn` says.
+    pub(crate) fn draw_burning(&mut self, burn: Burn, time_s: f64) -> RgbaImage {
+        self.draw_world((None, None, Some(burn)), STATE_FALLING, 60_000, 0.0, time_s)
     }
 
     fn draw_all(
@@ -159,12 +169,12 @@ impl Bench {
         offset_m: f32,
         time_s: f64,
     ) -> RgbaImage {
-        self.draw_world((branches, None), state, size, offset_m, time_s)
+        self.draw_world((branches, None, None), state, size, offset_m, time_s)
     }
 
     fn draw_world(
         &mut self,
-        (branches, particles): (Option<&BranchColumns<'_>>, Option<ParticleColumns<'_>>),
+        (branches, particles, burn): (Option<&BranchColumns<'_>>, Option<ParticleColumns<'_>>, Option<Burn>),
         state: u32,
         size: u32,
         offset_m: f32,
@@ -187,13 +197,14 @@ impl Bench {
             identity: &identity,
             leaf_count: 1,
         };
+        let burns = burn.map(|burn| column(bytemuck::cast(burn)));
         let target = PictureTarget::new(device, SIZE).expect("a target");
         let mut encoder = encoder(&self.gpu);
         let camera = Camera::from(&self.scene.view.camera);
         self.renderer.draw(
             &mut encoder,
             &target.view(),
-            &WorldColumns { leaves, branches: branches.cloned(), particles, burns: None },
+            &WorldColumns { leaves, branches: branches.cloned(), particles, burns: burns.as_ref() },
             &FrameInput { camera, time_s, since_s: f32::INFINITY, origin: (0, 0) },
         );
         target.submit_and_read(device, queue, encoder).expect("a picture")

@@ -208,7 +208,9 @@ pub(super) fn renderer_of(
 ) -> anyhow::Result<Renderer> {
     let atlas = leaves::atlas_of(scene, &making_leaves())?;
     let scene_trees = SceneTrees::of(scene, compiled.forest());
-    let render_scene = RenderScene { scene, solids: compiled.solids(), trees: &scene_trees, atlas: &atlas };
+    let burns = &compiled.block().burns;
+    let solids = compiled.solids();
+    let render_scene = RenderScene { scene, solids, burns, trees: &scene_trees, atlas: &atlas };
     let options = RendererOptions::for_scene(scene);
     Ok(Renderer::new(gpu.device(), gpu.queue(), render_scene, format, size, options)?)
 }
