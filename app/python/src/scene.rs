@@ -15,11 +15,17 @@ const OF_DICT: &str = "<dict>";
 
 /// A scene: what there is before a world is built of it. It does not change; `with_` makes another.
 #[pyclass(name = "Scene", module = "windfall", frozen, eq)]
-#[derive(PartialEq)]
 pub(crate) struct PyScene {
     pub(crate) scene: Scene,
     /// Preset, path or `<…>`: what errors name.
     pub(crate) file: String,
+}
+
+impl PartialEq for PyScene {
+    /// Equal scenes may come from different places.
+    fn eq(&self, other: &Self) -> bool {
+        self.scene == other.scene
+    }
 }
 
 impl PyScene {
