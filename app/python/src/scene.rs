@@ -71,7 +71,7 @@ impl PyScene {
 
     /// A scene from the text of a scene file; errors name `file`.
     #[staticmethod]
-    #[pyo3(signature = (text, file="<string>".into()))]
+    #[pyo3(signature = (text, file="<string>".into()), text_signature = "(text, file='<string>')")]
     fn from_ron(py: Python<'_>, text: &str, file: String) -> PyResult<Self> {
         let scene = Scene::from_ron(text, &file).map_err(|error| raise(py, &error.into()))?;
         Self::valid(py, scene, file)

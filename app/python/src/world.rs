@@ -315,13 +315,13 @@ impl PyWorld {
     }
 
     /// A picture of the world as it is, without motion blur and trails.
-    #[pyo3(signature = (size=(1280, 720)))]
+    #[pyo3(signature = (size=(1280, 720)), text_signature = "($self, size=(1280, 720))")]
     fn render<'py>(slf: &Bound<'py, Self>, size: (u32, u32)) -> PyResult<Bound<'py, PyAny>> {
         slf.py().import("windfall._pictures")?.call_method1("render", (slf, size))
     }
 
     /// Pictures of the world as it goes on, which it does as they are taken: an iterable with a length.
-    #[pyo3(signature = (seconds, fps=24.0, size=(1280, 720)))]
+    #[pyo3(signature = (seconds, fps=24.0, size=(1280, 720)), text_signature = "($self, seconds, fps=24.0, size=(1280, 720))")]
     fn frames<'py>(
         slf: &Bound<'py, Self>,
         seconds: f64,

@@ -19,7 +19,7 @@ def test_the_command_is_there():
 def test_a_scene_is_exported_as_the_command_does(storm, tmp_path):
     path = storm.with_(leaves=50).export(tmp_path / "a.csv", frames=range(0, 4), fps=30, backend="cpu")
     rows = path.read_text().splitlines()
-    assert path == tmp_path / "a.csv" and rows[0].startswith("frame,time_s")
+    assert path == tmp_path / "a.csv" and rows[0].startswith("frame,step,time_s")
     assert {row.split(",")[0] for row in rows[1:]} == {"0", "1", "2", "3"}
     with pytest.raises(ValueError, match="follow one another"):
         storm.export(tmp_path / "b.csv", frames=range(0, 9, 2))

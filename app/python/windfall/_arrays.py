@@ -26,10 +26,10 @@ def view(world: _windfall.World, name: str) -> npt.NDArray[Any]:
     fields = column.fields
     if len(fields) == 1 and not fields[0][0]:
         _, kind, words = fields[0]
-        plain = np.frombuffer(column, kind)
+        plain = np.frombuffer(memoryview(column), kind)
         return plain if words == 1 else plain.reshape(-1, words)
     record = [(field, kind, (words,) if words > 1 else ()) for field, kind, words in fields]
-    return np.frombuffer(column, np.dtype(record))
+    return np.frombuffer(memoryview(column), np.dtype(record))
 
 
 class Columns(Mapping[str, npt.NDArray[Any]]):
@@ -55,7 +55,7 @@ def leaves(world: _windfall.World) -> dict[str, npt.NDArray[Any]]:
     """Leaves decoded, a row for each slot."""
     decoded = {}
     for name, kind, words, memory in world._decoded():
-        plain = np.frombuffer(memory, kind)
+        plain = np.frombuffer(memoryview(memory), kind)
         decoded[name] = plain if words == 1 else plain.reshape(-1, words)
     return decoded
 

@@ -19,9 +19,9 @@ _ERROR = "error: "
 
 def run(arguments: Sequence[str | os.PathLike[str]], progress: bool = False) -> str:
     """Output of the command; its error as an exception. With `progress` its standard error is ours, bar and all."""
-    command = [sys.executable, "-m", "windfall", *map(os.fspath, arguments)]
-    told = None if progress else subprocess.PIPE
-    done = subprocess.run(command, stdout=subprocess.PIPE, stderr=told, text=True, check=False)
+    command = [sys.executable, "-m", "windfall", *(os.fspath(argument) for argument in arguments)]
+    caught = None if progress else subprocess.PIPE
+    done = subprocess.run(command, stdout=subprocess.PIPE, stderr=caught, text=True, check=False)
     if done.returncode != 0:
         lines = (done.stderr or "").strip().splitlines()
         last = lines[-1] if lines else f"the command ended with code {done.returncode}"

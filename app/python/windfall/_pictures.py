@@ -84,7 +84,7 @@ class Frames:
 def draw(world: _windfall.World, size: tuple[int, int], since_s: float, number: int) -> Picture:
     """The world as it is, `since_s` seconds after the picture before."""
     width, height = size
-    pixels = np.frombuffer(world._draw(size, since_s), np.uint8)
+    pixels = np.frombuffer(memoryview(world._draw(size, since_s)), np.uint8)
     return Picture(pixels.reshape(height, width, 4), number, world.time_s)
 
 

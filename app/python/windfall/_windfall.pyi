@@ -11,6 +11,21 @@ import numpy.typing as npt
 from ._arrays import Columns
 from ._pictures import Frames, Picture
 
+__all__ = [
+    "LEAF_STATES",
+    "MOTIONS",
+    "PRESETS",
+    "Column",
+    "DeviceError",
+    "Memory",
+    "Scene",
+    "SceneError",
+    "World",
+    "__version__",
+    "encode_png",
+    "main",
+]
+
 __version__: str
 LEAF_STATES: tuple[str, ...]
 MOTIONS: tuple[str, ...]
