@@ -3,7 +3,6 @@
 //! Bytes lent to Python by the buffer protocol, never to be written.
 
 use std::ffi::{c_int, c_void};
-use std::ptr;
 
 use pyo3::exceptions::PyBufferError;
 use pyo3::ffi;
@@ -11,6 +10,9 @@ use pyo3::prelude::*;
 use windfall_core::store::{Column as Description, FieldKind};
 
 use crate::world::PyWorld;
+
+/// A buffer that is not to be written, to the interpreter.
+const READ_ONLY: c_int = 1;
 
 /// A column of a world, lent as bytes. While a buffer of it lives the world does not step.
 #[pyclass(module = "windfall", frozen)]
@@ -49,7 +51,7 @@ impl Column {
         let (start, length) = world.lend(slf.py(), this.store, this.column)?;
         // SAFETY: `lend` gave a place that stays as it is until `take_back`, which the release of the buffer calls; the
         // column keeps the world alive, and the buffer the column.
-        let filled = unsafe { fill(view, flags, start, length, slf.clone().into_any()) };
+        let filled = unsafe { fill(view, flags, start, length, slf.as_any()) };
         if filled.is_err() {
             world.take_back();
         }
@@ -80,7 +82,7 @@ impl Memory {
     unsafe fn __getbuffer__(slf: Bound<'_, Self>, view: *mut ffi::Py_buffer, flags: c_int) -> PyResult<()> {
         let bytes = &slf.get().bytes;
         // SAFETY: nothing writes to the bytes of a frozen object, nor moves them, and the buffer keeps it alive.
-        unsafe { fill(view, flags, bytes.as_ptr(), bytes.len(), slf.clone().into_any()) }
+        unsafe { fill(view, flags, bytes.as_ptr(), bytes.len(), slf.as_any()) }
     }
 
     #[expect(unsafe_code, reason = "the buffer protocol is made of pointers")]
@@ -105,35 +107,12 @@ unsafe fn fill(
     flags: c_int,
     start: *const u8,
     length: usize,
-    owner: Bound<'_, PyAny>,
+    owner: &Bound<'_, PyAny>,
 ) -> PyResult<()> {
-    if view.is_null() {
-        return Err(PyBufferError::new_err("no buffer to fill in"));
-    }
-    if flags & ffi::PyBUF_WRITABLE == ffi::PyBUF_WRITABLE {
-        return Err(PyBufferError::new_err("the state of a world is not to be written; copy it"));
-    }
     let length = ffi::Py_ssize_t::try_from(length)
         .map_err(|_| PyBufferError::new_err("more bytes than an array can have"))?;
-    // SAFETY: `view` may be written. The pointers into it are those of a one-dimensional buffer of bytes, as the protocol has them.
-    unsafe {
-        (*view).buf = start.cast::<c_void>().cast_mut();
-        (*view).len = length;
-        (*view).readonly = 1;
-        (*view).itemsize = 1;
-        // Bytes, which need no format.
-        (*view).format = ptr::null_mut();
-        (*view).ndim = 1;
-        (*view).shape =
-            if flags & ffi::PyBUF_ND == ffi::PyBUF_ND { &raw mut (*view).len } else { ptr::null_mut() };
-        (*view).strides = if flags & ffi::PyBUF_STRIDES == ffi::PyBUF_STRIDES {
-            &raw mut (*view).itemsize
-        } else {
-            ptr::null_mut()
-        };
-        (*view).suboffsets = ptr::null_mut();
-        (*view).internal = ptr::null_mut();
-        (*view).obj = owner.into_ptr();
-    }
-    Ok(())
+    let bytes = start.cast::<c_void>().cast_mut();
+    // SAFETY: `view` may be written, or the call refuses it; it refuses to lend for writing, too, and makes the buffer keep its owner.
+    let status = unsafe { ffi::PyBuffer_FillInfo(view, owner.as_ptr(), bytes, length, READ_ONLY, flags) };
+    if status == 0 { Ok(()) } else { Err(PyErr::fetch(owner.py())) }
 }

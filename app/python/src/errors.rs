@@ -4,6 +4,7 @@
 
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
+use pyo3::types::PyType;
 use pyo3::{PyErr, create_exception};
 
 create_exception!(
@@ -14,8 +15,15 @@ create_exception!(
 );
 create_exception!(windfall, DeviceError, PyRuntimeError, "A device that is missing, too small or lost.");
 
-/// Attributes of a [`SceneError`], each of them `None` where it does not apply.
+/// Attributes of a [`SceneError`].
 const ATTRIBUTES: [&str; 6] = ["file", "field", "value", "allowed", "line", "column"];
+
+/// The type of [`SceneError`], whose attributes are `None` where an error does not set them.
+pub(crate) fn scene_error(py: Python<'_>) -> PyResult<Bound<'_, PyType>> {
+    let exception = py.get_type::<SceneError>();
+    ATTRIBUTES.iter().try_for_each(|name| exception.setattr(*name, py.None()))?;
+    Ok(exception)
+}
 
 /// The exception of an error.
 pub(crate) fn raise(py: Python<'_>, error: &anyhow::Error) -> PyErr {
@@ -31,17 +39,13 @@ pub(crate) fn raise(py: Python<'_>, error: &anyhow::Error) -> PyErr {
 /// An exception for a scene without a file: a dictionary, or text.
 pub(crate) fn of_text(py: Python<'_>, file: &str, message: &dyn std::fmt::Display) -> PyErr {
     let raised = SceneError::new_err(format!("{file}: {message}"));
-    let set = || {
-        ATTRIBUTES.iter().try_for_each(|name| raised.value(py).setattr(*name, py.None()))?;
-        raised.value(py).setattr("file", file)
-    };
-    set().map_or_else(|failed| failed, |()| raised.clone_ref(py))
+    let named = raised.value(py).setattr("file", file);
+    named.err().unwrap_or(raised)
 }
 
 fn of_scene(py: Python<'_>, error: &windfall_core::SceneError) -> PyResult<PyErr> {
     let raised = SceneError::new_err(error.to_string());
     let value = raised.value(py);
-    ATTRIBUTES.iter().try_for_each(|name| value.setattr(*name, py.None()))?;
     match error {
         windfall_core::SceneError::Field { file, field, value: found, allowed } => {
             value.setattr("file", file)?;

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The compiled half of the Python package `windfall`: scenes and worlds. What needs numpy is Python, beside this folder.
 //!
-//! No call holds the interpreter while it works, and long ones look for Ctrl-C on the way. State is lent to Python without a copy, by
+//! No call holds the interpreter while it works, and stepping looks for Ctrl-C on the way. State is lent to Python without a copy, by
 //! the buffer protocol; a world whose state is lent refuses to step, as a `bytearray` refuses to grow.
 
 mod buffers;
@@ -46,7 +46,7 @@ fn _windfall(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("LEAF_STATES", PyTuple::new(py, states.map(LeafState::name))?)?;
     module.add("MOTIONS", PyTuple::new(py, decode::motions())?)?;
     module.add("PRESETS", PyTuple::new(py, PRESETS.iter().map(|preset| preset.0))?)?;
-    module.add("SceneError", py.get_type::<errors::SceneError>())?;
+    module.add("SceneError", errors::scene_error(py)?)?;
     module.add("DeviceError", py.get_type::<errors::DeviceError>())?;
     module.add_class::<scene::PyScene>()?;
     module.add_class::<world::PyWorld>()?;

@@ -50,6 +50,15 @@ pub(crate) struct PyWorld {
     scene: Py<PyScene>,
 }
 
+/// A call that steps; it ends with this, however it ends.
+struct Stepping<'a>(&'a PyWorld);
+
+impl Drop for Stepping<'_> {
+    fn drop(&mut self) {
+        self.0.holders().is_stepping = false;
+    }
+}
+
 impl PyWorld {
     fn make(
         py: Python<'_>,
@@ -210,9 +219,10 @@ impl PyWorld {
             }
             holders.is_stepping = true;
         }
-        let stepped = this.step_on(py, count);
-        this.holders().is_stepping = false;
-        stepped.map(|()| slf)
+        let stepping = Stepping(this);
+        this.step_on(py, count)?;
+        drop(stepping);
+        Ok(slf)
     }
 
     /// Counts: of leaves by what they do, of the litter (None without any) and of every population of particles, as in the JSON of

@@ -23,7 +23,7 @@ def test_a_scene_is_exported_as_the_command_does(storm, tmp_path):
     assert {row.split(",")[0] for row in rows[1:]} == {"0", "1", "2", "3"}
     with pytest.raises(ValueError, match="follow one another"):
         storm.export(tmp_path / "b.csv", frames=range(0, 9, 2))
-    with pytest.raises(wf.SceneError, match="none"):
+    with pytest.raises(ValueError, match="no folder"):
         storm.export(tmp_path / "none" / "b.csv", frames=(0, 1))
 
 
@@ -42,5 +42,7 @@ def test_a_study_is_a_pair_of_tables(tmp_path):
 
 
 def test_a_study_that_makes_no_sense_says_so():
-    with pytest.raises(wf.SceneError, match="wind.sped"):
+    with pytest.raises(ValueError, match="--vary wind.sped: no 'sped' in wind"):
         wf.study("autumn-park", {"wind.sped": [0, 1]}, drops=20)
+    with pytest.raises(ValueError, match="^six-motions: wind.speed is 99"):
+        wf.study("six-motions", {"wind.speed": [0, 99]}, drops=20)

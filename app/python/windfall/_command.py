@@ -18,14 +18,14 @@ _ERROR = "error: "
 
 
 def run(arguments: Sequence[str | os.PathLike[str]], progress: bool = False) -> str:
-    """Output of the command; its error as an exception. With `progress` its standard error is ours, bar and all."""
+    """Output of the command; its line of an error as a ValueError. With `progress` its standard error is ours, bar and all."""
     command = [sys.executable, "-m", "windfall", *(os.fspath(argument) for argument in arguments)]
     caught = None if progress else subprocess.PIPE
     done = subprocess.run(command, stdout=subprocess.PIPE, stderr=caught, text=True, check=False)
     if done.returncode != 0:
         lines = (done.stderr or "").strip().splitlines()
         last = lines[-1] if lines else f"the command ended with code {done.returncode}"
-        raise _windfall.SceneError(last.removeprefix(_ERROR))
+        raise ValueError(last.removeprefix(_ERROR))
     return done.stdout
 
 
@@ -37,9 +37,9 @@ def scene_file(scene: _windfall.Scene) -> Iterator[str]:
         path.write_text(scene._to_ron_for_any_folder(), encoding="utf-8")
         try:
             yield str(path)
-        except _windfall.SceneError as error:
+        except ValueError as error:
             # Nobody but us knows that file.
-            raise _windfall.SceneError(str(error).replace(str(path), scene.file)) from None
+            raise ValueError(str(error).replace(str(path), scene.file)) from None
 
 
 def export(
