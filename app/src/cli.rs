@@ -81,6 +81,11 @@ pub fn main() -> ExitCode {
 
 /// Runs the program with these arguments; the first is its own name.
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
+    ExitCode::from(status(arguments))
+}
+
+/// The same with the exit code as a number: 0, or 2 after an error.
+pub fn status(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     let outcome = match Cli::try_parse_from(arguments) {
         Ok(cli) => cli.command.run().map_err(|error| error.to_string()),
         // Help and version, which were asked for.
@@ -90,10 +95,10 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Err(error) => Err(usage_error(&error)),
     };
     match outcome {
-        Ok(()) => ExitCode::SUCCESS,
+        Ok(()) => 0,
         Err(message) => {
             terminal::note(&format!("error: {message}"));
-            ExitCode::from(FAILURE)
+            FAILURE
         }
     }
 }

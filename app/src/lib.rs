@@ -79,7 +79,15 @@ mod run;
 mod study;
 mod view;
 
-pub use run::{backend, cancel, drawing, studio};
+pub use run::{backend, cancel, drawing, frame_steps, studio};
+
+/// Scenes by name, and values put into them where a path leads.
+pub mod scenes {
+    pub use crate::leaves::{fit_bodies, load_scene};
+    pub use crate::run::memory::check_memory;
+    pub use crate::study::place::SceneTree;
+    pub use crate::study::variation::Setting;
+}
 
 /// The example of README.md, compiled and run.
 #[cfg(doctest)]

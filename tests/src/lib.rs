@@ -6,6 +6,7 @@ pub mod adapter;
 pub mod compare;
 pub mod functions;
 pub mod grove;
+pub mod mutation;
 pub mod reference;
 pub mod runner;
 pub mod strategies;

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Tier 2: every kernel, one step from the same uploaded state, on random worlds.
 
-use std::sync::Mutex;
-
 use proptest::prelude::*;
 use proptest::test_runner::{Config, TestCaseResult, TestRunner};
 use windfall_core::device::leaf::record::GRID_UNIT;
@@ -12,6 +10,7 @@ use windfall_core::{Contract, Scene, Simulator, World};
 use windfall_cpu::{CpuOptions, CpuSimulator};
 use windfall_tests::adapter;
 use windfall_tests::compare::{STEP_SEGMENT, STEP_ULPS, difference, ulp};
+use windfall_tests::mutation::two_at_a_time;
 use windfall_tests::strategies::{
     flying_scene, hilly_scene, jet, littered_scene, obstructed_scene, plume, scenes, varied_scene,
 };
@@ -209,26 +208,11 @@ fn a_changed_kernel_is_noticed() {
         let among =
             littered.map(|edit| (edit, &litter)).into_iter().chain(obstructed.map(|edit| (edit, &solids)));
         let edits = edits.chain(among.filter(|_| is_exact));
-        // Drivers compile the changed shaders on the caller's thread: two of them share the work.
-        let edits = Mutex::new(edits);
-        let next = || edits.lock().expect("no thread has panicked while it held it").next();
-        std::thread::scope(|scope| {
-            let work = || {
-                while let Some(((module, old, new), world)) = next() {
-                    let shaders =
-                        Shaders::default().edited(module, old, new).expect("the edited text is there");
-                    let (oracle, candidate) = one_step(&gpu, contract, Some(shaders), world);
-                    let agreed = agree(contract, &oracle, &candidate);
-                    assert!(
-                        agreed.is_err(),
-                        "{} {contract}: nobody noticed '{new}' in {module}",
-                        gpu.info().name
-                    );
-                }
-            };
-            for worker in [scope.spawn(work), scope.spawn(work)] {
-                worker.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
-            }
+        two_at_a_time(edits, |((module, old, new), world)| {
+            let shaders = Shaders::default().edited(module, old, new).expect("the edited text is there");
+            let (oracle, candidate) = one_step(&gpu, contract, Some(shaders), world);
+            let agreed = agree(contract, &oracle, &candidate);
+            assert!(agreed.is_err(), "{} {contract}: nobody noticed '{new}' in {module}", gpu.info().name);
         });
     }
 }

@@ -14,7 +14,7 @@ use super::in_season;
 ///
 /// # Errors
 /// A scene or a folder that cannot be used, or leaves of sizes and masses that no scene may have.
-pub(crate) fn load_scene(name: &str) -> anyhow::Result<Scene> {
+pub fn load_scene(name: &str) -> anyhow::Result<Scene> {
     let mut scene = Scene::load(name)?;
     if fit_bodies(&mut scene)? {
         scene.validate(name)?;
@@ -29,7 +29,7 @@ pub(crate) fn load_scene(name: &str) -> anyhow::Result<Scene> {
 ///
 /// # Errors
 /// A folder whose manifest cannot be used.
-pub(crate) fn fit_bodies(scene: &mut Scene) -> anyhow::Result<bool> {
+pub fn fit_bodies(scene: &mut Scene) -> anyhow::Result<bool> {
     let mut is_any = false;
     for species in &mut scene.species {
         if let (FlightModel::Aerodynamic(body), Some(path)) = (species.flight, &species.leaves)

@@ -5,8 +5,8 @@
 mod body;
 mod cache;
 
-pub(crate) use body::load_scene;
-pub(crate) use body::{fit_bodies, species_of_folder};
+pub(crate) use body::species_of_folder;
+pub use body::{fit_bodies, load_scene};
 use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
 use windfall_core::Scene;
 use windfall_core::scene::{LeafShape, Species};

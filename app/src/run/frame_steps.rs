@@ -10,7 +10,7 @@ const TICKS_PER_S: f64 = 1.0e12;
 /// The steps of a clip: time is counted in whole picoseconds, so that nothing adds up over a long clip, and every frame
 /// shows the state of the step nearest to its time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct FrameSteps {
+pub struct FrameSteps {
     frame_ticks: u128,
     step_ticks: u128,
 }
@@ -18,12 +18,12 @@ pub(crate) struct FrameSteps {
 impl FrameSteps {
     /// `fps` frames for each second of a clip that shows `speed` simulated seconds in it, in steps of `dt_s`. All are
     /// above zero.
-    pub(crate) fn new(fps: f64, speed: f64, dt_s: f32) -> Self {
+    pub fn new(fps: f64, speed: f64, dt_s: f32) -> Self {
         Self { frame_ticks: ticks(speed / fps), step_ticks: ticks(f64::from(dt_s)).max(1) }
     }
 
     /// Number of steps from the beginning to frame `number`, counted from 0.
-    pub(crate) fn before(&self, number: u32) -> u64 {
+    pub fn before(&self, number: u32) -> u64 {
         let time = self.frame_ticks * u128::from(number);
         u64::try_from((time + self.step_ticks / 2) / self.step_ticks).unwrap_or(u64::MAX)
     }

@@ -10,7 +10,7 @@ use windfall_core::leaf::LEAF_BYTES;
 ///
 /// # Errors
 /// Names the scene, and what it would need.
-pub(crate) fn check_memory(file: &str, leaves: u32) -> Result<(), SceneError> {
+pub fn check_memory(file: &str, leaves: u32) -> Result<(), SceneError> {
     let needed = u64::from(leaves) * 2 * LEAF_BYTES as u64;
     let Some(free) = free_memory().filter(|&free| needed > free) else { return Ok(()) };
     Err(SceneError::Field {

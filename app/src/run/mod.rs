@@ -6,7 +6,7 @@ pub mod backend;
 pub mod cancel;
 pub(crate) mod digits;
 pub mod drawing;
-pub(crate) mod frame_steps;
+pub mod frame_steps;
 pub(crate) mod leaf_row;
 pub(crate) mod live_particle;
 pub(crate) mod looped;

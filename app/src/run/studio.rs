@@ -127,6 +127,14 @@ impl Studio {
         self.renderer.set_shelter(ShelterMap::of(compiled).as_ref(), high);
     }
 
+    /// Goes on from the state of this world, which is of the same scene.
+    ///
+    /// # Errors
+    /// A world of another size, a lost device.
+    pub fn go_on_from(&mut self, world: &World) -> anyhow::Result<()> {
+        Ok(self.backend.write_state(world)?)
+    }
+
     /// Simulates until `step` steps are done.
     ///
     /// # Errors

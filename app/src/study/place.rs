@@ -10,7 +10,7 @@ use super::variation::Setting;
 
 /// A scene as a tree: structures are objects, lists arrays, a variant `Name(…)` an object with that one key.
 #[derive(Clone, Debug)]
-pub(crate) struct SceneTree {
+pub struct SceneTree {
     root: Value,
 }
 
@@ -19,7 +19,7 @@ impl SceneTree {
     ///
     /// # Errors
     /// None for scenes that are valid; numbers that are not finite have no place in a tree.
-    pub(crate) fn new(scene: &Scene) -> anyhow::Result<Self> {
+    pub fn new(scene: &Scene) -> anyhow::Result<Self> {
         Ok(Self { root: serde_json::to_value(scene)? })
     }
 
@@ -28,22 +28,22 @@ impl SceneTree {
     ///
     /// # Errors
     /// A path that leads nowhere, with what there is; a value that does not fit there.
-    pub(crate) fn put(&mut self, path: &str, setting: &Setting) -> anyhow::Result<()> {
+    pub fn put(&mut self, path: &str, setting: &Setting) -> anyhow::Result<()> {
         let segments: Vec<&str> = path.split('.').collect();
         let before = self.root.clone();
         let place = find(&mut self.root, &segments).map_err(|found| {
             let Found { parent, segment, has } = found;
-            anyhow!("--vary {path}: no '{segment}' in {parent}; there: {has}")
+            anyhow!("{path}: no '{segment}' in {parent}; there: {has}")
         })?;
         let old = std::mem::replace(inside(place), setting.value.clone());
         if old.is_object() || old.is_array() {
             let has = names(&old);
             self.root = before;
-            return Err(anyhow!("--vary {path}: not one value but several; there: {has}"));
+            return Err(anyhow!("{path}: not one value but several; there: {has}"));
         }
         if let Err(error) = self.scene() {
             self.root = before;
-            return Err(anyhow!("--vary {path}: {} does not fit where {old} is: {error}", setting.text));
+            return Err(anyhow!("{path}: {} does not fit where {old} is: {error}", setting.text));
         }
         Ok(())
     }
@@ -63,7 +63,7 @@ impl SceneTree {
     ///
     /// # Errors
     /// A tree that says none.
-    pub(crate) fn scene(&self) -> Result<Scene, serde_json::Error> {
+    pub fn scene(&self) -> Result<Scene, serde_json::Error> {
         serde_json::from_value(self.root.clone())
     }
 }

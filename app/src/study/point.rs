@@ -4,7 +4,7 @@
 
 use std::collections::HashMap;
 
-use anyhow::bail;
+use anyhow::{anyhow, bail};
 use windfall_core::Scene;
 
 use super::drops::{DropOptions, drop_scene};
@@ -57,7 +57,7 @@ pub(crate) fn points_of(
         let settings = settings_at(variations, number);
         let mut tree = tree.clone();
         for (to, setting) in variations.iter().zip(&settings) {
-            tree.put(&to.path, setting)?;
+            tree.put(&to.path, setting).map_err(|error| anyhow!("--vary {error}"))?;
         }
         let varied = tree.scene()?;
         varied.validate(file)?;

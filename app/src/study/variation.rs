@@ -14,7 +14,7 @@ const WHOLE: f64 = 9.0e15;
 
 /// A value that a study puts into a scene.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Setting {
+pub struct Setting {
     /// As it is written.
     pub text: String,
     /// As it goes into the scene.
