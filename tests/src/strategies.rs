@@ -223,19 +223,20 @@ pub fn littered_scene(seed: u64, leaves: u32, speed_m_s: f32, dt_s: f32) -> Scen
     scene
 }
 
-/// A scene with litter of dry leaves of two species, one of which burns, a fire beneath some of it and `leaves` leaves in the air, in hill country with a pond. What burns feeds
-/// a second fire; embers and a glow are born of it.
+/// A scene with litter of dry leaves, a fire beneath some of it, and `leaves` leaves in the air. What burns feeds a second fire; a glow is where
+/// it burns, and embers are born of that.
 pub fn burning_scene(seed: u64, leaves: u32, speed_m_s: f32, dt_s: f32) -> Scene {
     let mut scene = littered_scene(seed, leaves, speed_m_s, dt_s);
     scene.sources.iter_mut().for_each(|source| source.recycle_after_s = None);
     scene.regrow_after_s = None;
     scene.ground.litter =
         Some(Litter { size_m: Vec2::new(8.0, 7.0), leaf_area_index: 0.9, ..Litter::default() });
-    scene.species[1].burns =
-        Some(Burning { ignition_c: (200.0, 300.0), front_mm_s: 20.0, ..Burning::default() });
+    let burning = Burning { ignition_c: (200.0, 300.0), front_mm_s: 20.0, ..Burning::default() };
+    scene.species.iter_mut().for_each(|species| species.burns = Some(burning));
+    let at_m = Vec3::new(1.0, 0.0, -1.5);
     scene.wind.plumes = vec![
-        Plume { keys: vec![PlumeKey { time_s: 0.0, power_kw: 6.0 }], base_radius_m: 0.8, ..plume() },
-        Plume { name: "fed".into(), fed_within_m: Some(2.5), keys: Vec::new(), ..plume() },
+        Plume { keys: vec![PlumeKey { time_s: 0.0, power_kw: 6.0 }], at_m, base_radius_m: 0.8, ..plume() },
+        Plume { name: "fed".into(), fed_within_m: Some(2.5), keys: Vec::new(), at_m, ..plume() },
     ];
     let on_leaves = Particles {
         name: "glow".into(),

@@ -12,7 +12,8 @@ use windfall_tests::adapter;
 use windfall_tests::compare::{STEP_SEGMENT, STEP_ULPS, difference, ulp};
 use windfall_tests::mutation::two_at_a_time;
 use windfall_tests::strategies::{
-    flying_scene, hilly_scene, jet, littered_scene, obstructed_scene, plume, scenes, varied_scene,
+    burning_scene, flying_scene, hilly_scene, jet, littered_scene, obstructed_scene, plume, scenes,
+    varied_scene,
 };
 use windfall_wgpu::{Gpu, KernelId, Shaders, WgpuOptions, WgpuSimulator};
 
@@ -185,6 +186,15 @@ fn a_changed_kernel_is_noticed() {
         ("leaf/strike", "(end - start) * scene.inv_dt_s", "(end - start) * scene.dt_s"),
         ("leaf/strike", "< size_m + way", "< way"),
     ];
+    let burned = [
+        ("kernels/gather_heat", "first + 2u], heat.sums.power", "first + 2u], heat.sums.count"),
+        ("kernels/burn_leaves", "burn_page.first_slot + leaf", "burn_page.first_slot + leaf + 1u"),
+        ("kernels/settle_fires", "fire_rows[row].x, heat_words[word]", "heat_words[word], fire_rows[row].x"),
+        ("kernels/follow_leaves", "place.position, drifts", "place.position * 2.0, drifts"),
+        ("leaf/burn", "warmth - leaf_rise(species, heat)", "warmth"),
+        ("leaf/burn", "stage * scene.species_count", "stage"),
+        ("particle/on_leaf", "burn.steps - f32", "burn.steps + f32"),
+    ];
     // So many leaves that some land within any step.
     let mut calm = [varied_scene(3, 10_000, 5.0, 1.0 / 60.0), flying_scene(3, 3000, 5.0, 1.0 / 60.0)];
     calm.iter_mut().for_each(|scene| scene.wind.vortices.clear());
@@ -194,6 +204,7 @@ fn a_changed_kernel_is_noticed() {
     jets.wind.plumes = vec![plume()];
     let jets = warmed(&jets, 400);
     let litter = warmed(&littered_scene(5, 20_000, 3.5, 1.0 / 60.0), 400);
+    let fire = warmed(&burning_scene(5, 600, 0.7, 1.0 / 60.0), 480);
     let solids = warmed(&obstructed_scene(5, 20_000, 2.0, 1.0 / 60.0), 150);
     let [plain, flying] = calm.map(|scene| warmed(&scene, 400));
     for (gpu, contract) in adapter::contracts() {
@@ -207,6 +218,7 @@ fn a_changed_kernel_is_noticed() {
         let edits = edits.step_by(if is_exact { 1 } else { LOOSE_EDITS });
         let among =
             littered.map(|edit| (edit, &litter)).into_iter().chain(obstructed.map(|edit| (edit, &solids)));
+        let among = among.chain(burned.map(|edit| (edit, &fire)));
         let edits = edits.chain(among.filter(|_| is_exact));
         two_at_a_time(edits, |((module, old, new), world)| {
             let shaders = Shaders::default().edited(module, old, new).expect("the edited text is there");

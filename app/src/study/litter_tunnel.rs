@@ -195,7 +195,7 @@ impl Tunnel {
             for ((track, at), schedule) in tracks.iter_mut().zip(&leaves.place).zip(&leaves.schedule) {
                 let here = place(at);
                 let moved = f64::from(here.distance(track.before));
-                let kind = &species[leaf_species(at.bits) as usize];
+                let kind = &species[leaf_species(at.bits) as usize % species.len()];
                 let reach_m =
                     0.5 * kind.size_m * size_ratio(schedule.size) * reach_ratio(kind.shape.planform());
                 let is_aloft = at.state() == LeafState::Falling && at.position[1] > reach_m + REST_OFFSET_M;

@@ -5,7 +5,7 @@
 //! Lets the particles of burning leaves be where these are at the end of a step.
 
 use windfall_core::Context;
-use windfall_core::device::particle::on_leaf::particle_on_leaf;
+use windfall_core::device::particle::on_leaf::{FollowedLeaf, particle_on_leaf};
 use windfall_core::leaf::{Burns, Leaves};
 use windfall_core::particle::{ParticleStore, leaf_particles};
 
@@ -19,7 +19,8 @@ pub(crate) fn follow_leaves(cx: &Context<'_>, leaves: &Leaves, burns: &Burns, pa
             let (place, drift) = (&leaves.place[slot as usize], &leaves.drift[slot as usize]);
             let mut particle = particles.row_mut((run.first + slot) as usize);
             let (at, velocity) = (place.position.into(), drift.velocity.into());
-            particle_on_leaf(cx, &mut particle, run.population, slot, place.bits, at, velocity, burn);
+            let leaf = FollowedLeaf { slot, bits: place.bits, place: at, velocity };
+            particle_on_leaf(cx, &mut particle, run.population, &leaf, burn);
         }
     }
 }

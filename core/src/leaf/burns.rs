@@ -32,7 +32,7 @@ impl Burns {
 /// Masses in µg of a leaf of which a share has burnt: what is left of it, ash, and what has gone up. Whole numbers that sum to that of the whole leaf.
 pub fn leaf_masses(species: &Species, size: u32, share: f32) -> [u64; 3] {
     let ratio = f64::from(size_ratio(size));
-    let area_m2 = PI / 4.0 * f64::from(species.size_m).powi(2) * ratio * ratio;
+    let area_m2 = PI / 4.0 * (f64::from(species.size_m) * ratio) * (f64::from(species.size_m) * ratio);
     let whole = micrograms(area_m2 * f64::from(species.areal_density_kg_m2));
     let ash_share = species.burns.map_or(0.0, |burning| f64::from(burning.ash));
     let passed = (whole as f64 * f64::from(share)).floor();
@@ -84,7 +84,7 @@ impl BurnStats {
             return None;
         }
         let mut stats = Self::default();
-        let count = len(scene);
+        let count = scene.species.len();
         for ((place, schedule), burn) in leaves.place.iter().zip(&leaves.schedule).zip(&burns.burn) {
             let number = leaf_species(place.bits) as usize % count;
             let species = &scene.species[number];
@@ -112,8 +112,4 @@ impl BurnStats {
         }
         Some(stats)
     }
-}
-
-fn len(scene: &Scene) -> usize {
-    scene.species.len().max(1)
 }

@@ -54,7 +54,7 @@ impl LitterStats {
             } else if is_sunk(place.bits) {
                 stats.sunk += 1;
             } else {
-                let species = &scene.species[leaf_species(place.bits) as usize];
+                let species = &scene.species[leaf_species(place.bits) as usize % scene.species.len()];
                 let size_m = f64::from(species.size_m * size_ratio(schedule.size));
                 let wet = f64::from(species.areal_density_kg_m2) * (1.0 + f64::from(litter.moisture));
                 stats.lying += 1;

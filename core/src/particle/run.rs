@@ -9,7 +9,7 @@ use crate::context::Context;
 use crate::convert::len32;
 use crate::device::particle::force_carrier::{CarrierRun, carrier_rows};
 use crate::device::particle::mutual::{mutual_pull, mutual_source};
-use crate::device::particle::on_leaf::{LeafParticles, particle_on_leaf};
+use crate::device::particle::on_leaf::{FollowedLeaf, LeafParticles, particle_on_leaf};
 use crate::device::particle::record::{
     POPULATION_MUTUAL, POPULATION_ON_LEAVES, ParticleStart, TALLY_BORN, TALLY_CUT_SHORT, TALLY_DIED,
     TALLY_HITS, TALLY_STOPPED, TALLY_WORDS, particle_population,
@@ -91,7 +91,8 @@ pub(crate) fn follow_leaves(cx: &Context<'_>, leaves: &Leaves, burns: &Burns, pa
             let (place, drift) = (&leaves.place[slot as usize], &leaves.drift[slot as usize]);
             let mut particle = particles.row_mut((run.first + slot) as usize);
             let (at, velocity) = (place.position.into(), drift.velocity.into());
-            particle_on_leaf(cx, &mut particle, run.population, slot, place.bits, at, velocity, burn);
+            let leaf = FollowedLeaf { slot, bits: place.bits, place: at, velocity };
+            particle_on_leaf(cx, &mut particle, run.population, &leaf, burn);
         }
     }
 }

@@ -14,13 +14,6 @@ fn follow_leaves(@builtin(global_invocation_id) id: vec3<u32>) {
     let slot = leaf_particles.first_leaf + leaf;
     let place = places[leaf];
     let burn = followed_burns[leaf];
-    particle_on_leaf(
-        leaf_particles.first + leaf,
-        leaf_particles.population,
-        slot,
-        place.bits,
-        place.position,
-        drifts[leaf].velocity,
-        burn,
-    );
+    let followed = FollowedLeaf(slot, place.bits, place.position, drifts[leaf].velocity);
+    particle_on_leaf(leaf_particles.first + leaf, leaf_particles.population, followed, burn);
 }

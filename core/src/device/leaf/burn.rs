@@ -157,6 +157,7 @@ pub fn ignition_rise(cx: &Context<'_>, block: &BurnBlock, slot: u32) -> f32 {
 }
 
 /// Whole part of a coordinate in cells, within bounds that integers count exactly.
+#[expect(clippy::manual_clamp, reason = "written as in WGSL")]
 #[inline(always)]
 fn burn_floor(cells: f32) -> u32 {
     cells.max(-2_097_152.0).min(2_097_152.0).floor().to_whole()

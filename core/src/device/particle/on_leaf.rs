@@ -28,21 +28,31 @@ crate::shared_struct! {
     }
 }
 
-/// Lets the particle of the leaf in a slot be where that is at the end of a step.
+/// A leaf that a particle follows.
+#[derive(Clone, Copy, Debug)]
+pub struct FollowedLeaf {
+    /// Its slot.
+    pub slot: u32,
+    /// Its bits.
+    pub bits: u32,
+    /// Its place.
+    pub place: Vec3,
+    /// Its velocity, if it flies.
+    pub velocity: Vec3,
+}
+
+/// Lets the particle of a leaf be where that is at the end of a step.
 #[inline(always)]
 pub fn particle_on_leaf(
     cx: &Context<'_>,
     particle: &mut ParticleMut<'_>,
     population: u32,
-    slot: u32,
-    leaf_bits: u32,
-    place: Vec3,
-    velocity: Vec3,
+    leaf: &FollowedLeaf,
     burn: &Burn,
 ) {
     let time = cx.step.index.wrapping_add(1);
     let is_alive = particle_state(particle.place.bits) == PARTICLE_ALIVE;
-    let burns = burn.lit != UNLIT && burn_way(time, burn) < 1.0 && leaf_state(leaf_bits) != STATE_DORMANT;
+    let burns = burn.lit != UNLIT && burn_way(time, burn) < 1.0 && leaf_state(leaf.bits) != STATE_DORMANT;
     if !burns {
         if is_alive {
             let age = time.wrapping_sub(particle.motion.birth);
@@ -52,12 +62,12 @@ pub fn particle_on_leaf(
         return;
     }
     if !is_alive {
-        particle_birth(cx, particle, population, slot);
+        particle_birth(cx, particle, population, leaf.slot);
         let age = time.wrapping_sub(burn.lit);
         particle.motion.birth = time;
         particle.traits.life_size =
             life_size_word(trait_word(burn.steps - age.to_real()), particle_size(particle.traits.life_size));
     }
-    particle.place.position = place.to_array();
-    particle.motion.velocity = if flies(leaf_bits) { velocity.to_array() } else { [0.0; 3] };
+    particle.place.position = leaf.place.to_array();
+    particle.motion.velocity = if flies(leaf.bits) { leaf.velocity.to_array() } else { [0.0; 3] };
 }
