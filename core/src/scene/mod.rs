@@ -83,6 +83,8 @@ pub const MAX_CURVE_POINTS: usize = 64;
 pub const MAX_JETS: usize = 8;
 /// Most plumes a scene may have.
 pub const MAX_PLUMES: usize = 4;
+/// Largest power in kW that a plume takes from leaves that feed it.
+pub const MOST_FED_KW: f32 = 200.0;
 /// Most keys a plume may have.
 pub const MAX_PLUME_KEYS: usize = 1024;
 /// Most keys a jet may have.

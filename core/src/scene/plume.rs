@@ -5,7 +5,7 @@
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
-use crate::device::leaf::burn::FIRE_MOST_KW;
+use super::MOST_FED_KW;
 
 /// Heat release of a fire at a time.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -73,7 +73,7 @@ impl Plume {
 
     /// Largest heat released per second in kW.
     pub(crate) fn greatest_kw(&self) -> f64 {
-        let fed_kw = if self.fed_within_m.is_some() { FIRE_MOST_KW.into() } else { 0.0 };
+        let fed_kw = if self.fed_within_m.is_some() { MOST_FED_KW.into() } else { 0.0 };
         self.keys.iter().fold(fed_kw, |greatest, key| f64::from(key.power_kw).max(greatest))
     }
 }

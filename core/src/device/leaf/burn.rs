@@ -60,7 +60,7 @@ crate::shared_constants! {
     /// Heat release in kW below which there is no plume.
     pub const FIRE_LEAST_KW: f32 = 0.01;
     /// Largest heat release in kW that a plume follows.
-    pub const FIRE_MOST_KW: f32 = 200.0;
+    pub const FIRE_MOST_KW: f32 = crate::scene::MOST_FED_KW;
     /// Random words of a leaf's ignition.
     pub const STREAM_IGNITION: u32 = 39;
 }
