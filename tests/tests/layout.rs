@@ -296,7 +296,7 @@ fn kernels_make_do_with_eight_storage_buffers() {
     for kernel in KernelId::ALL {
         let share = match kernel {
             KernelId::ResolveEvents | KernelId::Advance | KernelId::Carry | KernelId::StepParticles => 8,
-            KernelId::Fly => 7,
+            KernelId::Fly | KernelId::BurnLeaves => 7,
             _ => 6,
         };
         let kernel = &format!("kernels/{}", kernel.name());
@@ -331,13 +331,15 @@ fn wgsl_files(folder: &Path) -> Vec<PathBuf> {
 }
 
 /// Files without a twin: on the CPU what they declare are arguments.
-const BINDINGS_ONLY: [&str; 7] = [
+const BINDINGS_ONLY: [&str; 9] = [
     "bindings.wgsl",
+    "leaf/burn_bindings.wgsl",
     "leaf/carrier_bindings.wgsl",
     "particle/bindings.wgsl",
     "particle/force_carrier_bindings.wgsl",
     "particle/history_bindings.wgsl",
     "particle/mutual_bindings.wgsl",
+    "particle/on_leaf_bindings.wgsl",
     "tree/bindings.wgsl",
 ];
 /// Files of lists, which only a GPU has: the CPU notes which units of slots are idle as it steps them.

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! How a fire runs over a leaf: when its front reaches each place of the picture.
+//! Fire that runs over a leaf: the time at which its front reaches each place of the picture.
 
 use glam::Vec2;
 use image::RgbaImage;

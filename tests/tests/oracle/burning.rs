@@ -54,7 +54,7 @@ fn stats(world: &World) -> BurnStats {
     world.burn_stats().expect("leaves of this scene burn")
 }
 
-/// What is left, ash and what has gone up sum to the start, to the microgram, at any time; and the heat is that of what has gone up.
+/// Masses of what is left, of ash and of what has gone up sum to the start, to the microgram, at any time; the heat is that of what has gone up.
 #[test]
 fn no_mass_is_lost_in_a_fire() {
     let scene = bed(0.1, vec![kindling(5.0)]);

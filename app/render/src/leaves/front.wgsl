@@ -71,7 +71,7 @@ fn crumbled_before(front: Front, grain: f32) -> f32 {
     return front.way - char_share * (0.35 + 1.3 * grain);
 }
 
-// What a front has made of a point of a leaf.
+// State of a point of a leaf that a front nears or has passed.
 struct Tissue {
     // Share of the pixel that is left.
     left: f32,

@@ -110,7 +110,7 @@ fn covered(share: f32, leaf: u32) -> u32 {
     return (bits | (bits >> 4u)) & 15u;
 }
 
-// What the front of a leaf has made of it at a point.
+// State of a leaf at a point that its front nears or has passed.
 fn burnt_tissue(in: Varyings, arrival: f32, span: f32) -> Tissue {
     let front = Front(in.front.x, in.front.y, in.front.z, in.front.w);
     // Grain lies in the plane of the blade, as large on small leaves, and elsewhere on each.
