@@ -51,23 +51,6 @@ fn rest_is_checked(id: u32) -> bool {
     return ((step_block.index + id) & 7u) == 0u;
 }
 
-fn leaf_particle_step(particle: u32) -> ParticleChange {
-    var change = ParticleChange(0u, 0u, 0u, 0u, 0u);
-    let is_alive = particle_state(particle_places[particle].bits) == PARTICLE_ALIVE;
-    let birth = particle_motions[particle].birth;
-    if (is_alive && birth == step_block.index) {
-        change.born = 1u;
-        return change;
-    }
-    particle_places[particle].bits &= ~PARTICLE_MARKS;
-    if (is_alive && life_is_over(birth, particle_traits[particle].life_size)) {
-        particle_places[particle].bits =
-            with_particle_state(particle_places[particle].bits, PARTICLE_DEAD) | PARTICLE_DIED;
-        change.died = 1u;
-    }
-    return change;
-}
-
 fn slot_birth(particle: u32, slot: u32, change: ptr<function, ParticleChange>) -> f32 {
     let number = particle_population(particle_places[particle].bits);
     if (scene.populations[number].nest.fan == 0u) {
@@ -200,6 +183,23 @@ fn particle_step(particle: u32, slot: u32, mutual: vec3<f32>) -> ParticleChange 
     particle_places[particle].position = end.position;
     particle_places[particle].bits = with_particle_state(bits, state);
     particle_motions[particle].velocity = end.velocity;
+    return change;
+}
+
+fn leaf_particle_step(particle: u32) -> ParticleChange {
+    var change = ParticleChange(0u, 0u, 0u, 0u, 0u);
+    let is_alive = particle_state(particle_places[particle].bits) == PARTICLE_ALIVE;
+    let birth = particle_motions[particle].birth;
+    if (is_alive && birth == step_block.index) {
+        change.born = 1u;
+        return change;
+    }
+    particle_places[particle].bits &= ~PARTICLE_MARKS;
+    if (is_alive && life_is_over(birth, particle_traits[particle].life_size)) {
+        particle_places[particle].bits =
+            with_particle_state(particle_places[particle].bits, PARTICLE_DEAD) | PARTICLE_DIED;
+        change.died = 1u;
+    }
     return change;
 }
 
