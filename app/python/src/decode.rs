@@ -1,14 +1,26 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Leaves decoded into columns of plain numbers.
+//! Columns of a world: those of its stores by name, and leaves decoded into plain numbers.
 
 use windfall_core::World;
 use windfall_core::device::flight::regime::REGIME_NAMES;
-use windfall_core::leaf::LeafMotion;
+use windfall_core::leaf::{LeafMotion, Leaves};
 use windfall_core::motion::{PRIMITIVE_COUNT, Primitive};
+use windfall_core::store::Column as Description;
 
 /// A decoded column: name, type as numpy writes it, numbers of a row, bytes.
 pub(crate) type Decoded = (&'static str, &'static str, usize, Vec<u8>);
+
+/// Stores and columns with their names: `place` of leaves, `particles.place` of others.
+pub(crate) fn named(world: &World) -> Vec<(String, usize, usize, &'static Description)> {
+    let stores = world.stores().into_iter().enumerate();
+    let columns = stores.flat_map(|(at, store)| {
+        let prefix = if store.name() == Leaves::NAME { String::new() } else { format!("{}.", store.name()) };
+        let columns = store.description().iter().enumerate();
+        columns.map(move |(number, column)| (format!("{prefix}{}", column.name), at, number, column))
+    });
+    columns.collect()
+}
 
 /// All leaves, in the order of their slots.
 pub(crate) fn leaves(world: &World) -> Vec<Decoded> {

@@ -6,6 +6,7 @@
 //! the buffer protocol; a world whose state is lent refuses to step, as a `bytearray` refuses to grow.
 
 mod buffers;
+mod counts;
 mod decode;
 mod errors;
 mod scene;

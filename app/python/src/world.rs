@@ -11,19 +11,15 @@ use pyo3::types::{PyBytes, PyDict, PyTuple};
 use windfall::backend::{BackendArguments, BackendKind};
 use windfall::frame_steps::FrameSteps;
 use windfall::scenes::check_memory;
-use windfall_core::litter::LitterStats;
-use windfall_core::particle::ParticleStats;
-use windfall_core::store::Column as Description;
 use windfall_core::{SceneError, World};
 
 use crate::buffers::{Column, Memory};
+use crate::counts::Counts;
 use crate::decode;
 use crate::errors::raise;
 use crate::scene::PyScene;
 use crate::simulation::Simulation;
 
-/// Name of the store whose columns need no name before theirs.
-const LEAVES: &str = "leaves";
 /// Name of checkpoints that are no file's, in errors.
 const OF_BYTES: &str = "<bytes>";
 
@@ -133,17 +129,6 @@ impl PyWorld {
         }
         Ok(())
     }
-
-    /// Stores and columns with their names: `place` of leaves, `particles.place` of others.
-    fn named(world: &World) -> Vec<(String, usize, usize, &'static Description)> {
-        let stores = world.stores().into_iter().enumerate();
-        let columns = stores.flat_map(|(at, store)| {
-            let prefix = if store.name() == LEAVES { String::new() } else { format!("{}.", store.name()) };
-            let columns = store.description().iter().enumerate();
-            columns.map(move |(number, column)| (format!("{prefix}{}", column.name), at, number, column))
-        });
-        columns.collect()
-    }
 }
 
 #[pymethods]
@@ -228,20 +213,8 @@ impl PyWorld {
     /// Counts: of leaves by what they do, of the litter (None without any) and of every population of particles, as in the JSON of
     /// `windfall simulate`.
     fn stats<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let (stats, litter, particles) = self
-            .with_world(py, |world| (world.stats().leaves, world.litter_stats(), world.particle_stats()))?;
-        let leaves = PyDict::new(py);
-        leaves.set_item("total", stats.total())?;
-        leaves.set_item("attached", stats.attached)?;
-        leaves.set_item("falling", stats.falling)?;
-        leaves.set_item("resting", stats.resting)?;
-        leaves.set_item("dormant", stats.dormant)?;
-        let all = PyDict::new(py);
-        all.set_item("leaves", leaves)?;
-        all.set_item("litter", litter.map(|litter| litter_dict(py, &litter)).transpose()?)?;
-        let populations = particles.iter().map(|population| particle_dict(py, population));
-        all.set_item("particles", populations.collect::<PyResult<Vec<_>>>()?)?;
-        Ok(all)
+        let counts = self.with_world(py, Counts::of)?;
+        counts.to_dict(py)
     }
 
     /// Fingerprint of the whole state, sixteen hexadecimal digits: equal on every backend that keeps the exact contract.
@@ -282,12 +255,12 @@ impl PyWorld {
     /// Names of all columns: `place` of leaves, `particles.place` of other stores.
     #[getter]
     fn column_names(&self, py: Python<'_>) -> PyResult<Vec<String>> {
-        self.with_world(py, |world| Self::named(world).into_iter().map(|(name, ..)| name).collect())
+        self.with_world(py, |world| decode::named(world).into_iter().map(|(name, ..)| name).collect())
     }
 
     /// A column as bytes, which `numpy.frombuffer` reads without a copy; `view` does so.
     fn column(slf: Py<Self>, py: Python<'_>, name: &str) -> PyResult<Column> {
-        let named = slf.get().with_world(py, Self::named)?;
+        let named = slf.get().with_world(py, decode::named)?;
         match named.iter().find(|(known, ..)| known == name) {
             Some(&(_, store, column, description)) => Ok(Column::new(slf, store, column, description)),
             None => {
@@ -412,41 +385,4 @@ fn choice(backend: &str, threads: Option<usize>, adapter: Option<String>) -> PyR
         return Err(PyValueError::new_err(format!("threads is {threads}; allowed: 1 to {MOST_THREADS}")));
     }
     Ok(BackendArguments { backend, adapter, threads })
-}
-
-fn litter_dict<'py>(py: Python<'py>, stats: &LitterStats) -> PyResult<Bound<'py, PyDict>> {
-    let LitterStats { lying, held, afloat, sunk, awake, woken, deepest_m, volume_m3, mass_kg } = stats;
-    let dict = PyDict::new(py);
-    for (name, count) in [
-        ("lying", lying),
-        ("held", held),
-        ("afloat", afloat),
-        ("sunk", sunk),
-        ("awake", awake),
-        ("woken", woken),
-    ] {
-        dict.set_item(name, count)?;
-    }
-    for (name, number) in [("deepest_m", deepest_m), ("volume_m3", volume_m3), ("mass_kg", mass_kg)] {
-        dict.set_item(name, number)?;
-    }
-    Ok(dict)
-}
-
-fn particle_dict<'py>(py: Python<'py>, stats: &ParticleStats) -> PyResult<Bound<'py, PyDict>> {
-    let ParticleStats { name, slots, alive, born, died, hits, stopped, cut_short } = stats;
-    let dict = PyDict::new(py);
-    dict.set_item("name", name)?;
-    for (name, count) in [
-        ("slots", slots),
-        ("alive", alive),
-        ("born", born),
-        ("died", died),
-        ("hits", hits),
-        ("stopped", stopped),
-        ("cut_short", cut_short),
-    ] {
-        dict.set_item(name, count)?;
-    }
-    Ok(dict)
 }

@@ -74,7 +74,7 @@ def _stepped(world: wf.World) -> str:
 def test_worlds_go_to_other_processes(storm):
     world = wf.World(storm, backend="cpu", threads=1)
     with multiprocessing.get_context("spawn").Pool(1) as pool:
-        found = pool.map(_stepped, [world])
+        found = pool.map_async(_stepped, [world]).get(timeout=120)
     assert found == [_stepped(world)]
 
 

@@ -185,7 +185,7 @@ mod tests {
     fn paths_that_lead_nowhere_and_values_that_do_not_fit_are_refused() {
         let scene = Scene::preset("autumn-park").expect("a preset");
         for (path, value, essentials) in [
-            ("wind.sped", Value::from(1), &["--vary wind.sped", "no 'sped' in wind", "speed", "gusts"][..]),
+            ("wind.sped", Value::from(1), &["wind.sped: ", "no 'sped' in wind", "speed", "gusts"][..]),
             ("wnd", 1.into(), &["no 'wnd' in the scene", "wind", "sources"]),
             ("sources.99.count", 1.into(), &["no '99' in sources", "entries 0 to"]),
             ("sources.x", 1.into(), &["no 'x' in sources"]),
