@@ -87,3 +87,80 @@ impl Scene {
         })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use glam::Vec3;
+
+    use super::*;
+    use crate::scene::{Litter, Look, ParticleRelease, PlumeKey};
+
+    /// Line with which a scene of burning leaves is refused after a change; empty if it is not.
+    fn refused(change: impl FnOnce(&mut Scene)) -> String {
+        let mut scene = Scene::default();
+        scene.species[0].burns = Some(Burning::default());
+        scene.sources[0].recycle_after_s = None;
+        scene.ground.litter = Some(Litter::default());
+        scene.wind.plumes = vec![Plume { keys: Vec::new(), fed_within_m: Some(1.0), ..Plume::default() }];
+        let count = scene.leaf_count();
+        scene.particles =
+            vec![Particles { count, release: ParticleRelease::BurningLeaves, ..Particles::default() }];
+        change(&mut scene);
+        let line = scene.validate("a.ron").map_or_else(|error| error.to_string(), |()| String::new());
+        assert_eq!(line.lines().count(), usize::from(!line.is_empty()), "one line: {line}");
+        line
+    }
+
+    #[test]
+    fn burning_scenes_are_checked_as_wholes() {
+        assert_eq!(refused(|_| {}), "", "as it is");
+        let still = refused(|scene| scene.ground.litter = Some(Litter { still: true, ..Litter::default() }));
+        assert!(
+            still.contains("species[0].burns") && still.contains("ground.litter that is not still"),
+            "{still}"
+        );
+        let bare = refused(|scene| scene.ground.litter = None);
+        assert!(bare.contains("species[0].burns"), "{bare}");
+        let again = refused(|scene| scene.sources[0].recycle_after_s = Some(5.0));
+        assert!(again.contains("sources[0].recycle_after_s is Some(5.0)"), "{again}");
+        let grown = refused(|scene| scene.regrow_after_s = Some(5.0));
+        assert!(grown.contains("regrow_after_s"), "{grown}");
+        let many = refused(|scene| {
+            scene.species = vec![scene.species[0].clone(); MAX_BURNING_SPECIES + 1];
+        });
+        assert!(many.contains("at most 8 species"), "{many}");
+        let few = refused(|scene| scene.particles[0].count -= 1);
+        assert!(few.contains("particles[0].count") && few.contains("one for each leaf"), "{few}");
+        let cold = refused(|scene| scene.species[0].burns = None);
+        assert!(cold.contains("wind.plumes[0].fed_within_m"), "{cold}");
+        let both = refused(|scene| scene.wind.plumes[0].keys = vec![PlumeKey { time_s: 0.0, power_kw: 1.0 }]);
+        assert!(both.contains("wind.plumes[0].keys"), "{both}");
+        let cold = refused(|scene| {
+            scene.species[0].burns = None;
+            scene.wind.plumes.clear();
+        });
+        assert!(cold.contains("particles[0].release"), "{cold}");
+        let flame = refused(|scene| {
+            let from = ParticleShape::Feet { center_m: Vec3::ZERO, radius_m: 0.1, feet: 8 };
+            let look = Look { kind: LookKind::Flame { samples: 8, shell: 1.0 }, ..Look::default() };
+            scene.particles = vec![Particles { from, look, ..Particles::default() }];
+        });
+        assert!(flame.contains("Flame without a plume") && flame.contains("with keys"), "{flame}");
+    }
+
+    #[test]
+    fn leaves_that_burn_state_a_heat_value() {
+        let text =
+            "(species: [(burns: Some(()))], sources: [(recycle_after_s: None)], ground: (litter: Some(())))";
+        let scene = Scene::from_ron(text, "a.ron");
+        let line = scene.and_then(|scene| scene.validate("a.ron")).expect_err("none is stated").to_string();
+        assert!(
+            line.contains("species[0].burns.heat_mj_kg is 0") && line.contains("5 to 30 MJ/kg"),
+            "{line}"
+        );
+        let turned = refused(|scene| {
+            scene.species[0].burns = Some(Burning { ignition_c: (400.0, 300.0), ..Burning::default() });
+        });
+        assert!(turned.contains("ignition_c") && turned.contains("rising order"), "{turned}");
+    }
+}

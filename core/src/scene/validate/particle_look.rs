@@ -139,7 +139,7 @@ mod tests {
     use super::*;
     use glam::Vec3;
 
-    use crate::scene::{History, MAX_LIGHTS, Ribbon, Scene, Spread};
+    use crate::scene::{History, MAX_LIGHTS, Plume, Ribbon, Scene, Spread};
 
     /// The line that refuses a scene with a population that is drawn as blobs, changed.
     fn refused(change: impl FnOnce(&mut Particles)) -> String {
@@ -147,7 +147,8 @@ mod tests {
         let look = Look { kind, ..Look::default() };
         let mut one = Particles { name: "slime".into(), count: 2000, look, ..Particles::default() };
         change(&mut one);
-        let scene = Scene { particles: vec![one], ..Scene::default() };
+        let mut scene = Scene { particles: vec![one], ..Scene::default() };
+        scene.wind.plumes = vec![Plume { at_m: Vec3::Y, ..Plume::default() }];
         let line = scene.validate("a.ron").map_or_else(|error| error.to_string(), |()| String::new());
         assert_eq!(line.lines().count(), usize::from(!line.is_empty()), "one line: {line}");
         line
