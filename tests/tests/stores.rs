@@ -4,7 +4,7 @@
 
 use glam::Vec2;
 use windfall_core::checkpoint::{read_stores, write_stores};
-use windfall_core::scene::{History, Litter, ParticleRelease, Particles};
+use windfall_core::scene::{Burning, History, Litter, ParticleRelease, Particles};
 use windfall_core::store::{Store, StoreSize, check_sizes, copy_stores, hash_stores, state_bytes};
 use windfall_core::{SceneError, SimError, Simulator, World};
 use windfall_cpu::{CpuOptions, CpuSimulator};
@@ -36,7 +36,10 @@ fn world() -> World {
         history: Some(History { samples: 3, every_steps: 2 }),
         ..Particles::default()
     }];
-    World::build(&scene).expect("the wooded scene is valid with litter")
+    scene.species[0].burns = Some(Burning::default());
+    scene.sources.iter_mut().for_each(|source| source.recycle_after_s = None);
+    scene.regrow_after_s = None;
+    World::build(&scene).expect("the wooded scene is valid with litter that burns")
 }
 
 fn pebbles() -> Pebbles {
@@ -59,13 +62,13 @@ fn a_further_store_is_saved_hashed_copied_compared_and_measured() {
     let sizes: Vec<_> = all(&world, &full).into_iter().map(Store::size).collect();
     let mut others = sizes.clone();
     check_sizes(&sizes, &others).expect("the same sizes");
-    others[6].rows += 1;
+    others[7].rows += 1;
     let refused = check_sizes(&others, &sizes);
     assert!(
         matches!(refused, Err(SimError::Size { store: "pebbles", world: 38, simulator: 37 })),
         "{refused:?}"
     );
-    let shorter = check_sizes(&sizes[..6], &sizes);
+    let shorter = check_sizes(&sizes[..7], &sizes);
     assert!(
         matches!(shorter, Err(SimError::Size { store: "pebbles", world: 0, simulator: 37 })),
         "{shorter:?}"

@@ -52,10 +52,9 @@ impl BurnMap {
         let mut surface = layer.surface[0].clone();
         let (width, height) = (picture.width() as usize, picture.height() as usize);
         let inside: Vec<bool> = picture.pixels().map(|pixel| pixel[3] >= COVERED).collect();
-        let Some(source) = first_place(&inside, width, seed) else {
+        let Some(ways) = ways_over(&inside, width, &slowness(&surface, &inside, seed), seed) else {
             return Self { surface: layer.surface.clone(), way: 1.0 };
         };
-        let ways = Ways::from(&[source], width, &slowness(&surface, &inside, seed));
         // A leaf in several pieces: what the front does not come to burns as its nearest place.
         let is_reached = |pixel: usize| ways.cost[pixel].is_finite();
         let (_, nearest) = nearest_seed(width, height, is_reached);
@@ -79,6 +78,25 @@ impl BurnMap {
         }
         Self { surface: plain_chain(surface), way: single(moment / square) / width as f32 }
     }
+}
+
+/// Ways of a front over most of a leaf, from the end of its largest piece: pictures have specks beside it. `None` without a leaf.
+fn ways_over(inside: &[bool], width: usize, slowness: &[f32], seed: u64) -> Option<Ways> {
+    let all = inside.iter().filter(|inside| **inside).count();
+    let mut left = inside.to_vec();
+    let mut largest: Option<(usize, Ways)> = None;
+    while let Some(source) = first_place(&left, width, seed) {
+        let ways = Ways::from(&[source], width, slowness);
+        let reached = ways.cost.iter().filter(|cost| cost.is_finite()).count();
+        left.iter_mut().zip(&ways.cost).for_each(|(left, cost)| *left &= !cost.is_finite());
+        if largest.as_ref().is_none_or(|(most, _)| *most < reached) {
+            largest = Some((reached, ways));
+        }
+        if 2 * reached >= all {
+            break;
+        }
+    }
+    largest.map(|(_, ways)| ways)
 }
 
 /// The pixel that lies farthest in a direction, anywhere but towards the petiole.
@@ -133,6 +151,22 @@ mod tests {
             let is_notch = (60..68).contains(&x) && y >= 8 + bridge;
             Rgba([150, 110, 40, if is_inside && !is_notch { 255 } else { 0 }])
         }))
+    }
+
+    /// A speck where the front would begin is not the leaf.
+    #[test]
+    fn a_leaf_burns_whatever_lies_beside_it() {
+        let mut picture = RgbaImage::from_fn(128, 128, |x, y| {
+            let is_inside = (30..100).contains(&x) && (20..112).contains(&y);
+            Rgba([150, 110, 40, if is_inside { 255 } else { 0 }])
+        });
+        for (x, y) in [(64, 2), (2, 64), (125, 64)] {
+            picture.put_pixel(x, y, Rgba([150, 110, 40, 255]));
+        }
+        for seed in 0..8 {
+            let map = BurnMap::new(&Layer::from_picture(picture.clone()), seed, share);
+            assert!(map.way > 0.3 && map.way < 2.0, "seed {seed}: {} sides", map.way);
+        }
     }
 
     /// Pixels of the leaf with their arrivals.

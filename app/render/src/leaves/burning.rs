@@ -39,9 +39,13 @@ shared_constants! {
 
 shared_struct! {
     /// Step of a frame.
-    pub(crate) struct BurningUniform, padding 12 {
+    pub(crate) struct BurningUniform {
         /// The step.
         step: u32,
+        /// Zero.
+        unused: u32,
+        /// Zeros.
+        unused_pair: [u32; 2],
     }
 }
 
@@ -121,7 +125,7 @@ impl BurningPass {
 
     /// Sets the step of the frames to come.
     pub(crate) fn write(&self, queue: &wgpu::Queue, step: u32) {
-        let uniform = BurningUniform { step, padding: [0; 12] };
+        let uniform = BurningUniform { step, unused: 0, unused_pair: [0; 2] };
         queue.write_buffer(&self.uniform, 0, bytemuck::bytes_of(&uniform));
     }
 

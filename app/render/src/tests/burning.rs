@@ -93,7 +93,7 @@ fn records_tell_how_far_fronts_have_run() {
         (bits(5, STATE_RESTING), Burn { lit: 700, steps, ..Burn::default() }),
         (bits(3, STATE_RESTING), Burn { out_way: 0.25, ..Burn::default() }),
         (bits(1, STATE_FALLING), Burn { lit: 1001, steps, ..Burn::default() }),
-        (bits(0, STATE_FALLING), Burn { lit: 900, steps, ..Burn::default() }),
+        (bits(0, STATE_FALLING), Burn::default()),
     ];
     let place = |leaf: u32| [0, 2.0f32.to_bits(), (0.1 * leaf as f32).to_bits(), rows[leaf as usize].0];
     let count = u32::try_from(rows.len()).expect("few");
