@@ -4,10 +4,15 @@
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::time::Duration;
 
 use windfall_core::SimError;
 
 use crate::gpu::Gpu;
+
+/// Time after which it is seen again whether another thread has been told that a copy is done, and the times that it is.
+const ROUND: Duration = Duration::from_millis(1);
+const MOST_ROUNDS: u32 = 10_000;
 
 /// Largest staging buffer of a read that waits: larger reads go in pieces.
 const PIECE_BYTES: usize = 64 << 20;
@@ -74,10 +79,16 @@ impl Readback {
         self.is_done()
     }
 
-    /// Waits until all bytes are there.
+    /// Waits until all bytes are there. Where several threads use a device, another one may be told that they are, a moment later.
     pub(crate) fn wait(&self) -> Result<(), SimError> {
         self.gpu.wait()?;
-        if self.is_done()? { Ok(()) } else { Err(self.gpu.lost("it did not finish a copy".into())) }
+        for _ in 0..MOST_ROUNDS {
+            if self.is_done()? {
+                return Ok(());
+            }
+            std::thread::sleep(ROUND);
+        }
+        Err(self.gpu.lost("it did not finish a copy".into()))
     }
 
     fn is_done(&self) -> Result<bool, SimError> {
