@@ -17,6 +17,9 @@ use crate::pipelines::GroupLayout;
 const COLUMNS_IN_MOTION: usize = 5;
 /// Leaf columns before the airs.
 const COLUMNS_ON_TWIGS: usize = 4;
+/// Fires that leaves may feed.
+#[expect(clippy::cast_possible_truncation, reason = "a few")]
+const FIRES: u32 = MAX_PLUMES as u32;
 /// Places and drifts.
 const COLUMNS_THAT_MOVE: usize = 2;
 /// Rows to which windows of particles are widened, so that they are aligned on any device.
@@ -173,7 +176,7 @@ impl WgpuSimulator {
         if !self.compiled.block().leaves_burn() {
             return;
         }
-        let words = (BURN_WORDS << BURN_CELL_BITS) + MAX_PLUMES as u32;
+        let words = (BURN_WORDS << BURN_CELL_BITS) + FIRES;
         let buffer = buffer(&self.gpu, "sums of heat", u64::from(words) * 4, wgpu::BufferUsages::STORAGE);
         let written =
             group(&self.gpu, self.pipelines.layout(GroupLayout::WrittenBuffer), [buffer.as_entire_binding()]);

@@ -142,7 +142,7 @@ fn air_above_a_fire_is_as_hot_as_measured() {
             (1.0, 21.6),
             (2.0, 6.80),
         ] {
-            let y = (height * height_unit) as f32;
+            let y = glam::DVec3::splat(height * height_unit).as_vec3().y;
             let found = f64::from(plume_warmth(&cx, Kernel::new(0.0, y, 0.0)));
             assert!((found / expected_k - 1.0).abs() < 0.02, "{power_kw} kW at {height}: {found} K");
             let width = 0.12 * y + 0.25;
