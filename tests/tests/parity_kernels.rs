@@ -188,12 +188,11 @@ fn a_changed_kernel_is_noticed() {
     ];
     let burned = [
         ("kernels/gather_heat", "first + 2u], heat.sums.power", "first + 2u], heat.sums.count"),
-        ("kernels/burn_leaves", "burn_page.first_slot + leaf", "burn_page.first_slot + leaf + 1u"),
         ("kernels/settle_fires", "fire_rows[row].x, heat_words[word]", "heat_words[word], fire_rows[row].x"),
         ("kernels/follow_leaves", "place.position, drifts", "place.position * 2.0, drifts"),
         ("leaf/burn", "warmth - leaf_rise(species, heat)", "warmth"),
         ("leaf/burn", "stage * scene.species_count", "stage"),
-        ("particle/on_leaf", "burn.steps - f32", "burn.steps + f32"),
+        ("particle/on_leaf", "position = leaf.place", "position = leaf.velocity"),
     ];
     // So many leaves that some land within any step.
     let mut calm = [varied_scene(3, 10_000, 5.0, 1.0 / 60.0), flying_scene(3, 3000, 5.0, 1.0 / 60.0)];

@@ -90,3 +90,23 @@ fn living_litter_does_not_repeat_and_still_litter_does() {
     let outcome = windfall(&there, &[&["render", "still.ron"], &clip[..]].concat());
     assert_eq!(outcome.code, Some(0), "{outcome:?}");
 }
+
+/// Leaves of a scene that burn are counted and weighed, on both backends alike; those of others are not.
+#[test]
+fn burning_leaves_are_in_the_report() {
+    let there = folder();
+    let arguments = ["simulate", "burning-leaves", "--steps", "300"];
+    let both = ["cpu", "wgpu"].map(|backend| {
+        windfall(&there, &[&arguments[..], &["--json", "--backend", backend]].concat()).json()
+    });
+    let burning = &both[0]["burning"];
+    assert_eq!(burning, &both[1]["burning"], "the same leaves burn");
+    let number = |key: &str| burning[key].as_f64().expect("a number");
+    assert!(number("burning") > 10.0 && number("power_kw") > 1.0, "{burning}");
+    let heat_mj = number("gone_kg") * 16.0;
+    assert!((number("heat_mj") / heat_mj - 1.0).abs() < 0.05, "16 to 16.5 MJ/kg: {burning}");
+    let text = windfall(&there, &arguments).text();
+    assert!(text.contains("burnt") && text.contains("kg of ash"), "{text}");
+    let none = windfall(&there, &["simulate", "heap", "--leaves", "50", "--steps", "2", "--json"]).json();
+    assert!(none["burning"].is_null(), "{none}");
+}

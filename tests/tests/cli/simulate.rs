@@ -12,7 +12,7 @@ use windfall_core::{Scene, World};
 use windfall_tests::strategies::wooded_scene;
 
 /// Keys of the report, in their order. They stay.
-const KEYS: [&str; 17] = [
+const KEYS: [&str; 18] = [
     "scene",
     "backend",
     "adapter",
@@ -23,6 +23,7 @@ const KEYS: [&str; 17] = [
     "leaves",
     "trees",
     "litter",
+    "burning",
     "particles",
     "mean_position_m",
     "mean_velocity_m_s",
