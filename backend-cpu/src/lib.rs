@@ -7,7 +7,7 @@
 
 #![warn(clippy::print_stdout, clippy::print_stderr)]
 
-mod collision_cells;
+mod cell_sums;
 mod exposed;
 mod heat_sums;
 mod kernels;

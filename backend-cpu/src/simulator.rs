@@ -7,12 +7,14 @@ use std::sync::{Arc, Mutex};
 
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use windfall_core::blocks::StepBlock;
+use windfall_core::device::leaf::burn::BURN_CELL_BITS;
+use windfall_core::device::leaf::collide::COLLISION_CELL_BITS;
 use windfall_core::particle::{ParticleStart, each_generation, steps_to_sample};
 use windfall_core::tree::Forest;
 use windfall_core::tree::batch::TreeBatch;
 use windfall_core::{Clock, CompiledScene, Contract, SimError, Simulator, SimulatorInfo, Stats, World};
 
-use crate::collision_cells::CollisionCells;
+use crate::cell_sums::CollisionCells;
 use crate::exposed::ExposedLeaves;
 use crate::heat_sums::HeatSums;
 use crate::kernels::CHUNK;
@@ -175,11 +177,11 @@ impl Simulator for CpuSimulator {
         let (simd, blocks, scratches, quiet) = (self.simd, &self.blocks, &self.scratches, &self.quiet);
         let has_litter = !bed.is_empty();
         let (changes, exposed) = (LitterChanges::default(), &self.exposed);
-        if compiled.block().has_living_litter() && self.cells.is_empty() {
-            self.cells = CollisionCells::new();
+        if compiled.block().has_living_litter() {
+            self.cells.make(1 << COLLISION_CELL_BITS);
         }
         if compiled.block().leaves_burn() {
-            self.heat.make();
+            self.heat.cells.make(1 << BURN_CELL_BITS);
         }
         let heat = &self.heat;
         let (cells, pulls, carriers) = (&self.cells, &mut self.pulls, &mut self.carriers);

@@ -15,8 +15,7 @@ pub(crate) const MAX_GROUPS: u32 = 65_535;
 /// `leaf_state(place.bits)` and `leaf_tint(identity.appearance)`. It declares no bindings.
 pub fn leaf_wgsl() -> String {
     let constants = device::leaf::record::wgsl_constants();
-    let records = leaf_records();
-    column_wgsl(&records, constants, include_str!("shaders/leaf/record.wgsl"))
+    column_wgsl(&leaf_records(), constants, include_str!("shaders/leaf/record.wgsl"))
 }
 
 /// The same for shaders that read the columns of particles: the records that [`ParticleColumns`](crate::ParticleColumns) hold, and

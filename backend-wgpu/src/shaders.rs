@@ -203,6 +203,7 @@ impl Default for Shaders {
             "leaf/advance",
             "leaf/afloat",
             "leaf/air",
+            "leaf/air_cell",
             "leaf/at_rest",
             "leaf/burn",
             "leaf/burn_bindings",

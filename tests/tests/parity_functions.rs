@@ -290,7 +290,7 @@ fn a_changed_twin_is_noticed() {
         ("leaf/burn", "place.y, place.z + wind.z", "place.y, place.z - wind.z", "leaf_heat_release"),
         ("leaf/burn", ">> FIRE_FOLLOWS", ">> FIRE_WORDS", "fire_words"),
         ("wind/slipstream", "1.0 - inverse * stream.drag_m2", "1.0 - stream.drag_m2", "wind_slipstream"),
-        ("leaf/collide", "layer * 19349663u", "layer * 19349661u", "own_sums"),
+        ("leaf/air_cell", "layer * 19349663u", "layer * 19349661u", "own_sums"),
         ("leaf/collide", "number + 0.5", "number", "own_sums"),
         ("leaf/collide", "energy - vec3_dot(velocity, velocity)", "energy", "collisions_of"),
         ("leaf/collide", "leaves * reciprocal(others)", "others * reciprocal(leaves)", "collisions_of"),

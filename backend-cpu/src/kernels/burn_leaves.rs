@@ -36,7 +36,7 @@ pub(crate) fn burn_leaves(
     let mut changing = Vec::new();
     for slot in 0..leaves.len() {
         let cell = burn_cell(cx, leaves.place[slot].position.into());
-        let power_w = cell_power(&cell, &heat.sums(cell.index));
+        let power_w = cell_power(&cell, &heat.cells.sums(cell.index));
         let burn = burns.row_mut(slot).burn;
         if leaf_burn(cx, &mut leaves.row_mut(slot), word(first + slot), burn, power_w) {
             changing.push(slot);

@@ -4,7 +4,7 @@
 //!
 //! Clears the cells of the air that leaves have been added to.
 
-use crate::collision_cells::CollisionCells;
+use crate::cell_sums::CollisionCells;
 
 /// Clears them.
 pub(crate) fn clear_collisions(cells: &CollisionCells) {

@@ -9,7 +9,7 @@ use windfall_core::device::leaf::collide::{collision_cell, leaf_collide};
 use windfall_core::device::leaf::record::flies;
 use windfall_core::leaf::LeavesMut;
 
-use crate::collision_cells::CollisionCells;
+use crate::cell_sums::CollisionCells;
 use crate::quiet::{QuietUnit, stirring_slots};
 
 /// Lets the bodies of a chunk collide.

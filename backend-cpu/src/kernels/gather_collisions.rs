@@ -10,7 +10,7 @@ use windfall_core::device::leaf::collide::{collision_cell, own_sums};
 use windfall_core::device::leaf::record::flies;
 use windfall_core::leaf::LeavesMut;
 
-use crate::collision_cells::CollisionCells;
+use crate::cell_sums::CollisionCells;
 use crate::quiet::{QuietUnit, stirring_slots};
 
 /// Adds the bodies of a chunk.

@@ -23,13 +23,13 @@ pub(crate) fn gather_heat(cx: &Context<'_>, leaves: &Leaves, burns: &Burns, heat
             if own.sums.count == 0 {
                 continue;
             }
-            if heat.add(own.index, &own.sums) {
+            if heat.cells.add(own.index, &own.sums) {
                 touched.push(own.index);
             }
             for (number, _) in plumes.iter().enumerate().filter(|(_, plume)| feeds_plume(plume, place)) {
                 heat.feed(number, own.sums.power);
             }
         }
-        heat.list(&touched);
+        heat.cells.list(&touched);
     });
 }

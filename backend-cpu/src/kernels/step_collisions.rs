@@ -11,7 +11,7 @@ use super::CHUNK;
 use super::clear_collisions::clear_collisions;
 use super::collide::collide;
 use super::gather_collisions::gather_collisions;
-use crate::collision_cells::CollisionCells;
+use crate::cell_sums::CollisionCells;
 use crate::quiet::{QuietUnit, UNIT};
 
 /// Lets leaves collide. There is a word for each unit of slots.

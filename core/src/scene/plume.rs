@@ -53,7 +53,7 @@ const FED_KW: f64 = 20.0;
 impl Plume {
     /// Heat released per second at a time in kW; none without keys.
     ///
-    /// Where leaves feed it, a power between that of a few and of a heap of them.
+    /// A power between that of a few leaves and of a heap of them where leaves feed the fire.
     pub fn power_kw(&self, time_s: f64) -> f64 {
         if self.fed_within_m.is_some() {
             return FED_KW;

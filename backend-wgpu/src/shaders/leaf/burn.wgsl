@@ -7,6 +7,7 @@
 #import arith/math
 #import arith/rng
 #import arith/vector
+#import leaf/air_cell
 #import leaf/record
 #import wind/plume
 #import wind/sample
@@ -47,19 +48,12 @@ fn ignition_rise(species: u32, slot: u32) -> f32 {
     return scene.burns[species].ignition_k + scene.burns[species].ignition_span_k * unit_float(word);
 }
 
-fn burn_floor(cells: f32) -> u32 {
-    return bitcast<u32>(i32(floor(min(max(cells, -2097152.0), 2097152.0))));
-}
-
 fn burn_cell(place: vec3<f32>) -> BurnCell {
     let shifted = (place + step_block.collision_shift_m) * BURN_CELLS_PER_M;
-    let column = burn_floor(shifted.x);
-    let layer = burn_floor(shifted.y);
-    let line = burn_floor(shifted.z);
-    var key = (column * 73856093u) ^ (layer * 19349663u) ^ (line * 83492791u);
-    key = (key ^ (key >> 16u)) * 0x7feb352du;
-    key = (key ^ (key >> 15u)) * 0x846ca68bu;
-    key = key ^ (key >> 16u);
+    let column = bitcast<u32>(i32(cell_floor(shifted.x)));
+    let layer = bitcast<u32>(i32(cell_floor(shifted.y)));
+    let line = bitcast<u32>(i32(cell_floor(shifted.z)));
+    let key = cell_key(column, layer, line);
     return BurnCell(key >> (32u - BURN_CELL_BITS), key);
 }
 

@@ -6,6 +6,7 @@
 #import bindings
 #import arith/math
 #import arith/vector
+#import leaf/air_cell
 #import leaf/record
 
 struct CollisionCell {
@@ -27,21 +28,14 @@ fn nearest_whole(number: f32) -> u32 {
     return bitcast<u32>(i32(floor(number + 0.5)));
 }
 
-fn collision_floor(cells: f32) -> f32 {
-    return floor(min(max(cells, -2097152.0), 2097152.0));
-}
-
 fn collision_cell(place: vec3<f32>) -> CollisionCell {
     let shifted = (place + step_block.collision_shift_m) * COLLISION_CELLS_PER_M;
-    let corner = vec3<f32>(collision_floor(shifted.x), collision_floor(shifted.y), collision_floor(shifted.z));
+    let corner = vec3<f32>(cell_floor(shifted.x), cell_floor(shifted.y), cell_floor(shifted.z));
     let within = shifted - corner;
     let column = bitcast<u32>(i32(corner.x));
     let layer = bitcast<u32>(i32(corner.y));
     let line = bitcast<u32>(i32(corner.z));
-    var key = (column * 73856093u) ^ (layer * 19349663u) ^ (line * 83492791u);
-    key = (key ^ (key >> 16u)) * 0x7feb352du;
-    key = (key ^ (key >> 15u)) * 0x846ca68bu;
-    key = key ^ (key >> 16u);
+    let key = cell_key(column, layer, line);
     return CollisionCell(key >> (32u - COLLISION_CELL_BITS), key, within);
 }
 

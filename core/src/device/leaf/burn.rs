@@ -11,6 +11,7 @@
 //! its own cell: the grid lies elsewhere each time, by the same random shift as that of collisions, so that its faces leave no trace. Flames
 //! lean with the wind, so the heat goes where it blows.
 
+use super::air_cell::{cell_floor, cell_key};
 use super::record::{
     CHANGE_REMOVED, STATE_DORMANT, STATE_RESTING, flies, is_afloat, is_covered, is_sunk, leaf_species,
     leaf_state, lies, lies_still, place_bits, size_ratio, with_litter_change, with_species,
@@ -156,24 +157,12 @@ pub fn ignition_rise(cx: &Context<'_>, block: &BurnBlock, slot: u32) -> f32 {
     block.ignition_k + block.ignition_span_k * unit_float(word)
 }
 
-/// Whole part of a coordinate in cells, within bounds that integers count exactly.
-#[expect(clippy::manual_clamp, reason = "written as in WGSL")]
-#[inline(always)]
-fn burn_floor(cells: f32) -> u32 {
-    cells.max(-2_097_152.0).min(2_097_152.0).floor().to_whole()
-}
-
 /// The cell of a place.
 #[inline(always)]
 pub fn burn_cell(cx: &Context<'_>, place: Vec3) -> BurnCell {
     let shifted = (place + Vec3::from(cx.step.collision_shift_m)) * BURN_CELLS_PER_M;
-    let column = burn_floor(shifted.x);
-    let layer = burn_floor(shifted.y);
-    let line = burn_floor(shifted.z);
-    let mut key = column.times(73_856_093) ^ layer.times(19_349_663) ^ line.times(83_492_791);
-    key = (key ^ (key >> 16)).times(0x7feb_352d);
-    key = (key ^ (key >> 15)).times(0x846c_a68b);
-    key ^= key >> 16;
+    let [column, layer, line] = shifted.to_array().map(|cells| cell_floor(cells).to_whole());
+    let key = cell_key(column, layer, line);
     BurnCell { index: key >> (32 - BURN_CELL_BITS), key }
 }
 

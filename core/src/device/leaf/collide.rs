@@ -10,6 +10,7 @@
 //! Sums of integers do not depend on the order of leaves. The grid lies elsewhere each time, by a random shift, so that its faces
 //! leave no trace (Ihle and Kroll 2001, Phys. Rev. E 63, 020201).
 
+use super::air_cell::{cell_floor, cell_key};
 use super::record::{body_spin, body_spin_words, leaf_species, size_ratio};
 use crate::arith::lane::{Real, Word};
 use crate::arith::math::{inverse_sqrt, reciprocal};
@@ -120,25 +121,14 @@ fn nearest_whole(number: f32) -> u32 {
     (number + 0.5).floor().to_whole()
 }
 
-/// Whole part of a coordinate in cells, within bounds that integers count exactly.
-#[inline(always)]
-fn collision_floor<R: Real>(cells: R) -> R {
-    cells.max(cells.all(-2_097_152.0)).min(cells.all(2_097_152.0)).floor()
-}
-
 /// The cell of a place.
 #[inline(always)]
 pub fn collision_cell(cx: &Context<'_>, place: Vec3) -> CollisionCell {
     let shifted = (place + Vec3::from(cx.step.collision_shift_m)) * COLLISION_CELLS_PER_M;
-    let corner =
-        Vec3::new(collision_floor(shifted.x), collision_floor(shifted.y), collision_floor(shifted.z));
+    let corner = Vec3::new(cell_floor(shifted.x), cell_floor(shifted.y), cell_floor(shifted.z));
     let within = shifted - corner;
     let [column, layer, line] = corner.to_array().map(Real::to_whole);
-    // Odd factors (Teschner et al. 2003), then a finalizer, so that keys of neighbours have nothing in common.
-    let mut key = column.times(73_856_093) ^ layer.times(19_349_663) ^ line.times(83_492_791);
-    key = (key ^ (key >> 16)).times(0x7feb_352d);
-    key = (key ^ (key >> 15)).times(0x846c_a68b);
-    key ^= key >> 16;
+    let key = cell_key(column, layer, line);
     CollisionCell { index: key >> (32 - COLLISION_CELL_BITS), key, within }
 }
 

@@ -5,6 +5,7 @@
 pub mod advance;
 pub mod afloat;
 pub mod air;
+pub mod air_cell;
 pub mod at_rest;
 pub mod burn;
 pub mod carry;
