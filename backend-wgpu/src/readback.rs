@@ -10,7 +10,7 @@ use windfall_core::SimError;
 
 use crate::gpu::Gpu;
 
-/// Time after which it is seen again whether another thread has been told that a copy is done, and the times that it is.
+/// Interval at which a copy is polled whose callback runs on another thread, and the most polls.
 const ROUND: Duration = Duration::from_millis(1);
 const MOST_ROUNDS: u32 = 10_000;
 
@@ -79,7 +79,7 @@ impl Readback {
         self.is_done()
     }
 
-    /// Waits until all bytes are there. Where several threads use a device, another one may be told that they are, a moment later.
+    /// Waits until all bytes are there. Where several threads use a device, another one may run the callback, a moment later.
     pub(crate) fn wait(&self) -> Result<(), SimError> {
         self.gpu.wait()?;
         for _ in 0..MOST_ROUNDS {

@@ -134,7 +134,7 @@ fn leaf_waste(leaf: u32, species: u32, way: f32) -> bool {
     if (state == STATE_DORMANT) {
         return false;
     }
-    if (is_water_leaf(bits)) {
+    if (lies(bits) && (is_afloat(bits) || is_sunk(bits))) {
         burns[leaf] = Burn(0.0, way, UNLIT, 0.0);
         return false;
     }
@@ -158,10 +158,6 @@ fn leaf_waste(leaf: u32, species: u32, way: f32) -> bool {
         places[leaf].bits = with_species(bits, number);
     }
     return false;
-}
-
-fn is_water_leaf(bits: u32) -> bool {
-    return lies(bits) && (is_afloat(bits) || is_sunk(bits));
 }
 
 fn leaf_burn(leaf: u32, slot: u32, power_w: f32) -> bool {

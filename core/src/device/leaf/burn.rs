@@ -273,7 +273,7 @@ pub fn leaf_waste(cx: &Context<'_>, leaf: &mut LeafMut<'_>, species: u32, burn: 
     if state == STATE_DORMANT {
         return false;
     }
-    if is_water_leaf(bits) {
+    if lies(bits) && (is_afloat(bits) || is_sunk(bits)) {
         *burn = Burn { out_way: way, ..Burn::default() };
         return false;
     }
@@ -297,12 +297,6 @@ pub fn leaf_waste(cx: &Context<'_>, leaf: &mut LeafMut<'_>, species: u32, burn: 
         leaf.place.bits = with_species(bits, number);
     }
     false
-}
-
-/// Returns true if leaves with these bits float on water or lie under it.
-#[inline(always)]
-fn is_water_leaf(bits: u32) -> bool {
-    lies(bits) && (is_afloat(bits) || is_sunk(bits))
 }
 
 /// Heats the leaf in a slot or lets it burn on, with so much power going to its cell. Returns true if it waits for the litter to lose its volume.
