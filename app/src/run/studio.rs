@@ -61,13 +61,7 @@ impl Studio {
         let options = RendererOptions::for_scene(scene);
         let format = PictureTarget::FORMAT;
         let scene_trees = SceneTrees::of(scene, world.compiled.forest());
-        let render_scene = RenderScene {
-            scene,
-            solids: world.compiled.solids(),
-            burns: &world.compiled.block().burns,
-            trees: &scene_trees,
-            atlas: &atlas,
-        };
+        let render_scene = RenderScene::of(scene, &world.compiled, &scene_trees, &atlas);
         let renderer = Renderer::new(gpu.device(), gpu.queue(), render_scene, format, size, options)?;
         gpu.check()?;
         Ok(Self {

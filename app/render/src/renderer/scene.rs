@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Input of a renderer.
 
-use windfall_core::Scene;
 use windfall_core::blocks::BurnBlock;
 use windfall_core::scene::Release;
 use windfall_core::solid::Solid;
+use windfall_core::{CompiledScene, Scene};
 use windfall_texgen::Atlas;
 
 use crate::park::litter::BedRim;
@@ -61,4 +61,17 @@ pub struct RenderScene<'a> {
     pub trees: &'a SceneTrees,
     /// The pictures of its species' leaves.
     pub atlas: &'a Atlas,
+}
+
+impl<'a> RenderScene<'a> {
+    /// A scene with what it compiles to, its trees and the pictures of its species' leaves.
+    pub fn of(
+        scene: &'a Scene,
+        compiled: &'a CompiledScene,
+        trees: &'a SceneTrees,
+        atlas: &'a Atlas,
+    ) -> Self {
+        let (solids, burns) = (compiled.solids(), &compiled.block().burns);
+        Self { scene, solids, burns, trees, atlas }
+    }
 }

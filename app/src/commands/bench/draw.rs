@@ -100,13 +100,7 @@ fn measure(
     let mut backend = device.simulator(&world)?;
     let scene_trees = SceneTrees::of(scene, world.compiled.forest());
     let atlas = atlas_of(scene, &making_leaves())?;
-    let render_scene = RenderScene {
-        scene,
-        solids: world.compiled.solids(),
-        burns: &world.compiled.block().burns,
-        trees: &scene_trees,
-        atlas: &atlas,
-    };
+    let render_scene = RenderScene::of(scene, &world.compiled, &scene_trees, &atlas);
     let (options, format) = (RendererOptions::for_scene(scene), PictureTarget::FORMAT);
     let mut renderer = Renderer::new(gpu.device(), gpu.queue(), render_scene, format, size, options)?;
     let target = PictureTarget::new(gpu.device(), size)?;

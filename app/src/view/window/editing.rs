@@ -208,9 +208,7 @@ pub(super) fn renderer_of(
 ) -> anyhow::Result<Renderer> {
     let atlas = leaves::atlas_of(scene, &making_leaves())?;
     let scene_trees = SceneTrees::of(scene, compiled.forest());
-    let burns = &compiled.block().burns;
-    let solids = compiled.solids();
-    let render_scene = RenderScene { scene, solids, burns, trees: &scene_trees, atlas: &atlas };
+    let render_scene = RenderScene::of(scene, compiled, &scene_trees, &atlas);
     let options = RendererOptions::for_scene(scene);
     Ok(Renderer::new(gpu.device(), gpu.queue(), render_scene, format, size, options)?)
 }
