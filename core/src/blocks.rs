@@ -688,8 +688,10 @@ crate::shared_struct! {
         pub feeding_m2: f32,
         /// Place of such a fire among the words of the litter; 0 if its power is given.
         pub fire: u32,
-        /// Zeros.
-        pub unused: [u32; 2],
+        /// Puffs that leave the base in a second.
+        pub puffs_per_s: f32,
+        /// Share of the next puff that has left the base.
+        pub puffs: f32,
         /// Heights at which the axis bends, from the base on.
         pub bends: [PlumeBend; PLUME_BENDS as usize],
     }

@@ -281,6 +281,7 @@ fn a_changed_twin_is_noticed() {
         ("leaf/strike", "-(normal.x * inverse)", "-(normal.z * inverse)", "solid_footing"),
         ("wind/pile_shadow", "upwind - (here", "upwind - 2.0 * (here", "wind_behind_piles"),
         ("wind/plume", "growth * 0.5 + widening", "growth + widening", "wind_plume"),
+        ("wind/plume", "1.0 - off * 4.0", "1.0 - off * 3.0", "plume_puff"),
         ("wind/plume", "passing * (along * across)", "passing * (along * along)", "wind_plume"),
         ("wind/plume", "* inverse_cube * PLUME_ABOVE_K", "* PLUME_ABOVE_K", "plume_warmth"),
         ("wind/plume", "bitcast<f32>(words.z)", "bitcast<f32>(words.y)", "plume_warmth"),

@@ -21,30 +21,48 @@ use fearless_simd::Level;
 pub enum Simd {
     /// One leaf after another, as the oracle is written.
     Scalar,
-    /// Eight or sixteen leaves at once, with the instructions of a level.
-    Lanes(Level),
+    /// Eight or sixteen leaves at once.
+    Lanes(LaneLevel),
+}
+
+/// Instructions that kernels are compiled for: on x86-64 AVX-512, AVX2 and SSE4.2. Each level more takes a further minute to compile, and processors
+/// with nothing but SSE2 are two decades old.
+#[derive(Clone, Copy, Debug)]
+pub struct LaneLevel(Level);
+
+impl LaneLevel {
+    /// The level, if kernels are compiled for it.
+    fn of(level: Level) -> Option<Self> {
+        #[cfg(target_arch = "x86_64")]
+        level.as_sse4_2()?;
+        Some(Self(level))
+    }
+
+    /// What the processor has of it.
+    pub(crate) fn level(self) -> Level {
+        self.0
+    }
 }
 
 impl Simd {
     /// The fastest set of this processor.
     pub fn best() -> Self {
-        Self::Lanes(Level::new())
+        LaneLevel::of(Level::new()).map_or(Self::Scalar, Self::Lanes)
     }
 
     /// Every set of this processor.
     pub fn available() -> Vec<Self> {
         let level = Level::new();
-        let mut sets = vec![Self::Scalar];
         #[cfg(target_arch = "x86_64")]
-        {
-            sets.extend(level.as_sse2().map(Level::Sse2).map(Self::Lanes));
-            sets.extend(level.as_sse4_2().map(Level::Sse4_2).map(Self::Lanes));
-            sets.extend(level.as_avx2().map(Level::Avx2).map(Self::Lanes));
-            sets.extend(level.as_avx512().map(Level::Avx512).map(Self::Lanes));
-        }
+        let levels = [
+            level.as_sse4_2().map(Level::Sse4_2),
+            level.as_avx2().map(Level::Avx2),
+            level.as_avx512().map(Level::Avx512),
+        ];
         #[cfg(not(target_arch = "x86_64"))]
-        sets.push(Self::Lanes(level));
-        sets
+        let levels = [Some(level)];
+        let lanes = levels.into_iter().flatten().filter_map(LaneLevel::of).map(Self::Lanes);
+        std::iter::once(Self::Scalar).chain(lanes).collect()
     }
 }
 
@@ -56,35 +74,41 @@ pub(crate) struct Line {
     _words: [u64; 8],
 }
 
-/// Calls a function that is generic over packs with those of eight lanes: `function::<P>(simd, arguments…)`.
-macro_rules! in_packs_of_eight {
+/// Calls a function that is generic over packs with the widest packs of a level: `function::<P>(simd, arguments…)`.
+#[cfg(target_arch = "x86_64")]
+macro_rules! in_packs {
+    ($level:expr, $function:ident($($argument:expr),*)) => {{
+        let level = $crate::simd::LaneLevel::level($level);
+        macro_rules! call {
+            ($simd:expr, $pack:ident) => {
+                fearless_simd::Simd::vectorize(
+                    $simd,
+                    #[inline(always)]
+                    || {
+                        std::hint::black_box(&$crate::simd::Line::default());
+                        $function::<fearless_simd::$pack<_>>($simd, $($argument),*)
+                    },
+                )
+            };
+        }
+        if let Some(simd) = level.as_avx512() {
+            call!(simd, f32x16)
+        } else if let Some(simd) = level.as_avx2() {
+            call!(simd, f32x8)
+        } else if let Some(simd) = level.as_sse4_2() {
+            call!(simd, f32x8)
+        } else {
+            unreachable!("a level that kernels are compiled for")
+        }
+    }};
+}
+#[cfg(not(target_arch = "x86_64"))]
+macro_rules! in_packs {
     ($level:expr, $function:ident($($argument:expr),*)) => {
-        fearless_simd::dispatch!($level, simd => {
+        fearless_simd::dispatch!($crate::simd::LaneLevel::level($level), simd => {
             std::hint::black_box(&$crate::simd::Line::default());
             $function::<fearless_simd::f32x8<_>>(simd, $($argument),*)
         })
     };
 }
-
-/// Calls such a function with the widest packs of a level.
-#[cfg(target_arch = "x86_64")]
-macro_rules! in_packs {
-    ($level:expr, $function:ident($($argument:expr),*)) => {{
-        let level: fearless_simd::Level = $level;
-        match level.as_avx512() {
-            Some(simd) => fearless_simd::Simd::vectorize(
-                simd,
-                #[inline(always)]
-                || {
-                    std::hint::black_box(&$crate::simd::Line::default());
-                    $function::<fearless_simd::f32x16<_>>(simd, $($argument),*)
-                },
-            ),
-            None => $crate::simd::in_packs_of_eight!(level, $function($($argument),*)),
-        }
-    }};
-}
-#[cfg(not(target_arch = "x86_64"))]
-pub(crate) use in_packs_of_eight as in_packs;
-#[cfg(target_arch = "x86_64")]
-pub(crate) use {in_packs, in_packs_of_eight};
+pub(crate) use in_packs;

@@ -11,6 +11,7 @@
 use super::births::reaches_s;
 use super::block::FLUTTER_HZ;
 use crate::SceneError;
+use crate::clock::Clock;
 use crate::convert::single;
 use crate::device::leaf::record::leaf_appearance;
 use crate::device::wind::gust::{GUST_ROWS, GUST_SPACING};
@@ -243,6 +244,13 @@ impl Cycle {
     /// Share of the cycle that has passed so many steps after a step.
     pub(super) fn share(&self, step: u32, after: f64) -> f64 {
         (f64::from(step % self.steps) + after) / f64::from(self.steps)
+    }
+
+    /// Rate per second of what repeats about so often, a whole number of times in a cycle, and how often it has so many steps after that of a clock.
+    pub(super) fn repeated(&self, per_s: f64, clock: &Clock, after: f64) -> (f64, f64) {
+        let length_s = f64::from(self.steps) * f64::from(clock.dt_s());
+        let each = f64::from(round(per_s * length_s).max(1));
+        (each / length_s, self.share(clock.step(), after) * each)
     }
 
     /// Rate of a fluttering leaf in 2^-32 turns a step: as near to the usual as a whole number of turns in a cycle

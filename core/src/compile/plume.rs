@@ -4,12 +4,14 @@
 
 use crate::blocks::PlumeBlock;
 use crate::convert::single;
-use crate::device::wind::plume::{PLUME_FLICKER, PlumeRise, plume_rise};
+use crate::device::wind::plume::{PLUME_FLICKER, PLUME_PUFF, PlumeRise, plume_rise};
 use crate::device::wind::profile::surface_factors;
 use crate::scene::{Plume, Scene};
 
 /// Height of the middle of the steady flame over Q^0.4 in m / kW^0.4: below it the axis leans as there.
 const FLAME_MIDDLE: f64 = 0.04;
+/// Puffs a second above a fire a metre wide (Cetegen & Ahmed 1993); the wider, the fewer.
+const PUFFS: f64 = 1.5;
 /// Height of the layer that the ground slows, in radii of the fire.
 const LAYER: f64 = 0.1;
 
@@ -23,11 +25,22 @@ fn speed_m_s(power_kw: f64) -> f64 {
 
 /// Fastest speed on the axis of a plume in m/s.
 pub(super) fn fastest_m_s(plume: &Plume) -> f64 {
-    f64::from(PLUME_FLICKER) * speed_m_s(plume.greatest_kw())
+    f64::from(PLUME_FLICKER * (1.0 + PLUME_PUFF)) * speed_m_s(plume.greatest_kw())
 }
 
-/// A plume at a time, leaning in the mean wind of a scene over ground of a height.
-pub(super) fn plume_block(scene: &Scene, plume: &Plume, time_s: f64, ground_m: f64) -> PlumeBlock {
+/// Puffs a second above a fire, by its width.
+pub(super) fn puffs_per_s(plume: &Plume) -> f64 {
+    PUFFS / libm::sqrt(2.0 * f64::from(plume.base_radius_m))
+}
+
+/// A plume at a time, after so many puffs of which so many leave it in a second, leaning in the mean wind of a scene over ground of a height.
+pub(super) fn plume_block(
+    scene: &Scene,
+    plume: &Plume,
+    time_s: f64,
+    (puffs_per_s, puffs): (f64, f64),
+    ground_m: f64,
+) -> PlumeBlock {
     let mut block: PlumeBlock = bytemuck::Zeroable::zeroed();
     let wind = &scene.wind;
     let roughness_m = f64::from(scene.ground.surface_roughness_m);
@@ -38,6 +51,8 @@ pub(super) fn plume_block(scene: &Scene, plume: &Plume, time_s: f64, ground_m: f
     block.base_m = plume.at_m.to_array();
     block.base_radius_m = plume.base_radius_m;
     block.inv_layer = single(1.0 / level);
+    block.puffs_per_s = single(puffs_per_s);
+    block.puffs = single(puffs - libm::floor(puffs));
     if let Some(within_m) = plume.fed_within_m {
         block.feeding_m2 = within_m * within_m;
     }

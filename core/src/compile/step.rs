@@ -3,7 +3,7 @@
 //! Compiles what changes from step to step: the wind's patterns, what moves, births.
 
 use super::jet::jet_block;
-use super::plume::plume_block;
+use super::plume::{plume_block, puffs_per_s};
 use super::vortex::vortex_block;
 use super::{CompiledScene, Cycle};
 use crate::arith::rng::{random, unit_float};
@@ -93,7 +93,12 @@ impl CompiledScene {
         let mut plumes = [<PlumeBlock as bytemuck::Zeroable>::zeroed(); crate::scene::MAX_PLUMES];
         for (plume, block) in self.scene.wind.plumes.iter().zip(&mut plumes) {
             let ground_m = ground(plume.at_m.as_dvec3()).unwrap_or(0.0);
-            *block = plume_block(&self.scene, plume, seconds, ground_m);
+            let per_s = puffs_per_s(plume);
+            let puffs = match &self.cycle {
+                None => (per_s, per_s * seconds),
+                Some(cycle) => cycle.repeated(per_s, clock, steps),
+            };
+            *block = plume_block(&self.scene, plume, seconds, puffs, ground_m);
         }
         for (fire, block) in (0..).zip(&mut plumes).filter(|(_, block)| block.feeding_m2 != 0.0) {
             block.fire = self.block.first_fire + fire * FIRE_WORDS;

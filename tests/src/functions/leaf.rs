@@ -42,7 +42,7 @@ use windfall_core::device::terrain::ground::{ground_met, ground_relief, ground_r
 use windfall_core::device::wind::gust::wind_gust;
 use windfall_core::device::wind::jet::wind_jet;
 use windfall_core::device::wind::packed::{wind_pack, wind_unpack};
-use windfall_core::device::wind::plume::wind_plume;
+use windfall_core::device::wind::plume::{plume_puff, wind_plume};
 use windfall_core::device::wind::profile::{wind_profile, wind_vertical};
 use windfall_core::device::wind::sample::wind_at;
 use windfall_core::device::wind::shelter::wind_shelter;
@@ -435,6 +435,10 @@ functions! {
     wind_jet in "wind/jet" (METRES, Input::Float(-1.0, 9.0), METRES, Input::Float(0.0, 1.2)) tolerance Some(1e-4);
     wgsl "r = vec4<u32>(bitcast<vec3<u32>>(wind_jet(MOMENT_NOW, 0u, bitcast<vec3<f32>>(a.xyz), bitcast<f32>(a.w))), 0u);";
     rust |cx, w| floats(wind_jet(cx, &cx.step.moments[0].jets[0], vector(w, 0), float(w[3])).to_array());
+
+    plume_puff in "wind/plume" (Input::Float(0.0, 0.8), Input::Float(0.0, 1.0), Input::Float(0.1, 40.0)) tolerance Some(2e-4);
+    wgsl "let p = plume_puff(bitcast<f32>(a.x), bitcast<f32>(a.y), bitcast<f32>(a.z)); r = vec4<u32>(bitcast<u32>(p.speed), bitcast<u32>(p.growth), 0u, 0u);";
+    rust |_cx, w| { let p = plume_puff(float(w[0]), float(w[1]), float(w[2])); floats([p.speed, p.growth]) };
 
     wind_plume in "wind/plume" (METRES, Input::Float(-0.5, 9.0), METRES, Input::Float(0.0, 1.0)) tolerance Some(1e-4);
     wgsl "r = vec4<u32>(bitcast<vec3<u32>>(wind_plume(MOMENT_NOW, 0u, bitcast<vec3<f32>>(a.xyz), bitcast<f32>(a.w))), 0u);";

@@ -42,12 +42,28 @@ fn risen(plume: Plume, wind_m_s: f32) -> impl Fn(DVec3) -> DVec3 {
     }
 }
 
+/// Mean over a puff of the velocity of the plume alone.
+fn mean_risen(plume: Plume, wind_m_s: f32) -> impl Fn(DVec3) -> DVec3 {
+    const MOMENTS: u8 = 16;
+    let compiled = compile(plume, wind_m_s, Profile::Uniform);
+    let block = compiled.step_block(&Clock::new(1.0 / 60.0));
+    move |from_base| {
+        let place = Kernel::from((BASE_M.as_dvec3() + from_base).as_vec3().to_array());
+        let at = |moment: u8| {
+            let mut plume = block.moments[0].plumes[0];
+            plume.puffs = f32::from(moment) / f32::from(MOMENTS);
+            vector(wind_plume(&compiled.context(&block), &plume, place, 1.0).to_array())
+        };
+        (0..MOMENTS).map(at).sum::<DVec3>() / f64::from(MOMENTS)
+    }
+}
+
 /// McCaffrey (1979), table 1: v = k (z / Q^0.4)^η Q^0.2 in the three regions, measured above fires of 14.4 to 57.5 kW. Where two regions meet
 /// they differ by up to 1.5 % themselves.
 #[test]
 fn air_above_a_fire_rises_as_measured() {
     for power_kw in [14.4f32, 21.7, 33.0, 44.9, 57.5, 1000.0] {
-        let wind = risen(burning(power_kw, 0.15), 0.0);
+        let wind = mean_risen(burning(power_kw, 0.15), 0.0);
         let q = f64::from(power_kw);
         for height in [0.012, 0.02, 0.04, 0.06, 0.079, 0.09, 0.12, 0.16, 0.19, 0.21, 0.3, 0.5, 1.0, 3.0] {
             let (k, exponent) = match height {
@@ -103,7 +119,7 @@ fn what_flows_into_a_box_flows_out_of_it() {
 /// Heskestad's law for the mass that plumes carry: 0.071 (0.7 Q)^(1/3) z^(5/3) kg/s.
 #[test]
 fn plumes_draw_in_air_as_they_rise() {
-    let wind = risen(burning(33.0, 0.05), 0.0);
+    let wind = mean_risen(burning(33.0, 0.05), 0.0);
     let carried = |height: f64| {
         let width = 0.05 + 0.12 * height;
         (0..4000).fold(0.0, |sum, ring| {
@@ -183,10 +199,48 @@ fn plumes_follow_the_power_of_their_fire() {
         let block = compiled.step_block(&clock);
         let cx = compiled.context(&block);
         let power = 100.0 * (clock.seconds() - 0.5).clamp(0.0, 1.0);
-        let place = BASE_M + Vec3::Y * 3.0;
+        // Above the puffs.
+        let place = BASE_M + Vec3::Y * 4.0;
         let up = f64::from(wind_at(&cx, Kernel::from(place.to_array())).y);
-        let expected = 1.12 * f64::powf(3.0, -1.0 / 3.0) * power.cbrt();
+        let expected = 1.12 * f64::powf(4.0, -1.0 / 3.0) * power.cbrt();
         assert!((up - expected).abs() < 0.02 * expected + 1e-6, "step {step}: {up}, not {expected} m/s");
         compiled.advance(&mut clock);
+    }
+}
+
+/// Puffs rise from the base as often as measured (Cetegen & Ahmed 1993: 1.5 D^(-1/2) Hz), swell and fade.
+#[test]
+fn fires_puff_the_slower_the_wider_they_are() {
+    for base_radius_m in [0.1f32, 0.3, 1.0, 4.0] {
+        let compiled = compile(burning(57.5, base_radius_m), 0.0, Profile::Uniform);
+        let dt_s = 1.0 / 60.0;
+        let seconds = 20.0;
+        let mean = mean_risen(burning(57.5, base_radius_m), 0.0);
+        // Swellings of the speed at a height over Q^0.4: how often they come, and the largest.
+        let swellings = |height: f64| {
+            let from_base = DVec3::Y * (height * f64::powf(57.5, 0.4));
+            let place = Kernel::from((BASE_M.as_dvec3() + from_base).as_vec3().to_array());
+            let mut clock = Clock::new(dt_s);
+            let (mut rises, mut largest, mut before) = (0, 0.0f64, 0.0);
+            while clock.seconds() < seconds {
+                let block = compiled.step_block(&clock);
+                let cx = compiled.context(&block);
+                let speed = f64::from(wind_plume(&cx, &block.moments[0].plumes[0], place, 1.0f32).y);
+                let share = speed / mean(from_base).y - 1.0;
+                rises += u32::from(before < 0.0 && share >= 0.0);
+                largest = largest.max(share);
+                before = share;
+                compiled.advance(&mut clock);
+            }
+            (f64::from(rises) / seconds, largest)
+        };
+        let measured = 1.5 / (2.0 * f64::from(base_radius_m)).sqrt();
+        let (per_s, at_tip) = swellings(0.2);
+        assert!((per_s - measured).abs() < 0.06, "{base_radius_m} m: {per_s} puffs a second, not {measured}");
+        assert!((at_tip - 0.3).abs() < 0.02, "{base_radius_m} m: {at_tip} of the speed at the tip");
+        let (_, low) = swellings(0.02);
+        let (_, high) = swellings(0.5);
+        assert!(low < 0.1 && high < 0.15, "{base_radius_m} m: {low} at the base, {high} high above the flame");
+        assert!(swellings(0.61).1 < 1e-6, "{base_radius_m} m: above the puffs");
     }
 }

@@ -5,7 +5,7 @@
 use egui::Ui;
 use windfall_core::scene::{MAX_PLUME_KEYS, MAX_PLUMES, Plume, PlumeKey, limits};
 
-use super::field::{field, vector};
+use super::field::{choice, field, vector};
 use super::list::{List, free_name};
 
 /// A heap of leaves that burns.
@@ -27,6 +27,14 @@ pub(super) fn show(ui: &mut Ui, plumes: &mut Vec<Plume>, own: &[Plume]) {
     let tip = "Radius of the base: the plume begins as wide";
     let radius = field("Fire radius", tip, limits::BASE_RADIUS_M).fine(0.01);
     radius.show(ui, &mut plume.base_radius_m, own.map(|own| own.base_radius_m));
+    let options = [("stated", None), ("of leaves", Some(1.0))];
+    let tip = "Heat of the fire: stated over time, or of the leaves that burn around it";
+    choice(ui, "Fire heat", tip, &mut plume.fed_within_m, own.map(|own| &own.fed_within_m), &options);
+    match plume.fed_within_m {
+        Some(_) => plume.keys.clear(),
+        None if plume.keys.is_empty() => plume.keys.push(FRESH),
+        None => {}
+    }
     if let Some(within_m) = &mut plume.fed_within_m {
         let tip = "Distance from its base within which burning leaves feed the fire";
         let within = field("Fed within", tip, limits::FED_WITHIN_M).fine(0.1);

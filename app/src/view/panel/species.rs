@@ -5,7 +5,7 @@
 use egui::Ui;
 use windfall_core::Scene;
 use windfall_core::scene::{
-    Aerodynamics, FlightModel, LeafShape, MAX_SPECIES, RotationModel, Share, Species, limits,
+    Aerodynamics, Burning, FlightModel, LeafShape, MAX_SPECIES, RotationModel, Share, Species, limits,
 };
 
 use super::field::{choice, field};
@@ -46,6 +46,9 @@ pub(super) fn show(ui: &mut Ui, scene: &mut Scene, own: &Scene) {
     let species = &mut scene.species[index];
     looks(ui, species, own);
     build(ui, species, own);
+    let options = [("no", None), ("yes", Some(Burning::default()))];
+    let tip = "Its leaves catch fire as moving bodies and in moving litter";
+    choice(ui, "Burns", tip, &mut species.burns, own.map(|own| &own.burns), &options);
     if let Some(burning) = &mut species.burns {
         super::burning::show(ui, burning, own.and_then(|own| own.burns.as_ref()));
     }

@@ -39,6 +39,19 @@ fn plume_rise(height: f32) -> PlumeRise {
     return rise_least(rise_least(steady, flicker), above);
 }
 
+fn plume_puff(height: f32, turns: f32, per_height: f32) -> PlumeRise {
+    let done = height * (1.0 / PLUME_PUFF_TOP);
+    let rest = max(1.0 - done, 0.0);
+    let size = (done * (rest * rest)) * (6.75 * PLUME_PUFF);
+    let swelling = (rest * (rest - done * 2.0)) * (6.75 * PLUME_PUFF / PLUME_PUFF_TOP);
+    let left = turns - height * per_height;
+    let phase = left - floor(left + 0.5);
+    let off = max(phase, -phase);
+    let wave = (phase * (1.0 - off * 2.0)) * 8.0;
+    let slope = (1.0 - off * 4.0) * 8.0;
+    return PlumeRise(size * wave, swelling * wave - (size * per_height) * slope);
+}
+
 struct PlumePoint {
     is_below: bool,
     height: f32,
@@ -132,8 +145,12 @@ fn wind_plume(moment: u32, plume: u32, place: vec3<f32>, level: f32) -> vec3<f32
     let heights_per_m = fire.heights_per_m;
     let fire_m_s = fire.speed_m_s;
     let rise = plume_rise(height * heights_per_m);
-    let speed = rise.speed * fire_m_s;
-    let growth = rise.growth * (fire_m_s * heights_per_m);
+    let puffs_per_s = step_block.moments[moment].plumes[plume].puffs_per_s;
+    let per_height = puffs_per_s * reciprocal(max(fire_m_s * heights_per_m * PLUME_PUFF_SPEED, PLUME_FOOT));
+    let puff = plume_puff(height * heights_per_m, step_block.moments[moment].plumes[plume].puffs, per_height);
+    let swollen = 1.0 + puff.speed;
+    let speed = (rise.speed * swollen) * fire_m_s;
+    let growth = (rise.growth * swollen + rise.speed * puff.growth) * (fire_m_s * heights_per_m);
     let widening = (speed * inverse_width) * PLUME_SPREAD;
     let slowed = min(level * step_block.moments[moment].plumes[plume].inv_layer, 1.0);
     let inflow = (widening * bell - (growth * 0.5 + widening) * within) * slowed;

@@ -11,6 +11,10 @@
 //! the radius of the fire. Towards the axis comes what the stream function `W b² (1 - exp(-r² / b²)) / 2` draws in: no divergence, for any
 //! speed and width. What lies below the base does not move. The temperature, which heats leaves, is that of the same measurements.
 //!
+//! Fires puff, `1.5 D^(-1/2)` times a second over a base D m wide (Cetegen & Ahmed, Combustion and Flame 93, 1993): swellings of the speed
+//! rise from the base at half the speed of the flickering flame, largest at its tip, and are gone at three times its height. They leave the mean as
+//! measured, and the air that comes in follows them, so that there is no divergence either. By how much they swell is an assumption.
+//!
 //! In wind the axis leans: each disc of the plume is shifted along the wind, by so much that the axis is the path of the air on it. The wind goes on through the
 //! axis and around the plume, as about something in its way, in flat layers without divergence.
 
@@ -35,6 +39,12 @@ crate::shared_constants! {
     pub const PLUME_FLICKER_K: f32 = 63.0;
     /// Temperature rise in K above the flame, times that height to the power of 5/3.
     pub const PLUME_ABOVE_K: f32 = 21.6;
+    /// Share of the speed by which puffs change it at the most.
+    pub const PLUME_PUFF: f32 = 0.3;
+    /// Height over Q^0.4 at which puffs are gone.
+    pub const PLUME_PUFF_TOP: f32 = 0.6;
+    /// Speed at which puffs rise over that of the fire.
+    pub const PLUME_PUFF_SPEED: f32 = 0.965;
     /// Difference of two of these speeds below which they are blended.
     pub const PLUME_BLEND: f32 = 0.06;
     /// Height below which the speed falls to nothing at the base.
@@ -87,6 +97,23 @@ pub fn plume_rise<R: Real>(height: R) -> PlumeRise<R> {
     let above =
         PlumeRise { speed: inverse_cube * PLUME_ABOVE, growth: (squared * squared) * (-PLUME_ABOVE / 3.0) };
     rise_least(rise_least(steady, flicker), above)
+}
+
+/// Share by which puffs change the speed on the axis at a height over Q^0.4, and how much it grows per height: `turns` of them have left the
+/// base, and so many fit in one of these heights.
+#[inline(always)]
+pub fn plume_puff<R: Real>(height: R, turns: R, per_height: R) -> PlumeRise<R> {
+    let one = height.all(1.0);
+    let done = height * (1.0 / PLUME_PUFF_TOP);
+    let rest = (one - done).max(height.all(0.0));
+    let size = (done * (rest * rest)) * (6.75 * PLUME_PUFF);
+    let swelling = (rest * (rest - done * 2.0)) * (6.75 * PLUME_PUFF / PLUME_PUFF_TOP);
+    let left = turns - height * per_height;
+    let phase = left - (left + 0.5).floor();
+    let off = phase.max(-phase);
+    let wave = (phase * (one - off * 2.0)) * 8.0;
+    let slope = (one - off * 4.0) * 8.0;
+    PlumeRise { speed: size * wave, growth: swelling * wave - (size * per_height) * slope }
 }
 
 /// A place in a plume.
@@ -191,8 +218,12 @@ pub fn wind_plume<R: Real>(cx: &Context<'_>, plume: &PlumeBlock, place: Vec3<R>,
     let within = near.select_real(series, (one - bell) * reciprocal(squared.max(level.all(PLUME_NEAR_AXIS))));
     let PlumeFire { speed_m_s: fire_m_s, heights_per_m } = plume_fire(cx, plume);
     let rise = plume_rise(height * heights_per_m);
-    let speed = rise.speed * fire_m_s;
-    let growth = rise.growth * (fire_m_s * heights_per_m);
+    let per_height =
+        plume.puffs_per_s * reciprocal((fire_m_s * heights_per_m * PLUME_PUFF_SPEED).max(PLUME_FOOT));
+    let puff = plume_puff(height * heights_per_m, level.all(plume.puffs), level.all(per_height));
+    let swollen = one + puff.speed;
+    let speed = (rise.speed * swollen) * fire_m_s;
+    let growth = (rise.growth * swollen + rise.speed * puff.growth) * (fire_m_s * heights_per_m);
     let widening = (speed * inverse_width) * PLUME_SPREAD;
     let inflow = (widening * bell - (growth * 0.5 + widening) * within) * (level * plume.inv_layer).min(one);
     let passing = ((speed * slope) * (bell * inverse_squared)) * 2.0;
