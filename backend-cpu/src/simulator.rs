@@ -23,6 +23,7 @@ use crate::kernels::carry_forces::carry_forces;
 use crate::kernels::follow_leaves::follow_leaves;
 use crate::kernels::gather_heat::gather_heat;
 use crate::kernels::keep_history::keep_history;
+use crate::kernels::land_flakes::land_flakes;
 use crate::kernels::measure::measure;
 use crate::kernels::pull_particles::pull_particles;
 use crate::kernels::settle_fires::settle_fires;
@@ -30,6 +31,7 @@ use crate::kernels::stack_litter::{LitterChanges, stack_litter};
 use crate::kernels::step_collisions::step_collisions;
 use crate::kernels::step_leaves::{LeafSteps, step_leaves};
 use crate::kernels::step_particles::step_particles;
+use crate::kernels::step_snow::step_snow;
 use crate::kernels::step_trees::{BatchRun, step_trees};
 use crate::quiet::QuietUnits;
 use crate::simd::Simd;
@@ -175,7 +177,7 @@ impl Simulator for CpuSimulator {
         let World { compiled, clock, leaves, branches, bed, particles, tallies, history, burns } =
             &mut self.world;
         let (simd, blocks, scratches, quiet) = (self.simd, &self.blocks, &self.scratches, &self.quiet);
-        let has_litter = !bed.is_empty();
+        let (has_litter, has_snow) = (compiled.block().has_litter(), compiled.block().has_snow());
         let (changes, exposed) = (LitterChanges::default(), &self.exposed);
         if compiled.block().has_living_litter() {
             self.cells.make(1 << COLLISION_CELL_BITS);
@@ -194,7 +196,7 @@ impl Simulator for CpuSimulator {
             leaves.len() <= CHUNK && forest.len() <= CHUNK / 16 && particles.len() <= SMALL_PARTICLES;
         let sums: Vec<AtomicU32> = tallies.count.iter().map(|&count| AtomicU32::new(count)).collect();
         let last = clock.step().saturating_add(count).saturating_sub(1);
-        if forest.is_empty() && particles.is_empty() && !has_litter && quiet.are_all_quiet(last) {
+        if forest.is_empty() && particles.is_empty() && !has_litter && !has_snow && quiet.are_all_quiet(last) {
             (0..count).for_each(|_| compiled.advance(clock));
             return Ok(());
         }
@@ -271,13 +273,18 @@ impl Simulator for CpuSimulator {
                 }
                 follow_leaves(&bare, leaves, burns, particles);
             }
+            if has_snow {
+                let cx = compiled.context(&step_blocks[0]);
+                land_flakes(&cx, particles, bed);
+                step_snow(&cx, bed);
+            }
             count
         };
         let mut steps = || {
             let mut left = count as usize;
             while left > 0 {
-                // Leaves see what others have left in the litter a step before, and particles where others are, or what befell them.
-                let sees_others = has_litter || is_mutual || has_nests || has_carriers;
+                // Snow takes what lands in a step, leaves see what others have left in the litter a step before, and particles where others are, or what befell them.
+                let sees_others = has_litter || has_snow || is_mutual || has_nests || has_carriers;
                 let portion = left.min(if sees_others { 1 } else { MOST_FUSED });
                 left -= run(portion);
             }

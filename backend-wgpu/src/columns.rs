@@ -29,6 +29,17 @@ pub struct WorldColumns<'a> {
     /// The burning of leaves, `Burn` of 16 bytes slot by slot: `f32` heat in J/m², `f32` share of the way that the front had run when water put
     /// it out, `u32` step after the one in which it caught or 0, `u32` unused. `None` where none burn.
     pub burns: Option<&'a wgpu::Buffer>,
+    /// The litter and the snow; `None` without either.
+    pub bed: Option<BedColumn<'a>>,
+}
+
+/// Borrowed words of what lies on the ground (see `windfall_core::litter::Bed`).
+#[derive(Clone, Copy, Debug)]
+pub struct BedColumn<'a> {
+    /// A buffer that holds them among other words.
+    pub buffer: &'a wgpu::Buffer,
+    /// Number of the first of them there.
+    pub first_word: u32,
 }
 
 /// Borrowed leaf columns: one 16-byte record per leaf in each buffer (see `windfall_core::leaf`), usable as vertex
@@ -198,6 +209,13 @@ impl StoreBuffers {
         &self.columns[column].buffer
     }
 
+    /// The words of a bed.
+    fn bed(&self) -> BedColumn<'_> {
+        let column = &self.columns[0];
+        let first_word = u32::try_from(column.offset / 4).expect("devices have fewer words");
+        BedColumn { buffer: &column.buffer, first_word }
+    }
+
     /// Rows from the start of a column to that of its neighbour in the same buffer.
     pub(crate) fn stride(&self, column: usize) -> u32 {
         u32::try_from(self.columns[column].stride).expect("rows are counted in words")
@@ -295,6 +313,7 @@ impl WorldBuffers {
             branches: (count > 0).then(branches),
             particles: ParticleColumns::of(self.particles(), self.history()),
             burns: (self.burns().rows() > 0).then(|| self.burns().buffer(0)),
+            bed: (self.stores[BED].rows() > 0).then(|| self.stores[BED].bed()),
         }
     }
 

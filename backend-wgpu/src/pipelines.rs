@@ -42,7 +42,7 @@ pub(crate) enum GroupLayout {
     History,
     /// Blocks, tables, and places and drifts of leaves.
     LeavesThatMove,
-    /// Blocks, and the tables to be written, behind which the fires are.
+    /// Blocks, and the tables to be written, behind which fires and snow are.
     BlocksAndLitter,
     /// The burning of the leaves of a page, and sums of heat to be added to.
     Heat,
@@ -50,10 +50,12 @@ pub(crate) enum GroupLayout {
     Heated,
     /// Particles that are where leaves burn, and the burning of these leaves.
     OnLeaves,
+    /// A run of flakes and their places.
+    Flakes,
 }
 
 impl GroupLayout {
-    const ALL: [Self; 18] = [
+    const ALL: [Self; 19] = [
         Self::Leaves,
         Self::LeavesInMotion,
         Self::LeavesOnTwigs,
@@ -72,6 +74,7 @@ impl GroupLayout {
         Self::Heat,
         Self::Heated,
         Self::OnLeaves,
+        Self::Flakes,
     ];
 
     /// Resources, binding by binding.
@@ -104,6 +107,8 @@ impl GroupLayout {
             Self::Heated => &[Block, Write, Read],
             // The bindings of shaders/particle/on_leaf_bindings.wgsl.
             Self::OnLeaves => &[Block, Write, Write, Write, Read],
+            // The bindings of shaders/particle/flake_bindings.wgsl.
+            Self::Flakes => &[Block, Read],
             // The bindings of shaders/particle/history_bindings.wgsl.
             Self::History => &[Block, Read, Write],
         }
@@ -126,6 +131,8 @@ impl KernelId {
                 &[GroupLayout::LeavesOnTwigs, GroupLayout::WrittenBuffer, GroupLayout::Heated]
             }
             Self::SettleFires => &[GroupLayout::BlocksAndLitter, GroupLayout::WrittenBuffer],
+            Self::LandFlakes => &[GroupLayout::BlocksAndLitter, GroupLayout::Flakes],
+            Self::StepSnow => &[GroupLayout::BlocksAndLitter],
             Self::FollowLeaves => &[GroupLayout::LeavesThatMove, GroupLayout::OnLeaves],
             Self::Carry => &[GroupLayout::LeavesOnTwigs, GroupLayout::WrittenBuffer, GroupLayout::Carriers],
             Self::ListActive | Self::Measure => &[GroupLayout::LeavesInMotion, GroupLayout::WrittenBuffer],
@@ -167,6 +174,9 @@ impl KernelId {
         }
         if compiled.scene().particles.iter().any(Particles::is_on_leaves) {
             kernels.push(Self::FollowLeaves);
+        }
+        if compiled.block().has_snow() {
+            kernels.extend([Self::LandFlakes, Self::StepSnow]);
         }
         if compiled.scene().particle_count() > 0 {
             kernels.push(Self::StepParticles);

@@ -66,11 +66,15 @@ pub enum KernelId {
     SettleFires,
     /// Lets particles follow burning leaves.
     FollowLeaves,
+    /// Gives flakes that landed to the snow.
+    LandFlakes,
+    /// Lets snow slide, settle and melt.
+    StepSnow,
 }
 
 impl KernelId {
     /// All kernels.
-    pub const ALL: [Self; 27] = [
+    pub const ALL: [Self; 29] = [
         Self::ListActive,
         Self::GatherCollisions,
         Self::Collide,
@@ -98,6 +102,8 @@ impl KernelId {
         Self::BurnLeaves,
         Self::SettleFires,
         Self::FollowLeaves,
+        Self::LandFlakes,
+        Self::StepSnow,
     ];
 
     /// Name of the file and of the entry point.
@@ -130,6 +136,8 @@ impl KernelId {
             Self::BurnLeaves => "burn_leaves",
             Self::SettleFires => "settle_fires",
             Self::FollowLeaves => "follow_leaves",
+            Self::LandFlakes => "land_flakes",
+            Self::StepSnow => "step_snow",
         }
     }
 }
@@ -178,6 +186,7 @@ impl Default for Shaders {
             "kernels/follow_leaves",
             "kernels/gather_heat",
             "kernels/settle_fires",
+            "kernels/land_flakes",
             "kernels/list_active",
             "kernels/resolve_events",
             "kernels/sample_air",
@@ -194,6 +203,7 @@ impl Default for Shaders {
             "kernels/push_lying",
             "kernels/stack_litter",
             "kernels/step_particles",
+            "kernels/step_snow",
             "kernels/wake_lying",
             "kernels/sway_coast",
             "kernels/sway_inward",
@@ -236,6 +246,7 @@ impl Default for Shaders {
             "particle/birth",
             "particle/bindings",
             "particle/draw",
+            "particle/flake_bindings",
             "particle/fly",
             "particle/force",
             "particle/force_carrier",
@@ -258,6 +269,7 @@ impl Default for Shaders {
             "solid/shape",
             "terrain/ground",
             "terrain/litter",
+            "terrain/snow",
             "tree/bindings",
             "tree/sway/body",
             "tree/sway/coast",

@@ -4,6 +4,7 @@
 
 mod pages;
 mod requests;
+mod snow;
 mod steps;
 
 use std::sync::Arc;
@@ -15,6 +16,7 @@ use windfall_core::{Clock, CompiledScene, Contract, SimError, Simulator, Simulat
 
 use self::pages::{HeatSums, List, Page};
 pub use self::requests::{StateRequest, StatsRequest};
+use self::snow::SnowBindings;
 use self::steps::STEPS_PER_PASS;
 use crate::buffers::{buffer, group, table};
 use crate::columns::{WorldBuffers, WorldColumns};
@@ -63,6 +65,7 @@ pub struct WgpuSimulator {
     /// Cells of the air in which leaves collide with each other; clear between steps.
     collisions: Option<List>,
     heat: Option<HeatSums>,
+    snow: Option<SnowBindings>,
     /// Steps for which the lists of active leaves still hold.
     listed_steps: u32,
 }
@@ -121,12 +124,14 @@ impl WgpuSimulator {
             pages: Vec::new(),
             collisions: None,
             heat: None,
+            snow: None,
             listed_steps: 0,
         };
         simulator.plant();
         simulator.make_heat_sums();
         simulator.bind_pages();
         simulator.bind_particles()?;
+        simulator.bind_snow();
         simulator.make_collision_cells();
         simulator.write_state(world)?;
         Ok(simulator)
@@ -227,6 +232,7 @@ impl WgpuSimulator {
         }
         if moved || former.block().populations != compiled.block().populations {
             self.bind_particles()?;
+            self.bind_snow();
         }
         self.make_collision_cells();
         Ok(())

@@ -168,6 +168,42 @@ crate::shared_struct! {
 }
 
 crate::shared_struct! {
+    /// Snow (see [`SnowMut`](crate::litter::SnowMut)).
+    pub struct SnowBlock {
+        /// Cells along x; 0 without snow.
+        pub columns: u32,
+        /// Cells along z.
+        pub lines: u32,
+        /// Number of the first column among cells from the origin on, two's complement.
+        pub first_column: u32,
+        /// The same of lines.
+        pub first_line: u32,
+        /// Place of its words among those of the litter.
+        pub first_word: u32,
+        /// First row of what the cells lie on.
+        pub first_row: u32,
+        /// Units of water of a flake.
+        pub flake_water: u32,
+        /// Zero.
+        pub unused: u32,
+    }
+}
+
+crate::shared_struct! {
+    /// Snow in one step.
+    pub struct SnowStepBlock {
+        /// Units of water of a cell under the open sky that melt in a round.
+        pub melt_open: f32,
+        /// The same in woods.
+        pub melt_woods: f32,
+        /// Share by which loose snow settles in a round.
+        pub settled: f32,
+        /// Units of depth per unit of water of fresh snow in 2^-12.
+        pub fresh_depth_q12: u32,
+    }
+}
+
+crate::shared_struct! {
     /// Collisions of leaves with each other (see [`collisions_of`](crate::device::leaf::collide::collisions_of)).
     pub struct CollisionBlock {
         /// Steps from one time at which leaves collide to the next.
@@ -472,6 +508,8 @@ crate::shared_struct! {
         pub wind: WindBlock,
         /// The litter.
         pub litter: LitterBlock,
+        /// The snow.
+        pub snow: SnowBlock,
         /// Collisions of leaves with each other.
         pub collisions: CollisionBlock,
         /// Solid parts.
@@ -516,6 +554,18 @@ impl SceneBlock {
     #[inline(always)]
     pub fn has_living_litter(&self) -> bool {
         self.litter.is_living != 0
+    }
+
+    /// Returns true if leaves lie on one another, moving or still.
+    #[inline(always)]
+    pub fn has_litter(&self) -> bool {
+        self.litter.columns != 0
+    }
+
+    /// Returns true if snow may lie.
+    #[inline(always)]
+    pub fn has_snow(&self) -> bool {
+        self.snow.columns != 0
     }
 
     /// Returns true if leaves collide with each other in a step.
@@ -763,6 +813,8 @@ crate::shared_struct! {
         pub movers: [MoverBlock; MAX_MOVERS],
         /// Births of particles.
         pub births: [BirthBlock; MAX_POPULATIONS],
+        /// The snow.
+        pub snow: SnowStepBlock,
         /// Shift of the grid in which leaves collide with each other, in m.
         pub collision_shift_m: [f32; 3],
         /// Index of the step.

@@ -37,6 +37,6 @@ impl<'a> Context<'a> {
     /// Returns true if leaves lie on one another.
     #[inline(always)]
     pub fn has_litter(&self) -> bool {
-        !self.litter.is_empty()
+        self.scene.litter.columns != 0 && !self.litter.is_empty()
     }
 }

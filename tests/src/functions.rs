@@ -12,6 +12,7 @@ mod leaf;
 mod litter;
 mod particles;
 mod schemes;
+mod snow;
 mod solids;
 mod tree;
 
@@ -115,4 +116,5 @@ pub fn all() -> impl Iterator<Item = &'static Function> {
         .chain(afloat::AFLOAT_FUNCTIONS)
         .chain(particles::PARTICLE_FUNCTIONS)
         .chain(burning::BURNING_FUNCTIONS)
+        .chain(snow::SNOW_FUNCTIONS)
 }

@@ -11,7 +11,7 @@ use windfall_core::scene::{
     ObjectFriction, ObjectKey, ObjectMotion, ObjectShape, ParticleEvent, ParticleRelease, ParticleShape,
     Particles, Planform, Plume, PlumeKey, Profile, Release, Scene, Share, Source, SourceShape, Space,
     Species, Spread, SwirlProfile, Terrain, Tree, TreeKind, Turbulence, Vortex, VortexProfile, Walker, Water,
-    WindParameters,
+    Weather, WindParameters,
 };
 
 use crate::functions::Input;
@@ -545,6 +545,14 @@ pub fn particle_scene(seed: u64, speed_m_s: f32, dt_s: f32) -> Scene {
         ),
     ]);
     scene.forces.push(force("others", ForceKind::Mutual { gm_m3_s2: 0.02, softening_m: 0.1 }));
+    // Heavy, in a thaw, and partly beside the rectangle on which it lies.
+    scene.weather = Some(Weather {
+        center_m: Vec2::new(1.0, -0.5),
+        size_m: Vec2::new(7.0, 6.25),
+        snow_mm_h: vec![(0.0, 50.0), (4.0, 20.0), (9.0, 50.0)],
+        air_c: vec![(0.0, -8.0), (2.0, 30.0)],
+        lying_mm: 1.5,
+    });
     let bounce = |restitution: f32, friction: ObjectFriction| Meets::Bounce { restitution, friction };
     let cone = |half_angle_deg: f32| Direction::Cone { axis, half_angle_deg };
     let rate = |per_s: f32, from_s: f32| ParticleRelease::Rate { per_s, from_s };
@@ -567,10 +575,11 @@ pub fn particle_scene(seed: u64, speed_m_s: f32, dt_s: f32) -> Scene {
         Particles {
             count: 900,
             from: ParticleShape::Box { center_m: high, half_extent_m: Vec3::new(4.0, 0.5, 4.0) },
-            release: rate(300.0, -3.0),
+            release: ParticleRelease::Snowfall,
             life_s: Some(Spread::Cubic(1.5, 1.0)),
             air: Air::Settling { m_s: Spread::Uniform(5.0, 1.0) },
             meets: Meets::Die,
+            dies: Some(Bounds::Through { center_m: high, half_extent_m: Vec3::new(4.0, 9.0, 4.0) }),
             ..Particles::default()
         },
         Particles {

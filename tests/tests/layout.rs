@@ -331,11 +331,12 @@ fn wgsl_files(folder: &Path) -> Vec<PathBuf> {
 }
 
 /// Files without a twin: on the CPU what they declare are arguments.
-const BINDINGS_ONLY: [&str; 9] = [
+const BINDINGS_ONLY: [&str; 10] = [
     "bindings.wgsl",
     "leaf/burn_bindings.wgsl",
     "leaf/carrier_bindings.wgsl",
     "particle/bindings.wgsl",
+    "particle/flake_bindings.wgsl",
     "particle/force_carrier_bindings.wgsl",
     "particle/history_bindings.wgsl",
     "particle/mutual_bindings.wgsl",

@@ -54,6 +54,7 @@ pub(crate) fn run(frames: u32) -> Result<image::RgbaImage, Box<dyn Error>> {
         scene: &scene,
         solids: world.compiled.solids(),
         burns: &world.compiled.block().burns,
+        snow: None,
         trees: &trees,
         atlas: &atlas,
     };

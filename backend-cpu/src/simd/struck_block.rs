@@ -17,7 +17,7 @@ use windfall_core::device::particle::record::{
     MEETS_DIE, MEETS_STICK, PARTICLE_ALIVE, PARTICLE_DEAD, PARTICLE_DIED, PARTICLE_GROUNDED, PARTICLE_MARKS,
     PARTICLE_RESTING, particle_state, with_more_hits, with_particle_state,
 };
-use windfall_core::device::particle::step::{ParticleChange, is_outside, life_is_over, may_be_struck};
+use windfall_core::device::particle::step::{ParticleChange, is_outside, life_is_over, may_be_struck, through_sides};
 use windfall_core::device::particle::strike::{
     PARTICLE_STILL_SQUARED, STRIKE_GROUND, bent_share, ground_gap, ground_normal, ground_strike,
     struck_velocity,
@@ -112,6 +112,7 @@ impl StruckBlock {
             position: vec3_select((is_struck & !is_held) | stays, pushed, flight.position),
             velocity: vec3_select(is_held, Vec3::<f32>::ZERO.spread(air_a), flight.velocity),
         };
+        let end = ParticleFlight { position: through_sides(population, end.position), ..end };
         let is_dead = is_over | (moves & (dies | is_outside(population, end.position)));
         let none = state.all(0);
         let held_flags = (flags & !PARTICLE_GROUNDED) | is_held.select(none.all(PARTICLE_GROUNDED), none);

@@ -212,6 +212,7 @@ impl WgpuSimulator {
             pass.set_bind_group(1, &heat.written, &[]);
             pass.dispatch_workgroups(heat.words.div_ceil(WORKGROUP_SIZE), 1, 1);
         }
+        self.encode_snow(pass, offset, index);
         self.encode_following(pass, offset);
     }
 

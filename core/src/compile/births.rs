@@ -3,10 +3,11 @@
 //! Works out how many particles of each population are born in a step.
 
 use super::cycle::Cycle;
+use super::snow::{flake_water, flakes_per_mm};
 use crate::arith::rng::philox;
 use crate::blocks::BirthBlock;
 use crate::convert::len32;
-use crate::scene::{MAX_POPULATIONS, ParticleRelease, Particles, Scene};
+use crate::scene::{MAX_POPULATIONS, ParticleRelease, Particles, Scene, Weather};
 
 /// Random words of the numbers that are born, by step; in the place of a particle's number, whose populations count from one.
 const STREAM_BIRTHS: u32 = 0x8000_0000;
@@ -21,6 +22,21 @@ pub(crate) struct Births {
     dt_s: f64,
 }
 
+/// Snow that falls as particles, by the weather.
+#[derive(Clone, Debug)]
+struct Snowfall {
+    weather: Weather,
+    flakes_per_mm: f64,
+}
+
+impl Snowfall {
+    /// Flakes that have fallen before a step, since the first of `lead` steps before time zero.
+    fn born_by(&self, step: i64, lead: i64, dt_s: f64) -> u64 {
+        let fallen_mm = |step: i64| self.weather.fallen_mm(step as f64 * dt_s);
+        whole_number((fallen_mm(step) - fallen_mm(-lead)) * self.flakes_per_mm)
+    }
+}
+
 /// The same of one population.
 #[derive(Clone, Debug)]
 struct PopulationBirths {
@@ -32,6 +48,8 @@ struct PopulationBirths {
     /// Number of random words of a step, and shares of them, as words, up to which so many are born by each.
     draws: u32,
     thresholds: Vec<u32>,
+    /// Snow that falls as its particles.
+    snowfall: Option<Snowfall>,
     /// Number born in a cycle and steps of one, in a world that repeats.
     rhythm: Option<(u32, u32)>,
 }
@@ -40,7 +58,7 @@ impl Births {
     /// Births of a scene, which may repeat.
     pub(super) fn of(scene: &Scene, seed: [u32; 2], cycle: Option<&Cycle>) -> Self {
         let dt_s = f64::from(scene.dt_s);
-        let births = |(particles, reach_s)| PopulationBirths::of(particles, reach_s, dt_s);
+        let births = |(particles, reach_s)| PopulationBirths::of(scene, particles, reach_s, dt_s);
         let mut populations: Vec<_> = scene.particles.iter().zip(reaches_s(scene)).map(births).collect();
         if let Some((births, steps)) = cycle.map(Cycle::births) {
             for (population, &each) in populations.iter_mut().zip(births) {
@@ -62,6 +80,9 @@ impl Births {
         for (born, population) in born.iter_mut().zip(&self.populations) {
             if let Some(ParticleRelease::Rate { per_s, from_s }) = population.release {
                 *born = born_by(per_s, from_s, step, self.dt_s);
+            }
+            if let Some(snowfall) = &population.snowfall {
+                *born = snowfall.born_by(step, population.lead, self.dt_s);
             }
         }
         born
@@ -93,11 +114,13 @@ impl Births {
 
 impl PopulationBirths {
     /// Births of a population that is alive, or has descendants, for `reach_s` after each.
-    fn of(particles: &Particles, reach_s: f64, dt_s: f64) -> Self {
+    fn of(scene: &Scene, particles: &Particles, reach_s: f64, dt_s: f64) -> Self {
         let release = particles.nest.is_none().then_some(particles.release);
         let (mean, from_s) = match release {
             None | Some(ParticleRelease::Burst { .. } | ParticleRelease::BurningLeaves) => (0.0, 0.0),
             Some(ParticleRelease::Rate { from_s, .. }) => (0.0, f64::from(from_s)),
+            // The air is full of flakes at time zero.
+            Some(ParticleRelease::Snowfall) => (0.0, -reach_s),
             Some(ParticleRelease::Poisson { per_s, from_s }) => (f64::from(per_s) * dt_s, f64::from(from_s)),
         };
         #[expect(clippy::cast_possible_truncation, reason = "validated to be few")]
@@ -105,7 +128,11 @@ impl PopulationBirths {
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "validated to be few")]
         let draws = libm::ceil(mean / LARGEST_MEAN) as u32;
         let thresholds = if draws == 0 { Vec::new() } else { poisson_thresholds(mean / f64::from(draws)) };
-        Self { release, count: particles.count, lead, draws, thresholds, rhythm: None }
+        let snowfall = scene.weather.as_ref().filter(|_| particles.is_snow()).map(|weather| Snowfall {
+            weather: weather.clone(),
+            flakes_per_mm: flakes_per_mm(scene, flake_water(scene)),
+        });
+        Self { release, count: particles.count, lead, draws, thresholds, snowfall, rhythm: None }
     }
 
     fn in_step(&self, seed: [u32; 2], number: u32, step: u32, dt_s: f64) -> u32 {
@@ -118,6 +145,10 @@ impl PopulationBirths {
         }
         match release {
             ParticleRelease::BurningLeaves => 0,
+            ParticleRelease::Snowfall => self.snowfall.as_ref().map_or(0, |snowfall| {
+                let [before, after] = [at, at + 1].map(|step| snowfall.born_by(step, self.lead, dt_s));
+                u32::try_from(after - before).unwrap_or(u32::MAX)
+            }),
             ParticleRelease::Burst { at_s } => {
                 let is_now = step_of(at_s, dt_s) == at;
                 if is_now { self.count } else { 0 }
@@ -158,13 +189,18 @@ fn step_of(at_s: f32, dt_s: f64) -> i64 {
 }
 
 /// Number of particles born one after another before a step.
+fn born_by(per_s: f32, from_s: f32, step: i64, dt_s: f64) -> u64 {
+    whole_number((step as f64 * dt_s - f64::from(from_s)) * f64::from(per_s))
+}
+
+/// Least whole number that is not below one.
 #[expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
     reason = "not negative, and far below 2^63"
 )]
-fn born_by(per_s: f32, from_s: f32, step: i64, dt_s: f64) -> u64 {
-    libm::ceil((step as f64 * dt_s - f64::from(from_s)) * f64::from(per_s)).max(0.0) as u64
+fn whole_number(number: f64) -> u64 {
+    libm::ceil(number).max(0.0) as u64
 }
 
 /// Shares of the random words up to which no more than 0, 1, 2 ... are born, for a Poisson distribution of that mean.

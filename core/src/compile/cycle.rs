@@ -95,6 +95,9 @@ impl Cycle {
                 return refuse(field, value, "plumes of a power that stays");
             }
         }
+        if scene.weather.is_some() {
+            return refuse("weather".into(), "Some".into(), "None, for snow has a memory,");
+        }
         for (index, object) in scene.objects.iter().enumerate() {
             if object.motion != ObjectMotion::Still {
                 let field = format!("objects[{index}].motion");
@@ -127,6 +130,7 @@ impl Cycle {
                 let value = match particles.release {
                     ParticleRelease::Burst { .. } => "Burst",
                     ParticleRelease::BurningLeaves => "BurningLeaves",
+                    ParticleRelease::Snowfall => "Snowfall",
                     _ => "Poisson",
                 };
                 let allowed = "Rate: particles born evenly one after another";

@@ -17,6 +17,7 @@ mod particles;
 mod plume;
 mod shelter;
 mod slipstream;
+mod snow;
 mod solids;
 mod source;
 mod species;
@@ -38,6 +39,8 @@ use self::foliage::{foliage_of, petiole_rows, seedlings, shed_rows};
 use self::force_carriers::force_carriers;
 use self::particles::populations_of;
 use self::shelter::{is_sheltered, shelter_inputs, shelter_rows};
+pub use self::snow::OpenSnow;
+use self::snow::snow_block;
 use self::solids::Solids;
 pub(crate) use self::source::{lifetime_steps, release_step};
 use self::tables::{motions_of, pack_motion};
@@ -126,6 +129,18 @@ impl CompiledScene {
             }
             tables.extend(rows);
         }
+        let foot_m = |x_m: f32, z_m: f32| {
+            let height_m = foot_height(&block, &tables, x_m, z_m);
+            let water_m = if block.has_terrain() {
+                block.ground_height_m + block.water_relief_m
+            } else {
+                block.surface_height_m
+            };
+            (height_m >= water_m).then_some(height_m)
+        };
+        let (snow, cells) = snow_block(scene, &block, solids.own(), &forest, len32(tables.len()), foot_m);
+        block.snow = snow;
+        tables.extend(cells);
         block.first_shed_row = len32(tables.len());
         tables.extend(chances);
         block.first_petiole_row = len32(tables.len());
@@ -153,7 +168,7 @@ impl CompiledScene {
         })
     }
 
-    /// The same scene with another wind, season, ground, fall and rotation speed; species, sources, trees, particles, hills, litter but for how
+    /// The same scene with another wind, season, ground, fall and rotation speed; species, sources, trees, particles, weather, hills, litter but for how
     /// it rubs, sticks, bounces and tilts, solid things, seed, step length and gravity stay. Much cheaper than compiling anew.
     pub fn retune(&mut self, scene: &Scene) {
         let keep_trees = (self.scene.trees.clone(), self.scene.tree_kinds.clone());
@@ -171,6 +186,7 @@ impl CompiledScene {
         let litter = self.scene.ground.litter.map(|kept| kept.retuned(scene.ground.litter));
         let solid = (self.scene.objects.clone(), self.scene.walkers.clone());
         let particles = (self.scene.particles.clone(), self.scene.forces.clone());
+        let weather = self.scene.weather.clone();
         self.scene = scene.clone();
         (self.scene.species, self.scene.sources, self.scene.seed, self.scene.dt_s) = keep;
         (self.scene.trees, self.scene.tree_kinds) = keep_trees;
@@ -178,6 +194,7 @@ impl CompiledScene {
         self.scene.ground.litter = litter;
         (self.scene.objects, self.scene.walkers) = solid;
         (self.scene.particles, self.scene.forces) = particles;
+        self.scene.weather = weather;
         if self.scene.autumn != autumn {
             let rows = shed_rows(&self.scene, &foliage_of(&self.scene));
             self.replace_rows(self.block.first_shed_row, &rows);
@@ -264,6 +281,11 @@ impl CompiledScene {
     /// Height of the ground at a place in metres, whatever the water above it.
     pub fn ground_height(&self, x_m: f32, z_m: f32) -> f32 {
         foot_height(&self.block, &self.tables, x_m, z_m)
+    }
+
+    /// Snow that the weather alone leaves in the open at a time in seconds; `None` without weather.
+    pub fn open_snow(&self, time_s: f64) -> Option<OpenSnow> {
+        self.scene.weather.as_ref().map(|weather| snow::open_snow(weather, time_s))
     }
 
     /// Number of flights at the start of a step that particles need which go along with others: one for each particle, or none.

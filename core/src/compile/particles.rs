@@ -16,7 +16,8 @@ use crate::device::particle::birth::{
 use crate::device::particle::force_carrier::CarrierRun;
 use crate::device::particle::record::{
     DIRECTION_AROUND, DIRECTION_CAP, DIRECTION_OUTWARD, MEETS_BOUNCE, MEETS_DIE, MEETS_NOTHING, MEETS_STICK,
-    POPULATION_FOLLOWED, POPULATION_LOCAL, POPULATION_LOSS, POPULATION_ON_LEAVES,
+    POPULATION_FOLLOWED, POPULATION_LOCAL, POPULATION_LOSS, POPULATION_ON_LEAVES, POPULATION_SNOW,
+    POPULATION_THROUGH,
 };
 use crate::layout::Uint4;
 use crate::motion::AIR_DENSITY;
@@ -111,6 +112,9 @@ fn population_block(scene: &Scene, particles: &Particles) -> PopulationBlock {
             MEETS_BOUNCE
         }
     };
+    if particles.is_snow() {
+        block.flags |= POPULATION_SNOW;
+    }
     if particles.is_on_leaves() {
         block.flags |= POPULATION_ON_LEAVES;
     }
@@ -118,7 +122,10 @@ fn population_block(scene: &Scene, particles: &Particles) -> PopulationBlock {
     match particles.dies {
         None => {}
         Some(Bounds::Below(height_m)) => block.low_m[1] = height_m,
-        Some(Bounds::Outside { center_m, half_extent_m }) => {
+        Some(Bounds::Outside { center_m, half_extent_m } | Bounds::Through { center_m, half_extent_m }) => {
+            if matches!(particles.dies, Some(Bounds::Through { .. })) {
+                block.flags |= POPULATION_THROUGH;
+            }
             block.low_m = (center_m - half_extent_m).to_array();
             block.high_m = (center_m + half_extent_m).to_array();
         }

@@ -247,7 +247,7 @@ fn core_of(shape: &ObjectShape) -> (Vec3, f32, bool) {
 }
 
 /// Distance in m from a part's centre to its farthest point.
-fn bound_m(solid: &Solid) -> f64 {
+pub(super) fn bound_m(solid: &Solid) -> f64 {
     if let Some(faces) = &solid.faces {
         return faces.bound_m();
     }

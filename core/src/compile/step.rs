@@ -4,6 +4,7 @@
 
 use super::jet::jet_block;
 use super::plume::{plume_block, puffs_per_s};
+use super::snow::snow_step;
 use super::vortex::vortex_block;
 use super::{CompiledScene, Cycle};
 use crate::arith::rng::{random, unit_float};
@@ -27,6 +28,7 @@ impl CompiledScene {
             moments: [0.0, middle].map(|steps| self.moment_block(clock, steps)),
             movers: self.movers_at(clock.seconds()),
             births: self.births.blocks(clock.step(), clock.born()),
+            snow: snow_step(self.scene.weather.as_ref(), clock.dt_s().into(), clock.seconds()),
             collision_shift_m: self.collision_shift_m(clock.step()),
             index: clock.step(),
             vortex_count: len32(self.scene.wind.vortices.len()),

@@ -6,8 +6,10 @@
 //! volume. So a million leaves lie, each where it fell, with no contact between any two of them.
 
 pub(crate) mod lay;
+pub(crate) mod snow;
 mod stats;
 mod store;
 
+pub use snow::{Snow, SnowMut, SnowStats, flakes_of, has_landed};
 pub use stats::LitterStats;
 pub use store::Bed;

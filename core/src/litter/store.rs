@@ -12,7 +12,7 @@ use crate::scene::MAX_PLUMES;
 const ROW_WORDS: usize = 4;
 
 crate::columns! {
-    /// Litter of a world. The nodes of its grid, line by line, then [`Bed::woken`], then the fires that leaves feed; no row without litter.
+    /// Litter of a world. The nodes of its grid, line by line, then [`Bed::woken`], then the fires that leaves feed, then the snow; no row without litter and snow.
     pub struct Bed("litter") {
         /// Heights in units of [`LITTER_UNIT_M`](crate::device::terrain::litter::LITTER_UNIT_M).
         pub words: u32,
@@ -26,9 +26,14 @@ crate::columns! {
 impl Bed {
     /// Number of rows for a scene, whole rows of tables.
     pub(crate) fn rows_of(scene: &SceneBlock) -> usize {
-        let litter = &scene.litter;
-        let fires = if scene.first_fire == 0 { 0 } else { MAX_PLUMES * FIRE_WORDS as usize };
-        if litter.columns == 0 { 0 } else { (nodes(litter) + 1).next_multiple_of(ROW_WORDS) + fires }
+        let words = Self::first_snow(scene) as usize + Self::snow_words(&scene.snow);
+        words.next_multiple_of(ROW_WORDS)
+    }
+
+    /// Place of the snow, a whole number of rows from the start.
+    pub(crate) fn first_snow(scene: &SceneBlock) -> u32 {
+        let fires = if scene.first_fire == 0 { 0 } else { len32(MAX_PLUMES) * FIRE_WORDS };
+        if scene.litter.columns == 0 { 0 } else { Self::first_fire(&scene.litter) + fires }
     }
 
     /// Place of the first fire that leaves feed, a whole number of rows from the start.
@@ -39,7 +44,8 @@ impl Bed {
     /// The fires that leaves feed; empty where there are none.
     pub fn fires_mut(&mut self, scene: &SceneBlock) -> &mut [[u32; FIRE_WORDS as usize]] {
         let first = if scene.first_fire == 0 { self.words.len() } else { scene.first_fire as usize };
-        self.words[first..].as_chunks_mut().0
+        let fires = (self.words.len() - first).min(MAX_PLUMES * FIRE_WORDS as usize);
+        self.words[first..first + fires].as_chunks_mut().0
     }
 
     /// Heights of the nodes.
@@ -70,5 +76,8 @@ impl Bed {
 
 /// Number of nodes of the grid.
 fn nodes(litter: &LitterBlock) -> usize {
+    if litter.columns == 0 {
+        return 0;
+    }
     (litter.columns as usize + 1) * (litter.lines as usize + 1)
 }

@@ -63,6 +63,11 @@ limits! {
     IGNITION_C: f32 = 150.0, 700.0, "°C", ignition_c;
     FRONT_MM_S: f32 = 0.5, 50.0, "mm/s", front_mm_s;
     ASH: f32 = 0.0, 0.4, "", ash;
+    SNOW_EDGE_M: f32 = 1.0, 200.0, "m", size_m;
+    SNOW_MM_H: f32 = 0.0, 50.0, "mm/h", snow_mm_h;
+    AIR_C: f32 = -40.0, 30.0, "°C", air_c;
+    LYING_MM: f32 = 0.0, 500.0, "mm", lying_mm;
+    THROUGH_M: f32 = 0.5, 4096.0, "m", half_extent_m;
     FED_WITHIN_M: f32 = 0.1, 20.0, "m", fed_within_m;
     FRICTION_PER_S: f32 = 0.1, 1000.0, "1/s", friction_per_s;
 

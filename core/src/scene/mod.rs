@@ -33,6 +33,7 @@ mod tree;
 mod tree_flow;
 mod validate;
 mod view;
+mod weather;
 mod wind;
 
 use serde::{Deserialize, Serialize};
@@ -60,6 +61,7 @@ pub use terrain::{Terrain, Water};
 pub use tree::{Foliage, SwayScheme, Tree, TreeForm, TreeKind, TreePreset, Wood};
 pub use tree_flow::{CrownHull, CrownLight, MAX_PROFILE_POINTS, ParticleFlow, SpaceColonization};
 pub use view::{Camera, Sun, View};
+pub use weather::Weather;
 pub use wind::{Gusts, MeanSpeed, Profile, Turbulence, Vortex, VortexProfile, WindParameters};
 
 /// Standard acceleration of gravity in m/s²: that of a scene which states no other.
@@ -71,6 +73,8 @@ pub const MAX_SPECIES: usize = 32;
 pub const MAX_BURNING_SPECIES: usize = 8;
 /// Most sources a scene may have: a leaf keeps its source in five bits, and one number is for all trees.
 pub const MAX_SOURCES: usize = 16;
+/// Most keys of a curve of the weather.
+pub const MAX_WEATHER_KEYS: usize = 1024;
 /// Most point vortices a scene may have: they travel in the uniform block of every step.
 pub const MAX_VORTICES: usize = 8;
 /// Most control points of the axis of a vortex.
@@ -169,6 +173,8 @@ pub struct Scene {
     pub wind: WindParameters,
     /// Ground on which leaves land.
     pub ground: Ground,
+    /// Snow and what brings it; `None` for weather without any.
+    pub weather: Option<Weather>,
     /// Solid things in the way of leaves. They need `ground.litter`: leaves come to rest on them as they do there.
     pub objects: Vec<Object>,
     /// People who walk through the leaves. They need `ground.litter` as well.
@@ -200,6 +206,7 @@ impl Default for Scene {
             regrow_after_s: None,
             wind: WindParameters::default(),
             ground: Ground::default(),
+            weather: None,
             objects: Vec::new(),
             walkers: Vec::new(),
             particles: Vec::new(),
@@ -220,6 +227,11 @@ impl Scene {
     /// Returns true if leaves of some species burn.
     pub fn leaves_burn(&self) -> bool {
         self.species.iter().any(|species| species.burns.is_some())
+    }
+
+    /// The weather and the flakes that it brings; `None` without either.
+    pub fn snowfall(&self) -> Option<(&Weather, &Particles)> {
+        Some((self.weather.as_ref()?, self.particles.iter().find(|particles| particles.is_snow())?))
     }
 
     /// Number of slots of particles, over all populations.

@@ -183,6 +183,9 @@ pub enum ParticleRelease {
         /// Time from which on in seconds, -3600 to 86400. Those born before time zero have flown by then.
         from_s: f32,
     },
+    /// As snow falls by the scene's weather: as many as its water needs, each flake with the same, which becomes part of the snow where it lands. The
+    /// heavier the snowfall, the more; the slots suffice for the heaviest.
+    Snowfall,
     /// As leaves catch: each particle is where a leaf burns for as long as that burns. There is one for each leaf of the scene, and nothing but
     /// its leaf moves it; others may be born of it.
     BurningLeaves,
@@ -244,6 +247,13 @@ pub enum Bounds {
         /// Half edge lengths in metres, each 0 to 4096.
         half_extent_m: Vec3,
     },
+    /// Above and below an axis-aligned box; what leaves it through a side comes in again through the opposite one.
+    Through {
+        /// Centre in metres, each component -4096 to 4096.
+        center_m: Vec3,
+        /// Half edge lengths in metres, each 0.5 to 4096.
+        half_extent_m: Vec3,
+    },
 }
 
 /// Samples of the ways of particles, for ribbons behind them.
@@ -256,6 +266,11 @@ pub struct History {
 }
 
 impl Particles {
+    /// Returns true for flakes of snow.
+    pub fn is_snow(&self) -> bool {
+        self.nest.is_none() && self.release == ParticleRelease::Snowfall
+    }
+
     /// Returns true if each particle is where a leaf burns.
     pub fn is_on_leaves(&self) -> bool {
         self.nest.is_none() && self.release == ParticleRelease::BurningLeaves

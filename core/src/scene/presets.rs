@@ -38,6 +38,7 @@ pub const PRESETS: &[(&str, &str)] = &[
     ("bonfire", include_str!("../../scenes/bonfire.ron")),
     ("burning-leaves", include_str!("../../scenes/burning-leaves.ron")),
     ("flow-trees", include_str!("../../scenes/flow-trees.ron")),
+    ("first-snow", include_str!("../../scenes/first-snow.ron")),
 ];
 
 impl Scene {
@@ -98,6 +99,7 @@ mod tests {
                 "bonfire",
                 "burning-leaves",
                 "flow-trees",
+                "first-snow",
             ],
             "names and their order"
         );

@@ -16,6 +16,7 @@ mod particles;
 mod tests;
 mod tree_flow;
 mod trees;
+mod weather;
 
 use super::{
     Aerodynamics, Camera, DEEPEST_BED_M, FlightModel, Ground, Haze, Jet, Litter, MAX_JET_KEYS, MAX_JETS,
@@ -82,6 +83,7 @@ impl Scene {
             })?;
         }
         self.check_burning(&check)?;
+        self.check_weather(&check)?;
         self.check_species_names(&check)?;
         self.check_trees(&check)?;
         self.check_transitions(&check)?;

@@ -16,7 +16,7 @@ use crate::scene::{MAX_POPULATIONS, Scene};
 use crate::store::{Store, StoreSize};
 
 const MAGIC: &[u8; 8] = b"WINDFALL";
-const VERSION: u32 = 9;
+const VERSION: u32 = 10;
 
 impl World {
     /// Writes a checkpoint.

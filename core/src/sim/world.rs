@@ -11,7 +11,9 @@ use crate::blocks::StepBlock;
 use crate::clock::Clock;
 use crate::compile::{CompiledScene, Cycle, lifetime_steps, release_step};
 use crate::context::Context;
+use crate::convert::len32;
 use crate::device::leaf::air::leaf_sample_air;
+use crate::device::particle::record::{PARTICLE_ALIVE, particle_state};
 use crate::device::leaf::record::leaf_appearance;
 use crate::device::leaf::release::leaf_release;
 use crate::error::{SceneError, SimError};
@@ -20,7 +22,7 @@ use crate::leaf::grow::{count_leaves, leaf_grow};
 use crate::leaf::seek::leaf_seek_any;
 use crate::leaf::{BurnStats, Burns, Leaves, LeavesMut};
 use crate::litter::lay::{lay_all, strew};
-use crate::litter::{Bed, LitterStats};
+use crate::litter::{Bed, LitterStats, SnowStats, flakes_of};
 use crate::particle::{HistoryStore, ParticleStats, ParticleStore, TallyStore};
 use crate::scene::Scene;
 use crate::store::{Store, StoreSize, check_sizes, copy_stores, hash_stores, state_bytes};
@@ -125,6 +127,11 @@ impl World {
             lay_all(&cx, leaves, bed);
         }
         lead_in(&mut world);
+        let step = world.compiled.step_block(&world.clock);
+        let cx = world.compiled.context(&step);
+        if let Some(weather) = &world.compiled.scene().weather {
+            world.bed.snow_mut(cx.scene).cover(&cx, weather.lying_mm);
+        }
         Ok(world)
     }
 
@@ -142,6 +149,13 @@ impl World {
     pub fn litter_stats(&self) -> Option<LitterStats> {
         let block = &self.compiled.block().litter;
         LitterStats::of(self.compiled.scene(), block, &self.leaves, &self.bed)
+    }
+
+    /// Sums over the snow; `None` without weather that brings any.
+    pub fn snow_stats(&self) -> Option<SnowStats> {
+        let block = self.compiled.block();
+        let flakes = flakes_of(block, &self.particles).iter().filter(|place| particle_state(place.bits) == PARTICLE_ALIVE).count();
+        SnowStats::of(self.compiled.scene(), block, &self.bed, len32(flakes))
     }
 
     /// Counts and masses of leaves that burn; `None` where none do.

@@ -23,7 +23,7 @@ use windfall_core::device::particle::record::{
     particle_size, particle_state, particle_struck, with_more_hits, with_particle_state,
 };
 use windfall_core::device::particle::step::{
-    is_outside, is_unborn, life_is_over, may_be_struck, rest_is_checked, rest_wakes,
+    is_outside, is_unborn, life_is_over, may_be_struck, rest_is_checked, rest_wakes, through_sides,
 };
 use windfall_core::device::particle::strike::{
     bent_share, ground_strike, particle_contact, particle_push, struck_velocity, wedged_velocity,
@@ -212,14 +212,15 @@ functions! {
     wgsl "let place = in_vec3(3u);
         r = vec4<u32>(u32(is_outside(a.x, place * 4.0)), u32(may_be_struck(a.x, place, place + in_vec3(6u))),
             u32(life_is_over(a.y, a.z)), u32(is_unborn(a.y)));
-        s = vec4<u32>(u32(rest_is_checked(a.y)), u32(rest_wakes(a.x, a.z)), 0u, 0u);";
+        s = vec4<u32>(u32(rest_is_checked(a.y)), u32(rest_wakes(a.x, a.z)), bitcast<vec2<u32>>(through_sides(a.x, place * 4.0).xz));";
     rust |cx, w| {
         let (block, place) = (population(cx, w), vector(w, 3));
-        integers([
+        let through = through_sides(block, place * 4.0);
+        integers::<8>([
             is_outside(block, place * 4.0), may_be_struck(cx, block, place, place + vector(w, 6)),
             life_is_over(cx, w[1], w[2]), is_unborn(w[1]),
-            rest_is_checked(cx, w[1]), rest_wakes(cx, block, w[2]), false, false,
-        ].map(u32::from))
+            rest_is_checked(cx, w[1]), rest_wakes(cx, block, w[2]),
+        ].map(u32::from).into_iter().chain([through.x, through.z].map(f32::to_bits)).collect::<Vec<_>>().try_into().expect("eight"))
     };
 
     mutual_source in "particle/mutual" (POPULATION, ANY, PLACE, FLOW) tolerance Some(1e-5);

@@ -9,7 +9,7 @@ use crate::common_cli::{assert_refused, assert_refused_without_adapter, file, fo
 #[test]
 fn unknown_scenes() {
     let there = folder();
-    let presets = "autumn-park, six-motions, cone-spirals, flight-lab, storm, million, forest, gale, hurricane, evening, macro, winter, hills, blower, square, drift, walk, heap, pond, particle-lab, whirl, waterfall, rain-pond, pollen, fireflies, genesis, galaxy, slime, ember-whirl, bonfire, burning-leaves, flow-trees";
+    let presets = "autumn-park, six-motions, cone-spirals, flight-lab, storm, million, forest, gale, hurricane, evening, macro, winter, hills, blower, square, drift, walk, heap, pond, particle-lab, whirl, waterfall, rain-pond, pollen, fireflies, genesis, galaxy, slime, ember-whirl, bonfire, burning-leaves, flow-trees, first-snow";
     for command in [&["simulate"][..], &["bench"], &["motions", "--out", "tables"]] {
         let refuse = |scene, essentials: &[&str]| {
             assert_refused(&there, &[command, &[scene]].concat(), essentials);
@@ -341,9 +341,9 @@ fn checkpoints_that_cannot_be_used() {
         refuse("short.ckpt", &["not a usable checkpoint", "cut short"]);
     }
     let mut version = good.clone();
-    version[8] = 10;
+    version[8] = 11;
     file(&there, "version.ckpt", &version);
-    refuse("version.ckpt", &["not a usable checkpoint", "version 10", "version 9"]);
+    refuse("version.ckpt", &["not a usable checkpoint", "version 11", "version 10"]);
 }
 
 #[test]

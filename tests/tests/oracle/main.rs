@@ -41,6 +41,7 @@ mod sectional;
 mod shedding;
 mod shelter;
 mod slipstream;
+mod snow;
 mod solids;
 mod sway;
 mod table_file;

@@ -68,8 +68,8 @@ shared_struct! {
         path_phase_rad: f32,
         /// Centre of the park, on the ground.
         park_center_m: [f32; 3],
-        /// Unused.
-        unused: f32,
+        /// Depth of the snow in the open.
+        pub(crate) snow_depth_m: f32,
         /// Width and height of the whole picture in pixels.
         viewport_px: [f32; 2],
         /// Their reciprocals.
@@ -196,7 +196,7 @@ impl Surroundings {
             cloud_light: self.daylight.clouds[0].to_array(),
             path_phase_rad: self.path.phase,
             park_center_m: self.park_center.to_array(),
-            unused: 0.0,
+            snow_depth_m: 0.0,
             viewport_px: [width, height],
             inv_viewport_px: [1.0 / width, 1.0 / height],
             tile_center,

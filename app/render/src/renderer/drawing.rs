@@ -98,6 +98,10 @@ impl Renderer {
         if let Some((begin_s, length_s)) = self.round {
             (frame.time_s, frame.cloud_time_s) = (grass_time(input.time_s - begin_s, length_s), 0.0);
         }
+        if let Some(snow) = &mut self.snow_pass {
+            frame.snow_depth_m = snow.open_depth_m(input.time_s);
+            snow.prepare(&self.device, &self.queue, world.bed.as_ref());
+        }
         self.frame.write(&self.queue, &frame);
         if let Some(water) = &mut self.water_pass {
             water.prepare(&self.device, &self.queue, frame, self.targets.tile_size);
@@ -258,6 +262,9 @@ impl Renderer {
         self.draw_things(&mut pass, branches);
         self.grass_pass.draw(&mut pass);
         self.ground_pass.draw(&mut pass);
+        if let Some(snow) = &self.snow_pass {
+            snow.draw(&mut pass);
+        }
         if let Some(water) = &self.water_pass {
             water.draw(&mut pass);
         }

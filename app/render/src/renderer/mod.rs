@@ -44,6 +44,7 @@ use crate::particles::particle_pass::ParticlePass;
 use crate::scenery::grass_pass::GrassPass;
 use crate::scenery::ground_pass::GroundPass;
 use crate::scenery::sky_pass::SkyPass;
+use crate::scenery::snow_pass::SnowPass;
 use crate::scenery::water_pass::WaterPass;
 use crate::shadows::ShadowPass;
 use crate::trees::SceneTrees;
@@ -95,6 +96,7 @@ pub struct Renderer {
     fruit_pass: FruitPass,
     grass_pass: GrassPass,
     ground_pass: GroundPass,
+    snow_pass: Option<SnowPass>,
     water_pass: Option<WaterPass>,
     tree_pass: TreePass,
     sky_pass: SkyPass,
@@ -131,7 +133,7 @@ impl Renderer {
         size: (u32, u32),
         options: RendererOptions,
     ) -> Result<Self, RenderError> {
-        let RenderScene { scene, solids, burns, trees: scene_trees, atlas } = subject;
+        let RenderScene { scene, solids, burns, snow, trees: scene_trees, atlas } = subject;
         let camera = Camera::from(&scene.view.camera);
         let forward = camera.forward();
         let level = Vec2::new(forward.x, forward.z).normalize_or(Vec2::NEG_Y);
@@ -196,6 +198,7 @@ impl Renderer {
             fruit_pass: FruitPass::new(device, queue, &frame, &light, &branches, scene_trees),
             grass_pass: GrassPass::new(device, &frame, &light),
             ground_pass: GroundPass::new(device, queue, &frame, &light, &land),
+            snow_pass: snow.map(|compiled| SnowPass::new(device, queue, &frame, &light, compiled)),
             water_pass: WaterPass::new(device, &frame, &light, &land),
             tree_pass: TreePass::new(device, &frame, &light, &trees),
             sky_pass: SkyPass::new(device, &frame, &light),

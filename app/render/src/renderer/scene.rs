@@ -57,6 +57,8 @@ pub struct RenderScene<'a> {
     pub solids: &'a [Solid],
     /// Burning of its species, of its compiled scene's block.
     pub burns: &'a [BurnBlock],
+    /// Its compiled scene, where snow may lie.
+    pub snow: Option<&'a CompiledScene>,
     /// Its trees.
     pub trees: &'a SceneTrees,
     /// The pictures of its species' leaves.
@@ -72,6 +74,7 @@ impl<'a> RenderScene<'a> {
         atlas: &'a Atlas,
     ) -> Self {
         let (solids, burns) = (compiled.solids(), &compiled.block().burns);
-        Self { scene, solids, burns, trees, atlas }
+        let snow = compiled.block().has_snow().then_some(compiled);
+        Self { scene, solids, burns, snow, trees, atlas }
     }
 }

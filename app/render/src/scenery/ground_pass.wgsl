@@ -73,6 +73,10 @@ fn fragment(in: Varyings) -> @location(0) vec4<f32> {
     let litter = mix(vec3(0.42, 0.22, 0.05), vec3(0.36, 0.13, 0.04), grain.y * 1.2 + 0.4);
     albedo = mix(albedo, litter, density * speck * seen * (1.0 - paved));
 
+    // Snow beyond the rectangle on which it is simulated, and what shows of the ground within it.
+    let snowy = smoothstep(0.25, 1.0, frame.snow_depth_m / (0.006 + 0.024 * (grain.y + 0.5)));
+    albedo = mix(albedo, vec3(0.84, 0.86, 0.88), snowy);
+
     // The path lies as high as the leaves on it do: their shadows touch them.
     let sun = shade.r * leaf_shadow(in.world + vec3(0.0, 0.8 * ground_depth() * path, 0.0));
     // Grass is rough: against the sun it glows, with the sun behind one it shows its lit side.

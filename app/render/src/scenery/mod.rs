@@ -5,8 +5,11 @@
 pub(crate) mod grass_pass;
 pub(crate) mod ground_pass;
 pub(crate) mod sky_pass;
+pub(crate) mod snow_pass;
 mod terrain_mesh;
 pub(crate) mod water_pass;
+
+use windfall_core::layout::WgslStruct;
 
 use crate::gpu::shaders::{Shaders, declarations, wgsl_files};
 
@@ -14,9 +17,9 @@ use crate::gpu::shaders::{Shaders, declarations, wgsl_files};
 pub(crate) fn shaders() -> Shaders {
     let mut shaders = crate::frame::shaders();
     let lists = [grass_pass::wgsl_constants(), terrain_mesh::wgsl_constants()];
-    shaders.extend([("scenery/structs", declarations(lists) + &grass_pass::GrassCell::declaration())]);
+    shaders.extend([("scenery/structs", declarations(lists) + &grass_pass::GrassCell::declaration() + &snow_pass::SnowUniform::declaration())]);
     shaders.extend(wgsl_files!(
-        "scenery": "meadow", "horizon", "grass_pass", "ground_pass", "sky_pass", "water_pass"
+        "scenery": "meadow", "horizon", "grass_pass", "ground_pass", "sky_pass", "snow_pass", "water_pass"
     ));
     shaders
 }

@@ -205,8 +205,8 @@ fn release(ui: &mut Ui, release: &mut ParticleRelease, own: Option<ParticleRelea
             (per_s, from_s)
         }
         ParticleRelease::Burst { at_s } => (10.0, at_s),
-        // A leaf makes each, and ends it.
-        ParticleRelease::BurningLeaves => return,
+        // A leaf or the weather makes each.
+        ParticleRelease::BurningLeaves | ParticleRelease::Snowfall => return,
     };
     let options = [
         ("evenly", ParticleRelease::Rate { per_s, from_s }),
@@ -215,7 +215,7 @@ fn release(ui: &mut Ui, release: &mut ParticleRelease, own: Option<ParticleRelea
     ];
     choice(ui, "Births", "When they are born", release, own.as_ref(), &options);
     match (release, own) {
-        (ParticleRelease::BurningLeaves, _) => {}
+        (ParticleRelease::BurningLeaves | ParticleRelease::Snowfall, _) => {}
         (ParticleRelease::Burst { at_s }, own) => {
             let own = if let Some(ParticleRelease::Burst { at_s }) = own { Some(at_s) } else { None };
             field("Born at", "Time of their birth", limits::AT_S).fine(0.1).show(ui, at_s, own);
@@ -225,7 +225,9 @@ fn release(ui: &mut Ui, release: &mut ParticleRelease, own: Option<ParticleRelea
                 ParticleRelease::Rate { per_s, from_s } | ParticleRelease::Poisson { per_s, from_s } => {
                     Some((per_s, from_s))
                 }
-                ParticleRelease::Burst { .. } | ParticleRelease::BurningLeaves => None,
+                ParticleRelease::Burst { .. }
+                | ParticleRelease::BurningLeaves
+                | ParticleRelease::Snowfall => None,
             });
             let tip = "Births in a second";
             field("Birth rate", tip, limits::PER_S).fine(0.001).show(ui, per_s, own.map(|own| own.0));
@@ -318,6 +320,7 @@ enum Region {
     Everywhere,
     Above(f32),
     Within { center_m: Vec3, half_extent_m: Vec3 },
+    Through { center_m: Vec3, half_extent_m: Vec3 },
 }
 
 impl From<Option<Bounds>> for Region {
@@ -326,6 +329,7 @@ impl From<Option<Bounds>> for Region {
             None => Self::Everywhere,
             Some(Bounds::Below(height_m)) => Self::Above(height_m),
             Some(Bounds::Outside { center_m, half_extent_m }) => Self::Within { center_m, half_extent_m },
+            Some(Bounds::Through { center_m, half_extent_m }) => Self::Through { center_m, half_extent_m },
         }
     }
 }
@@ -338,6 +342,7 @@ fn dies(ui: &mut Ui, dies: &mut Option<Bounds>, own: Option<Option<Bounds>>) {
         ("everywhere", Region::Everywhere),
         ("above", Region::Above(0.0)),
         ("in a box", Region::Within { center_m: 2.0 * Vec3::Y, half_extent_m: Vec3::splat(10.0) }),
+        ("around a box", Region::Through { center_m: 2.0 * Vec3::Y, half_extent_m: Vec3::splat(10.0) }),
     ];
     choice(ui, "Lives", "Region beyond which they die", &mut region, own.as_ref(), &options);
     match &mut region {
@@ -346,13 +351,14 @@ fn dies(ui: &mut Ui, dies: &mut Option<Bounds>, own: Option<Option<Bounds>>) {
             let own = if let Some(Region::Above(own)) = own { Some(own) } else { None };
             field("Dies below", "Height below which they die", limits::BELOW).wide().show(ui, height_m, own);
         }
-        Region::Within { center_m, half_extent_m } => {
-            let own = if let Some(Region::Within { center_m, half_extent_m }) = own {
-                Some([center_m, half_extent_m])
-            } else {
-                None
+        Region::Within { center_m, half_extent_m } | Region::Through { center_m, half_extent_m } => {
+            let own = match own {
+                Some(
+                    Region::Within { center_m, half_extent_m } | Region::Through { center_m, half_extent_m },
+                ) => Some([center_m, half_extent_m]),
+                _ => None,
             };
-            let tip = "Middle of the box outside which they die";
+            let tip = "Middle of the box outside which they die, or through whose sides they come in again";
             vector(ui, "Box middle", tip, center_m, own.map(|own| own[0]), limits::CENTER_M);
             let tip = "Half edge lengths of that box";
             vector(ui, "Box half size", tip, half_extent_m, own.map(|own| own[1]), limits::HALF_EXTENT_M);
@@ -362,6 +368,11 @@ fn dies(ui: &mut Ui, dies: &mut Option<Bounds>, own: Option<Option<Bounds>>) {
         Region::Everywhere => None,
         Region::Above(height_m) => Some(Bounds::Below(height_m)),
         Region::Within { center_m, half_extent_m } => Some(Bounds::Outside { center_m, half_extent_m }),
+        Region::Through { center_m, half_extent_m } => {
+            // A box without width has no other side.
+            let half_extent_m = half_extent_m.max(Vec3::splat(limits::THROUGH_M.low));
+            Some(Bounds::Through { center_m, half_extent_m })
+        }
     };
 }
 

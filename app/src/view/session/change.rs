@@ -49,6 +49,7 @@ impl Change {
             regrow_after_s,
             wind,
             ground,
+            weather,
             objects,
             walkers,
             particles,
@@ -70,6 +71,7 @@ impl Change {
         change.rebuild("season", *autumn != old.autumn, false, true);
         change.retune |= *autumn != old.autumn;
         change.ground(&old.ground, ground);
+        change.rebuild("weather", *weather != old.weather, true, weather.is_some() != old.weather.is_some());
         change.rebuild(
             "objects",
             *objects != old.objects,

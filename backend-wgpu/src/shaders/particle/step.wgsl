@@ -33,6 +33,18 @@ fn is_outside(number: u32, place: vec3<f32>) -> bool {
     return place.x < low.x || place.y < low.y || place.z < low.z || high.x < place.x || high.y < place.y || high.z < place.z;
 }
 
+fn through_sides(number: u32, place: vec3<f32>) -> vec3<f32> {
+    if ((scene.populations[number].flags & POPULATION_THROUGH) == 0u) {
+        return place;
+    }
+    let low = scene.populations[number].low_m;
+    let high = scene.populations[number].high_m;
+    let width = high - low;
+    let none = vec3<f32>(0.0, 0.0, 0.0);
+    let again = (place + select(none, width, place < low)) - select(none, width, high < place);
+    return vec3<f32>(again.x, place.y, again.z);
+}
+
 fn may_be_struck(number: u32, start: vec3<f32>, end: vec3<f32>) -> bool {
     if (scene.populations[number].meets == MEETS_NOTHING) {
         return false;
@@ -173,6 +185,7 @@ fn particle_step(particle: u32, slot: u32, mutual: vec3<f32>) -> ParticleChange 
     if (change.hits != 0u) {
         bits = with_more_hits(bits, change.hits);
     }
+    end.position = through_sides(number, end.position);
     if (is_outside(number, end.position)) {
         state = PARTICLE_DEAD;
     }

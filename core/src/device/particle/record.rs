@@ -62,6 +62,10 @@ crate::shared_constants! {
     pub const POPULATION_ON_LEAVES: u32 = 128;
     /// Flag of a population: others go along with its particles.
     pub const POPULATION_FOLLOWED: u32 = 64;
+    /// Flag of a population: flakes of snow.
+    pub const POPULATION_SNOW: u32 = 256;
+    /// Flag of a population: what leaves its region through a side comes in through the opposite one.
+    pub const POPULATION_THROUGH: u32 = 512;
     /// Particles set off within a cap of directions.
     pub const DIRECTION_CAP: u32 = 0;
     /// They set off away from the middle of their shape.

@@ -10,11 +10,11 @@ use super::local_space::{ParticleFrame, carried_flight, in_frame, parent_frame, 
 use super::nest::{nest_events, nest_id, nest_place, nest_rest, nest_start};
 use super::record::{
     MEETS_NOTHING, MEETS_STICK, PARTICLE_ALIVE, PARTICLE_DEAD, PARTICLE_DIED, PARTICLE_DORMANT,
-    PARTICLE_GROUNDED, PARTICLE_MARKS, PARTICLE_RESTING, POPULATION_LOCAL, POPULATION_ON_LEAVES,
+    PARTICLE_GROUNDED, PARTICLE_MARKS, PARTICLE_RESTING, POPULATION_LOCAL, POPULATION_ON_LEAVES, POPULATION_THROUGH,
     ParticleStart, particle_life, particle_population, particle_state, with_more_hits, with_particle_state,
 };
 use super::strike::{STRIKE_GROUND, particle_contact, particle_push};
-use crate::arith::lane::{Real, Word};
+use crate::arith::lane::{Mask, Real, Word};
 use crate::arith::vector::{Vec3, vec3_dot};
 use crate::blocks::{NEVER, PopulationBlock};
 use crate::context::Context;
@@ -56,6 +56,25 @@ pub fn is_outside<R: Real>(population: &PopulationBlock, place: Vec3<R>) -> R::M
         | high.x.less_than(place.x)
         | high.y.less_than(place.y)
         | high.z.less_than(place.z)
+}
+
+/// Place of a particle that has gone through a side of its region, in populations that come in again through the opposite one.
+#[inline(always)]
+pub fn through_sides<R: Real>(population: &PopulationBlock, place: Vec3<R>) -> Vec3<R> {
+    if (population.flags & POPULATION_THROUGH) == 0 {
+        return place;
+    }
+    let again = |at: R, low_m: f32, high_m: f32| {
+        let (none, width) = (at.all(0.0), at.all(high_m - low_m));
+        let below = at.less_than(at.all(low_m)).select_real(width, none);
+        let above = at.all(high_m).less_than(at).select_real(width, none);
+        (at + below) - above
+    };
+    Vec3::new(
+        again(place.x, population.low_m[0], population.high_m[0]),
+        place.y,
+        again(place.z, population.low_m[2], population.high_m[2]),
+    )
 }
 
 /// Returns true for particles that something may be in the way of.
@@ -238,6 +257,7 @@ pub fn particle_step(
     if change.hits != 0 {
         bits = with_more_hits(bits, change.hits);
     }
+    end.position = through_sides(population, end.position);
     if is_outside(population, end.position) {
         state = PARTICLE_DEAD;
     }

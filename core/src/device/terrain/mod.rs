@@ -4,3 +4,4 @@
 
 pub mod ground;
 pub mod litter;
+pub mod snow;

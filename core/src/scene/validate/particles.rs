@@ -74,7 +74,7 @@ impl Particles {
                     ("from_s", from_s.into(), limits::FROM_S),
                 ])?;
             }
-            ParticleRelease::BurningLeaves => {}
+            ParticleRelease::BurningLeaves | ParticleRelease::Snowfall => {}
         }
         check_spread(self.speed_m_s, "speed_m_s", &limits::PARTICLE_SPEED_M_S, at)?;
         if let Some(life_s) = self.life_s {
@@ -128,6 +128,11 @@ impl Particles {
             Some(Bounds::Below(height_m)) => {
                 at.inside("dies").numbers([("Below", height_m.into(), limits::BELOW)])?;
             }
+            Some(Bounds::Through { center_m, half_extent_m }) => {
+                let at = at.inside("dies");
+                at.vector("center_m", center_m, limits::CENTER_M)?;
+                at.vector("half_extent_m", half_extent_m, limits::THROUGH_M)?;
+            }
             Some(Bounds::Outside { center_m, half_extent_m }) => {
                 let at = at.inside("dies");
                 at.vector("center_m", center_m, limits::CENTER_M)?;
@@ -148,6 +153,8 @@ impl Particles {
             ParticleRelease::Burst { at_s } => at_s,
             ParticleRelease::Rate { from_s, .. } | ParticleRelease::Poisson { from_s, .. } => from_s,
             ParticleRelease::BurningLeaves => 0.0,
+            // The air is full of it at time zero.
+            ParticleRelease::Snowfall => -self.life_s.map_or(0.0, Spread::highest),
         }
     }
 
@@ -173,7 +180,9 @@ impl Particles {
     fn check_room(&self, at: &Check<'_>, dt_s: f64) -> Result<(), SceneError> {
         let longest_s = self.life_s.map(|life_s| f64::from(life_s.highest()));
         let (per_s, deviations) = match self.release {
-            ParticleRelease::Burst { .. } | ParticleRelease::BurningLeaves => return Ok(()),
+            ParticleRelease::Burst { .. } | ParticleRelease::BurningLeaves | ParticleRelease::Snowfall => {
+                return Ok(());
+            }
             ParticleRelease::Rate { per_s, .. } => (f64::from(per_s), 0.0),
             ParticleRelease::Poisson { per_s, .. } => (f64::from(per_s), ROOM_DEVIATIONS),
         };

@@ -150,6 +150,21 @@ fn source() -> impl Strategy<Value = Source> {
 }
 
 prop_compose! {
+    fn weather()(
+        center in vector(limits::CENTER_M),
+        size in vector(limits::SNOW_EDGE_M),
+        (snow, air) in (vec(within(limits::SNOW_MM_H), 1..4), vec(within(limits::AIR_C), 1..4)),
+        lying_mm in within(limits::LYING_MM),
+    ) -> Weather {
+        let curve = |numbers: Vec<f32>| {
+            numbers.into_iter().enumerate().map(|(key, number)| (2.5 * key as f32, number)).collect()
+        };
+        let (center_m, size_m) = (Vec2::new(center.x, center.z), Vec2::new(size.x, size.z));
+        Weather { center_m, size_m, snow_mm_h: curve(snow), air_c: curve(air), lying_mm }
+    }
+}
+
+prop_compose! {
     fn vortex()(
         center_m in vector(limits::CENTER_M),
         axis in (vector(limits::AXIS), 0.001f32..=1000.0).prop_map(|(axis, z)| axis.with_z(z)),
@@ -667,6 +682,8 @@ prop_compose! {
             within(limits::BELOW).prop_map(|height_m| Some(Bounds::Below(height_m))),
             (vector(limits::CENTER_M), vector(limits::HALF_EXTENT_M))
                 .prop_map(|(center_m, half_extent_m)| Some(Bounds::Outside { center_m, half_extent_m })),
+            (vector(limits::CENTER_M), vector(limits::THROUGH_M))
+                .prop_map(|(center_m, half_extent_m)| Some(Bounds::Through { center_m, half_extent_m })),
         ],
         (mut look, nest) in (look(), nest()),
         (history, ribbon) in (
@@ -706,7 +723,8 @@ prop_compose! {
         (mut tree_kinds, mut trees) in (vec(tree_kind(), 0..4), vec(tree(), 0..6)),
         sway in select(vec![SwayScheme::Articulated, SwayScheme::Quigley, SwayScheme::OliapuramKumar]),
         sway_every in 1..=2u32,
-        (autumn, regrow_after_s) in (within(limits::AUTUMN), maybe(limits::REGROW_AFTER_S)),
+        (autumn, regrow_after_s, weather) in
+            (within(limits::AUTUMN), maybe(limits::REGROW_AFTER_S), option::of(weather())),
         wind in wind(),
         ground in (-4.0f32..=4.0, within(limits::FRICTION), within(limits::SURFACE_ROUGHNESS_M), option::of(terrain()), maybe(limits::HEIGHT_M), option::of(litter()))
             .prop_map(|(height_m, friction, surface_roughness_m, terrain, water, litter)| {
@@ -742,7 +760,7 @@ prop_compose! {
         join(&mut particles, dt_s);
         let mut scene = Scene {
             name, seed, dt_s, fall_speed, rotation_speed, gravity_m_s2, species, sources, tree_kinds, trees, sway, sway_every, autumn, regrow_after_s, wind, ground,
-            objects, walkers, particles, forces: Vec::new(), view,
+            weather, objects, walkers, particles, forces: Vec::new(), view,
         };
         // Hills no deeper, steps no shorter, and at last leaves no slower, than there is time to fall.
         while scene.validate("random").is_err() {

@@ -1,0 +1,159 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Draws the snow that lies, cell by cell on whatever it lies on.
+
+use windfall_core::CompiledScene;
+use windfall_core::blocks::SceneBlock;
+use windfall_core::device::terrain::litter::{LITTER_CELLS_PER_M, LITTER_UNIT_M};
+use windfall_core::device::terrain::snow::{SNOW_CELLS_PER_M, SNOW_DEPTH_M, SNOW_STEP_M};
+use windfall_core::shared_struct;
+use windfall_wgpu::BedColumn;
+
+use crate::frame::group::FrameGroup;
+use crate::frame::light_group::LightGroup;
+use crate::frame::scene_pipeline::ScenePipeline;
+use crate::gpu::pipeline::{buffer_entry, uniform_entry};
+use crate::gpu::shaders::compile;
+use crate::gpu::upload;
+
+shared_struct! {
+    /// Grids of snow and litter, and where their words are in the buffer of the bed.
+    pub(crate) struct SnowUniform, padding 4 {
+        /// Cells of snow along x and z.
+        snow_cells: [u32; 2],
+        /// Numbers of the first column and line from the origin on.
+        snow_first: [i32; 2],
+        /// Cells of litter along x and z; 0 without any.
+        litter_cells: [u32; 2],
+        /// Numbers of the first of them.
+        litter_first: [i32; 2],
+        /// First word of the bed.
+        bed_word: u32,
+        /// First word of the snow in it.
+        snow_word: u32,
+        /// Cells of snow and of litter per metre.
+        cells_per_m: f32,
+        /// Metres per unit of the depth of snow.
+        depth_unit_m: f32,
+        /// Metres per unit of the height of litter.
+        litter_unit_m: f32,
+        /// Step in what snow lies on that parts it, in metres.
+        step_m: f32,
+        /// Edge of a cell in metres.
+        cell_m: f32,
+    }
+}
+
+/// The snow pipeline and its grid.
+#[derive(Debug)]
+pub(crate) struct SnowPass {
+    compiled: CompiledScene,
+    pipeline: wgpu::RenderPipeline,
+    layout: wgpu::BindGroupLayout,
+    uniform: wgpu::Buffer,
+    lies_on: wgpu::Buffer,
+    group: Option<wgpu::BindGroup>,
+    cells: u32,
+}
+
+impl SnowPass {
+    pub(crate) fn new(
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        frame: &FrameGroup,
+        light: &LightGroup,
+        compiled: &CompiledScene,
+    ) -> Self {
+        let storage = wgpu::BufferBindingType::Storage { read_only: true };
+        let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+            label: Some("snow"),
+            entries: &[
+                uniform_entry(0),
+                buffer_entry(1, storage, wgpu::ShaderStages::VERTEX),
+                buffer_entry(2, storage, wgpu::ShaderStages::VERTEX),
+            ],
+        });
+        let shader = compile(device, &super::shaders(), "scenery/snow_pass");
+        let pipeline = ScenePipeline {
+            label: "snow",
+            frame,
+            groups: &[&light.layout, &layout],
+            topology: wgpu::PrimitiveTopology::TriangleList,
+            shader: &shader,
+            vertex: "vertex",
+            constants: &[],
+            buffers: &[],
+            blend: None,
+            depth_write: true,
+            alpha_to_coverage: true,
+        }
+        .build(device);
+        let snow = &compiled.block().snow;
+        let cells = snow.columns * snow.lines;
+        let rows = &compiled.tables()[snow.first_row as usize..][..cells.div_ceil(2) as usize];
+        let lies_on =
+            upload::buffer(device, queue, "snow lies on", wgpu::BufferUsages::STORAGE, bytemuck::cast_slice(rows));
+        let uniform = device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some("snow"),
+            size: size_of::<SnowUniform>() as u64,
+            usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
+            mapped_at_creation: false,
+        });
+        Self { compiled: compiled.clone(), pipeline, layout, uniform, lies_on, group: None, cells }
+    }
+
+    /// Depth in metres of the snow in the open at a time in seconds.
+    pub(crate) fn open_depth_m(&self, time_s: f64) -> f32 {
+        #[expect(clippy::cast_possible_truncation, reason = "some metres")]
+        self.compiled.open_snow(time_s).map_or(0.0, |snow| snow.depth_m as f32)
+    }
+
+    /// Binds the bed of a world.
+    pub(crate) fn prepare(&mut self, device: &wgpu::Device, queue: &wgpu::Queue, bed: Option<&BedColumn<'_>>) {
+        let Some(bed) = bed else {
+            self.group = None;
+            return;
+        };
+        let uniform = uniform_of(self.compiled.block(), bed.first_word);
+        queue.write_buffer(&self.uniform, 0, bytemuck::bytes_of(&uniform));
+        let resources =
+            [self.uniform.as_entire_binding(), bed.buffer.as_entire_binding(), self.lies_on.as_entire_binding()];
+        let entries: Vec<_> = (0..)
+            .zip(resources)
+            .map(|(binding, resource)| wgpu::BindGroupEntry { binding, resource })
+            .collect();
+        let descriptor =
+            wgpu::BindGroupDescriptor { label: Some("snow"), layout: &self.layout, entries: &entries };
+        self.group = Some(device.create_bind_group(&descriptor));
+    }
+
+    /// Draws the snow; bind groups 0 and 1 are set.
+    pub(crate) fn draw(&self, pass: &mut wgpu::RenderPass<'_>) {
+        if let Some(group) = &self.group {
+            pass.set_pipeline(&self.pipeline);
+            pass.set_bind_group(2, group, &[]);
+            pass.draw(0..6 * self.cells, 0..1);
+        }
+    }
+}
+
+/// The grids of a scene whose bed begins with a word of its buffer.
+fn uniform_of(block: &SceneBlock, bed_word: u32) -> SnowUniform {
+    let (snow, litter) = (&block.snow, &block.litter);
+    let first = |first: u32| first.cast_signed();
+    assert!(SNOW_CELLS_PER_M == LITTER_CELLS_PER_M, "one grid for both");
+    SnowUniform {
+        snow_cells: [snow.columns, snow.lines],
+        snow_first: [first(snow.first_column), first(snow.first_line)],
+        litter_cells: [litter.columns, litter.lines],
+        litter_first: [first(litter.first_column), first(litter.first_line)],
+        bed_word,
+        snow_word: bed_word + snow.first_word,
+        cells_per_m: SNOW_CELLS_PER_M,
+        depth_unit_m: SNOW_DEPTH_M,
+        litter_unit_m: LITTER_UNIT_M,
+        step_m: SNOW_STEP_M,
+        cell_m: 1.0 / SNOW_CELLS_PER_M,
+        ..bytemuck::Zeroable::zeroed()
+    }
+}

@@ -1,0 +1,129 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// Snow that lies: a square for each cell, at the height of what it lies on, of the litter there and of its own depth. Cells on one level share
+// corners; where a level ends, snow tapers off.
+
+#import frame/fire_light
+#import frame/light
+#import scenery/structs
+
+@group(2) @binding(0) var<uniform> snow: SnowUniform;
+@group(2) @binding(1) var<storage, read> bed: array<u32>;
+// Height in metres and share of open sky of what each cell lies on.
+@group(2) @binding(2) var<storage, read> lies_on: array<vec2<f32>>;
+
+struct Varyings {
+    @builtin(position) clip: vec4<f32>,
+    @location(0) world: vec3<f32>,
+    @location(1) normal: vec3<f32>,
+    // Depth of the snow in metres.
+    @location(2) depth_m: f32,
+}
+
+// Height in metres of what a cell lies on, and its depth; less than no depth outside of the grid.
+fn level_of(cell: vec2<i32>) -> vec2<f32> {
+    if any(cell < vec2(0)) || any(cell >= vec2<i32>(snow.snow_cells)) {
+        return vec2(0.0, -1.0);
+    }
+    let number = u32(cell.y) * snow.snow_cells.x + u32(cell.x);
+    let cells = snow.snow_cells.x * snow.snow_cells.y;
+    return vec2(lies_on[number].x, f32(bed[snow.snow_word + cells + number]) * snow.depth_unit_m);
+}
+
+// Height of litter in metres at a corner of cells, by its number from the origin on.
+fn litter_at(corner: vec2<i32>) -> f32 {
+    let node = corner - snow.litter_first;
+    if snow.litter_cells.x == 0u || any(node < vec2(0)) || any(node > vec2<i32>(snow.litter_cells)) {
+        return 0.0;
+    }
+    let number = u32(node.y) * (snow.litter_cells.x + 1u) + u32(node.x);
+    return f32(bed[snow.bed_word + number]) * snow.litter_unit_m;
+}
+
+@vertex
+fn vertex(@builtin(vertex_index) index: u32) -> Varyings {
+    let number = index / 6u;
+    let own = vec2(i32(number % snow.snow_cells.x), i32(number / snow.snow_cells.x));
+    // Two triangles: corners 0, 2, 3 and 0, 3, 1.
+    var corners = array(0u, 2u, 3u, 0u, 3u, 1u);
+    let corner = corners[index % 6u];
+    let at = own + vec2(i32(corner & 1u), i32(corner >> 1u));
+    let here = level_of(own);
+    // The four cells around the corner. Those on the level of this one count in full; lower ones are an edge; higher ones, a wall, do not count.
+    var height = vec4(0.0);
+    var sum_m = 0.0;
+    var base_m = 0.0;
+    var level_count = 0.0;
+    var depth_count = 0.0;
+    for (var side = 0u; side < 4u; side++) {
+        let other = level_of(at - 1 + vec2(i32(side & 1u), i32(side >> 1u)));
+        let apart = other.x - here.x;
+        let outside = other.y < 0.0;
+        if outside || abs(apart) < snow.step_m {
+            let level = select(other, here, outside);
+            sum_m += level.y;
+            base_m += level.x;
+            level_count += 1.0;
+            depth_count += 1.0;
+            height[side] = level.x + level.y;
+        } else {
+            depth_count += select(0.0, 1.0, apart < 0.0);
+            height[side] = here.x + select(here.y, 0.0, apart < 0.0);
+        }
+    }
+    let depth_m = sum_m / max(depth_count, 1.0);
+    let litter_m = litter_at(at + snow.snow_first);
+    let slope = 0.5 * vec2(height.y + height.w - height.x - height.z, height.z + height.w - height.x - height.y) * snow.cells_per_m;
+    let place = vec2<f32>(at + snow.snow_first) * snow.cell_m;
+    var out: Varyings;
+    out.depth_m = depth_m;
+    out.normal = vec3(-slope.x, 1.0, -slope.y);
+    out.world = vec3(place.x, base_m / max(level_count, 1.0) + litter_m + depth_m, place.y);
+    out.clip = frame.view_projection * vec4(out.world, 1.0);
+    return out;
+}
+
+// Bumps of the surface at a place: height in metres and its slope, which fade with distance.
+fn bumps(at: vec2<f32>, lod: f32) -> vec3<f32> {
+    let step = 0.012 * exp2(lod);
+    let here = textureSampleLevel(noise, repeat_sampler, at * 0.31, lod).g;
+    let right = textureSampleLevel(noise, repeat_sampler, (at + vec2(step, 0.0)) * 0.31, lod).g;
+    let far = textureSampleLevel(noise, repeat_sampler, (at + vec2(0.0, step)) * 0.31, lod).g;
+    return vec3(here - 0.5, vec2(right - here, far - here) / step);
+}
+
+@fragment
+fn fragment(in: Varyings) -> @location(0) vec4<f32> {
+    let at = in.world.xz;
+    let distance_m = distance(in.world, frame.eye_m);
+    let lod = clamp(log2(distance_m * 0.16), 0.0, 5.0);
+    let bump = bumps(at, lod);
+    let grain = textureSampleLevel(noise, repeat_sampler, at * 2.3, max(lod - 1.0, 0.0)).b - 0.5;
+    // Thin snow lies in patches, first between what sticks out.
+    let patches = 0.006 + 0.012 * (bump.x + 0.5) + 0.006 * grain;
+    let cover = smoothstep(0.25 * patches, patches, in.depth_m);
+    if cover <= 0.01 {
+        discard;
+    }
+    let full = smoothstep(0.01, 0.06, in.depth_m);
+    let rough = mix(0.004, 0.016, full);
+    let normal = normalize(normalize(in.normal) - vec3(bump.y, 0.0, bump.z) * rough * exp2(-0.35 * lod));
+    let view = normalize(frame.eye_m - in.world);
+    let light = frame.sun_direction;
+    // What snow lies on shows through where it is thin.
+    let albedo = mix(vec3(0.62, 0.60, 0.57), vec3(0.86, 0.88, 0.90), full) * (1.0 + 0.10 * grain);
+    let shade = tree_shade(in.world);
+    let sun = shade.r * leaf_shadow(in.world + vec3(0.0, 0.01, 0.0));
+    // Light goes some millimetres into snow: its shaded side is never black.
+    let facing = max((dot(normal, light) + 0.12) / 1.12, 0.0);
+    var color = albedo * frame.sun_color * sun * facing;
+    color += albedo * ambient_light(normal) * min(sky_openness(in.world), open_above(in.world, SKY_TAPS)) * open_beside(in.world);
+    color += albedo * fire_light(in.world, normal);
+    // Facets that mirror the sun, one in a few hundred at a time.
+    let facet = hash_u32(bitcast<u32>(i32(floor(at.x * 260.0))) + hash_u32(bitcast<u32>(i32(floor(at.y * 260.0)))));
+    let tilt = vec3(unit_from(facet) - 0.5, 0.0, unit_from(hash_u32(facet)) - 0.5) * 1.6;
+    let half_way = normalize(view + light);
+    let glint = pow(max(dot(normalize(normal + tilt), half_way), 0.0), 400.0);
+    color += frame.sun_color * sun * glint * 2.5 * full * exp2(-0.25 * distance_m);
+    return vec4(haze(color, in.world), cover);
+}

@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// twin: backend-cpu/src/kernels/land_flakes.rs
+// Gives the water of the flakes that landed in a step to the snow.
+#import particle/flake_bindings
+#import particle/record
+#import terrain/snow
+
+// The tables, behind which the snow is: nothing else of them is written.
+@group(0) @binding(2) var<storage, read_write> table_words: array<atomic<u32>>;
+
+fn snow_word(plane: u32, cell: u32) -> u32 {
+    let cells = scene.snow.columns * scene.snow.lines;
+    return scene.litter.first_row * 4u + scene.snow.first_word + plane * cells + cell;
+}
+
+fn add_snow(cell: u32, water: u32) {
+    atomicAdd(&table_words[snow_word(SNOW_WATER, cell)], water);
+    atomicAdd(&table_words[snow_word(SNOW_DEPTH, cell)], fresh_depth(water));
+    atomicAdd(&table_words[snow_word(SNOW_LANDED, cell)], water);
+}
+
+@compute @workgroup_size(WORKGROUP_SIZE)
+fn land_flakes(@builtin(global_invocation_id) id: vec3<u32>) {
+    if (id.x >= flake_run.count) {
+        return;
+    }
+    let place = flake_places[flake_run.first + id.x];
+    let landed = PARTICLE_DIED | PARTICLE_HIT;
+    if ((place.bits & landed) != landed) {
+        return;
+    }
+    let middle = snow_cell(place.position.x, place.position.z);
+    if (middle == NEVER) {
+        return;
+    }
+    let water = scene.snow.flake_water;
+    let open = bitcast<f32>(atomicLoad(&table_words[scene.snow.first_row * 4u + 2u * middle + 1u]));
+    if (open < 0.0) {
+        atomicAdd(&table_words[snow_word(SNOW_MELTED, middle)], water);
+        atomicAdd(&table_words[snow_word(SNOW_LANDED, middle)], water);
+        return;
+    }
+    var left = water;
+    for (var part = 0u; part < FLAKE_CELLS * FLAKE_CELLS; part++) {
+        let cell = flake_cell(middle, part);
+        if (cell != NEVER && cell != middle) {
+            let share = flake_share(water, part);
+            add_snow(cell, share);
+            left -= share;
+        }
+    }
+    add_snow(middle, left);
+}

@@ -1,0 +1,228 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Compiles snow: its grid, what it lies on, and the weather of a step.
+
+use glam::{DVec2, DVec3};
+
+use super::solids::bound_m;
+use crate::blocks::{SceneBlock, SnowBlock, SnowStepBlock};
+use crate::convert::{low_word, single, word};
+use crate::device::terrain::snow::{
+    SNOW_CELLS_PER_M, SNOW_DEPTH_M, SNOW_INTERVAL, SNOW_ON_WATER, SNOW_TURNS, SNOW_WATER_MM,
+};
+use crate::layout::Uint4;
+use crate::litter::Bed;
+use crate::scene::{ParticleShape, Particles, Scene, Weather};
+use crate::solid::{Solid, entry_m};
+use crate::tree::Forest;
+use crate::tree::skeleton::AttachmentKind;
+
+/// Melt in mm of water per day and °C above 0 °C under the open sky, and in woods (Kuusisto, Nordic Hydrology 11, 1980).
+const MELT_MM_DAY_C: [f64; 2] = [3.5, 2.4];
+/// Hours in which loose snow settles e-fold towards old snow in frost, and near 0 °C or above. Assumed.
+const SETTLING_H: [f64; 2] = [48.0, 12.0];
+/// Density of old snow in kg/m³.
+const OLD_KG_M3: f64 = 250.0;
+/// Density of water in kg/m³.
+const WATER_KG_M3: f64 = 1000.0;
+/// Height in m above everything from which solid things are seen.
+const ABOVE_M: f64 = 1e4;
+/// Distance in m from a leaf or twig within which there is a crown overhead.
+const CROWN_REACH_M: f64 = 0.4;
+/// Cells on each side over which the edge of a crown fades.
+const CROWN_FADE: usize = 2;
+
+/// Density in kg/m³ of snow that falls in air of a temperature: about the 68 ± 9 measured hour by hour (Helfricht et al., Hydrology and Earth
+/// System Sciences 22, 2018), denser near 0 °C with the exponential that Hedstrom and Pomeroy (Hydrological Processes 12, 1998) use for daily snow.
+fn fresh_kg_m3(air_c: f64) -> f64 {
+    62.0 + 25.0 * libm::exp(air_c.min(0.0) / 2.6)
+}
+
+/// Hours in which loose snow settles e-fold in air of a temperature.
+fn settling_h(air_c: f64) -> f64 {
+    let warm = ((air_c + 2.0) / 2.0).clamp(0.0, 1.0);
+    SETTLING_H[0] + (SETTLING_H[1] - SETTLING_H[0]) * warm
+}
+
+/// Millimetres of water over a square metre in the units of all cells on it.
+fn units_per_mm_m2() -> f64 {
+    f64::from(SNOW_CELLS_PER_M) * f64::from(SNOW_CELLS_PER_M) / f64::from(SNOW_WATER_MM)
+}
+
+/// Area in m² over which the flakes of a population fall.
+fn falls_over_m2(particles: &Particles) -> f64 {
+    let ParticleShape::Box { half_extent_m, .. } = particles.from else { return 0.0 };
+    4.0 * f64::from(half_extent_m.x) * f64::from(half_extent_m.z)
+}
+
+/// Units of water of each flake: so many that the slots suffice for the heaviest snowfall.
+pub(super) fn flake_water(scene: &Scene) -> u32 {
+    let Some((weather, flakes)) = scene.snowfall() else { return 0 };
+    let life_s = flakes.life_s.map_or(1.0, |life_s| f64::from(life_s.highest())) + f64::from(scene.dt_s);
+    let most_per_s = f64::from(flakes.count) / life_s;
+    let units_per_s = weather.most_mm_h() / 3600.0 * falls_over_m2(flakes) * units_per_mm_m2();
+    word(libm::ceil(units_per_s / most_per_s).max(1.0))
+}
+
+/// Flakes of so much water that make a millimetre of it.
+pub(super) fn flakes_per_mm(scene: &Scene, water: u32) -> f64 {
+    let Some((_, flakes)) = scene.snowfall() else { return 0.0 };
+    falls_over_m2(flakes) * units_per_mm_m2() / f64::from(water)
+}
+
+/// The grid of the snow of a scene, and from a row of the tables on what its cells lie on: height in m and share of open sky, two cells to a row.
+pub(super) fn snow_block(
+    scene: &Scene,
+    block: &SceneBlock,
+    solids: &[Solid],
+    forest: &Forest,
+    first_row: u32,
+    ground: impl Fn(f32, f32) -> Option<f32>,
+) -> (SnowBlock, Vec<Uint4>) {
+    let mut snow: SnowBlock = bytemuck::Zeroable::zeroed();
+    let Some(weather) = &scene.weather else { return (snow, Vec::new()) };
+    (snow.first_column, snow.columns) = grid_span(weather.center_m.x, weather.size_m.x);
+    (snow.first_line, snow.lines) = grid_span(weather.center_m.y, weather.size_m.y);
+    snow.first_word = Bed::first_snow(block);
+    snow.first_row = first_row;
+    snow.flake_water = flake_water(scene);
+    let place = |cell: usize| {
+        let (column, line) = (cell % snow.columns as usize, cell / snow.columns as usize);
+        let at = |first: u32, number: usize| (f64::from(first.cast_signed()) + number as f64 + 0.5) * cell_m();
+        DVec2::new(at(snow.first_column, column), at(snow.first_line, line))
+    };
+    let cells = snow.columns as usize * snow.lines as usize;
+    let mut base: Vec<(f32, f32)> = (0..cells)
+        .map(|cell| {
+            let at = place(cell).as_vec2();
+            ground(at.x, at.y).map_or((0.0, SNOW_ON_WATER), |height_m| (height_m, 1.0))
+        })
+        .collect();
+    shade(&snow, forest, &mut base);
+    for solid in solids.iter().filter(|solid| !solid.moves()) {
+        let pose = solid.pose_at(0.0, |_, _| 0.0);
+        let reach_m = bound_m(solid);
+        for cell in cells_within(&snow, DVec2::new(pose.center_m.x, pose.center_m.z), reach_m) {
+            let at = place(cell);
+            let above = DVec3::new(at.x, ABOVE_M, at.y);
+            let Some(way_m) = entry_m(solid, &pose, above, DVec3::NEG_Y) else { continue };
+            base[cell].0 = base[cell].0.max(single(ABOVE_M - way_m));
+        }
+    }
+    let words: Vec<u32> = base.iter().flat_map(|&(height_m, open)| [height_m, open].map(f32::to_bits)).collect();
+    let rows = words.chunks(4).map(|row| {
+        let mut full = [0; 4];
+        full[..row.len()].copy_from_slice(row);
+        Uint4(full)
+    });
+    (snow, rows.collect())
+}
+
+/// First of the cells that a rectangle covers along one axis, two's complement, and their number.
+fn grid_span(center_m: f32, size_m: f32) -> (u32, u32) {
+    let cells = f64::from(SNOW_CELLS_PER_M);
+    let first = libm::floor((f64::from(center_m) - 0.5 * f64::from(size_m)) * cells + 0.5);
+    #[expect(clippy::cast_possible_truncation, reason = "validated to stay within 4096 m and a few")]
+    let first = first as i64;
+    (low_word(first), word(libm::floor(f64::from(size_m) * cells + 0.5)))
+}
+
+/// Edge of a cell in m.
+fn cell_m() -> f64 {
+    1.0 / f64::from(SNOW_CELLS_PER_M)
+}
+
+/// Cells of a square around a place.
+fn cells_within(snow: &SnowBlock, middle_m: DVec2, reach_m: f64) -> impl Iterator<Item = usize> + use<> {
+    let span = |at_m: f64, first: u32, count: u32| {
+        let number = |at_m: f64| {
+            let number = libm::floor(at_m / cell_m()) - f64::from(first.cast_signed());
+            word(number.clamp(0.0, f64::from(count))) as usize
+        };
+        number(at_m - reach_m)..(number(at_m + reach_m) + 1).min(count as usize)
+    };
+    let columns = span(middle_m.x, snow.first_column, snow.columns);
+    let width = snow.columns as usize;
+    span(middle_m.y, snow.first_line, snow.lines)
+        .flat_map(move |line| columns.clone().map(move |column| line * width + column))
+}
+
+/// Shades the cells beneath the crowns of trees; the edges of crowns fade.
+fn shade(snow: &SnowBlock, forest: &Forest, base: &mut [(f32, f32)]) {
+    let mut covered = vec![0.0_f32; base.len()];
+    for tree in forest.trees() {
+        let leaves = tree.skeleton.attachments.iter().filter(|at| at.kind == AttachmentKind::Leaf);
+        for at_m in leaves.map(|leaf| (tree.foot_m + leaf.at_m).as_dvec3()) {
+            for cell in cells_within(snow, DVec2::new(at_m.x, at_m.z), CROWN_REACH_M) {
+                covered[cell] = 1.0;
+            }
+        }
+    }
+    if covered.iter().all(|covered| *covered == 0.0) {
+        return;
+    }
+    let (columns, lines) = (snow.columns as usize, snow.lines as usize);
+    for (cell, (_, open)) in base.iter_mut().enumerate().filter(|(_, (_, open))| *open >= 0.0) {
+        let (column, line) = (cell % columns, cell / columns);
+        let around = |at: usize, count: usize| at.saturating_sub(CROWN_FADE)..(at + CROWN_FADE + 1).min(count);
+        let (mut sum, mut number) = (0.0, 0.0);
+        for line in around(line, lines) {
+            for column in around(column, columns) {
+                sum += covered[line * columns + column];
+                number += 1.0;
+            }
+        }
+        *open = 1.0 - sum / number;
+    }
+}
+
+/// The weather of a step, at a time.
+pub(super) fn snow_step(weather: Option<&Weather>, dt_s: f64, time_s: f64) -> SnowStepBlock {
+    let mut step: SnowStepBlock = bytemuck::Zeroable::zeroed();
+    let Some(weather) = weather else { return step };
+    let air_c = weather.air_c_at(time_s);
+    let round_s = f64::from(SNOW_INTERVAL * SNOW_TURNS) * dt_s;
+    let melts = |mm_day_c: f64| {
+        single(mm_day_c * air_c.max(0.0) * (round_s / 86_400.0) / f64::from(SNOW_WATER_MM))
+    };
+    [step.melt_open, step.melt_woods] = MELT_MM_DAY_C.map(melts);
+    step.settled = single(round_s / (3600.0 * settling_h(air_c)));
+    let depth_m = f64::from(SNOW_WATER_MM) / 1000.0 * WATER_KG_M3 / fresh_kg_m3(air_c);
+    step.fresh_depth_q12 = word(libm::floor(depth_m / f64::from(SNOW_DEPTH_M) * 4096.0 + 0.5));
+    step
+}
+
+/// Snow in the open, where neither trees nor wind nor slopes take any of it away.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OpenSnow {
+    /// Water in mm.
+    pub water_mm: f64,
+    /// Depth in m.
+    pub depth_m: f64,
+}
+
+/// Longest step in s in which it is followed.
+const OPEN_STEP_S: f64 = 60.0;
+
+/// Snow that the weather alone leaves in the open at a time.
+pub(super) fn open_snow(weather: &Weather, time_s: f64) -> OpenSnow {
+    let depth_of = |water_mm: f64, kg_m3: f64| water_mm / kg_m3;
+    let first_mm = f64::from(weather.lying_mm);
+    let mut snow =
+        OpenSnow { water_mm: first_mm, depth_m: depth_of(first_mm, fresh_kg_m3(weather.air_c_at(0.0))) };
+    let mut now_s = 0.0;
+    while now_s < time_s {
+        let step_s = (time_s - now_s).min(OPEN_STEP_S);
+        let air_c = weather.air_c_at(now_s + 0.5 * step_s);
+        let fallen_mm = weather.snow_mm_h_at(now_s + 0.5 * step_s) * step_s / 3600.0;
+        let melted_mm = (MELT_MM_DAY_C[0] * air_c.max(0.0) * step_s / 86_400.0).min(snow.water_mm);
+        snow.depth_m *= 1.0 - if snow.water_mm > 0.0 { melted_mm / snow.water_mm } else { 0.0 };
+        snow.water_mm -= melted_mm;
+        let loose_m = (snow.depth_m - depth_of(snow.water_mm, OLD_KG_M3)).max(0.0);
+        snow.depth_m -= loose_m * (1.0 - libm::exp(-step_s / (3600.0 * settling_h(air_c))));
+        snow.water_mm += fallen_mm;
+        snow.depth_m += depth_of(fallen_mm, fresh_kg_m3(air_c));
+        now_s += step_s;
+    }
+    snow
+}

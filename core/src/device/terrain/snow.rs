@@ -1,0 +1,198 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! twin: backend-wgpu/src/shaders/terrain/snow.wgsl
+//!
+//! Snow that lies: water and depth in a grid of cells, both integers, so that nothing is lost in any order of additions.
+//!
+//! # Model
+//! A flake that lands spreads its water over 5 x 5 cells with binomial weights, as deep as fresh snow of the air's temperature is. What lies settles towards old snow, and melts by degree-hours: 3.5 mm of water a day per °C in the open and 2.4 in woods
+//! (Kuusisto 1980), rounded at random, so that slow melt is right on average. Where it is steeper than loose snow stands, it slides: cells
+//! exchange snow in pairs, every cell with one of its eight neighbours at a time, so that no two pairs share a cell and what one loses
+//! the other gains. A step in what it lies on, as at the top of a wall, is no slope: there it only slides as if both lay level.
+
+use crate::arith::lane::{Real, Word};
+use crate::arith::math::reciprocal;
+use crate::arith::rng::{philox, unit_float};
+use crate::blocks::{NEVER, SnowBlock};
+use crate::context::Context;
+
+crate::shared_constants! {
+    /// Cells of snow per metre.
+    pub const SNOW_CELLS_PER_M: f32 = 8.0;
+    /// Metres of depth per unit.
+    pub const SNOW_DEPTH_M: f32 = 1.0 / 262_144.0;
+    /// Millimetres of water per unit: over a cell, 3.8 mg.
+    pub const SNOW_WATER_MM: f32 = 1.0 / 4096.0;
+    /// Words of a cell, each in a plane of its own: water, depth, what has melted and what has landed.
+    pub const SNOW_WORDS: u32 = 4;
+    /// Plane of the water.
+    pub const SNOW_WATER: u32 = 0;
+    /// Plane of the depth.
+    pub const SNOW_DEPTH: u32 = 1;
+    /// Plane of the water that has melted.
+    pub const SNOW_MELTED: u32 = 2;
+    /// Plane of the water that has landed.
+    pub const SNOW_LANDED: u32 = 3;
+    /// Cells along each edge of the square over which a flake spreads.
+    pub const FLAKE_CELLS: u32 = 5;
+    /// Steps from one exchange between cells to the next.
+    pub const SNOW_INTERVAL: u32 = 4;
+    /// Exchanges of a round, in which a cell meets each of its neighbours, and the time at which it settles and melts.
+    pub const SNOW_TURNS: u32 = 9;
+    /// Turn in which snow settles and melts.
+    pub const SNOW_AGES: u32 = 8;
+    /// Height in m of a step in what snow lies on, from one cell to the next, that is no slope.
+    pub const SNOW_STEP_M: f32 = 0.2;
+    /// Share of what is too steep that slides in an exchange.
+    pub const SNOW_SLIDES: f32 = 0.25;
+    /// Slope at which fresh snow stands: 50°.
+    pub const FRESH_SLOPE: f32 = 1.19;
+    /// Slope at which old snow stands: 38°.
+    pub const OLD_SLOPE: f32 = 0.78;
+    /// Units of depth per unit of water of fresh snow of 68 kg/m³.
+    pub const FRESH_DEPTH: f32 = 0.941_25;
+    /// Units of depth per unit of water of old snow of 250 kg/m³.
+    pub const OLD_DEPTH: f32 = 0.256;
+    /// Share of the open sky of cells on water, in which snow melts at once.
+    pub const SNOW_ON_WATER: f32 = -1.0;
+    /// Way to a neighbour that touches at a corner over that to another.
+    pub const ROOT_TWO: f32 = std::f32::consts::SQRT_2;
+    /// Random words of melting and settling.
+    pub const STREAM_SNOW: u32 = 0x8000_0001;
+}
+
+/// Snow of a cell, or that goes from one to another.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct SnowCell {
+    /// Units of water.
+    pub water: u32,
+    /// Units of depth.
+    pub depth: u32,
+}
+
+/// Two cells that exchange snow.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct SnowPair {
+    /// The other one; [`NEVER`] if there is none.
+    pub other: u32,
+    /// True if they touch at a corner.
+    pub is_diagonal: bool,
+}
+
+/// Number of the cell at a place; [`NEVER`] outside.
+#[inline(always)]
+pub fn snow_cell(snow: &SnowBlock, x: f32, z: f32) -> u32 {
+    let column = (x * SNOW_CELLS_PER_M).floor().to_whole().wrapping_sub(snow.first_column);
+    let line = (z * SNOW_CELLS_PER_M).floor().to_whole().wrapping_sub(snow.first_line);
+    if column < snow.columns && line < snow.lines { line * snow.columns + column } else { NEVER }
+}
+
+/// Weight in sixteenths of one of five cells in a row over which a flake spreads: 1, 4, 6, 4, 1.
+#[inline(always)]
+pub fn flake_weight(number: u32) -> u32 {
+    let inner = number * (FLAKE_CELLS - 1 - number);
+    inner + u32::from(inner == 0) + u32::from(inner != 0) + u32::from(inner == 4)
+}
+
+/// One of the 25 cells around that in which a flake lands; [`NEVER`] outside.
+#[inline(always)]
+pub fn flake_cell(snow: &SnowBlock, cell: u32, part: u32) -> u32 {
+    let column = (cell % snow.columns).wrapping_add(part % FLAKE_CELLS).wrapping_sub(2);
+    let line = (cell / snow.columns).wrapping_add(part / FLAKE_CELLS).wrapping_sub(2);
+    if column < snow.columns && line < snow.lines { line * snow.columns + column } else { NEVER }
+}
+
+/// Water that a flake gives to one of the 25 cells; that in the middle keeps what the others do not take.
+#[inline(always)]
+pub fn flake_share(water: u32, part: u32) -> u32 {
+    (water * flake_weight(part % FLAKE_CELLS) * flake_weight(part / FLAKE_CELLS)) >> 8
+}
+
+/// Depth of so much fresh snow.
+#[inline(always)]
+pub fn fresh_depth(cx: &Context<'_>, water: u32) -> u32 {
+    (water * cx.step.snow.fresh_depth_q12 + 2048) >> 12
+}
+
+/// Part of a round in which a step is, or [`NEVER`] if snow stays as it is in it.
+#[inline(always)]
+pub fn snow_turn(step: u32) -> u32 {
+    if (step & (SNOW_INTERVAL - 1)) != 0 { NEVER } else { (step / SNOW_INTERVAL) % SNOW_TURNS }
+}
+
+/// Cell with which one exchanges snow in a turn as the first of the two. Along lines, columns take turns; otherwise lines do.
+#[inline(always)]
+pub fn snow_pair(snow: &SnowBlock, cell: u32, turn: u32) -> SnowPair {
+    let none = SnowPair { other: NEVER, is_diagonal: false };
+    let (column, line) = (cell % snow.columns, cell / snow.columns);
+    let (kind, odd) = (turn & 3, turn >> 2);
+    if kind == 0 {
+        if (column & 1) != odd || column + 1 >= snow.columns {
+            return none;
+        }
+        return SnowPair { other: cell + 1, is_diagonal: false };
+    }
+    if (line & 1) != odd || line + 1 >= snow.lines {
+        return none;
+    }
+    // One column to the left, the same, or one to the right.
+    let across = column.wrapping_add(kind).wrapping_sub(2);
+    if across >= snow.columns {
+        return none;
+    }
+    SnowPair { other: (line + 1) * snow.columns + across, is_diagonal: kind != 2 }
+}
+
+/// Slope at which snow stands, by how dense it is.
+#[expect(clippy::manual_clamp, reason = "written as in WGSL")]
+#[inline(always)]
+pub fn snow_repose(cell: SnowCell) -> f32 {
+    let per_water = cell.depth.to_real() * reciprocal(cell.water.max(1).to_real());
+    let fresh = ((per_water - OLD_DEPTH) * (1.0 / (FRESH_DEPTH - OLD_DEPTH))).max(0.0).min(1.0);
+    OLD_SLOPE + fresh * (FRESH_SLOPE - OLD_SLOPE)
+}
+
+/// Part of the snow of a cell of so much depth.
+#[inline(always)]
+pub fn snow_part(cell: SnowCell, depth: u32) -> SnowCell {
+    if depth >= cell.depth {
+        return cell;
+    }
+    let share = depth.to_real() * reciprocal(cell.depth.to_real());
+    SnowCell { water: (cell.water.to_real() * share).floor().to_whole().min(cell.water), depth }
+}
+
+/// Snow that slides from a cell to a neighbour, what they lie on being so many metres higher and so far away.
+#[inline(always)]
+pub fn snow_slide(above: SnowCell, below: SnowCell, drop_m: f32, way_m: f32) -> SnowCell {
+    if above.depth == 0 || drop_m < -SNOW_STEP_M {
+        return SnowCell { water: 0, depth: 0 };
+    }
+    let slope = if drop_m < SNOW_STEP_M { drop_m } else { 0.0 };
+    let higher_m = (above.depth.to_real() - below.depth.to_real()) * SNOW_DEPTH_M + slope;
+    let steep_m = higher_m - way_m * snow_repose(above);
+    if steep_m <= 0.0 {
+        return SnowCell { water: 0, depth: 0 };
+    }
+    snow_part(above, ((steep_m * SNOW_SLIDES) * (1.0 / SNOW_DEPTH_M)).floor().to_whole())
+}
+
+/// A number rounded at random, so that it is right on average.
+#[inline(always)]
+pub fn round_at_random(number: f32, word: u32) -> u32 {
+    (number + unit_float(word)).floor().to_whole()
+}
+
+/// Water of a cell that melts in a round, where so much of the sky is open, and what is left, settled.
+#[inline(always)]
+pub fn snow_age(cx: &Context<'_>, number: u32, cell: SnowCell, open: f32) -> SnowCell {
+    let now = &cx.step.snow;
+    let [melt, settle, _, _] = philox(cx.scene.seed, [number, STREAM_SNOW, cx.step.index, 0]);
+    let warmth = now.melt_woods + open * (now.melt_open - now.melt_woods);
+    let left = cell.water - round_at_random(warmth, melt).min(cell.water);
+    // The depth goes with the water.
+    let kept = snow_part(SnowCell { water: cell.depth, depth: cell.water }, left).water;
+    let least = left.to_real() * OLD_DEPTH;
+    let loose = (kept.to_real() - least).max(0.0);
+    SnowCell { water: left, depth: kept - round_at_random(loose * now.settled, settle).min(kept) }
+}

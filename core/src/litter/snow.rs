@@ -1,0 +1,268 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Snow of a world: its cells, landings of flakes, exchanges between cells, and sums over all.
+
+use crate::blocks::{NEVER, SceneBlock, SnowBlock};
+use crate::context::Context;
+use crate::device::particle::record::{PARTICLE_DIED, PARTICLE_HIT, POPULATION_SNOW};
+use crate::device::terrain::snow::{
+    FLAKE_CELLS, ROOT_TWO, SNOW_AGES, SNOW_CELLS_PER_M, SNOW_DEPTH_M, SNOW_WATER_MM, SNOW_WORDS, SnowCell, flake_cell,
+    flake_share, fresh_depth, snow_age, snow_cell, snow_pair, snow_slide, snow_turn,
+};
+use crate::layout::Uint4;
+use crate::particle::{ParticlePlace, ParticleStore};
+use crate::scene::Scene;
+
+use super::Bed;
+
+/// Kilograms of a unit of water.
+const UNIT_KG: f64 = SNOW_WATER_MM as f64 / (SNOW_CELLS_PER_M as f64 * SNOW_CELLS_PER_M as f64);
+
+/// The four planes of the snow of a world, each cell's word in the place of its number; empty without snow.
+#[derive(Clone, Copy, Debug)]
+pub struct Snow<'a> {
+    /// Units of water ([`SNOW_WATER_MM`]).
+    pub water: &'a [u32],
+    /// Units of depth ([`SNOW_DEPTH_M`]).
+    pub depth: &'a [u32],
+    /// Units of water that have melted there.
+    pub melted: &'a [u32],
+    /// Units of water that have landed there.
+    pub landed: &'a [u32],
+}
+
+/// The same of cells from one on, to be changed.
+#[derive(Debug)]
+pub struct SnowMut<'a> {
+    /// Number of the first cell.
+    pub first: u32,
+    /// Units of water.
+    pub water: &'a mut [u32],
+    /// Units of depth.
+    pub depth: &'a mut [u32],
+    /// Units of water that have melted there.
+    pub melted: &'a mut [u32],
+    /// Units of water that have landed there.
+    pub landed: &'a mut [u32],
+}
+
+/// Number of cells of the snow of a scene.
+fn cell_count(snow: &SnowBlock) -> usize {
+    snow.columns as usize * snow.lines as usize
+}
+
+impl Bed {
+    /// Number of words of the snow of a scene.
+    pub(super) fn snow_words(snow: &SnowBlock) -> usize {
+        SNOW_WORDS as usize * cell_count(snow)
+    }
+
+    /// The snow.
+    pub fn snow(&self, scene: &SceneBlock) -> Snow<'_> {
+        let cells = cell_count(&scene.snow);
+        let words = if cells == 0 { &[][..] } else { &self.words[scene.snow.first_word as usize..] };
+        let (water, words) = words.split_at(cells);
+        let (depth, words) = words.split_at(cells);
+        let (melted, landed) = words.split_at(cells);
+        Snow { water, depth, melted, landed: &landed[..cells] }
+    }
+
+    /// The snow, to be changed.
+    pub fn snow_mut(&mut self, scene: &SceneBlock) -> SnowMut<'_> {
+        let cells = cell_count(&scene.snow);
+        let words = if cells == 0 { &mut [][..] } else { &mut self.words[scene.snow.first_word as usize..] };
+        let (water, words) = words.split_at_mut(cells);
+        let (depth, words) = words.split_at_mut(cells);
+        let (melted, landed) = words.split_at_mut(cells);
+        SnowMut { first: 0, water, depth, melted, landed: &mut landed[..cells] }
+    }
+}
+
+impl<'a> SnowMut<'a> {
+    /// The first so many cells, and the others.
+    pub fn split_at(self, cells: usize) -> (Self, Self) {
+        let (water, waters) = self.water.split_at_mut(cells);
+        let (depth, depths) = self.depth.split_at_mut(cells);
+        let (melted, melts) = self.melted.split_at_mut(cells);
+        let (landed, lands) = self.landed.split_at_mut(cells);
+        #[expect(clippy::cast_possible_truncation, reason = "far fewer than 2^32 cells")]
+        let next = self.first + cells as u32;
+        let front = SnowMut { first: self.first, water, depth, melted, landed };
+        (front, SnowMut { first: next, water: waters, depth: depths, melted: melts, landed: lands })
+    }
+
+    /// The same cells again, for a shorter time.
+    pub fn reborrow(&mut self) -> SnowMut<'_> {
+        let Self { first, water, depth, melted, landed } = self;
+        SnowMut { first: *first, water, depth, melted, landed }
+    }
+
+    fn cell(&self, at: usize) -> SnowCell {
+        SnowCell { water: self.water[at], depth: self.depth[at] }
+    }
+
+    /// Adds the water of a flake that lands at a place; on water it melts at once. Only on all cells.
+    pub fn land(&mut self, cx: &Context<'_>, x_m: f32, z_m: f32) {
+        let (snow, water) = (&cx.scene.snow, cx.scene.snow.flake_water);
+        let middle = snow_cell(snow, x_m, z_m);
+        if middle == NEVER {
+            return;
+        }
+        let number = middle as usize;
+        let mut left = water;
+        if lies_on(cx, middle)[1] < 0.0 {
+            self.melted[number] = self.melted[number].wrapping_add(water);
+            self.landed[number] = self.landed[number].wrapping_add(water);
+            return;
+        }
+        for part in 0..FLAKE_CELLS * FLAKE_CELLS {
+            let cell = flake_cell(snow, middle, part);
+            if cell != NEVER && cell != middle {
+                let share = flake_share(water, part);
+                self.add(cx, cell as usize, share);
+                left -= share;
+            }
+        }
+        self.add(cx, number, left);
+    }
+
+    /// Adds fresh snow to a cell.
+    fn add(&mut self, cx: &Context<'_>, cell: usize, water: u32) {
+        self.water[cell] = self.water[cell].wrapping_add(water);
+        self.depth[cell] = self.depth[cell].wrapping_add(fresh_depth(cx, water));
+        self.landed[cell] = self.landed[cell].wrapping_add(water);
+    }
+
+    /// Lets the cells exchange snow with each other, as the first and the second of pairs.
+    pub fn exchange(&mut self, cx: &Context<'_>, turn: u32) {
+        for at in 0..self.water.len() {
+            #[expect(clippy::cast_possible_truncation, reason = "far fewer than 2^32 cells")]
+            let cell = self.first + at as u32;
+            let pair = snow_pair(&cx.scene.snow, cell, turn);
+            let Some(other) = pair.other.checked_sub(self.first).map(|other| other as usize) else { continue };
+            if pair.other == NEVER || other >= self.water.len() {
+                continue;
+            }
+            let [one, two] = [self.cell(at), self.cell(other)];
+            if one.depth == 0 && two.depth == 0 {
+                continue;
+            }
+            let [[one_m, open], [two_m, other_open]] = [lies_on(cx, cell), lies_on(cx, pair.other)];
+            // Water has no snow to lie on.
+            if open < 0.0 || other_open < 0.0 {
+                continue;
+            }
+            let way_m = (if pair.is_diagonal { ROOT_TWO } else { 1.0 }) * (1.0 / SNOW_CELLS_PER_M);
+            let to = snow_slide(one, two, one_m - two_m, way_m);
+            let fro = snow_slide(two, one, two_m - one_m, way_m);
+            self.water[at] = one.water - to.water + fro.water;
+            self.depth[at] = one.depth - to.depth + fro.depth;
+            self.water[other] = two.water - fro.water + to.water;
+            self.depth[other] = two.depth - fro.depth + to.depth;
+        }
+    }
+
+    /// Lets the snow settle and melt.
+    pub fn age(&mut self, cx: &Context<'_>) {
+        for at in 0..self.water.len() {
+            let before = self.cell(at);
+            if before.water == 0 {
+                continue;
+            }
+            #[expect(clippy::cast_possible_truncation, reason = "far fewer than 2^32 cells")]
+            let cell = self.first + at as u32;
+            let after = snow_age(cx, cell, before, lies_on(cx, cell)[1]);
+            (self.water[at], self.depth[at]) = (after.water, after.depth);
+            self.melted[at] = self.melted[at].wrapping_add(before.water - after.water);
+        }
+    }
+
+    /// Covers the cells with fresh snow of so much water in mm, as before the first step.
+    pub(crate) fn cover(&mut self, cx: &Context<'_>, mm: f32) {
+        let water = crate::convert::word(f64::from(mm) / f64::from(SNOW_WATER_MM));
+        for at in 0..self.water.len() {
+            #[expect(clippy::cast_possible_truncation, reason = "far fewer than 2^32 cells")]
+            if lies_on(cx, self.first + at as u32)[1] >= 0.0 {
+                self.add(cx, at, water);
+            }
+        }
+    }
+}
+
+/// Height in m of what a cell lies on, and its share of the open sky, negative on water.
+fn lies_on(cx: &Context<'_>, cell: u32) -> [f32; 2] {
+    let Uint4(row) = cx.tables[(cx.scene.snow.first_row + (cell >> 1)) as usize];
+    let first = 2 * (cell as usize & 1);
+    [row[first], row[first + 1]].map(f32::from_bits)
+}
+
+/// Returns true for flakes that landed in the step before.
+pub fn has_landed(place: &ParticlePlace) -> bool {
+    (place.bits & (PARTICLE_DIED | PARTICLE_HIT)) == (PARTICLE_DIED | PARTICLE_HIT)
+}
+
+/// Places of the flakes of a world; none without snowfall.
+pub fn flakes_of<'a>(scene: &SceneBlock, particles: &'a ParticleStore) -> &'a [ParticlePlace] {
+    let flakes = scene.populations.iter().find(|population| (population.flags & POPULATION_SNOW) != 0);
+    flakes.map_or(&[], |flakes| &particles.place[flakes.first_slot as usize..][..flakes.count as usize])
+}
+
+/// Takes the snow of a world through a step in which some of these particles may have landed.
+pub(crate) fn step_snow(cx: &Context<'_>, bed: &mut Bed, flakes: &[ParticlePlace]) {
+    let mut snow = bed.snow_mut(cx.scene);
+    for place in flakes.iter().filter(|place| has_landed(place)) {
+        let [x_m, _, z_m] = place.position;
+        snow.land(cx, x_m, z_m);
+    }
+    match snow_turn(cx.step.index) {
+        NEVER => {}
+        SNOW_AGES => snow.age(cx),
+        turn => snow.exchange(cx, turn),
+    }
+}
+
+/// Sums over the snow of a world at one step.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct SnowStats {
+    /// Flakes in the air.
+    pub flakes: u32,
+    /// Water in the air in kg.
+    pub falling_kg: f64,
+    /// Water that has landed on the rectangle since time zero, and that lay there then, in kg.
+    pub landed_kg: f64,
+    /// Water of the snow that lies in kg.
+    pub lying_kg: f64,
+    /// The same over the rectangle in mm.
+    pub lying_mm: f64,
+    /// Water that has melted in kg.
+    pub melted_kg: f64,
+    /// Greatest depth in m.
+    pub deepest_m: f64,
+    /// Depth on average over the rectangle in m.
+    pub mean_depth_m: f64,
+    /// Share of the rectangle under at least a tenth of a millimetre of water.
+    pub covered: f64,
+}
+
+impl SnowStats {
+    /// Sums over a bed under flakes of which so many are in the air; `None` without snow.
+    pub(crate) fn of(scene: &Scene, block: &SceneBlock, bed: &Bed, flakes: u32) -> Option<Self> {
+        scene.weather.as_ref()?;
+        let snow = bed.snow(block);
+        let sum = |words: &[u32]| words.iter().copied().map(u64::from).sum::<u64>() as f64;
+        let count = snow.water.len() as f64;
+        let water = sum(snow.water);
+        let covered = snow.water.iter().filter(|water| f64::from(**water) * f64::from(SNOW_WATER_MM) >= 0.1);
+        Some(Self {
+            flakes,
+            falling_kg: f64::from(flakes) * f64::from(block.snow.flake_water) * UNIT_KG,
+            landed_kg: sum(snow.landed) * UNIT_KG,
+            lying_kg: water * UNIT_KG,
+            lying_mm: water * f64::from(SNOW_WATER_MM) / count,
+            melted_kg: sum(snow.melted) * UNIT_KG,
+            deepest_m: f64::from(snow.depth.iter().copied().max().unwrap_or(0)) * f64::from(SNOW_DEPTH_M),
+            mean_depth_m: sum(snow.depth) * f64::from(SNOW_DEPTH_M) / count,
+            covered: covered.count() as f64 / count,
+        })
+    }
+}

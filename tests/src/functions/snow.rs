@@ -1,0 +1,76 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The functions of snow that lies.
+
+use windfall_core::device::terrain::snow::{
+    SnowCell, flake_cell, flake_share, flake_weight, fresh_depth, round_at_random, snow_age, snow_cell,
+    snow_pair, snow_part, snow_repose, snow_slide, snow_turn,
+};
+
+use super::{Function, Input, float, floats, functions, integers};
+
+const METRES: Input = Input::Float(-9.0, 9.0);
+const WATER: Input = Input::Below(400_000);
+const DEPTH: Input = Input::Below(300_000);
+const CELL: Input = Input::Below(2500);
+const SHARE: Input = Input::Float(0.0, 1.0);
+
+/// Units of water or depth over the most that cases have: one unit more or less is rounding.
+#[expect(clippy::cast_precision_loss, reason = "as in WGSL")]
+fn of_most(units: u32) -> f32 {
+    units as f32 * 2.5e-6
+}
+
+fn cell(w: &[u32], at: usize) -> SnowCell {
+    SnowCell { water: w[at], depth: w[at + 1] }
+}
+
+functions! {
+    SNOW_FUNCTIONS;
+
+    snow_cell in "terrain/snow" (METRES, METRES, CELL, Input::Below(25), Input::Below(9000)) tolerance None;
+    wgsl "let water = in_word(4u);
+        r = vec4<u32>(snow_cell(bitcast<f32>(a.x), bitcast<f32>(a.y)), flake_cell(a.z, a.w), flake_share(water, a.w), fresh_depth(water));
+        s = vec4<u32>(flake_weight(a.w % 5u), snow_turn(water), 0u, 0u);";
+    rust |cx, w| {
+        let snow = &cx.scene.snow;
+        integers([
+            snow_cell(snow, float(w[0]), float(w[1])), flake_cell(snow, w[2], w[3]), flake_share(w[4], w[3]),
+            fresh_depth(cx, w[4]), flake_weight(w[3] % 5), snow_turn(w[4]),
+        ])
+    };
+
+    snow_pair in "terrain/snow" (CELL, Input::Below(8)) tolerance None;
+    wgsl "let pair = snow_pair(a.x, a.y);
+        r = vec4<u32>(pair.other, u32(pair.is_diagonal), 0u, 0u);";
+    rust |cx, w| {
+        let pair = snow_pair(&cx.scene.snow, w[0], w[1]);
+        integers([pair.other, u32::from(pair.is_diagonal)])
+    };
+
+    snow_slide in "terrain/snow" (WATER, DEPTH, WATER, DEPTH, Input::Float(-0.4, 0.4), SHARE) tolerance Some(1e-5);
+    wgsl "let from_cell = SnowCell(a.x, a.y);
+        let moved = snow_slide(from_cell, SnowCell(a.z, a.w), bitcast<f32>(in_word(4u)), 0.125);
+        let part = snow_part(from_cell, a.w);
+        r = vec4<u32>(bitcast<u32>(f32(moved.water) * 2.5e-6), bitcast<u32>(f32(moved.depth) * 2.5e-6),
+            bitcast<u32>(f32(part.water) * 2.5e-6), bitcast<u32>(f32(part.depth) * 2.5e-6));
+        s = vec4<u32>(
+            bitcast<u32>(snow_repose(from_cell)), bitcast<u32>(f32(round_at_random(bitcast<f32>(in_word(5u)) * 40.0, a.x * 77u)) * 2.5e-6), 0u, 0u,
+        );";
+    rust |_cx, w| {
+        let from = cell(w, 0);
+        let moved = snow_slide(from, cell(w, 2), float(w[4]), 0.125);
+        let part = snow_part(from, w[3]);
+        let [a, b, c, d] = [moved.water, moved.depth, part.water, part.depth].map(of_most);
+        let rounded = of_most(round_at_random(float(w[5]) * 40.0, w[0].wrapping_mul(77)));
+        floats([a, b, c, d, snow_repose(from), rounded])
+    };
+
+    snow_age in "terrain/snow" (CELL, WATER, DEPTH, SHARE) tolerance Some(1e-5);
+    wgsl "let after = snow_age(a.x, SnowCell(a.y, a.z), bitcast<f32>(a.w));
+        r = vec4<u32>(bitcast<u32>(f32(after.water) * 2.5e-6), bitcast<u32>(f32(after.depth) * 2.5e-6), 0u, 0u);";
+    rust |cx, w| {
+        let after = snow_age(cx, w[0], cell(w, 1), float(w[3]));
+        floats([of_most(after.water), of_most(after.depth)])
+    };
+}

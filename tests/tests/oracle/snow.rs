@@ -1,0 +1,259 @@
+// SPDX-FileCopyrightText: The Windfall authors
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Snow against measured depths, slopes and melt, and books of its water to the unit.
+
+use glam::{Vec2, Vec3};
+use windfall_core::device::terrain::snow::{
+    SNOW_AGES, SNOW_CELLS_PER_M, SNOW_DEPTH_M, SNOW_INTERVAL, SNOW_TURNS, SNOW_WATER_MM,
+};
+use windfall_core::litter::{flakes_of, has_landed};
+use windfall_core::scene::{
+    Air, Bounds, MeanSpeed, Meets, Object, ObjectShape, ParticleRelease, ParticleShape, Particles, Scene,
+    Spread, Water, Weather,
+};
+use windfall_core::{World, oracle};
+
+use crate::common::{steady_wind, still_scene, uniform_species};
+
+/// Flakes that come down over a square at a metre a second, and come in again through the side opposite to that which they leave.
+fn flakes(count: u32, half_m: f32) -> Particles {
+    let (center_m, half_extent_m) = (Vec3::Y * 4.0, Vec3::new(half_m, 5.0, half_m));
+    Particles {
+        name: "flakes".into(),
+        count,
+        release: ParticleRelease::Snowfall,
+        from: ParticleShape::Box { center_m: Vec3::Y * 5.0, half_extent_m: Vec3::new(half_m, 0.5, half_m) },
+        life_s: Some(Spread::Constant(8.0)),
+        size_m: Spread::Constant(0.003),
+        density_kg_m3: 100.0,
+        air: Air::Settling { m_s: Spread::Normal(1.0, 0.12) },
+        meets: Meets::Die,
+        dies: Some(Bounds::Through { center_m, half_extent_m }),
+        ..Particles::default()
+    }
+}
+
+/// A scene of snow on a square, in calm air.
+fn snowy(mm_h: f32, air_c: f32, size_m: f32, count: u32) -> Scene {
+    let weather = Weather {
+        size_m: Vec2::splat(size_m),
+        snow_mm_h: vec![(0.0, mm_h)],
+        air_c: vec![(0.0, air_c)],
+        ..Weather::default()
+    };
+    let particles = vec![flakes(count, 0.5 * size_m)];
+    Scene { weather: Some(weather), particles, dt_s: 0.05, ..still_scene(uniform_species(), 1, 2.0) }
+}
+
+fn sum(words: &[u32]) -> u64 {
+    words.iter().copied().map(u64::from).sum()
+}
+
+fn mm(units: u64, world: &World) -> f64 {
+    let cells = world.bed.snow(world.compiled.block()).water.len();
+    units as f64 * f64::from(SNOW_WATER_MM) / cells as f64
+}
+
+/// Snow is made of the flakes that landed: every step, to the unit, in a wind among things in its way and beside a rectangle that is smaller
+/// than where it falls, melting and sliding.
+#[test]
+fn no_water_is_lost_in_a_storm() {
+    let mut scene = snowy(40.0, 4.0, 6.0, 4000);
+    scene.wind = steady_wind(3.0);
+    scene.particles = vec![flakes(4000, 5.0)];
+    scene.ground.litter = Some(windfall_core::scene::Litter { size_m: Vec2::splat(4.0), ..Default::default() });
+    scene.objects = vec![
+        Object { shape: ObjectShape::Box { size_m: Vec3::new(1.0, 1.0, 3.0) }, at_m: Vec3::Y * 0.5, ..Object::default() },
+        Object { shape: ObjectShape::Sphere { radius_m: 0.7 }, at_m: Vec3::new(2.0, 0.7, 1.0), ..Object::default() },
+    ];
+    scene.ground.water = Some(Water { height_m: -0.5 });
+    let mut world = World::build(&scene).expect("valid");
+    let (mut inside, mut outside) = (0u64, 0u64);
+    for step in 0..1200 {
+        oracle::step(&mut world, 1);
+        let block = world.compiled.block();
+        for place in flakes_of(block, &world.particles).iter().filter(|place| has_landed(place)) {
+            let [x, _, z] = place.position;
+            let is_inside = (-3.0..3.0).contains(&x) && (-3.0..3.0).contains(&z);
+            inside += u64::from(is_inside);
+            outside += u64::from(!is_inside);
+        }
+        let snow = world.bed.snow(block);
+        let landed = inside * u64::from(block.snow.flake_water);
+        assert_eq!(sum(snow.landed), landed, "step {step}: as many units as the flakes had");
+        assert_eq!(sum(snow.water) + sum(snow.melted), landed, "step {step}: it lies or has melted");
+    }
+    let snow = world.bed.snow(world.compiled.block());
+    assert!(inside > 3000 && outside > 3000, "much falls: {inside} and {outside}");
+    assert!(sum(snow.melted) > 100 && sum(snow.water) > sum(snow.melted), "some of it melts");
+    let stats = world.snow_stats().expect("there is snow");
+    assert!((stats.landed_kg - stats.lying_kg - stats.melted_kg).abs() < 1e-9, "{stats:?}");
+}
+
+/// As much falls as the weather says, evenly over the rectangle, from the first second on.
+#[test]
+fn snow_falls_as_the_weather_says() {
+    for wind_m_s in [0.0, 4.0] {
+        let mut scene = snowy(10.0, -2.0, 8.0, 6000);
+        let weather = scene.weather.as_mut().expect("stated");
+        weather.snow_mm_h = vec![(0.0, 10.0), (20.0, 10.0), (40.0, 0.0)];
+        scene.wind.speed = MeanSpeed::MetresPerSecond(wind_m_s);
+        let mut world = World::build(&scene).expect("valid");
+        let mut before = 0.0;
+        // 10 mm an hour for 20 s and half of that on average for another 20 s, of which the last come down late: 5 m at a metre a second.
+        for (until_s, expected_mm) in [(10u16, 10.0 / 360.0), (20, 10.0 / 360.0), (60, 20.0 / 360.0)] {
+            while world.clock.seconds() < f64::from(until_s) - 1e-6 {
+                oracle::step(&mut world, 1);
+            }
+            let snow = world.bed.snow(world.compiled.block());
+            let fallen_mm = mm(sum(snow.landed), &world) - before;
+            let off = (fallen_mm / expected_mm - 1.0).abs();
+            // Up to 60 s comes what was in the air at 20 s besides, 5 s of snowfall at ten.
+            let late = if until_s == 60 { 0.25 } else { 0.0 };
+            assert!(off < 0.05 + late, "{wind_m_s} m/s until {until_s} s: {fallen_mm} of {expected_mm} mm");
+            before += fallen_mm;
+        }
+        // Quarters of the square have the same within the noise of some thousand flakes.
+        let block = world.compiled.block();
+        let snow = world.bed.snow(block);
+        let columns = block.snow.columns as usize;
+        let mut quarters = [0u64; 4];
+        for (cell, water) in snow.landed.iter().enumerate() {
+            let side = |at: usize| usize::from(at >= columns / 2);
+            quarters[side(cell % columns) + 2 * side(cell / columns)] += u64::from(*water);
+        }
+        let total = sum(snow.landed) as f64;
+        for quarter in quarters {
+            let off = quarter as f64 / (0.25 * total) - 1.0;
+            assert!(off.abs() < 0.06, "{wind_m_s} m/s: {quarters:?}");
+        }
+    }
+}
+
+/// 10 mm of water at -2 °C make 12 to 15 cm of snow; a day later it has settled, and it never becomes denser than old snow.
+#[test]
+fn fresh_snow_is_as_deep_as_measured() {
+    let mut scene = snowy(0.0, -2.0, 4.0, 100);
+    scene.weather.as_mut().expect("stated").lying_mm = 10.0;
+    let mut world = World::build(&scene).expect("valid");
+    let depth_m = |world: &World| {
+        let snow = world.bed.snow(world.compiled.block());
+        sum(snow.depth) as f64 * f64::from(SNOW_DEPTH_M) / snow.depth.len() as f64
+    };
+    let fresh = depth_m(&world);
+    assert!((0.12..0.15).contains(&fresh), "{fresh} m");
+    let rounds = |world: &mut World, hours: f64| {
+        let compiled = world.compiled.clone();
+        let round_s = f64::from(SNOW_INTERVAL * SNOW_TURNS) * 0.05;
+        for _ in 0..rounds_in(hours, round_s) {
+            let block = compiled.step_block(&world.clock);
+            world.bed.snow_mut(compiled.block()).age(&compiled.context(&block));
+            compiled.advance(&mut world.clock);
+        }
+    };
+    rounds(&mut world, 48.0);
+    let settled = depth_m(&world);
+    let least = 10.0 / 250.0;
+    let expected = least + (fresh - least) * (-1.0f64).exp();
+    assert!((settled / expected - 1.0).abs() < 0.02, "{settled} m after two days, {expected} expected");
+    let snow = world.bed.snow(world.compiled.block());
+    assert_eq!((sum(snow.melted), mm(sum(snow.water), &world)), (0, 10.0), "nothing melts in frost");
+}
+
+/// Rounds of settling and melting in so many hours.
+fn rounds_in(hours: f64, round_s: f64) -> u32 {
+    let mut rounds = 0;
+    while f64::from(rounds) * round_s < hours * 3600.0 {
+        rounds += 1;
+    }
+    rounds
+}
+
+/// Kuusisto (1980): 3.5 mm of water a day per °C in the open.
+#[test]
+fn snow_melts_by_degree_hours() {
+    for air_c in [1.0f32, 6.0] {
+        let mut scene = snowy(0.0, air_c, 4.0, 100);
+        scene.weather.as_mut().expect("stated").lying_mm = 10.0;
+        let mut world = World::build(&scene).expect("valid");
+        let compiled = world.compiled.clone();
+        let round_s = f64::from(SNOW_INTERVAL * SNOW_TURNS) * 0.05;
+        for _ in 0..rounds_in(3.0, round_s) {
+            let block = compiled.step_block(&world.clock);
+            world.bed.snow_mut(compiled.block()).age(&compiled.context(&block));
+            compiled.advance(&mut world.clock);
+        }
+        let snow = world.bed.snow(compiled.block());
+        let melted = mm(sum(snow.melted), &world);
+        let expected = 3.5 * f64::from(air_c) * 3.0 / 24.0;
+        assert!((melted / expected - 1.0).abs() < 0.01, "{air_c} °C: {melted} mm, {expected} expected");
+        let all = sum(snow.water) + sum(snow.melted);
+        assert_eq!(mm(all, &world), 10.0, "what melts is booked");
+    }
+}
+
+/// A heap of loose snow stands at 45 to 53°, the same in all directions, and no unit of water is lost on the way.
+#[test]
+fn heaps_of_snow_stand_as_steep_as_measured() {
+    let scene = snowy(20.0, -6.0, 6.0, 200);
+    let mut world = World::build(&scene).expect("valid");
+    let compiled = world.compiled.clone();
+    for index in 0..3000u16 {
+        let block = compiled.step_block(&world.clock);
+        let cx = compiled.context(&block);
+        let mut snow = world.bed.snow_mut(compiled.block());
+        for _ in 0..2 {
+            snow.land(&cx, 0.01, 0.01);
+        }
+        (0..SNOW_AGES).for_each(|turn| snow.exchange(&cx, turn));
+        if index == 2999 {
+            for _ in 0..4000 {
+                (0..SNOW_AGES).for_each(|turn| snow.exchange(&cx, turn));
+            }
+        }
+    }
+    let block = compiled.block();
+    let snow = world.bed.snow(block);
+    assert_eq!(sum(snow.water), 6000 * u64::from(block.snow.flake_water), "all of it lies");
+    let columns = block.snow.columns as usize;
+    let height = |x: usize, z: usize| f64::from(snow.depth[z * columns + x]) * f64::from(SNOW_DEPTH_M);
+    let middle = columns / 2;
+    let peak = height(middle, middle);
+    assert!(peak > 0.6, "a heap: {peak} m");
+    for (dx, dz) in [(1i32, 0i32), (0, 1), (-1, 0), (0, -1), (1, 1), (-1, 1), (1, -1), (-1, -1)] {
+        let at = |steps: i32| {
+            let [x, z] = [dx, dz].map(|d| (middle as i32 + d * steps) as usize);
+            height(x, z)
+        };
+        let (mut run, mut rise, mut before) = (0.0, 0.0, at(0));
+        for steps in 1..12 {
+            let now = at(steps);
+            // Away from the tip and the foot.
+            if now > 0.15 * peak && before < 0.85 * peak {
+                run += f64::from(dx * dx + dz * dz).sqrt() / f64::from(SNOW_CELLS_PER_M);
+                rise += before - now;
+            }
+            before = now;
+        }
+        let angle = (rise / run).atan().to_degrees();
+        assert!((45.0..53.0).contains(&angle), "{dx}, {dz}: {angle}°");
+    }
+}
+
+/// Snow lies on top of a wall, not beneath it; what it lies on ends where the wall does, and it does not flow over the edge.
+#[test]
+fn walls_have_caps() {
+    let mut scene = snowy(0.0, -6.0, 4.0, 100);
+    scene.ground.litter = Some(windfall_core::scene::Litter { size_m: Vec2::splat(2.0), ..Default::default() });
+    let shape = ObjectShape::Box { size_m: Vec3::new(0.5, 1.0, 2.0) };
+    scene.objects = vec![Object { shape, at_m: Vec3::new(0.0, 0.5, 0.0), ..Object::default() }];
+    scene.weather.as_mut().expect("stated").lying_mm = 5.0;
+    let mut world = World::build(&scene).expect("valid");
+    let before: Vec<u32> = world.bed.snow(world.compiled.block()).depth.to_vec();
+    oracle::step(&mut world, 400);
+    let block = world.compiled.block();
+    let after = world.bed.snow(block).depth;
+    let kept = before.iter().zip(after).map(|(before, after)| f64::from(*after) / f64::from(*before));
+    let least = kept.fold(1.0, f64::min);
+    assert!(least > 0.9, "level snow stays, on the wall and beside it: {least}");
+}
