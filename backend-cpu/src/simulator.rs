@@ -196,7 +196,8 @@ impl Simulator for CpuSimulator {
             leaves.len() <= CHUNK && forest.len() <= CHUNK / 16 && particles.len() <= SMALL_PARTICLES;
         let sums: Vec<AtomicU32> = tallies.count.iter().map(|&count| AtomicU32::new(count)).collect();
         let last = clock.step().saturating_add(count).saturating_sub(1);
-        if forest.is_empty() && particles.is_empty() && !has_litter && !has_snow && quiet.are_all_quiet(last) {
+        if forest.is_empty() && particles.is_empty() && !has_litter && !has_snow && quiet.are_all_quiet(last)
+        {
             (0..count).for_each(|_| compiled.advance(clock));
             return Ok(());
         }

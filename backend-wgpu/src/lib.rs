@@ -31,7 +31,9 @@ mod readback;
 mod shaders;
 mod simulator;
 
-pub use columns::{BedColumn, BranchColumns, LeafColumns, ParticleColumns, StoreBuffers, WorldBuffers, WorldColumns};
+pub use columns::{
+    BedColumn, BranchColumns, LeafColumns, ParticleColumns, StoreBuffers, WorldBuffers, WorldColumns,
+};
 pub use exact::decorate_no_contraction;
 pub use gpu::{Gpu, describe_adapter, instance_descriptor, list_adapters, select_adapter};
 pub use prelude::{WORKGROUP_SIZE, leaf_wgsl, particle_wgsl};

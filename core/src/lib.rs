@@ -78,7 +78,7 @@ pub mod tree;
 pub mod wind;
 
 pub use clock::Clock;
-pub use compile::{CompiledScene, Cycle, OpenSnow, NO_WATER_M, REST_OFFSET_M};
+pub use compile::{CompiledScene, Cycle, NO_WATER_M, OpenSnow, REST_OFFSET_M};
 pub use context::Context;
 pub use device::arith;
 pub use error::{SceneError, SimError};

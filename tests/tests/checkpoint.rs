@@ -180,7 +180,10 @@ fn other_files_and_versions_say_so() {
     let mut newer = good().to_vec();
     newer[8..12].copy_from_slice(&11u32.to_le_bytes());
     let reason = refusal(&resealed(newer));
-    assert!(reason.contains("version 11") && reason.contains("reads version 10"), "a newer version: {reason}");
+    assert!(
+        reason.contains("version 11") && reason.contains("reads version 10"),
+        "a newer version: {reason}"
+    );
 }
 
 #[test]

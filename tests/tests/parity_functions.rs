@@ -31,7 +31,7 @@ fn bed() -> Litter {
 /// Populations of particles, for the functions that read one.
 fn add_particles(scene: &mut Scene) {
     let with = particle_scene(7, 4.0, 1.0 / 60.0);
-    (scene.particles, scene.forces) = (with.particles, with.forces);
+    (scene.particles, scene.forces, scene.weather) = (with.particles, with.forces, with.weather);
 }
 
 fn world(litter: Option<Litter>) -> World {
@@ -285,6 +285,16 @@ fn a_changed_twin_is_noticed() {
         ("wind/plume", "passing * (along * across)", "passing * (along * along)", "wind_plume"),
         ("wind/plume", "* inverse_cube * PLUME_ABOVE_K", "* PLUME_ABOVE_K", "plume_warmth"),
         ("wind/plume", "bitcast<f32>(words.z)", "bitcast<f32>(words.y)", "plume_warmth"),
+        ("terrain/snow", "inner + u32(inner == 0u)", "inner + u32(inner == 4u)", "snow_cell"),
+        ("terrain/snow", "column + kind - 2u", "column + kind - 1u", "snow_pair"),
+        ("terrain/snow", "way_m * snow_repose", "way_m + snow_repose", "snow_slide"),
+        ("terrain/snow", "cell.water - min(round_at_random", "cell.depth - min(round_at_random", "snow_age"),
+        (
+            "particle/step",
+            "select(none, width, high < place)",
+            "select(none, width, place < high)",
+            "is_outside",
+        ),
         ("arith/math", "1.2 - (fifth * r2)", "1.2 - (fifth * r1)", "inverse_fifth_root"),
         ("leaf/burn", "way * (1.0 - way)", "way * way", "leaf_rise"),
         ("leaf/burn", "heat - scene.burns", "heat + scene.burns", "leaf_rise"),

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Particles: the same bits on CPU and GPU, whatever the threads, instructions and pages, and changes that must be noticed.
 
-use windfall_core::scene::{MeanSpeed, Meets, ParticleEvent, Release};
+use windfall_core::scene::{MeanSpeed, Meets, ParticleEvent, ParticleRelease, Release};
 use windfall_core::{Contract, SimError, Simulator, World, oracle};
 use windfall_cpu::{CpuOptions, CpuSimulator, Simd};
 use windfall_tests::adapter;
@@ -14,9 +14,15 @@ use windfall_wgpu::{Gpu, KernelId, Shaders, WgpuOptions, WgpuSimulator};
 const DT_S: f32 = 1.0 / 60.0;
 /// Steps after which a change is looked for: most show at once.
 const LOOKS: [u32; 3] = [4, 16, 60];
-/// Kernels that move particles.
-const OF_PARTICLES: [KernelId; 4] =
-    [KernelId::StepParticles, KernelId::PullParticles, KernelId::CarryForces, KernelId::KeepHistory];
+/// Kernels that move particles, and the snow that some of them become.
+const OF_PARTICLES: [KernelId; 6] = [
+    KernelId::StepParticles,
+    KernelId::PullParticles,
+    KernelId::CarryForces,
+    KernelId::KeepHistory,
+    KernelId::LandFlakes,
+    KernelId::StepSnow,
+];
 
 fn world() -> World {
     World::build(&particle_scene(31, 4.0, DT_S)).expect("the scene of particles is valid")
@@ -155,6 +161,9 @@ fn smooth_particles_stay_close_under_the_tolerant_contract() {
         particles.meets = Meets::Nothing;
         particles.feels.retain(|name| !["noise", "sun", "others"].contains(&name.as_str()));
         particles.dies = None;
+        if particles.is_snow() {
+            particles.release = ParticleRelease::Rate { per_s: 300.0, from_s: -3.0 };
+        }
     }
     scene.forces.retain(|force| !["noise", "sun", "others"].contains(&force.name.as_str()));
     // Nothing is hit, so nothing is born of hits, nor of what would be.
@@ -271,6 +280,11 @@ fn changes_of_a_constant_or_an_operator_are_noticed() {
         ("kernels/keep_history", "step_block.index + 1u", "step_block.index"),
         ("kernels/keep_history", "history_run.first + id.x", "id.x"),
         ("kernels/pull_particles", "begin + local_id.x", "begin + (local_id.x ^ 1u)"),
+        ("kernels/land_flakes", "scene.snow.flake_water;", "scene.snow.flake_water + 1u;"),
+        ("kernels/land_flakes", "left -= share", "left -= min(share, 1u)"),
+        ("kernels/step_snow", "one.water - after.water", "one.depth - after.depth"),
+        ("kernels/step_snow", "on.x - other_on.x, way_m", "other_on.x - on.x, way_m"),
+        ("terrain/snow", "words.x), cell.water)", "words.y), cell.water)"),
     ];
     let apart = |shaders: Shaders| {
         let others = KernelId::ALL.into_iter().filter(|kernel| !OF_PARTICLES.contains(kernel));

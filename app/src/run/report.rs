@@ -154,7 +154,17 @@ impl From<SnowStats> for SnowReport {
             mean_depth_m,
             covered,
         } = stats;
-        Self { flakes, falling_kg, landed_kg, lying_kg, lying_mm, deepest_m, mean_depth_m, melted_kg, covered }
+        Self {
+            flakes,
+            falling_kg,
+            landed_kg,
+            lying_kg,
+            lying_mm,
+            deepest_m,
+            mean_depth_m,
+            melted_kg,
+            covered,
+        }
     }
 }
 
@@ -271,8 +281,16 @@ impl Report {
         }
         if let Some(snow) = self.snow {
             let SnowReport { falling_kg, lying_kg, lying_mm, deepest_m, melted_kg, covered, .. } = snow;
-            let depth = format!("{lying_mm:.3} mm of water, {deepest_m:.3} m at most, {:.0} % covered", 100.0 * covered);
-            row("snow", format!("{falling_kg:.2} kg falling; {lying_kg:.2} kg lying: {depth}; {melted_kg:.2} kg melted"));
+            let depth = format!(
+                "{lying_mm:.3} mm of water, {deepest_m:.3} m at most, {:.0} % covered",
+                100.0 * covered
+            );
+            row(
+                "snow",
+                format!(
+                    "{falling_kg:.2} kg falling; {lying_kg:.2} kg lying: {depth}; {melted_kg:.2} kg melted"
+                ),
+            );
         }
         if let Some(burning) = self.burning {
             let BurningReport { burning, burnt, put_out, left_kg, ash_kg, gone_kg, heat_mj, power_kw } =

@@ -17,7 +17,9 @@ use windfall_core::device::particle::record::{
     MEETS_DIE, MEETS_STICK, PARTICLE_ALIVE, PARTICLE_DEAD, PARTICLE_DIED, PARTICLE_GROUNDED, PARTICLE_MARKS,
     PARTICLE_RESTING, particle_state, with_more_hits, with_particle_state,
 };
-use windfall_core::device::particle::step::{ParticleChange, is_outside, life_is_over, may_be_struck, through_sides};
+use windfall_core::device::particle::step::{
+    ParticleChange, is_outside, life_is_over, may_be_struck, through_sides,
+};
 use windfall_core::device::particle::strike::{
     PARTICLE_STILL_SQUARED, STRIKE_GROUND, bent_share, ground_gap, ground_normal, ground_strike,
     struck_velocity,

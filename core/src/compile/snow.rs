@@ -88,7 +88,8 @@ pub(super) fn snow_block(
     snow.flake_water = flake_water(scene);
     let place = |cell: usize| {
         let (column, line) = (cell % snow.columns as usize, cell / snow.columns as usize);
-        let at = |first: u32, number: usize| (f64::from(first.cast_signed()) + number as f64 + 0.5) * cell_m();
+        let at =
+            |first: u32, number: usize| (f64::from(first.cast_signed()) + number as f64 + 0.5) * cell_m();
         DVec2::new(at(snow.first_column, column), at(snow.first_line, line))
     };
     let cells = snow.columns as usize * snow.lines as usize;
@@ -109,7 +110,8 @@ pub(super) fn snow_block(
             base[cell].0 = base[cell].0.max(single(ABOVE_M - way_m));
         }
     }
-    let words: Vec<u32> = base.iter().flat_map(|&(height_m, open)| [height_m, open].map(f32::to_bits)).collect();
+    let words: Vec<u32> =
+        base.iter().flat_map(|&(height_m, open)| [height_m, open].map(f32::to_bits)).collect();
     let rows = words.chunks(4).map(|row| {
         let mut full = [0; 4];
         full[..row.len()].copy_from_slice(row);
@@ -164,7 +166,8 @@ fn shade(snow: &SnowBlock, forest: &Forest, base: &mut [(f32, f32)]) {
     let (columns, lines) = (snow.columns as usize, snow.lines as usize);
     for (cell, (_, open)) in base.iter_mut().enumerate().filter(|(_, (_, open))| *open >= 0.0) {
         let (column, line) = (cell % columns, cell / columns);
-        let around = |at: usize, count: usize| at.saturating_sub(CROWN_FADE)..(at + CROWN_FADE + 1).min(count);
+        let around =
+            |at: usize, count: usize| at.saturating_sub(CROWN_FADE)..(at + CROWN_FADE + 1).min(count);
         let (mut sum, mut number) = (0.0, 0.0);
         for line in around(line, lines) {
             for column in around(column, columns) {
@@ -182,9 +185,8 @@ pub(super) fn snow_step(weather: Option<&Weather>, dt_s: f64, time_s: f64) -> Sn
     let Some(weather) = weather else { return step };
     let air_c = weather.air_c_at(time_s);
     let round_s = f64::from(SNOW_INTERVAL * SNOW_TURNS) * dt_s;
-    let melts = |mm_day_c: f64| {
-        single(mm_day_c * air_c.max(0.0) * (round_s / 86_400.0) / f64::from(SNOW_WATER_MM))
-    };
+    let melts =
+        |mm_day_c: f64| single(mm_day_c * air_c.max(0.0) * (round_s / 86_400.0) / f64::from(SNOW_WATER_MM));
     [step.melt_open, step.melt_woods] = MELT_MM_DAY_C.map(melts);
     step.settled = single(round_s / (3600.0 * settling_h(air_c)));
     let depth_m = f64::from(SNOW_WATER_MM) / 1000.0 * WATER_KG_M3 / fresh_kg_m3(air_c);

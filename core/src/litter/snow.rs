@@ -6,8 +6,8 @@ use crate::blocks::{NEVER, SceneBlock, SnowBlock};
 use crate::context::Context;
 use crate::device::particle::record::{PARTICLE_DIED, PARTICLE_HIT, POPULATION_SNOW};
 use crate::device::terrain::snow::{
-    FLAKE_CELLS, ROOT_TWO, SNOW_AGES, SNOW_CELLS_PER_M, SNOW_DEPTH_M, SNOW_WATER_MM, SNOW_WORDS, SnowCell, flake_cell,
-    flake_share, fresh_depth, snow_age, snow_cell, snow_pair, snow_slide, snow_turn,
+    FLAKE_CELLS, ROOT_TWO, SNOW_AGES, SNOW_CELLS_PER_M, SNOW_DEPTH_M, SNOW_WATER_MM, SNOW_WORDS, SnowCell,
+    flake_cell, flake_share, fresh_depth, snow_age, snow_cell, snow_pair, snow_slide, snow_turn,
 };
 use crate::layout::Uint4;
 use crate::particle::{ParticlePlace, ParticleStore};
@@ -139,7 +139,9 @@ impl<'a> SnowMut<'a> {
             #[expect(clippy::cast_possible_truncation, reason = "far fewer than 2^32 cells")]
             let cell = self.first + at as u32;
             let pair = snow_pair(&cx.scene.snow, cell, turn);
-            let Some(other) = pair.other.checked_sub(self.first).map(|other| other as usize) else { continue };
+            let Some(other) = pair.other.checked_sub(self.first).map(|other| other as usize) else {
+                continue;
+            };
             if pair.other == NEVER || other >= self.water.len() {
                 continue;
             }

@@ -90,8 +90,11 @@ mod tests {
 
     #[test]
     fn snowfall_adds_up_over_its_keys() {
-        let weather = Weather { snow_mm_h: vec![(100.0, 0.0), (300.0, 4.0), (400.0, 1.0)], ..Weather::default() };
-        for (time_s, mm_h) in [(-5.0, 0.0), (100.0, 0.0), (200.0, 2.0), (300.0, 4.0), (350.0, 2.5), (1e5, 1.0)] {
+        let weather =
+            Weather { snow_mm_h: vec![(100.0, 0.0), (300.0, 4.0), (400.0, 1.0)], ..Weather::default() };
+        for (time_s, mm_h) in
+            [(-5.0, 0.0), (100.0, 0.0), (200.0, 2.0), (300.0, 4.0), (350.0, 2.5), (1e5, 1.0)]
+        {
             assert_eq!(weather.snow_mm_h_at(time_s), mm_h, "at {time_s} s");
         }
         assert_eq!(weather.most_mm_h(), 4.0);
@@ -103,6 +106,8 @@ mod tests {
             sum += weather.snow_mm_h_at(time_s + 0.05) * 0.1 / 3600.0;
         }
         let steady = Weather { snow_mm_h: vec![(50.0, 3.6)], ..Weather::default() };
-        assert!((steady.fallen_mm(-10.0) + 0.01).abs() < 1e-12 && (steady.fallen_mm(100.0) - 0.1).abs() < 1e-12);
+        assert!(
+            (steady.fallen_mm(-10.0) + 0.01).abs() < 1e-12 && (steady.fallen_mm(100.0) - 0.1).abs() < 1e-12
+        );
     }
 }

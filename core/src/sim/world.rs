@@ -13,9 +13,9 @@ use crate::compile::{CompiledScene, Cycle, lifetime_steps, release_step};
 use crate::context::Context;
 use crate::convert::len32;
 use crate::device::leaf::air::leaf_sample_air;
-use crate::device::particle::record::{PARTICLE_ALIVE, particle_state};
 use crate::device::leaf::record::leaf_appearance;
 use crate::device::leaf::release::leaf_release;
+use crate::device::particle::record::{PARTICLE_ALIVE, particle_state};
 use crate::error::{SceneError, SimError};
 use crate::flight::drop_table::{DropTable, drop_tables};
 use crate::leaf::grow::{count_leaves, leaf_grow};
@@ -154,7 +154,10 @@ impl World {
     /// Sums over the snow; `None` without weather that brings any.
     pub fn snow_stats(&self) -> Option<SnowStats> {
         let block = self.compiled.block();
-        let flakes = flakes_of(block, &self.particles).iter().filter(|place| particle_state(place.bits) == PARTICLE_ALIVE).count();
+        let flakes = flakes_of(block, &self.particles)
+            .iter()
+            .filter(|place| particle_state(place.bits) == PARTICLE_ALIVE)
+            .count();
         SnowStats::of(self.compiled.scene(), block, &self.bed, len32(flakes))
     }
 

@@ -12,7 +12,7 @@ use windfall_core::{Scene, World};
 use windfall_tests::strategies::wooded_scene;
 
 /// Keys of the report, in their order. They stay.
-const KEYS: [&str; 18] = [
+const KEYS: [&str; 19] = [
     "scene",
     "backend",
     "adapter",
@@ -24,6 +24,7 @@ const KEYS: [&str; 18] = [
     "trees",
     "litter",
     "burning",
+    "snow",
     "particles",
     "mean_position_m",
     "mean_velocity_m_s",

@@ -240,7 +240,10 @@ fn fires_puff_the_slower_the_wider_they_are() {
         assert!((at_tip - 0.3).abs() < 0.02, "{base_radius_m} m: {at_tip} of the speed at the tip");
         let (_, low) = swellings(0.02);
         let (_, high) = swellings(0.5);
-        assert!(low < 0.1 && high < 0.15, "{base_radius_m} m: {low} at the base, {high} high above the flame");
+        assert!(
+            low < 0.1 && high < 0.15,
+            "{base_radius_m} m: {low} at the base, {high} high above the flame"
+        );
         assert!(swellings(0.61).1 < 1e-6, "{base_radius_m} m: above the puffs");
     }
 }

@@ -61,10 +61,19 @@ fn no_water_is_lost_in_a_storm() {
     let mut scene = snowy(40.0, 4.0, 6.0, 4000);
     scene.wind = steady_wind(3.0);
     scene.particles = vec![flakes(4000, 5.0)];
-    scene.ground.litter = Some(windfall_core::scene::Litter { size_m: Vec2::splat(4.0), ..Default::default() });
+    scene.ground.litter =
+        Some(windfall_core::scene::Litter { size_m: Vec2::splat(4.0), ..Default::default() });
     scene.objects = vec![
-        Object { shape: ObjectShape::Box { size_m: Vec3::new(1.0, 1.0, 3.0) }, at_m: Vec3::Y * 0.5, ..Object::default() },
-        Object { shape: ObjectShape::Sphere { radius_m: 0.7 }, at_m: Vec3::new(2.0, 0.7, 1.0), ..Object::default() },
+        Object {
+            shape: ObjectShape::Box { size_m: Vec3::new(1.0, 1.0, 3.0) },
+            at_m: Vec3::Y * 0.5,
+            ..Object::default()
+        },
+        Object {
+            shape: ObjectShape::Sphere { radius_m: 0.7 },
+            at_m: Vec3::new(2.0, 0.7, 1.0),
+            ..Object::default()
+        },
     ];
     scene.ground.water = Some(Water { height_m: -0.5 });
     let mut world = World::build(&scene).expect("valid");
@@ -244,7 +253,8 @@ fn heaps_of_snow_stand_as_steep_as_measured() {
 #[test]
 fn walls_have_caps() {
     let mut scene = snowy(0.0, -6.0, 4.0, 100);
-    scene.ground.litter = Some(windfall_core::scene::Litter { size_m: Vec2::splat(2.0), ..Default::default() });
+    scene.ground.litter =
+        Some(windfall_core::scene::Litter { size_m: Vec2::splat(2.0), ..Default::default() });
     let shape = ObjectShape::Box { size_m: Vec3::new(0.5, 1.0, 2.0) };
     scene.objects = vec![Object { shape, at_m: Vec3::new(0.0, 0.5, 0.0), ..Object::default() }];
     scene.weather.as_mut().expect("stated").lying_mm = 5.0;

@@ -41,7 +41,7 @@ fn vertex(
     let grown = smoothstep(rank, rank * 1.25 + 0.002, kept) * verge
         * (1.0 - smoothstep(0.3, 0.6, bare_soil(at, foot.y, length(hill.yz)) + 0.2 * (unit_from(key_3) - 0.5)));
     let tall = 0.6 + 0.8 * textureSampleLevel(noise, repeat_sampler, at * 0.31, 0.0).g;
-    let buried = 1.0 - smoothstep(0.6 * SWARD_M, 1.8 * SWARD_M, frame.snow_depth_m);
+    let buried = 1.0 - smoothstep(0.05 * SWARD_M, 0.35 * SWARD_M, frame.snow_depth_m);
     let height = buried * SWARD_M * 1.45 * tall * mix(0.65, 1.35, unit_from(key_3)) * grown;
     // Wide enough to be seen: a pixel at least.
     let pixel = distance_m * length(frame.up) * 2.0 * frame.inv_viewport_px.y;

@@ -17,7 +17,10 @@ use crate::gpu::shaders::{Shaders, declarations, wgsl_files};
 pub(crate) fn shaders() -> Shaders {
     let mut shaders = crate::frame::shaders();
     let lists = [grass_pass::wgsl_constants(), terrain_mesh::wgsl_constants()];
-    shaders.extend([("scenery/structs", declarations(lists) + &grass_pass::GrassCell::declaration() + &snow_pass::SnowUniform::declaration())]);
+    shaders.extend([(
+        "scenery/structs",
+        declarations(lists) + &grass_pass::GrassCell::declaration() + &snow_pass::SnowUniform::declaration(),
+    )]);
     shaders.extend(wgsl_files!(
         "scenery": "meadow", "horizon", "grass_pass", "ground_pass", "sky_pass", "snow_pass", "water_pass"
     ));

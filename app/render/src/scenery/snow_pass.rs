@@ -91,8 +91,13 @@ impl SnowPass {
         let snow = &compiled.block().snow;
         let cells = snow.columns * snow.lines;
         let rows = &compiled.tables()[snow.first_row as usize..][..cells.div_ceil(2) as usize];
-        let lies_on =
-            upload::buffer(device, queue, "snow lies on", wgpu::BufferUsages::STORAGE, bytemuck::cast_slice(rows));
+        let lies_on = upload::buffer(
+            device,
+            queue,
+            "snow lies on",
+            wgpu::BufferUsages::STORAGE,
+            bytemuck::cast_slice(rows),
+        );
         let uniform = device.create_buffer(&wgpu::BufferDescriptor {
             label: Some("snow"),
             size: size_of::<SnowUniform>() as u64,
@@ -109,15 +114,23 @@ impl SnowPass {
     }
 
     /// Binds the bed of a world.
-    pub(crate) fn prepare(&mut self, device: &wgpu::Device, queue: &wgpu::Queue, bed: Option<&BedColumn<'_>>) {
+    pub(crate) fn prepare(
+        &mut self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        bed: Option<&BedColumn<'_>>,
+    ) {
         let Some(bed) = bed else {
             self.group = None;
             return;
         };
         let uniform = uniform_of(self.compiled.block(), bed.first_word);
         queue.write_buffer(&self.uniform, 0, bytemuck::bytes_of(&uniform));
-        let resources =
-            [self.uniform.as_entire_binding(), bed.buffer.as_entire_binding(), self.lies_on.as_entire_binding()];
+        let resources = [
+            self.uniform.as_entire_binding(),
+            bed.buffer.as_entire_binding(),
+            self.lies_on.as_entire_binding(),
+        ];
         let entries: Vec<_> = (0..)
             .zip(resources)
             .map(|(binding, resource)| wgpu::BindGroupEntry { binding, resource })

@@ -32,53 +32,60 @@ fn level_of(cell: vec2<i32>) -> vec2<f32> {
 
 // Height of litter in metres at a corner of cells, by its number from the origin on.
 fn litter_at(corner: vec2<i32>) -> f32 {
+    let most = vec2<i32>(snow.litter_cells);
     let node = corner - snow.litter_first;
-    if snow.litter_cells.x == 0u || any(node < vec2(0)) || any(node > vec2<i32>(snow.litter_cells)) {
-        return 0.0;
+    let inside = clamp(node, vec2(0), most);
+    let height = f32(bed[snow.bed_word + u32(inside.y * (most.x + 1) + inside.x)]) * snow.litter_unit_m;
+    return select(0.0, height, all(node == inside) && most.x > 0);
+}
+
+// What the cells around a corner give it.
+struct Corner {
+    depth_m: f32,
+    base_m: f32,
+    level_count: f32,
+    depth_count: f32,
+}
+
+// One of the four cells around a corner, added to it, and its height as seen from a cell. Those on the level of that cell count in full; lower ones
+// are an edge; higher ones, a wall, do not count.
+fn add_cell(corner: ptr<function, Corner>, here: vec2<f32>, number: vec2<i32>) -> f32 {
+    let found = level_of(number);
+    let level = select(found, here, found.y < 0.0);
+    let apart = level.x - here.x;
+    if abs(apart) < snow.step_m {
+        (*corner).depth_m += level.y;
+        (*corner).base_m += level.x;
+        (*corner).level_count += 1.0;
+        (*corner).depth_count += 1.0;
+        return level.x + level.y;
     }
-    let number = u32(node.y) * (snow.litter_cells.x + 1u) + u32(node.x);
-    return f32(bed[snow.bed_word + number]) * snow.litter_unit_m;
+    let is_edge = apart < 0.0;
+    (*corner).depth_count += select(0.0, 1.0, is_edge);
+    return here.x + select(here.y, 0.0, is_edge);
 }
 
 @vertex
 fn vertex(@builtin(vertex_index) index: u32) -> Varyings {
     let number = index / 6u;
     let own = vec2(i32(number % snow.snow_cells.x), i32(number / snow.snow_cells.x));
-    // Two triangles: corners 0, 2, 3 and 0, 3, 1.
-    var corners = array(0u, 2u, 3u, 0u, 3u, 1u);
-    let corner = corners[index % 6u];
+    // Two triangles: corners 0, 2, 3 and 0, 3, 1, two bits each.
+    let corner = (0x738u >> (2u * (index % 6u))) & 3u;
     let at = own + vec2(i32(corner & 1u), i32(corner >> 1u));
     let here = level_of(own);
-    // The four cells around the corner. Those on the level of this one count in full; lower ones are an edge; higher ones, a wall, do not count.
-    var height = vec4(0.0);
-    var sum_m = 0.0;
-    var base_m = 0.0;
-    var level_count = 0.0;
-    var depth_count = 0.0;
-    for (var side = 0u; side < 4u; side++) {
-        let other = level_of(at - 1 + vec2(i32(side & 1u), i32(side >> 1u)));
-        let apart = other.x - here.x;
-        let outside = other.y < 0.0;
-        if outside || abs(apart) < snow.step_m {
-            let level = select(other, here, outside);
-            sum_m += level.y;
-            base_m += level.x;
-            level_count += 1.0;
-            depth_count += 1.0;
-            height[side] = level.x + level.y;
-        } else {
-            depth_count += select(0.0, 1.0, apart < 0.0);
-            height[side] = here.x + select(here.y, 0.0, apart < 0.0);
-        }
-    }
-    let depth_m = sum_m / max(depth_count, 1.0);
+    var sums = Corner(0.0, 0.0, 0.0, 0.0);
+    let a = add_cell(&sums, here, at - 1);
+    let b = add_cell(&sums, here, at - vec2(0, 1));
+    let c = add_cell(&sums, here, at - vec2(1, 0));
+    let d = add_cell(&sums, here, at);
+    let depth_m = sums.depth_m / max(sums.depth_count, 1.0);
     let litter_m = litter_at(at + snow.snow_first);
-    let slope = 0.5 * vec2(height.y + height.w - height.x - height.z, height.z + height.w - height.x - height.y) * snow.cells_per_m;
+    let slope = 0.5 * vec2(b + d - a - c, c + d - a - b) * snow.cells_per_m;
     let place = vec2<f32>(at + snow.snow_first) * snow.cell_m;
     var out: Varyings;
     out.depth_m = depth_m;
     out.normal = vec3(-slope.x, 1.0, -slope.y);
-    out.world = vec3(place.x, base_m / max(level_count, 1.0) + litter_m + depth_m, place.y);
+    out.world = vec3(place.x, sums.base_m / max(sums.level_count, 1.0) + litter_m + depth_m, place.y);
     out.clip = frame.view_projection * vec4(out.world, 1.0);
     return out;
 }

@@ -109,7 +109,8 @@ pub(crate) fn bench_of(scene: Scene, scene_trees: SceneTrees, atlas: &Atlas) -> 
     let solids = solids_of(&scene).expect("shapes without files");
     let compiled = scene.leaves_burn().then(|| CompiledScene::compile(&scene).expect("a scene"));
     let burns = compiled.as_ref().map_or(&[][..], |compiled| &compiled.block().burns);
-    let subject = RenderScene { scene: &scene, solids: &solids, burns, snow: None, trees: &scene_trees, atlas };
+    let subject =
+        RenderScene { scene: &scene, solids: &solids, burns, snow: None, trees: &scene_trees, atlas };
     let renderer = Renderer::new(gpu.device(), gpu.queue(), subject, PictureTarget::FORMAT, SIZE, options)
         .expect("a renderer within default limits");
     Bench { gpu, scene, scene_trees, renderer }
@@ -204,7 +205,13 @@ impl Bench {
         self.renderer.draw(
             &mut encoder,
             &target.view(),
-            &WorldColumns { leaves, branches: branches.cloned(), particles, burns: burns.as_ref(), bed: None },
+            &WorldColumns {
+                leaves,
+                branches: branches.cloned(),
+                particles,
+                burns: burns.as_ref(),
+                bed: None,
+            },
             &FrameInput { camera, time_s, since_s: f32::INFINITY, origin: (0, 0) },
         );
         target.submit_and_read(device, queue, encoder).expect("a picture")

@@ -133,6 +133,12 @@ impl Contender {
             }
             Self::Backend { backend, .. } => return backend.columns(gpu),
         }
-        Ok(WorldColumns { leaves: LeafColumns::of(buffers), branches: None, particles: None, burns: None, bed: None })
+        Ok(WorldColumns {
+            leaves: LeafColumns::of(buffers),
+            branches: None,
+            particles: None,
+            burns: None,
+            bed: None,
+        })
     }
 }

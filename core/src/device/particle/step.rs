@@ -10,8 +10,9 @@ use super::local_space::{ParticleFrame, carried_flight, in_frame, parent_frame, 
 use super::nest::{nest_events, nest_id, nest_place, nest_rest, nest_start};
 use super::record::{
     MEETS_NOTHING, MEETS_STICK, PARTICLE_ALIVE, PARTICLE_DEAD, PARTICLE_DIED, PARTICLE_DORMANT,
-    PARTICLE_GROUNDED, PARTICLE_MARKS, PARTICLE_RESTING, POPULATION_LOCAL, POPULATION_ON_LEAVES, POPULATION_THROUGH,
-    ParticleStart, particle_life, particle_population, particle_state, with_more_hits, with_particle_state,
+    PARTICLE_GROUNDED, PARTICLE_MARKS, PARTICLE_RESTING, POPULATION_LOCAL, POPULATION_ON_LEAVES,
+    POPULATION_THROUGH, ParticleStart, particle_life, particle_population, particle_state, with_more_hits,
+    with_particle_state,
 };
 use super::strike::{STRIKE_GROUND, particle_contact, particle_push};
 use crate::arith::lane::{Mask, Real, Word};

@@ -87,9 +87,9 @@ impl Scene {
         let Some(nest) = &particles.nest else {
             let births = f64::from(particles.count) * f64::from(rounds);
             return Some(match particles.release {
-                ParticleRelease::Burst { .. } | ParticleRelease::BurningLeaves | ParticleRelease::Snowfall => {
-                    f64::INFINITY
-                }
+                ParticleRelease::Burst { .. }
+                | ParticleRelease::BurningLeaves
+                | ParticleRelease::Snowfall => f64::INFINITY,
                 ParticleRelease::Rate { per_s, .. } => libm::floor(births / (f64::from(per_s) * dt_s)),
                 ParticleRelease::Poisson { per_s, .. } => {
                     // The mean with six standard deviations and one more gives so many.

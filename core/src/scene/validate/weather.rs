@@ -90,9 +90,8 @@ mod tests {
 
     #[test]
     fn weather_out_of_range_is_named() {
-        let with = |change: fn(&mut Weather)| {
-            refused(|scene| change(scene.weather.as_mut().expect("stated")))
-        };
+        let with =
+            |change: fn(&mut Weather)| refused(|scene| change(scene.weather.as_mut().expect("stated")));
         assert_eq!(with(|_| {}), "", "as it is");
         for (line, names) in [
             (with(|weather| weather.size_m.x = 201.0), ["weather.size_m.x is 201", "1 to 200 m"]),
@@ -115,11 +114,15 @@ mod tests {
             (refused(|scene| scene.weather = None), ["particles[0].release is Snowfall", "without weather"]),
             (
                 refused(|scene| {
-                    scene.particles[0].from = ParticleShape::Feet { center_m: glam::Vec3::Y, radius_m: 1.0, feet: 3 };
+                    scene.particles[0].from =
+                        ParticleShape::Feet { center_m: glam::Vec3::Y, radius_m: 1.0, feet: 3 };
                 }),
                 ["particles[0].from", "a Box with an area"],
             ),
-            (refused(|scene| scene.particles[0].meets = Meets::Stick), ["particles[0].meets is Stick", "Die"]),
+            (
+                refused(|scene| scene.particles[0].meets = Meets::Stick),
+                ["particles[0].meets is Stick", "Die"],
+            ),
             (refused(|scene| scene.particles[0].life_s = None), ["particles[0].life_s", ""]),
             (
                 refused(|scene| {
