@@ -38,7 +38,7 @@ impl LaneLevel {
         Some(Self(level))
     }
 
-    /// What the processor has of it.
+    /// The level, as the library of lanes names it.
     pub(crate) fn level(self) -> Level {
         self.0
     }

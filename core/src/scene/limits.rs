@@ -64,8 +64,6 @@ limits! {
     FRONT_MM_S: f32 = 0.5, 50.0, "mm/s", front_mm_s;
     ASH: f32 = 0.0, 0.4, "", ash;
     SNOW_EDGE_M: f32 = 1.0, 200.0, "m", size_m;
-    SNOW_MM_H: f32 = 0.0, 50.0, "mm/h", snow_mm_h;
-    AIR_C: f32 = -40.0, 30.0, "°C", air_c;
     LYING_MM: f32 = 0.0, 500.0, "mm", lying_mm;
     THROUGH_M: f32 = 0.5, 4096.0, "m", half_extent_m;
     FED_WITHIN_M: f32 = 0.1, 20.0, "m", fed_within_m;
@@ -277,6 +275,10 @@ pub const PARTICLE_SIZE_M: Limit<f32> = Limit { low: 1e-6, high: 100.0, unit: "m
 pub const AIR_TIME_S: Limit<f32> = Limit { low: 1e-4, high: 1000.0, unit: "s" };
 /// Range of terminal speeds.
 pub const SETTLING_M_S: Limit<f32> = Limit { low: 1e-4, high: 100.0, unit: "m/s" };
+/// Snowfall at a key of the weather.
+pub const SNOW_MM_H: Limit<f32> = Limit { low: 0.0, high: 50.0, unit: "mm/h" };
+/// Temperature of the air at a key of the weather.
+pub const AIR_C: Limit<f32> = Limit { low: -40.0, high: 30.0, unit: "°C" };
 /// Range of ages as a share of the life.
 pub const AGE_SHARE: Limit<f32> = Limit { low: 0.0, high: 1.0, unit: "" };
 /// Most steps of the life of a particle: it is kept in 16 bits.

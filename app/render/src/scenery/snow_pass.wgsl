@@ -39,7 +39,7 @@ fn litter_at(corner: vec2<i32>) -> f32 {
     return select(0.0, height, all(node == inside) && most.x > 0);
 }
 
-// What the cells around a corner give it.
+// Sums over the cells around a corner.
 struct Corner {
     depth_m: f32,
     base_m: f32,
@@ -117,7 +117,7 @@ fn fragment(in: Varyings) -> @location(0) vec4<f32> {
     let normal = normalize(normalize(in.normal) - vec3(bump.y, 0.0, bump.z) * rough * exp2(-0.35 * lod));
     let view = normalize(frame.eye_m - in.world);
     let light = frame.sun_direction;
-    // What snow lies on shows through where it is thin.
+    // The ground shows through where it is thin.
     let albedo = mix(vec3(0.62, 0.60, 0.57), vec3(0.86, 0.88, 0.90), full) * (1.0 + 0.10 * grain);
     let shade = tree_shade(in.world);
     let sun = shade.r * leaf_shadow(in.world + vec3(0.0, 0.01, 0.0));
