@@ -320,6 +320,7 @@ mod tests {
         include_str!("terrain.rs"),
         include_str!("tree.rs"),
         include_str!("tree_flow.rs"),
+        include_str!("weather.rs"),
         include_str!("view.rs"),
         include_str!("wind.rs"),
     ];

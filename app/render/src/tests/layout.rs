@@ -165,8 +165,16 @@ fn another_layout_is_noticed() {
 }
 
 /// Members of structs in buffers that are vectors with axes: colours, planes, directions and sizes.
-const WITH_AXES: [&str; 7] =
-    ["ambient", "palette", "sides", "path_lead", "paved_half_m", "inv_size_px", "inv_viewport_px"];
+const WITH_AXES: [&str; 8] = [
+    "ambient",
+    "palette",
+    "sides",
+    "path_lead",
+    "paved_half_m",
+    "inv_size_px",
+    "inv_viewport_px",
+    "snow_cells",
+];
 
 /// Members that are lists by number, four to a vector.
 const LISTS: [&str; 4] = ["heights", "kernel", "strips", "texels_m"];
