@@ -9,13 +9,8 @@
 
 @group(2) @binding(0) var<uniform> snow: SnowUniform;
 @group(2) @binding(1) var<storage, read> bed: array<u32>;
-@group(2) @binding(2) var<storage, read> lies_on: array<Footing>;
-
-// Height in metres, and share of open sky, of the ground or the thing that a cell lies on.
-struct Footing {
-    height_m: f32,
-    open: f32,
-}
+// Height in metres and share of open sky of what each cell lies on.
+@group(2) @binding(2) var<storage, read> lies_on: array<vec2<f32>>;
 
 struct Varyings {
     @builtin(position) clip: vec4<f32>,
@@ -32,7 +27,7 @@ fn level_of(cell: vec2<i32>) -> vec2<f32> {
     }
     let number = u32(cell.y) * snow.snow_cells.x + u32(cell.x);
     let cells = snow.snow_cells.x * snow.snow_cells.y;
-    return vec2(lies_on[number].height_m, f32(bed[snow.snow_word + cells + number]) * snow.depth_unit_m);
+    return vec2(lies_on[number].x, f32(bed[snow.snow_word + cells + number]) * snow.depth_unit_m);
 }
 
 // Height of litter in metres at a corner of cells, by its number from the origin on.
