@@ -154,7 +154,7 @@ impl SnowPass {
 fn uniform_of(block: &SceneBlock, bed_word: u32) -> SnowUniform {
     let (snow, litter) = (&block.snow, &block.litter);
     let first = |first: u32| first.cast_signed();
-    assert!(SNOW_CELLS_PER_M == LITTER_CELLS_PER_M, "one grid for both");
+    const { assert!(SNOW_CELLS_PER_M == LITTER_CELLS_PER_M, "one grid for both") };
     SnowUniform {
         snow_cells: [snow.columns, snow.lines],
         snow_first: [first(snow.first_column), first(snow.first_line)],
