@@ -231,7 +231,7 @@ fn heaps_of_snow_stand_as_steep_as_measured() {
     assert!(peak > 0.6, "a heap: {peak} m");
     for (dx, dz) in [(1i32, 0i32), (0, 1), (-1, 0), (0, -1), (1, 1), (-1, 1), (1, -1), (-1, -1)] {
         let at = |steps: i32| {
-            let [x, z] = [dx, dz].map(|d| (middle as i32 + d * steps) as usize);
+            let [x, z] = [dx, dz].map(|d| middle.checked_add_signed((d * steps) as isize).expect("within"));
             height(x, z)
         };
         let (mut run, mut rise, mut before) = (0.0, 0.0, at(0));
