@@ -42,7 +42,7 @@ pub(crate) struct ParticleBindings {
 }
 
 /// Rows to which the windows of populations are widened, so that they are aligned on any device.
-const WINDOW_STEP: u32 = 16;
+pub(crate) const WINDOW_STEP: u32 = 16;
 
 impl ParticleBindings {
     /// Bindings for the particles of a scene, so many to a window; `None` without any. `blocks` are the scene's, the step's and the tables.

@@ -11,6 +11,7 @@ use windfall_core::tree::record::{BRANCH_COLUMNS, BRANCH_TURN, CarryBlock};
 use super::WgpuSimulator;
 use crate::buffers::{buffer, group, uniform};
 use crate::lists::{active_bytes, empty_events, event_bytes};
+use crate::particles::WINDOW_STEP;
 use crate::pipelines::GroupLayout;
 
 /// Leaf columns before the identities.
@@ -22,8 +23,6 @@ const COLUMNS_ON_TWIGS: usize = 4;
 const FIRES: u32 = MAX_PLUMES as u32;
 /// Places and drifts.
 const COLUMNS_THAT_MOVE: usize = 2;
-/// Rows to which windows of particles are widened, so that they are aligned on any device.
-const PARTICLE_WINDOW_STEP: u32 = 16;
 
 /// A window of the leaf columns that fits in one binding.
 #[derive(Debug)]
@@ -154,7 +153,7 @@ impl WgpuSimulator {
         };
         let on_leaves = |run: LeafParticles| {
             let slot = run.first + first;
-            let aligned = slot / PARTICLE_WINDOW_STEP * PARTICLE_WINDOW_STEP;
+            let aligned = slot / WINDOW_STEP * WINDOW_STEP;
             let run = LeafParticles { first: slot - aligned, count: leaves, first_leaf: first, ..run };
             let block = uniform(&self.gpu, "leaf particles", &run);
             let columns = self.buffers.particles().windows(aligned, run.first + leaves);

@@ -9,12 +9,10 @@ use windfall_core::particle::ParticleRun;
 
 use super::WgpuSimulator;
 use crate::buffers::{group, uniform};
+use crate::particles::WINDOW_STEP;
 use crate::pipelines::GroupLayout;
 use crate::prelude::WORKGROUP_SIZE;
 use crate::shaders::KernelId;
-
-/// Slots to which the windows of flakes are widened, so that they are aligned on any device.
-const WINDOW_STEP: u32 = 16;
 
 /// Bindings of the snow of a world.
 #[derive(Debug)]

@@ -78,7 +78,7 @@ impl Bed {
     }
 }
 
-impl<'a> SnowMut<'a> {
+impl SnowMut<'_> {
     /// The first so many cells, and the others.
     pub fn split_at(self, cells: usize) -> (Self, Self) {
         let (water, waters) = self.water.split_at_mut(cells);
@@ -89,12 +89,6 @@ impl<'a> SnowMut<'a> {
         let next = self.first + cells as u32;
         let front = SnowMut { first: self.first, water, depth, melted, landed };
         (front, SnowMut { first: next, water: waters, depth: depths, melted: melts, landed: lands })
-    }
-
-    /// The same cells again, for a shorter time.
-    pub fn reborrow(&mut self) -> SnowMut<'_> {
-        let Self { first, water, depth, melted, landed } = self;
-        SnowMut { first: *first, water, depth, melted, landed }
     }
 
     fn cell(&self, at: usize) -> SnowCell {

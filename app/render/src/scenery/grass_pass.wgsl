@@ -85,7 +85,7 @@ fn vertex(
 
     var out: Varyings;
     out.clip = frame.view_projection * vec4(world, 1.0);
-    if grown <= 0.02 {
+    if grown * buried <= 0.02 {
         out.clip = vec4(0.0, 0.0, -1.0, 1.0);
     }
     out.color = haze(color, world);

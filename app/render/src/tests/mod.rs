@@ -16,6 +16,7 @@ mod objects;
 mod particles;
 mod ribbons;
 mod rooms;
+mod snow;
 mod sort;
 mod trees;
 
@@ -27,7 +28,7 @@ use windfall_core::scene::{Exposure, Focus, Terrain};
 use windfall_core::solid::solids_of;
 use windfall_core::{CompiledScene, Scene};
 use windfall_texgen::{Atlas, Layer};
-use windfall_wgpu::{BranchColumns, Gpu, LeafColumns, ParticleColumns, WorldColumns};
+use windfall_wgpu::{BedColumn, BranchColumns, Gpu, LeafColumns, ParticleColumns, WorldColumns};
 
 use super::*;
 use crate::camera::Camera;
@@ -107,13 +108,23 @@ pub(crate) fn bench_of(scene: Scene, scene_trees: SceneTrees, atlas: &Atlas) -> 
     let gpu = gpu();
     let options = RendererOptions { litter_count: 0, tile_px: u32::MAX };
     let solids = solids_of(&scene).expect("shapes without files");
-    let compiled = scene.leaves_burn().then(|| CompiledScene::compile(&scene).expect("a scene"));
+    let is_compiled = scene.leaves_burn() || scene.weather.is_some();
+    let compiled = is_compiled.then(|| CompiledScene::compile(&scene).expect("a scene"));
     let burns = compiled.as_ref().map_or(&[][..], |compiled| &compiled.block().burns);
-    let subject =
-        RenderScene { scene: &scene, solids: &solids, burns, snow: None, trees: &scene_trees, atlas };
+    let snow = compiled.as_ref().filter(|compiled| compiled.block().has_snow());
+    let subject = RenderScene { scene: &scene, solids: &solids, burns, snow, trees: &scene_trees, atlas };
     let renderer = Renderer::new(gpu.device(), gpu.queue(), subject, PictureTarget::FORMAT, SIZE, options)
         .expect("a renderer within default limits");
     Bench { gpu, scene, scene_trees, renderer }
+}
+
+/// Parts of a world besides one leaf.
+#[derive(Default)]
+struct Drawn<'a> {
+    branches: Option<&'a BranchColumns<'a>>,
+    particles: Option<ParticleColumns<'a>>,
+    burn: Option<Burn>,
+    bed: Option<BedColumn<'a>>,
 }
 
 impl Bench {
@@ -154,12 +165,22 @@ impl Bench {
         let history = upload::buffer(device, queue, "samples", usage, bytemuck::cast_slice(samples));
         let particles =
             ParticleColumns { place: &place, motion: &motion, traits: &traits, count, history: &history };
-        self.draw_world((None, Some(particles), None), 0, 60_000, 0.0, time_s)
+        self.draw_world(Drawn { particles: Some(particles), ..Drawn::default() }, 0, 60_000, 0.0, time_s)
+    }
+
+    /// Draws the snow that these words of a bed hold.
+    pub(crate) fn draw_snow(&mut self, words: &[u32]) -> RgbaImage {
+        let (device, queue) = (self.gpu.device(), self.gpu.queue());
+        let usage = wgpu::BufferUsages::STORAGE;
+        let buffer = upload::buffer(device, queue, "bed", usage, bytemuck::cast_slice(words));
+        let bed = BedColumn { buffer: &buffer, first_word: 0 };
+        let drawn = Drawn { bed: Some(bed), ..Drawn::default() };
+        self.draw_world(drawn, 0, 60_000, 0.0, 0.0)
     }
 
     /// Draws one big falling leaf that burns as `burn` says.
     pub(crate) fn draw_burning(&mut self, burn: Burn, time_s: f64) -> RgbaImage {
-        self.draw_world((None, None, Some(burn)), STATE_FALLING, 60_000, 0.0, time_s)
+        self.draw_world(Drawn { burn: Some(burn), ..Drawn::default() }, STATE_FALLING, 60_000, 0.0, time_s)
     }
 
     fn draw_all(
@@ -170,12 +191,12 @@ impl Bench {
         offset_m: f32,
         time_s: f64,
     ) -> RgbaImage {
-        self.draw_world((branches, None, None), state, size, offset_m, time_s)
+        self.draw_world(Drawn { branches, ..Drawn::default() }, state, size, offset_m, time_s)
     }
 
     fn draw_world(
         &mut self,
-        (branches, particles, burn): (Option<&BranchColumns<'_>>, Option<ParticleColumns<'_>>, Option<Burn>),
+        Drawn { branches, particles, burn, bed }: Drawn<'_>,
         state: u32,
         size: u32,
         offset_m: f32,
@@ -205,13 +226,7 @@ impl Bench {
         self.renderer.draw(
             &mut encoder,
             &target.view(),
-            &WorldColumns {
-                leaves,
-                branches: branches.cloned(),
-                particles,
-                burns: burns.as_ref(),
-                bed: None,
-            },
+            &WorldColumns { leaves, branches: branches.cloned(), particles, burns: burns.as_ref(), bed },
             &FrameInput { camera, time_s, since_s: f32::INFINITY, origin: (0, 0) },
         );
         target.submit_and_read(device, queue, encoder).expect("a picture")

@@ -342,7 +342,7 @@ fn dies(ui: &mut Ui, dies: &mut Option<Bounds>, own: Option<Option<Bounds>>) {
         ("everywhere", Region::Everywhere),
         ("above", Region::Above(0.0)),
         ("in a box", Region::Within { center_m: 2.0 * Vec3::Y, half_extent_m: Vec3::splat(10.0) }),
-        ("around a box", Region::Through { center_m: 2.0 * Vec3::Y, half_extent_m: Vec3::splat(10.0) }),
+        ("through a box", Region::Through { center_m: 2.0 * Vec3::Y, half_extent_m: Vec3::splat(10.0) }),
     ];
     choice(ui, "Lives", "Region beyond which they die", &mut region, own.as_ref(), &options);
     match &mut region {
