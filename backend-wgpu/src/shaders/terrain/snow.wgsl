@@ -103,7 +103,11 @@ fn snow_age(number: u32, cell: SnowCell, open: f32) -> SnowCell {
     let warmth = step_block.snow.melt_woods + open * (step_block.snow.melt_open - step_block.snow.melt_woods);
     let left = cell.water - min(round_at_random(warmth, words.x), cell.water);
     // The depth goes with the water.
-    let kept = snow_part(SnowCell(cell.depth, cell.water), left).water;
+    var kept = cell.depth;
+    if (left != cell.water) {
+        let share = f32(left) * reciprocal(f32(cell.water));
+        kept = min(round_at_random(f32(cell.depth) * share, words.z), cell.depth);
+    }
     let least = f32(left) * OLD_DEPTH;
     let loose = max(f32(kept) - least, 0.0);
     return SnowCell(left, kept - min(round_at_random(loose * step_block.snow.settled, words.y), kept));

@@ -187,11 +187,15 @@ pub fn round_at_random(number: f32, word: u32) -> u32 {
 #[inline(always)]
 pub fn snow_age(cx: &Context<'_>, number: u32, cell: SnowCell, open: f32) -> SnowCell {
     let now = &cx.step.snow;
-    let [melt, settle, _, _] = philox(cx.scene.seed, [number, STREAM_SNOW, cx.step.index, 0]);
+    let [melt, settle, shrink, _] = philox(cx.scene.seed, [number, STREAM_SNOW, cx.step.index, 0]);
     let warmth = now.melt_woods + open * (now.melt_open - now.melt_woods);
     let left = cell.water - round_at_random(warmth, melt).min(cell.water);
     // The depth goes with the water.
-    let kept = snow_part(SnowCell { water: cell.depth, depth: cell.water }, left).water;
+    let mut kept = cell.depth;
+    if left != cell.water {
+        let share = left.to_real() * reciprocal(cell.water.to_real());
+        kept = round_at_random(cell.depth.to_real() * share, shrink).min(cell.depth);
+    }
     let least = left.to_real() * OLD_DEPTH;
     let loose = (kept.to_real() - least).max(0.0);
     SnowCell { water: left, depth: kept - round_at_random(loose * now.settled, settle).min(kept) }
