@@ -203,7 +203,7 @@ fn a_changed_kernel_is_noticed() {
     jets.wind.plumes = vec![plume()];
     let jets = warmed(&jets, 400);
     let litter = warmed(&littered_scene(5, 20_000, 3.5, 1.0 / 60.0), 400);
-    let fire = warmed(&burning_scene(5, 600, 0.7, 1.0 / 60.0), 480);
+    let fire = warmed(&burning_scene(5, 600, 0.7, 1.0 / 60.0), 240);
     let solids = warmed(&obstructed_scene(5, 20_000, 2.0, 1.0 / 60.0), 150);
     let [plain, flying] = calm.map(|scene| warmed(&scene, 400));
     for (gpu, contract) in adapter::contracts() {

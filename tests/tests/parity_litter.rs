@@ -136,7 +136,7 @@ fn burning_leaves_are_equal_to_the_bit() {
     assert!(glow.alive > 30 && embers.alive > 20, "{glow:?}, {embers:?}");
     let mut fed = expected.bed.clone();
     let [_, fire, ..] = fed.fires_mut(expected.compiled.block()) else { panic!("a fire for each plume") };
-    assert!(fire[0] > 1000, "leaves feed the second fire: {fire:?}");
+    assert!(fire[0] > 500, "leaves feed the second fire: {fire:?}");
     for (threads, simd) in [(Some(1), None), (Some(3), Some(Simd::Scalar))] {
         let found = oracle(&world, CpuOptions { threads, simd }, STEPS);
         assert_eq!(expected.state_hash(), found.state_hash(), "{threads:?} threads, {simd:?}");

@@ -118,56 +118,6 @@ impl From<BurnStats> for BurningReport {
     }
 }
 
-/// Snow of a scene at one step.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub(crate) struct SnowReport {
-    /// Flakes in the air.
-    pub flakes: u32,
-    /// Their water in kg.
-    pub falling_kg: f64,
-    /// Water that has landed on the rectangle, or lay there from the start, in kg.
-    pub landed_kg: f64,
-    /// Water of what lies in kg.
-    pub lying_kg: f64,
-    /// The same over the rectangle in mm.
-    pub lying_mm: f64,
-    /// Greatest depth in m.
-    pub deepest_m: f64,
-    /// Depth on average in m.
-    pub mean_depth_m: f64,
-    /// Water that has melted in kg.
-    pub melted_kg: f64,
-    /// Share of the rectangle under at least a tenth of a millimetre of water.
-    pub covered: f64,
-}
-
-impl From<SnowStats> for SnowReport {
-    fn from(stats: SnowStats) -> Self {
-        let SnowStats {
-            flakes,
-            falling_kg,
-            landed_kg,
-            lying_kg,
-            lying_mm,
-            melted_kg,
-            deepest_m,
-            mean_depth_m,
-            covered,
-        } = stats;
-        Self {
-            flakes,
-            falling_kg,
-            landed_kg,
-            lying_kg,
-            lying_mm,
-            deepest_m,
-            mean_depth_m,
-            melted_kg,
-            covered,
-        }
-    }
-}
-
 /// The outcome of `windfall simulate`. The names of these fields are the keys of its JSON; they stay.
 #[derive(Clone, Debug, Serialize)]
 pub(crate) struct Report {
@@ -193,8 +143,8 @@ pub(crate) struct Report {
     pub litter: Option<LitterReport>,
     /// Leaves that burn; null where none do.
     pub burning: Option<BurningReport>,
-    /// Snow; `None` without weather that brings any.
-    pub snow: Option<SnowReport>,
+    /// The snow; null without weather that brings any.
+    pub snow: Option<SnowStats>,
     /// The populations of particles.
     pub particles: Vec<ParticleReport>,
     /// Mean position over the total.
@@ -238,7 +188,7 @@ impl Report {
             trees,
             litter: world.litter_stats().map(LitterReport::from),
             burning: world.burn_stats().map(BurningReport::from),
-            snow: world.snow_stats().map(SnowReport::from),
+            snow: world.snow_stats(),
             particles: world.particle_stats().into_iter().map(ParticleReport::from).collect(),
             mean_position_m,
             mean_velocity_m_s,
@@ -280,7 +230,7 @@ impl Report {
             );
         }
         if let Some(snow) = self.snow {
-            let SnowReport { falling_kg, lying_kg, lying_mm, deepest_m, melted_kg, covered, .. } = snow;
+            let SnowStats { falling_kg, lying_kg, lying_mm, deepest_m, melted_kg, covered, .. } = snow;
             let depth = format!(
                 "{lying_mm:.3} mm of water, {deepest_m:.3} m at most, {:.0} % covered",
                 100.0 * covered

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Snow of a world: its cells, landings of flakes, exchanges between cells, and sums over all.
 
+use serde::Serialize;
+
 use crate::blocks::{NEVER, SceneBlock, SnowBlock};
 use crate::context::Context;
 use crate::device::particle::record::{PARTICLE_DIED, PARTICLE_HIT, POPULATION_SNOW};
@@ -218,7 +220,7 @@ pub(crate) fn step_snow(cx: &Context<'_>, bed: &mut Bed, flakes: &[ParticlePlace
 }
 
 /// Sums over the snow of a world at one step.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct SnowStats {
     /// Flakes in the air.
     pub flakes: u32,
@@ -232,6 +234,8 @@ pub struct SnowStats {
     pub lying_mm: f64,
     /// Water that has melted in kg.
     pub melted_kg: f64,
+    /// The same over the rectangle in mm.
+    pub melted_mm: f64,
     /// Greatest depth in m.
     pub deepest_m: f64,
     /// Depth on average over the rectangle in m.
@@ -256,6 +260,7 @@ impl SnowStats {
             lying_kg: water * UNIT_KG,
             lying_mm: water * f64::from(SNOW_WATER_MM) / count,
             melted_kg: sum(snow.melted) * UNIT_KG,
+            melted_mm: sum(snow.melted) * f64::from(SNOW_WATER_MM) / count,
             deepest_m: f64::from(snow.depth.iter().copied().max().unwrap_or(0)) * f64::from(SNOW_DEPTH_M),
             mean_depth_m: sum(snow.depth) * f64::from(SNOW_DEPTH_M) / count,
             covered: covered.count() as f64 / count,
