@@ -9,7 +9,7 @@ fn cell_floor(cells: f32) -> f32 {
 }
 
 fn cell_key(column: u32, layer: u32, line: u32) -> u32 {
-    var key = (column * 73856093u) ^ (layer * 19349663u) ^ (line * 83492791u);
+    var key = (column * 73856093u) + (layer * 19349663u) + (line * 83492791u);
     key = (key ^ (key >> 16u)) * 0x7feb352du;
     key = (key ^ (key >> 15u)) * 0x846ca68bu;
     return key ^ (key >> 16u);
