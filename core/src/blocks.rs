@@ -200,6 +200,14 @@ crate::shared_struct! {
         pub settled: f32,
         /// Units of depth per unit of water of fresh snow in 2^-12.
         pub fresh_depth_q12: u32,
+        /// Friction velocity of the wind over snow in the open in m/s.
+        pub drift_m_s: f32,
+        /// Friction velocity in m/s from which on it takes fresh snow along.
+        pub lifts_fresh_m_s: f32,
+        /// The same of old snow.
+        pub lifts_old_m_s: f32,
+        /// Units of water that go over an edge, per lift (u*² - lift²) / u*.
+        pub drift_units: f32,
     }
 }
 

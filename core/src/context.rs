@@ -39,4 +39,10 @@ impl<'a> Context<'a> {
     pub fn has_litter(&self) -> bool {
         self.scene.litter.columns != 0 && !self.litter.is_empty()
     }
+
+    /// Returns true if snow lies on what leaves lie on.
+    #[inline(always)]
+    pub fn has_snow(&self) -> bool {
+        self.scene.snow.columns != 0 && !self.litter.is_empty()
+    }
 }

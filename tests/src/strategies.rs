@@ -552,6 +552,7 @@ pub fn particle_scene(seed: u64, speed_m_s: f32, dt_s: f32) -> Scene {
         snow_mm_h: vec![(0.0, 50.0), (4.0, 20.0), (9.0, 50.0)],
         air_c: vec![(0.0, -8.0), (2.0, 30.0)],
         lying_mm: 1.5,
+        lying_h: 0.0,
     });
     let bounce = |restitution: f32, friction: ObjectFriction| Meets::Bounce { restitution, friction };
     let cone = |half_angle_deg: f32| Direction::Cone { axis, half_angle_deg };

@@ -179,6 +179,7 @@ fn functions_agree_on_every_adapter() {
                         "strike_solids",
                         "solid_footing",
                         "solids_cell",
+                        "may_meet_solids_within",
                         "own_sums",
                         "collisions_of",
                     ]
@@ -276,6 +277,7 @@ fn a_changed_twin_is_noticed() {
         ("solid/grid", "y.node) * counts.x", "y.node) * counts.y", "solid_distance"),
         ("solid/grid", "rise_near + (rise_far", "rise_far + (rise_far", "solid_distance"),
         ("solid/near", "line * scene", "column * scene", "solids_cell"),
+        ("solid/near", "bound * bound", "bound * reach", "may_meet_solids_within"),
         ("flight/strike", "motion.velocity - along", "motion.velocity", "strike_solids"),
         ("flight/strike", "radius * reach_share", "radius", "first_strike"),
         ("leaf/strike", "-(normal.x * inverse)", "-(normal.z * inverse)", "solid_footing"),
@@ -289,6 +291,8 @@ fn a_changed_twin_is_noticed() {
         ("terrain/snow", "column + kind - 2u", "column + kind - 1u", "snow_pair"),
         ("terrain/snow", "way_m * snow_repose", "way_m + snow_repose", "snow_slide"),
         ("terrain/snow", "cell.water - min(round_at_random", "cell.depth - min(round_at_random", "snow_age"),
+        ("terrain/snow", "speed * speed - lifts", "speed - lifts", "snow_drift"),
+        ("terrain/snow", "snow.z * (far - near)", "snow.x * (far - near)", "snow_height"),
         (
             "particle/step",
             "select(none, width, high < place)",

@@ -299,3 +299,54 @@ fn changes_of_a_constant_or_an_operator_are_noticed() {
         assert!(apart(shaders).is_some(), "{module}: '{new}' goes unnoticed");
     });
 }
+
+/// Snow that a storm takes along, among things in its way and around the edges: the same bits with any number of threads and on both backends,
+/// and changes are noticed.
+#[test]
+fn drifting_snow_is_equal_to_the_bit() {
+    let mut scene = particle_scene(35, 16.0, DT_S);
+    scene.particles.retain(windfall_core::scene::Particles::is_snow);
+    scene.sources.truncate(1);
+    scene.sources[0].count = 1;
+    scene.sources[0].release = Release::Burst { at_s: 60.0 };
+    scene.ground.litter.iter_mut().for_each(|litter| litter.leaf_area_index = 0.0);
+    let weather = scene.weather.as_mut().expect("it snows");
+    weather.air_c = vec![(0.0, -6.0)];
+    weather.lying_h = 0.02;
+    let world = World::build(&scene).expect("valid");
+    let expected = on_cpu(&world, CpuOptions { simd: Some(Simd::Scalar), threads: Some(1) }, 200);
+    let calm = {
+        scene.wind.speed = MeanSpeed::MetresPerSecond(2.0);
+        on_cpu(&World::build(&scene).expect("valid"), CpuOptions::default(), 200)
+    };
+    let snow = |world: &World| world.bed.snow(world.compiled.block()).water.to_vec();
+    let moved = snow(&expected).iter().zip(snow(&calm)).filter(|(one, two)| **one != *two).count();
+    assert!(moved > 1000, "the storm takes it along: {moved} cells");
+    for threads in [1, 3, 16] {
+        let options = CpuOptions { threads: Some(threads), ..CpuOptions::default() };
+        let apart = difference(&on_cpu(&world, options, 200), &expected);
+        assert!(apart.is_none(), "{threads} threads: {apart:?}");
+    }
+    let course = Course::new(world, &[36, 180]);
+    let gpu = exact_adapters().next().expect("an adapter that keeps the exact contract");
+    let edits = [
+        ("kernels/step_snow", "snow_drift(there, -rise_m", "snow_drift(here, -rise_m"),
+        ("kernels/step_snow", "drifted_depth(to)", "to.depth"),
+        ("kernels/step_snow", "f32(snow.depth) * SNOW_DEPTH_M, center.y", "0.0, center.x"),
+        ("terrain/snow", "cell - column, is_around", "cell, is_around"),
+        ("terrain/snow", "return SnowPair(column, false, true)", "return none"),
+        ("terrain/snow", "left * toward <= 0.0", "left * toward >= 0.0"),
+    ];
+    let apart = |shaders: Shaders| {
+        let others = KernelId::ALL.into_iter().filter(|kernel| !OF_PARTICLES.contains(kernel));
+        let options = exact(None, Some(with_idle(shaders, others)));
+        course.first_difference(&gpu, &options)
+    };
+    let unchanged = apart(Shaders::default());
+    assert!(unchanged.is_none(), "both backends drift snow alike: {unchanged:?}");
+    two_at_a_time(edits.into_iter(), |(module, old, new)| {
+        let shaders = Shaders::default().edited(module, old, new);
+        let shaders = shaders.unwrap_or_else(|| panic!("{module} has no '{old}'"));
+        assert!(apart(shaders).is_some(), "{module}: '{new}' goes unnoticed");
+    });
+}

@@ -7,7 +7,7 @@
 use rayon::join;
 use windfall_core::Context;
 use windfall_core::blocks::NEVER;
-use windfall_core::device::terrain::snow::{SNOW_AGES, snow_turn};
+use windfall_core::device::terrain::snow::{SNOW_AGES, snow_drifts, snow_turn};
 use windfall_core::litter::{Bed, SnowMut};
 
 /// Cells that a thread takes before it takes the next.
@@ -22,7 +22,10 @@ pub(crate) fn step_snow(cx: &Context<'_>, bed: &mut Bed) {
     let line = cx.scene.snow.columns as usize;
     // Pairs of lines begin with the first or the second; no pair is parted.
     let before = if turn < SNOW_AGES { line * (turn >> 2) as usize } else { 0 };
-    let snow = bed.snow_mut(cx.scene);
+    let mut snow = bed.snow_mut(cx.scene);
+    if snow_drifts(cx) {
+        snow.exchange_around(cx, turn);
+    }
     let before = before.min(snow.water.len());
     let (mut front, back) = snow.split_at(before);
     step_cells(cx, turn, &mut front);

@@ -18,13 +18,12 @@ use windfall_core::device::particle::record::{
     PARTICLE_RESTING, particle_state, with_more_hits, with_particle_state,
 };
 use windfall_core::device::particle::step::{
-    ParticleChange, is_outside, life_is_over, may_be_struck, through_sides,
+    ParticleChange, is_in_reach_of_solids, is_outside, life_is_over, may_be_struck, through_sides,
 };
 use windfall_core::device::particle::strike::{
     PARTICLE_STILL_SQUARED, STRIKE_GROUND, bent_share, ground_gap, ground_normal, ground_strike,
     struck_velocity,
 };
-use windfall_core::device::solid::near::may_meet_solids;
 use windfall_core::particle::{ParticleMotion, ParticlePlace, ParticleTraits};
 
 use super::branch_block::{Column, vector_and_fourth};
@@ -167,8 +166,7 @@ fn ground_contact<R: Real>(
     let mut goes_on = is_struck;
     for _ in 0..MOST_STRIKES {
         if cx.scene.has_solids() {
-            let reach = cx.scene.solids.reach_m;
-            let is_near = may_meet_solids(cx, from) | none.all(reach * reach).less_than(vec3_dot(way, way));
+            let is_near = is_in_reach_of_solids(cx, from, vec3_dot(way, way));
             contact.is_left = contact.is_left | (goes_on & is_near);
             goes_on = goes_on & !is_near;
         }

@@ -15,6 +15,7 @@ use crate::device::leaf::burn::BURN_STAGES;
 use crate::device::leaf::collide::COLLISION_WEIGHT_MOST;
 use crate::device::leaf::wake::{CALM_INTERVAL, COVER_INTERVAL, WAKE_INTERVAL};
 use crate::device::terrain::litter::{LITTER_CELLS_PER_M, LITTER_HIGHEST_M};
+use crate::device::terrain::snow::SNOW_HIGHEST_M;
 use crate::device::tree::sway::{IMPLICITNESS, SCHEME_ARTICULATED, SCHEME_OLIAPURAM_KUMAR, SCHEME_QUIGLEY};
 use crate::flight::coefficients::TICKS_PER_S;
 use crate::motion::{AIR_DENSITY, MotionTables};
@@ -140,6 +141,9 @@ fn set_ground(scene: &Scene, block: &mut SceneBlock) {
     }
     if let Some(litter) = &ground.litter {
         block.highest_rest_m += LITTER_HIGHEST_M;
+        if scene.weather.is_some() {
+            block.highest_rest_m += SNOW_HIGHEST_M;
+        }
         set_litter(scene, litter, &mut block.litter);
     }
 }

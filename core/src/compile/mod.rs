@@ -283,6 +283,11 @@ impl CompiledScene {
         foot_height(&self.block, &self.tables, x_m, z_m)
     }
 
+    /// A step in which snow lies for so many seconds in the mean wind and the air of another, as one of many rounds.
+    pub(crate) fn lying_step(&self, of: &StepBlock, round: u32, seconds: f64) -> StepBlock {
+        snow::lying_step(&self.scene, &self.block, of, round, seconds)
+    }
+
     /// Snow that the weather alone leaves in the open at a time in seconds; `None` without weather.
     pub fn open_snow(&self, time_s: f64) -> Option<OpenSnow> {
         self.scene.weather.as_ref().map(|weather| snow::open_snow(weather, time_s))

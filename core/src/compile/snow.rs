@@ -5,11 +5,12 @@
 use glam::{DVec2, DVec3};
 
 use super::solids::bound_m;
-use crate::blocks::{SceneBlock, SnowBlock, SnowStepBlock};
+use crate::blocks::{SceneBlock, SnowBlock, SnowStepBlock, StepBlock};
 use crate::convert::{low_word, single, word};
 use crate::device::terrain::snow::{
-    SNOW_CELLS_PER_M, SNOW_DEPTH_M, SNOW_INTERVAL, SNOW_ON_WATER, SNOW_TURNS, SNOW_WATER_MM,
+    DRIFT_ROUNDS, SNOW_CELLS_PER_M, SNOW_DEPTH_M, SNOW_INTERVAL, SNOW_ON_WATER, SNOW_TURNS, SNOW_WATER_MM,
 };
+use crate::device::wind::profile::profile_factor;
 use crate::layout::Uint4;
 use crate::litter::Bed;
 use crate::scene::{ParticleShape, Particles, Scene, Weather};
@@ -25,6 +26,21 @@ const SETTLING_H: [f64; 2] = [48.0, 12.0];
 const OLD_KG_M3: f64 = 250.0;
 /// Density of water in kg/m³.
 const WATER_KG_M3: f64 = 1000.0;
+/// Wind in m/s at ten metres from which on snow drifts, dry and wet. Means of what Li and Pomeroy (Journal of Applied Meteorology 36, 1997) observed,
+/// 7.7 and 9.9, are taken for snow that fell dry, and at 0 °C, where it is denser; the highest, for old snow.
+const LIFTS_FRESH_M_S: [f64; 2] = [7.7, 8.2];
+const LIFTS_OLD_M_S: [f64; 2] = [11.0, 14.0];
+/// Height of that wind in m.
+const WIND_HEIGHT_M: f64 = 10.0;
+/// Roughness length of snow in m: assumed.
+const SNOW_ROUGHNESS_M: f64 = 0.0003;
+/// Kármán's constant.
+const KARMAN: f64 = 0.4;
+/// Factor of the law of saltation (Pomeroy and Gray, Water Resources Research 26, 1990).
+const SALTATION: f64 = 0.68;
+/// Density of air in kg/m³, and gravity in m/s², of the measurements behind it.
+const AIR_KG_M3: f64 = 1.25;
+const GRAVITY_M_S2: f64 = 9.81;
 /// Height in m above everything from which solid things are seen.
 const ABOVE_M: f64 = 1e4;
 /// Distance in m from a leaf or twig within which there is a crown overhead.
@@ -126,7 +142,8 @@ fn grid_span(center_m: f32, size_m: f32) -> (u32, u32) {
     let first = libm::floor((f64::from(center_m) - 0.5 * f64::from(size_m)) * cells + 0.5);
     #[expect(clippy::cast_possible_truncation, reason = "validated to stay within 4096 m and a few")]
     let first = first as i64;
-    (low_word(first), word(libm::floor(f64::from(size_m) * cells + 0.5)))
+    // Cells exchange snow in pairs, around the edges too.
+    (low_word(first), 2 * word(libm::floor(0.5 * f64::from(size_m) * cells + 0.5)))
 }
 
 /// Edge of a cell in m.
@@ -190,8 +207,27 @@ pub(super) fn snow_step(weather: Option<&Weather>, dt_s: f64, time_s: f64) -> Sn
     [step.melt_open, step.melt_woods] = MELT_MM_DAY_C.map(melts);
     step.settled = single(round_s / (3600.0 * settling_h(air_c)));
     let depth_m = f64::from(SNOW_WATER_MM) / 1000.0 * WATER_KG_M3 / fresh_kg_m3(air_c);
+    let wet = (air_c + 1.0).clamp(0.0, 1.0);
+    let lift = |[dry, wet_m_s]: [f64; 2]| single((dry + (wet_m_s - dry) * wet) * friction_per_wind());
+    (step.lifts_fresh_m_s, step.lifts_old_m_s) = (lift(LIFTS_FRESH_M_S), lift(LIFTS_OLD_M_S));
+    let exchange_s = round_s * f64::from(DRIFT_ROUNDS);
+    let per_m = SALTATION * AIR_KG_M3 / GRAVITY_M_S2;
+    step.drift_units = single(per_m * exchange_s / cell_m() / f64::from(SNOW_WATER_MM));
     step.fresh_depth_q12 = word(libm::floor(depth_m / f64::from(SNOW_DEPTH_M) * 4096.0 + 0.5));
     step
+}
+
+/// Friction velocity over snow per wind ten metres above it.
+fn friction_per_wind() -> f64 {
+    KARMAN / libm::log(WIND_HEIGHT_M / SNOW_ROUGHNESS_M)
+}
+
+/// Friction velocity in m/s over snow in the open, in a wind whose gusts are at so many times their strength.
+pub(super) fn snow_friction(scene: &Scene, block: &SceneBlock, gust: f32) -> f32 {
+    let wind = &block.wind;
+    let grown = profile_factor(scene.wind.profile, WIND_HEIGHT_M, scene.wind.reference_height_m.into());
+    let gusts = 1.0 + f64::from(gust) * f64::from(wind.gust_strength);
+    single(f64::from(wind.mean_speed_m_s) * grown * gusts * friction_per_wind())
 }
 
 /// Snow in the open, where neither trees nor wind nor slopes take any of it away.
@@ -206,17 +242,40 @@ pub struct OpenSnow {
 /// Longest step in s in which it is followed.
 const OPEN_STEP_S: f64 = 60.0;
 
+/// A step that stands for so many seconds of the mean wind and the air of another, and of an exchange of drifting snow: one of many rounds in which
+/// snow lies before time zero.
+pub(super) fn lying_step(
+    scene: &Scene,
+    block: &SceneBlock,
+    of: &StepBlock,
+    round: u32,
+    seconds: f64,
+) -> StepBlock {
+    let mut step = *of;
+    let (exchange, turns) = (DRIFT_ROUNDS, SNOW_INTERVAL * SNOW_TURNS);
+    let rounds = single(seconds / (f64::from(turns) * f64::from(scene.dt_s)));
+    step.index = round * turns * exchange;
+    for number in [&mut step.snow.melt_open, &mut step.snow.melt_woods, &mut step.snow.settled] {
+        *number *= rounds;
+    }
+    step.snow.drift_units *= rounds / exchange as f32;
+    step.snow.drift_m_s = snow_friction(scene, block, 0.0);
+    step
+}
+
 /// Snow that the weather alone leaves in the open at a time.
 pub(super) fn open_snow(weather: &Weather, time_s: f64) -> OpenSnow {
     let depth_of = |water_mm: f64, kg_m3: f64| water_mm / kg_m3;
     let first_mm = f64::from(weather.lying_mm);
     let mut snow =
         OpenSnow { water_mm: first_mm, depth_m: depth_of(first_mm, fresh_kg_m3(weather.air_c_at(0.0))) };
-    let mut now_s = 0.0;
+    let mut now_s = -3600.0 * f64::from(weather.lying_h);
     while now_s < time_s {
-        let step_s = (time_s - now_s).min(OPEN_STEP_S);
+        let until_s = if now_s < 0.0 { time_s.min(0.0) } else { time_s };
+        let step_s = (until_s - now_s).min(OPEN_STEP_S);
         let air_c = weather.air_c_at(now_s + 0.5 * step_s);
-        let fallen_mm = weather.snow_mm_h_at(now_s + 0.5 * step_s) * step_s / 3600.0;
+        let falling_mm_h = if now_s < 0.0 { 0.0 } else { weather.snow_mm_h_at(now_s + 0.5 * step_s) };
+        let fallen_mm = falling_mm_h * step_s / 3600.0;
         let melted_mm = (MELT_MM_DAY_C[0] * air_c.max(0.0) * step_s / 86_400.0).min(snow.water_mm);
         snow.depth_m *= 1.0 - if snow.water_mm > 0.0 { melted_mm / snow.water_mm } else { 0.0 };
         snow.water_mm -= melted_mm;

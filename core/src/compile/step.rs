@@ -4,7 +4,7 @@
 
 use super::jet::jet_block;
 use super::plume::{plume_block, puffs_per_s};
-use super::snow::snow_step;
+use super::snow::{snow_friction, snow_step};
 use super::vortex::vortex_block;
 use super::{CompiledScene, Cycle};
 use crate::arith::rng::{random, unit_float};
@@ -13,7 +13,7 @@ use crate::clock::Clock;
 use crate::convert::{len32, single};
 use crate::device::leaf::burn::FIRE_WORDS;
 use crate::device::leaf::collide::COLLISION_CELLS_PER_M;
-use crate::device::wind::gust::GUST_ROWS;
+use crate::device::wind::gust::{GUST_ROWS, wind_gust};
 use crate::device::wind::turbulence::TURBULENCE_X;
 use crate::scene::{MAX_MOVERS, Profile};
 
@@ -24,7 +24,7 @@ impl CompiledScene {
     /// The block of one step.
     pub fn step_block(&self, clock: &Clock) -> StepBlock {
         let middle = 0.5 * f64::from(self.block.wind.interval_steps);
-        StepBlock {
+        let mut step = StepBlock {
             moments: [0.0, middle].map(|steps| self.moment_block(clock, steps)),
             movers: self.movers_at(clock.seconds()),
             births: self.births.blocks(clock.step(), clock.born()),
@@ -35,7 +35,14 @@ impl CompiledScene {
             jet_count: len32(self.scene.wind.jets.len()),
             slipstream_count: self.solids.slipstream_count(),
             plume_count: len32(self.scene.wind.plumes.len()),
+        };
+        if let Some(weather) = &self.scene.weather {
+            let wind = &self.block.wind;
+            let along = weather.center_m.x * wind.direction_x + weather.center_m.y * wind.direction_z;
+            let gust = wind_gust(&self.context(&step), &step.moments[0], along);
+            step.snow.drift_m_s = snow_friction(&self.scene, &self.block, gust);
         }
+        step
     }
 
     /// Shift of the grids in which leaves collide and heat each other in a step, less than a cell of the coarser one along each axis.

@@ -93,6 +93,11 @@ pub(crate) fn lay_all(cx: &Context<'_>, leaves: &mut Leaves, bed: &mut Bed) {
             bed.apply(&cx.scene.litter, &change);
         }
     }
+    mark_covered(cx, leaves, bed);
+}
+
+/// Marks the leaves that others cover, or snow.
+pub(crate) fn mark_covered(cx: &Context<'_>, leaves: &mut Leaves, bed: &Bed) {
     for mut leaf in leaves.as_mut().iter_mut() {
         leaf_check_cover(&cx.over(&bed.words), &mut leaf);
     }

@@ -2,15 +2,21 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Snow of a world: its cells, landings of flakes, exchanges between cells, and sums over all.
 
+use std::ops::Range;
+
 use serde::Serialize;
 
+use crate::arith::lane::Word;
 use crate::blocks::{NEVER, SceneBlock, SnowBlock};
 use crate::context::Context;
+use crate::convert::word;
 use crate::device::particle::record::{PARTICLE_DIED, PARTICLE_HIT, POPULATION_SNOW};
 use crate::device::terrain::snow::{
-    FLAKE_CELLS, ROOT_TWO, SNOW_AGES, SNOW_CELLS_PER_M, SNOW_DEPTH_M, SNOW_WATER_MM, SNOW_WORDS, SnowCell,
-    flake_cell, flake_share, fresh_depth, snow_age, snow_cell, snow_pair, snow_slide, snow_turn,
+    AROUND_TURN, FLAKE_CELLS, ROOT_TWO, SNOW_AGES, SNOW_CELLS_PER_M, SNOW_DEPTH_M, SNOW_WATER_MM, SNOW_WORDS,
+    SnowCell, drifted_depth, flake_cell, flake_share, fresh_depth, snow_age, snow_cell, snow_center,
+    snow_drift, snow_drifts, snow_pair, snow_slide, snow_turn,
 };
+use crate::device::wind::shelter::wind_shelter;
 use crate::layout::Uint4;
 use crate::particle::{ParticlePlace, ParticleStore};
 use crate::scene::Scene;
@@ -131,14 +137,29 @@ impl SnowMut<'_> {
 
     /// Lets the cells exchange snow with each other, as the first and the second of pairs.
     pub fn exchange(&mut self, cx: &Context<'_>, turn: u32) {
-        for at in 0..self.water.len() {
+        let all = 0..self.water.len();
+        self.exchange_from(cx, turn, all);
+    }
+
+    /// Lets the last line exchange snow with the first in the turn in which they meet. Only on all cells.
+    pub fn exchange_around(&mut self, cx: &Context<'_>, turn: u32) {
+        let (all, line) = (self.water.len(), cx.scene.snow.columns as usize);
+        if turn == AROUND_TURN {
+            self.exchange_from(cx, turn, all - line..all);
+        }
+    }
+
+    /// The same of pairs whose first cells are among some, and both among all.
+    fn exchange_from(&mut self, cx: &Context<'_>, turn: u32, cells: Range<usize>) {
+        let drifts = snow_drifts(cx);
+        for at in cells {
             #[expect(clippy::cast_possible_truncation, reason = "far fewer than 2^32 cells")]
             let cell = self.first + at as u32;
             let pair = snow_pair(&cx.scene.snow, cell, turn);
             let Some(other) = pair.other.checked_sub(self.first).map(|other| other as usize) else {
                 continue;
             };
-            if pair.other == NEVER || other >= self.water.len() {
+            if pair.other == NEVER || other >= self.water.len() || (pair.is_around && !drifts) {
                 continue;
             }
             let [one, two] = [self.cell(at), self.cell(other)];
@@ -151,12 +172,25 @@ impl SnowMut<'_> {
                 continue;
             }
             let way_m = (if pair.is_diagonal { ROOT_TWO } else { 1.0 }) * (1.0 / SNOW_CELLS_PER_M);
-            let to = snow_slide(one, two, one_m - two_m, way_m);
-            let fro = snow_slide(two, one, two_m - one_m, way_m);
-            self.water[at] = one.water - to.water + fro.water;
-            self.depth[at] = one.depth - to.depth + fro.depth;
-            self.water[other] = two.water - fro.water + to.water;
-            self.depth[other] = two.depth - fro.depth + to.depth;
+            let (mut to, mut fro) = (SnowCell::default(), SnowCell::default());
+            if !pair.is_around {
+                to = snow_slide(one, two, one_m - two_m, way_m);
+                fro = snow_slide(two, one, two_m - one_m, way_m);
+            }
+            let mut here = moved(one, to, fro);
+            let mut there = moved(two, fro, to);
+            if drifts && !pair.is_diagonal {
+                let rise_m = (two_m + there.depth.to_real() * SNOW_DEPTH_M)
+                    - (one_m + here.depth.to_real() * SNOW_DEPTH_M);
+                let wind = &cx.scene.wind;
+                let toward = if (turn & 3) == 0 { wind.direction_x } else { wind.direction_z };
+                let to = snow_drift(cx, here, rise_m, wind_left(cx, cell, here), toward);
+                let fro = snow_drift(cx, there, -rise_m, wind_left(cx, pair.other, there), -toward);
+                here = moved(here, to, SnowCell { water: fro.water, depth: drifted_depth(fro) });
+                there = moved(there, fro, SnowCell { water: to.water, depth: drifted_depth(to) });
+            }
+            (self.water[at], self.depth[at]) = (here.water, here.depth);
+            (self.water[other], self.depth[other]) = (there.water, there.depth);
         }
     }
 
@@ -177,7 +211,7 @@ impl SnowMut<'_> {
 
     /// Covers the cells with fresh snow of so much water in mm, as before the first step.
     pub(crate) fn cover(&mut self, cx: &Context<'_>, mm: f32) {
-        let water = crate::convert::word(f64::from(mm) / f64::from(SNOW_WATER_MM));
+        let water = word(f64::from(mm) / f64::from(SNOW_WATER_MM));
         for at in 0..self.water.len() {
             #[expect(clippy::cast_possible_truncation, reason = "far fewer than 2^32 cells")]
             if lies_on(cx, self.first + at as u32)[1] >= 0.0 {
@@ -185,6 +219,20 @@ impl SnowMut<'_> {
             }
         }
     }
+}
+
+/// Snow of a cell that gives some away and gets some.
+fn moved(cell: SnowCell, gives: SnowCell, gets: SnowCell) -> SnowCell {
+    SnowCell { water: cell.water - gives.water + gets.water, depth: cell.depth - gives.depth + gets.depth }
+}
+
+/// Share of the wind that shelter leaves over the snow of a cell.
+fn wind_left(cx: &Context<'_>, cell: u32, snow: SnowCell) -> f32 {
+    if !cx.scene.has_shelter() {
+        return 1.0;
+    }
+    let [x, z] = snow_center(&cx.scene.snow, cell);
+    wind_shelter(cx, x, snow.depth.to_real() * SNOW_DEPTH_M, z)
 }
 
 /// Height in m of what a cell lies on, and its share of the open sky, negative on water.

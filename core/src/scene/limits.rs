@@ -65,6 +65,7 @@ limits! {
     ASH: f32 = 0.0, 0.4, "", ash;
     SNOW_EDGE_M: f32 = 1.0, 200.0, "m", size_m;
     LYING_MM: f32 = 0.0, 500.0, "mm", lying_mm;
+    LYING_H: f32 = 0.0, 12.0, "h", lying_h;
     THROUGH_M: f32 = 0.5, 4096.0, "m", half_extent_m;
     FED_WITHIN_M: f32 = 0.1, 20.0, "m", fed_within_m;
     FRICTION_PER_S: f32 = 0.1, 1000.0, "1/s", friction_per_s;

@@ -39,6 +39,8 @@ pub const PRESETS: &[(&str, &str)] = &[
     ("burning-leaves", include_str!("../../scenes/burning-leaves.ron")),
     ("flow-trees", include_str!("../../scenes/flow-trees.ron")),
     ("first-snow", include_str!("../../scenes/first-snow.ron")),
+    ("snowstorm", include_str!("../../scenes/snowstorm.ron")),
+    ("thaw", include_str!("../../scenes/thaw.ron")),
 ];
 
 impl Scene {
@@ -100,6 +102,8 @@ mod tests {
                 "burning-leaves",
                 "flow-trees",
                 "first-snow",
+                "snowstorm",
+                "thaw",
             ],
             "names and their order"
         );

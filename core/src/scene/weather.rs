@@ -21,6 +21,8 @@ pub struct Weather {
     pub air_c: Vec<(f32, f32)>,
     /// Water in mm of the fresh snow that lies there from the start, 0 to 500.
     pub lying_mm: f32,
+    /// Hours for which that snow has lain in the mean wind and the air of time zero, 0 to 12: it has drifted, settled and melted meanwhile.
+    pub lying_h: f32,
 }
 
 impl Default for Weather {
@@ -31,6 +33,7 @@ impl Default for Weather {
             snow_mm_h: vec![(0.0, 2.0)],
             air_c: vec![(0.0, -2.0)],
             lying_mm: 0.0,
+            lying_h: 0.0,
         }
     }
 }

@@ -4,6 +4,7 @@
 
 pub mod checkpoint;
 mod lead;
+mod lying_snow;
 pub mod oracle;
 mod simulator;
 pub mod stats;

@@ -5,6 +5,7 @@
 use std::sync::{Mutex, PoisonError};
 
 use super::lead::lead_in;
+use super::lying_snow::lie;
 use super::stats::Stats;
 use crate::arith::hash::mix;
 use crate::blocks::StepBlock;
@@ -21,7 +22,7 @@ use crate::flight::drop_table::{DropTable, drop_tables};
 use crate::leaf::grow::{count_leaves, leaf_grow};
 use crate::leaf::seek::leaf_seek_any;
 use crate::leaf::{BurnStats, Burns, Leaves, LeavesMut};
-use crate::litter::lay::{lay_all, strew};
+use crate::litter::lay::{lay_all, mark_covered, strew};
 use crate::litter::{Bed, LitterStats, SnowStats, flakes_of};
 use crate::particle::{HistoryStore, ParticleStats, ParticleStore, TallyStore};
 use crate::scene::Scene;
@@ -131,6 +132,10 @@ impl World {
         let cx = world.compiled.context(&step);
         if let Some(weather) = &world.compiled.scene().weather {
             world.bed.snow_mut(cx.scene).cover(&cx, weather.lying_mm);
+            lie(&world.compiled, &step, &mut world.bed, weather.lying_h.into());
+            if cx.scene.has_litter() {
+                mark_covered(&cx, &mut world.leaves, &world.bed);
+            }
         }
         Ok(world)
     }

@@ -3,8 +3,9 @@
 //! The functions of snow that lies.
 
 use windfall_core::device::terrain::snow::{
-    SnowCell, flake_cell, flake_share, flake_weight, fresh_depth, round_at_random, snow_age, snow_cell,
-    snow_pair, snow_part, snow_repose, snow_slide, snow_turn,
+    SnowCell, drifted_depth, flake_cell, flake_share, flake_weight, fresh_depth, round_at_random, snow_age,
+    snow_cell, snow_center, snow_drift, snow_drifts, snow_freshness, snow_height, snow_pair, snow_part,
+    snow_repose, snow_slide, snow_taken, snow_turn,
 };
 
 use super::{Function, Input, float, floats, functions, integers};
@@ -31,21 +32,43 @@ functions! {
     snow_cell in "terrain/snow" (METRES, METRES, CELL, Input::Below(25), Input::Below(9000)) tolerance None;
     wgsl "let water = in_word(4u);
         r = vec4<u32>(snow_cell(bitcast<f32>(a.x), bitcast<f32>(a.y)), flake_cell(a.z, a.w), flake_share(water, a.w), fresh_depth(water));
-        s = vec4<u32>(flake_weight(a.w % 5u), snow_turn(water), 0u, 0u);";
+        s = vec4<u32>(flake_weight(a.w % 5u), snow_turn(water), u32(snow_drifts()), 0u);";
     rust |cx, w| {
         let snow = &cx.scene.snow;
         integers([
             snow_cell(snow, float(w[0]), float(w[1])), flake_cell(snow, w[2], w[3]), flake_share(w[4], w[3]),
-            fresh_depth(cx, w[4]), flake_weight(w[3] % 5), snow_turn(w[4]),
+            fresh_depth(cx, w[4]), flake_weight(w[3] % 5), snow_turn(w[4]), u32::from(snow_drifts(cx)),
         ])
     };
 
     snow_pair in "terrain/snow" (CELL, Input::Below(8)) tolerance None;
     wgsl "let pair = snow_pair(a.x, a.y);
-        r = vec4<u32>(pair.other, u32(pair.is_diagonal), 0u, 0u);";
+        r = vec4<u32>(pair.other, u32(pair.is_diagonal), u32(pair.is_around), 0u);";
     rust |cx, w| {
         let pair = snow_pair(&cx.scene.snow, w[0], w[1]);
-        integers([pair.other, u32::from(pair.is_diagonal)])
+        integers([pair.other, u32::from(pair.is_diagonal), u32::from(pair.is_around)])
+    };
+
+    snow_height in "terrain/snow" (METRES, METRES, CELL) tolerance Some(1e-5);
+    wgsl "out_float(0u, snow_height(bitcast<f32>(a.x), bitcast<f32>(a.y)));
+        let center = snow_center(a.z); out_float(1u, center.x); out_float(2u, center.y);";
+    rust |cx, w| {
+        let [x, z] = snow_center(&cx.scene.snow, w[2]);
+        floats([snow_height(cx, float(w[0]), float(w[1])), x, z])
+    };
+
+    snow_drift in "terrain/snow" (WATER, DEPTH, Input::Float(-0.3, 0.3), Input::Float(-6.0, 6.0), Input::Float(-1.0, 1.0)) tolerance Some(1e-5);
+    wgsl "let taken = snow_drift(SnowCell(a.x, a.y), bitcast<f32>(a.z), bitcast<f32>(a.w), bitcast<f32>(in_word(4u)));
+        out_float(0u, f32(taken.water) * 2.5e-6); out_float(1u, f32(taken.depth) * 2.5e-6);
+        out_float(2u, f32(drifted_depth(taken)) * 2.5e-6); out_float(3u, snow_freshness(SnowCell(a.x, a.y)));
+        out_float(4u, f32(snow_taken(SnowCell(a.x, a.y), a.x / 3u).depth) * 2.5e-6);";
+    rust |cx, w| {
+        let from = cell(w, 0);
+        let taken = snow_drift(cx, from, float(w[2]), float(w[3]), float(w[4]));
+        let part = snow_taken(from, w[0] / 3);
+        let [water, depth, drifted, part] =
+            [taken.water, taken.depth, drifted_depth(taken), part.depth].map(of_most);
+        floats([water, depth, drifted, snow_freshness(from), part])
     };
 
     snow_slide in "terrain/snow" (WATER, DEPTH, WATER, DEPTH, Input::Float(-0.4, 0.4), SHARE) tolerance Some(1e-5);

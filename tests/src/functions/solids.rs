@@ -12,7 +12,9 @@ use windfall_core::device::flight::strike::{Passage, first_strike, strike_solids
 use windfall_core::device::leaf::record::{SIZE_ONE, SPECIES_SHIFT, held_bits, is_held};
 use windfall_core::device::leaf::strike::{comes_upon, is_borne, is_inside_solid, solid_footing};
 use windfall_core::device::solid::distance::solid_distance;
-use windfall_core::device::solid::near::{may_meet_solids, near_count, near_solid, solids_cell};
+use windfall_core::device::solid::near::{
+    may_meet_solids, may_meet_solids_within, near_count, near_solid, solids_cell,
+};
 use windfall_core::device::solid::shape::{SolidAt, SolidDistance, solid_at, solid_velocity};
 
 use super::{Function, Input, float, floats, functions, integers, quaternion, vector};
@@ -72,6 +74,19 @@ functions! {
         let cell = solids_cell(cx, vector(w, 0));
         let may_meet = u32::from(may_meet_solids(cx, vector(w, 0)));
         integers([cell, may_meet, near_count(cx, cell), near_solid(cx, cell, 0)])
+    };
+
+    may_meet_solids_within in "solid/near" (PLACE, ANY) tolerance None;
+    wgsl "if (scene.solids.count != 0u) {
+            let way_m = f32(a.w & 255u) / 64.0;
+            r.x = u32(may_meet_solids_within(in_vec3(0u), way_m * way_m));
+        }";
+    rust |cx, w| {
+        if !cx.scene.has_solids() {
+            return integers([0; 4]);
+        }
+        let way_m = (w[3] & 255) as f32 / 64.0;
+        integers([u32::from(may_meet_solids_within(cx, vector(w, 0), way_m * way_m)), 0, 0, 0])
     };
 
     strike_solids in "flight/strike" (SPECIES, SIZE, ANY, PLACE, FLOW, POSE, SPIN) tolerance Some(1e-2);

@@ -42,6 +42,7 @@ mod shedding;
 mod shelter;
 mod slipstream;
 mod snow;
+mod snow_drift;
 mod solids;
 mod sway;
 mod table_file;

@@ -3,13 +3,14 @@
 //! Snow against measured depths, slopes and melt, and books of its water to the unit.
 
 use glam::{Vec2, Vec3};
+use windfall_core::device::leaf::record::lies;
 use windfall_core::device::terrain::snow::{
     SNOW_AGES, SNOW_CELLS_PER_M, SNOW_DEPTH_M, SNOW_INTERVAL, SNOW_TURNS, SNOW_WATER_MM, snow_turn,
 };
 use windfall_core::litter::{flakes_of, has_landed};
 use windfall_core::scene::{
-    Air, Bounds, MeanSpeed, Meets, Object, ObjectShape, ParticleRelease, ParticleShape, Particles, Scene,
-    Spread, Tree, Water, Weather,
+    Air, Bounds, Litter, MeanSpeed, Meets, Object, ObjectShape, ParticleRelease, ParticleShape, Particles,
+    Scene, Spread, Tree, Water, Weather,
 };
 use windfall_core::{World, oracle};
 
@@ -61,8 +62,7 @@ fn no_water_is_lost_in_a_storm() {
     let mut scene = snowy(40.0, 4.0, 6.0, 4000);
     scene.wind = steady_wind(3.0);
     scene.particles = vec![flakes(4000, 5.0)];
-    scene.ground.litter =
-        Some(windfall_core::scene::Litter { size_m: Vec2::splat(4.0), ..Default::default() });
+    scene.ground.litter = Some(Litter { size_m: Vec2::splat(4.0), ..Litter::default() });
     scene.objects = vec![
         Object {
             shape: ObjectShape::Box { size_m: Vec3::new(1.0, 1.0, 3.0) },
@@ -254,8 +254,7 @@ fn heaps_of_snow_stand_as_steep_as_measured() {
 #[test]
 fn walls_have_caps() {
     let mut scene = snowy(0.0, -6.0, 4.0, 100);
-    scene.ground.litter =
-        Some(windfall_core::scene::Litter { size_m: Vec2::splat(2.0), ..Default::default() });
+    scene.ground.litter = Some(Litter { size_m: Vec2::splat(2.0), ..Litter::default() });
     let shape = ObjectShape::Box { size_m: Vec3::new(0.5, 1.0, 2.0) };
     scene.objects = vec![Object { shape, at_m: Vec3::new(0.0, 0.5, 0.0), ..Object::default() }];
     scene.weather.as_mut().expect("stated").lying_mm = 5.0;
@@ -348,4 +347,60 @@ fn snow_in_the_open_follows_the_weather() {
     assert!((open.water_mm / water_mm - 1.0).abs() < 0.002, "{open:?}: {water_mm} mm");
     assert!((open.depth_m / depth_m - 1.0).abs() < 0.01, "{open:?}: {depth_m} m");
     assert!(water_mm < 18.5, "some of it has melted: {water_mm} mm");
+}
+
+/// A bed of leaves in a wind that takes many of them, under so much snow at -5 °C.
+fn windy_bed(lying_mm: f32) -> World {
+    let mut scene = snowy(0.0, -5.0, 6.0, 100);
+    scene.particles.clear();
+    scene.dt_s = 1.0 / 60.0;
+    scene.wind = steady_wind(6.0);
+    scene.weather.as_mut().expect("stated").lying_mm = lying_mm;
+    scene.ground.litter =
+        Some(Litter { size_m: Vec2::splat(4.0), leaf_area_index: 0.5, ..Litter::default() });
+    World::build(&scene).expect("valid")
+}
+
+/// Leaves that lie under a centimetre of snow stay where they are in a wind that takes half of the others, until it has melted.
+#[test]
+fn snow_holds_leaves_down() {
+    let woken = |world: &World| world.litter_stats().expect("there is litter").woken;
+    let mut bare = windy_bed(0.0);
+    oracle::step(&mut bare, 240);
+    let lying = bare.litter_stats().expect("there is litter").lying;
+    assert!(woken(&bare) > 200, "the wind takes many: {} of {lying}", woken(&bare));
+    let mut covered = windy_bed(1.0);
+    oracle::step(&mut covered, 240);
+    assert_eq!(woken(&covered), 0, "none of those under snow");
+    let block = covered.compiled.block().clone();
+    let snow = covered.bed.snow_mut(&block);
+    snow.water.fill(0);
+    snow.depth.fill(0);
+    oracle::step(&mut covered, 240);
+    assert!(woken(&covered) > 200, "the wind takes them when it is gone: {}", woken(&covered));
+}
+
+/// A leaf that comes down on snow lies on it, and sinks with it as it melts.
+#[test]
+fn leaves_lie_on_snow() {
+    let mut scene = snowy(0.0, -5.0, 6.0, 100);
+    scene.particles.clear();
+    scene.dt_s = 1.0 / 60.0;
+    scene.weather.as_mut().expect("stated").lying_mm = 8.0;
+    scene.ground.litter =
+        Some(Litter { size_m: Vec2::splat(4.0), leaf_area_index: 0.0, ..Litter::default() });
+    let mut world = World::build(&scene).expect("valid");
+    oracle::step(&mut world, 600);
+    let depth_m = f64::from(world.bed.snow(world.compiled.block()).depth[0]) * f64::from(SNOW_DEPTH_M);
+    assert!(depth_m > 0.1, "{depth_m} m");
+    let height_m = |world: &World| f64::from(world.leaves.place[0].position[1]);
+    assert!(lies(world.leaves.place[0].bits), "it has come down");
+    let above = height_m(&world) - depth_m;
+    assert!((-0.005..0.02).contains(&above), "{above} m above the snow");
+    let block = world.compiled.block().clone();
+    let snow = world.bed.snow_mut(&block);
+    snow.water.fill(0);
+    snow.depth.fill(0);
+    oracle::step(&mut world, 900);
+    assert!(lies(world.leaves.place[0].bits) && height_m(&world) < 0.02, "{} m", height_m(&world));
 }

@@ -50,6 +50,7 @@ mod timeline;
 mod trees;
 mod vortices;
 mod walkers;
+mod weather;
 mod wind;
 mod words;
 
@@ -285,8 +286,11 @@ impl Panel {
             particles::show(ui, scene, own);
             forces::show(ui, scene, own);
         });
-        let differs = scene.ground != own.ground;
-        groups.show(ui, Group::Ground, differs, |ui| ground::show(ui, &mut scene.ground, &own.ground));
+        let differs = scene.ground != own.ground || scene.weather != own.weather;
+        groups.show(ui, Group::Ground, differs, |ui| {
+            ground::show(ui, &mut scene.ground, &own.ground);
+            weather::show(ui, scene, own);
+        });
     }
 
     /// Groups of the picture: sky, camera, lens.

@@ -97,9 +97,13 @@ fn part_strike(
     return Strike(select(before.number, NEVER, is_mesh), share);
 }
 
+fn body_size_m(body: LeafBody) -> f32 {
+    return max(body.half_along_m, body.half_across_m) * body.size_ratio;
+}
+
 fn first_strike(body: LeafBody, pose: vec4<f32>, cell: u32, passage: Passage) -> Strike {
     var strike = Strike(NEVER, 1.0);
-    let size = max(body.half_along_m, body.half_across_m) * body.size_ratio;
+    let size = body_size_m(body);
     for (var entry = 0u; entry < near_count(cell); entry += 1u) {
         let number = near_solid(cell, entry);
         let solid = solid_at(number, passage.seconds);
@@ -189,9 +193,16 @@ fn strike_solids(
 fn deepest_overlap(body: LeafBody, pose: vec4<f32>, cell: u32, place: vec3<f32>, seconds: f32) -> Overlap {
     let zero = vec3<f32>(0.0, 0.0, 0.0);
     var deepest = Overlap(NEVER, SolidGap(0.0, zero, zero, zero));
+    let size = body_size_m(body);
     for (var entry = 0u; entry < near_count(cell); entry += 1u) {
         let number = near_solid(cell, entry);
-        let gap = solid_gap(solid_at(number, seconds), body, pose, place, 1.0);
+        let solid = solid_at(number, seconds);
+        let bound = solid.bound_m + size;
+        let apart = place - solid.center;
+        if (bound * bound < vec3_dot(apart, apart)) {
+            continue;
+        }
+        let gap = solid_gap(solid, body, pose, place, 1.0);
         if (gap.gap_m < deepest.gap.gap_m) {
             deepest = Overlap(number, gap);
         }

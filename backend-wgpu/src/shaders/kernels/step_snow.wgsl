@@ -3,6 +3,7 @@
 // twin: backend-cpu/src/kernels/step_snow.rs
 // Lets snow slide from cell to cell, or settle and melt, in the steps in which it does.
 #import terrain/snow
+#import wind/shelter
 
 // The tables, behind which the snow is: nothing else of them is written.
 @group(0) @binding(2) var<storage, read_write> snow_words: array<u32>;
@@ -26,6 +27,21 @@ fn lies_on(cell: u32) -> vec2<f32> {
     return vec2<f32>(bitcast<f32>(snow_words[first]), bitcast<f32>(snow_words[first + 1u]));
 }
 
+fn moved(cell: SnowCell, gives: SnowCell, gets: SnowCell) -> SnowCell {
+    return SnowCell(cell.water - gives.water + gets.water, cell.depth - gives.depth + gets.depth);
+}
+
+fn wind_left(cell: u32, snow: SnowCell) -> f32 {
+    if (scene.shelter.lack_unit == 0.0) {
+        return 1.0;
+    }
+    let center = snow_center(cell);
+    let place = shelter_place(center.x, f32(snow.depth) * SNOW_DEPTH_M, center.y);
+    let first = (scene.shelter.first_row + place.row) * 4u;
+    let words = vec4<u32>(snow_words[first], snow_words[first + 1u], snow_words[first + 2u], snow_words[first + 3u]);
+    return shelter_left(place, words);
+}
+
 @compute @workgroup_size(WORKGROUP_SIZE)
 fn step_snow(@builtin(global_invocation_id) id: vec3<u32>) {
     let cell = id.x;
@@ -44,7 +60,8 @@ fn step_snow(@builtin(global_invocation_id) id: vec3<u32>) {
         return;
     }
     let pair = snow_pair(cell, turn);
-    if (pair.other == NEVER) {
+    let drifts = snow_drifts();
+    if (pair.other == NEVER || (pair.is_around && !drifts)) {
         return;
     }
     let two = read_snow(pair.other);
@@ -53,8 +70,22 @@ fn step_snow(@builtin(global_invocation_id) id: vec3<u32>) {
         return;
     }
     let way_m = select(1.0, ROOT_TWO, pair.is_diagonal) * (1.0 / SNOW_CELLS_PER_M);
-    let there = snow_slide(one, two, on.x - other_on.x, way_m);
-    let back = snow_slide(two, one, other_on.x - on.x, way_m);
-    write_snow(cell, SnowCell(one.water - there.water + back.water, one.depth - there.depth + back.depth));
-    write_snow(pair.other, SnowCell(two.water - back.water + there.water, two.depth - back.depth + there.depth));
+    var to = SnowCell(0u, 0u);
+    var fro = SnowCell(0u, 0u);
+    if (!pair.is_around) {
+        to = snow_slide(one, two, on.x - other_on.x, way_m);
+        fro = snow_slide(two, one, other_on.x - on.x, way_m);
+    }
+    var here = moved(one, to, fro);
+    var there = moved(two, fro, to);
+    if (drifts && !pair.is_diagonal) {
+        let rise_m = (other_on.x + f32(there.depth) * SNOW_DEPTH_M) - (on.x + f32(here.depth) * SNOW_DEPTH_M);
+        let toward = select(scene.wind.direction_z, scene.wind.direction_x, (turn & 3u) == 0u);
+        to = snow_drift(here, rise_m, wind_left(cell, here), toward);
+        fro = snow_drift(there, -rise_m, wind_left(pair.other, there), -toward);
+        here = moved(here, to, SnowCell(fro.water, drifted_depth(fro)));
+        there = moved(there, fro, SnowCell(to.water, drifted_depth(to)));
+    }
+    write_snow(cell, here);
+    write_snow(pair.other, there);
 }

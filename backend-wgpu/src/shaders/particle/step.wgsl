@@ -54,9 +54,12 @@ fn may_be_struck(number: u32, start: vec3<f32>, end: vec3<f32>) -> bool {
         return meets_ground;
     }
     let way = end - start;
-    let reach = scene.solids.reach_m;
-    let is_near = may_meet_solids(start) || reach * reach < vec3_dot(way, way);
-    return meets_ground || is_near;
+    return meets_ground || is_in_reach_of_solids(start, vec3_dot(way, way));
+}
+
+fn is_in_reach_of_solids(start: vec3<f32>, way_squared: f32) -> bool {
+    let reach_m = scene.solids.reach_m;
+    return may_meet_solids_within(start, way_squared) || reach_m * reach_m < way_squared;
 }
 
 fn rest_is_checked(id: u32) -> bool {

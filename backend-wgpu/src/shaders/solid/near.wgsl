@@ -3,6 +3,7 @@
 // twin: core/src/device/solid/near.rs
 // The few of many solid parts that a leaf may meet in a step.
 #import bindings
+#import arith/math
 #import arith/vector
 
 fn word_from(first_row: u32, place: u32) -> u32 {
@@ -23,6 +24,25 @@ fn solids_cell(place: vec3<f32>) -> u32 {
 
 fn may_meet_solids(place: vec3<f32>) -> bool {
     return may_meet_movers(place) || (solids_cell(place) & LIST_LENGTH_MASK) != 0u;
+}
+
+fn may_meet_solids_within(place: vec3<f32>, way_squared: f32) -> bool {
+    if (may_meet_movers(place)) {
+        return true;
+    }
+    let cell = solids_cell(place);
+    let squared = max(way_squared, TINY_SQUARED);
+    let reach = squared * inverse_sqrt(squared) + CLEAR_OF_SOLIDS_M;
+    for (var entry = 0u; entry < (cell & LIST_LENGTH_MASK); entry += 1u) {
+        let number = word_from(scene.solids.first_list_row, (cell >> LIST_LENGTH_BITS) + entry);
+        let row = scene.solids.first_row + number * SOLID_ROWS;
+        let bound = bitcast<f32>(tables[row + 1u].y) + reach;
+        let apart = place - bitcast<vec3<f32>>(tables[row + 2u].xyz);
+        if (vec3_dot(apart, apart) < bound * bound) {
+            return true;
+        }
+    }
+    return false;
 }
 
 fn may_meet_movers(place: vec3<f32>) -> bool {

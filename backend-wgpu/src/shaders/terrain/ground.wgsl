@@ -6,6 +6,7 @@
 #import arith/math
 #import arith/quaternion
 #import terrain/litter
+#import terrain/snow
 
 struct Cell {
     corners: vec4<f32>,
@@ -64,7 +65,7 @@ fn ground_bottom(x: f32, z: f32) -> f32 {
 fn ground_surface(x: f32, z: f32) -> f32 {
     let bare = ground_bare(x, z);
     if (scene.litter.columns != 0u) {
-        return bare + litter_height(x, z);
+        return bare + ground_cover(x, z);
     }
     return bare;
 }
@@ -163,6 +164,13 @@ fn ground_gradient(x: f32, z: f32) -> vec2<f32> {
         let west = corners.z - corners.x;
         rise_x = rise_x + (near + cell.z * ((corners.w - corners.z) - near)) * (LITTER_UNIT_M * LITTER_CELLS_PER_M);
         rise_z = rise_z + (west + cell.x * ((corners.w - corners.y) - west)) * (LITTER_UNIT_M * LITTER_CELLS_PER_M);
+    }
+    if (scene.litter.columns != 0u && scene.snow.columns != 0u) {
+        let snow = snow_between(x, z);
+        let near = snow.depths_m.y - snow.depths_m.x;
+        let west = snow.depths_m.z - snow.depths_m.x;
+        rise_x = rise_x + (near + snow.z * ((snow.depths_m.w - snow.depths_m.z) - near)) * SNOW_CELLS_PER_M;
+        rise_z = rise_z + (west + snow.x * ((snow.depths_m.w - snow.depths_m.y) - west)) * SNOW_CELLS_PER_M;
     }
     return vec2<f32>(rise_x, rise_z);
 }

@@ -3,6 +3,7 @@
 // twin: core/src/device/terrain/litter.rs
 // The height of litter: integers at the nodes of a grid, behind the rows of all tables, interpolated linearly in each direction.
 #import bindings
+#import terrain/snow
 
 struct LitterCell {
     node: u32,
@@ -58,13 +59,21 @@ fn litter_height(x: f32, z: f32) -> f32 {
     return (near + cell.z * (far - near)) * LITTER_UNIT_M;
 }
 
+fn ground_cover(x: f32, z: f32) -> f32 {
+    let litter = litter_height(x, z);
+    if (scene.snow.columns == 0u) {
+        return litter;
+    }
+    return litter + snow_height(x, z);
+}
+
 fn above_litter(above_ground: f32, x: f32, z: f32) -> f32 {
     if (!(above_ground < LITTER_WIND_M)) {
         return above_ground;
     }
     let fading = 2.0 - above_ground * (2.0 / LITTER_WIND_M);
     let share = min(max(fading, 0.0), 1.0);
-    return above_ground - share * litter_height(x, z);
+    return above_ground - share * ground_cover(x, z);
 }
 
 fn litter_shares(volume: u32, x: f32, z: f32) -> LitterShares {

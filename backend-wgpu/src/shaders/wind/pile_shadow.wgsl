@@ -9,11 +9,11 @@
 fn wind_behind_piles(x: f32, z: f32, wind: vec3<f32>) -> vec3<f32> {
     let inverse = inverse_sqrt(max(wind.x * wind.x + wind.z * wind.z, TINY_SQUARED));
     let toward = vec2<f32>(wind.x * inverse, wind.z * inverse);
-    let here = litter_height(x, z);
+    let here = ground_cover(x, z);
     var away = PILE_NEAREST_M;
     var depth = 0.0;
     for (var number = 0u; number < PILE_SAMPLES; number += 1u) {
-        let upwind = litter_height(x - toward.x * away, z - toward.y * away);
+        let upwind = ground_cover(x - toward.x * away, z - toward.y * away);
         depth = max(depth, upwind - (here + PILE_SLOPE * away));
         away = away + away;
     }

@@ -4,12 +4,19 @@
 // Share of the mean wind that trees, hills and still objects leave, from a table.
 #import bindings
 
+struct ShelterPlace {
+    row: u32,
+    x: f32,
+    up: f32,
+    z: f32,
+}
+
 fn shelter_between(word: u32, share: f32) -> f32 {
     let low = f32(word & 0xffffu);
     return low + share * (f32(word >> 16u) - low);
 }
 
-fn wind_shelter(x: f32, above: f32, z: f32) -> f32 {
+fn shelter_place(x: f32, above: f32, z: f32) -> ShelterPlace {
     let shelter = scene.shelter;
     let u = min(max((x - shelter.west_m) * shelter.cells_per_m, 0.0), shelter.cells_x);
     let v = min(max((z - shelter.north_m) * shelter.cells_per_m, 0.0), shelter.cells_z);
@@ -18,14 +25,21 @@ fn wind_shelter(x: f32, above: f32, z: f32) -> f32 {
     let kv = min(floor(v), shelter.cells_z - 1.0);
     let kw = min(floor(w), SHELTER_LAYERS - 1.0);
     let index = (kw * shelter.cells_z + kv) * shelter.cells_x + ku;
-    let row = tables[shelter.first_row + bitcast<u32>(i32(index))];
-    let share = w - kw;
-    let a = shelter_between(row.x, share);
-    let b = shelter_between(row.y, share);
-    let c = shelter_between(row.z, share);
-    let d = shelter_between(row.w, share);
-    let near = a + (u - ku) * (b - a);
-    let far = c + (u - ku) * (d - c);
-    let lack = near + (v - kv) * (far - near);
-    return 1.0 - lack * shelter.lack_unit;
+    return ShelterPlace(bitcast<u32>(i32(index)), u - ku, w - kw, v - kv);
+}
+
+fn shelter_left(place: ShelterPlace, words: vec4<u32>) -> f32 {
+    let a = shelter_between(words.x, place.up);
+    let b = shelter_between(words.y, place.up);
+    let c = shelter_between(words.z, place.up);
+    let d = shelter_between(words.w, place.up);
+    let near = a + place.x * (b - a);
+    let far = c + place.x * (d - c);
+    let lack = near + place.z * (far - near);
+    return 1.0 - lack * scene.shelter.lack_unit;
+}
+
+fn wind_shelter(x: f32, above: f32, z: f32) -> f32 {
+    let place = shelter_place(x, above, z);
+    return shelter_left(place, tables[scene.shelter.first_row + place.row]);
 }

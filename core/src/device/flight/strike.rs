@@ -152,11 +152,17 @@ pub fn part_strike(
     Strike { number: if is_mesh { NEVER } else { before.number }, share }
 }
 
+/// Largest distance in m from a body's centre to its outline.
+#[inline(always)]
+fn body_size_m(body: &LeafBody) -> f32 {
+    body.half_along_m.max(body.half_across_m) * body.size_ratio
+}
+
 /// First of the parts of a cell that a body strikes on its way: [`NEVER`] if there is none, and then the share of the way that is free.
 #[inline(always)]
 pub fn first_strike(cx: &Context<'_>, body: &LeafBody, pose: Quat, cell: u32, passage: &Passage) -> Strike {
     let mut strike = Strike { number: NEVER, share: 1.0 };
-    let size = body.half_along_m.max(body.half_across_m) * body.size_ratio;
+    let size = body_size_m(body);
     for entry in 0..near_count(cx, cell) {
         let number = near_solid(cx, cell, entry);
         let solid = solid_at(cx, number, passage.seconds);
@@ -298,9 +304,16 @@ pub fn deepest_overlap(
 ) -> Overlap {
     let none = SolidGap { gap_m: 0.0, normal: Vec3::ZERO, inner: Vec3::ZERO, arm: Vec3::ZERO };
     let mut deepest = Overlap { number: NEVER, gap: none };
+    let size = body_size_m(body);
     for entry in 0..near_count(cx, cell) {
         let number = near_solid(cx, cell, entry);
-        let gap = solid_gap(cx, &solid_at(cx, number, seconds), body, pose, place, 1.0);
+        let solid = solid_at(cx, number, seconds);
+        let bound = solid.bound_m + size;
+        let apart = place - solid.center;
+        if bound * bound < vec3_dot(apart, apart) {
+            continue;
+        }
+        let gap = solid_gap(cx, &solid, body, pose, place, 1.0);
         if gap.gap_m < deepest.gap.gap_m {
             deepest = Overlap { number, gap };
         }

@@ -19,7 +19,7 @@ use crate::arith::lane::{Mask, Real, Word};
 use crate::arith::vector::{Vec3, vec3_dot};
 use crate::blocks::{NEVER, PopulationBlock};
 use crate::context::Context;
-use crate::device::solid::near::may_meet_solids;
+use crate::device::solid::near::may_meet_solids_within;
 use crate::device::terrain::ground::ground_met;
 use crate::particle::{ParticleMut, ParticleRows};
 
@@ -94,12 +94,17 @@ pub fn may_be_struck<R: Real>(
         return meets_ground;
     }
     let way = end - start;
-    let reach = cx.scene.solids.reach_m;
-    let is_near = may_meet_solids(cx, start) | start.x.all(reach * reach).less_than(vec3_dot(way, way));
-    meets_ground | is_near
+    meets_ground | is_in_reach_of_solids(cx, start, vec3_dot(way, way))
 }
 
-/// Returns true if a particle at rest looks at the wind and at what holds it in a step: in one of eight, by its number.
+/// Returns true for ways of a squared length that may lead to solid parts, or are longer than the reach of their lists.
+#[inline(always)]
+pub fn is_in_reach_of_solids<R: Real>(cx: &Context<'_>, start: Vec3<R>, way_squared: R) -> R::Mask {
+    let reach_m = cx.scene.solids.reach_m;
+    may_meet_solids_within(cx, start, way_squared) | start.x.all(reach_m * reach_m).less_than(way_squared)
+}
+
+/// Returns true if a particle at rest checks the wind and what holds it in a step: in one of eight, by its number.
 #[inline(always)]
 pub fn rest_is_checked(cx: &Context<'_>, id: u32) -> bool {
     (cx.step.index.wrapping_add(id) & 7) == 0

@@ -4,8 +4,10 @@
 //!
 //! The few of many solid parts that a leaf may meet in a step: those that move, and those listed in its cell of a grid.
 
+use super::shape::SOLID_ROWS;
 use crate::arith::lane::{Mask, Real, Word};
-use crate::arith::vector::{Vec3, vec3_dot};
+use crate::arith::math::inverse_sqrt;
+use crate::arith::vector::{TINY_SQUARED, Vec3, vec3_dot};
 use crate::context::Context;
 use crate::layout::Uint4;
 
@@ -14,6 +16,8 @@ crate::shared_constants! {
     pub const LIST_LENGTH_BITS: u32 = 13;
     /// Mask of the length.
     pub const LIST_LENGTH_MASK: u32 = 8191;
+    /// Distance in m from a part from which on nothing without extent touches it, whatever the rounding of places.
+    pub const CLEAR_OF_SOLIDS_M: f32 = 0.002;
 }
 
 /// Words of a list that begins with a row.
@@ -42,6 +46,34 @@ pub fn solids_cell<R: Real>(cx: &Context<'_>, place: Vec3<R>) -> R::Word {
 #[inline(always)]
 pub fn may_meet_solids<R: Real>(cx: &Context<'_>, place: Vec3<R>) -> R::Mask {
     may_meet_movers(cx, place) | !(solids_cell(cx, place) & LIST_LENGTH_MASK).equals(0)
+}
+
+/// Returns true for places from which a way of a squared length may lead into a part that moves, or into the sphere around one in the list of the
+/// cell. Only where there are any; for what has no extent.
+#[inline(always)]
+pub fn may_meet_solids_within<R: Real>(cx: &Context<'_>, place: Vec3<R>, way_squared: R) -> R::Mask {
+    let mut meets = may_meet_movers(cx, place);
+    let cell = solids_cell(cx, place);
+    let count = cell & LIST_LENGTH_MASK;
+    let first = cell >> LIST_LENGTH_BITS;
+    let squared = way_squared.max(place.x.all(TINY_SQUARED));
+    let reach = squared * inverse_sqrt(squared) + CLEAR_OF_SOLIDS_M;
+    let none = count.all(0);
+    for entry in 0.. {
+        let is_listed = none.all(entry).less_than(count);
+        if !(is_listed & !meets).any() {
+            break;
+        }
+        let listed = is_listed.select(first.plus(none.all(entry)), none);
+        let number = word_from(cx, cx.scene.solids.first_list_row, listed);
+        let part = number.times(none.all(4 * SOLID_ROWS));
+        let of_part =
+            |at: u32| R::from_bits(word_from(cx, cx.scene.solids.first_row, part.plus(none.all(at))));
+        let bound = of_part(5) + reach;
+        let apart = place - Vec3::new(of_part(8), of_part(9), of_part(10));
+        meets = meets | (is_listed & vec3_dot(apart, apart).less_than(bound * bound));
+    }
+    meets
 }
 
 /// Returns true for leaves that may meet a solid part that moves in this step.

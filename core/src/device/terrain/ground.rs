@@ -10,8 +10,9 @@ use crate::arith::quaternion::{Quat, quat_normalize};
 use crate::arith::vector::Vec3;
 use crate::context::Context;
 use crate::device::terrain::litter::{
-    LITTER_CELLS_PER_M, LITTER_UNIT_M, litter_cell, litter_corners, litter_height,
+    LITTER_CELLS_PER_M, LITTER_UNIT_M, ground_cover, litter_cell, litter_corners,
 };
+use crate::device::terrain::snow::{SNOW_CELLS_PER_M, SnowBetween, snow_between};
 
 crate::shared_constants! {
     /// Directions in which litter is searched for its steepest drop.
@@ -92,11 +93,11 @@ pub fn ground_bottom(cx: &Context<'_>, x: f32, z: f32) -> f32 {
     relief + cx.scene.litter.bottom_m
 }
 
-/// Height of what leaves lie on, hills or water, or the litter there, in metres above the ground at the origin.
+/// Height of what leaves lie on, hills or water, or the litter and snow there, in metres above the ground at the origin.
 #[inline(always)]
 pub fn ground_surface<R: Real>(cx: &Context<'_>, x: R, z: R) -> R {
     let bare = ground_bare(cx, x, z);
-    if cx.has_litter() { bare + litter_height(cx, x, z) } else { bare }
+    if cx.has_litter() { bare + ground_cover(cx, x, z) } else { bare }
 }
 
 /// Height of a leaf that rests at a place in metres.
@@ -191,7 +192,7 @@ pub fn drop_direction(number: u32) -> [f32; 2] {
     [along * ROOT_HALF, across]
 }
 
-/// Rise along x and z of what bodies strike: hills and litter as they are interpolated; none on water.
+/// Rise along x and z of what bodies strike: hills, litter and snow as they are interpolated; none on water.
 #[inline(always)]
 pub fn ground_gradient<R: Real>(cx: &Context<'_>, x: R, z: R) -> [R; 2] {
     let mut rise_x = x.all(0.0);
@@ -213,6 +214,13 @@ pub fn ground_gradient<R: Real>(cx: &Context<'_>, x: R, z: R) -> [R; 2] {
         let west = c - a;
         rise_x = rise_x + (near + cell.z * ((d - c) - near)) * (LITTER_UNIT_M * LITTER_CELLS_PER_M);
         rise_z = rise_z + (west + cell.x * ((d - b) - west)) * (LITTER_UNIT_M * LITTER_CELLS_PER_M);
+    }
+    if cx.has_litter() && cx.has_snow() {
+        let SnowBetween { depths_m: [a, b, c, d], x, z } = snow_between(cx, x, z);
+        let near = b - a;
+        let west = c - a;
+        rise_x = rise_x + (near + z * ((d - c) - near)) * SNOW_CELLS_PER_M;
+        rise_z = rise_z + (west + x * ((d - b) - west)) * SNOW_CELLS_PER_M;
     }
     [rise_x, rise_z]
 }

@@ -9,6 +9,7 @@
 
 use crate::arith::lane::{Mask, Real, Word};
 use crate::context::Context;
+use crate::device::terrain::snow::snow_height;
 
 crate::shared_constants! {
     /// Cells of litter per metre.
@@ -100,6 +101,13 @@ pub fn litter_height<R: Real>(cx: &Context<'_>, x: R, z: R) -> R {
     (near + cell.z * (far - near)) * LITTER_UNIT_M
 }
 
+/// Height in m of the litter at a place and of the snow on it. Only where there is litter.
+#[inline(always)]
+pub fn ground_cover<R: Real>(cx: &Context<'_>, x: R, z: R) -> R {
+    let litter = litter_height(cx, x, z);
+    if cx.has_snow() { litter + snow_height(cx, x, z) } else { litter }
+}
+
 /// Height in m above the surface that the wind blows over, of a place at a height above the ground.
 #[inline(always)]
 pub fn above_litter<R: Real>(cx: &Context<'_>, above_ground: R, x: R, z: R) -> R {
@@ -109,7 +117,7 @@ pub fn above_litter<R: Real>(cx: &Context<'_>, above_ground: R, x: R, z: R) -> R
     }
     let fading = above_ground.all(2.0) - above_ground * (2.0 / LITTER_WIND_M);
     let share = fading.max(above_ground.all(0.0)).min(above_ground.all(1.0));
-    above_ground - share * litter_height(cx, x, z)
+    above_ground - share * ground_cover(cx, x, z)
 }
 
 /// Heights that a leaf of some volume, in units of height over a cell, adds around its place. They sum to the volume.

@@ -9,8 +9,13 @@
 //! (Kuusisto 1980), rounded at random, so that slow melt is right on average. Where it is steeper than loose snow stands, it slides: cells
 //! exchange snow in pairs, every cell with one of its eight neighbours at a time, so that no two pairs share a cell and what one loses
 //! the other gains. A step in what it lies on, as at the top of a wall, is no slope: there it only slides as if both lay level.
+//!
+//! Wind above a threshold takes it along the ground, 0.68 ρ u*t (u*² - u*t²) / (g u*) per second and metre of width (Pomeroy and Gray 1990), u*
+//! being the friction velocity that shelter leaves over the snow of the cell and u*t the threshold: what goes over an edge is that of the cell
+//! upwind, so that it gathers where the wind slackens, until it reaches up into the wind. The edges of the rectangle are joined, as for
+//! the flakes that fall on it. What has drifted is packed as old snow is.
 
-use crate::arith::lane::{Real, Word};
+use crate::arith::lane::{Mask, Real, Word};
 use crate::arith::math::reciprocal;
 use crate::arith::rng::{philox, unit_float};
 use crate::blocks::{NEVER, SnowBlock};
@@ -57,6 +62,14 @@ crate::shared_constants! {
     pub const SNOW_ON_WATER: f32 = -1.0;
     /// Way to a neighbour that touches at a corner over that to another.
     pub const ROOT_TWO: f32 = std::f32::consts::SQRT_2;
+    /// Turn in which the last line meets the first.
+    pub const AROUND_TURN: u32 = 6;
+    /// Rounds of which one takes drifting snow along.
+    pub const DRIFT_ROUNDS: u32 = 4;
+    /// Most units of water that drift over an edge at once.
+    pub const MOST_DRIFT: f32 = 1_048_576.0;
+    /// Greatest depth in m that leaves and wind meet.
+    pub const SNOW_HIGHEST_M: f32 = 4.0;
     /// Random words of melting and settling.
     pub const STREAM_SNOW: u32 = 0x8000_0001;
 }
@@ -77,6 +90,62 @@ pub struct SnowPair {
     pub other: u32,
     /// True if they touch at a corner.
     pub is_diagonal: bool,
+    /// True if they lie on opposite edges of the grid.
+    pub is_around: bool,
+}
+
+/// Snow between the centres of four cells.
+#[derive(Clone, Copy, Debug)]
+pub struct SnowBetween<R: Real = f32> {
+    /// Depths in m: along x, then along z; zero outside.
+    pub depths_m: [R; 4],
+    /// Share of the way along x.
+    pub x: R,
+    /// Share of the way along z.
+    pub z: R,
+}
+
+/// Depth in m over the cell of a number, as far as leaves and wind meet it.
+#[inline(always)]
+fn snow_depth_m<W: Word>(cx: &Context<'_>, cell: W) -> W::Real {
+    let snow = &cx.scene.snow;
+    let place = cell.plus(cell.all(snow.first_word + SNOW_DEPTH * (snow.columns * snow.lines)));
+    let depth_m = place.look_up_word(cx.litter).to_real() * SNOW_DEPTH_M;
+    depth_m.min(depth_m.all(SNOW_HIGHEST_M))
+}
+
+/// Snow around a place. Only where there is snow.
+#[inline(always)]
+pub fn snow_between<R: Real>(cx: &Context<'_>, x: R, z: R) -> SnowBetween<R> {
+    let snow = &cx.scene.snow;
+    let u = x * SNOW_CELLS_PER_M - 0.5;
+    let v = z * SNOW_CELLS_PER_M - 0.5;
+    let ku = u.floor();
+    let kv = v.floor();
+    let column = ku.to_whole();
+    let line = kv.to_whole();
+    let column = column.minus(column.all(snow.first_column));
+    let line = line.minus(line.all(snow.first_line));
+    let is_inside = column.less_than(column.all(snow.columns - 1)) & line.less_than(line.all(snow.lines - 1));
+    let cell = is_inside.select(line.times(line.all(snow.columns)).plus(column), column.all(0));
+    let next = cell.all(1);
+    let far = cell.plus(cell.all(snow.columns));
+    let none = x.all(0.0);
+    let depth = |cell: R::Word| is_inside.select_real(snow_depth_m(cx, cell), none);
+    let depths_m = [depth(cell), depth(cell.plus(next)), depth(far), depth(far.plus(next))];
+    SnowBetween { depths_m, x: u - ku, z: v - kv }
+}
+
+/// Depth of snow at a place in m; zero without snow.
+#[inline(always)]
+pub fn snow_height<R: Real>(cx: &Context<'_>, x: R, z: R) -> R {
+    if !cx.has_snow() {
+        return x.all(0.0);
+    }
+    let SnowBetween { depths_m: [a, b, c, d], x, z } = snow_between(cx, x, z);
+    let near = a + x * (b - a);
+    let far = c + x * (d - c);
+    near + z * (far - near)
 }
 
 /// Number of the cell at a place; [`NEVER`] outside.
@@ -85,6 +154,16 @@ pub fn snow_cell(snow: &SnowBlock, x: f32, z: f32) -> u32 {
     let column = (x * SNOW_CELLS_PER_M).floor().to_whole().wrapping_sub(snow.first_column);
     let line = (z * SNOW_CELLS_PER_M).floor().to_whole().wrapping_sub(snow.first_line);
     if column < snow.columns && line < snow.lines { line * snow.columns + column } else { NEVER }
+}
+
+/// Centre x, z of a cell in m.
+#[inline(always)]
+pub fn snow_center(snow: &SnowBlock, cell: u32) -> [f32; 2] {
+    let at = |number: u32| (number.to_real() + 0.5) * (1.0 / SNOW_CELLS_PER_M);
+    [
+        at(snow.first_column.wrapping_add(cell % snow.columns)),
+        at(snow.first_line.wrapping_add(cell / snow.columns)),
+    ]
 }
 
 /// Weight in sixteenths of one of five cells in a row over which a flake spreads: 1, 4, 6, 4, 1.
@@ -120,36 +199,60 @@ pub fn snow_turn(step: u32) -> u32 {
     if (step & (SNOW_INTERVAL - 1)) != 0 { NEVER } else { (step / SNOW_INTERVAL) % SNOW_TURNS }
 }
 
-/// Cell with which one exchanges snow in a turn as the first of the two. Along lines, columns take turns; otherwise lines do.
+/// Returns true in steps in which wind takes snow along.
+#[inline(always)]
+pub fn snow_drifts(cx: &Context<'_>) -> bool {
+    let round = cx.step.index / (SNOW_INTERVAL * SNOW_TURNS);
+    round.is_multiple_of(DRIFT_ROUNDS) && cx.step.snow.lifts_fresh_m_s < cx.step.snow.drift_m_s
+}
+
+/// Cell with which one exchanges snow in a turn as the first of the two. Along lines, columns take turns; otherwise lines do. The last ones
+/// meet the first.
 #[inline(always)]
 pub fn snow_pair(snow: &SnowBlock, cell: u32, turn: u32) -> SnowPair {
-    let none = SnowPair { other: NEVER, is_diagonal: false };
+    let none = SnowPair { other: NEVER, is_diagonal: false, is_around: false };
     let (column, line) = (cell % snow.columns, cell / snow.columns);
     let (kind, odd) = (turn & 3, turn >> 2);
     if kind == 0 {
-        if (column & 1) != odd || column + 1 >= snow.columns {
+        if (column & 1) != odd {
             return none;
         }
-        return SnowPair { other: cell + 1, is_diagonal: false };
+        let is_around = column + 1 >= snow.columns;
+        return SnowPair {
+            other: if is_around { cell - column } else { cell + 1 },
+            is_diagonal: false,
+            is_around,
+        };
     }
-    if (line & 1) != odd || line + 1 >= snow.lines {
+    if (line & 1) != odd {
         return none;
+    }
+    if line + 1 >= snow.lines {
+        if kind != 2 {
+            return none;
+        }
+        return SnowPair { other: column, is_diagonal: false, is_around: true };
     }
     // One column to the left, the same, or one to the right.
     let across = column.wrapping_add(kind).wrapping_sub(2);
     if across >= snow.columns {
         return none;
     }
-    SnowPair { other: (line + 1) * snow.columns + across, is_diagonal: kind != 2 }
+    SnowPair { other: (line + 1) * snow.columns + across, is_diagonal: kind != 2, is_around: false }
+}
+
+/// Share of the way from old to fresh snow at which that of a cell is, by its density.
+#[expect(clippy::manual_clamp, reason = "written as in WGSL")]
+#[inline(always)]
+pub fn snow_freshness(cell: SnowCell) -> f32 {
+    let per_water = cell.depth.to_real() * reciprocal(cell.water.max(1).to_real());
+    ((per_water - OLD_DEPTH) * (1.0 / (FRESH_DEPTH - OLD_DEPTH))).max(0.0).min(1.0)
 }
 
 /// Slope at which snow stands, by how dense it is.
-#[expect(clippy::manual_clamp, reason = "written as in WGSL")]
 #[inline(always)]
 pub fn snow_repose(cell: SnowCell) -> f32 {
-    let per_water = cell.depth.to_real() * reciprocal(cell.water.max(1).to_real());
-    let fresh = ((per_water - OLD_DEPTH) * (1.0 / (FRESH_DEPTH - OLD_DEPTH))).max(0.0).min(1.0);
-    OLD_SLOPE + fresh * (FRESH_SLOPE - OLD_SLOPE)
+    OLD_SLOPE + snow_freshness(cell) * (FRESH_SLOPE - OLD_SLOPE)
 }
 
 /// Part of the snow of a cell of so much depth.
@@ -175,6 +278,38 @@ pub fn snow_slide(above: SnowCell, below: SnowCell, drop_m: f32, way_m: f32) -> 
         return SnowCell { water: 0, depth: 0 };
     }
     snow_part(above, ((steep_m * SNOW_SLIDES) * (1.0 / SNOW_DEPTH_M)).floor().to_whole())
+}
+
+/// Part of the snow of a cell of so much water.
+#[inline(always)]
+pub fn snow_taken(cell: SnowCell, water: u32) -> SnowCell {
+    if water >= cell.water {
+        return cell;
+    }
+    let share = water.to_real() * reciprocal(cell.water.to_real());
+    SnowCell { water, depth: (cell.depth.to_real() * share).floor().to_whole().min(cell.depth) }
+}
+
+/// Snow that the wind takes from a cell over an edge to one whose surface is so many metres higher. `left` is the share of the wind that shelter
+/// leaves there, and `toward` the part of a unit vector along the wind that leads over the edge.
+#[inline(always)]
+pub fn snow_drift(cx: &Context<'_>, cell: SnowCell, rise_m: f32, left: f32, toward: f32) -> SnowCell {
+    let none = SnowCell { water: 0, depth: 0 };
+    let now = &cx.step.snow;
+    let speed = now.drift_m_s * left.max(-left);
+    let lifts = now.lifts_old_m_s + snow_freshness(cell) * (now.lifts_fresh_m_s - now.lifts_old_m_s);
+    if cell.water == 0 || SNOW_STEP_M < rise_m || left * toward <= 0.0 || speed <= lifts {
+        return none;
+    }
+    let carried = (lifts * (speed * speed - lifts * lifts)) * reciprocal(speed);
+    let units = carried * (toward.max(-toward) * now.drift_units);
+    snow_taken(cell, units.min(MOST_DRIFT).floor().to_whole())
+}
+
+/// Depth of snow that has drifted: packed as old snow is, if it was not before.
+#[inline(always)]
+pub fn drifted_depth(taken: SnowCell) -> u32 {
+    (taken.water.to_real() * OLD_DEPTH).floor().to_whole().min(taken.depth)
 }
 
 /// A number rounded at random, so that it is right on average.

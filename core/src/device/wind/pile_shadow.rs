@@ -8,7 +8,7 @@
 use crate::arith::math::inverse_sqrt;
 use crate::arith::vector::{TINY_SQUARED, Vec3};
 use crate::context::Context;
-use crate::device::terrain::litter::litter_height;
+use crate::device::terrain::litter::ground_cover;
 
 crate::shared_constants! {
     /// Distance in m upwind at which litter is sampled first; every further sample is twice as far.
@@ -28,11 +28,11 @@ crate::shared_constants! {
 pub fn wind_behind_piles(cx: &Context<'_>, x: f32, z: f32, wind: Vec3) -> Vec3 {
     let inverse = inverse_sqrt((wind.x * wind.x + wind.z * wind.z).max(TINY_SQUARED));
     let (toward_x, toward_z) = (wind.x * inverse, wind.z * inverse);
-    let here = litter_height(cx, x, z);
+    let here = ground_cover(cx, x, z);
     let mut away = PILE_NEAREST_M;
     let mut depth = 0.0f32;
     for _ in 0..PILE_SAMPLES {
-        let upwind = litter_height(cx, x - toward_x * away, z - toward_z * away);
+        let upwind = ground_cover(cx, x - toward_x * away, z - toward_z * away);
         depth = depth.max(upwind - (here + PILE_SLOPE * away));
         away = away + away;
     }

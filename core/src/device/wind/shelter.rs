@@ -21,9 +21,22 @@ fn shelter_between<W: Word>(word: W, share: W::Real) -> W::Real {
     low + share * ((word >> 16).to_real() - low)
 }
 
-/// Share of the mean wind that trees, hills and still objects leave at a place so many metres above the ground. Only where the scene has shelter.
+/// A place in the table.
+#[derive(Clone, Copy, Debug)]
+pub struct ShelterPlace<R: Real = f32> {
+    /// Its row among those of the table.
+    pub row: R::Word,
+    /// Share of the way along x within its cell.
+    pub x: R,
+    /// Share of the way up within its layer.
+    pub up: R,
+    /// Share of the way along z within its cell.
+    pub z: R,
+}
+
+/// Place in the table so many metres above the ground.
 #[inline(always)]
-pub fn wind_shelter<R: Real>(cx: &Context<'_>, x: R, above: R, z: R) -> R {
+pub fn shelter_place<R: Real>(cx: &Context<'_>, x: R, above: R, z: R) -> ShelterPlace<R> {
     let shelter = &cx.scene.shelter;
     let none = x.all(0.0);
     let u = ((x - shelter.west_m) * shelter.cells_per_m).max(none).min(x.all(shelter.cells_x));
@@ -33,15 +46,27 @@ pub fn wind_shelter<R: Real>(cx: &Context<'_>, x: R, above: R, z: R) -> R {
     let kv = v.floor().min(x.all(shelter.cells_z - 1.0));
     let kw = w.floor().min(x.all(SHELTER_LAYERS - 1.0));
     let index = (kw * shelter.cells_z + kv) * shelter.cells_x + ku;
-    let rows = &cx.tables[shelter.first_row as usize..];
-    let [a, b, c, d] = index.to_whole().look_up_words(bytemuck::cast_slice(rows));
-    let share = w - kw;
-    let a = shelter_between(a, share);
-    let b = shelter_between(b, share);
-    let c = shelter_between(c, share);
-    let d = shelter_between(d, share);
-    let near = a + (u - ku) * (b - a);
-    let far = c + (u - ku) * (d - c);
-    let lack = near + (v - kv) * (far - near);
-    x.all(1.0) - lack * shelter.lack_unit
+    ShelterPlace { row: index.to_whole(), x: u - ku, up: w - kw, z: v - kv }
+}
+
+/// Share of the mean wind that is left at a place, by the words of its row.
+#[inline(always)]
+pub fn shelter_left<R: Real>(cx: &Context<'_>, place: &ShelterPlace<R>, words: [R::Word; 4]) -> R {
+    let [a, b, c, d] = words;
+    let a = shelter_between(a, place.up);
+    let b = shelter_between(b, place.up);
+    let c = shelter_between(c, place.up);
+    let d = shelter_between(d, place.up);
+    let near = a + place.x * (b - a);
+    let far = c + place.x * (d - c);
+    let lack = near + place.z * (far - near);
+    place.x.all(1.0) - lack * cx.scene.shelter.lack_unit
+}
+
+/// Share of the mean wind that trees, hills and still objects leave at a place so many metres above the ground. Only where the scene has shelter.
+#[inline(always)]
+pub fn wind_shelter<R: Real>(cx: &Context<'_>, x: R, above: R, z: R) -> R {
+    let place = shelter_place(cx, x, above, z);
+    let rows = &cx.tables[cx.scene.shelter.first_row as usize..];
+    shelter_left(cx, &place, place.row.look_up_words(bytemuck::cast_slice(rows)))
 }

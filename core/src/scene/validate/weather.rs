@@ -15,6 +15,7 @@ impl Weather {
             ("size_m.x", self.size_m.x.into(), limits::SNOW_EDGE_M),
             ("size_m.y", self.size_m.y.into(), limits::SNOW_EDGE_M),
             ("lying_mm", self.lying_mm.into(), limits::LYING_MM),
+            ("lying_h", self.lying_h.into(), limits::LYING_H),
         ])?;
         check_curve("snow_mm_h", &self.snow_mm_h, limits::SNOW_MM_H, at)?;
         check_curve("air_c", &self.air_c, limits::AIR_C, at)
@@ -96,6 +97,7 @@ mod tests {
         for (line, names) in [
             (with(|weather| weather.size_m.x = 201.0), ["weather.size_m.x is 201", "1 to 200 m"]),
             (with(|weather| weather.lying_mm = f32::NAN), ["weather.lying_mm is NaN", "0 to 500 mm"]),
+            (with(|weather| weather.lying_h = 12.5), ["weather.lying_h is 12.5", "0 to 12 h"]),
             (with(|weather| weather.snow_mm_h[0].1 = 51.0), ["weather.snow_mm_h[0].1 is 51", "0 to 50 mm/h"]),
             (with(|weather| weather.air_c[0].1 = 31.0), ["weather.air_c[0].1 is 31", "-40 to 30 °C"]),
             (with(|weather| weather.air_c.clear()), ["weather.air_c", "1 to 1024"]),

@@ -11,7 +11,7 @@ use windfall_core::scene::{
     ObjectKey, ObjectMotion, ObjectShape, ParticleFlow, ParticleRelease, ParticleShape, Particles, Planform,
     Plume, PlumeKey, Profile, Release, Ribbon, RotationModel, Share, Sky, SkyMap, SourceShape,
     SpaceColonization, Spread, SwirlProfile, Terrain, ToneMap, Tree, TreeForm, TreeKind, Vortex,
-    VortexProfile, Walker, Water,
+    VortexProfile, Walker, Water, Weather,
 };
 
 /// A park with one of everything that may be added to a scene.
@@ -38,6 +38,7 @@ pub(super) fn full() -> Scene {
     let key = PlumeKey { time_s: 0.0, power_kw: 40.0 };
     scene.wind.plumes = vec![Plume { at_m: Vec3::X, keys: vec![key], ..Plume::default() }];
     scene.ground.litter = Some(Litter { leaf_area_index: 0.0, ..Litter::default() });
+    scene.weather = Some(Weather::default());
     scene.objects = vec![Object::default()];
     scene.walkers = vec![Walker::default()];
     scene.particles = vec![population("first", Air::Settling { m_s: Spread::Uniform(1.0, 0.2) }, "push")];

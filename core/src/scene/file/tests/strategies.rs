@@ -155,12 +155,13 @@ prop_compose! {
         size in vector(limits::SNOW_EDGE_M),
         (snow, air) in (vec(within(limits::SNOW_MM_H), 1..4), vec(within(limits::AIR_C), 1..4)),
         lying_mm in within(limits::LYING_MM),
+        lying_h in within(limits::LYING_H),
     ) -> Weather {
         let curve = |numbers: Vec<f32>| {
             numbers.into_iter().enumerate().map(|(key, number)| (2.5 * key as f32, number)).collect()
         };
         let (center_m, size_m) = (Vec2::new(center.x, center.z), Vec2::new(size.x, size.z));
-        Weather { center_m, size_m, snow_mm_h: curve(snow), air_c: curve(air), lying_mm }
+        Weather { center_m, size_m, snow_mm_h: curve(snow), air_c: curve(air), lying_mm, lying_h }
     }
 }
 
