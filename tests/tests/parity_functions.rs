@@ -58,6 +58,10 @@ fn world(litter: Option<Litter>) -> World {
         add_ridges(&mut world);
         let fires = world.bed.fires_mut(world.compiled.block());
         fires.iter_mut().for_each(|fire| *fire = fire_words(300_000, 900_000));
+        let snow = world.bed.snow_mut(world.compiled.block());
+        (0..)
+            .zip(snow.depth)
+            .for_each(|(cell, depth): (u32, _)| *depth = cell.wrapping_mul(0x9E37_79B9) >> 15);
     }
     world
 }
