@@ -372,7 +372,7 @@ fn snow_holds_leaves_down() {
     let mut covered = windy_bed(1.0);
     oracle::step(&mut covered, 240);
     assert_eq!(woken(&covered), 0, "none of those under snow");
-    let block = covered.compiled.block().clone();
+    let block = *covered.compiled.block();
     let snow = covered.bed.snow_mut(&block);
     snow.water.fill(0);
     snow.depth.fill(0);
@@ -397,7 +397,7 @@ fn leaves_lie_on_snow() {
     assert!(lies(world.leaves.place[0].bits), "it has come down");
     let above = height_m(&world) - depth_m;
     assert!((-0.005..0.02).contains(&above), "{above} m above the snow");
-    let block = world.compiled.block().clone();
+    let block = *world.compiled.block();
     let snow = world.bed.snow_mut(&block);
     snow.water.fill(0);
     snow.depth.fill(0);
