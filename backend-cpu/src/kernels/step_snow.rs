@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! twin: backend-wgpu/src/shaders/kernels/step_snow.wgsl
 //!
-//! Lets snow slide from cell to cell, or settle and melt, in the steps in which it does.
+//! Lets snow slide and drift from cell to cell, or settle and melt, in the steps in which it does.
 
 use rayon::join;
 use windfall_core::Context;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Compiles snow: its grid, what it lies on, and the weather of a step.
+//! Compiles snow: its grid, what it lies on, and the weather and the wind over it in a step.
 
 use glam::{DVec2, DVec3};
 

@@ -43,6 +43,7 @@ mod shelter;
 mod slipstream;
 mod snow;
 mod snow_drift;
+mod snow_leaves;
 mod solids;
 mod sway;
 mod table_file;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Windfall authors
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // twin: backend-cpu/src/kernels/step_snow.rs
-// Lets snow slide from cell to cell, or settle and melt, in the steps in which it does.
+// Lets snow slide and drift from cell to cell, or settle and melt, in the steps in which it does.
 #import terrain/snow
 #import wind/shelter
 
