@@ -12,7 +12,7 @@ use egui::{
     WidgetInfo, vec2,
 };
 use glam::Vec3;
-use windfall_core::scene::limits::Limit;
+use windfall_core::scene::limits::{CENTER_M, Limit};
 
 use super::rows::{Scale, decimals, row};
 use super::style;
@@ -193,6 +193,25 @@ pub(super) fn vector(
     });
     if let Some(own) = own.filter(|_| back) {
         *value = own;
+    }
+}
+
+/// Rows of a rectangle on the ground, centre and edges: names of the centre along x and z, and of the edges along them.
+pub(super) fn rectangle(
+    ui: &mut Ui,
+    [x, z, width, depth]: [&str; 4],
+    edges: Limit<f32>,
+    (center_m, size_m): (&mut glam::Vec2, &mut glam::Vec2),
+    own: Option<(glam::Vec2, glam::Vec2)>,
+) {
+    let rows = [
+        (x, "Centre of the rectangle along x", CENTER_M, &mut center_m.x, own.map(|own| own.0.x)),
+        (z, "Centre of the rectangle along z", CENTER_M, &mut center_m.y, own.map(|own| own.0.y)),
+        (width, "Edge of the rectangle along x", edges, &mut size_m.x, own.map(|own| own.1.x)),
+        (depth, "Edge of the rectangle along z", edges, &mut size_m.y, own.map(|own| own.1.y)),
+    ];
+    for (name, tip, limit, value, own) in rows {
+        field(name, tip, limit).show(ui, value, own);
     }
 }
 

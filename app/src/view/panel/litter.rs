@@ -5,7 +5,7 @@
 use egui::Ui;
 use windfall_core::scene::{Litter, limits};
 
-use super::field::{choice, field};
+use super::field::{choice, field, rectangle};
 
 pub(super) fn show(ui: &mut Ui, litter: &mut Option<Litter>, own: Option<&Litter>) {
     let options = [("none", None), ("living", Some(Litter::default()))];
@@ -13,18 +13,9 @@ pub(super) fn show(ui: &mut Ui, litter: &mut Option<Litter>, own: Option<&Litter
         "Leaves pile up within a rectangle, and blow on as soon as the wind at their own edge moves them";
     choice(ui, "Litter", tip, litter, Some(&own.copied()), &options);
     let Some(litter) = litter else { return };
-    let tip = "Centre of the rectangle along x";
-    let center = field("Litter x", tip, limits::CENTER_M);
-    center.show(ui, &mut litter.center_m.x, own.map(|own| own.center_m.x));
-    let tip = "Centre of the rectangle along z";
-    let center = field("Litter z", tip, limits::CENTER_M);
-    center.show(ui, &mut litter.center_m.y, own.map(|own| own.center_m.y));
-    let tip = "Edge of the rectangle along x";
-    let size = field("Litter width", tip, limits::LITTER_SIZE_M);
-    size.show(ui, &mut litter.size_m.x, own.map(|own| own.size_m.x));
-    let tip = "Edge of the rectangle along z";
-    let size = field("Litter depth", tip, limits::LITTER_SIZE_M);
-    size.show(ui, &mut litter.size_m.y, own.map(|own| own.size_m.y));
+    let names = ["Litter x", "Litter z", "Litter width", "Litter depth"];
+    let own_rectangle = own.map(|own| (own.center_m, own.size_m));
+    rectangle(ui, names, limits::LITTER_SIZE_M, (&mut litter.center_m, &mut litter.size_m), own_rectangle);
     let tip = "Area of the leaves that lie there from the start per area of ground";
     let index = field("Leaf area index", tip, limits::LITTER_AREA_INDEX).fine(0.1);
     index.show(ui, &mut litter.leaf_area_index, own.map(|own| own.leaf_area_index));

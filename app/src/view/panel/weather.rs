@@ -10,7 +10,7 @@ use windfall_core::scene::{
     Air, Bounds, MAX_WEATHER_KEYS, Meets, ParticleRelease, ParticleShape, Particles, Spread, Weather,
 };
 
-use super::field::{choice, field};
+use super::field::{choice, field, rectangle};
 use super::list::List;
 
 /// Slots of the flakes that weather which is switched on brings, and the height in m from which they come.
@@ -32,18 +32,9 @@ pub(super) fn show(ui: &mut Ui, scene: &mut Scene, own: &Scene) {
         scene.particles.push(fallen.unwrap_or_else(|| flakes(weather)));
     }
     let own = own.weather.as_ref();
-    let tip = "Centre of the rectangle on which snow lies, along x";
-    let center = field("Snow x", tip, limits::CENTER_M);
-    center.show(ui, &mut weather.center_m.x, own.map(|own| own.center_m.x));
-    let tip = "Centre of the rectangle along z";
-    let center = field("Snow z", tip, limits::CENTER_M);
-    center.show(ui, &mut weather.center_m.y, own.map(|own| own.center_m.y));
-    let tip = "Edge of the rectangle along x";
-    let size = field("Snow width", tip, limits::SNOW_EDGE_M);
-    size.show(ui, &mut weather.size_m.x, own.map(|own| own.size_m.x));
-    let tip = "Edge of the rectangle along z";
-    let size = field("Snow depth", tip, limits::SNOW_EDGE_M);
-    size.show(ui, &mut weather.size_m.y, own.map(|own| own.size_m.y));
+    let names = ["Snow x", "Snow z", "Snow width", "Snow depth"];
+    let own_rectangle = own.map(|own| (own.center_m, own.size_m));
+    rectangle(ui, names, limits::SNOW_EDGE_M, (&mut weather.center_m, &mut weather.size_m), own_rectangle);
     let tip = "Water of the snow that lies there from the start";
     let lying = field("Lying snow", tip, limits::LYING_MM).fine(0.1);
     lying.show(ui, &mut weather.lying_mm, own.map(|own| own.lying_mm));
